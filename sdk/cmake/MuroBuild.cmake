@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: MIT
+# Settings of this repository's own targets; plugin authors do not need this file.
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_C_STANDARD 11)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+set(MURO_PLUGIN_DIR ${CMAKE_BINARY_DIR}/lib/muro)
+set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O2 -g1")
+set(CMAKE_C_FLAGS_RELWITHDEBINFO "-O2 -g1")
+
+find_program(CCACHE ccache)
+if(CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_C_COMPILER_LAUNCHER ${CCACHE})
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
+  # precompiled headers and ccache agree only with these
+  set(ENV{CCACHE_SLOPPINESS} "pch_defines,time_macros,include_file_mtime,include_file_ctime")
+endif()
+
+add_compile_options(-Wall -Wextra -Wpedantic -Wshadow $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor>
+                    -ffp-contract=off)
+if(MURO_WERROR)
+  add_compile_options(-Werror)
+endif()
+if(MURO_SANITIZE)
+  add_compile_options(-fsanitize=${MURO_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  add_link_options(-fsanitize=${MURO_SANITIZE})
+endif()
+
+# muro_add_test(NAME x SOURCES ... [LIBRARIES ...]): a GoogleTest program, each test known to ctest.
+function(muro_add_test)
+  cmake_parse_arguments(ARG "" "NAME;TIMEOUT" "SOURCES;LIBRARIES" ${ARGN})
+  if(NOT MURO_TESTS)
+    return()
+  endif()
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 120)
+  endif()
+  add_executable(${ARG_NAME} ${ARG_SOURCES})
+  target_link_libraries(${ARG_NAME} PRIVATE muro::sdk GTest::gtest GTest::gtest_main ${ARG_LIBRARIES})
+  target_include_directories(${ARG_NAME} PRIVATE ${PROJECT_SOURCE_DIR})
+  if(TARGET muro_pch)
+    target_precompile_headers(${ARG_NAME} REUSE_FROM muro_pch)
+  endif()
+  set_target_properties(${ARG_NAME} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+  include(GoogleTest)
+  gtest_discover_tests(${ARG_NAME} TEST_PREFIX ${ARG_NAME}. DISCOVERY_TIMEOUT 60
+                       PROPERTIES TIMEOUT ${ARG_TIMEOUT})
+endfunction()
+
+# muro_skip(WHAT REASON): a part left out at configure time, named in the summary.
+function(muro_skip WHAT REASON)
+  set_property(GLOBAL APPEND PROPERTY MURO_SKIPPED "${WHAT}: ${REASON}")
+endfunction()
+
+function(muro_print_summary)
+  get_property(plugins GLOBAL PROPERTY MURO_PLUGINS)
+  get_property(skipped GLOBAL PROPERTY MURO_SKIPPED)
+  list(JOIN plugins " " plugins)
+  message(STATUS "muro ${PROJECT_VERSION}: plugins ${plugins}")
+  foreach(line IN LISTS skipped)
+    message(STATUS "  left out: ${line}")
+  endforeach()
+endfunction()

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MIT
+// What crosses the border between host and plugin, and the stamp that says whether it may.
+#pragma once
+
+#include <algorithm>
+#include <cstring>
+#include <memory>
+
+#include "muro/algorithm.hpp"
+#include "muro/model_reader.hpp"
+#include "muro/shape.hpp"
+
+#ifdef __FAST_MATH__
+#error "muro plugins are not built with -ffast-math: it changes the arithmetic of the whole process when loaded"
+#endif
+
+namespace muro::abi {
+
+inline constexpr std::uint32_t sdk_major = 1;
+inline constexpr std::uint32_t sdk_minor = 0;
+
+/// Values whose layout both sides must agree on.
+struct Probe {
+  char a;
+  Pose pose;
+  Shape shape;
+  std::string_view text;
+  Description description;
+};
+
+/// The C-only head of a plugin's table. Hosts read nothing else before all fields agree with theirs.
+struct Stamp {
+  char magic[8];             ///< "MUROPLUG"
+  std::uint32_t stamp_size;  ///< sizeof(Stamp)
+  std::uint32_t sdk_major;
+  std::uint32_t sdk_minor;  ///< the host's may be newer
+  std::uint32_t pointer_size;
+  char standard_library[16];
+  std::uint32_t standard_library_abi;    ///< _GLIBCXX_USE_CXX11_ABI, or libc++'s ABI version
+  std::uint32_t standard_library_debug;  ///< _GLIBCXX_DEBUG changes the layout of containers
+  std::uint32_t eigen_version;
+  std::uint32_t eigen_max_align_bytes;
+  std::uint32_t eigen_malloc_already_aligned;
+  std::uint32_t probe_size;
+  std::uint32_t probe_align;
+  char compiler[64];  ///< printed, never compared
+};
+
+#ifdef __clang__
+#define MURO_COMPILER "clang " __clang_version__
+#else
+#define MURO_COMPILER "gcc " __VERSION__
+#endif
+#ifndef EIGEN_MALLOC_ALREADY_ALIGNED
+#error "link the muro::sdk target (or use muro_add_plugin): it sets EIGEN_MALLOC_ALREADY_ALIGNED and EIGEN_MAX_ALIGN_BYTES"
+#endif
+
+constexpr Stamp make_stamp() {
+  Stamp s{};
+  std::copy_n("MUROPLUG", 8, s.magic);
+  s.stamp_size = sizeof(Stamp);
+  s.sdk_major = sdk_major;
+  s.sdk_minor = sdk_minor;
+  s.pointer_size = sizeof(void*);
+#ifdef _LIBCPP_VERSION
+  std::copy_n("libc++", 6, s.standard_library);
+  s.standard_library_abi = _LIBCPP_ABI_VERSION;
+#else
+  std::copy_n("libstdc++", 9, s.standard_library);
+  s.standard_library_abi = _GLIBCXX_USE_CXX11_ABI;
+#ifdef _GLIBCXX_DEBUG
+  s.standard_library_debug = 1;
+#endif
+#endif
+  s.eigen_version = EIGEN_WORLD_VERSION * 10000 + EIGEN_MAJOR_VERSION * 100 + EIGEN_MINOR_VERSION;
+  s.eigen_max_align_bytes = EIGEN_MAX_ALIGN_BYTES;
+  s.eigen_malloc_already_aligned = EIGEN_MALLOC_ALREADY_ALIGNED;
+  s.probe_size = sizeof(Probe);
+  s.probe_align = alignof(Probe);
+  constexpr std::string_view compiler = MURO_COMPILER;
+  std::copy_n(compiler.data(), std::min(compiler.size(), sizeof s.compiler - 1), s.compiler);
+  return s;
+}
+
+/// Text of a failure, copied across the border.
+class ErrorText {
+ public:
+  void set(std::string_view text) noexcept {
+    const std::size_t n = std::min(text.size(), sizeof buffer_ - 1);
+    std::memcpy(buffer_, text.data(), n);
+    buffer_[n] = 0;
+  }
+  std::string_view view() const noexcept { return buffer_; }
+
+ private:
+  char buffer_[2048] = {};
+};
+
+/// An algorithm as the host holds it: nothing throws, false means failure with a text.
+class AlgorithmInstance {
+ public:
+  virtual bool connect(Connector&, ErrorText&) noexcept = 0;
+  virtual bool start(ErrorText&) noexcept = 0;
+  virtual bool step(const Step&, Range, ErrorText&) noexcept = 0;
+  virtual bool restored(ErrorText&) noexcept = 0;
+  virtual bool finish(ErrorText&) noexcept = 0;
+  virtual void destroy() noexcept = 0;
+
+ protected:
+  ~AlgorithmInstance() = default;
+};
+
+class ReaderInstance {
+ public:
+  virtual bool read(std::string_view path, RobotBuilder&, ErrorText&) noexcept = 0;
+  virtual void destroy() noexcept = 0;
+
+ protected:
+  ~ReaderInstance() = default;
+};
+
+/// Runs `work`; what it throws becomes a text.
+template <class Work>
+bool guarded(ErrorText& error, Work&& work) noexcept {
+  try {
+    work();
+    return true;
+  } catch (const std::exception& e) {
+    error.set(e.what());
+  } catch (...) {
+    error.set("an exception that is no std::exception");
+  }
+  return false;
+}
+
+template <class T>
+class AlgorithmOf final : public AlgorithmInstance {
+ public:
+  bool connect(Connector& c, ErrorText& e) noexcept override {
+    return guarded(e, [&] { algorithm_.connect(c); });
+  }
+  bool start(ErrorText& e) noexcept override {
+    return guarded(e, [&] { algorithm_.start(); });
+  }
+  bool step(const Step& s, Range r, ErrorText& e) noexcept override {
+    return guarded(e, [&] { algorithm_.step(s, r); });
+  }
+  bool restored(ErrorText& e) noexcept override {
+    return guarded(e, [&] { algorithm_.restored(); });
+  }
+  bool finish(ErrorText& e) noexcept override {
+    return guarded(e, [&] { algorithm_.finish(); });
+  }
+  void destroy() noexcept override { delete this; }
+
+ private:
+  ~AlgorithmOf() = default;
+  T algorithm_;
+};
+
+template <class T>
+class ReaderOf final : public ReaderInstance {
+ public:
+  bool read(std::string_view path, RobotBuilder& b, ErrorText& e) noexcept override {
+    return guarded(e, [&] { reader_.read(path, b); });
+  }
+  void destroy() noexcept override { delete this; }
+
+ private:
+  ~ReaderOf() = default;
+  T reader_;
+};
+
+/// An instance, or null with a text.
+template <class Interface, class Of>
+Interface* make(ErrorText* error) noexcept {
+  Interface* made = nullptr;
+  guarded(*error, [&] { made = new Of; });
+  return made;
+}
+
+struct AlgorithmEntry {
+  const Description* description;
+  AlgorithmInstance* (*create)(ErrorText*) noexcept;
+};
+struct ReaderEntry {
+  const ReaderDescription* description;
+  ReaderInstance* (*create)(ErrorText*) noexcept;
+};
+
+/// The one thing a plugin exports: `extern "C" const muro::abi::PluginTable muro_plugin`.
+struct PluginTable {
+  Stamp stamp;
+  std::uint32_t table_size;
+  std::string_view name;
+  std::string_view version;
+  std::string_view licence;
+  std::string_view summary;
+  std::span<const AlgorithmEntry> algorithms;
+  std::span<const ReaderEntry> readers;
+};
+
+inline constexpr char table_symbol[] = "muro_plugin";
+
+}  // namespace muro::abi

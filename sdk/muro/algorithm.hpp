@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+#include "muro/connector.hpp"
+#include "muro/description.hpp"
+#include "muro/step.hpp"
+
+namespace muro {
+
+/// A user's mistake, or a failure of a device, found by an algorithm. Say what, which value and what to
+/// do; the host adds the names of algorithm and robot, the simulated time and the line of the scenario.
+class Error : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The base of every algorithm: motion, sensor, controller, recorder.
+///
+/// An algorithm is created, connected once, started once and then stepped, many times. All of its
+/// state lies in properties; members are handles, parameters and caches that can be built again.
+/// Any of these functions may throw muro::Error; it ends at the plugin's border.
+class Algorithm {
+ public:
+  Algorithm() = default;
+  Algorithm(const Algorithm&) = delete;
+  Algorithm& operator=(const Algorithm&) = delete;
+  virtual ~Algorithm() = default;
+
+  /// Binds every property that a step reads or writes, for every item. Creates no threads, opens no
+  /// files. [setup]
+  virtual void connect(Connector& connector) = 0;
+
+  /// All handles may be read. Opens what the algorithm needs to run; also called again at a reset. [setup]
+  virtual void start() {}
+
+  /// Serves the items of `range` at `step.time`: brings their outputs up to date, or, for a motion
+  /// model, carries their state from `step.time` to `step.time + step.dt`. Does not allocate once warm. [step]
+  virtual void step(const Step& step, Range range) = 0;
+
+  /// The properties were replaced (snapshot, reset): rebuild what was kept beside them. [between steps]
+  virtual void restored() {}
+
+  /// The run is over or is about to be read by the user: flush files. [between steps]
+  virtual void finish() {}
+};
+
+}  // namespace muro

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+
+#include "muro/handles.hpp"
+#include "muro/key.hpp"
+#include "muro/parameter.hpp"
+#include "muro/robot.hpp"
+
+namespace muro {
+
+/// What an instance of an algorithm is connected to: a robot (or none, for the scene) and the object
+/// of that robot that the scenario names: the base for a motion model, the sensor's own object for a sensor.
+struct Item {
+  const RobotView* robot = nullptr;
+  ObjectId object = world_object;
+};
+
+/// How an algorithm uses a property.
+enum class Access : std::uint8_t {
+  read,        ///< must be constant, or written by another algorithm
+  input,       ///< read; created with a value of its own, so nobody needs to write it
+  variable,    ///< written here; part of the state
+  derived,     ///< written here; can be computed again from the state
+  write,       ///< written here, created by whoever reads it (a command)
+  offer,       ///< as write, but it is no error when nobody reads it
+  accumulate,  ///< adds one contribution
+  read_sum,    ///< reads all contributions
+};
+enum class Form : std::uint8_t { single, array, list };
+
+/// A property found by its name at set-up.
+struct FoundProperty {
+  ObjectId object = no_object;
+  const KeyInfo* key = nullptr;
+  Form form = Form::single;
+  std::uint32_t count = 1;  ///< elements; 0 when not known yet, or a list
+};
+
+enum class LogLevel : std::uint8_t { debug, info, warning, error };
+
+/// What the host does for algorithms at any time. [any thread]
+class Host {
+ public:
+  virtual void log(LogLevel level, std::string_view text) noexcept = 0;
+
+ protected:
+  ~Host() = default;
+};
+
+/// Connects one instance of an algorithm to the data of the simulation. [setup]
+///
+/// Requests may name properties that do not exist yet; what is missing, doubled or of another type or
+/// unit is reported when all algorithms are connected, with the names of everyone involved. So every
+/// request succeeds here, and handles may be read from `start()` on.
+class Connector {
+ public:
+  // --- what this instance serves
+  virtual std::span<const Item> items() const noexcept = 0;
+  virtual const Parameters& parameters() const noexcept = 0;
+  virtual Host& host() const noexcept = 0;
+  /// Keys the random numbers of item `i`: depends on the names of robot and subsystem only.
+  virtual std::uint64_t random_key(std::uint32_t i) const noexcept = 0;
+  /// A path of the scenario (relative to its file) as an absolute one. Valid until connect returns.
+  virtual std::string_view resolve_path(std::string_view path) const noexcept = 0;
+
+  // --- the world
+  virtual std::uint32_t object_count() const noexcept = 0;
+  virtual std::string_view object_name(ObjectId object) const noexcept = 0;
+  /// no_object when there is none. Names: "robot/part"; see docs/scenario.md.
+  virtual ObjectId find_object(std::string_view name) const noexcept = 0;
+  virtual std::span<const RobotView* const> robots() const noexcept = 0;
+  /// Number of the robot that the object is part of; -1 for scenery.
+  virtual std::int32_t robot_of(ObjectId object) const noexcept = 0;
+  virtual std::string_view text(TextId id) const noexcept = 0;
+  /// All properties so far of one object, in order of creation. Valid until the next call.
+  virtual std::span<const FoundProperty> properties(ObjectId object) const noexcept = 0;
+  /// Whether an algorithm that is connected so far uses the property in this way.
+  virtual bool is_used(ObjectId object, const KeyInfo& key, Access access) const noexcept = 0;
+
+  // --- constants, readable at once
+  template <class T>
+  std::optional<T> constant(ObjectId object, const Key<T>& key) const {
+    const ArrayHeader found = constant_raw(object, key);
+    if (!found.data) return std::nullopt;
+    return *static_cast<const T*>(found.data);
+  }
+  template <class T>
+  std::span<const T> constant_array(ObjectId object, const Key<T>& key) const {
+    const ArrayHeader found = constant_raw(object, key);
+    return {static_cast<const T*>(found.data), found.size};
+  }
+  /// Adds a constant to an object of this instance's robot or sensor.
+  template <class T>
+  void set(ObjectId object, const Key<T>& key, const T& value) {
+    set_raw(object, key, &value);
+  }
+
+  // --- reading
+  template <class T>
+  In<T> read(ObjectId object, const Key<T>& key) {
+    return In<T>(bind(object, key, Access::read, Form::single, 1, nullptr));
+  }
+  template <class T>
+  In<T> input(ObjectId object, const Key<T>& key, const T& otherwise) {
+    return In<T>(bind(object, key, Access::input, Form::single, 1, &otherwise));
+  }
+  template <class T>
+  ArrayIn<T> read_array(ObjectId object, const Key<T>& key) {
+    return ArrayIn<T>(bind(object, key, Access::read, Form::array, 0, nullptr));
+  }
+  template <class T>
+  ListIn<T> read_list(ObjectId object, const Key<T>& key) {
+    return ListIn<T>(bind(object, key, Access::read, Form::list, 0, nullptr));
+  }
+  template <class T>
+  SumIn<T> read_sum(ObjectId object, const Key<T>& key) {
+    return SumIn<T>(bind(object, key, Access::read_sum, Form::single, 1, nullptr));
+  }
+  /// Untyped: for recorders and controllers, which learn the type when they run.
+  const void* read_any(const FoundProperty& p) {
+    return bind(p.object, *p.key, Access::read, p.form, p.count, nullptr);
+  }
+
+  // --- writing
+  template <class T>
+  Out<T> variable(ObjectId object, const Key<T>& key, const T& initial) {
+    return Out<T>(bind(object, key, Access::variable, Form::single, 1, &initial));
+  }
+  template <class T>
+  ArrayOut<T> variable_array(ObjectId object, const Key<T>& key, std::uint32_t count) {
+    return ArrayOut<T>(bind(object, key, Access::variable, Form::array, count, nullptr));
+  }
+  template <class T>
+  Out<T> derived(ObjectId object, const Key<T>& key) {
+    return Out<T>(bind(object, key, Access::derived, Form::single, 1, nullptr));
+  }
+  template <class T>
+  ListOut<T> derived_list(ObjectId object, const Key<T>& key) {
+    return ListOut<T>(bind(object, key, Access::derived, Form::list, 0, nullptr));
+  }
+  template <class T>
+  Out<T> write(ObjectId object, const Key<T>& key) {
+    return Out<T>(bind(object, key, Access::write, Form::single, 1, nullptr));
+  }
+  template <class T>
+  Out<T> offer(ObjectId object, const Key<T>& key) {
+    return Out<T>(bind(object, key, Access::offer, Form::single, 1, nullptr));
+  }
+  template <class T>
+  Sum<T> accumulate(ObjectId object, const Key<T>& key) {
+    return Sum<T>(bind(object, key, Access::accumulate, Form::single, 1, nullptr));
+  }
+  void* write_any(const FoundProperty& p) { return bind(p.object, *p.key, Access::write, p.form, p.count, nullptr); }
+  /// `size` bytes of state on `object` under a name of their own, for state that only its owner understands.
+  virtual void* state_block(ObjectId object, std::string_view name, std::uint32_t size) noexcept = 0;
+
+ protected:
+  virtual void* bind(ObjectId object, const KeyInfo& key, Access access, Form form, std::uint32_t count,
+                     const void* initial) noexcept = 0;
+  virtual ArrayHeader constant_raw(ObjectId object, const KeyInfo& key) const noexcept = 0;
+  virtual void set_raw(ObjectId object, const KeyInfo& key, const void* value) noexcept = 0;
+  ~Connector() = default;
+};
+
+}  // namespace muro

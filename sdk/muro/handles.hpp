@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+// Typed access to properties. A handle is one pointer: reading a property in a step costs one load.
+// Handles are given out while connecting and stay valid until the simulation ends.
+#pragma once
+
+#include <cassert>
+#include <cstdint>
+#include <span>
+
+namespace muro {
+
+/// Where the elements of an array property lie.
+struct ArrayHeader {
+  void* data = nullptr;
+  std::uint64_t size = 0;
+};
+
+/// Where the elements of a list property lie. The store owns the memory and lets it grow.
+struct ListHeader {
+  void* data = nullptr;
+  std::uint64_t size = 0;
+  std::uint64_t capacity = 0;
+  void (*grow)(ListHeader*, std::uint64_t wanted) = nullptr;
+  std::uint64_t element_size = 0;
+};
+
+/// The slots of a sum property, in registration order.
+struct SumHeader {
+  const void* const* slots = nullptr;
+  std::uint64_t size = 0;
+};
+
+/// Reads a property.
+template <class T>
+class In {
+ public:
+  In() = default;
+  explicit In(const void* place) : place_(static_cast<const T*>(place)) {}
+  const T& operator*() const { return *place_; }
+  const T* operator->() const { return place_; }
+  const T* get() const { return place_; }
+  explicit operator bool() const { return place_ != nullptr; }
+
+ private:
+  const T* place_ = nullptr;
+};
+
+/// Writes a property; only one algorithm does.
+template <class T>
+class Out {
+ public:
+  Out() = default;
+  explicit Out(void* place) : place_(static_cast<T*>(place)) {}
+  T& operator*() const { return *place_; }
+  T* operator->() const { return place_; }
+  T* get() const { return place_; }
+  explicit operator bool() const { return place_ != nullptr; }
+
+ private:
+  T* place_ = nullptr;
+};
+
+/// One contribution to a property that several algorithms add to.
+template <class T>
+using Sum = Out<T>;
+
+/// Reads the sum of all contributions, added in registration order.
+template <class T>
+class SumIn {
+ public:
+  SumIn() = default;
+  explicit SumIn(const void* place) : header_(static_cast<const SumHeader*>(place)) {}
+  T value() const {
+    T total{};
+    for (std::uint64_t i = 0; i < header_->size; ++i) total += *static_cast<const T*>(header_->slots[i]);
+    return total;
+  }
+
+ private:
+  const SumHeader* header_ = nullptr;
+};
+
+/// Reads an array of fixed length. The length is known from `start()` on.
+template <class T>
+class ArrayIn {
+ public:
+  ArrayIn() = default;
+  explicit ArrayIn(const void* place) : header_(static_cast<const ArrayHeader*>(place)) {}
+  std::span<const T> operator*() const { return {static_cast<const T*>(header_->data), header_->size}; }
+  explicit operator bool() const { return header_ != nullptr; }
+
+ private:
+  const ArrayHeader* header_ = nullptr;
+};
+
+/// Writes an array of fixed length.
+template <class T>
+class ArrayOut {
+ public:
+  ArrayOut() = default;
+  explicit ArrayOut(void* place) : header_(static_cast<ArrayHeader*>(place)) {}
+  std::span<T> operator*() const { return {static_cast<T*>(header_->data), header_->size}; }
+  explicit operator bool() const { return header_ != nullptr; }
+
+ private:
+  ArrayHeader* header_ = nullptr;
+};
+
+/// Reads a list whose length changes from step to step.
+template <class T>
+class ListIn {
+ public:
+  ListIn() = default;
+  explicit ListIn(const void* place) : header_(static_cast<const ListHeader*>(place)) {}
+  std::span<const T> operator*() const { return {static_cast<const T*>(header_->data), header_->size}; }
+  explicit operator bool() const { return header_ != nullptr; }
+
+ private:
+  const ListHeader* header_ = nullptr;
+};
+
+/// Writes a list whose length changes from step to step. Grows by doubling, so a run soon stops allocating.
+template <class T>
+class ListOut {
+ public:
+  ListOut() = default;
+  explicit ListOut(void* place) : header_(static_cast<ListHeader*>(place)) {}
+  void clear() const { header_->size = 0; }
+  void push_back(const T& value) const {
+    if (header_->size == header_->capacity) header_->grow(header_, header_->size + 1);
+    static_cast<T*>(header_->data)[header_->size++] = value;
+  }
+  std::span<T> operator*() const { return {static_cast<T*>(header_->data), header_->size}; }
+  explicit operator bool() const { return header_ != nullptr; }
+
+ private:
+  ListHeader* header_ = nullptr;
+};
+
+}  // namespace muro

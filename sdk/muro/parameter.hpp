@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// What a user can set on an algorithm, and the values that were set.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string_view>
+
+namespace muro {
+
+enum class ParameterType : std::uint8_t { real, integer, boolean, text, reals, texts };
+
+/// One parameter as its author describes it. Write it with the makers below:
+/// `real("max_speed", "m/s", 2.0, "fastest commanded motion").between(0, 100)`.
+struct Parameter {
+  std::string_view name;  ///< snake_case
+  ParameterType type = ParameterType::real;
+  std::string_view unit = "1";  ///< SI
+  std::string_view doc{};
+  bool required = false;
+  bool tunable = false;  ///< may change while the simulation runs
+  double default_number = 0;  ///< real, integer, boolean (0 or 1)
+  std::string_view default_text{};
+  std::span<const double> default_reals{};
+  double least = -std::numeric_limits<double>::infinity();  ///< allowed range, both ends included
+  double most = std::numeric_limits<double>::infinity();
+  std::uint32_t length = 0;                         ///< reals: how many; 0 for any number
+  std::span<const std::string_view> choices{};        ///< text: the allowed words; empty for any
+
+  constexpr Parameter between(double low, double high) const {
+    Parameter p = *this;
+    p.least = low;
+    p.most = high;
+    return p;
+  }
+  constexpr Parameter must_be_given() const {
+    Parameter p = *this;
+    p.required = true;
+    return p;
+  }
+  constexpr Parameter of_length(std::uint32_t n) const {
+    Parameter p = *this;
+    p.length = n;
+    return p;
+  }
+  constexpr Parameter one_of(std::span<const std::string_view> words) const {
+    Parameter p = *this;
+    p.choices = words;
+    return p;
+  }
+};
+
+constexpr Parameter real(std::string_view name, std::string_view unit, double otherwise, std::string_view doc) {
+  return {.name = name, .type = ParameterType::real, .unit = unit, .doc = doc, .default_number = otherwise};
+}
+constexpr Parameter integer(std::string_view name, std::int64_t otherwise, std::string_view doc) {
+  return {.name = name, .type = ParameterType::integer, .doc = doc, .default_number = double(otherwise)};
+}
+constexpr Parameter boolean(std::string_view name, bool otherwise, std::string_view doc) {
+  return {.name = name, .type = ParameterType::boolean, .doc = doc, .default_number = otherwise ? 1.0 : 0.0};
+}
+constexpr Parameter text(std::string_view name, std::string_view otherwise, std::string_view doc) {
+  return {.name = name, .type = ParameterType::text, .doc = doc, .default_text = otherwise};
+}
+constexpr Parameter reals(std::string_view name, std::string_view unit, std::span<const double> otherwise,
+                          std::string_view doc) {
+  return {.name = name, .type = ParameterType::reals, .unit = unit, .doc = doc, .default_reals = otherwise};
+}
+constexpr Parameter texts(std::string_view name, std::string_view doc) {
+  return {.name = name, .type = ParameterType::texts, .doc = doc};
+}
+
+/// The value of one parameter; which member counts is told by the parameter's type.
+struct ParameterValue {
+  std::string_view name;
+  double number = 0;
+  std::string_view text;
+  std::span<const double> reals;
+  std::span<const std::string_view> texts;
+  bool given = false;  ///< set by the user, not the default
+};
+
+/// All parameters of an algorithm, checked against its description: every described name is there.
+class Parameters {
+ public:
+  Parameters() = default;
+  explicit Parameters(std::span<const ParameterValue> values) : values_(values) {}
+
+  double real(std::string_view name) const { return at(name).number; }
+  std::int64_t integer(std::string_view name) const { return std::int64_t(at(name).number); }
+  bool boolean(std::string_view name) const { return at(name).number != 0; }
+  std::string_view text(std::string_view name) const { return at(name).text; }
+  std::span<const double> reals(std::string_view name) const { return at(name).reals; }
+  std::span<const std::string_view> texts(std::string_view name) const { return at(name).texts; }
+  bool given(std::string_view name) const { return at(name).given; }
+
+ private:
+  const ParameterValue& at(std::string_view name) const {
+    for (const ParameterValue& v : values_)
+      if (v.name == name) return v;
+    static constexpr ParameterValue none{};  // a name that the description lacks: our mistake
+    return none;
+  }
+  std::span<const ParameterValue> values_;
+};
+
+}  // namespace muro

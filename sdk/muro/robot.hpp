@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// A robot: a compound with a tree-shaped structure (MuRoSimF, Section 2.1), and its flattened form.
+#pragma once
+
+#include <limits>
+#include <string_view>
+
+#include "muro/object.hpp"
+
+namespace muro {
+
+/// The blocks a robot's tree is made of. Only binary forks exist.
+enum class NodeKind : std::uint8_t { base, fork, translation, rotation, revolute, prismatic, body };
+
+struct JointLimits {
+  double lower = -std::numeric_limits<double>::infinity();  ///< rad or m
+  double upper = std::numeric_limits<double>::infinity();   ///< rad or m
+  double velocity = std::numeric_limits<double>::infinity();  ///< rad/s or m/s
+  double effort = std::numeric_limits<double>::infinity();    ///< N m or N
+  double damping = 0;   ///< N m s/rad or N s/m
+  double friction = 0;  ///< N m or N
+};
+
+enum class JointKind : std::uint8_t { fixed, revolute, prismatic };
+
+/// One rigid body of the flattened tree with the joint that leads to it. Fixed translations,
+/// rotations and forks are folded into `origin`.
+struct Frame {
+  ObjectId object = no_object;  ///< holds pose, twist, inertial, shapes
+  std::int32_t parent = -1;     ///< index of the frame it hangs on, always smaller than its own; -1: the base
+  JointKind joint = JointKind::fixed;
+  ObjectId joint_object = no_object;  ///< holds joint.position and so on; none for fixed
+  Pose origin;                        ///< of this frame in its parent's with the joint at 0
+  Vec3 axis = Vec3::UnitX();          ///< unit, in this frame
+  JointLimits limits;
+  std::int32_t mimic = -1;  ///< frame whose joint this one follows: q = offset + multiplier * q_mimic
+  double mimic_multiplier = 1;
+  double mimic_offset = 0;
+};
+
+/// The pose of a frame in its parent's when its joint is at `position` (rad or m).
+inline Pose placed(const Frame& f, double position) {
+  switch (f.joint) {
+    case JointKind::revolute: return f.origin * Pose{Vec3::Zero(), rotation_of(Vec3(f.axis * position))};
+    case JointKind::prismatic: return f.origin * Pose{f.axis * position, Quat::Identity()};
+    case JointKind::fixed: break;
+  }
+  return f.origin;
+}
+
+/// A robot as algorithms see it. Frame 0 is the base; children follow their parents, depth first.
+struct RobotView {
+  std::string_view name;
+  std::uint32_t number = 0;  ///< dense, from 0
+  std::uint64_t key = 0;     ///< from the name alone: keys random numbers
+  std::span<const Frame> frames;
+
+  ObjectId base() const { return frames.front().object; }
+};
+
+}  // namespace muro

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// The scene as collision and rays see it: shapes at their places and a hierarchy of boxes over them.
+#pragma once
+
+#include <limits>
+
+#include "muro/shape.hpp"
+
+namespace muro {
+
+/// Axis-aligned box in world axes, m.
+struct Aabb {
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity());
+  Vec3 high = Vec3::Constant(-std::numeric_limits<double>::infinity());
+
+  bool overlaps(const Aabb& b) const {
+    return (low.array() <= b.high.array()).all() && (b.low.array() <= high.array()).all();
+  }
+  bool contains(const Aabb& b) const {
+    return (low.array() <= b.low.array()).all() && (b.high.array() <= high.array()).all();
+  }
+  void include(const Aabb& b) {
+    low = low.cwiseMin(b.low);
+    high = high.cwiseMax(b.high);
+  }
+};
+
+/// The box around `shape` when the shape (not its body) stands at `pose`. Planes are infinite.
+inline Aabb bounds_of(const Shape& shape, const Pose& pose) {
+  const Vec3 half = half_extents(shape);
+  if (shape.kind == ShapeKind::plane) return {-half, half};
+  if (shape.kind == ShapeKind::sphere) return {pose.position - half, pose.position + half};
+  const Vec3 reach = pose.orientation.toRotationMatrix().cwiseAbs() * half;
+  return {pose.position - reach, pose.position + reach};
+}
+
+/// One shape of one body in the scene.
+struct Collider {
+  const Shape* shape = nullptr;
+  ObjectId body = no_object;      ///< the object whose pose moves the shape
+  std::int32_t robot = -1;        ///< number of the robot it belongs to; -1: static scenery
+  std::uint32_t shape_index = 0;  ///< among the body's shapes
+  Pose pose;                      ///< of the shape in the world
+  Aabb bounds;                    ///< around the shape at `pose`, without margin
+};
+
+/// A node of a hierarchy of boxes. A leaf has `count` > 0 items, from `first` on in `items`;
+/// an inner node's children are `first` and `first + 1`.
+struct BvhNode {
+  Aabb bounds;
+  std::uint32_t first = 0;
+  std::uint32_t count = 0;
+};
+
+/// A hierarchy; its root is node 0. Empty when there is no node.
+struct Bvh {
+  std::span<const BvhNode> nodes;
+  std::span<const std::uint32_t> items;  ///< what the leaves name, see SceneIndex
+};
+
+/// The colliders of one robot: `colliders[first .. first + count)`.
+struct RobotColliders {
+  std::uint32_t first = 0;
+  std::uint32_t count = 0;
+  Aabb bounds;  ///< around all of them, without margin
+};
+
+/// The spatial index of the scene: a derived property of the world, right for the instant in which
+/// its writer ran. Two levels: scenery (built once), and robots (boxes with a margin, refitted only
+/// when a robot leaves its box); within a robot its few colliders are looked at one by one.
+struct SceneIndex {
+  std::span<const Collider> colliders;     ///< scenery first, then robot by robot
+  std::span<const RobotColliders> robots;  ///< by robot number
+  std::span<const std::uint32_t> planes;   ///< colliders without bounds, tested by everyone
+  Bvh scenery;                             ///< items are indices of colliders
+  Bvh moving;                              ///< items are robot numbers
+};
+MURO_OPAQUE_TYPE(SceneIndex, "muro.SceneIndex", transient);
+
+/// One point in which two bodies touch, as the owner of the list (`self`) sees it. A pair of robots
+/// stands in the lists of both, with equal point and depth and the opposite normal.
+struct Contact {
+  ObjectId self = no_object;
+  ObjectId other = no_object;
+  Vec3 point = Vec3::Zero();   ///< m, world: half way between the two surfaces
+  Vec3 normal = Vec3::Zero();  ///< unit, world: the direction in which `self` is pushed
+  double depth = 0;            ///< m, > 0: how far the bodies overlap along the normal
+  double friction = 0;         ///< of the pair
+  double restitution = 0;      ///< of the pair
+  std::uint32_t self_shape = 0;   ///< index among the shapes of `self`
+  std::uint32_t other_shape = 0;  ///< index among the shapes of `other`
+};
+MURO_OPAQUE_TYPE(Contact, "muro.Contact", opaque);
+
+}  // namespace muro

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "muro/object.hpp"
+
+namespace muro {
+
+enum class ShapeKind : std::uint32_t { box, sphere, cylinder, capsule, plane, mesh };
+
+/// A shape of a body, for collision, rays and rendering. Shapes are centred on their origin.
+struct Shape {
+  ShapeKind kind = ShapeKind::box;
+  TextId mesh = no_text;  ///< mesh: the file, as the model names it, resolved to a path
+  /// box: full lengths x, y, z. sphere: radius, -, -. cylinder: radius, -, length along z.
+  /// capsule: radius, -, length of the straight part along z. plane: unused (normal +z through the
+  /// origin, solid below). mesh: scale. All m, the scale 1.
+  Vec3 size = Vec3::Zero();
+  Pose origin{};           ///< of the shape in the frame of its body
+  double friction = 0.8;   ///< Coulomb coefficient; a pair uses the geometric mean
+  double restitution = 0;  ///< 0..1 (Newton); a pair uses the larger
+  Eigen::Vector4d color = Eigen::Vector4d(0.7, 0.7, 0.7, 1);  ///< red, green, blue, alpha, 0..1
+
+  static Shape box(const Vec3& lengths) { return {.kind = ShapeKind::box, .size = lengths}; }
+  static Shape sphere(double radius) { return {.kind = ShapeKind::sphere, .size = {radius, 0, 0}}; }
+  static Shape cylinder(double radius, double length) {
+    return {.kind = ShapeKind::cylinder, .size = {radius, 0, length}};
+  }
+  static Shape capsule(double radius, double length) {
+    return {.kind = ShapeKind::capsule, .size = {radius, 0, length}};
+  }
+  static Shape plane() { return {.kind = ShapeKind::plane}; }
+};
+MURO_OPAQUE_TYPE(Shape, "muro.Shape", opaque);
+
+/// Half lengths (m) of the smallest box around a shape, in the axes of the shape; infinite for a
+/// plane, zero for a mesh (its size is known to who loads it).
+inline Vec3 half_extents(const Shape& s) {
+  switch (s.kind) {
+    case ShapeKind::box: return 0.5 * s.size;
+    case ShapeKind::sphere: return Vec3::Constant(s.size.x());
+    case ShapeKind::cylinder: return {s.size.x(), s.size.x(), 0.5 * s.size.z()};
+    case ShapeKind::capsule: return {s.size.x(), s.size.x(), s.size.x() + 0.5 * s.size.z()};
+    case ShapeKind::plane: return Vec3::Constant(std::numeric_limits<double>::infinity());
+    case ShapeKind::mesh: break;
+  }
+  return Vec3::Zero();
+}
+
+}  // namespace muro

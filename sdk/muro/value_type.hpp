@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// What the value of a property is made of, in a form that any library reads without RTTI.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "muro/geometry.hpp"
+
+namespace muro {
+
+/// The number type that a value is made of. `opaque` values have no columns: they are neither
+/// recorded nor hashed. `transient` values also hold addresses: they are not part of a snapshot.
+enum class Scalar : std::uint8_t { f64, f32, i64, i32, u64, u32, u8, opaque, transient };
+
+/// Identity and layout of a value type. Two libraries mean the same type when name, size and
+/// alignment agree.
+struct ValueType {
+  std::string_view name;
+  std::uint32_t size = 0;
+  std::uint32_t align = 0;
+  Scalar scalar = Scalar::opaque;
+  std::span<const std::string_view> labels{};  ///< one a scalar; empty for a single scalar
+
+  constexpr std::uint32_t scalars() const { return labels.empty() ? 1u : std::uint32_t(labels.size()); }
+  friend bool operator==(const ValueType& a, const ValueType& b) {
+    return a.name == b.name && a.size == b.size && a.align == b.align;
+  }
+};
+
+/// Bytes in one scalar; 0 for opaque values.
+constexpr std::size_t size_of(Scalar s) {
+  switch (s) {
+    case Scalar::f64:
+    case Scalar::i64:
+    case Scalar::u64: return 8;
+    case Scalar::f32:
+    case Scalar::i32:
+    case Scalar::u32: return 4;
+    case Scalar::u8: return 1;
+    default: return 0;
+  }
+}
+
+/// Specialise for every type that a property can hold: `name`, `scalar`, and `labels` when it has
+/// more than one scalar. The type must be copyable byte by byte.
+template <class T>
+struct ValueTraits;
+
+namespace detail {
+template <Scalar S>
+struct ScalarTraits {
+  static constexpr Scalar scalar = S;
+  static constexpr std::span<const std::string_view> labels{};
+};
+inline constexpr std::string_view xyz_labels[] = {"x", "y", "z"};
+inline constexpr std::string_view pose_labels[] = {"x", "y", "z", "qx", "qy", "qz", "qw"};
+inline constexpr std::string_view twist_labels[] = {"vx", "vy", "vz", "wx", "wy", "wz"};
+inline constexpr std::string_view wrench_labels[] = {"fx", "fy", "fz", "tx", "ty", "tz"};
+inline constexpr std::string_view inertia_labels[] = {"mass", "cx",  "cy",  "cz",  "ixx",
+                                                      "iyy",  "izz", "ixy", "ixz", "iyz"};
+}  // namespace detail
+
+#define MURO_SCALAR_TYPE(TYPE, KIND)                                       \
+  template <>                                                              \
+  struct ValueTraits<TYPE> : detail::ScalarTraits<Scalar::KIND> {          \
+    static constexpr std::string_view name = #KIND;                        \
+  };
+MURO_SCALAR_TYPE(double, f64)
+MURO_SCALAR_TYPE(float, f32)
+MURO_SCALAR_TYPE(std::int64_t, i64)
+MURO_SCALAR_TYPE(std::int32_t, i32)
+MURO_SCALAR_TYPE(std::uint64_t, u64)
+MURO_SCALAR_TYPE(std::uint32_t, u32)
+MURO_SCALAR_TYPE(std::uint8_t, u8)
+#undef MURO_SCALAR_TYPE
+
+/// Declares a value type made of equal scalars without padding.
+#define MURO_VALUE_TYPE(TYPE, NAME, KIND, LABELS)                                                   \
+  template <>                                                                                       \
+  struct ValueTraits<TYPE> {                                                                        \
+    static constexpr std::string_view name = NAME;                                                  \
+    static constexpr Scalar scalar = Scalar::KIND;                                                  \
+    static constexpr std::span<const std::string_view> labels{LABELS};                              \
+  };                                                                                                \
+  static_assert(sizeof(TYPE) == size_of(Scalar::KIND) * std::size(LABELS), "a value type has no padding")
+
+/// Declares a value type without columns (see Scalar): KIND is `opaque` or `transient`.
+#define MURO_OPAQUE_TYPE(TYPE, NAME, KIND)                             \
+  template <>                                                          \
+  struct ValueTraits<TYPE> {                                           \
+    static constexpr std::string_view name = NAME;                     \
+    static constexpr Scalar scalar = Scalar::KIND;                     \
+    static constexpr std::span<const std::string_view> labels{};       \
+  }
+
+MURO_VALUE_TYPE(Vec3, "muro.Vec3", f64, detail::xyz_labels);
+MURO_VALUE_TYPE(Pose, "muro.Pose", f64, detail::pose_labels);
+MURO_VALUE_TYPE(Twist, "muro.Twist", f64, detail::twist_labels);
+MURO_VALUE_TYPE(Wrench, "muro.Wrench", f64, detail::wrench_labels);
+MURO_VALUE_TYPE(Inertia, "muro.Inertia", f64, detail::inertia_labels);
+
+template <class T>
+inline constexpr ValueType value_type{ValueTraits<T>::name, sizeof(T), alignof(T), ValueTraits<T>::scalar,
+                                      ValueTraits<T>::labels};
+
+}  // namespace muro

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// The standard names. Terms follow URDF, SDF and ROS; units are SI; frames follow REP-103.
+#pragma once
+
+#include "muro/key.hpp"
+#include "muro/scene.hpp"
+
+namespace muro::keys {
+
+// Motion of bodies. `pose` and `twist` are those of the body's frame in the world.
+inline constexpr Key<Pose> pose{"pose", "m", "pose of the body's frame in the world"};
+inline constexpr Key<Pose> initial_pose{"pose.initial", "m", "of a robot's base at the start"};
+inline constexpr Key<Twist> initial_twist{"twist.initial", "m/s, rad/s", "of a robot's base at the start, world axes"};
+inline constexpr Key<Twist> twist{"twist", "m/s, rad/s", "velocity of the body's frame, world axes, at its origin"};
+inline constexpr Key<Wrench> external_wrench{
+    "wrench.external", "N, N m", "sum of what acts on a robot from outside: world axes, at the base's origin"};
+inline constexpr Key<Vec3> gravity{"gravity", "m/s^2", "on the world object, world axes"};
+
+// What a body is.
+inline constexpr Key<Inertia> inertial{"inertial", "kg, m, kg m^2", "mass, centre of mass, inertia about it"};
+inline constexpr Key<Shape> collision_shapes{"collision.shapes", "m", "array: what the body collides with"};
+inline constexpr Key<Shape> visual_shapes{"visual.shapes", "m", "array: what the body looks like"};
+
+// Joints: properties of the joint's object. Revolute and continuous joints turn, prismatic ones shift.
+inline constexpr Key<double> joint_position{"joint.position", "rad or m", "along the axis, 0 as modelled"};
+inline constexpr Key<double> initial_joint_position{"joint.position.initial", "rad or m", "at the start"};
+inline constexpr Key<double> joint_velocity{"joint.velocity", "rad/s or m/s", "along the axis"};
+inline constexpr Key<double> joint_effort{"joint.effort", "N m or N", "what the drive applies along the axis"};
+inline constexpr Key<double> joint_position_target{"joint.position.target", "rad or m", "wanted position", Role::command};
+inline constexpr Key<double> joint_velocity_target{"joint.velocity.target", "rad/s or m/s", "wanted velocity", Role::command};
+inline constexpr Key<double> joint_acceleration_target{"joint.acceleration.target", "rad/s^2 or m/s^2", "wanted acceleration",
+                                                       Role::command};
+inline constexpr Key<double> joint_effort_target{"joint.effort.target", "N m or N", "wanted effort", Role::command};
+
+// Commands to a whole robot: properties of its base.
+inline constexpr Key<Twist> command_twist{"command.twist", "m/s, rad/s", "wanted velocity of the base, axes of the base",
+                                          Role::command};
+inline constexpr Key<Pose> command_pose{"command.pose", "m", "wanted pose of the base in the world", Role::command};
+
+// The scene.
+inline constexpr Key<SceneIndex> scene_index{"scene.index", "m", "on the world object: shapes and boxes for search"};
+inline constexpr Key<Contact> contacts{"contacts", "m", "list on the base of a robot: where it touches"};
+
+// Laser scanners: properties of the sensor's object. Angles are counter-clockwise about z, 0 along x.
+inline constexpr Key<double> laser_min_angle{"laser.min_angle", "rad", "direction of the first ray of a row"};
+inline constexpr Key<double> laser_angle_increment{"laser.angle_increment", "rad", "between neighbouring rays of a row"};
+inline constexpr Key<std::uint32_t> laser_columns{"laser.columns", "1", "rays in a row"};
+inline constexpr Key<std::uint32_t> laser_rows{"laser.rows", "1", "rows; rays are stored row by row from below"};
+inline constexpr Key<double> laser_min_range{"laser.min_range", "m", "nothing nearer is seen"};
+inline constexpr Key<double> laser_max_range{"laser.max_range", "m", "nothing farther is seen; such a ray reads this"};
+inline constexpr Key<double> ranges{"ranges", "m", "array: true distance along each ray"};
+inline constexpr Key<double> measured_ranges{"ranges.measured", "m", "array: the distance as the device reports it"};
+inline constexpr Key<ObjectId> laser_hits{"laser.hits", "1", "array: the object each ray hits, or none"};
+
+// Cameras: properties of the sensor's object; x forward, as every sensor frame here.
+inline constexpr Key<std::uint32_t> camera_width{"camera.width", "1", "pixels"};
+inline constexpr Key<std::uint32_t> camera_height{"camera.height", "1", "pixels"};
+inline constexpr Key<double> camera_horizontal_fov{"camera.horizontal_fov", "rad", "opening angle"};
+inline constexpr Key<std::uint8_t> camera_image{"camera.image", "1", "array: rgb, rows from the top"};
+inline constexpr Key<float> camera_depth{"camera.depth", "m", "array: distance along the optical axis"};
+
+}  // namespace muro::keys
