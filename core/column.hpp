@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <new>
+#include <span>
+#include <vector>
+
+#include "muro/key.hpp"
+
+namespace muro {
+
+/// The values of one key: chunks of memory whose addresses never change, filled in order of creation.
+class Column {
+ public:
+  explicit Column(const KeyInfo& key) : key_(key) {}
+
+  const KeyInfo& key() const { return key_; }
+
+  /// Room for `count` elements side by side, cleared.
+  void* allocate(std::size_t count) {
+    const std::size_t bytes = count * key_.type->size;
+    if (chunks_.empty() || chunks_.back().used + bytes > chunks_.back().size) grow(bytes);
+    Chunk& c = chunks_.back();
+    void* place = c.memory.get() + c.used;
+    c.used += bytes;
+    return place;
+  }
+
+  /// The used part of every chunk.
+  template <class Visit>
+  void each_block(Visit visit) const {
+    for (const Chunk& c : chunks_) visit(std::span<std::byte>(c.memory.get(), c.used));
+  }
+
+ private:
+  static constexpr std::size_t chunk_bytes = 1 << 14;
+  static constexpr std::align_val_t alignment{64};
+  struct Free {
+    void operator()(std::byte* p) const { ::operator delete(p, alignment); }
+  };
+  struct Chunk {
+    std::unique_ptr<std::byte[], Free> memory;
+    std::size_t size = 0;
+    std::size_t used = 0;
+  };
+
+  void grow(std::size_t least) {
+    const std::size_t size = std::max(least, chunk_bytes << std::min<std::size_t>(chunks_.size(), 6));
+    auto* memory = static_cast<std::byte*>(::operator new(size, alignment));
+    std::fill_n(memory, size, std::byte{0});
+    chunks_.push_back({std::unique_ptr<std::byte[], Free>(memory), size, 0});
+  }
+
+  KeyInfo key_;
+  std::vector<Chunk> chunks_;
+};
+
+}  // namespace muro

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#include "core/instance.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "core/error.hpp"
+#include "muro/random.hpp"
+
+namespace muro {
+
+Instance::Instance(const abi::AlgorithmEntry& entry, AlgorithmSetup setup, World& world, Host& host)
+    : entry_(entry),
+      setup_(std::move(setup)),
+      world_(world),
+      host_(host),
+      parameters_(*entry.description, setup_),
+      party_(world.store().add_party(setup_.name + " (" + setup_.use + (setup_.place.empty() ? "" : ", " + setup_.place) + ")")) {
+  if (setup_.items.empty()) setup_.items.push_back({});
+  abi::ErrorText error;
+  algorithm_ = entry_.create(&error);
+  require(algorithm_ != nullptr, error, "cannot be created");
+}
+
+Instance::~Instance() {
+  if (algorithm_) algorithm_->destroy();
+}
+
+void Instance::require(bool fine, const abi::ErrorText& error, const char* doing) const {
+  if (fine) return;
+  const std::string place = setup_.place.empty() ? "" : setup_.place + ": ";
+  throw SetupError(place + setup_.name + " (" + setup_.use + ") " + doing + ": " + std::string(error.view()));
+}
+
+void Instance::connect() {
+  abi::ErrorText error;
+  require(algorithm_->connect(*this, error), error, "cannot be connected");
+}
+
+void Instance::start() {
+  abi::ErrorText error;
+  require(algorithm_->start(error), error, "cannot start");
+}
+
+void Instance::restored() {
+  abi::ErrorText error;
+  require(algorithm_->restored(error), error, "cannot go on from the restored state");
+}
+
+void Instance::finish() {
+  abi::ErrorText error;
+  require(algorithm_->finish(error), error, "cannot finish");
+}
+
+std::vector<SlotId> Instance::reads() const {
+  std::vector<SlotId> slots;
+  for (const Bound& b : bound_)
+    if (b.access == Access::read || b.access == Access::input || b.access == Access::read_sum) slots.push_back(b.slot);
+  return slots;
+}
+
+std::vector<SlotId> Instance::writes() const {
+  std::vector<SlotId> slots;
+  for (const Bound& b : bound_)
+    if (b.access != Access::read && b.access != Access::input && b.access != Access::read_sum) slots.push_back(b.slot);
+  return slots;
+}
+
+std::uint64_t Instance::random_key(std::uint32_t i) const noexcept {
+  const RobotView* robot = setup_.items[i].robot;
+  return fnv1a(setup_.subsystem, robot ? robot->key : fnv1a("world"));
+}
+
+std::string_view Instance::resolve_path(std::string_view path) const noexcept {
+  namespace fs = std::filesystem;
+  const fs::path given(path);
+  const fs::path base = setup_.folder.empty() ? fs::current_path() : fs::path(setup_.folder);
+  return paths_.emplace_back((given.is_absolute() ? given : fs::absolute(base) / given).lexically_normal().string());
+}
+
+std::span<const FoundProperty> Instance::properties(ObjectId object) const noexcept {
+  found_.clear();
+  for (const PropertyStore::Named& n : world_.store().properties(object)) {
+    const Slot& s = world_.store().slot(n.slot);
+    found_.push_back({object, &world_.store().key_of(s), s.form, s.form == Form::list ? 0 : (s.place ? s.count : 0)});
+  }
+  return found_;
+}
+
+bool Instance::is_used(ObjectId object, const KeyInfo& key, Access access) const noexcept {
+  const Slot* s = world_.store().find(object, key.name);
+  return s && s->used_as(access);
+}
+
+void* Instance::bind(ObjectId object, const KeyInfo& key, Access access, Form form, std::uint32_t count,
+                     const void* initial) noexcept {
+  void* handle = world_.store().bind(party_, object, key, access, form, count, initial);
+  bound_.push_back({world_.store().slots_of(party_).back(), access});
+  return handle;
+}
+
+void* Instance::state_block(ObjectId object, std::string_view name, std::uint32_t size) noexcept {
+  void* block = world_.store().state_block(party_, object, name, size);
+  bound_.push_back({world_.store().slots_of(party_).back(), Access::variable});
+  return block;
+}
+
+ArrayHeader Instance::constant_raw(ObjectId object, const KeyInfo& key) const noexcept {
+  return world_.store().constant(object, key);
+}
+
+void Instance::set_raw(ObjectId object, const KeyInfo& key, const void* value) noexcept {
+  world_.store().set_constant(object, key, value, 0);
+}
+
+}  // namespace muro

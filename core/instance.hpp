@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <deque>
+#include <memory>
+
+#include "core/algorithm_setup.hpp"
+#include "core/world.hpp"
+#include "muro/abi.hpp"
+
+namespace muro {
+
+/// Parameters checked against a description, with memory for what they point to.
+class ParameterSet {
+ public:
+  /// Throws SetupError with every problem, each with the allowed values and the nearest name.
+  ParameterSet(const Description& description, const AlgorithmSetup& setup);
+  const Parameters& view() const { return view_; }
+
+ private:
+  ParameterValue value_of(const Parameter& p, const ParameterInput* given, std::vector<std::string>& problems);
+
+  std::deque<std::string> texts_;
+  std::deque<std::vector<double>> reals_;
+  std::deque<std::vector<std::string_view>> text_lists_;
+  std::vector<ParameterValue> values_;
+  Parameters view_;
+};
+
+/// One instance of an algorithm: made by its plugin, connected to the world.
+class Instance final : private Connector {
+ public:
+  Instance(const abi::AlgorithmEntry& entry, AlgorithmSetup setup, World& world, Host& host);
+  ~Instance();
+  Instance(const Instance&) = delete;
+  Instance& operator=(const Instance&) = delete;
+
+  const AlgorithmSetup& setup() const { return setup_; }
+  const Description& description() const { return *entry_.description; }
+  abi::AlgorithmInstance& algorithm() { return *algorithm_; }
+  Party party() const { return party_; }
+
+  /// Throws SetupError with the algorithm's own words.
+  void connect();
+  void start();
+  void restored();
+  void finish();
+  /// Slots that it reads and writes, for the scheduler.
+  std::vector<SlotId> reads() const;
+  std::vector<SlotId> writes() const;
+
+ private:
+  std::span<const Item> items() const noexcept override { return setup_.items; }
+  const Parameters& parameters() const noexcept override { return parameters_.view(); }
+  Host& host() const noexcept override { return host_; }
+  std::uint64_t random_key(std::uint32_t i) const noexcept override;
+  std::string_view resolve_path(std::string_view path) const noexcept override;
+  std::uint32_t object_count() const noexcept override { return world_.object_count(); }
+  std::string_view object_name(ObjectId object) const noexcept override { return world_.object_name(object); }
+  ObjectId find_object(std::string_view name) const noexcept override { return world_.find_object(name); }
+  std::span<const RobotView* const> robots() const noexcept override { return world_.robots(); }
+  std::int32_t robot_of(ObjectId object) const noexcept override { return world_.robot_of(object); }
+  std::string_view text(TextId id) const noexcept override { return world_.text(id); }
+  std::span<const FoundProperty> properties(ObjectId object) const noexcept override;
+  bool is_used(ObjectId object, const KeyInfo& key, Access access) const noexcept override;
+  void* state_block(ObjectId object, std::string_view name, std::uint32_t size) noexcept override;
+  void* bind(ObjectId object, const KeyInfo& key, Access access, Form form, std::uint32_t count,
+             const void* initial) noexcept override;
+  ArrayHeader constant_raw(ObjectId object, const KeyInfo& key) const noexcept override;
+  void set_raw(ObjectId object, const KeyInfo& key, const void* value) noexcept override;
+
+  void require(bool fine, const abi::ErrorText& error, const char* doing) const;
+
+  const abi::AlgorithmEntry& entry_;
+  AlgorithmSetup setup_;
+  World& world_;
+  Host& host_;
+  ParameterSet parameters_;
+  Party party_;
+  abi::AlgorithmInstance* algorithm_ = nullptr;
+  mutable std::vector<FoundProperty> found_;
+  mutable std::deque<std::string> paths_;
+  struct Bound {
+    SlotId slot;
+    Access access;
+  };
+  std::vector<Bound> bound_;
+};
+
+}  // namespace muro

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "core/error.hpp"
+#include "core/instance.hpp"
+#include "core/nearest.hpp"
+
+namespace muro {
+
+namespace {
+
+std::string shown(double x) {
+  std::ostringstream out;
+  out << x;
+  return out.str();
+}
+
+std::string shown(const ParameterInput& input) {
+  struct Visitor {
+    std::string operator()(bool b) const { return b ? "true" : "false"; }
+    std::string operator()(std::int64_t i) const { return std::to_string(i); }
+    std::string operator()(double d) const { return shown(d); }
+    std::string operator()(const std::string& s) const { return "\"" + s + "\""; }
+    std::string operator()(const std::vector<double>& v) const {
+      std::string all = "[";
+      for (const double d : v) all += (all.size() > 1 ? ", " : "") + shown(d);
+      return all + "]";
+    }
+    std::string operator()(const std::vector<std::string>& v) const {
+      std::string all = "[";
+      for (const std::string& s : v) all += (all.size() > 1 ? ", " : "") + s;
+      return all + "]";
+    }
+  };
+  return std::visit(Visitor{}, input);
+}
+
+std::string range_of(const Parameter& p) {
+  const bool low = std::isfinite(p.least), high = std::isfinite(p.most);
+  const std::string unit = p.unit == "1" ? "" : " " + std::string(p.unit);
+  if (low && high) return " from " + shown(p.least) + " to " + shown(p.most) + unit;
+  if (low) return " of at least " + shown(p.least) + unit;
+  if (high) return " of at most " + shown(p.most) + unit;
+  return unit.empty() ? "" : " in" + unit;
+}
+
+std::string wanted(const Parameter& p) {
+  switch (p.type) {
+    case ParameterType::real: return "a number" + range_of(p);
+    case ParameterType::integer: return "a whole number" + range_of(p);
+    case ParameterType::boolean: return "true or false";
+    case ParameterType::reals:
+      return (p.length > 0 ? "a list of " + std::to_string(p.length) + " numbers" : "a list of numbers") + range_of(p);
+    case ParameterType::texts: return "a list of texts";
+    case ParameterType::text: break;
+  }
+  if (p.choices.empty()) return "a text";
+  std::string all = "one of";
+  for (const std::string_view c : p.choices) all += " " + std::string(c);
+  return all;
+}
+
+const double* number_in(const ParameterInput& input, double& room) {
+  if (const auto* d = std::get_if<double>(&input)) return d;
+  if (const auto* i = std::get_if<std::int64_t>(&input)) {
+    room = double(*i);
+    return &room;
+  }
+  return nullptr;
+}
+
+bool inside(const Parameter& p, double x) { return std::isfinite(x) && x >= p.least && x <= p.most; }
+
+}  // namespace
+
+ParameterSet::ParameterSet(const Description& description, const AlgorithmSetup& setup) {
+  std::vector<std::string> problems, names;
+  for (const Parameter& p : description.parameters) {
+    names.emplace_back(p.name);
+    const auto given = setup.parameters.find(std::string(p.name));
+    values_.push_back(value_of(p, given == setup.parameters.end() ? nullptr : &given->second, problems));
+  }
+  for (const auto& [name, unused] : setup.parameters) {
+    if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+    std::string all;
+    for (const std::string& n : names) all += (all.empty() ? "" : ", ") + n;
+    problems.push_back("`" + std::string(description.id) + "` has no parameter `" + name + "`" + suggestion(name, names) +
+                       (all.empty() ? "; it has none" : "; it has: " + all));
+  }
+  const std::string place = setup.place.empty() ? "" : setup.place + ": ";
+  for (std::string& p : problems) p = place + setup.name + ": " + p;
+  if (!problems.empty()) throw SetupError(problems);
+  view_ = Parameters(values_);
+}
+
+ParameterValue ParameterSet::value_of(const Parameter& p, const ParameterInput* given, std::vector<std::string>& problems) {
+  ParameterValue v{.name = p.name, .number = p.default_number, .text = p.default_text, .reals = p.default_reals, .texts = {}};
+  if (!given) {
+    if (p.required) problems.push_back("parameter `" + std::string(p.name) + "` is missing: " + wanted(p) + " (" + std::string(p.doc) + ")");
+    return v;
+  }
+  v.given = true;
+  double room = 0;
+  bool fine = false;
+  switch (p.type) {
+    case ParameterType::real:
+    case ParameterType::integer:
+      if (const double* x = number_in(*given, room)) {
+        fine = inside(p, *x) && (p.type == ParameterType::real || *x == std::floor(*x));
+        v.number = *x;
+      }
+      break;
+    case ParameterType::boolean:
+      if (const bool* b = std::get_if<bool>(given)) {
+        fine = true;
+        v.number = *b ? 1 : 0;
+      }
+      break;
+    case ParameterType::text:
+      if (const auto* s = std::get_if<std::string>(given)) {
+        v.text = texts_.emplace_back(*s);
+        fine = p.choices.empty() || std::find(p.choices.begin(), p.choices.end(), v.text) != p.choices.end();
+      }
+      break;
+    case ParameterType::reals:
+      if (const auto* list = std::get_if<std::vector<double>>(given)) {
+        v.reals = reals_.emplace_back(*list);
+        fine = (p.length == 0 || v.reals.size() == p.length) &&
+               std::all_of(v.reals.begin(), v.reals.end(), [&](double x) { return inside(p, x); });
+      } else if (const double* x = number_in(*given, room)) {
+        v.reals = reals_.emplace_back(1, *x);
+        fine = p.length <= 1 && inside(p, *x);
+      } else if (const auto* none = std::get_if<std::vector<std::string>>(given)) {
+        fine = none->empty() && p.length == 0;
+      }
+      break;
+    case ParameterType::texts: {
+      auto& list = text_lists_.emplace_back();
+      if (const auto* many = std::get_if<std::vector<std::string>>(given)) {
+        fine = true;
+        for (const std::string& s : *many) list.push_back(texts_.emplace_back(s));
+      } else if (const auto* one = std::get_if<std::string>(given)) {
+        fine = true;
+        list.push_back(texts_.emplace_back(*one));
+      }
+      v.texts = list;
+      break;
+    }
+  }
+  if (!fine) problems.push_back("parameter `" + std::string(p.name) + "` is " + shown(*given) + " but must be " + wanted(p));
+  return v;
+}
+
+}  // namespace muro

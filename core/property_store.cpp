@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: MIT
+#include "core/property_store.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+
+#include "core/error.hpp"
+#include "core/hash.hpp"
+
+namespace muro {
+
+namespace {
+
+constexpr SlotId no_slot = 0xffffffffu;
+
+bool writes(Access a) {
+  return a == Access::variable || a == Access::derived || a == Access::write || a == Access::offer;
+}
+
+void grow_list(ListHeader* list, std::uint64_t wanted) {
+  const std::uint64_t capacity = std::max<std::uint64_t>({wanted, 2 * list->capacity, 8});
+  void* memory = std::realloc(list->data, capacity * list->element_size);
+  if (!memory) std::abort();  // a step has no way to go on without memory
+  list->data = memory;
+  list->capacity = capacity;
+}
+
+std::string_view name_of(Form form) {
+  constexpr std::string_view names[] = {"a single value", "an array", "a list"};
+  return names[static_cast<int>(form)];
+}
+
+}  // namespace
+
+bool Slot::used_as(Access access) const {
+  return std::any_of(usage.begin(), usage.end(), [&](const Usage& u) { return u.access == access; });
+}
+
+const Slot::Usage* Slot::writer() const {
+  const auto it = std::find_if(usage.begin(), usage.end(), [](const Usage& u) { return writes(u.access); });
+  return it == usage.end() ? nullptr : &*it;
+}
+
+PropertyStore::PropertyStore() { add_party("the set-up"); }
+
+PropertyStore::~PropertyStore() {
+  for (ListHeader& list : lists_) std::free(list.data);
+}
+
+void PropertyStore::add_object(std::string name) {
+  names_.push_back(std::move(name));
+  objects_.emplace_back();
+}
+
+Party PropertyStore::add_party(std::string name) {
+  parties_.push_back(std::move(name));
+  bound_.emplace_back();
+  return Party(parties_.size() - 1);
+}
+
+std::string PropertyStore::where(ObjectId object, std::string_view key) const {
+  return "`" + object_name(object) + ":" + std::string(key) + "`";
+}
+
+std::string PropertyStore::who(Party p) const { return parties_[p]; }
+
+std::uint32_t PropertyStore::column_of(Party party, const KeyInfo& key) {
+  const auto it = column_index_.find(key.name);
+  if (it == column_index_.end()) {
+    columns_.emplace_back(key);
+    column_party_.push_back(party);
+    column_index_.emplace(std::string(key.name), std::uint32_t(columns_.size() - 1));
+    return std::uint32_t(columns_.size() - 1);
+  }
+  const KeyInfo& known = columns_[it->second].key();
+  const std::string parties = who(column_party_[it->second]) + " and " + who(party);
+  if (!(*known.type == *key.type))
+    problems_.push_back("property `" + std::string(key.name) + "`: type " + std::string(known.type->name) + " and type " +
+                        std::string(key.type->name) + " are declared by " + parties +
+                        "; give the property of one of them another name");
+  else if (known.unit != key.unit)
+    problems_.push_back("property `" + std::string(key.name) + "`: unit \"" + std::string(known.unit) + "\" and unit \"" +
+                        std::string(key.unit) + "\" are declared by " + parties + "; use one unit, or another name");
+  else
+    return it->second;
+  columns_.emplace_back(key);  // memory of the right size, so that set-up can go on to the next problem
+  column_party_.push_back(party);
+  return std::uint32_t(columns_.size() - 1);
+}
+
+SlotId PropertyStore::find_id(ObjectId object, std::string_view key) const {
+  for (const Named& n : objects_[index_of(object)])
+    if (n.key == key) return n.slot;
+  return no_slot;
+}
+
+const Slot* PropertyStore::find(ObjectId object, std::string_view key) const {
+  const SlotId id = find_id(object, key);
+  return id == no_slot ? nullptr : &slots_[id];
+}
+
+SlotId PropertyStore::slot_for(Party party, ObjectId object, const KeyInfo& key) {
+  const std::uint32_t column = column_of(party, key);
+  const SlotId known = find_id(object, key.name);
+  if (known != no_slot && *key_of(slots_[known]).type == *key.type) return known;
+  const SlotId id = SlotId(slots_.size());
+  slots_.emplace_back();
+  slots_.back().object = object;
+  slots_.back().column = column;
+  if (known == no_slot) objects_[index_of(object)].push_back({columns_[column].key().name, id});
+  return id;
+}
+
+void PropertyStore::set_aside(Slot& s, Form form, std::uint32_t count) {
+  Column& column = columns_[s.column];
+  switch (form) {
+    case Form::single:
+      if (!s.place) s.place = column.allocate(1);
+      break;
+    case Form::array:
+      if (!s.array) s.array = &arrays_.emplace_back();
+      if (count > 0 && !s.place) {
+        s.place = column.allocate(count);
+        s.count = count;
+        *s.array = {s.place, count};
+      }
+      break;
+    case Form::list:
+      if (!s.place) {
+        ListHeader& list = lists_.emplace_back();
+        list.grow = &grow_list;
+        list.element_size = column.key().type->size;
+        s.place = &list;
+        s.count = 0;
+      }
+      break;
+  }
+  s.form = form;
+}
+
+void PropertyStore::set_constant(ObjectId object, const KeyInfo& key, const void* data, std::uint32_t count) {
+  Slot& s = slots_[slot_for(setup_party, object, key)];
+  if (s.kind == Slot::Class::variable || s.kind == Slot::Class::derived) {
+    problems_.push_back(where(object, key.name) + " is written by " + who(s.writer() ? s.writer()->party : setup_party) +
+                        " and cannot be a constant");
+    return;
+  }
+  const Form form = count == 0 ? Form::single : Form::array;
+  if (s.place && form == Form::array && s.count != count) s.place = nullptr;
+  s.kind = Slot::Class::constant;
+  set_aside(s, form, count);
+  std::memcpy(s.place, data, std::size_t(std::max(count, 1u)) * key.type->size);
+  s.initialised = true;
+}
+
+ArrayHeader PropertyStore::constant(ObjectId object, const KeyInfo& key) const {
+  const Slot* s = find(object, key.name);
+  if (!s || s->kind != Slot::Class::constant || !(*key_of(*s).type == *key.type)) return {};
+  return {s->place, s->form == Form::array ? s->count : 1u};
+}
+
+void PropertyStore::share(ObjectId a, const KeyInfo& key_a, ObjectId b, const KeyInfo& key_b) {
+  const std::string both = where(a, key_a.name) + " and " + where(b, key_b.name);
+  if (!(*key_a.type == *key_b.type) || key_a.unit != key_b.unit) {
+    problems_.push_back(both + " cannot share one place: type " + std::string(key_a.type->name) + " in \"" +
+                        std::string(key_a.unit) + "\" and type " + std::string(key_b.type->name) + " in \"" +
+                        std::string(key_b.unit) + "\"");
+    return;
+  }
+  SlotId from = find_id(a, key_a.name), to = find_id(b, key_b.name);
+  if (from == to && from != no_slot) return;
+  if (from != no_slot && to != no_slot) {
+    const auto fresh = [&](SlotId id) { return slots_[id].usage.empty() && !slots_[id].initialised; };
+    if (fresh(to) || (slots_[to].usage.empty() && slots_[from].usage.empty() && slots_[from].initialised &&
+                      slots_[from].count == slots_[to].count &&
+                      std::memcmp(slots_[from].place, slots_[to].place, std::size_t(slots_[to].count) * key_a.type->size) == 0)) {
+      std::swap(from, to);
+    } else if (!fresh(from)) {
+      std::string parties;
+      for (const SlotId id : {from, to})
+        for (const Slot::Usage& u : slots_[id].usage) parties += (parties.empty() ? "" : ", ") + who(u.party);
+      problems_.push_back(both + " have values of their own already" + (parties.empty() ? "" : " (bound by " + parties + ")") +
+                          "; declare the sharing before algorithms connect");
+      return;
+    }
+    for (auto& object : objects_)
+      for (Named& n : object)
+        if (n.slot == from) n.slot = to;
+    return;
+  }
+  if (to == no_slot && from != no_slot)
+    objects_[index_of(b)].push_back({columns_[column_of(setup_party, key_b)].key().name, from});
+  else
+    objects_[index_of(a)].push_back(
+        {columns_[column_of(setup_party, key_a)].key().name, to != no_slot ? to : slot_for(setup_party, b, key_b)});
+}
+
+void PropertyStore::use(Slot& s, SlotId id, Party party, Access access) {
+  s.usage.push_back({party, access});
+  bound_[party].push_back(id);
+  switch (access) {
+    case Access::variable:
+    case Access::input: s.kind = s.kind == Slot::Class::constant ? s.kind : Slot::Class::variable; break;
+    case Access::derived:
+    case Access::accumulate: s.kind = s.kind == Slot::Class::unknown ? Slot::Class::derived : s.kind; break;
+    case Access::write:
+    case Access::offer: s.kind = s.kind == Slot::Class::unknown ? Slot::Class::variable : s.kind; break;
+    case Access::read:
+    case Access::read_sum: break;
+  }
+}
+
+void* PropertyStore::handle(Slot& s, Access access) {
+  if (access == Access::read_sum) {
+    if (!s.sum) s.sum = &sums_.emplace_back();
+    *s.sum = {s.parts.data(), s.parts.size()};
+    return s.sum;
+  }
+  if (access == Access::accumulate) {
+    s.parts.push_back(columns_[s.column].allocate(1));
+    if (s.sum) *s.sum = {s.parts.data(), s.parts.size()};
+    return s.parts.back();
+  }
+  return s.form == Form::array ? static_cast<void*>(s.array) : s.place;
+}
+
+void* PropertyStore::bind(Party party, ObjectId object, const KeyInfo& key, Access access, Form form, std::uint32_t count,
+                          const void* initial) {
+  SlotId id = slot_for(party, object, key);
+  Slot* s = &slots_[id];
+  const bool clash = s->place && (s->form != form || (form == Form::array && count > 0 && s->count != count));
+  if (clash) {
+    problems_.push_back(where(object, key.name) + " is " + std::string(name_of(s->form)) +
+                        (s->form == Form::array ? " of " + std::to_string(s->count) : "") + " for " +
+                        who(s->usage.empty() ? setup_party : s->usage.front().party) + " and " + std::string(name_of(form)) +
+                        (form == Form::array ? " of " + std::to_string(count) : "") + " for " + who(party));
+    id = SlotId(slots_.size());
+    s = &slots_.emplace_back();
+    s->object = object;
+    s->column = column_of(party, key);
+  }
+  if (access != Access::accumulate && access != Access::read_sum) set_aside(*s, form, count);
+  const bool creates = access == Access::variable || access == Access::derived;
+  if (creates && s->kind == Slot::Class::constant)
+    problems_.push_back(where(object, key.name) + " is a constant, but " + who(party) + " writes it");
+  use(*s, id, party, access);
+  if (initial && s->kind != Slot::Class::constant && (!s->initialised || access == Access::variable)) {
+    std::memcpy(s->place, initial, key.type->size);
+    s->initialised = true;
+  }
+  if (creates) s->object = object;
+  return handle(*s, access);
+}
+
+void* PropertyStore::state_block(Party party, ObjectId object, std::string_view name, std::uint32_t size) {
+  const std::string& kept = texts_.emplace_back("state." + std::string(name));
+  const KeyInfo key{kept, "1", &value_type<std::uint8_t>, Role::state, "state that only its owner understands"};
+  const auto* array =
+      static_cast<const ArrayHeader*>(bind(party, object, key, Access::variable, Form::array, std::max(size, 1u), nullptr));
+  return array->data;
+}
+
+void PropertyStore::check_slot(const Slot& s, const std::function<std::string(std::string_view)>& writers_of,
+                               std::vector<std::string>& problems) const {
+  const KeyInfo& key = key_of(s);
+  const std::string place = where(s.object, key.name);
+  const Slot::Usage* writer = nullptr;
+  const Slot::Usage* reader = nullptr;
+  const Slot::Usage* adder = nullptr;
+  for (const Slot::Usage& u : s.usage) {
+    if (writes(u.access)) {
+      if (writer && writer->party != u.party)
+        problems.push_back(place + " has two writers: " + who(writer->party) + " and " + who(u.party) +
+                           "; only one algorithm may write a property");
+      writer = writer ? writer : &u;
+    }
+    if (u.access == Access::read && !reader) reader = &u;
+    if (u.access == Access::accumulate && !adder) adder = &u;
+  }
+  if (writer && adder)
+    problems.push_back(place + " is written by " + who(writer->party) + " and added to by " + who(adder->party) +
+                       "; all of them must add");
+  if (reader && !writer && s.kind != Slot::Class::constant && !s.used_as(Access::input)) {
+    const std::string help = writers_of(key.name);
+    problems.push_back(place + " (" + std::string(key.doc) + ") is read by " + who(reader->party) + ", but nothing writes it" +
+                       (help.empty() ? "" : "; add one of: " + help));
+  }
+  const bool read = reader || s.used_as(Access::input);
+  if (key.role == Role::command && writer && writer->access == Access::write && !read)
+    problems.push_back(place + " (" + std::string(key.doc) + ") is commanded by " + who(writer->party) +
+                       ", but nothing that moves `" + object_name(s.object) +
+                       "` uses this command; choose another motion algorithm, or add a drive");
+}
+
+void PropertyStore::check(const std::function<std::string(std::string_view)>& writers_of) const {
+  std::vector<std::string> problems = problems_;
+  for (const Slot& s : slots_) check_slot(s, writers_of, problems);
+  if (!problems.empty()) throw SetupError(problems);
+}
+
+PropertyStore::Image PropertyStore::save() const {
+  Image image;
+  for (const Column& c : columns_)
+    if (c.key().type->scalar != Scalar::transient)
+      c.each_block([&](std::span<std::byte> b) { image.blocks.emplace_back(b.begin(), b.end()); });
+  for (const ListHeader& list : lists_) {
+    const auto* first = static_cast<const std::byte*>(list.data);
+    image.lists.emplace_back(first, first + list.size * list.element_size);
+  }
+  return image;
+}
+
+void PropertyStore::load(const Image& image) {
+  std::size_t i = 0;
+  for (const Column& c : columns_)
+    if (c.key().type->scalar != Scalar::transient)
+      c.each_block([&](std::span<std::byte> b) {
+        if (i >= image.blocks.size() || image.blocks[i].size() != b.size())
+          throw SetupError("the snapshot is of another simulation: its properties are not those of this one");
+        std::memcpy(b.data(), image.blocks[i++].data(), b.size());
+      });
+  for (std::size_t k = 0; k < lists_.size(); ++k) {
+    ListHeader& list = lists_[k];
+    list.size = image.lists[k].size() / list.element_size;
+    if (list.size > list.capacity) list.grow(&list, list.size);
+    if (list.size > 0) std::memcpy(list.data, image.lists[k].data(), image.lists[k].size());
+  }
+}
+
+std::uint64_t PropertyStore::hash(ObjectId object) const {
+  std::vector<const Named*> sorted;
+  for (const Named& n : objects_[index_of(object)])
+    if (slots_[n.slot].kind == Slot::Class::variable && slots_[n.slot].object == object) sorted.push_back(&n);
+  std::sort(sorted.begin(), sorted.end(), [](const Named* a, const Named* b) { return a->key < b->key; });
+  std::uint64_t h = hash_bytes(object_name(object).data(), object_name(object).size(), 0);
+  for (const Named* n : sorted) {
+    const Slot& s = slots_[n->slot];
+    h = hash_bytes(n->key.data(), n->key.size(), h);
+    const void* data = s.place;
+    std::size_t count = s.count;
+    if (s.form == Form::list) {
+      const auto* list = static_cast<const ListHeader*>(s.place);
+      data = list->data;
+      count = list->size;
+    }
+    h = hash_bytes(data, count * key_of(s).type->size, h);
+  }
+  return h;
+}
+
+}  // namespace muro

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/column.hpp"
+#include "muro/connector.hpp"
+
+namespace muro {
+
+/// Who uses properties: an algorithm instance, or the set-up itself.
+using Party = std::uint32_t;
+inline constexpr Party setup_party = 0;
+
+using SlotId = std::uint32_t;
+
+/// One place in memory. Several (object, key) pairs may name it.
+struct Slot {
+  enum class Class : std::uint8_t { unknown, constant, variable, derived };
+  struct Usage {
+    Party party;
+    Access access;
+  };
+
+  ObjectId object = no_object;  ///< through which it was created
+  std::uint32_t column = 0;
+  Class kind = Class::unknown;
+  Form form = Form::single;
+  bool initialised = false;
+  std::uint32_t count = 1;
+  void* place = nullptr;       ///< the value, the first element, or the ListHeader
+  ArrayHeader* array = nullptr;
+  SumHeader* sum = nullptr;
+  std::vector<void*> parts;  ///< contributions to a sum, in registration order
+  std::vector<Usage> usage;
+
+  bool used_as(Access access) const;
+  /// The one that writes it, if there is one.
+  const Usage* writer() const;
+};
+
+/// All properties of all objects.
+///
+/// Memory of a property is set aside when it is first mentioned and never moves, so that handles can be
+/// given out while algorithms connect, in any order. Mistakes are collected and told by `check`.
+class PropertyStore {
+ public:
+  PropertyStore();
+  ~PropertyStore();
+  PropertyStore(const PropertyStore&) = delete;
+  PropertyStore& operator=(const PropertyStore&) = delete;
+
+  void add_object(std::string name);
+  const std::string& object_name(ObjectId id) const { return names_[index_of(id)]; }
+  Party add_party(std::string name);
+  const std::string& party_name(Party p) const { return parties_[p]; }
+
+  /// A constant; `count` 0 for a single value. A second value for the same property replaces the first.
+  void set_constant(ObjectId object, const KeyInfo& key, const void* data, std::uint32_t count);
+  /// The value of a constant, or no data.
+  ArrayHeader constant(ObjectId object, const KeyInfo& key) const;
+
+  /// Declares two properties equal: one place in memory. Allowed before or after they exist, until an
+  /// algorithm holds a handle to both.
+  void share(ObjectId a, const KeyInfo& key_a, ObjectId b, const KeyInfo& key_b);
+
+  /// A place for `party`; see Connector for the meaning of the arguments. Never fails: a request that
+  /// clashes gets a place of its own and a problem.
+  void* bind(Party party, ObjectId object, const KeyInfo& key, Access access, Form form, std::uint32_t count,
+             const void* initial);
+  /// Bytes of state under a name of their own.
+  void* state_block(Party party, ObjectId object, std::string_view name, std::uint32_t size);
+
+  /// Throws SetupError with every problem found. `writers_of(key)` names algorithms that write a key.
+  void check(const std::function<std::string(std::string_view)>& writers_of) const;
+
+  /// The slot of a property, or null.
+  const Slot* find(ObjectId object, std::string_view key) const;
+  const Slot& slot(SlotId id) const { return slots_[id]; }
+  const KeyInfo& key_of(const Slot& s) const { return columns_[s.column].key(); }
+  /// All properties of an object by the names under which it has them, in order of creation.
+  struct Named {
+    std::string_view key;
+    SlotId slot;
+  };
+  const std::vector<Named>& properties(ObjectId object) const { return objects_[index_of(object)]; }
+  std::uint32_t slot_count() const { return std::uint32_t(slots_.size()); }
+  /// The slots that `party` bound last is recorded in order; used by the scheduler.
+  const std::vector<SlotId>& slots_of(Party party) const { return bound_[party]; }
+
+  /// The state: every value that is not constant, byte by byte.
+  struct Image {
+    std::vector<std::vector<std::byte>> blocks;
+    std::vector<std::vector<std::byte>> lists;
+  };
+  Image save() const;
+  void load(const Image& image);
+  /// Hash of the variable properties of one object; does not depend on the order of declarations.
+  std::uint64_t hash(ObjectId object) const;
+
+ private:
+  std::uint32_t column_of(Party party, const KeyInfo& key);
+  SlotId find_id(ObjectId object, std::string_view key) const;
+  SlotId slot_for(Party party, ObjectId object, const KeyInfo& key);
+  void set_aside(Slot& s, Form form, std::uint32_t count);
+  void use(Slot& s, SlotId id, Party party, Access access);
+  void* handle(Slot& s, Access access);
+  std::string where(ObjectId object, std::string_view key) const;
+  std::string who(Party p) const;
+  void check_slot(const Slot& s, const std::function<std::string(std::string_view)>& writers_of,
+                  std::vector<std::string>& problems) const;
+
+  std::vector<std::string> names_;
+  std::vector<std::string> parties_;
+  std::vector<Party> column_party_;  ///< who declared the key first
+  std::deque<Column> columns_;
+  std::map<std::string, std::uint32_t, std::less<>> column_index_;
+  std::deque<std::string> texts_;  ///< names of state blocks
+  std::deque<Slot> slots_;
+  std::vector<std::vector<Named>> objects_;
+  std::vector<std::vector<SlotId>> bound_;
+  std::deque<ArrayHeader> arrays_;
+  std::deque<ListHeader> lists_;
+  std::deque<SumHeader> sums_;
+  std::vector<std::string> problems_;
+};
+
+}  // namespace muro

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "muro/robot_builder.hpp"
+
+namespace muro {
+
+/// The tree of a robot model, as built block by block, and flattened for traversal. A model is read
+/// once and makes any number of robots (World::add_robot).
+class RobotTree final : public RobotBuilder {
+ public:
+  /// One block, in the order of building (depth first).
+  struct Node {
+    NodeKind kind;
+    std::string name;         ///< base, joints and bodies
+    std::int32_t parent = -1;  ///< index of the block before it
+  };
+  /// A constant of a part.
+  struct Constant {
+    KeyInfo key;
+    std::uint32_t count;  ///< 0: a single value
+    std::vector<std::byte> data;
+  };
+  /// A body or joint: what becomes an object.
+  struct Part {
+    std::string name;
+    std::vector<Constant> constants;
+  };
+  /// A frame whose objects are still indices of parts.
+  struct FlatFrame {
+    std::int32_t part = -1;        ///< the body
+    std::int32_t joint_part = -1;  ///< the joint, if any
+    Frame frame;                   ///< without object ids
+    std::string mimic_leader;
+  };
+  struct Problem {
+    Severity severity;
+    std::string text;
+    int line = 0, column = 0;
+  };
+
+  void base(std::string_view name) noexcept override;
+  void fork() noexcept override;
+  void end() noexcept override;
+  void translation(const Vec3& offset) noexcept override;
+  void rotation(const Quat& turn) noexcept override;
+  void revolute(std::string_view name, const Vec3& axis, const JointLimits& limits) noexcept override;
+  void prismatic(std::string_view name, const Vec3& axis, const JointLimits& limits) noexcept override;
+  void mimic(std::string_view leader, double multiplier, double offset) noexcept override;
+  void body(std::string_view name) noexcept override;
+  TextId intern(std::string_view text) noexcept override;
+  void report(Severity severity, std::string_view text, int line, int column) noexcept override;
+
+  /// Closes the tree: names what is missing, resolves mimics. Call once after building.
+  void close();
+
+  const std::vector<Node>& nodes() const { return nodes_; }
+  const std::vector<Part>& parts() const { return parts_; }
+  const std::vector<FlatFrame>& frames() const { return frames_; }
+  const std::vector<std::string>& texts() const { return texts_; }
+  const std::vector<Problem>& problems() const { return problems_; }
+  bool usable() const;
+
+  /// Height (m) of the base above the lowest point of the robot's collision shapes, joints at 0.
+  double standing_height() const;
+  /// Radius (m) of the vertical cylinder about the base's origin that holds all collision shapes, joints at 0.
+  double footprint_radius() const;
+
+ private:
+  void set_raw(const KeyInfo& key, const void* data, std::uint32_t count) noexcept override;
+  void joint(NodeKind kind, std::string_view name, const Vec3& axis, const JointLimits& limits);
+  std::int32_t add_part(std::string_view name);
+  void add_node(NodeKind kind, std::string_view name);
+  bool started(std::string_view call);
+  template <class Visit>
+  void each_collision_bounds(Visit visit) const;
+
+  struct Cursor {
+    std::int32_t node = -1;
+    std::int32_t frame = -1;
+    Pose since;           ///< from that frame to here
+    bool unnamed = false;  ///< the frame's joint has no body yet, and nothing lies between
+    int branches = 0;     ///< of a fork: how many are closed
+  };
+  Cursor at_;
+  std::vector<Cursor> forks_;
+  std::int32_t last_part_ = -1;
+  std::vector<Node> nodes_;
+  std::vector<Part> parts_;
+  std::vector<FlatFrame> frames_;
+  std::vector<std::string> texts_{""};
+  std::vector<Problem> problems_;
+  std::map<std::string, std::int32_t, std::less<>> part_index_;
+};
+
+}  // namespace muro

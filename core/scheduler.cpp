@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: MIT
+#include "core/scheduler.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <thread>
+
+#include "core/error.hpp"
+
+namespace muro {
+
+namespace {
+
+/// A cheap clock for cost accounting: one read a task.
+std::uint64_t ticks() {
+#if defined(__x86_64__)
+  return __builtin_ia32_rdtsc();
+#elif defined(__aarch64__)
+  std::uint64_t t;
+  asm volatile("mrs %0, cntvct_el0" : "=r"(t));
+  return t;
+#else
+  return std::uint64_t(std::chrono::steady_clock::now().time_since_epoch().count());
+#endif
+}
+
+constexpr std::int64_t never = std::numeric_limits<std::int64_t>::max();
+
+}  // namespace
+
+Scheduler::Scheduler() : first_tick_(ticks()), first_wall_(std::chrono::steady_clock::now()) {}
+
+TaskId Scheduler::add(Task task) {
+  const auto id = TaskId(tasks_.size());
+  tasks_.push_back(std::move(task));
+  costs_.emplace_back();
+  runs_.push_back(0);
+  items_.push_back({id});
+  item_of_.push_back(std::int32_t(items_.size()) - 1);
+  prepared_ = false;
+  return id;
+}
+
+void Scheduler::add_sequence(const std::vector<TaskId>& tasks) {
+  for (const TaskId t : tasks) {
+    std::vector<TaskId>& item = items_[std::size_t(item_of_[t])];
+    item.erase(std::remove(item.begin(), item.end(), t), item.end());
+    item_of_[t] = std::int32_t(items_.size());
+    tasks_[t].rate = tasks_[tasks.front()].rate;
+    tasks_[t].phase = tasks_[tasks.front()].phase;
+  }
+  items_.push_back(tasks);
+  prepared_ = false;
+}
+
+void Scheduler::prepare() {
+  prepared_ = true;
+  plans_.clear();
+  groups_.clear();
+  group_of_item_.assign(items_.size(), 0);
+  finest_period_ = 0;
+  for (std::size_t i = 0; i < items_.size(); ++i) {
+    if (items_[i].empty() || tasks_[items_[i].front()].rate.on_demand()) continue;
+    const Task& t = tasks_[items_[i].front()];
+    auto g = std::find_if(groups_.begin(), groups_.end(), [&](const Group& k) { return k.rate == t.rate && k.phase == t.phase; });
+    if (g == groups_.end()) {
+      Group made{t.rate, t.phase, t.rate.first_from(now_ - t.phase), 0};
+      made.next_time = made.rate.time_of(made.next_run) + made.phase;
+      groups_.push_back(made);
+      g = groups_.end() - 1;
+      const auto period = std::int64_t(1e9 * t.rate.period());
+      finest_period_ = finest_period_ == 0 ? period : std::min(finest_period_, period);
+    }
+    group_of_item_[i] = std::uint32_t(g - groups_.begin());
+  }
+  due_.assign(groups_.size(), false);
+
+  // Who provides, on demand, what a task reads.
+  std::unordered_map<std::uint32_t, std::vector<TaskId>> writers;
+  for (TaskId t = 0; t < tasks_.size(); ++t)
+    if (tasks_[t].rate.on_demand())
+      for (const std::uint32_t slot : tasks_[t].writes) {
+        auto& list = writers[slot];
+        if (list.empty() || list.back() != t) list.push_back(t);
+      }
+  providers_.assign(tasks_.size(), {});
+  for (TaskId t = 0; t < tasks_.size(); ++t) {
+    for (const std::uint32_t slot : tasks_[t].reads)
+      if (const auto found = writers.find(slot); found != writers.end())
+        for (const TaskId w : found->second)
+          if (w != t) providers_[t].push_back(w);
+    auto& p = providers_[t];
+    std::sort(p.begin(), p.end());
+    p.erase(std::unique(p.begin(), p.end()), p.end());
+    std::stable_sort(p.begin(), p.end(), [&](TaskId a, TaskId b) { return tasks_[a].order < tasks_[b].order; });
+  }
+}
+
+void Scheduler::demand(TaskId reader, double dt, std::vector<bool>& done, Plan& plan) const {
+  for (const TaskId p : providers_[reader]) {
+    if (done[p]) continue;
+    done[p] = true;
+    demand(p, dt, done, plan);
+    plan.push_back({p, dt});
+  }
+}
+
+Scheduler::Plan Scheduler::make_plan(const Mask& due) const {
+  std::vector<std::size_t> items;
+  for (std::size_t i = 0; i < items_.size(); ++i)
+    if (!items_[i].empty() && !tasks_[items_[i].front()].rate.on_demand() && due[group_of_item_[i]]) items.push_back(i);
+  std::stable_sort(items.begin(), items.end(), [&](std::size_t a, std::size_t b) {
+    const TaskId first = items_[a].front(), second = items_[b].front();
+    if (tasks_[first].order != tasks_[second].order) return tasks_[first].order < tasks_[second].order;
+    return first < second;
+  });
+  Plan plan;
+  std::vector<bool> done(tasks_.size());
+  for (const std::size_t i : items)
+    for (const TaskId t : items_[i]) {
+      const double dt = tasks_[t].rate.period();
+      demand(t, dt, done, plan);
+      plan.push_back({t, dt});
+    }
+  return plan;
+}
+
+const Scheduler::Plan& Scheduler::plan_for(const Mask& due) {
+  const auto known = plans_.find(due);
+  return known != plans_.end() ? known->second : plans_.emplace(due, make_plan(due)).first->second;
+}
+
+std::vector<TaskId> Scheduler::plan_at(std::int64_t time) const {
+  Scheduler copy = *this;
+  if (!copy.prepared_) copy.prepare();
+  Mask due(copy.groups_.size());
+  for (std::size_t g = 0; g < due.size(); ++g) {
+    const Group& group = copy.groups_[g];
+    const std::int64_t since = time - group.phase;
+    due[g] = since >= 0 && group.rate.time_of(group.rate.first_from(since)) == since;
+  }
+  std::vector<TaskId> order;
+  for (const Entry& e : copy.make_plan(due)) order.push_back(e.task);
+  return order;
+}
+
+void Scheduler::run_instant(const Plan& plan) {
+  abi::ErrorText error;
+  std::uint64_t before = ticks();
+  for (const Entry& e : plan) {
+    const Task& task = tasks_[e.task];
+    const Step step{now_, e.dt, runs_[e.task], seed_};
+    const bool fine = task.instance->step(step, {0, task.items}, error);
+    ++runs_[e.task];
+    const std::uint64_t after = ticks();
+    TaskCost& cost = costs_[e.task];
+    ++cost.runs;
+    cost.ticks += after - before;
+    before = after;
+    if (!fine)
+      throw StepError(task.name + " failed at t = " + std::to_string(1e-9 * double(now_)) + " s: " + std::string(error.view()));
+  }
+}
+
+void Scheduler::set_pacing(Pacing pacing) {
+  pacing_ = pacing;
+  pace_wall_ = std::chrono::steady_clock::now();
+  pace_time_ = now_;
+}
+
+void Scheduler::pace() {
+  const auto wanted = pace_wall_ + std::chrono::nanoseconds(std::int64_t(double(now_ - pace_time_) / pacing_.factor));
+  const auto wall = std::chrono::steady_clock::now();
+  if (wall < wanted) {
+    std::this_thread::sleep_until(wanted);
+  } else if (wall - wanted > std::chrono::nanoseconds(std::int64_t(double(finest_period_) / pacing_.factor))) {
+    ++overruns_;
+    pace_wall_ += wall - wanted;  // the lost time is not made up for by running faster than asked
+  }
+}
+
+void Scheduler::run_until(std::int64_t end, const std::function<bool()>& stop) {
+  if (!prepared_) prepare();
+  while (true) {
+    std::int64_t next = never;
+    for (const Group& g : groups_) next = std::min(next, g.next_time);
+    if (next >= end) break;
+    now_ = next;
+    if (pacing_.factor > 0) pace();
+    for (std::size_t i = 0; i < groups_.size(); ++i) due_[i] = groups_[i].next_time == now_;
+    run_instant(plan_for(due_));
+    for (std::size_t i = 0; i < groups_.size(); ++i)
+      if (due_[i]) {
+        Group& g = groups_[i];
+        g.next_time = g.rate.time_of(++g.next_run) + g.phase;
+      }
+    if (stop && stop()) {
+      ++now_;  // the instant is complete
+      return;
+    }
+  }
+  now_ = std::max(now_, end);
+}
+
+double Scheduler::seconds_per_tick() const {
+  const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - first_wall_).count();
+  return wall / double(std::max<std::uint64_t>(1, ticks() - first_tick_));
+}
+
+Scheduler::State Scheduler::state() const { return {now_, runs_}; }
+
+void Scheduler::set_state(const State& state) {
+  if (state.runs.size() != runs_.size()) throw SetupError("the snapshot is of another simulation: it has other algorithms");
+  now_ = state.now;
+  runs_ = state.runs;
+  prepared_ = false;
+  set_pacing(pacing_);
+}
+
+}  // namespace muro

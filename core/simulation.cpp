@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+#include "core/simulation.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+#include "core/instance.hpp"
+#include "muro/vocabulary.hpp"
+
+namespace muro {
+
+namespace {
+
+/// The order in which kinds connect: who moves things first, who looks at everything last.
+int connect_order(Kind kind) {
+  switch (kind) {
+    case Kind::motion: return 0;
+    case Kind::kinematics: return 1;
+    case Kind::scene: return 2;
+    case Kind::collision: return 3;
+    case Kind::contact: return 4;
+    case Kind::drive: return 5;
+    case Kind::sensor: return 6;
+    case Kind::sensor_error: return 7;
+    case Kind::controller: return 8;
+    case Kind::recorder: return 9;
+    case Kind::view: return 10;
+  }
+  return 11;
+}
+
+}  // namespace
+
+class Simulation::Log final : public Host {
+ public:
+  std::function<void(LogLevel, std::string_view)> sink = [](LogLevel level, std::string_view text) {
+    if (level >= LogLevel::warning)
+      std::fprintf(stderr, "%s: %.*s\n", level == LogLevel::error ? "error" : "warning", int(text.size()), text.data());
+  };
+  void log(LogLevel level, std::string_view text) noexcept override { sink(level, text); }
+};
+
+Simulation::Simulation(Registry& registry, std::uint64_t seed) : registry_(registry), log_(std::make_unique<Log>()) {
+  scheduler_.set_seed(seed);
+}
+
+Simulation::~Simulation() = default;
+
+void Simulation::set_log(std::function<void(LogLevel, std::string_view)> log) { log_->sink = std::move(log); }
+
+RobotTree Simulation::read_model(const std::string& path) {
+  if (!std::filesystem::exists(path)) throw SetupError("model " + path + " does not exist");
+  abi::ErrorText error;
+  abi::ReaderInstance* reader = registry_.reader_for(path).create(&error);
+  if (!reader) throw SetupError("the reader for " + path + " cannot be created: " + std::string(error.view()));
+  RobotTree tree;
+  const bool fine = reader->read(std::filesystem::absolute(path).string(), tree, error);
+  reader->destroy();
+  if (!fine) throw SetupError("model " + path + ": " + std::string(error.view()));
+  if (tree.usable()) tree.close();
+  std::vector<std::string> problems;
+  for (const RobotTree::Problem& p : tree.problems())
+    if (p.severity == Severity::error)
+      problems.push_back("model " + path + (p.line > 0 ? ":" + std::to_string(p.line) + ":" + std::to_string(p.column) : "") + ": " +
+                         p.text);
+  if (!problems.empty()) throw SetupError(problems);
+  return tree;
+}
+
+std::size_t Simulation::add(AlgorithmSetup setup) {
+  if (setup.name.empty()) setup.name = setup.use + " #" + std::to_string(setups_.size());
+  setups_.push_back(std::move(setup));
+  return setups_.size() - 1;
+}
+
+std::size_t Simulation::use(const std::string& id, double rate, std::vector<Item> items,
+                            std::map<std::string, ParameterInput> parameters) {
+  AlgorithmSetup s;
+  s.use = id;
+  s.subsystem = id;
+  s.rate = Rate(rate);
+  s.items = std::move(items);
+  s.parameters = std::move(parameters);
+  return add(std::move(s));
+}
+
+ObjectId Simulation::add_sensor_object(const RobotView& robot, std::string_view name, ObjectId link) {
+  const ObjectId sensor = world_.add_object(std::string(robot.name) + "/" + std::string(name), robot.number);
+  world_.share(sensor, keys::pose, link, keys::pose);
+  world_.share(sensor, keys::twist, link, keys::twist);
+  return sensor;
+}
+
+void Simulation::merge_batched() {
+  instance_of_setup_.clear();
+  std::vector<AlgorithmSetup> merged;
+  for (AlgorithmSetup& s : setups_) {
+    const bool batched = (registry_.algorithm(s.use).description->promises & Promise::batched) != 0 && !s.items.empty();
+    const auto same = [&](const AlgorithmSetup& m) {
+      return m.use == s.use && m.rate == s.rate && m.phase == s.phase && m.parameters == s.parameters && !m.items.empty() &&
+             m.folder == s.folder && m.subsystem == s.subsystem;
+    };
+    const auto known = batched ? std::find_if(merged.begin(), merged.end(), same) : merged.end();
+    if (known != merged.end()) {
+      known->items.insert(known->items.end(), s.items.begin(), s.items.end());
+      instance_of_setup_.push_back(std::size_t(known - merged.begin()));
+    } else {
+      instance_of_setup_.push_back(merged.size());
+      merged.push_back(s);
+    }
+  }
+  for (AlgorithmSetup& m : merged)
+    instances_.push_back(std::make_unique<Instance>(registry_.algorithm(m.use), std::move(m), world_, *log_));
+}
+
+std::vector<std::size_t> Simulation::in_order_of(int (*order)(Kind)) const {
+  std::vector<std::size_t> all(instances_.size());
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
+  std::stable_sort(all.begin(), all.end(), [&](std::size_t a, std::size_t b) {
+    return order(instances_[a]->description().kind) < order(instances_[b]->description().kind);
+  });
+  return all;
+}
+
+void Simulation::build() {
+  merge_batched();
+  for (const std::size_t i : in_order_of(connect_order)) instances_[i]->connect();
+  world_.store().check([&](std::string_view key) { return registry_.writers_of(key); });
+  schedule();
+  initial_ = snapshot();
+  for (const std::size_t i : in_order_of(order_of)) instances_[i]->start();
+}
+
+void Simulation::schedule() {
+  for (const auto& instance : instances_) {
+    const AlgorithmSetup& s = instance->setup();
+    Task task;
+    task.name = s.name;
+    task.instance = &instance->algorithm();
+    task.items = std::uint32_t(s.items.size());
+    task.rate = s.rate;
+    task.phase = s.phase;
+    task.order = order_of(instance->description().kind);
+    task.reads = instance->reads();
+    task.writes = instance->writes();
+    tasks_.push_back(scheduler_.add(std::move(task)));
+  }
+  for (const auto& sequence : sequences_) {
+    std::vector<TaskId> ids;
+    for (const std::size_t a : sequence) {
+      const TaskId t = tasks_[instance_of_setup_[a]];
+      if (std::find(ids.begin(), ids.end(), t) == ids.end()) ids.push_back(t);
+    }
+    scheduler_.add_sequence(ids);
+  }
+}
+
+void Simulation::run_for(double seconds) { run_until(now() + std::llround(seconds * 1e9)); }
+
+void Simulation::run_until(std::int64_t time, const std::function<bool()>& stop) { scheduler_.run_until(time, stop); }
+
+void Simulation::finish() {
+  for (const std::size_t i : in_order_of(order_of)) instances_[i]->finish();
+}
+
+Snapshot Simulation::snapshot() const { return {world_.store().save(), scheduler_.state()}; }
+
+void Simulation::restore(const Snapshot& snapshot) {
+  world_.store().load(snapshot.properties);
+  scheduler_.set_state(snapshot.schedule);
+  for (const std::size_t i : in_order_of(order_of)) instances_[i]->restored();
+}
+
+void Simulation::reset() {
+  world_.store().load(initial_.properties);
+  scheduler_.set_state(initial_.schedule);
+  for (const std::size_t i : in_order_of(order_of)) instances_[i]->start();
+}
+
+}  // namespace muro

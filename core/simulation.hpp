@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/algorithm_setup.hpp"
+#include "core/error.hpp"
+#include "core/registry.hpp"
+#include "core/scheduler.hpp"
+#include "core/world.hpp"
+
+namespace muro {
+
+class Instance;
+
+/// The whole state of a simulation at one time, independent of the simulation's later life.
+struct Snapshot {
+  PropertyStore::Image properties;
+  Scheduler::State schedule;
+};
+
+/// A world, algorithms from plugins that are connected to it, and the scheduler that runs them.
+///
+///     Registry registry(Registry::search_path());
+///     Simulation simulation(registry);
+///     RobotTree tree = simulation.read_model("rover.urdf");
+///     const RobotView& rover = simulation.world().add_robot("rover", tree, start);
+///     simulation.use("motion.point", 100, {{&rover, rover.base()}});
+///     simulation.build();
+///     simulation.run_for(10);
+class Simulation {
+ public:
+  explicit Simulation(Registry& registry, std::uint64_t seed = 1);
+  ~Simulation();
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
+
+  // --- set-up
+  World& world() { return world_; }
+  const World& world() const { return world_; }
+  Registry& registry() { return registry_; }
+  /// Reads a model with the reader for its type. Problems of severity error make a SetupError; the
+  /// others are kept in the tree.
+  RobotTree read_model(const std::string& path);
+  /// Uses an algorithm; connects nothing yet. Returns its number in `instances()`.
+  std::size_t add(AlgorithmSetup setup);
+  /// Short form of `add`: `rate` in Hz, 0 for on demand; no items for the whole scene.
+  std::size_t use(const std::string& id, double rate, std::vector<Item> items = {},
+                  std::map<std::string, ParameterInput> parameters = {});
+  /// An object "robot/name" for a sensor that rides on `link` of the robot: it shares the link's pose and twist.
+  ObjectId add_sensor_object(const RobotView& robot, std::string_view name, ObjectId link);
+  /// Algorithms (by number of `add`) that run in this order, as one item, at the rate of the first.
+  void add_sequence(std::vector<std::size_t> algorithms) { sequences_.push_back(std::move(algorithms)); }
+  /// Where log lines of algorithms go; default: warnings and errors to standard error.
+  void set_log(std::function<void(LogLevel, std::string_view)> log);
+  void set_pacing(Pacing pacing) { scheduler_.set_pacing(pacing); }
+  /// Connects everything, checks it, starts it. Throws SetupError with every problem found.
+  void build();
+
+  // --- running
+  void run_for(double seconds);
+  /// Up to but not including `time` (ns). `stop` is asked after every instant; true ends the run.
+  void run_until(std::int64_t time, const std::function<bool()>& stop = {});
+  std::int64_t now() const { return scheduler_.now(); }  ///< ns
+  /// Tells algorithms that the run is over for now: recorders write their files.
+  void finish();
+
+  // --- state
+  Snapshot snapshot() const;
+  void restore(const Snapshot& snapshot);
+  /// As right after `build`, to the bit.
+  void reset();
+  std::uint64_t state_hash() const { return world_.hash(); }
+
+  // --- what it consists of
+  const std::vector<std::unique_ptr<Instance>>& instances() const { return instances_; }
+  const Scheduler& scheduler() const { return scheduler_; }
+  /// The task of an instance.
+  TaskId task_of(std::size_t instance) const { return tasks_[instance]; }
+
+ private:
+  class Log;
+  void merge_batched();
+  std::vector<std::size_t> in_order_of(int (*order)(Kind)) const;
+  void schedule();
+
+  Registry& registry_;
+  World world_;
+  Scheduler scheduler_;
+  std::unique_ptr<Log> log_;
+  std::vector<AlgorithmSetup> setups_;
+  std::vector<std::size_t> instance_of_setup_;
+  std::vector<std::vector<std::size_t>> sequences_;
+  std::vector<std::unique_ptr<Instance>> instances_;
+  std::vector<TaskId> tasks_;
+  Snapshot initial_;
+};
+
+}  // namespace muro

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include "core/world.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include "core/error.hpp"
+#include "core/hash.hpp"
+#include "core/nearest.hpp"
+#include "muro/random.hpp"
+#include "muro/vocabulary.hpp"
+
+namespace muro {
+
+World::World() {
+  add_object("world");
+  set(world_object, keys::gravity, Vec3(0, 0, -9.81));
+}
+
+ObjectId World::add_object(std::string_view name) {
+  const ObjectId id{object_count()};
+  if (name.empty()) throw SetupError("an object has no name");
+  if (!by_name_.emplace(std::string(name), id).second)
+    throw SetupError("two objects are named `" + std::string(name) + "`; names are unique");
+  store_.add_object(std::string(name));
+  robot_of_.push_back(-1);
+  return id;
+}
+
+ObjectId World::add_object(std::string_view name, std::uint32_t robot) {
+  const ObjectId id = add_object(name);
+  robot_of_.back() = std::int32_t(robot);
+  robots_[robot].objects.push_back(id);
+  return id;
+}
+
+ObjectId World::add_scenery(std::string_view name, const Pose& pose, std::span<const Shape> shapes) {
+  const ObjectId id = add_object(name);
+  set(id, keys::pose, pose);
+  set_array(id, keys::collision_shapes, shapes);
+  set_array(id, keys::visual_shapes, shapes);
+  return id;
+}
+
+const RobotView& World::add_robot(std::string_view name, const RobotTree& tree, const Pose& start) {
+  if (find_robot(name)) throw SetupError("two robots are named `" + std::string(name) + "`; names are unique");
+  const auto number = std::uint32_t(robots_.size());
+  Robot& r = robots_.emplace_back();
+  r.name = name;
+  std::vector<TextId> texts;
+  for (const std::string& t : tree.texts()) texts.push_back(intern(t));
+  std::vector<ObjectId> objects;
+  for (const RobotTree::Part& part : tree.parts()) {
+    objects.push_back(add_object(r.name + "/" + part.name, number));
+    for (const RobotTree::Constant& c : part.constants) {
+      std::vector<std::byte> data = c.data;
+      if (c.key.type->name == ValueTraits<Shape>::name)
+        for (std::uint32_t i = 0; i < c.count; ++i) {  // texts of the model become texts of the world
+          Shape s;
+          std::memcpy(static_cast<void*>(&s), data.data() + i * sizeof(Shape), sizeof(Shape));
+          s.mesh = texts[static_cast<std::size_t>(s.mesh)];
+          std::memcpy(data.data() + i * sizeof(Shape), static_cast<const void*>(&s), sizeof(Shape));
+        }
+      store_.set_constant(objects.back(), c.key, data.data(), c.count);
+    }
+  }
+  for (const RobotTree::FlatFrame& f : tree.frames()) {
+    Frame frame = f.frame;
+    frame.object = objects[std::size_t(f.part)];
+    frame.joint_object = f.joint_part < 0 ? no_object : objects[std::size_t(f.joint_part)];
+    r.frames.push_back(frame);
+  }
+  r.view = {r.name, number, fnv1a(r.name), r.frames};
+  robot_pointers_.push_back(&r.view);
+  set(r.view.base(), keys::initial_pose, start);
+  return r.view;
+}
+
+ObjectId World::find_object(std::string_view name) const {
+  const auto it = by_name_.find(std::string(name));
+  return it == by_name_.end() ? no_object : it->second;
+}
+
+ObjectId World::object(std::string_view name) const {
+  const ObjectId id = find_object(name);
+  if (id != no_object) return id;
+  std::vector<std::string> names;
+  for (const auto& [known, unused] : by_name_) names.push_back(known);
+  std::sort(names.begin(), names.end());
+  throw SetupError("no object is named `" + std::string(name) + "`" + suggestion(name, names));
+}
+
+const RobotView* World::find_robot(std::string_view name) const {
+  const auto it =
+      std::find_if(robot_pointers_.begin(), robot_pointers_.end(), [&](const RobotView* r) { return r->name == name; });
+  return it == robot_pointers_.end() ? nullptr : *it;
+}
+
+TextId World::intern(std::string_view text) {
+  const auto it = std::find(texts_.begin(), texts_.end(), text);
+  if (it != texts_.end()) return TextId(it - texts_.begin());
+  texts_.emplace_back(text);
+  return TextId(texts_.size() - 1);
+}
+
+void* World::place(ObjectId object, const KeyInfo& key) const {
+  const Slot* s = store_.find(object, key.name);
+  if (!s || !s->place || !(*store_.key_of(*s).type == *key.type))
+    throw SetupError("`" + object_name(object) + "` has no property `" + std::string(key.name) + "`");
+  return s->place;
+}
+
+ArrayHeader World::elements(ObjectId object, const KeyInfo& key) const {
+  void* data = place(object, key);
+  const Slot* s = store_.find(object, key.name);
+  if (s->form == Form::list) return {static_cast<ListHeader*>(data)->data, static_cast<ListHeader*>(data)->size};
+  return {data, s->count};
+}
+
+std::uint64_t World::hash(const RobotView& robot) const {
+  std::vector<ObjectId> objects = robots_[robot.number].objects;
+  std::sort(objects.begin(), objects.end(), [&](ObjectId a, ObjectId b) { return object_name(a) < object_name(b); });
+  std::uint64_t h = 0;
+  for (const ObjectId o : objects) {
+    const std::uint64_t part = store_.hash(o);
+    h = hash_bytes(&part, sizeof part, h);
+  }
+  return h;
+}
+
+std::uint64_t World::hash() const {
+  std::uint64_t sum = 0;  // of hashes that contain the names: commutative, so independent of the order
+  for (const RobotView* r : robot_pointers_) sum += hash(*r);
+  for (std::uint32_t i = 0; i < object_count(); ++i)
+    if (robot_of_[i] < 0) sum += store_.hash(ObjectId{i});
+  return sum;
+}
+
+}  // namespace muro

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <unordered_map>
+
+#include "core/property_store.hpp"
+#include "core/robot_tree.hpp"
+#include "muro/shape.hpp"
+
+namespace muro {
+
+/// Everything that is simulated: objects, robots and their properties. Object 0 is the world itself.
+class World {
+ public:
+  World();
+
+  /// A new object; throws SetupError when the name is taken. [setup]
+  ObjectId add_object(std::string_view name);
+  /// An object of a robot that its model does not have, such as a sensor. [setup]
+  ObjectId add_object(std::string_view name, std::uint32_t robot);
+  /// Scenery: a body that does not move. [setup]
+  ObjectId add_scenery(std::string_view name, const Pose& pose, std::span<const Shape> shapes);
+  /// A robot "name" with an object "name/part" for every part of the tree. [setup]
+  const RobotView& add_robot(std::string_view name, const RobotTree& tree, const Pose& start = {});
+
+  ObjectId find_object(std::string_view name) const;
+  /// As find_object; throws SetupError with the nearest name.
+  ObjectId object(std::string_view name) const;
+  std::uint32_t object_count() const { return std::uint32_t(robot_of_.size()); }
+  const std::string& object_name(ObjectId id) const { return store_.object_name(id); }
+  std::int32_t robot_of(ObjectId id) const { return robot_of_[index_of(id)]; }
+  std::span<const RobotView* const> robots() const { return robot_pointers_; }
+  const RobotView* find_robot(std::string_view name) const;
+
+  TextId intern(std::string_view text);
+  std::string_view text(TextId id) const { return texts_[static_cast<std::size_t>(id)]; }
+
+  PropertyStore& store() { return store_; }
+  const PropertyStore& store() const { return store_; }
+
+  template <class T>
+  void set(ObjectId object, const Key<T>& key, const T& value) {
+    store_.set_constant(object, key, &value, 0);
+  }
+  template <class T>
+  void set_array(ObjectId object, const Key<T>& key, std::span<const T> values) {
+    store_.set_constant(object, key, values.data(), std::uint32_t(values.size()));
+  }
+  template <class T, class U>
+  void share(ObjectId a, const Key<T>& key_a, ObjectId b, const Key<U>& key_b) {
+    store_.share(a, key_a, b, key_b);
+  }
+  /// The present value of a single property; throws SetupError when there is none of this type.
+  template <class T>
+  T& value(ObjectId object, const Key<T>& key) const {
+    return *static_cast<T*>(place(object, key));
+  }
+  template <class T>
+  T& value(std::string_view name, const Key<T>& key) const {
+    return value(object(name), key);
+  }
+  /// The present elements of an array or list.
+  template <class T>
+  std::span<T> values(ObjectId object, const Key<T>& key) const {
+    const ArrayHeader found = elements(object, key);
+    return {static_cast<T*>(found.data), found.size};
+  }
+
+  /// Hash of the variable properties of a robot's objects; does not depend on other robots.
+  std::uint64_t hash(const RobotView& robot) const;
+  /// Hash of all variable properties; does not depend on the order in which robots were declared.
+  std::uint64_t hash() const;
+
+ private:
+  void* place(ObjectId object, const KeyInfo& key) const;
+  ArrayHeader elements(ObjectId object, const KeyInfo& key) const;
+
+  PropertyStore store_;
+  std::vector<std::int32_t> robot_of_;
+  std::unordered_map<std::string, ObjectId> by_name_;
+  struct Robot {
+    std::string name;
+    std::vector<Frame> frames;
+    RobotView view;
+    std::vector<ObjectId> objects;
+  };
+  std::deque<Robot> robots_;
+  std::vector<const RobotView*> robot_pointers_;
+  std::deque<std::string> texts_{""};
+};
+
+}  // namespace muro

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// The commands of the program `muro`. Each returns the exit code.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace muro::host {
+
+/// What all commands that read a scenario share.
+struct ScenarioOptions {
+  std::string file;
+  std::vector<std::string> overrides;
+  std::vector<std::string> plugin_path;
+  std::optional<std::uint64_t> seed;
+};
+
+struct RunOptions {
+  ScenarioOptions scenario;
+  std::optional<double> duration;  ///< s
+  std::string speed = "max";       ///< "max", "real" or a factor
+  int threads = 1;
+  std::string report;  ///< file, or empty
+  bool profile = false;
+};
+
+int run(const RunOptions& options);
+int check(const ScenarioOptions& options);
+int describe(const ScenarioOptions& options, bool json);
+int list_plugins(const std::vector<std::string>& plugin_path, bool json);
+int plugin_info(const std::string& id, const std::vector<std::string>& plugin_path, bool json);
+
+}  // namespace muro::host

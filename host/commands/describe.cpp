@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/instance.hpp"
+#include "host/commands/commands.hpp"
+#include "host/commands/open.hpp"
+
+namespace muro::host {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string type_of(const PropertyStore& store, const Slot& s) {
+  std::string type(store.key_of(s).type->name);
+  if (s.form == Form::array) type += "[" + std::to_string(s.count) + "]";
+  if (s.form == Form::list) type += " list";
+  return type;
+}
+
+bool reads(Access a) { return a == Access::read || a == Access::input || a == Access::read_sum; }
+
+Json describe_property(const PropertyStore& store, const PropertyStore::Named& named, ObjectId object) {
+  const Slot& s = store.slot(named.slot);
+  const KeyInfo& key = store.key_of(s);
+  constexpr const char* kinds[] = {"unused", "constant", "variable", "derived"};
+  Json p = {{"property", named.key}, {"type", type_of(store, s)}, {"unit", key.unit}, {"is", kinds[static_cast<int>(s.kind)]}};
+  Json writers = Json::array(), readers = Json::array();
+  for (const Slot::Usage& u : s.usage) {
+    Json& list = reads(u.access) ? readers : writers;
+    const std::string& who = store.party_name(u.party);
+    if (std::find(list.begin(), list.end(), Json(who)) == list.end()) list.push_back(who);
+  }
+  p["writers"] = writers;
+  p["readers"] = readers;
+  if (s.object != object && s.object != no_object) p["shared_with"] = store.object_name(s.object);
+  return p;
+}
+
+Json describe_schedule(const Simulation& simulation) {
+  Json list = Json::array();
+  for (const TaskId t : simulation.scheduler().plan_at(0)) {
+    const Task& task = simulation.scheduler().tasks()[t];
+    Json entry = {{"name", task.name}, {"items", task.items}};
+    entry["rate_hz"] = task.rate.on_demand() ? Json("on_demand") : Json(task.rate.hertz());
+    entry["phase_s"] = 1e-9 * double(task.phase);
+    list.push_back(entry);
+  }
+  return list;
+}
+
+std::string joined(const Json& list) {
+  std::string all;
+  for (const auto& e : list) all += (all.empty() ? "" : ", ") + e.get<std::string>();
+  return all.empty() ? "-" : all;
+}
+
+void print(const Json& all) {
+  for (const auto& object : all["objects"]) {
+    fmt::print("{}\n", object["object"].get<std::string>());
+    for (const auto& p : object["properties"]) {
+      fmt::print("  {:<26} {:<18} {:<16} {:<9}", p["property"].get<std::string>(), p["type"].get<std::string>(),
+                 p["unit"].get<std::string>(), p["is"].get<std::string>());
+      if (!p["writers"].empty()) fmt::print("  written by {}", joined(p["writers"]));
+      if (!p["readers"].empty()) fmt::print("  read by {}", joined(p["readers"]));
+      if (p.contains("shared_with")) fmt::print("  same place as in {}", p["shared_with"].get<std::string>());
+      fmt::print("\n");
+    }
+  }
+  fmt::print("\nOrder of the first instant:\n");
+  for (const auto& e : all["schedule"])
+    fmt::print("  {:<32} {:>6} items  {}\n", e["name"].get<std::string>(), e["items"].get<int>(),
+               e["rate_hz"].is_string() ? std::string("on demand") : fmt::format("{:g} Hz", e["rate_hz"].get<double>()));
+}
+
+}  // namespace
+
+int describe(const ScenarioOptions& options, bool json) {
+  Registry registry(Registry::search_path(options.plugin_path));
+  const BuiltScenario built = open_scenario(options, registry);
+  const World& world = built.simulation->world();
+  Json all = {{"scenario", built.scenario.name}, {"objects", Json::array()}};
+  for (std::uint32_t i = 0; i < world.object_count(); ++i) {
+    const ObjectId id{i};
+    Json properties = Json::array();
+    for (const auto& named : world.store().properties(id)) properties.push_back(describe_property(world.store(), named, id));
+    all["objects"].push_back({{"object", world.object_name(id)}, {"properties", properties}});
+  }
+  all["schedule"] = describe_schedule(*built.simulation);
+  if (json)
+    fmt::print("{}\n", all.dump(2));
+  else
+    print(all);
+  return 0;
+}
+
+}  // namespace muro::host

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "host/commands/commands.hpp"
+#include "host/scenario/builder.hpp"
+
+namespace muro::host {
+
+/// Reads and builds a scenario; prints what its readers noted to standard error.
+BuiltScenario open_scenario(const ScenarioOptions& options, Registry& registry);
+
+}  // namespace muro::host

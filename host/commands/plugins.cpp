@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "core/registry.hpp"
+#include "host/commands/commands.hpp"
+
+namespace muro::host {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string default_of(const Json& p) {
+  if (p["required"].get<bool>()) return "required";
+  const Json& d = p["default"];
+  return d.is_string() ? "default \"" + d.get<std::string>() + "\"" : "default " + d.dump();
+}
+
+std::string range_of(const Json& p) {
+  if (p.contains("choices")) return ", one of " + p["choices"].dump();
+  const bool low = p.contains("least"), high = p.contains("most");
+  if (low && high) return fmt::format(", from {} to {}", p["least"].dump(), p["most"].dump());
+  if (low) return ", at least " + p["least"].dump();
+  return high ? ", at most " + p["most"].dump() : "";
+}
+
+void print_info(const Offer& offer, const Json& plugin, const Json& entry) {
+  fmt::print("{}  ({}, version {})\n{}\n\n", offer.id, offer.kind, offer.version, offer.summary);
+  fmt::print("plugin    {} {}, licence {}\nlibrary   {}\nbuilt by  {}\n", plugin["name"].get<std::string>(),
+             plugin["version"].get<std::string>(), plugin["licence"].get<std::string>(), offer.library,
+             plugin["compiler"].get<std::string>());
+  if (entry.contains("extensions")) fmt::print("reads files of type {}\n", entry["extensions"].dump());
+  if (entry.contains("promises")) fmt::print("promises  {}\n", entry["promises"].dump());
+  if (entry.contains("parameters") && !entry["parameters"].empty()) {
+    fmt::print("\nparameters\n");
+    for (const Json& p : entry["parameters"]) {
+      const std::string unit = p["unit"] == "1" ? "" : ", " + p["unit"].get<std::string>();
+      fmt::print("  {:<24} {}{}, {}{}\n  {:<24} {}\n", p["name"].get<std::string>(), p["type"].get<std::string>(), unit,
+                 default_of(p), range_of(p), "", p["doc"].get<std::string>());
+    }
+  }
+  for (const char* list : {"reads", "writes"})
+    if (entry.contains(list) && !entry[list].empty()) {
+      fmt::print("\n{}\n", list);
+      for (const Json& u : entry[list]) fmt::print("  {:<24} {}\n", u["key"].get<std::string>(), u["doc"].get<std::string>());
+    }
+}
+
+}  // namespace
+
+int list_plugins(const std::vector<std::string>& plugin_path, bool json) {
+  const Registry registry(Registry::search_path(plugin_path));
+  for (const std::string& p : registry.problems()) fmt::print(stderr, "warning: {}\n", p);
+  if (json) {
+    Json all = Json::array();
+    for (const Offer& o : registry.offers())
+      all.push_back({{"id", o.id}, {"kind", o.kind}, {"version", o.version}, {"summary", o.summary}, {"library", o.library}});
+    fmt::print("{}\n", all.dump(2));
+    return 0;
+  }
+  for (const Offer& o : registry.offers()) fmt::print("{:<28} {:<13} {:<8} {}\n", o.id, o.kind, o.version, o.summary);
+  if (registry.offers().empty()) {
+    fmt::print(stderr, "no plugin was found in:\n");
+    for (const std::string& f : registry.folders()) fmt::print(stderr, "  {}\n", f);
+    fmt::print(stderr, "set MURO_PLUGIN_PATH or --plugin-path\n");
+  }
+  return 0;
+}
+
+int plugin_info(const std::string& id, const std::vector<std::string>& plugin_path, bool json) {
+  const Registry registry(Registry::search_path(plugin_path));
+  const Offer& offer = registry.find(id);
+  std::ifstream file(offer.description);
+  const Json plugin = Json::parse(file);
+  for (const char* list : {"algorithms", "readers"})
+    for (const Json& entry : plugin[list]) {
+      if (entry["id"] != id) continue;
+      if (json)
+        fmt::print("{}\n", entry.dump(2));
+      else
+        print_info(offer, plugin, entry);
+    }
+  return 0;
+}
+
+}  // namespace muro::host

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <nlohmann/json.hpp>
+
+#include "host/commands/commands.hpp"
+#include "host/commands/open.hpp"
+#include "host/report.hpp"
+
+namespace muro::host {
+
+namespace {
+
+std::atomic<bool> interrupted{false};
+
+double pacing_factor(const std::string& speed) {
+  if (speed == "max") return 0;
+  if (speed == "real") return 1;
+  try {
+    std::size_t used = 0;
+    const double factor = std::stod(speed, &used);
+    if (used == speed.size() && factor > 0 && factor <= 1e6) return factor;
+  } catch (const std::exception&) {
+  }
+  throw SetupError("--speed is `" + speed + "` but must be max, real or a factor such as 0.5");
+}
+
+/// One line on the terminal, at most five times a second.
+class Progress {
+ public:
+  explicit Progress(double duration) : duration_(duration), shown_(isatty(STDERR_FILENO) != 0) {}
+  void show(double simulated, double wall) {
+    if (!shown_ || wall - last_ < 0.2) return;
+    last_ = wall;
+    fmt::print(stderr, "\r\033[K{:.1f} of {:g} s simulated, {:.2f} times real time", simulated, duration_,
+               wall > 0 ? simulated / wall : 0);
+    std::fflush(stderr);
+  }
+  void close() const {
+    if (shown_ && last_ > 0) fmt::print(stderr, "\r\033[K");
+  }
+
+ private:
+  double duration_;
+  bool shown_;
+  double last_ = 0;
+};
+
+void print_summary(const RunResult& result, const Simulation& simulation, const Odometer& odometer) {
+  const auto robots = simulation.world().robots();
+  double least = 1e300, most = 0, sum = 0;
+  for (const RobotView* r : robots) {
+    const double d = odometer.distance(r->number);
+    least = std::min(least, d);
+    most = std::max(most, d);
+    sum += d;
+  }
+  fmt::print("{}: {:g} s simulated in {:.2f} s ({:.2f} times real time){}\n", result.scenario, result.simulated, result.wall,
+             result.wall > 0 ? result.simulated / result.wall : 0, result.interrupted ? ", interrupted" : "");
+  if (!robots.empty())
+    fmt::print("{} robots travelled {:.2f} m on average (least {:.2f}, most {:.2f})\n", robots.size(), sum / double(robots.size()),
+               least, most);
+  fmt::print("state hash {:016x}\n", simulation.state_hash());
+  if (simulation.scheduler().overruns() > 0)
+    fmt::print("{} instants came too late for the chosen speed\n", simulation.scheduler().overruns());
+}
+
+}  // namespace
+
+int run(const RunOptions& options) {
+  const double factor = pacing_factor(options.speed);
+  Registry registry(Registry::search_path(options.scenario.plugin_path));
+  BuiltScenario built = open_scenario(options.scenario, registry);
+  Simulation& simulation = *built.simulation;
+  if (options.threads != 1)
+    fmt::print(stderr, "warning: --threads {}: this muro steps on one thread; the run uses 1\n", options.threads);
+  const double duration = options.duration.value_or(built.scenario.duration);
+  const auto end = std::int64_t(std::llround(duration * 1e9));
+  if (!options.report.empty()) write_file(options.report, "");  // fails now rather than after the run
+
+  interrupted = false;
+  std::signal(SIGINT, [](int) { interrupted = true; });
+  std::signal(SIGTERM, [](int) { interrupted = true; });
+  Odometer odometer(simulation);
+  Progress progress(duration);
+  RunResult result{built.scenario.name, built.scenario.seed, 0, 0, false};
+  const auto start = std::chrono::steady_clock::now();
+  const auto wall = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
+  simulation.set_pacing({factor});
+  while (simulation.now() < end && !interrupted) {
+    simulation.run_until(std::min(end, simulation.now() - simulation.now() % Odometer::period + Odometer::period),
+                         [] { return interrupted.load(std::memory_order_relaxed); });
+    odometer.sample();
+    progress.show(1e-9 * double(simulation.now()), wall());
+  }
+  result.wall = wall();
+  result.simulated = 1e-9 * double(simulation.now());
+  result.interrupted = interrupted;
+  progress.close();
+  simulation.finish();
+  print_summary(result, simulation, odometer);
+  if (options.profile) fmt::print("\n{}", profile(result, simulation));
+  if (!options.report.empty()) write_file(options.report, report(result, simulation, odometer).dump(2) + "\n");
+  return result.interrupted ? 130 : 0;
+}
+
+}  // namespace muro::host

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// The program `muro`. Exit codes: 0 done, 1 the simulation failed, 2 wrong input, 130 interrupted.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "core/error.hpp"
+#include "host/commands/commands.hpp"
+
+namespace {
+
+using namespace muro::host;
+
+void add_scenario_options(CLI::App& command, ScenarioOptions& options) {
+  command.add_option("scenario", options.file, "Scenario file (YAML)")->required();
+  command.add_option("--set", options.overrides, "Override a value: path=value, e.g. robots.rovers.count=100 (repeatable)")
+      ->take_all()
+      ->allow_extra_args(false);
+  command.add_option("--seed", options.seed, "Seed of all random numbers");
+}
+
+int dispatch(int argc, char** argv) {
+  CLI::App app{"muro: a simulator for teams of robots, each at its own level of detail"};
+  app.require_subcommand(1);
+  std::vector<std::string> plugin_path;
+  app.add_option("--plugin-path", plugin_path, "Folder with plugins, before all others (repeatable)")->take_all()->allow_extra_args(false);
+  app.fallthrough();
+
+  RunOptions run_options;
+  CLI::App& run_command = *app.add_subcommand("run", "Run a scenario");
+  add_scenario_options(run_command, run_options.scenario);
+  run_command.add_option("--duration", run_options.duration, "Simulated seconds; default: as the scenario says")
+      ->check(CLI::Range(0.0, 1e9));
+  run_command.add_option("--speed", run_options.speed, "max, real, or a factor of real time")->capture_default_str();
+  run_command.add_option("--threads", run_options.threads, "Threads to use (this version steps on one)")->check(CLI::Range(1, 1024));
+  run_command.add_option("--report", run_options.report, "Write a report to this file (JSON)");
+  run_command.add_flag("--profile", run_options.profile, "Print what each algorithm costs");
+
+  ScenarioOptions check_options;
+  CLI::App& check_command = *app.add_subcommand("check", "Read and connect a scenario without running it");
+  add_scenario_options(check_command, check_options);
+
+  ScenarioOptions describe_options;
+  bool json = false;
+  CLI::App& describe_command = *app.add_subcommand("describe", "Show objects, properties, who writes and reads them, and the schedule");
+  add_scenario_options(describe_command, describe_options);
+  describe_command.add_flag("--json", json, "As JSON");
+
+  CLI::App& plugins_command = *app.add_subcommand("plugins", "Show what plugins offer");
+  plugins_command.require_subcommand(1);
+  CLI::App& list_command = *plugins_command.add_subcommand("list", "All algorithms and model readers");
+  list_command.add_flag("--json", json, "As JSON");
+  std::string id;
+  CLI::App& info_command = *plugins_command.add_subcommand("info", "One of them: parameters, properties, promises");
+  info_command.add_option("name", id, "Such as motion.point")->required();
+  info_command.add_flag("--json", json, "As JSON");
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? 0 : 2;
+  }
+  run_options.scenario.plugin_path = check_options.plugin_path = describe_options.plugin_path = plugin_path;
+  if (run_command.parsed()) return run(run_options);
+  if (check_command.parsed()) return check(check_options);
+  if (describe_command.parsed()) return describe(describe_options, json);
+  return list_command.parsed() ? list_plugins(plugin_path, json) : plugin_info(id, plugin_path, json);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return dispatch(argc, argv);
+  } catch (const muro::SetupError& e) {
+    fmt::print(stderr, "{}\n", e.what());
+    return 2;
+  } catch (const muro::StepError& e) {
+    fmt::print(stderr, "{}\n", e.what());
+    return 1;
+  } catch (const std::exception& e) {
+    fmt::print(stderr, "muro failed: {}\n", e.what());
+    return 1;
+  }
+}

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace muro::host {
+
+/// Where something stands: a file with line and column (from 1), or an override of the command line.
+struct Location {
+  std::string file;
+  int line = 0;
+  int column = 0;
+  std::string text() const {
+    return line > 0 ? file + ":" + std::to_string(line) + ":" + std::to_string(column) : file;
+  }
+};
+
+/// A piece of a scenario: a YAML tree that remembers where each part was written, so that files can be
+/// merged and every message can name its place.
+struct Node {
+  enum class Kind { null, scalar, list, map };
+
+  Kind kind = Kind::null;
+  Location location;
+  std::string scalar;
+  bool quoted = false;  ///< a scalar in quotes is a text, never a number
+  std::vector<Node> list;
+  std::vector<std::pair<std::string, Node>> map;  ///< in the order of writing
+  std::vector<Location> key_locations;            ///< of the keys of `map`
+
+  const Node* find(const std::string& key) const;
+  Node* find(const std::string& key);
+  /// The child of that name, made empty if need be.
+  Node& child(const std::string& key, const Location& at);
+  /// `off`, `false`, `no`, `none`, `~`: a switched-off part.
+  bool is_off() const;
+};
+
+/// Parses a file with all its `include:`s. Throws SetupError with file:line:column.
+Node load_yaml(const std::string& path);
+
+/// Parses a value as written on the command line.
+Node parse_yaml(const std::string& text, const Location& at);
+
+/// Sets one value by its path, "robots.rovers.count=100". `robots.rovers[2-4].motion.use=...` sets it for
+/// some robots of a template only. Throws SetupError when the assignment has no such form.
+void apply_override(Node& root, const std::string& assignment);
+
+}  // namespace muro::host

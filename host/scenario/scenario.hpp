@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+// What a scenario file says, before anything is built from it. docs/scenario.md describes the format.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/algorithm_setup.hpp"
+#include "host/scenario/node.hpp"
+#include "muro/shape.hpp"
+
+namespace muro::host {
+
+/// Where copies of something stand.
+struct Placement {
+  enum class Form { list, grid, random };
+  Form form = Form::list;
+  Location location;
+
+  /// A pose by its parts; z is absent when the thing is to stand on the ground.
+  struct At {
+    double x = 0, y = 0;
+    std::optional<double> z;
+    double roll = 0, pitch = 0, yaw = 0;
+  };
+  std::vector<At> list;  ///< list: one a copy; grid and random: the first is the pattern
+
+  int columns = 1, rows = 1;               ///< grid
+  double spacing_x = 1, spacing_y = 1;     ///< m
+
+  std::string area;       ///< random: name under world.places
+  std::uint64_t seed = 1;
+  double clearance = 0.1;  ///< m between footprints
+};
+
+/// A rectangle in the plane, part of a named place.
+struct Rectangle {
+  double x = 0, y = 0, width = 1, depth = 1;  ///< centre and full lengths along x and y, m
+  std::vector<double> headings;               ///< rad; empty: any
+};
+
+/// One use of an algorithm.
+struct Subsystem {
+  std::string name;
+  std::string use;
+  std::optional<double> rate;  ///< Hz; absent: the default of its kind
+  bool on_demand = false;
+  double phase = 0;  ///< s
+  std::string on;    ///< object of the robot
+  std::map<std::string, ParameterInput> parameters;
+  Location location;
+};
+
+struct SceneryObject {
+  std::string name;
+  bool counted = false;  ///< copies are numbered
+  Placement placement;
+  Shape shape;
+  std::string mesh;
+};
+
+struct RobotTemplate {
+  std::string name;
+  Location location;
+  std::string model;       ///< path; empty for a body described in place
+  std::optional<Shape> shape;
+  double mass = 0;         ///< of a body described in place, kg
+  bool counted = false;
+  int count = 1;
+  Placement placement;
+  Vec3 linear_velocity = Vec3::Zero();   ///< at the start, world axes, m/s
+  Vec3 angular_velocity = Vec3::Zero();  ///< rad/s
+  std::map<std::string, double> joints;  ///< positions at the start
+  /// Subsystems of each robot: variants are merged already. Robot i uses subsystems[i].
+  std::vector<std::vector<Subsystem>> subsystems;
+};
+
+struct Scenario {
+  std::string file;
+  std::string name;
+  std::uint64_t seed = 1;
+  double duration = 10;  ///< s
+  Vec3 gravity{0, 0, -9.81};
+  std::map<std::string, std::vector<Rectangle>> places;
+  std::vector<SceneryObject> objects;
+  std::vector<RobotTemplate> robots;
+  std::vector<Subsystem> algorithms;       ///< of the whole scene
+  std::vector<std::string> switched_off;   ///< scene-wide defaults that are not wanted
+  /// Each: names such as "collision" or "rovers.motion", in the order in which they run.
+  std::vector<std::vector<std::string>> sequences;
+  std::vector<Location> sequence_locations;
+};
+
+/// Reads a scenario with its includes and overrides. Throws SetupError with every problem found.
+Scenario read_scenario(const std::string& path, const std::vector<std::string>& overrides);
+
+}  // namespace muro::host

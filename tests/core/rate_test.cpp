@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include "core/rate.hpp"
+
+namespace muro {
+namespace {
+
+TEST(Rate, RunsAtTheFloorOfTheExactTimeWithoutDrift) {
+  EXPECT_EQ(Rate(3).time_of(1), 333'333'333);
+  EXPECT_EQ(Rate(3).time_of(3), 1'000'000'000);
+  EXPECT_EQ(Rate(29.97).time_of(2997), 100'000'000'000);
+  EXPECT_EQ(Rate(1000).time_of(86'400'000), 86'400'000'000'000);  // a day later, to the nanosecond
+  EXPECT_EQ(Rate(0.1).time_of(7), 70'000'000'000);
+}
+
+TEST(Rate, FindsTheFirstRunFromATimeOn) {
+  for (const double hertz : {0.3, 1.0, 3.0, 7.0, 29.97, 60.0, 1000.0, 1234.567})
+    for (std::uint64_t k = 0; k < 2000; k += 7) {
+      const Rate r(hertz);
+      EXPECT_EQ(r.first_from(r.time_of(k)), k) << hertz;
+      EXPECT_EQ(r.first_from(r.time_of(k) + 1), k + 1) << hertz;
+    }
+}
+
+}  // namespace
+}  // namespace muro

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#include "core/scheduler.hpp"
+
+#include <gtest/gtest.h>
+
+#include <deque>
+
+#include "core/error.hpp"
+
+namespace muro {
+namespace {
+
+/// Writes its name and the time of each run into a log.
+class Recorder final : public abi::AlgorithmInstance {
+ public:
+  Recorder(std::string name, std::vector<std::string>& log) : name_(std::move(name)), log_(log) {}
+  bool connect(Connector&, abi::ErrorText&) noexcept override { return true; }
+  bool start(abi::ErrorText&) noexcept override { return true; }
+  bool step(const Step& step, Range, abi::ErrorText& error) noexcept override {
+    log_.push_back(name_ + "@" + std::to_string(step.time / 1'000'000));
+    last = step;
+    if (fails) error.set("out of fuel");
+    return !fails;
+  }
+  bool restored(abi::ErrorText&) noexcept override { return true; }
+  bool finish(abi::ErrorText&) noexcept override { return true; }
+  void destroy() noexcept override {}
+  Step last;
+  bool fails = false;
+
+ private:
+  std::string name_;
+  std::vector<std::string>& log_;
+};
+
+struct Fixture : ::testing::Test {
+  std::vector<std::string> log;
+  std::deque<Recorder> recorders;
+  Scheduler scheduler;
+
+  TaskId add(const std::string& name, double hertz, int order = 0, std::int64_t phase = 0, std::vector<std::uint32_t> reads = {},
+             std::vector<std::uint32_t> writes = {}) {
+    recorders.emplace_back(name, log);
+    return scheduler.add({name, &recorders.back(), 1, Rate(hertz), phase, order, std::move(reads), std::move(writes)});
+  }
+  using Log = std::vector<std::string>;
+};
+using SchedulerTest = Fixture;
+
+TEST_F(SchedulerTest, RunsEachTaskAtItsOwnRate) {
+  add("a", 10);
+  add("b", 5);
+  scheduler.run_until(400'000'000);
+  EXPECT_EQ(log, (Log{"a@0", "b@0", "a@100", "a@200", "b@200", "a@300"}));
+  EXPECT_EQ(scheduler.now(), 400'000'000);
+}
+
+TEST_F(SchedulerTest, OrdersAnInstantByKindThenByAdding) {
+  add("motion", 10, 9);
+  add("sensor 1", 10, 2);
+  add("sensor 2", 10, 2);
+  scheduler.run_until(1);
+  EXPECT_EQ(log, (Log{"sensor 1@0", "sensor 2@0", "motion@0"}));
+}
+
+TEST_F(SchedulerTest, APhaseShiftsEveryRun) {
+  add("a", 10, 0, 30'000'000);
+  scheduler.run_until(300'000'000);
+  EXPECT_EQ(log, (Log{"a@30", "a@130", "a@230"}));
+}
+
+TEST_F(SchedulerTest, OnDemandRunsOnceAnInstantJustBeforeItsFirstReader) {
+  add("kinematics", 0, 0, 0, {1}, {2});
+  add("index", 0, 1, 0, {2}, {3});
+  add("laser", 5, 2, 0, {3}, {4});
+  add("second laser", 5, 2, 0, {3}, {6});
+  add("motion", 10, 9, 0, {5}, {1});
+  scheduler.run_until(250'000'000);
+  EXPECT_EQ(log, (Log{"kinematics@0", "index@0", "laser@0", "second laser@0", "motion@0", "motion@100", "kinematics@200", "index@200",
+                      "laser@200", "second laser@200", "motion@200"}));
+  EXPECT_DOUBLE_EQ(recorders[1].last.dt, 0.2) << "the period of the reader that asks";
+}
+
+TEST_F(SchedulerTest, ASequenceKeepsItsOwnOrderAndTheRateOfItsFirst) {
+  const TaskId motion = add("motion", 10, 9);
+  const TaskId collision = add("collision", 1000, 7);
+  add("laser", 10, 2);
+  scheduler.add_sequence({motion, collision});
+  scheduler.run_until(150'000'000);
+  EXPECT_EQ(log, (Log{"laser@0", "motion@0", "collision@0", "laser@100", "motion@100", "collision@100"}));
+}
+
+TEST_F(SchedulerTest, GoesOnWhereItStopped) {
+  add("a", 10);
+  scheduler.run_until(100'000'000);
+  scheduler.run_until(200'000'000);
+  EXPECT_EQ(log, (Log{"a@0", "a@100"}));
+  EXPECT_EQ(recorders[0].last.index, 1u);
+}
+
+TEST_F(SchedulerTest, AStopTakesEffectAfterTheInstantAndLosesNothing) {
+  add("a", 10);
+  add("b", 10);
+  scheduler.run_until(1'000'000'000, [&] { return log.size() >= 2; });
+  EXPECT_EQ(log, (Log{"a@0", "b@0"}));
+  const Scheduler::State state = scheduler.state();
+  scheduler.set_state(state);
+  scheduler.run_until(200'000'000);
+  EXPECT_EQ(log, (Log{"a@0", "b@0", "a@100", "b@100"}));
+}
+
+TEST_F(SchedulerTest, AFailureNamesAlgorithmAndTime) {
+  add("rover.control", 10);
+  scheduler.run_until(200'000'000);
+  recorders[0].fails = true;
+  try {
+    scheduler.run_until(300'000'000);
+    FAIL();
+  } catch (const StepError& e) {
+    EXPECT_STREQ(e.what(), "rover.control failed at t = 0.200000 s: out of fuel");
+  }
+}
+
+TEST_F(SchedulerTest, PacedRunsTakeTheirTimeAndCountOverruns) {
+  add("a", 100);
+  scheduler.set_pacing({2});
+  const auto before = std::chrono::steady_clock::now();
+  scheduler.run_until(200'000'000);
+  const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
+  EXPECT_GE(wall, 0.094) << "19 periods of 10 ms at twice real time";
+  EXPECT_EQ(log.size(), 20u);
+}
+
+TEST_F(SchedulerTest, AccountsForEveryRun) {
+  const TaskId a = add("a", 1000), b = add("b", 50);
+  scheduler.run_until(1'000'000'000);
+  EXPECT_EQ(scheduler.cost(a).runs, 1000u);
+  EXPECT_EQ(scheduler.cost(b).runs, 50u);
+  EXPECT_GT(double(scheduler.cost(a).ticks) * scheduler.seconds_per_tick(), 0);
+}
+
+}  // namespace
+}  // namespace muro
