@@ -5,7 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/instance.hpp"
-#include "core/nearest.hpp"
+#include "muro/nearest.hpp"
 
 namespace muro {
 
@@ -86,7 +86,7 @@ ParameterSet::ParameterSet(const Description& description, const AlgorithmSetup&
     if (std::find(names.begin(), names.end(), name) != names.end()) continue;
     std::string all;
     for (const std::string& n : names) all += (all.empty() ? "" : ", ") + n;
-    problems.push_back("`" + std::string(description.id) + "` has no parameter `" + name + "`" + suggestion(name, names) +
+    problems.push_back("`" + std::string(description.id) + "` has no parameter `" + name + "`" + did_you_mean(name, names) +
                        (all.empty() ? "; it has none" : "; it has: " + all));
   }
   const std::string place = setup.place.empty() ? "" : setup.place + ": ";

@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "core/error.hpp"
-#include "core/nearest.hpp"
+#include "muro/nearest.hpp"
 #include "core/plugin_library.hpp"
 #include "muro/describe.hpp"
 
@@ -106,7 +106,7 @@ const Offer& Registry::find(const std::string& id) const {
     ids.push_back(o.id);
     if (o.id.substr(0, o.id.find('.')) == id.substr(0, id.find('.'))) family.push_back(o.id);
   }
-  std::string message = "no plugin offers `" + id + "`" + suggestion(id, ids);
+  std::string message = "no plugin offers `" + id + "`" + did_you_mean(id, ids);
   if (ids.empty()) {
     message += "; no plugin was found in";
     for (const std::string& f : folders_) message += " " + f;

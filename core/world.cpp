@@ -6,7 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/hash.hpp"
-#include "core/nearest.hpp"
+#include "muro/nearest.hpp"
 #include "muro/random.hpp"
 #include "muro/vocabulary.hpp"
 
@@ -87,7 +87,7 @@ ObjectId World::object(std::string_view name) const {
   std::vector<std::string> names;
   for (const auto& [known, unused] : by_name_) names.push_back(known);
   std::sort(names.begin(), names.end());
-  throw SetupError("no object is named `" + std::string(name) + "`" + suggestion(name, names));
+  throw SetupError("no object is named `" + std::string(name) + "`" + did_you_mean(name, names));
 }
 
 const RobotView* World::find_robot(std::string_view name) const {

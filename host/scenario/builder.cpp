@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <set>
 
-#include "core/nearest.hpp"
+#include "muro/nearest.hpp"
 #include "host/scenario/placement.hpp"
 #include "host/scenario/section.hpp"
 #include "muro/vocabulary.hpp"
@@ -144,7 +144,7 @@ class SceneBuilder {
     std::vector<std::string> names;
     for (const Frame& f : robot.frames)
       if (f.joint_object != no_object) names.push_back(part_name(robot, f.joint_object));
-    problems_.add(t.location, "robot `" + t.name + "` has no joint `" + joint + "`" + suggestion(joint, names));
+    problems_.add(t.location, "robot `" + t.name + "` has no joint `" + joint + "`" + did_you_mean(joint, names));
   }
 
   std::string part_name(const RobotView& robot, ObjectId object) const {
@@ -163,7 +163,7 @@ class SceneBuilder {
         all += (all.empty() ? "" : ", ") + parts.back();
       }
     problems_.add(s.location, "`on: " + s.on + "` of `" + s.name + "`: the robot has no part of this name" +
-                                  suggestion(s.on, parts) + "; it has: " + all);
+                                  did_you_mean(s.on, parts) + "; it has: " + all);
     return robot.base();
   }
 
@@ -273,7 +273,7 @@ class SceneBuilder {
       }
       std::vector<std::string> names;
       for (const auto& [n, unused] : added_) names.push_back(n);
-      problems_.add(scenario_.sequence_locations[i], "no algorithm is named `" + name + "`" + suggestion(name, names));
+      problems_.add(scenario_.sequence_locations[i], "no algorithm is named `" + name + "`" + did_you_mean(name, names));
     }
     if (algorithms.size() > 1) simulation_.add_sequence(std::move(algorithms));
   }

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
-#include "core/nearest.hpp"
+#include "muro/nearest.hpp"
 #include "muro/random.hpp"
 
 namespace muro::host {
@@ -36,7 +36,7 @@ const std::vector<Rectangle>& area_of(const Placement& p, const std::map<std::st
     names.push_back(name);
     all += (all.empty() ? "" : ", ") + name;
   }
-  throw SetupError(p.location.text() + ": no place is named `" + p.area + "`" + suggestion(p.area, names) +
+  throw SetupError(p.location.text() + ": no place is named `" + p.area + "`" + did_you_mean(p.area, names) +
                    (all.empty() ? "; the world has no `places`" : "; there are: " + all));
 }
 

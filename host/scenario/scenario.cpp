@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "core/error.hpp"
-#include "core/nearest.hpp"
+#include "muro/nearest.hpp"
 #include "host/scenario/section.hpp"
 
 namespace muro::host {
@@ -285,7 +285,7 @@ void read_robot(const std::string& name, const Node& node, Scenario& out, Proble
       else
         problems.add(s.key_location(key),
                      what + " has no key `" + key + "`" +
-                         suggestion(key, std::vector<std::string>{"model", "shape", "mass", "count", "place", "at", "velocity",
+                         did_you_mean(key, std::vector<std::string>{"model", "shape", "mass", "count", "place", "at", "velocity",
                                                                   "angular_velocity", "joints", "variants"}) +
                          "; allowed: model, shape, mass, friction, restitution, color, count, place, at, velocity, angular_velocity, "
                          "joints, variants, and subsystems {use: NAME, ...}");

@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "core/error.hpp"
-#include "core/nearest.hpp"
+#include "muro/nearest.hpp"
 
 namespace muro::host {
 
@@ -164,7 +164,7 @@ void Section::close() {
   std::string allowed;
   for (const std::string& k : known) allowed += (allowed.empty() ? "" : ", ") + k;
   for (const auto& [key, unused] : others())
-    problems_.add(key_location(key), what_ + " has no key `" + key + "`" + suggestion(key, known) + "; allowed: " + allowed);
+    problems_.add(key_location(key), what_ + " has no key `" + key + "`" + did_you_mean(key, known) + "; allowed: " + allowed);
 }
 
 }  // namespace muro::host

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// What every motion algorithm owes, whatever its level of detail.
+#include <gtest/gtest.h>
+
+#include "tests/conformance/team.hpp"
+
+namespace muro {
+namespace {
+
+class EveryMotion : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(EveryMotion, StartsWhereTheModelIsPut) {
+  test::Team team(GetParam(), 3);
+  for (const RobotView* r : team.rovers)
+    EXPECT_LT((team.pose(*r).position - team.world().value(r->base(), keys::initial_pose).position).norm(), 1e-12);
+}
+
+TEST_P(EveryMotion, FollowsABaseCommandForwards) {
+  test::Team team(GetParam(), 1);
+  team.world().value(team.rovers[0]->base(), keys::command_twist) = {{0.5, 0, 0}, Vec3::Zero()};
+  team.run_for(2);
+  const Vec3 moved = team.pose(*team.rovers[0]).position;
+  EXPECT_NEAR(moved.x(), 1.0, 0.1) << "2 s at 0.5 m/s, less what a level with dynamics needs to gather speed";
+  EXPECT_NEAR(moved.y(), 0, 0.02);
+  EXPECT_NEAR(moved.z(), 0.09, 0.005);
+}
+
+TEST_P(EveryMotion, TwistIsTheDerivativeOfPose) {
+  test::Team team(GetParam(), 3);
+  team.run_for(1);
+  for (const RobotView* r : team.rovers) {
+    const Pose before = team.pose(*r);
+    const Twist v = team.twist(*r);
+    team.run_for(0.001);
+    const Twist after = team.twist(*r);
+    const Vec3 mean = 0.5 * (v.linear + after.linear);
+    EXPECT_LT(((team.pose(*r).position - before.position) / 0.001 - mean).norm(), 2e-3) << r->name;
+    const Eigen::AngleAxisd turn(team.pose(*r).orientation * before.orientation.conjugate());
+    EXPECT_LT((turn.angle() * turn.axis() / 0.001 - 0.5 * (v.angular + after.angular)).norm(), 2e-2) << r->name;
+  }
+}
+
+TEST_P(EveryMotion, KeepsOrientationsUnitAndAllValuesFinite) {
+  test::Team team(GetParam());
+  for (int i = 0; i < 20; ++i) {
+    team.run_for(0.5);
+    for (const RobotView* r : team.rovers) {
+      ASSERT_TRUE(team.pose(*r).position.allFinite());
+      ASSERT_NEAR(team.pose(*r).orientation.norm(), 1, 1e-9);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Conformance, EveryMotion, ::testing::ValuesIn(test::algorithms_of("motion")), [](const auto& test) {
+  std::string name = test.param;
+  std::replace(name.begin(), name.end(), '.', '_');
+  return name;
+});
+
+}  // namespace
+}  // namespace muro

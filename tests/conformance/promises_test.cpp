@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// Plugins are held to what they promise: determinism, independent items, no allocation, restorable state.
+#include <gtest/gtest.h>
+
+#include "tests/conformance/team.hpp"
+#include "tests/support/allocation_counter.hpp"
+
+namespace muro {
+namespace {
+
+class EveryMotionsTeam : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(EveryMotionsTeam, GivesTheSameBitsTwice) {
+  test::Team a(GetParam()), b(GetParam());
+  a.run_for(2);
+  b.run_for(2);
+  EXPECT_EQ(a.state_hash(), b.state_hash());
+}
+
+TEST_P(EveryMotionsTeam, GoesOnFromASnapshotToTheSameBits) {
+  test::Team team(GetParam());
+  team.run_for(1.0371);
+  const Snapshot snapshot = team.snapshot();
+  team.run_for(1);
+  const std::uint64_t end = team.state_hash();
+  team.restore(snapshot);
+  team.run_for(1);
+  EXPECT_EQ(team.state_hash(), end);
+}
+
+TEST_P(EveryMotionsTeam, IsFreshAfterAReset) {
+  test::Team team(GetParam());
+  const std::uint64_t start = team.state_hash();
+  team.run_for(1);
+  team.reset();
+  team.command();
+  EXPECT_EQ(team.state_hash(), start);
+}
+
+TEST_P(EveryMotionsTeam, AllocatesNothingInAStepOnceWarm) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  ASSERT_EQ(test::allocations(), 0u) << "sanitizers count allocations themselves";
+#else
+  test::Team team(GetParam());
+  const std::uint64_t before_build = test::allocations();
+  { const std::vector<int> shows_that_counting_works(100); }
+  ASSERT_GT(test::allocations(), before_build);
+  team.run_for(3);
+  const std::uint64_t before = test::allocations();
+  team.run_for(3);
+  EXPECT_EQ(test::allocations() - before, 0u);
+#endif
+}
+
+INSTANTIATE_TEST_SUITE_P(Conformance, EveryMotionsTeam, ::testing::ValuesIn(test::algorithms_of("motion")), [](const auto& test) {
+  std::string name = test.param;
+  std::replace(name.begin(), name.end(), '.', '_');
+  return name;
+});
+
+/// Steps every batched algorithm once in one piece and once item by item, from the same state.
+TEST(BatchedAlgorithms, GiveTheSameBitsItemByItemAsInOnePiece) {
+  test::Team whole("motion.simplified"), split("motion.simplified");
+  whole.run_for(0.5);
+  split.run_for(0.5);
+  ASSERT_EQ(whole.state_hash(), split.state_hash());
+  abi::ErrorText error;
+  std::set<std::string> tried;
+  for (std::size_t i = 0; i < whole.instances().size(); ++i) {
+    Instance& a = *whole.instances()[i];
+    Instance& b = *split.instances()[i];
+    if ((a.description().promises & Promise::batched) == 0) continue;
+    tried.insert(a.setup().use);
+    const Step step{whole.now(), 0.001, 500, 1};
+    const auto items = std::uint32_t(a.setup().items.size());
+    ASSERT_TRUE(a.algorithm().step(step, {0, items}, error)) << error.view();
+    for (std::uint32_t k = items; k-- > 0;) ASSERT_TRUE(b.algorithm().step(step, {k, k + 1}, error)) << error.view();
+    EXPECT_EQ(whole.state_hash(), split.state_hash()) << a.setup().use;
+  }
+  for (const char* id : {"motion.simplified", "kinematics.direct", "laser.raycast", "sensor.error", "drive.skid_steer"})
+    EXPECT_EQ(tried.count(id), 1u) << id << " is batched";
+}
+
+}  // namespace
+}  // namespace muro

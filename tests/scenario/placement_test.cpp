@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "host/scenario/placement.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+
+namespace muro::host {
+namespace {
+
+struct PlacementTest : ::testing::Test {
+  std::map<std::string, std::vector<Rectangle>> places{{"yard", {{0, 0, 10, 4, {0.5}}, {20, 0, 2, 2, {}}}}};
+  std::vector<Obstacle> obstacles{{{{0, 0, 1}, from_rpy(0, 0, 0.3)}, 2, 1}};
+  std::vector<Footprint> taken;
+  Placement random = [] {
+    Placement p;
+    p.form = Placement::Form::random;
+    p.area = "yard";
+    p.seed = 7;
+    p.clearance = 0.1;
+    p.list.emplace_back();
+    return p;
+  }();
+};
+
+TEST_F(PlacementTest, RandomPlacesKeepTheirDistanceToEverything) {
+  const auto poses = place(random, 30, 0.25, 0.3, places, obstacles, taken, "rovers");
+  ASSERT_EQ(poses.size(), 30u);
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const Vec3& p = poses[i].position;
+    EXPECT_EQ(p.z(), 0.25);
+    const bool in_first = std::abs(p.x()) <= 5 && std::abs(p.y()) <= 2, in_second = std::abs(p.x() - 20) <= 1 && std::abs(p.y()) <= 1;
+    EXPECT_TRUE(in_first || in_second);
+    if (in_first) {
+      EXPECT_NEAR(yaw_of(poses[i].orientation), 0.5, 1e-12);
+    }
+    for (std::size_t k = 0; k < i; ++k) EXPECT_GE((p - poses[k].position).norm(), 0.7);
+    const Vec3 local = obstacles[0].pose.inverse() * Vec3(p.x(), p.y(), 1);
+    EXPECT_GE(std::hypot(std::max(0.0, std::abs(local.x()) - 2), std::max(0.0, std::abs(local.y()) - 1)), 0.4);
+  }
+}
+
+TEST_F(PlacementTest, EqualSeedsGiveEqualPlacesAndOthersDoNot) {
+  std::vector<Footprint> again, other;
+  const auto a = place(random, 5, 0, 0.3, places, obstacles, taken, "rovers");
+  const auto b = place(random, 5, 0, 0.3, places, obstacles, again, "rovers");
+  random.seed = 8;
+  const auto c = place(random, 5, 0, 0.3, places, obstacles, other, "rovers");
+  EXPECT_EQ(a[4].position, b[4].position);
+  EXPECT_NE(a[4].position, c[4].position);
+}
+
+TEST_F(PlacementTest, AFullPlaceSaysHowManyFit) {
+  random.location = {"a.yaml", 3, 5};
+  try {
+    place(random, 5000, 0, 0.3, places, obstacles, taken, "rovers");
+    FAIL();
+  } catch (const SetupError& e) {
+    const std::string text = e.what();
+    EXPECT_EQ(text.rfind("a.yaml:3:5: only ", 0), 0u);
+    EXPECT_NE(text.find(" of 5000 rovers fit into `yard` without overlap"), std::string::npos);
+  }
+}
+
+TEST_F(PlacementTest, AGridIsCentredAndTurnsWithItsCentre) {
+  Placement grid;
+  grid.form = Placement::Form::grid;
+  grid.columns = 3;
+  grid.rows = 2;
+  grid.spacing_x = 2;
+  grid.spacing_y = 4;
+  grid.list.push_back({.x = 10, .y = 0, .z = {}, .yaw = M_PI / 2});
+  const auto poses = place(grid, 6, 0.5, 1, places, {}, taken, "posts");
+  EXPECT_LT((poses[0].position - Vec3(12, -2, 0.5)).norm(), 1e-12);
+  EXPECT_LT((poses[5].position - Vec3(8, 2, 0.5)).norm(), 1e-12);
+}
+
+}  // namespace
+}  // namespace muro::host

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+namespace muro::test {
+
+/// Number of calls of malloc, calloc and realloc of the whole process so far, plugins included. Stays 0 in builds with
+/// sanitizers, which replace these functions themselves.
+std::uint64_t allocations();
+
+}  // namespace muro::test
