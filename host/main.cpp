@@ -49,7 +49,9 @@ int dispatch(int argc, char** argv) {
   CLI::App& plugins_command = *app.add_subcommand("plugins", "Show what plugins offer");
   plugins_command.require_subcommand(1);
   CLI::App& list_command = *plugins_command.add_subcommand("list", "All algorithms and model readers");
-  list_command.add_flag("--json", json, "As JSON");
+  bool markdown = false;
+  CLI::Option* as_json = list_command.add_flag("--json", json, "As JSON");
+  list_command.add_flag("--markdown", markdown, "As a table in Markdown")->excludes(as_json);
   std::string id;
   CLI::App& info_command = *plugins_command.add_subcommand("info", "One of them: parameters, properties, promises");
   info_command.add_option("name", id, "Such as motion.point")->required();
@@ -64,7 +66,8 @@ int dispatch(int argc, char** argv) {
   if (run_command.parsed()) return run(run_options);
   if (check_command.parsed()) return check(check_options);
   if (describe_command.parsed()) return describe(describe_options, json);
-  return list_command.parsed() ? list_plugins(plugin_path, json) : plugin_info(id, plugin_path, json);
+  if (info_command.parsed()) return plugin_info(id, plugin_path, json);
+  return list_plugins(plugin_path, json ? ListForm::json : (markdown ? ListForm::markdown : ListForm::plain));
 }
 
 }  // namespace

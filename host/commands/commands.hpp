@@ -29,7 +29,8 @@ struct RunOptions {
 int run(const RunOptions& options);
 int check(const ScenarioOptions& options);
 int describe(const ScenarioOptions& options, bool json);
-int list_plugins(const std::vector<std::string>& plugin_path, bool json);
+enum class ListForm { plain, json, markdown };
+int list_plugins(const std::vector<std::string>& plugin_path, ListForm form);
 int plugin_info(const std::string& id, const std::vector<std::string>& plugin_path, bool json);
 
 }  // namespace muro::host

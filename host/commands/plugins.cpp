@@ -51,14 +51,19 @@ void print_info(const Offer& offer, const Json& plugin, const Json& entry) {
 
 }  // namespace
 
-int list_plugins(const std::vector<std::string>& plugin_path, bool json) {
+int list_plugins(const std::vector<std::string>& plugin_path, ListForm form) {
   const Registry registry(Registry::search_path(plugin_path));
   for (const std::string& p : registry.problems()) fmt::print(stderr, "warning: {}\n", p);
-  if (json) {
+  if (form == ListForm::json) {
     Json all = Json::array();
     for (const Offer& o : registry.offers())
       all.push_back({{"id", o.id}, {"kind", o.kind}, {"version", o.version}, {"summary", o.summary}, {"library", o.library}});
     fmt::print("{}\n", all.dump(2));
+    return 0;
+  }
+  if (form == ListForm::markdown) {
+    fmt::print("| name | kind | what it does |\n|---|---|---|\n");
+    for (const Offer& o : registry.offers()) fmt::print("| `{}` | {} | {} |\n", o.id, o.kind, o.summary);
     return 0;
   }
   for (const Offer& o : registry.offers()) fmt::print("{:<28} {:<13} {:<8} {}\n", o.id, o.kind, o.version, o.summary);

@@ -1,19 +1,29 @@
 /* SPDX-License-Identifier: MIT
  *
  * The interface of control code that muro loads from a shared library (algorithm `controller.library`).
- * C11 and C++20; no muro header or library is needed beside this file.
+ * C11 and C++20; no muro header or library is needed beside this file. docs/controllers.md is the how-to,
+ * examples/urban/wander.c a complete library.
  *
  * A library exports one function, `muro_controller`, which returns a constant table: the names of its
- * inputs and outputs and a few functions. One library serves any number of robots; each instance has
- * its own `state` block.
+ * inputs and outputs, the size of its state, and two functions. One library serves any number of robots;
+ * each of them, an instance, has a state block of its own.
  *
- * Inputs and outputs are arrays of double with a name, a unit and a size. A name is that of a property
- * ("ranges", "joint.position", "command.twist"; `muro describe SCENARIO` lists them); its elements are
- * converted to double and stand in the order of the property's columns. The scenario can connect a
- * port to another property.
+ * Inputs and outputs are arrays of double with a name, a unit and a size. The name is that of a property
+ * ("ranges", "laser.min_angle", "joint.position", "command.twist"); its elements are converted to double
+ * and stand in the order of the property's columns (a twist: vx vy vz wx wy wz). muro looks for the property
+ * on the base of the robot, then on its other objects; the scenario can connect a port to any other one.
  *
- * All functions of one instance are called from one thread at a time; instances may run in parallel,
- * so a library keeps no variables outside its state block.
+ * Life of an instance:
+ *
+ *     block cleared -> create -> step -> step -> ...
+ *
+ * `create` runs just before the first step. A reset clears the block and begins again with `create`. A
+ * restored snapshot brings back the bytes of the block and goes on with `step`: nothing else is called,
+ * so all that a step leaves for the next one must be in the block.
+ *
+ * All functions of one instance are called from one thread at a time; instances may run in parallel, so a
+ * library keeps no variables outside the state blocks. Nothing may be thrown or jumped out of a function.
+ * Control code runs inside the simulator: an invalid memory access ends the whole program.
  */
 #ifndef MURO_CONTROLLER_H
 #define MURO_CONTROLLER_H
@@ -29,8 +39,8 @@ extern "C" {
 
 /* One input or output. */
 typedef struct muro_port {
-  const char* name; /* a property, e.g. "ranges" */
-  const char* unit; /* its SI unit as muro writes it, e.g. "m"; NULL: not checked */
+  const char* name; /* a property, e.g. "ranges"; no two inputs, and no two outputs, have the same */
+  const char* unit; /* its SI unit letter by letter as muro writes it, e.g. "m"; NULL: not checked */
   uint32_t size;    /* number of doubles; 0: as many as the property has (inputs only) */
 } muro_port;
 
@@ -38,16 +48,16 @@ typedef struct muro_port {
 typedef struct muro_controller_setup {
   const char* robot;            /* name of the robot */
   double period;                /* s between steps */
-  uint64_t seed;                /* differs between robots, equal between runs */
+  uint64_t seed;                /* from the simulation's seed and the robot's name: equal between runs */
   const uint32_t* input_sizes;  /* actual size of each input */
   const char* const* arguments; /* "name=value" texts from the scenario, ended by NULL */
 } muro_controller_setup;
 
-/* One step. */
+/* One step. The pointers are valid during `step` only. */
 typedef struct muro_controller_step {
-  double time; /* s since the start of the simulation */
+  double time;                 /* s since the start of the simulation */
   const double* const* inputs; /* inputs[i][0 .. input_sizes[i] - 1] */
-  double* const* outputs;      /* outputs[i][0 .. size - 1]; they keep their last value */
+  double* const* outputs;      /* outputs[i][0 .. size - 1]: finite numbers; they keep their last value */
 } muro_controller_step;
 
 typedef struct muro_controller_table {
@@ -62,15 +72,14 @@ typedef struct muro_controller_table {
   const muro_port* outputs;
   uint32_t output_count;
 
-  /* Bytes of state of one instance. muro owns the block, clears it before `create`, and saves and
-   * restores it byte by byte: so it holds no pointers and nothing that lives elsewhere. */
+  /* Bytes of state of one instance. muro owns the block, aligns it to 64 bytes and saves, restores and
+   * hashes it byte by byte: so it holds no pointers and no handles, and is best free of padding. */
   size_t state_size;
 
-  /* Each returns 0 for success. Otherwise it writes a reason of at most `error_size` bytes with its
-   * closing zero to `error`; muro then ends the run and reports it. `create` and `destroy` may be NULL. */
+  /* Each returns 0 for success. Otherwise it writes a reason of at most `error_size` bytes, with its closing
+   * zero, to `error`; muro ends the run and reports it with the robot's name. `create` may be NULL. */
   int (*create)(void* state, const muro_controller_setup* setup, char* error, size_t error_size);
   int (*step)(void* state, const muro_controller_step* step, char* error, size_t error_size);
-  void (*destroy)(void* state);
 } muro_controller_table;
 
 #if defined(_WIN32)

@@ -13,10 +13,10 @@ set(CMAKE_C_FLAGS_RELWITHDEBINFO "-O2 -g1")
 
 find_program(CCACHE ccache)
 if(CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  set(CMAKE_C_COMPILER_LAUNCHER ${CCACHE})
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
-  # precompiled headers and ccache agree only with these
-  set(ENV{CCACHE_SLOPPINESS} "pch_defines,time_macros,include_file_mtime,include_file_ctime")
+  # precompiled headers and ccache agree only with this setting
+  set(launcher /usr/bin/env CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime ${CCACHE})
+  set(CMAKE_C_COMPILER_LAUNCHER ${launcher})
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${launcher})
 endif()
 
 add_compile_options(-Wall -Wextra -Wpedantic -Wshadow $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor>
@@ -29,9 +29,10 @@ if(MURO_SANITIZE)
   add_link_options(-fsanitize=${MURO_SANITIZE})
 endif()
 
-# muro_add_test(NAME x SOURCES ... [LIBRARIES ...]): a GoogleTest program, each test known to ctest.
+# muro_add_test(NAME x SOURCES ... [LIBRARIES ...] [TIMEOUT s] [FIXTURE f]): a GoogleTest program, each test known to
+# ctest. FIXTURE: the tests that set it up run before.
 function(muro_add_test)
-  cmake_parse_arguments(ARG "" "NAME;TIMEOUT" "SOURCES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ARG "" "NAME;TIMEOUT;FIXTURE" "SOURCES;LIBRARIES" ${ARGN})
   if(NOT MURO_TESTS)
     return()
   endif()
@@ -41,13 +42,27 @@ function(muro_add_test)
   add_executable(${ARG_NAME} ${ARG_SOURCES})
   target_link_libraries(${ARG_NAME} PRIVATE muro::sdk GTest::gtest GTest::gtest_main ${ARG_LIBRARIES})
   target_include_directories(${ARG_NAME} PRIVATE ${PROJECT_SOURCE_DIR})
-  if(TARGET muro_pch)
-    target_precompile_headers(${ARG_NAME} REUSE_FROM muro_pch)
-  endif()
+  target_precompile_headers(${ARG_NAME} REUSE_FROM muro_test_pch)
   set_target_properties(${ARG_NAME} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   include(GoogleTest)
-  gtest_discover_tests(${ARG_NAME} TEST_PREFIX ${ARG_NAME}. DISCOVERY_TIMEOUT 60
-                       PROPERTIES TIMEOUT ${ARG_TIMEOUT})
+  gtest_discover_tests(${ARG_NAME} TEST_PREFIX ${ARG_NAME}. NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60
+                       PROPERTIES TIMEOUT ${ARG_TIMEOUT} FIXTURES_REQUIRED "${ARG_FIXTURE}")
+endfunction()
+
+# muro_add_bench(NAME bench_x SOURCES ... [LIBRARIES ...]): a program that `./dev bench` runs.
+function(muro_add_bench)
+  cmake_parse_arguments(ARG "" "NAME" "SOURCES;LIBRARIES" ${ARGN})
+  if(NOT MURO_TESTS)
+    return()
+  endif()
+  if(NOT ARG_NAME MATCHES "^bench_")
+    message(FATAL_ERROR "muro_add_bench(NAME ${ARG_NAME}): the name of a benchmark begins with bench_")
+  endif()
+  add_executable(${ARG_NAME} ${ARG_SOURCES})
+  target_link_libraries(${ARG_NAME} PRIVATE muro::sdk ${ARG_LIBRARIES})
+  target_include_directories(${ARG_NAME} PRIVATE ${PROJECT_SOURCE_DIR})
+  set_target_properties(${ARG_NAME} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bench)
+  set_property(GLOBAL APPEND PROPERTY MURO_BENCHMARKS ${ARG_NAME})
 endfunction()
 
 # muro_skip(WHAT REASON): a part left out at configure time, named in the summary.
@@ -63,4 +78,20 @@ function(muro_print_summary)
   foreach(line IN LISTS skipped)
     message(STATUS "  left out: ${line}")
   endforeach()
+endfunction()
+
+# simulator: what a user runs, without tests. benchmarks: the programs of muro_add_bench.
+function(muro_add_groups)
+  get_property(plugins GLOBAL PROPERTY MURO_PLUGINS)
+  get_property(controllers GLOBAL PROPERTY MURO_CONTROLLERS)
+  get_property(benchmarks GLOBAL PROPERTY MURO_BENCHMARKS)
+  add_custom_target(simulator)
+  add_dependencies(simulator ${plugins} ${controllers})
+  if(TARGET muro)
+    add_dependencies(simulator muro)
+  endif()
+  add_custom_target(benchmarks)
+  if(benchmarks)
+    add_dependencies(benchmarks simulator ${benchmarks})
+  endif()
 endfunction()

@@ -1,25 +1,33 @@
 # SPDX-License-Identifier: MIT
-# For plugin authors: muro_add_plugin() and muro_add_controller().
+# For plugin authors: muro_add_plugin() and muro_add_controller(). Comes with find_package(muro), and with
+# add_subdirectory(<muro>/sdk).
 
-set(MURO_PLUGIN_EXPORTS ${CMAKE_CURRENT_LIST_DIR}/plugin_exports.map)
-
-# muro_add_plugin(NAME motion_point SOURCES point.cpp [LIBRARIES ...])
+# muro_add_plugin(NAME motion_point SOURCES point.cpp [LIBRARIES ...] [OUTPUT_DIRECTORY ...])
 #
 # Builds NAME.so, which exports one symbol and has no undefined muro symbol, and writes NAME.muro.json
 # beside it: what the plugin says of itself, so that the host can list it without running its code.
-# Everything goes to MURO_PLUGIN_DIR (default: the current build folder).
+# Both go to OUTPUT_DIRECTORY (default: MURO_PLUGIN_DIR, else the current build folder) and are installed
+# to lib/muro. Where MURO_PLUGINS_FOR_TESTS is set, plugins are not installed, are not in the summary and are
+# compiled without the precompiled header.
 function(muro_add_plugin)
-  cmake_parse_arguments(ARG "" "NAME" "SOURCES;LIBRARIES" ${ARGN})
-  if(NOT MURO_PLUGIN_DIR)
-    set(MURO_PLUGIN_DIR ${CMAKE_CURRENT_BINARY_DIR})
+  cmake_parse_arguments(PARSE_ARGV 0 ARG "" "NAME;OUTPUT_DIRECTORY" "SOURCES;LIBRARIES")
+  if(NOT ARG_NAME OR NOT ARG_SOURCES OR ARG_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "muro_add_plugin(NAME name SOURCES file... [LIBRARIES ...] [OUTPUT_DIRECTORY dir]): "
+                        "NAME or SOURCES missing, or not understood: ${ARG_UNPARSED_ARGUMENTS}")
   endif()
-  if("${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${CMAKE_BUILD_TYPE}}" MATCHES "-ffast-math|-Ofast")
-    message(FATAL_ERROR "plugin ${ARG_NAME}: -ffast-math changes the arithmetic of every program that loads the "
-                        "plugin; remove it from CMAKE_CXX_FLAGS")
+  _muro_refuse_fast_math("plugin ${ARG_NAME}")
+  if(NOT ARG_OUTPUT_DIRECTORY)
+    set(ARG_OUTPUT_DIRECTORY ${MURO_PLUGIN_DIR})
   endif()
+  if(NOT ARG_OUTPUT_DIRECTORY)
+    set(ARG_OUTPUT_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR})
+  endif()
+
   add_library(${ARG_NAME} MODULE ${ARG_SOURCES})
   target_link_libraries(${ARG_NAME} PRIVATE muro::sdk ${ARG_LIBRARIES})
-  target_link_options(${ARG_NAME} PRIVATE LINKER:--version-script=${MURO_PLUGIN_EXPORTS} LINKER:--exclude-libs,ALL)
+  target_link_options(${ARG_NAME} PRIVATE LINKER:--version-script=${CMAKE_CURRENT_FUNCTION_LIST_DIR}/plugin_exports.map
+                      LINKER:--exclude-libs,ALL)
+  # The run-time library of a sanitizer is found when the program is loaded, so its symbols stay open.
   if(NOT CMAKE_CXX_FLAGS MATCHES "fsanitize" AND NOT MURO_SANITIZE)
     target_link_options(${ARG_NAME} PRIVATE LINKER:-z,defs)
   endif()
@@ -30,26 +38,38 @@ function(muro_add_plugin)
                CXX_VISIBILITY_PRESET hidden
                C_VISIBILITY_PRESET hidden
                VISIBILITY_INLINES_HIDDEN ON
-               LIBRARY_OUTPUT_DIRECTORY ${MURO_PLUGIN_DIR})
-  if(TARGET muro_plugin_pch)
+               LIBRARY_OUTPUT_DIRECTORY ${ARG_OUTPUT_DIRECTORY})
+  if(TARGET muro_plugin_pch AND NOT MURO_PLUGINS_FOR_TESTS)
     target_precompile_headers(${ARG_NAME} REUSE_FROM muro_plugin_pch)
   endif()
+
+  set(description ${ARG_OUTPUT_DIRECTORY}/${ARG_NAME}.muro.json)
   add_custom_command(
     TARGET ${ARG_NAME}
     POST_BUILD
-    COMMAND muro::describe $<TARGET_FILE:${ARG_NAME}> ${MURO_PLUGIN_DIR}/${ARG_NAME}.muro.json
-    BYPRODUCTS ${MURO_PLUGIN_DIR}/${ARG_NAME}.muro.json
+    COMMAND muro::describe $<TARGET_FILE:${ARG_NAME}> ${description}
+    BYPRODUCTS ${description}
     COMMENT "Describing plugin ${ARG_NAME}"
     VERBATIM)
-  add_dependencies(${ARG_NAME} muro_describe)
-  set_property(GLOBAL APPEND PROPERTY MURO_PLUGINS ${ARG_NAME})
+  # described anew when the describing program changes
+  set_property(TARGET ${ARG_NAME} APPEND PROPERTY LINK_DEPENDS $<TARGET_FILE:muro::describe>)
+  if(NOT MURO_PLUGINS_FOR_TESTS)
+    set_property(GLOBAL APPEND PROPERTY MURO_PLUGINS ${ARG_NAME})
+    install(TARGETS ${ARG_NAME} LIBRARY DESTINATION lib/muro)
+    install(FILES ${description} DESTINATION lib/muro)
+  endif()
 endfunction()
 
-# muro_add_controller(NAME wander SOURCES wander.c [LIBRARIES ...])
+# muro_add_controller(NAME wander SOURCES wander.c [LIBRARIES ...] [OUTPUT_DIRECTORY ...])
 #
 # Builds NAME.so, control code for `controller.library`, from C or C++. Needs nothing but the C header.
 function(muro_add_controller)
-  cmake_parse_arguments(ARG "" "NAME;OUTPUT_DIRECTORY" "SOURCES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(PARSE_ARGV 0 ARG "" "NAME;OUTPUT_DIRECTORY" "SOURCES;LIBRARIES")
+  if(NOT ARG_NAME OR NOT ARG_SOURCES OR ARG_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "muro_add_controller(NAME name SOURCES file... [LIBRARIES ...] [OUTPUT_DIRECTORY dir]): "
+                        "NAME or SOURCES missing, or not understood: ${ARG_UNPARSED_ARGUMENTS}")
+  endif()
+  _muro_refuse_fast_math("controller ${ARG_NAME}")
   if(NOT ARG_OUTPUT_DIRECTORY)
     set(ARG_OUTPUT_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR})
   endif()
@@ -62,4 +82,19 @@ function(muro_add_controller)
                C_VISIBILITY_PRESET hidden
                CXX_VISIBILITY_PRESET hidden
                LIBRARY_OUTPUT_DIRECTORY ${ARG_OUTPUT_DIRECTORY})
+  set_property(GLOBAL APPEND PROPERTY MURO_CONTROLLERS ${ARG_NAME})
+endfunction()
+
+# A library linked with these flags turns off subnormal numbers in the thread that loads it (gcc before 13,
+# clang before 19: crtfastmath.o), and so changes the results of everything else in the process.
+function(_muro_refuse_fast_math WHO)
+  string(TOUPPER "${CMAKE_BUILD_TYPE}" config)
+  get_directory_property(options COMPILE_OPTIONS)
+  get_directory_property(link_options LINK_OPTIONS)
+  set(flags "${CMAKE_C_FLAGS} ${CMAKE_CXX_FLAGS} ${CMAKE_C_FLAGS_${config}} ${CMAKE_CXX_FLAGS_${config}} \
+${CMAKE_MODULE_LINKER_FLAGS} ${options} ${link_options}")
+  if(flags MATCHES "(-ffast-math|-Ofast|-funsafe-math-optimizations)")
+    message(FATAL_ERROR "${WHO}: ${CMAKE_MATCH_1} changes the arithmetic of every program that loads it; "
+                        "remove it from the compiler's flags")
+  endif()
 endfunction()

@@ -133,6 +133,10 @@ class Connector {
     return ArrayOut<T>(bind(object, key, Access::variable, Form::array, count, nullptr));
   }
   template <class T>
+  ListOut<T> variable_list(ObjectId object, const Key<T>& key) {
+    return ListOut<T>(bind(object, key, Access::variable, Form::list, 0, nullptr));
+  }
+  template <class T>
   Out<T> derived(ObjectId object, const Key<T>& key) {
     return Out<T>(bind(object, key, Access::derived, Form::single, 1, nullptr));
   }

@@ -91,10 +91,14 @@ struct Inertia {
 
 /// The rotation by the vector `v` (axis times angle, rad).
 inline Quat rotation_of(const Vec3& v) {
-  const double half = 0.5 * v.norm();
-  // sin(x)/x to fourth order where the quotient loses digits
-  const double scale = half < 1e-4 ? 0.5 - half * half / 12 : 0.5 * std::sin(half) / half;
-  return Quat(std::cos(half), scale * v.x(), scale * v.y(), scale * v.z());
+  const double x = 0.25 * v.squaredNorm();  // square of the half angle
+  if (x < 0.01) {                           // series, exact to the last digit: the turns of single steps
+    const double c = 1 - x / 2 * (1 - x / 12 * (1 - x / 30 * (1 - x / 56 * (1 - x / 90))));
+    const double s = 0.5 * (1 - x / 6 * (1 - x / 20 * (1 - x / 42 * (1 - x / 72 * (1 - x / 110)))));
+    return Quat(c, s * v.x(), s * v.y(), s * v.z());
+  }
+  const double half = std::sqrt(x), s = 0.5 * std::sin(half) / half;
+  return Quat(std::cos(half), s * v.x(), s * v.y(), s * v.z());
 }
 
 /// The mean of the rotations by t * v for t in [0, 1] (v: axis times angle, rad): a body that turns by `v`

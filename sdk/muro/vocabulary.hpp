@@ -41,6 +41,9 @@ inline constexpr Key<Pose> command_pose{"command.pose", "m", "wanted pose of the
 inline constexpr Key<SceneIndex> scene_index{"scene.index", "m", "on the world object: shapes and boxes for search"};
 inline constexpr Key<Contact> contacts{"contacts", "m", "list on the base of a robot: where it touches"};
 
+// Sensors: properties of the sensor's object, whose pose is that of the link it is mounted on.
+inline constexpr Key<Pose> sensor_origin{"sensor.origin", "m", "of the device's frame in the frame of the sensor's object"};
+
 // Laser scanners: properties of the sensor's object. Angles are counter-clockwise about z, 0 along x.
 inline constexpr Key<double> laser_min_angle{"laser.min_angle", "rad", "direction of the first ray of a row"};
 inline constexpr Key<double> laser_angle_increment{"laser.angle_increment", "rad", "between neighbouring rays of a row"};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The point model (MuRoSimF, Section 3.2): only the motion of the base, as commanded.
-#include <algorithm>
+#include <string>
 #include <vector>
 
 #include "muro/plugin.hpp"
@@ -17,7 +17,10 @@ constexpr Parameter parameters[] = {
     real("max_acceleration", "m/s^2", 1e9, "largest change of the linear velocity").between(0, 1e9),
     real("max_turn_acceleration", "rad/s^2", 1e9, "largest change of the angular velocity").between(0, 1e9),
 };
-constexpr Use reads[] = {{"command.twist", "mode velocity"}, {"command.pose", "mode pose"}};
+constexpr Use reads[] = {{"command.twist", "mode velocity"},
+                         {"command.pose", "mode pose"},
+                         {"pose.initial", "of the base"},
+                         {"twist.initial", "of the base"}};
 constexpr Use writes[] = {{"pose", "of the base"}, {"twist", "of the base"}};
 constexpr Description description{
     .id = "motion.point",
@@ -48,11 +51,13 @@ class Point final : public Algorithm {
     max_acceleration_ = p.real("max_acceleration");
     max_turn_acceleration_ = p.real("max_turn_acceleration");
     for (const Item& item : c.items()) {
+      if (!item.robot) throw Error("it moves robots, but no robot is named");
       const ObjectId base = item.robot->base();
       const Pose start = c.constant(base, keys::initial_pose).value_or(Pose{});
       Robot r;
+      r.name = item.robot->name;
       r.pose = c.variable(base, keys::pose, start);
-      r.twist = c.variable(base, keys::twist, Twist{});
+      r.twist = c.variable(base, keys::twist, c.constant(base, keys::initial_twist).value_or(Twist{}));
       if (follow_pose_)
         r.command_pose = c.input(base, keys::command_pose, start);
       else
@@ -71,40 +76,44 @@ class Point final : public Algorithm {
     Out<Twist> twist;
     In<Twist> command_twist;
     In<Pose> command_pose;
+    std::string_view name;
   };
 
   /// The velocity (world axes) that would fulfil the command within this step.
   Twist wanted(const Robot& r, double dt) const {
-    if (!follow_pose_) {
-      const Quat& q = r.pose->orientation;
-      return {q * r.command_twist->linear, q * r.command_twist->angular};
-    }
-    const Eigen::AngleAxisd turn(r.command_pose->orientation * r.pose->orientation.conjugate());
-    return {braked(r.command_pose->position - r.pose->position, max_acceleration_, dt),
+    const Pose& pose = *r.pose;
+    if (!follow_pose_) return {pose.orientation * r.command_twist->linear, pose.orientation * r.command_twist->angular};
+    const Eigen::AngleAxisd turn(r.command_pose->orientation * pose.orientation.conjugate());
+    return {braked(r.command_pose->position - pose.position, max_acceleration_, dt),
             braked(turn.angle() * turn.axis(), max_turn_acceleration_, dt)};
   }
 
   /// The velocity that covers `distance` in one step, or from which the deceleration `most` still stops in time.
   static Vec3 braked(const Vec3& distance, double most, double dt) {
-    const double length = distance.norm(), reach = most * dt * dt;
-    if (length <= reach) return distance / dt;
-    // v dt + v^2 / (2 a) = length
-    const double v = most * (std::sqrt(dt * dt + 2 * length / most) - dt);
-    return distance * (std::min(v, length / dt) / length);
+    const double length = distance.norm();
+    if (length <= most * dt * dt) return distance / dt;
+    // v dt + v^2 / (2 most) = length
+    return distance * (2 / (dt + std::sqrt(dt * dt + 2 * length / most)));
   }
 
-  void move(Robot& r, double dt) const {
+  void move(const Robot& r, double dt) const {
     const Twist goal = wanted(r, dt);
     Twist& v = *r.twist;
     v.linear = approached(v.linear, limited(goal.linear, max_speed_), max_acceleration_ * dt);
     v.angular = approached(v.angular, limited(goal.angular, max_turn_rate_), max_turn_acceleration_ * dt);
+    if (!std::isfinite(v.linear.sum() + v.angular.sum()))
+      throw Error("the command of `" + std::string(r.name) + "` is not finite; look at what writes `command." +
+                  (follow_pose_ ? "pose`" : "twist`"));
     Pose& pose = *r.pose;
-    // The base turns while it travels: the velocity of the body's frame is constant, so the path is a screw.
     const Vec3 angle = v.angular * dt;
-    pose.position += screw_integral(angle) * v.linear * dt;
     const Quat turn = rotation_of(angle);
+    if (follow_pose_) {  // straight to the goal, turning on the way
+      pose.position += v.linear * dt;
+    } else {  // the velocity is constant in the axes of the base, which turn: the path is a screw
+      pose.position += screw_integral(angle) * v.linear * dt;
+      v.linear = turn * v.linear;
+    }
     pose.orientation = (turn * pose.orientation).normalized();
-    v.linear = turn * v.linear;
   }
 
   std::vector<Robot> robots_;

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// The charge of a robot's battery while it drives: idle power and rolling resistance.
+#include <algorithm>
+#include <vector>
+
+#include "muro/plugin.hpp"
+
+namespace {
+
+using namespace muro;
+
+constexpr Key<double> energy{"battery.energy", "J", "what is left in the battery"};
+constexpr Key<double> power{"battery.power", "W", "what the robot draws"};
+
+constexpr double standard_gravity = 9.80665;  // m/s^2
+
+constexpr Parameter parameters[] = {
+    real("capacity", "J", 3.6e5, "energy of the full battery").between(0, 1e12),
+    real("idle_power", "W", 10, "what electronics and sensors draw at rest").between(0, 1e9),
+    real("rolling_resistance", "1", 0.02, "coefficient of rolling resistance of the wheels").between(0, 1),
+    real("efficiency", "1", 0.7, "of the drive train: mechanical over electrical power").between(0.01, 1),
+};
+constexpr Use reads[] = {{"twist", "of the robot's base"}, {"inertial", "of all bodies: the robot's mass"}};
+constexpr Use writes[] = {{"battery.energy", "what is left"}, {"battery.power", "what the robot draws"}};
+constexpr Description description{
+    .id = "sensor.battery",
+    .kind = Kind::sensor,
+    .version = "1.0.0",
+    .summary = "Charge of a battery that pays for electronics and rolling resistance",
+    .parameters = parameters,
+    .reads = reads,
+    .writes = writes,
+    .promises = deterministic | batched | allocation_free | restorable,
+};
+
+class Battery final : public Algorithm {
+ public:
+  void connect(Connector& c) override {
+    const Parameters& p = c.parameters();
+    idle_power_ = p.real("idle_power");
+    drag_per_mass_ = p.real("rolling_resistance") * standard_gravity / p.real("efficiency");
+    for (const Item& item : c.items()) {
+      double mass = 0;
+      for (const Frame& frame : item.robot->frames)
+        if (const auto inertia = c.constant(frame.object, keys::inertial)) mass += inertia->mass;
+      if (mass == 0)
+        throw Error("robot " + std::string(item.robot->name) +
+                    " has no mass; give its links an <inertial> in the model");
+      const ObjectId base = item.robot->base();
+      cells_.push_back({c.read(base, keys::twist), c.variable(base, energy, p.real("capacity")),
+                        c.variable(base, power, idle_power_), mass});
+    }
+  }
+
+  /// P = P_idle + c_rr m g |v| / efficiency (rolling resistance on level ground), paid for the period that just ended.
+  void step(const Step& step, Range range) override {
+    for (std::uint32_t i = range.begin; i < range.end; ++i) {
+      const Cell& cell = cells_[i];
+      *cell.power = idle_power_ + drag_per_mass_ * cell.mass * cell.twist->linear.norm();
+      if (step.index > 0) *cell.energy = std::max(0.0, *cell.energy - *cell.power * step.dt);
+    }
+  }
+
+ private:
+  struct Cell {
+    In<Twist> twist;
+    Out<double> energy;
+    Out<double> power;
+    double mass;  ///< kg
+  };
+  std::vector<Cell> cells_;
+  double idle_power_ = 0;     ///< W
+  double drag_per_mass_ = 0;  ///< m/s^2
+};
+
+constexpr abi::AlgorithmEntry algorithms[] = {algorithm<Battery>(description)};
+
+}  // namespace
+
+MURO_PLUGIN(.name = "sensor_battery", .version = "1.0.0", .licence = "MIT", .summary = "A battery",
+            .algorithms = algorithms)

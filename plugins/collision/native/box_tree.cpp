@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include "box_tree.hpp"
+
+#include <algorithm>
+
+namespace muro::native {
+
+namespace {
+
+constexpr std::uint32_t leaf_size = 2;
+constexpr int bins = 8;
+
+double surface(const Aabb& b) {
+  const Vec3 d = (b.high - b.low).cwiseMax(0.0);
+  return d.x() * d.y() + d.y() * d.z() + d.z() * d.x();
+}
+
+Vec3 middle(const Aabb& b) { return 0.5 * (b.low + b.high); }
+
+struct Cut {
+  int axis = -1;
+  double at = 0;
+};
+
+/// Where a split costs least by the surface area heuristic (Wald: On fast construction of SAH-based bounding volume hierarchies, 2007).
+Cut best_cut(std::span<const std::uint32_t> items, std::span<const Aabb> boxes) {
+  Aabb centres;
+  for (const std::uint32_t i : items) centres.include({middle(boxes[i]), middle(boxes[i])});
+  Cut best;
+  double least = std::numeric_limits<double>::infinity();
+  for (int axis = 0; axis < 3; ++axis) {
+    const double low = centres.low[axis], width = centres.high[axis] - low;
+    if (!(width > 0)) continue;
+    Aabb bounds[bins];
+    int counts[bins] = {};
+    for (const std::uint32_t i : items) {
+      const int b = std::min(bins - 1, int(bins * (middle(boxes[i])[axis] - low) / width));
+      bounds[b].include(boxes[i]);
+      ++counts[b];
+    }
+    for (int cut = 1; cut < bins; ++cut) {
+      Aabb sides[2];
+      int n[2] = {};
+      for (int b = 0; b < bins; ++b) {
+        if (counts[b] == 0) continue;
+        sides[b >= cut].include(bounds[b]);
+        n[b >= cut] += counts[b];
+      }
+      if (n[0] == 0 || n[1] == 0) continue;
+      const double cost = surface(sides[0]) * n[0] + surface(sides[1]) * n[1];
+      if (cost < least) {
+        least = cost;
+        best = {axis, low + width * cut / bins};
+      }
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+void BoxTree::build(std::span<const Aabb> boxes, std::span<const std::uint32_t> members) {
+  items_.assign(members.begin(), members.end());
+  nodes_.clear();
+  if (items_.empty()) return;
+  nodes_.reserve(2 * items_.size());
+  nodes_.emplace_back();
+  split(0, 0, std::uint32_t(items_.size()), boxes);
+}
+
+void BoxTree::split(std::uint32_t node, std::uint32_t first, std::uint32_t count, std::span<const Aabb> boxes) {
+  const std::span<std::uint32_t> items(items_.data() + first, count);
+  Aabb bounds;
+  for (const std::uint32_t i : items) bounds.include(boxes[i]);
+  nodes_[node] = {bounds, first, count};
+  if (count <= leaf_size) return;
+  const Cut cut = best_cut(items, boxes);
+  auto second = items.begin() + count / 2;  // all centres in one place: any halves do
+  if (cut.axis >= 0)
+    second = std::partition(items.begin(), items.end(), [&](std::uint32_t i) { return middle(boxes[i])[cut.axis] < cut.at; });
+  auto left = std::uint32_t(second - items.begin());
+  if (left == 0 || left == count) left = count / 2;  // rounding at the border of a bin
+  const auto children = std::uint32_t(nodes_.size());
+  nodes_.resize(nodes_.size() + 2);
+  nodes_[node].first = children;
+  nodes_[node].count = 0;
+  split(children, first, left, boxes);
+  split(children + 1, first + left, count - left, boxes);
+}
+
+void BoxTree::refit(std::span<const Aabb> boxes) {
+  for (std::size_t k = nodes_.size(); k-- > 0;) {
+    BvhNode& n = nodes_[k];
+    n.bounds = {};
+    if (n.count > 0)
+      for (std::uint32_t i = 0; i < n.count; ++i) n.bounds.include(boxes[items_[n.first + i]]);
+    else
+      for (const std::uint32_t child : {n.first, n.first + 1}) n.bounds.include(nodes_[child].bounds);
+  }
+}
+
+}  // namespace muro::native

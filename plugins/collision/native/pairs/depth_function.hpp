@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "pairs/placed.hpp"
+
+namespace muro::native {
+
+/// How far the first of two shapes must go along the unit vector n to be clear of the second:
+///
+///     h(n) = n . offset + sum_k half_k |n . axis_k| + sum_j radius_j |n x disc_j|      [+ ball]
+///
+/// This is the support function of the second shape minus the first (their Minkowski difference), for a box is the
+/// sum of three segments, a cylinder that of a segment and a disc, a capsule that of a segment and a ball. h is
+/// convex and homogeneous; the shapes are apart when h(n) + ball <= 0 for some n, and otherwise the least
+/// h(n) + ball over all unit vectors is the penetration depth.
+struct DepthFunction {
+  Vec3 offset;  ///< m, from the centre of the first to that of the second
+  Vec3 axis[4];
+  double half[4];
+  Vec3 disc[2];  ///< unit, the axis
+  double radius[2];
+  double ball = 0;  ///< m; adds the same in every direction, so the search leaves it out
+  int segments = 0, discs = 0;
+
+  /// Boxes, cylinders and capsules, of which at most one is a box.
+  DepthFunction(const Placed& first, const Placed& second) : offset(second.centre - first.centre) {
+    add(first);
+    add(second);
+  }
+
+  /// Without the ball.
+  double operator()(const Vec3& n) const {
+    double h = n.dot(offset);
+    for (int k = 0; k < segments; ++k) h += half[k] * std::abs(n.dot(axis[k]));
+    for (int j = 0; j < discs; ++j) h += radius[j] * n.cross(disc[j]).norm();
+    return h;
+  }
+
+  /// The point of the difference (without the ball) that lies farthest along `n`, of any length but zero.
+  Vec3 support(const Vec3& n) const {
+    Vec3 p = offset;
+    for (int k = 0; k < segments; ++k) p += std::copysign(half[k], n.dot(axis[k])) * axis[k];
+    for (int j = 0; j < discs; ++j) {
+      const Vec3 across = n - n.dot(disc[j]) * disc[j];
+      const double length = across.norm();
+      // Seen along its axis every point of the rim serves; `across` is then rounding, not at right angles to it.
+      p += length > 1e-9 * n.norm() ? Vec3(across * (radius[j] / length)) : Vec3(radius[j] * perpendicular(disc[j]));
+    }
+    return p;
+  }
+
+ private:
+  void add_segment(const Vec3& direction, double length) {
+    axis[segments] = direction;
+    half[segments++] = length;
+  }
+  void add(const Placed& shape) {
+    switch (shape.kind) {
+      case ShapeKind::box:
+        for (int k = 0; k < 3; ++k) add_segment(shape.axes.col(k), shape.half[k]);
+        break;
+      case ShapeKind::cylinder:
+        disc[discs] = shape.axis();
+        radius[discs++] = shape.radius();
+        add_segment(shape.axis(), shape.half.z());
+        break;
+      case ShapeKind::capsule:
+        ball += shape.radius();
+        add_segment(shape.axis(), shape.half.z());
+        break;
+      default: break;
+    }
+  }
+};
+
+}  // namespace muro::native

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: MIT
+#include "pairs/feature.hpp"
+
+#include <algorithm>
+
+namespace muro::native {
+namespace {
+
+using Vec2 = Eigen::Vector2d;
+
+constexpr double level = 1e-7;  ///< cosine below which a line or face counts as at right angles to a direction
+
+double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+Feature box_face(const Placed& box, const Vec3& direction) {
+  const Vec3 c = box.axes.transpose() * direction;
+  int i;
+  c.cwiseAbs().maxCoeff(&i);
+  const int j = (i + 1) % 3, k = (i + 2) % 3;
+  const double side = std::copysign(1.0, c[i]);
+  Feature f;
+  f.count = 4;
+  f.normal = side * box.axes.col(i);
+  f.centre = box.centre + box.half[i] * f.normal;
+  const double sj = std::copysign(box.half[j], c[j]), sk = std::copysign(box.half[k], c[k]);
+  const Vec3 vj = sj * box.axes.col(j), vk = sk * box.axes.col(k);
+  f.points[0] = f.tip = f.centre + vj + vk;
+  f.points[1] = f.centre - vj + vk;
+  f.points[2] = f.centre - vj - vk;
+  f.points[3] = f.centre + vj - vk;
+  f.sharp = c.cwiseAbs().minCoeff() > level;
+  return f;
+}
+
+Feature cylinder_part(const Placed& cylinder, const Vec3& direction) {
+  const Vec3 u = cylinder.axis();
+  const double along = direction.dot(u), end = std::copysign(cylinder.half.z(), along);
+  const Vec3 across = direction - along * u;
+  const double steep = across.norm();
+  Vec3 out = steep > level ? Vec3(across * (cylinder.radius() / steep)) : Vec3(cylinder.radius() * cylinder.axes.col(0));
+  Feature f;
+  f.tip = cylinder.centre + end * u + out;
+  if (std::abs(along) > 0.7) {
+    f.count = 4;
+    f.normal = std::copysign(1.0, along) * u;
+    f.centre = cylinder.centre + end * u;
+    f.disc = cylinder.radius();
+    const Vec3 side = u.cross(out);
+    f.points[0] = f.tip;
+    f.points[1] = f.centre + side;
+    f.points[2] = f.centre - out;
+    f.points[3] = f.centre - side;
+    f.sharp = steep > level;
+  } else {
+    f.count = 2;
+    f.centre = cylinder.centre + out;
+    f.points[0] = f.tip;
+    f.points[1] = f.centre - end * u;
+    f.sharp = std::abs(along) > level;
+  }
+  return f;
+}
+
+Feature capsule_part(const Placed& capsule, const Vec3& direction) {
+  const Vec3 u = capsule.axis();
+  const double along = direction.dot(u), end = std::copysign(capsule.half.z(), along);
+  Feature f;
+  f.centre = capsule.centre + capsule.radius() * direction;
+  f.points[0] = f.tip = f.centre + end * u;
+  f.count = 1;
+  f.sharp = true;
+  if (std::abs(along) < 0.7 && capsule.half.z() > 0) {
+    f.points[1] = f.centre - end * u;
+    f.count = 2;
+    f.sharp = std::abs(along) > level;
+  }
+  return f;
+}
+
+/// A point of the first feature seen along the normal: where it is in the plane at right angles, and its height.
+struct Seen {
+  Vec2 at;
+  double height;
+};
+
+/// The plane at right angles to the normal, with its origin near the contact.
+struct View {
+  Vec3 x, y, z, origin;
+
+  View(const Vec3& normal, const Vec3& at) : x(perpendicular(normal)), y(normal.cross(x)), z(normal), origin(at) {}
+  Seen operator()(const Vec3& p) const {
+    const Vec3 d = p - origin;
+    return {{x.dot(d), y.dot(d)}, z.dot(d)};
+  }
+  Vec3 back(const Vec2& at, double height) const { return origin + at.x() * x + at.y() * y + height * z; }
+  /// The height of the feature's plane over `at`.
+  double height_of(const Feature& f, const Vec2& at) const {
+    const Vec3 d = origin - f.centre;
+    const double nz = f.normal.dot(z);
+    return -(f.normal.dot(d) + at.x() * f.normal.dot(x) + at.y() * f.normal.dot(y)) / nz;
+  }
+};
+
+/// The part of the polygon (or line) to the left of the line from p to q, or within `slack` of it.
+int clip(const Seen* in, int count, const Vec2& p, const Vec2& q, double slack, Seen* out) {
+  const Vec2 along = q - p;
+  const double length = along.norm();
+  int kept = 0;
+  if (!(length > 0)) return 0;
+  const auto inside = [&](const Seen& s) { return cross(along, s.at - p) / length + slack; };
+  const int edges = count == 2 ? 1 : count;  // a line has one, and two ends
+  for (int i = 0; i < edges; ++i) {
+    const Seen &a = in[i], &b = in[(i + 1) % count];
+    const double da = inside(a), db = inside(b);
+    if (da >= 0) out[kept++] = a;
+    if (da * db < 0) {
+      const double t = da / (da - db);
+      out[kept++] = {a.at + t * (b.at - a.at), a.height + t * (b.height - a.height)};
+    }
+    if (count == 2 && db >= 0) out[kept++] = b;
+  }
+  return kept;
+}
+
+/// Line or face against face.
+void clip_against_face(const Feature& f, const Feature& face, const View& view, double side, Manifold& out) {
+  Seen buffers[2][12], corners[4];
+  double extent = 0;
+  for (int i = 0; i < 4; ++i) {
+    corners[i] = view(face.points[i]);
+    extent = std::max(extent, corners[i].at.lpNorm<Eigen::Infinity>());
+  }
+  const bool left = cross(corners[1].at - corners[0].at, corners[2].at - corners[0].at) > 0;
+  int count = f.count, now = 0;
+  for (int i = 0; i < count; ++i) buffers[0][i] = view(f.points[i]);
+  for (int i = 0; i < 4 && count > 0; ++i, now = 1 - now) {
+    const Vec2 &p = corners[i].at, &q = corners[(i + 1) & 3].at;
+    count = clip(buffers[now], count, left ? p : q, left ? q : p, 1e-9 * extent, buffers[1 - now]);
+  }
+  for (int i = 0; i < count; ++i) {
+    const Seen& s = buffers[now][i];
+    const double other = view.height_of(face, s.at), depth = side * (other - s.height);
+    if (depth > 0) out.add(view.back(s.at, 0.5 * (other + s.height)), view.z, depth);
+  }
+}
+
+/// Line against line: where they cross, or, side by side, the ends of the stretch they share.
+void cross_lines(const Feature& a, const Feature& b, const View& view, Manifold& out) {
+  const Seen a0 = view(a.points[0]), a1 = view(a.points[1]), b0 = view(b.points[0]), b1 = view(b.points[1]);
+  const Vec2 u = a1.at - a0.at, v = b1.at - b0.at, d = b0.at - a0.at;
+  const double area = cross(u, v), u2 = u.squaredNorm(), v2 = v.squaredNorm();
+  const auto add = [&](double s, double t) {
+    const double ha = a0.height + s * (a1.height - a0.height), hb = b0.height + t * (b1.height - b0.height);
+    if (hb - ha > 0) out.add(view.back(a0.at + s * u, 0.5 * (ha + hb)), view.z, hb - ha);
+  };
+  if (area * area > 1e-6 * u2 * v2) {
+    const double s = cross(d, v) / area, t = cross(d, u) / area;
+    if (std::min(s, t) >= -1e-9 && std::max(s, t) <= 1 + 1e-9) add(s, t);
+    return;
+  }
+  if (!(u2 > 0 && v2 > 0)) return;
+  const double s0 = u.dot(d) / u2, s1 = s0 + u.dot(v) / u2;
+  const double low = std::max(0.0, std::min(s0, s1)), high = std::min(1.0, std::max(s0, s1));
+  if (low > high) return;
+  for (const double s : {low, high}) {
+    add(s, (s - s0) / (s1 - s0));
+    if (high - low < 1e-12) break;
+  }
+}
+
+/// The point of the face or line nearest to `p` (all seen from above).
+Vec2 nearest_in(const Feature& f, const View& view, const Vec2& p) {
+  const Vec2 centre = view(f.centre).at;
+  if (f.disc > 0) {
+    const double off = (p - centre).norm();
+    return off > f.disc ? Vec2(centre + (p - centre) * (f.disc / off)) : p;
+  }
+  Vec2 best = view(f.points[0]).at;
+  bool in = f.count == 4;
+  const double turn = f.count == 4 ? cross(view(f.points[1]).at - best, view(f.points[2]).at - best) : 0;
+  for (int i = 0; i < f.count; ++i) {
+    const Vec2 a = view(f.points[i]).at, ab = view(f.points[(i + 1) % f.count]).at - a;
+    const double t = std::clamp(ab.dot(p - a) / std::max(ab.squaredNorm(), 1e-300), 0.0, 1.0);
+    const Vec2 q = a + t * ab;
+    if ((q - p).squaredNorm() < (best - p).squaredNorm()) best = q;
+    in = in && cross(ab, p - a) * turn >= 0;
+  }
+  return in ? p : best;
+}
+
+/// The deepest point, from what is known of either side.
+Vec3 deepest_point(const Feature& a, const Feature& b, const View& view, double depth) {
+  if (a.sharp) return a.tip + 0.5 * depth * view.z;
+  if (b.sharp) return b.tip - 0.5 * depth * view.z;
+  Vec2 at = nearest_in(b, view, view(a.centre).at);
+  at = nearest_in(a, view, at);
+  return view.back(at, view(a.tip).height + 0.5 * depth);
+}
+
+}  // namespace
+
+Feature feature_towards(const Placed& shape, const Vec3& direction) {
+  switch (shape.kind) {
+    case ShapeKind::box: return box_face(shape, direction);
+    case ShapeKind::cylinder: return cylinder_part(shape, direction);
+    case ShapeKind::capsule: return capsule_part(shape, direction);
+    default: break;
+  }
+  Feature f;
+  f.count = 1;
+  f.points[0] = f.tip = f.centre = shape.centre + shape.radius() * direction;
+  f.sharp = true;
+  return f;
+}
+
+void add_patch(const Feature& a, const Feature& b, const Vec3& normal, double depth, Manifold& out) {
+  const View view(normal, a.tip);
+  if (b.count == 4 && a.count > 1)
+    clip_against_face(a, b, view, 1, out);
+  else if (a.count == 4 && b.count > 1)
+    clip_against_face(b, a, view, -1, out);
+  else if (a.count == 2 && b.count == 2)
+    cross_lines(a, b, view, out);
+  double found = 0;
+  for (int i = 0; i < out.count; ++i) {
+    double& at = out.points[i].depth;
+    at = std::min(at, depth);  // off by the slack of the clipping
+    found = std::max(found, at);
+  }
+  if (found < depth * (1 - 1e-6)) {
+    const Vec3 point = deepest_point(a, b, view, depth);
+    if (out.count == Manifold::most) --out.count;
+    out.add(point, normal, depth);
+  }
+}
+
+}  // namespace muro::native

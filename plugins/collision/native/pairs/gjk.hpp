@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "pairs/depth_function.hpp"
+
+namespace muro::native {
+
+enum class Relation {
+  apart,   ///< farther than the ball reaches
+  near,    ///< the ball reaches over the gap; `direction` is where the depth function is least
+  inside,  ///< even without the ball they overlap, or touch within rounding
+};
+
+struct Separation {
+  Relation relation;
+  Vec3 direction;  ///< unit, the last estimate of the direction of least depth; only with `near`
+};
+
+/// Whether two shapes are apart: the distance of the origin from their Minkowski difference.
+/// Gilbert, Johnson, Keerthi: A fast procedure for computing the distance between complex objects in
+/// three-dimensional space, IEEE J. Robotics and Automation 4(2), 1988; the nearest point of the simplex
+/// by its Voronoi regions (Ericson, Real-Time Collision Detection, 5.1 and 9.5).
+Separation separation(const DepthFunction& h);
+
+}  // namespace muro::native

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: MIT
+#include "pairs/least_depth.hpp"
+
+#include <algorithm>
+
+#include "pairs/gjk.hpp"
+
+namespace muro::native {
+namespace {
+
+using Vec2 = Eigen::Vector2d;
+
+double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+Vec2 left_of(const Vec2& a) { return {-a.y(), a.x()}; }
+
+struct Search {
+  const DepthFunction& h;
+  double least = std::numeric_limits<double>::infinity();
+  Vec3 normal = Vec3::UnitZ();
+
+  void offer(const Vec3& n, double value) {
+    if (value >= least) return;
+    least = value;
+    normal = n;
+  }
+  void offer(const Vec3& n) { offer(n, h(n)); }
+  /// The better of n and -n.
+  void offer_axis(const Vec3& n) { offer(n.dot(h.offset) > 0 ? Vec3(-n) : n); }
+
+  /// False: a face separates the shapes.
+  bool flat_faces() {
+    for (int j = 0; j < h.discs; ++j) offer_axis(h.disc[j]);
+    for (int k = 0; k < h.segments; ++k)
+      for (int m = k + 1; m < h.segments; ++m) {
+        const Vec3 n = h.axis[k].cross(h.axis[m]);
+        const double sine2 = n.squaredNorm();
+        if (sine2 > 1e-20) offer_axis(n / std::sqrt(sine2));
+        if (least + h.ball <= 0) return false;
+      }
+    return true;
+  }
+
+  void normals_across(int segment);
+  void around_corners(const Vec3& a, const Vec3& b, const Vec2& offset, const Vec2* edges, int count);
+  bool newton(const Vec3& n, Vec3& step) const;
+  void descend(Vec3 n);
+  void rims();
+  void triangle(const Vec3& a, const Vec3& b, const Vec3& c);
+};
+
+/// h on the normals n = x a + y b at right angles to one segment, where no kink lies between p and q:
+/// d . (x, y) + radius sqrt(y^2 + flat x^2) + constant.
+struct Strip {
+  Vec3 a, b;
+  double radius, flat, constant;
+
+  double root(const Vec2& m) const { return std::sqrt(m.y() * m.y() + flat * m.x() * m.x()); }
+  double slope(const Vec2& d, const Vec2& m, double r) const {
+    const double s = r > 0 ? m.y() / r : 1;  // the limit from above the x axis
+    return d.dot(left_of(m)) + radius * (1 - flat) * m.x() * s;
+  }
+
+  void search(Search& s, const Vec2& d, double sign, const Vec2& p, const Vec2& q) const {
+    const Vec2 m = (p + q).normalized();
+    const double r = root(m), value = d.dot(m) + radius * r, by = slope(d, m, r), cosine = m.dot(p);
+    const double level = value > 0 ? value * cosine : value;
+    if (level - std::abs(by) * std::abs(cross(m, p)) + constant >= s.least) return;
+    if (cosine < 0.999) {
+      search(s, d, sign, p, m);
+      search(s, d, sign, m, q);
+      return;
+    }
+    if (slope(d, p, root(p)) < 0 && slope(d, q, root(q)) > 0) {
+      const Vec2 x = sign * minimum(d, p, q);
+      s.offer((x.x() * a + x.y() * b).normalized());
+    }
+  }
+
+  /// The slope is negative at p, positive at q: Newton's method, halving where it leaves the bracket.
+  Vec2 minimum(const Vec2& d, Vec2 p, Vec2 q) const {
+    Vec2 x = (p + q).normalized();
+    for (int round = 0; round < 40; ++round) {
+      const double r = root(x), by = slope(d, x, r);
+      (by < 0 ? p : q) = x;
+      const double bend = radius * flat / (r * r * r) - d.dot(x) - radius * r;  // second derivative
+      const double step = -by / bend;
+      if (std::abs(step) < 1e-15) break;
+      const Vec2 next = (x + step * left_of(x)).normalized();
+      const bool in = bend > 0 && cross(p, next) > 0 && cross(next, q) > 0;
+      x = in ? next : (p + q).normalized();
+    }
+    return x;
+  }
+};
+
+void Search::normals_across(int segment) {
+  const Vec3 u = h.axis[segment];
+  Strip strip{Vec3::Zero(), Vec3::Zero(), 0, 1, 0};
+  bool bent = false;
+  for (int j = 0; j < h.discs; ++j) {
+    const double along = h.disc[j].dot(u);
+    Vec3 side = h.disc[j] - along * u;
+    if (side.squaredNorm() < 1e-16) {  // seen from the front: a circle
+      strip.constant += h.radius[j];
+      continue;
+    }
+    bent = true;
+    strip.radius = h.radius[j];
+    strip.flat = along * along;
+    side.normalize();
+    strip.a = (side - side.dot(u) * u).normalized();
+  }
+  if (!bent) strip.a = perpendicular(u);
+  strip.b = u.cross(strip.a);
+
+  const Vec2 offset(strip.a.dot(h.offset), strip.b.dot(h.offset));
+  Vec2 edges[3];
+  int count = 0;
+  for (int k = 0; k < h.segments; ++k)
+    if (k != segment) edges[count++] = h.half[k] * Vec2(strip.a.dot(h.axis[k]), strip.b.dot(h.axis[k]));
+  if (!bent) return around_corners(strip.a, strip.b, offset, edges, count);
+
+  // The upper half circle between kinks (normals of an edge) and the axes of the ellipse; the lower half is
+  // its mirror image with -offset.
+  Vec2 bounds[6] = {{1, 0}, {0, 1}, {-1, 0}};  // in order of their angle
+  int ends = 3;
+  for (int k = 0; k < count; ++k) {
+    const double length = edges[k].norm();
+    if (length < 1e-12 * h.half[0]) continue;
+    const Vec2 kink = left_of(edges[k]) / length;
+    const Vec2 upper = kink.y() < 0 ? Vec2(-kink) : kink;
+    int place = ends++;
+    for (; place > 1 && bounds[place - 1].x() < upper.x(); --place) bounds[place] = bounds[place - 1];
+    bounds[place] = upper;
+  }
+  for (int i = 0; i + 1 < ends; ++i) {
+    const Vec2 &p = bounds[i], &q = bounds[i + 1];
+    if (cross(p, q) < 1e-12) continue;
+    const Vec2 m = p + q;
+    Vec2 corner = Vec2::Zero();
+    for (int k = 0; k < count; ++k) corner += std::copysign(1.0, edges[k].dot(m)) * edges[k];
+    strip.search(*this, corner + offset, 1, p, q);
+    strip.search(*this, corner - offset, -1, p, q);
+  }
+}
+
+/// A circle, or nothing, swept over a polygon: the least depth lies straight across from a corner.
+void Search::around_corners(const Vec3& a, const Vec3& b, const Vec2& offset, const Vec2* edges, int count) {
+  const double scale = h.offset.cwiseAbs().maxCoeff() + h.half[0];
+  for (int signs = 0; signs < 1 << count; ++signs) {
+    Vec2 corner = offset;
+    for (int k = 0; k < count; ++k) corner += (signs >> k & 1 ? 1.0 : -1.0) * edges[k];
+    const double length = corner.norm();
+    // On the axis itself every direction is as good.
+    offer(length > 1e-12 * scale ? Vec3((corner.x() * a + corner.y() * b) * (-1 / length)) : a);
+  }
+}
+
+/// Newton's step on the unit sphere from n, in its tangent plane. With t = disc x n / |disc x n| a disc bends h
+/// by radius / |disc x n| along t; moving on the sphere takes h itself away. False: h has no minimum nearby,
+/// and the step is one downhill.
+bool Search::newton(const Vec3& n, Vec3& step) const {
+  const Vec3 a = perpendicular(n), b = n.cross(a);
+  Vec3 gradient = h.offset;
+  for (int k = 0; k < h.segments; ++k) gradient += std::copysign(h.half[k], n.dot(h.axis[k])) * h.axis[k];
+  double aa = 0, ab = 0, bb = 0;
+  for (int j = 0; j < h.discs; ++j) {
+    const Vec3 across = n - n.dot(h.disc[j]) * h.disc[j];
+    const double length = across.norm();
+    if (length < 1e-9) continue;
+    gradient += across * (h.radius[j] / length);
+    const Vec3 t = h.disc[j].cross(across) / length;
+    const double bend = h.radius[j] / length, ta = t.dot(a), tb = t.dot(b);
+    aa += bend * ta * ta, ab += bend * ta * tb, bb += bend * tb * tb;
+  }
+  const double plain = gradient.dot(n), ga = gradient.dot(a), gb = gradient.dot(b);
+  aa -= plain, bb -= plain;
+  const double determinant = aa * bb - ab * ab;
+  if (aa > 0 && determinant > 1e-12 * aa * bb) {
+    step = ((ab * gb - bb * ga) * a + (ab * ga - aa * gb) * b) / determinant;
+    return true;
+  }
+  step = (ga * a + gb * b) * (-0.3 / (std::hypot(ga, gb) + 1e-300));
+  return false;
+}
+
+/// Downhill from n by Newton's method.
+void Search::descend(Vec3 n) {
+  double value = h(n);
+  for (int round = 0; round < 20; ++round) {
+    Vec3 step;
+    newton(n, step);
+    const double length = step.norm();
+    if (length < 1e-15) break;
+    if (length > 0.5) step *= 0.5 / length;
+    bool lower = false;
+    for (int halving = 0; halving < 6 && !lower; ++halving, step *= 0.5) {
+      const Vec3 next = (n + step).normalized();
+      const double then = h(next);
+      if (then >= value) continue;
+      lower = true;
+      n = next;
+      value = then;
+    }
+    if (!lower) break;
+  }
+  offer(n, value);
+}
+
+/// Where both rims meet. The great circles at right angles to the axes, across which h has kinks, and the
+/// one through both axes cut the sphere into eight triangles.
+void Search::rims() {
+  const Vec3 side = h.disc[0].cross(h.disc[1]);
+  const double sine = side.norm();
+  if (sine < 1e-9) return;
+  const Vec3 w = side / sine, e0 = h.disc[0].cross(w), e1 = h.disc[1].cross(w);
+  for (int octant = 0; octant < 8; ++octant)
+    triangle(octant & 1 ? e0 : Vec3(-e0), octant & 2 ? e1 : Vec3(-e1), octant & 4 ? w : Vec3(-w));
+}
+
+/// Branch and bound: from the middle m on, h(n) >= h(m) cos d - |h'(m)| sin d at the angle d.
+void Search::triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 m = (a + b + c).normalized();
+  const Vec3 p = h.support(m);
+  const double value = p.dot(m), by = (p - value * m).norm();
+  const double cosine = std::min({m.dot(a), m.dot(b), m.dot(c)}), wide = std::sqrt(std::max(0.0, 1 - cosine * cosine));
+  if ((value > 0 ? value * cosine : value) - by * wide >= least) return;
+  if (wide > 0.1) {
+    const Vec3 ab = (a + b).normalized(), bc = (b + c).normalized(), ca = (c + a).normalized();
+    triangle(ab, bc, ca);
+    triangle(a, ab, ca);
+    triangle(b, bc, ab);
+    triangle(c, ca, bc);
+    return;
+  }
+  Vec3 step;
+  if (newton(m, step) && step.norm() < 3 * wide) descend(m);
+}
+
+}  // namespace
+
+LeastDepth least_depth(const DepthFunction& h) {
+  Search search{h};
+  if (!search.flat_faces()) return {};
+  const Separation cores = separation(h);
+  if (cores.relation == Relation::apart) return {};
+  if (cores.relation == Relation::near) search.descend(cores.direction);
+  if (h.discs > 0)  // otherwise all faces are flat
+    for (int k = h.segments; k-- > 0;) search.normals_across(k);
+  if (cores.relation == Relation::inside && h.discs == 2) search.rims();
+  return {search.least + h.ball, search.normal};
+}
+
+}  // namespace muro::native

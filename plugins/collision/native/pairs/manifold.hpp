@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "muro/geometry.hpp"
+
+namespace muro::native {
+
+/// One point in which two shapes overlap.
+struct ContactPoint {
+  Vec3 point;    ///< m, world: half way between the two surfaces
+  Vec3 normal;   ///< unit, world: from the second shape to the first, the way the first is pushed
+  double depth;  ///< m, > 0: overlap along the normal at this place
+};
+
+/// The points in which two shapes overlap; none when they are apart. Fixed size, so it lives on the stack.
+struct Manifold {
+  static constexpr int most = 8;
+  ContactPoint points[most];
+  int count = 0;
+
+  /// Further points than fit are dropped; no pair test here has any.
+  void add(const Vec3& point, const Vec3& normal, double depth) {
+    if (count < most) points[count++] = {point, normal, depth};
+  }
+  /// As seen with first and second exchanged.
+  void flip() {
+    for (int i = 0; i < count; ++i) points[i].normal = -points[i].normal;
+  }
+};
+
+}  // namespace muro::native

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "box_tree.hpp"
+#include "muro/algorithm.hpp"
+
+namespace muro::native {
+
+extern const Description scene_bvh_description;
+
+/// Keeps the spatial index of the scene (sdk/muro/scene.hpp). Boxes of robots carry a margin; the tree is
+/// touched only when a robot has left its box.
+class SceneBvh final : public Algorithm {
+ public:
+  void connect(Connector& c) override;
+  void start() override;
+  void step(const Step& step, Range range) override;
+  void restored() override { start(); }
+
+ private:
+  void add_colliders(Connector& c, ObjectId body, const Pose* pose);
+  void place(std::uint32_t robot);
+  void rebuild();
+
+  double margin_ = 0;
+  Out<SceneIndex> index_;
+  std::vector<Collider> colliders_;
+  std::vector<const Pose*> body_poses_;  ///< of each collider's body; null for scenery
+  std::vector<std::uint32_t> planes_;
+  std::vector<RobotColliders> robots_;
+  std::vector<Aabb> fat_;                ///< a robot's box with its margin
+  std::vector<std::uint32_t> members_;   ///< robots that have bounds
+  std::uint32_t scenery_ = 0;            ///< the first so many colliders stand still
+  std::size_t strayed_ = 0;              ///< robots that left their boxes since the tree was built
+  BoxTree scenery_tree_, moving_tree_;
+};
+
+}  // namespace muro::native

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include "contact_law.hpp"
+
+namespace muro::penalty {
+namespace {
+
+/// A body of effective mass 1 that flies against a wall at 1 m/s and meets it at `phase` (0..1) of a step.
+/// Returns the speed with which it leaves.
+double rebound(double restitution, const Stiffness& s, double phase, double load = 1) {
+  const Damping damping = damping_of(restitution, s);
+  double x = phase * s.h, v = -1;
+  bool met = false;
+  for (int k = 0; k < 100000; ++k) {
+    if (met && x >= 0) return v;
+    met = met || x < 0;
+    const double a = x < 0 ? normal_force(s, damping, load, -x, -v, 0) : 0;
+    x += v * s.h + 0.5 * a * s.h * s.h;
+    v += a * s.h;
+  }
+  return -1;
+}
+
+TEST(ContactLaw, RestitutionIsThatOfAnIntegratedSpringDamper) {
+  // x'' = -x - 2 zeta x' until the force vanishes, integrated with a step so fine that it counts as exact.
+  for (const double zeta : {0.01, 0.1, 0.4, 0.9, 1.0, 1.3, 2.0}) {
+    const double h = 1e-5;
+    double x = 0, v = 1;
+    while (x + 2 * zeta * v > 0) {
+      const double a = -x - 2 * zeta * v, mid = v + 0.5 * h * a;
+      const double a_mid = -(x + 0.5 * h * v) - 2 * zeta * mid;
+      x += h * mid;
+      v += h * a_mid;
+    }
+    EXPECT_NEAR(restitution_of(zeta), -v, 1e-4) << zeta;
+  }
+}
+
+TEST(ContactLaw, TheDampingRatioInvertsTheRestitution) {
+  for (double e = 0.05; e <= 1; e += 0.05) EXPECT_NEAR(restitution_of(damping_ratio_of(e)), e, 1e-12) << e;
+  EXPECT_EQ(damping_ratio_of(0), greatest_damping_ratio);
+  EXPECT_NEAR(restitution_of(greatest_damping_ratio), 0.048, 0.001);
+}
+
+TEST(ContactLaw, ARebound20StepsAPeriodHasItsRestitution) {
+  const Stiffness s{2 * M_PI * 50, 1e-3};
+  for (const auto& [e, error] : {std::pair{1.0, 1e-4}, {0.9, 0.005}, {0.7, 0.013}, {0.5, 0.023}, {0.2, 0.035}})
+    for (double phase = 0.005; phase < 1; phase += 0.01) EXPECT_NEAR(rebound(e, s, phase), e, error) << phase;
+}
+
+TEST(ContactLaw, TheErrorOfARestitutionFallsWithTheStep) {
+  const auto worst = [](double h) {
+    double error = 0;
+    for (double phase = 0.005; phase < 1; phase += 0.01)
+      error = std::max(error, std::abs(rebound(0.5, {2 * M_PI * 50, h}, phase) - 0.5));
+    return error;
+  };
+  EXPECT_NEAR(worst(1e-3) / worst(5e-4), 4, 0.7);
+  EXPECT_NEAR(worst(5e-4) / worst(2.5e-4), 4, 0.7);
+}
+
+TEST(ContactLaw, NoReboundGainsEnergyHoweverCoarseTheStep) {
+  for (const double share : {0.05, 0.2, 0.4, 1.0})
+    for (const double e : {1.0, 0.9, 0.5, 0.0})
+      for (const double load : {1.0, 3.0, 10.0})
+        for (double phase = 0.005; phase < 1; phase += 0.01) {
+          const double v = rebound(e, {finest_step * share / 1e-3, 1e-3}, phase, load);
+          EXPECT_LE(v, 1 + 1e-9) << share << " " << e << " " << load << " " << phase;
+          EXPECT_GT(v, 0);
+        }
+}
+
+TEST(ContactLaw, ABodyAtRestIsCarriedExactly) {
+  // depth = g / omega^2, whatever the softening, and no motion.
+  for (const double load : {1.0, 5.0, 40.0}) {
+    const Stiffness s{300, 1e-3};
+    EXPECT_NEAR(normal_force(s, damping_of(0.3, s), load, 9.81 / (300 * 300), 0, 9.81), 9.81, 1e-12);
+  }
+}
+
+TEST(ContactLaw, NeverPulls) {
+  const Stiffness s{300, 1e-3};
+  for (const double e : {0.0, 0.5, 1.0})
+    for (double v = -10; v <= 10; v += 0.37)
+      for (double depth = 1e-6; depth < 0.02; depth *= 1.7)
+        for (const double g : {-9.81, 0.0, 9.81}) EXPECT_GE(normal_force(s, damping_of(e, s), 2, depth, v, g), 0);
+}
+
+TEST(ContactLaw, StaysStableUnderAnyLoad) {
+  // A mode `load` times stiffer than a contact knows, against a restoring force in both directions, comes to rest.
+  const Stiffness s{600, 1e-3};
+  for (const double e : {0.0, 0.5, 0.95})
+    for (const double load : {1.0, 3.0, 12.0, 100.0}) {
+      const Damping damping = damping_of(e, s);
+      double x = 1e-4, v = 0, greatest = 0;
+      for (int k = 0; k < 20000; ++k) {
+        const double offset = 1;  // a deep preload makes the contact a two-sided spring
+        const double rest = normal_force(s, damping, load, offset, 0, 0);
+        const double a = load * (normal_force(s, damping, load, offset - x, -v, 0) - rest);
+        x += v * s.h + 0.5 * a * s.h * s.h;
+        v += a * s.h;
+        if (k > 19000) greatest = std::max(greatest, std::abs(x));
+      }
+      EXPECT_LT(greatest, 1e-6) << e << " " << load;
+    }
+}
+
+TEST(ContactLaw, FrictionNeverExceedsTheConeInAnyDirection) {
+  const Stiffness s{300, 1e-3};
+  for (double angle = 0; angle < 6.28; angle += 0.1) {
+    Vec3 stretch = Vec3::Zero();
+    const Vec3 slip(0.3 * std::cos(angle), 0.3 * std::sin(angle), 0);
+    Vec3 force = Vec3::Zero();
+    for (int k = 0; k < 50; ++k) {
+      stretch += slip * s.h;
+      force = friction_force(s, 1, stretch, slip, Vec3::Zero(), 5);
+    }
+    EXPECT_NEAR(force.norm(), 5, 1e-12);
+    EXPECT_NEAR(force.dot(slip), -5 * 0.3, 1e-12);  // straight against the slip: a cone, no pyramid
+  }
+}
+
+TEST(ContactLaw, ABodyThatFrictionHoldsDoesNotCreep) {
+  const Stiffness s{300, 1e-3};
+  for (const double load : {1.0, 5.0}) {
+    Vec3 x = Vec3::Zero(), v = Vec3::Zero(), stretch = Vec3::Zero(), middle = Vec3::Zero();
+    const Vec3 pull(3, 0, 0);  // not gravity: friction cannot foresee it
+    for (int k = 0; k < 4000; ++k) {
+      stretch += v * s.h;
+      const Vec3 a = pull + friction_force(s, load, stretch, v, Vec3::Zero(), 5);
+      x += v * s.h + 0.5 * a * s.h * s.h;
+      v += a * s.h;
+      if (k == 2000) middle = x;
+    }
+    EXPECT_NEAR(x.x(), 3.0 / (300 * 300), 3e-5 * load);  // as far as the spring gives
+    EXPECT_LT((x - middle).norm(), 1e-12);
+  }
+}
+
+TEST(ContactLaw, ASlidingBodyStopsAfterTheTextbookDistance) {
+  const Stiffness s{300, 1e-3};
+  Vec3 x = Vec3::Zero(), v(2, 1, 0), stretch = Vec3::Zero();
+  for (int k = 0; k < 3000; ++k) {
+    stretch += v * s.h;
+    const Vec3 a = friction_force(s, 1, stretch, v, Vec3::Zero(), 4);
+    x += v * s.h + 0.5 * a * s.h * s.h;
+    v += a * s.h;
+  }
+  EXPECT_NEAR(x.norm(), 5.0 / (2 * 4), 0.004);  // v^2 / (2 a), to the way that it takes to build the force up
+  EXPECT_NEAR(x.y() / x.x(), 0.5, 1e-9);
+  EXPECT_LT(v.norm(), 1e-9);
+}
+
+}  // namespace
+}  // namespace muro::penalty

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// Effective masses: how heavy two bodies are to each other where they touch.
+#pragma once
+
+#include "muro/geometry.hpp"
+
+namespace muro::penalty {
+
+/// What resists a force on a free body. World axes.
+struct Mobility {
+  double mass = 0;             ///< inverse, 1/kg
+  Mat3 inertia = Mat3::Zero();  ///< inverse, 1/(kg m^2), about `centre`
+  Vec3 centre = Vec3::Zero();   ///< centre of mass, m
+};
+
+/// Mobility of points: along the normal, and the sum over both directions across it. 1/kg.
+struct Yield {
+  double along = 0;
+  double across = 0;
+  Yield operator+(const Yield& b) const { return {along + b.along, across + b.across}; }
+};
+
+/// Contact points of one pair of bodies with one normal: touching is one event, which they share.
+///
+/// The points of a patch together act with the effective mass at their middle, 1 / (1/m + (r x n) . I^-1 (r x n)), each with
+/// its part, so that a box that lands flat on four corners rebounds as a ball does.
+class Patch {
+ public:
+  Patch(const Vec3& normal, const Vec3& origin) : normal_(normal), origin_(origin) {
+    turn_ << 0, -normal.z(), normal.y(), normal.z(), 0, -normal.x(), -normal.y(), normal.x(), 0;
+  }
+
+  const Vec3& normal() const { return normal_; }
+  double count() const { return count_; }
+  void add(const Vec3& point) {
+    const Vec3 p = point - origin_;
+    count_ += 1;
+    sum_ += p;
+    squares_ += p * p.transpose();
+  }
+  /// Of the middle of the points.
+  Yield at_middle(const Mobility& body) const {
+    const Vec3 r = origin_ + sum_ / count_ - body.centre;
+    return yield(body, 1, r * r.transpose());
+  }
+  /// Sum over the points.
+  Yield of_all(const Mobility& body) const {
+    const Vec3 shift = origin_ - body.centre;
+    const Mat3 cross = sum_ * shift.transpose();
+    return yield(body, count_, squares_ + cross + cross.transpose() + count_ * shift * shift.transpose());
+  }
+
+ private:
+  /// `second`: sum of r r^T over `n` points, r from the centre of mass.
+  Yield yield(const Mobility& body, double n, const Mat3& second) const {
+    const double along = body.inertia.cwiseProduct(turn_ * second * turn_.transpose()).sum();
+    const double all = body.inertia.trace() * second.trace() - body.inertia.cwiseProduct(second).sum();
+    return {n * body.mass + along, 2 * n * body.mass + all - along};
+  }
+
+  Vec3 normal_;
+  Vec3 origin_;
+  Mat3 turn_;  ///< turn_ * v = normal x v
+  double count_ = 0;
+  Vec3 sum_ = Vec3::Zero();
+  Mat3 squares_ = Mat3::Zero();
+};
+
+}  // namespace muro::penalty

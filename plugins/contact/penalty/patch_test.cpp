@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "grip.hpp"
+#include "patch.hpp"
+
+namespace muro::penalty {
+namespace {
+
+/// Velocity that a unit impulse along `direction` at `point` gives the point, by rigid-body mechanics.
+Vec3 response(const Mobility& b, const Vec3& point, const Vec3& direction) {
+  const Vec3 r = point - b.centre, spin = b.inertia * r.cross(direction);
+  return b.mass * direction + spin.cross(r);
+}
+
+TEST(Patch, MobilitiesAreTheResponseToImpulses) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal;
+  const auto vector = [&] { return Vec3(normal(random), normal(random), normal(random)); };
+  for (int trial = 0; trial < 50; ++trial) {
+    const Mat3 root = Mat3::Random();
+    const Mobility body{0.3, root * root.transpose() + Mat3::Identity(), vector()};
+    const Vec3 n = vector().normalized(), u = n.unitOrthogonal(), w = n.cross(u);
+    std::vector<Vec3> points{vector(), vector(), vector()};
+    Patch patch(n, points[0]);
+    Vec3 middle = Vec3::Zero();
+    Yield all;
+    for (const Vec3& p : points) {
+      patch.add(p);
+      middle += p / 3;
+      all.along += n.dot(response(body, p, n));
+      all.across += u.dot(response(body, p, u)) + w.dot(response(body, p, w));
+    }
+    EXPECT_NEAR(patch.of_all(body).along, all.along, 1e-10 * all.along);
+    EXPECT_NEAR(patch.of_all(body).across, all.across, 1e-10 * all.across);
+    EXPECT_NEAR(patch.at_middle(body).along, n.dot(response(body, middle, n)), 1e-10);
+    EXPECT_NEAR(patch.at_middle(body).across, u.dot(response(body, middle, u)) + w.dot(response(body, middle, w)), 1e-10);
+  }
+}
+
+TEST(Patch, ABoxThatLandsFlatHasItsWholeMass) {
+  const Mobility box{1 / 4.0, Vec3(30, 40, 50).asDiagonal(), {1, 2, 3}};
+  Patch patch(Vec3::UnitZ(), {1.2, 2.1, 2.9});
+  for (const double x : {-0.2, 0.2})
+    for (const double y : {-0.1, 0.1}) patch.add({1 + x, 2 + y, 2.9});
+  EXPECT_NEAR(1 / patch.at_middle(box).along, 4, 1e-12);
+}
+
+TEST(Grip, FollowsItsPointWhateverTheOrderOfTheList) {
+  std::vector<Grip> before;
+  for (int k = 0; k < 6; ++k) before.push_back({k < 2 ? 7u : k < 5 ? 8u : 9u, Vec3(k, 0, 0), Vec3(0, 0.1 * k, 0)});
+  EXPECT_EQ(inherited(before, 3, 8, {3.01, 0, 0}).y(), 0.1 * 3);
+  EXPECT_EQ(inherited(before, 0, 8, {4.2, 0.1, 0}).y(), 0.1 * 4);
+  EXPECT_EQ(inherited(before, 5, 8, {1.7, 0, 0}).y(), 0.1 * 2);
+  EXPECT_EQ(inherited(before, 40, 9, {0, 0, 0}).y(), 0.1 * 5);
+  EXPECT_EQ(inherited(before, 2, 10, {2, 0, 0}).norm(), 0);  // nothing known
+  EXPECT_EQ(inherited({}, 0, 7, {0, 0, 0}).norm(), 0);
+  EXPECT_NE(pair_of(1, 2, 0, 0), pair_of(2, 1, 0, 0));
+  EXPECT_NE(pair_of(1, 2, 1, 0), pair_of(1, 2, 0, 1));
+}
+
+}  // namespace
+}  // namespace muro::penalty

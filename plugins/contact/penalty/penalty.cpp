@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: MIT
+// Contact forces by penalty: springs and dampers where bodies overlap. Scene-wide.
+#include <string>
+#include <vector>
+
+#include "contact_law.hpp"
+#include "grip.hpp"
+#include "muro/composite.hpp"
+#include "muro/plugin.hpp"
+#include "muro/random.hpp"
+#include "patch.hpp"
+
+namespace {
+
+using namespace muro;
+using namespace muro::penalty;
+
+constexpr Parameter parameters[] = {
+    real("frequency", "Hz", 50, "stiffness: that of a body bobbing on a contact; at most 0.095 of the rate").between(1, 1e5),
+};
+constexpr Use reads[] = {
+    {"contacts", "of every robot that forces move"},
+    {"pose", "of every body with a collision shape"},
+    {"twist", "of every body with a collision shape"},
+    {"inertial", "of every body of robots that forces move"},
+    {"gravity", "on the world object; 0 0 -9.81 when absent"},
+};
+constexpr Use writes[] = {
+    {"wrench.external", "of every robot that forces move"},
+    {"contact.grips", "friction springs, of every robot that forces move"},
+    {"contact.time", "of the last run, on the world object"},
+};
+constexpr Description description{
+    .id = "contact.penalty",
+    .kind = Kind::contact,
+    .version = "1.0.0",
+    .summary = "Spring-damper contact with restitution and Coulomb friction, stiffness from effective masses",
+    .parameters = parameters,
+    .reads = reads,
+    .writes = writes,
+    .promises = deterministic | allocation_free | restorable,
+};
+
+/// Normals of one patch differ by less than 8 degrees.
+constexpr double same_direction = 0.99;
+
+class Penalty final : public Algorithm {
+ public:
+  void connect(Connector& c) override {
+    omega_ = 2 * M_PI * c.parameters().real("frequency");
+    gravity_ = c.constant(world_object, keys::gravity).value_or(Vec3(0, 0, -9.81));
+    host_ = &c.host();
+    bodies_.resize(c.object_count());
+    for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
+      bodies_[i].name = fnv1a(c.object_name(ObjectId{i}));
+      bodies_[i].whole = i;
+    }
+    for (const RobotView* robot : c.robots()) connect_robot(c, *robot);
+    last_run_ = c.variable(world_object, last_run, std::int64_t{-1});
+  }
+
+  void step(const Step& step, Range) override {
+    set_stiffness(step.dt);
+    elapsed_ = *last_run_ < 0 ? 0 : 1e-9 * double(step.time - *last_run_);
+    *last_run_ = step.time;
+    for (Robot& r : robots_) {
+      *r.wrench = Wrench{};
+      r.placed = false;
+    }
+    touches_.clear();
+    touch_of_.clear();
+    for (std::uint32_t i = 0; i < robots_.size(); ++i) gather(i);
+    for (Touch& t : touches_) share(t);
+    std::size_t next = 0;
+    for (std::uint32_t i = 0; i < robots_.size(); ++i) next = push(i, next);
+  }
+
+ private:
+  static constexpr std::int32_t nobody = -1;
+  static constexpr std::uint32_t not_ours = 0xffffffffu;
+
+  /// What a step needs of an object.
+  struct Body {
+    const Pose* pose = nullptr;    ///< null: scenery
+    const Twist* twist = nullptr;  ///< null: scenery, which does not move
+    std::int32_t robot = nobody;   ///< in robots_, when forces move it
+    std::uint32_t whole = 0;       ///< equal for all bodies of a robot
+    std::uint64_t name = 0;        ///< hash
+  };
+  /// A robot that forces move.
+  struct Robot {
+    ListIn<Contact> contacts;
+    ListOut<Grip> grips;
+    Sum<Wrench> wrench;
+    In<Pose> base;
+    double inverse_mass = 0;
+    Vec3 com = Vec3::Zero();
+    Mat3 inverse_inertia = Mat3::Zero();  ///< axes of the base
+    std::uint64_t rank = 0;               ///< of two robots, the one with the lower rank works out their contacts
+    // of the present step:
+    bool placed = false;
+    double load = 0;  ///< sum over its contact points of stiffness times mobility, in units of omega^2
+    Mobility mobility;
+  };
+  /// A patch between a robot and something else.
+  struct Touch {
+    Patch patch;
+    std::uint32_t self;            ///< in robots_
+    std::int32_t other;            ///< in robots_, or nobody
+    std::uint32_t whole;           ///< of the other
+    double along = 0, across = 0;  ///< effective mass of each point, kg
+  };
+
+  void connect_robot(Connector& c, const RobotView& view) {
+    const bool moved = c.is_used(view.base(), keys::external_wrench, Access::read_sum);
+    for (const Frame& f : view.frames) {
+      Body& b = bodies_[index_of(f.object)];
+      b.whole = index_of(view.base());
+      b.robot = moved ? std::int32_t(robots_.size()) : nobody;
+      if (c.constant_array(f.object, keys::collision_shapes).empty()) continue;
+      b.pose = c.read(f.object, keys::pose).get();
+      b.twist = c.read(f.object, keys::twist).get();
+    }
+    if (!moved) return;
+    const Inertia composite = composite_inertia(view.frames, inertias_of(c, view), initial_joint_positions(c, view));
+    if (!(composite.mass > 0))
+      throw Error("`" + std::string(view.name) + "` has no mass, so no contact can push it; give its bodies `inertial`");
+    Robot r;
+    r.contacts = c.read_list(view.base(), keys::contacts);
+    r.grips = c.variable_list(view.base(), grips);
+    r.wrench = c.accumulate(view.base(), keys::external_wrench);
+    r.base = c.read(view.base(), keys::pose);
+    r.inverse_mass = 1 / composite.mass;
+    r.com = composite.com;
+    r.inverse_inertia = composite.tensor().inverse();
+    r.rank = view.key;
+    robots_.push_back(r);
+  }
+
+  /// As stiff as wanted, as far as the step resolves it.
+  void set_stiffness(double dt) {
+    if (dt == stiffness_.h) return;
+    stiffness_ = {std::min(omega_, finest_step / dt), dt};
+    restitution_ = -1;
+    if (stiffness_.omega < omega_)
+      host_->log(LogLevel::info, "contact.penalty: at a step of " + std::to_string(dt) + " s, contacts have " +
+                                     std::to_string(stiffness_.omega / (2 * M_PI)) + " Hz instead of " +
+                                     std::to_string(omega_ / (2 * M_PI)) + "; a higher rate of motion makes them as stiff as asked");
+  }
+
+  /// Whether robot `self` works out the contact: both robots of a pair list it.
+  bool owns(std::uint32_t self, std::int32_t other) const {
+    if (other == nobody) return true;
+    const std::uint64_t mine = robots_[self].rank, theirs = robots_[std::size_t(other)].rank;
+    return mine != theirs ? mine < theirs : self < std::uint32_t(other);
+  }
+
+  void place(Robot& r) const {
+    if (r.placed) return;
+    r.placed = true;
+    r.load = 0;
+    const Mat3 turn = r.base->orientation.toRotationMatrix();
+    r.mobility = {r.inverse_mass, turn * r.inverse_inertia * turn.transpose(), r.base->position + turn * r.com};
+  }
+
+  /// Sorts the contacts of a robot into patches.
+  void gather(std::uint32_t self) {
+    const auto contacts = *robots_[self].contacts;
+    if (contacts.empty()) return;
+    place(robots_[self]);
+    const std::size_t first = touches_.size();
+    for (const Contact& contact : contacts) {
+      const Body& other = bodies_[index_of(contact.other)];
+      if (!owns(self, other.robot)) {
+        touch_of_.push_back(not_ours);
+        continue;
+      }
+      std::size_t t = touches_.size();
+      while (t > first && !(touches_[t - 1].whole == other.whole &&
+                            touches_[t - 1].patch.normal().dot(contact.normal) > same_direction))
+        --t;
+      if (t == first) {
+        t = touches_.size() + 1;
+        touches_.push_back({Patch(contact.normal, contact.point), self, other.robot, other.whole});
+        if (other.robot != nobody) place(robots_[std::size_t(other.robot)]);
+      }
+      touches_[t - 1].patch.add(contact.point);
+      touch_of_.push_back(std::uint32_t(t - 1));
+    }
+  }
+
+  /// Shares the effective mass of a patch among its points, and tells its robots what load they get.
+  void share(Touch& t) {
+    Robot& a = robots_[t.self];
+    Robot* const b = t.other == nobody ? nullptr : &robots_[std::size_t(t.other)];
+    Yield middle = t.patch.at_middle(a.mobility);
+    if (b) middle = middle + t.patch.at_middle(b->mobility);
+    t.along = 1 / (middle.along * t.patch.count());
+    t.across = 2 / (middle.across * t.patch.count());
+    for (Robot* r : {&a, b}) {
+      if (!r) continue;
+      const Yield all = t.patch.of_all(r->mobility);
+      r->load += t.along * all.along + t.across * all.across;
+    }
+  }
+
+  /// The velocity of the point of a body, m/s.
+  static Vec3 velocity(const Body& body, const Vec3& point) {
+    return body.twist ? body.twist->at(point - body.pose->position) : Vec3::Zero();
+  }
+
+  const Damping& damping(double restitution) {
+    if (restitution != restitution_) {
+      restitution_ = restitution;
+      damping_ = damping_of(restitution, stiffness_);
+    }
+    return damping_;
+  }
+
+  /// Works out the contacts of a robot; theirs begin at `next` in touch_of_. Returns where the next robot's begin.
+  std::size_t push(std::uint32_t self, std::size_t next) {
+    Robot& robot = robots_[self];
+    const auto contacts = *robot.contacts;
+    const auto old = *robot.grips;
+    if (contacts.empty() && old.empty()) return next;
+    old_grips_.assign(old.begin(), old.end());
+    robot.grips.clear();
+    std::size_t ours = 0;
+    for (const Contact& contact : contacts) {
+      const std::uint32_t place_of_touch = touch_of_[next++];
+      if (place_of_touch == not_ours) continue;
+      const Touch& touch = touches_[place_of_touch];
+      const Vec3 force = force_on_self(robot, touch, contact, ours++);
+      robot.wrench->add_force(force, contact.point - robot.base->position);
+      if (touch.other == nobody) continue;
+      const Robot& other = robots_[std::size_t(touch.other)];
+      other.wrench->add_force(-force, contact.point - other.base->position);
+    }
+    return next;
+  }
+
+  Vec3 force_on_self(const Robot& robot, const Touch& touch, const Contact& contact, std::size_t place_in_list) {
+    const Body& self = bodies_[index_of(contact.self)];
+    const Body& other = bodies_[index_of(contact.other)];
+    const Vec3& n = contact.normal;
+    const Vec3 motion = velocity(self, contact.point) - velocity(other, contact.point);
+    const double approach = -motion.dot(n);
+    const Vec3 slip = motion + approach * n;
+    // Two robots fall alike; only against what does not fall, gravity makes bodies approach.
+    const bool both = touch.other != nobody;
+    const double fall = both ? 0 : -gravity_.dot(n);
+    const Vec3 slide = both ? Vec3(Vec3::Zero()) : Vec3(gravity_ + fall * n);
+    const double load = robot.load + (both ? robots_[std::size_t(touch.other)].load : 0);
+
+    const double normal = touch.along * normal_force(stiffness_, damping(contact.restitution), load, contact.depth,
+                                                     approach, fall);
+    Grip grip;
+    grip.pair = pair_of(self.name, other.name, contact.self_shape, contact.other_shape);
+    grip.point = contact.point;
+    grip.stretch = inherited(old_grips_, place_in_list, grip.pair, contact.point) + slip * elapsed_;
+    grip.stretch -= n * n.dot(grip.stretch);
+    const Vec3 friction = touch.across * friction_force(stiffness_, load, grip.stretch, slip, slide,
+                                                        contact.friction * normal / touch.across);
+    robot.grips.push_back(grip);
+    return normal * n + friction;
+  }
+
+  double omega_ = 0;
+  Vec3 gravity_ = Vec3::Zero();
+  Host* host_ = nullptr;
+  std::vector<Body> bodies_;  ///< by object id
+  std::vector<Robot> robots_;
+  Out<std::int64_t> last_run_;
+
+  // of the present step
+  Stiffness stiffness_;
+  double elapsed_ = 0;                     ///< s since the last run
+  std::vector<Touch> touches_;
+  std::vector<std::uint32_t> touch_of_;    ///< one a contact, in the order of robots and lists
+  std::vector<Grip> old_grips_;
+  double restitution_ = -1;                ///< that `damping_` is for
+  Damping damping_;
+};
+
+constexpr abi::AlgorithmEntry algorithms[] = {algorithm<Penalty>(description)};
+
+}  // namespace
+
+MURO_PLUGIN(.name = "contact_penalty", .version = "1.0.0", .licence = "MIT", .summary = "Contact forces by penalty",
+            .algorithms = algorithms)

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+#include "connections.hpp"
+
+#include <algorithm>
+
+#include "muro/algorithm.hpp"
+#include "muro/nearest.hpp"
+
+namespace muro::control {
+
+namespace {
+
+std::string quoted(std::string_view text) { return "`" + std::string(text) + "`"; }
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string all;
+  for (const std::string& n : names) all += (all.empty() ? "" : ", ") + n;
+  return all;
+}
+
+Target read_target(std::string_view text) {
+  const std::size_t colon = text.rfind(':');
+  if (colon == std::string_view::npos) return {"", std::string(text)};
+  return {std::string(text.substr(0, colon)), std::string(text.substr(colon + 1))};
+}
+
+void sort_and_thin(std::vector<std::string>& names) {
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+}
+
+}  // namespace
+
+Connections read_connections(std::string_view parameter, std::span<const std::string_view> texts,
+                             std::span<const muro_port> ports, std::string_view library) {
+  std::vector<std::string> known;
+  for (const muro_port& p : ports) known.emplace_back(p.name);
+  Connections result;
+  for (const std::string_view text : texts) {
+    const std::string in_place = quoted(parameter) + ": " + quoted(text);
+    const std::size_t equals = text.find('=');
+    if (equals == std::string_view::npos || equals == 0)
+      throw Error(in_place + " must be \"port=object:property\" or \"port=property\"");
+    const std::string port(text.substr(0, equals));
+    if (std::find(known.begin(), known.end(), port) == known.end())
+      throw Error(in_place + ": library " + quoted(library) + " has no such " +
+                  (parameter == "inputs" ? "input" : "output") + did_you_mean(port, known) +
+                  "; it has: " + (known.empty() ? "none" : listed(known)));
+    if (result.contains(port)) throw Error(in_place + " connects port " + quoted(port) + " a second time");
+    std::vector<Target>& targets = result[port];
+    for (std::string_view rest = text.substr(equals + 1);;) {
+      const std::size_t comma = std::min(rest.find(','), rest.size());
+      targets.push_back(read_target(rest.substr(0, comma)));
+      if (targets.back().property.empty()) throw Error(in_place + " names no property");
+      if (comma == rest.size()) break;
+      rest.remove_prefix(comma + 1);
+    }
+  }
+  return result;
+}
+
+PropertyFinder::PropertyFinder(const Connector& connector, const Item& item) : connector_(connector), item_(item) {
+  objects_.push_back(item.object);
+  const auto add = [&](ObjectId o) {
+    if (std::find(objects_.begin(), objects_.end(), o) == objects_.end()) objects_.push_back(o);
+  };
+  if (item.robot) add(item.robot->base());
+  preferred_ = objects_.size();
+  if (!item.robot) return;
+  for (std::uint32_t o = 0; o < connector.object_count(); ++o)
+    if (connector.robot_of(ObjectId{o}) == std::int32_t(item.robot->number)) add(ObjectId{o});
+}
+
+std::string PropertyFinder::robot_or_world() const {
+  return item_.robot ? "robot " + quoted(item_.robot->name) : "the world";
+}
+
+/// The name without the robot's.
+std::string PropertyFinder::local_name(ObjectId object) const {
+  std::string name(connector_.object_name(object));
+  if (item_.robot && name.rfind(std::string(item_.robot->name) + "/", 0) == 0)
+    name.erase(0, item_.robot->name.size() + 1);
+  return name;
+}
+
+std::string PropertyFinder::full_name(const FoundProperty& p) const {
+  return quoted(std::string(connector_.object_name(p.object)) + ":" + std::string(p.key->name));
+}
+
+ObjectId PropertyFinder::object(std::string_view name) const {
+  ObjectId found = no_object;
+  if (item_.robot) found = connector_.find_object(std::string(item_.robot->name) + "/" + std::string(name));
+  return found != no_object ? found : connector_.find_object(name);
+}
+
+/// Valid until the next call of this or of Connector::properties.
+const FoundProperty* PropertyFinder::property_of(ObjectId object, std::string_view name) const {
+  for (const FoundProperty& p : connector_.properties(object))
+    if (p.key->name == name) return &p;
+  return nullptr;
+}
+
+FoundProperty PropertyFinder::find_anywhere(std::string_view property, std::string_view parameter,
+                                            std::string_view port) const {
+  for (std::size_t i = 0; i < preferred_; ++i)
+    if (const FoundProperty* p = property_of(objects_[i], property)) return *p;
+  std::vector<FoundProperty> found;
+  for (std::size_t i = preferred_; i < objects_.size(); ++i)
+    if (const FoundProperty* p = property_of(objects_[i], property)) found.push_back(*p);
+  if (found.size() == 1) return found.front();
+  if (found.empty()) {
+    if (const FoundProperty* p = property_of(world_object, property)) return *p;
+    std::vector<std::string> names;
+    for (const ObjectId o : objects_)
+      for (const FoundProperty& p : connector_.properties(o)) names.emplace_back(p.key->name);
+    sort_and_thin(names);
+    throw Error("no object of " + robot_or_world() + " has a property " + quoted(property) +
+                did_you_mean(property, names) + "; its objects have: " + listed(names));
+  }
+  std::vector<std::string> candidates;
+  for (const FoundProperty& p : found) candidates.push_back(local_name(p.object));
+  throw Error("several objects of " + robot_or_world() + " have a property " + quoted(property) + ": " +
+              listed(candidates) + "; choose in " + quoted(parameter) + ", e.g. \"" + std::string(port) + "=" +
+              candidates[0] + ":" + std::string(property) + "\" (several, separated by commas, stand side by side)");
+}
+
+FoundProperty PropertyFinder::find(const Target& target, std::string_view parameter, std::string_view port) const {
+  if (target.object.empty()) return find_anywhere(target.property, parameter, port);
+  const ObjectId o = object(target.object);
+  if (o == no_object) {
+    std::vector<std::string> names;
+    for (const ObjectId known : objects_) names.push_back(local_name(known));
+    throw Error(robot_or_world() + " has no object " + quoted(target.object) + did_you_mean(target.object, names) +
+                "; it has: " + listed(names));
+  }
+  if (const FoundProperty* p = property_of(o, target.property)) return *p;
+  std::vector<std::string> names;
+  for (const FoundProperty& p : connector_.properties(o)) names.emplace_back(p.key->name);
+  throw Error("object " + quoted(connector_.object_name(o)) + " has no property " + quoted(target.property) +
+              did_you_mean(target.property, names) + "; it has: " + listed(names));
+}
+
+void PropertyFinder::check(const FoundProperty& p, const muro_port& port) const {
+  const std::string name = full_name(p);
+  if (size_of(p.key->type->scalar) == 0)
+    throw Error(name + " is of type " + std::string(p.key->type->name) + ", which is not made of numbers");
+  if (p.form == Form::list)
+    throw Error(name + " is a list, whose length changes from step to step; a port has a fixed size");
+  if (connector_.is_used(p.object, *p.key, Access::accumulate) ||
+      connector_.is_used(p.object, *p.key, Access::read_sum))
+    throw Error(name + " is a sum of contributions; ports can be connected to plain properties only");
+  if (port.unit && p.key->unit != port.unit)
+    throw Error(name + " is in \"" + std::string(p.key->unit) + "\", but the library works in \"" + port.unit + "\"");
+}
+
+std::vector<FoundProperty> PropertyFinder::find(const muro_port& port, bool input,
+                                                const Connections& connections) const {
+  const std::string_view parameter = input ? "inputs" : "outputs";
+  std::vector<FoundProperty> found;
+  if (const auto connected = connections.find(port.name); connected != connections.end()) {
+    for (const Target& t : connected->second) found.push_back(find(t, parameter, port.name));
+  } else {
+    found.push_back(find_anywhere(port.name, parameter, port.name));
+    if (const FoundProperty* measured = property_of(found[0].object, std::string(port.name) + ".measured");
+        measured && input)
+      found[0] = *measured;
+  }
+  for (const FoundProperty& p : found) check(p, port);
+  return found;
+}
+
+}  // namespace muro::control

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: MIT
+// Control code from a shared library with the C interface of sdk/c/muro_controller.h; see README.md.
+#include <cmath>
+#include <cstdio>
+#include <deque>
+#include <filesystem>
+#include <string>
+
+#include "connections.hpp"
+#include "control_library.hpp"
+#include "muro/plugin.hpp"
+#include "muro/random.hpp"
+#include "port.hpp"
+
+namespace {
+
+using namespace muro;
+using namespace muro::control;
+
+constexpr Parameter parameters[] = {
+    text("library", "", "path of the library, or its name: `wander` for wander.so or libwander.so").must_be_given(),
+    texts("inputs", "what inputs read: \"port=property\", \"port=object:property\"; several properties by commas"),
+    texts("outputs", "what outputs write, in the same form"),
+    texts("arguments", "\"name=value\", handed to the library"),
+};
+constexpr Use reads[] = {{"*", "what the library's inputs are named or connected to"}};
+constexpr Use writes[] = {{"*", "what the library's outputs are named or connected to"},
+                          {"state.controller.*", "the library's state"}};
+constexpr Description description{
+    .id = "controller.library",
+    .kind = Kind::controller,
+    .version = "1.0.0",
+    .summary = "Runs control code from a shared library (C interface, sdk/c/muro_controller.h)",
+    .parameters = parameters,
+    .reads = reads,
+    .writes = writes,
+    .promises = deterministic | batched | allocation_free | restorable,
+};
+
+constexpr std::size_t error_size = 1024;
+
+/// What is kept of one robot: this, then the library's own state. Blocks are whole multiples of 64 bytes, so that all
+/// blocks of a column are aligned as the C header promises.
+struct alignas(64) Block {
+  std::uint64_t created;  ///< 0 until the library's `create` has run
+
+  void* state() { return this + 1; }
+  static std::uint32_t size_for(std::size_t state_size) {
+    return std::uint32_t(sizeof(Block) + (state_size + 63) / 64 * 64);
+  }
+};
+
+class LibraryController final : public Algorithm {
+ public:
+  void connect(Connector& c) override {
+    const Parameters& p = c.parameters();
+    read_arguments(p.texts("arguments"));
+    const std::string_view name = p.text("library");
+    const std::filesystem::path as_path(c.resolve_path(name)), beside_scenario(c.resolve_path("name"));
+    table_ =
+        &load_library(find_library(name, as_path.string(), search_folders(beside_scenario.parent_path().string())));
+    const std::span inputs(table_->inputs, table_->input_count), outputs(table_->outputs, table_->output_count);
+    const Connections in = read_connections("inputs", p.texts("inputs"), inputs, table_->name);
+    const Connections out = read_connections("outputs", p.texts("outputs"), outputs, table_->name);
+    for (std::uint32_t i = 0; i < c.items().size(); ++i) {
+      const Item& item = c.items()[i];
+      Robot& r = robots_.emplace_back();
+      r.name = item.robot ? item.robot->name : "world";
+      r.random_key = c.random_key(i);
+      const PropertyFinder finder(c, item);
+      for (const muro_port& port : inputs) bind(c, finder, r, port, in, true);
+      for (const muro_port& port : outputs) bind(c, finder, r, port, out, false);
+      r.block = static_cast<Block*>(
+          c.state_block(item.object, block_name(c, item.object), Block::size_for(table_->state_size)));
+    }
+  }
+
+  void start() override {
+    for (Robot& r : robots_) {
+      std::size_t copied = 0;
+      const auto measure = [&](Port& port, const muro_port& wanted, bool input) {
+        port.resolve();
+        if (wanted.size != 0 && wanted.size != port.size())
+          throw Error(about(r, wanted, input) + " has " + std::to_string(wanted.size) +
+                      " numbers in the library, but the connected properties have " + std::to_string(port.size()));
+        copied += port.direct() ? 0 : port.size();
+      };
+      for (std::uint32_t i = 0; i < table_->input_count; ++i) measure(r.inputs[i], table_->inputs[i], true);
+      for (std::uint32_t i = 0; i < table_->output_count; ++i) measure(r.outputs[i], table_->outputs[i], false);
+      r.copies.assign(copied, 0);
+      double* free = r.copies.data();
+      const auto place_of = [&](const Port& port) {
+        if (port.direct()) return port.direct();
+        double* place = free;
+        free += port.size();
+        return place;
+      };
+      r.input_sizes.clear(), r.input_places.clear(), r.output_places.clear();
+      for (const Port& port : r.inputs) r.input_sizes.push_back(port.size()), r.input_places.push_back(place_of(port));
+      for (const Port& port : r.outputs) r.output_places.push_back(place_of(port));
+    }
+  }
+
+  void step(const Step& step, Range range) override {
+    for (std::uint32_t i = range.begin; i < range.end; ++i) run(robots_[i], step);
+  }
+
+ private:
+  struct Robot {
+    std::string name;
+    std::uint64_t random_key = 0;
+    Block* block = nullptr;
+    std::vector<Port> inputs, outputs;
+    std::vector<double> copies;  ///< of ports that are no run of doubles; no state: made anew in every step
+    std::vector<std::uint32_t> input_sizes;
+    std::vector<double*> input_places, output_places;
+  };
+
+  void read_arguments(std::span<const std::string_view> texts) {
+    for (const std::string_view text : texts) {
+      const std::size_t equals = text.find('=');
+      if (equals == std::string_view::npos || equals == 0)
+        throw Error("`arguments`: `" + std::string(text) + "` must be \"name=value\"");
+      argument_texts_.emplace_back(text);
+    }
+    for (const std::string& text : argument_texts_) arguments_.push_back(text.c_str());
+    arguments_.push_back(nullptr);
+  }
+
+  std::string about(const Robot& r, const muro_port& port, bool input) const {
+    return "robot `" + r.name + "`: " + (input ? "input" : "output") + " `" + port.name + "` of `" + table_->name + "`";
+  }
+  std::string about(const Robot& r) const { return "robot `" + r.name + "`: `" + table_->name + "` "; }
+
+  void bind(Connector& c, const PropertyFinder& finder, Robot& r, const muro_port& port, const Connections& connections,
+            bool input) const {
+    Port& bound = (input ? r.inputs : r.outputs).emplace_back();
+    try {
+      for (const FoundProperty& found : finder.find(port, input, connections))
+        bound.add(found, input ? const_cast<void*>(c.read_any(found)) : c.write_any(found));
+    } catch (const Error& e) {
+      throw Error(about(r, port, input) + " cannot be connected: " + e.what());
+    }
+  }
+
+  /// A name that no other controller on the same object has, whatever library it runs.
+  std::string block_name(const Connector& c, ObjectId object) const {
+    const std::string stem = "controller." + std::string(table_->name);
+    std::string name = stem;
+    const auto taken = [&] {
+      for (const FoundProperty& p : c.properties(object))
+        if (p.key->name == "state." + name) return true;
+      return false;
+    };
+    for (int number = 2; taken(); ++number) name = stem + "." + std::to_string(number);
+    return name;
+  }
+
+  void create(Robot& r, const Step& step) const {
+    char error[error_size] = "";
+    if (table_->create) {
+      const muro_controller_setup setup{.robot = r.name.c_str(),
+                                        .period = step.dt,
+                                        .seed = seed_of(step.seed, r.random_key),
+                                        .input_sizes = r.input_sizes.data(),
+                                        .arguments = arguments_.data()};
+      if (table_->create(r.block->state(), &setup, error, error_size) != 0) throw Error(about(r) + failure(error));
+    }
+    r.block->created = 1;
+  }
+
+  static std::uint64_t seed_of(std::uint64_t simulation, std::uint64_t robot) {
+    return fnv1a({reinterpret_cast<const char*>(&simulation), sizeof simulation}, robot ^ 0xcbf29ce484222325ull);
+  }
+
+  /// Whatever stands in the buffer, it ends there.
+  static std::string failure(char* error) {
+    error[error_size - 1] = 0;
+    return *error ? "fails: " + std::string(error) : "fails without giving a reason";
+  }
+
+  void run(Robot& r, const Step& step) const {
+    for (std::size_t i = 0; i < r.inputs.size(); ++i)
+      if (!r.inputs[i].direct()) r.inputs[i].read(r.input_places[i]);
+    for (std::size_t i = 0; i < r.outputs.size(); ++i)
+      if (!r.outputs[i].direct()) r.outputs[i].read(r.output_places[i]);
+    if (r.block->created == 0) create(r, step);
+    const muro_controller_step now{step.seconds(), r.input_places.data(), r.output_places.data()};
+    char error[error_size];
+    error[0] = 0;
+    if (table_->step(r.block->state(), &now, error, error_size) != 0) throw Error(about(r) + failure(error));
+    for (std::size_t i = 0; i < r.outputs.size(); ++i) hand_out(r, i);
+  }
+
+  void hand_out(const Robot& r, std::size_t i) const {
+    const Port& port = r.outputs[i];
+    const double* values = r.output_places[i];
+    std::uint32_t bad = 0;
+    while (bad < port.size() && std::isfinite(values[bad])) ++bad;
+    if (bad == port.size() && (port.direct() || port.write(values, bad))) return;
+    char number[32];
+    std::snprintf(number, sizeof number, "%.17g", values[bad]);
+    throw Error(
+        about(r, table_->outputs[i], false) + "[" + std::to_string(bad) + "] is " + number +
+        (std::isfinite(values[bad]) ? ", which does not fit into its property" : "; outputs must be finite numbers"));
+  }
+
+  const muro_controller_table* table_ = nullptr;
+  std::deque<std::string> argument_texts_;
+  std::vector<const char*> arguments_;
+  std::vector<Robot> robots_;
+};
+
+constexpr abi::AlgorithmEntry algorithms[] = {algorithm<LibraryController>(description)};
+
+}  // namespace
+
+MURO_PLUGIN(.name = "controller_library", .version = "1.0.0", .licence = "MIT",
+            .summary = "Control code from shared libraries", .algorithms = algorithms)

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#include "port.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace muro::control {
+namespace {
+
+template <class T>
+struct Place {
+  T value;
+  KeyInfo key{"test", "1", &value_type<T>, Role::state, ""};
+  FoundProperty found{ObjectId{1}, &key, Form::single, 1};
+};
+
+template <class T>
+Port port_to(Place<T>& place) {
+  Port port;
+  port.add(place.found, &place.value);
+  port.resolve();
+  return port;
+}
+
+template <class T>
+void holds(T written) {
+  Place<T> place{written};
+  const Port port = port_to(place);
+  double number = 0;
+  port.read(&number);
+  EXPECT_EQ(number, double(written)) << value_type<T>.name;
+  place.value = T(1);
+  std::uint32_t bad = 0;
+  EXPECT_TRUE(port.write(&number, bad)) << value_type<T>.name;
+  EXPECT_EQ(place.value, written) << value_type<T>.name;
+}
+
+TEST(Port, CarriesEveryTypeOfNumberThereAndBack) {
+  holds<double>(-0.1);
+  holds<float>(-0.1f);
+  holds<std::int64_t>(-(std::int64_t(1) << 53));
+  holds<std::int32_t>(std::numeric_limits<std::int32_t>::min());
+  holds<std::int32_t>(std::numeric_limits<std::int32_t>::max());
+  holds<std::uint64_t>(std::uint64_t(1) << 53);
+  holds<std::uint32_t>(std::numeric_limits<std::uint32_t>::max());
+  holds<std::uint8_t>(255);
+}
+
+template <class T>
+void refuses(double number) {
+  Place<T> place{T(7)};
+  std::uint32_t bad = 9;
+  EXPECT_FALSE(port_to(place).write(&number, bad)) << value_type<T>.name << " " << number;
+  EXPECT_EQ(bad, 0u);
+  EXPECT_EQ(place.value, T(7)) << value_type<T>.name << " " << number;
+}
+
+TEST(Port, RefusesNumbersThatDoNotFitAndLeavesThePropertyAsItWas) {
+  refuses<std::uint8_t>(-0.51);
+  refuses<std::uint8_t>(255.51);
+  refuses<std::int32_t>(2147483648.0);
+  refuses<std::int32_t>(-2147483649.0);
+  refuses<std::uint32_t>(4294967296.0);
+  refuses<std::int64_t>(9223372036854775808.0);
+  refuses<std::uint64_t>(18446744073709551616.0);
+  refuses<std::uint64_t>(-1);
+  refuses<std::uint8_t>(std::nan(""));
+  refuses<float>(1e39);
+}
+
+TEST(Port, RoundsToWholeNumbersWhereThePropertyHoldsSuch) {
+  Place<std::uint8_t> place{0};
+  std::uint32_t bad = 0;
+  for (const auto& [number, expected] : {std::pair{254.5, 254}, {254.51, 255}, {-0.4, 0}, {2.5, 2}, {3.5, 4}}) {
+    EXPECT_TRUE(port_to(place).write(&number, bad));
+    EXPECT_EQ(place.value, expected) << number;
+  }
+}
+
+TEST(Port, NeedsNoCopyOfOneRunOfDoubles) {
+  Place<Twist> twist{Twist{{1, 2, 3}, {4, 5, 6}}};
+  const Port port = port_to(twist);
+  EXPECT_EQ(port.size(), 6u);
+  EXPECT_EQ(port.direct(), twist.value.linear.data());
+  EXPECT_EQ(port.direct()[5], 6);
+  Place<float> small{0};
+  EXPECT_EQ(port_to(small).direct(), nullptr);
+}
+
+TEST(Port, SetsPropertiesSideBySide) {
+  Place<Vec3> first{Vec3(1, 2, 3)};
+  Place<std::int32_t> second{4};
+  std::uint8_t bytes[] = {5, 6};
+  ArrayHeader array;  // its place and length are told later
+  Place<std::uint8_t> third{};
+  third.found.form = Form::array;
+  Port port;
+  port.add(first.found, &first.value);
+  port.add(second.found, &second.value);
+  port.add(third.found, &array);
+  array = {bytes, 2};
+  port.resolve();
+  ASSERT_EQ(port.size(), 6u);
+  EXPECT_EQ(port.direct(), nullptr);
+  double numbers[6];
+  port.read(numbers);
+  for (int i = 0; i < 6; ++i) EXPECT_EQ(numbers[i], i + 1);
+  for (double& n : numbers) n = -n;
+  std::uint32_t bad = 0;
+  EXPECT_FALSE(port.write(numbers, bad));
+  EXPECT_EQ(bad, 4u) << "the first of the bytes";
+  EXPECT_EQ(first.value, Vec3(-1, -2, -3));
+  EXPECT_EQ(second.value, -4);
+  EXPECT_EQ(bytes[0], 5);
+}
+
+}  // namespace
+}  // namespace muro::control

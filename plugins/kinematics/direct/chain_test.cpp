@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+#include "chain.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace muro::kinematics {
+namespace {
+
+using Eigen::AngleAxisd;
+using Eigen::Isometry3d;
+
+class Draw {
+ public:
+  explicit Draw(unsigned seed) : engine_(seed) {}
+  double number(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
+  int whole(int low, int high) { return std::uniform_int_distribution<int>(low, high)(engine_); }
+  Vec3 vector(double most) { return {number(-most, most), number(-most, most), number(-most, most)}; }
+  Pose pose() { return {vector(1), rotation_of(vector(2))}; }
+
+ private:
+  std::mt19937 engine_;
+};
+
+/// A tree of `n` frames with all kinds of joints; a third of the origins is not rotated, as in most models.
+std::vector<Frame> random_tree(Draw& draw, int n) {
+  std::vector<Frame> frames(1);
+  for (int i = 1; i < n; ++i) {
+    Frame f;
+    f.parent = draw.whole(std::max(0, i - 3), i - 1);
+    f.joint = JointKind(draw.whole(0, 2));
+    f.origin = draw.pose();
+    if (draw.whole(0, 2) == 0) f.origin.orientation = Quat::Identity();
+    f.axis = draw.vector(1).normalized();
+    frames.push_back(f);
+  }
+  return frames;
+}
+
+Isometry3d matrix(const Pose& p) {
+  Isometry3d m = Isometry3d::Identity();
+  m.linear() = Eigen::Quaterniond(p.orientation).toRotationMatrix();
+  m.translation() = p.position;
+  return m;
+}
+
+/// 4 x 4 matrices of all frames, frame by frame.
+std::vector<Isometry3d> by_matrices(const std::vector<Frame>& frames, const Pose& base, const std::vector<double>& q) {
+  std::vector<Isometry3d> all{matrix(base)};
+  for (std::size_t i = 1; i < frames.size(); ++i) {
+    const Frame& f = frames[i];
+    Isometry3d moved = Isometry3d::Identity();
+    if (f.joint == JointKind::revolute) moved.linear() = AngleAxisd(q[i], f.axis).toRotationMatrix();
+    if (f.joint == JointKind::prismatic) moved.translation() = q[i] * f.axis;
+    all.push_back(all[std::size_t(f.parent)] * matrix(f.origin) * moved);
+  }
+  return all;
+}
+
+struct Result {
+  std::vector<Pose> poses;
+  std::vector<Twist> twists;
+};
+
+Result placed_by_chain(const std::vector<Frame>& frames, const Pose& base, const Twist& moving,
+                       const std::vector<double>& q, const std::vector<double>& rates) {
+  const Chain chain = chain_of(frames);
+  Result r{std::vector<Pose>(frames.size()), std::vector<Twist>(frames.size())};
+  std::vector<Place> places;
+  for (std::size_t i = 1; i < frames.size(); ++i) places.push_back({&r.poses[i], &r.twists[i], &q[i], &rates[i]});
+  r.poses[0] = base;
+  r.twists[0] = moving;
+  place(chain, base, moving, places.data());
+  return r;
+}
+
+TEST(Chain, PlacesRandomTreesAsProductsOfMatricesDo) {
+  Draw draw(1);
+  for (int round = 0; round < 200; ++round) {
+    const std::vector<Frame> frames = random_tree(draw, draw.whole(1, 25));
+    const Pose base = draw.pose();
+    std::vector<double> q, still(frames.size(), 0.0);
+    for (std::size_t i = 0; i < frames.size(); ++i) q.push_back(draw.number(-7, 7));
+    const std::vector<Isometry3d> expected = by_matrices(frames, base, q);
+    const Result got = placed_by_chain(frames, base, {}, q, still);
+    for (std::size_t i = 0; i < frames.size(); ++i)
+      ASSERT_LT((matrix(got.poses[i]).matrix() - expected[i].matrix()).cwiseAbs().maxCoeff(), 1e-11)
+          << "frame " << i << " of round " << round;
+  }
+}
+
+TEST(Chain, TwistsAreTheDerivativesOfPoses) {
+  Draw draw(2);
+  const double h = 1e-5;
+  for (int round = 0; round < 100; ++round) {
+    const std::vector<Frame> frames = random_tree(draw, 12);
+    const Pose base = draw.pose();
+    const Twist moving{draw.vector(2), draw.vector(2)};
+    std::vector<double> q, rates;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      q.push_back(draw.number(-3, 3));
+      rates.push_back(draw.number(-2, 2));
+    }
+    const auto at = [&](double t) {
+      std::vector<double> moved = q;
+      for (std::size_t i = 0; i < q.size(); ++i) moved[i] += rates[i] * t;
+      return by_matrices(
+          frames, {base.position + t * moving.linear, Quat(rotation_of(t * moving.angular) * base.orientation)}, moved);
+    };
+    const std::vector<Isometry3d> before = at(-h), after = at(h);
+    const Result got = placed_by_chain(frames, base, moving, q, rates);
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      const Vec3 linear = (after[i].translation() - before[i].translation()) / (2 * h);
+      const AngleAxisd turn(after[i].linear() * before[i].linear().transpose());
+      ASSERT_LT((got.twists[i].linear - linear).norm(), 1e-6) << "frame " << i << " of round " << round;
+      ASSERT_LT((got.twists[i].angular - turn.angle() * turn.axis() / (2 * h)).norm(), 1e-6) << "frame " << i;
+    }
+  }
+}
+
+TEST(Chain, AgreesWithTheClosedFormOfAPlanarArmWithThreeJoints) {
+  const double l1 = 0.5, l2 = 0.4, l3 = 0.2;
+  std::vector<Frame> frames(5);
+  const double lengths[] = {0, l1, l2};
+  for (std::size_t i = 1; i <= 3; ++i) {
+    frames[i].parent = std::int32_t(i) - 1;
+    frames[i].joint = JointKind::revolute;
+    frames[i].axis = Vec3::UnitZ();
+    frames[i].origin.position.x() = lengths[i - 1];
+  }
+  frames[4].parent = 3;  // the tip
+  frames[4].origin.position.x() = l3;
+  Draw draw(3);
+  for (int round = 0; round < 100; ++round) {
+    const double a = draw.number(-3, 3), b = draw.number(-3, 3), c = draw.number(-3, 3);
+    const double da = draw.number(-3, 3), db = draw.number(-3, 3), dc = draw.number(-3, 3);
+    const Result r = placed_by_chain(frames, {}, {}, {0, a, b, c, 0}, {0, da, db, dc, 0});
+    EXPECT_NEAR(r.poses[4].position.x(), l1 * std::cos(a) + l2 * std::cos(a + b) + l3 * std::cos(a + b + c), 1e-14);
+    EXPECT_NEAR(r.poses[4].position.y(), l1 * std::sin(a) + l2 * std::sin(a + b) + l3 * std::sin(a + b + c), 1e-14);
+    EXPECT_NEAR(std::remainder(yaw_of(r.poses[4].orientation) - (a + b + c), 2 * M_PI), 0, 1e-14);
+    const double ab = da + db, abc = ab + dc;
+    EXPECT_NEAR(r.twists[4].linear.x(),
+                -l1 * da * std::sin(a) - l2 * ab * std::sin(a + b) - l3 * abc * std::sin(a + b + c), 1e-13);
+    EXPECT_NEAR(r.twists[4].linear.y(),
+                l1 * da * std::cos(a) + l2 * ab * std::cos(a + b) + l3 * abc * std::cos(a + b + c), 1e-13);
+    EXPECT_NEAR(r.twists[4].angular.z(), abc, 1e-14);
+  }
+}
+
+TEST(Chain, FoldsFixedFramesIntoTheirCarrier) {
+  std::vector<Frame> frames(4);
+  for (std::size_t i = 1; i < 4; ++i) {
+    frames[i].parent = std::int32_t(i) - 1;
+    frames[i].origin.position = {1, 0, 0};
+  }
+  frames[2].joint = JointKind::revolute;
+  const Chain chain = chain_of(frames);
+  EXPECT_EQ(chain.links[0].parent, 0u);
+  EXPECT_EQ(chain.links[1].parent, 0u) << "hangs on a fixed frame, so on the base";
+  EXPECT_EQ(chain.links[1].offset, Vec3(2, 0, 0));
+  EXPECT_EQ(chain.links[2].parent, 2u);
+  EXPECT_TRUE(chain == chain_of(frames));
+  frames[3].origin.position.x() = 2;
+  EXPECT_FALSE(chain == chain_of(frames));
+}
+
+}  // namespace
+}  // namespace muro::kinematics

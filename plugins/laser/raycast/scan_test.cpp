@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: MIT
+// Whole scans of scenes against a reference that tests every ray with every shape.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+#include <numbers>
+
+#include "caster.hpp"
+#include "test_scene.hpp"
+
+namespace {
+std::atomic<long> allocations{0};
+}
+
+// Not inlined: gcc 12 takes an inlined pair for a mismatched one.
+[[gnu::noinline]] void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* p = std::malloc(size)) return p;
+  throw std::bad_alloc();
+}
+[[gnu::noinline]] void operator delete(void* p) noexcept { std::free(p); }
+[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+
+namespace muro::raycast {
+namespace {
+
+using std::numbers::pi;
+using test::Dice;
+using test::Reference;
+using test::TestScene;
+
+struct Scan {
+  std::vector<double> ranges;
+  std::vector<ObjectId> hits;
+};
+
+Scan scan(Caster& caster, const SceneIndex& scene, const View& view, double min_range, const Pattern& pattern) {
+  Scan s{std::vector<double>(pattern.size()), std::vector<ObjectId>(pattern.size())};
+  caster.cast(scene, view, min_range, pattern, s.ranges, s.hits);
+  return s;
+}
+
+std::vector<Vec3> directions(const Pattern& pattern) {
+  std::vector<Vec3> rays(pattern.size());
+  for (const Bundle& b : pattern.bundles())
+    for (std::uint32_t i = 0; i < b.count; ++i) rays[b.ray[i]] = {b.x[i], b.y[i], b.z[i]};
+  return rays;
+}
+
+/// All patterns of the tests: planar, round, tall, coarse, straight up, single, listed.
+std::vector<Pattern> patterns(Dice& dice) {
+  std::vector<Pattern> all;
+  all.emplace_back(Grid{.min_angle = -2.0862, .max_angle = 2.0924, .columns = 682});
+  all.emplace_back(Grid{.min_angle = -pi, .max_angle = pi, .columns = 360});
+  all.emplace_back(
+      Grid{.min_angle = -2, .max_angle = 2, .columns = 100, .min_elevation = -0.26, .max_elevation = 0.26, .rows = 10});
+  all.emplace_back(
+      Grid{.min_angle = 0, .max_angle = 2 * pi, .columns = 90, .min_elevation = 0.2, .max_elevation = 0.7, .rows = 16});
+  all.emplace_back(Grid{.min_angle = -2, .max_angle = 2, .columns = 10});
+  all.emplace_back(Grid{
+      .min_angle = -pi, .max_angle = pi, .columns = 24, .min_elevation = -pi / 2, .max_elevation = pi / 2, .rows = 13});
+  all.emplace_back(Grid{});
+  std::vector<double> list;
+  for (int i = 0; i < 150; ++i) {
+    list.push_back(dice.between(-pi, pi));
+    list.push_back(dice.between(-pi / 2, pi / 2));
+  }
+  all.emplace_back(std::span<const double>(list));
+  return all;
+}
+
+/// Scatters shapes, and robots of several shapes.
+TestScene city(Dice& dice, int things, int robots, bool ground) {
+  TestScene scene;
+  if (ground) scene.add_scenery(Shape::plane(), {{0, 0, -1.5}, from_rpy(0.1, 0.05, 0)});
+  for (int i = 0; i < things; ++i) {
+    const bool long_wall = i % 10 == 0;
+    const Shape shape = long_wall ? Shape::box({dice.between(10, 60), 0.2, dice.between(1, 5)}) : dice.shape(0.1, 1.5);
+    scene.add_scenery(shape, dice.pose(12));
+  }
+  for (int r = 0; r < robots; ++r) scene.add_robot({});
+  return scene;
+}
+
+/// Puts the robots at new places.
+void move_robots(TestScene& scene, Dice& dice) {
+  for (std::size_t r = 0; r < scene.robot_count(); ++r) {
+    const Pose base = dice.pose(10);
+    Dice body{std::uint32_t(r)};  // the same body in every place
+    scene.robot(r).clear();
+    for (int k = 0; k < 4; ++k) scene.robot(r).push_back({body.shape(0.1, 0.4), base * body.pose(0.5)});
+  }
+}
+
+/// How many of the rays meet something.
+int expect_agreement(const SceneIndex& scene, const View& view, double min_range, const Pattern& pattern,
+                     const Scan& found) {
+  const std::vector<Vec3> rays = directions(pattern);
+  int hits = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const Reference::Hit expected =
+        Reference::cast(scene, view.device, rays[i], min_range, view.max_range, view.ignored_robot);
+    EXPECT_NEAR(found.ranges[i], double(expected.distance), 1e-9) << "ray " << i;
+    EXPECT_EQ(found.hits[i], expected.body) << "ray " << i;
+    hits += expected.body != no_object;
+  }
+  return hits;
+}
+
+TEST(LaserScan, AgreesWithBruteForceForAllPatternsAmongMovingRobots) {
+  Dice dice(5);
+  Caster caster;
+  const std::vector<Pattern> all = patterns(dice);
+  int hits = 0, rays = 0;
+  for (int round = 0; round < 6; ++round) {
+    TestScene scene = city(dice, 20 * round, 8, round % 2 == 1);
+    for (int time = 0; time < 3; ++time) {
+      move_robots(scene, dice);
+      const SceneIndex& index = scene.index();
+      for (const Pattern& pattern : all) {
+        const View view{dice.pose(8), dice.between(4, 40), time == 0 ? -1 : time};
+        const Scan found = scan(caster, index, view, 0.02, pattern);
+        hits += expect_agreement(index, view, 0.02, pattern, found);
+        rays += int(pattern.size());
+      }
+    }
+  }
+  EXPECT_GT(hits, rays / 10);
+  EXPECT_LT(hits, rays * 9 / 10);
+}
+
+TEST(LaserScan, AgreesWithBruteForceForALevelScannerOnATurningRobot) {
+  // The usual case: upright boxes, level device, everything parallel or perpendicular to the plane of the scan.
+  Dice dice(6);
+  Caster caster;
+  const Pattern pattern(Grid{.min_angle = -2.0862, .max_angle = 2.0924, .columns = 682});
+  TestScene scene;
+  scene.add_scenery(Shape::plane(), {});
+  for (int x = -3; x <= 3; ++x)
+    for (int y = -3; y <= 3; ++y)
+      scene.add_scenery(Shape::box({1, 1, 2}), {{3.0 * x + 1.5, 3.0 * y + 1.5, 1}, Quat::Identity()});
+  const SceneIndex& index = scene.index();
+  for (int i = 0; i < 40; ++i) {
+    const View view{{{dice.between(-0.9, 0.9), dice.between(-0.9, 0.9), 0.15}, from_rpy(0, 0, i * pi / 20)}, 5.6, -1};
+    EXPECT_GT(expect_agreement(index, view, 0.02, pattern, scan(caster, index, view, 0.02, pattern)), 100);
+  }
+}
+
+TEST(LaserScan, GivesClosedFormDistancesAtAnyIncidenceInAnyFrame) {
+  Dice dice(7);
+  Caster caster;
+  for (int round = 0; round < 20; ++round) {
+    const Pose world = dice.pose(50);  // the whole arrangement, moved
+    for (const double incidence : {0.0, pi / 4, 80 * pi / 180}) {
+      const double aim[] = {incidence, 0};
+      const Pattern one{std::span<const double>(aim)};
+      TestScene wall;
+      wall.add_scenery(Shape::box({0.4, 100, 3}), world * Pose{{3.2, 0, 0}, Quat::Identity()});
+      EXPECT_NEAR(scan(caster, wall.index(), {world, 30, -1}, 0, one).ranges[0], 3 / std::cos(incidence), 1e-9);
+
+      // at 3 m from the surface, turned so that the ray passes the centre at r sin(incidence)
+      const double radius = 0.5, centre = 3 + radius, passing = std::asin(radius * std::sin(incidence) / centre);
+      const double turned[] = {passing, 0};
+      const Pattern past{std::span<const double>(turned)};
+      const double expected = centre * std::cos(passing) - radius * std::cos(incidence);
+      for (const Shape& shape : {Shape::sphere(radius), Shape::cylinder(radius, 2), Shape::capsule(radius, 2)}) {
+        TestScene scene;
+        scene.add_scenery(shape, world * Pose{{centre, 0, 0}, Quat::Identity()});
+        EXPECT_NEAR(scan(caster, scene.index(), {world, 30, -1}, 0, past).ranges[0], expected, 1e-9);
+      }
+    }
+  }
+}
+
+TEST(LaserScan, SeesItsOwnRobotOnlyWhenToldTo) {
+  TestScene scene;
+  const ObjectId other = scene.add_robot({{Shape::box({1, 1, 1}), {{4, 0, 0}, Quat::Identity()}}});
+  const ObjectId self = scene.add_robot({{Shape::box({0.1, 1, 1}), {{1, 0, 0}, Quat::Identity()}}});
+  Caster caster;
+  const Pattern ahead{Grid{}};
+  const Scan without = scan(caster, scene.index(), {{}, 10, 1}, 0, ahead);
+  EXPECT_NEAR(without.ranges[0], 3.5, 1e-12);
+  EXPECT_EQ(without.hits[0], other);
+  const Scan with = scan(caster, scene.index(), {{}, 10, -1}, 0, ahead);
+  EXPECT_NEAR(with.ranges[0], 0.95, 1e-12);
+  EXPECT_EQ(with.hits[0], self);
+}
+
+TEST(LaserScan, ReadsTheGreatestRangeWhereNothingIsAndTheLeastWhereSomethingIsTooNear) {
+  TestScene scene;
+  const ObjectId near = scene.add_scenery(Shape::box({0.1, 1, 1}), {{0.1, 0, 0}, Quat::Identity()});
+  scene.add_scenery(Shape::box({1, 1, 1}), {{-7, 0, 0}, Quat::Identity()});
+  Caster caster;
+  const Scan s =
+      scan(caster, scene.index(), {{}, 5.6, -1}, 0.2, Pattern(Grid{.min_angle = 0, .max_angle = pi, .columns = 3}));
+  EXPECT_EQ(s.ranges, (std::vector<double>{0.2, 5.6, 5.6}));
+  EXPECT_EQ(s.hits, (std::vector<ObjectId>{near, no_object, no_object}));
+}
+
+TEST(LaserScan, ReadsTheLeastRangeFromInsideASolid) {
+  TestScene scene;
+  const ObjectId solid = scene.add_scenery(Shape::sphere(2), {});
+  Caster caster;
+  const Pattern round(Grid{.min_angle = -pi, .max_angle = pi, .columns = 36});
+  const Scan s = scan(caster, scene.index(), {{{0.5, 0, 0}, Quat::Identity()}, 5.6, -1}, 0.02, round);
+  for (const double r : s.ranges) EXPECT_EQ(r, 0.02);
+  for (const ObjectId hit : s.hits) EXPECT_EQ(hit, solid);
+}
+
+TEST(LaserScan, MeasuresTheHeightOverATiltedPlane) {
+  TestScene scene;
+  scene.add_scenery(Shape::plane(), {{0, 0, 0}, from_rpy(0.3, 0, 0)});
+  Caster caster;
+  const double down[] = {0, -pi / 2, 0, pi / 2};
+  const Scan s =
+      scan(caster, scene.index(), {{{5, 1, 2}, Quat::Identity()}, 50, -1}, 0, Pattern(std::span<const double>(down)));
+  EXPECT_NEAR(s.ranges[0], 2 - std::tan(0.3), 1e-12);
+  EXPECT_EQ(s.ranges[1], 50);
+}
+
+TEST(LaserScan, SeesAnEmptySceneAsEmpty) {
+  Caster caster;
+  const SceneIndex nothing;
+  const Scan s = scan(caster, nothing, {{}, 5.6, -1}, 0, Pattern(Grid{.min_angle = -1, .max_angle = 1, .columns = 20}));
+  for (const double r : s.ranges) EXPECT_EQ(r, 5.6);
+}
+
+TEST(LaserScan, AllocatesNothingOnceItsMemoryIsReserved) {
+  Dice dice(8);
+  TestScene scene = city(dice, 100, 8, true);
+  move_robots(scene, dice);
+  Caster caster;
+  caster.reserve(133, 266);
+  const Pattern pattern(Grid{.min_angle = -2, .max_angle = 2, .columns = 200});
+  std::vector<double> ranges(pattern.size());
+  std::vector<ObjectId> hits(pattern.size());
+  for (int i = 0; i < 20; ++i) {
+    move_robots(scene, dice);
+    const SceneIndex& index = scene.index();
+    const View view{dice.pose(8), dice.between(4, 40), -1};
+    const long before = allocations;
+    caster.cast(index, view, 0.02, pattern, ranges, hits);
+    EXPECT_EQ(allocations, before);
+  }
+}
+
+TEST(LaserScan, DoesNotDependOnWhatTheCasterDidBefore) {
+  Dice dice(9);
+  TestScene scene = city(dice, 60, 8, true);
+  move_robots(scene, dice);
+  const SceneIndex& index = scene.index();
+  const Pattern pattern(Grid{.min_angle = -pi, .max_angle = pi, .columns = 360});
+  Caster used;
+  for (int i = 0; i < 10; ++i) {
+    const View view{dice.pose(8), 20, -1};
+    Caster fresh;
+    const Scan a = scan(used, index, view, 0, pattern), b = scan(fresh, index, view, 0, pattern);
+    EXPECT_EQ(a.ranges, b.ranges);
+    EXPECT_EQ(a.hits, b.hits);
+  }
+}
+
+}  // namespace
+}  // namespace muro::raycast

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include "planar.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace muro::differential_drive {
+namespace {
+
+struct Draw {
+  std::mt19937 engine;
+  double operator()(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine); }
+};
+
+/// The way of a frame by Simpson's rule over many small intervals.
+Vec3 simpson(const PlanarTwist& v, const PlanarTwist& rate, double dt) {
+  const int n = 20000;
+  Vec3 sum = Vec3::Zero();
+  for (int i = 0; i <= n; ++i) {
+    const double t = dt * i / n, heading = v.turn * t + 0.5 * rate.turn * t * t;
+    const PlanarTwist now = v + rate * t;
+    const Vec3 f = Eigen::AngleAxisd(heading, Vec3::UnitZ()) * Vec3(now.x, now.y, 0);
+    sum += (i == 0 || i == n ? 1 : i % 2 == 1 ? 4 : 2) * f;
+  }
+  return sum * dt / (3 * n);
+}
+
+TEST(Arc, IsACircleOfTheRadiusOfSpeedByTurnRate) {
+  for (const double turn : {-4.0, -1.0, 0.3, 1.0, 2.0, 7.0}) {
+    const Pose end = arc({1.5, 0, turn}, 0.8);
+    const double radius = 1.5 / turn, angle = 0.8 * turn;
+    EXPECT_NEAR(end.position.x(), radius * std::sin(angle), 1e-15);
+    EXPECT_NEAR(end.position.y(), radius * (1 - std::cos(angle)), 1e-15);
+    EXPECT_EQ(end.position.z(), 0);
+    EXPECT_NEAR(std::remainder(yaw_of(end.orientation) - angle, 2 * M_PI), 0, 1e-15);
+  }
+}
+
+TEST(Arc, BecomesAStraightLineAsTheTurnVanishes) {
+  EXPECT_EQ(arc({2, 0, 0}, 0.5).position, Vec3(1, 0, 0));
+  for (double turn = 1e-3; turn > 1e-300; turn *= 1e-3) {
+    const Vec3 end = arc({2, 0, turn}, 0.5).position;
+    EXPECT_NEAR(end.x(), 1, turn * turn);
+    EXPECT_NEAR(end.y(), 0.25 * turn, 1e-2 * turn * turn + 1e-300);
+  }
+}
+
+TEST(Arc, TwoArcsOfHalfTheTimeAreOne) {
+  Draw draw{std::mt19937(1)};
+  for (int i = 0; i < 100; ++i) {
+    const PlanarTwist v{draw(-2, 2), draw(-2, 2), draw(-5, 5)};
+    const Pose whole = arc(v, 1), half = arc(v, 0.5), both = half * half;
+    EXPECT_LT((whole.position - both.position).norm(), 1e-15);
+    EXPECT_LT((whole.orientation.coeffs() - both.orientation.coeffs()).norm(), 1e-15);
+  }
+}
+
+TEST(Curve, IsTheIntegralOfAVelocityThatChangesEvenly) {
+  Draw draw{std::mt19937(2)};
+  for (int i = 0; i < 30; ++i) {
+    const PlanarTwist v{draw(-2, 2), draw(-2, 2), draw(-1, 1)}, rate{draw(-2, 2), draw(-2, 2), draw(-1, 1)};
+    const Pose end = curve(v, rate, 0.6);
+    EXPECT_LT((end.position - simpson(v, rate, 0.6)).norm(), 1e-10);
+    EXPECT_NEAR(yaw_of(end.orientation), 0.6 * v.turn + 0.18 * rate.turn, 1e-15);
+  }
+}
+
+TEST(Curve, WithoutChangeIsAnArc) {
+  Draw draw{std::mt19937(3)};
+  for (int i = 0; i < 30; ++i) {
+    const PlanarTwist v{draw(-2, 2), draw(-2, 2), draw(-2, 2)};
+    EXPECT_LT((curve(v, {}, 0.5).position - arc(v, 0.5).position).norm(), 1e-11);
+  }
+}
+
+}  // namespace
+}  // namespace muro::differential_drive

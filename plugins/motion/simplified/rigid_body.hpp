@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// One rigid body under a wrench: the integrator of motion.simplified, free of properties.
+#pragma once
+
+#include "muro/geometry.hpp"
+
+namespace muro::simplified {
+
+/// State of a body that is described by its centre of mass. World axes.
+struct RigidBody {
+  Vec3 centre = Vec3::Zero();    ///< m
+  Vec3 velocity = Vec3::Zero();  ///< m/s, of the centre
+  Quat orientation = Quat::Identity();
+  Vec3 spin = Vec3::Zero();  ///< rad/s
+};
+
+/// `q` turned by `by`, then brought back to length 1: one Newton step of the norm, which is all
+/// that round-off needs.
+inline Quat turned(const Quat& by, const Quat& q) {
+  Quat result = by * q;
+  result.coeffs() *= 1.5 - 0.5 * result.coeffs().squaredNorm();
+  return result;
+}
+
+/// Advances the rotation by `dt` (s) under a constant `torque` (N m, world axes, about the centre of mass).
+///
+/// Midpoint rule on the angular momentum L = R I R^T w (Hairer, Lubich, Wanner, Geometric Numerical
+/// Integration, Section VII.5, in explicit form): L advances by torque * dt exactly, the attitude by the spin
+/// that belongs to the middle of the step. Second order; without torque |L| and its direction do not change.
+/// `inertia` (kg m^2, axes of the body, about the centre of mass) is that of the start; `inverse_half` and
+/// `inverse_end` invert those of the middle and the end: the same for a rigid body.
+inline void advance_rotation(RigidBody& body, const Mat3& inertia, const Mat3& inverse_half, const Mat3& inverse_end,
+                             const Vec3& torque, double dt) {
+  // A tensor in the axes of the body, applied to a vector in those of the world.
+  const auto apply = [](const Quat& q, const Mat3& tensor, const Vec3& v) {
+    const Mat3 r = q.toRotationMatrix();
+    return Vec3(r * (tensor * (r.transpose() * v)));
+  };
+  const Vec3 momentum = apply(body.orientation, inertia, body.spin);
+  const Quat halfway = turned(rotation_of(Vec3(body.spin * (0.5 * dt))), body.orientation);
+  const Vec3 spin_half = apply(halfway, inverse_half, momentum + torque * (0.5 * dt));
+  body.orientation = turned(rotation_of(Vec3(spin_half * dt)), body.orientation);
+  body.spin = apply(body.orientation, inverse_end, momentum + torque * dt);
+}
+
+/// Advances the centre by `dt` (s) under a constant `acceleration` (m/s^2): exact. Returns its shift (m).
+inline Vec3 advance_centre(RigidBody& body, const Vec3& acceleration, double dt) {
+  const Vec3 shift = body.velocity * dt + acceleration * (0.5 * dt * dt);
+  body.centre += shift;
+  body.velocity += acceleration * dt;
+  return shift;
+}
+
+}  // namespace muro::simplified

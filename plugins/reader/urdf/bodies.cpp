@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include "bodies.hpp"
+
+#include <algorithm>
+
+#include "muro/vocabulary.hpp"
+#include "solid.hpp"
+
+namespace muro::urdf {
+
+namespace {
+
+std::string owner_of(const ::urdf::Link& link) { return "link " + cited(link.name); }
+
+std::string text_of(const Vec3& v) { return say(v.x(), " ", v.y(), " ", v.z()); }
+
+}  // namespace
+
+void Bodies::fill(const ::urdf::Link& link, const LinkInfo& info) {
+  std::vector<Shape> collisions, visuals;
+  for (const auto& c : link.collision_array)
+    if (c->geometry) add_shape(collisions, *c->geometry, c->origin, link, info);
+  for (const auto& v : link.visual_array) {
+    if (!v->geometry) continue;
+    const std::size_t before = visuals.size();
+    add_shape(visuals, *v->geometry, v->origin, link, info);
+    if (!v->material || visuals.size() == before) continue;
+    const ::urdf::Color& c = v->material->color;
+    visuals.back().color = Eigen::Vector4f(c.r, c.g, c.b, c.a).cast<double>();
+  }
+  if (link.inertial) {
+    const Inertia inertia = inertial_of(link, info, collisions.empty() ? visuals : collisions);
+    mass_ += inertia.mass;
+    builder_.set(keys::inertial, inertia);
+  }
+  if (!collisions.empty()) builder_.set_array<Shape>(keys::collision_shapes, collisions);
+  if (!visuals.empty()) builder_.set_array<Shape>(keys::visual_shapes, visuals);
+}
+
+void Bodies::add_shape(std::vector<Shape>& shapes, const ::urdf::Geometry& geometry, const ::urdf::Pose& origin,
+                       const ::urdf::Link& link, const LinkInfo& info) {
+  Shape shape;
+  switch (geometry.type) {
+    case ::urdf::Geometry::BOX: {
+      const auto& box = static_cast<const ::urdf::Box&>(geometry);
+      shape = Shape::box({box.dim.x, box.dim.y, box.dim.z});
+      break;
+    }
+    case ::urdf::Geometry::SPHERE:
+      shape = Shape::sphere(static_cast<const ::urdf::Sphere&>(geometry).radius);
+      break;
+    case ::urdf::Geometry::CYLINDER: {
+      const auto& cylinder = static_cast<const ::urdf::Cylinder&>(geometry);
+      shape = Shape::cylinder(cylinder.radius, cylinder.length);
+      break;
+    }
+    case ::urdf::Geometry::MESH:
+      if (!add_mesh(shape, static_cast<const ::urdf::Mesh&>(geometry), link, info)) return;
+      break;
+  }
+  shape.origin = pose_of(origin);
+  shape.friction = info.surface.friction.value_or(shape.friction);
+  shape.restitution = info.surface.restitution.value_or(shape.restitution);
+  shapes.push_back(shape);
+}
+
+bool Bodies::add_mesh(Shape& shape, const ::urdf::Mesh& mesh, const ::urdf::Link& link, const LinkInfo& info) {
+  auto [entry, fresh] = meshes_.try_emplace(mesh.filename);
+  if (fresh) {
+    entry->second = find_mesh(mesh.filename, folder_);
+    const MeshPath& found = entry->second;
+    if (found.path.empty()) {
+      std::vector<std::string> places;
+      for (const auto& path : found.searched) places.push_back(path.string());
+      std::string where;
+      constexpr std::size_t most = 6;
+      for (std::size_t i = 0; i < std::min(most, places.size()); ++i) where += (i ? ", " : "") + places[i];
+      if (places.size() > most) where += say(" and ", places.size() - most, " more places");
+      problems_.warning(info.place, say(owner_of(link), ": mesh ", cited(mesh.filename), " is not found and left out; ",
+                                        "looked for ", where));
+    } else if (found.other_case) {
+      problems_.note(info.place, say(owner_of(link), ": mesh ", cited(mesh.filename), " is read from ", found.path,
+                                     ", whose name differs in upper and lower case"));
+    }
+  }
+  if (entry->second.path.empty()) return false;
+  shape = {.kind = ShapeKind::mesh,
+           .mesh = builder_.intern(entry->second.path),
+           .size = {mesh.scale.x, mesh.scale.y, mesh.scale.z}};
+  return true;
+}
+
+Inertia Bodies::inertial_of(const ::urdf::Link& link, const LinkInfo& info, std::span<const Shape> shapes) {
+  const ::urdf::Inertial& i = *link.inertial;
+  const Inertia given{
+      .mass = i.mass, .ixx = i.ixx, .iyy = i.iyy, .izz = i.izz, .ixy = i.ixy, .ixz = i.ixz, .iyz = i.iyz};
+  Inertia inertia = given.in(pose_of(i.origin));
+  const TensorCheck check = check_tensor(given.tensor());
+  if (!inertia.com.allFinite() || !inertia.tensor().allFinite() || !check.moments.allFinite()) {
+    problems_.error(info.place, owner_of(link) + ": its inertia is too large for a number; use kg, m and kg m^2");
+    return {};
+  }
+  if (check.fault == TensorFault::no_body) {
+    problems_.warning(info.place, say(owner_of(link), ": its principal moments of inertia are ", text_of(check.moments),
+                                      " kg m^2, which no body has: none exceeds the sum of the other two. They are ",
+                                      "used as they are"));
+  } else if (check.fault == TensorFault::not_positive) {
+    Inertia even = even_solid(shapes, i.mass);
+    const bool solid = std::any_of(shapes.begin(), shapes.end(), [](auto& s) { return s.kind != ShapeKind::mesh; }) &&
+                       even.tensor().allFinite();
+    if (!solid) even = even_solid({}, i.mass);
+    problems_.warning(info.place, say(owner_of(link), ": its principal moments of inertia are ", text_of(check.moments),
+                                      " kg m^2, and must be above 0; those of an even body of ", i.mass, " kg in its ",
+                                      solid ? "shapes" : "place, a ball of water,",
+                                      " are used: ", text_of({even.ixx, even.iyy, even.izz})));
+    inertia = Inertia::from(i.mass, inertia.com, even.tensor());
+  }
+  return inertia;
+}
+
+}  // namespace muro::urdf

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <urdf_model/link.h>
+
+#include <filesystem>
+#include <map>
+
+#include "mesh_path.hpp"
+#include "model.hpp"
+#include "muro/shape.hpp"
+
+namespace muro::urdf {
+
+inline Pose pose_of(const ::urdf::Pose& p) {
+  return {{p.position.x, p.position.y, p.position.z}, Quat(p.rotation.w, p.rotation.x, p.rotation.y, p.rotation.z)};
+}
+
+/// Sets the constants of a link's body: inertial and shapes.
+class Bodies {
+ public:
+  Bodies(std::filesystem::path folder, RobotBuilder& builder, Problems& problems)
+      : folder_(std::move(folder)), builder_(builder), problems_(problems) {}
+
+  /// For the last part of the builder.
+  void fill(const ::urdf::Link& link, const LinkInfo& info);
+  /// kg, of all bodies so far.
+  double mass() const { return mass_; }
+
+ private:
+  void add_shape(std::vector<Shape>& shapes, const ::urdf::Geometry& geometry, const ::urdf::Pose& origin,
+                 const ::urdf::Link& link, const LinkInfo& info);
+  bool add_mesh(Shape& shape, const ::urdf::Mesh& mesh, const ::urdf::Link& link, const LinkInfo& info);
+  Inertia inertial_of(const ::urdf::Link& link, const LinkInfo& info, std::span<const Shape> shapes);
+
+  std::filesystem::path folder_;
+  RobotBuilder& builder_;
+  Problems& problems_;
+  std::map<std::string, MeshPath> meshes_;  ///< by the name in the file
+  double mass_ = 0;
+};
+
+}  // namespace muro::urdf

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: MIT
+#include "build.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "bodies.hpp"
+
+namespace muro::urdf {
+
+namespace {
+
+double or_infinite(double limit) {
+  if (std::abs(limit) < no_limit) return limit;
+  return std::copysign(std::numeric_limits<double>::infinity(), limit);
+}
+
+JointLimits limits_of(const ::urdf::Joint& joint) {
+  JointLimits limits;
+  if (joint.limits) {
+    if (joint.type != ::urdf::Joint::CONTINUOUS) {
+      limits.lower = or_infinite(joint.limits->lower);
+      limits.upper = or_infinite(joint.limits->upper);
+    }
+    limits.velocity = or_infinite(joint.limits->velocity);
+    limits.effort = or_infinite(joint.limits->effort);
+  }
+  if (joint.dynamics) {
+    limits.damping = joint.dynamics->damping;
+    limits.friction = joint.dynamics->friction;
+  }
+  return limits;
+}
+
+class TreeBuilder {
+ public:
+  TreeBuilder(const ::urdf::ModelInterface& model, const ModelInfo& info, const std::filesystem::path& folder,
+              RobotBuilder& builder, Problems& problems)
+      : model_(model), info_(info), builder_(builder), problems_(problems), bodies_(folder, builder, problems) {
+    for (const auto& [name, link] : info.links) used_.insert(name);
+    name_joints();
+  }
+
+  void run() {
+    builder_.base(info_.root);
+    fill(info_.root);
+    // An own stack: a chain of links may be longer than the call stack is deep.
+    std::vector<Task> open;
+    push_children(open, info_.root);
+    while (!open.empty()) {
+      const Task task = open.back();
+      open.pop_back();
+      switch (task.kind) {
+        case Task::open_fork:
+          builder_.fork();
+          break;
+        case Task::close_branch:
+          builder_.end();
+          break;
+        case Task::add:
+          add_joint(*task.joint);
+          push_children(open, info_.joints.at(*task.joint).child);
+          break;
+      }
+    }
+    if (bodies_.mass() == 0)
+      problems_.warning(info_.links.at(info_.root).place,
+                        "no link has a mass; only motion without forces can move the robot");
+  }
+
+ private:
+  struct Task {
+    enum { open_fork, close_branch, add } kind;
+    const std::string* joint = nullptr;
+  };
+
+  /// n children make n - 1 forks, each nested in the second branch of the one before.
+  void push_children(std::vector<Task>& open, const std::string& link) const {
+    const auto& joints = info_.links.at(link).child_joints;
+    std::vector<Task> tasks;
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+      const bool last = i + 1 == joints.size();
+      if (!last) tasks.push_back({Task::open_fork});
+      tasks.push_back({Task::add, &joints[i]});
+      if (!last) tasks.push_back({Task::close_branch});
+    }
+    for (std::size_t i = 1; i < joints.size(); ++i) tasks.push_back({Task::close_branch});
+    open.insert(open.end(), tasks.rbegin(), tasks.rend());
+  }
+
+  /// `wanted`, or `wanted` with `suffix` behind it as often as it takes to be the only one.
+  std::string unique(std::string wanted, std::string_view suffix) {
+    while (!used_.insert(wanted).second) wanted += suffix;
+    return wanted;
+  }
+
+  void name_joints() {
+    for (const std::string& name : info_.joint_order)
+      if (!info_.links.count(name)) used_.insert(name);
+    for (const std::string& name : info_.joint_order) {
+      const JointInfo& joint = info_.joints.at(name);
+      if (!joint.moves) continue;
+      std::string& part = part_names_[name];
+      part = name;
+      if (!info_.links.count(name)) continue;
+      part = unique(name, "_joint");
+      problems_.note(joint.place, say("joint ", cited(name), " has the name of a link; it is called ", cited(part)));
+    }
+  }
+
+  void fill(const std::string& link) { bodies_.fill(*model_.getLink(link), info_.links.at(link)); }
+
+  void place(const Pose& pose) {
+    if (!pose.position.isZero(0)) builder_.translation(pose.position);
+    if (!pose.orientation.vec().isZero(0)) builder_.rotation(pose.orientation);
+  }
+
+  void add_joint(const std::string& name) {
+    const auto joint = model_.getJoint(name);
+    const JointInfo& info = info_.joints.at(name);
+    place(pose_of(joint->parent_to_joint_origin_transform));
+    const Vec3 axis(joint->axis.x, joint->axis.y, joint->axis.z);
+    switch (joint->type) {
+      case ::urdf::Joint::REVOLUTE:
+      case ::urdf::Joint::CONTINUOUS:
+        builder_.revolute(part_names_.at(name), axis.normalized(), limits_of(*joint));
+        break;
+      case ::urdf::Joint::PRISMATIC:
+        builder_.prismatic(part_names_.at(name), axis.normalized(), limits_of(*joint));
+        break;
+      case ::urdf::Joint::PLANAR:
+        add_planar(name, info, axis.normalized());
+        break;
+      case ::urdf::Joint::FLOATING:
+        report_floating(name, info);
+        break;
+      default:
+        break;
+    }
+    if (joint->mimic) follow(*joint);
+    if (info.moves && info_.links.at(info.child).child_joints.empty() && !model_.getLink(info.child)->inertial)
+      problems_.warning(info_.links.at(info.child).place,
+                        say("link ", cited(info.child), " hangs on the moving joint ", cited(name),
+                            " but has no mass; a dynamic motion model ", "needs an <inertial>"));
+    builder_.body(info.child);
+    fill(info.child);
+  }
+
+  /// Mimics of mimics are resolved to the joint that leads them all: the host knows one level.
+  void follow(const ::urdf::Joint& joint) {
+    double multiplier = joint.mimic->multiplier, offset = joint.mimic->offset;
+    auto leader = model_.getJoint(joint.mimic->joint_name);
+    while (leader->mimic) {
+      offset += multiplier * leader->mimic->offset;
+      multiplier *= leader->mimic->multiplier;
+      leader = model_.getJoint(leader->mimic->joint_name);
+    }
+    builder_.mimic(part_names_.at(leader->name), multiplier, offset);
+  }
+
+  bool hangs_on_bare_root(const JointInfo& joint) const {
+    return joint.parent == info_.root && info_.links.at(info_.root).bare;
+  }
+
+  void report_free_base(const std::string& name, const JointInfo& joint) {
+    problems_.note(joint.place,
+                   say("joint ", cited(name), " is ", joint.type, " and joins the robot to the empty root ",
+                       cited(joint.parent), "; it is fixed, as the base of a robot moves anyway"));
+  }
+
+  /// Two prismatic joints in the plane and a revolute one about its normal, with bodies without mass between.
+  void add_planar(const std::string& name, const JointInfo& joint, const Vec3& normal) {
+    if (hangs_on_bare_root(joint)) return report_free_base(name, joint);
+    const Quat turn = Quat::FromTwoVectors(Vec3::UnitZ(), normal);
+    const std::string x = unique(name + "_x", "_joint"), y = unique(name + "_y", "_joint");
+    const std::string yaw = unique(name + "_yaw", "_joint");
+    problems_.warning(joint.place,
+                      say("joint ", cited(name), " is planar; it is made of the prismatic joints ", cited(x), " and ",
+                          cited(y), " and the revolute joint ", cited(yaw), ", without limits"));
+    builder_.prismatic(x, turn * Vec3::UnitX(), {});
+    builder_.body(unique(name + "_x_body", "_body"));
+    builder_.prismatic(y, turn * Vec3::UnitY(), {});
+    builder_.body(unique(name + "_y_body", "_body"));
+    builder_.revolute(yaw, normal, {});
+  }
+
+  void report_floating(const std::string& name, const JointInfo& joint) {
+    if (hangs_on_bare_root(joint)) return report_free_base(name, joint);
+    problems_.warning(joint.place,
+                      say("joint ", cited(name), " is floating and taken as fixed; link ", cited(joint.child),
+                          " and what hangs on it move freely only as a robot of their own"));
+  }
+
+  const ::urdf::ModelInterface& model_;
+  const ModelInfo& info_;
+  RobotBuilder& builder_;
+  Problems& problems_;
+  Bodies bodies_;
+  std::set<std::string> used_;
+  std::map<std::string, std::string> part_names_;  ///< of joints that move: what the robot calls them
+};
+
+}  // namespace
+
+void build(const ::urdf::ModelInterface& model, const ModelInfo& info, const std::filesystem::path& folder,
+           RobotBuilder& builder, Problems& problems) {
+  TreeBuilder(model, info, folder, builder, problems).run();
+}
+
+}  // namespace muro::urdf

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+
+#include "model.hpp"
+
+namespace muro::urdf {
+
+namespace {
+
+constexpr std::array<std::string_view, 6> types = {"fixed",     "revolute", "continuous",
+                                                   "prismatic", "planar",   "floating"};
+
+/// One joint on its way through the checks.
+class JointCheck {
+ public:
+  JointCheck(Element& xml, const std::string& name, Problems& problems)
+      : xml_(xml), owner_("joint " + cited(name)), problems_(problems) {}
+
+  JointInfo run(const ModelInfo& model) {
+    info_.place = place_of(xml_);
+    check_type();
+    info_.parent = check_link("parent", model);
+    info_.child = check_link("child", model);
+    if (!info_.parent.empty() && info_.parent == info_.child)
+      problems_.error(info_.place, say(owner_, " joins link ", cited(info_.parent), " with itself"));
+    if (Element* origin = only_child(xml_, "origin", owner_, problems_)) {
+      numbers(*origin, "xyz", 3, owner_, problems_);
+      numbers(*origin, "rpy", 3, owner_, problems_);
+      if (origin->Attribute("quat_xyzw"))
+        problems_.error(place_of(*origin),
+                        owner_ + ", <origin quat_xyzw>: quaternions of URDF 1.1 are not read; write rpy");
+    }
+    check_axis();
+    check_limit();
+    check_dynamics();
+    check_mimic();
+    // of no use here, and urdfdom would give up on a mistake in them
+    for (const char* other : {"safety_controller", "calibration"})
+      for (Element* e : children(xml_, other)) remove(*e);
+    return info_;
+  }
+
+ private:
+  void check_type() {
+    const char* type = xml_.Attribute("type");
+    info_.type = type ? type : "";
+    info_.moves = info_.type == "revolute" || info_.type == "continuous" || info_.type == "prismatic";
+    if (std::find(types.begin(), types.end(), info_.type) != types.end()) return;
+    problems_.error(info_.place, say(owner_, type ? say(" is of the unknown type ", cited(type)) : " has no type",
+                                     "; types are fixed, revolute, continuous, prismatic, planar, floating"));
+  }
+
+  std::string check_link(const char* end, const ModelInfo& model) {
+    Element* element = only_child(xml_, end, owner_, problems_);
+    const char* link = element ? element->Attribute("link") : nullptr;
+    if (!link || !*link) {
+      problems_.error(info_.place, say(owner_, " has no ", end, "; write <", end, " link=\"...\"/>"));
+      return {};
+    }
+    if (model.links.count(link)) return link;
+    std::vector<std::string> names;
+    for (const auto& [name, unused] : model.links) names.push_back(name);
+    problems_.error(place_of(*element),
+                    say(owner_, ": its ", end, ", link ", cited(link), ", does not exist; links are ", listed(names)));
+    return {};
+  }
+
+  void check_axis() {
+    Element* axis = only_child(xml_, "axis", owner_, problems_);
+    if (!axis) return;
+    if (!info_.moves && info_.type != "planar") return remove(*axis);
+    if (!axis->Attribute("xyz")) {
+      problems_.warning(place_of(*axis), owner_ + ": <axis> has no xyz; the axis is x, URDF's default");
+      return remove(*axis);
+    }
+    const auto xyz = numbers(*axis, "xyz", 3, owner_, problems_);
+    if (!xyz) return;
+    const double length = std::hypot((*xyz)[0], (*xyz)[1], (*xyz)[2]);
+    if (!(length > 1e-9) || !std::isfinite(length))
+      problems_.error(place_of(*axis), say(owner_, ": axis ", cited(axis->Attribute("xyz")),
+                                           " has no direction; it is a ", "vector of length 1, such as 0 0 1"));
+    else if (std::abs(length - 1) > 1e-3)
+      problems_.note(place_of(*axis), say(owner_, ": axis ", cited(axis->Attribute("xyz")),
+                                          " is not of length 1; only its direction is used"));
+  }
+
+  void check_limit() {
+    Element* limit = only_child(xml_, "limit", owner_, problems_);
+    if (!info_.moves) {
+      if (limit) remove(*limit);
+      return;
+    }
+    const bool bounded = info_.type != "continuous";
+    if (!limit) {
+      if (!bounded) return;
+      problems_.warning(info_.place,
+                        say(owner_, " is ", info_.type, " but has no <limit>; it is unlimited. Write <limit ",
+                            "lower=\"...\" upper=\"...\" velocity=\"...\" effort=\"...\"/>"));
+      limit = xml_.InsertNewChildElement("limit");
+      set(*limit, "lower", -no_limit);
+      set(*limit, "upper", no_limit);
+      set(*limit, "velocity", no_limit);
+      set(*limit, "effort", no_limit);
+      return;
+    }
+    for (const char* most : {"velocity", "effort"}) check_most(*limit, most);
+    if (!bounded) {
+      const double lower = number(*limit, "lower", owner_, problems_).value_or(0);
+      if (lower != 0 || number(*limit, "upper", owner_, problems_).value_or(0) != 0)
+        problems_.note(place_of(*limit), owner_ + " is continuous: its lower and upper limits are ignored");
+      limit->DeleteAttribute("lower");
+      limit->DeleteAttribute("upper");
+      return;
+    }
+    const double lower = number(*limit, "lower", owner_, problems_).value_or(0);
+    const double upper = number(*limit, "upper", owner_, problems_).value_or(0);
+    if (lower > upper) {
+      problems_.warning(place_of(*limit), say(owner_, ": lower limit ", lower, " is above upper limit ", upper,
+                                              "; the two are exchanged"));
+      set(*limit, "lower", upper);
+      set(*limit, "upper", lower);
+    } else if (lower == upper) {
+      problems_.warning(place_of(*limit), say(owner_, ": lower and upper limits are both ", lower,
+                                              "; the joint cannot move. Give a range, or make it fixed"));
+    }
+  }
+
+  void check_most(Element& limit, const char* attribute) {
+    const bool given = limit.Attribute(attribute) != nullptr;
+    const auto value = number(limit, attribute, owner_, problems_);
+    if (value && *value >= 0) {
+      if (*value == 0)
+        problems_.warning(place_of(limit),
+                          say(owner_, ": its ", attribute, " limit is 0, so that no drive can move it; leave ",
+                              attribute, " out when it is unknown"));
+      return;
+    }
+    if (!given)
+      problems_.warning(place_of(limit), say(owner_, ": <limit> has no ", attribute, ", which is taken as unlimited"));
+    else if (value)
+      problems_.warning(place_of(limit), say(owner_, ": its ", attribute, " limit ", *value,
+                                             " is negative and taken as ", "unlimited; it is 0 or more"));
+    set(limit, attribute, no_limit);
+  }
+
+  void check_dynamics() {
+    Element* dynamics = only_child(xml_, "dynamics", owner_, problems_);
+    if (!dynamics) return;
+    for (const char* attribute : {"damping", "friction"}) {
+      if (number(*dynamics, attribute, owner_, problems_).value_or(0) >= 0) continue;
+      problems_.warning(place_of(*dynamics), say(owner_, ": ", attribute, " ", dynamics->Attribute(attribute),
+                                                 " is negative and taken as 0"));
+      dynamics->SetAttribute(attribute, "0");
+    }
+    if (!dynamics->Attribute("damping") && !dynamics->Attribute("friction")) remove(*dynamics);
+  }
+
+  void check_mimic() {
+    Element* mimic = only_child(xml_, "mimic", owner_, problems_);
+    if (!mimic) return;
+    if (!info_.moves) {
+      problems_.warning(place_of(*mimic), say(owner_, " is ", info_.type, " and cannot mimic; <mimic> is ignored"));
+      return remove(*mimic);
+    }
+    number(*mimic, "multiplier", owner_, problems_);
+    number(*mimic, "offset", owner_, problems_);
+  }
+
+  Element& xml_;
+  std::string owner_;
+  Problems& problems_;
+  JointInfo info_;
+};
+
+/// The joint that <mimic> of `xml` names, or empty.
+std::string leader_of(Element& xml) {
+  Element* mimic = xml.FirstChildElement("mimic");
+  const char* leader = mimic ? mimic->Attribute("joint") : nullptr;
+  return leader ? leader : "";
+}
+
+/// Removes what follows no joint, and reports joints that follow each other in a circle.
+void check_leaders(const std::map<std::string, Element*>& xml, const ModelInfo& model, Problems& problems) {
+  for (const auto& [name, joint] : xml) {
+    Element* mimic = joint->FirstChildElement("mimic");
+    if (!mimic) continue;
+    const std::string leader = leader_of(*joint);
+    const auto found = model.joints.find(leader);
+    if (found != model.joints.end() && found->second.moves) continue;
+    problems.warning(place_of(*mimic), say("joint ", cited(name), " mimics ", cited(leader), ", which is no ",
+                                           "revolute, continuous or prismatic joint; it moves on its own"));
+    remove(*mimic);
+  }
+  for (const auto& [name, joint] : xml) {
+    std::string leader = leader_of(*joint);
+    for (std::size_t steps = 0; !leader.empty() && steps <= xml.size(); ++steps) {
+      if (leader == name) {
+        problems.error(place_of(*joint), say("joint ", cited(name), " mimics itself, over ", steps, " other joints"));
+        break;
+      }
+      leader = leader_of(*xml.at(leader));
+    }
+  }
+}
+
+}  // namespace
+
+void check_joints(Element& robot, ModelInfo& model, Problems& problems) {
+  std::map<std::string, Element*> xml;
+  for (Element* joint : children(robot, "joint")) {
+    const Place place = place_of(*joint);
+    const char* name = joint->Attribute("name");
+    if (!name || !*name) {
+      problems.error(place, "a joint has no name; write <joint name=\"...\" type=\"...\">");
+      continue;
+    }
+    const auto [entry, fresh] = model.joints.try_emplace(name);
+    if (!fresh) {
+      problems.error(place, say("two joints are named ", cited(name), ", the other one in line ",
+                                entry->second.place.line, "; names are unique"));
+      continue;
+    }
+    entry->second = JointCheck(*joint, name, problems).run(model);
+    model.joint_order.emplace_back(name);
+    xml.emplace(name, joint);
+  }
+  check_leaders(xml, model, problems);
+}
+
+}  // namespace muro::urdf

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// What the checks learn about a model before urdfdom reads it.
+#pragma once
+
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "document.hpp"
+
+namespace muro::urdf {
+
+/// The surface of a link, from <gazebo reference="link">; URDF itself has no word for it.
+struct Surface {
+  std::optional<double> friction;
+  std::optional<double> restitution;
+};
+
+struct JointInfo {
+  Place place;
+  std::string type, parent, child;
+  bool moves = false;  ///< revolute, continuous, prismatic: becomes a joint of the robot
+};
+
+struct LinkInfo {
+  Place place;
+  bool bare = false;                      ///< nothing but a frame: no inertial, no shape
+  std::string parent_joint;               ///< empty for the root
+  std::vector<std::string> child_joints;  ///< in the order of the file
+  Surface surface;
+};
+
+struct ModelInfo {
+  std::map<std::string, LinkInfo> links;
+  std::map<std::string, JointInfo> joints;
+  std::vector<std::string> joint_order;  ///< as in the file
+  std::string root;
+};
+
+/// Stands for "no limit" in the text that urdfdom reads, which knows no infinity.
+inline constexpr double no_limit = std::numeric_limits<double>::max();
+
+// The checks. Each reports what it finds and changes the document so that urdfdom accepts the rest.
+
+/// True, with an error reported, when the file is the source of a macro language.
+bool has_macros(Element& robot, Problems& problems);
+/// Reads friction and restitution and removes everything that is not link, joint or material.
+void take_surfaces(Element& robot, ModelInfo& model, Problems& problems);
+void check_materials(Element& robot, Problems& problems);
+void check_links(Element& robot, ModelInfo& model, Problems& problems);
+void check_joints(Element& robot, ModelInfo& model, Problems& problems);
+/// Finds the root; every link hangs on it by exactly one way, or errors are reported.
+void check_tree(ModelInfo& model, Problems& problems);
+
+/// "`a`, `b`, `c` and 4 more", of anything that begins with a name.
+template <class Names>
+std::string listed(const Names& names) {
+  constexpr std::size_t most = 8;
+  std::string text;
+  std::size_t count = 0;
+  for (const std::string& name : names)
+    if (++count <= most) text += (count > 1 ? ", " : "") + cited(name);
+  if (count == 0) return "none";
+  return count > most ? say(text, " and ", count - most, " more") : text;
+}
+
+}  // namespace muro::urdf

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#include "read.hpp"
+
+#include "build.hpp"
+#include "text_file.hpp"
+#include "urdfdom_parse.hpp"
+
+namespace muro::urdf {
+
+namespace {
+
+/// What the <robot> element itself may have wrong, as far as urdfdom cares.
+void check_robot(Element& robot, Problems& problems) {
+  const Place place = place_of(robot);
+  if (!robot.Attribute("name")) {
+    problems.warning(place, "<robot> has no name; write <robot name=\"...\">");
+    robot.SetAttribute("name", "robot");
+  }
+  const char* version = robot.Attribute("version");
+  if (!version) return;
+  if (std::string_view(version) != "1.0")
+    problems.warning(place, say("the file is of URDF version ", cited(version), " and is read as version 1.0"));
+  robot.DeleteAttribute("version");
+}
+
+}  // namespace
+
+void read_text(std::string bytes, const std::filesystem::path& folder, RobotBuilder& builder) {
+  Problems problems(builder);
+  const std::string text = decoded(std::move(bytes), problems);
+  if (problems.found_error()) return;
+  Document document;
+  if (!document.parse(text, problems)) return;
+  Element& robot = document.robot();
+  if (has_macros(robot, problems)) return;
+
+  // urdfdom stops at the first mistake, or passes over it, and knows no lines. So the checks come first, find
+  // all there is, and leave a document that urdfdom accepts.
+  ModelInfo info;
+  check_robot(robot, problems);
+  check_materials(robot, problems);
+  check_links(robot, info, problems);
+  check_joints(robot, info, problems);
+  take_surfaces(robot, info, problems);
+  check_tree(info, problems);
+  if (problems.found_error()) return;
+
+  const auto model = parse_with_urdfdom(document.printed(), problems);
+  if (model && !problems.found_error()) build(*model, info, folder, builder, problems);
+}
+
+void read_file(const std::string& path, RobotBuilder& builder) {
+  read_text(load_file(path), std::filesystem::absolute(path).parent_path(), builder);
+}
+
+}  // namespace muro::urdf

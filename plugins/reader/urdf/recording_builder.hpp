@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// For tests: a RobotBuilder that writes down what it is told.
+#pragma once
+
+#include <cstring>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "muro/vocabulary.hpp"
+#include "problems.hpp"
+#include "read.hpp"
+
+namespace muro::urdf {
+
+class RecordingBuilder final : public RobotBuilder {
+ public:
+  std::vector<std::string> calls;     ///< "translation 0.1 0 0", "revolute hinge about 0 1 0"
+  std::vector<std::string> problems;  ///< "error 3:5 text"
+  std::vector<Quat> rotations;
+  std::map<std::string, JointLimits> limits;
+  std::map<std::string, Inertia> inertials;
+  std::map<std::string, std::vector<Shape>> collisions, visuals;
+  std::vector<std::string> texts{""};
+
+  void base(std::string_view name) noexcept override { part("base", name, ""); }
+  void fork() noexcept override { calls.emplace_back("fork"); }
+  void end() noexcept override { calls.emplace_back("end"); }
+  void translation(const Vec3& v) noexcept override { calls.push_back("translation " + text(v)); }
+  void rotation(const Quat& q) noexcept override {
+    calls.emplace_back("rotation");
+    rotations.push_back(q);
+  }
+  void revolute(std::string_view name, const Vec3& axis, const JointLimits& l) noexcept override {
+    part("revolute", name, " about " + text(axis));
+    limits[last_] = l;
+  }
+  void prismatic(std::string_view name, const Vec3& axis, const JointLimits& l) noexcept override {
+    part("prismatic", name, " along " + text(axis));
+    limits[last_] = l;
+  }
+  void mimic(std::string_view leader, double multiplier, double offset) noexcept override {
+    calls.push_back(say("mimic ", leader, " * ", multiplier, " + ", offset));
+  }
+  void body(std::string_view name) noexcept override { part("body", name, ""); }
+  TextId intern(std::string_view t) noexcept override {
+    texts.emplace_back(t);
+    return TextId(texts.size() - 1);
+  }
+  void report(Severity severity, std::string_view t, int line, int column) noexcept override {
+    const char* name = severity == Severity::note ? "note" : severity == Severity::warning ? "warning" : "error";
+    problems.push_back(say(name, " ", line, ":", column, " ", t));
+  }
+
+ private:
+  static std::string text(const Vec3& v) { return say(v.x(), " ", v.y(), " ", v.z()); }
+  void part(const char* kind, std::string_view name, const std::string& more) {
+    last_ = name;
+    calls.push_back(say(kind, " ", name, more));
+  }
+  void set_raw(const KeyInfo& key, const void* data, std::uint32_t count) noexcept override {
+    if (key.name == keys::inertial.name) {
+      inertials[last_] = *static_cast<const Inertia*>(data);
+    } else {
+      const auto* first = static_cast<const Shape*>(data);
+      (key.name == keys::collision_shapes.name ? collisions : visuals)[last_].assign(first, first + count);
+    }
+  }
+
+  std::string last_;
+};
+
+inline RecordingBuilder recorded(const std::string& urdf, const std::string& folder = "/nowhere") {
+  RecordingBuilder builder;
+  read_text(urdf, folder, builder);
+  return builder;
+}
+
+}  // namespace muro::urdf

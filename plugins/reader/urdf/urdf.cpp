@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// Reads robots from URDF files (https://wiki.ros.org/urdf/XML), with urdfdom.
+#include "muro/plugin.hpp"
+#include "read.hpp"
+
+namespace {
+
+using namespace muro;
+
+constexpr std::string_view extensions[] = {".urdf"};
+constexpr ReaderDescription description{
+    .id = "reader.urdf",
+    .version = "1.0.0",
+    .summary = "Reads URDF models with urdfdom and reports all their problems with line and column",
+    .extensions = extensions,
+};
+
+class UrdfReader final : public ModelReader {
+ public:
+  void read(std::string_view path, RobotBuilder& builder) override { urdf::read_file(std::string(path), builder); }
+};
+
+constexpr abi::ReaderEntry readers[] = {model_reader<UrdfReader>(description)};
+
+}  // namespace
+
+MURO_PLUGIN(.name = "reader_urdf", .version = "1.0.0", .licence = "MIT", .summary = "URDF models", .readers = readers)

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+// The pieces of the reader by themselves.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <numbers>
+
+#include "mesh_path.hpp"
+#include "muro/algorithm.hpp"
+#include "recording_builder.hpp"
+#include "solid.hpp"
+#include "text_file.hpp"
+#include "urdfdom_parse.hpp"
+
+namespace muro::urdf {
+namespace {
+
+namespace fs = std::filesystem;
+using Lines = std::vector<std::string>;
+
+/// A folder that is gone after the test.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string pattern = (fs::temp_directory_path() / "muro_urdf_XXXXXX").string();
+    path_ = mkdtemp(pattern.data());
+  }
+  ~TemporaryFolder() { fs::remove_all(path_); }
+  fs::path add(const std::string& file) const {
+    fs::create_directories((path_ / file).parent_path());
+    std::ofstream(path_ / file) << "solid\nendsolid\n";
+    return path_ / file;
+  }
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+class Environment {
+ public:
+  Environment(const char* name, const std::string& value) : name_(name) { setenv(name, value.c_str(), 1); }
+  ~Environment() { unsetenv(name_); }
+
+ private:
+  const char* name_;
+};
+
+TEST(UrdfMeshPath, APackageIsAFolderAboveOrBesideTheModel) {
+  const TemporaryFolder folder;
+  const std::string mesh = folder.add("rover_description/meshes/wheel.stl");
+  EXPECT_EQ(find_mesh("package://rover_description/meshes/wheel.stl", folder.path() / "rover_description/urdf").path,
+            mesh);
+  EXPECT_EQ(find_mesh("package://rover_description/meshes/wheel.stl", folder.path() / "other/urdf").path, mesh);
+  EXPECT_EQ(find_mesh("package://rover_description/meshes/wheel.stl", folder.path()).path, mesh);
+  EXPECT_EQ(find_mesh("model://rover_description/meshes/wheel.stl", folder.path()).path, mesh);
+  EXPECT_EQ(find_mesh("package://nobody/meshes/wheel.stl", folder.path()).path, "");
+}
+
+TEST(UrdfMeshPath, PackagesAreAlsoFoundInTheWorkspacesOfRosAndGazebo) {
+  const TemporaryFolder folder, model;
+  const std::string ros = folder.add("src/first/m.stl"), ament = folder.add("install/share/second/m.stl");
+  const std::string gazebo = folder.add("models/third/m.stl");
+  const Environment one("ROS_PACKAGE_PATH", "/no/where:" + (folder.path() / "src").string());
+  const Environment two("AMENT_PREFIX_PATH", (folder.path() / "install").string());
+  const Environment three("GAZEBO_MODEL_PATH", (folder.path() / "models").string() + "::");
+  EXPECT_EQ(find_mesh("package://first/m.stl", model.path()).path, ros);
+  EXPECT_EQ(find_mesh("package://second/m.stl", model.path()).path, ament);
+  EXPECT_EQ(find_mesh("model://third/m.stl", model.path()).path, gazebo);
+  const MeshPath none = find_mesh("package://third/m.stl", model.path());
+  EXPECT_EQ(none.path, "");
+  EXPECT_NE(std::find(none.searched.begin(), none.searched.end(), folder.path() / "install/share/third/m.stl"),
+            none.searched.end());
+}
+
+TEST(UrdfMeshPath, FilesAreRelativeToTheModelOrAbsoluteInAnyWriting) {
+  const TemporaryFolder folder;
+  const std::string mesh = folder.add("meshes/the wheel.stl");
+  const fs::path urdf = folder.path() / "urdf";
+  EXPECT_EQ(find_mesh("../meshes/the wheel.stl", urdf).path, mesh);
+  EXPECT_EQ(find_mesh("..\\meshes\\the wheel.stl", urdf).path, mesh);
+  EXPECT_EQ(find_mesh(mesh, urdf).path, mesh);
+  EXPECT_EQ(find_mesh("file://" + folder.path().string() + "/meshes/the%20wheel.stl", urdf).path, mesh);
+  EXPECT_EQ(find_mesh("C:\\Users\\me\\meshes\\the wheel.stl", folder.path()).path, mesh);
+  EXPECT_EQ(find_mesh("file:///C:/Users/me/meshes/the%20wheel.stl", folder.path()).path, mesh);
+}
+
+TEST(UrdfMeshPath, ANameInOtherCaseIsFoundAndTold) {
+  const TemporaryFolder folder;
+  const std::string mesh = folder.add("Wheel.STL");
+  const MeshPath found = find_mesh("wheel.stl", folder.path());
+  EXPECT_EQ(found.path, mesh);
+  EXPECT_TRUE(found.other_case);
+  EXPECT_FALSE(find_mesh("Wheel.STL", folder.path()).other_case);
+}
+
+TEST(UrdfMeshPath, AMeshIsInternedWithItsScale) {
+  const TemporaryFolder folder;
+  const std::string mesh = folder.add("wheel.stl");
+  const auto robot = recorded(
+      "<robot name='r'><link name='a'><visual><geometry><mesh filename='wheel.stl' scale='1 -2 3'/>"
+      "</geometry></visual></link></robot>",
+      folder.path());
+  const Shape& shape = robot.visuals.at("a").at(0);
+  EXPECT_EQ(shape.kind, ShapeKind::mesh);
+  EXPECT_EQ(robot.texts.at(std::size_t(shape.mesh)), mesh);
+  EXPECT_EQ(shape.size, Vec3(1, -2, 3));
+}
+
+TEST(UrdfSolid, AnEvenSolidHasTheTextbookTensor) {
+  const double pi = std::numbers::pi;
+  const Shape box = Shape::box({1, 2, 3}), sphere = Shape::sphere(0.5), cylinder = Shape::cylinder(0.3, 2);
+  const auto one = [](const Shape& s, double mass) { return even_solid(std::span(&s, 1), mass); };
+  EXPECT_NEAR(one(box, 6).ixx, 6 * (4 + 9) / 12.0, 1e-12);
+  EXPECT_NEAR(one(sphere, 3).izz, 0.4 * 3 * 0.25, 1e-12);
+  EXPECT_NEAR(one(cylinder, 5).izz, 0.5 * 5 * 0.09, 1e-12);
+  EXPECT_NEAR(one(cylinder, 5).ixx, 5 * (3 * 0.09 + 4) / 12, 1e-12);
+  // two equal balls on a bar without mass: Steiner
+  Shape balls[] = {sphere, sphere};
+  balls[0].origin.position = {2, 0, 0};
+  balls[1].origin.position = {-2, 0, 0};
+  const Inertia dumbbell = even_solid(balls, 2);
+  EXPECT_NEAR(dumbbell.ixx, 2 * 0.4 * 0.25, 1e-12);
+  EXPECT_NEAR(dumbbell.iyy, 2 * (0.4 * 0.25 + 4), 1e-12);
+  // a ball of water of 1 m radius
+  EXPECT_NEAR(even_solid({}, 4000 * pi / 3).iyy, 0.4 * 4000 * pi / 3, 1e-9);
+}
+
+TEST(UrdfSolid, ATensorIsCheckedByItsPrincipalMoments) {
+  const auto fault = [](double xx, double yy, double zz, double xy) {
+    return check_tensor(Inertia{.ixx = xx, .iyy = yy, .izz = zz, .ixy = xy}.tensor()).fault;
+  };
+  EXPECT_EQ(fault(1, 1, 1, 0), TensorFault::none);
+  EXPECT_EQ(fault(1, 2, 3, 0), TensorFault::none);  // a flat plate
+  EXPECT_EQ(fault(1, 1, 2.5, 0), TensorFault::no_body);
+  EXPECT_EQ(fault(1, 1, 1, 0.9), TensorFault::no_body);
+  EXPECT_EQ(fault(1, 1, 1, 1.1), TensorFault::not_positive);
+  EXPECT_EQ(fault(0, 0, 0, 0), TensorFault::not_positive);
+  EXPECT_EQ(fault(-1, 1, 1, 0), TensorFault::not_positive);
+}
+
+TEST(UrdfParse, WhatUrdfdomPrintsBecomesReports) {
+  RecordingBuilder builder;
+  Problems problems(builder);
+  testing::internal::CaptureStderr();
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(parse_with_urdfdom("<robot/>", problems), nullptr);
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  EXPECT_EQ(builder.problems, Lines{"error 0:0 urdfdom: No name given for the robot."});
+}
+
+TEST(UrdfParse, AllThatUrdfdomComplainsAboutIsFoundAndMendedBefore) {
+  const std::string joint = "<parent link='a'/><child link='b'/>";
+  const std::string shape = "<geometry><sphere radius=' 1 '/></geometry>";
+  const Lines odd = {
+      "<link name='b'><inertial/><visual/></link><joint name='j' type='revolute'>" + joint + "</joint>",
+      "<link name='b'><visual>" + shape + "<material/></visual></link><joint name='j' type='prismatic'>" + joint +
+          "<limit/><dynamics/><safety_controller/><calibration rising='x'/><mimic/></joint>",
+      "<link name='b'><visual>" + shape +
+          "<material name='%n'/></visual></link>"
+          "<joint name='j' type='planar'>" +
+          joint + "<limit/><mimic/></joint>",
+      "<material/><material name='m'/><link name='b'/><joint name='j' type='floating'>" + joint + "</joint>"};
+  for (const std::string& part : odd) {
+    testing::internal::CaptureStderr();
+    const auto robot = recorded("<robot version='7'><link name='a'/>" + part + "</robot>");
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+    EXPECT_FALSE(robot.calls.empty());
+    for (const std::string& problem : robot.problems) EXPECT_EQ(problem.find("urdfdom"), problem.npos) << problem;
+  }
+}
+
+TEST(UrdfText, FilesThatCannotBeReadAreErrorsWithTheirPath) {
+  const auto message = [](const std::string& path) -> std::string {
+    try {
+      load_file(path);
+    } catch (const Error& e) {
+      return e.what();
+    }
+    return "";
+  };
+  const TemporaryFolder folder;
+  EXPECT_EQ(message("/no/where.urdf"), "there is no file /no/where.urdf");
+  EXPECT_EQ(message(folder.path()), folder.path().string() + " is not a file; give the path of a .urdf file");
+  const std::string huge = folder.add("huge.urdf");
+  fs::resize_file(huge, 65u << 20);  // sparse
+  EXPECT_EQ(message(huge), huge + " has 65 MiB, and a model may have 64; keep meshes in files of their own");
+}
+
+TEST(UrdfText, NamesInMessagesAreShortAndPrintable) {
+  EXPECT_EQ(cited("a\tb\x1b[31m"), "`a?b?[31m`");
+  EXPECT_EQ(cited(std::string(70, 'x')), "`" + std::string(60, 'x') + "...`");
+  std::string umlauts;
+  for (int i = 0; i < 40; ++i) umlauts += "\xc3\xa4";
+  EXPECT_EQ(cited("x" + umlauts), "`x" + umlauts.substr(0, 58) + "...`");
+}
+
+}  // namespace
+}  // namespace muro::urdf

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+// From the true reading of a sensor to the device's; see README.md.
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "model.hpp"
+#include "muro/plugin.hpp"
+
+namespace {
+
+using namespace muro;
+
+constexpr Parameter parameters[] = {
+    text("of", "ranges", "the property of the sensor's object to work on: a real number or an array of them"),
+    real("sigma", "as read", 0, "standard deviation of the noise").between(0, 1e9),
+    real("sigma_relative", "1", 0, "standard deviation of further noise, as a share of the reading").between(0, 1e3),
+    real("correlation", "1", 0, "of the noise of neighbours in an array").between(-1, 1),
+    real("bias", "as read", 0, "added to every reading").between(-1e9, 1e9),
+    real("resolution", "as read", 0, "readings are multiples of this; 0: any value").between(0, 1e9),
+    real("minimum", "as read", 0, "least reading; not given: laser.min_range, otherwise none"),
+    real("maximum", "as read", 0, "greatest reading; not given: laser.max_range, otherwise none"),
+    real("dropout", "1", 0, "probability that a reading is lost").between(0, 1),
+    real("dropout_value", "as read", 0, "what a lost reading reads"),
+};
+constexpr Use reads[] = {{"ranges", "or the property that `of` names"}};
+constexpr Use writes[] = {{"ranges.measured", "or `of`.measured"}};
+constexpr Description description{
+    .id = "sensor.error",
+    .kind = Kind::sensor_error,
+    .version = "1.0.0",
+    .summary = "Noise (also correlated), bias, rounding, limits and dropouts of a device",
+    .parameters = parameters,
+    .reads = reads,
+    .writes = writes,
+    .promises = deterministic | batched | allocation_free | restorable,
+};
+
+std::string quoted(std::string_view text) { return "`" + std::string(text) + "`"; }
+
+class SensorError final : public Algorithm {
+ public:
+  void connect(Connector& c) override {
+    const Parameters& p = c.parameters();
+    const std::string_view of = p.text("of");
+    for (std::uint32_t i = 0; i < c.items().size(); ++i) {
+      const ObjectId object = c.items()[i].object;
+      const FoundProperty found = find(c, object, of);
+      Sensor s;
+      // of one robot, sensors and readings each have numbers of their own
+      s.random_key = fnv1a(of, fnv1a(c.object_name(object), c.random_key(i)));
+      s.model = model_of(p, c, object);
+      if (found.form == Form::array) {
+        s.truth = ArrayIn<double>(c.read_any(found));
+        s.measured = c.variable_array(object, output_key(*found.key), found.count);
+      } else {
+        if (p.given("correlation"))
+          throw Error("correlation is between neighbours in an array, but " + quoted(of) +
+                      " is a single number; remove it");
+        s.single_truth = In<double>(c.read_any(found));
+        s.single_measured = c.variable(object, output_key(*found.key), 0.0);
+      }
+      sensors_.push_back(s);
+    }
+  }
+
+  void step(const Step& step, Range range) override {
+    for (std::uint32_t i = range.begin; i < range.end; ++i) {
+      const Sensor& s = sensors_[i];
+      const Random random(step.seed, s.random_key, step.index);
+      if (s.truth)
+        s.model.apply(*s.truth, *s.measured, random);
+      else
+        s.model.apply({s.single_truth.get(), 1}, {s.single_measured.get(), 1}, random);
+    }
+  }
+
+ private:
+  struct Sensor {
+    std::uint64_t random_key = 0;
+    ErrorModel model;
+    ArrayIn<double> truth;  ///< and measured: when the reading is an array
+    ArrayOut<double> measured;
+    In<double> single_truth;
+    Out<double> single_measured;
+  };
+
+  /// A key whose texts it owns.
+  struct OwnKey {
+    std::string name, unit;
+    Key<double> key;
+    explicit OwnKey(const KeyInfo& of)
+        : name(std::string(of.name) + ".measured"), unit(of.unit), key(name, unit, "as the device reports it") {}
+    OwnKey(const OwnKey&) = delete;
+    OwnKey& operator=(const OwnKey&) = delete;
+  };
+
+  /// The property to work on; throws when it is missing or not made of real numbers.
+  static FoundProperty find(Connector& c, ObjectId object, std::string_view name) {
+    std::string others;
+    for (const FoundProperty& p : c.properties(object)) {
+      const bool usable = p.form != Form::list && *p.key->type == value_type<double> && p.count > 0;
+      if (p.key->name == name && usable) return p;
+      if (p.key->name == name)
+        throw Error(quoted(name) + " of " + quoted(c.object_name(object)) +
+                    " is not made of real numbers (f64) but of " + std::string(p.key->type->name) +
+                    (p.form == Form::list ? ", in a list" : "") +
+                    "; sensor.error works on single numbers and arrays of f64");
+      if (usable) others += (others.empty() ? "" : ", ") + std::string(p.key->name);
+    }
+    throw Error(quoted(c.object_name(object)) + " has no property " + quoted(name) +
+                (others.empty() ? "; add the sensor that writes it" : "; it has " + others));
+  }
+
+  static ErrorModel model_of(const Parameters& p, const Connector& c, ObjectId object) {
+    ErrorModel m{.sigma = p.real("sigma"),
+                 .sigma_relative = p.real("sigma_relative"),
+                 .correlation = p.real("correlation"),
+                 .bias = p.real("bias"),
+                 .resolution = p.real("resolution"),
+                 .dropout = p.real("dropout"),
+                 .dropout_value = p.real("dropout_value")};
+    if (p.text("of") == keys::ranges.name) {
+      m.minimum = c.constant(object, keys::laser_min_range).value_or(m.minimum);
+      m.maximum = m.nothing_from = c.constant(object, keys::laser_max_range).value_or(m.maximum);
+    }
+    if (p.given("minimum")) m.minimum = p.real("minimum");
+    if (p.given("maximum")) m.maximum = p.real("maximum");
+    if (m.minimum > m.maximum)
+      throw Error("minimum (" + std::to_string(m.minimum) + ") is greater than maximum (" + std::to_string(m.maximum) +
+                  ")");
+    return m;
+  }
+
+  const Key<double>& output_key(const KeyInfo& of) {
+    if (of.name == keys::ranges.name) return keys::measured_ranges;
+    if (!own_key_) own_key_ = std::make_unique<OwnKey>(of);
+    return own_key_->key;
+  }
+
+  std::vector<Sensor> sensors_;
+  std::unique_ptr<OwnKey> own_key_;  ///< the property keeps pointing to its texts
+};
+
+constexpr abi::AlgorithmEntry algorithms[] = {algorithm<SensorError>(description)};
+
+}  // namespace
+
+MURO_PLUGIN(.name = "sensor_error", .version = "1.0.0", .licence = "MIT",
+            .summary = "From the true reading of a sensor to the device's", .algorithms = algorithms)

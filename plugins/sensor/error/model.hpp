@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include "muro/random.hpp"
+
+namespace muro {
+
+/// From the true readings x to what a device reports, y. Lengths and offsets have the unit of the reading.
+///
+///     n_0 = e_0,  n_i = c n_(i-1) + sqrt(1 - c^2) e_i     e_i independent, standard normal
+///     y_i = x_i + bias + n_i sqrt(sigma^2 + (sigma_relative x_i)^2)
+///
+/// then y is rounded to the nearest multiple of `resolution`, limited to [minimum, maximum], and with the
+/// probability `dropout` replaced by `dropout_value`. n is a first-order autoregressive process that starts in its
+/// stationary distribution: its variance is 1 at every i, and the correlation of n_i and n_j is c^|i-j| (Box, Jenkins
+/// and Reinsel: Time Series Analysis, Section 3.2).
+struct ErrorModel {
+  double sigma = 0;           ///< >= 0
+  double sigma_relative = 0;  ///< >= 0, of the reading
+  double correlation = 0;     ///< c, -1 .. 1
+  double bias = 0;
+  double resolution = 0;  ///< >= 0; 0: not rounded
+  double minimum = -std::numeric_limits<double>::infinity();
+  double maximum = std::numeric_limits<double>::infinity();
+  double dropout = 0;  ///< 0 .. 1
+  double dropout_value = 0;
+  /// Readings from here on mean that there was nothing to measure: they get neither bias nor noise.
+  double nothing_from = std::numeric_limits<double>::infinity();
+
+  /// `truth` and `measured` are of equal length; `random` belongs to this item and step.
+  void apply(std::span<const double> truth, std::span<double> measured, const Random& random) const {
+    const bool noisy = sigma > 0 || sigma_relative > 0;
+    const double fresh = std::sqrt(1 - correlation * correlation);
+    std::array<double, 2> pair{};
+    double n = 0;
+    for (std::uint32_t i = 0; i < truth.size(); ++i) {
+      if (noisy) {
+        if (i % 2 == 0) pair = random.normal_pair(i / 2);
+        const double e = pair[i % 2];
+        n = i == 0 ? e : correlation * n + fresh * e;
+      }
+      double y = truth[i];
+      if (y < nothing_from) y += bias + n * std::sqrt(sigma * sigma + sigma_relative * sigma_relative * y * y);
+      if (resolution > 0) y = resolution * std::round(y / resolution);
+      y = std::min(std::max(y, minimum), maximum);
+      measured[i] = dropout > 0 && random.uniform(i) < dropout ? dropout_value : y;
+    }
+  }
+};
+
+}  // namespace muro

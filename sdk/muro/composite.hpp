@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// Mass properties of a whole robot at the start, for algorithms that see it as one body.
+#pragma once
+
+#include <vector>
+
+#include "muro/connector.hpp"
+#include "muro/vocabulary.hpp"
+
+namespace muro {
+
+/// The position (rad or m) of every frame's joint at the start: `joint.position.initial`, mimic joints after
+/// their leader, 0 for fixed ones. [setup]
+inline std::vector<double> initial_joint_positions(const Connector& connector, const RobotView& robot) {
+  std::vector<double> q(robot.frames.size(), 0.0);
+  for (std::size_t i = 0; i < q.size(); ++i) {
+    const Frame& f = robot.frames[i];
+    if (f.joint == JointKind::fixed) continue;
+    const Frame& own = f.mimic < 0 ? f : robot.frames[std::size_t(f.mimic)];  // a leader follows nobody itself
+    q[i] = connector.constant(own.joint_object, keys::initial_joint_position).value_or(0.0);
+    if (f.mimic >= 0) q[i] = f.mimic_offset + f.mimic_multiplier * q[i];
+  }
+  return q;
+}
+
+/// The constant `inertial` of every frame; zero where there is none. [setup]
+inline std::vector<Inertia> inertias_of(const Connector& connector, const RobotView& robot) {
+  std::vector<Inertia> inertias;
+  for (const Frame& f : robot.frames) inertias.push_back(connector.constant(f.object, keys::inertial).value_or(Inertia{}));
+  return inertias;
+}
+
+/// All bodies of a robot as one, in the frame of its base. `inertias`, `positions`: one a frame.
+inline Inertia composite_inertia(std::span<const Frame> frames, std::span<const Inertia> inertias,
+                                 std::span<const double> positions) {
+  std::vector<Pose> in_base(frames.size());
+  Inertia whole;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (i > 0) in_base[i] = in_base[std::size_t(frames[i].parent)] * placed(frames[i], positions[i]);
+    whole = whole + inertias[i].in(in_base[i]);
+  }
+  return whole;
+}
+
+}  // namespace muro

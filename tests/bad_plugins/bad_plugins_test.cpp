@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "core/registry.hpp"
+#include "core/simulation.hpp"
+
+namespace muro {
+namespace {
+
+const std::string folder = BAD_PLUGIN_DIR "/";
+
+/// What loading "motion.NAME" from the folder NAME says; "" when it is loaded.
+std::string refusal(const std::string& name) {
+  Registry registry({folder + name});
+  try {
+    registry.algorithm("motion." + name);
+  } catch (const SetupError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+/// The path of the library NAME, as messages write it.
+std::string library(const std::string& name) { return folder + name + "/" + name + ".so"; }
+
+struct Difference {
+  std::string plugin, text;
+
+  friend void PrintTo(const Difference& d, std::ostream* out) { *out << d.plugin; }
+};
+
+class ForeignPlugin : public testing::TestWithParam<Difference> {};
+
+TEST_P(ForeignPlugin, IsRefusedWithTheFieldOfTheStampThatDiffers) {
+  EXPECT_EQ(refusal(GetParam().plugin), "plugin " + library(GetParam().plugin) + " was built for another muro: " +
+                                            GetParam().text + "; build it again with muro_add_plugin() of this muro");
+}
+
+std::string of_number(const char* field, std::uint32_t in_plugin, std::uint32_t here) {
+  return std::string(field) + " is " + std::to_string(in_plugin) + " in the plugin and " + std::to_string(here) +
+         " in this muro";
+}
+
+constexpr abi::Stamp ours = abi::make_stamp();
+const Difference differences[] = {
+    {"wrong_magic", "its table does not begin with \"MUROPLUG\""},
+    {"wrong_stamp_size", of_number("stamp_size", ours.stamp_size + 4, ours.stamp_size)},
+    {"wrong_sdk_major", of_number("sdk_major", ours.sdk_major + 1, ours.sdk_major)},
+    {"newer_sdk_minor", "sdk_minor is " + std::to_string(ours.sdk_minor + 1) + " in the plugin and only " +
+                            std::to_string(ours.sdk_minor) + " in this muro"},
+    {"wrong_string_layout", of_number("standard_library_abi", 0, 1)},
+    {"debug_containers", of_number("standard_library_debug", 1, 0)},
+    {"wrong_eigen_alignment", of_number("eigen_max_align_bytes", 32, 16)},
+    {"wrong_eigen_malloc", of_number("eigen_malloc_already_aligned", 0, 1)},
+    {"wrong_probe_size", of_number("probe_size", ours.probe_size + 8, ours.probe_size)},
+};
+INSTANTIATE_TEST_SUITE_P(Stamp, ForeignPlugin, testing::ValuesIn(differences),
+                         [](const auto& test) { return test.param.plugin; });
+
+TEST(BadPlugin, WithATableOfAnotherSizeIsRefused) {
+  const std::size_t size = sizeof(abi::PluginTable);
+  EXPECT_EQ(refusal("wrong_table_size"), "plugin " + library("wrong_table_size") + " has a table of " +
+                                             std::to_string(size + 16) + " bytes instead of " + std::to_string(size) +
+                                             "; build it again with muro_add_plugin() of this muro");
+}
+
+TEST(BadPlugin, WithoutTheSymbolIsRefused) {
+  EXPECT_EQ(refusal("no_symbol"), "plugin " + library("no_symbol") +
+                                      " exports no `muro_plugin`: it is no muro plugin; close it with MURO_PLUGIN");
+}
+
+TEST(BadPlugin, WithAnUnresolvedSymbolIsRefusedWhenItIsLoadedAndNotWhenItIsCalled) {
+  const std::string said = refusal("unresolved_symbol");
+  EXPECT_EQ(said.find("plugin " + library("unresolved_symbol") + " cannot be loaded: "), 0u) << said;
+  EXPECT_NE(said.find("undefined symbol: function_that_nobody_wrote"), std::string::npos) << said;
+}
+
+TEST(BadPlugin, ThatIsATextFileIsRefused) {
+  const std::string said = refusal("text_file");
+  EXPECT_EQ(said.find("plugin " + library("text_file") + " cannot be loaded: "), 0u) << said;
+  EXPECT_TRUE(said.find("file too short") != std::string::npos || said.find("invalid ELF header") != std::string::npos)
+      << said;
+}
+
+TEST(BadPlugin, WhoseLibraryIsGoneIsRefused) {
+  const std::string said = refusal("no_library");
+  EXPECT_EQ(said.find("plugin " + library("no_library") + " cannot be loaded: "), 0u) << said;
+  EXPECT_NE(said.find("No such file or directory"), std::string::npos) << said;
+}
+
+TEST(BadPlugin, ThatIsNotTheOneItsDescriptionDescribesIsRefused) {
+  EXPECT_EQ(refusal("stale_description"),
+            "plugin " + library("stale_description") + " is not the one that " + folder +
+                "stale_description/stale_description.muro.json describes; build it again, so that "
+                "both are new");
+}
+
+TEST(BadPlugin, ThatOffersTheNameOfAnotherOneIsRefusedTogetherWithIt) {
+  Registry registry({folder + "two_of_a_name"});
+  try {
+    registry.find("motion.twice");
+    FAIL() << "two plugins of one folder offer motion.twice";
+  } catch (const SetupError& e) {
+    EXPECT_EQ(std::string(e.what()), "`motion.twice` is offered by two plugins: " + folder +
+                                         "two_of_a_name/first.so and " + folder +
+                                         "two_of_a_name/second.so; remove one of them");
+  }
+}
+
+TEST(BadPlugin, WithAnUnreadableDescriptionIsAProblemAndStopsNoOther) {
+  const Registry registry({folder + "bad_description", folder + "throws"});
+  ASSERT_EQ(registry.problems().size(), 1u);
+  EXPECT_EQ(registry.problems()[0].find("plugin description " + folder +
+                                        "bad_description/bad_description.muro.json cannot be read: "),
+            0u)
+      << registry.problems()[0];
+  EXPECT_EQ(registry.find("motion.step_throws").plugin, "throws");
+}
+
+/// What a run of one robot with the algorithm says.
+std::string failure(const std::string& algorithm) {
+  Registry registry({folder + "throws"});
+  Simulation simulation(registry);
+  RobotTree tree;
+  tree.base("base");
+  tree.close();
+  const RobotView& robot = simulation.world().add_robot("rover", tree, {});
+  try {
+    AlgorithmSetup motion;
+    motion.name = "rover.motion";
+    motion.use = algorithm;
+    motion.rate = Rate(100);
+    motion.items = {{&robot, robot.base()}};
+    simulation.add(motion);
+    simulation.build();
+  } catch (const SetupError& e) {
+    return std::string("set-up: ") + e.what();
+  }
+  try {
+    simulation.run_for(1);
+  } catch (const StepError& e) {
+    return std::string("step: ") + e.what();
+  }
+  return "";
+}
+
+TEST(FailingAlgorithm, IsNamedWithItsOwnWordsWhereverItFails) {
+  EXPECT_EQ(failure("motion.create_throws"),
+            "set-up: rover.motion (motion.create_throws) cannot be created: no licence file; put one at /etc/example");
+  EXPECT_EQ(failure("motion.connect_throws"),
+            "set-up: rover.motion (motion.connect_throws) cannot be connected: an exception that is no std::exception");
+  EXPECT_EQ(failure("motion.start_throws"),
+            "set-up: rover.motion (motion.start_throws) cannot start: port 4711 is taken; choose another one");
+  EXPECT_EQ(failure("motion.step_throws"), "step: rover.motion failed at t = 0.030000 s: matrix is singular");
+  EXPECT_EQ(failure("motion.step_has_no_memory"), "step: rover.motion failed at t = 0.000000 s: std::bad_alloc");
+}
+
+}  // namespace
+}  // namespace muro
