@@ -82,19 +82,23 @@ class WheelFinder {
     throw Error("`" + std::string(robot_.name) + "` has no joint " + quoted(joint) + "; its joints are:" + joints());
   }
 
-  /// Every joint that turns, each with what keeps it from being a driven wheel.
+  /// Every joint that turns, each with what keeps it from being a driven wheel; those with limits are only counted.
   std::string what_was_found() const {
     std::string all;
+    int limited = 0;
+    const auto add = [&](const std::string& more) { all += (all.empty() ? "" : "; ") + more; };
     for (std::size_t i = 1; i < robot_.frames.size(); ++i) {
       if (robot_.frames[i].joint != JointKind::revolute) continue;
       Wheel wheel;
       std::string why;
       const bool fine = is_wheel(i, wheel, why);
-      all += (all.empty() ? "" : "; ") + name(i) + " " +
-             (!fine                  ? why
-              : wheel.centre.y() > 0 ? "is on the left"
-                                     : "is on the right");
+      if (!fine && has_limits(i))
+        ++limited;
+      else
+        add(name(i) + " " + (!fine ? why : wheel.centre.y() > 0 ? "is on the left" : "is on the right"));
     }
+    if (limited > 0)
+      add(std::to_string(limited) + (limited == 1 ? " joint has" : " joints have") + " limits of position");
     return all.empty() ? "no joint of it turns" : all;
   }
 
@@ -130,8 +134,11 @@ class WheelFinder {
     const Frame& f = robot_.frames[i];
     if (f.joint != JointKind::revolute) return reject(why, "does not turn");
     if (f.mimic >= 0) return reject(why, "follows " + name(std::size_t(f.mimic)));
-    if (std::isfinite(f.limits.lower) || std::isfinite(f.limits.upper)) return reject(why, "has limits of position");
+    if (has_limits(i)) return reject(why, "has limits of position");
     return true;
+  }
+  bool has_limits(std::size_t i) const {
+    return std::isfinite(robot_.frames[i].limits.lower) || std::isfinite(robot_.frames[i].limits.upper);
   }
 
   /// Radius and centre from the largest cylinder or sphere about the axis, among the collision shapes of the bodies

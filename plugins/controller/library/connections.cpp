@@ -10,7 +10,7 @@ namespace muro::control {
 
 namespace {
 
-std::string quoted(std::string_view text) { return "`" + std::string(text) + "`"; }
+std::string named(std::string_view text) { return "`" + std::string(text) + "`"; }
 
 std::string listed(const std::vector<std::string>& names) {
   std::string all;
@@ -37,16 +37,16 @@ Connections read_connections(std::string_view parameter, std::span<const std::st
   for (const muro_port& p : ports) known.emplace_back(p.name);
   Connections result;
   for (const std::string_view text : texts) {
-    const std::string in_place = quoted(parameter) + ": " + quoted(text);
+    const std::string in_place = named(parameter) + ": " + named(text);
     const std::size_t equals = text.find('=');
     if (equals == std::string_view::npos || equals == 0)
       throw Error(in_place + " must be \"port=object:property\" or \"port=property\"");
     const std::string port(text.substr(0, equals));
     if (std::find(known.begin(), known.end(), port) == known.end())
-      throw Error(in_place + ": library " + quoted(library) + " has no such " +
+      throw Error(in_place + ": library " + named(library) + " has no such " +
                   (parameter == "inputs" ? "input" : "output") + did_you_mean(port, known) +
                   "; it has: " + (known.empty() ? "none" : listed(known)));
-    if (result.contains(port)) throw Error(in_place + " connects port " + quoted(port) + " a second time");
+    if (result.contains(port)) throw Error(in_place + " connects port " + named(port) + " a second time");
     std::vector<Target>& targets = result[port];
     for (std::string_view rest = text.substr(equals + 1);;) {
       const std::size_t comma = std::min(rest.find(','), rest.size());
@@ -72,7 +72,7 @@ PropertyFinder::PropertyFinder(const Connector& connector, const Item& item) : c
 }
 
 std::string PropertyFinder::robot_or_world() const {
-  return item_.robot ? "robot " + quoted(item_.robot->name) : "the world";
+  return item_.robot ? "robot " + named(item_.robot->name) : "the world";
 }
 
 /// The name without the robot's.
@@ -84,7 +84,7 @@ std::string PropertyFinder::local_name(ObjectId object) const {
 }
 
 std::string PropertyFinder::full_name(const FoundProperty& p) const {
-  return quoted(std::string(connector_.object_name(p.object)) + ":" + std::string(p.key->name));
+  return named(std::string(connector_.object_name(p.object)) + ":" + std::string(p.key->name));
 }
 
 ObjectId PropertyFinder::object(std::string_view name) const {
@@ -114,13 +114,13 @@ FoundProperty PropertyFinder::find_anywhere(std::string_view property, std::stri
     for (const ObjectId o : objects_)
       for (const FoundProperty& p : connector_.properties(o)) names.emplace_back(p.key->name);
     sort_and_thin(names);
-    throw Error("no object of " + robot_or_world() + " has a property " + quoted(property) +
+    throw Error("no object of " + robot_or_world() + " has a property " + named(property) +
                 did_you_mean(property, names) + "; its objects have: " + listed(names));
   }
   std::vector<std::string> candidates;
   for (const FoundProperty& p : found) candidates.push_back(local_name(p.object));
-  throw Error("several objects of " + robot_or_world() + " have a property " + quoted(property) + ": " +
-              listed(candidates) + "; choose in " + quoted(parameter) + ", e.g. \"" + std::string(port) + "=" +
+  throw Error("several objects of " + robot_or_world() + " have a property " + named(property) + ": " +
+              listed(candidates) + "; choose in " + named(parameter) + ", e.g. \"" + std::string(port) + "=" +
               candidates[0] + ":" + std::string(property) + "\" (several, separated by commas, stand side by side)");
 }
 
@@ -130,13 +130,13 @@ FoundProperty PropertyFinder::find(const Target& target, std::string_view parame
   if (o == no_object) {
     std::vector<std::string> names;
     for (const ObjectId known : objects_) names.push_back(local_name(known));
-    throw Error(robot_or_world() + " has no object " + quoted(target.object) + did_you_mean(target.object, names) +
+    throw Error(robot_or_world() + " has no object " + named(target.object) + did_you_mean(target.object, names) +
                 "; it has: " + listed(names));
   }
   if (const FoundProperty* p = property_of(o, target.property)) return *p;
   std::vector<std::string> names;
   for (const FoundProperty& p : connector_.properties(o)) names.emplace_back(p.key->name);
-  throw Error("object " + quoted(connector_.object_name(o)) + " has no property " + quoted(target.property) +
+  throw Error("object " + named(connector_.object_name(o)) + " has no property " + named(target.property) +
               did_you_mean(target.property, names) + "; it has: " + listed(names));
 }
 

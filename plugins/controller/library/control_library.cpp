@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string quoted(std::string_view text) { return "`" + std::string(text) + "`"; }
+std::string named(std::string_view text) { return "`" + std::string(text) + "`"; }
 
 bool ends_with(std::string_view text, std::string_view end) {
   return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
@@ -64,7 +64,7 @@ void check_ports(const char* what, const muro_port* ports, std::uint32_t count, 
       throw Error(library + ": " + what + " " + std::to_string(i) + " has no name");
     for (std::uint32_t k = 0; k < i; ++k)
       if (std::string_view(ports[i].name) == ports[k].name)
-        throw Error(library + " has two " + what + "s named " + quoted(ports[i].name) + "; names are unique");
+        throw Error(library + " has two " + what + "s named " + named(ports[i].name) + "; names are unique");
   }
 }
 
@@ -86,7 +86,7 @@ std::string find_library(std::string_view name, const std::string& as_path, std:
   if (name.empty()) throw Error("parameter `library` is empty; give the path or the name of a library");
   if (name.find('/') != std::string_view::npos) {
     if (is_file(as_path)) return as_path;
-    throw Error("there is no library " + quoted(as_path) + "; relative paths start at the scenario's folder");
+    throw Error("there is no library " + named(as_path) + "; relative paths start at the scenario's folder");
   }
   std::vector<std::string> files{std::string(name)};
   if (!ends_with(name, ".so")) files = {files[0] + ".so", "lib" + files[0] + ".so"};
@@ -96,7 +96,7 @@ std::string find_library(std::string_view name, const std::string& as_path, std:
       if (const fs::path path = fs::path(folder) / file; is_file(path)) return fs::absolute(path).string();
     searched += (searched.empty() ? "" : ", ") + folder;
   }
-  throw Error("no library " + quoted(files[0]) + (files.size() > 1 ? " or " + quoted(files[1]) : "") +
+  throw Error("no library " + named(files[0]) + (files.size() > 1 ? " or " + named(files[1]) : "") +
               " in any of these folders: " + searched + "; give its path, or add its folder to MURO_CONTROLLER_PATH");
 }
 
@@ -134,7 +134,7 @@ void check_table(const muro_controller_table* table, const std::string& path) {
   check_ports("output", table->outputs, table->output_count, library);
   for (std::uint32_t i = 0; i < table->output_count; ++i)
     if (table->outputs[i].size == 0)
-      throw Error(library + ": output " + quoted(table->outputs[i].name) +
+      throw Error(library + ": output " + named(table->outputs[i].name) +
                   " has size 0; only inputs may leave their size open");
 }
 

@@ -223,7 +223,7 @@ TEST(Wheels, AModelWithoutWheelsIsAnErrorThatTellsWhatItHas) {
                            {.name = "b", .at = {0, 1, 0}, .axis = Vec3::UnitZ()},
                            {.name = "c", .at = {0, 1, 0}, .shape = Shape::box({1, 1, 1}), .own_shape = true}});
   const std::string text = complaint(odd);
-  EXPECT_SAYS(text, "`a_joint` has limits of position");
+  EXPECT_SAYS(text, "; 1 joint has limits of position. Name");
   EXPECT_SAYS(text, "`b_joint` turns about (0.000, 0.000, 1.000), not the y axis, of the base");
   EXPECT_SAYS(text, "`c_joint` has no cylinder or sphere about its axis as a shape");
 }

@@ -77,16 +77,16 @@ inline void place(const Chain& chain, const Pose& base, const Twist& base_twist,
       moving = parent == 0 ? base_twist : *places[parent - 1].twist;
       axes = from.orientation.toRotationMatrix();
     }
-    const Place& at = places[i];
-    Vec3 arm = axes * link.offset;
+    const Place& at = places[i];  // lazyProduct: without a temporary, which Eigen makes for fear of aliases
+    Vec3 arm = axes.lazyProduct(link.offset);
     Quat orientation = from.orientation;
     Vec3 linear = moving.linear, angular = moving.angular;
     if (link.joint == JointKind::revolute) {
       const double half = 0.5 * *at.position, s = std::sin(half);
       orientation = orientation * Quat(std::cos(half), s * link.axis.x(), s * link.axis.y(), s * link.axis.z());
-      angular += axes * link.axis * *at.velocity;
+      angular += axes.lazyProduct(link.axis) * *at.velocity;
     } else if (link.joint == JointKind::prismatic) {
-      const Vec3 axis = axes * link.axis;
+      const Vec3 axis = axes.lazyProduct(link.axis);
       arm += axis * *at.position;
       linear += axis * *at.velocity;
     }

@@ -119,7 +119,7 @@ TEST(Simplified, AMimicFollowsItsLeader) {
 }
 
 TEST(Simplified, JointsStayWithinTheLimitsOfTheModel) {
-  Flight s({{"max_joint_acceleration", 50.0}});
+  Flight s(Parameters{{"max_joint_acceleration", 50.0}});
   s.of("shoulder", keys::joint_velocity_target) = 100;
   double fastest = 0, farthest = 0;
   for (int k = 0; k < 1000; ++k) {
@@ -133,7 +133,7 @@ TEST(Simplified, JointsStayWithinTheLimitsOfTheModel) {
 }
 
 TEST(Simplified, PositionTargetsAreReachedWithoutOvershoot) {
-  Flight s({{"joints", "position"}});
+  Flight s(Parameters{{"joints", "position"}});
   s.of("shoulder", keys::joint_position_target) = 1.1;
   double farthest = 0;
   for (int k = 0; k < 500; ++k) {
@@ -145,7 +145,7 @@ TEST(Simplified, PositionTargetsAreReachedWithoutOvershoot) {
 }
 
 TEST(Simplified, AccelerationTargetsAreIntegratedExactly) {
-  Flight s({{"joints", "acceleration"}});
+  Flight s(Parameters{{"joints", "acceleration"}});
   s.of("elbow", keys::joint_acceleration_target) = 1.5;
   s.run_for(1);
   EXPECT_NEAR(s.of("elbow", keys::joint_velocity), 1.5, 1e-12);

@@ -70,13 +70,13 @@ struct Strip {
       search(s, d, sign, m, q);
       return;
     }
-    if (slope(d, p, root(p)) < 0 && slope(d, q, root(q)) > 0) {
+    if (slope(d, p, root(p)) <= 0 && slope(d, q, root(q)) >= 0) {
       const Vec2 x = sign * minimum(d, p, q);
       s.offer((x.x() * a + x.y() * b).normalized());
     }
   }
 
-  /// The slope is negative at p, positive at q: Newton's method, halving where it leaves the bracket.
+  /// The slope is not positive at p, not negative at q: Newton's method, halving where it leaves the bracket.
   Vec2 minimum(const Vec2& d, Vec2 p, Vec2 q) const {
     Vec2 x = (p + q).normalized();
     for (int round = 0; round < 40; ++round) {
@@ -218,14 +218,15 @@ void Search::rims() {
     triangle(octant & 1 ? e0 : Vec3(-e0), octant & 2 ? e1 : Vec3(-e1), octant & 4 ? w : Vec3(-w));
 }
 
-/// Branch and bound: from the middle m on, h(n) >= h(m) cos d - |h'(m)| sin d at the angle d.
+/// Branch and bound: with the point p of the difference that is outermost along the middle, h(n) >= p . n.
+/// At a disc's axis h has the tip of a cone, so triangles get smaller towards it before Newton's method is tried.
 void Search::triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 m = (a + b + c).normalized();
   const Vec3 p = h.support(m);
-  const double value = p.dot(m), by = (p - value * m).norm();
-  const double cosine = std::min({m.dot(a), m.dot(b), m.dot(c)}), wide = std::sqrt(std::max(0.0, 1 - cosine * cosine));
-  if ((value > 0 ? value * cosine : value) - by * wide >= least) return;
-  if (wide > 0.1) {
+  if (std::min({p.dot(a), p.dot(b), p.dot(c)}) >= std::max(least, 0.0)) return;
+  const double wide = std::sqrt(std::max({(a - m).squaredNorm(), (b - m).squaredNorm(), (c - m).squaredNorm()}));
+  const double tip = std::sqrt(std::min(m.cross(h.disc[0]).squaredNorm(), m.cross(h.disc[1]).squaredNorm()));
+  if (wide > 1e-3 && wide > std::min(0.15, 0.5 * tip)) {
     const Vec3 ab = (a + b).normalized(), bc = (b + c).normalized(), ca = (c + a).normalized();
     triangle(ab, bc, ca);
     triangle(a, ab, ca);
