@@ -67,8 +67,7 @@ std::vector<SlotId> Instance::writes() const {
 }
 
 std::uint64_t Instance::random_key(std::uint32_t i) const noexcept {
-  const RobotView* robot = setup_.items[i].robot;
-  return fnv1a(setup_.subsystem, robot ? robot->key : fnv1a("world"));
+  return fnv1a(setup_.subsystem, fnv1a(world_.object_name(setup_.items[i].object)));
 }
 
 std::string_view Instance::resolve_path(std::string_view path) const noexcept {
@@ -82,7 +81,14 @@ std::span<const FoundProperty> Instance::properties(ObjectId object) const noexc
   found_.clear();
   for (const PropertyStore::Named& n : world_.store().properties(object)) {
     const Slot& s = world_.store().slot(n.slot);
-    found_.push_back({object, &world_.store().key_of(s), s.form, s.form == Form::list ? 0 : (s.place ? s.count : 0)});
+    const KeyInfo* key = &world_.store().key_of(s);
+    if (!s.place && !s.array) continue;  // sums, and what has only been shared so far
+    if (key->name != n.key) {  // shared with a property of another name
+      aliases_.push_back(*key);
+      aliases_.back().name = n.key;
+      key = &aliases_.back();
+    }
+    found_.push_back({object, key, s.form, s.form == Form::list || !s.place ? 0 : s.count});
   }
   return found_;
 }

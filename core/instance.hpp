@@ -15,6 +15,8 @@ class ParameterSet {
  public:
   /// Throws SetupError with every problem, each with the allowed values and the nearest name.
   ParameterSet(const Description& description, const AlgorithmSetup& setup);
+  ParameterSet(const ParameterSet&) = delete;
+  ParameterSet& operator=(const ParameterSet&) = delete;
   const Parameters& view() const { return view_; }
 
  private:
@@ -79,6 +81,7 @@ class Instance final : private Connector {
   Party party_;
   abi::AlgorithmInstance* algorithm_ = nullptr;
   mutable std::vector<FoundProperty> found_;
+  mutable std::deque<KeyInfo> aliases_;
   mutable std::deque<std::string> paths_;
   struct Bound {
     SlotId slot;

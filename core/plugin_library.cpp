@@ -49,7 +49,6 @@ const abi::PluginTable& load_plugin(const std::string& path) {
   namespace dll = boost::dll;
   static std::deque<dll::shared_library> loaded;  // never unloaded: objects of plugins may outlive any caller
   dll::shared_library library;
-  boost::dll::fs::error_code code;
   const auto absolute = boost::dll::fs::absolute(path);
   try {
     library.load(absolute, dll::load_mode::rtld_now | dll::load_mode::rtld_local);

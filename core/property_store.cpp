@@ -146,18 +146,20 @@ void PropertyStore::set_constant(ObjectId object, const KeyInfo& key, const void
                         " and cannot be a constant");
     return;
   }
-  const Form form = count == 0 ? Form::single : Form::array;
-  if (s.place && form == Form::array && s.count != count) s.place = nullptr;
+  const Form form = count == single_value ? Form::single : Form::array;
+  const std::uint32_t elements = form == Form::single ? 1 : count;
+  if (s.form != form || s.count != elements) s.place = nullptr;
   s.kind = Slot::Class::constant;
-  set_aside(s, form, count);
-  std::memcpy(s.place, data, std::size_t(std::max(count, 1u)) * key.type->size);
   s.initialised = true;
+  s.count = elements;
+  set_aside(s, form, elements);
+  if (elements > 0) std::memcpy(s.place, data, std::size_t(elements) * key.type->size);
 }
 
 ArrayHeader PropertyStore::constant(ObjectId object, const KeyInfo& key) const {
   const Slot* s = find(object, key.name);
   if (!s || s->kind != Slot::Class::constant || !(*key_of(*s).type == *key.type)) return {};
-  return {s->place, s->form == Form::array ? s->count : 1u};
+  return {s->place, s->count};
 }
 
 void PropertyStore::share(ObjectId a, const KeyInfo& key_a, ObjectId b, const KeyInfo& key_b) {
@@ -242,12 +244,14 @@ void* PropertyStore::bind(Party party, ObjectId object, const KeyInfo& key, Acce
   }
   if (access != Access::accumulate && access != Access::read_sum) set_aside(*s, form, count);
   const bool creates = access == Access::variable || access == Access::derived;
-  if (creates && s->kind == Slot::Class::constant)
+  if (creates && form == Form::array && count == 0)
+    problems_.push_back(where(object, key.name) + " is created as an array without elements by " + who(party));
+  if ((writes(access) || access == Access::accumulate) && s->kind == Slot::Class::constant)
     problems_.push_back(where(object, key.name) + " is a constant, but " + who(party) + " writes it");
   use(*s, id, party, access);
   if (initial && s->kind != Slot::Class::constant && (!s->initialised || access == Access::variable)) {
     std::memcpy(s->place, initial, key.type->size);
-    s->initialised = true;
+    s->initialised = access == Access::variable || access == Access::input;  // others only fill what nobody has set
   }
   if (creates) s->object = object;
   return handle(*s, access);
@@ -256,8 +260,8 @@ void* PropertyStore::bind(Party party, ObjectId object, const KeyInfo& key, Acce
 void* PropertyStore::state_block(Party party, ObjectId object, std::string_view name, std::uint32_t size) {
   const std::string& kept = texts_.emplace_back("state." + std::string(name));
   const KeyInfo key{kept, "1", &value_type<std::uint8_t>, Role::state, "state that only its owner understands"};
-  const auto* array =
-      static_cast<const ArrayHeader*>(bind(party, object, key, Access::variable, Form::array, std::max(size, 1u), nullptr));
+  const std::uint32_t whole = (std::max(size, 1u) + 63) / 64 * 64;  // so that each block begins aligned for any type
+  const auto* array = static_cast<const ArrayHeader*>(bind(party, object, key, Access::variable, Form::array, whole, nullptr));
   return array->data;
 }
 
@@ -278,6 +282,10 @@ void PropertyStore::check_slot(const Slot& s, const std::function<std::string(st
     if (u.access == Access::read && !reader) reader = &u;
     if (u.access == Access::accumulate && !adder) adder = &u;
   }
+  const auto summed = std::find_if(s.usage.begin(), s.usage.end(), [](const Slot::Usage& u) { return u.access == Access::read_sum; });
+  if (writer && summed != s.usage.end())
+    problems.push_back(place + " is written by " + who(writer->party) + ", but " + who(summed->party) +
+                       " reads the sum of contributions; the writer must add to it");
   if (writer && adder)
     problems.push_back(place + " is written by " + who(writer->party) + " and added to by " + who(adder->party) +
                        "; all of them must add");
@@ -294,8 +302,11 @@ void PropertyStore::check_slot(const Slot& s, const std::function<std::string(st
 }
 
 void PropertyStore::check(const std::function<std::string(std::string_view)>& writers_of) const {
-  std::vector<std::string> problems = problems_;
-  for (const Slot& s : slots_) check_slot(s, writers_of, problems);
+  std::vector<std::string> all = problems_;
+  for (const Slot& s : slots_) check_slot(s, writers_of, all);
+  std::vector<std::string> problems;  // each once: a mistake in a template stands in all of its robots
+  for (std::string& p : all)
+    if (std::find(problems.begin(), problems.end(), p) == problems.end()) problems.push_back(std::move(p));
   if (!problems.empty()) throw SetupError(problems);
 }
 
@@ -312,14 +323,13 @@ PropertyStore::Image PropertyStore::save() const {
 }
 
 void PropertyStore::load(const Image& image) {
-  std::size_t i = 0;
+  std::vector<std::span<std::byte>> blocks;
   for (const Column& c : columns_)
-    if (c.key().type->scalar != Scalar::transient)
-      c.each_block([&](std::span<std::byte> b) {
-        if (i >= image.blocks.size() || image.blocks[i].size() != b.size())
-          throw SetupError("the snapshot is of another simulation: its properties are not those of this one");
-        std::memcpy(b.data(), image.blocks[i++].data(), b.size());
-      });
+    if (c.key().type->scalar != Scalar::transient) c.each_block([&](std::span<std::byte> b) { blocks.push_back(b); });
+  bool same = blocks.size() == image.blocks.size() && lists_.size() == image.lists.size();
+  for (std::size_t i = 0; same && i < blocks.size(); ++i) same = blocks[i].size() == image.blocks[i].size();
+  if (!same) throw SetupError("the snapshot is of another simulation: its properties are not those of this one");
+  for (std::size_t i = 0; i < blocks.size(); ++i) std::memcpy(blocks[i].data(), image.blocks[i].data(), blocks[i].size());
   for (std::size_t k = 0; k < lists_.size(); ++k) {
     ListHeader& list = lists_[k];
     list.size = image.lists[k].size() / list.element_size;
@@ -338,7 +348,7 @@ std::uint64_t PropertyStore::hash(ObjectId object) const {
     const Slot& s = slots_[n->slot];
     h = hash_bytes(n->key.data(), n->key.size(), h);
     const void* data = s.place;
-    std::size_t count = s.count;
+    std::size_t count = s.place ? s.count : 0;
     if (s.form == Form::list) {
       const auto* list = static_cast<const ListHeader*>(s.place);
       data = list->data;

@@ -59,7 +59,7 @@ class PropertyStore {
   Party add_party(std::string name);
   const std::string& party_name(Party p) const { return parties_[p]; }
 
-  /// A constant; `count` 0 for a single value. A second value for the same property replaces the first.
+  /// A constant: `count` elements, or single_value. A second value for the same property replaces the first.
   void set_constant(ObjectId object, const KeyInfo& key, const void* data, std::uint32_t count);
   /// The value of a constant, or no data.
   ArrayHeader constant(ObjectId object, const KeyInfo& key) const;
@@ -92,7 +92,7 @@ class PropertyStore {
   /// The slots that `party` bound last is recorded in order; used by the scheduler.
   const std::vector<SlotId>& slots_of(Party party) const { return bound_[party]; }
 
-  /// The state: every value that is not constant, byte by byte.
+  /// The whole memory of properties, byte by byte; transient values are left out.
   struct Image {
     std::vector<std::vector<std::byte>> blocks;
     std::vector<std::vector<std::byte>> lists;

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <compare>
 #include <cstdint>
+#include <string>
+
+#include "core/error.hpp"
 
 namespace muro {
 
@@ -13,8 +16,12 @@ __extension__ using Wide = unsigned __int128;
 class Rate {
  public:
   Rate() = default;
-  /// From Hz, rounded to 1e-6 Hz; 0 means on demand.
-  explicit Rate(double hertz) : microhertz_(std::llround(hertz * 1e6)) {}
+  /// From Hz, rounded to 1e-6 Hz; 0 means on demand. Throws SetupError unless 0 or from 1e-6 to 1e9.
+  explicit Rate(double hertz) {
+    if (hertz != 0 && !(hertz >= 1e-6 && hertz <= 1e9))
+      throw SetupError("a rate of " + std::to_string(hertz) + " Hz is not possible; allowed is 1e-6 to 1e9 Hz, or 0 for on demand");
+    microhertz_ = std::llround(hertz * 1e6);
+  }
 
   bool on_demand() const { return microhertz_ == 0; }
   double hertz() const { return 1e-6 * double(microhertz_); }

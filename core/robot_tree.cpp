@@ -15,7 +15,12 @@ std::string quoted(std::string_view s) { return "`" + std::string(s) + "`"; }
 }  // namespace
 
 bool RobotTree::started(std::string_view call) {
-  if (at_.frame >= 0) return true;
+  if (at_.frame >= 0 && !at_.closed) return true;
+  if (at_.closed) {
+    report(Severity::error, std::string(call) + " behind a fork whose two branches are closed: a fork is binary, open another in a branch", 0,
+           0);
+    return false;
+  }
   report(Severity::error, std::string(call) + " before base(): a robot's tree begins with its base", 0, 0);
   return false;
 }
@@ -52,13 +57,16 @@ void RobotTree::fork() noexcept {
   if (!started("fork()")) return;
   add_node(NodeKind::fork, "");
   forks_.push_back(at_);
+  forks_.back().branches = 0;
 }
 
 void RobotTree::end() noexcept {
   if (forks_.empty()) return report(Severity::error, "end() without a fork() that is open", 0, 0);
   Cursor& fork = forks_.back();
   at_ = fork;
-  if (++fork.branches == 2) forks_.pop_back();
+  if (++fork.branches < 2) return;
+  at_.closed = true;
+  forks_.pop_back();
 }
 
 void RobotTree::translation(const Vec3& offset) noexcept {
@@ -142,7 +150,7 @@ TextId RobotTree::intern(std::string_view text) noexcept {
 void RobotTree::set_raw(const KeyInfo& key, const void* data, std::uint32_t count) noexcept {
   if (last_part_ < 0) return report(Severity::error, "constant `" + std::string(key.name) + "` before base()", 0, 0);
   const auto* first = static_cast<const std::byte*>(data);
-  const std::size_t bytes = std::size_t(std::max(count, 1u)) * key.type->size;
+  const std::size_t bytes = std::size_t(count == single_value ? 1 : count) * key.type->size;
   parts_[std::size_t(last_part_)].constants.push_back({key, count, {first, first + bytes}});
 }
 

@@ -22,7 +22,7 @@ class RobotTree final : public RobotBuilder {
   /// A constant of a part.
   struct Constant {
     KeyInfo key;
-    std::uint32_t count;  ///< 0: a single value
+    std::uint32_t count;  ///< elements of an array, or single_value
     std::vector<std::byte> data;
   };
   /// A body or joint: what becomes an object.
@@ -85,6 +85,7 @@ class RobotTree final : public RobotBuilder {
     Pose since;           ///< from that frame to here
     bool unnamed = false;  ///< the frame's joint has no body yet, and nothing lies between
     int branches = 0;     ///< of a fork: how many are closed
+    bool closed = false;  ///< behind a fork with two closed branches: nothing may follow
   };
   Cursor at_;
   std::vector<Cursor> forks_;

@@ -43,12 +43,22 @@ TaskId Scheduler::add(Task task) {
 }
 
 void Scheduler::add_sequence(const std::vector<TaskId>& tasks) {
+  const auto timed = std::find_if(tasks.begin(), tasks.end(), [&](TaskId t) { return !tasks_[t].rate.on_demand(); });
+  if (timed == tasks.end())
+    throw SetupError("the sequence that begins with `" + tasks_[tasks.front()].name + "` has no rate: all of it runs on demand");
+  const Task& first = tasks_[*timed];
+  for (const TaskId t : tasks)
+    if (!tasks_[t].rate.on_demand() && (tasks_[t].rate != first.rate || tasks_[t].phase != first.phase))
+      throw SetupError("a sequence runs at one rate, but `" + first.name + "` and `" + tasks_[t].name +
+                       "` have different rates or phases; give them the same, or leave one out");
+  const Rate rate = first.rate;
+  const std::int64_t phase = first.phase;
   for (const TaskId t : tasks) {
     std::vector<TaskId>& item = items_[std::size_t(item_of_[t])];
     item.erase(std::remove(item.begin(), item.end(), t), item.end());
     item_of_[t] = std::int32_t(items_.size());
-    tasks_[t].rate = tasks_[tasks.front()].rate;
-    tasks_[t].phase = tasks_[tasks.front()].phase;
+    tasks_[t].rate = rate;
+    tasks_[t].phase = phase;
   }
   items_.push_back(tasks);
   prepared_ = false;
@@ -57,6 +67,7 @@ void Scheduler::add_sequence(const std::vector<TaskId>& tasks) {
 void Scheduler::prepare() {
   prepared_ = true;
   plans_.clear();
+  last_plan_ = nullptr;
   groups_.clear();
   group_of_item_.assign(items_.size(), 0);
   finest_period_ = 0;
@@ -75,8 +86,12 @@ void Scheduler::prepare() {
     group_of_item_[i] = std::uint32_t(g - groups_.begin());
   }
   due_.assign(groups_.size(), false);
+  find_providers();
+  find_periods();
+}
 
-  // Who provides, on demand, what a task reads.
+/// Who provides, on demand, what a task reads.
+void Scheduler::find_providers() {
   std::unordered_map<std::uint32_t, std::vector<TaskId>> writers;
   for (TaskId t = 0; t < tasks_.size(); ++t)
     if (tasks_[t].rate.on_demand())
@@ -97,12 +112,34 @@ void Scheduler::prepare() {
   }
 }
 
-void Scheduler::demand(TaskId reader, double dt, std::vector<bool>& done, Plan& plan) const {
+/// A task on demand has the longest period of those that ask for it, in every instant, so that its results do not
+/// depend on who else happens to be due.
+void Scheduler::find_periods() {
+  periods_.assign(tasks_.size(), 0);
+  for (TaskId t = 0; t < tasks_.size(); ++t) {
+    if (tasks_[t].rate.on_demand()) continue;
+    periods_[t] = tasks_[t].rate.period();
+    std::vector<bool> seen(tasks_.size());
+    std::vector<TaskId> asking{t};
+    while (!asking.empty()) {
+      const TaskId reader = asking.back();
+      asking.pop_back();
+      for (const TaskId p : providers_[reader]) {
+        if (seen[p]) continue;
+        seen[p] = true;
+        if (tasks_[p].rate.on_demand()) periods_[p] = std::max(periods_[p], periods_[t]);
+        asking.push_back(p);
+      }
+    }
+  }
+}
+
+void Scheduler::demand(TaskId reader, std::vector<bool>& done, Plan& plan) const {
   for (const TaskId p : providers_[reader]) {
     if (done[p]) continue;
     done[p] = true;
-    demand(p, dt, done, plan);
-    plan.push_back({p, dt});
+    demand(p, done, plan);
+    plan.push_back({p, periods_[p]});
   }
 }
 
@@ -119,16 +156,18 @@ Scheduler::Plan Scheduler::make_plan(const Mask& due) const {
   std::vector<bool> done(tasks_.size());
   for (const std::size_t i : items)
     for (const TaskId t : items_[i]) {
-      const double dt = tasks_[t].rate.period();
-      demand(t, dt, done, plan);
-      plan.push_back({t, dt});
+      demand(t, done, plan);
+      plan.push_back({t, periods_[t]});
     }
   return plan;
 }
 
 const Scheduler::Plan& Scheduler::plan_for(const Mask& due) {
+  if (last_plan_ && due == last_due_) return *last_plan_;
   const auto known = plans_.find(due);
-  return known != plans_.end() ? known->second : plans_.emplace(due, make_plan(due)).first->second;
+  last_plan_ = known != plans_.end() ? &known->second : &plans_.emplace(due, make_plan(due)).first->second;
+  last_due_ = due;
+  return *last_plan_;
 }
 
 std::vector<TaskId> Scheduler::plan_at(std::int64_t time) const {
@@ -169,15 +208,21 @@ void Scheduler::set_pacing(Pacing pacing) {
   pace_time_ = now_;
 }
 
-void Scheduler::pace() {
+/// Waits until the present instant is due; true when `stop` wants to end the wait.
+bool Scheduler::pace(const std::function<bool()>& stop) {
   const auto wanted = pace_wall_ + std::chrono::nanoseconds(std::int64_t(double(now_ - pace_time_) / pacing_.factor));
-  const auto wall = std::chrono::steady_clock::now();
+  auto wall = std::chrono::steady_clock::now();
   if (wall < wanted) {
-    std::this_thread::sleep_until(wanted);
+    constexpr auto slice = std::chrono::milliseconds(50);  // between looks at `stop`
+    for (; wall < wanted; wall = std::chrono::steady_clock::now()) {
+      if (stop && stop()) return true;
+      std::this_thread::sleep_until(std::min(wanted, wall + slice));
+    }
   } else if (wall - wanted > std::chrono::nanoseconds(std::int64_t(double(finest_period_) / pacing_.factor))) {
     ++overruns_;
     pace_wall_ += wall - wanted;  // the lost time is not made up for by running faster than asked
   }
+  return false;
 }
 
 void Scheduler::run_until(std::int64_t end, const std::function<bool()>& stop) {
@@ -187,7 +232,7 @@ void Scheduler::run_until(std::int64_t end, const std::function<bool()>& stop) {
     for (const Group& g : groups_) next = std::min(next, g.next_time);
     if (next >= end) break;
     now_ = next;
-    if (pacing_.factor > 0) pace();
+    if (pacing_.factor > 0 && pace(stop)) return;
     for (std::size_t i = 0; i < groups_.size(); ++i) due_[i] = groups_[i].next_time == now_;
     run_instant(plan_for(due_));
     for (std::size_t i = 0; i < groups_.size(); ++i)
@@ -201,6 +246,15 @@ void Scheduler::run_until(std::int64_t end, const std::function<bool()>& stop) {
     }
   }
   now_ = std::max(now_, end);
+}
+
+void Scheduler::run_extra(const std::vector<TaskId>& tasks) {
+  if (!prepared_) prepare();
+  const std::vector<std::uint64_t> runs = runs_;
+  Plan plan;
+  for (const TaskId t : tasks) plan.push_back({t, periods_[t]});
+  run_instant(plan);
+  runs_ = runs;
 }
 
 double Scheduler::seconds_per_tick() const {

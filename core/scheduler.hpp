@@ -44,8 +44,10 @@ struct Pacing {
 /// when, so the same input gives the same bits.
 class Scheduler {
  public:
+  Scheduler();
   TaskId add(Task task);
-  /// Tasks that run in this order, at the rate and phase of the first, as one item. Their own orders no longer count.
+  /// Tasks that run in this order as one item. All that have a rate have the same rate and phase; those on demand take
+  /// it over. Throws SetupError when rates differ or there is none.
   void add_sequence(const std::vector<TaskId>& tasks);
 
   /// Runs everything that is due before `end` (ns). `stop` is asked after every instant.
@@ -60,6 +62,8 @@ class Scheduler {
   const TaskCost& cost(TaskId t) const { return costs_[t]; }
   /// Wall-clock seconds per tick of the costs.
   double seconds_per_tick() const;
+  /// Runs these tasks now, outside of the schedule; their run counts stay.
+  void run_extra(const std::vector<TaskId>& tasks);
   /// The tasks of the instant at `time` in the order in which they run.
   std::vector<TaskId> plan_at(std::int64_t time) const;
 
@@ -87,10 +91,12 @@ class Scheduler {
 
   void prepare();
   Plan make_plan(const Mask& due) const;
-  void demand(TaskId reader, double dt, std::vector<bool>& done, Plan& plan) const;
+  void find_providers();
+  void find_periods();
+  void demand(TaskId reader, std::vector<bool>& done, Plan& plan) const;
   const Plan& plan_for(const Mask& due);
   void run_instant(const Plan& plan);
-  void pace();
+  bool pace(const std::function<bool()>& stop);
 
   std::vector<Task> tasks_;
   std::vector<TaskCost> costs_;
@@ -101,7 +107,9 @@ class Scheduler {
   std::vector<Group> groups_;
   std::vector<std::uint32_t> group_of_item_;
   std::vector<std::vector<TaskId>> providers_;  ///< per task: on-demand tasks it needs
-  Mask due_;
+  std::vector<double> periods_;                 ///< s, per task; on demand: the longest of those that ask
+  Mask due_, last_due_;
+  const Plan* last_plan_ = nullptr;
   std::unordered_map<Mask, Plan> plans_;
 
   std::int64_t now_ = 0;
@@ -113,9 +121,6 @@ class Scheduler {
   std::uint64_t overruns_ = 0;
   std::uint64_t first_tick_;
   std::chrono::steady_clock::time_point first_wall_;
-
- public:
-  Scheduler();
 };
 
 }  // namespace muro

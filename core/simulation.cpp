@@ -30,6 +30,25 @@ int connect_order(Kind kind) {
   return 11;
 }
 
+/// Lets several steps of the set-up fail, so that all their problems are told at once.
+class Collected {
+ public:
+  template <class Work>
+  void run(Work work) {
+    try {
+      work();
+    } catch (const SetupError& e) {
+      problems_.emplace_back(e.what());
+    }
+  }
+  void check() const {
+    if (!problems_.empty()) throw SetupError(problems_);
+  }
+
+ private:
+  std::vector<std::string> problems_;
+};
+
 }  // namespace
 
 class Simulation::Log final : public Host {
@@ -70,6 +89,7 @@ RobotTree Simulation::read_model(const std::string& path) {
 
 std::size_t Simulation::add(AlgorithmSetup setup) {
   if (setup.name.empty()) setup.name = setup.use + " #" + std::to_string(setups_.size());
+  if (setup.phase < 0) throw SetupError(setup.name + ": the phase is " + std::to_string(setup.phase) + " ns but must be 0 or more");
   setups_.push_back(std::move(setup));
   return setups_.size() - 1;
 }
@@ -98,7 +118,7 @@ void Simulation::merge_batched() {
   for (AlgorithmSetup& s : setups_) {
     const bool batched = (registry_.algorithm(s.use).description->promises & Promise::batched) != 0 && !s.items.empty();
     const auto same = [&](const AlgorithmSetup& m) {
-      return m.use == s.use && m.rate == s.rate && m.phase == s.phase && m.parameters == s.parameters && !m.items.empty() &&
+      return m.name == s.name && m.use == s.use && m.rate == s.rate && m.phase == s.phase && m.parameters == s.parameters && !m.items.empty() &&
              m.folder == s.folder && m.subsystem == s.subsystem;
     };
     const auto known = batched ? std::find_if(merged.begin(), merged.end(), same) : merged.end();
@@ -110,8 +130,10 @@ void Simulation::merge_batched() {
       merged.push_back(s);
     }
   }
+  Collected problems;
   for (AlgorithmSetup& m : merged)
-    instances_.push_back(std::make_unique<Instance>(registry_.algorithm(m.use), std::move(m), world_, *log_));
+    problems.run([&] { instances_.push_back(std::make_unique<Instance>(registry_.algorithm(m.use), std::move(m), world_, *log_)); });
+  problems.check();
 }
 
 std::vector<std::size_t> Simulation::in_order_of(int (*order)(Kind)) const {
@@ -124,8 +146,11 @@ std::vector<std::size_t> Simulation::in_order_of(int (*order)(Kind)) const {
 }
 
 void Simulation::build() {
+  if (!instances_.empty()) throw SetupError("a simulation is built once; make another one");
   merge_batched();
-  for (const std::size_t i : in_order_of(connect_order)) instances_[i]->connect();
+  Collected problems;
+  for (const std::size_t i : in_order_of(connect_order)) problems.run([&] { instances_[i]->connect(); });
+  problems.check();
   world_.store().check([&](std::string_view key) { return registry_.writers_of(key); });
   schedule();
   initial_ = snapshot();
@@ -159,6 +184,13 @@ void Simulation::schedule() {
 void Simulation::run_for(double seconds) { run_until(now() + std::llround(seconds * 1e9)); }
 
 void Simulation::run_until(std::int64_t time, const std::function<bool()>& stop) { scheduler_.run_until(time, stop); }
+
+void Simulation::refresh() {
+  std::vector<TaskId> kinematics;
+  for (std::size_t i = 0; i < instances_.size(); ++i)
+    if (instances_[i]->description().kind == Kind::kinematics) kinematics.push_back(tasks_[i]);
+  scheduler_.run_extra(kinematics);
+}
 
 void Simulation::finish() {
   for (const std::size_t i : in_order_of(order_of)) instances_[i]->finish();

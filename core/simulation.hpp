@@ -67,6 +67,9 @@ class Simulation {
   /// Tells algorithms that the run is over for now: recorders write their files.
   void finish();
 
+  /// Brings the poses of all bodies up to `now`, for whoever reads them between runs. Without influence on the run.
+  void refresh();
+
   // --- state
   Snapshot snapshot() const;
   void restore(const Snapshot& snapshot);

@@ -42,25 +42,37 @@ ObjectId World::add_scenery(std::string_view name, const Pose& pose, std::span<c
   return id;
 }
 
+namespace {
+
+/// The bytes of a constant in which texts of the model are texts of the world: `texts` translates.
+std::vector<std::byte> with_texts(const RobotTree::Constant& c, const std::vector<TextId>& texts) {
+  std::vector<std::byte> data = c.data;
+  const bool shape = c.key.type->name == ValueTraits<Shape>::name;
+  if (!shape && c.key.type->name != ValueTraits<TextId>::name) return data;
+  for (std::size_t at = shape ? offsetof(Shape, mesh) : 0; at < data.size(); at += c.key.type->size) {
+    TextId id;
+    std::memcpy(&id, data.data() + at, sizeof id);
+    id = texts[static_cast<std::size_t>(id)];
+    std::memcpy(data.data() + at, &id, sizeof id);
+  }
+  return data;
+}
+
+}  // namespace
+
 const RobotView& World::add_robot(std::string_view name, const RobotTree& tree, const Pose& start) {
   if (find_robot(name)) throw SetupError("two robots are named `" + std::string(name) + "`; names are unique");
   const auto number = std::uint32_t(robots_.size());
   Robot& r = robots_.emplace_back();
   r.name = name;
+  robot_by_name_.emplace(r.name, number);
   std::vector<TextId> texts;
   for (const std::string& t : tree.texts()) texts.push_back(intern(t));
   std::vector<ObjectId> objects;
   for (const RobotTree::Part& part : tree.parts()) {
     objects.push_back(add_object(r.name + "/" + part.name, number));
     for (const RobotTree::Constant& c : part.constants) {
-      std::vector<std::byte> data = c.data;
-      if (c.key.type->name == ValueTraits<Shape>::name)
-        for (std::uint32_t i = 0; i < c.count; ++i) {  // texts of the model become texts of the world
-          Shape s;
-          std::memcpy(static_cast<void*>(&s), data.data() + i * sizeof(Shape), sizeof(Shape));
-          s.mesh = texts[static_cast<std::size_t>(s.mesh)];
-          std::memcpy(data.data() + i * sizeof(Shape), static_cast<const void*>(&s), sizeof(Shape));
-        }
+      const std::vector<std::byte> data = with_texts(c, texts);
       store_.set_constant(objects.back(), c.key, data.data(), c.count);
     }
   }
@@ -91,9 +103,8 @@ ObjectId World::object(std::string_view name) const {
 }
 
 const RobotView* World::find_robot(std::string_view name) const {
-  const auto it =
-      std::find_if(robot_pointers_.begin(), robot_pointers_.end(), [&](const RobotView* r) { return r->name == name; });
-  return it == robot_pointers_.end() ? nullptr : *it;
+  const auto it = robot_by_name_.find(std::string(name));
+  return it == robot_by_name_.end() ? nullptr : robot_pointers_[it->second];
 }
 
 TextId World::intern(std::string_view text) {

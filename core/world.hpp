@@ -42,7 +42,7 @@ class World {
 
   template <class T>
   void set(ObjectId object, const Key<T>& key, const T& value) {
-    store_.set_constant(object, key, &value, 0);
+    store_.set_constant(object, key, &value, single_value);
   }
   template <class T>
   void set_array(ObjectId object, const Key<T>& key, std::span<const T> values) {
@@ -52,7 +52,8 @@ class World {
   void share(ObjectId a, const Key<T>& key_a, ObjectId b, const Key<U>& key_b) {
     store_.share(a, key_a, b, key_b);
   }
-  /// The present value of a single property; throws SetupError when there is none of this type.
+  /// The present value of a single property; throws SetupError when there is none of this type. What is derived on
+  /// demand is as old as its last reader: see Simulation::refresh.
   template <class T>
   T& value(ObjectId object, const Key<T>& key) const {
     return *static_cast<T*>(place(object, key));
@@ -87,6 +88,7 @@ class World {
     std::vector<ObjectId> objects;
   };
   std::deque<Robot> robots_;
+  std::unordered_map<std::string, std::uint32_t> robot_by_name_;
   std::vector<const RobotView*> robot_pointers_;
   std::deque<std::string> texts_{""};
 };

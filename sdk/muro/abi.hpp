@@ -85,6 +85,7 @@ constexpr Stamp make_stamp() {
 /// Text of a failure, copied across the border.
 class ErrorText {
  public:
+  ErrorText() { buffer_[0] = 0; }  // the rest is written when there is an error
   void set(std::string_view text) noexcept {
     const std::size_t n = std::min(text.size(), sizeof buffer_ - 1);
     std::memcpy(buffer_, text.data(), n);
@@ -93,7 +94,7 @@ class ErrorText {
   std::string_view view() const noexcept { return buffer_; }
 
  private:
-  char buffer_[2048] = {};
+  char buffer_[2048];
 };
 
 /// An algorithm as the host holds it: nothing throws, false means failure with a text.

@@ -40,7 +40,7 @@ class Algorithm {
   /// model, carries their state from `step.time` to `step.time + step.dt`. Does not allocate once warm. [step]
   virtual void step(const Step& step, Range range) = 0;
 
-  /// The properties were replaced (snapshot, reset): rebuild what was kept beside them. [between steps]
+  /// A snapshot has replaced the properties: rebuild what was kept beside them. [between steps]
   virtual void restored() {}
 
   /// The run is over or is about to be read by the user: flush files. [between steps]

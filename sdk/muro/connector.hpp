@@ -138,7 +138,11 @@ class Connector {
   }
   template <class T>
   Out<T> derived(ObjectId object, const Key<T>& key) {
-    return Out<T>(bind(object, key, Access::derived, Form::single, 1, nullptr));
+    return bind_default<T>(object, key, Access::derived);
+  }
+  template <class T>
+  ArrayOut<T> derived_array(ObjectId object, const Key<T>& key, std::uint32_t count) {
+    return ArrayOut<T>(bind(object, key, Access::derived, Form::array, count, nullptr));
   }
   template <class T>
   ListOut<T> derived_list(ObjectId object, const Key<T>& key) {
@@ -146,11 +150,11 @@ class Connector {
   }
   template <class T>
   Out<T> write(ObjectId object, const Key<T>& key) {
-    return Out<T>(bind(object, key, Access::write, Form::single, 1, nullptr));
+    return bind_default<T>(object, key, Access::write);
   }
   template <class T>
   Out<T> offer(ObjectId object, const Key<T>& key) {
-    return Out<T>(bind(object, key, Access::offer, Form::single, 1, nullptr));
+    return bind_default<T>(object, key, Access::offer);
   }
   template <class T>
   Sum<T> accumulate(ObjectId object, const Key<T>& key) {
@@ -166,6 +170,14 @@ class Connector {
   virtual ArrayHeader constant_raw(ObjectId object, const KeyInfo& key) const noexcept = 0;
   virtual void set_raw(ObjectId object, const KeyInfo& key, const void* value) noexcept = 0;
   ~Connector() = default;
+
+ private:
+  /// Until somebody gives a value, it is that of a default-constructed T.
+  template <class T>
+  Out<T> bind_default(ObjectId object, const Key<T>& key, Access access) {
+    const T value{};
+    return Out<T>(bind(object, key, access, Form::single, 1, &value));
+  }
 };
 
 }  // namespace muro

@@ -5,6 +5,9 @@
 
 namespace muro {
 
+/// Count of a constant that is a single value, where an array would give its number of elements.
+inline constexpr std::uint32_t single_value = 0xffffffffu;
+
 /// What the set-up check expects of a property.
 enum class Role : std::uint8_t {
   state,    ///< somebody must write what somebody reads

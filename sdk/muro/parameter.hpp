@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <stdexcept>
+#include <string>
 #include <string_view>
 
 namespace muro {
@@ -99,8 +101,7 @@ class Parameters {
   const ParameterValue& at(std::string_view name) const {
     for (const ParameterValue& v : values_)
       if (v.name == name) return v;
-    static constexpr ParameterValue none{};  // a name that the description lacks: our mistake
-    return none;
+    throw std::logic_error("parameter `" + std::string(name) + "` is not in the algorithm's description");
   }
   std::span<const ParameterValue> values_;
 };

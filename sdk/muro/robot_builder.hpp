@@ -48,7 +48,7 @@ class RobotBuilder {
   /// A constant of the last part (base, joint or body).
   template <class T>
   void set(const Key<T>& key, const T& value) {
-    set_raw(key, &value, 0);
+    set_raw(key, &value, single_value);
   }
   template <class T>
   void set_array(const Key<T>& key, std::span<const T> values) {
@@ -56,7 +56,7 @@ class RobotBuilder {
   }
 
  protected:
-  /// `count` 0 means a single value, else an array of that many.
+  /// `count`: elements of an array, or single_value.
   virtual void set_raw(const KeyInfo& key, const void* data, std::uint32_t count) noexcept = 0;
   ~RobotBuilder() = default;
 };

@@ -11,8 +11,9 @@
 
 namespace muro {
 
-/// The number type that a value is made of. `opaque` values have no columns: they are neither
-/// recorded nor hashed. `transient` values also hold addresses: they are not part of a snapshot.
+/// The number type that a value is made of. `opaque` values have no columns, so they are not recorded; as state
+/// they are saved and hashed byte by byte and must have no padding. `transient` values also hold addresses: they are
+/// not part of a snapshot.
 enum class Scalar : std::uint8_t { f64, f32, i64, i32, u64, u32, u8, opaque, transient };
 
 /// Identity and layout of a value type. Two libraries mean the same type when name, size and

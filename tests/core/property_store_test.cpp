@@ -74,7 +74,7 @@ TEST_F(PropertyStoreTest, SharingChainsAndConstantsAreShared) {
   store.share(a, speed, b, speed);
   store.share(c, speed, b, speed);
   const double v = 7;
-  store.set_constant(c, speed, &v, 0);
+  store.set_constant(c, speed, &v, single_value);
   EXPECT_EQ(*bind(reader, a, speed, Access::read), 7);
   EXPECT_EQ(problems(), "");
 }
@@ -165,9 +165,41 @@ TEST_F(PropertyStoreTest, AddingToWhatAnotherWritesIsAnError) {
 
 TEST_F(PropertyStoreTest, WritingAConstantIsAnError) {
   const double v = 1;
-  store.set_constant(a, speed, &v, 0);
+  store.set_constant(a, speed, &v, single_value);
   bind(writer, a, speed, Access::variable);
   EXPECT_EQ(problems(), "`a:speed` is a constant, but a.motion (motion.x) writes it");
+}
+
+TEST_F(PropertyStoreTest, ASumThatSomebodyWritesIsAnError) {
+  bind(writer, a, keys::external_wrench, Access::variable);
+  store.bind(reader, a, keys::external_wrench, Access::read_sum, Form::single, 1, nullptr);
+  EXPECT_NE(problems().find("is written by a.motion (motion.x), but b.laser (laser.y) reads the sum of contributions"), std::string::npos);
+}
+
+TEST_F(PropertyStoreTest, EmptyAndReplacedConstantsAreWhatWasSetLast) {
+  store.set_constant(a, speed, nullptr, 0);
+  EXPECT_EQ(store.constant(a, speed).size, 0u);
+  const double three[] = {1, 2, 3};
+  store.set_constant(a, speed, three, 1);
+  const ArrayIn<double> in(store.bind(reader, a, speed, Access::read, Form::array, 0, nullptr));
+  EXPECT_EQ((*in).size(), 1u);
+  store.set_constant(b, speed, three, single_value);
+  store.set_constant(b, speed, three, 3);
+  EXPECT_EQ(store.constant(b, speed).size, 3u);
+}
+
+TEST_F(PropertyStoreTest, StateBlocksBeginAlignedForAnyType) {
+  for (const char* name : {"x", "y", "z"})
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(store.state_block(writer, a, name, 12)) % 64, 0u);
+}
+
+TEST_F(PropertyStoreTest, AnImageOfAnotherStoreIsRefusedAndChangesNothing) {
+  const double v = 4;
+  double* out = bind(writer, a, speed, Access::variable, &v);
+  PropertyStore other;
+  other.add_object("a");
+  EXPECT_THROW(store.load(other.save()), SetupError);
+  EXPECT_EQ(*out, 4);
 }
 
 TEST_F(PropertyStoreTest, AnImageBringsBackValuesAndLists) {

@@ -14,6 +14,12 @@ TEST(Rate, RunsAtTheFloorOfTheExactTimeWithoutDrift) {
   EXPECT_EQ(Rate(0.1).time_of(7), 70'000'000'000);
 }
 
+TEST(Rate, RefusesWhatCannotBeARate) {
+  for (const double wrong : {-5.0, 1e-7, 1e10, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
+    EXPECT_THROW(Rate{wrong}, SetupError) << wrong;
+  EXPECT_TRUE(Rate(0).on_demand());
+}
+
 TEST(Rate, FindsTheFirstRunFromATimeOn) {
   for (const double hertz : {0.3, 1.0, 3.0, 7.0, 29.97, 60.0, 1000.0, 1234.567})
     for (std::uint64_t k = 0; k < 2000; k += 7) {

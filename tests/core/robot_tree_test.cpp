@@ -87,6 +87,20 @@ TEST(RobotTree, MakesAnyNumberOfRobots) {
   EXPECT_EQ(world.robot_of(world.object("b/hand")), 1);
 }
 
+TEST(RobotTree, ForksAreBinary) {
+  RobotTree tree;
+  tree.base("base");
+  tree.fork();
+  tree.body("a");
+  tree.end();
+  tree.body("b");
+  tree.end();
+  tree.body("c");
+  tree.close();
+  ASSERT_EQ(tree.problems().size(), 1u);
+  EXPECT_EQ(tree.problems()[0].text, "body() behind a fork whose two branches are closed: a fork is binary, open another in a branch");
+}
+
 TEST(RobotTree, CollectsEveryMisuse) {
   RobotTree tree;
   tree.body("early");

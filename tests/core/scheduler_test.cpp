@@ -81,13 +81,39 @@ TEST_F(SchedulerTest, OnDemandRunsOnceAnInstantJustBeforeItsFirstReader) {
   EXPECT_DOUBLE_EQ(recorders[1].last.dt, 0.2) << "the period of the reader that asks";
 }
 
-TEST_F(SchedulerTest, ASequenceKeepsItsOwnOrderAndTheRateOfItsFirst) {
+TEST_F(SchedulerTest, ASequenceKeepsItsOwnOrderAndGivesItsRateToTasksOnDemand) {
+  const TaskId contact = add("contact", 0, 8);
   const TaskId motion = add("motion", 10, 9);
-  const TaskId collision = add("collision", 1000, 7);
+  const TaskId collision = add("collision", 0, 7);
   add("laser", 10, 2);
-  scheduler.add_sequence({motion, collision});
+  scheduler.add_sequence({contact, motion, collision});
   scheduler.run_until(150'000'000);
-  EXPECT_EQ(log, (Log{"laser@0", "motion@0", "collision@0", "laser@100", "motion@100", "collision@100"}));
+  EXPECT_EQ(log, (Log{"laser@0", "contact@0", "motion@0", "collision@0", "laser@100", "contact@100", "motion@100", "collision@100"}));
+}
+
+TEST_F(SchedulerTest, ASequenceOfDifferentRatesOrOfNoneIsAnError) {
+  const TaskId a = add("a", 10), b = add("b", 20), c = add("c", 0), d = add("d", 0);
+  EXPECT_THROW(scheduler.add_sequence({a, b}), SetupError);
+  EXPECT_THROW(scheduler.add_sequence({c, d}), SetupError);
+}
+
+TEST_F(SchedulerTest, WhatRunsOnDemandHasTheLongestPeriodOfThoseThatAskInEveryInstant) {
+  add("contact", 0, 8, 0, {}, {1});
+  add("fast", 1000, 9, 0, {1});
+  add("slow", 100, 9, 0, {1});
+  scheduler.run_until(5'000'000);
+  EXPECT_DOUBLE_EQ(recorders[0].last.dt, 0.01);
+}
+
+TEST_F(SchedulerTest, AStopEndsTheWaitForASlowInstantAndTheInstantIsNotLost) {
+  add("a", 1);
+  scheduler.set_pacing({0.01});  // an instant in 100 s
+  int asked = 0;
+  scheduler.run_until(10'000'000'000, [&] { return ++asked >= 3; });
+  EXPECT_EQ(log, (Log{"a@0"}));
+  scheduler.set_pacing({0});
+  scheduler.run_until(2'000'000'000);
+  EXPECT_EQ(log, (Log{"a@0", "a@1000"}));
 }
 
 TEST_F(SchedulerTest, GoesOnWhereItStopped) {
