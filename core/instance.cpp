@@ -116,7 +116,7 @@ ArrayHeader Instance::constant_raw(ObjectId object, const KeyInfo& key) const no
 }
 
 void Instance::set_raw(ObjectId object, const KeyInfo& key, const void* value) noexcept {
-  world_.store().set_constant(object, key, value, 0);
+  world_.store().set_constant(object, key, value, single_value);
 }
 
 }  // namespace muro
