@@ -17,6 +17,10 @@ Instance::Instance(const abi::AlgorithmEntry& entry, AlgorithmSetup setup, World
       parameters_(*entry.description, setup_),
       party_(world.store().add_party(setup_.name + " (" + setup_.use + (setup_.place.empty() ? "" : ", " + setup_.place) + ")")) {
   if (setup_.items.empty()) setup_.items.push_back({});
+  const Kind kind = entry.description->kind;
+  if (!setup_.items.front().robot && (kind == Kind::motion || kind == Kind::kinematics || kind == Kind::drive))
+    throw SetupError((setup_.place.empty() ? "" : setup_.place + ": ") + setup_.name + " (" + setup_.use +
+                     ") serves robots, but none is named; use it in a robot, not for the whole scene");
   abi::ErrorText error;
   algorithm_ = entry_.create(&error);
   require(algorithm_ != nullptr, error, "cannot be created");

@@ -3,36 +3,71 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
 
 #include "core/error.hpp"
 #include "host/commands/commands.hpp"
+#include "muro/nearest.hpp"
 
 namespace {
 
 using namespace muro::host;
 
+/// Checks of the command line; CLI11 lets `nan` and `-1` pass where a number is wanted.
+std::string check_duration(const std::string& text) {
+  double x = 0;
+  const auto [used, code] = std::from_chars(text.data(), text.data() + text.size(), x);
+  const bool fine = code == std::errc{} && used == text.data() + text.size() && x >= 0 && x <= 1e9;
+  return fine ? "" : "`" + text + "` is no number of seconds from 0 to 1e9";
+}
+std::string check_seed(const std::string& text) {
+  std::uint64_t x = 0;
+  const auto [used, code] = std::from_chars(text.data(), text.data() + text.size(), x);
+  const bool fine = code == std::errc{} && used == text.data() + text.size() && x <= std::uint64_t(1) << 53;
+  return fine ? "" : "`" + text + "` is no whole number from 0 to 9007199254740992";
+}
+
+/// What to say when there is no command, or a word that is none; else nothing.
+std::string unknown_command(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* c : app.get_subcommands([](const CLI::App*) { return true; })) names.push_back(c->get_name());
+  const std::vector<std::string> words = app.remaining();
+  const auto word =
+      std::find_if(words.begin(), words.end(), [](const std::string& w) { return !w.empty() && w.front() != '-'; });
+  std::string allowed;
+  for (const std::string& n : names) allowed += (allowed.empty() ? "" : ", ") + n;
+  if (app.get_subcommands().empty() && words.empty()) return "muro needs a command: " + allowed + "; muro --help tells more";
+  if (!app.get_subcommands().empty() || word == words.end()) return "";
+  return "muro has no command `" + *word + "`" + muro::did_you_mean(*word, names) + "; commands: " + allowed;
+}
+
 void add_scenario_options(CLI::App& command, ScenarioOptions& options) {
   command.add_option("scenario", options.file, "Scenario file (YAML)")->required();
-  command.add_option("--set", options.overrides, "Override a value: path=value, e.g. robots.rovers.count=100 (repeatable)")
+  command
+      .add_option("--set", options.overrides, "Override a value: path=value, e.g. robots.rovers.count=100 (repeatable)")
       ->take_all()
       ->allow_extra_args(false);
-  command.add_option("--seed", options.seed, "Seed of all random numbers");
+  command.add_option("--seed", options.seed, "Seed of all random numbers")->check(check_seed);
 }
 
 int dispatch(int argc, char** argv) {
   CLI::App app{"muro: a simulator for teams of robots, each at its own level of detail"};
   app.require_subcommand(1);
   std::vector<std::string> plugin_path;
-  app.add_option("--plugin-path", plugin_path, "Folder with plugins, before all others (repeatable)")->take_all()->allow_extra_args(false);
+  app.add_option("--plugin-path", plugin_path, "Folder with plugins, before all others (repeatable)")
+      ->take_all()
+      ->allow_extra_args(false);
   app.fallthrough();
 
   RunOptions run_options;
   CLI::App& run_command = *app.add_subcommand("run", "Run a scenario");
   add_scenario_options(run_command, run_options.scenario);
   run_command.add_option("--duration", run_options.duration, "Simulated seconds; default: as the scenario says")
-      ->check(CLI::Range(0.0, 1e9));
+      ->check(check_duration);
   run_command.add_option("--speed", run_options.speed, "max, real, or a factor of real time")->capture_default_str();
-  run_command.add_option("--threads", run_options.threads, "Threads to use (this version steps on one)")->check(CLI::Range(1, 1024));
+  run_command.add_option("--threads", run_options.threads, "Threads to use (this version steps on one)")
+      ->check(CLI::Range(1, 1024));
   run_command.add_option("--report", run_options.report, "Write a report to this file (JSON)");
   run_command.add_flag("--profile", run_options.profile, "Print what each algorithm costs");
 
@@ -42,7 +77,8 @@ int dispatch(int argc, char** argv) {
 
   ScenarioOptions describe_options;
   bool json = false;
-  CLI::App& describe_command = *app.add_subcommand("describe", "Show objects, properties, who writes and reads them, and the schedule");
+  CLI::App& describe_command =
+      *app.add_subcommand("describe", "Show objects, properties, who writes and reads them, and the schedule");
   add_scenario_options(describe_command, describe_options);
   describe_command.add_flag("--json", json, "As JSON");
 
@@ -60,6 +96,8 @@ int dispatch(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
+    if (const std::string text = unknown_command(app); e.get_exit_code() != 0 && !text.empty())
+      throw muro::SetupError(text);
     return app.exit(e) == 0 ? 0 : 2;
   }
   run_options.scenario.plugin_path = check_options.plugin_path = describe_options.plugin_path = plugin_path;

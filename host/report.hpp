@@ -15,6 +15,8 @@ class Odometer {
   explicit Odometer(const Simulation& simulation);
   /// Adds the straight way since the last sample to every robot's distance.
   void sample();
+  /// Throws StepError when a robot's pose is not finite.
+  void check() const;
   double distance(std::uint32_t robot) const { return distances_[robot]; }  ///< m
 
   static constexpr std::int64_t period = 100'000'000;  ///< ns between samples
@@ -32,6 +34,7 @@ struct RunResult {
   double simulated = 0;  ///< s
   double wall = 0;       ///< s
   bool interrupted = false;
+  std::string error;  ///< why it ended before its time, or empty
 };
 
 nlohmann::ordered_json report(const RunResult& run, const Simulation& simulation, const Odometer& odometer);
@@ -39,5 +42,7 @@ nlohmann::ordered_json report(const RunResult& run, const Simulation& simulation
 std::string profile(const RunResult& run, const Simulation& simulation);
 /// Writes a file whole or not at all. Throws SetupError.
 void write_file(const std::string& path, const std::string& text);
+/// Throws SetupError when the file could not be written; leaves a file that is there as it is.
+void check_writable(const std::string& path);
 
 }  // namespace muro::host

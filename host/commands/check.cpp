@@ -18,8 +18,9 @@ BuiltScenario open_scenario(const ScenarioOptions& options, Registry& registry) 
 int check(const ScenarioOptions& options) {
   Registry registry(Registry::search_path(options.plugin_path));
   const BuiltScenario built = open_scenario(options, registry);
-  fmt::print("{}: {} robots, {} objects, {} algorithms: all is connected\n", options.file, built.simulation->world().robots().size(),
-             built.simulation->world().object_count(), built.simulation->instances().size());
+  fmt::print("{}: {} robots, {} objects, {} algorithms: all is connected\n", options.file,
+             built.simulation->world().robots().size(), built.simulation->world().object_count(),
+             built.simulation->instances().size());
   return 0;
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "core/instance.hpp"
 #include "host/commands/commands.hpp"
@@ -26,7 +28,10 @@ Json describe_property(const PropertyStore& store, const PropertyStore::Named& n
   const Slot& s = store.slot(named.slot);
   const KeyInfo& key = store.key_of(s);
   constexpr const char* kinds[] = {"unused", "constant", "variable", "derived"};
-  Json p = {{"property", named.key}, {"type", type_of(store, s)}, {"unit", key.unit}, {"is", kinds[static_cast<int>(s.kind)]}};
+  Json p = {{"property", named.key},
+            {"type", type_of(store, s)},
+            {"unit", key.unit},
+            {"is", kinds[static_cast<int>(s.kind)]}};
   Json writers = Json::array(), readers = Json::array();
   for (const Slot::Usage& u : s.usage) {
     Json& list = reads(u.access) ? readers : writers;
@@ -39,16 +44,29 @@ Json describe_property(const PropertyStore& store, const PropertyStore::Named& n
   return p;
 }
 
+/// All tasks in the order in which they would run if all were due at once.
 Json describe_schedule(const Simulation& simulation) {
+  const std::vector<Task>& tasks = simulation.scheduler().tasks();
+  std::vector<TaskId> ids(tasks.size());
+  std::iota(ids.begin(), ids.end(), TaskId{0});
+  std::stable_sort(ids.begin(), ids.end(), [&](TaskId a, TaskId b) { return tasks[a].order < tasks[b].order; });
   Json list = Json::array();
-  for (const TaskId t : simulation.scheduler().plan_at(0)) {
-    const Task& task = simulation.scheduler().tasks()[t];
+  for (const TaskId t : ids) {
+    const Task& task = tasks[t];
     Json entry = {{"name", task.name}, {"items", task.items}};
     entry["rate_hz"] = task.rate.on_demand() ? Json("on_demand") : Json(task.rate.hertz());
     entry["phase_s"] = 1e-9 * double(task.phase);
+    entry["order"] = task.order;
     list.push_back(entry);
   }
   return list;
+}
+
+/// What runs at t = 0, one behind the other.
+Json describe_first_instant(const Simulation& simulation) {
+  Json names = Json::array();
+  for (const TaskId t : simulation.scheduler().plan_at(0)) names.push_back(simulation.scheduler().tasks()[t].name);
+  return names;
 }
 
 std::string joined(const Json& list) {
@@ -69,10 +87,12 @@ void print(const Json& all) {
       fmt::print("\n");
     }
   }
-  fmt::print("\nOrder of the first instant:\n");
+  fmt::print("\nSchedule, by the order within an instant:\n");
   for (const auto& e : all["schedule"])
-    fmt::print("  {:<32} {:>6} items  {}\n", e["name"].get<std::string>(), e["items"].get<int>(),
-               e["rate_hz"].is_string() ? std::string("on demand") : fmt::format("{:g} Hz", e["rate_hz"].get<double>()));
+    fmt::print("  {:<32} {:>6} items  {:<12}{}\n", e["name"].get<std::string>(), e["items"].get<int>(),
+               e["rate_hz"].is_string() ? std::string("on demand") : fmt::format("{:g} Hz", e["rate_hz"].get<double>()),
+               e["phase_s"] != 0.0 ? fmt::format(" from {:g} s", e["phase_s"].get<double>()) : "");
+  fmt::print("\nThe first instant: {}\n", joined(all["first_instant"]));
 }
 
 }  // namespace
@@ -85,10 +105,12 @@ int describe(const ScenarioOptions& options, bool json) {
   for (std::uint32_t i = 0; i < world.object_count(); ++i) {
     const ObjectId id{i};
     Json properties = Json::array();
-    for (const auto& named : world.store().properties(id)) properties.push_back(describe_property(world.store(), named, id));
+    for (const auto& named : world.store().properties(id))
+      properties.push_back(describe_property(world.store(), named, id));
     all["objects"].push_back({{"object", world.object_name(id)}, {"properties", properties}});
   }
   all["schedule"] = describe_schedule(*built.simulation);
+  all["first_instant"] = describe_first_instant(*built.simulation);
   if (json)
     fmt::print("{}\n", all.dump(2));
   else

@@ -45,7 +45,8 @@ void print_info(const Offer& offer, const Json& plugin, const Json& entry) {
   for (const char* list : {"reads", "writes"})
     if (entry.contains(list) && !entry[list].empty()) {
       fmt::print("\n{}\n", list);
-      for (const Json& u : entry[list]) fmt::print("  {:<24} {}\n", u["key"].get<std::string>(), u["doc"].get<std::string>());
+      for (const Json& u : entry[list])
+        fmt::print("  {:<24} {}\n", u["key"].get<std::string>(), u["doc"].get<std::string>());
     }
 }
 
@@ -57,7 +58,8 @@ int list_plugins(const std::vector<std::string>& plugin_path, ListForm form) {
   if (form == ListForm::json) {
     Json all = Json::array();
     for (const Offer& o : registry.offers())
-      all.push_back({{"id", o.id}, {"kind", o.kind}, {"version", o.version}, {"summary", o.summary}, {"library", o.library}});
+      all.push_back(
+          {{"id", o.id}, {"kind", o.kind}, {"version", o.version}, {"summary", o.summary}, {"library", o.library}});
     fmt::print("{}\n", all.dump(2));
     return 0;
   }

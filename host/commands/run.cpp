@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <charconv>
 #include <chrono>
 #include <csignal>
 #include <nlohmann/json.hpp>
@@ -20,13 +21,11 @@ std::atomic<bool> interrupted{false};
 double pacing_factor(const std::string& speed) {
   if (speed == "max") return 0;
   if (speed == "real") return 1;
-  try {
-    std::size_t used = 0;
-    const double factor = std::stod(speed, &used);
-    if (used == speed.size() && factor > 0 && factor <= 1e6) return factor;
-  } catch (const std::exception&) {
-  }
-  throw SetupError("--speed is `" + speed + "` but must be max, real or a factor such as 0.5");
+  double factor = 0;
+  const char* end = speed.data() + speed.size();
+  const auto [used, code] = std::from_chars(speed.data(), end, factor);
+  if (code == std::errc{} && used == end && factor >= 1e-6 && factor <= 1e6) return factor;
+  throw SetupError("--speed is `" + speed + "` but must be max, real or a factor from 1e-6 to 1e6, such as 0.5");
 }
 
 /// One line on the terminal, at most five times a second.
@@ -59,11 +58,12 @@ void print_summary(const RunResult& result, const Simulation& simulation, const 
     most = std::max(most, d);
     sum += d;
   }
-  fmt::print("{}: {:g} s simulated in {:.2f} s ({:.2f} times real time){}\n", result.scenario, result.simulated, result.wall,
-             result.wall > 0 ? result.simulated / result.wall : 0, result.interrupted ? ", interrupted" : "");
+  fmt::print("{}: {:g} s simulated in {:.2f} s ({:.2f} times real time){}\n", result.scenario, result.simulated,
+             result.wall, result.wall > 0 ? result.simulated / result.wall : 0,
+             result.interrupted ? ", interrupted" : "");
   if (!robots.empty())
-    fmt::print("{} robots travelled {:.2f} m on average (least {:.2f}, most {:.2f})\n", robots.size(), sum / double(robots.size()),
-               least, most);
+    fmt::print("{} robots travelled {:.2f} m on average (least {:.2f}, most {:.2f})\n", robots.size(),
+               sum / double(robots.size()), least, most);
   fmt::print("state hash {:016x}\n", simulation.state_hash());
   if (simulation.scheduler().overruns() > 0)
     fmt::print("{} instants came too late for the chosen speed\n", simulation.scheduler().overruns());
@@ -80,31 +80,46 @@ int run(const RunOptions& options) {
     fmt::print(stderr, "warning: --threads {}: this muro steps on one thread; the run uses 1\n", options.threads);
   const double duration = options.duration.value_or(built.scenario.duration);
   const auto end = std::int64_t(std::llround(duration * 1e9));
-  if (!options.report.empty()) write_file(options.report, "");  // fails now rather than after the run
+  if (!options.report.empty()) check_writable(options.report);  // now rather than after the run
 
   interrupted = false;
   std::signal(SIGINT, [](int) { interrupted = true; });
   std::signal(SIGTERM, [](int) { interrupted = true; });
   Odometer odometer(simulation);
   Progress progress(duration);
-  RunResult result{built.scenario.name, built.scenario.seed, 0, 0, false};
+  RunResult result{built.scenario.name, built.scenario.seed, 0, 0, false, ""};
   const auto start = std::chrono::steady_clock::now();
   const auto wall = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
   simulation.set_pacing({factor});
-  while (simulation.now() < end && !interrupted) {
-    simulation.run_until(std::min(end, simulation.now() - simulation.now() % Odometer::period + Odometer::period),
-                         [] { return interrupted.load(std::memory_order_relaxed); });
-    odometer.sample();
-    progress.show(1e-9 * double(simulation.now()), wall());
-  }
+  // Whatever ends the run, recorders get their files complete and the report is written.
+  const auto guarded = [&](const auto& work) {
+    try {
+      work();
+    } catch (const std::exception& e) {
+      if (result.error.empty()) result.error = e.what();
+    }
+  };
+  guarded([&] {
+    while (simulation.now() < end && !interrupted) {
+      simulation.run_until(std::min(end, simulation.now() - simulation.now() % Odometer::period + Odometer::period),
+                           [] { return interrupted.load(std::memory_order_relaxed); });
+      odometer.check();
+      odometer.sample();
+      progress.show(1e-9 * double(simulation.now()), wall());
+    }
+  });
   result.wall = wall();
   result.simulated = 1e-9 * double(simulation.now());
   result.interrupted = interrupted;
   progress.close();
-  simulation.finish();
+  guarded([&] { simulation.finish(); });
   print_summary(result, simulation, odometer);
   if (options.profile) fmt::print("\n{}", profile(result, simulation));
   if (!options.report.empty()) write_file(options.report, report(result, simulation, odometer).dump(2) + "\n");
+  if (!result.error.empty()) {
+    fmt::print(stderr, "{}\n", result.error);
+    return 1;
+  }
   return result.interrupted ? 130 : 0;
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,8 +12,9 @@ struct Location {
   std::string file;
   int line = 0;
   int column = 0;
+  bool in_file() const { return line > 0; }
   std::string text() const {
-    return line > 0 ? file + ":" + std::to_string(line) + ":" + std::to_string(column) : file;
+    return in_file() ? file + ":" + std::to_string(line) + ":" + std::to_string(column) : file;
   }
 };
 
@@ -26,7 +26,9 @@ struct Node {
   Kind kind = Kind::null;
   Location location;
   std::string scalar;
-  bool quoted = false;  ///< a scalar in quotes is a text, never a number
+  bool quoted = false;    ///< a scalar in quotes is a text, never a number
+  bool empty = false;     ///< a null of which nothing is written, not even `~`
+  bool replaces = false;  ///< stands in the place of an earlier value of the same key
   std::vector<Node> list;
   std::vector<std::pair<std::string, Node>> map;  ///< in the order of writing
   std::vector<Location> key_locations;            ///< of the keys of `map`
@@ -35,15 +37,13 @@ struct Node {
   Node* find(const std::string& key);
   /// The child of that name, made empty if need be.
   Node& child(const std::string& key, const Location& at);
+  void erase(const std::string& key);
   /// `off`, `false`, `no`, `none`, `~`: a switched-off part.
   bool is_off() const;
 };
 
-/// Parses a file with all its `include:`s. Throws SetupError with file:line:column.
-Node load_yaml(const std::string& path);
-
-/// Parses a value as written on the command line.
-Node parse_yaml(const std::string& text, const Location& at);
+/// Where both say something, `over` wins; maps are merged.
+void merge(Node& under, const Node& over);
 
 /// Sets one value by its path, "robots.rovers.count=100". `robots.rovers[2-4].motion.use=...` sets it for
 /// some robots of a template only. Throws SetupError when the assignment has no such form.

@@ -24,7 +24,7 @@ struct Obstacle {
 /// no z is given. Random places keep `placement.clearance` to `taken` and `obstacles`; what they use is
 /// added to `taken`. Throws SetupError when the copies do not fit.
 std::vector<Pose> place(const Placement& placement, int count, double standing, double radius,
-                        const std::map<std::string, std::vector<Rectangle>>& places, const std::vector<Obstacle>& obstacles,
-                        std::vector<Footprint>& taken, const std::string& what);
+                        const std::map<std::string, std::vector<Rectangle>>& places,
+                        const std::vector<Obstacle>& obstacles, std::vector<Footprint>& taken, const std::string& what);
 
 }  // namespace muro::host

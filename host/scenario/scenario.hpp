@@ -27,12 +27,12 @@ struct Placement {
   };
   std::vector<At> list;  ///< list: one a copy; grid and random: the first is the pattern
 
-  int columns = 1, rows = 1;               ///< grid
-  double spacing_x = 1, spacing_y = 1;     ///< m
+  int columns = 1, rows = 1;            ///< grid
+  double spacing_x = 1, spacing_y = 1;  ///< m
 
-  std::string area;       ///< random: name under world.places
-  std::uint64_t seed = 1;
-  double clearance = 0.1;  ///< m between footprints
+  std::string area;                   ///< random: name under world.places
+  std::optional<std::uint64_t> seed;  ///< absent: the scenario's
+  double clearance = 0.1;             ///< m between footprints
 };
 
 /// A rectangle in the plane, part of a named place.
@@ -41,20 +41,29 @@ struct Rectangle {
   std::vector<double> headings;               ///< rad; empty: any
 };
 
+/// A name and where it is written.
+struct Name {
+  std::string text;
+  Location location;
+};
+
 /// One use of an algorithm.
 struct Subsystem {
   std::string name;
   std::string use;
   std::optional<double> rate;  ///< Hz; absent: the default of its kind
   bool on_demand = false;
-  double phase = 0;  ///< s
-  std::string on;    ///< object of the robot
+  std::optional<double> phase;  ///< s; absent: 0, and for a sensor's error that of the sensor
+  std::string on;               ///< object of the robot
+  Location on_location;
   std::map<std::string, ParameterInput> parameters;
+  std::vector<Name> alternatives;  ///< other algorithms for which it holds parameters
   Location location;
 };
 
 struct SceneryObject {
   std::string name;
+  Location location;
   bool counted = false;  ///< copies are numbered
   Placement placement;
   Shape shape;
@@ -63,16 +72,16 @@ struct SceneryObject {
 
 struct RobotTemplate {
   std::string name;
-  Location location;
-  std::string model;       ///< path; empty for a body described in place
+  Location location;  ///< of what says what it is: its model, or all of it
+  std::string model;  ///< path; empty for a body described in place
   std::optional<Shape> shape;
-  double mass = 0;         ///< of a body described in place, kg
+  double mass = 0;  ///< of a body described in place, kg
   bool counted = false;
   int count = 1;
   Placement placement;
-  Vec3 linear_velocity = Vec3::Zero();   ///< at the start, world axes, m/s
-  Vec3 angular_velocity = Vec3::Zero();  ///< rad/s
-  std::map<std::string, double> joints;  ///< positions at the start
+  Vec3 linear_velocity = Vec3::Zero();          ///< at the start, world axes, m/s
+  Vec3 angular_velocity = Vec3::Zero();         ///< rad/s
+  std::vector<std::pair<Name, double>> joints;  ///< positions at the start
   /// Subsystems of each robot: variants are merged already. Robot i uses subsystems[i].
   std::vector<std::vector<Subsystem>> subsystems;
 };
@@ -86,11 +95,10 @@ struct Scenario {
   std::map<std::string, std::vector<Rectangle>> places;
   std::vector<SceneryObject> objects;
   std::vector<RobotTemplate> robots;
-  std::vector<Subsystem> algorithms;       ///< of the whole scene
-  std::vector<std::string> switched_off;   ///< scene-wide defaults that are not wanted
+  std::vector<Subsystem> algorithms;      ///< of the whole scene
+  std::vector<std::string> switched_off;  ///< scene-wide defaults that are not wanted
   /// Each: names such as "collision" or "rovers.motion", in the order in which they run.
-  std::vector<std::vector<std::string>> sequences;
-  std::vector<Location> sequence_locations;
+  std::vector<std::vector<Name>> sequences;
 };
 
 /// Reads a scenario with its includes and overrides. Throws SetupError with every problem found.

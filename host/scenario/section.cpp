@@ -2,6 +2,7 @@
 #include "host/scenario/section.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <sstream>
@@ -12,16 +13,6 @@
 namespace muro::host {
 
 namespace {
-
-std::string shown(const Node& n) {
-  switch (n.kind) {
-    case Node::Kind::null: return "nothing";
-    case Node::Kind::scalar: return "`" + n.scalar + "`";
-    case Node::Kind::list: return "a list of " + std::to_string(n.list.size());
-    case Node::Kind::map: return "a map";
-  }
-  return "";
-}
 
 std::string plain(double x) {
   std::ostringstream out;
@@ -37,7 +28,47 @@ std::string bounds(double least, double most) {
   return "";
 }
 
+std::string ordinal(std::size_t n) {
+  const bool teen = n / 10 % 10 == 1;
+  const char* ending = teen || n % 10 > 3 || n % 10 == 0 ? "th" : (n % 10 == 1 ? "st" : (n % 10 == 2 ? "nd" : "rd"));
+  return std::to_string(n) + ending;
+}
+
+const Node nothing;
+
 }  // namespace
+
+std::string shown(const Node& n) {
+  switch (n.kind) {
+    case Node::Kind::null:
+      return "nothing";
+    case Node::Kind::list:
+      return "a list of " + std::to_string(n.list.size());
+    case Node::Kind::map:
+      return "a map";
+    case Node::Kind::scalar:
+      break;
+  }
+  Node plain = n;
+  plain.quoted = false;
+  return "`" + n.scalar + "`" + (n.quoted && as_number(plain) ? " in quotes, which makes it a text," : "");
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string all;
+  for (const std::string& n : names) all += (all.empty() ? "" : ", ") + n;
+  return all;
+}
+
+bool check_name(const std::string& name, const Location& at, const std::string& what, Problems& problems) {
+  const bool fine = !name.empty() && std::none_of(name.begin(), name.end(), [](unsigned char c) {
+    return c == '/' || c == ':' || std::isspace(c) || std::iscntrl(c);
+  });
+  if (!fine)
+    problems.add(at, "`" + name + "` cannot be the name of " + what +
+                         ": a name is not empty and has no `/`, `:` or white space");
+  return fine;
+}
 
 void Problems::add(const std::string& line) {
   if (std::find(lines_.begin(), lines_.end(), line) == lines_.end()) lines_.push_back(line);
@@ -110,6 +141,32 @@ std::string Section::text(const std::string& key, const std::string& otherwise) 
   return otherwise;
 }
 
+const Node& Section::part(const std::string& key, Node::Kind kind, const char* wanted) {
+  const Node* n = find(key);
+  if (!n || n->kind == Node::Kind::null) return nothing;
+  if (n->kind == kind) return *n;
+  problem(key, "is " + shown(*n) + " but must be " + wanted);
+  return nothing;
+}
+
+const Node& Section::map(const std::string& key) { return part(key, Node::Kind::map, "a map of `key: value` pairs"); }
+const Node& Section::list(const std::string& key) { return part(key, Node::Kind::list, "a list"); }
+
+std::optional<std::string> Section::one_of(const std::vector<std::string>& keys) {
+  std::vector<std::string> there;
+  for (const std::string& k : keys)
+    if (has(k)) there.push_back(k);
+  if (there.size() == 1 || node_.kind != Node::Kind::map)
+    return there.empty() ? std::nullopt : std::optional(there.front());
+  if (there.empty() && others().empty())
+    problems_.add(node_.location, what_ + " needs one of: " + listed(keys));
+  else if (there.empty())
+    close();
+  else
+    problems_.add(key_location(there[1]), what_ + " has " + listed(there) + "; only one of them is allowed");
+  return std::nullopt;
+}
+
 double Section::number(const std::string& key, double otherwise, double least, double most) {
   const Node* n = find(key);
   if (!n) return otherwise;
@@ -131,18 +188,24 @@ std::int64_t Section::integer(const std::string& key, std::int64_t otherwise, st
 std::optional<std::vector<double>> Section::numbers(const std::string& key, const std::set<std::size_t>& lengths) {
   const Node* n = find(key);
   if (!n) return std::nullopt;
-  std::vector<double> values;
-  bool fine = n->kind == Node::Kind::list && lengths.count(n->list.size()) > 0;
-  for (const Node& e : n->list) {
-    const auto x = as_number(e);
-    fine = fine && x.has_value();
-    values.push_back(x.value_or(0));
-  }
-  if (fine) return values;
   std::string allowed;
-  for (const std::size_t l : lengths) allowed += (allowed.empty() ? "" : " or ") + std::to_string(l);
-  problem(key, "is " + shown(*n) + " but must be a list of " + allowed + " numbers");
-  return std::nullopt;
+  for (const std::size_t l : lengths) allowed += (allowed.empty() ? " of " : " or ") + std::to_string(l);
+  allowed = "a list" + allowed + " numbers";
+  if (lengths.empty()) allowed = "a list of numbers";
+  if (n->kind != Node::Kind::list || (!lengths.empty() && lengths.count(n->list.size()) == 0)) {
+    problem(key, "is " + shown(*n) + " but must be " + allowed);
+    return std::nullopt;
+  }
+  std::vector<double> values;
+  for (const Node& e : n->list) {
+    if (const auto x = as_number(e))
+      values.push_back(*x);
+    else
+      problems_.add(e.location, "`" + key + "` of " + what_ + " must be " + allowed + ", but its " +
+                                    ordinal(std::size_t(&e - n->list.data()) + 1) + " is " + shown(e));
+  }
+  if (values.size() != n->list.size()) return std::nullopt;
+  return values;
 }
 
 Vec3 Section::vector(const std::string& key, const Vec3& otherwise) {
@@ -161,10 +224,9 @@ void Section::close() {
   std::vector<std::string> known = asked_;
   std::sort(known.begin(), known.end());
   known.erase(std::unique(known.begin(), known.end()), known.end());
-  std::string allowed;
-  for (const std::string& k : known) allowed += (allowed.empty() ? "" : ", ") + k;
   for (const auto& [key, unused] : others())
-    problems_.add(key_location(key), what_ + " has no key `" + key + "`" + did_you_mean(key, known) + "; allowed: " + allowed);
+    problems_.add(key_location(key),
+                  what_ + " has no key `" + key + "`" + did_you_mean(key, known) + "; allowed: " + listed(known));
 }
 
 }  // namespace muro::host

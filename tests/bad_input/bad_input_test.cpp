@@ -26,14 +26,16 @@ std::vector<std::string> names() {
 }
 
 void replace_all(std::string& text, const std::string& from, const std::string& to) {
-  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) text.replace(at, from.size(), to);
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
 }
 
 class WrongScenario : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(WrongScenario, HasItsExactMessageAndExitCode2) {
   const std::string path = folder + "/" + GetParam() + ".yaml";
-  const auto result = run_command("cd " MURO_TEST_SOURCE_DIR " && " + muro_program + " check tests/bad_input/scenarios/" + GetParam() + ".yaml");
+  const auto result = run_command("cd " MURO_TEST_SOURCE_DIR " && " + muro_program +
+                                  " check tests/bad_input/scenarios/" + GetParam() + ".yaml");
   std::string expected = test::text_of(folder + "/" + GetParam() + ".expected");
   ASSERT_FALSE(expected.empty()) << "write the message a user should see to " << GetParam() << ".expected";
   replace_all(expected, "SOURCE", MURO_TEST_SOURCE_DIR);
@@ -42,11 +44,13 @@ TEST_P(WrongScenario, HasItsExactMessageAndExitCode2) {
   EXPECT_EQ(result.exit_code, 2);
 }
 
-INSTANTIATE_TEST_SUITE_P(BadInput, WrongScenario, ::testing::ValuesIn(names()), [](const auto& test) { return test.param; });
+INSTANTIATE_TEST_SUITE_P(BadInput, WrongScenario, ::testing::ValuesIn(names()),
+                         [](const auto& test) { return test.param; });
 
 TEST(WrongCommandLine, EndsWithExitCode2AndSaysWhatIsAllowed) {
-  for (const char* arguments : {"", "fly", "run", "run x.yaml --speed", "run x.yaml --threads 0", "run x.yaml --duration -1", "plugins",
-                                "plugins info", "check a b"}) {
+  for (const char* arguments : {"", "run x.yaml --duration nan", "run x.yaml --duration long", "run x.yaml --seed -1",
+                                "run x.yaml --seed 1.5", "run", "run x.yaml --speed", "run x.yaml --threads 0",
+                                "run x.yaml --duration -1", "plugins", "plugins info", "check a b"}) {
     const auto result = run_command(muro_program + " " + arguments);
     EXPECT_EQ(result.exit_code, 2) << arguments;
     EXPECT_FALSE(result.output.empty()) << arguments;
@@ -64,9 +68,80 @@ TEST(WrongCommandLine, AReportThatCannotBeWrittenIsToldBeforeTheRun) {
 TEST(WrongCommandLine, ASpeedMustBeMaxRealOrAFactor) {
   const auto result =
       run_command("cd " MURO_TEST_SOURCE_DIR " && " + muro_program + " run examples/urban/urban.yaml --speed fast");
-  EXPECT_EQ(result.output, "--speed is `fast` but must be max, real or a factor such as 0.5\n");
+  EXPECT_EQ(result.output, "--speed is `fast` but must be max, real or a factor from 1e-6 to 1e6, such as 0.5\n");
+  EXPECT_EQ(result.exit_code, 2);
+  for (const char* speed : {"nan", "inf", "0", "-1", "1e-300", "1e7", "1x", "\"\""})
+    EXPECT_EQ(run_command("cd " MURO_TEST_SOURCE_DIR " && " + muro_program +
+                          " run examples/urban/urban.yaml --speed=" + speed)
+                  .exit_code,
+              2)
+        << speed;
+}
+
+TEST(WrongCommandLine, ACommandThatDoesNotExistNamesThoseThatDo) {
+  const auto result = run_command(muro_program + " chekc x.yaml");
+  EXPECT_EQ(result.output,
+            "muro has no command `chekc` (did you mean `check`?); commands: run, check, describe, plugins\n");
   EXPECT_EQ(result.exit_code, 2);
 }
+
+/// A ball whose motion ends with an error, or with a pose that is no number, while a recorder runs.
+struct FailedRun {
+  test::ScratchFolder scratch;
+  std::string report = scratch.path("report.json"), record = scratch.path("record.csv");
+  test::CommandResult result;
+  FailedRun(const std::string& motion, const std::string& plugin_path) {
+    const std::string scenario =
+        scratch.file("s.yaml", "robots:\n  ball: {shape: {sphere: 0.5}, mass: 1, motion: {use: " + motion +
+                                   ", rate: 10}}\nalgorithms:\n  log: {use: "
+                                   "recorder.csv, rate: 10, file: " +
+                                   record + ", properties: [\"ball/body:pose\"]}\n");
+    result = run_command(muro_program + " --plugin-path " + plugin_path + " run " + scenario + " --report " + report);
+  }
+};
+
+TEST(WrongCommandLine, WithoutACommandTheCommandsAreNamed) {
+  const auto result = run_command(muro_program);
+  EXPECT_EQ(result.output, "muro needs a command: run, check, describe, plugins; muro --help tells more\n");
+  EXPECT_EQ(result.exit_code, 2);
+}
+
+TEST(FailedRun, StillWritesItsReportAndItsRecords) {
+  const FailedRun run("motion.step_throws", BAD_PLUGIN_DIR "/throws");
+  EXPECT_EQ(run.result.exit_code, 1) << run.result.output;
+  EXPECT_NE(test::text_of(run.report).find("\"error\": \""), std::string::npos);
+  EXPECT_NE(test::text_of(run.record), "");
+}
+
+/// Plugins and control code that are no such thing: the message names the file and what is wrong with it.
+struct Broken {
+  const char* arguments;
+  const char* expected;  ///< how the message begins; the rest is the loader's
+};
+
+class BrokenLibrary : public ::testing::TestWithParam<Broken> {};
+
+TEST_P(BrokenLibrary, IsRefusedWithItsPathAndTheReason) {
+  const auto result = run_command("cd " MURO_TEST_SOURCE_DIR " && " + muro_program +
+                                  " check tests/bad_input/scenarios/" + GetParam().arguments);
+  EXPECT_EQ(result.output.rfind(std::string("tests/bad_input/scenarios/") + GetParam().expected, 0), 0u)
+      << result.output;
+  EXPECT_EQ(result.exit_code, 2);
+}
+
+#define MURO_BROKEN_PLUGIN(name) \
+  "unknown_algorithm.yaml --plugin-path " BAD_PLUGIN_DIR "/" name " --set robots.rover.motion.use=motion." name
+INSTANTIATE_TEST_SUITE_P(
+    BadInput, BrokenLibrary,
+    ::testing::Values(
+        Broken{MURO_BROKEN_PLUGIN("wrong_sdk_major"), "unknown_algorithm.yaml:5:13: plugin " BAD_PLUGIN_DIR
+                                                      "/wrong_sdk_major/wrong_sdk_major.so was built for another "
+                                                      "muro: sdk_major is 2 in the plugin and 1 in this muro"},
+        Broken{MURO_BROKEN_PLUGIN("text_file"),
+               "unknown_algorithm.yaml:5:13: plugin " BAD_PLUGIN_DIR "/text_file/text_file.so cannot be loaded: "},
+        Broken{"missing_library.yaml --set robots.rover.control.library=" CONTROLLERS "/no_symbol.so",
+               "missing_library.yaml:5:14: rover.control (controller.library) cannot be connected: library " CONTROLLERS
+               "/no_symbol.so exports no `muro_controller`"}));
 
 }  // namespace
 }  // namespace muro

@@ -29,7 +29,8 @@ TEST_F(PlacementTest, RandomPlacesKeepTheirDistanceToEverything) {
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const Vec3& p = poses[i].position;
     EXPECT_EQ(p.z(), 0.25);
-    const bool in_first = std::abs(p.x()) <= 5 && std::abs(p.y()) <= 2, in_second = std::abs(p.x() - 20) <= 1 && std::abs(p.y()) <= 1;
+    const bool in_first = std::abs(p.x()) <= 5 && std::abs(p.y()) <= 2,
+               in_second = std::abs(p.x() - 20) <= 1 && std::abs(p.y()) <= 1;
     EXPECT_TRUE(in_first || in_second);
     if (in_first) {
       EXPECT_NEAR(yaw_of(poses[i].orientation), 0.5, 1e-12);
@@ -58,7 +59,7 @@ TEST_F(PlacementTest, AFullPlaceSaysHowManyFit) {
   } catch (const SetupError& e) {
     const std::string text = e.what();
     EXPECT_EQ(text.rfind("a.yaml:3:5: only ", 0), 0u);
-    EXPECT_NE(text.find(" of 5000 rovers fit into `yard` without overlap"), std::string::npos);
+    EXPECT_NE(text.find(" of 5000 copies of `rovers` fit into `yard` without overlap"), std::string::npos);
   }
 }
 

@@ -100,9 +100,11 @@ check_links() {
 check_core_names_no_plugin() {
   [[ -d core && -d plugins ]] || return 0
   local names file line text
-  names=$( (grep -rhoE '\.id = "[a-z0-9_.]+"' --include='*.cpp' plugins | grep -oE '"[^"]+"' | tr -d '"' &&
-    grep -rhoE 'muro_add_plugin\([[:space:]]*NAME[[:space:]]+[a-z0-9_]+' --include=CMakeLists.txt plugins | sed 's/.*[[:space:]]//') |
-    sort -u | sed 's/\./\\./g' | paste -sd'|')
+  names=$({
+    grep -rhoE '\.id = "[a-z0-9_.]+"' --include='*.cpp' plugins | grep -oE '"[^"]+"' | tr -d '"' || true
+    grep -rhoE 'muro_add_plugin\([[:space:]]*NAME[[:space:]]+[a-z0-9_]+' --include=CMakeLists.txt plugins |
+      sed 's/.*[[:space:]]//' || true
+  } | sort -u | sed 's/\./\\./g' | paste -sd'|')
   [[ -n $names ]] || return 0
   while IFS=: read -r file line text; do
     [[ ! ${text%%//*} =~ \"($names)\" ]] || fail "$file:$line: names the plugin \"${BASH_REMATCH[1]}\"; core knows no plugin by name"

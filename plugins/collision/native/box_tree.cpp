@@ -9,6 +9,7 @@ namespace {
 
 constexpr std::uint32_t leaf_size = 2;
 constexpr int bins = 8;
+constexpr int deepest_cut = 31;  // below that nodes are halved, at most 32 times
 
 double surface(const Aabb& b) {
   const Vec3 d = (b.high - b.low).cwiseMax(0.0);
@@ -22,7 +23,8 @@ struct Cut {
   double at = 0;
 };
 
-/// Where a split costs least by the surface area heuristic (Wald: On fast construction of SAH-based bounding volume hierarchies, 2007).
+/// Where a split costs least by the surface area heuristic (Wald: On fast construction of
+/// SAH-based bounding volume hierarchies, 2007).
 Cut best_cut(std::span<const std::uint32_t> items, std::span<const Aabb> boxes) {
   Aabb centres;
   for (const std::uint32_t i : items) centres.include({middle(boxes[i]), middle(boxes[i])});
@@ -65,27 +67,29 @@ void BoxTree::build(std::span<const Aabb> boxes, std::span<const std::uint32_t> 
   if (items_.empty()) return;
   nodes_.reserve(2 * items_.size());
   nodes_.emplace_back();
-  split(0, 0, std::uint32_t(items_.size()), boxes);
+  split(0, 0, std::uint32_t(items_.size()), 0, boxes);
 }
 
-void BoxTree::split(std::uint32_t node, std::uint32_t first, std::uint32_t count, std::span<const Aabb> boxes) {
+void BoxTree::split(std::uint32_t node, std::uint32_t first, std::uint32_t count, int depth,
+                    std::span<const Aabb> boxes) {
   const std::span<std::uint32_t> items(items_.data() + first, count);
   Aabb bounds;
   for (const std::uint32_t i : items) bounds.include(boxes[i]);
   nodes_[node] = {bounds, first, count};
   if (count <= leaf_size) return;
-  const Cut cut = best_cut(items, boxes);
-  auto second = items.begin() + count / 2;  // all centres in one place: any halves do
+  const Cut cut = depth < deepest_cut ? best_cut(items, boxes) : Cut{};
+  auto second = items.begin() + count / 2;  // all centres in one place, or too deep: any halves do
   if (cut.axis >= 0)
-    second = std::partition(items.begin(), items.end(), [&](std::uint32_t i) { return middle(boxes[i])[cut.axis] < cut.at; });
+    second = std::partition(items.begin(), items.end(),
+                            [&](std::uint32_t i) { return middle(boxes[i])[cut.axis] < cut.at; });
   auto left = std::uint32_t(second - items.begin());
   if (left == 0 || left == count) left = count / 2;  // rounding at the border of a bin
   const auto children = std::uint32_t(nodes_.size());
   nodes_.resize(nodes_.size() + 2);
   nodes_[node].first = children;
   nodes_[node].count = 0;
-  split(children, first, left, boxes);
-  split(children + 1, first + left, count - left, boxes);
+  split(children, first, left, depth + 1, boxes);
+  split(children + 1, first + left, count - left, depth + 1, boxes);
 }
 
 void BoxTree::refit(std::span<const Aabb> boxes) {

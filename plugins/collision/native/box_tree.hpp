@@ -7,7 +7,8 @@
 
 namespace muro::native {
 
-/// A hierarchy of boxes over numbered boxes. Keeps its memory, so building again allocates nothing.
+/// A hierarchy of boxes over numbered boxes, less than 64 levels deep. Keeps its memory, so building again
+/// allocates nothing.
 class BoxTree {
  public:
   /// Over `boxes[i]` for every i in `members`; boxes are finite.
@@ -18,7 +19,7 @@ class BoxTree {
   Bvh view() const { return {nodes_, items_}; }
 
  private:
-  void split(std::uint32_t node, std::uint32_t first, std::uint32_t count, std::span<const Aabb> boxes);
+  void split(std::uint32_t node, std::uint32_t first, std::uint32_t count, int depth, std::span<const Aabb> boxes);
 
   std::vector<BvhNode> nodes_;  ///< children behind their parents
   std::vector<std::uint32_t> items_;

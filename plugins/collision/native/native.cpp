@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <vector>
 
 #include "muro/plugin.hpp"
 #include "pairs/collide.hpp"
@@ -19,7 +20,8 @@ constexpr Description description{
     .id = "collision.native",
     .kind = Kind::collision,
     .version = "1.0.0",
-    .summary = "Contact points between boxes, spheres, cylinders, capsules and planes, in closed form where there is one",
+    .summary =
+        "Contact points between boxes, spheres, cylinders, capsules and planes, in closed form where there is one",
     .parameters = {},
     .reads = reads,
     .writes = writes,
@@ -31,11 +33,13 @@ constexpr Description description{
 class NativeCollision final : public Algorithm {
  public:
   void connect(Connector& c) override {
-    index_ = c.read(world_object, keys::scene_index);
+    bool any = false;
     for (const RobotView* r : c.robots()) {
       const bool dynamic = c.is_used(r->base(), keys::external_wrench, Access::read_sum);
       lists_.push_back(dynamic ? c.derived_list(r->base(), keys::contacts) : ListOut<Contact>{});
+      any = any || dynamic;
     }
+    if (any) index_ = c.read(world_object, keys::scene_index);
   }
 
   void step(const Step&, Range) override {
@@ -51,12 +55,14 @@ class NativeCollision final : public Algorithm {
   void touch_everything(std::uint32_t r) {
     const SceneIndex& scene = *index_;
     const RobotColliders& robot = scene.robots[r];
+    own_.clear();
+    for (std::uint32_t k = robot.first; k < robot.first + robot.count; ++k)
+      own_.push_back(placed(*scene.colliders[k].shape, scene.colliders[k].pose));
     for (const std::uint32_t p : scene.planes) {
       const Collider& plane = scene.colliders[p];
       if (plane.robot == std::int32_t(r) || !reaches(robot.bounds, plane)) continue;
       const Placed ground = placed(*plane.shape, plane.pose);
-      for (std::uint32_t k = robot.first; k < robot.first + robot.count; ++k)
-        if (reaches(scene.colliders[k].bounds, plane)) touch(scene.colliders[k], plane, ground);
+      for (std::uint32_t k = 0; k < robot.count; ++k) touch(scene.colliders[robot.first + k], own_[k], plane, ground);
     }
     each_near(scene.scenery, robot.bounds, [&](std::uint32_t other) {
       if (scene.colliders[other].bounds.overlaps(robot.bounds)) touch_collider(robot, scene.colliders[other]);
@@ -79,18 +85,18 @@ class NativeCollision final : public Algorithm {
   void touch_collider(const RobotColliders& robot, const Collider& other) {
     Placed second;
     bool known = false;
-    for (std::uint32_t k = robot.first; k < robot.first + robot.count; ++k) {
-      const Collider& own = index_->colliders[k];
+    for (std::uint32_t k = 0; k < robot.count; ++k) {
+      const Collider& own = index_->colliders[robot.first + k];
       if (own.shape->kind == ShapeKind::plane || !own.bounds.overlaps(other.bounds)) continue;
       if (!known) second = placed(*other.shape, other.pose);
       known = true;
-      touch(own, other, second);
+      touch(own, own_[k], other, second);
     }
   }
 
-  void touch(const Collider& own, const Collider& other, const Placed& second) {
+  void touch(const Collider& own, const Placed& first, const Collider& other, const Placed& second) {
     Manifold manifold;
-    collide(placed(*own.shape, own.pose), second, manifold);
+    collide(first, second, manifold);
     if (manifold.count == 0) return;
     Contact c;
     c.self = own.body;
@@ -130,10 +136,12 @@ class NativeCollision final : public Algorithm {
   }
 
   In<SceneIndex> index_;
+  std::vector<Placed> own_;              ///< the colliders of the robot that is being worked on
   std::vector<ListOut<Contact>> lists_;  ///< by robot number; empty handles for robots that forces do not move
 };
 
-constexpr abi::AlgorithmEntry algorithms[] = {algorithm<SceneBvh>(scene_bvh_description), algorithm<NativeCollision>(description)};
+constexpr abi::AlgorithmEntry algorithms[] = {algorithm<SceneBvh>(scene_bvh_description),
+                                              algorithm<NativeCollision>(description)};
 
 }  // namespace
 

@@ -18,17 +18,23 @@ using namespace muro::native::testing;
 
 std::shared_ptr<fcl::CollisionGeometryd> geometry(const Placed& s) {
   switch (s.kind) {
-    case ShapeKind::box: return std::make_shared<fcl::Boxd>(2 * s.half);
-    case ShapeKind::sphere: return std::make_shared<fcl::Sphered>(s.radius());
-    case ShapeKind::cylinder: return std::make_shared<fcl::Cylinderd>(s.radius(), 2 * s.half.z());
-    case ShapeKind::capsule: return std::make_shared<fcl::Capsuled>(s.radius(), 2 * s.half.z());
-    default: return std::make_shared<fcl::Halfspaced>(Vec3::UnitZ(), 0);
+    case ShapeKind::box:
+      return std::make_shared<fcl::Boxd>(2 * s.half);
+    case ShapeKind::sphere:
+      return std::make_shared<fcl::Sphered>(s.radius());
+    case ShapeKind::cylinder:
+      return std::make_shared<fcl::Cylinderd>(s.radius(), 2 * s.half.z());
+    case ShapeKind::capsule:
+      return std::make_shared<fcl::Capsuled>(s.radius(), 2 * s.half.z());
+    default:
+      return std::make_shared<fcl::Halfspaced>(Vec3::UnitZ(), 0);
   }
 }
 
 fcl::CollisionObjectd object(const Placed& s) { return {geometry(s), s.axes, s.centre}; }
 
-/// FCL's penetration depth; 0 when apart.
+/// The depth of FCL's deepest contact; 0 when apart. Between a cylinder or capsule and a box, cylinder or capsule it
+/// comes from the portal refinement of libccd: a translation that separates, but not the least.
 double fcl_depth(const Placed& a, const Placed& b) {
   fcl::CollisionRequestd request(16, true);
   request.gjk_tolerance = 1e-10;
@@ -53,8 +59,9 @@ Pair random_pair(Randoms& random, ShapeKind first, ShapeKind second) {
   const Vec3 away = random.direction();
   Pair p{placed(a, {10 * random.direction(), turn()}), placed(b, {Vec3::Zero(), turn()})};
   const Vec3 aim = second == ShapeKind::plane ? Vec3(-p.b.axis()) : away;
+  const bool exact = second == ShapeKind::plane || (first == ShapeKind::sphere && second == ShapeKind::sphere);
   const double reach = extent(p.a, aim) - p.a.centre.dot(aim) + (second == ShapeKind::plane ? 0 : extent(p.b, -aim));
-  p.b.centre = p.a.centre + aim * (reach * random.uniform(0.35, second == ShapeKind::plane ? 1.65 : 1.25));
+  p.b.centre = p.a.centre + aim * (reach * random.uniform(0.35, exact ? 1.65 : 1.25));
   return p;
 }
 
@@ -64,6 +71,7 @@ TEST_P(PairsOfKinds, TouchWhereFclSaysSoWithTheLeastDepth) {
   const auto [first, second] = GetParam();
   Randoms random(unsigned(first) * 8 + unsigned(second));
   const int pairs = 800;
+  const double band = 1e-6;  // of the size: nearer to touching than this the two may disagree
   int touching = 0, as_deep_as_fcl = 0;
   for (int i = 0; i < pairs; ++i) {
     const auto [a, b] = random_pair(random, first, second);
@@ -72,8 +80,7 @@ TEST_P(PairsOfKinds, TouchWhereFclSaysSoWithTheLeastDepth) {
     collide(a, b, m);
     const double fcl = fcl_depth(a, b);
     if (m.count == 0) {
-      // FCL's cylinders and capsules go through libccd, which calls gaps of some 1e-5 m a touch.
-      EXPECT_LT(fcl, 2e-5 * size) << "pair " << i;
+      EXPECT_LT(fcl, band * size) << "pair " << i;
       continue;
     }
     ++touching;
@@ -81,23 +88,20 @@ TEST_P(PairsOfKinds, TouchWhereFclSaysSoWithTheLeastDepth) {
     EXPECT_NEAR(c.normal.norm(), 1, 1e-12);
     if (second == ShapeKind::plane) {
       EXPECT_NEAR(c.depth, fcl, 1e-9 * size) << "pair " << i;
-      ++as_deep_as_fcl;
       continue;
     }
-    if (fcl == 0) {
-      EXPECT_LT(c.depth, 2e-5 * size) << "pair " << i;
-    } else {
-      // Any translation that separates is an upper bound of the least one.
-      EXPECT_LT(c.depth, fcl + 2e-5 * size) << "pair " << i;
-      as_deep_as_fcl += std::abs(c.depth - fcl) < 1e-3 * size;
-    }
+    EXPECT_LT(c.depth, fcl + band * size) << "pair " << i;
+    as_deep_as_fcl += std::abs(c.depth - fcl) < 1e-6 * size;
     // Along the normal the shapes overlap by the depth, and in no direction by less.
-    EXPECT_NEAR(depth_along(a, b, c.normal), c.depth, 1e-6 * size) << "pair " << i;
+    EXPECT_NEAR(depth_along(a, b, c.normal), c.depth, 1e-9 * size) << "pair " << i;
     EXPECT_GE(sampled_depth(a, b), c.depth - 1e-9 * size) << "pair " << i;
   }
   EXPECT_GT(touching, 0.35 * pairs);
   EXPECT_LT(touching, 0.65 * pairs);
-  EXPECT_GT(as_deep_as_fcl, 0.9 * touching);
+  const bool closed_form = first == ShapeKind::sphere || second == ShapeKind::sphere || second == ShapeKind::box;
+  if (closed_form && second != ShapeKind::plane) {
+    EXPECT_GT(as_deep_as_fcl, 0.9 * touching);  // the rest: boxes where FCL prefers a face
+  }
 }
 
 std::vector<std::pair<ShapeKind, ShapeKind>> all_pairs() {

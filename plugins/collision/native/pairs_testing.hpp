@@ -25,9 +25,7 @@ inline double extent(const Placed& s, const Vec3& n) {
 /// How far `a` must go along n to be clear of `b`.
 inline double depth_along(const Placed& a, const Placed& b, const Vec3& n) { return extent(b, n) + extent(a, -n); }
 
-inline double size_of(const Placed& s) {
-  return s.kind == ShapeKind::box ? s.half.norm() : s.radius() + s.half.z();
-}
+inline double size_of(const Placed& s) { return s.kind == ShapeKind::box ? s.half.norm() : s.radius() + s.half.z(); }
 
 class Randoms {
  public:
@@ -48,8 +46,7 @@ class Randoms {
   /// One of the 24 rotations that map the axes on each other.
   Quat right_angles() {
     Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
-    for (const int axis : {0, 1, 2, 0})
-      q = q * Eigen::AngleAxisd(below(4) * M_PI / 2, Vec3::Unit(axis));
+    for (const int axis : {0, 1, 2, 0}) q = q * Eigen::AngleAxisd(below(4) * M_PI / 2, Vec3::Unit(axis));
     Mat3 m = q.toRotationMatrix().unaryExpr([](double x) { return std::round(x); });
     return Quat(m);
   }
@@ -57,11 +54,16 @@ class Randoms {
   double length() { return 0.05 * std::pow(40.0, uniform(0, 1)); }
   Shape shape(ShapeKind kind) {
     switch (kind) {
-      case ShapeKind::box: return Shape::box({length(), length(), length()});
-      case ShapeKind::sphere: return Shape::sphere(0.5 * length());
-      case ShapeKind::cylinder: return Shape::cylinder(0.5 * length(), length());
-      case ShapeKind::capsule: return Shape::capsule(0.5 * length(), length());
-      default: return Shape::plane();
+      case ShapeKind::box:
+        return Shape::box({length(), length(), length()});
+      case ShapeKind::sphere:
+        return Shape::sphere(0.5 * length());
+      case ShapeKind::cylinder:
+        return Shape::cylinder(0.5 * length(), length());
+      case ShapeKind::capsule:
+        return Shape::capsule(0.5 * length(), length());
+      default:
+        return Shape::plane();
     }
   }
 

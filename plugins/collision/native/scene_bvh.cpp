@@ -11,7 +11,8 @@ namespace muro::native {
 namespace {
 
 constexpr Parameter parameters[] = {
-    real("margin", "m", 0.1, "by which a robot's box is larger than the robot, so that it need not follow each step").between(0, 100),
+    real("margin", "m", 0.1, "by which a robot's box is larger than the robot, so that it need not follow each step")
+        .between(0, 100),
 };
 constexpr Use reads[] = {{"collision.shapes", "of all objects"}, {"pose", "of all objects with shapes"}};
 constexpr Use writes[] = {{"scene.index", "on the world object"}};
@@ -29,13 +30,20 @@ constinit const Description scene_bvh_description{
     .promises = deterministic | allocation_free | restorable,
 };
 
+void SceneBvh::warn_of_mesh(Connector& c, ObjectId body, TextId mesh) {
+  if (std::find(meshes_.begin(), meshes_.end(), mesh) != meshes_.end()) return;
+  meshes_.push_back(mesh);
+  c.host().log(LogLevel::warning,
+               "`" + std::string(c.object_name(body)) + "`: mesh " + std::string(c.text(mesh)) +
+                   " has no place in scene.bvh, so nothing collides with it and no ray sees it; give the "
+                   "body boxes, spheres, cylinders or capsules for collision");
+}
+
 void SceneBvh::add_colliders(Connector& c, ObjectId body, const Pose* pose) {
   const std::span<const Shape> shapes = c.constant_array(body, keys::collision_shapes);
   for (std::uint32_t i = 0; i < shapes.size(); ++i) {
     if (shapes[i].kind == ShapeKind::mesh) {
-      c.host().log(LogLevel::warning, "`" + std::string(c.object_name(body)) + "`: mesh " + std::string(c.text(shapes[i].mesh)) +
-                                          " has no place in scene.bvh, so nothing collides with it and no ray sees it; give the body "
-                                          "boxes, spheres, cylinders or capsules for collision");
+      warn_of_mesh(c, body, shapes[i].mesh);
       continue;
     }
     if (shapes[i].kind == ShapeKind::plane) planes_.push_back(std::uint32_t(colliders_.size()));
@@ -65,7 +73,8 @@ void SceneBvh::connect(Connector& c) {
     RobotColliders r;
     r.first = std::uint32_t(colliders_.size());
     for (const Frame& f : robot->frames)
-      if (!c.constant_array(f.object, keys::collision_shapes).empty()) add_colliders(c, f.object, c.read(f.object, keys::pose).get());
+      if (!c.constant_array(f.object, keys::collision_shapes).empty())
+        add_colliders(c, f.object, c.read(f.object, keys::pose).get());
     r.count = std::uint32_t(colliders_.size()) - r.first;
     robots_.push_back(r);
   }

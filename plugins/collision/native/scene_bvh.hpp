@@ -19,6 +19,7 @@ class SceneBvh final : public Algorithm {
 
  private:
   void add_colliders(Connector& c, ObjectId body, const Pose* pose);
+  void warn_of_mesh(Connector& c, ObjectId body, TextId mesh);
   void place(std::uint32_t robot);
   void rebuild();
 
@@ -28,10 +29,11 @@ class SceneBvh final : public Algorithm {
   std::vector<const Pose*> body_poses_;  ///< of each collider's body; null for scenery
   std::vector<std::uint32_t> planes_;
   std::vector<RobotColliders> robots_;
-  std::vector<Aabb> fat_;                ///< a robot's box with its margin
-  std::vector<std::uint32_t> members_;   ///< robots that have bounds
-  std::uint32_t scenery_ = 0;            ///< the first so many colliders stand still
-  std::size_t strayed_ = 0;              ///< robots that left their boxes since the tree was built
+  std::vector<Aabb> fat_;               ///< a robot's box with its margin
+  std::vector<std::uint32_t> members_;  ///< robots that have bounds
+  std::uint32_t scenery_ = 0;           ///< the first so many colliders stand still
+  std::size_t strayed_ = 0;             ///< robots that left their boxes since the tree was built
+  std::vector<TextId> meshes_;          ///< warned of
   BoxTree scenery_tree_, moving_tree_;
 };
 

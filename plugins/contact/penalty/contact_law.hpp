@@ -2,10 +2,10 @@
 // The force of one contact, free of properties: a spring and damper along the normal, a spring with a slider across.
 //
 // Forces are given per unit of effective mass (m/s^2). Both directions are integrated linearly implicitly: the force
-// of a step is the one that spring and damper have in the middle of that step, predicted for one body that this
-// contact and gravity act on. That is the implicit midpoint rule, exact in energy for a spring; where other contacts
-// act on the same body too, `load` tells how much stiffer the body feels than one contact assumes, and the force is
-// softened as far as stability asks for it.
+// of a step is the one that spring and damper have in the middle of that step, predicted for a body that this contact
+// alone acts on. That is the implicit midpoint rule, exact in energy for a spring. Where several contacts act on one body,
+// `load` tells how much stiffer its stiffest motion is than one contact assumes, and the force is softened as far as
+// stability asks for it.
 #pragma once
 
 #include <algorithm>
@@ -25,8 +25,8 @@ inline double restitution_of(double zeta) {
   return std::exp(-2 * zeta * angle / std::sqrt(std::abs(rest)));
 }
 
-/// Larger ratios only make a contact sluggish: e falls to zero as 1 / (2 zeta)^2.
-inline constexpr double greatest_damping_ratio = 2;
+/// Critical damping, e = 0.135. More would make a contact sluggish, and asks for shorter steps.
+inline constexpr double greatest_damping_ratio = 1;
 
 /// The damping ratio for a coefficient of restitution from 0 to 1; by bisection, so ask once a material.
 inline double damping_ratio_of(double restitution) {
@@ -58,10 +58,8 @@ inline Damping damping_of(double restitution, const Stiffness& s) {
   return {ratio, std::tanh(ratio * s.omega * s.h)};
 }
 
-/// Force along the normal, >= 0. `depth` in m; `approach`: speed at which it grows, m/s; `gravity`: how fast gravity
-/// would make the bodies approach, m/s^2.
-inline double normal_force(const Stiffness& s, const Damping& damping, double load, double depth, double approach,
-                           double gravity) {
+/// Force along the normal, >= 0. `depth` in m; `approach`: speed at which it grows, m/s.
+inline double normal_force(const Stiffness& s, const Damping& damping, double load, double depth, double approach) {
   const double w = s.omega, h = s.h;
   const double beta = damping.midpoint + 0.25 * w * w * h * h, d = std::max(1 + beta, load * beta);
   if (approach * h > depth) {
@@ -76,7 +74,7 @@ inline double normal_force(const Stiffness& s, const Damping& damping, double lo
     const double a = 1 + 0.25 * ww * h * h, half_b = approach + 0.5 * ww * h * way;
     const double c = approach * approach + ww * way * way - energy;
     const double push = c / (half_b + std::sqrt(std::max(0.0, half_b * half_b - a * c)));
-    return std::max(0.0, std::min(push, approach - std::min(0.0, speed)) / h + (1 - 1 / d) * gravity);
+    return std::max(0.0, std::min(push, approach - std::min(0.0, speed)) / h);
   }
   const double level = depth + 2 * damping.ratio / w * approach;  // where the force stands, as a depth
   if (approach < 0 && level < -approach * h) {
@@ -86,22 +84,22 @@ inline double normal_force(const Stiffness& s, const Damping& damping, double lo
     return gain / h * (1 + beta) / d;
   }
   const double middle = w * w * (depth + 0.5 * h * approach) + 2 * damping.midpoint / h * approach;
-  return std::max(0.0, middle / d + (1 - 1 / d) * gravity);
+  return std::max(0.0, middle / d);
 }
 
 /// Force across the normal on the body that moves with `slip` (m/s) over the other: a spring, critically damped, stretched by
 /// what the body has slipped, until the force reaches `most` (m/s^2); from there on it slides and the spring keeps the
-/// stretch (m) that belongs to `most` (Cundall and Strack, A discrete numerical model for granular assemblies,
+/// stretch (m) that holds `most` at rest (Cundall and Strack, A discrete numerical model for granular assemblies,
 /// Geotechnique 29, 1979). The limit is a circle, so friction is the same in every direction.
-/// `stretch` includes the way of the last step; `gravity`: its part across the normal, m/s^2.
-inline Vec3 friction_force(const Stiffness& s, double load, Vec3& stretch, const Vec3& slip, const Vec3& gravity, double most) {
+/// `stretch` includes the way of the last step.
+inline Vec3 friction_force(const Stiffness& s, double load, Vec3& stretch, const Vec3& slip, double most) {
   const double w = s.omega, h = s.h;
   const double beta = w * h + 0.5 * w * w * h * h, d = std::max(1 + beta, load * beta);
-  const Vec3 force = -(w * w * stretch + (2 * w + 0.5 * w * w * h) * slip) / d - (1 - 1 / d) * gravity;
+  const Vec3 force = -(w * w * stretch + (2 * w + 0.5 * w * w * h) * slip) / d;
   const double size2 = force.squaredNorm();
   if (size2 <= most * most) return force;
   const Vec3 limited = force * (most / std::sqrt(size2));
-  stretch = -limited / (w * w);
+  stretch = limited * (-d / (w * w));
   return limited;
 }
 

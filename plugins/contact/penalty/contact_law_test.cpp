@@ -15,7 +15,7 @@ double rebound(double restitution, const Stiffness& s, double phase, double load
   for (int k = 0; k < 100000; ++k) {
     if (met && x >= 0) return v;
     met = met || x < 0;
-    const double a = x < 0 ? normal_force(s, damping, load, -x, -v, 0) : 0;
+    const double a = x < 0 ? normal_force(s, damping, load, -x, -v) : 0;
     x += v * s.h + 0.5 * a * s.h * s.h;
     v += a * s.h;
   }
@@ -38,9 +38,9 @@ TEST(ContactLaw, RestitutionIsThatOfAnIntegratedSpringDamper) {
 }
 
 TEST(ContactLaw, TheDampingRatioInvertsTheRestitution) {
-  for (double e = 0.05; e <= 1; e += 0.05) EXPECT_NEAR(restitution_of(damping_ratio_of(e)), e, 1e-12) << e;
+  for (double e = 0.15; e <= 1; e += 0.05) EXPECT_NEAR(restitution_of(damping_ratio_of(e)), e, 1e-12) << e;
   EXPECT_EQ(damping_ratio_of(0), greatest_damping_ratio);
-  EXPECT_NEAR(restitution_of(greatest_damping_ratio), 0.048, 0.001);
+  EXPECT_NEAR(restitution_of(greatest_damping_ratio), std::exp(-2), 1e-12);
 }
 
 TEST(ContactLaw, ARebound20StepsAPeriodHasItsRestitution) {
@@ -71,20 +71,12 @@ TEST(ContactLaw, NoReboundGainsEnergyHoweverCoarseTheStep) {
         }
 }
 
-TEST(ContactLaw, ABodyAtRestIsCarriedExactly) {
-  // depth = g / omega^2, whatever the softening, and no motion.
-  for (const double load : {1.0, 5.0, 40.0}) {
-    const Stiffness s{300, 1e-3};
-    EXPECT_NEAR(normal_force(s, damping_of(0.3, s), load, 9.81 / (300 * 300), 0, 9.81), 9.81, 1e-12);
-  }
-}
-
 TEST(ContactLaw, NeverPulls) {
   const Stiffness s{300, 1e-3};
   for (const double e : {0.0, 0.5, 1.0})
     for (double v = -10; v <= 10; v += 0.37)
       for (double depth = 1e-6; depth < 0.02; depth *= 1.7)
-        for (const double g : {-9.81, 0.0, 9.81}) EXPECT_GE(normal_force(s, damping_of(e, s), 2, depth, v, g), 0);
+        for (const double load : {1.0, 10.0}) EXPECT_GE(normal_force(s, damping_of(e, s), load, depth, v), 0);
 }
 
 TEST(ContactLaw, StaysStableUnderAnyLoad) {
@@ -96,8 +88,8 @@ TEST(ContactLaw, StaysStableUnderAnyLoad) {
       double x = 1e-4, v = 0, greatest = 0;
       for (int k = 0; k < 20000; ++k) {
         const double offset = 1;  // a deep preload makes the contact a two-sided spring
-        const double rest = normal_force(s, damping, load, offset, 0, 0);
-        const double a = load * (normal_force(s, damping, load, offset - x, -v, 0) - rest);
+        const double rest = normal_force(s, damping, load, offset, 0);
+        const double a = load * (normal_force(s, damping, load, offset - x, -v) - rest);
         x += v * s.h + 0.5 * a * s.h * s.h;
         v += a * s.h;
         if (k > 19000) greatest = std::max(greatest, std::abs(x));
@@ -114,7 +106,7 @@ TEST(ContactLaw, FrictionNeverExceedsTheConeInAnyDirection) {
     Vec3 force = Vec3::Zero();
     for (int k = 0; k < 50; ++k) {
       stretch += slip * s.h;
-      force = friction_force(s, 1, stretch, slip, Vec3::Zero(), 5);
+      force = friction_force(s, 1, stretch, slip, 5);
     }
     EXPECT_NEAR(force.norm(), 5, 1e-12);
     EXPECT_NEAR(force.dot(slip), -5 * 0.3, 1e-12);  // straight against the slip: a cone, no pyramid
@@ -128,7 +120,7 @@ TEST(ContactLaw, ABodyThatFrictionHoldsDoesNotCreep) {
     const Vec3 pull(3, 0, 0);  // not gravity: friction cannot foresee it
     for (int k = 0; k < 4000; ++k) {
       stretch += v * s.h;
-      const Vec3 a = pull + friction_force(s, load, stretch, v, Vec3::Zero(), 5);
+      const Vec3 a = pull + friction_force(s, load, stretch, v, 5);
       x += v * s.h + 0.5 * a * s.h * s.h;
       v += a * s.h;
       if (k == 2000) middle = x;
@@ -143,7 +135,7 @@ TEST(ContactLaw, ASlidingBodyStopsAfterTheTextbookDistance) {
   Vec3 x = Vec3::Zero(), v(2, 1, 0), stretch = Vec3::Zero();
   for (int k = 0; k < 3000; ++k) {
     stretch += v * s.h;
-    const Vec3 a = friction_force(s, 1, stretch, v, Vec3::Zero(), 4);
+    const Vec3 a = friction_force(s, 1, stretch, v, 4);
     x += v * s.h + 0.5 * a * s.h * s.h;
     v += a * s.h;
   }

@@ -13,11 +13,27 @@ struct Mobility {
   Vec3 centre = Vec3::Zero();   ///< centre of mass, m
 };
 
-/// Mobility of points: along the normal, and the sum over both directions across it. 1/kg.
+/// Mobility of a point: along the normal, and the sum over both directions across it. 1/kg.
 struct Yield {
   double along = 0;
   double across = 0;
   Yield operator+(const Yield& b) const { return {along + b.along, across + b.across}; }
+};
+
+/// Stiffness of a body on springs against shifts, and against turns about its centre of mass. World axes.
+struct Resistance {
+  Mat3 shift = Mat3::Zero();
+  Mat3 turn = Mat3::Zero();
+  void operator+=(const Resistance& b) {
+    shift += b.shift;
+    turn += b.turn;
+  }
+  /// No less than the largest eigenvalue of M^-1 K: of a matrix of two diagonal blocks it is at most the sum of
+  /// theirs, and in a block at most its Frobenius norm.
+  double greatest(const Mobility& body) const {
+    const Mat3 x = body.inertia * turn;
+    return body.mass * shift.norm() + std::sqrt(x.cwiseProduct(x.transpose()).sum());
+  }
 };
 
 /// Contact points of one pair of bodies with one normal: touching is one event, which they share.
@@ -40,24 +56,23 @@ class Patch {
   }
   /// Of the middle of the points.
   Yield at_middle(const Mobility& body) const {
-    const Vec3 r = origin_ + sum_ / count_ - body.centre;
-    return yield(body, 1, r * r.transpose());
+    const Vec3 r = origin_ + sum_ / count_ - body.centre, turned = r.cross(normal_);
+    const double along = turned.dot(body.inertia * turned);
+    const double all = body.inertia.trace() * r.squaredNorm() - r.dot(body.inertia * r);
+    return {body.mass + along, 2 * body.mass + all - along};
   }
-  /// Sum over the points.
-  Yield of_all(const Mobility& body) const {
+  /// What springs in the points do to a body, each of stiffness `along` the normal and `across` it.
+  Resistance resistance(const Mobility& body, double along, double across) const {
     const Vec3 shift = origin_ - body.centre;
     const Mat3 cross = sum_ * shift.transpose();
-    return yield(body, count_, squares_ + cross + cross.transpose() + count_ * shift * shift.transpose());
+    const Mat3 squares = squares_ + cross + cross.transpose() + count_ * shift * shift.transpose();  // sum of r r^T
+    Resistance k;
+    k.shift = count_ * (across * Mat3::Identity() + (along - across) * normal_ * normal_.transpose());
+    k.turn = across * (squares.trace() * Mat3::Identity() - squares) + (along - across) * turn_ * squares * turn_.transpose();
+    return k;
   }
 
  private:
-  /// `second`: sum of r r^T over `n` points, r from the centre of mass.
-  Yield yield(const Mobility& body, double n, const Mat3& second) const {
-    const double along = body.inertia.cwiseProduct(turn_ * second * turn_.transpose()).sum();
-    const double all = body.inertia.trace() * second.trace() - body.inertia.cwiseProduct(second).sum();
-    return {n * body.mass + along, 2 * n * body.mass + all - along};
-  }
-
   Vec3 normal_;
   Vec3 origin_;
   Mat3 turn_;  ///< turn_ * v = normal x v

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <random>
 
 #include "grip.hpp"
@@ -26,17 +27,40 @@ TEST(Patch, MobilitiesAreTheResponseToImpulses) {
     std::vector<Vec3> points{vector(), vector(), vector()};
     Patch patch(n, points[0]);
     Vec3 middle = Vec3::Zero();
-    Yield all;
     for (const Vec3& p : points) {
       patch.add(p);
       middle += p / 3;
-      all.along += n.dot(response(body, p, n));
-      all.across += u.dot(response(body, p, u)) + w.dot(response(body, p, w));
     }
-    EXPECT_NEAR(patch.of_all(body).along, all.along, 1e-10 * all.along);
-    EXPECT_NEAR(patch.of_all(body).across, all.across, 1e-10 * all.across);
     EXPECT_NEAR(patch.at_middle(body).along, n.dot(response(body, middle, n)), 1e-10);
     EXPECT_NEAR(patch.at_middle(body).across, u.dot(response(body, middle, u)) + w.dot(response(body, middle, w)), 1e-10);
+  }
+}
+
+TEST(Patch, TheGreatestStiffnessBoundsEveryMotion) {
+  std::mt19937 random(4);
+  std::normal_distribution<double> normal;
+  const auto vector = [&] { return Vec3(normal(random), normal(random), normal(random)); };
+  for (int trial = 0; trial < 50; ++trial) {
+    const Mat3 root = Mat3::Random();
+    const Mobility body{0.3, root * root.transpose() + Mat3::Identity(), vector()};
+    const Vec3 n = vector().normalized();
+    Eigen::Matrix<double, 6, 6> k = decltype(k)::Zero(), inverse = decltype(k)::Zero();
+    inverse.topLeftCorner<3, 3>() = body.mass * Mat3::Identity();
+    inverse.bottomRightCorner<3, 3>() = body.inertia;
+    Patch patch(n, vector());
+    for (int p = 0; p < 4; ++p) {
+      const Vec3 point = vector(), r = point - body.centre;
+      patch.add(point);
+      Eigen::Matrix<double, 3, 6> jacobian;  // of the point's velocity
+      jacobian << Mat3::Identity(), (Mat3() << 0, r.z(), -r.y(), -r.z(), 0, r.x(), r.y(), -r.x(), 0).finished();
+      k += jacobian.transpose() * (0.7 * Mat3::Identity() + (1.9 - 0.7) * n * n.transpose()) * jacobian;
+    }
+    const Resistance all = patch.resistance(body, 1.9, 0.7);
+    EXPECT_LT((all.shift - k.topLeftCorner(3, 3)).norm(), 1e-12 * k.norm());
+    EXPECT_LT((all.turn - k.bottomRightCorner(3, 3)).norm(), 1e-12 * k.norm());
+    const double greatest = (inverse * k).eval().eigenvalues().real().maxCoeff();
+    EXPECT_GE(all.greatest(body), greatest);
+    EXPECT_LE(all.greatest(body), 4 * greatest);
   }
 }
 

@@ -23,7 +23,6 @@ constexpr Use reads[] = {
     {"pose", "of every body with a collision shape"},
     {"twist", "of every body with a collision shape"},
     {"inertial", "of every body of robots that forces move"},
-    {"gravity", "on the world object; 0 0 -9.81 when absent"},
 };
 constexpr Use writes[] = {
     {"wrench.external", "of every robot that forces move"},
@@ -48,7 +47,6 @@ class Penalty final : public Algorithm {
  public:
   void connect(Connector& c) override {
     omega_ = 2 * M_PI * c.parameters().real("frequency");
-    gravity_ = c.constant(world_object, keys::gravity).value_or(Vec3(0, 0, -9.81));
     host_ = &c.host();
     bodies_.resize(c.object_count());
     for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
@@ -71,6 +69,8 @@ class Penalty final : public Algorithm {
     touch_of_.clear();
     for (std::uint32_t i = 0; i < robots_.size(); ++i) gather(i);
     for (Touch& t : touches_) share(t);
+    for (Robot& r : robots_)
+      if (r.placed) r.load = r.resistance.greatest(r.mobility);
     std::size_t next = 0;
     for (std::uint32_t i = 0; i < robots_.size(); ++i) next = push(i, next);
   }
@@ -93,14 +93,16 @@ class Penalty final : public Algorithm {
     ListOut<Grip> grips;
     Sum<Wrench> wrench;
     In<Pose> base;
+    In<Twist> twist;
     double inverse_mass = 0;
     Vec3 com = Vec3::Zero();
     Mat3 inverse_inertia = Mat3::Zero();  ///< axes of the base
     std::uint64_t rank = 0;               ///< of two robots, the one with the lower rank works out their contacts
     // of the present step:
     bool placed = false;
-    double load = 0;  ///< sum over its contact points of stiffness times mobility, in units of omega^2
     Mobility mobility;
+    Resistance resistance;  ///< of all its contacts, in units of omega^2
+    double load = 0;        ///< its stiffest motion, in units of omega^2
   };
   /// A patch between a robot and something else.
   struct Touch {
@@ -130,6 +132,7 @@ class Penalty final : public Algorithm {
     r.grips = c.variable_list(view.base(), grips);
     r.wrench = c.accumulate(view.base(), keys::external_wrench);
     r.base = c.read(view.base(), keys::pose);
+    r.twist = c.read(view.base(), keys::twist);
     r.inverse_mass = 1 / composite.mass;
     r.com = composite.com;
     r.inverse_inertia = composite.tensor().inverse();
@@ -158,7 +161,7 @@ class Penalty final : public Algorithm {
   void place(Robot& r) const {
     if (r.placed) return;
     r.placed = true;
-    r.load = 0;
+    r.resistance = Resistance{};
     const Mat3 turn = r.base->orientation.toRotationMatrix();
     r.mobility = {r.inverse_mass, turn * r.inverse_inertia * turn.transpose(), r.base->position + turn * r.com};
   }
@@ -189,7 +192,7 @@ class Penalty final : public Algorithm {
     }
   }
 
-  /// Shares the effective mass of a patch among its points, and tells its robots what load they get.
+  /// Shares the effective mass of a patch among its points, and adds their springs to those of its robots.
   void share(Touch& t) {
     Robot& a = robots_[t.self];
     Robot* const b = t.other == nobody ? nullptr : &robots_[std::size_t(t.other)];
@@ -197,17 +200,16 @@ class Penalty final : public Algorithm {
     if (b) middle = middle + t.patch.at_middle(b->mobility);
     t.along = 1 / (middle.along * t.patch.count());
     t.across = 2 / (middle.across * t.patch.count());
-    for (Robot* r : {&a, b}) {
-      if (!r) continue;
-      const Yield all = t.patch.of_all(r->mobility);
-      r->load += t.along * all.along + t.across * all.across;
-    }
+    a.resistance += t.patch.resistance(a.mobility, t.along, t.across);
+    if (b) b->resistance += t.patch.resistance(b->mobility, t.along, t.across);
   }
 
   /// The velocity of the point of a body, m/s.
   static Vec3 velocity(const Body& body, const Vec3& point) {
     return body.twist ? body.twist->at(point - body.pose->position) : Vec3::Zero();
   }
+
+  static Vec3 centre_velocity(const Robot& r) { return r.twist->at(r.mobility.centre - r.base->position); }
 
   const Damping& damping(double restitution) {
     if (restitution != restitution_) {
@@ -235,6 +237,10 @@ class Penalty final : public Algorithm {
       if (touch.other == nobody) continue;
       const Robot& other = robots_[std::size_t(touch.other)];
       other.wrench->add_force(-force, contact.point - other.base->position);
+      // Levers of the middle of the step, in which both centres have come nearer: keeps angular momentum.
+      const Vec3 lever = 0.25 * stiffness_.h * (centre_velocity(other) - centre_velocity(robot));
+      robot.wrench->torque += lever.cross(force);
+      other.wrench->torque += lever.cross(force);
     }
     return next;
   }
@@ -246,27 +252,22 @@ class Penalty final : public Algorithm {
     const Vec3 motion = velocity(self, contact.point) - velocity(other, contact.point);
     const double approach = -motion.dot(n);
     const Vec3 slip = motion + approach * n;
-    // Two robots fall alike; only against what does not fall, gravity makes bodies approach.
-    const bool both = touch.other != nobody;
-    const double fall = both ? 0 : -gravity_.dot(n);
-    const Vec3 slide = both ? Vec3(Vec3::Zero()) : Vec3(gravity_ + fall * n);
-    const double load = robot.load + (both ? robots_[std::size_t(touch.other)].load : 0);
+    const double load = robot.load + (touch.other == nobody ? 0 : robots_[std::size_t(touch.other)].load);
 
-    const double normal = touch.along * normal_force(stiffness_, damping(contact.restitution), load, contact.depth,
-                                                     approach, fall);
+    const double normal =
+        touch.along * normal_force(stiffness_, damping(contact.restitution), load, contact.depth, approach);
     Grip grip;
     grip.pair = pair_of(self.name, other.name, contact.self_shape, contact.other_shape);
     grip.point = contact.point;
     grip.stretch = inherited(old_grips_, place_in_list, grip.pair, contact.point) + slip * elapsed_;
     grip.stretch -= n * n.dot(grip.stretch);
-    const Vec3 friction = touch.across * friction_force(stiffness_, load, grip.stretch, slip, slide,
+    const Vec3 friction = touch.across * friction_force(stiffness_, load, grip.stretch, slip,
                                                         contact.friction * normal / touch.across);
     robot.grips.push_back(grip);
     return normal * n + friction;
   }
 
   double omega_ = 0;
-  Vec3 gravity_ = Vec3::Zero();
   Host* host_ = nullptr;
   std::vector<Body> bodies_;  ///< by object id
   std::vector<Robot> robots_;

@@ -146,9 +146,6 @@ void PropertyFinder::check(const FoundProperty& p, const muro_port& port) const 
     throw Error(name + " is of type " + std::string(p.key->type->name) + ", which is not made of numbers");
   if (p.form == Form::list)
     throw Error(name + " is a list, whose length changes from step to step; a port has a fixed size");
-  if (connector_.is_used(p.object, *p.key, Access::accumulate) ||
-      connector_.is_used(p.object, *p.key, Access::read_sum))
-    throw Error(name + " is a sum of contributions; ports can be connected to plain properties only");
   if (port.unit && p.key->unit != port.unit)
     throw Error(name + " is in \"" + std::string(p.key->unit) + "\", but the library works in \"" + port.unit + "\"");
 }

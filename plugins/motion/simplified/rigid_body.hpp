@@ -22,25 +22,31 @@ inline Quat turned(const Quat& by, const Quat& q) {
   return result;
 }
 
+/// r * v, in a form that compiles to straight code.
+inline Vec3 times(const Mat3& r, const Vec3& v) { return r.col(0) * v.x() + r.col(1) * v.y() + r.col(2) * v.z(); }
+
+/// A symmetric tensor in the axes of the body (r: body to world), applied to a vector in those of the world.
+inline Vec3 in_world(const Mat3& r, const Mat3& tensor, const Vec3& v) {
+  return times(r, times(tensor, Vec3(r.col(0).dot(v), r.col(1).dot(v), r.col(2).dot(v))));
+}
+
 /// Advances the rotation by `dt` (s) under a constant `torque` (N m, world axes, about the centre of mass).
 ///
 /// Midpoint rule on the angular momentum L = R I R^T w (Hairer, Lubich, Wanner, Geometric Numerical
 /// Integration, Section VII.5, in explicit form): L advances by torque * dt exactly, the attitude by the spin
 /// that belongs to the middle of the step. Second order; without torque |L| and its direction do not change.
 /// `inertia` (kg m^2, axes of the body, about the centre of mass) is that of the start; `inverse_half` and
-/// `inverse_end` invert those of the middle and the end: the same for a rigid body.
-inline void advance_rotation(RigidBody& body, const Mat3& inertia, const Mat3& inverse_half, const Mat3& inverse_end,
-                             const Vec3& torque, double dt) {
-  // A tensor in the axes of the body, applied to a vector in those of the world.
-  const auto apply = [](const Quat& q, const Mat3& tensor, const Vec3& v) {
-    const Mat3 r = q.toRotationMatrix();
-    return Vec3(r * (tensor * (r.transpose() * v)));
-  };
-  const Vec3 momentum = apply(body.orientation, inertia, body.spin);
-  const Quat halfway = turned(rotation_of(Vec3(body.spin * (0.5 * dt))), body.orientation);
-  const Vec3 spin_half = apply(halfway, inverse_half, momentum + torque * (0.5 * dt));
+/// `inverse_end` invert those of the middle and the end: the same for a rigid body. `r` is the matrix of
+/// body.orientation; returns that of the new one.
+inline Mat3 advance_rotation(RigidBody& body, const Mat3& r, const Mat3& inertia, const Mat3& inverse_half,
+                             const Mat3& inverse_end, const Vec3& torque, double dt) {
+  const Vec3 momentum = in_world(r, inertia, body.spin);
+  const Mat3 halfway = (rotation_of(Vec3(body.spin * (0.5 * dt))) * body.orientation).toRotationMatrix();
+  const Vec3 spin_half = in_world(halfway, inverse_half, momentum + torque * (0.5 * dt));
   body.orientation = turned(rotation_of(Vec3(spin_half * dt)), body.orientation);
-  body.spin = apply(body.orientation, inverse_end, momentum + torque * dt);
+  const Mat3 end = body.orientation.toRotationMatrix();
+  body.spin = in_world(end, inverse_end, momentum + torque * dt);
+  return end;
 }
 
 /// Advances the centre by `dt` (s) under a constant `acceleration` (m/s^2): exact. Returns its shift (m).

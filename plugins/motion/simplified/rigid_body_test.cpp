@@ -18,7 +18,7 @@ struct FreeBox {
 
   void step(double dt) {
     advance_centre(body, acceleration, dt);
-    advance_rotation(body, inertia, inverse, inverse, Vec3::Zero(), dt);
+    advance_rotation(body, body.orientation.toRotationMatrix(), inertia, inverse, inverse, Vec3::Zero(), dt);
   }
   Vec3 body_rates() const { return body.orientation.conjugate() * body.spin; }
   Vec3 momentum() const { return body.orientation * Vec3(inertia * body_rates()); }
@@ -99,7 +99,7 @@ TEST(RigidBody, ASymmetricBodyPrecessesAtTheRateOfEuler) {
   const Vec3 momentum = inertia * body.spin;
   const double dt = 1e-4, rate = momentum.norm() / i1;
   const int steps = 2000;
-  for (int k = 0; k < steps; ++k) advance_rotation(body, inertia, inverse, inverse, Vec3::Zero(), dt);
+  for (int k = 0; k < steps; ++k) advance_rotation(body, body.orientation.toRotationMatrix(), inertia, inverse, inverse, Vec3::Zero(), dt);
   const Vec3 expected = rotation_of(Vec3(momentum.normalized() * (rate * dt * steps))) * Vec3::UnitZ();
   const Vec3 axis = body.orientation * Vec3::UnitZ();
   EXPECT_LT(std::acos(std::min(1.0, axis.dot(expected))), 2e-4);
@@ -116,7 +116,7 @@ TEST(RigidBody, AGyroscopeUnderGravityPrecessesSteadily) {
   body.spin = {spin, 0, rate};
   for (int k = 0; k < 10000; ++k) {
     const Vec3 arm = body.orientation * Vec3(0, 0, 0.1);
-    advance_rotation(body, inertia, inverse, inverse, arm.cross(Vec3(0, 0, -9.81)), dt);
+    advance_rotation(body, body.orientation.toRotationMatrix(), inertia, inverse, inverse, arm.cross(Vec3(0, 0, -9.81)), dt);
   }
   const Vec3 axis = body.orientation * Vec3::UnitZ();
   EXPECT_NEAR(std::atan2(axis.y(), axis.x()), rate * 1.0, 1e-3);

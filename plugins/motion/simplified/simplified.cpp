@@ -63,7 +63,7 @@ class Simplified final : public Algorithm {
     Out<Pose> pose;
     Out<Twist> twist;
     SumIn<Wrench> external;
-    double mass = 0;
+    double inverse_mass = 0;
     Vec3 com = Vec3::Zero();  ///< of a rigid one, in the frame of the base
     Mat3 inertia = Mat3::Zero(), inverse = Mat3::Zero();
     std::uint32_t first_joint = 0, end_joint = 0;  ///< in joints_
@@ -98,7 +98,7 @@ class Simplified final : public Algorithm {
     r.pose = c.variable(robot.base(), keys::pose, c.constant(robot.base(), keys::initial_pose).value_or(Pose{}));
     r.twist = c.variable(robot.base(), keys::twist, c.constant(robot.base(), keys::initial_twist).value_or(Twist{}));
     r.external = c.read_sum(robot.base(), keys::external_wrench);
-    r.mass = whole.mass;
+    r.inverse_mass = 1 / whole.mass;
     r.com = whole.com;
     r.inertia = whole.tensor();
     r.inverse = r.inertia.inverse();
@@ -182,7 +182,8 @@ class Simplified final : public Algorithm {
 
   void move_rigid(const Robot& r, double dt) {
     move_joints(r, dt);
-    move_base(r, {r.com, Vec3::Zero(), r.inertia}, {r.com, Vec3::Zero(), r.inertia}, r.inverse, r.inverse, dt);
+    const MassState mass{r.com, Vec3::Zero(), r.inertia};
+    move_base<false>(r, mass, mass, r.inverse, r.inverse, dt);
   }
 
   void move_articulated(const Robot& r, double dt) {
@@ -192,7 +193,7 @@ class Simplified final : public Algorithm {
     const Mat3 inverse_before = a.inverse;
     move_joints(r, dt);
     update(a);
-    move_base(r, before, a.state, 0.5 * (inverse_before + a.inverse), a.inverse, dt);
+    move_base<true>(r, before, a.state, 0.5 * (inverse_before + a.inverse), a.inverse, dt);
   }
 
   /// Brings `state` up to the present joint state, if it is of another one.
@@ -210,20 +211,25 @@ class Simplified final : public Algorithm {
   }
 
   /// Newton and Euler at the centre of mass. The base is where the centre is not: base = centre - R com.
+  template <bool articulated>
   void move_base(const Robot& r, const MassState& before, const MassState& after, const Mat3& inverse_half,
                  const Mat3& inverse_end, double dt) const {
     Pose& pose = *r.pose;
     Twist& twist = *r.twist;
     const Wrench external = r.external.value();
-    const Vec3 arm = pose.orientation * before.com;
-    RigidBody body{pose.position + arm, twist.at(arm) + pose.orientation * before.com_velocity, pose.orientation, twist.angular};
-    const Vec3 shift = advance_centre(body, external.force / r.mass + gravity_, dt);
-    advance_rotation(body, before.tensor, inverse_half, inverse_end, external.torque - arm.cross(external.force), dt);
-    const Vec3 new_arm = body.orientation * after.com;
+    const Mat3 start = pose.orientation.toRotationMatrix();
+    const Vec3 arm = times(start, before.com);
+    RigidBody body{pose.position + arm, twist.at(arm), pose.orientation, twist.angular};
+    if (articulated) body.velocity += times(start, before.com_velocity);
+    const Vec3 shift = advance_centre(body, external.force * r.inverse_mass + gravity_, dt);
+    const Vec3 torque = external.torque - arm.cross(external.force);
+    const Mat3 end = advance_rotation(body, start, before.tensor, inverse_half, inverse_end, torque, dt);
+    const Vec3 new_arm = times(end, after.com);
     pose.position += shift - (new_arm - arm);
     pose.orientation = body.orientation;
     twist.angular = body.spin;
-    twist.linear = body.velocity - body.spin.cross(new_arm) - body.orientation * after.com_velocity;
+    twist.linear = body.velocity - body.spin.cross(new_arm);
+    if (articulated) twist.linear -= times(end, after.com_velocity);
     if (!std::isfinite(pose.position.sum() + twist.linear.sum() + twist.angular.sum())) fail(r, external);
   }
 

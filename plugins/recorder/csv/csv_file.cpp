@@ -1,18 +1,93 @@
 // SPDX-License-Identifier: MIT
 #include "csv_file.hpp"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <cerrno>
 #include <charconv>
+#include <cstdio>
 #include <cstring>
+#include <memory>
 
 #include "muro/algorithm.hpp"
 
 namespace muro {
 
-CsvFile::CsvFile(const std::string& path) : path_(path), file_(std::fopen(path.c_str(), "wb")) {
-  if (!file_) throw Error("file " + path + " cannot be written: " + std::strerror(errno));
-  std::setvbuf(file_.get(), nullptr, _IONBF, 0);  // our own buffer holds whole rows
+namespace {
+
+/// The decimal seconds at the beginning of a row as ns; -1 when there are none (the header).
+std::int64_t time_of(std::string_view row) {
+  std::int64_t value = 0;
+  int decimals = -1;
+  std::size_t i = 0;
+  for (; i < row.size() && row[i] != ',' && row[i] != '\r'; ++i) {
+    if (row[i] == '.' && decimals < 0) {
+      decimals = 0;
+    } else if (row[i] >= '0' && row[i] <= '9') {
+      value = 10 * value + (row[i] - '0');
+      if (decimals >= 0) ++decimals;
+    } else {
+      return -1;
+    }
+  }
+  if (i == 0) return -1;
+  for (int d = std::max(decimals, 0); d < 9; ++d) value *= 10;
+  return value;
+}
+
+bool is_plain(int file) {
+  struct stat about {};
+  return fstat(file, &about) == 0 && S_ISREG(about.st_mode);
+}
+
+/// Writes everything; false with errno.
+bool write_all(int file, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = write(file, bytes.data(), bytes.size());
+    if (written < 0 && errno != EINTR) return false;
+    if (written > 0) bytes.remove_prefix(std::size_t(written));
+  }
+  return true;
+}
+
+}  // namespace
+
+CsvFile::CsvFile(const std::string& path) : path_(path), part_(path + ".part") {
+  struct stat about {};
+  if (stat(path.c_str(), &about) == 0 && !S_ISREG(about.st_mode)) {
+    part_ = path_;
+    published_ = true;
+  }
+  file_ = open(part_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  if (file_ < 0) file_ = open(part_.c_str(), O_WRONLY | O_CLOEXEC);  // a pipe or device that cannot be read
+  if (file_ < 0) fail("cannot be written");
+  if (is_plain(file_)) {
+    if (flock(file_, LOCK_EX | LOCK_NB) != 0) {
+      const bool busy = errno == EWOULDBLOCK;
+      close(file_);
+      if (busy) throw Error("file " + path_ + " is being written by another recorder; give each a file of its own");
+      fail("cannot be locked");
+    }
+    if (ftruncate(file_, 0) != 0) {
+      const int reason = errno;
+      close(file_);
+      errno = reason;
+      fail("cannot be written");
+    }
+  }
   buffer_.reserve(2 * buffer_bytes);
+}
+
+CsvFile::~CsvFile() {
+  write_all(file_, buffer_);
+  close(file_);
+}
+
+void CsvFile::fail(const char* doing) const {
+  throw Error("file " + path_ + " " + doing + ": " + std::strerror(errno));
 }
 
 void CsvFile::separate() {
@@ -39,16 +114,34 @@ void CsvFile::number(Scalar type, const void* value) {
     buffer_.append(digits, std::to_chars(digits, digits + sizeof digits, zero).ptr);
   };
   switch (type) {
-    case Scalar::f64: return put(double{});
-    case Scalar::f32: return put(float{});
-    case Scalar::i64: return put(std::int64_t{});
-    case Scalar::i32: return put(std::int32_t{});
-    case Scalar::u64: return put(std::uint64_t{});
-    case Scalar::u32: return put(std::uint32_t{});
-    case Scalar::u8: return put(std::uint8_t{});
+    case Scalar::f64:
+      return put(double{});
+    case Scalar::f32:
+      return put(float{});
+    case Scalar::i64:
+      return put(std::int64_t{});
+    case Scalar::i32:
+      return put(std::int32_t{});
+    case Scalar::u64:
+      return put(std::uint64_t{});
+    case Scalar::u32:
+      return put(std::uint32_t{});
+    case Scalar::u8:
+      return put(std::uint8_t{});
     case Scalar::opaque:
-    case Scalar::transient: break;
+    case Scalar::transient:
+      break;
   }
+}
+
+void CsvFile::time(std::int64_t nanoseconds) {
+  separate();
+  constexpr std::int64_t second = 1'000'000'000;
+  char digits[32];
+  buffer_.append(digits, std::to_chars(digits, digits + sizeof digits, nanoseconds / second).ptr);
+  std::int64_t rest = nanoseconds % second;
+  if (rest != 0) buffer_ += '.';
+  for (std::int64_t place = second / 10; rest != 0; rest %= place, place /= 10) buffer_ += char('0' + rest / place);
 }
 
 void CsvFile::end_row() {
@@ -58,9 +151,31 @@ void CsvFile::end_row() {
 }
 
 void CsvFile::flush() {
-  if (std::fwrite(buffer_.data(), 1, buffer_.size(), file_.get()) != buffer_.size())
-    throw Error("file " + path_ + " cannot be written: " + std::strerror(errno));
+  if (!write_all(file_, buffer_)) fail("cannot be written");
   buffer_.clear();
+}
+
+void CsvFile::cut_back(std::int64_t nanoseconds) {
+  flush();
+  if (!is_plain(file_)) return;
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> reader(std::fopen((published_ ? path_ : part_).c_str(), "rb"),
+                                                               &std::fclose);
+  if (!reader) fail("cannot be read back");
+  char* row = nullptr;
+  std::size_t room = 0;
+  off_t end = 0;
+  while (const ssize_t length = getline(&row, &room, reader.get())) {
+    if (length < 0 || time_of({row, std::size_t(length)}) >= nanoseconds) break;
+    end += length;
+  }
+  std::free(row);
+  if (ftruncate(file_, end) != 0 || lseek(file_, end, SEEK_SET) < 0) fail("cannot be cut back");
+}
+
+void CsvFile::publish() {
+  flush();
+  if (!published_ && std::rename(part_.c_str(), path_.c_str()) != 0) fail("cannot be given its name");
+  published_ = true;
 }
 
 }  // namespace muro

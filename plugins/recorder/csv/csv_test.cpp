@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
+// recorder.csv in real simulations.
 #include <gtest/gtest.h>
 
 #include <fstream>
 
-#include "csv_file.hpp"
-#include "glob.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/scene.hpp"
 
@@ -14,62 +13,46 @@ namespace {
 using test::ScratchFolder;
 using test::text_of;
 
-TEST(Glob, StarsAndQuestionMarksStandForCharacters) {
-  EXPECT_TRUE(fits("rover_*/base_link:pose", "rover_12/base_link:pose"));
-  EXPECT_TRUE(fits("*:pose", "a/b:pose"));
-  EXPECT_TRUE(fits("a?c", "abc"));
-  EXPECT_TRUE(fits("*a*b*", "xxaxxbxx"));
-  EXPECT_FALSE(fits("*a*b", "xxaxxbxx"));
-  EXPECT_FALSE(fits("a?c", "ac"));
-  EXPECT_FALSE(fits("", "a"));
-  EXPECT_TRUE(fits("*", ""));
-}
-
-TEST(CsvFile, QuotesAsRfc4180SaysAndNumbersReadBackToTheBit) {
-  const ScratchFolder folder;
-  CsvFile file(folder.path("a.csv"));
-  file.text("plain");
-  file.text("a,\"b\"");
-  const double third = 1.0 / 3;
-  file.number(third);
-  const std::int64_t least = INT64_MIN;
-  file.number(Scalar::i64, &least);
-  file.end_row();
-  file.flush();
-  EXPECT_EQ(text_of(folder.path("a.csv")), "plain,\"a,\"\"b\"\"\",0.3333333333333333,-9223372036854775808\r\n");
-  EXPECT_EQ(std::stod("0.3333333333333333"), third);
-}
-
-TEST(CsvFile, SaysWhyItCannotBeWritten) {
-  EXPECT_THROW(CsvFile("/nowhere/at/all.csv"), Error);
-  CsvFile full("/dev/full");
-  full.text("x");
-  full.end_row();
-  try {
-    full.flush();
-    FAIL();
-  } catch (const Error& e) {
-    EXPECT_STREQ(e.what(), "file /dev/full cannot be written: No space left on device");
-  }
-}
-
 struct Recording : test::Scene {
-  const RobotView& ball = add("ball", test::single_body(Shape::sphere(0.1), {.mass = 1, .ixx = 1, .iyy = 1, .izz = 1}));
-  Recording(const std::string& file, std::vector<std::string> properties, double rate = 16) {
+  explicit Recording(const std::string& file, std::vector<std::string> properties, double rate = 16) {
     use("motion.point", 64, all_robots());
     use("recorder.csv", rate, {}, {{"file", file}, {"properties", std::move(properties)}});
-    build();
-    world().value(ball.base(), keys::command_twist).linear = {2, 0, 0};
   }
+  void begin() {
+    build();
+    go();
+  }
+  void go() { world().value(ball.base(), keys::command_twist).linear = {2, 0, 0}; }
+
+  const RobotView& ball = add("ball", test::single_body(Shape::sphere(0.1), {.mass = 1, .ixx = 1, .iyy = 1, .izz = 1}));
 };
+
+std::string header_of(const std::string& path) {
+  const std::string text = text_of(path);
+  return text.substr(0, text.find("\r\n"));
+}
+
+std::string refusal(std::vector<std::string> properties) {
+  const ScratchFolder folder;
+  const std::string path = folder.path("log.csv");
+  try {
+    Recording(path, std::move(properties)).begin();
+  } catch (const SetupError& e) {
+    EXPECT_FALSE(std::filesystem::exists(path + ".part")) << "nothing is written before the set-up is right";
+    return e.what();
+  }
+  return "it was accepted";
+}
 
 TEST(RecorderCsv, WritesARowForEachRunWithTheStateOfThatInstant) {
   const ScratchFolder folder;
   Recording s(folder.path("log.csv"), {"ball/body:pose", "world:gravity"});
+  s.begin();
   s.run_for(0.1875);
   s.finish();
   EXPECT_EQ(text_of(folder.path("log.csv")),
-            "time,ball/body:pose.x,ball/body:pose.y,ball/body:pose.z,ball/body:pose.qx,ball/body:pose.qy,ball/body:pose.qz,ball/"
+            "time,ball/body:pose.x,ball/body:pose.y,ball/body:pose.z,ball/body:pose.qx,ball/body:pose.qy,ball/"
+            "body:pose.qz,ball/"
             "body:pose.qw,world:gravity.x,world:gravity.y,world:gravity.z\r\n"
             "0,0,0,0,0,0,0,1,0,0,-9.81\r\n"
             "0.0625,0.125,0,0,0,0,0,1,0,0,-9.81\r\n"
@@ -78,33 +61,152 @@ TEST(RecorderCsv, WritesARowForEachRunWithTheStateOfThatInstant) {
 
 TEST(RecorderCsv, BeginsAnewAfterAReset) {
   const ScratchFolder folder;
-  Recording s(folder.path("log.csv"), {});
+  const std::string path = folder.path("log.csv");
+  Recording s(path, {});
+  s.begin();
   s.run_for(1);
   s.finish();
-  const std::string first = text_of(folder.path("log.csv"));
+  const std::string first = text_of(path);
+  EXPECT_EQ(std::count(first.begin(), first.end(), '\n'), 17);
   s.reset();
-  s.world().value(s.ball.base(), keys::command_twist).linear = {2, 0, 0};
+  EXPECT_EQ(text_of(path), first) << "until the next finish";
+  s.go();
   s.run_for(1);
   s.finish();
-  EXPECT_EQ(text_of(folder.path("log.csv")), first);
+  EXPECT_EQ(text_of(path), first);
+}
+
+TEST(RecorderCsv, ContinuesFromARestoredSnapshotAsIfTheTimeSinceHadNotBeen) {
+  const ScratchFolder folder;
+  const std::string path = folder.path("log.csv");
+  Recording s(path, {});
+  s.begin();
+  s.run_for(0.5);
+  const Snapshot middle = s.snapshot();
+  s.run_for(0.5);
+  s.finish();
+  const std::string straight = text_of(path);
+  s.restore(middle);
+  s.run_for(0.5);
+  s.finish();
+  EXPECT_EQ(text_of(path), straight);
+}
+
+TEST(RecorderCsv, RecordsThePosesOfAllBasesByDefault) {
+  const ScratchFolder folder;
+  Recording s(folder.path("log.csv"), {});
+  s.add("box", test::single_body(Shape::box({1, 1, 1}), {.mass = 1, .ixx = 1, .iyy = 1, .izz = 1}));
+  s.world().set(s.world().object("box/body"), keys::pose, Pose{});  // it is parked
+  s.begin();
+  s.run_for(0.1);
+  s.finish();
+  const std::string header = header_of(folder.path("log.csv"));
+  EXPECT_NE(header.find("ball/body:pose.x"), std::string::npos) << header;
+  EXPECT_NE(header.find("box/body:pose.qw"), std::string::npos) << header;
+  EXPECT_EQ(std::count(header.begin(), header.end(), ','), 14);
+}
+
+TEST(RecorderCsv, WildcardsTakeWhatChangesOnceEach) {
+  const ScratchFolder folder;
+  Recording s(folder.path("log.csv"), {"ball/*:*", "*:pose", "ball/body:twi??"});
+  s.add_ground();  // its pose is a constant
+  s.begin();
+  s.run_for(0.1);
+  s.finish();
+  EXPECT_EQ(
+      header_of(folder.path("log.csv")),
+      "time,ball/body:pose.x,ball/body:pose.y,ball/body:pose.z,ball/body:pose.qx,ball/body:pose.qy,ball/body:pose.qz,"
+      "ball/body:pose.qw,ball/body:twist.vx,ball/body:twist.vy,ball/body:twist.vz,ball/body:twist.wx,ball/"
+      "body:twist.wy,"
+      "ball/body:twist.wz,ball/body:command.twist.vx,ball/body:command.twist.vy,ball/body:command.twist.vz,"
+      "ball/body:command.twist.wx,ball/body:command.twist.wy,ball/body:command.twist.wz");
+}
+
+TEST(RecorderCsv, NumbersTheElementsOfArrays) {
+  const ScratchFolder folder;
+  Recording s(folder.path("log.csv"), {"ball/body:ranges", "ball/body:offsets", "ball/body:laser.columns"});
+  const std::vector<double> ranges{0.5, 1.5};
+  const std::vector<Vec3> offsets{{1, 2, 3}, {4, 5, 6}};
+  s.world().set_array(s.ball.base(), keys::ranges, std::span<const double>(ranges));
+  s.world().set_array(s.ball.base(), Key<Vec3>{"offsets", "m", "two points"}, std::span<const Vec3>(offsets));
+  s.world().set(s.ball.base(), keys::laser_columns, 2u);
+  s.begin();
+  s.run_for(0.01);
+  s.finish();
+  EXPECT_EQ(text_of(folder.path("log.csv")),
+            "time,ball/body:ranges[0],ball/body:ranges[1],ball/body:offsets[0].x,ball/body:offsets[0].y,ball/"
+            "body:offsets[0].z,"
+            "ball/body:offsets[1].x,ball/body:offsets[1].y,ball/body:offsets[1].z,ball/body:laser.columns\r\n"
+            "0,0.5,1.5,1,2,3,4,5,6,2\r\n");
+}
+
+TEST(RecorderCsv, RecordsTheSumOfForcesThatCarryTheStateToTheNextInstant) {
+  const ScratchFolder folder;
+  test::Scene s;
+  const double mass = 2, g = 9.81, dt = 1e-3;
+  const Inertia inertia{.mass = mass, .ixx = 0.02, .iyy = 0.02, .izz = 0.02};
+  const Pose start{{0, 0, 0.102}, Quat::Identity()};  // 2 mm above the ground
+  const RobotView& crate = s.add("crate", test::single_body(Shape::box({0.4, 0.4, 0.2}), inertia), start);
+  s.add_ground();
+  s.use("motion.simplified", 1 / dt, {{&crate, crate.base()}});
+  s.use_contacts();
+  const std::vector<std::string> properties{"crate/body:twist", "crate/body:wrench.external"};
+  s.use("recorder.csv", 1 / dt, {}, {{"file", folder.path("log.csv")}, {"properties", properties}});
+  s.build();
+  s.run_for(0.2);
+  s.finish();
+  std::ifstream file(folder.path("log.csv"));
+  std::string row;
+  std::getline(file, row);
+  double vz_before = 0, fz_before = 0, most = 0;
+  for (int k = 0; std::getline(file, row); ++k) {
+    double t = 0, vx = 0, vy = 0, vz = 0, wx = 0, wy = 0, wz = 0, fx = 0, fy = 0, fz = 0;
+    ASSERT_EQ(std::sscanf(row.c_str(), "%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf", &t, &vx, &vy, &vz, &wx, &wy, &wz, &fx,
+                          &fy, &fz),
+              10);
+    if (k > 0) {
+      EXPECT_NEAR(mass * (vz - vz_before), (fz_before - mass * g) * dt, 1e-7) << "momentum, at t = " << t;
+    }
+    vz_before = vz, fz_before = fz;
+    most = std::max(most, fz);
+  }
+  EXPECT_GT(most, mass * g) << "it has met the ground";
 }
 
 TEST(RecorderCsv, NamesTheNearestPropertyWhenNothingFits) {
-  const ScratchFolder folder;
-  try {
-    Recording s(folder.path("log.csv"), {"bal/body:pose"});
-    FAIL();
-  } catch (const SetupError& e) {
-    EXPECT_STREQ(e.what(),
-                 "recorder.csv #1 (recorder.csv) cannot be connected: no property fits `bal/body:pose` (did you mean "
-                 "`ball/body:pose`?); write \"object:property\", such as \"rover_0/base_link:pose\"; `muro describe` lists all");
-  }
+  EXPECT_EQ(
+      refusal({"bal/body:pose"}),
+      "recorder.csv #1 (recorder.csv) cannot be connected: no property fits `bal/body:pose` (did you mean "
+      "`ball/body:pose`?); write \"object:property\", such as \"rover_0/base_link:pose\"; `muro describe` lists all");
 }
 
 TEST(RecorderCsv, RefusesWhatHasNoColumns) {
-  const ScratchFolder folder;
-  EXPECT_THROW(Recording(folder.path("log.csv"), {"ball/body:collision.shapes"}), SetupError);
-  EXPECT_FALSE(std::filesystem::exists(folder.path("log.csv"))) << "nothing is written before the set-up is right";
+  EXPECT_EQ(
+      refusal({"ball/body:collision.shapes"}),
+      "recorder.csv #1 (recorder.csv) cannot be connected: `ball/body:collision.shapes` cannot be recorded: it has no "
+      "columns: it is of type muro.Shape, which is not made of numbers");
+  EXPECT_EQ(
+      refusal({"ball/body:inert*"}),
+      "recorder.csv #1 (recorder.csv) cannot be connected: `ball/body:inert*` fits only what does not change or has no "
+      "columns, such as `ball/body:inertial`; name a constant without wildcards to record it");
+}
+
+TEST(RecorderCsv, EndsTheRunWhenTheDiskIsFull) {
+  Recording s("/dev/full", {}, 64);
+  s.begin();
+  try {
+    s.run_for(1000);
+    FAIL();
+  } catch (const StepError& e) {
+    EXPECT_NE(std::string(e.what()).find("file /dev/full cannot be written: No space left on device"),
+              std::string::npos)
+        << e.what();
+  }
+}
+
+TEST(RecorderCsv, SaysBeforeTheRunThatItCannotWrite) {
+  Recording s("/nowhere/log.csv", {});
+  EXPECT_THROW(s.build(), SetupError);
 }
 
 }  // namespace

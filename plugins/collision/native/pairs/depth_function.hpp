@@ -68,7 +68,8 @@ struct DepthFunction {
         ball += shape.radius();
         add_segment(shape.axis(), shape.half.z());
         break;
-      default: break;
+      default:
+        break;
     }
   }
 };

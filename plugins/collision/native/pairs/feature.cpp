@@ -37,7 +37,8 @@ Feature cylinder_part(const Placed& cylinder, const Vec3& direction) {
   const double along = direction.dot(u), end = std::copysign(cylinder.half.z(), along);
   const Vec3 across = direction - along * u;
   const double steep = across.norm();
-  Vec3 out = steep > level ? Vec3(across * (cylinder.radius() / steep)) : Vec3(cylinder.radius() * cylinder.axes.col(0));
+  Vec3 out =
+      steep > level ? Vec3(across * (cylinder.radius() / steep)) : Vec3(cylinder.radius() * cylinder.axes.col(0));
   Feature f;
   f.tip = cylinder.centre + end * u + out;
   if (std::abs(along) > 0.7) {
@@ -122,20 +123,20 @@ int clip(const Seen* in, int count, const Vec2& p, const Vec2& q, double slack, 
   return kept;
 }
 
-/// Line or face against face.
+/// The square (m^2) of the length of a line or the diagonal of a face.
+double extent2(const Feature& f) { return (f.points[f.count / 2] - f.points[0]).squaredNorm(); }
+
+/// Line or face against face; what is inside keeps its points.
 void clip_against_face(const Feature& f, const Feature& face, const View& view, double side, Manifold& out) {
   Seen buffers[2][12], corners[4];
-  double extent = 0;
-  for (int i = 0; i < 4; ++i) {
-    corners[i] = view(face.points[i]);
-    extent = std::max(extent, corners[i].at.lpNorm<Eigen::Infinity>());
-  }
+  for (int i = 0; i < 4; ++i) corners[i] = view(face.points[i]);
+  const double slack = 1e-9 * std::sqrt(extent2(f));
   const bool left = cross(corners[1].at - corners[0].at, corners[2].at - corners[0].at) > 0;
   int count = f.count, now = 0;
   for (int i = 0; i < count; ++i) buffers[0][i] = view(f.points[i]);
   for (int i = 0; i < 4 && count > 0; ++i, now = 1 - now) {
     const Vec2 &p = corners[i].at, &q = corners[(i + 1) & 3].at;
-    count = clip(buffers[now], count, left ? p : q, left ? q : p, 1e-9 * extent, buffers[1 - now]);
+    count = clip(buffers[now], count, left ? p : q, left ? q : p, slack, buffers[1 - now]);
   }
   for (int i = 0; i < count; ++i) {
     const Seen& s = buffers[now][i];
@@ -201,10 +202,14 @@ Vec3 deepest_point(const Feature& a, const Feature& b, const View& view, double 
 
 Feature feature_towards(const Placed& shape, const Vec3& direction) {
   switch (shape.kind) {
-    case ShapeKind::box: return box_face(shape, direction);
-    case ShapeKind::cylinder: return cylinder_part(shape, direction);
-    case ShapeKind::capsule: return capsule_part(shape, direction);
-    default: break;
+    case ShapeKind::box:
+      return box_face(shape, direction);
+    case ShapeKind::cylinder:
+      return cylinder_part(shape, direction);
+    case ShapeKind::capsule:
+      return capsule_part(shape, direction);
+    default:
+      break;
   }
   Feature f;
   f.count = 1;
@@ -214,24 +219,28 @@ Feature feature_towards(const Placed& shape, const Vec3& direction) {
 }
 
 void add_patch(const Feature& a, const Feature& b, const Vec3& normal, double depth, Manifold& out) {
-  const View view(normal, a.tip);
-  if (b.count == 4 && a.count > 1)
+  const bool both_faces = a.count == 4 && b.count == 4;
+  const bool a_in_b = both_faces ? extent2(a) <= extent2(b) : b.count == 4;
+  const View view(normal, a_in_b ? a.tip : b.tip);
+  if (a_in_b && a.count > 1)
     clip_against_face(a, b, view, 1, out);
-  else if (a.count == 4 && b.count > 1)
+  else if (!a_in_b && a.count == 4 && b.count > 1)
     clip_against_face(b, a, view, -1, out);
   else if (a.count == 2 && b.count == 2)
     cross_lines(a, b, view, out);
-  double found = 0;
+  int deepest = -1;
   for (int i = 0; i < out.count; ++i) {
     double& at = out.points[i].depth;
     at = std::min(at, depth);  // off by the slack of the clipping
-    found = std::max(found, at);
+    if (deepest < 0 || at > out.points[deepest].depth) deepest = i;
   }
-  if (found < depth * (1 - 1e-6)) {
-    const Vec3 point = deepest_point(a, b, view, depth);
-    if (out.count == Manifold::most) --out.count;
-    out.add(point, normal, depth);
+  if (deepest >= 0 && out.points[deepest].depth > depth * (1 - 1e-6)) {
+    out.points[deepest].depth = depth;
+    return;
   }
+  const Vec3 point = deepest_point(a, b, view, depth);
+  if (out.count == Manifold::most) --out.count;
+  out.add(point, normal, depth);
 }
 
 }  // namespace muro::native

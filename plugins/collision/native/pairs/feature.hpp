@@ -9,13 +9,13 @@ namespace muro::native {
 /// The part of a shape's surface that lies outermost in some direction: a point, a straight line or a flat
 /// face (a disc by the square in its rim).
 struct Feature {
-  int count = 0;                  ///< 1, 2 or 4 points
-  Vec3 points[4];                 ///< m, world; those of a face in order around it
-  Vec3 normal = Vec3::Zero();     ///< unit, of a face, outward
-  Vec3 centre = Vec3::Zero();     ///< m, world
-  double disc = 0;                ///< m, radius, when the face is a disc
-  Vec3 tip = Vec3::Zero();        ///< m, world: an outermost point
-  bool sharp = false;             ///< no other point is as far out as `tip`
+  int count = 0;               ///< 1, 2 or 4 points
+  Vec3 points[4];              ///< m, world; those of a face in order around it
+  Vec3 normal = Vec3::Zero();  ///< unit, of a face, outward
+  Vec3 centre = Vec3::Zero();  ///< m, world
+  double disc = 0;             ///< m, radius, when the face is a disc
+  Vec3 tip = Vec3::Zero();     ///< m, world: an outermost point
+  bool sharp = false;          ///< no other point is as far out as `tip`
 };
 
 /// Of a box, cylinder or capsule; `direction` is a unit vector. A box gives the face that looks most along the

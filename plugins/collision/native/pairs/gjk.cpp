@@ -75,10 +75,17 @@ struct Simplex {
 
   bool nearest(Vec3& v) {
     switch (count) {
-      case 1: v = p[0]; return true;
-      case 2: v = nearest_on_segment(); return true;
-      case 3: v = nearest_on_triangle(); return true;
-      default: return nearest_on_tetrahedron(v);
+      case 1:
+        v = p[0];
+        return true;
+      case 2:
+        v = nearest_on_segment();
+        return true;
+      case 3:
+        v = nearest_on_triangle();
+        return true;
+      default:
+        return nearest_on_tetrahedron(v);
     }
   }
 };

@@ -11,7 +11,7 @@ struct Placed {
   /// m. box: half lengths. sphere: the radius three times. cylinder, capsule: radius, radius, half the
   /// length along z (of a capsule: of its straight part). plane: unused.
   Vec3 half = Vec3::Zero();
-  Vec3 centre = Vec3::Zero();     ///< m, world
+  Vec3 centre = Vec3::Zero();    ///< m, world
   Mat3 axes = Mat3::Identity();  ///< columns: the axes of the shape in the world
 
   double radius() const { return half.x(); }

@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: MIT
+// scene.bvh and collision.native in a simulation.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <random>
+
+#include "tests/support/scene.hpp"
+
+namespace muro {
+namespace {
+
+using test::Scene;
+
+const Inertia unit_inertia = Inertia::from(1, Vec3::Zero(), 0.1 * Mat3::Identity());
+
+/// Robots of level 2 (moved by forces) or level 0 (moved by commands), and the contacts of one instant.
+struct Touching : Scene {
+  std::map<std::string, ParameterInput> scene_parameters;
+
+  Touching() { world().set(world_object, keys::gravity, Vec3(0, 0, 0)); }
+
+  const RobotView& add_dynamic(const std::string& name, const RobotTree& tree, const Pose& start) {
+    const RobotView& r = add(name, tree, start);
+    use("motion.simplified", 100, {{&r, r.base()}});
+    return r;
+  }
+  const RobotView& add_dynamic(const std::string& name, const Shape& shape, const Pose& start) {
+    return add_dynamic(name, test::single_body(shape, unit_inertia), start);
+  }
+  const RobotView& add_kinematic(const std::string& name, const Shape& shape, const Pose& start) {
+    const RobotView& r = add(name, test::single_body(shape, unit_inertia), start);
+    use("motion.point", 100, {{&r, r.base()}});
+    return r;
+  }
+  void finish_setup() {
+    use_kinematics();
+    use("scene.bvh", 0, {}, scene_parameters);
+    use("collision.native", 100);
+    build();
+  }
+  /// One instant; afterwards `contacts` are those of the poses before it.
+  void instant() { run_for(0.01); }
+  std::vector<Contact> contacts(const RobotView& r) {
+    const std::span<Contact> list = world().values(r.base(), keys::contacts);
+    return {list.begin(), list.end()};
+  }
+};
+
+void expect_equal(const Contact& a, const Contact& b) {
+  EXPECT_EQ(a.self, b.self);
+  EXPECT_EQ(a.other, b.other);
+  EXPECT_EQ(a.self_shape, b.self_shape);
+  EXPECT_EQ(a.other_shape, b.other_shape);
+  EXPECT_EQ(a.point, b.point);
+  EXPECT_EQ(a.normal, b.normal);
+  EXPECT_EQ(a.depth, b.depth);
+}
+
+TEST(CollisionNative, ListsTheCornersOfABoxOnTheGround) {
+  Touching scene;
+  scene.add_ground(0.9);
+  Shape box = Shape::box({1, 1, 1});
+  box.friction = 0.4;
+  box.restitution = 0.3;
+  const RobotView& r = scene.add_dynamic("crate", box, {{3, 4, 0.49}, Quat::Identity()});
+  scene.finish_setup();
+  scene.instant();
+  const auto contacts = scene.contacts(r);
+  ASSERT_EQ(contacts.size(), 4u);
+  Vec3 middle = Vec3::Zero();
+  for (const Contact& c : contacts) {
+    EXPECT_EQ(c.self, r.base());
+    EXPECT_EQ(c.other, scene.world().object("ground"));
+    EXPECT_NEAR(c.depth, 0.01, 1e-12);
+    EXPECT_EQ(c.normal, Vec3(0, 0, 1));
+    EXPECT_DOUBLE_EQ(c.friction, std::sqrt(0.9 * 0.4));
+    EXPECT_DOUBLE_EQ(c.restitution, 0.3);
+    middle += c.point / 4;
+  }
+  EXPECT_LT((middle - Vec3(3, 4, -0.005)).norm(), 1e-12);
+}
+
+TEST(CollisionNative, APairOfRobotsStandsInBothListsWithOppositeNormals) {
+  Touching scene;
+  const RobotView& a = scene.add_dynamic("a", Shape::box({1, 1, 1}), {{0, 0, 0}, from_rpy(0.1, 0.2, 0.3)});
+  const RobotView& b = scene.add_dynamic("b", Shape::cylinder(0.5, 1), {{0.9, 0.1, 0}, from_rpy(1, 0.2, 0)});
+  scene.finish_setup();
+  scene.instant();
+  const auto first = scene.contacts(a), second = scene.contacts(b);
+  ASSERT_GT(first.size(), 0u);
+  ASSERT_EQ(second.size(), first.size());
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    Contact mirrored = second[i];
+    std::swap(mirrored.self, mirrored.other);
+    std::swap(mirrored.self_shape, mirrored.other_shape);
+    mirrored.normal = -mirrored.normal;
+    expect_equal(mirrored, first[i]);
+    EXPECT_LT(first[i].normal.x(), 0);
+  }
+}
+
+TEST(CollisionNative, AKinematicRobotIsAnObstacleWhoeverComesFirst) {
+  for (const bool first : {true, false}) {
+    Touching scene;
+    const Pose beside{{0.95, 0, 0}, Quat::Identity()};
+    if (first) scene.add_kinematic("cart", Shape::sphere(0.5), beside);
+    const RobotView& r = scene.add_dynamic("ball", Shape::sphere(0.5), {});
+    if (!first) scene.add_kinematic("cart", Shape::sphere(0.5), beside);
+    scene.finish_setup();
+    scene.instant();
+    const auto contacts = scene.contacts(r);
+    ASSERT_EQ(contacts.size(), 1u);
+    EXPECT_EQ(contacts[0].other, scene.world().find_robot("cart")->base());
+    EXPECT_NEAR(contacts[0].depth, 0.05, 1e-12);
+    EXPECT_LT((contacts[0].normal - Vec3(-1, 0, 0)).norm(), 1e-12);
+  }
+}
+
+TEST(CollisionNative, ShapesOfOneRobotDoNotTouchEachOther) {
+  const Shape shapes[] = {Shape::box({1, 1, 1}), Shape::sphere(0.6)};
+  Touching scene;
+  const RobotView& r = scene.add_dynamic("double", test::tree_of([&](RobotBuilder& b) {
+                                           b.base("body");
+                                           b.set(keys::inertial, unit_inertia);
+                                           b.set_array(keys::collision_shapes, std::span<const Shape>(shapes));
+                                           b.translation({0.2, 0, 0});
+                                           b.body("head");
+                                           b.set_array(keys::collision_shapes, std::span<const Shape>(shapes));
+                                         }),
+                                         {});
+  const Shape wall = Shape::box({1, 9, 9});
+  scene.world().add_scenery("wall", {{1.15, 0, 0}, Quat::Identity()}, std::span<const Shape>(&wall, 1));
+  scene.finish_setup();
+  scene.instant();
+  const auto contacts = scene.contacts(r);
+  std::map<std::pair<ObjectId, std::uint32_t>, int> points;
+  for (const Contact& c : contacts) {
+    EXPECT_EQ(c.other, scene.world().object("wall"));
+    ++points[{c.self, c.self_shape}];
+  }
+  const ObjectId body = scene.world().object("double/body"), head = scene.world().object("double/head");
+  EXPECT_EQ(points[std::pair(head, 0u)], 4);  // face at 0.7 against the wall at 0.65
+  EXPECT_EQ(points[std::pair(head, 1u)], 1);  // sphere to 0.8
+  EXPECT_EQ(points.count(std::pair(body, 0u)) + points.count(std::pair(body, 1u)), 0u);
+}
+
+/// A crowd on a field with obstacles, and random places for it.
+struct Crowd : Touching {
+  std::vector<const RobotView*> all;
+  std::mt19937_64 engine;
+
+  explicit Crowd(double margin, unsigned seed = 1) : engine(seed) {
+    scene_parameters = {{"margin", margin}};
+    add_ground();
+    for (int i = 0; i < 20; ++i) {
+      const Shape shapes[] = {Shape::box({0.5, 1, 2}), Shape::cylinder(0.4, 1)};
+      world().add_scenery("obstacle" + std::to_string(i), place(), std::span<const Shape>(&shapes[i % 2], 1));
+    }
+    const Shape kinds[] = {Shape::box({1, 0.6, 0.4}), Shape::sphere(0.4), Shape::cylinder(0.4, 0.6),
+                           Shape::capsule(0.3, 0.6)};
+    for (int i = 0; i < 24; ++i) {
+      const std::string name = "r" + std::to_string(i);
+      all.push_back(i % 5 == 4 ? &add_kinematic(name, kinds[i % 4], {}) : &add_dynamic(name, kinds[i % 4], {}));
+    }
+    finish_setup();
+  }
+  Pose place() {
+    std::uniform_real_distribution<double> at(-2.5, 2.5), up(0, 0.5), angle(-3, 3);
+    return {{at(engine), at(engine), up(engine)}, from_rpy(angle(engine), angle(engine), angle(engine))};
+  }
+  void put(std::span<const Pose> poses) {
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      pose(*all[i]) = poses[i];
+      twist(*all[i]) = {};
+    }
+  }
+  std::vector<Contact> every_contact() {
+    std::vector<Contact> contacts_of_all;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (i % 5 != 4)
+        for (const Contact& c : contacts(*all[i])) contacts_of_all.push_back(c);
+    return contacts_of_all;
+  }
+};
+
+TEST(CollisionNative, ContactsDependOnThePosesAloneAndNotOnWhatWasBefore) {
+  Crowd travelled(0.1), wide(5), none(0);
+  for (int instant = 0; instant < 12; ++instant) {
+    std::vector<Pose> poses;
+    for (std::size_t i = 0; i < travelled.all.size(); ++i) poses.push_back(travelled.place());
+    Crowd fresh(0.1);
+    std::vector<std::vector<Contact>> results;
+    for (Crowd* crowd : {&travelled, &wide, &none, &fresh}) {
+      crowd->put(poses);
+      crowd->instant();
+      results.push_back(crowd->every_contact());
+    }
+    ASSERT_GT(results[0].size(), 50u);
+    for (const auto& result : results) {
+      ASSERT_EQ(result.size(), results[0].size());
+      for (std::size_t i = 0; i < result.size(); ++i) expect_equal(result[i], results[0][i]);
+    }
+  }
+}
+
+TEST(CollisionNative, ListsAreSortedAndFreeOfDoubles) {
+  Crowd crowd(0.1);
+  std::vector<Pose> poses;
+  for (std::size_t i = 0; i < crowd.all.size(); ++i) poses.push_back(crowd.place());
+  crowd.put(poses);
+  crowd.instant();
+  const auto pair_of = [](const Contact& c) { return std::tuple(c.self, c.other, c.self_shape, c.other_shape); };
+  for (std::size_t r = 0; r < crowd.all.size(); ++r) {
+    if (r % 5 == 4) continue;
+    const auto list = crowd.contacts(*crowd.all[r]);
+    for (std::size_t i = 1; i < list.size(); ++i) {
+      EXPECT_LE(pair_of(list[i - 1]), pair_of(list[i]));
+      for (std::size_t k = 0; k < i; ++k)
+        if (pair_of(list[i]) == pair_of(list[k])) {
+          EXPECT_NE(list[i].point, list[k].point);
+        }
+    }
+  }
+}
+
+TEST(SceneBvh, DescribesTheSceneOfTheInstant) {
+  Crowd crowd(0.1);
+  for (int instant = 0; instant < 10; ++instant) {
+    std::vector<Pose> poses;
+    for (std::size_t i = 0; i < crowd.all.size(); ++i) poses.push_back(crowd.place());
+    crowd.put(poses);
+    crowd.instant();
+    const SceneIndex& index = crowd.world().value(world_object, keys::scene_index);
+    ASSERT_EQ(index.colliders.size(), 21 + crowd.all.size());
+    ASSERT_EQ(index.robots.size(), crowd.all.size());
+    ASSERT_EQ(index.planes.size(), 1u);
+    EXPECT_EQ(index.colliders[index.planes[0]].body, crowd.world().object("ground"));
+    for (std::size_t r = 0; r < poses.size(); ++r) {
+      ASSERT_EQ(index.robots[r].count, 1u);
+      const Collider& c = index.colliders[index.robots[r].first];
+      EXPECT_EQ(c.robot, std::int32_t(r));
+      EXPECT_EQ(c.body, crowd.all[r]->base());
+      EXPECT_EQ(c.pose.position, poses[r].position);
+      const Aabb tight = bounds_of(*c.shape, poses[r]);
+      EXPECT_LT((c.bounds.low - tight.low).norm() + (c.bounds.high - tight.high).norm(), 1e-12);
+      EXPECT_EQ(index.robots[r].bounds.low, c.bounds.low);
+    }
+    std::vector<int> seen(poses.size());
+    for (const BvhNode& n : index.moving.nodes)
+      for (std::uint32_t i = 0; i < n.count; ++i) {
+        const std::uint32_t r = index.moving.items[n.first + i];
+        ++seen[r];
+        EXPECT_TRUE(n.bounds.contains(index.robots[r].bounds));
+      }
+    EXPECT_EQ(seen, std::vector<int>(poses.size(), 1));
+    EXPECT_EQ(index.scenery.items.size(), 20u);
+  }
+}
+
+TEST(SceneBvh, WarnsOfEachMeshFileOnceAndKeepsTheOtherShapes) {
+  Touching scene;
+  std::vector<std::string> lines;
+  scene.set_log([&](LogLevel level, std::string_view text) {
+    if (level == LogLevel::warning) lines.emplace_back(text);
+  });
+  Shape mesh{.kind = ShapeKind::mesh, .size = {1, 1, 1}};
+  mesh.mesh = scene.world().intern("rock.stl");
+  const Shape shapes[] = {mesh, Shape::box({1, 1, 1})};
+  for (const char* name : {"rock1", "rock2"}) scene.world().add_scenery(name, {}, std::span<const Shape>(shapes));
+  const RobotView& r = scene.add_dynamic("ball", Shape::sphere(0.2), {{0.6, 0, 0}, Quat::Identity()});
+  scene.finish_setup();
+  scene.instant();
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_NE(lines[0].find("rock.stl"), std::string::npos) << lines[0];
+  const auto contacts = scene.contacts(r);
+  ASSERT_EQ(contacts.size(), 2u);
+  for (const Contact& c : contacts) EXPECT_EQ(c.other_shape, 1u);
+}
+
+}  // namespace
+}  // namespace muro

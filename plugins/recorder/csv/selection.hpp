@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "muro/connector.hpp"
+
+namespace muro {
+
+/// A property to be recorded, bound.
+class Source {
+ public:
+  /// Binds `property`. [setup]
+  Source(Connector& connector, const FoundProperty& property, std::string name);
+
+  const std::string& name() const { return name_; }  ///< "object:property"
+  Scalar scalar() const { return scalar_; }
+  /// The titles of its columns: "object:property.x", of arrays "object:property[2].x".
+  std::vector<std::string> titles() const;
+  /// Calls `visit` with the address of each scalar, in the order of the titles.
+  template <class Visit>
+  void each(Visit visit) const {
+    if (is_sum_) {
+      const Wrench total = sum_.value();
+      return each_of(&total, 1, visit);
+    }
+    const auto* array = static_cast<const ArrayHeader*>(place_);
+    form_ == Form::array ? each_of(array->data, array->size, visit) : each_of(place_, 1, visit);
+  }
+
+ private:
+  template <class Visit>
+  void each_of(const void* first, std::uint64_t elements, Visit visit) const {
+    const auto* place = static_cast<const unsigned char*>(first);
+    const std::uint64_t scalars = elements * (labels_.empty() ? 1 : labels_.size());
+    for (std::uint64_t i = 0; i < scalars; ++i, place += size_of(scalar_)) visit(place);
+  }
+
+  std::string name_;
+  Form form_;
+  Scalar scalar_;
+  std::span<const std::string_view> labels_;
+  const void* place_ = nullptr;  ///< the value, or an ArrayHeader
+  bool is_sum_ = false;
+  SumIn<Wrench> sum_;
+};
+
+/// The properties that fit any of the patterns "object:property", in which * stands for any characters and ? for one,
+/// each property once. Without patterns: the pose of every robot's base. Throws Error when a pattern fits none.
+///
+/// A pattern with a wildcard passes over constants, over states that only their owner understands (`state.*`) and over
+/// what has no fixed columns (shapes, lists). A name without wildcards takes a constant, too; what has no fixed
+/// columns is then an error.
+std::vector<Source> select(Connector& connector, std::span<const std::string_view> patterns);
+
+}  // namespace muro

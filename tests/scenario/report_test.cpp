@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#include "host/report.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "core/error.hpp"
+#include "tests/support/files.hpp"
+#include "tests/support/scene.hpp"
+
+namespace muro::host {
+namespace {
+
+TEST(Report, AskingWhetherAFileCanBeWrittenChangesNothing) {
+  const test::ScratchFolder folder;
+  const std::string path = folder.file("report.json", "of the last run");
+  check_writable(path);
+  check_writable(folder.path("new.json"));
+  EXPECT_EQ(test::text_of(path), "of the last run");
+  EXPECT_FALSE(std::filesystem::exists(folder.path("new.json")));
+  EXPECT_FALSE(std::filesystem::exists(path + ".part"));
+  EXPECT_THROW(check_writable(folder.path("nowhere/report.json")), SetupError);
+  EXPECT_THROW(check_writable(folder.path("")), SetupError);
+}
+
+TEST(Report, APoseThatIsNoNumberIsAnError) {
+  test::Scene scene;
+  const RobotView& ball = scene.add("ball", test::single_body(Shape::sphere(0.5), {.mass = 1}));
+  scene.use("motion.point", 10, {{&ball, ball.base()}});
+  scene.build();
+  const Odometer odometer(scene);
+  odometer.check();
+  scene.pose(ball).position.x() = std::nan("");
+  try {
+    odometer.check();
+    FAIL();
+  } catch (const StepError& e) {
+    EXPECT_EQ(std::string(e.what()).rfind("the pose of robot `ball` is not a number any more at t = 0 s", 0), 0u)
+        << e.what();
+  }
+}
+
+}  // namespace
+}  // namespace muro::host
