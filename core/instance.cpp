@@ -20,7 +20,7 @@ Instance::Instance(const abi::AlgorithmEntry& entry, AlgorithmSetup setup, World
   const Kind kind = entry.description->kind;
   if (!setup_.items.front().robot && (kind == Kind::motion || kind == Kind::kinematics || kind == Kind::drive))
     throw SetupError((setup_.place.empty() ? "" : setup_.place + ": ") + setup_.name + " (" + setup_.use +
-                     ") serves robots, but none is named; use it in a robot, not for the whole scene");
+                     ") serves robots, but no robot is named; use it in a robot, not for the whole scene");
   abi::ErrorText error;
   algorithm_ = entry_.create(&error);
   require(algorithm_ != nullptr, error, "cannot be created");

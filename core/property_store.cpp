@@ -13,6 +13,7 @@ namespace muro {
 namespace {
 
 constexpr SlotId no_slot = 0xffffffffu;
+constexpr std::uint64_t first_capacity = 32;  ///< elements of a list: enough for the contacts of a vehicle at a wall
 
 bool writes(Access a) {
   return a == Access::variable || a == Access::derived || a == Access::write || a == Access::offer;
@@ -131,6 +132,7 @@ void PropertyStore::set_aside(Slot& s, Form form, std::uint32_t count) {
         ListHeader& list = lists_.emplace_back();
         list.grow = &grow_list;
         list.element_size = column.key().type->size;
+        list.grow(&list, first_capacity);
         s.place = &list;
         s.count = 0;
       }

@@ -37,7 +37,8 @@ std::string unknown_command(const CLI::App& app) {
       std::find_if(words.begin(), words.end(), [](const std::string& w) { return !w.empty() && w.front() != '-'; });
   std::string allowed;
   for (const std::string& n : names) allowed += (allowed.empty() ? "" : ", ") + n;
-  if (app.get_subcommands().empty() && words.empty()) return "muro needs a command: " + allowed + "; muro --help tells more";
+  if (app.get_subcommands().empty() && words.empty())
+    return "muro needs a command: " + allowed + "; muro --help tells more";
   if (!app.get_subcommands().empty() || word == words.end()) return "";
   return "muro has no command `" + *word + "`" + muro::did_you_mean(*word, names) + "; commands: " + allowed;
 }

@@ -2,12 +2,9 @@
 #include "host/scenario/builder.hpp"
 
 #include <algorithm>
-#include <filesystem>
-#include <set>
-#include <sstream>
 
+#include "host/scenario/algorithms.hpp"
 #include "host/scenario/body.hpp"
-#include "host/scenario/defaults.hpp"
 #include "host/scenario/placement.hpp"
 #include "host/scenario/section.hpp"
 #include "muro/nearest.hpp"
@@ -22,35 +19,19 @@ class SceneBuilder {
   SceneBuilder(BuiltScenario& out, Registry& registry)
       : out_(out),
         scenario_(out.scenario),
-        registry_(registry),
         simulation_(*out.simulation),
-        world_(simulation_.world()) {}
+        world_(simulation_.world()),
+        algorithms_(out.scenario, registry, simulation_, problems_) {}
 
   void build() {
     world_.set(world_object, keys::gravity, scenario_.gravity);
-    for (const SceneryObject& o : scenario_.objects) collecting("", [&] { add_object(o); });
+    for (const SceneryObject& o : scenario_.objects) problems_.collect("", [&] { add_object(o); });
     add_all_robots();
-    for (const Subsystem& s : scenario_.algorithms) add_to_scene(s);
-    add_kinematics();
-    add_defaults();
-    for (const auto& sequence : scenario_.sequences) add_sequence(sequence);
+    algorithms_.complete();
     problems_.check();
   }
 
  private:
-  /// Runs `work`; what it throws is told with all other problems, behind `prefix`. Returns whether it threw nothing.
-  template <class Work>
-  bool collecting(const std::string& prefix, Work work) {
-    try {
-      work();
-      return true;
-    } catch (const SetupError& e) {
-      std::istringstream lines(e.what());
-      for (std::string line; std::getline(lines, line);) problems_.add(prefix + line);
-      return false;
-    }
-  }
-
   void add_object(const SceneryObject& o) {
     const Placement& p = o.placement;
     Shape shape = o.shape;
@@ -62,7 +43,7 @@ class SceneBuilder {
     const auto poses =
         place(p, count, plane ? 0 : half.z(), std::hypot(half.x(), half.y()), scenario_.places, {}, unused, o.name);
     for (std::size_t i = 0; i < poses.size(); ++i) {
-      collecting(o.location.text() + ": ", [&] {
+      problems_.collect(o.location.text() + ": ", [&] {
         world_.add_scenery(numbered(o.name, o.counted, i), poses[i], std::span<const Shape>(&shape, 1));
       });
       if (!plane) obstacles_.push_back({poses[i], half.x(), half.y()});
@@ -90,9 +71,10 @@ class SceneBuilder {
       for (std::size_t i = 0; i < trees.size(); ++i) {
         RobotTemplate& t = scenario_.robots[i];
         if ((t.placement.form == Placement::Form::random) != random) continue;
-        if (!collecting(t.location.text() + ": robot `" + t.name + "`: ", [&] { trees[i] = model_of(t); })) continue;
+        if (!problems_.collect(t.location.text() + ": robot `" + t.name + "`: ", [&] { trees[i] = model_of(t); }))
+          continue;
         if (!t.placement.seed) t.placement.seed = scenario_.seed;
-        collecting("", [&] {
+        problems_.collect("", [&] {
           poses[i] = place(t.placement, t.count, trees[i]->standing_height(), trees[i]->footprint_radius(),
                            scenario_.places, obstacles_, footprints_, t.name);
         });
@@ -104,8 +86,8 @@ class SceneBuilder {
   void add_robots(const RobotTemplate& t, const RobotTree& tree, const std::vector<Pose>& poses) {
     for (std::size_t i = 0; i < poses.size(); ++i) {
       const RobotView* added = nullptr;
-      if (!collecting(t.location.text() + ": ",
-                      [&] { added = &world_.add_robot(numbered(t.name, t.counted, i), tree, poses[i]); }))
+      if (!problems_.collect(t.location.text() + ": ",
+                             [&] { added = &world_.add_robot(numbered(t.name, t.counted, i), tree, poses[i]); }))
         continue;
       const RobotView& robot = *added;
       world_.set(robot.base(), keys::initial_twist, Twist{t.linear_velocity, t.angular_velocity});
@@ -150,7 +132,7 @@ class SceneBuilder {
     bool moved = false;
     for (const bool sensors : {true, false})
       for (const Subsystem& s : subsystems) {
-        const Description* d = describe(s);
+        const Description* d = algorithms_.describe(s);
         if (!d) {
           moved = true;
         } else if ((d->kind == Kind::sensor) == sensors) {
@@ -186,10 +168,10 @@ class SceneBuilder {
       case Kind::sensor_error: {
         const auto sensor =
             std::find_if(others.begin(), others.end(), [&](const Subsystem& o) { return o.name == s.on; });
-        if (sensor == others.end() || !is_kind(*sensor, Kind::sensor)) {
+        if (sensor == others.end() || !algorithms_.is_kind(*sensor, Kind::sensor)) {
           std::vector<std::string> sensors;
           for (const Subsystem& o : others)
-            if (is_kind(o, Kind::sensor)) sensors.push_back(o.name);
+            if (algorithms_.is_kind(o, Kind::sensor)) sensors.push_back(o.name);
           problems_.add(
               s.on.empty() ? s.location : s.on_location,
               "`" + s.name + "` needs `on:` with the name of the sensor whose readings it changes" +
@@ -206,161 +188,19 @@ class SceneBuilder {
       default:
         if (!s.on.empty()) item.object = mount(robot, s);
     }
-    if (d.kind == Kind::kinematics) has_kinematics_.insert(robot.number);
     const bool batched = (d.promises & Promise::batched) != 0;
-    add_algorithm(s, (batched ? t.name : std::string(robot.name)) + "." + s.name, {item}, t.name + "." + s.name);
+    algorithms_.add(s, (batched ? t.name : std::string(robot.name)) + "." + s.name, {item}, t.name + "." + s.name);
     return d.kind == Kind::motion;
   }
 
-  void add_to_scene(const Subsystem& s) {
-    const Description* d = describe(s);
-    if (!d) return;
-    switch (d->kind) {
-      case Kind::motion:
-      case Kind::drive:
-      case Kind::sensor:
-      case Kind::sensor_error:
-        problems_.add(s.location, "`" + s.use + "` serves a robot; name it in a robot, not under `algorithms`");
-        break;
-      case Kind::kinematics: {
-        std::vector<Item> items;
-        for (const RobotView* r : world_.robots())
-          if (r->frames.size() > 1 && has_kinematics_.insert(r->number).second) items.push_back({r, r->base()});
-        if (!items.empty()) add_algorithm(s, s.name, std::move(items));
-        break;
-      }
-      default:
-        add_algorithm(s, s.name, {});
-    }
-  }
-
-  const Description* describe(const Subsystem& s) {
-    const Description* d = nullptr;
-    collecting(s.location.text() + ": ", [&] { d = registry_.algorithm(s.use).description; });
-    return d;
-  }
-
-  bool is_kind(const Subsystem& s, Kind kind) {
-    const Description* d = describe(s);
-    return d && d->kind == kind;
-  }
-
-  /// `alias`: another name under which sequences may call it.
-  void add_algorithm(const Subsystem& s, const std::string& name, std::vector<Item> items,
-                     const std::string& alias = "") {
-    const Description* d = describe(s);
-    for (const Name& other : s.alternatives)
-      collecting(other.location.text() + ": parameters of `" + s.name + "`: ", [&] { registry_.find(other.text); });
-    if (!d) return;
-    AlgorithmSetup setup;
-    setup.name = name;
-    setup.use = s.use;
-    setup.subsystem = s.name;
-    setup.parameters = s.parameters;
-    setup.items = std::move(items);
-    setup.place = s.location.text();
-    const std::filesystem::path file(s.location.in_file() ? s.location.file : scenario_.file);
-    setup.folder = std::filesystem::absolute(file).parent_path().string();
-    setup.phase = std::llround(s.phase.value_or(0) * 1e9);
-    const std::optional<double> rate = s.rate ? s.rate : default_rate(d->kind);
-    if (s.on_demand && !may_run_on_demand(d->kind))
-      problems_.add(s.location, "`" + s.name + "` cannot run on demand, since nobody asks a " +
-                                    std::string(name_of(d->kind)) + " for what it does; give it a `rate` in Hz");
-    else if (!s.on_demand && !rate)
-      problems_.add(s.location, "`" + s.name + "` needs a `rate` in Hz: how often `" + s.use + "` runs");
-    else if (!s.on_demand)
-      setup.rate = Rate(*rate);
-    used_.insert(s.use);
-    const Rate scheduled = setup.rate;
-    const std::int64_t phase = setup.phase;
-    const Added added{simulation_.add(std::move(setup)), scheduled, phase};
-    added_[name].push_back(added);
-    if (!alias.empty() && alias != name) added_[alias].push_back(added);
-  }
-
-  bool is_off(const char* name) const {
-    const auto& off = scenario_.switched_off;
-    return std::find(off.begin(), off.end(), name) != off.end();
-  }
-
-  /// Adds an algorithm that the scenario does not name; `reason` says in an error why it is needed.
-  void add_unnamed(const std::string& name, const std::string& use, const std::string& reason,
-                   std::vector<Item> items) {
-    Subsystem s;
-    s.name = name;
-    s.use = use;
-    s.location = {scenario_.file, 0, 0};
-    const std::string why = scenario_.file + ": " + reason + ", by default `" + use +
-                            "` (another goes under `algorithms: {" + name + ": {use: NAME}}`): ";
-    if (collecting(why, [&] { registry_.algorithm(use); })) add_algorithm(s, name, std::move(items));
-  }
-
-  void add_kinematics() {
-    if (is_off("kinematics")) return;
-    for (const RobotView* r : world_.robots())
-      if (r->frames.size() > 1 && has_kinematics_.count(r->number) == 0)
-        add_unnamed("kinematics", "kinematics.direct", "robots of several bodies need kinematics",
-                    {Item{r, r->base()}});
-  }
-
-  void add_defaults() {
-    const auto user = [&](const char* property, std::vector<std::string> Offer::*list) {
-      return std::find_if(used_.begin(), used_.end(), [&](const std::string& id) {
-        const auto& names = registry_.find(id).*list;
-        return std::find(names.begin(), names.end(), property) != names.end();
-      });
-    };
-    for (const Default& d : defaults) {
-      const auto reader = user(d.property, &Offer::reads);
-      if (is_off(d.name) || reader == used_.end() || user(d.property, &Offer::writes) != used_.end()) continue;
-      add_unnamed(d.name, d.use, "`" + *reader + "` reads `" + d.property + "`, so something must write it", {});
-    }
-  }
-
-  void add_sequence(const std::vector<Name>& sequence) {
-    std::vector<std::size_t> numbers;
-    const Added* first = nullptr;  // of those that have a rate
-    for (const Name& name : sequence) {
-      const auto known = added_.find(name.text);
-      if (known == added_.end()) {
-        std::vector<std::string> names;
-        for (const auto& [n, unused] : added_) names.push_back(n);
-        problems_.add(name.location, "no algorithm is named `" + name.text + "`" + did_you_mean(name.text, names));
-        return;
-      }
-      for (const Added& a : known->second) {
-        numbers.push_back(a.number);
-        if (a.rate.on_demand()) continue;
-        if (!first) first = &a;
-        if (a.rate == first->rate && a.phase == first->phase) continue;
-        problems_.add(
-            name.location,
-            "`" + name.text + "` has another rate or phase than what stands before it; a sequence runs at one rate");
-        return;
-      }
-    }
-    if (!numbers.empty() && !first)
-      return problems_.add(sequence.front().location,
-                           "all algorithms of the sequence run on demand; one of them needs a rate");
-    if (numbers.size() > 1) simulation_.add_sequence(std::move(numbers));
-  }
-
-  struct Added {
-    std::size_t number;
-    Rate rate;
-    std::int64_t phase;
-  };
   BuiltScenario& out_;
   Scenario& scenario_;
-  Registry& registry_;
   Simulation& simulation_;
   World& world_;
   Problems problems_;
+  Algorithms algorithms_;
   std::vector<Obstacle> obstacles_;
   std::vector<Footprint> footprints_;
-  std::set<std::string> used_;
-  std::set<std::uint32_t> has_kinematics_;
-  std::map<std::string, std::vector<Added>> added_;
 };
 
 }  // namespace

@@ -33,6 +33,13 @@ struct Node {
   std::vector<std::pair<std::string, Node>> map;  ///< in the order of writing
   std::vector<Location> key_locations;            ///< of the keys of `map`
 
+  Node();  // and what follows: out of line, since `map` holds pairs of a type that is complete only below
+  Node(const Node&);
+  Node(Node&&) noexcept;
+  Node& operator=(const Node&);
+  Node& operator=(Node&&) noexcept;
+  ~Node();
+
   const Node* find(const std::string& key) const;
   Node* find(const std::string& key);
   /// The child of that name, made empty if need be.

@@ -74,6 +74,17 @@ void Problems::add(const std::string& line) {
   if (std::find(lines_.begin(), lines_.end(), line) == lines_.end()) lines_.push_back(line);
 }
 
+bool Problems::collect(const std::string& prefix, const std::function<void()>& work) {
+  try {
+    work();
+    return true;
+  } catch (const SetupError& e) {
+    std::istringstream lines(e.what());
+    for (std::string line; std::getline(lines, line);) add(prefix + line);
+    return false;
+  }
+}
+
 void Problems::check() const {
   if (!lines_.empty()) throw SetupError(lines_);
 }

@@ -18,6 +18,8 @@ class Problems {
  public:
   void add(const Location& at, const std::string& text) { add(at.text() + ": " + text); }
   void add(const std::string& line);
+  /// Runs `work`; the lines of what it throws become problems, each behind `prefix`. Whether it threw nothing.
+  bool collect(const std::string& prefix, const std::function<void()>& work);
   bool none() const { return lines_.empty(); }
   /// Throws SetupError if there are any.
   void check() const;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "host/scenario/builder.hpp"
+#include "tests/support/files.hpp"
 #include "tests/support/scene.hpp"
 
 namespace muro::host {
@@ -15,8 +16,10 @@ const std::vector<std::string> mixed = {
     "robots.rovers.noise={use: sensor.error, on: laser, sigma: 0.005, correlation: 0.5, resolution: 0.001, dropout: 0.01}",
 };
 
-BuiltScenario open(std::uint64_t seed = 1) {
-  Scenario s = read_scenario(MURO_TEST_SOURCE_DIR "/examples/urban/urban.yaml", mixed);
+BuiltScenario open(std::uint64_t seed = 1, const std::vector<std::string>& more = {}) {
+  std::vector<std::string> overrides = mixed;
+  overrides.insert(overrides.end(), more.begin(), more.end());
+  Scenario s = read_scenario(MURO_TEST_SOURCE_DIR "/examples/urban/urban.yaml", overrides);
   s.seed = seed;
   return build(std::move(s), test::plugins());
 }
@@ -71,6 +74,32 @@ TEST(Determinism, ASnapshotGoesOnBitEqualInAnotherSimulationOfTheScenario) {
   b.simulation->restore(a.simulation->snapshot());
   a.simulation->run_for(1);
   b.simulation->run_for(1);
+  EXPECT_EQ(a.simulation->state_hash(), b.simulation->state_hash());
+}
+
+TEST(Determinism, WatchingChangesNothing) {
+  const test::ScratchFolder folder;
+  BuiltScenario alone = open();
+  BuiltScenario watched = open(1, {"algorithms.log={use: recorder.csv, rate: 37, file: " + folder.path("log.csv") +
+                                   ", properties: ['rovers_*/*:pose', 'rovers_*/laser:ranges*']}"});
+  alone.simulation->run_for(3);
+  watched.simulation->run_for(3);
+  watched.simulation->finish();
+  EXPECT_EQ(alone.simulation->state_hash(), watched.simulation->state_hash());
+  EXPECT_GT(test::text_of(folder.path("log.csv")).size(), 100'000u) << "it really watches";
+}
+
+TEST(Determinism, RefreshingPosesBetweenInstantsChangesNothing) {
+  BuiltScenario a = open(), b = open();
+  a.simulation->run_for(2);
+  for (int i = 0; i < 20; ++i) {
+    b.simulation->run_for(0.1);
+    b.simulation->refresh();
+    const World& w = b.simulation->world();
+    const Pose& base = w.value("rovers_7/base_link", keys::pose);
+    const Pose& laser = w.value("rovers_7/laser_link", keys::pose);
+    EXPECT_NEAR((laser.position - base.position).dot(base.orientation * Vec3::UnitZ()), 0.03, 1e-12);
+  }
   EXPECT_EQ(a.simulation->state_hash(), b.simulation->state_hash());
 }
 

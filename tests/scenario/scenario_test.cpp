@@ -237,7 +237,8 @@ schedule: {sequences: [[balls.motion, others.motion]]}
 )"),
                                     registry);
   std::vector<std::string> names;
-  for (const TaskId t : built.simulation->scheduler().plan_at(0)) names.push_back(built.simulation->scheduler().tasks()[t].name);
+  for (const TaskId t : built.simulation->scheduler().plan_at(0))
+    names.push_back(built.simulation->scheduler().tasks()[t].name);
   EXPECT_EQ(names, (std::vector<std::string>{"balls_0.motion", "balls_1.motion", "others.motion"}));
 }
 

@@ -47,60 +47,78 @@ struct Stiffness {
 /// Up to here, a rebound gains no energy, wherever in the step the bodies meet.
 inline constexpr double finest_step = 0.6;
 
-/// Damping of one pair of materials.
-struct Damping {
-  double ratio = 0;  ///< zeta
-  double midpoint = 0;  ///< tanh(zeta omega h): with it the midpoint rule damps a speed by exp(-2 zeta omega h), as it should
-};
+/// The spring and damper along the normal, with everything that does not change from contact to contact worked out.
+struct NormalLaw {
+  NormalLaw() = default;
+  /// `zeta`: damping ratio.
+  NormalLaw(const Stiffness& s, double zeta_, double load_) : w(s.omega), h(s.h), zeta(zeta_), load(load_) {
+    // With tanh, the midpoint rule damps a speed by exp(-2 zeta omega h), as it should.
+    const double z = std::tanh(zeta * w * h), beta = z + 0.25 * w * w * h * h, d = std::max(1 + beta, load * beta);
+    spring = w * w / d;
+    damper = (0.5 * w * w * h + 2 * z / h) / d;
+    level = 2 * zeta / w;
+    soft = w * w * (1 + beta) / d;
+  }
 
-inline Damping damping_of(double restitution, const Stiffness& s) {
-  const double ratio = damping_ratio_of(restitution);
-  return {ratio, std::tanh(ratio * s.omega * s.h)};
-}
+  /// Force, >= 0. `depth` in m; `approach`: speed at which it grows, m/s.
+  double force(double depth, double approach) const {
+    if (approach * h > depth) return force_at_meeting(depth, approach);
+    const double standing = depth + level * approach;  // where the force stands, as a depth
+    if (approach < 0 && standing < -approach * h) {
+      // They part within this step: what the spring still holds becomes speed, and no more.
+      if (standing <= 0) return 0;
+      const double held = w * w * standing * standing;
+      return held / (std::sqrt(approach * approach + held) - approach) / h * (soft / (w * w));
+    }
+    return std::max(0.0, spring * depth + damper * approach);
+  }
 
-/// Force along the normal, >= 0. `depth` in m; `approach`: speed at which it grows, m/s.
-inline double normal_force(const Stiffness& s, const Damping& damping, double load, double depth, double approach) {
-  const double w = s.omega, h = s.h;
-  const double beta = damping.midpoint + 0.25 * w * w * h * h, d = std::max(1 + beta, load * beta);
-  if (approach * h > depth) {
-    // They met within the last step, a time depth / approach ago, and came this deep without a force. The bodies get
-    // the energy that they would have, had the contact acted since then; but they do not rebound before their time.
-    const double since = h + depth / approach, z = std::tanh(damping.ratio * w * since);
-    const double late = z + 0.25 * w * w * since * since, ww = w * w * (1 + beta) / d;  // as soft as the contact is
-    const double change = -(0.5 * w * w * since + 2 * z / since) * approach / std::max(1 + late, load * late);
+ private:
+  /// They met within the last step, a time depth / approach ago, and came this deep without a force. The bodies get the
+  /// energy that they would have, had the contact acted since then; but they do not rebound before their time.
+  double force_at_meeting(double depth, double approach) const {
+    const double since = h + depth / approach, z = std::tanh(zeta * w * since), beta = z + 0.25 * w * w * since * since;
+    const double change = -(0.5 * w * w * since + 2 * z / since) * approach / std::max(1 + beta, load * beta);
     const double speed = approach + since * change, way = since * approach, dip = way + 0.5 * since * since * change;
-    const double energy = std::min(speed * speed + ww * dip * dip, approach * approach);
-    // (approach + h a)^2 + ww (way + h^2 a / 2)^2 = energy, for the acceleration a of this step
-    const double a = 1 + 0.25 * ww * h * h, half_b = approach + 0.5 * ww * h * way;
-    const double c = approach * approach + ww * way * way - energy;
+    const double energy = std::min(speed * speed + soft * dip * dip, approach * approach);
+    // (approach + h a)^2 + soft (way + h^2 a / 2)^2 = energy, for the acceleration a of this step
+    const double a = 1 + 0.25 * soft * h * h, half_b = approach + 0.5 * soft * h * way;
+    const double c = approach * approach + soft * way * way - energy;
     const double push = c / (half_b + std::sqrt(std::max(0.0, half_b * half_b - a * c)));
     return std::max(0.0, std::min(push, approach - std::min(0.0, speed)) / h);
   }
-  const double level = depth + 2 * damping.ratio / w * approach;  // where the force stands, as a depth
-  if (approach < 0 && level < -approach * h) {
-    // They part within this step: what the spring still holds becomes speed, and no more.
-    if (level <= 0) return 0;
-    const double gain = w * w * level * level / (std::sqrt(approach * approach + w * w * level * level) - approach);
-    return gain / h * (1 + beta) / d;
-  }
-  const double middle = w * w * (depth + 0.5 * h * approach) + 2 * damping.midpoint / h * approach;
-  return std::max(0.0, middle / d);
-}
 
-/// Force across the normal on the body that moves with `slip` (m/s) over the other: a spring, critically damped, stretched by
-/// what the body has slipped, until the force reaches `most` (m/s^2); from there on it slides and the spring keeps the
-/// stretch (m) that holds `most` at rest (Cundall and Strack, A discrete numerical model for granular assemblies,
-/// Geotechnique 29, 1979). The limit is a circle, so friction is the same in every direction.
-/// `stretch` includes the way of the last step.
-inline Vec3 friction_force(const Stiffness& s, double load, Vec3& stretch, const Vec3& slip, double most) {
-  const double w = s.omega, h = s.h;
-  const double beta = w * h + 0.5 * w * w * h * h, d = std::max(1 + beta, load * beta);
-  const Vec3 force = -(w * w * stretch + (2 * w + 0.5 * w * w * h) * slip) / d;
-  const double size2 = force.squaredNorm();
-  if (size2 <= most * most) return force;
-  const Vec3 limited = force * (most / std::sqrt(size2));
-  stretch = limited * (-d / (w * w));
-  return limited;
-}
+  double w = 1, h = 1, zeta = 0, load = 1;
+  double spring = 0, damper = 0;  ///< 1/s^2, 1/s
+  double level = 0;               ///< s
+  double soft = 0;                ///< 1/s^2: of the spring, as softened
+};
+
+/// The spring across the normal, critically damped. It is stretched by what a body slips on the other, until the force
+/// reaches its limit; from there on the body slides, and the spring keeps the stretch that holds the limit at rest (Cundall
+/// and Strack, A discrete numerical model for granular assemblies, Geotechnique 29, 1979). The limit is a circle, so
+/// friction is the same in every direction.
+struct FrictionLaw {
+  FrictionLaw() = default;
+  FrictionLaw(const Stiffness& s, double load) {
+    const double w = s.omega, beta = w * s.h + 0.5 * w * w * s.h * s.h, d = std::max(1 + beta, load * beta);
+    spring = w * w / d;
+    damper = (2 * w + 0.5 * w * w * s.h) / d;
+  }
+
+  /// Force on the body that moves with `slip` (m/s) over the other. `stretch` (m) includes the way of the last step;
+  /// `most`: the limit, m/s^2.
+  Vec3 force(Vec3& stretch, const Vec3& slip, double most) const {
+    const Vec3 wanted = -spring * stretch - damper * slip;
+    const double size2 = wanted.squaredNorm();
+    if (size2 <= most * most) return wanted;
+    const Vec3 limited = wanted * (most / std::sqrt(size2));
+    stretch = limited * (-1 / spring);
+    return limited;
+  }
+
+ private:
+  double spring = 1, damper = 0;  ///< 1/s^2, 1/s
+};
 
 }  // namespace muro::penalty

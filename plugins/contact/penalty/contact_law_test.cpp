@@ -9,13 +9,13 @@ namespace {
 /// A body of effective mass 1 that flies against a wall at 1 m/s and meets it at `phase` (0..1) of a step.
 /// Returns the speed with which it leaves.
 double rebound(double restitution, const Stiffness& s, double phase, double load = 1) {
-  const Damping damping = damping_of(restitution, s);
+  const NormalLaw law(s, damping_ratio_of(restitution), load);
   double x = phase * s.h, v = -1;
   bool met = false;
   for (int k = 0; k < 100000; ++k) {
     if (met && x >= 0) return v;
     met = met || x < 0;
-    const double a = x < 0 ? normal_force(s, damping, load, -x, -v) : 0;
+    const double a = x < 0 ? law.force(-x, -v) : 0;
     x += v * s.h + 0.5 * a * s.h * s.h;
     v += a * s.h;
   }
@@ -76,7 +76,7 @@ TEST(ContactLaw, NeverPulls) {
   for (const double e : {0.0, 0.5, 1.0})
     for (double v = -10; v <= 10; v += 0.37)
       for (double depth = 1e-6; depth < 0.02; depth *= 1.7)
-        for (const double load : {1.0, 10.0}) EXPECT_GE(normal_force(s, damping_of(e, s), load, depth, v), 0);
+        for (const double load : {1.0, 10.0}) EXPECT_GE(NormalLaw(s, damping_ratio_of(e), load).force(depth, v), 0);
 }
 
 TEST(ContactLaw, StaysStableUnderAnyLoad) {
@@ -84,12 +84,12 @@ TEST(ContactLaw, StaysStableUnderAnyLoad) {
   const Stiffness s{600, 1e-3};
   for (const double e : {0.0, 0.5, 0.95})
     for (const double load : {1.0, 3.0, 12.0, 100.0}) {
-      const Damping damping = damping_of(e, s);
+      const NormalLaw law(s, damping_ratio_of(e), load);
       double x = 1e-4, v = 0, greatest = 0;
       for (int k = 0; k < 20000; ++k) {
         const double offset = 1;  // a deep preload makes the contact a two-sided spring
-        const double rest = normal_force(s, damping, load, offset, 0);
-        const double a = load * (normal_force(s, damping, load, offset - x, -v) - rest);
+        const double rest = law.force(offset, 0);
+        const double a = load * (law.force(offset - x, -v) - rest);
         x += v * s.h + 0.5 * a * s.h * s.h;
         v += a * s.h;
         if (k > 19000) greatest = std::max(greatest, std::abs(x));
@@ -106,7 +106,7 @@ TEST(ContactLaw, FrictionNeverExceedsTheConeInAnyDirection) {
     Vec3 force = Vec3::Zero();
     for (int k = 0; k < 50; ++k) {
       stretch += slip * s.h;
-      force = friction_force(s, 1, stretch, slip, 5);
+      force = FrictionLaw(s, 1).force(stretch, slip, 5);
     }
     EXPECT_NEAR(force.norm(), 5, 1e-12);
     EXPECT_NEAR(force.dot(slip), -5 * 0.3, 1e-12);  // straight against the slip: a cone, no pyramid
@@ -120,7 +120,7 @@ TEST(ContactLaw, ABodyThatFrictionHoldsDoesNotCreep) {
     const Vec3 pull(3, 0, 0);  // not gravity: friction cannot foresee it
     for (int k = 0; k < 4000; ++k) {
       stretch += v * s.h;
-      const Vec3 a = pull + friction_force(s, load, stretch, v, 5);
+      const Vec3 a = pull + FrictionLaw(s, load).force(stretch, v, 5);
       x += v * s.h + 0.5 * a * s.h * s.h;
       v += a * s.h;
       if (k == 2000) middle = x;
@@ -135,7 +135,7 @@ TEST(ContactLaw, ASlidingBodyStopsAfterTheTextbookDistance) {
   Vec3 x = Vec3::Zero(), v(2, 1, 0), stretch = Vec3::Zero();
   for (int k = 0; k < 3000; ++k) {
     stretch += v * s.h;
-    const Vec3 a = friction_force(s, 1, stretch, v, 4);
+    const Vec3 a = FrictionLaw(s, 1).force(stretch, v, 4);
     x += v * s.h + 0.5 * a * s.h * s.h;
     v += a * s.h;
   }

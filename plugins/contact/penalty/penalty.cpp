@@ -71,6 +71,7 @@ class Penalty final : public Algorithm {
     for (Touch& t : touches_) share(t);
     for (Robot& r : robots_)
       if (r.placed) r.load = r.resistance.greatest(r.mobility);
+    for (Touch& t : touches_) t.friction = FrictionLaw(stiffness_, load_of(t));
     std::size_t next = 0;
     for (std::uint32_t i = 0; i < robots_.size(); ++i) next = push(i, next);
   }
@@ -111,6 +112,9 @@ class Penalty final : public Algorithm {
     std::int32_t other;            ///< in robots_, or nobody
     std::uint32_t whole;           ///< of the other
     double along = 0, across = 0;  ///< effective mass of each point, kg
+    double restitution = -1;       ///< that `normal` is for
+    NormalLaw normal{};
+    FrictionLaw friction{};
   };
 
   void connect_robot(Connector& c, const RobotView& view) {
@@ -144,7 +148,6 @@ class Penalty final : public Algorithm {
   void set_stiffness(double dt) {
     if (dt == stiffness_.h) return;
     stiffness_ = {std::min(omega_, finest_step / dt), dt};
-    restitution_ = -1;
     if (stiffness_.omega < omega_)
       host_->log(LogLevel::info, "contact.penalty: at a step of " + std::to_string(dt) + " s, contacts have " +
                                      std::to_string(stiffness_.omega / (2 * M_PI)) + " Hz instead of " +
@@ -211,12 +214,19 @@ class Penalty final : public Algorithm {
 
   static Vec3 centre_velocity(const Robot& r) { return r.twist->at(r.mobility.centre - r.base->position); }
 
-  const Damping& damping(double restitution) {
+  double load_of(const Touch& t) const {
+    return robots_[t.self].load + (t.other == nobody ? 0 : robots_[std::size_t(t.other)].load);
+  }
+
+  /// The law of a patch for a restitution; a patch rarely has two.
+  const NormalLaw& normal_law(Touch& t, double restitution) {
+    if (restitution == t.restitution) return t.normal;
     if (restitution != restitution_) {
       restitution_ = restitution;
-      damping_ = damping_of(restitution, stiffness_);
+      damping_ratio_ = damping_ratio_of(restitution);
     }
-    return damping_;
+    t.restitution = restitution;
+    return t.normal = NormalLaw(stiffness_, damping_ratio_, load_of(t));
   }
 
   /// Works out the contacts of a robot; theirs begin at `next` in touch_of_. Returns where the next robot's begin.
@@ -231,7 +241,7 @@ class Penalty final : public Algorithm {
     for (const Contact& contact : contacts) {
       const std::uint32_t place_of_touch = touch_of_[next++];
       if (place_of_touch == not_ours) continue;
-      const Touch& touch = touches_[place_of_touch];
+      Touch& touch = touches_[place_of_touch];
       const Vec3 force = force_on_self(robot, touch, contact, ours++);
       robot.wrench->add_force(force, contact.point - robot.base->position);
       if (touch.other == nobody) continue;
@@ -245,24 +255,22 @@ class Penalty final : public Algorithm {
     return next;
   }
 
-  Vec3 force_on_self(const Robot& robot, const Touch& touch, const Contact& contact, std::size_t place_in_list) {
+  Vec3 force_on_self(const Robot& robot, Touch& touch, const Contact& contact, std::size_t place_in_list) {
     const Body& self = bodies_[index_of(contact.self)];
     const Body& other = bodies_[index_of(contact.other)];
     const Vec3& n = contact.normal;
     const Vec3 motion = velocity(self, contact.point) - velocity(other, contact.point);
     const double approach = -motion.dot(n);
     const Vec3 slip = motion + approach * n;
-    const double load = robot.load + (touch.other == nobody ? 0 : robots_[std::size_t(touch.other)].load);
+    const double normal = touch.along * normal_law(touch, contact.restitution).force(contact.depth, approach);
 
-    const double normal =
-        touch.along * normal_force(stiffness_, damping(contact.restitution), load, contact.depth, approach);
     Grip grip;
     grip.pair = pair_of(self.name, other.name, contact.self_shape, contact.other_shape);
     grip.point = contact.point;
     grip.stretch = inherited(old_grips_, place_in_list, grip.pair, contact.point) + slip * elapsed_;
     grip.stretch -= n * n.dot(grip.stretch);
-    const Vec3 friction = touch.across * friction_force(stiffness_, load, grip.stretch, slip,
-                                                        contact.friction * normal / touch.across);
+    const double most = contact.friction * normal / touch.across;
+    const Vec3 friction = touch.across * touch.friction.force(grip.stretch, slip, most);
     robot.grips.push_back(grip);
     return normal * n + friction;
   }
@@ -279,8 +287,7 @@ class Penalty final : public Algorithm {
   std::vector<Touch> touches_;
   std::vector<std::uint32_t> touch_of_;    ///< one a contact, in the order of robots and lists
   std::vector<Grip> old_grips_;
-  double restitution_ = -1;                ///< that `damping_` is for
-  Damping damping_;
+  double restitution_ = -1, damping_ratio_ = 0;  ///< the last answer of damping_ratio_of
 };
 
 constexpr abi::AlgorithmEntry algorithms[] = {algorithm<Penalty>(description)};

@@ -23,10 +23,10 @@ inline Quat turned(const Quat& by, const Quat& q) {
 }
 
 /// r * v, in a form that compiles to straight code.
-inline Vec3 times(const Mat3& r, const Vec3& v) { return r.col(0) * v.x() + r.col(1) * v.y() + r.col(2) * v.z(); }
+[[gnu::always_inline]] inline Vec3 times(const Mat3& r, const Vec3& v) { return r.col(0) * v.x() + r.col(1) * v.y() + r.col(2) * v.z(); }
 
 /// A symmetric tensor in the axes of the body (r: body to world), applied to a vector in those of the world.
-inline Vec3 in_world(const Mat3& r, const Mat3& tensor, const Vec3& v) {
+[[gnu::always_inline]] inline Vec3 in_world(const Mat3& r, const Mat3& tensor, const Vec3& v) {
   return times(r, times(tensor, Vec3(r.col(0).dot(v), r.col(1).dot(v), r.col(2).dot(v))));
 }
 
@@ -38,7 +38,7 @@ inline Vec3 in_world(const Mat3& r, const Mat3& tensor, const Vec3& v) {
 /// `inertia` (kg m^2, axes of the body, about the centre of mass) is that of the start; `inverse_half` and
 /// `inverse_end` invert those of the middle and the end: the same for a rigid body. `r` is the matrix of
 /// body.orientation; returns that of the new one.
-inline Mat3 advance_rotation(RigidBody& body, const Mat3& r, const Mat3& inertia, const Mat3& inverse_half,
+[[gnu::always_inline]] inline Mat3 advance_rotation(RigidBody& body, const Mat3& r, const Mat3& inertia, const Mat3& inverse_half,
                              const Mat3& inverse_end, const Vec3& torque, double dt) {
   const Vec3 momentum = in_world(r, inertia, body.spin);
   const Mat3 halfway = (rotation_of(Vec3(body.spin * (0.5 * dt))) * body.orientation).toRotationMatrix();
@@ -50,7 +50,7 @@ inline Mat3 advance_rotation(RigidBody& body, const Mat3& r, const Mat3& inertia
 }
 
 /// Advances the centre by `dt` (s) under a constant `acceleration` (m/s^2): exact. Returns its shift (m).
-inline Vec3 advance_centre(RigidBody& body, const Vec3& acceleration, double dt) {
+[[gnu::always_inline]] inline Vec3 advance_centre(RigidBody& body, const Vec3& acceleration, double dt) {
   const Vec3 shift = body.velocity * dt + acceleration * (0.5 * dt * dt);
   body.centre += shift;
   body.velocity += acceleration * dt;

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+#include "host/scenario/algorithms.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "host/scenario/defaults.hpp"
+#include "muro/nearest.hpp"
+
+namespace muro::host {
+
+void Algorithms::complete() {
+  for (const Subsystem& s : scenario_.algorithms) add_to_scene(s);
+  add_kinematics();
+  add_defaults();
+  for (const auto& sequence : scenario_.sequences) add_sequence(sequence);
+}
+
+void Algorithms::add_to_scene(const Subsystem& s) {
+  const Description* d = describe(s);
+  if (!d) return;
+  switch (d->kind) {
+    case Kind::motion:
+    case Kind::drive:
+    case Kind::sensor:
+    case Kind::sensor_error:
+      problems_.add(s.location, "`" + s.use + "` serves a robot; name it in a robot, not under `algorithms`");
+      break;
+    case Kind::kinematics: {
+      std::vector<Item> items;
+      for (const RobotView* r : simulation_.world().robots())
+        if (r->frames.size() > 1 && has_kinematics_.count(r->number) == 0) items.push_back({r, r->base()});
+      if (!items.empty()) add(s, s.name, std::move(items));
+      break;
+    }
+    default:
+      add(s, s.name, {});
+  }
+}
+
+const Description* Algorithms::describe(const Subsystem& s) {
+  const Description* d = nullptr;
+  problems_.collect(s.location.text() + ": ", [&] { d = registry_.algorithm(s.use).description; });
+  return d;
+}
+
+bool Algorithms::is_kind(const Subsystem& s, Kind kind) {
+  const Description* d = describe(s);
+  return d && d->kind == kind;
+}
+
+void Algorithms::add(const Subsystem& s, const std::string& name, std::vector<Item> items, const std::string& alias) {
+  const Description* d = describe(s);
+  for (const Name& other : s.alternatives)
+    problems_.collect(other.location.text() + ": parameters of `" + s.name + "`: ",
+                      [&] { registry_.find(other.text); });
+  if (!d) return;
+  AlgorithmSetup setup;
+  setup.name = name;
+  setup.use = s.use;
+  setup.subsystem = s.name;
+  setup.parameters = s.parameters;
+  setup.items = std::move(items);
+  setup.place = s.location.text();
+  const std::filesystem::path file(s.location.in_file() ? s.location.file : scenario_.file);
+  setup.folder = std::filesystem::absolute(file).parent_path().string();
+  setup.phase = std::llround(s.phase.value_or(0) * 1e9);
+  const std::optional<double> rate = s.rate ? s.rate : default_rate(d->kind);
+  if (s.on_demand && !may_run_on_demand(d->kind))
+    problems_.add(s.location, "`" + s.name + "` cannot run on demand, since nobody asks a " +
+                                  std::string(name_of(d->kind)) + " for what it does; give it a `rate` in Hz");
+  else if (!s.on_demand && !rate)
+    problems_.add(s.location, "`" + s.name + "` needs a `rate` in Hz: how often `" + s.use + "` runs");
+  else if (!s.on_demand)
+    setup.rate = Rate(*rate);
+  used_.insert(s.use);
+  if (d->kind == Kind::kinematics)
+    for (const Item& item : setup.items)
+      if (item.robot) has_kinematics_.insert(item.robot->number);
+  const Rate scheduled = setup.rate;
+  const std::int64_t phase = setup.phase;
+  const Added added{simulation_.add(std::move(setup)), scheduled, phase};
+  added_[name].push_back(added);
+  if (!alias.empty() && alias != name) added_[alias].push_back(added);
+}
+
+bool Algorithms::is_off(const char* name) const {
+  const auto& off = scenario_.switched_off;
+  return std::find(off.begin(), off.end(), name) != off.end();
+}
+
+void Algorithms::add_unnamed(const std::string& name, const std::string& use, const std::string& reason,
+                             std::vector<Item> items) {
+  Subsystem s;
+  s.name = name;
+  s.use = use;
+  s.location = {scenario_.file, 0, 0};
+  const std::string why = scenario_.file + ": " + reason + ", by default `" + use +
+                          "` (another goes under `algorithms: {" + name + ": {use: NAME}}`): ";
+  if (problems_.collect(why, [&] { registry_.algorithm(use); })) add(s, name, std::move(items));
+}
+
+void Algorithms::add_kinematics() {
+  if (is_off("kinematics")) return;
+  for (const RobotView* r : simulation_.world().robots())
+    if (r->frames.size() > 1 && has_kinematics_.count(r->number) == 0)
+      add_unnamed("kinematics", "kinematics.direct", "robots of several bodies need kinematics", {Item{r, r->base()}});
+}
+
+void Algorithms::add_defaults() {
+  const auto user = [&](const char* property, std::vector<std::string> Offer::*list) {
+    return std::find_if(used_.begin(), used_.end(), [&](const std::string& id) {
+      const auto& names = registry_.find(id).*list;
+      return std::find(names.begin(), names.end(), property) != names.end();
+    });
+  };
+  for (const Default& d : defaults) {
+    const auto reader = user(d.property, &Offer::reads);
+    if (is_off(d.name) || reader == used_.end() || user(d.property, &Offer::writes) != used_.end()) continue;
+    add_unnamed(d.name, d.use, "`" + *reader + "` reads `" + d.property + "`, so something must write it", {});
+  }
+}
+
+void Algorithms::add_sequence(const std::vector<Name>& sequence) {
+  std::vector<std::size_t> numbers;
+  const Added* first = nullptr;  // of those that have a rate
+  for (const Name& name : sequence) {
+    const auto known = added_.find(name.text);
+    if (known == added_.end()) {
+      std::vector<std::string> names;
+      for (const auto& [n, unused] : added_) names.push_back(n);
+      problems_.add(name.location, "no algorithm is named `" + name.text + "`" + did_you_mean(name.text, names));
+      return;
+    }
+    for (const Added& a : known->second) {
+      numbers.push_back(a.number);
+      if (a.rate.on_demand()) continue;
+      if (!first) first = &a;
+      if (a.rate == first->rate && a.phase == first->phase) continue;
+      problems_.add(
+          name.location,
+          "`" + name.text + "` has another rate or phase than what stands before it; a sequence runs at one rate");
+      return;
+    }
+  }
+  if (!numbers.empty() && !first)
+    return problems_.add(sequence.front().location,
+                         "all algorithms of the sequence run on demand; one of them needs a rate");
+  if (numbers.size() > 1) simulation_.add_sequence(std::move(numbers));
+}
+
+}  // namespace muro::host
