@@ -12,13 +12,14 @@
 namespace muro {
 
 /// A parameter as the user gives it; numbers are taken for real and integer parameters alike.
-using ParameterInput = std::variant<bool, std::int64_t, double, std::string, std::vector<double>, std::vector<std::string>>;
+using ParameterInput =
+    std::variant<bool, std::int64_t, double, std::string, std::vector<double>, std::vector<std::string>>;
 
 /// One use of an algorithm, as a scenario or set-up code asks for it.
 struct AlgorithmSetup {
-  std::string name;  ///< "rovers.motion": used in messages and reports
-  std::string use;   ///< "motion.point"
-  Rate rate;         ///< on demand when zero
+  std::string name;        ///< "rovers.motion": used in messages and reports
+  std::string use;         ///< "motion.point"
+  Rate rate;               ///< on demand when zero
   std::int64_t phase = 0;  ///< ns
   std::map<std::string, ParameterInput> parameters;
   std::vector<Item> items;  ///< none: the world

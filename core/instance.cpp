@@ -15,7 +15,8 @@ Instance::Instance(const abi::AlgorithmEntry& entry, AlgorithmSetup setup, World
       world_(world),
       host_(host),
       parameters_(*entry.description, setup_),
-      party_(world.store().add_party(setup_.name + " (" + setup_.use + (setup_.place.empty() ? "" : ", " + setup_.place) + ")")) {
+      party_(world.store().add_party(setup_.name + " (" + setup_.use +
+                                     (setup_.place.empty() ? "" : ", " + setup_.place) + ")")) {
   if (setup_.items.empty()) setup_.items.push_back({});
   const Kind kind = entry.description->kind;
   if (!setup_.items.front().robot && (kind == Kind::motion || kind == Kind::kinematics || kind == Kind::drive))
@@ -87,7 +88,7 @@ std::span<const FoundProperty> Instance::properties(ObjectId object) const noexc
     const Slot& s = world_.store().slot(n.slot);
     const KeyInfo* key = &world_.store().key_of(s);
     if (!s.place && !s.array) continue;  // sums, and what has only been shared so far
-    if (key->name != n.key) {  // shared with a property of another name
+    if (key->name != n.key) {            // shared with a property of another name
       aliases_.push_back(*key);
       aliases_.back().name = n.key;
       key = &aliases_.back();

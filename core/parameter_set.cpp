@@ -48,13 +48,18 @@ std::string range_of(const Parameter& p) {
 
 std::string wanted(const Parameter& p) {
   switch (p.type) {
-    case ParameterType::real: return "a number" + range_of(p);
-    case ParameterType::integer: return "a whole number" + range_of(p);
-    case ParameterType::boolean: return "true or false";
+    case ParameterType::real:
+      return "a number" + range_of(p);
+    case ParameterType::integer:
+      return "a whole number" + range_of(p);
+    case ParameterType::boolean:
+      return "true or false";
     case ParameterType::reals:
       return (p.length > 0 ? "a list of " + std::to_string(p.length) + " numbers" : "a list of numbers") + range_of(p);
-    case ParameterType::texts: return "a list of texts";
-    case ParameterType::text: break;
+    case ParameterType::texts:
+      return "a list of texts";
+    case ParameterType::text:
+      break;
   }
   if (p.choices.empty()) return "a text";
   std::string all = "one of";
@@ -86,8 +91,8 @@ ParameterSet::ParameterSet(const Description& description, const AlgorithmSetup&
     if (std::find(names.begin(), names.end(), name) != names.end()) continue;
     std::string all;
     for (const std::string& n : names) all += (all.empty() ? "" : ", ") + n;
-    problems.push_back("`" + std::string(description.id) + "` has no parameter `" + name + "`" + did_you_mean(name, names) +
-                       (all.empty() ? "; it has none" : "; it has: " + all));
+    problems.push_back("`" + std::string(description.id) + "` has no parameter `" + name + "`" +
+                       did_you_mean(name, names) + (all.empty() ? "; it has none" : "; it has: " + all));
   }
   const std::string place = setup.place.empty() ? "" : setup.place + ": ";
   for (std::string& p : problems) p = place + setup.name + ": " + p;
@@ -95,10 +100,14 @@ ParameterSet::ParameterSet(const Description& description, const AlgorithmSetup&
   view_ = Parameters(values_);
 }
 
-ParameterValue ParameterSet::value_of(const Parameter& p, const ParameterInput* given, std::vector<std::string>& problems) {
-  ParameterValue v{.name = p.name, .number = p.default_number, .text = p.default_text, .reals = p.default_reals, .texts = {}};
+ParameterValue ParameterSet::value_of(const Parameter& p, const ParameterInput* given,
+                                      std::vector<std::string>& problems) {
+  ParameterValue v{
+      .name = p.name, .number = p.default_number, .text = p.default_text, .reals = p.default_reals, .texts = {}};
   if (!given) {
-    if (p.required) problems.push_back("parameter `" + std::string(p.name) + "` is missing: " + wanted(p) + " (" + std::string(p.doc) + ")");
+    if (p.required)
+      problems.push_back("parameter `" + std::string(p.name) + "` is missing: " + wanted(p) + " (" +
+                         std::string(p.doc) + ")");
     return v;
   }
   v.given = true;
@@ -149,7 +158,8 @@ ParameterValue ParameterSet::value_of(const Parameter& p, const ParameterInput* 
       break;
     }
   }
-  if (!fine) problems.push_back("parameter `" + std::string(p.name) + "` is " + shown(*given) + " but must be " + wanted(p));
+  if (!fine)
+    problems.push_back("parameter `" + std::string(p.name) + "` is " + shown(*given) + " but must be " + wanted(p));
   return v;
 }
 

@@ -9,17 +9,19 @@
 namespace muro {
 
 std::string difference(const abi::Stamp& ours, const abi::Stamp& theirs) {
-  if (std::memcmp(ours.magic, theirs.magic, sizeof ours.magic) != 0) return "its table does not begin with \"MUROPLUG\"";
+  if (std::memcmp(ours.magic, theirs.magic, sizeof ours.magic) != 0)
+    return "its table does not begin with \"MUROPLUG\"";
   std::string found;
   const auto field = [&](const char* name, std::uint32_t a, std::uint32_t b) {
     if (found.empty() && a != b)
-      found = std::string(name) + " is " + std::to_string(b) + " in the plugin and " + std::to_string(a) + " in this muro";
+      found =
+          std::string(name) + " is " + std::to_string(b) + " in the plugin and " + std::to_string(a) + " in this muro";
   };
   field("stamp_size", ours.stamp_size, theirs.stamp_size);
   field("sdk_major", ours.sdk_major, theirs.sdk_major);
   if (found.empty() && theirs.sdk_minor > ours.sdk_minor)
-    found = "sdk_minor is " + std::to_string(theirs.sdk_minor) + " in the plugin and only " + std::to_string(ours.sdk_minor) +
-            " in this muro";
+    found = "sdk_minor is " + std::to_string(theirs.sdk_minor) + " in the plugin and only " +
+            std::to_string(ours.sdk_minor) + " in this muro";
   field("pointer_size", ours.pointer_size, theirs.pointer_size);
   if (found.empty() && std::memcmp(ours.standard_library, theirs.standard_library, sizeof ours.standard_library) != 0)
     found = "standard_library is " + std::string(theirs.standard_library, strnlen(theirs.standard_library, 16)) +
@@ -36,8 +38,13 @@ std::string difference(const abi::Stamp& ours, const abi::Stamp& theirs) {
 
 namespace {
 
-/// The loader's text without the path, which the message names already.
+/// The system's words in the loader's text, without the path, which the message names already.
 std::string reason_of(std::string text, const std::string& path) {
+  const std::string before = "dlerror system message: ";
+  if (const std::size_t at = text.find(before); at != std::string::npos) {
+    text.erase(0, at + before.size());
+    text.resize(std::min(text.size(), text.rfind("): ")));
+  }
   for (std::size_t at = text.find(path); at != std::string::npos; at = text.find(path)) text.erase(at, path.size());
   const std::size_t first = text.find_first_not_of(": ");
   return first == std::string::npos ? text : text.substr(first);
@@ -56,7 +63,8 @@ const abi::PluginTable& load_plugin(const std::string& path) {
     throw SetupError("plugin " + path + " cannot be loaded: " + reason_of(e.what(), absolute.string()));
   }
   if (!library.has(abi::table_symbol))
-    throw SetupError("plugin " + path + " exports no `" + abi::table_symbol + "`: it is no muro plugin; close it with MURO_PLUGIN");
+    throw SetupError("plugin " + path + " exports no `" + abi::table_symbol +
+                     "`: it is no muro plugin; close it with MURO_PLUGIN");
   const auto& table = library.get<const abi::PluginTable>(abi::table_symbol);
   static constexpr abi::Stamp ours = abi::make_stamp();
   const std::string differs = difference(ours, table.stamp);

@@ -77,12 +77,13 @@ std::uint32_t PropertyStore::column_of(Party party, const KeyInfo& key) {
   const KeyInfo& known = columns_[it->second].key();
   const std::string parties = who(column_party_[it->second]) + " and " + who(party);
   if (!(*known.type == *key.type))
-    problems_.push_back("property `" + std::string(key.name) + "`: type " + std::string(known.type->name) + " and type " +
-                        std::string(key.type->name) + " are declared by " + parties +
+    problems_.push_back("property `" + std::string(key.name) + "`: type " + std::string(known.type->name) +
+                        " and type " + std::string(key.type->name) + " are declared by " + parties +
                         "; give the property of one of them another name");
   else if (known.unit != key.unit)
-    problems_.push_back("property `" + std::string(key.name) + "`: unit \"" + std::string(known.unit) + "\" and unit \"" +
-                        std::string(key.unit) + "\" are declared by " + parties + "; use one unit, or another name");
+    problems_.push_back("property `" + std::string(key.name) + "`: unit \"" + std::string(known.unit) +
+                        "\" and unit \"" + std::string(key.unit) + "\" are declared by " + parties +
+                        "; use one unit, or another name");
   else
     return it->second;
   columns_.emplace_back(key);  // memory of the right size, so that set-up can go on to the next problem
@@ -144,8 +145,8 @@ void PropertyStore::set_aside(Slot& s, Form form, std::uint32_t count) {
 void PropertyStore::set_constant(ObjectId object, const KeyInfo& key, const void* data, std::uint32_t count) {
   Slot& s = slots_[slot_for(setup_party, object, key)];
   if (s.kind == Slot::Class::variable || s.kind == Slot::Class::derived) {
-    problems_.push_back(where(object, key.name) + " is written by " + who(s.writer() ? s.writer()->party : setup_party) +
-                        " and cannot be a constant");
+    problems_.push_back(where(object, key.name) + " is written by " +
+                        who(s.writer() ? s.writer()->party : setup_party) + " and cannot be a constant");
     return;
   }
   const Form form = count == single_value ? Form::single : Form::array;
@@ -176,15 +177,17 @@ void PropertyStore::share(ObjectId a, const KeyInfo& key_a, ObjectId b, const Ke
   if (from == to && from != no_slot) return;
   if (from != no_slot && to != no_slot) {
     const auto fresh = [&](SlotId id) { return slots_[id].usage.empty() && !slots_[id].initialised; };
-    if (fresh(to) || (slots_[to].usage.empty() && slots_[from].usage.empty() && slots_[from].initialised &&
-                      slots_[from].count == slots_[to].count &&
-                      std::memcmp(slots_[from].place, slots_[to].place, std::size_t(slots_[to].count) * key_a.type->size) == 0)) {
+    if (fresh(to) ||
+        (slots_[to].usage.empty() && slots_[from].usage.empty() && slots_[from].initialised &&
+         slots_[from].count == slots_[to].count &&
+         std::memcmp(slots_[from].place, slots_[to].place, std::size_t(slots_[to].count) * key_a.type->size) == 0)) {
       std::swap(from, to);
     } else if (!fresh(from)) {
       std::string parties;
       for (const SlotId id : {from, to})
         for (const Slot::Usage& u : slots_[id].usage) parties += (parties.empty() ? "" : ", ") + who(u.party);
-      problems_.push_back(both + " have values of their own already" + (parties.empty() ? "" : " (bound by " + parties + ")") +
+      problems_.push_back(both + " have values of their own already" +
+                          (parties.empty() ? "" : " (bound by " + parties + ")") +
                           "; declare the sharing before algorithms connect");
       return;
     }
@@ -205,13 +208,20 @@ void PropertyStore::use(Slot& s, SlotId id, Party party, Access access) {
   bound_[party].push_back(id);
   switch (access) {
     case Access::variable:
-    case Access::input: s.kind = s.kind == Slot::Class::constant ? s.kind : Slot::Class::variable; break;
+    case Access::input:
+      s.kind = s.kind == Slot::Class::constant ? s.kind : Slot::Class::variable;
+      break;
     case Access::derived:
-    case Access::accumulate: s.kind = s.kind == Slot::Class::unknown ? Slot::Class::derived : s.kind; break;
+    case Access::accumulate:
+      s.kind = s.kind == Slot::Class::unknown ? Slot::Class::derived : s.kind;
+      break;
     case Access::write:
-    case Access::offer: s.kind = s.kind == Slot::Class::unknown ? Slot::Class::variable : s.kind; break;
+    case Access::offer:
+      s.kind = s.kind == Slot::Class::unknown ? Slot::Class::variable : s.kind;
+      break;
     case Access::read:
-    case Access::read_sum: break;
+    case Access::read_sum:
+      break;
   }
 }
 
@@ -229,16 +239,17 @@ void* PropertyStore::handle(Slot& s, Access access) {
   return s.form == Form::array ? static_cast<void*>(s.array) : s.place;
 }
 
-void* PropertyStore::bind(Party party, ObjectId object, const KeyInfo& key, Access access, Form form, std::uint32_t count,
-                          const void* initial) {
+void* PropertyStore::bind(Party party, ObjectId object, const KeyInfo& key, Access access, Form form,
+                          std::uint32_t count, const void* initial) {
   SlotId id = slot_for(party, object, key);
   Slot* s = &slots_[id];
   const bool clash = s->place && (s->form != form || (form == Form::array && count > 0 && s->count != count));
   if (clash) {
     problems_.push_back(where(object, key.name) + " is " + std::string(name_of(s->form)) +
                         (s->form == Form::array ? " of " + std::to_string(s->count) : "") + " for " +
-                        who(s->usage.empty() ? setup_party : s->usage.front().party) + " and " + std::string(name_of(form)) +
-                        (form == Form::array ? " of " + std::to_string(count) : "") + " for " + who(party));
+                        who(s->usage.empty() ? setup_party : s->usage.front().party) + " and " +
+                        std::string(name_of(form)) + (form == Form::array ? " of " + std::to_string(count) : "") +
+                        " for " + who(party));
     id = SlotId(slots_.size());
     s = &slots_.emplace_back();
     s->object = object;
@@ -263,7 +274,8 @@ void* PropertyStore::state_block(Party party, ObjectId object, std::string_view 
   const std::string& kept = texts_.emplace_back("state." + std::string(name));
   const KeyInfo key{kept, "1", &value_type<std::uint8_t>, Role::state, "state that only its owner understands"};
   const std::uint32_t whole = (std::max(size, 1u) + 63) / 64 * 64;  // so that each block begins aligned for any type
-  const auto* array = static_cast<const ArrayHeader*>(bind(party, object, key, Access::variable, Form::array, whole, nullptr));
+  const auto* array =
+      static_cast<const ArrayHeader*>(bind(party, object, key, Access::variable, Form::array, whole, nullptr));
   return array->data;
 }
 
@@ -284,7 +296,8 @@ void PropertyStore::check_slot(const Slot& s, const std::function<std::string(st
     if (u.access == Access::read && !reader) reader = &u;
     if (u.access == Access::accumulate && !adder) adder = &u;
   }
-  const auto summed = std::find_if(s.usage.begin(), s.usage.end(), [](const Slot::Usage& u) { return u.access == Access::read_sum; });
+  const auto summed =
+      std::find_if(s.usage.begin(), s.usage.end(), [](const Slot::Usage& u) { return u.access == Access::read_sum; });
   if (writer && summed != s.usage.end())
     problems.push_back(place + " is written by " + who(writer->party) + ", but " + who(summed->party) +
                        " reads the sum of contributions; the writer must add to it");
@@ -293,8 +306,8 @@ void PropertyStore::check_slot(const Slot& s, const std::function<std::string(st
                        "; all of them must add");
   if (reader && !writer && s.kind != Slot::Class::constant && !s.used_as(Access::input)) {
     const std::string help = writers_of(key.name);
-    problems.push_back(place + " (" + std::string(key.doc) + ") is read by " + who(reader->party) + ", but nothing writes it" +
-                       (help.empty() ? "" : "; add one of: " + help));
+    problems.push_back(place + " (" + std::string(key.doc) + ") is read by " + who(reader->party) +
+                       ", but nothing writes it" + (help.empty() ? "" : "; add one of: " + help));
   }
   const bool read = reader || s.used_as(Access::input);
   if (key.role == Role::command && writer && writer->access == Access::write && !read)
@@ -331,7 +344,8 @@ void PropertyStore::load(const Image& image) {
   bool same = blocks.size() == image.blocks.size() && lists_.size() == image.lists.size();
   for (std::size_t i = 0; same && i < blocks.size(); ++i) same = blocks[i].size() == image.blocks[i].size();
   if (!same) throw SetupError("the snapshot is of another simulation: its properties are not those of this one");
-  for (std::size_t i = 0; i < blocks.size(); ++i) std::memcpy(blocks[i].data(), image.blocks[i].data(), blocks[i].size());
+  for (std::size_t i = 0; i < blocks.size(); ++i)
+    std::memcpy(blocks[i].data(), image.blocks[i].data(), blocks[i].size());
   for (std::size_t k = 0; k < lists_.size(); ++k) {
     ListHeader& list = lists_[k];
     list.size = image.lists[k].size() / list.element_size;

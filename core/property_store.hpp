@@ -32,7 +32,7 @@ struct Slot {
   Form form = Form::single;
   bool initialised = false;
   std::uint32_t count = 1;
-  void* place = nullptr;       ///< the value, the first element, or the ListHeader
+  void* place = nullptr;  ///< the value, the first element, or the ListHeader
   ArrayHeader* array = nullptr;
   SumHeader* sum = nullptr;
   std::vector<void*> parts;  ///< contributions to a sum, in registration order

@@ -19,7 +19,8 @@ class Rate {
   /// From Hz, rounded to 1e-6 Hz; 0 means on demand. Throws SetupError unless 0 or from 1e-6 to 1e9.
   explicit Rate(double hertz) {
     if (hertz != 0 && !(hertz >= 1e-6 && hertz <= 1e9))
-      throw SetupError("a rate of " + std::to_string(hertz) + " Hz is not possible; allowed is 1e-6 to 1e9 Hz, or 0 for on demand");
+      throw SetupError("a rate of " + std::to_string(hertz) +
+                       " Hz is not possible; allowed is 1e-6 to 1e9 Hz, or 0 for on demand");
     microhertz_ = std::llround(hertz * 1e6);
   }
 

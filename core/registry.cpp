@@ -8,9 +8,9 @@
 #include <filesystem>
 
 #include "core/error.hpp"
-#include "muro/nearest.hpp"
 #include "core/plugin_library.hpp"
 #include "muro/describe.hpp"
+#include "muro/nearest.hpp"
 
 namespace muro {
 
@@ -89,7 +89,8 @@ void Registry::scan(const std::string& folder) {
           if (known == offers_.end())
             offers_.push_back(std::move(o));
           else if (std::size_t(known - offers_.begin()) >= before)
-            rivals_[o.id] = "`" + o.id + "` is offered by two plugins: " + known->library + " and " + o.library + "; remove one of them";
+            rivals_[o.id] = "`" + o.id + "` is offered by two plugins: " + known->library + " and " + o.library +
+                            "; remove one of them";
         }
     } catch (const std::exception& e) {
       problems_.push_back("plugin description " + file.string() + " cannot be read: " + e.what());
@@ -112,8 +113,8 @@ const Offer& Registry::find(const std::string& id) const {
     for (const std::string& f : folders_) message += " " + f;
     message += "; set MURO_PLUGIN_PATH or --plugin-path";
   } else if (!family.empty()) {
-    message += "; there are:";
-    for (const std::string& f : family) message += " " + f;
+    message += "; there are: ";
+    for (const std::string& f : family) message += (&f == family.data() ? "" : ", ") + f;
   } else {
     message += "; `muro plugins list` shows all";
   }
@@ -149,15 +150,16 @@ const abi::ReaderEntry& Registry::reader(const std::string& id) {
 
 const abi::ReaderEntry& Registry::reader_for(const std::string& path) {
   std::string extension = fs::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return char(std::tolower(c)); });
   std::string known;
   for (const Offer& o : offers_)
     for (const std::string& e : o.extensions) {
       if (e == extension) return reader(o.id);
       known += (known.empty() ? "" : ", ") + e;
     }
-  throw SetupError("no reader for models of type `" + extension + "` (" + path + "); known types: " +
-                   (known.empty() ? "none, no reader plugin was found" : known));
+  throw SetupError("no reader for models of type `" + extension + "` (" + path +
+                   "); known types: " + (known.empty() ? "none, no reader plugin was found" : known));
 }
 
 std::string Registry::writers_of(std::string_view key) const {

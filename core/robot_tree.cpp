@@ -17,8 +17,10 @@ std::string quoted(std::string_view s) { return "`" + std::string(s) + "`"; }
 bool RobotTree::started(std::string_view call) {
   if (at_.frame >= 0 && !at_.closed) return true;
   if (at_.closed) {
-    report(Severity::error, std::string(call) + " behind a fork whose two branches are closed: a fork is binary, open another in a branch", 0,
-           0);
+    report(
+        Severity::error,
+        std::string(call) + " behind a fork whose two branches are closed: a fork is binary, open another in a branch",
+        0, 0);
     return false;
   }
   report(Severity::error, std::string(call) + " before base(): a robot's tree begins with its base", 0, 0);
@@ -38,7 +40,8 @@ std::int32_t RobotTree::add_part(std::string_view name) {
   if (name.empty()) report(Severity::error, "a body or joint without a name", 0, 0);
   const auto index = std::int32_t(parts_.size());
   if (!part_index_.emplace(std::string(name), index).second)
-    report(Severity::error, "two parts are named " + quoted(name) + "; names of bodies and joints are unique in a robot", 0, 0);
+    report(Severity::error,
+           "two parts are named " + quoted(name) + "; names of bodies and joints are unique in a robot", 0, 0);
   parts_.push_back({std::string(name), {}});
   last_part_ = index;
   return index;
@@ -165,16 +168,19 @@ void RobotTree::close() {
     });
     const std::string name = quoted(parts_[std::size_t(f.joint_part)].name);
     if (it == frames_.end())
-      report(Severity::error, "joint " + name + " mimics " + quoted(f.mimic_leader) + ", which is no joint of the robot", 0, 0);
+      report(Severity::error,
+             "joint " + name + " mimics " + quoted(f.mimic_leader) + ", which is no joint of the robot", 0, 0);
     else if (!it->mimic_leader.empty())
-      report(Severity::error, "joint " + name + " mimics " + quoted(f.mimic_leader) + ", which mimics a joint itself", 0, 0);
+      report(Severity::error, "joint " + name + " mimics " + quoted(f.mimic_leader) + ", which mimics a joint itself",
+             0, 0);
     else
       f.frame.mimic = std::int32_t(it - frames_.begin());
   }
 }
 
 bool RobotTree::usable() const {
-  return std::none_of(problems_.begin(), problems_.end(), [](const Problem& p) { return p.severity == Severity::error; });
+  return std::none_of(problems_.begin(), problems_.end(),
+                      [](const Problem& p) { return p.severity == Severity::error; });
 }
 
 template <class Visit>

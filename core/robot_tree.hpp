@@ -16,7 +16,7 @@ class RobotTree final : public RobotBuilder {
   /// One block, in the order of building (depth first).
   struct Node {
     NodeKind kind;
-    std::string name;         ///< base, joints and bodies
+    std::string name;          ///< base, joints and bodies
     std::int32_t parent = -1;  ///< index of the block before it
   };
   /// A constant of a part.
@@ -82,10 +82,10 @@ class RobotTree final : public RobotBuilder {
   struct Cursor {
     std::int32_t node = -1;
     std::int32_t frame = -1;
-    Pose since;           ///< from that frame to here
+    Pose since;            ///< from that frame to here
     bool unnamed = false;  ///< the frame's joint has no body yet, and nothing lies between
-    int branches = 0;     ///< of a fork: how many are closed
-    bool closed = false;  ///< behind a fork with two closed branches: nothing may follow
+    int branches = 0;      ///< of a fork: how many are closed
+    bool closed = false;   ///< behind a fork with two closed branches: nothing may follow
   };
   Cursor at_;
   std::vector<Cursor> forks_;

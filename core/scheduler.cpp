@@ -45,7 +45,8 @@ TaskId Scheduler::add(Task task) {
 void Scheduler::add_sequence(const std::vector<TaskId>& tasks) {
   const auto timed = std::find_if(tasks.begin(), tasks.end(), [&](TaskId t) { return !tasks_[t].rate.on_demand(); });
   if (timed == tasks.end())
-    throw SetupError("the sequence that begins with `" + tasks_[tasks.front()].name + "` has no rate: all of it runs on demand");
+    throw SetupError("the sequence that begins with `" + tasks_[tasks.front()].name +
+                     "` has no rate: all of it runs on demand");
   const Task& first = tasks_[*timed];
   for (const TaskId t : tasks)
     if (!tasks_[t].rate.on_demand() && (tasks_[t].rate != first.rate || tasks_[t].phase != first.phase))
@@ -74,7 +75,8 @@ void Scheduler::prepare() {
   for (std::size_t i = 0; i < items_.size(); ++i) {
     if (items_[i].empty() || tasks_[items_[i].front()].rate.on_demand()) continue;
     const Task& t = tasks_[items_[i].front()];
-    auto g = std::find_if(groups_.begin(), groups_.end(), [&](const Group& k) { return k.rate == t.rate && k.phase == t.phase; });
+    auto g = std::find_if(groups_.begin(), groups_.end(),
+                          [&](const Group& k) { return k.rate == t.rate && k.phase == t.phase; });
     if (g == groups_.end()) {
       Group made{t.rate, t.phase, t.rate.first_from(now_ - t.phase), 0};
       made.next_time = made.rate.time_of(made.next_run) + made.phase;
@@ -198,7 +200,8 @@ void Scheduler::run_instant(const Plan& plan) {
     cost.ticks += after - before;
     before = after;
     if (!fine)
-      throw StepError(task.name + " failed at t = " + std::to_string(1e-9 * double(now_)) + " s: " + std::string(error.view()));
+      throw StepError(task.name + " failed at t = " + std::to_string(1e-9 * double(now_)) +
+                      " s: " + std::string(error.view()));
   }
 }
 
@@ -265,7 +268,8 @@ double Scheduler::seconds_per_tick() const {
 Scheduler::State Scheduler::state() const { return {now_, runs_}; }
 
 void Scheduler::set_state(const State& state) {
-  if (state.runs.size() != runs_.size()) throw SetupError("the snapshot is of another simulation: it has other algorithms");
+  if (state.runs.size() != runs_.size())
+    throw SetupError("the snapshot is of another simulation: it has other algorithms");
   now_ = state.now;
   runs_ = state.runs;
   prepared_ = false;

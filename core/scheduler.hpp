@@ -17,9 +17,9 @@ struct Task {
   std::string name;  ///< "rovers.motion"
   abi::AlgorithmInstance* instance = nullptr;
   std::uint32_t items = 0;
-  Rate rate;               ///< on demand when zero
-  std::int64_t phase = 0;  ///< ns, 0 or more
-  int order = 0;           ///< tasks of one instant run by rising order, then as added
+  Rate rate;                                 ///< on demand when zero
+  std::int64_t phase = 0;                    ///< ns, 0 or more
+  int order = 0;                             ///< tasks of one instant run by rising order, then as added
   std::vector<std::uint32_t> reads, writes;  ///< slots of the property store
 };
 using TaskId = std::uint32_t;

@@ -15,17 +15,28 @@ namespace {
 /// The order in which kinds connect: who moves things first, who looks at everything last.
 int connect_order(Kind kind) {
   switch (kind) {
-    case Kind::motion: return 0;
-    case Kind::kinematics: return 1;
-    case Kind::scene: return 2;
-    case Kind::collision: return 3;
-    case Kind::contact: return 4;
-    case Kind::drive: return 5;
-    case Kind::sensor: return 6;
-    case Kind::sensor_error: return 7;
-    case Kind::controller: return 8;
-    case Kind::recorder: return 9;
-    case Kind::view: return 10;
+    case Kind::motion:
+      return 0;
+    case Kind::kinematics:
+      return 1;
+    case Kind::scene:
+      return 2;
+    case Kind::collision:
+      return 3;
+    case Kind::contact:
+      return 4;
+    case Kind::drive:
+      return 5;
+    case Kind::sensor:
+      return 6;
+    case Kind::sensor_error:
+      return 7;
+    case Kind::controller:
+      return 8;
+    case Kind::recorder:
+      return 9;
+    case Kind::view:
+      return 10;
   }
   return 11;
 }
@@ -81,7 +92,8 @@ RobotTree Simulation::read_model(const std::string& path) {
   std::vector<std::string> problems;
   for (const RobotTree::Problem& p : tree.problems())
     if (p.severity == Severity::error)
-      problems.push_back("model " + path + (p.line > 0 ? ":" + std::to_string(p.line) + ":" + std::to_string(p.column) : "") + ": " +
+      problems.push_back("model " + path +
+                         (p.line > 0 ? ":" + std::to_string(p.line) + ":" + std::to_string(p.column) : "") + ": " +
                          p.text);
   if (!problems.empty()) throw SetupError(problems);
   return tree;
@@ -89,7 +101,8 @@ RobotTree Simulation::read_model(const std::string& path) {
 
 std::size_t Simulation::add(AlgorithmSetup setup) {
   if (setup.name.empty()) setup.name = setup.use + " #" + std::to_string(setups_.size());
-  if (setup.phase < 0) throw SetupError(setup.name + ": the phase is " + std::to_string(setup.phase) + " ns but must be 0 or more");
+  if (setup.phase < 0)
+    throw SetupError(setup.name + ": the phase is " + std::to_string(setup.phase) + " ns but must be 0 or more");
   setups_.push_back(std::move(setup));
   return setups_.size() - 1;
 }
@@ -118,8 +131,8 @@ void Simulation::merge_batched() {
   for (AlgorithmSetup& s : setups_) {
     const bool batched = (registry_.algorithm(s.use).description->promises & Promise::batched) != 0 && !s.items.empty();
     const auto same = [&](const AlgorithmSetup& m) {
-      return m.name == s.name && m.use == s.use && m.rate == s.rate && m.phase == s.phase && m.parameters == s.parameters && !m.items.empty() &&
-             m.folder == s.folder && m.subsystem == s.subsystem;
+      return m.name == s.name && m.use == s.use && m.rate == s.rate && m.phase == s.phase &&
+             m.parameters == s.parameters && !m.items.empty() && m.folder == s.folder && m.subsystem == s.subsystem;
     };
     const auto known = batched ? std::find_if(merged.begin(), merged.end(), same) : merged.end();
     if (known != merged.end()) {
@@ -132,7 +145,9 @@ void Simulation::merge_batched() {
   }
   Collected problems;
   for (AlgorithmSetup& m : merged)
-    problems.run([&] { instances_.push_back(std::make_unique<Instance>(registry_.algorithm(m.use), std::move(m), world_, *log_)); });
+    problems.run([&] {
+      instances_.push_back(std::make_unique<Instance>(registry_.algorithm(m.use), std::move(m), world_, *log_));
+    });
   problems.check();
 }
 

@@ -52,7 +52,8 @@ struct Stamp {
 #define MURO_COMPILER "gcc " __VERSION__
 #endif
 #ifndef EIGEN_MALLOC_ALREADY_ALIGNED
-#error "link the muro::sdk target (or use muro_add_plugin): it sets EIGEN_MALLOC_ALREADY_ALIGNED and EIGEN_MAX_ALIGN_BYTES"
+#error \
+    "link the muro::sdk target (or use muro_add_plugin): it sets EIGEN_MALLOC_ALREADY_ALIGNED and EIGEN_MAX_ALIGN_BYTES"
 #endif
 
 constexpr Stamp make_stamp() {

@@ -26,7 +26,8 @@ inline std::vector<double> initial_joint_positions(const Connector& connector, c
 /// The constant `inertial` of every frame; zero where there is none. [setup]
 inline std::vector<Inertia> inertias_of(const Connector& connector, const RobotView& robot) {
   std::vector<Inertia> inertias;
-  for (const Frame& f : robot.frames) inertias.push_back(connector.constant(f.object, keys::inertial).value_or(Inertia{}));
+  for (const Frame& f : robot.frames)
+    inertias.push_back(connector.constant(f.object, keys::inertial).value_or(Inertia{}));
   return inertias;
 }
 

@@ -84,10 +84,10 @@ inline std::string promises(std::uint32_t bits) {
 
 inline std::string algorithm(const AlgorithmEntry& entry) {
   const Description& d = *entry.description;
-  return "\n    {\"id\": " + quoted(d.id) + ", \"kind\": " + quoted(name_of(d.kind)) + ", \"version\": " + quoted(d.version) +
-         ",\n     \"summary\": " + quoted(d.summary) + ",\n     \"promises\": " + promises(d.promises) +
-         ",\n     \"parameters\": " + list(d.parameters, parameter) + ",\n     \"reads\": " + list(d.reads, use) +
-         ",\n     \"writes\": " + list(d.writes, use) + "}";
+  return "\n    {\"id\": " + quoted(d.id) + ", \"kind\": " + quoted(name_of(d.kind)) +
+         ", \"version\": " + quoted(d.version) + ",\n     \"summary\": " + quoted(d.summary) +
+         ",\n     \"promises\": " + promises(d.promises) + ",\n     \"parameters\": " + list(d.parameters, parameter) +
+         ",\n     \"reads\": " + list(d.reads, use) + ",\n     \"writes\": " + list(d.writes, use) + "}";
 }
 
 inline std::string reader(const ReaderEntry& entry) {
@@ -97,9 +97,10 @@ inline std::string reader(const ReaderEntry& entry) {
 }
 
 inline std::string body(const PluginTable& t) {
-  return "  \"name\": " + quoted(t.name) + ",\n  \"version\": " + quoted(t.version) + ",\n  \"licence\": " + quoted(t.licence) +
-         ",\n  \"summary\": " + quoted(t.summary) + ",\n  \"compiler\": " + quoted(t.stamp.compiler) +
-         ",\n  \"algorithms\": " + list(t.algorithms, algorithm) + ",\n  \"readers\": " + list(t.readers, reader);
+  return "  \"name\": " + quoted(t.name) + ",\n  \"version\": " + quoted(t.version) +
+         ",\n  \"licence\": " + quoted(t.licence) + ",\n  \"summary\": " + quoted(t.summary) +
+         ",\n  \"compiler\": " + quoted(t.stamp.compiler) + ",\n  \"algorithms\": " + list(t.algorithms, algorithm) +
+         ",\n  \"readers\": " + list(t.readers, reader);
 }
 
 }  // namespace detail

@@ -26,8 +26,9 @@ enum class Kind : std::uint8_t {
 /// The order of kinds within one instant t: the state of t is completed, seen, answered and recorded,
 /// then forces are found and motion carries the state to the next instant.
 constexpr int order_of(Kind kind) {
-  constexpr Kind order[] = {Kind::kinematics, Kind::scene,    Kind::sensor, Kind::sensor_error, Kind::controller, Kind::drive,
-                            Kind::recorder,   Kind::view,     Kind::collision, Kind::contact,   Kind::motion};
+  constexpr Kind order[] = {Kind::kinematics, Kind::scene,   Kind::sensor,   Kind::sensor_error,
+                            Kind::controller, Kind::drive,   Kind::recorder, Kind::view,
+                            Kind::collision,  Kind::contact, Kind::motion};
   int place = 0;
   while (order[place] != kind) ++place;
   return place;

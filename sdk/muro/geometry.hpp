@@ -15,7 +15,7 @@ using Quat = Eigen::Quaternion<double, Eigen::DontAlign>;
 
 /// Position and orientation of a child frame in a parent frame: x_parent = orientation * x_child + position.
 struct Pose {
-  Vec3 position = Vec3::Zero();        ///< m
+  Vec3 position = Vec3::Zero();         ///< m
   Quat orientation = Quat::Identity();  ///< unit quaternion
 
   /// The child point `p` (m) in the parent frame.
@@ -56,8 +56,8 @@ struct Wrench {
 
 /// Mass, centre of mass and rotational inertia about the centre of mass, in the axes of the body's frame.
 struct Inertia {
-  double mass = 0;            ///< kg
-  Vec3 com = Vec3::Zero();    ///< m
+  double mass = 0;                   ///< kg
+  Vec3 com = Vec3::Zero();           ///< m
   double ixx = 0, iyy = 0, izz = 0;  ///< kg m^2
   double ixy = 0, ixz = 0, iyz = 0;  ///< kg m^2, elements of the tensor (as in URDF)
 
@@ -67,8 +67,7 @@ struct Inertia {
     return m;
   }
   static Inertia from(double mass, const Vec3& com, const Mat3& tensor) {
-    return {mass,         com,          tensor(0, 0), tensor(1, 1), tensor(2, 2),
-            tensor(0, 1), tensor(0, 2), tensor(1, 2)};
+    return {mass, com, tensor(0, 0), tensor(1, 1), tensor(2, 2), tensor(0, 1), tensor(0, 2), tensor(1, 2)};
   }
   /// The same body described in a frame in which this body's frame has pose `pose`.
   Inertia in(const Pose& pose) const {
@@ -121,8 +120,7 @@ inline double yaw_of(const Quat& q) {
 /// Fixed-axis roll, pitch, yaw (rad), as in URDF: Rz(yaw) Ry(pitch) Rx(roll).
 inline Quat from_rpy(double roll, double pitch, double yaw) {
   using Eigen::AngleAxisd;
-  return Quat(AngleAxisd(yaw, Vec3::UnitZ()) * AngleAxisd(pitch, Vec3::UnitY()) *
-              AngleAxisd(roll, Vec3::UnitX()));
+  return Quat(AngleAxisd(yaw, Vec3::UnitZ()) * AngleAxisd(pitch, Vec3::UnitY()) * AngleAxisd(roll, Vec3::UnitX()));
 }
 
 }  // namespace muro

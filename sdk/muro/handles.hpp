@@ -60,7 +60,8 @@ class Out {
   T* place_ = nullptr;
 };
 
-/// One contribution to a property that several algorithms add to. Assign it in each step: it keeps its value until then.
+/// One contribution to a property that several algorithms add to. Assign it in each step: it keeps its value until
+/// then.
 template <class T>
 using Sum = Out<T>;
 

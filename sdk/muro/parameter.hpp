@@ -21,14 +21,14 @@ struct Parameter {
   std::string_view unit = "1";  ///< SI
   std::string_view doc{};
   bool required = false;
-  bool tunable = false;  ///< may change while the simulation runs
+  bool tunable = false;       ///< may change while the simulation runs
   double default_number = 0;  ///< real, integer, boolean (0 or 1)
   std::string_view default_text{};
   std::span<const double> default_reals{};
   double least = -std::numeric_limits<double>::infinity();  ///< allowed range, both ends included
   double most = std::numeric_limits<double>::infinity();
-  std::uint32_t length = 0;                         ///< reals: how many; 0 for any number
-  std::span<const std::string_view> choices{};        ///< text: the allowed words; empty for any
+  std::uint32_t length = 0;                     ///< reals: how many; 0 for any number
+  std::span<const std::string_view> choices{};  ///< text: the allowed words; empty for any
 
   constexpr Parameter between(double low, double high) const {
     Parameter p = *this;

@@ -26,7 +26,8 @@ struct PluginInfo {
 };
 
 constexpr abi::PluginTable plugin_table(const PluginInfo& p) {
-  return {abi::make_stamp(), sizeof(abi::PluginTable), p.name, p.version, p.licence, p.summary, p.algorithms, p.readers};
+  return {abi::make_stamp(), sizeof(abi::PluginTable), p.name, p.version, p.licence, p.summary, p.algorithms,
+          p.readers};
 }
 
 }  // namespace muro
@@ -36,6 +37,6 @@ constexpr abi::PluginTable plugin_table(const PluginInfo& p) {
 ///     constexpr muro::abi::AlgorithmEntry algorithms[] = {muro::algorithm<Point>(description)};
 ///     MURO_PLUGIN(.name = "motion_point", .version = "1.0.0", .licence = "MIT",
 ///                 .summary = "...", .algorithms = algorithms)
-#define MURO_PLUGIN(...)                                                             \
+#define MURO_PLUGIN(...)                                                                      \
   extern "C" __attribute__((visibility("default"))) const muro::abi::PluginTable muro_plugin; \
   constinit const muro::abi::PluginTable muro_plugin = muro::plugin_table(muro::PluginInfo{__VA_ARGS__});

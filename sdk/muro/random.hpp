@@ -19,8 +19,8 @@ constexpr std::uint64_t fnv1a(std::string_view text, std::uint64_t hash = 0xcbf2
 constexpr std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> counter, std::array<std::uint32_t, 2> key) {
   for (int round = 0; round < 10; ++round) {
     const std::uint64_t a = 0xD2511F53ull * counter[0], b = 0xCD9E8D57ull * counter[2];
-    counter = {std::uint32_t(b >> 32) ^ counter[1] ^ key[0], std::uint32_t(b), std::uint32_t(a >> 32) ^ counter[3] ^ key[1],
-               std::uint32_t(a)};
+    counter = {std::uint32_t(b >> 32) ^ counter[1] ^ key[0], std::uint32_t(b),
+               std::uint32_t(a >> 32) ^ counter[3] ^ key[1], std::uint32_t(a)};
     key[0] += 0x9E3779B9u;
     key[1] += 0xBB67AE85u;
   }
@@ -31,7 +31,8 @@ constexpr std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> count
 class Random {
  public:
   Random(std::uint64_t seed, std::uint64_t item_key, std::uint64_t step) : step_(step) {
-    const std::uint64_t mixed = fnv1a({reinterpret_cast<const char*>(&seed), sizeof seed}, item_key ^ 0xcbf29ce484222325ull);
+    const std::uint64_t mixed =
+        fnv1a({reinterpret_cast<const char*>(&seed), sizeof seed}, item_key ^ 0xcbf29ce484222325ull);
     key_ = {std::uint32_t(mixed), std::uint32_t(mixed >> 32)};
   }
   /// Uniform in [0, 1), 53 bits; `i` counts the draws of this step and may come in any order.

@@ -13,12 +13,12 @@ namespace muro {
 enum class NodeKind : std::uint8_t { base, fork, translation, rotation, revolute, prismatic, body };
 
 struct JointLimits {
-  double lower = -std::numeric_limits<double>::infinity();  ///< rad or m
-  double upper = std::numeric_limits<double>::infinity();   ///< rad or m
+  double lower = -std::numeric_limits<double>::infinity();    ///< rad or m
+  double upper = std::numeric_limits<double>::infinity();     ///< rad or m
   double velocity = std::numeric_limits<double>::infinity();  ///< rad/s or m/s
   double effort = std::numeric_limits<double>::infinity();    ///< N m or N
-  double damping = 0;   ///< N m s/rad or N s/m
-  double friction = 0;  ///< N m or N
+  double damping = 0;                                         ///< N m s/rad or N s/m
+  double friction = 0;                                        ///< N m or N
 };
 
 enum class JointKind : std::uint8_t { fixed, revolute, prismatic };
@@ -41,9 +41,12 @@ struct Frame {
 /// The pose of a frame in its parent's when its joint is at `position` (rad or m).
 inline Pose placed(const Frame& f, double position) {
   switch (f.joint) {
-    case JointKind::revolute: return f.origin * Pose{Vec3::Zero(), rotation_of(Vec3(f.axis * position))};
-    case JointKind::prismatic: return f.origin * Pose{f.axis * position, Quat::Identity()};
-    case JointKind::fixed: break;
+    case JointKind::revolute:
+      return f.origin * Pose{Vec3::Zero(), rotation_of(Vec3(f.axis * position))};
+    case JointKind::prismatic:
+      return f.origin * Pose{f.axis * position, Quat::Identity()};
+    case JointKind::fixed:
+      break;
   }
   return f.origin;
 }

@@ -15,9 +15,9 @@ struct Shape {
   /// capsule: radius, -, length of the straight part along z. plane: unused (normal +z through the
   /// origin, solid below). mesh: scale. All m, the scale 1.
   Vec3 size = Vec3::Zero();
-  Pose origin{};           ///< of the shape in the frame of its body
-  double friction = 0.8;   ///< Coulomb coefficient; a pair uses the geometric mean
-  double restitution = 0;  ///< 0..1 (Newton); a pair uses the larger
+  Pose origin{};                                              ///< of the shape in the frame of its body
+  double friction = 0.8;                                      ///< Coulomb coefficient; a pair uses the geometric mean
+  double restitution = 0;                                     ///< 0..1 (Newton); a pair uses the larger
   Eigen::Vector4d color = Eigen::Vector4d(0.7, 0.7, 0.7, 1);  ///< red, green, blue, alpha, 0..1
 
   static Shape box(const Vec3& lengths) { return {.kind = ShapeKind::box, .size = lengths}; }
@@ -36,12 +36,18 @@ MURO_OPAQUE_TYPE(Shape, "muro.Shape", opaque);
 /// plane, zero for a mesh (its size is known to who loads it).
 inline Vec3 half_extents(const Shape& s) {
   switch (s.kind) {
-    case ShapeKind::box: return 0.5 * s.size;
-    case ShapeKind::sphere: return Vec3::Constant(s.size.x());
-    case ShapeKind::cylinder: return {s.size.x(), s.size.x(), 0.5 * s.size.z()};
-    case ShapeKind::capsule: return {s.size.x(), s.size.x(), s.size.x() + 0.5 * s.size.z()};
-    case ShapeKind::plane: return Vec3::Constant(std::numeric_limits<double>::infinity());
-    case ShapeKind::mesh: break;
+    case ShapeKind::box:
+      return 0.5 * s.size;
+    case ShapeKind::sphere:
+      return Vec3::Constant(s.size.x());
+    case ShapeKind::cylinder:
+      return {s.size.x(), s.size.x(), 0.5 * s.size.z()};
+    case ShapeKind::capsule:
+      return {s.size.x(), s.size.x(), s.size.x() + 0.5 * s.size.z()};
+    case ShapeKind::plane:
+      return Vec3::Constant(std::numeric_limits<double>::infinity());
+    case ShapeKind::mesh:
+      break;
   }
   return Vec3::Zero();
 }

@@ -36,12 +36,16 @@ constexpr std::size_t size_of(Scalar s) {
   switch (s) {
     case Scalar::f64:
     case Scalar::i64:
-    case Scalar::u64: return 8;
+    case Scalar::u64:
+      return 8;
     case Scalar::f32:
     case Scalar::i32:
-    case Scalar::u32: return 4;
-    case Scalar::u8: return 1;
-    default: return 0;
+    case Scalar::u32:
+      return 4;
+    case Scalar::u8:
+      return 1;
+    default:
+      return 0;
   }
 }
 
@@ -64,10 +68,10 @@ inline constexpr std::string_view inertia_labels[] = {"mass", "cx",  "cy",  "cz"
                                                       "iyy",  "izz", "ixy", "ixz", "iyz"};
 }  // namespace detail
 
-#define MURO_SCALAR_TYPE(TYPE, KIND)                                       \
-  template <>                                                              \
-  struct ValueTraits<TYPE> : detail::ScalarTraits<Scalar::KIND> {          \
-    static constexpr std::string_view name = #KIND;                        \
+#define MURO_SCALAR_TYPE(TYPE, KIND)                              \
+  template <>                                                     \
+  struct ValueTraits<TYPE> : detail::ScalarTraits<Scalar::KIND> { \
+    static constexpr std::string_view name = #KIND;               \
   };
 MURO_SCALAR_TYPE(double, f64)
 MURO_SCALAR_TYPE(float, f32)
@@ -79,22 +83,22 @@ MURO_SCALAR_TYPE(std::uint8_t, u8)
 #undef MURO_SCALAR_TYPE
 
 /// Declares a value type made of equal scalars without padding.
-#define MURO_VALUE_TYPE(TYPE, NAME, KIND, LABELS)                                                   \
-  template <>                                                                                       \
-  struct ValueTraits<TYPE> {                                                                        \
-    static constexpr std::string_view name = NAME;                                                  \
-    static constexpr Scalar scalar = Scalar::KIND;                                                  \
-    static constexpr std::span<const std::string_view> labels{LABELS};                              \
-  };                                                                                                \
-  static_assert(sizeof(TYPE) == size_of(Scalar::KIND) * std::size(LABELS), "a value type has no padding")
-
-/// Declares a value type without columns (see Scalar): KIND is `opaque` or `transient`.
-#define MURO_OPAQUE_TYPE(TYPE, NAME, KIND)                             \
+#define MURO_VALUE_TYPE(TYPE, NAME, KIND, LABELS)                      \
   template <>                                                          \
   struct ValueTraits<TYPE> {                                           \
     static constexpr std::string_view name = NAME;                     \
     static constexpr Scalar scalar = Scalar::KIND;                     \
-    static constexpr std::span<const std::string_view> labels{};       \
+    static constexpr std::span<const std::string_view> labels{LABELS}; \
+  };                                                                   \
+  static_assert(sizeof(TYPE) == size_of(Scalar::KIND) * std::size(LABELS), "a value type has no padding")
+
+/// Declares a value type without columns (see Scalar): KIND is `opaque` or `transient`.
+#define MURO_OPAQUE_TYPE(TYPE, NAME, KIND)                       \
+  template <>                                                    \
+  struct ValueTraits<TYPE> {                                     \
+    static constexpr std::string_view name = NAME;               \
+    static constexpr Scalar scalar = Scalar::KIND;               \
+    static constexpr std::span<const std::string_view> labels{}; \
   }
 
 MURO_VALUE_TYPE(Vec3, "muro.Vec3", f64, detail::xyz_labels);

@@ -26,15 +26,17 @@ inline constexpr Key<double> joint_position{"joint.position", "rad or m", "along
 inline constexpr Key<double> initial_joint_position{"joint.position.initial", "rad or m", "at the start"};
 inline constexpr Key<double> joint_velocity{"joint.velocity", "rad/s or m/s", "along the axis"};
 inline constexpr Key<double> joint_effort{"joint.effort", "N m or N", "what the drive applies along the axis"};
-inline constexpr Key<double> joint_position_target{"joint.position.target", "rad or m", "wanted position", Role::command};
-inline constexpr Key<double> joint_velocity_target{"joint.velocity.target", "rad/s or m/s", "wanted velocity", Role::command};
-inline constexpr Key<double> joint_acceleration_target{"joint.acceleration.target", "rad/s^2 or m/s^2", "wanted acceleration",
-                                                       Role::command};
+inline constexpr Key<double> joint_position_target{"joint.position.target", "rad or m", "wanted position",
+                                                   Role::command};
+inline constexpr Key<double> joint_velocity_target{"joint.velocity.target", "rad/s or m/s", "wanted velocity",
+                                                   Role::command};
+inline constexpr Key<double> joint_acceleration_target{"joint.acceleration.target", "rad/s^2 or m/s^2",
+                                                       "wanted acceleration", Role::command};
 inline constexpr Key<double> joint_effort_target{"joint.effort.target", "N m or N", "wanted effort", Role::command};
 
 // Commands to a whole robot: properties of its base.
-inline constexpr Key<Twist> command_twist{"command.twist", "m/s, rad/s", "wanted velocity of the base, axes of the base",
-                                          Role::command};
+inline constexpr Key<Twist> command_twist{"command.twist", "m/s, rad/s",
+                                          "wanted velocity of the base, axes of the base", Role::command};
 inline constexpr Key<Pose> command_pose{"command.pose", "m", "wanted pose of the base in the world", Role::command};
 
 // The scene.
@@ -42,11 +44,13 @@ inline constexpr Key<SceneIndex> scene_index{"scene.index", "m", "on the world o
 inline constexpr Key<Contact> contacts{"contacts", "m", "list on the base of a robot: where it touches"};
 
 // Sensors: properties of the sensor's object, whose pose is that of the link it is mounted on.
-inline constexpr Key<Pose> sensor_origin{"sensor.origin", "m", "of the device's frame in the frame of the sensor's object"};
+inline constexpr Key<Pose> sensor_origin{"sensor.origin", "m",
+                                         "of the device's frame in the frame of the sensor's object"};
 
 // Laser scanners: properties of the sensor's object. Angles are counter-clockwise about z, 0 along x.
 inline constexpr Key<double> laser_min_angle{"laser.min_angle", "rad", "direction of the first ray of a row"};
-inline constexpr Key<double> laser_angle_increment{"laser.angle_increment", "rad", "between neighbouring rays of a row"};
+inline constexpr Key<double> laser_angle_increment{"laser.angle_increment", "rad",
+                                                   "between neighbouring rays of a row"};
 inline constexpr Key<std::uint32_t> laser_columns{"laser.columns", "1", "rays in a row"};
 inline constexpr Key<std::uint32_t> laser_rows{"laser.rows", "1", "rows; rays are stored row by row from below"};
 inline constexpr Key<double> laser_min_range{"laser.min_range", "m", "nothing nearer is seen"};

@@ -33,9 +33,11 @@ std::string machine() {
 
 /// Without lasers nothing can steer, so the vehicles are told once where to drive.
 Row measure(const std::string& motion, int vehicles, bool laser) {
-  std::vector<std::string> overrides = {"robots.rovers.count=" + std::to_string(vehicles), "robots.rovers.motion.use=" + motion};
+  std::vector<std::string> overrides = {"robots.rovers.count=" + std::to_string(vehicles),
+                                        "robots.rovers.motion.use=" + motion};
   if (!laser) overrides.insert(overrides.end(), {"robots.rovers.laser=off", "robots.rovers.control=off"});
-  const auto built = host::build(host::read_scenario(MURO_TEST_SOURCE_DIR "/examples/urban/urban.yaml", overrides), test::plugins());
+  const auto built =
+      host::build(host::read_scenario(MURO_TEST_SOURCE_DIR "/examples/urban/urban.yaml", overrides), test::plugins());
   Simulation& s = *built.simulation;
   if (!laser)
     for (const RobotView* r : s.world().robots())
@@ -60,15 +62,21 @@ Row measure(const std::string& motion, int vehicles, bool laser) {
 int main(int argc, char** argv) {
   nlohmann::ordered_json out = {{"machine", machine()}, {"command", "./dev bench team"}, {"threads", 1}};
   fmt::print("{}; one thread; ./dev bench team\n\n", machine());
-  fmt::print("| motion | lasers (682 rays, 10 Hz) | vehicles | times real time | vehicles in real time | m driven each |\n|---|---|---|---|---|---|\n");
+  fmt::print(
+      "| motion | lasers (682 rays, 10 Hz) | vehicles | times real time | vehicles in real time | m driven each "
+      "|\n|---|---|---|---|---|---|\n");
   for (const char* motion : {"motion.simplified", "motion.differential_drive", "motion.point"})
     for (const bool laser : {false, true})
       for (const int vehicles : {20, 100}) {
         const Row r = measure(motion, vehicles, laser);
-        fmt::print("| {} | {} | {} | {:.2f} | {:.0f} | {:.1f} |\n", r.motion, r.laser ? "yes" : "no", r.vehicles, r.factor,
-                   r.factor * r.vehicles, r.distance);
+        fmt::print("| {} | {} | {} | {:.2f} | {:.0f} | {:.1f} |\n", r.motion, r.laser ? "yes" : "no", r.vehicles,
+                   r.factor, r.factor * r.vehicles, r.distance);
         std::fflush(stdout);
-        out["rows"].push_back({{"motion", r.motion}, {"lasers", r.laser}, {"vehicles", r.vehicles}, {"real_time_factor", r.factor}, {"driven_m", r.distance}});
+        out["rows"].push_back({{"motion", r.motion},
+                               {"lasers", r.laser},
+                               {"vehicles", r.vehicles},
+                               {"real_time_factor", r.factor},
+                               {"driven_m", r.distance}});
       }
   fmt::print("\nThe paper (2008): 20 vehicles in real time on one core of 1.67 GHz, without lasers.\n");
   if (argc > 1) host::write_file(argv[1], out.dump(2) + "\n");

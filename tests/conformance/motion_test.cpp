@@ -51,11 +51,12 @@ TEST_P(EveryMotion, KeepsOrientationsUnitAndAllValuesFinite) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Conformance, EveryMotion, ::testing::ValuesIn(test::algorithms_of("motion")), [](const auto& test) {
-  std::string name = test.param;
-  std::replace(name.begin(), name.end(), '.', '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Conformance, EveryMotion, ::testing::ValuesIn(test::algorithms_of("motion")),
+                         [](const auto& test) {
+                           std::string name = test.param;
+                           std::replace(name.begin(), name.end(), '.', '_');
+                           return name;
+                         });
 
 }  // namespace
 }  // namespace muro

@@ -52,11 +52,12 @@ TEST_P(EveryMotionsTeam, AllocatesNothingInAStepOnceWarm) {
 #endif
 }
 
-INSTANTIATE_TEST_SUITE_P(Conformance, EveryMotionsTeam, ::testing::ValuesIn(test::algorithms_of("motion")), [](const auto& test) {
-  std::string name = test.param;
-  std::replace(name.begin(), name.end(), '.', '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Conformance, EveryMotionsTeam, ::testing::ValuesIn(test::algorithms_of("motion")),
+                         [](const auto& test) {
+                           std::string name = test.param;
+                           std::replace(name.begin(), name.end(), '.', '_');
+                           return name;
+                         });
 
 /// Steps every batched algorithm once in one piece and once item by item, from the same state.
 TEST(BatchedAlgorithms, GiveTheSameBitsItemByItemAsInOnePiece) {

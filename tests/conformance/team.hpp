@@ -24,15 +24,18 @@ struct Team : Scene {
     add_ground();
     const Shape block = Shape::box({1, 1, 1});
     for (int i = 0; i < 4; ++i)
-      world().add_scenery("block_" + std::to_string(i), {{3.0 * i, 1.5, 0.5}, Quat::Identity()}, std::span<const Shape>(&block, 1));
+      world().add_scenery("block_" + std::to_string(i), {{3.0 * i, 1.5, 0.5}, Quat::Identity()},
+                          std::span<const Shape>(&block, 1));
     const RobotTree model = read_model(MURO_TEST_SOURCE_DIR "/examples/models/rover.urdf");
     for (int i = 0; i < count; ++i)
-      rovers.push_back(&add("rover_" + std::to_string(i), model, {{1.5 * i, 0, model.standing_height()}, from_rpy(0, 0, 0.3 * i)}));
+      rovers.push_back(
+          &add("rover_" + std::to_string(i), model, {{1.5 * i, 0, model.standing_height()}, from_rpy(0, 0, 0.3 * i)}));
     use(motion, 1000, all_robots());
     use("drive.skid_steer", 0, all_robots());
     use_contacts();
     std::vector<Item> sensors;
-    for (const RobotView* r : rovers) sensors.push_back({r, add_sensor_object(*r, "laser", world().object(std::string(r->name) + "/laser_link"))});
+    for (const RobotView* r : rovers)
+      sensors.push_back({r, add_sensor_object(*r, "laser", world().object(std::string(r->name) + "/laser_link"))});
     use("laser.raycast", 10, sensors, {{"rays", std::int64_t(181)}, {"max_range", 5.6}});
     use("sensor.error", 0, sensors, {{"sigma", 0.01}, {"correlation", 0.5}});
     build();

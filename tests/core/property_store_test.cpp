@@ -84,7 +84,8 @@ TEST_F(PropertyStoreTest, SharingTwoWrittenPropertiesIsAnError) {
   bind(reader, b, speed, Access::variable);
   store.share(a, speed, b, speed);
   EXPECT_EQ(problems(),
-            "`a:speed` and `b:speed` have values of their own already (bound by a.motion (motion.x), b.laser (laser.y)); declare the "
+            "`a:speed` and `b:speed` have values of their own already (bound by a.motion (motion.x), b.laser "
+            "(laser.y)); declare the "
             "sharing before algorithms connect");
 }
 
@@ -98,7 +99,8 @@ TEST_F(PropertyStoreTest, TwoWritersOfASharedPropertyAreNamed) {
   store.share(a, speed, b, speed);
   bind(writer, a, speed, Access::variable);
   bind(reader, b, speed, Access::variable);
-  EXPECT_NE(problems().find("has two writers: a.motion (motion.x) and b.laser (laser.y); only one algorithm may write a property"),
+  EXPECT_NE(problems().find(
+                "has two writers: a.motion (motion.x) and b.laser (laser.y); only one algorithm may write a property"),
             std::string::npos);
 }
 
@@ -113,7 +115,8 @@ TEST_F(PropertyStoreTest, ACommandThatNobodyUsesIsAnErrorUnlessItIsAnOffer) {
   EXPECT_EQ(problems(), "");
   bind(writer, b, wish, Access::write);
   EXPECT_EQ(problems(),
-            "`b:wish` (wanted speed) is commanded by a.motion (motion.x), but nothing that moves `b` uses this command; choose another "
+            "`b:wish` (wanted speed) is commanded by a.motion (motion.x), but nothing that moves `b` uses this "
+            "command; choose another "
             "motion algorithm, or add a drive");
   bind(reader, b, wish, Access::input);
   EXPECT_EQ(problems(), "");
@@ -123,18 +126,22 @@ TEST_F(PropertyStoreTest, UnitsAndTypesAreComparedAndBothSidesNamed) {
   bind(writer, a, speed, Access::variable);
   bind(reader, a, speed_in_knots, Access::read);
   bind(reader, a, speed_as_float, Access::read);
-  EXPECT_NE(problems().find("property `speed`: unit \"m/s\" and unit \"kn\" are declared by a.motion (motion.x) and b.laser (laser.y); "
-                            "use one unit, or another name\nproperty `speed`: type f64 and type f32 are declared by a.motion (motion.x) and "
-                            "b.laser (laser.y); give the property of one of them another name"),
-            std::string::npos)
+  EXPECT_NE(
+      problems().find(
+          "property `speed`: unit \"m/s\" and unit \"kn\" are declared by a.motion (motion.x) and b.laser (laser.y); "
+          "use one unit, or another name\nproperty `speed`: type f64 and type f32 are declared by a.motion (motion.x) "
+          "and "
+          "b.laser (laser.y); give the property of one of them another name"),
+      std::string::npos)
       << problems();
 }
 
 TEST_F(PropertyStoreTest, LengthsOfArraysAreCompared) {
   store.bind(writer, a, speed, Access::variable, Form::array, 3, nullptr);
   store.bind(reader, a, speed, Access::read, Form::array, 4, nullptr);
-  EXPECT_NE(problems().find("`a:speed` is an array of 3 for a.motion (motion.x) and an array of 4 for b.laser (laser.y)"),
-            std::string::npos);
+  EXPECT_NE(
+      problems().find("`a:speed` is an array of 3 for a.motion (motion.x) and an array of 4 for b.laser (laser.y)"),
+      std::string::npos);
 }
 
 TEST_F(PropertyStoreTest, AReaderOfAnArrayMayComeBeforeItsWriter) {
@@ -159,8 +166,9 @@ TEST_F(PropertyStoreTest, ASumAddsTheSlotsOfAllWhoContribute) {
 TEST_F(PropertyStoreTest, AddingToWhatAnotherWritesIsAnError) {
   bind(writer, a, keys::external_wrench, Access::variable);
   store.bind(reader, a, keys::external_wrench, Access::accumulate, Form::single, 1, nullptr);
-  EXPECT_NE(problems().find("is written by a.motion (motion.x) and added to by b.laser (laser.y); all of them must add"),
-            std::string::npos);
+  EXPECT_NE(
+      problems().find("is written by a.motion (motion.x) and added to by b.laser (laser.y); all of them must add"),
+      std::string::npos);
 }
 
 TEST_F(PropertyStoreTest, WritingAConstantIsAnError) {
@@ -173,7 +181,8 @@ TEST_F(PropertyStoreTest, WritingAConstantIsAnError) {
 TEST_F(PropertyStoreTest, ASumThatSomebodyWritesIsAnError) {
   bind(writer, a, keys::external_wrench, Access::variable);
   store.bind(reader, a, keys::external_wrench, Access::read_sum, Form::single, 1, nullptr);
-  EXPECT_NE(problems().find("is written by a.motion (motion.x), but b.laser (laser.y) reads the sum of contributions"), std::string::npos);
+  EXPECT_NE(problems().find("is written by a.motion (motion.x), but b.laser (laser.y) reads the sum of contributions"),
+            std::string::npos);
 }
 
 TEST_F(PropertyStoreTest, EmptyAndReplacedConstantsAreWhatWasSetLast) {

@@ -15,7 +15,8 @@ TEST(Rate, RunsAtTheFloorOfTheExactTimeWithoutDrift) {
 }
 
 TEST(Rate, RefusesWhatCannotBeARate) {
-  for (const double wrong : {-5.0, 1e-7, 1e10, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
+  for (const double wrong :
+       {-5.0, 1e-7, 1e10, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
     EXPECT_THROW(Rate{wrong}, SetupError) << wrong;
   EXPECT_TRUE(Rate(0).on_demand());
 }

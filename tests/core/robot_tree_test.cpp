@@ -63,7 +63,8 @@ TEST(RobotTree, FlattensToFramesWithFoldedTransforms) {
   EXPECT_EQ(robot.frames[2].mimic_multiplier, -1);
   EXPECT_EQ(world.object_name(robot.frames[3].object), "cart/mast");
   EXPECT_EQ(robot.frames[3].joint, JointKind::fixed);
-  EXPECT_EQ(world.object_name(robot.frames[4].object), "cart/slider_frame") << "a joint without a body has a frame of its own";
+  EXPECT_EQ(world.object_name(robot.frames[4].object), "cart/slider_frame")
+      << "a joint without a body has a frame of its own";
   EXPECT_EQ(world.object_name(robot.frames[5].object), "cart/hand");
   EXPECT_EQ(robot.frames[5].parent, 4);
   // mast turned by 90 degrees: its x axis is the cart's y axis
@@ -98,7 +99,8 @@ TEST(RobotTree, ForksAreBinary) {
   tree.body("c");
   tree.close();
   ASSERT_EQ(tree.problems().size(), 1u);
-  EXPECT_EQ(tree.problems()[0].text, "body() behind a fork whose two branches are closed: a fork is binary, open another in a branch");
+  EXPECT_EQ(tree.problems()[0].text,
+            "body() behind a fork whose two branches are closed: a fork is binary, open another in a branch");
 }
 
 TEST(RobotTree, CollectsEveryMisuse) {
@@ -115,12 +117,12 @@ TEST(RobotTree, CollectsEveryMisuse) {
   tree.close();
   std::vector<std::string> texts;
   for (const auto& p : tree.problems()) texts.push_back(p.text);
-  EXPECT_EQ(texts, (std::vector<std::string>{"body() before base(): a robot's tree begins with its base",
-                                             "a second base `again`; a robot has one", "end() without a fork() that is open",
-                                             "joint `j`: the axis has no direction",
-                                             "two parts are named `base`; names of bodies and joints are unique in a robot",
-                                             "1 fork() without two end()",
-                                             "joint `k` mimics `nobody`, which is no joint of the robot"}));
+  EXPECT_EQ(texts,
+            (std::vector<std::string>{
+                "body() before base(): a robot's tree begins with its base", "a second base `again`; a robot has one",
+                "end() without a fork() that is open", "joint `j`: the axis has no direction",
+                "two parts are named `base`; names of bodies and joints are unique in a robot",
+                "1 fork() without two end()", "joint `k` mimics `nobody`, which is no joint of the robot"}));
   EXPECT_FALSE(tree.usable());
 }
 

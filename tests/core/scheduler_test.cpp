@@ -38,8 +38,8 @@ struct Fixture : ::testing::Test {
   std::deque<Recorder> recorders;
   Scheduler scheduler;
 
-  TaskId add(const std::string& name, double hertz, int order = 0, std::int64_t phase = 0, std::vector<std::uint32_t> reads = {},
-             std::vector<std::uint32_t> writes = {}) {
+  TaskId add(const std::string& name, double hertz, int order = 0, std::int64_t phase = 0,
+             std::vector<std::uint32_t> reads = {}, std::vector<std::uint32_t> writes = {}) {
     recorders.emplace_back(name, log);
     return scheduler.add({name, &recorders.back(), 1, Rate(hertz), phase, order, std::move(reads), std::move(writes)});
   }
@@ -76,8 +76,8 @@ TEST_F(SchedulerTest, OnDemandRunsOnceAnInstantJustBeforeItsFirstReader) {
   add("second laser", 5, 2, 0, {3}, {6});
   add("motion", 10, 9, 0, {5}, {1});
   scheduler.run_until(250'000'000);
-  EXPECT_EQ(log, (Log{"kinematics@0", "index@0", "laser@0", "second laser@0", "motion@0", "motion@100", "kinematics@200", "index@200",
-                      "laser@200", "second laser@200", "motion@200"}));
+  EXPECT_EQ(log, (Log{"kinematics@0", "index@0", "laser@0", "second laser@0", "motion@0", "motion@100",
+                      "kinematics@200", "index@200", "laser@200", "second laser@200", "motion@200"}));
   EXPECT_DOUBLE_EQ(recorders[1].last.dt, 0.2) << "the period of the reader that asks";
 }
 
@@ -88,7 +88,8 @@ TEST_F(SchedulerTest, ASequenceKeepsItsOwnOrderAndGivesItsRateToTasksOnDemand) {
   add("laser", 10, 2);
   scheduler.add_sequence({contact, motion, collision});
   scheduler.run_until(150'000'000);
-  EXPECT_EQ(log, (Log{"laser@0", "contact@0", "motion@0", "collision@0", "laser@100", "contact@100", "motion@100", "collision@100"}));
+  EXPECT_EQ(log, (Log{"laser@0", "contact@0", "motion@0", "collision@0", "laser@100", "contact@100", "motion@100",
+                      "collision@100"}));
 }
 
 TEST_F(SchedulerTest, ASequenceOfDifferentRatesOrOfNoneIsAnError) {

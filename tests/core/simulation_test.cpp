@@ -73,7 +73,8 @@ TEST(Simulation, NamesTheNearestAlgorithm) {
     s.build();
     FAIL();
   } catch (const SetupError& e) {
-    EXPECT_NE(std::string(e.what()).find("no plugin offers `motion.pont` (did you mean `motion.point`?)"), std::string::npos)
+    EXPECT_NE(std::string(e.what()).find("no plugin offers `motion.pont` (did you mean `motion.point`?)"),
+              std::string::npos)
         << e.what();
   }
 }
@@ -82,17 +83,21 @@ TEST(Simulation, ChecksParametersAgainstTheDescription) {
   test::Scene s;
   s.add("box", box());
   s.use("motion.point", 10, s.all_robots(),
-        {{"max_sped", 1.0}, {"max_turn_rate", -1.0}, {"mode", std::string("fly")}, {"max_acceleration", std::string("big")}});
+        {{"max_sped", 1.0},
+         {"max_turn_rate", -1.0},
+         {"mode", std::string("fly")},
+         {"max_acceleration", std::string("big")}});
   try {
     s.build();
     FAIL();
   } catch (const SetupError& e) {
-    EXPECT_STREQ(e.what(),
-                 "motion.point #0: parameter `mode` is \"fly\" but must be one of velocity pose\n"
-                 "motion.point #0: parameter `max_turn_rate` is -1 but must be a number from 0 to 1e+09 rad/s\n"
-                 "motion.point #0: parameter `max_acceleration` is \"big\" but must be a number from 0 to 1e+09 m/s^2\n"
-                 "motion.point #0: `motion.point` has no parameter `max_sped` (did you mean `max_speed`?); it has: mode, "
-                 "max_speed, max_turn_rate, max_acceleration, max_turn_acceleration");
+    EXPECT_STREQ(
+        e.what(),
+        "motion.point #0: parameter `mode` is \"fly\" but must be one of velocity pose\n"
+        "motion.point #0: parameter `max_turn_rate` is -1 but must be a number from 0 to 1e+09 rad/s\n"
+        "motion.point #0: parameter `max_acceleration` is \"big\" but must be a number from 0 to 1e+09 m/s^2\n"
+        "motion.point #0: `motion.point` has no parameter `max_sped` (did you mean `max_speed`?); it has: mode, "
+        "max_speed, max_turn_rate, max_acceleration, max_turn_acceleration");
   }
 }
 
@@ -105,8 +110,9 @@ TEST(Simulation, TwoMotionsOfOneRobotAreTwoWriters) {
     s.build();
     FAIL();
   } catch (const SetupError& e) {
-    EXPECT_NE(std::string(e.what()).find("`box/body:pose` has two writers: motion.point #0 (motion.point) and motion.point #1 "
-                                         "(motion.point); only one algorithm may write a property"),
+    EXPECT_NE(std::string(e.what()).find(
+                  "`box/body:pose` has two writers: motion.point #0 (motion.point) and motion.point #1 "
+                  "(motion.point); only one algorithm may write a property"),
               std::string::npos)
         << e.what();
   }

@@ -13,7 +13,8 @@ const std::vector<std::string> mixed = {
     "robots.rovers.count=12",
     "robots.rovers[0-2].motion.use=motion.differential_drive",
     "robots.rovers[3-4].motion.use=motion.point",
-    "robots.rovers.noise={use: sensor.error, on: laser, sigma: 0.005, correlation: 0.5, resolution: 0.001, dropout: 0.01}",
+    "robots.rovers.noise={use: sensor.error, on: laser, sigma: 0.005, correlation: 0.5, resolution: 0.001, dropout: "
+    "0.01}",
 };
 
 BuiltScenario open(std::uint64_t seed = 1, const std::vector<std::string>& more = {}) {

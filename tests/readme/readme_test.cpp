@@ -15,7 +15,8 @@ using test::text_of;
 
 const std::string root = MURO_TEST_SOURCE_DIR "/";
 const std::string readme = text_of(root + "README.md");
-const std::string muro_program = std::string("cd " MURO_TEST_SOURCE_DIR " && MURO_PLUGIN_PATH=" MURO_TEST_PLUGIN_DIR " ") + MURO_PROGRAM;
+const std::string muro_program =
+    std::string("cd " MURO_TEST_SOURCE_DIR " && MURO_PLUGIN_PATH=" MURO_TEST_PLUGIN_DIR " ") + MURO_PROGRAM;
 
 TEST(Readme, ItsTableOfPluginsIsWhatTheProgramPrints) {
   const auto table = run_command(muro_program + " plugins list --markdown");
@@ -34,8 +35,8 @@ TEST(Readme, ItsScenarioIsTheUrbanExample) {
 }
 
 TEST(Readme, EveryFileItLinksToExists) {
-  for (const char* page : {"README.md", "CONTRIBUTING.md", "docs/architecture.md", "docs/scenario.md", "docs/determinism.md",
-                           "docs/controllers.md", "docs/plugin-contract.md"}) {
+  for (const char* page : {"README.md", "CONTRIBUTING.md", "docs/architecture.md", "docs/scenario.md",
+                           "docs/determinism.md", "docs/controllers.md", "docs/plugin-contract.md"}) {
     const std::string text = text_of(root + page);
     ASSERT_FALSE(text.empty()) << page;
     const std::regex link(R"(\]\(([^)#:]+)\))");
@@ -49,11 +50,14 @@ TEST(Readme, EveryFileItLinksToExists) {
 TEST(Readme, ItsRunCommandsWork) {
   const std::regex command(R"(    build/bin/muro (run [^\n]*))");
   int commands = 0;
-  for (auto it = std::sregex_iterator(readme.begin(), readme.end(), command); it != std::sregex_iterator(); ++it, ++commands) {
+  for (auto it = std::sregex_iterator(readme.begin(), readme.end(), command); it != std::sregex_iterator();
+       ++it, ++commands) {
     const test::ScratchFolder scratch;
     std::string arguments = (*it)[1].str();
-    if (const std::size_t at = arguments.find("report.json"); at != std::string::npos) arguments.replace(at, 11, scratch.path("report.json"));
-    const auto result = run_command(muro_program + " " + arguments + (arguments.find("--duration") == std::string::npos ? " --duration 2" : ""));
+    if (const std::size_t at = arguments.find("report.json"); at != std::string::npos)
+      arguments.replace(at, 11, scratch.path("report.json"));
+    const auto result = run_command(muro_program + " " + arguments +
+                                    (arguments.find("--duration") == std::string::npos ? " --duration 2" : ""));
     EXPECT_EQ(result.exit_code, 0) << arguments << "\n" << result.output;
   }
   EXPECT_GE(commands, 3);

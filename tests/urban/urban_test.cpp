@@ -21,16 +21,17 @@ BuiltScenario open(const std::vector<std::string>& overrides = {}) {
 /// What can be said of a robot from its recorded poses alone.
 struct Track {
   double distance = 0;
-  double farthest = 0;      ///< from the start
+  double farthest = 0;                  ///< from the start
   double lowest = 1e9, highest = -1e9;  ///< of the base, m
-  double most_tilt = 0;     ///< rad between the body's z axis and the vertical
+  double most_tilt = 0;                 ///< rad between the body's z axis and the vertical
   double deepest_in_wall = -1e9;  ///< m by which a corner of the chassis was inside a building or beyond the walls
 };
 
 /// How deep (m) a point is inside the city's buildings (10 x 10 blocks of 10 m, 6 m wide) or outside its walls.
 double inside_building(const Vec3& p) {
   const auto off = [](double x) { return std::abs(x - (std::floor(x / 10) * 10 + 5)); };
-  const double building = std::abs(p.x()) < 50 && std::abs(p.y()) < 50 ? std::min(3 - off(p.x()), 3 - off(p.y())) : -1e9;
+  const double building =
+      std::abs(p.x()) < 50 && std::abs(p.y()) < 50 ? std::min(3 - off(p.x()), 3 - off(p.y())) : -1e9;
   return std::max(building, std::max(std::abs(p.x()), std::abs(p.y())) - 52);
 }
 
@@ -50,7 +51,8 @@ std::vector<Track> run_and_watch(BuiltScenario& built, double seconds) {
       track.farthest = std::max(track.farthest, (pose.position - start[r->number]).norm());
       track.lowest = std::min(track.lowest, pose.position.z());
       track.highest = std::max(track.highest, pose.position.z());
-      track.most_tilt = std::max(track.most_tilt, std::acos(std::clamp((pose.orientation * Vec3::UnitZ()).z(), -1.0, 1.0)));
+      track.most_tilt =
+          std::max(track.most_tilt, std::acos(std::clamp((pose.orientation * Vec3::UnitZ()).z(), -1.0, 1.0)));
       for (const double x : {-0.175, 0.175})
         for (const double y : {-0.125, 0.125})
           track.deepest_in_wall = std::max(track.deepest_in_wall, inside_building(pose * Vec3(x, y, 0)));
@@ -76,7 +78,8 @@ TEST(Urban, TwentyVehiclesTravelAMinuteThroughNoWallAndNoGround) {
 }
 
 TEST(Urban, OneTeamDrivesAtThreeLevelsWithOneModelAndOneControlLibrary) {
-  BuiltScenario built = open({"robots.rovers[0-4].motion.use=motion.differential_drive", "robots.rovers[5-9].motion.use=motion.point"});
+  BuiltScenario built =
+      open({"robots.rovers[0-4].motion.use=motion.differential_drive", "robots.rovers[5-9].motion.use=motion.point"});
   std::map<std::string, std::size_t> robots_of;
   for (const auto& i : built.simulation->instances()) robots_of[i->setup().use] += i->setup().items.size();
   EXPECT_EQ(robots_of["motion.differential_drive"], 5u);
