@@ -63,7 +63,7 @@ TEST(UrdfModels, TheRoverBecomesNestedBinaryForksInTheOrderOfTheFile) {
                           "revolute rear_right_wheel_joint about 0 1 0",
                           "body rear_right_wheel",
                           "end",
-                          "translation 0.15 0 0.03",
+                          "translation 0.1 0 0.03",
                           "body laser_link",
                           "end",
                           "end",
