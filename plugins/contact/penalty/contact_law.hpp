@@ -3,9 +3,9 @@
 //
 // Forces are given per unit of effective mass (m/s^2). Both directions are integrated linearly implicitly: the force
 // of a step is the one that spring and damper have in the middle of that step, predicted for a body that this contact
-// alone acts on. That is the implicit midpoint rule, exact in energy for a spring. Where several contacts act on one body,
-// `load` tells how much stiffer its stiffest motion is than one contact assumes, and the force is softened as far as
-// stability asks for it.
+// alone acts on. That is the implicit midpoint rule, exact in energy for a spring. Where several contacts act on one
+// body, `load` tells how much stiffer its stiffest motion is than one contact assumes, and the force is softened as far
+// as stability asks for it.
 #pragma once
 
 #include <algorithm>
@@ -95,30 +95,32 @@ struct NormalLaw {
 };
 
 /// The spring across the normal, critically damped. It is stretched by what a body slips on the other, until the force
-/// reaches its limit; from there on the body slides, and the spring keeps the stretch that holds the limit at rest (Cundall
-/// and Strack, A discrete numerical model for granular assemblies, Geotechnique 29, 1979). The limit is a circle, so
-/// friction is the same in every direction.
+/// reaches its limit; from there on the body slides, and the spring keeps the stretch that holds the limit at rest
+/// (Cundall and Strack, A discrete numerical model for granular assemblies, Geotechnique 29, 1979). The limit is a
+/// circle, so friction is the same in every direction.
 struct FrictionLaw {
   FrictionLaw() = default;
   FrictionLaw(const Stiffness& s, double load) {
     const double w = s.omega, beta = w * s.h + 0.5 * w * w * s.h * s.h, d = std::max(1 + beta, load * beta);
     spring = w * w / d;
     damper = (2 * w + 0.5 * w * w * s.h) / d;
+    give = -1 / spring;
   }
 
   /// Force on the body that moves with `slip` (m/s) over the other. `stretch` (m) includes the way of the last step;
   /// `most`: the limit, m/s^2.
   Vec3 force(Vec3& stretch, const Vec3& slip, double most) const {
-    const Vec3 wanted = -spring * stretch - damper * slip;
-    const double size2 = wanted.squaredNorm();
-    if (size2 <= most * most) return wanted;
-    const Vec3 limited = wanted * (most / std::sqrt(size2));
-    stretch = limited * (-1 / spring);
-    return limited;
+    const double x = -spring * stretch.x() - damper * slip.x(), y = -spring * stretch.y() - damper * slip.y(),
+                 z = -spring * stretch.z() - damper * slip.z(), size2 = x * x + y * y + z * z;
+    if (size2 <= most * most) return {x, y, z};
+    const double part = most / std::sqrt(size2), held = part * give;
+    stretch = {held * x, held * y, held * z};
+    return {part * x, part * y, part * z};
   }
 
  private:
   double spring = 1, damper = 0;  ///< 1/s^2, 1/s
+  double give = -1;               ///< s^2: stretch by force
 };
 
 }  // namespace muro::penalty

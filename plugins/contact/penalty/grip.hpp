@@ -11,33 +11,34 @@
 namespace muro::penalty {
 
 /// One friction spring. Contact points have no names, so the spring of the step before is found by the bodies and
-/// shapes that touch and by the nearest point. Bodies are named by hashes: the state does not depend on the order in which
-/// objects were declared.
+/// shapes that touch and by the nearest point. Bodies are named by hashes: the state does not depend on the order in
+/// which objects were declared.
 struct Grip {
   std::uint64_t pair = 0;
   Vec3 point = Vec3::Zero();    ///< m, world
   Vec3 stretch = Vec3::Zero();  ///< m, world
 };
 
-inline std::uint64_t pair_of(std::uint64_t self, std::uint64_t other, std::uint32_t self_shape, std::uint32_t other_shape) {
+inline std::uint64_t pair_of(std::uint64_t self, std::uint64_t other, std::uint32_t self_shape,
+                             std::uint32_t other_shape) {
   return (self ^ (std::rotl(other, 17) + self_shape * 0x9E3779B97F4A7C15ull)) + other_shape * 0xC2B2AE3D27D4EB4Full;
 }
 
-/// The stretch that a contact takes over from the step before; zero for a new one. `place`: how many contacts of
-/// the robot came before this one, where the search begins, since contacts mostly keep their order.
-inline Vec3 inherited(const std::vector<Grip>& before, std::size_t place, std::uint64_t pair, const Vec3& point) {
+/// What a contact was in the step before; null for a new one. `place`: how many contacts of the robot came before
+/// this one, where the search begins, since contacts mostly keep their order.
+inline const Grip* previous(const std::vector<Grip>& before, std::size_t place, std::uint64_t pair, const Vec3& point) {
   std::size_t i = place;
   if (i >= before.size() || before[i].pair != pair)
     for (i = 0; i < before.size() && before[i].pair != pair;) ++i;
   while (i > 0 && i < before.size() && before[i - 1].pair == pair) --i;
-  Vec3 stretch = Vec3::Zero();
+  const Grip* found = nullptr;
   for (double nearest = std::numeric_limits<double>::infinity(); i < before.size() && before[i].pair == pair; ++i) {
     const double distance = (before[i].point - point).squaredNorm();
     if (distance >= nearest) continue;
     nearest = distance;
-    stretch = before[i].stretch;
+    found = &before[i];
   }
-  return stretch;
+  return found;
 }
 
 }  // namespace muro::penalty
@@ -48,5 +49,6 @@ MURO_OPAQUE_TYPE(penalty::Grip, "muro.contact.penalty.Grip", opaque);
 
 namespace muro::penalty {
 inline constexpr Key<Grip> grips{"contact.grips", "m", "list on the base of a robot: friction springs"};
-inline constexpr Key<std::int64_t> last_run{"contact.time", "ns", "on the world object: when contact ran last; -1: never"};
+inline constexpr Key<std::int64_t> last_run{"contact.time", "ns",
+                                            "on the world object: when contact ran last; -1: never"};
 }  // namespace muro::penalty

@@ -8,7 +8,7 @@ namespace muro::penalty {
 
 /// What resists a force on a free body. World axes.
 struct Mobility {
-  double mass = 0;             ///< inverse, 1/kg
+  double mass = 0;              ///< inverse, 1/kg
   Mat3 inertia = Mat3::Zero();  ///< inverse, 1/(kg m^2), about `centre`
   Vec3 centre = Vec3::Zero();   ///< centre of mass, m
 };
@@ -38,8 +38,8 @@ struct Resistance {
 
 /// Contact points of one pair of bodies with one normal: touching is one event, which they share.
 ///
-/// The points of a patch together act with the effective mass at their middle, 1 / (1/m + (r x n) . I^-1 (r x n)), each with
-/// its part, so that a box that lands flat on four corners rebounds as a ball does.
+/// The points of a patch together act with the effective mass at their middle, 1 / (1/m + (r x n) . I^-1 (r x n)), each
+/// with its part, so that a box that lands flat on four corners rebounds as a ball does.
 class Patch {
  public:
   Patch(const Vec3& normal, const Vec3& origin) : normal_(normal), origin_(origin) {
@@ -49,14 +49,15 @@ class Patch {
   const Vec3& normal() const { return normal_; }
   double count() const { return count_; }
   void add(const Vec3& point) {
-    const Vec3 p = point - origin_;
+    const double x = point.x() - origin_.x(), y = point.y() - origin_.y(), z = point.z() - origin_.z();
     count_ += 1;
-    sum_ += p;
-    squares_ += p * p.transpose();
+    x_ += x, y_ += y, z_ += z;
+    xx_ += x * x, yy_ += y * y, zz_ += z * z;
+    xy_ += x * y, xz_ += x * z, yz_ += y * z;
   }
   /// Of the middle of the points.
   Yield at_middle(const Mobility& body) const {
-    const Vec3 r = origin_ + sum_ / count_ - body.centre, turned = r.cross(normal_);
+    const Vec3 r = origin_ + sum() / count_ - body.centre, turned = r.cross(normal_);
     const double along = turned.dot(body.inertia * turned);
     const double all = body.inertia.trace() * r.squaredNorm() - r.dot(body.inertia * r);
     return {body.mass + along, 2 * body.mass + all - along};
@@ -64,21 +65,26 @@ class Patch {
   /// What springs in the points do to a body, each of stiffness `along` the normal and `across` it.
   Resistance resistance(const Mobility& body, double along, double across) const {
     const Vec3 shift = origin_ - body.centre;
-    const Mat3 cross = sum_ * shift.transpose();
-    const Mat3 squares = squares_ + cross + cross.transpose() + count_ * shift * shift.transpose();  // sum of r r^T
+    const Mat3 cross = sum() * shift.transpose();
+    Mat3 squares;  // sum of r r^T
+    squares << xx_, xy_, xz_, xy_, yy_, yz_, xz_, yz_, zz_;
+    squares += cross + cross.transpose() + count_ * shift * shift.transpose();
     Resistance k;
     k.shift = count_ * (across * Mat3::Identity() + (along - across) * normal_ * normal_.transpose());
-    k.turn = across * (squares.trace() * Mat3::Identity() - squares) + (along - across) * turn_ * squares * turn_.transpose();
+    k.turn = across * (squares.trace() * Mat3::Identity() - squares) +
+             (along - across) * turn_ * squares * turn_.transpose();
     return k;
   }
 
  private:
+  Vec3 sum() const { return {x_, y_, z_}; }
+
   Vec3 normal_;
   Vec3 origin_;
   Mat3 turn_;  ///< turn_ * v = normal x v
-  double count_ = 0;
-  Vec3 sum_ = Vec3::Zero();
-  Mat3 squares_ = Mat3::Zero();
+  // Number, sum and second moments of the points from origin_, as plain numbers: they are updated point by point.
+  double count_ = 0, x_ = 0, y_ = 0, z_ = 0;
+  double xx_ = 0, yy_ = 0, zz_ = 0, xy_ = 0, xz_ = 0, yz_ = 0;
 };
 
 }  // namespace muro::penalty

@@ -32,7 +32,8 @@ TEST(Patch, MobilitiesAreTheResponseToImpulses) {
       middle += p / 3;
     }
     EXPECT_NEAR(patch.at_middle(body).along, n.dot(response(body, middle, n)), 1e-10);
-    EXPECT_NEAR(patch.at_middle(body).across, u.dot(response(body, middle, u)) + w.dot(response(body, middle, w)), 1e-10);
+    EXPECT_NEAR(patch.at_middle(body).across, u.dot(response(body, middle, u)) + w.dot(response(body, middle, w)),
+                1e-10);
   }
 }
 
@@ -75,12 +76,12 @@ TEST(Patch, ABoxThatLandsFlatHasItsWholeMass) {
 TEST(Grip, FollowsItsPointWhateverTheOrderOfTheList) {
   std::vector<Grip> before;
   for (int k = 0; k < 6; ++k) before.push_back({k < 2 ? 7u : k < 5 ? 8u : 9u, Vec3(k, 0, 0), Vec3(0, 0.1 * k, 0)});
-  EXPECT_EQ(inherited(before, 3, 8, {3.01, 0, 0}).y(), 0.1 * 3);
-  EXPECT_EQ(inherited(before, 0, 8, {4.2, 0.1, 0}).y(), 0.1 * 4);
-  EXPECT_EQ(inherited(before, 5, 8, {1.7, 0, 0}).y(), 0.1 * 2);
-  EXPECT_EQ(inherited(before, 40, 9, {0, 0, 0}).y(), 0.1 * 5);
-  EXPECT_EQ(inherited(before, 2, 10, {2, 0, 0}).norm(), 0);  // nothing known
-  EXPECT_EQ(inherited({}, 0, 7, {0, 0, 0}).norm(), 0);
+  EXPECT_EQ(previous(before, 3, 8, {3.01, 0, 0})->stretch.y(), 0.1 * 3);
+  EXPECT_EQ(previous(before, 0, 8, {4.2, 0.1, 0})->stretch.y(), 0.1 * 4);
+  EXPECT_EQ(previous(before, 5, 8, {1.7, 0, 0})->stretch.y(), 0.1 * 2);
+  EXPECT_EQ(previous(before, 40, 9, {0, 0, 0})->stretch.y(), 0.1 * 5);
+  EXPECT_EQ(previous(before, 2, 10, {2, 0, 0}), nullptr);
+  EXPECT_EQ(previous({}, 0, 7, {0, 0, 0}), nullptr);
   EXPECT_NE(pair_of(1, 2, 0, 0), pair_of(2, 1, 0, 0));
   EXPECT_NE(pair_of(1, 2, 1, 0), pair_of(1, 2, 0, 1));
 }

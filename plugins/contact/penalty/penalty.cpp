@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Contact forces by penalty: springs and dampers where bodies overlap. Scene-wide.
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "contact_law.hpp"
@@ -16,7 +17,8 @@ using namespace muro;
 using namespace muro::penalty;
 
 constexpr Parameter parameters[] = {
-    real("frequency", "Hz", 50, "stiffness: that of a body bobbing on a contact; at most 0.095 of the rate").between(1, 1e5),
+    real("frequency", "Hz", 50, "stiffness: that of a body bobbing on a contact; at most 0.095 of the rate")
+        .between(1, 1e5),
 };
 constexpr Use reads[] = {
     {"contacts", "of every robot that forces move"},
@@ -112,6 +114,7 @@ class Penalty final : public Algorithm {
     std::int32_t other;            ///< in robots_, or nobody
     std::uint32_t whole;           ///< of the other
     double along = 0, across = 0;  ///< effective mass of each point, kg
+    double inverse_across = 0;
     double restitution = -1;       ///< that `normal` is for
     NormalLaw normal{};
     FrictionLaw friction{};
@@ -130,7 +133,8 @@ class Penalty final : public Algorithm {
     if (!moved) return;
     const Inertia composite = composite_inertia(view.frames, inertias_of(c, view), initial_joint_positions(c, view));
     if (!(composite.mass > 0))
-      throw Error("`" + std::string(view.name) + "` has no mass, so no contact can push it; give its bodies `inertial`");
+      throw Error("`" + std::string(view.name) +
+                  "` has no mass, so no contact can push it; give its bodies `inertial`");
     Robot r;
     r.contacts = c.read_list(view.base(), keys::contacts);
     r.grips = c.variable_list(view.base(), grips);
@@ -148,10 +152,11 @@ class Penalty final : public Algorithm {
   void set_stiffness(double dt) {
     if (dt == stiffness_.h) return;
     stiffness_ = {std::min(omega_, finest_step / dt), dt};
-    if (stiffness_.omega < omega_)
+    if (stiffness_.omega < omega_ && !std::exchange(told_, true))
       host_->log(LogLevel::info, "contact.penalty: at a step of " + std::to_string(dt) + " s, contacts have " +
                                      std::to_string(stiffness_.omega / (2 * M_PI)) + " Hz instead of " +
-                                     std::to_string(omega_ / (2 * M_PI)) + "; a higher rate of motion makes them as stiff as asked");
+                                     std::to_string(omega_ / (2 * M_PI)) +
+                                     "; a higher rate of motion makes them as stiff as asked");
   }
 
   /// Whether robot `self` works out the contact: both robots of a pair list it.
@@ -202,7 +207,8 @@ class Penalty final : public Algorithm {
     Yield middle = t.patch.at_middle(a.mobility);
     if (b) middle = middle + t.patch.at_middle(b->mobility);
     t.along = 1 / (middle.along * t.patch.count());
-    t.across = 2 / (middle.across * t.patch.count());
+    t.inverse_across = 0.5 * middle.across * t.patch.count();
+    t.across = 1 / t.inverse_across;
     a.resistance += t.patch.resistance(a.mobility, t.along, t.across);
     if (b) b->resistance += t.patch.resistance(b->mobility, t.along, t.across);
   }
@@ -237,55 +243,65 @@ class Penalty final : public Algorithm {
     if (contacts.empty() && old.empty()) return next;
     old_grips_.assign(old.begin(), old.end());
     robot.grips.clear();
+    Wrench total;
     std::size_t ours = 0;
     for (const Contact& contact : contacts) {
       const std::uint32_t place_of_touch = touch_of_[next++];
       if (place_of_touch == not_ours) continue;
       Touch& touch = touches_[place_of_touch];
-      const Vec3 force = force_on_self(robot, touch, contact, ours++);
-      robot.wrench->add_force(force, contact.point - robot.base->position);
-      if (touch.other == nobody) continue;
-      const Robot& other = robots_[std::size_t(touch.other)];
-      other.wrench->add_force(-force, contact.point - other.base->position);
-      // Levers of the middle of the step, in which both centres have come nearer: keeps angular momentum.
-      const Vec3 lever = 0.25 * stiffness_.h * (centre_velocity(other) - centre_velocity(robot));
-      robot.wrench->torque += lever.cross(force);
-      other.wrench->torque += lever.cross(force);
+      const std::uint64_t pair = pair_of(bodies_[index_of(contact.self)].name, bodies_[index_of(contact.other)].name,
+                                         contact.self_shape, contact.other_shape);
+      const Grip* const before = previous(old_grips_, ours++, pair, contact.point);
+      Grip grip{pair, contact.point, before ? before->stretch : Vec3::Zero()};
+      const Vec3 force = force_on_self(touch, contact, grip.stretch);
+      robot.grips.push_back(grip);
+      total.add_force(force, contact.point - robot.base->position);
+      if (touch.other != nobody) push_back(robot, robots_[std::size_t(touch.other)], force, contact.point, before);
     }
+    *robot.wrench += total;
     return next;
   }
 
-  Vec3 force_on_self(const Robot& robot, Touch& touch, const Contact& contact, std::size_t place_in_list) {
-    const Body& self = bodies_[index_of(contact.self)];
-    const Body& other = bodies_[index_of(contact.other)];
+  /// The force of a contact on the other robot. The levers are those of the middle of the step, to which both centres
+  /// and the point move on: so the pair keeps its angular momentum.
+  void push_back(const Robot& robot, const Robot& other, const Vec3& force, const Vec3& point,
+                 const Grip* before) const {
+    other.wrench->add_force(-force, point - other.base->position);
+    const Vec3 v = centre_velocity(robot), u = centre_velocity(other);
+    Vec3 wander = 0.5 * (v + u);  // velocity of the point, which belongs to no body
+    if (before && elapsed_ > 0) {
+      const Vec3 seen = (point - before->point) / elapsed_;
+      if ((seen - wander).norm() <= (v - u).norm()) wander = seen;  // else it is another point
+    }
+    robot.wrench->torque += (0.5 * stiffness_.h * (wander - v)).cross(force);
+    other.wrench->torque -= (0.5 * stiffness_.h * (wander - u)).cross(force);
+  }
+
+  /// `stretch`: of the friction spring, brought up to date.
+  Vec3 force_on_self(Touch& touch, const Contact& contact, Vec3& stretch) {
     const Vec3& n = contact.normal;
-    const Vec3 motion = velocity(self, contact.point) - velocity(other, contact.point);
+    const Vec3 motion = velocity(bodies_[index_of(contact.self)], contact.point) -
+                        velocity(bodies_[index_of(contact.other)], contact.point);
     const double approach = -motion.dot(n);
     const Vec3 slip = motion + approach * n;
     const double normal = touch.along * normal_law(touch, contact.restitution).force(contact.depth, approach);
-
-    Grip grip;
-    grip.pair = pair_of(self.name, other.name, contact.self_shape, contact.other_shape);
-    grip.point = contact.point;
-    grip.stretch = inherited(old_grips_, place_in_list, grip.pair, contact.point) + slip * elapsed_;
-    grip.stretch -= n * n.dot(grip.stretch);
-    const double most = contact.friction * normal / touch.across;
-    const Vec3 friction = touch.across * touch.friction.force(grip.stretch, slip, most);
-    robot.grips.push_back(grip);
-    return normal * n + friction;
+    stretch += slip * elapsed_;
+    stretch -= n * n.dot(stretch);
+    return normal * n + touch.across * touch.friction.force(stretch, slip, contact.friction * normal * touch.inverse_across);
   }
 
   double omega_ = 0;
   Host* host_ = nullptr;
+  bool told_ = false;
   std::vector<Body> bodies_;  ///< by object id
   std::vector<Robot> robots_;
   Out<std::int64_t> last_run_;
 
   // of the present step
   Stiffness stiffness_;
-  double elapsed_ = 0;                     ///< s since the last run
+  double elapsed_ = 0;  ///< s since the last run
   std::vector<Touch> touches_;
-  std::vector<std::uint32_t> touch_of_;    ///< one a contact, in the order of robots and lists
+  std::vector<std::uint32_t> touch_of_;  ///< one a contact, in the order of robots and lists
   std::vector<Grip> old_grips_;
   double restitution_ = -1, damping_ratio_ = 0;  ///< the last answer of damping_ratio_of
 };

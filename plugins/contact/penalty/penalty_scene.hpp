@@ -47,7 +47,9 @@ inline RobotTree rover(double friction, double com_height = 0) {
       b.revolute(std::string(names[k]) + "_joint", Vec3::UnitY(), {});
       b.body(names[k]);
       const double m = 0.3, r = 0.06, l = 0.04;
-      b.set(keys::inertial, Inertia{.mass = m, .ixx = m * (3 * r * r + l * l) / 12, .iyy = m * r * r / 2,
+      b.set(keys::inertial, Inertia{.mass = m,
+                                    .ixx = m * (3 * r * r + l * l) / 12,
+                                    .iyy = m * r * r / 2,
                                     .izz = m * (3 * r * r + l * l) / 12});
       Shape wheel = with(Shape::cylinder(r, l), friction);
       wheel.origin.orientation = from_rpy(M_PI / 2, 0, 0);
@@ -84,7 +86,9 @@ struct ContactScene : Scene {
                                             Access::accumulate, Form::single, 1, nullptr));
   }
   /// What acts on a robot, summed.
-  Wrench external(const RobotView& robot) { return SumIn<Wrench>(world().store().find(robot.base(), "wrench.external")->sum).value(); }
+  Wrench external(const RobotView& robot) {
+    return SumIn<Wrench>(world().store().find(robot.base(), "wrench.external")->sum).value();
+  }
   std::span<Contact> contacts(const RobotView& robot) { return world().values(robot.base(), keys::contacts); }
 };
 

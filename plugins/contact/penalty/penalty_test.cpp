@@ -15,7 +15,8 @@ using namespace test;
 struct Incline : ContactScene {
   Quat tilt;
   const RobotView* robot;
-  Incline(double angle, double friction, const RobotTree& tree, double lift, double yaw = 0) : tilt(from_rpy(0, angle, 0)) {
+  Incline(double angle, double friction, const RobotTree& tree, double lift, double yaw = 0)
+      : tilt(from_rpy(0, angle, 0)) {
     add_ground(friction, {Vec3::Zero(), tilt});
     robot = &add("r", tree, {tilt * Vec3(0, 0, lift), tilt * from_rpy(0, 0, yaw)});
     start();
@@ -36,10 +37,10 @@ TEST(Penalty, ABlockSticksExactlyUpToTheAngleOfFriction) {
   // tan 30 deg = 0.57735. The friction springs hold without creep; what is left is round-off.
   const auto creep = [](double friction) {
     Incline s(M_PI / 6, friction, block(3, {0.4, 0.3, 0.2}, friction), 0.1);
-    s.run_for(2);
+    s.run_for(10);  // what it slid while it came to rest on the ground is braked by mu cos - sin only
     const Vec3 before = s.pose(*s.robot).position;
-    s.run_for(8);
-    return (s.pose(*s.robot).position - before).norm() / 8;
+    s.run_for(10);
+    return (s.pose(*s.robot).position - before).norm() / 10;
   };
   for (const double friction : {0.578, 0.6, 0.8}) EXPECT_LT(creep(friction), 1e-12) << friction;
   EXPECT_GT(creep(0.576), 0.01);
@@ -74,11 +75,11 @@ TEST(Penalty, ABouncingBallMeetsTheGroundAtTheTimesOfItsSeries) {
   s.add_ground(0.5);
   const RobotView& r = s.add("ball", ball(1, 0.1, 0.5, 0.7), {{0, 0, 1.1}, Quat::Identity()});
   const double frequency = 1000;
-  s.start(50000, frequency);
+  s.start(200000, frequency);
   std::vector<double> meetings;
   while (meetings.size() < 6) {
     const double before = s.pose(r).position.z();
-    s.run_for(2e-5);
+    s.run_for(5e-6);
     if (before >= 0.1 && s.pose(r).position.z() < 0.1) meetings.push_back(1e-9 * double(s.now()));
   }
   const double series[] = {0.451524, 1.083657, 1.526150, 1.835895, 2.052717, 2.204492};
@@ -92,7 +93,7 @@ TEST(Penalty, ABouncingBallMeetsTheGroundAtTheTimesOfItsSeries) {
 
 TEST(Penalty, FrictionIsACone) {
   // Pushed with 1.02 mu N in any direction, a block moves along the push at 0.02 mu g; with 0.98 mu N it stays.
-  for (double direction = 0; direction < 6.2; direction += 0.3)
+  for (double direction = 0; direction < 6.2; direction += M_PI / 8)
     for (const double share : {0.98, 1.02}) {
       ContactScene s;
       s.add_ground(0.5);
@@ -101,12 +102,15 @@ TEST(Penalty, FrictionIsACone) {
       s.start();
       s.run_for(0.3);
       const Vec3 along(std::cos(direction), std::sin(direction), 0), before = s.pose(r).position;
-      push.force = share * 0.5 * 2 * g * along;
+      for (int k = 1; k <= 300; ++k) {  // gently: a sudden push would break it loose
+        push.force = k / 300.0 * share * 0.5 * 2 * g * along;
+        s.run_for(0.001);
+      }
       s.run_for(0.5);
       const Vec3 early = s.twist(r).linear;
       s.run_for(0.5);
       if (share < 1) {
-        EXPECT_LT((s.pose(r).position - before).norm(), 3e-4);
+        EXPECT_LT((s.pose(r).position - before).norm(), 5e-4);
         EXPECT_LT(s.twist(r).linear.norm(), 1e-9);
       } else {
         const Vec3 gained = (s.twist(r).linear - early) / 0.5;
@@ -141,9 +145,12 @@ TEST(Penalty, CollidingBodiesKeepTheirMomentaAndGainNoEnergy) {
     ContactScene s;
     s.world().set(world_object, keys::gravity, Vec3(0, 0, 0));
     const double friction = trial % 3 == 0 ? 0 : 0.5, restitution = trial % 2 == 0 ? 1 : 0.4;
-    const Vec3 spin(3 * unit(random), 3 * unit(random), 3 * unit(random)), aside(0, 0.1 * unit(random), 0.1 * unit(random));
-    const RobotTree first = trial % 4 < 2 ? ball(1, 0.15, friction, restitution) : block(1, {0.3, 0.2, 0.25}, friction, restitution);
-    const RobotTree second = trial % 4 < 1 ? ball(3, 0.2, friction, restitution) : block(3, {0.3, 0.4, 0.25}, friction, restitution);
+    const Vec3 spin(3 * unit(random), 3 * unit(random), 3 * unit(random)),
+        aside(0, 0.1 * unit(random), 0.1 * unit(random));
+    const RobotTree first =
+        trial % 4 < 2 ? ball(1, 0.15, friction, restitution) : block(1, {0.3, 0.2, 0.25}, friction, restitution);
+    const RobotTree second =
+        trial % 4 < 1 ? ball(3, 0.2, friction, restitution) : block(3, {0.3, 0.4, 0.25}, friction, restitution);
     const RobotView& a = s.add("a", first, {{0, 0, 0}, from_rpy(unit(random), unit(random), 0)}, {{1.5, 0.2, 0}, spin});
     s.add("b", second, {Vec3(0.7, 0, 0) + aside, from_rpy(0, unit(random), unit(random))}, {{-1, 0, 0.1}, -spin});
     s.start();
@@ -162,8 +169,10 @@ TEST(Penalty, CollidingBodiesKeepTheirMomentaAndGainNoEnergy) {
 TEST(Penalty, ForcesOfAPairAreOppositeToTheBit) {
   ContactScene s;
   s.world().set(world_object, keys::gravity, Vec3(0, 0, 0));
-  const RobotView& a = s.add("a", block(1, {0.3, 0.2, 0.25}, 0.7), {{0, 0, 0}, from_rpy(0.1, 0.2, 0.3)}, {{1, 0.3, 0.1}, {1, 2, 3}});
-  const RobotView& b = s.add("b", block(2, {0.3, 0.4, 0.2}, 0.7), {{0.4, 0.03, 0.02}, from_rpy(0.3, 0.1, 0)}, {{-1, 0, 0}, {3, 1, 0}});
+  const RobotView& a =
+      s.add("a", block(1, {0.3, 0.2, 0.25}, 0.7), {{0, 0, 0}, from_rpy(0.1, 0.2, 0.3)}, {{1, 0.3, 0.1}, {1, 2, 3}});
+  const RobotView& b =
+      s.add("b", block(2, {0.3, 0.4, 0.2}, 0.7), {{0.4, 0.03, 0.02}, from_rpy(0.3, 0.1, 0)}, {{-1, 0, 0}, {3, 1, 0}});
   s.start();
   int touching = 0;
   for (int k = 0; k < 500; ++k) {
@@ -189,8 +198,8 @@ TEST(Penalty, ABoxThatLandsFlatReboundsWithItsRestitution) {
 }
 
 TEST(Penalty, TheRollingStackMovesAsInTheBenchmark) {
-  // SimBenchmark's set-up: 25 balls on a box that is drawn over the ground, along an axis or not. Box 0.7385, balls 0.211 m/s^2.
-  // Friction: box-ground 0.4, box-ball 0.8 (geometric means).
+  // SimBenchmark's set-up: 25 balls on a box that is drawn over the ground, along an axis or not. Box 0.7385, balls
+  // 0.211 m/s^2. Friction: box-ground 0.4, box-ball 0.8 (geometric means).
   for (const Vec3& direction : {Vec3(0, 1, 0), Vec3(0.5, 0.8660254, 0)}) {
     ContactScene s;
     s.add_ground(0.2);
@@ -198,7 +207,8 @@ TEST(Penalty, TheRollingStackMovesAsInTheBenchmark) {
     std::vector<const RobotView*> balls;
     const RobotTree tree = ball(1, 0.5, 0.8);
     for (int k = 0; k < 25; ++k)
-      balls.push_back(&s.add("ball" + std::to_string(k), tree, {{2.0 * (k % 5) - 4, 2.0 * (k / 5) - 4, 1.5}, Quat::Identity()}));
+      balls.push_back(
+          &s.add("ball" + std::to_string(k), tree, {{2.0 * (k % 5) - 4, 2.0 * (k / 5) - 4, 1.5}, Quat::Identity()}));
     Wrench& push = s.push(box);
     s.start();
     push.force = 150 * direction;

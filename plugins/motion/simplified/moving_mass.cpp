@@ -18,7 +18,8 @@ bool symmetric(const Inertia& body, const Vec3& axis) {
 }
 
 /// For every frame: whether its joint moves mass relative to the frame's parent.
-std::vector<bool> movers(std::span<const Frame> frames, std::span<const Inertia> inertias, std::span<const double> start) {
+std::vector<bool> movers(std::span<const Frame> frames, std::span<const Inertia> inertias,
+                         std::span<const double> start) {
   std::vector<Inertia> subtree(inertias.begin(), inertias.end());
   std::vector<bool> moves(frames.size()), moves_below(frames.size());
   for (std::size_t i = frames.size(); i-- > 1;) {
@@ -35,7 +36,8 @@ std::vector<bool> movers(std::span<const Frame> frames, std::span<const Inertia>
 
 }  // namespace
 
-MovingMass::MovingMass(std::span<const Frame> frames, std::span<const Inertia> inertias, std::span<const double> start) {
+MovingMass::MovingMass(std::span<const Frame> frames, std::span<const Inertia> inertias,
+                       std::span<const double> start) {
   const std::vector<bool> moves = movers(frames, inertias, start);
   std::vector<std::uint32_t> group_of(frames.size());
   std::vector<Pose> in_group(frames.size());

@@ -23,7 +23,9 @@ inline Quat turned(const Quat& by, const Quat& q) {
 }
 
 /// r * v, in a form that compiles to straight code.
-[[gnu::always_inline]] inline Vec3 times(const Mat3& r, const Vec3& v) { return r.col(0) * v.x() + r.col(1) * v.y() + r.col(2) * v.z(); }
+[[gnu::always_inline]] inline Vec3 times(const Mat3& r, const Vec3& v) {
+  return r.col(0) * v.x() + r.col(1) * v.y() + r.col(2) * v.z();
+}
 
 /// A symmetric tensor in the axes of the body (r: body to world), applied to a vector in those of the world.
 [[gnu::always_inline]] inline Vec3 in_world(const Mat3& r, const Mat3& tensor, const Vec3& v) {
@@ -38,8 +40,9 @@ inline Quat turned(const Quat& by, const Quat& q) {
 /// `inertia` (kg m^2, axes of the body, about the centre of mass) is that of the start; `inverse_half` and
 /// `inverse_end` invert those of the middle and the end: the same for a rigid body. `r` is the matrix of
 /// body.orientation; returns that of the new one.
-[[gnu::always_inline]] inline Mat3 advance_rotation(RigidBody& body, const Mat3& r, const Mat3& inertia, const Mat3& inverse_half,
-                             const Mat3& inverse_end, const Vec3& torque, double dt) {
+[[gnu::always_inline]] inline Mat3 advance_rotation(RigidBody& body, const Mat3& r, const Mat3& inertia,
+                                                    const Mat3& inverse_half, const Mat3& inverse_end,
+                                                    const Vec3& torque, double dt) {
   const Vec3 momentum = in_world(r, inertia, body.spin);
   const Mat3 halfway = (rotation_of(Vec3(body.spin * (0.5 * dt))) * body.orientation).toRotationMatrix();
   const Vec3 spin_half = in_world(halfway, inverse_half, momentum + torque * (0.5 * dt));

@@ -99,7 +99,8 @@ TEST(RigidBody, ASymmetricBodyPrecessesAtTheRateOfEuler) {
   const Vec3 momentum = inertia * body.spin;
   const double dt = 1e-4, rate = momentum.norm() / i1;
   const int steps = 2000;
-  for (int k = 0; k < steps; ++k) advance_rotation(body, body.orientation.toRotationMatrix(), inertia, inverse, inverse, Vec3::Zero(), dt);
+  for (int k = 0; k < steps; ++k)
+    advance_rotation(body, body.orientation.toRotationMatrix(), inertia, inverse, inverse, Vec3::Zero(), dt);
   const Vec3 expected = rotation_of(Vec3(momentum.normalized() * (rate * dt * steps))) * Vec3::UnitZ();
   const Vec3 axis = body.orientation * Vec3::UnitZ();
   EXPECT_LT(std::acos(std::min(1.0, axis.dot(expected))), 2e-4);
@@ -107,8 +108,8 @@ TEST(RigidBody, ASymmetricBodyPrecessesAtTheRateOfEuler) {
 }
 
 TEST(RigidBody, AGyroscopeUnderGravityPrecessesSteadily) {
-  // A disc (m = 1, r = 0.1) on an arm l = 0.1, held at the pivot, axis horizontal: m g l / (I3 s) = 0.981 rad/s exactly. The
-  // constraint is the torque of gravity about the pivot, so the tensor is taken about the pivot.
+  // A disc (m = 1, r = 0.1) on an arm l = 0.1, held at the pivot, axis horizontal: m g l / (I3 s) = 0.981 rad/s
+  // exactly. The constraint is the torque of gravity about the pivot, so the tensor is taken about the pivot.
   const double i1 = 0.0125, i3 = 0.005, spin = 200, rate = 0.981, dt = 1e-4;
   const Mat3 inertia = Vec3(i1, i1, i3).asDiagonal(), inverse = inertia.inverse();
   RigidBody body;
@@ -116,7 +117,8 @@ TEST(RigidBody, AGyroscopeUnderGravityPrecessesSteadily) {
   body.spin = {spin, 0, rate};
   for (int k = 0; k < 10000; ++k) {
     const Vec3 arm = body.orientation * Vec3(0, 0, 0.1);
-    advance_rotation(body, body.orientation.toRotationMatrix(), inertia, inverse, inverse, arm.cross(Vec3(0, 0, -9.81)), dt);
+    advance_rotation(body, body.orientation.toRotationMatrix(), inertia, inverse, inverse, arm.cross(Vec3(0, 0, -9.81)),
+                     dt);
   }
   const Vec3 axis = body.orientation * Vec3::UnitZ();
   EXPECT_NEAR(std::atan2(axis.y(), axis.x()), rate * 1.0, 1e-3);

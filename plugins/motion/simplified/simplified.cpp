@@ -22,20 +22,27 @@ constexpr Parameter parameters[] = {
     real("max_joint_acceleration", "rad/s^2 or m/s^2", 100, "of every joint").between(1e-6, 1e9),
 };
 constexpr Use reads[] = {
-    {"wrench.external", "sum of all contributions"},     {"gravity", "on the world object; 0 0 -9.81 when absent"},
-    {"inertial", "of every body"},                       {"joint.velocity.target", "joints: velocity"},
-    {"joint.position.target", "joints: position"},       {"joint.acceleration.target", "joints: acceleration"},
-    {"pose.initial", "of the base"},                     {"twist.initial", "of the base"},
+    {"wrench.external", "sum of all contributions"},
+    {"gravity", "on the world object; 0 0 -9.81 when absent"},
+    {"inertial", "of every body"},
+    {"joint.velocity.target", "joints: velocity"},
+    {"joint.position.target", "joints: position"},
+    {"joint.acceleration.target", "joints: acceleration"},
+    {"pose.initial", "of the base"},
+    {"twist.initial", "of the base"},
     {"joint.position.initial", "of every joint"},
 };
-constexpr Use writes[] = {
-    {"pose", "of the base"}, {"twist", "of the base"}, {"joint.position", "of every joint"}, {"joint.velocity", "of every joint"}};
+constexpr Use writes[] = {{"pose", "of the base"},
+                          {"twist", "of the base"},
+                          {"joint.position", "of every joint"},
+                          {"joint.velocity", "of every joint"}};
 constexpr Description description{
     .id = "motion.simplified",
     .kind = Kind::motion,
     .version = "1.0.0",
-    .summary = "One rigid body under external wrenches whose centre of mass and inertia follow the joints; "
-               "joints follow their targets",
+    .summary =
+        "One rigid body under external wrenches whose centre of mass and inertia follow the joints; "
+        "joints follow their targets",
     .parameters = parameters,
     .reads = reads,
     .writes = writes,
@@ -77,7 +84,8 @@ class Simplified final : public Algorithm {
     std::int32_t leader = -1;  ///< in joints_; -1: follows its own target
     double multiplier = 1, offset = 0;
   };
-  /// A robot whose joints move its masses, with the mass state of the joint state that `positions` and `velocities` name.
+  /// A robot whose joints move its masses, with the mass state of the joint state that `positions` and `velocities`
+  /// name.
   struct Articulation {
     MovingMass mass;
     std::vector<std::uint32_t> joints;  ///< in joints_, in the order of mass.joints()
@@ -121,13 +129,14 @@ class Simplified final : public Algorithm {
     const Eigen::SelfAdjointEigenSolver<Mat3> principal(whole.tensor());
     if (!(principal.eigenvalues().minCoeff() > 1e-12 * principal.eigenvalues().maxCoeff()))
       throw Error(name + ": the inertia of all its bodies together has the principal moments " +
-                  std::to_string(principal.eigenvalues()[0]) + ", " + std::to_string(principal.eigenvalues()[1]) + ", " +
-                  std::to_string(principal.eigenvalues()[2]) +
+                  std::to_string(principal.eigenvalues()[0]) + ", " + std::to_string(principal.eigenvalues()[1]) +
+                  ", " + std::to_string(principal.eigenvalues()[2]) +
                   " kg m^2; all must be positive: give its bodies an inertia (`inertial`) that fits their mass");
   }
 
   /// Returns the joint's place in joints_ by frame.
-  std::vector<std::int32_t> connect_joints(Connector& c, const RobotView& robot, const std::vector<double>& start, Robot& r) {
+  std::vector<std::int32_t> connect_joints(Connector& c, const RobotView& robot, const std::vector<double>& start,
+                                           Robot& r) {
     std::vector<std::int32_t> place(robot.frames.size(), -1);
     r.first_joint = std::uint32_t(joints_.size());
     for (std::size_t i = 0; i < place.size(); ++i)
@@ -138,8 +147,8 @@ class Simplified final : public Algorithm {
       if (place[i] < 0) continue;
       if (start[i] < f.limits.lower || start[i] > f.limits.upper)
         throw Error("joint `" + std::string(c.object_name(f.joint_object)) + "` starts at " + std::to_string(start[i]) +
-                    ", outside of its limits " + std::to_string(f.limits.lower) + " to " + std::to_string(f.limits.upper) +
-                    "; set `joint.position.initial` to a value between them");
+                    ", outside of its limits " + std::to_string(f.limits.lower) + " to " +
+                    std::to_string(f.limits.upper) + "; set `joint.position.initial` to a value between them");
       Joint j;
       j.position = c.variable(f.joint_object, keys::joint_position, start[i]);
       j.velocity = c.variable(f.joint_object, keys::joint_velocity, 0.0);
@@ -164,9 +173,15 @@ class Simplified final : public Algorithm {
       if (j.leader >= 0) continue;
       JointState state{*j.position, *j.velocity};
       switch (mode_) {
-        case Mode::velocity: follow_velocity(state, *j.target, j.range, dt); break;
-        case Mode::position: follow_position(state, *j.target, j.range, dt); break;
-        case Mode::acceleration: follow_acceleration(state, *j.target, j.range, dt); break;
+        case Mode::velocity:
+          follow_velocity(state, *j.target, j.range, dt);
+          break;
+        case Mode::position:
+          follow_position(state, *j.target, j.range, dt);
+          break;
+        case Mode::acceleration:
+          follow_acceleration(state, *j.target, j.range, dt);
+          break;
       }
       *j.position = state.position;
       *j.velocity = state.velocity;
@@ -236,9 +251,10 @@ class Simplified final : public Algorithm {
   [[noreturn]] static void fail(const Robot& r, const Wrench& external) {
     const bool bad_input = !std::isfinite(external.force.sum() + external.torque.sum());
     throw Error("the motion of `" + r.name + "` is no longer finite" +
-                (bad_input ? ": the sum of its external wrenches is not; look at what adds to `wrench.external`"
-                           : ": forces grow from step to step; raise the rate, or lower the stiffness of what acts on it "
-                             "(contact.penalty: frequency)"));
+                (bad_input
+                     ? ": the sum of its external wrenches is not; look at what adds to `wrench.external`"
+                     : ": forces grow from step to step; raise the rate, or lower the stiffness of what acts on it "
+                       "(contact.penalty: frequency)"));
   }
 
   Mode mode_ = Mode::velocity;
@@ -252,5 +268,5 @@ constexpr abi::AlgorithmEntry algorithms[] = {algorithm<Simplified>(description)
 
 }  // namespace
 
-MURO_PLUGIN(.name = "motion_simplified", .version = "1.0.0", .licence = "MIT", .summary = "The simplified dynamics model",
-            .algorithms = algorithms)
+MURO_PLUGIN(.name = "motion_simplified", .version = "1.0.0", .licence = "MIT",
+            .summary = "The simplified dynamics model", .algorithms = algorithms)

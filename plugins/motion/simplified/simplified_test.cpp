@@ -40,7 +40,8 @@ struct Flight : test::Scene {
   const RobotView& robot;
   std::vector<Inertia> inertias;
 
-  explicit Flight(const Parameters& parameters = {}, double rate = 1000, const Twist& twist = {}, const Vec3& gravity = {0, 0, -9.81})
+  explicit Flight(const Parameters& parameters = {}, double rate = 1000, const Twist& twist = {},
+                  const Vec3& gravity = {0, 0, -9.81})
       : robot(add("r", arm_robot(), {{1, 2, 3}, from_rpy(0.3, -0.2, 0.9)}, twist)) {
     world().set(world_object, keys::gravity, gravity);
     use("motion.simplified", rate, all_robots(), parameters);
@@ -193,13 +194,16 @@ std::string refusal(const std::function<void(test::Scene&)>& make) {
 }
 
 TEST(Simplified, ARobotWithoutMassIsRefusedWithAdvice) {
-  const std::string text = refusal([](test::Scene& s) { s.add("ghost", test::single_body(Shape::box({1, 1, 1}), {})); });
+  const std::string text = refusal([](test::Scene& s) {
+    s.add("ghost", test::single_body(Shape::box({1, 1, 1}), {}));
+  });
   EXPECT_NE(text.find("`ghost` has no mass; give its bodies mass and inertia"), std::string::npos) << text;
 }
 
 TEST(Simplified, AMassWithoutInertiaIsRefusedWithAdvice) {
-  const std::string text =
-      refusal([](test::Scene& s) { s.add("point", test::single_body(Shape::box({1, 1, 1}), {.mass = 2})); });
+  const std::string text = refusal([](test::Scene& s) {
+    s.add("point", test::single_body(Shape::box({1, 1, 1}), {.mass = 2}));
+  });
   EXPECT_NE(text.find("all must be positive"), std::string::npos) << text;
 }
 
