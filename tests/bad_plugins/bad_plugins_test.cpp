@@ -50,7 +50,9 @@ const Difference differences[] = {
     {"newer_sdk_minor", "sdk_minor is " + std::to_string(ours.sdk_minor + 1) + " in the plugin and only " +
                             std::to_string(ours.sdk_minor) + " in this muro"},
     {"wrong_string_layout", of_number("standard_library_abi", 0, 1)},
+#ifndef MURO_SANITIZED
     {"debug_containers", of_number("standard_library_debug", 1, 0)},
+#endif
     {"wrong_eigen_alignment", of_number("eigen_max_align_bytes", 32, 16)},
     {"wrong_eigen_malloc", of_number("eigen_malloc_already_aligned", 0, 1)},
     {"wrong_probe_size", of_number("probe_size", ours.probe_size + 8, ours.probe_size)},

@@ -115,7 +115,7 @@ class Penalty final : public Algorithm {
     std::uint32_t whole;           ///< of the other
     double along = 0, across = 0;  ///< effective mass of each point, kg
     double inverse_across = 0;
-    double restitution = -1;       ///< that `normal` is for
+    double restitution = -1;  ///< that `normal` is for
     NormalLaw normal{};
     FrictionLaw friction{};
   };
@@ -287,7 +287,8 @@ class Penalty final : public Algorithm {
     const double normal = touch.along * normal_law(touch, contact.restitution).force(contact.depth, approach);
     stretch += slip * elapsed_;
     stretch -= n * n.dot(stretch);
-    return normal * n + touch.across * touch.friction.force(stretch, slip, contact.friction * normal * touch.inverse_across);
+    return normal * n +
+           touch.across * touch.friction.force(stretch, slip, contact.friction * normal * touch.inverse_across);
   }
 
   double omega_ = 0;

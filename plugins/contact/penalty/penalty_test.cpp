@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "penalty_scene.hpp"
+#include "penalty_testing.hpp"
 
 namespace muro {
 namespace {

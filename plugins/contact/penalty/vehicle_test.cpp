@@ -2,7 +2,7 @@
 // A four-wheeled vehicle on contact.penalty and motion.simplified.
 #include <gtest/gtest.h>
 
-#include "penalty_scene.hpp"
+#include "penalty_testing.hpp"
 
 namespace muro {
 namespace {
