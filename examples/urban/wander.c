@@ -56,12 +56,12 @@ typedef struct {
 
 enum { RANGES, MIN_ANGLE, ANGLE_INCREMENT, MAX_RANGE, INPUTS };
 static const muro_port inputs[INPUTS] = {
-    {"ranges", "m", 0},
-    {"laser.min_angle", "rad", 1},
-    {"laser.angle_increment", "rad", 1},
-    {"laser.max_range", "m", 1},
+    {"ranges", "m", 0, MURO_PORT_OPTIONAL}, /* without a laser it stands still */
+    {"laser.min_angle", "rad", 1, MURO_PORT_OPTIONAL},
+    {"laser.angle_increment", "rad", 1, MURO_PORT_OPTIONAL},
+    {"laser.max_range", "m", 1, MURO_PORT_OPTIONAL},
 };
-static const muro_port outputs[] = {{"command.twist", "m/s, rad/s", 6}}; /* vx vy vz wx wy wz */
+static const muro_port outputs[] = {{"command.twist", "m/s, rad/s", 6, 0}}; /* vx vy vz wx wy wz */
 
 /* ---------------------------------------------------------------- what the vehicle sees */
 
@@ -209,6 +209,10 @@ static int step(void* state, const muro_controller_step* now, char* error, size_
   wander* w = state;
   double* twist = now->outputs[0];
   view seen;
+  if (w->rays == 0) {
+    twist[0] = twist[5] = 0;
+    return 0;
+  }
   look(&seen, now->inputs, (uint32_t)w->rays, w->laser_x);
 
   if (w->spin == 0) {
@@ -246,6 +250,11 @@ static int create(void* state, const muro_controller_setup* setup, char* error, 
   w->period = setup->period;
   w->random = setup->seed;
   w->rays = setup->input_sizes[RANGES];
+  for (int i = 0; i < INPUTS; ++i) {
+    if (w->rays == 0 || setup->input_sizes[i] > 0) continue;
+    snprintf(error, error_size, "there are ranges, but no `%s` to go with them", inputs[i].name);
+    return 1;
+  }
   for (const char* const* a = setup->arguments; *a; ++a) {
     if (sets(*a, "speed", 0.1, 2, &w->speed) || sets(*a, "laser_x", -1, 1, &w->laser_x)) continue;
     snprintf(error, error_size, "argument `%s` is none of: speed=0.1..2 (m/s), laser_x=-1..1 (m)", *a);

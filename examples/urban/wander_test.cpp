@@ -161,7 +161,7 @@ TEST(Wander, LetsFortyVehiclesShareTheStreets) {
   const City city(5);
   std::vector<std::unique_ptr<Vehicle>> vehicles;
   for (int i = 0; i < 40; ++i) {  // on four streets along x, in both lanes
-    const double row = -15 + 10 * (i % 4), column = -20 + 4.6 * (i / 4);
+    const double row = -15 + 10 * (i % 4), column = -20 + 4.6 * std::floor(0.25 * i);
     const bool east = i / 4 % 2 == 0;
     vehicles.push_back(
         std::make_unique<Vehicle>(control(), Place{column, row + (east ? -0.8 : 0.8), east ? 0 : pi}, 1000 + i));

@@ -42,7 +42,12 @@ typedef struct muro_port {
   const char* name; /* a property, e.g. "ranges"; no two inputs, and no two outputs, have the same */
   const char* unit; /* its SI unit letter by letter as muro writes it, e.g. "m"; NULL: not checked */
   uint32_t size;    /* number of doubles; 0: as many as the property has (inputs only) */
+  uint32_t flags;   /* 0, or MURO_PORT_OPTIONAL */
 } muro_port;
+
+/* An input that may be missing: where nothing of the robot has such a property, muro says so once and the input has
+ * size 0, so control code can live with a robot that lacks a sensor. */
+#define MURO_PORT_OPTIONAL 1u
 
 /* What an instance learns when it is created. All pointers are valid during `create` only. */
 typedef struct muro_controller_setup {

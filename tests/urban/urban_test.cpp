@@ -100,8 +100,12 @@ TEST(Urban, OneTeamDrivesAtThreeLevelsWithOneModelAndOneControlLibrary) {
 TEST(Urban, EveryOverrideOfTheReadmeWorks) {
   EXPECT_EQ(open({"robots.rovers.count=100"}).simulation->world().robots().size(), 100u);
   open({"robots.rovers.motion.use=motion.point"}).simulation->run_for(0.2);
-  const BuiltScenario blind = open({"robots.rovers.laser=off", "robots.rovers.control=off"});
+}
+
+TEST(Urban, WithoutLasersTheTeamStandsStill) {
+  BuiltScenario blind = open({"robots.rovers.laser=off"});
   for (const auto& i : blind.simulation->instances()) EXPECT_NE(i->setup().use, "laser.raycast");
+  for (const Track& track : run_and_watch(blind, 2)) EXPECT_LT(track.farthest, 0.001);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Bodies: cases with closed forms, at 1000 Hz and 50 Hz stiffness unless said.
 #include <gtest/gtest.h>
+#include <cmath>
 
 #include <random>
 
@@ -207,8 +208,8 @@ TEST(Penalty, TheRollingStackMovesAsInTheBenchmark) {
     std::vector<const RobotView*> balls;
     const RobotTree tree = ball(1, 0.5, 0.8);
     for (int k = 0; k < 25; ++k)
-      balls.push_back(
-          &s.add("ball" + std::to_string(k), tree, {{2.0 * (k % 5) - 4, 2.0 * (k / 5) - 4, 1.5}, Quat::Identity()}));
+      balls.push_back(&s.add("ball" + std::to_string(k), tree,
+                             {{2.0 * (k % 5) - 4, 2.0 * std::floor(0.2 * k) - 4, 1.5}, Quat::Identity()}));
     Wrench& push = s.push(box);
     s.start();
     push.force = 150 * direction;

@@ -100,6 +100,11 @@ const FoundProperty* PropertyFinder::property_of(ObjectId object, std::string_vi
   return nullptr;
 }
 
+bool PropertyFinder::has(std::string_view property) const {
+  const auto holds = [&](ObjectId o) { return property_of(o, property) != nullptr; };
+  return std::any_of(objects_.begin(), objects_.end(), holds) || holds(world_object);
+}
+
 FoundProperty PropertyFinder::find_anywhere(std::string_view property, std::string_view parameter,
                                             std::string_view port) const {
   for (std::size_t i = 0; i < preferred_; ++i)

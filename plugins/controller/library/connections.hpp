@@ -34,6 +34,9 @@ class PropertyFinder {
   /// Throws Error, which names candidates.
   std::vector<FoundProperty> find(const muro_port& port, bool input, const Connections& connections) const;
 
+  /// Whether anything that a port may stand for by its name has such a property.
+  bool has(std::string_view property) const;
+
  private:
   FoundProperty find(const Target& target, std::string_view parameter, std::string_view port) const;
   FoundProperty find_anywhere(std::string_view property, std::string_view parameter, std::string_view port) const;

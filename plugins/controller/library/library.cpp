@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <deque>
 #include <filesystem>
+#include <map>
 #include <string>
 
 #include "connections.hpp"
@@ -73,6 +74,9 @@ class LibraryController final : public Algorithm {
       r.block = static_cast<Block*>(
           c.state_block(item.object, block_name(c, item.object), Block::size_for(table_->state_size)));
     }
+    for (const auto& [port, robot] : missing_)
+      c.host().log(LogLevel::warning, "robot `" + robot + "`: `" + table_->name + "` runs without its input `" + port +
+                                          "`, which nothing of the robot provides");
   }
 
   void start() override {
@@ -80,7 +84,8 @@ class LibraryController final : public Algorithm {
       std::size_t copied = 0;
       const auto measure = [&](Port& port, const muro_port& wanted, bool input) {
         port.resolve();
-        if (wanted.size != 0 && wanted.size != port.size())
+        const bool missing = missing_.contains(wanted.name) && port.size() == 0;
+        if (wanted.size != 0 && wanted.size != port.size() && !missing)
           throw Error(about(r, wanted, input) + " has " + std::to_string(wanted.size) +
                       " numbers in the library, but the connected properties have " + std::to_string(port.size()));
         copied += port.direct() ? 0 : port.size();
@@ -116,6 +121,8 @@ class LibraryController final : public Algorithm {
     std::vector<double*> input_places, output_places;
   };
 
+  std::map<std::string, std::string> missing_;  ///< optional inputs that a robot lacks, and the first such robot
+
   void read_arguments(std::span<const std::string_view> texts) {
     for (const std::string_view text : texts) {
       const std::size_t equals = text.find('=');
@@ -133,8 +140,13 @@ class LibraryController final : public Algorithm {
   std::string about(const Robot& r) const { return "robot `" + r.name + "`: `" + table_->name + "` "; }
 
   void bind(Connector& c, const PropertyFinder& finder, Robot& r, const muro_port& port, const Connections& connections,
-            bool input) const {
+            bool input) {
     Port& bound = (input ? r.inputs : r.outputs).emplace_back();
+    const bool may_be_missing = input && (port.flags & MURO_PORT_OPTIONAL) != 0 && !connections.contains(port.name);
+    if (may_be_missing && !finder.has(port.name)) {
+      missing_.emplace(port.name, r.name);
+      return;
+    }
     try {
       for (const FoundProperty& found : finder.find(port, input, connections))
         bound.add(found, input ? const_cast<void*>(c.read_any(found)) : c.write_any(found));

@@ -14,8 +14,8 @@ typedef struct {
   double nan_at;  /* step */
 } circle;
 
-static const muro_port inputs[] = {{"pose", "m", 7}};
-static const muro_port outputs[] = {{"command.twist", "m/s, rad/s", 6}};
+static const muro_port inputs[] = {{"pose", "m", 7, 0}};
+static const muro_port outputs[] = {{"command.twist", "m/s, rad/s", 6, 0}};
 
 static int create(void* state, const muro_controller_setup* setup, char* error, size_t error_size) {
   circle* c = state;

@@ -36,8 +36,8 @@
 #define OUTPUT_SIZE 6
 #endif
 
-const muro_port inputs[] = {{"pose", "m", 7}, {SECOND_INPUT, NULL, 0}};
-const muro_port outputs[] = {{OUTPUT, UNIT, OUTPUT_SIZE}};
+const muro_port inputs[] = {{"pose", "m", 7, 0}, {SECOND_INPUT, NULL, 0, 0}};
+const muro_port outputs[] = {{OUTPUT, UNIT, OUTPUT_SIZE, 0}};
 
 int step(void* state, const muro_controller_step* now, char* error, size_t error_size) {
   (void)state, (void)now, (void)error, (void)error_size;

@@ -2,8 +2,8 @@
  * Shows what it reads: vx is the first range, vy the last, vz the number of columns, wx the smaller angle. */
 #include "muro_controller.h"
 
-static const muro_port inputs[] = {{"ranges", "m", 0}, {"laser.columns", "1", 1}, {"angle", "rad", 1}};
-static const muro_port outputs[] = {{"command.twist", "m/s, rad/s", 6}};
+static const muro_port inputs[] = {{"ranges", "m", 0, 0}, {"laser.columns", "1", 1, 0}, {"angle", "rad", 1, 0}};
+static const muro_port outputs[] = {{"command.twist", "m/s, rad/s", 6, 0}};
 
 static int create(void* state, const muro_controller_setup* setup, char* error, size_t error_size) {
   (void)error, (void)error_size;

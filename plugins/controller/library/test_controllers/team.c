@@ -2,8 +2,8 @@
  * Steers two robots along x to where the other one is. */
 #include "muro_controller.h"
 
-static const muro_port inputs[] = {{"poses", "m", 14}};
-static const muro_port outputs[] = {{"commands", "m/s, rad/s", 12}};
+static const muro_port inputs[] = {{"poses", "m", 14, 0}};
+static const muro_port outputs[] = {{"commands", "m/s, rad/s", 12, 0}};
 
 static int step(void* state, const muro_controller_step* now, char* error, size_t error_size) {
   (void)state, (void)error, (void)error_size;
