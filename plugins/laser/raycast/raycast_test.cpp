@@ -121,7 +121,7 @@ TEST(LaserRaycast, HoldsItsReadingBetweenScans) {
     s.run_for(0.01);
     read.push_back(s.ranges(scanner)[0]);
   }
-  for (int i = 0; i < 30; ++i) EXPECT_NEAR(read[i], 5 - 0.1 * (i / 10), 1e-12) << "10 scans a second";
+  for (int i = 0; i < 30; ++i) EXPECT_NEAR(read[i], 5 - 0.1 * std::floor(0.1 * i), 1e-12) << "10 scans a second";
 }
 
 TEST(LaserRaycast, SeesOtherRobotsWhereTheyAreAndItselfOnlyWhenTold) {
