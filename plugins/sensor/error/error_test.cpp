@@ -13,7 +13,7 @@ constexpr Key<double> measured_battery{"battery.voltage.measured", "V", ""};
 
 /// Robots that carry a scanner each, whose true reading is the same constant.
 struct Devices : Scene {
-  explicit Devices(std::vector<std::string> names, std::uint64_t seed = 1) : Scene(seed) {
+  explicit Devices(const std::vector<std::string>& names, std::uint64_t seed = 1) : Scene(seed) {
     for (const std::string& name : names) {
       const RobotView& robot =
           add(name, test::single_body(Shape::sphere(0.1), {.mass = 1, .ixx = 1, .iyy = 1, .izz = 1}));
