@@ -71,6 +71,13 @@ std::vector<SlotId> Instance::writes() const {
   return slots;
 }
 
+std::vector<Phase> Instance::phases() const {
+  const std::span<const Phase> given = algorithm_->phases();
+  if (!given.empty()) return {given.begin(), given.end()};
+  const bool batched = (description().promises & Promise::batched) != 0;
+  return {{batched ? Phase::Over::items : Phase::Over::whole, Phase::Reach::wide}};
+}
+
 std::uint64_t Instance::random_key(std::uint32_t i) const noexcept {
   return fnv1a(setup_.subsystem, fnv1a(world_.object_name(setup_.items[i].object)));
 }

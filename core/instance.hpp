@@ -50,6 +50,8 @@ class Instance final : private Connector {
   /// Slots that it reads and writes, for the scheduler.
   std::vector<SlotId> reads() const;
   std::vector<SlotId> writes() const;
+  /// How a step is divided; one or more.
+  std::vector<Phase> phases() const;
 
  private:
   std::span<const Item> items() const noexcept override { return setup_.items; }

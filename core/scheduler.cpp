@@ -191,8 +191,10 @@ void Scheduler::run_instant(const Plan& plan) {
   std::uint64_t before = ticks();
   for (const Entry& e : plan) {
     const Task& task = tasks_[e.task];
-    const Step step{now_, e.dt, runs_[e.task], seed_};
-    const bool fine = task.instance->step(step, {0, task.items}, error);
+    Step step{now_, e.dt, runs_[e.task], seed_};
+    bool fine = true;
+    for (; fine && step.phase < task.phases.size(); ++step.phase)
+      fine = task.instance->step(step, {0, task.length(step.phase)}, error);
     ++runs_[e.task];
     const std::uint64_t after = ticks();
     TaskCost& cost = costs_[e.task];

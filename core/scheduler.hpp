@@ -17,10 +17,17 @@ struct Task {
   std::string name;  ///< "rovers.motion"
   abi::AlgorithmInstance* instance = nullptr;
   std::uint32_t items = 0;
+  std::vector<Phase> phases = {Phase{}};  ///< one or more
+  std::uint32_t robots = 0;               ///< of the scene
   Rate rate;                                 ///< on demand when zero
   std::int64_t phase = 0;                    ///< ns, 0 or more
   int order = 0;                             ///< tasks of one instant run by rising order, then as added
   std::vector<std::uint32_t> reads, writes;  ///< slots of the property store
+
+  /// How many elements phase number `which` works on.
+  std::uint32_t length(std::uint32_t which) const {
+    return phases[which].over == Phase::Over::robots ? robots : items;
+  }
 };
 using TaskId = std::uint32_t;
 

@@ -179,6 +179,8 @@ void Simulation::schedule() {
     task.name = s.name;
     task.instance = &instance->algorithm();
     task.items = std::uint32_t(s.items.size());
+    task.phases = instance->phases();
+    task.robots = std::uint32_t(world_.robots().size());
     task.rate = s.rate;
     task.phase = s.phase;
     task.order = order_of(instance->description().kind);

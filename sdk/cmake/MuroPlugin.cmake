@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# For plugin authors: muro_add_plugin() and muro_add_controller(). Comes with find_package(muro), and with
+# For plugin authors: muro_add_plugin(), muro_add_kernels() and muro_add_controller(). Comes with find_package(muro), and with
 # add_subdirectory(<muro>/sdk).
 
 # muro_add_plugin(NAME motion_point SOURCES point.cpp [LIBRARIES ...] [OUTPUT_DIRECTORY ...])
@@ -58,6 +58,39 @@ function(muro_add_plugin)
     install(TARGETS ${ARG_NAME} LIBRARY DESTINATION lib/muro)
     install(FILES ${description} DESTINATION lib/muro)
   endif()
+endfunction()
+
+# muro_add_kernels(TARGET motion_point SOURCES step_kernel.cpp)
+#
+# Compiles sources into a target, once for each instruction set of muro/lane/isa.hpp, with MURO_ISA naming it. Such a
+# source includes the headers of muro/lane/ and declarations of its own, and nothing that has inline functions beside.
+function(muro_add_kernels)
+  cmake_parse_arguments(PARSE_ARGV 0 ARG "" "TARGET" "SOURCES")
+  if(NOT ARG_TARGET OR NOT ARG_SOURCES OR ARG_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "muro_add_kernels(TARGET target SOURCES file...): TARGET or SOURCES missing, or not "
+                        "understood: ${ARG_UNPARSED_ARGUMENTS}")
+  endif()
+  set(flags_base "")
+  set(flags_avx2 -mavx2)
+  set(flags_avx512 -mavx512f -mavx512dq -mavx512vl -mavx512bw -mprefer-vector-width=512)
+  set(isas base)
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+    list(APPEND isas avx2 avx512)
+  endif()
+  get_target_property(includes muro_sdk INTERFACE_INCLUDE_DIRECTORIES)
+  foreach(isa IN LISTS isas)
+    set(kernels ${ARG_TARGET}_${isa})
+    add_library(${kernels} OBJECT ${ARG_SOURCES})
+    target_include_directories(${kernels} PRIVATE ${includes})
+    target_compile_features(${kernels} PRIVATE cxx_std_20)
+    target_compile_definitions(${kernels} PRIVATE MURO_ISA=${isa})
+    # -Wno-psabi: no vector is passed between functions, for all are inlined
+    target_compile_options(${kernels} PRIVATE -ffp-contract=off -fno-math-errno -fno-trapping-math -Wno-psabi
+                                              $<$<NOT:$<CONFIG:Debug>>:-O3> ${flags_${isa}})
+    set_target_properties(${kernels} PROPERTIES POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden
+                                                VISIBILITY_INLINES_HIDDEN ON)
+    target_sources(${ARG_TARGET} PRIVATE $<TARGET_OBJECTS:${kernels}>)
+  endforeach()
 endfunction()
 
 # muro_add_controller(NAME wander SOURCES wander.c [LIBRARIES ...] [OUTPUT_DIRECTORY ...])

@@ -103,6 +103,7 @@ class AlgorithmInstance {
  public:
   virtual bool connect(Connector&, ErrorText&) noexcept = 0;
   virtual bool start(ErrorText&) noexcept = 0;
+  virtual std::span<const Phase> phases() const noexcept = 0;
   virtual bool step(const Step&, Range, ErrorText&) noexcept = 0;
   virtual bool restored(ErrorText&) noexcept = 0;
   virtual bool finish(ErrorText&) noexcept = 0;
@@ -144,6 +145,7 @@ class AlgorithmOf final : public AlgorithmInstance {
   bool start(ErrorText& e) noexcept override {
     return guarded(e, [&] { algorithm_.start(); });
   }
+  std::span<const Phase> phases() const noexcept override { return algorithm_.phases(); }
   bool step(const Step& s, Range r, ErrorText& e) noexcept override {
     return guarded(e, [&] { algorithm_.step(s, r); });
   }

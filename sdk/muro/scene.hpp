@@ -37,11 +37,15 @@ inline Aabb bounds_of(const Shape& shape, const Pose& pose) {
 /// One shape of one body in the scene.
 struct Collider {
   const Shape* shape = nullptr;
-  ObjectId body = no_object;      ///< the object whose pose moves the shape
-  std::int32_t robot = -1;        ///< number of the robot it belongs to; -1: static scenery
-  std::uint32_t shape_index = 0;  ///< among the body's shapes
-  Pose pose;                      ///< of the shape in the world
-  Aabb bounds;                    ///< around the shape at `pose`, without margin
+  const Pose* body_pose = nullptr;  ///< of the body in the world, as it is now
+  ObjectId body = no_object;        ///< the object that has the shape
+  std::int32_t robot = -1;          ///< number of the robot it belongs to; -1: static scenery
+  std::uint32_t shape_index = 0;    ///< among the body's shapes
+
+  /// Of the shape in the world.
+  Pose pose() const { return *body_pose * shape->origin; }
+  /// Around the shape in the world.
+  Aabb bounds() const { return bounds_of(*shape, pose()); }
 };
 
 /// A node of a hierarchy of boxes. A leaf has `count` > 0 items, from `first` on in `items`;
@@ -62,7 +66,9 @@ struct Bvh {
 struct RobotColliders {
   std::uint32_t first = 0;
   std::uint32_t count = 0;
-  Aabb bounds;  ///< around all of them, without margin
+  Aabb bounds;                ///< around all of them
+  Aabb room;                  ///< box with a margin in which the robot stays for a while; as in `moving`
+  std::uint64_t changes = 0;  ///< how often `room` has changed
 };
 
 /// The spatial index of the scene: a derived property of the world, right for the instant in which
@@ -74,6 +80,7 @@ struct SceneIndex {
   std::span<const std::uint32_t> planes;   ///< colliders without bounds, tested by everyone
   Bvh scenery;                             ///< items are indices of colliders
   Bvh moving;                              ///< items are robot numbers
+  std::uint64_t changes = 0;               ///< how often the `room` of any robot has changed
 };
 MURO_OPAQUE_TYPE(SceneIndex, "muro.SceneIndex", transient);
 

@@ -5,20 +5,40 @@
 
 namespace muro {
 
-/// One run of an algorithm.
+/// One run of an algorithm, or of one of its phases.
 struct Step {
   std::int64_t time = 0;    ///< ns of simulated time since the start
   double dt = 0;            ///< s, the period of the algorithm; on demand: the period of the reader that asks
   std::uint64_t index = 0;  ///< how often the algorithm ran before
   std::uint64_t seed = 0;   ///< of the simulation
+  std::uint32_t phase = 0;  ///< of the step: place in Algorithm::phases()
 
   double seconds() const { return 1e-9 * double(time); }
 };
 
-/// Items `begin` to `end` - 1 of an instance: those that one call of `step` is to serve.
+/// Elements `begin` to `end` - 1 of what a phase works on: those that one call of `step` is to serve.
 struct Range {
   std::uint32_t begin = 0;
   std::uint32_t end = 0;
+};
+
+/// A part of a step, and how it may be divided among threads.
+///
+/// The phases of a step run one behind the other. The range of a divided phase is cut into blocks that do not depend on
+/// the number of threads; `step` is called for the blocks in any order, several at once. Each block writes only what
+/// belongs to its own elements. Memory that a call uses for itself is local to the call or thread_local.
+struct Phase {
+  enum class Over : std::uint8_t {
+    whole,   ///< one call, with all items
+    items,   ///< the items of the instance
+    robots,  ///< all robots of the scene, by robot number: for algorithms that serve the whole scene
+  };
+  enum class Reach : std::uint8_t {
+    own,   ///< touches properties of its element's robot alone, beside those that have no robot and that it only reads
+    wide,  ///< writes properties of its element's robot, reads anything that the algorithm has declared
+  };
+  Over over = Over::whole;
+  Reach reach = Reach::wide;
 };
 
 }  // namespace muro

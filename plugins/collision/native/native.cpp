@@ -57,29 +57,29 @@ class NativeCollision final : public Algorithm {
     const RobotColliders& robot = scene.robots[r];
     own_.clear();
     for (std::uint32_t k = robot.first; k < robot.first + robot.count; ++k)
-      own_.push_back(placed(*scene.colliders[k].shape, scene.colliders[k].pose));
+      own_.push_back(placed(*scene.colliders[k].shape, scene.colliders[k].pose()));
     for (const std::uint32_t p : scene.planes) {
       const Collider& plane = scene.colliders[p];
       if (plane.robot == std::int32_t(r) || !reaches(robot.bounds, plane)) continue;
-      const Placed ground = placed(*plane.shape, plane.pose);
+      const Placed ground = placed(*plane.shape, plane.pose());
       for (std::uint32_t k = 0; k < robot.count; ++k) touch(scene.colliders[robot.first + k], own_[k], plane, ground);
     }
     each_near(scene.scenery, robot.bounds, [&](std::uint32_t other) {
-      if (scene.colliders[other].bounds.overlaps(robot.bounds)) touch_collider(robot, scene.colliders[other]);
+      if (scene.colliders[other].bounds().overlaps(robot.bounds)) touch_collider(robot, scene.colliders[other]);
     });
     each_near(scene.moving, robot.bounds, [&](std::uint32_t other) {
       const RobotColliders& mate = scene.robots[other];
       if (other == r || (other < r && lists_[other]) || !mate.bounds.overlaps(robot.bounds)) return;
       for (std::uint32_t k = mate.first; k < mate.first + mate.count; ++k)
-        if (scene.colliders[k].bounds.overlaps(robot.bounds)) touch_collider(robot, scene.colliders[k]);
+        if (scene.colliders[k].bounds().overlaps(robot.bounds)) touch_collider(robot, scene.colliders[k]);
     });
   }
 
   /// Whether a box goes below the plane.
   static bool reaches(const Aabb& box, const Collider& plane) {
-    const Vec3 normal = plane.pose.orientation * Vec3::UnitZ();
+    const Vec3 normal = plane.pose().orientation * Vec3::UnitZ();
     const Vec3 middle = 0.5 * (box.low + box.high), half = 0.5 * (box.high - box.low);
-    return normal.dot(middle - plane.pose.position) < normal.cwiseAbs().dot(half);
+    return normal.dot(middle - plane.pose().position) < normal.cwiseAbs().dot(half);
   }
 
   void touch_collider(const RobotColliders& robot, const Collider& other) {
@@ -87,8 +87,8 @@ class NativeCollision final : public Algorithm {
     bool known = false;
     for (std::uint32_t k = 0; k < robot.count; ++k) {
       const Collider& own = index_->colliders[robot.first + k];
-      if (own.shape->kind == ShapeKind::plane || !own.bounds.overlaps(other.bounds)) continue;
-      if (!known) second = placed(*other.shape, other.pose);
+      if (own.shape->kind == ShapeKind::plane || !own.bounds().overlaps(other.bounds())) continue;
+      if (!known) second = placed(*other.shape, other.pose());
       known = true;
       touch(own, own_[k], other, second);
     }

@@ -241,10 +241,10 @@ TEST(SceneBvh, DescribesTheSceneOfTheInstant) {
       const Collider& c = index.colliders[index.robots[r].first];
       EXPECT_EQ(c.robot, std::int32_t(r));
       EXPECT_EQ(c.body, crowd.all[r]->base());
-      EXPECT_EQ(c.pose.position, poses[r].position);
+      EXPECT_EQ(c.pose().position, poses[r].position);
       const Aabb tight = bounds_of(*c.shape, poses[r]);
-      EXPECT_LT((c.bounds.low - tight.low).norm() + (c.bounds.high - tight.high).norm(), 1e-12);
-      EXPECT_EQ(index.robots[r].bounds.low, c.bounds.low);
+      EXPECT_LT((c.bounds().low - tight.low).norm() + (c.bounds().high - tight.high).norm(), 1e-12);
+      EXPECT_EQ(index.robots[r].bounds.low, c.bounds().low);
     }
     std::vector<int> seen(poses.size());
     for (const BvhNode& n : index.moving.nodes)

@@ -49,11 +49,11 @@ void SceneBvh::add_colliders(Connector& c, ObjectId body, const Pose* pose) {
     if (shapes[i].kind == ShapeKind::plane) planes_.push_back(std::uint32_t(colliders_.size()));
     Collider k;
     k.shape = &shapes[i];
+    k.body_pose = pose;
     k.body = body;
     k.robot = c.robot_of(body);
     k.shape_index = i;
     colliders_.push_back(k);
-    body_poses_.push_back(pose);
   }
 }
 
@@ -63,10 +63,7 @@ void SceneBvh::connect(Connector& c) {
   for (std::uint32_t i = 0; i < c.object_count(); ++i) {
     const ObjectId o{i};
     if (c.robot_of(o) >= 0 || c.constant_array(o, keys::collision_shapes).empty()) continue;
-    const std::size_t first = colliders_.size();
-    add_colliders(c, o, nullptr);
-    const Pose pose = c.constant(o, keys::pose).value_or(Pose{});
-    for (std::size_t k = first; k < colliders_.size(); ++k) colliders_[k].pose = pose * colliders_[k].shape->origin;
+    add_colliders(c, o, &scenery_poses_.emplace_back(c.constant(o, keys::pose).value_or(Pose{})));
   }
   scenery_ = std::uint32_t(colliders_.size());
   for (const RobotView* robot : c.robots()) {
@@ -84,10 +81,8 @@ void SceneBvh::start() {
   std::vector<Aabb> boxes;
   std::vector<std::uint32_t> bounded;
   for (std::uint32_t k = 0; k < scenery_; ++k) {
-    Collider& c = colliders_[k];
-    c.bounds = bounds_of(*c.shape, c.pose);
-    boxes.push_back(c.bounds);
-    if (c.shape->kind != ShapeKind::plane) bounded.push_back(k);
+    boxes.push_back(colliders_[k].bounds());
+    if (colliders_[k].shape->kind != ShapeKind::plane) bounded.push_back(k);
   }
   scenery_tree_.build(boxes, bounded);
   members_.clear();
@@ -97,24 +92,25 @@ void SceneBvh::start() {
   }
   fat_.resize(robots_.size());
   rebuild();
-  *index_ = {colliders_, robots_, planes_, scenery_tree_.view(), moving_tree_.view()};
+  *index_ = {colliders_, robots_, planes_, scenery_tree_.view(), moving_tree_.view(), changes_};
 }
 
 void SceneBvh::place(std::uint32_t robot) {
   RobotColliders& r = robots_[robot];
   r.bounds = {};
   for (std::uint32_t k = r.first; k < r.first + r.count; ++k) {
-    Collider& c = colliders_[k];
-    c.pose = *body_poses_[k] * c.shape->origin;
-    if (c.shape->kind == ShapeKind::plane) continue;
-    c.bounds = bounds_of(*c.shape, c.pose);
-    r.bounds.include(c.bounds);
+    const Collider& c = colliders_[k];
+    if (c.shape->kind != ShapeKind::plane) r.bounds.include(c.bounds());
   }
 }
 
 void SceneBvh::rebuild() {
   const Vec3 margin = Vec3::Constant(margin_);
-  for (const std::uint32_t r : members_) fat_[r] = {robots_[r].bounds.low - margin, robots_[r].bounds.high + margin};
+  for (const std::uint32_t r : members_) {
+    fat_[r] = robots_[r].room = {robots_[r].bounds.low - margin, robots_[r].bounds.high + margin};
+    ++robots_[r].changes;
+    ++changes_;
+  }
   moving_tree_.build(fat_, members_);
   strayed_ = 0;
 }
@@ -125,16 +121,19 @@ void SceneBvh::step(const Step&, Range) {
   for (const std::uint32_t r : members_) {
     place(r);
     if (fat_[r].contains(robots_[r].bounds)) continue;
-    fat_[r] = {robots_[r].bounds.low - margin, robots_[r].bounds.high + margin};
+    fat_[r] = robots_[r].room = {robots_[r].bounds.low - margin, robots_[r].bounds.high + margin};
+    ++robots_[r].changes;
     ++left;
   }
   if (left == 0) return;
   strayed_ += left;
+  changes_ += left;
   if (strayed_ > members_.size())  // the tree was made for other places
     rebuild();
   else
     moving_tree_.refit(fat_);
   index_->moving = moving_tree_.view();
+  index_->changes = changes_;
 }
 
 }  // namespace muro::native

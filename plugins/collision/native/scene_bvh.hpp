@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <deque>
+
 #include "box_tree.hpp"
 #include "muro/algorithm.hpp"
 
@@ -26,13 +28,14 @@ class SceneBvh final : public Algorithm {
   double margin_ = 0;
   Out<SceneIndex> index_;
   std::vector<Collider> colliders_;
-  std::vector<const Pose*> body_poses_;  ///< of each collider's body; null for scenery
+  std::deque<Pose> scenery_poses_;
   std::vector<std::uint32_t> planes_;
   std::vector<RobotColliders> robots_;
-  std::vector<Aabb> fat_;               ///< a robot's box with its margin
+  std::vector<Aabb> fat_;               ///< a robot's box with its margin, by robot number
   std::vector<std::uint32_t> members_;  ///< robots that have bounds
   std::uint32_t scenery_ = 0;           ///< the first so many colliders stand still
   std::size_t strayed_ = 0;             ///< robots that left their boxes since the tree was built
+  std::uint64_t changes_ = 0;           ///< of boxes with margin
   std::vector<TextId> meshes_;          ///< warned of
   BoxTree scenery_tree_, moving_tree_;
 };

@@ -113,8 +113,8 @@ void Candidates::gather(const SceneIndex& scene, const View& view, const Pattern
   for (const std::uint32_t i : scene.planes) {
     const Collider& c = scene.colliders[i];
     if (c.robot >= 0 && c.robot == view.ignored_robot) continue;
-    const Vec3 normal = c.pose.orientation * Vec3::UnitZ();
-    planes_.push_back({c.body, to_device_ * normal, normal.dot(view.device.position - c.pose.position)});
+    const Vec3 normal = c.pose().orientation * Vec3::UnitZ();
+    planes_.push_back({c.body, to_device_ * normal, normal.dot(view.device.position - c.pose().position)});
   }
 }
 
@@ -122,9 +122,9 @@ void Candidates::consider(const SceneIndex& scene, std::uint32_t collider, const
   const Collider& source = scene.colliders[collider];
   const Shape& shape = *source.shape;
   if (shape.kind == ShapeKind::plane || shape.kind == ShapeKind::mesh) return;
-  if (distance2(source.bounds) >= view_.max_range * view_.max_range) return;
-  const Vec3 half = half_extents(shape), away = source.pose.position - view_.device.position;
-  const Mat3 axes = source.pose.orientation.toRotationMatrix();  // of the shape in the world
+  if (distance2(source.bounds()) >= view_.max_range * view_.max_range) return;
+  const Vec3 half = half_extents(shape), away = source.pose().position - view_.device.position;
+  const Mat3 axes = source.pose().orientation.toRotationMatrix();  // of the shape in the world
   const Vec3 up = to_device_.row(2);                             // of the device in the world
   const double tall = (up.transpose() * axes).cwiseAbs().dot(half);
   if (outside_elevations(up.dot(away), tall, away.squaredNorm(), half.norm(), pattern)) return;

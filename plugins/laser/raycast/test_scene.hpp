@@ -41,7 +41,7 @@ class TestScene {
     std::vector<std::uint32_t> items;
     std::vector<Aabb> bounds;
     for (std::uint32_t i = 0; i < colliders_.size(); ++i) {
-      bounds.push_back(colliders_[i].bounds);
+      bounds.push_back(colliders_[i].bounds());
       if (colliders_[i].shape->kind != ShapeKind::plane) items.push_back(i);
     }
     scenery_items_ = items;
@@ -49,10 +49,12 @@ class TestScene {
     items.clear();
     bounds.clear();
     for (std::uint32_t r = 0; r < robots_.size(); ++r, ++body) {
-      RobotColliders box{std::uint32_t(colliders_.size()), std::uint32_t(robots_[r].size()), {}};
+      RobotColliders box;
+      box.first = std::uint32_t(colliders_.size());
+      box.count = std::uint32_t(robots_[r].size());
       for (std::uint32_t k = 0; k < robots_[r].size(); ++k) {
         add(robots_[r][k], ObjectId(body), std::int32_t(r), k);
-        box.bounds.include(colliders_.back().bounds);
+        box.bounds.include(colliders_.back().bounds());
       }
       boxes_.push_back(box);
       items.push_back(r);
@@ -68,7 +70,7 @@ class TestScene {
  private:
   void add(const Part& p, ObjectId body, std::int32_t robot, std::uint32_t shape_index) {
     if (p.shape.kind == ShapeKind::plane) planes_.push_back(std::uint32_t(colliders_.size()));
-    colliders_.push_back({&p.shape, body, robot, shape_index, p.pose, bounds_of(p.shape, p.pose)});
+    colliders_.push_back({&p.shape, &p.pose, body, robot, shape_index});
   }
 
   /// Halves the items along the longest side until two are left.
@@ -129,9 +131,9 @@ class Reference {
     Hit best{max_range, no_object};
     for (const Collider& c : scene.colliders) {
       if (c.robot >= 0 && c.robot == ignored_robot) continue;
-      const Vector p = of(c.pose.position);
-      const Vector o = turn(c.pose.orientation, {start.x - p.x, start.y - p.y, start.z - p.z}, -1);
-      const Real t = enter(*c.shape, o, turn(c.pose.orientation, d, -1));
+      const Vector p = of(c.pose().position);
+      const Vector o = turn(c.pose().orientation, {start.x - p.x, start.y - p.y, start.z - p.z}, -1);
+      const Real t = enter(*c.shape, o, turn(c.pose().orientation, d, -1));
       if (t < best.distance) best = {t, c.body};
     }
     best.distance = std::max(best.distance, Real(min_range));
