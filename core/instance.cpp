@@ -71,6 +71,21 @@ std::vector<SlotId> Instance::writes() const {
   return slots;
 }
 
+std::vector<Touch> Instance::touches() const {
+  std::vector<Touch> all;
+  for (const Bound& b : bound_) {
+    if (world_.store().slot(b.slot).kind == Slot::Class::constant) continue;
+    const bool shared = b.access == Access::read || b.access == Access::input || b.access == Access::accumulate;
+    all.push_back({b.slot, !shared});
+  }
+  std::sort(all.begin(), all.end(), [](const Touch& a, const Touch& b) {
+    return a.slot != b.slot ? a.slot < b.slot : a.exclusive > b.exclusive;
+  });
+  all.erase(std::unique(all.begin(), all.end(), [](const Touch& a, const Touch& b) { return a.slot == b.slot; }),
+            all.end());
+  return all;
+}
+
 std::vector<Phase> Instance::phases() const {
   const std::span<const Phase> given = algorithm_->phases();
   if (!given.empty()) return {given.begin(), given.end()};

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "core/algorithm_setup.hpp"
+#include "core/task.hpp"
 #include "core/world.hpp"
 #include "muro/abi.hpp"
 
@@ -50,6 +51,9 @@ class Instance final : private Connector {
   /// Slots that it reads and writes, for the scheduler.
   std::vector<SlotId> reads() const;
   std::vector<SlotId> writes() const;
+  /// Every property that is not a constant, once. Contributions to a sum do not exclude each other, but exclude who
+  /// reads the sum.
+  std::vector<Touch> touches() const;
   /// How a step is divided; one or more.
   std::vector<Phase> phases() const;
 

@@ -12,29 +12,13 @@ namespace muro {
 
 namespace {
 
-/// A cheap clock for cost accounting: one read a task.
-std::uint64_t ticks() {
-#if defined(__x86_64__)
-  return __builtin_ia32_rdtsc();
-#elif defined(__aarch64__)
-  std::uint64_t t;
-  asm volatile("mrs %0, cntvct_el0" : "=r"(t));
-  return t;
-#else
-  return std::uint64_t(std::chrono::steady_clock::now().time_since_epoch().count());
-#endif
-}
-
 constexpr std::int64_t never = std::numeric_limits<std::int64_t>::max();
 
 }  // namespace
 
-Scheduler::Scheduler() : first_tick_(ticks()), first_wall_(std::chrono::steady_clock::now()) {}
-
 TaskId Scheduler::add(Task task) {
   const auto id = TaskId(tasks_.size());
   tasks_.push_back(std::move(task));
-  costs_.emplace_back();
   runs_.push_back(0);
   items_.push_back({id});
   item_of_.push_back(std::int32_t(items_.size()) - 1);
@@ -67,8 +51,9 @@ void Scheduler::add_sequence(const std::vector<TaskId>& tasks) {
 
 void Scheduler::prepare() {
   prepared_ = true;
-  plans_.clear();
-  last_plan_ = nullptr;
+  programs_.clear();
+  last_program_ = nullptr;
+  executor_.prepare(tasks_.size());
   groups_.clear();
   group_of_item_.assign(items_.size(), 0);
   finest_period_ = 0;
@@ -136,16 +121,16 @@ void Scheduler::find_periods() {
   }
 }
 
-void Scheduler::demand(TaskId reader, std::vector<bool>& done, Plan& plan) const {
+void Scheduler::demand(TaskId reader, std::vector<bool>& done, Turns& turns) const {
   for (const TaskId p : providers_[reader]) {
     if (done[p]) continue;
     done[p] = true;
-    demand(p, done, plan);
-    plan.push_back({p, periods_[p]});
+    demand(p, done, turns);
+    turns.push_back({p, periods_[p]});
   }
 }
 
-Scheduler::Plan Scheduler::make_plan(const Mask& due) const {
+Scheduler::Turns Scheduler::turns_of(const Mask& due) const {
   std::vector<std::size_t> items;
   for (std::size_t i = 0; i < items_.size(); ++i)
     if (!items_[i].empty() && !tasks_[items_[i].front()].rate.on_demand() && due[group_of_item_[i]]) items.push_back(i);
@@ -154,57 +139,52 @@ Scheduler::Plan Scheduler::make_plan(const Mask& due) const {
     if (tasks_[first].order != tasks_[second].order) return tasks_[first].order < tasks_[second].order;
     return first < second;
   });
-  Plan plan;
+  Turns turns;
   std::vector<bool> done(tasks_.size());
   for (const std::size_t i : items)
     for (const TaskId t : items_[i]) {
-      demand(t, done, plan);
-      plan.push_back({t, periods_[t]});
+      demand(t, done, turns);
+      turns.push_back({t, periods_[t]});
     }
-  return plan;
+  return turns;
 }
 
-const Scheduler::Plan& Scheduler::plan_for(const Mask& due) {
-  if (last_plan_ && due == last_due_) return *last_plan_;
-  const auto known = plans_.find(due);
-  last_plan_ = known != plans_.end() ? &known->second : &plans_.emplace(due, make_plan(due)).first->second;
+Program Scheduler::program_of(Turns turns) const {
+  Program program;
+  program.stages = stages_of(turns, tasks_, robot_of_slot_);
+  program.turns = std::move(turns);
+  return program;
+}
+
+Program& Scheduler::program_for(const Mask& due) {
+  if (last_program_ && due == last_due_) return *last_program_;
+  const auto known = programs_.find(due);
+  last_program_ =
+      known != programs_.end() ? &known->second : &programs_.emplace(due, program_of(turns_of(due))).first->second;
   last_due_ = due;
-  return *last_plan_;
+  return *last_program_;
+}
+
+Scheduler::Turns Scheduler::turns_at(std::int64_t time) const {
+  Mask due(groups_.size());
+  for (std::size_t g = 0; g < due.size(); ++g) {
+    const std::int64_t since = time - groups_[g].phase;
+    due[g] = since >= 0 && groups_[g].rate.time_of(groups_[g].rate.first_from(since)) == since;
+  }
+  return turns_of(due);
 }
 
 std::vector<TaskId> Scheduler::plan_at(std::int64_t time) const {
-  Scheduler copy = *this;
-  if (!copy.prepared_) copy.prepare();
-  Mask due(copy.groups_.size());
-  for (std::size_t g = 0; g < due.size(); ++g) {
-    const Group& group = copy.groups_[g];
-    const std::int64_t since = time - group.phase;
-    due[g] = since >= 0 && group.rate.time_of(group.rate.first_from(since)) == since;
-  }
   std::vector<TaskId> order;
-  for (const Entry& e : copy.make_plan(due)) order.push_back(e.task);
+  for (const Turn& t : turns_at(time)) order.push_back(t.task);
   return order;
 }
 
-void Scheduler::run_instant(const Plan& plan) {
-  abi::ErrorText error;
-  std::uint64_t before = ticks();
-  for (const Entry& e : plan) {
-    const Task& task = tasks_[e.task];
-    Step step{now_, e.dt, runs_[e.task], seed_};
-    bool fine = true;
-    for (; fine && step.phase < task.phases.size(); ++step.phase)
-      fine = task.instance->step(step, {0, task.length(step.phase)}, error);
-    ++runs_[e.task];
-    const std::uint64_t after = ticks();
-    TaskCost& cost = costs_[e.task];
-    ++cost.runs;
-    cost.ticks += after - before;
-    before = after;
-    if (!fine)
-      throw StepError(task.name + " failed at t = " + std::to_string(1e-9 * double(now_)) +
-                      " s: " + std::string(error.view()));
-  }
+std::vector<Stage> Scheduler::stages_at(std::int64_t time) const { return program_of(turns_at(time)).stages; }
+
+void Scheduler::run_instant(Program& program) {
+  executor_.run(tasks_, program, now_, seed_, runs_);
+  for (const Turn& t : program.turns) ++runs_[t.task];
 }
 
 void Scheduler::set_pacing(Pacing pacing) {
@@ -239,7 +219,7 @@ void Scheduler::run_until(std::int64_t end, const std::function<bool()>& stop) {
     now_ = next;
     if (pacing_.factor > 0 && pace(stop)) return;
     for (std::size_t i = 0; i < groups_.size(); ++i) due_[i] = groups_[i].next_time == now_;
-    run_instant(plan_for(due_));
+    run_instant(program_for(due_));
     for (std::size_t i = 0; i < groups_.size(); ++i)
       if (due_[i]) {
         Group& g = groups_[i];
@@ -256,15 +236,11 @@ void Scheduler::run_until(std::int64_t end, const std::function<bool()>& stop) {
 void Scheduler::run_extra(const std::vector<TaskId>& tasks) {
   if (!prepared_) prepare();
   const std::vector<std::uint64_t> runs = runs_;
-  Plan plan;
-  for (const TaskId t : tasks) plan.push_back({t, periods_[t]});
-  run_instant(plan);
+  Turns turns;
+  for (const TaskId t : tasks) turns.push_back({t, periods_[t]});
+  Program program = program_of(std::move(turns));
+  run_instant(program);
   runs_ = runs;
-}
-
-double Scheduler::seconds_per_tick() const {
-  const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - first_wall_).count();
-  return wall / double(std::max<std::uint64_t>(1, ticks() - first_tick_));
 }
 
 Scheduler::State Scheduler::state() const { return {now_, runs_}; }

@@ -3,39 +3,11 @@
 
 #include <chrono>
 #include <functional>
-#include <string>
 #include <unordered_map>
-#include <vector>
 
-#include "core/rate.hpp"
-#include "muro/abi.hpp"
+#include "core/executor.hpp"
 
 namespace muro {
-
-/// What the scheduler runs: one instance of an algorithm with its items.
-struct Task {
-  std::string name;  ///< "rovers.motion"
-  abi::AlgorithmInstance* instance = nullptr;
-  std::uint32_t items = 0;
-  std::vector<Phase> phases = {Phase{}};  ///< one or more
-  std::uint32_t robots = 0;               ///< of the scene
-  Rate rate;                                 ///< on demand when zero
-  std::int64_t phase = 0;                    ///< ns, 0 or more
-  int order = 0;                             ///< tasks of one instant run by rising order, then as added
-  std::vector<std::uint32_t> reads, writes;  ///< slots of the property store
-
-  /// How many elements phase number `which` works on.
-  std::uint32_t length(std::uint32_t which) const {
-    return phases[which].over == Phase::Over::robots ? robots : items;
-  }
-};
-using TaskId = std::uint32_t;
-
-/// What a task has cost so far.
-struct TaskCost {
-  std::uint64_t runs = 0;
-  std::uint64_t ticks = 0;  ///< of the cycle counter
-};
 
 /// How fast simulated time may pass.
 struct Pacing {
@@ -47,15 +19,17 @@ struct Pacing {
 /// Simulated time jumps from instant to instant, an instant being any nanosecond in which something is
 /// due. Within an instant the order is fixed: rising `order`, then the order of adding. A sequence
 /// takes one place in that order and runs its tasks one behind the other. A task on demand runs once an
-/// instant, just before the first due task that reads what it writes. Nothing else decides what runs
-/// when, so the same input gives the same bits.
+/// instant, just before the first due task that reads what it writes. Nothing else decides about results:
+/// calls that may overlap (see stages.hpp) run on several threads, and the same input gives the same bits.
 class Scheduler {
  public:
-  Scheduler();
   TaskId add(Task task);
   /// Tasks that run in this order as one item. All that have a rate have the same rate and phase; those on demand take
   /// it over. Throws SetupError when rates differ or there is none.
   void add_sequence(const std::vector<TaskId>& tasks);
+
+  /// To be called when all tasks have been added.
+  void prepare();
 
   /// Runs everything that is due before `end` (ns). `stop` is asked after every instant.
   /// Throws StepError; the instant is then incomplete.
@@ -66,9 +40,15 @@ class Scheduler {
   void set_pacing(Pacing pacing);
   std::uint64_t overruns() const { return overruns_; }
   const std::vector<Task>& tasks() const { return tasks_; }
-  const TaskCost& cost(TaskId t) const { return costs_[t]; }
+  TaskCost cost(TaskId t) const { return executor_.cost(t); }
   /// Wall-clock seconds per tick of the costs.
-  double seconds_per_tick() const;
+  double seconds_per_tick() const { return executor_.seconds_per_tick(); }
+  Executor& executor() { return executor_; }
+  const Executor& executor() const { return executor_; }
+  /// The robot that each slot of the property store belongs to; -1: none.
+  void set_slots(std::vector<std::int32_t> robot_of_slot) { robot_of_slot_ = std::move(robot_of_slot); }
+  /// How the instant at `time` is divided.
+  std::vector<Stage> stages_at(std::int64_t time) const;
   /// Runs these tasks now, outside of the schedule; their run counts stay.
   void run_extra(const std::vector<TaskId>& tasks);
   /// The tasks of the instant at `time` in the order in which they run.
@@ -89,24 +69,22 @@ class Scheduler {
     std::uint64_t next_run = 0;
     std::int64_t next_time = 0;
   };
-  struct Entry {
-    TaskId task;
-    double dt;
-  };
   using Mask = std::vector<bool>;
-  using Plan = std::vector<Entry>;
+  using Turns = std::vector<Turn>;
 
-  void prepare();
-  Plan make_plan(const Mask& due) const;
+  Turns turns_of(const Mask& due) const;
+  Turns turns_at(std::int64_t time) const;
   void find_providers();
   void find_periods();
-  void demand(TaskId reader, std::vector<bool>& done, Plan& plan) const;
-  const Plan& plan_for(const Mask& due);
-  void run_instant(const Plan& plan);
+  void demand(TaskId reader, std::vector<bool>& done, Turns& turns) const;
+  Program program_of(Turns turns) const;
+  Program& program_for(const Mask& due);
+  void run_instant(Program& program);
   bool pace(const std::function<bool()>& stop);
 
   std::vector<Task> tasks_;
-  std::vector<TaskCost> costs_;
+  std::vector<std::int32_t> robot_of_slot_;
+  Executor executor_;
   std::vector<std::uint64_t> runs_;
   std::vector<std::vector<TaskId>> items_;  ///< single tasks and sequences, as added
   std::vector<std::int32_t> item_of_;
@@ -116,8 +94,8 @@ class Scheduler {
   std::vector<std::vector<TaskId>> providers_;  ///< per task: on-demand tasks it needs
   std::vector<double> periods_;                 ///< s, per task; on demand: the longest of those that ask
   Mask due_, last_due_;
-  const Plan* last_plan_ = nullptr;
-  std::unordered_map<Mask, Plan> plans_;
+  Program* last_program_ = nullptr;
+  std::unordered_map<Mask, Program> programs_;
 
   std::int64_t now_ = 0;
   std::uint64_t seed_ = 1;
@@ -126,8 +104,6 @@ class Scheduler {
   std::int64_t pace_time_ = 0;
   std::int64_t finest_period_ = 0;
   std::uint64_t overruns_ = 0;
-  std::uint64_t first_tick_;
-  std::chrono::steady_clock::time_point first_wall_;
 };
 
 }  // namespace muro

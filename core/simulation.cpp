@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <mutex>
 
 #include "core/instance.hpp"
 #include "muro/vocabulary.hpp"
@@ -68,7 +69,13 @@ class Simulation::Log final : public Host {
     if (level >= LogLevel::warning)
       std::fprintf(stderr, "%s: %.*s\n", level == LogLevel::error ? "error" : "warning", int(text.size()), text.data());
   };
-  void log(LogLevel level, std::string_view text) noexcept override { sink(level, text); }
+  void log(LogLevel level, std::string_view text) noexcept override {
+    const std::lock_guard lock(mutex_);
+    sink(level, text);
+  }
+
+ private:
+  std::mutex mutex_;
 };
 
 Simulation::Simulation(Registry& registry, std::uint64_t seed) : registry_(registry), log_(std::make_unique<Log>()) {
@@ -179,7 +186,10 @@ void Simulation::schedule() {
     task.name = s.name;
     task.instance = &instance->algorithm();
     task.items = std::uint32_t(s.items.size());
+    for (const Item& item : s.items)
+      task.robot_of_item.push_back(item.robot ? std::int32_t(item.robot->number) : world_.robot_of(item.object));
     task.phases = instance->phases();
+    task.touches = instance->touches();
     task.robots = std::uint32_t(world_.robots().size());
     task.rate = s.rate;
     task.phase = s.phase;
@@ -196,6 +206,13 @@ void Simulation::schedule() {
     }
     scheduler_.add_sequence(ids);
   }
+  std::vector<std::int32_t> robot_of_slot;
+  for (SlotId i = 0; i < world_.store().slot_count(); ++i) {
+    const ObjectId object = world_.store().slot(i).object;
+    robot_of_slot.push_back(object == no_object ? -1 : world_.robot_of(object));
+  }
+  scheduler_.set_slots(std::move(robot_of_slot));
+  scheduler_.prepare();
 }
 
 void Simulation::run_for(double seconds) { run_until(now() + std::llround(seconds * 1e9)); }

@@ -55,6 +55,8 @@ class Simulation {
   void add_sequence(std::vector<std::size_t> algorithms) { sequences_.push_back(std::move(algorithms)); }
   /// Where log lines of algorithms go; default: warnings and errors to standard error.
   void set_log(std::function<void(LogLevel, std::string_view)> log);
+  /// On how many threads calls are made that may overlap; 1, unless set. Never changes a result. [between runs]
+  void set_threads(unsigned threads) { scheduler_.executor().set_threads(threads); }
   void set_pacing(Pacing pacing) { scheduler_.set_pacing(pacing); }
   /// Connects everything, checks it, starts it. Throws SetupError with every problem found.
   void build();
@@ -79,6 +81,7 @@ class Simulation {
 
   // --- what it consists of
   const std::vector<std::unique_ptr<Instance>>& instances() const { return instances_; }
+  Scheduler& scheduler() { return scheduler_; }
   const Scheduler& scheduler() const { return scheduler_; }
   /// The task of an instance.
   TaskId task_of(std::size_t instance) const { return tasks_[instance]; }

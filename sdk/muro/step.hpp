@@ -39,6 +39,7 @@ struct Phase {
   };
   Over over = Over::whole;
   Reach reach = Reach::wide;
+  bool heavy = false;  ///< an element takes more than some microseconds: each has a call of its own
 };
 
 }  // namespace muro

@@ -16,6 +16,7 @@ class Recorder final : public abi::AlgorithmInstance {
   Recorder(std::string name, std::vector<std::string>& log) : name_(std::move(name)), log_(log) {}
   bool connect(Connector&, abi::ErrorText&) noexcept override { return true; }
   bool start(abi::ErrorText&) noexcept override { return true; }
+  std::span<const Phase> phases() const noexcept override { return {}; }
   bool step(const Step& step, Range, abi::ErrorText& error) noexcept override {
     log_.push_back(name_ + "@" + std::to_string(step.time / 1'000'000));
     last = step;
@@ -41,7 +42,16 @@ struct Fixture : ::testing::Test {
   TaskId add(const std::string& name, double hertz, int order = 0, std::int64_t phase = 0,
              std::vector<std::uint32_t> reads = {}, std::vector<std::uint32_t> writes = {}) {
     recorders.emplace_back(name, log);
-    return scheduler.add({name, &recorders.back(), 1, Rate(hertz), phase, order, std::move(reads), std::move(writes)});
+    Task task;
+    task.name = name;
+    task.instance = &recorders.back();
+    task.items = 1;
+    task.rate = Rate(hertz);
+    task.phase = phase;
+    task.order = order;
+    task.reads = std::move(reads);
+    task.writes = std::move(writes);
+    return scheduler.add(std::move(task));
   }
   using Log = std::vector<std::string>;
 };

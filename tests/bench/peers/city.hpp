@@ -20,7 +20,9 @@ struct Rover {
   static constexpr double mass = chassis_mass + 4 * wheel_mass;
   static bool is_left(int wheel) { return wheel % 2 == 0; }
   static Vec3 wheel_centre(int wheel) { return {wheel < 2 ? 0.12 : -0.12, is_left(wheel) ? 0.15 : -0.15, -0.03}; }
-  /// Of the whole vehicle as one body, about the chassis' centre.
+  static Inertia chassis();
+  static Inertia wheel();  ///< its axis is y
+  /// The vehicle as one body, in the frame of the chassis.
   static Inertia composite();
 };
 

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+
+#include "core/stages.hpp"
+#include "core/ticks.hpp"
+#include "core/timeline.hpp"
+#include "core/workers.hpp"
+
+namespace muro {
+
+/// Looks on while calls are made one by one; see AccessCheck.
+class CallObserver {
+ public:
+  virtual ~CallObserver() = default;
+  /// Makes the call, in its own way. False: it failed, with a text.
+  virtual bool make(const Task& task, const Step& step, Range range, abi::ErrorText& error) = 0;
+};
+
+/// How the turns of an instant are carried out, and what has been learned about it.
+struct Program {
+  std::vector<Stage> stages;
+  std::vector<Turn> turns;
+
+  /// Which way is faster, found out now and then: some instants on one thread, then as many on several.
+  struct Trial {
+    enum class State : std::uint8_t { serial, parallel, settled };
+    static constexpr std::uint32_t warm = 4, counted = 9;  ///< instants of each way
+    State state = State::serial;
+    bool known = false;          ///< `parallel` is the answer of a trial
+    bool parallel = false;       ///< the way that is taken once settled
+    std::uint32_t instants = 0;  ///< in the present state
+    std::uint32_t pause = 0;     ///< instants until the next trial; doubles while the answer stays the same
+    double serial = 0;           ///< ticks of an instant on one thread
+    std::array<double, counted> seen{};
+  } trial;
+};
+
+/// Makes the calls of an instant, on one or several threads.
+class Executor {
+ public:
+  /// Of calls; 1: the calling thread alone.
+  void set_threads(unsigned threads);
+  unsigned threads() const { return threads_; }
+  /// Takes the place of making calls; null: none. Calls are then made on one thread.
+  void set_observer(std::unique_ptr<CallObserver> observer) { observer_ = std::move(observer); }
+  /// Whether several threads are used wherever there are several chains, or only where that is found to be faster.
+  void set_always_parallel(bool always) { always_parallel_ = always; }
+  Timeline& timeline() { return timeline_; }
+
+  void prepare(std::size_t tasks);
+  /// `runs`: how often each task ran before. Throws StepError, of the failure that is first in order, when the stage in
+  /// which it happened is done.
+  void run(const std::vector<Task>& tasks, Program& program, std::int64_t time, std::uint64_t seed,
+           const std::vector<std::uint64_t>& runs);
+
+  TaskCost cost(TaskId task) const;
+  double seconds_per_tick() const { return clock_.seconds_per_tick(); }
+
+ private:
+  struct Failure {
+    std::uint64_t place = ~std::uint64_t(0);  ///< in the order of the instant
+    std::string text;
+  };
+  struct alignas(64) Thread {
+    std::vector<TaskCost> costs;
+    Failure failure;
+  };
+  struct Instant;
+
+  void run_stage(Instant& instant, bool parallel);
+  void run_chain(const Instant& instant, const Stage& stage, std::uint32_t chain, unsigned thread);
+  static void run_piece(void* instant, std::uint32_t chain, unsigned thread);
+  bool choose_parallel(Program& program) const;
+  static void learn(Program::Trial& trial, std::uint64_t passed);
+  void check();
+
+  unsigned threads_ = 1;
+  bool always_parallel_ = false;
+  std::unique_ptr<Workers> workers_;
+  std::unique_ptr<CallObserver> observer_;
+  std::vector<Thread> state_ = std::vector<Thread>(1);
+  TickClock clock_;
+  Timeline timeline_;
+};
+
+}  // namespace muro

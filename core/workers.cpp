@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#include "core/workers.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+namespace muro {
+
+namespace {
+
+constexpr auto patience = std::chrono::microseconds(150);  // of a worker before it sleeps
+
+void relax() {
+#if defined(__x86_64__)
+  __builtin_ia32_pause();
+#elif defined(__aarch64__)
+  asm volatile("yield");
+#endif
+}
+
+constexpr std::uint64_t packed(std::uint32_t round, std::uint32_t end, std::uint32_t next) {
+  return std::uint64_t(round) << 32 | end << 16 | next;
+}
+
+}  // namespace
+
+Workers::Workers(unsigned threads) : shares_(std::max(1u, threads)) {
+  for (unsigned t = 1; t < shares_.size(); ++t) threads_.emplace_back([this, t] { serve(t); });
+}
+
+Workers::~Workers() {
+  quit_.store(true, std::memory_order_relaxed);
+  round_.fetch_add(1);
+  round_.notify_all();
+  for (std::thread& t : threads_) t.join();
+}
+
+void Workers::run(std::uint32_t pieces, Work work, void* context) {
+  for (std::uint32_t first = 0; first < pieces; first += most)
+    round(first, std::min(most, pieces - first), work, context);
+}
+
+void Workers::round(std::uint32_t first, std::uint32_t pieces, Work work, void* context) {
+  const std::uint32_t number = round_.load(std::memory_order_relaxed) + 1;
+  work_ = work;
+  context_ = context;
+  first_ = first;
+  undone_.store(pieces, std::memory_order_relaxed);
+  const auto count = std::uint64_t(shares_.size());
+  for (std::uint64_t t = 0; t < count; ++t)
+    shares_[t].left.store(packed(number, std::uint32_t((t + 1) * pieces / count), std::uint32_t(t * pieces / count)),
+                          std::memory_order_release);
+  round_.store(number);  // sequentially consistent with the count of sleepers
+  if (sleepers_.load() > 0) round_.notify_all();
+  work_through(number, 0);
+  for (int spins = 0; undone_.load(std::memory_order_acquire) > 0; ++spins)
+    if (spins < 2000)
+      relax();
+    else
+      std::this_thread::yield();  // there may be fewer cores than threads
+}
+
+void Workers::work_through(std::uint32_t round, unsigned self) {
+  std::uint32_t done = 0;
+  for (std::size_t k = 0; k < shares_.size(); ++k) {
+    Share& share = shares_[(self + k) % shares_.size()];
+    for (std::uint32_t piece; take(share, round, piece); ++done) work_(context_, first_ + piece, self);
+  }
+  if (done > 0) undone_.fetch_sub(done, std::memory_order_acq_rel);
+}
+
+bool Workers::take(Share& share, std::uint32_t round, std::uint32_t& piece) {
+  std::uint64_t left = share.left.load(std::memory_order_acquire);
+  while (std::uint32_t(left >> 32) == round) {
+    piece = std::uint32_t(left & 0xffff);
+    if (piece >= std::uint32_t(left >> 16 & 0xffff)) return false;
+    if (share.left.compare_exchange_weak(left, left + 1, std::memory_order_acq_rel, std::memory_order_acquire))
+      return true;
+  }
+  return false;
+}
+
+void Workers::serve(unsigned self) {
+  std::uint32_t seen = 0;
+  while (true) {
+    const auto since = std::chrono::steady_clock::now();
+    for (int spins = 1; round_.load(std::memory_order_acquire) == seen; ++spins) {
+      relax();
+      if (spins % 64 != 0 || std::chrono::steady_clock::now() - since < patience) continue;
+      sleepers_.fetch_add(1);
+      round_.wait(seen);
+      sleepers_.fetch_sub(1);
+    }
+    seen = round_.load(std::memory_order_acquire);
+    if (quit_.load(std::memory_order_relaxed)) return;
+    work_through(seen, self);
+  }
+}
+
+}  // namespace muro

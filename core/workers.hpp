@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <thread>
+#include <vector>
+
+namespace muro {
+
+/// Threads that share out numbered pieces of work with the thread that calls.
+///
+/// Waking a sleeping thread takes some 50 us on a virtual machine, a spinning one below 1 us, so workers spin for a
+/// while before they sleep. Each thread begins with a part of its own, the same in every run, so that it finds its data
+/// in its cache; who is done takes from the others. Nobody waits for a worker that has not taken a piece: one that the
+/// machine has put aside costs nothing.
+class Workers {
+ public:
+  /// `threads` with the caller; 1 or more.
+  explicit Workers(unsigned threads);
+  ~Workers();
+  Workers(const Workers&) = delete;
+  Workers& operator=(const Workers&) = delete;
+
+  unsigned threads() const { return unsigned(shares_.size()); }
+
+  /// Calls work(context, piece, thread) for every piece below `pieces`, each once, on any thread; returns when all are
+  /// done. `work` does not throw.
+  using Work = void (*)(void* context, std::uint32_t piece, unsigned thread);
+  void run(std::uint32_t pieces, Work work, void* context);
+
+ private:
+  /// What is left of a thread's part: the round it belongs to, the end, the next piece; in one word, so that a thread
+  /// that comes late takes nothing of another round.
+  struct alignas(64) Share {
+    std::atomic<std::uint64_t> left{0};
+  };
+  static constexpr std::uint32_t most = 0xffff;  ///< pieces in a round
+
+  void round(std::uint32_t first, std::uint32_t pieces, Work work, void* context);
+  void work_through(std::uint32_t round, unsigned self);
+  bool take(Share& share, std::uint32_t round, std::uint32_t& piece);
+  void serve(unsigned self);
+
+  std::vector<Share> shares_;
+  Work work_ = nullptr;
+  void* context_ = nullptr;
+  std::uint32_t first_ = 0;
+  alignas(64) std::atomic<std::uint32_t> round_{0};
+  alignas(64) std::atomic<std::uint32_t> undone_{0};
+  alignas(64) std::atomic<std::uint32_t> sleepers_{0};
+  std::atomic<bool> quit_{false};
+  std::vector<std::thread> threads_;
+};
+
+}  // namespace muro

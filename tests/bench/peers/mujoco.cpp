@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// MuJoCo: a generated model of the city and its vehicles, each a free chassis with four driven hinges.
+#include <mujoco/mujoco.h>
+
+#include <sstream>
+#include <stdexcept>
+
+#include "tests/bench/peers/team.hpp"
+
+namespace muro::bench {
+
+namespace {
+
+std::ostream& operator<<(std::ostream& out, const Vec3& v) { return out << v.x() << ' ' << v.y() << ' ' << v.z(); }
+
+/// Wheels collide as balls. What belongs to the scenery and each chassis meets everything; friction is that of wheels.
+std::string model_of(const City& city) {
+  std::ostringstream xml, actuators;
+  xml.precision(12);
+  const int n = city.vehicles();
+  xml << "<mujoco><option timestep='0.001' gravity='0 0 -9.81' solver='Newton' iterations='4' tolerance='1e-6'"
+         " cone='pyramidal' jacobian='sparse'/>"
+      << "<size nconmax='" << 6 * n + 100 << "' njmax='" << 20 * n + 400 << "'/>"
+      << "<compiler inertiafromgeom='false' angle='radian'/><worldbody>"
+      << "<geom type='plane' size='0 0 1' friction='0.8'/>";
+  for (const Block& b : city.blocks())
+    xml << "<geom type='box' pos='" << b.centre << "' size='" << Vec3(0.5 * b.lengths) << "' friction='0.8'/>";
+  const auto inertial = [&](const Inertia& i) {
+    xml << "<inertial pos='0 0 0' mass='" << i.mass << "' diaginertia='" << i.ixx << ' ' << i.iyy << ' ' << i.izz
+        << "'/>";
+  };
+  for (int v = 0; v < n; ++v) {
+    const Pose& p = city.starts()[std::size_t(v)];
+    const Quat& q = p.orientation;
+    xml << "<body name='v" << v << "' pos='" << p.position << "' quat='" << q.w() << ' ' << q.x() << ' ' << q.y() << ' '
+        << q.z() << "'><freejoint/>";
+    inertial(Rover::chassis());
+    xml << "<geom type='box' size='" << Vec3(0.5 * Rover::length, 0.5 * Rover::width, 0.5 * Rover::height)
+        << "' friction='0.8'/>";
+    for (int w = 0; w < 4; ++w) {
+      xml << "<body pos='" << Rover::wheel_centre(w) << "'><joint name='j" << v << '_' << w
+          << "' type='hinge' axis='0 1 0'/>";
+      inertial(Rover::wheel());
+      xml << "<geom type='sphere' size='" << Rover::wheel_radius << "' friction='0.8'/></body>";
+      actuators << "<velocity joint='j" << v << '_' << w << "' kv='0.1' forcelimited='true' forcerange='"
+                << -Rover::max_torque << ' ' << Rover::max_torque << "'/>";
+    }
+    xml << "</body>";
+  }
+  xml << "</worldbody><actuator>" << actuators.str() << "</actuator></mujoco>";
+  return xml.str();
+}
+
+class MujocoVehicles final : public Team {
+ public:
+  explicit MujocoVehicles(const City& city) {
+    const std::string text = model_of(city);
+    auto files = std::make_unique<mjVFS>();
+    mj_defaultVFS(files.get());
+    mj_makeEmptyFileVFS(files.get(), "city.xml", int(text.size()));
+    std::copy(text.begin(), text.end(), static_cast<char*>(files->filedata[0]));
+    char error[1000] = "";
+    model_.reset(mj_loadXML("city.xml", files.get(), error, sizeof error));
+    mj_deleteVFS(files.get());
+    if (!model_) throw std::runtime_error(std::string("MuJoCo: ") + error);
+    data_.reset(mj_makeData(model_.get()));
+    for (int v = 0; v < city.vehicles(); ++v)
+      bodies_.push_back(mj_name2id(model_.get(), mjOBJ_BODY, ("v" + std::to_string(v)).c_str()));
+  }
+
+  void command(int vehicle, WheelSpeeds speeds) override {
+    for (int w = 0; w < 4; ++w) data_->ctrl[4 * vehicle + w] = Rover::is_left(w) ? speeds.left : speeds.right;
+  }
+  void run(int steps) override {
+    for (int i = 0; i < steps; ++i) mj_step(model_.get(), data_.get());
+  }
+  Vec3 position(int vehicle) const override {
+    const mjtNum* p = data_->xpos + 3 * bodies_[std::size_t(vehicle)];
+    return {p[0], p[1], p[2]};
+  }
+
+ private:
+  struct Delete {
+    void operator()(mjModel* m) const { mj_deleteModel(m); }
+    void operator()(mjData* d) const { mj_deleteData(d); }
+  };
+  std::unique_ptr<mjModel, Delete> model_;
+  std::unique_ptr<mjData, Delete> data_;
+  std::vector<int> bodies_;
+};
+
+}  // namespace
+
+std::unique_ptr<Team> mujoco_vehicles(const City& city) { return std::make_unique<MujocoVehicles>(city); }
+
+}  // namespace muro::bench

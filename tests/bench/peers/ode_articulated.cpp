@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// ODE: a vehicle of five bodies; hinges with motors hold the wheels.
+#include "tests/bench/peers/ode_world.hpp"
+
+namespace muro::bench {
+
+namespace {
+
+class ArticulatedVehicles final : public Team, OdeWorld {
+ public:
+  explicit ArticulatedVehicles(const City& city) : OdeWorld(city) {
+    for (const Pose& start : city.starts()) {
+      Vehicle& v = add_vehicle(start, Rover::chassis());
+      for (int w = 0; w < 4; ++w) {
+        const Pose place = start * Pose{Rover::wheel_centre(w), Quat::Identity()};
+        const Vec3 axle = start.orientation * Vec3::UnitY();
+        const dBodyID body = add_body(world_, place, Rover::wheel());
+        dBodySetFiniteRotationMode(body, 0);
+        dGeomSetBody(add_wheel(v, w), body);
+        const dJointID hinge = dJointCreateHinge(world_, nullptr);
+        dJointAttach(hinge, body, v.chassis);
+        dJointSetHingeAnchor(hinge, place.position.x(), place.position.y(), place.position.z());
+        dJointSetHingeAxis(hinge, axle.x(), axle.y(), axle.z());
+        dJointSetHingeParam(hinge, dParamFMax, Rover::max_torque);
+        hinges_.push_back(hinge);
+      }
+    }
+  }
+
+  void command(int vehicle, WheelSpeeds speeds) override {
+    for (int w = 0; w < 4; ++w)
+      dJointSetHingeParam(hinges_[std::size_t(4 * vehicle + w)], dParamVel,
+                          Rover::is_left(w) ? speeds.left : speeds.right);
+  }
+  void run(int steps) override { OdeWorld::run(steps); }
+  Vec3 position(int vehicle) const override {
+    const dReal* p = dBodyGetPosition(vehicles_[std::size_t(vehicle)].chassis);
+    return {p[0], p[1], p[2]};
+  }
+
+ private:
+  void surface_of_wheel(const Vehicle&, int, dContact&) const override {}  // wheels roll by themselves
+
+  std::vector<dJointID> hinges_;
+};
+
+}  // namespace
+
+std::unique_ptr<Team> ode_articulated_vehicles(const City& city) { return std::make_unique<ArticulatedVehicles>(city); }
+
+}  // namespace muro::bench

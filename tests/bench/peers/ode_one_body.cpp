@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// ODE: a vehicle as one body; the balls under it slide on the ground as fast as wheels would roll.
+#include "tests/bench/peers/ode_world.hpp"
+
+namespace muro::bench {
+
+namespace {
+
+class OneBodyVehicles final : public Team, OdeWorld {
+ public:
+  explicit OneBodyVehicles(const City& city) : OdeWorld(city) {
+    for (const Pose& start : city.starts()) {
+      Vehicle& v = add_vehicle(start, Rover::composite());
+      for (int w = 0; w < 4; ++w) {
+        const Vec3 at = Rover::wheel_centre(w);
+        const dGeomID ball = add_wheel(v, w);
+        dGeomSetBody(ball, v.chassis);
+        dGeomSetOffsetPosition(ball, at.x(), at.y(), at.z());
+      }
+    }
+  }
+
+  void command(int vehicle, WheelSpeeds speeds) override { vehicles_[std::size_t(vehicle)].speeds = speeds; }
+  void run(int steps) override { OdeWorld::run(steps); }
+  Vec3 position(int vehicle) const override {
+    const dReal* p = dBodyGetPosition(vehicles_[std::size_t(vehicle)].chassis);
+    return {p[0], p[1], p[2]};
+  }
+
+ private:
+  /// Across the axle the surface of the wheel runs backward at the speed of its rim.
+  void surface_of_wheel(const Vehicle& v, int wheel, dContact& contact) const override {
+    const dReal* r = dBodyGetRotation(v.chassis);
+    const Vec3 axle(r[1], r[5], r[9]);
+    const bool first = dGeomGetBody(contact.geom.g1) == v.chassis;
+    const Vec3 normal = (first ? 1 : -1) * Vec3(contact.geom.normal[0], contact.geom.normal[1], contact.geom.normal[2]);
+    const Vec3 across = axle.cross(normal);
+    const double length = across.norm();
+    if (length < 0.1) return;  // the hub touches
+    const Vec3 forward = across / length;
+    contact.surface.mode |= dContactFDir1 | dContactMotion1;
+    for (int k = 0; k < 3; ++k) contact.fdir1[k] = forward[k];
+    contact.surface.motion1 =
+        (first ? 1 : -1) * Rover::wheel_radius * (Rover::is_left(wheel) ? v.speeds.left : v.speeds.right);
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Team> ode_one_body_vehicles(const City& city) { return std::make_unique<OneBodyVehicles>(city); }
+
+}  // namespace muro::bench

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// What both ODE programs share: a world set for speed, with the city in it.
+#pragma once
+
+#include <ode/ode.h>
+
+#include <vector>
+
+#include "tests/bench/peers/team.hpp"
+
+namespace muro::bench {
+
+/// Every vehicle is a space of its own: a chassis (geom 0) and the balls of its wheels (1 to 4). The ground is tested
+/// without search; vehicles find buildings and each other by sweep and prune.
+class OdeWorld {
+ public:
+  explicit OdeWorld(const City& city);
+  virtual ~OdeWorld();
+  OdeWorld(const OdeWorld&) = delete;
+  OdeWorld& operator=(const OdeWorld&) = delete;
+
+  void run(int steps);
+
+ protected:
+  struct Vehicle {
+    dSpaceID space = nullptr;
+    dBodyID chassis = nullptr;
+    dGeomID geoms[5] = {};
+    WheelSpeeds speeds;
+  };
+  /// A vehicle whose chassis collides; wheels are the caller's.
+  Vehicle& add_vehicle(const Pose& start, const Inertia& inertia);
+  dGeomID add_wheel(Vehicle& vehicle, int wheel);
+  static dBodyID add_body(dWorldID world, const Pose& pose, const Inertia& inertia);
+  /// Completes the contact of a wheel's ball.
+  virtual void surface_of_wheel(const Vehicle& vehicle, int wheel, dContact& contact) const = 0;
+
+  dWorldID world_ = nullptr;
+  std::vector<Vehicle> vehicles_;
+
+ private:
+  static void meet(void* self, dGeomID a, dGeomID b);
+  void touch(dGeomID a, dGeomID b);
+
+  dSpaceID buildings_ = nullptr, team_ = nullptr;
+  dGeomID ground_ = nullptr;
+  dJointGroupID contacts_ = nullptr;
+};
+
+}  // namespace muro::bench

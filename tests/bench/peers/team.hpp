@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "tests/bench/peers/city.hpp"
+
+namespace muro::bench {
+
+/// The vehicles of a city in some engine. Nothing ever sleeps.
+class Team {
+ public:
+  virtual ~Team() = default;
+  /// What the drives of a vehicle's wheels hold from now on.
+  virtual void command(int vehicle, WheelSpeeds speeds) = 0;
+  /// Steps of 1 ms.
+  virtual void run(int steps) = 0;
+  /// Of the chassis' centre, m.
+  virtual Vec3 position(int vehicle) const = 0;
+};
+
+/// An engine, or one way to use it.
+struct Engine {
+  std::string name;
+  bool one_body = false;  ///< a vehicle is one rigid body; otherwise its wheels are bodies of their own
+  std::function<std::unique_ptr<Team>(const City&)> make;
+};
+
+/// The engines that were found when this was built.
+std::vector<Engine> peers();
+
+std::unique_ptr<Team> bullet_raycast_vehicles(const City& city);
+std::unique_ptr<Team> bullet_rigid_vehicles(const City& city);
+std::unique_ptr<Team> ode_one_body_vehicles(const City& city);
+std::unique_ptr<Team> ode_articulated_vehicles(const City& city);
+std::unique_ptr<Team> mujoco_vehicles(const City& city);
+
+}  // namespace muro::bench
