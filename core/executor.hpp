@@ -50,6 +50,7 @@ class Executor {
   /// Whether several threads are used wherever there are several chains, or only where that is found to be faster.
   void set_always_parallel(bool always) { always_parallel_ = always; }
   Timeline& timeline() { return timeline_; }
+  const Timeline& timeline() const { return timeline_; }
 
   void prepare(std::size_t tasks);
   /// `runs`: how often each task ran before. Throws StepError, of the failure that is first in order, when the stage in

@@ -71,6 +71,17 @@ std::vector<SlotId> Instance::writes() const {
   return slots;
 }
 
+void Instance::read_through(const std::vector<const Instance*>& by_party) {
+  std::vector<Bound> added;
+  for (const Bound& b : bound_) {
+    const Slot& s = world_.store().slot(b.slot);
+    const Slot::Usage* writer = s.writer();
+    if (world_.store().key_of(s).type->scalar != Scalar::transient || !writer || writer->party == party_) continue;
+    for (const SlotId slot : by_party[writer->party]->reads()) added.push_back({slot, Access::read});
+  }
+  bound_.insert(bound_.end(), added.begin(), added.end());
+}
+
 std::vector<Touch> Instance::touches() const {
   std::vector<Touch> all;
   for (const Bound& b : bound_) {

@@ -51,6 +51,8 @@ class Instance final : private Connector {
   /// Slots that it reads and writes, for the scheduler.
   std::vector<SlotId> reads() const;
   std::vector<SlotId> writes() const;
+  /// A property whose value points into others (SceneIndex) is read together with all that its writer reads: adds that.
+  void read_through(const std::vector<const Instance*>& by_party);
   /// Every property that is not a constant, once. Contributions to a sum do not exclude each other, but exclude who
   /// reads the sum.
   std::vector<Touch> touches() const;

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <mutex>
 
+#include "core/access_check.hpp"
 #include "core/instance.hpp"
 #include "muro/vocabulary.hpp"
 
@@ -180,6 +181,12 @@ void Simulation::build() {
 }
 
 void Simulation::schedule() {
+  std::vector<const Instance*> by_party;
+  for (const auto& instance : instances_) {
+    by_party.resize(std::max<std::size_t>(by_party.size(), instance->party() + 1));
+    by_party[instance->party()] = instance.get();
+  }
+  for (const auto& instance : instances_) instance->read_through(by_party);
   for (const auto& instance : instances_) {
     const AlgorithmSetup& s = instance->setup();
     Task task;
@@ -206,13 +213,23 @@ void Simulation::schedule() {
     }
     scheduler_.add_sequence(ids);
   }
-  std::vector<std::int32_t> robot_of_slot;
+  scheduler_.set_slots(robot_of_slot());
+  scheduler_.prepare();
+}
+
+std::vector<std::int32_t> Simulation::robot_of_slot() const {
+  std::vector<std::int32_t> robots;
   for (SlotId i = 0; i < world_.store().slot_count(); ++i) {
     const ObjectId object = world_.store().slot(i).object;
-    robot_of_slot.push_back(object == no_object ? -1 : world_.robot_of(object));
+    robots.push_back(object == no_object ? -1 : world_.robot_of(object));
   }
-  scheduler_.set_slots(std::move(robot_of_slot));
-  scheduler_.prepare();
+  return robots;
+}
+
+void Simulation::verify_access() {
+  std::vector<Instance*> instances;
+  for (const auto& i : instances_) instances.push_back(i.get());
+  scheduler_.executor().set_observer(std::make_unique<AccessCheck>(world_.store(), instances, robot_of_slot()));
 }
 
 void Simulation::run_for(double seconds) { run_until(now() + std::llround(seconds * 1e9)); }

@@ -57,6 +57,8 @@ class Simulation {
   void set_log(std::function<void(LogLevel, std::string_view)> log);
   /// On how many threads calls are made that may overlap; 1, unless set. Never changes a result. [between runs]
   void set_threads(unsigned threads) { scheduler_.executor().set_threads(threads); }
+  /// Makes runs prove that algorithms touch only what they have declared; see AccessCheck. [between runs]
+  void verify_access();
   void set_pacing(Pacing pacing) { scheduler_.set_pacing(pacing); }
   /// Connects everything, checks it, starts it. Throws SetupError with every problem found.
   void build();
@@ -91,6 +93,7 @@ class Simulation {
   void merge_batched();
   std::vector<std::size_t> in_order_of(int (*order)(Kind)) const;
   void schedule();
+  std::vector<std::int32_t> robot_of_slot() const;
 
   Registry& registry_;
   World world_;

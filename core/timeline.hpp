@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -25,6 +26,10 @@ class Timeline {
   void set_threads(std::size_t count) { threads_.resize(count); }
   void add(unsigned thread, const Span& span) {
     if (threads_[thread].size() < most_) threads_[thread].push_back(span);
+  }
+  /// Whether calls were left out.
+  bool full() const {
+    return std::any_of(threads_.begin(), threads_.end(), [&](const auto& t) { return on() && t.size() == most_; });
   }
   /// By thread, in the order in which they ran.
   const std::vector<std::vector<Span>>& threads() const { return threads_; }

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "host/commands/commands.hpp"
+#include "host/scenario/scenario.hpp"
 #include "muro/nearest.hpp"
 
 namespace {
@@ -26,6 +27,13 @@ std::string check_seed(const std::string& text) {
   const auto [used, code] = std::from_chars(text.data(), text.data() + text.size(), x);
   const bool fine = code == std::errc{} && used == text.data() + text.size() && x <= std::uint64_t(1) << 53;
   return fine ? "" : "`" + text + "` is no whole number from 0 to 9007199254740992";
+}
+
+std::string check_threads(const std::string& text) {
+  unsigned x = 0;
+  const auto [used, code] = std::from_chars(text.data(), text.data() + text.size(), x);
+  const bool fine = code == std::errc{} && used == text.data() + text.size() && x >= 1 && x <= max_threads;
+  return fine || text == "all" ? "" : "`" + text + "` is neither `all` nor a number of threads from 1 to 1024";
 }
 
 /// What to say when there is no command, or a word that is none; else nothing.
@@ -67,9 +75,13 @@ int dispatch(int argc, char** argv) {
   run_command.add_option("--duration", run_options.duration, "Simulated seconds; default: as the scenario says")
       ->check(check_duration);
   run_command.add_option("--speed", run_options.speed, "max, real, or a factor of real time")->capture_default_str();
-  run_command.add_option("--threads", run_options.threads, "Threads to use (this version steps on one)")
-      ->check(CLI::Range(1, 1024));
+  run_command.add_option("--threads", run_options.threads, "Threads to use at most, or all; no result depends on it")
+      ->check(check_threads);
   run_command.add_option("--report", run_options.report, "Write a report to this file (JSON)");
+  run_command.add_option("--timeline", run_options.timeline,
+                         "Write which algorithm ran when on which thread (JSON for Perfetto or chrome://tracing)");
+  run_command.add_flag("--verify-access", run_options.verify_access,
+                       "Prove that algorithms touch only the properties that they have declared (slow)");
   run_command.add_flag("--profile", run_options.profile, "Print what each algorithm costs");
 
   ScenarioOptions check_options;

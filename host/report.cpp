@@ -63,7 +63,7 @@ nlohmann::ordered_json report(const RunResult& run, const Simulation& simulation
   nlohmann::ordered_json out;
   out["scenario"] = run.scenario;
   out["seed"] = run.seed;
-  out["threads"] = 1;
+  out["threads"] = simulation.scheduler().executor().threads();
   out["simulated_s"] = run.simulated;
   out["wall_s"] = run.wall;
   out["real_time_factor"] = run.wall > 0 ? run.simulated / run.wall : 0;

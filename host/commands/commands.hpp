@@ -21,9 +21,11 @@ struct RunOptions {
   ScenarioOptions scenario;
   std::optional<double> duration;  ///< s
   std::string speed = "max";       ///< "max", "real" or a factor
-  int threads = 1;
-  std::string report;  ///< file, or empty
+  std::string threads;             ///< a number, "all", or empty: as the scenario says
+  std::string report;              ///< file, or empty
+  std::string timeline;            ///< file, or empty
   bool profile = false;
+  bool verify_access = false;
 };
 
 int run(const RunOptions& options);

@@ -11,6 +11,7 @@
 #include "host/commands/commands.hpp"
 #include "host/commands/open.hpp"
 #include "host/report.hpp"
+#include "host/timeline.hpp"
 
 namespace muro::host {
 
@@ -76,12 +77,15 @@ int run(const RunOptions& options) {
   Registry registry(Registry::search_path(options.scenario.plugin_path));
   BuiltScenario built = open_scenario(options.scenario, registry);
   Simulation& simulation = *built.simulation;
-  if (options.threads != 1)
-    fmt::print(stderr, "warning: --threads {}: this muro steps on one thread; the run uses 1\n", options.threads);
+  if (!options.threads.empty())
+    simulation.set_threads(options.threads == "all" ? all_threads() : unsigned(std::stoul(options.threads)));
   const double duration = options.duration.value_or(built.scenario.duration);
   const auto end = std::int64_t(std::llround(duration * 1e9));
-  if (!options.report.empty()) check_writable(options.report);  // now rather than after the run
+  for (const std::string& file : {options.report, options.timeline})
+    if (!file.empty()) check_writable(file);  // now rather than after the run
+  if (!options.timeline.empty()) simulation.scheduler().executor().timeline().start(timeline_calls);
 
+  if (options.verify_access) simulation.verify_access();
   interrupted = false;
   std::signal(SIGINT, [](int) { interrupted = true; });
   std::signal(SIGTERM, [](int) { interrupted = true; });
@@ -116,6 +120,10 @@ int run(const RunOptions& options) {
   print_summary(result, simulation, odometer);
   if (options.profile) fmt::print("\n{}", profile(result, simulation));
   if (!options.report.empty()) write_file(options.report, report(result, simulation, odometer).dump(2) + "\n");
+  if (!options.timeline.empty()) write_timeline(options.timeline, simulation);
+  if (simulation.scheduler().executor().timeline().full())
+    fmt::print(stderr, "note: {} holds the first {} calls of a thread; use --duration to record a shorter run\n",
+               options.timeline, timeline_calls);
   if (!result.error.empty()) {
     fmt::print(stderr, "{}\n", result.error);
     return 1;

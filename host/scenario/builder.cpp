@@ -2,6 +2,7 @@
 #include "host/scenario/builder.hpp"
 
 #include <algorithm>
+#include <thread>
 
 #include "host/scenario/algorithms.hpp"
 #include "host/scenario/body.hpp"
@@ -205,12 +206,15 @@ class SceneBuilder {
 
 }  // namespace
 
+unsigned all_threads() { return std::max(1u, std::thread::hardware_concurrency()); }
+
 BuiltScenario build(Scenario scenario, Registry& registry) {
   BuiltScenario out;
   out.scenario = std::move(scenario);
   out.simulation = std::make_unique<Simulation>(registry, out.scenario.seed);
   SceneBuilder(out, registry).build();
   out.simulation->build();
+  out.simulation->set_threads(out.scenario.threads > 0 ? out.scenario.threads : all_threads());
   return out;
 }
 

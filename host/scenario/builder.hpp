@@ -20,5 +20,7 @@ struct BuiltScenario {
 /// Adds what the scenario leaves open: kinematics for every robot, and, where something needs them, the
 /// spatial index, collision detection and contact forces. Throws SetupError with every problem found.
 BuiltScenario build(Scenario scenario, Registry& registry);
+/// What `threads: all` means on this machine.
+unsigned all_threads();
 
 }  // namespace muro::host

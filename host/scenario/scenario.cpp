@@ -107,6 +107,15 @@ void read_schedule(const Node& n, Scenario& out, Problems& problems) {
   s.close();
 }
 
+unsigned read_threads(const Node& n, Problems& problems) {
+  if (n.kind == Node::Kind::scalar && n.scalar == "all") return 0;
+  const double count = as_number(n).value_or(0);
+  if (count >= 1 && count <= max_threads && count == std::floor(count)) return unsigned(count);
+  problems.add(n.location, "`threads` is " + shown(n) + " but must be a number of threads from 1 to " +
+                               std::to_string(max_threads) + ", or `all` that the machine has");
+  return 1;
+}
+
 /// `key:` with nothing behind it is a slip more often than a wish.
 void check_empty(const Node& n, Problems& problems) {
   for (std::size_t i = 0; i < n.map.size(); ++i) {
@@ -132,6 +141,7 @@ Scenario read_scenario(const std::string& path, const std::vector<std::string>& 
   out.name = s.text("name", fs::path(path).stem().string());
   out.seed = std::uint64_t(s.integer("seed", 1, 0, std::int64_t(1) << 53));
   out.duration = s.number("duration", out.duration, 0, 1e9);
+  if (const Node* threads = s.find("threads")) out.threads = read_threads(*threads, problems);
   if (const Node* world = s.find("world")) read_world(*world, out, problems);
   out.robots = read_robots(s.map("robots"), problems);
   read_algorithms(s.map("algorithms"), out, problems);

@@ -91,6 +91,7 @@ struct Scenario {
   std::string name;
   std::uint64_t seed = 1;
   double duration = 10;  ///< s
+  unsigned threads = 1;  ///< 0: all that the machine has
   Vec3 gravity{0, 0, -9.81};
   std::map<std::string, std::vector<Rectangle>> places;
   std::vector<SceneryObject> objects;
@@ -100,6 +101,8 @@ struct Scenario {
   /// Each: names such as "collision" or "rovers.motion", in the order in which they run.
   std::vector<std::vector<Name>> sequences;
 };
+
+inline constexpr unsigned max_threads = 1024;
 
 /// Reads a scenario with its includes and overrides. Throws SetupError with every problem found.
 Scenario read_scenario(const std::string& path, const std::vector<std::string>& overrides);

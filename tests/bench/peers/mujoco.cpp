@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// MuJoCo: a generated model of the city and its vehicles, each a free chassis with four driven hinges.
+// MuJoCo: a generated model of the city and its vehicles, each a free chassis with four driven hinges. Memory grows with
+// the square of the number of vehicles and ends at 2 GB (2.2), so they are shared out to worlds that do not meet.
 #include <mujoco/mujoco.h>
 
 #include <sstream>
@@ -13,23 +14,22 @@ namespace {
 
 std::ostream& operator<<(std::ostream& out, const Vec3& v) { return out << v.x() << ' ' << v.y() << ' ' << v.z(); }
 
-/// Wheels collide as balls. What belongs to the scenery and each chassis meets everything; friction is that of wheels.
-std::string model_of(const City& city) {
+/// The city and vehicles `first` to `first + n` - 1. Wheels collide as balls.
+std::string model_of(const City& city, int first, int n) {
   std::ostringstream xml, actuators;
   xml.precision(12);
-  const int n = city.vehicles();
-  xml << "<mujoco><option timestep='0.001' gravity='0 0 -9.81' solver='Newton' iterations='4' tolerance='1e-6'"
-         " cone='pyramidal' jacobian='sparse'/>"
+  xml << "<mujoco><option timestep='0.001' gravity='0 0 -9.81' solver='CG' iterations='4' tolerance='1e-5'"
+         " cone='elliptic' jacobian='sparse'/>"
       << "<size nconmax='" << 6 * n + 100 << "' njmax='" << 20 * n + 400 << "'/>"
       << "<compiler inertiafromgeom='false' angle='radian'/><worldbody>"
       << "<geom type='plane' size='0 0 1' friction='0.8'/>";
   for (const Block& b : city.blocks())
-    xml << "<geom type='box' pos='" << b.centre << "' size='" << Vec3(0.5 * b.lengths) << "' friction='0.8'/>";
+    xml << "<body pos='" << b.centre << "'><geom type='box' size='" << Vec3(0.5 * b.lengths) << "' friction='0.8'/></body>";
   const auto inertial = [&](const Inertia& i) {
     xml << "<inertial pos='0 0 0' mass='" << i.mass << "' diaginertia='" << i.ixx << ' ' << i.iyy << ' ' << i.izz
         << "'/>";
   };
-  for (int v = 0; v < n; ++v) {
+  for (int v = first; v < first + n; ++v) {
     const Pose& p = city.starts()[std::size_t(v)];
     const Quat& q = p.orientation;
     xml << "<body name='v" << v << "' pos='" << p.position << "' quat='" << q.w() << ' ' << q.x() << ' ' << q.y() << ' '
@@ -54,39 +54,50 @@ std::string model_of(const City& city) {
 class MujocoVehicles final : public Team {
  public:
   explicit MujocoVehicles(const City& city) {
-    const std::string text = model_of(city);
-    auto files = std::make_unique<mjVFS>();
-    mj_defaultVFS(files.get());
-    mj_makeEmptyFileVFS(files.get(), "city.xml", int(text.size()));
-    std::copy(text.begin(), text.end(), static_cast<char*>(files->filedata[0]));
-    char error[1000] = "";
-    model_.reset(mj_loadXML("city.xml", files.get(), error, sizeof error));
-    mj_deleteVFS(files.get());
-    if (!model_) throw std::runtime_error(std::string("MuJoCo: ") + error);
-    data_.reset(mj_makeData(model_.get()));
-    for (int v = 0; v < city.vehicles(); ++v)
-      bodies_.push_back(mj_name2id(model_.get(), mjOBJ_BODY, ("v" + std::to_string(v)).c_str()));
+    for (int v = 0; v < city.vehicles(); v += most) worlds_.emplace_back(city, v, std::min(most, city.vehicles() - v));
   }
 
   void command(int vehicle, WheelSpeeds speeds) override {
-    for (int w = 0; w < 4; ++w) data_->ctrl[4 * vehicle + w] = Rover::is_left(w) ? speeds.left : speeds.right;
+    mjtNum* ctrl = worlds_[std::size_t(vehicle / most)].data->ctrl + 4 * (vehicle % most);
+    for (int w = 0; w < 4; ++w) ctrl[w] = Rover::is_left(w) ? speeds.left : speeds.right;
   }
   void run(int steps) override {
-    for (int i = 0; i < steps; ++i) mj_step(model_.get(), data_.get());
+    for (int i = 0; i < steps; ++i)
+      for (const World& w : worlds_) mj_step(w.model.get(), w.data.get());
   }
   Vec3 position(int vehicle) const override {
-    const mjtNum* p = data_->xpos + 3 * bodies_[std::size_t(vehicle)];
+    const World& w = worlds_[std::size_t(vehicle / most)];
+    const mjtNum* p = w.data->xpos + 3 * w.bodies[std::size_t(vehicle % most)];
     return {p[0], p[1], p[2]};
   }
 
  private:
+  static constexpr int most = 100;  ///< vehicles in a world
+
   struct Delete {
     void operator()(mjModel* m) const { mj_deleteModel(m); }
     void operator()(mjData* d) const { mj_deleteData(d); }
   };
-  std::unique_ptr<mjModel, Delete> model_;
-  std::unique_ptr<mjData, Delete> data_;
-  std::vector<int> bodies_;
+  struct World {
+    World(const City& city, int first, int n) {
+      const std::string text = model_of(city, first, n);
+      const auto files = std::make_unique<mjVFS>();
+      mj_defaultVFS(files.get());
+      mj_makeEmptyFileVFS(files.get(), "city.xml", int(text.size()));
+      std::copy(text.begin(), text.end(), static_cast<char*>(files->filedata[0]));
+      char error[1000] = "";
+      model.reset(mj_loadXML("city.xml", files.get(), error, sizeof error));
+      mj_deleteVFS(files.get());
+      if (!model) throw std::runtime_error(std::string("MuJoCo: ") + error);
+      data.reset(mj_makeData(model.get()));
+      for (int v = first; v < first + n; ++v)
+        bodies.push_back(mj_name2id(model.get(), mjOBJ_BODY, ("v" + std::to_string(v)).c_str()));
+    }
+    std::unique_ptr<mjModel, Delete> model;
+    std::unique_ptr<mjData, Delete> data;
+    std::vector<int> bodies;
+  };
+  std::vector<World> worlds_;
 };
 
 }  // namespace

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/executor.hpp"
+#include "core/property_store.hpp"
+
+namespace muro {
+
+class Instance;
+
+/// Proves that algorithms keep to the properties that they have declared.
+///
+/// Every call is made twice from the same state. The second time, all that the call has no right to read is poisoned
+/// (bytes 0xff: not a number). The call must then write the same bits, and nothing but what it may write: else it
+/// reads or writes in secret, and could not run beside others. What a call may touch follows from the bindings of its
+/// instance and from the reach of its phase (Phase::Reach). Runs take many times longer.
+class AccessCheck final : public CallObserver {
+ public:
+  AccessCheck(PropertyStore& store, const std::vector<Instance*>& instances, std::vector<std::int32_t> robot_of_slot);
+  bool make(const Task& task, const Step& step, Range range, abi::ErrorText& error) override;
+
+ private:
+  /// One value in memory, or the elements of a list.
+  struct Cell {
+    std::uint32_t slot = 0;
+    Party adder = setup_party;  ///< of a contribution to a sum
+    std::byte* memory = nullptr;
+    std::size_t size = 0;
+    ListHeader* list = nullptr;
+
+    std::span<std::byte> bytes() const {
+      if (!list) return {memory, size};
+      return {static_cast<std::byte*>(list->data), list->size * list->element_size};
+    }
+  };
+  /// What an instance has bound, by slot.
+  struct Rights {
+    const abi::AlgorithmInstance* algorithm = nullptr;
+    const Description* description = nullptr;
+    Party party = setup_party;
+    std::vector<bool> reads, writes;
+  };
+  struct Allowed {
+    std::vector<bool> reads, writes;  ///< by cell
+  };
+  using Copy = std::vector<std::vector<std::byte>>;
+
+  void find_cells();
+  Allowed allowed(const Rights& rights, const Task& task, const Step& step, Range range) const;
+  Copy copy() const;
+  void put_back(const Copy& from);
+  void poison(const Allowed& allowed);
+  std::string name_of(const Cell& cell) const;
+
+  PropertyStore& store_;
+  std::vector<Rights> rights_;
+  std::vector<std::int32_t> robot_of_slot_;
+  std::vector<Cell> cells_;
+};
+
+}  // namespace muro

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "core/simulation.hpp"
+
+namespace muro::host {
+
+/// Calls that a timeline holds of each thread: some seconds of a busy run, a file that viewers still open.
+inline constexpr std::size_t timeline_calls = 200'000;
+
+/// Writes what the simulation's timeline has recorded in the Trace Event Format, which Perfetto (ui.perfetto.dev) and
+/// chrome://tracing show: a row for each thread, a bar for each call. Throws SetupError when the file cannot be
+/// written.
+void write_timeline(const std::string& path, const Simulation& simulation);
+
+}  // namespace muro::host

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// Kernels: robots of identical structure against the planes of the scenery.
+#pragma once
+
+#include "lanes/solid.hpp"
+#include "muro/lane/isa.hpp"
+
+namespace muro::native {
+
+/// Solids and planes make slots, number `plane` * solids + `solid`; six slots share one word of a signature, so that
+/// the bits of its points (eight a slot) are exact in a double.
+inline constexpr int slots_of_word = 6;
+/// A contact's numbers that change: point, normal, depth, friction.
+inline constexpr int contact_numbers = 8;
+
+/// What one call works on: at most eight robots.
+struct GroundWork {
+  const Solid* solids = nullptr;  ///< of each robot, body by body
+  int solid_count = 0;
+  const double* planes = nullptr;  ///< normal and origin of each
+  int plane_count = 0;
+  const double* friction = nullptr;  ///< by slot
+  int contact_stride = 0;            ///< in numbers
+  int used = 0;                      ///< robots
+  const double* const* poses[8];     ///< of each robot: by solid, the pose of its body
+  double* contacts[8];               ///< of each robot: contact_numbers of its first contact
+  double* signatures = nullptr;      ///< out: word by word, `used` in each: which points touch; cleared by the kernel
+};
+
+/// Writes contacts ordered by body, plane, solid and number of the point, and the signatures. A robot needs room for
+/// eight contacts a slot.
+struct GroundKernels {
+  void (*touch)(const GroundWork&);
+};
+MURO_DECLARE_KERNELS(GroundKernels, ground_kernels)
+
+}  // namespace muro::native
