@@ -8,8 +8,9 @@ namespace muro {
 std::vector<std::uint32_t> block_bounds(std::uint32_t count) {
   constexpr std::uint32_t lane = 8, largest = 64, share = 24;
   // An even number of blocks, so that two threads get the same; enough of them for the threads of a large machine.
-  std::uint32_t blocks = count < 2 * lane ? 1 : std::clamp(2 * ((count + share) / (2 * share)), 2u, 16u);
-  blocks = std::max(blocks, (count + largest - 1) / largest);
+  const std::uint32_t wanted = std::clamp((count + share) / (2 * share), 1u, 8u);
+  const std::uint32_t needed = (count + 2 * largest - 1) / (2 * largest);
+  const std::uint32_t blocks = count < 2 * lane ? 1 : 2 * std::max(wanted, needed);
   std::vector<std::uint32_t> bounds{0};
   for (std::uint32_t b = 1; b < blocks; ++b) {
     const auto at = std::uint32_t((std::uint64_t(b) * count + blocks / 2) / blocks);

@@ -49,8 +49,8 @@ class RaycastVehicles final : public Team {
       v.wheels->setCoordinateSystem(1, 2, 0);
       for (int w = 0; w < 4; ++w) {
         const Vec3 hard_point = Rover::wheel_centre(w) + Vec3(0, 0, travel);
-        btWheelInfo& wheel = v.wheels->addWheel(bullet(hard_point), {0, 0, -1}, {0, -1, 0}, travel,
-                                                Rover::wheel_radius, tuning_, w < 2);
+        btWheelInfo& wheel =
+            v.wheels->addWheel(bullet(hard_point), {0, 0, -1}, {0, -1, 0}, travel, Rover::wheel_radius, tuning_, w < 2);
         // as stiff as muro's contacts: a body on four springs bobs at 50 Hz
         wheel.m_suspensionStiffness = 0.25 * omega * omega;
         wheel.m_wheelsDampingCompression = wheel.m_wheelsDampingRelaxation = 0.5 * omega;

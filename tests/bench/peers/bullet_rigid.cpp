@@ -19,8 +19,9 @@ class RigidVehicles final : public Team {
       for (int w = 0; w < 4; ++w) {
         const Pose place = start * Pose{Rover::wheel_centre(w), Quat::Identity()};
         btRigidBody& round = bullet_.add(ball, place, wheel.mass, {wheel.ixx, wheel.iyy, wheel.izz});
-        v.hinges[std::size_t(w)] = std::make_unique<btHingeConstraint>(
-            *v.chassis, round, bullet(Rover::wheel_centre(w)), btVector3(0, 0, 0), btVector3(0, 1, 0), btVector3(0, 1, 0));
+        v.hinges[std::size_t(w)] =
+            std::make_unique<btHingeConstraint>(*v.chassis, round, bullet(Rover::wheel_centre(w)), btVector3(0, 0, 0),
+                                                btVector3(0, 1, 0), btVector3(0, 1, 0));
         bullet_.world.addConstraint(v.hinges[std::size_t(w)].get(), true);
       }
       vehicles_.push_back(std::move(v));

@@ -26,7 +26,8 @@ class BulletWorld {
 
     ground = &add(keep(std::make_unique<btStaticPlaneShape>(btVector3(0, 0, 1), 0)), {}, 0);
     for (const Block& b : city.blocks()) {
-      btRigidBody& box = add(keep(std::make_unique<btBoxShape>(bullet(0.5 * b.lengths))), {b.centre, Quat::Identity()}, 0);
+      btRigidBody& box =
+          add(keep(std::make_unique<btBoxShape>(bullet(0.5 * b.lengths))), {b.centre, Quat::Identity()}, 0);
       box.getBroadphaseProxy()->m_collisionFilterGroup |= buildings;
     }
     broadphase_.optimize();

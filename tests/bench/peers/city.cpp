@@ -10,13 +10,11 @@ namespace muro::bench {
 
 namespace {
 
-constexpr double pitch = 10;     // m between the middles of neighbouring blocks
-constexpr double lane = 0.8;     // m from the middle of a street to the middle of a lane
-constexpr double crossing = 2.9; // m from the middle of a crossing that stay free
+constexpr double pitch = 10;      // m between the middles of neighbouring blocks
+constexpr double lane = 0.8;      // m from the middle of a street to the middle of a lane
+constexpr double crossing = 2.9;  // m from the middle of a crossing that stay free
 
-Pose standing(double x, double y, double heading) {
-  return {{x, y, Rover::ride_height}, from_rpy(0, 0, heading)};
-}
+Pose standing(double x, double y, double heading) { return {{x, y, Rover::ride_height}, from_rpy(0, 0, heading)}; }
 
 }  // namespace
 
@@ -60,7 +58,8 @@ City::City(int vehicles, std::uint64_t seed) : seed_(seed) {
   const Random random(seed, fnv1a("places"), 0);
   for (int v = 0; v < vehicles; ++v) {  // the first `vehicles` places of a random order
     const std::size_t rest = places.size() - std::size_t(v);
-    std::swap(places[std::size_t(v)], places[std::size_t(v) + std::size_t(random.uniform(std::uint32_t(v)) * double(rest))]);
+    std::swap(places[std::size_t(v)],
+              places[std::size_t(v) + std::size_t(random.uniform(std::uint32_t(v)) * double(rest))]);
     starts_.push_back(places[std::size_t(v)]);
   }
 }

@@ -24,7 +24,9 @@ struct GroundWork {
   int used = 0;                      ///< robots
   const double* const* poses[8];     ///< of each robot: by solid, the pose of its body
   double* contacts[8];               ///< of each robot: contact_numbers of its first contact
-  double* signatures = nullptr;      ///< out: word by word, `used` in each: which points touch; cleared by the kernel
+  double* signatures = nullptr;      ///< out: which points touch: word by word, eight robots in each
+
+  double* signature(int slot) const { return signatures + 8 * (slot / slots_of_word); }
 };
 
 /// Writes contacts ordered by body, plane, solid and number of the point, and the signatures. A robot needs room for

@@ -33,6 +33,18 @@ MURO_INLINE void transpose(Vector (&r)[8]) {
 }
 #endif
 
+/// Numbers that lie as the values of S do.
+template <class S>
+MURO_INLINE S load_side_by_side(const double* from) {
+  S value;
+  __builtin_memcpy(&value, from, sizeof value);
+  return value;
+}
+template <class S>
+MURO_INLINE void store_side_by_side(double* to, S value) {
+  __builtin_memcpy(to, &value, sizeof value);
+}
+
 /// Numbers `first` to `first` + n - 1 of each place; n <= 8.
 template <int n, class S>
 MURO_INLINE void load_rows(const Places<S>& from, int first, S (&to)[n]) {
@@ -49,27 +61,34 @@ MURO_INLINE void load_rows(const Places<S>& from, int first, S (&to)[n]) {
   for (int k = 0; k < n; ++k) to[k] = lane::load<S>(from, first + k);
 }
 
-/// The first n numbers of the places of those lanes whose bit is set in `which`.
+/// To n numbers of each place, from number `first` on, of those lanes whose bit is set in `which`.
 template <int n, class S>
-MURO_INLINE void store_rows(const Places<S, double>& to, const S (&from)[n], unsigned which) {
-  if constexpr (count_of<S> == 1) {
-    if (which & 1)
-      for (int k = 0; k < n; ++k) to.at[0][k] = from[k];
-  } else {
+MURO_INLINE void store_rows(const Places<S, double>& to, std::int64_t first, const S (&from)[n], unsigned which) {
 #if defined(__AVX512F__)
-    if constexpr (count_of<S> == 8) {
-      typename S::Vector rows[8] = {};
-      for (int k = 0; k < n; ++k) rows[k] = from[k].v;
-      transpose(rows);
+  if constexpr (count_of<S> == 8) {
+    typename S::Vector rows[8] = {};
+    for (int k = 0; k < n; ++k) rows[k] = from[k].v;
+    transpose(rows);
+    const auto store = [&](int i) {
+      _mm512_mask_storeu_pd(to.at[i] + first, __mmask8((1 << n) - 1), __m512d(rows[i]));
+    };
+    if (which == 0xff) {
+      for (int i = 0; i < 8; ++i) store(i);
+    } else {
       for (int i = 0; i < 8; ++i)
-        if (which >> i & 1) _mm512_mask_storeu_pd(to.at[i], __mmask8((1 << n) - 1), __m512d(rows[i]));
-      return;
+        if (which >> i & 1) store(i);
     }
-#endif
-    for (int i = 0; i < count_of<S>; ++i)
-      if (which >> i & 1)
-        for (int k = 0; k < n; ++k) to.at[i][k] = from[k][i];
+    return;
   }
+#endif
+  for (int k = 0; k < n; ++k)
+    for (int i = 0; i < count_of<S>; ++i)
+      if (which >> i & 1) {
+        if constexpr (count_of<S> == 1)
+          to.at[i][first + k] = from[k];
+        else
+          to.at[i][first + k] = from[k][i];
+      }
 }
 
 /// A pose whose orientation is unfolded.

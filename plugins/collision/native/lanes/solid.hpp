@@ -24,13 +24,26 @@ struct Solid {
 namespace lanes {
 inline namespace MURO_ISA {
 
-/// Where the shape is in the world when its body is at `body`.
+/// A shape whose body is at `body`.
 template <class S>
-MURO_INLINE Turned<S> place(const Solid& solid, const Turned<S>& body) {
-  const double* const a = solid.axes;
-  const M3<S> axes{lane::splat<S>(a), lane::splat<S>(a + 3), lane::splat<S>(a + 6)};
-  return {body.position + body.axes * lane::splat<S>(solid.centre), body.axes * axes};
-}
+class Standing {
+ public:
+  Standing(const Solid& solid, const Turned<S>& body) : solid_(solid), body_(body) {}
+
+  const Solid& solid() const { return solid_; }
+  /// m, world.
+  MURO_INLINE V3<S> centre() const {
+    const double* const c = solid_.centre;
+    if (c[0] == 0 && c[1] == 0 && c[2] == 0) return body_.position;
+    return body_.position + body_.axes * lane::splat<S>(c);
+  }
+  /// Axis k of the shape, in the world.
+  MURO_INLINE V3<S> axis(int k) const { return body_.axes * lane::splat<S>(solid_.axes + 3 * k); }
+
+ private:
+  const Solid& solid_;
+  const Turned<S>& body_;
+};
 
 }  // namespace MURO_ISA
 }  // namespace lanes

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// Motions that touch more than they have declared, each in one way, and one that does not.
+#include <vector>
+
+#include "muro/plugin.hpp"
+
+namespace {
+
+using namespace muro;
+
+constexpr Phase own[] = {{Phase::Over::items, Phase::Reach::own}};
+constexpr Phase wide[] = {{Phase::Over::items, Phase::Reach::wide}};
+
+/// Falls at 1 m/s.
+class Honest : public Algorithm {
+ public:
+  void connect(Connector& c) override {
+    for (const Item& item : c.items()) {
+      poses_.push_back(c.variable(item.object, keys::pose, Pose{}));
+      c.variable(item.object, keys::twist, Twist{});
+    }
+  }
+  std::span<const Phase> phases() const override { return own; }
+  void step(const Step& step, Range range) override {
+    for (std::uint32_t i = range.begin; i < range.end; ++i) poses_[i]->position.z() -= step.dt;
+  }
+
+ protected:
+  std::vector<Out<Pose>> poses_;
+};
+
+/// Follows the first robot, which lies in another block than the last ones.
+class ReadsAnother : public Honest {
+ public:
+  void step(const Step& step, Range range) override {
+    Honest::step(step, range);
+    for (std::uint32_t i = range.begin; i < range.end; ++i) poses_[i]->position.x() = poses_[0]->position.z();
+  }
+};
+
+/// Says that it reads others, but writes one.
+class WritesAnother final : public Honest {
+ public:
+  std::span<const Phase> phases() const override { return wide; }
+  void step(const Step& step, Range range) override {
+    Honest::step(step, range);
+    poses_[0]->position.y() += 1;
+  }
+};
+
+/// Keeps what it should keep in a property.
+class KeepsState final : public Honest {
+ public:
+  void step(const Step& step, Range range) override {
+    Honest::step(step, range);
+    ++steps_;
+    for (std::uint32_t i = range.begin; i < range.end; ++i) poses_[i]->position.x() = steps_;
+  }
+
+ private:
+  int steps_ = 0;
+};
+
+template <char const* Id>
+constexpr Description description{.id = Id,
+                                  .kind = Kind::motion,
+                                  .version = "1.0.0",
+                                  .summary = "Touches what it should not",
+                                  .promises = deterministic | batched | restorable};
+
+constexpr char honest[] = "motion.honest";
+constexpr char reads[] = "motion.reads_another";
+constexpr char writes[] = "motion.writes_another";
+constexpr char keeps[] = "motion.keeps_state";
+constexpr abi::AlgorithmEntry algorithms[] = {
+    algorithm<Honest>(description<honest>), algorithm<ReadsAnother>(description<reads>),
+    algorithm<WritesAnother>(description<writes>), algorithm<KeepsState>(description<keeps>)};
+
+}  // namespace
+
+MURO_PLUGIN(.name = "secretive", .version = "1.0.0", .licence = "MIT", .summary = "Algorithms with secrets",
+            .algorithms = algorithms)

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#include "tests/bench/peers/team.hpp"
+
+namespace muro::bench {
+
+std::vector<Engine> peers() {
+  std::vector<Engine> all;
+#ifdef MURO_BENCH_BULLET
+  all.push_back({"Bullet, raycast vehicle", true, &bullet_raycast_vehicles});
+#endif
+#ifdef MURO_BENCH_ODE
+  all.push_back({"ODE, one body", true, &ode_one_body_vehicles});
+  all.push_back({"ODE, articulated", false, &ode_articulated_vehicles});
+#endif
+#ifdef MURO_BENCH_BULLET
+  all.push_back({"Bullet, rigid bodies", false, &bullet_rigid_vehicles});
+#endif
+#ifdef MURO_BENCH_MUJOCO
+  all.push_back({"MuJoCo", false, &mujoco_vehicles});
+#endif
+  return all;
+}
+
+}  // namespace muro::bench

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// The number of threads, the order of declaration and the way of dividing work change no bit.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "host/scenario/builder.hpp"
+#include "tests/support/files.hpp"
+#include "tests/support/scene.hpp"
+
+namespace muro::host {
+namespace {
+
+/// Every scenario under examples/: all files that have robots.
+std::vector<std::string> examples() {
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(MURO_TEST_SOURCE_DIR "/examples"))
+    if (entry.path().extension() == ".yaml" && test::text_of(entry.path()).find("\nrobots:") != std::string::npos)
+      files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// The hash after `seconds` on so many threads, all of which are used wherever something may overlap.
+std::uint64_t hash_after(Scenario scenario, double seconds, unsigned threads) {
+  BuiltScenario built = build(std::move(scenario), test::plugins());
+  built.simulation->set_threads(threads);
+  built.simulation->scheduler().executor().set_always_parallel(true);
+  built.simulation->run_for(seconds);
+  return built.simulation->state_hash();
+}
+
+struct OfExample : ::testing::TestWithParam<std::string> {};
+
+TEST_P(OfExample, AnyNumberOfThreadsGivesTheSameBits) {
+  for (const std::uint64_t seed : {1u, 2u, 3u}) {
+    Scenario scenario = read_scenario(GetParam(), {});
+    scenario.seed = seed;
+    const std::uint64_t alone = hash_after(scenario, 10, 1);
+    for (const unsigned threads : {2u, 3u, 4u, 8u})
+      EXPECT_EQ(hash_after(scenario, 10, threads), alone) << threads << " threads, seed " << seed;
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Threads, OfExample, ::testing::ValuesIn(examples()),
+                         [](const auto& example) { return std::filesystem::path(example.param).stem().string(); });
+
+/// Some robots of each level so close together that they meet, and boxes and balls between them.
+constexpr const char* crowd[] = {
+    "  near:\n    model: {MODELS}/rover.urdf\n    count: 14\n"
+    "    place: {grid: {count: [7, 2], spacing: [0.6, 0.6]}}\n"
+    "    motion: {use: motion.simplified}\n    drive: {use: drive.skid_steer}\n"
+    "    laser: {use: laser.raycast, on: laser_link, rate: 20, rays: 60, max_range: 5}\n"
+    "    control: {use: controller.library, library: wander, rate: 20}\n",
+    "  boxes:\n    shape: {box: [0.3, 0.3, 0.2]}\n    mass: 2\n    count: 6\n"
+    "    place: {grid: {count: [6, 1], spacing: [0.6, 1], center: {y: 1.4, z: 0.4}}}\n"
+    "    motion: {use: motion.simplified}\n",
+    "  carts:\n    model: {MODELS}/rover.urdf\n    count: 9\n"
+    "    place: {grid: {count: [9, 1], spacing: [0.6, 1], center: {y: -1.4}}}\n"
+    "    motion: {use: motion.differential_drive}\n    drive: {use: drive.differential}\n"
+    "    laser: {use: laser.raycast, on: laser_link, rate: 15, rays: 40, max_range: 5}\n"
+    "    control: {use: controller.library, library: wander, rate: 20}\n",
+};
+
+Scenario crowd_in_order(const test::ScratchFolder& folder, const std::vector<int>& order) {
+  std::string text =
+      "name: crowd\nworld: {objects: {ground: {shape: plane}, wall: {shape: {box: [8, 0.2, 1]}, at: {y: "
+      "2.4}}}}\nrobots:\n";
+  for (const int part : order) text += crowd[part];
+  for (std::size_t at; (at = text.find("{MODELS}")) != std::string::npos;)
+    text.replace(at, 8, MURO_TEST_SOURCE_DIR "/examples/models");
+  folder.file("crowd.yaml", text);
+  return read_scenario(folder.path("crowd.yaml"), {});
+}
+
+TEST(Threads, ACrowdThatCollidesIsTheSameOnAnyNumber) {
+  const test::ScratchFolder folder;
+  const Scenario scenario = crowd_in_order(folder, {0, 1, 2});
+  const std::uint64_t alone = hash_after(scenario, 10, 1);
+  for (const unsigned threads : {2u, 3u, 4u, 8u}) EXPECT_EQ(hash_after(scenario, 10, threads), alone) << threads;
+}
+
+TEST(Threads, TheOrderOfDeclarationChangesNoRobot) {
+  const test::ScratchFolder folder;
+  std::map<std::string, std::uint64_t> first;
+  for (const std::vector<int>& order : {std::vector<int>{0, 1, 2}, {2, 0, 1}, {1, 2, 0}}) {
+    BuiltScenario built = build(crowd_in_order(folder, order), test::plugins());
+    built.simulation->set_threads(2);
+    built.simulation->run_for(10);
+    for (const RobotView* r : built.simulation->world().robots()) {
+      const std::uint64_t hash = built.simulation->world().hash(*r);
+      const auto [known, fresh] = first.emplace(r->name, hash);
+      EXPECT_EQ(known->second, hash) << r->name;
+    }
+  }
+  EXPECT_EQ(first.size(), 29u);
+}
+
+TEST(Threads, AlgorithmsTouchOnlyWhatTheyHaveDeclared) {
+  const test::ScratchFolder folder;
+  BuiltScenario plain = build(crowd_in_order(folder, {0, 1, 2}), test::plugins());
+  BuiltScenario checked = build(crowd_in_order(folder, {0, 1, 2}), test::plugins());
+  checked.simulation->verify_access();
+  plain.simulation->run_for(0.5);
+  checked.simulation->run_for(0.5);
+  EXPECT_EQ(plain.simulation->state_hash(), checked.simulation->state_hash());
+}
+
+}  // namespace
+}  // namespace muro::host
