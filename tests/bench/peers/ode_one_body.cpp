@@ -28,16 +28,15 @@ class OneBodyVehicles final : public Team, OdeWorld {
   }
 
  private:
-  /// Across the axle the surface of the wheel runs backward at the speed of its rim.
+  /// Across the axle the surface of the wheel runs backward at the speed of its rim; walls are not driven on.
   void surface_of_wheel(const Vehicle& v, int wheel, dContact& contact) const override {
     const dReal* r = dBodyGetRotation(v.chassis);
     const Vec3 axle(r[1], r[5], r[9]);
     const bool first = dGeomGetBody(contact.geom.g1) == v.chassis;
     const Vec3 normal = (first ? 1 : -1) * Vec3(contact.geom.normal[0], contact.geom.normal[1], contact.geom.normal[2]);
     const Vec3 across = axle.cross(normal);
-    const double length = across.norm();
-    if (length < 0.1) return;  // the hub touches
-    const Vec3 forward = across / length;
+    if (normal.z() < 0.5 || across.norm() < 0.1) return;
+    const Vec3 forward = across.normalized();
     contact.surface.mode |= dContactFDir1 | dContactMotion1;
     for (int k = 0; k < 3; ++k) contact.fdir1[k] = forward[k];
     contact.surface.motion1 =

@@ -10,8 +10,8 @@ namespace muro::native {
 /// Solids and planes make slots, number `plane` * solids + `solid`; six slots share one word of a signature, so that
 /// the bits of its points (eight a slot) are exact in a double.
 inline constexpr int slots_of_word = 6;
-/// A contact's numbers that change: point, normal, depth, friction.
-inline constexpr int contact_numbers = 8;
+/// A contact's numbers: point, normal, depth; of which the kernel writes the point (0 to 2) and the depth.
+inline constexpr int depth_number = 6;
 
 /// What one call works on: at most eight robots.
 struct GroundWork {
@@ -19,11 +19,10 @@ struct GroundWork {
   int solid_count = 0;
   const double* planes = nullptr;  ///< normal and origin of each
   int plane_count = 0;
-  const double* friction = nullptr;  ///< by slot
   int contact_stride = 0;            ///< in numbers
   int used = 0;                      ///< robots
   const double* const* poses[8];     ///< of each robot: by solid, the pose of its body
-  double* contacts[8];               ///< of each robot: contact_numbers of its first contact
+  double* contacts[8];               ///< of each robot: the numbers of its first contact
   double* signatures = nullptr;      ///< out: which points touch: word by word, eight robots in each
 
   double* signature(int slot) const { return signatures + 8 * (slot / slots_of_word); }

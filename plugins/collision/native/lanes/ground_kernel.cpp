@@ -7,6 +7,36 @@ namespace {
 
 using namespace lanes;
 
+/// The changing numbers of a contact, from number `first` on of each place whose bit is set in `which`.
+template <class S>
+MURO_INLINE void store_contacts(const Places<S, double>& to, std::int64_t first, const V3<S>& point, S depth,
+                                unsigned which) {
+#if defined(__AVX512F__)
+  if constexpr (count_of<S> == 8) {
+    constexpr auto mask = __mmask8(7 | 1 << depth_number);
+    const auto xy0 = __builtin_shufflevector(point.x.v, point.y.v, 0, 8, 2, 10, 4, 12, 6, 14);
+    const auto xy1 = __builtin_shufflevector(point.x.v, point.y.v, 1, 9, 3, 11, 5, 13, 7, 15);
+    const auto zd0 = __builtin_shufflevector(point.z.v, depth.v, 0, 8, 2, 10, 4, 12, 6, 14);
+    const auto zd1 = __builtin_shufflevector(point.z.v, depth.v, 1, 9, 3, 11, 5, 13, 7, 15);
+#define MURO_STORE_ROW(i, xy, zd)                                                                            \
+  if (which >> (i)&1)                                                                                        \
+  _mm512_mask_storeu_pd(to.at[i] + first, mask,                                                              \
+                        __m512d(__builtin_shufflevector(xy, zd, (i)&6, (i) | 1, ((i)&6) + 8, -1, -1, -1, \
+                                                        ((i) | 1) + 8, -1)))
+    MURO_STORE_ROW(0, xy0, zd0);
+    MURO_STORE_ROW(1, xy1, zd1);
+    MURO_STORE_ROW(2, xy0, zd0);
+    MURO_STORE_ROW(3, xy1, zd1);
+    MURO_STORE_ROW(4, xy0, zd0);
+    MURO_STORE_ROW(5, xy1, zd1);
+    MURO_STORE_ROW(6, xy0, zd0);
+    MURO_STORE_ROW(7, xy1, zd1);
+#undef MURO_STORE_ROW
+    return;
+  }
+#endif
+}
+
 /// Appends contacts to those of their robots.
 template <class S>
 struct Appender {
@@ -15,17 +45,19 @@ struct Appender {
   Places<S, double> first{};   ///< `next` numbers behind it a robot's next contact begins
   std::int64_t next = 0;
   // of the present slot:
-  V3<S> normal{};
-  S friction{}, points{};
+  S points{};
   double scale = 0;  ///< of the slot in its word
 
   MURO_INLINE void operator()(MaskOf<S> below, const V3<S>& point, S depth, int number) {
     points += select(below, S(scale * (1 << number)), S(0));
     const unsigned which = bits(below) & all;
-    store_rows(first, next, {point.x, point.y, point.z, normal.x, normal.y, normal.z, depth, friction}, which);
-    next += stride;
-    if (which != (1u << count_of<S>) - 1)
+    if (which == (1u << count_of<S>) - 1) {
+      store_contacts(first, next, point, depth, (1u << count_of<S>) - 1);
+    } else {
+      store_contacts(first, next, point, depth, which);
       for (int i = 0; i < count_of<S>; ++i) first.at[i] -= which >> i & 1 ? 0 : stride;
+    }
+    next += stride;
   }
 };
 
@@ -49,10 +81,8 @@ void touch_some(const GroundWork& work, int first) {
     for (int p = 0; p < work.plane_count; ++p) {
       const double* const numbers = work.planes + 6 * p;
       const Plane<S> plane{lane::splat<S>(numbers), lane::splat<S>(numbers + 3)};
-      append.normal = plane.normal;
       for (int k = begin; k < end; ++k) {
         const int slot = p * work.solid_count + k;
-        append.friction = S(work.friction[slot]);
         append.scale = double(1ull << 8 * (slot % slots_of_word));
         append.points = S(0);
         PlanePoints<S>(Standing<S>(work.solids[k], body), plane).give(append);

@@ -70,19 +70,20 @@ class PlanePoints {
     const V3<S> n = plane_.normal, u = at_.axis(2);
     const S slope = dot(n, u), r(half_[0]), half(half_[2]), rise = half * slope;
     V3<S> down = slope * u - n;  // towards the lowest point of a rim
-    const S steep = sqrt(dot(down, down)), low = r * steep;
-    if (!any(deep_ + abs(rise) + low > S(0))) return;
+    const S steep = sqrt(dot(down, down)), low = r * steep, middle = deep_ + abs(rise);
+    if (!any(middle + low > S(0))) return;
     const auto upright = steep <= S(1e-9);
     down = down * (r / steep);
-    // Upright any four points serve; those on the axes of the cylinder turn with it.
-    if (any(upright)) down = select(upright, r * at_.axis(0), down);
     const V3<S> end = half * u;
+    const auto more = upright | (middle > S(0));
+    // Upright any four points serve; those on the axes of the cylinder turn with it.
+    if (any(more)) down = select(upright, r * at_.axis(0), down);
+    const V3<S> lowest_middle = centre_ + down;
     for (int k = 0; k < 2; ++k) {
-      const V3<S> cap = k == 0 ? centre_ + end : centre_ - end;
       const S depth = k == 0 ? deep_ - rise : deep_ + rise;
-      lowest(cap + down, depth + low, 4 * k, sink);
-      if (!any(depth > S(0))) continue;
-      const V3<S> across = cross(u, down);
+      lowest(k == 0 ? lowest_middle + end : lowest_middle - end, depth + low, 4 * k, sink);
+      if (!any(more)) continue;
+      const V3<S> cap = k == 0 ? centre_ + end : centre_ - end, across = cross(u, down);
       lowest(cap + across, depth, 4 * k + 1, sink);
       lowest(cap - across, depth, 4 * k + 2, sink);
       lowest(cap - down, depth - low, 4 * k + 3, sink);

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// A data race on purpose: shows that the runs beside it could fail.
+#include <thread>
+
+#include "core/workers.hpp"
+
+int main() {
+  int shared = 0;
+  muro::Workers workers(4);
+  for (int round = 0; round < 100; ++round)
+    workers.run(
+        64,
+        [](void* at, std::uint32_t, unsigned) {
+          ++*static_cast<int*>(at);
+          std::this_thread::yield();
+        },
+        &shared);
+  return shared == 0 ? 1 : 0;
+}
