@@ -7,10 +7,11 @@
 
 namespace muro {
 
+/// What is being carried out.
 struct Executor::Instant {
   Executor& self;
   const std::vector<Task>& tasks;
-  std::int64_t time;
+  std::span<const std::int64_t> times;
   std::uint64_t seed;
   const std::vector<std::uint64_t>& runs;
   const Stage* stage = nullptr;
@@ -38,9 +39,9 @@ TaskCost Executor::cost(TaskId task) const {
   return all;
 }
 
-void Executor::run(const std::vector<Task>& tasks, Program& program, std::int64_t time, std::uint64_t seed,
-                   const std::vector<std::uint64_t>& runs) {
-  Instant instant{*this, tasks, time, seed, runs};
+void Executor::run(const std::vector<Task>& tasks, Program& program, std::span<const std::int64_t> times,
+                   std::uint64_t seed, std::vector<std::uint64_t>& runs) {
+  Instant instant{*this, tasks, times, seed, runs};
   const bool parallel = workers_ && !observer_ && choose_parallel(program);
   const std::uint64_t before = ticks();
   for (const Stage& stage : program.stages) {
@@ -48,7 +49,10 @@ void Executor::run(const std::vector<Task>& tasks, Program& program, std::int64_
     run_stage(instant, parallel);
   }
   if (workers_ && !always_parallel_) learn(program.trial, ticks() - before);
-  for (const Turn& t : program.turns) ++state_.front().costs[t.task].runs;
+  for (const Turn& t : program.turns) {
+    ++runs[t.task];
+    ++state_.front().costs[t.task].runs;
+  }
 }
 
 void Executor::run_stage(Instant& instant, bool parallel) {
@@ -70,17 +74,18 @@ void Executor::run_chain(const Instant& instant, const Stage& stage, std::uint32
   std::uint64_t before = ticks();
   for (const Call& call : stage.chain(chain)) {
     const Task& task = instant.tasks[call.task];
-    const Step step{instant.time, call.dt, instant.runs[call.task], instant.seed, call.phase};
+    const std::int64_t time = instant.times[call.instant];
+    const Step step{time, call.dt, instant.runs[call.task] + call.instant, instant.seed, call.phase};
     abi::ErrorText error;
     const bool fine =
         observer_ ? observer_->make(task, step, call.range, error) : task.instance->step(step, call.range, error);
     const std::uint64_t after = ticks();
     state.costs[call.task].ticks += after - before;
-    if (timeline_.on()) timeline_.add(thread, {call.task, call.phase, call.range, instant.time, before, after});
+    if (timeline_.on()) timeline_.add(thread, {call.task, call.phase, call.range, time, before, after});
     before = after;
     const std::uint64_t place = std::uint64_t(call.turn) << 32 | call.range.begin;
     if (!fine && place < state.failure.place)
-      state.failure = {place, task.name + " failed at t = " + std::to_string(1e-9 * double(instant.time)) +
+      state.failure = {place, task.name + " failed at t = " + std::to_string(1e-9 * double(time)) +
                                   " s: " + std::string(error.view())};
     if (!fine) return;
   }

@@ -20,10 +20,12 @@ class CallObserver {
   virtual bool make(const Task& task, const Step& step, Range range, abi::ErrorText& error) = 0;
 };
 
-/// How the turns of an instant are carried out, and what has been learned about it.
+/// How the turns of an instant, or of several in which the same is due, are carried out, and what has been learned
+/// about it.
 struct Program {
   std::vector<Stage> stages;
   std::vector<Turn> turns;
+  std::uint32_t instants = 1;
 
   /// Which way is faster, found out now and then: some instants on one thread, then as many on several.
   struct Trial {
@@ -39,7 +41,7 @@ struct Program {
   } trial;
 };
 
-/// Makes the calls of an instant, on one or several threads.
+/// Makes the calls of a program, on one or several threads.
 class Executor {
  public:
   /// Of calls; 1: the calling thread alone.
@@ -47,16 +49,16 @@ class Executor {
   unsigned threads() const { return threads_; }
   /// Takes the place of making calls; null: none. Calls are then made on one thread.
   void set_observer(std::unique_ptr<CallObserver> observer) { observer_ = std::move(observer); }
-  /// Whether several threads are used wherever there are several chains, or only where that is found to be faster.
+  /// Whether several threads are used wherever there are several chains; else only where that is found to be faster.
   void set_always_parallel(bool always) { always_parallel_ = always; }
   Timeline& timeline() { return timeline_; }
   const Timeline& timeline() const { return timeline_; }
 
   void prepare(std::size_t tasks);
-  /// `runs`: how often each task ran before. Throws StepError, of the failure that is first in order, when the stage in
-  /// which it happened is done.
-  void run(const std::vector<Task>& tasks, Program& program, std::int64_t time, std::uint64_t seed,
-           const std::vector<std::uint64_t>& runs);
+  /// `times`: of each instant, ns. `runs`: how often each task ran before; counted on. Throws StepError, of the failure
+  /// that is first in order, when the stage in which it happened is done.
+  void run(const std::vector<Task>& tasks, Program& program, std::span<const std::int64_t> times, std::uint64_t seed,
+           std::vector<std::uint64_t>& runs);
 
   TaskCost cost(TaskId task) const;
   double seconds_per_tick() const { return clock_.seconds_per_tick(); }

@@ -2,6 +2,7 @@
 #include "core/scheduler.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <numeric>
 #include <thread>
@@ -52,7 +53,7 @@ void Scheduler::add_sequence(const std::vector<TaskId>& tasks) {
 void Scheduler::prepare() {
   prepared_ = true;
   programs_.clear();
-  last_program_ = nullptr;
+  last_programs_ = nullptr;
   executor_.prepare(tasks_.size());
   groups_.clear();
   group_of_item_.assign(items_.size(), 0);
@@ -73,6 +74,7 @@ void Scheduler::prepare() {
     group_of_item_[i] = std::uint32_t(g - groups_.begin());
   }
   due_.assign(groups_.size(), false);
+  next_due_ = due_;
   find_providers();
   find_periods();
 }
@@ -149,20 +151,26 @@ Scheduler::Turns Scheduler::turns_of(const Mask& due) const {
   return turns;
 }
 
-Program Scheduler::program_of(Turns turns) const {
+Program Scheduler::program_of(const Turns& turns, std::uint32_t instants) const {
   Program program;
-  program.stages = stages_of(turns, tasks_, robot_of_slot_);
-  program.turns = std::move(turns);
+  program.instants = instants;
+  for (std::uint32_t i = 0; i < instants; ++i)
+    for (Turn t : turns) {
+      t.instant = i;
+      program.turns.push_back(t);
+    }
+  program.stages = stages_of(program.turns, tasks_, robot_of_slot_);
   return program;
 }
 
-Program& Scheduler::program_for(const Mask& due) {
-  if (last_program_ && due == last_due_) return *last_program_;
+Scheduler::Programs& Scheduler::programs_for(const Mask& due) {
+  if (last_programs_ && due == last_due_) return *last_programs_;
   const auto known = programs_.find(due);
-  last_program_ =
-      known != programs_.end() ? &known->second : &programs_.emplace(due, program_of(turns_of(due))).first->second;
+  last_programs_ = known != programs_.end()
+                       ? &known->second
+                       : &programs_.emplace(due, Programs{program_of(turns_of(due), 1), {}}).first->second;
   last_due_ = due;
-  return *last_program_;
+  return *last_programs_;
 }
 
 Scheduler::Turns Scheduler::turns_at(std::int64_t time) const {
@@ -180,12 +188,7 @@ std::vector<TaskId> Scheduler::plan_at(std::int64_t time) const {
   return order;
 }
 
-std::vector<Stage> Scheduler::stages_at(std::int64_t time) const { return program_of(turns_at(time)).stages; }
-
-void Scheduler::run_instant(Program& program) {
-  executor_.run(tasks_, program, now_, seed_, runs_);
-  for (const Turn& t : program.turns) ++runs_[t.task];
-}
+std::vector<Stage> Scheduler::stages_at(std::int64_t time) const { return program_of(turns_at(time), 1).stages; }
 
 void Scheduler::set_pacing(Pacing pacing) {
   pacing_ = pacing;
@@ -210,21 +213,54 @@ bool Scheduler::pace(const std::function<bool()>& stop) {
   return false;
 }
 
+std::int64_t Scheduler::next_time() const {
+  std::int64_t next = never;
+  for (const Group& g : groups_) next = std::min(next, g.next_time);
+  return next;
+}
+
+void Scheduler::mark_due(std::int64_t time, Mask& due) const {
+  for (std::size_t i = 0; i < groups_.size(); ++i) due[i] = groups_[i].next_time == time;
+}
+
+void Scheduler::advance(const Mask& due) {
+  for (std::size_t i = 0; i < groups_.size(); ++i)
+    if (due[i]) {
+      Group& g = groups_[i];
+      g.next_time = g.rate.time_of(++g.next_run) + g.phase;
+    }
+}
+
+/// Takes the present instant, and those behind it in which the same is due, up to as many as are carried out together.
+/// Returns how many there are.
+std::uint32_t Scheduler::gather(std::int64_t end) {
+  mark_due(now_, due_);
+  std::uint32_t count = 0;
+  for (std::int64_t time = now_; count < instants_together && time < end; time = next_time()) {
+    mark_due(time, next_due_);
+    if (next_due_ != due_) break;
+    times_[count++] = time;
+    advance(next_due_);
+    if (pacing_.factor > 0) break;  // each waits for its own time
+  }
+  return count;
+}
+
 void Scheduler::run_until(std::int64_t end, const std::function<bool()>& stop) {
   if (!prepared_) prepare();
-  while (true) {
-    std::int64_t next = never;
-    for (const Group& g : groups_) next = std::min(next, g.next_time);
-    if (next >= end) break;
+  for (std::int64_t next = next_time(); next < end; next = next_time()) {
     now_ = next;
     if (pacing_.factor > 0 && pace(stop)) return;
-    for (std::size_t i = 0; i < groups_.size(); ++i) due_[i] = groups_[i].next_time == now_;
-    run_instant(program_for(due_));
-    for (std::size_t i = 0; i < groups_.size(); ++i)
-      if (due_[i]) {
-        Group& g = groups_[i];
-        g.next_time = g.rate.time_of(++g.next_run) + g.phase;
-      }
+    const std::uint32_t count = gather(end);
+    Programs& programs = programs_for(due_);
+    const std::span<const std::int64_t> times(times_.data(), count);
+    if (count == instants_together) {
+      if (programs.several.turns.empty()) programs.several = program_of(programs.one.turns, instants_together);
+      executor_.run(tasks_, programs.several, times, seed_, runs_);
+    } else {
+      for (std::uint32_t i = 0; i < count; ++i) executor_.run(tasks_, programs.one, times.subspan(i, 1), seed_, runs_);
+    }
+    now_ = times.back();
     if (stop && stop()) {
       ++now_;  // the instant is complete
       return;
@@ -235,12 +271,11 @@ void Scheduler::run_until(std::int64_t end, const std::function<bool()>& stop) {
 
 void Scheduler::run_extra(const std::vector<TaskId>& tasks) {
   if (!prepared_) prepare();
-  const std::vector<std::uint64_t> runs = runs_;
+  std::vector<std::uint64_t> runs = runs_;
   Turns turns;
   for (const TaskId t : tasks) turns.push_back({t, periods_[t]});
-  Program program = program_of(std::move(turns));
-  run_instant(program);
-  runs_ = runs;
+  Program program = program_of(turns, 1);
+  executor_.run(tasks_, program, {&now_, 1}, seed_, runs);
 }
 
 Scheduler::State Scheduler::state() const { return {now_, runs_}; }

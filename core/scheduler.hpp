@@ -31,7 +31,7 @@ class Scheduler {
   /// To be called when all tasks have been added.
   void prepare();
 
-  /// Runs everything that is due before `end` (ns). `stop` is asked after every instant.
+  /// Runs everything that is due before `end` (ns). `stop` is asked every few instants, in between them.
   /// Throws StepError; the instant is then incomplete.
   void run_until(std::int64_t end, const std::function<bool()>& stop = {});
 
@@ -63,6 +63,9 @@ class Scheduler {
   void set_state(const State& state);
 
  private:
+  /// So many instants with equal work are one program: motion of one instant and kinematics of the next go block by
+  /// block, without waiting for all blocks in between.
+  static constexpr std::uint32_t instants_together = 8;
   struct Group {  ///< items of equal rate and phase
     Rate rate;
     std::int64_t phase = 0;
@@ -77,9 +80,16 @@ class Scheduler {
   void find_providers();
   void find_periods();
   void demand(TaskId reader, std::vector<bool>& done, Turns& turns) const;
-  Program program_of(Turns turns) const;
-  Program& program_for(const Mask& due);
-  void run_instant(Program& program);
+  /// Programs for instants in which the same is due: for one, and for several that follow each other.
+  struct Programs {
+    Program one, several;
+  };
+  Program program_of(const Turns& turns, std::uint32_t instants) const;
+  Programs& programs_for(const Mask& due);
+  std::int64_t next_time() const;
+  void mark_due(std::int64_t time, Mask& due) const;
+  void advance(const Mask& due);
+  std::uint32_t gather(std::int64_t end);
   bool pace(const std::function<bool()>& stop);
 
   std::vector<Task> tasks_;
@@ -93,9 +103,10 @@ class Scheduler {
   std::vector<std::uint32_t> group_of_item_;
   std::vector<std::vector<TaskId>> providers_;  ///< per task: on-demand tasks it needs
   std::vector<double> periods_;                 ///< s, per task; on demand: the longest of those that ask
-  Mask due_, last_due_;
-  Program* last_program_ = nullptr;
-  std::unordered_map<Mask, Program> programs_;
+  Mask due_, next_due_, last_due_;
+  Programs* last_programs_ = nullptr;
+  std::unordered_map<Mask, Programs> programs_;
+  std::array<std::int64_t, instants_together> times_{};  ///< ns, of the instants that are carried out together
 
   std::int64_t now_ = 0;
   std::uint64_t seed_ = 1;

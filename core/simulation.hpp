@@ -65,7 +65,7 @@ class Simulation {
 
   // --- running
   void run_for(double seconds);
-  /// Up to but not including `time` (ns). `stop` is asked after every instant; true ends the run.
+  /// Up to but not including `time` (ns). `stop` is asked every few instants; true ends the run.
   void run_until(std::int64_t time, const std::function<bool()>& stop = {});
   std::int64_t now() const { return scheduler_.now(); }  ///< ns
   /// Tells algorithms that the run is over for now: recorders write their files.

@@ -180,7 +180,7 @@ std::vector<Stage> stages_of(std::span<const Turn> turns, std::span<const Task> 
     const TaskId id = turns[turn].task;
     const TaskCut cut(tasks[id], robot_of_slot, bounds);
     for (std::uint32_t phase = 0; phase < tasks[id].phases.size(); ++phase) {
-      const std::vector<Part> parts = cut.parts({id, phase, {}, turns[turn].dt, turn}, shared);
+      const std::vector<Part> parts = cut.parts({id, phase, {}, turns[turn].dt, turns[turn].instant, turn}, shared);
       chains.clear();
       bool joins = filling.before(shared) == nobody;
       for (const Part& p : parts) {

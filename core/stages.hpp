@@ -12,8 +12,9 @@ struct Call {
   TaskId task = 0;
   std::uint32_t phase = 0;
   Range range;
-  double dt = 0;           ///< s
-  std::uint32_t turn = 0;  ///< place of its task in the instant
+  double dt = 0;              ///< s
+  std::uint32_t instant = 0;  ///< of several that are carried out together
+  std::uint32_t turn = 0;     ///< place of its task in the order
 };
 
 /// Calls that may run at the same time, in chains: the calls of a chain run one behind the other.
@@ -27,7 +28,7 @@ struct Stage {
   }
 };
 
-/// Divides the turns of an instant into stages, which run one behind the other.
+/// Divides the turns of an instant, or of several that follow each other, into stages, which run one behind the other.
 ///
 /// The order of turns is the truth: two calls that touch one property, at least one of them writing, keep it, by
 /// standing in one chain or in two stages. Everything else may overlap. Robots are cut into blocks of some tens; a

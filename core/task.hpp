@@ -40,10 +40,11 @@ struct TaskCost {
   std::uint64_t ticks = 0;  ///< of the cycle counter, over all threads
 };
 
-/// A task that is due in an instant, in the order in which it has its turn.
+/// A task that is due, in the order in which it has its turn.
 struct Turn {
   TaskId task = 0;
-  double dt = 0;  ///< s
+  double dt = 0;              ///< s
+  std::uint32_t instant = 0;  ///< of several that are carried out together
 };
 
 }  // namespace muro

@@ -60,9 +60,7 @@ std::string head_of(const ordered_json& columns) {
 
 const ordered_json ratio_columns = {"ratio", "found", "wanted"};
 
-std::string ratio_line(const ordered_json& r) {
-  return line_of(ordered_json{r["what"], r["value"], r.contains("least") ? "at least " + r["least"].dump() : ""});
-}
+std::string ratio_line(const ordered_json& r) { return line_of(ordered_json{r["what"], r["value"], r["wanted"]}); }
 
 /// The whole file as a page.
 std::string page(const ordered_json& all) {
@@ -120,10 +118,8 @@ void Report::row(const std::vector<Cell>& cells) {
   std::fflush(stdout);
 }
 
-void Report::ratio(const std::string& what, double value, double least) {
-  ordered_json r = {{"what", what}, {"value", fixed(value, 2)}};
-  if (least > 0) r["least"] = least;
-  found_["ratios"].push_back(r);
+void Report::ratio(const std::string& what, double value, const std::string& wanted) {
+  found_["ratios"].push_back({{"what", what}, {"value", fixed(value, 2)}, {"wanted", wanted}});
 }
 
 void Report::finish() {

@@ -32,8 +32,8 @@ class Report {
   /// A table that takes the rows from here on.
   void table(const std::string& title, const std::vector<std::string>& columns);
   void row(const std::vector<Cell>& cells);
-  /// `least`: what the project wants; 0: nothing.
-  void ratio(const std::string& what, double value, double least = 0);
+  /// `wanted`: what the project aims at, e.g. "at least 12".
+  void ratio(const std::string& what, double value, const std::string& wanted = "");
   void note(const std::string& text) { found_["notes"].push_back(text); }
   /// Prints the ratios and notes and writes the file.
   void finish();

@@ -7,7 +7,7 @@
 
 namespace muro::native {
 
-/// Solids and planes make slots, number `plane` * solids + `solid`; six slots share one word of a signature, so that
+/// A slot is a solid and a plane, in the order of body, plane, solid. Six slots share one word of a signature, so that
 /// the bits of its points (eight a slot) are exact in a double.
 inline constexpr int slots_of_word = 6;
 /// A contact's numbers: point, normal, depth; of which the kernel writes the point (0 to 2) and the depth.
@@ -24,8 +24,6 @@ struct GroundWork {
   const double* const* poses[8];     ///< of each robot: by solid, the pose of its body
   double* contacts[8];               ///< of each robot: the numbers of its first contact
   double* signatures = nullptr;      ///< out: which points touch: word by word, eight robots in each
-
-  double* signature(int slot) const { return signatures + 8 * (slot / slots_of_word); }
 };
 
 /// Writes contacts ordered by body, plane, solid and number of the point, and the signatures. A robot needs room for

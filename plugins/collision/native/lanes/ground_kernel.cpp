@@ -44,9 +44,8 @@ struct Appender {
   const unsigned all;          ///< a bit a robot
   Places<S, double> first{};   ///< `next` numbers behind it a robot's next contact begins
   std::int64_t next = 0;
-  // of the present slot:
-  S points{};
-  double scale = 0;  ///< of the slot in its word
+  S points{0};       ///< the present word of the signature
+  double scale = 1;  ///< of the present slot in it
 
   MURO_INLINE void operator()(MaskOf<S> below, const V3<S>& point, S depth, int number) {
     points += select(below, S(scale * (1 << number)), S(0));
@@ -65,32 +64,36 @@ struct Appender {
 template <class S>
 void touch_some(const GroundWork& work, int first) {
   const int left = work.used - first, used = left < count_of<S> ? left : count_of<S>;
-  int robot[count_of<S>];
-  for (int i = 0; i < count_of<S>; ++i) robot[i] = first + (i < used ? i : 0);
+  const double* const* bodies[count_of<S>];
   Appender<S> append{.stride = work.contact_stride, .all = (1u << used) - 1};
-  for (int i = 0; i < count_of<S>; ++i) append.first.at[i] = work.contacts[robot[i]];
-  const int slots = work.plane_count * work.solid_count;
-  for (int slot = 0; slot < slots; slot += slots_of_word)
-    store_side_by_side(work.signature(slot) + first, S(0));
-
+  for (int i = 0; i < count_of<S>; ++i) {
+    const int robot = first + (i < used ? i : 0);
+    bodies[i] = work.poses[robot];
+    append.first.at[i] = work.contacts[robot];
+  }
+  double* signature = work.signatures + first;
+  int slot = 0;  // of the present word
   for (int begin = 0, end = 0; begin < work.solid_count; begin = end) {
     Places<S> poses;
-    for (int i = 0; i < count_of<S>; ++i) poses.at[i] = work.poses[robot[i]][begin];
-    const Turned<S> body = load_turned(poses);
+    for (int i = 0; i < count_of<S>; ++i) poses.at[i] = bodies[i][begin];
+    const Body<S> body = load_body(poses);
     while (end < work.solid_count && work.solids[end].body == work.solids[begin].body) ++end;
     for (int p = 0; p < work.plane_count; ++p) {
       const double* const numbers = work.planes + 6 * p;
       const Plane<S> plane{lane::splat<S>(numbers), lane::splat<S>(numbers + 3)};
       for (int k = begin; k < end; ++k) {
-        const int slot = p * work.solid_count + k;
-        append.scale = double(1ull << 8 * (slot % slots_of_word));
-        append.points = S(0);
         PlanePoints<S>(Standing<S>(work.solids[k], body), plane).give(append);
-        double* const word = work.signature(slot) + first;
-        store_side_by_side(word, load_side_by_side<S>(word) + append.points);
+        append.scale *= 256;
+        if (++slot < slots_of_word) continue;
+        store_side_by_side(signature, append.points);
+        signature += 8;
+        append.points = S(0);
+        append.scale = 1;
+        slot = 0;
       }
     }
   }
+  if (slot > 0) store_side_by_side(signature, append.points);
 }
 
 /// A lane costs about as much as three plain doubles.

@@ -73,20 +73,23 @@ class PlanePoints {
     const S steep = sqrt(dot(down, down)), low = r * steep, middle = deep_ + abs(rise);
     if (!any(middle + low > S(0))) return;
     const auto upright = steep <= S(1e-9);
-    down = down * (r / steep);
     const V3<S> end = half * u;
+    down = down * (r / steep);
     const auto more = upright | (middle > S(0));
     // Upright any four points serve; those on the axes of the cylinder turn with it.
     if (any(more)) down = select(upright, r * at_.axis(0), down);
     const V3<S> lowest_middle = centre_ + down;
-    for (int k = 0; k < 2; ++k) {
-      const S depth = k == 0 ? deep_ - rise : deep_ + rise;
-      lowest(k == 0 ? lowest_middle + end : lowest_middle - end, depth + low, 4 * k, sink);
-      if (!any(more)) continue;
-      const V3<S> cap = k == 0 ? centre_ + end : centre_ - end, across = cross(u, down);
-      lowest(cap + across, depth, 4 * k + 1, sink);
-      lowest(cap - across, depth, 4 * k + 2, sink);
-      lowest(cap - down, depth - low, 4 * k + 3, sink);
+    lowest(lowest_middle + end, deep_ - rise + low, 0, sink);
+    lowest(lowest_middle - end, deep_ + rise + low, 1, sink);
+    if (any(more)) {
+      const V3<S> across = cross(u, down);
+      for (int k = 0; k < 2; ++k) {
+        const V3<S> cap = k == 0 ? centre_ + end : centre_ - end;
+        const S depth = k == 0 ? deep_ - rise : deep_ + rise;
+        lowest(cap + across, depth, 2 + 3 * k, sink);
+        lowest(cap - across, depth, 3 + 3 * k, sink);
+        lowest(cap - down, depth - low, 4 + 3 * k, sink);
+      }
     }
   }
 

@@ -91,18 +91,5 @@ MURO_INLINE void store_rows(const Places<S, double>& to, std::int64_t first, con
       }
 }
 
-/// A pose whose orientation is unfolded.
-template <class S>
-struct Turned {
-  V3<S> position;
-  M3<S> axes;
-};
-template <class S>
-MURO_INLINE Turned<S> load_turned(const Places<S>& from) {
-  S p[7];
-  load_rows(from, 0, p);
-  return {{p[0], p[1], p[2]}, lane::Q4<S>{p[3], p[4], p[5], p[6]}.matrix()};
-}
-
 }  // namespace MURO_ISA
 }  // namespace muro::native::lanes

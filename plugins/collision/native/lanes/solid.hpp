@@ -16,7 +16,10 @@ struct Solid {
   /// length along z (of a capsule: of its straight part). plane: unused.
   double half[3] = {};
   double centre[3] = {};  ///< m, in the body
-  double axes[9] = {};    ///< of the shape in the body, column by column
+  /// Axes of the shape in the body, column by column. Most are axes of the body: `along` says of which one, 1 to 3,
+  /// negative when opposite; 0 when slanted.
+  double axes[9] = {};
+  int along[3] = {};
 
   friend bool operator==(const Solid&, const Solid&) = default;
 };
@@ -24,25 +27,67 @@ struct Solid {
 namespace lanes {
 inline namespace MURO_ISA {
 
-/// A shape whose body is at `body`.
+/// A body at its place. Its axes are worked out when they are asked for.
+template <class S>
+struct Body {
+  V3<S> position;
+  lane::Q4<S> turn;
+
+  /// Axis 0, 1 or 2 in the world.
+  MURO_INLINE V3<S> axis(int k) const {
+    const auto& [x, y, z, w] = turn;
+    const S tx = S(2) * x, ty = S(2) * y, tz = S(2) * z, one(1);
+    if (k == 0) return {one - (ty * y + tz * z), ty * x + tz * w, tz * x - ty * w};
+    if (k == 1) return {ty * x - tz * w, one - (tx * x + tz * z), tz * y + tx * w};
+    return {tz * x + ty * w, tz * y - tx * w, one - (tx * x + ty * y)};
+  }
+  /// Body axes to world.
+  MURO_INLINE V3<S> turned(const double* v) const { return axis(0) * S(v[0]) + axis(1) * S(v[1]) + axis(2) * S(v[2]); }
+};
+
+template <class S>
+MURO_INLINE Body<S> load_body(const Places<S>& from) {
+  S p[7];
+  load_rows(from, 0, p);
+  return {{p[0], p[1], p[2]}, {p[3], p[4], p[5], p[6]}};
+}
+
+/// A shape whose body is at its place.
 template <class S>
 class Standing {
  public:
-  Standing(const Solid& solid, const Turned<S>& body) : solid_(solid), body_(body) {}
+  Standing(const Solid& solid, const Body<S>& body) : solid_(solid), body_(body) {}
 
   const Solid& solid() const { return solid_; }
   /// m, world.
   MURO_INLINE V3<S> centre() const {
     const double* const c = solid_.centre;
     if (c[0] == 0 && c[1] == 0 && c[2] == 0) return body_.position;
-    return body_.position + body_.axes * lane::splat<S>(c);
+    return body_.position + body_.turned(c);
   }
   /// Axis k of the shape, in the world.
-  MURO_INLINE V3<S> axis(int k) const { return body_.axes * lane::splat<S>(solid_.axes + 3 * k); }
+  MURO_INLINE V3<S> axis(int k) const {
+    switch (solid_.along[k]) {
+      case 1:
+        return body_.axis(0);
+      case 2:
+        return body_.axis(1);
+      case 3:
+        return body_.axis(2);
+      case -1:
+        return -body_.axis(0);
+      case -2:
+        return -body_.axis(1);
+      case -3:
+        return -body_.axis(2);
+      default:
+        return body_.turned(solid_.axes + 3 * k);
+    }
+  }
 
  private:
   const Solid& solid_;
-  const Turned<S>& body_;
+  const Body<S>& body_;
 };
 
 }  // namespace MURO_ISA
