@@ -48,9 +48,10 @@ INSTANTIATE_TEST_SUITE_P(BadInput, WrongScenario, ::testing::ValuesIn(names()),
                          [](const auto& test) { return test.param; });
 
 TEST(WrongCommandLine, EndsWithExitCode2AndSaysWhatIsAllowed) {
-  for (const char* arguments : {"", "run x.yaml --duration nan", "run x.yaml --duration long", "run x.yaml --seed -1",
-                                "run x.yaml --seed 1.5", "run", "run x.yaml --speed", "run x.yaml --threads 0",
-                                "run x.yaml --duration -1", "plugins", "plugins info", "check a b"}) {
+  for (const char* arguments :
+       {"", "run x.yaml --duration nan", "run x.yaml --duration long", "run x.yaml --seed -1", "run x.yaml --seed 1.5",
+        "run", "run x.yaml --speed", "run x.yaml --threads 0", "run x.yaml --threads many", "run x.yaml --threads 2.5",
+        "run x.yaml --timeline", "run x.yaml --duration -1", "plugins", "plugins info", "check a b"}) {
     const auto result = run_command(muro_program + " " + arguments);
     EXPECT_EQ(result.exit_code, 2) << arguments;
     EXPECT_FALSE(result.output.empty()) << arguments;
