@@ -14,10 +14,31 @@ CityScene::CityScene(const City& city) {
   for (int v = 0; v < city.vehicles(); ++v) add(std::to_string(v), rover, city.starts()[std::size_t(v)]);
 }
 
-MuroTeam::MuroTeam(const City& city, int threads) : scene_(city) {
+std::vector<ObjectId> CityScene::add_lasers(const Pattern& pattern, double range, bool see_self) {
+  std::vector<ObjectId> sensors;
+  std::vector<Item> items;
+  for (const RobotView* r : world().robots()) {
+    sensors.push_back(add_sensor_object(*r, "laser", r->base()));
+    items.push_back({r, sensors.back()});
+  }
+  use("laser.raycast", 10, items,
+      {{"rays", std::int64_t(pattern.columns)},
+       {"rows", std::int64_t(pattern.rows)},
+       {"min_angle", -0.5 * pattern.wide},
+       {"max_angle", 0.5 * pattern.wide},
+       {"min_elevation", -0.5 * pattern.high},
+       {"max_elevation", 0.5 * pattern.high},
+       {"max_range", range},
+       {"offset", std::vector{0.0, 0.0, scanner_height}},
+       {"see_self", see_self}});
+  return sensors;
+}
+
+MuroTeam::MuroTeam(const City& city, int threads, const Pattern* lasers) : scene_(city) {
   scene_.use("motion.simplified", 1000, scene_.all_robots());
   scene_.use_contacts();
-  set_threads(scene_, threads);
+  if (lasers) scene_.add_lasers(*lasers, 5.6, false);
+  scene_.set_threads(unsigned(threads));
   scene_.build();
   for (const RobotView* r : scene_.world().robots()) {
     poses_.push_back(&scene_.pose(*r));
@@ -33,6 +54,25 @@ MuroTeam::MuroTeam(const City& city, int threads) : scene_(city) {
 void MuroTeam::command(int vehicle, WheelSpeeds speeds) {
   for (int w = 0; w < 4; ++w)
     *targets_[std::size_t(vehicle)][std::size_t(w)] = Rover::is_left(w) ? speeds.left : speeds.right;
+}
+
+MuroScanners::MuroScanners(const City& city, const Pattern& pattern, double range, int threads) : scene_(city) {
+  scene_.use("motion.point", 10, scene_.all_robots());  // without commands: it stays where it is put
+  scene_.use_kinematics();
+  scene_.use("scene.bvh", 0);
+  sensors_ = scene_.add_lasers(pattern, range, true);
+  scene_.set_threads(unsigned(threads));
+  scene_.build();
+  for (const RobotView* r : scene_.world().robots()) poses_.push_back(&scene_.pose(*r));
+}
+
+void MuroScanners::pass(std::span<const Pose> poses, bool moved) {
+  for (std::size_t v = 0; v < poses.size() && moved; ++v) *poses_[v] = poses[v];
+  scene_.run_for(0.1);
+}
+
+double MuroScanners::range(int vehicle, int ray) const {
+  return scene_.world().values(sensors_[std::size_t(vehicle)], keys::ranges)[std::size_t(ray)];
 }
 
 }  // namespace muro::bench

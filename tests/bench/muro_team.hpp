@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
+// muro as the benchmarks use it, beside its peers.
 #pragma once
 
+#include "tests/bench/peers/scanners.hpp"
 #include "tests/bench/peers/team.hpp"
 #include "tests/support/scene.hpp"
 
@@ -9,16 +11,19 @@ namespace muro::bench {
 /// The city as scenery, its vehicles as robots "0", "1", ... of examples/models/rover.urdf. Motion is the caller's.
 struct CityScene : test::Scene {
   explicit CityScene(const City& city);
+  /// laser.raycast at 10 Hz on every vehicle; returns the objects of the scanners.
+  std::vector<ObjectId> add_lasers(const Pattern& pattern, double range, bool see_self);
 };
 
 /// The vehicles under motion.simplified with full collision, all at 1000 Hz.
 class MuroTeam final : public Team {
  public:
-  MuroTeam(const City& city, int threads);
+  /// `lasers`: what each vehicle carries, with a range of 5.6 m, or null.
+  MuroTeam(const City& city, int threads, const Pattern* lasers = nullptr);
 
   void command(int vehicle, WheelSpeeds speeds) override;
   void run(int steps) override { scene_.run_for(1e-3 * steps); }
-  Vec3 position(int vehicle) const override { return poses_[std::size_t(vehicle)]->position; }
+  Pose pose(int vehicle) const override { return *poses_[std::size_t(vehicle)]; }
 
  private:
   CityScene scene_;
@@ -26,15 +31,18 @@ class MuroTeam final : public Team {
   std::vector<std::array<double*, 4>> targets_;  ///< joint.velocity.target of each wheel
 };
 
-/// Uses so many threads; false when this build has no choice.
-template <class Simulation_>
-bool set_threads(Simulation_& simulation, int threads) {
-  if constexpr (requires { simulation.set_threads(threads); }) {
-    simulation.set_threads(threads);
-    return true;
-  } else {
-    return threads == 1;
-  }
-}
+/// The vehicles with laser.raycast on each, moved from outside.
+class MuroScanners final : public Scanners {
+ public:
+  MuroScanners(const City& city, const Pattern& pattern, double range, int threads);
+
+  void pass(std::span<const Pose> poses, bool moved) override;
+  double range(int vehicle, int ray) const override;
+
+ private:
+  CityScene scene_;
+  std::vector<Pose*> poses_;
+  std::vector<ObjectId> sensors_;
+};
 
 }  // namespace muro::bench

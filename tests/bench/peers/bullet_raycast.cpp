@@ -72,10 +72,7 @@ class RaycastVehicles final : public Team {
       bullet_.run(1);
     }
   }
-  Vec3 position(int vehicle) const override {
-    const btVector3& p = vehicles_[std::size_t(vehicle)].body->getWorldTransform().getOrigin();
-    return {p.x(), p.y(), p.z()};
-  }
+  Pose pose(int vehicle) const override { return pose_of(vehicles_[std::size_t(vehicle)].body->getWorldTransform()); }
 
  private:
   static constexpr double omega = 2 * M_PI * 50;

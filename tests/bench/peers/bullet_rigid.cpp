@@ -38,9 +38,8 @@ class RigidVehicles final : public Team {
           true, Rover::is_left(w) ? speeds.left : speeds.right, Rover::max_torque * 1e-3);
   }
   void run(int steps) override { bullet_.run(steps); }
-  Vec3 position(int vehicle) const override {
-    const btVector3& p = vehicles_[std::size_t(vehicle)].chassis->getWorldTransform().getOrigin();
-    return {p.x(), p.y(), p.z()};
+  Pose pose(int vehicle) const override {
+    return pose_of(vehicles_[std::size_t(vehicle)].chassis->getWorldTransform());
   }
 
  private:

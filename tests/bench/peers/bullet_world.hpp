@@ -14,6 +14,11 @@ namespace muro::bench {
 
 inline btVector3 bullet(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 inline btQuaternion bullet(const Quat& q) { return {q.x(), q.y(), q.z(), q.w()}; }
+inline Pose pose_of(const btTransform& t) {
+  const btVector3& p = t.getOrigin();
+  const btQuaternion q = t.getRotation();
+  return {{p.x(), p.y(), p.z()}, Quat(q.w(), q.x(), q.y(), q.z())};
+}
 inline btTransform bullet(const Pose& p) { return btTransform(bullet(p.orientation), bullet(p.position)); }
 
 class BulletWorld {

@@ -72,10 +72,11 @@ class MujocoVehicles final : public Team {
     for (int i = 0; i < steps; ++i)
       for (const World& w : worlds_) mj_step(w.model.get(), w.data.get());
   }
-  Vec3 position(int vehicle) const override {
+  Pose pose(int vehicle) const override {
     const World& w = worlds_[std::size_t(vehicle / most)];
-    const mjtNum* p = w.data->xpos + 3 * w.bodies[std::size_t(vehicle % most)];
-    return {p[0], p[1], p[2]};
+    const int body = w.bodies[std::size_t(vehicle % most)];
+    const mjtNum *p = w.data->xpos + 3 * body, *q = w.data->xquat + 4 * body;
+    return {{p[0], p[1], p[2]}, Quat(q[0], q[1], q[2], q[3])};
   }
 
  private:

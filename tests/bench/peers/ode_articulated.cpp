@@ -33,10 +33,7 @@ class ArticulatedVehicles final : public Team, OdeWorld {
                           Rover::is_left(w) ? speeds.left : speeds.right);
   }
   void run(int steps) override { OdeWorld::run(steps); }
-  Vec3 position(int vehicle) const override {
-    const dReal* p = dBodyGetPosition(vehicles_[std::size_t(vehicle)].chassis);
-    return {p[0], p[1], p[2]};
-  }
+  Pose pose(int vehicle) const override { return OdeWorld::pose(vehicle); }
 
  private:
   void surface_of_wheel(const Vehicle&, int, dContact&) const override {}  // wheels roll by themselves

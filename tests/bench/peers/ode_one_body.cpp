@@ -22,10 +22,7 @@ class OneBodyVehicles final : public Team, OdeWorld {
 
   void command(int vehicle, WheelSpeeds speeds) override { vehicles_[std::size_t(vehicle)].speeds = speeds; }
   void run(int steps) override { OdeWorld::run(steps); }
-  Vec3 position(int vehicle) const override {
-    const dReal* p = dBodyGetPosition(vehicles_[std::size_t(vehicle)].chassis);
-    return {p[0], p[1], p[2]};
-  }
+  Pose pose(int vehicle) const override { return OdeWorld::pose(vehicle); }
 
  private:
   /// Across the axle the surface of the wheel runs backward at the speed of its rim; walls are not driven on.

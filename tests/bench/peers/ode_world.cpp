@@ -82,6 +82,12 @@ void OdeWorld::run(int steps) {
   }
 }
 
+Pose OdeWorld::pose(int vehicle) const {
+  const dBodyID body = vehicles_[std::size_t(vehicle)].chassis;
+  const dReal *p = dBodyGetPosition(body), *q = dBodyGetQuaternion(body);
+  return {{p[0], p[1], p[2]}, Quat(q[0], q[1], q[2], q[3])};
+}
+
 void OdeWorld::meet(void* self, dGeomID a, dGeomID b) {
   if (dGeomIsSpace(a) || dGeomIsSpace(b))
     dSpaceCollide2(a, b, self, &meet);

@@ -20,6 +20,7 @@ class OdeWorld {
   OdeWorld& operator=(const OdeWorld&) = delete;
 
   void run(int steps);
+  Pose pose(int vehicle) const;
 
  protected:
   struct Vehicle {

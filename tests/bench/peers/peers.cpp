@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "tests/bench/peers/scanners.hpp"
 #include "tests/bench/peers/team.hpp"
 
 namespace muro::bench {
@@ -17,6 +18,20 @@ std::vector<Engine> peers() {
 #endif
 #ifdef MURO_BENCH_MUJOCO
   all.push_back({"MuJoCo", false, &mujoco_vehicles});
+#endif
+  return all;
+}
+
+std::vector<RayEngine> ray_peers() {
+  std::vector<RayEngine> all;
+#ifdef MURO_BENCH_EMBREE
+  for (const int width : {1, 8, 16})
+    all.push_back(
+        {"rtcIntersect" + std::to_string(width), true,
+         [width](const City& c, const Pattern& p, double range) { return embree_scanners(c, p, range, width); }});
+#endif
+#ifdef MURO_BENCH_BULLET
+  all.push_back({"Bullet", false, &bullet_scanners, 2e6});
 #endif
   return all;
 }

@@ -15,7 +15,7 @@ namespace muro::bench {
 struct Pattern {
   int columns = 0, rows = 0;
   bool full_circle = false;
-  double wide = 0, high = 0;    ///< rad
+  double wide = 0, high = 0;   ///< rad
   std::vector<float> x, y, z;  ///< unit directions in the scanner's frame
 
   Pattern(int columns, int rows);
@@ -33,8 +33,8 @@ void drive(const City& city, double t, std::vector<Pose>& poses);
 class Scanners {
  public:
   virtual ~Scanners() = default;
-  /// The vehicles stand at `poses` now; updates what must be, and scans with all scanners.
-  virtual void pass(std::span<const Pose> poses) = 0;
+  /// The vehicles stand at `poses` now, which are new if `moved`; updates what must be, and scans with all scanners.
+  virtual void pass(std::span<const Pose> poses, bool moved) = 0;
   /// What a ray reads (m): its way to the nearest surface, or the range of the scanner.
   virtual double range(int vehicle, int ray) const = 0;
 };
@@ -44,6 +44,7 @@ struct RayEngine {
   std::string name;
   bool embree = false;
   std::function<std::unique_ptr<Scanners>(const City&, const Pattern&, double range)> make;
+  double most_rays = 1e300;  ///< of a pass; it is not asked for more
 };
 
 /// The engines that were found when this was built.

@@ -17,8 +17,8 @@ class Team {
   virtual void command(int vehicle, WheelSpeeds speeds) = 0;
   /// Steps of 1 ms.
   virtual void run(int steps) = 0;
-  /// Of the chassis' centre, m.
-  virtual Vec3 position(int vehicle) const = 0;
+  /// Of the chassis' centre.
+  virtual Pose pose(int vehicle) const = 0;
 };
 
 /// An engine, or one way to use it.

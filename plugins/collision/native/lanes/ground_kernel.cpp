@@ -79,10 +79,14 @@ void touch_some(const GroundWork& work, int first) {
     const Body<S> body = load_body(poses);
     while (end < work.solid_count && work.solids[end].body == work.solids[begin].body) ++end;
     for (int p = 0; p < work.plane_count; ++p) {
-      const double* const numbers = work.planes + 6 * p;
-      const Plane<S> plane{lane::splat<S>(numbers), lane::splat<S>(numbers + 3)};
+      const double *const normal = work.planes + 6 * p, *const origin = normal + 3;
+      const bool level = is_level(normal);
       for (int k = begin; k < end; ++k) {
-        PlanePoints<S>(Standing<S>(work.solids[k], body), plane).give(append);
+        const Standing<S> solid(work.solids[k], body);
+        if (level)
+          PlanePoints(solid, Plane<S, true>(normal, origin)).give(append);
+        else
+          PlanePoints(solid, Plane<S, false>(normal, origin)).give(append);
         append.scale *= 256;
         if (++slot < slots_of_word) continue;
         store_side_by_side(signature, append.points);

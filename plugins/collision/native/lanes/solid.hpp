@@ -27,29 +27,22 @@ struct Solid {
 namespace lanes {
 inline namespace MURO_ISA {
 
-/// A body at its place. Its axes are worked out when they are asked for.
+/// A body at its place: position (m) and axes in the world.
 template <class S>
 struct Body {
   V3<S> position;
-  lane::Q4<S> turn;
+  V3<S> axes[3];
 
-  /// Axis 0, 1 or 2 in the world.
-  MURO_INLINE V3<S> axis(int k) const {
-    const auto& [x, y, z, w] = turn;
-    const S tx = S(2) * x, ty = S(2) * y, tz = S(2) * z, one(1);
-    if (k == 0) return {one - (ty * y + tz * z), ty * x + tz * w, tz * x - ty * w};
-    if (k == 1) return {ty * x - tz * w, one - (tx * x + tz * z), tz * y + tx * w};
-    return {tz * x + ty * w, tz * y - tx * w, one - (tx * x + ty * y)};
-  }
   /// Body axes to world.
-  MURO_INLINE V3<S> turned(const double* v) const { return axis(0) * S(v[0]) + axis(1) * S(v[1]) + axis(2) * S(v[2]); }
+  MURO_INLINE V3<S> turned(const double* v) const { return axes[0] * S(v[0]) + axes[1] * S(v[1]) + axes[2] * S(v[2]); }
 };
 
 template <class S>
 MURO_INLINE Body<S> load_body(const Places<S>& from) {
   S p[7];
   load_rows(from, 0, p);
-  return {{p[0], p[1], p[2]}, {p[3], p[4], p[5], p[6]}};
+  const M3<S> m = lane::Q4<S>{p[3], p[4], p[5], p[6]}.matrix();
+  return {{p[0], p[1], p[2]}, {m.x, m.y, m.z}};
 }
 
 /// A shape whose body is at its place.
@@ -67,22 +60,9 @@ class Standing {
   }
   /// Axis k of the shape, in the world.
   MURO_INLINE V3<S> axis(int k) const {
-    switch (solid_.along[k]) {
-      case 1:
-        return body_.axis(0);
-      case 2:
-        return body_.axis(1);
-      case 3:
-        return body_.axis(2);
-      case -1:
-        return -body_.axis(0);
-      case -2:
-        return -body_.axis(1);
-      case -3:
-        return -body_.axis(2);
-      default:
-        return body_.turned(solid_.axes + 3 * k);
-    }
+    const int along = solid_.along[k];
+    if (along == 0) return body_.turned(solid_.axes + 3 * k);
+    return along > 0 ? body_.axes[along - 1] : -body_.axes[-along - 1];
   }
 
  private:
