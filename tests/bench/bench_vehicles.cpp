@@ -112,14 +112,15 @@ void compare_with_peers(Report& report, const std::vector<int>& teams, const std
     report.table(fmt::format("N = {}, {} x {:.1f} s at 1000 Hz", vehicles, plan.cities, plan.simulated()),
                  {"engine", "a vehicle is", "vehicle-steps/s", "slowest turn", "fastest turn", "muro is faster by",
                   "driven, m", "height, m"});
-    const double own = records.front().rate();
+    const auto is_muro = [](const Engine& e) { return e.name.starts_with("muro"); };
+    const double own = is_muro(engines.front()) ? records.front().rate() : 0;
     double best = 0, articulated = 0;
     for (std::size_t e = 0; e < engines.size(); ++e) {
       const Record& r = records[e];
       const auto [slowest, fastest] = std::minmax_element(r.rates.begin(), r.rates.end());
       report.row({engines[e].name, level(engines[e]), whole(r.rate()), whole(*slowest), whole(*fastest),
-                  fixed(own / r.rate(), 1), fixed(r.distance, 2), fixed(r.height, 4)});
-      if (engines[e].name.starts_with("muro")) continue;
+                  own > 0 ? Cell(fixed(own / r.rate(), 1)) : Cell(""), fixed(r.distance, 2), fixed(r.height, 4)});
+      if (own == 0 || is_muro(engines[e])) continue;
       if (engines[e].one_body) best = std::max(best, r.rate());
       if (engines[e].name == "ODE, articulated") articulated = r.rate();
     }

@@ -123,14 +123,16 @@ void Report::ratio(const std::string& what, double value, const std::string& wan
 }
 
 void Report::finish() {
-  std::printf("%s", head_of(ratio_columns).c_str());
+  if (!found_["ratios"].empty()) std::printf("%s", head_of(ratio_columns).c_str());
   for (const auto& r : found_["ratios"]) std::printf("%s", ratio_line(r).c_str());
   for (const auto& n : found_["notes"]) std::printf("\n%s\n", n.get<std::string>().c_str());
   if (file_.empty()) return;
   ordered_json all = {{"machine", machine()}, {"benchmarks", ordered_json::array()}};
-  if (std::ifstream there(file_); there)
-    for (const auto& bench : ordered_json::parse(there)["benchmarks"])
+  if (std::ifstream there(file_); there) {
+    const ordered_json before = ordered_json::parse(there);
+    for (const auto& bench : before["benchmarks"])
       if (bench["name"] != name_) all["benchmarks"].push_back(bench);
+  }
   all["benchmarks"].push_back(found_);
   write(file_, all.dump(1) + "\n");
   const std::size_t dot = file_.rfind(".json");

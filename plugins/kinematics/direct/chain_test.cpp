@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <random>
 
 namespace muro::kinematics {
@@ -63,16 +64,67 @@ struct Result {
   std::vector<Twist> twists;
 };
 
+const Kernels& best() { return kernels_for(lane::best_isa()); }
+
+/// Where the kernels find the joints of a robot and write its frames.
+std::vector<Place> places_of(Result& r, const std::vector<double>& q, const std::vector<double>& rates) {
+  std::vector<Place> places;
+  for (std::size_t i = 1; i < r.poses.size(); ++i)
+    places.push_back({r.poses[i].position.data(), r.twists[i].linear.data(), &q[i], &rates[i]});
+  return places;
+}
+
 Result placed_by_chain(const std::vector<Frame>& frames, const Pose& base, const Twist& moving,
                        const std::vector<double>& q, const std::vector<double>& rates) {
   const Chain chain = chain_of(frames);
   Result r{std::vector<Pose>(frames.size()), std::vector<Twist>(frames.size())};
-  std::vector<Place> places;
-  for (std::size_t i = 1; i < frames.size(); ++i) places.push_back({&r.poses[i], &r.twists[i], &q[i], &rates[i]});
+  const std::vector<Place> places = places_of(r, q, rates);
   r.poses[0] = base;
   r.twists[0] = moving;
-  place(chain, base, moving, places.data());
+  const Body body{r.poses[0].position.data(), r.twists[0].linear.data(), places.data()};
+  best().place_one(chain.links.data(), std::uint32_t(chain.links.size()), &body);
   return r;
+}
+
+/// Eight robots with states of their own in one lane.
+TEST(Chain, EightRobotsAtOnceGetTheBitsOfEachAloneWithAnyInstructionSet) {
+  Draw draw(4);
+  for (int round = 0; round < 100; ++round) {
+    const std::vector<Frame> frames = random_tree(draw, draw.whole(1, 25));
+    const Chain chain = chain_of(frames);
+    std::vector<std::vector<double>> q(8), rates(8);
+    std::vector<Pose> bases;
+    std::vector<Twist> twists;
+    for (std::size_t k = 0; k < 8; ++k) {
+      for (std::size_t i = 0; i < frames.size(); ++i) {
+        q[k].push_back(round == 0 ? draw.number(-1e8, 1e8) : draw.number(-9, 9));
+        rates[k].push_back(draw.number(-2, 2));
+      }
+      bases.push_back(draw.pose());
+      twists.push_back({draw.vector(2), draw.vector(2)});
+    }
+    for (const lane::Isa isa : {lane::Isa::base, lane::Isa::avx2, lane::Isa::avx512}) {
+      if (isa > lane::best_isa()) continue;  // this processor cannot run it
+      std::vector<Result> together(8, {std::vector<Pose>(frames.size()), std::vector<Twist>(frames.size())});
+      std::vector<std::vector<Place>> places;
+      std::vector<Body> bodies;
+      for (std::size_t k = 0; k < 8; ++k) {
+        together[k].poses[0] = bases[k];
+        together[k].twists[0] = twists[k];
+        places.push_back(places_of(together[k], q[k], rates[k]));
+      }
+      for (std::size_t k = 0; k < 8; ++k)
+        bodies.push_back({together[k].poses[0].position.data(), together[k].twists[0].linear.data(), places[k].data()});
+      kernels_for(isa).place_eight(chain.links.data(), std::uint32_t(chain.links.size()), bodies.data());
+      for (std::size_t k = 0; k < 8; ++k) {
+        const Result alone = placed_by_chain(frames, bases[k], twists[k], q[k], rates[k]);
+        for (std::size_t i = 0; i < frames.size(); ++i) {
+          ASSERT_EQ(std::memcmp(&alone.poses[i], &together[k].poses[i], sizeof(Pose)), 0) << "frame " << i;
+          ASSERT_EQ(std::memcmp(&alone.twists[i], &together[k].twists[i], sizeof(Twist)), 0) << "frame " << i;
+        }
+      }
+    }
+  }
 }
 
 TEST(Chain, PlacesRandomTreesAsProductsOfMatricesDo) {
@@ -158,7 +210,7 @@ TEST(Chain, FoldsFixedFramesIntoTheirCarrier) {
   const Chain chain = chain_of(frames);
   EXPECT_EQ(chain.links[0].parent, 0u);
   EXPECT_EQ(chain.links[1].parent, 0u) << "hangs on a fixed frame, so on the base";
-  EXPECT_EQ(chain.links[1].offset, Vec3(2, 0, 0));
+  EXPECT_EQ(Vec3(chain.links[1].offset), Vec3(2, 0, 0));
   EXPECT_EQ(chain.links[2].parent, 2u);
   EXPECT_TRUE(chain == chain_of(frames));
   frames[3].origin.position.x() = 2;

@@ -7,8 +7,7 @@
 namespace {
 
 using namespace muro;
-using kinematics::Chain;
-using kinematics::Place;
+using namespace muro::kinematics;
 
 constexpr Use reads[] = {
     {"pose", "of the base"},
@@ -33,6 +32,8 @@ constexpr Description description{
     .promises = deterministic | batched | allocation_free | restorable,
 };
 
+static_assert(sizeof(Pose) == 7 * sizeof(double) && sizeof(Twist) == 6 * sizeof(double), "kernels see numbers");
+
 class Direct final : public Algorithm {
  public:
   void connect(Connector& c) override {
@@ -42,19 +43,34 @@ class Direct final : public Algorithm {
     }
   }
 
+  void start() override {
+    bodies_.clear();
+    for (const Robot& r : robots_)
+      bodies_.push_back({numbers(r.pose), numbers(r.twist), places_.data() + r.first_place});
+  }
+
+  std::span<const Phase> phases() const override {
+    static constexpr Phase phases[] = {{Phase::Over::items, Phase::Reach::own}};
+    return phases;
+  }
+
+  /// Neighbours of one chain go eight at a time.
   void step(const Step&, Range range) override {
-    for (std::uint32_t i = range.begin; i < range.end; ++i) {
-      const Robot& r = robots_[i];
-      for (std::uint32_t k = r.first_follower; k < r.end_follower; ++k) {
-        const Follower& f = followers_[k];
-        *f.position = f.offset + f.multiplier * *f.leader_position;
-        *f.velocity = f.multiplier * *f.leader_velocity;
-      }
-      place(chains_[r.chain], *r.pose, *r.twist, places_.data() + r.first_place);
+    for (std::uint32_t i = range.begin, end = i; i < range.end; i = end) {
+      const Robot& first = robots_[i];
+      for (; end < range.end && end < i + lane_width && robots_[end].chain == first.chain; ++end) follow(robots_[end]);
+      const std::vector<Link>& links = chains_[first.chain].links;
+      const auto count = std::uint32_t(links.size());
+      if (end - i == lane_width)
+        kernels_->place_eight(links.data(), count, &bodies_[i]);
+      else
+        for (std::uint32_t k = i; k < end; ++k) kernels_->place_one(links.data(), count, &bodies_[k]);
     }
   }
 
  private:
+  static constexpr std::uint32_t lane_width = 8;
+
   struct Robot {
     In<Pose> pose;
     In<Twist> twist;
@@ -80,13 +96,24 @@ class Direct final : public Algorithm {
     for (std::size_t i = 1; i < robot.frames.size(); ++i) {
       const Frame& f = robot.frames[i];
       Place p;
-      p.pose = c.derived(f.object, keys::pose).get();
-      p.twist = c.derived(f.object, keys::twist).get();
+      p.pose = c.derived(f.object, keys::pose)->position.data();
+      p.twist = c.derived(f.object, keys::twist)->linear.data();
       if (f.joint != JointKind::fixed) connect_joint(c, robot, i, start, p);
       places_.push_back(p);
     }
     r.end_follower = std::uint32_t(followers_.size());
     robots_.push_back(r);
+  }
+
+  static const double* numbers(const In<Pose>& pose) { return pose->position.data(); }
+  static const double* numbers(const In<Twist>& twist) { return twist->linear.data(); }
+
+  void follow(const Robot& r) const {
+    for (std::uint32_t k = r.first_follower; k < r.end_follower; ++k) {
+      const Follower& f = followers_[k];
+      *f.position = f.offset + f.multiplier * *f.leader_position;
+      *f.velocity = f.multiplier * *f.leader_velocity;
+    }
   }
 
   void connect_joint(Connector& c, const RobotView& robot, std::size_t i, const std::vector<double>& start, Place& p) {
@@ -117,8 +144,10 @@ class Direct final : public Algorithm {
     return std::uint32_t(chains_.size() - 1);
   }
 
+  const Kernels* kernels_ = &kernels_for(lane::best_isa());
   std::vector<Chain> chains_;
   std::vector<Robot> robots_;
+  std::vector<Body> bodies_;  ///< one a robot
   std::vector<Place> places_;
   std::vector<Follower> followers_;
 };

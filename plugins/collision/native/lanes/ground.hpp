@@ -17,7 +17,7 @@ inline constexpr int depth_number = 6;
 struct GroundWork {
   const Solid* solids = nullptr;  ///< of each robot, body by body
   int solid_count = 0;
-  const double* planes = nullptr;  ///< normal and origin of each
+  const Ground* planes = nullptr;
   int plane_count = 0;
   int contact_stride = 0;            ///< in numbers
   int used = 0;                      ///< robots

@@ -73,20 +73,19 @@ void touch_some(const GroundWork& work, int first) {
   }
   double* signature = work.signatures + first;
   int slot = 0;  // of the present word
-  for (int begin = 0, end = 0; begin < work.solid_count; begin = end) {
+  const Solid* const solids_end = work.solids + work.solid_count;
+  for (const Solid *begin = work.solids, *end = begin; begin != solids_end; begin = end) {
     Places<S> poses;
-    for (int i = 0; i < count_of<S>; ++i) poses.at[i] = bodies[i][begin];
+    for (int i = 0; i < count_of<S>; ++i) poses.at[i] = bodies[i][begin - work.solids];
     const Body<S> body = load_body(poses);
-    while (end < work.solid_count && work.solids[end].body == work.solids[begin].body) ++end;
-    for (int p = 0; p < work.plane_count; ++p) {
-      const double *const normal = work.planes + 6 * p, *const origin = normal + 3;
-      const bool level = is_level(normal);
-      for (int k = begin; k < end; ++k) {
-        const Standing<S> solid(work.solids[k], body);
-        if (level)
-          PlanePoints(solid, Plane<S, true>(normal, origin)).give(append);
+    while (end != solids_end && end->body == begin->body) ++end;
+    for (const Ground* plane = work.planes; plane != work.planes + work.plane_count; ++plane)
+      for (const Solid* solid = begin; solid != end; ++solid) {
+        const Standing<S> at(*solid, body);
+        if (plane->level)
+          PlanePoints(at, Plane<S, true>(*plane)).give(append);
         else
-          PlanePoints(solid, Plane<S, false>(normal, origin)).give(append);
+          PlanePoints(at, Plane<S, false>(*plane)).give(append);
         append.scale *= 256;
         if (++slot < slots_of_word) continue;
         store_side_by_side(signature, append.points);
@@ -95,7 +94,6 @@ void touch_some(const GroundWork& work, int first) {
         append.scale = 1;
         slot = 0;
       }
-    }
   }
   if (slot > 0) store_side_by_side(signature, append.points);
 }

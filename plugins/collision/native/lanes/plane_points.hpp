@@ -7,13 +7,11 @@
 namespace muro::native::lanes {
 inline namespace MURO_ISA {
 
-/// The solid side is below, against the normal (unit). Most planes are level: then whole products are left out, those
-/// with 0 and with 1, and nothing else.
+/// Most planes are level: then products with 0 and with 1 are left out, and nothing else.
 template <class S, bool level>
 class Plane {
  public:
-  Plane(const double* normal, const double* origin)
-      : normal_(lane::splat<S>(normal)), origin_(lane::splat<S>(origin)) {}
+  explicit Plane(const Ground& g) : normal_(lane::splat<S>(g.normal)), origin_(lane::splat<S>(g.origin)) {}
 
   /// The normal times `s`, added to `v`.
   MURO_INLINE V3<S> raised(const V3<S>& v, S s) const {
@@ -33,8 +31,6 @@ class Plane {
  private:
   const V3<S> normal_, origin_;
 };
-
-inline bool is_level(const double* normal) { return normal[0] == 0 && normal[1] == 0 && normal[2] == 1; }
 
 /// Gives `sink(mask, point, depth, number)` the points of a solid that may lie below a plane, each point half way
 /// between the two surfaces: sphere: its lowest point. box: its corners. capsule: of either end the lowest point.
@@ -73,7 +69,7 @@ class PlanePoints {
   }
 
   template <class Sink>
-  MURO_INLINE void corners(Sink& sink) const {
+  [[gnu::noinline]] void corners(Sink& sink) const {
     const V3<S> x = S(half_[0]) * at_.axis(0), y = S(half_[1]) * at_.axis(1), z = S(half_[2]) * at_.axis(2);
     const S rx = plane_.along_normal(x), ry = plane_.along_normal(y), rz = plane_.along_normal(z);
     if (!any(deep_ + (abs(rx) + abs(ry) + abs(rz)) > S(0))) return;
@@ -84,7 +80,7 @@ class PlanePoints {
   }
 
   template <class Sink>
-  MURO_INLINE void rims(Sink& sink) const {
+  [[gnu::noinline]] void rims(Sink& sink) const {
     const V3<S> u = at_.axis(2);
     const S slope = plane_.along_normal(u), r(half_[0]), half(half_[2]), rise = half * slope;
     V3<S> down = plane_.raised(slope * u, S(-1));  // towards the lowest point of a rim
@@ -111,7 +107,7 @@ class PlanePoints {
   }
 
   template <class Sink>
-  MURO_INLINE void ends(Sink& sink) const {
+  [[gnu::noinline]] void ends(Sink& sink) const {
     const V3<S> end = S(half_[2]) * at_.axis(2);
     for (int k = 0; k < 2; ++k) {
       const V3<S> centre = k == 0 ? centre_ + end : centre_ - end;

@@ -16,12 +16,20 @@ struct Solid {
   /// length along z (of a capsule: of its straight part). plane: unused.
   double half[3] = {};
   double centre[3] = {};  ///< m, in the body
-  /// Axes of the shape in the body, column by column. Most are axes of the body: `along` says of which one, 1 to 3,
-  /// negative when opposite; 0 when slanted.
-  double axes[9] = {};
+  double axes[9] = {};    ///< of the shape in the body, column by column
+  /// What makes `centre` and `axes` simple. Axis k of the shape is axis `along[k]` - 1 of the body, opposite when
+  /// negative; 0: slanted.
+  bool centred = false;  ///< `centre` is 0
   int along[3] = {};
 
   friend bool operator==(const Solid&, const Solid&) = default;
+};
+
+/// A plane at its place; the solid side is below, against the normal (unit).
+struct Ground {
+  double normal[3] = {0, 0, 1};
+  double origin[3] = {};
+  bool level = true;  ///< the normal is z
 };
 
 namespace lanes {
@@ -54,9 +62,7 @@ class Standing {
   const Solid& solid() const { return solid_; }
   /// m, world.
   MURO_INLINE V3<S> centre() const {
-    const double* const c = solid_.centre;
-    if (c[0] == 0 && c[1] == 0 && c[2] == 0) return body_.position;
-    return body_.position + body_.turned(c);
+    return solid_.centred ? body_.position : body_.position + body_.turned(solid_.centre);
   }
   /// Axis k of the shape, in the world.
   MURO_INLINE V3<S> axis(int k) const {
