@@ -1,35 +1,56 @@
 // SPDX-License-Identifier: MIT
-// One rigid body under a wrench: the integrator of motion.simplified, free of properties.
+// One rigid body under a wrench: the integrator of motion.simplified, over a double or a lane of robots.
 #pragma once
 
-#include "muro/geometry.hpp"
+#include "muro/lane/geometry.hpp"
+#include "muro/lane/trig.hpp"
 
-namespace muro::simplified {
+namespace muro::simplified::integrator {
+inline namespace MURO_ISA {
+
+using lane::cross, lane::dot, lane::M3, lane::Q4, lane::V3;
 
 /// State of a body that is described by its centre of mass. World axes.
+template <class S>
 struct RigidBody {
-  Vec3 centre = Vec3::Zero();    ///< m
-  Vec3 velocity = Vec3::Zero();  ///< m/s, of the centre
-  Quat orientation = Quat::Identity();
-  Vec3 spin = Vec3::Zero();  ///< rad/s
+  V3<S> centre;    ///< m
+  V3<S> velocity;  ///< m/s, of the centre
+  Q4<S> orientation;
+  V3<S> spin;  ///< rad/s
 };
+
+/// The rotation by the vector `v` (axis times angle, rad), as muro::rotation_of.
+template <class S>
+MURO_INLINE Q4<S> rotation_by(const V3<S>& v) {
+  const S x = S(0.25) * dot(v, v), one(1);  // square of the half angle
+  S c = one - x * S(0.5) *
+                  (one - x * S(1.0 / 12) * (one - x * S(1.0 / 30) * (one - x * S(1.0 / 56) * (one - x * S(1.0 / 90)))));
+  S s = S(0.5) * (one - x * S(1.0 / 6) *
+                            (one - x * S(1.0 / 20) *
+                                       (one - x * S(1.0 / 42) * (one - x * S(1.0 / 72) * (one - x * S(1.0 / 110))))));
+  const auto wide = x >= S(0.01);  // the series serve the turns of single steps, exact to the last digit
+  if (lane::any(wide)) {
+    const S half = lane::sqrt(x);
+    const lane::SinCos<S> exact = lane::sincos(half);
+    c = lane::select(wide, exact.cos, c);
+    s = lane::select(wide, S(0.5) * exact.sin / half, s);
+  }
+  return {s * v.x, s * v.y, s * v.z, c};
+}
 
 /// `q` turned by `by`, then brought back to length 1: one Newton step of the norm, which is all
 /// that round-off needs.
-inline Quat turned(const Quat& by, const Quat& q) {
-  Quat result = by * q;
-  result.coeffs() *= 1.5 - 0.5 * result.coeffs().squaredNorm();
-  return result;
-}
-
-/// r * v, in a form that compiles to straight code.
-[[gnu::always_inline]] inline Vec3 times(const Mat3& r, const Vec3& v) {
-  return r.col(0) * v.x() + r.col(1) * v.y() + r.col(2) * v.z();
+template <class S>
+MURO_INLINE Q4<S> turned(const Q4<S>& by, const Q4<S>& q) {
+  const Q4<S> r = by * q;
+  const S norm = S(1.5) - S(0.5) * (r.x * r.x + r.y * r.y + r.z * r.z + r.w * r.w);
+  return {r.x * norm, r.y * norm, r.z * norm, r.w * norm};
 }
 
 /// A symmetric tensor in the axes of the body (r: body to world), applied to a vector in those of the world.
-[[gnu::always_inline]] inline Vec3 in_world(const Mat3& r, const Mat3& tensor, const Vec3& v) {
-  return times(r, times(tensor, Vec3(r.col(0).dot(v), r.col(1).dot(v), r.col(2).dot(v))));
+template <class S>
+MURO_INLINE V3<S> in_world(const M3<S>& r, const M3<S>& tensor, const V3<S>& v) {
+  return r * (tensor * transposed_times(r, v));
 }
 
 /// Advances the rotation by `dt` (s) under a constant `torque` (N m, world axes, about the centre of mass).
@@ -40,24 +61,57 @@ inline Quat turned(const Quat& by, const Quat& q) {
 /// `inertia` (kg m^2, axes of the body, about the centre of mass) is that of the start; `inverse_half` and
 /// `inverse_end` invert those of the middle and the end: the same for a rigid body. `r` is the matrix of
 /// body.orientation; returns that of the new one.
-[[gnu::always_inline]] inline Mat3 advance_rotation(RigidBody& body, const Mat3& r, const Mat3& inertia,
-                                                    const Mat3& inverse_half, const Mat3& inverse_end,
-                                                    const Vec3& torque, double dt) {
-  const Vec3 momentum = in_world(r, inertia, body.spin);
-  const Mat3 halfway = (rotation_of(Vec3(body.spin * (0.5 * dt))) * body.orientation).toRotationMatrix();
-  const Vec3 spin_half = in_world(halfway, inverse_half, momentum + torque * (0.5 * dt));
-  body.orientation = turned(rotation_of(Vec3(spin_half * dt)), body.orientation);
-  const Mat3 end = body.orientation.toRotationMatrix();
-  body.spin = in_world(end, inverse_end, momentum + torque * dt);
+template <class S>
+MURO_INLINE M3<S> advance_rotation(RigidBody<S>& body, const M3<S>& r, const M3<S>& inertia, const M3<S>& inverse_half,
+                                   const M3<S>& inverse_end, const V3<S>& torque, double dt) {
+  const V3<S> momentum = in_world(r, inertia, body.spin);
+  const M3<S> halfway = (rotation_by(body.spin * S(0.5 * dt)) * body.orientation).matrix();
+  const V3<S> spin_half = in_world(halfway, inverse_half, momentum + torque * S(0.5 * dt));
+  body.orientation = turned(rotation_by(spin_half * S(dt)), body.orientation);
+  const M3<S> end = body.orientation.matrix();
+  body.spin = in_world(end, inverse_end, momentum + torque * S(dt));
   return end;
 }
 
 /// Advances the centre by `dt` (s) under a constant `acceleration` (m/s^2): exact. Returns its shift (m).
-[[gnu::always_inline]] inline Vec3 advance_centre(RigidBody& body, const Vec3& acceleration, double dt) {
-  const Vec3 shift = body.velocity * dt + acceleration * (0.5 * dt * dt);
+template <class S>
+MURO_INLINE V3<S> advance_centre(RigidBody<S>& body, const V3<S>& acceleration, double dt) {
+  const V3<S> shift = body.velocity * S(dt) + acceleration * S(0.5 * dt * dt);
   body.centre += shift;
-  body.velocity += acceleration * dt;
+  body.velocity += acceleration * S(dt);
   return shift;
 }
 
-}  // namespace muro::simplified
+/// Mass properties of a whole robot in the frame of its base.
+template <class S>
+struct Mass {
+  V3<S> com;           ///< m
+  V3<S> com_velocity;  ///< m/s, relative to the base
+  M3<S> tensor;        ///< kg m^2, about the centre of mass
+};
+
+/// Newton and Euler at the centre of mass. The base is where the centre is not: base = centre - R com. `before`,
+/// `after`: at the start and the end of the step; `inverse_half`, `inverse_end`: of the tensors in the middle and at
+/// the end.
+template <bool articulated, class S>
+MURO_INLINE void move_base(lane::PoseOf<S>& pose, lane::TwistOf<S>& twist, const V3<S>& force,
+                           const V3<S>& torque_at_base, const Mass<S>& before, const Mass<S>& after,
+                           const M3<S>& inverse_half, const M3<S>& inverse_end, S inverse_mass, const V3<S>& gravity,
+                           double dt) {
+  const M3<S> start = pose.orientation.matrix();
+  const V3<S> arm = start * before.com;
+  RigidBody<S> body{pose.position + arm, twist.linear + cross(twist.angular, arm), pose.orientation, twist.angular};
+  if constexpr (articulated) body.velocity += start * before.com_velocity;
+  const V3<S> shift = advance_centre(body, force * inverse_mass + gravity, dt);
+  const V3<S> torque = torque_at_base - cross(arm, force);
+  const M3<S> end = advance_rotation(body, start, before.tensor, inverse_half, inverse_end, torque, dt);
+  const V3<S> new_arm = end * after.com;
+  pose.position += shift - (new_arm - arm);
+  pose.orientation = body.orientation;
+  twist.angular = body.spin;
+  twist.linear = body.velocity - cross(body.spin, new_arm);
+  if constexpr (articulated) twist.linear -= end * after.com_velocity;
+}
+
+}  // namespace MURO_ISA
+}  // namespace muro::simplified::integrator

@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: MIT
 // The simplified dynamics (MuRoSimF, Section 3.2): one body whose centre of mass and inertia follow the joints.
 #include <Eigen/Eigenvalues>
+#include <bit>
 #include <string>
 
 #include "joint_motion.hpp"
 #include "moving_mass.hpp"
 #include "muro/composite.hpp"
 #include "muro/plugin.hpp"
+#include "rigid.hpp"
 #include "rigid_body.hpp"
 
 namespace {
 
 using namespace muro;
 using namespace muro::simplified;
+using namespace muro::simplified::integrator;
 
 enum class Mode { velocity, position, acceleration };
 
@@ -58,25 +61,51 @@ class Simplified final : public Algorithm {
     for (const Item& item : c.items()) connect_robot(c, *item.robot);
   }
 
+  void start() override {
+    rigid_.clear();
+    for (const Robot& r : robots_)
+      rigid_.push_back({r.pose->position.data(), r.twist->linear.data(), nullptr, wheels_.data() + r.first_wheel});
+  }
+
+  std::span<const Phase> phases() const override {
+    static constexpr Phase phases[] = {{Phase::Over::items, Phase::Reach::own}};
+    return phases;
+  }
+
+  /// Neighbours of one rigid model go eight at a time.
   void step(const Step& step, Range range) override {
-    for (std::uint32_t i = range.begin; i < range.end; ++i) {
-      Robot& r = robots_[i];
-      r.articulation < 0 ? move_rigid(r, step.dt) : move_articulated(r, step.dt);
+    for (std::uint32_t i = range.begin, end = i; i < range.end; i = end) {
+      const Robot& first = robots_[i];
+      end = i + 1;
+      if (first.articulation >= 0) {
+        move_articulated(first, step.dt);
+        continue;
+      }
+      while (end < range.end && end < i + lane_width && robots_[end].model == first.model) ++end;
+      move_rigid(i, end, step.dt);
     }
   }
 
  private:
+  static constexpr std::uint32_t lane_width = 8;
+
   struct Robot {
     Out<Pose> pose;
     Out<Twist> twist;
     SumIn<Wrench> external;
-    double inverse_mass = 0;
-    Vec3 com = Vec3::Zero();  ///< of a rigid one, in the frame of the base
-    Mat3 inertia = Mat3::Zero(), inverse = Mat3::Zero();
+    std::uint32_t model = 0;                       ///< in models_
+    std::uint32_t first_wheel = 0;                 ///< in wheels_
     std::uint32_t first_joint = 0, end_joint = 0;  ///< in joints_
     std::int32_t articulation = -1;                ///< in articulations_; -1: no joint moves mass
     std::string name;
   };
+  /// What the kernels need of a robot whose joints move no mass; of any other the mass alone.
+  struct Model {
+    RigidModel body;
+    std::vector<WheelLimits> wheels;
+    bool operator==(const Model&) const = default;
+  };
+  /// Any joint but a wheel.
   struct Joint {
     Out<double> position, velocity;
     In<double> target;
@@ -106,11 +135,14 @@ class Simplified final : public Algorithm {
     r.pose = c.variable(robot.base(), keys::pose, c.constant(robot.base(), keys::initial_pose).value_or(Pose{}));
     r.twist = c.variable(robot.base(), keys::twist, c.constant(robot.base(), keys::initial_twist).value_or(Twist{}));
     r.external = c.read_sum(robot.base(), keys::external_wrench);
-    r.inverse_mass = 1 / whole.mass;
-    r.com = whole.com;
-    r.inertia = whole.tensor();
-    r.inverse = r.inertia.inverse();
-    const std::vector<std::int32_t> joint_of = connect_joints(c, robot, start, r);
+    Model model;
+    model.body.inverse_mass = 1 / whole.mass;
+    std::copy_n(whole.com.data(), 3, model.body.com);
+    const Mat3 inverse = whole.tensor().inverse();
+    std::copy_n(whole.tensor().data(), 9, model.body.inertia);
+    std::copy_n(inverse.data(), 9, model.body.inverse);
+    const std::vector<std::int32_t> joint_of = connect_joints(c, robot, start, moving.rigid(), r, model);
+    r.model = model_number(std::move(model));
     if (!moving.rigid()) {
       r.articulation = std::int32_t(articulations_.size());
       Articulation a{.mass = std::move(moving), .joints = {}, .positions = {}, .velocities = {}};
@@ -120,6 +152,13 @@ class Simplified final : public Algorithm {
       articulations_.push_back(std::move(a));
     }
     robots_.push_back(std::move(r));
+  }
+
+  std::uint32_t model_number(Model model) {
+    const auto known = std::find(models_.begin(), models_.end(), model);
+    if (known != models_.end()) return std::uint32_t(known - models_.begin());
+    models_.push_back(std::move(model));
+    return std::uint32_t(models_.size() - 1);
   }
 
   static void check_mass(const RobotView& robot, const Inertia& whole) {
@@ -134,17 +173,26 @@ class Simplified final : public Algorithm {
                   " kg m^2; all must be positive: give its bodies an inertia (`inertial`) that fits their mass");
   }
 
-  /// Returns the joint's place in joints_ by frame.
+  /// Whether a joint follows a velocity, free of everything else.
+  bool is_wheel(const RobotView& robot, std::size_t frame) const {
+    const Frame& f = robot.frames[frame];
+    const bool leads = std::any_of(robot.frames.begin(), robot.frames.end(),
+                                   [&](const Frame& g) { return g.mimic == std::int32_t(frame); });
+    return mode_ == Mode::velocity && f.mimic < 0 && !leads && std::isinf(f.limits.lower) && std::isinf(f.limits.upper);
+  }
+
+  /// Returns the joint's place in joints_ by frame. Wheels of a rigid robot go to wheels_ instead.
   std::vector<std::int32_t> connect_joints(Connector& c, const RobotView& robot, const std::vector<double>& start,
-                                           Robot& r) {
+                                           bool rigid, Robot& r, Model& model) {
     std::vector<std::int32_t> place(robot.frames.size(), -1);
-    r.first_joint = std::uint32_t(joints_.size());
+    r.first_wheel = std::uint32_t(wheels_.size());
+    r.first_joint = r.end_joint = std::uint32_t(joints_.size());
     for (std::size_t i = 0; i < place.size(); ++i)
-      if (robot.frames[i].joint != JointKind::fixed) place[i] = std::int32_t(r.first_joint + r.end_joint++);
-    r.end_joint += r.first_joint;
+      if (robot.frames[i].joint != JointKind::fixed && !(rigid && is_wheel(robot, i)))
+        place[i] = std::int32_t(r.end_joint++);
     for (std::size_t i = 0; i < place.size(); ++i) {
       const Frame& f = robot.frames[i];
-      if (place[i] < 0) continue;
+      if (f.joint == JointKind::fixed) continue;
       if (start[i] < f.limits.lower || start[i] > f.limits.upper)
         throw Error("joint `" + std::string(c.object_name(f.joint_object)) + "` starts at " + std::to_string(start[i]) +
                     ", outside of its limits " + std::to_string(f.limits.lower) + " to " +
@@ -162,7 +210,12 @@ class Simplified final : public Algorithm {
                    : mode_ == Mode::position ? c.input(f.joint_object, keys::joint_position_target, start[i])
                                              : c.input(f.joint_object, keys::joint_acceleration_target, 0.0);
       }
-      joints_.push_back(j);
+      if (place[i] >= 0) {
+        joints_.push_back(j);
+      } else {
+        wheels_.push_back({j.position.get(), j.velocity.get(), j.target.get()});
+        model.wheels.push_back({j.range.speed, j.range.acceleration});
+      }
     }
     return place;
   }
@@ -195,10 +248,32 @@ class Simplified final : public Algorithm {
     }
   }
 
-  void move_rigid(const Robot& r, double dt) {
-    move_joints(r, dt);
-    const MassState mass{r.com, Vec3::Zero(), r.inertia};
-    move_base<false>(r, mass, mass, r.inverse, r.inverse, dt);
+  /// Robots `begin` to `end` - 1, of one model.
+  void move_rigid(std::uint32_t begin, std::uint32_t end, double dt) {
+    const Model& model = models_[robots_[begin].model];
+    const RigidWork work{&model.body,
+                         model.wheels.data(),
+                         std::uint32_t(model.wheels.size()),
+                         {gravity_.x(), gravity_.y(), gravity_.z()},
+                         dt};
+    Wrench external[lane_width];
+    RigidRobot robots[lane_width];
+    for (std::uint32_t i = begin; i < end; ++i) {
+      move_joints(robots_[i], dt);
+      external[i - begin] = robots_[i].external.value();
+      robots[i - begin] = rigid_[i];
+      robots[i - begin].wrench = external[i - begin].force.data();
+    }
+    unsigned broken = 0;
+    if (end - begin == lane_width)
+      broken = kernels_->move_eight(work, robots);
+    else
+      for (std::uint32_t i = begin; i < end; ++i)
+        broken |= kernels_->move_one(work, robots + (i - begin)) << (i - begin);
+    if (broken != 0) {
+      const auto first = std::uint32_t(std::countr_zero(broken));
+      fail(robots_[begin + first], external[first]);
+    }
   }
 
   void move_articulated(const Robot& r, double dt) {
@@ -208,7 +283,7 @@ class Simplified final : public Algorithm {
     const Mat3 inverse_before = a.inverse;
     move_joints(r, dt);
     update(a);
-    move_base<true>(r, before, a.state, 0.5 * (inverse_before + a.inverse), a.inverse, dt);
+    move_base(r, before, a.state, 0.5 * (inverse_before + a.inverse), a.inverse, dt);
   }
 
   /// Brings `state` up to the present joint state, if it is of another one.
@@ -225,27 +300,25 @@ class Simplified final : public Algorithm {
     a.inverse = a.state.tensor.inverse();
   }
 
-  /// Newton and Euler at the centre of mass. The base is where the centre is not: base = centre - R com.
-  template <bool articulated>
+  static V3<double> plain(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+  static M3<double> plain(const Mat3& m) {
+    return {plain(Vec3(m.col(0))), plain(Vec3(m.col(1))), plain(Vec3(m.col(2)))};
+  }
+  static Mass<double> plain(const MassState& m) { return {plain(m.com), plain(m.com_velocity), plain(m.tensor)}; }
+
   void move_base(const Robot& r, const MassState& before, const MassState& after, const Mat3& inverse_half,
                  const Mat3& inverse_end, double dt) const {
-    Pose& pose = *r.pose;
-    Twist& twist = *r.twist;
     const Wrench external = r.external.value();
-    const Mat3 start = pose.orientation.toRotationMatrix();
-    const Vec3 arm = times(start, before.com);
-    RigidBody body{pose.position + arm, twist.at(arm), pose.orientation, twist.angular};
-    if (articulated) body.velocity += times(start, before.com_velocity);
-    const Vec3 shift = advance_centre(body, external.force * r.inverse_mass + gravity_, dt);
-    const Vec3 torque = external.torque - arm.cross(external.force);
-    const Mat3 end = advance_rotation(body, start, before.tensor, inverse_half, inverse_end, torque, dt);
-    const Vec3 new_arm = times(end, after.com);
-    pose.position += shift - (new_arm - arm);
-    pose.orientation = body.orientation;
-    twist.angular = body.spin;
-    twist.linear = body.velocity - body.spin.cross(new_arm);
-    if (articulated) twist.linear -= times(end, after.com_velocity);
-    if (!std::isfinite(pose.position.sum() + twist.linear.sum() + twist.angular.sum())) fail(r, external);
+    const Quat& q = r.pose->orientation;
+    lane::PoseOf<double> pose{plain(r.pose->position), {q.x(), q.y(), q.z(), q.w()}};
+    lane::TwistOf<double> twist{plain(r.twist->linear), plain(r.twist->angular)};
+    integrator::move_base<true>(pose, twist, plain(external.force), plain(external.torque), plain(before), plain(after),
+                                plain(inverse_half), plain(inverse_end), models_[r.model].body.inverse_mass,
+                                plain(gravity_), dt);
+    const auto& [x, turn] = pose;
+    *r.pose = {{x.x, x.y, x.z}, Quat(turn.w, turn.x, turn.y, turn.z)};
+    *r.twist = {{twist.linear.x, twist.linear.y, twist.linear.z}, {twist.angular.x, twist.angular.y, twist.angular.z}};
+    if (!std::isfinite(r.pose->position.sum() + r.twist->linear.sum() + r.twist->angular.sum())) fail(r, external);
   }
 
   [[noreturn]] static void fail(const Robot& r, const Wrench& external) {
@@ -259,7 +332,11 @@ class Simplified final : public Algorithm {
 
   Mode mode_ = Mode::velocity;
   Vec3 gravity_ = Vec3::Zero();
+  const RigidKernels* kernels_ = &rigid_kernels_for(lane::best_isa());
   std::vector<Robot> robots_;
+  std::vector<Model> models_;
+  std::vector<Wheel> wheels_;
+  std::vector<RigidRobot> rigid_;  ///< one a robot
   std::vector<Joint> joints_;
   std::vector<Articulation> articulations_;
 };

@@ -5,6 +5,7 @@
 #include <BulletCollision/CollisionDispatch/btSimulationIslandManager.h>
 #include <btBulletDynamicsCommon.h>
 
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -50,7 +51,7 @@ class BulletWorld {
   btRigidBody& add(btCollisionShape& shape, const Pose& pose, double mass, const Vec3& inertia = Vec3::Zero()) {
     btRigidBody::btRigidBodyConstructionInfo info(mass, nullptr, &shape, bullet(inertia));
     info.m_startWorldTransform = bullet(pose);
-    info.m_friction = Rover::friction;
+    info.m_friction = std::sqrt(Rover::friction);  // a pair has the product
     bodies_.push_back(std::make_unique<btRigidBody>(info));
     bodies_.back()->setActivationState(DISABLE_DEACTIVATION);
     world.addRigidBody(bodies_.back().get());
