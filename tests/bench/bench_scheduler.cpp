@@ -77,7 +77,8 @@ void use(const Vec3& value) { asm volatile("" : : "r"(&value) : "memory"); }
 
 void property_access(Report& report) {
   const Vec3 point(0.1, 0.02, 0.03);
-  report.table("Placing a point of every robot in the world by its pose, ns a robot", {"robots", "property", "array of structs", "ratio"});
+  report.table("Placing a point of every robot in the world by its pose, ns a robot",
+               {"robots", "property", "array of structs", "ratio"});
   for (const int robots : {10, 100, 1000, 10000}) {
     CityScene scene{City(robots)};
     scene.use("motion.point", 1000, scene.all_robots());

@@ -62,45 +62,71 @@ Cut best_cut(std::span<const std::uint32_t> items, std::span<const Aabb> boxes) 
 }  // namespace
 
 void BoxTree::build(std::span<const Aabb> boxes, std::span<const std::uint32_t> members) {
+  boxes_.assign(boxes.begin(), boxes.end());
   items_.assign(members.begin(), members.end());
-  nodes_.clear();
-  if (items_.empty()) return;
-  nodes_.reserve(2 * items_.size());
-  nodes_.emplace_back();
-  split(0, 0, std::uint32_t(items_.size()), 0, boxes);
+  leaves_.resize(boxes.size());
+  build_nodes();
 }
 
-void BoxTree::split(std::uint32_t node, std::uint32_t first, std::uint32_t count, int depth,
-                    std::span<const Aabb> boxes) {
+void BoxTree::rebuild() {
+  std::sort(items_.begin(), items_.end());  // a tree depends on its boxes alone
+  build_nodes();
+}
+
+void BoxTree::build_nodes() {
+  nodes_.clear();
+  parents_.clear();
+  cost_ = built_cost_ = 0;
+  if (items_.empty()) return;
+  nodes_.reserve(2 * items_.size());
+  parents_.reserve(2 * items_.size());
+  nodes_.emplace_back();
+  parents_.push_back(0);
+  split(0, 0, std::uint32_t(items_.size()), 0);
+  for (const BvhNode& n : nodes_) built_cost_ += surface(n.bounds);
+  cost_ = built_cost_;
+}
+
+void BoxTree::split(std::uint32_t node, std::uint32_t first, std::uint32_t count, int depth) {
   const std::span<std::uint32_t> items(items_.data() + first, count);
   Aabb bounds;
-  for (const std::uint32_t i : items) bounds.include(boxes[i]);
+  for (const std::uint32_t i : items) bounds.include(boxes_[i]);
   nodes_[node] = {bounds, first, count};
-  if (count <= leaf_size) return;
-  const Cut cut = depth < deepest_cut ? best_cut(items, boxes) : Cut{};
+  if (count <= leaf_size) {
+    for (const std::uint32_t i : items) leaves_[i] = node;
+    return;
+  }
+  const Cut cut = depth < deepest_cut ? best_cut(items, boxes_) : Cut{};
   auto second = items.begin() + count / 2;  // all centres in one place, or too deep: any halves do
   if (cut.axis >= 0)
     second = std::partition(items.begin(), items.end(),
-                            [&](std::uint32_t i) { return middle(boxes[i])[cut.axis] < cut.at; });
+                            [&](std::uint32_t i) { return middle(boxes_[i])[cut.axis] < cut.at; });
   auto left = std::uint32_t(second - items.begin());
   if (left == 0 || left == count) left = count / 2;  // rounding at the border of a bin
   const auto children = std::uint32_t(nodes_.size());
   nodes_.resize(nodes_.size() + 2);
+  parents_.resize(nodes_.size(), node);
   nodes_[node].first = children;
   nodes_[node].count = 0;
-  split(children, first, left, depth + 1, boxes);
-  split(children + 1, first + left, count - left, depth + 1, boxes);
+  split(children, first, left, depth + 1);
+  split(children + 1, first + left, count - left, depth + 1);
 }
 
-void BoxTree::refit(std::span<const Aabb> boxes) {
-  for (std::size_t k = nodes_.size(); k-- > 0;) {
-    BvhNode& n = nodes_[k];
-    n.bounds = {};
-    if (n.count > 0)
-      for (std::uint32_t i = 0; i < n.count; ++i) n.bounds.include(boxes[items_[n.first + i]]);
-    else
-      for (const std::uint32_t child : {n.first, n.first + 1}) n.bounds.include(nodes_[child].bounds);
-  }
+void BoxTree::fit(std::uint32_t node) {
+  BvhNode& n = nodes_[node];
+  cost_ -= surface(n.bounds);
+  n.bounds = {};
+  if (n.count > 0)
+    for (std::uint32_t i = 0; i < n.count; ++i) n.bounds.include(boxes_[items_[n.first + i]]);
+  else
+    for (const std::uint32_t child : {n.first, n.first + 1}) n.bounds.include(nodes_[child].bounds);
+  cost_ += surface(n.bounds);
+}
+
+void BoxTree::move(std::uint32_t item, const Aabb& box) {
+  boxes_[item] = box;
+  std::uint32_t node = leaves_[item];
+  for (fit(node); node != 0; fit(node)) node = parents_[node];
 }
 
 }  // namespace muro::native

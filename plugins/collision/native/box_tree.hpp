@@ -13,16 +13,27 @@ class BoxTree {
  public:
   /// Over `boxes[i]` for every i in `members`; boxes are finite.
   void build(std::span<const Aabb> boxes, std::span<const std::uint32_t> members);
-  /// After boxes have changed: the same tree with new bounds.
-  void refit(std::span<const Aabb> boxes);
+  /// Box number `item` has changed: fits the boxes on the way to the root.
+  void move(std::uint32_t item, const Aabb& box);
+  /// Whether boxes have moved so far that a search costs much more than in a new tree.
+  bool worn() const { return cost_ > 1.5 * built_cost_; }
+  /// A new tree over the same members as they are now.
+  void rebuild();
 
   Bvh view() const { return {nodes_, items_}; }
 
  private:
-  void split(std::uint32_t node, std::uint32_t first, std::uint32_t count, int depth, std::span<const Aabb> boxes);
+  void build_nodes();
+  void split(std::uint32_t node, std::uint32_t first, std::uint32_t count, int depth);
+  void fit(std::uint32_t node);
 
+  std::vector<Aabb> boxes_;
   std::vector<BvhNode> nodes_;  ///< children behind their parents
   std::vector<std::uint32_t> items_;
+  std::vector<std::uint32_t> parents_;  ///< of nodes; the root's is itself
+  std::vector<std::uint32_t> leaves_;   ///< of items
+  double cost_ = 0;                     ///< of a search: the surface of all nodes
+  double built_cost_ = 0;               ///< when it was built
 };
 
 /// Calls `visit(item)` for the items of all leaves that `box` overlaps. The leaves' bounds, not those of items, decide.

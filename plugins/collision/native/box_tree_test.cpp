@@ -51,7 +51,7 @@ TEST(BoxTree, FindsWhatASearchThroughAllBoxesFinds) {
   }
 }
 
-TEST(BoxTree, AfterMotionARefitFindsWhatANewTreeFinds) {
+TEST(BoxTree, AfterMotionATreeFindsWhatANewOneFindsAndIsWornWhenItCostsMore) {
   Randoms random(2);
   std::vector<Aabb> boxes;
   std::vector<std::uint32_t> members;
@@ -61,13 +61,20 @@ TEST(BoxTree, AfterMotionARefitFindsWhatANewTreeFinds) {
   }
   BoxTree tree;
   tree.build(boxes, members);
-  for (int round = 0; round < 20; ++round) {
-    for (Aabb& b : boxes) {
+  int rebuilt = 0;
+  for (int round = 0; round < 40; ++round) {
+    for (std::uint32_t i = 0; i < boxes.size(); ++i) {
+      if (random.below(3) > 0) continue;
       const Vec3 shift = random.direction();
-      b.low += shift;
-      b.high += shift;
+      boxes[i].low += shift;
+      boxes[i].high += shift;
+      tree.move(i, boxes[i]);
     }
-    tree.refit(boxes);
+    if (tree.worn()) {
+      tree.rebuild();
+      ++rebuilt;
+      EXPECT_FALSE(tree.worn());
+    }
     BoxTree fresh;
     fresh.build(boxes, members);
     for (int i = 0; i < 20; ++i) {
@@ -76,6 +83,8 @@ TEST(BoxTree, AfterMotionARefitFindsWhatANewTreeFinds) {
       EXPECT_EQ(found(tree, boxes, probe), brute_force(boxes, members, probe));
     }
   }
+  EXPECT_GE(rebuilt, 1);
+  EXPECT_LE(rebuilt, 10);
 }
 
 /// The deepest node; the root is at 0.

@@ -210,7 +210,12 @@ TEST(CollisionNative, ListsAreSortedAndFreeOfDoubles) {
   for (std::size_t i = 0; i < crowd.all.size(); ++i) poses.push_back(crowd.place());
   crowd.put(poses);
   crowd.instant();
-  const auto pair_of = [](const Contact& c) { return std::tuple(c.self, c.other, c.self_shape, c.other_shape); };
+  World& world = crowd.world();
+  const auto pair_of = [&](const Contact& c) {  // scenery as declared, then robots by their keys
+    const std::int32_t mate = world.robot_of(c.other);
+    const std::uint64_t key = mate < 0 ? 0 : world.robots()[std::size_t(mate)]->key;
+    return std::tuple(c.self, mate >= 0, key, c.other, c.self_shape, c.other_shape);
+  };
   for (std::size_t r = 0; r < crowd.all.size(); ++r) {
     if (r % 5 == 4) continue;
     const auto list = crowd.contacts(*crowd.all[r]);
@@ -221,6 +226,22 @@ TEST(CollisionNative, ListsAreSortedAndFreeOfDoubles) {
           EXPECT_NE(list[i].point, list[k].point);
         }
     }
+  }
+}
+
+/// How far a shape reaches along each axis of the world.
+Vec3 reach_of(const Shape& s, const Quat& turn) {
+  const Mat3 axes = turn.toRotationMatrix();
+  const Vec3 up = axes.col(2).cwiseAbs();
+  switch (s.kind) {
+    case ShapeKind::sphere:
+      return Vec3::Constant(s.size.x());
+    case ShapeKind::capsule:
+      return Vec3::Constant(s.size.x()) + 0.5 * s.size.z() * up;
+    case ShapeKind::cylinder:
+      return s.size.x() * (1 - up.array().square()).sqrt().matrix() + 0.5 * s.size.z() * up;
+    default:
+      return axes.cwiseAbs() * 0.5 * s.size;
   }
 }
 
@@ -244,7 +265,10 @@ TEST(SceneBvh, DescribesTheSceneOfTheInstant) {
       EXPECT_EQ(c.pose().position, poses[r].position);
       const Aabb tight = bounds_of(*c.shape, poses[r]);
       EXPECT_LT((c.bounds().low - tight.low).norm() + (c.bounds().high - tight.high).norm(), 1e-12);
-      EXPECT_EQ(index.robots[r].bounds.low, c.bounds().low);
+      const Vec3 reach = reach_of(*c.shape, poses[r].orientation), slack = Vec3::Constant(1e-8);
+      EXPECT_TRUE(index.robots[r].bounds.contains({poses[r].position - reach, poses[r].position + reach}));
+      EXPECT_TRUE((Aabb{tight.low - slack, tight.high + slack}.contains(index.robots[r].bounds)));
+      EXPECT_TRUE(index.robots[r].room.contains(index.robots[r].bounds));
     }
     std::vector<int> seen(poses.size());
     for (const BvhNode& n : index.moving.nodes)

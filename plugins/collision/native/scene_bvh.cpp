@@ -1,28 +1,35 @@
 // SPDX-License-Identifier: MIT
 #include "scene_bvh.hpp"
 
-#include <algorithm>
+#include <cstddef>
+#include <cstring>
 #include <string>
 
 #include "muro/vocabulary.hpp"
+#include "sweep.hpp"
 
 namespace muro::native {
 
 namespace {
 
 constexpr Parameter parameters[] = {
-    real("margin", "m", 0.1, "by which a robot's box is larger than the robot, so that it need not follow each step")
+    real("margin", "m", 0.1, "by which a robot's room is larger than the robot, so that it need not follow each step")
         .between(0, 100),
 };
 constexpr Use reads[] = {{"collision.shapes", "of all objects"}, {"pose", "of all objects with shapes"}};
 constexpr Use writes[] = {{"scene.index", "on the world object"}};
+
+constexpr Phase all_phases[] = {{Phase::Over::robots, Phase::Reach::own}, {Phase::Over::whole}};
+
+// what BoundsWork::boxes counts on
+static_assert(offsetof(RobotColliders, room) == offsetof(RobotColliders, bounds) + 6 * sizeof(double));
 
 }  // namespace
 
 constinit const Description scene_bvh_description{
     .id = "scene.bvh",
     .kind = Kind::scene,
-    .version = "1.0.0",
+    .version = "1.1.0",
     .summary = "The spatial index: bounding volume hierarchies of scenery and of robots, for collision, rays and radio",
     .parameters = parameters,
     .reads = reads,
@@ -57,25 +64,55 @@ void SceneBvh::add_colliders(Connector& c, ObjectId body, const Pose* pose) {
   }
 }
 
-void SceneBvh::connect(Connector& c) {
-  margin_ = c.parameters().real("margin");
-  index_ = c.derived(world_object, keys::scene_index);
+void SceneBvh::add_scenery(Connector& c) {
   for (std::uint32_t i = 0; i < c.object_count(); ++i) {
     const ObjectId o{i};
     if (c.robot_of(o) >= 0 || c.constant_array(o, keys::collision_shapes).empty()) continue;
     add_colliders(c, o, &scenery_poses_.emplace_back(c.constant(o, keys::pose).value_or(Pose{})));
   }
   scenery_ = std::uint32_t(colliders_.size());
-  for (const RobotView* robot : c.robots()) {
-    RobotColliders r;
-    r.first = std::uint32_t(colliders_.size());
-    for (const Frame& f : robot->frames)
-      if (!c.constant_array(f.object, keys::collision_shapes).empty())
-        add_colliders(c, f.object, c.read(f.object, keys::pose).get());
-    r.count = std::uint32_t(colliders_.size()) - r.first;
-    robots_.push_back(r);
+}
+
+void SceneBvh::add_robot(Connector& c, const RobotView& robot) {
+  const auto first = std::uint32_t(colliders_.size());
+  std::vector<bool> follows;
+  std::vector<FrameBox> boxes;
+  for (const Frame& f : robot.frames) follows.push_back(c.is_used(f.object, keys::pose, Access::derived));
+  for (std::uint32_t f = 0; f < robot.frames.size(); ++f) {
+    const ObjectId body = robot.frames[f].object;
+    const std::span<const Shape> shapes = c.constant_array(body, keys::collision_shapes);
+    if (!shapes.empty()) add_colliders(c, body, c.read(body, keys::pose).get());
+    for (const Shape& s : shapes)
+      if (s.kind != ShapeKind::mesh && s.kind != ShapeKind::plane)
+        boxes.push_back(swept_box(robot.frames, follows, f, s));
+  }
+  robots_.push_back({first, std::uint32_t(colliders_.size()) - first, {}, {}, 0});
+  first_part_.push_back(std::uint32_t(part_poses_.size()));
+  std::vector<Part> parts;
+  for (const FrameBox& b : joined(std::move(boxes))) {
+    Part& p = parts.emplace_back();
+    p.body = std::uint32_t(parts.size() - 1);
+    Vec3::Map(p.centre) = b.centre;
+    Vec3::Map(p.half) = b.half;
+    p.ball = b.ball;
+    part_poses_.push_back(c.read(robot.frames[b.frame].object, keys::pose)->position.data());
+  }
+  if (!parts.empty()) {
+    members_.push_back(robot.number);
+    join_team(teams_, std::move(parts), robot.number);
   }
 }
+
+void SceneBvh::connect(Connector& c) {
+  margin_ = c.parameters().real("margin");
+  kernels_ = &bounds_kernels_for(lane::best_isa());
+  index_ = c.derived(world_object, keys::scene_index);
+  add_scenery(c);
+  for (const RobotView* robot : c.robots()) add_robot(c, *robot);
+  left_.resize(robots_.size());
+}
+
+std::span<const Phase> SceneBvh::phases() const { return all_phases; }
 
 void SceneBvh::start() {
   std::vector<Aabb> boxes;
@@ -85,53 +122,64 @@ void SceneBvh::start() {
     if (colliders_[k].shape->kind != ShapeKind::plane) bounded.push_back(k);
   }
   scenery_tree_.build(boxes, bounded);
-  members_.clear();
-  for (std::uint32_t r = 0; r < robots_.size(); ++r) {
-    place(r);
-    if ((robots_[r].bounds.low.array() <= robots_[r].bounds.high.array()).all()) members_.push_back(r);
+  bound({0, std::uint32_t(robots_.size())});
+  boxes.assign(robots_.size(), {});
+  for (const std::uint32_t r : members_) {
+    new_room(r);
+    boxes[r] = robots_[r].room;
   }
-  fat_.resize(robots_.size());
-  rebuild();
+  moving_tree_.build(boxes, members_);
   *index_ = {colliders_, robots_, planes_, scenery_tree_.view(), moving_tree_.view(), changes_};
 }
 
-void SceneBvh::place(std::uint32_t robot) {
-  RobotColliders& r = robots_[robot];
-  r.bounds = {};
-  for (std::uint32_t k = r.first; k < r.first + r.count; ++k) {
-    const Collider& c = colliders_[k];
-    if (c.shape->kind != ShapeKind::plane) r.bounds.include(c.bounds());
-  }
-}
-
-void SceneBvh::rebuild() {
-  const Vec3 margin = Vec3::Constant(margin_);
-  for (const std::uint32_t r : members_) {
-    fat_[r] = robots_[r].room = {robots_[r].bounds.low - margin, robots_[r].bounds.high + margin};
-    ++robots_[r].changes;
-    ++changes_;
-  }
-  moving_tree_.build(fat_, members_);
-  strayed_ = 0;
-}
-
-void SceneBvh::step(const Step&, Range) {
-  const Vec3 margin = Vec3::Constant(margin_);
-  std::size_t left = 0;
-  for (const std::uint32_t r : members_) {
-    place(r);
-    if (fat_[r].contains(robots_[r].bounds)) continue;
-    fat_[r] = robots_[r].room = {robots_[r].bounds.low - margin, robots_[r].bounds.high + margin};
-    ++robots_[r].changes;
-    ++left;
-  }
-  if (left == 0) return;
-  strayed_ += left;
-  changes_ += left;
-  if (strayed_ > members_.size())  // the tree was made for other places
-    rebuild();
+void SceneBvh::step(const Step& step, Range range) {
+  if (step.phase == 0)
+    bound(range);
   else
-    moving_tree_.refit(fat_);
+    make_room();
+}
+
+void SceneBvh::bound(Range block) {
+  BoundsWork work;
+  for (const auto& team : teams_) {
+    work.parts = team.structure.data();
+    work.part_count = int(team.structure.size());
+    const std::span<const std::uint32_t> robots = team.in(block);
+    for (std::size_t first = 0; first < robots.size(); first += 8) {
+      work.used = int(std::min<std::size_t>(8, robots.size() - first));
+      for (int i = 0; i < work.used; ++i) {
+        const std::uint32_t r = robots[first + std::size_t(i)];
+        work.poses[i] = &part_poses_[first_part_[r]];
+        work.boxes[i] = robots_[r].bounds.low.data();
+      }
+      const unsigned outside = kernels_->bound(work);
+      for (int i = 0; outside >> i; ++i)
+        if (outside >> i & 1) left_[robots[first + std::size_t(i)]] = 1;
+    }
+  }
+}
+
+void SceneBvh::new_room(std::uint32_t robot) {
+  RobotColliders& r = robots_[robot];
+  const Vec3 margin = Vec3::Constant(margin_);
+  r.room = {r.bounds.low - margin, r.bounds.high + margin};
+  ++r.changes;
+  ++changes_;
+  left_[robot] = 0;
+}
+
+/// For those that have left theirs.
+void SceneBvh::make_room() {
+  if (left_.empty()) return;
+  const std::uint64_t before = changes_;
+  const std::uint8_t *const begin = left_.data(), *const end = begin + left_.size();
+  for (auto at = begin; (at = static_cast<const std::uint8_t*>(std::memchr(at, 1, std::size_t(end - at)))); ++at) {
+    const auto r = std::uint32_t(at - begin);
+    new_room(r);
+    moving_tree_.move(r, robots_[r].room);
+  }
+  if (changes_ == before) return;
+  if (moving_tree_.worn()) moving_tree_.rebuild();
   index_->moving = moving_tree_.view();
   index_->changes = changes_;
 }

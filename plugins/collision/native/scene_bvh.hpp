@@ -4,40 +4,51 @@
 #include <deque>
 
 #include "box_tree.hpp"
+#include "lanes/bounds.hpp"
 #include "muro/algorithm.hpp"
+#include "team.hpp"
 
 namespace muro::native {
 
 extern const Description scene_bvh_description;
 
-/// Keeps the spatial index of the scene (sdk/muro/scene.hpp). Boxes of robots carry a margin; the tree is
-/// touched only when a robot has left its box.
+/// Keeps the spatial index of the scene (sdk/muro/scene.hpp). First every block of robots brings its robots' boxes up
+/// to date, eight robots of a kind at once; then those that have left their rooms get new ones, and the tree follows.
 class SceneBvh final : public Algorithm {
  public:
   void connect(Connector& c) override;
   void start() override;
+  std::span<const Phase> phases() const override;
   void step(const Step& step, Range range) override;
   void restored() override { start(); }
 
  private:
+  void add_scenery(Connector& c);
+  void add_robot(Connector& c, const RobotView& robot);
   void add_colliders(Connector& c, ObjectId body, const Pose* pose);
   void warn_of_mesh(Connector& c, ObjectId body, TextId mesh);
-  void place(std::uint32_t robot);
-  void rebuild();
+  void bound(Range block);
+  void make_room();
+  void new_room(std::uint32_t robot);
 
   double margin_ = 0;
+  const BoundsKernels* kernels_ = nullptr;
   Out<SceneIndex> index_;
   std::vector<Collider> colliders_;
   std::deque<Pose> scenery_poses_;
   std::vector<std::uint32_t> planes_;
   std::vector<RobotColliders> robots_;
-  std::vector<Aabb> fat_;               ///< a robot's box with its margin, by robot number
+  std::uint32_t scenery_ = 0;  ///< the first so many colliders stand still
+  std::vector<TextId> meshes_;  ///< warned of
+
+  std::vector<Team<std::vector<Part>>> teams_;  ///< of robots that have bounds
+  std::vector<const double*> part_poses_;       ///< robot by robot
+  std::vector<std::uint32_t> first_part_;       ///< by robot, in part_poses_
+
   std::vector<std::uint32_t> members_;  ///< robots that have bounds
-  std::uint32_t scenery_ = 0;           ///< the first so many colliders stand still
-  std::size_t strayed_ = 0;             ///< robots that left their boxes since the tree was built
-  std::uint64_t changes_ = 0;           ///< of boxes with margin
-  std::vector<TextId> meshes_;          ///< warned of
-  BoxTree scenery_tree_, moving_tree_;
+  std::vector<std::uint8_t> left_;      ///< by robot: is not within its room
+  std::uint64_t changes_ = 0;           ///< of rooms
+  BoxTree scenery_tree_, moving_tree_;  ///< the second: of rooms
 };
 
 }  // namespace muro::native

@@ -26,7 +26,7 @@ inline Chain chain_of(std::span<const Frame> frames) {
     const Pose placed = in_carrier[parent] * f.origin;
     const bool fixed = f.joint == JointKind::fixed;
     Link link;
-    link.parent = carrier[parent];
+    link.parent = int(carrier[parent]);
     link.joint = fixed                             ? Link::Joint::fixed
                  : f.joint == JointKind::prismatic ? Link::Joint::prismatic
                                                    : Link::Joint::revolute;
@@ -35,6 +35,7 @@ inline Chain chain_of(std::span<const Frame> frames) {
     std::copy_n(placed.position.data(), 3, link.offset);
     std::copy_n(placed.orientation.coeffs().data(), 4, link.turn);
     std::copy_n(axis.data(), 3, link.axis);
+    link.along = axis == Vec3::UnitX() ? 1 : axis == Vec3::UnitY() ? 2 : axis == Vec3::UnitZ() ? 3 : 0;
     chain.links.push_back(link);
     carrier[i] = fixed ? carrier[parent] : i;
     in_carrier[i] = fixed ? placed : Pose{};

@@ -33,7 +33,7 @@ std::vector<Frame> random_tree(Draw& draw, int n) {
     f.joint = JointKind(draw.whole(0, 2));
     f.origin = draw.pose();
     if (draw.whole(0, 2) == 0) f.origin.orientation = Quat::Identity();
-    f.axis = draw.vector(1).normalized();
+    f.axis = draw.whole(0, 1) == 0 ? Vec3(Vec3::Unit(draw.whole(0, 2))) : Vec3(draw.vector(1).normalized());
     frames.push_back(f);
   }
   return frames;
@@ -64,63 +64,66 @@ struct Result {
   std::vector<Twist> twists;
 };
 
-const Kernels& best() { return kernels_for(lane::best_isa()); }
+/// Robots of one structure, each with joints of its own.
+struct Team {
+  std::vector<Frame> frames;
+  std::vector<Result> robots;                 ///< frame 0: given
+  std::vector<std::vector<double>> q, rates;  ///< one a frame
 
-/// Where the kernels find the joints of a robot and write its frames.
-std::vector<Place> places_of(Result& r, const std::vector<double>& q, const std::vector<double>& rates) {
-  std::vector<Place> places;
-  for (std::size_t i = 1; i < r.poses.size(); ++i)
-    places.push_back({r.poses[i].position.data(), r.twists[i].linear.data(), &q[i], &rates[i]});
-  return places;
-}
+  void place(lane::Isa isa, int at_once) {
+    const Chain chain = chain_of(frames);
+    std::vector<Spot> spots;
+    for (std::ptrdiff_t i = 0; i + 1 < std::ptrdiff_t(frames.size()); ++i) spots.push_back({7 * i, 6 * i, i, i});
+    std::vector<RobotState> states;
+    for (std::size_t k = 0; k < robots.size(); ++k) {
+      double* const poses = robots[k].poses[0].position.data();
+      double* const twists = robots[k].twists[0].linear.data();
+      states.push_back({poses, twists, poses + 7, twists + 6, q[k].data() + 1, rates[k].data() + 1});
+    }
+    const int all = int(robots.size());
+    for (int k = 0; k < all; k += at_once)
+      kernels_for(isa).place(chain.links.data(), spots.data(), int(spots.size()), &states[std::size_t(k)],
+                             std::min(at_once, all - k));
+  }
+};
 
 Result placed_by_chain(const std::vector<Frame>& frames, const Pose& base, const Twist& moving,
                        const std::vector<double>& q, const std::vector<double>& rates) {
-  const Chain chain = chain_of(frames);
-  Result r{std::vector<Pose>(frames.size()), std::vector<Twist>(frames.size())};
-  const std::vector<Place> places = places_of(r, q, rates);
-  r.poses[0] = base;
-  r.twists[0] = moving;
-  const Body body{r.poses[0].position.data(), r.twists[0].linear.data(), places.data()};
-  best().place_one(chain.links.data(), std::uint32_t(chain.links.size()), &body);
-  return r;
+  Team one{frames, {{std::vector<Pose>(frames.size()), std::vector<Twist>(frames.size())}}, {q}, {rates}};
+  one.robots[0].poses[0] = base;
+  one.robots[0].twists[0] = moving;
+  one.place(lane::best_isa(), 1);
+  return one.robots[0];
 }
 
-/// Eight robots with states of their own in one lane.
-TEST(Chain, EightRobotsAtOnceGetTheBitsOfEachAloneWithAnyInstructionSet) {
+TEST(Chain, RobotsPlacedTogetherGetTheBitsOfEachAloneWithAnyInstructionSet) {
   Draw draw(4);
-  for (int round = 0; round < 100; ++round) {
-    const std::vector<Frame> frames = random_tree(draw, draw.whole(1, 25));
-    const Chain chain = chain_of(frames);
-    std::vector<std::vector<double>> q(8), rates(8);
-    std::vector<Pose> bases;
-    std::vector<Twist> twists;
+  for (int round = 0; round < 60; ++round) {
+    Team team{random_tree(draw, draw.whole(1, 25)), {}, {}, {}};
+    const std::size_t n = team.frames.size();
     for (std::size_t k = 0; k < 8; ++k) {
-      for (std::size_t i = 0; i < frames.size(); ++i) {
-        q[k].push_back(round == 0 ? draw.number(-1e8, 1e8) : draw.number(-9, 9));
-        rates[k].push_back(draw.number(-2, 2));
+      team.robots.push_back({std::vector<Pose>(n), std::vector<Twist>(n)});
+      team.robots[k].poses[0] = draw.pose();
+      team.robots[k].twists[0] = {draw.vector(2), draw.vector(2)};
+      std::vector<double> q, rates;
+      for (std::size_t i = 0; i < n; ++i) {
+        q.push_back(round == 0 ? draw.number(-1e8, 1e8) : draw.number(-9, 9));
+        rates.push_back(draw.number(-2, 2));
       }
-      bases.push_back(draw.pose());
-      twists.push_back({draw.vector(2), draw.vector(2)});
+      team.q.push_back(q);
+      team.rates.push_back(rates);
     }
+    Team alone = team;
+    alone.place(lane::Isa::base, 1);
     for (const lane::Isa isa : {lane::Isa::base, lane::Isa::avx2, lane::Isa::avx512}) {
       if (isa > lane::best_isa()) continue;  // this processor cannot run it
-      std::vector<Result> together(8, {std::vector<Pose>(frames.size()), std::vector<Twist>(frames.size())});
-      std::vector<std::vector<Place>> places;
-      std::vector<Body> bodies;
-      for (std::size_t k = 0; k < 8; ++k) {
-        together[k].poses[0] = bases[k];
-        together[k].twists[0] = twists[k];
-        places.push_back(places_of(together[k], q[k], rates[k]));
-      }
-      for (std::size_t k = 0; k < 8; ++k)
-        bodies.push_back({together[k].poses[0].position.data(), together[k].twists[0].linear.data(), places[k].data()});
-      kernels_for(isa).place_eight(chain.links.data(), std::uint32_t(chain.links.size()), bodies.data());
-      for (std::size_t k = 0; k < 8; ++k) {
-        const Result alone = placed_by_chain(frames, bases[k], twists[k], q[k], rates[k]);
-        for (std::size_t i = 0; i < frames.size(); ++i) {
-          ASSERT_EQ(std::memcmp(&alone.poses[i], &together[k].poses[i], sizeof(Pose)), 0) << "frame " << i;
-          ASSERT_EQ(std::memcmp(&alone.twists[i], &together[k].twists[i], sizeof(Twist)), 0) << "frame " << i;
+      for (const int at_once : {8, 7, 5, 3, 1}) {
+        Team together = team;
+        together.place(isa, at_once);
+        for (std::size_t k = 0; k < 8; ++k) {
+          const Result &a = alone.robots[k], &b = together.robots[k];
+          ASSERT_EQ(std::memcmp(a.poses.data(), b.poses.data(), n * sizeof(Pose)), 0) << "robot " << k;
+          ASSERT_EQ(std::memcmp(a.twists.data(), b.twists.data(), n * sizeof(Twist)), 0) << "robot " << k;
         }
       }
     }
@@ -208,10 +211,10 @@ TEST(Chain, FoldsFixedFramesIntoTheirCarrier) {
   }
   frames[2].joint = JointKind::revolute;
   const Chain chain = chain_of(frames);
-  EXPECT_EQ(chain.links[0].parent, 0u);
-  EXPECT_EQ(chain.links[1].parent, 0u) << "hangs on a fixed frame, so on the base";
+  EXPECT_EQ(chain.links[0].parent, 0);
+  EXPECT_EQ(chain.links[1].parent, 0) << "hangs on a fixed frame, so on the base";
   EXPECT_EQ(Vec3(chain.links[1].offset), Vec3(2, 0, 0));
-  EXPECT_EQ(chain.links[2].parent, 2u);
+  EXPECT_EQ(chain.links[2].parent, 2);
   EXPECT_TRUE(chain == chain_of(frames));
   frames[3].origin.position.x() = 2;
   EXPECT_FALSE(chain == chain_of(frames));

@@ -43,39 +43,32 @@ class Direct final : public Algorithm {
     }
   }
 
-  void start() override {
-    bodies_.clear();
-    for (const Robot& r : robots_)
-      bodies_.push_back({numbers(r.pose), numbers(r.twist), places_.data() + r.first_place});
-  }
-
   std::span<const Phase> phases() const override {
     static constexpr Phase phases[] = {{Phase::Over::items, Phase::Reach::own}};
     return phases;
   }
 
-  /// Neighbours of one chain go eight at a time.
+  /// Neighbours alike go eight at a time.
   void step(const Step&, Range range) override {
     for (std::uint32_t i = range.begin, end = i; i < range.end; i = end) {
-      const Robot& first = robots_[i];
-      for (; end < range.end && end < i + lane_width && robots_[end].chain == first.chain; ++end) follow(robots_[end]);
-      const std::vector<Link>& links = chains_[first.chain].links;
-      const auto count = std::uint32_t(links.size());
-      if (end - i == lane_width)
-        kernels_->place_eight(links.data(), count, &bodies_[i]);
-      else
-        for (std::uint32_t k = i; k < end; ++k) kernels_->place_one(links.data(), count, &bodies_[k]);
+      const std::uint32_t model = robots_[i].model;
+      for (; end < range.end && end < i + lane_width && robots_[end].model == model; ++end) follow(robots_[end]);
+      const Model& m = models_[model];
+      kernels_->place(m.chain.links.data(), m.spots.data(), int(m.spots.size()), &states_[i], int(end - i));
     }
   }
 
  private:
   static constexpr std::uint32_t lane_width = 8;
 
+  /// Robots with the same structure, whose state lies in memory in the same way.
+  struct Model {
+    Chain chain;
+    std::vector<Spot> spots;  ///< one a link
+    bool operator==(const Model&) const = default;
+  };
   struct Robot {
-    In<Pose> pose;
-    In<Twist> twist;
-    std::uint32_t chain = 0;                             ///< in chains_
-    std::uint32_t first_place = 0;                       ///< in places_: one a frame but the base
+    std::uint32_t model = 0;                             ///< in models_
     std::uint32_t first_follower = 0, end_follower = 0;  ///< in followers_
   };
   /// A mimic joint that nothing else moves.
@@ -85,28 +78,50 @@ class Direct final : public Algorithm {
     double multiplier = 1, offset = 0;
   };
 
+  /// Where the state of one link lies; null where there is no joint.
+  struct Place {
+    double* pose = nullptr;
+    double* twist = nullptr;
+    const double* position = nullptr;
+    const double* velocity = nullptr;
+  };
+
   void connect_robot(Connector& c, const RobotView& robot) {
     Robot r;
-    r.pose = c.read(robot.base(), keys::pose);
-    r.twist = c.read(robot.base(), keys::twist);
-    r.chain = chain_number(kinematics::chain_of(robot.frames));
-    r.first_place = std::uint32_t(places_.size());
     r.first_follower = std::uint32_t(followers_.size());
     const std::vector<double> start = initial_joint_positions(c, robot);
+    std::vector<Place> places;
     for (std::size_t i = 1; i < robot.frames.size(); ++i) {
       const Frame& f = robot.frames[i];
       Place p;
       p.pose = c.derived(f.object, keys::pose)->position.data();
       p.twist = c.derived(f.object, keys::twist)->linear.data();
       if (f.joint != JointKind::fixed) connect_joint(c, robot, i, start, p);
-      places_.push_back(p);
+      places.push_back(p);
     }
     r.end_follower = std::uint32_t(followers_.size());
+
+    RobotState state;
+    state.base_pose = c.read(robot.base(), keys::pose)->position.data();
+    state.base_twist = c.read(robot.base(), keys::twist)->linear.data();
+    Model model{kinematics::chain_of(robot.frames), {}};
+    for (const Place& p : places) {
+      if (!state.poses) state.poses = p.pose, state.twists = p.twist;
+      if (!state.positions) state.positions = p.position, state.velocities = p.velocity;
+      model.spots.push_back({numbers_between(state.poses, p.pose), numbers_between(state.twists, p.twist),
+                             p.position ? numbers_between(state.positions, p.position) : 0,
+                             p.velocity ? numbers_between(state.velocities, p.velocity) : 0});
+    }
+    r.model = model_number(std::move(model));
     robots_.push_back(r);
+    states_.push_back(state);
   }
 
-  static const double* numbers(const In<Pose>& pose) { return pose->position.data(); }
-  static const double* numbers(const In<Twist>& twist) { return twist->linear.data(); }
+  /// Properties need not lie in one array, hence by their addresses.
+  static std::ptrdiff_t numbers_between(const double* from, const double* to) {
+    return (reinterpret_cast<std::intptr_t>(to) - reinterpret_cast<std::intptr_t>(from)) /
+           std::ptrdiff_t(sizeof(double));
+  }
 
   void follow(const Robot& r) const {
     for (std::uint32_t k = r.first_follower; k < r.end_follower; ++k) {
@@ -137,18 +152,17 @@ class Direct final : public Algorithm {
     followers_.push_back(follower);
   }
 
-  std::uint32_t chain_number(Chain chain) {
-    const auto known = std::find(chains_.begin(), chains_.end(), chain);
-    if (known != chains_.end()) return std::uint32_t(known - chains_.begin());
-    chains_.push_back(std::move(chain));
-    return std::uint32_t(chains_.size() - 1);
+  std::uint32_t model_number(Model model) {
+    const auto known = std::find(models_.rbegin(), models_.rend(), model);  // mostly the last one
+    if (known != models_.rend()) return std::uint32_t(models_.rend() - known) - 1;
+    models_.push_back(std::move(model));
+    return std::uint32_t(models_.size() - 1);
   }
 
   const Kernels* kernels_ = &kernels_for(lane::best_isa());
-  std::vector<Chain> chains_;
+  std::vector<Model> models_;
   std::vector<Robot> robots_;
-  std::vector<Body> bodies_;  ///< one a robot
-  std::vector<Place> places_;
+  std::vector<RobotState> states_;  ///< one a robot
   std::vector<Follower> followers_;
 };
 

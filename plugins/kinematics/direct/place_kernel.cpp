@@ -8,84 +8,111 @@ namespace {
 
 using namespace lane;
 
-/// Pose and twist of the frame that others are placed from.
+/// q turned about the joint's axis, which belongs to its frame. `half`: of half the angle.
+template <class S>
+MURO_INLINE Q4<S> turned(const Q4<S>& q, const Link& link, const SinCos<S>& half) {
+  const S s = half.sin, c = half.cos;
+  switch (link.along) {
+    case 1:
+      return {q.x * c + q.w * s, q.y * c + q.z * s, q.z * c - q.y * s, q.w * c - q.x * s};
+    case 2:
+      return {q.x * c - q.z * s, q.y * c + q.w * s, q.z * c + q.x * s, q.w * c - q.y * s};
+    case 3:
+      return {q.x * c + q.y * s, q.y * c - q.x * s, q.z * c + q.w * s, q.w * c - q.z * s};
+    default:
+      return q * Q4<S>{S(link.axis[0]) * s, S(link.axis[1]) * s, S(link.axis[2]) * s, c};
+  }
+}
+template <class S>
+MURO_INLINE V3<S> axis_in_world(const M3<S>& axes, const Link& link) {
+  switch (link.along) {
+    case 1:
+      return axes.x;
+    case 2:
+      return axes.y;
+    case 3:
+      return axes.z;
+    default:
+      return axes * splat<S>(link.axis);
+  }
+}
+
+/// RobotState of as many robots as S has values; without as many, the first stands in.
+template <class S>
+struct States {
+  Places<S> base_pose, base_twist;
+  Places<S, double> poses, twists;
+  Places<S> positions, velocities;
+
+  MURO_INLINE States(const RobotState* robots, int count) {
+    for (int i = 0; i < count_of<S>; ++i) {
+      const RobotState& r = robots[i < count ? i : 0];
+      base_pose.at[i] = r.base_pose, base_twist.at[i] = r.base_twist;
+      poses.at[i] = r.poses, twists.at[i] = r.twists;
+      positions.at[i] = r.positions, velocities.at[i] = r.velocities;
+    }
+  }
+};
+
+/// The frame that others are placed from.
 template <class S>
 struct Carrier {
-  V3<S> position;
-  Q4<S> orientation;
-  V3<S> linear, angular;
+  PoseOf<S> pose;
+  TwistOf<S> twist;
   M3<S> axes;
+
+  MURO_INLINE Carrier(const PoseOf<S>& p, const TwistOf<S>& t) : pose(p), twist(t), axes(p.orientation.matrix()) {}
 };
 
 template <class S>
-MURO_INLINE Carrier<S> load_carrier(const Places<S>& pose, const Places<S>& twist) {
-  S p[7], t[6];
-  load_rows(pose, 0, p);
-  load_rows(twist, 0, t);
-  const Q4<S> q{p[3], p[4], p[5], p[6]};
-  return {{p[0], p[1], p[2]}, q, {t[0], t[1], t[2]}, {t[3], t[4], t[5]}, q.matrix()};
-}
-
-template <class S>
-MURO_INLINE void place(const Link* links, std::uint32_t count, const Body* robots) {
-  constexpr int n = count_of<S>;
-  Places<S> pose, twist;
-  const auto carrier_of = [&](std::uint32_t frame) {
-    for (int i = 0; i < n; ++i) {
-      pose.at[i] = frame == 0 ? robots[i].pose : robots[i].places[frame - 1].pose;
-      twist.at[i] = frame == 0 ? robots[i].twist : robots[i].places[frame - 1].twist;
-    }
-    return load_carrier<S>(pose, twist);
+void place_some(const Link* links, const Spot* spots, int link_count, const RobotState* robots, int robot_count) {
+  const States<S> states(robots, robot_count);
+  const unsigned which = first_lanes(robot_count);
+  const auto base = [&] { return Carrier<S>(load_pose(states.base_pose), load_twist(states.base_twist)); };
+  const auto link_at = [&](const Spot& at) {
+    return Carrier<S>(load_pose(as_read(states.poses), at.pose), load_twist(as_read(states.twists), at.twist));
   };
-  std::uint32_t parent = 0;
-  Carrier<S> from = carrier_of(0);
-  for (std::uint32_t k = 0; k < count; ++k) {
+  int parent = 0;
+  Carrier<S> from = base();
+  for (int k = 0; k < link_count; ++k) {
     const Link& link = links[k];
-    if (link.parent != parent) from = carrier_of(parent = link.parent);  // neighbours mostly share their parent
+    const Spot& spot = spots[k];
+    if (link.parent != parent) {  // neighbours mostly share their parent
+      parent = link.parent;
+      from = parent == 0 ? base() : link_at(spots[parent - 1]);
+    }
     V3<S> arm = from.axes * splat<S>(link.offset);
-    Q4<S> orientation = from.orientation;
-    V3<S> linear = from.linear, angular = from.angular;
+    Q4<S> orientation = from.pose.orientation;
+    TwistOf<S> twist = from.twist;
     if (link.joint != Link::Joint::fixed) {
-      Places<S> position, velocity;
-      for (int i = 0; i < n; ++i) {
-        position.at[i] = robots[i].places[k].position;
-        velocity.at[i] = robots[i].places[k].velocity;
-      }
-      const S q = load<S>(position, 0), rate = load<S>(velocity, 0);
-      const V3<S> axis = from.axes * splat<S>(link.axis);
+      const S q = load(states.positions, spot.position), rate = load(states.velocities, spot.velocity);
+      const V3<S> axis = axis_in_world(from.axes, link);
       if (link.joint == Link::Joint::revolute) {
-        const SinCos<S> half = sincos(S(0.5) * q);
-        orientation = orientation * Q4<S>{half.sin * S(link.axis[0]), half.sin * S(link.axis[1]),
-                                          half.sin * S(link.axis[2]), half.cos};
-        angular += axis * rate;
+        orientation = turned(orientation, link, sincos(S(0.5) * q));
+        twist.angular += axis * rate;
       } else {
         arm += axis * q;
-        linear += axis * rate;
+        twist.linear += axis * rate;
       }
     }
     if (link.turned)
       orientation = orientation * Q4<S>{S(link.turn[0]), S(link.turn[1]), S(link.turn[2]), S(link.turn[3])};
-    linear += cross(from.angular, arm);
-    const V3<S> at = from.position + arm;
-    Places<S, double> to_pose, to_twist;
-    for (int i = 0; i < n; ++i) {
-      to_pose.at[i] = robots[i].places[k].pose;
-      to_twist.at[i] = robots[i].places[k].twist;
-    }
-    constexpr unsigned all = (1u << n) - 1;
-    store_rows(to_pose, 0, {at.x, at.y, at.z, orientation.x, orientation.y, orientation.z, orientation.w}, all);
-    store_rows(to_twist, 0, {linear.x, linear.y, linear.z, angular.x, angular.y, angular.z}, all);
+    twist.linear += cross(from.twist.angular, arm);
+    store_pose(states.poses, spot.pose, {from.pose.position + arm, orientation}, which);
+    store_twist(states.twists, spot.twist, twist, which);
   }
 }
 
-void place_one(const Link* links, std::uint32_t count, const Body* robot) { place<double>(links, count, robot); }
-void place_eight(const Link* links, std::uint32_t count, const Body* robots) { place<Double8>(links, count, robots); }
+void place(const Link* links, const Spot* spots, int link_count, const RobotState* robots, int robot_count) {
+  if (robot_count >= worth_a_lane) return place_some<Double8>(links, spots, link_count, robots, robot_count);
+  for (int i = 0; i < robot_count; ++i) place_some<double>(links, spots, link_count, robots + i, 1);
+}
 
 }  // namespace
 
 namespace MURO_ISA {
 extern const Kernels kernels;
-const Kernels kernels{&place_one, &place_eight};
+const Kernels kernels{&place};
 }  // namespace MURO_ISA
 
 }  // namespace muro::kinematics

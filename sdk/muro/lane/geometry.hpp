@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Vectors, matrices and rotations over any scalar of lane.hpp, and how they lie in properties (muro/geometry.hpp).
+// Vectors, matrices and rotations over any scalar of lane.hpp.
 #pragma once
 
 #include "muro/lane/lane.hpp"
@@ -81,33 +81,6 @@ template <class S>
 struct TwistOf {
   V3<S> linear, angular;
 };
-
-template <class S>
-MURO_INLINE V3<S> load_vector(const Places<S>& from, int k = 0) {
-  return {load<S>(from, k), load<S>(from, k + 1), load<S>(from, k + 2)};
-}
-template <class S>
-MURO_INLINE PoseOf<S> load_pose(const Places<S>& from) {
-  return {load_vector<S>(from), {load<S>(from, 3), load<S>(from, 4), load<S>(from, 5), load<S>(from, 6)}};
-}
-template <class S>
-MURO_INLINE TwistOf<S> load_twist(const Places<S>& from) {
-  return {load_vector<S>(from), load_vector<S>(from, 3)};
-}
-template <class S>
-MURO_INLINE void store_vector(const Places<S, double>& to, int k, const V3<S>& v, int used = count_of<S>) {
-  store<S>(to, k, v.x, used), store<S>(to, k + 1, v.y, used), store<S>(to, k + 2, v.z, used);
-}
-template <class S>
-MURO_INLINE void store_pose(const Places<S, double>& to, const PoseOf<S>& p, int used = count_of<S>) {
-  store_vector<S>(to, 0, p.position, used);
-  const Q4<S>& q = p.orientation;
-  store<S>(to, 3, q.x, used), store<S>(to, 4, q.y, used), store<S>(to, 5, q.z, used), store<S>(to, 6, q.w, used);
-}
-template <class S>
-MURO_INLINE void store_twist(const Places<S, double>& to, const TwistOf<S>& t, int used = count_of<S>) {
-  store_vector<S>(to, 0, t.linear, used), store_vector<S>(to, 3, t.angular, used);
-}
 
 }  // namespace MURO_ISA
 }  // namespace muro::lane

@@ -13,46 +13,16 @@
 
 #include <cstdint>
 
-#if defined(__x86_64__)
-#include <immintrin.h>
-#endif
-
-#ifndef MURO_ISA
-#define MURO_ISA base
-#endif
-#define MURO_INLINE [[gnu::always_inline]] inline
+#include "muro/lane/vector.hpp"
 
 namespace muro::lane {
 inline namespace MURO_ISA {
 
-/// The compiler's vectors of N values of T and of the integers that their comparison gives.
-template <class T, int N>
-struct VectorOf;
-template <>
-struct VectorOf<double, 4> {
-  typedef double Values __attribute__((vector_size(32)));
-  typedef std::int64_t Truths __attribute__((vector_size(32)));
-};
-template <>
-struct VectorOf<double, 8> {
-  typedef double Values __attribute__((vector_size(64)));
-  typedef std::int64_t Truths __attribute__((vector_size(64)));
-};
-template <>
-struct VectorOf<float, 8> {
-  typedef float Values __attribute__((vector_size(32)));
-  typedef std::int32_t Truths __attribute__((vector_size(32)));
-};
-template <>
-struct VectorOf<float, 16> {
-  typedef float Values __attribute__((vector_size(64)));
-  typedef std::int32_t Truths __attribute__((vector_size(64)));
-};
-
 /// Which of N values satisfy a condition.
 template <class T, int N>
 struct Mask {
-  using Vector = typename VectorOf<T, N>::Truths;
+  using Vector = decltype(std::declval<typename vectors::VectorOf<T, N>::Type>() <
+                          std::declval<typename vectors::VectorOf<T, N>::Type>());
   Vector v;
 
   MURO_INLINE Mask operator&(Mask b) const { return {v & b.v}; }
@@ -63,20 +33,20 @@ struct Mask {
 /// N values of T.
 template <class T, int N>
 struct Lane {
-  using Vector = typename VectorOf<T, N>::Values;
+  using Vector = typename vectors::VectorOf<T, N>::Type;
   using M = Mask<T, N>;
   Vector v;
 
   Lane() = default;
   MURO_INLINE Lane(Vector x) : v(x) {}
-  MURO_INLINE Lane(T x) : v(x - Vector{}) {}  // keeps the sign of a zero, as 0 + x would not
+  MURO_INLINE Lane(T x) : v(vectors::splat<Vector>(x)) {}
 
-  MURO_INLINE T operator[](int i) const { return v[i]; }
-  MURO_INLINE void set(int i, T x) { v[i] = x; }
+  MURO_INLINE T operator[](int i) const { return vectors::get(v, i); }
+  MURO_INLINE void set(int i, T x) { vectors::set(v, i, x); }
   MURO_INLINE Lane operator-() const { return -v; }
-  MURO_INLINE Lane& operator+=(Lane b) { return v += b.v, *this; }
-  MURO_INLINE Lane& operator-=(Lane b) { return v -= b.v, *this; }
-  MURO_INLINE Lane& operator*=(Lane b) { return v *= b.v, *this; }
+  MURO_INLINE Lane& operator+=(Lane b) { return v = v + b.v, *this; }
+  MURO_INLINE Lane& operator-=(Lane b) { return v = v - b.v, *this; }
+  MURO_INLINE Lane& operator*=(Lane b) { return v = v * b.v, *this; }
   MURO_INLINE friend Lane operator+(Lane a, Lane b) { return a.v + b.v; }
   MURO_INLINE friend Lane operator-(Lane a, Lane b) { return a.v - b.v; }
   MURO_INLINE friend Lane operator*(Lane a, Lane b) { return a.v * b.v; }
@@ -92,6 +62,9 @@ using Double4 = Lane<double, 4>;
 using Double8 = Lane<double, 8>;
 using Float8 = Lane<float, 8>;
 using Float16 = Lane<float, 16>;
+
+/// Of how many robots on a Double8 that is partly filled costs less than a double for each.
+inline constexpr int worth_a_lane = vectors::register_bytes == 64 ? 3 : vectors::register_bytes == 32 ? 4 : 6;
 
 /// How many values a scalar stands for, and its mask.
 template <class S>
@@ -117,7 +90,7 @@ MURO_INLINE double select(bool m, double a, double b) { return m ? a : b; }
 MURO_INLINE float select(bool m, float a, float b) { return m ? a : b; }
 template <class T, int N>
 MURO_INLINE Lane<T, N> select(Mask<T, N> m, Lane<T, N> a, Lane<T, N> b) {
-  return m.v ? a.v : b.v;
+  return vectors::choose(m.v, a.v, b.v);
 }
 /// The lesser; `b` where they are equal or one is NaN.
 template <class S>
@@ -129,26 +102,34 @@ template <class S>
 MURO_INLINE S max(S a, S b) {
   return select(a > b, a, b);
 }
-template <class S>
-MURO_INLINE S abs(S a) {
-  return select(a < S(0), -a, a);
+MURO_INLINE double abs(double a) { return __builtin_fabs(a); }
+MURO_INLINE float abs(float a) { return __builtin_fabsf(a); }
+template <class T, int N>
+MURO_INLINE Lane<T, N> abs(Lane<T, N> a) {
+  return vectors::magnitude(a.v);
+}
+
+/// With the other sign where bit `bit` of the representation of `t` is set.
+MURO_INLINE double flip_sign(double a, double t, int bit) {
+  const auto sign = __builtin_bit_cast(std::uint64_t, t) << (63 - bit) & std::uint64_t(1) << 63;
+  return __builtin_bit_cast(double, __builtin_bit_cast(std::uint64_t, a) ^ sign);
+}
+template <class T, int N>
+MURO_INLINE Lane<T, N> flip_sign(Lane<T, N> a, Lane<T, N> t, int bit) {
+  return vectors::flipped(a.v, t.v, bit);
+}
+/// Where bit `bit` of the representation is set.
+MURO_INLINE bool has_bit(double t, int bit) { return __builtin_bit_cast(std::uint64_t, t) >> bit & 1; }
+template <class T, int N>
+MURO_INLINE Mask<T, N> has_bit(Lane<T, N> t, int bit) {
+  return {vectors::bit_of(t.v, bit)};
 }
 
 /// Bit i: whether value i satisfies the condition.
 MURO_INLINE unsigned bits(bool m) { return m; }
 template <class T, int N>
 MURO_INLINE unsigned bits(Mask<T, N> m) {
-#if defined(__AVX512DQ__)
-  if constexpr (sizeof m.v == 64 && sizeof(T) == 8) return _mm512_movepi64_mask((__m512i)m.v);
-  if constexpr (sizeof m.v == 64 && sizeof(T) == 4) return _mm512_movepi32_mask((__m512i)m.v);
-#endif
-#if defined(__AVX__)
-  if constexpr (sizeof m.v == 32 && sizeof(T) == 8) return unsigned(_mm256_movemask_pd((__m256d)m.v));
-  if constexpr (sizeof m.v == 32 && sizeof(T) == 4) return unsigned(_mm256_movemask_ps((__m256)m.v));
-#endif
-  unsigned all = 0;
-  for (int i = 0; i < N; ++i) all |= unsigned(m.v[i] != 0) << i;
-  return all;
+  return vectors::bits_of(m.v);
 }
 template <class M>
 MURO_INLINE bool any(M m) {
@@ -161,17 +142,7 @@ MURO_INLINE double sqrt(double a) { return __builtin_sqrt(a); }
 MURO_INLINE float sqrt(float a) { return __builtin_sqrtf(a); }
 template <class T, int N>
 MURO_INLINE Lane<T, N> sqrt(Lane<T, N> a) {
-#if defined(__AVX512F__)
-  if constexpr (sizeof a.v == 64 && sizeof(T) == 8) return (typename Lane<T, N>::Vector)_mm512_sqrt_pd((__m512d)a.v);
-  if constexpr (sizeof a.v == 64 && sizeof(T) == 4) return (typename Lane<T, N>::Vector)_mm512_sqrt_ps((__m512)a.v);
-#endif
-#if defined(__AVX__)
-  if constexpr (sizeof a.v == 32 && sizeof(T) == 8) return (typename Lane<T, N>::Vector)_mm256_sqrt_pd((__m256d)a.v);
-  if constexpr (sizeof a.v == 32 && sizeof(T) == 4) return (typename Lane<T, N>::Vector)_mm256_sqrt_ps((__m256)a.v);
-#endif
-  Lane<T, N> r;
-  for (int i = 0; i < N; ++i) r.v[i] = sqrt(a.v[i]);
-  return r;
+  return vectors::root(a.v);
 }
 
 // --- memory: one place a lane
@@ -182,26 +153,31 @@ struct Places {
   T* at[count_of<S>];
 };
 
+template <class S>
+MURO_INLINE Places<S> as_read(const Places<S, double>& places) {
+  Places<S> p;
+  for (int i = 0; i < count_of<S>; ++i) p.at[i] = places.at[i];
+  return p;
+}
+
 /// Number `k` from each place.
 template <class S>
-MURO_INLINE S load(const Places<S>& from, int k) {
+MURO_INLINE S load(const Places<S>& from, std::ptrdiff_t k) {
   if constexpr (count_of<S> == 1) {
     return from.at[0][k];
   } else {
-    S r;
-    for (int i = 0; i < count_of<S>; ++i) r.v[i] = from.at[i][k];
-    return r;
+    return vectors::gather<typename S::Vector>(from.at, k);
   }
 }
 /// Number `k` to each place of the first `used` lanes.
 template <class S>
-MURO_INLINE void store(const Places<S, double>& to, int k, S value, int used = count_of<S>) {
+MURO_INLINE void store(const Places<S, double>& to, std::ptrdiff_t k, S value, int used = count_of<S>) {
   if constexpr (count_of<S> == 1) {
     to.at[0][k] = value;
   } else if (used == count_of<S>) {
-    for (int i = 0; i < count_of<S>; ++i) to.at[i][k] = value.v[i];
+    for (int i = 0; i < count_of<S>; ++i) to.at[i][k] = value[i];
   } else {
-    for (int i = 0; i < used; ++i) to.at[i][k] = value.v[i];
+    for (int i = 0; i < used; ++i) to.at[i][k] = value[i];
   }
 }
 

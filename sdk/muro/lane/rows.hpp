@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Up to eight numbers that lie side by side, at one place a lane: read or written as rows, which for a lane of eight is
-// a transposition of eight by eight in registers.
+// Numbers that lie side by side in each place, as those of a pose do. They are read and written row by row and turned
+// into lanes in registers, which takes less time than number by number.
 #pragma once
 
 #include "muro/lane/geometry.hpp"
@@ -8,26 +8,117 @@
 namespace muro::lane {
 inline namespace MURO_ISA {
 
-#if defined(__AVX512F__)
-/// By pairs, then by fours, then by eights.
+namespace detail {
+
+/// Four places at once where registers hold as many doubles, else two.
+inline constexpr int group = vectors::register_bytes >= 32 ? 4 : 2;
+using Two = typename vectors::VectorOf<double, 2>::Type;
+using Group = typename vectors::VectorOf<double, group>::Type;
+using Eight = typename vectors::VectorOf<double, 8>::Type;
+
+MURO_INLINE Two load_two(const double* from) {
+  Two v;
+  __builtin_memcpy(&v, from, sizeof v);
+  return v;
+}
 template <class Vector>
-MURO_INLINE void transpose(Vector (&r)[8]) {
-  Vector two[8], four[8];
-  for (int i = 0; i < 8; i += 2) {
-    two[i] = __builtin_shufflevector(r[i], r[i + 1], 0, 8, 2, 10, 4, 12, 6, 14);
-    two[i + 1] = __builtin_shufflevector(r[i], r[i + 1], 1, 9, 3, 11, 5, 13, 7, 15);
-  }
-  for (int i = 0; i < 8; i += 4)
-    for (int k = i; k < i + 2; ++k) {
-      four[k] = __builtin_shufflevector(two[k], two[k + 2], 0, 1, 4, 5, 8, 9, 12, 13);
-      four[k + 2] = __builtin_shufflevector(two[k], two[k + 2], 2, 3, 6, 7, 10, 11, 14, 15);
-    }
-  for (int k = 0; k < 4; ++k) {
-    r[k] = __builtin_shufflevector(four[k], four[k + 4], 0, 1, 4, 5, 8, 9, 12, 13);
-    r[k + 4] = __builtin_shufflevector(four[k], four[k + 4], 2, 3, 6, 7, 10, 11, 14, 15);
+MURO_INLINE void store_at(double* to, const Vector& v) {
+  __builtin_memcpy(to, &v, sizeof v);
+}
+
+/// Lanes g * group to g * group + group - 1.
+template <int g>
+MURO_INLINE Group part(const Eight& v) {
+#if defined(__AVX512F__)
+  return __builtin_shufflevector(v, v, 4 * g, 4 * g + 1, 4 * g + 2, 4 * g + 3);
+#elif defined(__AVX__)
+  return g == 0 ? v.low : v.high;
+#else
+  const auto& half = g < 2 ? v.low : v.high;
+  return g % 2 == 0 ? half.low : half.high;
+#endif
+}
+MURO_INLINE Eight joined(const Group (&parts)[8 / group]) {
+#if defined(__AVX512F__)
+  return __builtin_shufflevector(parts[0], parts[1], 0, 1, 2, 3, 4, 5, 6, 7);
+#elif defined(__AVX__)
+  return {parts[0], parts[1]};
+#else
+  return {{parts[0], parts[1]}, {parts[2], parts[3]}};
+#endif
+}
+
+/// The first and the second number of each place of a group.
+MURO_INLINE void load_pairs(const double* const* at, std::ptrdiff_t k, Group& first, Group& second) {
+#if defined(__AVX__)
+  const Group even = __builtin_shufflevector(load_two(at[0] + k), load_two(at[2] + k), 0, 1, 2, 3);
+  const Group odd = __builtin_shufflevector(load_two(at[1] + k), load_two(at[3] + k), 0, 1, 2, 3);
+  first = __builtin_shufflevector(even, odd, 0, 4, 2, 6);
+  second = __builtin_shufflevector(even, odd, 1, 5, 3, 7);
+#else
+  const Group even = load_two(at[0] + k), odd = load_two(at[1] + k);
+  first = __builtin_shufflevector(even, odd, 0, 2);
+  second = __builtin_shufflevector(even, odd, 1, 3);
+#endif
+}
+MURO_INLINE void store_pairs(double* const* at, std::ptrdiff_t k, const Group& first, const Group& second,
+                             unsigned which) {
+#if defined(__AVX__)
+  const Group even = __builtin_shufflevector(first, second, 0, 4, 2, 6);
+  const Group odd = __builtin_shufflevector(first, second, 1, 5, 3, 7);
+  if (which & 1) store_at(at[0] + k, Two(__builtin_shufflevector(even, even, 0, 1)));
+  if (which & 2) store_at(at[1] + k, Two(__builtin_shufflevector(odd, odd, 0, 1)));
+  if (which & 4) store_at(at[2] + k, Two(__builtin_shufflevector(even, even, 2, 3)));
+  if (which & 8) store_at(at[3] + k, Two(__builtin_shufflevector(odd, odd, 2, 3)));
+#else
+  if (which & 1) store_at(at[0] + k, Group(__builtin_shufflevector(first, second, 0, 2)));
+  if (which & 2) store_at(at[1] + k, Group(__builtin_shufflevector(first, second, 1, 3)));
+#endif
+}
+/// Four numbers to each place of a group.
+MURO_INLINE void store_fours(double* const* at, std::ptrdiff_t k, const Group (&v)[4], unsigned which) {
+#if defined(__AVX__)
+  const Group even01 = __builtin_shufflevector(v[0], v[1], 0, 4, 2, 6);
+  const Group odd01 = __builtin_shufflevector(v[0], v[1], 1, 5, 3, 7);
+  const Group even23 = __builtin_shufflevector(v[2], v[3], 0, 4, 2, 6);
+  const Group odd23 = __builtin_shufflevector(v[2], v[3], 1, 5, 3, 7);
+  if (which & 1) store_at(at[0] + k, Group(__builtin_shufflevector(even01, even23, 0, 1, 4, 5)));
+  if (which & 2) store_at(at[1] + k, Group(__builtin_shufflevector(odd01, odd23, 0, 1, 4, 5)));
+  if (which & 4) store_at(at[2] + k, Group(__builtin_shufflevector(even01, even23, 2, 3, 6, 7)));
+  if (which & 8) store_at(at[3] + k, Group(__builtin_shufflevector(odd01, odd23, 2, 3, 6, 7)));
+#else
+  store_pairs(at, k, v[0], v[1], which);
+  store_pairs(at, k + 2, v[2], v[3], which);
+#endif
+}
+
+/// Numbers k to n - 1 of the places of group g.
+template <int k, int n, int g>
+MURO_INLINE void store_from(const Places<Double8, double>& to, std::ptrdiff_t first, const Double8 (&from)[n],
+                            unsigned which) {
+  constexpr int left = n - k, at = left == 3 && n > 3 ? k - 1 : k;  // rather one number twice than two pieces
+  double* const* const places = to.at + g * group;
+  const unsigned mine = which >> g * group;
+  if constexpr (n - at >= 4) {
+    store_fours(places, first + at,
+                {part<g>(from[at].v), part<g>(from[at + 1].v), part<g>(from[at + 2].v), part<g>(from[at + 3].v)}, mine);
+    store_from<at + 4, n, g>(to, first, from, which);
+  } else if constexpr (left >= 2) {
+    store_pairs(places, first + k, part<g>(from[k].v), part<g>(from[k + 1].v), mine);
+    store_from<k + 2, n, g>(to, first, from, which);
+  } else if constexpr (left == 1) {
+    const Group last = part<g>(from[k].v);
+    for (int i = 0; i < group; ++i)
+      if (mine >> i & 1) places[i][first + k] = last[i];
   }
 }
-#endif
+template <int n, int... groups>
+MURO_INLINE void store_groups(const Places<Double8, double>& to, std::ptrdiff_t first, const Double8 (&from)[n],
+                              unsigned which, std::integer_sequence<int, groups...>) {
+  (store_from<0, n, groups>(to, first, from, which), ...);
+}
+
+}  // namespace detail
 
 /// Numbers that lie as the values of S do.
 template <class S>
@@ -41,50 +132,87 @@ MURO_INLINE void store_side_by_side(double* to, S value) {
   __builtin_memcpy(to, &value, sizeof value);
 }
 
-/// Numbers `first` to `first` + n - 1 of each place; n <= 8.
+/// Numbers `first` to `first` + n - 1 of each place.
 template <int n, class S>
-MURO_INLINE void load_rows(const Places<S>& from, int first, S (&to)[n]) {
-#if defined(__AVX512F__)
-  if constexpr (count_of<S> == 8) {
-    typename S::Vector rows[8];
-    for (int i = 0; i < 8; ++i)
-      rows[i] = typename S::Vector(_mm512_maskz_loadu_pd(__mmask8((1 << n) - 1), from.at[i] + first));
-    transpose(rows);
-    for (int k = 0; k < n; ++k) to[k] = rows[k];
-    return;
+MURO_INLINE void load_rows(const Places<S>& from, std::ptrdiff_t first, S (&to)[n]) {
+  if constexpr (std::is_same_v<S, Double8>) {
+    for (int k = 0; k + 1 < n; k += 2) {
+      detail::Group a[8 / detail::group], b[8 / detail::group];
+      for (int g = 0; g < 8 / detail::group; ++g)
+        detail::load_pairs(from.at + g * detail::group, first + k, a[g], b[g]);
+      to[k] = detail::joined(a);
+      to[k + 1] = detail::joined(b);
+    }
+    if constexpr (n % 2 == 1) to[n - 1] = load<S>(from, first + n - 1);
+  } else {
+    for (int k = 0; k < n; ++k) to[k] = load<S>(from, first + k);
   }
-#endif
-  for (int k = 0; k < n; ++k) to[k] = load<S>(from, first + k);
 }
+
+/// A bit for each of the first `used` lanes.
+constexpr unsigned first_lanes(int used) { return (1u << used) - 1; }
+template <class S>
+inline constexpr unsigned all_lanes = first_lanes(count_of<S>);
 
 /// To n numbers of each place, from number `first` on, of those lanes whose bit is set in `which`.
 template <int n, class S>
-MURO_INLINE void store_rows(const Places<S, double>& to, std::int64_t first, const S (&from)[n], unsigned which) {
-#if defined(__AVX512F__)
-  if constexpr (count_of<S> == 8) {
-    typename S::Vector rows[8] = {};
-    for (int k = 0; k < n; ++k) rows[k] = from[k].v;
-    transpose(rows);
-    const auto store = [&](int i) {
-      _mm512_mask_storeu_pd(to.at[i] + first, __mmask8((1 << n) - 1), __m512d(rows[i]));
-    };
-    if (which == 0xff) {
-      for (int i = 0; i < 8; ++i) store(i);
-    } else {
-      for (int i = 0; i < 8; ++i)
-        if (which >> i & 1) store(i);
-    }
-    return;
+MURO_INLINE void store_rows(const Places<S, double>& to, std::ptrdiff_t first, const S (&from)[n],
+                            unsigned which = all_lanes<S>) {
+  if constexpr (std::is_same_v<S, Double8>) {
+    constexpr std::make_integer_sequence<int, 8 / detail::group> groups;
+    if (which == all_lanes<S>)  // without a question for each place
+      detail::store_groups<n>(to, first, from, all_lanes<S>, groups);
+    else
+      detail::store_groups<n>(to, first, from, which, groups);
+  } else {
+    for (int k = 0; k < n; ++k)
+      for (int i = 0; i < count_of<S>; ++i)
+        if (which >> i & 1) {
+          if constexpr (count_of<S> == 1)
+            to.at[i][first + k] = from[k];
+          else
+            to.at[i][first + k] = from[k][i];
+        }
   }
-#endif
-  for (int k = 0; k < n; ++k)
-    for (int i = 0; i < count_of<S>; ++i)
-      if (which >> i & 1) {
-        if constexpr (count_of<S> == 1)
-          to.at[i][first + k] = from[k];
-        else
-          to.at[i][first + k] = from[k][i];
-      }
+}
+
+// --- values of properties (muro/geometry.hpp), from number `first` on of each place
+
+template <class S>
+MURO_INLINE V3<S> load_vector(const Places<S>& from, std::ptrdiff_t first = 0) {
+  S v[3];
+  load_rows(from, first, v);
+  return {v[0], v[1], v[2]};
+}
+template <class S>
+MURO_INLINE PoseOf<S> load_pose(const Places<S>& from, std::ptrdiff_t first = 0) {
+  S v[7];
+  load_rows(from, first, v);
+  return {{v[0], v[1], v[2]}, {v[3], v[4], v[5], v[6]}};
+}
+template <class S>
+MURO_INLINE TwistOf<S> load_twist(const Places<S>& from, std::ptrdiff_t first = 0) {
+  S v[6];
+  load_rows(from, first, v);
+  return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
+}
+template <class S>
+MURO_INLINE void store_vector(const Places<S, double>& to, std::ptrdiff_t first, const V3<S>& v,
+                              unsigned which = all_lanes<S>) {
+  store_rows(to, first, {v.x, v.y, v.z}, which);
+}
+template <class S>
+MURO_INLINE void store_pose(const Places<S, double>& to, std::ptrdiff_t first, const PoseOf<S>& pose,
+                            unsigned which = all_lanes<S>) {
+  const V3<S>& p = pose.position;
+  const Q4<S>& q = pose.orientation;
+  store_rows(to, first, {p.x, p.y, p.z, q.x, q.y, q.z, q.w}, which);
+}
+template <class S>
+MURO_INLINE void store_twist(const Places<S, double>& to, std::ptrdiff_t first, const TwistOf<S>& twist,
+                             unsigned which = all_lanes<S>) {
+  const V3<S>&v = twist.linear, &w = twist.angular;
+  store_rows(to, first, {v.x, v.y, v.z, w.x, w.y, w.z}, which);
 }
 
 }  // namespace MURO_ISA

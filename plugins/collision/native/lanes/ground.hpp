@@ -2,7 +2,7 @@
 // Kernels: robots of identical structure against the planes of the scenery.
 #pragma once
 
-#include "lanes/solid.hpp"
+#include "solid.hpp"
 #include "muro/lane/isa.hpp"
 
 namespace muro::native {

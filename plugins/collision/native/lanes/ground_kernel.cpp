@@ -1,40 +1,58 @@
 // SPDX-License-Identifier: MIT
-#include "lanes/ground.hpp"
-#include "lanes/plane_points.hpp"
+#include "ground.hpp"
+#include "plane_points.hpp"
 
 namespace muro::native {
 namespace {
 
 using namespace lanes;
 
-/// The changing numbers of a contact, from number `first` on of each place whose bit is set in `which`.
+#if defined(__AVX512F__)
+/// Row i of the eight by four of x and y, z and depth, which were interleaved by pairs before.
+template <int i, class Vector>
+MURO_INLINE void store_row(double* to, Vector xy, Vector zd, unsigned which) {
+  constexpr int pair = i & 6;
+  const Vector row = __builtin_shufflevector(xy, zd, pair, pair + 1, pair + 8, -1, -1, -1, pair + 9, -1);
+  static_assert(depth_number == 6);
+  if (which >> i & 1) _mm512_mask_storeu_pd(to, __mmask8(7 | 1 << depth_number), __m512d(row));
+}
+#endif
+
+/// The numbers of a contact that change, to those places whose bit is set in `which`, from number `first` on.
 template <class S>
 MURO_INLINE void store_contacts(const Places<S, double>& to, std::int64_t first, const V3<S>& point, S depth,
                                 unsigned which) {
 #if defined(__AVX512F__)
   if constexpr (count_of<S> == 8) {
-    constexpr auto mask = __mmask8(7 | 1 << depth_number);
     const auto xy0 = __builtin_shufflevector(point.x.v, point.y.v, 0, 8, 2, 10, 4, 12, 6, 14);
     const auto xy1 = __builtin_shufflevector(point.x.v, point.y.v, 1, 9, 3, 11, 5, 13, 7, 15);
     const auto zd0 = __builtin_shufflevector(point.z.v, depth.v, 0, 8, 2, 10, 4, 12, 6, 14);
     const auto zd1 = __builtin_shufflevector(point.z.v, depth.v, 1, 9, 3, 11, 5, 13, 7, 15);
-#define MURO_STORE_ROW(i, xy, zd)                                                                            \
-  if (which >> (i)&1)                                                                                        \
-  _mm512_mask_storeu_pd(to.at[i] + first, mask,                                                              \
-                        __m512d(__builtin_shufflevector(xy, zd, (i)&6, (i) | 1, ((i)&6) + 8, -1, -1, -1, \
-                                                        ((i) | 1) + 8, -1)))
-    MURO_STORE_ROW(0, xy0, zd0);
-    MURO_STORE_ROW(1, xy1, zd1);
-    MURO_STORE_ROW(2, xy0, zd0);
-    MURO_STORE_ROW(3, xy1, zd1);
-    MURO_STORE_ROW(4, xy0, zd0);
-    MURO_STORE_ROW(5, xy1, zd1);
-    MURO_STORE_ROW(6, xy0, zd0);
-    MURO_STORE_ROW(7, xy1, zd1);
-#undef MURO_STORE_ROW
+    store_row<0>(to.at[0] + first, xy0, zd0, which);
+    store_row<1>(to.at[1] + first, xy1, zd1, which);
+    store_row<2>(to.at[2] + first, xy0, zd0, which);
+    store_row<3>(to.at[3] + first, xy1, zd1, which);
+    store_row<4>(to.at[4] + first, xy0, zd0, which);
+    store_row<5>(to.at[5] + first, xy1, zd1, which);
+    store_row<6>(to.at[6] + first, xy0, zd0, which);
+    store_row<7>(to.at[7] + first, xy1, zd1, which);
     return;
   }
 #endif
+  const auto value = [](S s, [[maybe_unused]] int i) {
+    if constexpr (count_of<S> == 1)
+      return s;
+    else
+      return s[i];
+  };
+  for (int i = 0; i < count_of<S>; ++i)
+    if (which >> i & 1) {
+      double* const contact = to.at[i] + first;
+      contact[0] = value(point.x, i);
+      contact[1] = value(point.y, i);
+      contact[2] = value(point.z, i);
+      contact[depth_number] = value(depth, i);
+    }
 }
 
 /// Appends contacts to those of their robots.
@@ -81,21 +99,17 @@ void touch_some(const GroundWork& work, int first) {
     while (end != solids_end && end->body == begin->body) ++end;
     for (const Ground* plane = work.planes; plane != work.planes + work.plane_count; ++plane)
       for (const Solid* solid = begin; solid != end; ++solid) {
-        const Standing<S> at(*solid, body);
-        if (plane->level)
-          PlanePoints(at, Plane<S, true>(*plane)).give(append);
-        else
-          PlanePoints(at, Plane<S, false>(*plane)).give(append);
+        give_plane_points<S>(Standing<S>(*solid, body), *plane, append);
         append.scale *= 256;
         if (++slot < slots_of_word) continue;
-        store_side_by_side(signature, append.points);
+        lane::store_side_by_side(signature, append.points);
         signature += 8;
         append.points = S(0);
         append.scale = 1;
         slot = 0;
       }
   }
-  if (slot > 0) store_side_by_side(signature, append.points);
+  if (slot > 0) lane::store_side_by_side(signature, append.points);
 }
 
 /// A lane costs about as much as three plain doubles.

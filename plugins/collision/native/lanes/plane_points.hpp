@@ -2,7 +2,7 @@
 // The points of solids that lie below a plane.
 #pragma once
 
-#include "lanes/solid.hpp"
+#include "solid.hpp"
 
 namespace muro::native::lanes {
 inline namespace MURO_ISA {
@@ -37,15 +37,16 @@ class Plane {
 /// cylinder: of the rim of either end the lowest point, the highest, and the two between: so one on its side rests on
 /// the ends of its lowest line, one that stands upright on four points of its rim, with all steps between. `number` is
 /// the same for the same point, below 8. The mask says who is below; a call where nobody is may be left out.
-template <class S, bool level>
+/// `Shape` is Standing<S>, or what has its functions.
+template <class S, class Shape, bool level>
 class PlanePoints {
  public:
-  PlanePoints(const Standing<S>& at, const Plane<S, level>& plane)
-      : at_(at), plane_(plane), half_(at.solid().half), centre_(at.centre()), deep_(plane.depth_of(centre_)) {}
+  PlanePoints(const Shape& at, const Plane<S, level>& plane)
+      : at_(at), plane_(plane), half_(at.half()), centre_(at.centre()), deep_(plane.depth_of(centre_)) {}
 
   template <class Sink>
   MURO_INLINE void give(Sink& sink) const {
-    switch (at_.solid().form) {
+    switch (at_.form()) {
       case Form::box:
         return corners(sink);
       case Form::sphere:
@@ -69,7 +70,7 @@ class PlanePoints {
   }
 
   template <class Sink>
-  [[gnu::noinline]] void corners(Sink& sink) const {
+  MURO_INLINE void corners(Sink& sink) const {
     const V3<S> x = S(half_[0]) * at_.axis(0), y = S(half_[1]) * at_.axis(1), z = S(half_[2]) * at_.axis(2);
     const S rx = plane_.along_normal(x), ry = plane_.along_normal(y), rz = plane_.along_normal(z);
     if (!any(deep_ + (abs(rx) + abs(ry) + abs(rz)) > S(0))) return;
@@ -80,7 +81,7 @@ class PlanePoints {
   }
 
   template <class Sink>
-  [[gnu::noinline]] void rims(Sink& sink) const {
+  MURO_INLINE void rims(Sink& sink) const {
     const V3<S> u = at_.axis(2);
     const S slope = plane_.along_normal(u), r(half_[0]), half(half_[2]), rise = half * slope;
     V3<S> down = plane_.raised(slope * u, S(-1));  // towards the lowest point of a rim
@@ -107,7 +108,7 @@ class PlanePoints {
   }
 
   template <class Sink>
-  [[gnu::noinline]] void ends(Sink& sink) const {
+  MURO_INLINE void ends(Sink& sink) const {
     const V3<S> end = S(half_[2]) * at_.axis(2);
     for (int k = 0; k < 2; ++k) {
       const V3<S> centre = k == 0 ? centre_ + end : centre_ - end;
@@ -115,12 +116,20 @@ class PlanePoints {
     }
   }
 
-  const Standing<S>& at_;
+  const Shape& at_;
   const Plane<S, level>& plane_;
   const double* const half_;
   const V3<S> centre_;
   const S deep_;  ///< of the centre
 };
+
+template <class S, class Shape, class Sink>
+MURO_INLINE void give_plane_points(const Shape& at, const Ground& plane, Sink& sink) {
+  if (plane.level)
+    PlanePoints<S, Shape, true>(at, Plane<S, true>(plane)).give(sink);
+  else
+    PlanePoints<S, Shape, false>(at, Plane<S, false>(plane)).give(sink);
+}
 
 }  // namespace MURO_ISA
 }  // namespace muro::native::lanes

@@ -17,21 +17,18 @@ void ordered(const Placed& a, const Placed& b, Manifold& out) {
     case pair_of(box, sphere):
       return box_sphere(a, b, out);
     case pair_of(box, plane):
-      return box_plane(a, b, out);
+    case pair_of(sphere, plane):
+    case pair_of(cylinder, plane):
+    case pair_of(capsule, plane):
+      return solid_plane(a, b, out);
     case pair_of(sphere, sphere):
       return sphere_sphere(a, b, out);
     case pair_of(sphere, cylinder):
       return sphere_cylinder(a, b, out);
     case pair_of(sphere, capsule):
       return sphere_capsule(a, b, out);
-    case pair_of(sphere, plane):
-      return sphere_plane(a, b, out);
-    case pair_of(cylinder, plane):
-      return cylinder_plane(a, b, out);
     case pair_of(capsule, capsule):
       return capsule_capsule(a, b, out);
-    case pair_of(capsule, plane):
-      return capsule_plane(a, b, out);
     case pair_of(box, cylinder):
     case pair_of(box, capsule):
     case pair_of(cylinder, cylinder):

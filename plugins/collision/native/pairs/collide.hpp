@@ -16,11 +16,8 @@ namespace muro::native {
 /// Any two shapes but meshes; two planes never touch.
 void collide(const Placed& first, const Placed& second, Manifold& out);
 
-// plane.cpp: the solid side of a plane is below its z axis.
-void sphere_plane(const Placed& sphere, const Placed& plane, Manifold& out);
-void box_plane(const Placed& box, const Placed& plane, Manifold& out);
-void cylinder_plane(const Placed& cylinder, const Placed& plane, Manifold& out);
-void capsule_plane(const Placed& capsule, const Placed& plane, Manifold& out);
+// plane.cpp: any shape but a plane or mesh.
+void solid_plane(const Placed& solid, const Placed& plane, Manifold& out);
 
 // round.cpp: pairs whose nearest points have a closed form.
 void sphere_sphere(const Placed& first, const Placed& second, Manifold& out);

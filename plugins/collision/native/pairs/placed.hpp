@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "muro/shape.hpp"
+#include "lanes/solid.hpp"
+#include "muro/scene.hpp"
 
 namespace muro::native {
 
@@ -19,17 +20,15 @@ struct Placed {
 };
 
 /// `shape` with its own frame (not that of its body) at `pose`.
-inline Placed placed(const Shape& shape, const Pose& pose) {
-  Placed p;
-  p.kind = shape.kind;
-  p.centre = pose.position;
-  p.axes = pose.orientation.toRotationMatrix();
-  if (shape.kind == ShapeKind::capsule)
-    p.half = {shape.size.x(), shape.size.x(), 0.5 * shape.size.z()};
-  else if (shape.kind != ShapeKind::plane)
-    p.half = half_extents(shape);
-  return p;
-}
+Placed placed(const Shape& shape, const Pose& pose);
+/// The same as plain numbers, number `body` of its robot.
+Solid solid_of(const Shape& shape, std::uint32_t body = 0);
+/// The shape whose body is at `body`, with the bits that kernels work with.
+Placed placed(const Solid& solid, const Pose& body);
+/// The plane's surface.
+Ground ground_of(const Placed& plane);
+/// Around the shape. Planes are infinite.
+Aabb bounds_of(const Placed& shape);
 
 /// A unit vector at right angles to the unit vector `v`; always the same one for the same `v`.
 inline Vec3 perpendicular(const Vec3& v) {

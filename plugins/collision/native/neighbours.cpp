@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include "neighbours.hpp"
+
+#include <algorithm>
+
+#include "box_tree.hpp"
+
+namespace muro::native {
+
+void Neighbours::start(const SceneIndex& scene, std::vector<Aabb> scenery) {
+  scenery_ = std::move(scenery);
+  of_.resize(scene.robots.size());
+  for (Of& near : of_) {
+    near.scenery.clear();
+    near.mates.clear();
+    near.scenery.reserve(16);  // more is rare
+    near.mates.reserve(16);
+    near.stale = true;
+  }
+  changes_.assign(of_.size(), 0);
+  changed_.reserve(of_.size());
+  all_changes_ = 0;
+}
+
+void Neighbours::update(const SceneIndex& scene) {
+  if (scene.changes == all_changes_) return;
+  all_changes_ = scene.changes;
+  changed_.clear();
+  for (std::uint32_t r = 0; r < of_.size(); ++r)
+    if (scene.robots[r].changes != changes_[r]) changed_.push_back(r);
+  for (const std::uint32_t r : changed_) {
+    changes_[r] = scene.robots[r].changes;
+    of_[r].stale = true;
+    part(r);
+    const Aabb& room = scene.robots[r].room;
+    each_near(scene.moving, room, [&](std::uint32_t mate) {
+      if (mate == r || !scene.robots[mate].room.overlaps(room)) return;
+      of_[r].mates.push_back(mate);
+      of_[mate].mates.push_back(r);
+    });
+  }
+}
+
+/// Of all its mates.
+void Neighbours::part(std::uint32_t robot) {
+  for (const std::uint32_t mate : of_[robot].mates) {
+    std::vector<std::uint32_t>& theirs = of_[mate].mates;
+    *std::find(theirs.begin(), theirs.end(), robot) = theirs.back();
+    theirs.pop_back();
+  }
+  of_[robot].mates.clear();
+}
+
+void Neighbours::find_scenery(Of& near, const Aabb& room, const Bvh& tree) const {
+  near.scenery.clear();
+  each_near(tree, room, [&](std::uint32_t k) {
+    if (scenery_[k].overlaps(room)) near.scenery.push_back(k);
+  });
+  std::sort(near.scenery.begin(), near.scenery.end());
+  near.stale = false;
+}
+
+}  // namespace muro::native

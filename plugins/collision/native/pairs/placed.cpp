@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include "pairs/placed.hpp"
+
+namespace muro::native {
+namespace {
+
+static_assert(int(Form::box) == int(ShapeKind::box) && int(Form::sphere) == int(ShapeKind::sphere) &&
+              int(Form::cylinder) == int(ShapeKind::cylinder) && int(Form::capsule) == int(ShapeKind::capsule) &&
+              int(Form::plane) == int(ShapeKind::plane) && int(Form::mesh) == int(ShapeKind::mesh));
+
+Vec3 half_of(const Shape& shape) {
+  if (shape.kind == ShapeKind::plane) return Vec3::Zero();
+  if (shape.kind == ShapeKind::capsule) return {shape.size.x(), shape.size.x(), 0.5 * shape.size.z()};
+  return half_extents(shape);
+}
+
+/// The axis of the body that `v` is but for rounding, as Solid::along tells it.
+int axis_along(const Vec3& v) {
+  for (int k = 0; k < 3; ++k)
+    if ((v - std::copysign(1.0, v[k]) * Vec3::Unit(k)).cwiseAbs().maxCoeff() < 1e-12) return v[k] > 0 ? k + 1 : -k - 1;
+  return 0;
+}
+
+Vec3 vector(const lane::V3<double>& v) { return {v.x, v.y, v.z}; }
+
+}  // namespace
+
+Placed placed(const Shape& shape, const Pose& pose) {
+  Placed p;
+  p.kind = shape.kind;
+  p.half = half_of(shape);
+  p.centre = pose.position;
+  p.axes = pose.orientation.toRotationMatrix();
+  return p;
+}
+
+Solid solid_of(const Shape& shape, std::uint32_t body) {
+  Solid s;
+  s.form = Form(shape.kind);
+  s.body = body;
+  Vec3::Map(s.half) = half_of(shape);
+  Vec3::Map(s.centre) = shape.origin.position;
+  s.centred = shape.origin.position == Vec3::Zero();
+  const Mat3 axes = shape.origin.orientation.toRotationMatrix();
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 axis = axes.col(k);
+    s.along[k] = axis_along(axis);
+    Vec3::Map(s.axes + 3 * k) = s.along[k] == 0 ? axis : Vec3(axis.array().round());
+  }
+  return s;
+}
+
+Placed placed(const Solid& solid, const Pose& body) {
+  const auto at = lanes::load_body<double>({{body.position.data()}});
+  const lanes::Standing<double> standing(solid, at);
+  Placed p;
+  p.kind = ShapeKind(solid.form);
+  p.half = Vec3::Map(solid.half);
+  p.centre = vector(standing.centre());
+  for (int k = 0; k < 3; ++k) p.axes.col(k) = vector(standing.axis(k));
+  return p;
+}
+
+Ground ground_of(const Placed& plane) {
+  Ground g;
+  Vec3::Map(g.normal) = plane.axis();
+  Vec3::Map(g.origin) = plane.centre;
+  g.level = plane.axis() == Vec3::UnitZ();
+  return g;
+}
+
+Aabb bounds_of(const Placed& shape) {
+  if (shape.kind == ShapeKind::plane) {
+    const Vec3 half = Vec3::Constant(std::numeric_limits<double>::infinity());
+    return {-half, half};
+  }
+  Vec3 half = shape.half;
+  if (shape.kind == ShapeKind::capsule) half.z() += shape.radius();
+  const Vec3 reach = shape.kind == ShapeKind::sphere ? half : Vec3(shape.axes.cwiseAbs() * half);
+  return {shape.centre - reach, shape.centre + reach};
+}
+
+}  // namespace muro::native

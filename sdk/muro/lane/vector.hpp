@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT
+// The compiler's vectors, in registers or in pairs of them: what lane.hpp is made of.
+#pragma once
+
+#include <cstddef>
+#include <type_traits>
+#include <utility>
+
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
+
+#ifndef MURO_ISA
+#define MURO_ISA base
+#endif
+#define MURO_INLINE [[gnu::always_inline]] inline
+
+namespace muro::lane {
+inline namespace MURO_ISA {
+namespace vectors {
+
+/// Bytes in the widest register of the instruction set.
+#if defined(__AVX512F__)
+inline constexpr int register_bytes = 64;
+#elif defined(__AVX__)
+inline constexpr int register_bytes = 32;
+#else
+inline constexpr int register_bytes = 16;
+#endif
+
+template <class Half>
+struct Pair;
+
+/// N values of T: one register, or a pair of halves. (The compiler's own vectors may be longer than a register, but it
+/// then compares and chooses value by value.)
+template <class T, int N, bool one_register = (N * sizeof(T) <= register_bytes)>
+struct VectorOf {
+  using Type = Pair<typename VectorOf<T, N / 2>::Type>;
+};
+template <class T, int N>
+struct VectorOf<T, N, true> {
+  typedef T Type __attribute__((vector_size(N * sizeof(T))));
+};
+
+template <class Low>
+MURO_INLINE Pair<Low> pair_of(Low low, Low high);
+
+template <class Half>
+struct Pair {
+  Half low, high;
+
+  MURO_INLINE Pair operator-() const { return {-low, -high}; }
+  MURO_INLINE Pair operator~() const { return {~low, ~high}; }
+  MURO_INLINE friend Pair operator+(Pair a, Pair b) { return {a.low + b.low, a.high + b.high}; }
+  MURO_INLINE friend Pair operator-(Pair a, Pair b) { return {a.low - b.low, a.high - b.high}; }
+  MURO_INLINE friend Pair operator*(Pair a, Pair b) { return {a.low * b.low, a.high * b.high}; }
+  MURO_INLINE friend Pair operator/(Pair a, Pair b) { return {a.low / b.low, a.high / b.high}; }
+  MURO_INLINE friend Pair operator&(Pair a, Pair b) { return {a.low & b.low, a.high & b.high}; }
+  MURO_INLINE friend Pair operator|(Pair a, Pair b) { return {a.low | b.low, a.high | b.high}; }
+  MURO_INLINE friend auto operator<(Pair a, Pair b) { return pair_of(a.low < b.low, a.high < b.high); }
+  MURO_INLINE friend auto operator<=(Pair a, Pair b) { return pair_of(a.low <= b.low, a.high <= b.high); }
+  MURO_INLINE friend auto operator>(Pair a, Pair b) { return pair_of(a.low > b.low, a.high > b.high); }
+  MURO_INLINE friend auto operator>=(Pair a, Pair b) { return pair_of(a.low >= b.low, a.high >= b.high); }
+  MURO_INLINE friend auto operator==(Pair a, Pair b) { return pair_of(a.low == b.low, a.high == b.high); }
+};
+template <class Low>
+MURO_INLINE Pair<Low> pair_of(Low low, Low high) {
+  return {low, high};
+}
+
+template <class Vector>
+inline constexpr bool is_pair = false;
+template <class Half>
+inline constexpr bool is_pair<Pair<Half>> = true;
+
+/// What one element of a vector is.
+template <class Vector>
+struct ElementOf {
+  using Type = std::remove_cvref_t<decltype(Vector{}[0])>;
+};
+template <class Half>
+struct ElementOf<Pair<Half>> : ElementOf<Half> {};
+template <class Vector>
+using Element = typename ElementOf<Vector>::Type;
+template <class Vector>
+inline constexpr int length_of = sizeof(Vector) / sizeof(Element<Vector>);
+
+template <class Vector>
+MURO_INLINE Element<Vector> get(const Vector& v, int i) {
+  if constexpr (is_pair<Vector>)
+    return i < length_of<Vector> / 2 ? get(v.low, i) : get(v.high, i - length_of<Vector> / 2);
+  else
+    return v[i];
+}
+template <class Vector>
+MURO_INLINE void set(Vector& v, int i, Element<Vector> x) {
+  if constexpr (is_pair<Vector>)
+    i < length_of<Vector> / 2 ? set(v.low, i, x) : set(v.high, i - length_of<Vector> / 2, x);
+  else
+    v[i] = x;
+}
+/// x in every place.
+template <class Vector>
+MURO_INLINE Vector splat(Element<Vector> x) {
+  if constexpr (is_pair<Vector>)
+    return {splat<decltype(Vector::low)>(x), splat<decltype(Vector::low)>(x)};
+  else
+    return x - Vector{};  // keeps the sign of a zero, as 0 + x would not
+}
+/// Element i is number k of what at[i] points to.
+template <class Vector, int... i>
+MURO_INLINE Vector gather_into(const Element<Vector>* const* at, std::ptrdiff_t k, std::integer_sequence<int, i...>) {
+  return Vector{at[i][k]...};
+}
+template <class Vector>
+MURO_INLINE Vector gather(const Element<Vector>* const* at, std::ptrdiff_t k) {
+  if constexpr (is_pair<Vector>) {
+    using Half = decltype(Vector::low);
+    return {gather<Half>(at, k), gather<Half>(at + length_of<Half>, k)};
+  } else {
+    return gather_into<Vector>(at, k, std::make_integer_sequence<int, length_of<Vector>>());
+  }
+}
+/// `a` where the mask (of integers) is set, `b` elsewhere.
+template <class Mask, class Vector>
+MURO_INLINE Vector choose(const Mask& m, const Vector& a, const Vector& b) {
+  if constexpr (is_pair<Vector>)
+    return {choose(m.low, a.low, b.low), choose(m.high, a.high, b.high)};
+  else
+    return m ? a : b;
+}
+/// Without the signs.
+template <class Vector>
+MURO_INLINE Vector magnitude(const Vector& v) {
+  if constexpr (is_pair<Vector>) {
+    return {magnitude(v.low), magnitude(v.high)};
+  } else {
+    using Bits = decltype(v < v);
+    return Vector(Bits(v) & ~Bits(-Vector{}));
+  }
+}
+/// With the other sign where bit `bit` of the element of `t` is set.
+template <class Vector>
+MURO_INLINE Vector flipped(const Vector& v, const Vector& t, int bit) {
+  if constexpr (is_pair<Vector>) {
+    return {flipped(v.low, t.low, bit), flipped(v.high, t.high, bit)};
+  } else {
+    using Bits = decltype(v < v);
+    constexpr int last = 8 * sizeof(Element<Vector>) - 1;
+    return Vector(Bits(v) ^ ((Bits(t) << (last - bit)) & Bits(-Vector{})));
+  }
+}
+/// A mask: where bit `bit` of the element is set.
+template <class Vector>
+MURO_INLINE auto bit_of(const Vector& t, int bit) {
+  if constexpr (is_pair<Vector>) {
+    return pair_of(bit_of(t.low, bit), bit_of(t.high, bit));
+  } else {
+    using Bits = decltype(t < t);
+    constexpr int last = 8 * sizeof(Element<Vector>) - 1;
+    return (Bits(t) << (last - bit)) < Bits{};
+  }
+}
+/// Bit i: whether element i of the mask is set.
+template <class Mask>
+MURO_INLINE unsigned bits_of(const Mask& m) {
+  if constexpr (is_pair<Mask>) {
+    return bits_of(m.low) | bits_of(m.high) << length_of<Mask> / 2;
+  } else {
+    [[maybe_unused]] constexpr bool eight_bytes = sizeof(Element<Mask>) == 8;
+#if defined(__AVX512DQ__)
+    if constexpr (sizeof m == 64 && eight_bytes) return _mm512_movepi64_mask(__m512i(m));
+    if constexpr (sizeof m == 64 && !eight_bytes) return _mm512_movepi32_mask(__m512i(m));
+#endif
+#if defined(__AVX__)
+    if constexpr (sizeof m == 32 && eight_bytes) return unsigned(_mm256_movemask_pd(__m256d(m)));
+    if constexpr (sizeof m == 32 && !eight_bytes) return unsigned(_mm256_movemask_ps(__m256(m)));
+#endif
+#if defined(__x86_64__)
+    if constexpr (sizeof m == 16 && eight_bytes) return unsigned(_mm_movemask_pd(__m128d(m)));
+    if constexpr (sizeof m == 16 && !eight_bytes) return unsigned(_mm_movemask_ps(__m128(m)));
+#endif
+    unsigned all = 0;
+    for (int i = 0; i < length_of<Mask>; ++i) all |= unsigned(m[i] != 0) << i;
+    return all;
+  }
+}
+template <class Vector>
+MURO_INLINE Vector root(const Vector& a) {
+  if constexpr (is_pair<Vector>) {
+    return {root(a.low), root(a.high)};
+  } else {
+    [[maybe_unused]] constexpr bool doubles = std::is_same_v<Element<Vector>, double>;
+#if defined(__AVX512F__)
+    if constexpr (sizeof a == 64 && doubles) return Vector(_mm512_sqrt_pd(__m512d(a)));
+    if constexpr (sizeof a == 64 && !doubles) return Vector(_mm512_sqrt_ps(__m512(a)));
+#endif
+#if defined(__AVX__)
+    if constexpr (sizeof a == 32 && doubles) return Vector(_mm256_sqrt_pd(__m256d(a)));
+    if constexpr (sizeof a == 32 && !doubles) return Vector(_mm256_sqrt_ps(__m256(a)));
+#endif
+#if defined(__x86_64__)
+    if constexpr (sizeof a == 16 && doubles) return Vector(_mm_sqrt_pd(__m128d(a)));
+    if constexpr (sizeof a == 16 && !doubles) return Vector(_mm_sqrt_ps(__m128(a)));
+#endif
+    Vector r{};
+    for (int i = 0; i < length_of<Vector>; ++i) r[i] = doubles ? __builtin_sqrt(a[i]) : __builtin_sqrtf(float(a[i]));
+    return r;
+  }
+}
+
+}  // namespace vectors
+}  // namespace MURO_ISA
+}  // namespace muro::lane
