@@ -87,7 +87,7 @@ function(muro_add_kernels)
     # -Wno-psabi: no vector is passed between functions, for all are inlined. -Wno-maybe-uninitialized: the headers of
     # gcc 12 for AVX-512 warn of themselves
     target_compile_options(${kernels} PRIVATE -ffp-contract=off -fno-math-errno -fno-trapping-math -Wno-psabi
-                                              $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>
+                                              "$<$<CXX_COMPILER_ID:GNU>:-Wno-uninitialized;-Wno-maybe-uninitialized>"
                                               $<$<NOT:$<CONFIG:Debug>>:-O3> ${flags_${isa}})
     set_target_properties(${kernels} PROPERTIES POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden
                                                 VISIBILITY_INLINES_HIDDEN ON)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Contact forces by penalty: springs and dampers where bodies overlap. Scene-wide.
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "muro/plugin.hpp"
 #include "muro/random.hpp"
 #include "patch.hpp"
+#include "standings.hpp"
 
 namespace {
 
@@ -55,27 +57,54 @@ class Penalty final : public Algorithm {
       bodies_[i].name = fnv1a(c.object_name(ObjectId{i}));
       bodies_[i].whole = i;
     }
+    for (std::uint32_t i = 0; i < bodies_.size(); ++i)
+      for (const Shape& s : c.constant_array(ObjectId{i}, keys::collision_shapes)) note_restitution(s.restitution);
+    number_.assign(c.robots().size(), nobody);
     for (const RobotView* robot : c.robots()) connect_robot(c, *robot);
     last_run_ = c.variable(world_object, last_run, std::int64_t{-1});
   }
 
-  void step(const Step& step, Range) override {
-    set_stiffness(step.dt);
-    elapsed_ = *last_run_ < 0 ? 0 : 1e-9 * double(step.time - *last_run_);
-    *last_run_ = step.time;
+  void start() override {
     for (Robot& r : robots_) {
-      *r.wrench = Wrench{};
-      r.placed = false;
+      r.standing.clear();
+      r.standing.simple = false;
+      r.standing.view.base_pose = r.base->position.data();
+      r.standing.view.base_twist = r.twist->linear.data();
+      r.standing.view.mass = &r.mass;
+      r.standing.view.wrench = r.wrench->force.data();
+    }
+  }
+  void restored() override { start(); }
+
+  /// First every robot that stands on scenery with one patch, which is nearly every one; then the others.
+  std::span<const Phase> phases() const override {
+    static constexpr Phase phases[] = {{Phase::Over::robots, Phase::Reach::own}, {Phase::Over::whole}};
+    return phases;
+  }
+
+  void step(const Step& step, Range range) override {
+    const double elapsed = *last_run_ < 0 ? 0 : 1e-9 * double(step.time - *last_run_);
+    if (step.phase == 0) return stand(step.dt, elapsed, range);
+    *last_run_ = step.time;
+    left_.clear();
+    for (std::uint32_t i = 0; i < robots_.size(); ++i)
+      if (robots_[i].left) left_.push_back(i);
+    set_stiffness(step.dt);
+    if (left_.empty()) return;
+    elapsed_ = elapsed;
+    for (const std::uint32_t i : left_) {
+      *robots_[i].wrench = Wrench{};
+      robots_[i].placed = false;
     }
     touches_.clear();
     touch_of_.clear();
-    for (std::uint32_t i = 0; i < robots_.size(); ++i) gather(i);
+    for (const std::uint32_t i : left_) gather(i);
     for (Touch& t : touches_) share(t);
-    for (Robot& r : robots_)
-      if (r.placed) r.load = r.resistance.greatest(r.mobility);
+    for (const std::uint32_t i : left_)
+      if (robots_[i].placed) robots_[i].load = robots_[i].resistance.greatest(robots_[i].mobility);
     for (Touch& t : touches_) t.friction = FrictionLaw(stiffness_, load_of(t));
     std::size_t next = 0;
-    for (std::uint32_t i = 0; i < robots_.size(); ++i) next = push(i, next);
+    for (const std::uint32_t i : left_) next = push(i, next);
   }
 
  private:
@@ -101,6 +130,9 @@ class Penalty final : public Algorithm {
     Vec3 com = Vec3::Zero();
     Mat3 inverse_inertia = Mat3::Zero();  ///< axes of the base
     std::uint64_t rank = 0;               ///< of two robots, the one with the lower rank works out their contacts
+    StandingMass mass;
+    Standing standing;
+    bool left = false;  ///< for the second phase
     // of the present step:
     bool placed = false;
     Mobility mobility;
@@ -145,7 +177,102 @@ class Penalty final : public Algorithm {
     r.com = composite.com;
     r.inverse_inertia = composite.tensor().inverse();
     r.rank = view.key;
+    r.mass.inverse_mass = r.inverse_mass;
+    std::copy_n(r.com.data(), 3, r.mass.com);
+    std::copy_n(r.inverse_inertia.data(), 9, r.mass.inverse_inertia);
+    number_[view.number] = std::int32_t(robots_.size());
     robots_.push_back(r);
+  }
+
+  void note_restitution(double restitution) {
+    for (const Material& m : materials_)
+      if (m.restitution == restitution) return;
+    materials_.push_back({restitution, damping_ratio_of(restitution)});
+  }
+  std::uint32_t material_of(double restitution) const {
+    std::uint32_t i = 0;
+    while (i + 1 < materials_.size() && materials_[i].restitution != restitution) ++i;
+    return i;
+  }
+
+  /// Whether the kernels serve a robot with these contacts.
+  bool recognise(Robot& r, std::span<const Contact> contacts) const {
+    Standing& s = r.standing;
+    s.clear();
+    if (contacts.empty() || contacts.size() > most_contacts) return false;
+    const std::uint32_t whole = bodies_[index_of(contacts[0].other)].whole;
+    s.restitution = contacts[0].restitution;
+    for (const Contact& c : contacts) {
+      const Body &self = bodies_[index_of(c.self)], &other = bodies_[index_of(c.other)];
+      if (other.twist || other.robot != nobody || other.whole != whole || c.restitution != s.restitution) return false;
+      s.add(c, pair_of(self.name, other.name, c.self_shape, c.other_shape), self.pose->position.data(),
+            self.twist->linear.data());
+    }
+    s.kind = s.signature(material_of(s.restitution));
+    return true;
+  }
+
+  /// Robots of one kind, which wait until they fill a lane.
+  struct Queue {
+    std::uint32_t count = 0;
+    Robot* robots[8];
+  };
+
+  void stand(double dt, double elapsed, Range range) {
+    StandingWork work;
+    work.omega = std::min(omega_, finest_step / dt);
+    work.h = dt;
+    work.elapsed = elapsed;
+    work.same_direction = same_direction;
+    constexpr std::size_t kinds = 4;
+    Queue queues[kinds];
+    std::size_t oldest = 0;
+    for (std::uint32_t number = range.begin; number < range.end; ++number) {
+      if (number_[number] == nobody) continue;
+      Robot& r = robots_[std::size_t(number_[number])];
+      const auto contacts = *r.contacts;
+      const auto springs = *r.grips;
+      r.left = false;
+      if (contacts.empty()) {
+        r.grips.clear();
+        *r.wrench = Wrench{};
+        continue;
+      }
+      if (!r.standing.matches(contacts, springs)) {
+        r.standing.simple = recognise(r, contacts);
+        r.left = !r.standing.simple || !r.standing.matches(contacts, springs);
+        if (r.left) r.standing.clear();
+        if (r.left) continue;
+      }
+      r.standing.view.contacts = contacts[0].point.data();
+      r.standing.view.grips = springs[0].point.data();
+      std::size_t q = 0;
+      while (q < kinds && !(queues[q].count > 0 && queues[q].robots[0]->standing.kind == r.standing.kind)) ++q;
+      if (q == kinds)
+        for (q = 0; q < kinds && queues[q].count > 0;) ++q;
+      if (q == kinds) serve(work, queues[q = oldest++ % kinds]);
+      queues[q].robots[queues[q].count++] = &r;
+      if (queues[q].count == 8) serve(work, queues[q]);
+    }
+    for (Queue& q : queues) serve(work, q);
+  }
+
+  /// Serves and empties a queue.
+  void serve(StandingWork& work, Queue& q) const {
+    if (q.count == 0) return;
+    const Standing& first = q.robots[0]->standing;
+    first.describe(work);
+    work.zeta = materials_[material_of(first.restitution)].damping_ratio;
+    work.z = std::tanh(work.zeta * work.omega * work.h);
+    const StandingRobot* views[8];
+    for (std::uint32_t i = 0; i < q.count; ++i) views[i] = &q.robots[i]->standing.view;
+    unsigned left = 0;
+    if (q.count == 8)
+      left = kernels_->push_eight(work, views);
+    else
+      for (std::uint32_t i = 0; i < q.count; ++i) left |= kernels_->push_one(work, views + i) << i;
+    for (std::uint32_t i = 0; i < q.count; ++i) q.robots[i]->left = (left >> i & 1) != 0;
+    q.count = 0;
   }
 
   /// As stiff as wanted, as far as the step resolves it.
@@ -291,11 +418,19 @@ class Penalty final : public Algorithm {
            touch.across * touch.friction.force(stretch, slip, contact.friction * normal * touch.inverse_across);
   }
 
+  struct Material {
+    double restitution, damping_ratio;
+  };
+
+  const StandingKernels* kernels_ = &standing_kernels_for(lane::best_isa());
   double omega_ = 0;
+  std::vector<Material> materials_;   ///< of all shapes; a pair has the larger restitution of two
+  std::vector<std::int32_t> number_;  ///< by robot number: in robots_
   Host* host_ = nullptr;
   bool told_ = false;
   std::vector<Body> bodies_;  ///< by object id
   std::vector<Robot> robots_;
+  std::vector<std::uint32_t> left_;  ///< robots of the second phase
   Out<std::int64_t> last_run_;
 
   // of the present step
