@@ -63,6 +63,11 @@ class Drive : public Algorithm {
     }
   }
 
+  std::span<const Phase> phases() const override {
+    static constexpr Phase phases[] = {{Phase::Over::items, Phase::Reach::own}};
+    return phases;
+  }
+
   void step(const Step&, Range range) override {
     for (std::uint32_t i = range.begin; i < range.end; ++i) {
       const Robot& r = robots_[i];

@@ -2,12 +2,14 @@
 // Poses and twists of all bodies of a robot from its base and its joints.
 #include "chain.hpp"
 #include "muro/composite.hpp"
+#include "muro/lane/numbers.hpp"
 #include "muro/plugin.hpp"
 
 namespace {
 
 using namespace muro;
 using namespace muro::kinematics;
+using lane::numbers, lane::numbers_between;
 
 constexpr Use reads[] = {
     {"pose", "of the base"},
@@ -31,8 +33,6 @@ constexpr Description description{
     .writes = writes,
     .promises = deterministic | batched | allocation_free | restorable,
 };
-
-static_assert(sizeof(Pose) == 7 * sizeof(double) && sizeof(Twist) == 6 * sizeof(double), "kernels see numbers");
 
 class Direct final : public Algorithm {
  public:
@@ -94,16 +94,16 @@ class Direct final : public Algorithm {
     for (std::size_t i = 1; i < robot.frames.size(); ++i) {
       const Frame& f = robot.frames[i];
       Place p;
-      p.pose = c.derived(f.object, keys::pose)->position.data();
-      p.twist = c.derived(f.object, keys::twist)->linear.data();
+      p.pose = numbers(c.derived(f.object, keys::pose).get());
+      p.twist = numbers(c.derived(f.object, keys::twist).get());
       if (f.joint != JointKind::fixed) connect_joint(c, robot, i, start, p);
       places.push_back(p);
     }
     r.end_follower = std::uint32_t(followers_.size());
 
     RobotState state;
-    state.base_pose = c.read(robot.base(), keys::pose)->position.data();
-    state.base_twist = c.read(robot.base(), keys::twist)->linear.data();
+    state.base_pose = numbers(c.read(robot.base(), keys::pose).get());
+    state.base_twist = numbers(c.read(robot.base(), keys::twist).get());
     Model model{kinematics::chain_of(robot.frames), {}};
     for (const Place& p : places) {
       if (!state.poses) state.poses = p.pose, state.twists = p.twist;
@@ -115,12 +115,6 @@ class Direct final : public Algorithm {
     r.model = model_number(std::move(model));
     robots_.push_back(r);
     states_.push_back(state);
-  }
-
-  /// Properties need not lie in one array, hence by their addresses.
-  static std::ptrdiff_t numbers_between(const double* from, const double* to) {
-    return (reinterpret_cast<std::intptr_t>(to) - reinterpret_cast<std::intptr_t>(from)) /
-           std::ptrdiff_t(sizeof(double));
   }
 
   void follow(const Robot& r) const {

@@ -66,6 +66,11 @@ class Point final : public Algorithm {
     }
   }
 
+  std::span<const Phase> phases() const override {
+    static constexpr Phase phases[] = {{Phase::Over::items, Phase::Reach::own}};
+    return phases;
+  }
+
   void step(const Step& step, Range range) override {
     for (std::uint32_t i = range.begin; i < range.end; ++i) move(robots_[i], step.dt);
   }

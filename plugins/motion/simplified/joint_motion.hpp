@@ -1,86 +1,111 @@
 // SPDX-License-Identifier: MIT
-// How a joint follows its target within limits of speed and acceleration. Each function advances one joint
-// by `dt` (s) with constant acceleration; positions in rad or m.
+// How a joint follows its target within limits of speed and acceleration, over a double or a lane of robots. Each
+// function advances one joint by `dt` (s) with constant acceleration; positions in rad or m.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
+#include <type_traits>
 
-namespace muro::simplified {
+#include "move.hpp"
+#include "muro/lane/lane.hpp"
 
+namespace muro::simplified::joints {
+inline namespace MURO_ISA {
+
+using lane::abs, lane::any, lane::MaskOf, lane::max, lane::min, lane::select, lane::sqrt;
+
+template <class S>
 struct JointState {
-  double position = 0;
-  double velocity = 0;
+  S position;
+  S velocity;
 };
 
-struct JointRange {
-  double lower = -std::numeric_limits<double>::infinity();
-  double upper = std::numeric_limits<double>::infinity();
-  double speed = std::numeric_limits<double>::infinity();
-  double acceleration = 1e9;
-};
+/// What is not a number stays so.
+template <class S>
+MURO_INLINE S clamp(S x, S low, S high) {
+  return select(x < low, low, select(high < x, high, x));
+}
+constexpr bool is_finite(double limit) { return limit - limit == 0; }
 
 /// The velocity u at the end of a step that begins with `v`, both towards a goal at `distance`, from which the
 /// joint can still stop there: (v + u) dt/2 + u^2 / (2 a) = distance. Negative when it must turn back.
-inline double braking_velocity(double distance, double v, double a, double dt) {
-  const double room = distance - 0.5 * v * dt;
-  const double root = std::sqrt(std::max(0.0, 0.25 * dt * dt + 2 * room / a));
-  return 2 * room / (0.5 * dt + root);
+template <class S>
+MURO_INLINE S braking_velocity(S distance, S v, double a, double dt) {
+  const S room = distance - S(0.5) * v * S(dt);
+  const S root = sqrt(max(S(0.25 * dt * dt) + S(2) * room / S(a), S(0)));
+  return S(2) * room / (S(0.5 * dt) + root);
 }
 
 /// Whether a joint can be at rest at `distance` >= 0 within `dt`: speeding up to sqrt(a d + v^2/2), then braking.
 /// The margin absorbs round-off in `distance`.
-inline bool arrives(double distance, double v, const JointRange& range, double dt) {
-  const double a = range.acceleration, margin = 1e-6 * (a * dt) * (a * dt);
-  return v >= 0 && v * v - 2 * a * distance <= margin && distance <= range.speed * dt &&
-         2 * std::sqrt(a * distance + 0.5 * v * v) - v <= a * dt * (1 + 1e-6);
+template <class S>
+MURO_INLINE MaskOf<S> arrives(S distance, S v, S speed, double a, double dt) {
+  const S margin(1e-6 * (a * dt) * (a * dt));
+  return (v >= S(0)) & (v * v - S(2 * a) * distance <= margin) & (distance <= speed * S(dt)) &
+         (S(2) * sqrt(S(a) * distance + S(0.5) * v * v) - v <= S(a * dt * (1 + 1e-6)));
 }
 
 /// Moves on with the velocity `u` at the end of the step; stops dead at a limit.
-inline void move_on(JointState& joint, double u, const JointRange& range, double dt) {
-  const double q = joint.position + 0.5 * (joint.velocity + u) * dt;
-  joint.position = std::clamp(q, range.lower, range.upper);
-  joint.velocity = joint.position == q ? u : 0;
+template <class S>
+MURO_INLINE JointState<S> moved_on(const JointState<S>& joint, S u, const JointRange& range, double dt) {
+  const S q = joint.position + S(0.5) * (joint.velocity + u) * S(dt);
+  if (!is_finite(range.lower) && !is_finite(range.upper)) return {q, u};
+  const S position = clamp(q, S(range.lower), S(range.upper));
+  return {position, select(position == q, u, S(0))};
 }
 
 /// Goes to `goal` no faster than `speed`, and stops there without overshoot.
-inline void go_to(JointState& joint, double goal, double speed, const JointRange& range, double dt) {
-  const double way = goal - joint.position, sign = way < 0 ? -1 : 1;
-  const double distance = sign * way, v = sign * joint.velocity, change = range.acceleration * dt;
-  JointRange limited = range;
-  limited.speed = speed;
-  if (arrives(distance, v, limited, dt)) {
-    joint = {goal, 0};
-    return;
-  }
-  const double u = std::min(speed, braking_velocity(distance, v, range.acceleration, dt));
+template <class S>
+MURO_INLINE JointState<S> gone_to(const JointState<S>& joint, S goal, S speed, const JointRange& range, double dt) {
+  const S way = goal - joint.position, sign = select(way < S(0), S(-1), S(1));
+  const S distance = sign * way, v = sign * joint.velocity, change(range.acceleration * dt);
+  const S u = min(speed, braking_velocity(distance, v, range.acceleration, dt));
   // Braking may exceed the limit by a hair, so that round-off of many steps does not make the joint too fast to stop.
-  move_on(joint, sign * std::clamp(u, v - change * (1 + 1e-6), v + change), range, dt);
+  const S allowed = sign * clamp(u, v - change * S(1 + 1e-6), v + change);
+  const JointState<S> on = moved_on(joint, allowed, range, dt);
+  const auto there = arrives(distance, v, speed, range.acceleration, dt);
+  return {select(there, goal, on.position), select(there, S(0), on.velocity)};
 }
 
 /// Position mode.
-inline void follow_position(JointState& joint, double target, const JointRange& range, double dt) {
-  go_to(joint, std::clamp(target, range.lower, range.upper), range.speed, range, dt);
+template <class S>
+MURO_INLINE void follow_position(JointState<S>& joint, std::type_identity_t<S> target, const JointRange& range,
+                                 double dt) {
+  joint = gone_to(joint, clamp(target, S(range.lower), S(range.upper)), S(range.speed), range, dt);
 }
 
 /// Velocity mode: takes the velocity on as fast as allowed, and stops at the limits of position.
-inline void follow_velocity(JointState& joint, double target, const JointRange& range, double dt) {
-  const double wanted = std::clamp(target, -range.speed, range.speed), change = range.acceleration * dt;
-  const double limit = wanted > 0 ? range.upper : range.lower;
-  if (wanted != 0 && std::isfinite(limit)) return go_to(joint, limit, std::abs(wanted), range, dt);
-  move_on(joint, std::clamp(wanted, joint.velocity - change, joint.velocity + change), range, dt);
+template <class S>
+MURO_INLINE void follow_velocity(JointState<S>& joint, std::type_identity_t<S> target, const JointRange& range,
+                                 double dt) {
+  const S wanted = clamp(target, S(-range.speed), S(range.speed)), change(range.acceleration * dt);
+  JointState<S> next = moved_on(joint, clamp(wanted, joint.velocity - change, joint.velocity + change), range, dt);
+  const auto towards = [&](double limit, MaskOf<S> those) {
+    if (!is_finite(limit)) return;
+    const JointState<S> there = gone_to(joint, S(limit), abs(wanted), range, dt);
+    next = {select(those, there.position, next.position), select(those, there.velocity, next.velocity)};
+  };
+  towards(range.upper, wanted > S(0));
+  towards(range.lower, wanted < S(0));
+  joint = next;
 }
 
 /// Acceleration mode.
-inline void follow_acceleration(JointState& joint, double target, const JointRange& range, double dt) {
-  const double a = std::clamp(target, -range.acceleration, range.acceleration);
-  const double change = range.acceleration * dt, v = joint.velocity;
-  double u = std::clamp(v + a * dt, -range.speed, range.speed);
-  const double up = range.upper - joint.position, down = joint.position - range.lower;
-  if (u > 0 && std::isfinite(up)) u = std::min(u, std::max(0.0, braking_velocity(up, v, range.acceleration, dt)));
-  if (u < 0 && std::isfinite(down)) u = std::max(u, std::min(0.0, -braking_velocity(down, -v, range.acceleration, dt)));
-  move_on(joint, std::clamp(u, v - change, v + change), range, dt);
+template <class S>
+MURO_INLINE void follow_acceleration(JointState<S>& joint, std::type_identity_t<S> target, const JointRange& range,
+                                     double dt) {
+  const S a = clamp(target, S(-range.acceleration), S(range.acceleration));
+  const S change(range.acceleration * dt), v = joint.velocity;
+  S u = clamp(v + a * S(dt), S(-range.speed), S(range.speed));
+  if (is_finite(range.upper)) {
+    const S most = max(braking_velocity(S(range.upper) - joint.position, v, range.acceleration, dt), S(0));
+    u = select(u > S(0), min(u, most), u);
+  }
+  if (is_finite(range.lower)) {
+    const S most = max(braking_velocity(joint.position - S(range.lower), -v, range.acceleration, dt), S(0));
+    u = select(u < S(0), max(u, -most), u);
+  }
+  joint = moved_on(joint, clamp(u, v - change, v + change), range, dt);
 }
 
-}  // namespace muro::simplified
+}  // namespace MURO_ISA
+}  // namespace muro::simplified::joints

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 #include "joint_motion.hpp"
@@ -9,11 +10,12 @@ namespace muro::simplified {
 namespace {
 
 constexpr double dt = 0.001;
+using JointState = joints::JointState<double>;
 
 TEST(JointMotion, ReachesAPositionInTheTimeOfATrapezoid) {
   // Bang-bang with a ceiling on speed: t = d / v + v / a (textbook trapezoidal profile).
   const JointRange range{.speed = 2, .acceleration = 10};
-  JointState joint;
+  JointState joint{};
   double t = 0;
   while (joint.position != 3 && t < 10) {
     follow_position(joint, 3, range, dt);
@@ -63,7 +65,7 @@ TEST(JointMotion, TurnsBackForATargetBehindIt) {
 
 TEST(JointMotion, TakesOnAVelocityAtTheGreatestAcceleration) {
   const JointRange range{.speed = 5, .acceleration = 10};
-  JointState joint;
+  JointState joint{};
   for (int k = 0; k < 400; ++k) follow_velocity(joint, 100, range, dt);
   EXPECT_NEAR(joint.velocity, 4, 1e-12);
   EXPECT_NEAR(joint.position, 0.5 * 10 * 0.4 * 0.4, 1e-12);
@@ -75,7 +77,7 @@ TEST(JointMotion, StopsAtALimitWhateverTheTarget) {
   for (const double a : {10.0, 100.0, 1e9})
     for (const bool by_acceleration : {false, true}) {
       const JointRange range{.lower = -0.5, .upper = 1, .speed = 5, .acceleration = a};
-      JointState joint;
+      JointState joint{};
       for (int k = 0; k < 3000; ++k) {
         by_acceleration ? follow_acceleration(joint, 8, range, dt) : follow_velocity(joint, 4, range, dt);
         ASSERT_LE(joint.position, 1);

@@ -19,21 +19,27 @@ struct RigidBody {
   V3<S> spin;  ///< rad/s
 };
 
+/// Cosine, and half of sine by angle, of angles whose squares are x: where the series do not serve.
+template <class S>
+[[gnu::cold, gnu::noinline]] void turn_wide(const S& x, S& cosine, S& half_sinc) {
+  const auto wide = x >= S(0.01);
+  const S half = lane::sqrt(x);
+  const lane::SinCos<S> exact = lane::sincos(half);
+  cosine = lane::select(wide, exact.cos, cosine);
+  half_sinc = lane::select(wide, S(0.5) * exact.sin / half, half_sinc);
+}
+
 /// The rotation by the vector `v` (axis times angle, rad), as muro::rotation_of.
 template <class S>
 MURO_INLINE Q4<S> rotation_by(const V3<S>& v) {
-  const S x = S(0.25) * dot(v, v), one(1);  // square of the half angle
-  S c = one - x * S(0.5) *
-                  (one - x * S(1.0 / 12) * (one - x * S(1.0 / 30) * (one - x * S(1.0 / 56) * (one - x * S(1.0 / 90)))));
-  S s = S(0.5) * (one - x * S(1.0 / 6) *
-                            (one - x * S(1.0 / 20) *
-                                       (one - x * S(1.0 / 42) * (one - x * S(1.0 / 72) * (one - x * S(1.0 / 110))))));
-  const auto wide = x >= S(0.01);  // the series serve the turns of single steps, exact to the last digit
-  if (lane::any(wide)) {
-    const S half = lane::sqrt(x);
-    const lane::SinCos<S> exact = lane::sincos(half);
-    c = lane::select(wide, exact.cos, c);
-    s = lane::select(wide, S(0.5) * exact.sin / half, s);
+  const S x = S(0.25) * dot(v, v), xx = x * x;  // square of the half angle
+  // The series serve the turns of single steps, exact to the last digit.
+  S c = (S(1) - S(0.5) * x) + xx * ((S(1.0 / 24) - S(1.0 / 720) * x) + xx * (S(1.0 / 40320) - S(1.0 / 3628800) * x));
+  S s = (S(0.5) - S(1.0 / 12) * x) + xx * ((S(1.0 / 240) - S(1.0 / 10080) * x) + xx * S(1.0 / 725760));
+  if (lane::any(x >= S(0.01))) [[unlikely]] {
+    S cosine = c, half_sinc = s;  // have addresses; c and s need not have one
+    turn_wide(x, cosine, half_sinc);
+    c = cosine, s = half_sinc;
   }
   return {s * v.x, s * v.y, s * v.z, c};
 }

@@ -4,20 +4,17 @@
 #include <bit>
 #include <string>
 
-#include "joint_motion.hpp"
-#include "moving_mass.hpp"
+#include "articulation.hpp"
+#include "move.hpp"
 #include "muro/composite.hpp"
+#include "muro/lane/numbers.hpp"
 #include "muro/plugin.hpp"
-#include "rigid.hpp"
-#include "rigid_body.hpp"
 
 namespace {
 
 using namespace muro;
 using namespace muro::simplified;
-using namespace muro::simplified::integrator;
-
-enum class Mode { velocity, position, acceleration };
+using lane::numbers, lane::numbers_between;
 
 constexpr std::string_view modes[] = {"velocity", "position", "acceleration"};
 constexpr Parameter parameters[] = {
@@ -62,9 +59,14 @@ class Simplified final : public Algorithm {
   }
 
   void start() override {
-    rigid_.clear();
-    for (const Robot& r : robots_)
-      rigid_.push_back({r.pose->position.data(), r.twist->linear.data(), nullptr, wheels_.data() + r.first_wheel});
+    further_.clear();
+    for (std::size_t i = 0; i < robots_.size(); ++i) {
+      const SumIn<Wrench>& external = robots_[i].external;
+      kinds_[i].wrenches = std::uint32_t(external.size());
+      states_[i].wrench = external.size() > 0 ? numbers(external.part(0)) : nullptr;
+      robots_[i].first_further = std::uint32_t(further_.size());
+      for (std::uint64_t k = 1; k < external.size(); ++k) further_.push_back(numbers(external.part(k)));
+    }
   }
 
   std::span<const Phase> phases() const override {
@@ -72,55 +74,44 @@ class Simplified final : public Algorithm {
     return phases;
   }
 
-  /// Neighbours of one rigid model go eight at a time.
+  /// Neighbours of one kind go eight at a time.
   void step(const Step& step, Range range) override {
     for (std::uint32_t i = range.begin, end = i; i < range.end; i = end) {
-      const Robot& first = robots_[i];
-      end = i + 1;
-      if (first.articulation >= 0) {
-        move_articulated(first, step.dt);
-        continue;
-      }
-      while (end < range.end && end < i + lane_width && robots_[end].model == first.model) ++end;
-      move_rigid(i, end, step.dt);
+      while (end < range.end && end < i + lane_width && kinds_[end] == kinds_[i]) ++end;
+      const Model& model = models_[kinds_[i].model];
+      const Work work{.mode = mode_,
+                      .joints = model.joints.data(),
+                      .joint_count = int(model.joints.size()),
+                      .mass = &model.mass,
+                      .wrenches = int(kinds_[i].wrenches),
+                      .further = further_.data() + robots_[i].first_further,
+                      .gravity = {gravity_.x(), gravity_.y(), gravity_.z()},
+                      .dt = step.dt};
+      model.rigid ? move_rigid(work, i, end) : move_articulated(work, i, end);
     }
   }
 
  private:
   static constexpr std::uint32_t lane_width = 8;
 
-  struct Robot {
-    Out<Pose> pose;
-    Out<Twist> twist;
-    SumIn<Wrench> external;
-    std::uint32_t model = 0;                       ///< in models_
-    std::uint32_t first_wheel = 0;                 ///< in wheels_
-    std::uint32_t first_joint = 0, end_joint = 0;  ///< in joints_
-    std::int32_t articulation = -1;                ///< in articulations_; -1: no joint moves mass
-    std::string name;
-  };
-  /// What the kernels need of a robot whose joints move no mass; of any other the mass alone.
+  /// Robots with the same masses and joints, whose joints lie in memory in the same way.
   struct Model {
-    RigidModel body;
-    std::vector<WheelLimits> wheels;
+    RigidMass mass;
+    std::vector<Joint> joints;
+    bool rigid = true;
     bool operator==(const Model&) const = default;
   };
-  /// Any joint but a wheel.
-  struct Joint {
-    Out<double> position, velocity;
-    In<double> target;
-    JointRange range;
-    std::int32_t leader = -1;  ///< in joints_; -1: follows its own target
-    double multiplier = 1, offset = 0;
+  /// What robots that are moved together have in common.
+  struct Kind {
+    std::uint32_t model = 0;     ///< in models_
+    std::uint32_t wrenches = 0;  ///< contributions to the external wrench
+    bool operator==(const Kind&) const = default;
   };
-  /// A robot whose joints move its masses, with the mass state of the joint state that `positions` and `velocities`
-  /// name.
-  struct Articulation {
-    MovingMass mass;
-    std::vector<std::uint32_t> joints;  ///< in joints_, in the order of mass.joints()
-    std::vector<double> positions, velocities;
-    MassState state{};
-    Mat3 inverse = Mat3::Zero();
+  struct Robot {
+    SumIn<Wrench> external;
+    std::uint32_t first_further = 0;  ///< in further_
+    std::int32_t articulation = -1;   ///< in articulations_; -1: no joint moves mass
+    std::string name;
   };
 
   void connect_robot(Connector& c, const RobotView& robot) {
@@ -132,33 +123,33 @@ class Simplified final : public Algorithm {
 
     Robot r;
     r.name = robot.name;
-    r.pose = c.variable(robot.base(), keys::pose, c.constant(robot.base(), keys::initial_pose).value_or(Pose{}));
-    r.twist = c.variable(robot.base(), keys::twist, c.constant(robot.base(), keys::initial_twist).value_or(Twist{}));
     r.external = c.read_sum(robot.base(), keys::external_wrench);
+    const Pose pose = c.constant(robot.base(), keys::initial_pose).value_or(Pose{});
+    const Twist twist = c.constant(robot.base(), keys::initial_twist).value_or(Twist{});
+    RobotState state;
+    state.pose = numbers(c.variable(robot.base(), keys::pose, pose).get());
+    state.twist = numbers(c.variable(robot.base(), keys::twist, twist).get());
     Model model;
-    model.body.inverse_mass = 1 / whole.mass;
-    std::copy_n(whole.com.data(), 3, model.body.com);
-    const Mat3 inverse = whole.tensor().inverse();
-    std::copy_n(whole.tensor().data(), 9, model.body.inertia);
-    std::copy_n(inverse.data(), 9, model.body.inverse);
-    const std::vector<std::int32_t> joint_of = connect_joints(c, robot, start, moving.rigid(), r, model);
-    r.model = model_number(std::move(model));
+    model.rigid = moving.rigid();
+    model.mass.inverse_mass = 1 / whole.mass;
+    std::copy_n(whole.com.data(), 3, model.mass.com);
+    const Mat3 inertia = whole.tensor(), inverse = inertia.inverse();
+    std::copy_n(inertia.data(), 9, model.mass.inertia);
+    std::copy_n(inverse.data(), 9, model.mass.inverse);
+    const std::vector<Place> places = connect_joints(c, robot, start);
+    model.joints = joints_of(c, robot, places, state);
     if (!moving.rigid()) {
       r.articulation = std::int32_t(articulations_.size());
-      Articulation a{.mass = std::move(moving), .joints = {}, .positions = {}, .velocities = {}};
-      for (const std::uint32_t frame : a.mass.joints()) a.joints.push_back(std::uint32_t(joint_of[frame]));
-      a.positions.assign(a.joints.size(), std::numeric_limits<double>::quiet_NaN());
-      a.velocities = a.positions;
-      articulations_.push_back(std::move(a));
+      std::vector<const double*> positions, velocities;
+      for (const std::uint32_t frame : moving.joints()) {
+        positions.push_back(places[frame].position);
+        velocities.push_back(places[frame].velocity);
+      }
+      articulations_.emplace_back(std::move(moving), std::move(positions), std::move(velocities));
     }
+    kinds_.push_back({model_number(std::move(model)), 0});
+    states_.push_back(state);
     robots_.push_back(std::move(r));
-  }
-
-  std::uint32_t model_number(Model model) {
-    const auto known = std::find(models_.begin(), models_.end(), model);
-    if (known != models_.end()) return std::uint32_t(known - models_.begin());
-    models_.push_back(std::move(model));
-    return std::uint32_t(models_.size() - 1);
   }
 
   static void check_mass(const RobotView& robot, const Inertia& whole) {
@@ -173,155 +164,94 @@ class Simplified final : public Algorithm {
                   " kg m^2; all must be positive: give its bodies an inertia (`inertial`) that fits their mass");
   }
 
-  /// Whether a joint follows a velocity, free of everything else.
-  bool is_wheel(const RobotView& robot, std::size_t frame) const {
-    const Frame& f = robot.frames[frame];
-    const bool leads = std::any_of(robot.frames.begin(), robot.frames.end(),
-                                   [&](const Frame& g) { return g.mimic == std::int32_t(frame); });
-    return mode_ == Mode::velocity && f.mimic < 0 && !leads && std::isinf(f.limits.lower) && std::isinf(f.limits.upper);
-  }
+  /// Where the state of a joint lies; null where there is none.
+  struct Place {
+    double* position = nullptr;
+    double* velocity = nullptr;
+    const double* target = nullptr;
+  };
 
-  /// Returns the joint's place in joints_ by frame. Wheels of a rigid robot go to wheels_ instead.
-  std::vector<std::int32_t> connect_joints(Connector& c, const RobotView& robot, const std::vector<double>& start,
-                                           bool rigid, Robot& r, Model& model) {
-    std::vector<std::int32_t> place(robot.frames.size(), -1);
-    r.first_wheel = std::uint32_t(wheels_.size());
-    r.first_joint = r.end_joint = std::uint32_t(joints_.size());
-    for (std::size_t i = 0; i < place.size(); ++i)
-      if (robot.frames[i].joint != JointKind::fixed && !(rigid && is_wheel(robot, i)))
-        place[i] = std::int32_t(r.end_joint++);
-    for (std::size_t i = 0; i < place.size(); ++i) {
+  /// One a frame.
+  std::vector<Place> connect_joints(Connector& c, const RobotView& robot, const std::vector<double>& start) const {
+    std::vector<Place> places(robot.frames.size());
+    for (std::size_t i = 0; i < places.size(); ++i) {
       const Frame& f = robot.frames[i];
       if (f.joint == JointKind::fixed) continue;
       if (start[i] < f.limits.lower || start[i] > f.limits.upper)
         throw Error("joint `" + std::string(c.object_name(f.joint_object)) + "` starts at " + std::to_string(start[i]) +
                     ", outside of its limits " + std::to_string(f.limits.lower) + " to " +
                     std::to_string(f.limits.upper) + "; set `joint.position.initial` to a value between them");
+      places[i].position = c.variable(f.joint_object, keys::joint_position, start[i]).get();
+      places[i].velocity = c.variable(f.joint_object, keys::joint_velocity, 0.0).get();
+      if (f.mimic >= 0) continue;
+      places[i].target = (mode_ == Mode::velocity   ? c.input(f.joint_object, keys::joint_velocity_target, 0.0)
+                          : mode_ == Mode::position ? c.input(f.joint_object, keys::joint_position_target, start[i])
+                                                    : c.input(f.joint_object, keys::joint_acceleration_target, 0.0))
+                             .get();
+    }
+    return places;
+  }
+
+  /// The joints as kernels see them; sets the places of the first one in `state`.
+  static std::vector<Joint> joints_of(const Connector& c, const RobotView& robot, const std::vector<Place>& places,
+                                      RobotState& state) {
+    std::vector<Joint> joints;
+    std::vector<int> number(places.size(), -1);
+    for (std::size_t i = 0, count = 0; i < places.size(); ++i)
+      if (places[i].position) number[i] = int(count++);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const Frame& f = robot.frames[i];
+      const Place& p = places[i];
+      if (!p.position) continue;
+      if (!state.positions) state.positions = p.position, state.velocities = p.velocity;
+      if (!state.targets) state.targets = p.target;
       Joint j;
-      j.position = c.variable(f.joint_object, keys::joint_position, start[i]);
-      j.velocity = c.variable(f.joint_object, keys::joint_velocity, 0.0);
       j.range = {f.limits.lower, f.limits.upper, f.limits.velocity, c.parameters().real("max_joint_acceleration")};
+      j.position = numbers_between(state.positions, p.position);
+      j.velocity = numbers_between(state.velocities, p.velocity);
+      if (p.target) j.target = numbers_between(state.targets, p.target);
       if (f.mimic >= 0) {
-        j.leader = place[std::size_t(f.mimic)];
+        j.leader = number[std::size_t(f.mimic)];
         j.multiplier = f.mimic_multiplier;
         j.offset = f.mimic_offset;
-      } else {
-        j.target = mode_ == Mode::velocity   ? c.input(f.joint_object, keys::joint_velocity_target, 0.0)
-                   : mode_ == Mode::position ? c.input(f.joint_object, keys::joint_position_target, start[i])
-                                             : c.input(f.joint_object, keys::joint_acceleration_target, 0.0);
       }
-      if (place[i] >= 0) {
-        joints_.push_back(j);
-      } else {
-        wheels_.push_back({j.position.get(), j.velocity.get(), j.target.get()});
-        model.wheels.push_back({j.range.speed, j.range.acceleration});
+      joints.push_back(j);
+    }
+    for (std::size_t k = 0; k + 4 <= joints.size(); ++k) {
+      joints[k].four = true;
+      for (std::ptrdiff_t n = 0; n < 4; ++n) {
+        const Joint &first = joints[k], &j = joints[k + std::size_t(n)];
+        joints[k].four = first.four && j.leader < 0 && j.position == first.position + n &&
+                         j.velocity == first.velocity + n && j.target == first.target + n;
       }
     }
-    return place;
+    return joints;
   }
 
-  void move_joints(const Robot& r, double dt) {
-    for (std::uint32_t i = r.first_joint; i < r.end_joint; ++i) {
-      const Joint& j = joints_[i];
-      if (j.leader >= 0) continue;
-      JointState state{*j.position, *j.velocity};
-      switch (mode_) {
-        case Mode::velocity:
-          follow_velocity(state, *j.target, j.range, dt);
-          break;
-        case Mode::position:
-          follow_position(state, *j.target, j.range, dt);
-          break;
-        case Mode::acceleration:
-          follow_acceleration(state, *j.target, j.range, dt);
-          break;
-      }
-      *j.position = state.position;
-      *j.velocity = state.velocity;
-    }
-    for (std::uint32_t i = r.first_joint; i < r.end_joint; ++i) {
-      const Joint& j = joints_[i];
-      if (j.leader < 0) continue;
-      const Joint& leader = joints_[std::size_t(j.leader)];  // follows nobody itself
-      *j.position = j.offset + j.multiplier * *leader.position;
-      *j.velocity = j.multiplier * *leader.velocity;
-    }
+  std::uint32_t model_number(Model model) {
+    const auto known = std::find(models_.rbegin(), models_.rend(), model);  // mostly the last one
+    if (known != models_.rend()) return std::uint32_t(models_.rend() - known) - 1;
+    models_.push_back(std::move(model));
+    return std::uint32_t(models_.size() - 1);
   }
 
-  /// Robots `begin` to `end` - 1, of one model.
-  void move_rigid(std::uint32_t begin, std::uint32_t end, double dt) {
-    const Model& model = models_[robots_[begin].model];
-    const RigidWork work{&model.body,
-                         model.wheels.data(),
-                         std::uint32_t(model.wheels.size()),
-                         {gravity_.x(), gravity_.y(), gravity_.z()},
-                         dt};
-    Wrench external[lane_width];
-    RigidRobot robots[lane_width];
-    for (std::uint32_t i = begin; i < end; ++i) {
-      move_joints(robots_[i], dt);
-      external[i - begin] = robots_[i].external.value();
-      robots[i - begin] = rigid_[i];
-      robots[i - begin].wrench = external[i - begin].force.data();
-    }
-    unsigned broken = 0;
-    if (end - begin == lane_width)
-      broken = kernels_->move_eight(work, robots);
-    else
-      for (std::uint32_t i = begin; i < end; ++i)
-        broken |= kernels_->move_one(work, robots + (i - begin)) << (i - begin);
-    if (broken != 0) {
-      const auto first = std::uint32_t(std::countr_zero(broken));
-      fail(robots_[begin + first], external[first]);
-    }
+  void move_rigid(const Work& work, std::uint32_t begin, std::uint32_t end) const {
+    const unsigned broken = kernels_->move_rigid(work, &states_[begin], int(end - begin));
+    if (broken != 0) fail(robots_[begin + std::uint32_t(std::countr_zero(broken))]);
   }
 
-  void move_articulated(const Robot& r, double dt) {
-    Articulation& a = articulations_[std::size_t(r.articulation)];
-    update(a);
-    const MassState before = a.state;
-    const Mat3 inverse_before = a.inverse;
-    move_joints(r, dt);
-    update(a);
-    move_base(r, before, a.state, 0.5 * (inverse_before + a.inverse), a.inverse, dt);
+  void move_articulated(const Work& work, std::uint32_t begin, std::uint32_t end) {
+    const auto articulation = [&](std::uint32_t i) -> Articulation& {
+      return articulations_[std::size_t(robots_[i].articulation)];
+    };
+    for (std::uint32_t i = begin; i < end; ++i) articulation(i).begin_step();
+    kernels_->move_joints(work, &states_[begin], int(end - begin));
+    for (std::uint32_t i = begin; i < end; ++i)
+      if (!articulation(i).move_base(work, states_[i], robots_[i].external.value())) fail(robots_[i]);
   }
 
-  /// Brings `state` up to the present joint state, if it is of another one.
-  void update(Articulation& a) const {
-    bool same = true;
-    for (std::size_t k = 0; k < a.joints.size(); ++k) {
-      const Joint& j = joints_[a.joints[k]];
-      same = same && a.positions[k] == *j.position && a.velocities[k] == *j.velocity;
-      a.positions[k] = *j.position;
-      a.velocities[k] = *j.velocity;
-    }
-    if (same) return;
-    a.state = a.mass.state(a.positions, a.velocities);
-    a.inverse = a.state.tensor.inverse();
-  }
-
-  static V3<double> plain(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
-  static M3<double> plain(const Mat3& m) {
-    return {plain(Vec3(m.col(0))), plain(Vec3(m.col(1))), plain(Vec3(m.col(2)))};
-  }
-  static Mass<double> plain(const MassState& m) { return {plain(m.com), plain(m.com_velocity), plain(m.tensor)}; }
-
-  void move_base(const Robot& r, const MassState& before, const MassState& after, const Mat3& inverse_half,
-                 const Mat3& inverse_end, double dt) const {
+  [[noreturn]] static void fail(const Robot& r) {
     const Wrench external = r.external.value();
-    const Quat& q = r.pose->orientation;
-    lane::PoseOf<double> pose{plain(r.pose->position), {q.x(), q.y(), q.z(), q.w()}};
-    lane::TwistOf<double> twist{plain(r.twist->linear), plain(r.twist->angular)};
-    integrator::move_base<true>(pose, twist, plain(external.force), plain(external.torque), plain(before), plain(after),
-                                plain(inverse_half), plain(inverse_end), models_[r.model].body.inverse_mass,
-                                plain(gravity_), dt);
-    const auto& [x, turn] = pose;
-    *r.pose = {{x.x, x.y, x.z}, Quat(turn.w, turn.x, turn.y, turn.z)};
-    *r.twist = {{twist.linear.x, twist.linear.y, twist.linear.z}, {twist.angular.x, twist.angular.y, twist.angular.z}};
-    if (!std::isfinite(r.pose->position.sum() + r.twist->linear.sum() + r.twist->angular.sum())) fail(r, external);
-  }
-
-  [[noreturn]] static void fail(const Robot& r, const Wrench& external) {
     const bool bad_input = !std::isfinite(external.force.sum() + external.torque.sum());
     throw Error("the motion of `" + r.name + "` is no longer finite" +
                 (bad_input
@@ -332,12 +262,12 @@ class Simplified final : public Algorithm {
 
   Mode mode_ = Mode::velocity;
   Vec3 gravity_ = Vec3::Zero();
-  const RigidKernels* kernels_ = &rigid_kernels_for(lane::best_isa());
-  std::vector<Robot> robots_;
+  const Kernels* kernels_ = &kernels_for(lane::best_isa());
   std::vector<Model> models_;
-  std::vector<Wheel> wheels_;
-  std::vector<RigidRobot> rigid_;  ///< one a robot
-  std::vector<Joint> joints_;
+  std::vector<Kind> kinds_;             ///< one a robot
+  std::vector<RobotState> states_;      ///< one a robot
+  std::vector<Robot> robots_;           ///< the rest of them
+  std::vector<const double*> further_;  ///< contributions to wrenches, but the first of each robot
   std::vector<Articulation> articulations_;
 };
 

@@ -13,6 +13,49 @@ using Vec2 = Eigen::Vector2d;
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 Vec2 left_of(const Vec2& a) { return {-a.y(), a.x()}; }
 
+/// The normals on one side of both ends of two cylinders, where h is that of two rims:
+/// h(n) = n . offset + radius_0 |n x disc_0| + radius_1 |n x disc_1|.
+class RimPatch {
+ public:
+  /// `s0`, `s1`: the signs of n . disc_0 and n . disc_1.
+  RimPatch(const DepthFunction& h, double s0, double s1)
+      : h_(h), offset_(h.offset + s0 * h.half[0] * h.disc[0] + s1 * h.half[1] * h.disc[1]) {}
+
+  /// The point of the difference that lies farthest along the unit vector n.
+  Vec3 support(const Vec3& n) const {
+    const Vec3 a = n - n.dot(h_.disc[0]) * h_.disc[0], b = n - n.dot(h_.disc[1]) * h_.disc[1];
+    return offset_ + a * (h_.radius[0] / std::sqrt(a.squaredNorm())) + b * (h_.radius[1] / std::sqrt(b.squaredNorm()));
+  }
+
+  /// Where h has a minimum that is not above `most`, the support is p = offset + radius_0 c_0 + radius_1 c_1 = h n, with
+  /// units c_j at right angles to disc_j. So no component of p is above `most`. Along disc_0 and disc_1 this bounds the
+  /// angles of c_1 and c_0 with the plane of both axes, and along w, at right angles to that plane, it holds them
+  /// against each other; n is on the side of w.
+  bool may_hold_minimum(const Vec3& w, double sine, double most) const {
+    const Interval up0 = rise(offset_.dot(h_.disc[1]), h_.radius[0] * sine, most),
+                   up1 = rise(offset_.dot(h_.disc[0]), h_.radius[1] * sine, most);
+    if (up0.low > up0.high || up1.low > up1.high) return false;
+    const double along = -offset_.dot(w);
+    return along >= h_.radius[0] * up0.low + h_.radius[1] * up1.low - most &&
+           along <= h_.radius[0] * up0.high + h_.radius[1] * up1.high + most;
+  }
+
+ private:
+  struct Interval {
+    double low, high;
+  };
+  /// The sines of angles whose cosines make |offset + reach * cosine| <= most.
+  static Interval rise(double offset, double reach, double most) {
+    const double nearest = std::max(0.0, std::abs(offset) - most) / reach, farthest = (std::abs(offset) + most) / reach;
+    if (nearest > 1 + 1e-9) return {1, 0};
+    const auto sine_of = [](double cosine) { return std::sqrt(std::max(0.0, 1 - cosine * cosine)); };
+    return {sine_of(farthest), sine_of(nearest)};
+  }
+
+  const DepthFunction& h_;
+  const Vec3 offset_;  ///< m, between the middles of the rims
+};
+
 struct Search {
   const DepthFunction& h;
   double least = std::numeric_limits<double>::infinity();
@@ -45,7 +88,7 @@ struct Search {
   bool newton(const Vec3& n, Vec3& step) const;
   void descend(Vec3 n);
   void rims();
-  void triangle(const Vec3& a, const Vec3& b, const Vec3& c);
+  void triangle(const RimPatch& patch, const Vec3& a, const Vec3& b, const Vec3& c);
 };
 
 /// h on the normals n = x a + y b at right angles to one segment, where no kink lies between p and q:
@@ -214,24 +257,28 @@ void Search::rims() {
   const double sine = side.norm();
   if (sine < 1e-9) return;
   const Vec3 w = side / sine, e0 = h.disc[0].cross(w), e1 = h.disc[1].cross(w);
-  for (int octant = 0; octant < 8; ++octant)
-    triangle(octant & 1 ? e0 : Vec3(-e0), octant & 2 ? e1 : Vec3(-e1), octant & 4 ? w : Vec3(-w));
+  for (const double s0 : {1.0, -1.0})
+    for (const double s1 : {1.0, -1.0}) {
+      const RimPatch patch(h, s0, s1);
+      for (const double up : {1.0, -1.0})
+        if (patch.may_hold_minimum(up * w, sine, least)) triangle(patch, -s1 * e0, s0 * e1, up * w);
+    }
 }
 
 /// Branch and bound: with the point p of the difference that is outermost along the middle, h(n) >= p . n.
 /// At a disc's axis h has the tip of a cone, so triangles get smaller towards it before Newton's method is tried.
-void Search::triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
+void Search::triangle(const RimPatch& patch, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 m = (a + b + c).normalized();
-  const Vec3 p = h.support(m);
+  const Vec3 p = patch.support(m);
   if (std::min({p.dot(a), p.dot(b), p.dot(c)}) >= std::max(least, 0.0)) return;
   const double wide = std::sqrt(std::max({(a - m).squaredNorm(), (b - m).squaredNorm(), (c - m).squaredNorm()}));
   const double tip = std::sqrt(std::min(m.cross(h.disc[0]).squaredNorm(), m.cross(h.disc[1]).squaredNorm()));
   if (wide > 1e-3 && wide > std::min(0.15, 0.5 * tip)) {
     const Vec3 ab = (a + b).normalized(), bc = (b + c).normalized(), ca = (c + a).normalized();
-    triangle(ab, bc, ca);
-    triangle(a, ab, ca);
-    triangle(b, bc, ab);
-    triangle(c, ca, bc);
+    triangle(patch, ab, bc, ca);
+    triangle(patch, a, ab, ca);
+    triangle(patch, b, bc, ab);
+    triangle(patch, c, ca, bc);
     return;
   }
   Vec3 step;

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// A robot whose joints move its masses.
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "move.hpp"
+#include "moving_mass.hpp"
+#include "muro/lane/rows.hpp"
+#include "rigid_body.hpp"
+
+namespace muro::simplified {
+
+class Articulation {
+ public:
+  /// `positions`, `velocities`: of mass.joints().
+  Articulation(MovingMass mass, std::vector<const double*> positions, std::vector<const double*> velocities)
+      : mass_(std::move(mass)),
+        places_(std::move(positions)),
+        rate_places_(std::move(velocities)),
+        positions_(places_.size(), std::numeric_limits<double>::quiet_NaN()),
+        velocities_(positions_) {}
+
+  /// To be called before the joints move.
+  void begin_step() {
+    update();
+    before_ = state_;
+    inverse_before_ = inverse_;
+  }
+
+  /// To be called when the joints have moved. Whether the new state is finite.
+  bool move_base(const Work& work, const RobotState& robot, const Wrench& external) {
+    update();
+    lane::Places<double, double> pose_at{{robot.pose}}, twist_at{{robot.twist}};
+    lane::PoseOf<double> pose = lane::load_pose(lane::as_read(pose_at));
+    lane::TwistOf<double> twist = lane::load_twist(lane::as_read(twist_at));
+    integrator::move_base<true>(pose, twist, plain(external.force), plain(external.torque), plain(before_),
+                                plain(state_), plain(Mat3(0.5 * (inverse_before_ + inverse_))), plain(inverse_),
+                                work.mass->inverse_mass, lane::splat<double>(work.gravity), work.dt);
+    lane::store_pose(pose_at, 0, pose);
+    lane::store_twist(twist_at, 0, twist);
+    const auto all = pose.position + twist.linear + twist.angular;
+    return std::isfinite(all.x + all.y + all.z);
+  }
+
+ private:
+  using Vector = lane::V3<double>;
+  using Matrix = lane::M3<double>;
+  static Vector plain(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+  static Matrix plain(const Mat3& m) { return {plain(Vec3(m.col(0))), plain(Vec3(m.col(1))), plain(Vec3(m.col(2)))}; }
+  static integrator::Mass<double> plain(const MassState& m) {
+    return {plain(m.com), plain(m.com_velocity), plain(m.tensor)};
+  }
+
+  /// Brings the mass state up to the present joint state, if it is of another one.
+  void update() {
+    bool same = true;
+    for (std::size_t k = 0; k < places_.size(); ++k) {
+      same = same && positions_[k] == *places_[k] && velocities_[k] == *rate_places_[k];
+      positions_[k] = *places_[k];
+      velocities_[k] = *rate_places_[k];
+    }
+    if (same) return;
+    state_ = mass_.state(positions_, velocities_);
+    inverse_ = state_.tensor.inverse();
+  }
+
+  MovingMass mass_;
+  std::vector<const double*> places_, rate_places_;
+  std::vector<double> positions_, velocities_;  ///< the joint state that state_ belongs to
+  MassState state_, before_;
+  Mat3 inverse_ = Mat3::Zero(), inverse_before_ = Mat3::Zero();
+};
+
+}  // namespace muro::simplified

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+#include "joint_motion.hpp"
+#include "move.hpp"
+#include "muro/lane/rows.hpp"
+#include "rigid_body.hpp"
+
+namespace muro::simplified {
+namespace {
+
+using namespace lane;
+using joints::JointState;
+
+/// RobotState of as many robots as S has values; without as many, the first stands in.
+template <class S>
+struct States {
+  Places<S, double> pose, twist, positions, velocities;
+  Places<S> wrench, targets;
+
+  MURO_INLINE States(const RobotState* robots, int count) {
+    for (int i = 0; i < count_of<S>; ++i) {
+      const RobotState& r = robots[i < count ? i : 0];
+      pose.at[i] = r.pose, twist.at[i] = r.twist, wrench.at[i] = r.wrench;
+      positions.at[i] = r.positions, velocities.at[i] = r.velocities, targets.at[i] = r.targets;
+    }
+  }
+};
+
+/// Apart, for it needs many registers, and wheels are in no need of it.
+template <class S>
+[[gnu::noinline]] void follow_within_limits(Mode mode, JointState<S>& joint, const S& target, const JointRange& range,
+                                            double dt) {
+  if (mode == Mode::velocity)
+    joints::follow_velocity(joint, target, range, dt);
+  else if (mode == Mode::position)
+    joints::follow_position(joint, target, range, dt);
+  else
+    joints::follow_acceleration(joint, target, range, dt);
+}
+
+template <class S>
+MURO_INLINE void follow(const Work& work, S& position, S& velocity, S target, const JointRange& range) {
+  JointState<S> joint{position, velocity};
+  if (work.mode == Mode::velocity && !joints::is_finite(range.lower) && !joints::is_finite(range.upper)) {
+    joints::follow_velocity(joint, target, JointRange{.speed = range.speed, .acceleration = range.acceleration},
+                            work.dt);
+    position = joint.position, velocity = joint.velocity;
+  } else {
+    JointState<S> limited = joint;  // has an address; joint need not have one
+    follow_within_limits<S>(work.mode, limited, target, range, work.dt);
+    position = limited.position, velocity = limited.velocity;
+  }
+}
+
+template <class S>
+MURO_INLINE void move_joints(const Work& work, const States<S>& states, unsigned which) {
+  const auto move = [&]<int n>(const Joint* j, std::integral_constant<int, n>) {
+    S q[n], v[n], target[n];
+    load_rows(as_read(states.positions), j->position, q);
+    load_rows(as_read(states.velocities), j->velocity, v);
+    load_rows(states.targets, j->target, target);
+    for (int i = 0; i < n; ++i) follow(work, q[i], v[i], target[i], j[i].range);
+    store_rows(states.positions, j->position, q, which);
+    store_rows(states.velocities, j->velocity, v, which);
+    return n;
+  };
+  bool leads = false;
+  for (int k = 0; k < work.joint_count;) {
+    const Joint* const j = work.joints + k;
+    leads = leads || j->leader >= 0;
+    if (j->leader >= 0)
+      ++k;
+    else
+      k += j->four ? move(j, std::integral_constant<int, 4>()) : move(j, std::integral_constant<int, 1>());
+  }
+  for (int k = 0; leads && k < work.joint_count; ++k) {
+    const Joint& j = work.joints[k];
+    if (j.leader < 0) continue;
+    const Joint& leader = work.joints[j.leader];  // follows nobody itself
+    const S factor(j.multiplier);
+    const S q[] = {S(j.offset) + factor * load<S>(as_read(states.positions), leader.position)};
+    const S v[] = {factor * load<S>(as_read(states.velocities), leader.velocity)};
+    store_rows(states.positions, j.position, q, which);
+    store_rows(states.velocities, j.velocity, v, which);
+  }
+}
+
+template <class S>
+MURO_INLINE M3<S> matrix_of(const double* columns) {
+  return {splat<S>(columns), splat<S>(columns + 3), splat<S>(columns + 6)};
+}
+
+/// Force and torque: all contributions, in their order.
+template <class S>
+MURO_INLINE TwistOf<S> wrench_of(const Work& work, const States<S>& states, int count) {
+  const V3<S> none{S(0), S(0), S(0)};
+  if (work.wrenches == 0) return {none, none};
+  TwistOf<S> sum = load_twist(states.wrench);
+  for (int k = 0; k < work.wrenches - 1; ++k) {
+    Places<S> at;
+    for (int i = 0; i < count_of<S>; ++i) at.at[i] = work.further[(i < count ? i : 0) * (work.wrenches - 1) + k];
+    const TwistOf<S> one = load_twist(at);
+    sum.linear += one.linear, sum.angular += one.angular;
+  }
+  return sum;
+}
+
+template <class S>
+unsigned move_some(const Work& work, const RobotState* robots, int count) {
+  const States<S> states(robots, count);
+  const unsigned which = first_lanes(count);
+  move_joints(work, states, which);
+  PoseOf<S> pose = load_pose(as_read(states.pose));
+  TwistOf<S> twist = load_twist(as_read(states.twist));
+  const TwistOf<S> wrench = wrench_of(work, states, count);
+  const V3<S> none{S(0), S(0), S(0)};
+  const integrator::Mass<S> mass{splat<S>(work.mass->com), none, matrix_of<S>(work.mass->inertia)};
+  const M3<S> inverse = matrix_of<S>(work.mass->inverse);
+  integrator::move_base<false>(pose, twist, wrench.linear, wrench.angular, mass, mass, inverse, inverse,
+                               S(work.mass->inverse_mass), splat<S>(work.gravity), work.dt);
+  store_pose(states.pose, 0, pose, which);
+  store_twist(states.twist, 0, twist, which);
+  const V3<S> all = pose.position + twist.linear + twist.angular;
+  const S sum = all.x + all.y + all.z;
+  return bits(!(sum - sum == S(0))) & which;
+}
+
+template <class S>
+void move_joints_of_some(const Work& work, const RobotState* robots, int count) {
+  move_joints(work, States<S>(robots, count), first_lanes(count));
+}
+
+void move_joints_of(const Work& work, const RobotState* robots, int count) {
+  if (count >= worth_a_lane) return move_joints_of_some<Double8>(work, robots, count);
+  for (int i = 0; i < count; ++i) move_joints_of_some<double>(work, robots + i, 1);
+}
+
+unsigned move_rigid(const Work& work, const RobotState* robots, int count) {
+  if (count >= worth_a_lane) return move_some<Double8>(work, robots, count);
+  unsigned broken = 0;
+  for (int i = 0; i < count; ++i) {
+    Work alone = work;
+    alone.further += i * (work.wrenches - 1);
+    broken |= move_some<double>(alone, robots + i, 1) << i;
+  }
+  return broken;
+}
+
+}  // namespace
+
+namespace MURO_ISA {
+extern const Kernels kernels;
+const Kernels kernels{&move_joints_of, &move_rigid};
+}  // namespace MURO_ISA
+
+}  // namespace muro::simplified

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <random>
+
+#include "each_isa.hpp"
+
+namespace muro::lane_test {
+namespace {
+
+struct Found {
+  double sines[values], cosines[values];
+};
+Found sincos(lane::Isa isa, Width width, const double (&angles)[values]) {
+  Found f;
+  kernels_for(isa).sincos(width, angles, f.sines, f.cosines);
+  return f;
+}
+
+/// Angles of all sizes up to 10^6, and such that lie beside a multiple of pi/4.
+void draw(std::mt19937& random, double (&angles)[values]) {
+  std::uniform_real_distribution<double> unit(-1, 1);
+  for (double& a : angles) {
+    a = unit(random) * std::pow(10, 6 * std::abs(unit(random)));
+    if (unit(random) > 0.5) a = M_PI / 4 * std::round(a) + 1e-7 * unit(random) * unit(random);
+    if (std::abs(a) > 1e6) a = unit(random);
+  }
+}
+
+TEST(SinCos, AgreesWithLongDoubleTo52Bits) {
+  std::mt19937 random(1);
+  double angles[values], worst = 0;
+  for (int round = 0; round < 100000; ++round) {
+    draw(random, angles);
+    const Found f = sincos(lane::best_isa(), Width::eight, angles);
+    for (int i = 0; i < values; ++i) {
+      worst = std::max(worst, double(std::abs(f.sines[i] - std::sin((long double)(angles[i])))));
+      worst = std::max(worst, double(std::abs(f.cosines[i] - std::cos((long double)(angles[i])))));
+    }
+  }
+  EXPECT_LT(worst, 0x1p-52);
+  EXPECT_GT(worst, 0) << "nothing was compared";
+}
+
+TEST(SinCos, ALaneHasTheBitsOfOneDoubleWithAnyInstructionSet) {
+  std::mt19937 random(2);
+  double angles[values];
+  for (int round = 0; round < 10000; ++round) {
+    draw(random, angles);
+    if (round % 3 == 0) angles[round % values] *= 1e9;  // beyond the reach of the own method
+    const Found one = sincos(lane::Isa::base, Width::one, angles);
+    for (const lane::Isa isa : each_isa())
+      for (const Width width : {Width::one, Width::eight}) {
+        const Found f = sincos(isa, width, angles);
+        for (int i = 0; i < values; ++i) {
+          ASSERT_EQ(std::bit_cast<std::uint64_t>(f.sines[i]), std::bit_cast<std::uint64_t>(one.sines[i])) << angles[i];
+          ASSERT_EQ(std::bit_cast<std::uint64_t>(f.cosines[i]), std::bit_cast<std::uint64_t>(one.cosines[i]));
+        }
+      }
+  }
+}
+
+TEST(SinCos, IsThatOfTheLibraryForHugeAnglesAndNoNumberForNone) {
+  const double angles[values] = {1e7, -1e9, 1e300, HUGE_VAL, -HUGE_VAL, std::nan(""), 0.5, 1e6, -2e6};
+  for (const lane::Isa isa : each_isa()) {
+    const Found f = sincos(isa, Width::eight, angles);
+    for (const int i : {0, 1, 2, 8}) {
+      EXPECT_EQ(f.sines[i], std::sin(angles[i]));
+      EXPECT_EQ(f.cosines[i], std::cos(angles[i]));
+    }
+    for (const int i : {3, 4, 5}) EXPECT_TRUE(std::isnan(f.sines[i]) && std::isnan(f.cosines[i]));
+    EXPECT_NEAR(f.sines[6], std::sin(0.5), 0x1p-52);
+    EXPECT_EQ(f.sines[9], 0);
+    EXPECT_EQ(f.cosines[9], 1);
+  }
+}
+
+TEST(SinCos, IsOddAndEven) {
+  std::mt19937 random(3);
+  double angles[values], opposite[values];
+  for (int round = 0; round < 1000; ++round) {
+    draw(random, angles);
+    for (int i = 0; i < values; ++i) opposite[i] = -angles[i];
+    const Found f = sincos(lane::best_isa(), Width::eight, angles),
+                g = sincos(lane::best_isa(), Width::eight, opposite);
+    for (int i = 0; i < values; ++i) {
+      EXPECT_EQ(f.sines[i], -g.sines[i]) << angles[i];
+      EXPECT_EQ(f.cosines[i], g.cosines[i]) << angles[i];
+    }
+  }
+}
+
+}  // namespace
+}  // namespace muro::lane_test
