@@ -265,9 +265,9 @@ class Penalty final : public Algorithm {
     work.zeta = materials_[material_of(first.restitution)].damping_ratio;
     work.z = std::tanh(work.zeta * work.omega * work.h);
     const StandingRobot* views[8];
-    for (std::uint32_t i = 0; i < q.count; ++i) views[i] = &q.robots[i]->standing.view;
+    for (std::uint32_t i = 0; i < 8; ++i) views[i] = &q.robots[i < q.count ? i : 0]->standing.view;
     unsigned left = 0;
-    if (q.count == 8)
+    if (q.count >= 4)  // a lane costs less than four robots one by one; who fills it up is served like itself
       left = kernels_->push_eight(work, views);
     else
       for (std::uint32_t i = 0; i < q.count; ++i) left |= kernels_->push_one(work, views + i) << i;
