@@ -2,6 +2,7 @@
 #include "core/executor.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/error.hpp"
 
@@ -108,6 +109,17 @@ bool Executor::choose_parallel(Program& program) const {
   return t.state == State::settled ? t.parallel : t.state == State::parallel;
 }
 
+/// A machine that is busy with other things may put a worker aside in the middle of its work, which a short trial
+/// does not see: what several threads gain is watched as long as they run.
+void Executor::watch(Program::Trial& t, double passed) {
+  constexpr std::uint32_t window = 64;
+  t.watched += passed;
+  if (t.instants % window != 0) return;
+  if (std::exchange(t.watched, 0) <= window * t.serial) return;
+  t.parallel = false;
+  t.instants = 0;
+}
+
 /// Time decides who computes a result, never what it is.
 void Executor::learn(Program::Trial& t, std::uint64_t passed) {
   using State = Program::Trial::State;
@@ -115,6 +127,7 @@ void Executor::learn(Program::Trial& t, std::uint64_t passed) {
   constexpr double worth = 0.97;  // of the time on one thread
   ++t.instants;
   if (t.state == State::settled) {
+    if (t.parallel) watch(t, double(passed));
     if (t.instants < t.pause) return;
     t.state = State::serial;
     t.instants = 0;
@@ -135,6 +148,7 @@ void Executor::learn(Program::Trial& t, std::uint64_t passed) {
   t.pause = t.known && better == t.parallel ? std::min(2 * t.pause, longest_pause) : shortest_pause;
   t.known = true;
   t.parallel = better;
+  t.watched = 0;
   t.state = State::settled;
 }
 

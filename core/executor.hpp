@@ -37,6 +37,7 @@ struct Program {
     std::uint32_t instants = 0;  ///< in the present state
     std::uint32_t pause = 0;     ///< instants until the next trial; doubles while the answer stays the same
     double serial = 0;           ///< ticks of an instant on one thread
+    double watched = 0;          ///< ticks of instants on several threads since the last look
     std::array<double, counted> seen{};
   } trial;
 };
@@ -79,6 +80,7 @@ class Executor {
   static void run_piece(void* instant, std::uint32_t chain, unsigned thread);
   bool choose_parallel(Program& program) const;
   static void learn(Program::Trial& trial, std::uint64_t passed);
+  static void watch(Program::Trial& trial, double passed);
   void check();
 
   unsigned threads_ = 1;

@@ -9,6 +9,7 @@ namespace muro {
 namespace {
 
 constexpr auto patience = std::chrono::microseconds(150);  // of a worker before it sleeps
+constexpr auto courtesy = std::chrono::microseconds(20);   // before work of another thread is taken
 
 void relax() {
 #if defined(__x86_64__)
@@ -61,12 +62,33 @@ void Workers::round(std::uint32_t first, std::uint32_t pieces, Work work, void* 
 }
 
 void Workers::work_through(std::uint32_t round, unsigned self) {
+  empty(shares_[self], round, self);
+  if (shares_.size() == 1 || !others_are_late(round)) return;
+  for (std::size_t k = 1; k < shares_.size(); ++k) empty(shares_[(self + k) % shares_.size()], round, self);
+}
+
+void Workers::empty(Share& share, std::uint32_t round, unsigned self) {
   std::uint32_t done = 0;
-  for (std::size_t k = 0; k < shares_.size(); ++k) {
-    Share& share = shares_[(self + k) % shares_.size()];
-    for (std::uint32_t piece; take(share, round, piece); ++done) work_(context_, first_ + piece, self);
-  }
+  for (std::uint32_t piece; take(share, round, piece); ++done) work_(context_, first_ + piece, self);
   if (done > 0) undone_.fetch_sub(done, std::memory_order_acq_rel);
+}
+
+/// Whether pieces are left for so long that their threads must be held up. Fetching the data of a piece from the cache
+/// of another core often takes longer than working on it.
+bool Workers::others_are_late(std::uint32_t round) const {
+  const auto any_left = [&] {
+    for (const Share& s : shares_) {
+      const std::uint64_t left = s.left.load(std::memory_order_relaxed);
+      if (std::uint32_t(left >> 32) == round && (left & 0xffff) < (left >> 16 & 0xffff)) return true;
+    }
+    return false;
+  };
+  const auto since = std::chrono::steady_clock::now();
+  while (any_left()) {
+    for (int i = 0; i < 16; ++i) relax();
+    if (std::chrono::steady_clock::now() - since > courtesy) return true;
+  }
+  return false;
 }
 
 bool Workers::take(Share& share, std::uint32_t round, std::uint32_t& piece) {

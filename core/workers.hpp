@@ -12,8 +12,8 @@ namespace muro {
 ///
 /// Waking a sleeping thread takes some 50 us on a virtual machine, a spinning one below 1 us, so workers spin for a
 /// while before they sleep. Each thread begins with a part of its own, the same in every run, so that it finds its data
-/// in its cache; who is done takes from the others. Nobody waits for a worker that has not taken a piece: one that the
-/// machine has put aside costs nothing.
+/// in its cache; who is done waits a little before it takes from the others. Nobody waits for a worker that has not
+/// taken a piece: one that the machine has put aside costs nothing.
 class Workers {
  public:
   /// `threads` with the caller; 1 or more.
@@ -39,6 +39,8 @@ class Workers {
 
   void round(std::uint32_t first, std::uint32_t pieces, Work work, void* context);
   void work_through(std::uint32_t round, unsigned self);
+  void empty(Share& share, std::uint32_t round, unsigned self);
+  bool others_are_late(std::uint32_t round) const;
   bool take(Share& share, std::uint32_t round, std::uint32_t& piece);
   void serve(unsigned self);
 
