@@ -117,6 +117,8 @@ bool AccessCheck::make(const Task& task, const Step& step, Range range, abi::Err
   if (!repeats) return true;
 
   put_back(before);
+  if (!task.instance->restored(error)) return false;
+  put_back(before);  // what is derived may have been cleared
   poison(may);
   const bool fine = task.instance->step(step, range, error);
   const Copy again = copy();

@@ -13,10 +13,10 @@ class Instance;
 
 /// Proves that algorithms keep to the properties that they have declared.
 ///
-/// Every call is made twice from the same state. The second time, all that the call has no right to read is poisoned
-/// (bytes 0xff: not a number). The call must then write the same bits, and nothing but what it may write: else it
-/// reads or writes in secret, and could not run beside others. What a call may touch follows from the bindings of its
-/// instance and from the reach of its phase (Phase::Reach). Runs take many times longer.
+/// Every call is made twice from the same state, with restored() in between. The second time, all that the call has no
+/// right to read is poisoned (bytes 0xff: not a number). The call must then write the same bits, and nothing but what
+/// it may write: else it reads or writes in secret, and could not run beside others. What a call may touch follows from
+/// the bindings of its instance and from the reach of its phase (Phase::Reach). Runs take many times longer.
 class AccessCheck final : public CallObserver {
  public:
   AccessCheck(PropertyStore& store, const std::vector<Instance*>& instances, std::vector<std::int32_t> robot_of_slot);

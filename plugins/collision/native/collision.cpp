@@ -7,7 +7,9 @@
 
 #include "muro/vocabulary.hpp"
 
+#include <cstdio>
 namespace muro::native {
+long c_alone,c_pairs,c_cand,c_touchpairs,c_collide,c_hit; struct Pr{~Pr(){fprintf(stderr,"robots %ld slow %ld cand %ld pairs %ld collide %ld hit %ld\n",c_alone,c_pairs,c_cand,c_touchpairs,c_collide,c_hit);}} pr;
 
 namespace {
 
@@ -142,7 +144,8 @@ void NativeCollision::touch(Range block) {
     lane.work.used = 0;
     for (const std::uint32_t r : team.in(block)) {
       const Neighbours::Of& near = neighbours_.of(r, *index_);
-      if (!alone(r, near)) {
+      if (near.scenery.size()+near.mates.size()) ++c_cand;
+ ++c_alone;   if (!alone(r, near)) {++c_pairs;
         touch_pairs(r, near);
         continue;
       }

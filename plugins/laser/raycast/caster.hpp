@@ -1,28 +1,39 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "cull.hpp"
+#include "pattern.hpp"
+#include "scene_table.hpp"
 
 namespace muro::raycast {
+
+/// From where and how far a scanner looks.
+struct View {
+  Pose device;                      ///< in the world
+  double max_range = 0;             ///< m
+  std::int32_t ignored_robot = -1;  ///< the number of a robot that is not seen; -1: none
+  double min_range = 0;             ///< m, what is nearer reads this
+};
 
 /// Casts the rays of one scan after the other. Keeps nothing but memory between scans, so that any thread may serve
 /// any scanner; one caster serves one thread.
 class Caster {
  public:
-  /// Room for scenes of this size (shapes, nodes of a hierarchy), so that casting does not allocate.
-  void reserve(std::size_t colliders, std::size_t nodes);
+  /// Room for the scene and the pattern, so that casting does not allocate.
+  void reserve(const SceneTable& scene, const Pattern& pattern);
 
-  /// The distance (m) along each ray to the nearest shape, between `min_range` and view.max_range, and, when `hits`
-  /// is not empty, the object that the shape belongs to (no_object for nothing). Both are as long as the pattern.
-  void cast(const SceneIndex& scene, const View& view, double min_range, const Pattern& pattern,
+  /// The distance (m) along each ray to the nearest shape, between min_range and max_range, and, when `hits` is not
+  /// empty, the object that the shape belongs to (no_object for nothing). Both are as long as the pattern. A device
+  /// whose pose is not finite sees nothing. [step]
+  void cast(const ScanKernels& kernels, const SceneTable& scene, const View& view, const Pattern& pattern,
             std::span<double> ranges, std::span<ObjectId> hits);
 
  private:
-  struct Nearest;
-  void cast_bundle(const Bundle& bundle, Nearest& nearest) const;
-
-  Candidates candidates_;
-  ConeList in_sector_;
+  std::vector<Found> found_;
+  std::vector<Place> order_;
+  std::vector<Candidates> in_reach_, in_sector_;
+  std::vector<Visitor> visitors_;
+  std::vector<Placed> placed_;
+  std::vector<std::int64_t> ids_;
 };
 
 }  // namespace muro::raycast

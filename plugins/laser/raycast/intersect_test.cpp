@@ -15,23 +15,34 @@ using std::numbers::pi;
 constexpr double degree = pi / 180;
 constexpr double exact = 1e-9;
 
-double enter(const Shape& s, const Vec3& o, const Vec3& d) {
+using rays::never;
+
+/// S: double, or a lane of them.
+template <class S>
+S enter_of(const Shape& s, const lane::V3<S>& o, const lane::V3<S>& d) {
   switch (s.kind) {
     case ShapeKind::box:
-      return enter_box(o.x(), o.y(), o.z(), d.x(), d.y(), d.z(), s.size.x() / 2, s.size.y() / 2, s.size.z() / 2);
+      return rays::enter_box<S>(o, {S(1) / d.x, S(1) / d.y, S(1) / d.z}, s.size.x() / 2, s.size.y() / 2,
+                                s.size.z() / 2);
     case ShapeKind::sphere:
-      return enter_ball(o.x(), o.y(), o.z(), d.x(), d.y(), d.z(), s.size.x());
+      return rays::enter_ball(o, d, s.size.x());
     case ShapeKind::cylinder:
-      return enter_cylinder(o.x(), o.y(), o.z(), d.x(), d.y(), d.z(), s.size.x(), s.size.z() / 2);
+      return rays::enter_cylinder(o, d, s.size.x(), s.size.z() / 2);
     case ShapeKind::capsule:
-      return enter_capsule(o.x(), o.y(), o.z(), d.x(), d.y(), d.z(), s.size.x(), s.size.z() / 2);
+      return rays::enter_capsule(o, d, s.size.x(), s.size.z() / 2);
     case ShapeKind::plane:
-      return enter_half_space(o.z(), d.z());
+      return rays::enter_half_space(o.z, d.z);
     case ShapeKind::mesh:
       break;
   }
-  return never;
+  return S(never);
 }
+
+double enter(const Shape& s, const Vec3& o, const Vec3& d) {
+  return enter_of<double>(s, {o.x(), o.y(), o.z()}, {d.x(), d.y(), d.z()});
+}
+
+double enter_half_space(double height, double dz) { return rays::enter_half_space(height, dz); }
 
 TEST(Intersection, AgreesWithTheDistanceToAWallAtAnyIncidence) {
   for (const double incidence : {0.0, 45 * degree, 80 * degree})
@@ -188,6 +199,25 @@ TEST(Intersection, AgreesWithAReferenceInLongDouble) {
       EXPECT_NEAR(found, double(expected), exact);
   }
   EXPECT_GT(hits, 10000);
+}
+
+TEST(Intersection, GivesEachValueOfALaneTheBitsOfADouble) {
+  using Lane = lane::Double8;
+  test::Dice dice(12);
+  for (int round = 0; round < 2000; ++round) {
+    const Shape shape = round % 5 == 4 ? Shape::plane() : dice.shape(0.1, 2);
+    Vec3 o[8], d[8];
+    lane::V3<Lane> origins, directions;
+    for (int i = 0; i < 8; ++i) {
+      o[i] = round % 3 == 0 ? dice.in_box(0.5) : dice.in_box(4);
+      d[i] = i == 0 ? Vec3::Unit(round % 3) : Vec3((dice.in_box(1.5) - o[i]).normalized());
+      if (i == 1) d[i] = Vec3(0, -0.0, -1);
+      origins.x.set(i, o[i].x()), origins.y.set(i, o[i].y()), origins.z.set(i, o[i].z());
+      directions.x.set(i, d[i].x()), directions.y.set(i, d[i].y()), directions.z.set(i, d[i].z());
+    }
+    const Lane found = enter_of<Lane>(shape, origins, directions);
+    for (int i = 0; i < 8; ++i) EXPECT_EQ(found[i], enter(shape, o[i], d[i])) << "round " << round << " value " << i;
+  }
 }
 
 }  // namespace

@@ -11,43 +11,43 @@ namespace muro::raycast {
 namespace {
 
 constexpr std::uint32_t bundles_per_sector = 8;
-constexpr double rounding = 1e-12;  // bounds are wider by this, so that rounding cannot make them cut a ray
+constexpr double rounding = 1e-12;  // bounds are wider by this
 
 Vec3 ray_of(const Bundle& b, std::uint32_t i) { return {b.x[i], b.y[i], b.z[i]}; }
 
-/// The cone about `axis` (not normalised, the sum of directions) whose half angle has this cosine.
-Cone cone_about(const Vec3& axis, double cosine) {
-  if (cosine < rounding) return {};
-  const double c = cosine - rounding;
-  return {axis.normalized(), c, std::sqrt(1 - c * c)};
-}
-
-/// Four planes through the origin around the rays of a bundle: the sides of the smallest rectangle around them in
-/// the plane of projection at distance 1 along the axis of the cone.
-void enclose(Bundle& b) {
-  std::fill_n(b.nx, 4, 0.0);
-  std::fill_n(b.ny, 4, 0.0);
-  std::fill_n(b.nz, 4, 0.0);
-  if (b.cone.cosine < 0.2) return;  // too wide for a projection: the zero normals let everything through
-  const Vec3& m = b.cone.axis;
-  const Vec3 across = std::abs(m.z()) < 0.99 ? Vec3::UnitZ().cross(m) : Vec3::UnitX().cross(m);
-  const Vec3 sides[2] = {across.normalized(), m.cross(across).normalized()};
-  for (int k = 0; k < 2; ++k) {
-    double low = std::numeric_limits<double>::infinity(), high = -low;
+/// The sides of the smallest rectangle around the rays in the plane of projection at distance 1 along the middle of
+/// the rays.
+Frustum enclose(std::span<const Bundle> bundles) {
+  Vec3 middle = Vec3::Zero();
+  for (const Bundle& b : bundles)
+    for (std::uint32_t i = 0; i < b.count; ++i) middle += ray_of(b, i);
+  if (middle.norm() < 1e-6) return {};
+  middle.normalize();
+  const Vec3 across = std::abs(middle.z()) < 0.99 ? Vec3::UnitZ().cross(middle) : Vec3::UnitX().cross(middle);
+  const Vec3 sides[2] = {across.normalized(), middle.cross(across).normalized()};
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  double low[2] = {infinity, infinity}, high[2] = {-infinity, -infinity};
+  for (const Bundle& b : bundles)
     for (std::uint32_t i = 0; i < b.count; ++i) {
       const Vec3 d = ray_of(b, i);
-      const double at = sides[k].dot(d) / m.dot(d);
-      low = std::min(low, at);
-      high = std::max(high, at);
+      const double ahead = middle.dot(d);
+      if (ahead < 0.2) return {};  // too wide for a projection
+      for (int k = 0; k < 2; ++k) {
+        low[k] = std::min(low[k], sides[k].dot(d) / ahead);
+        high[k] = std::max(high[k], sides[k].dot(d) / ahead);
+      }
     }
-    const Vec3 normals[2] = {(sides[k] - (low - rounding) * m).normalized(),
-                             ((high + rounding) * m - sides[k]).normalized()};
+  Frustum f;
+  for (int k = 0; k < 2; ++k) {
+    const Vec3 normals[2] = {sides[k] - (low[k] - rounding) * middle, (high[k] + rounding) * middle - sides[k]};
     for (int j = 0; j < 2; ++j) {
-      b.nx[2 * k + j] = normals[j].x();
-      b.ny[2 * k + j] = normals[j].y();
-      b.nz[2 * k + j] = normals[j].z();
+      const Vec3 n = normals[j].normalized();
+      f.x[2 * k + j] = float(n.x());
+      f.y[2 * k + j] = float(n.y());
+      f.z[2 * k + j] = float(n.z());
     }
   }
+  return f;
 }
 
 }  // namespace
@@ -72,10 +72,12 @@ double Grid::elevation(std::uint32_t row) const {
 }
 
 Pattern::Pattern(const Grid& grid) : size_(grid.rows * grid.columns) {
-  // Tiles of 1 x 16, 2 x 8 or 4 x 4 rays: the squarer, the narrower their cones.
-  const std::uint32_t tall = grid.rows % 4 == 0 ? 4 : grid.rows % 2 == 0 ? 2 : 1, wide = Bundle::size / tall;
+  // Tiles of 4 x 4, 2 x 8 or 1 x 16 rays: the squarer, the fewer things they see.
   const double first = grid.first_angle(), increment = grid.angle_increment();
-  for (std::uint32_t row = 0; row < grid.rows; row += tall) {
+  for (std::uint32_t row = 0, tall = 0; row < grid.rows; row += tall) {
+    const std::uint32_t left = grid.rows - row;
+    tall = left >= 4 ? 4 : left >= 2 ? 2 : 1;
+    const std::uint32_t wide = Bundle::size / tall;
     for (std::uint32_t column = 0; column < grid.columns; column += wide) {
       Bundle bundle;
       for (std::uint32_t r = row; r < row + tall; ++r)
@@ -114,35 +116,24 @@ void Pattern::add(const Vec3& d, std::uint32_t ray, Bundle& b) {
 }
 
 void Pattern::close(Bundle& b) {
-  Vec3 sum = Vec3::Zero();
-  for (std::uint32_t i = 0; i < b.count; ++i) sum += ray_of(b, i);
-  const Vec3 axis = sum.norm() > 1e-6 ? sum.normalized() : Vec3(Vec3::Zero());
-  double cosine = 1;
-  for (std::uint32_t i = 0; i < b.count; ++i) cosine = std::min(cosine, axis.dot(ray_of(b, i)));
-  b.cone = cone_about(axis, cosine);
-  enclose(b);
+  b.in_fours = b.count == Bundle::size;
+  for (std::uint32_t i = 0; i < b.count; ++i)
+    if (b.ray[i] != b.ray[i / 4 * 4] + i % 4) b.in_fours = false;
   for (std::uint32_t i = b.count; i < Bundle::size; ++i) {
     b.x[i] = b.x[b.count - 1];
     b.y[i] = b.y[b.count - 1];
     b.z[i] = b.z[b.count - 1];
     b.ray[i] = b.ray[b.count - 1];
   }
+  b.frustum = enclose({&b, 1});
   bundles_.push_back(b);
 }
 
 void Pattern::make_sectors() {
   const std::uint32_t n = std::uint32_t(bundles_.size());
   for (std::uint32_t first = 0; first < n; first += bundles_per_sector) {
-    Sector s{first, std::min(bundles_per_sector, n - first), {}};
-    Vec3 sum = Vec3::Zero();
-    for (std::uint32_t b = first; b < first + s.count; ++b)
-      for (std::uint32_t i = 0; i < bundles_[b].count; ++i) sum += ray_of(bundles_[b], i);
-    const Vec3 axis = sum.norm() > 1e-6 ? sum.normalized() : Vec3(Vec3::Zero());
-    double cosine = 1;
-    for (std::uint32_t b = first; b < first + s.count; ++b)
-      for (std::uint32_t i = 0; i < bundles_[b].count; ++i) cosine = std::min(cosine, axis.dot(ray_of(bundles_[b], i)));
-    s.cone = cone_about(axis, cosine);
-    sectors_.push_back(s);
+    const std::uint32_t count = std::min(bundles_per_sector, n - first);
+    sectors_.push_back({first, count, enclose(bundles().subspan(first, count))});
   }
 }
 

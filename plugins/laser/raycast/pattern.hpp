@@ -1,38 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
 #include <span>
 #include <vector>
 
+#include "bundle.hpp"
 #include "muro/geometry.hpp"
 
 namespace muro::raycast {
-
-/// All directions within an angle of an axis. The cone of all directions has the axis 0, cosine 0 and sine 1, which
-/// lets every comparison of `may_meet` (cull.hpp) succeed.
-struct Cone {
-  Vec3 axis = Vec3::Zero();
-  double cosine = 0;
-  double sine = 1;
-};
-
-/// Rays that lie side by side, in the frame of the device.
-struct alignas(64) Bundle {
-  static constexpr int size = 16;
-  double x[size], y[size], z[size];  ///< unit directions; places from `count` on repeat the last ray
-  std::uint32_t ray[size];           ///< place of each in the reading
-  std::uint32_t count = 0;
-  Cone cone;                   ///< around them
-  double nx[4], ny[4], nz[4];  ///< four planes through the origin: all rays have normal * direction >= 0
-};
-
-/// Bundles that lie side by side: `first` to `first + count` - 1.
-struct Sector {
-  std::uint32_t first = 0;
-  std::uint32_t count = 0;
-  Cone cone;
-};
 
 /// A grid of rays: `columns` azimuths, counter-clockwise about z from x, times `rows` elevations above the xy plane.
 struct Grid {

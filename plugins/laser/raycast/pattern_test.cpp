@@ -6,8 +6,6 @@
 #include <numbers>
 #include <set>
 
-#include "cull.hpp"
-
 namespace muro::raycast {
 namespace {
 
@@ -101,16 +99,22 @@ TEST(ScanPattern, HoldsEveryRayExactlyOnce) {
   }
 }
 
-TEST(ScanPattern, BoundsEveryRayByItsConesPlanesAndSlopes) {
+/// How far (in terms of the unit direction) a direction lies inside the planes; negative outside.
+double inside(const Frustum& f, const Vec3& d) {
+  double least = 1;
+  for (int k = 0; k < 4; ++k) least = std::min(least, f.x[k] * d.x() + f.y[k] * d.y() + f.z[k] * d.z());
+  return least;
+}
+
+TEST(ScanPattern, BoundsEveryRayByItsPlanesAndSlopes) {
   for (const Grid& grid : grids()) {
     const Pattern pattern(grid);
     for (const Sector& sector : pattern.sectors())
       for (const Bundle& b : pattern.bundles().subspan(sector.first, sector.count))
         for (int i = 0; i < Bundle::size; ++i) {
           const Vec3 d(b.x[i], b.y[i], b.z[i]);
-          for (const Cone& cone : {b.cone, sector.cone})
-            EXPECT_TRUE(cone.axis.isZero() || cone.axis.dot(d) >= cone.cosine);
-          for (int k = 0; k < 4; ++k) EXPECT_GE(b.nx[k] * d.x() + b.ny[k] * d.y() + b.nz[k] * d.z(), 0);
+          EXPECT_GE(inside(b.frustum, d), -1e-7) << "planes are floats";
+          EXPECT_GE(inside(sector.frustum, d), -1e-7);
           const double slope = d.z() / std::hypot(d.x(), d.y());
           EXPECT_GE(slope, pattern.min_slope() - 1e-12);
           EXPECT_LE(slope, pattern.max_slope() + 1e-12);
@@ -118,25 +122,34 @@ TEST(ScanPattern, BoundsEveryRayByItsConesPlanesAndSlopes) {
   }
 }
 
-TEST(ScanPattern, KeepsBundlesOfADenseGridNarrow) {
-  const Pattern row(grids()[0]), tall(grids()[3]);
-  for (const Bundle& b : row.bundles()) EXPECT_GT(b.cone.cosine, std::cos(0.05));
-  for (const Bundle& b : tall.bundles()) EXPECT_GT(b.cone.cosine, std::cos(0.03));
+TEST(ScanPattern, KeepsDirectionsOutThatLieBesideTheRays) {
+  for (const std::size_t dense : {0, 3}) {
+    const Pattern pattern(grids()[dense]);
+    for (const Bundle& b : pattern.bundles()) {
+      const Vec3 first(b.x[0], b.y[0], b.z[0]);
+      for (const Vec3& aside : {Vec3(0, 0, 0.1), Vec3(0, 0, -0.1), Vec3(0.11 * first.cross(Vec3::UnitZ())),
+                                Vec3(-0.11 * first.cross(Vec3::UnitZ()))})
+        EXPECT_LT(inside(b.frustum, (first + aside).normalized()), -0.01);
+    }
+  }
 }
 
-TEST(ConeList, LetsConesMeetExactlyWhenTheirAnglesReachEachOther) {
-  const auto cone = [](double azimuth, double half_angle) {
-    return Cone{direction_of(azimuth, 0), std::cos(half_angle), std::sin(half_angle)};
-  };
-  ConeList list;
-  for (const double a : {0.0, 0.29, 0.31, -0.29, -0.31, pi}) list.push_back(cone(a, 0.1), 1, 0);
-  list.push_back(Cone{}, 1, 0);
-  double margins[ConeList::block];
-  list.may_meet(cone(0, 0.2), 0, margins);
-  const bool expected[] = {true, true, false, true, false, false, true};
-  for (int i = 0; i < 7; ++i) EXPECT_EQ(margins[i] >= 0, expected[i]) << i;
-  list.may_meet(Cone{}, 0, margins);
-  for (int i = 0; i < 7; ++i) EXPECT_GE(margins[i], 0) << "the cone of all directions meets every cone";
+TEST(ScanPattern, KeepsNothingOutWhereRaysGoAllWays) {
+  const Pattern round(Grid{.min_angle = -pi, .max_angle = pi, .columns = 12});
+  for (const Vec3& d : {Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 0, 1)})
+    EXPECT_EQ(inside(round.bundles()[0].frustum, d), 0);
+}
+
+TEST(ScanPattern, MarksBundlesWhoseRaysAreReadInFours) {
+  for (const Grid& grid : grids()) {
+    const Pattern pattern(grid);
+    for (const Bundle& b : pattern.bundles()) {
+      bool fours = b.count == Bundle::size;
+      for (std::uint32_t i = 0; i + 1 < b.count; ++i)
+        if (i % 4 != 3 && b.ray[i + 1] != b.ray[i] + 1) fours = false;
+      EXPECT_EQ(b.in_fours, fours);
+    }
+  }
 }
 
 }  // namespace

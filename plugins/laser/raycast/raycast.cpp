@@ -14,6 +14,8 @@ using namespace muro;
 using raycast::Caster;
 using raycast::Grid;
 using raycast::Pattern;
+using raycast::ScanKernels;
+using raycast::SceneTable;
 using std::numbers::pi;
 
 constexpr double no_shift[] = {0, 0, 0};
@@ -95,16 +97,26 @@ class Raycast final : public Algorithm {
       if (item.robot && !p.boolean("see_self")) s.ignored_robot = std::int32_t(item.robot->number);
       scanners_.push_back(s);
     }
-    count_shapes(c);
+    warn_of_meshes(c);
+    kernels_ = &raycast::scan_kernels_for(lane::best_isa());
   }
 
-  void step(const Step&, Range range) override {
+  void start() override { built_ = false; }
+  void restored() override { built_ = false; }
+
+  std::span<const Phase> phases() const override {
+    static constexpr Phase few_rays[] = {{Phase::Over::whole}, {Phase::Over::items, Phase::Reach::wide}};
+    static constexpr Phase many_rays[] = {{Phase::Over::whole}, {Phase::Over::items, Phase::Reach::wide, true}};
+    return pattern_->size() < 500 ? few_rays : many_rays;
+  }
+
+  void step(const Step& step, Range range) override {
+    if (step.phase == 0) return look_at_scene();
     thread_local Caster caster;
-    caster.reserve(shape_count_, 2 * shape_count_);
     for (std::uint32_t i = range.begin; i < range.end; ++i) {
       const Scanner& s = scanners_[i];
-      caster.cast(*scene_, {*s.pose * mounting_, max_range_, s.ignored_robot}, min_range_, *pattern_, *s.ranges,
-                  s.hits ? *s.hits : std::span<ObjectId>());
+      caster.cast(*kernels_, table_, {*s.pose * mounting_, max_range_, s.ignored_robot, min_range_}, *pattern_,
+                  *s.ranges, s.hits ? *s.hits : std::span<ObjectId>());
     }
   }
 
@@ -115,6 +127,13 @@ class Raycast final : public Algorithm {
     ArrayOut<ObjectId> hits;
     std::int32_t ignored_robot = -1;
   };
+
+  /// Takes over shapes at the first time, and where robots are now.
+  void look_at_scene() {
+    if (built_) return table_.update(*scene_);
+    table_.build(*scene_);
+    built_ = true;
+  }
 
   /// Makes the pattern of a grid and returns the grid.
   Grid read_grid(const Parameters& p) {
@@ -150,13 +169,11 @@ class Raycast final : public Algorithm {
     return {.min_angle = pairs[0], .max_angle = pairs[0], .columns = pattern_->size()};
   }
 
-  /// An upper bound of what a scan may have to hold, and a word on shapes that rays do not meet.
-  void count_shapes(Connector& c) {
+  void warn_of_meshes(Connector& c) {
     std::size_t meshes = 0;
     std::string_view first;
     for (std::uint32_t i = 0; i < c.object_count(); ++i)
       for (const Shape& shape : c.constant_array(ObjectId(i), keys::collision_shapes)) {
-        ++shape_count_;
         if (shape.kind != ShapeKind::mesh) continue;
         if (++meshes == 1) first = c.object_name(ObjectId(i));
       }
@@ -170,7 +187,9 @@ class Raycast final : public Algorithm {
   std::optional<Pattern> pattern_;
   Pose mounting_;
   double min_range_ = 0, max_range_ = 0;
-  std::size_t shape_count_ = 0;
+  const ScanKernels* kernels_ = nullptr;
+  SceneTable table_;
+  bool built_ = false;
 };
 
 constexpr abi::AlgorithmEntry algorithms[] = {algorithm<Raycast>(description)};

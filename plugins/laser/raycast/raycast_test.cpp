@@ -2,6 +2,7 @@
 // The plugin in the whole simulator: index, poses of links, rates.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <numbers>
 
 #include "tests/support/scene.hpp"
@@ -216,6 +217,68 @@ TEST(LaserRaycast, GivesTheSameReadingsToRobotsInOneInstanceAndAlone) {
   }
   const auto a = together.ranges(first), b = alone.ranges(second);
   EXPECT_TRUE(std::equal(a.begin(), a.end(), b.begin(), b.end())) << "x is out of reach";
+}
+
+/// Many rovers that drive among each other.
+struct Crowd : Yard {
+  explicit Crowd(std::map<std::string, ParameterInput> parameters) {
+    for (int i = 0; i < 40; ++i)
+      add_rover("rover" + std::to_string(i), {{-4.5 + i % 10, -3 + 1.5 * (i / 10), 0.1}, from_rpy(0, 0, 0.7 * i)});
+    parameters["max_range"] = 12.0;
+    use_laser(std::move(parameters));
+    build();
+    for (const RobotView* r : world().robots())
+      world().value(r->base(), keys::command_twist) = {{0.3 + 0.01 * r->number, 0, 0}, {0, 0, 0.5}};
+  }
+};
+
+const std::vector<std::map<std::string, ParameterInput>> crowd_patterns = {
+    {{"rays", std::int64_t(60)}, {"hits", true}},
+    {{"rays", std::int64_t(90)}, {"rows", std::int64_t(7)}, {"max_elevation", 0.3}}};
+
+TEST(LaserRaycast, ReadsTheSameOnAnyNumberOfThreads) {
+  for (const auto& parameters : crowd_patterns) {
+    Crowd one(parameters);
+    one.run_for(0.55);
+    for (const unsigned threads : {2u, 3u, 5u}) {
+      Crowd several(parameters);
+      several.set_threads(threads);
+      several.run_for(0.55);
+      EXPECT_EQ(one.state_hash(), several.state_hash()) << threads << " threads";
+    }
+  }
+}
+
+TEST(LaserRaycast, ReadsTheSameWithEveryInstructionSet) {
+  for (const auto& parameters : crowd_patterns) {
+    std::vector<std::uint64_t> hashes;
+    for (const char* isa : {"base", "avx2", ""}) {
+      ::setenv("MURO_ISA", isa, 1);
+      Crowd crowd(parameters);
+      crowd.run_for(0.25);
+      hashes.push_back(crowd.state_hash());
+    }
+    ::unsetenv("MURO_ISA");
+    EXPECT_EQ(hashes[0], hashes[1]);
+    EXPECT_EQ(hashes[0], hashes[2]);
+  }
+}
+
+TEST(LaserRaycast, GoesOnFromASnapshotAsItWouldHaveGoneOn) {
+  Crowd crowd(crowd_patterns[0]);
+  crowd.run_for(0.25);
+  const Snapshot snapshot = crowd.snapshot();
+  crowd.run_for(0.3);
+  const std::uint64_t hash = crowd.state_hash();
+  crowd.restore(snapshot);
+  crowd.run_for(0.3);
+  EXPECT_EQ(crowd.state_hash(), hash);
+}
+
+TEST(LaserRaycast, TouchesOnlyWhatItHasDeclared) {
+  Crowd crowd(crowd_patterns[0]);
+  crowd.verify_access();
+  EXPECT_NO_THROW(crowd.run_for(0.15));
 }
 
 TEST(LaserRaycast, ExplainsWhatIsWrongWithItsParameters) {

@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "cull.hpp"
+#include "muro/scene.hpp"
 
 namespace muro::raycast::test {
 

@@ -139,7 +139,7 @@ unsigned move_rigid(const Work& work, const RobotState* robots, int count) {
   unsigned broken = 0;
   for (int i = 0; i < count; ++i) {
     Work alone = work;
-    alone.further += i * (work.wrenches - 1);
+    if (work.wrenches > 1) alone.further += i * (work.wrenches - 1);
     broken |= move_some<double>(alone, robots + i, 1) << i;
   }
   return broken;

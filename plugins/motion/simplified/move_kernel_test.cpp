@@ -86,7 +86,7 @@ unsigned move(std::vector<Vehicle>& all, lane::Isa isa, int at_once, const std::
                     .joint_count = int(joints.size()),
                     .mass = &mass,
                     .wrenches = wrenches,
-                    .further = further.data() + k * (wrenches - 1),
+                    .further = wrenches > 1 ? further.data() + k * (wrenches - 1) : nullptr,
                     .gravity = {0, 0, -9.81},
                     .dt = 0.001};
     broken |= kernels_for(isa).move_rigid(work, &states[std::size_t(k)], std::min(at_once, count - k)) << k;

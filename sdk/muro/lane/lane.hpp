@@ -63,7 +63,7 @@ using Double8 = Lane<double, 8>;
 using Float8 = Lane<float, 8>;
 using Float16 = Lane<float, 16>;
 
-/// Of how many robots on a Double8 that is partly filled costs less than a double for each.
+/// From so many robots on, a Double8 that is partly filled costs less than as many doubles.
 inline constexpr int worth_a_lane = vectors::register_bytes == 64 ? 3 : vectors::register_bytes == 32 ? 4 : 6;
 
 /// How many values a scalar stands for, and its mask.

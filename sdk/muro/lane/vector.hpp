@@ -42,8 +42,8 @@ struct VectorOf<T, N, true> {
   typedef T Type __attribute__((vector_size(N * sizeof(T))));
 };
 
-template <class Low>
-MURO_INLINE Pair<Low> pair_of(Low low, Low high);
+template <class Half>
+MURO_INLINE Pair<Half> pair_of(Half low, Half high);
 
 template <class Half>
 struct Pair {
@@ -63,8 +63,8 @@ struct Pair {
   MURO_INLINE friend auto operator>=(Pair a, Pair b) { return pair_of(a.low >= b.low, a.high >= b.high); }
   MURO_INLINE friend auto operator==(Pair a, Pair b) { return pair_of(a.low == b.low, a.high == b.high); }
 };
-template <class Low>
-MURO_INLINE Pair<Low> pair_of(Low low, Low high) {
+template <class Half>
+MURO_INLINE Pair<Half> pair_of(Half low, Half high) {
   return {low, high};
 }
 

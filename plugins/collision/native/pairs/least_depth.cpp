@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "pairs/gjk.hpp"
+#include "pairs/rim_patch.hpp"
 
 namespace muro::native {
 namespace {
@@ -12,49 +13,6 @@ using Vec2 = Eigen::Vector2d;
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 Vec2 left_of(const Vec2& a) { return {-a.y(), a.x()}; }
-
-/// The normals on one side of both ends of two cylinders, where h is that of two rims:
-/// h(n) = n . offset + radius_0 |n x disc_0| + radius_1 |n x disc_1|.
-class RimPatch {
- public:
-  /// `s0`, `s1`: the signs of n . disc_0 and n . disc_1.
-  RimPatch(const DepthFunction& h, double s0, double s1)
-      : h_(h), offset_(h.offset + s0 * h.half[0] * h.disc[0] + s1 * h.half[1] * h.disc[1]) {}
-
-  /// The point of the difference that lies farthest along the unit vector n.
-  Vec3 support(const Vec3& n) const {
-    const Vec3 a = n - n.dot(h_.disc[0]) * h_.disc[0], b = n - n.dot(h_.disc[1]) * h_.disc[1];
-    return offset_ + a * (h_.radius[0] / std::sqrt(a.squaredNorm())) + b * (h_.radius[1] / std::sqrt(b.squaredNorm()));
-  }
-
-  /// Where h has a minimum that is not above `most`, the support is p = offset + radius_0 c_0 + radius_1 c_1 = h n, with
-  /// units c_j at right angles to disc_j. So no component of p is above `most`. Along disc_0 and disc_1 this bounds the
-  /// angles of c_1 and c_0 with the plane of both axes, and along w, at right angles to that plane, it holds them
-  /// against each other; n is on the side of w.
-  bool may_hold_minimum(const Vec3& w, double sine, double most) const {
-    const Interval up0 = rise(offset_.dot(h_.disc[1]), h_.radius[0] * sine, most),
-                   up1 = rise(offset_.dot(h_.disc[0]), h_.radius[1] * sine, most);
-    if (up0.low > up0.high || up1.low > up1.high) return false;
-    const double along = -offset_.dot(w);
-    return along >= h_.radius[0] * up0.low + h_.radius[1] * up1.low - most &&
-           along <= h_.radius[0] * up0.high + h_.radius[1] * up1.high + most;
-  }
-
- private:
-  struct Interval {
-    double low, high;
-  };
-  /// The sines of angles whose cosines make |offset + reach * cosine| <= most.
-  static Interval rise(double offset, double reach, double most) {
-    const double nearest = std::max(0.0, std::abs(offset) - most) / reach, farthest = (std::abs(offset) + most) / reach;
-    if (nearest > 1 + 1e-9) return {1, 0};
-    const auto sine_of = [](double cosine) { return std::sqrt(std::max(0.0, 1 - cosine * cosine)); };
-    return {sine_of(farthest), sine_of(nearest)};
-  }
-
-  const DepthFunction& h_;
-  const Vec3 offset_;  ///< m, between the middles of the rims
-};
 
 struct Search {
   const DepthFunction& h;
@@ -96,6 +54,14 @@ struct Search {
 struct Strip {
   Vec3 a, b;
   double radius, flat, constant;
+
+  /// Whether there may be a minimum not above `most` in the quadrant of m. There the farthest point of the strip,
+  /// d + radius * (a point of an ellipse) + constant * n, is n times the minimum.
+  bool may_hold_minimum(const Vec2& d, const Vec2& m, double most) const {
+    const double x = m.x() < 0 ? d.x() : -d.x(), y = -d.y(), wide = radius * std::sqrt(flat);
+    if (std::min(x, y) < -most || x > wide + constant + most || y > radius + constant + most) return false;
+    return constant > 0 || std::abs(std::sqrt(flat * y * y + x * x) - wide) <= most;
+  }
 
   double root(const Vec2& m) const { return std::sqrt(m.y() * m.y() + flat * m.x() * m.x()); }
   double slope(const Vec2& d, const Vec2& m, double r) const {
@@ -140,6 +106,7 @@ void Search::normals_across(int segment) {
   const Vec3 u = h.axis[segment];
   Strip strip{Vec3::Zero(), Vec3::Zero(), 0, 1, 0};
   bool bent = false;
+  double reach = h.half[segment] * (1 + 1e-9);  // of the strip's farthest points along u
   for (int j = 0; j < h.discs; ++j) {
     const double along = h.disc[j].dot(u);
     Vec3 side = h.disc[j] - along * u;
@@ -150,6 +117,7 @@ void Search::normals_across(int segment) {
     bent = true;
     strip.radius = h.radius[j];
     strip.flat = along * along;
+    reach += h.radius[j] * side.norm();
     side.normalize();
     strip.a = (side - side.dot(u) * u).normalized();
   }
@@ -158,9 +126,13 @@ void Search::normals_across(int segment) {
 
   const Vec2 offset(strip.a.dot(h.offset), strip.b.dot(h.offset));
   Vec2 edges[3];
+  double along[3];  // u
   int count = 0;
-  for (int k = 0; k < h.segments; ++k)
-    if (k != segment) edges[count++] = h.half[k] * Vec2(strip.a.dot(h.axis[k]), strip.b.dot(h.axis[k]));
+  for (int k = 0; k < h.segments; ++k) {
+    if (k == segment) continue;
+    along[count] = h.half[k] * u.dot(h.axis[k]);
+    edges[count++] = h.half[k] * Vec2(strip.a.dot(h.axis[k]), strip.b.dot(h.axis[k]));
+  }
   if (!bent) return around_corners(strip.a, strip.b, offset, edges, count);
 
   // The upper half circle between kinks (normals of an edge) and the axes of the ellipse; the lower half is
@@ -181,9 +153,17 @@ void Search::normals_across(int segment) {
     if (cross(p, q) < 1e-12) continue;
     const Vec2 m = p + q;
     Vec2 corner = Vec2::Zero();
-    for (int k = 0; k < count; ++k) corner += std::copysign(1.0, edges[k].dot(m)) * edges[k];
-    strip.search(*this, corner + offset, 1, p, q);
-    strip.search(*this, corner - offset, -1, p, q);
+    double corner_along = 0;
+    for (int k = 0; k < count; ++k) {
+      const double side = std::copysign(1.0, edges[k].dot(m));
+      corner += side * edges[k];
+      corner_along += side * along[k];
+    }
+    for (const double sign : {1.0, -1.0}) {
+      const Vec2 d = corner + sign * offset;
+      if (std::abs(corner_along + sign * u.dot(h.offset)) <= reach && strip.may_hold_minimum(d, m, std::max(least, 0.0)))
+        strip.search(*this, d, sign, p, q);
+    }
   }
 }
 
@@ -260,6 +240,10 @@ void Search::rims() {
   for (const double s0 : {1.0, -1.0})
     for (const double s1 : {1.0, -1.0}) {
       const RimPatch patch(h, s0, s1);
+      if (patch.minima_are_near_axes(sine, least)) {
+        if (const auto start = patch.minimum_near_axes(least)) descend(*start);
+        continue;
+      }
       for (const double up : {1.0, -1.0})
         if (patch.may_hold_minimum(up * w, sine, least)) triangle(patch, -s1 * e0, s0 * e1, up * w);
     }
