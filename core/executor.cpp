@@ -123,7 +123,7 @@ void Executor::watch(Program::Trial& t, double passed) {
 /// Time decides who computes a result, never what it is.
 void Executor::learn(Program::Trial& t, std::uint64_t passed) {
   using State = Program::Trial::State;
-  constexpr std::uint32_t shortest_pause = 512, longest_pause = 1u << 16;
+  constexpr std::uint32_t shortest_pause = 64, longest_pause = 1u << 16;
   constexpr double worth = 0.97;  // of the time on one thread
   ++t.instants;
   if (t.state == State::settled) {
