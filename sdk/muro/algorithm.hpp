@@ -36,12 +36,13 @@ class Algorithm {
   /// All handles may be read. Opens what the algorithm needs to run; also called again at a reset. [setup]
   virtual void start() {}
 
-  /// How a step is divided. Asked once, after connect. None: what promises to be `batched` has one phase over its items,
-  /// of wide reach; anything else runs in one call. [setup]
+  /// How a step is divided. Asked once, after connect. None: what promises to be `batched` has one phase over its
+  /// items, of wide reach; anything else runs in one call. [setup]
   virtual std::span<const Phase> phases() const { return {}; }
 
   /// Serves the elements of `range` at `step.time`: brings their outputs up to date, or, for a motion
-  /// model, carries their state from `step.time` to `step.time + step.dt`. Does not allocate once warm. [step, any thread]
+  /// model, carries their state from `step.time` to `step.time + step.dt`. Does not allocate once warm. [step, any
+  /// thread]
   virtual void step(const Step& step, Range range) = 0;
 
   /// A snapshot has replaced the properties: rebuild what was kept beside them. [between steps]

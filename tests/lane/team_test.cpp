@@ -24,7 +24,8 @@ struct Team : test::Scene {
       if (only >= 0 && i != only) continue;
       const bool rolls = i < rovers;
       const RobotTree& model = rolls ? rover : walker;
-      const Vec3 place(4 * (i % 8), 4 * (i / 8), model.standing_height() + 0.01 * (i % 5));
+      const int row = i / 8;
+      const Vec3 place(4 * (i % 8), 4 * row, model.standing_height() + 0.01 * (i % 5));
       const RobotView& robot = add("robot_" + std::to_string(i), model, {place, from_rpy(0.02, 0.01, 0.7 * i)},
                                    {{0.1 * (i % 3), 0, 0}, {0, 0, 0.1}});
       (rolls ? rolling : walking).push_back({&robot, robot.base()});

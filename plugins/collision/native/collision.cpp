@@ -7,9 +7,7 @@
 
 #include "muro/vocabulary.hpp"
 
-#include <cstdio>
 namespace muro::native {
-long c_alone,c_pairs,c_cand,c_touchpairs,c_collide,c_hit; struct Pr{~Pr(){fprintf(stderr,"robots %ld slow %ld cand %ld pairs %ld collide %ld hit %ld\n",c_alone,c_pairs,c_cand,c_touchpairs,c_collide,c_hit);}} pr;
 
 namespace {
 
@@ -144,8 +142,7 @@ void NativeCollision::touch(Range block) {
     lane.work.used = 0;
     for (const std::uint32_t r : team.in(block)) {
       const Neighbours::Of& near = neighbours_.of(r, *index_);
-      if (near.scenery.size()+near.mates.size()) ++c_cand;
- ++c_alone;   if (!alone(r, near)) {++c_pairs;
+      if (!alone(r, near)) {
         touch_pairs(r, near);
         continue;
       }
@@ -255,8 +252,8 @@ void NativeCollision::add_mates(Encounters& encounters, std::uint32_t robot, con
       if (index_->robots[m].bounds.overlaps(encounters.bounds())) mates.push_back(m);
   } else {
     for (std::uint32_t m = 0; m < robots_.size(); ++m)
-      if (m != robot && (robots_[robot].has_plane || robots_[m].has_plane ||
-                         index_->robots[m].bounds.overlaps(encounters.bounds())))
+      if (m != robot &&
+          (robots_[robot].has_plane || robots_[m].has_plane || index_->robots[m].bounds.overlaps(encounters.bounds())))
         mates.push_back(m);
   }
   std::sort(mates.begin(), mates.end(), [this](std::uint32_t a, std::uint32_t b) { return precedes(a, b); });

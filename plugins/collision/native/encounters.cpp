@@ -7,7 +7,7 @@
 #include "pairs/collide.hpp"
 
 namespace muro::native {
-extern long c_touchpairs,c_collide,c_hit;namespace {
+namespace {
 
 /// Behind the last that has the same body as the first.
 template <class It>
@@ -40,11 +40,10 @@ void Encounters::list_contacts(const ListOut<Contact>& list) const {
 }
 
 void Encounters::touch(const Near& own, const Other& other, const ListOut<Contact>& list) {
-  ++c_touchpairs;// A robot's own plane is touched by those that have a list themselves.
+  // A robot's own plane is touched by those that have a list themselves.
   if (own.placed.kind == ShapeKind::plane && !other.has_list) return;
   if (!own.bounds.overlaps(other.bounds)) return;
   Manifold manifold;
- if(own.placed.kind!=ShapeKind::plane&&other.placed.kind!=ShapeKind::plane) ++c_collide;
   if (other.mirrored) {
     collide(other.placed, own.placed, manifold);
     manifold.flip();
@@ -52,7 +51,6 @@ void Encounters::touch(const Near& own, const Other& other, const ListOut<Contac
     collide(own.placed, other.placed, manifold);
   }
   if (manifold.count == 0) return;
- if(own.placed.kind!=ShapeKind::plane&&other.placed.kind!=ShapeKind::plane) ++c_hit;
   Contact c = contact_between(*own.collider, *other.collider);
   for (int i = 0; i < manifold.count; ++i) {
     c.point = manifold.points[i].point;

@@ -17,8 +17,8 @@ struct Near {
   Aabb bounds;
 };
 
-/// What a robot may touch, in the order of its list of contacts, and the search of that pair by pair. Reused, so that it
-/// stops allocating.
+/// What a robot may touch, in the order of its list of contacts, and the search of that pair by pair. Reused, so that
+/// it stops allocating.
 class Encounters {
  public:
   /// Begins with the robot's own colliders.

@@ -38,7 +38,7 @@ class SceneBvh final : public Algorithm {
   std::deque<Pose> scenery_poses_;
   std::vector<std::uint32_t> planes_;
   std::vector<RobotColliders> robots_;
-  std::uint32_t scenery_ = 0;  ///< the first so many colliders stand still
+  std::uint32_t scenery_ = 0;   ///< the first so many colliders stand still
   std::vector<TextId> meshes_;  ///< warned of
 
   std::vector<Team<std::vector<Part>>> teams_;  ///< of robots that have bounds

@@ -24,6 +24,7 @@ struct alignas(64) Bundle {
 
 /// Bundles that lie side by side: `first` to `first + count` - 1.
 struct Sector {
+  static constexpr std::uint32_t most = 8;
   std::uint32_t first = 0;
   std::uint32_t count = 0;
   Frustum frustum;

@@ -40,6 +40,7 @@ void Caster::reserve(const SceneTable& scene, const Pattern& pattern) {
   grow(in_sector_, blocks + 1);
   grow(visitors_, scene.robot_count());
   grow(placed_, scene.solid_count());
+  grow(falls_, scene.plane_count());
   grow(ids_, pattern.size());
 }
 
@@ -51,8 +52,8 @@ void Caster::cast(const ScanKernels& kernels, const SceneTable& scene, const Vie
     return;
   }
   reserve(scene, pattern);
-  const Memory memory{found_.data(),     order_.data(),    in_reach_.data(),
-                      in_sector_.data(), visitors_.data(), placed_.data()};
+  const Memory memory{found_.data(),    order_.data(),  in_reach_.data(), in_sector_.data(),
+                      visitors_.data(), placed_.data(), falls_.data()};
   const Reading reading{ranges.data(), hits.empty() ? nullptr : ids_.data()};
   kernels.cast(scene.sight(), scanner_of(view, pattern), memory, reading);
   for (std::size_t i = 0; i < hits.size(); ++i) hits[i] = scene.body(ids_[i]);

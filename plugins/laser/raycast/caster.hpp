@@ -33,6 +33,7 @@ class Caster {
   std::vector<Candidates> in_reach_, in_sector_;
   std::vector<Visitor> visitors_;
   std::vector<Placed> placed_;
+  std::vector<Fall> falls_;
   std::vector<std::int64_t> ids_;
 };
 

@@ -10,7 +10,6 @@ namespace muro::raycast {
 
 namespace {
 
-constexpr std::uint32_t bundles_per_sector = 8;
 constexpr double rounding = 1e-12;  // bounds are wider by this
 
 Vec3 ray_of(const Bundle& b, std::uint32_t i) { return {b.x[i], b.y[i], b.z[i]}; }
@@ -131,8 +130,8 @@ void Pattern::close(Bundle& b) {
 
 void Pattern::make_sectors() {
   const std::uint32_t n = std::uint32_t(bundles_.size());
-  for (std::uint32_t first = 0; first < n; first += bundles_per_sector) {
-    const std::uint32_t count = std::min(bundles_per_sector, n - first);
+  for (std::uint32_t first = 0; first < n; first += Sector::most) {
+    const std::uint32_t count = std::min(Sector::most, n - first);
     sectors_.push_back({first, count, enclose(bundles().subspan(first, count))});
   }
 }

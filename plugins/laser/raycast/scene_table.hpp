@@ -21,6 +21,7 @@ class SceneTable {
   std::size_t block_count() const { return scenery_.block_count() + moving_.block_count(); }
   std::size_t robot_count() const { return robots_.size(); }
   std::size_t solid_count() const { return solids_.size(); }
+  std::size_t plane_count() const { return planes_.size(); }
 
  private:
   BoxColumns scenery_, moving_;

@@ -107,6 +107,13 @@ struct Placed {
   double axes[9];    ///< as in Solid, in the world
 };
 
+/// A plane that rays may reach.
+struct Fall {
+  double normal[3];
+  double height;  ///< m, of the scanner above it
+  std::uint32_t id;
+};
+
 /// Memory of one scan: room for all boxes of the tables, and for all solids of robots.
 struct Memory {
   Found* found = nullptr;
@@ -115,6 +122,7 @@ struct Memory {
   Candidates* in_sector = nullptr;  ///< likewise
   Visitor* visitors = nullptr;
   Placed* placed = nullptr;
+  Fall* falls = nullptr;
 };
 
 /// Where the readings go, by number of the ray.

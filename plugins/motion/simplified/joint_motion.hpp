@@ -24,7 +24,7 @@ template <class S>
 MURO_INLINE S clamp(S x, S low, S high) {
   return select(x < low, low, select(high < x, high, x));
 }
-constexpr bool is_finite(double limit) { return limit - limit == 0; }
+constexpr bool is_finite(double limit) { return -JointRange::infinite < limit && limit < JointRange::infinite; }
 
 /// The velocity u at the end of a step that begins with `v`, both towards a goal at `distance`, from which the
 /// joint can still stop there: (v + u) dt/2 + u^2 / (2 a) = distance. Negative when it must turn back.

@@ -12,7 +12,7 @@ enum class Mode { velocity, position, acceleration };
 
 /// What a joint may do; rad or m.
 struct JointRange {
-  static constexpr double infinite = __builtin_huge_val();
+  static constexpr double infinite = __builtin_huge_val();  ///< no limit
   double lower = -infinite, upper = infinite;
   double speed = infinite;
   double acceleration = 1e9;

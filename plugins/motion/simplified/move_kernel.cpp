@@ -121,7 +121,7 @@ unsigned move_some(const Work& work, const RobotState* robots, int count) {
   store_twist(states.twist, 0, twist, which);
   const V3<S> all = pose.position + twist.linear + twist.angular;
   const S sum = all.x + all.y + all.z;
-  return bits(!(sum - sum == S(0))) & which;
+  return bits(!(abs(sum) < S(JointRange::infinite))) & which;
 }
 
 template <class S>

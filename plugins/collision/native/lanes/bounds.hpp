@@ -2,8 +2,8 @@
 // Kernels: the boxes around robots of identical structure.
 #pragma once
 
-#include "solid.hpp"
 #include "muro/lane/isa.hpp"
+#include "solid.hpp"
 
 namespace muro::native {
 

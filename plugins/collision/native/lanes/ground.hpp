@@ -2,8 +2,8 @@
 // Kernels: robots of identical structure against the planes of the scenery.
 #pragma once
 
-#include "solid.hpp"
 #include "muro/lane/isa.hpp"
+#include "solid.hpp"
 
 namespace muro::native {
 
@@ -19,11 +19,11 @@ struct GroundWork {
   int solid_count = 0;
   const Ground* planes = nullptr;
   int plane_count = 0;
-  int contact_stride = 0;            ///< in numbers
-  int used = 0;                      ///< robots
-  const double* const* poses[8];     ///< of each robot: by solid, the pose of its body
-  double* contacts[8];               ///< of each robot: the numbers of its first contact
-  double* signatures = nullptr;      ///< out: which points touch: word by word, eight robots in each
+  int contact_stride = 0;         ///< in numbers
+  int used = 0;                   ///< robots
+  const double* const* poses[8];  ///< of each robot: by solid, the pose of its body
+  double* contacts[8];            ///< of each robot: the numbers of its first contact
+  double* signatures = nullptr;   ///< out: which points touch: word by word, eight robots in each
 };
 
 /// Writes contacts ordered by body, plane, solid and number of the point, and the signatures. A robot needs room for

@@ -59,8 +59,8 @@ MURO_INLINE void store_contacts(const Places<S, double>& to, std::int64_t first,
 template <class S>
 struct Appender {
   const int stride;
-  const unsigned all;          ///< a bit a robot
-  Places<S, double> first{};   ///< `next` numbers behind it a robot's next contact begins
+  const unsigned all;         ///< a bit a robot
+  Places<S, double> first{};  ///< `next` numbers behind it a robot's next contact begins
   std::int64_t next = 0;
   S points{0};       ///< the present word of the signature
   double scale = 1;  ///< of the present slot in it
@@ -68,8 +68,8 @@ struct Appender {
   MURO_INLINE void operator()(MaskOf<S> below, const V3<S>& point, S depth, int number) {
     points += select(below, S(scale * (1 << number)), S(0));
     const unsigned which = bits(below) & all;
-    if (which == (1u << count_of<S>) - 1) {
-      store_contacts(first, next, point, depth, (1u << count_of<S>) - 1);
+    if (which == (1u << count_of<S>)-1) {
+      store_contacts(first, next, point, depth, (1u << count_of<S>)-1);
     } else {
       store_contacts(first, next, point, depth, which);
       for (int i = 0; i < count_of<S>; ++i) first.at[i] -= which >> i & 1 ? 0 : stride;

@@ -161,7 +161,8 @@ void Search::normals_across(int segment) {
     }
     for (const double sign : {1.0, -1.0}) {
       const Vec2 d = corner + sign * offset;
-      if (std::abs(corner_along + sign * u.dot(h.offset)) <= reach && strip.may_hold_minimum(d, m, std::max(least, 0.0)))
+      if (std::abs(corner_along + sign * u.dot(h.offset)) <= reach &&
+          strip.may_hold_minimum(d, m, std::max(least, 0.0)))
         strip.search(*this, d, sign, p, q);
     }
   }

@@ -28,8 +28,8 @@ class RimPatch {
   }
 
   /// Whether there may be a minimum on the side of w, which is at right angles to both axes; `sine`: of the angle
-  /// between them. No component of p is above `most`: those along disc_0 and disc_1 bound the angles of c_1 and c_0 with
-  /// the plane of both axes, and that along w holds the angles against each other.
+  /// between them. No component of p is above `most`: those along disc_0 and disc_1 bound the angles of c_1 and c_0
+  /// with the plane of both axes, and that along w holds the angles against each other.
   bool may_hold_minimum(const Vec3& w, double sine, double most) const {
     const Interval up0 = rise(offset_.dot(h_.disc[1]), h_.radius[0] * sine, most),
                    up1 = rise(offset_.dot(h_.disc[0]), h_.radius[1] * sine, most);
