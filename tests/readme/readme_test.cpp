@@ -54,8 +54,9 @@ TEST(Readme, ItsRunCommandsWork) {
        ++it, ++commands) {
     const test::ScratchFolder scratch;
     std::string arguments = (*it)[1].str();
-    if (const std::size_t at = arguments.find("report.json"); at != std::string::npos)
-      arguments.replace(at, 11, scratch.path("report.json"));
+    for (const std::string file : {"report.json", "timeline.json"})
+      if (const std::size_t at = arguments.find(file); at != std::string::npos)
+        arguments.replace(at, file.size(), scratch.path(file));
     const auto result = run_command(muro_program + " " + arguments +
                                     (arguments.find("--duration") == std::string::npos ? " --duration 2" : ""));
     EXPECT_EQ(result.exit_code, 0) << arguments << "\n" << result.output;

@@ -135,7 +135,7 @@ MURO_INLINE Vector magnitude(const Vector& v) {
   if constexpr (is_pair<Vector>) {
     return {magnitude(v.low), magnitude(v.high)};
   } else {
-    using Bits = decltype(v < v);
+    using Bits = decltype(v < Vector{});
     return Vector(Bits(v) & ~Bits(-Vector{}));
   }
 }
@@ -145,7 +145,7 @@ MURO_INLINE Vector flipped(const Vector& v, const Vector& t, int bit) {
   if constexpr (is_pair<Vector>) {
     return {flipped(v.low, t.low, bit), flipped(v.high, t.high, bit)};
   } else {
-    using Bits = decltype(v < v);
+    using Bits = decltype(v < Vector{});
     constexpr int last = 8 * sizeof(Element<Vector>) - 1;
     return Vector(Bits(v) ^ ((Bits(t) << (last - bit)) & Bits(-Vector{})));
   }
@@ -156,7 +156,7 @@ MURO_INLINE auto bit_of(const Vector& t, int bit) {
   if constexpr (is_pair<Vector>) {
     return pair_of(bit_of(t.low, bit), bit_of(t.high, bit));
   } else {
-    using Bits = decltype(t < t);
+    using Bits = decltype(t < Vector{});
     constexpr int last = 8 * sizeof(Element<Vector>) - 1;
     return (Bits(t) << (last - bit)) < Bits{};
   }
