@@ -53,7 +53,7 @@ MURO_INLINE auto sign_bits(const Vector& v) {
   if constexpr (is_pair<Vector>) {
     return pair_of(sign_bits(v.low), sign_bits(v.high));
   } else {
-    using Bits = decltype(v < v);
+    using Bits = decltype(v < Vector{});
     return Bits(v) & Bits(-Vector{});
   }
 }
