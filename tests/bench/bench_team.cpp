@@ -58,7 +58,7 @@ double vehicles_in_real_time(const Make& make) {
 
 Make muro_with(int threads, const Pattern* lasers) {
   return [threads, lasers](const City& city) {
-    return Contender{std::make_unique<MuroTeam>(city, threads, lasers), nullptr};
+    return Contender{std::make_unique<MuroTeam>(city, threads, Wheels::balls, lasers), nullptr};
   };
 }
 

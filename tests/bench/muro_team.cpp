@@ -2,8 +2,13 @@
 #include "tests/bench/muro_team.hpp"
 
 namespace muro::bench {
+namespace {
 
-CityScene::CityScene(const City& city) {
+constexpr const char* corners[] = {"front_left", "front_right", "rear_left", "rear_right"};
+
+}  // namespace
+
+CityScene::CityScene(const City& city, Wheels wheels) {
   add_ground(Rover::friction);
   int number = 0;
   for (const Block& b : city.blocks()) {
@@ -12,6 +17,12 @@ CityScene::CityScene(const City& city) {
   }
   const RobotTree rover = read_model(MURO_TEST_SOURCE_DIR "/examples/models/rover.urdf");
   for (int v = 0; v < city.vehicles(); ++v) add(std::to_string(v), rover, city.starts()[std::size_t(v)]);
+  if (wheels == Wheels::cylinders) return;
+  for (const RobotView* r : world().robots())
+    for (const char* const corner : corners)
+      for (Shape& s :
+           world().values(world().object(std::string(r->name) + "/" + corner + "_wheel"), keys::collision_shapes))
+        s = {.kind = ShapeKind::sphere, .size = {s.size.x(), 0, 0}, .friction = s.friction};
 }
 
 std::vector<ObjectId> CityScene::add_lasers(const Pattern& pattern, double range, bool see_self) {
@@ -34,7 +45,7 @@ std::vector<ObjectId> CityScene::add_lasers(const Pattern& pattern, double range
   return sensors;
 }
 
-MuroTeam::MuroTeam(const City& city, int threads, const Pattern* lasers) : scene_(city) {
+MuroTeam::MuroTeam(const City& city, int threads, Wheels wheels, const Pattern* lasers) : scene_(city, wheels) {
   scene_.use("motion.simplified", 1000, scene_.all_robots());
   scene_.use_contacts();
   if (lasers) scene_.add_lasers(*lasers, 5.6, false);
@@ -43,10 +54,9 @@ MuroTeam::MuroTeam(const City& city, int threads, const Pattern* lasers) : scene
   for (const RobotView* r : scene_.world().robots()) {
     poses_.push_back(&scene_.pose(*r));
     std::array<double*, 4> targets{};
-    const char* const wheels[] = {"front_left", "front_right", "rear_left", "rear_right"};
     for (std::size_t w = 0; w < 4; ++w)
       targets[w] =
-          &scene_.world().value(std::string(r->name) + "/" + wheels[w] + "_wheel_joint", keys::joint_velocity_target);
+          &scene_.world().value(std::string(r->name) + "/" + corners[w] + "_wheel_joint", keys::joint_velocity_target);
     targets_.push_back(targets);
   }
 }

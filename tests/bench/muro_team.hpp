@@ -8,9 +8,12 @@
 
 namespace muro::bench {
 
+/// The shape of wheels where they touch: cylinders as in the model, or balls, as the wheels of all peers are.
+enum class Wheels { cylinders, balls };
+
 /// The city as scenery, its vehicles as robots "0", "1", ... of examples/models/rover.urdf. Motion is the caller's.
 struct CityScene : test::Scene {
-  explicit CityScene(const City& city);
+  explicit CityScene(const City& city, Wheels wheels = Wheels::cylinders);
   /// laser.raycast at 10 Hz on every vehicle; returns the objects of the scanners.
   std::vector<ObjectId> add_lasers(const Pattern& pattern, double range, bool see_self);
 };
@@ -19,7 +22,7 @@ struct CityScene : test::Scene {
 class MuroTeam final : public Team {
  public:
   /// `lasers`: what each vehicle carries, with a range of 5.6 m, or null.
-  MuroTeam(const City& city, int threads, const Pattern* lasers = nullptr);
+  MuroTeam(const City& city, int threads, Wheels wheels, const Pattern* lasers = nullptr);
 
   void command(int vehicle, WheelSpeeds speeds) override;
   void run(int steps) override { scene_.run_for(1e-3 * steps); }

@@ -1,38 +1,66 @@
 // SPDX-License-Identifier: MIT
-// Effective masses: how heavy two bodies are to each other where they touch.
+// Effective masses: how heavy two bodies are to each other where they touch, over a double or a lane of robots.
 #pragma once
 
-#include "muro/geometry.hpp"
+#include "symmetric.hpp"
 
 namespace muro::penalty {
 
-/// What resists a force on a free body. World axes.
-struct Mobility {
-  double mass = 0;              ///< inverse, 1/kg
-  Mat3 inertia = Mat3::Zero();  ///< inverse, 1/(kg m^2), about `centre`
-  Vec3 centre = Vec3::Zero();   ///< centre of mass, m
+/// Normals of one patch differ by less than 8 degrees: its cosine.
+inline constexpr double same_direction = 0.99;
+
+/// Mass properties of a robot, in the frame of its base.
+struct MassProperties {
+  double inverse_mass = 0;         ///< 1/kg
+  double com[3] = {};              ///< m
+  double inverse_inertia[6] = {};  ///< 1/(kg m^2), about the centre of mass: xx, yy, zz, xy, xz, yz
+
+  friend bool operator==(const MassProperties&, const MassProperties&) = default;
 };
 
+namespace law {
+inline namespace MURO_ISA {
+
+using lane::max;
+
+/// What resists a force on a free body. World axes.
+template <class S>
+struct Mobility {
+  S mass;                ///< inverse, 1/kg
+  Symmetric<S> inertia;  ///< inverse, 1/(kg m^2), about `centre`
+  V3<S> centre;          ///< centre of mass, m
+};
+
+template <class S>
+MURO_INLINE Mobility<S> mobility_of(const MassProperties& mass, const lane::PoseOf<S>& base) {
+  const M3<S> axes = base.orientation.matrix();
+  const double* const i = mass.inverse_inertia;
+  const Symmetric<S> inertia{S(i[0]), S(i[1]), S(i[2]), S(i[3]), S(i[4]), S(i[5])};
+  return {S(mass.inverse_mass), turned(axes, inertia), base.position + axes * lane::splat<S>(mass.com)};
+}
+
 /// Mobility of a point: along the normal, and the sum over both directions across it. 1/kg.
+template <class S>
 struct Yield {
-  double along = 0;
-  double across = 0;
-  Yield operator+(const Yield& b) const { return {along + b.along, across + b.across}; }
+  S along, across;
+  MURO_INLINE friend Yield operator+(const Yield& a, const Yield& b) {
+    return {a.along + b.along, a.across + b.across};
+  }
 };
 
 /// Stiffness of a body on springs against shifts, and against turns about its centre of mass. World axes.
+template <class S>
 struct Resistance {
-  Mat3 shift = Mat3::Zero();
-  Mat3 turn = Mat3::Zero();
-  void operator+=(const Resistance& b) {
-    shift += b.shift;
-    turn += b.turn;
-  }
+  Symmetric<S> shift = scaled_identity(S(0)), turn = scaled_identity(S(0));
+
+  MURO_INLINE void operator+=(const Resistance& b) { shift += b.shift, turn += b.turn; }
   /// No less than the largest eigenvalue of M^-1 K: of a matrix of two diagonal blocks it is at most the sum of
-  /// theirs, and in a block at most its Frobenius norm.
-  double greatest(const Mobility& body) const {
-    const Mat3 x = body.inertia * turn;
-    return body.mass * shift.norm() + std::sqrt(x.cwiseProduct(x.transpose()).sum());
+  /// theirs, and in a block, which is similar to a symmetric one, at most the root of the trace of its square.
+  MURO_INLINE S greatest(const Mobility<S>& body) const {
+    const V3<S> x = body.inertia * turn.column_x(), y = body.inertia * turn.column_y(),
+                z = body.inertia * turn.column_z();
+    const S trace = (x.x * x.x + y.y * y.y + z.z * z.z) + S(2) * (x.y * y.x + x.z * z.x + y.z * z.y);
+    return body.mass * shift.norm() + sqrt(max(trace, S(0)));
   }
 };
 
@@ -40,51 +68,59 @@ struct Resistance {
 ///
 /// The points of a patch together act with the effective mass at their middle, 1 / (1/m + (r x n) . I^-1 (r x n)), each
 /// with its part, so that a box that lands flat on four corners rebounds as a ball does.
-class Patch {
- public:
-  Patch(const Vec3& normal, const Vec3& origin) : normal_(normal), origin_(origin) {
-    turn_ << 0, -normal.z(), normal.y(), normal.z(), 0, -normal.x(), -normal.y(), normal.x(), 0;
-  }
+template <class S>
+struct Patch {
+  V3<S> normal;
+  V3<S> origin;                                  ///< m; a body is asked about from its centre of mass
+  double count = 0;                              ///< of points
+  V3<S> sum{S(0), S(0), S(0)};                   ///< of the points from the origin
+  Symmetric<S> squares = scaled_identity(S(0));  ///< of the same
 
-  const Vec3& normal() const { return normal_; }
-  double count() const { return count_; }
-  void add(const Vec3& point) {
-    const double x = point.x() - origin_.x(), y = point.y() - origin_.y(), z = point.z() - origin_.z();
-    count_ += 1;
-    x_ += x, y_ += y, z_ += z;
-    xx_ += x * x, yy_ += y * y, zz_ += z * z;
-    xy_ += x * y, xz_ += x * z, yz_ += y * z;
-  }
-  /// Of the middle of the points.
-  Yield at_middle(const Mobility& body) const {
-    const Vec3 r = origin_ + sum() / count_ - body.centre, turned = r.cross(normal_);
-    const double along = turned.dot(body.inertia * turned);
-    const double all = body.inertia.trace() * r.squaredNorm() - r.dot(body.inertia * r);
-    return {body.mass + along, 2 * body.mass + all - along};
-  }
-  /// What springs in the points do to a body, each of stiffness `along` the normal and `across` it.
-  Resistance resistance(const Mobility& body, double along, double across) const {
-    const Vec3 shift = origin_ - body.centre;
-    const Mat3 cross = sum() * shift.transpose();
-    Mat3 squares;  // sum of r r^T
-    squares << xx_, xy_, xz_, xy_, yy_, yz_, xz_, yz_, zz_;
-    squares += cross + cross.transpose() + count_ * shift * shift.transpose();
-    Resistance k;
-    k.shift = count_ * (across * Mat3::Identity() + (along - across) * normal_ * normal_.transpose());
-    k.turn = across * (squares.trace() * Mat3::Identity() - squares) +
-             (along - across) * turn_ * squares * turn_.transpose();
-    return k;
-  }
+  MURO_INLINE Patch(const V3<S>& normal_of_all, const V3<S>& from) : normal(normal_of_all), origin(from) {}
 
- private:
-  Vec3 sum() const { return {x_, y_, z_}; }
-
-  Vec3 normal_;
-  Vec3 origin_;
-  Mat3 turn_;  ///< turn_ * v = normal x v
-  // Number, sum and second moments of the points from origin_, as plain numbers: they are updated point by point.
-  double count_ = 0, x_ = 0, y_ = 0, z_ = 0;
-  double xx_ = 0, yy_ = 0, zz_ = 0, xy_ = 0, xz_ = 0, yz_ = 0;
+  MURO_INLINE void add(const V3<S>& point) {
+    const V3<S> d = point - origin;
+    count += 1;
+    sum += d;
+    squares += square(d);
+  }
+  /// The same with another origin.
+  MURO_INLINE Patch seen_from(const V3<S>& centre) const {
+    const V3<S> shift = origin - centre;
+    Patch p(normal, centre);
+    p.count = count;
+    p.sum = sum + S(count) * shift;
+    p.squares = squares + mixed(sum, shift) + S(count) * square(shift);
+    return p;
+  }
+  /// Of the middle of the points. The origin is the centre of `body`.
+  MURO_INLINE Yield<S> at_middle(const Mobility<S>& body) const {
+    const V3<S> r = sum * S(1 / count), lever = cross(r, normal);
+    const S along = dot(lever, body.inertia * lever);
+    const S all = body.inertia.trace() * dot(r, r) - dot(r, body.inertia * r);
+    return {body.mass + along, S(2) * body.mass + all - along};
+  }
+  /// What springs in the points do to a body whose centre is the origin, each of stiffness `along` the normal and
+  /// `across` it.
+  MURO_INLINE Resistance<S> resistance(S along, S across) const {
+    const S more = along - across;
+    return {scaled_identity(S(count) * across) + (S(count) * more) * square(normal),
+            across * (scaled_identity(squares.trace()) + S(-1) * squares) + more * crossed(normal, squares)};
+  }
 };
 
+/// What the points of a patch share: the effective mass of each, kg.
+template <class S>
+struct Share {
+  S along, across, inverse_across;
+
+  Share() = default;
+  MURO_INLINE Share(const Yield<S>& middle, double points)
+      : along(S(1) / (middle.along * S(points))),
+        across(S(1) / (middle.across * S(0.5 * points))),
+        inverse_across(middle.across * S(0.5 * points)) {}
+};
+
+}  // namespace MURO_ISA
+}  // namespace law
 }  // namespace muro::penalty

@@ -10,6 +10,23 @@
 namespace muro::penalty {
 namespace {
 
+using Patch = law::Patch<double>;
+
+lane::V3<double> plain(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+law::Symmetric<double> plain(const Mat3& m) { return {m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(0, 2), m(1, 2)}; }
+Mat3 matrix_of(const law::Symmetric<double>& m) {
+  return (Mat3() << m.xx, m.xy, m.xz, m.xy, m.yy, m.yz, m.xz, m.yz, m.zz).finished();
+}
+
+/// As law::Mobility.
+struct Mobility {
+  double mass;
+  Mat3 inertia;
+  Vec3 centre;
+
+  operator law::Mobility<double>() const { return {mass, plain(inertia), plain(centre)}; }
+};
+
 /// Velocity that a unit impulse along `direction` at `point` gives the point, by rigid-body mechanics.
 Vec3 response(const Mobility& b, const Vec3& point, const Vec3& direction) {
   const Vec3 r = point - b.centre, spin = b.inertia * r.cross(direction);
@@ -25,10 +42,10 @@ TEST(Patch, MobilitiesAreTheResponseToImpulses) {
     const Mobility body{0.3, root * root.transpose() + Mat3::Identity(), vector()};
     const Vec3 n = vector().normalized(), u = n.unitOrthogonal(), w = n.cross(u);
     std::vector<Vec3> points{vector(), vector(), vector()};
-    Patch patch(n, points[0]);
+    Patch patch(plain(n), plain(body.centre));
     Vec3 middle = Vec3::Zero();
     for (const Vec3& p : points) {
-      patch.add(p);
+      patch.add(plain(p));
       middle += p / 3;
     }
     EXPECT_NEAR(patch.at_middle(body).along, n.dot(response(body, middle, n)), 1e-10);
@@ -48,17 +65,18 @@ TEST(Patch, TheGreatestStiffnessBoundsEveryMotion) {
     Eigen::Matrix<double, 6, 6> k = decltype(k)::Zero(), inverse = decltype(k)::Zero();
     inverse.topLeftCorner<3, 3>() = body.mass * Mat3::Identity();
     inverse.bottomRightCorner<3, 3>() = body.inertia;
-    Patch patch(n, vector());
+    const Vec3 first_origin = vector();
+    Patch patch(plain(n), plain(first_origin));
     for (int p = 0; p < 4; ++p) {
       const Vec3 point = vector(), r = point - body.centre;
-      patch.add(point);
+      patch.add(plain(point));
       Eigen::Matrix<double, 3, 6> jacobian;  // of the point's velocity
       jacobian << Mat3::Identity(), (Mat3() << 0, r.z(), -r.y(), -r.z(), 0, r.x(), r.y(), -r.x(), 0).finished();
       k += jacobian.transpose() * (0.7 * Mat3::Identity() + (1.9 - 0.7) * n * n.transpose()) * jacobian;
     }
-    const Resistance all = patch.resistance(body, 1.9, 0.7);
-    EXPECT_LT((all.shift - k.topLeftCorner(3, 3)).norm(), 1e-12 * k.norm());
-    EXPECT_LT((all.turn - k.bottomRightCorner(3, 3)).norm(), 1e-12 * k.norm());
+    const law::Resistance<double> all = patch.seen_from(plain(body.centre)).resistance(1.9, 0.7);
+    EXPECT_LT((matrix_of(all.shift) - k.topLeftCorner(3, 3)).norm(), 1e-12 * k.norm());
+    EXPECT_LT((matrix_of(all.turn) - k.bottomRightCorner(3, 3)).norm(), 1e-12 * k.norm());
     const double greatest = (inverse * k).eval().eigenvalues().real().maxCoeff();
     EXPECT_GE(all.greatest(body), greatest);
     EXPECT_LE(all.greatest(body), 4 * greatest);
@@ -67,7 +85,7 @@ TEST(Patch, TheGreatestStiffnessBoundsEveryMotion) {
 
 TEST(Patch, ABoxThatLandsFlatHasItsWholeMass) {
   const Mobility box{1 / 4.0, Vec3(30, 40, 50).asDiagonal(), {1, 2, 3}};
-  Patch patch(Vec3::UnitZ(), {1.2, 2.1, 2.9});
+  Patch patch({0, 0, 1}, plain(box.centre));
   for (const double x : {-0.2, 0.2})
     for (const double y : {-0.1, 0.1}) patch.add({1 + x, 2 + y, 2.9});
   EXPECT_NEAR(1 / patch.at_middle(box).along, 4, 1e-12);

@@ -1,279 +1,204 @@
 // SPDX-License-Identifier: MIT
 #include "standing.hpp"
 
-#include <cmath>
-
 #include "muro/lane/rows.hpp"
 
 namespace muro::penalty {
 namespace {
 
 using namespace lane;
+using namespace law;
 
-/// As NormalLaw, over any scalar.
-template <class S>
-struct Normal {
-  const StandingWork& w;
-  S load, spring, damper, soft;
+/// Friction springs of a group in the step before: n of them, or as many as a robot may have.
+template <class S, int n>
+struct Springs {
+  V3<S> at[n], stretch[n];
 
-  MURO_INLINE Normal(const StandingWork& work, S load_) : w(work), load(load_) {
-    const double o2 = w.omega * w.omega, beta = w.z + 0.25 * o2 * w.h * w.h;
-    const S d = max(S(1 + beta), load * S(beta));
-    spring = S(o2) / d;
-    damper = S(0.5 * o2 * w.h + 2 * w.z / w.h) / d;
-    soft = S(o2 * (1 + beta)) / d;
+  MURO_INLINE void load(int k, const Places<S>& grips, int grip) {
+    S g[grip_numbers];
+    load_rows(grips, grip * grip_stride, g);
+    at[k] = {g[0], g[1], g[2]};
+    stretch[k] = {g[3], g[4], g[5]};
   }
-  MURO_INLINE S force(S depth, S approach) const {
-    const S h(w.h), zero(0);
-    const S standing = depth + S(2 * w.zeta / w.omega) * approach;
-    S f = max(spring * depth + damper * approach, zero);
-    const auto part = (approach < zero) & (standing < -approach * h);
-    if (any(part)) {
-      const double o2 = w.omega * w.omega;
-      const S held = S(o2) * standing * standing;
-      const S parting = held / (sqrt(approach * approach + held) - approach) / h * (soft / S(o2));
-      f = select(part, select(standing <= zero, zero, parting), f);
+  /// The stretch of the nearest of the first `count`.
+  MURO_INLINE V3<S> nearest(const V3<S>& point, int count) const {
+    V3<S> found = stretch[0];
+    if (count == 1) return found;
+    V3<S> away = at[0] - point;
+    S least = dot(away, away);
+    for (int k = 1; k < count; ++k) {
+      away = at[k] - point;
+      const S distance = dot(away, away);
+      const auto nearer = distance < least;
+      least = select(nearer, distance, least);
+      found = select(nearer, stretch[k], found);
     }
-    const auto meets = approach * h > depth;
-    if (any(meets)) f = select(meets, at_meeting(depth, approach, meets), f);
-    return f;
+    return found;
+  }
+};
+
+/// The contacts of as many robots as S has values. `one_patch`: of which all are part. What one pass over the contacts
+/// finds is kept for the next: so the steps of a pass do not wait for each other.
+template <class S, bool one_patch>
+class Push {
+ public:
+  /// Where there are fewer than S has values, the first stands in.
+  MURO_INLINE Push(const StandingWork& work, const StandingRobot* const* robots, int count)
+      : work_(work), layout_(*work.layout), count_(count) {
+    Places<S> base;
+    for (int i = 0; i < count_of<S>; ++i) {
+      const StandingRobot& r = *(robots_[i] = robots[i < count ? i : 0]);
+      contacts_.at[i] = r.contacts, before_.at[i] = r.before;
+      grips_.at[i] = r.grips, wrench_.at[i] = r.wrench;
+      base.at[i] = r.base_pose;
+    }
+    const PoseOf<S> pose = load_pose(base);
+    body_ = mobility_of(*work.mass, pose);
+    base_ = pose.position;
+  }
+
+  /// Returns a bit for each robot that is not served.
+  MURO_INLINE unsigned run() {
+    const unsigned served = load_contacts() & first_lanes(count_);
+    const S load = share();
+    move_contacts();
+    add_forces(load, served);
+    return ~served & first_lanes(count_);
   }
 
  private:
-  MURO_INLINE S at_meeting(S depth, S approach, MaskOf<S> meets) const {
-    const double o2 = w.omega * w.omega;
-    const S h(w.h), zero(0), one(1), half(0.5);
-    const S since = h + depth / approach;
-    const S z = tanh_of(S(w.zeta * w.omega) * since, meets);
-    const S beta = z + S(0.25 * o2) * since * since;
-    const S change = -(S(0.5 * o2) * since + S(2) * z / since) * approach / max(one + beta, load * beta);
-    const S speed = approach + since * change, way = since * approach;
-    const S dip = way + half * since * since * change;
-    const S energy = min(speed * speed + soft * dip * dip, approach * approach);
-    const S a = one + S(0.25) * soft * h * h, half_b = approach + half * soft * h * way;
-    const S c = approach * approach + soft * way * way - energy;
-    const S push = c / (half_b + sqrt(max(half_b * half_b - a * c, zero)));
-    return max(min(push, approach - min(speed, zero)) / h, zero);
+  struct Point {
+    V3<S> at, normal;
+    S depth, friction;
+    S approach;     ///< m/s
+    V3<S> slip;     ///< m/s
+    V3<S> stretch;  ///< m, of the friction spring
+  };
+  /// Contacts `begin` to `end` - 1 and their springs of the step before.
+  struct Group {
+    int number, begin, end, springs_begin, springs_end;
+  };
+
+  MURO_INLINE int patch_of(int contact) const { return one_patch ? 0 : work_.patch_of[contact]; }
+
+  /// Returns a bit for each robot whose contacts make the patches that `work` says.
+  MURO_INLINE unsigned load_contacts() {
+    auto one = S(1) == S(1);
+    for (int k = 0; k < layout_.contacts; ++k) {
+      S c[contact_numbers];
+      load_rows(contacts_, k * contact_stride, c);
+      Point& p = points_[k];
+      p.at = {c[0], c[1], c[2]}, p.normal = {c[3], c[4], c[5]};
+      p.depth = c[6], p.friction = c[7];
+      one = one & (dot(points_[0].normal, p.normal) > S(same_direction));
+    }
+    return one_patch ? bits(one) : all_lanes<S>;
   }
-  /// Value by value, of those that count: bodies meet rarely.
-  MURO_INLINE static S tanh_of(S x, MaskOf<S> which) {
-    if constexpr (count_of<S> == 1) {
-      return std::tanh(x);
-    } else {
-      S r(0);
-      for (int i = 0; i < count_of<S>; ++i)
-        if (bits(which) >> i & 1) r.set(i, std::tanh(x[i]));
-      return r;
+
+  /// Shares the effective mass of each patch among its points. Returns the load of the robot.
+  MURO_INLINE S share() {
+    Resistance<S> all;
+    for (int p = 0; p < (one_patch ? 1 : work_.patches); ++p) {
+      int first = 0;
+      while (patch_of(first) != p) ++first;
+      Patch<S> patch(points_[first].normal, body_.centre);
+      for (int k = first; k < layout_.contacts; ++k)
+        if (patch_of(k) == p) patch.add(points_[k].at);
+      shares_[p] = Share<S>(patch.at_middle(body_), patch.count);
+      all += patch.resistance(shares_[p].along, shares_[p].across);
+    }
+    return all.greatest(body_);
+  }
+
+  /// Velocities in the points, and their springs.
+  MURO_INLINE void move_contacts() {
+    Group group{};
+    for (; group.number < layout_.groups; ++group.number) {
+      group.end = layout_.ends[group.number];
+      group.springs_end = work_.springs_ends[group.number];
+      const int springs = group.springs_end - group.springs_begin;
+      if (springs == 1)  // as wheels that are balls and feet have them
+        move_group<1>(group);
+      else if (springs == 2)  // as wheels that are cylinders and tracks
+        move_group<2>(group);
+      else
+        move_any_group(group);
+      group.begin = group.end;
+      group.springs_begin = group.springs_end;
     }
   }
-};
-
-/// As FrictionLaw.
-template <class S>
-struct Friction {
-  S spring, damper, give;
-
-  MURO_INLINE Friction(const StandingWork& w, S load) {
-    const double o2 = w.omega * w.omega, beta = w.omega * w.h + 0.5 * o2 * w.h * w.h;
-    const S d = max(S(1 + beta), load * S(beta));
-    spring = S(o2) / d;
-    damper = S(2 * w.omega + 0.5 * o2 * w.h) / d;
-    give = S(-1) / spring;
-  }
-  MURO_INLINE V3<S> force(V3<S>& stretch, const V3<S>& slip, S most) const {
-    V3<S> f = -(spring * stretch) - damper * slip;
-    const S size2 = dot(f, f);
-    const auto slides = size2 > most * most;
-    if (any(slides)) {
-      const S part = most / sqrt(size2), held = part * give;
-      stretch = select(slides, held * f, stretch);
-      f = select(slides, part * f, f);
+  [[gnu::noinline]] void move_any_group(const Group& group) { move_group<most_contacts>(group); }
+  /// A group that has n springs, or any number of them.
+  template <int n>
+  MURO_INLINE void move_group(const Group& group) {
+    Places<S> pose, twist;
+    for (int i = 0; i < count_of<S>; ++i)
+      pose.at[i] = robots_[i]->poses[group.number], twist.at[i] = robots_[i]->twists[group.number];
+    const V3<S> origin = load_vector(pose);
+    const TwistOf<S> motion = load_twist(twist);
+    const int springs = n < most_contacts ? n : group.springs_end - group.springs_begin;
+    Springs<S, n> before;
+    for (int k = 0; k < springs; ++k) before.load(k, before_, group.springs_begin + k);
+    const S zero(0), elapsed(work_.elapsed);
+    for (int k = group.begin; k < group.end; ++k) {
+      Point& p = points_[k];
+      const V3<S> velocity = motion.linear + cross(motion.angular, p.at - origin);
+      p.approach = -dot(velocity, p.normal);
+      p.slip = velocity + p.approach * p.normal;
+      const V3<S> stretch = (springs > 0 ? before.nearest(p.at, springs) : V3<S>{zero, zero, zero}) + p.slip * elapsed;
+      p.stretch = stretch - p.normal * dot(p.normal, stretch);
     }
-    return f;
   }
-};
 
-/// What resists a force on a robot. World axes.
-template <class S>
-struct Mobility {
-  S mass;
-  M3<S> inertia;
-  V3<S> centre;
-};
-
-template <class S>
-MURO_INLINE S trace(const M3<S>& m) {
-  return m.x.x + m.y.y + m.z.z;
-}
-template <class S>
-MURO_INLINE M3<S> transposed(const M3<S>& m) {
-  return {{m.x.x, m.y.x, m.z.x}, {m.x.y, m.y.y, m.z.y}, {m.x.z, m.y.z, m.z.z}};
-}
-template <class S>
-MURO_INLINE M3<S> operator+(const M3<S>& a, const M3<S>& b) {
-  return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-template <class S>
-MURO_INLINE M3<S> operator*(S s, const M3<S>& m) {
-  return {s * m.x, s * m.y, s * m.z};
-}
-template <class S>
-MURO_INLINE M3<S> outer(const V3<S>& a, const V3<S>& b) {
-  return {a * b.x, a * b.y, a * b.z};
-}
-template <class S>
-MURO_INLINE M3<S> diagonal(S s) {
-  const S zero(0);
-  return {{s, zero, zero}, {zero, s, zero}, {zero, zero, s}};
-}
-
-/// All contacts of a robot as one patch: see Patch and Resistance.
-template <class S>
-struct OnePatch {
-  V3<S> normal, origin;
-  S count;
-  V3<S> sum;
-  S xx, yy, zz, xy, xz, yz;
-
-  MURO_INLINE void add(const V3<S>& point) {
-    const V3<S> d = point - origin;
-    sum += d;
-    xx += d.x * d.x, yy += d.y * d.y, zz += d.z * d.z;
-    xy += d.x * d.y, xz += d.x * d.z, yz += d.y * d.z;
-  }
-  /// Effective masses of each point along and across the normal (the latter inverse), and the load of the robot.
-  MURO_INLINE void share(const Mobility<S>& body, S& along, S& inverse_across, S& load) const {
-    const V3<S> r = origin + sum * (S(1) / count) - body.centre, lever = cross(r, normal);
-    const S yields = dot(lever, body.inertia * lever);
-    const S all = trace(body.inertia) * dot(r, r) - dot(r, body.inertia * r);
-    along = S(1) / ((body.mass + yields) * count);
-    inverse_across = S(0.5) * (S(2) * body.mass + all - yields) * count;
-    const S across = S(1) / inverse_across, more = along - across;
-    const V3<S> shift = origin - body.centre;
-    const M3<S> mixed = outer(sum, shift);
-    const M3<S> squares =
-        M3<S>{{xx, xy, xz}, {xy, yy, yz}, {xz, yz, zz}} + mixed + transposed(mixed) + count * outer(shift, shift);
-    const M3<S> shifts = count * (diagonal(across) + more * outer(normal, normal));
-    // normal x squares x normal: the columns of squares crossed, then its rows
-    const M3<S> half{cross(normal, squares.x), cross(normal, squares.y), cross(normal, squares.z)};
-    const M3<S> rows = transposed(half);
-    const M3<S> turned{cross(normal, rows.x), cross(normal, rows.y), cross(normal, rows.z)};
-    const M3<S> turns = across * (diagonal(trace(squares)) + S(-1) * squares) + more * turned;
-    const M3<S> x = body.inertia * turns, y = transposed(x);
-    load = body.mass * sqrt(dot(shifts.x, shifts.x) + dot(shifts.y, shifts.y) + dot(shifts.z, shifts.z)) +
-           sqrt(dot(x.x, y.x) + dot(x.y, y.y) + dot(x.z, y.z));
-  }
-};
-
-template <class S>
-struct Point {
-  V3<S> at, normal;
-  S depth;
-};
-
-template <class S>
-MURO_INLINE unsigned push(const StandingWork& work, const StandingRobot* const* robots) {
-  constexpr int n = count_of<S>;
-  constexpr unsigned all = (1u << n) - 1;
-  Places<S> contacts, base, twist, mass, old_grips;
-  Places<S, double> grips, wrench;
-  for (int i = 0; i < n; ++i) {
-    contacts.at[i] = robots[i]->contacts;
-    base.at[i] = robots[i]->base_pose;
-    mass.at[i] = &robots[i]->mass->inverse_mass;
-    old_grips.at[i] = grips.at[i] = robots[i]->grips;
-    wrench.at[i] = robots[i]->wrench;
-  }
-  S p[7], m[4], inertia[6], tail[3];
-  load_rows(base, 0, p);
-  load_rows(mass, 0, m);
-  load_rows(mass, 4, inertia);
-  load_rows(mass, 10, tail);
-  const V3<S> base_at{p[0], p[1], p[2]};
-  const M3<S> axes = Q4<S>{p[3], p[4], p[5], p[6]}.matrix();
-  const M3<S> own{
-      {inertia[0], inertia[1], inertia[2]}, {inertia[3], inertia[4], inertia[5]}, {tail[0], tail[1], tail[2]}};
-  const Mobility<S> body{m[0], axes * (own * transposed(axes)), base_at + axes * V3<S>{m[1], m[2], m[3]}};
-
-  Point<S> points[most_contacts];
-  OnePatch<S> patch;
-  auto one = S(1) == S(1);
-  for (int k = 0; k < work.contacts; ++k) {
-    S c[7];
-    load_rows(contacts, k * contact_stride, c);
-    points[k] = {{c[0], c[1], c[2]}, {c[3], c[4], c[5]}, c[6]};
-    const S zero(0);
-    if (k == 0)
-      patch = {
-          points[0].normal, points[0].at, S(work.contacts), {zero, zero, zero}, zero, zero, zero, zero, zero, zero};
-    one = one & (dot(patch.normal, points[k].normal) > S(work.same_direction));
-    patch.add(points[k].at);
-  }
-  const unsigned served = bits(one) & all;
-  S along, inverse_across, load;
-  patch.share(body, along, inverse_across, load);
-  const Normal<S> law(work, load);
-  const Friction<S> friction(work, load);
-  const S across = S(1) / inverse_across, elapsed(work.elapsed), zero(0);
-
-  V3<S> force{zero, zero, zero}, torque = force;
-  for (int group = 0, begin = 0; group < work.groups; begin = work.ends[group++]) {
-    const int end = work.ends[group];
-    Places<S> pose;
-    for (int i = 0; i < n; ++i) {
-      pose.at[i] = robots[i]->body_pose[group];
-      twist.at[i] = robots[i]->body_twist[group];
-    }
-    S x[3], t[6];
-    load_rows(pose, 0, x);
-    load_rows(twist, 0, t);
-    const V3<S> origin{x[0], x[1], x[2]}, linear{t[0], t[1], t[2]}, angular{t[3], t[4], t[5]};
-    V3<S> old_at[most_contacts], old_stretch[most_contacts];
-    for (int k = begin; k < end; ++k) {
-      S g[6];
-      load_rows(old_grips, k * grip_stride, g);
-      old_at[k - begin] = {g[0], g[1], g[2]};
-      old_stretch[k - begin] = {g[3], g[4], g[5]};
-    }
-    for (int k = begin; k < end; ++k) {
-      const Point<S>& c = points[k];
-      // The spring of the nearest point of the step before.
-      V3<S> away = old_at[0] - c.at, stretch = old_stretch[0];
-      S nearest = dot(away, away);
-      for (int j = 1; j < end - begin; ++j) {
-        away = old_at[j] - c.at;
-        const S distance = dot(away, away);
-        const auto nearer = distance < nearest;
-        nearest = select(nearer, distance, nearest);
-        stretch = select(nearer, old_stretch[j], stretch);
+  MURO_INLINE void add_forces(S load, unsigned served) {
+    V3<S> force{S(0), S(0), S(0)}, torque = force;
+    const FrictionLaw<S> friction(work_.stiffness, load);
+    NormalLaw<S> law(work_.stiffness, layout_.zeta[0], load);
+    for (int group = 0, k = 0; group < layout_.groups; ++group) {
+      if (layout_.zeta[group] != law.zeta) law = {work_.stiffness, layout_.zeta[group], load};
+      for (; k < layout_.ends[group]; ++k) {
+        const Point& p = points_[k];
+        const Share<S>& share = shares_[patch_of(k)];
+        V3<S> stretch = p.stretch;
+        const S normal = share.along * law.force(p.depth, p.approach);
+        const V3<S> across = friction.force(stretch, p.slip, p.friction * normal * share.inverse_across);
+        const V3<S> sum = normal * p.normal + share.across * across;
+        force += sum;
+        torque += cross(p.at - base_, sum);
+        store_rows(grips_, k * grip_stride, {p.at.x, p.at.y, p.at.z, stretch.x, stretch.y, stretch.z}, served);
       }
-      const V3<S> motion = linear + cross(angular, c.at - origin);
-      const S approach = -dot(motion, c.normal);
-      const V3<S> slip = motion + approach * c.normal;
-      const S normal = along * law.force(c.depth, approach);
-      stretch += slip * elapsed;
-      stretch -= c.normal * dot(c.normal, stretch);
-      const S mu = lane::load<S>(contacts, k * contact_stride + friction_number);
-      const V3<S> f = normal * c.normal + across * friction.force(stretch, slip, mu * normal * inverse_across);
-      store_rows(grips, k * grip_stride, {c.at.x, c.at.y, c.at.z, stretch.x, stretch.y, stretch.z}, served);
-      force += f;
-      torque += cross(c.at - base_at, f);
     }
+    store_rows(wrench_, 0, {force.x, force.y, force.z, torque.x, torque.y, torque.z}, served);
   }
-  store_rows(wrench, 0, {force.x, force.y, force.z, torque.x, torque.y, torque.z}, served);
-  return ~served & all;
-}
 
-unsigned push_one(const StandingWork& work, const StandingRobot* const* robots) { return push<double>(work, robots); }
-unsigned push_eight(const StandingWork& work, const StandingRobot* const* robots) {
-  return push<Double8>(work, robots);
+  const StandingWork& work_;
+  const Layout& layout_;
+  const int count_;
+  const StandingRobot* robots_[count_of<S>];
+  Places<S> contacts_, before_;
+  Places<S, double> grips_, wrench_;
+  Mobility<S> body_;
+  V3<S> base_;
+  Point points_[most_contacts];
+  Share<S> shares_[one_patch ? 1 : most_contacts];  ///< of each patch
+};
+
+unsigned push(const StandingWork& work, const StandingRobot* const* robots, int count) {
+  if (work.patch_of) {
+    for (int i = 0; i < count; ++i) Push<double, false>(work, robots + i, 1).run();
+    return 0;
+  }
+  if (count >= worth_a_lane) return Push<Double8, true>(work, robots, count).run();
+  unsigned left = 0;
+  for (int i = 0; i < count; ++i) left |= Push<double, true>(work, robots + i, 1).run() << i;
+  return left;
 }
 
 }  // namespace
 
 namespace MURO_ISA {
 extern const StandingKernels standing_kernels;
-const StandingKernels standing_kernels{&push_one, &push_eight};
+const StandingKernels standing_kernels{&push};
 }  // namespace MURO_ISA
 
 }  // namespace muro::penalty

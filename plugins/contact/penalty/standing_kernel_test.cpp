@@ -4,9 +4,10 @@
 #include <cstring>
 #include <random>
 
-#include "contact_law.hpp"
-#include "patch.hpp"
-#include "standings.hpp"
+#include "grip.hpp"
+#include "muro/scene.hpp"
+#include "restitution.hpp"
+#include "standing.hpp"
 
 namespace muro::penalty {
 namespace {
@@ -17,7 +18,6 @@ constexpr double omega = 2 * M_PI * 50, h = 0.001, elapsed = 0.001, restitution 
 struct Vehicle {
   Pose base, bodies[4];
   Twist twist, twists[4];
-  StandingMass mass;
   Contact contacts[8];
   Grip grips[8];
   Wrench wrench;
@@ -25,14 +25,12 @@ struct Vehicle {
   StandingRobot view() {
     StandingRobot v;
     v.contacts = contacts[0].point.data();
-    v.grips = grips[0].point.data();
+    v.before = v.grips = grips[0].point.data();
     v.base_pose = base.position.data();
-    v.base_twist = twist.linear.data();
-    v.mass = &mass;
     v.wrench = wrench.force.data();
     for (int k = 0; k < 4; ++k) {
-      v.body_pose[k] = bodies[k].position.data();
-      v.body_twist[k] = twists[k].linear.data();
+      v.poses[k] = bodies[k].position.data();
+      v.twists[k] = twists[k].linear.data();
     }
     return v;
   }
@@ -45,11 +43,6 @@ Vehicle random_vehicle(std::mt19937& random, double speed) {
   Vehicle v;
   v.base = {vector(5), rotation_of(vector(1))};
   v.twist = {vector(speed), vector(speed)};
-  const Vec3 moments = vector(1).cwiseAbs() + Vec3::Constant(0.02);
-  const Mat3 inverse = moments.cwiseInverse().asDiagonal();
-  v.mass.inverse_mass = 0.1 + std::abs(g(random));
-  std::copy_n(vector(0.05).data(), 3, v.mass.com);
-  std::copy_n(inverse.data(), 9, v.mass.inverse_inertia);
   const Vec3 normal = Vec3(0.1 * g(random), 0.1 * g(random), 1).normalized();
   for (int k = 0; k < 4; ++k) {
     v.bodies[k] = {v.base.position + vector(0.2), rotation_of(vector(1))};
@@ -69,59 +62,80 @@ Vehicle random_vehicle(std::mt19937& random, double speed) {
   return v;
 }
 
-StandingWork work() {
-  StandingWork w;
-  w.contacts = 8;
-  w.groups = 4;
-  for (int g = 0; g < 4; ++g) w.ends[g] = 2 * (g + 1);
-  w.omega = omega;
-  w.h = h;
-  w.zeta = damping_ratio_of(restitution);
-  w.z = std::tanh(w.zeta * omega * h);
-  w.elapsed = elapsed;
-  w.same_direction = 0.99;
-  return w;
+/// Of all vehicles.
+const MassProperties mass{
+    .inverse_mass = 0.4, .com = {0.02, -0.01, 0.03}, .inverse_inertia = {1.5, 2.5, 0.9, 0.1, -0.2, 0.3}};
+
+/// Two contacts a body.
+const Layout& layout() {
+  static const Layout two_each = [] {
+    Layout l;
+    l.contacts = 8;
+    l.groups = 4;
+    for (int g = 0; g < 4; ++g) {
+      l.ends[g] = std::uint8_t(2 * (g + 1));
+      l.zeta[g] = damping_ratio_of(restitution);
+    }
+    return l;
+  }();
+  return two_each;
 }
 
-/// The same by Patch, NormalLaw, FrictionLaw and previous(), contact by contact.
-Wrench by_the_laws(const Vehicle& v, std::vector<Grip>& grips) {
+StandingWork work() {
+  return {
+      .stiffness = {omega, h}, .elapsed = elapsed, .mass = &mass, .layout = &layout(), .springs_ends = layout().ends};
+}
+
+/// The same in matrices, contact by contact: the model in the plugin's README.
+Wrench by_the_model(const Vehicle& v, std::vector<Grip>& grips) {
   const Mat3 r = v.base.orientation.toRotationMatrix();
-  const Mobility body{v.mass.inverse_mass, r * Mat3(v.mass.inverse_inertia) * r.transpose(),
-                      v.base.position + r * Vec3(v.mass.com)};
-  Patch patch(v.contacts[0].normal, v.contacts[0].point);
-  for (const Contact& c : v.contacts) patch.add(c.point);
-  const Yield middle = patch.at_middle(body);
-  const double along = 1 / (middle.along * patch.count()), across = 1 / (0.5 * middle.across * patch.count());
-  const double load = patch.resistance(body, along, across).greatest(body);
-  const Stiffness s{omega, h};
-  const NormalLaw normal_law(s, damping_ratio_of(restitution), load);
-  const FrictionLaw friction_law(s, load);
+  const double* const i = mass.inverse_inertia;
+  const Mat3 own = (Mat3() << i[0], i[3], i[4], i[3], i[1], i[5], i[4], i[5], i[2]).finished();
+  const Mat3 inertia = r * own * r.transpose();
+  const Vec3 centre = v.base.position + r * Vec3(mass.com), n = v.contacts[0].normal;
+  Vec3 middle = Vec3::Zero();
+  for (const Contact& c : v.contacts) middle += (c.point - centre) / 8;
+  const auto yield = [&](const Vec3& d) { return mass.inverse_mass + middle.cross(d).dot(inertia * middle.cross(d)); };
+  const Vec3 u = n.unitOrthogonal();
+  const double along = 1 / (8 * yield(n)), across = 2 / (8 * (yield(u) + yield(n.cross(u))));
+  Mat3 shift = Mat3::Zero(), turn = Mat3::Zero();  // stiffness of the springs
+  for (const Contact& c : v.contacts) {
+    const Vec3 p = c.point - centre;
+    const Mat3 cross = (Mat3() << 0, -p.z(), p.y(), p.z(), 0, -p.x(), -p.y(), p.x(), 0).finished();
+    const Mat3 spring = across * Mat3::Identity() + (along - across) * n * n.transpose();
+    shift += spring;
+    turn += cross * spring * cross.transpose();
+  }
+  const double load = mass.inverse_mass * shift.norm() + std::sqrt((inertia * turn * inertia * turn).trace());
+  const law::NormalLaw<double> normal_law({omega, h}, damping_ratio_of(restitution), load);
+  const law::FrictionLaw<double> friction_law({omega, h}, load);
   const std::vector<Grip> before(std::begin(v.grips), std::end(v.grips));
   Wrench total;
-  for (std::size_t i = 0; i < 8; ++i) {
-    const Contact& c = v.contacts[i];
-    const Vec3 motion = v.twists[i / 2].at(c.point - v.bodies[i / 2].position);
+  for (std::size_t k = 0; k < 8; ++k) {
+    const Contact& c = v.contacts[k];
+    const Vec3 motion = v.twists[k / 2].at(c.point - v.bodies[k / 2].position);
     const double approach = -motion.dot(c.normal);
     const Vec3 slip = motion + approach * c.normal;
-    Vec3 stretch = previous(before, i, i / 2, c.point)->stretch + slip * elapsed;
+    Vec3 stretch = previous(before, k, k / 2, c.point)->stretch + slip * elapsed;
     stretch -= c.normal * c.normal.dot(stretch);
     const double normal = along * normal_law.force(c.depth, approach);
-    const Vec3 force = normal * c.normal + across * friction_law.force(stretch, slip, c.friction * normal / across);
-    grips.push_back({i / 2, c.point, stretch});
-    total.add_force(force, c.point - v.base.position);
+    lane::V3<double> spring{stretch.x(), stretch.y(), stretch.z()};
+    const lane::V3<double> f = friction_law.force(spring, {slip.x(), slip.y(), slip.z()}, c.friction * normal / across);
+    grips.push_back({k / 2, c.point, {spring.x, spring.y, spring.z}});
+    total.add_force(normal * c.normal + across * Vec3(f.x, f.y, f.z), c.point - v.base.position);
   }
   return total;
 }
 
-TEST(StandingKernel, AgreesWithTheLawsContactByContact) {
+TEST(StandingKernel, AgreesWithTheModelContactByContact) {
   std::mt19937 random(1);
   for (int round = 0; round < 2000; ++round) {
     Vehicle v = random_vehicle(random, std::pow(10, -4 + round % 6));
     std::vector<Grip> grips;
-    const Wrench expected = by_the_laws(v, grips);
+    const Wrench expected = by_the_model(v, grips);
     const StandingRobot view = v.view();
     const StandingRobot* const views[] = {&view};
-    ASSERT_EQ(standing_kernels_for(lane::best_isa()).push_one(work(), views), 0u);
+    ASSERT_EQ(standing_kernels_for(lane::best_isa()).push(work(), views, 1), 0u);
     const double scale = 1e-9 * (1 + expected.force.norm() + expected.torque.norm());
     ASSERT_LT((v.wrench.force - expected.force).norm(), scale) << round;
     ASSERT_LT((v.wrench.torque - expected.torque).norm(), scale) << round;
@@ -149,15 +163,32 @@ TEST(StandingKernel, EightRobotsAtOnceGetTheBitsOfEachAloneWithAnyInstructionSet
         alone_views[k] = alone[k].view();
         views[k] = &together_views[k];
       }
-      const unsigned left = standing_kernels_for(isa).push_eight(work(), views);
+      const unsigned left = standing_kernels_for(isa).push(work(), views, 8);
       EXPECT_EQ(left, round % 3 == 0 ? 1u << 5 : 0u);
       for (std::size_t k = 0; k < 8; ++k) {
         const StandingRobot* const view[] = {&alone_views[k]};
-        ASSERT_EQ(standing_kernels_for(lane::Isa::base).push_one(work(), view), left >> k & 1);
+        ASSERT_EQ(standing_kernels_for(lane::Isa::base).push(work(), view, 1), left >> k & 1);
         ASSERT_EQ(std::memcmp(&alone[k].wrench, &together[k].wrench, sizeof(Wrench)), 0) << "robot " << k;
         ASSERT_EQ(std::memcmp(alone[k].grips, together[k].grips, sizeof alone[k].grips), 0) << "robot " << k;
       }
     }
+  }
+}
+
+TEST(StandingKernel, OnePatchGivesTheSameBitsWhetherItIsFoundOrTold) {
+  std::mt19937 random(3);
+  const std::uint8_t patch_of[8] = {};
+  StandingWork told = work();
+  told.patch_of = patch_of;
+  for (int round = 0; round < 300; ++round) {
+    const Vehicle drawn = random_vehicle(random, std::pow(10, -4 + round % 6));
+    Vehicle a = drawn, b = drawn;
+    const StandingRobot a_view = a.view(), b_view = b.view();
+    const StandingRobot *const a_views[] = {&a_view}, *const b_views[] = {&b_view};
+    ASSERT_EQ(standing_kernels_for(lane::best_isa()).push(work(), a_views, 1), 0u);
+    ASSERT_EQ(standing_kernels_for(lane::best_isa()).push(told, b_views, 1), 0u);
+    ASSERT_EQ(std::memcmp(&a.wrench, &b.wrench, sizeof(Wrench)), 0);
+    ASSERT_EQ(std::memcmp(a.grips, b.grips, sizeof a.grips), 0);
   }
 }
 

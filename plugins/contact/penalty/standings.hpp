@@ -1,73 +1,70 @@
 // SPDX-License-Identifier: MIT
+// Robots that touch nothing that moves. Each is served for itself: alone, or in a lane with others like it.
 #pragma once
 
-#include <algorithm>
-#include <cstring>
+#include <array>
+#include <mutex>
 #include <vector>
 
-#include "grip.hpp"
-#include "muro/scene.hpp"
+#include "bodies.hpp"
 #include "standing.hpp"
 
 namespace muro::penalty {
 
-static_assert(sizeof(Contact) == contact_stride * sizeof(double) && offsetof(Contact, point) == 8 &&
-              offsetof(Contact, normal) == 32 && offsetof(Contact, depth) == 56 && offsetof(Contact, friction) == 64 &&
-              offsetof(Contact, self_shape) == 80 && sizeof(Grip) == grip_stride * sizeof(double) &&
-              offsetof(Grip, point) == 8 && offsetof(Grip, stretch) == 32);
-
-/// What a robot stood on in the step before. It saves looking at the same contacts again; whether the kernels serve a
-/// robot follows from its contacts and grips alone.
-class Standing {
+class Standings {
  public:
-  StandingRobot view;
-
-  /// Whether the robot has just these contacts, and a grip for each in their order.
-  bool matches(std::span<const Contact> contacts, std::span<const Grip> springs) const {
-    if (contacts.size() != count_ || springs.size() != count_) return false;
-    bool same = true;
-    for (std::uint32_t i = 0; i < count_; ++i)
-      same = same && std::memcmp(&contacts[i].self, &bodies_[i], 8) == 0 &&
-             std::memcmp(&contacts[i].self_shape, &shapes_[i], 8) == 0 && springs[i].pair == pairs_[i];
-    return same;
-  }
-  void clear() { count_ = 0; }
-  /// Takes a contact over; they come in order. False: there is no room.
-  bool add(const Contact& c, std::uint64_t pair, const double* pose, const double* twist) {
-    if (count_ == most_contacts) return false;
-    const bool new_group = count_ == 0 || pair != pairs_[count_ - 1];
-    if (new_group) {
-      view.body_pose[groups_of(count_)] = pose;
-      view.body_twist[groups_of(count_)] = twist;
-    }
-    std::memcpy(&bodies_[count_], &c.self, 8);
-    std::memcpy(&shapes_[count_], &c.self_shape, 8);
-    pairs_[count_] = pair;
-    groups_ = groups_of(count_) + (new_group ? 1 : 0);
-    ends_[groups_ - 1] = ++count_;
-    return true;
-  }
-  /// Equal for robots that one lane can serve.
-  std::uint64_t signature(std::uint32_t material) const {
-    std::uint64_t bits = count_ | std::uint64_t(material) << 32;
-    for (std::uint32_t g = 0; g < groups_; ++g) bits |= std::uint64_t(1) << (ends_[g] + 8);
-    return bits;
-  }
-  void describe(StandingWork& work) const {
-    work.contacts = int(count_);
-    work.groups = int(groups_);
-    std::copy_n(ends_, groups_, work.ends);
-  }
-  bool simple = false;     ///< served by the kernels, as long as it matches and its normals make one patch
-  std::uint64_t kind = 0;  ///< its signature
-  double restitution = 0;
+  explicit Standings(const Bodies& bodies);
+  /// Forgets what robots stood on; call it before the first step and when the state was changed from outside.
+  void start();
+  /// Serves those robots of a block (robot numbers) that touch only scenery, or nothing. Any thread.
+  void push(const Moment& moment, Range block);
+  /// By place in Bodies::robots: 1 for those that the last push() did not serve.
+  const std::vector<std::uint8_t>& left() const { return left_; }
 
  private:
-  std::uint32_t groups_of(std::uint32_t count) const { return count == 0 ? 0 : groups_; }
+  /// What of a contact does not change while it lasts, as long as nothing comes or goes.
+  struct Identity {
+    std::uint64_t bodies = 0, shapes = 0, pair = 0;
+  };
+  /// What a robot stood on in the step before. It saves looking at the same contacts again; how a robot is served
+  /// follows from its contacts and grips alone.
+  struct Standing {
+    StandingRobot view;
+    std::uint32_t contacts = 0;  ///< known
+    std::uint32_t layout = 0;    ///< in layouts_; robots of one layout and mass share lanes
+    std::uint32_t mass = 0;
+    bool only_scenery = false;
+    bool in_lanes = false;  ///< one piece of scenery, and a layout that is known
+    std::array<Identity, most_contacts> identities;
 
-  std::uint32_t count_ = 0, groups_ = 0;
-  std::uint64_t bodies_[most_contacts] = {}, shapes_[most_contacts] = {}, pairs_[most_contacts] = {};
-  std::uint32_t ends_[most_contacts] = {};
+    bool knows(std::span<const Contact> now) const;
+    bool springs_fit(std::span<const Grip> springs) const;
+  };
+  /// Robots that wait until they fill a lane.
+  struct Queue {
+    std::uint32_t count = 0;
+    std::uint32_t robots[8];
+  };
+  struct Queues;
+
+  void fetch(std::uint32_t robot) const;
+  void push_one(const Moment& moment, std::uint32_t robot, Queues& queues);
+  void learn(std::uint32_t robot, std::span<const Contact> contacts);
+  void push_alone(const Moment& moment, std::uint32_t robot);
+  void push_queue(const Moment& moment, Queue& queue);
+  Layout lay_out(std::uint32_t robot, std::span<const Contact> contacts);
+  std::uint32_t number_of(const Layout& layout);
+  int sort_into_patches(std::span<const Contact> contacts, std::uint8_t* patch_of) const;
+
+  static constexpr std::uint32_t unknown_layout = 0xffffffffu;
+  static constexpr std::size_t most_layouts = 256;
+
+  const Bodies& bodies_;
+  const StandingKernels& kernels_;
+  std::vector<Standing> standings_;  ///< as Bodies::robots
+  std::vector<std::uint8_t> left_;
+  std::mutex mutex_;             ///< of those who learn a layout
+  std::vector<Layout> layouts_;  ///< all different; never more than most_layouts, so they stay where they are
 };
 
 }  // namespace muro::penalty

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// What contact knows of a scene: its bodies, and the robots that forces move.
+#pragma once
+
+#include <vector>
+
+#include "contact_law.hpp"
+#include "grip.hpp"
+#include "muro/algorithm.hpp"
+#include "muro/scene.hpp"
+#include "patch.hpp"
+#include "restitution.hpp"
+
+namespace muro::penalty {
+
+inline constexpr std::int32_t nobody = -1;
+
+/// Any object.
+struct Body {
+  const Pose* pose = nullptr;    ///< null: scenery
+  const Twist* twist = nullptr;  ///< null: scenery, which does not move
+  std::int32_t robot = nobody;   ///< in Bodies::robots, when forces move it
+  std::uint32_t whole = 0;       ///< equal for all bodies of a robot
+  std::uint64_t name = 0;        ///< hash
+};
+
+/// A robot that forces move.
+struct Robot {
+  ListIn<Contact> contacts;
+  ListOut<Grip> grips;
+  Sum<Wrench> wrench;
+  In<Pose> base;
+  In<Twist> twist;
+  std::uint32_t mass = 0;  ///< in Bodies::masses
+  std::uint64_t rank = 0;  ///< of two robots, the one with the lower rank works out their contacts
+};
+
+struct Material {
+  double restitution = 0, damping_ratio = 0;
+};
+
+struct Bodies {
+  std::vector<Body> all;  ///< by object id
+  std::vector<Robot> robots;
+  std::vector<std::int32_t> robot_of;  ///< by robot number: in `robots`, or nobody
+  std::vector<MassProperties> masses;  ///< all different
+  std::vector<Material> materials;     ///< of all shapes; a pair has the larger restitution of two
+
+  void connect(Connector& c);
+
+  const Body& operator[](ObjectId id) const { return all[index_of(id)]; }
+  std::uint32_t material_of(double restitution) const {
+    std::uint32_t i = 0;
+    while (i + 1 < materials.size() && materials[i].restitution != restitution) ++i;
+    return i;
+  }
+  std::uint64_t pair_of(const Contact& c) const {
+    return penalty::pair_of((*this)[c.self].name, (*this)[c.other].name, c.self_shape, c.other_shape);
+  }
+
+ private:
+  void connect_robot(Connector& c, const RobotView& view);
+  std::uint32_t note(const MassProperties& mass);
+};
+
+/// What all contacts of a step have in common.
+struct Moment {
+  Stiffness stiffness;
+  double elapsed = 0;  ///< s since the last run
+};
+
+}  // namespace muro::penalty

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+
+namespace muro::penalty {
+
+/// Coefficient of restitution of the linear spring-damper whose force never pulls, for the damping ratio `zeta`
+/// (Schwager and Poeschel, Coefficient of restitution and linear-dashpot model revisited, Granular Matter 9, 2007,
+/// their three cases in one: ln e = -2 zeta acos(zeta) / sqrt(1 - zeta^2)).
+inline double restitution_of(double zeta) {
+  const double rest = 1 - zeta * zeta;
+  if (std::abs(rest) < 1e-8) return std::exp(-2.0);
+  const double angle = rest > 0 ? std::acos(zeta) : std::acosh(zeta);
+  return std::exp(-2 * zeta * angle / std::sqrt(std::abs(rest)));
+}
+
+/// Critical damping, e = 0.135. More would make a contact sluggish, and asks for shorter steps.
+inline constexpr double greatest_damping_ratio = 1;
+
+/// The damping ratio for a coefficient of restitution from 0 to 1; by bisection, so ask once a material.
+inline double damping_ratio_of(double restitution) {
+  double low = 0, high = greatest_damping_ratio;
+  if (restitution <= restitution_of(high)) return high;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (restitution_of(middle) > restitution ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+}  // namespace muro::penalty
