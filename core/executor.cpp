@@ -71,19 +71,23 @@ void Executor::run_piece(void* instant, std::uint32_t chain, unsigned thread) {
 }
 
 void Executor::run_chain(const Instant& instant, const Stage& stage, std::uint32_t chain, unsigned thread) {
+  // To read a clock takes as long as a small step: costs of long runs are those of each eighth step.
+  constexpr std::uint64_t all_at_first = 64, part = 8;
   Thread& state = state_[thread];
-  std::uint64_t before = ticks();
   for (const Call& call : stage.chain(chain)) {
     const Task& task = instant.tasks[call.task];
     const std::int64_t time = instant.times[call.instant];
     const Step step{time, call.dt, instant.runs[call.task] + call.instant, instant.seed, call.phase};
+    const bool each = timeline_.on() || step.index < all_at_first, timed = each || step.index % part == 0;
+    const std::uint64_t before = timed ? ticks() : 0;
     abi::ErrorText error;
     const bool fine =
         observer_ ? observer_->make(task, step, call.range, error) : task.instance->step(step, call.range, error);
-    const std::uint64_t after = ticks();
-    state.costs[call.task].ticks += after - before;
-    if (timeline_.on()) timeline_.add(thread, {call.task, call.phase, call.range, time, before, after});
-    before = after;
+    if (timed) {
+      const std::uint64_t after = ticks();
+      state.costs[call.task].ticks += (after - before) * (each ? 1 : part);
+      if (timeline_.on()) timeline_.add(thread, {call.task, call.phase, call.range, time, before, after});
+    }
     const std::uint64_t place = std::uint64_t(call.turn) << 32 | call.range.begin;
     if (!fine && place < state.failure.place)
       state.failure = {place, task.name + " failed at t = " + std::to_string(1e-9 * double(time)) +
@@ -124,31 +128,35 @@ void Executor::watch(Program::Trial& t, double passed) {
 void Executor::learn(Program::Trial& t, std::uint64_t passed) {
   using State = Program::Trial::State;
   constexpr std::uint32_t shortest_pause = 64, longest_pause = 1u << 16;
-  constexpr double worth = 0.97;  // of the time on one thread
+  constexpr double worth = 0.97;    // of the time on one thread
+  constexpr double hopeless = 1.5;  // the same, of a whole trial
   ++t.instants;
   if (t.state == State::settled) {
     if (t.parallel) watch(t, double(passed));
     if (t.instants < t.pause) return;
     t.state = State::serial;
     t.instants = 0;
+    t.watched = 0;
     return;
   }
-  if (t.instants <= Program::Trial::warm) return;
-  t.seen[t.instants - Program::Trial::warm - 1] = double(passed);
-  if (t.instants < Program::Trial::warm + Program::Trial::counted) return;
+  constexpr std::uint32_t all = Program::Trial::warm + Program::Trial::counted;
+  t.watched += double(passed);
+  const bool given_up = t.state == State::parallel && t.watched > hopeless * all * t.serial;
+  if (t.instants > Program::Trial::warm) t.seen[t.instants - Program::Trial::warm - 1] = double(passed);
+  if (t.instants < all && !given_up) return;
   std::nth_element(t.seen.begin(), t.seen.begin() + t.seen.size() / 2, t.seen.end());
   const double median = t.seen[t.seen.size() / 2];
   t.instants = 0;
+  t.watched = 0;
   if (t.state == State::serial) {
     t.serial = median;
     t.state = State::parallel;
     return;
   }
-  const bool better = median < worth * t.serial;
-  t.pause = t.known && better == t.parallel ? std::min(2 * t.pause, longest_pause) : shortest_pause;
+  const bool better = !given_up && median < worth * t.serial;
+  t.pause = t.known && better == t.parallel ? std::min(4 * t.pause, longest_pause) : shortest_pause;
   t.known = true;
   t.parallel = better;
-  t.watched = 0;
   t.state = State::settled;
 }
 

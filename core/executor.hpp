@@ -35,9 +35,9 @@ struct Program {
     bool known = false;          ///< `parallel` is the answer of a trial
     bool parallel = false;       ///< the way that is taken once settled
     std::uint32_t instants = 0;  ///< in the present state
-    std::uint32_t pause = 0;     ///< instants until the next trial; doubles while the answer stays the same
+    std::uint32_t pause = 0;     ///< instants until the next trial; four times as long while the answer stays the same
     double serial = 0;           ///< ticks of an instant on one thread
-    double watched = 0;          ///< ticks of instants on several threads since the last look
+    double watched = 0;          ///< ticks of instants since the last look, or of a trial
     std::array<double, counted> seen{};
   } trial;
 };

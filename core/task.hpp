@@ -37,7 +37,7 @@ using TaskId = std::uint32_t;
 /// What a task has cost so far.
 struct TaskCost {
   std::uint64_t runs = 0;
-  std::uint64_t ticks = 0;  ///< of the cycle counter, over all threads
+  std::uint64_t ticks = 0;  ///< of the cycle counter, over all threads; estimated once there are many runs
 };
 
 /// A task that is due, in the order in which it has its turn.

@@ -48,9 +48,12 @@ void Workers::round(std::uint32_t first, std::uint32_t pieces, Work work, void* 
   first_ = first;
   undone_.store(pieces, std::memory_order_relaxed);
   const auto count = std::uint64_t(shares_.size());
-  for (std::uint64_t t = 0; t < count; ++t)
-    shares_[t].left.store(packed(number, std::uint32_t((t + 1) * pieces / count), std::uint32_t(t * pieces / count)),
+  // The last pieces, of which there may be more and larger ones, go to the thread that is at work first: this one.
+  for (std::uint64_t t = 0; t < count; ++t) {
+    const std::uint64_t k = count - 1 - t;
+    shares_[t].left.store(packed(number, std::uint32_t((k + 1) * pieces / count), std::uint32_t(k * pieces / count)),
                           std::memory_order_release);
+  }
   round_.store(number);  // sequentially consistent with the count of sleepers
   if (sleepers_.load() > 0) round_.notify_all();
   work_through(number, 0);

@@ -98,10 +98,14 @@ std::vector<Record> compare(int vehicles, const Plan& plan, const std::vector<En
   return records;
 }
 
-Engine muro_with(int threads, Wheels wheels = Wheels::balls) {
-  return {fmt::format("muro, {} thread{}{}", threads, threads > 1 ? "s" : "",
-                      wheels == Wheels::balls ? "" : ", wheels as cylinders"),
-          true, [threads, wheels](const City& city) { return std::make_unique<MuroTeam>(city, threads, wheels); }};
+Engine muro_with(int threads) {
+  return {fmt::format("muro, {} thread{}", threads, threads > 1 ? "s" : ""), true,
+          [threads](const City& city) { return std::make_unique<MuroTeam>(city, threads, Wheels::balls); }};
+}
+/// The others have balls as wheels.
+Engine muro_with_cylinders() {
+  return {"muro, wheels as cylinders", true,
+          [](const City& city) { return std::make_unique<MuroTeam>(city, 1, Wheels::cylinders); }};
 }
 
 const char* level(const Engine& e) { return e.one_body ? "one body" : "five bodies"; }
@@ -159,7 +163,7 @@ void compare_sizes(Report& report) {
 
 int main(int argc, char** argv) {
   Report report("vehicles", "Vehicles in the city: muro and other engines", argc, argv);
-  std::vector<Engine> engines = {muro_with(1), muro_with(2), muro_with(1, Wheels::cylinders)};
+  std::vector<Engine> engines = {muro_with(1), muro_with(2), muro_with_cylinders()};
   for (Engine& e : peers()) engines.push_back(std::move(e));
   const std::string only = report.argument("only", "");
   std::erase_if(engines, [&](const Engine& e) { return e.name.find(only) == std::string::npos; });
