@@ -84,6 +84,7 @@ void AccessCheck::put_back(const Copy& from) {
     if (ListHeader* list = cells_[i].list) {
       list->size = from[i].size() / list->element_size;
       if (list->size > list->capacity) list->grow(list, list->size);
+      ++list->revision;
     }
     std::copy(from[i].begin(), from[i].end(), cells_[i].bytes().begin());
   }

@@ -350,6 +350,7 @@ void PropertyStore::load(const Image& image) {
     ListHeader& list = lists_[k];
     list.size = image.lists[k].size() / list.element_size;
     if (list.size > list.capacity) list.grow(&list, list.size);
+    ++list.revision;
     if (list.size > 0) std::memcpy(list.data, image.lists[k].data(), image.lists[k].size());
   }
 }

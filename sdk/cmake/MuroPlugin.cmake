@@ -85,9 +85,10 @@ function(muro_add_kernels)
     target_compile_features(${kernels} PRIVATE cxx_std_20)
     target_compile_definitions(${kernels} PRIVATE MURO_ISA=${isa})
     # -Wno-psabi: no vector is passed between functions, for all are inlined. -Wno-maybe-uninitialized: the headers of
-    # gcc 12 for AVX-512 warn of themselves
+    # gcc 12 for AVX-512 warn of themselves. -fno-tree-slp-vectorize: in spite of -ffp-contract=off, gcc 12 makes pairs of
+    # a product with a sum and a difference one operation with one rounding.
     target_compile_options(${kernels} PRIVATE -ffp-contract=off -fno-math-errno -fno-trapping-math -Wno-psabi
-                                              "$<$<CXX_COMPILER_ID:GNU>:-Wno-uninitialized;-Wno-maybe-uninitialized>"
+                                              "$<$<CXX_COMPILER_ID:GNU>:-Wno-uninitialized;-Wno-maybe-uninitialized;-fno-tree-slp-vectorize>"
                                               $<$<NOT:$<CONFIG:Debug>>:-O3> ${flags_${isa}})
     set_target_properties(${kernels} PROPERTIES POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden
                                                 VISIBILITY_INLINES_HIDDEN ON)

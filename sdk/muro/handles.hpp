@@ -22,6 +22,7 @@ struct ListHeader {
   std::uint64_t capacity = 0;
   void (*grow)(ListHeader*, std::uint64_t wanted) = nullptr;
   std::uint64_t element_size = 0;
+  std::uint64_t revision = 0;  ///< how often the elements were chosen anew
 };
 
 /// The slots of a sum property, in registration order.
@@ -110,26 +111,32 @@ class ArrayOut {
   ArrayHeader* header_ = nullptr;
 };
 
-/// Reads a list whose length changes from step to step.
+/// Reads a list whose length changes from step to step. As long as `revision()` and the length are the same, so is what
+/// each element stands for (the bodies of a contact, say), while its numbers may change.
 template <class T>
 class ListIn {
  public:
   ListIn() = default;
   explicit ListIn(const void* place) : header_(static_cast<const ListHeader*>(place)) {}
   std::span<const T> operator*() const { return {static_cast<const T*>(header_->data), header_->size}; }
+  std::uint64_t revision() const { return header_->revision; }
   explicit operator bool() const { return header_ != nullptr; }
 
  private:
   const ListHeader* header_ = nullptr;
 };
 
-/// Writes a list whose length changes from step to step. Grows by doubling, so a run soon stops allocating.
+/// Writes a list whose length changes from step to step. Grows by doubling, so a run soon stops allocating. Who changes
+/// elements in place leaves them what they stand for, else clears the list first.
 template <class T>
 class ListOut {
  public:
   ListOut() = default;
   explicit ListOut(void* place) : header_(static_cast<ListHeader*>(place)) {}
-  void clear() const { header_->size = 0; }
+  void clear() const {
+    header_->size = 0;
+    ++header_->revision;
+  }
   void push_back(const T& value) const {
     if (header_->size == header_->capacity) header_->grow(header_, header_->size + 1);
     static_cast<T*>(header_->data)[header_->size++] = value;

@@ -47,14 +47,19 @@ void NativeCollision::connect(Connector& c) {
   kernels_ = &ground_kernels_for(lane::best_isa());
   for (const RobotView* r : c.robots()) {
     const bool dynamic = c.is_used(r->base(), keys::external_wrench, Access::read_sum);
-    robots_.push_back({dynamic ? c.derived_list(r->base(), keys::contacts) : ListOut<Contact>{}, nullptr, r->key});
+    Robot& robot = robots_.emplace_back();
+    if (dynamic) robot.list = c.derived_list(r->base(), keys::contacts);
+    robot.key = r->key;
     any_list_ = any_list_ || dynamic;
   }
   if (!any_list_) return;
   index_ = c.read(world_object, keys::scene_index);
   for (const RobotView* r : c.robots())
-    for (const Frame& f : r->frames)
-      if (!c.constant_array(f.object, keys::collision_shapes).empty()) c.read(f.object, keys::pose);
+    for (const Frame& f : r->frames) {
+      if (c.constant_array(f.object, keys::collision_shapes).empty()) continue;
+      const double* const pose = lane::numbers(c.read(f.object, keys::pose).get());
+      if (f.object == r->base()) robots_[r->number].poses.base = pose;
+    }
 }
 
 std::span<const Phase> NativeCollision::phases() const { return all_phases; }
@@ -84,14 +89,11 @@ void NativeCollision::start_scenery() {
 }
 
 /// How many words a signature has.
-int NativeCollision::words(std::uint32_t solids) const {
-  return int((solids * planes_.size() + slots_of_word - 1) / slots_of_word);
-}
+int NativeCollision::words(std::uint32_t solids) const { return words_of(int(solids), int(planes_.size())); }
 
 void NativeCollision::start_robots() {
   const SceneIndex& scene = *index_;
   solids_.clear();
-  poses_.clear();
   teams_.clear();
   robots_have_planes_ = false;
   std::size_t all_words = 0;
@@ -99,10 +101,11 @@ void NativeCollision::start_robots() {
     const std::span<const Collider> own = scene.colliders.subspan(scene.robots[r].first, scene.robots[r].count);
     std::vector<Solid> solids;
     robots_[r].has_plane = false;
+    robots_[r].poses.links = nullptr;
     for (const Collider& c : own) {
       const bool same_body = !solids.empty() && (&c)[-1].body == c.body;
       solids.push_back(solid_of(*c.shape, solids.empty() ? 0 : solids.back().body + !same_body));
-      poses_.push_back(c.body_pose->position.data());
+      solids.back().pose = spot_of(robots_[r].poses, lane::numbers(c.body_pose));
       robots_[r].has_plane = robots_[r].has_plane || c.shape->kind == ShapeKind::plane;
     }
     robots_have_planes_ = robots_have_planes_ || robots_[r].has_plane;
@@ -148,11 +151,13 @@ void NativeCollision::touch(Range block) {
       }
       const int i = lane.work.used++;
       lane.robots[i] = r;
-      lane.work.poses[i] = poses_.data() + (index_->robots[r].first - scenery_.size());
-      lane.work.contacts[i] = (*robots_[r].list).data()->point.data();
-      if (lane.work.used == lane_width) touch_ground(lane, team);
+      const Robot& robot = robots_[r];
+      lane.work.poses[i] = robot.poses;
+      lane.work.contacts[i] = (*robot.list).data()->point.data();
+      lane.work.signatures[i] = robot.signature;
+      if (lane.work.used == lane_width) touch_ground(lane);
     }
-    if (lane.work.used > 0) touch_ground(lane, team);
+    if (lane.work.used > 0) touch_ground(lane);
   }
 }
 
@@ -168,23 +173,14 @@ bool NativeCollision::alone(std::uint32_t robot, const Neighbours::Of& near) con
   return true;
 }
 
-void NativeCollision::touch_ground(Lane& lane, const Team<std::vector<Solid>>& team) {
-  const int count = words(std::uint32_t(team.structure.size()));
-  thread_local std::vector<double> signatures;
-  signatures.resize(std::size_t(count) * lane_width);
-  lane.work.signatures = signatures.data();
-  kernels_->touch(lane.work);
-  for (int i = 0; i < lane.work.used; ++i) {
-    double* const known = robots_[lane.robots[i]].signature;
-    bool same = true;
-    for (int w = 0; w < count; ++w) same = same && known[w] == signatures[std::size_t(w * lane_width + i)];
-    if (!same || count == 0) list_ground(lane.robots[i], signatures.data() + i);
-  }
+void NativeCollision::touch_ground(Lane& lane) const {
+  for (unsigned changed = kernels_->touch(lane.work); changed != 0; changed &= changed - 1)
+    list_ground(lane.robots[std::countr_zero(changed)]);
   lane.work.used = 0;
 }
 
 /// Makes the list of a robot after its signature: the points and depths are in their places already.
-void NativeCollision::list_ground(std::uint32_t robot, const double* signatures) const {
+void NativeCollision::list_ground(std::uint32_t robot) const {
   const Robot& mine = robots_[robot];
   Contact* const contacts = (*mine.list).data();
   const RobotColliders& own = index_->robots[robot];
@@ -195,7 +191,7 @@ void NativeCollision::list_ground(std::uint32_t robot, const double* signatures)
     while (end < own.count && solids[end].body == solids[begin].body) ++end;
     for (std::size_t p = 0; p < planes_.size(); ++p)
       for (std::uint32_t k = begin; k < end; ++k, ++slot) {
-        const double word = signatures[slot / slots_of_word * lane_width];
+        const double word = mine.signature[slot / slots_of_word];
         const auto points = unsigned(std::uint64_t(word) >> (8 * (slot % slots_of_word)) & 0xff);
         if (points == 0) continue;
         Contact c = contact_between(index_->colliders[own.first + k], *scenery_[planes_[p]].collider);
@@ -207,7 +203,6 @@ void NativeCollision::list_ground(std::uint32_t robot, const double* signatures)
         }
       }
   }
-  for (int w = 0; w < words(own.count); ++w) mine.signature[w] = signatures[w * lane_width];
 }
 
 Near NativeCollision::near(std::uint32_t collider) const {

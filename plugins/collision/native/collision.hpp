@@ -25,6 +25,7 @@ class NativeCollision final : public Algorithm {
  private:
   struct Robot {
     ListOut<Contact> list;        ///< empty: forces do not move it
+    Poses poses;                  ///< of its bodies with shapes
     double* signature = nullptr;  ///< which points of its list's contacts touch; see GroundWork
     std::uint64_t key = 0;        ///< of two robots, the pair is worked out as the one with the lower key sees it
     bool has_plane = false;
@@ -35,8 +36,8 @@ class NativeCollision final : public Algorithm {
   void start_robots();
   void touch(Range block);
   bool alone(std::uint32_t robot, const Neighbours::Of& near) const;
-  void touch_ground(Lane& lane, const Team<std::vector<Solid>>& team);
-  void list_ground(std::uint32_t robot, const double* signatures) const;
+  void touch_ground(Lane& lane) const;
+  void list_ground(std::uint32_t robot) const;
   void touch_pairs(std::uint32_t robot, const Neighbours::Of& near);
   void add_mates(Encounters& encounters, std::uint32_t robot, const Neighbours::Of& near) const;
   void add_mate(Encounters& encounters, std::uint32_t robot, std::uint32_t mate) const;
@@ -57,7 +58,6 @@ class NativeCollision final : public Algorithm {
 
   std::vector<Team<std::vector<Solid>>> teams_;  ///< of robots that have a list
   std::vector<Solid> solids_;                    ///< of robots' colliders
-  std::vector<const double*> poses_;             ///< of their bodies
   std::vector<double> signatures_;
 };
 

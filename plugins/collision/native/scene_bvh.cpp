@@ -87,15 +87,16 @@ void SceneBvh::add_robot(Connector& c, const RobotView& robot) {
         boxes.push_back(swept_box(robot.frames, follows, f, s));
   }
   robots_.push_back({first, std::uint32_t(colliders_.size()) - first, {}, {}, 0});
-  first_part_.push_back(std::uint32_t(part_poses_.size()));
+  Poses& poses = poses_.emplace_back();
   std::vector<Part> parts;
   for (const FrameBox& b : joined(std::move(boxes))) {
     Part& p = parts.emplace_back();
-    p.body = std::uint32_t(parts.size() - 1);
+    const double* const pose = lane::numbers(c.read(robot.frames[b.frame].object, keys::pose).get());
+    if (b.frame == 0) poses.base = pose;
+    p.pose = spot_of(poses, pose);
     Vec3::Map(p.centre) = b.centre;
     Vec3::Map(p.half) = b.half;
     p.ball = b.ball;
-    part_poses_.push_back(c.read(robot.frames[b.frame].object, keys::pose)->position.data());
   }
   if (!parts.empty()) {
     members_.push_back(robot.number);
@@ -149,7 +150,7 @@ void SceneBvh::bound(Range block) {
       work.used = int(std::min<std::size_t>(8, robots.size() - first));
       for (int i = 0; i < work.used; ++i) {
         const std::uint32_t r = robots[first + std::size_t(i)];
-        work.poses[i] = &part_poses_[first_part_[r]];
+        work.poses[i] = poses_[r];
         work.boxes[i] = robots_[r].bounds.low.data();
       }
       const unsigned outside = kernels_->bound(work);

@@ -42,8 +42,7 @@ class SceneBvh final : public Algorithm {
   std::vector<TextId> meshes_;  ///< warned of
 
   std::vector<Team<std::vector<Part>>> teams_;  ///< of robots that have bounds
-  std::vector<const double*> part_poses_;       ///< robot by robot
-  std::vector<std::uint32_t> first_part_;       ///< by robot, in part_poses_
+  std::vector<Poses> poses_;                    ///< by robot
 
   std::vector<std::uint32_t> members_;  ///< robots that have bounds
   std::vector<std::uint8_t> left_;      ///< by robot: is not within its room

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "lanes/spot.hpp"
+#include "muro/lane/numbers.hpp"
 #include "muro/step.hpp"
 
 namespace muro::native {
@@ -22,6 +24,13 @@ struct Team {
     return {first, std::lower_bound(first, robots.end(), block.end)};
   }
 };
+
+/// Where a body's pose lies; the first link's takes its place in `poses`.
+inline Spot spot_of(Poses& poses, const double* pose) {
+  if (pose == poses.base) return {};
+  if (!poses.links) poses.links = pose;
+  return {.of_base = false, .behind = lane::numbers_between(poses.links, pose)};
+}
 
 /// `robot` has a higher number than all before.
 template <class Structure>

@@ -50,13 +50,6 @@ bool Standings::Standing::knows(std::span<const Contact> now) const {
   return same;
 }
 
-bool Standings::Standing::springs_fit(std::span<const Grip> springs) const {
-  if (springs.size() != contacts) return false;
-  bool same = true;
-  for (std::uint32_t i = 0; i < contacts; ++i) same = same && springs[i].pair == identities[i].pair;
-  return same;
-}
-
 void Standings::push(const Moment& moment, Range block) {
   constexpr std::uint32_t ahead = 8;
   Queues queues;
@@ -89,18 +82,21 @@ void Standings::push_one(const Moment& moment, std::uint32_t robot, Queues& queu
   left_[robot] = 0;
   if (contacts.empty()) {
     r.grips.clear();
+    s.springs_fit = false;
     *r.wrench = Wrench{};
     return;
   }
-  const auto springs = *r.grips;
-  if (!s.knows(contacts)) learn(robot, contacts);
+  if (r.contacts.revision() != s.revision || contacts.size() != s.contacts) {
+    if (!s.knows(contacts)) learn(robot, contacts);
+    s.revision = r.contacts.revision();
+  }
   if (!s.only_scenery) {
     left_[robot] = 1;
     return;
   }
-  if (!s.in_lanes || !s.springs_fit(springs)) return push_alone(moment, robot);
+  if (!s.in_lanes || !s.springs_fit) return push_alone(moment, robot);
   s.view.contacts = contacts[0].point.data();
-  s.view.before = s.view.grips = springs[0].point.data();
+  s.view.before = s.view.grips = (*r.grips)[0].point.data();
   const auto fits = [&](const Queue& q) {
     const Standing& first = standings_[q.robots[0]];
     return q.count > 0 && first.layout == s.layout && first.mass == s.mass;
@@ -123,6 +119,7 @@ void Standings::push_one(const Moment& moment, std::uint32_t robot, Queues& queu
 void Standings::learn(std::uint32_t robot, std::span<const Contact> contacts) {
   Standing& s = standings_[robot];
   s.contacts = 0;
+  s.springs_fit = false;
   s.only_scenery =
       contacts.size() <= most_contacts &&
       std::none_of(contacts.begin(), contacts.end(), [&](const Contact& c) { return bodies_[c.other].twist; });
@@ -215,6 +212,7 @@ void Standings::push_alone(const Moment& moment, std::uint32_t robot) {
   }
   r.grips.clear();
   for (std::uint32_t k = 0; k < s.contacts; ++k) r.grips.push_back({.pair = s.identities[k].pair});
+  s.springs_fit = true;
   s.view.contacts = contacts[0].point.data();
   s.view.before = before[0].point.data();
   s.view.grips = (*r.grips)[0].point.data();

@@ -30,15 +30,16 @@ class Standings {
   /// follows from its contacts and grips alone.
   struct Standing {
     StandingRobot view;
+    std::uint64_t revision = 0;  ///< of the list of contacts, when it was last seen
     std::uint32_t contacts = 0;  ///< known
     std::uint32_t layout = 0;    ///< in layouts_; robots of one layout and mass share lanes
     std::uint32_t mass = 0;
     bool only_scenery = false;
-    bool in_lanes = false;  ///< one piece of scenery, and a layout that is known
+    bool in_lanes = false;     ///< one piece of scenery, and a layout that is known
+    bool springs_fit = false;  ///< the robot has a spring for each contact, in their order
     std::array<Identity, most_contacts> identities;
 
     bool knows(std::span<const Contact> now) const;
-    bool springs_fit(std::span<const Grip> springs) const;
   };
   /// Robots that wait until they fill a lane.
   struct Queue {

@@ -9,10 +9,10 @@ namespace muro::native {
 
 /// What part of a robot stays in: the points that are within `ball` of a box in a body, along the body's axes.
 struct Part {
-  std::uint32_t body = 0;  ///< which of a robot's bodies with parts, from 0
-  double centre[3] = {};   ///< m
-  double half[3] = {};     ///< m
-  double ball = 0;         ///< m
+  Spot pose;              ///< of the body
+  double centre[3] = {};  ///< m
+  double half[3] = {};    ///< m
+  double ball = 0;        ///< m
 
   friend bool operator==(const Part&, const Part&) = default;
 };
@@ -21,9 +21,9 @@ struct Part {
 struct BoundsWork {
   const Part* parts = nullptr;  ///< of each robot, one a body; at least one
   int part_count = 0;
-  int used = 0;                   ///< robots
-  const double* const* poses[8];  ///< of each robot: by part, the pose of its body
-  double* boxes[8];               ///< of each robot: low and high of `bounds`, which is written, then of `room`
+  int used = 0;  ///< robots
+  Poses poses[8];
+  double* boxes[8];  ///< of each robot: low and high of `bounds`, which is written, then of `room`
 };
 
 struct BoundsKernels {

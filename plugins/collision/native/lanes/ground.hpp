@@ -19,17 +19,20 @@ struct GroundWork {
   int solid_count = 0;
   const Ground* planes = nullptr;
   int plane_count = 0;
-  int contact_stride = 0;         ///< in numbers
-  int used = 0;                   ///< robots
-  const double* const* poses[8];  ///< of each robot: by solid, the pose of its body
-  double* contacts[8];            ///< of each robot: the numbers of its first contact
-  double* signatures = nullptr;   ///< out: which points touch: word by word, eight robots in each
+  int contact_stride = 0;  ///< in numbers
+  int used = 0;            ///< robots
+  Poses poses[8];
+  double* contacts[8];    ///< of each robot: the numbers of its first contact
+  double* signatures[8];  ///< of each robot, the words of which points touch: as known before, then as they are now
 };
 
+/// How many words a signature has; the last may be empty.
+constexpr int words_of(int solids, int planes) { return solids * planes / slots_of_word + 1; }
+
 /// Writes contacts ordered by body, plane, solid and number of the point, and the signatures. A robot needs room for
-/// eight contacts a slot.
+/// eight contacts a slot. Returns a bit for each robot whose signature has changed.
 struct GroundKernels {
-  void (*touch)(const GroundWork&);
+  unsigned (*touch)(const GroundWork&);
 };
 MURO_DECLARE_KERNELS(GroundKernels, ground_kernels)
 

@@ -68,54 +68,67 @@ struct Appender {
   MURO_INLINE void operator()(MaskOf<S> below, const V3<S>& point, S depth, int number) {
     points += select(below, S(scale * (1 << number)), S(0));
     const unsigned which = bits(below) & all;
-    if (which == (1u << count_of<S>)-1) {
-      store_contacts(first, next, point, depth, (1u << count_of<S>)-1);
-    } else {
-      store_contacts(first, next, point, depth, which);
-      for (int i = 0; i < count_of<S>; ++i) first.at[i] -= which >> i & 1 ? 0 : stride;
-    }
+    if (which == lane::all_lanes<S>)
+      store_contacts(first, next, point, depth, lane::all_lanes<S>);
+    else
+      append_some(point, depth, which);
     next += stride;
+  }
+
+  /// Out of the way of the common case.
+  [[gnu::noinline]] void append_some(const V3<S>& point, const S& depth, unsigned which) {
+    store_contacts(first, next, point, depth, which);
+    for (int i = 0; i < count_of<S>; ++i) first.at[i] -= which >> i & 1 ? 0 : stride;
   }
 };
 
-/// As many robots as the scalar has values, from number `first` on.
+/// As many robots as the scalar has values, from number `first` on. Returns a bit for each whose signature has changed.
 template <class S>
-void touch_some(const GroundWork& work, int first) {
+unsigned touch_some(const GroundWork& work, int first) {
   const int left = work.used - first, used = left < count_of<S> ? left : count_of<S>;
-  const double* const* bodies[count_of<S>];
-  Appender<S> append{.stride = work.contact_stride, .all = (1u << used) - 1};
+  Poses robots[count_of<S>];
+  Places<S, double> signatures;
+  Appender<S> append{.stride = work.contact_stride, .all = lane::first_lanes(used)};
   for (int i = 0; i < count_of<S>; ++i) {
     const int robot = first + (i < used ? i : 0);
-    bodies[i] = work.poses[robot];
+    robots[i] = work.poses[robot];
     append.first.at[i] = work.contacts[robot];
+    signatures.at[i] = work.signatures[robot];
   }
-  double* signature = work.signatures + first;
-  int slot = 0;  // of the present word
+  unsigned changed = 0;
+  int word = 0, slot = 0;  // of the present word
+  const auto end_word = [&] {
+    const unsigned now = ~bits(load(as_read(signatures), word) == append.points) & append.all;
+    if (now != 0) lane::store_rows(signatures, word, {append.points}, now);
+    changed |= now;
+    append.points = S(0);
+    append.scale = 1;
+    slot = 0;
+    ++word;
+  };
   const Solid* const solids_end = work.solids + work.solid_count;
   for (const Solid *begin = work.solids, *end = begin; begin != solids_end; begin = end) {
+    bool turns = false;
+    for (; end != solids_end && end->body == begin->body; ++end) turns = turns || end->turns();
     Places<S> poses;
-    for (int i = 0; i < count_of<S>; ++i) poses.at[i] = bodies[i][begin - work.solids];
-    const Body<S> body = load_body(poses);
-    while (end != solids_end && end->body == begin->body) ++end;
+    for (int i = 0; i < count_of<S>; ++i) poses.at[i] = begin->pose.in(robots[i]);
+    const Body<S> body(poses, turns);
     for (const Ground* plane = work.planes; plane != work.planes + work.plane_count; ++plane)
       for (const Solid* solid = begin; solid != end; ++solid) {
         give_plane_points<S>(Standing<S>(*solid, body), *plane, append);
         append.scale *= 256;
-        if (++slot < slots_of_word) continue;
-        lane::store_side_by_side(signature, append.points);
-        signature += 8;
-        append.points = S(0);
-        append.scale = 1;
-        slot = 0;
+        if (++slot == slots_of_word) end_word();
       }
   }
-  if (slot > 0) lane::store_side_by_side(signature, append.points);
+  end_word();
+  return changed;
 }
 
-/// A lane costs about as much as three plain doubles.
-void touch(const GroundWork& work) {
-  if (work.used >= 3) return touch_some<lane::Double8>(work, 0);
-  for (int first = 0; first < work.used; ++first) touch_some<double>(work, first);
+unsigned touch(const GroundWork& work) {
+  if (work.used >= lane::worth_a_lane) return touch_some<lane::Double8>(work, 0);
+  unsigned changed = 0;
+  for (int first = 0; first < work.used; ++first) changed |= touch_some<double>(work, first) << first;
+  return changed;
 }
 
 }  // namespace

@@ -71,9 +71,10 @@ class PlanePoints {
 
   template <class Sink>
   MURO_INLINE void corners(Sink& sink) const {
-    const V3<S> x = S(half_[0]) * at_.axis(0), y = S(half_[1]) * at_.axis(1), z = S(half_[2]) * at_.axis(2);
-    const S rx = plane_.along_normal(x), ry = plane_.along_normal(y), rz = plane_.along_normal(z);
+    const S rx = S(half_[0]) * plane_.along_normal(at_.axis(0)), ry = S(half_[1]) * plane_.along_normal(at_.axis(1)),
+            rz = S(half_[2]) * plane_.along_normal(at_.axis(2));
     if (!any(deep_ + (abs(rx) + abs(ry) + abs(rz)) > S(0))) return;
+    const V3<S> x = S(half_[0]) * at_.axis(0), y = S(half_[1]) * at_.axis(1), z = S(half_[2]) * at_.axis(2);
     for (int corner = 0; corner < 8; ++corner) {
       const S sx(corner & 1 ? 1 : -1), sy(corner & 2 ? 1 : -1), sz(corner & 4 ? 1 : -1);
       lowest(centre_ + (sx * x + sy * y + sz * z), deep_ - (sx * rx + sy * ry + sz * rz), corner, sink);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "muro/lane/rows.hpp"
+#include "spot.hpp"
 
 namespace muro::native {
 
@@ -12,6 +13,7 @@ enum class Form : std::uint32_t { box, sphere, cylinder, capsule, plane, mesh };
 struct Solid {
   Form form = Form::box;
   std::uint32_t body = 0;  ///< which of a robot's bodies, from 0
+  Spot pose;               ///< of that body
   /// m. box: half lengths. sphere: the radius three times. cylinder, capsule: radius, radius, half the
   /// length along z (of a capsule: of its straight part). plane: unused.
   double half[3] = {};
@@ -21,6 +23,9 @@ struct Solid {
   /// negative; 0: slanted.
   int along[3] = {};
   bool centred = false;  ///< `centre` is 0
+
+  /// Whether it matters how the body is turned.
+  MURO_INLINE bool turns() const { return form != Form::sphere || !centred; }
 
   friend bool operator==(const Solid&, const Solid&) = default;
 };
@@ -36,26 +41,40 @@ namespace lanes {
 inline namespace MURO_ISA {
 
 // hides ::abs and the like
-using lane::abs, lane::any, lane::bits, lane::count_of, lane::MaskOf, lane::max, lane::min, lane::Places, lane::select,
-    lane::sqrt, lane::V3;
+using lane::abs, lane::any, lane::as_read, lane::bits, lane::count_of, lane::load, lane::MaskOf, lane::max, lane::min,
+    lane::Places, lane::select, lane::sqrt, lane::V3;
 
-/// A body at its place: position (m) and axes in the world.
+/// A body at its place. Axes are worked out where they are asked for: most shapes need few of their numbers.
 template <class S>
-struct Body {
-  V3<S> position;
-  V3<S> axes[3];
+class Body {
+ public:
+  /// Without `turns` nobody asks how it is turned.
+  MURO_INLINE Body(const Places<S>& pose, bool turns) : position_(lane::load_vector(pose)) {
+    if (!turns) return;
+    S q[4];
+    lane::load_rows(pose, 3, q);
+    orientation_ = {q[0], q[1], q[2], q[3]};
+  }
 
+  const V3<S>& position() const { return position_; }  ///< m, world
+  /// Axis k in the world.
+  MURO_INLINE V3<S> axis(int k) const {
+    switch (k) {
+      case 0:
+        return orientation_.matrix().x;
+      case 1:
+        return orientation_.matrix().y;
+      default:
+        return orientation_.matrix().z;
+    }
+  }
   /// Body axes to world.
-  MURO_INLINE V3<S> turned(const double* v) const { return axes[0] * S(v[0]) + axes[1] * S(v[1]) + axes[2] * S(v[2]); }
-};
+  MURO_INLINE V3<S> turned(const double* v) const { return orientation_.matrix() * lane::splat<S>(v); }
 
-template <class S>
-MURO_INLINE Body<S> load_body(const Places<S>& pose) {
-  S p[7];
-  lane::load_rows(pose, 0, p);
-  const lane::M3<S> m = lane::Q4<S>{p[3], p[4], p[5], p[6]}.matrix();
-  return {{p[0], p[1], p[2]}, {m.x, m.y, m.z}};
-}
+ private:
+  V3<S> position_;
+  lane::Q4<S> orientation_;
+};
 
 /// A shape whose body is at its place.
 template <class S>
@@ -67,13 +86,13 @@ class Standing {
   const double* half() const { return solid_.half; }
   /// m, world.
   MURO_INLINE V3<S> centre() const {
-    return solid_.centred ? body_.position : body_.position + body_.turned(solid_.centre);
+    return solid_.centred ? body_.position() : body_.position() + body_.turned(solid_.centre);
   }
   /// Axis k of the shape, in the world.
   MURO_INLINE V3<S> axis(int k) const {
     const int along = solid_.along[k];
     if (along == 0) return body_.turned(solid_.axes + 3 * k);
-    return along > 0 ? body_.axes[along - 1] : -body_.axes[-along - 1];
+    return along > 0 ? body_.axis(along - 1) : -body_.axis(-along - 1);
   }
 
  private:

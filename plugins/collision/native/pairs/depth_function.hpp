@@ -14,7 +14,8 @@ namespace muro::native {
 /// convex and homogeneous; the shapes are apart when h(n) + ball <= 0 for some n, and otherwise the least
 /// h(n) + ball over all unit vectors is the penetration depth.
 struct DepthFunction {
-  Vec3 offset;  ///< m, from the centre of the first to that of the second
+  const Placed &first, &second;  ///< as they were given
+  Vec3 offset;                   ///< m, from the centre of the first to that of the second
   Vec3 axis[4];
   double half[4];
   Vec3 disc[2];  ///< unit, the axis
@@ -23,7 +24,7 @@ struct DepthFunction {
   int segments = 0, discs = 0;
 
   /// Boxes, cylinders and capsules, of which at most one is a box.
-  DepthFunction(const Placed& first, const Placed& second) : offset(second.centre - first.centre) {
+  DepthFunction(const Placed& a, const Placed& b) : first(a), second(b), offset(b.centre - a.centre) {
     add(first);
     add(second);
   }

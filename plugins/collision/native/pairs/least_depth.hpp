@@ -22,6 +22,9 @@ struct LeastDepth {
 ///    branch and bound: convexity gives h(m rotated by d) >= h(m) cos d - |h'(m)| sin d;
 ///  - bent both ways: branch and bound on the sphere by the same inequality, then Newton's method.
 ///
+/// Least depths where a face is touched are mostly found first, and can be proven: a ball of that radius about a point
+/// of the one shape, its outermost, lies in the other. Then nothing further is searched.
+///
 /// Where the cores of capsules are apart but their radius closes the gap, the minimum is the only one, and Newton's
 /// method goes to it from the direction that GJK gives.
 LeastDepth least_depth(const DepthFunction& h);

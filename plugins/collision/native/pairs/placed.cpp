@@ -51,12 +51,13 @@ Solid solid_of(const Shape& shape, std::uint32_t body) {
 }
 
 Placed placed(const Solid& solid, const Pose& body) {
-  const auto at = lanes::load_body<double>({{body.position.data()}});
+  const lanes::Body<double> at({{body.position.data()}}, solid.turns());
   const lanes::Standing<double> standing(solid, at);
   Placed p;
   p.kind = ShapeKind(solid.form);
   p.half = Vec3::Map(solid.half);
   p.centre = vector(standing.centre());
+  if (solid.form == Form::sphere) return p;  // which looks the same from all sides
   for (int k = 0; k < 3; ++k) p.axes.col(k) = vector(standing.axis(k));
   return p;
 }
@@ -74,9 +75,9 @@ Aabb bounds_of(const Placed& shape) {
     const Vec3 half = Vec3::Constant(std::numeric_limits<double>::infinity());
     return {-half, half};
   }
-  Vec3 half = shape.half;
-  if (shape.kind == ShapeKind::capsule) half.z() += shape.radius();
-  const Vec3 reach = shape.kind == ShapeKind::sphere ? half : Vec3(shape.axes.cwiseAbs() * half);
+  Vec3 reach = shape.half;
+  if (shape.kind != ShapeKind::sphere)
+    for (int k = 0; k < 3; ++k) reach[k] = reach_along(shape, shape.axes.row(k));
   return {shape.centre - reach, shape.centre + reach};
 }
 

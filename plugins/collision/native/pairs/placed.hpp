@@ -30,6 +30,17 @@ Ground ground_of(const Placed& plane);
 /// Around the shape. Planes are infinite.
 Aabb bounds_of(const Placed& shape);
 
+/// How far (m) a box, cylinder or capsule reaches from its centre along a unit vector, which is given by its products
+/// with the shape's axes.
+template <class Products>
+double reach_along(const Placed& shape, const Products& c) {
+  if (shape.kind == ShapeKind::box)
+    return std::abs(c[0]) * shape.half.x() + std::abs(c[1]) * shape.half.y() + std::abs(c[2]) * shape.half.z();
+  const double along = shape.half.z() * std::abs(c[2]);
+  if (shape.kind == ShapeKind::capsule) return along + shape.radius();
+  return along + shape.radius() * std::sqrt(c[0] * c[0] + c[1] * c[1]);
+}
+
 /// A unit vector at right angles to the unit vector `v`; always the same one for the same `v`.
 inline Vec3 perpendicular(const Vec3& v) {
   Vec3::Index least;

@@ -39,41 +39,53 @@ class RimPatch {
            along <= h_.radius[0] * up0.high + h_.radius[1] * up1.high + most;
   }
 
-  /// Axes nearly parallel, and n near them: whether all minima lie within a small angle of the axes. There h is convex
-  /// over the plane that touches the sphere, so there is one.
+  /// Axes nearly parallel, and n near them, and shapes that overlap little: whether all minima lie within a small angle
+  /// of the axes. There h is convex over the plane that touches the sphere, so there is one.
   bool minima_are_near_axes(double sine, double most) const {
-    if (s_[0] * s_[1] * h_.disc[0].dot(h_.disc[1]) < 0 || sine > small) return false;
-    // At the angle x from disc_0: h >= depth cos x + slope sin x - lag; concave, so the ends decide.
-    const double depth = s_[0] * offset_.dot(h_.disc[0]), lag = h_.radius[1] * sine;
-    const double slope = h_.radius[0] + h_.radius[1] - (offset_ - s_[0] * depth * h_.disc[0]).norm();
-    return depth * std::cos(small) + slope * std::sin(small) - lag >= most && slope - lag >= most;
+    if (s_[0] * s_[1] * h_.disc[0].dot(h_.disc[1]) < 0 || sine > 0.1) return false;
+    if (most > 0.1 * std::min(h_.radius[0], h_.radius[1])) return false;
+    // At the angle x from disc_0 h is at least this. The sum is concave where it is positive, so the ends decide.
+    const double depth = s_[0] * offset_.dot(h_.disc[0]), beside = (offset_ - s_[0] * depth * h_.disc[0]).norm();
+    const double at_0 = depth - h_.radius[1] * sine,
+                 at_90 = h_.radius[0] + h_.radius[1] * std::sqrt(1 - sine * sine) - beside;
+    return at_0 * std::cos(small) + at_90 * std::sin(small) >= most && at_90 >= most;
   }
 
-  /// About where that one is; none: at an axis, or above `most`. A least depth of 0 is assumed: then
-  /// radius_0 c_0 + radius_1 c_1 makes a triangle with -offset, seen along the axes.
-  std::optional<Vec3> minimum_near_axes(double most) const {
-    if (s_[0] * offset_.dot(h_.disc[0]) * std::cos(small) - h_.radius[0] * std::sin(small) > most) return {};
+  /// Where to look for that one; none when it is at an axis, or above `most`.
+  std::optional<Vec3> minimum_near_axes(double sine, double most) const {
     const Vec3 up = s_[0] * h_.disc[0], second = s_[1] * h_.disc[1];
-    const Vec3 tip = second / second.dot(up) - up;  // of the second axis, seen from that of the first
-    const Vec3 to = -(offset_ - offset_.dot(up) * up);
-    const double r0 = h_.radius[0], r1 = h_.radius[1], length = to.norm();
-    const double cosine = (length * length + r0 * r0 - r1 * r1) / (2 * length * r0);
-    if (!(std::abs(cosine) < 1)) return {};
+    const double r0 = h_.radius[0], r1 = h_.radius[1];
+    if (offset_.dot(up) * std::cos(small) - r0 * std::sin(small) > most) return {};
+    // At an axis h has the tip of a cone. It is the minimum where the rest of h falls less than the cone rises.
+    const Vec3 fall0 = fall(up, second, r1 / sine), fall1 = fall(second, up, r0 / sine);
+    const double steep0 = fall0.norm(), steep1 = fall1.norm();
+    if (steep0 <= r0 || steep1 <= r1) return {};
+    // Otherwise, were it 0, it would be where r0 c_0 + r1 c_1 = -offset, seen along the axes.
+    const Vec3 to = offset_.dot(up) * up - offset_, tip = second / second.dot(up) - up;
+    const double length = to.norm(), cosine = (length * length + r0 * r0 - r1 * r1) / (2 * length * r0);
     const Vec3 x = to / length, y = up.cross(x);
-    for (const double sine : {std::sqrt(1 - cosine * cosine), -std::sqrt(1 - cosine * cosine)}) {
-      const Vec3 c0 = cosine * x + sine * y, c1 = (to - r0 * c0) / r1;
-      // up + s c0 = up + tip + t c1
+    const double rise = std::sqrt(std::max(0.0, 1 - cosine * cosine));
+    for (const double side : {rise, -rise}) {
+      const Vec3 c0 = cosine * x + side * y, c1 = (to - r0 * c0) / r1;
       const double area = up.dot(c0.cross(c1)), s = up.dot(tip.cross(c1)) / area, t = up.dot(tip.cross(c0)) / area;
       if (s > 0 && t > 0 && s < 1) return (up + s * c0).normalized();
     }
-    return {};
+    // Or it is near an axis from which it falls only just.
+    const double over0 = (steep0 - r0) / r1, over1 = (steep1 - r1) / r0;
+    if (over0 < over1) return (up + (sine * std::min(0.1, over0) / steep0) * fall0).normalized();
+    return (second + (sine * std::min(0.1, over1) / steep1) * fall1).normalized();
   }
 
  private:
-  static constexpr double small = 0.1;  ///< rad
+  static constexpr double small = 0.3;  ///< rad
   struct Interval {
     double low, high;
   };
+  /// Downhill from the axis `at`, without its own cone. `reach`: radius of the other by the sine between both.
+  Vec3 fall(const Vec3& at, const Vec3& other, double reach) const {
+    const Vec3 p = offset_ + reach * (at - at.dot(other) * other);
+    return at.dot(p) * at - p;
+  }
   /// The sines of angles whose cosines make |offset + reach * cosine| <= most.
   static Interval rise(double offset, double reach, double most) {
     const double nearest = std::max(0.0, std::abs(offset) - most) / reach, farthest = (std::abs(offset) + most) / reach;
