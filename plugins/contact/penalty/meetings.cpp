@@ -69,7 +69,8 @@ void Meetings::gather(std::uint32_t self) {
       --t;
     if (t == first) {
       t = touches_.size() + 1;
-      touches_.push_back({Patch(normal, places_[self].mobility.centre), self, other.robot, other.whole, {}});
+      touches_.push_back(
+          {Patch(normal, places_[self].mobility.centre), self, other.robot, other.whole, {}, -1, {}, {}});
     }
     touches_[t - 1].patch.add(plain(contact.point));
     touch_of_.push_back(std::uint32_t(t - 1));
@@ -102,7 +103,8 @@ std::size_t Meetings::push_robot(std::uint32_t self, std::size_t next) {
   for (const Contact& contact : *robot.contacts) {
     const std::uint32_t place_of_touch = touch_of_[next++];
     if (place_of_touch == not_ours) continue;
-    const Touch& touch = touches_[place_of_touch];
+    Touch& touch = touches_[place_of_touch];
+    if (contact.restitution != touch.restitution) set_laws(touch, contact.restitution);
     const std::uint64_t pair = bodies_.pair_of(contact);
     const Grip* const before = previous(old_grips_, ours++, pair, contact.point);
     Grip grip{pair, contact.point, before ? before->stretch : Vec3::Zero()};
@@ -115,21 +117,25 @@ std::size_t Meetings::push_robot(std::uint32_t self, std::size_t next) {
   return next;
 }
 
+/// A patch rarely has more than one restitution.
+void Meetings::set_laws(Touch& t, double restitution) const {
+  const double load = places_[t.self].load + (t.other == nobody ? 0 : places_[std::size_t(t.other)].load);
+  t.restitution = restitution;
+  t.normal.emplace(moment_.stiffness, bodies_.materials[bodies_.material_of(restitution)].damping_ratio, load);
+  t.friction.emplace(moment_.stiffness, load);
+}
+
 /// `stretch`: of the friction spring, brought up to date.
 Vec3 Meetings::force_on_self(const Touch& touch, const Contact& contact, Vec3& stretch) const {
   const Vec3& n = contact.normal;
   const Vec3 motion = velocity(bodies_[contact.self], contact.point) - velocity(bodies_[contact.other], contact.point);
   const double approach = -motion.dot(n);
   const Vec3 slip = motion + approach * n;
-  const double load = places_[touch.self].load + (touch.other == nobody ? 0 : places_[std::size_t(touch.other)].load);
-  const double damping_ratio = bodies_.materials[bodies_.material_of(contact.restitution)].damping_ratio;
-  const double normal =
-      touch.share.along * NormalLaw(moment_.stiffness, damping_ratio, load).force(contact.depth, approach);
+  const double normal = touch.share.along * touch.normal->force(contact.depth, approach);
   stretch += slip * moment_.elapsed;
   stretch -= n * n.dot(stretch);
   V3 spring = plain(stretch);
-  const V3 across = FrictionLaw(moment_.stiffness, load)
-                        .force(spring, plain(slip), contact.friction * normal * touch.share.inverse_across);
+  const V3 across = touch.friction->force(spring, plain(slip), contact.friction * normal * touch.share.inverse_across);
   stretch = vector_of(spring);
   return normal * n + touch.share.across * vector_of(across);
 }

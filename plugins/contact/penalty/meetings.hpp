@@ -2,6 +2,7 @@
 // Robots that touch something that moves: each other, or robots that no force moves.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "bodies.hpp"
@@ -38,6 +39,9 @@ class Meetings {
     std::int32_t other;   ///< the same, or nobody
     std::uint32_t whole;  ///< of the other
     law::Share<double> share;
+    double restitution = -1;  ///< that `normal` is for
+    std::optional<NormalLaw> normal;
+    std::optional<FrictionLaw> friction;
   };
 
   void place(std::uint32_t robot);
@@ -45,6 +49,7 @@ class Meetings {
   void gather(std::uint32_t self);
   void share(Touch& t);
   std::size_t push_robot(std::uint32_t self, std::size_t next);
+  void set_laws(Touch& t, double restitution) const;
   Vec3 force_on_self(const Touch& touch, const Contact& contact, Vec3& stretch) const;
   void push_back(const Robot& robot, const Touch& touch, const Vec3& force, const Vec3& point,
                  const Grip* before) const;

@@ -19,10 +19,10 @@ struct JointState {
   S velocity;
 };
 
-/// What is not a number stays so.
+/// What is not a number stays so. low <= high.
 template <class S>
 MURO_INLINE S clamp(S x, S low, S high) {
-  return select(x < low, low, select(high < x, high, x));
+  return max(low, min(high, x));
 }
 constexpr bool is_finite(double limit) { return -JointRange::infinite < limit && limit < JointRange::infinite; }
 
@@ -47,7 +47,7 @@ MURO_INLINE MaskOf<S> arrives(S distance, S v, S speed, double a, double dt) {
 /// Moves on with the velocity `u` at the end of the step; stops dead at a limit.
 template <class S>
 MURO_INLINE JointState<S> moved_on(const JointState<S>& joint, S u, const JointRange& range, double dt) {
-  const S q = joint.position + S(0.5) * (joint.velocity + u) * S(dt);
+  const S q = joint.position + (joint.velocity + u) * S(0.5 * dt);
   if (!is_finite(range.lower) && !is_finite(range.upper)) return {q, u};
   const S position = clamp(q, S(range.lower), S(range.upper));
   return {position, select(position == q, u, S(0))};

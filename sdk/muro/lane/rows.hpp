@@ -61,77 +61,61 @@ MURO_INLINE void load_pairs(const double* const* at, std::ptrdiff_t k, Group& fi
   second = __builtin_shufflevector(even, odd, 1, 3);
 #endif
 }
-/// Turns two or four numbers of a group of places into what each place gets.
-MURO_INLINE void turn_pairs(const Group& first, const Group& second, Two (&rows)[group]) {
+MURO_INLINE void store_pairs(double* const* at, std::ptrdiff_t k, const Group& first, const Group& second,
+                             unsigned which) {
 #if defined(__AVX__)
   const Group even = __builtin_shufflevector(first, second, 0, 4, 2, 6);
   const Group odd = __builtin_shufflevector(first, second, 1, 5, 3, 7);
-  rows[0] = __builtin_shufflevector(even, even, 0, 1), rows[2] = __builtin_shufflevector(even, even, 2, 3);
-  rows[1] = __builtin_shufflevector(odd, odd, 0, 1), rows[3] = __builtin_shufflevector(odd, odd, 2, 3);
+  if (which & 1) store_at(at[0] + k, Two(__builtin_shufflevector(even, even, 0, 1)));
+  if (which & 2) store_at(at[1] + k, Two(__builtin_shufflevector(odd, odd, 0, 1)));
+  if (which & 4) store_at(at[2] + k, Two(__builtin_shufflevector(even, even, 2, 3)));
+  if (which & 8) store_at(at[3] + k, Two(__builtin_shufflevector(odd, odd, 2, 3)));
 #else
-  rows[0] = __builtin_shufflevector(first, second, 0, 2), rows[1] = __builtin_shufflevector(first, second, 1, 3);
+  if (which & 1) store_at(at[0] + k, Group(__builtin_shufflevector(first, second, 0, 2)));
+  if (which & 2) store_at(at[1] + k, Group(__builtin_shufflevector(first, second, 1, 3)));
 #endif
 }
+/// Four numbers to each place of a group.
+MURO_INLINE void store_fours(double* const* at, std::ptrdiff_t k, const Group (&v)[4], unsigned which) {
 #if defined(__AVX__)
-MURO_INLINE void turn_fours(const Group (&v)[4], Group (&rows)[4]) {
   const Group even01 = __builtin_shufflevector(v[0], v[1], 0, 4, 2, 6);
   const Group odd01 = __builtin_shufflevector(v[0], v[1], 1, 5, 3, 7);
   const Group even23 = __builtin_shufflevector(v[2], v[3], 0, 4, 2, 6);
   const Group odd23 = __builtin_shufflevector(v[2], v[3], 1, 5, 3, 7);
-  rows[0] = __builtin_shufflevector(even01, even23, 0, 1, 4, 5);
-  rows[1] = __builtin_shufflevector(odd01, odd23, 0, 1, 4, 5);
-  rows[2] = __builtin_shufflevector(even01, even23, 2, 3, 6, 7);
-  rows[3] = __builtin_shufflevector(odd01, odd23, 2, 3, 6, 7);
-}
+  if (which & 1) store_at(at[0] + k, Group(__builtin_shufflevector(even01, even23, 0, 1, 4, 5)));
+  if (which & 2) store_at(at[1] + k, Group(__builtin_shufflevector(odd01, odd23, 0, 1, 4, 5)));
+  if (which & 4) store_at(at[2] + k, Group(__builtin_shufflevector(even01, even23, 2, 3, 6, 7)));
+  if (which & 8) store_at(at[3] + k, Group(__builtin_shufflevector(odd01, odd23, 2, 3, 6, 7)));
+#else
+  store_pairs(at, k, v[0], v[1], which);
+  store_pairs(at, k + 2, v[2], v[3], which);
 #endif
+}
 
-/// n numbers to each place of group g. All of a place at once, for neighbours share a line of the cache.
-template <int n, int g>
-MURO_INLINE void store_group(const Places<Double8, double>& to, std::ptrdiff_t first, const Double8 (&from)[n],
-                             unsigned which) {
+/// Numbers k to n - 1 of the places of group g.
+template <int k, int n, int g>
+MURO_INLINE void store_from(const Places<Double8, double>& to, std::ptrdiff_t first, const Double8 (&from)[n],
+                            unsigned which) {
+  constexpr int left = n - k, at = left == 3 && n > 3 ? k - 1 : k;  // rather one number twice than two pieces
   double* const* const places = to.at + g * group;
   const unsigned mine = which >> g * group;
-#if defined(__AVX__)
-  if constexpr (n == 3 || n > 8) {
-    store_group<2, g>(to, first, reinterpret_cast<const Double8(&)[2]>(from), which);
-    store_group<n - 2, g>(to, first + 2, reinterpret_cast<const Double8(&)[n - 2]>(from[2]), which);
-  } else {
-    // the last four numbers may repeat some of the first four, rather than that they come in two pieces
-    constexpr int fours = n < 4 ? 0 : n == 4 || n == 6 || n == 5 ? 1 : 2;
-    constexpr int left = n - 4 * fours;
-    Group rows[2][4];
-    Two pairs[4];
-    const auto four = [&](int k, Group(&out)[4]) {
-      turn_fours({part<g>(from[k].v), part<g>(from[k + 1].v), part<g>(from[k + 2].v), part<g>(from[k + 3].v)}, out);
-    };
-    if constexpr (fours > 0) four(0, rows[0]);
-    if constexpr (fours > 1) four(n - 4, rows[1]);
-    if constexpr (left == 2) turn_pairs(part<g>(from[n - 2].v), part<g>(from[n - 1].v), pairs);
-    for (int i = 0; i < group; ++i) {
-      if (!(mine >> i & 1)) continue;
-      double* const at = places[i] + first;
-      if constexpr (fours > 0) store_at(at, rows[0][i]);
-      if constexpr (fours > 1) store_at(at + (n - 4), rows[1][i]);
-      if constexpr (left == 2) store_at(at + (n - 2), pairs[i]);
-      if constexpr (left == 1) at[n - 1] = part<g>(from[n - 1].v)[i];
-    }
+  if constexpr (n - at >= 4) {
+    store_fours(places, first + at,
+                {part<g>(from[at].v), part<g>(from[at + 1].v), part<g>(from[at + 2].v), part<g>(from[at + 3].v)}, mine);
+    store_from<at + 4, n, g>(to, first, from, which);
+  } else if constexpr (left >= 2) {
+    store_pairs(places, first + k, part<g>(from[k].v), part<g>(from[k + 1].v), mine);
+    store_from<k + 2, n, g>(to, first, from, which);
+  } else if constexpr (left == 1) {
+    const Group last = part<g>(from[k].v);
+    for (int i = 0; i < group; ++i)
+      if (mine >> i & 1) places[i][first + k] = last[i];
   }
-#else
-  constexpr int count = n / 2;
-  Two pairs[count > 0 ? count : 1][group];
-  for (int k = 0; k < count; ++k) turn_pairs(part<g>(from[2 * k].v), part<g>(from[2 * k + 1].v), pairs[k]);
-  for (int i = 0; i < group; ++i) {
-    if (!(mine >> i & 1)) continue;
-    double* const at = places[i] + first;
-    for (int k = 0; k < count; ++k) store_at(at + 2 * k, pairs[k][i]);
-    if constexpr (n % 2 == 1) at[n - 1] = part<g>(from[n - 1].v)[i];
-  }
-#endif
 }
 template <int n, int... groups>
 MURO_INLINE void store_groups(const Places<Double8, double>& to, std::ptrdiff_t first, const Double8 (&from)[n],
                               unsigned which, std::integer_sequence<int, groups...>) {
-  (store_group<n, groups>(to, first, from, which), ...);
+  (store_from<0, n, groups>(to, first, from, which), ...);
 }
 
 }  // namespace detail
