@@ -100,12 +100,24 @@ std::string AccessCheck::name_of(const Cell& cell) const {
   return "`" + store_.object_name(s.object) + ":" + std::string(store_.key_of(s).name) + "`";
 }
 
+/// From the state before the step to where a call begins: what phases hand on is there again, and nothing older.
+bool AccessCheck::come_again(const Task& task, Step step, Range range, abi::ErrorText& error) {
+  put_back(before_step_);
+  if (!task.instance->restored(error)) return false;
+  put_back(before_step_);  // what is derived may have been cleared
+  const std::uint32_t phase = step.phase;
+  for (step.phase = 0; step.phase < phase; ++step.phase)
+    if (!task.instance->step(step, {0, task.length(step.phase)}, error)) return false;
+  return range.begin == 0 || task.instance->step(step, {0, range.begin}, error);
+}
+
 bool AccessCheck::make(const Task& task, const Step& step, Range range, abi::ErrorText& error) {
   const auto found =
       std::find_if(rights_.begin(), rights_.end(), [&](const Rights& r) { return r.algorithm == task.instance; });
   const Rights& rights = *found;
   const Allowed may = allowed(rights, task, step, range);
   const Copy before = copy();
+  if (step.phase == 0 && range.begin == 0) before_step_ = before;
   if (!task.instance->step(step, range, error)) return false;
   const Copy after = copy();
   for (std::size_t i = 0; i < cells_.size(); ++i)
@@ -117,9 +129,8 @@ bool AccessCheck::make(const Task& task, const Step& step, Range range, abi::Err
   const bool repeats = (d.promises & Promise::restorable) != 0 && d.kind != Kind::recorder && d.kind != Kind::view;
   if (!repeats) return true;
 
+  if (!come_again(task, step, range, error)) return false;
   put_back(before);
-  if (!task.instance->restored(error)) return false;
-  put_back(before);  // what is derived may have been cleared
   poison(may);
   const bool fine = task.instance->step(step, range, error);
   const Copy again = copy();

@@ -13,16 +13,18 @@ class Instance;
 
 /// Proves that algorithms keep to the properties that they have declared.
 ///
-/// Every call is made twice from the same state, with restored() in between. The second time, all that the call has no
-/// right to read is poisoned (bytes 0xff: not a number). The call must then write the same bits, and nothing but what
-/// it may write: else it reads or writes in secret, and could not run beside others. What a call may touch follows from
-/// the bindings of its instance and from the reach of its phase (Phase::Reach). Runs take many times longer.
+/// Every call is made twice from the same state, with restored() and the calls before it in the same step in between.
+/// It asks for calls in the order of turns (see stages_of). The second time, all that the call has no right to read is
+/// poisoned (bytes 0xff: not a number). The call must then write the same bits, and nothing but what it may write: else
+/// it reads or writes in secret, and could not run beside others. What a call may touch follows from the bindings of
+/// its instance and from the reach of its phase (Phase::Reach). Runs take many times longer.
 class AccessCheck final : public CallObserver {
  public:
   AccessCheck(PropertyStore& store, const std::vector<Instance*>& instances, std::vector<std::int32_t> robot_of_slot);
   bool make(const Task& task, const Step& step, Range range, abi::ErrorText& error) override;
 
  private:
+  bool come_again(const Task& task, Step step, Range range, abi::ErrorText& error);
   /// One value in memory, or the elements of a list.
   struct Cell {
     std::uint32_t slot = 0;
@@ -59,6 +61,7 @@ class AccessCheck final : public CallObserver {
   std::vector<Rights> rights_;
   std::vector<std::int32_t> robot_of_slot_;
   std::vector<Cell> cells_;
+  Copy before_step_;
 };
 
 }  // namespace muro

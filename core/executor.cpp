@@ -58,6 +58,7 @@ void Executor::run(const std::vector<Task>& tasks, Program& program, std::span<c
 
 void Executor::run_stage(Instant& instant, bool parallel) {
   const Stage& stage = *instant.stage;
+  if (!stage.is_wanted()) return;
   if (parallel && stage.chains() > 1)
     workers_->run(stage.chains(), &Executor::run_piece, &instant);
   else
@@ -75,6 +76,7 @@ void Executor::run_chain(const Instant& instant, const Stage& stage, std::uint32
   constexpr std::uint64_t all_at_first = 64, part = 8;
   Thread& state = state_[thread];
   for (const Call& call : stage.chain(chain)) {
+    if (!call.is_wanted()) continue;
     const Task& task = instant.tasks[call.task];
     const std::int64_t time = instant.times[call.instant];
     const Step step{time, call.dt, instant.runs[call.task] + call.instant, instant.seed, call.phase};
@@ -129,7 +131,8 @@ void Executor::learn(Program::Trial& t, std::uint64_t passed) {
   using State = Program::Trial::State;
   constexpr std::uint32_t shortest_pause = 64, longest_pause = 1u << 16;
   constexpr double worth = 0.97;    // of the time on one thread
-  constexpr double hopeless = 1.5;  // the same, of a whole trial
+  constexpr double hopeless = 1.5;  // the same, of a whole trial; one instant counts no more than `hiccup` times
+  constexpr double hiccup = 4;
   ++t.instants;
   if (t.state == State::settled) {
     if (t.parallel) watch(t, double(passed));
@@ -140,7 +143,7 @@ void Executor::learn(Program::Trial& t, std::uint64_t passed) {
     return;
   }
   constexpr std::uint32_t all = Program::Trial::warm + Program::Trial::counted;
-  t.watched += double(passed);
+  t.watched += std::min(double(passed), hiccup * t.serial);
   const bool given_up = t.state == State::parallel && t.watched > hopeless * all * t.serial;
   if (t.instants > Program::Trial::warm) t.seen[t.instants - Program::Trial::warm - 1] = double(passed);
   if (t.instants < all && !given_up) return;

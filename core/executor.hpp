@@ -48,8 +48,9 @@ class Executor {
   /// Of calls; 1: the calling thread alone.
   void set_threads(unsigned threads);
   unsigned threads() const { return threads_; }
-  /// Takes the place of making calls; null: none. Calls are then made on one thread.
+  /// Takes the place of making calls; null: none. Calls are then made on one thread. [before the first run]
   void set_observer(std::unique_ptr<CallObserver> observer) { observer_ = std::move(observer); }
+  bool observed() const { return observer_ != nullptr; }
   /// Whether several threads are used wherever there are several chains; else only where that is found to be faster.
   void set_always_parallel(bool always) { always_parallel_ = always; }
   Timeline& timeline() { return timeline_; }

@@ -159,7 +159,7 @@ Program Scheduler::program_of(const Turns& turns, std::uint32_t instants) const 
       t.instant = i;
       program.turns.push_back(t);
     }
-  program.stages = stages_of(program.turns, tasks_, robot_of_slot_);
+  program.stages = stages_of(program.turns, tasks_, robot_of_slot_, !executor_.observed());
   return program;
 }
 

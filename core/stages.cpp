@@ -60,6 +60,7 @@ class Filling {
       s.calls.insert(s.calls.end(), chain.begin(), chain.end());
       s.ends.push_back(std::uint32_t(s.calls.size()));
     }
+    s.all_optional = std::all_of(s.calls.begin(), s.calls.end(), [](const Call& c) { return c.wanted != nullptr; });
     stages.push_back(std::move(s));
     chains_.clear();
   }
@@ -168,7 +169,7 @@ class TaskCut {
 }  // namespace
 
 std::vector<Stage> stages_of(std::span<const Turn> turns, std::span<const Task> tasks,
-                             std::span<const std::int32_t> robot_of_slot) {
+                             std::span<const std::int32_t> robot_of_slot, bool overlap) {
   std::uint32_t robots = 0;
   for (const Task& t : tasks) robots = std::max(robots, t.robots);
   const std::vector<std::uint32_t> bounds = block_bounds(robots);
@@ -180,7 +181,14 @@ std::vector<Stage> stages_of(std::span<const Turn> turns, std::span<const Task> 
     const TaskId id = turns[turn].task;
     const TaskCut cut(tasks[id], robot_of_slot, bounds);
     for (std::uint32_t phase = 0; phase < tasks[id].phases.size(); ++phase) {
-      const std::vector<Part> parts = cut.parts({id, phase, {}, turns[turn].dt, turns[turn].instant, turn}, shared);
+      const std::vector<Part> parts = cut.parts({.task = id,
+                                                 .phase = phase,
+                                                 .range = {},
+                                                 .dt = turns[turn].dt,
+                                                 .instant = turns[turn].instant,
+                                                 .turn = turn,
+                                                 .wanted = tasks[id].phases[phase].wanted},
+                                                shared);
       chains.clear();
       bool joins = filling.before(shared) == nobody;
       for (const Part& p : parts) {
@@ -189,6 +197,7 @@ std::vector<Stage> stages_of(std::span<const Turn> turns, std::span<const Task> 
         joins = joins && chain != several && !taken;
         chains.push_back(chain);
       }
+      joins = joins && overlap;
       if (!joins) filling.close(stages);
       for (std::size_t k = 0; k < parts.size(); ++k)
         filling.add(joins ? chains[k] : nobody, parts[k].call, parts[k].touches);

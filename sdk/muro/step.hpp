@@ -40,6 +40,8 @@ struct Phase {
   Over over = Over::whole;
   Reach reach = Reach::wide;
   bool heavy = false;  ///< an element takes more than some microseconds: each has a call of its own
+  /// Null, or where an earlier phase of the step writes whether this one is wanted. It is left out when that is 0.
+  const std::uint8_t* wanted = nullptr;
 };
 
 }  // namespace muro

@@ -9,59 +9,73 @@
 
 namespace muro::penalty {
 
+/// Each robot is served in four passes, which read what the passes before found of other robots. A pass writes only
+/// what belongs to its robot, so robots may be divided among threads.
 class Meetings {
  public:
-  explicit Meetings(const Bodies& bodies) : bodies_(bodies), places_(bodies.robots.size()) {}
-  /// Serves the robots (of Bodies::robots) whose flag is set; whoever touches one of them and is moved by forces has
-  /// its flag set too.
-  void push(const Moment& moment, const std::vector<std::uint8_t>& flags);
+  explicit Meetings(const Bodies& bodies) : bodies_(bodies), record_of_(bodies.robots.size()) {}
+
+  /// Takes the robots (of Bodies::robots) whose flag is set; whoever touches one of them and is moved by forces has its
+  /// flag set too. Returns how many they are.
+  std::size_t begin(const Moment& moment, const std::vector<std::uint8_t>& flags);
+
+  static constexpr int passes = 4;
+  /// `which`: 0 to 3, one behind the other. `robot`: one of those that begin() took.
+  void pass(int which, std::uint32_t robot);
+  /// The same for all of them.
+  void pass(int which) {
+    for (const std::uint32_t r : robots_) pass(which, r);
+  }
 
  private:
   using V3 = lane::V3<double>;
   using Mobility = law::Mobility<double>;
   using Patch = law::Patch<double>;
-  using Resistance = law::Resistance<double>;
-  using NormalLaw = law::NormalLaw<double>;
-  using FrictionLaw = law::FrictionLaw<double>;
 
   static constexpr std::uint32_t not_ours = 0xffffffffu;
 
-  /// A robot in the present step.
-  struct Place {
-    Mobility mobility;
-    Resistance resistance;  ///< of all its contacts, in units of omega^2
-    double load = 0;        ///< its stiffest motion, in units of omega^2
-  };
   /// A patch between a robot and something else.
   struct Touch {
-    Patch patch;
-    std::uint32_t self;   ///< in Bodies::robots
-    std::int32_t other;   ///< the same, or nobody
+    Patch patch;          ///< from the centre of the robot
+    std::int32_t other;   ///< in Bodies::robots, or nobody
     std::uint32_t whole;  ///< of the other
-    law::Share<double> share;
+    law::Share<double> share{};
     double restitution = -1;  ///< that `normal` is for
-    std::optional<NormalLaw> normal;
-    std::optional<FrictionLaw> friction;
+    std::optional<law::NormalLaw<double>> normal{};
+    std::optional<law::FrictionLaw<double>> friction{};
+    Wrench reaction{};  ///< on the other
+  };
+  /// A robot in the present step.
+  struct Record {
+    Mobility mobility;
+    std::vector<Touch> touches;           ///< of the contacts that it works out
+    std::vector<std::uint32_t> touch_of;  ///< of each contact: in `touches`, or not_ours
+    std::vector<std::uint32_t> owners;    ///< robots that work out its other contacts, by rank
+    std::vector<Grip> old_grips;
+    double load = 0;  ///< its stiffest motion, in units of omega^2
   };
 
-  void place(std::uint32_t robot);
-  bool owns(std::uint32_t self, std::int32_t other) const;
+  void add_records();
+  void place(std::uint32_t self);
   void gather(std::uint32_t self);
-  void share(Touch& t);
-  std::size_t push_robot(std::uint32_t self, std::size_t next);
-  void set_laws(Touch& t, double restitution) const;
+  void find_load(std::uint32_t self);
+  void push(std::uint32_t self);
+  void add_reactions(std::uint32_t self);
+
+  bool owns(std::uint32_t self, std::int32_t other) const;
+  law::Share<double> share_of(const Record& self, const Touch& t) const;
+  void set_laws(const Record& self, Touch& t, double restitution) const;
   Vec3 force_on_self(const Touch& touch, const Contact& contact, Vec3& stretch) const;
-  void push_back(const Robot& robot, const Touch& touch, const Vec3& force, const Vec3& point,
-                 const Grip* before) const;
+  void react(std::uint32_t self, Touch& touch, const Vec3& force, const Vec3& point, const Grip* before) const;
   Vec3 centre_velocity(std::uint32_t robot) const;
+  Record& record(std::uint32_t robot) { return records_[record_of_[robot]]; }
+  const Record& record(std::uint32_t robot) const { return records_[record_of_[robot]]; }
 
   const Bodies& bodies_;
   Moment moment_;
-  std::vector<Place> places_;
-  std::vector<std::uint32_t> robots_;  ///< that meet
-  std::vector<Touch> touches_;
-  std::vector<std::uint32_t> touch_of_;  ///< one a contact, in the order of robots and lists
-  std::vector<Grip> old_grips_;
+  std::vector<std::uint32_t> robots_;     ///< that meet
+  std::vector<std::uint32_t> record_of_;  ///< by robot: in records_, of those that meet
+  std::vector<Record> records_;           ///< at least as many as meet
 };
 
 }  // namespace muro::penalty

@@ -40,10 +40,6 @@ constexpr Description description{
     .promises = deterministic | allocation_free | restorable,
 };
 
-/// First, block by block, the robots that touch only scenery, which are nearly all; then those that meet something that
-/// moves.
-constexpr Phase all_phases[] = {{Phase::Over::robots, Phase::Reach::own}, {Phase::Over::whole}};
-
 class Penalty final : public Algorithm {
  public:
   void connect(Connector& c) override {
@@ -57,19 +53,31 @@ class Penalty final : public Algorithm {
   void start() override { standings_->start(); }
   void restored() override { start(); }
 
-  std::span<const Phase> phases() const override { return all_phases; }
+  /// First, block by block, the robots that touch only scenery, which are nearly all. Then those that meet something
+  /// that moves: a few at once, many block by block.
+  std::span<const Phase> phases() const override { return phases_; }
 
   void step(const Step& step, Range range) override {
     // As stiff as wanted, as far as the step resolves it.
     const Moment moment{{std::min(omega_, finest_step / step.dt), step.dt},
                         *last_run_ < 0 ? 0 : 1e-9 * double(step.time - *last_run_)};
     if (step.phase == 0) return standings_->push(moment, range);
+    if (step.phase > 1) return meet(int(step.phase) - 2, range);
     *last_run_ = step.time;
     if (moment.stiffness.omega < omega_) warn(moment.stiffness);
-    meetings_->push(moment, standings_->left());
+    constexpr std::size_t few = 12;  // take less time than threads need to share them
+    const std::size_t meet = meetings_->begin(moment, standings_->left());
+    many_meet_ = meet > few ? 1 : 0;
+    for (int pass = 0; pass < Meetings::passes && !many_meet_; ++pass) meetings_->pass(pass);
   }
 
  private:
+  void meet(int pass, Range block) {
+    for (std::uint32_t number = block.begin; number < block.end; ++number) {
+      const std::int32_t robot = bodies_.robot_of[number];
+      if (robot != nobody && standings_->left()[std::size_t(robot)]) meetings_->pass(pass, std::uint32_t(robot));
+    }
+  }
   void warn(const Stiffness& s) {
     if (std::exchange(told_, true)) return;
     host_->log(LogLevel::info, "contact.penalty: at a step of " + std::to_string(s.h) + " s, contacts have " +
@@ -85,6 +93,10 @@ class Penalty final : public Algorithm {
   std::unique_ptr<Standings> standings_;
   std::unique_ptr<Meetings> meetings_;
   Out<std::int64_t> last_run_;
+  std::uint8_t many_meet_ = 0;
+  const Phase for_many_{.over = Phase::Over::robots, .wanted = &many_meet_};
+  static_assert(Meetings::passes == 4);
+  const Phase phases_[6] = {{Phase::Over::robots, Phase::Reach::own}, {}, for_many_, for_many_, for_many_, for_many_};
 };
 
 constexpr abi::AlgorithmEntry algorithms[] = {algorithm<Penalty>(description)};

@@ -33,7 +33,7 @@ Standings::Standings(const Bodies& bodies) : bodies_(bodies), kernels_(standing_
 
 void Standings::start() {
   standings_.assign(bodies_.robots.size(), {});
-  left_.assign(bodies_.robots.size(), 0);
+  left_.resize(bodies_.robots.size());
   for (std::size_t i = 0; i < standings_.size(); ++i) {
     const Robot& r = bodies_.robots[i];
     standings_[i].mass = r.mass;
