@@ -197,7 +197,9 @@ std::vector<Stage> stages_of(std::span<const Turn> turns, std::span<const Task> 
         joins = joins && chain != several && !taken;
         chains.push_back(chain);
       }
-      joins = joins && overlap;
+      // What a phase has found of any robot, the next may read, if it reaches so far.
+      const Phase& p = tasks[id].phases[phase];
+      joins = joins && overlap && (phase == 0 || p.reach == Phase::Reach::own);
       if (!joins) filling.close(stages);
       for (std::size_t k = 0; k < parts.size(); ++k)
         filling.add(joins ? chains[k] : nobody, parts[k].call, parts[k].touches);

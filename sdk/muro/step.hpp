@@ -24,8 +24,9 @@ struct Range {
 
 /// A part of a step, and how it may be divided among threads.
 ///
-/// The phases of a step run one behind the other. The range of a divided phase is cut into blocks that do not depend on
-/// the number of threads; `step` is called for the blocks in any order, several at once. Each block writes only what
+/// The phases of a step run one behind the other; one that reaches wide begins when the phase before it is through with
+/// all elements, so it may read what that has found. The range of a divided phase is cut into blocks that do not depend
+/// on the number of threads; `step` is called for the blocks in any order, several at once. Each block writes only what
 /// belongs to its own elements. Memory that a call uses for itself is local to the call or thread_local.
 struct Phase {
   enum class Over : std::uint8_t {

@@ -97,6 +97,37 @@ TEST_F(Stages, AnUndividedPhaseStandsAloneBetweenDividedOnes) {
   EXPECT_EQ(all[1].calls[0].range.end, robots);
 }
 
+TEST_F(Stages, WithoutOverlapEachPhaseOfATaskIsAStage) {
+  tasks.reserve(2);
+  every(add({{Over::robots, Reach::own}, {Over::robots, Reach::own}}), 0, true);
+  every(add({{Over::robots, Reach::own}}), 1, true);
+  EXPECT_EQ(stages().size(), 1u);
+  const auto all = stages_of(turns, tasks, robot_of_slot(), false);
+  ASSERT_EQ(all.size(), 3u);
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_EQ(all[k].chains(), block_bounds(robots).size() - 1);
+    for (const Call& c : all[k].calls) EXPECT_EQ(c.task * 2 + c.phase, k);
+  }
+}
+
+TEST_F(Stages, AStageIsLeftOutWhenNoneOfItsCallsIsWanted) {
+  tasks.reserve(2);
+  std::uint8_t wanted = 0;
+  const Phase maybe{.over = Over::robots, .wanted = &wanted};
+  every(add({{Over::whole}, maybe, maybe}), 0, true);
+  every(add({{Over::robots, Reach::own}}), 0, true);
+  const auto all = stages();
+  ASSERT_EQ(all.size(), 3u);  // the last of the first task goes on with the second
+  EXPECT_TRUE(all[0].is_wanted());
+  EXPECT_FALSE(all[1].is_wanted());
+  EXPECT_TRUE(all[2].is_wanted());
+  EXPECT_FALSE(all[2].chain(0)[0].is_wanted());
+  EXPECT_TRUE(all[2].chain(0)[1].is_wanted());
+  wanted = 1;
+  EXPECT_TRUE(all[1].is_wanted());
+  EXPECT_TRUE(all[2].chain(0)[0].is_wanted());
+}
+
 TEST_F(Stages, TasksWithoutCommonPropertiesOverlap) {
   tasks.reserve(6);
   for (std::uint32_t i = 0; i < 6; ++i) {
