@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/workers.hpp"
 
+#include <sched.h>
+
 #include <algorithm>
 #include <chrono>
 
@@ -17,6 +19,16 @@ void relax() {
 #elif defined(__aarch64__)
   asm volatile("yield");
 #endif
+}
+
+/// The calling thread goes on elsewhere, where there is another processor for it.
+void leave_processor(int number) {
+  cpu_set_t allowed, others;
+  if (sched_getaffinity(0, sizeof allowed, &allowed) != 0) return;
+  others = allowed;
+  CPU_CLR(std::size_t(number), &others);
+  if (CPU_COUNT(&others) == 0 || sched_setaffinity(0, sizeof others, &others) != 0) return;
+  sched_setaffinity(0, sizeof allowed, &allowed);
 }
 
 constexpr std::uint64_t packed(std::uint32_t round, std::uint32_t end, std::uint32_t next) {
@@ -55,7 +67,10 @@ void Workers::round(std::uint32_t first, std::uint32_t pieces, Work work, void* 
                           std::memory_order_release);
   }
   round_.store(number);  // sequentially consistent with the count of sleepers
-  if (sleepers_.load() > 0) round_.notify_all();
+  if (sleepers_.load() > 0) {
+    caller_processor_.store(sched_getcpu(), std::memory_order_relaxed);
+    round_.notify_all();
+  }
   work_through(number, 0);
   for (int spins = 0; undone_.load(std::memory_order_acquire) > 0; ++spins)
     if (spins < 2000)
@@ -115,6 +130,9 @@ void Workers::serve(unsigned self) {
       sleepers_.fetch_add(1);
       round_.wait(seen);
       sleepers_.fetch_sub(1);
+      // The system likes to wake a thread where the one is that woke it, and takes long to part them.
+      const int here = sched_getcpu();
+      if (here == caller_processor_.load(std::memory_order_relaxed)) leave_processor(here);
     }
     seen = round_.load(std::memory_order_acquire);
     if (quit_.load(std::memory_order_relaxed)) return;

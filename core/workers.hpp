@@ -51,6 +51,7 @@ class Workers {
   alignas(64) std::atomic<std::uint32_t> round_{0};
   alignas(64) std::atomic<std::uint32_t> undone_{0};
   alignas(64) std::atomic<std::uint32_t> sleepers_{0};
+  std::atomic<int> caller_processor_{-1};  ///< of the one that wakes sleepers
   std::atomic<bool> quit_{false};
   std::vector<std::thread> threads_;
 };
