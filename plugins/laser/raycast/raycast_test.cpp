@@ -222,8 +222,10 @@ TEST(LaserRaycast, GivesTheSameReadingsToRobotsInOneInstanceAndAlone) {
 /// Many rovers that drive among each other.
 struct Crowd : Yard {
   explicit Crowd(std::map<std::string, ParameterInput> parameters) {
-    for (int i = 0; i < 40; ++i)
-      add_rover("rover" + std::to_string(i), {{-4.5 + i % 10, -3 + 1.5 * (i / 10), 0.1}, from_rpy(0, 0, 0.7 * i)});
+    for (int i = 0; i < 40; ++i) {
+      const int row = i / 10, column = i % 10;
+      add_rover("rover" + std::to_string(i), {{-4.5 + column, -3 + 1.5 * row, 0.1}, from_rpy(0, 0, 0.7 * i)});
+    }
     parameters["max_range"] = 12.0;
     use_laser(std::move(parameters));
     build();
