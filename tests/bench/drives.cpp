@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "tests/bench/drives.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace muro::bench {
+
+namespace {
+
+/// A team on its way through a city.
+class Drive {
+ public:
+  Drive(const City& city, const Engine& engine, Effort effort) : city_(city), team_(engine.make(city, effort)) {
+    for (const Pose& p : city.starts()) last_.push_back(p.position);
+  }
+  /// Drives for some intervals; returns the wall-clock time in s.
+  double turn(int intervals) {
+    const auto start = std::chrono::steady_clock::now();
+    for (int end = next_ + intervals; next_ < end; ++next_) {
+      for (int v = 0; v < city_.vehicles(); ++v)
+        if (city_.changes(v, next_)) team_->command(v, city_.command(v, next_));
+      team_->run(City::interval);
+    }
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+  /// Mean way (m) since the last look, and mean height (m).
+  std::pair<double, double> look() {
+    double way = 0, height = 0;
+    for (std::size_t v = 0; v < last_.size(); ++v) {
+      const Vec3 now = team_->pose(int(v)).position;
+      way += (now - last_[v]).norm();
+      height += now.z();
+      last_[v] = now;
+    }
+    return {way / double(last_.size()), height / double(last_.size())};
+  }
+  Vec3 position(int vehicle) const { return team_->pose(vehicle).position; }
+
+ private:
+  const City& city_;
+  std::unique_ptr<Team> team_;
+  std::vector<Vec3> last_;
+  int next_ = 0;
+};
+
+}  // namespace
+
+double Record::rate() const {
+  std::vector<double> sorted = rates;
+  std::sort(sorted.begin(), sorted.end());
+  return sorted[sorted.size() / 2];
+}
+
+std::vector<Record> compare(const Plan& plan, const std::vector<Engine>& engines,
+                            const std::function<City(std::uint64_t seed)>& make_city) {
+  std::vector<Record> records(engines.size());
+  for (int c = 0; c < plan.cities; ++c) {
+    const City city = make_city(std::uint64_t(c + 1));
+    std::vector<Drive> drives;
+    for (const Engine& e : engines) drives.emplace_back(city, e, e.effort);
+    for (int turn = 0; turn <= plan.turns; ++turn)
+      for (std::size_t e = 0; e < engines.size(); ++e) {
+        const double wall = drives[e].turn(plan.intervals);
+        const auto [way, height] = drives[e].look();
+        Record& r = records[e];
+        r.distance += way / plan.cities;
+        if (turn == 0) continue;
+        r.rates.push_back(double(engines[e].teams * city.vehicles()) * City::interval * plan.intervals / wall);
+        r.height += height / (plan.cities * plan.turns);
+      }
+  }
+  return records;
+}
+
+Deviation deviation(const Engine& engine) {
+  constexpr int cities = 3, vehicles = 10, intervals = 6000 / City::interval;
+  Deviation d;
+  for (int c = 0; c < cities; ++c) {
+    const City city = City::open(vehicles, std::uint64_t(c + 1));
+    Drive usual(city, engine, engine.effort), converged(city, engine, Effort::converged());
+    usual.turn(intervals);
+    converged.turn(intervals);
+    for (int v = 0; v < vehicles; ++v) {
+      const double away = (usual.position(v) - converged.position(v)).norm();
+      d.rms += away * away / (cities * vehicles);
+      d.most = std::max(d.most, away);
+    }
+  }
+  d.rms = std::sqrt(d.rms);
+  return d;
+}
+
+}  // namespace muro::bench
