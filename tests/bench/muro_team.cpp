@@ -45,8 +45,9 @@ std::vector<ObjectId> CityScene::add_lasers(const Pattern& pattern, double range
   return sensors;
 }
 
-MuroTeam::MuroTeam(const City& city, int threads, Wheels wheels, const Pattern* lasers) : scene_(city, wheels) {
-  scene_.use("motion.simplified", 1000, scene_.all_robots());
+MuroTeam::MuroTeam(const City& city, int threads, Wheels wheels, const Pattern* lasers, int rate)
+    : scene_(city, wheels) {
+  scene_.use("motion.simplified", rate, scene_.all_robots());
   scene_.use_contacts();
   if (lasers) scene_.add_lasers(*lasers, 5.6, false);
   scene_.set_threads(unsigned(threads));
@@ -64,6 +65,34 @@ MuroTeam::MuroTeam(const City& city, int threads, Wheels wheels, const Pattern* 
 void MuroTeam::command(int vehicle, WheelSpeeds speeds) {
   for (int w = 0; w < 4; ++w)
     *targets_[std::size_t(vehicle)][std::size_t(w)] = Rover::is_left(w) ? speeds.left : speeds.right;
+}
+
+TwoTeams::TwoTeams(const City& city)
+    : first_(city, 1, Wheels::balls), second_(city, 1, Wheels::balls), thread_([this] { serve(); }) {}
+
+TwoTeams::~TwoTeams() {
+  wanted_.store(-1);
+  thread_.join();
+}
+
+void TwoTeams::command(int vehicle, WheelSpeeds speeds) {
+  first_.command(vehicle, speeds);
+  second_.command(vehicle, speeds);
+}
+
+void TwoTeams::run(int milliseconds) {
+  const int wanted = wanted_.load() + milliseconds;
+  wanted_.store(wanted);
+  first_.run(milliseconds);
+  while (done_.load() != wanted) std::this_thread::yield();
+}
+
+void TwoTeams::serve() {
+  for (int wanted = 0; wanted >= 0; wanted = wanted_.load()) {
+    if (wanted == done_.load()) continue;
+    second_.run(wanted - done_.load());
+    done_.store(wanted);
+  }
 }
 
 MuroScanners::MuroScanners(const City& city, const Pattern& pattern, double range, int threads) : scene_(city) {

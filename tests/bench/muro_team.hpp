@@ -2,6 +2,9 @@
 // muro as the benchmarks use it, beside its peers.
 #pragma once
 
+#include <atomic>
+#include <thread>
+
 #include "tests/bench/peers/scanners.hpp"
 #include "tests/bench/peers/team.hpp"
 #include "tests/support/scene.hpp"
@@ -18,20 +21,39 @@ struct CityScene : test::Scene {
   std::vector<ObjectId> add_lasers(const Pattern& pattern, double range, bool see_self);
 };
 
-/// The vehicles under motion.simplified with full collision, all at 1000 Hz.
+/// The vehicles under motion.simplified with full collision, at one rate.
 class MuroTeam final : public Team {
  public:
-  /// `lasers`: what each vehicle carries, with a range of 5.6 m, or null.
-  MuroTeam(const City& city, int threads, Wheels wheels, const Pattern* lasers = nullptr);
+  /// `lasers`: what each vehicle carries, with a range of 5.6 m, or null. `rate`: steps/s.
+  MuroTeam(const City& city, int threads, Wheels wheels, const Pattern* lasers = nullptr, int rate = 1000);
 
   void command(int vehicle, WheelSpeeds speeds) override;
-  void run(int steps) override { scene_.run_for(1e-3 * steps); }
+  void run(int milliseconds) override { scene_.run_for(1e-3 * milliseconds); }
   Pose pose(int vehicle) const override { return *poses_[std::size_t(vehicle)]; }
 
  private:
   CityScene scene_;
   std::vector<const Pose*> poses_;
   std::vector<std::array<double*, 4>> targets_;  ///< joint.velocity.target of each wheel
+};
+
+/// Two teams that have nothing to do with each other, each on a thread of its own: what the machine gives to two
+/// programs at once, and so the most that two threads can gain.
+class TwoTeams final : public Team {
+ public:
+  explicit TwoTeams(const City& city);
+  ~TwoTeams() override;
+
+  void command(int vehicle, WheelSpeeds speeds) override;
+  void run(int milliseconds) override;
+  Pose pose(int vehicle) const override { return first_.pose(vehicle); }
+
+ private:
+  void serve();
+
+  MuroTeam first_, second_;
+  std::atomic<int> wanted_{0}, done_{0};  ///< ms of the second; negative: the end
+  std::thread thread_;
 };
 
 /// The vehicles with laser.raycast on each, moved from outside.

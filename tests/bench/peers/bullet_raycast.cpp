@@ -39,7 +39,7 @@ class SceneryRaycaster final : public btVehicleRaycaster {
 
 class RaycastVehicles final : public Team {
  public:
-  explicit RaycastVehicles(const City& city) : bullet_(city) {
+  RaycastVehicles(const City& city, Effort effort) : steps_(effort.steps), bullet_(city, effort) {
     btCollisionShape& chassis = bullet_.keep(
         std::make_unique<btBoxShape>(btVector3(0.5 * Rover::length, 0.5 * Rover::width, 0.5 * Rover::height)));
     const Inertia whole = Rover::composite();
@@ -66,10 +66,10 @@ class RaycastVehicles final : public Team {
   }
 
   void command(int vehicle, WheelSpeeds speeds) override { vehicles_[std::size_t(vehicle)].speeds = speeds; }
-  void run(int steps) override {
-    for (int i = 0; i < steps; ++i) {
+  void run(int milliseconds) override {
+    for (int i = 0; i < milliseconds * steps_; ++i) {
       for (const Vehicle& v : vehicles_) drive(v);
-      bullet_.run(1);
+      bullet_.step();
     }
   }
   Pose pose(int vehicle) const override { return pose_of(vehicles_[std::size_t(vehicle)].body->getWorldTransform()); }
@@ -96,6 +96,7 @@ class RaycastVehicles final : public Team {
     }
   }
 
+  const int steps_;  ///< in a millisecond
   BulletWorld bullet_;
   SceneryRaycaster raycaster_{bullet_.world, *bullet_.ground};
   btRaycastVehicle::btVehicleTuning tuning_;
@@ -104,6 +105,8 @@ class RaycastVehicles final : public Team {
 
 }  // namespace
 
-std::unique_ptr<Team> bullet_raycast_vehicles(const City& city) { return std::make_unique<RaycastVehicles>(city); }
+std::unique_ptr<Team> bullet_raycast_vehicles(const City& city, Effort effort) {
+  return std::make_unique<RaycastVehicles>(city, effort);
+}
 
 }  // namespace muro::bench

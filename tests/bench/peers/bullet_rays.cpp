@@ -10,7 +10,7 @@ namespace {
 class BulletScanners final : public Scanners {
  public:
   BulletScanners(const City& city, const Pattern& pattern, double range)
-      : bullet_(city), pattern_(pattern), range_(range), ranges_(std::size_t(pattern.size() * city.vehicles())) {
+      : bullet_(city, {}), pattern_(pattern), range_(range), ranges_(std::size_t(pattern.size() * city.vehicles())) {
     auto rover = std::make_unique<btCompoundShape>();
     rover->addChildShape(btTransform::getIdentity(),
                          &bullet_.keep(std::make_unique<btBoxShape>(

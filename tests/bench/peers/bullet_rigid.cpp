@@ -8,7 +8,7 @@ namespace {
 
 class RigidVehicles final : public Team {
  public:
-  explicit RigidVehicles(const City& city) : bullet_(city) {
+  RigidVehicles(const City& city, Effort effort) : steps_(effort.steps), bullet_(city, effort) {
     btCollisionShape& box = bullet_.keep(
         std::make_unique<btBoxShape>(btVector3(0.5 * Rover::length, 0.5 * Rover::width, 0.5 * Rover::height)));
     btCollisionShape& ball = bullet_.keep(std::make_unique<btSphereShape>(Rover::wheel_radius));
@@ -35,9 +35,11 @@ class RigidVehicles final : public Team {
   void command(int vehicle, WheelSpeeds speeds) override {
     for (int w = 0; w < 4; ++w)
       vehicles_[std::size_t(vehicle)].hinges[std::size_t(w)]->enableAngularMotor(
-          true, Rover::is_left(w) ? speeds.left : speeds.right, Rover::max_torque * 1e-3);
+          true, Rover::is_left(w) ? speeds.left : speeds.right, Rover::max_torque * bullet_.step_length());
   }
-  void run(int steps) override { bullet_.run(steps); }
+  void run(int milliseconds) override {
+    for (int i = 0; i < milliseconds * steps_; ++i) bullet_.step();
+  }
   Pose pose(int vehicle) const override {
     return pose_of(vehicles_[std::size_t(vehicle)].chassis->getWorldTransform());
   }
@@ -48,12 +50,15 @@ class RigidVehicles final : public Team {
     std::array<std::unique_ptr<btHingeConstraint>, 4> hinges;
   };
 
+  const int steps_;  ///< in a millisecond
   BulletWorld bullet_;
   std::vector<Vehicle> vehicles_;
 };
 
 }  // namespace
 
-std::unique_ptr<Team> bullet_rigid_vehicles(const City& city) { return std::make_unique<RigidVehicles>(city); }
+std::unique_ptr<Team> bullet_rigid_vehicles(const City& city, Effort effort) {
+  return std::make_unique<RigidVehicles>(city, effort);
+}
 
 }  // namespace muro::bench

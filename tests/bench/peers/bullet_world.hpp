@@ -24,10 +24,10 @@ inline btTransform bullet(const Pose& p) { return btTransform(bullet(p.orientati
 
 class BulletWorld {
  public:
-  explicit BulletWorld(const City& city) {
+  BulletWorld(const City& city, Effort effort) : step_(1e-3 / effort.steps) {
     world.setGravity({0, 0, -9.81});
     world.setForceUpdateAllAabbs(false);  // buildings do not move
-    world.getSolverInfo().m_numIterations = 4;
+    world.getSolverInfo().m_numIterations = effort.iterations;
     world.getSimulationIslandManager()->setSplitIslands(false);  // the sorting of islands is quadratic
 
     ground = &add(keep(std::make_unique<btStaticPlaneShape>(btVector3(0, 0, 1), 0)), {}, 0);
@@ -57,11 +57,11 @@ class BulletWorld {
     world.addRigidBody(bodies_.back().get());
     return *bodies_.back();
   }
-  void run(int steps) {
-    for (int i = 0; i < steps; ++i) world.stepSimulation(1e-3, 0);
-  }
+  double step_length() const { return step_; }  ///< s
+  void step() { world.stepSimulation(step_, 0); }
 
  private:
+  double step_;
   btDefaultCollisionConfiguration configuration_;
   btCollisionDispatcher dispatcher_{&configuration_};
   btDbvtBroadphase broadphase_;

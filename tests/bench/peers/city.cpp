@@ -34,8 +34,8 @@ Inertia Rover::composite() {
   return whole;
 }
 
-City::City(int vehicles, std::uint64_t seed) : seed_(seed) {
-  const int across = std::max(10, int(std::ceil(std::sqrt(vehicles / 4.0))));
+City::City(int vehicles, std::uint64_t seed, int least_across) : seed_(seed) {
+  const int across = std::max(least_across, int(std::ceil(std::sqrt(vehicles / 4.0))));
   const double half = 0.5 * pitch * across, wall = half + 2.2;
   for (int i = 0; i < across; ++i)
     for (int j = 0; j < across; ++j)
@@ -62,6 +62,12 @@ City::City(int vehicles, std::uint64_t seed) : seed_(seed) {
               places[std::size_t(v) + std::size_t(random.uniform(std::uint32_t(v)) * double(rest))]);
     starts_.push_back(places[std::size_t(v)]);
   }
+}
+
+City City::open(int vehicles, std::uint64_t seed) {
+  City city(vehicles, seed);
+  city.blocks_.clear();
+  return city;
 }
 
 int City::period(int vehicle) const {

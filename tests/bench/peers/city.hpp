@@ -39,7 +39,11 @@ struct WheelSpeeds {
 class City {
  public:
   /// The city has ten by ten blocks, or as many as give every vehicle a quarter of one.
-  explicit City(int vehicles, std::uint64_t seed = 1);
+  explicit City(int vehicles, std::uint64_t seed = 1) : City(vehicles, seed, 10) {}
+  /// A quarter of a block for every vehicle, however few they are.
+  static City crowded(int vehicles, std::uint64_t seed) { return City(vehicles, seed, 1); }
+  /// The same vehicles on the ground alone.
+  static City open(int vehicles, std::uint64_t seed);
 
   const std::vector<Block>& blocks() const { return blocks_; }
   /// Poses of the chassis' centres at the start: on two lanes of every street, a metre apart, none on a crossing.
@@ -52,6 +56,7 @@ class City {
   WheelSpeeds command(int vehicle, int index) const;
 
  private:
+  City(int vehicles, std::uint64_t seed, int least_across);
   int period(int vehicle) const;
 
   std::uint64_t seed_;

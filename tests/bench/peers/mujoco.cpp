@@ -16,11 +16,11 @@ namespace {
 std::ostream& operator<<(std::ostream& out, const Vec3& v) { return out << v.x() << ' ' << v.y() << ' ' << v.z(); }
 
 /// The city and vehicles `first` to `first + n` - 1. Wheels collide as balls.
-std::string model_of(const City& city, int first, int n) {
+std::string model_of(const City& city, Effort effort, int first, int n) {
   std::ostringstream xml, actuators;
   xml.precision(12);
-  xml << "<mujoco><option timestep='0.001' gravity='0 0 -9.81' solver='CG' iterations='4' tolerance='1e-5'"
-         " cone='elliptic' jacobian='sparse'/>"
+  xml << "<mujoco><option timestep='" << 1e-3 / effort.steps << "' gravity='0 0 -9.81' solver='CG' iterations='"
+      << effort.iterations << "' tolerance='1e-5' cone='elliptic' jacobian='sparse'/>"
       << "<size nconmax='" << 6 * n + 100 << "' njmax='" << 20 * n + 400 << "'/>"
       << "<compiler inertiafromgeom='false' angle='radian'/><worldbody>"
       << "<geom type='plane' size='0 0 1' friction='0.8'/>";
@@ -60,16 +60,17 @@ std::string model_of(const City& city, int first, int n) {
 
 class MujocoVehicles final : public Team {
  public:
-  explicit MujocoVehicles(const City& city) {
-    for (int v = 0; v < city.vehicles(); v += most) worlds_.emplace_back(city, v, std::min(most, city.vehicles() - v));
+  MujocoVehicles(const City& city, Effort effort) : steps_(effort.steps) {
+    for (int v = 0; v < city.vehicles(); v += most)
+      worlds_.emplace_back(city, effort, v, std::min(most, city.vehicles() - v));
   }
 
   void command(int vehicle, WheelSpeeds speeds) override {
     mjtNum* ctrl = worlds_[std::size_t(vehicle / most)].data->ctrl + 4 * (vehicle % most);
     for (int w = 0; w < 4; ++w) ctrl[w] = Rover::is_left(w) ? speeds.left : speeds.right;
   }
-  void run(int steps) override {
-    for (int i = 0; i < steps; ++i)
+  void run(int milliseconds) override {
+    for (int i = 0; i < milliseconds * steps_; ++i)
       for (const World& w : worlds_) mj_step(w.model.get(), w.data.get());
   }
   Pose pose(int vehicle) const override {
@@ -80,6 +81,7 @@ class MujocoVehicles final : public Team {
   }
 
  private:
+  const int steps_;                 ///< in a millisecond
   static constexpr int most = 100;  ///< vehicles in a world
 
   struct Delete {
@@ -87,8 +89,8 @@ class MujocoVehicles final : public Team {
     void operator()(mjData* d) const { mj_deleteData(d); }
   };
   struct World {
-    World(const City& city, int first, int n) {
-      const std::string text = model_of(city, first, n);
+    World(const City& city, Effort effort, int first, int n) {
+      const std::string text = model_of(city, effort, first, n);
       const auto files = std::make_unique<mjVFS>();
       mj_defaultVFS(files.get());
       mj_makeEmptyFileVFS(files.get(), "city.xml", int(text.size()));
@@ -110,6 +112,8 @@ class MujocoVehicles final : public Team {
 
 }  // namespace
 
-std::unique_ptr<Team> mujoco_vehicles(const City& city) { return std::make_unique<MujocoVehicles>(city); }
+std::unique_ptr<Team> mujoco_vehicles(const City& city, Effort effort) {
+  return std::make_unique<MujocoVehicles>(city, effort);
+}
 
 }  // namespace muro::bench

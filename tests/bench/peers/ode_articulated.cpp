@@ -8,7 +8,7 @@ namespace {
 
 class ArticulatedVehicles final : public Team, OdeWorld {
  public:
-  explicit ArticulatedVehicles(const City& city) : OdeWorld(city) {
+  ArticulatedVehicles(const City& city, Effort effort) : OdeWorld(city, effort) {
     for (const Pose& start : city.starts()) {
       Vehicle& v = add_vehicle(start, Rover::chassis());
       for (int w = 0; w < 4; ++w) {
@@ -32,7 +32,7 @@ class ArticulatedVehicles final : public Team, OdeWorld {
       dJointSetHingeParam(hinges_[std::size_t(4 * vehicle + w)], dParamVel,
                           Rover::is_left(w) ? speeds.left : speeds.right);
   }
-  void run(int steps) override { OdeWorld::run(steps); }
+  void run(int milliseconds) override { OdeWorld::run(milliseconds); }
   Pose pose(int vehicle) const override { return OdeWorld::pose(vehicle); }
 
  private:
@@ -43,6 +43,8 @@ class ArticulatedVehicles final : public Team, OdeWorld {
 
 }  // namespace
 
-std::unique_ptr<Team> ode_articulated_vehicles(const City& city) { return std::make_unique<ArticulatedVehicles>(city); }
+std::unique_ptr<Team> ode_articulated_vehicles(const City& city, Effort effort) {
+  return std::make_unique<ArticulatedVehicles>(city, effort);
+}
 
 }  // namespace muro::bench

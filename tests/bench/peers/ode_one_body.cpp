@@ -8,7 +8,7 @@ namespace {
 
 class OneBodyVehicles final : public Team, OdeWorld {
  public:
-  explicit OneBodyVehicles(const City& city) : OdeWorld(city) {
+  OneBodyVehicles(const City& city, Effort effort) : OdeWorld(city, effort) {
     for (const Pose& start : city.starts()) {
       Vehicle& v = add_vehicle(start, Rover::composite());
       for (int w = 0; w < 4; ++w) {
@@ -21,7 +21,7 @@ class OneBodyVehicles final : public Team, OdeWorld {
   }
 
   void command(int vehicle, WheelSpeeds speeds) override { vehicles_[std::size_t(vehicle)].speeds = speeds; }
-  void run(int steps) override { OdeWorld::run(steps); }
+  void run(int milliseconds) override { OdeWorld::run(milliseconds); }
   Pose pose(int vehicle) const override { return OdeWorld::pose(vehicle); }
 
  private:
@@ -43,6 +43,8 @@ class OneBodyVehicles final : public Team, OdeWorld {
 
 }  // namespace
 
-std::unique_ptr<Team> ode_one_body_vehicles(const City& city) { return std::make_unique<OneBodyVehicles>(city); }
+std::unique_ptr<Team> ode_one_body_vehicles(const City& city, Effort effort) {
+  return std::make_unique<OneBodyVehicles>(city, effort);
+}
 
 }  // namespace muro::bench

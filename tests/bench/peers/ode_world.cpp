@@ -12,14 +12,14 @@ int part_of(dGeomID geom) { return int(reinterpret_cast<std::size_t>(dGeomGetDat
 
 }  // namespace
 
-OdeWorld::OdeWorld(const City& city) {
+OdeWorld::OdeWorld(const City& city, Effort effort) : steps_(effort.steps) {
   dInitODE2(0);
   dAllocateODEDataForThread(dAllocateMaskAll);
   world_ = dWorldCreate();
   dWorldSetGravity(world_, 0, 0, -9.81);
   dWorldSetERP(world_, 0.2);
   dWorldSetCFM(world_, 1e-6);
-  dWorldSetQuickStepNumIterations(world_, 4);
+  dWorldSetQuickStepNumIterations(world_, effort.iterations);
   dWorldSetAutoDisableFlag(world_, 0);
   contacts_ = dJointGroupCreate(0);
   buildings_ = dSweepAndPruneSpaceCreate(nullptr, dSAP_AXES_XYZ);
@@ -71,15 +71,17 @@ dGeomID OdeWorld::add_wheel(Vehicle& vehicle, int wheel) {
   return ball;
 }
 
-void OdeWorld::run(int steps) {
-  for (int i = 0; i < steps; ++i) {
-    for (const Vehicle& v : vehicles_)
-      for (const dGeomID geom : v.geoms) touch(geom, ground_);
-    dSpaceCollide2(reinterpret_cast<dGeomID>(team_), reinterpret_cast<dGeomID>(buildings_), this, &meet);
-    dSpaceCollide(team_, this, &meet);
-    dWorldQuickStep(world_, 1e-3);
-    dJointGroupEmpty(contacts_);
-  }
+void OdeWorld::run(int milliseconds) {
+  for (int i = 0; i < milliseconds * steps_; ++i) step();
+}
+
+void OdeWorld::step() {
+  for (const Vehicle& v : vehicles_)
+    for (const dGeomID geom : v.geoms) touch(geom, ground_);
+  dSpaceCollide2(reinterpret_cast<dGeomID>(team_), reinterpret_cast<dGeomID>(buildings_), this, &meet);
+  dSpaceCollide(team_, this, &meet);
+  dWorldQuickStep(world_, 1e-3 / steps_);
+  dJointGroupEmpty(contacts_);
 }
 
 Pose OdeWorld::pose(int vehicle) const {

@@ -14,12 +14,12 @@ namespace muro::bench {
 /// without search; vehicles find buildings and each other by sweep and prune.
 class OdeWorld {
  public:
-  explicit OdeWorld(const City& city);
+  OdeWorld(const City& city, Effort effort);
   virtual ~OdeWorld();
   OdeWorld(const OdeWorld&) = delete;
   OdeWorld& operator=(const OdeWorld&) = delete;
 
-  void run(int steps);
+  void run(int milliseconds);
   Pose pose(int vehicle) const;
 
  protected:
@@ -40,9 +40,11 @@ class OdeWorld {
   std::vector<Vehicle> vehicles_;
 
  private:
+  void step();
   static void meet(void* self, dGeomID a, dGeomID b);
   void touch(dGeomID a, dGeomID b);
 
+  const int steps_;  ///< in a millisecond
   dSpaceID buildings_ = nullptr, team_ = nullptr;
   dGeomID ground_ = nullptr;
   dJointGroupID contacts_ = nullptr;

@@ -10,7 +10,11 @@ std::vector<Engine> peers() {
   all.push_back({"Bullet, raycast vehicle", true, &bullet_raycast_vehicles});
 #endif
 #ifdef MURO_BENCH_ODE
-  all.push_back({"ODE, one body", true, &ode_one_body_vehicles});
+  for (const int iterations : {4, 10})
+    all.push_back({"ODE, one body, " + std::to_string(iterations) + " iterations",
+                   true,
+                   &ode_one_body_vehicles,
+                   {.iterations = iterations}});
   all.push_back({"ODE, articulated", false, &ode_articulated_vehicles});
 #endif
 #ifdef MURO_BENCH_BULLET

@@ -15,26 +15,35 @@ class Team {
   virtual ~Team() = default;
   /// What the drives of a vehicle's wheels hold from now on.
   virtual void command(int vehicle, WheelSpeeds speeds) = 0;
-  /// Steps of 1 ms.
-  virtual void run(int steps) = 0;
+  virtual void run(int milliseconds) = 0;
   /// Of the chassis' centre.
   virtual Pose pose(int vehicle) const = 0;
+};
+
+/// What an engine spends on a simulated millisecond.
+struct Effort {
+  int steps = 1;
+  int iterations = 4;  ///< of each step, where the engine has such
+  /// Much more than needed: what an engine makes of its equations where neither is short.
+  static constexpr Effort converged() { return {4, 200}; }
 };
 
 /// An engine, or one way to use it.
 struct Engine {
   std::string name;
   bool one_body = false;  ///< a vehicle is one rigid body; otherwise its wheels are bodies of their own
-  std::function<std::unique_ptr<Team>(const City&)> make;
+  std::function<std::unique_ptr<Team>(const City&, Effort)> make;
+  Effort effort{};  ///< that it is measured with
+  int teams = 1;    ///< so many at once, each on a thread of its own
 };
 
 /// The engines that were found when this was built.
 std::vector<Engine> peers();
 
-std::unique_ptr<Team> bullet_raycast_vehicles(const City& city);
-std::unique_ptr<Team> bullet_rigid_vehicles(const City& city);
-std::unique_ptr<Team> ode_one_body_vehicles(const City& city);
-std::unique_ptr<Team> ode_articulated_vehicles(const City& city);
-std::unique_ptr<Team> mujoco_vehicles(const City& city);
+std::unique_ptr<Team> bullet_raycast_vehicles(const City& city, Effort effort);
+std::unique_ptr<Team> bullet_rigid_vehicles(const City& city, Effort effort);
+std::unique_ptr<Team> ode_one_body_vehicles(const City& city, Effort effort);
+std::unique_ptr<Team> ode_articulated_vehicles(const City& city, Effort effort);
+std::unique_ptr<Team> mujoco_vehicles(const City& city, Effort effort);
 
 }  // namespace muro::bench
