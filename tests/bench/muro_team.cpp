@@ -72,6 +72,7 @@ TwoTeams::TwoTeams(const City& city)
 
 TwoTeams::~TwoTeams() {
   wanted_.store(-1);
+  wanted_.notify_one();
   thread_.join();
 }
 
@@ -83,15 +84,18 @@ void TwoTeams::command(int vehicle, WheelSpeeds speeds) {
 void TwoTeams::run(int milliseconds) {
   const int wanted = wanted_.load() + milliseconds;
   wanted_.store(wanted);
+  wanted_.notify_one();
   first_.run(milliseconds);
   while (done_.load() != wanted) std::this_thread::yield();
 }
 
 void TwoTeams::serve() {
-  for (int wanted = 0; wanted >= 0; wanted = wanted_.load()) {
-    if (wanted == done_.load()) continue;
-    second_.run(wanted - done_.load());
-    done_.store(wanted);
+  for (int done = 0;; done_.store(done)) {
+    wanted_.wait(done);
+    const int wanted = wanted_.load();
+    if (wanted < 0) return;
+    second_.run(wanted - done);
+    done = wanted;
   }
 }
 

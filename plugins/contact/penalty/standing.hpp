@@ -14,12 +14,21 @@ namespace muro::penalty {
 /// At most so many contacts, and as many springs of the step before, has a robot that the kernel serves.
 inline constexpr int most_contacts = 32;
 
+/// Where the pose and the twist of a body lie: so many numbers behind those of its robot's base, or of its first link.
+struct BodyPlace {
+  bool of_link = false;
+  std::ptrdiff_t pose = 0, twist = 0;
+
+  friend bool operator==(const BodyPlace&, const BodyPlace&) = default;
+};
+
 /// How the contacts of a robot belong together. A group: those of one body and shape with one other, side by side.
 struct Layout {
   int contacts = 0;
   int groups = 0;
   std::uint8_t ends[most_contacts] = {};  ///< of each group: behind its last contact
   double zeta[most_contacts] = {};        ///< of each group: damping ratio of the normal
+  BodyPlace bodies[most_contacts] = {};   ///< of each group
 
   friend bool operator==(const Layout&, const Layout&) = default;
 };
@@ -29,10 +38,9 @@ struct StandingRobot {
   const double* contacts = nullptr;  ///< point of the first
   const double* before = nullptr;    ///< point of the first grip of the step before; may be `grips`
   double* grips = nullptr;           ///< point of the first; out
-  const double* base_pose = nullptr;
-  double* wrench = nullptr;                  ///< out
-  const double* poses[most_contacts] = {};   ///< of the body of each group
-  const double* twists[most_contacts] = {};  ///< the same
+  const double *base_pose = nullptr, *base_twist = nullptr;
+  const double *link_pose = nullptr, *link_twist = nullptr;  ///< of the first link that may touch, if there is one
+  double* wrench = nullptr;                                  ///< out
 };
 inline constexpr int contact_stride = 11, grip_stride = 7;  ///< in numbers
 /// A contact, from its point on: point, normal, depth, friction. A grip: point, stretch.

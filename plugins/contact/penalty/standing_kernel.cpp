@@ -45,14 +45,14 @@ class Push {
   /// Where there are fewer than S has values, the first stands in.
   MURO_INLINE Push(const StandingWork& work, const StandingRobot* const* robots, int count)
       : work_(work), layout_(*work.layout), count_(count) {
-    Places<S> base;
     for (int i = 0; i < count_of<S>; ++i) {
-      const StandingRobot& r = *(robots_[i] = robots[i < count ? i : 0]);
+      const StandingRobot& r = *robots[i < count ? i : 0];
       contacts_.at[i] = r.contacts, before_.at[i] = r.before;
       grips_.at[i] = r.grips, wrench_.at[i] = r.wrench;
-      base.at[i] = r.base_pose;
+      poses_[0].at[i] = r.base_pose, poses_[1].at[i] = r.link_pose;
+      twists_[0].at[i] = r.base_twist, twists_[1].at[i] = r.link_twist;
     }
-    const PoseOf<S> pose = load_pose(base);
+    const PoseOf<S> pose = load_pose(poses_[0]);
     body_ = mobility_of(*work.mass, pose);
     base_ = pose.position;
   }
@@ -131,11 +131,9 @@ class Push {
   /// A group that has n springs, or any number of them.
   template <int n>
   MURO_INLINE void move_group(const Group& group) {
-    Places<S> pose, twist;
-    for (int i = 0; i < count_of<S>; ++i)
-      pose.at[i] = robots_[i]->poses[group.number], twist.at[i] = robots_[i]->twists[group.number];
-    const V3<S> origin = load_vector(pose);
-    const TwistOf<S> motion = load_twist(twist);
+    const BodyPlace& body = layout_.bodies[group.number];
+    const V3<S> origin = load_vector(poses_[body.of_link], body.pose);
+    const TwistOf<S> motion = load_twist(twists_[body.of_link], body.twist);
     const int springs = n < most_contacts ? n : group.springs_end - group.springs_begin;
     Springs<S, n> before;
     for (int k = 0; k < springs; ++k) before.load(k, before_, group.springs_begin + k);
@@ -174,8 +172,8 @@ class Push {
   const StandingWork& work_;
   const Layout& layout_;
   const int count_;
-  const StandingRobot* robots_[count_of<S>];
   Places<S> contacts_, before_;
+  Places<S> poses_[2], twists_[2];  ///< of bases, of links
   Places<S, double> grips_, wrench_;
   Mobility<S> body_;
   V3<S> base_;

@@ -27,11 +27,10 @@ struct Vehicle {
     v.contacts = contacts[0].point.data();
     v.before = v.grips = grips[0].point.data();
     v.base_pose = base.position.data();
+    v.base_twist = twist.linear.data();
+    v.link_pose = bodies[0].position.data();
+    v.link_twist = twists[0].linear.data();
     v.wrench = wrench.force.data();
-    for (int k = 0; k < 4; ++k) {
-      v.poses[k] = bodies[k].position.data();
-      v.twists[k] = twists[k].linear.data();
-    }
     return v;
   }
 };
@@ -75,6 +74,8 @@ const Layout& layout() {
     for (int g = 0; g < 4; ++g) {
       l.ends[g] = std::uint8_t(2 * (g + 1));
       l.zeta[g] = damping_ratio_of(restitution);
+      l.bodies[g] = {true, std::ptrdiff_t(g * sizeof(Pose) / sizeof(double)),
+                     std::ptrdiff_t(g * sizeof(Twist) / sizeof(double))};
     }
     return l;
   }();

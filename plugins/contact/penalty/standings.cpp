@@ -4,8 +4,12 @@
 #include <algorithm>
 #include <cstring>
 
+#include "muro/lane/numbers.hpp"
+
 namespace muro::penalty {
 namespace {
+
+using lane::numbers_between;
 
 static_assert(sizeof(Contact) == contact_stride * sizeof(double) && offsetof(Contact, point) == 8 &&
               offsetof(Contact, normal) == 32 && offsetof(Contact, depth) == 56 && offsetof(Contact, friction) == 64 &&
@@ -33,20 +37,31 @@ Standings::Standings(const Bodies& bodies) : bodies_(bodies), kernels_(standing_
 
 void Standings::start() {
   standings_.assign(bodies_.robots.size(), {});
+  identities_.resize(bodies_.robots.size());
   left_.resize(bodies_.robots.size());
   for (std::size_t i = 0; i < standings_.size(); ++i) {
     const Robot& r = bodies_.robots[i];
-    standings_[i].mass = r.mass;
-    standings_[i].view.base_pose = r.base->position.data();
-    standings_[i].view.wrench = r.wrench->force.data();
+    Standing& s = standings_[i];
+    s.list = r.contacts, s.grips = r.grips, s.mass = r.mass;
+    s.view.base_pose = r.base->position.data();
+    s.view.base_twist = r.twist->linear.data();
+    s.view.wrench = r.wrench->force.data();
+  }
+  for (const Body& b : bodies_.all) {
+    if (b.robot == nobody || !b.pose) continue;
+    StandingRobot& view = standings_[std::size_t(b.robot)].view;
+    if (view.link_pose || b.pose->position.data() == view.base_pose) continue;
+    view.link_pose = b.pose->position.data();
+    view.link_twist = b.twist->linear.data();
   }
 }
 
-bool Standings::Standing::knows(std::span<const Contact> now) const {
-  if (now.size() != contacts) return false;
+bool Standings::knows(std::uint32_t robot, std::span<const Contact> now) const {
+  const Identities& known = identities_[robot];
+  if (now.size() != standings_[robot].contacts) return false;
   bool same = true;
-  for (std::uint32_t i = 0; i < contacts; ++i)
-    same = same && both(&now[i].self) == identities[i].bodies && both(&now[i].self_shape) == identities[i].shapes;
+  for (std::size_t i = 0; i < now.size(); ++i)
+    same = same && both(&now[i].self) == known[i].bodies && both(&now[i].self_shape) == known[i].shapes;
   return same;
 }
 
@@ -69,34 +84,32 @@ void Standings::fetch(std::uint32_t robot) const {
   const auto fetch_lines = [](const void* from, std::size_t bytes) {
     for (std::size_t i = 0; i < bytes; i += line) __builtin_prefetch(static_cast<const char*>(from) + i);
   };
-  fetch_lines(s.view.contacts, contacts * sizeof(Contact));
-  fetch_lines(s.view.before, contacts * sizeof(Grip));
-  fetch_lines(&s.identities, contacts * sizeof(Identity));
-  for (std::size_t i = 0; i < contacts; ++i) __builtin_prefetch(s.view.poses[i]), __builtin_prefetch(s.view.twists[i]);
+  fetch_lines((*s.list).data(), contacts * sizeof(Contact));
+  fetch_lines((*s.grips).data(), contacts * sizeof(Grip));
+  if (!s.view.link_pose) return;
+  fetch_lines(s.view.link_pose, contacts * sizeof(Pose));
+  fetch_lines(s.view.link_twist, contacts * sizeof(Twist));
 }
 
 void Standings::push_one(const Moment& moment, std::uint32_t robot, Queues& queues) {
-  const Robot& r = bodies_.robots[robot];
   Standing& s = standings_[robot];
-  const auto contacts = *r.contacts;
+  const auto contacts = *s.list;
   left_[robot] = 0;
   if (contacts.empty()) {
-    r.grips.clear();
+    s.grips.clear();
     s.springs_fit = false;
-    *r.wrench = Wrench{};
+    *bodies_.robots[robot].wrench = Wrench{};
     return;
   }
-  if (r.contacts.revision() != s.revision || contacts.size() != s.contacts) {
-    if (!s.knows(contacts)) learn(robot, contacts);
-    s.revision = r.contacts.revision();
+  if (s.list.revision() != s.revision || contacts.size() != s.contacts) {
+    if (!knows(robot, contacts)) learn(robot, contacts);
+    s.revision = s.list.revision();
   }
   if (!s.only_scenery) {
     left_[robot] = 1;
     return;
   }
   if (!s.in_lanes || !s.springs_fit) return push_alone(moment, robot);
-  s.view.contacts = contacts[0].point.data();
-  s.view.before = s.view.grips = (*r.grips)[0].point.data();
   const auto fits = [&](const Queue& q) {
     const Standing& first = standings_[q.robots[0]];
     return q.count > 0 && first.layout == s.layout && first.mass == s.mass;
@@ -112,6 +125,9 @@ void Standings::push_one(const Moment& moment, std::uint32_t robot, Queues& queu
     queues.last = std::size_t(q - queues.all.begin());
   }
   Queue& q = queues.all[queues.last];
+  StandingRobot& view = q.views[q.count] = s.view;
+  view.contacts = contacts[0].point.data();
+  view.before = view.grips = (*s.grips)[0].point.data();
   q.robots[q.count++] = robot;
   if (q.count == 8) push_queue(moment, q);
 }
@@ -125,7 +141,7 @@ void Standings::learn(std::uint32_t robot, std::span<const Contact> contacts) {
       std::none_of(contacts.begin(), contacts.end(), [&](const Contact& c) { return bodies_[c.other].twist; });
   if (!s.only_scenery) return;
   for (const Contact& c : contacts)
-    s.identities[s.contacts++] = {both(&c.self), both(&c.self_shape), bodies_.pair_of(c)};
+    identities_[robot][s.contacts++] = {both(&c.self), both(&c.self_shape), bodies_.pair_of(c)};
   s.in_lanes = std::all_of(contacts.begin(), contacts.end(), [&](const Contact& c) {
     return bodies_[c.other].whole == bodies_[contacts[0].other].whole;
   });
@@ -134,18 +150,20 @@ void Standings::learn(std::uint32_t robot, std::span<const Contact> contacts) {
   s.in_lanes = s.layout != unknown_layout;
 }
 
-/// Also notes the bodies of its groups.
-Layout Standings::lay_out(std::uint32_t robot, std::span<const Contact> contacts) {
-  Standing& s = standings_[robot];
+Layout Standings::lay_out(std::uint32_t robot, std::span<const Contact> contacts) const {
+  const StandingRobot& view = standings_[robot].view;
+  const Identities& known = identities_[robot];
   Layout layout;
   for (const Contact& c : contacts) {
     const int k = layout.contacts++;
-    if (k == 0 || s.identities[std::size_t(k)].pair != s.identities[std::size_t(k - 1)].pair) {
+    if (k == 0 || known[std::size_t(k)].pair != known[std::size_t(k - 1)].pair) {
       const Body& body = bodies_[c.self];
       layout.zeta[layout.groups] = bodies_.materials[bodies_.material_of(c.restitution)].damping_ratio;
-      s.view.poses[layout.groups] = body.pose->position.data();
-      s.view.twists[layout.groups] = body.twist->linear.data();
-      ++layout.groups;
+      const double *const pose = body.pose->position.data(), *const twist = body.twist->linear.data();
+      BodyPlace& place = layout.bodies[layout.groups++];
+      place.of_link = pose != view.base_pose;
+      place.pose = numbers_between(place.of_link ? view.link_pose : view.base_pose, pose);
+      place.twist = numbers_between(place.of_link ? view.link_twist : view.base_twist, twist);
     }
     layout.ends[layout.groups - 1] = std::uint8_t(layout.contacts);
   }
@@ -171,7 +189,7 @@ void Standings::push_queue(const Moment& moment, Queue& q) {
                     .layout = &layout,
                     .springs_ends = layout.ends};
   const StandingRobot* views[8];
-  for (std::uint32_t i = 0; i < q.count; ++i) views[i] = &standings_[q.robots[i]].view;
+  for (std::uint32_t i = 0; i < q.count; ++i) views[i] = &q.views[i];
   const unsigned left = kernels_.push(work, views, int(q.count));
   for (std::uint32_t i = 0; left >> i; ++i)
     if (left >> i & 1) push_alone(moment, q.robots[i]);
@@ -196,26 +214,27 @@ int Standings::sort_into_patches(std::span<const Contact> contacts, std::uint8_t
 
 /// With any patches, and springs in any order.
 void Standings::push_alone(const Moment& moment, std::uint32_t robot) {
-  const Robot& r = bodies_.robots[robot];
   Standing& s = standings_[robot];
-  const auto contacts = *r.contacts;
-  const auto springs = *r.grips;
+  const Identities& known = identities_[robot];
+  const auto contacts = *s.list;
+  const auto springs = *s.grips;
   const Layout layout = lay_out(robot, contacts);
   Grip before[most_contacts];
   std::uint8_t springs_ends[most_contacts], patch_of[most_contacts];
   std::size_t count = 0;
   for (int group = 0; group < layout.groups; ++group) {
-    const std::uint64_t pair = s.identities[layout.ends[group] - 1u].pair;
+    const std::uint64_t pair = known[layout.ends[group] - 1u].pair;
     for (const Grip& g : springs)
       if (g.pair == pair && count < most_contacts) before[count++] = g;
     springs_ends[group] = std::uint8_t(count);
   }
-  r.grips.clear();
-  for (std::uint32_t k = 0; k < s.contacts; ++k) r.grips.push_back({.pair = s.identities[k].pair});
+  s.grips.clear();
+  for (std::uint32_t k = 0; k < s.contacts; ++k) s.grips.push_back({.pair = known[k].pair});
   s.springs_fit = true;
-  s.view.contacts = contacts[0].point.data();
-  s.view.before = before[0].point.data();
-  s.view.grips = (*r.grips)[0].point.data();
+  StandingRobot view = s.view;
+  view.contacts = contacts[0].point.data();
+  view.before = before[0].point.data();
+  view.grips = (*s.grips)[0].point.data();
   StandingWork work{.stiffness = moment.stiffness,
                     .elapsed = moment.elapsed,
                     .mass = &bodies_.masses[s.mass],
@@ -223,8 +242,8 @@ void Standings::push_alone(const Moment& moment, std::uint32_t robot) {
                     .springs_ends = springs_ends,
                     .patch_of = patch_of};
   work.patches = sort_into_patches(contacts, patch_of);
-  const StandingRobot* const view = &s.view;
-  kernels_.push(work, &view, 1);
+  const StandingRobot* const views[] = {&view};
+  kernels_.push(work, views, 1);
 }
 
 }  // namespace muro::penalty

@@ -29,7 +29,9 @@ class Standings {
   /// What a robot stood on in the step before. It saves looking at the same contacts again; how a robot is served
   /// follows from its contacts and grips alone.
   struct Standing {
-    StandingRobot view;
+    ListIn<Contact> list;
+    ListOut<Grip> grips;
+    StandingRobot view;          ///< without contacts and grips
     std::uint64_t revision = 0;  ///< of the list of contacts, when it was last seen
     std::uint32_t contacts = 0;  ///< known
     std::uint32_t layout = 0;    ///< in layouts_; robots of one layout and mass share lanes
@@ -37,23 +39,23 @@ class Standings {
     bool only_scenery = false;
     bool in_lanes = false;     ///< one piece of scenery, and a layout that is known
     bool springs_fit = false;  ///< the robot has a spring for each contact, in their order
-    std::array<Identity, most_contacts> identities;
-
-    bool knows(std::span<const Contact> now) const;
   };
+  using Identities = std::array<Identity, most_contacts>;
   /// Robots that wait until they fill a lane.
   struct Queue {
     std::uint32_t count = 0;
     std::uint32_t robots[8];
+    StandingRobot views[8];
   };
   struct Queues;
 
   void fetch(std::uint32_t robot) const;
+  bool knows(std::uint32_t robot, std::span<const Contact> now) const;
   void push_one(const Moment& moment, std::uint32_t robot, Queues& queues);
   void learn(std::uint32_t robot, std::span<const Contact> contacts);
   void push_alone(const Moment& moment, std::uint32_t robot);
   void push_queue(const Moment& moment, Queue& queue);
-  Layout lay_out(std::uint32_t robot, std::span<const Contact> contacts);
+  Layout lay_out(std::uint32_t robot, std::span<const Contact> contacts) const;
   std::uint32_t number_of(const Layout& layout);
   int sort_into_patches(std::span<const Contact> contacts, std::uint8_t* patch_of) const;
 
@@ -62,7 +64,8 @@ class Standings {
 
   const Bodies& bodies_;
   const StandingKernels& kernels_;
-  std::vector<Standing> standings_;  ///< as Bodies::robots
+  std::vector<Standing> standings_;     ///< as Bodies::robots
+  std::vector<Identities> identities_;  ///< of the contacts that they know
   std::vector<std::uint8_t> left_;
   std::mutex mutex_;             ///< of those who learn a layout
   std::vector<Layout> layouts_;  ///< all different; never more than most_layouts, so they stay where they are
