@@ -94,6 +94,7 @@ int NativeCollision::words(std::uint32_t solids) const { return words_of(int(sol
 void NativeCollision::start_robots() {
   const SceneIndex& scene = *index_;
   solids_.clear();
+  reaches_.clear();
   teams_.clear();
   robots_have_planes_ = false;
   std::size_t all_words = 0;
@@ -109,6 +110,7 @@ void NativeCollision::start_robots() {
       robots_[r].has_plane = robots_[r].has_plane || c.shape->kind == ShapeKind::plane;
     }
     robots_have_planes_ = robots_have_planes_ || robots_[r].has_plane;
+    for (const Solid& s : solids) reaches_.push_back(reach_of(s));
     solids_.insert(solids_.end(), solids.begin(), solids.end());
     if (!robots_[r].list) continue;
     all_words += std::size_t(words(scene.robots[r].count));
@@ -145,10 +147,7 @@ void NativeCollision::touch(Range block) {
     lane.work.used = 0;
     for (const std::uint32_t r : team.in(block)) {
       const Neighbours::Of& near = neighbours_.of(r, *index_);
-      if (!alone(r, near)) {
-        touch_pairs(r, near);
-        continue;
-      }
+      if (!alone(r, near) && touch_pairs(r, near)) continue;
       const int i = lane.work.used++;
       lane.robots[i] = r;
       const Robot& robot = robots_[r];
@@ -211,16 +210,23 @@ Near NativeCollision::near(std::uint32_t collider) const {
   return {&c, p, bounds_of(p)};
 }
 
+/// Around a collider of a robot, however its body is turned.
+Aabb NativeCollision::ball(std::uint32_t collider) const {
+  const Vec3& centre = index_->colliders[collider].body_pose->position;
+  const Vec3 reach = Vec3::Constant(reaches_[collider - scenery_.size()]);
+  return {centre - reach, centre + reach};
+}
+
 /// An order of robots that does not depend on who was declared first.
 bool NativeCollision::precedes(std::uint32_t a, std::uint32_t b) const {
   return robots_[a].key != robots_[b].key ? robots_[a].key < robots_[b].key : a < b;
 }
 
-void NativeCollision::touch_pairs(std::uint32_t robot, const Neighbours::Of& near_it) {
+/// False: there is nothing but planes to touch, and nothing has been done.
+bool NativeCollision::touch_pairs(std::uint32_t robot, const Neighbours::Of& near_it) {
   thread_local Encounters encounters;
   const RobotColliders& own = index_->robots[robot];
   encounters.start(own.bounds);
-  for (std::uint32_t k = own.first; k < own.first + own.count; ++k) encounters.add_own(near(k));
   std::size_t plane = 0;
   const auto add_planes_before = [&](std::uint32_t collider) {
     for (; plane < planes_.size() && planes_[plane] < collider; ++plane)
@@ -233,9 +239,12 @@ void NativeCollision::touch_pairs(std::uint32_t robot, const Neighbours::Of& nea
   }
   add_planes_before(std::numeric_limits<std::uint32_t>::max());
   add_mates(encounters, robot, near_it);
+  if (!robots_have_planes_ && encounters.others() == planes_.size()) return false;
+  for (std::uint32_t k = own.first; k < own.first + own.count; ++k) encounters.add_own(near(k));
   robots_[robot].list.clear();
   encounters.list_contacts(robots_[robot].list);
   for (int w = 0; w < words(own.count); ++w) robots_[robot].signature[w] = unknown;
+  return true;
 }
 
 /// Ordered by key. A plane reaches everyone.
@@ -258,6 +267,7 @@ void NativeCollision::add_mates(Encounters& encounters, std::uint32_t robot, con
 void NativeCollision::add_mate(Encounters& encounters, std::uint32_t robot, std::uint32_t mate) const {
   const RobotColliders& theirs = index_->robots[mate];
   for (std::uint32_t k = theirs.first; k < theirs.first + theirs.count; ++k) {
+    if (!robots_[robot].has_plane && !ball(k).overlaps(encounters.bounds())) continue;
     const Near other = near(k);
     if (robots_[robot].has_plane || other.bounds.overlaps(encounters.bounds()))
       encounters.add_other(other, precedes(mate, robot), bool(robots_[mate].list));

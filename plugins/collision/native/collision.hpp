@@ -38,10 +38,11 @@ class NativeCollision final : public Algorithm {
   bool alone(std::uint32_t robot, const Neighbours::Of& near) const;
   void touch_ground(Lane& lane) const;
   void list_ground(std::uint32_t robot) const;
-  void touch_pairs(std::uint32_t robot, const Neighbours::Of& near);
+  bool touch_pairs(std::uint32_t robot, const Neighbours::Of& near);
   void add_mates(Encounters& encounters, std::uint32_t robot, const Neighbours::Of& near) const;
   void add_mate(Encounters& encounters, std::uint32_t robot, std::uint32_t mate) const;
   Near near(std::uint32_t collider) const;
+  Aabb ball(std::uint32_t collider) const;
   bool precedes(std::uint32_t a, std::uint32_t b) const;
   int words(std::uint32_t solids) const;
 
@@ -58,6 +59,7 @@ class NativeCollision final : public Algorithm {
 
   std::vector<Team<std::vector<Solid>>> teams_;  ///< of robots that have a list
   std::vector<Solid> solids_;                    ///< of robots' colliders
+  std::vector<double> reaches_;  ///< of them, m: see reach_of()
   std::vector<double> signatures_;
 };
 

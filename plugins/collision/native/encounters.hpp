@@ -33,6 +33,7 @@ class Encounters {
   /// round; of two robots that list each other's contacts one mirrors the other's.
   void add_other(const Near& other, bool mirrored, bool has_list) { others_.push_back({other, mirrored, has_list}); }
   const Aabb& bounds() const { return bounds_; }
+  std::size_t others() const { return others_.size(); }
 
   /// Adds all contacts, ordered by own body, other body, own shape, other shape.
   void list_contacts(const ListOut<Contact>& list) const;

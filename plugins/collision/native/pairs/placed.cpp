@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "pairs/placed.hpp"
 
+#include <limits>
+
 namespace muro::native {
 namespace {
 
@@ -48,6 +50,25 @@ Solid solid_of(const Shape& shape, std::uint32_t body) {
     Vec3::Map(s.axes + 3 * k) = s.along[k] == 0 ? axis : Vec3(axis.array().round());
   }
   return s;
+}
+
+double reach_of(const Solid& solid) {
+  constexpr double rounding = 1 + 1e-9;
+  const Vec3 half = Vec3::Map(solid.half);
+  const double away = Vec3::Map(solid.centre).norm();
+  switch (solid.form) {
+    case Form::box:
+      return rounding * (away + half.norm());
+    case Form::sphere:
+      return rounding * (away + half.x());
+    case Form::cylinder:
+    case Form::capsule:
+      return rounding * (away + half.x() + half.z());
+    case Form::plane:
+    case Form::mesh:
+      return std::numeric_limits<double>::infinity();
+  }
+  return std::numeric_limits<double>::infinity();
 }
 
 Placed placed(const Solid& solid, const Pose& body) {
