@@ -43,7 +43,9 @@ Workers::Workers(unsigned threads) : shares_(std::max(1u, threads)) {
 
 Workers::~Workers() {
   quit_.store(true, std::memory_order_relaxed);
-  round_.fetch_add(1);
+  const std::uint32_t last = round_.load(std::memory_order_relaxed) + 1;
+  for (Share& s : shares_) s.left.store(packed(last, 0, 0), std::memory_order_release);
+  round_.store(last);
   round_.notify_all();
   for (std::thread& t : threads_) t.join();
 }
@@ -55,40 +57,43 @@ void Workers::run(std::uint32_t pieces, Work work, void* context) {
 
 void Workers::round(std::uint32_t first, std::uint32_t pieces, Work work, void* context) {
   const std::uint32_t number = round_.load(std::memory_order_relaxed) + 1;
-  work_ = work;
-  context_ = context;
-  first_ = first;
   undone_.store(pieces, std::memory_order_relaxed);
   const auto count = std::uint64_t(shares_.size());
   // The last pieces, of which there may be more and larger ones, go to the thread that is at work first: this one.
-  for (std::uint64_t t = 0; t < count; ++t) {
-    const std::uint64_t k = count - 1 - t;
-    shares_[t].left.store(packed(number, std::uint32_t((k + 1) * pieces / count), std::uint32_t(k * pieces / count)),
-                          std::memory_order_release);
+  for (std::uint64_t k = 0; k < count; ++k) {
+    Share& share = shares_[count - 1 - k];
+    share.work = work;
+    share.context = context;
+    share.first = first;
+    share.left.store(packed(number, std::uint32_t((k + 1) * pieces / count), std::uint32_t(k * pieces / count)),
+                     std::memory_order_release);
   }
   round_.store(number);  // sequentially consistent with the count of sleepers
   if (sleepers_.load() > 0) {
     caller_processor_.store(sched_getcpu(), std::memory_order_relaxed);
     round_.notify_all();
   }
-  work_through(number, 0);
-  for (int spins = 0; undone_.load(std::memory_order_acquire) > 0; ++spins)
+  const std::uint32_t done = work_through(number, 0);
+  for (int spins = 0; undone_.load(std::memory_order_acquire) > done; ++spins)
     if (spins < 2000)
       relax();
     else
       std::this_thread::yield();  // there may be fewer cores than threads
 }
 
-void Workers::work_through(std::uint32_t round, unsigned self) {
-  empty(shares_[self], round, self);
-  if (shares_.size() == 1 || !others_are_late(round)) return;
-  for (std::size_t k = 1; k < shares_.size(); ++k) empty(shares_[(self + k) % shares_.size()], round, self);
+/// Returns how many pieces it did.
+std::uint32_t Workers::work_through(std::uint32_t round, unsigned self) {
+  std::uint32_t done = empty(shares_[self], round, self);
+  if (shares_.size() == 1 || !others_are_late(round)) return done;
+  for (std::size_t k = 1; k < shares_.size(); ++k) done += empty(shares_[(self + k) % shares_.size()], round, self);
+  return done;
 }
 
-void Workers::empty(Share& share, std::uint32_t round, unsigned self) {
+std::uint32_t Workers::empty(Share& share, std::uint32_t round, unsigned self) {
   std::uint32_t done = 0;
-  for (std::uint32_t piece; take(share, round, piece); ++done) work_(context_, first_ + piece, self);
-  if (done > 0) undone_.fetch_sub(done, std::memory_order_acq_rel);
+  for (std::uint32_t piece; take(share, round, piece); ++done) share.work(share.context, share.first + piece, self);
+  if (done > 0 && self != 0) undone_.fetch_sub(done, std::memory_order_acq_rel);
+  return done;
 }
 
 /// Whether pieces are left for so long that their threads must be held up. Fetching the data of a piece from the cache
@@ -124,17 +129,17 @@ void Workers::serve(unsigned self) {
   std::uint32_t seen = 0;
   while (true) {
     const auto since = std::chrono::steady_clock::now();
-    for (int spins = 1; round_.load(std::memory_order_acquire) == seen; ++spins) {
+    for (int spins = 1; shares_[self].round() == seen; ++spins) {
       relax();
       if (spins % 64 != 0 || std::chrono::steady_clock::now() - since < patience) continue;
       sleepers_.fetch_add(1);
-      round_.wait(seen);
+      round_.wait(seen);  // its store follows those of the shares
       sleepers_.fetch_sub(1);
       // The system likes to wake a thread where the one is that woke it, and takes long to part them.
       const int here = sched_getcpu();
       if (here == caller_processor_.load(std::memory_order_relaxed)) leave_processor(here);
     }
-    seen = round_.load(std::memory_order_acquire);
+    seen = shares_[self].round();
     if (quit_.load(std::memory_order_relaxed)) return;
     work_through(seen, self);
   }

@@ -30,26 +30,29 @@ class Workers {
   void run(std::uint32_t pieces, Work work, void* context);
 
  private:
-  /// What is left of a thread's part: the round it belongs to, the end, the next piece; in one word, so that a thread
-  /// that comes late takes nothing of another round.
+  /// A thread's part, in one line of the cache: that is all that a thread has to fetch before it begins.
   struct alignas(64) Share {
+    /// What is left: the round it belongs to, the end, the next piece; in one word, so that a thread that comes late
+    /// takes nothing of another round.
     std::atomic<std::uint64_t> left{0};
+    Work work = nullptr;
+    void* context = nullptr;
+    std::uint32_t first = 0;  ///< piece of the round, in all
+
+    std::uint32_t round() const { return std::uint32_t(left.load(std::memory_order_acquire) >> 32); }
   };
   static constexpr std::uint32_t most = 0xffff;  ///< pieces in a round
 
   void round(std::uint32_t first, std::uint32_t pieces, Work work, void* context);
-  void work_through(std::uint32_t round, unsigned self);
-  void empty(Share& share, std::uint32_t round, unsigned self);
+  std::uint32_t work_through(std::uint32_t round, unsigned self);
+  std::uint32_t empty(Share& share, std::uint32_t round, unsigned self);
   bool others_are_late(std::uint32_t round) const;
   bool take(Share& share, std::uint32_t round, std::uint32_t& piece);
   void serve(unsigned self);
 
   std::vector<Share> shares_;
-  Work work_ = nullptr;
-  void* context_ = nullptr;
-  std::uint32_t first_ = 0;
-  alignas(64) std::atomic<std::uint32_t> round_{0};
-  alignas(64) std::atomic<std::uint32_t> undone_{0};
+  alignas(64) std::atomic<std::uint32_t> round_{0};   ///< sleepers wait for it
+  alignas(64) std::atomic<std::uint32_t> undone_{0};  ///< pieces, those that the caller has done among them
   alignas(64) std::atomic<std::uint32_t> sleepers_{0};
   std::atomic<int> caller_processor_{-1};  ///< of the one that wakes sleepers
   std::atomic<bool> quit_{false};
