@@ -34,8 +34,10 @@ Inertia Rover::composite() {
   return whole;
 }
 
-City::City(int vehicles, std::uint64_t seed, int least_across) : seed_(seed) {
-  const int across = std::max(least_across, int(std::ceil(std::sqrt(vehicles / 4.0))));
+City::City(int vehicles, std::uint64_t seed)
+    : City(vehicles, seed, std::max(10, int(std::ceil(std::sqrt(vehicles / 4.0))))) {}
+
+City::City(int vehicles, std::uint64_t seed, int across) : seed_(seed) {
   const double half = 0.5 * pitch * across, wall = half + 2.2;
   for (int i = 0; i < across; ++i)
     for (int j = 0; j < across; ++j)
@@ -62,6 +64,13 @@ City::City(int vehicles, std::uint64_t seed, int least_across) : seed_(seed) {
               places[std::size_t(v) + std::size_t(random.uniform(std::uint32_t(v)) * double(rest))]);
     starts_.push_back(places[std::size_t(v)]);
   }
+}
+
+City City::crowded(int vehicles, std::uint64_t seed) {
+  const auto streets = [](int across) { return 2 * pitch * across * (across + 1); };
+  int across = 1;
+  while (streets(across) < 5.4 * vehicles) ++across;
+  return City(vehicles, seed, across);
 }
 
 City City::open(int vehicles, std::uint64_t seed) {

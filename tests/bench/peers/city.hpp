@@ -39,9 +39,9 @@ struct WheelSpeeds {
 class City {
  public:
   /// The city has ten by ten blocks, or as many as give every vehicle a quarter of one.
-  explicit City(int vehicles, std::uint64_t seed = 1) : City(vehicles, seed, 10) {}
-  /// A quarter of a block for every vehicle, however few they are.
-  static City crowded(int vehicles, std::uint64_t seed) { return City(vehicles, seed, 1); }
+  explicit City(int vehicles, std::uint64_t seed = 1);
+  /// As full as the city of 1000 vehicles: for each of them there are 5.4 to 6 m of streets.
+  static City crowded(int vehicles, std::uint64_t seed);
   /// The same vehicles on the ground alone.
   static City open(int vehicles, std::uint64_t seed);
 
@@ -56,7 +56,7 @@ class City {
   WheelSpeeds command(int vehicle, int index) const;
 
  private:
-  City(int vehicles, std::uint64_t seed, int least_across);
+  City(int vehicles, std::uint64_t seed, int across);
   int period(int vehicle) const;
 
   std::uint64_t seed_;
