@@ -18,9 +18,12 @@ class Column {
 
   const KeyInfo& key() const { return key_; }
 
-  /// Room for `count` elements side by side, cleared.
-  void* allocate(std::size_t count) {
+  /// Room for `count` elements side by side, cleared. Between those of different parts there is a gap: processors read
+  /// ahead, and should not read what another thread is working on.
+  void* allocate(std::size_t count, std::uint32_t part) {
     const std::size_t bytes = count * key_.type->size;
+    if (!chunks_.empty() && part != part_) chunks_.back().used = std::min(chunks_.back().used + gap, chunks_.back().size);
+    part_ = part;
     if (chunks_.empty() || chunks_.back().used + bytes > chunks_.back().size) grow(bytes);
     Chunk& c = chunks_.back();
     void* place = c.memory.get() + c.used;
@@ -36,6 +39,7 @@ class Column {
 
  private:
   static constexpr std::size_t chunk_bytes = 1 << 14;
+  static constexpr std::size_t gap = 1 << 12;  ///< further they do not read
   static constexpr std::align_val_t alignment{64};
   struct Free {
     void operator()(std::byte* p) const { ::operator delete(p, alignment); }
@@ -54,6 +58,7 @@ class Column {
   }
 
   KeyInfo key_;
+  std::uint32_t part_ = 0;  ///< of the last element
   std::vector<Chunk> chunks_;
 };
 

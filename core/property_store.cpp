@@ -118,12 +118,12 @@ void PropertyStore::set_aside(Slot& s, Form form, std::uint32_t count) {
   Column& column = columns_[s.column];
   switch (form) {
     case Form::single:
-      if (!s.place) s.place = column.allocate(1);
+      if (!s.place) s.place = column.allocate(1, part_of(s.object));
       break;
     case Form::array:
       if (!s.array) s.array = &arrays_.emplace_back();
       if (count > 0 && !s.place) {
-        s.place = column.allocate(count);
+        s.place = column.allocate(count, part_of(s.object));
         s.count = count;
         *s.array = {s.place, count};
       }
@@ -232,7 +232,7 @@ void* PropertyStore::handle(Slot& s, Access access) {
     return s.sum;
   }
   if (access == Access::accumulate) {
-    s.parts.push_back(columns_[s.column].allocate(1));
+    s.parts.push_back(columns_[s.column].allocate(1, part_of(s.object)));
     if (s.sum) *s.sum = {s.parts.data(), s.parts.size()};
     return s.parts.back();
   }

@@ -55,6 +55,8 @@ class PropertyStore {
   PropertyStore& operator=(const PropertyStore&) = delete;
 
   void add_object(std::string name);
+  /// Objects of different parts, by id, will have a distance in memory. Those that are not named are in part 0.
+  void set_parts(std::vector<std::uint32_t> parts) { parts_ = std::move(parts); }
   const std::string& object_name(ObjectId id) const { return names_[index_of(id)]; }
   Party add_party(std::string name);
   const std::string& party_name(Party p) const { return parties_[p]; }
@@ -124,6 +126,9 @@ class PropertyStore {
   std::vector<std::vector<Named>> objects_;
   std::vector<std::vector<SlotId>> bound_;
   std::deque<ArrayHeader> arrays_;
+  std::uint32_t part_of(ObjectId id) const { return index_of(id) < parts_.size() ? parts_[index_of(id)] : 0; }
+
+  std::vector<std::uint32_t> parts_;
   std::deque<ListHeader> lists_;
   std::deque<SumHeader> sums_;
   std::vector<std::string> problems_;

@@ -168,9 +168,20 @@ std::vector<std::size_t> Simulation::in_order_of(int (*order)(Kind)) const {
   return all;
 }
 
+/// By the blocks of robots that threads share out.
+void Simulation::part_memory() {
+  const std::vector<std::uint32_t> bounds = block_bounds(std::uint32_t(world_.robots().size()));
+  std::vector<std::uint32_t> parts(world_.object_count(), 0);
+  for (std::uint32_t i = 0; i < parts.size(); ++i)
+    if (const std::int32_t robot = world_.robot_of(ObjectId{i}); robot >= 0)
+      parts[i] = std::uint32_t(std::upper_bound(bounds.begin(), bounds.end(), std::uint32_t(robot)) - bounds.begin());
+  world_.store().set_parts(std::move(parts));
+}
+
 void Simulation::build() {
   if (!instances_.empty()) throw SetupError("a simulation is built once; make another one");
   merge_batched();
+  part_memory();
   Collected problems;
   for (const std::size_t i : in_order_of(connect_order)) problems.run([&] { instances_[i]->connect(); });
   problems.check();

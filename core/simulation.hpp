@@ -91,6 +91,7 @@ class Simulation {
  private:
   class Log;
   void merge_batched();
+  void part_memory();
   std::vector<std::size_t> in_order_of(int (*order)(Kind)) const;
   void schedule();
   std::vector<std::int32_t> robot_of_slot() const;
