@@ -22,7 +22,8 @@ class Column {
   /// ahead, and should not read what another thread is working on.
   void* allocate(std::size_t count, std::uint32_t part) {
     const std::size_t bytes = count * key_.type->size;
-    if (!chunks_.empty() && part != part_) chunks_.back().used = std::min(chunks_.back().used + gap, chunks_.back().size);
+    if (!chunks_.empty() && part != part_)
+      chunks_.back().used = std::min(chunks_.back().used + gap, chunks_.back().size);
     part_ = part;
     if (chunks_.empty() || chunks_.back().used + bytes > chunks_.back().size) grow(bytes);
     Chunk& c = chunks_.back();

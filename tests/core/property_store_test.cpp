@@ -238,5 +238,15 @@ TEST_F(PropertyStoreTest, TheHashSeesEveryBitOfAVariableAndNothingElse) {
   EXPECT_NE(store.hash(a), before);
 }
 
+TEST_F(PropertyStoreTest, ValuesOfOnePartLieSideBySideAndThoseOfAnotherAPageAway) {
+  constexpr std::ptrdiff_t page = 4096;
+  store.set_parts({1, 1, 2});
+  const auto* const of_a = reinterpret_cast<const char*>(bind<double>(writer, a, speed, Access::variable));
+  const auto* const of_b = reinterpret_cast<const char*>(bind<double>(writer, b, speed, Access::variable));
+  const auto* const of_c = reinterpret_cast<const char*>(bind<double>(writer, c, speed, Access::variable));
+  EXPECT_EQ(of_b - of_a, std::ptrdiff_t(sizeof(double)));
+  EXPECT_GE(of_c - of_b, page);
+}
+
 }  // namespace
 }  // namespace muro
