@@ -15,7 +15,11 @@ std::vector<Engine> peers() {
                    true,
                    &ode_one_body_vehicles,
                    {.iterations = iterations}});
-  all.push_back({"ODE, articulated", false, &ode_articulated_vehicles});
+  for (const int iterations : {4, 10})
+    all.push_back({"ODE, articulated, " + std::to_string(iterations) + " iterations",
+                   false,
+                   &ode_articulated_vehicles,
+                   {.iterations = iterations}});
 #endif
 #ifdef MURO_BENCH_BULLET
   all.push_back({"Bullet, rigid bodies", false, &bullet_rigid_vehicles});
