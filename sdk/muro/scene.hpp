@@ -66,9 +66,8 @@ struct Bvh {
 struct RobotColliders {
   std::uint32_t first = 0;
   std::uint32_t count = 0;
-  Aabb bounds;                ///< around all of them
-  Aabb room;                  ///< box with a margin in which the robot stays for a while; as in `moving`
-  std::uint64_t changes = 0;  ///< how often `room` has changed
+  Aabb bounds;  ///< around all of them
+  Aabb room;    ///< box with a margin in which the robot stays for a while; as in `moving`
 };
 
 /// The spatial index of the scene: a derived property of the world, right for the instant in which
@@ -80,7 +79,9 @@ struct SceneIndex {
   std::span<const std::uint32_t> planes;   ///< colliders without bounds, tested by everyone
   Bvh scenery;                             ///< items are indices of colliders
   Bvh moving;                              ///< items are robot numbers
-  std::uint64_t changes = 0;               ///< how often the `room` of any robot has changed
+  /// How often a robot's `room` has changed, by robot number; by itself, since all look for new ones and few find any.
+  std::span<const std::uint64_t> changes{};
+  std::uint64_t all_changes = 0;  ///< their sum
 };
 MURO_OPAQUE_TYPE(SceneIndex, "muro.SceneIndex", transient);
 

@@ -59,7 +59,7 @@ class NativeCollision final : public Algorithm {
 
   std::vector<Team<std::vector<Solid>>> teams_;  ///< of robots that have a list
   std::vector<Solid> solids_;                    ///< of robots' colliders
-  std::vector<double> reaches_;  ///< of them, m: see reach_of()
+  std::vector<double> reaches_;                  ///< of them, m: see reach_of()
   std::vector<double> signatures_;
 };
 

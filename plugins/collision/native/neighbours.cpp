@@ -23,13 +23,13 @@ void Neighbours::start(const SceneIndex& scene, std::vector<Aabb> scenery) {
 }
 
 void Neighbours::update(const SceneIndex& scene) {
-  if (scene.changes == all_changes_) return;
-  all_changes_ = scene.changes;
+  if (scene.all_changes == all_changes_) return;
+  all_changes_ = scene.all_changes;
   changed_.clear();
   for (std::uint32_t r = 0; r < of_.size(); ++r)
-    if (scene.robots[r].changes != changes_[r]) changed_.push_back(r);
+    if (scene.changes[r] != changes_[r]) changed_.push_back(r);
   for (const std::uint32_t r : changed_) {
-    changes_[r] = scene.robots[r].changes;
+    changes_[r] = scene.changes[r];
     of_[r].stale = true;
     part(r);
     const Aabb& room = scene.robots[r].room;

@@ -86,7 +86,7 @@ void SceneBvh::add_robot(Connector& c, const RobotView& robot) {
       if (s.kind != ShapeKind::mesh && s.kind != ShapeKind::plane)
         boxes.push_back(swept_box(robot.frames, follows, f, s));
   }
-  robots_.push_back({first, std::uint32_t(colliders_.size()) - first, {}, {}, 0});
+  robots_.push_back({first, std::uint32_t(colliders_.size()) - first, {}, {}});
   Poses& poses = poses_.emplace_back();
   std::vector<Part> parts;
   for (const FrameBox& b : joined(std::move(boxes))) {
@@ -111,6 +111,7 @@ void SceneBvh::connect(Connector& c) {
   add_scenery(c);
   for (const RobotView* robot : c.robots()) add_robot(c, *robot);
   left_.resize(robots_.size());
+  changes_.resize(robots_.size());
 }
 
 std::span<const Phase> SceneBvh::phases() const { return all_phases; }
@@ -130,7 +131,7 @@ void SceneBvh::start() {
     boxes[r] = robots_[r].room;
   }
   moving_tree_.build(boxes, members_);
-  *index_ = {colliders_, robots_, planes_, scenery_tree_.view(), moving_tree_.view(), changes_};
+  *index_ = {colliders_, robots_, planes_, scenery_tree_.view(), moving_tree_.view(), changes_, all_changes_};
 }
 
 void SceneBvh::step(const Step& step, Range range) {
@@ -164,25 +165,25 @@ void SceneBvh::new_room(std::uint32_t robot) {
   RobotColliders& r = robots_[robot];
   const Vec3 margin = Vec3::Constant(margin_);
   r.room = {r.bounds.low - margin, r.bounds.high + margin};
-  ++r.changes;
-  ++changes_;
+  ++changes_[robot];
+  ++all_changes_;
   left_[robot] = 0;
 }
 
 /// For those that have left theirs.
 void SceneBvh::make_room() {
   if (left_.empty()) return;
-  const std::uint64_t before = changes_;
+  const std::uint64_t before = all_changes_;
   const std::uint8_t *const begin = left_.data(), *const end = begin + left_.size();
   for (auto at = begin; (at = static_cast<const std::uint8_t*>(std::memchr(at, 1, std::size_t(end - at)))); ++at) {
     const auto r = std::uint32_t(at - begin);
     new_room(r);
     moving_tree_.move(r, robots_[r].room);
   }
-  if (changes_ == before) return;
+  if (all_changes_ == before) return;
   if (moving_tree_.worn()) moving_tree_.rebuild();
   index_->moving = moving_tree_.view();
-  index_->changes = changes_;
+  index_->all_changes = all_changes_;
 }
 
 }  // namespace muro::native

@@ -46,7 +46,8 @@ class SceneBvh final : public Algorithm {
 
   std::vector<std::uint32_t> members_;  ///< robots that have bounds
   std::vector<std::uint8_t> left_;      ///< by robot: is not within its room
-  std::uint64_t changes_ = 0;           ///< of rooms
+  std::vector<std::uint64_t> changes_;  ///< of rooms, by robot
+  std::uint64_t all_changes_ = 0;       ///< their sum
   BoxTree scenery_tree_, moving_tree_;  ///< the second: of rooms
 };
 
