@@ -24,7 +24,6 @@ class AccessCheck final : public CallObserver {
   bool make(const Task& task, const Step& step, Range range, abi::ErrorText& error) override;
 
  private:
-  bool come_again(const Task& task, Step step, Range range, abi::ErrorText& error);
   /// One value in memory, or the elements of a list.
   struct Cell {
     std::uint32_t slot = 0;
@@ -55,6 +54,7 @@ class AccessCheck final : public CallObserver {
   Copy copy() const;
   void put_back(const Copy& from);
   void poison(const Allowed& allowed);
+  bool come_again(const Task& task, Step step, Range range, abi::ErrorText& error);
   std::string name_of(const Cell& cell) const;
 
   PropertyStore& store_;

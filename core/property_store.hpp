@@ -55,7 +55,8 @@ class PropertyStore {
   PropertyStore& operator=(const PropertyStore&) = delete;
 
   void add_object(std::string name);
-  /// Objects of different parts, by id, will have a distance in memory. Those that are not named are in part 0.
+  /// The part of each object, by id; 0 for those that come later. Memory that is set aside from now on lies a page
+  /// apart between parts.
   void set_parts(std::vector<std::uint32_t> parts) { parts_ = std::move(parts); }
   const std::string& object_name(ObjectId id) const { return names_[index_of(id)]; }
   Party add_party(std::string name);
@@ -108,6 +109,7 @@ class PropertyStore {
   std::uint32_t column_of(Party party, const KeyInfo& key);
   SlotId find_id(ObjectId object, std::string_view key) const;
   SlotId slot_for(Party party, ObjectId object, const KeyInfo& key);
+  std::uint32_t part_of(ObjectId id) const { return index_of(id) < parts_.size() ? parts_[index_of(id)] : 0; }
   void set_aside(Slot& s, Form form, std::uint32_t count);
   void use(Slot& s, SlotId id, Party party, Access access);
   void* handle(Slot& s, Access access);
@@ -117,6 +119,7 @@ class PropertyStore {
                   std::vector<std::string>& problems) const;
 
   std::vector<std::string> names_;
+  std::vector<std::uint32_t> parts_;  ///< by object
   std::vector<std::string> parties_;
   std::vector<Party> column_party_;  ///< who declared the key first
   std::deque<Column> columns_;
@@ -126,9 +129,6 @@ class PropertyStore {
   std::vector<std::vector<Named>> objects_;
   std::vector<std::vector<SlotId>> bound_;
   std::deque<ArrayHeader> arrays_;
-  std::uint32_t part_of(ObjectId id) const { return index_of(id) < parts_.size() ? parts_[index_of(id)] : 0; }
-
-  std::vector<std::uint32_t> parts_;
   std::deque<ListHeader> lists_;
   std::deque<SumHeader> sums_;
   std::vector<std::string> problems_;

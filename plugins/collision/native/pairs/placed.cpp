@@ -66,7 +66,7 @@ double reach_of(const Solid& solid) {
       return rounding * (away + half.x() + half.z());
     case Form::plane:
     case Form::mesh:
-      return std::numeric_limits<double>::infinity();
+      break;
   }
   return std::numeric_limits<double>::infinity();
 }

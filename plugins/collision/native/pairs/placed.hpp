@@ -23,7 +23,7 @@ struct Placed {
 Placed placed(const Shape& shape, const Pose& pose);
 /// The same as plain numbers, number `body` of its robot.
 Solid solid_of(const Shape& shape, std::uint32_t body = 0);
-/// No point of the shape is farther (m) from its body's origin; planes have no end.
+/// No point of the shape is farther (m) from its body's origin; planes and meshes have no end.
 double reach_of(const Solid& solid);
 /// The shape whose body is at `body`, with the bits that kernels work with.
 Placed placed(const Solid& solid, const Pose& body);
