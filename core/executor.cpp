@@ -2,7 +2,6 @@
 #include "core/executor.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "core/error.hpp"
 
@@ -16,6 +15,7 @@ struct Executor::Instant {
   std::uint64_t seed;
   const std::vector<std::uint64_t>& runs;
   const Stage* stage = nullptr;
+  Program::Sharing sharing = {};
 };
 
 void Executor::set_threads(unsigned threads) {
@@ -43,31 +43,56 @@ TaskCost Executor::cost(TaskId task) const {
 void Executor::run(const std::vector<Task>& tasks, Program& program, std::span<const std::int64_t> times,
                    std::uint64_t seed, std::vector<std::uint64_t>& runs) {
   Instant instant{*this, tasks, times, seed, runs};
-  const bool parallel = workers_ && !observer_ && choose_parallel(program);
+  const bool parallel = workers_ && !observer_ && (always_parallel_ || program.trial.parallel());
+  if (workers_ && program.sharing.empty()) share_out(program);
   const std::uint64_t before = ticks();
-  for (const Stage& stage : program.stages) {
-    instant.stage = &stage;
+  for (std::size_t s = 0; s < program.stages.size(); ++s) {
+    instant.stage = &program.stages[s];
+    if (workers_) instant.sharing = program.sharing[s];
     run_stage(instant, parallel);
   }
-  if (workers_ && !always_parallel_) learn(program.trial, ticks() - before);
+  if (workers_ && !always_parallel_) program.trial.learn(ticks() - before);
+  if (parallel) improve_balances();
   for (const Turn& t : program.turns) {
     ++runs[t.task];
     ++state_.front().costs[t.task].runs;
   }
 }
 
+/// Stages that have equally many chains share them out alike: most often, a chain is a block of robots.
+void Executor::share_out(Program& program) {
+  constexpr std::uint32_t most = 64;  // chains; where there are more, equal shares are good enough
+  program.sharing.resize(program.stages.size());
+  for (std::size_t s = 0; s < program.stages.size(); ++s) {
+    const std::uint32_t chains = program.stages[s].chains();
+    if (chains < 2 || chains > most) continue;
+    Balance& balance = balances_.try_emplace(chains, chains, threads_).first->second;
+    program.sharing[s] = {&balance, balance.add_stage()};
+  }
+}
+
+void Executor::improve_balances() {
+  constexpr std::uint32_t interval = 64;
+  if (++programs_run_ < interval) return;
+  programs_run_ = 0;
+  for (auto& [chains, balance] : balances_) balance.improve();
+}
+
 void Executor::run_stage(Instant& instant, bool parallel) {
   const Stage& stage = *instant.stage;
   if (!stage.is_wanted()) return;
-  if (parallel && stage.chains() > 1)
+  if (parallel && instant.sharing.balance)
+    workers_->run(instant.sharing.balance->ends(), &Executor::run_piece, &instant);
+  else if (parallel && stage.chains() > 1)
     workers_->run(stage.chains(), &Executor::run_piece, &instant);
   else
     for (std::uint32_t c = 0; c < stage.chains(); ++c) run_chain(instant, stage, c, 0);
   check();
 }
 
-void Executor::run_piece(void* instant, std::uint32_t chain, unsigned thread) {
+void Executor::run_piece(void* instant, std::uint32_t piece, unsigned thread) {
   const Instant& now = *static_cast<const Instant*>(instant);
+  const std::uint32_t chain = now.sharing.balance ? now.sharing.balance->order()[piece] : piece;
   now.self.run_chain(now, *now.stage, chain, thread);
 }
 
@@ -75,6 +100,7 @@ void Executor::run_chain(const Instant& instant, const Stage& stage, std::uint32
   // To read a clock takes as long as a small step: costs of long runs are those of each eighth step.
   constexpr std::uint64_t all_at_first = 64, part = 8;
   Thread& state = state_[thread];
+  std::uint64_t seen = 0;
   for (const Call& call : stage.chain(chain)) {
     if (!call.is_wanted()) continue;
     const Task& task = instant.tasks[call.task];
@@ -88,6 +114,7 @@ void Executor::run_chain(const Instant& instant, const Stage& stage, std::uint32
     if (timed) {
       const std::uint64_t after = ticks();
       state.costs[call.task].ticks += (after - before) * (each ? 1 : part);
+      seen += after - before;
       if (timeline_.on()) timeline_.add(thread, {call.task, call.phase, call.range, time, before, after});
     }
     const std::uint64_t place = std::uint64_t(call.turn) << 32 | call.range.begin;
@@ -96,6 +123,7 @@ void Executor::run_chain(const Instant& instant, const Stage& stage, std::uint32
                                   " s: " + std::string(error.view())};
     if (!fine) return;
   }
+  if (seen > 0 && instant.sharing.balance) instant.sharing.balance->add_cost(instant.sharing.number, chain, seen);
 }
 
 void Executor::check() {
@@ -106,61 +134,6 @@ void Executor::check() {
   const std::string text = first->text;
   for (Thread& t : state_) t.failure = {};
   throw StepError(text);
-}
-
-bool Executor::choose_parallel(Program& program) const {
-  using State = Program::Trial::State;
-  if (always_parallel_) return true;
-  const Program::Trial& t = program.trial;
-  return t.state == State::settled ? t.parallel : t.state == State::parallel;
-}
-
-/// A machine that is busy with other things may put a worker aside in the middle of its work, which a short trial
-/// does not see: what several threads gain is watched as long as they run.
-void Executor::watch(Program::Trial& t, double passed) {
-  constexpr std::uint32_t window = 64;
-  t.watched += passed;
-  if (t.instants % window != 0) return;
-  if (std::exchange(t.watched, 0) <= window * t.serial) return;
-  t.parallel = false;
-  t.instants = 0;
-}
-
-/// Time decides who computes a result, never what it is.
-void Executor::learn(Program::Trial& t, std::uint64_t passed) {
-  using State = Program::Trial::State;
-  constexpr std::uint32_t shortest_pause = 64, longest_pause = 1u << 16;
-  constexpr double worth = 0.97;    // of the time on one thread
-  constexpr double hopeless = 1.5;  // the same, of a whole trial; one instant counts no more than `hiccup` times
-  constexpr double hiccup = 4;
-  ++t.instants;
-  if (t.state == State::settled) {
-    if (t.parallel) watch(t, double(passed));
-    if (t.instants < t.pause) return;
-    t.state = State::serial;
-    t.instants = 0;
-    t.watched = 0;
-    return;
-  }
-  constexpr std::uint32_t all = Program::Trial::warm + Program::Trial::counted;
-  t.watched += std::min(double(passed), hiccup * t.serial);
-  const bool given_up = t.state == State::parallel && t.watched > hopeless * all * t.serial;
-  if (t.instants > Program::Trial::warm) t.seen[t.instants - Program::Trial::warm - 1] = double(passed);
-  if (t.instants < all && !given_up) return;
-  std::nth_element(t.seen.begin(), t.seen.begin() + t.seen.size() / 2, t.seen.end());
-  const double median = t.seen[t.seen.size() / 2];
-  t.instants = 0;
-  t.watched = 0;
-  if (t.state == State::serial) {
-    t.serial = median;
-    t.state = State::parallel;
-    return;
-  }
-  const bool better = !given_up && median < worth * t.serial;
-  t.pause = t.known && better == t.parallel ? std::min(4 * t.pause, longest_pause) : shortest_pause;
-  t.known = true;
-  t.parallel = better;
-  t.state = State::settled;
 }
 
 }  // namespace muro

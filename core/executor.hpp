@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
+#include <map>
 #include <memory>
 #include <string>
 
+#include "core/balance.hpp"
 #include "core/stages.hpp"
 #include "core/ticks.hpp"
 #include "core/timeline.hpp"
+#include "core/trial.hpp"
 #include "core/workers.hpp"
 
 namespace muro {
@@ -27,19 +29,14 @@ struct Program {
   std::vector<Turn> turns;
   std::uint32_t instants = 1;
 
-  /// Which way is faster, found out now and then: some instants on one thread, then as many on several.
-  struct Trial {
-    enum class State : std::uint8_t { serial, parallel, settled };
-    static constexpr std::uint32_t warm = 4, counted = 9;  ///< instants of each way
-    State state = State::serial;
-    bool known = false;          ///< `parallel` is the answer of a trial
-    bool parallel = false;       ///< the way that is taken once settled
-    std::uint32_t instants = 0;  ///< in the present state
-    std::uint32_t pause = 0;     ///< instants until the next trial; four times as long while the answer stays the same
-    double serial = 0;           ///< ticks of an instant on one thread
-    double watched = 0;          ///< ticks of instants since the last look, or of a trial
-    std::array<double, counted> seen{};
-  } trial;
+  Trial trial;
+
+  /// Who begins with the chains of a stage, and the number by which its costs are known there; null: equal shares.
+  struct Sharing {
+    Balance* balance = nullptr;
+    std::uint32_t number = 0;
+  };
+  std::vector<Sharing> sharing;  ///< by stage, once several threads have been there
 };
 
 /// Makes the calls of a program, on one or several threads.
@@ -76,17 +73,18 @@ class Executor {
   };
   struct Instant;
 
+  void share_out(Program& program);
+  void improve_balances();
   void run_stage(Instant& instant, bool parallel);
   void run_chain(const Instant& instant, const Stage& stage, std::uint32_t chain, unsigned thread);
   static void run_piece(void* instant, std::uint32_t chain, unsigned thread);
-  bool choose_parallel(Program& program) const;
-  static void learn(Program::Trial& trial, std::uint64_t passed);
-  static void watch(Program::Trial& trial, double passed);
   void check();
 
   unsigned threads_ = 1;
   bool always_parallel_ = false;
   std::unique_ptr<Workers> workers_;
+  std::map<std::uint32_t, Balance> balances_;  ///< by number of chains
+  std::uint32_t programs_run_ = 0;             ///< on several threads, since balances were looked at
   std::unique_ptr<CallObserver> observer_;
   std::vector<Thread> state_ = std::vector<Thread>(1);
   TickClock clock_;

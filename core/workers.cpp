@@ -51,22 +51,28 @@ Workers::~Workers() {
 }
 
 void Workers::run(std::uint32_t pieces, Work work, void* context) {
-  for (std::uint32_t first = 0; first < pieces; first += most)
-    round(first, std::min(most, pieces - first), work, context);
+  const auto count = std::uint64_t(shares_.size());
+  for (std::uint32_t first = 0; first < pieces; first += most) {
+    const std::uint32_t now = std::min(most, pieces - first);
+    round({first, now, work, context}, [&](std::size_t t) { return std::uint32_t((t + 1) * now / count); });
+  }
 }
 
-void Workers::round(std::uint32_t first, std::uint32_t pieces, Work work, void* context) {
+void Workers::run(std::span<const std::uint32_t> ends, Work work, void* context) {
+  round({0, ends.back(), work, context}, [&](std::size_t t) { return ends[t]; });
+}
+
+template <typename EndOf>
+void Workers::round(const Round& round, EndOf end_of) {
   const std::uint32_t number = round_.load(std::memory_order_relaxed) + 1;
-  undone_.store(pieces, std::memory_order_relaxed);
-  const auto count = std::uint64_t(shares_.size());
-  // The last pieces, of which there may be more and larger ones, go to the thread that is at work first: this one.
-  for (std::uint64_t k = 0; k < count; ++k) {
-    Share& share = shares_[count - 1 - k];
-    share.work = work;
-    share.context = context;
-    share.first = first;
-    share.left.store(packed(number, std::uint32_t((k + 1) * pieces / count), std::uint32_t(k * pieces / count)),
-                     std::memory_order_release);
+  undone_.store(round.pieces, std::memory_order_relaxed);
+  // This thread's own share comes last, when the others are at work.
+  for (std::size_t t = shares_.size(); t-- > 0;) {
+    Share& share = shares_[t];
+    share.work = round.work;
+    share.context = round.context;
+    share.first = round.first;
+    share.left.store(packed(number, end_of(t), t == 0 ? 0 : end_of(t - 1)), std::memory_order_release);
   }
   round_.store(number);  // sequentially consistent with the count of sleepers
   if (sleepers_.load() > 0) {

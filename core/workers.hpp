@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <memory>
+#include <span>
 #include <thread>
 #include <vector>
 
@@ -28,6 +29,8 @@ class Workers {
   /// done. `work` does not throw.
   using Work = void (*)(void* context, std::uint32_t piece, unsigned thread);
   void run(std::uint32_t pieces, Work work, void* context);
+  /// The same with the pieces that each thread begins with, where they end: those of thread 0 first; at most 65535.
+  void run(std::span<const std::uint32_t> ends, Work work, void* context);
 
  private:
   /// A thread's part, in one line of the cache: that is all that a thread has to fetch before it begins.
@@ -43,7 +46,13 @@ class Workers {
   };
   static constexpr std::uint32_t most = 0xffff;  ///< pieces in a round
 
-  void round(std::uint32_t first, std::uint32_t pieces, Work work, void* context);
+  struct Round {
+    std::uint32_t first, pieces;
+    Work work;
+    void* context;
+  };
+  template <typename EndOf>
+  void round(const Round& round, EndOf end_of);
   std::uint32_t work_through(std::uint32_t round, unsigned self);
   std::uint32_t empty(Share& share, std::uint32_t round, unsigned self);
   bool others_are_late(std::uint32_t round) const;

@@ -115,27 +115,34 @@ void sine_and_cosine(Width width, const double* angles, double* sines, double* c
   }
 }
 
+template <class S>
 struct Copy {
-  Places<Double8> from;
-  Places<Double8, double> to;
+  Places<S> from;
+  Places<S, double> to;
 
   Copy(const double* const* source, double* const* target) {
-    for (int i = 0; i < 8; ++i) from.at[i] = source[i], to.at[i] = target[i];
+    for (int i = 0; i < count_of<S>; ++i) from.at[i] = source[i], to.at[i] = target[i];
   }
 };
-template <int n>
-void copy_row(const Copy& places, std::ptrdiff_t first, unsigned which) {
-  Double8 row[n];
+template <class S, int n>
+void copy_row(const Copy<S>& places, std::ptrdiff_t first, unsigned which) {
+  S row[n];
   load_rows(places.from, first, row);
   store_rows(places.to, first, row, which);
 }
-void copy_rows(int n, const double* const* from, double* const* to, std::ptrdiff_t first, unsigned which) {
-  constexpr void (*by_count[])(const Copy&, std::ptrdiff_t, unsigned) = {
-      copy_row<1>, copy_row<2>, copy_row<3>, copy_row<4>, copy_row<5>, copy_row<6>, copy_row<7>, copy_row<8>};
-  by_count[n - 1](Copy(from, to), first, which);
+template <class S>
+void copy_rows_of(int n, const Copy<S>& places, std::ptrdiff_t first, unsigned which) {
+  constexpr void (*by_count[])(const Copy<S>&, std::ptrdiff_t, unsigned) = {
+      copy_row<S, 1>, copy_row<S, 2>, copy_row<S, 3>, copy_row<S, 4>,
+      copy_row<S, 5>, copy_row<S, 6>, copy_row<S, 7>, copy_row<S, 8>};
+  by_count[n - 1](places, first, which);
+}
+void copy_rows(Width width, int n, const double* const* from, double* const* to, std::ptrdiff_t first, unsigned which) {
+  if (width == Width::four) return copy_rows_of<Double4>(n, {from, to}, first, which);
+  copy_rows_of<Double8>(n, {from, to}, first, which);
 }
 void copy_properties(const double* const* from, double* const* to, unsigned which) {
-  const Copy places(from, to);
+  const Copy<Double8> places(from, to);
   store_vector(places.to, 0, load_vector(places.from), which);
   store_pose(places.to, 3, load_pose(places.from, 3), which);
   store_twist(places.to, 10, load_twist(places.from, 10), which);

@@ -44,8 +44,8 @@ struct Kernels {
   void (*doubles)(Operation, Width, const double* a, const double* b, double* out, unsigned* bits);  ///< not sixteen
   void (*floats)(Operation, Width, const float* a, const float* b, float* out, unsigned* bits);      ///< not four
   void (*sincos)(Width, const double* angles, double* sines, double* cosines);                       ///< one or eight
-  /// n = 1 to 8 numbers, from number `first` on, from each of eight places to each of eight others.
-  void (*copy_rows)(int n, const double* const* from, double* const* to, std::ptrdiff_t first, unsigned which);
+  /// n = 1 to 8 numbers, from number `first` on, from each of four or eight places to each of as many others.
+  void (*copy_rows)(Width, int n, const double* const* from, double* const* to, std::ptrdiff_t first, unsigned which);
   /// A vector, a pose and a twist, one behind the other.
   void (*copy_properties)(const double* const* from, double* const* to, unsigned which);
 };

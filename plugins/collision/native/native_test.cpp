@@ -282,6 +282,25 @@ TEST(SceneBvh, DescribesTheSceneOfTheInstant) {
   }
 }
 
+TEST(SceneBvh, ARoomReachesFurtherToWhereItsRobotGoes) {
+  Touching scene;
+  const RobotView& r = scene.add_dynamic("ball", Shape::sphere(0.2), {{0, 0, 5}, Quat::Identity()});
+  scene.finish_setup();
+  const SceneIndex& index = scene.world().value(world_object, keys::scene_index);
+  const auto changes_on_the_way = [&](double metres) {
+    const std::uint64_t before = index.changes[0];
+    for (int i = 0; i < 1000; ++i) {
+      scene.pose(r).position.x() += metres / 1000;
+      scene.instant();
+    }
+    return index.changes[0] - before;
+  };
+  EXPECT_EQ(changes_on_the_way(0), 0u);
+  // 0.1 m and three quarters of that on the other side: left with each 25th or 26th step of 7 mm
+  EXPECT_NEAR(double(changes_on_the_way(7)), 39.5, 1);
+  EXPECT_NEAR(double(changes_on_the_way(-7)), 39.5, 1);
+}
+
 TEST(SceneBvh, WarnsOfEachMeshFileOnceAndKeepsTheOtherShapes) {
   Touching scene;
   std::vector<std::string> lines;

@@ -21,6 +21,9 @@ constexpr Use writes[] = {{"scene.index", "on the world object"}};
 
 constexpr Phase all_phases[] = {{Phase::Over::robots, Phase::Reach::own}, {Phase::Over::whole}};
 
+/// Part of the margin that goes from behind to ahead where a robot has left its room: it will most likely go on.
+constexpr double further_ahead = 0.75;
+
 // what BoundsWork::boxes counts on
 static_assert(offsetof(RobotColliders, room) == offsetof(RobotColliders, bounds) + 6 * sizeof(double));
 
@@ -127,6 +130,7 @@ void SceneBvh::start() {
   bound({0, std::uint32_t(robots_.size())});
   boxes.assign(robots_.size(), {});
   for (const std::uint32_t r : members_) {
+    robots_[r].room = {};
     new_room(r);
     boxes[r] = robots_[r].room;
   }
@@ -163,8 +167,13 @@ void SceneBvh::bound(Range block) {
 
 void SceneBvh::new_room(std::uint32_t robot) {
   RobotColliders& r = robots_[robot];
-  const Vec3 margin = Vec3::Constant(margin_);
-  r.room = {r.bounds.low - margin, r.bounds.high + margin};
+  const Aabb old = r.room;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const bool up = r.bounds.high[axis] > old.high[axis], down = r.bounds.low[axis] < old.low[axis];
+    const double ahead = up == down ? 0.0 : up ? further_ahead : -further_ahead;
+    r.room.low[axis] = r.bounds.low[axis] - margin_ * (1 - ahead);
+    r.room.high[axis] = r.bounds.high[axis] + margin_ * (1 + ahead);
+  }
   ++changes_[robot];
   ++all_changes_;
   left_[robot] = 0;

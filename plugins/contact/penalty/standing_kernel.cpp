@@ -186,10 +186,7 @@ unsigned push(const StandingWork& work, const StandingRobot* const* robots, int 
     for (int i = 0; i < count; ++i) Push<double, false>(work, robots + i, 1).run();
     return 0;
   }
-  if (count >= worth_a_lane) return Push<Double8, true>(work, robots, count).run();
-  unsigned left = 0;
-  for (int i = 0; i < count; ++i) left |= Push<double, true>(work, robots + i, 1).run() << i;
-  return left;
+  return in_lanes(count, [&]<class S>(int first, int used) { return Push<S, true>(work, robots + first, used).run(); });
 }
 
 }  // namespace

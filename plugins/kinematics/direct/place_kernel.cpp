@@ -104,8 +104,10 @@ void place_some(const Link* links, const Spot* spots, int link_count, const Robo
 }
 
 void place(const Link* links, const Spot* spots, int link_count, const RobotState* robots, int robot_count) {
-  if (robot_count >= worth_a_lane) return place_some<Double8>(links, spots, link_count, robots, robot_count);
-  for (int i = 0; i < robot_count; ++i) place_some<double>(links, spots, link_count, robots + i, 1);
+  in_lanes(robot_count, [&]<class S>(int first, int used) {
+    place_some<S>(links, spots, link_count, robots + first, used);
+    return 0u;
+  });
 }
 
 }  // namespace

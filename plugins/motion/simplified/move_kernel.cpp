@@ -124,25 +124,19 @@ unsigned move_some(const Work& work, const RobotState* robots, int count) {
   return bits(!(abs(sum) < S(JointRange::infinite))) & which;
 }
 
-template <class S>
-void move_joints_of_some(const Work& work, const RobotState* robots, int count) {
-  move_joints(work, States<S>(robots, count), first_lanes(count));
-}
-
 void move_joints_of(const Work& work, const RobotState* robots, int count) {
-  if (count >= worth_a_lane) return move_joints_of_some<Double8>(work, robots, count);
-  for (int i = 0; i < count; ++i) move_joints_of_some<double>(work, robots + i, 1);
+  in_lanes(count, [&]<class S>(int first, int used) {
+    move_joints(work, States<S>(robots + first, used), first_lanes(used));
+    return 0u;
+  });
 }
 
 unsigned move_rigid(const Work& work, const RobotState* robots, int count) {
-  if (count >= worth_a_lane) return move_some<Double8>(work, robots, count);
-  unsigned broken = 0;
-  for (int i = 0; i < count; ++i) {
-    Work alone = work;
-    if (work.wrenches > 1) alone.further += i * (work.wrenches - 1);
-    broken |= move_some<double>(alone, robots + i, 1) << i;
-  }
-  return broken;
+  return in_lanes(count, [&]<class S>(int first, int used) {
+    Work part = work;
+    if (work.wrenches > 1) part.further += first * (work.wrenches - 1);
+    return move_some<S>(part, robots + first, used);
+  });
 }
 
 }  // namespace

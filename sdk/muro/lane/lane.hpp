@@ -63,9 +63,6 @@ using Double8 = Lane<double, 8>;
 using Float8 = Lane<float, 8>;
 using Float16 = Lane<float, 16>;
 
-/// From so many robots on, a Double8 that is partly filled costs less than as many doubles.
-inline constexpr int worth_a_lane = vectors::register_bytes == 64 ? 3 : vectors::register_bytes == 32 ? 4 : 6;
-
 /// How many values a scalar stands for, and its mask.
 template <class S>
 struct Traits {
@@ -83,6 +80,19 @@ template <class S>
 inline constexpr int count_of = Traits<S>::count;
 template <class S>
 using MaskOf = typename Traits<S>::M;
+
+/// Serves `count` robots, at most 8, in one lane or one by one, whichever takes less time: by `part`, which has
+/// `unsigned operator()<S>(int first, int used)`, for `used` of them from number `first` on. It returns bits, that of
+/// its first robot lowest; those of all robots come back.
+template <class Part>
+MURO_INLINE unsigned in_lanes(int count, const Part& part) {
+  constexpr int worth_a_lane = vectors::register_bytes >= 32 ? 2 : 3;
+  if (count > 4) return part.template operator()<Double8>(0, count);
+  if (count >= worth_a_lane) return part.template operator()<Double4>(0, count);
+  unsigned all = 0;
+  for (int i = 0; i < count; ++i) all |= part.template operator()<double>(i, 1) << i;
+  return all;
+}
 
 // --- choosing
 

@@ -14,7 +14,11 @@ namespace detail {
 inline constexpr int group = vectors::register_bytes >= 32 ? 4 : 2;
 using Two = typename vectors::VectorOf<double, 2>::Type;
 using Group = typename vectors::VectorOf<double, group>::Type;
-using Eight = typename vectors::VectorOf<double, 8>::Type;
+template <class S>
+inline constexpr int groups_of = count_of<S> / group;
+/// Whether values are handled in groups: Double4 and Double8.
+template <class S>
+inline constexpr bool has_groups = std::is_same_v<typename Traits<S>::Value, double> && (count_of<S> >= group);
 
 MURO_INLINE Two load_two(const double* from) {
   Two v;
@@ -27,25 +31,27 @@ MURO_INLINE void store_at(double* to, const Vector& v) {
 }
 
 /// Lanes g * group to g * group + group - 1.
-template <int g>
-MURO_INLINE Group part(const Eight& v) {
-#if defined(__AVX512F__)
-  return __builtin_shufflevector(v, v, 4 * g, 4 * g + 1, 4 * g + 2, 4 * g + 3);
-#elif defined(__AVX__)
-  return g == 0 ? v.low : v.high;
-#else
-  const auto& half = g < 2 ? v.low : v.high;
-  return g % 2 == 0 ? half.low : half.high;
-#endif
+template <int g, class Vector>
+MURO_INLINE Group part(const Vector& v) {
+  if constexpr (std::is_same_v<Vector, Group>) {
+    return v;
+  } else if constexpr (vectors::is_pair<Vector>) {
+    constexpr int half = vectors::length_of<Vector> / (2 * group);  // in groups
+    return part<g % half>(g < half ? v.low : v.high);
+  } else {
+    return __builtin_shufflevector(v, v, 4 * g, 4 * g + 1, 4 * g + 2, 4 * g + 3);
+  }
 }
-MURO_INLINE Eight joined(const Group (&parts)[8 / group]) {
-#if defined(__AVX512F__)
-  return __builtin_shufflevector(parts[0], parts[1], 0, 1, 2, 3, 4, 5, 6, 7);
-#elif defined(__AVX__)
-  return {parts[0], parts[1]};
-#else
-  return {{parts[0], parts[1]}, {parts[2], parts[3]}};
-#endif
+template <class Vector, class Part>
+MURO_INLINE Vector joined(const Part* parts) {
+  if constexpr (std::is_same_v<Vector, Part>) {
+    return parts[0];
+  } else if constexpr (vectors::is_pair<Vector>) {
+    using Half = decltype(Vector::low);
+    return {joined<Half>(parts), joined<Half>(parts + vectors::length_of<Half> / group)};
+  } else {
+    return __builtin_shufflevector(parts[0], parts[1], 0, 1, 2, 3, 4, 5, 6, 7);
+  }
 }
 
 /// The first and the second number of each place of a group.
@@ -93,29 +99,28 @@ MURO_INLINE void store_fours(double* const* at, std::ptrdiff_t k, const Group (&
 }
 
 /// Numbers k to n - 1 of the places of group g.
-template <int k, int n, int g>
-MURO_INLINE void store_from(const Places<Double8, double>& to, std::ptrdiff_t first, const Double8 (&from)[n],
-                            unsigned which) {
+template <int k, int n, int g, class S>
+MURO_INLINE void store_from(const Places<S, double>& to, std::ptrdiff_t first, const S (&from)[n], unsigned which) {
   constexpr int left = n - k, at = left == 3 && n > 3 ? k - 1 : k;  // rather one number twice than two pieces
   double* const* const places = to.at + g * group;
   const unsigned mine = which >> g * group;
   if constexpr (n - at >= 4) {
     store_fours(places, first + at,
                 {part<g>(from[at].v), part<g>(from[at + 1].v), part<g>(from[at + 2].v), part<g>(from[at + 3].v)}, mine);
-    store_from<at + 4, n, g>(to, first, from, which);
+    store_from<at + 4, n, g, S>(to, first, from, which);
   } else if constexpr (left >= 2) {
     store_pairs(places, first + k, part<g>(from[k].v), part<g>(from[k + 1].v), mine);
-    store_from<k + 2, n, g>(to, first, from, which);
+    store_from<k + 2, n, g, S>(to, first, from, which);
   } else if constexpr (left == 1) {
     const Group last = part<g>(from[k].v);
     for (int i = 0; i < group; ++i)
       if (mine >> i & 1) places[i][first + k] = last[i];
   }
 }
-template <int n, int... groups>
-MURO_INLINE void store_groups(const Places<Double8, double>& to, std::ptrdiff_t first, const Double8 (&from)[n],
-                              unsigned which, std::integer_sequence<int, groups...>) {
-  (store_from<0, n, groups>(to, first, from, which), ...);
+template <int n, class S, int... groups>
+MURO_INLINE void store_groups(const Places<S, double>& to, std::ptrdiff_t first, const S (&from)[n], unsigned which,
+                              std::integer_sequence<int, groups...>) {
+  (store_from<0, n, groups, S>(to, first, from, which), ...);
 }
 
 }  // namespace detail
@@ -135,13 +140,13 @@ MURO_INLINE void store_side_by_side(double* to, S value) {
 /// Numbers `first` to `first` + n - 1 of each place.
 template <int n, class S>
 MURO_INLINE void load_rows(const Places<S>& from, std::ptrdiff_t first, S (&to)[n]) {
-  if constexpr (std::is_same_v<S, Double8>) {
+  if constexpr (detail::has_groups<S>) {
     for (int k = 0; k + 1 < n; k += 2) {
-      detail::Group a[8 / detail::group], b[8 / detail::group];
-      for (int g = 0; g < 8 / detail::group; ++g)
-        detail::load_pairs(from.at + g * detail::group, first + k, a[g], b[g]);
-      to[k] = detail::joined(a);
-      to[k + 1] = detail::joined(b);
+      constexpr int groups = detail::groups_of<S>;
+      detail::Group a[groups], b[groups];
+      for (int g = 0; g < groups; ++g) detail::load_pairs(from.at + g * detail::group, first + k, a[g], b[g]);
+      to[k] = detail::joined<typename S::Vector>(a);
+      to[k + 1] = detail::joined<typename S::Vector>(b);
     }
     if constexpr (n % 2 == 1) to[n - 1] = load<S>(from, first + n - 1);
   } else {
@@ -158,12 +163,12 @@ inline constexpr unsigned all_lanes = first_lanes(count_of<S>);
 template <int n, class S>
 MURO_INLINE void store_rows(const Places<S, double>& to, std::ptrdiff_t first, const S (&from)[n],
                             unsigned which = all_lanes<S>) {
-  if constexpr (std::is_same_v<S, Double8>) {
-    constexpr std::make_integer_sequence<int, 8 / detail::group> groups;
+  if constexpr (detail::has_groups<S>) {
+    constexpr std::make_integer_sequence<int, detail::groups_of<S>> groups;
     if (which == all_lanes<S>)  // without a question for each place
-      detail::store_groups<n>(to, first, from, all_lanes<S>, groups);
+      detail::store_groups<n, S>(to, first, from, all_lanes<S>, groups);
     else
-      detail::store_groups<n>(to, first, from, which, groups);
+      detail::store_groups<n, S>(to, first, from, which, groups);
   } else {
     for (int k = 0; k < n; ++k)
       for (int i = 0; i < count_of<S>; ++i)

@@ -46,10 +46,7 @@ unsigned bound_some(const BoundsWork& work, int first) {
 }
 
 unsigned bound(const BoundsWork& work) {
-  if (work.used >= lane::worth_a_lane) return bound_some<lane::Double8>(work, 0);
-  unsigned outside = 0;
-  for (int first = 0; first < work.used; ++first) outside |= bound_some<double>(work, first) << first;
-  return outside;
+  return lane::in_lanes(work.used, [&]<class S>(int first, int) { return bound_some<S>(work, first); });
 }
 
 }  // namespace

@@ -125,10 +125,7 @@ unsigned touch_some(const GroundWork& work, int first) {
 }
 
 unsigned touch(const GroundWork& work) {
-  if (work.used >= lane::worth_a_lane) return touch_some<lane::Double8>(work, 0);
-  unsigned changed = 0;
-  for (int first = 0; first < work.used; ++first) changed |= touch_some<double>(work, first) << first;
-  return changed;
+  return lane::in_lanes(work.used, [&]<class S>(int first, int) { return touch_some<S>(work, first); });
 }
 
 }  // namespace

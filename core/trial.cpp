@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "core/trial.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace muro {
+
+namespace {
+
+constexpr std::uint32_t shortest_pause = 128, longest_pause = 1u << 12;
+constexpr std::uint32_t window = 64, fresh = 4;  // windows for which what a trial has found is taken to hold
+
+}  // namespace
+
+void Trial::learn(std::uint64_t passed) {
+  constexpr double worth = 0.97;    // of the time on one thread
+  constexpr double hopeless = 1.5;  // the same, of a whole trial; one run counts no more than `hiccup` times
+  constexpr double hiccup = 4;
+  ++runs_;
+  if (state_ == State::settled) {
+    if (parallel_) watch(double(passed));
+    if (runs_ >= pause_) try_again();
+    return;
+  }
+  constexpr std::uint32_t all = warm + counted;
+  watched_ += std::min(double(passed), hiccup * serial_);
+  const bool given_up = state_ == State::parallel && watched_ > hopeless * all * serial_;
+  if (runs_ > warm) seen_[runs_ - warm - 1] = double(passed);
+  if (runs_ < all && !given_up) return;
+  std::nth_element(seen_.begin(), seen_.begin() + counted / 2, seen_.end());
+  const double median = seen_[counted / 2];
+  if (state_ == State::parallel) return settle(!given_up && median < worth * serial_);
+  serial_ = median;
+  state_ = State::parallel;
+  runs_ = 0;
+  watched_ = 0;
+}
+
+void Trial::try_again() {
+  state_ = State::serial;
+  runs_ = 0;
+  watched_ = 0;
+}
+
+void Trial::settle(bool better) {
+  pause_ = known_ && better == parallel_ ? std::min(4 * pause_, longest_pause) : shortest_pause;
+  known_ = true;
+  parallel_ = better;
+  state_ = State::settled;
+  runs_ = 0;
+  watched_ = 0;
+}
+
+/// A machine that is busy with other things may put a worker aside in the middle of its work, which a short trial does
+/// not see. Later on it may as well be that there is more to do than at the last trial: then there is another one.
+void Trial::watch(double passed) {
+  watched_ += std::min(passed, serial_ * (window / 4));  // one hiccup decides nothing
+  if (runs_ % window != 0) return;
+  const bool gains = std::exchange(watched_, 0) <= window * serial_, was_fresh = runs_ <= fresh * window;
+  if (gains) {
+    if (!was_fresh) distrust_ = 0;
+  } else if (was_fresh) {
+    distrust_ = std::clamp(4 * distrust_, shortest_pause, longest_pause);
+    settle(false);
+    pause_ = distrust_;
+  } else {
+    runs_ = pause_;
+  }
+}
+
+}  // namespace muro
