@@ -7,8 +7,8 @@
 
 namespace muro {
 
-/// What is being carried out.
-struct Executor::Instant {
+/// What is being carried out. All threads look at it all the time.
+struct alignas(apart) Executor::Instant {
   Executor& self;
   const std::vector<Task>& tasks;
   std::span<const std::int64_t> times;

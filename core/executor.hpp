@@ -67,7 +67,7 @@ class Executor {
     std::uint64_t place = ~std::uint64_t(0);  ///< in the order of the instant
     std::string text;
   };
-  struct alignas(64) Thread {
+  struct alignas(apart) Thread {
     std::vector<TaskCost> costs;
     Failure failure;
   };

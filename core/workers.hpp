@@ -9,6 +9,9 @@
 
 namespace muro {
 
+/// Bytes between what several threads write: two lines of the cache, for processors like to fetch them in pairs.
+inline constexpr std::size_t apart = 128;
+
 /// Threads that share out numbered pieces of work with the thread that calls.
 ///
 /// Waking a sleeping thread takes some 50 us on a virtual machine, a spinning one below 1 us, so workers spin for a
@@ -34,7 +37,7 @@ class Workers {
 
  private:
   /// A thread's part, in one line of the cache: that is all that a thread has to fetch before it begins.
-  struct alignas(64) Share {
+  struct alignas(apart) Share {
     /// What is left: the round it belongs to, the end, the next piece; in one word, so that a thread that comes late
     /// takes nothing of another round.
     std::atomic<std::uint64_t> left{0};
@@ -60,9 +63,9 @@ class Workers {
   void serve(unsigned self);
 
   std::vector<Share> shares_;
-  alignas(64) std::atomic<std::uint32_t> round_{0};   ///< sleepers wait for it
-  alignas(64) std::atomic<std::uint32_t> undone_{0};  ///< pieces, those that the caller has done among them
-  alignas(64) std::atomic<std::uint32_t> sleepers_{0};
+  alignas(apart) std::atomic<std::uint32_t> round_{0};   ///< sleepers wait for it
+  alignas(apart) std::atomic<std::uint32_t> undone_{0};  ///< pieces, those that the caller has done among them
+  alignas(apart) std::atomic<std::uint32_t> sleepers_{0};
   std::atomic<int> caller_processor_{-1};  ///< of the one that wakes sleepers
   std::atomic<bool> quit_{false};
   std::vector<std::thread> threads_;

@@ -94,7 +94,7 @@ void Standings::fetch(std::uint32_t robot) const {
 void Standings::push_one(const Moment& moment, std::uint32_t robot, Queues& queues) {
   Standing& s = standings_[robot];
   const auto contacts = *s.list;
-  left_[robot] = 0;
+  if (left_[robot] != 0) left_[robot] = 0;  // others have flags in the same line of the cache
   if (contacts.empty()) {
     s.grips.clear();
     s.springs_fit = false;
