@@ -7,17 +7,6 @@
 
 namespace muro {
 
-/// What is being carried out. All threads look at it all the time.
-struct alignas(apart) Executor::Instant {
-  Executor& self;
-  const std::vector<Task>& tasks;
-  std::span<const std::int64_t> times;
-  std::uint64_t seed;
-  const std::vector<std::uint64_t>& runs;
-  const Stage* stage = nullptr;
-  Program::Sharing sharing = {};
-};
-
 void Executor::set_threads(unsigned threads) {
   threads_ = std::max(1u, threads);
   workers_.reset();
@@ -42,15 +31,11 @@ TaskCost Executor::cost(TaskId task) const {
 
 void Executor::run(const std::vector<Task>& tasks, Program& program, std::span<const std::int64_t> times,
                    std::uint64_t seed, std::vector<std::uint64_t>& runs) {
-  Instant instant{*this, tasks, times, seed, runs};
+  now_ = {tasks.data(), times.data(), runs.data(), seed};
   const bool parallel = workers_ && !observer_ && (always_parallel_ || program.trial.parallel());
-  if (workers_ && program.sharing.empty()) share_out(program);
+  if (program.jobs.empty()) add_jobs(program);
   const std::uint64_t before = ticks();
-  for (std::size_t s = 0; s < program.stages.size(); ++s) {
-    instant.stage = &program.stages[s];
-    if (workers_) instant.sharing = program.sharing[s];
-    run_stage(instant, parallel);
-  }
+  for (Job& job : program.jobs) run_job(job, parallel);
   if (workers_ && !always_parallel_) program.trial.learn(ticks() - before);
   if (parallel) improve_balances();
   for (const Turn& t : program.turns) {
@@ -60,52 +45,52 @@ void Executor::run(const std::vector<Task>& tasks, Program& program, std::span<c
 }
 
 /// Stages that have equally many chains share them out alike: most often, a chain is a block of robots.
-void Executor::share_out(Program& program) {
+void Executor::add_jobs(Program& program) {
   constexpr std::uint32_t most = 64;  // chains; where there are more, equal shares are good enough
-  program.sharing.resize(program.stages.size());
-  for (std::size_t s = 0; s < program.stages.size(); ++s) {
-    const std::uint32_t chains = program.stages[s].chains();
-    if (chains < 2 || chains > most) continue;
-    Balance& balance = balances_.try_emplace(chains, chains, threads_).first->second;
-    program.sharing[s] = {&balance, balance.add_stage()};
+  program.jobs.reserve(program.stages.size());
+  for (const Stage& stage : program.stages) {
+    Job& job = program.jobs.emplace_back(Job{this, &stage});
+    const std::uint32_t chains = stage.chains();
+    if (!workers_ || chains < 2 || chains > most) continue;
+    job.balance = &balances_.try_emplace(chains, chains, threads_).first->second;
+    job.number = job.balance->add_stage();
   }
 }
 
 void Executor::improve_balances() {
-  constexpr std::uint32_t interval = 64;
+  constexpr std::uint32_t interval = 16;
   if (++programs_run_ < interval) return;
   programs_run_ = 0;
   for (auto& [chains, balance] : balances_) balance.improve();
 }
 
-void Executor::run_stage(Instant& instant, bool parallel) {
-  const Stage& stage = *instant.stage;
+void Executor::run_job(Job& job, bool parallel) {
+  const Stage& stage = *job.stage;
   if (!stage.is_wanted()) return;
-  if (parallel && instant.sharing.balance)
-    workers_->run(instant.sharing.balance->ends(), &Executor::run_piece, &instant);
+  if (parallel && job.balance)
+    workers_->run(job.balance->ends(), &Executor::run_piece, &job);
   else if (parallel && stage.chains() > 1)
-    workers_->run(stage.chains(), &Executor::run_piece, &instant);
+    workers_->run(stage.chains(), &Executor::run_piece, &job);
   else
-    for (std::uint32_t c = 0; c < stage.chains(); ++c) run_chain(instant, stage, c, 0);
+    for (std::uint32_t c = 0; c < stage.chains(); ++c) run_chain(job, c, 0);
   check();
 }
 
-void Executor::run_piece(void* instant, std::uint32_t piece, unsigned thread) {
-  const Instant& now = *static_cast<const Instant*>(instant);
-  const std::uint32_t chain = now.sharing.balance ? now.sharing.balance->order()[piece] : piece;
-  now.self.run_chain(now, *now.stage, chain, thread);
+void Executor::run_piece(void* job, std::uint32_t piece, unsigned thread) {
+  const Job& now = *static_cast<const Job*>(job);
+  now.executor->run_chain(now, now.balance ? now.balance->order()[piece] : piece, thread);
 }
 
-void Executor::run_chain(const Instant& instant, const Stage& stage, std::uint32_t chain, unsigned thread) {
+void Executor::run_chain(const Job& job, std::uint32_t chain, unsigned thread) {
   // To read a clock takes as long as a small step: costs of long runs are those of each eighth step.
   constexpr std::uint64_t all_at_first = 64, part = 8;
   Thread& state = state_[thread];
   std::uint64_t seen = 0;
-  for (const Call& call : stage.chain(chain)) {
+  for (const Call& call : job.stage->chain(chain)) {
     if (!call.is_wanted()) continue;
-    const Task& task = instant.tasks[call.task];
-    const std::int64_t time = instant.times[call.instant];
-    const Step step{time, call.dt, instant.runs[call.task] + call.instant, instant.seed, call.phase};
+    const Task& task = now_.tasks[call.task];
+    const std::int64_t time = now_.times[call.instant];
+    const Step step{time, call.dt, now_.runs[call.task] + call.instant, now_.seed, call.phase};
     const bool each = timeline_.on() || step.index < all_at_first, timed = each || step.index % part == 0;
     const std::uint64_t before = timed ? ticks() : 0;
     abi::ErrorText error;
@@ -123,7 +108,7 @@ void Executor::run_chain(const Instant& instant, const Stage& stage, std::uint32
                                   " s: " + std::string(error.view())};
     if (!fine) return;
   }
-  if (seen > 0 && instant.sharing.balance) instant.sharing.balance->add_cost(instant.sharing.number, chain, seen);
+  if (seen > 0 && job.balance) job.balance->add_cost(job.number, chain, seen);
 }
 
 void Executor::check() {

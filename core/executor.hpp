@@ -22,6 +22,8 @@ class CallObserver {
   virtual bool make(const Task& task, const Step& step, Range range, abi::ErrorText& error) = 0;
 };
 
+class Executor;
+
 /// How the turns of an instant, or of several in which the same is due, are carried out, and what has been learned
 /// about it.
 struct Program {
@@ -31,18 +33,20 @@ struct Program {
 
   Trial trial;
 
-  /// Who begins with the chains of a stage, and the number by which its costs are known there; null: equal shares.
-  struct Sharing {
-    Balance* balance = nullptr;
-    std::uint32_t number = 0;
+  /// A stage, as threads are given it. Written once: so it stays in the caches of all.
+  struct Job {
+    Executor* executor;
+    const Stage* stage;
+    Balance* balance = nullptr;  ///< who begins with which chains; null: equal shares
+    std::uint32_t number = 0;    ///< by which the stage is known there
   };
-  std::vector<Sharing> sharing;  ///< by stage, once several threads have been there
+  std::vector<Job> jobs;  ///< by stage, once the program has run
 };
 
 /// Makes the calls of a program, on one or several threads.
 class Executor {
  public:
-  /// Of calls; 1: the calling thread alone.
+  /// Of calls; 1: the calling thread alone. [before the first run]
   void set_threads(unsigned threads);
   unsigned threads() const { return threads_; }
   /// Takes the place of making calls; null: none. Calls are then made on one thread. [before the first run]
@@ -71,15 +75,23 @@ class Executor {
     std::vector<TaskCost> costs;
     Failure failure;
   };
-  struct Instant;
+  /// What is being carried out.
+  struct alignas(apart) Instants {
+    const Task* tasks;
+    const std::int64_t* times;
+    const std::uint64_t* runs;
+    std::uint64_t seed;
+  };
+  using Job = Program::Job;
 
-  void share_out(Program& program);
+  void add_jobs(Program& program);
   void improve_balances();
-  void run_stage(Instant& instant, bool parallel);
-  void run_chain(const Instant& instant, const Stage& stage, std::uint32_t chain, unsigned thread);
-  static void run_piece(void* instant, std::uint32_t chain, unsigned thread);
+  void run_job(Job& job, bool parallel);
+  void run_chain(const Job& job, std::uint32_t chain, unsigned thread);
+  static void run_piece(void* job, std::uint32_t piece, unsigned thread);
   void check();
 
+  Instants now_{};
   unsigned threads_ = 1;
   bool always_parallel_ = false;
   std::unique_ptr<Workers> workers_;
