@@ -9,7 +9,7 @@ namespace muro {
 namespace {
 
 constexpr std::uint32_t shortest_pause = 128, longest_pause = 1u << 12;
-constexpr std::uint32_t window = 64, fresh = 4;  // windows for which what a trial has found is taken to hold
+constexpr std::uint32_t window = 64, calm = 4;  // windows without doubt, after which threads are trusted again
 
 }  // namespace
 
@@ -17,6 +17,7 @@ void Trial::learn(std::uint64_t passed) {
   constexpr double worth = 0.97;    // of the time on one thread
   constexpr double hopeless = 1.5;  // the same, of a whole trial; one run counts no more than `hiccup` times
   constexpr double hiccup = 4;
+  constexpr double grown = 1.1;  // work that takes so much longer on one thread
   ++runs_;
   if (state_ == State::settled) {
     if (parallel_) watch(double(passed));
@@ -32,6 +33,12 @@ void Trial::learn(std::uint64_t passed) {
   const double median = seen_[counted / 2];
   if (state_ == State::parallel) return settle(!given_up && median < worth * serial_);
   serial_ = median;
+  if (std::exchange(doubted_, 0) * grown >= serial_) {  // no more to do than before: threads are held up
+    distrust_ = std::clamp(4 * distrust_, shortest_pause, longest_pause);
+    settle(false);
+    pause_ = distrust_;
+    return;
+  }
   state_ = State::parallel;
   runs_ = 0;
   watched_ = 0;
@@ -52,21 +59,17 @@ void Trial::settle(bool better) {
   watched_ = 0;
 }
 
-/// A machine that is busy with other things may put a worker aside in the middle of its work, which a short trial does
-/// not see. Later on it may as well be that there is more to do than at the last trial: then there is another one.
+/// A machine that is busy with other things may put a worker aside in the midst of its work, which a short trial does
+/// not see. Or there is more to do than at the last trial. A look at one thread tells: see learn().
 void Trial::watch(double passed) {
   watched_ += std::min(passed, serial_ * (window / 4));  // one hiccup decides nothing
   if (runs_ % window != 0) return;
-  const bool gains = std::exchange(watched_, 0) <= window * serial_, was_fresh = runs_ <= fresh * window;
-  if (gains) {
-    if (!was_fresh) distrust_ = 0;
-  } else if (was_fresh) {
-    distrust_ = std::clamp(4 * distrust_, shortest_pause, longest_pause);
-    settle(false);
-    pause_ = distrust_;
-  } else {
-    runs_ = pause_;
+  if (std::exchange(watched_, 0) <= window * serial_) {
+    if (runs_ > calm * window) distrust_ = 0;
+    return;
   }
+  doubted_ = serial_;
+  try_again();
 }
 
 }  // namespace muro

@@ -30,6 +30,7 @@ class Trial {
   std::uint32_t runs_ = 0;      ///< in the present state
   std::uint32_t pause_ = 0;     ///< runs until the next trial; four times as long while the answer stays the same
   std::uint32_t distrust_ = 0;  ///< runs on one thread after a trial that promised too much; grows likewise
+  double doubted_ = 0;          ///< what `serial_` was when threads turned out to be slower; 0: no doubt
   double serial_ = 0;           ///< ticks of a run on one thread
   double watched_ = 0;          ///< ticks of runs since the last look, or of a trial
   std::array<double, counted> seen_{};

@@ -10,6 +10,21 @@ namespace muro {
 
 namespace {
 
+constexpr unsigned look = 64;  // at the clock, each so many spins: that takes as long as a few of them
+
+/// Time since it was asked for first.
+class Watch {
+ public:
+  std::chrono::nanoseconds passed() {
+    const auto now = std::chrono::steady_clock::now();
+    if (start_ == std::chrono::steady_clock::time_point{}) start_ = now;
+    return now - start_;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_{};
+};
+
 constexpr auto patience = std::chrono::microseconds(150);  // of a worker before it sleeps
 constexpr auto courtesy = std::chrono::microseconds(20);   // before work of another thread is taken
 
@@ -66,58 +81,58 @@ template <typename EndOf>
 void Workers::round(const Round& round, EndOf end_of) {
   const std::uint32_t number = round_.load(std::memory_order_relaxed) + 1;
   undone_.store(round.pieces, std::memory_order_relaxed);
-  // This thread's own share comes last, when the others are at work.
+  // The caller has its first piece at once: to take it from its share would mean to wait until all of this has reached
+  // the others.
+  const std::uint32_t at_once = end_of(0) > 0 ? 1 : 0;
   for (std::size_t t = shares_.size(); t-- > 0;) {
     Share& share = shares_[t];
     share.work = round.work;
     share.context = round.context;
     share.first = round.first;
-    share.left.store(packed(number, end_of(t), t == 0 ? 0 : end_of(t - 1)), std::memory_order_release);
+    share.left.store(packed(number, end_of(t), t == 0 ? at_once : end_of(t - 1)), std::memory_order_release);
   }
-  round_.store(number);  // sequentially consistent with the count of sleepers
-  if (sleepers_.load() > 0) {
-    caller_processor_.store(sched_getcpu(), std::memory_order_relaxed);
-    round_.notify_all();
-  }
-  const std::uint32_t done = work_through(number, 0);
-  for (int spins = 0; undone_.load(std::memory_order_acquire) > done; ++spins)
-    if (spins < 2000)
-      relax();
-    else
-      std::this_thread::yield();  // there may be fewer cores than threads
+  round_.store(number, std::memory_order_release);
+  wake_sleepers();  // one that goes to sleep just now may miss it, and is woken later
+  if (at_once) round.work(round.context, round.first, 0);
+  finish(number, at_once + empty(shares_[0], number, 0));
 }
 
-/// Returns how many pieces it did.
-std::uint32_t Workers::work_through(std::uint32_t round, unsigned self) {
-  std::uint32_t done = empty(shares_[self], round, self);
-  if (shares_.size() == 1 || !others_are_late(round)) return done;
+/// Waits for the others; takes what they have not begun, once they must be held up.
+void Workers::finish(std::uint32_t round, std::uint32_t done) {
+  Watch watch;
+  bool helped = false;
+  for (unsigned spins = 1; undone_.load(std::memory_order_acquire) > done; ++spins) {
+    relax();
+    if (spins % look != 0) continue;
+    if (helped) {
+      std::this_thread::yield();  // there may be fewer cores than threads
+    } else if (watch.passed() > courtesy) {
+      helped = true;
+      wake_sleepers();
+      done += help(round, 0);
+    }
+  }
+}
+
+void Workers::wake_sleepers() {
+  if (sleepers_.load(std::memory_order_relaxed) == 0) return;
+  caller_processor_.store(sched_getcpu(), std::memory_order_relaxed);
+  round_.notify_all();
+}
+
+/// Makes pieces of the other threads; returns how many.
+std::uint32_t Workers::help(std::uint32_t round, unsigned self) {
+  std::uint32_t done = 0;
   for (std::size_t k = 1; k < shares_.size(); ++k) done += empty(shares_[(self + k) % shares_.size()], round, self);
   return done;
 }
 
+/// Returns how many pieces were left.
 std::uint32_t Workers::empty(Share& share, std::uint32_t round, unsigned self) {
   std::uint32_t done = 0;
   for (std::uint32_t piece; take(share, round, piece); ++done) share.work(share.context, share.first + piece, self);
   if (done > 0 && self != 0) undone_.fetch_sub(done, std::memory_order_acq_rel);
   return done;
-}
-
-/// Whether pieces are left for so long that their threads must be held up. Fetching the data of a piece from the cache
-/// of another core often takes longer than working on it.
-bool Workers::others_are_late(std::uint32_t round) const {
-  const auto any_left = [&] {
-    for (const Share& s : shares_) {
-      const std::uint64_t left = s.left.load(std::memory_order_relaxed);
-      if (std::uint32_t(left >> 32) == round && (left & 0xffff) < (left >> 16 & 0xffff)) return true;
-    }
-    return false;
-  };
-  const auto since = std::chrono::steady_clock::now();
-  while (any_left()) {
-    for (int i = 0; i < 16; ++i) relax();
-    if (std::chrono::steady_clock::now() - since > courtesy) return true;
-  }
-  return false;
 }
 
 bool Workers::take(Share& share, std::uint32_t round, std::uint32_t& piece) {
@@ -134,20 +149,32 @@ bool Workers::take(Share& share, std::uint32_t round, std::uint32_t& piece) {
 void Workers::serve(unsigned self) {
   std::uint32_t seen = 0;
   while (true) {
-    const auto since = std::chrono::steady_clock::now();
-    for (int spins = 1; shares_[self].round() == seen; ++spins) {
-      relax();
-      if (spins % 64 != 0 || std::chrono::steady_clock::now() - since < patience) continue;
-      sleepers_.fetch_add(1);
-      round_.wait(seen);  // its store follows those of the shares
-      sleepers_.fetch_sub(1);
-      // The system likes to wake a thread where the one is that woke it, and takes long to part them.
-      const int here = sched_getcpu();
-      if (here == caller_processor_.load(std::memory_order_relaxed)) leave_processor(here);
-    }
+    wait_for_round_after(seen, self);
     seen = shares_[self].round();
     if (quit_.load(std::memory_order_relaxed)) return;
-    work_through(seen, self);
+    empty(shares_[self], seen, self);
+  }
+}
+
+/// Looks at nothing but its own share, for to look at others' takes time from them; after a while at those too.
+void Workers::wait_for_round_after(std::uint32_t seen, unsigned self) {
+  Watch watch;
+  bool helped = seen == 0;
+  for (unsigned spins = 1; shares_[self].round() == seen; ++spins) {
+    relax();
+    if (spins % look != 0) continue;
+    const auto waited = watch.passed();
+    if (!helped && waited > courtesy) {
+      helped = true;
+      help(seen, self);
+    }
+    if (waited < patience) continue;
+    sleepers_.fetch_add(1);
+    round_.wait(seen);  // its store follows those of the shares
+    sleepers_.fetch_sub(1);
+    // The system likes to wake a thread where the one is that woke it, and takes long to part them.
+    const int here = sched_getcpu();
+    if (here == caller_processor_.load(std::memory_order_relaxed)) leave_processor(here);
   }
 }
 

@@ -56,11 +56,13 @@ class Workers {
   };
   template <typename EndOf>
   void round(const Round& round, EndOf end_of);
-  std::uint32_t work_through(std::uint32_t round, unsigned self);
+  void finish(std::uint32_t round, std::uint32_t done);
+  void wake_sleepers();
+  std::uint32_t help(std::uint32_t round, unsigned self);
   std::uint32_t empty(Share& share, std::uint32_t round, unsigned self);
-  bool others_are_late(std::uint32_t round) const;
   bool take(Share& share, std::uint32_t round, std::uint32_t& piece);
   void serve(unsigned self);
+  void wait_for_round_after(std::uint32_t seen, unsigned self);
 
   std::vector<Share> shares_;
   alignas(apart) std::atomic<std::uint32_t> round_{0};   ///< sleepers wait for it

@@ -45,19 +45,28 @@ class Drive {
   int next_ = 0;
 };
 
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
 }  // namespace
 
-double Record::rate() const {
-  std::vector<double> sorted = rates;
-  std::sort(sorted.begin(), sorted.end());
-  return sorted[sorted.size() / 2];
+double Record::rate() const { return median(rates); }
+
+double Record::gain(const Record& other) const {
+  std::vector<double> ratios;
+  for (std::size_t t = 0; t < rates.size(); ++t) ratios.push_back(rates[t] / other.rates[t]);
+  return median(ratios);
 }
 
 std::vector<Record> compare(const Plan& plan, const std::vector<Engine>& engines,
                             const std::function<City(std::uint64_t seed)>& make_city) {
   std::vector<Record> records(engines.size());
-  for (int c = 0; c < plan.cities; ++c) {
-    const City city = make_city(std::uint64_t(c + 1));
+  const int drives_in_all = plan.cities * plan.repeats;
+  for (int d = 0; d < drives_in_all; ++d) {
+    const City city = make_city(std::uint64_t(d / plan.repeats + 1));
+    const auto first = std::size_t(d / plan.repeats * plan.turns);  // turn of this city
     std::vector<Drive> drives;
     for (const Engine& e : engines) drives.emplace_back(city, e, e.effort);
     for (int turn = 0; turn <= plan.turns; ++turn)
@@ -65,10 +74,12 @@ std::vector<Record> compare(const Plan& plan, const std::vector<Engine>& engines
         const double wall = drives[e].turn(plan.intervals);
         const auto [way, height] = drives[e].look();
         Record& r = records[e];
-        r.distance += way / plan.cities;
+        r.distance += way / drives_in_all;
         if (turn == 0) continue;
-        r.rates.push_back(double(engines[e].teams * city.vehicles()) * City::interval * plan.intervals / wall);
-        r.height += height / (plan.cities * plan.turns);
+        r.rates.resize(first + std::size_t(plan.turns));
+        double& rate = r.rates[first + std::size_t(turn - 1)];
+        rate = std::max(rate, double(engines[e].teams * city.vehicles()) * City::interval * plan.intervals / wall);
+        r.height += height / (drives_in_all * plan.turns);
       }
   }
   return records;

@@ -10,9 +10,10 @@ namespace muro::bench {
 
 /// How long an engine runs: fresh cities, each with a new seed, and in each of them timed turns behind a warm-up as
 /// long as one. Runs are short, for vehicles that drive blindly end up at walls; the slowest engine takes some seconds
-/// in all.
+/// in all. What a turn computes is the same each time, and a disturbed machine can only take longer: of `repeats`
+/// drives through a city, the fastest of each turn counts.
 struct Plan {
-  int cities, turns, intervals;
+  int cities, turns, intervals, repeats = 1;
   static Plan for_team(int vehicles) {
     if (vehicles >= 1000) return {1, 5, 2};
     if (vehicles >= 100) return {1, 5, 8};
@@ -28,6 +29,8 @@ struct Record {
   double height = 0;          ///< m, on average after each turn
 
   double rate() const;  ///< the median
+  /// The median of the ratios to another's rates, turn by turn.
+  double gain(const Record& other) const;
 };
 
 /// All engines take turns. `make_city`: of a seed.

@@ -45,6 +45,13 @@ TEST(Trial, WorkThatGrowsStaysOnSeveralThreads) {
   }
 }
 
+TEST(Trial, WorkThatDoublesAtOnceStaysOnSeveralThreads) {
+  Runs runs{.one = 16'000, .several = 9'000};
+  runs.make(300);
+  runs.one *= 2, runs.several *= 2;
+  EXPECT_GT(runs.make(1'000), 950);
+}
+
 TEST(Trial, WorkThatShrinksReturnsToOneThread) {
   Runs runs{.one = 16'000, .several = 9'000};
   runs.make(5'000);
