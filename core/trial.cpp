@@ -15,6 +15,7 @@ constexpr std::uint32_t window = 64, calm = 4;  // windows without doubt, after 
 
 void Trial::learn(std::uint64_t passed) {
   constexpr double worth = 0.97;    // of the time on one thread
+  constexpr double clearly = 0.75;  // the same: an answer that holds for longer
   constexpr double hopeless = 1.5;  // the same, of a whole trial; one run counts no more than `hiccup` times
   constexpr double hiccup = 4;
   constexpr double grown = 1.1;  // work that takes so much longer on one thread
@@ -31,12 +32,14 @@ void Trial::learn(std::uint64_t passed) {
   if (runs_ < all && !given_up) return;
   std::nth_element(seen_.begin(), seen_.begin() + counted / 2, seen_.end());
   const double median = seen_[counted / 2];
-  if (state_ == State::parallel) return settle(!given_up && median < worth * serial_);
+  if (state_ == State::parallel) {
+    const bool clear = !given_up && median < clearly * serial_;
+    return settle(!given_up && median < worth * serial_, clear ? 4 * shortest_pause : shortest_pause);
+  }
   serial_ = median;
   if (std::exchange(doubted_, 0) * grown >= serial_) {  // no more to do than before: threads are held up
     distrust_ = std::clamp(4 * distrust_, shortest_pause, longest_pause);
-    settle(false);
-    pause_ = distrust_;
+    settle(false, distrust_);
     return;
   }
   state_ = State::parallel;
@@ -50,8 +53,8 @@ void Trial::try_again() {
   watched_ = 0;
 }
 
-void Trial::settle(bool better) {
-  pause_ = known_ && better == parallel_ ? std::min(4 * pause_, longest_pause) : shortest_pause;
+void Trial::settle(bool better, std::uint32_t first_pause) {
+  pause_ = known_ && better == parallel_ ? std::min(4 * pause_, longest_pause) : first_pause;
   known_ = true;
   parallel_ = better;
   state_ = State::settled;

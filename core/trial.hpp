@@ -22,7 +22,7 @@ class Trial {
 
   void watch(double passed);
   void try_again();
-  void settle(bool better);
+  void settle(bool better, std::uint32_t first_pause);
 
   State state_ = State::serial;
   bool known_ = false;          ///< `parallel_` is the answer of a trial
