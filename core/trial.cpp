@@ -65,7 +65,7 @@ void Trial::settle(bool better, std::uint32_t first_pause) {
 /// A machine that is busy with other things may put a worker aside in the midst of its work, which a short trial does
 /// not see. Or there is more to do than at the last trial. A look at one thread tells: see learn().
 void Trial::watch(double passed) {
-  watched_ += std::min(passed, serial_ * (window / 4));  // one hiccup decides nothing
+  watched_ += std::min(passed, 0.25 * window * serial_);  // one hiccup decides nothing
   if (runs_ % window != 0) return;
   if (std::exchange(watched_, 0) <= window * serial_) {
     if (runs_ > calm * window) distrust_ = 0;
