@@ -15,9 +15,9 @@ inline constexpr std::size_t apart = 128;
 /// Threads that share out numbered pieces of work with the thread that calls.
 ///
 /// Waking a sleeping thread takes some 50 us on a virtual machine, a spinning one below 1 us, so workers spin for a
-/// while before they sleep. Each thread begins with a part of its own, the same in every run, so that it finds its data
-/// in its cache; who is done waits a little before it takes from the others. Nobody waits for a worker that has not
-/// taken a piece: one that the machine has put aside costs nothing.
+/// while before they sleep. Each thread begins with a part of its own, from one round to the next the same, so that it
+/// finds its data in its cache; who is done waits a little before it takes from the others. Nobody waits for a worker
+/// that has not taken a piece: one that the machine has put aside costs nothing.
 class Workers {
  public:
   /// `threads` with the caller; 1 or more.
