@@ -38,15 +38,17 @@ class Balance {
   };
   unsigned threads() const { return unsigned(ends_.size()); }
   const Cost& cost(std::size_t stage, std::uint32_t chain) const { return costs_[stage * owner_.size() + chain]; }
-  void count_loads();
-  unsigned busiest() const;
-  double length(const Change* change) const;
+  unsigned count_loads();
+  void count_rest(unsigned from, unsigned to);
+  bool gets_shorter_than(double& shortest, unsigned from, const Change& change) const;
   void sort();
 
   std::vector<unsigned> owner_;  ///< thread by chain
   std::vector<std::uint32_t> order_, ends_;
   std::vector<Cost> costs_;    ///< by stage and chain
   std::vector<double> loads_;  ///< ticks, by stage and thread
+  std::vector<double> rest_;   ///< ticks, by stage
+  double length_ = 0;          ///< ticks, of all stages
 };
 
 }  // namespace muro

@@ -10,6 +10,7 @@ namespace muro {
 void Executor::set_threads(unsigned threads) {
   threads_ = std::max(1u, threads);
   workers_.reset();
+  forget();
   if (threads_ > 1) workers_ = std::make_unique<Workers>(threads_);
   prepare(state_.front().costs.size());
 }
@@ -36,8 +37,8 @@ void Executor::run(const std::vector<Task>& tasks, Program& program, std::span<c
   if (program.jobs.empty()) add_jobs(program);
   const std::uint64_t before = ticks();
   for (Job& job : program.jobs) run_job(job, parallel);
+  if (workers_) improve_balances(program.instants);
   if (workers_ && !always_parallel_) program.trial.learn(ticks() - before);
-  if (parallel) improve_balances();
   for (const Turn& t : program.turns) {
     ++runs[t.task];
     ++state_.front().costs[t.task].runs;
@@ -51,16 +52,17 @@ void Executor::add_jobs(Program& program) {
   for (const Stage& stage : program.stages) {
     Job& job = program.jobs.emplace_back(Job{this, &stage});
     const std::uint32_t chains = stage.chains();
-    if (!workers_ || chains < 2 || chains > most) continue;
+    if (!workers_ || program.once || chains < 2 || chains > most) continue;
     job.balance = &balances_.try_emplace(chains, chains, threads_).first->second;
     job.number = job.balance->add_stage();
   }
 }
 
-void Executor::improve_balances() {
-  constexpr std::uint32_t interval = 16;
-  if (++programs_run_ < interval) return;
-  programs_run_ = 0;
+void Executor::improve_balances(std::uint32_t instants) {
+  constexpr std::uint32_t interval = 128;
+  instants_run_ += instants;
+  if (instants_run_ < interval) return;
+  instants_run_ = 0;
   for (auto& [chains, balance] : balances_) balance.improve();
 }
 

@@ -30,6 +30,7 @@ struct Program {
   std::vector<Stage> stages;
   std::vector<Turn> turns;
   std::uint32_t instants = 1;
+  bool once = false;  ///< not worth to learn about
 
   Trial trial;
 
@@ -46,7 +47,7 @@ struct Program {
 /// Makes the calls of a program, on one or several threads.
 class Executor {
  public:
-  /// Of calls; 1: the calling thread alone. [before the first run]
+  /// Of calls; 1: the calling thread alone. No program that has run before may run again.
   void set_threads(unsigned threads);
   unsigned threads() const { return threads_; }
   /// Takes the place of making calls; null: none. Calls are then made on one thread. [before the first run]
@@ -58,6 +59,8 @@ class Executor {
   const Timeline& timeline() const { return timeline_; }
 
   void prepare(std::size_t tasks);
+  /// All that is known of programs, none of which runs again.
+  void forget() { balances_.clear(); }
   /// `times`: of each instant, ns. `runs`: how often each task ran before; counted on. Throws StepError, of the failure
   /// that is first in order, when the stage in which it happened is done.
   void run(const std::vector<Task>& tasks, Program& program, std::span<const std::int64_t> times, std::uint64_t seed,
@@ -85,7 +88,7 @@ class Executor {
   using Job = Program::Job;
 
   void add_jobs(Program& program);
-  void improve_balances();
+  void improve_balances(std::uint32_t instants);
   void run_job(Job& job, bool parallel);
   void run_chain(const Job& job, std::uint32_t chain, unsigned thread);
   static void run_piece(void* job, std::uint32_t piece, unsigned thread);
@@ -96,7 +99,7 @@ class Executor {
   bool always_parallel_ = false;
   std::unique_ptr<Workers> workers_;
   std::map<std::uint32_t, Balance> balances_;  ///< by number of chains
-  std::uint32_t programs_run_ = 0;             ///< on several threads, since balances were looked at
+  std::uint32_t instants_run_ = 0;             ///< since balances were looked at
   std::unique_ptr<CallObserver> observer_;
   std::vector<Thread> state_ = std::vector<Thread>(1);
   TickClock clock_;

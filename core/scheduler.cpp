@@ -52,8 +52,7 @@ void Scheduler::add_sequence(const std::vector<TaskId>& tasks) {
 
 void Scheduler::prepare() {
   prepared_ = true;
-  programs_.clear();
-  last_programs_ = nullptr;
+  forget_programs();
   executor_.prepare(tasks_.size());
   groups_.clear();
   group_of_item_.assign(items_.size(), 0);
@@ -190,6 +189,18 @@ std::vector<TaskId> Scheduler::plan_at(std::int64_t time) const {
 
 std::vector<Stage> Scheduler::stages_at(std::int64_t time) const { return program_of(turns_at(time), 1).stages; }
 
+void Scheduler::set_threads(unsigned threads) {
+  forget_programs();
+  executor_.set_threads(threads);
+}
+
+/// With what the executor has learned about them.
+void Scheduler::forget_programs() {
+  programs_.clear();
+  last_programs_ = nullptr;
+  executor_.forget();
+}
+
 void Scheduler::set_pacing(Pacing pacing) {
   pacing_ = pacing;
   pace_wall_ = std::chrono::steady_clock::now();
@@ -275,6 +286,7 @@ void Scheduler::run_extra(const std::vector<TaskId>& tasks) {
   Turns turns;
   for (const TaskId t : tasks) turns.push_back({t, periods_[t]});
   Program program = program_of(turns, 1);
+  program.once = true;
   executor_.run(tasks_, program, {&now_, 1}, seed_, runs);
 }
 

@@ -37,6 +37,8 @@ class Scheduler {
 
   std::int64_t now() const { return now_; }
   void set_seed(std::uint64_t seed) { seed_ = seed; }
+  /// Of calls; 1: the calling thread alone. [between runs]
+  void set_threads(unsigned threads);
   void set_pacing(Pacing pacing);
   std::uint64_t overruns() const { return overruns_; }
   const std::vector<Task>& tasks() const { return tasks_; }
@@ -86,6 +88,7 @@ class Scheduler {
   };
   Program program_of(const Turns& turns, std::uint32_t instants) const;
   Programs& programs_for(const Mask& due);
+  void forget_programs();
   std::int64_t next_time() const;
   void mark_due(std::int64_t time, Mask& due) const;
   void advance(const Mask& due);

@@ -56,7 +56,7 @@ class Simulation {
   /// Where log lines of algorithms go; default: warnings and errors to standard error.
   void set_log(std::function<void(LogLevel, std::string_view)> log);
   /// On how many threads calls are made that may overlap; 1, unless set. Never changes a result. [between runs]
-  void set_threads(unsigned threads) { scheduler_.executor().set_threads(threads); }
+  void set_threads(unsigned threads) { scheduler_.set_threads(threads); }
   /// Makes runs prove that algorithms touch only what they have declared; see AccessCheck. [between runs]
   void verify_access();
   void set_pacing(Pacing pacing) { scheduler_.set_pacing(pacing); }

@@ -37,7 +37,8 @@ void Trial::learn(std::uint64_t passed) {
     return settle(!given_up && median < worth * serial_, clear ? 4 * shortest_pause : shortest_pause);
   }
   serial_ = median;
-  if (std::exchange(doubted_, 0) * grown >= serial_) {  // no more to do than before: threads are held up
+  const double doubted = std::exchange(doubted_, 0);
+  if (doubted > 0 && doubted * grown >= serial_) {  // no more to do than before: threads are held up
     distrust_ = std::clamp(4 * distrust_, shortest_pause, longest_pause);
     settle(false, distrust_);
     return;

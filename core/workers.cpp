@@ -4,6 +4,7 @@
 #include <sched.h>
 
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 
 namespace muro {
@@ -69,11 +70,13 @@ void Workers::run(std::uint32_t pieces, Work work, void* context) {
   const auto count = std::uint64_t(shares_.size());
   for (std::uint32_t first = 0; first < pieces; first += most) {
     const std::uint32_t now = std::min(most, pieces - first);
-    round({first, now, work, context}, [&](std::size_t t) { return std::uint32_t((t + 1) * now / count); });
+    const auto end_of = [&](std::size_t t) { return std::uint32_t(((t + 1) * now + count - 1) / count); };
+    round({first, now, work, context}, end_of);  // the caller, number 0, has more than others, where one must
   }
 }
 
 void Workers::run(std::span<const std::uint32_t> ends, Work work, void* context) {
+  assert(ends.size() == shares_.size() && ends.back() <= most);
   round({0, ends.back(), work, context}, [&](std::size_t t) { return ends[t]; });
 }
 

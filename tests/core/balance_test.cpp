@@ -68,6 +68,15 @@ TEST(Balance, BeginsWithNeighbouringChainsOnEachThreadAndTheLastOnTheFirst) {
   EXPECT_EQ(chains_of(balance, 1), (std::vector<std::uint32_t>{0, 1, 2, 3}));
 }
 
+TEST(Balance, GivesTheFirstThreadAChainWhereThereAreFewerThanThreads) {
+  for (const unsigned threads : {3u, 4u, 8u}) {
+    const Balance balance(2, threads);
+    EXPECT_EQ(chains_of(balance, 0), std::vector<std::uint32_t>{1});
+    EXPECT_EQ(chains_of(balance, 1), std::vector<std::uint32_t>{0});
+    EXPECT_EQ(balance.ends().back(), 2u);
+  }
+}
+
 TEST(Balance, ComesCloseToTheBestOfAllWaysToShareTheChains) {
   for (const std::vector<std::uint64_t>& stage : Costs{{345, 400, 340, 240},
                                                        {90, 10, 10, 10, 10, 10, 10, 10},

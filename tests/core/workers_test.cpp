@@ -32,6 +32,16 @@ TEST(Workers, MakeEachPieceOnce) {
   }
 }
 
+TEST(Workers, BeginWithTheSharesThatTheyAreGiven) {
+  Workers workers(3);
+  for (int round = 0; round < 1000; ++round) {
+    Counts counts(10);
+    const std::uint32_t ends[] = {std::uint32_t(round % 4), std::uint32_t(round % 4 + round % 7), 10};
+    workers.run(ends, &Counts::make, &counts);
+    for (const auto& c : counts.of_piece) ASSERT_EQ(c, 1) << "round " << round;
+  }
+}
+
 TEST(Workers, ThousandsOfRoundsFollowEachOtherWithoutAMix) {
   Workers workers(4);
   for (int round = 0; round < 20'000; ++round) {

@@ -82,6 +82,18 @@ TEST(Threads, ACrowdThatCollidesIsTheSameOnAnyNumber) {
   for (const unsigned threads : {2u, 3u, 4u, 8u}) EXPECT_EQ(hash_after(scenario, 10, threads), alone) << threads;
 }
 
+TEST(Threads, TheirNumberMayChangeBetweenRuns) {
+  const test::ScratchFolder folder;
+  const Scenario scenario = crowd_in_order(folder, {0, 1, 2, 3});
+  BuiltScenario built = build(Scenario(scenario), test::plugins());
+  built.simulation->scheduler().executor().set_always_parallel(true);
+  for (const unsigned threads : {8u, 2u, 1u, 3u, 8u}) {
+    built.simulation->set_threads(threads);
+    built.simulation->run_for(0.4);
+  }
+  EXPECT_EQ(built.simulation->state_hash(), hash_after(scenario, 2, 1));
+}
+
 TEST(Threads, TheOrderOfDeclarationChangesNoRobot) {
   const test::ScratchFolder folder;
   std::map<std::string, std::uint64_t> first;
