@@ -10,12 +10,12 @@ namespace muro {
 void Executor::set_threads(unsigned threads) {
   threads_ = std::max(1u, threads);
   workers_.reset();
-  forget();
   if (threads_ > 1) workers_ = std::make_unique<Workers>(threads_);
   prepare(state_.front().costs.size());
 }
 
 void Executor::prepare(std::size_t tasks) {
+  balances_.clear();
   state_.resize(std::max<std::size_t>(state_.size(), threads_));
   for (Thread& t : state_) t.costs.resize(tasks);
   timeline_.set_threads(state_.size());

@@ -58,9 +58,8 @@ class Executor {
   Timeline& timeline() { return timeline_; }
   const Timeline& timeline() const { return timeline_; }
 
+  /// Forgets what it has learned of programs, none of which may run again.
   void prepare(std::size_t tasks);
-  /// All that is known of programs, none of which runs again.
-  void forget() { balances_.clear(); }
   /// `times`: of each instant, ns. `runs`: how often each task ran before; counted on. Throws StepError, of the failure
   /// that is first in order, when the stage in which it happened is done.
   void run(const std::vector<Task>& tasks, Program& program, std::span<const std::int64_t> times, std::uint64_t seed,

@@ -194,11 +194,9 @@ void Scheduler::set_threads(unsigned threads) {
   executor_.set_threads(threads);
 }
 
-/// With what the executor has learned about them.
 void Scheduler::forget_programs() {
   programs_.clear();
   last_programs_ = nullptr;
-  executor_.forget();
 }
 
 void Scheduler::set_pacing(Pacing pacing) {

@@ -22,7 +22,7 @@ void Trial::learn(std::uint64_t passed) {
   ++runs_;
   if (state_ == State::settled) {
     if (parallel_) watch(double(passed));
-    if (runs_ >= pause_) try_again();
+    if (runs_ >= pause_) enter(State::serial);
     return;
   }
   constexpr std::uint32_t all = warm + counted;
@@ -43,13 +43,11 @@ void Trial::learn(std::uint64_t passed) {
     settle(false, distrust_);
     return;
   }
-  state_ = State::parallel;
-  runs_ = 0;
-  watched_ = 0;
+  enter(State::parallel);
 }
 
-void Trial::try_again() {
-  state_ = State::serial;
+void Trial::enter(State state) {
+  state_ = state;
   runs_ = 0;
   watched_ = 0;
 }
@@ -58,9 +56,7 @@ void Trial::settle(bool better, std::uint32_t first_pause) {
   pause_ = known_ && better == parallel_ ? std::min(4 * pause_, longest_pause) : first_pause;
   known_ = true;
   parallel_ = better;
-  state_ = State::settled;
-  runs_ = 0;
-  watched_ = 0;
+  enter(State::settled);
 }
 
 /// A machine that is busy with other things may put a worker aside in the midst of its work, which a short trial does
@@ -73,7 +69,7 @@ void Trial::watch(double passed) {
     return;
   }
   doubted_ = serial_;
-  try_again();
+  enter(State::serial);
 }
 
 }  // namespace muro

@@ -21,7 +21,7 @@ class Trial {
   static constexpr std::uint32_t warm = 2, counted = 5;  ///< runs of each way
 
   void watch(double passed);
-  void try_again();
+  void enter(State state);
   void settle(bool better, std::uint32_t first_pause);
 
   State state_ = State::serial;

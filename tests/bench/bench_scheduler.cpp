@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What the scheduler and the property store cost by themselves: algorithms that do nothing, and reading a property of
 // every robot beside reading it from a plain array of structs.
-#include <algorithm>
 #include <chrono>
 
 #include "tests/bench/muro_team.hpp"
@@ -19,11 +18,6 @@ double seconds(Work work) {
   const auto start = std::chrono::steady_clock::now();
   work();
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
 }
 
 /// Robots without shapes, each with an empty algorithm at 1000 Hz.

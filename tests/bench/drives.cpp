@@ -5,6 +5,8 @@
 #include <chrono>
 #include <cmath>
 
+#include "tests/bench/report.hpp"
+
 namespace muro::bench {
 
 namespace {
@@ -44,11 +46,6 @@ class Drive {
   std::vector<Vec3> last_;
   int next_ = 0;
 };
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
 
 }  // namespace
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -17,6 +18,10 @@ inline double fixed(double number, int digits) {
   return std::round(number * scale) / scale;
 }
 inline std::int64_t whole(double number) { return std::llround(number); }
+inline double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
 
 /// What a benchmark found: ratios, which are the result, and the tables they come from. Printed as Markdown; with
 /// `--json FILE` also merged into that file, beside what other programs put there, and the whole is written again as
