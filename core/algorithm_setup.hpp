@@ -23,9 +23,11 @@ struct AlgorithmSetup {
   std::int64_t phase = 0;  ///< ns
   std::map<std::string, ParameterInput> parameters;
   std::vector<Item> items;  ///< none: the world
-  std::string subsystem;    ///< "motion": with the robot's name, keys the random numbers
-  std::string folder;       ///< relative paths in parameters start here; "": the working directory
-  std::string place;        ///< "file:line:column" of the scenario, put before messages; may be empty
+  /// One an item where those of a world have parameters of their own; none: all have `parameters`.
+  std::vector<std::map<std::string, ParameterInput>> parameters_of_items;
+  std::string subsystem;  ///< "motion": with the robot's name, keys the random numbers
+  std::string folder;     ///< relative paths in parameters start here; "": the working directory
+  std::string place;      ///< "file:line:column" of the scenario, put before messages; may be empty
 };
 
 }  // namespace muro

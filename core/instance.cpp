@@ -18,6 +18,11 @@ Instance::Instance(const abi::AlgorithmEntry& entry, AlgorithmSetup setup, World
       party_(world.store().add_party(setup_.name + " (" + setup_.use +
                                      (setup_.place.empty() ? "" : ", " + setup_.place) + ")")) {
   if (setup_.items.empty()) setup_.items.push_back({});
+  for (const auto& own : setup_.parameters_of_items) {
+    AlgorithmSetup one;
+    one.name = setup_.name, one.use = setup_.use, one.place = setup_.place, one.parameters = own;
+    own_parameters_.emplace_back(*entry.description, one);
+  }
   const Kind kind = entry.description->kind;
   if (!setup_.items.front().robot && (kind == Kind::motion || kind == Kind::kinematics || kind == Kind::drive))
     throw SetupError((setup_.place.empty() ? "" : setup_.place + ": ") + setup_.name + " (" + setup_.use +
@@ -55,6 +60,11 @@ void Instance::restored() {
 void Instance::finish() {
   abi::ErrorText error;
   require(algorithm_->finish(error), error, "cannot finish");
+}
+
+void Instance::take_over(std::uint32_t item) {
+  abi::ErrorText error;
+  require(algorithm_->take_over(item, error), error, "cannot take the robot over");
 }
 
 std::vector<SlotId> Instance::reads() const {

@@ -48,6 +48,7 @@ class Instance final : private Connector {
   void start();
   void restored();
   void finish();
+  void take_over(std::uint32_t item);
   /// Slots that it reads and writes, for the scheduler.
   std::vector<SlotId> reads() const;
   std::vector<SlotId> writes() const;
@@ -62,6 +63,9 @@ class Instance final : private Connector {
  private:
   std::span<const Item> items() const noexcept override { return setup_.items; }
   const Parameters& parameters() const noexcept override { return parameters_.view(); }
+  const Parameters& parameters_of(std::uint32_t i) const noexcept override {
+    return own_parameters_.empty() ? parameters_.view() : own_parameters_[i].view();
+  }
   Host& host() const noexcept override { return host_; }
   std::uint64_t random_key(std::uint32_t i) const noexcept override;
   std::string_view resolve_path(std::string_view path) const noexcept override;
@@ -86,6 +90,7 @@ class Instance final : private Connector {
   World& world_;
   Host& host_;
   ParameterSet parameters_;
+  std::deque<ParameterSet> own_parameters_;  ///< one an item, when they differ
   Party party_;
   abi::AlgorithmInstance* algorithm_ = nullptr;
   mutable std::vector<FoundProperty> found_;

@@ -15,8 +15,8 @@ namespace muro {
 namespace {
 
 /// The order in which kinds connect: who moves things first, who looks at everything last.
-int connect_order(Kind kind) {
-  switch (kind) {
+int connect_order(const Description& d) {
+  switch (d.kind) {
     case Kind::motion:
       return 0;
     case Kind::kinematics:
@@ -87,24 +87,52 @@ Simulation::~Simulation() = default;
 
 void Simulation::set_log(std::function<void(LogLevel, std::string_view)> log) { log_->sink = std::move(log); }
 
-RobotTree Simulation::read_model(const std::string& path) {
-  if (!std::filesystem::exists(path)) throw SetupError("model " + path + " does not exist");
+namespace {
+
+using Read = std::function<bool(abi::ReaderInstance&, const std::string& path, abi::ErrorText&)>;
+
+/// `what` names the file in messages: "model rover.urdf".
+void read_file(Registry& registry, const std::string& path, const std::string& what, const Read& read) {
+  if (!std::filesystem::exists(path)) throw SetupError(what + " does not exist");
   abi::ErrorText error;
-  abi::ReaderInstance* reader = registry_.reader_for(path).create(&error);
+  abi::ReaderInstance* reader = registry.reader_for(path).create(&error);
   if (!reader) throw SetupError("the reader for " + path + " cannot be created: " + std::string(error.view()));
-  RobotTree tree;
-  const bool fine = reader->read(std::filesystem::absolute(path).string(), tree, error);
+  const bool fine = read(*reader, std::filesystem::absolute(path).string(), error);
   reader->destroy();
-  if (!fine) throw SetupError("model " + path + ": " + std::string(error.view()));
-  if (tree.usable()) tree.close();
+  if (!fine) throw SetupError(what + ": " + std::string(error.view()));
+}
+
+void check_problems(const std::vector<RobotTree::Problem>& found, const std::string& what) {
   std::vector<std::string> problems;
-  for (const RobotTree::Problem& p : tree.problems())
+  for (const RobotTree::Problem& p : found)
     if (p.severity == Severity::error)
-      problems.push_back("model " + path +
-                         (p.line > 0 ? ":" + std::to_string(p.line) + ":" + std::to_string(p.column) : "") + ": " +
-                         p.text);
+      problems.push_back(what + (p.line > 0 ? ":" + std::to_string(p.line) + ":" + std::to_string(p.column) : "") +
+                         ": " + p.text);
   if (!problems.empty()) throw SetupError(problems);
+}
+
+}  // namespace
+
+RobotTree Simulation::read_model(const std::string& path) {
+  RobotTree tree;
+  const std::string what = "model " + path;
+  read_file(registry_, path, what, [&](abi::ReaderInstance& reader, const std::string& file, abi::ErrorText& error) {
+    return reader.read(file, tree, error);
+  });
+  if (tree.usable()) tree.close();
+  check_problems(tree.problems(), what);
   return tree;
+}
+
+WorldModel Simulation::read_world(const std::string& path) {
+  WorldModel world;
+  const std::string what = "world " + path;
+  read_file(registry_, path, what, [&](abi::ReaderInstance& reader, const std::string& file, abi::ErrorText& error) {
+    return reader.read_world(file, world, error);
+  });
+  world.close();
+  check_problems(world.problems(), what);
+  return world;
 }
 
 std::size_t Simulation::add(AlgorithmSetup setup) {
@@ -133,18 +161,40 @@ ObjectId Simulation::add_sensor_object(const RobotView& robot, std::string_view 
   return sensor;
 }
 
+/// Robots of one world share an instance; each keeps its parameters.
+void Simulation::join_world(AlgorithmSetup& world, AlgorithmSetup& joining) const {
+  if (world.rate != joining.rate || world.phase != joining.phase)
+    throw SetupError((joining.place.empty() ? "" : joining.place + ": ") + joining.name + " and " + world.name +
+                     " share a world of " + joining.use +
+                     " but have different rates or phases; give them the same, or another `world` to one of them");
+  world.parameters_of_items.resize(world.items.size(), world.parameters);
+  world.items.insert(world.items.end(), joining.items.begin(), joining.items.end());
+  world.parameters_of_items.resize(world.items.size(), joining.parameters);
+}
+
 void Simulation::merge_batched() {
   instance_of_setup_.clear();
   std::vector<AlgorithmSetup> merged;
+  const auto world_of = [](const AlgorithmSetup& s) {
+    const auto named = s.parameters.find("world");
+    return named == s.parameters.end() ? ParameterInput(std::string()) : named->second;
+  };
   for (AlgorithmSetup& s : setups_) {
-    const bool batched = (registry_.algorithm(s.use).description->promises & Promise::batched) != 0 && !s.items.empty();
+    const std::uint32_t promises = registry_.algorithm(s.use).description->promises;
+    const bool world = (promises & Promise::world) != 0, batched = (promises & Promise::batched) != 0;
     const auto same = [&](const AlgorithmSetup& m) {
-      return m.name == s.name && m.use == s.use && m.rate == s.rate && m.phase == s.phase &&
-             m.parameters == s.parameters && !m.items.empty() && m.folder == s.folder && m.subsystem == s.subsystem;
+      if (m.use != s.use || m.items.empty()) return false;
+      if (world) return world_of(m) == world_of(s);
+      return m.name == s.name && m.rate == s.rate && m.phase == s.phase && m.parameters == s.parameters &&
+             m.folder == s.folder && m.subsystem == s.subsystem;
     };
-    const auto known = batched ? std::find_if(merged.begin(), merged.end(), same) : merged.end();
+    const auto known =
+        (batched || world) && !s.items.empty() ? std::find_if(merged.begin(), merged.end(), same) : merged.end();
     if (known != merged.end()) {
-      known->items.insert(known->items.end(), s.items.begin(), s.items.end());
+      if (world)
+        join_world(*known, s);
+      else
+        known->items.insert(known->items.end(), s.items.begin(), s.items.end());
       instance_of_setup_.push_back(std::size_t(known - merged.begin()));
     } else {
       instance_of_setup_.push_back(merged.size());
@@ -159,11 +209,11 @@ void Simulation::merge_batched() {
   problems.check();
 }
 
-std::vector<std::size_t> Simulation::in_order_of(int (*order)(Kind)) const {
+std::vector<std::size_t> Simulation::in_order_of(int (*order)(const Description&)) const {
   std::vector<std::size_t> all(instances_.size());
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
   std::stable_sort(all.begin(), all.end(), [&](std::size_t a, std::size_t b) {
-    return order(instances_[a]->description().kind) < order(instances_[b]->description().kind);
+    return order(instances_[a]->description()) < order(instances_[b]->description());
   });
   return all;
 }
@@ -211,7 +261,7 @@ void Simulation::schedule() {
     task.robots = std::uint32_t(world_.robots().size());
     task.rate = s.rate;
     task.phase = s.phase;
-    task.order = order_of(instance->description().kind);
+    task.order = order_of(instance->description());
     task.reads = instance->reads();
     task.writes = instance->writes();
     tasks_.push_back(scheduler_.add(std::move(task)));

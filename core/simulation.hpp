@@ -10,6 +10,7 @@
 #include "core/registry.hpp"
 #include "core/scheduler.hpp"
 #include "core/world.hpp"
+#include "core/world_model.hpp"
 
 namespace muro {
 
@@ -44,6 +45,8 @@ class Simulation {
   /// Reads a model with the reader for its type. Problems of severity error make a SetupError; the
   /// others are kept in the tree.
   RobotTree read_model(const std::string& path);
+  /// The same for a file that describes a world. Errors in one of its models are left in the model's tree.
+  WorldModel read_world(const std::string& path);
   /// Uses an algorithm; connects nothing yet. Returns its number in `instances()`.
   std::size_t add(AlgorithmSetup setup);
   /// Short form of `add`: `rate` in Hz, 0 for on demand; no items for the whole scene.
@@ -91,8 +94,9 @@ class Simulation {
  private:
   class Log;
   void merge_batched();
+  void join_world(AlgorithmSetup& world, AlgorithmSetup& joining) const;
   void part_memory();
-  std::vector<std::size_t> in_order_of(int (*order)(Kind)) const;
+  std::vector<std::size_t> in_order_of(int (*order)(const Description&)) const;
   void schedule();
   std::vector<std::int32_t> robot_of_slot() const;
 

@@ -35,10 +35,15 @@ ObjectId World::add_object(std::string_view name, std::uint32_t robot) {
 }
 
 ObjectId World::add_scenery(std::string_view name, const Pose& pose, std::span<const Shape> shapes) {
+  return add_scenery(name, pose, shapes, shapes);
+}
+
+ObjectId World::add_scenery(std::string_view name, const Pose& pose, std::span<const Shape> collisions,
+                            std::span<const Shape> visuals) {
   const ObjectId id = add_object(name);
   set(id, keys::pose, pose);
-  set_array(id, keys::collision_shapes, shapes);
-  set_array(id, keys::visual_shapes, shapes);
+  if (!collisions.empty()) set_array(id, keys::collision_shapes, collisions);
+  if (!visuals.empty()) set_array(id, keys::visual_shapes, visuals);
   return id;
 }
 

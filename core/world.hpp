@@ -22,6 +22,9 @@ class World {
   ObjectId add_object(std::string_view name, std::uint32_t robot);
   /// Scenery: a body that does not move. [setup]
   ObjectId add_scenery(std::string_view name, const Pose& pose, std::span<const Shape> shapes);
+  /// The same for a body that looks other than what it collides with.
+  ObjectId add_scenery(std::string_view name, const Pose& pose, std::span<const Shape> collisions,
+                       std::span<const Shape> visuals);
   /// A robot "name" with an object "name/part" for every part of the tree. [setup]
   const RobotView& add_robot(std::string_view name, const RobotTree& tree, const Pose& start = {});
 

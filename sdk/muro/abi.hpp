@@ -17,7 +17,7 @@
 namespace muro::abi {
 
 inline constexpr std::uint32_t sdk_major = 1;
-inline constexpr std::uint32_t sdk_minor = 0;
+inline constexpr std::uint32_t sdk_minor = 1;
 
 /// Values whose layout both sides must agree on.
 struct Probe {
@@ -108,6 +108,7 @@ class AlgorithmInstance {
   virtual bool restored(ErrorText&) noexcept = 0;
   virtual bool finish(ErrorText&) noexcept = 0;
   virtual void destroy() noexcept = 0;
+  virtual bool take_over(std::uint32_t item, ErrorText&) noexcept = 0;
 
  protected:
   ~AlgorithmInstance() = default;
@@ -117,6 +118,7 @@ class ReaderInstance {
  public:
   virtual bool read(std::string_view path, RobotBuilder&, ErrorText&) noexcept = 0;
   virtual void destroy() noexcept = 0;
+  virtual bool read_world(std::string_view path, WorldBuilder&, ErrorText&) noexcept = 0;
 
  protected:
   ~ReaderInstance() = default;
@@ -156,6 +158,9 @@ class AlgorithmOf final : public AlgorithmInstance {
     return guarded(e, [&] { algorithm_.finish(); });
   }
   void destroy() noexcept override { delete this; }
+  bool take_over(std::uint32_t item, ErrorText& e) noexcept override {
+    return guarded(e, [&] { algorithm_.take_over(item); });
+  }
 
  private:
   ~AlgorithmOf() = default;
@@ -169,6 +174,9 @@ class ReaderOf final : public ReaderInstance {
     return guarded(e, [&] { reader_.read(path, b); });
   }
   void destroy() noexcept override { delete this; }
+  bool read_world(std::string_view path, WorldBuilder& w, ErrorText& e) noexcept override {
+    return guarded(e, [&] { reader_.read_world(path, w); });
+  }
 
  private:
   ~ReaderOf() = default;

@@ -45,6 +45,10 @@ class Algorithm {
   /// thread]
   virtual void step(const Step& step, Range range) = 0;
 
+  /// Another motion has moved robot `item` so far; from the next step on this one does. The state lies in the
+  /// properties; here goes what only this motion keeps beside them. [between steps]
+  virtual void take_over(std::uint32_t item) { static_cast<void>(item); }
+
   /// A snapshot has replaced the properties: rebuild what was kept beside them. [between steps]
   virtual void restored() {}
 

@@ -15,6 +15,8 @@ namespace muro {
 struct Item {
   const RobotView* robot = nullptr;
   ObjectId object = world_object;
+  /// Place of this algorithm among the motions that the robot lists: it moves the robot while `motion.level` says so.
+  std::uint32_t level = 0;
 };
 
 /// How an algorithm uses a property.
@@ -59,6 +61,8 @@ class Connector {
   // --- what this instance serves
   virtual std::span<const Item> items() const noexcept = 0;
   virtual const Parameters& parameters() const noexcept = 0;
+  /// Of item `i`: they differ among the robots of a world alone, see Promise::world.
+  virtual const Parameters& parameters_of(std::uint32_t i) const noexcept = 0;
   virtual Host& host() const noexcept = 0;
   /// Keys the random numbers of item `i`: depends on the names of robot and subsystem only.
   virtual std::uint64_t random_key(std::uint32_t i) const noexcept = 0;

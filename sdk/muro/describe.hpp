@@ -75,10 +75,18 @@ inline std::string parameter(const Parameter& p) {
 inline std::string use(const Use& u) { return "{\"key\": " + quoted(u.key) + ", \"doc\": " + quoted(u.doc) + "}"; }
 
 inline std::string promises(std::uint32_t bits) {
-  constexpr std::string_view names[] = {"deterministic", "batched", "allocation_free", "restorable", "needs_gpu"};
+  constexpr std::string_view names[] = {"deterministic", "batched",   "allocation_free",
+                                        "restorable",    "needs_gpu", "world"};
   std::string out = "[";
-  for (int i = 0; i < 5; ++i)
+  for (int i = 0; i < 6; ++i)
     if ((bits & (1u << i)) != 0) out += (out.size() > 1 ? ", " : "") + quoted(names[i]);
+  return out + "]";
+}
+
+inline std::string features(Features bits) {
+  std::string out = "[";
+  for (const FeatureInfo& f : feature_infos)
+    if ((bits & f.bit) != 0) out += (out.size() > 1 ? ", " : "") + quoted(f.name);
   return out + "]";
 }
 
@@ -86,8 +94,9 @@ inline std::string algorithm(const AlgorithmEntry& entry) {
   const Description& d = *entry.description;
   return "\n    {\"id\": " + quoted(d.id) + ", \"kind\": " + quoted(name_of(d.kind)) +
          ", \"version\": " + quoted(d.version) + ",\n     \"summary\": " + quoted(d.summary) +
-         ",\n     \"promises\": " + promises(d.promises) + ",\n     \"parameters\": " + list(d.parameters, parameter) +
-         ",\n     \"reads\": " + list(d.reads, use) + ",\n     \"writes\": " + list(d.writes, use) + "}";
+         ",\n     \"promises\": " + promises(d.promises) + ",\n     \"features\": " + features(d.features) +
+         ",\n     \"parameters\": " + list(d.parameters, parameter) + ",\n     \"reads\": " + list(d.reads, use) +
+         ",\n     \"writes\": " + list(d.writes, use) + "}";
 }
 
 inline std::string reader(const ReaderEntry& entry) {

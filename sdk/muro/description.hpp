@@ -3,6 +3,7 @@
 // info` prints, what the scenario is checked against and what the reference pages are made from.
 #pragma once
 
+#include "muro/features.hpp"
 #include "muro/parameter.hpp"
 
 namespace muro {
@@ -47,6 +48,9 @@ enum Promise : std::uint32_t {
   allocation_free = 4,  ///< no allocation in a step after warm-up
   restorable = 8,       ///< all state is in properties: snapshot, restore and reset work
   needs_gpu = 16,
+  /// One instance is a world that its robots share and that sees all others. Robots whose parameter `world` is the same
+  /// are in one, whatever their other parameters; it moves before motions that see nobody.
+  world = 32,
 };
 
 /// A property that an algorithm uses, by name, for the reader and for advice in error messages.
@@ -65,7 +69,14 @@ struct Description {
   std::span<const Use> reads{};
   std::span<const Use> writes{};
   std::uint32_t promises = 0;  ///< Promise, or-ed
+  Features features = 0;       ///< of a motion: what of a robot and its commands it makes use of
 };
+
+/// The place of an algorithm in an instant: that of its kind, worlds before all other motions, since they read where
+/// those are.
+constexpr int order_of(const Description& d) {
+  return 2 * order_of(d.kind) + (d.kind == Kind::motion && (d.promises & Promise::world) == 0 ? 1 : 0);
+}
 
 /// One model reader.
 struct ReaderDescription {

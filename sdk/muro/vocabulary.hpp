@@ -13,8 +13,24 @@ inline constexpr Key<Pose> initial_pose{"pose.initial", "m", "of a robot's base 
 inline constexpr Key<Twist> initial_twist{"twist.initial", "m/s, rad/s", "of a robot's base at the start, world axes"};
 inline constexpr Key<Twist> twist{"twist", "m/s, rad/s", "velocity of the body's frame, world axes, at its origin"};
 inline constexpr Key<Wrench> external_wrench{
-    "wrench.external", "N, N m", "sum of what acts on a robot from outside: world axes, at the base's origin"};
+    "wrench.external", "N, N m", "sum of what acts on a body from outside: world axes, at the body's origin"};
+inline constexpr Key<Wrench> contact_wrench{
+    "wrench.contact", "N, N m", "what contacts did to a body in the last step: world axes, at the body's origin"};
 inline constexpr Key<Vec3> gravity{"gravity", "m/s^2", "on the world object, world axes"};
+
+// Who moves a robot, and who finds what its contacts do: properties of its base.
+/// Which of the motions that a robot lists moves it, from 0; see Item::level.
+inline constexpr Key<std::uint32_t> motion_level{"motion.level", "1", "which of its motions moves the robot, from 0"};
+/// A motion that forces move says here who answers for contacts. 0: nobody, no force moves the robot. contact_for_all:
+/// the contact algorithm, for all of them. Any other number names a world: it answers for contacts of its robots with
+/// each other, with scenery and with robots that no force moves; for those with robots that forces move in another way
+/// the contact algorithm does.
+inline constexpr Key<std::uint64_t> contact_world{"contact.world", "1", "who answers for contacts of the robot"};
+inline constexpr std::uint64_t contact_for_all = 1;
+/// How many steps the twist is older than the pose. 0 where pose and twist are those of one instant and a constant
+/// force F carries the centre by v h + F h^2 / 2m; 0.5 for semi-implicit Euler, v' = v + F h / m, x' = x + v' h, whose
+/// velocities are those of the middles of steps (leapfrog). Contact needs it to keep energy and angular momentum.
+inline constexpr Key<double> twist_lag{"twist.lag", "1", "steps by which the twist is older than the pose"};
 
 // What a body is.
 inline constexpr Key<Inertia> inertial{"inertial", "kg, m, kg m^2", "mass, centre of mass, inertia about it"};

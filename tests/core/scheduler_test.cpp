@@ -27,6 +27,7 @@ class Recorder final : public abi::AlgorithmInstance {
   bool restored(abi::ErrorText&) noexcept override { return true; }
   bool finish(abi::ErrorText&) noexcept override { return true; }
   void destroy() noexcept override {}
+  bool take_over(std::uint32_t, abi::ErrorText&) noexcept override { return true; }
   Step last;
   bool fails = false;
 

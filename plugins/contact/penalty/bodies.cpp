@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string>
 
+#include "apparent_mass.hpp"
 #include "muro/composite.hpp"
 #include "muro/random.hpp"
 
@@ -25,33 +26,46 @@ void Bodies::connect(Connector& c) {
 
 void Bodies::connect_robot(Connector& c, const RobotView& view) {
   const bool moved = c.is_used(view.base(), keys::external_wrench, Access::read_sum);
-  for (const Frame& f : view.frames) {
-    Body& b = all[index_of(f.object)];
+  std::vector<std::uint32_t> frames;  // that are units, beside the base
+  for (std::uint32_t i = 0; i < view.frames.size(); ++i) {
+    const ObjectId object = view.frames[i].object;
+    Body& b = all[index_of(object)];
     b.whole = index_of(view.base());
     b.robot = moved ? std::int32_t(robots.size()) : nobody;
-    if (c.constant_array(f.object, keys::collision_shapes).empty()) continue;
-    b.pose = c.read(f.object, keys::pose).get();
-    b.twist = c.read(f.object, keys::twist).get();
+    b.unit = std::uint32_t(units.size());
+    if (c.constant_array(object, keys::collision_shapes).empty()) continue;
+    b.pose = c.read(object, keys::pose).get();
+    b.twist = c.read(object, keys::twist).get();
+    if (!moved || i == 0 || !c.is_used(object, keys::external_wrench, Access::read_sum)) continue;
+    frames.push_back(i);
+    b.unit = std::uint32_t(units.size() + frames.size());
   }
   if (!moved) return;
-  const Inertia composite = composite_inertia(view.frames, inertias_of(c, view), initial_joint_positions(c, view));
+  const std::vector<Inertia> inertias = inertias_of(c, view);
+  const std::vector<double> positions = initial_joint_positions(c, view);
+  const Inertia composite = composite_inertia(view.frames, inertias, positions);
   if (!(composite.mass > 0))
     throw Error("`" + std::string(view.name) + "` has no mass, so no contact can push it; give its bodies `inertial`");
-  const Mat3 inverse = composite.tensor().inverse();
-  MassProperties mass{
-      .inverse_mass = 1 / composite.mass,
-      .inverse_inertia = {inverse(0, 0), inverse(1, 1), inverse(2, 2), inverse(0, 1), inverse(0, 2), inverse(1, 2)}};
-  std::copy_n(composite.com.data(), 3, mass.com);
   Robot r;
   r.contacts = c.read_list(view.base(), keys::contacts);
   r.grips = c.variable_list(view.base(), grips);
-  r.wrench = c.accumulate(view.base(), keys::external_wrench);
-  r.base = c.read(view.base(), keys::pose);
-  r.twist = c.read(view.base(), keys::twist);
-  r.mass = note(mass);
+  r.world = c.input(view.base(), keys::contact_world, std::uint64_t{0});
+  r.lag = c.input(view.base(), keys::twist_lag, 0.0);
   r.rank = view.key;
+  r.first_unit = std::uint32_t(units.size());
+  r.units = std::uint32_t(1 + frames.size());
+  r.alone = frames.empty();
   robot_of[view.number] = std::int32_t(robots.size());
   robots.push_back(r);
+  if (r.alone) return add_unit(c, view.base(), mass_properties_of(composite));
+  frames.insert(frames.begin(), 0);
+  const std::vector<MassProperties> apparent = apparent_masses(view.frames, inertias, positions, frames);
+  for (std::size_t i = 0; i < frames.size(); ++i) add_unit(c, view.frames[frames[i]].object, apparent[i]);
+}
+
+void Bodies::add_unit(Connector& c, ObjectId body, const MassProperties& mass) {
+  units.push_back(
+      {c.accumulate(body, keys::external_wrench), c.read(body, keys::pose), c.read(body, keys::twist), note(mass)});
 }
 
 std::uint32_t Bodies::note(const MassProperties& mass) {

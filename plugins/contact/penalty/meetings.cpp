@@ -59,11 +59,18 @@ void Meetings::pass(int which, std::uint32_t robot) {
 }
 
 void Meetings::place(std::uint32_t self) {
-  const Robot& r = bodies_.robots[self];
-  const Vec3& p = r.base->position;
-  const Quat& q = r.base->orientation;
-  record(self).mobility =
-      law::mobility_of<double>(bodies_.masses[r.mass], {{p.x(), p.y(), p.z()}, {q.x(), q.y(), q.z(), q.w()}});
+  const Robot& robot = bodies_.robots[self];
+  Record& me = record(self);
+  me.first_unit = robot.first_unit;
+  me.mobilities.clear();
+  me.springs.assign(robot.units, {});
+  for (std::uint32_t u = robot.first_unit; u < robot.first_unit + robot.units; ++u) {
+    const Unit& unit = bodies_.units[u];
+    const Vec3& p = unit.pose->position;
+    const Quat& q = unit.pose->orientation;
+    me.mobilities.push_back(
+        law::mobility_of<double>(bodies_.masses[unit.mass], {{p.x(), p.y(), p.z()}, {q.x(), q.y(), q.z(), q.w()}}));
+  }
 }
 
 /// Whether robot `self` works out the contact: both robots of a pair list it.
@@ -81,19 +88,23 @@ void Meetings::gather(std::uint32_t self) {
   me.owners.clear();
   for (const Contact& contact : *bodies_.robots[self].contacts) {
     const Body& other = bodies_[contact.other];
-    if (!owns(self, other.robot)) {
+    const std::int32_t other_robot = bodies_.moved(other);
+    if (!owns(self, other_robot)) {
       me.touch_of.push_back(not_ours);
-      const auto owner = std::uint32_t(other.robot);
+      const auto owner = std::uint32_t(other_robot);
       if (std::find(me.owners.begin(), me.owners.end(), owner) == me.owners.end()) me.owners.push_back(owner);
       continue;
     }
     const V3 normal = plain(contact.normal);
+    const std::uint32_t unit = bodies_[contact.self].unit;
     auto touch = std::find_if(me.touches.begin(), me.touches.end(), [&](const Touch& t) {
-      return t.whole == other.whole && dot(t.patch.normal, normal) > same_direction;
+      return t.unit == unit && t.whole == other.whole && (other_robot == nobody || t.other_unit == other.unit) &&
+             dot(t.patch.normal, normal) > same_direction;
     });
     if (touch == me.touches.end()) {
-      const Patch patch(normal, me.mobility.centre);
-      me.touches.push_back({.patch = patch, .other = other.robot, .whole = other.whole});
+      const Patch patch(normal, me.mobilities[unit - me.first_unit].centre);
+      me.touches.push_back(
+          {.patch = patch, .unit = unit, .other = other_robot, .other_unit = other.unit, .whole = other.whole});
       touch = me.touches.end() - 1;
     }
     touch->patch.add(plain(contact.point));
@@ -104,28 +115,31 @@ void Meetings::gather(std::uint32_t self) {
 }
 
 /// The effective mass of a patch, shared among its points. Places are known.
-law::Share<double> Meetings::share_of(const Record& self, const Touch& t) const {
-  const law::Yield<double> middle = t.patch.at_middle(self.mobility);
+law::Share<double> Meetings::share_of(const Mobility& self, const Touch& t) const {
+  const law::Yield<double> middle = t.patch.at_middle(self);
   if (t.other == nobody) return {middle, t.patch.count};
-  const Mobility& other = record(std::uint32_t(t.other)).mobility;
+  const Mobility& other = mobility(t.other, t.other_unit);
   return {middle + t.patch.seen_from(other.centre).at_middle(other), t.patch.count};
 }
 
-/// Adds up the springs of all patches of a robot, its own and those that others work out.
+/// Adds up the springs of all patches of a robot, its own and those that others work out. Those of several units hold
+/// it no stiffer than the sum of what each does.
 void Meetings::find_load(std::uint32_t self) {
   Record& me = record(self);
-  law::Resistance<double> all;
   for (Touch& t : me.touches) {
-    t.share = share_of(me, t);
-    all += t.patch.resistance(t.share.along, t.share.across);
+    const std::uint32_t unit = t.unit - me.first_unit;
+    t.share = share_of(me.mobilities[unit], t);
+    me.springs[unit] += t.patch.resistance(t.share.along, t.share.across);
   }
   for (const std::uint32_t owner : me.owners)
     for (const Touch& t : record(owner).touches)
       if (t.other == std::int32_t(self)) {
-        const law::Share<double> share = share_of(record(owner), t);
-        all += t.patch.seen_from(me.mobility.centre).resistance(share.along, share.across);
+        const law::Share<double> share = share_of(mobility(std::int32_t(owner), t.unit), t);
+        const std::uint32_t unit = t.other_unit - me.first_unit;
+        me.springs[unit] += t.patch.seen_from(me.mobilities[unit].centre).resistance(share.along, share.across);
       }
-  me.load = all.greatest(me.mobility);
+  me.load = me.springs[0].greatest(me.mobilities[0]);
+  for (std::size_t u = 1; u < me.springs.size(); ++u) me.load += me.springs[u].greatest(me.mobilities[u]);
 }
 
 /// Forces in the contacts that a robot works out.
@@ -135,7 +149,7 @@ void Meetings::push(std::uint32_t self) {
   const auto old = *robot.grips;
   me.old_grips.assign(old.begin(), old.end());
   robot.grips.clear();
-  *robot.wrench = Wrench{};
+  bodies_.leave(self);
   std::size_t ours = 0;
   const std::uint32_t* touch_of = me.touch_of.data();
   for (const Contact& contact : *robot.contacts) {
@@ -146,9 +160,10 @@ void Meetings::push(std::uint32_t self) {
     const std::uint64_t pair = bodies_.pair_of(contact);
     const Grip* const before = previous(me.old_grips, ours++, pair, contact.point);
     Grip grip{pair, contact.point, before ? before->stretch : Vec3::Zero()};
-    const Vec3 force = force_on_self(touch, contact, grip.stretch);
+    const Vec3 force = force_on_self(robot, touch, contact, grip.stretch);
     robot.grips.push_back(grip);
-    robot.wrench->add_force(force, contact.point - robot.base->position);
+    const Unit& unit = bodies_.units[touch.unit];
+    unit.wrench->add_force(force, contact.point - unit.pose->position);
     if (touch.other != nobody) react(self, touch, force, contact.point, before);
   }
 }
@@ -162,12 +177,18 @@ void Meetings::set_laws(const Record& self, Touch& t, double restitution) const 
 }
 
 /// `stretch`: of the friction spring, brought up to date.
-Vec3 Meetings::force_on_self(const Touch& touch, const Contact& contact, Vec3& stretch) const {
+Vec3 Meetings::force_on_self(const Robot& self, const Touch& touch, const Contact& contact, Vec3& stretch) const {
   const Vec3& n = contact.normal;
-  const Vec3 motion = velocity(bodies_[contact.self], contact.point) - velocity(bodies_[contact.other], contact.point);
+  const Vec3 of_self = velocity(bodies_[contact.self], contact.point);
+  const Vec3 of_other = velocity(bodies_[contact.other], contact.point);
+  const Vec3 motion = of_self - of_other;
   const double approach = -motion.dot(n);
   const Vec3 slip = motion + approach * n;
-  const double normal = touch.share.along * touch.normal->force(contact.depth, approach);
+  // Poses that are ahead of their twists are seen as they were.
+  double depth = contact.depth;
+  const double lag = *self.lag, other_lag = touch.other == nobody ? 0 : *bodies_.robots[std::size_t(touch.other)].lag;
+  if (lag != 0 || other_lag != 0) depth += moment_.stiffness.h * n.dot(lag * of_self - other_lag * of_other);
+  const double normal = touch.share.along * touch.normal->force(depth, approach);
   stretch += slip * moment_.elapsed;
   stretch -= n * n.dot(stretch);
   V3 spring = plain(stretch);
@@ -176,31 +197,34 @@ Vec3 Meetings::force_on_self(const Touch& touch, const Contact& contact, Vec3& s
   return normal * n + touch.share.across * vector_of(across);
 }
 
-Vec3 Meetings::centre_velocity(std::uint32_t robot) const {
-  const Robot& r = bodies_.robots[robot];
-  return r.twist->at(vector_of(record(robot).mobility.centre) - r.base->position);
+Vec3 Meetings::centre_velocity(std::int32_t robot, std::uint32_t unit) const {
+  const Unit& u = bodies_.units[unit];
+  return u.twist->at(vector_of(mobility(robot, unit).centre) - u.pose->position);
 }
 
-/// The force of a contact on the other robot. The levers are those of the middle of the step, to which both centres
-/// and the point move on: so the pair keeps its angular momentum.
+/// The force of a contact on the other robot. Levers are those that both have when the force acts, in the middle of the
+/// step where poses and twists are of one instant and at its begin where twists lag by half a step: so the pair keeps
+/// its angular momentum.
 void Meetings::react(std::uint32_t self, Touch& touch, const Vec3& force, const Vec3& point, const Grip* before) const {
-  const Robot& other = bodies_.robots[std::size_t(touch.other)];
-  touch.reaction.add_force(-force, point - other.base->position);
-  const Vec3 v = centre_velocity(self), u = centre_velocity(std::uint32_t(touch.other));
+  const Unit& own = bodies_.units[touch.unit];
+  const Unit& other = bodies_.units[touch.other_unit];
+  touch.reaction.add_force(-force, point - other.pose->position);
+  const Vec3 v = centre_velocity(std::int32_t(self), touch.unit), u = centre_velocity(touch.other, touch.other_unit);
   Vec3 wander = 0.5 * (v + u);  // velocity of the point, which belongs to no body
   if (before && moment_.elapsed > 0) {
     const Vec3 seen = (point - before->point) / moment_.elapsed;
     if ((seen - wander).norm() <= (v - u).norm()) wander = seen;  // else it is another point
   }
   const double half = 0.5 * moment_.stiffness.h;
-  bodies_.robots[self].wrench->torque += (half * (wander - v)).cross(force);
-  touch.reaction.torque -= (half * (wander - u)).cross(force);
+  const double lag = *bodies_.robots[self].lag, other_lag = *bodies_.robots[std::size_t(touch.other)].lag;
+  own.wrench->torque += (half * (wander - (1 - 2 * lag) * v)).cross(force);
+  touch.reaction.torque -= (half * (wander - (1 - 2 * other_lag) * u)).cross(force);
 }
 
 void Meetings::add_reactions(std::uint32_t self) {
   for (const std::uint32_t owner : record(self).owners)
     for (const Touch& t : record(owner).touches)
-      if (t.other == std::int32_t(self)) *bodies_.robots[self].wrench += t.reaction;
+      if (t.other == std::int32_t(self)) *bodies_.units[t.other_unit].wrench += t.reaction;
 }
 
 }  // namespace muro::penalty

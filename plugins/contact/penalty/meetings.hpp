@@ -34,23 +34,27 @@ class Meetings {
 
   static constexpr std::uint32_t not_ours = 0xffffffffu;
 
-  /// A patch between a robot and something else.
+  /// A patch between a unit of a robot and something else.
   struct Touch {
-    Patch patch;          ///< from the centre of the robot
-    std::int32_t other;   ///< in Bodies::robots, or nobody
-    std::uint32_t whole;  ///< of the other
+    Patch patch;                   ///< from the centre of the unit
+    std::uint32_t unit;            ///< of the robot, in Bodies::units
+    std::int32_t other;            ///< in Bodies::robots, or nobody
+    std::uint32_t other_unit = 0;  ///< in Bodies::units, of somebody
+    std::uint32_t whole;           ///< of the other
     law::Share<double> share{};
     double restitution = -1;  ///< that `normal` is for
     std::optional<law::NormalLaw<double>> normal{};
     std::optional<law::FrictionLaw<double>> friction{};
-    Wrench reaction{};  ///< on the other
+    Wrench reaction{};  ///< on the other's unit
   };
   /// A robot in the present step.
   struct Record {
-    Mobility mobility;
-    std::vector<Touch> touches;           ///< of the contacts that it works out
-    std::vector<std::uint32_t> touch_of;  ///< of each contact: in `touches`, or not_ours
-    std::vector<std::uint32_t> owners;    ///< robots that work out its other contacts, by rank
+    std::uint32_t first_unit = 0;
+    std::vector<Mobility> mobilities;              ///< of its units
+    std::vector<law::Resistance<double>> springs;  ///< that hold them
+    std::vector<Touch> touches;                    ///< of the contacts that it works out
+    std::vector<std::uint32_t> touch_of;           ///< of each contact: in `touches`, or not_ours
+    std::vector<std::uint32_t> owners;             ///< robots that work out its other contacts, by rank
     std::vector<Grip> old_grips;
     double load = 0;  ///< its stiffest motion, in units of omega^2
   };
@@ -63,11 +67,15 @@ class Meetings {
   void add_reactions(std::uint32_t self);
 
   bool owns(std::uint32_t self, std::int32_t other) const;
-  law::Share<double> share_of(const Record& self, const Touch& t) const;
+  const Mobility& mobility(std::int32_t robot, std::uint32_t unit) const {
+    const Record& r = record(std::uint32_t(robot));
+    return r.mobilities[unit - r.first_unit];
+  }
+  law::Share<double> share_of(const Mobility& self, const Touch& t) const;
   void set_laws(const Record& self, Touch& t, double restitution) const;
-  Vec3 force_on_self(const Touch& touch, const Contact& contact, Vec3& stretch) const;
+  Vec3 force_on_self(const Robot& self, const Touch& touch, const Contact& contact, Vec3& stretch) const;
   void react(std::uint32_t self, Touch& touch, const Vec3& force, const Vec3& point, const Grip* before) const;
-  Vec3 centre_velocity(std::uint32_t robot) const;
+  Vec3 centre_velocity(std::int32_t robot, std::uint32_t unit) const;
   Record& record(std::uint32_t robot) { return records_[record_of_[robot]]; }
   const Record& record(std::uint32_t robot) const { return records_[record_of_[robot]]; }
 

@@ -42,10 +42,12 @@ void Standings::start() {
   for (std::size_t i = 0; i < standings_.size(); ++i) {
     const Robot& r = bodies_.robots[i];
     Standing& s = standings_[i];
-    s.list = r.contacts, s.grips = r.grips, s.mass = r.mass;
-    s.view.base_pose = r.base->position.data();
-    s.view.base_twist = r.twist->linear.data();
-    s.view.wrench = r.wrench->force.data();
+    const Unit& base = bodies_.base_of(r);
+    s.list = r.contacts, s.grips = r.grips, s.mass = base.mass;
+    s.one_body = r.alone && *r.lag == 0;
+    s.view.base_pose = base.pose->position.data();
+    s.view.base_twist = base.twist->linear.data();
+    s.view.wrench = base.wrench->force.data();
   }
   for (const Body& b : bodies_.all) {
     if (b.robot == nobody || !b.pose) continue;
@@ -98,7 +100,11 @@ void Standings::push_one(const Moment& moment, std::uint32_t robot, Queues& queu
   if (contacts.empty()) {
     s.grips.clear();
     s.springs_fit = false;
-    *bodies_.robots[robot].wrench = Wrench{};
+    bodies_.leave(robot);
+    return;
+  }
+  if (!s.one_body) {
+    left_[robot] = 1;
     return;
   }
   if (s.list.revision() != s.revision || contacts.size() != s.contacts) {

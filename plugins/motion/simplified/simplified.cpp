@@ -1,33 +1,48 @@
 // SPDX-License-Identifier: MIT
 // The simplified dynamics (MuRoSimF, Section 3.2): one body whose centre of mass and inertia follow the joints.
 #include <Eigen/Eigenvalues>
+#include <array>
 #include <bit>
+#include <optional>
 #include <string>
 
 #include "articulation.hpp"
+#include "forced_joints.hpp"
+#include "joint_places.hpp"
 #include "move.hpp"
 #include "muro/composite.hpp"
-#include "muro/lane/numbers.hpp"
 #include "muro/plugin.hpp"
 
 namespace {
 
 using namespace muro;
 using namespace muro::simplified;
-using lane::numbers, lane::numbers_between;
+using lane::numbers;
 
-constexpr std::string_view modes[] = {"velocity", "position", "acceleration"};
+constexpr std::string_view modes[] = {"velocity", "position", "acceleration", "effort", "passive"};
+constexpr std::string_view bases[] = {"free", "fixed"};
 constexpr Parameter parameters[] = {
-    text("joints", "velocity", "which target the joints follow").one_of(modes),
-    real("max_joint_acceleration", "rad/s^2 or m/s^2", 100, "of every joint").between(1e-6, 1e9),
+    text("joints", "velocity", "which target the joints follow that the lists below do not name").one_of(modes),
+    velocity_joints,
+    position_joints,
+    effort_joints,
+    passive_joints,
+    real("max_joint_acceleration", "rad/s^2 or m/s^2", 100,
+         "of every joint that follows a velocity, position or "
+         "acceleration")
+        .between(1e-6, 1e9),
+    boolean("effort_limits", false, "drives that follow targets are no stronger than the model says, and give way"),
+    real("armature", "kg m^2 or kg", 0, "inertia of each drive, felt by joints that forces move").between(0, 1e6),
+    text("base", "free", "free to move, or fixed to the world where it starts").one_of(bases),
 };
 constexpr Use reads[] = {
-    {"wrench.external", "sum of all contributions"},
+    {"wrench.external", "of the base; of each body with a shape, too, where forces move joints: sums"},
     {"gravity", "on the world object; 0 0 -9.81 when absent"},
     {"inertial", "of every body"},
-    {"joint.velocity.target", "joints: velocity"},
-    {"joint.position.target", "joints: position"},
-    {"joint.acceleration.target", "joints: acceleration"},
+    {"joint.velocity.target", "of joints in mode velocity"},
+    {"joint.position.target", "of joints in mode position"},
+    {"joint.acceleration.target", "of joints in mode acceleration"},
+    {"joint.effort.target", "of joints in mode effort"},
     {"pose.initial", "of the base"},
     {"twist.initial", "of the base"},
     {"joint.position.initial", "of every joint"},
@@ -35,38 +50,59 @@ constexpr Use reads[] = {
 constexpr Use writes[] = {{"pose", "of the base"},
                           {"twist", "of the base"},
                           {"joint.position", "of every joint"},
-                          {"joint.velocity", "of every joint"}};
+                          {"joint.velocity", "of every joint"},
+                          {"joint.effort", "of joints that forces move: what the drive applies"},
+                          {"contact.world", "that the contact algorithm answers for all contacts"}};
 constexpr Description description{
     .id = "motion.simplified",
     .kind = Kind::motion,
     .version = "1.0.0",
     .summary =
         "One rigid body under external wrenches whose centre of mass and inertia follow the joints; "
-        "joints follow their targets",
+        "joints follow their targets, or forces",
     .parameters = parameters,
     .reads = reads,
     .writes = writes,
     .promises = deterministic | batched | allocation_free | restorable,
+    .features = feature_forces | feature_joints | feature_velocity_targets | feature_position_targets |
+                feature_acceleration_targets | feature_effort_targets | feature_joint_limits |
+                feature_joint_speed_limits | feature_joint_effort_limits | feature_joint_damping |
+                feature_joint_friction | feature_mimic_joints | feature_gyroscopic | feature_contact |
+                feature_friction | feature_restitution | feature_fixed_base,
 };
 
 class Simplified final : public Algorithm {
  public:
   void connect(Connector& c) override {
-    const std::string_view mode = c.parameters().text("joints");
-    mode_ = mode == "velocity" ? Mode::velocity : mode == "position" ? Mode::position : Mode::acceleration;
+    const Parameters& p = c.parameters();
+    fixed_ = p.text("base") == "fixed";
+    acceleration_ = p.real("max_joint_acceleration");
     gravity_ = c.constant(world_object, keys::gravity).value_or(Vec3(0, 0, -9.81));
     for (const Item& item : c.items()) connect_robot(c, *item.robot);
   }
 
   void start() override {
     further_.clear();
+    totals_.assign(robots_.size(), Wrench{});
     for (std::size_t i = 0; i < robots_.size(); ++i) {
-      const SumIn<Wrench>& external = robots_[i].external;
-      kinds_[i].wrenches = std::uint32_t(external.size());
-      states_[i].wrench = external.size() > 0 ? numbers(external.part(0)) : nullptr;
-      robots_[i].first_further = std::uint32_t(further_.size());
-      for (std::uint64_t k = 1; k < external.size(); ++k) further_.push_back(numbers(external.part(k)));
+      Robot& r = robots_[i];
+      RobotState& state = layers_[0][i];
+      r.first_further = std::uint32_t(further_.size());
+      kinds_[i].wrenches = 0;
+      if (r.forced >= 0) {
+        kinds_[i].wrenches = 1;
+        state.wrench = numbers(&totals_[i]);
+      } else if (r.external) {
+        kinds_[i].wrenches = std::uint32_t(r.external->size());
+        state.wrench = r.external->size() > 0 ? numbers(r.external->part(0)) : nullptr;
+        for (std::uint64_t k = 1; k < r.external->size(); ++k) further_.push_back(numbers(r.external->part(k)));
+      }
     }
+  }
+
+  void take_over(std::uint32_t item) override {
+    *robots_[item].contact_world = contacts_of(robots_[item]);
+    if (fixed_) std::fill_n(layers_[0][item].twist, 6, 0.0);
   }
 
   std::span<const Phase> phases() const override {
@@ -79,15 +115,17 @@ class Simplified final : public Algorithm {
     for (std::uint32_t i = range.begin, end = i; i < range.end; i = end) {
       while (end < range.end && end < i + lane_width && kinds_[end] == kinds_[i]) ++end;
       const Model& model = models_[kinds_[i].model];
-      const Work work{.mode = mode_,
-                      .joints = model.joints.data(),
-                      .joint_count = int(model.joints.size()),
-                      .mass = &model.mass,
-                      .wrenches = int(kinds_[i].wrenches),
-                      .further = further_.data() + robots_[i].first_further,
-                      .gravity = {gravity_.x(), gravity_.y(), gravity_.z()},
-                      .dt = step.dt};
-      model.rigid ? move_rigid(work, i, end) : move_articulated(work, i, end);
+      Work work{.mass = &model.mass,
+                .wrenches = int(kinds_[i].wrenches),
+                .further = further_.data() + robots_[i].first_further,
+                .gravity = {gravity_.x(), gravity_.y(), gravity_.z()},
+                .dt = step.dt};
+      if (model.plain) {
+        take_joints(work, model, 0);
+        move_rigid(work, i, end);
+      } else {
+        move_in_parts(work, model, i, end);
+      }
     }
   }
 
@@ -97,8 +135,16 @@ class Simplified final : public Algorithm {
   /// Robots with the same masses and joints, whose joints lie in memory in the same way.
   struct Model {
     RigidMass mass;
-    std::vector<Joint> joints;
-    bool rigid = true;
+    /// Joints that kernels move; those of one mode.
+    struct Group {
+      Mode mode = Mode::velocity;
+      std::vector<Joint> joints;
+      bool operator==(const Group&) const = default;
+    };
+    std::vector<Group> groups;
+    bool rigid = true;    ///< no joint moves mass
+    bool forced = false;  ///< forces move joints
+    bool plain = true;    ///< one call of a kernel moves it
     bool operator==(const Model&) const = default;
   };
   /// What robots that are moved together have in common.
@@ -108,9 +154,11 @@ class Simplified final : public Algorithm {
     bool operator==(const Kind&) const = default;
   };
   struct Robot {
-    SumIn<Wrench> external;
+    std::optional<SumIn<Wrench>> external;  ///< none: no wrench moves it
+    Out<std::uint64_t> contact_world;
     std::uint32_t first_further = 0;  ///< in further_
     std::int32_t articulation = -1;   ///< in articulations_; -1: no joint moves mass
+    std::int32_t forced = -1;         ///< in forced_; -1: no force moves a joint
     std::string name;
   };
 
@@ -123,12 +171,11 @@ class Simplified final : public Algorithm {
 
     Robot r;
     r.name = robot.name;
-    r.external = c.read_sum(robot.base(), keys::external_wrench);
     const Pose pose = c.constant(robot.base(), keys::initial_pose).value_or(Pose{});
     const Twist twist = c.constant(robot.base(), keys::initial_twist).value_or(Twist{});
     RobotState state;
     state.pose = numbers(c.variable(robot.base(), keys::pose, pose).get());
-    state.twist = numbers(c.variable(robot.base(), keys::twist, twist).get());
+    state.twist = numbers(c.variable(robot.base(), keys::twist, fixed_ ? Twist{} : twist).get());
     Model model;
     model.rigid = moving.rigid();
     model.mass.inverse_mass = 1 / whole.mass;
@@ -136,8 +183,17 @@ class Simplified final : public Algorithm {
     const Mat3 inertia = whole.tensor(), inverse = inertia.inverse();
     std::copy_n(inertia.data(), 9, model.mass.inertia);
     std::copy_n(inverse.data(), 9, model.mass.inverse);
-    const std::vector<Place> places = connect_joints(c, robot, start);
-    model.joints = joints_of(c, robot, places, state);
+    const std::vector<Place> places = connect_places(c, robot, start, c.parameters().boolean("effort_limits"));
+    model.forced = std::any_of(places.begin(), places.end(), [](const Place& p) { return p.forced; });
+    if (model.forced) {
+      r.forced = std::int32_t(forced_.size());
+      forced_.emplace_back(c, robot, places, inertias, start,
+                           ForcedJoints::Settings{fixed_, acceleration_, c.parameters().real("armature")});
+    }
+    if (model.forced || !fixed_) r.external = c.read_sum(robot.base(), keys::external_wrench);
+    r.contact_world = c.variable(robot.base(), keys::contact_world, contacts_of(r));
+    connect_groups(robot, places, model, state);
+    model.plain = model.rigid && !model.forced && !fixed_ && model.groups.size() <= 1;
     if (!moving.rigid()) {
       r.articulation = std::int32_t(articulations_.size());
       std::vector<const double*> positions, velocities;
@@ -148,8 +204,27 @@ class Simplified final : public Algorithm {
       articulations_.emplace_back(std::move(moving), std::move(positions), std::move(velocities));
     }
     kinds_.push_back({model_number(std::move(model)), 0});
-    states_.push_back(state);
     robots_.push_back(std::move(r));
+  }
+
+  /// Who answers for contacts: nobody where no wrench moves the robot.
+  static std::uint64_t contacts_of(const Robot& r) { return r.external ? keys::contact_for_all : 0; }
+
+  /// The groups of the model, and a layer of states for each; `state`: of the base.
+  void connect_groups(const RobotView& robot, const std::vector<Place>& places, Model& model, const RobotState& state) {
+    std::vector<RobotState> states;
+    for (const Mode mode : {Mode::velocity, Mode::position, Mode::acceleration}) {
+      RobotState of_group = states.empty() ? state : RobotState{};
+      std::vector<Joint> joints = kernel_joints(robot, places, mode, acceleration_, of_group);
+      if (joints.empty()) continue;
+      model.groups.push_back({mode, std::move(joints)});
+      states.push_back(of_group);
+    }
+    if (states.empty()) states.push_back(state);
+    for (std::size_t k = 0; k < layers_.size(); ++k) {
+      layers_[k].resize(robots_.size() + 1);
+      if (k < states.size()) layers_[k].back() = states[k];
+    }
   }
 
   static void check_mass(const RobotView& robot, const Inertia& whole) {
@@ -164,70 +239,6 @@ class Simplified final : public Algorithm {
                   " kg m^2; all must be positive: give its bodies an inertia (`inertial`) that fits their mass");
   }
 
-  /// Where the state of a joint lies; null where there is none.
-  struct Place {
-    double* position = nullptr;
-    double* velocity = nullptr;
-    const double* target = nullptr;
-  };
-
-  /// One a frame.
-  std::vector<Place> connect_joints(Connector& c, const RobotView& robot, const std::vector<double>& start) const {
-    std::vector<Place> places(robot.frames.size());
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      const Frame& f = robot.frames[i];
-      if (f.joint == JointKind::fixed) continue;
-      if (start[i] < f.limits.lower || start[i] > f.limits.upper)
-        throw Error("joint `" + std::string(c.object_name(f.joint_object)) + "` starts at " + std::to_string(start[i]) +
-                    ", outside of its limits " + std::to_string(f.limits.lower) + " to " +
-                    std::to_string(f.limits.upper) + "; set `joint.position.initial` to a value between them");
-      places[i].position = c.variable(f.joint_object, keys::joint_position, start[i]).get();
-      places[i].velocity = c.variable(f.joint_object, keys::joint_velocity, 0.0).get();
-      if (f.mimic >= 0) continue;
-      places[i].target = (mode_ == Mode::velocity   ? c.input(f.joint_object, keys::joint_velocity_target, 0.0)
-                          : mode_ == Mode::position ? c.input(f.joint_object, keys::joint_position_target, start[i])
-                                                    : c.input(f.joint_object, keys::joint_acceleration_target, 0.0))
-                             .get();
-    }
-    return places;
-  }
-
-  /// The joints as kernels see them; sets the places of the first one in `state`.
-  static std::vector<Joint> joints_of(const Connector& c, const RobotView& robot, const std::vector<Place>& places,
-                                      RobotState& state) {
-    std::vector<Joint> joints;
-    std::vector<int> number(places.size(), -1);
-    for (std::size_t i = 0, count = 0; i < places.size(); ++i)
-      if (places[i].position) number[i] = int(count++);
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      const Frame& f = robot.frames[i];
-      const Place& p = places[i];
-      if (!p.position) continue;
-      if (!state.positions) state.positions = p.position, state.velocities = p.velocity;
-      if (!state.targets) state.targets = p.target;
-      Joint j;
-      j.range = {f.limits.lower, f.limits.upper, f.limits.velocity, c.parameters().real("max_joint_acceleration")};
-      j.position = numbers_between(state.positions, p.position);
-      j.velocity = numbers_between(state.velocities, p.velocity);
-      if (p.target) j.target = numbers_between(state.targets, p.target);
-      if (f.mimic >= 0) {
-        j.leader = number[std::size_t(f.mimic)];
-        j.multiplier = f.mimic_multiplier;
-        j.offset = f.mimic_offset;
-      }
-      joints.push_back(j);
-    }
-    for (std::size_t k = 0; k + 4 <= joints.size(); ++k) {
-      joints[k].four = true;
-      for (std::ptrdiff_t n = 0; n < 4; ++n) {
-        const Joint &first = joints[k], &j = joints[k + std::size_t(n)];
-        joints[k].four = first.four && j.leader < 0 && j.position == first.position + n &&
-                         j.velocity == first.velocity + n && j.target == first.target + n;
-      }
-    }
-    return joints;
-  }
-
   std::uint32_t model_number(Model model) {
     const auto known = std::find(models_.rbegin(), models_.rend(), model);  // mostly the last one
     if (known != models_.rend()) return std::uint32_t(models_.rend() - known) - 1;
@@ -235,23 +246,52 @@ class Simplified final : public Algorithm {
     return std::uint32_t(models_.size() - 1);
   }
 
+  static void take_joints(Work& work, const Model& model, std::size_t group) {
+    if (group >= model.groups.size()) return;
+    const Model::Group& g = model.groups[group];
+    work.mode = g.mode;
+    work.joints = g.joints.data();
+    work.joint_count = int(g.joints.size());
+  }
+
   void move_rigid(const Work& work, std::uint32_t begin, std::uint32_t end) const {
-    const unsigned broken = kernels_->move_rigid(work, &states_[begin], int(end - begin));
+    const unsigned broken = kernels_->move_rigid(work, &layers_[0][begin], int(end - begin));
     if (broken != 0) fail(robots_[begin + std::uint32_t(std::countr_zero(broken))]);
   }
 
-  void move_articulated(const Work& work, std::uint32_t begin, std::uint32_t end) {
+  /// Joints, then bases.
+  void move_in_parts(Work& work, const Model& model, std::uint32_t begin, std::uint32_t end) {
     const auto articulation = [&](std::uint32_t i) -> Articulation& {
       return articulations_[std::size_t(robots_[i].articulation)];
     };
-    for (std::uint32_t i = begin; i < end; ++i) articulation(i).begin_step();
-    kernels_->move_joints(work, &states_[begin], int(end - begin));
-    for (std::uint32_t i = begin; i < end; ++i)
-      if (!articulation(i).move_base(work, states_[i], robots_[i].external.value())) fail(robots_[i]);
+    if (!fixed_ && !model.rigid)
+      for (std::uint32_t i = begin; i < end; ++i) articulation(i).begin_step();
+    if (model.forced)
+      for (std::uint32_t i = begin; i < end; ++i) move_forced(i, work.dt);
+    for (std::size_t g = 0; g < model.groups.size(); ++g) {
+      take_joints(work, model, g);
+      kernels_->move_joints(work, &layers_[g][begin], int(end - begin));
+    }
+    work.joint_count = 0;
+    if (fixed_) return;
+    if (model.rigid) return move_rigid(work, begin, end);
+    for (std::uint32_t i = begin; i < end; ++i) {
+      const Wrench external = model.forced ? totals_[i] : robots_[i].external->value();
+      if (!articulation(i).move_base(work, layers_[0][i], external)) fail(robots_[i]);
+    }
+  }
+
+  void move_forced(std::uint32_t i, double dt) {
+    ForcedJoints& joints = forced_[std::size_t(robots_[i].forced)];
+    const RobotState& s = layers_[0][i];
+    const Pose pose{Vec3(s.pose[0], s.pose[1], s.pose[2]), Quat(s.pose + 3)};
+    const Twist twist{Vec3(s.twist[0], s.twist[1], s.twist[2]), Vec3(s.twist[3], s.twist[4], s.twist[5])};
+    totals_[i] = joints.look(pose, twist, gravity_, dt);
+    if (!joints.move(dt)) fail(robots_[i]);
   }
 
   [[noreturn]] static void fail(const Robot& r) {
-    const Wrench external = r.external.value();
+    const Wrench external = r.external ? r.external->value() : Wrench{};
     const bool bad_input = !std::isfinite(external.force.sum() + external.torque.sum());
     throw Error("the motion of `" + r.name + "` is no longer finite" +
                 (bad_input
@@ -260,15 +300,18 @@ class Simplified final : public Algorithm {
                        "(contact.penalty: frequency)"));
   }
 
-  Mode mode_ = Mode::velocity;
+  bool fixed_ = false;
+  double acceleration_ = 0;
   Vec3 gravity_ = Vec3::Zero();
   const Kernels* kernels_ = &kernels_for(lane::best_isa());
   std::vector<Model> models_;
-  std::vector<Kind> kinds_;             ///< one a robot
-  std::vector<RobotState> states_;      ///< one a robot
-  std::vector<Robot> robots_;           ///< the rest of them
-  std::vector<const double*> further_;  ///< contributions to wrenches, but the first of each robot
+  std::vector<Kind> kinds_;                        ///< one a robot
+  std::array<std::vector<RobotState>, 3> layers_;  ///< by group of joints; one a robot. The first has the base, too
+  std::vector<Robot> robots_;                      ///< the rest of them
+  std::vector<const double*> further_;             ///< contributions to wrenches, but the first of each robot
+  std::vector<Wrench> totals_;                     ///< of robots with forced joints: what acts on them in this step
   std::vector<Articulation> articulations_;
+  std::vector<ForcedJoints> forced_;
 };
 
 constexpr abi::AlgorithmEntry algorithms[] = {algorithm<Simplified>(description)};

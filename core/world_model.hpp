@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <deque>
+#include <optional>
+
+#include "core/robot_tree.hpp"
+#include "muro/model_reader.hpp"
+
+namespace muro {
+
+/// A world as a file describes it (Simulation::read_world), before anything of it is in a simulation.
+class WorldModel final : public WorldBuilder {
+ public:
+  struct Scenery {
+    std::string name;
+    Pose pose;
+    std::vector<Shape> collisions, visuals;
+  };
+  /// A model that can move.
+  struct Model {
+    std::string name;
+    Pose pose;  ///< of its base
+    RobotTree tree;
+  };
+
+  void gravity(const Vec3& acceleration) noexcept override;
+  void scenery(std::string_view name, const Pose& pose, std::span<const Shape> collisions,
+               std::span<const Shape> visuals) noexcept override;
+  RobotBuilder& model(std::string_view name, const Pose& pose) noexcept override;
+  TextId intern(std::string_view text) noexcept override;
+  void report(Severity severity, std::string_view text, int line, int column) noexcept override;
+
+  /// Closes the trees, and checks what spans several of them. Call once after building.
+  void close();
+
+  /// What the file says, if it does.
+  const std::optional<Vec3>& gravity() const { return gravity_; }
+  const std::deque<Scenery>& scenery() const { return scenery_; }
+  const std::deque<Model>& models() const { return models_; }
+  /// What the shapes of scenery name; a tree has texts of its own.
+  const std::vector<std::string>& texts() const { return texts_; }
+  /// Of the whole file. Those of one model are in its tree: a tree with errors makes no robot, but may stand still.
+  const std::vector<RobotTree::Problem>& problems() const { return problems_; }
+
+ private:
+  std::optional<Vec3> gravity_;
+  std::deque<Scenery> scenery_;
+  std::deque<Model> models_;
+  std::vector<std::string> texts_{""};
+  std::vector<RobotTree::Problem> problems_;
+};
+
+}  // namespace muro

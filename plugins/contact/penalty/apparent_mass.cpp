@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include "apparent_mass.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
+namespace muro::penalty {
+
+namespace {
+
+using Jacobian = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+
+MassProperties properties(double inverse_mass, const Vec3& com, const Mat3& inverse) {
+  MassProperties mass{
+      .inverse_mass = inverse_mass,
+      .inverse_inertia = {inverse(0, 0), inverse(1, 1), inverse(2, 2), inverse(0, 1), inverse(0, 2), inverse(1, 2)}};
+  std::copy_n(com.data(), 3, mass.com);
+  return mass;
+}
+
+/// The bodies of a robot at rest, in the frame of its base.
+class Tree {
+ public:
+  Tree(std::span<const Frame> frames, std::span<const double> positions) : frames_(frames), in_base_(frames.size()) {
+    for (std::size_t i = 1; i < frames.size(); ++i)
+      in_base_[i] = in_base_[std::size_t(frames[i].parent)] * placed(frames[i], positions[i]);
+  }
+  const Pose& operator[](std::size_t i) const { return in_base_[i]; }
+  Eigen::Index columns() const { return Eigen::Index(6 + frames_.size()); }
+
+  /// Velocity (linear, angular) of the point `at` of body `i` by velocities of the base and of all joints.
+  Jacobian jacobian(std::size_t i, const Vec3& at) const {
+    Jacobian j = Jacobian::Zero(6, columns());
+    const auto turn = [&](Eigen::Index column, const Vec3& axis, const Vec3& centre) {
+      j.col(column).head<3>() = axis.cross(at - centre);
+      j.col(column).tail<3>() = axis;
+    };
+    for (int k = 0; k < 3; ++k) {
+      j(k, k) = 1;
+      turn(3 + k, Vec3::Unit(k), Vec3::Zero());
+    }
+    for (std::size_t f = i; f > 0; f = std::size_t(frames_[f].parent)) {
+      const Vec3 axis = in_base_[f].orientation * frames_[f].axis;
+      const Eigen::Index column = 6 + Eigen::Index(f);
+      if (frames_[f].joint == JointKind::revolute) turn(column, axis, in_base_[f].position);
+      if (frames_[f].joint == JointKind::prismatic) j.col(column).head<3>() = axis;
+    }
+    return j;
+  }
+
+ private:
+  std::span<const Frame> frames_;
+  std::vector<Pose> in_base_;
+};
+
+}  // namespace
+
+MassProperties mass_properties_of(const Inertia& body) {
+  return properties(1 / body.mass, body.com, body.tensor().inverse());
+}
+
+std::vector<MassProperties> apparent_masses(std::span<const Frame> frames, std::span<const Inertia> inertias,
+                                            std::span<const double> positions, std::span<const std::uint32_t> bodies) {
+  const Tree tree(frames, positions);
+  Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(tree.columns(), tree.columns());
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (!(inertias[i].mass > 0)) continue;
+    const Jacobian j = tree.jacobian(i, tree[i] * inertias[i].com);
+    const Mat3 r = tree[i].orientation.toRotationMatrix(), tensor = r * inertias[i].tensor() * r.transpose();
+    mass += inertias[i].mass * j.topRows<3>().transpose() * j.topRows<3>() +
+            j.bottomRows<3>().transpose() * tensor * j.bottomRows<3>();
+  }
+  // Joints that move nothing, and columns of fixed ones.
+  const double least = 1e-9 * mass.diagonal().maxCoeff();
+  for (Eigen::Index k = 0; k < mass.rows(); ++k)
+    if (mass(k, k) < least) mass(k, k) = least;
+  const Eigen::LDLT<Eigen::MatrixXd> solver(mass);
+
+  std::vector<MassProperties> apparent;
+  for (const std::uint32_t i : bodies) {
+    const Vec3& com = inertias[i].com;
+    const Jacobian j = tree.jacobian(i, tree[i] * com);
+    const Eigen::Matrix<double, 6, 6> mobility = j * solver.solve(j.transpose());
+    const Mat3 shift = mobility.topLeftCorner<3, 3>(), turn = mobility.bottomRightCorner<3, 3>();
+    const Mat3 r = tree[i].orientation.toRotationMatrix();
+    const Mat3 own = r.transpose() * (0.5 * (turn + turn.transpose())) * r;
+    apparent.push_back(properties(Eigen::SelfAdjointEigenSolver<Mat3>(shift).eigenvalues().maxCoeff(), com, own));
+  }
+  return apparent;
+}
+
+}  // namespace muro::penalty

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// How heavy robots are where something touches them.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "muro/robot.hpp"
+#include "patch.hpp"
+
+namespace muro::penalty {
+
+/// Of a rigid body.
+MassProperties mass_properties_of(const Inertia& body);
+
+/// What a force on each of `bodies` (numbers of frames) would seem to move when all joints are free: the apparent
+/// inertia J M^-1 J^T of the body at its centre of mass (Khatib, A unified approach for motion and force control, IEEE
+/// J. Robotics and Automation 3, 1987), without the coupling of shifts and turns, and with the greatest of the inverse
+/// masses of all directions: joints that are held make a body heavier than that, nothing makes it lighter. `inertias`
+/// and `positions` (rad or m): one a frame.
+std::vector<MassProperties> apparent_masses(std::span<const Frame> frames, std::span<const Inertia> inertias,
+                                            std::span<const double> positions, std::span<const std::uint32_t> bodies);
+
+}  // namespace muro::penalty

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// What a multi-body engine is for a scene: the interface between motion.bullet, motion.ode, motion.mujoco and what
+// they share.
+#pragma once
+
+#include <memory>
+
+#include "live.hpp"
+
+namespace muro::multibody {
+
+/// A body that the world does not move: scenery, or a body of a robot that something else moves.
+struct Fixture {
+  std::string name;
+  std::vector<PartShape> shapes;
+  Pose pose;  ///< of scenery
+};
+
+/// State of a fixture that moves, in.
+struct FixtureState {
+  Presence presence = Presence::obstacle;  ///< or absent
+  Pose pose;
+  Twist twist;
+};
+
+/// One world of an engine. Built anew whenever a run starts or goes on from a snapshot: what it does follows from the
+/// states that it is given alone, from RobotState::memory too.
+class World {
+ public:
+  World() = default;
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+  virtual ~World() = default;
+
+  virtual void add_scenery(const Fixture& fixture) = 0;
+  /// `state` stays where it is and is read in each step.
+  virtual void add_obstacle(const Fixture& fixture, const FixtureState& state) = 0;
+  /// `model` and `state` stay where they are; the state is read and written in each step.
+  virtual void add_robot(const RobotModel& model, RobotState& state) = 0;
+  /// Everything has been added; states hold the start.
+  virtual void complete() = 0;
+  /// Carries all simulated robots on by `dt` (s). Throws Error when the engine fails.
+  virtual void advance(double dt) = 0;
+};
+
+}  // namespace muro::multibody
