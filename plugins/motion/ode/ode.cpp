@@ -24,7 +24,7 @@ constexpr Parameter parameters[] = {
     multibody::substeps,
     text("solver", "quick", "iterative (dWorldQuickStep), or a direct method for small worlds (dWorldStep)")
         .one_of(solvers),
-    integer("iterations", 20, "of the solver `quick`").between(1, 10000),
+    integer("iterations", 50, "of the solver `quick`").between(1, 10000),
     real("erp", "1", 0.2, "part of an error of joints and contacts that a step takes back").between(0, 1),
     real("cfm", "s/kg", 1e-6, "softness of joints and contacts").between(0, 1),
     real("correcting_speed", "m/s", 1, "bodies that overlap are parted no faster").between(0, 1e9),

@@ -30,7 +30,8 @@ void start_engine() {
   if (!started) throw Error("ODE cannot be started");
 }
 
-constexpr int most_contacts = 8;  ///< of two geoms
+constexpr int most_contacts = 8;        ///< of two geoms
+constexpr double sliding_speed = 1e-2;  ///< m/s
 
 }  // namespace
 
@@ -159,7 +160,9 @@ void OdeWorld::meet(void* self, dGeomID a, dGeomID b) {
     static_cast<OdeWorld*>(self)->add_pair(a, b);
 }
 
+/// Spaces that meet do not look whether geoms are enabled.
 void OdeWorld::add_pair(dGeomID a, dGeomID b) {
+  if (!dGeomIsEnabled(a) || !dGeomIsEnabled(b)) return;
   const Owner *first = &owner_of(a), *second = &owner_of(b);
   if (first->robot < 0 || (second->robot >= 0 && second->number < first->number)) {
     std::swap(first, second);
@@ -201,7 +204,8 @@ void OdeWorld::make_contacts() {
       contact.surface.bounce_vel = settings_.bounce_speed;
     }
     const dBodyID a = dGeomGetBody(t.geom.g1), b = dGeomGetBody(t.geom.g2);
-    // ODE bounds friction along two directions. With the first along the slip, the bound is that of a cone.
+    // ODE bounds friction along two directions, each for itself. With the first along the slip, and no friction across it
+    // while bodies slide, it is that of a cone.
     dVector3 of_a{}, of_b{};
     const dReal* p = t.geom.pos;
     if (a) dBodyGetPointVel(a, p[0], p[1], p[2], of_a);
@@ -211,6 +215,7 @@ void OdeWorld::make_contacts() {
     if (const double speed = slip.norm(); speed > 1e-9) {
       contact.surface.mode |= dContactFDir1;
       std::copy_n(Vec3(slip / speed).data(), 3, contact.fdir1);
+      if (speed > sliding_speed) contact.surface.mode |= dContactMu2;  // mu2 is 0
     }
     const dJointID joint = dJointCreateContact(world_, contacts_, &contact);
     dJointAttach(joint, a, b);

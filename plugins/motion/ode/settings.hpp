@@ -9,7 +9,7 @@ namespace muro::ode {
 struct Settings {
   Vec3 gravity = Vec3::Zero();  ///< m/s^2
   bool exact = false;           ///< dWorldStep instead of dWorldQuickStep
-  int iterations = 20;          ///< of dWorldQuickStep
+  int iterations = 50;          ///< of dWorldQuickStep
   double erp = 0.2;             ///< part of a joint's or contact's error that a step takes back
   double cfm = 1e-6;            ///< softness of contacts and joints, 1/(N s/m)
   double correcting_speed = 1;  ///< m/s: bodies that overlap are parted no faster

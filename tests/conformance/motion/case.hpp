@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// Cases with known answers, run against every motion that says it can do what they need. The tests hold each motion to
+// its bounds; the benchmark prints the errors.
+#pragma once
+
+#include "muro/features.hpp"
+#include "tests/support/scene.hpp"
+
+namespace muro::conformance {
+
+/// A motion under test, in a small scene of its own.
+class Trial : public test::Scene {
+ public:
+  /// Steps at `rate` (Hz).
+  explicit Trial(const std::string& motion, double rate = 1000);
+
+  /// All robots so far, moved by the motion, and contact. `parameters` that the motion does not have are left out.
+  void start(std::map<std::string, ParameterInput> parameters = {});
+  void set_gravity(const Vec3& gravity) { world().set(world_object, keys::gravity, gravity); }
+  /// A plane through the origin that rises along x by `angle` (rad).
+  void add_slope(double angle, double friction);
+  /// A force (N) and torque at the base of a robot that the case sets. After the robots, before start().
+  Wrench& push(const RobotView& robot);
+  double& joint(std::string_view name, const Key<double>& key) { return world().value(name, key); }
+
+  static constexpr double g = 9.81;
+
+ private:
+  std::string motion_;
+  double rate_;
+};
+
+/// What a case found.
+struct Outcome {
+  double error = 0;  ///< compared with the bound
+  std::string seen;  ///< the measured value, for people
+};
+
+struct Case {
+  std::string_view name;  ///< a sentence
+  std::string_view unit;  ///< of the error
+  Features needs = 0;     ///< other motions skip it
+  double bound = 0;       ///< of the error
+  Outcome (*run)(const std::string& motion) = nullptr;
+  Features excludes = 0;  ///< motions that have one of these skip it
+};
+
+/// All cases, in the order of their table.
+std::vector<Case> all_cases();
+std::vector<Case> free_body_cases();
+std::vector<Case> slope_cases();
+std::vector<Case> rolling_cases();
+std::vector<Case> impact_cases();
+std::vector<Case> joint_cases();
+std::vector<Case> pendulum_cases();
+std::vector<Case> vehicle_cases();
+std::vector<Case> obstacle_cases();
+
+/// What this motion is allowed in this case: its own bound, where it has one with a reason (see bounds.cpp).
+struct Bound {
+  double error = 0;
+  std::string_view why{};  ///< it is not that of the case
+};
+Bound bound_of(const std::string& motion, const Case& c);
+
+/// Motions that the build offers, by id.
+std::vector<std::string> motions();
+const Description& description_of(const std::string& motion);
+
+// Bodies.
+Inertia solid_box(double mass, const Vec3& size);
+Shape with(Shape shape, double friction, double restitution = 0);
+RobotTree block(double mass, const Vec3& size, double friction, double restitution = 0);
+/// `factor` m r^2 about every axis: 2/5 for a solid sphere.
+RobotTree ball(double mass, double radius, double friction, double restitution = 0, double factor = 0.4);
+std::string text(double x);
+/// |seen - expected| / |expected|, with what was seen.
+Outcome relative(double seen, double expected);
+
+}  // namespace muro::conformance

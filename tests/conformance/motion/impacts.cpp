@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// Bodies that bounce and rest.
+#include "tests/conformance/motion/case.hpp"
+
+namespace muro::conformance {
+
+namespace {
+
+/// The first three impacts of a ball dropped from 1 m with restitution 0.7: the largest error of their times.
+Outcome bounces(const std::string& motion) {
+  Trial t(motion);
+  t.add_ground();
+  const double radius = 0.05;
+  const RobotView& r = t.add("ball", ball(1, radius, 0.5, 0.7), {{0, 0, 1 + radius}, Quat::Identity()});
+  t.start();
+  constexpr double expected[] = {0.451524, 1.083657, 1.526150};
+  double worst = 0;
+  std::string seen;
+  int impacts = 0;
+  for (double before = 0; impacts < 3 && t.now() < 3'000'000'000;) {
+    t.run_for(0.001);
+    const double v = t.twist(r).linear.z();
+    if (before < -0.1 && v >= 0) {
+      const double time = 1e-9 * double(t.now());
+      worst = std::max(worst, std::abs(time - expected[impacts++]));
+      seen += (seen.empty() ? "" : " ") + text(time);
+    }
+    before = v;
+  }
+  if (impacts < 3) return {1, seen + " and no more"};
+  return {worst, seen};
+}
+
+/// Height of the rebound of a ball with restitution `e`, dropped from 1 m, as the speed's ratio.
+double rebound(const std::string& motion, double e) {
+  Trial t(motion);
+  t.add_ground();
+  const RobotView& r = t.add("ball", ball(1, 0.05, 0.5, e), {{0, 0, 1.05}, Quat::Identity()});
+  t.start();
+  t.run_for(0.6);  // on its way up, or at rest
+  const double v = t.twist(r).linear.z(), h = std::max(t.pose(r).position.z() - 0.05, 0.0);
+  return v > 0 ? std::sqrt((h + v * v / (2 * Trial::g)) / 1) : 0;
+}
+Outcome elastic(const std::string& motion) {
+  const double seen = rebound(motion, 0.9);
+  return {std::abs(seen - 0.9), text(seen) + " for 0.9"};
+}
+Outcome plastic(const std::string& motion) {
+  const double seen = rebound(motion, 0);
+  return {seen, text(seen) + " for 0"};
+}
+Outcome gains_nothing(const std::string& motion) {
+  const double seen = rebound(motion, 1);
+  return {std::max(seen - 1, 0.0), text(seen) + " for 1"};
+}
+
+/// Five boxes one on the other: how far the uppermost moves in 10 s.
+Outcome stands(const std::string& motion) {
+  Trial t(motion);
+  t.add_ground();
+  const RobotView* top = nullptr;
+  for (int i = 0; i < 5; ++i)
+    top = &t.add("box_" + std::to_string(i), block(1, {0.2, 0.2, 0.2}, 0.8), {{0, 0, 0.1 + 0.2 * i}, Quat::Identity()});
+  t.start();
+  t.run_for(1);
+  const Vec3 before = t.pose(*top).position;
+  t.run_for(10);
+  const double moved = (t.pose(*top).position - before).norm();
+  return {moved, text(moved) + " m, at " + text(t.pose(*top).position.z()) + " m"};
+}
+
+Outcome carries(const std::string& motion) {
+  Trial t(motion);
+  t.add_ground();
+  const RobotView& r = t.add("box", block(3, {0.2, 0.2, 0.2}, 0.8), {{0, 0, 0.1}, Quat::Identity()});
+  t.start();
+  t.run_for(2);
+  const double sunk = std::abs(t.pose(r).position.z() - 0.1);
+  return {sunk, text(sunk) + " m"};
+}
+
+}  // namespace
+
+std::vector<Case> impact_cases() {
+  return {
+      {"a ball of restitution 0.7 bounces when it should", "s", feature_contact | feature_restitution, 0.01, bounces},
+      {"a ball of restitution 0.9 comes up with 0.9 of its speed", "1", feature_contact | feature_restitution, 0.02,
+       elastic},
+      {"a ball of restitution 1 gains nothing", "1", feature_contact | feature_restitution, 1e-3, gains_nothing},
+      {"a ball of restitution 0 stays down", "1", feature_contact, 0.05, plastic},
+      {"a box lies on the ground, not in it", "m", feature_contact, 1e-3, carries},
+      {"five boxes stand one on the other for 10 s", "m", feature_contact | feature_friction, 1e-3, stands},
+  };
+}
+
+}  // namespace muro::conformance

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: MIT
+// One joint on a base that is fixed to the world, unless said otherwise.
+#include "tests/conformance/motion/case.hpp"
+
+namespace muro::conformance {
+
+namespace {
+
+constexpr double moment = 0.1;  ///< kg m^2, of the link about a joint that turns
+constexpr double mass = 1;      ///< kg, of the link
+
+/// A link with its centre of mass on the joint, which turns about z or shifts along x.
+RobotTree one_joint(JointKind kind, const JointLimits& limits) {
+  return test::tree_of([&](RobotBuilder& b) {
+    b.base("base");
+    b.set(keys::inertial, Inertia{.mass = 5, .ixx = 1, .iyy = 1, .izz = 1});
+    if (kind == JointKind::revolute)
+      b.revolute("joint", Vec3::UnitZ(), limits);
+    else
+      b.prismatic("joint", Vec3::UnitX(), limits);
+    b.body("link");
+    b.set(keys::inertial, Inertia{.mass = mass, .ixx = moment, .iyy = moment, .izz = moment});
+  });
+}
+
+struct Joint : Trial {
+  Joint(const std::string& motion, const std::string& mode, const JointLimits& limits,
+        JointKind kind = JointKind::revolute, const std::string& base = "fixed")
+      : Trial(motion) {
+    set_gravity(Vec3::Zero());
+    add("r", one_joint(kind, limits), {{0, 0, 1}, Quat::Identity()});
+    start({{"base", base}, {"joints", mode}});
+  }
+  double& of(const Key<double>& key) { return joint("r/joint", key); }
+};
+
+Outcome velocity(const std::string& motion) {
+  Joint j(motion, "velocity", {});
+  j.of(keys::joint_velocity_target) = 2;
+  j.run_for(1);
+  return relative(j.of(keys::joint_velocity), 2);
+}
+
+Outcome turns(const std::string& motion) {
+  Joint j(motion, "velocity", {});
+  j.of(keys::joint_velocity_target) = 10;
+  j.run_for(1);
+  const double before = j.of(keys::joint_position);
+  j.run_for(3);
+  return relative(j.of(keys::joint_position) - before, 30);
+}
+
+Outcome slow_drive(const std::string& motion) {
+  Joint j(motion, "velocity", {.effort = 0.05});
+  j.of(keys::joint_velocity_target) = 5;
+  j.run_for(2);
+  return relative(j.of(keys::joint_velocity), 2 * 0.05 / moment);
+}
+
+Outcome speed_limit(const std::string& motion) {
+  Joint j(motion, "velocity", {.velocity = 1.5});
+  j.of(keys::joint_velocity_target) = 4;
+  j.run_for(1);
+  return relative(j.of(keys::joint_velocity), 1.5);
+}
+
+/// A horizontal arm of 1 kg, 0.5 m long.
+Outcome holds(const std::string& motion) {
+  Trial t(motion);
+  t.add("r", test::tree_of([&](RobotBuilder& b) {
+          b.base("base");
+          b.set(keys::inertial, Inertia{.mass = 5, .ixx = 1, .iyy = 1, .izz = 1});
+          b.revolute("joint", Vec3::UnitY(), {});
+          b.body("arm");
+          b.set(keys::inertial, Inertia{.mass = 1, .com = {0.5, 0, 0}, .ixx = 0.01, .iyy = 0.01, .izz = 0.01});
+        }),
+        {{0, 0, 1}, Quat::Identity()});
+  t.start({{"base", "fixed"}, {"joints", "position"}});
+  t.joint("r/joint", keys::joint_position_target) = 0.5;
+  t.run_for(2);
+  const double q = t.joint("r/joint", keys::joint_position);
+  return {std::abs(q - 0.5), text(q) + " for 0.5"};
+}
+
+Outcome effort(const std::string& motion) {
+  Joint j(motion, "effort", {});
+  j.of(keys::joint_effort_target) = 0.2;
+  j.run_for(1);
+  return relative(j.of(keys::joint_velocity), 0.2 / moment);
+}
+
+Outcome slider(const std::string& motion) {
+  Joint j(motion, "effort", {}, JointKind::prismatic);
+  j.of(keys::joint_effort_target) = 2;
+  j.run_for(1);
+  return relative(j.of(keys::joint_velocity), 2 / mass);
+}
+
+Outcome effort_limit(const std::string& motion) {
+  Joint j(motion, "effort", {.effort = 0.05});
+  j.of(keys::joint_effort_target) = 0.2;
+  j.run_for(1);
+  return relative(j.of(keys::joint_velocity), 0.05 / moment);
+}
+
+Outcome damping(const std::string& motion) {
+  Joint j(motion, "passive", {.damping = 0.2});
+  j.of(keys::joint_velocity) = 3;
+  j.run_for(1);
+  return relative(j.of(keys::joint_velocity), 3 * std::exp(-0.2 / moment));
+}
+
+Outcome strong_damping(const std::string& motion) {
+  Joint j(motion, "passive", {.damping = 1e4});
+  j.of(keys::joint_velocity) = 3;
+  j.run_for(0.1);
+  return {std::abs(j.of(keys::joint_velocity)), text(j.of(keys::joint_velocity)) + " rad/s"};
+}
+
+Outcome friction_slows(const std::string& motion) {
+  Joint j(motion, "passive", {.friction = 0.1});
+  j.of(keys::joint_velocity) = 3;
+  j.run_for(1);
+  return relative(j.of(keys::joint_velocity), 3 - 0.1 / moment);
+}
+
+Outcome friction_holds(const std::string& motion) {
+  Joint j(motion, "effort", {.friction = 0.1});
+  j.of(keys::joint_effort_target) = 0.09;
+  j.run_for(1);
+  return {std::abs(j.of(keys::joint_position)), text(j.of(keys::joint_position)) + " rad"};
+}
+
+Outcome stop(const std::string& motion) {
+  Joint j(motion, "effort", {.lower = -1, .upper = 0.5});
+  j.of(keys::joint_effort_target) = 0.2;
+  double farthest = 0;
+  for (int k = 0; k < 200; ++k) {
+    j.run_for(0.01);
+    farthest = std::max(farthest, j.of(keys::joint_position));
+  }
+  return {std::abs(farthest - 0.5), text(farthest) + " for 0.5"};
+}
+
+Outcome far_stop(const std::string& motion) {
+  Joint j(motion, "effort", {.lower = -6, .upper = 6});
+  j.of(keys::joint_effort_target) = 0.2;
+  double farthest = 0;
+  for (int k = 0; k < 400; ++k) {
+    j.run_for(0.01);
+    farthest = std::max(farthest, j.of(keys::joint_position));
+  }
+  return {std::abs(farthest - 6), text(farthest) + " for 6"};
+}
+
+Outcome mimic(const std::string& motion) {
+  Trial t(motion);
+  t.set_gravity(Vec3::Zero());
+  t.add("r", test::tree_of([&](RobotBuilder& b) {
+          const Inertia link{.mass = 1, .ixx = moment, .iyy = moment, .izz = moment};
+          b.base("base");
+          b.set(keys::inertial, Inertia{.mass = 5, .ixx = 1, .iyy = 1, .izz = 1});
+          b.fork();
+          b.revolute("leader", Vec3::UnitZ(), {});
+          b.body("first");
+          b.set(keys::inertial, link);
+          b.end();
+          b.translation({0, 0, 1});
+          b.revolute("follower", Vec3::UnitZ(), {});
+          b.mimic("leader", -0.5, 0);
+          b.body("second");
+          b.set(keys::inertial, link);
+          b.end();
+        }),
+        {{0, 0, 1}, Quat::Identity()});
+  t.start({{"base", "fixed"}});
+  t.joint("r/leader", keys::joint_velocity_target) = 1;
+  t.run_for(2);
+  const double leader = t.joint("r/leader", keys::joint_position), q = t.joint("r/follower", keys::joint_position);
+  return {std::abs(q + 0.5 * leader), text(q) + " for " + text(-0.5 * leader)};
+}
+
+/// The base of a free robot turns against its link: momentum stays 0.
+Outcome reaction(const std::string& motion) {
+  Joint j(motion, "velocity", {}, JointKind::revolute, "free");
+  j.of(keys::joint_velocity_target) = 2;
+  j.run_for(1);
+  const double base = j.world().value("r/base", keys::twist).angular.z();
+  return relative(base, -2 * moment / (1 + moment));
+}
+
+Outcome stays(const std::string& motion) {
+  Trial t(motion);
+  const RobotView& r = t.add("r", one_joint(JointKind::revolute, {}), {{1, 2, 3}, from_rpy(0.1, 0.2, 0.3)});
+  Wrench& w = t.push(r);
+  t.start({{"base", "fixed"}});
+  w = {{10, 20, 30}, {1, 2, 3}};
+  t.joint("r/joint", keys::joint_velocity_target) = 3;
+  const Pose before = t.pose(r);
+  t.run_for(1);
+  const double moved = (t.pose(r).position - before.position).norm() +
+                       t.pose(r).orientation.angularDistance(before.orientation) + t.twist(r).linear.norm();
+  return {moved, text(moved) + " m"};
+}
+
+}  // namespace
+
+std::vector<Case> joint_cases() {
+  constexpr Features fixed = feature_fixed_base | feature_joints;
+  return {
+      {"a driven joint reaches its speed", "relative", fixed | feature_velocity_targets, 1e-6, velocity},
+      {"a joint counts whole turns", "relative", fixed | feature_velocity_targets, 1e-6, turns},
+      {"a drive is no stronger than its effort limit", "relative",
+       fixed | feature_velocity_targets | feature_joint_effort_limits, 1e-3, slow_drive},
+      {"a drive is no faster than its limit of velocity", "relative",
+       fixed | feature_velocity_targets | feature_joint_speed_limits, 1e-6, speed_limit},
+      {"a position drive holds an arm against gravity", "rad", fixed | feature_position_targets, 1e-3, holds},
+      {"an effort turns a link as its inertia says", "relative", fixed | feature_effort_targets, 1e-6, effort},
+      {"an effort shifts a link as its mass says", "relative", fixed | feature_effort_targets, 1e-6, slider},
+      {"an effort is cut at the limit of the model", "relative",
+       fixed | feature_effort_targets | feature_joint_effort_limits, 1e-6, effort_limit},
+      {"damping slows a link exponentially", "relative", fixed | feature_joint_damping, 5e-3, damping},
+      {"damping far beyond the step is stable", "rad/s", fixed | feature_joint_damping, 1e-3, strong_damping},
+      {"Coulomb friction slows a link evenly", "relative", fixed | feature_joint_friction, 1e-3, friction_slows},
+      {"Coulomb friction holds a link below its limit", "rad", fixed | feature_joint_friction | feature_effort_targets,
+       1e-4, friction_holds},
+      {"a joint stops at its limit", "rad", fixed | feature_joint_limits | feature_effort_targets, 5e-3, stop},
+      {"a joint stops at a limit of nearly a turn", "rad", fixed | feature_joint_limits | feature_effort_targets, 1e-2,
+       far_stop},
+      {"a mimic joint follows its leader", "rad", fixed | feature_mimic_joints, 1e-3, mimic},
+      {"a free base turns against its link", "relative",
+       feature_link_dynamics | feature_velocity_targets | feature_forces, 1e-4, reaction},
+      {"a fixed base stays whatever acts on it", "m, rad, m/s", fixed, 1e-12, stays},
+  };
+}
+
+}  // namespace muro::conformance

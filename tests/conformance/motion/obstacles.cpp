@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// Robots that commands move, among robots that forces move.
+#include "tests/conformance/motion/case.hpp"
+
+namespace muro::conformance {
+
+namespace {
+
+constexpr double g = Trial::g;
+
+/// The robots under test, and one that motion.point moves.
+struct Meeting : Trial {
+  std::string motion;
+  std::vector<Item> tested;
+  explicit Meeting(const std::string& id) : Trial(id), motion(id) {}
+
+  /// To be called between the robots under test and the other one.
+  void test_those() { tested = all_robots(); }
+  void begin() {
+    std::vector<Item> others(all_robots());
+    others.erase(others.begin(), others.begin() + std::ptrdiff_t(tested.size()));
+    use(motion, 1000, tested);
+    use("motion.point", 1000, others);
+    use_contacts();
+    build();
+  }
+};
+
+Outcome pushes(const std::string& motion) {
+  Meeting m(motion);
+  m.add_ground(0.3);
+  const RobotView& box = m.add("box", block(2, {0.2, 0.2, 0.2}, 0.3), {{0.3, 0, 0.1}, Quat::Identity()});
+  m.test_those();
+  const RobotView& plate =
+      m.add("plate", block(1, {0.1, 0.6, 0.1}, 0.3), {{0, 0, 0.15}, Quat::Identity()}, {{0.5, 0, 0}, Vec3::Zero()});
+  m.begin();
+  m.world().value(plate.base(), keys::command_twist) = {{0.5, 0, 0}, Vec3::Zero()};
+  m.run_for(2);
+  const double gap = m.pose(box).position.x() - m.pose(plate).position.x() - 0.15;
+  const double plate_off = std::abs(m.pose(plate).position.x() - 1);
+  return {std::max({std::abs(m.twist(box).linear.x() - 0.5), std::abs(gap), plate_off}),
+          text(m.twist(box).linear.x()) + " m/s for 0.5, gap " + text(gap) + " m"};
+}
+
+/// A block on a plate that moves on at 1 m/s takes its speed on with mu g.
+Outcome drags(const std::string& motion, bool to_the_end) {
+  Meeting m(motion);
+  const RobotView& box = m.add("box", block(1, {0.2, 0.2, 0.1}, 0.4), {{0, 0, 0.1}, Quat::Identity()});
+  m.test_those();
+  const RobotView& plate = m.add("plate", block(1, {4, 4, 0.1}, 0.4), {{0, 0, 0}, Quat::Identity()});
+  m.begin();
+  m.run_for(0.5);  // it has come to rest
+  m.world().value(plate.base(), keys::command_twist) = {{1, 0, 0}, Vec3::Zero()};
+  if (to_the_end) {
+    m.run_for(1);
+    return relative(m.twist(box).linear.x(), 1);
+  }
+  m.run_for(0.05);
+  const double before = m.twist(box).linear.x();
+  m.run_for(0.1);
+  return relative(m.twist(box).linear.x() - before, 0.4 * g * 0.1);
+}
+Outcome drags_along(const std::string& motion) { return drags(motion, true); }
+Outcome drags_with_friction(const std::string& motion) { return drags(motion, false); }
+
+Outcome is_blocked(const std::string& motion) {
+  Meeting m(motion);
+  m.add_ground(0.5);
+  const RobotView& r = m.add("ball", ball(1, 0.1, 0.5), {{0, 0, 0.1}, Quat::Identity()}, {{1, 0, 0}, {0, 10, 0}});
+  m.test_those();
+  const RobotView& wall = m.add("wall", block(1, {0.1, 2, 1}, 0), {{0.5, 0, 0.5}, Quat::Identity()});
+  m.begin();
+  m.run_for(2);
+  const double past = std::max(m.pose(r).position.x() - 0.35, 0.0);
+  return {past + (m.pose(wall).position - Vec3(0.5, 0, 0.5)).norm(), text(m.pose(r).position.x()) + " m of 0.35"};
+}
+
+}  // namespace
+
+std::vector<Case> obstacle_cases() {
+  constexpr Features needs = feature_contact | feature_forces;
+  return {
+      {"a robot that commands move pushes a box at its speed", "m/s, m", needs | feature_friction, 5e-3, pushes},
+      {"a moving plate drags a block with mu g", "relative", needs | feature_friction, 2e-2, drags_with_friction},
+      {"a moving plate takes a block along", "relative", needs | feature_friction, 1e-3, drags_along},
+      {"a robot that stands still stops a ball and stays", "m", needs, 2e-3, is_blocked},
+  };
+}
+
+}  // namespace muro::conformance

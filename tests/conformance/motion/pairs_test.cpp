@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+// Robots that different motions move, and that touch: for every pair of motions by forces.
+#include <gtest/gtest.h>
+
+#include "tests/conformance/motion/case.hpp"
+
+namespace muro::conformance {
+namespace {
+
+using Pair = std::tuple<std::string, std::string>;
+
+std::vector<Pair> pairs() {
+  std::vector<std::string> moved;
+  for (const std::string& id : motions())
+    if ((description_of(id).features & feature_contact) != 0) moved.push_back(id);
+  std::vector<Pair> all;
+  for (const std::string& a : moved)
+    for (const std::string& b : moved) all.emplace_back(a, b);
+  return all;
+}
+
+std::string name_of(const ::testing::TestParamInfo<Pair>& test) {
+  std::string name = std::get<0>(test.param) + "_meets_" + std::get<1>(test.param);
+  std::replace(name.begin(), name.end(), '.', '_');
+  return name;
+}
+
+struct Ball {
+  double mass, radius;
+  Vec3 position, velocity, spin = Vec3::Zero();
+};
+
+/// Two balls, each in a motion of its own; two of one motion are in one world of it, unless `apart`.
+struct Meeting : test::Scene {
+  struct Body {
+    const RobotView* robot;
+    double mass, moment;
+  };
+  std::vector<Body> bodies;
+
+  explicit Meeting(const Vec3& gravity = Vec3::Zero()) { world().set(world_object, keys::gravity, gravity); }
+
+  void add_body(const std::string& motion, const RobotTree& tree, const Inertia& inertia, const Pose& at,
+                const Twist& twist = {}, std::map<std::string, ParameterInput> parameters = {}) {
+    const std::string name = "r" + std::to_string(bodies.size());
+    bodies.push_back({&add(name, tree, at, twist), inertia.mass, inertia.ixx});
+    if ((description_of(motion).promises & Promise::world) == 0) parameters.clear();
+    use(motion, 1000, {{bodies.back().robot, bodies.back().robot->base()}}, std::move(parameters));
+  }
+  void add_ball(const std::string& motion, const Ball& b, double friction, double restitution,
+                const std::string& world = "") {
+    add_body(motion, ball(b.mass, b.radius, friction, restitution), {.mass = b.mass, .ixx = moment(b)},
+             {b.position, Quat::Identity()}, {b.velocity, b.spin}, {{"world", world}});
+  }
+  void start() {
+    use_contacts();
+    build();
+  }
+  static double moment(const Ball& b) { return 0.4 * b.mass * b.radius * b.radius; }
+
+  Vec3 momentum() {
+    Vec3 sum = Vec3::Zero();
+    for (const Body& b : bodies) sum += b.mass * twist(*b.robot).linear;
+    return sum;
+  }
+  /// About the origin; bodies are balls.
+  Vec3 angular_momentum() {
+    Vec3 sum = Vec3::Zero();
+    for (const Body& b : bodies)
+      sum += b.mass * pose(*b.robot).position.cross(twist(*b.robot).linear) + b.moment * twist(*b.robot).angular;
+    return sum;
+  }
+  double energy() {
+    double sum = 0;
+    for (const Body& b : bodies)
+      sum +=
+          0.5 * b.mass * twist(*b.robot).linear.squaredNorm() + 0.5 * b.moment * twist(*b.robot).angular.squaredNorm();
+    return sum;
+  }
+};
+
+class EveryPair : public ::testing::TestWithParam<Pair> {
+ protected:
+  std::string first() const { return std::get<0>(GetParam()); }
+  std::string second() const { return std::get<1>(GetParam()); }
+};
+
+/// A collision of two balls in two worlds, and what it must keep.
+struct Collision {
+  Vec3 before, angular_before;
+  double energy_before;
+
+  Meeting scene;
+  Collision(const std::string& a, const std::string& b, const Ball& x, const Ball& y, double friction,
+            double restitution) {
+    scene.add_ball(a, x, friction, restitution, "left");
+    scene.add_ball(b, y, friction, restitution, "right");
+    scene.start();
+    before = scene.momentum();
+    angular_before = scene.angular_momentum();
+    energy_before = scene.energy();
+    const double size = 2 * scene.bodies[0].mass;  // kg m/s
+    for (int k = 0; k < 100; ++k) {
+      scene.run_for(0.01);
+      EXPECT_LT((scene.momentum() - before).norm(), 1e-9 * size) << "after " << k << " hundredths of a second";
+      EXPECT_LT((scene.angular_momentum() - angular_before).norm(), 1e-9 * size) << "m^2/s; at " << k;
+      EXPECT_LE(scene.energy(), energy_before * (1 + 1e-3)) << "springs hold some of it; at " << k;
+    }
+    EXPECT_LE(scene.energy(), energy_before * (1 + 1e-9)) << "no energy is gained";
+  }
+  Vec3 velocity(std::size_t i) { return scene.twist(*scene.bodies[i].robot).linear; }
+};
+
+TEST_P(EveryPair, KeepsItsMomentaInAHeadOnCollisionAndReboundsAsTheMaterialSays) {
+  for (const double e : {0.0, 0.5, 0.9}) {
+    Collision c(first(), second(), {2, 0.1, {-0.3, 0, 0}, {1, 0, 0}}, {1, 0.1, {0.3, 0, 0}, {-0.5, 0, 0}}, 0, e);
+    const double seen = (c.velocity(1).x() - c.velocity(0).x()) / 1.5;
+    // contact.penalty gives 0.135 for 0; where twists lag behind poses, it loses the last half step of a contact
+    EXPECT_NEAR(seen, e == 0 ? 0.135 : e, 0.07) << first() << " and " << second() << " with restitution " << e;
+  }
+}
+
+TEST_P(EveryPair, KeepsItsMomentaInAnObliqueCollisionWithFriction) {
+  Collision c(first(), second(), {2, 0.1, {-0.3, 0.05, 0.02}, {1, 0, 0}, {1, 2, 3}},
+              {1, 0.15, {0.3, 0, 0}, {-0.5, 0.1, 0}, {0, -1, 2}}, 0.4, 0.5);
+  EXPECT_GT((c.velocity(0) - Vec3(1, 0, 0)).norm(), 0.1) << "they met";
+}
+
+TEST_P(EveryPair, ComesToRestOneOnTheOther) {
+  // One stands on the other for 60 s. The lower one stands on the ground of its own motion.
+  Meeting m({0, 0, -9.81});
+  m.add_ground();
+  const Vec3 low(0.4, 0.4, 0.2), high(0.2, 0.2, 0.2);
+  m.add_body(first(), block(4, low, 0.8), solid_box(4, low), {{0, 0, 0.1}, Quat::Identity()}, {},
+             {{"world", std::string("low")}});
+  m.add_body(second(), block(1, high, 0.8), solid_box(1, high), {{0.03, 0.02, 0.3}, from_rpy(0, 0, 0.3)}, {},
+             {{"world", std::string("high")}});
+  m.start();
+  m.run_for(2);
+  const Pose before = m.pose(*m.bodies[1].robot);
+  EXPECT_NEAR(before.position.z(), 0.3, 2e-3);
+  m.run_for(58);
+  const Pose after = m.pose(*m.bodies[1].robot);
+  EXPECT_LT((after.position - before.position).norm(), 2e-3) << after.position.transpose();
+  EXPECT_LT(after.orientation.angularDistance(before.orientation), 0.02);
+}
+
+INSTANTIATE_TEST_SUITE_P(Conformance, EveryPair, ::testing::ValuesIn(pairs()), name_of);
+
+}  // namespace
+}  // namespace muro::conformance

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// Pendulum and top.
+#include "tests/conformance/motion/case.hpp"
+
+namespace muro::conformance {
+
+namespace {
+
+constexpr double g = Trial::g;
+
+/// Period of a bob of 1 kg on 1 m, in units of that of small swings, from crossings of the lowest point.
+double period(const std::string& motion, double amplitude) {
+  Trial t(motion);
+  const Inertia bob{.mass = 1, .com = {0, 0, -1}, .ixx = 0.001, .iyy = 0.001, .izz = 0.001};
+  t.add("r", test::tree_of([&](RobotBuilder& b) {
+          b.base("base");
+          b.set(keys::inertial, Inertia{.mass = 5, .ixx = 1, .iyy = 1, .izz = 1});
+          b.revolute("joint", Vec3::UnitY(), {});
+          b.body("rod");
+          b.set(keys::inertial, bob);
+        }),
+        {{0, 0, 3}, Quat::Identity()});
+  t.world().set(t.world().object("r/joint"), keys::initial_joint_position, amplitude);
+  t.start({{"base", "fixed"}, {"joints", "passive"}});
+  const double& q = t.joint("r/joint", keys::joint_position);
+  double first = -1, last = -1;
+  int crossings = 0;
+  for (double before = q; crossings < 5 && t.now() < 60'000'000'000;) {
+    t.run_for(0.001);
+    if (before * q < 0) {
+      last = 1e-9 * double(t.now()) - 0.001 * q / (q - before);
+      if (crossings++ == 0) first = last;
+    }
+    before = q;
+  }
+  return (last - first) / 2 / (2 * M_PI * std::sqrt(1.001 / g));
+}
+
+Outcome small(const std::string& motion) { return relative(period(motion, 10 * M_PI / 180), 1.00190718814); }
+Outcome right_angle(const std::string& motion) { return relative(period(motion, 90 * M_PI / 180), 1.18034059902); }
+Outcome nearly_upright(const std::string& motion) { return relative(period(motion, 170 * M_PI / 180), 2.43936271967); }
+
+/// A disc (1 kg, radius 0.1 m) on an axle of 0.1 m, held at its end, spun at 200 rad/s with the axle level: it goes
+/// round at m g l / (I3 s).
+Outcome precession(const std::string& motion) {
+  Trial t(motion, 4000);
+  const double m = 1, r = 0.1, l = 0.1;
+  const Inertia light{.mass = 1e-6, .ixx = 1e-9, .iyy = 1e-9, .izz = 1e-9};
+  const Inertia disc{.mass = m, .com = {l, 0, 0}, .ixx = m * r * r / 2, .iyy = m * r * r / 4, .izz = m * r * r / 4};
+  t.add("r", test::tree_of([&](RobotBuilder& b) {
+          b.base("base");
+          b.set(keys::inertial, Inertia{.mass = 5, .ixx = 1, .iyy = 1, .izz = 1});
+          b.revolute("turn", Vec3::UnitZ(), {});
+          b.body("fork");
+          b.set(keys::inertial, light);
+          b.revolute("nod", Vec3::UnitY(), {});
+          b.body("axle");
+          b.set(keys::inertial, light);
+          b.revolute("spin", Vec3::UnitX(), {});
+          b.body("disc");
+          b.set(keys::inertial, disc);
+        }),
+        {{0, 0, 1}, Quat::Identity()});
+  t.start({{"base", "fixed"}, {"joints", "passive"}});
+  const double expected = m * g * l / (disc.ixx * 200);
+  t.joint("r/spin", keys::joint_velocity) = 200;
+  t.joint("r/turn", keys::joint_velocity) = expected;
+  t.run_for(1);
+  const double before = t.joint("r/turn", keys::joint_position);
+  t.run_for(2);
+  return relative((t.joint("r/turn", keys::joint_position) - before) / 2, expected);
+}
+
+}  // namespace
+
+std::vector<Case> pendulum_cases() {
+  constexpr Features needs = feature_fixed_base | feature_joints | feature_forces | feature_joint_friction;
+  return {
+      {"a pendulum swings 10 deg wide in its time", "relative", needs, 1e-4, small},
+      {"a pendulum swings 90 deg wide in its time", "relative", needs, 1e-3, right_angle},
+      {"a pendulum swings 170 deg wide in its time", "relative", needs, 5e-3, nearly_upright},
+      {"a level top goes round at m g l / (I s)", "relative", needs | feature_link_dynamics, 5e-3, precession},
+  };
+}
+
+}  // namespace muro::conformance

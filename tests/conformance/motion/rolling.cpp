@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// Bodies that roll.
+#include "tests/conformance/motion/case.hpp"
+
+namespace muro::conformance {
+
+namespace {
+
+constexpr double g = Trial::g;
+constexpr double slope = 20 * M_PI / 180;
+
+/// Acceleration down the slope of a round body.
+double rolls(const std::string& motion, const RobotTree& tree, double radius, const Quat& turn) {
+  Trial t(motion);
+  t.add_slope(slope, 0.5);
+  const Quat tilt = from_rpy(0, -slope, 0);
+  const RobotView& r = t.add("round", tree, {tilt * Vec3(0, 0, radius), tilt * turn});
+  t.start();
+  const auto speed = [&] { return -t.twist(r).linear.dot(tilt * Vec3::UnitX()); };
+  t.run_for(0.5);
+  const double before = speed();
+  t.run_for(1);
+  return speed() - before;
+}
+
+Outcome sphere(const std::string& motion) {
+  return relative(rolls(motion, ball(1, 0.1, 0.5), 0.1, Quat::Identity()), 5.0 / 7 * g * std::sin(slope));
+}
+Outcome hollow(const std::string& motion) {
+  return relative(rolls(motion, ball(1, 0.1, 0.5, 0, 2.0 / 3), 0.1, Quat::Identity()), 0.6 * g * std::sin(slope));
+}
+Outcome cylinder(const std::string& motion) {
+  const double r = 0.1, l = 0.3;
+  const double across = (3 * r * r + l * l) / 12;
+  const RobotTree tree =
+      test::single_body(with(Shape::cylinder(r, l), 0.5), {.mass = 1, .ixx = across, .iyy = across, .izz = r * r / 2});
+  return relative(rolls(motion, tree, r, from_rpy(M_PI / 2, 0, 0)), 2.0 / 3 * g * std::sin(slope));
+}
+
+/// A ball that slides at 5 m/s with mu = 0.2 rolls at 5/7 of it.
+Outcome sliding_ball(const std::string& motion) {
+  Trial t(motion);
+  t.add_ground(0.2);
+  const RobotView& r = t.add("ball", ball(1, 0.1, 0.2), {{0, 0, 0.1}, Quat::Identity()}, {{5, 0, 0}, Vec3::Zero()});
+  t.start();
+  t.run_for(1.5);
+  return relative(t.twist(r).linear.x(), 3.5714286);
+}
+
+/// 25 balls on a box that is pushed (SimBenchmark, rolling): acceleration of the balls.
+Outcome stack(const std::string& motion, double angle) {
+  Trial t(motion);
+  t.add_ground(0.4);
+  const RobotView& box = t.add("box", block(10, {20, 20, 1}, 0.4), {{0, 0, 0.5}, Quat::Identity()});
+  std::vector<const RobotView*> balls;
+  for (int i = 0; i < 25; ++i)
+    balls.push_back(&t.add("ball_" + std::to_string(i), ball(1, 0.5, 1.6),
+                           {{3.0 * (i % 5 - 2), 3.0 * (i / 5 - 2), 1.5}, Quat::Identity()}));
+  Wrench& push = t.push(box);
+  t.start();
+  t.run_for(0.5);
+  push = {150 * Vec3(std::cos(angle), std::sin(angle), 0), Vec3::Zero()};
+  const auto speed = [&] {
+    Vec3 sum = Vec3::Zero();
+    for (const RobotView* b : balls) sum += t.twist(*b).linear;
+    return sum.dot(Vec3(std::cos(angle), std::sin(angle), 0)) / 25;
+  };
+  t.run_for(0.5);
+  const double before = speed();
+  t.run_for(1);
+  return relative(speed() - before, 0.211);
+}
+Outcome stack_along(const std::string& motion) { return stack(motion, M_PI / 2); }
+Outcome stack_across(const std::string& motion) { return stack(motion, M_PI / 3); }
+
+}  // namespace
+
+std::vector<Case> rolling_cases() {
+  constexpr Features needs = feature_contact | feature_friction;
+  return {
+      {"a solid sphere rolls down 20 deg with 5/7 g sin", "relative", needs, 2e-3, sphere},
+      {"a hollow sphere rolls down with 3/5 g sin", "relative", needs, 2e-3, hollow},
+      {"a cylinder rolls down with 2/3 g sin", "relative", needs, 2e-3, cylinder},
+      {"a ball that slides comes to roll at 5/7 of its speed", "relative", needs, 2e-3, sliding_ball},
+      {"25 balls roll on a box that is pushed along an axis", "relative", needs, 0.02, stack_along},
+      {"25 balls roll on a box that is pushed at 60 deg", "relative", needs, 0.02, stack_across},
+  };
+}
+
+}  // namespace muro::conformance
