@@ -114,6 +114,7 @@ bool AccessCheck::come_again(const Task& task, Step step, Range range, abi::Erro
 bool AccessCheck::make(const Task& task, const Step& step, Range range, abi::ErrorText& error) {
   const auto found =
       std::find_if(rights_.begin(), rights_.end(), [&](const Rights& r) { return r.algorithm == task.instance; });
+  if (found == rights_.end()) return task.instance->step(step, range, error);  // hand-over, and what it keeps
   const Rights& rights = *found;
   const Allowed may = allowed(rights, task, step, range);
   const Copy before = copy();

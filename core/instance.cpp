@@ -148,7 +148,9 @@ bool Instance::is_used(ObjectId object, const KeyInfo& key, Access access) const
 
 void* Instance::bind(ObjectId object, const KeyInfo& key, Access access, Form form, std::uint32_t count,
                      const void* initial) noexcept {
-  void* handle = world_.store().bind(party_, object, key, access, form, count, initial);
+  const std::int32_t robot = world_.robot_of(object);
+  const bool rests = robot >= 0 && std::size_t(robot) < resting_.size() && resting_[std::size_t(robot)];
+  void* handle = world_.store().bind(party_, object, key, access, form, count, initial, rests);
   bound_.push_back({world_.store().slots_of(party_).back(), access});
   return handle;
 }

@@ -43,6 +43,8 @@ class Instance final : private Connector {
   abi::AlgorithmInstance& algorithm() { return *algorithm_; }
   Party party() const { return party_; }
 
+  /// Of each robot, by number: whether another motion moves it at the start. [before connect]
+  void set_resting(std::vector<bool> resting) { resting_ = std::move(resting); }
   /// Throws SetupError with the algorithm's own words.
   void connect();
   void start();
@@ -57,6 +59,8 @@ class Instance final : private Connector {
   /// Every property that is not a constant, once. Contributions to a sum do not exclude each other, but exclude who
   /// reads the sum.
   std::vector<Touch> touches() const;
+  /// It needs this property too, to know when to run.
+  void also_reads(SlotId slot) { bound_.push_back({slot, Access::read}); }
   /// How a step is divided; one or more.
   std::vector<Phase> phases() const;
 
@@ -101,6 +105,7 @@ class Instance final : private Connector {
     Access access;
   };
   std::vector<Bound> bound_;
+  std::vector<bool> resting_;
 };
 
 }  // namespace muro

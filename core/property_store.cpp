@@ -240,7 +240,7 @@ void* PropertyStore::handle(Slot& s, Access access) {
 }
 
 void* PropertyStore::bind(Party party, ObjectId object, const KeyInfo& key, Access access, Form form,
-                          std::uint32_t count, const void* initial) {
+                          std::uint32_t count, const void* initial, bool weak) {
   SlotId id = slot_for(party, object, key);
   Slot* s = &slots_[id];
   const bool clash = s->place && (s->form != form || (form == Form::array && count > 0 && s->count != count));
@@ -262,12 +262,17 @@ void* PropertyStore::bind(Party party, ObjectId object, const KeyInfo& key, Acce
   if ((writes(access) || access == Access::accumulate) && s->kind == Slot::Class::constant)
     problems_.push_back(where(object, key.name) + " is a constant, but " + who(party) + " writes it");
   use(*s, id, party, access);
-  if (initial && s->kind != Slot::Class::constant && (!s->initialised || access == Access::variable)) {
+  if (initial && s->kind != Slot::Class::constant && (!s->initialised || (access == Access::variable && !weak))) {
     std::memcpy(s->place, initial, key.type->size);
     s->initialised = access == Access::variable || access == Access::input;  // others only fill what nobody has set
   }
   if (creates) s->object = object;
   return handle(*s, access);
+}
+
+void PropertyStore::let_alternate(const std::vector<Party>& parties) {
+  for (const Party a : parties)
+    for (const Party b : parties) alternating_.emplace(a, b);
 }
 
 void* PropertyStore::state_block(Party party, ObjectId object, std::string_view name, std::uint32_t size) {
@@ -288,7 +293,7 @@ void PropertyStore::check_slot(const Slot& s, const std::function<std::string(st
   const Slot::Usage* adder = nullptr;
   for (const Slot::Usage& u : s.usage) {
     if (writes(u.access)) {
-      if (writer && writer->party != u.party)
+      if (writer && writer->party != u.party && !alternate(writer->party, u.party))
         problems.push_back(place + " has two writers: " + who(writer->party) + " and " + who(u.party) +
                            "; only one algorithm may write a property");
       writer = writer ? writer : &u;

@@ -26,6 +26,16 @@ std::vector<std::string> names_in(const ptree& tree, const char* list, const cha
   return names;
 }
 
+/// Names of features that this muro does not know are left out.
+std::optional<Features> features_in(const ptree& entry) {
+  if (!entry.get_child_optional("features")) return std::nullopt;
+  Features bits = 0;
+  for (const std::string& name : names_in(entry, "features", ""))
+    for (const FeatureInfo& f : feature_infos)
+      if (f.name == name) bits |= f.bit;
+  return bits;
+}
+
 Offer offer_from(const ptree& entry, const ptree& plugin, const fs::path& description) {
   Offer o;
   o.id = entry.get<std::string>("id");
@@ -35,6 +45,7 @@ Offer offer_from(const ptree& entry, const ptree& plugin, const fs::path& descri
   o.reads = names_in(entry, "reads", "key");
   o.writes = names_in(entry, "writes", "key");
   o.extensions = names_in(entry, "extensions", "");
+  if (o.kind == name_of(Kind::motion)) o.features = features_in(entry);
   o.plugin = plugin.get<std::string>("name");
   o.description = description.string();
   std::string stem = description.filename().string();

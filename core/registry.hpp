@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ struct Offer {
   std::string summary;
   std::vector<std::string> reads, writes;  ///< property names
   std::vector<std::string> extensions;     ///< readers
+  std::optional<Features> features;        ///< of a motion; none: its plugin does not say
   std::string plugin;                      ///< name of the plugin
   std::string library;                     ///< absolute path of the .so
   std::string description;                 ///< absolute path of the .muro.json

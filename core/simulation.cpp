@@ -8,6 +8,7 @@
 
 #include "core/access_check.hpp"
 #include "core/instance.hpp"
+#include "core/levels.hpp"
 #include "muro/vocabulary.hpp"
 
 namespace muro {
@@ -39,6 +40,8 @@ int connect_order(const Description& d) {
       return 9;
     case Kind::view:
       return 10;
+    case Kind::level:
+      return 1;  // whether a robot touches something is asked before it is known who finds it out
   }
   return 11;
 }
@@ -79,7 +82,8 @@ class Simulation::Log final : public Host {
   std::mutex mutex_;
 };
 
-Simulation::Simulation(Registry& registry, std::uint64_t seed) : registry_(registry), log_(std::make_unique<Log>()) {
+Simulation::Simulation(Registry& registry, std::uint64_t seed)
+    : registry_(registry), log_(std::make_unique<Log>()), levels_(std::make_unique<Levels>()) {
   scheduler_.set_seed(seed);
 }
 
@@ -161,6 +165,24 @@ ObjectId Simulation::add_sensor_object(const RobotView& robot, std::string_view 
   return sensor;
 }
 
+void Simulation::set_levels(const RobotView& robot, std::vector<std::string> names, std::uint32_t first) {
+  if (first >= names.size())
+    throw SetupError("`" + std::string(robot.name) + "` has " + std::to_string(names.size()) +
+                     " motions, so it cannot start with number " + std::to_string(first));
+  levels_of_robots_.push_back({&robot, std::move(names), first});
+}
+
+/// Tells each motion which of its robots another one moves at the start.
+void Simulation::rest_others() {
+  for (const auto& instance : instances_) {
+    std::vector<bool> resting(world_.robots().size());
+    for (const Item& item : instance->setup().items)
+      if (item.robot && instance->description().kind == Kind::motion)
+        resting[item.robot->number] = levels_->rests(std::int32_t(item.robot->number), item.level);
+    instance->set_resting(std::move(resting));
+  }
+}
+
 /// Robots of one world share an instance; each keeps its parameters.
 void Simulation::join_world(AlgorithmSetup& world, AlgorithmSetup& joining) const {
   if (world.rate != joining.rate || world.phase != joining.phase)
@@ -232,9 +254,12 @@ void Simulation::build() {
   if (!instances_.empty()) throw SetupError("a simulation is built once; make another one");
   merge_batched();
   part_memory();
+  levels_->prepare(world_, levels_of_robots_, instances_);
+  if (!levels_->empty()) rest_others();
   Collected problems;
   for (const std::size_t i : in_order_of(connect_order)) problems.run([&] { instances_[i]->connect(); });
   problems.check();
+  levels_->complete();
   world_.store().check([&](std::string_view key) { return registry_.writers_of(key); });
   schedule();
   initial_ = snapshot();
@@ -252,7 +277,7 @@ void Simulation::schedule() {
     const AlgorithmSetup& s = instance->setup();
     Task task;
     task.name = s.name;
-    task.instance = &instance->algorithm();
+    task.instance = levels_->keeper_of(*instance);
     task.items = std::uint32_t(s.items.size());
     for (const Item& item : s.items)
       task.robot_of_item.push_back(item.robot ? std::int32_t(item.robot->number) : world_.robot_of(item.object));
@@ -266,6 +291,7 @@ void Simulation::schedule() {
     task.writes = instance->writes();
     tasks_.push_back(scheduler_.add(std::move(task)));
   }
+  if (!levels_->empty()) scheduler_.add(levels_->task(instances_));
   for (const auto& sequence : sequences_) {
     std::vector<TaskId> ids;
     for (const std::size_t a : sequence) {

@@ -15,6 +15,8 @@
 namespace muro {
 
 class Instance;
+class Levels;
+struct LevelsOfRobot;
 
 /// The whole state of a simulation at one time, independent of the simulation's later life.
 struct Snapshot {
@@ -56,6 +58,9 @@ class Simulation {
   ObjectId add_sensor_object(const RobotView& robot, std::string_view name, ObjectId link);
   /// Algorithms (by number of `add`) that run in this order, as one item, at the rate of the first.
   void add_sequence(std::vector<std::size_t> algorithms) { sequences_.push_back(std::move(algorithms)); }
+  /// The robot is moved by one of several motions at a time: those used for it whose items have the levels 0, 1, ...,
+  /// named here; `first` is the level at the start. See keys::motion_level_target.
+  void set_levels(const RobotView& robot, std::vector<std::string> names, std::uint32_t first);
   /// Where log lines of algorithms go; default: warnings and errors to standard error.
   void set_log(std::function<void(LogLevel, std::string_view)> log);
   /// On how many threads calls are made that may overlap; 1, unless set. Never changes a result. [between runs]
@@ -94,6 +99,7 @@ class Simulation {
  private:
   class Log;
   void merge_batched();
+  void rest_others();
   void join_world(AlgorithmSetup& world, AlgorithmSetup& joining) const;
   void part_memory();
   std::vector<std::size_t> in_order_of(int (*order)(const Description&)) const;
@@ -108,6 +114,8 @@ class Simulation {
   std::vector<std::size_t> instance_of_setup_;
   std::vector<std::vector<std::size_t>> sequences_;
   std::vector<std::unique_ptr<Instance>> instances_;
+  std::vector<LevelsOfRobot> levels_of_robots_;
+  std::unique_ptr<Levels> levels_;
   std::vector<TaskId> tasks_;
   Snapshot initial_;
 };

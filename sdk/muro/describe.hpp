@@ -72,7 +72,10 @@ inline std::string parameter(const Parameter& p) {
   return out + "}";
 }
 
-inline std::string use(const Use& u) { return "{\"key\": " + quoted(u.key) + ", \"doc\": " + quoted(u.doc) + "}"; }
+inline std::string use(const Use& u) {
+  return "{\"key\": " + quoted(u.key) + ", \"doc\": " + quoted(u.doc) +
+         (u.when.empty() ? "" : ", \"when\": " + quoted(u.when)) + "}";
+}
 
 inline std::string promises(std::uint32_t bits) {
   constexpr std::string_view names[] = {"deterministic", "batched",   "allocation_free",

@@ -22,14 +22,15 @@ enum class Kind : std::uint8_t {
   collision,     ///< where bodies touch
   contact,       ///< what forces come from it
   view,          ///< what shows the scene
+  level,         ///< what decides which of its motions moves a robot
 };
 
 /// The order of kinds within one instant t: the state of t is completed, seen, answered and recorded,
 /// then forces are found and motion carries the state to the next instant.
 constexpr int order_of(Kind kind) {
-  constexpr Kind order[] = {Kind::kinematics, Kind::scene,   Kind::sensor,   Kind::sensor_error,
-                            Kind::controller, Kind::drive,   Kind::recorder, Kind::view,
-                            Kind::collision,  Kind::contact, Kind::motion};
+  constexpr Kind order[] = {Kind::kinematics, Kind::scene,     Kind::sensor,   Kind::sensor_error,
+                            Kind::controller, Kind::drive,     Kind::recorder, Kind::view,
+                            Kind::level,      Kind::collision, Kind::contact,  Kind::motion};
   int place = 0;
   while (order[place] != kind) ++place;
   return place;
@@ -37,7 +38,7 @@ constexpr int order_of(Kind kind) {
 
 constexpr std::string_view name_of(Kind kind) {
   constexpr std::string_view names[] = {"motion",   "kinematics", "scene",     "sensor",  "sensor_error", "controller",
-                                        "recorder", "drive",      "collision", "contact", "view"};
+                                        "recorder", "drive",      "collision", "contact", "view",         "level"};
   return names[static_cast<int>(kind)];
 }
 
@@ -57,6 +58,7 @@ enum Promise : std::uint32_t {
 struct Use {
   std::string_view key;
   std::string_view doc;
+  std::string_view when{};  ///< "parameter=value": only then; empty: always
 };
 
 /// One algorithm.

@@ -8,9 +8,9 @@
 
 namespace muro {
 
-/// The inertia (kg m^2 or kg) that the joint of frame `joint` and the mimic joints that follow it move, all other joints
-/// and the base held: the element of the joint-space inertia matrix on its diagonal (Featherstone, Rigid Body Dynamics
-/// Algorithms, Section 6.2). `inertias`, `positions` (rad or m): one a frame. [setup]
+/// The inertia (kg m^2 or kg) that the joint of frame `joint` and the mimic joints that follow it move, all other
+/// joints and the base held: the element of the joint-space inertia matrix on its diagonal (Featherstone, Rigid Body
+/// Dynamics Algorithms, Section 6.2). `inertias`, `positions` (rad or m): one a frame. [setup]
 inline double joint_inertia(std::span<const Frame> frames, std::span<const Inertia> inertias,
                             std::span<const double> positions, std::size_t joint) {
   std::vector<Pose> in_base(frames.size());

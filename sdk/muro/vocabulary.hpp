@@ -21,6 +21,13 @@ inline constexpr Key<Vec3> gravity{"gravity", "m/s^2", "on the world object, wor
 // Who moves a robot, and who finds what its contacts do: properties of its base.
 /// Which of the motions that a robot lists moves it, from 0; see Item::level.
 inline constexpr Key<std::uint32_t> motion_level{"motion.level", "1", "which of its motions moves the robot, from 0"};
+inline constexpr Key<std::int32_t> motion_level_target{
+    "motion.level.target", "1", "which motion is to move it; -1: the one that does", Role::command};
+/// Array, constant: the names of the motions that a robot lists.
+inline constexpr Key<TextId> motion_level_names{"motion.level.names", "1", "names of the motions of the robot"};
+/// Constant: this robot is the shadow of the one with that base. It is moved by the same commands, touches what is in
+/// the scene and is neither touched nor seen.
+inline constexpr Key<ObjectId> shadow_of{"shadow.of", "1", "base of the robot whose shadow this one is"};
 /// A motion that forces move says here who answers for contacts. 0: nobody, no force moves the robot. contact_for_all:
 /// the contact algorithm, for all of them. Any other number names a world: it answers for contacts of its robots with
 /// each other, with scenery and with robots that no force moves; for those with robots that forces move in another way

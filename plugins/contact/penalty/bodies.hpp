@@ -7,7 +7,7 @@
 #include "contact_law.hpp"
 #include "grip.hpp"
 #include "muro/algorithm.hpp"
-#include "muro/scene.hpp"
+#include "muro/vocabulary.hpp"
 #include "patch.hpp"
 #include "restitution.hpp"
 
@@ -63,6 +63,11 @@ struct Bodies {
   /// The robot that the body belongs to when forces move it at present, or nobody.
   std::int32_t moved(const Body& body) const {
     return body.robot != nobody && *robots[std::size_t(body.robot)].world != 0 ? body.robot : nobody;
+  }
+  /// Whether contact of `robot` with another one that forces move, or with nobody, is not its own world's business.
+  bool answers(const Robot& robot, std::int32_t other) const {
+    const std::uint64_t own = *robot.world;
+    return own == keys::contact_for_all || (other != nobody && *robots[std::size_t(other)].world != own);
   }
   /// Nothing acts on the robot.
   void leave(std::uint32_t robot) const {

@@ -103,6 +103,13 @@ void Standings::push_one(const Moment& moment, std::uint32_t robot, Queues& queu
     bodies_.leave(robot);
     return;
   }
+  if (*bodies_.robots[robot].world != keys::contact_for_all) {
+    if (*bodies_.robots[robot].world == 0)  // it wants to know what it touches, and is not pushed
+      bodies_.leave(robot);
+    else
+      left_[robot] = 1;
+    return;
+  }
   if (!s.one_body) {
     left_[robot] = 1;
     return;

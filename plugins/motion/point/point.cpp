@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "muro/contact_stop.hpp"
 #include "muro/plugin.hpp"
 
 namespace {
@@ -16,11 +17,13 @@ constexpr Parameter parameters[] = {
     real("max_turn_rate", "rad/s", 1e9, "largest angular speed").between(0, 1e9),
     real("max_acceleration", "m/s^2", 1e9, "largest change of the linear velocity").between(0, 1e9),
     real("max_turn_acceleration", "rad/s^2", 1e9, "largest change of the angular velocity").between(0, 1e9),
+    on_contact,
 };
 constexpr Use reads[] = {{"command.twist", "mode velocity"},
                          {"command.pose", "mode pose"},
                          {"pose.initial", "of the base"},
-                         {"twist.initial", "of the base"}};
+                         {"twist.initial", "of the base"},
+                         on_contact_reads};
 constexpr Use writes[] = {{"pose", "of the base"}, {"twist", "of the base"}};
 constexpr Description description{
     .id = "motion.point",
@@ -62,6 +65,7 @@ class Point final : public Algorithm {
         r.command_pose = c.input(base, keys::command_pose, start);
       else
         r.command_twist = c.input(base, keys::command_twist, Twist{});
+      r.stop = ContactStop(c, *item.robot);
       robots_.push_back(r);
     }
   }
@@ -82,6 +86,7 @@ class Point final : public Algorithm {
     In<Twist> command_twist;
     In<Pose> command_pose;
     std::string_view name;
+    ContactStop stop;
   };
 
   /// The velocity (world axes) that would fulfil the command within this step.
@@ -110,6 +115,10 @@ class Point final : public Algorithm {
       throw Error("the command of `" + std::string(r.name) + "` is not finite; look at what writes `command." +
                   (follow_pose_ ? "pose`" : "twist`"));
     Pose& pose = *r.pose;
+    if (r.stop.blocks(pose.position, v)) {
+      v = {};
+      return;
+    }
     const Vec3 angle = v.angular * dt;
     const Quat turn = rotation_of(angle);
     if (follow_pose_) {  // straight to the goal, turning on the way

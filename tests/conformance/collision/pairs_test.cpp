@@ -31,7 +31,7 @@ struct EveryCollision : ::testing::TestWithParam<std::string> {
       EXPECT_EQ(std::count_if(contacts.begin(), contacts.end(),
                               [&](const Contact& c) { return (c.point - p).norm() < ability.point; }),
                 1)
-          << p.transpose();
+          << p.transpose() << " among " << test::text_of(contacts);
     for (const Contact& c : contacts) {
       EXPECT_NEAR(c.depth, depth, ability.depth) << c.point.transpose();
       EXPECT_LT((c.normal - normal).norm(), ability.normal) << c.normal.transpose();

@@ -29,7 +29,7 @@ struct Joint : Trial {
       : Trial(motion) {
     set_gravity(Vec3::Zero());
     add("r", one_joint(kind, limits), {{0, 0, 1}, Quat::Identity()});
-    start({{"base", base}, {"joints", mode}});
+    start({{"base", base}, {"joints", mode}, {"effort_limits", true}});
   }
   double& of(const Key<double>& key) { return joint("r/joint", key); }
 };

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// Hand-over during a run: robots that several motions can move, one at a time.
+//
+// Each motion of such a robot is connected to the same properties; `motion.level` says which of them steps the robot.
+// When `motion.level.target` names another, that one takes over before anything that depends on it runs in this
+// instant. State goes over by lying where it is.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/instance.hpp"
+
+namespace muro {
+
+/// The motions of one robot.
+struct LevelsOfRobot {
+  const RobotView* robot = nullptr;
+  std::vector<std::string> names;
+  std::uint32_t first = 0;  ///< the one that moves it at the start
+};
+
+/// The algorithm that carries hand-overs out.
+class Levels final : public abi::AlgorithmInstance {
+ public:
+  Levels();
+  ~Levels();
+  Levels(const Levels&) = delete;
+  Levels& operator=(const Levels&) = delete;
+  /// Before motions are connected: makes the properties of all robots with levels, and lets their motions share what
+  /// they write.
+  void prepare(World& world, const std::vector<LevelsOfRobot>& robots, std::span<const std::unique_ptr<Instance>> all);
+  /// When they are connected.
+  void complete();
+  bool empty() const { return robots_.empty(); }
+  /// Of robot `number`: whether `level` is not the one that moves it at the start.
+  bool rests(std::int32_t number, std::uint32_t level) const;
+
+  /// What the scheduler is to run: on demand, before who reads who moves a robot.
+  Task task(std::span<const std::unique_ptr<Instance>> all);
+  /// What steps an instance: itself, or, when it moves a robot for part of the time, a keeper that steps the items
+  /// whose turn it is.
+  abi::AlgorithmInstance* keeper_of(Instance& instance);
+
+ private:
+  bool connect(Connector&, abi::ErrorText&) noexcept override { return true; }
+  bool start(abi::ErrorText&) noexcept override { return true; }
+  std::span<const Phase> phases() const noexcept override { return {}; }
+  bool step(const Step& step, Range range, abi::ErrorText& error) noexcept override;
+  bool restored(abi::ErrorText&) noexcept override { return true; }
+  bool finish(abi::ErrorText&) noexcept override { return true; }
+  void destroy() noexcept override {}
+  bool take_over(std::uint32_t, abi::ErrorText&) noexcept override { return true; }
+
+  struct Mover {
+    Instance* instance = nullptr;
+    std::uint32_t item = 0;
+  };
+  struct Robot {
+    const RobotView* view;
+    std::uint32_t first;
+    std::vector<Mover> movers;  ///< by level
+    std::uint32_t* level;
+    const std::int32_t* target;
+    std::uint64_t* contact_world;
+    double* twist_lag;
+    std::vector<SlotId> written;
+    SlotId level_slot, target_slot;
+  };
+  class Keeper;
+
+  Robot* find(std::int32_t number);
+  const Robot* find(std::int32_t number) const;
+
+  std::vector<Robot> robots_;
+  std::vector<std::unique_ptr<Keeper>> keepers_;
+};
+
+}  // namespace muro

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// A robot that several motions can move, one at a time:
+//
+//     motion:
+//       levels: {far: {use: motion.point}, near: {use: motion.ode}}
+//       start: far
+//       rules: [near when nearer than 2 to ball, far when farther than 3 from ball]
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/scenario/scenario.hpp"
+#include "host/scenario/section.hpp"
+
+namespace muro::host {
+
+/// Whether the subsystem lists levels.
+bool has_levels(const Node& n);
+
+/// A subsystem for each level, and one for the rules if there are any.
+std::vector<Subsystem> read_levels(const std::string& name, const Node& n, const std::string& owner,
+                                   Problems& problems);
+
+}  // namespace muro::host

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/simulation.hpp"
+
+namespace muro::host {
+
+/// How a robot and its shadow came apart in a run.
+struct ShadowResult {
+  std::string robot;
+  std::string motion;                                ///< that moved the shadow: "motion.ode"
+  double distance = 0, angle = 0;                    ///< at the end: m, rad
+  double greatest_distance = 0, greatest_angle = 0;  ///< m, rad
+};
+
+/// Of all shadows in the scene.
+std::vector<ShadowResult> shadow_results(const Simulation& simulation);
+
+/// Whether the robot is a shadow of another one.
+bool is_shadow(const Simulation& simulation, const RobotView& robot);
+
+}  // namespace muro::host

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+// Robots that pass from one motion to another during a run: for every pair of motions.
+#include <gtest/gtest.h>
+
+#include "tests/conformance/motion/case.hpp"
+#include "tests/support/wheeled_robot.hpp"
+
+namespace muro::conformance {
+namespace {
+
+using Pair = std::tuple<std::string, std::string>;
+
+/// Those that can move a vehicle with two wheels.
+std::vector<std::string> vehicle_motions() {
+  std::vector<std::string> all{"motion.point", "motion.differential_drive"};
+  for (const std::string& id : motions())
+    if ((description_of(id).features & feature_forces) != 0) all.push_back(id);
+  return all;
+}
+
+std::vector<Pair> pairs() {
+  std::vector<Pair> all;
+  for (const std::string& a : vehicle_motions())
+    for (const std::string& b : vehicle_motions())
+      if (a != b) all.emplace_back(a, b);
+  return all;
+}
+
+std::string name_of(const ::testing::TestParamInfo<Pair>& test) {
+  std::string name = std::get<0>(test.param) + "_to_" + std::get<1>(test.param);
+  std::replace(name.begin(), name.end(), '.', '_');
+  return name;
+}
+
+Features features_of(const std::string& motion) { return description_of(motion).features; }
+
+class EveryHandOver : public ::testing::TestWithParam<Pair> {
+ protected:
+  std::string first() const { return std::get<0>(GetParam()); }
+  std::string second() const { return std::get<1>(GetParam()); }
+};
+
+constexpr double radius = 0.05, speed = 0.5, dt = 0.001;
+
+/// A vehicle in space, moving on at a constant speed with wheels that turn as if it rolled.
+struct Flight : test::Scene {
+  const RobotView* robot;
+  double spin = speed / radius;  ///< of the wheels, rad/s
+
+  Flight(const std::string& a, const std::string& b) {
+    world().set(world_object, keys::gravity, Vec3(0, 0, 0));
+    if (a == "motion.point" && b != "motion.differential_drive") spin = 0;
+    if (b == "motion.point" && a != "motion.differential_drive") spin = 0;
+    RobotTree tree = test::tree_of([](RobotBuilder& builder) {
+      builder.base("chassis");
+      builder.set(keys::inertial, solid_box(4, {0.3, 0.2, 0.1}));
+      for (const double side : {1.0, -1.0}) {
+        if (side > 0) builder.fork();
+        builder.translation({0, 0.15 * side, 0});
+        builder.revolute(side > 0 ? "left" : "right", Vec3::UnitY(), {});
+        builder.body(side > 0 ? "left_wheel" : "right_wheel");
+        builder.set(keys::inertial, Inertia{.mass = 0.3, .ixx = 4e-4, .iyy = 6e-4, .izz = 4e-4});
+        const Shape wheel = test::tyre(radius);
+        builder.set_array(keys::collision_shapes, std::span<const Shape>(&wheel, 1));
+        if (side > 0) builder.end();
+      }
+      builder.end();
+    });
+    robot = &add("r", tree, {{0, 0, 5}, Quat::Identity()}, {{speed, 0, 0}, Vec3::Zero()});
+    use(a, 1000, {{robot, robot->base(), 0}});
+    use(b, 1000, {{robot, robot->base(), 1}});
+    set_levels(*robot, {"a", "b"}, 0);
+    use_contacts();
+    build();
+    for (const char* joint : {"r/left", "r/right"}) {
+      if (world().store().find(world().object(joint), "joint.velocity.target"))
+        world().value(joint, keys::joint_velocity_target) = spin;
+      if (a != "motion.point" && a != "motion.differential_drive") world().value(joint, keys::joint_velocity) = spin;
+    }
+    if (world().store().find(robot->base(), "command.twist"))
+      world().value(robot->base(), keys::command_twist) = {{speed, 0, 0}, Vec3::Zero()};
+  }
+  double& of(const char* joint, const Key<double>& key) { return world().value(joint, key); }
+  void hand_over(std::int32_t level) { world().value(robot->base(), keys::motion_level_target) = level; }
+};
+
+TEST_P(EveryHandOver, KeepsPositionVelocityAndJoints) {
+  Flight f(first(), second());
+  f.run_for(0.1);
+  for (const std::int32_t level : {1, 0, 1}) {
+    const Pose before = f.pose(*f.robot);
+    const double wheel = f.of("r/left", keys::joint_position);
+    const double turning = f.of("r/left", keys::joint_velocity);
+    ASSERT_NEAR(f.twist(*f.robot).linear.x(), speed, 1e-9);
+    f.hand_over(level);
+    f.run_for(dt);
+    EXPECT_EQ(f.world().value(f.robot->base(), keys::motion_level), std::uint32_t(level));
+    EXPECT_LT((f.pose(*f.robot).position - before.position - Vec3(speed * dt, 0, 0)).norm(), 1e-12) << "to " << level;
+    EXPECT_LT(f.pose(*f.robot).orientation.angularDistance(before.orientation), 1e-12);
+    EXPECT_LT((f.twist(*f.robot).linear - Vec3(speed, 0, 0)).norm(), 1e-12);
+    EXPECT_LT(f.twist(*f.robot).angular.norm(), 1e-12);
+    const bool turn = (features_of(first()) & features_of(second()) & feature_joints) != 0;
+    if (turn) {
+      EXPECT_NEAR(f.of("r/left", keys::joint_velocity), turning, 1e-12 * std::max(1.0, f.spin));
+      EXPECT_NEAR(f.of("r/left", keys::joint_position), wheel + turning * dt, 1e-12);
+    }
+    f.run_for(0.05);
+  }
+  EXPECT_LT(f.pose(*f.robot).position.tail<2>().norm() - 5, 1e-9);
+}
+
+TEST_P(EveryHandOver, GoesOnFromASnapshotToTheSameBits) {
+  Flight f(first(), second());
+  f.run_for(0.05);
+  f.hand_over(1);
+  f.run_for(0.03);
+  const Snapshot middle = f.snapshot();
+  f.run_for(0.05);
+  const std::uint64_t end = f.state_hash();
+  f.restore(middle);
+  f.run_for(0.05);
+  EXPECT_EQ(f.state_hash(), end);
+}
+
+TEST_P(EveryHandOver, MakesItABodyOrAnObstacleForOthers) {
+  // A ball rolls against the robot: one that forces move gives way, one that commands move does not.
+  test::Scene s;
+  s.world().set(world_object, keys::gravity, Vec3(0, 0, 0));
+  const RobotView& robot = s.add("r", block(1, {0.2, 0.2, 0.2}, 0), {{0.5, 0, 0}, Quat::Identity()});
+  const RobotView& ball_ = s.add("ball", ball(1, 0.1, 0), {{0, 0, 0}, Quat::Identity()}, {{1, 0, 0}, Vec3::Zero()});
+  if (first() == "motion.differential_drive" || second() == "motion.differential_drive")
+    GTEST_SKIP() << "a block has no wheels";
+  s.use(first(), 1000, {{&robot, robot.base(), 0}});
+  s.use(second(), 1000, {{&robot, robot.base(), 1}});
+  s.set_levels(robot, {"a", "b"}, 0);
+  s.use("motion.simplified", 1000, {{&ball_, ball_.base()}});
+  s.use_contacts();
+  s.build();
+  s.run_for(0.1);
+  s.world().value(robot.base(), keys::motion_level_target) = 1;
+  s.run_for(0.9);
+  const bool moved = (features_of(second()) & feature_contact) != 0;
+  if (moved)
+    EXPECT_GT(s.twist(robot).linear.x(), 0.3);
+  else
+    EXPECT_EQ(s.twist(robot).linear.x(), 0);
+  EXPECT_LT(s.twist(ball_).linear.x(), 0.6) << "the ball has met it";
+  EXPECT_NEAR(s.twist(ball_).linear.x() + (moved ? s.twist(robot).linear.x() : 0), moved ? 1 : -0.135,
+              moved ? 1e-9 : 0.1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Conformance, EveryHandOver, ::testing::ValuesIn(pairs()), name_of);
+
+}  // namespace
+}  // namespace muro::conformance
