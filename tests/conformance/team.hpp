@@ -16,6 +16,16 @@ inline std::vector<std::string> algorithms_of(const std::string& kind) {
   return ids;
 }
 
+/// What a motion is tried with: a model that it can move, and its drive.
+struct Vehicle {
+  std::string model, drive;
+};
+inline Vehicle vehicle_for(const std::string& motion) {
+  if (motion == "motion.ackermann") return {"car", "drive.ackermann"};
+  if (motion == "motion.omni") return {"mecanum", "drive.omni"};
+  return {"rover", "drive.skid_steer"};
+}
+
 /// Rovers that all move by one algorithm on a plane between a few boxes, with lasers; commanded from outside.
 struct Team : Scene {
   std::vector<const RobotView*> rovers;
@@ -26,12 +36,12 @@ struct Team : Scene {
     for (int i = 0; i < 4; ++i)
       world().add_scenery("block_" + std::to_string(i), {{3.0 * i, 1.5, 0.5}, Quat::Identity()},
                           std::span<const Shape>(&block, 1));
-    const RobotTree model = read_model(MURO_TEST_SOURCE_DIR "/examples/models/rover.urdf");
+    const RobotTree model = read_model(MURO_TEST_SOURCE_DIR "/examples/models/" + vehicle_for(motion).model + ".urdf");
     for (int i = 0; i < count; ++i)
       rovers.push_back(
           &add("rover_" + std::to_string(i), model, {{1.5 * i, 0, model.standing_height()}, from_rpy(0, 0, 0.3 * i)}));
     use(motion, 1000, all_robots());
-    use("drive.skid_steer", 0, all_robots());
+    use(vehicle_for(motion).drive, 0, all_robots());
     use_contacts();
     std::vector<Item> sensors;
     for (const RobotView* r : rovers)

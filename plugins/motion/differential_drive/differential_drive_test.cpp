@@ -3,6 +3,7 @@
 
 #include <random>
 
+#include "core/instance.hpp"
 #include "tests/support/wheeled_robot.hpp"
 
 namespace muro {
@@ -235,6 +236,23 @@ TEST(DifferentialDrive, StartsAtTheSpeedThatItIsGiven) {
   EXPECT_LT((s.moving().linear - 0.45 * forward).norm(), 1e-15);
   s.run_for(1);
   EXPECT_NEAR(s.value("left", keys::joint_velocity), 7, 1e-13) << "slows down to its target 0";
+}
+
+TEST(DifferentialDrive, TakesOverAtTheSpeedOfTheBase) {
+  Vehicle s(10, {{"max_wheel_acceleration", 1.0}});
+  s.run_for(0.1);
+  s.at().orientation = from_rpy(0.1, 0.2, 0.7);
+  const Vec3 forward = s.at().orientation * Vec3::UnitX(), left = s.at().orientation * Vec3::UnitY();
+  const Vec3 up = s.at().orientation * Vec3::UnitZ();
+  s.moving() = {0.45 * forward + 0.2 * left, up / 3 + 0.1 * left};
+  for (const auto& instance : s.instances())
+    if (instance->setup().use == "motion.differential_drive") instance->take_over(0);
+  EXPECT_NEAR(s.value("left", keys::joint_velocity), 8, 1e-12);
+  EXPECT_NEAR(s.value("right", keys::joint_velocity), 10, 1e-12);
+  s.turn_wheels(8, 10);
+  s.run_for(0.1);
+  EXPECT_NEAR(s.moving().linear.norm(), 0.45, 1e-12) << "what wheels cannot do is dropped";
+  EXPECT_NEAR(s.moving().angular.norm(), 1.0 / 3, 1e-12);
 }
 
 TEST(DifferentialDrive, TakesWheelsRadiusAndTrackFromTheUser) {

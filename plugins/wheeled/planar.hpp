@@ -4,7 +4,7 @@
 
 #include "muro/geometry.hpp"
 
-namespace muro::differential_drive {
+namespace muro::wheeled {
 
 /// Velocity of the frame's origin in the frame's own axes, and turn rate about its z axis. Also a rate of change of
 /// these.
@@ -16,6 +16,18 @@ struct PlanarTwist {
   PlanarTwist operator*(double k) const { return {k * x, k * y, k * turn}; }
   bool operator==(const PlanarTwist&) const = default;
 };
+
+/// The part of a body's velocity (world axes) that lies in its own x-y plane.
+inline PlanarTwist in_plane(const Pose& pose, const Twist& v) {
+  const Quat back = pose.orientation.conjugate();
+  const Vec3 linear = back * v.linear;
+  return {linear.x(), linear.y(), (back * v.angular).z()};
+}
+
+/// The velocity `v` of a frame at `pose`, in the axes of the world.
+inline Twist in_world(const Pose& pose, const PlanarTwist& v) {
+  return {pose.orientation * Vec3(v.x, v.y, 0), pose.orientation * Vec3(0, 0, v.turn)};
+}
 
 /// The pose, in the frame's pose before, after the constant `v` for `dt` (s): an arc. Its chord is
 /// v dt sin(h) / h long and h off the start's heading, where h is half the angle of turn.
@@ -42,4 +54,4 @@ inline Pose curve(const PlanarTwist& v, const PlanarTwist& rate, double dt) {
   return {way, Quat(std::cos(half), 0, 0, std::sin(half))};
 }
 
-}  // namespace muro::differential_drive
+}  // namespace muro::wheeled

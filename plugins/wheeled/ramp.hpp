@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace muro::differential_drive {
+namespace muro::wheeled {
 
 /// Accelerations from here on are as good as none: the velocity jumps.
 inline constexpr double unlimited = 1e9;
@@ -29,4 +29,4 @@ inline Ramp ramp(double from, double target, double most, double dt) {
   return {from, a, dt, from + a * dt};
 }
 
-}  // namespace muro::differential_drive
+}  // namespace muro::wheeled

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace muro::differential_drive {
+namespace muro::wheeled {
 namespace {
 
 TEST(Ramp, ReachesItsTargetWithinTheStepAndStaysThere) {
@@ -41,4 +41,4 @@ TEST(Ramp, StepsOfHalfTheTimeCoverTheSameAngle) {
 }
 
 }  // namespace
-}  // namespace muro::differential_drive
+}  // namespace muro::wheeled

@@ -5,7 +5,7 @@
 
 #include <random>
 
-namespace muro::differential_drive {
+namespace muro::wheeled {
 namespace {
 
 struct Draw {
@@ -75,4 +75,4 @@ TEST(Curve, WithoutChangeIsAnArc) {
 }
 
 }  // namespace
-}  // namespace muro::differential_drive
+}  // namespace muro::wheeled
