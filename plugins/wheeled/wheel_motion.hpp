@@ -2,6 +2,7 @@
 // Motion of vehicles whose base moves at a sum of shares, one of each wheel in proportion to its speed.
 #pragma once
 
+#include "muro/contact_stop.hpp"
 #include "other_joints.hpp"
 #include "planar.hpp"
 #include "ramp.hpp"
@@ -20,8 +21,8 @@ struct WheelShare {
   }
 };
 
-/// What such motions have in common; each says in `shares_of` what its wheels do. Its descriptions have the parameter
-/// `max_wheel_acceleration`.
+/// What such motions have in common; each says in `shares_of` what its wheels do. Its descriptions have the parameters
+/// `max_wheel_acceleration` and `on_contact`.
 class WheelMotion : public Algorithm {
  public:
   void connect(Connector& c) override {
@@ -42,10 +43,14 @@ class WheelMotion : public Algorithm {
       const std::span<DrivenWheel> wheels = wheels_of(robots_[i]);
       for (DrivenWheel& w : wheels)
         w.ramp = ramp(*w.velocity, std::clamp(*w.target, -w.of.max_speed, w.of.max_speed), max_acceleration_, step.dt);
-      move_base(robots_[i], wheels, step.dt);
+      const Robot& r = robots_[i];
+      const Pose before = *r.pose;
+      move_base(r, wheels, step.dt);
+      const bool stopped = r.stop.blocks(before.position, *r.twist);
+      if (stopped) *r.pose = before, *r.twist = {};
       for (const DrivenWheel& w : wheels) {
-        *w.position += w.ramp.angle(step.dt);
-        *w.velocity = w.ramp.last;
+        *w.position += stopped ? 0 : w.ramp.angle(step.dt);
+        *w.velocity = stopped ? 0 : w.ramp.last;
       }
       others_.move(i, step.dt);
     }
@@ -73,6 +78,7 @@ class WheelMotion : public Algorithm {
     Out<Twist> twist;
     Range wheels;  ///< in wheels_
     std::string_view name;
+    ContactStop stop;
   };
 
   std::span<DrivenWheel> wheels_of(const Robot& r) {
@@ -103,6 +109,7 @@ class WheelMotion : public Algorithm {
     r.wheels.end = std::uint32_t(wheels_.size());
     r.twist = c.variable(robot.base(), keys::twist, in_world(start, rolling));
     others_.connect(c, robot, positions, state);
+    r.stop = ContactStop(c, robot);
     robots_.push_back(r);
   }
 

@@ -51,6 +51,37 @@ TEST_P(EveryMotion, KeepsOrientationsUnitAndAllValuesFinite) {
   }
 }
 
+TEST_P(EveryMotion, ThatNoForceMovesStopsAtAWallWhenItIsToldTo) {
+  const Description& d = *test::plugins().algorithm(GetParam()).description;
+  if ((d.features & feature_forces) != 0) GTEST_SKIP() << "forces move it";
+  for (const bool stop : {false, true}) {
+    test::Scene s;
+    s.add_ground();
+    const Shape wall = Shape::box({0.2, 10, 2});
+    s.world().add_scenery("wall", {{4, 0, 1}, Quat::Identity()}, std::span<const Shape>(&wall, 1));
+    const test::Vehicle vehicle = test::vehicle_for(GetParam());
+    const RobotTree model = s.read_model(MURO_TEST_SOURCE_DIR "/examples/models/" + vehicle.model + ".urdf");
+    const RobotView& r = s.add("r", model, {{0, 0, model.standing_height()}, Quat::Identity()});
+    s.use(GetParam(), 1000, s.all_robots(), {{"on_contact", std::string(stop ? "stop" : "ignore")}});
+    s.use(vehicle.drive, 0, s.all_robots());
+    s.use_contacts();
+    s.build();
+    s.world().value(r.base(), keys::command_twist) = {{0.5, 0, 0}, Vec3::Zero()};
+    s.run_for(10);
+    if (!stop) {
+      EXPECT_NEAR(s.pose(r).position.x(), 5, 0.05);
+      continue;
+    }
+    EXPECT_LT(s.pose(r).position.x(), 3.9);
+    EXPECT_GT(s.pose(r).position.x(), 1);
+    EXPECT_EQ(s.twist(r).linear.norm(), 0);
+    s.world().value(r.base(), keys::command_twist) = {{-0.5, 0, 0}, Vec3::Zero()};
+    const double before = s.pose(r).position.x();
+    s.run_for(1);
+    EXPECT_NEAR(s.pose(r).position.x(), before - 0.5, 0.02) << "it can back away";
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Conformance, EveryMotion, ::testing::ValuesIn(test::algorithms_of("motion")),
                          [](const auto& test) {
                            std::string name = test.param;

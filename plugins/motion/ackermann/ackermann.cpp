@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Vehicles with steered wheels: their angles give the centre about which the base turns, driven wheels the speed.
 // Siegwart, Nourbakhsh and Scaramuzza, Introduction to Autonomous Mobile Robots, 2nd edition, section 3.2.
+#include "muro/contact_stop.hpp"
 #include "plugins/wheeled/other_joints.hpp"
 #include "steered_vehicle.hpp"
 
@@ -18,6 +19,7 @@ constexpr Parameter parameters[] = {
         .between(1e-6, unlimited),
     real("max_wheel_acceleration", "rad/s^2", unlimited, "of every driven wheel; 1e9: none, the speed jumps")
         .between(1e-6, unlimited),
+    on_contact,
 };
 constexpr Use reads[] = {
     {"joint.position.target", "of every joint that steers"},
@@ -26,6 +28,7 @@ constexpr Use reads[] = {
     {"twist.initial", "of the base; what wheels can follow of it is their speed at the start"},
     {"joint.position.initial", "of every joint, optional"},
     {"collision.shapes", "of the wheels; else visual.shapes"},
+    on_contact_reads,
 };
 constexpr Use writes[] = {{"pose", "of the base"},
                           {"twist", "of the base"},
@@ -84,6 +87,7 @@ class Ackermann final : public Algorithm {
     RollingBase base;
     Range wheels, steering;  ///< in wheels_, steering_
     std::string_view name;
+    ContactStop stop{};
   };
 
   std::span<VehicleWheel> wheels_of(const Robot& r) {
@@ -145,6 +149,7 @@ class Ackermann final : public Algorithm {
     const PlanarTwist rolling = SteeredVehicle(r.base, wheels_of(r), steering_of(r)).velocity().velocity;
     r.twist = c.variable(robot.base(), keys::twist, in_world(start, rolling));
     others_.connect(c, robot, positions, state);
+    r.stop = ContactStop(c, robot);
     robots_.push_back(r);
   }
 
@@ -171,10 +176,17 @@ class Ackermann final : public Algorithm {
       throw Error("a joint of `" + std::string(r.name) +
                   "` is to turn at a speed or to an angle that is not finite; look at what writes "
                   "`joint.velocity.target` and `joint.position.target`");
+    const Pose before = *r.pose;
     const PlanarTwist velocity = SteeredVehicle(r.base, wheels, steering).move(*r.pose, r.twist->angular.norm(), dt);
     r.pose->orientation.normalize();
     *r.twist = in_world(*r.pose, velocity);
     for (const Steering& s : steering) s.finish(dt);
+    if (r.stop.blocks(before.position, *r.twist)) {
+      *r.pose = before;
+      *r.twist = {};
+      for (const VehicleWheel& w : wheels) *w.velocity = 0;
+      return;
+    }
     for (const VehicleWheel& w : wheels) {
       *w.position += w.driven ? w.ramp.angle(dt) : w.turned;
       *w.velocity = w.driven ? w.ramp.last : w.speed_at(velocity);

@@ -19,6 +19,7 @@ constexpr Parameter parameters[] = {
         .between(0, 1e3),
     real("max_wheel_acceleration", "rad/s^2", unlimited, "of every wheel; 1e9: none, the speed jumps")
         .between(1e-6, unlimited),
+    on_contact,
 };
 constexpr Use reads[] = {
     {"joint.velocity.target", "of every joint that follows no other"},
@@ -26,6 +27,7 @@ constexpr Use reads[] = {
     {"twist.initial", "of the base; what wheels can follow of it is their speed at the start"},
     {"joint.position.initial", "of every joint, optional"},
     {"collision.shapes", "of the wheels; else visual.shapes"},
+    on_contact_reads,
 };
 constexpr Use writes[] = {{"pose", "of the base"},
                           {"twist", "of the base"},

@@ -204,8 +204,8 @@ void OdeWorld::make_contacts() {
       contact.surface.bounce_vel = settings_.bounce_speed;
     }
     const dBodyID a = dGeomGetBody(t.geom.g1), b = dGeomGetBody(t.geom.g2);
-    // ODE bounds friction along two directions, each for itself. With the first along the slip, and no friction across it
-    // while bodies slide, it is that of a cone.
+    // ODE bounds friction along two directions, each for itself. With the first along the slip, and no friction across
+    // it while bodies slide, it is that of a cone.
     dVector3 of_a{}, of_b{};
     const dReal* p = t.geom.pos;
     if (a) dBodyGetPointVel(a, p[0], p[1], p[2], of_a);

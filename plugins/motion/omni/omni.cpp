@@ -16,6 +16,7 @@ constexpr Parameter parameters[] = {
     real("wheel_radius", "m", 0, "of every wheel; 0: of the wheels' shapes").between(0, 1e3),
     real("max_wheel_acceleration", "rad/s^2", unlimited, "of every wheel; 1e9: none, the speed jumps")
         .between(1e-6, unlimited),
+    on_contact,
 };
 constexpr Use reads[] = {
     {"joint.velocity.target", "of every joint that follows no other"},
@@ -23,6 +24,7 @@ constexpr Use reads[] = {
     {"twist.initial", "of the base; what wheels can follow of it is their speed at the start"},
     {"joint.position.initial", "of every joint, optional"},
     {"collision.shapes", "of the wheels; else visual.shapes"},
+    on_contact_reads,
 };
 constexpr Use writes[] = {{"pose", "of the base"},
                           {"twist", "of the base"},

@@ -3,11 +3,7 @@
 
 namespace muro::simplified {
 
-namespace {
-
-/// Whether turning about `axis` (unit, through the origin) leaves centre of mass and inertia as they are. Models state
-/// both with few digits, hence the margins: 1 um, and 1e-6 of the inertia.
-bool symmetric(const Inertia& body, const Vec3& axis) {
+bool balanced(const Inertia& body, const Vec3& axis) {
   if ((body.com - body.com.dot(axis) * axis).norm() > 1e-6) return false;
   const Mat3 tensor = body.tensor();
   const Vec3 u = axis.unitOrthogonal(), v = axis.cross(u);
@@ -17,6 +13,8 @@ bool symmetric(const Inertia& body, const Vec3& axis) {
          small(u.dot(tensor * u) - v.dot(tensor * v));
 }
 
+namespace {
+
 /// For every frame: whether its joint moves mass relative to the frame's parent.
 std::vector<bool> movers(std::span<const Frame> frames, std::span<const Inertia> inertias,
                          std::span<const double> start) {
@@ -25,7 +23,7 @@ std::vector<bool> movers(std::span<const Frame> frames, std::span<const Inertia>
   for (std::size_t i = frames.size(); i-- > 1;) {
     const Frame& f = frames[i];
     const bool heavy = subtree[i].mass > 0;
-    const bool wheel = f.joint == JointKind::revolute && !moves_below[i] && symmetric(subtree[i], f.axis);
+    const bool wheel = f.joint == JointKind::revolute && !moves_below[i] && balanced(subtree[i], f.axis);
     moves[i] = f.joint != JointKind::fixed && heavy && !wheel;
     const auto parent = std::size_t(f.parent);
     moves_below[parent] = moves_below[parent] || moves[i] || moves_below[i];

@@ -16,6 +16,10 @@ struct MassState {
   Mat3 tensor = Mat3::Zero();        ///< kg m^2, about the centre
 };
 
+/// Whether turning about `axis` (unit, through the origin of its frame) leaves the centre of mass and the inertia of a
+/// body as they are. Models state both with few digits, hence the margins: 1 um, and 1e-6 of the inertia.
+bool balanced(const Inertia& body, const Vec3& axis);
+
 /// The bodies of a robot, joined to as few rigid groups as its moving masses allow.
 ///
 /// A joint that turns a subtree about an axis on which the subtree's centre of mass lies and about which its

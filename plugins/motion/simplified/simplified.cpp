@@ -27,9 +27,7 @@ constexpr Parameter parameters[] = {
     position_joints,
     effort_joints,
     passive_joints,
-    real("max_joint_acceleration", "rad/s^2 or m/s^2", 100,
-         "of every joint that follows a velocity, position or "
-         "acceleration")
+    real("max_joint_acceleration", "rad/s^2 or m/s^2", 100, "of every joint that follows a target other than an effort")
         .between(1e-6, 1e9),
     boolean("effort_limits", false, "drives that follow targets are no stronger than the model says, and give way"),
     real("armature", "kg m^2 or kg", 0, "inertia of each drive, felt by joints that forces move").between(0, 1e6),
@@ -52,11 +50,12 @@ constexpr Use writes[] = {{"pose", "of the base"},
                           {"joint.position", "of every joint"},
                           {"joint.velocity", "of every joint"},
                           {"joint.effort", "of joints that forces move: what the drive applies"},
-                          {"contact.world", "that the contact algorithm answers for all contacts"}};
+                          {"contact.world", "that the contact algorithm answers for all contacts"},
+                          {"twist.lag", "0: pose and twist are those of one instant"}};
 constexpr Description description{
     .id = "motion.simplified",
     .kind = Kind::motion,
-    .version = "1.0.0",
+    .version = "1.1.0",
     .summary =
         "One rigid body under external wrenches whose centre of mass and inertia follow the joints; "
         "joints follow their targets, or forces",
@@ -102,6 +101,7 @@ class Simplified final : public Algorithm {
 
   void take_over(std::uint32_t item) override {
     *robots_[item].contact_world = contacts_of(robots_[item]);
+    *robots_[item].twist_lag = 0;
     if (fixed_) std::fill_n(layers_[0][item].twist, 6, 0.0);
   }
 
@@ -156,6 +156,7 @@ class Simplified final : public Algorithm {
   struct Robot {
     std::optional<SumIn<Wrench>> external;  ///< none: no wrench moves it
     Out<std::uint64_t> contact_world;
+    Out<double> twist_lag;
     std::uint32_t first_further = 0;  ///< in further_
     std::int32_t articulation = -1;   ///< in articulations_; -1: no joint moves mass
     std::int32_t forced = -1;         ///< in forced_; -1: no force moves a joint
@@ -192,6 +193,7 @@ class Simplified final : public Algorithm {
     }
     if (model.forced || !fixed_) r.external = c.read_sum(robot.base(), keys::external_wrench);
     r.contact_world = c.variable(robot.base(), keys::contact_world, contacts_of(r));
+    r.twist_lag = c.variable(robot.base(), keys::twist_lag, 0.0);
     connect_groups(robot, places, model, state);
     model.plain = model.rigid && !model.forced && !fixed_ && model.groups.size() <= 1;
     if (!moving.rigid()) {
@@ -256,7 +258,7 @@ class Simplified final : public Algorithm {
 
   void move_rigid(const Work& work, std::uint32_t begin, std::uint32_t end) const {
     const unsigned broken = kernels_->move_rigid(work, &layers_[0][begin], int(end - begin));
-    if (broken != 0) fail(robots_[begin + std::uint32_t(std::countr_zero(broken))]);
+    if (broken != 0) fail(begin + std::uint32_t(std::countr_zero(broken)));
   }
 
   /// Joints, then bases.
@@ -277,7 +279,7 @@ class Simplified final : public Algorithm {
     if (model.rigid) return move_rigid(work, begin, end);
     for (std::uint32_t i = begin; i < end; ++i) {
       const Wrench external = model.forced ? totals_[i] : robots_[i].external->value();
-      if (!articulation(i).move_base(work, layers_[0][i], external)) fail(robots_[i]);
+      if (!articulation(i).move_base(work, layers_[0][i], external)) fail(i);
     }
   }
 
@@ -287,11 +289,12 @@ class Simplified final : public Algorithm {
     const Pose pose{Vec3(s.pose[0], s.pose[1], s.pose[2]), Quat(s.pose + 3)};
     const Twist twist{Vec3(s.twist[0], s.twist[1], s.twist[2]), Vec3(s.twist[3], s.twist[4], s.twist[5])};
     totals_[i] = joints.look(pose, twist, gravity_, dt);
-    if (!joints.move(dt)) fail(robots_[i]);
+    if (!joints.move(dt)) fail(i);
   }
 
-  [[noreturn]] static void fail(const Robot& r) {
-    const Wrench external = r.external ? r.external->value() : Wrench{};
+  [[noreturn]] void fail(std::uint32_t i) const {
+    const Robot& r = robots_[i];
+    const Wrench external = r.forced >= 0 ? totals_[i] : r.external ? r.external->value() : Wrench{};
     const bool bad_input = !std::isfinite(external.force.sum() + external.torque.sum());
     throw Error("the motion of `" + r.name + "` is no longer finite" +
                 (bad_input
@@ -318,5 +321,5 @@ constexpr abi::AlgorithmEntry algorithms[] = {algorithm<Simplified>(description)
 
 }  // namespace
 
-MURO_PLUGIN(.name = "motion_simplified", .version = "1.0.0", .licence = "MIT",
+MURO_PLUGIN(.name = "motion_simplified", .version = "1.1.0", .licence = "MIT",
             .summary = "The simplified dynamics model", .algorithms = algorithms)

@@ -61,8 +61,8 @@ TEST_P(EveryCollision, SphereMeetsABoxAtFaceEdgeAndCorner) {
   expect_deepest(ball, {Vec3(1, 0.2, 1) + 0.4 * edge, Quat::Identity()}, box, origin, Vec3(1, 0.2, 1) - 0.05 * edge,
                  edge, 0.1);
   const Vec3 corner = Vec3(1, 1, 1).normalized();
-  expect_deepest(ball, {Vec3(1, 1, 1) + 0.4 * corner, Quat::Identity()}, box, origin,
-                 Vec3(1, 1, 1) - 0.05 * corner, corner, 0.1);
+  expect_deepest(ball, {Vec3(1, 1, 1) + 0.4 * corner, Quat::Identity()}, box, origin, Vec3(1, 1, 1) - 0.05 * corner,
+                 corner, 0.1);
 }
 
 TEST_P(EveryCollision, SphereMeetsPlaneCylinderAndCapsule) {
@@ -88,8 +88,8 @@ TEST_P(EveryCollision, BoxOnItsEdgeRestsOnTwoPoints) {
 
 TEST_P(EveryCollision, BoxEdgesThatCrossGiveTheirCommonPerpendicular) {
   const double ridge = std::sqrt(2.0) / 2;
-  expect_points(Shape::box({1, 4, 1}), at(0.2, -0.3, 2 * ridge - 0.05, from_rpy(0, M_PI / 4, 0)),
-                Shape::box({4, 1, 1}), at(0, 0, 0, from_rpy(M_PI / 4, 0, 0)), 0.05, up, {{0.2, 0, ridge - 0.025}});
+  expect_points(Shape::box({1, 4, 1}), at(0.2, -0.3, 2 * ridge - 0.05, from_rpy(0, M_PI / 4, 0)), Shape::box({4, 1, 1}),
+                at(0, 0, 0, from_rpy(M_PI / 4, 0, 0)), 0.05, up, {{0.2, 0, ridge - 0.025}});
 }
 
 TEST_P(EveryCollision, BoxCornerOnAFaceIsOnePoint) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Random pairs of shapes through every collision algorithm, against collision.native, whose depth is the least by which a
-// pair can be parted.
+// Random pairs of shapes through every collision algorithm, against collision.native, whose depth is the least by which
+// a pair can be parted.
 #include <random>
 
 #include "tests/conformance/collision/touching.hpp"
@@ -61,8 +61,7 @@ std::vector<Pair> pairs_of(ShapeKind a, ShapeKind b, int count, unsigned seed) {
     const bool parallel = i % 4 == 0;
     p.place = {{10.0 * (i % 20), 10.0 * (i / 20), 0}, random.rotation(parallel)};
     const double near = half_extents(p.robot).minCoeff() + half_extents(p.scenery).minCoeff();
-    p.at = {p.place.position + random.uniform(0.7, 1.2) * near * random.direction(),
-            random.rotation(parallel)};
+    p.at = {p.place.position + random.uniform(0.7, 1.2) * near * random.direction(), random.rotation(parallel)};
     pairs.push_back(p);
   }
   return pairs;

@@ -209,8 +209,7 @@ struct Standing : test::Scene {
 
   Standing(const std::string& collision, const Shape& shape, const Shape& floor, double height) {
     world().add_scenery("floor", {{0, 0, -0.5 * floor.size.z()}, Quat::Identity()}, std::span<const Shape>(&floor, 1));
-    robot = &add("robot", test::single_body(shape, test::unit_inertia),
-                 {{0.3, -0.2, height}, from_rpy(0, 0, 0.3)});
+    robot = &add("robot", test::single_body(shape, test::unit_inertia), {{0.3, -0.2, height}, from_rpy(0, 0, 0.3)});
     use("motion.simplified", 1000, {{robot, robot->base()}});
     use_kinematics();
     use("scene.bvh", 0);

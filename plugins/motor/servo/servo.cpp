@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: MIT
+// A position or velocity servo: digital controller, DC motor and gear, in front of any motion whose joints efforts
+// drive.
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gear.hpp"
+#include "muro/composite.hpp"
+#include "muro/joint_drives.hpp"
+#include "muro/joint_inertia.hpp"
+#include "muro/plugin.hpp"
+
+namespace {
+
+using namespace muro;
+using namespace muro::servo;
+
+constexpr Key<double> kept_effort{"servo.integral", "N m or N", "effort of the controller's integral"};
+constexpr Key<double> encoder_reading{"servo.position", "rad or m", "position as the controller sees it"};
+constexpr Key<double> seen_speed{"servo.velocity", "rad/s or m/s", "speed as the controller sees it"};
+constexpr Key<double> delayed_commands{"servo.commands", "rad or m, rad/s or m/s", "list: on their way to the servo"};
+constexpr Key<double> rotor_position{"motor.position", "rad or m", "of the rotor, at the output"};
+constexpr Key<double> rotor_velocity{"motor.velocity", "rad/s or m/s", "of the rotor, at the output"};
+constexpr Key<double> motor_effort{"motor.effort", "N m or N", "what the motor applies to the rotor, at the output"};
+
+constexpr std::string_view modes[] = {"position", "velocity"};
+constexpr std::string_view places[] = {"output", "motor"};
+constexpr Parameter parameters[] = {
+    texts("joints", "names, or beginnings of names followed by *; default: all whose motion takes efforts"),
+    text("mode", "position", "what it follows: joint.position.target or joint.velocity.target").one_of(modes),
+    real("stiffness", "N m/rad or N/m", 0,
+         "effort by position error; mode velocity: by the integral of the speed error")
+        .between(0, 1e12),
+    real("damping", "N m s/rad or N s/m", 0, "effort by speed; mode velocity: by speed error").between(0, 1e12),
+    real("integral", "N m/(rad s) or N/(m s)", 0, "mode position: growth of effort by position error").between(0, 1e12),
+    real("delay", "s", 0, "of commands; rounded to whole runs").between(0, 1),
+    text("encoder", "output", "where the position is measured").one_of(places),
+    real("encoder_resolution", "rad or m", 0, "step of the measured position, at the output; 0: exact").between(0, 1),
+    real("speed_filter", "s", 0, "time constant of the measured speed; 0: none").between(0, 10),
+    real("gear_ratio", "1 or rad/m", 1, "turns of the motor by those of the output").between(1e-6, 1e9),
+    real("stall_torque", "N m", 0, "of the motor at standstill; 0: no torque-speed line").between(0, 1e12),
+    real("no_load_speed", "rad/s", 0, "of the motor; 0: no torque-speed line").between(0, 1e9),
+    real("max_torque", "N m", 0, "of the motor at the largest current; 0: no limit").between(0, 1e12),
+    real("rotor_inertia", "kg m^2", 0, "of the motor; 0: the joint feels none, and the gear is ideal").between(0, 1e9),
+    real("efficiency", "1", 1, "of the gear under load; below 0.5 it locks itself").between(0.05, 1),
+    real("friction", "N m or N", 0, "Coulomb friction of motor and gear, at the output").between(0, 1e12),
+    real("viscous_friction", "N m s/rad or N s/m", 0, "of motor and gear, at the output").between(0, 1e12),
+    real("backlash", "rad or m", 0, "play of the gear from flank to flank, at the output").between(0, 10),
+    real("gear_stiffness", "N m/rad or N/m", 0, "of the gear, at the output; 0: as stiff as the rate allows")
+        .between(0, 1e12),
+};
+constexpr Use reads[] = {{"joint.position.target", "mode position"},
+                         {"joint.velocity.target", "mode velocity"},
+                         {"joint.position", "of every joint that it drives"},
+                         {"joint.velocity", "of every joint that it drives"},
+                         {"inertial", "of the bodies behind a joint, where the rotor has inertia"}};
+constexpr Use writes[] = {{"joint.effort.target", "of every joint that it drives"},
+                          {"servo.integral", "effort of the controller's integral"},
+                          {"servo.position", "position as the controller sees it"},
+                          {"servo.velocity", "speed as the controller sees it"},
+                          {"servo.commands", "commands on their way, where there is a delay"},
+                          {"motor.position", "of the rotor, at the output, where it has inertia"},
+                          {"motor.velocity", "of the rotor, at the output, where it has inertia"},
+                          {"motor.effort", "what the motor applies to the rotor, at the output"}};
+constexpr Description description{
+    .id = "motor.servo",
+    .kind = Kind::drive,
+    .version = "1.0.0",
+    .summary = "Servos with a digital controller, a DC motor, and a gear with backlash and friction",
+    .parameters = parameters,
+    .reads = reads,
+    .writes = writes,
+    .promises = deterministic | batched | allocation_free | restorable,
+};
+
+class Servo final : public Algorithm {
+ public:
+  void connect(Connector& c) override {
+    read_parameters(c.parameters());
+    for (const Item& item : c.items()) {
+      if (!item.robot) throw Error("it drives joints of robots, but no robot is named");
+      connect_robot(c, *item.robot);
+    }
+  }
+
+  std::span<const Phase> phases() const override {
+    static constexpr Phase phases[] = {{Phase::Over::items, Phase::Reach::own}};
+    return phases;
+  }
+
+  void step(const Step& step, Range range) override {
+    for (std::uint32_t i = range.begin; i < range.end; ++i)
+      for (std::uint32_t k = robots_[i].begin; k < robots_[i].end; ++k) drive(joints_[k], step);
+  }
+
+ private:
+  struct Joint {
+    In<double> command, position, velocity;
+    Out<double> effort, kept, reading, speed, motor_effort;
+    Out<double> rotor_position, rotor_velocity;  ///< where the rotor has inertia
+    ListOut<double> commands;                    ///< where there is a delay; from the oldest, in a ring
+    Gear gear;
+    double rest = 0;  ///< the command before any came
+  };
+
+  void read_parameters(const Parameters& p) {
+    const double ratio = p.real("gear_ratio");
+    regulator_ = {p.text("mode") == "velocity", p.real("stiffness"), p.real("damping"), p.real("integral")};
+    encoder_ = {p.real("encoder_resolution"), p.real("speed_filter")};
+    encoder_on_motor_ = p.text("encoder") == "motor";
+    delay_ = p.real("delay");
+    const double stall = p.real("stall_torque"), fastest = p.real("no_load_speed"), most = p.real("max_torque");
+    if ((stall > 0) != (fastest > 0))
+      throw Error("`stall_torque` is " + std::to_string(stall) + " N m and `no_load_speed` " + std::to_string(fastest) +
+                  " rad/s; the torque-speed line needs both, or leave both out");
+    if (stall > 0) motor_.stall = stall * ratio, motor_.slope = stall / fastest * ratio * ratio;
+    if (most > 0) motor_.current = most * ratio;
+    gear_ = {.inertia = p.real("rotor_inertia") * ratio * ratio,
+             .friction = p.real("friction"),
+             .loss = 1 / p.real("efficiency") - 1,
+             .viscous = p.real("viscous_friction"),
+             .backlash = p.real("backlash"),
+             .stiffness = p.real("gear_stiffness")};
+    check(p);
+  }
+
+  void check(const Parameters& p) const {
+    if (!regulator_.follows_velocity && !(regulator_.stiffness > 0))
+      throw Error("`stiffness` is 0, so a servo of positions does nothing; give it, in N m/rad");
+    if (regulator_.follows_velocity && !(regulator_.stiffness + regulator_.damping > 0))
+      throw Error("`damping` and `stiffness` are 0, so a servo of speeds does nothing; give `damping`, in N m s/rad");
+    if (regulator_.follows_velocity && p.given("integral"))
+      throw Error("`integral` belongs to mode `position`; in mode `velocity` `stiffness` is the gain of the integral");
+    if (gear_.inertia > 0) return;
+    for (const std::string_view name : {"friction", "backlash", "gear_stiffness"})
+      if (p.real(name) > 0) throw needs_rotor(name, std::to_string(p.real(name)));
+    if (p.real("efficiency") < 1) throw needs_rotor("efficiency", std::to_string(p.real("efficiency")));
+    if (encoder_on_motor_) throw needs_rotor("encoder", "motor");
+  }
+  static Error needs_rotor(std::string_view name, const std::string& value) {
+    return Error("`" + std::string(name) + "` is " + value +
+                 ", which needs a rotor that moves by itself; give `rotor_inertia`, in kg m^2 (of the motor; "
+                 "1e-7 to 1e-5 for small ones)");
+  }
+
+  void connect_robot(Connector& c, const RobotView& robot) {
+    const std::vector<double> start = initial_joint_positions(c, robot);
+    const std::vector<Inertia> inertias = inertias_of(c, robot);
+    const auto begin = std::uint32_t(joints_.size());
+    for (const std::size_t i : chosen(c, robot)) {
+      const ObjectId joint = robot.frames[i].joint_object;
+      Joint j;
+      j.gear = gear_;
+      if (gear_.inertia > 0) {
+        j.gear.joint_inertia = joint_inertia(robot.frames, inertias, start, i);
+        if (!(j.gear.joint_inertia > 0))
+          throw Error("joint `" + std::string(c.object_name(joint)) +
+                      "` moves no inertia that a gear could turn; give the bodies behind it mass and inertia "
+                      "(`inertial`)");
+        j.rotor_position = c.variable(joint, rotor_position, start[i]);
+        j.rotor_velocity = c.variable(joint, rotor_velocity, 0.0);
+      }
+      j.rest = regulator_.follows_velocity ? 0 : start[i];
+      j.command = c.input(
+          joint, regulator_.follows_velocity ? keys::joint_velocity_target : keys::joint_position_target, j.rest);
+      j.position = c.input(joint, keys::joint_position, start[i]);
+      j.velocity = c.input(joint, keys::joint_velocity, 0.0);
+      j.effort = c.offer(joint, keys::joint_effort_target);
+      j.kept = c.variable(joint, kept_effort, 0.0);
+      j.reading = c.variable(joint, encoder_reading, encoder_.reading(start[i]));
+      j.speed = c.variable(joint, seen_speed, 0.0);
+      j.motor_effort = c.derived(joint, motor_effort);
+      if (delay_ > 0) j.commands = c.variable_list(joint, delayed_commands);
+      joints_.push_back(j);
+    }
+    robots_.push_back({begin, std::uint32_t(joints_.size())});
+  }
+
+  /// Frames of the joints to drive. Where none is named: those whose motion takes efforts.
+  static std::vector<std::size_t> chosen(Connector& c, const RobotView& robot) {
+    const std::span<const std::string_view> names = c.parameters().texts("joints");
+    std::vector<std::size_t> frames;
+    std::vector<std::string> known;
+    std::vector<bool> used(names.size());
+    for (std::size_t i = 0; i < robot.frames.size(); ++i) {
+      const Frame& f = robot.frames[i];
+      if (f.joint == JointKind::fixed || f.mimic >= 0) continue;
+      known.emplace_back(c.object_name(f.joint_object).substr(robot.name.size() + 1));
+      bool wanted = names.empty() && c.is_used(f.joint_object, keys::joint_effort_target, Access::input);
+      for (std::size_t k = 0; k < names.size(); ++k) {
+        const bool named = muro::detail::names_joint(names[k], known.back());
+        wanted = wanted || named;
+        used[k] = used[k] || named;
+      }
+      if (wanted) frames.push_back(i);
+    }
+    std::string all;
+    for (const std::string& k : known) all += " `" + k + "`";
+    for (std::size_t k = 0; k < names.size(); ++k)
+      if (!used[k])
+        throw Error("`joints` names `" + std::string(names[k]) + "`, but `" + std::string(robot.name) +
+                    "` has no such joint to drive" + did_you_mean(names[k], known) +
+                    "; its joints are:" + (all.empty() ? " none" : all));
+    if (frames.empty())
+      c.host().log(LogLevel::info, "motor.servo drives nothing of `" + std::string(robot.name) +
+                                       "`: its motion takes no efforts (`joints: effort` there, or `effort_joints`)");
+    return frames;
+  }
+
+  /// The command of `delay_` ago.
+  double delayed(const Joint& j, const Step& step) const {
+    const double command = *j.command;
+    if (!j.commands) return command;
+    const auto runs = std::uint64_t(std::lround(delay_ / step.dt));
+    if ((*j.commands).size() != runs) {
+      j.commands.clear();
+      for (std::uint64_t k = 0; k < runs; ++k) j.commands.push_back(step.index == 0 ? j.rest : command);
+    }
+    if (runs == 0) return command;
+    return std::exchange((*j.commands)[step.index % runs], command);
+  }
+
+  void drive(const Joint& j, const Step& step) const {
+    const double dt = step.dt, q = *j.position, v = *j.velocity;
+    Rotor rotor{q, v};
+    if (j.rotor_position) rotor = {*j.rotor_position, *j.rotor_velocity};
+    const double target = delayed(j, step);
+    const double seen = encoder_.reading(encoder_on_motor_ ? rotor.position : q);
+    const double speed = encoder_.seen_speed(seen, *j.reading, *j.speed, encoder_on_motor_ ? rotor.velocity : v, dt);
+    *j.reading = seen;
+    *j.speed = speed;
+    const double wanted = regulator_.effort(target, seen, speed, motor_.bounds(rotor.velocity), *j.kept, dt);
+    if (!j.rotor_position) {
+      *j.motor_effort = wanted;
+      *j.effort = wanted - gear_.viscous * v;
+      return;
+    }
+    *j.effort = j.gear.effort(rotor, q, v, dt);
+    *j.motor_effort = j.gear.turn(rotor, wanted, motor_, *j.effort, dt);
+    *j.rotor_position = rotor.position;
+    *j.rotor_velocity = rotor.velocity;
+  }
+
+  Regulator regulator_;
+  Encoder encoder_;
+  bool encoder_on_motor_ = false;
+  double delay_ = 0;  ///< s
+  Motor motor_;
+  Gear gear_;                  ///< but the inertia of the joint
+  std::vector<Range> robots_;  ///< in joints_
+  std::vector<Joint> joints_;
+};
+
+constexpr abi::AlgorithmEntry algorithms[] = {algorithm<Servo>(description)};
+
+}  // namespace
+
+MURO_PLUGIN(.name = "motor_servo", .version = "1.0.0", .licence = "MIT", .summary = "Servos of joints",
+            .algorithms = algorithms)

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// Every motion against the cases of known answers (tests/conformance/motion): backend x case x error.
+//   --markdown FILE   also writes the table there: docs/backends.md
+#include <fmt/format.h>
+
+#include <fstream>
+
+#include "core/error.hpp"
+#include "tests/bench/report.hpp"
+#include "tests/conformance/motion/case.hpp"
+
+namespace {
+
+using namespace muro;
+using namespace muro::bench;
+using conformance::Bound, conformance::Case, conformance::Outcome;
+
+/// Motions that at least one case applies to.
+std::vector<std::string> columns() {
+  std::vector<std::string> all;
+  for (const std::string& id : conformance::motions())
+    if ((conformance::description_of(id).features & feature_forces) != 0) all.push_back(id);
+  return all;
+}
+
+/// The error in few digits, with what it is allowed where it is not the bound of the case; "" where it does not apply.
+std::string cell(const std::string& motion, const Case& c) {
+  const Features has = conformance::description_of(motion).features;
+  if ((c.needs & has) != c.needs || (c.excludes & has) != 0) return "";
+  try {
+    const Outcome seen = c.run(motion);
+    const Bound bound = conformance::bound_of(motion, c);
+    const std::string error = seen.error < 1e-12 ? "0" : fmt::format("{:.1e}", seen.error);
+    if (seen.error > bound.error) return error + " (!)";
+    return bound.why.empty() ? error : error + " *";
+  } catch (const SetupError&) {
+    return "refused";
+  }
+}
+
+std::string page(const std::vector<std::string>& motions, const std::vector<std::vector<std::string>>& rows) {
+  std::string out =
+      "# Backends and what they do\n\n"
+      "Made by `./dev bench backends -- --markdown docs/backends.md`. Each case has an answer from outside (a closed "
+      "form, "
+      "a published figure); `tests/conformance/motion` holds every motion that offers what a case needs to the bound. "
+      "All "
+      "at 1000 Hz (the top at 4000) with default parameters. `*`: the motion has a bound of its own, for the reason "
+      "below "
+      "the table. Empty: it does not offer what the case needs.\n\n| case | unit | bound |";
+  for (const std::string& m : motions) out += " " + m + " |";
+  out += "\n|---|---|---|";
+  for (std::size_t i = 0; i < motions.size(); ++i) out += "---|";
+  for (const auto& row : rows) {
+    out += "\n|";
+    for (const std::string& c : row) out += " " + c + " |";
+  }
+  out += "\n\n";
+  for (const std::string& m : motions)
+    for (const Case& c : conformance::all_cases())
+      if (const Bound b = conformance::bound_of(m, c); !b.why.empty())
+        out += fmt::format("- {}: {}: {:g}, for: {}\n", m, c.name, b.error, b.why);
+  return out;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Report report("backends", "Motions against cases of known answers", argc, argv);
+  const std::vector<std::string> motions = columns();
+  std::vector<std::string> header{"case", "unit", "bound"};
+  header.insert(header.end(), motions.begin(), motions.end());
+  report.table("Errors; * has a bound of its own, (!) is above it", header);
+  std::vector<std::vector<std::string>> rows;
+  for (const Case& c : conformance::all_cases()) {
+    std::vector<std::string> row{std::string(c.name), std::string(c.unit), fmt::format("{:g}", c.bound)};
+    bool any = false;
+    for (const std::string& m : motions) {
+      row.push_back(cell(m, c));
+      any = any || !row.back().empty();
+    }
+    if (!any) continue;
+    report.row(std::vector<Cell>(row.begin(), row.end()));
+    rows.push_back(std::move(row));
+  }
+  report.finish();
+  if (const std::string file = report.argument("markdown", ""); !file.empty()) {
+    std::ofstream out(file);
+    out << page(motions, rows);
+    if (!out) {
+      fmt::print(stderr, "{} cannot be written\n", file);
+      return 2;
+    }
+  }
+  return 0;
+}
