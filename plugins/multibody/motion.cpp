@@ -134,7 +134,11 @@ void Motion::connect_touched(Connector& c, const RobotView& view, Robot& r) cons
 
 void Motion::connect_others(Connector& c) {
   std::vector<bool> own(c.robots().size());
-  for (const Item& item : c.items()) own[item.robot->number] = true;
+  for (const Item& item : c.items()) {
+    own[item.robot->number] = true;
+    if (const auto original = c.constant(item.robot->base(), keys::shadow_of))  // it is in its own place
+      own[std::size_t(c.robot_of(*original))] = true;
+  }
   const auto shapes_of = [&](ObjectId object) {
     std::vector<PartShape> shapes;
     for (const Shape& s : c.constant_array(object, keys::collision_shapes)) shapes.push_back({s, 0});
@@ -149,7 +153,7 @@ void Motion::connect_others(Connector& c) {
     scenery_.push_back(std::move(f));
   }
   for (const RobotView* robot : c.robots()) {
-    if (own[robot->number]) continue;
+    if (own[robot->number] || c.constant(robot->base(), keys::shadow_of)) continue;
     for (const Frame& f : robot->frames) {
       Fixture fixture{std::string(c.object_name(f.object)), shapes_of(f.object), {}};
       if (fixture.shapes.empty()) continue;

@@ -88,7 +88,9 @@ TEST(Levels, AGuestIsAPointFarFromTheBallAndABodyNearIt) {
     s.run_for(0.05);
     const double distance = (pose_of(s, "guest").position - pose_of(s, "ball").position).norm();
     const std::uint32_t level = s.world().value(base, keys::motion_level);
-    if (distance < 1.15) EXPECT_EQ(level, 1u) << distance;
+    if (distance < 1.15) {
+      EXPECT_EQ(level, 1u) << distance;
+    }
     was_near = was_near || level == 1;
   }
   EXPECT_TRUE(was_near);

@@ -52,6 +52,7 @@ void Bodies::connect_robot(Connector& c, const RobotView& view) {
   r.world = c.input(view.base(), keys::contact_world, std::uint64_t{0});
   r.lag = c.input(view.base(), keys::twist_lag, 0.0);
   r.rank = view.key;
+  r.shadow = c.constant(view.base(), keys::shadow_of).has_value();
   r.first_unit = std::uint32_t(units.size());
   r.units = std::uint32_t(1 + frames.size());
   r.alone = frames.empty();

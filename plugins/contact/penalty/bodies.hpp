@@ -39,6 +39,7 @@ struct Robot {
   ListOut<Grip> grips;
   std::uint32_t first_unit = 0, units = 1;  ///< in Bodies::units; the first is that of the base
   bool alone = true;                        ///< it has one unit
+  bool shadow = false;                      ///< what it touches does not feel it
   In<std::uint64_t> world;                  ///< see keys::contact_world
   In<double> lag;                           ///< see keys::twist_lag
   std::uint64_t rank = 0;                   ///< of two robots, the one with the lower rank works out their contacts

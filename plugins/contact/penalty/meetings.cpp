@@ -88,11 +88,12 @@ void Meetings::gather(std::uint32_t self) {
   me.owners.clear();
   for (const Contact& contact : *bodies_.robots[self].contacts) {
     const Body& other = bodies_[contact.other];
-    const std::int32_t other_robot = bodies_.moved(other);
+    std::int32_t other_robot = bodies_.moved(other);
     if (!bodies_.answers(bodies_.robots[self], other_robot)) {
       me.touch_of.push_back(not_ours);
       continue;
     }
+    if (bodies_.robots[self].shadow) other_robot = nobody;
     if (!owns(self, other_robot)) {
       me.touch_of.push_back(not_ours);
       const auto owner = std::uint32_t(other_robot);
