@@ -46,9 +46,15 @@ std::vector<ObjectId> CityScene::add_lasers(const Pattern& pattern, double range
 }
 
 MuroTeam::MuroTeam(const City& city, int threads, Wheels wheels, const Pattern* lasers, int rate)
+    : MuroTeam(city, threads, wheels, Mover{.rate = rate}, lasers) {}
+
+MuroTeam::MuroTeam(const City& city, int threads, Wheels wheels, const Mover& mover, const Pattern* lasers)
     : scene_(city, wheels) {
-  scene_.use("motion.simplified", rate, scene_.all_robots());
-  scene_.use_contacts();
+  scene_.use(mover.motion, mover.rate, scene_.all_robots(), mover.parameters);
+  if (mover.contact)
+    scene_.use_contacts();
+  else
+    scene_.use_kinematics();
   if (lasers) scene_.add_lasers(*lasers, 5.6, false);
   scene_.set_threads(unsigned(threads));
   scene_.build();

@@ -21,9 +21,18 @@ struct CityScene : test::Scene {
   std::vector<ObjectId> add_lasers(const Pattern& pattern, double range, bool see_self);
 };
 
-/// The vehicles under motion.simplified with full collision, at one rate.
+/// What moves the vehicles, at one rate.
+struct Mover {
+  std::string motion = "motion.simplified";
+  int rate = 1000;  ///< steps/s
+  std::map<std::string, ParameterInput> parameters{};
+  bool contact = true;  ///< by the contact algorithm
+};
+
+/// The vehicles with full collision.
 class MuroTeam final : public Team {
  public:
+  MuroTeam(const City& city, int threads, Wheels wheels, const Mover& mover, const Pattern* lasers = nullptr);
   /// `lasers`: what each vehicle carries, with a range of 5.6 m, or null. `rate`: steps/s.
   MuroTeam(const City& city, int threads, Wheels wheels, const Pattern* lasers = nullptr, int rate = 1000);
 

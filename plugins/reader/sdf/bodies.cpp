@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+#include "bodies.hpp"
+
+#include <algorithm>
+#include <sdf/sdf.hh>
+
+#include "assembly.hpp"
+#include "plugins/model_file/solid.hpp"
+
+namespace muro::sdf {
+
+namespace {
+
+Vec3 vector_of(const ignition::math::Vector3d& v) { return {v.X(), v.Y(), v.Z()}; }
+
+std::string text_of(const Vec3& v) { return say(v.x(), " ", v.y(), " ", v.z()); }
+
+::sdf::ElementPtr child(const ::sdf::ElementPtr& e, const char* name) {
+  return e && e->HasElement(name) ? e->FindElement(name) : nullptr;
+}
+
+/// The number in a child, if the file has it.
+std::optional<double> number(const ::sdf::ElementPtr& e, const char* name) {
+  const ::sdf::ElementPtr found = child(e, name);
+  if (!found || !found->GetExplicitlySetInFile()) return std::nullopt;
+  return found->Get<double>();
+}
+
+std::optional<Shape> shape_of(const ::sdf::Geometry& g, const Intern& intern) {
+  switch (g.Type()) {
+    case ::sdf::GeometryType::BOX:
+      return Shape::box(vector_of(g.BoxShape()->Size()));
+    case ::sdf::GeometryType::SPHERE:
+      return Shape::sphere(g.SphereShape()->Radius());
+    case ::sdf::GeometryType::CYLINDER:
+      return Shape::cylinder(g.CylinderShape()->Radius(), g.CylinderShape()->Length());
+    case ::sdf::GeometryType::CAPSULE:
+      return Shape::capsule(g.CapsuleShape()->Radius(), g.CapsuleShape()->Length());
+    case ::sdf::GeometryType::PLANE: {
+      Shape plane = Shape::plane();
+      plane.origin.orientation = Quat::FromTwoVectors(Vec3::UnitZ(), vector_of(g.PlaneShape()->Normal()));
+      return plane;
+    }
+    case ::sdf::GeometryType::MESH:
+      return Shape{
+          .kind = ShapeKind::mesh, .mesh = intern(g.MeshShape()->Uri()), .size = vector_of(g.MeshShape()->Scale())};
+    default:
+      return std::nullopt;
+  }
+}
+
+class Reader {
+ public:
+  Reader(const ::sdf::Link& link, const std::string& name, const Sources& sources, const Intern& intern,
+         Problems& problems)
+      : link_(link), owner_("link " + cited(name)), sources_(sources), intern_(intern), problems_(problems) {}
+
+  Solid run(bool movable) {
+    Solid out;
+    for (std::uint64_t i = 0; i < link_.CollisionCount(); ++i) {
+      const ::sdf::Collision& c = *link_.CollisionByIndex(i);
+      const auto shape = placed(c.Geom(), c.SemanticPose(), c.Element());
+      if (!shape) continue;
+      out.collisions.push_back(*shape);
+      surface(out.collisions.back(), c.Element());
+    }
+    for (std::uint64_t i = 0; i < link_.VisualCount(); ++i) {
+      const ::sdf::Visual& v = *link_.VisualByIndex(i);
+      const auto shape = placed(v.Geom(), v.SemanticPose(), v.Element());
+      if (!shape) continue;
+      out.visuals.push_back(*shape);
+      color(out.visuals.back(), v.Element());
+    }
+    if (movable) out.inertial = inertial(out.collisions.empty() ? out.visuals : out.collisions);
+    return out;
+  }
+
+ private:
+  std::optional<Shape> placed(const ::sdf::Geometry* geometry, const ::sdf::SemanticPose& pose,
+                              const ::sdf::ElementPtr& element) {
+    std::optional<Shape> shape = geometry ? shape_of(*geometry, intern_) : std::nullopt;
+    if (!shape) return shape;
+    ignition::math::Pose3d p;
+    const ::sdf::Errors errors = pose.Resolve(p, link_.Name());
+    if (!errors.empty()) {
+      problems_.error(at(sources_, element), "libsdformat: " + errors.front().Message());
+      return std::nullopt;
+    }
+    shape->origin = pose_of(p) * shape->origin;
+    return shape;
+  }
+
+  void surface(Shape& shape, const ::sdf::ElementPtr& collision) {
+    const ::sdf::ElementPtr surface = child(collision, "surface"), friction = child(surface, "friction");
+    const ::sdf::ElementPtr ode = child(friction, "ode"), bullet = child(friction, "bullet");
+    const std::optional<double> mu = number(ode, "mu"), mu2 = number(ode, "mu2");
+    const std::optional<double> other = number(bullet, "friction"), other2 = number(bullet, "friction2");
+    const std::optional<double> first = mu ? mu : other, second = mu ? mu2 : other2;
+    shape.friction = first.value_or(1);
+    const At place = at(sources_, friction ? friction : collision);
+    if (first && second && *first != *second)
+      problems_.note(place, say(owner_, ": friction is ", *first, " along and ", *second,
+                                " across; it is the same in all directions, and the first is used"));
+    if (shape.friction < 0) {
+      problems_.warning(place,
+                        say(owner_, ": friction ", shape.friction, " is negative; 1 is used, SDFormat's default"));
+      shape.friction = 1;
+    }
+    shape.restitution = number(child(surface, "bounce"), "restitution_coefficient").value_or(0);
+    if (!(shape.restitution >= 0 && shape.restitution <= 1)) {
+      problems_.warning(place, say(owner_, ": restitution_coefficient ", shape.restitution, " is taken as ",
+                                   std::clamp(shape.restitution, 0.0, 1.0), "; it is between 0 and 1"));
+      shape.restitution = std::clamp(shape.restitution, 0.0, 1.0);
+    }
+  }
+
+  void color(Shape& shape, const ::sdf::ElementPtr& visual) {
+    const ::sdf::ElementPtr material = child(visual, "material");
+    for (const char* name : {"ambient", "diffuse"}) {
+      const ::sdf::ElementPtr found = child(material, name);
+      if (!found || !found->GetExplicitlySetInFile()) continue;
+      const auto c = found->Get<ignition::math::Color>();
+      shape.color = Eigen::Vector4f(c.R(), c.G(), c.B(), c.A()).cast<double>().cwiseMax(0).cwiseMin(1);
+    }
+    shape.color[3] *= 1 - std::clamp(number(visual, "transparency").value_or(0), 0.0, 1.0);
+  }
+
+  Inertia inertial(std::span<const Shape> shapes) {
+    const ::sdf::ElementPtr given = child(link_.Element(), "inertial");
+    const At place = at(sources_, given ? given : link_.Element());
+    if (!given)
+      problems_.warning(place,
+                        owner_ + " has no <inertial>; SDFormat's default is used, 1 kg and 1 kg m^2 about each axis");
+    const ::sdf::ElementPtr tensor = child(given, "inertia");
+    Inertia i{.mass = number(given, "mass").value_or(1),
+              .ixx = number(tensor, "ixx").value_or(1),
+              .iyy = number(tensor, "iyy").value_or(1),
+              .izz = number(tensor, "izz").value_or(1),
+              .ixy = number(tensor, "ixy").value_or(0),
+              .ixz = number(tensor, "ixz").value_or(0),
+              .iyz = number(tensor, "iyz").value_or(0)};
+    if (given && !tensor)
+      problems_.warning(place, owner_ + " has no <inertia>; SDFormat's default is used, 1 kg m^2 about each axis");
+    const ::sdf::ElementPtr pose = child(given, "pose");
+    const Pose frame = pose ? pose_of(pose->Get<ignition::math::Pose3d>()) : Pose{};
+    return checked(i, frame, shapes, place);
+  }
+
+  Inertia checked(const Inertia& given, const Pose& frame, std::span<const Shape> shapes, const At& place) {
+    using model_file::TensorFault;
+    if (given.mass < 0) {
+      problems_.error(place,
+                      say(owner_, ": the mass is ", given.mass, " kg; it is 0 (a frame without a body) or more"));
+      return {};
+    }
+    if (given.mass == 0) {
+      problems_.note(place, owner_ + " has the mass 0: it is a frame without a body");
+      return {};
+    }
+    Inertia inertia = given.in(frame);
+    const model_file::TensorCheck check = model_file::check_tensor(given.tensor());
+    if (!inertia.com.allFinite() || !inertia.tensor().allFinite() || !check.moments.allFinite()) {
+      problems_.error(place, owner_ + ": its inertia is too large for a number; use kg, m and kg m^2");
+      return {};
+    }
+    if (check.fault == TensorFault::no_body) {
+      problems_.warning(place, say(owner_, ": its principal moments of inertia are ", text_of(check.moments),
+                                   " kg m^2, which no body has: none exceeds the sum of the other two. They are ",
+                                   "used as they are"));
+    } else if (check.fault == TensorFault::not_positive) {
+      Inertia even = model_file::even_solid(shapes, given.mass);
+      const bool solid =
+          std::any_of(shapes.begin(), shapes.end(),
+                      [](auto& s) { return half_extents(s).allFinite() && s.kind != ShapeKind::mesh; }) &&
+          even.tensor().allFinite();
+      if (!solid) even = model_file::even_solid({}, given.mass);
+      problems_.warning(place, say(owner_, ": its principal moments of inertia are ", text_of(check.moments),
+                                   " kg m^2, and must be above 0; those of an even body of ", given.mass, " kg in its ",
+                                   solid ? "shapes" : "place, a ball of water,",
+                                   " are used: ", text_of({even.ixx, even.iyy, even.izz})));
+      inertia = Inertia::from(given.mass, inertia.com, even.tensor());
+    }
+    return inertia;
+  }
+
+  const ::sdf::Link& link_;
+  std::string owner_;
+  const Sources& sources_;
+  const Intern& intern_;
+  Problems& problems_;
+};
+
+}  // namespace
+
+Solid solid_of(const ::sdf::Link& link, const std::string& name, bool movable, const Sources& sources,
+               const Intern& intern, Problems& problems) {
+  return Reader(link, name, sources, intern, problems).run(movable);
+}
+
+}  // namespace muro::sdf

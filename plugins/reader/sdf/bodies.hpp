@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <sdf/Link.hh>
+#include <vector>
+
+#include "library.hpp"
+#include "muro/shape.hpp"
+
+namespace muro::sdf {
+
+/// Keeps a text for the life of the simulation.
+using Intern = std::function<TextId(std::string_view)>;
+
+/// What a link is made of.
+struct Solid {
+  Inertia inertial;
+  std::vector<Shape> collisions, visuals;
+};
+
+/// `name` stands for the link in messages. Without `movable` inertia is of no interest, and not checked.
+Solid solid_of(const ::sdf::Link& link, const std::string& name, bool movable, const Sources& sources,
+               const Intern& intern, Problems& problems);
+
+}  // namespace muro::sdf

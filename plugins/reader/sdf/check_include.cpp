@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+// <include>: models of other files.
+#include <algorithm>
+
+#include "checks.hpp"
+#include "muro/algorithm.hpp"
+#include "plugins/model_file/mesh_path.hpp"
+#include "plugins/model_file/text_file.hpp"
+
+namespace muro::sdf {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The model's file in a folder: what model.config names for the newest version that is read, else model.sdf.
+fs::path file_in(const fs::path& folder) {
+  std::string best = "model.sdf";
+  try {
+    std::string bytes = model_file::load_file((folder / "model.config").string(), "model.config");
+    model_file::Document document;
+    Place place;
+    std::string trouble;
+    if (model_file::decode(bytes, "model.config", "model").unreadable || !document.parse(bytes, place, trouble))
+      return folder / best;
+    int newest = -1;
+    for (Element* sdf : model_file::children(*document.root(), "sdf")) {
+      Source source;
+      source.version = attribute(*sdf, "version");
+      const int version = source.version_number();
+      if (text_of(*sdf).empty() || version > 109 || version <= newest) continue;
+      newest = version;
+      best = text_of(*sdf);
+    }
+  } catch (const Error&) {
+    // no model.config
+  }
+  return folder / best;
+}
+
+}  // namespace
+
+bool Check::complete_include(Element& include) {
+  const std::string uri = child_text(include, "uri");
+  const auto* around = include.Parent()->ToElement();
+  const bool in_world = around && std::string_view(around->Name()) == "world";
+  const auto fail = [&](const std::string& why) {
+    const std::string text = say("<include> of ", cited(uri), " is left out: ", why);
+    in_world ? problems_.warning(at(include), text) : problems_.error(at(include), text);
+    return false;
+  };
+  if (uri.empty()) return fail("it has no <uri>; write <uri>FOLDER/model.sdf</uri>");
+  if (uri.starts_with("http://") || uri.starts_with("https://") || uri.starts_with("fuel://"))
+    return fail("nothing is fetched from the network; save the model beside this file and give its path");
+  const model_file::MeshPath found = model_file::find_file_or_folder(uri, source_.folder);
+  if (found.path.empty()) {
+    // two models that most worlds for Gazebo ask for
+    if (in_world && uri == "model://sun") {
+      problems_.note(at(include), "<include> of `model://sun` is left out: there are no lights");
+      return false;
+    }
+    if (in_world && uri == "model://ground_plane") {
+      put_ground_plane(include);
+      return false;
+    }
+    std::vector<std::string> places;
+    for (const auto& path : found.searched) places.push_back(path.string());
+    return fail(say("there is no such file or folder; looked for ", listed(places)));
+  }
+  const fs::path path = fs::is_directory(found.path) ? file_in(found.path) : fs::path(found.path);
+  std::string reason;
+  const Source* source = sources_.include(path.lexically_normal(), reason);
+  if (!source) return fail(say(path.string(), ": ", reason));
+  source_.elements += source->elements;
+  if (source_.elements > most_elements)
+    return fail(say("with all its includes the file has more than ", most_elements, " elements"));
+  Element* link = include.FirstChildElement("uri");
+  link->DeleteChildren();
+  link->SetText(source->memory->path().c_str());
+  if (!include.FirstChildElement("name") && !include.BoolAttribute("merge")) {
+    Element* name = include.InsertNewChildElement("name");
+    name->SetText(attribute(*source->content, "name").c_str());
+  }
+  return true;
+}
+
+/// Gazebo's model of that name, where it is not installed: a plane at z = 0.
+void Check::put_ground_plane(Element& include) {
+  problems_.note(at(include), "`model://ground_plane` is not found; a plane of friction 1 stands for it");
+  Element* around = include.Parent()->ToElement();
+  const auto child = [&](Element* parent, const char* name) {
+    Element* made = parent->InsertNewChildElement(name);
+    made->SetUserData(include.GetUserData());
+    return made;
+  };
+  Element* model = child(around, "model");
+  const std::string name = child_text(include, "name");
+  model->SetAttribute("name", name.empty() ? "ground_plane" : name.c_str());
+  child(model, "static")->SetText("true");
+  if (Element* pose = include.FirstChildElement("pose")) model->InsertEndChild(pose);
+  Element* link = child(model, "link");
+  link->SetAttribute("name", "link");
+  for (const char* kind : {"collision", "visual"}) {
+    Element* shape = child(link, kind);
+    shape->SetAttribute("name", kind);
+    Element* plane = child(child(shape, "geometry"), "plane");
+    child(plane, "normal")->SetText("0 0 1");
+    child(plane, "size")->SetText("100 100");
+  }
+}
+
+}  // namespace muro::sdf

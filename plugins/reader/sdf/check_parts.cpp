@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "checks.hpp"
+#include "plugins/model_file/mesh_path.hpp"
+#include "plugins/model_file/numbers.hpp"
+
+namespace muro::sdf {
+
+namespace {
+
+constexpr std::array<std::string_view, 9> joint_types = {"revolute",  "continuous", "prismatic", "fixed",  "universal",
+                                                         "revolute2", "ball",       "screw",     "gearbox"};
+
+std::vector<double> values_of(const Element* e) {
+  std::string trouble;
+  return e ? model_file::parse_numbers(text_of(*e), trouble) : std::vector<double>{};
+}
+
+}  // namespace
+
+void Check::prepare(Element& e, std::string_view section) {
+  // up to SDFormat 1.5 gravity is a matter of <physics>, which is not read
+  if (section != "world" || source_.version_number() >= 106 || e.FirstChildElement("gravity")) return;
+  Element* physics = e.FirstChildElement("physics");
+  Element* gravity = physics ? physics->FirstChildElement("gravity") : nullptr;
+  if (gravity) e.InsertEndChild(gravity);
+}
+
+/// False when the element is better removed.
+bool Check::complete(Element& e, std::string_view section) {
+  if (section == "world" || section == "model") {
+    if (section == "model" && !named(e, "model")) return true;
+    if (attribute(e, "name").empty()) e.SetAttribute("name", "world");
+    Scope scope;
+    scope.is_world = section == "world";
+    names(e, scope);
+    references(e, scope);
+    const bool still = child_text(e, "static") == "true" || child_text(e, "static") == "1";
+    const bool empty = !e.FirstChildElement("link") && !e.FirstChildElement("model") && !e.FirstChildElement("include");
+    if (section == "model" && empty && !still)
+      problems_.error(at(e), say("model ", cited(attribute(e, "name")),
+                                 " has no link; it needs at least one <link name=\"...\"/>"));
+  } else if (section == "link") {
+    for (const char* kind : {"collision", "visual"}) {
+      std::set<std::string> used;
+      for (Element* part : model_file::children(e, kind)) {
+        // nobody asks for these names
+        std::string name = attribute(*part, "name");
+        if (name.empty()) name = kind;
+        std::replace(name.begin(), name.end(), ':', '_');
+        while (!used.insert(name).second) name += "_";
+        part->SetAttribute("name", name.c_str());
+      }
+    }
+  } else if (section == "inertial") {
+    Element* pose = e.FirstChildElement("pose");
+    if (pose && !attribute(*pose, "relative_to").empty()) {
+      problems_.warning(at(*pose),
+                        "the <pose> of an <inertial> is always relative to its link; `relative_to` is ignored");
+      pose->DeleteAttribute("relative_to");
+    }
+  } else if (section == "joint") {
+    return complete_joint(e);
+  } else if (section == "collision" || section == "visual") {
+    return complete_shape(e);
+  } else if (section == "include") {
+    return complete_include(e);
+  }
+  return true;
+}
+
+bool Check::complete_joint(Element& joint) {
+  const std::string owner = "joint " + cited(attribute(joint, "name")), type = attribute(joint, "type");
+  if (std::find(joint_types.begin(), joint_types.end(), type) == joint_types.end()) {
+    std::vector<std::string> known(joint_types.begin(), joint_types.end());
+    problems_.error(at(joint), say(owner, type.empty() ? " has no type" : " is of the unknown type " + cited(type),
+                                   "; types are ", listed(known)));
+    return true;
+  }
+  for (const char* end : {"parent", "child"})
+    if (child_text(joint, end).empty())
+      problems_.error(at(joint), say(owner, " has no ", end, "; write <", end, ">LINK</", end, ">"));
+  if (!child_text(joint, "parent").empty() && child_text(joint, "parent") == child_text(joint, "child"))
+    problems_.error(at(joint), say(owner, " joins link ", cited(child_text(joint, "parent")), " with itself"));
+  const int axes = type == "fixed" || type == "ball"                                 ? 0
+                   : type == "universal" || type == "revolute2" || type == "gearbox" ? 2
+                                                                                     : 1;
+  for (int i = 0; i < 2; ++i) {
+    const char* name = i == 0 ? "axis" : "axis2";
+    Element* axis = joint.FirstChildElement(name);
+    if (i >= axes) {
+      // libsdformat would take them for a mistake or for something else
+      if (axis) joint.DeleteChild(axis);
+      continue;
+    }
+    if (!axis) {
+      problems_.warning(at(joint), say(owner, " has no <", name, ">; the axis is z, SDFormat's default"));
+      axis = joint.InsertNewChildElement(name);
+      axis->SetUserData(joint.GetUserData());
+    }
+    const std::vector<double> xyz = values_of(axis->FirstChildElement("xyz"));
+    if (xyz.size() == 3 && !(std::hypot(xyz[0], xyz[1], xyz[2]) > 1e-9))
+      problems_.error(at(*axis),
+                      say(owner, ": its <", name, "> has no direction; <xyz> is a vector of length 1, such as 0 0 1"));
+    take_mimic(joint, *axis, i);
+  }
+  if (Element* pitch = joint.FirstChildElement("screw_thread_pitch")) {
+    // SDFormat 1.10: metres a turn, right-handed; before: turns of -1 rad a metre
+    const std::vector<double> metres = values_of(pitch);
+    Element* old = joint.FirstChildElement("thread_pitch");
+    if (!old) old = joint.InsertNewChildElement("thread_pitch");
+    if (metres.size() == 1 && metres[0] != 0)
+      old->SetText(model_file::shortest(-2 * std::numbers::pi / metres[0]).c_str());
+    joint.DeleteChild(pitch);
+  }
+  const std::vector<double> pitch = values_of(joint.FirstChildElement("thread_pitch"));
+  if (type == "screw" && !pitch.empty() && pitch[0] == 0)
+    problems_.error(at(joint), say(owner, ": its thread_pitch is 0; it is the angle in rad a metre, and not 0"));
+  if (type == "gearbox" && child_text(joint, "gearbox_reference_body").empty())
+    problems_.error(at(joint),
+                    say(owner, " has no <gearbox_reference_body>; it names the link that carries both wheels"));
+  return true;
+}
+
+void Check::take_mimic(Element& joint, Element& axis, int number) {
+  Element* mimic = axis.FirstChildElement("mimic");
+  if (!mimic) return;
+  Mimic taken{attribute(*mimic, "joint"), attribute(*mimic, "axis"), 1, 0, 0, at(*mimic)};
+  const auto value = [&](const char* name, double& out) {
+    if (const auto v = values_of(mimic->FirstChildElement(name)); v.size() == 1) out = v[0];
+  };
+  value("multiplier", taken.multiplier);
+  value("offset", taken.offset);
+  value("reference", taken.reference);
+  if (taken.joint.empty())
+    problems_.error(at(*mimic), "<mimic> names no joint; write <mimic joint=\"...\">");
+  else
+    sources_.mimics[{at(joint), number}] = taken;
+  axis.DeleteChild(mimic);
+}
+
+bool Check::complete_shape(Element& e) {
+  Element* geometry = e.FirstChildElement("geometry");
+  Element* shape = geometry ? geometry->FirstChildElement() : nullptr;
+  // a shape of a kind that is not read was told already
+  if (!shape) {
+    problems_.warning(at(e), say("<", e.Name(), " name=", cited(attribute(e, "name")),
+                                 "> is left out, as it has no shape that is read"));
+    return false;
+  }
+  while (Element* second = shape->NextSiblingElement()) {
+    problems_.warning(at(*second),
+                      say("a second shape in one <geometry> is left out; give each a <", e.Name(), "> of its own"));
+    geometry->DeleteChild(second);
+  }
+  const std::string trouble = trouble_of_shape(*shape);
+  if (!trouble.empty())
+    problems_.warning(at(*shape),
+                      say("<", e.Name(), " name=", cited(attribute(e, "name")), "> is left out, as ", trouble));
+  return trouble.empty();
+}
+
+std::string Check::trouble_of_shape(Element& shape) {
+  const std::string_view kind = shape.Name();
+  const auto needs = [&](const char* name) -> std::string {
+    const Element* size = shape.FirstChildElement(name);
+    if (!size) return say("its <", kind, "> has no <", name, ">");
+    const auto values = values_of(size);
+    const bool fine = std::all_of(values.begin(), values.end(), [](double v) { return v > 0; });
+    return fine ? std::string() : say("its <", kind, "> has a <", name, "> that is not above 0");
+  };
+  if (kind == "box") return needs("size");
+  if (kind == "sphere") return needs("radius");
+  if (kind == "cylinder" || kind == "capsule") {
+    const std::string radius = needs("radius");
+    return radius.empty() ? needs("length") : radius;
+  }
+  if (kind == "plane") {
+    const auto normal = values_of(shape.FirstChildElement("normal"));
+    if (normal.size() == 3 && !(std::hypot(normal[0], normal[1], normal[2]) > 1e-9))
+      return "its <plane> has a <normal> without direction";
+    return {};
+  }
+  const auto scale = values_of(shape.FirstChildElement("scale"));
+  if (std::any_of(scale.begin(), scale.end(), [](double s) { return s == 0; })) return "its <mesh> has a <scale> of 0";
+  Element* uri = shape.FirstChildElement("uri");
+  if (!uri || text_of(*uri).empty()) return "its <mesh> has no <uri>";
+  const model_file::MeshPath found = model_file::find_mesh(text_of(*uri), source_.folder);
+  if (found.path.empty()) {
+    std::vector<std::string> places;
+    for (const auto& path : found.searched) places.push_back(path.string());
+    return say("mesh ", cited(text_of(*uri)), " is not found; looked for ", listed(places));
+  }
+  if (found.other_case)
+    problems_.note(at(*uri), say("mesh ", cited(text_of(*uri)), " is read from ", found.path,
+                                 ", whose name differs in upper and lower case"));
+  uri->DeleteChildren();
+  uri->SetText(found.path.c_str());
+  return {};
+}
+
+}  // namespace muro::sdf

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#include "library.hpp"
+
+#include <iostream>
+#include <sdf/sdf.hh>
+#include <set>
+
+namespace muro::sdf {
+
+namespace {
+
+std::mutex& one_at_a_time() {
+  static std::mutex mutex;
+  return mutex;
+}
+
+/// Keeps from standard error what the library, and urdfdom behind it, write there themselves.
+class Quiet {
+ public:
+  Quiet() : before_(std::cerr.rdbuf(nullptr)) {}
+  ~Quiet() {
+    std::cerr.rdbuf(before_);
+    std::cerr.clear();
+  }
+  Quiet(const Quiet&) = delete;
+  Quiet& operator=(const Quiet&) = delete;
+
+ private:
+  std::streambuf* before_;
+};
+
+::sdf::ConsolePtr console() {
+  const Quiet quiet;  // it complains where it cannot keep its log
+  return ::sdf::Console::Instance();
+}
+
+/// Nothing is looked for: all paths are given.
+::sdf::ParserConfig config() {
+  ::sdf::ParserConfig config;
+  config.SetFindCallback([](const std::string&) { return std::string(); });
+  config.SetWarningsPolicy(::sdf::EnforcementPolicy::LOG);
+  config.SetUnrecognizedElementsPolicy(::sdf::EnforcementPolicy::LOG);
+  config.SetDeprecatedElementsPolicy(::sdf::EnforcementPolicy::LOG);
+  return config;
+}
+
+/// The descriptions of all elements: made once, as that takes longer than to read a model.
+::sdf::SDFPtr empty_document() {
+  static const ::sdf::SDFPtr descriptions = [] {
+    auto made = std::make_shared<::sdf::SDF>();
+    ::sdf::init(made);
+    return made;
+  }();
+  auto document = std::make_shared<::sdf::SDF>();
+  document->Root(descriptions->Root()->Clone());
+  return document;
+}
+
+std::string one_line(std::string text) {
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < ' ') c = ' ';
+  while (!text.empty() && text.back() == ' ') text.pop_back();
+  return text;
+}
+
+}  // namespace
+
+Library::Library() : lock_(one_at_a_time()), messages_(console()->GetMsgStream().GetStream()) {
+  console()->GetMsgStream().SetStream(nullptr);
+}
+
+Library::~Library() { console()->GetMsgStream().SetStream(messages_); }
+
+bool Library::load(const Sources& sources, ::sdf::Root& root, Problems& problems) {
+  ::sdf::Errors errors;
+  std::string thrown;
+  try {
+    const Quiet quiet;
+    const ::sdf::ParserConfig how = config();
+    const ::sdf::SDFPtr document = empty_document();
+    if (::sdf::readString(sources.main().printed, how, document, errors)) {
+      const ::sdf::Errors more = root.Load(document, how);
+      errors.insert(errors.end(), more.begin(), more.end());
+    } else if (errors.empty()) {
+      thrown = "it cannot read the file and gives no reason";
+    }
+  } catch (const ::sdf::Exception& e) {
+    thrown = e.GetErrorStr();
+  } catch (const std::exception& e) {
+    thrown = e.what();
+  }
+  // One mistake breaks much of what stands on it: the first message of a place, and those without place only when there
+  // are no others.
+  std::set<At> told;
+  for (const bool placed : {true, false})
+    for (const ::sdf::Error& e : errors) {
+      // inertia is checked by the reader
+      if (e.Code() == ::sdf::ErrorCode::NONE || e.Code() == ::sdf::ErrorCode::LINK_INERTIA_INVALID) continue;
+      const At place = sources.at(e.FilePath().value_or(""), e.LineNumber().value_or(0));
+      if ((place.place.line > 0) != placed || (!placed && problems.found_error()) || !told.insert(place).second)
+        continue;
+      problems.error(place, "libsdformat: " + one_line(e.Message()));
+    }
+  if (!thrown.empty() && !problems.found_error()) problems.error({}, "libsdformat: " + one_line(thrown));
+  return !problems.found_error();
+}
+
+At at(const Sources& sources, ::sdf::ElementPtr element) {
+  for (; element; element = element->GetParent())
+    if (element->LineNumber().value_or(0) > 0) return sources.at(element->FilePath(), *element->LineNumber());
+  return {};
+}
+
+}  // namespace muro::sdf

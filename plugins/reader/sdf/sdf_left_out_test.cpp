@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+// Nothing of a file is dropped in silence.
+#include <gtest/gtest.h>
+
+#include <tinyxml2.h>
+
+#include <filesystem>
+#include <set>
+
+#include "known.hpp"
+#include "reading_testing.hpp"
+
+namespace muro::sdf {
+namespace {
+
+/// What is said of a piece of a file in this place, in line 3.
+Lines said(const std::string& place, const std::string& piece) {
+  const std::string shape = "<geometry><sphere><radius>1</radius></sphere></geometry>";
+  const auto in_link = [&](const std::string& more) {
+    return model("<link name='a'>\n" + more + inertial() + "</link>");
+  };
+  const auto in_collision = [&](const std::string& more) {
+    return in_link("<collision name='c'>" + more + shape + "</collision>");
+  };
+  const auto in_joint = [&](const std::string& more) {
+    return model(link("a") + link("b") + "<joint name='j' type='revolute'><parent>a</parent><child>b</child>\n" + more +
+                 "</joint>");
+  };
+  std::string file;
+  if (place == "sdf") file = "<sdf version='1.9'>\n\n\n" + piece + "<model name='m'>" + link("a") + "</model></sdf>";
+  if (place == "model") file = model(link("a") + "\n" + piece);
+  if (place == "link") file = in_link(piece);
+  if (place == "inertial") {
+    std::string with = inertial();
+    with.insert(with.find("<inertia>"), piece);
+    file = model("<link name='a'>\n" + with + "</link>");
+  }
+  if (place == "collision") file = in_collision(piece);
+  if (place == "visual") file = in_link("<visual name='v'>" + piece + shape + "</visual>");
+  if (place == "geometry")
+    file = in_link("<collision name='c'><geometry>" + piece +
+                   "<sphere><radius>1</radius></sphere></geometry></collision>");
+  if (place == "mesh") return {};  // below: needs a file
+  if (place == "surface") file = in_collision("<surface>" + piece + "</surface>");
+  if (place == "bounce" || place == "friction" || place == "contact")
+    file = in_collision("<surface><" + place + ">" + piece + "</" + place + "></surface>");
+  if (place == "ode friction") file = in_collision("<surface><friction><ode>" + piece + "</ode></friction></surface>");
+  if (place == "bullet friction")
+    file = in_collision("<surface><friction><bullet>" + piece + "</bullet></friction></surface>");
+  if (place == "material") file = in_link("<visual name='v'><material>" + piece + "</material>" + shape + "</visual>");
+  if (place == "joint") file = in_joint(piece + axis("0 0 1"));
+  if (place == "axis") file = in_joint(axis("0 0 1", piece));
+  if (place == "limit") file = in_joint(axis("0 0 1", "<limit>" + piece + "</limit>"));
+  if (place == "world" || place == "include") {
+    file = "<sdf version='1.9'><world name='w'>\n\n\n" + piece + "</world></sdf>";
+    WorldModel world;
+    read_world_text(file, "/nowhere", world);
+    return lines_of(world.problems());
+  }
+  return robot_of(file).problems;
+}
+
+TEST(SdfLeftOut, EveryElementThatIsNotReadIsToldWithItsLineAndWhy) {
+  int count = 0;
+  for (const Known& k : all_known()) {
+    if (k.form != Known::Form::left_out || k.inside == "mesh" || k.inside == "include") continue;
+    const std::string name(k.name), place(k.inside);
+    const Lines lines = said(place, "<" + name + " name='n' type='t'>7<deep/></" + name + ">");
+    ASSERT_EQ(lines.size(), 1u) << name << " in " << place << "\n" << testing::PrintToString(lines);
+    const std::string element = place.substr(0, place.find(' ') == place.npos ? place.npos : place.find(' '));
+    const std::string severity = k.severity == Severity::note ? "note" : "warning";
+    EXPECT_TRUE(lines[0].starts_with(severity + " 4:")) << lines[0];
+    EXPECT_NE(lines[0].find("<" + name + "> in <" + element + "> is left out: " + std::string(k.why)),
+              std::string::npos)
+        << lines[0];
+    ++count;
+  }
+  EXPECT_GT(count, 80);
+}
+
+TEST(SdfLeftOut, WhatSaysWhatIsTheCaseAnywayIsNotToldOf) {
+  for (const Known& k : all_known()) {
+    if (k.form != Known::Form::left_out || k.harmless.empty()) continue;
+    const std::string name(k.name);
+    EXPECT_EQ(said(std::string(k.inside), "<" + name + ">" + std::string(k.harmless) + "</" + name + ">"), Lines{})
+        << name;
+  }
+  EXPECT_EQ(said("link", "<self_collide>0</self_collide><gravity>1</gravity>"), Lines{});
+}
+
+/// The schema that libsdformat is installed with says what there is.
+TEST(SdfLeftOut, EveryElementOfTheSchemaIsKnown) {
+  namespace fs = std::filesystem;
+  const std::string root = "/usr/share/sdformat12";
+  if (!fs::exists(root)) return;
+  const std::map<std::string, std::string> files = {
+      {"sdf", "root.sdf"},          {"world", "world.sdf"},         {"model", "model.sdf"},
+      {"link", "link.sdf"},         {"collision", "collision.sdf"}, {"visual", "visual.sdf"},
+      {"joint", "joint.sdf"},       {"geometry", "geometry.sdf"},   {"material", "material.sdf"},
+      {"inertial", "inertial.sdf"}, {"surface", "surface.sdf"}};
+  for (const char* version : {"1.4", "1.5", "1.6", "1.7", "1.8", "1.9"})
+    for (const auto& [section, file] : files) {
+      tinyxml2::XMLDocument schema;
+      if (schema.LoadFile((root + "/" + version + "/" + file).c_str()) != tinyxml2::XML_SUCCESS) continue;
+      const auto check = [&](const char* name) {
+        EXPECT_NE(find_known(section, name), nullptr)
+            << "<" << name << "> in <" << section << "> of SDFormat " << version;
+      };
+      for (const auto* e = schema.RootElement()->FirstChildElement("element"); e; e = e->NextSiblingElement("element"))
+        if (e->Attribute("name")) check(e->Attribute("name"));
+      for (const auto* e = schema.RootElement()->FirstChildElement("include"); e;
+           e = e->NextSiblingElement("include")) {
+        std::string name = fs::path(e->Attribute("filename")).stem();
+        if (name.ends_with("_shape")) name.resize(name.size() - 6);
+        check(name.c_str());
+      }
+    }
+}
+
+TEST(SdfLeftOut, ElementsThatSdformatDoesNotHaveAreToldWithTheNearest) {
+  EXPECT_EQ(said("link", "<inertail/>"), Lines{"warning 4:1 <inertail> in <link> is left out: SDFormat has no such "
+                                               "element there (did you mean `inertial`?)"});
+  EXPECT_EQ(said("link", "<mine:thing/>"),
+            Lines{"note 4:1 <mine:thing> in <link> is left out: it is meant for another program"});
+  EXPECT_EQ(said("link", "<pose><x/></pose>"),
+            Lines{"warning 4:7 <x> in <pose> is left out: SDFormat has no such element there"});
+}
+
+TEST(SdfLeftOut, AttributesThatAreNotReadAreToldOfUnlessTheyAreForOthers) {
+  EXPECT_EQ(said("link", "<pose relativ_to='x' gz:y='1'>0 0 0 0 0 0</pose>"),
+            Lines{"warning 4:1 <pose> has the attribute `relativ_to`, which is not read"});
+}
+
+TEST(SdfLeftOut, TheSameElementInManyPlacesIsOneMessage) {
+  std::string inside = "<link name='a'>" + inertial();
+  for (int i = 0; i < 10; ++i) inside += "\n<sensor name='s' type='ray'/>";
+  EXPECT_EQ(
+      robot_of(model(inside + "</link>")).problems,
+      Lines{"warning 4:1 <sensor> in <link> is left out (also in lines 5, 6, 7, 8, 9, 10, 11 and 2 more): sensors are "
+            "subsystems of a robot in the scenario"});
+}
+
+TEST(SdfLeftOut, ASecondOneOfWhatThereIsOnceIsToldOf) {
+  EXPECT_EQ(said("link", "<pose>0 0 0 0 0 0</pose>\n<pose>1 0 0 0 0 0</pose>"),
+            Lines{"warning 5:1 a second <pose> in one <link> is left out"});
+}
+
+TEST(SdfLeftOut, ShapesThatAreNotReadLeaveTheirCollisionOut) {
+  EXPECT_EQ(
+      said("link", "<collision name='c'><geometry><ellipsoid><radii>1 1 2</radii></ellipsoid></geometry></collision>"),
+      (Lines{"warning 4:1 <collision name=`c`> is left out, as it has no shape that is read",
+             "warning 4:31 <ellipsoid> in <geometry> is left out: shapes are box, sphere, cylinder, capsule, plane, "
+             "mesh"}));
+}
+
+TEST(SdfLeftOut, OfAMeshAllSubmeshesAreUsed) {
+  const test::ScratchFolder folder;
+  folder.file("m.dae", "");
+  const Robot robot = robot_of(model(link("a",
+                                          "<collision "
+                                          "name='c'><geometry>\n<mesh><uri>m.dae</uri><submesh><name>x</name></"
+                                          "submesh></mesh></geometry></collision>")),
+                               folder.path(""));
+  ASSERT_EQ(robot.problems.size(), 1u);
+  EXPECT_TRUE(
+      robot.problems[0].starts_with("warning 4:23 <submesh> in <mesh> is left out: all of the file's mesh is used"));
+}
+
+}  // namespace
+}  // namespace muro::sdf

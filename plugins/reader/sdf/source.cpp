@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+#include "source.hpp"
+
+#include <algorithm>
+
+#include "checks.hpp"
+#include "plugins/model_file/numbers.hpp"
+#include "plugins/model_file/text_file.hpp"
+
+namespace muro::sdf {
+
+namespace {
+
+constexpr char format[] = "SDFormat";
+
+std::string escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '&':
+        out += "&amp;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        // lines are counted
+        out += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
+    }
+  }
+  return out;
+}
+
+void print(const Element& e, Source& source) {
+  source.printed += say(source.lines.empty() ? "" : "\n", "<", e.Name());
+  source.lines.push_back(model_file::place_of(e));
+  for (const auto* a = e.FirstAttribute(); a; a = a->Next())
+    source.printed += say(" ", a->Name(), "=\"", escaped(a->Value()), "\"");
+  source.printed += ">";
+  for (const Element* child = e.FirstChildElement(); child; child = child->NextSiblingElement()) print(*child, source);
+  if (!e.FirstChildElement()) source.printed += escaped(text_of(e));
+  source.printed += say("</", e.Name(), ">");
+}
+
+/// The <world> or <model> of a file; all others are told.
+Element* content_of(Element& root, Content wanted, const Source& source, Problems& problems) {
+  const char* name = wanted == Content::world ? "world" : "model";
+  const std::vector<Element*> found = model_file::children(root, name);
+  if (found.size() > 1)
+    problems.warning(source.at(*found[1]),
+                     say("the file holds ", found.size(), " <", name, ">; the first one is read"));
+  for (Element* e : model_file::children(root))
+    if (e != (found.empty() ? nullptr : found.front()) && std::string_view(e->Name()) == name) root.DeleteChild(e);
+  return found.empty() ? nullptr : found.front();
+}
+
+}  // namespace
+
+int Source::version_number() const {
+  std::string trouble, digits = version;
+  const std::size_t point = std::min(digits.find('.'), digits.size());
+  const auto whole = model_file::parse_numbers(digits.substr(0, point), trouble);
+  const auto part = model_file::parse_numbers(digits.substr(std::min(point + 1, digits.size())), trouble);
+  if (!trouble.empty() || whole.size() != 1 || part.size() != 1 || !(whole[0] >= 0 && whole[0] < 1000)) return 0;
+  return int(100 * whole[0] + std::clamp(part[0], 0.0, 99.0));
+}
+
+bool Sources::parse(Source& source, std::string bytes, bool included, std::string& reason) {
+  const auto fail = [&](Place place, const std::string& text) {
+    reason = text;
+    if (!included) problems_.error({source.shown, place}, text);
+    return false;
+  };
+  const model_file::TextTrouble trouble = model_file::decode(bytes, format, "sdf");
+  if (trouble.unreadable) return fail(trouble.place, trouble.text);
+  if (!trouble.text.empty()) problems_.warning({source.shown, trouble.place}, trouble.text);
+  source.document = std::make_unique<model_file::Document>();
+  Place place;
+  std::string text;
+  if (!source.document->parse(bytes, place, text)) return fail(place, text);
+  Element* root = source.document->root();
+  if (!root || std::string_view(root->Name()) != "sdf")
+    return fail(
+        root ? model_file::place_of(*root) : Place{},
+        say("the file holds no <sdf> element", root ? say(", but ", cited(root->Name())) : std::string(),
+            root && std::string_view(root->Name()) == "robot" ? "; it is URDF, so give it the ending .urdf" : "",
+            "; an SDFormat file is <sdf version=\"1.9\"> with a <model> or a <world>"));
+  const char* version = root->Attribute("version");
+  if (!version) return fail(model_file::place_of(*root), "<sdf> has no version; write <sdf version=\"1.9\">");
+  source.version = version;
+  const int number = source.version_number();
+  if (number < 104 || number >= 200)
+    return fail(model_file::place_of(*root),
+                say("the file is of SDFormat ", cited(version), "; versions 1.4 to 1.9 are ",
+                    "read. `gz sdf -p FILE` of Gazebo converts older ones"));
+  if (number > 109) {
+    problems_.warning({source.shown, model_file::place_of(*root)},
+                      say("the file is of SDFormat ", cited(version), " and is read as 1.9"));
+    root->SetAttribute("version", "1.9");
+  }
+  source.elements = source.document->element_count();
+  return true;
+}
+
+bool Sources::load(std::string bytes, Content wanted) {
+  sources_.push_back(std::make_unique<Source>());
+  Source& source = *sources_.back();
+  source.folder = folder_;
+  std::string reason;
+  if (!parse(source, std::move(bytes), false, reason)) return false;
+  Element& root = *source.document->root();
+  source.content = content_of(root, wanted, source, problems_);
+  if (!source.content) {
+    const bool world = wanted == Content::world;
+    const bool other = root.FirstChildElement(world ? "model" : "world") != nullptr;
+    problems_.error(source.at(root),
+                    say("the file holds no <", world ? "world" : "model", ">",
+                        other && world ? "; it describes a robot: name it as the `model` of a robot" : "",
+                        other && !world ? "; it describes a world: name it under `world: {file: ...}`" : ""));
+    return false;
+  }
+  check(source, *this, problems_);
+  if (problems_.found_error()) return false;
+  print(root, source);
+  return true;
+}
+
+const Source* Sources::include(const std::filesystem::path& path, std::string& reason) {
+  if (const auto known = included_.find(path); known != included_.end()) {
+    if (!known->second) reason = "it cannot be read, as told before";
+    return known->second;
+  }
+  if (std::find(open_.begin(), open_.end(), path) != open_.end()) {
+    reason = "it includes itself";
+    return nullptr;
+  }
+  const auto add = [&]() -> const Source* {
+    auto source = std::make_unique<Source>();
+    source->shown = path.lexically_proximate(folder_).string();
+    source->folder = path.parent_path();
+    try {
+      if (!parse(*source, model_file::load_file(path.string(), format), true, reason)) return nullptr;
+    } catch (const Error& e) {
+      reason = e.what();
+      return nullptr;
+    }
+    Element& root = *source->document->root();
+    source->content = content_of(root, Content::model, *source, problems_);
+    if (!source->content) {
+      Element* first = root.FirstChildElement();
+      reason = say("it holds no <model>", first ? say(", but a ", cited(first->Name())) : std::string());
+      return nullptr;
+    }
+    open_.push_back(path);
+    check(*source, *this, problems_);
+    open_.pop_back();
+    print(root, *source);
+    source->memory = std::make_unique<MemoryFile>(source->printed);
+    sources_.push_back(std::move(source));
+    return sources_.back().get();
+  };
+  const Source* source = add();
+  return included_[path] = source;
+}
+
+At Sources::at(const std::string& file, int line) const {
+  for (const auto& source : sources_) {
+    const bool here = source->memory ? source->memory->path() == file : source == sources_.front();
+    if (!here) continue;
+    const bool known = line > 0 && std::size_t(line) <= source->lines.size();
+    if (known || source->memory) return {source->shown, known ? source->lines[std::size_t(line) - 1] : Place{}};
+  }
+  return {};
+}
+
+}  // namespace muro::sdf

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// The files that a model or world consists of, checked and made ready for libsdformat.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "memory_file.hpp"
+#include "plugins/model_file/document.hpp"
+#include "problems.hpp"
+
+namespace muro::sdf {
+
+using model_file::Element;
+
+/// What <mimic> of SDFormat 1.11 says, which libsdformat 12 does not know: q = multiplier (q_joint - reference) +
+/// offset.
+struct Mimic {
+  std::string joint, axis;
+  double multiplier = 1, offset = 0, reference = 0;
+  At at;
+};
+
+/// One file.
+struct Source {
+  std::string shown;  ///< its name in messages; empty: the file that is read
+  std::filesystem::path folder;
+  std::string version;
+  std::unique_ptr<model_file::Document> document;
+  std::string printed;                 ///< for libsdformat: one start tag a line
+  std::vector<Place> lines;            ///< of `printed`: where that tag stands in the file
+  std::unique_ptr<MemoryFile> memory;  ///< of an included file
+  std::size_t elements = 0;            ///< with those of the files it includes
+  Element* content = nullptr;          ///< <world> or <model>
+
+  At at(const Element& e) const { return {shown, model_file::place_of(e)}; }
+  /// 1.4 is 104.
+  int version_number() const;
+};
+
+/// Of a file with all that it includes.
+inline constexpr std::size_t most_elements = 200'000;
+
+/// What stands in an SDFormat file.
+enum class Content { model, world };
+
+class Sources {
+ public:
+  Sources(std::filesystem::path folder, Problems& problems) : folder_(std::move(folder)), problems_(problems) {}
+
+  /// Checks the text of the file that is read, and the files that it includes. False, with errors reported, when there
+  /// is nothing to read.
+  bool load(std::string bytes, Content wanted);
+  const Source& main() const { return *sources_.front(); }
+
+  /// The included file; null, with a reason, when there is none. For the checks of a file that includes.
+  const Source* include(const std::filesystem::path& path, std::string& reason);
+  const std::filesystem::path& folder() const { return folder_; }
+
+  /// Where an element that libsdformat has read stands: `file` is how libsdformat calls its file.
+  At at(const std::string& file, int line) const;
+  /// Mimics by the place of their joint and the number of the axis.
+  std::map<std::pair<At, int>, Mimic> mimics;
+
+ private:
+  bool parse(Source& source, std::string bytes, bool included, std::string& reason);
+
+  std::filesystem::path folder_;
+  Problems& problems_;
+  std::vector<std::unique_ptr<Source>> sources_;
+  std::map<std::filesystem::path, const Source*> included_;
+  std::vector<std::filesystem::path> open_;  ///< files within which another one is being read
+};
+
+}  // namespace muro::sdf

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// What muro adds to an engine: scenes that one world of motion.bullet, motion.ode or motion.mujoco moves, beside raw
+// programs of these engines with the same scene, commands, rate and iterations, taking turns in one run.
+//   --vehicles N   this number alone
+#include <fmt/format.h>
+
+#include "tests/bench/drives.hpp"
+#include "tests/bench/muro_team.hpp"
+#include "tests/bench/report.hpp"
+
+namespace {
+
+using namespace muro;
+using namespace muro::bench;
+
+using Settings = std::map<std::string, ParameterInput>;
+
+/// The motion set as the raw program sets its engine (tests/bench/peers).
+Settings settings_of(const std::string& motion, Effort e) {
+  const std::int64_t iterations = e.iterations;
+  if (motion == "motion.mujoco")
+    return {{"solver", std::string("cg")},
+            {"iterations", iterations},
+            {"tolerance", 1e-5},
+            {"refinements", std::int64_t(0)},
+            {"several_contacts", false}};
+  return {{"iterations", iterations}};
+}
+
+Engine by_muro(const std::string& motion, Effort effort) {
+  return {.name = fmt::format("muro, {}, {} iterations", motion, effort.iterations),
+          .make =
+              [motion](const City& city, Effort e) {
+                return std::make_unique<MuroTeam>(city, 1, Wheels::balls,
+                                                  Mover{motion, 1000 * e.steps, settings_of(motion, e), false});
+              },
+          .effort = effort};
+}
+
+std::string motion_for(const Engine& raw) {
+  return raw.name.starts_with("ODE")      ? "motion.ode"
+         : raw.name.starts_with("Bullet") ? "motion.bullet"
+                                          : "motion.mujoco";
+}
+
+bool is_offered(const std::string& motion) {
+  for (const Offer& o : test::plugins().offers())
+    if (o.id == motion) return true;
+  return false;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Report report("worlds", "What muro adds to an engine", argc, argv);
+  const int one = std::stoi(report.argument("vehicles", "0"));
+  std::vector<Engine> raw = peers();
+  std::erase_if(raw, [](const Engine& e) { return e.one_body || !is_offered(motion_for(e)); });
+  for (const int vehicles : one > 0 ? std::vector{one} : std::vector{1, 10, 50}) {
+    report.table(fmt::format("{} vehicles in the city", vehicles),
+                 {"engine", "vehicle-steps/s", "us a vehicle and step", "way, m", "height, m"});
+    for (const Engine& peer : raw) {
+      const std::vector<Engine> pair{peer, by_muro(motion_for(peer), peer.effort)};
+      const std::vector<Record> r =
+          compare(Plan::for_team(vehicles), pair, [=](std::uint64_t seed) { return City(vehicles, seed); });
+      for (std::size_t k = 0; k < pair.size(); ++k)
+        report.row({pair[k].name, whole(r[k].rate()), fixed(1e6 / r[k].rate(), 2), fixed(r[k].distance, 3),
+                    fixed(r[k].height, 4)});
+      report.ratio(fmt::format("N = {}: cost of {} to {}", vehicles, pair[1].name, peer.name), 1 / r[1].gain(r[0]),
+                   "at most 1.1");
+    }
+  }
+  report.note(
+      "The raw programs: tests/bench/peers. Bullet's is of rigid bodies and hinges; motion.bullet moves trees of "
+      "links in reduced coordinates, which is another solver.");
+  report.finish();
+  return 0;
+}

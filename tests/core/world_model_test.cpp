@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// What a reader tells of a world, before anything of it is in a simulation.
+#include "core/world_model.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/world.hpp"
+#include "muro/vocabulary.hpp"
+
+namespace muro {
+namespace {
+
+std::vector<std::string> errors(const WorldModel& world) {
+  std::vector<std::string> texts;
+  for (const auto& p : world.problems())
+    if (p.severity == Severity::error) texts.push_back(p.text);
+  return texts;
+}
+
+TEST(WorldModel, KeepsWhatItIsTold) {
+  WorldModel world;
+  WorldBuilder& builder = world;
+  const Shape ball = Shape::sphere(1), box = Shape::box({1, 1, 1});
+  builder.gravity({0, 0, -1.6});
+  builder.scenery("rock", {{1, 2, 3}, Quat::Identity()}, {&ball, 1}, {&box, 1});
+  builder.model("cart", {{4, 5, 6}, Quat::Identity()}).base("body");
+  builder.model("car", {}).base("chassis");
+  world.close();
+  EXPECT_EQ(errors(world), std::vector<std::string>{});
+  EXPECT_EQ(world.gravity(), Vec3(0, 0, -1.6));
+  ASSERT_EQ(world.scenery().size(), 1u);
+  EXPECT_EQ(world.scenery()[0].collisions.at(0).kind, ShapeKind::sphere);
+  EXPECT_EQ(world.scenery()[0].visuals.at(0).kind, ShapeKind::box);
+  ASSERT_EQ(world.models().size(), 2u);
+  EXPECT_EQ(world.models()[0].pose.position, Vec3(4, 5, 6));
+  EXPECT_TRUE(world.models()[1].tree.usable());
+}
+
+TEST(WorldModel, TellsWhatCannotBe) {
+  WorldModel world;
+  WorldBuilder& builder = world;
+  builder.gravity(Vec3::Constant(NAN));
+  builder.scenery("rock", {}, {}, {});
+  builder.scenery("", {}, {}, {});
+  builder.model("rock", {}).base("body");
+  builder.model("far", {Vec3::Constant(INFINITY), Quat::Identity()});
+  world.close();
+  EXPECT_EQ(errors(world), (std::vector<std::string>{"a gravity that is not finite", "scenery has no name",
+                                                     "two things of the world are named `rock`; names are unique",
+                                                     "a model `far` stands at no finite pose"}));
+  EXPECT_FALSE(world.gravity().has_value());
+  // one that was never built is a matter of its own tree
+  EXPECT_FALSE(world.models()[1].tree.usable());
+}
+
+TEST(WorldModel, SceneryMayLookOtherThanWhatItCollidesWith) {
+  World world;
+  const Shape ball = Shape::sphere(1), box = Shape::box({1, 1, 1});
+  const ObjectId rock = world.add_scenery("rock", {}, {&ball, 1}, {&box, 1});
+  const ObjectId cloud = world.add_scenery("cloud", {}, {}, {&box, 1});
+  const auto kind = [&](ObjectId object, const KeyInfo& key) {
+    const ArrayHeader found = world.store().constant(object, key);
+    return found.data ? int(static_cast<const Shape*>(found.data)->kind) : -1;
+  };
+  EXPECT_EQ(kind(rock, keys::collision_shapes), int(ShapeKind::sphere));
+  EXPECT_EQ(kind(rock, keys::visual_shapes), int(ShapeKind::box));
+  EXPECT_EQ(kind(cloud, keys::collision_shapes), -1);
+}
+
+}  // namespace
+}  // namespace muro

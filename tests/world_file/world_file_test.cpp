@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+// `world: {file: ...}` of a scenario, as a user meets it.
+#include <gtest/gtest.h>
+
+#include "host/scenario/builder.hpp"
+#include "muro/vocabulary.hpp"
+#include "tests/support/files.hpp"
+#include "tests/support/scene.hpp"
+
+namespace muro::host {
+namespace {
+
+constexpr char shape[] = "<collision name='c'><geometry><box><size>1 1 1</size></box></geometry></collision>";
+constexpr char inertial[] =
+    "<inertial><mass>1</mass><inertia><ixx>1</ixx><ixy>0</ixy><ixz>0</ixz><iyy>1</iyy><iyz>0</iyz><izz>1</izz></"
+    "inertia></inertial>";
+
+const std::string muro_program = std::string("MURO_PLUGIN_PATH=" MURO_TEST_PLUGIN_DIR " ") + MURO_PROGRAM;
+
+std::string link(const std::string& name, const std::string& pose = "0 0 0 0 0 0") {
+  return "<link name='" + name + "'><pose>" + pose + "</pose>" + shape + inertial + "</link>";
+}
+
+/// A folder with world.sdf (`world`, from line 2 on) and a scenario.
+class WorldFile {
+ public:
+  WorldFile(const std::string& world, const std::string& scenario) {
+    folder_.file("world.sdf", "<sdf version='1.9'><world name='w'>\n" + world + "\n</world></sdf>");
+    scenario_ = folder_.file("s.yaml", scenario);
+  }
+  BuiltScenario open(const std::vector<std::string>& overrides = {}) const {
+    return build(read_scenario(scenario_, overrides), test::plugins());
+  }
+  /// What `muro check` prints, with paths from the folder.
+  test::CommandResult check() const {
+    return test::run_command("cd " + folder_.path("") + " && " + muro_program + " check s.yaml");
+  }
+
+ private:
+  test::ScratchFolder folder_;
+  std::string scenario_;
+};
+
+const std::string crate = "<model name='crate'><pose>1 2 0.5 0 0 0</pose>" + link("body") + "</model>";
+const std::string house =
+    "<model name='house'><static>true</static><pose>-4 0 0.5 0 0 0</pose>" + link("wall") + "</model>";
+
+TEST(WorldFileOfAScenario, BringsSceneryGravityAndTheModelsThatTheScenarioNames) {
+  const WorldFile file("<gravity>0 0 -3.7</gravity>" + crate + house,
+                       "world: {file: world.sdf, objects: {ground: {shape: plane}}}\n"
+                       "robots: {crate: {model: world, motion: {use: motion.simplified}, velocity: [1, 0, 0]}}\n");
+  BuiltScenario built = file.open();
+  World& world = built.simulation->world();
+  EXPECT_EQ(built.notes, std::vector<std::string>{});
+  EXPECT_EQ(world.value(world_object, keys::gravity), Vec3(0, 0, -3.7));
+  EXPECT_EQ(world.value("house", keys::pose).position, Vec3(-4, 0, 0.5));
+  EXPECT_NE(world.find_object("ground"), no_object);
+  EXPECT_EQ(world.value("crate/body", keys::pose).position, Vec3(1, 2, 0.5));
+  EXPECT_EQ(world.value("crate/body", keys::twist).linear, Vec3(1, 0, 0));
+}
+
+TEST(WorldFileOfAScenario, GravityOfTheScenarioGoesBeforeThatOfTheFile) {
+  const WorldFile file("<gravity>0 0 -3.7</gravity>" + house, "world: {file: world.sdf, gravity: [0, 0, -1]}\n");
+  EXPECT_EQ(file.open().simulation->world().value(world_object, keys::gravity), Vec3(0, 0, -1));
+}
+
+TEST(WorldFileOfAScenario, AModelThatNobodyNamesStandsStillAndIsTold) {
+  const WorldFile file(crate, "world: {file: world.sdf}\n");
+  BuiltScenario built = file.open();
+  EXPECT_EQ(built.simulation->world().value("crate.body", keys::pose).position, Vec3(1, 2, 0.5));
+  ASSERT_EQ(built.notes.size(), 1u);
+  EXPECT_NE(built.notes[0].find("note: model `crate` stands still, as the scenario does not name it"),
+            std::string::npos);
+}
+
+TEST(WorldFileOfAScenario, AModelThatIsNoTreeMayStandStillButNotBeARobot) {
+  const std::string pile = "<model name='pile'>" + link("a") + "\n" + link("b", "0 0 1 0 0 0") + "</model>";
+  const std::string why =
+      "no joint leads to 2 links: `a`, `b`; exactly one is the base. Join the others to it, with fixed joints if they "
+      "do not "
+      "move, or make them models of their own\n";
+  const WorldFile still(pile, "world: {file: world.sdf}\n");
+  EXPECT_EQ(still.open().simulation->world().value("pile.b", keys::pose).position, Vec3(0, 0, 1));
+  EXPECT_EQ(still.check().exit_code, 0);
+  const WorldFile robot(pile,
+                        "world: {file: world.sdf}\nrobots:\n  pile: {model: world, motion: {use: motion.point}}\n");
+  EXPECT_EQ(robot.check().output, "s.yaml:3:17: robot `pile`: world world.sdf:3:1: " + why);
+  EXPECT_EQ(robot.check().exit_code, 2);
+}
+
+TEST(WorldFileOfAScenario, RandomPlacesKeepClearOfItsSceneryAndRobots) {
+  // free of the house (-4.5 to -3.5) is only the right part of the area
+  const WorldFile file(house +
+                           "<model name='slab'><static>true</static><pose>0 0 -0.5 0 0 0</pose><link "
+                           "name='l'><collision name='c'><geometry><box>"
+                           "<size>50 50 1</size></box></geometry></collision></link></model>",
+                       "world: {file: world.sdf, places: {strip: [{center: [-3.5, 0], size: [2, 0.2]}]}}\n"
+                       "robots: {balls: {shape: {sphere: 0.2}, mass: 1, count: 1, place: {random: strip}, motion: "
+                       "{use: motion.point}}}\n");
+  for (int seed = 1; seed <= 20; ++seed) {
+    const BuiltScenario built = file.open({"seed=" + std::to_string(seed)});
+    EXPECT_GT(built.simulation->world().value("balls_0/body", keys::pose).position.x(), -3.5 + 0.2 + 0.1 - 1e-9);
+  }
+}
+
+struct Wrong {
+  const char* world;
+  const char* scenario;
+  const char* message;
+};
+
+TEST(WorldFileOfAScenario, MistakesAreOneMessageWithThePlaceAndExitCode2) {
+  const Wrong all[] = {
+      {"", "world: {file: yard.sdf}\n", "s.yaml:1:15: world yard.sdf does not exist\n"},
+      {"", "world: {file: " MURO_TEST_SOURCE_DIR "/examples/models/rover.urdf}\n",
+       "s.yaml:1:15: world " MURO_TEST_SOURCE_DIR "/examples/models/rover.urdf: " MURO_TEST_SOURCE_DIR
+       "/examples/models/rover.urdf describes a robot, not a world; name it as the `model` of a robot\n"},
+      {"", "world: {file: s.yaml}\n",
+       "s.yaml:1:15: no reader for models of type `.yaml` (s.yaml); known types: .sdf, .world, .urdf\n"},
+      {"<model name='m'><link name='a'><pose>1 2</pose></link></model>", "world: {file: world.sdf}\n",
+       "s.yaml:1:15: world world.sdf:2:32: <pose>: `1 2` has 2 numbers, and needs 6 separated by blanks\n"},
+      {"<model name='m'><static>1</static><link name='a'/></model>",
+       "world: {file: world.sdf}\nrobots: {m: {model: world}}\n",
+       "s.yaml:2:21: robot `m`: the world file world.sdf has no movable model of this name; all of its models are "
+       "static\n"},
+      {"<model name='cart'><link name='a'/></model>", "world: {file: world.sdf}\nrobots: {card: {model: world}}\n",
+       "s.yaml:2:24: robot `card`: the world file world.sdf has no movable model of this name (did you mean `cart`?); "
+       "it has: cart\n"},
+      {"", "robots: {m: {model: world}}\n",
+       "s.yaml:1:21: robot `m`: `model: world` takes a model of the world file, but there is no `world: {file: "
+       "...}`\n"},
+      {"<model name='m'><link name='a'/></model>",
+       "world: {file: world.sdf}\nrobots: {m: {model: world, at: {x: 1}, count: 2}}\n",
+       "s.yaml:2:47: `count` of robot `m` does not go with `model: world`: the model stands where the world file says\n"
+       "s.yaml:2:32: `at` of robot `m` does not go with `model: world`: the model stands where the world file says\n"},
+      {"", "robots: {m: {model: world.sdf}}\n",
+       "s.yaml:1:21: robot `m`: model world.sdf:1:1: the file holds no <model>; it describes a world: name it under "
+       "`world: {file: ...}`\n"},
+      {"<model name='m'><static>1</static><link name='a'><collision "
+       "name='c'><geometry><sphere><radius>1</radius></sphere></geometry></collision></link></model>",
+       "world: {file: world.sdf, objects: {m: {shape: plane}}}\n",
+       "s.yaml:1:39: two objects are named `m`; names are unique\n"},
+  };
+  for (const Wrong& w : all) {
+    const WorldFile file(w.world, w.scenario);
+    const auto result = file.check();
+    EXPECT_EQ(result.output, w.message) << w.scenario;
+    EXPECT_EQ(result.exit_code, 2) << w.scenario;
+  }
+}
+
+}  // namespace
+}  // namespace muro::host
