@@ -24,6 +24,7 @@ Settings settings_of(const std::string& motion, Effort e) {
             {"tolerance", 1e-5},
             {"refinements", std::int64_t(0)},
             {"several_contacts", false}};
+  if (motion == "motion.ode") return {{"iterations", iterations}, {"reactions", false}};
   return {{"iterations", iterations}};
 }
 
@@ -32,7 +33,7 @@ Engine by_muro(const std::string& motion, Effort effort) {
           .make =
               [motion](const City& city, Effort e) {
                 return std::make_unique<MuroTeam>(city, 1, Wheels::balls,
-                                                  Mover{motion, 1000 * e.steps, settings_of(motion, e), false});
+                                                  Mover{motion, 1000 * e.steps, settings_of(motion, e), false, false});
               },
           .effort = effort};
 }

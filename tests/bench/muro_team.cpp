@@ -1,21 +1,41 @@
 // SPDX-License-Identifier: MIT
 #include "tests/bench/muro_team.hpp"
 
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <sstream>
+
 namespace muro::bench {
 namespace {
+
+constexpr const char* rover_urdf = MURO_TEST_SOURCE_DIR "/examples/models/rover.urdf";
+
+/// The rover's model without <dynamics>, in a file of its own.
+std::string lossless_rover() {
+  std::stringstream text;
+  text << std::ifstream(rover_urdf).rdbuf();
+  const auto file = std::filesystem::temp_directory_path() / ("muro_bench_" + std::to_string(::getpid()) + ".urdf");
+  std::ofstream(file) << std::regex_replace(text.str(), std::regex("<dynamics [^>]*/>"), "");
+  return file.string();
+}
 
 constexpr const char* corners[] = {"front_left", "front_right", "rear_left", "rear_right"};
 
 }  // namespace
 
-CityScene::CityScene(const City& city, Wheels wheels) {
+CityScene::CityScene(const City& city, Wheels wheels, bool losses) {
   add_ground(Rover::friction);
   int number = 0;
   for (const Block& b : city.blocks()) {
     const Shape box = Shape::box(b.lengths);
     world().add_scenery("block" + std::to_string(number++), {b.centre, Quat::Identity()}, std::span(&box, 1));
   }
-  const RobotTree rover = read_model(MURO_TEST_SOURCE_DIR "/examples/models/rover.urdf");
+  const std::string model = losses ? rover_urdf : lossless_rover();
+  const RobotTree rover = read_model(model);
+  if (!losses) std::filesystem::remove(model);
   for (int v = 0; v < city.vehicles(); ++v) add(std::to_string(v), rover, city.starts()[std::size_t(v)]);
   if (wheels == Wheels::cylinders) return;
   for (const RobotView* r : world().robots())
@@ -49,7 +69,7 @@ MuroTeam::MuroTeam(const City& city, int threads, Wheels wheels, const Pattern* 
     : MuroTeam(city, threads, wheels, Mover{.rate = rate}, lasers) {}
 
 MuroTeam::MuroTeam(const City& city, int threads, Wheels wheels, const Mover& mover, const Pattern* lasers)
-    : scene_(city, wheels) {
+    : scene_(city, wheels, mover.losses) {
   scene_.use(mover.motion, mover.rate, scene_.all_robots(), mover.parameters);
   if (mover.contact)
     scene_.use_contacts();

@@ -16,7 +16,8 @@ enum class Wheels { cylinders, balls };
 
 /// The city as scenery, its vehicles as robots "0", "1", ... of examples/models/rover.urdf. Motion is the caller's.
 struct CityScene : test::Scene {
-  explicit CityScene(const City& city, Wheels wheels = Wheels::cylinders);
+  /// `losses`: whether joints have the damping and friction of the model, which peers leave out.
+  explicit CityScene(const City& city, Wheels wheels = Wheels::cylinders, bool losses = true);
   /// laser.raycast at 10 Hz on every vehicle; returns the objects of the scanners.
   std::vector<ObjectId> add_lasers(const Pattern& pattern, double range, bool see_self);
 };
@@ -27,6 +28,7 @@ struct Mover {
   int rate = 1000;  ///< steps/s
   std::map<std::string, ParameterInput> parameters{};
   bool contact = true;  ///< by the contact algorithm
+  bool losses = true;   ///< see CityScene
 };
 
 /// The vehicles with full collision.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <set>
 
-#include "box_tree.hpp"
 #include "pairs_testing.hpp"
+#include "plugins/encounters/box_tree.hpp"
 
 namespace {
 

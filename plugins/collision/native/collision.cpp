@@ -5,13 +5,16 @@
 #include <cstddef>
 #include <limits>
 
+#include "mesh_warning.hpp"
 #include "muro/vocabulary.hpp"
 
 namespace muro::native {
 
 namespace {
 
-constexpr Use reads[] = {{"scene.index", "shapes and boxes"}, {"pose", "of all bodies of robots with shapes"}};
+constexpr Use reads[] = {{"scene.index", "shapes and boxes"},
+                         {"pose", "of all bodies of robots with shapes"},
+                         {"contact.world", "of all robots: who answers for which contacts"}};
 constexpr Use writes[] = {{"contacts", "list on the base of every robot that forces move"}};
 constexpr Phase all_phases[] = {{Phase::Over::whole}, {Phase::Over::robots, Phase::Reach::wide}};
 
@@ -46,13 +49,17 @@ struct NativeCollision::Lane {
 void NativeCollision::connect(Connector& c) {
   kernels_ = &ground_kernels_for(lane::best_isa());
   for (const RobotView* r : c.robots()) {
-    const bool dynamic = c.is_used(r->base(), keys::external_wrench, Access::read_sum);
     Robot& robot = robots_.emplace_back();
+    robot.wants_all = c.is_used(r->base(), keys::contacts, Access::read);
+    const bool dynamic = robot.wants_all || c.is_used(r->base(), keys::external_wrench, Access::read_sum);
     if (dynamic) robot.list = c.derived_list(r->base(), keys::contacts);
     robot.key = r->key;
+    if (const auto original = c.constant(r->base(), keys::shadow_of)) robot.shadow_of = c.robot_of(*original);
+    robot.world = c.input(r->base(), keys::contact_world, std::uint64_t{0});
     any_list_ = any_list_ || dynamic;
   }
   if (!any_list_) return;
+  warn_of_meshes(c);
   index_ = c.read(world_object, keys::scene_index);
   for (const RobotView* r : c.robots())
     for (const Frame& f : r->frames) {
@@ -147,6 +154,10 @@ void NativeCollision::touch(Range block) {
     lane.work.used = 0;
     for (const std::uint32_t r : team.in(block)) {
       const Neighbours::Of& near = neighbours_.of(r, *index_);
+      if (*robots_[r].world != keys::contact_for_all && !robots_[r].wants_all) {
+        touch_other_worlds(r, near);
+        continue;
+      }
       if (!alone(r, near) && touch_pairs(r, near)) continue;
       const int i = lane.work.used++;
       lane.robots[i] = r;
@@ -247,16 +258,39 @@ bool NativeCollision::touch_pairs(std::uint32_t robot, const Neighbours::Of& nea
   return true;
 }
 
+/// For a robot whose own world answers for the rest, or that no force moves.
+void NativeCollision::touch_other_worlds(std::uint32_t robot, const Neighbours::Of& near_it) {
+  thread_local Encounters encounters;
+  const Robot& mine = robots_[robot];
+  const RobotColliders& own = index_->robots[robot];
+  if (!(*mine.list).empty()) mine.list.clear();
+  for (int w = 0; w < words(own.count); ++w) mine.signature[w] = unknown;
+  if (*mine.world == 0 || (near_it.mates.empty() && !robots_have_planes_)) return;
+  encounters.start(own.bounds);
+  add_mates(encounters, robot, near_it);
+  if (encounters.others() == 0) return;
+  for (std::uint32_t k = own.first; k < own.first + own.count; ++k) encounters.add_own(near(k));
+  encounters.list_contacts(mine.list);
+}
+
+/// Whether contacts with `mate` belong into the list of `robot`: somebody asks for all, or the contact algorithm
+/// answers for them.
+bool NativeCollision::may_touch(std::uint32_t robot, std::uint32_t mate) const {
+  if (robots_[mate].shadow_of >= 0 || robots_[robot].shadow_of == std::int32_t(mate)) return false;
+  const std::uint64_t own = *robots_[robot].world, other = *robots_[mate].world;
+  return robots_[robot].wants_all || own == keys::contact_for_all || (other != 0 && other != own);
+}
+
 /// Ordered by key. A plane reaches everyone.
 void NativeCollision::add_mates(Encounters& encounters, std::uint32_t robot, const Neighbours::Of& near_it) const {
   thread_local std::vector<std::uint32_t> mates;
   mates.clear();
   if (!robots_have_planes_) {
     for (const std::uint32_t m : near_it.mates)
-      if (index_->robots[m].bounds.overlaps(encounters.bounds())) mates.push_back(m);
+      if (index_->robots[m].bounds.overlaps(encounters.bounds()) && may_touch(robot, m)) mates.push_back(m);
   } else {
     for (std::uint32_t m = 0; m < robots_.size(); ++m)
-      if (m != robot &&
+      if (m != robot && may_touch(robot, m) &&
           (robots_[robot].has_plane || robots_[m].has_plane || index_->robots[m].bounds.overlaps(encounters.bounds())))
         mates.push_back(m);
   }
@@ -270,7 +304,8 @@ void NativeCollision::add_mate(Encounters& encounters, std::uint32_t robot, std:
     if (!robots_[robot].has_plane && !ball(k).overlaps(encounters.bounds())) continue;
     const Near other = near(k);
     if (robots_[robot].has_plane || other.bounds.overlaps(encounters.bounds()))
-      encounters.add_other(other, precedes(mate, robot), bool(robots_[mate].list));
+      encounters.add_other(other, precedes(mate, robot),
+                           robots_[mate].list && (robots_[mate].wants_all || *robots_[mate].world != 0));
   }
 }
 

@@ -4,7 +4,7 @@
 #include "encounters.hpp"
 #include "lanes/ground.hpp"
 #include "muro/algorithm.hpp"
-#include "neighbours.hpp"
+#include "plugins/encounters/neighbours.hpp"
 #include "team.hpp"
 
 namespace muro::native {
@@ -27,8 +27,11 @@ class NativeCollision final : public Algorithm {
     ListOut<Contact> list;        ///< empty: forces do not move it
     Poses poses;                  ///< of its bodies with shapes
     double* signature = nullptr;  ///< which points of its list's contacts touch; see GroundWork
+    In<std::uint64_t> world;      ///< see keys::contact_world
     std::uint64_t key = 0;        ///< of two robots, the pair is worked out as the one with the lower key sees it
     bool has_plane = false;
+    std::int32_t shadow_of = -1;  ///< robot; see keys::shadow_of
+    bool wants_all = false;       ///< its motion, or what chooses that, reads the list
   };
   struct Lane;
 
@@ -39,6 +42,8 @@ class NativeCollision final : public Algorithm {
   void touch_ground(Lane& lane) const;
   void list_ground(std::uint32_t robot) const;
   bool touch_pairs(std::uint32_t robot, const Neighbours::Of& near);
+  void touch_other_worlds(std::uint32_t robot, const Neighbours::Of& near);
+  bool may_touch(std::uint32_t robot, std::uint32_t mate) const;
   void add_mates(Encounters& encounters, std::uint32_t robot, const Neighbours::Of& near) const;
   void add_mate(Encounters& encounters, std::uint32_t robot, std::uint32_t mate) const;
   Near near(std::uint32_t collider) const;

@@ -5,8 +5,8 @@
 
 #include "muro/handles.hpp"
 #include "muro/scene.hpp"
-#include "pairs/manifold.hpp"
 #include "pairs/placed.hpp"
+#include "plugins/encounters/manifold.hpp"
 
 namespace muro::native {
 

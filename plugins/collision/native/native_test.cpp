@@ -5,6 +5,7 @@
 #include <map>
 #include <random>
 
+#include "tests/support/files.hpp"
 #include "tests/support/scene.hpp"
 
 namespace muro {
@@ -301,24 +302,79 @@ TEST(SceneBvh, ARoomReachesFurtherToWhereItsRobotGoes) {
   EXPECT_NEAR(double(changes_on_the_way(-7)), 39.5, 1);
 }
 
-TEST(SceneBvh, WarnsOfEachMeshFileOnceAndKeepsTheOtherShapes) {
+/// A wedge: half of the box from (0, 0, 0) to (1, 2, 4).
+const char* const wedge =
+    "v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 4\nv 1 0 4\nv 0 2 4\n"
+    "f 1 3 2\nf 4 5 6\nf 1 2 5 4\nf 2 3 6 5\nf 3 1 4 6\n";
+
+template <class Interns>
+Shape mesh_shape(Interns& texts, const std::string& file) {
+  Shape mesh{.kind = ShapeKind::mesh, .size = {1, 1, 1}};
+  mesh.mesh = texts.intern(file);
+  return mesh;
+}
+
+/// One body with a mesh and a box around its origin.
+RobotTree meshed_body(const std::string& file) {
+  return test::tree_of([&](RobotBuilder& b) {
+    const Shape shapes[] = {mesh_shape(b, file), Shape::box({0.1, 0.1, 0.1})};
+    b.base("body");
+    b.set(keys::inertial, unit_inertia);
+    b.set_array(keys::collision_shapes, std::span<const Shape>(shapes));
+  });
+}
+
+TEST(CollisionNative, WarnsOfEachMeshFileOnceAndTouchesTheOtherShapes) {
+  const test::ScratchFolder folder;
+  for (const std::string& file : {folder.file("rock.obj", wedge), folder.path("missing.obj")}) {
+    Touching scene;
+    std::vector<std::string> lines;
+    scene.set_log([&](LogLevel level, std::string_view text) {
+      if (level == LogLevel::warning && text.find("collision.native") != text.npos) lines.emplace_back(text);
+    });
+    const Shape shapes[] = {mesh_shape(scene.world(), file), Shape::box({1, 1, 1})};
+    for (const char* name : {"rock1", "rock2"}) scene.world().add_scenery(name, {}, std::span<const Shape>(shapes));
+    const RobotView& r = scene.add_dynamic("ball", Shape::sphere(0.2), {{0.6, 0, 0}, Quat::Identity()});
+    const RobotView& meshed = scene.add_dynamic("meshed", meshed_body(file), {{0, 0.5, 0}, Quat::Identity()});
+    scene.finish_setup();
+    scene.instant();
+    ASSERT_EQ(lines.size(), 1u);
+    EXPECT_NE(lines[0].find(file), std::string::npos) << lines[0];
+    const auto contacts = scene.contacts(r);
+    ASSERT_EQ(contacts.size(), 2u);
+    for (const Contact& c : contacts) EXPECT_EQ(c.other_shape, 1u);
+    ASSERT_GT(scene.contacts(meshed).size(), 0u);
+    for (const Contact& c : scene.contacts(meshed)) EXPECT_NE(c.self_shape, 0u);
+  }
+}
+
+TEST(SceneBvh, KnowsTheBoundsOfMeshesAndWarnsOnceOfOneThatCannotBeRead) {
+  const test::ScratchFolder folder;
   Touching scene;
   std::vector<std::string> lines;
   scene.set_log([&](LogLevel level, std::string_view text) {
-    if (level == LogLevel::warning) lines.emplace_back(text);
+    if (level == LogLevel::warning && text.find("scene.bvh") != text.npos) lines.emplace_back(text);
   });
-  Shape mesh{.kind = ShapeKind::mesh, .size = {1, 1, 1}};
-  mesh.mesh = scene.world().intern("rock.stl");
-  const Shape shapes[] = {mesh, Shape::box({1, 1, 1})};
-  for (const char* name : {"rock1", "rock2"}) scene.world().add_scenery(name, {}, std::span<const Shape>(shapes));
-  const RobotView& r = scene.add_dynamic("ball", Shape::sphere(0.2), {{0.6, 0, 0}, Quat::Identity()});
+  World& world = scene.world();
+  const Shape rock = mesh_shape(world, folder.file("rock.obj", wedge)),
+              missing = mesh_shape(world, folder.path("missing.obj"));
+  const Quat quarter = rotation_of({0, 0, M_PI / 2});
+  world.add_scenery("rock", {{10, 0, 0}, quarter}, std::span<const Shape>(&rock, 1));
+  for (const char* name : {"a", "b"}) world.add_scenery(name, {}, std::span<const Shape>(&missing, 1));
+  const RobotView& r = scene.add_dynamic("rover", meshed_body(folder.path("rock.obj")), {{-5, 0, 1}, quarter});
   scene.finish_setup();
   scene.instant();
   ASSERT_EQ(lines.size(), 1u);
-  EXPECT_NE(lines[0].find("rock.stl"), std::string::npos) << lines[0];
-  const auto contacts = scene.contacts(r);
-  ASSERT_EQ(contacts.size(), 2u);
-  for (const Contact& c : contacts) EXPECT_EQ(c.other_shape, 1u);
+  EXPECT_NE(lines[0].find("missing.obj is not there"), std::string::npos) << lines[0];
+  const SceneIndex& index = world.value(world_object, keys::scene_index);
+  ASSERT_EQ(index.colliders.size(), 3u);
+  ASSERT_EQ(index.scenery.nodes.size(), 1u);
+  EXPECT_LT((index.scenery.nodes[0].bounds.low - Vec3(8, 0, 0)).norm(), 1e-6);
+  EXPECT_LT((index.scenery.nodes[0].bounds.high - Vec3(10, 1, 4)).norm(), 1e-6);
+  const Aabb& bounds = index.robots[r.number].bounds;
+  EXPECT_LT((bounds.low - Vec3(-7, -0.05, 0.95)).norm(), 1e-6) << bounds.low.transpose();
+  EXPECT_LT((bounds.high - Vec3(-4.95, 1, 5)).norm(), 1e-6) << bounds.high.transpose();
+  EXPECT_EQ(index.moving.items.size(), 1u);
 }
 
 }  // namespace

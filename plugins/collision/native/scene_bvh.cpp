@@ -40,22 +40,28 @@ constinit const Description scene_bvh_description{
     .promises = deterministic | allocation_free | restorable,
 };
 
-void SceneBvh::warn_of_mesh(Connector& c, ObjectId body, TextId mesh) {
-  if (std::find(meshes_.begin(), meshes_.end(), mesh) != meshes_.end()) return;
-  meshes_.push_back(mesh);
-  c.host().log(LogLevel::warning,
-               "`" + std::string(c.object_name(body)) + "`: mesh " + std::string(c.text(mesh)) +
-                   " has no place in scene.bvh, so nothing collides with it and no ray sees it; give the "
-                   "body boxes, spheres, cylinders or capsules for collision");
+/// What bounds the shape: itself, or the box around a mesh. None, and a warning, when the mesh cannot be read.
+std::optional<Shape> SceneBvh::outline(Connector& c, ObjectId body, const Shape& shape) {
+  if (shape.kind != ShapeKind::mesh) return shape;
+  const std::string path(c.text(shape.mesh));
+  try {
+    const Aabb box = mesh::bounds_of(meshes_.mesh(path, shape.size));
+    Shape around = Shape::box(box.high - box.low);
+    around.origin = shape.origin * Pose{0.5 * (box.low + box.high), Quat::Identity()};
+    return around;
+  } catch (const Error& error) {
+    if (unread_.insert(path).second)
+      c.host().log(LogLevel::warning, "`" + std::string(c.object_name(body)) + "`: " + error.what() +
+                                          "; it has no place in scene.bvh, so nothing collides with it");
+    return std::nullopt;
+  }
 }
 
 void SceneBvh::add_colliders(Connector& c, ObjectId body, const Pose* pose) {
   const std::span<const Shape> shapes = c.constant_array(body, keys::collision_shapes);
   for (std::uint32_t i = 0; i < shapes.size(); ++i) {
-    if (shapes[i].kind == ShapeKind::mesh) {
-      warn_of_mesh(c, body, shapes[i].mesh);
-      continue;
-    }
+    const std::optional<Shape> bounding = outline(c, body, shapes[i]);
+    if (!bounding) continue;
     if (shapes[i].kind == ShapeKind::plane) planes_.push_back(std::uint32_t(colliders_.size()));
     Collider k;
     k.shape = &shapes[i];
@@ -64,6 +70,7 @@ void SceneBvh::add_colliders(Connector& c, ObjectId body, const Pose* pose) {
     k.robot = c.robot_of(body);
     k.shape_index = i;
     colliders_.push_back(k);
+    outlines_.push_back(*bounding);
   }
 }
 
@@ -84,10 +91,10 @@ void SceneBvh::add_robot(Connector& c, const RobotView& robot) {
   for (std::uint32_t f = 0; f < robot.frames.size(); ++f) {
     const ObjectId body = robot.frames[f].object;
     const std::span<const Shape> shapes = c.constant_array(body, keys::collision_shapes);
+    const std::size_t first_of_body = outlines_.size();
     if (!shapes.empty()) add_colliders(c, body, c.read(body, keys::pose).get());
-    for (const Shape& s : shapes)
-      if (s.kind != ShapeKind::mesh && s.kind != ShapeKind::plane)
-        boxes.push_back(swept_box(robot.frames, follows, f, s));
+    for (const Shape& s : std::span(outlines_).subspan(first_of_body))
+      if (s.kind != ShapeKind::plane) boxes.push_back(swept_box(robot.frames, follows, f, s));
   }
   robots_.push_back({first, std::uint32_t(colliders_.size()) - first, {}, {}});
   Poses& poses = poses_.emplace_back();
@@ -103,6 +110,10 @@ void SceneBvh::add_robot(Connector& c, const RobotView& robot) {
   }
   if (!parts.empty()) {
     members_.push_back(robot.number);
+    if (c.constant(robot.base(), keys::shadow_of))
+      shadows_.insert(robot.number);
+    else
+      seen_.push_back(robot.number);
     join_team(teams_, std::move(parts), robot.number);
   }
 }
@@ -123,7 +134,8 @@ void SceneBvh::start() {
   std::vector<Aabb> boxes;
   std::vector<std::uint32_t> bounded;
   for (std::uint32_t k = 0; k < scenery_; ++k) {
-    boxes.push_back(colliders_[k].bounds());
+    const Shape& s = outlines_[k];
+    boxes.push_back(bounds_of(s, *colliders_[k].body_pose * s.origin));
     if (colliders_[k].shape->kind != ShapeKind::plane) bounded.push_back(k);
   }
   scenery_tree_.build(boxes, bounded);
@@ -134,7 +146,7 @@ void SceneBvh::start() {
     new_room(r);
     boxes[r] = robots_[r].room;
   }
-  moving_tree_.build(boxes, members_);
+  moving_tree_.build(boxes, seen_);
   *index_ = {colliders_, robots_, planes_, scenery_tree_.view(), moving_tree_.view(), changes_, all_changes_};
 }
 
@@ -187,7 +199,7 @@ void SceneBvh::make_room() {
   for (auto at = begin; (at = static_cast<const std::uint8_t*>(std::memchr(at, 1, std::size_t(end - at)))); ++at) {
     const auto r = std::uint32_t(at - begin);
     new_room(r);
-    moving_tree_.move(r, robots_[r].room);
+    if (shadows_.count(r) == 0) moving_tree_.move(r, robots_[r].room);
   }
   if (all_changes_ == before) return;
   if (moving_tree_.worn()) moving_tree_.rebuild();

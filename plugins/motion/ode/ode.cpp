@@ -29,6 +29,8 @@ constexpr Parameter parameters[] = {
     real("cfm", "s/kg", 1e-6, "softness of joints and contacts").between(0, 1),
     real("correcting_speed", "m/s", 1, "bodies that overlap are parted no faster").between(0, 1e9),
     real("bounce_speed", "m/s", 0.02, "impacts slower than this do not rebound").between(0, 1e9),
+    boolean("reactions", true,
+            "whether efforts of drives and wrenches of contacts are found out; ODE is faster without"),
 };
 constexpr Use reads[] = {
     {"wrench.external", "of the base and every body with collision shapes"},
@@ -85,6 +87,7 @@ class OdeMotion final : public multibody::Motion {
     settings_.cfm = p.real("cfm");
     settings_.correcting_speed = p.real("correcting_speed");
     settings_.bounce_speed = p.real("bounce_speed");
+    settings_.reactions = p.boolean("reactions");
   }
   std::unique_ptr<multibody::World> make_world() const override { return std::make_unique<ode::OdeWorld>(settings_); }
 

@@ -90,7 +90,7 @@ void OdeWorld::add_obstacle(const multibody::Fixture& fixture, const multibody::
 void OdeWorld::add_robot(const multibody::RobotModel& model, multibody::RobotState& state) {
   const dSpaceID space = dSimpleSpaceCreate(team_);
   dSpaceSetSublevel(space, 1);
-  robots_.emplace_back(world_, space, model, state, std::int32_t(robots_.size()), owners_);
+  robots_.emplace_back(world_, space, model, state, std::int32_t(robots_.size()), owners_, settings_.reactions);
 }
 
 void OdeWorld::complete() {
@@ -126,7 +126,7 @@ void OdeWorld::advance(double dt) {
   make_contacts();
   carry_on(dt);
   for (Robot& r : robots_) r.export_state(dt);
-  export_contacts();
+  if (settings_.reactions) export_contacts();
   dJointGroupEmpty(contacts_);
 }
 
@@ -190,7 +190,7 @@ void OdeWorld::find_touches() {
 }
 
 void OdeWorld::make_contacts() {
-  feedbacks_.assign(touches_.size(), dJointFeedback{});
+  if (settings_.reactions) feedbacks_.assign(touches_.size(), dJointFeedback{});
   for (std::size_t i = 0; i < touches_.size(); ++i) {
     const Touch& t = touches_[i];
     dContact contact{};
@@ -219,7 +219,7 @@ void OdeWorld::make_contacts() {
     }
     const dJointID joint = dJointCreateContact(world_, contacts_, &contact);
     dJointAttach(joint, a, b);
-    dJointSetFeedback(joint, &feedbacks_[i]);
+    if (settings_.reactions) dJointSetFeedback(joint, &feedbacks_[i]);
   }
 }
 

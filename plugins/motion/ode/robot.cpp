@@ -10,6 +10,7 @@ using multibody::JointState, multibody::Part, multibody::PartMotion, multibody::
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double nearest_far_stop = 3;  ///< rad
 
 void set_place(dBodyID body, const Vec3& centre, const Quat& q) {
   const dQuaternion turn = {q.w(), q.x(), q.y(), q.z()};
@@ -30,8 +31,8 @@ double wrapped(double angle) { return std::remainder(angle, 2 * M_PI); }
 }  // namespace
 
 Robot::Robot(dWorldID world, dSpaceID space, const multibody::RobotModel& model, multibody::RobotState& state,
-             std::int32_t number, std::deque<Owner>& owners)
-    : world_(world), space_(space), model_(&model), state_(&state), parts_(model.parts.size()) {
+             std::int32_t number, std::deque<Owner>& owners, bool reactions)
+    : world_(world), space_(space), model_(&model), state_(&state), reactions_(reactions), parts_(model.parts.size()) {
   multibody::RobotState straight;  // joints are made where all of them are at 0
   straight.joints.resize(model.parts.size());
   place_parts(model, straight, parts_);
@@ -98,7 +99,11 @@ void Robot::add_joint(std::size_t number) {
       dJointSetLMotorParam(b.damper, dParamCFM, 1 / damping);
     }
   }
-  dJointSetFeedback(b.joint, &b.feedback);
+  if (reactions_) dJointSetFeedback(b.joint, &b.feedback);
+  b.far_stops = part.joint == JointKind::revolute &&
+                ((std::isfinite(part.limits.lower) && part.limits.lower < -nearest_far_stop) ||
+                 (std::isfinite(part.limits.upper) && part.limits.upper > nearest_far_stop));
+  if (!b.far_stops) set_stops(b, part.joint, part.limits.lower, part.limits.upper);
 }
 
 void Robot::set_presence(Presence presence) {
@@ -118,8 +123,9 @@ void Robot::import(double dt) {
   if (presence_ == Presence::absent) return;
   if (presence_ == Presence::obstacle || state_->moved_from_outside)
     place_by_parts();
-  else
+  else if (!in_place_)
     place_from_memory();
+  in_place_ = false;
   for (Wrench& w : state_->contact) w = Wrench{};
   if (presence_ != Presence::simulated) return;
   set_forces();
@@ -136,7 +142,8 @@ void Robot::place_by_parts() {
   }
 }
 
-/// Also when bodies are there already: a step must begin with the same bits however it was come to.
+/// A step begins with the same bits whether bodies are placed here or have stayed where the last step left them: see
+/// export_state().
 void Robot::place_from_memory() {
   const double* m = state_->memory.data();
   for (const Body& b : bodies_) {
@@ -168,29 +175,26 @@ void Robot::set_drive(std::size_t number) {
   set(joint, dParamFMax, force_of(d.by_speed ? d.most : part.limits.friction));
   if (!d.by_speed && d.effort != 0)
     turns ? dJointAddHingeTorque(joint, d.effort) : dJointAddSliderForce(joint, d.effort);
-  set_stops(number);
+  if (bodies_[number].far_stops) set_near_stops(number);
+}
+
+void Robot::set_stops(const Body& body, JointKind kind, double low, double high) {
+  const auto set = kind == JointKind::revolute ? &dJointSetHingeParam : &dJointSetSliderParam;
+  set(body.joint, dParamLoStop, std::isfinite(low) ? low : -dInfinity);
+  set(body.joint, dParamHiStop, std::isfinite(high) ? high : dInfinity);
+  set(body.joint, dParamLoStop, std::isfinite(low) ? low : -dInfinity);  // not taken while it is above the other
 }
 
 /// Hinges of ODE know their angle up to whole turns: a stop that is farther off than half a turn is set when it is
 /// near.
-void Robot::set_stops(std::size_t number) const {
-  const Part& part = model_->parts[number];
-  const JointLimits& l = part.limits;
-  const bool turns = part.joint == JointKind::revolute;
-  double low = l.lower, high = l.upper;
-  if (turns && (low < -3 || high > 3)) {
-    const double q = state_->joints[number].position;
-    const auto near = [&](double limit) {
-      return std::isfinite(limit) && std::abs(q - limit) < std::min(1.0, M_PI - std::abs(wrapped(limit)));
-    };
-    low = near(low) ? wrapped(low) : -infinity;
-    high = near(high) ? wrapped(high) : infinity;
-  }
-  const auto set = turns ? &dJointSetHingeParam : &dJointSetSliderParam;
-  set(bodies_[number].joint, dParamLoStop, std::isfinite(low) ? low : -dInfinity);
-  set(bodies_[number].joint, dParamHiStop, std::isfinite(high) ? high : dInfinity);
-  // a stop that is set while the other is above it is not taken
-  set(bodies_[number].joint, dParamLoStop, std::isfinite(low) ? low : -dInfinity);
+void Robot::set_near_stops(std::size_t number) const {
+  const JointLimits& l = model_->parts[number].limits;
+  const double q = state_->joints[number].position;
+  const auto near = [&](double limit) {
+    return std::isfinite(limit) && std::abs(q - limit) < std::min(1.0, M_PI - std::abs(wrapped(limit)));
+  };
+  set_stops(bodies_[number], JointKind::revolute, near(l.lower) ? wrapped(l.lower) : -infinity,
+            near(l.upper) ? wrapped(l.upper) : infinity);
 }
 
 PartMotion Robot::motion_of(std::size_t part) const {
@@ -210,10 +214,16 @@ void Robot::export_state(double dt) {
   for (const Body& b : bodies_) {
     std::copy_n(dBodyGetPosition(b.id), 3, m);
     std::copy_n(dBodyGetQuaternion(b.id), 4, m + 3);
+    // ODE normalises what is set, which can change the last bit of what is normalised already.
+    dQuaternion turn;
+    std::copy_n(m + 3, 4, turn);
+    dNormalize4(turn);
+    if (!std::equal(turn, turn + 4, m + 3)) dBodySetQuaternion(b.id, m + 3);
     std::copy_n(dBodyGetLinearVel(b.id), 3, m + 7);
     std::copy_n(dBodyGetAngularVel(b.id), 3, m + 10);
     m += numbers;
   }
+  in_place_ = true;
   for (std::size_t i = 0; i < bodies_.size(); ++i) parts_[i] = motion_of(i);
   if (!model_->fixed_base) {
     state_->pose = parts_[0].pose;

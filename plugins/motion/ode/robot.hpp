@@ -15,7 +15,7 @@ class Robot {
 
   /// `space`: for its geoms. `owners`: those of all geoms of the world, to which it adds its own.
   Robot(dWorldID world, dSpaceID space, const multibody::RobotModel& model, multibody::RobotState& state,
-        std::int32_t number, std::deque<Owner>& owners);
+        std::int32_t number, std::deque<Owner>& owners, bool reactions);
 
   /// Places bodies and sets forces and drives for a step of `dt` (s).
   void import(double dt);
@@ -37,6 +37,7 @@ class Robot {
     Vec3 com = Vec3::Zero();    ///< in the frame of the part
     dJointID joint = nullptr;   ///< that moves it; none for the base
     dJointID damper = nullptr;  ///< none where the model has no damping
+    bool far_stops = false;     ///< see set_near_stops
     dJointFeedback feedback{};  ///< of `joint`
   };
 
@@ -47,7 +48,8 @@ class Robot {
   void place_from_memory();
   void set_forces();
   void set_drive(std::size_t part);
-  void set_stops(std::size_t part) const;
+  static void set_stops(const Body& body, JointKind kind, double low, double high);
+  void set_near_stops(std::size_t part) const;
   multibody::PartMotion motion_of(std::size_t part) const;
   void export_joint(std::size_t part, double dt);
 
@@ -55,8 +57,10 @@ class Robot {
   dSpaceID space_;
   const multibody::RobotModel* model_;
   multibody::RobotState* state_;
+  bool reactions_;  ///< whether efforts of drives are found out
   multibody::Presence presence_ = multibody::Presence::simulated;
   std::deque<Body> bodies_;  ///< one a part
+  bool in_place_ = false;    ///< they are where the memory says
   std::vector<dGeomID> geoms_;
   std::vector<multibody::PartMotion> parts_;
 };

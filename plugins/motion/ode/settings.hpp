@@ -14,6 +14,7 @@ struct Settings {
   double cfm = 1e-6;            ///< softness of contacts and joints, 1/(N s/m)
   double correcting_speed = 1;  ///< m/s: bodies that overlap are parted no faster
   double bounce_speed = 0.02;   ///< m/s: slower impacts do not rebound
+  bool reactions = true;        ///< whether what joints and contacts do is found out
 };
 
 }  // namespace muro::ode

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Meshes through every collision algorithm that knows them: as their hulls, and as they are.
 #include "tests/conformance/collision/touching.hpp"
+#include "tests/support/allocation_counter.hpp"
 #include "tests/support/files.hpp"
 
 namespace muro {
@@ -172,16 +173,42 @@ struct Standing : test::Scene {
 };
 
 TEST_P(EveryCollisionOfMeshes, RobotsStandStillOnAMeshAsItIs) {
-  const std::pair<const char*, Shape> shapes[] = {{"box", Shape::box({0.6, 0.5, 0.5})},
-                                                  {"cylinder", Shape::cylinder(0.3, 0.5)}};
-  for (const auto& [name, shape] : shapes) {
+  const std::pair<const char*, RobotTree> robots[] = {
+      {"box", test::single_body(Shape::box({0.6, 0.5, 0.5}), test::unit_inertia)},
+      {"cylinder", test::single_body(Shape::cylinder(0.3, 0.5), test::unit_inertia)},
+      {"mesh", mesh_robot(box_file({0.5, 0.6, 0.5}))}};
+  for (const auto& [name, tree] : robots) {
     Standing scene;
     const Shape floor = mesh(scene.world(), floor_file());
     scene.world().add_scenery("floor", {}, std::span<const Shape>(&floor, 1));
-    scene.robot =
-        &scene.add("robot", test::single_body(shape, test::unit_inertia), at(0.1, -0.13, 0.25, from_rpy(0, 0, 0.3)));
+    scene.robot = &scene.add("robot", tree, at(0.1, -0.13, 0.25, from_rpy(0, 0, 0.3)));
     scene.finish(GetParam(), true);
     scene.expect_stands(0.25, name);
+  }
+}
+
+TEST_P(EveryCollisionOfMeshes, TheHullOfABoxMeetsEveryKindAsTheBox) {
+  const std::string file = box_file({1, 1.2, 0.8});
+  const std::pair<Shape, Pose> others[] = {{Shape::sphere(0.3), at(0.1, 0.2, 0.65)},
+                                           {Shape::box({0.5, 0.4, 0.6}), at(0.1, 0.2, 0.65, from_rpy(0.2, 0.1, 0.7))},
+                                           {Shape::cylinder(0.3, 0.6), at(0.1, 0.2, 0.66, from_rpy(1.3, 0.1, 0.7))},
+                                           {Shape::capsule(0.2, 0.6), at(0.1, 0.2, 0.65, from_rpy(1.1, 0.1, 0.7))}};
+  for (const auto& [other, pose] : others) {
+    std::vector<Contact> lists[2];
+    for (const bool as_mesh : {false, true}) {
+      Touching scene(GetParam());
+      scene.add_scenery("box", as_mesh ? mesh(scene.world(), file) : Shape::box({1, 1.2, 0.8}), origin);
+      const RobotView& r = scene.add_dynamic("robot", other, pose);
+      scene.finish_setup();
+      scene.instant();
+      lists[as_mesh] = scene.contacts(r);
+    }
+    ASSERT_GT(lists[0].size(), 0u) << int(other.kind);
+    ASSERT_GT(lists[1].size(), 0u) << int(other.kind);
+    const Contact &box = test::deepest(lists[0]), &hull = test::deepest(lists[1]);
+    EXPECT_NEAR(hull.depth, box.depth, 1e-5) << int(other.kind);
+    EXPECT_LT((hull.normal - box.normal).norm(), 1e-3) << int(other.kind) << test::text_of(lists[1]);
+    EXPECT_LT((hull.point - box.point).norm(), 1e-3) << int(other.kind) << test::text_of(lists[1]);
   }
 }
 
@@ -210,6 +237,27 @@ TEST_P(EveryCollisionOfMeshes, ABallRollsOverTheEdgesOfTrianglesAsOverAPlane) {
   }
   EXPECT_GT(ends[0].position.x(), 0.9);
   EXPECT_LT((ends[1].position - ends[0].position).norm(), 1e-3);
+}
+
+TEST_P(EveryCollisionOfMeshes, AllocatesNothingOnceWarmWherePromised) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers count allocations themselves";
+#endif
+  const std::uint32_t promises = test::plugins().algorithm(GetParam()).description->promises;
+  if ((promises & Promise::allocation_free) == 0) GTEST_SKIP() << GetParam() << " does not promise it";
+  for (const bool exact : {false, true}) {
+    Standing scene;
+    const Shape floor = mesh(scene.world(), floor_file());
+    const Shape slab = Shape::box({9, 9, 1});
+    if (exact) scene.world().add_scenery("floor", {}, std::span<const Shape>(&floor, 1));
+    if (!exact) scene.world().add_scenery("slab", at(0, 0, -0.5), std::span<const Shape>(&slab, 1));
+    scene.robot = &scene.add("robot", mesh_robot(box_file({0.5, 0.6, 0.5})), at(0.1, -0.13, 0.25));
+    scene.finish(GetParam(), exact);
+    scene.run_for(0.5);
+    const std::uint64_t before = test::allocations();
+    scene.run_for(0.5);
+    EXPECT_EQ(test::allocations() - before, 0u) << (exact ? "exact" : "convex");
+  }
 }
 
 TEST_P(EveryCollisionOfMeshes, AMeshThatCannotBeReadIsOneClearMessage) {

@@ -59,7 +59,8 @@ std::vector<Pair> pairs_of(ShapeKind a, ShapeKind b, int count, unsigned seed) {
   for (int i = 0; i < count; ++i) {
     Pair p{random.shape(a), random.shape(b), {}, {}};
     const bool parallel = i % 4 == 0;
-    p.place = {{10.0 * (i % 20), 10.0 * (i / 20), 0}, random.rotation(parallel)};
+    const int column = i % 20, row = i / 20;
+    p.place = {{10.0 * column, 10.0 * row, 0}, random.rotation(parallel)};
     const double near = half_extents(p.robot).minCoeff() + half_extents(p.scenery).minCoeff();
     p.at = {p.place.position + random.uniform(0.7, 1.2) * near * random.direction(), random.rotation(parallel)};
     pairs.push_back(p);
@@ -112,19 +113,24 @@ struct EveryCollisionAtRandom : ::testing::TestWithParam<std::string> {
     }
     EXPECT_GT(touching, 100);
   }
+  void record_worst() const {
+    std::ostringstream text;
+    text << worst;
+    RecordProperty("worst", text.str());
+  }
   double worst = 0;  ///< difference of depths, of the size
 };
 
 TEST_P(EveryCollisionAtRandom, AgreesWithNativeOnPairsThatOverlapALittle) {
   for (const ShapeKind a : kinds)
     for (const ShapeKind b : kinds) expect_agreement(a, b, true, test::ability_of(GetParam()).shallow);
-  std::printf("%s worst %.2e\n", GetParam().c_str(), worst);
+  record_worst();
 }
 
 TEST_P(EveryCollisionAtRandom, AgreesWithNativeOnPairsThatOverlapDeeply) {
   for (const ShapeKind a : kinds)
     for (const ShapeKind b : kinds) expect_agreement(a, b, false, test::ability_of(GetParam()).deep);
-  std::printf("%s worst %.2e\n", GetParam().c_str(), worst);
+  record_worst();
 }
 
 INSTANTIATE_TEST_SUITE_P(Conformance, EveryCollisionAtRandom, ::testing::ValuesIn(test::algorithms_of("collision")),

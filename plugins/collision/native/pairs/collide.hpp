@@ -8,8 +8,8 @@
 // equal bits.
 #pragma once
 
-#include "pairs/manifold.hpp"
 #include "pairs/placed.hpp"
+#include "plugins/encounters/manifold.hpp"
 
 namespace muro::native {
 

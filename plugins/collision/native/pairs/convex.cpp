@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "pairs/collide.hpp"
-#include "pairs/feature.hpp"
 #include "pairs/least_depth.hpp"
+#include "plugins/encounters/feature.hpp"
 
 namespace muro::native {
 namespace {

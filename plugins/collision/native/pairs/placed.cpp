@@ -10,12 +10,6 @@ static_assert(int(Form::box) == int(ShapeKind::box) && int(Form::sphere) == int(
               int(Form::cylinder) == int(ShapeKind::cylinder) && int(Form::capsule) == int(ShapeKind::capsule) &&
               int(Form::plane) == int(ShapeKind::plane) && int(Form::mesh) == int(ShapeKind::mesh));
 
-Vec3 half_of(const Shape& shape) {
-  if (shape.kind == ShapeKind::plane) return Vec3::Zero();
-  if (shape.kind == ShapeKind::capsule) return {shape.size.x(), shape.size.x(), 0.5 * shape.size.z()};
-  return half_extents(shape);
-}
-
 /// The axis of the body that `v` is but for rounding, as Solid::along tells it.
 int axis_along(const Vec3& v) {
   for (int k = 0; k < 3; ++k)
@@ -26,15 +20,6 @@ int axis_along(const Vec3& v) {
 Vec3 vector(const lane::V3<double>& v) { return {v.x, v.y, v.z}; }
 
 }  // namespace
-
-Placed placed(const Shape& shape, const Pose& pose) {
-  Placed p;
-  p.kind = shape.kind;
-  p.half = half_of(shape);
-  p.centre = pose.position;
-  p.axes = pose.orientation.toRotationMatrix();
-  return p;
-}
 
 Solid solid_of(const Shape& shape, std::uint32_t body) {
   Solid s;
@@ -89,17 +74,6 @@ Ground ground_of(const Placed& plane) {
   Vec3::Map(g.origin) = plane.centre;
   g.level = plane.axis() == Vec3::UnitZ();
   return g;
-}
-
-Aabb bounds_of(const Placed& shape) {
-  if (shape.kind == ShapeKind::plane) {
-    const Vec3 half = Vec3::Constant(std::numeric_limits<double>::infinity());
-    return {-half, half};
-  }
-  Vec3 reach = shape.half;
-  if (shape.kind != ShapeKind::sphere)
-    for (int k = 0; k < 3; ++k) reach[k] = reach_along(shape, shape.axes.row(k));
-  return {shape.centre - reach, shape.centre + reach};
 }
 
 }  // namespace muro::native

@@ -2,25 +2,13 @@
 #pragma once
 
 #include "lanes/solid.hpp"
-#include "muro/scene.hpp"
+#include "plugins/encounters/placed.hpp"
 
 namespace muro::native {
 
-/// A shape at its place, in the form the pair tests read: no quaternion left to unfold.
-struct Placed {
-  ShapeKind kind = ShapeKind::sphere;
-  /// m. box: half lengths. sphere: the radius three times. cylinder, capsule: radius, radius, half the
-  /// length along z (of a capsule: of its straight part). plane: unused.
-  Vec3 half = Vec3::Zero();
-  Vec3 centre = Vec3::Zero();    ///< m, world
-  Mat3 axes = Mat3::Identity();  ///< columns: the axes of the shape in the world
+using namespace encounters;
+using encounters::placed;
 
-  double radius() const { return half.x(); }
-  auto axis() const { return axes.col(2); }  ///< of a cylinder or capsule; the normal of a plane
-};
-
-/// `shape` with its own frame (not that of its body) at `pose`.
-Placed placed(const Shape& shape, const Pose& pose);
 /// The same as plain numbers, number `body` of its robot.
 Solid solid_of(const Shape& shape, std::uint32_t body = 0);
 /// No point of the shape is farther (m) from its body's origin; planes and meshes have no end.
@@ -29,27 +17,5 @@ double reach_of(const Solid& solid);
 Placed placed(const Solid& solid, const Pose& body);
 /// The plane's surface.
 Ground ground_of(const Placed& plane);
-/// Around the shape. Planes are infinite.
-Aabb bounds_of(const Placed& shape);
-
-/// How far (m) a box, cylinder or capsule reaches from its centre along a unit vector, which is given by its products
-/// with the shape's axes.
-template <class Products>
-double reach_along(const Placed& shape, const Products& c) {
-  if (shape.kind == ShapeKind::box)
-    return std::abs(c[0]) * shape.half.x() + std::abs(c[1]) * shape.half.y() + std::abs(c[2]) * shape.half.z();
-  const double along = shape.half.z() * std::abs(c[2]);
-  if (shape.kind == ShapeKind::capsule) return along + shape.radius();
-  return along + shape.radius() * std::sqrt(c[0] * c[0] + c[1] * c[1]);
-}
-
-/// A unit vector at right angles to the unit vector `v`; always the same one for the same `v`.
-inline Vec3 perpendicular(const Vec3& v) {
-  Vec3::Index least;
-  v.cwiseAbs().minCoeff(&least);
-  Vec3 other = Vec3::Zero();
-  other[least] = 1;
-  return v.cross(other).normalized();
-}
 
 }  // namespace muro::native

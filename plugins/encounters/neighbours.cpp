@@ -5,7 +5,7 @@
 
 #include "box_tree.hpp"
 
-namespace muro::native {
+namespace muro::encounters {
 
 void Neighbours::start(const SceneIndex& scene, std::vector<Aabb> scenery) {
   scenery_ = std::move(scenery);
@@ -20,6 +20,11 @@ void Neighbours::start(const SceneIndex& scene, std::vector<Aabb> scenery) {
   changes_.assign(of_.size(), 0);
   changed_.reserve(of_.size());
   all_changes_ = 0;
+  std::vector<bool> seen(of_.size());
+  for (const std::uint32_t r : scene.moving.items) seen[r] = true;
+  unseen_.clear();
+  for (std::uint32_t r = 0; r < of_.size(); ++r)
+    if (!seen[r] && scene.robots[r].count > 0) unseen_.push_back(r);
 }
 
 void Neighbours::update(const SceneIndex& scene) {
@@ -38,6 +43,11 @@ void Neighbours::update(const SceneIndex& scene) {
       of_[r].mates.push_back(mate);
       of_[mate].mates.push_back(r);
     });
+    for (const std::uint32_t mate : unseen_) {
+      if (mate == r || !scene.robots[mate].room.overlaps(room)) continue;
+      of_[r].mates.push_back(mate);
+      of_[mate].mates.push_back(r);
+    }
   }
 }
 
@@ -60,4 +70,4 @@ void Neighbours::find_scenery(Of& near, const Aabb& room, const Bvh& tree) const
   near.stale = false;
 }
 
-}  // namespace muro::native
+}  // namespace muro::encounters

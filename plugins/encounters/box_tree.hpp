@@ -5,7 +5,7 @@
 
 #include "muro/scene.hpp"
 
-namespace muro::native {
+namespace muro::encounters {
 
 /// A hierarchy of boxes over numbered boxes, less than 64 levels deep. Keeps its memory, so building again
 /// allocates nothing.
@@ -55,4 +55,4 @@ void each_near(const Bvh& tree, const Aabb& box, Visit visit) {
   }
 }
 
-}  // namespace muro::native
+}  // namespace muro::encounters

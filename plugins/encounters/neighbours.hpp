@@ -5,7 +5,7 @@
 
 #include "muro/scene.hpp"
 
-namespace muro::native {
+namespace muro::encounters {
 
 /// Who is near whom: found once and kept while robots stay in their rooms, so that most steps need no search. What is
 /// kept is complete, and tested before it is used, so it never decides about a result.
@@ -36,7 +36,8 @@ class Neighbours {
   std::vector<Of> of_;                  ///< by robot; mates know each other
   std::vector<std::uint64_t> changes_;  ///< of rooms, by robot: those that are accounted for
   std::vector<std::uint32_t> changed_;  ///< of the present update
+  std::vector<std::uint32_t> unseen_;   ///< robots that the scene's tree does not have: shadows
   std::uint64_t all_changes_ = 0;
 };
 
-}  // namespace muro::native
+}  // namespace muro::encounters

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace muro::native {
+namespace muro::encounters {
 
 namespace {
 
@@ -129,4 +129,4 @@ void BoxTree::move(std::uint32_t item, const Aabb& box) {
   for (fit(node); node != 0; fit(node)) node = parents_[node];
 }
 
-}  // namespace muro::native
+}  // namespace muro::encounters

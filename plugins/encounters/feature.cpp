@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "pairs/feature.hpp"
+#include "feature.hpp"
 
 #include <algorithm>
 
-namespace muro::native {
+namespace muro::encounters {
 namespace {
 
 using Vec2 = Eigen::Vector2d;
@@ -169,6 +169,21 @@ void cross_lines(const Feature& a, const Feature& b, const View& view, Manifold&
   }
 }
 
+/// Whether the first is the one that is clipped, or projected, against the second.
+bool lies_in(const Feature& a, const Feature& b) {
+  const bool both_faces = a.count == 4 && b.count == 4;
+  return both_faces ? extent2(a) <= extent2(b) : b.count == 4;
+}
+
+void overlap(const Feature& a, const Feature& b, bool a_in_b, const View& view, Manifold& out) {
+  if (a_in_b && a.count > 1)
+    clip_against_face(a, b, view, 1, out);
+  else if (!a_in_b && a.count == 4 && b.count > 1)
+    clip_against_face(b, a, view, -1, out);
+  else if (a.count == 2 && b.count == 2)
+    cross_lines(a, b, view, out);
+}
+
 /// The point of the face or line nearest to `p` (all seen from above).
 Vec2 nearest_in(const Feature& f, const View& view, const Vec2& p) {
   const Vec2 centre = view(f.centre).at;
@@ -218,16 +233,15 @@ Feature feature_towards(const Placed& shape, const Vec3& direction) {
   return f;
 }
 
+void add_overlap(const Feature& first, const Feature& second, const Vec3& normal, Manifold& out) {
+  const bool first_in_second = lies_in(first, second);
+  overlap(first, second, first_in_second, View(normal, first_in_second ? first.tip : second.tip), out);
+}
+
 void add_patch(const Feature& a, const Feature& b, const Vec3& normal, double depth, Manifold& out) {
-  const bool both_faces = a.count == 4 && b.count == 4;
-  const bool a_in_b = both_faces ? extent2(a) <= extent2(b) : b.count == 4;
+  const bool a_in_b = lies_in(a, b);
   const View view(normal, a_in_b ? a.tip : b.tip);
-  if (a_in_b && a.count > 1)
-    clip_against_face(a, b, view, 1, out);
-  else if (!a_in_b && a.count == 4 && b.count > 1)
-    clip_against_face(b, a, view, -1, out);
-  else if (a.count == 2 && b.count == 2)
-    cross_lines(a, b, view, out);
+  overlap(a, b, a_in_b, view, out);
   int deepest = -1;
   for (int i = 0; i < out.count; ++i) {
     double& at = out.points[i].depth;
@@ -243,4 +257,4 @@ void add_patch(const Feature& a, const Feature& b, const Vec3& normal, double de
   out.add(point, normal, depth);
 }
 
-}  // namespace muro::native
+}  // namespace muro::encounters

@@ -3,7 +3,7 @@
 
 #include "muro/geometry.hpp"
 
-namespace muro::native {
+namespace muro::encounters {
 
 /// One point in which two shapes overlap.
 struct ContactPoint {
@@ -28,4 +28,4 @@ struct Manifold {
   }
 };
 
-}  // namespace muro::native
+}  // namespace muro::encounters

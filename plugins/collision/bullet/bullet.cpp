@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Plugin collision_bullet: collision detection by Bullet.
+#include "bullet_engine.hpp"
+#include "muro/plugin.hpp"
+#include "plugins/encounters/engine_collision.hpp"
+
+namespace {
+
+using namespace muro;
+
+constexpr Description description{
+    .id = "collision.bullet",
+    .kind = Kind::collision,
+    .version = "1.0.0",
+    .summary = "Contact points by Bullet: primitives, planes, convex hulls and meshes",
+    .parameters = encounters::engine_parameters,
+    .reads = encounters::engine_reads,
+    .writes = encounters::engine_writes,
+    .promises = deterministic | allocation_free | restorable,
+};
+
+class BulletCollision final : public encounters::EngineCollision {
+ public:
+  BulletCollision() : EngineCollision(std::make_unique<bullet_collision::BulletEngine>()) {}
+};
+
+constexpr abi::AlgorithmEntry algorithms[] = {algorithm<BulletCollision>(description)};
+
+}  // namespace
+
+MURO_PLUGIN(.name = "collision_bullet", .version = "1.0.0", .licence = "MIT",
+            .summary = "Collision detection by Bullet", .algorithms = algorithms)

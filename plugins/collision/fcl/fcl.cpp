@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Plugin collision_fcl: collision detection by FCL.
+#include "fcl_engine.hpp"
+#include "muro/plugin.hpp"
+#include "plugins/encounters/engine_collision.hpp"
+
+namespace {
+
+using namespace muro;
+
+constexpr Description description{
+    .id = "collision.fcl",
+    .kind = Kind::collision,
+    .version = "1.0.0",
+    .summary = "Contact points by FCL: primitives, planes, convex hulls and meshes",
+    .parameters = encounters::engine_parameters,
+    .reads = encounters::engine_reads,
+    .writes = encounters::engine_writes,
+    .promises = deterministic | restorable,
+};
+
+class FclCollision final : public encounters::EngineCollision {
+ public:
+  FclCollision() : EngineCollision(std::make_unique<fcl_collision::FclEngine>()) {}
+};
+
+constexpr abi::AlgorithmEntry algorithms[] = {algorithm<FclCollision>(description)};
+
+}  // namespace
+
+MURO_PLUGIN(.name = "collision_fcl", .version = "1.0.0", .licence = "MIT", .summary = "Collision detection by FCL",
+            .algorithms = algorithms)

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Plugin collision_ode: collision detection by the Open Dynamics Engine.
+#include "muro/plugin.hpp"
+#include "ode_engine.hpp"
+#include "plugins/encounters/engine_collision.hpp"
+
+namespace {
+
+using namespace muro;
+
+constexpr Description description{
+    .id = "collision.ode",
+    .kind = Kind::collision,
+    .version = "1.0.0",
+    .summary = "Contact points by the Open Dynamics Engine: primitives, planes, convex hulls and meshes",
+    .parameters = encounters::engine_parameters,
+    .reads = encounters::engine_reads,
+    .writes = encounters::engine_writes,
+    .promises = deterministic | restorable,
+};
+
+class OdeCollision final : public encounters::EngineCollision {
+ public:
+  OdeCollision() : EngineCollision(std::make_unique<ode_collision::OdeEngine>()) {}
+};
+
+constexpr abi::AlgorithmEntry algorithms[] = {algorithm<OdeCollision>(description)};
+
+}  // namespace
+
+MURO_PLUGIN(.name = "collision_ode", .version = "1.0.0", .licence = "MIT",
+            .summary = "Collision detection by the Open Dynamics Engine", .algorithms = algorithms)

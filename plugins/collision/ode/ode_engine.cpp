@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+#include "ode_engine.hpp"
+
+#include <array>
+
+namespace muro::ode_collision {
+namespace {
+
+using encounters::Solid;
+using encounters::Touch;
+
+void plan_hull(const mesh::Hull& hull, GeomPlan& plan) {
+  for (const Vec3& v : hull.vertices) plan.points.insert(plan.points.end(), v.data(), v.data() + 3);
+  for (const mesh::Hull::Face& f : hull.faces) {
+    plan.planes.insert(plan.planes.end(), {f.normal.x(), f.normal.y(), f.normal.z(), f.offset});
+    const auto corners = hull.corners_of(f);
+    plan.polygons.push_back(unsigned(corners.size()));
+    plan.polygons.insert(plan.polygons.end(), corners.begin(), corners.end());
+  }
+}
+
+mesh::Hull box_of(const Vec3& half) {
+  mesh::Hull hull;
+  for (int i = 0; i < 8; ++i)
+    hull.vertices.push_back(half.cwiseProduct(Vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1)));
+  hull.corners = {1, 3, 7, 5, 0, 4, 6, 2, 2, 6, 7, 3, 0, 1, 5, 4, 4, 5, 7, 6, 0, 2, 3, 1};
+  for (unsigned f = 0; f < 6; ++f)
+    hull.faces.push_back({4 * f, 4, (f & 1 ? -1.0 : 1.0) * Vec3::Unit(f / 2), half[f / 2]});
+  return hull;
+}
+
+void plan_mesh(const mesh::Mesh& surface, GeomPlan& plan) {
+  for (const Vec3& v : surface.vertices) plan.vertices.insert(plan.vertices.end(), v.data(), v.data() + 3);
+  for (const mesh::Triangle& t : surface.triangles) plan.indices.insert(plan.indices.end(), t.begin(), t.end());
+  plan.mesh = dGeomTriMeshDataCreate();
+  dGeomTriMeshDataBuildDouble(plan.mesh, plan.vertices.data(), 3 * sizeof(dReal), int(surface.vertices.size()),
+                              plan.indices.data(), int(plan.indices.size()), 3 * sizeof(dTriIndex));
+  dGeomTriMeshDataPreprocess2(plan.mesh, 1U << dTRIDATAPREPROCESS_BUILD_FACE_ANGLES, nullptr);  // asked for by hulls
+}
+
+dGeomID polytope_of(const GeomPlan& plan) {
+  return dCreateConvex(nullptr, plan.planes.data(), unsigned(plan.planes.size() / 4), plan.points.data(),
+                       unsigned(plan.points.size() / 3), plan.polygons.data());
+}
+
+dGeomID geom_of(const GeomPlan& plan) {
+  const Vec3& size = plan.solid->shape.size;
+  switch (plan.solid->shape.kind) {
+    case ShapeKind::box:
+      return dCreateBox(nullptr, size.x(), size.y(), size.z());
+    case ShapeKind::sphere:
+      return dCreateSphere(nullptr, size.x());
+    case ShapeKind::cylinder:
+      return dCreateCylinder(nullptr, size.x(), size.z());
+    case ShapeKind::capsule:
+      return dCreateCapsule(nullptr, size.x(), size.z());
+    case ShapeKind::plane:
+      return dCreatePlane(nullptr, 0, 0, 1, 0);
+    case ShapeKind::mesh:
+      break;
+  }
+  if (plan.mesh) return dCreateTriMesh(nullptr, plan.mesh, nullptr, nullptr, nullptr);
+  return polytope_of(plan);
+}
+
+struct GeomDeleter {
+  void operator()(dxGeom* geom) const { dGeomDestroy(geom); }
+};
+using Geom = std::unique_ptr<dxGeom, GeomDeleter>;
+
+/// Pairs for which ODE asks libccd: its portal refinement (Snethen, XenoCollide, 2008) gives a way out, not the
+/// shortest. And capsule with box, where a deep capsule is pushed out the wrong way.
+bool is_rough(int a, int b) {
+  const auto round = [](int kind) { return kind == dCylinderClass || kind == dCapsuleClass; };
+  if (a == dPlaneClass || b == dPlaneClass || a == dSphereClass || b == dSphereClass)
+    return (a == dConvexClass && b == dSphereClass) || (a == dSphereClass && b == dConvexClass);
+  if (a == dConvexClass || b == dConvexClass) return true;
+  return (round(a) && round(b) && a + b != 2 * dCapsuleClass) || a + b == dCapsuleClass + dBoxClass;
+}
+
+class OdeNarrowphase final : public encounters::Narrowphase {
+ public:
+  explicit OdeNarrowphase(const std::vector<std::unique_ptr<GeomPlan>>& plans) : plans_(plans) {
+    dAllocateODEDataForThread(dAllocateMaskAll);
+    for (Side& side : sides_)
+      for (const auto& plan : plans_) {
+        side.geoms.emplace_back(geom_of(*plan));
+        side.polytopes.emplace_back(plan->points.empty() ? nullptr : polytope_of(*plan));
+      }
+  }
+
+  void touch(std::uint32_t a, const Pose& at_a, std::uint32_t b, const Pose& at_b,
+             std::vector<Touch>& touches) override {
+    const bool as_polytope = kind_of(a) == ShapeKind::cylinder || kind_of(b) == ShapeKind::cylinder;
+    dxGeom *const first = geom(0, a, as_polytope), *const second = geom(1, b, as_polytope);
+    place(first, at_a);
+    place(second, at_b);
+    const int count = dCollide(first, second, int(contacts_.size()), contacts_.data(), sizeof contacts_[0]);
+    // of a polytope and a mesh ODE does not tell the triangle: its number is one of this query
+    const bool names_triangles = plans_[b]->mesh && dGeomGetClass(first) != dConvexClass;
+    const bool rough = is_rough(dGeomGetClass(first), dGeomGetClass(second));
+    for (int i = 0; i < count; ++i) {
+      const dContactGeom& c = contacts_[std::size_t(i)];
+      const double side = c.g1 == first ? 1 : -1;
+      touches.push_back({{c.pos[0], c.pos[1], c.pos[2]},
+                         side * Vec3(c.normal[0], c.normal[1], c.normal[2]),
+                         c.depth,
+                         names_triangles ? std::int64_t(c.g1 == first ? c.side2 : c.side1) : -1,
+                         rough});
+    }
+  }
+
+ private:
+  static void place(dxGeom* geom, const Pose& pose) {
+    if (dGeomGetClass(geom) == dPlaneClass) {
+      const Vec3 n = pose.orientation * Vec3::UnitZ();
+      dGeomPlaneSetParams(geom, n.x(), n.y(), n.z(), n.dot(pose.position));
+      return;
+    }
+    const dQuaternion q{pose.orientation.w(), pose.orientation.x(), pose.orientation.y(), pose.orientation.z()};
+    dGeomSetPosition(geom, pose.position.x(), pose.position.y(), pose.position.z());
+    dGeomSetQuaternion(geom, q);
+  }
+
+  ShapeKind kind_of(std::uint32_t solid) const { return plans_[solid]->solid->shape.kind; }
+  /// With `as_polytope` a box is one: ODE's collider of cylinder and box misses one in seven deep overlaps.
+  dxGeom* geom(std::size_t side, std::uint32_t solid, bool as_polytope) const {
+    const Side& s = sides_[side];
+    return as_polytope && s.polytopes[solid] ? s.polytopes[solid].get() : s.geoms[solid].get();
+  }
+
+  struct Side {
+    std::vector<Geom> geoms, polytopes;  ///< by number of the solid; not all have the second
+  };
+  const std::vector<std::unique_ptr<GeomPlan>>& plans_;
+  std::array<Side, 2> sides_;  ///< for the first and the second of a pair
+  std::array<dContactGeom, 1024> contacts_{};
+};
+
+}  // namespace
+
+OdeEngine::OdeEngine() {
+  dInitODE2(0);  // of the whole process, and counted: never undone, for others may still use it
+  dAllocateODEDataForThread(dAllocateMaskAll);
+}
+
+OdeEngine::~OdeEngine() {
+  for (const auto& plan : plans_)
+    if (plan->mesh) dGeomTriMeshDataDestroy(plan->mesh);
+}
+
+void OdeEngine::add(const Solid& solid) {
+  auto plan = std::make_unique<GeomPlan>();
+  plan->solid = &solid;
+  if (solid.hull) plan_hull(*solid.hull, *plan);
+  if (solid.shape.kind == ShapeKind::box) plan_hull(box_of(0.5 * solid.shape.size), *plan);
+  if (solid.terrain) plan_mesh(solid.terrain->surface(), *plan);
+  plans_.push_back(std::move(plan));
+}
+
+std::unique_ptr<encounters::Narrowphase> OdeEngine::narrowphase() const {
+  return std::make_unique<OdeNarrowphase>(plans_);
+}
+
+}  // namespace muro::ode_collision

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include "downhill.hpp"
+
+namespace muro::encounters {
+namespace {
+
+/// p_b(n) - p_a(-n), m.
+Vec3 gradient(const Standing& a, const Standing& b, const Vec3& n) { return outermost(b, n) - outermost(a, Vec3(-n)); }
+
+/// Calls `use` with the directions of edges and axes of a primitive, which for a box and for the ends of a cylinder are
+/// those of face normals too.
+template <class Use>
+void each_axis(const Standing& s, Use use) {
+  if (s.solid->hull || s.placed.kind == ShapeKind::sphere) return;
+  for (int k = s.placed.kind == ShapeKind::box ? 0 : 2; k < 3; ++k) use(Vec3(s.placed.axes.col(k)));
+}
+
+/// Calls `use` with the normals of flat faces; of a hull with those that look roughly along `direction`.
+template <class Use>
+void each_face(const Standing& s, const Vec3& direction, Use use) {
+  if (!s.solid->hull) {
+    if (s.placed.kind != ShapeKind::capsule) each_axis(s, use);
+    return;
+  }
+  const Vec3 local = s.pose.orientation.conjugate() * direction;
+  int most = 32;
+  for (const mesh::Hull::Face& f : s.solid->hull->faces)
+    if (f.normal.dot(local) > 0.7 && most-- > 0) use(Vec3(s.pose.orientation * f.normal));
+}
+
+/// The best direction known so far, and the search for a better one.
+class Search {
+ public:
+  Search(const Standing& a, const Standing& b, const Vec3& start) : a_(a), b_(b), best_(start) {
+    slope_ = gradient(a, b, start);
+    least_ = start.dot(slope_);
+  }
+  const Vec3& best() const { return best_; }
+
+  bool consider(const Vec3& n) {
+    const Vec3 g = gradient(a_, b_, n);
+    if (n.dot(g) >= least_) return false;
+    least_ = n.dot(g), best_ = n, slope_ = g;
+    return true;
+  }
+  void consider_both(const Vec3& n) { consider(n), consider(Vec3(-n)); }
+
+  /// All directions at right angles to `axis`, along which the depth has a crease.
+  void go_round(const Vec3& axis) {
+    constexpr int samples = 16;
+    const Vec3 x = perpendicular(axis), y = axis.cross(x);
+    const auto depth_at = [&](double angle) {
+      const Vec3 n = std::cos(angle) * x + std::sin(angle) * y;
+      return n.dot(gradient(a_, b_, n));
+    };
+    double angle = 0, least = depth_at(0);
+    const auto better = [&](double other) {
+      const double depth = depth_at(other);
+      if (depth >= least) return false;
+      least = depth, angle = other;
+      return true;
+    };
+    for (int i = 1; i < samples; ++i) better(2 * M_PI * i / samples);
+    for (double step = M_PI / samples; step > 1e-9;)
+      if (!better(angle + step) && !better(angle - step)) step *= 0.4;
+    consider(std::cos(angle) * x + std::sin(angle) * y);
+  }
+
+  void go_downhill() {
+    for (double step = 0.1; step > 1e-8;) {
+      const Vec3 across = slope_ - best_.dot(slope_) * best_;
+      const double steep = across.norm();
+      if (!(steep > 0)) break;
+      step *= consider((best_ - step / steep * across).normalized()) ? 1.3 : 0.5;
+    }
+  }
+
+ private:
+  const Standing& a_;
+  const Standing& b_;
+  Vec3 best_, slope_;
+  double least_ = 0;
+};
+
+}  // namespace
+
+Vec3 least_direction(const Standing& a, const Standing& b, const Vec3& start) {
+  Search search(a, b, start);
+  search.go_downhill();
+  const auto face = [&](const Vec3& n) { search.consider_both(n); };
+  each_face(a, Vec3(-start), face);
+  each_face(b, start, face);
+  each_axis(a, [&](const Vec3& u) {
+    each_axis(b, [&](const Vec3& v) {
+      const Vec3 across = u.cross(v);
+      if (across.squaredNorm() > 1e-8) search.consider_both(across.normalized());
+    });
+  });
+  const auto crease = [&](const Vec3& axis) { search.go_round(axis); };
+  each_axis(a, crease);
+  each_axis(b, crease);
+  search.go_downhill();
+  return search.best();
+}
+
+}  // namespace muro::encounters

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+
+#include "mesh.hpp"
+
+namespace muro::mesh {
+
+/// A convex solid with flat faces.
+struct Hull {
+  struct Face {
+    std::uint32_t first = 0;  ///< in `corners`
+    std::uint32_t count = 0;  ///< at least 3, counter-clockwise seen from outside
+    Vec3 normal;              ///< unit, outward
+    double offset = 0;        ///< m: the plane is normal . x = offset
+  };
+  std::vector<Vec3> vertices;  ///< m
+  std::vector<Face> faces;
+  std::vector<std::uint32_t> corners;  ///< numbers of vertices
+
+  std::span<const std::uint32_t> corners_of(const Face& f) const { return {corners.data() + f.first, f.count}; }
+};
+
+/// The smallest convex solid around all points (m), by Qhull (Barber, Dobkin and Huhdanpaa: The Quickhull algorithm for
+/// convex hulls, ACM TOMS 1996). Faces whose planes differ by less than a millionth of the size are one. Throws
+/// muro::Error when the points lie in a plane. [setup]
+Hull convex_hull(std::span<const Vec3> points);
+
+/// Its surface: closed, looking outward.
+Mesh surface_of(const Hull& hull);
+
+}  // namespace muro::mesh

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#include "store.hpp"
+
+#include "muro/algorithm.hpp"
+
+namespace muro::mesh {
+
+Store::Entry& Store::entry(const std::string& path, const Vec3& scale) {
+  std::unique_ptr<Entry>& e = entries_[{path, scale.x(), scale.y(), scale.z()}];
+  if (!e) {
+    auto fresh = std::make_unique<Entry>();
+    fresh->mesh = load(path, scale);
+    e = std::move(fresh);
+  }
+  return *e;
+}
+
+const Mesh& Store::mesh(const std::string& path, const Vec3& scale) { return entry(path, scale).mesh; }
+
+const Hull& Store::hull(const std::string& path, const Vec3& scale) {
+  Entry& e = entry(path, scale);
+  if (!e.hull) try {
+      e.hull = convex_hull(e.mesh.vertices);
+    } catch (const Error& error) {
+      throw Error("mesh " + path + ": " + error.what() + "; collide with it as it is (meshes: exact)");
+    }
+  return *e.hull;
+}
+
+}  // namespace muro::mesh

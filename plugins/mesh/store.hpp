@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <tuple>
+
+#include "hull.hpp"
+
+namespace muro::mesh {
+
+/// Meshes by file and scale: each is read once, and its hull made when it is asked for. What it gives stays where it is
+/// as long as the store lives. [setup]
+class Store {
+ public:
+  /// As load().
+  const Mesh& mesh(const std::string& path, const Vec3& scale);
+  /// Its convex hull. Throws muro::Error when the mesh is flat.
+  const Hull& hull(const std::string& path, const Vec3& scale);
+
+ private:
+  struct Entry {
+    Mesh mesh;
+    std::optional<Hull> hull;
+  };
+  Entry& entry(const std::string& path, const Vec3& scale);
+
+  std::map<std::tuple<std::string, double, double, double>, std::unique_ptr<Entry>> entries_;
+};
+
+}  // namespace muro::mesh
