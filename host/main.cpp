@@ -84,9 +84,33 @@ int dispatch(int argc, char** argv) {
                        "Prove that algorithms touch only the properties that they have declared (slow)");
   run_command.add_flag("--profile", run_options.profile, "Print what each algorithm costs");
 
+  const auto add_strict = [](CLI::App& command, ScenarioOptions& options) {
+    command.add_flag("--strict", options.strict, "What a motion cannot do for its robot is an error, not a note");
+  };
+  add_strict(run_command, run_options.scenario);
+
   ScenarioOptions check_options;
   CLI::App& check_command = *app.add_subcommand("check", "Read and connect a scenario without running it");
   add_scenario_options(check_command, check_options);
+  add_strict(check_command, check_options);
+
+  CompareOptions compare_options;
+  CLI::App& compare_command =
+      *app.add_subcommand("compare", "Run a scenario with different algorithms: cost against deviation");
+  add_scenario_options(compare_command, compare_options.scenario);
+  compare_command
+      .add_option("--vary", compare_options.vary,
+                  "What differs: ROBOTS.SUBSYSTEM=NAME,NAME,..., e.g. rovers.motion=point,simplified (repeatable)")
+      ->required()
+      ->take_all()
+      ->allow_extra_args(false);
+  compare_command.add_option("--reference", compare_options.reference,
+                             "What the others are compared with; default: the last");
+  compare_command
+      .add_option("--duration", compare_options.duration, "Simulated seconds; default: as the scenario says")
+      ->check(check_duration);
+  compare_command.add_option("--out", compare_options.picture, "Draw cost against deviation into this file (SVG)");
+  compare_command.add_option("--csv", compare_options.table, "Write the table to this file (CSV)");
 
   ScenarioOptions describe_options;
   bool json = false;
@@ -113,9 +137,11 @@ int dispatch(int argc, char** argv) {
       throw muro::SetupError(text);
     return app.exit(e) == 0 ? 0 : 2;
   }
-  run_options.scenario.plugin_path = check_options.plugin_path = describe_options.plugin_path = plugin_path;
+  run_options.scenario.plugin_path = check_options.plugin_path = describe_options.plugin_path =
+      compare_options.scenario.plugin_path = plugin_path;
   if (run_command.parsed()) return run(run_options);
   if (check_command.parsed()) return check(check_options);
+  if (compare_command.parsed()) return compare(compare_options);
   if (describe_command.parsed()) return describe(describe_options, json);
   if (info_command.parsed()) return plugin_info(id, plugin_path, json);
   return list_plugins(plugin_path, json ? ListForm::json : (markdown ? ListForm::markdown : ListForm::plain));

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/instance.hpp"
+#include "host/shadows.hpp"
 #include "muro/vocabulary.hpp"
 
 namespace muro::host {
@@ -80,6 +81,13 @@ nlohmann::ordered_json report(const RunResult& run, const Simulation& simulation
                       {"yaw_rad", yaw_of(p.orientation)},
                       {"state_hash", fmt::format("{:016x}", simulation.world().hash(*r))}});
   }
+  for (const ShadowResult& s : shadow_results(simulation))
+    out["shadows"].push_back({{"robot", s.robot},
+                              {"motion", s.motion},
+                              {"distance_m", s.distance},
+                              {"angle_rad", s.angle},
+                              {"greatest_distance_m", s.greatest_distance},
+                              {"greatest_angle_rad", s.greatest_angle}});
   auto& algorithms = out["algorithms"] = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < simulation.instances().size(); ++i) {
     const AlgorithmSetup& s = simulation.instances()[i]->setup();

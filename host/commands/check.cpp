@@ -3,6 +3,7 @@
 
 #include "host/commands/commands.hpp"
 #include "host/commands/open.hpp"
+#include "host/losses/losses.hpp"
 
 namespace muro::host {
 
@@ -18,6 +19,7 @@ BuiltScenario open_scenario(const ScenarioOptions& options, Registry& registry) 
 int check(const ScenarioOptions& options) {
   Registry registry(Registry::search_path(options.plugin_path));
   const BuiltScenario built = open_scenario(options, registry);
+  tell(losses_of(built), Length::fully, options.strict);
   fmt::print("{}: {} robots, {} objects, {} algorithms: all is connected\n", options.file,
              built.simulation->world().robots().size(), built.simulation->world().object_count(),
              built.simulation->instances().size());

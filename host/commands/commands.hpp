@@ -15,6 +15,7 @@ struct ScenarioOptions {
   std::vector<std::string> overrides;
   std::vector<std::string> plugin_path;
   std::optional<std::uint64_t> seed;
+  bool strict = false;  ///< what a motion cannot do for its robot is an error
 };
 
 struct RunOptions {
@@ -28,8 +29,18 @@ struct RunOptions {
   bool verify_access = false;
 };
 
+struct CompareOptions {
+  ScenarioOptions scenario;
+  std::vector<std::string> vary;   ///< "rovers.motion=point,simplified"
+  std::string reference;           ///< one of the levels; empty: the last
+  std::optional<double> duration;  ///< s
+  std::string picture;             ///< file (SVG), or empty
+  std::string table;               ///< file (CSV), or empty
+};
+
 int run(const RunOptions& options);
 int check(const ScenarioOptions& options);
+int compare(const CompareOptions& options);
 int describe(const ScenarioOptions& options, bool json);
 enum class ListForm { plain, json, markdown };
 int list_plugins(const std::vector<std::string>& plugin_path, ListForm form);

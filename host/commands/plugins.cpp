@@ -34,6 +34,7 @@ void print_info(const Offer& offer, const Json& plugin, const Json& entry) {
              plugin["compiler"].get<std::string>());
   if (entry.contains("extensions")) fmt::print("reads files of type {}\n", entry["extensions"].dump());
   if (entry.contains("promises")) fmt::print("promises  {}\n", entry["promises"].dump());
+  if (offer.features) fmt::print("features  {}\n", entry["features"].dump());
   if (entry.contains("parameters") && !entry["parameters"].empty()) {
     fmt::print("\nparameters\n");
     for (const Json& p : entry["parameters"]) {

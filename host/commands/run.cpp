@@ -10,7 +10,9 @@
 
 #include "host/commands/commands.hpp"
 #include "host/commands/open.hpp"
+#include "host/losses/losses.hpp"
 #include "host/report.hpp"
+#include "host/shadows.hpp"
 #include "host/timeline.hpp"
 
 namespace muro::host {
@@ -51,7 +53,9 @@ class Progress {
 };
 
 void print_summary(const RunResult& result, const Simulation& simulation, const Odometer& odometer) {
-  const auto robots = simulation.world().robots();
+  std::vector<const RobotView*> robots;
+  for (const RobotView* r : simulation.world().robots())
+    if (!is_shadow(simulation, *r)) robots.push_back(r);
   double least = 1e300, most = 0, sum = 0;
   for (const RobotView* r : robots) {
     const double d = odometer.distance(r->number);
@@ -65,6 +69,9 @@ void print_summary(const RunResult& result, const Simulation& simulation, const 
   if (!robots.empty())
     fmt::print("{} robots travelled {:.2f} m on average (least {:.2f}, most {:.2f})\n", robots.size(),
                sum / double(robots.size()), least, most);
+  for (const ShadowResult& s : shadow_results(simulation))
+    fmt::print("{}: its shadow by {} is {:.4f} m and {:.4f} rad off at the end; at most {:.4f} m and {:.4f} rad\n",
+               s.robot, s.motion, s.distance, s.angle, s.greatest_distance, s.greatest_angle);
   fmt::print("state hash {:016x}\n", simulation.state_hash());
   if (simulation.scheduler().overruns() > 0)
     fmt::print("{} instants came too late for the chosen speed\n", simulation.scheduler().overruns());
@@ -76,6 +83,7 @@ int run(const RunOptions& options) {
   const double factor = pacing_factor(options.speed);
   Registry registry(Registry::search_path(options.scenario.plugin_path));
   BuiltScenario built = open_scenario(options.scenario, registry);
+  tell(losses_of(built), Length::shortly, options.scenario.strict);
   Simulation& simulation = *built.simulation;
   if (!options.threads.empty())
     simulation.set_threads(options.threads == "all" ? all_threads() : unsigned(std::stoul(options.threads)));

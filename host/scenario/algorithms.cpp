@@ -6,6 +6,7 @@
 
 #include "host/scenario/defaults.hpp"
 #include "muro/nearest.hpp"
+#include "muro/vocabulary.hpp"
 
 namespace muro::host {
 
@@ -74,6 +75,7 @@ void Algorithms::add(const Subsystem& s, const std::string& name, std::vector<It
   else if (!s.on_demand)
     setup.rate = Rate(*rate);
   used_.insert(s.use);
+  note_needs(*d, s);
   if (d->kind == Kind::kinematics)
     for (const Item& item : setup.items)
       if (item.robot) has_kinematics_.insert(item.robot->number);
@@ -107,17 +109,40 @@ void Algorithms::add_kinematics() {
       add_unnamed("kinematics", "kinematics.direct", "robots of several bodies need kinematics", {Item{r, r->base()}});
 }
 
+/// What the algorithm reads with these parameters. A world asks for forces from outside only when there are bodies that
+/// forces move outside of it.
+void Algorithms::note_needs(const Description& d, const Subsystem& s) {
+  const bool world = (d.promises & Promise::world) != 0;
+  if (world) {
+    const auto named = s.parameters.find("world");
+    const auto* name = named == s.parameters.end() ? nullptr : std::get_if<std::string>(&named->second);
+    worlds_.insert(s.use + "/" + (name ? *name : ""));
+  }
+  for (const Use& use : d.reads) {
+    if (world && use.key == keys::external_wrench.name) continue;
+    const std::size_t equals = use.when.find('=');
+    if (equals != std::string_view::npos) {
+      const auto given = s.parameters.find(std::string(use.when.substr(0, equals)));
+      const auto* text = given == s.parameters.end() ? nullptr : std::get_if<std::string>(&given->second);
+      if (!text || *text != use.when.substr(equals + 1)) continue;
+    }
+    needs_.emplace(use.key, s.use);
+  }
+}
+
 void Algorithms::add_defaults() {
-  const auto user = [&](const char* property, std::vector<std::string> Offer::*list) {
-    return std::find_if(used_.begin(), used_.end(), [&](const std::string& id) {
-      const auto& names = registry_.find(id).*list;
+  if (worlds_.size() > 1)
+    needs_.emplace(keys::external_wrench.name, worlds_.begin()->substr(0, worlds_.begin()->find('/')));
+  const auto is_written = [&](const char* property) {
+    return std::any_of(used_.begin(), used_.end(), [&](const std::string& id) {
+      const auto& names = registry_.find(id).writes;
       return std::find(names.begin(), names.end(), property) != names.end();
     });
   };
   for (const Default& d : defaults) {
-    const auto reader = user(d.property, &Offer::reads);
-    if (is_off(d.name) || reader == used_.end() || user(d.property, &Offer::writes) != used_.end()) continue;
-    add_unnamed(d.name, d.use, "`" + *reader + "` reads `" + d.property + "`, so something must write it", {});
+    const auto need = needs_.find(d.property);
+    if (is_off(d.name) || need == needs_.end() || is_written(d.property)) continue;
+    add_unnamed(d.name, d.use, "`" + need->second + "` reads `" + d.property + "`, so something must write it", {});
   }
 }
 

@@ -31,6 +31,7 @@ class Algorithms {
   bool is_off(const char* name) const;
   /// Adds an algorithm that the scenario does not name; `reason` says in an error why it is needed.
   void add_unnamed(const std::string& name, const std::string& use, const std::string& reason, std::vector<Item> items);
+  void note_needs(const Description& d, const Subsystem& s);
   void add_kinematics();
   void add_defaults();
   void add_sequence(const std::vector<Name>& sequence);
@@ -46,7 +47,9 @@ class Algorithms {
   };
   std::map<std::string, std::vector<Added>> added_;  ///< by name and by alias
   std::set<std::string> used_;
-  std::set<std::uint32_t> has_kinematics_;  ///< numbers of robots
+  std::map<std::string, std::string, std::less<>> needs_;  ///< property that something reads: one of those that do
+  std::set<std::string> worlds_;                           ///< worlds that robots are moved in
+  std::set<std::uint32_t> has_kinematics_;                 ///< numbers of robots
 };
 
 }  // namespace muro::host

@@ -8,6 +8,7 @@
 #include "host/scenario/body.hpp"
 #include "host/scenario/placement.hpp"
 #include "host/scenario/section.hpp"
+#include "host/scenario/world_file.hpp"
 #include "muro/nearest.hpp"
 #include "muro/vocabulary.hpp"
 
@@ -22,10 +23,13 @@ class SceneBuilder {
         scenario_(out.scenario),
         simulation_(*out.simulation),
         world_(simulation_.world()),
-        algorithms_(out.scenario, registry, simulation_, problems_) {}
+        algorithms_(out.scenario, registry, simulation_, problems_),
+        world_file_(out.scenario, simulation_, out.notes, problems_) {}
 
   void build() {
-    world_.set(world_object, keys::gravity, scenario_.gravity);
+    world_file_.read();
+    world_.set(world_object, keys::gravity, world_file_.gravity());
+    world_file_.add_scenery(obstacles_);
     for (const SceneryObject& o : scenario_.objects) problems_.collect("", [&] { add_object(o); });
     add_all_robots();
     algorithms_.complete();
@@ -33,6 +37,14 @@ class SceneBuilder {
   }
 
  private:
+  struct ShadowSetup {
+    const RobotTemplate* of;
+    const RobotTree* tree;
+    Pose pose;
+    const RobotView* robot;
+    const Subsystem* motion;
+  };
+
   void add_object(const SceneryObject& o) {
     const Placement& p = o.placement;
     Shape shape = o.shape;
@@ -57,6 +69,7 @@ class SceneBuilder {
 
   RobotTree model_of(const RobotTemplate& t) {
     if (t.shape) return single_body(*t.shape, t.mass);
+    if (t.from_world) return world_file_.model(t);
     RobotTree tree = simulation_.read_model(t.model);
     for (const auto& p : tree.problems())
       out_.notes.push_back(t.model + (p.line > 0 ? ":" + std::to_string(p.line) + ":" + std::to_string(p.column) : "") +
@@ -74,6 +87,11 @@ class SceneBuilder {
         if ((t.placement.form == Placement::Form::random) != random) continue;
         if (!problems_.collect(t.location.text() + ": robot `" + t.name + "`: ", [&] { trees[i] = model_of(t); }))
           continue;
+        if (t.from_world) {
+          poses[i] = {world_file_.pose(t)};
+          footprints_.push_back({poses[i][0].position.x(), poses[i][0].position.y(), trees[i]->footprint_radius()});
+          continue;
+        }
         if (!t.placement.seed) t.placement.seed = scenario_.seed;
         problems_.collect("", [&] {
           poses[i] = place(t.placement, t.count, trees[i]->standing_height(), trees[i]->footprint_radius(),
@@ -82,6 +100,7 @@ class SceneBuilder {
       }
     for (std::size_t i = 0; i < trees.size(); ++i)
       if (trees[i]) add_robots(scenario_.robots[i], *trees[i], poses[i]);
+    for (const ShadowSetup& s : shadows_) add_shadow(s);
   }
 
   void add_robots(const RobotTemplate& t, const RobotTree& tree, const std::vector<Pose>& poses) {
@@ -93,10 +112,48 @@ class SceneBuilder {
       const RobotView& robot = *added;
       world_.set(robot.base(), keys::initial_twist, Twist{t.linear_velocity, t.angular_velocity});
       for (const auto& [joint, position] : t.joints) set_joint(t, robot, joint, position);
+      for (const Subsystem& s : t.subsystems[i])
+        if (s.shadow) shadows_.push_back({&t, &tree, poses[i], &robot, s.shadow.get()});
       if (add_subsystems(t, robot, t.subsystems[i])) continue;
       world_.set(robot.base(), keys::pose, poses[i]);  // a parked robot
       world_.set(robot.base(), keys::twist, Twist{});
     }
+  }
+
+  /// The robot once more, moved by another motion on the same commands; see keys::shadow_of.
+  void add_shadow(const ShadowSetup& setup) {
+    const RobotView& robot = *setup.robot;
+    const Description* d = algorithms_.describe(*setup.motion);
+    if (!d) return;
+    if (d->kind != Kind::motion)
+      return problems_.add(setup.motion->location, "`" + setup.motion->use + "` is no motion; a motion moves a shadow");
+    const std::string name = std::string(robot.name) + ".shadow";
+    const RobotView* added = nullptr;
+    if (!problems_.collect(setup.motion->location.text() + ": ",
+                           [&] { added = &world_.add_robot(name, *setup.tree, setup.pose); }))
+      return;
+    const RobotTemplate& t = *setup.of;
+    world_.set(added->base(), keys::initial_twist, Twist{t.linear_velocity, t.angular_velocity});
+    world_.set(added->base(), keys::shadow_of, robot.base());
+    for (const auto& [joint, position] : t.joints) set_joint(t, *added, joint, position);
+    world_.share(added->base(), keys::command_twist, robot.base(), keys::command_twist);
+    world_.share(added->base(), keys::command_pose, robot.base(), keys::command_pose);
+    for (std::size_t i = 0; i < robot.frames.size(); ++i) {
+      const ObjectId mine = added->frames[i].joint_object, theirs = robot.frames[i].joint_object;
+      if (mine == no_object) continue;
+      for (const Key<double>& key : {keys::joint_velocity_target, keys::joint_position_target,
+                                     keys::joint_acceleration_target, keys::joint_effort_target})
+        world_.share(mine, key, theirs, key);
+    }
+    Subsystem motion = *setup.motion;
+    if ((d->promises & Promise::world) != 0) motion.parameters["world"] = "the shadow of " + std::string(robot.name);
+    algorithms_.add(motion, name + ".motion", {{added, added->base()}});
+    Subsystem measure;
+    measure.name = "shadow";
+    measure.use = "level.shadow";
+    measure.location = setup.motion->location;
+    measure.rate = 100;
+    algorithms_.add(measure, "shadows", {{added, added->base()}});
   }
 
   void set_joint(const RobotTemplate& t, const RobotView& robot, const Name& joint, double position) {
@@ -189,6 +246,14 @@ class SceneBuilder {
       default:
         if (!s.on.empty()) item.object = mount(robot, s);
     }
+    if (s.level) {
+      if (d.kind != Kind::motion) {
+        problems_.add(s.location, "`" + s.use + "` is no motion; only motions have levels");
+        return false;
+      }
+      item.level = s.level->number;
+      if (s.level->number == 0) simulation_.set_levels(robot, s.level->names, s.level->start);
+    }
     const bool batched = (d.promises & Promise::batched) != 0;
     algorithms_.add(s, (batched ? t.name : std::string(robot.name)) + "." + s.name, {item}, t.name + "." + s.name);
     return d.kind == Kind::motion;
@@ -200,8 +265,10 @@ class SceneBuilder {
   World& world_;
   Problems problems_;
   Algorithms algorithms_;
+  WorldFileParts world_file_;
   std::vector<Obstacle> obstacles_;
   std::vector<Footprint> footprints_;
+  std::vector<ShadowSetup> shadows_;
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "host/scenario/levels.hpp"
 #include "host/scenario/parts.hpp"
 #include "muro/nearest.hpp"
 
@@ -90,9 +91,13 @@ class RobotReader {
   void read_body(Section& s, const Node& node, RobotTemplate& t) {
     const Node* model = s.find("model");
     if (model) {
-      t.model = file_beside(model->location, s.text("model", ""));
+      t.from_world = s.text("model", "") == "world";
+      if (!t.from_world) t.model = file_beside(model->location, s.text("model", ""));
       t.location = model->location;
     }
+    if (t.from_world)
+      for (const char* key : {"count", "place", "at"})
+        if (s.has(key)) s.problem(key, "does not go with `model: world`: the model stands where the world file says");
     std::string mesh;
     t.shape = read_shape(s, mesh, problems_);
     if (t.shape && (t.shape->kind == ShapeKind::plane || t.shape->kind == ShapeKind::mesh))
@@ -207,7 +212,10 @@ class RobotReader {
     std::vector<Subsystem> all;
     for (std::size_t i = 0; i < parts.map.size(); ++i) {
       const auto& [key, value] = parts.map[i];
-      if (is_subsystem(value) && check_name(key, parts.key_locations[i], "a subsystem", problems_))
+      if (!is_subsystem(value) || !check_name(key, parts.key_locations[i], "a subsystem", problems_)) continue;
+      if (has_levels(value))
+        for (Subsystem& s : read_levels(key, value, owner, problems_)) all.push_back(std::move(s));
+      else
         all.push_back(read_subsystem(key, value, owner, problems_));
     }
     return all;
@@ -221,7 +229,9 @@ class RobotReader {
 
 }  // namespace
 
-bool is_subsystem(const Node& n) { return n.kind == Node::Kind::map && n.find("use") != nullptr; }
+bool is_subsystem(const Node& n) {
+  return n.kind == Node::Kind::map && (n.find("use") != nullptr || n.find("levels") != nullptr);
+}
 
 Subsystem read_subsystem(const std::string& name, const Node& n, const std::string& owner, Problems& problems) {
   const std::string what = "`" + name + "` of " + owner;
@@ -237,6 +247,12 @@ Subsystem read_subsystem(const std::string& name, const Node& n, const std::stri
       sub.rate = *hertz;
     else if (!sub.on_demand)
       s.problem("rate", "is " + shown(*rate) + " but must be a number from 1e-06 to 1e+09 in Hz, or on_demand");
+  }
+  if (const Node* shadow = s.find("shadow")) {
+    if (is_subsystem(*shadow) && !has_levels(*shadow))
+      sub.shadow = std::make_shared<Subsystem>(read_subsystem(name, *shadow, "the shadow of " + owner, problems));
+    else
+      s.problem("shadow", "must be a map {use: NAME, ...} of the motion that moves the shadow");
   }
   if (s.has("phase")) sub.phase = s.number("phase", 0, 0, 1e9);
   sub.on = s.text("on", "");

@@ -10,7 +10,7 @@
 
 namespace muro::host {
 
-/// Whether this is a subsystem or a scene-wide algorithm: a map that says `use`.
+/// Whether this is a subsystem or a scene-wide algorithm: a map that says `use`, or `levels`.
 bool is_subsystem(const Node& n);
 
 /// Reads one; `owner` names in messages what it belongs to.

@@ -59,7 +59,9 @@ SceneryObject read_object(const std::string& name, const Node& node, Problems& p
 
 void read_world(const Node& n, Scenario& out, Problems& problems) {
   Section s(n, "`world`", problems);
-  out.gravity = s.vector("gravity", out.gravity);
+  if (const Node* file = s.find("file"))
+    out.world_file = {file_beside(file->location, s.text("file", "")), file->location};
+  if (const auto g = s.numbers("gravity", {3})) out.gravity = Vec3((*g)[0], (*g)[1], (*g)[2]);
   Section places(s.map("places"), "`places`", problems);
   for (const auto& [name, unused] : places.others())
     for (const Node& e : places.list(name).list) read_rectangle(e, "place `" + name + "`", out.places[name], problems);

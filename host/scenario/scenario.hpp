@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -47,6 +48,13 @@ struct Name {
   Location location;
 };
 
+/// A motion's place among those that can move a robot.
+struct LevelChoice {
+  std::vector<std::string> names;  ///< of all of them
+  std::uint32_t number = 0;        ///< of this one
+  std::uint32_t start = 0;         ///< the one that moves the robot at first
+};
+
 /// One use of an algorithm.
 struct Subsystem {
   std::string name;
@@ -58,6 +66,8 @@ struct Subsystem {
   Location on_location;
   std::map<std::string, ParameterInput> parameters;
   std::vector<Name> alternatives;  ///< other algorithms for which it holds parameters
+  std::optional<LevelChoice> level;
+  std::shared_ptr<const Subsystem> shadow;  ///< another motion that moves a shadow of the robot
   Location location;
 };
 
@@ -70,10 +80,17 @@ struct SceneryObject {
   std::string mesh;
 };
 
+/// A file that describes a world.
+struct WorldFile {
+  std::string path;
+  Location location;
+};
+
 struct RobotTemplate {
   std::string name;
-  Location location;  ///< of what says what it is: its model, or all of it
-  std::string model;  ///< path; empty for a body described in place
+  Location location;        ///< of what says what it is: its model, or all of it
+  std::string model;        ///< path; empty for a body described in place, and for a model of the world file
+  bool from_world = false;  ///< the model of the world file that has its name
   std::optional<Shape> shape;
   double mass = 0;  ///< of a body described in place, kg
   bool counted = false;
@@ -92,7 +109,8 @@ struct Scenario {
   std::uint64_t seed = 1;
   double duration = 10;  ///< s
   unsigned threads = 1;  ///< 0: all that the machine has
-  Vec3 gravity{0, 0, -9.81};
+  std::optional<WorldFile> world_file;
+  std::optional<Vec3> gravity;  ///< absent: that of the world file, else 9.81 m/s^2 downwards
   std::map<std::string, std::vector<Rectangle>> places;
   std::vector<SceneryObject> objects;
   std::vector<RobotTemplate> robots;

@@ -63,8 +63,10 @@ EngineCollision::~EngineCollision() = default;
 
 void EngineCollision::connect(Connector& c) {
   for (const RobotView* r : c.robots()) {
-    const bool dynamic = c.is_used(r->base(), keys::external_wrench, Access::read_sum);
     Robot& robot = robots_.emplace_back();
+    robot.wants_all = c.is_used(r->base(), keys::contacts, Access::read);
+    const bool dynamic = robot.wants_all || c.is_used(r->base(), keys::external_wrench, Access::read_sum);
+    if (const auto original = c.constant(r->base(), keys::shadow_of)) robot.shadow_of = c.robot_of(*original);
     if (dynamic) robot.list = c.derived_list(r->base(), keys::contacts);
     robot.key = r->key;
     any_list_ = any_list_ || dynamic;
@@ -181,13 +183,13 @@ void EngineCollision::step(const Step& step, Range range) {
 void EngineCollision::touch_robot(std::uint32_t robot, Scratch& scratch) {
   const Robot& mine = robots_[robot];
   mine.list.clear();
-  if (*mine.world == 0) return;
+  if (*mine.world == 0 && !mine.wants_all) return;
   const RobotColliders& own = index_->robots[robot];
   const Neighbours::Of& around = neighbours_.of(robot, *index_);
   scratch.bounds = own.bounds;
   scratch.own.clear();
   scratch.others.clear();
-  if (is_listed(*mine.world, 0)) add_scenery(around, scratch);
+  if (mine.wants_all || is_listed(*mine.world, 0)) add_scenery(around, scratch);
   add_mates(robot, around, scratch);
   if (scratch.others.empty()) return;
   for (std::uint32_t k = own.first; k < own.first + own.count; ++k) scratch.own.push_back(near(k));
@@ -218,7 +220,8 @@ bool EngineCollision::precedes(std::uint32_t a, std::uint32_t b) const {
 void EngineCollision::add_mates(std::uint32_t robot, const Neighbours::Of& around, Scratch& scratch) const {
   const Robot& mine = robots_[robot];
   const auto may_touch = [&](std::uint32_t m) {
-    return is_listed(*mine.world, *robots_[m].world) &&
+    const bool shadowed = robots_[m].shadow_of >= 0 || mine.shadow_of == std::int32_t(m);
+    return !shadowed && (mine.wants_all || is_listed(*mine.world, *robots_[m].world)) &&
            (mine.has_plane || robots_[m].has_plane || index_->robots[m].bounds.overlaps(scratch.bounds));
   };
   scratch.mates.clear();
@@ -233,7 +236,7 @@ void EngineCollision::add_mates(std::uint32_t robot, const Neighbours::Of& aroun
             [this](std::uint32_t a, std::uint32_t b) { return precedes(a, b); });
   for (const std::uint32_t m : scratch.mates) {
     const RobotColliders& theirs = index_->robots[m];
-    const bool has_list = robots_[m].list && *robots_[m].world != 0;
+    const bool has_list = robots_[m].list && (robots_[m].wants_all || *robots_[m].world != 0);
     for (std::uint32_t k = theirs.first; k < theirs.first + theirs.count; ++k)
       scratch.others.push_back({near(k), precedes(m, robot), has_list});
   }

@@ -42,7 +42,9 @@ class EngineCollision : public Algorithm {
     ListOut<Contact> list;  ///< empty: no force moves it
     In<std::uint64_t> world;
     std::uint64_t key = 0;
+    std::int32_t shadow_of = -1;  ///< robot; see keys::shadow_of
     bool has_plane = false;
+    bool wants_all = false;  ///< its motion, or what chooses that, reads the list
   };
   /// The solids of a shape, by number: as it collides, and what stands in where another mesh is taken as it is.
   struct Solids {

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Wrong scenarios, as a user would hand them to the program: each has its exact message beside it in
-// scenarios/NAME.expected (FILE stands for the scenario's path), exit code 2, and no other output.
+// scenarios/NAME.expected (FILE stands for the scenario's path, MOTIONS for what plugins offer), exit code 2, and no
+// other output.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <sstream>
 
 #include "tests/support/files.hpp"
 
@@ -30,6 +32,15 @@ void replace_all(std::string& text, const std::string& from, const std::string& 
     text.replace(at, from.size(), to);
 }
 
+/// "motion.ackermann, motion.bullet, ...": those that this build has.
+std::string motions() {
+  std::istringstream offers(run_command(muro_program + " plugins list").output);
+  std::string all;
+  for (std::string line; std::getline(offers, line);)
+    if (line.rfind("motion.", 0) == 0) all += (all.empty() ? "" : ", ") + line.substr(0, line.find(' '));
+  return all;
+}
+
 class WrongScenario : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(WrongScenario, HasItsExactMessageAndExitCode2) {
@@ -39,6 +50,7 @@ TEST_P(WrongScenario, HasItsExactMessageAndExitCode2) {
   std::string expected = test::text_of(folder + "/" + GetParam() + ".expected");
   ASSERT_FALSE(expected.empty()) << "write the message a user should see to " << GetParam() << ".expected";
   replace_all(expected, "SOURCE", MURO_TEST_SOURCE_DIR);
+  replace_all(expected, "MOTIONS", motions());
   replace_all(expected, "PLUGINS", MURO_TEST_PLUGIN_DIR);
   EXPECT_EQ(result.output, expected);
   EXPECT_EQ(result.exit_code, 2);
@@ -82,7 +94,7 @@ TEST(WrongCommandLine, ASpeedMustBeMaxRealOrAFactor) {
 TEST(WrongCommandLine, ACommandThatDoesNotExistNamesThoseThatDo) {
   const auto result = run_command(muro_program + " chekc x.yaml");
   EXPECT_EQ(result.output,
-            "muro has no command `chekc` (did you mean `check`?); commands: run, check, describe, plugins\n");
+            "muro has no command `chekc` (did you mean `check`?); commands: run, check, compare, describe, plugins\n");
   EXPECT_EQ(result.exit_code, 2);
 }
 
@@ -103,7 +115,7 @@ struct FailedRun {
 
 TEST(WrongCommandLine, WithoutACommandTheCommandsAreNamed) {
   const auto result = run_command(muro_program);
-  EXPECT_EQ(result.output, "muro needs a command: run, check, describe, plugins; muro --help tells more\n");
+  EXPECT_EQ(result.output, "muro needs a command: run, check, compare, describe, plugins; muro --help tells more\n");
   EXPECT_EQ(result.exit_code, 2);
 }
 

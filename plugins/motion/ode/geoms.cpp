@@ -3,7 +3,7 @@
 
 namespace muro::ode {
 
-dGeomID make_geom(const Shape& shape, const Pose& pose, dBodyID body, dSpaceID space) {
+dGeomID make_geom(const Shape& shape, const Pose& pose, dBodyID body, dSpaceID space, const Meshes& meshes) {
   const Vec3& s = shape.size;
   dGeomID geom = nullptr;
   switch (shape.kind) {
@@ -25,7 +25,8 @@ dGeomID make_geom(const Shape& shape, const Pose& pose, dBodyID body, dSpaceID s
       return dCreatePlane(space, n.x(), n.y(), n.z(), n.dot(pose.position));
     }
     case ShapeKind::mesh:
-      return nullptr;
+      geom = dCreateTriMesh(space, meshes.of(shape, body != nullptr), nullptr, nullptr, nullptr);
+      break;
   }
   const Vec3& p = pose.position;
   const Quat& q = pose.orientation;

@@ -4,6 +4,7 @@
 
 #include <ode/ode.h>
 
+#include "meshes.hpp"
 #include "plugins/multibody/world.hpp"
 
 namespace muro::ode {
@@ -19,7 +20,7 @@ struct Owner {
 
 /// The shape in `space` (null: in none), at `pose`: of the shape in the world, or, with a body, from its centre of
 /// mass. Null for what ODE cannot place: a plane on a body.
-dGeomID make_geom(const Shape& shape, const Pose& pose, dBodyID body, dSpaceID space);
+dGeomID make_geom(const Shape& shape, const Pose& pose, dBodyID body, dSpaceID space, const Meshes& meshes);
 
 inline Vec3 vector_of(const dReal* v) { return {v[0], v[1], v[2]}; }
 inline Quat quaternion_of(const dReal* q) { return Quat(q[0], q[1], q[2], q[3]); }

@@ -10,6 +10,7 @@ namespace {
 
 using namespace muro;
 
+constexpr std::string_view mesh_modes[] = {"convex", "exact"};
 constexpr std::string_view solvers[] = {"quick", "exact"};
 constexpr Parameter parameters[] = {
     multibody::world_name,
@@ -29,6 +30,7 @@ constexpr Parameter parameters[] = {
     real("cfm", "s/kg", 1e-6, "softness of joints and contacts").between(0, 1),
     real("correcting_speed", "m/s", 1, "bodies that overlap are parted no faster").between(0, 1e9),
     real("bounce_speed", "m/s", 0.02, "impacts slower than this do not rebound").between(0, 1e9),
+    text("meshes", "convex", "meshes of scenery collide as their convex hulls or as they are").one_of(mesh_modes),
     boolean("reactions", true,
             "whether efforts of drives and wrenches of contacts are found out; ODE is faster without"),
 };
@@ -70,13 +72,15 @@ constexpr Description ode_description{
                 feature_effort_targets | feature_joint_limits | feature_joint_speed_limits |
                 feature_joint_effort_limits | feature_joint_damping | feature_joint_friction | feature_mimic_joints |
                 feature_link_dynamics | feature_gyroscopic | feature_contact | feature_friction | feature_restitution |
-                feature_fixed_base | feature_self_collision,
+                feature_convex_meshes | feature_concave_meshes | feature_fixed_base | feature_self_collision,
 };
 
 class OdeMotion final : public multibody::Motion {
   const Description& description() const override { return ode_description; }
   // Iterations part bodies badly whose masses differ by more.
-  multibody::InertiaFloor inertia_floor() const override { return {1e-3, 0.01}; }
+  multibody::InertiaFloor inertia_floor() const override {
+    return settings_.exact ? multibody::InertiaFloor{} : multibody::InertiaFloor{1e-3, 0.01};
+  }
   std::size_t memory_of(const multibody::RobotModel& model) const override { return ode::Robot::memory_of(model); }
   void configure(Connector& c) override {
     const Parameters& p = c.parameters();
@@ -88,10 +92,17 @@ class OdeMotion final : public multibody::Motion {
     settings_.correcting_speed = p.real("correcting_speed");
     settings_.bounce_speed = p.real("bounce_speed");
     settings_.reactions = p.boolean("reactions");
+    ode::start_engine();
+    auto meshes = std::make_shared<ode::Meshes>();
+    meshes->load(c, p.text("meshes") == "exact");
+    meshes_ = std::move(meshes);
   }
-  std::unique_ptr<multibody::World> make_world() const override { return std::make_unique<ode::OdeWorld>(settings_); }
+  std::unique_ptr<multibody::World> make_world() const override {
+    return std::make_unique<ode::OdeWorld>(settings_, meshes_);
+  }
 
   ode::Settings settings_;
+  std::shared_ptr<const ode::Meshes> meshes_;
 };
 
 constexpr abi::AlgorithmEntry algorithms[] = {algorithm<OdeMotion>(ode_description)};

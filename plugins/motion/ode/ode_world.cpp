@@ -25,17 +25,18 @@ void know_this_thread() {
   if (!known) throw Error("ODE has no memory for a thread");
 }
 
-void start_engine() {
-  static const bool started = dInitODE2(0) != 0;
-  if (!started) throw Error("ODE cannot be started");
-}
-
 constexpr int most_contacts = 8;        ///< of two geoms
 constexpr double sliding_speed = 1e-2;  ///< m/s
 
 }  // namespace
 
-OdeWorld::OdeWorld(const Settings& settings) : settings_(settings) {
+void start_engine() {
+  static const bool started = dInitODE2(0) != 0;
+  if (!started) throw Error("ODE cannot be started");
+}
+
+OdeWorld::OdeWorld(const Settings& settings, std::shared_ptr<const Meshes> meshes)
+    : settings_(settings), meshes_(std::move(meshes)) {
   start_engine();
   know_this_thread();
   world_ = dWorldCreate();
@@ -68,7 +69,8 @@ void OdeWorld::mark(dGeomID geom, const multibody::PartShape& shape) {
 void OdeWorld::add_scenery(const multibody::Fixture& fixture) {
   for (const multibody::PartShape& s : fixture.shapes) {
     const bool plane = s.shape.kind == ShapeKind::plane;
-    const dGeomID geom = make_geom(s.shape, fixture.pose * s.shape.origin, nullptr, plane ? nullptr : scenery_);
+    const dGeomID geom =
+        make_geom(s.shape, fixture.pose * s.shape.origin, nullptr, plane ? nullptr : scenery_, *meshes_);
     if (!geom) continue;
     mark(geom, s);
     if (plane) planes_.push_back(geom);
@@ -81,7 +83,7 @@ void OdeWorld::add_obstacle(const multibody::Fixture& fixture, const multibody::
   o.body = dBodyCreate(world_);
   dBodySetKinematic(o.body);
   for (const multibody::PartShape& s : fixture.shapes)
-    if (const dGeomID geom = make_geom(s.shape, s.shape.origin, o.body, others_)) {
+    if (const dGeomID geom = make_geom(s.shape, s.shape.origin, o.body, others_, *meshes_)) {
       mark(geom, s);
       o.geoms.push_back(geom);
     }
@@ -90,7 +92,8 @@ void OdeWorld::add_obstacle(const multibody::Fixture& fixture, const multibody::
 void OdeWorld::add_robot(const multibody::RobotModel& model, multibody::RobotState& state) {
   const dSpaceID space = dSimpleSpaceCreate(team_);
   dSpaceSetSublevel(space, 1);
-  robots_.emplace_back(world_, space, model, state, std::int32_t(robots_.size()), owners_, settings_.reactions);
+  robots_.emplace_back(world_, space, model, state, std::int32_t(robots_.size()), owners_, *meshes_,
+                       settings_.reactions);
 }
 
 void OdeWorld::complete() {

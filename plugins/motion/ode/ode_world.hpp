@@ -6,13 +6,16 @@
 
 namespace muro::ode {
 
+/// Makes ODE ready for use in this process; once is enough. [any thread]
+void start_engine();
+
 /// A world of ODE.
 ///
 /// A step follows from the state of the robots alone: bodies are placed anew in each, contacts are made in the order of
 /// their geoms, and the random numbers with which ODE's solver shuffles its rows begin anew.
 class OdeWorld final : public multibody::World {
  public:
-  explicit OdeWorld(const Settings& settings);
+  OdeWorld(const Settings& settings, std::shared_ptr<const Meshes> meshes);
   ~OdeWorld() override;
 
   void add_scenery(const multibody::Fixture& fixture) override;
@@ -50,6 +53,7 @@ class OdeWorld final : public multibody::World {
   void mark(dGeomID geom, const multibody::PartShape& shape);
 
   Settings settings_;
+  std::shared_ptr<const Meshes> meshes_;
   dWorldID world_ = nullptr;
   dJointGroupID contacts_ = nullptr;
   dSpaceID scenery_ = nullptr, others_ = nullptr, team_ = nullptr;

@@ -31,7 +31,7 @@ double wrapped(double angle) { return std::remainder(angle, 2 * M_PI); }
 }  // namespace
 
 Robot::Robot(dWorldID world, dSpaceID space, const multibody::RobotModel& model, multibody::RobotState& state,
-             std::int32_t number, std::deque<Owner>& owners, bool reactions)
+             std::int32_t number, std::deque<Owner>& owners, const Meshes& meshes, bool reactions)
     : world_(world), space_(space), model_(&model), state_(&state), reactions_(reactions), parts_(model.parts.size()) {
   multibody::RobotState straight;  // joints are made where all of them are at 0
   straight.joints.resize(model.parts.size());
@@ -41,7 +41,7 @@ Robot::Robot(dWorldID world, dSpaceID space, const multibody::RobotModel& model,
     for (const multibody::PartShape& s : model.parts[i].shapes) {
       Pose pose = s.shape.origin;
       pose.position -= bodies_[i].com;
-      const dGeomID geom = make_geom(s.shape, pose, bodies_[i].id, space);
+      const dGeomID geom = make_geom(s.shape, pose, bodies_[i].id, space, meshes);
       if (!geom) continue;
       owners.push_back(
           {std::uint32_t(owners.size()), number, std::uint32_t(i), s.body, s.shape.friction, s.shape.restitution});
@@ -78,32 +78,40 @@ void Robot::add_joint(std::size_t number) {
     dJointAttach(b.joint, b.id, parent);
     dJointSetHingeAnchor(b.joint, anchor.x(), anchor.y(), anchor.z());
     dJointSetHingeAxis(b.joint, axis.x(), axis.y(), axis.z());
-    if (damping > 0) {
-      b.damper = dJointCreateAMotor(world_, nullptr);
-      dJointAttach(b.damper, b.id, parent);
-      dJointSetAMotorNumAxes(b.damper, 1);
-      dJointSetAMotorAxis(b.damper, 0, 1, axis.x(), axis.y(), axis.z());
-      dJointSetAMotorParam(b.damper, dParamFMax, dInfinity);
-      dJointSetAMotorParam(b.damper, dParamCFM, 1 / damping);
-    }
   } else {
     b.joint = dJointCreateSlider(world_, nullptr);
     dJointAttach(b.joint, b.id, parent);
     dJointSetSliderAxis(b.joint, axis.x(), axis.y(), axis.z());
-    if (damping > 0) {
-      b.damper = dJointCreateLMotor(world_, nullptr);
-      dJointAttach(b.damper, b.id, parent);
-      dJointSetLMotorNumAxes(b.damper, 1);
-      dJointSetLMotorAxis(b.damper, 0, 1, axis.x(), axis.y(), axis.z());
-      dJointSetLMotorParam(b.damper, dParamFMax, dInfinity);
-      dJointSetLMotorParam(b.damper, dParamCFM, 1 / damping);
-    }
   }
-  if (reactions_) dJointSetFeedback(b.joint, &b.feedback);
+  // At a stop, the motor of a hinge or slider of ODE gives all its effort whatever the speed: it needs one of its own.
+  if (std::isfinite(part.limits.lower) || std::isfinite(part.limits.upper)) b.drive = make_motor(number, axis);
+  if (damping > 0) {
+    b.damper = make_motor(number, axis);
+    const auto set = part.joint == JointKind::revolute ? &dJointSetAMotorParam : &dJointSetLMotorParam;
+    set(b.damper, dParamFMax, dInfinity);
+    set(b.damper, dParamCFM, 1 / damping);
+  }
+  if (reactions_) dJointSetFeedback(b.drive ? b.drive : b.joint, &b.feedback);
   b.far_stops = part.joint == JointKind::revolute &&
                 ((std::isfinite(part.limits.lower) && part.limits.lower < -nearest_far_stop) ||
                  (std::isfinite(part.limits.upper) && part.limits.upper > nearest_far_stop));
   if (!b.far_stops) set_stops(b, part.joint, part.limits.lower, part.limits.upper);
+}
+
+/// A motor along or about `axis` (world) of the joint of a part.
+dJointID Robot::make_motor(std::size_t number, const Vec3& axis) const {
+  const Part& part = model_->parts[number];
+  const bool turns = part.joint == JointKind::revolute;
+  const dJointID motor = turns ? dJointCreateAMotor(world_, nullptr) : dJointCreateLMotor(world_, nullptr);
+  dJointAttach(motor, bodies_[number].id, bodies_[std::size_t(part.parent)].id);
+  if (turns) {
+    dJointSetAMotorNumAxes(motor, 1);
+    dJointSetAMotorAxis(motor, 0, 1, axis.x(), axis.y(), axis.z());
+  } else {
+    dJointSetLMotorNumAxes(motor, 1);
+    dJointSetLMotorAxis(motor, 0, 1, axis.x(), axis.y(), axis.z());
+  }
+  return motor;
 }
 
 void Robot::set_presence(Presence presence) {
@@ -169,10 +177,11 @@ void Robot::set_drive(std::size_t number) {
   const Part& part = model_->parts[number];
   const multibody::Demand& d = state_->joints[number].demand;
   const bool turns = part.joint == JointKind::revolute;
-  const dJointID joint = bodies_[number].joint;
-  const auto set = turns ? &dJointSetHingeParam : &dJointSetSliderParam;
-  set(joint, dParamVel, d.by_speed ? d.speed : 0);
-  set(joint, dParamFMax, force_of(d.by_speed ? d.most : part.limits.friction));
+  const dJointID joint = bodies_[number].joint, drive = bodies_[number].drive;
+  const auto set = drive ? (turns ? &dJointSetAMotorParam : &dJointSetLMotorParam)
+                         : (turns ? &dJointSetHingeParam : &dJointSetSliderParam);
+  set(drive ? drive : joint, dParamVel, d.by_speed ? d.speed : 0);
+  set(drive ? drive : joint, dParamFMax, force_of(d.by_speed ? d.most : part.limits.friction));
   if (!d.by_speed && d.effort != 0)
     turns ? dJointAddHingeTorque(joint, d.effort) : dJointAddSliderForce(joint, d.effort);
   if (bodies_[number].far_stops) set_near_stops(number);

@@ -15,7 +15,7 @@ class Robot {
 
   /// `space`: for its geoms. `owners`: those of all geoms of the world, to which it adds its own.
   Robot(dWorldID world, dSpaceID space, const multibody::RobotModel& model, multibody::RobotState& state,
-        std::int32_t number, std::deque<Owner>& owners, bool reactions);
+        std::int32_t number, std::deque<Owner>& owners, const Meshes& meshes, bool reactions);
 
   /// Places bodies and sets forces and drives for a step of `dt` (s).
   void import(double dt);
@@ -36,13 +36,15 @@ class Robot {
     dBodyID id = nullptr;
     Vec3 com = Vec3::Zero();    ///< in the frame of the part
     dJointID joint = nullptr;   ///< that moves it; none for the base
+    dJointID drive = nullptr;   ///< of a joint with stops; none: `joint` drives itself
     dJointID damper = nullptr;  ///< none where the model has no damping
     bool far_stops = false;     ///< see set_near_stops
-    dJointFeedback feedback{};  ///< of `joint`
+    dJointFeedback feedback{};  ///< of what drives the joint
   };
 
   void add_body(std::size_t part);
   void add_joint(std::size_t part);
+  dJointID make_motor(std::size_t part, const Vec3& axis) const;
   void set_presence(multibody::Presence presence);
   void place_by_parts();
   void place_from_memory();

@@ -14,9 +14,6 @@ struct Exception {
 constexpr Exception exceptions[] = {
     {"motion.simplified", "a ball of restitution 0.7 bounces when it should", 0.04,
      "a contact of contact.penalty lasts 10 ms, and delays each bounce by that"},
-    {"motion.bullet", "a tumbling box keeps its energy", 0.02, "Euler steps of the attitude, first order"},
-    {"motion.bullet", "a tumbling box flies a parabola", 0.05, "semi-implicit Euler: g dt t / 2 = 0.049 m"},
-    {"motion.bullet", "a ball of restitution 1 gains nothing", 5e-3, "it rebounds with the speed at the end of a step"},
     {"motion.mujoco", "a tumbling box keeps its angular momentum", 0.02, "Euler steps of the attitude, first order"},
     {"motion.mujoco", "a tumbling box keeps its energy", 0.02, "Euler steps of the attitude, first order"},
     {"motion.mujoco", "a tumbling box flies a parabola", 0.05, "semi-implicit Euler: g dt t / 2 = 0.049 m"},

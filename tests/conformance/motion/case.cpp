@@ -30,7 +30,7 @@ Wrench& Trial::push(const RobotView& robot) {
 std::vector<Case> all_cases() {
   std::vector<Case> all;
   for (const auto& some : {free_body_cases(), slope_cases(), rolling_cases(), impact_cases(), joint_cases(),
-                           pendulum_cases(), vehicle_cases(), obstacle_cases()})
+                           pendulum_cases(), vehicle_cases(), obstacle_cases(), mesh_cases()})
     all.insert(all.end(), some.begin(), some.end());
   return all;
 }

@@ -55,6 +55,7 @@ std::vector<Case> joint_cases();
 std::vector<Case> pendulum_cases();
 std::vector<Case> vehicle_cases();
 std::vector<Case> obstacle_cases();
+std::vector<Case> mesh_cases();
 
 /// What this motion is allowed in this case: its own bound, where it has one with a reason (see bounds.cpp).
 struct Bound {

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/algorithm_setup.hpp"
+#include "core/world.hpp"
+#include "muro/features.hpp"
+
+namespace muro::host {
+
+/// Something that a robot uses of the motion that moves it.
+struct Need {
+  Features bit;        ///< one of Feature
+  std::string amount;  ///< "4 joints", or empty
+};
+
+/// How a motion serves a robot.
+struct MotionUse {
+  const std::map<std::string, ParameterInput>& parameters;
+  bool own_contacts = false;  ///< the motion itself finds contacts and their forces: a world
+  bool contacts = true;       ///< something does
+};
+
+/// What a robot uses of its motion, in the order of Feature: by its model (mass, shapes, joints with their finite
+/// limits, damping and friction), by the parameters of the motion, and by what writes targets of its joints. [after
+/// set-up]
+std::vector<Need> needs_of(const World& world, const RobotView& robot, const MotionUse& use);
+
+}  // namespace muro::host

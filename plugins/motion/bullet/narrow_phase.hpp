@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// Where two shapes touch.
+#pragma once
+
+#include <BulletCollision/BroadphaseCollision/btCollisionAlgorithm.h>
+#include <BulletCollision/CollisionDispatch/btCollisionDispatcher.h>
+#include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
+#include <BulletCollision/CollisionDispatch/btManifoldResult.h>
+#include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
+
+#include "collider.hpp"
+
+namespace muro::bullet {
+
+struct ContactPoint {
+  Vec3 point;      ///< m, world: half way between the two surfaces
+  Vec3 normal;     ///< unit, world: the direction in which the first is pushed
+  double gap = 0;  ///< m; negative where they overlap
+};
+
+/// Bullet's algorithms for pairs of shapes, asked anew each time: nothing is carried from step to step.
+class NarrowPhase {
+ public:
+  static constexpr int most = 8;         ///< points of a pair
+  static constexpr double reach = 0.02;  ///< m: points farther apart are not looked for
+
+  NarrowPhase();
+  /// Points in which `a` is within `reach` of `b`; returns their number. Neither moves; `a` is no plane.
+  int find(const Collider& a, const Collider& b, ContactPoint* out);
+
+ private:
+  /// By Bullet's algorithm for the pair. `turns`: in how many directions the smaller shape is turned for more points.
+  int collide(const Collider& a, const Collider& b, int turns, ContactPoint* out);
+  static int read(const btPersistentManifold& manifold, double sign, ContactPoint* out);
+
+  btDefaultCollisionConfiguration configuration_;
+  btCollisionDispatcher dispatcher_{&configuration_};
+  btDispatcherInfo info_;
+  btGjkEpaPenetrationDepthSolver depth_solver_;
+  btCollisionObject first_, second_;  ///< stand for the bodies: Bullet wants to tell them apart
+  btPersistentManifold manifold_;
+  btManifoldArray manifolds_;
+};
+
+}  // namespace muro::bullet

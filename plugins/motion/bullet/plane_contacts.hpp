@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// Contacts with a plane in closed form: all corners at once, where Bullet's algorithm gives one point a step and
+// collects the others over several steps.
+#pragma once
+
+#include "narrow_phase.hpp"
+
+namespace muro::bullet {
+
+/// Points in which `a` is within NarrowPhase::reach of the plane z = 0 of `plane`, solid below: the lowest ones of a
+/// box (four), a cylinder (four of the lower rim, one of the upper), a capsule (two), a sphere (one) or a hull (eight).
+int touch_plane(const Collider& a, const btTransform& plane, ContactPoint* out);
+
+}  // namespace muro::bullet

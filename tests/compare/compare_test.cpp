@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// `muro compare` as a user starts it.
+#include <gtest/gtest.h>
+
+#include <regex>
+#include <sstream>
+
+#include "tests/support/files.hpp"
+
+namespace muro::host {
+namespace {
+
+const std::string muro_program =
+    std::string("cd " MURO_TEST_SOURCE_DIR " && MURO_PLUGIN_PATH=" MURO_TEST_PLUGIN_DIR " ") + MURO_PROGRAM;
+const std::string urban = " compare examples/urban/urban.yaml --duration 2 --set robots.rovers.count=4 ";
+
+/// The columns of a CSV line behind the label, which has no comma here.
+std::vector<std::string> columns(const std::string& line) {
+  std::vector<std::string> all;
+  std::istringstream in(line);
+  for (std::string cell; std::getline(in, cell, ',');) all.push_back(cell);
+  return all;
+}
+
+std::vector<std::vector<std::string>> compare(const std::string& arguments) {
+  const test::ScratchFolder folder;
+  const std::string file = folder.path("t.csv");
+  const auto result = test::run_command(muro_program + urban + arguments + " --csv " + file);
+  EXPECT_EQ(result.exit_code, 0) << result.output;
+  std::vector<std::vector<std::string>> rows;
+  std::istringstream in(test::text_of(file));
+  for (std::string line; std::getline(in, line);) rows.push_back(columns(line));
+  return rows;
+}
+
+TEST(Compare, DeviatesFromTheReferenceTheSameOnEveryRun) {
+  const auto first = compare("--vary rovers.motion=point,differential_drive,simplified");
+  const auto second = compare("--vary rovers.motion=point,differential_drive,simplified");
+  ASSERT_EQ(first.size(), 4u);
+  ASSERT_EQ(second.size(), 4u);
+  for (std::size_t row = 1; row < 4; ++row) {
+    EXPECT_GT(std::stod(first[row][3]), 0) << "the motion costs something";
+    EXPECT_GE(std::stod(first[row][2]), std::stod(first[row][3])) << "and the whole no less";
+    EXPECT_GT(std::stod(first[row][5]), 0) << "robots in real time";
+    for (std::size_t c = 6; c < 13; ++c)
+      EXPECT_EQ(first[row].size() > c ? first[row][c] : "", second[row].size() > c ? second[row][c] : "")
+          << first[0][c] << " of " << first[row][0];
+  }
+  EXPECT_EQ(first[3][6], "0") << "the reference is the last";
+  EXPECT_GT(std::stod(first[1][6]), 0);
+  EXPECT_LT(std::stod(first[1][6]), 1) << "m after two seconds at 0.8 m/s";
+}
+
+TEST(Compare, AnotherReferenceTurnsTheDeviationRound) {
+  const auto rows = compare("--vary rovers.motion=point,simplified");
+  const auto turned = compare("--vary rovers.motion=point,simplified --reference point");
+  ASSERT_EQ(rows.size(), 3u);
+  ASSERT_EQ(turned.size(), 3u);
+  EXPECT_EQ(rows[1][6], turned[2][6]);
+  EXPECT_EQ(turned[1][6], "0");
+}
+
+TEST(Compare, ALevelThatIsNotThereIsAnErrorBeforeAnythingRuns) {
+  const auto result = test::run_command(muro_program + urban + "--vary rovers.motion=point,bulet");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(result.output.rfind("--vary rovers.motion=point,bulet: no plugin offers `motion.bulet`", 0), 0u)
+      << result.output;
+  EXPECT_NE(result.output.find("; there are: motion."), std::string::npos) << result.output;
+}
+
+TEST(Compare, ALevelThatCannotServeTheRobotsIsTold) {
+  const auto result =
+      test::run_command(muro_program + urban + "--vary rovers.motion=omni,point --set robots.rovers.drive=off");
+  EXPECT_EQ(result.exit_code, 1) << "nothing is left to compare\n" << result.output;
+  EXPECT_NE(result.output.find("omni did not run:\n"), std::string::npos) << result.output;
+  EXPECT_NE(result.output.find("\npoint *"), std::string::npos) << result.output;
+}
+
+TEST(Compare, OtherMistakesAreToldTogetherWithWhatIsAllowed) {
+  const std::string vary = "--vary rovers.motion=point,simplified ";
+  EXPECT_EQ(test::run_command(muro_program + urban + vary + "--reference simplifed").output,
+            "--reference simplifed: nothing of this name is compared (did you mean `simplified`?); there are: point, "
+            "simplified\n");
+  const auto png = test::run_command(muro_program + urban + vary + "--out /tmp/a.png");
+  EXPECT_EQ(png.exit_code, 2);
+  EXPECT_EQ(
+      png.output,
+      "--out /tmp/a.png: pictures are SVG files, so name it *.svg; `rsvg-convert FILE.svg -o /tmp/a.png` (Debian: "
+      "librsvg2-bin) makes it a PNG\n");
+  EXPECT_EQ(test::run_command(muro_program + " compare examples/urban/urban.yaml").exit_code, 2) << "no --vary";
+  EXPECT_EQ(test::run_command(muro_program + " compare examples/urban/urban.yaml --duration 0 " + vary).exit_code, 2);
+}
+
+TEST(Compare, DrawsAPointForEachLevel) {
+  const test::ScratchFolder folder;
+  const std::string file = folder.path("picture.svg");
+  const auto result = test::run_command(muro_program + urban + "--vary rovers.motion=point,simplified --out " + file);
+  EXPECT_EQ(result.exit_code, 0) << result.output;
+  const std::string text = test::text_of(file);
+  EXPECT_NE(text.find(">point</text>"), std::string::npos);
+  EXPECT_NE(text.find(">simplified (reference)</text>"), std::string::npos);
+  const std::regex circle("<circle");
+  EXPECT_EQ(std::distance(std::sregex_iterator(text.begin(), text.end(), circle), {}), 2);
+}
+
+}  // namespace
+}  // namespace muro::host
