@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+#include "mjcf.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <charconv>
+
+#include "engine.hpp"
+
+namespace muro::mujoco {
+
+namespace {
+
+/// As short as it can be for exactly this value, whatever the locale.
+std::string number(double value) {
+  char text[40];
+  return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
+std::string attribute(const char* name, std::initializer_list<double> values) {
+  std::string text = std::string(" ") + name + "='";
+  for (const double v : values) text += number(v) + " ";
+  text.back() = '\'';
+  return text;
+}
+
+std::string vector(const char* name, const Vec3& v) { return attribute(name, {v.x(), v.y(), v.z()}); }
+
+std::string place(const Pose& pose) {
+  const Quat& q = pose.orientation;
+  return vector("pos", pose.position) + attribute("quat", {q.w(), q.x(), q.y(), q.z()});
+}
+
+std::string named(const std::string& name) { return " name='" + name + "'"; }
+
+}  // namespace
+
+Principal principal_of(const Inertia& inertia) {
+  const Mat3 tensor = inertia.tensor();
+  if (tensor.isDiagonal(0)) return {tensor.diagonal(), Quat::Identity()};
+  const Eigen::SelfAdjointEigenSolver<Mat3> solver(tensor);
+  Mat3 axes = solver.eigenvectors();
+  if (axes.determinant() < 0) axes.col(2) *= -1;
+  return {solver.eigenvalues(), Quat(axes)};
+}
+
+std::string Mjcf::body_name(std::string_view name, std::size_t owner, std::size_t part) {
+  std::string text(name);
+  for (char& c : text)
+    if (std::string_view("<>&'\"").find(c) != std::string_view::npos) c = '_';
+  return text + ":" + std::to_string(owner) + "." + std::to_string(part);
+}
+
+std::string Mjcf::geom(const multibody::PartShape& shape, const Pose& pose, const std::string& name) {
+  const Vec3& s = shape.shape.size;
+  std::string what;
+  switch (shape.shape.kind) {
+    case ShapeKind::box:
+      what = " type='box'" + vector("size", 0.5 * s);
+      break;
+    case ShapeKind::sphere:
+      what = " type='sphere'" + attribute("size", {s.x()});
+      break;
+    case ShapeKind::cylinder:
+      what = " type='cylinder'" + attribute("size", {s.x(), 0.5 * s.z()});
+      break;
+    case ShapeKind::capsule:
+      what = " type='capsule'" + attribute("size", {s.x(), 0.5 * s.z()});
+      break;
+    case ShapeKind::plane:
+      what = " type='plane' size='0 0 1'";
+      break;
+    case ShapeKind::mesh: {
+      const std::span<const Vec3> hull = meshes_->hull_of(shape.shape);
+      std::string& mesh = mesh_names_[hull.data()];
+      if (mesh.empty()) {
+        mesh = "mesh:" + std::to_string(mesh_names_.size());
+        assets_ += "<mesh" + named(mesh) + " vertex='";
+        for (const Vec3& v : hull) assets_ += number(v.x()) + " " + number(v.y()) + " " + number(v.z()) + " ";
+        assets_ += "'/>\n";
+      }
+      what = " type='mesh' mesh='" + mesh + "'";
+      break;
+    }
+  }
+  return "<geom" + named(name) + what + place(pose) + "/>\n";
+}
+
+void Mjcf::add_scenery(const multibody::Fixture& fixture, std::size_t owner) {
+  const std::string name = body_name(fixture.name, owner, 0);
+  std::size_t k = 0;
+  bodies_ += "<body" + named(name) + place(fixture.pose) + ">\n";
+  for (const multibody::PartShape& s : fixture.shapes) {
+    const bool plane = s.shape.kind == ShapeKind::plane;
+    (plane ? planes_ : bodies_) +=
+        geom(s, plane ? fixture.pose * s.shape.origin : s.shape.origin, name + "." + std::to_string(k++));
+  }
+  bodies_ += "</body>\n";
+}
+
+void Mjcf::add_obstacle(const multibody::Fixture& fixture, std::size_t owner) {
+  const std::string name = body_name(fixture.name, owner, 0);
+  std::size_t k = 0;
+  bodies_ += "<body mocap='true'" + named(name) + ">\n";
+  for (const multibody::PartShape& s : fixture.shapes)
+    if (has_geom(s)) bodies_ += geom(s, s.shape.origin, name + "." + std::to_string(k++));
+  bodies_ += "</body>\n";
+}
+
+void Mjcf::add_robot(const multibody::RobotModel& model, std::size_t owner) {
+  write_part(model, 0, owner);
+  for (std::size_t a = 0; a < model.parts.size(); ++a)
+    for (std::size_t b = a + 1; b < model.parts.size(); ++b) {
+      if (model.parts[a].shapes.empty() || model.parts[b].shapes.empty()) continue;
+      if (model.self_collision && !model.adjacent(std::uint32_t(a), std::uint32_t(b))) continue;
+      exclusions_ += "<exclude body1='" + body_name(model.name, owner, a) + "' body2='" +
+                     body_name(model.name, owner, b) + "'/>\n";
+    }
+}
+
+void Mjcf::write_part(const multibody::RobotModel& model, std::size_t number, std::size_t owner) {
+  const multibody::Part& part = model.parts[number];
+  const bool base = number == 0, free = base && !model.fixed_base;
+  const Vec3 shift = free ? part.inertia.com : Vec3(Vec3::Zero());
+  const std::string name = body_name(model.name, owner, number);
+  std::size_t k = 0;
+  Pose origin = part.origin;
+  if (part.parent == 0 && !model.fixed_base) origin.position -= model.parts[0].inertia.com;
+  bodies_ += "<body" + named(name) + (base ? std::string(free ? "" : " mocap='true'") : place(origin)) + ">\n";
+  if (free) bodies_ += "<freejoint" + named(name) + "/>";
+  if (!base)
+    bodies_ += "<joint" + named(name) + (part.joint == JointKind::revolute ? " type='hinge'" : " type='slide'") +
+               vector("axis", part.axis) + "/>\n";
+  const Principal p = principal_of(part.inertia);
+  bodies_ += "<inertial" + place({part.inertia.com - shift, p.axes}) + attribute("mass", {part.inertia.mass}) +
+             vector("diaginertia", p.moments) + "/>\n";
+  for (const multibody::PartShape& s : part.shapes)
+    if (has_geom(s))
+      bodies_ +=
+          geom(s, {s.shape.origin.position - shift, s.shape.origin.orientation}, name + "." + std::to_string(k++));
+  for (std::size_t i = number + 1; i < model.parts.size(); ++i)
+    if (model.parts[i].parent == std::int32_t(number)) write_part(model, i, owner);
+  bodies_ += "</body>\n";
+}
+
+std::string Mjcf::text(const Settings& settings, const Sizes& sizes) const {
+  const auto impedance = [](const char* name, double d) { return attribute(name, {d, d, 1}); };
+  return "<mujoco>\n<compiler angle='radian' inertiafromgeom='false' balanceinertia='true'/>\n<option cone='elliptic'" +
+         vector("gravity", settings.gravity) + "><flag filterparent='disable' multiccd='" +
+         (settings.several_contacts ? "enable" : "disable") + "'/></option>\n<size nconmax='" +
+         std::to_string(sizes.contacts) + "' njmax='" + std::to_string(sizes.rows) +
+         "'/>\n<default><geom condim='3' contype='2' conaffinity='0'" + impedance("solimp", settings.impedance) +
+         "/><joint" + impedance("solimplimit", mjMAXIMP) + impedance("solimpfriction", mjMAXIMP) +
+         "/></default>\n<asset>\n" + assets_ + "</asset>\n<worldbody>\n" + planes_ + bodies_ +
+         "</worldbody>\n<contact>\n" + exclusions_ + "</contact>\n</mujoco>\n";
+}
+
+}  // namespace muro::mujoco

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+// Multi-body dynamics by MuJoCo (Todorov, Erez and Tassa, IROS 2012): bodies in reduced coordinates, contacts and
+// drives as soft constraints of a convex problem.
+#include <algorithm>
+
+#include "mujoco_world.hpp"
+#include "muro/plugin.hpp"
+#include "plugins/multibody/motion.hpp"
+#include "plugins/multibody/parameters.hpp"
+
+namespace {
+
+using namespace muro;
+
+constexpr std::string_view solvers[] = {"pgs", "cg", "newton"};  // in the order of mjtSolver
+constexpr Parameter parameters[] = {
+    multibody::world_name,
+    multibody::base_mode,
+    multibody::joint_mode,
+    velocity_joints,
+    position_joints,
+    effort_joints,
+    passive_joints,
+    multibody::self_collision,
+    multibody::position_gain,
+    multibody::substeps,
+    text("solver", "newton",
+         "projected Gauss-Seidel, conjugate gradients, or Newton's method: exact in a few iterations")
+        .one_of(solvers),
+    integer("iterations", 100, "at most, of the solver; it ends earlier when it has converged").between(1, 10000),
+    real("tolerance", "1", 1e-8, "improvement by an iteration below which the solver has converged").between(0, 1),
+    real("time_constant", "s", 0.02, "in which overlap of bodies decays; at least two steps of the engine")
+        .between(0, 10),
+    real("impedance", "1", 0.95, "part of what a contact asks for that it gets; less is softer").between(1e-4, 0.9999),
+    real("friction_ratio", "1", 500, "by how much contacts are harder along the surfaces than across").between(1, 1e4),
+    integer("refinements", 2, "solutions of a step beyond the first, where bodies begin or cease to slide; 0: one")
+        .between(0, 100),
+    real("bounce_speed", "m/s", 0.02, "impacts slower than this do not rebound").between(0, 1e9),
+    boolean("several_contacts", true, "cylinders, capsules and meshes touch in several points where they lie flat"),
+};
+constexpr Use reads[] = {
+    {"wrench.external", "of the base and every body with collision shapes"},
+    {"gravity", "on the world object; 0 0 -9.81 when absent"},
+    {"inertial", "of every body"},
+    {"collision.shapes", "of every body in the scene"},
+    {"joint.velocity.target", "of joints in mode velocity"},
+    {"joint.position.target", "of joints in mode position"},
+    {"joint.effort.target", "of joints in mode effort"},
+    {"pose", "of bodies of other robots"},
+    {"twist", "of bodies of other robots"},
+    {"contact.world", "of other robots"},
+    {"pose.initial", "of the base"},
+    {"twist.initial", "of the base"},
+    {"joint.position.initial", "of every joint"},
+};
+constexpr Use writes[] = {
+    {"pose", "of the base"},
+    {"twist", "of the base"},
+    {"joint.position", "of every joint"},
+    {"joint.velocity", "of every joint"},
+    {"joint.effort", "of every joint: what its drive applies"},
+    {"wrench.contact", "of every body with collision shapes"},
+    {"contact.world", "that this world answers for contacts"},
+    {"twist.lag", "0.5: semi-implicit Euler"},
+};
+constexpr Description mujoco_description{
+    .id = "motion.mujoco",
+    .kind = Kind::motion,
+    .version = "1.0.0",
+    .summary = "Multi-body dynamics by MuJoCo; robots of one world touch in it",
+    .parameters = parameters,
+    .reads = reads,
+    .writes = writes,
+    .promises = deterministic | restorable | world,
+    .features = feature_forces | feature_joints | feature_velocity_targets | feature_position_targets |
+                feature_effort_targets | feature_joint_limits | feature_joint_speed_limits |
+                feature_joint_effort_limits | feature_joint_damping | feature_joint_friction | feature_mimic_joints |
+                feature_link_dynamics | feature_gyroscopic | feature_contact | feature_friction | feature_restitution |
+                feature_convex_meshes | feature_fixed_base | feature_self_collision,
+};
+
+class MujocoMotion final : public multibody::Motion {
+  const Description& description() const override { return mujoco_description; }
+  multibody::InertiaFloor inertia_floor() const override { return {}; }
+  std::size_t memory_of(const multibody::RobotModel& model) const override { return mujoco::Robot::memory_of(model); }
+  void configure(Connector& c) override {
+    const Parameters& p = c.parameters();
+    settings_.gravity = gravity();
+    settings_.solver = int(std::find(std::begin(solvers), std::end(solvers), p.text("solver")) - std::begin(solvers));
+    settings_.iterations = int(p.integer("iterations"));
+    settings_.tolerance = p.real("tolerance");
+    settings_.time_constant = p.real("time_constant");
+    settings_.impedance = p.real("impedance");
+    settings_.friction_ratio = p.real("friction_ratio");
+    settings_.refinements = int(p.integer("refinements"));
+    settings_.bounce_speed = p.real("bounce_speed");
+    settings_.several_contacts = p.boolean("several_contacts");
+    meshes_.load(c);
+  }
+  std::unique_ptr<multibody::World> make_world() const override {
+    return std::make_unique<mujoco::MujocoWorld>(settings_, meshes_);
+  }
+
+  mujoco::Settings settings_;
+  mujoco::Meshes meshes_;
+};
+
+constexpr abi::AlgorithmEntry algorithms[] = {algorithm<MujocoMotion>(mujoco_description)};
+
+}  // namespace
+
+MURO_PLUGIN(.name = "motion_mujoco", .version = "1.0.0", .licence = "MIT", .summary = "Multi-body dynamics by MuJoCo",
+            .algorithms = algorithms)

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+// What is particular to MuJoCo. What every motion owes is tested in tests/conformance.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "plugins/mesh/files_testing.hpp"
+#include "tests/support/files.hpp"
+#include "tests/support/scene.hpp"
+
+namespace {
+
+using namespace muro;
+
+constexpr double g = 9.81;
+
+Inertia solid_box(double mass, const Vec3& s) {
+  const Vec3 q = s.cwiseProduct(s) * mass / 12;
+  return {.mass = mass, .ixx = q.y() + q.z(), .iyy = q.x() + q.z(), .izz = q.x() + q.y()};
+}
+
+RobotTree block(double mass, const Vec3& size, double friction) {
+  Shape s = Shape::box(size);
+  s.friction = friction;
+  return test::single_body(s, solid_box(mass, size));
+}
+
+struct World : test::Scene {
+  void start(std::map<std::string, ParameterInput> parameters = {}) {
+    use("motion.mujoco", 1000, all_robots(), std::move(parameters));
+    build();
+  }
+  /// What acts on a robot's base; before start().
+  Wrench& push(const RobotView& r) {
+    PropertyStore& store = world().store();
+    return *static_cast<Wrench*>(store.bind(store.add_party("the test"), r.base(), keys::external_wrench,
+                                            Access::accumulate, Form::single, 1, nullptr));
+  }
+  Vec3 contact_force(const RobotView& r) { return world().value(r.base(), keys::contact_wrench).force; }
+};
+
+/// The message of a scene that cannot be made.
+std::string message_of(World& w) {
+  try {
+    w.start();
+  } catch (const std::exception& e) {
+    return e.what();
+  }
+  return "";
+}
+
+TEST(MujocoMotion, WhatSlidesDoesNotLiftOff) {
+  // MuJoCo by itself lets a contact that slides at s part at mu s: at 2 m/s the block would hop
+  World w;
+  w.add_ground(0.5);
+  const RobotView& r =
+      w.add("block", block(2, {0.2, 0.2, 0.1}, 0.5), {{0, 0, 0.05}, Quat::Identity()}, {{2, 0, 0}, Vec3::Zero()});
+  w.start();
+  w.run_for(0.05);
+  for (int k = 0; k < 300; ++k) {
+    w.run_for(0.001);
+    EXPECT_NEAR(w.contact_force(r).z(), 2 * g, 0.02 * 2 * g) << "at " << k << " ms";
+    EXPECT_NEAR(w.contact_force(r).x(), -0.5 * 2 * g, 0.02 * 2 * g) << "at " << k << " ms";
+  }
+}
+
+TEST(MujocoMotion, MomentsThatNoSolidBodyHasAreTakenAsTheyAre) {
+  // izz > ixx + iyy: MuJoCo's compiler refuses them or evens them out
+  World w;
+  w.world().set(world_object, keys::gravity, Vec3(Vec3::Zero()));
+  const RobotView& r =
+      w.add("odd", test::single_body(Shape::sphere(0.1), {.mass = 1, .ixx = 0.01, .iyy = 0.02, .izz = 0.1}));
+  Wrench& push = w.push(r);
+  w.start();
+  push.torque = {0, 0, 0.3};
+  w.run_for(1);
+  EXPECT_NEAR(w.twist(r).angular.z(), 3, 1e-9);
+}
+
+TEST(MujocoMotion, AnErrorOfTheEngineEndsTheRunAndNotTheProcess) {
+  World w;
+  w.add_ground();
+  const RobotView& r = w.add("block", block(2, {0.2, 0.2, 0.1}, 0.5), {{0, 0, 0.05}, Quat::Identity()});
+  w.start();
+  w.run_for(0.1);
+  w.twist(r).linear.x() = std::nan("");
+  EXPECT_THROW(w.run_for(0.1), std::exception);
+  EXPECT_FALSE(std::filesystem::exists("MUJOCO_LOG.TXT"));
+}
+
+TEST(MujocoMotion, MoreContactsThanExpectedGetMoreRoomAndLeaveNoFile) {
+  // tables of 25 legs, whose soles touch in 4 points each
+  const RobotTree table = test::tree_of([](RobotBuilder& b) {
+    b.base("table");
+    b.set(keys::inertial, solid_box(10, {1, 1, 0.1}));
+    std::vector<Shape> legs;
+    for (int i = 0; i < 25; ++i) {
+      legs.push_back(Shape::box({0.05, 0.05, 0.2}));
+      const int row = i / 5, column = i % 5;
+      legs.back().origin.position = Vec3(0.2 * (column - 2), 0.2 * (row - 2), 0);
+    }
+    b.set_array(keys::collision_shapes, std::span<const Shape>(legs));
+  });
+  World w;
+  w.add_ground();
+  for (int i = 0; i < 3; ++i) w.add("t" + std::to_string(i), table, {{2.0 * i, 0, 0.1}, Quat::Identity()});
+  w.start();
+  w.run_for(0.5);
+  for (const RobotView* r : w.world().robots()) EXPECT_NEAR(w.contact_force(*r).z(), 10 * g, 0.01 * 10 * g);
+  EXPECT_FALSE(std::filesystem::exists("MUJOCO_LOG.TXT"));
+}
+
+TEST(MujocoMotion, AModelThatMujocoRefusesIsAMessageWithItsTextAndTheRobot) {
+  World w;
+  w.add("flat", test::single_body(Shape::box({1, 1, 0}), solid_box(1, {1, 1, 0.1})));
+  const std::string message = message_of(w);
+  EXPECT_NE(message.find("MuJoCo cannot make a model"), std::string::npos) << message;
+  EXPECT_NE(message.find("sizes must be positive"), std::string::npos) << message;
+  EXPECT_NE(message.find("flat"), std::string::npos) << message;
+}
+
+TEST(MujocoMotion, NamesThatXmlWouldMisreadDoNoHarm) {
+  World w;
+  w.add("<a & 'b'>", block(1, {0.2, 0.2, 0.2}, 0.5));
+  EXPECT_EQ(message_of(w), "");
+}
+
+TEST(MujocoMotion, MeshesCollideAsTheirConvexHulls) {
+  const test::ScratchFolder folder;
+  World w;
+  w.add_ground();
+  Shape shape{.kind = ShapeKind::mesh, .size = {1, 1, 1}};
+  const std::string file =
+      folder.file("box.stl", mesh::testing::stl_text(mesh::testing::box({-0.1, -0.2, -0.3}, {0.1, 0.2, 0.3})));
+  const RobotTree tree = test::tree_of([&](RobotBuilder& b) {
+    b.base("body");
+    b.set(keys::inertial, solid_box(3, {0.2, 0.4, 0.6}));
+    shape.mesh = b.intern(file);
+    b.set_array(keys::collision_shapes, std::span<const Shape>(&shape, 1));
+  });
+  const RobotView& r = w.add("mesh", tree, {{0, 0, 0.32}, Quat::Identity()});
+  w.start();
+  w.run_for(2);
+  EXPECT_NEAR(w.pose(r).position.z(), 0.3, 1e-4);
+  EXPECT_NEAR(w.contact_force(r).z(), 3 * g, 0.01 * 3 * g);
+}
+
+TEST(MujocoMotion, EverySolverFindsTheSame) {
+  for (const char* solver : {"newton", "cg", "pgs"}) {
+    World w;
+    w.add_ground(0.5);
+    const RobotView& r = w.add("block", block(2, {0.2, 0.2, 0.1}, 0.5), {{0, 0, 0.05}, Quat::Identity()});
+    w.start({{"solver", std::string(solver)}, {"iterations", std::int64_t(1000)}});
+    w.run_for(1);
+    EXPECT_NEAR(w.contact_force(r).z(), 2 * g, 1e-2) << solver;
+    EXPECT_NEAR(w.pose(r).position.z(), 0.05, 1e-4) << solver;
+  }
+}
+
+}  // namespace
