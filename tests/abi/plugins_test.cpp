@@ -61,10 +61,11 @@ const std::map<Kind, std::set<std::string>> families{{Kind::motion, {"motion"}},
                                                      {Kind::sensor_error, {"sensor", "laser", "camera", "radio"}},
                                                      {Kind::controller, {"controller"}},
                                                      {Kind::recorder, {"recorder"}},
-                                                     {Kind::drive, {"drive"}},
+                                                     {Kind::drive, {"drive", "motor"}},
                                                      {Kind::collision, {"collision"}},
                                                      {Kind::contact, {"contact"}},
-                                                     {Kind::view, {"view"}}};
+                                                     {Kind::view, {"view"}},
+                                                     {Kind::level, {"level"}}};
 
 class Plugin : public testing::TestWithParam<Built> {};
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Every motion against the cases of known answers (tests/conformance/motion): backend x case x error.
-//   --markdown FILE   also writes the table there: docs/backends.md
+//   --docs FOLDER   also writes the table to FOLDER/backends.md
 #include <fmt/format.h>
 
 #include <fstream>
@@ -41,7 +41,7 @@ std::string cell(const std::string& motion, const Case& c) {
 std::string page(const std::vector<std::string>& motions, const std::vector<std::vector<std::string>>& rows) {
   std::string out =
       "# Backends and what they do\n\n"
-      "Made by `./dev bench backends -- --markdown docs/backends.md`. Each case has an answer from outside (a closed "
+      "Made by `./dev bench backends`. Each case has an answer from outside (a closed "
       "form, "
       "a published figure); `tests/conformance/motion` holds every motion that offers what a case needs to the bound. "
       "All "
@@ -84,7 +84,8 @@ int main(int argc, char** argv) {
     rows.push_back(std::move(row));
   }
   report.finish();
-  if (const std::string file = report.argument("markdown", ""); !file.empty()) {
+  if (const std::string folder = report.argument("docs", ""); !folder.empty()) {
+    const std::string file = folder + "/backends.md";
     std::ofstream out(file);
     out << page(motions, rows);
     if (!out) {

@@ -79,6 +79,24 @@ Outcome carries(const std::string& motion) {
   return {sunk, text(sunk) + " m"};
 }
 
+/// The wrench of the ground on a box whose frame is not at its centre of mass.
+Outcome weighs(const std::string& motion) {
+  Trial t(motion);
+  t.add_ground();
+  Inertia inertia = solid_box(3, {0.2, 0.2, 0.2});
+  inertia.com.x() = 0.03;
+  const RobotView& r =
+      t.add("box", test::single_body(with(Shape::box({0.2, 0.2, 0.2}), 0.8), inertia), {{0, 0, 0.1}, Quat::Identity()});
+  t.start();
+  t.run_for(2);
+  const Wrench w = t.world().value(r.base(), keys::contact_wrench);
+  const double weight = 3 * Trial::g;
+  const double error = std::max((w.force - Vec3(0, 0, weight)).norm() / weight,
+                                (w.torque - Vec3(0, -0.03 * weight, 0)).norm() / (0.1 * weight));
+  return {error, text(w.force.z()) + " N for " + text(weight) + ", " + text(w.torque.y()) + " N m for " +
+                     text(-0.03 * weight)};
+}
+
 }  // namespace
 
 std::vector<Case> impact_cases() {
@@ -89,6 +107,8 @@ std::vector<Case> impact_cases() {
       {"a ball of restitution 1 gains nothing", "1", feature_contact | feature_restitution, 1e-3, gains_nothing},
       {"a ball of restitution 0 stays down", "1", feature_contact, 0.05, plastic},
       {"a box lies on the ground, not in it", "m", feature_contact, 1e-3, carries},
+      {"the ground carries a box with its weight, below its centre of mass", "relative",
+       feature_contact | feature_link_dynamics, 0.02, weighs},
       {"five boxes stand one on the other for 10 s", "m", feature_contact | feature_friction, 1e-3, stands},
   };
 }

@@ -64,10 +64,10 @@ Outcome speed_limit(const std::string& motion) {
   return relative(j.of(keys::joint_velocity), 1.5);
 }
 
-/// A horizontal arm of 1 kg, 0.5 m long.
-Outcome holds(const std::string& motion) {
-  Trial t(motion);
-  t.add("r", test::tree_of([&](RobotBuilder& b) {
+/// An arm of 1 kg, 0.5 m long, that a drive holds 0.5 rad below the horizontal.
+struct HeldArm : Trial {
+  explicit HeldArm(const std::string& motion) : Trial(motion) {
+    add("r", test::tree_of([&](RobotBuilder& b) {
           b.base("base");
           b.set(keys::inertial, Inertia{.mass = 5, .ixx = 1, .iyy = 1, .izz = 1});
           b.revolute("joint", Vec3::UnitY(), {});
@@ -75,11 +75,21 @@ Outcome holds(const std::string& motion) {
           b.set(keys::inertial, Inertia{.mass = 1, .com = {0.5, 0, 0}, .ixx = 0.01, .iyy = 0.01, .izz = 0.01});
         }),
         {{0, 0, 1}, Quat::Identity()});
-  t.start({{"base", "fixed"}, {"joints", "position"}});
-  t.joint("r/joint", keys::joint_position_target) = 0.5;
-  t.run_for(2);
-  const double q = t.joint("r/joint", keys::joint_position);
+    start({{"base", "fixed"}, {"joints", "position"}});
+    joint("r/joint", keys::joint_position_target) = 0.5;
+    run_for(2);
+  }
+};
+
+Outcome holds(const std::string& motion) {
+  HeldArm arm(motion);
+  const double q = arm.joint("r/joint", keys::joint_position);
   return {std::abs(q - 0.5), text(q) + " for 0.5"};
+}
+
+Outcome tells_effort(const std::string& motion) {
+  HeldArm arm(motion);
+  return relative(arm.joint("r/joint", keys::joint_effort), -Trial::g * 0.5 * std::cos(0.5));
 }
 
 Outcome effort(const std::string& motion) {
@@ -215,6 +225,8 @@ std::vector<Case> joint_cases() {
       {"a drive is no faster than its limit of velocity", "relative",
        fixed | feature_velocity_targets | feature_joint_speed_limits, 1e-6, speed_limit},
       {"a position drive holds an arm against gravity", "rad", fixed | feature_position_targets, 1e-3, holds},
+      {"a drive tells with what effort it holds an arm", "relative",
+       fixed | feature_position_targets | feature_link_dynamics, 1e-2, tells_effort},
       {"an effort turns a link as its inertia says", "relative", fixed | feature_effort_targets, 1e-6, effort},
       {"an effort shifts a link as its mass says", "relative", fixed | feature_effort_targets, 1e-6, slider},
       {"an effort is cut at the limit of the model", "relative",

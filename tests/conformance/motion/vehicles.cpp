@@ -115,6 +115,26 @@ Outcome tips(const std::string& motion) {
           std::string(below ? "falls" : "stays") + " 1 deg below, " + (above ? "falls" : "stays") + " 1 deg above"};
 }
 
+/// On a slope, nose up, the axles a and b before and behind the centre of mass carry m g (b cos -+ h sin) / (a + b).
+Outcome loads(const std::string& motion) {
+  const double slope = 15 * M_PI / 180, com = 0.1;
+  Vehicle v(motion, 0.9, slope, com);
+  v.run_for(2);
+  const double h = (4 * (0.09 + com) + 1.2 * 0.06) / 5.2, weight = 5.2 * g;
+  const Vec3 normal = from_rpy(0, -slope, 0) * Vec3::UnitZ();
+  const auto load = [&](const char* left, const char* right) {
+    double sum = 0;
+    for (const char* wheel : {left, right})
+      sum += v.world().value(std::string("r/") + wheel, keys::contact_wrench).force.dot(normal);
+    return sum;
+  };
+  const double front = load("front_left", "front_right"), rear = load("rear_left", "rear_right");
+  const double wanted = weight * (0.12 * std::cos(slope) - h * std::sin(slope)) / 0.24;
+  const double others = weight * (0.12 * std::cos(slope) + h * std::sin(slope)) / 0.24;
+  return {std::max(std::abs(front - wanted), std::abs(rear - others)) / weight,
+          text(front) + " N for " + text(wanted) + ", " + text(rear) + " N for " + text(others)};
+}
+
 /// r = 0.05 m, track 0.3 m, 8 and 10 rad/s for 10 s.
 Outcome arc(const std::string& motion) {
   Trial t(motion);
@@ -140,6 +160,8 @@ std::vector<Case> vehicle_cases() {
       {"a rover parks on 30 deg when tan is below mu", "m/s", needs, 1e-4, parks},
       {"a rover with locked wheels slides down with g (sin - mu cos)", "relative", needs, 1e-2, slides},
       {"a rover brakes within v^2 / (2 mu g)", "relative", needs, 2e-2, brakes},
+      {"axles on a slope carry m g (b cos -+ h sin) / (a + b)", "of the weight", needs | feature_link_dynamics, 0.01,
+       loads},
       {"a rover tips where tan is b / h", "falls wrongly", needs, 0, tips},
   };
 }
