@@ -145,6 +145,26 @@ TEST_P(EveryPair, ComesToRestOneOnTheOther) {
   EXPECT_LT(after.orientation.angularDistance(before.orientation), 0.02);
 }
 
+TEST_P(EveryPair, SlidesOneOnTheOtherWithTheFrictionOfTheMaterials) {
+  Meeting m({0, 0, -9.81});
+  m.add_ground();
+  const Vec3 slab(4, 1, 0.2), box(0.2, 0.2, 0.1);
+  m.add_body(first(), block(100, slab, 0.4), solid_box(100, slab), {{1, 0, 0.1}, Quat::Identity()}, {},
+             {{"world", std::string("low")}});
+  m.add_body(second(), block(1, box, 0.4), solid_box(1, box), {{0, 0, 0.25}, Quat::Identity()},
+             {{2, 0.5, 0}, Vec3::Zero()}, {{"world", std::string("high")}});
+  m.start();
+  m.run_for(0.1);  // they have sunk in
+  const Vec3 before = m.twist(*m.bodies[1].robot).linear;
+  m.run_for(0.2);
+  const Vec3 change = m.twist(*m.bodies[1].robot).linear - before;
+  EXPECT_NEAR(change.norm(), 0.4 * 9.81 * 0.2, 0.02 * 0.4 * 9.81 * 0.2);
+  EXPECT_GT(-change.normalized().dot(before.normalized()), 0.999) << "straight against the slip";
+  EXPECT_LT(m.twist(*m.bodies[0].robot).linear.norm(), 1e-3) << "friction on the ground holds the slab";
+  m.run_for(1);
+  EXPECT_LT(m.twist(*m.bodies[1].robot).linear.norm(), 1e-3) << "it has come to rest";
+}
+
 INSTANTIATE_TEST_SUITE_P(Conformance, EveryPair, ::testing::ValuesIn(pairs()), name_of);
 
 }  // namespace
