@@ -4,12 +4,14 @@
 #include <Eigen/Eigenvalues>
 
 #include "muro/composite.hpp"
+#include "muro/physical_inertia.hpp"
 
 namespace muro::multibody {
 
 namespace {
 
-/// `inertia` with at least `mass` and the principal moments of a ball of `radius`; whether it had to be changed.
+/// `inertia` with at least `mass` and the principal moments of a ball of `radius`, and moments that a body can have;
+/// whether it had to be changed.
 bool mend(Inertia& inertia, double mass, double radius) {
   bool changed = false;
   if (!(inertia.mass >= mass)) {
@@ -18,15 +20,19 @@ bool mend(Inertia& inertia, double mass, double radius) {
   }
   const double moment = 0.4 * inertia.mass * radius * radius;
   const Eigen::SelfAdjointEigenSolver<Mat3> principal(inertia.tensor());
-  if (principal.eigenvalues().allFinite() && principal.eigenvalues().minCoeff() >= moment) return changed;
-  Vec3 moments = Vec3::Constant(moment);
-  Mat3 axes = Mat3::Identity();
-  if (principal.eigenvalues().allFinite()) {
-    moments = principal.eigenvalues().cwiseMax(moment);
-    axes = principal.eigenvectors();
+  if (!principal.eigenvalues().allFinite() || principal.eigenvalues().minCoeff() < moment) {
+    Vec3 moments = Vec3::Constant(moment);
+    Mat3 axes = Mat3::Identity();
+    if (principal.eigenvalues().allFinite()) {
+      moments = principal.eigenvalues().cwiseMax(moment);
+      axes = principal.eigenvectors();
+    }
+    inertia = Inertia::from(inertia.mass, inertia.com, axes * moments.asDiagonal() * axes.transpose());
+    changed = true;
   }
-  inertia = Inertia::from(inertia.mass, inertia.com, axes * moments.asDiagonal() * axes.transpose());
-  return true;
+  const std::optional<Inertia> physical = made_physical(inertia);
+  if (physical) inertia = *physical;
+  return changed || physical;
 }
 
 Part part_of(const Frame& f, std::uint32_t number, DriveMode mode) {

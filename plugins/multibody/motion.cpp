@@ -10,6 +10,9 @@ namespace muro::multibody {
 
 namespace {
 
+/// m, rad, m/s, rad/s: engines that fail get here on their way to infinity, and may stay.
+constexpr double beyond_all_bounds = 1e12;
+
 // Layout of Robot::last: whether the rest counts, pose, twist, then position and velocity of each part's joint.
 constexpr std::size_t valid = 0, last_pose = 1, last_twist = 8, last_joints = 14;
 
@@ -47,9 +50,12 @@ void Motion::connect(Connector& c) {
     for (const std::string& link : r.model.mended)
       if (mended.size() < 500) mended += " " + link;
   if (!mended.empty())
-    c.host().log(LogLevel::info,
-                 std::string(description().id) +
-                     ": no engine moves bodies without mass and inertia; a little was added to:" + mended);
+    c.host().log(
+        LogLevel::info,
+        std::string(description().id) +
+            ": no engine moves bodies without mass and inertia, or with a moment of inertia that exceeds the sum "
+            "of the two others; what they lack was added to:" +
+            mended);
 }
 
 void Motion::check_parameters(const Connector& c) const {
@@ -309,7 +315,7 @@ void Motion::remember(Robot& r) {
 
 void Motion::export_robot(Robot& r) const {
   const RobotState& s = r.state;
-  double all = s.pose.position.sum() + s.twist.linear.sum() + s.twist.angular.sum();
+  double all = s.pose.position.lpNorm<1>() + s.twist.linear.lpNorm<1>() + s.twist.angular.lpNorm<1>();
   *r.pose = s.pose;
   *r.twist = s.twist;
   for (std::size_t i = 1; i < r.joints.size(); ++i) {
@@ -317,9 +323,9 @@ void Motion::export_robot(Robot& r) const {
     *r.joints[i].position = j.position;
     *r.joints[i].velocity = j.velocity;
     *r.joints[i].effort = j.effort;
-    all += j.position + j.velocity;
+    all += std::abs(j.position) + std::abs(j.velocity);
   }
-  if (!std::isfinite(all))
+  if (!(all < beyond_all_bounds))
     throw Error("the motion of " + quoted(r.model.name) +
                 " is no longer finite: forces grow from step to step; raise the rate or `substeps`, or look at what "
                 "commands its joints and at masses of its links that differ much");

@@ -11,6 +11,7 @@
 #include "joint_places.hpp"
 #include "move.hpp"
 #include "muro/composite.hpp"
+#include "muro/physical_inertia.hpp"
 #include "muro/plugin.hpp"
 
 namespace {
@@ -164,7 +165,8 @@ class Simplified final : public Algorithm {
   };
 
   void connect_robot(Connector& c, const RobotView& robot) {
-    const std::vector<Inertia> inertias = inertias_of(c, robot);
+    std::vector<Inertia> inertias = inertias_of(c, robot);
+    for (Inertia& i : inertias) i = made_physical(i).value_or(i);
     const std::vector<double> start = initial_joint_positions(c, robot);
     MovingMass moving(robot.frames, inertias, start);
     const Inertia whole = composite_inertia(robot.frames, inertias, start);

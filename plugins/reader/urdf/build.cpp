@@ -134,6 +134,9 @@ class TreeBuilder {
       case ::urdf::Joint::FLOATING:
         report_floating(name, info);
         break;
+      case ::urdf::Joint::FIXED:
+        report_fixed_base(name, info);
+        break;
       default:
         break;
     }
@@ -166,6 +169,14 @@ class TreeBuilder {
     problems_.note(joint.place,
                    say("joint ", cited(name), " is ", joint.type, " and joins the robot to the empty root ",
                        cited(joint.parent), "; it is fixed, as the base of a robot moves anyway"));
+  }
+
+  /// A root named `world` stands for the world in Gazebo, and what is fixed to it stays where it is.
+  void report_fixed_base(const std::string& name, const JointInfo& joint) {
+    if (joint.parent != "world" || !hangs_on_bare_root(joint)) return;
+    problems_.note(joint.place,
+                   say("joint ", cited(name), " fixes the robot to the empty root ", cited(joint.parent),
+                       ", which is its base and can move; a motion by forces holds it with `base: fixed`"));
   }
 
   /// Two prismatic joints in the plane and a revolute one about its normal, with bodies without mass between.

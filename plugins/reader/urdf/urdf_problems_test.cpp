@@ -308,6 +308,18 @@ TEST(UrdfProblems, FloatingJointsAreFixed) {
             "of a robot moves anyway"});
 }
 
+TEST(UrdfProblems, ARobotThatIsFixedToTheWorldByItsModelAlone) {
+  const auto fixed_to = [](const std::string& root) {
+    return recorded("<robot name='r'>\n<link name='" + root + "'/>" + std::string(body_a) +
+                    "<joint name='j' type='fixed'><parent link='" + root + "'/><child link='a'/></joint></robot>")
+        .problems;
+  };
+  EXPECT_EQ(fixed_to("world"),
+            Lines{"note 2:139 joint `j` fixes the robot to the empty root `world`, which is its base and can move; a "
+                  "motion by forces holds it with `base: fixed`"});
+  EXPECT_EQ(fixed_to("base_footprint"), Lines{});
+}
+
 TEST(UrdfProblems, AMovingLinkWithoutMass) {
   EXPECT_EQ(
       problems_of("<link name='b'/><joint name='j' type='continuous'><parent link='a'/><child link='b'/></joint>"),

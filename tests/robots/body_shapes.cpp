@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#include "tests/robots/body_shapes.hpp"
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "muro/vocabulary.hpp"
+#include "tests/support/files.hpp"
+
+namespace muro::robots {
+
+namespace {
+
+std::vector<Vec3> after_word(const std::string& text, const std::string& word) {
+  std::vector<Vec3> points;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream in(line);
+    std::string first;
+    Vec3 p;
+    if (in >> first && first == word && in >> p.x() >> p.y() >> p.z()) points.push_back(p);
+  }
+  return points;
+}
+
+std::vector<Vec3> of_collada(const std::string& text) {
+  std::vector<Vec3> points;
+  const std::size_t begin = text.find("<float_array");
+  if (begin == std::string::npos) return points;
+  std::istringstream in(text.substr(text.find('>', begin) + 1));
+  for (Vec3 p; in >> p.x() >> p.y() >> p.z();) points.push_back(p);
+  return points;
+}
+
+/// How far below its centre a shape reaches when its z axis stands at `up` in the axes of the shape.
+double reach_down(const Shape& s, const Vec3& up) {
+  switch (s.kind) {
+    case ShapeKind::sphere:
+      return s.size.x();
+    case ShapeKind::box:
+      return 0.5 * s.size.dot(up.cwiseAbs());
+    case ShapeKind::cylinder:
+      return 0.5 * s.size.z() * std::abs(up.z()) + s.size.x() * std::hypot(up.x(), up.y());
+    case ShapeKind::capsule:
+      return 0.5 * s.size.z() * std::abs(up.z()) + s.size.x();
+    case ShapeKind::plane:
+    case ShapeKind::mesh:
+      break;
+  }
+  return -std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+std::vector<Vec3> vertices_of(const std::string& path) {
+  const std::string text = test::text_of(path);
+  std::string ending = std::filesystem::path(path).extension();
+  for (char& c : ending) c = char(std::tolower(static_cast<unsigned char>(c)));
+  if (ending == ".stl") return after_word(text, "vertex");
+  if (ending == ".obj") return after_word(text, "v");
+  if (ending == ".dae") return of_collada(text);
+  return {};
+}
+
+std::vector<Solid> solids_of(const RobotTree& tree) {
+  std::vector<Solid> solids;
+  for (std::size_t i = 0; i < tree.frames().size(); ++i)
+    for (const RobotTree::Constant& c : tree.parts()[std::size_t(tree.frames()[i].part)].constants) {
+      if (c.key.name != keys::collision_shapes.name) continue;
+      for (std::size_t k = 0; k < c.data.size() / sizeof(Shape); ++k) {
+        Solid solid{.frame = i, .shape = {}, .vertices = {}};
+        std::memcpy(static_cast<void*>(&solid.shape), c.data.data() + k * sizeof(Shape), sizeof(Shape));
+        if (solid.shape.kind == ShapeKind::mesh) {
+          solid.vertices = vertices_of(tree.texts()[std::size_t(solid.shape.mesh)]);
+          for (Vec3& v : solid.vertices) v = v.cwiseProduct(solid.shape.size);
+          if (solid.vertices.empty()) continue;
+        }
+        solids.push_back(std::move(solid));
+      }
+    }
+  return solids;
+}
+
+double lowest_point(std::span<const Solid> solids, std::span<const Pose> poses, bool with_meshes) {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const Solid& s : solids) {
+    const Pose pose = poses[s.frame] * s.shape.origin;
+    if (s.shape.kind == ShapeKind::mesh) {
+      if (!with_meshes) continue;
+      for (const Vec3& v : s.vertices) lowest = std::min(lowest, (pose * v).z());
+    } else {
+      lowest = std::min(lowest, pose.position.z() - reach_down(s.shape, pose.orientation.conjugate() * Vec3::UnitZ()));
+    }
+  }
+  return lowest;
+}
+
+std::vector<double> start_positions(const RobotTree& tree) {
+  std::vector<double> q(tree.frames().size(), 0.0);
+  for (std::size_t i = 0; i < q.size(); ++i) {
+    const Frame& f = tree.frames()[i].frame;
+    if (f.joint != JointKind::fixed && f.mimic < 0)
+      q[i] = std::min(std::max(0.0, f.limits.lower), std::max(f.limits.lower, f.limits.upper));
+  }
+  for (std::size_t i = 0; i < q.size(); ++i) {
+    const Frame& f = tree.frames()[i].frame;
+    if (f.mimic >= 0) q[i] = f.mimic_offset + f.mimic_multiplier * q[std::size_t(f.mimic)];
+  }
+  return q;
+}
+
+std::vector<Pose> poses_of(const RobotTree& tree, const Pose& base, std::span<const double> positions) {
+  std::vector<Pose> poses{base};
+  for (std::size_t i = 1; i < tree.frames().size(); ++i) {
+    const Frame& f = tree.frames()[i].frame;
+    poses.push_back(poses[std::size_t(f.parent)] * placed(f, positions[i]));
+  }
+  return poses;
+}
+
+}  // namespace muro::robots
