@@ -23,8 +23,12 @@ struct AlgorithmSetup {
   std::int64_t phase = 0;  ///< ns
   std::map<std::string, ParameterInput> parameters;
   std::vector<Item> items;  ///< none: the world
-  /// One an item where those of a world have parameters of their own; none: all have `parameters`.
-  std::vector<std::map<std::string, ParameterInput>> parameters_of_items;
+  /// What one item of a world has of its own.
+  struct Own {
+    std::string name, place;  ///< as those of the setup
+    std::map<std::string, ParameterInput> parameters;
+  };
+  std::vector<Own> own;   ///< one an item; none: all have `parameters`
   std::string subsystem;  ///< "motion": with the robot's name, keys the random numbers
   std::string folder;     ///< relative paths in parameters start here; "": the working directory
   std::string place;      ///< "file:line:column" of the scenario, put before messages; may be empty

@@ -18,9 +18,9 @@ Instance::Instance(const abi::AlgorithmEntry& entry, AlgorithmSetup setup, World
       party_(world.store().add_party(setup_.name + " (" + setup_.use +
                                      (setup_.place.empty() ? "" : ", " + setup_.place) + ")")) {
   if (setup_.items.empty()) setup_.items.push_back({});
-  for (const auto& own : setup_.parameters_of_items) {
+  for (const AlgorithmSetup::Own& own : setup_.own) {
     AlgorithmSetup one;
-    one.name = setup_.name, one.use = setup_.use, one.place = setup_.place, one.parameters = own;
+    one.name = own.name, one.use = setup_.use, one.place = own.place, one.parameters = own.parameters;
     own_parameters_.emplace_back(*entry.description, one);
   }
   const Kind kind = entry.description->kind;

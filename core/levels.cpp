@@ -61,8 +61,13 @@ void Levels::prepare(World& world, const std::vector<LevelsOfRobot>& robots,
     for (const auto& instance : all) {
       const std::vector<Item>& items = instance->setup().items;
       for (std::uint32_t i = 0; i < items.size(); ++i)
-        if (instance->description().kind == Kind::motion && items[i].robot == setup.robot)
-          r.movers.at(items[i].level) = {instance.get(), i};
+        if (instance->description().kind == Kind::motion && items[i].robot == setup.robot) {
+          Mover& mover = r.movers.at(items[i].level);
+          if (mover.instance)
+            throw SetupError("`" + std::string(setup.robot->name) + "` is moved by " + mover.instance->setup().name +
+                             " and by " + instance->setup().name + "; list all of its motions under `levels` of one");
+          mover = {instance.get(), i};
+        }
     }
     std::vector<Party> parties{party};
     for (const Mover& m : r.movers) {
@@ -71,7 +76,10 @@ void Levels::prepare(World& world, const std::vector<LevelsOfRobot>& robots,
                          " motions, but not all of them are used");
       parties.push_back(m.instance->party());
     }
-    store.let_alternate(parties);
+    std::vector<ObjectId> objects;
+    for (std::uint32_t i = 0; i < world.object_count(); ++i)
+      if (world.robot_of(ObjectId{i}) == std::int32_t(setup.robot->number)) objects.push_back(ObjectId{i});
+    store.let_alternate(objects, parties);
 
     const ObjectId base = setup.robot->base();
     const auto own = [&](const KeyInfo& key, Access access, const void* initial) {
@@ -124,6 +132,12 @@ abi::AlgorithmInstance* Levels::keeper_of(Instance& instance) {
     keeper.add(r ? r->level : nullptr, i.level);
   }
   return &keeper;
+}
+
+void Levels::forget_in(std::vector<SlotId>& reads) const {
+  for (const Robot& r : robots_)
+    std::erase_if(reads,
+                  [&](SlotId slot) { return std::find(r.written.begin(), r.written.end(), slot) != r.written.end(); });
 }
 
 Task Levels::task(std::span<const std::unique_ptr<Instance>> all) {

@@ -37,6 +37,8 @@ class Levels final : public abi::AlgorithmInstance {
   /// Of robot `number`: whether `level` is not the one that moves it at the start.
   bool rests(std::int32_t number, std::uint32_t level) const;
 
+  /// Takes out of `reads` what it writes: who decides about levels does not wait for the hand-over of the instant.
+  void forget_in(std::vector<SlotId>& reads) const;
   /// What the scheduler is to run: on demand, before who reads who moves a robot.
   Task task(std::span<const std::unique_ptr<Instance>> all);
   /// What steps an instance: itself, or, when it moves a robot for part of the time, a keeper that steps the items

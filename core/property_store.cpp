@@ -270,9 +270,9 @@ void* PropertyStore::bind(Party party, ObjectId object, const KeyInfo& key, Acce
   return handle(*s, access);
 }
 
-void PropertyStore::let_alternate(const std::vector<Party>& parties) {
-  for (const Party a : parties)
-    for (const Party b : parties) alternating_.emplace(a, b);
+void PropertyStore::let_alternate(const std::vector<ObjectId>& objects, const std::vector<Party>& parties) {
+  for (const ObjectId object : objects)
+    for (const Party party : parties) alternating_.emplace(object, party);
 }
 
 void* PropertyStore::state_block(Party party, ObjectId object, std::string_view name, std::uint32_t size) {
@@ -293,7 +293,7 @@ void PropertyStore::check_slot(const Slot& s, const std::function<std::string(st
   const Slot::Usage* adder = nullptr;
   for (const Slot::Usage& u : s.usage) {
     if (writes(u.access)) {
-      if (writer && writer->party != u.party && !alternate(writer->party, u.party))
+      if (writer && writer->party != u.party && !alternate(s.object, writer->party, u.party))
         problems.push_back(place + " has two writers: " + who(writer->party) + " and " + who(u.party) +
                            "; only one algorithm may write a property");
       writer = writer ? writer : &u;

@@ -77,8 +77,8 @@ class PropertyStore {
   /// `weak`: the initial value counts only where nobody has given one.
   void* bind(Party party, ObjectId object, const KeyInfo& key, Access access, Form form, std::uint32_t count,
              const void* initial, bool weak = false);
-  /// These parties may write the same properties, one at a time.
-  void let_alternate(const std::vector<Party>& parties);
+  /// These parties may write the same properties of these objects, one at a time.
+  void let_alternate(const std::vector<ObjectId>& objects, const std::vector<Party>& parties);
   /// Bytes of state under a name of their own.
   void* state_block(Party party, ObjectId object, std::string_view name, std::uint32_t size);
 
@@ -110,7 +110,9 @@ class PropertyStore {
   std::uint64_t hash(ObjectId object) const;
 
  private:
-  bool alternate(Party a, Party b) const { return alternating_.count({a, b}) > 0; }
+  bool alternate(ObjectId object, Party a, Party b) const {
+    return alternating_.count({object, a}) > 0 && alternating_.count({object, b}) > 0;
+  }
   std::uint32_t column_of(Party party, const KeyInfo& key);
   SlotId find_id(ObjectId object, std::string_view key) const;
   SlotId slot_for(Party party, ObjectId object, const KeyInfo& key);
@@ -136,7 +138,7 @@ class PropertyStore {
   std::deque<ArrayHeader> arrays_;
   std::deque<ListHeader> lists_;
   std::deque<SumHeader> sums_;
-  std::set<std::pair<Party, Party>> alternating_;
+  std::set<std::pair<ObjectId, Party>> alternating_;
   std::vector<std::string> problems_;
 };
 

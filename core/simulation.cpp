@@ -189,13 +189,18 @@ void Simulation::join_world(AlgorithmSetup& world, AlgorithmSetup& joining) cons
     throw SetupError((joining.place.empty() ? "" : joining.place + ": ") + joining.name + " and " + world.name +
                      " share a world of " + joining.use +
                      " but have different rates or phases; give them the same, or another `world` to one of them");
-  world.parameters_of_items.resize(world.items.size(), world.parameters);
+  for (const Item& item : joining.items)
+    if (std::any_of(world.items.begin(), world.items.end(), [&](const Item& k) { return k.robot == item.robot; }))
+      throw SetupError((joining.place.empty() ? "" : joining.place + ": ") + joining.name + " and " + world.name +
+                       " would move one robot in one world of " + joining.use + "; give one of them another `world`");
+  world.own.resize(world.items.size(), {world.name, world.place, world.parameters});
   world.items.insert(world.items.end(), joining.items.begin(), joining.items.end());
-  world.parameters_of_items.resize(world.items.size(), joining.parameters);
+  world.own.resize(world.items.size(), {joining.name, joining.place, joining.parameters});
 }
 
 void Simulation::merge_batched() {
   instance_of_setup_.clear();
+  Collected problems;
   std::vector<AlgorithmSetup> merged;
   const auto world_of = [](const AlgorithmSetup& s) {
     const auto named = s.parameters.find("world");
@@ -214,7 +219,7 @@ void Simulation::merge_batched() {
         (batched || world) && !s.items.empty() ? std::find_if(merged.begin(), merged.end(), same) : merged.end();
     if (known != merged.end()) {
       if (world)
-        join_world(*known, s);
+        problems.run([&] { join_world(*known, s); });
       else
         known->items.insert(known->items.end(), s.items.begin(), s.items.end());
       instance_of_setup_.push_back(std::size_t(known - merged.begin()));
@@ -223,7 +228,7 @@ void Simulation::merge_batched() {
       merged.push_back(s);
     }
   }
-  Collected problems;
+  problems.check();
   for (AlgorithmSetup& m : merged)
     problems.run([&] {
       instances_.push_back(std::make_unique<Instance>(registry_.algorithm(m.use), std::move(m), world_, *log_));
@@ -288,6 +293,7 @@ void Simulation::schedule() {
     task.phase = s.phase;
     task.order = order_of(instance->description());
     task.reads = instance->reads();
+    if (instance->description().kind == Kind::level) levels_->forget_in(task.reads);
     task.writes = instance->writes();
     tasks_.push_back(scheduler_.add(std::move(task)));
   }

@@ -80,7 +80,7 @@ class Search {
       if (!robot || !templates_[robot->number].robots) continue;
       if (!is_first_of_its_kind(*robot, motion)) continue;
       const bool own = contains(offer.writes, "wrench.contact");
-      const MotionUse use{motion.parameters_of_items.empty() ? motion.parameters : motion.parameters_of_items[i], own,
+      const MotionUse use{motion.own.empty() ? motion.parameters : motion.own[i].parameters, own,
                           own || contact_is_there()};
       Losses& losses = entry(*robot, motion);
       for (Need& n : needs_of(simulation_.world(), *robot, use)) {

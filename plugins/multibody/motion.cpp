@@ -83,7 +83,7 @@ void Motion::connect_robot(Connector& c, const Item& item, const Parameters& p) 
   r.level = item.level;
   r.active_level = c.input(view.base(), keys::motion_level, std::uint32_t{0});
   r.contact_world = c.variable(view.base(), keys::contact_world, number_);
-  r.twist_lag = c.variable(view.base(), keys::twist_lag, 0.5);
+  r.twist_lag = c.variable(view.base(), keys::twist_lag, 0.5 / substeps_);
   r.pose = c.variable(view.base(), keys::pose, c.constant(view.base(), keys::initial_pose).value_or(Pose{}));
   const Twist moving = c.constant(view.base(), keys::initial_twist).value_or(Twist{});
   r.twist = c.variable(view.base(), keys::twist, r.model.fixed_base ? Twist{} : moving);
@@ -91,8 +91,9 @@ void Motion::connect_robot(Connector& c, const Item& item, const Parameters& p) 
   connect_touched(c, view, r);
 
   const std::size_t own = last_joints + 2 * parts, engine = memory_of(r.model);
-  auto* block = static_cast<double*>(
-      c.state_block(view.base(), description().id, std::uint32_t((own + engine) * sizeof(double))));
+  const bool shares = !c.constant_array(view.base(), keys::motion_level_names).empty();
+  const std::string name = std::string(description().id) + (shares ? "." + std::to_string(item.level) : "");
+  auto* block = static_cast<double*>(c.state_block(view.base(), name, std::uint32_t((own + engine) * sizeof(double))));
   r.last = {block, own};
   r.state.memory = {block + own, engine};
 }
@@ -189,7 +190,7 @@ void Motion::start() {
 void Motion::take_over(std::uint32_t item) {
   Robot& r = robots_[item];
   *r.contact_world = number_;
-  *r.twist_lag = 0.5;
+  *r.twist_lag = 0.5 / substeps_;
   r.last[valid] = 0;
   if (r.model.fixed_base) *r.twist = Twist{};
 }
@@ -225,6 +226,7 @@ void Motion::import(Robot& r) const {
     s.joints[i].velocity = *r.joints[i].velocity;
   }
   if (s.presence != Presence::simulated) {
+    if (r.last[valid] != 0 && *r.contact_world <= keys::contact_for_all) clear_outputs(r);
     r.last[valid] = 0;
     return;
   }
@@ -239,6 +241,13 @@ void Motion::import(Robot& r) const {
   s.moved_from_outside = !same;
 
   import_wrenches(r);
+}
+
+/// Another motion has taken the robot over, which does not write them.
+void Motion::clear_outputs(const Robot& r) {
+  for (const Touched& t : r.touched)
+    if (t.contact) *t.contact = Wrench{};
+  for (std::size_t i = 1; i < r.joints.size(); ++i) *r.joints[i].effort = 0;
 }
 
 void Motion::import_wrenches(Robot& r) {

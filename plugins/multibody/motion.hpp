@@ -76,6 +76,7 @@ class Motion : public Algorithm {
   void set_demands(Robot& r, double dt) const;
   static void remember(Robot& r);
   void export_robot(Robot& r) const;
+  static void clear_outputs(const Robot& r);
   static void import_wrenches(Robot& r);
   static void export_contacts(Robot& r);
 

@@ -19,6 +19,7 @@ Vec3 velocity(const Body& body, const Vec3& point) {
 
 std::size_t Meetings::begin(const Moment& moment, const std::vector<std::uint8_t>& flags) {
   moment_ = moment;
+  flags_ = &flags;
   robots_.clear();
   const std::uint8_t *const begin = flags.data(), *const end = begin + flags.size();
   for (auto at = begin; at != end; ++at) {
@@ -93,7 +94,9 @@ void Meetings::gather(std::uint32_t self) {
       me.touch_of.push_back(not_ours);
       continue;
     }
-    if (bodies_.robots[self].shadow) other_robot = nobody;
+    // Who lists nothing is served by nobody: a shadow's partner, and who was handed over after contacts were found.
+    const bool serves = other_robot != nobody && (*flags_)[std::size_t(other_robot)] != 0;
+    if (bodies_.robots[self].shadow || !serves) other_robot = nobody;
     if (!owns(self, other_robot)) {
       me.touch_of.push_back(not_ours);
       const auto owner = std::uint32_t(other_robot);

@@ -81,9 +81,10 @@ class Meetings {
 
   const Bodies& bodies_;
   Moment moment_;
-  std::vector<std::uint32_t> robots_;     ///< that meet
-  std::vector<std::uint32_t> record_of_;  ///< by robot: in records_, of those that meet
-  std::vector<Record> records_;           ///< at least as many as meet
+  const std::vector<std::uint8_t>* flags_ = nullptr;  ///< of this step, see begin()
+  std::vector<std::uint32_t> robots_;                 ///< that meet
+  std::vector<std::uint32_t> record_of_;              ///< by robot: in records_, of those that meet
+  std::vector<Record> records_;                       ///< at least as many as meet
 };
 
 }  // namespace muro::penalty

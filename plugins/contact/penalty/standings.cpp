@@ -44,7 +44,7 @@ void Standings::start() {
     Standing& s = standings_[i];
     const Unit& base = bodies_.base_of(r);
     s.list = r.contacts, s.grips = r.grips, s.mass = base.mass;
-    s.one_body = r.alone && *r.lag == 0;
+    s.world = r.world.get(), s.lag = r.alone ? r.lag.get() : nullptr;
     s.view.base_pose = base.pose->position.data();
     s.view.base_twist = base.twist->linear.data();
     s.view.wrench = base.wrench->force.data();
@@ -103,14 +103,14 @@ void Standings::push_one(const Moment& moment, std::uint32_t robot, Queues& queu
     bodies_.leave(robot);
     return;
   }
-  if (*bodies_.robots[robot].world != keys::contact_for_all) {
-    if (*bodies_.robots[robot].world == 0)  // it wants to know what it touches, and is not pushed
-      bodies_.leave(robot);
-    else
-      left_[robot] = 1;
+  if (*s.world == 0) {  // it wants to know what it touches, and is not pushed
+    s.grips.clear();
+    s.springs_fit = false;
+    bodies_.leave(robot);
     return;
   }
-  if (!s.one_body) {
+  if (*s.world != keys::contact_for_all || !s.lag || *s.lag != 0) {
+    s.springs_fit = false;
     left_[robot] = 1;
     return;
   }

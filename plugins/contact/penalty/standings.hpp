@@ -36,7 +36,8 @@ class Standings {
     std::uint32_t contacts = 0;  ///< known
     std::uint32_t layout = 0;    ///< in layouts_; robots of one layout and mass share lanes
     std::uint32_t mass = 0;
-    bool one_body = true;  ///< forces move it as one, and by a motion whose twist is that of its pose
+    const std::uint64_t* world = nullptr;  ///< see keys::contact_world
+    const double* lag = nullptr;           ///< see keys::twist_lag; null: forces move its bodies one by one
     bool only_scenery = false;
     bool in_lanes = false;     ///< one piece of scenery, and a layout that is known
     bool springs_fit = false;  ///< the robot has a spring for each contact, in their order

@@ -187,7 +187,9 @@ class Simplified final : public Algorithm {
     std::copy_n(inertia.data(), 9, model.mass.inertia);
     std::copy_n(inverse.data(), 9, model.mass.inverse);
     const std::vector<Place> places = connect_places(c, robot, start, c.parameters().boolean("effort_limits"));
-    model.forced = std::any_of(places.begin(), places.end(), [](const Place& p) { return p.forced; });
+    // Where another motion of the robot asks for the wrenches on links, they do not act on the base.
+    const bool shares = robot.frames.size() > 1 && !c.constant_array(robot.base(), keys::motion_level_names).empty();
+    model.forced = shares || std::any_of(places.begin(), places.end(), [](const Place& p) { return p.forced; });
     if (model.forced) {
       r.forced = std::int32_t(forced_.size());
       forced_.emplace_back(c, robot, places, inertias, start,

@@ -149,6 +149,94 @@ TEST_P(EveryHandOver, MakesItABodyOrAnObstacleForOthers) {
               moved ? 1e-9 : 0.1);
 }
 
+/// The rover, with these motions as levels, on a plane.
+using LevelList = std::vector<std::pair<std::string, std::map<std::string, ParameterInput>>>;
+struct Parked : test::Scene {
+  const RobotView* rover;
+  explicit Parked(const LevelList& levels) {
+    add_ground();
+    const RobotTree model = read_model(MURO_TEST_SOURCE_DIR "/examples/models/rover.urdf");
+    rover = &add("r", model, {{0, 0, model.standing_height()}, Quat::Identity()});
+    std::vector<std::string> names;
+    for (const auto& [motion, parameters] : levels) {
+      use(motion, 1000, {{rover, rover->base(), std::uint32_t(names.size())}}, parameters);
+      names.push_back("level_" + std::to_string(names.size()));
+    }
+    if (names.size() > 1) set_levels(*rover, names, 0);
+    use("drive.skid_steer", 0, all_robots());
+    use_contacts();
+    build();
+    world().value(rover->base(), keys::command_twist) = {{0.3, 0, 0}, {0, 0, 0.2}};
+  }
+};
+
+TEST(ARoverWithLevels, StandsOnItsWheelsWhereOneLevelFeelsForcesOnLinks) {
+  for (const std::string& engine : motions()) {
+    if ((description_of(engine).promises & Promise::world) == 0) continue;
+    Parked alone(LevelList{{"motion.simplified", {}}}), with_levels(LevelList{{"motion.simplified", {}}, {engine, {}}});
+    alone.run_for(2);
+    with_levels.run_for(2);
+    EXPECT_LT((alone.pose(*alone.rover).position - with_levels.pose(*with_levels.rover).position).norm(), 5e-3)
+        << engine;
+    EXPECT_NEAR(with_levels.pose(*with_levels.rover).position.z(), 0.09, 1e-3) << engine;
+  }
+}
+
+TEST(ARoverWithLevels, InTwoWorldsOfOneEngineIsDisturbedByNeither) {
+  for (const std::string& engine : motions()) {
+    if ((description_of(engine).promises & Promise::world) == 0) continue;
+    Parked alone(LevelList{{engine, {{"world", std::string("u")}}}});
+    Parked two(LevelList{{engine, {{"world", std::string("u")}}}, {engine, {{"world", std::string("v")}}}});
+    alone.run_for(2);
+    two.run_for(2);
+    EXPECT_EQ(alone.pose(*alone.rover).position, two.pose(*two.rover).position) << engine;
+  }
+}
+
+std::string refusal(const LevelList& levels) {
+  try {
+    Parked p(levels);
+  } catch (const SetupError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+TEST(ARoverWithLevels, TwiceInOneWorldIsRefused) {
+  for (const std::string& engine : motions()) {
+    if ((description_of(engine).promises & Promise::world) == 0) continue;
+    const std::string text = refusal(LevelList{{engine, {}}, {engine, {{"joints", std::string("passive")}}}});
+    EXPECT_NE(text.find("would move one robot in one world of " + engine + "; give one of them another `world`"),
+              std::string::npos)
+        << text;
+  }
+}
+
+TEST(LevelsOfOneRobot, DoNotLetAnotherHaveTwoMotions) {
+  const auto engines = [] {
+    std::vector<std::string> all;
+    for (const std::string& id : motions())
+      if ((description_of(id).promises & Promise::world) != 0) all.push_back(id);
+    return all;
+  }();
+  if (engines.size() < 2) GTEST_SKIP() << "two engines are needed";
+  test::Scene s;
+  const RobotView& a = s.add("a", block(1, {0.2, 0.2, 0.2}, 0.5), {{0, 0, 1}, Quat::Identity()});
+  const RobotView& b = s.add("b", block(1, {0.2, 0.2, 0.2}, 0.5), {{3, 0, 1}, Quat::Identity()});
+  for (std::uint32_t k = 0; k < 2; ++k) {
+    s.use(engines[k], 1000, {{&a, a.base(), k}});
+    s.use(engines[k], 1000, {{&b, b.base(), 0}});
+  }
+  s.set_levels(a, {"one", "two"}, 0);
+  s.use_contacts();
+  try {
+    s.build();
+    FAIL() << "b has two motions";
+  } catch (const SetupError& e) {
+    EXPECT_NE(std::string(e.what()).find("`b/body:pose` has two writers"), std::string::npos) << e.what();
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Conformance, EveryHandOver, ::testing::ValuesIn(pairs()), name_of);
 
 }  // namespace
