@@ -82,26 +82,26 @@ std::string load_file(const std::string& path, const std::string& kind) {
   return bytes;
 }
 
-TextTrouble decode(std::string& bytes, const std::string& kind, const std::string& root) {
+TextTroubles decode(std::string& bytes, const std::string& kind, const std::string& root) {
   if (bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff"))
-    return {true, {1, 1}, "the file is encoded as UTF-16; save it as UTF-8"};
+    return {.error = {{1, 1}, "the file is encoded as UTF-16; save it as UTF-8"}};
   if (bytes.starts_with("\xef\xbb\xbf")) bytes.erase(0, 3);
   const std::size_t start = bytes.find_first_not_of(" \t\r\n");
   if (start == std::string::npos)
-    return {true, {}, say("the file is empty; a ", kind, " file holds a <", root, "> element")};
+    return {.error = {{}, say("the file is empty; a ", kind, " file holds a <", root, "> element")}};
   if (const std::size_t zero = bytes.find('\0'); zero != std::string::npos)
-    return {true, place_of(bytes, zero), "the file holds a zero byte: it is no text file, or cut, or not UTF-8"};
-  TextTrouble trouble;
+    return {.error = {place_of(bytes, zero), "the file holds a zero byte: it is no text file, or cut, or not UTF-8"}};
+  TextTroubles troubles;
   if (const std::size_t bad = first_bad_byte(bytes); bad < bytes.size()) {
-    trouble = {false, place_of(bytes, bad),
-               say("byte ", byte_at(bytes, bad), " is not UTF-8; the file is read as ISO-8859-1. Save it as UTF-8")};
+    troubles.warning = {place_of(bytes, bad), say("byte ", byte_at(bytes, bad),
+                                                  " is not UTF-8; the file is read as ISO-8859-1. Save it as UTF-8")};
     bytes = from_latin1(bytes);
   }
   if (bytes[start] != '<')
-    return {true, place_of(bytes, start),
-            say("the file is not XML: it begins with ", cited(std::string_view(bytes).substr(start, 12)), "; a ", kind,
-                " file begins with <?xml or <", root)};
-  return trouble;
+    troubles.error = {place_of(bytes, start),
+                      say("the file is not XML: it begins with ", cited(std::string_view(bytes).substr(start, 12)),
+                          "; a ", kind, " file begins with <?xml or <", root)};
+  return troubles;
 }
 
 }  // namespace muro::model_file

@@ -13,13 +13,17 @@ std::string load_file(const std::string& path, const std::string& kind);
 
 /// What was wrong with the bytes of a file.
 struct TextTrouble {
-  bool unreadable = false;  ///< there is no text
   Place place;
   std::string text;  ///< empty when nothing was wrong
 };
+struct TextTroubles {
+  TextTrouble error = {};    ///< there is no text
+  TextTrouble warning = {};  ///< there is, but maybe not as it was meant
+};
 
 /// `bytes` of an XML file, which in messages is called `kind` and begins with <`root`>, become text in UTF-8: a
-/// byte-order mark goes, and bytes that are not UTF-8 are read as ISO-8859-1.
-TextTrouble decode(std::string& bytes, const std::string& kind, const std::string& root);
+/// byte-order mark goes, and bytes that are not UTF-8 are read as ISO-8859-1, with a warning. UTF-16, binary, empty
+/// and other files are errors.
+TextTroubles decode(std::string& bytes, const std::string& kind, const std::string& root);
 
 }  // namespace muro::model_file

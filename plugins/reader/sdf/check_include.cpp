@@ -21,7 +21,8 @@ fs::path file_in(const fs::path& folder) {
     model_file::Document document;
     Place place;
     std::string trouble;
-    if (model_file::decode(bytes, "model.config", "model").unreadable || !document.parse(bytes, place, trouble))
+    if (!model_file::decode(bytes, "model.config", "model").error.text.empty() ||
+        !document.parse(bytes, place, trouble))
       return folder / best;
     int newest = -1;
     for (Element* sdf : model_file::children(*document.root(), "sdf")) {

@@ -77,9 +77,9 @@ bool Sources::parse(Source& source, std::string bytes, bool included, std::strin
     if (!included) problems_.error({source.shown, place}, text);
     return false;
   };
-  const model_file::TextTrouble trouble = model_file::decode(bytes, format, "sdf");
-  if (trouble.unreadable) return fail(trouble.place, trouble.text);
-  if (!trouble.text.empty()) problems_.warning({source.shown, trouble.place}, trouble.text);
+  const auto [error, warning] = model_file::decode(bytes, format, "sdf");
+  if (!error.text.empty()) return fail(error.place, error.text);
+  if (!warning.text.empty()) problems_.warning({source.shown, warning.place}, warning.text);
   source.document = std::make_unique<model_file::Document>();
   Place place;
   std::string text;

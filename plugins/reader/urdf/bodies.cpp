@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "muro/vocabulary.hpp"
-#include "solid.hpp"
+#include "plugins/model_file/solid.hpp"
 
 namespace muro::urdf {
 
@@ -67,8 +67,8 @@ void Bodies::add_shape(std::vector<Shape>& shapes, const ::urdf::Geometry& geome
 bool Bodies::add_mesh(Shape& shape, const ::urdf::Mesh& mesh, const ::urdf::Link& link, const LinkInfo& info) {
   auto [entry, fresh] = meshes_.try_emplace(mesh.filename);
   if (fresh) {
-    entry->second = find_mesh(mesh.filename, folder_);
-    const MeshPath& found = entry->second;
+    entry->second = model_file::find_mesh(mesh.filename, folder_);
+    const model_file::MeshPath& found = entry->second;
     if (found.path.empty()) {
       std::vector<std::string> places;
       for (const auto& path : found.searched) places.push_back(path.string());
@@ -95,20 +95,20 @@ Inertia Bodies::inertial_of(const ::urdf::Link& link, const LinkInfo& info, std:
   const Inertia given{
       .mass = i.mass, .ixx = i.ixx, .iyy = i.iyy, .izz = i.izz, .ixy = i.ixy, .ixz = i.ixz, .iyz = i.iyz};
   Inertia inertia = given.in(pose_of(i.origin));
-  const TensorCheck check = check_tensor(given.tensor());
+  const model_file::TensorCheck check = model_file::check_tensor(given.tensor());
   if (!inertia.com.allFinite() || !inertia.tensor().allFinite() || !check.moments.allFinite()) {
     problems_.error(info.place, owner_of(link) + ": its inertia is too large for a number; use kg, m and kg m^2");
     return {};
   }
-  if (check.fault == TensorFault::no_body) {
+  if (check.fault == model_file::TensorFault::no_body) {
     problems_.warning(info.place, say(owner_of(link), ": its principal moments of inertia are ", text_of(check.moments),
                                       " kg m^2, which no body has: none exceeds the sum of the other two. They are ",
                                       "used as they are"));
-  } else if (check.fault == TensorFault::not_positive) {
-    Inertia even = even_solid(shapes, i.mass);
+  } else if (check.fault == model_file::TensorFault::not_positive) {
+    Inertia even = model_file::even_solid(shapes, i.mass);
     const bool solid = std::any_of(shapes.begin(), shapes.end(), [](auto& s) { return s.kind != ShapeKind::mesh; }) &&
                        even.tensor().allFinite();
-    if (!solid) even = even_solid({}, i.mass);
+    if (!solid) even = model_file::even_solid({}, i.mass);
     problems_.warning(info.place, say(owner_of(link), ": its principal moments of inertia are ", text_of(check.moments),
                                       " kg m^2, and must be above 0; those of an even body of ", i.mass, " kg in its ",
                                       solid ? "shapes" : "place, a ball of water,",

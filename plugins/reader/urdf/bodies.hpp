@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <map>
 
-#include "mesh_path.hpp"
 #include "model.hpp"
 #include "muro/shape.hpp"
+#include "plugins/model_file/mesh_path.hpp"
 
 namespace muro::urdf {
 
@@ -36,7 +36,7 @@ class Bodies {
   std::filesystem::path folder_;
   RobotBuilder& builder_;
   Problems& problems_;
-  std::map<std::string, MeshPath> meshes_;  ///< by the name in the file
+  std::map<std::string, model_file::MeshPath> meshes_;  ///< by the name in the file
   double mass_ = 0;
 };
 

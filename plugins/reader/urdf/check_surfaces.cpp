@@ -2,7 +2,7 @@
 #include <array>
 
 #include "model.hpp"
-#include "numbers.hpp"
+#include "plugins/model_file/numbers.hpp"
 
 namespace muro::urdf {
 
@@ -17,7 +17,7 @@ std::optional<double> value_below(Element& parent, const char* name, const std::
     }
     const char* text = e->Attribute("value") ? e->Attribute("value") : e->GetText();
     std::string trouble;
-    const auto values = parse_numbers(text ? text : "", trouble);
+    const auto values = model_file::parse_numbers(text ? text : "", trouble);
     if (trouble.empty() && values.size() == 1) return values.front();
     problems.warning(place_of(*e),
                      say(owner, ", <", name, ">: ", cited(text ? text : ""), " is no single number and is ignored"));

@@ -1,149 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "document.hpp"
 
-#include <algorithm>
-
-#include "numbers.hpp"
+#include "plugins/model_file/numbers.hpp"
 
 namespace muro::urdf {
 
-namespace {
-
-/// Finds the start tags of a well-formed text, in order.
-class TagScanner {
- public:
-  explicit TagScanner(std::string_view text) : text_(text) {}
-
-  /// The place of the next start tag and its name; false at the end.
-  bool next(Place& place, std::string_view& name) {
-    while (true) {
-      const std::size_t open = text_.find('<', at_);
-      if (open == std::string_view::npos) return false;
-      advance(open);
-      const std::string_view rest = text_.substr(open);
-      if (rest.starts_with("<!--")) {
-        skip_past("-->");
-      } else if (rest.starts_with("<![CDATA[")) {
-        skip_past("]]>");
-      } else if (rest.starts_with("<?")) {
-        skip_past("?>");
-      } else if (rest.starts_with("<!") || rest.starts_with("</")) {
-        skip_past(">");
-      } else {
-        place = {line_, int(open - line_start_) + 1};
-        name = rest.substr(1, rest.find_first_of(" \t\r\n/>", 1) - 1);
-        skip_tag();
-        return true;
-      }
-    }
-  }
-
- private:
-  void advance(std::size_t to) {
-    for (; at_ < to; ++at_) {
-      if (text_[at_] != '\n') continue;
-      ++line_;
-      line_start_ = at_ + 1;
-    }
-  }
-  void skip_past(std::string_view end) {
-    const std::size_t found = text_.find(end, at_);
-    advance(found == std::string_view::npos ? text_.size() : found + end.size());
-  }
-  /// Past the `>` that closes the tag; one within quotes does not.
-  void skip_tag() {
-    char quote = 0;
-    std::size_t i = at_;
-    for (; i < text_.size(); ++i) {
-      const char c = text_[i];
-      if (quote != 0) {
-        if (c == quote) quote = 0;
-      } else if (c == '"' || c == '\'') {
-        quote = c;
-      } else if (c == '>') {
-        break;
-      }
-    }
-    advance(i);
-  }
-
-  std::string_view text_;
-  std::size_t at_ = 0, line_start_ = 0;
-  int line_ = 1;
-};
-
-/// Visits elements in the order of their start tags.
-class PlaceMarker final : public tinyxml2::XMLVisitor {
- public:
-  PlaceMarker(std::string_view text, std::vector<Place>& places) : scanner_(text), places_(places) {}
-
-  bool VisitEnter(const Element& element, const tinyxml2::XMLAttribute*) override {
-    Place place;
-    std::string_view name;
-    in_step_ = in_step_ && scanner_.next(place, name) && name == element.Name();
-    places_[count_] = in_step_ ? place : Place{element.GetLineNum(), 0};
-    const_cast<Element&>(element).SetUserData(&places_[count_++]);
-    return true;
-  }
-
- private:
-  TagScanner scanner_;
-  std::vector<Place>& places_;
-  std::size_t count_ = 0;
-  bool in_step_ = true;
-};
-
-class ElementCounter final : public tinyxml2::XMLVisitor {
- public:
-  bool VisitEnter(const Element&, const tinyxml2::XMLAttribute*) override {
-    ++count;
-    return true;
-  }
-  std::size_t count = 0;
-};
-
-std::string_view meaning_of(tinyxml2::XMLError error) {
-  switch (error) {
-    case tinyxml2::XML_ERROR_MISMATCHED_ELEMENT:
-      return "a closing tag does not match the element that is open";
-    case tinyxml2::XML_ERROR_PARSING_ELEMENT:
-      return "an element's tag is not written correctly";
-    case tinyxml2::XML_ERROR_PARSING_ATTRIBUTE:
-      return "an attribute is not written as name=\"value\", or stands twice";
-    case tinyxml2::XML_ERROR_PARSING_COMMENT:
-      return "a comment <!-- is not closed by -->";
-    case tinyxml2::XML_ERROR_PARSING_CDATA:
-      return "a section <![CDATA[ is not closed by ]]>";
-    case tinyxml2::XML_ERROR_PARSING_TEXT:
-      return "text is not followed by a closing tag";
-    case tinyxml2::XML_ERROR_PARSING_DECLARATION:
-      return "a declaration <?xml ... ?> stands out of place or is not closed";
-    case tinyxml2::XML_ERROR_PARSING_UNKNOWN:
-      return "a <!...> section is not closed";
-    case tinyxml2::XML_ERROR_EMPTY_DOCUMENT:
-      return "there is no element";
-    case tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED:
-      return "elements are nested more than 100 deep";
-    default:
-      return "an element is not closed";
-  }
-}
-
-}  // namespace
-
 bool Document::parse(const std::string& text, Problems& problems) {
-  if (const auto error = xml_.Parse(text.data(), text.size()); error != tinyxml2::XML_SUCCESS) {
-    problems.error({xml_.ErrorLineNum(), 0}, say("the file is not well-formed XML: ", meaning_of(error)));
+  Place place;
+  std::string trouble;
+  if (!file_.parse(text, place, trouble)) {
+    problems.error(place, trouble);
     return false;
   }
-  ElementCounter counter;
-  xml_.Accept(&counter);
-  places_.resize(counter.count);
-  PlaceMarker marker(text, places_);
-  xml_.Accept(&marker);
-  robot_ = xml_.FirstChildElement("robot");
+  Element* root = file_.root();
+  robot_ = root && std::string_view(root->Name()) != "robot" ? root->NextSiblingElement("robot") : root;
   if (robot_) return true;
-  const Element* root = xml_.RootElement();
   problems.error(root ? place_of(*root) : Place{},
                  say("the file holds no <robot> element", root ? say(", but ", cited(root->Name())) : std::string(),
                      "; a URDF file is <robot name=\"...\"> with links and joints"));
@@ -154,17 +25,6 @@ std::string Document::printed() const {
   tinyxml2::XMLPrinter printer(nullptr, true);
   robot_->Accept(&printer);
   return printer.CStr();
-}
-
-Place place_of(const Element& element) {
-  const auto* place = static_cast<const Place*>(element.GetUserData());
-  return place ? *place : Place{};
-}
-
-std::vector<Element*> children(Element& parent, const char* name) {
-  std::vector<Element*> found;
-  for (Element* e = parent.FirstChildElement(name); e; e = e->NextSiblingElement(name)) found.push_back(e);
-  return found;
 }
 
 void remove(Element& element) { element.Parent()->DeleteChild(&element); }
@@ -184,7 +44,7 @@ std::optional<std::vector<double>> numbers(Element& element, const char* attribu
   const char* text = element.Attribute(attribute);
   if (!text) return std::nullopt;
   std::string trouble;
-  auto values = parse_numbers(text, trouble);
+  auto values = model_file::parse_numbers(text, trouble);
   if (trouble.empty() && values.size() != count)
     trouble = say("has ", values.size(), values.size() == 1 ? " number" : " numbers", ", and needs ", count,
                   count == 1 ? "" : " separated by blanks");

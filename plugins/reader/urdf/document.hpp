@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <tinyxml2.h>
-
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "muro/geometry.hpp"
+#include "plugins/model_file/document.hpp"
 #include "problems.hpp"
 
 namespace muro::urdf {
 
-using Element = tinyxml2::XMLElement;
+using model_file::children;
+using model_file::Element;
+using model_file::place_of;
 
-/// The file as a tree of elements that knows where each of them stands.
+/// A file that holds a <robot>.
 class Document {
  public:
   /// False, with an error reported, when `text` is not well-formed or holds no <robot>.
@@ -25,16 +26,9 @@ class Document {
   std::string printed() const;
 
  private:
-  tinyxml2::XMLDocument xml_;
-  std::vector<Place> places_;
+  model_file::Document file_;
   Element* robot_ = nullptr;
 };
-
-/// Where the element begins.
-Place place_of(const Element& element);
-
-/// The children named `name`, collected first, so that they may be deleted in a loop over them.
-std::vector<Element*> children(Element& parent, const char* name);
 
 /// The only child named `name`, or null. More than one: a warning, and all but the first are deleted,
 /// as urdfdom looks at no others. `owner` is who the message names: "link `wheel`".

@@ -54,16 +54,4 @@ void check_joints(Element& robot, ModelInfo& model, Problems& problems);
 /// Finds the root; every link hangs on it by exactly one way, or errors are reported.
 void check_tree(ModelInfo& model, Problems& problems);
 
-/// "`a`, `b`, `c` and 4 more", of anything that begins with a name.
-template <class Names>
-std::string listed(const Names& names) {
-  constexpr std::size_t most = 8;
-  std::string text;
-  std::size_t count = 0;
-  for (const std::string& name : names)
-    if (++count <= most) text += (count > 1 ? ", " : "") + cited(name);
-  if (count == 0) return "none";
-  return count > most ? say(text, " and ", count - most, " more") : text;
-}
-
 }  // namespace muro::urdf

@@ -2,7 +2,7 @@
 #include "read.hpp"
 
 #include "build.hpp"
-#include "text_file.hpp"
+#include "plugins/model_file/text_file.hpp"
 #include "urdfdom_parse.hpp"
 
 namespace muro::urdf {
@@ -27,10 +27,11 @@ void check_robot(Element& robot, Problems& problems) {
 
 void read_text(std::string bytes, const std::filesystem::path& folder, RobotBuilder& builder) {
   Problems problems(builder);
-  const std::string text = decoded(std::move(bytes), problems);
-  if (problems.found_error()) return;
+  const auto [error, warning] = model_file::decode(bytes, "URDF", "robot");
+  if (!warning.text.empty()) problems.warning(warning.place, warning.text);
+  if (!error.text.empty()) return problems.error(error.place, error.text);
   Document document;
-  if (!document.parse(text, problems)) return;
+  if (!document.parse(bytes, problems)) return;
   Element& robot = document.robot();
   if (has_macros(robot, problems)) return;
 
@@ -50,7 +51,7 @@ void read_text(std::string bytes, const std::filesystem::path& folder, RobotBuil
 }
 
 void read_file(const std::string& path, RobotBuilder& builder) {
-  read_text(load_file(path), std::filesystem::absolute(path).parent_path(), builder);
+  read_text(model_file::load_file(path, ".urdf"), std::filesystem::absolute(path).parent_path(), builder);
 }
 
 }  // namespace muro::urdf

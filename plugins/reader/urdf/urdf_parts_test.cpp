@@ -6,17 +6,22 @@
 #include <fstream>
 #include <numbers>
 
-#include "mesh_path.hpp"
 #include "muro/algorithm.hpp"
+#include "plugins/model_file/mesh_path.hpp"
+#include "plugins/model_file/solid.hpp"
+#include "plugins/model_file/text_file.hpp"
 #include "recording_builder.hpp"
-#include "solid.hpp"
-#include "text_file.hpp"
 #include "urdfdom_parse.hpp"
 
 namespace muro::urdf {
 namespace {
 
 namespace fs = std::filesystem;
+using model_file::check_tensor;
+using model_file::even_solid;
+using model_file::find_mesh;
+using model_file::MeshPath;
+using model_file::TensorFault;
 using Lines = std::vector<std::string>;
 
 /// A folder that is gone after the test.
@@ -175,7 +180,7 @@ TEST(UrdfParse, AllThatUrdfdomComplainsAboutIsFoundAndMendedBefore) {
 TEST(UrdfText, FilesThatCannotBeReadAreErrorsWithTheirPath) {
   const auto message = [](const std::string& path) -> std::string {
     try {
-      load_file(path);
+      model_file::load_file(path, ".urdf");
     } catch (const Error& e) {
       return e.what();
     }

@@ -6,8 +6,8 @@
 #include <random>
 
 #include "core/robot_tree.hpp"
+#include "plugins/model_file/text_file.hpp"
 #include "recording_builder.hpp"
-#include "text_file.hpp"
 
 namespace muro::urdf {
 namespace {
@@ -127,7 +127,8 @@ void damage(std::string& text, std::mt19937& random) {
 }
 
 TEST(UrdfRobustness, DamagedRoversAreReportedOrBuiltSoundly) {
-  const std::string rover = load_file(std::string(MURO_TEST_SOURCE_DIR) + "/examples/models/rover.urdf");
+  const std::string rover =
+      model_file::load_file(std::string(MURO_TEST_SOURCE_DIR) + "/examples/models/rover.urdf", ".urdf");
   std::mt19937 random(20240521);
   int refused = 0, warned = 0, clean = 0;
   testing::internal::CaptureStderr();
