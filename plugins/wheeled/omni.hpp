@@ -3,7 +3,8 @@
 // Autonomous Mobile Robots, 2nd edition, section 3.2.3, written with vectors.
 #pragma once
 
-#include <Eigen/SVD>
+#include <span>
+#include <vector>
 
 #include "muro/omni_wheels.hpp"
 #include "planar.hpp"
@@ -23,29 +24,6 @@ inline PlanarTwist asks_of(const OmniWheel& w) {
 /// For each wheel the velocity of the base per rad/s of its joint: the solution of all wheels' equations, or, with more
 /// than three wheels whose speeds do not fit together, the one of least squares of the velocities along the rollers'
 /// axes. Throws Error when the wheels leave a motion free. [setup]
-inline std::vector<PlanarTwist> shares_of(const RobotView& robot, std::span<const OmniWheel> wheels) {
-  Eigen::MatrixXd rows(wheels.size(), 3);
-  double length = 0;
-  for (std::size_t i = 0; i < wheels.size(); ++i) {
-    const double k = wheels[i].radius * std::cos(wheels[i].roller_angle);
-    const PlanarTwist e = asks_of(wheels[i]) * k;
-    rows.row(Eigen::Index(i)) = Vec3(e.x, e.y, e.turn).transpose();
-    length = std::max(length, wheels[i].centre.head<2>().norm());
-  }
-  Vec3 scale(1, 1, length > 0 ? 1 / length : 1);
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows * scale.asDiagonal(), Eigen::ComputeThinU | Eigen::ComputeThinV);
-  if (svd.singularValues()[2] < 1e-6 * svd.singularValues()[0])
-    throw Error(
-        "the wheels of `" + std::string(robot.name) +
-        "` do not hold it: with all of them at rest it can still move. Look at their places, and at "
-        "`roller_angle`: the axes of the rollers on the ground must neither be all parallel nor meet in a point");
-  const Eigen::MatrixXd inverse = scale.asDiagonal() * svd.solve(Eigen::MatrixXd::Identity(rows.rows(), rows.rows()));
-  std::vector<PlanarTwist> shares;
-  for (std::size_t i = 0; i < wheels.size(); ++i) {
-    const Vec3 v = inverse.col(Eigen::Index(i)) * (wheels[i].radius * std::cos(wheels[i].roller_angle));
-    shares.push_back({v.x(), v.y(), v.z()});
-  }
-  return shares;
-}
+std::vector<PlanarTwist> shares_of(const RobotView& robot, std::span<const OmniWheel> wheels);
 
 }  // namespace muro::wheeled

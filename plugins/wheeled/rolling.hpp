@@ -4,7 +4,6 @@
 // Autonomous Mobile Robots, 2nd edition, section 3.2.3, written with vectors.
 #pragma once
 
-#include <Eigen/Eigenvalues>
 #include <span>
 
 #include "muro/steered_wheels.hpp"
@@ -112,40 +111,9 @@ class RollingBase {
     }
   };
 
-  /// The adjugate of a symmetric matrix.
-  static Mat3 adjugate(const Mat3& m) {
-    const double a = m(0, 0), b = m(1, 1), c = m(2, 2), d = m(0, 1), e = m(0, 2), f = m(1, 2);
-    Mat3 adjugate;
-    adjugate << b * c - f * f, e * f - d * c, d * f - b * e, e * f - d * c, a * c - e * e, d * e - a * f, d * f - b * e,
-        d * e - a * f, a * b - d * d;
-    return adjugate;
-  }
-
   /// The eigenvector of the smallest eigenvalue: the only one left in the adjugate where that is 0, as it is for angles
   /// that fit together; otherwise Rayleigh's iteration goes on from there.
-  static Modes modes_of(const Mat3& normal) {
-    const double size = normal.trace();
-    const Mat3 first = adjugate(normal);
-    const double minors = first.trace();
-    if (minors > 1e-6 * size * size) {
-      int column = 0;
-      first.diagonal().maxCoeff(&column);
-      Vec3 v = first.col(column).normalized();
-      for (int round = 0; round < 4; ++round) {
-        const Vec3 image = normal * v;
-        const double value = v.dot(image), others = size - value;
-        if ((image - value * v).squaredNorm() < 1e-30 * size * size) {
-          const bool least = others > 2 * value && minors - 2 * value * others + value * value > 0;
-          if (least) return {v};
-          break;
-        }
-        v = (adjugate(normal - value * Mat3::Identity()) * v).normalized();
-      }
-    }
-    const Eigen::SelfAdjointEigenSolver<Mat3> all(normal);  // smallest first
-    if (all.eigenvalues()[1] > 1e-12 * size) return {all.eigenvectors().col(0)};
-    return {all.eigenvectors().col(0), all.eigenvectors().col(1)};
-  }
+  static Modes modes_of(const Mat3& normal);
 
   /// What a wheel does of a motion of the middle, with the turn rate as a velocity at `length_`.
   Vec3 across(const PlanarWheel& w, const Rolling& r) const {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Rigid-body geometry in SI units: metres, radians, kilograms, newtons.
 // Frames follow ROS REP-103: x forward, y left, z up, right-handed.
+// Every source of muro includes this file: what is written with numbers instead of Eigen's expressions is so because a
+// compiler would instantiate these each time.
 #pragma once
 
 #include <Eigen/Core>
@@ -72,19 +74,38 @@ struct Inertia {
   /// The same body described in a frame in which this body's frame has pose `pose`.
   Inertia in(const Pose& pose) const {
     const Mat3 r = pose.orientation.toRotationMatrix();
-    return from(mass, pose * com, r * tensor() * r.transpose());
+    double turned[3][3] = {};  // r * tensor, then that * r^T
+    for (int i = 0; i < 3; ++i) {
+      const double x = r(i, 0), y = r(i, 1), z = r(i, 2);
+      const double row[3] = {x * ixx + y * ixy + z * ixz, x * ixy + y * iyy + z * iyz, x * ixz + y * iyz + z * izz};
+      for (int j = 0; j < 3; ++j) turned[i][j] = row[0] * r(j, 0) + row[1] * r(j, 1) + row[2] * r(j, 2);
+    }
+    return {mass, pose * com, turned[0][0], turned[1][1], turned[2][2], turned[0][1], turned[0][2], turned[1][2]};
   }
   /// Joins two bodies described in the same frame (parallel-axis theorem).
   Inertia operator+(const Inertia& b) const {
     const double total = mass + b.mass;
     if (total <= 0) return {};
-    const Vec3 centre = (mass * com + b.mass * b.com) / total;
-    return from(total, centre, about(centre) + b.about(centre));
+    Vec3 centre;
+    for (int i = 0; i < 3; ++i) centre[i] = (mass * com[i] + b.mass * b.com[i]) / total;
+    const Inertia f = moved_to(centre), g = b.moved_to(centre);
+    return {total, centre, f.ixx + g.ixx, f.iyy + g.iyy, f.izz + g.izz, f.ixy + g.ixy, f.ixz + g.ixz, f.iyz + g.iyz};
   }
   /// The tensor (kg m^2) about the point `centre` (m, same axes).
-  Mat3 about(const Vec3& centre) const {
-    const Vec3 d = com - centre;
-    return tensor() + mass * (d.squaredNorm() * Mat3::Identity() - d * d.transpose());
+  Mat3 about(const Vec3& centre) const { return moved_to(centre).tensor(); }
+
+ private:
+  /// With the tensor about `centre`.
+  Inertia moved_to(const Vec3& centre) const {
+    const double x = com.x() - centre.x(), y = com.y() - centre.y(), z = com.z() - centre.z();
+    return {mass,
+            centre,
+            ixx + mass * (y * y + z * z),
+            iyy + mass * (x * x + z * z),
+            izz + mass * (x * x + y * y),
+            ixy - mass * x * y,
+            ixz - mass * x * z,
+            iyz - mass * y * z};
   }
 };
 
@@ -107,9 +128,12 @@ inline Mat3 screw_integral(const Vec3& v) {
   const bool small = angle < 1e-3;  // series where the quotients lose digits
   const double a = small ? 0.5 - angle2 / 24 : (1 - std::cos(angle)) / angle2;
   const double b = small ? 1.0 / 6 - angle2 / 120 : (angle - std::sin(angle)) / (angle2 * angle);
-  Mat3 cross;
-  cross << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return Mat3::Identity() + a * cross + b * cross * cross;
+  const double x = v.x(), y = v.y(), z = v.z();  // 1 + a [v] + b [v]^2, with [v]^2 = v v^T - |v|^2
+  Mat3 mean;
+  mean << 1 - b * (y * y + z * z), b * x * y - a * z, b * x * z + a * y,  //
+      b * x * y + a * z, 1 - b * (x * x + z * z), b * y * z - a * x,      //
+      b * x * z - a * y, b * y * z + a * x, 1 - b * (x * x + y * y);
+  return mean;
 }
 
 /// Rotation angle (rad) about the z axis: the yaw of the field's roll-pitch-yaw.
@@ -119,8 +143,23 @@ inline double yaw_of(const Quat& q) {
 
 /// Fixed-axis roll, pitch, yaw (rad), as in URDF: Rz(yaw) Ry(pitch) Rx(roll).
 inline Quat from_rpy(double roll, double pitch, double yaw) {
-  using Eigen::AngleAxisd;
-  return Quat(AngleAxisd(yaw, Vec3::UnitZ()) * AngleAxisd(pitch, Vec3::UnitY()) * AngleAxisd(roll, Vec3::UnitX()));
+  const Quat x(std::cos(roll / 2), std::sin(roll / 2), 0, 0), y(std::cos(pitch / 2), 0, std::sin(pitch / 2), 0),
+      z(std::cos(yaw / 2), 0, 0, std::sin(yaw / 2));
+  return z * y * x;
+}
+
+/// The shortest turn that takes the direction `from` to the direction `to` (unit vectors).
+inline Quat turn_between(const Vec3& from, const Vec3& to) {
+  const double w = 1 + from.x() * to.x() + from.y() * to.y() + from.z() * to.z();
+  if (w < 1e-14) {  // opposite: half a turn about any axis across
+    const bool along_x = std::abs(from.x()) > 0.7;
+    const double x = along_x ? from.z() : 0, y = along_x ? 0 : from.z(), z = along_x ? -from.x() : -from.y();
+    const double size = std::sqrt(x * x + y * y + z * z);
+    return Quat(0, x / size, y / size, z / size);
+  }
+  const double x = from.y() * to.z() - from.z() * to.y(), y = from.z() * to.x() - from.x() * to.z(),
+               z = from.x() * to.y() - from.y() * to.x(), size = std::sqrt(x * x + y * y + z * z + w * w);
+  return Quat(w / size, x / size, y / size, z / size);
 }
 
 }  // namespace muro

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "core/simulation.hpp"
-#include "tests/support/scene.hpp"
+#include "tests/support/bodies.hpp"
 
 namespace muro {
 namespace {

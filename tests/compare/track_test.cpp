@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/scene.hpp"
+#include "tests/support/bodies.hpp"
 
 namespace muro::host {
 namespace {

@@ -4,7 +4,7 @@
 #include <set>
 
 #include "core/instance.hpp"
-#include "tests/support/scene.hpp"
+#include "tests/support/bodies.hpp"
 
 namespace muro::test {
 

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/scene.hpp"
+#include "tests/support/bodies.hpp"
 
 namespace muro::host {
 namespace {

@@ -3,7 +3,7 @@
 // package.*, which run before.
 #include <gtest/gtest.h>
 
-#include "tests/support/scene.hpp"
+#include "tests/support/bodies.hpp"
 
 namespace muro {
 namespace {

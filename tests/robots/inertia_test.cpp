@@ -4,7 +4,7 @@
 
 #include "muro/physical_inertia.hpp"
 #include "tests/robots/trial.hpp"
-#include "tests/support/scene.hpp"
+#include "tests/support/bodies.hpp"
 
 namespace muro::robots {
 namespace {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/robots/trial.hpp"
-#include "tests/support/scene.hpp"
+#include "tests/support/bodies.hpp"
 
 namespace muro::robots {
 namespace {

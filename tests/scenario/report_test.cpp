@@ -7,7 +7,7 @@
 
 #include "core/error.hpp"
 #include "tests/support/files.hpp"
-#include "tests/support/scene.hpp"
+#include "tests/support/bodies.hpp"
 
 namespace muro::host {
 namespace {

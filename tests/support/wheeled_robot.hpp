@@ -2,7 +2,7 @@
 // Wheeled vehicles for tests.
 #pragma once
 
-#include "tests/support/scene.hpp"
+#include "tests/support/bodies.hpp"
 
 namespace muro::test {
 
@@ -19,35 +19,25 @@ struct WheelPart {
 };
 
 /// A cylinder whose axis is the y axis.
-inline Shape tyre(double radius, double length = 0.04) {
-  Shape s = Shape::cylinder(radius, length);
-  s.origin.orientation = from_rpy(M_PI / 2, 0, 0);
-  return s;
-}
+Shape tyre(double radius, double length = 0.04);
 
 /// A base "chassis" that carries the wheels, and what `more` adds.
-inline RobotTree wheeled_robot(
-    const std::vector<WheelPart>& wheels, const std::function<void(RobotBuilder&)>& more = [](RobotBuilder&) {}) {
-  return tree_of([&](RobotBuilder& b) {
-    b.base("chassis");
-    for (const WheelPart& w : wheels) {
-      const Shape shape = w.own_shape ? w.shape : tyre(w.radius);
-      b.fork();
-      b.translation(w.at);
-      b.revolute(w.name + "_joint", w.axis, w.limits);
-      b.body(w.name + "_wheel");
-      b.set_array(w.visual ? keys::visual_shapes : keys::collision_shapes, std::span<const Shape>(&shape, 1));
-      b.end();
-    }
-    more(b);
-    for (std::size_t i = 0; i < wheels.size(); ++i) b.end();
-  });
-}
+RobotTree wheeled_robot(
+    const std::vector<WheelPart>& wheels, const std::function<void(RobotBuilder&)>& more = [](RobotBuilder&) {});
 
 /// Two driven wheels, `track` apart, on the y axis of the base.
-inline RobotTree two_wheeler(double radius, double track) {
-  return wheeled_robot({{.name = "left", .at = {0, 0.5 * track, radius}, .radius = radius},
-                        {.name = "right", .at = {0, -0.5 * track, radius}, .radius = radius}});
-}
+RobotTree two_wheeler(double radius, double track);
+
+/// Where a rover's mass and shapes are.
+struct RoverBody {
+  Vec3 chassis{0.35, 0.25, 0.12};  ///< m, lengths of the box
+  double com_height = 0;           ///< m, of the chassis, over its middle
+  Shape wheel = tyre(0.06);
+  Inertia wheel_inertia;
+};
+
+/// Wheels of radius 0.06 m and 0.3 kg at x = +-0.12, y = +-0.15 m under a chassis of 4 kg; stands on z = 0 with its
+/// base at 0.09 m. Its joints are "front_left_joint", "front_right_joint", "rear_left_joint", "rear_right_joint".
+RobotTree rover(const RoverBody& body, double friction);
 
 }  // namespace muro::test

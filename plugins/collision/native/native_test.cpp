@@ -6,7 +6,7 @@
 #include <random>
 
 #include "tests/support/files.hpp"
-#include "tests/support/scene.hpp"
+#include "tests/support/bodies.hpp"
 
 namespace muro {
 namespace {

@@ -102,7 +102,7 @@ TEST(Pairs, BoxEdgesThatCrossGiveTheirCommonPerpendicular) {
 }
 
 TEST(Pairs, BoxCornerOnAFaceIsOnePoint) {
-  const Quat on_corner(Eigen::Quaterniond::FromTwoVectors(Vec3(1, 1, 1), -Vec3::UnitZ()));
+  const Quat on_corner(turn_between(Vec3(1, 1, 1).normalized(), -Vec3::UnitZ()));
   const double tall = std::sqrt(3.0) / 2;
   const Manifold m =
       touch(at(Shape::box({1, 1, 1}), {0.1, 0.2, 0.5 + tall - 0.02}, on_corner), at(Shape::box({4, 4, 1}), {0, 0, 0}));

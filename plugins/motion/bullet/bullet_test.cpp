@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "plugins/mesh/files_testing.hpp"
+#include "tests/support/bodies.hpp"
 #include "tests/support/files.hpp"
-#include "tests/support/scene.hpp"
 
 namespace muro {
 namespace {
@@ -12,11 +12,7 @@ namespace {
 using Parameters = std::map<std::string, ParameterInput>;
 
 constexpr double g = 9.81;
-
-Inertia solid_box(double mass, const Vec3& s) {
-  const Vec3 q = s.cwiseAbs2() * (mass / 12);
-  return {.mass = mass, .ixx = q.y() + q.z(), .iyy = q.x() + q.z(), .izz = q.x() + q.y()};
-}
+using test::solid_box;
 
 struct Drop : test::Scene {
   void start(Parameters parameters = {}) {

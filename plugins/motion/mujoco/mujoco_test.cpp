@@ -5,36 +5,21 @@
 #include <filesystem>
 
 #include "plugins/mesh/files_testing.hpp"
+#include "tests/support/bodies.hpp"
 #include "tests/support/files.hpp"
-#include "tests/support/scene.hpp"
 
 namespace {
 
 using namespace muro;
+using test::block;
+using test::solid_box;
 
 constexpr double g = 9.81;
-
-Inertia solid_box(double mass, const Vec3& s) {
-  const Vec3 q = s.cwiseProduct(s) * mass / 12;
-  return {.mass = mass, .ixx = q.y() + q.z(), .iyy = q.x() + q.z(), .izz = q.x() + q.y()};
-}
-
-RobotTree block(double mass, const Vec3& size, double friction) {
-  Shape s = Shape::box(size);
-  s.friction = friction;
-  return test::single_body(s, solid_box(mass, size));
-}
 
 struct World : test::Scene {
   void start(std::map<std::string, ParameterInput> parameters = {}) {
     use("motion.mujoco", 1000, all_robots(), std::move(parameters));
     build();
-  }
-  /// What acts on a robot's base; before start().
-  Wrench& push(const RobotView& r) {
-    PropertyStore& store = world().store();
-    return *static_cast<Wrench*>(store.bind(store.add_party("the test"), r.base(), keys::external_wrench,
-                                            Access::accumulate, Form::single, 1, nullptr));
   }
   Vec3 contact_force(const RobotView& r) { return world().value(r.base(), keys::contact_wrench).force; }
 };

@@ -4,7 +4,7 @@
 #include <random>
 #include <unsupported/Eigen/MatrixFunctions>
 
-#include "tests/support/scene.hpp"
+#include "tests/support/bodies.hpp"
 
 namespace muro {
 namespace {

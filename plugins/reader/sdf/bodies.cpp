@@ -13,7 +13,7 @@ namespace {
 
 Vec3 vector_of(const ignition::math::Vector3d& v) { return {v.X(), v.Y(), v.Z()}; }
 
-std::string text_of(const Vec3& v) { return say(v.x(), " ", v.y(), " ", v.z()); }
+std::string numbers_of(const Vec3& v) { return say(v.x(), " ", v.y(), " ", v.z()); }
 
 ::sdf::ElementPtr child(const ::sdf::ElementPtr& e, const char* name) {
   return e && e->HasElement(name) ? e->FindElement(name) : nullptr;
@@ -38,7 +38,7 @@ std::optional<Shape> shape_of(const ::sdf::Geometry& g, const Intern& intern) {
       return Shape::capsule(g.CapsuleShape()->Radius(), g.CapsuleShape()->Length());
     case ::sdf::GeometryType::PLANE: {
       Shape plane = Shape::plane();
-      plane.origin.orientation = Quat::FromTwoVectors(Vec3::UnitZ(), vector_of(g.PlaneShape()->Normal()));
+      plane.origin.orientation = turn_between(Vec3::UnitZ(), vector_of(g.PlaneShape()->Normal()).normalized());
       return plane;
     }
     case ::sdf::GeometryType::MESH:
@@ -164,7 +164,7 @@ class Reader {
       return {};
     }
     if (check.fault == TensorFault::no_body) {
-      problems_.warning(place, say(owner_, ": its principal moments of inertia are ", text_of(check.moments),
+      problems_.warning(place, say(owner_, ": its principal moments of inertia are ", numbers_of(check.moments),
                                    " kg m^2, which no body has: none exceeds the sum of the other two. They are ",
                                    "used as they are"));
     } else if (check.fault == TensorFault::not_positive) {
@@ -174,10 +174,10 @@ class Reader {
                       [](auto& s) { return half_extents(s).allFinite() && s.kind != ShapeKind::mesh; }) &&
           even.tensor().allFinite();
       if (!solid) even = model_file::even_solid({}, given.mass);
-      problems_.warning(place, say(owner_, ": its principal moments of inertia are ", text_of(check.moments),
+      problems_.warning(place, say(owner_, ": its principal moments of inertia are ", numbers_of(check.moments),
                                    " kg m^2, and must be above 0; those of an even body of ", given.mass, " kg in its ",
                                    solid ? "shapes" : "place, a ball of water,",
-                                   " are used: ", text_of({even.ixx, even.iyy, even.izz})));
+                                   " are used: ", numbers_of({even.ixx, even.iyy, even.izz})));
       inertia = Inertia::from(given.mass, inertia.com, even.tensor());
     }
     return inertia;

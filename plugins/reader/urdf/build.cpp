@@ -182,7 +182,7 @@ class TreeBuilder {
   /// Two prismatic joints in the plane and a revolute one about its normal, with bodies without mass between.
   void add_planar(const std::string& name, const JointInfo& joint, const Vec3& normal) {
     if (hangs_on_bare_root(joint)) return report_free_base(name, joint);
-    const Quat turn = Quat::FromTwoVectors(Vec3::UnitZ(), normal);
+    const Quat turn = turn_between(Vec3::UnitZ(), normal);
     const std::string x = unique(name + "_x", "_joint"), y = unique(name + "_y", "_joint");
     const std::string yaw = unique(name + "_yaw", "_joint");
     problems_.warning(joint.place,

@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "tests/support/files.hpp"
-#include "tests/support/scene.hpp"
+#include "tests/support/bodies.hpp"
 
 namespace muro {
 namespace {

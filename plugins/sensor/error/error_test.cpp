@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "tests/support/scene.hpp"
+#include "tests/support/bodies.hpp"
 
 namespace muro {
 namespace {

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "muro/features.hpp"
-#include "tests/support/scene.hpp"
+#include "tests/support/bodies.hpp"
 
 namespace muro::conformance {
 
@@ -19,8 +19,6 @@ class Trial : public test::Scene {
   void set_gravity(const Vec3& gravity) { world().set(world_object, keys::gravity, gravity); }
   /// A plane through the origin that rises along x by `angle` (rad).
   void add_slope(double angle, double friction);
-  /// A force (N) and torque at the base of a robot that the case sets. After the robots, before start().
-  Wrench& push(const RobotView& robot);
   double& joint(std::string_view name, const Key<double>& key) { return world().value(name, key); }
 
   static constexpr double g = 9.81;
@@ -68,12 +66,11 @@ Bound bound_of(const std::string& motion, const Case& c);
 std::vector<std::string> motions();
 const Description& description_of(const std::string& motion);
 
-// Bodies.
-Inertia solid_box(double mass, const Vec3& size);
-Shape with(Shape shape, double friction, double restitution = 0);
-RobotTree block(double mass, const Vec3& size, double friction, double restitution = 0);
-/// `factor` m r^2 about every axis: 2/5 for a solid sphere.
-RobotTree ball(double mass, double radius, double friction, double restitution = 0, double factor = 0.4);
+using test::ball;
+using test::block;
+using test::solid_box;
+using test::with;
+
 std::string text(double x);
 /// |seen - expected| / |expected|, with what was seen.
 Outcome relative(double seen, double expected);

@@ -10,31 +10,13 @@ namespace {
 constexpr double g = Trial::g;
 constexpr double wheel_radius = 0.06;
 
-/// Four wheels at x = +-0.12, y = +-0.15 m; stands on z = 0 with its base at 0.09 m; 5.2 kg. Wheels are balls, so that
-/// every engine knows where they touch.
+/// Its wheels are balls, so that every engine knows where they touch.
 RobotTree rover(double friction, double com_height = 0) {
-  return test::tree_of([&](RobotBuilder& b) {
-    b.base("chassis");
-    const Vec3 size(0.35, 0.2, 0.1);
-    Inertia inertia = solid_box(4, size);
-    inertia.com.z() = com_height;
-    b.set(keys::inertial, inertia);
-    const Shape chassis = with(Shape::box(size), friction);
-    b.set_array(keys::collision_shapes, std::span<const Shape>(&chassis, 1));
-    const char* const names[] = {"front_left", "front_right", "rear_left", "rear_right"};
-    for (int k = 0; k < 4; ++k) {
-      if (k < 3) b.fork();
-      b.translation({k < 2 ? 0.12 : -0.12, k % 2 == 0 ? 0.15 : -0.15, -0.03});
-      b.revolute(std::string(names[k]) + "_joint", Vec3::UnitY(), {});
-      b.body(names[k]);
-      const double i = 0.4 * 0.3 * wheel_radius * wheel_radius;
-      b.set(keys::inertial, Inertia{.mass = 0.3, .ixx = i, .iyy = i, .izz = i});
-      const Shape wheel = with(Shape::sphere(wheel_radius), friction);
-      b.set_array(keys::collision_shapes, std::span<const Shape>(&wheel, 1));
-      if (k < 3) b.end();
-    }
-    for (int k = 0; k < 3; ++k) b.end();
-  });
+  return test::rover({.chassis = {0.35, 0.2, 0.1},
+                      .com_height = com_height,
+                      .wheel = Shape::sphere(wheel_radius),
+                      .wheel_inertia = test::round_body(0.3, wheel_radius)},
+                     friction);
 }
 
 struct Vehicle : Trial {
