@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "muro/composite.hpp"
 #include "muro/random.hpp"
 #include "parameters.hpp"
 
@@ -104,10 +105,7 @@ void Motion::connect_joints(Connector& c, const RobotView& view, Robot& r) const
     const Part& part = r.model.parts[i];
     const ObjectId object = view.frames[part.frame].joint_object;
     const double start = r.model.start_positions[i];
-    if (start < part.limits.lower || start > part.limits.upper)
-      throw Error("joint " + quoted(c.object_name(object)) + " starts at " + std::to_string(start) +
-                  ", outside of its limits " + std::to_string(part.limits.lower) + " to " +
-                  std::to_string(part.limits.upper) + "; set `joint.position.initial` to a value between them");
+    check_start(c, object, part.limits, start);
     Joint& j = r.joints[i];
     j.position = c.variable(object, keys::joint_position, start);
     j.velocity = c.variable(object, keys::joint_velocity, 0.0);

@@ -26,6 +26,15 @@ inline constexpr Parameter position_gain =
 inline constexpr Parameter substeps =
     integer("substeps", 1, "steps of the engine in each step of the motion").between(1, 1000);
 
+// Of worlds whose engines know them.
+inline constexpr std::string_view mesh_modes[] = {"convex", "exact"};
+inline constexpr Parameter scenery_meshes =
+    text("meshes", "convex", "meshes of scenery collide as their convex hulls or as they are").one_of(mesh_modes);
+inline constexpr Parameter correcting_speed =
+    real("correcting_speed", "m/s", 1, "bodies that overlap are parted no faster").between(0, 1e9);
+inline constexpr Parameter bounce_speed =
+    real("bounce_speed", "m/s", 0.02, "impacts slower than this do not rebound").between(0, 1e9);
+
 /// Whether robots of one world may differ in it.
 inline bool is_of_robot(std::string_view parameter) {
   for (const Parameter* p : {&world_name, &base_mode, &joint_mode, &self_collision, &velocity_joints, &position_joints,

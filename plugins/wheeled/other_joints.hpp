@@ -15,14 +15,6 @@ struct JointState {
   explicit JointState(const RobotView& robot) : position(robot.frames.size()), velocity(robot.frames.size()) {}
 };
 
-/// A joint that starts outside of its limits is the user's mistake. [setup]
-inline void check_start(const Connector& c, const Frame& f, double position) {
-  if (position < f.limits.lower || position > f.limits.upper)
-    throw Error("joint `" + std::string(c.object_name(f.joint_object)) + "` starts at " + std::to_string(position) +
-                ", outside of its limits " + std::to_string(f.limits.lower) + " to " + std::to_string(f.limits.upper) +
-                "; set `joint.position.initial` to a value between them");
-}
-
 class OtherJoints {
  public:
   /// Takes the joints of the next robot whose `state` is not bound yet, and all that follow others. `positions`: at the
@@ -35,7 +27,7 @@ class OtherJoints {
       state.position[i] = c.variable(f.joint_object, keys::joint_position, positions[i]);
       state.velocity[i] = c.variable(f.joint_object, keys::joint_velocity, 0.0);
       if (f.mimic >= 0) continue;
-      check_start(c, f, positions[i]);
+      check_start(c, f.joint_object, f.limits, positions[i]);
       joints_.push_back(
           {c.input(f.joint_object, keys::joint_velocity_target, 0.0), state.position[i], state.velocity[i], f.limits});
     }

@@ -2,8 +2,10 @@
 // Motion of vehicles whose base moves at a sum of shares, one of each wheel in proportion to its speed.
 #pragma once
 
+#include "description.hpp"
 #include "muro/contact_stop.hpp"
 #include "other_joints.hpp"
+#include "parameters.hpp"
 #include "planar.hpp"
 #include "ramp.hpp"
 
@@ -26,7 +28,7 @@ struct WheelShare {
 class WheelMotion : public Algorithm {
  public:
   void connect(Connector& c) override {
-    max_acceleration_ = c.parameters().real("max_wheel_acceleration");
+    max_acceleration_ = c.parameters().real(max_wheel_acceleration.name);
     for (const Item& item : c.items()) {
       if (!item.robot) throw Error("it moves robots, but no robot is named");
       connect_robot(c, *item.robot);

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# For plugin authors: muro_add_plugin(), muro_add_kernels() and muro_add_controller(). Comes with find_package(muro), and with
+# For plugin authors: muro_add_plugin(), muro_add_kernels(), muro_use_kernels() and muro_add_controller(). Comes with find_package(muro), and with
 # add_subdirectory(<muro>/sdk).
 
 # muro_add_plugin(NAME motion_point SOURCES point.cpp [LIBRARIES ...] [OUTPUT_DIRECTORY ...])
@@ -93,6 +93,22 @@ function(muro_add_kernels)
     set_target_properties(${kernels} PROPERTIES POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden
                                                 VISIBILITY_INLINES_HIDDEN ON)
     target_sources(${ARG_TARGET} PRIVATE $<TARGET_OBJECTS:${kernels}>)
+  endforeach()
+endfunction()
+
+# muro_use_kernels(TARGET motion_point_test FROM motion_point)
+#
+# Gives a target, such as a test, the kernels that were compiled for another one.
+function(muro_use_kernels)
+  cmake_parse_arguments(PARSE_ARGV 0 ARG "" "TARGET;FROM" "")
+  if(NOT TARGET "${ARG_TARGET}" OR NOT TARGET "${ARG_FROM}_base" OR ARG_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "muro_use_kernels(TARGET target FROM target): `${ARG_TARGET}` is no target, `${ARG_FROM}` has no "
+                        "kernels, or not understood: ${ARG_UNPARSED_ARGUMENTS}")
+  endif()
+  foreach(isa IN ITEMS base avx2 avx512)
+    if(TARGET ${ARG_FROM}_${isa})
+      target_sources(${ARG_TARGET} PRIVATE $<TARGET_OBJECTS:${ARG_FROM}_${isa}>)
+    endif()
   endforeach()
 endfunction()
 

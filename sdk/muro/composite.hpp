@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "muro/connector.hpp"
+#include "muro/algorithm.hpp"
 #include "muro/vocabulary.hpp"
 
 namespace muro {
@@ -21,6 +21,14 @@ inline std::vector<double> initial_joint_positions(const Connector& connector, c
     if (f.mimic >= 0) q[i] = f.mimic_offset + f.mimic_multiplier * q[i];
   }
   return q;
+}
+
+/// A joint that starts outside of its limits is the user's mistake: throws Error. [setup]
+inline void check_start(const Connector& connector, ObjectId joint, const JointLimits& limits, double position) {
+  if (position < limits.lower || position > limits.upper)
+    throw Error("joint `" + std::string(connector.object_name(joint)) + "` starts at " + std::to_string(position) +
+                ", outside of its limits " + std::to_string(limits.lower) + " to " + std::to_string(limits.upper) +
+                "; set `joint.position.initial` to a value between them");
 }
 
 /// The constant `inertial` of every frame; zero where there is none. [setup]

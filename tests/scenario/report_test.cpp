@@ -6,8 +6,8 @@
 #include <filesystem>
 
 #include "core/error.hpp"
-#include "tests/support/files.hpp"
 #include "tests/support/bodies.hpp"
+#include "tests/support/files.hpp"
 
 namespace muro::host {
 namespace {

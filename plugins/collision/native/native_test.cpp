@@ -5,8 +5,8 @@
 #include <map>
 #include <random>
 
-#include "tests/support/files.hpp"
 #include "tests/support/bodies.hpp"
+#include "tests/support/files.hpp"
 
 namespace muro {
 namespace {

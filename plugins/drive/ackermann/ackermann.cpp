@@ -3,6 +3,8 @@
 // Every wheel stands across to the line from its centre to the one point about which the vehicle turns (R. Ackermann's
 // condition).
 #include "muro/plugin.hpp"
+#include "plugins/wheeled/description.hpp"
+#include "plugins/wheeled/drive.hpp"
 #include "plugins/wheeled/rolling.hpp"
 
 namespace {
@@ -11,18 +13,16 @@ using namespace muro;
 using namespace muro::wheeled;
 
 constexpr Parameter parameters[] = {
-    texts("steering", "joints that steer wheels; default: as the model has them"),
-    texts("driven", "joints of driven wheels; default: all that are not steered"),
-    texts("rolling", "joints of wheels that the ground turns; default: all others that the model has"),
-    real("wheel_radius", "m", 0, "of every wheel; 0: of the wheels' shapes").between(0, 1e3),
-    real("max_wheel_speed", "rad/s", 1e9, "of every driven wheel; the limit of its joint holds as well")
-        .between(1e-6, 1e9),
+    steering_joints,
+    driven_wheels,
+    rolling_wheels,
+    wheel_radius,
+    max_wheel_speed,
     real("max_steering_angle", "rad", 1e9, "of every joint that steers, either way; its own limits hold as well")
         .between(1e-6, 1e9),
 };
 constexpr Use reads[] = {
-    {"command.twist", "of the base: linear x and angular z, and linear y where all wheels are steered"},
-    {"collision.shapes", "of the wheels; else visual.shapes"}};
+    {"command.twist", "of the base: linear x and angular z, and linear y where all wheels are steered"}, sizes};
 constexpr Use writes[] = {{"joint.position.target", "of every joint that steers"},
                           {"joint.velocity.target", "of every driven wheel"}};
 constexpr Description description{
@@ -43,8 +43,7 @@ struct DriveWheel {
   double straight = 0;          ///< rad: its heading where the angle of what steers it is 0
   double gain = 1;              ///< its heading by this angle
   double lower = 0, upper = 0;  ///< rad: its heading stays between
-  Out<double> target{};         ///< when driven
-  double max_speed = 0;         ///< rad/s, when driven
+  DriveTarget target{};         ///< when driven
 
   double across(double heading, const PlanarTwist& v) const {
     return plane.across(std::sin(heading), std::cos(heading), v, 0);
@@ -148,18 +147,20 @@ class Ackermann final : public Algorithm {
         const DriveSteering& s = steering_[r.steering.begin + std::uint32_t(w.steering)];
         *s.target += std::clamp((heading - w.straight) / w.gain, s.lower, s.upper) / s.wheels;
       }
-      if (!w.target) continue;
-      *w.target = course.moves ? w.plane.per_metre * w.along(heading, v) : 0;
-      excess = std::max(excess, std::abs(*w.target) / w.max_speed);
+      if (!w.target.speed) continue;
+      *w.target.speed = course.moves ? w.plane.per_metre * w.along(heading, v) : 0;
+      excess = std::max(excess, std::abs(*w.target.speed) / w.target.most);
     }
     for (const DriveWheel& w : wheels_of(r))  // all alike: the path keeps its curvature
-      if (w.target) *w.target /= excess;
+      if (w.target.speed) *w.target.speed /= excess;
   }
 
   void connect_robot(Connector& c, const RobotView& robot) {
     const Parameters& p = c.parameters();
-    const std::vector<SteeredWheel> found = find_steered_wheels(
-        c, robot, {p.texts("steering"), p.texts("driven"), p.texts("rolling"), p.real("wheel_radius")});
+    const std::vector<SteeredWheel> found =
+        find_steered_wheels(c, robot,
+                            {p.texts(steering_joints.name), p.texts(driven_wheels.name), p.texts(rolling_wheels.name),
+                             p.real(wheel_radius.name)});
     Robot r;
     r.command = c.input(robot.base(), keys::command_twist, Twist{});
     r.wheels.begin = std::uint32_t(wheels_.size());
@@ -190,7 +191,7 @@ class Ackermann final : public Algorithm {
         ++s.wheels;
         std::tie(w.lower, w.upper) = std::minmax({w.straight + w.gain * s.lower, w.straight + w.gain * s.upper});
       }
-      if (of.driven) take_drive(c, robot.frames[of.frame].joint_object, of, w);
+      if (of.driven) w.target = drive_of(c, robot, of.frame, of.limits);
       wheels_.push_back(w);
     }
     r.all_steered = fixed == 0;
@@ -206,14 +207,6 @@ class Ackermann final : public Algorithm {
     return {c.offer(f.joint_object, keys::joint_position_target),
             limited ? std::max(f.limits.lower, -most) : f.limits.lower,
             limited ? std::min(f.limits.upper, most) : f.limits.upper, 0};
-  }
-
-  static void take_drive(Connector& c, ObjectId joint, const SteeredWheel& of, DriveWheel& w) {
-    w.max_speed = std::min(of.limits.velocity, c.parameters().real("max_wheel_speed"));
-    if (!(w.max_speed > 0))
-      throw Error("the joint `" + std::string(c.object_name(joint)) + "` has the velocity limit " +
-                  std::to_string(w.max_speed) + "; a driven wheel needs one above 0, or none");
-    w.target = c.offer(joint, keys::joint_velocity_target);
   }
 
   std::vector<Robot> robots_;

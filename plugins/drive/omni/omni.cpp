@@ -2,6 +2,8 @@
 // From the wanted velocity of a base to the speeds of its mecanum or omni wheels: the inverse of motion.omni.
 #include "plugins/wheeled/omni.hpp"
 #include "muro/plugin.hpp"
+#include "plugins/wheeled/description.hpp"
+#include "plugins/wheeled/drive.hpp"
 
 namespace {
 
@@ -9,15 +11,12 @@ using namespace muro;
 using namespace muro::wheeled;
 
 constexpr Parameter parameters[] = {
-    texts("wheels", "joints of the wheels; default: as the model has them"),
-    reals("roller_angle", "rad", {},
-          "from a wheel's rolling direction to the axis of the roller on the ground: one for all, or one a wheel; "
-          "default: mecanum (pi/4) or omni wheels (0), as they stand"),
-    real("wheel_radius", "m", 0, "of every wheel; 0: of the wheels' shapes").between(0, 1e3),
-    real("max_wheel_speed", "rad/s", 1e9, "of every wheel; the limit of its joint holds as well").between(1e-6, 1e9),
+    all_wheels,
+    roller_angle,
+    wheel_radius,
+    max_wheel_speed,
 };
-constexpr Use reads[] = {{"command.twist", "of the base: linear x and y, angular z"},
-                         {"collision.shapes", "of the wheels; else visual.shapes"}};
+constexpr Use reads[] = {{"command.twist", "of the base: linear x and y, angular z"}, sizes};
 constexpr Use writes[] = {{"joint.velocity.target", "of every wheel"}};
 constexpr Description description{
     .id = "drive.omni",
@@ -50,17 +49,16 @@ class Omni final : public Algorithm {
       const PlanarTwist wanted{r.command->linear.x(), r.command->linear.y(), r.command->angular.z()};
       double excess = 1;
       for (std::uint32_t k = r.wheels.begin; k < r.wheels.end; ++k)
-        excess = std::max(excess, std::abs(wheels_[k].speed(wanted)) / wheels_[k].max_speed);
+        excess = std::max(excess, std::abs(wheels_[k].speed(wanted)) / wheels_[k].target.most);
       for (std::uint32_t k = r.wheels.begin; k < r.wheels.end; ++k)  // all alike: the wanted path, slower
-        *wheels_[k].target = wheels_[k].speed(wanted) / excess;
+        *wheels_[k].target.speed = wheels_[k].speed(wanted) / excess;
     }
   }
 
  private:
   struct DrivenWheel {
-    Out<double> target;
-    PlanarTwist asks;      ///< rad/s per m/s, m/s, rad/s
-    double max_speed = 0;  ///< rad/s
+    DriveTarget target;
+    PlanarTwist asks;  ///< rad/s per m/s, m/s, rad/s
     double speed(const PlanarTwist& v) const { return asks.x * v.x + asks.y * v.y + asks.turn * v.turn; }
   };
   struct Robot {
@@ -71,18 +69,13 @@ class Omni final : public Algorithm {
   void connect_robot(Connector& c, const RobotView& robot) {
     const Parameters& p = c.parameters();
     const std::vector<OmniWheel> found =
-        find_omni_wheels(c, robot, {p.texts("wheels"), p.reals("roller_angle"), p.real("wheel_radius")});
+        find_omni_wheels(c, robot, {p.texts(all_wheels.name), p.reals(roller_angle.name), p.real(wheel_radius.name)});
     shares_of(robot, found);  // says when they cannot move it in every direction
     Robot r;
     r.command = c.input(robot.base(), keys::command_twist, Twist{});
     r.wheels = {std::uint32_t(wheels_.size()), std::uint32_t(wheels_.size() + found.size())};
     for (const OmniWheel& w : found) {
-      const double limit = std::min(w.limits.velocity, p.real("max_wheel_speed"));
-      const ObjectId joint = robot.frames[w.frame].joint_object;
-      if (!(limit > 0))
-        throw Error("the joint `" + std::string(c.object_name(joint)) + "` has the velocity limit " +
-                    std::to_string(limit) + "; a driven wheel needs one above 0, or none");
-      wheels_.push_back({c.offer(joint, keys::joint_velocity_target), asks_of(w), limit});
+      wheels_.push_back({drive_of(c, robot, w.frame, w.limits), asks_of(w)});
     }
     robots_.push_back(r);
   }

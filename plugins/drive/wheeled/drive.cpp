@@ -2,35 +2,27 @@
 // From the wanted velocity of a base to the velocities of its wheels: the inverse of motion.differential_drive, and the
 // same with an effective track for vehicles that skid when they turn (Mandow et al., Experimental kinematics for
 // wheeled skid-steer mobile robots, IROS 2007: the wheels act as if they stood farther apart).
+#include "plugins/wheeled/drive.hpp"
 #include "muro/plugin.hpp"
 #include "muro/wheels.hpp"
+#include "plugins/wheeled/description.hpp"
 
 namespace {
 
 using namespace muro;
+using namespace muro::wheeled;
 
-constexpr Parameter left = texts("left", "joints of the left wheels; default: as the model has them");
-constexpr Parameter right = texts("right", "joints of the right wheels; default: as the model has them");
-constexpr Parameter wheel_radius =
-    real("wheel_radius", "m", 0, "of every wheel; 0: of the wheels' shapes").between(0, 1e3);
-constexpr Parameter track =
-    real("track", "m", 0, "between the left and the right wheels; 0: between their centres in the model")
-        .between(0, 1e3);
-constexpr Parameter max_wheel_speed =
-    real("max_wheel_speed", "rad/s", 1e9, "of every wheel; the limit of its joint holds as well").between(1e-6, 1e9);
-
-constexpr Parameter differential_parameters[] = {left, right, wheel_radius, track, max_wheel_speed};
+constexpr Parameter differential_parameters[] = {left_wheels, right_wheels, wheel_radius, track, max_wheel_speed};
 constexpr Parameter skid_steer_parameters[] = {
-    left,
-    right,
+    left_wheels,
+    right_wheels,
     wheel_radius,
     track,
     max_wheel_speed,
     real("track_scale", "1", 1, "effective track by track: above 1 where turning wheels slip sideways")
         .between(0.1, 10),
 };
-constexpr Use reads[] = {{"command.twist", "of the base: linear x and angular z"},
-                         {"collision.shapes", "of the wheels; else visual.shapes"}};
+constexpr Use reads[] = {{"command.twist", "of the base: linear x and angular z"}, sizes};
 constexpr Use writes[] = {{"joint.velocity.target", "of every driven wheel"}};
 
 constexpr Description differential{
@@ -76,9 +68,9 @@ class Drive : public Algorithm {
       // wanted curvature.
       double excess = 1;
       for (std::uint32_t k = r.wheels.begin; k < r.wheels.end; ++k)
-        excess = std::max(excess, std::abs(wheels_[k].speed(forward, turn)) / wheels_[k].max_speed);
+        excess = std::max(excess, std::abs(wheels_[k].speed(forward, turn)) / wheels_[k].target.most);
       for (std::uint32_t k = r.wheels.begin; k < r.wheels.end; ++k)
-        *wheels_[k].target = wheels_[k].speed(forward, turn) / excess;
+        *wheels_[k].target.speed = wheels_[k].speed(forward, turn) / excess;
     }
   }
 
@@ -88,10 +80,9 @@ class Drive : public Algorithm {
  private:
   /// speed = per_forward * forward + per_turn * turn
   struct DrivenWheel {
-    Out<double> target;
+    DriveTarget target;
     double per_forward = 0;  ///< rad/m
     double per_turn = 0;     ///< rad/rad
-    double max_speed = 0;    ///< rad/s
     double speed(double forward, double turn) const { return per_forward * forward + per_turn * turn; }
   };
   struct Robot {
@@ -101,8 +92,9 @@ class Drive : public Algorithm {
 
   void connect_robot(Connector& c, const RobotView& robot) {
     const Parameters& p = c.parameters();
-    const Wheels found =
-        find_wheels(c, robot, {p.texts("left"), p.texts("right"), p.real("wheel_radius"), p.real("track")});
+    const Wheels found = find_wheels(
+        c, robot,
+        {p.texts(left_wheels.name), p.texts(right_wheels.name), p.real(wheel_radius.name), p.real(track.name)});
     Robot r;
     r.command = c.input(robot.base(), keys::command_twist, Twist{});
     r.wheels.begin = std::uint32_t(wheels_.size());
@@ -111,12 +103,7 @@ class Drive : public Algorithm {
       for (const Wheel& w : on_left ? found.left : found.right) {
         const double per_metre = w.direction / w.radius;
         const double y = found.middle.y() + (on_left ? half_track : -half_track);
-        const double limit = std::min(w.limits.velocity, p.real("max_wheel_speed"));
-        const ObjectId joint = robot.frames[w.frame].joint_object;
-        if (!(limit > 0))
-          throw Error("the joint `" + std::string(c.object_name(joint)) + "` has the velocity limit " +
-                      std::to_string(limit) + "; a driven wheel needs one above 0, or none");
-        wheels_.push_back({c.offer(joint, keys::joint_velocity_target), per_metre, -y * per_metre, limit});
+        wheels_.push_back({drive_of(c, robot, w.frame, w.limits), per_metre, -y * per_metre});
       }
     r.wheels.end = std::uint32_t(wheels_.size());
     robots_.push_back(r);

@@ -2,7 +2,9 @@
 // Vehicles with steered wheels: their angles give the centre about which the base turns, driven wheels the speed.
 // Siegwart, Nourbakhsh and Scaramuzza, Introduction to Autonomous Mobile Robots, 2nd edition, section 3.2.
 #include "muro/contact_stop.hpp"
+#include "plugins/wheeled/description.hpp"
 #include "plugins/wheeled/other_joints.hpp"
+#include "plugins/wheeled/parameters.hpp"
 #include "steered_vehicle.hpp"
 
 namespace {
@@ -11,29 +13,24 @@ using namespace muro;
 using namespace muro::wheeled;
 
 constexpr Parameter parameters[] = {
-    texts("steering", "joints that steer wheels; default: as the model has them"),
-    texts("driven", "joints of driven wheels; default: all that are not steered"),
-    texts("rolling", "joints of wheels that the ground turns; default: all others that the model has"),
-    real("wheel_radius", "m", 0, "of every wheel; 0: of the wheels' shapes").between(0, 1e3),
+    steering_joints,
+    driven_wheels,
+    rolling_wheels,
+    wheel_radius,
     real("max_steering_rate", "rad/s", unlimited, "of every joint that steers, beside its own limit; 1e9: none")
         .between(1e-6, unlimited),
-    real("max_wheel_acceleration", "rad/s^2", unlimited, "of every driven wheel; 1e9: none, the speed jumps")
-        .between(1e-6, unlimited),
+    max_wheel_acceleration,
     on_contact,
 };
 constexpr Use reads[] = {
     {"joint.position.target", "of every joint that steers"},
     {"joint.velocity.target", "of every driven wheel, and of every other joint that follows no other"},
-    {"pose.initial", "of the base"},
-    {"twist.initial", "of the base; what wheels can follow of it is their speed at the start"},
-    {"joint.position.initial", "of every joint, optional"},
-    {"collision.shapes", "of the wheels; else visual.shapes"},
+    starts_at,
+    starts_with,
+    joints_start_at,
+    sizes,
     on_contact_reads,
 };
-constexpr Use writes[] = {{"pose", "of the base"},
-                          {"twist", "of the base"},
-                          {"joint.position", "of every joint"},
-                          {"joint.velocity", "of every joint"}};
 constexpr Description description{
     .id = "motion.ackermann",
     .kind = Kind::motion,
@@ -41,7 +38,7 @@ constexpr Description description{
     .summary = "Moves the base along exact arcs in a plane as its wheels are steered and driven; no forces, no slip",
     .parameters = parameters,
     .reads = reads,
-    .writes = writes,
+    .writes = motion_writes,
     .promises = deterministic | batched | allocation_free | restorable,
     .features = feature_joints | feature_velocity_targets | feature_position_targets | feature_joint_limits |
                 feature_joint_speed_limits | feature_mimic_joints,
@@ -50,7 +47,7 @@ constexpr Description description{
 class Ackermann final : public Algorithm {
  public:
   void connect(Connector& c) override {
-    max_acceleration_ = c.parameters().real("max_wheel_acceleration");
+    max_acceleration_ = c.parameters().real(max_wheel_acceleration.name);
     for (const Item& item : c.items()) {
       if (!item.robot) throw Error("it moves robots, but no robot is named");
       connect_robot(c, *item.robot);
@@ -99,8 +96,10 @@ class Ackermann final : public Algorithm {
 
   void connect_robot(Connector& c, const RobotView& robot) {
     const Parameters& p = c.parameters();
-    const std::vector<SteeredWheel> found = find_steered_wheels(
-        c, robot, {p.texts("steering"), p.texts("driven"), p.texts("rolling"), p.real("wheel_radius")});
+    const std::vector<SteeredWheel> found =
+        find_steered_wheels(c, robot,
+                            {p.texts(steering_joints.name), p.texts(driven_wheels.name), p.texts(rolling_wheels.name),
+                             p.real(wheel_radius.name)});
     const Pose start = c.constant(robot.base(), keys::initial_pose).value_or(Pose{});
     const Twist moving = c.constant(robot.base(), keys::initial_twist).value_or(Twist{});
     const std::vector<double> positions = initial_joint_positions(c, robot);
@@ -154,7 +153,7 @@ class Ackermann final : public Algorithm {
   }
 
   static Steering steering_of_joint(Connector& c, const Frame& f, double position) {
-    check_start(c, f, position);
+    check_start(c, f.joint_object, f.limits, position);
     Steering s;
     s.target = c.input(f.joint_object, keys::joint_position_target, position);
     s.limits = f.limits;

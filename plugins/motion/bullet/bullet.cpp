@@ -3,6 +3,7 @@
 // drives by sequential impulses.
 #include "bullet_world.hpp"
 #include "muro/plugin.hpp"
+#include "plugins/multibody/description.hpp"
 #include "plugins/multibody/motion.hpp"
 #include "plugins/multibody/parameters.hpp"
 
@@ -10,7 +11,6 @@ namespace {
 
 using namespace muro;
 
-constexpr std::string_view mesh_modes[] = {"convex", "exact"};
 constexpr Parameter parameters[] = {
     multibody::world_name,
     multibody::base_mode,
@@ -26,35 +26,10 @@ constexpr Parameter parameters[] = {
     real("erp", "1", 0.2, "part of a depth or of a passed limit that a step takes back").between(0, 1),
     real("cfm", "s/kg", 0, "softness of contacts").between(0, 1),
     real("slop", "m", 1e-4, "depth of contacts that is not taken back").between(0, 0.01),
-    real("correcting_speed", "m/s", 1, "bodies that overlap are parted no faster").between(0, 1e9),
-    real("bounce_speed", "m/s", 0.02, "impacts slower than this do not rebound").between(0, 1e9),
+    multibody::correcting_speed,
+    multibody::bounce_speed,
     real("warm_start", "1", 1, "part of the last step's impulses that the solver begins with").between(0, 1),
-    text("meshes", "convex", "meshes of scenery collide as their convex hulls or as they are").one_of(mesh_modes),
-};
-constexpr Use reads[] = {
-    {"wrench.external", "of the base and every body with collision shapes"},
-    {"gravity", "on the world object; 0 0 -9.81 when absent"},
-    {"inertial", "of every body"},
-    {"collision.shapes", "of every body in the scene"},
-    {"joint.velocity.target", "of joints in mode velocity"},
-    {"joint.position.target", "of joints in mode position"},
-    {"joint.effort.target", "of joints in mode effort"},
-    {"pose", "of bodies of other robots"},
-    {"twist", "of bodies of other robots"},
-    {"contact.world", "of other robots"},
-    {"pose.initial", "of the base"},
-    {"twist.initial", "of the base"},
-    {"joint.position.initial", "of every joint"},
-};
-constexpr Use writes[] = {
-    {"pose", "of the base"},
-    {"twist", "of the base"},
-    {"joint.position", "of every joint"},
-    {"joint.velocity", "of every joint"},
-    {"joint.effort", "of every joint: what its drive applies"},
-    {"wrench.contact", "of every body with collision shapes"},
-    {"contact.world", "that this world answers for contacts"},
-    {"twist.lag", "0.5: semi-implicit Euler"},
+    multibody::scenery_meshes,
 };
 constexpr Description bullet_description{
     .id = "motion.bullet",
@@ -62,14 +37,10 @@ constexpr Description bullet_description{
     .version = "1.0.0",
     .summary = "Multi-body dynamics by Bullet; robots of one world touch in it",
     .parameters = parameters,
-    .reads = reads,
-    .writes = writes,
-    .promises = deterministic | restorable | world,
-    .features = feature_forces | feature_joints | feature_velocity_targets | feature_position_targets |
-                feature_effort_targets | feature_joint_limits | feature_joint_speed_limits |
-                feature_joint_effort_limits | feature_joint_damping | feature_joint_friction | feature_mimic_joints |
-                feature_link_dynamics | feature_gyroscopic | feature_contact | feature_friction | feature_restitution |
-                feature_convex_meshes | feature_fixed_base | feature_self_collision,
+    .reads = multibody::reads,
+    .writes = multibody::writes,
+    .promises = multibody::promises,
+    .features = multibody::features,
 };
 
 class BulletMotion final : public multibody::Motion {
@@ -83,11 +54,11 @@ class BulletMotion final : public multibody::Motion {
     settings_.erp = p.real("erp");
     settings_.cfm = p.real("cfm");
     settings_.slop = p.real("slop");
-    settings_.correcting_speed = p.real("correcting_speed");
-    settings_.bounce_speed = p.real("bounce_speed");
+    settings_.correcting_speed = p.real(multibody::correcting_speed.name);
+    settings_.bounce_speed = p.real(multibody::bounce_speed.name);
     settings_.warm = p.real("warm_start");
     auto meshes = std::make_shared<bullet::Meshes>();
-    meshes->load(c, p.text("meshes") == "exact");
+    meshes->load(c, p.text(multibody::scenery_meshes.name) == "exact");
     meshes_ = std::move(meshes);
   }
   std::unique_ptr<multibody::World> make_world() const override {

@@ -12,27 +12,16 @@ using namespace muro;
 using namespace muro::wheeled;
 
 constexpr Parameter parameters[] = {
-    texts("left", "joints of the left wheels; default: as the model has them"),
-    texts("right", "joints of the right wheels; default: as the model has them"),
-    real("wheel_radius", "m", 0, "of every wheel; 0: of the wheels' shapes").between(0, 1e3),
-    real("track", "m", 0, "between the left and the right wheels; 0: between their centres in the model")
-        .between(0, 1e3),
-    real("max_wheel_acceleration", "rad/s^2", unlimited, "of every wheel; 1e9: none, the speed jumps")
-        .between(1e-6, unlimited),
-    on_contact,
+    left_wheels, right_wheels, wheel_radius, track, max_wheel_acceleration, on_contact,
 };
 constexpr Use reads[] = {
     {"joint.velocity.target", "of every joint that follows no other"},
-    {"pose.initial", "of the base"},
-    {"twist.initial", "of the base; what wheels can follow of it is their speed at the start"},
-    {"joint.position.initial", "of every joint, optional"},
-    {"collision.shapes", "of the wheels; else visual.shapes"},
+    starts_at,
+    starts_with,
+    joints_start_at,
+    sizes,
     on_contact_reads,
 };
-constexpr Use writes[] = {{"pose", "of the base"},
-                          {"twist", "of the base"},
-                          {"joint.position", "of every joint"},
-                          {"joint.velocity", "of every joint"}};
 constexpr Description description{
     .id = "motion.differential_drive",
     .kind = Kind::motion,
@@ -42,7 +31,7 @@ constexpr Description description{
         "way",
     .parameters = parameters,
     .reads = reads,
-    .writes = writes,
+    .writes = motion_writes,
     .promises = deterministic | batched | allocation_free | restorable,
     .features = feature_joints | feature_velocity_targets | feature_joint_limits | feature_joint_speed_limits |
                 feature_mimic_joints,
@@ -58,8 +47,9 @@ PlanarTwist share_of(const Wheels& wheels, bool left) {
 class DifferentialDrive final : public WheelMotion {
   std::vector<WheelShare> shares_of(const Connector& c, const RobotView& robot) const override {
     const Parameters& p = c.parameters();
-    const Wheels wheels =
-        find_wheels(c, robot, {p.texts("left"), p.texts("right"), p.real("wheel_radius"), p.real("track")});
+    const Wheels wheels = find_wheels(
+        c, robot,
+        {p.texts(left_wheels.name), p.texts(right_wheels.name), p.real(wheel_radius.name), p.real(track.name)});
     std::vector<WheelShare> shares;
     for (const bool left : {true, false}) {
       const std::vector<Wheel>& side = left ? wheels.left : wheels.right;

@@ -5,6 +5,7 @@
 
 #include "mujoco_world.hpp"
 #include "muro/plugin.hpp"
+#include "plugins/multibody/description.hpp"
 #include "plugins/multibody/motion.hpp"
 #include "plugins/multibody/parameters.hpp"
 
@@ -35,33 +36,8 @@ constexpr Parameter parameters[] = {
     real("friction_ratio", "1", 500, "by how much contacts are harder along the surfaces than across").between(1, 1e4),
     integer("refinements", 2, "solutions of a step beyond the first, where bodies begin or cease to slide; 0: one")
         .between(0, 100),
-    real("bounce_speed", "m/s", 0.02, "impacts slower than this do not rebound").between(0, 1e9),
+    multibody::bounce_speed,
     boolean("several_contacts", true, "cylinders, capsules and meshes touch in several points where they lie flat"),
-};
-constexpr Use reads[] = {
-    {"wrench.external", "of the base and every body with collision shapes"},
-    {"gravity", "on the world object; 0 0 -9.81 when absent"},
-    {"inertial", "of every body"},
-    {"collision.shapes", "of every body in the scene"},
-    {"joint.velocity.target", "of joints in mode velocity"},
-    {"joint.position.target", "of joints in mode position"},
-    {"joint.effort.target", "of joints in mode effort"},
-    {"pose", "of bodies of other robots"},
-    {"twist", "of bodies of other robots"},
-    {"contact.world", "of other robots"},
-    {"pose.initial", "of the base"},
-    {"twist.initial", "of the base"},
-    {"joint.position.initial", "of every joint"},
-};
-constexpr Use writes[] = {
-    {"pose", "of the base"},
-    {"twist", "of the base"},
-    {"joint.position", "of every joint"},
-    {"joint.velocity", "of every joint"},
-    {"joint.effort", "of every joint: what its drive applies"},
-    {"wrench.contact", "of every body with collision shapes"},
-    {"contact.world", "that this world answers for contacts"},
-    {"twist.lag", "0.5: semi-implicit Euler"},
 };
 constexpr Description mujoco_description{
     .id = "motion.mujoco",
@@ -69,14 +45,10 @@ constexpr Description mujoco_description{
     .version = "1.0.0",
     .summary = "Multi-body dynamics by MuJoCo; robots of one world touch in it",
     .parameters = parameters,
-    .reads = reads,
-    .writes = writes,
-    .promises = deterministic | restorable | world,
-    .features = feature_forces | feature_joints | feature_velocity_targets | feature_position_targets |
-                feature_effort_targets | feature_joint_limits | feature_joint_speed_limits |
-                feature_joint_effort_limits | feature_joint_damping | feature_joint_friction | feature_mimic_joints |
-                feature_link_dynamics | feature_gyroscopic | feature_contact | feature_friction | feature_restitution |
-                feature_convex_meshes | feature_fixed_base | feature_self_collision,
+    .reads = multibody::reads,
+    .writes = multibody::writes,
+    .promises = multibody::promises,
+    .features = multibody::features,
 };
 
 class MujocoMotion final : public multibody::Motion {
@@ -93,7 +65,7 @@ class MujocoMotion final : public multibody::Motion {
     settings_.impedance = p.real("impedance");
     settings_.friction_ratio = p.real("friction_ratio");
     settings_.refinements = int(p.integer("refinements"));
-    settings_.bounce_speed = p.real("bounce_speed");
+    settings_.bounce_speed = p.real(multibody::bounce_speed.name);
     settings_.several_contacts = p.boolean("several_contacts");
     meshes_.load(c);
   }

@@ -123,7 +123,7 @@ void OdeWorld::import(Obstacle& o) const {
 void OdeWorld::advance(double dt) {
   know_this_thread();
   for (Obstacle& o : obstacles_) import(o);
-  for (Robot& r : robots_) r.import(dt);
+  for (Robot& r : robots_) r.import();
   find_pairs();
   find_touches();
   make_contacts();

@@ -125,8 +125,7 @@ void Robot::set_presence(Presence presence) {
   }
 }
 
-void Robot::import(double dt) {
-  static_cast<void>(dt);
+void Robot::import() {
   set_presence(state_->presence);
   if (presence_ == Presence::absent) return;
   if (presence_ == Presence::obstacle || state_->moved_from_outside)

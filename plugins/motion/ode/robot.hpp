@@ -17,8 +17,8 @@ class Robot {
   Robot(dWorldID world, dSpaceID space, const multibody::RobotModel& model, multibody::RobotState& state,
         std::int32_t number, std::deque<Owner>& owners, const Meshes& meshes, bool reactions);
 
-  /// Places bodies and sets forces and drives for a step of `dt` (s).
-  void import(double dt);
+  /// Places bodies and sets forces and drives for a step.
+  void import();
   /// Takes over what the step made of it.
   void export_state(double dt);
   /// Adds what a contact did to the body that `owner` names: force (N) and torque (N m) about its centre of mass.

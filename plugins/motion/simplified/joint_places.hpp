@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "move.hpp"
+#include "muro/composite.hpp"
 #include "muro/joint_drives.hpp"
 #include "muro/lane/numbers.hpp"
 
@@ -53,10 +54,7 @@ inline std::vector<Place> connect_places(Connector& c, const RobotView& robot, c
   for (std::size_t i = 0; i < places.size(); ++i) {
     const Frame& f = robot.frames[i];
     if (f.joint == JointKind::fixed) continue;
-    if (start[i] < f.limits.lower || start[i] > f.limits.upper)
-      throw Error("joint `" + std::string(c.object_name(f.joint_object)) + "` starts at " + std::to_string(start[i]) +
-                  ", outside of its limits " + std::to_string(f.limits.lower) + " to " +
-                  std::to_string(f.limits.upper) + "; set `joint.position.initial` to a value between them");
+    check_start(c, f.joint_object, f.limits, start[i]);
     Place& p = places[i];
     const std::size_t leader = f.mimic >= 0 ? std::size_t(f.mimic) : i;
     p.mode = modes[leader];

@@ -4,8 +4,8 @@
 
 #include <fstream>
 
-#include "tests/support/files.hpp"
 #include "tests/support/bodies.hpp"
+#include "tests/support/files.hpp"
 
 namespace muro {
 namespace {
