@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "listing.hpp"
 #include "muro/vocabulary.hpp"
 #include "resolve.hpp"
 
@@ -12,20 +13,8 @@ namespace {
 
 constexpr Phase all_phases[] = {{Phase::Over::whole}, {Phase::Over::robots, Phase::Reach::wide}};
 
-/// Behind the last that has the same body as the first.
-template <class It>
-It end_of_body(It first, It end) {
-  return std::find_if(first, end, [&](const auto& n) { return n.collider->body != first->collider->body; });
-}
-
 /// Whether two shapes collide alike, wherever they stand.
 bool same_solid(const Shape& a, const Shape& b) { return a.kind == b.kind && a.mesh == b.mesh && a.size == b.size; }
-
-/// Whether the contact algorithm answers for a pair of robots whose contacts these worlds answer for; see
-/// keys::contact_world. Scenery counts as a robot that no force moves.
-bool is_listed(std::uint64_t own, std::uint64_t other) {
-  return own == keys::contact_for_all || (own != 0 && other != 0 && own != other);
-}
 
 /// Whether all of the box is on the free side of the plane.
 bool is_clear(const Aabb& box, const Standing& plane) {
@@ -34,17 +23,6 @@ bool is_clear(const Aabb& box, const Standing& plane) {
 }
 
 }  // namespace
-
-Contact contact_between(const Collider& own, const Collider& other) {
-  Contact c;
-  c.self = own.body;
-  c.other = other.body;
-  c.self_shape = own.shape_index;
-  c.other_shape = other.shape_index;
-  c.friction = std::sqrt(own.shape->friction * other.shape->friction);
-  c.restitution = std::max(own.shape->restitution, other.shape->restitution);
-  return c;
-}
 
 /// What one thread works with.
 struct EngineCollision::Scratch {

@@ -90,7 +90,4 @@ class EngineCollision : public Algorithm {
   Neighbours neighbours_;
 };
 
-/// A contact of two shapes without its numbers.
-Contact contact_between(const Collider& own, const Collider& other);
-
 }  // namespace muro::encounters

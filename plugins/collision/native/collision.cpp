@@ -7,6 +7,7 @@
 
 #include "mesh_warning.hpp"
 #include "muro/vocabulary.hpp"
+#include "plugins/encounters/listing.hpp"
 
 namespace muro::native {
 
@@ -277,8 +278,7 @@ void NativeCollision::touch_other_worlds(std::uint32_t robot, const Neighbours::
 /// answers for them.
 bool NativeCollision::may_touch(std::uint32_t robot, std::uint32_t mate) const {
   if (robots_[mate].shadow_of >= 0 || robots_[robot].shadow_of == std::int32_t(mate)) return false;
-  const std::uint64_t own = *robots_[robot].world, other = *robots_[mate].world;
-  return robots_[robot].wants_all || own == keys::contact_for_all || (other != 0 && other != own);
+  return robots_[robot].wants_all || is_listed(*robots_[robot].world, *robots_[mate].world);
 }
 
 /// Ordered by key. A plane reaches everyone.

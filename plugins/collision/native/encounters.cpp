@@ -1,32 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "encounters.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "pairs/collide.hpp"
+#include "plugins/encounters/listing.hpp"
 
 namespace muro::native {
-namespace {
-
-/// Behind the last that has the same body as the first.
-template <class It>
-It end_of_body(It first, It end) {
-  return std::find_if(first, end, [&](const Near& n) { return n.collider->body != first->collider->body; });
-}
-
-}  // namespace
-
-Contact contact_between(const Collider& own, const Collider& other) {
-  Contact c;
-  c.self = own.body;
-  c.other = other.body;
-  c.self_shape = own.shape_index;
-  c.other_shape = other.shape_index;
-  c.friction = std::sqrt(own.shape->friction * other.shape->friction);
-  c.restitution = std::max(own.shape->restitution, other.shape->restitution);
-  return c;
-}
 
 void Encounters::list_contacts(const ListOut<Contact>& list) const {
   for (auto own = own_.begin(), own_end = own; own != own_.end(); own = own_end) {

@@ -50,7 +50,4 @@ class Encounters {
   std::vector<Other> others_;
 };
 
-/// A contact of two shapes without its numbers.
-Contact contact_between(const Collider& own, const Collider& other);
-
 }  // namespace muro::native

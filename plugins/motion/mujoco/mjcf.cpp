@@ -50,6 +50,8 @@ std::string Mjcf::body_name(std::string_view name, std::size_t owner, std::size_
   return text + ":" + std::to_string(owner) + "." + std::to_string(part);
 }
 
+std::string Mjcf::geom_name(const std::string& body, std::size_t number) { return body + "." + std::to_string(number); }
+
 std::string Mjcf::geom(const multibody::PartShape& shape, const Pose& pose, const std::string& name) {
   const Vec3& s = shape.shape.size;
   std::string what;
@@ -87,14 +89,19 @@ std::string Mjcf::geom(const multibody::PartShape& shape, const Pose& pose, cons
 
 void Mjcf::add_scenery(const multibody::Fixture& fixture, std::size_t owner) {
   const std::string name = body_name(fixture.name, owner, 0);
-  std::size_t k = 0;
-  bodies_ += "<body" + named(name) + place(fixture.pose) + ">\n";
-  for (const multibody::PartShape& s : fixture.shapes) {
-    const bool plane = s.shape.kind == ShapeKind::plane;
-    (plane ? planes_ : bodies_) +=
-        geom(s, plane ? fixture.pose * s.shape.origin : s.shape.origin, name + "." + std::to_string(k++));
+  std::string in_body;
+  for (std::size_t k = 0; k < fixture.shapes.size(); ++k) {
+    const multibody::PartShape& s = fixture.shapes[k];
+    const std::string in_world = geom(s, fixture.pose * s.shape.origin, geom_name(name, k));
+    if (s.shape.kind == ShapeKind::plane) {
+      planes_ += in_world;
+    } else {
+      scenery_in_world_ += in_world;
+      in_body += geom(s, s.shape.origin, geom_name(name, k));
+    }
   }
-  bodies_ += "</body>\n";
+  if (!in_body.empty())
+    scenery_in_bodies_ += "<body" + named(name) + place(fixture.pose) + ">\n" + in_body + "</body>\n";
 }
 
 void Mjcf::add_obstacle(const multibody::Fixture& fixture, std::size_t owner) {
@@ -102,7 +109,8 @@ void Mjcf::add_obstacle(const multibody::Fixture& fixture, std::size_t owner) {
   std::size_t k = 0;
   bodies_ += "<body mocap='true'" + named(name) + ">\n";
   for (const multibody::PartShape& s : fixture.shapes)
-    if (has_geom(s)) bodies_ += geom(s, s.shape.origin, name + "." + std::to_string(k++));
+    if (has_geom(s)) bodies_ += geom(s, s.shape.origin, geom_name(name, k++));
+  moving_geoms_ += k;
   bodies_ += "</body>\n";
 }
 
@@ -135,8 +143,8 @@ void Mjcf::write_part(const multibody::RobotModel& model, std::size_t number, st
              vector("diaginertia", p.moments) + "/>\n";
   for (const multibody::PartShape& s : part.shapes)
     if (has_geom(s))
-      bodies_ +=
-          geom(s, {s.shape.origin.position - shift, s.shape.origin.orientation}, name + "." + std::to_string(k++));
+      bodies_ += geom(s, {s.shape.origin.position - shift, s.shape.origin.orientation}, geom_name(name, k++));
+  moving_geoms_ += k;
   for (std::size_t i = number + 1; i < model.parts.size(); ++i)
     if (model.parts[i].parent == std::int32_t(number)) write_part(model, i, owner);
   bodies_ += "</body>\n";
@@ -150,8 +158,9 @@ std::string Mjcf::text(const Settings& settings, const Sizes& sizes) const {
          std::to_string(sizes.contacts) + "' njmax='" + std::to_string(sizes.rows) +
          "'/>\n<default><geom condim='3' contype='2' conaffinity='0'" + impedance("solimp", settings.impedance) +
          "/><joint" + impedance("solimplimit", mjMAXIMP) + impedance("solimpfriction", mjMAXIMP) +
-         "/></default>\n<asset>\n" + assets_ + "</asset>\n<worldbody>\n" + planes_ + bodies_ +
-         "</worldbody>\n<contact>\n" + exclusions_ + "</contact>\n</mujoco>\n";
+         "/></default>\n<asset>\n" + assets_ + "</asset>\n<worldbody>\n" + planes_ +
+         (moving_geoms_ <= few_geoms ? scenery_in_world_ : scenery_in_bodies_) + bodies_ + "</worldbody>\n<contact>\n" +
+         exclusions_ + "</contact>\n</mujoco>\n";
 }
 
 }  // namespace muro::mujoco

@@ -18,7 +18,7 @@ struct Sizes {
 };
 
 /// Writes a world, body by body. Bodies and joints have the name `body_name`; the geoms of a body stand in the order of
-/// its shapes, planes of scenery in the world's body, in the order in which they were added.
+/// its shapes.
 class Mjcf {
  public:
   explicit Mjcf(const Meshes& meshes) : meshes_(&meshes) {}
@@ -26,7 +26,11 @@ class Mjcf {
   /// `owner`: number of the fixture or robot, `name`: of it, for messages.
   static std::string body_name(std::string_view name, std::size_t owner, std::size_t part);
 
-  /// At rest: each object a body of its own, but planes, which belong to the world.
+  /// The geom of a body's shape `number`, of those that become geoms.
+  static std::string geom_name(const std::string& body, std::size_t number);
+
+  /// At rest. Planes belong to the world's body. So do all others beside a few geoms that move, which are tried with
+  /// each of them; beside more, each object is a body, which MuJoCo sorts.
   void add_scenery(const multibody::Fixture& fixture, std::size_t owner);
   /// A body that is posed from outside (mocap).
   void add_obstacle(const multibody::Fixture& fixture, std::size_t owner);
@@ -42,7 +46,10 @@ class Mjcf {
   std::string geom(const multibody::PartShape& shape, const Pose& pose, const std::string& name);
 
   const Meshes* meshes_;
-  std::string planes_, bodies_, assets_, exclusions_;
+  static constexpr std::size_t few_geoms = 15;
+
+  std::string planes_, scenery_in_world_, scenery_in_bodies_, bodies_, assets_, exclusions_;
+  std::size_t moving_geoms_ = 0;
   std::map<const Vec3*, std::string> mesh_names_;
 };
 

@@ -65,11 +65,10 @@ void MujocoWorld::find_bodies() {
     o.restitution = s.shape.restitution;
     return o;
   };
-  int plane = m.body_geomadr[0];
   for (const Scenery& s : scenery_) {
-    int geom = m.body_geomadr[body_of(s.fixture->name, s.owner)];
-    for (const multibody::PartShape& shape : s.fixture->shapes)
-      mark(shape.shape.kind == ShapeKind::plane ? plane++ : geom++, shape);
+    const std::string name = Mjcf::body_name(s.fixture->name, s.owner, 0);
+    for (std::size_t k = 0; k < s.fixture->shapes.size(); ++k)
+      mark(mj_name2id(&m, mjOBJ_GEOM, Mjcf::geom_name(name, k).c_str()), s.fixture->shapes[k]);
   }
   for (Obstacle& o : obstacles_) {
     o.body = body_of(o.fixture->name, o.owner);

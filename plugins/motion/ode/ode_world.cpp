@@ -98,7 +98,7 @@ void OdeWorld::add_robot(const multibody::RobotModel& model, multibody::RobotSta
 
 void OdeWorld::complete() {
   pairs_.reserve(64);
-  touches_.reserve(64);
+  touches_.resize(64);
   feedbacks_.reserve(64);
 }
 
@@ -152,8 +152,8 @@ void OdeWorld::find_pairs() {
   dSpaceCollide2(reinterpret_cast<dGeomID>(team_), reinterpret_cast<dGeomID>(scenery_), this, &meet);
   dSpaceCollide2(reinterpret_cast<dGeomID>(team_), reinterpret_cast<dGeomID>(others_), this, &meet);
   dSpaceCollide(team_, this, &meet);
-  std::sort(pairs_.begin(), pairs_.end(),
-            [](const Pair& x, const Pair& y) { return x.a != y.a ? x.a < y.a : x.b < y.b; });
+  const auto before = [](const Pair& x, const Pair& y) { return x.a != y.a ? x.a < y.a : x.b < y.b; };
+  if (!std::is_sorted(pairs_.begin(), pairs_.end(), before)) std::sort(pairs_.begin(), pairs_.end(), before);
 }
 
 void OdeWorld::meet(void* self, dGeomID a, dGeomID b) {
@@ -183,57 +183,61 @@ bool OdeWorld::may_touch(const Owner& a, const Owner& b) const {
          (b.robot >= 0 && robots_[std::size_t(b.robot)].presence() == Presence::simulated);
 }
 
+/// Writes what ODE finds into places that are there already, from step to step.
 void OdeWorld::find_touches() {
-  touches_.clear();
-  dContactGeom found[most_contacts];
+  touch_count_ = 0;
   for (const Pair& p : pairs_) {
-    const int n = dCollide(p.first, p.second, most_contacts, found, sizeof(dContactGeom));
-    for (int i = 0; i < n; ++i) touches_.push_back({found[i], &owner_of(p.first), &owner_of(p.second)});
+    if (touches_.size() < touch_count_ + most_contacts) touches_.resize(2 * (touch_count_ + most_contacts));
+    Touch* const free = touches_.data() + touch_count_;
+    const int n = dCollide(p.first, p.second, most_contacts, &free->contact.geom, sizeof(Touch));
+    for (int i = 0; i < n; ++i) free[i].first = &owner_of(p.first), free[i].second = &owner_of(p.second);
+    touch_count_ += std::size_t(n);
   }
 }
 
 void OdeWorld::make_contacts() {
-  if (settings_.reactions) feedbacks_.assign(touches_.size(), dJointFeedback{});
-  for (std::size_t i = 0; i < touches_.size(); ++i) {
-    const Touch& t = touches_[i];
-    dContact contact{};
-    contact.geom = t.geom;
-    contact.surface.mode = dContactApprox1;
-    contact.surface.mu = std::sqrt(t.first->friction * t.second->friction);
+  if (settings_.reactions) feedbacks_.assign(touch_count_, dJointFeedback{});
+  for (std::size_t i = 0; i < touch_count_; ++i) {
+    Touch& t = touches_[i];
+    dContactGeom& geom = t.contact.geom;
+    dSurfaceParameters& surface = t.contact.surface;  // what its mode does not name is not read
+    surface.mode = dContactApprox1;
+    surface.mu = std::sqrt(t.first->friction * t.second->friction);
+    surface.mu2 = 0;
     const double restitution = std::max(t.first->restitution, t.second->restitution);
     if (restitution > 0) {
-      contact.surface.mode |= dContactBounce;
-      contact.surface.bounce = restitution;
-      contact.surface.bounce_vel = settings_.bounce_speed;
+      surface.mode |= dContactBounce;
+      surface.bounce = restitution;
+      surface.bounce_vel = settings_.bounce_speed;
     }
-    const dBodyID a = dGeomGetBody(t.geom.g1), b = dGeomGetBody(t.geom.g2);
+    const dBodyID a = dGeomGetBody(geom.g1), b = dGeomGetBody(geom.g2);
     // ODE bounds friction along two directions, each for itself. With the first along the slip, and no friction across
     // it while bodies slide, it is that of a cone.
     dVector3 of_a{}, of_b{};
-    const dReal* p = t.geom.pos;
+    const dReal* p = geom.pos;
     if (a) dBodyGetPointVel(a, p[0], p[1], p[2], of_a);
     if (b) dBodyGetPointVel(b, p[0], p[1], p[2], of_b);
-    const Vec3 normal = vector_of(t.geom.normal), relative = vector_of(of_a) - vector_of(of_b);
+    const Vec3 normal = vector_of(geom.normal), relative = vector_of(of_a) - vector_of(of_b);
     const Vec3 slip = relative - normal * normal.dot(relative);
     if (const double speed = slip.norm(); speed > 1e-9) {
-      contact.surface.mode |= dContactFDir1;
-      std::copy_n(Vec3(slip / speed).data(), 3, contact.fdir1);
-      if (speed > sliding_speed) contact.surface.mode |= dContactMu2;  // mu2 is 0
+      surface.mode |= dContactFDir1;
+      std::copy_n(Vec3(slip / speed).data(), 3, t.contact.fdir1);
+      if (speed > sliding_speed) surface.mode |= dContactMu2;
     }
-    const dJointID joint = dJointCreateContact(world_, contacts_, &contact);
+    const dJointID joint = dJointCreateContact(world_, contacts_, &t.contact);
     dJointAttach(joint, a, b);
     if (settings_.reactions) dJointSetFeedback(joint, &feedbacks_[i]);
   }
 }
 
 void OdeWorld::export_contacts() {
-  for (std::size_t i = 0; i < touches_.size(); ++i) {
-    const Touch& t = touches_[i];
+  for (std::size_t i = 0; i < touch_count_; ++i) {
+    const dContactGeom& geom = touches_[i].contact.geom;
     const dJointFeedback& f = feedbacks_[i];
     // The first of the joint's bodies is that of g1, or of g2 where g1 has none.
-    const bool first_is_g1 = dGeomGetBody(t.geom.g1) != nullptr;
-    const Owner& of_first = owner_of(first_is_g1 ? t.geom.g1 : t.geom.g2);
-    const Owner& of_second = owner_of(first_is_g1 ? t.geom.g2 : t.geom.g1);
+    const bool first_is_g1 = dGeomGetBody(geom.g1) != nullptr;
+    const Owner& of_first = owner_of(first_is_g1 ? geom.g1 : geom.g2);
+    const Owner& of_second = owner_of(first_is_g1 ? geom.g2 : geom.g1);
     if (of_first.robot >= 0)
       robots_[std::size_t(of_first.robot)].add_contact(of_first, vector_of(f.f1), vector_of(f.t1));
     if (of_second.robot >= 0)

@@ -36,8 +36,8 @@ class OdeWorld final : public multibody::World {
     std::uint32_t a, b;     ///< their numbers
   };
   struct Touch {
-    dContactGeom geom;
-    const Owner *first, *second;
+    dContact contact{};
+    const Owner *first = nullptr, *second = nullptr;
   };
 
   static const Owner& owner_of(dGeomID geom) { return *static_cast<const Owner*>(dGeomGetData(geom)); }
@@ -62,7 +62,8 @@ class OdeWorld final : public multibody::World {
   std::deque<Obstacle> obstacles_;
   std::deque<Robot> robots_;
   std::vector<Pair> pairs_;
-  std::vector<Touch> touches_;
+  std::vector<Touch> touches_;  ///< the first `touch_count_` count
+  std::size_t touch_count_ = 0;
   std::vector<dJointFeedback> feedbacks_;  ///< of the contacts
 };
 

@@ -25,8 +25,16 @@ void set_velocity(dBodyID body, const Vec3& v, const Vec3& w) {
 
 dReal force_of(double most) { return std::isfinite(most) ? most : dInfinity; }
 
-/// `angle` brought to (-pi, pi].
-double wrapped(double angle) { return std::remainder(angle, 2 * M_PI); }
+/// `angle` brought to [-pi, pi].
+double wrapped(double angle) { return angle - 2 * M_PI * std::nearbyint(angle / (2 * M_PI)); }
+
+/// ODE normalises what is set, which can change the last bit of what is normalised already.
+bool stays_as_set(const dReal* q) {
+  if (q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3] == 1) return true;
+  dQuaternion turn = {q[0], q[1], q[2], q[3]};
+  dNormalize4(turn);
+  return std::equal(turn, turn + 4, q);
+}
 
 }  // namespace
 
@@ -83,6 +91,8 @@ void Robot::add_joint(std::size_t number) {
     dJointAttach(b.joint, b.id, parent);
     dJointSetSliderAxis(b.joint, axis.x(), axis.y(), axis.z());
   }
+  b.turns_alone = part.joint == JointKind::revolute;
+  if (!b.turns_alone) bodies_[std::size_t(part.parent)].turns_alone = false;
   // At a stop, the motor of a hinge or slider of ODE gives all its effort whatever the speed: it needs one of its own.
   if (std::isfinite(part.limits.lower) || std::isfinite(part.limits.upper)) b.drive = make_motor(number, axis);
   if (damping > 0) {
@@ -177,10 +187,13 @@ void Robot::set_drive(std::size_t number) {
   const multibody::Demand& d = state_->joints[number].demand;
   const bool turns = part.joint == JointKind::revolute;
   const dJointID joint = bodies_[number].joint, drive = bodies_[number].drive;
+  const double speed = d.by_speed ? d.speed : 0, most = d.by_speed ? d.most : part.limits.friction;
   const auto set = drive ? (turns ? &dJointSetAMotorParam : &dJointSetLMotorParam)
                          : (turns ? &dJointSetHingeParam : &dJointSetSliderParam);
-  set(drive ? drive : joint, dParamVel, d.by_speed ? d.speed : 0);
-  set(drive ? drive : joint, dParamFMax, force_of(d.by_speed ? d.most : part.limits.friction));
+  if (speed != bodies_[number].speed) set(drive ? drive : joint, dParamVel, speed);
+  if (most != bodies_[number].most) set(drive ? drive : joint, dParamFMax, force_of(most));
+  bodies_[number].speed = speed;
+  bodies_[number].most = most;
   if (!d.by_speed && d.effort != 0)
     turns ? dJointAddHingeTorque(joint, d.effort) : dJointAddSliderForce(joint, d.effort);
   if (bodies_[number].far_stops) set_near_stops(number);
@@ -205,14 +218,17 @@ void Robot::set_near_stops(std::size_t number) const {
             near(l.upper) ? wrapped(l.upper) : infinity);
 }
 
+/// Of its pose and twist what its joints need: of a base and of what shifts all, of what turns the turning.
 PartMotion Robot::motion_of(std::size_t part) const {
   const Body& b = bodies_[part];
+  const double* const memory = state_->memory.data() + numbers * part;
   PartMotion m;
-  m.pose.orientation = quaternion_of(dBodyGetQuaternion(b.id));
+  m.pose.orientation = quaternion_of(memory + 3);
+  m.twist.angular = vector_of(memory + 10);
+  if (b.turns_alone) return m;
   const Vec3 arm = m.pose.orientation * b.com;
-  m.pose.position = vector_of(dBodyGetPosition(b.id)) - arm;
-  m.twist.angular = vector_of(dBodyGetAngularVel(b.id));
-  m.twist.linear = vector_of(dBodyGetLinearVel(b.id)) - m.twist.angular.cross(arm);
+  m.pose.position = vector_of(memory) - arm;
+  m.twist.linear = vector_of(memory + 7) - m.twist.angular.cross(arm);
   return m;
 }
 
@@ -222,11 +238,7 @@ void Robot::export_state(double dt) {
   for (const Body& b : bodies_) {
     std::copy_n(dBodyGetPosition(b.id), 3, m);
     std::copy_n(dBodyGetQuaternion(b.id), 4, m + 3);
-    // ODE normalises what is set, which can change the last bit of what is normalised already.
-    dQuaternion turn;
-    std::copy_n(m + 3, 4, turn);
-    dNormalize4(turn);
-    if (!std::equal(turn, turn + 4, m + 3)) dBodySetQuaternion(b.id, m + 3);
+    if (!stays_as_set(m + 3)) dBodySetQuaternion(b.id, m + 3);
     std::copy_n(dBodyGetLinearVel(b.id), 3, m + 7);
     std::copy_n(dBodyGetAngularVel(b.id), 3, m + 10);
     m += numbers;
@@ -245,7 +257,6 @@ void Robot::export_joint(std::size_t number, double dt) {
   const PartMotion &child = parts_[number], &parent = parts_[std::size_t(part.parent)];
   JointState& joint = state_->joints[number];
   const Vec3 axis = child.pose.orientation * part.axis;
-  const Vec3 seat = parent.pose * part.origin.position;  // of the joint at 0
   const Body& b = bodies_[number];
   const Vec3 force = vector_of(b.feedback.f1), torque = vector_of(b.feedback.t1);
   if (part.joint == JointKind::revolute) {
@@ -254,9 +265,9 @@ void Robot::export_joint(std::size_t number, double dt) {
     const double expected = joint.position + dt * joint.velocity;
     joint.position = expected + wrapped(angle - expected);
     joint.velocity = axis.dot(child.twist.angular - parent.twist.angular);
-    const Vec3 arm = child.pose.orientation * b.com;
-    joint.effort = axis.dot(torque + arm.cross(force));
+    if (reactions_) joint.effort = axis.dot(torque + Vec3(child.pose.orientation * b.com).cross(force));
   } else {
+    const Vec3 seat = parent.pose * part.origin.position;  // of the joint at 0
     joint.position = axis.dot(child.pose.position - seat);
     joint.velocity = axis.dot(child.twist.linear - parent.twist.at(child.pose.position - parent.pose.position));
     joint.effort = axis.dot(force);

@@ -34,12 +34,14 @@ class Robot {
 
   struct Body {
     dBodyID id = nullptr;
-    Vec3 com = Vec3::Zero();    ///< in the frame of the part
-    dJointID joint = nullptr;   ///< that moves it; none for the base
-    dJointID drive = nullptr;   ///< of a joint with stops; none: `joint` drives itself
-    dJointID damper = nullptr;  ///< none where the model has no damping
-    bool far_stops = false;     ///< see set_near_stops
-    dJointFeedback feedback{};  ///< of what drives the joint
+    Vec3 com = Vec3::Zero();     ///< in the frame of the part
+    dJointID joint = nullptr;    ///< that moves it; none for the base
+    dJointID drive = nullptr;    ///< of a joint with stops; none: `joint` drives itself
+    dJointID damper = nullptr;   ///< none where the model has no damping
+    double speed = 0, most = 0;  ///< what the drive was told last
+    bool turns_alone = false;    ///< it turns, and carries nothing that shifts: its place is not asked for
+    bool far_stops = false;      ///< see set_near_stops
+    dJointFeedback feedback{};   ///< of what drives the joint
   };
 
   void add_body(std::size_t part);

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// Vehicles with steered wheels, for tests.
+#pragma once
+
+#include <random>
+
+#include "tests/support/wheeled_robot.hpp"
+
+namespace muro::ackermann {
+
+using Settings = std::map<std::string, ParameterInput>;
+using Names = std::vector<std::string>;
+inline constexpr double wide = 1.4;
+
+/// A wheel of a test's vehicle: "NAME_wheel_joint", and "NAME_steering_joint" when it is steered.
+struct Part {
+  std::string name;
+  Vec3 at;  ///< m, of the steering joint, or of the wheel
+  bool steered = false;
+  double radius = 0.1;
+  Vec3 arm = Vec3::Zero();  ///< m, from the steering joint to the wheel
+  Vec3 axis = Vec3::UnitY();
+  Vec3 upright = Vec3::UnitZ();
+  JointLimits steering{.lower = -wide, .upper = wide};
+  JointLimits wheel{};
+  std::string leader{};  ///< of the steering joint
+  double multiplier = 1;
+};
+
+inline RobotTree vehicle_of(
+    const std::vector<Part>& parts, const std::function<void(RobotBuilder&)>& more = [](RobotBuilder&) {}) {
+  return test::tree_of([&](RobotBuilder& b) {
+    b.base("chassis");
+    for (const Part& p : parts) {
+      const Shape tyre = test::tyre(p.radius);
+      b.fork();
+      b.translation(p.at);
+      if (p.steered) {
+        b.revolute(p.name + "_steering_joint", p.upright, p.steering);
+        if (!p.leader.empty()) b.mimic(p.leader, p.multiplier, 0);
+        b.body(p.name + "_knuckle");
+        b.translation(p.arm);
+      }
+      b.revolute(p.name + "_wheel_joint", p.axis, p.wheel);
+      b.body(p.name + "_wheel");
+      b.set_array(keys::collision_shapes, std::span<const Shape>(&tyre, 1));
+      b.end();
+    }
+    more(b);
+    for (std::size_t i = 0; i < parts.size(); ++i) b.end();
+  });
+}
+
+inline std::vector<Part> bicycle(double wheelbase) {
+  return {{.name = "rear", .at = {0, 0, 0}}, {.name = "front", .at = {wheelbase, 0, 0}, .steered = true}};
+}
+/// Rear wheels driven, front wheels steered about joints `scrub` inside of them.
+inline std::vector<Part> car(double wheelbase, double track, double scrub = 0) {
+  std::vector<Part> parts;
+  for (const double side : {0.5, -0.5}) {
+    const std::string end = side > 0 ? "_left" : "_right";
+    parts.push_back({.name = "rear" + end, .at = {0, side * track, 0}});
+    parts.push_back({.name = "front" + end,
+                     .at = {wheelbase, side * (track - 2 * scrub), 0},
+                     .steered = true,
+                     .arm = {0, 2 * side * scrub, 0}});
+  }
+  return parts;
+}
+
+struct Vehicle : test::Scene {
+  const RobotView& robot;
+  Vehicle(double rate, const RobotTree& tree, Settings settings = {}, const Pose& start = {}, const Twist& moving = {})
+      : robot(add("car", tree, start, moving)) {
+    use("motion.ackermann", rate, all_robots(), std::move(settings));
+    use("kinematics.direct", 2 * rate, all_robots());  // every other run sees the end of a step
+    build();
+  }
+  Vehicle(double rate, const std::vector<Part>& parts, Settings settings = {}, const Pose& start = {},
+          const Twist& moving = {})
+      : Vehicle(rate, vehicle_of(parts), std::move(settings), start, moving) {}
+
+  double& value(const std::string& joint, const Key<double>& key) {
+    return world().value("car/" + joint + "_joint", key);
+  }
+  void steer(const std::string& wheel, double angle) {
+    value(wheel + "_steering", keys::joint_position_target) = angle;
+  }
+  void drive(const std::string& wheel, double speed) { value(wheel + "_wheel", keys::joint_velocity_target) = speed; }
+  double turned(const std::string& wheel) { return value(wheel + "_wheel", keys::joint_position); }
+  double turning(const std::string& wheel) { return value(wheel + "_wheel", keys::joint_velocity); }
+  double& angle(const std::string& wheel) { return value(wheel + "_steering", keys::joint_position); }
+  Pose& at() { return pose(robot); }
+  Twist& moving() { return twist(robot); }
+  double yaw() { return yaw_of(at().orientation); }
+  /// m/s of the lowest point of a wheel: 0 when it rolls.
+  Vec3 slip(const Part& p) {
+    return world().value("car/" + p.name + "_wheel", keys::twist).at(at().orientation * Vec3(0, 0, -p.radius));
+  }
+};
+
+struct Draw {
+  std::mt19937 engine;
+  double operator()(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine); }
+  Vec3 vector(double most) { return {(*this)(-most, most), (*this)(-most, most), (*this)(-most, most)}; }
+};
+
+}  // namespace muro::ackermann
