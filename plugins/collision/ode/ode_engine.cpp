@@ -3,6 +3,8 @@
 
 #include <array>
 
+#include "muro/algorithm.hpp"
+
 namespace muro::ode_collision {
 namespace {
 
@@ -140,7 +142,14 @@ class OdeNarrowphase final : public encounters::Narrowphase {
 }  // namespace
 
 OdeEngine::OdeEngine() {
-  dInitODE2(0);  // of the whole process, and counted: never undone, for others may still use it
+  struct Library {  // counted by ODE: others in the process may use it as well
+    bool runs = dInitODE2(0) != 0;
+    ~Library() {
+      if (runs) dCloseODE();
+    }
+  };
+  static const Library library;
+  if (!library.runs) throw Error("ODE cannot be started");
   dAllocateODEDataForThread(dAllocateMaskAll);
 }
 

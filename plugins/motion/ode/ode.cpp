@@ -11,7 +11,7 @@ namespace {
 
 using namespace muro;
 
-constexpr std::string_view solvers[] = {"quick", "exact"};
+constexpr std::string_view solvers[] = {"auto", "quick", "exact"};
 constexpr Parameter parameters[] = {
     multibody::world_name,
     multibody::base_mode,
@@ -23,7 +23,10 @@ constexpr Parameter parameters[] = {
     multibody::self_collision,
     multibody::position_gain,
     multibody::substeps,
-    text("solver", "quick", "iterative (dWorldQuickStep), or a direct method for small worlds (dWorldStep)")
+    text("solver", "auto",
+         "iterative (dWorldQuickStep), or direct (dWorldStep), whose cost grows with the cube of the rows of a robot; "
+         "auto: "
+         "exact where a robot has joints on joints, and none has more than 24")
         .one_of(solvers),
     integer("iterations", 50, "of the solver `quick`").between(1, 10000),
     real("erp", "1", 0.2, "part of an error of joints and contacts that a step takes back").between(0, 1),
@@ -46,6 +49,26 @@ constexpr Description ode_description{
     .features = multibody::features | feature_concave_meshes,
 };
 
+/// Iterations carry forces from joint to joint, and need many where masses differ or much hangs on little.
+bool are_better_solved_exactly(std::span<const Item> items) {
+  constexpr int most_joints = 24;
+  bool chains = false;
+  for (const Item& item : items) {
+    const auto& frames = item.robot->frames;
+    std::vector<int> joints_before(frames.size());
+    int joints = 0;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      const Frame& f = frames[i];
+      const int moves = f.joint == JointKind::fixed ? 0 : 1;
+      joints_before[i] = (f.parent >= 0 ? joints_before[std::size_t(f.parent)] : 0) + moves;
+      chains = chains || joints_before[i] > 1;
+      joints += moves;
+    }
+    if (joints > most_joints) return false;
+  }
+  return chains;
+}
+
 class OdeMotion final : public multibody::Motion {
   const Description& description() const override { return ode_description; }
   // Iterations part bodies badly whose masses differ by more.
@@ -56,7 +79,8 @@ class OdeMotion final : public multibody::Motion {
   void configure(Connector& c) override {
     const Parameters& p = c.parameters();
     settings_.gravity = gravity();
-    settings_.exact = p.text("solver") == "exact";
+    const std::string_view solver = p.text("solver");
+    settings_.exact = solver == "exact" || (solver == "auto" && are_better_solved_exactly(c.items()));
     settings_.iterations = int(p.integer("iterations"));
     settings_.erp = p.real("erp");
     settings_.cfm = p.real("cfm");

@@ -31,8 +31,14 @@ constexpr double sliding_speed = 1e-2;  ///< m/s
 }  // namespace
 
 void start_engine() {
-  static const bool started = dInitODE2(0) != 0;
-  if (!started) throw Error("ODE cannot be started");
+  struct Engine {  // counted by ODE: others in the process may use it as well
+    bool runs = dInitODE2(0) != 0;
+    ~Engine() {
+      if (runs) dCloseODE();
+    }
+  };
+  static const Engine engine;
+  if (!engine.runs) throw Error("ODE cannot be started");
 }
 
 OdeWorld::OdeWorld(const Settings& settings, std::shared_ptr<const Meshes> meshes)
