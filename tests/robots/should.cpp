@@ -122,7 +122,8 @@ Bound bound_of(Check check, const std::string& variant, const std::string& robot
   for (const Exception& e : exceptions)
     if (e.check == check && e.variant == variant && e.robot == robot) return {e.most, e.why};
   if (variant == "ode" && should_of(robot).long_chain) return {of_quick(check), not_converged};
-  if (variant == "ode_quick" && std::find(std::begin(quick_serves), std::end(quick_serves), robot) == std::end(quick_serves))
+  if (variant == "ode_quick" &&
+      std::find(std::begin(quick_serves), std::end(quick_serves), robot) == std::end(quick_serves))
     return {of_quick(check), not_converged};
   const double most = usual[std::size_t(check)].second;
   if (check == Check::hold) return {std::max(most, should_of(robot).hold), {}};
