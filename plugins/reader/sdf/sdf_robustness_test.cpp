@@ -106,11 +106,11 @@ Outcomes read_damaged_rovers(unsigned seed, int variants) {
 }
 
 TEST(SdfRobustness, DamagedRoversAreReportedOrBuiltSoundly) {
-  const Outcomes outcomes = read_damaged_rovers(20240521, 2000);
+  const Outcomes outcomes = read_damaged_rovers(20240521, 700);
   // the damage is neither harmless nor always fatal
-  EXPECT_GT(outcomes.refused, 200);
-  EXPECT_GT(outcomes.warned, 20);
-  EXPECT_GT(outcomes.clean, 50);
+  EXPECT_GT(outcomes.refused, 70);
+  EXPECT_GT(outcomes.warned, 3);
+  EXPECT_GT(outcomes.clean, 15);
 }
 
 TEST(SdfRobustness, DamagedWorldsAreReportedOrBuiltSoundly) {
@@ -118,7 +118,7 @@ TEST(SdfRobustness, DamagedWorldsAreReportedOrBuiltSoundly) {
   std::mt19937 random(7);
   int refused = 0, read = 0;
   testing::internal::CaptureStderr();
-  for (int variant = 0; variant < 800; ++variant) {
+  for (int variant = 0; variant < 300; ++variant) {
     std::string text = yard;
     for (std::size_t damages = 1 + random() % 3; damages > 0; --damages) damage(text, random);
     WorldModel world;
@@ -132,8 +132,8 @@ TEST(SdfRobustness, DamagedWorldsAreReportedOrBuiltSoundly) {
     for (const auto& m : world.models()) check_sound(m.tree, text);
   }
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
-  EXPECT_GT(refused, 50);
-  EXPECT_GT(read, 50);
+  EXPECT_GT(refused, 20);
+  EXPECT_GT(read, 20);
 }
 
 TEST(SdfRobustness, AChainOfManyLinksIsReadInOrder) {
