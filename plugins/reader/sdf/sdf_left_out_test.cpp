@@ -99,9 +99,10 @@ TEST(SdfLeftOut, EveryElementOfTheSchemaIsKnown) {
       {"joint", "joint.sdf"},       {"geometry", "geometry.sdf"},   {"material", "material.sdf"},
       {"inertial", "inertial.sdf"}, {"surface", "surface.sdf"}};
   for (const char* version : {"1.4", "1.5", "1.6", "1.7", "1.8", "1.9"})
-    for (const auto& [section, file] : files) {
+    for (const auto& entry : files) {
+      const std::string &section = entry.first, file = root + "/" + version + "/" + entry.second;
       tinyxml2::XMLDocument schema;
-      if (schema.LoadFile((root + "/" + version + "/" + file).c_str()) != tinyxml2::XML_SUCCESS) continue;
+      if (schema.LoadFile(file.c_str()) != tinyxml2::XML_SUCCESS) continue;
       const auto check = [&](const char* name) {
         EXPECT_NE(find_known(section, name), nullptr)
             << "<" << name << "> in <" << section << "> of SDFormat " << version;

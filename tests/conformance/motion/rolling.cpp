@@ -53,9 +53,10 @@ Outcome stack(const std::string& motion, double angle) {
   t.add_ground(0.4);
   const RobotView& box = t.add("box", block(10, {20, 20, 1}, 0.4), {{0, 0, 0.5}, Quat::Identity()});
   std::vector<const RobotView*> balls;
-  for (int i = 0; i < 25; ++i)
-    balls.push_back(&t.add("ball_" + std::to_string(i), ball(1, 0.5, 1.6),
-                           {{3.0 * (i % 5 - 2), 3.0 * (i / 5 - 2), 1.5}, Quat::Identity()}));
+  for (const int row : {-2, -1, 0, 1, 2})
+    for (const int column : {-2, -1, 0, 1, 2})
+      balls.push_back(&t.add("ball_" + std::to_string(balls.size()), ball(1, 0.5, 1.6),
+                             {{3.0 * column, 3.0 * row, 1.5}, Quat::Identity()}));
   Wrench& push = t.push(box);
   t.start();
   t.run_for(0.5);
