@@ -10,7 +10,7 @@ namespace muro {
 
 namespace {
 
-std::string quoted(std::string_view s) { return "`" + std::string(s) + "`"; }
+std::string in_quotes(std::string_view s) { return "`" + std::string(s) + "`"; }
 
 }  // namespace
 
@@ -41,14 +41,14 @@ std::int32_t RobotTree::add_part(std::string_view name) {
   const auto index = std::int32_t(parts_.size());
   if (!part_index_.emplace(std::string(name), index).second)
     report(Severity::error,
-           "two parts are named " + quoted(name) + "; names of bodies and joints are unique in a robot", 0, 0);
+           "two parts are named " + in_quotes(name) + "; names of bodies and joints are unique in a robot", 0, 0);
   parts_.push_back({std::string(name), {}});
   last_part_ = index;
   return index;
 }
 
 void RobotTree::base(std::string_view name) noexcept {
-  if (at_.frame >= 0) return report(Severity::error, "a second base " + quoted(name) + "; a robot has one", 0, 0);
+  if (at_.frame >= 0) return report(Severity::error, "a second base " + in_quotes(name) + "; a robot has one", 0, 0);
   add_node(NodeKind::base, name);
   FlatFrame f;
   f.part = add_part(name);
@@ -93,7 +93,7 @@ void RobotTree::joint(NodeKind kind, std::string_view name, const Vec3& axis, co
   if (!started("a joint")) return;
   const double length = axis.norm();
   if (!(length > 1e-12) || !axis.allFinite())
-    return report(Severity::error, "joint " + quoted(name) + ": the axis has no direction", 0, 0);
+    return report(Severity::error, "joint " + in_quotes(name) + ": the axis has no direction", 0, 0);
   add_node(kind, name);
   FlatFrame f;
   f.joint_part = add_part(name);
@@ -166,13 +166,13 @@ void RobotTree::close() {
     const auto it = std::find_if(frames_.begin(), frames_.end(), [&](const FlatFrame& g) {
       return g.joint_part >= 0 && parts_[std::size_t(g.joint_part)].name == f.mimic_leader;
     });
-    const std::string name = quoted(parts_[std::size_t(f.joint_part)].name);
+    const std::string name = in_quotes(parts_[std::size_t(f.joint_part)].name);
     if (it == frames_.end())
       report(Severity::error,
-             "joint " + name + " mimics " + quoted(f.mimic_leader) + ", which is no joint of the robot", 0, 0);
+             "joint " + name + " mimics " + in_quotes(f.mimic_leader) + ", which is no joint of the robot", 0, 0);
     else if (!it->mimic_leader.empty())
-      report(Severity::error, "joint " + name + " mimics " + quoted(f.mimic_leader) + ", which mimics a joint itself",
-             0, 0);
+      report(Severity::error,
+             "joint " + name + " mimics " + in_quotes(f.mimic_leader) + ", which mimics a joint itself", 0, 0);
     else
       f.frame.mimic = std::int32_t(it - frames_.begin());
   }

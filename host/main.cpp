@@ -112,6 +112,29 @@ int dispatch(int argc, char** argv) {
   compare_command.add_option("--out", compare_options.picture, "Draw cost against deviation into this file (SVG)");
   compare_command.add_option("--csv", compare_options.table, "Write the table to this file (CSV)");
 
+  RenderOptions render_options;
+  CLI::App& render_command = *app.add_subcommand("render", "Draw a picture of a scenario at one time");
+  add_scenario_options(render_command, render_options.scenario);
+  render_command.add_option("--at", render_options.at, "Simulated seconds after which it is drawn")
+      ->check(check_duration)
+      ->capture_default_str();
+  render_command.add_option("--out", render_options.out, "File (PNG)")->required();
+  render_command.add_option("--camera", render_options.camera, "What a robot's camera sees, e.g. rover/camera");
+  render_command
+      .add_option("--from", render_options.from, "Where from, x,y,z in metres; default: so that all robots are seen")
+      ->delimiter(',')
+      ->expected(3);
+  render_command.add_option("--to", render_options.to, "Where to, x,y,z in metres; default: the middle of the robots")
+      ->delimiter(',')
+      ->expected(3);
+  render_command.add_option("--fov", render_options.fov, "Horizontal opening angle in degrees")
+      ->check(CLI::Range(1.0, 170.0))
+      ->capture_default_str();
+  render_command.add_option("--size", render_options.size, "Pixels")->capture_default_str();
+  render_command.add_option("--device", render_options.device, "What draws: auto, gpu or software")
+      ->check(CLI::IsMember({"auto", "gpu", "software"}))
+      ->capture_default_str();
+
   ScenarioOptions describe_options;
   bool json = false;
   CLI::App& describe_command =
@@ -138,8 +161,9 @@ int dispatch(int argc, char** argv) {
     return app.exit(e) == 0 ? 0 : 2;
   }
   run_options.scenario.plugin_path = check_options.plugin_path = describe_options.plugin_path =
-      compare_options.scenario.plugin_path = plugin_path;
+      compare_options.scenario.plugin_path = render_options.scenario.plugin_path = plugin_path;
   if (run_command.parsed()) return run(run_options);
+  if (render_command.parsed()) return render(render_options);
   if (check_command.parsed()) return check(check_options);
   if (compare_command.parsed()) return compare(compare_options);
   if (describe_command.parsed()) return describe(describe_options, json);

@@ -7,11 +7,12 @@
 
 namespace muro::host {
 
-BuiltScenario open_scenario(const ScenarioOptions& options, Registry& registry) {
+BuiltScenario open_scenario(const ScenarioOptions& options, Registry& registry,
+                            const std::function<void(Simulation&)>& more) {
   for (const std::string& p : registry.problems()) fmt::print(stderr, "warning: {}\n", p);
   Scenario scenario = read_scenario(options.file, options.overrides);
   if (options.seed) scenario.seed = *options.seed;
-  BuiltScenario built = build(std::move(scenario), registry);
+  BuiltScenario built = build(std::move(scenario), registry, more);
   for (const std::string& n : built.notes) fmt::print(stderr, "{}\n", n);
   return built;
 }

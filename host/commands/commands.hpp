@@ -38,7 +38,20 @@ struct CompareOptions {
   std::string table;               ///< file (CSV), or empty
 };
 
+struct RenderOptions {
+  ScenarioOptions scenario;
+  double at = 0;             ///< s
+  std::string camera;        ///< "rover/camera": what this one sees; empty: a view from outside
+  std::vector<double> from;  ///< x, y, z (m); empty: so that all robots are seen
+  std::vector<double> to;    ///< x, y, z (m); empty: the middle of the robots
+  double fov = 50;           ///< deg, horizontal, of a view from outside
+  std::string size = "1280x720";
+  std::string device = "auto";
+  std::string out;  ///< file (PNG)
+};
+
 int run(const RunOptions& options);
+int render(const RenderOptions& options);
 int check(const ScenarioOptions& options);
 int compare(const CompareOptions& options);
 int describe(const ScenarioOptions& options, bool json);

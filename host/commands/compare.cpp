@@ -52,7 +52,7 @@ std::size_t find_reference(const std::string& name, const std::vector<Variation>
                    "; there are: " + all);
 }
 
-class Progress {
+class RunsShown {
  public:
   void show(const std::string& label) const {
     if (shown_) fmt::print(stderr, "\r\033[K{} ...", label), std::fflush(stderr);
@@ -75,7 +75,7 @@ int compare(const CompareOptions& options) {
   const std::vector<Variation> variations = product(comparison.varieties);
   const std::size_t reference = find_reference(options.reference, variations);
 
-  const Progress progress;
+  const RunsShown progress;
   std::vector<Level> levels;
   bool noted = false;
   for (const Variation& v : variations) {

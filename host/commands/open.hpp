@@ -7,6 +7,8 @@
 namespace muro::host {
 
 /// Reads and builds a scenario; prints what its readers noted to standard error.
-BuiltScenario open_scenario(const ScenarioOptions& options, Registry& registry);
+/// `more`: as for build().
+BuiltScenario open_scenario(const ScenarioOptions& options, Registry& registry,
+                            const std::function<void(Simulation&)>& more = {});
 
 }  // namespace muro::host

@@ -275,11 +275,12 @@ class SceneBuilder {
 
 unsigned all_threads() { return std::max(1u, std::thread::hardware_concurrency()); }
 
-BuiltScenario build(Scenario scenario, Registry& registry) {
+BuiltScenario build(Scenario scenario, Registry& registry, const std::function<void(Simulation&)>& more) {
   BuiltScenario out;
   out.scenario = std::move(scenario);
   out.simulation = std::make_unique<Simulation>(registry, out.scenario.seed);
   SceneBuilder(out, registry).build();
+  if (more) more(*out.simulation);
   out.simulation->build();
   out.simulation->set_threads(out.scenario.threads > 0 ? out.scenario.threads : all_threads());
   return out;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -19,7 +20,8 @@ struct BuiltScenario {
 
 /// Adds what the scenario leaves open: kinematics for every robot, and, where something needs them, the
 /// spatial index, collision detection and contact forces. Throws SetupError with every problem found.
-BuiltScenario build(Scenario scenario, Registry& registry);
+/// `more`: adds what the command needs beside the scenario, before all is connected.
+BuiltScenario build(Scenario scenario, Registry& registry, const std::function<void(Simulation&)>& more = {});
 /// What `threads: all` means on this machine.
 unsigned all_threads();
 

@@ -87,6 +87,8 @@ inline constexpr Key<std::uint32_t> camera_width{"camera.width", "1", "pixels"};
 inline constexpr Key<std::uint32_t> camera_height{"camera.height", "1", "pixels"};
 inline constexpr Key<double> camera_horizontal_fov{"camera.horizontal_fov", "rad", "opening angle"};
 inline constexpr Key<std::uint8_t> camera_image{"camera.image", "1", "array: rgb, rows from the top"};
-inline constexpr Key<float> camera_depth{"camera.depth", "m", "array: distance along the optical axis"};
+inline constexpr Key<float> camera_depth{"camera.depth", "m",
+                                         "array: distance along the optical axis, infinite where nothing is"};
+inline constexpr Key<ObjectId> camera_labels{"camera.labels", "1", "array: the object each pixel shows, or none"};
 
 }  // namespace muro::keys

@@ -94,7 +94,8 @@ TEST(WrongCommandLine, ASpeedMustBeMaxRealOrAFactor) {
 TEST(WrongCommandLine, ACommandThatDoesNotExistNamesThoseThatDo) {
   const auto result = run_command(muro_program + " chekc x.yaml");
   EXPECT_EQ(result.output,
-            "muro has no command `chekc` (did you mean `check`?); commands: run, check, compare, describe, plugins\n");
+            "muro has no command `chekc` (did you mean `check`?); commands: run, check, compare, render, describe, "
+            "plugins\n");
   EXPECT_EQ(result.exit_code, 2);
 }
 
@@ -115,7 +116,8 @@ struct FailedRun {
 
 TEST(WrongCommandLine, WithoutACommandTheCommandsAreNamed) {
   const auto result = run_command(muro_program);
-  EXPECT_EQ(result.output, "muro needs a command: run, check, compare, describe, plugins; muro --help tells more\n");
+  EXPECT_EQ(result.output,
+            "muro needs a command: run, check, compare, render, describe, plugins; muro --help tells more\n");
   EXPECT_EQ(result.exit_code, 2);
 }
 

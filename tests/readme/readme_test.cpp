@@ -48,17 +48,17 @@ TEST(Readme, EveryFileItLinksToExists) {
 }
 
 TEST(Readme, ItsRunCommandsWork) {
-  const std::regex command(R"(    build/bin/muro (run [^\n]*))");
+  const std::regex command(R"(    build/bin/muro ((run|render) [^\n]*))");
   int commands = 0;
   for (auto it = std::sregex_iterator(readme.begin(), readme.end(), command); it != std::sregex_iterator();
        ++it, ++commands) {
     const test::ScratchFolder scratch;
     std::string arguments = (*it)[1].str();
-    for (const std::string file : {"report.json", "timeline.json"})
+    for (const std::string file : {"report.json", "timeline.json", "levels.png"})
       if (const std::size_t at = arguments.find(file); at != std::string::npos)
         arguments.replace(at, file.size(), scratch.path(file));
-    const auto result = run_command(muro_program + " " + arguments +
-                                    (arguments.find("--duration") == std::string::npos ? " --duration 2" : ""));
+    if ((*it)[2] == "run" && arguments.find("--duration") == std::string::npos) arguments += " --duration 2";
+    const auto result = run_command(muro_program + " " + arguments);
     EXPECT_EQ(result.exit_code, 0) << arguments << "\n" << result.output;
   }
   EXPECT_GE(commands, 3);

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+// A picture of a scenario at one time.
+#include <fmt/format.h>
+
+#include <charconv>
+
+#include "core/instance.hpp"
+#include "host/commands/commands.hpp"
+#include "host/commands/open.hpp"
+#include "host/png.hpp"
+#include "host/report.hpp"
+#include "muro/nearest.hpp"
+#include "muro/vocabulary.hpp"
+
+namespace muro::host {
+
+namespace {
+
+constexpr const char* algorithm = "camera.opengl";
+constexpr const char* eye = "muro.eye";
+
+/// "1280x720"
+std::pair<std::int64_t, std::int64_t> size_of(const std::string& text) {
+  std::int64_t sides[2] = {};
+  const char *at = text.data(), *end = at + text.size();
+  const auto first = std::from_chars(at, end, sides[0]);
+  if (first.ec == std::errc{} && first.ptr != end && *first.ptr == 'x') {
+    const auto second = std::from_chars(first.ptr + 1, end, sides[1]);
+    if (second.ec == std::errc{} && second.ptr == end && std::min(sides[0], sides[1]) >= 1 &&
+        std::max(sides[0], sides[1]) <= 8192)
+      return {sides[0], sides[1]};
+  }
+  throw SetupError("--size is `" + text + "` but must be WIDTHxHEIGHT, each from 1 to 8192 pixels, such as 1280x720");
+}
+
+Vec3 point_of(const char* option, const std::vector<double>& xyz) {
+  const Vec3 p(xyz[0], xyz[1], xyz[2]);
+  if (!p.allFinite()) throw SetupError(std::string(option) + " must be three finite numbers x,y,z in metres");
+  return p;
+}
+
+template <class T>
+T constant_of(Simulation& simulation, ObjectId object, const Key<T>& key, const T& otherwise) {
+  const ArrayHeader found = simulation.world().store().constant(object, key);
+  return found.data ? *static_cast<const T*>(found.data) : otherwise;
+}
+
+/// At `from`, looking to `to`, upright.
+Pose looking(const Vec3& from, const Vec3& to) {
+  const Vec3 forward = to - from;
+  if (forward.norm() < 1e-9) throw SetupError("--from and --to are the same point; the picture needs a direction");
+  const double yaw = std::atan2(forward.y(), forward.x());
+  return {from, from_rpy(0, -std::atan2(forward.z(), forward.head<2>().norm()), yaw)};
+}
+
+struct View {
+  Pose pose;
+  double distance = 0;  ///< m, to what it looks at
+};
+
+View view_of(const RenderOptions& options, Simulation& simulation) {
+  Vec3 low = Vec3::Constant(1e300), high = -low;
+  for (const RobotView* r : simulation.world().robots()) {
+    const Vec3 at = constant_of(simulation, r->base(), keys::initial_pose, Pose{}).position;
+    low = low.cwiseMin(at), high = high.cwiseMax(at);
+  }
+  if (simulation.world().robots().empty()) low = high = Vec3::Zero();
+  const Vec3 middle = 0.5 * (low + high);
+  const double around = std::max(1.5, 0.5 * (high - low).norm());
+  const Vec3 to = options.to.empty() ? middle : point_of("--to", options.to);
+  const Vec3 from =
+      options.from.empty() ? Vec3(to + 1.7 * around * Vec3(-0.75, -0.75, 0.7)) : point_of("--from", options.from);
+  return {looking(from, to), (to - from).norm()};
+}
+
+void add_eye(const RenderOptions& options, Simulation& simulation) {
+  const auto [width, height] = size_of(options.size);
+  const View view = view_of(options, simulation);
+  const ObjectId object = simulation.world().add_scenery(eye, view.pose, {});
+  AlgorithmSetup setup;
+  setup.name = "muro render";
+  setup.use = algorithm;
+  setup.rate = Rate(1e-6);
+  setup.phase = std::llround(options.at * 1e9);
+  setup.items = {{nullptr, object}};
+  setup.parameters = {{"width", width},
+                      {"height", height},
+                      {"horizontal_fov", options.fov * M_PI / 180},
+                      {"shadow_range", std::clamp(view.distance, 1.0, 1e4)},
+                      {"device", options.device}};
+  simulation.add(std::move(setup));
+}
+
+/// The sensor that has the picture.
+ObjectId camera_of(const RenderOptions& options, Simulation& simulation) {
+  std::vector<std::string> cameras;
+  for (const auto& instance : simulation.instances())
+    for (const Item& item : instance->setup().items)
+      if (simulation.world().store().find(item.object, keys::camera_image.name))
+        cameras.push_back(simulation.world().object_name(item.object));
+  const std::string wanted = options.camera.empty() ? eye : options.camera;
+  if (std::find(cameras.begin(), cameras.end(), wanted) != cameras.end()) return simulation.world().object(wanted);
+  std::string listed;
+  for (const std::string& name : cameras) listed += (listed.empty() ? "" : ", ") + name;
+  throw SetupError("the scenario has no camera `" + wanted + "`" + did_you_mean(wanted, cameras) +
+                   (listed.empty() ? "; no robot has one that writes camera.image" : "; there are: " + listed));
+}
+
+}  // namespace
+
+int render(const RenderOptions& options) {
+  if (!options.camera.empty() && (!options.from.empty() || !options.to.empty()))
+    throw SetupError(
+        "--camera shows what a camera of a robot sees, --from and --to a view from outside; give one of both");
+  if (!options.out.ends_with(".png")) throw SetupError("--out is `" + options.out + "` but must be a file NAME.png");
+  Registry registry(Registry::search_path(options.scenario.plugin_path));
+  const auto offers = registry.offers();
+  if (std::none_of(offers.begin(), offers.end(), [](const Offer& o) { return o.id == algorithm; }))
+    throw SetupError(
+        "a picture needs the plugin camera.opengl, which is not there; install libepoxy-dev and libegl-dev, "
+        "and build muro again");
+  check_writable(options.out);
+  BuiltScenario built = open_scenario(options.scenario, registry, [&](Simulation& simulation) {
+    if (options.camera.empty()) add_eye(options, simulation);
+  });
+  Simulation& simulation = *built.simulation;
+  const ObjectId camera = camera_of(options, simulation);
+  simulation.run_until(std::llround(options.at * 1e9) + 1);
+  const std::uint32_t width = constant_of(simulation, camera, keys::camera_width, 0u);
+  const std::uint32_t height = constant_of(simulation, camera, keys::camera_height, 0u);
+  write_file(options.out, png(width, height, simulation.world().values(camera, keys::camera_image)));
+  fmt::print("{}: {} x {} pixels, {} at {:g} s\n", options.out, width, height, built.scenario.name, options.at);
+  return 0;
+}
+
+}  // namespace muro::host

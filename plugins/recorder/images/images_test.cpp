@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+#include <png.h>
+
+#include <filesystem>
+
+#include "tests/support/bodies.hpp"
+#include "tests/support/files.hpp"
+
+namespace muro {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint32_t width = 40, height = 30;
+
+/// A camera 2 m in front of a wall.
+struct Scene : test::Scene {
+  ObjectId camera;
+  Scene() {
+    const RobotView& carrier = add("carrier", test::tree_of([](RobotBuilder& b) { b.base("body"); }));
+    camera = add_sensor_object(carrier, "camera", carrier.base());
+    const Shape wall = Shape::box({0.2, 50, 50});
+    world().add_scenery("wall", {{2.1, 0, 0}, Quat::Identity()}, std::span<const Shape>(&wall, 1));
+    use("motion.point", 100, all_robots());
+    use_kinematics();
+    use("camera.opengl", 10, {{&carrier, camera}},
+        {{"width", std::int64_t(width)}, {"height", std::int64_t(height)}, {"depth", true}, {"device", "software"}});
+  }
+  void record(std::map<std::string, ParameterInput> parameters) {
+    use("recorder.images", 5, {}, std::move(parameters));
+    build();
+  }
+};
+
+template <class T>
+std::vector<T> read(const std::string& path, png_uint_32 format) {
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  if (!png_image_begin_read_from_file(&image, path.c_str())) return {};
+  image.format = format;
+  std::vector<T> pixels(PNG_IMAGE_SIZE(image) / sizeof(T));
+  png_image_finish_read(&image, nullptr, pixels.data(), 0, nullptr);
+  return pixels;
+}
+
+TEST(Images, AreThePixelsThatTheCameraSaw) {
+  const test::ScratchFolder folder;
+  Scene s;
+  s.record({{"folder", folder.path("pictures")}});
+  s.run_for(0.5);
+  std::set<std::string> names;
+  for (const auto& f : fs::directory_iterator(folder.path("pictures"))) names.insert(f.path().filename());
+  EXPECT_EQ(names,
+            (std::set<std::string>{"carrier_camera_00000.000000.png", "carrier_camera_00000.200000.png",
+                                   "carrier_camera_00000.400000.png", "carrier_camera_depth_00000.000000.png",
+                                   "carrier_camera_depth_00000.200000.png", "carrier_camera_depth_00000.400000.png"}));
+  const auto rgb = read<std::uint8_t>(folder.path("pictures/carrier_camera_00000.400000.png"), PNG_FORMAT_RGB);
+  const auto seen = s.world().values(s.camera, keys::camera_image);
+  ASSERT_EQ(rgb.size(), seen.size());
+  EXPECT_TRUE(std::equal(rgb.begin(), rgb.end(), seen.begin()));
+}
+
+TEST(Images, OfDepthAreMillimetres) {
+  const test::ScratchFolder folder;
+  Scene s;
+  s.record({{"folder", folder.path("pictures")}, {"cameras", std::vector<std::string>{"carrier/camera"}}});
+  s.run_for(0.1);
+  const auto grey =
+      read<std::uint16_t>(folder.path("pictures/carrier_camera_depth_00000.000000.png"), PNG_FORMAT_LINEAR_Y);
+  ASSERT_EQ(grey.size(), std::size_t(width) * height);
+  for (const std::uint16_t value : grey) EXPECT_EQ(value, 2000);
+}
+
+TEST(Images, OfACameraThatIsNotThereAreAnError) {
+  Scene s;
+  try {
+    s.record({{"folder", "nowhere"}, {"cameras", std::vector<std::string>{"carrier/camer"}}});
+    FAIL();
+  } catch (const SetupError& e) {
+    EXPECT_NE(std::string(e.what()).find("no camera `carrier/camer`"), std::string::npos) << e.what();
+  }
+}
+
+}  // namespace
+}  // namespace muro

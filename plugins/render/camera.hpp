@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// The pinhole camera: Hartley and Zisserman, Multiple View Geometry, 2nd edition, section 6.1.
+#pragma once
+
+#include <cstdint>
+
+#include "muro/geometry.hpp"
+
+namespace muro::render {
+
+/// A point at x forward, y left, z up in the camera's frame is seen at column cx - fx y/x and row cy - fy z/x, counted
+/// from the upper left corner of the picture, in pixels; the first pixel reaches from 0 to 1.
+struct Camera {
+  Pose pose;                            ///< in the world; it looks along x
+  std::uint32_t width = 0, height = 0;  ///< pixels
+  double fx = 0, fy = 0;                ///< pixels
+  double cx = 0, cy = 0;                ///< pixels
+  double near = 0.01;                   ///< m along the axis; nothing nearer is seen
+  double far = 1000;                    ///< m along the axis; nothing farther is seen
+  std::int32_t ignored_robot = -1;      ///< number of a robot that is not seen
+
+  /// With square pixels and the axis in the middle. `fov`: horizontal, rad, below pi.
+  static Camera of_fov(std::uint32_t width, std::uint32_t height, double fov) {
+    Camera c;
+    c.width = width;
+    c.height = height;
+    c.fx = c.fy = 0.5 * width / std::tan(0.5 * fov);
+    c.cx = 0.5 * width;
+    c.cy = 0.5 * height;
+    return c;
+  }
+};
+
+}  // namespace muro::render

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// OpenGL without a window and without a display server: EGL on a device (EGL_EXT_platform_device).
+#pragma once
+
+#include <memory>
+#include <string>
+
+namespace muro::render {
+
+/// What draws.
+enum class Device {
+  any,       ///< the first GPU that can, else the processor
+  gpu,       ///< the first GPU that can
+  software,  ///< the processor, by Mesa's llvmpipe, in the calling thread
+};
+
+/// An OpenGL 4.5 core context. It is current in one thread at a time, while a Current of it lives there.
+class Context {
+ public:
+  /// Throws muro::Error with what was tried and what to install where no device gives one. [setup]
+  explicit Context(Device device);
+  ~Context();
+  Context(const Context&) = delete;
+  Context& operator=(const Context&) = delete;
+
+  /// What the driver calls itself.
+  const std::string& renderer() const { return renderer_; }
+  bool is_software() const { return software_; }
+
+ private:
+  friend class Current;
+  struct Handles;
+  std::unique_ptr<Handles> handles_;
+  std::string renderer_;
+  bool software_ = false;
+};
+
+/// Makes a context current in this thread, and what was current before again at its end.
+class Current {
+ public:
+  explicit Current(const Context& context);
+  ~Current();
+  Current(const Current&) = delete;
+  Current& operator=(const Current&) = delete;
+
+ private:
+  struct Before;
+  std::unique_ptr<Before> before_;
+};
+
+}  // namespace muro::render

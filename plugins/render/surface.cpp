@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "surface.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace muro::render {
+
+using std::numbers::pi;
+
+namespace {
+
+constexpr double smooth_angle = 40 * pi / 180;
+
+Vertex vertex(const Vec3& position, const Vec3& normal) {
+  return {{float(position.x()), float(position.y()), float(position.z())},
+          {float(normal.x()), float(normal.y()), float(normal.z())}};
+}
+
+void add_quad(Surface& s, std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+  s.indices.insert(s.indices.end(), {a, b, c, a, c, d});
+}
+
+/// A grid of a sphere's points between two latitudes (rad).
+Surface part_of_sphere(int n, int rows, double low, double high) {
+  Surface s;
+  for (int i = 0; i <= rows; ++i) {
+    const double latitude = low + (high - low) * i / rows;
+    for (int k = 0; k <= n; ++k) {
+      const double a = 2 * pi * (k % n) / n;
+      const Vec3 p(std::cos(latitude) * std::cos(a), std::cos(latitude) * std::sin(a), std::sin(latitude));
+      s.vertices.push_back(vertex(p, p));
+    }
+  }
+  const auto at = [&](int i, int k) { return std::uint32_t(i * (n + 1) + k); };
+  for (int i = 0; i < rows; ++i)
+    for (int k = 0; k < n; ++k) add_quad(s, at(i, k), at(i, k + 1), at(i + 1, k + 1), at(i + 1, k));
+  return s;
+}
+
+}  // namespace
+
+Surface unit_box() {
+  Surface s;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double side : {-0.5, 0.5}) {
+      const Vec3 normal = 2 * side * Vec3::Unit(axis), u = Vec3::Unit((axis + 1) % 3), v = normal.cross(u);
+      const auto first = std::uint32_t(s.vertices.size());
+      for (const auto& [x, y] : {std::pair{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}})
+        s.vertices.push_back(vertex(0.5 * normal + x * u + y * v, normal));
+      add_quad(s, first, first + 1, first + 2, first + 3);
+    }
+  return s;
+}
+
+Surface unit_sphere(int n) { return part_of_sphere(n, n / 2, -pi / 2, pi / 2); }
+Surface unit_dome(int n) { return part_of_sphere(n, n / 4, 0, pi / 2); }
+
+Surface unit_tube(int n) {
+  Surface s;
+  for (int k = 0; k <= n; ++k) {
+    const double a = 2 * pi * (k % n) / n;
+    const Vec3 out(std::cos(a), std::sin(a), 0);
+    for (const double z : {-0.5, 0.5}) s.vertices.push_back(vertex(out + z * Vec3::UnitZ(), out));
+  }
+  for (std::uint32_t k = 0; k < std::uint32_t(n); ++k) add_quad(s, 2 * k, 2 * k + 2, 2 * k + 3, 2 * k + 1);
+  return s;
+}
+
+Surface unit_cylinder(int n) {
+  Surface s = unit_tube(n);
+  for (const double z : {-0.5, 0.5}) {
+    const Vec3 normal = 2 * z * Vec3::UnitZ();
+    const auto first = std::uint32_t(s.vertices.size());
+    for (int k = 0; k < n; ++k) {
+      const double a = (z > 0 ? 2 : -2) * pi * k / n;
+      s.vertices.push_back(vertex(Vec3(std::cos(a), std::sin(a), z), normal));
+    }
+    for (std::uint32_t k = 1; k + 1 < std::uint32_t(n); ++k)
+      s.indices.insert(s.indices.end(), {first, first + k, first + k + 1});
+  }
+  return s;
+}
+
+Surface unit_ground() {
+  constexpr int rings = 7;
+  Surface s;
+  double half = 1;
+  for (int ring = 0; ring <= rings; ++ring, half /= 4)
+    for (const auto& [x, y] : {std::pair{-half, -half}, {half, -half}, {half, half}, {-half, half}})
+      s.vertices.push_back(vertex({x, y, 0}, Vec3::UnitZ()));
+  for (std::uint32_t ring = 0; ring < rings; ++ring) {
+    const std::uint32_t outer = 4 * ring, inner = outer + 4;
+    for (std::uint32_t k = 0; k < 4; ++k) {
+      const std::uint32_t next = (k + 1) % 4;
+      add_quad(s, outer + k, outer + next, inner + next, inner + k);
+    }
+  }
+  add_quad(s, 4 * rings, 4 * rings + 1, 4 * rings + 2, 4 * rings + 3);
+  return s;
+}
+
+Surface surface_of(const mesh::Mesh& mesh) {
+  std::vector<Vec3> normals;  // of triangles, by area
+  std::vector<std::vector<std::uint32_t>> around(mesh.vertices.size());
+  for (const mesh::Triangle& t : mesh.triangles) {
+    for (const std::uint32_t corner : t) around[corner].push_back(std::uint32_t(normals.size()));
+    const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+    normals.push_back(Vec3(b - a).cross(Vec3(c - a)));
+  }
+  Surface s;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    for (const std::uint32_t corner : mesh.triangles[i]) {
+      Vec3 sum = Vec3::Zero();
+      for (const std::uint32_t other : around[corner])
+        if (normals[i].dot(normals[other]) >= std::cos(smooth_angle) * normals[i].norm() * normals[other].norm())
+          sum += normals[other];
+      s.indices.push_back(std::uint32_t(s.vertices.size()));
+      s.vertices.push_back(vertex(mesh.vertices[corner], sum.normalized()));
+    }
+  return s;
+}
+
+double sagitta_of(int n) { return 1 - std::cos(pi / n); }
+
+}  // namespace muro::render

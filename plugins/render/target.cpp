@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "target.hpp"
+
+#include <epoxy/gl.h>
+
+#include "muro/algorithm.hpp"
+
+namespace muro::render {
+
+namespace {
+
+constexpr GLsizei samples = 4;
+
+void check_framebuffer(GLuint framebuffer) {
+  if (glCheckNamedFramebufferStatus(framebuffer, GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+    throw Error("the driver of OpenGL cannot draw into a picture of this size and kind");
+}
+
+}  // namespace
+
+ColorTarget::ColorTarget(std::uint32_t width, std::uint32_t height) : width_(width), height_(height) {
+  const auto w = GLsizei(width), h = GLsizei(height);
+  glCreateRenderbuffers(3, buffers_);
+  glNamedRenderbufferStorageMultisample(buffers_[0], samples, GL_SRGB8_ALPHA8, w, h);
+  glNamedRenderbufferStorageMultisample(buffers_[1], samples, GL_DEPTH_COMPONENT32F, w, h);
+  glNamedRenderbufferStorage(buffers_[2], GL_SRGB8_ALPHA8, w, h);
+  glCreateFramebuffers(1, &drawn_);
+  glNamedFramebufferRenderbuffer(drawn_, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, buffers_[0]);
+  glNamedFramebufferRenderbuffer(drawn_, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, buffers_[1]);
+  glCreateFramebuffers(1, &mixed_);
+  glNamedFramebufferRenderbuffer(mixed_, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, buffers_[2]);
+  check_framebuffer(drawn_);
+  check_framebuffer(mixed_);
+}
+
+ColorTarget::~ColorTarget() {
+  glDeleteFramebuffers(1, &drawn_);
+  glDeleteFramebuffers(1, &mixed_);
+  glDeleteRenderbuffers(3, buffers_);
+}
+
+void ColorTarget::begin() const {
+  glBindFramebuffer(GL_FRAMEBUFFER, drawn_);
+  glViewport(0, 0, GLsizei(width_), GLsizei(height_));
+  glEnable(GL_FRAMEBUFFER_SRGB);
+  const float black[] = {0, 0, 0, 1}, far = 0;
+  glClearBufferfv(GL_COLOR, 0, black);
+  glClearBufferfv(GL_DEPTH, 0, &far);
+}
+
+void ColorTarget::read(std::span<std::uint8_t> rgb) const {
+  const auto w = GLint(width_), h = GLint(height_);
+  glBlitNamedFramebuffer(drawn_, mixed_, 0, 0, w, h, 0, 0, w, h, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, mixed_);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, w, h, GL_RGB, GL_UNSIGNED_BYTE, rgb.data());
+}
+
+DepthTarget::DepthTarget(std::uint32_t width, std::uint32_t height) : width_(width), height_(height) {
+  const auto w = GLsizei(width), h = GLsizei(height);
+  glCreateRenderbuffers(2, buffers_);
+  glNamedRenderbufferStorage(buffers_[0], GL_R32UI, w, h);
+  glNamedRenderbufferStorage(buffers_[1], GL_DEPTH_COMPONENT32F, w, h);
+  glCreateFramebuffers(1, &drawn_);
+  glNamedFramebufferRenderbuffer(drawn_, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, buffers_[0]);
+  glNamedFramebufferRenderbuffer(drawn_, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, buffers_[1]);
+  check_framebuffer(drawn_);
+}
+
+DepthTarget::~DepthTarget() {
+  glDeleteFramebuffers(1, &drawn_);
+  glDeleteRenderbuffers(2, buffers_);
+}
+
+void DepthTarget::begin() const {
+  glBindFramebuffer(GL_FRAMEBUFFER, drawn_);
+  glViewport(0, 0, GLsizei(width_), GLsizei(height_));
+  glDisable(GL_FRAMEBUFFER_SRGB);
+  const GLuint nobody[] = {0xffffffff, 0, 0, 0};
+  const float far = 0;
+  glClearBufferuiv(GL_COLOR, 0, nobody);
+  glClearBufferfv(GL_DEPTH, 0, &far);
+}
+
+void DepthTarget::read(std::span<float> inverse) const {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, drawn_);
+  glReadPixels(0, 0, GLsizei(width_), GLsizei(height_), GL_DEPTH_COMPONENT, GL_FLOAT, inverse.data());
+}
+
+void DepthTarget::read(std::span<std::uint32_t> labels) const {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, drawn_);
+  glReadPixels(0, 0, GLsizei(width_), GLsizei(height_), GL_RED_INTEGER, GL_UNSIGNED_INT, labels.data());
+}
+
+}  // namespace muro::render

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// Where pictures go, and how they come back. To be made and used while the context is current.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+namespace muro::render {
+
+/// A picture in colours: four samples a pixel, mixed in light, not in what a screen is told.
+class ColorTarget {
+ public:
+  ColorTarget(std::uint32_t width, std::uint32_t height);
+  ~ColorTarget();
+  ColorTarget(const ColorTarget&) = delete;
+  ColorTarget& operator=(const ColorTarget&) = delete;
+
+  void begin() const;
+  /// sRGB, rows from the top: 3 width height.
+  void read(std::span<std::uint8_t> rgb) const;
+
+ private:
+  std::uint32_t width_, height_;
+  std::uint32_t drawn_ = 0, mixed_ = 0;  ///< framebuffers
+  std::uint32_t buffers_[3] = {};
+};
+
+/// Distances, and whose they are: one sample in the middle of each pixel.
+class DepthTarget {
+ public:
+  DepthTarget(std::uint32_t width, std::uint32_t height);
+  ~DepthTarget();
+  DepthTarget(const DepthTarget&) = delete;
+  DepthTarget& operator=(const DepthTarget&) = delete;
+
+  void begin() const;
+  /// What the depth buffer holds, near / distance along the axis, or 0; rows from the top: width height.
+  void read(std::span<float> inverse) const;
+  /// The label of each pixel, or 0xffffffff; rows from the top: width height.
+  void read(std::span<std::uint32_t> labels) const;
+
+ private:
+  std::uint32_t width_, height_;
+  std::uint32_t drawn_ = 0;
+  std::uint32_t buffers_[2] = {};
+};
+
+}  // namespace muro::render
