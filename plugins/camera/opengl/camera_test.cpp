@@ -30,14 +30,14 @@ struct Studio : test::Scene {
   void put(const char* name, const Shape& shape, const Pose& at) {
     world().add_scenery(name, at, std::span<const Shape>(&shape, 1));
   }
-  void shoot(Parameters more = {}) {
+  void shoot(const Parameters& more = {}) {
     Parameters parameters{{"width", std::int64_t(width)},
                           {"height", std::int64_t(height)},
                           {"horizontal_fov", 1.0},
                           {"depth", true},
                           {"labels", true},
                           {"device", "software"}};
-    for (auto& [name, value] : more) parameters[name] = value;
+    for (const auto& [name, value] : more) parameters[name] = value;
     if (parameters.count("intrinsics")) parameters.erase("horizontal_fov");
     use("motion.point", 100, all_robots());
     use_kinematics();
@@ -185,10 +185,10 @@ TEST(ACamera, TakesTheSamePictureTwice) {
 }
 
 TEST(ACamera, TellsWhatIsWrong) {
-  const auto complaint = [](Parameters more) -> std::string {
+  const auto complaint = [](const Parameters& more) -> std::string {
     Studio s({});
     try {
-      s.shoot(std::move(more));
+      s.shoot(more);
     } catch (const SetupError& e) {
       return e.what();
     }

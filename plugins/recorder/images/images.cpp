@@ -2,6 +2,7 @@
 // Writes what cameras see to PNG files; see README.md.
 #include <png.h>
 
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 
@@ -61,7 +62,7 @@ class ImageRecorder final : public Algorithm {
       camera.grey.resize(depth.size());
       for (std::size_t k = 0; k < depth.size(); ++k) {
         const double value = double(depth[k]) / depth_step;
-        camera.grey[k] = value < 65535 ? std::uint16_t(value + 0.5) : 0;
+        camera.grey[k] = value < 65535 ? std::uint16_t(std::lround(value)) : 0;
       }
       write(camera, "_depth" + std::string(time) + ".png", PNG_FORMAT_LINEAR_Y, camera.grey.data());
     }
