@@ -81,7 +81,7 @@ Context::Context(Device device) : handles_(std::make_unique<Handles>()) {
     renderer_ = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
     return;
   }
-  throw Error("nothing here draws by OpenGL 4.5" + (tried.empty() ? "; EGL knows no device" : tried) +
+  throw Error("nothing here draws by OpenGL 4.5" + (tried.empty() ? "; EGL knows no such device" : tried) +
               ". Install libegl1 and libgl1-mesa-dri, with which the processor draws, or the driver of a GPU with EGL; "
               "`device` says which is taken");
 }
