@@ -7,6 +7,7 @@
 #include "core/instance.hpp"
 #include "host/commands/commands.hpp"
 #include "host/commands/open.hpp"
+#include "host/constants.hpp"
 #include "host/png.hpp"
 #include "host/report.hpp"
 #include "muro/nearest.hpp"
@@ -39,12 +40,6 @@ Vec3 point_of(const char* option, const std::vector<double>& xyz) {
   return p;
 }
 
-template <class T>
-T constant_of(Simulation& simulation, ObjectId object, const Key<T>& key, const T& otherwise) {
-  const ArrayHeader found = simulation.world().store().constant(object, key);
-  return found.data ? *static_cast<const T*>(found.data) : otherwise;
-}
-
 /// At `from`, looking to `to`, upright.
 Pose looking(const Vec3& from, const Vec3& to) {
   const Vec3 forward = to - from;
@@ -61,7 +56,7 @@ struct View {
 View view_of(const RenderOptions& options, Simulation& simulation) {
   Vec3 low = Vec3::Constant(1e300), high = -low;
   for (const RobotView* r : simulation.world().robots()) {
-    const Vec3 at = constant_of(simulation, r->base(), keys::initial_pose, Pose{}).position;
+    const Vec3 at = constant(simulation.world(), r->base(), keys::initial_pose, Pose{}).position;
     low = low.cwiseMin(at), high = high.cwiseMax(at);
   }
   if (simulation.world().robots().empty()) low = high = Vec3::Zero();
@@ -126,8 +121,8 @@ int render(const RenderOptions& options) {
   Simulation& simulation = *built.simulation;
   const ObjectId camera = camera_of(options, simulation);
   simulation.run_until(std::llround(options.at * 1e9) + 1);
-  const std::uint32_t width = constant_of(simulation, camera, keys::camera_width, 0u);
-  const std::uint32_t height = constant_of(simulation, camera, keys::camera_height, 0u);
+  const std::uint32_t width = constant(simulation.world(), camera, keys::camera_width, 0u);
+  const std::uint32_t height = constant(simulation.world(), camera, keys::camera_height, 0u);
   write_file(options.out, png(width, height, simulation.world().values(camera, keys::camera_image)));
   fmt::print("{}: {} x {} pixels, {} at {:g} s\n", options.out, width, height, built.scenario.name, options.at);
   return 0;

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/instance.hpp"
+#include "host/constants.hpp"
 #include "host/scenario/defaults.hpp"
 #include "muro/vocabulary.hpp"
 
@@ -12,11 +13,6 @@ namespace muro::host {
 namespace {
 
 constexpr std::uint32_t scenery = 1u << 31;  ///< marks objects among the second of a pair
-
-std::span<const Shape> shapes_of(const World& world, ObjectId object) {
-  const ArrayHeader found = world.store().constant(object, keys::collision_shapes);
-  return {static_cast<const Shape*>(found.data), found.size};
-}
 
 const Pose* pose_of(const World& world, ObjectId object) {
   const Slot* slot = world.store().find(object, keys::pose.name);
@@ -72,7 +68,7 @@ void Witness::add_scenery() {
   for (std::uint32_t i = 0; i < world.object_count(); ++i) {
     const Pose* pose = world.robot_of(ObjectId{i}) < 0 ? pose_of(world, ObjectId{i}) : nullptr;
     std::vector<Shape> shapes;
-    for (const Shape& s : shapes_of(world, ObjectId{i}))
+    for (const Shape& s : constants(world, ObjectId{i}, keys::collision_shapes))
       if (s.kind != ShapeKind::plane) shapes.push_back(shape_of(s, 0));
     if (pose && !shapes.empty()) scene_.world().add_scenery(world.object_name(ObjectId{i}), *pose, shapes);
   }
@@ -85,7 +81,7 @@ void Witness::add_bodies() {
     if (world.store().constant(r->base(), keys::shadow_of).data) continue;
     for (const Frame& f : r->frames) {
       std::vector<Shape> shapes;
-      for (const Shape& s : shapes_of(world, f.object)) shapes.push_back(shape_of(s, reach));
+      for (const Shape& s : constants(world, f.object, keys::collision_shapes)) shapes.push_back(shape_of(s, reach));
       const Pose* pose = pose_of(world, f.object);
       if (shapes.empty() || !pose) continue;
       RobotTree tree;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "host/constants.hpp"
 #include "muro/composite.hpp"
 
 namespace muro::host {
@@ -10,18 +11,6 @@ namespace muro::host {
 namespace {
 
 std::string counted(std::size_t n, const char* what) { return std::to_string(n) + " " + what + (n == 1 ? "" : "s"); }
-
-template <class T>
-std::span<const T> constants(const World& world, ObjectId object, const Key<T>& key) {
-  const ArrayHeader found = world.store().constant(object, key);
-  return {static_cast<const T*>(found.data), found.size};
-}
-
-/// The same as a constant of one value, whose size tells nothing.
-Inertia inertia_of(const World& world, ObjectId object) {
-  const void* data = world.store().constant(object, keys::inertial).data;
-  return data ? *static_cast<const Inertia*>(data) : Inertia{};
-}
 
 bool is_finite(double limit) { return std::isfinite(limit); }
 bool is_turned(const ParameterInput* value, const char* word) {
@@ -34,7 +23,7 @@ bool is_turned(const ParameterInput* value, const char* word) {
 class Needs {
  public:
   Needs(const World& world, const RobotView& robot, const MotionUse& use) : world_(world), robot_(robot), use_(use) {
-    for (const Frame& f : robot.frames) inertias_.push_back(inertia_of(world, f.object));
+    for (const Frame& f : robot.frames) inertias_.push_back(constant(world, f.object, keys::inertial, Inertia{}));
     for (const Frame& f : robot.frames) is_joint_.push_back(f.joint != JointKind::fixed && f.mimic < 0);
   }
 

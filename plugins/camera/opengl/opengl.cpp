@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "muro/mounting.hpp"
 #include "muro/plugin.hpp"
 #include "plugins/render/context.hpp"
 #include "plugins/render/renderer.hpp"
@@ -16,7 +17,6 @@ using namespace muro;
 using std::numbers::pi;
 
 constexpr int corners = 64;  ///< of circles
-constexpr double no_shift[] = {0, 0, 0};
 constexpr std::string_view devices[] = {"auto", "gpu", "software"};
 constexpr Parameter parameters[] = {
     integer("width", 640, "pixels in a row").between(1, 8192),
@@ -32,8 +32,8 @@ constexpr Parameter parameters[] = {
     boolean("shadows", true, "the sun throws shadows in camera.image"),
     real("shadow_range", "m", 25, "around what is in front, shadows reach so far; more is coarser").between(0.1, 1e4),
     boolean("see_self", true, "whether the robot that carries the camera is seen"),
-    reals("offset", "m", no_shift, "position x, y, z of the device in the frame it is mounted on").of_length(3),
-    reals("rpy", "rad", no_shift, "roll, pitch, yaw of the device in the frame it is mounted on").of_length(3),
+    mounting_offset,
+    mounting_rpy,
     text("device", "auto", "what draws: the first GPU that can, else the processor; or one of both").one_of(devices),
 };
 constexpr Use reads[] = {{"pose", "of the sensor's object and of all bodies that are seen"},
@@ -45,7 +45,7 @@ constexpr Use writes[] = {
     {"camera.width", "constant"},
     {"camera.height", "constant"},
     {"camera.horizontal_fov", "constant"},
-    {"sensor.origin", "constant: offset and rpy"},
+    mounting_writes,
 };
 constexpr Description description{
     .id = "camera.opengl",
@@ -58,8 +58,6 @@ constexpr Description description{
     .writes = writes,
     .promises = deterministic | batched | restorable,
 };
-
-Vec3 vector_of(std::span<const double> xyz) { return {xyz[0], xyz[1], xyz[2]}; }
 
 render::Camera read_camera(const Parameters& p) {
   const auto width = std::uint32_t(p.integer("width")), height = std::uint32_t(p.integer("height"));
@@ -90,8 +88,7 @@ class Camera final : public Algorithm {
   void connect(Connector& c) override {
     const Parameters& p = c.parameters();
     camera_ = read_camera(p);
-    const Vec3 rpy = vector_of(p.reals("rpy"));
-    mounting_ = {vector_of(p.reals("offset")), from_rpy(rpy.x(), rpy.y(), rpy.z())};
+    mounting_ = mounting_of(p);
     light_.shadows = p.boolean("shadows");
     light_.shadow_range = p.real("shadow_range");
     const std::string_view device = p.text("device");

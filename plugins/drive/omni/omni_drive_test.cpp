@@ -3,6 +3,7 @@
 
 #include <random>
 
+#include "tests/support/complaint.hpp"
 #include "tests/support/wheeled_robot.hpp"
 
 namespace muro {
@@ -91,13 +92,8 @@ TEST(OmniDrive, IsNoErrorOnALevelWithoutWheels) {
   EXPECT_NEAR(s.pose(s.robot).position.y(), 2, 1e-12);
 }
 
-std::string complaint(const RobotTree& tree, Settings settings = {}) {
-  try {
-    Driven s(tree, std::move(settings), "");
-  } catch (const SetupError& e) {
-    return e.what();
-  }
-  return "no complaint";
+std::string complaint(const RobotTree& tree, const Settings& settings = {}) {
+  return test::complaint_of([&] { Driven s(tree, settings, ""); });
 }
 
 TEST(OmniDrive, WheelsThatCannotServeAreErrors) {

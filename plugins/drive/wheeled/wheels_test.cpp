@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/complaint.hpp"
 #include "tests/support/wheeled_robot.hpp"
 
 namespace muro {
@@ -40,16 +41,9 @@ struct Found : test::Scene {
 };
 
 /// What the user reads when the wheels cannot be found.
-std::string complaint(const RobotTree& tree, Settings settings = {}) {
-  try {
-    Found found(tree, std::move(settings));
-  } catch (const SetupError& e) {
-    return e.what();
-  }
-  return "no complaint";
+std::string complaint(const RobotTree& tree, const Settings& settings = {}) {
+  return test::complaint_of([&] { Found found(tree, settings); });
 }
-
-#define EXPECT_SAYS(TEXT, PART) EXPECT_NE((TEXT).find(PART), std::string::npos) << (TEXT)
 
 std::vector<WheelPart> pair() { return {{.name = "left", .at = {0, 0.2, 0}}, {.name = "right", .at = {0, -0.2, 0}}}; }
 

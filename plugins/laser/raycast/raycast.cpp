@@ -6,6 +6,7 @@
 #include <string>
 
 #include "caster.hpp"
+#include "muro/mounting.hpp"
 #include "muro/plugin.hpp"
 
 namespace {
@@ -18,7 +19,6 @@ using raycast::ScanKernels;
 using raycast::SceneTable;
 using std::numbers::pi;
 
-constexpr double no_shift[] = {0, 0, 0};
 constexpr Parameter parameters[] = {
     real("min_angle", "rad", -pi, "azimuth of the first ray").between(-4 * pi, 4 * pi),
     real("max_angle", "rad", pi, "azimuth of the last ray; 2 pi after the first, the seam is cast once")
@@ -30,8 +30,8 @@ constexpr Parameter parameters[] = {
     reals("directions", "rad", {}, "pairs azimuth, elevation, one for each ray, instead of a grid"),
     real("min_range", "m", 0, "what is nearer reads this").between(0, 1e6),
     real("max_range", "m", 10, "what is farther is not seen and reads this").between(1e-6, 1e6),
-    reals("offset", "m", no_shift, "position x, y, z of the device in the frame it is mounted on").of_length(3),
-    reals("rpy", "rad", no_shift, "roll, pitch, yaw of the device in the frame it is mounted on").of_length(3),
+    mounting_offset,
+    mounting_rpy,
     boolean("see_self", false, "whether the robot that carries the scanner is seen"),
     boolean("hits", false, "also write laser.hits"),
 };
@@ -45,7 +45,7 @@ constexpr Use writes[] = {
     {"laser.rows", "constant"},
     {"laser.min_range", "constant"},
     {"laser.max_range", "constant"},
-    {"sensor.origin", "constant: offset and rpy"},
+    mounting_writes,
 };
 constexpr Description description{
     .id = "laser.raycast",
@@ -58,8 +58,6 @@ constexpr Description description{
     .writes = writes,
     .promises = deterministic | batched | allocation_free | restorable,
 };
-
-Vec3 vector_of(std::span<const double> xyz) { return {xyz[0], xyz[1], xyz[2]}; }
 
 void check_interval(const char* low_name, double low, const char* high_name, double high) {
   if (low > high)
@@ -76,8 +74,7 @@ class Raycast final : public Algorithm {
     if (min_range_ >= max_range_)
       throw Error("min_range (" + std::to_string(min_range_) + " m) must be less than max_range (" +
                   std::to_string(max_range_) + " m)");
-    const Vec3 rpy = vector_of(p.reals("rpy"));
-    mounting_ = {vector_of(p.reals("offset")), from_rpy(rpy.x(), rpy.y(), rpy.z())};
+    mounting_ = mounting_of(p);
     const Grid shown = p.given("directions") ? read_directions(p) : read_grid(p);
 
     scene_ = c.read(world_object, keys::scene_index);

@@ -4,6 +4,7 @@
 
 #include "ackermann_testing.hpp"
 #include "core/instance.hpp"
+#include "tests/support/complaint.hpp"
 
 namespace muro {
 namespace {
@@ -163,15 +164,9 @@ TEST(Ackermann, DrivesTheCarOfTheExamples) {
   EXPECT_NEAR(s.moving().angular.z(), 0.5, 1e-12);
 }
 
-std::string complaint(const RobotTree& tree, Settings settings = {}) {
-  try {
-    Vehicle s(10, tree, std::move(settings));
-  } catch (const SetupError& e) {
-    return e.what();
-  }
-  return "no complaint";
+std::string complaint(const RobotTree& tree, const Settings& settings = {}) {
+  return test::complaint_of([&] { Vehicle s(10, tree, settings); });
 }
-#define EXPECT_SAYS(TEXT, PART) EXPECT_NE((TEXT).find(PART), std::string::npos) << (TEXT)
 
 TEST(Ackermann, AVehicleWithoutSteeredWheelsIsAnErrorThatTellsWhatItHas) {
   const std::string text = complaint(test::two_wheeler(0.05, 0.3));

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "core/instance.hpp"
+#include "tests/support/complaint.hpp"
 #include "tests/support/wheeled_robot.hpp"
 
 namespace muro {
@@ -220,15 +221,9 @@ TEST(Omni, DrivesTheModelsOfTheExamples) {
   EXPECT_NEAR(kiwi.turning(), 2 * 0.04 / 0.135, 1e-12);
 }
 
-std::string complaint(const RobotTree& tree, Settings settings = {}) {
-  try {
-    Vehicle s(10, tree, std::move(settings));
-  } catch (const SetupError& e) {
-    return e.what();
-  }
-  return "no complaint";
+std::string complaint(const RobotTree& tree, const Settings& settings = {}) {
+  return test::complaint_of([&] { Vehicle s(10, tree, settings); });
 }
-#define EXPECT_SAYS(TEXT, PART) EXPECT_NE((TEXT).find(PART), std::string::npos) << (TEXT)
 
 TEST(Omni, FewerThanThreeWheelsAreAnErrorThatTellsWhatTheModelHas) {
   std::vector<WheelPart> two = mecanum_wheels();

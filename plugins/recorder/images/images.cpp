@@ -36,8 +36,8 @@ class ImageRecorder final : public Algorithm {
     const Parameters& p = c.parameters();
     folder_ = fs::absolute(std::string(p.text("folder")));
     const auto names = p.texts("cameras");
-    for (std::uint32_t i = 0; i < c.object_count(); ++i)
-      if (names.empty()) add_camera(c, ObjectId{i});
+    if (names.empty())
+      for (std::uint32_t i = 0; i < c.object_count(); ++i) add_camera(c, ObjectId{i});
     for (const std::string_view name : names) {
       const ObjectId object = c.find_object(name);
       if (object == no_object || !add_camera(c, object))

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// What a user reads who has made a mistake.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "core/error.hpp"
+
+namespace muro::test {
+
+/// The message of the SetupError that `work` ends with.
+template <class Work>
+std::string complaint_of(const Work& work) {
+  try {
+    work();
+  } catch (const SetupError& e) {
+    return e.what();
+  }
+  return "no complaint";
+}
+
+}  // namespace muro::test
+
+#define EXPECT_SAYS(TEXT, PART) EXPECT_NE((TEXT).find(PART), std::string::npos) << (TEXT)
