@@ -54,12 +54,16 @@ std::vector<std::byte> with_texts(const RobotTree::Constant& c, const std::vecto
   std::vector<std::byte> data = c.data;
   const bool shape = c.key.type->name == ValueTraits<Shape>::name;
   if (!shape && c.key.type->name != ValueTraits<TextId>::name) return data;
-  for (std::size_t at = shape ? offsetof(Shape, mesh) : 0; at < data.size(); at += c.key.type->size) {
-    TextId id;
-    std::memcpy(&id, data.data() + at, sizeof id);
-    id = texts[static_cast<std::size_t>(id)];
-    std::memcpy(data.data() + at, &id, sizeof id);
-  }
+  const auto translate = [&](std::size_t offset) {
+    for (std::size_t at = offset; at < data.size(); at += c.key.type->size) {
+      TextId id;
+      std::memcpy(&id, data.data() + at, sizeof id);
+      id = texts[static_cast<std::size_t>(id)];
+      std::memcpy(data.data() + at, &id, sizeof id);
+    }
+  };
+  translate(shape ? offsetof(Shape, mesh) : 0);
+  if (shape) translate(offsetof(Shape, texture));
   return data;
 }
 

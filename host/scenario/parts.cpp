@@ -140,8 +140,10 @@ std::optional<Shape> read_shape(Section& s, std::string& mesh, Problems& problem
   }
   shape.friction = s.number("friction", shape.friction, 0, 100);
   shape.restitution = s.number("restitution", shape.restitution, 0, 1);
-  if (const auto c = s.numbers("color", {3, 4}))
+  if (const auto c = s.numbers("color", {3, 4})) {
     shape.color = {(*c)[0], (*c)[1], (*c)[2], c->size() == 4 ? (*c)[3] : 1.0};
+    shape.painted_by = PaintedBy::model;
+  }
   return shape;
 }
 

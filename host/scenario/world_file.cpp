@@ -115,7 +115,8 @@ void WorldFileParts::add(const std::string& name, const Pose& pose, std::vector<
   World& world = simulation_.world();
   for (std::vector<Shape>* shapes : {&collisions, &visuals})
     for (Shape& s : *shapes)
-      if (s.mesh != no_text) s.mesh = world.intern(texts[std::size_t(s.mesh)]);
+      for (TextId* text : {&s.mesh, &s.texture})
+        if (*text != no_text) *text = world.intern(texts[std::size_t(*text)]);
   problems_.collect(scenario_.world_file->location.text() + ": world " + scenario_.world_file->path + ": ",
                     [&] { world.add_scenery(name, pose, collisions, visuals); });
   for (const Shape& s : collisions) {

@@ -2,6 +2,7 @@
 // Stands in for load.cpp and hull.cpp where Assimp or Qhull was missing when muro was configured.
 #include "hull.hpp"
 #include "muro/algorithm.hpp"
+#include "painted.hpp"
 
 namespace muro::mesh {
 namespace {
@@ -12,6 +13,9 @@ constexpr const char* advice =
 }  // namespace
 
 Mesh load(const std::string& path, const Vec3&) { throw Error("mesh " + path + ": " + advice); }
+std::vector<PaintedPart> load_painted(const std::string& path, const Vec3&) {
+  throw Error("mesh " + path + ": " + advice);
+}
 Hull convex_hull(std::span<const Vec3>) { throw Error(advice); }
 Mesh surface_of(const Hull&) { throw Error(advice); }
 

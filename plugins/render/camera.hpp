@@ -31,4 +31,12 @@ struct Camera {
   }
 };
 
+/// Rows: right, up, forward, in the axes of the world.
+inline Mat3 axes_of(const Camera& c) {
+  const Mat3 r = c.pose.orientation.toRotationMatrix();
+  Mat3 axes;
+  axes << -r.col(1).transpose(), r.col(2).transpose(), r.col(0).transpose();
+  return axes;
+}
+
 }  // namespace muro::render

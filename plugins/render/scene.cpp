@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "muro/algorithm.hpp"
 #include "muro/vocabulary.hpp"
 
 namespace muro::render {
@@ -17,6 +18,26 @@ double radius_of(const Surface& s) {
 }
 
 }  // namespace
+
+bool Volume::holds(const Vec3& point) const {
+  const Vec3 p = ((body ? *body : place) * shape.origin).inverse() * point;
+  const double r = shape.size.x(), half = 0.5 * shape.size.z();
+  switch (shape.kind) {
+    case ShapeKind::box:
+      return (p.cwiseAbs() - 0.5 * shape.size).maxCoeff() <= 0;
+    case ShapeKind::sphere:
+      return p.squaredNorm() <= r * r;
+    case ShapeKind::cylinder:
+      return p.head<2>().squaredNorm() <= r * r && std::abs(p.z()) <= half;
+    case ShapeKind::capsule:
+      return (p - Vec3(0, 0, std::clamp(p.z(), -half, half))).squaredNorm() <= r * r;
+    case ShapeKind::plane:
+      return p.z() <= 0;
+    case ShapeKind::mesh:
+      break;
+  }
+  return false;
+}
 
 void Scene::connect(Connector& c, Look look, int corners) {
   corners_ = corners;
@@ -38,24 +59,31 @@ void Scene::connect(Connector& c, Look look, int corners) {
 }
 
 void Scene::add_body(Connector& c, ObjectId object, const Piece& of_body, Look look) {
-  std::span<const Shape> shapes = c.constant_array(object, keys::collision_shapes);
+  std::span<const Shape> found = c.constant_array(object, keys::collision_shapes);
   if (look == Look::as_seen)
-    if (const auto visual = c.constant_array(object, keys::visual_shapes); !visual.empty()) shapes = visual;
-  if (shapes.empty()) return;
+    if (const auto visual = c.constant_array(object, keys::visual_shapes); !visual.empty()) found = visual;
+  if (found.empty()) return;
+  const std::vector<Shape> shapes(found.begin(), found.end());
   Piece piece = of_body;
   piece.object = object;
   if (piece.robot >= 0) piece.body = c.read(object, keys::pose);
-  for (const Shape& s : shapes) add_shape(c, s, piece);
+  for (const Shape& s : shapes) {
+    volumes_.push_back({s, piece.body, piece.place, object, piece.robot});
+    add_shape(c, s, piece, look);
+  }
 }
 
-void Scene::add_shape(const Connector& c, const Shape& shape, Piece piece) {
+void Scene::add_shape(Connector& c, const Shape& shape, Piece piece, Look look) {
   piece.origin = shape.origin;
   piece.color = shape.color.head<3>();
+  if (shape.kind == ShapeKind::mesh) return add_mesh(c, shape, piece, look);
+  const bool covered = look == Look::as_seen && shape.texture != no_text;
+  const std::int32_t picture = covered ? picture_of(c, std::string(c.text(shape.texture))) : -1;
   const auto add = [&](const char* name, const Vec3& scale, double up = 0, bool turned = false) {
     Piece p = piece;
     p.origin.position += p.origin.orientation * Vec3(0, 0, up);
     if (turned) p.origin.orientation = p.origin.orientation * Quat(0, 1, 0, 0);
-    p.surface = surface(name, Vec3::Ones());
+    p.surface = basic(name, picture);
     p.scale = scale;
     p.radius = radii_[p.surface] * scale.cwiseAbs().maxCoeff();
     pieces_.push_back(p);
@@ -81,31 +109,67 @@ void Scene::add_shape(const Connector& c, const Shape& shape, Piece piece) {
       add("ground", {1, 1, 1});
       break;
     case ShapeKind::mesh:
-      piece.surface = surface("mesh " + std::string(c.text(shape.mesh)), shape.size);
-      piece.radius = radii_[piece.surface];
-      pieces_.push_back(piece);
       break;
   }
 }
 
-std::uint32_t Scene::surface(const std::string& name, const Vec3& scale) {
-  std::string full = name;
-  for (int k = 0; k < 3; ++k) full += " " + std::to_string(scale[k]);
-  const auto known = std::find(names_.begin(), names_.end(), full);
-  if (known != names_.end()) return std::uint32_t(known - names_.begin());
-  const auto made = [&]() -> Surface {
-    if (name == "box") return unit_box();
-    if (name == "sphere") return unit_sphere(corners_);
-    if (name == "cylinder") return unit_cylinder(corners_);
-    if (name == "tube") return unit_tube(corners_);
-    if (name == "dome") return unit_dome(corners_);
-    if (name == "ground") return unit_ground();
-    return surface_of(mesh::load(name.substr(5), scale));
-  };
-  surfaces_.push_back(made());
-  radii_.push_back(radius_of(surfaces_.back()));
-  names_.push_back(full);
+void Scene::add_mesh(Connector& c, const Shape& shape, Piece piece, Look look) {
+  const std::string path(c.text(shape.mesh));
+  const bool by_file = look == Look::as_seen && shape.painted_by == PaintedBy::file;
+  const bool covered = look == Look::as_seen && !by_file && shape.texture != no_text;
+  std::string name = path + (by_file ? " painted" : "");
+  if (covered) name += " " + std::string(c.text(shape.texture));
+  for (int k = 0; k < 3; ++k) name += " " + std::to_string(shape.size[k]);
+  const auto [known, fresh] = meshes_.try_emplace(name);
+  if (fresh && (by_file || covered)) {
+    for (const mesh::PaintedPart& part : mesh::load_painted(path, shape.size)) {
+      Surface s = surface_of(part);
+      if (covered)
+        s.picture = picture_of(c, std::string(c.text(shape.texture)));
+      else if (!part.picture.empty())
+        s.picture = picture_of(c, part.picture, part.picture_bytes);
+      known->second.push_back({keep(std::move(s)), part.color.head<3>()});
+    }
+  } else if (fresh) {
+    known->second.push_back({keep(surface_of(mesh::load(path, shape.size))), Vec3::Ones()});
+  }
+  for (const Part& part : known->second) {
+    piece.surface = part.surface;
+    piece.radius = radii_[part.surface];
+    if (by_file) piece.color = part.color;
+    pieces_.push_back(piece);
+  }
+}
+
+std::uint32_t Scene::basic(const std::string& name, std::int32_t picture) {
+  const auto [known, fresh] = basics_.try_emplace({name, picture}, 0);
+  if (!fresh) return known->second;
+  Surface made = name == "box"        ? unit_box()
+                 : name == "sphere"   ? unit_sphere(corners_)
+                 : name == "cylinder" ? unit_cylinder(corners_)
+                 : name == "tube"     ? unit_tube(corners_)
+                 : name == "dome"     ? unit_dome(corners_)
+                                      : unit_ground();
+  made.picture = picture;
+  return known->second = keep(std::move(made));
+}
+
+std::uint32_t Scene::keep(Surface surface) {
+  radii_.push_back(radius_of(surface));
+  surfaces_.push_back(std::move(surface));
   return std::uint32_t(surfaces_.size() - 1);
+}
+
+std::int32_t Scene::picture_of(Connector& c, const std::string& path, std::span<const std::uint8_t> bytes) {
+  const auto [known, fresh] = picture_numbers_.try_emplace(path, -1);
+  if (!fresh) return known->second;
+  try {
+    pictures_.push_back(bytes.empty() ? Image::from_file(path) : Image::from_bytes(bytes, path));
+    known->second = std::int32_t(pictures_.size() - 1);
+  } catch (const Error& e) {
+    c.host().log(LogLevel::warning, std::string(e.what()) + "; what it covers is plain");
+  }
+  return known->second;
 }
 
 }  // namespace muro::render

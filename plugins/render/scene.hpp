@@ -2,9 +2,11 @@
 // What of the world is drawn.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
+#include "image.hpp"
 #include "muro/connector.hpp"
 #include "muro/shape.hpp"
 #include "surface.hpp"
@@ -13,7 +15,7 @@ namespace muro::render {
 
 enum class Look {
   as_seen,      ///< by eyes and cameras: `visual.shapes`, or `collision.shapes` where a body has none
-  as_collides,  ///< by range finders: `collision.shapes`
+  as_collides,  ///< by range finders: `collision.shapes`, without paint
 };
 
 /// A surface at a place on a body.
@@ -32,24 +34,52 @@ struct Piece {
   Pose pose() const { return (body ? *body : place) * origin; }
 };
 
+/// A solid shape on a body: to tell whether an eye is in it.
+struct Volume {
+  Shape shape;
+  In<Pose> body;  ///< of a robot; unset for scenery
+  Pose place;     ///< of scenery
+  ObjectId object = no_object;
+  std::int32_t robot = -1;  ///< number; -1: scenery
+
+  /// Whether it holds a point of the world (m); a mesh holds none.
+  bool holds(const Vec3& point) const;
+};
+
 class Scene {
  public:
-  /// Finds all shapes and binds the poses of their bodies. Circles get `corners` corners. [setup]
+  /// Finds all shapes and binds the poses of their bodies. Circles get `corners` corners. What cannot be read of how
+  /// things look is told as a warning, and left out. [setup]
   void connect(Connector& c, Look look, int corners);
 
   const std::vector<Surface>& surfaces() const { return surfaces_; }
+  const std::vector<Image>& pictures() const { return pictures_; }
   const std::vector<Piece>& pieces() const { return pieces_; }
+  const std::vector<Volume>& volumes() const { return volumes_; }
 
  private:
+  struct Part {
+    std::uint32_t surface = 0;
+    Vec3 color = Vec3::Ones();
+  };
+
   void add_body(Connector& c, ObjectId object, const Piece& of_body, Look look);
-  void add_shape(const Connector& c, const Shape& shape, Piece piece);
-  std::uint32_t surface(const std::string& name, const Vec3& scale);
+  void add_shape(Connector& c, const Shape& shape, Piece piece, Look look);
+  void add_mesh(Connector& c, const Shape& shape, Piece piece, Look look);
+  /// The surface of a kind of shape, with a picture (-1: none).
+  std::uint32_t basic(const std::string& name, std::int32_t picture);
+  std::uint32_t keep(Surface surface);
+  std::int32_t picture_of(Connector& c, const std::string& path, std::span<const std::uint8_t> bytes = {});
 
   int corners_ = 0;
-  std::vector<std::string> names_;  ///< of the surfaces
-  std::vector<double> radii_;       ///< of the surfaces
+  std::map<std::pair<std::string, std::int32_t>, std::uint32_t> basics_;
+  std::map<std::string, std::vector<Part>> meshes_;  ///< by file, scale and what paints them
+  std::map<std::string, std::int32_t> picture_numbers_;
+  std::vector<double> radii_;  ///< of the surfaces
   std::vector<Surface> surfaces_;
+  std::vector<Image> pictures_;
   std::vector<Piece> pieces_;
+  std::vector<Volume> volumes_;
 };
 
 }  // namespace muro::render

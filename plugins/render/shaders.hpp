@@ -15,12 +15,14 @@ layout(location = 4) in vec4 row2;
 layout(location = 5) in vec3 color;
 layout(location = 6) in uint label;
 layout(location = 7) in float pattern;
+layout(location = 8) in vec2 on_picture;
 layout(location = 0) uniform mat4 to_picture;
 out vec3 at;
 out vec3 outward;
 flat out vec3 paint;
 flat out float tiled;
 flat out uint whose;
+out vec2 place;
 void main() {
   vec4 p = vec4(position, 1);
   at = vec3(dot(row0, p), dot(row1, p), dot(row2, p));
@@ -29,6 +31,7 @@ void main() {
   paint = color;
   tiled = pattern;
   whose = label;
+  place = on_picture;
   gl_Position = to_picture * vec4(at, 1);
 })";
 
@@ -37,7 +40,7 @@ flat in uint whose;
 layout(location = 0) out uint label;
 void main() { label = whose; })";
 
-constexpr const char* shadow_fragment = R"(#version 450 core
+constexpr const char* depth_fragment = R"(#version 450 core
 void main() {})";
 
 /// Lambert's law under a sun and a sky that is brighter above than the ground below; distance fades to the horizon.
@@ -46,12 +49,14 @@ in vec3 at;
 in vec3 outward;
 flat in vec3 paint;
 flat in float tiled;
+in vec2 place;
 layout(location = 1) uniform vec3 to_sun;
 layout(location = 2) uniform mat4 to_shadow;
 layout(location = 3) uniform float shadow_size;
 layout(location = 4) uniform vec2 eye;
 layout(location = 5) uniform vec3 horizon;
 layout(binding = 0) uniform sampler2DShadow shadow_map;
+layout(binding = 1) uniform sampler2D picture;
 layout(location = 0) out vec4 color;
 
 float sunlit(vec3 n) {
@@ -76,8 +81,8 @@ float tiles(vec2 p) {
 
 void main() {
   vec3 n = normalize(gl_FrontFacing ? outward : -outward);
-  vec3 base = pow(paint, vec3(2.2));
-  if (tiled > 0) base *= mix(0.82, 1.0, tiles(at.xy + eye));
+  vec3 base = pow(paint, vec3(2.2)) * texture(picture, tiled > 0 ? at.xy + eye : place).rgb;
+  if (tiled > 0 && textureSize(picture, 0).x == 1) base *= mix(0.82, 1.0, tiles(at.xy + eye));
   float sun = max(dot(n, to_sun), 0);
   if (sun > 0) sun *= sunlit(n);
   vec3 sky = mix(vec3(0.20, 0.19, 0.18), vec3(0.42, 0.48, 0.56), 0.5 + 0.5 * n.z);

@@ -12,9 +12,10 @@ namespace {
 
 constexpr double smooth_angle = 40 * pi / 180;
 
-Vertex vertex(const Vec3& position, const Vec3& normal) {
+Vertex vertex(const Vec3& position, const Vec3& normal, double across = 0, double down = 0) {
   return {{float(position.x()), float(position.y()), float(position.z())},
-          {float(normal.x()), float(normal.y()), float(normal.z())}};
+          {float(normal.x()), float(normal.y()), float(normal.z())},
+          {float(across), float(down)}};
 }
 
 void add_quad(Surface& s, std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
@@ -29,7 +30,7 @@ Surface part_of_sphere(int n, int rows, double low, double high) {
     for (int k = 0; k <= n; ++k) {
       const double a = 2 * pi * (k % n) / n;
       const Vec3 p(std::cos(latitude) * std::cos(a), std::cos(latitude) * std::sin(a), std::sin(latitude));
-      s.vertices.push_back(vertex(p, p));
+      s.vertices.push_back(vertex(p, p, double(k) / n, 0.5 - latitude / pi));
     }
   }
   const auto at = [&](int i, int k) { return std::uint32_t(i * (n + 1) + k); };
@@ -47,7 +48,7 @@ Surface unit_box() {
       const Vec3 normal = 2 * side * Vec3::Unit(axis), u = Vec3::Unit((axis + 1) % 3), v = normal.cross(u);
       const auto first = std::uint32_t(s.vertices.size());
       for (const auto& [x, y] : {std::pair{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}})
-        s.vertices.push_back(vertex(0.5 * normal + x * u + y * v, normal));
+        s.vertices.push_back(vertex(0.5 * normal + x * u + y * v, normal, 0.5 + x, 0.5 - y));
       add_quad(s, first, first + 1, first + 2, first + 3);
     }
   return s;
@@ -61,7 +62,8 @@ Surface unit_tube(int n) {
   for (int k = 0; k <= n; ++k) {
     const double a = 2 * pi * (k % n) / n;
     const Vec3 out(std::cos(a), std::sin(a), 0);
-    for (const double z : {-0.5, 0.5}) s.vertices.push_back(vertex(out + z * Vec3::UnitZ(), out));
+    for (const double z : {-0.5, 0.5})
+      s.vertices.push_back(vertex(out + z * Vec3::UnitZ(), out, double(k) / n, 0.5 - z));
   }
   for (std::uint32_t k = 0; k < std::uint32_t(n); ++k) add_quad(s, 2 * k, 2 * k + 2, 2 * k + 3, 2 * k + 1);
   return s;
@@ -74,7 +76,8 @@ Surface unit_cylinder(int n) {
     const auto first = std::uint32_t(s.vertices.size());
     for (int k = 0; k < n; ++k) {
       const double a = (z > 0 ? 2 : -2) * pi * k / n;
-      s.vertices.push_back(vertex(Vec3(std::cos(a), std::sin(a), z), normal));
+      s.vertices.push_back(
+          vertex(Vec3(std::cos(a), std::sin(a), z), normal, 0.5 + 0.5 * std::cos(a), 0.5 - 0.5 * std::sin(a)));
     }
     for (std::uint32_t k = 1; k + 1 < std::uint32_t(n); ++k)
       s.indices.insert(s.indices.end(), {first, first + k, first + k + 1});
@@ -118,6 +121,14 @@ Surface surface_of(const mesh::Mesh& mesh) {
       s.indices.push_back(std::uint32_t(s.vertices.size()));
       s.vertices.push_back(vertex(mesh.vertices[corner], sum.normalized()));
     }
+  return s;
+}
+
+Surface surface_of(const mesh::PaintedPart& part) {
+  Surface s;
+  for (const mesh::Corner& c : part.corners)
+    s.vertices.push_back(vertex(c.position, c.normal, c.picture.x(), c.picture.y()));
+  for (const mesh::Triangle& t : part.triangles) s.indices.insert(s.indices.end(), t.begin(), t.end());
   return s;
 }
 

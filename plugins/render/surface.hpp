@@ -6,18 +6,20 @@
 #include <cstdint>
 #include <vector>
 
-#include "plugins/mesh/mesh.hpp"
+#include "plugins/mesh/painted.hpp"
 
 namespace muro::render {
 
 struct Vertex {
   std::array<float, 3> position{};
-  std::array<float, 3> normal{};  ///< unit
+  std::array<float, 3> normal{};   ///< unit
+  std::array<float, 2> picture{};  ///< place on the picture: across and down, 0..1, repeated
 };
 
 struct Surface {
   std::vector<Vertex> vertices;
   std::vector<std::uint32_t> indices;  ///< three a triangle
+  std::int32_t picture = -1;           ///< number in Scene::pictures; -1: none
 };
 
 /// Edges of length 1, about the origin.
@@ -35,6 +37,7 @@ Surface unit_dome(int n);
 Surface unit_ground();
 /// Corners of triangles that meet at less than 40 degrees share a normal.
 Surface surface_of(const mesh::Mesh& mesh);
+Surface surface_of(const mesh::PaintedPart& part);
 
 /// How far a surface of `n` corners round a circle of radius 1 lies inside of it at most.
 double sagitta_of(int n);

@@ -56,20 +56,24 @@ void ColorTarget::read(std::span<std::uint8_t> rgb) const {
   glReadPixels(0, 0, w, h, GL_RGB, GL_UNSIGNED_BYTE, rgb.data());
 }
 
-DepthTarget::DepthTarget(std::uint32_t width, std::uint32_t height) : width_(width), height_(height) {
+DepthTarget::DepthTarget(std::uint32_t width, std::uint32_t height, bool labels) : width_(width), height_(height) {
   const auto w = GLsizei(width), h = GLsizei(height);
-  glCreateRenderbuffers(2, buffers_);
-  glNamedRenderbufferStorage(buffers_[0], GL_R32UI, w, h);
-  glNamedRenderbufferStorage(buffers_[1], GL_DEPTH_COMPONENT32F, w, h);
   glCreateFramebuffers(1, &drawn_);
-  glNamedFramebufferRenderbuffer(drawn_, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, buffers_[0]);
-  glNamedFramebufferRenderbuffer(drawn_, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, buffers_[1]);
+  glCreateRenderbuffers(labels ? 2 : 1, buffers_);
+  glNamedRenderbufferStorage(buffers_[0], GL_DEPTH_COMPONENT32F, w, h);
+  glNamedFramebufferRenderbuffer(drawn_, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, buffers_[0]);
+  if (labels) {
+    glNamedRenderbufferStorage(buffers_[1], GL_R32UI, w, h);
+    glNamedFramebufferRenderbuffer(drawn_, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, buffers_[1]);
+  } else {
+    glNamedFramebufferDrawBuffer(drawn_, GL_NONE);
+  }
   check_framebuffer(drawn_);
 }
 
 DepthTarget::~DepthTarget() {
   glDeleteFramebuffers(1, &drawn_);
-  glDeleteRenderbuffers(2, buffers_);
+  glDeleteRenderbuffers(has_labels() ? 2 : 1, buffers_);
 }
 
 void DepthTarget::begin() const {
@@ -78,18 +82,20 @@ void DepthTarget::begin() const {
   glDisable(GL_FRAMEBUFFER_SRGB);
   const GLuint nobody[] = {0xffffffff, 0, 0, 0};
   const float far = 0;
-  glClearBufferuiv(GL_COLOR, 0, nobody);
+  if (has_labels()) glClearBufferuiv(GL_COLOR, 0, nobody);
   glClearBufferfv(GL_DEPTH, 0, &far);
 }
 
 void DepthTarget::read(std::span<float> inverse) const {
   glBindFramebuffer(GL_READ_FRAMEBUFFER, drawn_);
-  glReadPixels(0, 0, GLsizei(width_), GLsizei(height_), GL_DEPTH_COMPONENT, GL_FLOAT, inverse.data());
+  const auto rows = GLsizei(inverse.size() / width_);
+  glReadPixels(0, 0, GLsizei(width_), rows, GL_DEPTH_COMPONENT, GL_FLOAT, inverse.data());
 }
 
 void DepthTarget::read(std::span<std::uint32_t> labels) const {
   glBindFramebuffer(GL_READ_FRAMEBUFFER, drawn_);
-  glReadPixels(0, 0, GLsizei(width_), GLsizei(height_), GL_RED_INTEGER, GL_UNSIGNED_INT, labels.data());
+  const auto rows = GLsizei(labels.size() / width_);
+  glReadPixels(0, 0, GLsizei(width_), rows, GL_RED_INTEGER, GL_UNSIGNED_INT, labels.data());
 }
 
 }  // namespace muro::render

@@ -25,18 +25,20 @@ class ColorTarget {
   std::uint32_t buffers_[3] = {};
 };
 
-/// Distances, and whose they are: one sample in the middle of each pixel.
+/// Distances, and, on request, whose they are: one sample in the middle of each pixel.
 class DepthTarget {
  public:
-  DepthTarget(std::uint32_t width, std::uint32_t height);
+  DepthTarget(std::uint32_t width, std::uint32_t height, bool labels);
   ~DepthTarget();
   DepthTarget(const DepthTarget&) = delete;
   DepthTarget& operator=(const DepthTarget&) = delete;
 
+  bool has_labels() const { return buffers_[1] != 0; }
+  /// Everything empty; what is drawn from now on comes here.
   void begin() const;
-  /// What the depth buffer holds, near / distance along the axis, or 0; rows from the top: width height.
+  /// What the depth buffer holds, near / distance along the axis, or 0; as many rows of `width` as fit, from the top.
   void read(std::span<float> inverse) const;
-  /// The label of each pixel, or 0xffffffff; rows from the top: width height.
+  /// The label of each pixel, or 0xffffffff; likewise.
   void read(std::span<std::uint32_t> labels) const;
 
  private:

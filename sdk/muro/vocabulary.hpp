@@ -81,11 +81,17 @@ inline constexpr Key<double> laser_max_range{"laser.max_range", "m", "nothing fa
 inline constexpr Key<double> ranges{"ranges", "m", "array: true distance along each ray"};
 inline constexpr Key<double> measured_ranges{"ranges.measured", "m", "array: the distance as the device reports it"};
 inline constexpr Key<ObjectId> laser_hits{"laser.hits", "1", "array: the object each ray hits, or none"};
+inline constexpr Key<double> laser_incidence{"laser.incidence", "rad",
+                                             "array: between each ray and the normal of the surface it hits"};
 
 // Cameras: properties of the sensor's object; x forward, as every sensor frame here.
 inline constexpr Key<std::uint32_t> camera_width{"camera.width", "1", "pixels"};
 inline constexpr Key<std::uint32_t> camera_height{"camera.height", "1", "pixels"};
 inline constexpr Key<double> camera_horizontal_fov{"camera.horizontal_fov", "rad", "opening angle"};
+inline constexpr Key<double> camera_fx{"camera.fx", "px", "focal length across"};
+inline constexpr Key<double> camera_fy{"camera.fy", "px", "focal length down"};
+inline constexpr Key<double> camera_cx{"camera.cx", "px", "column of the optical axis, from the left edge"};
+inline constexpr Key<double> camera_cy{"camera.cy", "px", "row of the optical axis, from the upper edge"};
 inline constexpr Key<std::uint8_t> camera_image{"camera.image", "1", "array: rgb, rows from the top"};
 inline constexpr Key<float> camera_depth{"camera.depth", "m",
                                          "array: distance along the optical axis, infinite where nothing is"};

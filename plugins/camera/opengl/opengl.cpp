@@ -9,7 +9,8 @@
 #include "muro/mounting.hpp"
 #include "muro/plugin.hpp"
 #include "plugins/render/context.hpp"
-#include "plugins/render/renderer.hpp"
+#include "plugins/render/depth_renderer.hpp"
+#include "plugins/render/picture_renderer.hpp"
 
 namespace {
 
@@ -128,7 +129,8 @@ class Camera final : public Algorithm {
 
   void step(const Step&, Range) override {
     const render::Current current(*context_);
-    if (!renderer_) renderer_.emplace(scene_);
+    if (!stage_) stage_.emplace(scene_);
+    stage_->place();
     for (const Device& d : devices_) take(d);
   }
 
@@ -146,12 +148,15 @@ class Camera final : public Algorithm {
     camera_.ignored_robot = d.ignored_robot;
     if (d.image) {
       if (!colors_) colors_.emplace(camera_.width, camera_.height);
-      renderer_->draw(camera_, *colors_, light_);
+      if (!pictures_) pictures_.emplace(*stage_);
+      pictures_->draw(camera_, *colors_, light_);
       colors_->read(*d.image);
     }
     if (!d.depth && !d.labels) return;
-    if (!distances_) distances_.emplace(camera_.width, camera_.height);
-    renderer_->draw(camera_, *distances_);
+    if (!distances_) distances_.emplace(camera_.width, camera_.height, true);
+    if (!depths_) depths_.emplace(*stage_);
+    distances_->begin();
+    depths_->draw(camera_, *distances_);
     if (d.labels) {
       static_assert(sizeof(ObjectId) == sizeof(std::uint32_t));
       const std::span<ObjectId> labels = *d.labels;
@@ -166,7 +171,9 @@ class Camera final : public Algorithm {
   }
 
   void forget() {
-    renderer_.reset();
+    pictures_.reset();
+    depths_.reset();
+    stage_.reset();
     colors_.reset();
     distances_.reset();
   }
@@ -179,7 +186,9 @@ class Camera final : public Algorithm {
   render::Scene scene_;
   Host* host_ = nullptr;
   std::optional<render::Context> context_;
-  std::optional<render::Renderer> renderer_;
+  std::optional<render::Stage> stage_;
+  std::optional<render::PictureRenderer> pictures_;
+  std::optional<render::DepthRenderer> depths_;
   std::optional<render::ColorTarget> colors_;
   std::optional<render::DepthTarget> distances_;
 };

@@ -2,17 +2,12 @@
 #pragma once
 
 #include "pattern.hpp"
+#include "plugins/scanner/method.hpp"
 #include "scene_table.hpp"
 
 namespace muro::raycast {
 
-/// From where and how far a scanner looks.
-struct View {
-  Pose device;                      ///< in the world
-  double max_range = 0;             ///< m
-  std::int32_t ignored_robot = -1;  ///< the number of a robot that is not seen; -1: none
-  double min_range = 0;             ///< m, what is nearer reads this
-};
+using scanner::View;
 
 /// Casts the rays of one scan after the other. Keeps nothing but memory between scans, so that any thread may serve
 /// any scanner; one caster serves one thread.

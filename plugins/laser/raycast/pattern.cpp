@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace muro::raycast {
 
@@ -51,52 +50,21 @@ Frustum enclose(std::span<const Bundle> bundles) {
 
 }  // namespace
 
-Vec3 direction_of(double azimuth, double elevation) {
-  return {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth), std::sin(elevation)};
-}
-
-bool Grid::full_circle() const { return columns > 1 && std::abs(max_angle - min_angle - 2 * std::numbers::pi) < 1e-9; }
-
-double Grid::first_angle() const { return columns > 1 ? min_angle : 0.5 * (min_angle + max_angle); }
-
-double Grid::angle_increment() const {
-  if (columns == 1) return 0;
-  return (max_angle - min_angle) / (full_circle() ? columns : columns - 1);
-}
-
-double Grid::elevation(std::uint32_t row) const {
-  if (rows == 1) return 0.5 * (min_elevation + max_elevation);
-  const double share = double(row) / (rows - 1);
-  return (1 - share) * min_elevation + share * max_elevation;
-}
-
-Pattern::Pattern(const Grid& grid) : size_(grid.rows * grid.columns) {
+Pattern::Pattern(const RaySet& rays) : size_(rays.size()) {
   // Tiles of 4 x 4, 2 x 8 or 1 x 16 rays: the squarer, the fewer things they see.
-  const double first = grid.first_angle(), increment = grid.angle_increment();
-  for (std::uint32_t row = 0, tall = 0; row < grid.rows; row += tall) {
-    const std::uint32_t left = grid.rows - row;
+  for (std::uint32_t row = 0, tall = 0; row < rays.rows; row += tall) {
+    const std::uint32_t left = rays.rows - row;
     tall = left >= 4 ? 4 : left >= 2 ? 2 : 1;
     const std::uint32_t wide = Bundle::size / tall;
-    for (std::uint32_t column = 0; column < grid.columns; column += wide) {
+    for (std::uint32_t column = 0; column < rays.columns; column += wide) {
       Bundle bundle;
       for (std::uint32_t r = row; r < row + tall; ++r)
-        for (std::uint32_t c = column; c < std::min(column + wide, grid.columns); ++c) {
-          const bool last = c > 0 && c == grid.columns - 1 && !grid.full_circle();
-          const double azimuth = last ? grid.max_angle : first + c * increment;
-          add(direction_of(azimuth, grid.elevation(r)), r * grid.columns + c, bundle);
+        for (std::uint32_t c = column; c < std::min(column + wide, rays.columns); ++c) {
+          const std::uint32_t ray = r * rays.columns + c;
+          add(rays.directions[ray], ray, bundle);
         }
       close(bundle);
     }
-  }
-  make_sectors();
-}
-
-Pattern::Pattern(std::span<const double> pairs) : size_(std::uint32_t(pairs.size() / 2)) {
-  for (std::uint32_t ray = 0; ray < size_;) {
-    Bundle bundle;
-    for (; ray < size_ && bundle.count < Bundle::size; ++ray)
-      add(direction_of(pairs[2 * ray], pairs[2 * ray + 1]), ray, bundle);
-    close(bundle);
   }
   make_sectors();
 }

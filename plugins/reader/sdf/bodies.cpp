@@ -121,6 +121,7 @@ class Reader {
       if (!found || !found->GetExplicitlySetInFile()) continue;
       const auto c = found->Get<ignition::math::Color>();
       shape.color = Eigen::Vector4f(c.R(), c.G(), c.B(), c.A()).cast<double>().cwiseMax(0).cwiseMin(1);
+      shape.painted_by = PaintedBy::model;
     }
     shape.color[3] *= 1 - std::clamp(number(visual, "transparency").value_or(0), 0.0, 1.0);
   }

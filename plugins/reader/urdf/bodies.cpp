@@ -27,6 +27,7 @@ void Bodies::fill(const ::urdf::Link& link, const LinkInfo& info) {
     if (!v->material || visuals.size() == before) continue;
     const ::urdf::Color& c = v->material->color;
     visuals.back().color = Eigen::Vector4f(c.r, c.g, c.b, c.a).cast<double>();
+    visuals.back().painted_by = PaintedBy::model;
   }
   if (link.inertial) {
     const Inertia inertia = inertial_of(link, info, collisions.empty() ? visuals : collisions);

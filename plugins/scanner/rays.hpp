@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// Which way the rays of a scanner point.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "muro/geometry.hpp"
+
+namespace muro::scanner {
+
+/// A grid of rays: `columns` azimuths, counter-clockwise about z from x, times `rows` elevations above the xy plane.
+struct Grid {
+  double min_angle = 0, max_angle = 0;  ///< rad
+  std::uint32_t columns = 1;
+  double min_elevation = 0, max_elevation = 0;  ///< rad, -pi/2 .. pi/2
+  std::uint32_t rows = 1;
+
+  /// Whether the azimuths go all the way round: the last then lies one increment before the first.
+  bool full_circle() const;
+  double first_angle() const;      ///< rad; a single column looks along the middle
+  double angle_increment() const;  ///< rad; 0 for a single column
+  double azimuth(std::uint32_t column) const;
+  double elevation(std::uint32_t row) const;
+};
+
+/// The unit vector at an azimuth and an elevation (rad).
+Vec3 direction_of(double azimuth, double elevation);
+
+/// Rays that start at one point at one instant.
+struct RaySet {
+  std::vector<Vec3> directions;  ///< unit, in the frame of the device, row by row; neighbours lie side by side
+  std::uint32_t columns = 0, rows = 1;
+  double spacing = 0;  ///< rad, between neighbours; 0: not known
+
+  std::uint32_t size() const { return std::uint32_t(directions.size()); }
+
+  /// Rows from the lowest.
+  static RaySet of(const Grid& grid);
+  /// Pairs of azimuth and elevation (rad): one row.
+  static RaySet of(std::span<const double> azimuths_and_elevations);
+};
+
+}  // namespace muro::scanner
