@@ -33,6 +33,7 @@ std::string difference(const abi::Stamp& ours, const abi::Stamp& theirs) {
   field("eigen_malloc_already_aligned", ours.eigen_malloc_already_aligned, theirs.eigen_malloc_already_aligned);
   field("probe_size", ours.probe_size, theirs.probe_size);
   field("probe_align", ours.probe_align, theirs.probe_align);
+  field("probe_layout", ours.probe_layout, theirs.probe_layout);
   return found;
 }
 

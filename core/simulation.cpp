@@ -7,6 +7,7 @@
 #include <mutex>
 
 #include "core/access_check.hpp"
+#include "core/inspector.hpp"
 #include "core/instance.hpp"
 #include "core/levels.hpp"
 #include "muro/vocabulary.hpp"
@@ -69,6 +70,8 @@ class Collected {
 
 class Simulation::Log final : public Host {
  public:
+  explicit Log(Inspector& inspector) : inspector_(inspector) {}
+
   std::function<void(LogLevel, std::string_view)> sink = [](LogLevel level, std::string_view text) {
     if (level >= LogLevel::warning)
       std::fprintf(stderr, "%s: %.*s\n", level == LogLevel::error ? "error" : "warning", int(text.size()), text.data());
@@ -77,13 +80,20 @@ class Simulation::Log final : public Host {
     const std::lock_guard lock(mutex_);
     sink(level, text);
   }
+  void* ability(std::string_view name) noexcept override {
+    return name == Inspection::ability ? static_cast<Inspection*>(&inspector_) : nullptr;
+  }
 
  private:
   std::mutex mutex_;
+  Inspector& inspector_;
 };
 
 Simulation::Simulation(Registry& registry, std::uint64_t seed)
-    : registry_(registry), log_(std::make_unique<Log>()), levels_(std::make_unique<Levels>()) {
+    : registry_(registry),
+      inspector_(std::make_unique<Inspector>(world_, scheduler_)),
+      log_(std::make_unique<Log>(*inspector_)),
+      levels_(std::make_unique<Levels>()) {
   scheduler_.set_seed(seed);
 }
 
@@ -289,6 +299,7 @@ void Simulation::schedule() {
     task.phases = instance->phases();
     task.touches = instance->touches();
     task.robots = std::uint32_t(world_.robots().size());
+    task.alone = (instance->description().promises & Promise::alone) != 0;
     task.rate = s.rate;
     task.phase = s.phase;
     task.order = order_of(instance->description());
@@ -327,7 +338,14 @@ void Simulation::verify_access() {
 
 void Simulation::run_for(double seconds) { run_until(now() + std::llround(seconds * 1e9)); }
 
-void Simulation::run_until(std::int64_t time, const std::function<bool()>& stop) { scheduler_.run_until(time, stop); }
+void Simulation::run_until(std::int64_t time, const std::function<bool()>& stop) {
+  const auto is_alone = [](const Task& t) { return t.alone; };
+  if (std::none_of(scheduler_.tasks().begin(), scheduler_.tasks().end(), is_alone))
+    return scheduler_.run_until(time, stop);
+  scheduler_.run_until(time, [&] { return stopped() || (stop && stop()); });
+}
+
+bool Simulation::stopped() const { return inspector_->stopped(); }
 
 void Simulation::refresh() {
   std::vector<TaskId> kinematics;

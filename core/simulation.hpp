@@ -14,6 +14,7 @@
 
 namespace muro {
 
+class Inspector;
 class Instance;
 class Levels;
 struct LevelsOfRobot;
@@ -76,6 +77,8 @@ class Simulation {
   /// Up to but not including `time` (ns). `stop` is asked every few instants; true ends the run.
   void run_until(std::int64_t time, const std::function<bool()>& stop = {});
   std::int64_t now() const { return scheduler_.now(); }  ///< ns
+  /// Whether an algorithm has asked for the end of the run; nothing runs any more then.
+  bool stopped() const;
   /// Tells algorithms that the run is over for now: recorders write their files.
   void finish();
 
@@ -109,6 +112,7 @@ class Simulation {
   Registry& registry_;
   World world_;
   Scheduler scheduler_;
+  std::unique_ptr<Inspector> inspector_;
   std::unique_ptr<Log> log_;
   std::vector<AlgorithmSetup> setups_;
   std::vector<std::size_t> instance_of_setup_;

@@ -199,11 +199,12 @@ std::vector<Stage> stages_of(std::span<const Turn> turns, std::span<const Task> 
       }
       // What a phase has found of any robot, the next may read, if it reaches so far.
       const Phase& p = tasks[id].phases[phase];
-      joins = joins && overlap && (phase == 0 || p.reach == Phase::Reach::own);
+      joins = joins && overlap && (phase == 0 || p.reach == Phase::Reach::own) && !tasks[id].alone;
       if (!joins) filling.close(stages);
       for (std::size_t k = 0; k < parts.size(); ++k)
         filling.add(joins ? chains[k] : nobody, parts[k].call, parts[k].touches);
       filling.add_shared(shared);
+      if (tasks[id].alone) filling.close(stages);
     }
   }
   filling.close(stages);

@@ -23,6 +23,7 @@ struct Task {
   std::vector<std::int32_t> robot_of_item;   ///< robot number; -1: none. Empty: nobody asks
   std::vector<Phase> phases = {Phase{}};     ///< one or more
   std::uint32_t robots = 0;                  ///< of the scene
+  bool alone = false;                        ///< runs while nothing else does, on the calling thread
   Rate rate;                                 ///< on demand when zero
   std::int64_t phase = 0;                    ///< ns, 0 or more
   int order = 0;                             ///< tasks of one instant run by rising order, then as added

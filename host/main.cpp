@@ -74,7 +74,9 @@ int dispatch(int argc, char** argv) {
   add_scenario_options(run_command, run_options.scenario);
   run_command.add_option("--duration", run_options.duration, "Simulated seconds; default: as the scenario says")
       ->check(check_duration);
-  run_command.add_option("--speed", run_options.speed, "max, real, or a factor of real time")->capture_default_str();
+  run_command.add_option("--speed", run_options.speed,
+                         "max, real, or a factor of real time; default: max, with --view real");
+  run_command.add_flag("--view", run_options.view, "Show the run in a window: view.window");
   run_command.add_option("--threads", run_options.threads, "Threads to use at most, or all; no result depends on it")
       ->check(check_threads);
   run_command.add_option("--report", run_options.report, "Write a report to this file (JSON)");

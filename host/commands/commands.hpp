@@ -21,12 +21,13 @@ struct ScenarioOptions {
 struct RunOptions {
   ScenarioOptions scenario;
   std::optional<double> duration;  ///< s
-  std::string speed = "max";       ///< "max", "real" or a factor
+  std::string speed;               ///< "max", "real" or a factor; empty: max, or with a view real
   std::string threads;             ///< a number, "all", or empty: as the scenario says
   std::string report;              ///< file, or empty
   std::string timeline;            ///< file, or empty
   bool profile = false;
   bool verify_access = false;
+  bool view = false;  ///< with a window
 };
 
 struct CompareOptions {

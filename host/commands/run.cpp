@@ -22,7 +22,7 @@ namespace {
 std::atomic<bool> interrupted{false};
 
 double pacing_factor(const std::string& speed) {
-  if (speed == "max") return 0;
+  if (speed == "max" || speed.empty()) return 0;
   if (speed == "real") return 1;
   double factor = 0;
   const char* end = speed.data() + speed.size();
@@ -77,12 +77,27 @@ void print_summary(const RunResult& result, const Simulation& simulation, const 
     fmt::print("{} instants came too late for the chosen speed\n", simulation.scheduler().overruns());
 }
 
+/// The scenario with a window, which sets the pace; what the user says of `algorithms.view` holds.
+ScenarioOptions with_view(const RunOptions& options, const Registry& registry) {
+  const auto offers = registry.offers();
+  if (std::none_of(offers.begin(), offers.end(), [](const Offer& o) { return o.id == "view.window"; }))
+    throw SetupError(
+        "--view needs the plugin view.window, which is not there; install libglfw3-dev, libimgui-dev, libepoxy-dev, "
+        "libegl-dev and libstb-dev, and build muro again");
+  ScenarioOptions scenario = options.scenario;
+  const double speed = options.speed.empty() ? 1 : pacing_factor(options.speed);
+  const std::string view[] = {"algorithms.view.use=view.window", "algorithms.view.rate=60",
+                              fmt::format("algorithms.view.speed={}", speed)};
+  scenario.overrides.insert(scenario.overrides.begin(), std::begin(view), std::end(view));
+  return scenario;
+}
+
 }  // namespace
 
 int run(const RunOptions& options) {
-  const double factor = pacing_factor(options.speed);
   Registry registry(Registry::search_path(options.scenario.plugin_path));
-  BuiltScenario built = open_scenario(options.scenario, registry);
+  const double factor = options.view ? 0 : pacing_factor(options.speed);
+  BuiltScenario built = open_scenario(options.view ? with_view(options, registry) : options.scenario, registry);
   tell(losses_of(built), Length::shortly, options.scenario.strict);
   Simulation& simulation = *built.simulation;
   if (!options.threads.empty())
@@ -112,7 +127,7 @@ int run(const RunOptions& options) {
     }
   };
   guarded([&] {
-    while (simulation.now() < end && !interrupted) {
+    while (simulation.now() < end && !interrupted && !simulation.stopped()) {
       simulation.run_until(std::min(end, simulation.now() - simulation.now() % Odometer::period + Odometer::period),
                            [] { return interrupted.load(std::memory_order_relaxed); });
       odometer.check();

@@ -273,12 +273,24 @@ class SceneBuilder {
 
 }  // namespace
 
+namespace {
+
+/// What algorithms say to the user.
+void print_line(LogLevel level, std::string_view text) {
+  if (level == LogLevel::debug) return;
+  const char* const kind = level == LogLevel::error ? "error" : level == LogLevel::warning ? "warning" : "note";
+  std::fprintf(stderr, "%s: %.*s\n", kind, int(text.size()), text.data());
+}
+
+}  // namespace
+
 unsigned all_threads() { return std::max(1u, std::thread::hardware_concurrency()); }
 
 BuiltScenario build(Scenario scenario, Registry& registry, const std::function<void(Simulation&)>& more) {
   BuiltScenario out;
   out.scenario = std::move(scenario);
   out.simulation = std::make_unique<Simulation>(registry, out.scenario.seed);
+  out.simulation->set_log(print_line);
   SceneBuilder(out, registry).build();
   if (more) more(*out.simulation);
   out.simulation->build();

@@ -1,22 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "image.hpp"
 
+#include <stb/stb_image.h>
+
 #include <fstream>
 #include <iterator>
 
 #include "muro/algorithm.hpp"
-
-#define STB_IMAGE_IMPLEMENTATION
-#define STB_IMAGE_STATIC
-#define STBI_FAILURE_USERMSG
-#define STBI_NO_HDR
-#define STBI_NO_PSD
-#define STBI_NO_PIC
-#define STBI_NO_PNM
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wunused-function"
-#include <stb/stb_image.h>
-#pragma GCC diagnostic pop
 
 namespace muro::render {
 

@@ -20,7 +20,9 @@ double radius_of(const Surface& s) {
 }  // namespace
 
 bool Volume::holds(const Vec3& point) const {
-  const Vec3 p = ((body ? *body : place) * shape.origin).inverse() * point;
+  const Pose& at = body ? *body : place;
+  if ((point - at.position).squaredNorm() > radius * radius) return false;
+  const Vec3 p = (at * shape.origin).inverse() * point;
   const double r = shape.size.x(), half = 0.5 * shape.size.z();
   switch (shape.kind) {
     case ShapeKind::box:
@@ -68,7 +70,8 @@ void Scene::add_body(Connector& c, ObjectId object, const Piece& of_body, Look l
   piece.object = object;
   if (piece.robot >= 0) piece.body = c.read(object, keys::pose);
   for (const Shape& s : shapes) {
-    volumes_.push_back({s, piece.body, piece.place, object, piece.robot});
+    volumes_.push_back(
+        {s, piece.body, piece.place, object, piece.robot, s.origin.position.norm() + half_extents(s).norm()});
     add_shape(c, s, piece, look);
   }
 }

@@ -41,6 +41,7 @@ struct Volume {
   Pose place;     ///< of scenery
   ObjectId object = no_object;
   std::int32_t robot = -1;  ///< number; -1: scenery
+  double radius = 0;        ///< m, of a ball about the body's origin that holds it; infinite for a plane
 
   /// Whether it holds a point of the world (m); a mesh holds none.
   bool holds(const Vec3& point) const;

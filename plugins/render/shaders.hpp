@@ -90,6 +90,22 @@ void main() {
   color = vec4(mix(horizon, lit, exp(-dot(at, at) / (450 * 450))), 1);
 })";
 
+/// Of lines and points over a picture.
+constexpr const char* line_vertex = R"(#version 450 core
+layout(location = 0) in vec3 at;
+layout(location = 1) in vec4 color;
+layout(location = 0) uniform mat4 to_picture;
+out vec4 paint;
+void main() {
+  paint = color;
+  gl_Position = to_picture * vec4(at, 1);
+})";
+
+constexpr const char* line_fragment = R"(#version 450 core
+in vec4 paint;
+layout(location = 0) out vec4 color;
+void main() { color = vec4(pow(paint.rgb, vec3(2.2)), paint.a); })";
+
 /// A triangle over the whole picture.
 constexpr const char* sky_vertex = R"(#version 450 core
 layout(location = 0) uniform mat4 from_picture;

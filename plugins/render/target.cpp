@@ -48,12 +48,23 @@ void ColorTarget::begin() const {
   glClearBufferfv(GL_DEPTH, 0, &far);
 }
 
-void ColorTarget::read(std::span<std::uint8_t> rgb) const {
+void ColorTarget::mix() const {
   const auto w = GLint(width_), h = GLint(height_);
   glBlitNamedFramebuffer(drawn_, mixed_, 0, 0, w, h, 0, 0, w, h, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
+void ColorTarget::read(std::span<std::uint8_t> rgb) const {
+  mix();
   glBindFramebuffer(GL_READ_FRAMEBUFFER, mixed_);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(0, 0, w, h, GL_RGB, GL_UNSIGNED_BYTE, rgb.data());
+  glReadPixels(0, 0, GLsizei(width_), GLsizei(height_), GL_RGB, GL_UNSIGNED_BYTE, rgb.data());
+}
+
+void ColorTarget::show() const {
+  const auto w = GLint(width_), h = GLint(height_);
+  mix();
+  glDisable(GL_FRAMEBUFFER_SRGB);  // as it is
+  glBlitNamedFramebuffer(mixed_, 0, 0, 0, w, h, 0, h, w, 0, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
 DepthTarget::DepthTarget(std::uint32_t width, std::uint32_t height, bool labels) : width_(width), height_(height) {

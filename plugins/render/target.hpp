@@ -18,8 +18,12 @@ class ColorTarget {
   void begin() const;
   /// sRGB, rows from the top: 3 width height.
   void read(std::span<std::uint8_t> rgb) const;
+  /// Into the window whose context is current.
+  void show() const;
 
  private:
+  void mix() const;
+
   std::uint32_t width_, height_;
   std::uint32_t drawn_ = 0, mixed_ = 0;  ///< framebuffers
   std::uint32_t buffers_[3] = {};

@@ -32,6 +32,11 @@ class Method {
   /// A snapshot has replaced the properties. [between steps]
   virtual void restored() {}
 
+  /// Before the first rays of a run: where one of so many scanners looks from. [step, one thread]
+  virtual void begin(const View& example, std::size_t scanners) {
+    static_cast<void>(example);
+    static_cast<void>(scanners);
+  }
   /// Takes over where everything is now; called before the rays of an instant. [step, one thread]
   virtual void look() = 0;
   /// The distance (m) along each ray of a set to the nearest surface: max_range where there is none nearer, min_range

@@ -42,6 +42,8 @@ inline constexpr Use writes[] = {
     {"laser.angle_increment", "constant; 0 for a list of directions"},
     {"laser.columns", "constant"},
     {"laser.rows", "constant"},
+    {"laser.min_elevation", "constant"},
+    {"laser.elevation_increment", "constant; 0 for a single row"},
     {"laser.min_range", "constant"},
     {"laser.max_range", "constant"},
     mounting_writes,

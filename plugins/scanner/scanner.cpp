@@ -5,6 +5,8 @@
 #include <cmath>
 #include <string>
 
+#include "keys.hpp"
+
 namespace muro::scanner {
 
 namespace {
@@ -97,6 +99,9 @@ void Scanner::bind(Connector& c, const Item& item) {
   c.set(sensor, keys::laser_angle_increment, is_list_ ? 0 : grid_.angle_increment());
   c.set(sensor, keys::laser_columns, grid_.columns);
   c.set(sensor, keys::laser_rows, grid_.rows);
+  c.set(sensor, key_min_elevation, grid_.elevation(0));
+  c.set(sensor, key_elevation_increment,
+        grid_.rows > 1 ? (grid_.max_elevation - grid_.min_elevation) / (grid_.rows - 1) : 0);
   c.set(sensor, keys::laser_min_range, min_range_);
   c.set(sensor, keys::laser_max_range, max_range_);
   c.set(sensor, keys::sensor_origin, mounting_);
@@ -154,6 +159,8 @@ bool Scanner::takes_rays(std::uint64_t index) const {
 
 void Scanner::step(const Step& step, Range range) {
   if (step.phase == 0) {
+    if (!begun_ && !devices_.empty()) method_->begin(view_of(devices_.front()), devices_.size());
+    begun_ = true;
     if (takes_rays(step.index)) method_->look();
     if (method_->is_parallel()) return;
     for (const Device& d : devices_) serve(d, step.index);
@@ -164,11 +171,11 @@ void Scanner::step(const Step& step, Range range) {
 
 void Scanner::serve(const Device& d, std::uint64_t index) {
   if (sweep_ && index > 0) return sweep(d, index);
-  const Pose device = *d.pose * mounting_;
+  const View view = view_of(d);
   const auto hits = d.hits ? *d.hits : std::span<ObjectId>();
   const auto incidence = d.incidence ? *d.incidence : std::span<double>();
-  cast(0, {device, max_range_, d.ignored_robot, min_range_}, 0, grid_.columns, {*d.ranges, incidence, hits});
-  if (sweep_) *d.before = device;
+  cast(0, view, 0, grid_.columns, {*d.ranges, incidence, hits});
+  if (sweep_) *d.before = view.device;
 }
 
 void Scanner::sweep(const Device& d, std::uint64_t index) {

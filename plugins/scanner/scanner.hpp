@@ -19,7 +19,10 @@ class Scanner : public Algorithm {
   explicit Scanner(std::unique_ptr<Method> method) : method_(std::move(method)) {}
 
   void connect(Connector& c) override;
-  void start() override { method_->start(); }
+  void start() override {
+    method_->start();
+    begun_ = false;
+  }
   void restored() override { method_->restored(); }
   std::span<const Phase> phases() const override;
   void step(const Step& step, Range range) override;
@@ -46,6 +49,7 @@ class Scanner : public Algorithm {
   std::uint32_t size() const { return grid_.columns * grid_.rows; }
   bool is_wide() const { return beam_.has_value(); }
 
+  View view_of(const Device& d) const { return {*d.pose * mounting_, max_range_, d.ignored_robot, min_range_}; }
   bool takes_rays(std::uint64_t index) const;
   void serve(const Device& d, std::uint64_t index);
   void sweep(const Device& d, std::uint64_t index);
@@ -61,6 +65,7 @@ class Scanner : public Algorithm {
   std::optional<Sweep> sweep_;
   Pose mounting_;
   double min_range_ = 0, max_range_ = 0;
+  bool begun_ = false;
 };
 
 }  // namespace muro::scanner

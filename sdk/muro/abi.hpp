@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstring>
 #include <memory>
 
@@ -16,8 +17,8 @@
 
 namespace muro::abi {
 
-inline constexpr std::uint32_t sdk_major = 1;
-inline constexpr std::uint32_t sdk_minor = 1;
+inline constexpr std::uint32_t sdk_major = 2;
+inline constexpr std::uint32_t sdk_minor = 0;
 
 /// Values whose layout both sides must agree on.
 struct Probe {
@@ -27,6 +28,34 @@ struct Probe {
   std::string_view text;
   Description description;
 };
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Winvalid-offsetof"
+/// A hash of the places of what plugins and hosts hand each other.
+constexpr std::uint32_t layout_of_values() {
+  constexpr std::size_t places[] = {sizeof(Pose),
+                                    offsetof(Pose, orientation),
+                                    sizeof(Inertia),
+                                    offsetof(Inertia, ixy),
+                                    sizeof(Shape),
+                                    offsetof(Shape, mesh),
+                                    offsetof(Shape, texture),
+                                    offsetof(Shape, painted_by),
+                                    offsetof(Shape, size),
+                                    offsetof(Shape, origin),
+                                    offsetof(Shape, friction),
+                                    offsetof(Shape, restitution),
+                                    offsetof(Shape, color),
+                                    sizeof(Parameter),
+                                    offsetof(Parameter, choices),
+                                    sizeof(KeyInfo),
+                                    offsetof(KeyInfo, doc),
+                                    offsetof(Description, promises)};
+  std::uint32_t hash = 2166136261u;  // FNV-1a
+  for (const std::size_t place : places) hash = (hash ^ std::uint32_t(place)) * 16777619u;
+  return hash;
+}
+#pragma GCC diagnostic pop
 
 /// The C-only head of a plugin's table. Hosts read nothing else before all fields agree with theirs.
 struct Stamp {
@@ -43,7 +72,8 @@ struct Stamp {
   std::uint32_t eigen_malloc_already_aligned;
   std::uint32_t probe_size;
   std::uint32_t probe_align;
-  char compiler[64];  ///< printed, never compared
+  std::uint32_t probe_layout;  ///< of where its parts have theirs: padding hides what moves within a struct
+  char compiler[64];           ///< printed, never compared
 };
 
 #ifdef __clang__
@@ -78,6 +108,7 @@ constexpr Stamp make_stamp() {
   s.eigen_malloc_already_aligned = EIGEN_MALLOC_ALREADY_ALIGNED;
   s.probe_size = sizeof(Probe);
   s.probe_align = alignof(Probe);
+  s.probe_layout = layout_of_values();
   constexpr std::string_view compiler = MURO_COMPILER;
   std::copy_n(compiler.data(), std::min(compiler.size(), sizeof s.compiler - 1), s.compiler);
   return s;

@@ -46,6 +46,11 @@ enum class LogLevel : std::uint8_t { debug, info, warning, error };
 class Host {
  public:
   virtual void log(LogLevel level, std::string_view text) noexcept = 0;
+  /// The interface of this name, such as Inspection::ability; null where the host has it not. [setup]
+  virtual void* ability(std::string_view name) noexcept {
+    static_cast<void>(name);
+    return nullptr;
+  }
 
  protected:
   ~Host() = default;

@@ -52,6 +52,9 @@ enum Promise : std::uint32_t {
   /// One instance is a world that its robots share and that sees all others. Robots whose parameter `world` is the same
   /// are in one, whatever their other parameters; it moves before motions that see nobody.
   world = 32,
+  /// Runs while nothing else does, on the thread that runs the simulation; it may look at all properties: see
+  /// inspection.hpp.
+  alone = 64,
 };
 
 /// A property that an algorithm uses, by name, for the reader and for advice in error messages.

@@ -151,7 +151,7 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Broken{MURO_BROKEN_PLUGIN("wrong_sdk_major"), "unknown_algorithm.yaml:5:13: plugin " BAD_PLUGIN_DIR
                                                       "/wrong_sdk_major/wrong_sdk_major.so was built for another "
-                                                      "muro: sdk_major is 2 in the plugin and 1 in this muro"},
+                                                      "muro: sdk_major is 3 in the plugin and 2 in this muro"},
         Broken{MURO_BROKEN_PLUGIN("text_file"),
                "unknown_algorithm.yaml:5:13: plugin " BAD_PLUGIN_DIR "/text_file/text_file.so cannot be loaded: "},
         Broken{"missing_library.yaml --set robots.rover.control.library=" CONTROLLERS "/no_symbol.so",

@@ -56,6 +56,7 @@ const Difference differences[] = {
     {"wrong_eigen_alignment", of_number("eigen_max_align_bytes", 32, 16)},
     {"wrong_eigen_malloc", of_number("eigen_malloc_already_aligned", 0, 1)},
     {"wrong_probe_size", of_number("probe_size", ours.probe_size + 8, ours.probe_size)},
+    {"wrong_probe_layout", of_number("probe_layout", ours.probe_layout ^ 1U, ours.probe_layout)},
 };
 INSTANTIATE_TEST_SUITE_P(Stamp, ForeignPlugin, testing::ValuesIn(differences),
                          [](const auto& test) { return test.param.plugin; });

@@ -97,6 +97,17 @@ TEST_F(Stages, AnUndividedPhaseStandsAloneBetweenDividedOnes) {
   EXPECT_EQ(all[1].calls[0].range.end, robots);
 }
 
+TEST_F(Stages, ATaskThatIsAloneOverlapsWithNothingThoughItTouchesNothingOfTheOthers) {
+  tasks.reserve(3);
+  every(add({{Over::items, Reach::own}}), 0, true);
+  add({{Over::whole}}).alone = true;
+  every(add({{Over::items, Reach::own}}), 1, true);
+  const auto all = stages();
+  ASSERT_EQ(all.size(), 3u);
+  EXPECT_EQ(all[1].chains(), 1u);
+  EXPECT_EQ(all[1].calls[0].task, 1u);
+}
+
 TEST_F(Stages, WithoutOverlapEachPhaseOfATaskIsAStage) {
   tasks.reserve(2);
   every(add({{Over::robots, Reach::own}, {Over::robots, Reach::own}}), 0, true);

@@ -8,8 +8,8 @@
 
 #include "muro/mounting.hpp"
 #include "muro/plugin.hpp"
-#include "plugins/render/context.hpp"
 #include "plugins/render/depth_renderer.hpp"
+#include "plugins/render/device.hpp"
 #include "plugins/render/picture_renderer.hpp"
 
 namespace {
@@ -18,7 +18,6 @@ using namespace muro;
 using std::numbers::pi;
 
 constexpr int corners = 64;  ///< of circles
-constexpr std::string_view devices[] = {"auto", "gpu", "software"};
 constexpr Parameter parameters[] = {
     integer("width", 640, "pixels in a row").between(1, 8192),
     integer("height", 480, "rows of pixels").between(1, 8192),
@@ -35,7 +34,7 @@ constexpr Parameter parameters[] = {
     boolean("see_self", true, "whether the robot that carries the camera is seen"),
     mounting_offset,
     mounting_rpy,
-    text("device", "auto", "what draws: the first GPU that can, else the processor; or one of both").one_of(devices),
+    render::device_parameter,
 };
 constexpr Use reads[] = {{"pose", "of the sensor's object and of all bodies that are seen"},
                          {"visual.shapes", "of all bodies; else collision.shapes"}};
@@ -92,10 +91,7 @@ class Camera final : public Algorithm {
     mounting_ = mounting_of(p);
     light_.shadows = p.boolean("shadows");
     light_.shadow_range = p.real("shadow_range");
-    const std::string_view device = p.text("device");
-    device_ = device == "gpu"        ? render::Device::gpu
-              : device == "software" ? render::Device::software
-                                     : render::Device::any;
+    device_ = render::device_of(p);
     const std::uint32_t pixels = camera_.width * camera_.height;
     for (const Item& item : c.items()) {
       const ObjectId sensor = item.object;

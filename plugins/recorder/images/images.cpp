@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Writes what cameras see to PNG files; see README.md.
-#include <png.h>
-
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 
 #include "muro/plugin.hpp"
+#include "plugins/picture_file/png.hpp"
 
 namespace {
 
@@ -56,7 +55,7 @@ class ImageRecorder final : public Algorithm {
     char time[32];
     std::snprintf(time, sizeof time, "_%012.6f", 1e-9 * double(step.time));
     for (Camera& camera : cameras_) {
-      if (camera.image) write(camera, time + std::string(".png"), PNG_FORMAT_RGB, (*camera.image).data());
+      if (camera.image) write(camera, time + std::string(".png"), picture_file::Format::rgb8, (*camera.image).data());
       if (!camera.depth) continue;
       const std::span<const float> depth = *camera.depth;
       camera.grey.resize(depth.size());
@@ -64,7 +63,7 @@ class ImageRecorder final : public Algorithm {
         const double value = double(depth[k]) / depth_step;
         camera.grey[k] = value < 65535 ? std::uint16_t(std::lround(value)) : 0;
       }
-      write(camera, "_depth" + std::string(time) + ".png", PNG_FORMAT_LINEAR_Y, camera.grey.data());
+      write(camera, "_depth" + std::string(time) + ".png", picture_file::Format::grey16, camera.grey.data());
     }
   }
 
@@ -95,19 +94,8 @@ class ImageRecorder final : public Algorithm {
     return true;
   }
 
-  /// Under another name first, so that no file is ever half written.
-  void write(const Camera& camera, const std::string& ending, png_uint_32 format, const void* pixels) const {
-    png_image image{};
-    image.version = PNG_IMAGE_VERSION;
-    image.width = camera.width;
-    image.height = camera.height;
-    image.format = format;
-    const fs::path path = folder_ / (camera.name + ending), part = path.string() + ".part";
-    if (!png_image_write_to_file(&image, part.c_str(), 0, pixels, 0, nullptr))
-      throw Error("the picture `" + path.string() + "` cannot be written: " + image.message);
-    std::error_code code;
-    fs::rename(part, path, code);
-    if (code) throw Error("the picture `" + path.string() + "` cannot be written: " + code.message());
+  void write(const Camera& camera, const std::string& ending, picture_file::Format format, const void* pixels) const {
+    picture_file::write_png((folder_ / (camera.name + ending)).string(), format, camera.width, camera.height, pixels);
   }
 
   fs::path folder_;

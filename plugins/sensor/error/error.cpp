@@ -15,6 +15,8 @@ constexpr Parameter parameters[] = {
     text("of", "ranges", "the property of the sensor's object to work on: a real number or an array of them"),
     real("sigma", "as read", 0, "standard deviation of the noise").between(0, 1e9),
     real("sigma_relative", "1", 0, "standard deviation of further noise, as a share of the reading").between(0, 1e3),
+    real("pointing", "rad", 0, "standard deviation of a ray's direction: adds noise at a slant; needs laser.incidence")
+        .between(0, 1),
     real("correlation", "1", 0, "of the noise of neighbours in an array").between(-1, 1),
     real("bias", "as read", 0, "added to every reading").between(-1e9, 1e9),
     real("resolution", "as read", 0, "readings are multiples of this; 0: any value").between(0, 1e9),
@@ -23,7 +25,8 @@ constexpr Parameter parameters[] = {
     real("dropout", "1", 0, "probability that a reading is lost").between(0, 1),
     real("dropout_value", "as read", 0, "what a lost reading reads"),
 };
-constexpr Use reads[] = {{"ranges", "or the property that `of` names"}};
+constexpr Use reads[] = {{"ranges", "or the property that `of` names"},
+                         {"laser.incidence", "pointing above 0: between each ray and the surface's normal"}};
 constexpr Use writes[] = {{"ranges.measured", "or `of`.measured"}};
 constexpr Description description{
     .id = "sensor.error",
@@ -53,10 +56,13 @@ class SensorError final : public Algorithm {
       if (found.form == Form::array) {
         s.truth = ArrayIn<double>(c.read_any(found));
         s.measured = c.variable_array(object, output_key(*found.key), found.count);
+        if (s.model.pointing > 0) s.incidence = ArrayIn<double>(c.read_any(find_incidence(c, object, found.count)));
       } else {
         if (p.given("correlation"))
           throw Error("correlation is between neighbours in an array, but " + quoted(of) +
                       " is a single number; remove it");
+        if (p.given("pointing"))
+          throw Error("pointing is of the rays of a laser, but " + quoted(of) + " is a single number; remove it");
         s.single_truth = In<double>(c.read_any(found));
         s.single_measured = c.variable(object, output_key(*found.key), 0.0);
       }
@@ -69,7 +75,7 @@ class SensorError final : public Algorithm {
       const Sensor& s = sensors_[i];
       const Random random(step.seed, s.random_key, step.index);
       if (s.truth)
-        s.model.apply(*s.truth, *s.measured, random);
+        s.model.apply(*s.truth, *s.measured, random, s.incidence ? *s.incidence : std::span<const double>());
       else
         s.model.apply({s.single_truth.get(), 1}, {s.single_measured.get(), 1}, random);
     }
@@ -80,6 +86,7 @@ class SensorError final : public Algorithm {
     std::uint64_t random_key = 0;
     ErrorModel model;
     ArrayIn<double> truth;  ///< and measured: when the reading is an array
+    ArrayIn<double> incidence;
     ArrayOut<double> measured;
     In<double> single_truth;
     Out<double> single_measured;
@@ -112,9 +119,16 @@ class SensorError final : public Algorithm {
                 (others.empty() ? "; add the sensor that writes it" : "; it has " + others));
   }
 
+  static FoundProperty find_incidence(Connector& c, ObjectId object, std::uint32_t count) {
+    for (const FoundProperty& p : c.properties(object))
+      if (p.key->name == keys::laser_incidence.name && p.count == count) return p;
+    throw Error("pointing needs to know at what slant rays meet surfaces: give the laser `incidence: true`");
+  }
+
   static ErrorModel model_of(const Parameters& p, const Connector& c, ObjectId object) {
     ErrorModel m{.sigma = p.real("sigma"),
                  .sigma_relative = p.real("sigma_relative"),
+                 .pointing = p.real("pointing"),
                  .correlation = p.real("correlation"),
                  .bias = p.real("bias"),
                  .resolution = p.real("resolution"),

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include "core/inspector.hpp"
+
+namespace muro {
+
+namespace {
+
+/// Where the elements of a property lie now; without data where it has none yet.
+LiveProperty elements_of(const Slot& s) {
+  LiveProperty p;
+  p.form = s.form;
+  if (s.form == Form::array && s.array) {
+    p.data = s.array->data;
+    p.count = std::uint32_t(s.array->size);
+  } else if (s.form == Form::list && s.place) {
+    const auto& list = *static_cast<const ListHeader*>(s.place);
+    p.data = list.data;
+    p.count = std::uint32_t(list.size);
+  } else if (s.form == Form::single) {
+    p.data = s.place;
+    p.count = 1;
+  }
+  return p;
+}
+
+}  // namespace
+
+std::span<const LiveProperty> Inspector::properties(ObjectId object) noexcept {
+  const PropertyStore& store = world_.store();
+  properties_.clear();
+  keys_.clear();
+  for (const PropertyStore::Named& n : store.properties(object)) {
+    const Slot& s = store.slot(n.slot);
+    LiveProperty p = elements_of(s);
+    if (!p.data && s.form != Form::list) continue;  // sums, and what has only been shared so far
+    KeyInfo& key = keys_.emplace_back(store.key_of(s));
+    key.name = n.key;
+    p.key = &key;
+    p.is_constant = s.kind == Slot::Class::constant;
+    p.is_variable = s.kind == Slot::Class::variable;
+    if (const Slot::Usage* writer = s.writer()) p.written_by = store.party_name(writer->party);
+    properties_.push_back(p);
+  }
+  return properties_;
+}
+
+std::span<const LiveCost> Inspector::costs() noexcept {
+  costs_.clear();
+  const double seconds_per_tick = scheduler_.seconds_per_tick();
+  for (TaskId t = 0; t < scheduler_.tasks().size(); ++t) {
+    const TaskCost cost = scheduler_.cost(t);
+    costs_.push_back({scheduler_.tasks()[t].name, cost.runs, double(cost.ticks) * seconds_per_tick});
+  }
+  return costs_;
+}
+
+}  // namespace muro

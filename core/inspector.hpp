@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <deque>
+#include <vector>
+
+#include "core/scheduler.hpp"
+#include "core/world.hpp"
+#include "muro/inspection.hpp"
+
+namespace muro {
+
+/// Shows a simulation to algorithms that are alone with it.
+class Inspector final : public Inspection {
+ public:
+  Inspector(const World& world, const Scheduler& scheduler) : world_(world), scheduler_(scheduler) {}
+
+  std::span<const LiveProperty> properties(ObjectId object) noexcept override;
+  std::span<const LiveCost> costs() noexcept override;
+  std::uint32_t object_count() const noexcept override { return world_.object_count(); }
+  std::string_view object_name(ObjectId object) const noexcept override { return world_.object_name(object); }
+  std::string_view text(TextId id) const noexcept override { return world_.text(id); }
+  void stop() noexcept override { stopped_ = true; }
+
+  bool stopped() const { return stopped_; }
+
+ private:
+  const World& world_;
+  const Scheduler& scheduler_;
+  std::vector<LiveProperty> properties_;
+  std::deque<KeyInfo> keys_;  ///< under the names that an object has for them
+  std::vector<LiveCost> costs_;
+  bool stopped_ = false;
+};
+
+}  // namespace muro

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// A laser scanner by the method that is the fastest here; see README.md.
+#include "choice.hpp"
+#include "plugins/scanner/scanner.hpp"
+#ifdef MURO_AUTO_ZBUFFER
+#include "plugins/laser/zbuffer/method.hpp"
+#endif
+
+namespace {
+
+using namespace muro;
+
+constexpr std::string_view methods[] = {"auto", "raycast", "zbuffer", "embree"};
+constexpr Parameter own[] = {
+    text("method", "auto", "what finds the distances; auto: measured at the start").one_of(methods),
+#ifdef MURO_AUTO_ZBUFFER
+    zbuffer::supersampling,
+    zbuffer::device_parameter,
+#endif
+};
+constexpr auto parameters = scanner::joined(scanner::parameters, own);
+constexpr Use reads[] = {{"pose", "of the sensor's object and of all bodies that are seen"},
+                         {"collision.shapes", "of all bodies"},
+                         {"scene.index", "of the world"}};
+constexpr Description description{
+    .id = "laser.auto",
+    .kind = Kind::sensor,
+    .version = "1.0.0",
+    .summary = "A laser scanner by the fastest of the other methods, measured at the start in the scene as it is",
+    .parameters = parameters,
+    .reads = reads,
+    .writes = scanner::writes,
+    .promises = batched | restorable,
+};
+
+class Auto final : public scanner::Scanner {
+ public:
+  Auto() : Scanner(std::make_unique<laser_auto::Choice>()) {}
+};
+
+constexpr abi::AlgorithmEntry algorithms[] = {algorithm<Auto>(description)};
+
+}  // namespace
+
+MURO_PLUGIN(.name = "laser_auto", .version = "1.0.0", .licence = "MIT",
+            .summary = "Laser scanner by the fastest method", .algorithms = algorithms)

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#include "method.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "muro/algorithm.hpp"
+
+namespace muro::zbuffer {
+
+namespace {
+
+/// Of circles: a cylinder of radius r then lies at most 3e-4 r inside of itself.
+constexpr int corners = 128;
+constexpr std::uint32_t most_pixels = 8192;  ///< along a side, which every OpenGL 4.5 can draw
+
+Extent extent_of(const render::Camera& c) {
+  if (c.width == 1) return c.height == 1 ? Extent::point : Extent::upright;
+  return c.height == 1 ? Extent::level : Extent::whole;
+}
+
+}  // namespace
+
+ZBuffer::~ZBuffer() {
+  if (!context_) return;
+  const render::Current current(*context_);
+  distances_.reset();
+  labelled_.reset();
+  renderer_.reset();
+  stage_.reset();
+}
+
+void ZBuffer::connect(Connector& c) {
+  supersampling_ = c.parameters().real(supersampling.name);
+  device_ = render::device_of(c.parameters());
+  host_ = &c.host();
+  scene_.connect(c, render::Look::as_collides, corners);
+}
+
+void ZBuffer::prepare(std::span<const scanner::RaySet> sets, double min_range, double max_range) {
+  near_ = std::clamp(0.5 * min_range, 1e-3, 0.05);
+  for (const scanner::RaySet& set : sets) {
+    Picture p{Views::of(set, supersampling_), 0, 0, {}, {}};
+    p.width = p.views.width();
+    for (render::Camera& camera : p.views.cameras) {
+      camera.near = near_;
+      camera.far = max_range;
+      p.tops.push_back(p.height);
+      p.height += camera.height;
+    }
+    if (p.width > most_pixels || p.height > most_pixels)
+      throw Error("the z-buffer would need " + std::to_string(p.width) + " x " + std::to_string(p.height) +
+                  " pixels; at most " + std::to_string(most_pixels) +
+                  " either way are possible: take fewer rays, less supersampling, or laser.raycast");
+    width_ = std::max(width_, p.width);
+    height_ = std::max(height_, p.height);
+    pictures_.push_back(std::move(p));
+  }
+  for (Picture& p : pictures_) place_samples(p);
+}
+
+/// Once it is known how wide the buffer is.
+void ZBuffer::place_samples(Picture& p) const {
+  p.samples.resize(p.views.cameras.size());
+  for (std::uint32_t ray = 0; ray < p.views.samples.size(); ++ray) {
+    const Sample& s = p.views.samples[ray];
+    const auto column = std::uint32_t(std::max(s.column, 0.0)), row = std::uint32_t(std::max(s.row, 0.0));
+    p.samples[s.view].add(ray, std::int32_t((p.tops[s.view] + row) * width_ + column), float(s.column - column),
+                          float(s.row - row), s.per_depth);
+  }
+}
+
+void ZBuffer::start() {
+  moved_ = true;
+  if (context_) return;
+  context_.emplace(device_);
+  host_->log(LogLevel::info, "the z-buffer of lasers is drawn by " + context_->renderer());
+}
+
+void ZBuffer::look() { moved_ = true; }
+
+void ZBuffer::draw(const Picture& picture, const scanner::View& view, bool labels) {
+  const render::Current current(*context_);
+  if (!stage_) {
+    stage_.emplace(scene_);
+    renderer_.emplace(*stage_);
+  }
+  if (moved_) stage_->place();
+  moved_ = false;
+  std::optional<render::DepthTarget>& target = labels ? labelled_ : distances_;
+  if (!target) target.emplace(width_, height_, labels);
+  target->begin();
+  for (std::size_t k = 0; k < picture.views.cameras.size(); ++k) {
+    render::Camera camera = picture.views.cameras[k];
+    camera.pose = view.device * camera.pose;
+    camera.ignored_robot = view.ignored_robot;
+    renderer_->draw(camera, *target, picture.tops[k]);
+  }
+  inverse_.resize(std::size_t(width_) * picture.height);
+  target->read(std::span(inverse_));
+  if (!labels) return;
+  labels_.resize(inverse_.size());
+  target->read(std::span(labels_));
+}
+
+ObjectId ZBuffer::holder_of(const scanner::View& view) const {
+  for (const render::Volume& v : scene_.volumes())
+    if ((v.robot < 0 || v.robot != view.ignored_robot) && v.holds(view.device.position)) return v.object;
+  return no_object;
+}
+
+void ZBuffer::cast(std::size_t set, const scanner::View& view, std::span<double> ranges, std::span<ObjectId> hits) {
+  const bool exists = view.device.position.allFinite() && view.device.orientation.coeffs().allFinite();
+  const ObjectId holder = exists ? holder_of(view) : no_object;
+  if (!exists || holder != no_object) {
+    std::fill(ranges.begin(), ranges.end(), exists ? view.min_range : view.max_range);
+    std::fill(hits.begin(), hits.end(), holder);
+    return;
+  }
+  const Picture& picture = pictures_[set];
+  draw(picture, view, !hits.empty());
+  for (std::size_t k = 0; k < picture.samples.size(); ++k) {
+    const Samples& s = picture.samples[k];
+    found_.resize(std::max(found_.size(), s.size()));
+    sample(extent_of(picture.views.cameras[k]), inverse_.data(), std::int32_t(width_), s, found_.data());
+    for (std::size_t i = 0; i < s.size(); ++i) {
+      const double inverse = double(found_[i]);
+      const double range = inverse > 0 ? near_ / inverse * s.per_depth[i] : view.max_range;
+      ranges[s.ray[i]] = std::clamp(range, view.min_range, view.max_range);
+      if (hits.empty()) continue;
+      const std::size_t nearest =
+          std::size_t(s.pixel[i]) + (s.across[i] < 0.5F ? 0 : 1) + (s.down[i] < 0.5F ? 0 : width_);
+      hits[s.ray[i]] = range < view.max_range ? ObjectId(labels_[nearest]) : no_object;
+    }
+  }
+}
+
+}  // namespace muro::zbuffer

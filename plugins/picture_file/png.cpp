@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#include "png.hpp"
+
+#include <png.h>
+
+#include <filesystem>
+
+#include "muro/algorithm.hpp"
+
+namespace muro::picture_file {
+
+void write_png(const std::string& path, Format format, std::uint32_t width, std::uint32_t height, const void* pixels) {
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  image.width = width;
+  image.height = height;
+  image.format = format == Format::rgb8 ? PNG_FORMAT_RGB : PNG_FORMAT_LINEAR_Y;
+  const std::string part = path + ".part";
+  if (!png_image_write_to_file(&image, part.c_str(), 0, pixels, 0, nullptr))
+    throw Error("the picture `" + path + "` cannot be written: " + image.message);
+  std::error_code code;
+  std::filesystem::rename(part, path, code);
+  if (code) throw Error("the picture `" + path + "` cannot be written: " + code.message());
+}
+
+}  // namespace muro::picture_file

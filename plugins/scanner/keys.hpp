@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+// What laser scanners tell of their rows beside the vocabulary: constants on the sensor's object.
+#pragma once
+
+#include "muro/key.hpp"
+
+namespace muro::scanner {
+
+inline constexpr Key<double> key_min_elevation{"laser.min_elevation", "rad", "elevation of the first row"};
+inline constexpr Key<double> key_elevation_increment{"laser.elevation_increment", "rad", "from row to row"};
+
+}  // namespace muro::scanner

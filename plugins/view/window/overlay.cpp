@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "overlay.hpp"
+
+#include <algorithm>
+
+#include "muro/vocabulary.hpp"
+#include "plugins/scanner/keys.hpp"
+
+namespace muro::view {
+
+namespace {
+
+const Vec3 red(0.95, 0.2, 0.15), green(0.2, 0.8, 0.2), blue(0.25, 0.4, 1), orange(1, 0.6, 0.1);
+
+/// The value of a property, or `otherwise`.
+template <class T>
+T value_of(std::span<const LiveProperty> properties, const Key<T>& key, const T& otherwise) {
+  for (const LiveProperty& p : properties)
+    if (p.key->name == key.name && *p.key->type == *key.type && p.count > 0) return *static_cast<const T*>(p.data);
+  return otherwise;
+}
+
+template <class T>
+std::span<const T> values_of(std::span<const LiveProperty> properties, const Key<T>& key) {
+  for (const LiveProperty& p : properties)
+    if (p.key->name == key.name && *p.key->type == *key.type) return {static_cast<const T*>(p.data), p.count};
+  return {};
+}
+
+}  // namespace
+
+void Overlay::connect(Connector& c) {
+  for (const RobotView* robot : c.robots())
+    for (const Frame& f : robot->frames)
+      bodies_.push_back(
+          {c.read(f.object, keys::pose), f.object, std::int32_t(robot->number), f.object == robot->base()});
+  for (std::uint32_t i = 0; i < c.object_count(); ++i)
+    for (const FoundProperty& p : c.properties(ObjectId(i)))
+      if (p.key->name == keys::ranges.name) {
+        c.read(ObjectId(i), keys::pose);  // so that it is up to date
+        sensors_.push_back(ObjectId(i));
+      }
+}
+
+void Overlay::add_frame(const Pose& pose, double length, render::Lines& lines) {
+  const Vec3 colors[] = {red, green, blue};
+  for (int k = 0; k < 3; ++k) lines.add(pose.position, pose * Vec3(length * Vec3::Unit(k)), colors[k], 1);
+}
+
+void Overlay::add_scan(Inspection& simulation, ObjectId sensor, render::Lines& lines) const {
+  const std::span<const LiveProperty> properties = simulation.properties(sensor);
+  const std::span<const double> ranges = values_of(properties, keys::ranges);
+  const auto columns = value_of(properties, keys::laser_columns, 0U);
+  const double increment = value_of(properties, keys::laser_angle_increment, 0.0);
+  if (columns == 0 || (columns > 1 && increment == 0)) return;  // a list of directions
+  const Pose device = value_of(properties, keys::pose, Pose{}) * value_of(properties, keys::sensor_origin, Pose{});
+  const double first = value_of(properties, keys::laser_min_angle, 0.0);
+  const double low = value_of(properties, scanner::key_min_elevation, 0.0);
+  const double step = value_of(properties, scanner::key_elevation_increment, 0.0);
+  const double most = value_of(properties, keys::laser_max_range, 1e9);
+  constexpr std::size_t shown = 4000;  // points of a scan
+  const std::size_t every = 1 + ranges.size() / shown;
+  const std::size_t fan = std::max<std::size_t>(every, ranges.size() / 90);
+  for (std::size_t i = 0; i < ranges.size(); i += every) {
+    const double a = first + double(i % columns) * increment, e = low + double(i / columns) * step;
+    const Vec3 way(std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e));
+    const Vec3 end = device * Vec3(ranges[i] * way);
+    const bool hit = ranges[i] < most;
+    if (hit) lines.point(end, red);
+    if (i % fan < every) lines.add(device.position, end, hit ? red : orange, hit ? 0.25 : 0.08);
+  }
+}
+
+void Overlay::collect(Inspection& simulation, ObjectId chosen, render::Lines& lines) const {
+  std::int32_t robot = -1;
+  for (const Body& b : bodies_)
+    if (b.object == chosen) robot = b.robot;
+  for (const Body& b : bodies_) {
+    if (frames && b.is_base) add_frame(*b.pose, 0.4, lines);
+    if (b.robot == robot && (frames || b.object == chosen)) add_frame(*b.pose, b.object == chosen ? 0.3 : 0.12, lines);
+    if (contacts && b.is_base)
+      for (const Contact& contact : values_of(simulation.properties(b.object), keys::contacts)) {
+        lines.point(contact.point, orange);
+        lines.add(contact.point, contact.point + 0.12 * contact.normal, orange, 1);
+      }
+  }
+  if (scans)
+    for (const ObjectId sensor : sensors_) add_scan(simulation, sensor, lines);
+}
+
+}  // namespace muro::view

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// What the window shows beside the scene, and what its buttons do.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "eye.hpp"
+#include "muro/inspection.hpp"
+#include "overlay.hpp"
+#include "pace.hpp"
+
+namespace muro::view {
+
+class Panels {
+ public:
+  ObjectId chosen = no_object;
+  bool wants_all = false;  ///< the whole scene is to be seen
+
+  /// Remembers the tree of robots. [setup]
+  void connect(Connector& c, std::string_view own_name);
+  /// Draws all and does what buttons and keys say. `simulated`, `wall`: s.
+  void draw(Inspection& simulation, Pace& pace, Eye& eye, Overlay& overlay, double simulated, double wall);
+
+ private:
+  struct Group {
+    std::string name;
+    std::vector<ObjectId> objects;
+  };
+
+  void draw_controls(Pace& pace, Eye& eye, Overlay& overlay, double simulated, double wall);
+  void draw_tree(Inspection& simulation);
+  void draw_properties(Inspection& simulation);
+  void draw_costs(Inspection& simulation, double simulated);
+  void edit(const LiveProperty& property);
+  void press_keys(Pace& pace, Eye& eye);
+
+  std::vector<Group> groups_;
+  std::string own_name_;
+  std::array<char, 64> filter_{};
+  double last_simulated_ = 0, last_wall_ = 0, factor_ = 0;
+};
+
+}  // namespace muro::view

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include "screen.hpp"
+
+#include <epoxy/gl.h>
+// behind epoxy, which stands in for the headers of OpenGL
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+
+#include <algorithm>
+
+#include "muro/algorithm.hpp"
+
+namespace muro::view {
+
+namespace {
+
+[[noreturn]] void fail(const std::string& what) {
+  const char* words = nullptr;
+  glfwGetError(&words);
+  throw Error(
+      what + (words ? std::string(": ") + words : std::string()) +
+      ". Run it where there is a display with OpenGL 4.5 (DISPLAY or WAYLAND_DISPLAY is set), under `xvfb-run -a` "
+      "without one, or take pictures with `muro render`");
+}
+
+}  // namespace
+
+Screen::Screen(const std::string& title, int width, int height) {
+  glfwSetErrorCallback(nullptr);
+  if (!glfwInit()) fail("there is no display to open a window on");
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
+  glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+  window_ = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
+  if (!window_) {
+    glfwTerminate();
+    fail("no window with OpenGL 4.5 can be opened");
+  }
+  glfwMakeContextCurrent(window_);
+  glfwSwapInterval(0);  // waiting for the screen would hold the simulation up
+  ImGui::CreateContext();
+  ImGuiIO& io = ImGui::GetIO();
+  io.IniFilename = nullptr;
+  ImGui::StyleColorsDark();
+  ImGuiStyle& style = ImGui::GetStyle();
+  style.WindowRounding = 4;
+  style.Colors[ImGuiCol_WindowBg].w = 0.85F;
+  ImGui_ImplGlfw_InitForOpenGL(window_, true);
+  ImGui_ImplOpenGL3_Init("#version 450");
+}
+
+Screen::~Screen() {
+  ImGui_ImplOpenGL3_Shutdown();
+  ImGui_ImplGlfw_Shutdown();
+  ImGui::DestroyContext();
+  glfwDestroyWindow(window_);
+  glfwTerminate();
+}
+
+bool Screen::is_closed() const { return glfwWindowShouldClose(window_) != 0; }
+
+void Screen::make_current() const { glfwMakeContextCurrent(window_); }
+
+void Screen::begin() {
+  glfwPollEvents();
+  glfwGetFramebufferSize(window_, &width_, &height_);
+  width_ = std::max(width_, 1);
+  height_ = std::max(height_, 1);
+  ImGui_ImplOpenGL3_NewFrame();
+  ImGui_ImplGlfw_NewFrame();
+  ImGui::NewFrame();
+}
+
+void Screen::end() {
+  ImGui::Render();
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  glDisable(GL_FRAMEBUFFER_SRGB);
+  glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  glClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
+  glfwSwapBuffers(window_);
+}
+
+std::vector<std::uint8_t> Screen::picture() const {
+  std::vector<std::uint8_t> upside_down(std::size_t(3) * std::size_t(width_) * std::size_t(height_)),
+      rows(upside_down.size());
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
+  glReadBuffer(GL_FRONT);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, width_, height_, GL_RGB, GL_UNSIGNED_BYTE, upside_down.data());
+  const std::size_t row = std::size_t(3) * std::size_t(width_);
+  for (std::size_t k = 0; k < std::size_t(height_); ++k)
+    std::copy_n(upside_down.begin() + std::ptrdiff_t((std::size_t(height_) - 1 - k) * row), row,
+                rows.begin() + std::ptrdiff_t(k * row));
+  return rows;
+}
+
+}  // namespace muro::view

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: MIT
+// A window on the running simulation; see README.md.
+#include <imgui.h>
+
+#include <chrono>
+#include <filesystem>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "muro/plugin.hpp"
+#include "muro/vocabulary.hpp"
+#include "panels.hpp"
+#include "plugins/picture_file/png.hpp"
+#include "plugins/render/depth_renderer.hpp"
+#include "plugins/render/picture_renderer.hpp"
+#include "screen.hpp"
+
+namespace {
+
+using namespace muro;
+using view::Eye;
+
+constexpr int corners = 64;  ///< of circles
+constexpr double fov = 0.9;  ///< rad, up and down
+
+constexpr Parameter parameters[] = {
+    integer("width", 1280, "pixels of the window").between(320, 16384),
+    integer("height", 800, "pixels of the window").between(240, 16384),
+    real("frames", "1/s", 60, "at most so many pictures in a second of the wall clock").between(0.1, 1000),
+    real("speed", "1", 1, "simulated seconds in a second; 0: as fast as possible").between(0, 1e6),
+    boolean("paused", false, "whether the run begins paused"),
+    text("follow", "", "object that is chosen and followed from the start, such as `robot` or `robot/link`"),
+    reals("from", "m", {}, "where the eye is at the start; default: where all is seen"),
+    reals("to", "m", {}, "what it looks at then"),
+    text("picture", "",
+         "PNG file that gets what the window shows last; a relative path starts in the working directory"),
+};
+constexpr Use reads[] = {{"pose", "of all bodies that are seen"}, {"*", "all properties, to show them"}};
+constexpr Description description{
+    .id = "view.window",
+    .kind = Kind::view,
+    .version = "1.0.0",
+    .summary = "A window on the running simulation: scene, robots, properties, costs; play, pause, step, speed",
+    .parameters = parameters,
+    .reads = reads,
+    .promises = restorable | alone,
+};
+
+class Window final : public Algorithm {
+ public:
+  ~Window() override {
+    if (screen_) forget();
+  }
+
+  void connect(Connector& c) override {
+    const Parameters& p = c.parameters();
+    for (const char* name : {"from", "to"})
+      if (p.given(name) && p.reals(name).size() != 3)
+        throw Error(std::string(name) + " has to be three numbers, x, y, z in metres");
+    if (p.given("from") != p.given("to")) throw Error("from and to go together; give both or none");
+    size_ = {int(p.integer("width")), int(p.integer("height"))};
+    period_ = 1 / p.real("frames");
+    pace_ = {p.real("speed"), p.boolean("paused")};
+    if (!p.text("picture").empty()) picture_ = std::filesystem::absolute(std::string(p.text("picture"))).string();
+    if (const std::string name(p.text("follow")); !name.empty()) choose(c, name);
+    if (p.given("from")) eye_.look_from(vector(p.reals("from")), vector(p.reals("to")));
+    looks_at_all_ = !p.given("from");
+    simulation_ = Inspection::of(c.host());
+    if (!simulation_) throw Error("this host does not show its simulation to windows");
+    scene_.connect(c, render::Look::as_seen, corners);
+    overlay_.connect(c);
+    panels_.connect(c, "view");
+    for (const RobotView* robot : c.robots())
+      for (const Frame& f : robot->frames) bodies_.push_back({c.read(f.object, keys::pose), f.object});
+    for (std::uint32_t i = 0; i < c.object_count(); ++i)
+      if (c.robot_of(ObjectId(i)) >= 0)
+        for (const FoundProperty& found : c.properties(ObjectId(i)))
+          if (found.key->name == keys::ranges.name || found.key->name == keys::camera_width.name)
+            bodies_.push_back({c.read(ObjectId(i), keys::pose), ObjectId(i)});
+  }
+
+  void start() override {
+    if (!screen_) screen_.emplace("muro", size_[0], size_[1]);
+    begun_ = Clock::now();
+    last_frame_ = -1;
+  }
+
+  std::span<const Phase> phases() const override {
+    static constexpr Phase whole[] = {{Phase::Over::whole}};
+    return whole;
+  }
+
+  /// Returns when the run may go on, and draws meanwhile; on time it draws only when the last picture is old enough.
+  void step(const Step& step, Range) override {
+    if (screen_->is_closed()) return;
+    for (;;) {
+      const double now = wall();
+      const bool may_go_on = pace_.may_go_on(step.seconds(), now);
+      if (now - last_frame_ >= period_ || last_frame_ < 0) {
+        last_frame_ = now;
+        draw(step.seconds());
+        if (screen_->is_closed()) return simulation_->stop();
+        if (!may_go_on) continue;
+      }
+      if (may_go_on) return;
+      std::this_thread::sleep_for(std::chrono::microseconds(500));
+    }
+  }
+
+  void finish() override {
+    if (!screen_ || picture_.empty()) return;
+    screen_->make_current();
+    picture_file::write_png(picture_, picture_file::Format::rgb8, std::uint32_t(screen_->width()),
+                            std::uint32_t(screen_->height()), screen_->picture().data());
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  struct Body {
+    In<Pose> pose;
+    ObjectId object;
+  };
+
+  static Vec3 vector(std::span<const double> v) { return {v[0], v[1], v[2]}; }
+  double wall() const { return std::chrono::duration<double>(Clock::now() - begun_).count(); }
+
+  void choose(const Connector& c, const std::string& name) {
+    for (const RobotView* robot : c.robots())
+      if (robot->name == name) panels_.chosen = robot->base();
+    if (panels_.chosen == no_object) panels_.chosen = c.find_object(name);
+    if (panels_.chosen == no_object) throw Error("follow names `" + name + "`, which is neither a robot nor an object");
+    eye_.mode = Eye::Mode::follow;
+  }
+
+  const Pose* chosen_pose() const {
+    for (const Body& b : bodies_)
+      if (b.object == panels_.chosen) return b.pose.get();
+    return nullptr;
+  }
+
+  void see_all() {
+    Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+    for (const Body& b : bodies_) {
+      low = low.cwiseMin(b.pose->position);
+      high = high.cwiseMax(b.pose->position);
+    }
+    if (bodies_.empty()) low.setConstant(-3), high.setConstant(3);
+    eye_.look_at_all(low, high);
+  }
+
+  render::Camera camera() const {
+    render::Camera c;
+    c.width = std::uint32_t(screen_->width());
+    c.height = std::uint32_t(screen_->height());
+    c.fx = c.fy = 0.5 * c.height / std::tan(0.5 * fov);
+    c.cx = 0.5 * c.width;
+    c.cy = 0.5 * c.height;
+    c.pose = eye_.pose();
+    return c;
+  }
+
+  void draw(double simulated) {
+    screen_->make_current();
+    screen_->begin();
+    if (!stage_) {
+      stage_.emplace(scene_);
+      renderer_.emplace(*stage_);
+      labels_.emplace(*stage_);
+      lines_.emplace();
+    }
+    if (looks_at_all_ || panels_.wants_all) see_all();
+    looks_at_all_ = panels_.wants_all = false;
+    panels_.draw(*simulation_, pace_, eye_, overlay_, simulated, wall());
+    move_eye();
+    if (const Pose* target = chosen_pose()) eye_.follow(*target);
+    if (!target_ || target_width_ != screen_->width() || target_height_ != screen_->height()) {
+      target_width_ = screen_->width();
+      target_height_ = screen_->height();
+      target_.emplace(std::uint32_t(target_width_), std::uint32_t(target_height_));
+    }
+    stage_->place();
+    const render::Camera c = camera();
+    light_.shadow_range = std::clamp(eye_.distance(), 5.0, 60.0);
+    renderer_->draw(c, *target_, light_);
+    lines_->clear();
+    overlay_.collect(*simulation_, panels_.chosen, *lines_);
+    lines_->draw(c);
+    target_->show();
+    screen_->end();
+  }
+
+  void move_eye() {
+    const ImGuiIO& io = ImGui::GetIO();
+    if (io.WantCaptureMouse) return;
+    const double height = screen_->height();
+    if (ImGui::IsMouseDragging(ImGuiMouseButton_Left, 3))
+      eye_.turn(double(io.MouseDelta.x), double(io.MouseDelta.y), height);
+    if (ImGui::IsMouseDragging(ImGuiMouseButton_Right, 1) || ImGui::IsMouseDragging(ImGuiMouseButton_Middle, 1))
+      eye_.shift(double(io.MouseDelta.x), double(io.MouseDelta.y), height, fov);
+    if (io.MouseWheel != 0) eye_.zoom(double(io.MouseWheel));
+    const bool dragged = ImGui::GetMouseDragDelta(ImGuiMouseButton_Left, 3).x != 0 ||
+                         ImGui::GetMouseDragDelta(ImGuiMouseButton_Left, 3).y != 0;
+    if (ImGui::IsMouseReleased(ImGuiMouseButton_Left) && !dragged) pick(io.MousePos.x, io.MousePos.y);
+  }
+
+  /// What is seen at a pixel becomes what is chosen.
+  void pick(float x, float y) {
+    const render::Camera c = camera();
+    if (x < 0 || y < 0 || x >= float(c.width) || y >= float(c.height)) return;
+    const render::DepthTarget target(c.width, c.height, true);
+    std::vector<std::uint32_t> labels(std::size_t(c.width) * c.height);
+    stage_->place();
+    target.begin();
+    labels_->draw(c, target);
+    target.read(std::span(labels));
+    panels_.chosen = ObjectId(labels[std::size_t(y) * c.width + std::size_t(x)]);
+  }
+
+  void forget() {
+    screen_->make_current();
+    target_.reset();
+    lines_.reset();
+    labels_.reset();
+    renderer_.reset();
+    stage_.reset();
+    screen_.reset();
+  }
+
+  std::array<int, 2> size_{};
+  double period_ = 0;
+  view::Pace pace_{1, false};
+  std::string picture_;
+  Inspection* simulation_ = nullptr;
+  render::Scene scene_;
+  render::Daylight light_;
+  std::vector<Body> bodies_;
+  Eye eye_;
+  view::Overlay overlay_;
+  view::Panels panels_;
+  bool looks_at_all_ = true;
+  Clock::time_point begun_;
+  double last_frame_ = -1;  ///< s of the wall clock since the start
+
+  std::optional<view::Screen> screen_;
+  std::optional<render::Stage> stage_;
+  std::optional<render::PictureRenderer> renderer_;
+  std::optional<render::DepthRenderer> labels_;
+  std::optional<render::Lines> lines_;
+  std::optional<render::ColorTarget> target_;
+  int target_width_ = 0, target_height_ = 0;
+};
+
+constexpr abi::AlgorithmEntry algorithms[] = {algorithm<Window>(description)};
+
+}  // namespace
+
+MURO_PLUGIN(.name = "view_window", .version = "1.0.0", .licence = "MIT", .summary = "A window on the simulation",
+            .algorithms = algorithms)

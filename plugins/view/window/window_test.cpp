@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: MIT
+// The window as a user has it: on a display without a screen (Xvfb), driven by mouse and keys (xdotool), looked at by
+// what it shows.
+#include <gtest/gtest.h>
+#include <png.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstdlib>
+#include <functional>
+#include <numbers>
+#include <thread>
+
+#include "tests/support/bodies.hpp"
+#include "tests/support/complaint.hpp"
+#include "tests/support/files.hpp"
+
+namespace muro {
+namespace {
+
+using Settings = std::map<std::string, ParameterInput>;
+using namespace std::chrono_literals;
+
+bool is_there(const char* program) { return test::run_command(std::string("command -v ") + program).exit_code == 0; }
+
+/// A display of its own for all tests of this program.
+class Display {
+ public:
+  Display() {
+    int ends[2];
+    if (pipe(ends) != 0) return;
+    server_ = fork();
+    if (server_ == 0) {
+      dup2(ends[1], 3);
+      execlp("Xvfb", "Xvfb", "-displayfd", "3", "-screen", "0", "1280x800x24", "-nolisten", "tcp", nullptr);
+      _exit(1);
+    }
+    close(ends[1]);
+    std::string number;
+    for (char letter = 0; read(ends[0], &letter, 1) == 1 && letter != '\n';) number += letter;
+    close(ends[0]);
+    if (!number.empty()) name_ = ":" + number;
+  }
+  ~Display() {
+    if (server_ <= 0) return;
+    kill(server_, SIGTERM);
+    waitpid(server_, nullptr, 0);
+  }
+  const std::string& name() const { return name_; }
+
+ private:
+  pid_t server_ = -1;
+  std::string name_;
+};
+
+struct Picture {
+  std::uint32_t width = 0, height = 0;
+  std::vector<std::uint8_t> rgb;
+
+  explicit Picture(const std::string& path) {
+    png_image image{};
+    image.version = PNG_IMAGE_VERSION;
+    if (!png_image_begin_read_from_file(&image, path.c_str())) return;
+    image.format = PNG_FORMAT_RGB;
+    width = image.width, height = image.height;
+    rgb.resize(PNG_IMAGE_SIZE(image));
+    png_image_finish_read(&image, nullptr, rgb.data(), 0, nullptr);
+  }
+  /// Mean colour of a square of 20 pixels, 0..255.
+  Vec3 about(std::uint32_t x, std::uint32_t y) const {
+    Vec3 sum = Vec3::Zero();
+    for (std::uint32_t row = y - 10; row < y + 10; ++row)
+      for (std::uint32_t column = x - 10; column < x + 10; ++column)
+        for (std::uint32_t k = 0; k < 3; ++k) sum[k] += rgb[3 * (row * width + column) + k] / 400.0;
+    return sum;
+  }
+};
+
+constexpr int width = 1100, height = 700;
+
+/// A red box on the ground in the middle of the window, a robot that drives behind it.
+struct Show : test::Scene {
+  const RobotView* robot;
+  test::ScratchFolder folder;
+
+  Show() {
+    Shape box = Shape::box({1, 1, 1});
+    box.color = {0.9, 0.1, 0.1, 1};
+    add_ground();
+    world().add_scenery("box", {{0, 0, 0.5}, Quat::Identity()}, std::span<const Shape>(&box, 1));
+    robot = &add("robot", test::block(1, {0.4, 0.4, 0.2}, 0.5), {{-3, 0, 0.1}, Quat::Identity()});
+  }
+  std::string picture() const { return folder.path("window.png"); }
+  void use_window(const Settings& more) {
+    Settings settings{
+        {"width", std::int64_t(width)},           {"height", std::int64_t(height)},       {"speed", 0.0},
+        {"from", std::vector<double>{5, 0, 2.5}}, {"to", std::vector<double>{0, 0, 0.5}}, {"picture", picture()}};
+    for (const auto& [name, value] : more) settings[name] = value;
+    use("motion.point", 100, all_robots());
+    use_kinematics();
+    use("scene.bvh", 0);
+    const ObjectId scanner = add_sensor_object(*robot, "laser", robot->base());
+    use("laser.raycast", 10, {{robot, scanner}}, {{"rays", std::int64_t(90)}});
+    use("view.window", 60, {}, settings);
+    build();
+    world().value(robot->base(), keys::command_twist) = {{1, 0, 0}, {0, 0, 0.5}};
+  }
+};
+
+struct TheWindow : ::testing::Test {
+  void SetUp() override {
+    if (!is_there("Xvfb") || !is_there("xdotool")) GTEST_SKIP() << "needs the packages xvfb and xdotool";
+    static const Display display;
+    ASSERT_NE(display.name(), "") << "Xvfb gives no display";
+    ::setenv("DISPLAY", display.name().c_str(), 1);
+    ::unsetenv("WAYLAND_DISPLAY");
+  }
+  static void drive(const std::string& what) { test::run_command("xdotool " + what); }
+  static void click(int x, int y) {
+    drive("mousemove " + std::to_string(x) + " " + std::to_string(y) + " sleep 0.2 mousedown 1 sleep 0.1 mouseup 1");
+  }
+};
+
+constexpr int play_x = 43, step_x = 120, controls_y = 26;
+
+TEST_F(TheWindow, ShowsTheSceneBetweenItsPanels) {
+  Show s;
+  s.use_window({});
+  s.run_for(0.5);
+  s.finish();
+  const Picture p(s.picture());
+  ASSERT_EQ(p.width, std::uint32_t(width));
+  ASSERT_EQ(p.height, std::uint32_t(height));
+  const Vec3 middle = p.about(width / 2, height / 2);
+  EXPECT_GT(middle.x(), 2 * middle.y()) << "the red box";
+  const Vec3 sky = p.about(width / 2, 95), ground = p.about(width / 2 + 250, height / 2 + 60);
+  EXPECT_GT(sky.z(), sky.x() + 15) << "blue above";
+  EXPECT_LT(std::abs(ground.x() - ground.z()), 40) << "grey below";
+  for (const auto& [x, y] : {std::pair{600U, 40U}, {100U, 400U}, {900U, 660U}})
+    EXPECT_LT(p.about(x, y).sum(), 330) << "panels are dark: " << x << ", " << y;
+}
+
+TEST_F(TheWindow, GivesTheSameStateAsWithoutIt) {
+  std::uint64_t hashes[2];
+  for (const bool view : {false, true}) {
+    Show s;
+    if (view) {
+      s.use_window({{"frames", 5.0}});
+    } else {
+      s.use("motion.point", 100, s.all_robots());
+      s.use_kinematics();
+      s.use("scene.bvh", 0);
+      s.use("laser.raycast", 10, {{s.robot, s.add_sensor_object(*s.robot, "laser", s.robot->base())}},
+            {{"rays", std::int64_t(90)}});
+      s.build();
+      s.world().value(s.robot->base(), keys::command_twist) = {{1, 0, 0}, {0, 0, 0.5}};
+    }
+    s.set_threads(2);
+    s.run_for(2);
+    hashes[view] = s.state_hash();
+  }
+  EXPECT_EQ(hashes[0], hashes[1]);
+}
+
+/// Runs so long in simulated time, while `user` does something; tells whether the run was over before `user` began to
+/// act and how long it then took.
+bool ends_by_itself(Simulation& simulation, double seconds, const std::function<void()>& user) {
+  std::atomic<bool> over{false};
+  bool early = false;
+  std::thread hand([&] {
+    std::this_thread::sleep_for(1s);
+    early = over;
+    user();
+  });
+  simulation.run_for(seconds);
+  over = true;
+  hand.join();
+  return early;
+}
+
+TEST_F(TheWindow, WaitsWhilePausedUntilPlayIsPressed) {
+  Show s;
+  s.use_window({{"paused", true}});
+  EXPECT_FALSE(ends_by_itself(s, 0.5, [] { click(play_x, controls_y); }));
+  EXPECT_EQ(s.now(), 500'000'000);
+}
+
+TEST_F(TheWindow, GoesFrameByFrameByItsButton) {
+  Show s;
+  s.use_window({{"paused", true}});
+  // at 0, 1/60 and 2/60 s
+  EXPECT_FALSE(ends_by_itself(s, 0.04, [] {
+    for (int i = 0; i < 3; ++i) click(step_x, controls_y);
+  }));
+}
+
+TEST_F(TheWindow, PausesAndPlaysByTheSpaceBar) {
+  Show s;
+  s.use_window({{"paused", true}});
+  EXPECT_FALSE(ends_by_itself(s, 0.1, [] { drive("mousemove 550 300 sleep 0.2 key space"); }));
+}
+
+TEST_F(TheWindow, HoldsTheSpeedThatItIsTold) {
+  Show s;
+  s.use_window({{"speed", 0.5}});
+  const auto start = std::chrono::steady_clock::now();
+  s.run_for(0.5);
+  EXPECT_GT(std::chrono::steady_clock::now() - start, 900ms) << "half as fast as real time";
+}
+
+TEST_F(TheWindow, ShowsThePropertiesOfWhatIsClickedOn) {
+  Show s;
+  s.use_window({{"paused", true}});
+  const Vec3 corner = [&] {
+    ends_by_itself(s, 0.1, [] {
+      click(width / 2, height / 2);
+      std::this_thread::sleep_for(300ms);
+      click(play_x, controls_y);
+    });
+    s.finish();
+    return Picture(s.picture()).about(width - 30, 130);
+  }();
+  EXPECT_LT(corner.sum(), 330) << "a panel where the scene was";
+}
+
+TEST_F(TheWindow, SaysWhatToDoWhereThereIsNoDisplay) {
+  ::setenv("DISPLAY", ":no-such-display", 1);
+  Show s;
+  std::string said;
+  try {
+    s.use_window({});
+  } catch (const std::exception& e) {
+    said = e.what();
+  }
+  EXPECT_NE(said.find("there is no display to open a window on"), std::string::npos) << said;
+  EXPECT_NE(said.find("muro render"), std::string::npos) << said;
+}
+
+TEST_F(TheWindow, ExplainsWhatIsWrongWithItsParameters) {
+  const auto complaint = [](const Settings& settings) -> std::string {
+    Show s;
+    try {
+      s.use_window(settings);
+    } catch (const SetupError& e) {
+      return e.what();
+    }
+    return {};
+  };
+  EXPECT_NE(complaint({{"follow", std::string("nobody")}}).find("`nobody`, which is neither a robot nor an object"),
+            std::string::npos);
+  EXPECT_NE(complaint({{"from", std::vector<double>{1, 2}}}).find("three numbers"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace muro

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// What a window on a running simulation may ask of its host.
+#pragma once
+
+#include "muro/connector.hpp"
+
+namespace muro {
+
+/// A property as it lies in memory.
+struct LiveProperty {
+  const KeyInfo* key = nullptr;
+  Form form = Form::single;
+  std::uint32_t count = 0;      ///< elements now
+  void* data = nullptr;         ///< the first of them
+  bool is_constant = false;     ///< given at set-up
+  bool is_variable = false;     ///< state: may be edited, elements in place
+  std::string_view written_by;  ///< the algorithm; empty: the set-up
+};
+
+/// What an algorithm has cost so far.
+struct LiveCost {
+  std::string_view name;  ///< "rovers.motion"
+  std::uint64_t runs = 0;
+  double seconds = 0;  ///< of the wall clock, over all threads
+};
+
+/// An ability of hosts. For algorithms that promise to be alone, in their steps: nothing else runs then. Views are good
+/// until the next call.
+class Inspection {
+ public:
+  static constexpr std::string_view ability = "muro.Inspection/1";
+
+  /// All properties of an object by name, in order of creation. [step]
+  virtual std::span<const LiveProperty> properties(ObjectId object) noexcept = 0;
+  virtual std::span<const LiveCost> costs() noexcept = 0;
+  virtual std::uint32_t object_count() const noexcept = 0;
+  virtual std::string_view object_name(ObjectId object) const noexcept = 0;
+  virtual std::string_view text(TextId id) const noexcept = 0;
+  /// Ends the run after this instant. [step]
+  virtual void stop() noexcept = 0;
+
+  /// The host's, or null where it has none. [setup]
+  static Inspection* of(Host& host) { return static_cast<Inspection*>(host.ability(ability)); }
+
+ protected:
+  ~Inspection() = default;
+};
+
+}  // namespace muro

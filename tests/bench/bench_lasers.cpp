@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+// Methods of laser scanners beside each other: rays and pictures, what the z-buffer costs beside OpenGL used directly,
+// and from how many rays on it is worth it.
+#include <fmt/format.h>
+
+#include <chrono>
+
+#include "core/instance.hpp"
+#include "plugins/laser/zbuffer/views.hpp"
+#include "plugins/render/stage.hpp"
+#include "tests/bench/muro_team.hpp"
+#include "tests/bench/peers/depth.hpp"
+#include "tests/bench/report.hpp"
+
+namespace {
+
+using namespace muro;
+using namespace muro::bench;
+
+constexpr int vehicles = 100;
+constexpr double range = 30;  // m
+constexpr int turns = 5;
+
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+/// A grid of rays about straight ahead.
+struct Grid {
+  int columns, rows;
+  double wide, high;  ///< rad
+
+  std::string name() const { return fmt::format("{}x{}", columns, rows); }
+  scanner::Grid scanner() const {
+    return {.min_angle = -0.5 * wide,
+            .max_angle = 0.5 * wide,
+            .columns = std::uint32_t(columns),
+            .min_elevation = -0.5 * high,
+            .max_elevation = 0.5 * high,
+            .rows = std::uint32_t(rows)};
+  }
+};
+
+/// One scanner in the city, on the first vehicle, that goes round with it.
+class OneScanner {
+ public:
+  OneScanner(const City& city, const Grid& grid, const std::string& method) : scene_(city) {
+    scene_.use("motion.point", 100, scene_.all_robots());
+    scene_.use_kinematics();
+    scene_.use("scene.bvh", 0);
+    const RobotView& carrier = *scene_.world().robots()[0];
+    sensor_ = scene_.add_sensor_object(carrier, "laser", carrier.base());
+    std::map<std::string, ParameterInput> parameters{{"rays", std::int64_t(grid.columns)},
+                                                     {"rows", std::int64_t(grid.rows)},
+                                                     {"min_angle", -0.5 * grid.wide},
+                                                     {"max_angle", 0.5 * grid.wide},
+                                                     {"min_elevation", -0.5 * grid.high},
+                                                     {"max_elevation", 0.5 * grid.high},
+                                                     {"max_range", range},
+                                                     {"offset", std::vector{0.0, 0.0, scanner_height}}};
+    if (method == "laser.zbuffer") parameters["device"] = std::string("software");
+    scene_.use(method, 100, {{&carrier, sensor_}}, parameters);
+    scene_.build();
+    scene_.world().value(carrier.base(), keys::command_twist) = {{0.5, 0, 0}, {0, 0, 1}};
+    for (std::size_t i = 0; i < scene_.instances().size(); ++i) {
+      const std::string& used = scene_.instances()[i]->setup().use;
+      if (used == method || (used == "scene.bvh" && method == "laser.raycast")) tasks_.push_back(scene_.task_of(i));
+    }
+    scene_.run_for(0.2);  // warm
+  }
+  /// us, of a scan, with what it needs beside poses of bodies.
+  double turn() {
+    const double start = now();
+    double spent = seconds();
+    int scans = 0;
+    while (now() - start < 0.15 || scans < 4) {
+      scene_.run_for(0.1);
+      scans += 10;
+    }
+    spent = seconds() - spent;
+    return 1e6 * spent / scans;
+  }
+  double mean_range() {
+    double sum = 0;
+    const std::span<const double> ranges = scene_.world().values(sensor_, keys::ranges);
+    for (const double r : ranges) sum += r / double(ranges.size());
+    return sum;
+  }
+
+ private:
+  double seconds() {
+    double sum = 0;
+    for (const TaskId t : tasks_)
+      sum += double(scene_.scheduler().cost(t).ticks) * scene_.scheduler().seconds_per_tick();
+    return sum;
+  }
+
+  CityScene scene_;
+  ObjectId sensor_ = no_object;
+  std::vector<TaskId> tasks_;
+};
+
+/// The city's boxes and the chassis of vehicles that are in sight, as a program would keep them.
+std::vector<BareDepth::Box> in_sight(const City& city, const Pose& eye, const render::Frustum& frustum) {
+  std::vector<BareDepth::Box> found;
+  const auto add = [&](const Pose& pose, const Vec3& lengths) {
+    const Vec3 at = pose.position - eye.position;
+    const double radius = 0.5 * lengths.norm();
+    if (at.norm() > range + radius) return;
+    for (const Eigen::Vector4d& plane : frustum)
+      if (plane.head<3>().dot(at) + plane[3] <= -radius) return;
+    const Mat3 turn = pose.orientation.toRotationMatrix() * lengths.asDiagonal();
+    BareDepth::Box& box = found.emplace_back();
+    for (int row = 0; row < 3; ++row) {
+      for (int k = 0; k < 3; ++k) box[std::size_t(4 * row + k)] = float(turn(row, k));
+      box[std::size_t(4 * row + 3)] = float(at[row]);
+    }
+  };
+  add({{eye.position.x(), eye.position.y(), -0.5}, Quat::Identity()}, {60, 60, 1});  // the ground
+  for (const Block& b : city.blocks()) add({b.centre, Quat::Identity()}, b.lengths);
+  for (std::size_t v = 1; v < city.starts().size(); ++v) {
+    const Pose& p = city.starts()[v];
+    add(p, {Rover::length, Rover::width, Rover::height});
+    for (int w = 0; w < 4; ++w)
+      add(p * Pose{Rover::wheel_centre(w), Quat::Identity()},
+          {2 * Rover::wheel_radius, Rover::wheel_width, 2 * Rover::wheel_radius});
+  }
+  return found;
+}
+
+/// The views that laser.zbuffer draws for a grid, drawn by OpenGL directly: us.
+class BareViews {
+ public:
+  BareViews(const City& city, const Grid& grid) : views_(zbuffer::Views::of(scanner::RaySet::of(grid.scanner()), 1)) {
+    const Pose eye = city.starts()[0] * Pose{{0, 0, scanner_height}, Quat::Identity()};
+    for (render::Camera& camera : views_.cameras) {
+      camera.pose = eye * camera.pose;
+      camera.near = 1e-3;
+      pixels_ += double(camera.width) * camera.height;
+      drawn_.push_back({std::make_unique<BareDepth>(camera.width, camera.height),
+                        render::projection_of(camera).cast<float>(), in_sight(city, eye, render::frustum_of(camera))});
+    }
+  }
+  double turn() {
+    const double start = now();
+    int passes = 0;
+    for (; now() - start < 0.15; ++passes)
+      for (View& v : drawn_) v.depth->draw(v.projection, v.boxes);
+    return 1e6 * (now() - start) / passes;
+  }
+  double pixels() const { return pixels_; }
+  std::size_t views() const { return drawn_.size(); }
+
+ private:
+  struct View {
+    std::unique_ptr<BareDepth> depth;
+    Eigen::Matrix4f projection;
+    std::vector<BareDepth::Box> boxes;
+  };
+  zbuffer::Views views_;
+  std::vector<View> drawn_;
+  double pixels_ = 0;
+};
+
+/// Medians of several turns, in which all take part: us a scan.
+struct Times {
+  double rays, picture, embree, bare;
+  double pixels;
+  std::size_t views;
+  double mean_ray, mean_picture;
+};
+
+Times times_of(const City& city, const Grid& grid) {
+  OneScanner rays(city, grid, "laser.raycast"), picture(city, grid, "laser.zbuffer"),
+      embree(city, grid, "laser.embree");
+  BareViews bare(city, grid);
+  std::vector<double> r, p, e, b;
+  for (int k = 0; k < turns; ++k) {
+    r.push_back(rays.turn());
+    p.push_back(picture.turn());
+    e.push_back(embree.turn());
+    b.push_back(bare.turn());
+  }
+  return {median(r),     median(p),    median(e),         median(b),
+          bare.pixels(), bare.views(), rays.mean_range(), picture.mean_range()};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Report report("lasers", "Methods of laser scanners: rays, pictures, OpenGL used directly", argc, argv);
+  const City city(vehicles);
+  report.table(
+      fmt::format("us a scan: one scanner on one of {} vehicles in the city, {} m, one thread", vehicles, range),
+      {"rays", "laser.raycast", "laser.embree", "laser.zbuffer", "its pictures", "its pixels", "OpenGL directly",
+       "z-buffer to OpenGL directly", "mean range by rays, m", "by z-buffer, m"});
+  const Grid grids[] = {{10, 1, 1.0, 0},      {100, 1, 1.0, 0},        {682, 1, 4.1786, 0},  {100, 10, 1.0, 0.2},
+                        {100, 100, 1.0, 1.0}, {1024, 64, 1.0, 0.0625}, {640, 480, 1.0, 0.75}};
+  for (const Grid& grid : grids) {
+    const Times t = times_of(city, grid);
+    report.row({grid.name(), fixed(t.rays, 1), fixed(t.embree, 1), fixed(t.picture, 1), t.views, whole(t.pixels),
+                fixed(t.bare, 1), fixed(t.picture / t.bare, 2), fixed(t.mean_ray, 3), fixed(t.mean_picture, 3)});
+    report.ratio(fmt::format("{} rays: laser.zbuffer to OpenGL directly, its {} pixels", grid.name(), t.pixels),
+                 t.picture / t.bare, "at most 1.3");
+  }
+
+  report.table("Break-even: square grids of 60 by 60 degrees, us a scan",
+               {"rays", "laser.raycast", "laser.embree", "laser.zbuffer"});
+  double over_rays = 0, over_embree = 0;
+  for (const int n : {4, 8, 16, 32, 64, 128, 256, 512, 1024}) {
+    const Times t = times_of(city, {n, n, 1.0472, 1.0472});
+    report.row({fmt::format("{0}x{0}", n), fixed(t.rays, 1), fixed(t.embree, 1), fixed(t.picture, 1)});
+    if (over_rays == 0 && t.picture < t.rays) over_rays = double(n) * n;
+    if (over_embree == 0 && t.picture < t.embree) over_embree = double(n) * n;
+  }
+  const auto told = [](double rays) {
+    return rays > 0 ? fmt::format("from {:.0f} rays on", rays) : std::string("at no number of rays up to 1 048 576");
+  };
+  report.note("On this machine the z-buffer is faster than laser.raycast " + told(over_rays) +
+              ", and faster than laser.embree " + told(over_embree) +
+              ". It draws by Mesa's llvmpipe in the calling thread; a GPU moves both.");
+  report.finish();
+  return 0;
+}
