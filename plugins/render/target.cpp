@@ -9,8 +9,6 @@ namespace muro::render {
 
 namespace {
 
-constexpr GLsizei samples = 4;
-
 void check_framebuffer(GLuint framebuffer) {
   if (glCheckNamedFramebufferStatus(framebuffer, GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
     throw Error("the driver of OpenGL cannot draw into a picture of this size and kind");
@@ -18,8 +16,9 @@ void check_framebuffer(GLuint framebuffer) {
 
 }  // namespace
 
-ColorTarget::ColorTarget(std::uint32_t width, std::uint32_t height) : width_(width), height_(height) {
-  const auto w = GLsizei(width), h = GLsizei(height);
+ColorTarget::ColorTarget(std::uint32_t width, std::uint32_t height, std::uint32_t samples_a_pixel)
+    : width_(width), height_(height) {
+  const auto w = GLsizei(width), h = GLsizei(height), samples = GLsizei(samples_a_pixel > 1 ? samples_a_pixel : 0);
   glCreateRenderbuffers(3, buffers_);
   glNamedRenderbufferStorageMultisample(buffers_[0], samples, GL_SRGB8_ALPHA8, w, h);
   glNamedRenderbufferStorageMultisample(buffers_[1], samples, GL_DEPTH_COMPONENT32F, w, h);

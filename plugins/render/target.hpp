@@ -7,10 +7,10 @@
 
 namespace muro::render {
 
-/// A picture in colours: four samples a pixel, mixed in light, not in what a screen is told.
+/// A picture in colours: some samples a pixel, mixed in light, not in what a screen is told.
 class ColorTarget {
  public:
-  ColorTarget(std::uint32_t width, std::uint32_t height);
+  ColorTarget(std::uint32_t width, std::uint32_t height, std::uint32_t samples = 4);
   ~ColorTarget();
   ColorTarget(const ColorTarget&) = delete;
   ColorTarget& operator=(const ColorTarget&) = delete;

@@ -23,7 +23,7 @@ class Pace {
     if (speed_ <= 0) return true;
     const double due = from_wall_ + (simulated - from_simulated_) / speed_;
     if (wall < due) return false;
-    if (wall - due > 0.1) begin(simulated, wall);  // what is lost is not made up for
+    if (wall - due > 0.5) begin(simulated, wall);  // what is lost is not made up for
     return true;
   }
 

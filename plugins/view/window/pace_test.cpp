@@ -58,5 +58,12 @@ TEST(ThePaceOfAWindow, DoesNotRunAfterTimeThatItLost) {
   EXPECT_NEAR(t, 2, 0.05);
 }
 
+TEST(ThePaceOfAWindow, MakesUpForAPictureThatTookLong) {
+  Pace pace(1, false);
+  double t = 0;
+  for (double wall = 0; wall < 3; wall += 0.3) t = run(pace, t, wall + 0.15, wall + 0.3);  // half of the time
+  EXPECT_NEAR(t, 3, 0.2);
+}
+
 }  // namespace
 }  // namespace muro::view

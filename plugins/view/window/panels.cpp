@@ -37,20 +37,31 @@ void Panels::connect(Connector& c, std::string_view own_name) {
 }
 
 void Panels::draw(Inspection& simulation, Pace& pace, Eye& eye, Overlay& overlay, double simulated, double wall) {
-  press_keys(pace, eye);
   draw_controls(pace, eye, overlay, simulated, wall);
   draw_tree(simulation);
   draw_costs(simulation, simulated);
   if (chosen != no_object) draw_properties(simulation);
 }
 
-void Panels::press_keys(Pace& pace, Eye& eye) {
+void Panels::press(Key key, Pace& pace, Eye& eye) {
   if (ImGui::GetIO().WantTextInput) return;
-  const auto pressed = [](ImGuiKey key) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), false); };
-  if (pressed(ImGuiKey_Space)) pace.set_paused(!pace.paused());
-  if (pressed(ImGuiKey_RightArrow)) pace.step();
-  if (pressed(ImGuiKey_Escape)) chosen = no_object, eye.mode = Eye::Mode::orbit;
-  if (pressed(ImGuiKey_Home)) wants_all = true;
+  switch (key) {
+    case Key::space:
+      return pace.set_paused(!pace.paused());
+    case Key::right:
+      return pace.step();
+    case Key::escape:
+      chosen = no_object;
+      eye.mode = Eye::Mode::orbit;
+      return;
+    case Key::home:
+      wants_all = true;
+  }
+}
+
+std::array<double, 4> Panels::free_area(double width, double height) const {
+  const double right = chosen == no_object ? 0 : right_width + margin;
+  return {side_width + margin, bar_height + margin, width - right, height - cost_height - margin};
 }
 
 void Panels::draw_controls(Pace& pace, Eye& eye, Overlay& overlay, double simulated, double wall) {
@@ -154,9 +165,13 @@ void Panels::draw_properties(Inspection& simulation) {
   place(size.x - right_width - margin, top, right_width, size.y - top - margin);
   ImGui::Begin(("properties of " + std::string(simulation.object_name(chosen)) + "###properties").c_str(), nullptr,
                fixed);
+  if (!ImGui::BeginTable("table", 2, ImGuiTableFlags_Resizable | ImGuiTableFlags_BordersInnerV)) return ImGui::End();
+  ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthFixed, 0.45F * right_width);
   for (const LiveProperty& p : simulation.properties(chosen)) {
     const std::string name(p.key->name);
     ImGui::PushID(name.c_str());
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
     const bool opened = ImGui::TreeNode("##open");
     ImGui::SameLine();
     if (p.is_variable)
@@ -168,15 +183,16 @@ void Panels::draw_properties(Inspection& simulation) {
       ImGui::SetTooltip("%.*s\n%s%s", int(p.key->doc.size()), p.key->doc.data(), by.c_str(),
                         p.is_variable ? "; open it to edit" : "");
     }
-    ImGui::SameLine(165);
-    const std::string value = in_short(p, simulation), unit(p.key->unit);
-    ImGui::Text("%s %s", value.c_str(), unit == "1" ? "" : unit.c_str());
     if (opened) {
       edit(p);
       ImGui::TreePop();
     }
+    ImGui::TableNextColumn();
+    const std::string value = in_short(p, simulation), unit(p.key->unit);
+    ImGui::Text("%s %s", value.c_str(), unit == "1" ? "" : unit.c_str());
     ImGui::PopID();
   }
+  ImGui::EndTable();
   ImGui::End();
 }
 

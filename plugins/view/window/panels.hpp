@@ -10,6 +10,7 @@
 #include "muro/inspection.hpp"
 #include "overlay.hpp"
 #include "pace.hpp"
+#include "screen.hpp"
 
 namespace muro::view {
 
@@ -22,6 +23,9 @@ class Panels {
   void connect(Connector& c, std::string_view own_name);
   /// Draws all and does what buttons and keys say. `simulated`, `wall`: s.
   void draw(Inspection& simulation, Pace& pace, Eye& eye, Overlay& overlay, double simulated, double wall);
+  void press(Key key, Pace& pace, Eye& eye);
+  /// Where the scene is not covered: left, top, right, bottom, in pixels.
+  std::array<double, 4> free_area(double width, double height) const;
 
  private:
   struct Group {
@@ -34,7 +38,6 @@ class Panels {
   void draw_properties(Inspection& simulation);
   void draw_costs(Inspection& simulation, double simulated);
   void edit(const LiveProperty& property);
-  void press_keys(Pace& pace, Eye& eye);
 
   std::vector<Group> groups_;
   std::string own_name_;

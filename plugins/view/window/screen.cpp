@@ -10,6 +10,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "muro/algorithm.hpp"
 
@@ -48,6 +49,8 @@ Screen::Screen(const std::string& title, int width, int height) {
   ImGuiStyle& style = ImGui::GetStyle();
   style.WindowRounding = 4;
   style.Colors[ImGuiCol_WindowBg].w = 0.85F;
+  glfwSetWindowUserPointer(window_, this);
+  glfwSetKeyCallback(window_, &Screen::on_key);  // before those of ImGui, which hand on
   ImGui_ImplGlfw_InitForOpenGL(window_, true);
   ImGui_ImplOpenGL3_Init("#version 450");
 }
@@ -64,8 +67,20 @@ bool Screen::is_closed() const { return glfwWindowShouldClose(window_) != 0; }
 
 void Screen::make_current() const { glfwMakeContextCurrent(window_); }
 
+void Screen::on_key(GLFWwindow* window, int key, int, int action, int) {
+  constexpr std::pair<int, Key> known[] = {{GLFW_KEY_SPACE, Key::space},
+                                           {GLFW_KEY_RIGHT, Key::right},
+                                           {GLFW_KEY_ESCAPE, Key::escape},
+                                           {GLFW_KEY_HOME, Key::home}};
+  auto& screen = *static_cast<Screen*>(glfwGetWindowUserPointer(window));
+  for (const auto& [code, meaning] : known)
+    if (code == key && action == GLFW_PRESS) screen.coming_keys_.push_back(meaning);
+}
+
 void Screen::begin() {
   glfwPollEvents();
+  keys_.clear();
+  keys_.swap(coming_keys_);
   glfwGetFramebufferSize(window_, &width_, &height_);
   width_ = std::max(width_, 1);
   height_ = std::max(height_, 1);
@@ -74,21 +89,22 @@ void Screen::begin() {
   ImGui::NewFrame();
 }
 
-void Screen::end() {
+void Screen::end(std::vector<std::uint8_t>* picture) {
   ImGui::Render();
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   glDisable(GL_FRAMEBUFFER_SRGB);
   glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
   glClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
+  if (picture) *picture = read();
   glfwSwapBuffers(window_);
 }
 
-std::vector<std::uint8_t> Screen::picture() const {
+std::vector<std::uint8_t> Screen::read() const {
   std::vector<std::uint8_t> upside_down(std::size_t(3) * std::size_t(width_) * std::size_t(height_)),
       rows(upside_down.size());
   glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
-  glReadBuffer(GL_FRONT);
+  glReadBuffer(GL_BACK);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, width_, height_, GL_RGB, GL_UNSIGNED_BYTE, upside_down.data());
   const std::size_t row = std::size_t(3) * std::size_t(width_);

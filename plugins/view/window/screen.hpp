@@ -10,6 +10,8 @@ struct GLFWwindow;
 
 namespace muro::view {
 
+enum class Key { space, right, escape, home };
+
 /// Everything from one thread.
 class Screen {
  public:
@@ -22,18 +24,24 @@ class Screen {
   bool is_closed() const;
   /// Takes what the user did since the last frame and begins the next. Size in pixels.
   void begin();
+  /// Keys that were pressed since the frame before, however shortly.
+  const std::vector<Key>& keys() const { return keys_; }
   int width() const { return width_; }
   int height() const { return height_; }
-  /// Draws what the panels have said over what is there, and shows it.
-  void end();
-  /// What the window shows, sRGB, rows from the top: to be asked between begin and end.
-  std::vector<std::uint8_t> picture() const;
+  /// Draws what the panels have said over what is there, and shows it. `picture`, if any, gets what the window then
+  /// shows, sRGB, rows from the top.
+  void end(std::vector<std::uint8_t>* picture = nullptr);
 
   /// While another context was current in this thread.
   void make_current() const;
 
  private:
+  std::vector<std::uint8_t> read() const;
+
+  static void on_key(GLFWwindow* window, int key, int code, int action, int modifiers);
+
   GLFWwindow* window_ = nullptr;
+  std::vector<Key> keys_, coming_keys_;
   int width_ = 0, height_ = 0;
 };
 

@@ -29,6 +29,7 @@ constexpr double fov = 0.9;  ///< rad, up and down
 constexpr Parameter parameters[] = {
     integer("width", 1280, "pixels of the window").between(320, 16384),
     integer("height", 800, "pixels of the window").between(240, 16384),
+    integer("samples", 4, "a pixel: smooth edges; 1 is faster").between(1, 16),
     real("frames", "1/s", 60, "at most so many pictures in a second of the wall clock").between(0.1, 1000),
     real("speed", "1", 1, "simulated seconds in a second; 0: as fast as possible").between(0, 1e6),
     boolean("paused", false, "whether the run begins paused"),
@@ -62,12 +63,13 @@ class Window final : public Algorithm {
         throw Error(std::string(name) + " has to be three numbers, x, y, z in metres");
     if (p.given("from") != p.given("to")) throw Error("from and to go together; give both or none");
     size_ = {int(p.integer("width")), int(p.integer("height"))};
+    samples_ = std::uint32_t(p.integer("samples"));
     period_ = 1 / p.real("frames");
     pace_ = {p.real("speed"), p.boolean("paused")};
     if (!p.text("picture").empty()) picture_ = std::filesystem::absolute(std::string(p.text("picture"))).string();
     if (const std::string name(p.text("follow")); !name.empty()) choose(c, name);
     if (p.given("from")) eye_.look_from(vector(p.reals("from")), vector(p.reals("to")));
-    looks_at_all_ = !p.given("from");
+    looks_at_all_ = !p.given("from") && panels_.chosen == no_object;
     simulation_ = Inspection::of(c.host());
     if (!simulation_) throw Error("this host does not show its simulation to windows");
     scene_.connect(c, render::Look::as_seen, corners);
@@ -85,7 +87,7 @@ class Window final : public Algorithm {
   void start() override {
     if (!screen_) screen_.emplace("muro", size_[0], size_[1]);
     begun_ = Clock::now();
-    last_frame_ = -1;
+    next_frame_ = 0;
   }
 
   std::span<const Phase> phases() const override {
@@ -96,12 +98,14 @@ class Window final : public Algorithm {
   /// Returns when the run may go on, and draws meanwhile; on time it draws only when the last picture is old enough.
   void step(const Step& step, Range) override {
     if (screen_->is_closed()) return;
+    last_time_ = step.seconds();
     for (;;) {
       const double now = wall();
       const bool may_go_on = pace_.may_go_on(step.seconds(), now);
-      if (now - last_frame_ >= period_ || last_frame_ < 0) {
-        last_frame_ = now;
+      if (now >= next_frame_) {
         draw(step.seconds());
+        // Half of the time at most goes into pictures: where they take long, fewer are shown.
+        next_frame_ = std::max(now + period_, wall() + (wall() - now));
         if (screen_->is_closed()) return simulation_->stop();
         if (!may_go_on) continue;
       }
@@ -112,9 +116,10 @@ class Window final : public Algorithm {
 
   void finish() override {
     if (!screen_ || picture_.empty()) return;
-    screen_->make_current();
+    std::vector<std::uint8_t> picture;
+    draw(last_time_, &picture);
     picture_file::write_png(picture_, picture_file::Format::rgb8, std::uint32_t(screen_->width()),
-                            std::uint32_t(screen_->height()), screen_->picture().data());
+                            std::uint32_t(screen_->height()), picture.data());
   }
 
  private:
@@ -133,6 +138,7 @@ class Window final : public Algorithm {
     if (panels_.chosen == no_object) panels_.chosen = c.find_object(name);
     if (panels_.chosen == no_object) throw Error("follow names `" + name + "`, which is neither a robot nor an object");
     eye_.mode = Eye::Mode::follow;
+    eye_.look_from({-3.2, -2, 2.2}, {0, 0, 0});
   }
 
   const Pose* chosen_pose() const {
@@ -156,13 +162,14 @@ class Window final : public Algorithm {
     c.width = std::uint32_t(screen_->width());
     c.height = std::uint32_t(screen_->height());
     c.fx = c.fy = 0.5 * c.height / std::tan(0.5 * fov);
-    c.cx = 0.5 * c.width;
-    c.cy = 0.5 * c.height;
+    const auto [left, top, right, bottom] = panels_.free_area(c.width, c.height);
+    c.cx = 0.5 * (left + right);
+    c.cy = 0.5 * (top + bottom);
     c.pose = eye_.pose();
     return c;
   }
 
-  void draw(double simulated) {
+  void draw(double simulated, std::vector<std::uint8_t>* picture = nullptr) {
     screen_->make_current();
     screen_->begin();
     if (!stage_) {
@@ -173,13 +180,14 @@ class Window final : public Algorithm {
     }
     if (looks_at_all_ || panels_.wants_all) see_all();
     looks_at_all_ = panels_.wants_all = false;
+    for (const view::Key key : screen_->keys()) panels_.press(key, pace_, eye_);
     panels_.draw(*simulation_, pace_, eye_, overlay_, simulated, wall());
     move_eye();
     if (const Pose* target = chosen_pose()) eye_.follow(*target);
     if (!target_ || target_width_ != screen_->width() || target_height_ != screen_->height()) {
       target_width_ = screen_->width();
       target_height_ = screen_->height();
-      target_.emplace(std::uint32_t(target_width_), std::uint32_t(target_height_));
+      target_.emplace(std::uint32_t(target_width_), std::uint32_t(target_height_), samples_);
     }
     stage_->place();
     const render::Camera c = camera();
@@ -189,7 +197,7 @@ class Window final : public Algorithm {
     overlay_.collect(*simulation_, panels_.chosen, *lines_);
     lines_->draw(c);
     target_->show();
-    screen_->end();
+    screen_->end(picture);
   }
 
   void move_eye() {
@@ -231,6 +239,7 @@ class Window final : public Algorithm {
 
   std::array<int, 2> size_{};
   double period_ = 0;
+  std::uint32_t samples_ = 4;
   view::Pace pace_{1, false};
   std::string picture_;
   Inspection* simulation_ = nullptr;
@@ -242,7 +251,8 @@ class Window final : public Algorithm {
   view::Panels panels_;
   bool looks_at_all_ = true;
   Clock::time_point begun_;
-  double last_frame_ = -1;  ///< s of the wall clock since the start
+  double next_frame_ = 0;  ///< s of the wall clock since the start
+  double last_time_ = 0;   ///< s of simulated time
 
   std::optional<view::Screen> screen_;
   std::optional<render::Stage> stage_;
