@@ -41,8 +41,8 @@ bool Volume::holds(const Vec3& point) const {
   return false;
 }
 
-void Scene::connect(Connector& c, Look look, int corners) {
-  corners_ = corners;
+void Scene::connect(Connector& c, Look look, double chord) {
+  chord_ = chord;
   for (std::uint32_t i = 0; i < c.object_count(); ++i) {
     const ObjectId object{i};
     if (c.robot_of(object) >= 0) continue;
@@ -82,11 +82,13 @@ void Scene::add_shape(Connector& c, const Shape& shape, Piece piece, Look look) 
   if (shape.kind == ShapeKind::mesh) return add_mesh(c, shape, piece, look);
   const bool covered = look == Look::as_seen && shape.texture != no_text;
   const std::int32_t picture = covered ? picture_of(c, std::string(c.text(shape.texture))) : -1;
+  const bool round = shape.kind != ShapeKind::box && shape.kind != ShapeKind::plane;
+  const int corners = round ? corners_for(shape.size.x(), chord_) : 0;
   const auto add = [&](const char* name, const Vec3& scale, double up = 0, bool turned = false) {
     Piece p = piece;
     p.origin.position += p.origin.orientation * Vec3(0, 0, up);
     if (turned) p.origin.orientation = p.origin.orientation * Quat(0, 1, 0, 0);
-    p.surface = basic(name, picture);
+    p.surface = basic(name, corners, picture);
     p.scale = scale;
     p.radius = radii_[p.surface] * scale.cwiseAbs().maxCoeff();
     pieces_.push_back(p);
@@ -144,14 +146,14 @@ void Scene::add_mesh(Connector& c, const Shape& shape, Piece piece, Look look) {
   }
 }
 
-std::uint32_t Scene::basic(const std::string& name, std::int32_t picture) {
-  const auto [known, fresh] = basics_.try_emplace({name, picture}, 0);
+std::uint32_t Scene::basic(const std::string& name, int corners, std::int32_t picture) {
+  const auto [known, fresh] = basics_.try_emplace({name, corners, picture}, 0);
   if (!fresh) return known->second;
   Surface made = name == "box"        ? unit_box()
-                 : name == "sphere"   ? unit_sphere(corners_)
-                 : name == "cylinder" ? unit_cylinder(corners_)
-                 : name == "tube"     ? unit_tube(corners_)
-                 : name == "dome"     ? unit_dome(corners_)
+                 : name == "sphere"   ? unit_sphere(corners)
+                 : name == "cylinder" ? unit_cylinder(corners)
+                 : name == "tube"     ? unit_tube(corners)
+                 : name == "dome"     ? unit_dome(corners)
                                       : unit_ground();
   made.picture = picture;
   return known->second = keep(std::move(made));

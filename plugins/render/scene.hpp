@@ -4,6 +4,7 @@
 
 #include <map>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "image.hpp"
@@ -49,9 +50,9 @@ struct Volume {
 
 class Scene {
  public:
-  /// Finds all shapes and binds the poses of their bodies. Circles get `corners` corners. What cannot be read of how
-  /// things look is told as a warning, and left out. [setup]
-  void connect(Connector& c, Look look, int corners);
+  /// Finds all shapes and binds the poses of their bodies. Circles get so many corners that they lie at most `chord`
+  /// (m) inside of themselves. What cannot be read of how things look is told as a warning, and left out. [setup]
+  void connect(Connector& c, Look look, double chord);
 
   const std::vector<Surface>& surfaces() const { return surfaces_; }
   const std::vector<Image>& pictures() const { return pictures_; }
@@ -67,13 +68,13 @@ class Scene {
   void add_body(Connector& c, ObjectId object, const Piece& of_body, Look look);
   void add_shape(Connector& c, const Shape& shape, Piece piece, Look look);
   void add_mesh(Connector& c, const Shape& shape, Piece piece, Look look);
-  /// The surface of a kind of shape, with a picture (-1: none).
-  std::uint32_t basic(const std::string& name, std::int32_t picture);
+  /// The surface of a kind of shape with so many corners, and a picture (-1: none).
+  std::uint32_t basic(const std::string& name, int corners, std::int32_t picture);
   std::uint32_t keep(Surface surface);
   std::int32_t picture_of(Connector& c, const std::string& path, std::span<const std::uint8_t> bytes = {});
 
-  int corners_ = 0;
-  std::map<std::pair<std::string, std::int32_t>, std::uint32_t> basics_;
+  double chord_ = 0;
+  std::map<std::tuple<std::string, int, std::int32_t>, std::uint32_t> basics_;
   std::map<std::string, std::vector<Part>> meshes_;  ///< by file, scale and what paints them
   std::map<std::string, std::int32_t> picture_numbers_;
   std::vector<double> radii_;  ///< of the surfaces

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "surface.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -132,6 +133,9 @@ Surface surface_of(const mesh::PaintedPart& part) {
   return s;
 }
 
-double sagitta_of(int n) { return 1 - std::cos(pi / n); }
+int corners_for(double radius, double chord) {
+  const double n = radius > chord ? pi / std::acos(1 - chord / radius) : 0;
+  return 4 * int(std::ceil(std::clamp(n, 16.0, 512.0) / 4));
+}
 
 }  // namespace muro::render

@@ -39,7 +39,8 @@ Surface unit_ground();
 Surface surface_of(const mesh::Mesh& mesh);
 Surface surface_of(const mesh::PaintedPart& part);
 
-/// How far a surface of `n` corners round a circle of radius 1 lies inside of it at most.
-double sagitta_of(int n);
+/// How many corners a circle of this radius needs (16 .. 512, a multiple of 4) to lie at most `chord` inside of itself;
+/// m.
+int corners_for(double radius, double chord);
 
 }  // namespace muro::render

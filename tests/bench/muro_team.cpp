@@ -45,14 +45,15 @@ CityScene::CityScene(const City& city, Wheels wheels, bool losses) {
         s = {.kind = ShapeKind::sphere, .size = {s.size.x(), 0, 0}, .friction = s.friction};
 }
 
-std::vector<ObjectId> CityScene::add_lasers(const Pattern& pattern, double range, bool see_self) {
+std::vector<ObjectId> CityScene::add_lasers(const Pattern& pattern, double range, bool see_self,
+                                            const std::string& method) {
   std::vector<ObjectId> sensors;
   std::vector<Item> items;
   for (const RobotView* r : world().robots()) {
     sensors.push_back(add_sensor_object(*r, "laser", r->base()));
     items.push_back({r, sensors.back()});
   }
-  use("laser.raycast", 10, items,
+  use(method, 10, items,
       {{"rays", std::int64_t(pattern.columns)},
        {"rows", std::int64_t(pattern.rows)},
        {"min_angle", -0.5 * pattern.wide},
@@ -68,14 +69,15 @@ std::vector<ObjectId> CityScene::add_lasers(const Pattern& pattern, double range
 MuroTeam::MuroTeam(const City& city, int threads, Wheels wheels, const Pattern* lasers, int rate)
     : MuroTeam(city, threads, wheels, Mover{.rate = rate}, lasers) {}
 
-MuroTeam::MuroTeam(const City& city, int threads, Wheels wheels, const Mover& mover, const Pattern* lasers)
+MuroTeam::MuroTeam(const City& city, int threads, Wheels wheels, const Mover& mover, const Pattern* lasers,
+                   const std::string& method)
     : scene_(city, wheels, mover.losses) {
   scene_.use(mover.motion, mover.rate, scene_.all_robots(), mover.parameters);
   if (mover.contact)
     scene_.use_contacts();
   else
     scene_.use_kinematics();
-  if (lasers) scene_.add_lasers(*lasers, 5.6, false);
+  if (lasers) scene_.add_lasers(*lasers, 5.6, false, method);
   scene_.set_threads(unsigned(threads));
   scene_.build();
   for (const RobotView* r : scene_.world().robots()) {

@@ -18,8 +18,9 @@ enum class Wheels { cylinders, balls };
 struct CityScene : test::Scene {
   /// `losses`: whether joints have the damping and friction of the model, which peers leave out.
   explicit CityScene(const City& city, Wheels wheels = Wheels::cylinders, bool losses = true);
-  /// laser.raycast at 10 Hz on every vehicle; returns the objects of the scanners.
-  std::vector<ObjectId> add_lasers(const Pattern& pattern, double range, bool see_self);
+  /// A scanner at 10 Hz on every vehicle; returns the objects of the scanners.
+  std::vector<ObjectId> add_lasers(const Pattern& pattern, double range, bool see_self,
+                                   const std::string& method = "laser.raycast");
 };
 
 /// What moves the vehicles, at one rate.
@@ -34,7 +35,8 @@ struct Mover {
 /// The vehicles with full collision.
 class MuroTeam final : public Team {
  public:
-  MuroTeam(const City& city, int threads, Wheels wheels, const Mover& mover, const Pattern* lasers = nullptr);
+  MuroTeam(const City& city, int threads, Wheels wheels, const Mover& mover, const Pattern* lasers = nullptr,
+           const std::string& method = "laser.raycast");
   /// `lasers`: what each vehicle carries, with a range of 5.6 m, or null. `rate`: steps/s.
   MuroTeam(const City& city, int threads, Wheels wheels, const Pattern* lasers = nullptr, int rate = 1000);
 

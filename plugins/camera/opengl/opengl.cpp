@@ -17,7 +17,7 @@ namespace {
 using namespace muro;
 using std::numbers::pi;
 
-constexpr int corners = 64;  ///< of circles
+constexpr double chord = 1e-3;  ///< m: how far circles lie inside of themselves
 constexpr Parameter parameters[] = {
     integer("width", 640, "pixels in a row").between(1, 8192),
     integer("height", 480, "rows of pixels").between(1, 8192),
@@ -108,7 +108,7 @@ class Camera final : public Algorithm {
       if (item.robot && !p.boolean("see_self")) d.ignored_robot = std::int32_t(item.robot->number);
       devices_.push_back(d);
     }
-    scene_.connect(c, render::Look::as_seen, corners);
+    scene_.connect(c, render::Look::as_seen, chord);
     host_ = &c.host();
   }
 

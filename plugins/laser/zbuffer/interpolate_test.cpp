@@ -6,6 +6,15 @@
 namespace muro::zbuffer {
 namespace {
 
+/// As one number, and as eight at once.
+float between(float a, float b, float c, float d, float f) {
+  const auto eight = [](float x) { return Eight{x, x, x, x, x, x, x, x}; };
+  const float one = zbuffer::between<float>(a, b, c, d, f);
+  const Eight all = zbuffer::between<Eight>(eight(a), eight(b), eight(c), eight(d), eight(f));
+  for (int k = 0; k < 8; ++k) EXPECT_EQ(all[k], one);
+  return one;
+}
+
 TEST(BetweenPixels, APlaneIsReadExactly) {
   for (const float slope : {0.0F, 0.1F, -0.02F})
     for (const float f : {0.0F, 0.3F, 0.9F})

@@ -10,8 +10,7 @@ namespace muro::zbuffer {
 
 namespace {
 
-/// Of circles: a cylinder of radius r then lies at most 3e-4 r inside of itself.
-constexpr int corners = 128;
+constexpr double chord = 2e-4;               ///< m: how far circles lie inside of themselves
 constexpr std::uint32_t most_pixels = 8192;  ///< along a side, which every OpenGL 4.5 can draw
 
 Extent extent_of(const render::Camera& c) {
@@ -34,13 +33,15 @@ void ZBuffer::connect(Connector& c) {
   supersampling_ = c.parameters().real(supersampling.name);
   device_ = render::device_of(c.parameters());
   host_ = &c.host();
-  scene_.connect(c, render::Look::as_collides, corners);
+  scene_.connect(c, render::Look::as_collides, chord);
 }
 
 void ZBuffer::prepare(std::span<const scanner::RaySet> sets, double min_range, double max_range) {
   near_ = std::clamp(0.5 * min_range, 1e-3, 0.05);
   for (const scanner::RaySet& set : sets) {
-    Picture p{Views::of(set, supersampling_), 0, 0, {}, {}};
+    Picture p;
+    p.views = Views::of(set, supersampling_);
+    p.columns = set.rows > 1 ? set.columns : 0;
     p.width = p.views.width();
     for (render::Camera& camera : p.views.cameras) {
       camera.near = near_;
@@ -61,12 +62,40 @@ void ZBuffer::prepare(std::span<const scanner::RaySet> sets, double min_range, d
 
 /// Once it is known how wide the buffer is.
 void ZBuffer::place_samples(Picture& p) const {
-  p.samples.resize(p.views.cameras.size());
-  for (std::uint32_t ray = 0; ray < p.views.samples.size(); ++ray) {
-    const Sample& s = p.views.samples[ray];
-    const auto column = std::uint32_t(std::max(s.column, 0.0)), row = std::uint32_t(std::max(s.row, 0.0));
-    p.samples[s.view].add(ray, std::int32_t((p.tops[s.view] + row) * width_ + column), float(s.column - column),
-                          float(s.row - row), s.per_depth);
+  p.resampling.resize(p.views.cameras.size());
+  const auto whole = [](double x) { return std::int32_t(std::max(x, 0.0)); };
+  const auto stride = std::int32_t(width_);
+  // rays of one column of a view have one column of pixels between them
+  std::vector<std::int32_t> column_of(p.columns);
+  for (std::uint32_t view = 0; view < p.resampling.size(); ++view) {
+    Picture::Resampling& r = p.resampling[view];
+    std::vector<std::uint32_t> rays;
+    for (std::uint32_t ray = 0; ray < p.views.samples.size(); ++ray)
+      if (p.views.samples[ray].view == view) rays.push_back(ray);
+    std::fill(column_of.begin(), column_of.end(), -1);
+    std::vector<double> places;
+    bool upright = p.columns > 0 && p.views.cameras[view].height > 1 && p.views.cameras[view].width > 1;
+    for (std::size_t i = 0; i < rays.size() && upright; ++i) {
+      const double place = p.views.samples[rays[i]].column;
+      std::int32_t& number = column_of[rays[i] % p.columns];
+      if (number < 0) {
+        number = std::int32_t(places.size());
+        places.push_back(place);
+        r.columns.add(0, whole(place), float(place - whole(place)), 0, 0, 0);
+      }
+      upright = std::abs(places[std::size_t(number)] - place) < 1e-6;
+    }
+    if (!upright) r.columns = {};
+    if (upright) r.columns.fill();
+    for (const std::uint32_t ray : rays) {
+      const Sample& s = p.views.samples[ray];
+      const std::int32_t column = whole(s.column), row = whole(s.row), top = std::int32_t(p.tops[view]);
+      const std::int32_t nearest = (top + whole(s.row + 0.5)) * stride + whole(s.column + 0.5);
+      const std::int32_t pixel =
+          upright ? row * std::int32_t(r.columns.room()) + column_of[ray % p.columns] : (top + row) * stride + column;
+      r.samples.add(ray, pixel, float(s.column - column), float(s.row - row), s.per_depth, nearest);
+    }
+    r.samples.fill();
   }
 }
 
@@ -119,18 +148,22 @@ void ZBuffer::cast(std::size_t set, const scanner::View& view, std::span<double>
   }
   const Picture& picture = pictures_[set];
   draw(picture, view, !hits.empty());
-  for (std::size_t k = 0; k < picture.samples.size(); ++k) {
-    const Samples& s = picture.samples[k];
-    found_.resize(std::max(found_.size(), s.size()));
-    sample(extent_of(picture.views.cameras[k]), inverse_.data(), std::int32_t(width_), s, found_.data());
+  for (std::size_t k = 0; k < picture.resampling.size(); ++k) {
+    const auto& [s, columns] = picture.resampling[k];
+    const render::Camera& camera = picture.views.cameras[k];
+    const auto stride = std::int32_t(width_);
+    found_.resize(std::max(found_.size(), s.room()));
+    if (columns.size() > 0)
+      sample_grid(&inverse_[std::size_t(picture.tops[k]) * width_], stride, camera.height, columns, s, between_columns_,
+                  found_.data());
+    else
+      sample(extent_of(camera), inverse_.data(), stride, s, found_.data());
     for (std::size_t i = 0; i < s.size(); ++i) {
       const double inverse = double(found_[i]);
       const double range = inverse > 0 ? near_ / inverse * s.per_depth[i] : view.max_range;
       ranges[s.ray[i]] = std::clamp(range, view.min_range, view.max_range);
-      if (hits.empty()) continue;
-      const std::size_t nearest =
-          std::size_t(s.pixel[i]) + (s.across[i] < 0.5F ? 0 : 1) + (s.down[i] < 0.5F ? 0 : width_);
-      hits[s.ray[i]] = range < view.max_range ? ObjectId(labels_[nearest]) : no_object;
+      if (!hits.empty())
+        hits[s.ray[i]] = range < view.max_range ? ObjectId(labels_[std::size_t(s.nearest[i])]) : no_object;
     }
   }
 }

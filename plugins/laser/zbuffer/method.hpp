@@ -33,9 +33,14 @@ class ZBuffer final : public scanner::Method {
   /// What is drawn for a set of rays: its pictures lie one below the other.
   struct Picture {
     Views views;
+    std::uint32_t columns = 0;  ///< of rays, where they lie in rows and columns; else 0
     std::uint32_t width = 0, height = 0;
     std::vector<std::uint32_t> tops;  ///< first row of each view
-    std::vector<Samples> samples;     ///< of each view
+    struct Resampling {
+      Samples samples;
+      Samples columns;  ///< of rays in rows and columns; else empty
+    };
+    std::vector<Resampling> resampling;  ///< of each view
   };
 
   void place_samples(Picture& picture) const;
@@ -57,6 +62,7 @@ class ZBuffer final : public scanner::Method {
   std::optional<render::DepthTarget> distances_, labelled_;
   std::vector<float> inverse_;  ///< 1 / depth, as drawn
   std::vector<float> found_;    ///< likewise, at the samples of a view
+  std::vector<float> between_columns_;
   std::vector<std::uint32_t> labels_;
 };
 

@@ -10,6 +10,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <string_view>
 #include <utility>
 
 #include "muro/algorithm.hpp"
@@ -64,6 +65,11 @@ Screen::~Screen() {
 }
 
 bool Screen::is_closed() const { return glfwWindowShouldClose(window_) != 0; }
+
+bool Screen::is_software() const {
+  const std::string_view renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  return renderer.find("llvmpipe") != std::string_view::npos || renderer.find("softpipe") != std::string_view::npos;
+}
 
 void Screen::make_current() const { glfwMakeContextCurrent(window_); }
 

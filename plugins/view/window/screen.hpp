@@ -32,6 +32,8 @@ class Screen {
   /// shows, sRGB, rows from the top.
   void end(std::vector<std::uint8_t>* picture = nullptr);
 
+  /// Whether the processor draws.
+  bool is_software() const;
   /// While another context was current in this thread.
   void make_current() const;
 

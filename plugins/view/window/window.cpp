@@ -23,13 +23,14 @@ namespace {
 using namespace muro;
 using view::Eye;
 
-constexpr int corners = 64;  ///< of circles
+constexpr double chord = 1e-3;  ///< m: how far circles lie inside of themselves
 constexpr double fov = 0.9;  ///< rad, up and down
 
 constexpr Parameter parameters[] = {
     integer("width", 1280, "pixels of the window").between(320, 16384),
     integer("height", 800, "pixels of the window").between(240, 16384),
-    integer("samples", 4, "a pixel: smooth edges; 1 is faster").between(1, 16),
+    integer("samples", 0, "a pixel: smooth edges; 0: four on a GPU, one where the processor draws").between(0, 16),
+    boolean("shadows", true, "the sun throws shadows; without them pictures are made faster"),
     real("frames", "1/s", 60, "at most so many pictures in a second of the wall clock").between(0.1, 1000),
     real("speed", "1", 1, "simulated seconds in a second; 0: as fast as possible").between(0, 1e6),
     boolean("paused", false, "whether the run begins paused"),
@@ -63,6 +64,7 @@ class Window final : public Algorithm {
         throw Error(std::string(name) + " has to be three numbers, x, y, z in metres");
     if (p.given("from") != p.given("to")) throw Error("from and to go together; give both or none");
     size_ = {int(p.integer("width")), int(p.integer("height"))};
+    light_.shadows = p.boolean("shadows");
     samples_ = std::uint32_t(p.integer("samples"));
     period_ = 1 / p.real("frames");
     pace_ = {p.real("speed"), p.boolean("paused")};
@@ -72,7 +74,7 @@ class Window final : public Algorithm {
     looks_at_all_ = !p.given("from") && panels_.chosen == no_object;
     simulation_ = Inspection::of(c.host());
     if (!simulation_) throw Error("this host does not show its simulation to windows");
-    scene_.connect(c, render::Look::as_seen, corners);
+    scene_.connect(c, render::Look::as_seen, chord);
     overlay_.connect(c);
     panels_.connect(c, "view");
     for (const RobotView* robot : c.robots())
@@ -138,7 +140,7 @@ class Window final : public Algorithm {
     if (panels_.chosen == no_object) panels_.chosen = c.find_object(name);
     if (panels_.chosen == no_object) throw Error("follow names `" + name + "`, which is neither a robot nor an object");
     eye_.mode = Eye::Mode::follow;
-    eye_.look_from({-3.2, -2, 2.2}, {0, 0, 0});
+    starts_behind_ = true;
   }
 
   const Pose* chosen_pose() const {
@@ -183,11 +185,16 @@ class Window final : public Algorithm {
     for (const view::Key key : screen_->keys()) panels_.press(key, pace_, eye_);
     panels_.draw(*simulation_, pace_, eye_, overlay_, simulated, wall());
     move_eye();
-    if (const Pose* target = chosen_pose()) eye_.follow(*target);
+    if (const Pose* target = chosen_pose()) {
+      if (starts_behind_) eye_.look_from(*target * Vec3(-1.9, -0.25, 1.5), target->position);
+      starts_behind_ = false;
+      eye_.follow(*target);
+    }
     if (!target_ || target_width_ != screen_->width() || target_height_ != screen_->height()) {
       target_width_ = screen_->width();
       target_height_ = screen_->height();
-      target_.emplace(std::uint32_t(target_width_), std::uint32_t(target_height_), samples_);
+      const std::uint32_t samples = samples_ > 0 ? samples_ : screen_->is_software() ? 1 : 4;
+      target_.emplace(std::uint32_t(target_width_), std::uint32_t(target_height_), samples);
     }
     stage_->place();
     const render::Camera c = camera();
@@ -239,7 +246,7 @@ class Window final : public Algorithm {
 
   std::array<int, 2> size_{};
   double period_ = 0;
-  std::uint32_t samples_ = 4;
+  std::uint32_t samples_ = 0;
   view::Pace pace_{1, false};
   std::string picture_;
   Inspection* simulation_ = nullptr;
@@ -249,7 +256,7 @@ class Window final : public Algorithm {
   Eye eye_;
   view::Overlay overlay_;
   view::Panels panels_;
-  bool looks_at_all_ = true;
+  bool looks_at_all_ = true, starts_behind_ = false;
   Clock::time_point begun_;
   double next_frame_ = 0;  ///< s of the wall clock since the start
   double last_time_ = 0;   ///< s of simulated time

@@ -47,7 +47,7 @@ GLuint shader(GLenum kind, const char* source) {
 
 }  // namespace
 
-BareDepth::BareDepth(std::uint32_t width, std::uint32_t height)
+BareDepth::BareDepth(std::uint32_t width, std::uint32_t height, const render::Surface& cylinder)
     : context_(std::make_unique<Context>()), width_(width), height_(height), depths_(std::size_t(width) * height) {
   program_ = glCreateProgram();
   glAttachShader(program_, shader(GL_VERTEX_SHADER, R"(#version 450 core
@@ -62,20 +62,28 @@ void main() {
 })"));
   glAttachShader(program_, shader(GL_FRAGMENT_SHADER, "#version 450 core\nvoid main() {}"));
   glLinkProgram(program_);
-  std::array<float, 24> corners{};
-  for (std::size_t k = 0; k < 24; ++k) corners[k] = (k / 3) >> (k % 3) & 1 ? 0.5F : -0.5F;
-  constexpr std::uint8_t triangles[] = {0, 1, 3, 0, 3, 2, 4, 6, 7, 4, 7, 5, 0, 4, 5, 0, 5, 1,
-                                        2, 3, 7, 2, 7, 6, 0, 2, 6, 0, 6, 4, 1, 5, 7, 1, 7, 3};
-  glCreateBuffers(1, &cube_);
-  glNamedBufferStorage(cube_, sizeof corners, corners.data(), 0);
+  std::vector<float> corners;
+  std::vector<std::uint32_t> indices;
+  const auto add = [&](const render::Surface& surface) {
+    for (const render::Vertex& v : surface.vertices)
+      corners.insert(corners.end(), v.position.begin(), v.position.end());
+    indices.insert(indices.end(), surface.indices.begin(), surface.indices.end());
+  };
+  add(render::unit_box());
+  box_indices_ = std::uint32_t(indices.size());
+  box_corners_ = std::uint32_t(corners.size() / 3);
+  add(cylinder);
+  cylinder_indices_ = std::uint32_t(cylinder.indices.size());
+  glCreateBuffers(1, &corners_);
+  glNamedBufferStorage(corners_, GLsizeiptr(corners.size() * sizeof(float)), corners.data(), 0);
   glCreateBuffers(1, &indices_);
-  glNamedBufferStorage(indices_, sizeof triangles, triangles, 0);
-  glCreateBuffers(1, &boxes_);
-  glNamedBufferStorage(boxes_, 4096 * sizeof(Box), nullptr, GL_DYNAMIC_STORAGE_BIT);
+  glNamedBufferStorage(indices_, GLsizeiptr(indices.size() * sizeof(std::uint32_t)), indices.data(), 0);
+  glCreateBuffers(1, &places_);
+  glNamedBufferStorage(places_, 4096 * sizeof(Place), nullptr, GL_DYNAMIC_STORAGE_BIT);
   glCreateVertexArrays(1, &array_);
   glVertexArrayElementBuffer(array_, indices_);
-  glVertexArrayVertexBuffer(array_, 0, cube_, 0, 3 * sizeof(float));
-  glVertexArrayVertexBuffer(array_, 1, boxes_, 0, sizeof(Box));
+  glVertexArrayVertexBuffer(array_, 0, corners_, 0, 3 * sizeof(float));
+  glVertexArrayVertexBuffer(array_, 1, places_, 0, sizeof(Place));
   glVertexArrayBindingDivisor(array_, 1, 1);
   for (GLuint k = 0; k < 4; ++k) {
     glEnableVertexArrayAttrib(array_, k);
@@ -94,9 +102,12 @@ void main() {
 
 BareDepth::~BareDepth() { context_->make_current(); }
 
-void BareDepth::draw(const Eigen::Matrix4f& projection, std::span<const Box> boxes) {
+void BareDepth::draw(const Eigen::Matrix4f& projection, const Things& things) {
   context_->make_current();
-  glNamedBufferSubData(boxes_, 0, GLsizeiptr(boxes.size() * sizeof(Box)), boxes.data());
+  const auto boxes = GLsizei(things.boxes.size()), cylinders = GLsizei(things.cylinders.size());
+  const auto size = GLsizeiptr(sizeof(Place));
+  glNamedBufferSubData(places_, 0, boxes * size, things.boxes.data());
+  glNamedBufferSubData(places_, boxes * size, cylinders * size, things.cylinders.data());
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
   glViewport(0, 0, GLsizei(width_), GLsizei(height_));
   const float far = 0;
@@ -104,7 +115,10 @@ void BareDepth::draw(const Eigen::Matrix4f& projection, std::span<const Box> box
   glUseProgram(program_);
   glUniformMatrix4fv(0, 1, GL_FALSE, projection.data());
   glBindVertexArray(array_);
-  glDrawElementsInstanced(GL_TRIANGLES, 36, GL_UNSIGNED_BYTE, nullptr, GLsizei(boxes.size()));
+  glDrawElementsInstanced(GL_TRIANGLES, GLsizei(box_indices_), GL_UNSIGNED_INT, nullptr, boxes);
+  glDrawElementsInstancedBaseVertexBaseInstance(GL_TRIANGLES, GLsizei(cylinder_indices_), GL_UNSIGNED_INT,
+                                                reinterpret_cast<const void*>(box_indices_ * sizeof(std::uint32_t)),
+                                                cylinders, GLint(box_corners_), GLuint(boxes));
   glReadPixels(0, 0, GLsizei(width_), GLsizei(height_), GL_DEPTH_COMPONENT, GL_FLOAT, depths_.data());
 }
 

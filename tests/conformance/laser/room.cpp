@@ -90,7 +90,7 @@ Settings grid_100() {
 }
 
 Bound bound_of(const std::string& method, double spacing, double supersampling) {
-  if (method == "laser.zbuffer") return {3e-5, 2e-4, spacing / supersampling};
+  if (method == "laser.zbuffer") return {3e-5, 3e-4, spacing / supersampling};
   return {1e-11, 1e-9, 0};
 }
 
