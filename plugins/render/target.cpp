@@ -56,7 +56,8 @@ void ColorTarget::read(std::span<std::uint8_t> rgb) const {
   mix();
   glBindFramebuffer(GL_READ_FRAMEBUFFER, mixed_);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(0, 0, GLsizei(width_), GLsizei(height_), GL_RGB, GL_UNSIGNED_BYTE, rgb.data());
+  const auto rows = GLsizei(rgb.size() / (std::size_t(3) * width_));
+  glReadPixels(0, 0, GLsizei(width_), rows, GL_RGB, GL_UNSIGNED_BYTE, rgb.data());
 }
 
 void ColorTarget::show() const {

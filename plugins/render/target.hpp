@@ -16,7 +16,7 @@ class ColorTarget {
   ColorTarget& operator=(const ColorTarget&) = delete;
 
   void begin() const;
-  /// sRGB, rows from the top: 3 width height.
+  /// sRGB, as many rows of `width` pixels as fit, from the top.
   void read(std::span<std::uint8_t> rgb) const;
   /// Into the window whose context is current.
   void show() const;

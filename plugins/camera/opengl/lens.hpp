@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// What a real lens does to where things are seen.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "plugins/render/camera.hpp"
+
+namespace muro::camera {
+
+/// The distortion of Brown and Conrady with OpenCV's coefficients k1, k2, p1, p2, k3 ("plumb_bob" in ROS): a pinhole at
+/// distance 1 sees a point at (x, y), x right and y down, the lens at
+///
+///     x' = x (1 + k1 r^2 + k2 r^4 + k3 r^6) + 2 p1 x y + p2 (r^2 + 2 x^2)
+///     y' = y (1 + k1 r^2 + k2 r^4 + k3 r^6) + p1 (r^2 + 2 y^2) + 2 p2 x y        r^2 = x^2 + y^2
+///
+/// (Brown, Decentering distortion of lenses, Photogrammetric Engineering 32, 1966).
+struct Distortion {
+  double k1 = 0, k2 = 0, p1 = 0, p2 = 0, k3 = 0;
+
+  bool is_none() const { return k1 == 0 && k2 == 0 && p1 == 0 && p2 == 0 && k3 == 0; }
+  Eigen::Vector2d distorted(const Eigen::Vector2d& p) const;
+  /// The point that is seen at `p`, by Newton's method; not a number where the lens sees none there.
+  Eigen::Vector2d undistorted(const Eigen::Vector2d& p) const;
+};
+
+/// Where each pixel of a picture through a lens lies in a pinhole's picture that is large enough.
+struct LensMap {
+  render::Camera pinhole;  ///< what has to be drawn: as `seen`, but larger
+  struct Place {
+    float column = -1, row = -1;  ///< whole numbers are middles of pixels; negative: the lens sees nothing there
+  };
+  std::vector<Place> places;  ///< of the pixels of the picture, row by row
+
+  /// `seen`: the picture that is wanted. Throws muro::Error where the lens would need a picture of more than `most`
+  /// pixels along a side.
+  static LensMap of(const render::Camera& seen, const Distortion& lens, std::uint32_t most);
+};
+
+}  // namespace muro::camera
