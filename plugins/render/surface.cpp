@@ -46,7 +46,8 @@ Surface unit_box() {
   Surface s;
   for (int axis = 0; axis < 3; ++axis)
     for (const double side : {-0.5, 0.5}) {
-      const Vec3 normal = 2 * side * Vec3::Unit(axis), u = Vec3::Unit((axis + 1) % 3), v = normal.cross(u);
+      // pictures stand upright on the sides
+      const Vec3 normal = 2 * side * Vec3::Unit(axis), v = Vec3::Unit(axis == 2 ? 1 : 2), u = v.cross(normal);
       const auto first = std::uint32_t(s.vertices.size());
       for (const auto& [x, y] : {std::pair{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}})
         s.vertices.push_back(vertex(0.5 * normal + x * u + y * v, normal, 0.5 + x, 0.5 - y));

@@ -123,6 +123,14 @@ class Reader {
       shape.color = Eigen::Vector4f(c.R(), c.G(), c.B(), c.A()).cast<double>().cwiseMax(0).cwiseMin(1);
       shape.painted_by = PaintedBy::model;
     }
+    const ::sdf::ElementPtr pbr = child(material, "pbr");
+    for (const char* workflow : {"metal", "specular"}) {
+      const ::sdf::ElementPtr map = child(child(pbr, workflow), "albedo_map");
+      if (!map || map->Get<std::string>().empty()) continue;
+      shape.texture = intern_(map->Get<std::string>());
+      if (shape.painted_by == PaintedBy::file) shape.color.setOnes();
+      shape.painted_by = PaintedBy::model;
+    }
     shape.color[3] *= 1 - std::clamp(number(visual, "transparency").value_or(0), 0.0, 1.0);
   }
 

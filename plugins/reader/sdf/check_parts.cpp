@@ -68,10 +68,26 @@ bool Check::complete(Element& e, std::string_view section) {
     return complete_joint(e);
   } else if (section == "collision" || section == "visual") {
     return complete_shape(e);
+  } else if (section == "metal" || section == "specular") {
+    find_picture(e);
   } else if (section == "include") {
     return complete_include(e);
   }
   return true;
+}
+
+/// The picture of a material under the path of its file.
+void Check::find_picture(Element& workflow) {
+  Element* map = workflow.FirstChildElement("albedo_map");
+  if (!map) return;
+  const model_file::MeshPath found = model_file::find_mesh(text_of(*map), source_.folder);
+  if (found.path.empty()) {
+    problems_.warning(at(*map), say("picture ", cited(text_of(*map)), " is not found; what it covers is plain"));
+    workflow.DeleteChild(map);
+    return;
+  }
+  map->DeleteChildren();
+  map->SetText(found.path.c_str());
 }
 
 bool Check::complete_joint(Element& joint) {

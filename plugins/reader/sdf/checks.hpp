@@ -45,6 +45,7 @@ class Check {
   bool complete_joint(Element& joint);
   void take_mimic(Element& joint, Element& axis, int number);
   bool complete_shape(Element& e);
+  void find_picture(Element& workflow);
   std::string trouble_of_shape(Element& shape);
   bool complete_include(Element& include);
   void put_ground_plane(Element& include);

@@ -48,6 +48,9 @@ Lines said(const std::string& place, const std::string& piece) {
   if (place == "bullet friction")
     file = in_collision("<surface><friction><bullet>" + piece + "</bullet></friction></surface>");
   if (place == "material") file = in_link("<visual name='v'><material>" + piece + "</material>" + shape + "</visual>");
+  if (place == "metal" || place == "specular")
+    file = in_link("<visual name='v'><material><pbr><" + place + ">" + piece + "</" + place + "></pbr></material>" +
+                   shape + "</visual>");
   if (place == "joint") file = in_joint(piece + axis("0 0 1"));
   if (place == "axis") file = in_joint(axis("0 0 1", piece));
   if (place == "limit") file = in_joint(axis("0 0 1", "<limit>" + piece + "</limit>"));

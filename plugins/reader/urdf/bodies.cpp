@@ -28,6 +28,7 @@ void Bodies::fill(const ::urdf::Link& link, const LinkInfo& info) {
     const ::urdf::Color& c = v->material->color;
     visuals.back().color = Eigen::Vector4f(c.r, c.g, c.b, c.a).cast<double>();
     visuals.back().painted_by = PaintedBy::model;
+    add_texture(visuals.back(), v->material->texture_filename, link, info);
   }
   if (link.inertial) {
     const Inertia inertia = inertial_of(link, info, collisions.empty() ? visuals : collisions);
@@ -63,6 +64,15 @@ void Bodies::add_shape(std::vector<Shape>& shapes, const ::urdf::Geometry& geome
   shape.friction = info.surface.friction.value_or(shape.friction);
   shape.restitution = info.surface.restitution.value_or(shape.restitution);
   shapes.push_back(shape);
+}
+
+void Bodies::add_texture(Shape& shape, const std::string& name, const ::urdf::Link& link, const LinkInfo& info) {
+  if (name.empty()) return;
+  const model_file::MeshPath found = model_file::find_mesh(name, folder_);
+  if (found.path.empty())
+    problems_.warning(info.place, say(owner_of(link), ": texture ", cited(name), " is not found; it is plain"));
+  else
+    shape.texture = builder_.intern(found.path);
 }
 
 bool Bodies::add_mesh(Shape& shape, const ::urdf::Mesh& mesh, const ::urdf::Link& link, const LinkInfo& info) {

@@ -30,6 +30,7 @@ class Bodies {
  private:
   void add_shape(std::vector<Shape>& shapes, const ::urdf::Geometry& geometry, const ::urdf::Pose& origin,
                  const ::urdf::Link& link, const LinkInfo& info);
+  void add_texture(Shape& shape, const std::string& name, const ::urdf::Link& link, const LinkInfo& info);
   bool add_mesh(Shape& shape, const ::urdf::Mesh& mesh, const ::urdf::Link& link, const LinkInfo& info);
   Inertia inertial_of(const ::urdf::Link& link, const LinkInfo& info, std::span<const Shape> shapes);
 

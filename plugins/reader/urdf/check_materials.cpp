@@ -31,35 +31,67 @@ bool check_color(Element& material, const std::string& owner, Problems& problems
   return true;
 }
 
-using Colors = std::map<std::string, std::string>;  ///< name of a material: rgba
+/// The name of its picture; empty when it has none.
+std::string texture_of(Element& material, const std::string& owner, Problems& problems) {
+  Element* texture = only_child(material, "texture", owner, problems);
+  if (!texture) return {};
+  const char* file = texture->Attribute("filename");
+  if (file && *file) return file;
+  problems.warning(place_of(*texture), say(owner, ": <texture> has no filename=\"...\" and is ignored"));
+  return {};
+}
 
-Colors check_global_materials(Element& robot, std::vector<std::string>& colorless, Problems& problems) {
-  Colors colors;
+/// How what has a material looks: rgba and the name of a picture, either of which may be empty.
+struct Looks {
+  std::string color, texture;
+
+  bool empty() const { return color.empty() && texture.empty(); }
+  /// As the only children, under no name: what is said here goes before what another place gives the name.
+  void write(Element& material) const {
+    material.DeleteChildren();
+    // urdfdom takes a material without a colour for one that is black
+    material.InsertNewChildElement("color")->SetAttribute("rgba", color.empty() ? "1 1 1 1" : color.c_str());
+    if (!texture.empty()) material.InsertNewChildElement("texture")->SetAttribute("filename", texture.c_str());
+    material.SetAttribute("name", "");
+  }
+};
+
+Looks looks_of(Element& material, const std::string& owner, Problems& problems) {
+  Looks looks;
+  if (check_color(material, owner, problems)) looks.color = material.FirstChildElement("color")->Attribute("rgba");
+  looks.texture = texture_of(material, owner, problems);
+  return looks;
+}
+
+using Materials = std::map<std::string, Looks>;  ///< by name
+
+Materials check_global_materials(Element& robot, std::vector<std::string>& plain, Problems& problems) {
+  Materials materials;
   for (Element* material : children(robot, "material")) {
     const char* name = material->Attribute("name");
     const std::string owner = say("material ", cited(name ? name : ""));
     if (!name) {
       problems.warning(place_of(*material), "a material of the robot has no name, so that no link can use it");
-    } else if (colors.count(name)) {
+    } else if (materials.count(name)) {
       problems.warning(place_of(*material), say(owner, " is defined twice; the first definition is used"));
-    } else if (check_color(*material, owner, problems)) {
-      colors[name] = material->FirstChildElement("color")->Attribute("rgba");
+    } else if (const Looks looks = looks_of(*material, owner, problems); !looks.empty()) {
+      materials[name] = looks;
+      looks.write(*material);
+      material->SetAttribute("name", name);
       continue;
     } else {
-      if (material->FirstChildElement("texture"))
-        problems.note(place_of(*material), say(owner, " has a texture only; textures are not shown, and it is grey"));
-      colorless.emplace_back(name);
+      plain.emplace_back(name);
     }
     remove(*material);
   }
-  return colors;
+  return materials;
 }
 
 }  // namespace
 
 void check_materials(Element& robot, Problems& problems) {
-  std::vector<std::string> colorless;
-  Colors colors = check_global_materials(robot, colorless, problems);
+  std::vector<std::string> plain;
+  Materials materials = check_global_materials(robot, plain, problems);
   struct Reference {
     Element* material;
     std::string owner;
@@ -72,10 +104,9 @@ void check_materials(Element& robot, Problems& problems) {
       Element* material = only_child(*visual, "material", owner, problems);
       if (!material) continue;
       const char* name = material->Attribute("name");
-      if (check_color(*material, owner, problems)) {
-        if (name && *name) colors.try_emplace(name, material->FirstChildElement("color")->Attribute("rgba"));
-        // a colour of its own goes before one that another place gives the name
-        material->SetAttribute("name", "");
+      if (const Looks looks = looks_of(*material, owner, problems); !looks.empty()) {
+        if (name && *name) materials.try_emplace(name, looks);
+        looks.write(*material);
       } else if (name && *name) {
         by_name.push_back({material, owner});
       } else {
@@ -85,14 +116,11 @@ void check_materials(Element& robot, Problems& problems) {
   }
   for (const auto& [material, owner] : by_name) {
     const std::string name = material->Attribute("name");
-    if (const auto color = colors.find(name); color != colors.end()) {
-      material->DeleteChildren();
-      material->InsertNewChildElement("color")->SetAttribute("rgba", color->second.c_str());
-      material->SetAttribute("name", "");
+    if (const auto known = materials.find(name); known != materials.end()) {
+      known->second.write(*material);
       continue;
     }
-    if (std::find(colorless.begin(), colorless.end(), name) == colorless.end() &&
-        !material->FirstChildElement("texture"))
+    if (std::find(plain.begin(), plain.end(), name) == plain.end())
       problems.warning(place_of(*material), say(owner, ": material ", cited(name),
                                                 " is not defined; it is grey. Give it ", "a <color rgba=\"...\"/>"));
     remove(*material);

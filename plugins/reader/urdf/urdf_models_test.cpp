@@ -6,6 +6,7 @@
 
 #include "core/world.hpp"
 #include "recording_builder.hpp"
+#include "tests/support/files.hpp"
 #include "tests/support/scene.hpp"
 
 namespace muro::urdf {
@@ -243,6 +244,28 @@ TEST(UrdfModels, AColourComesFromTheVisualOrFromTheMaterialOfThatName) {
   const Color expected[] = {{1, 0, 0, 1}, {0, 1, 0, 0.5}, {0, 0, 1, 1}, {1, 1, 0, 1}, {1, 1, 0, 1}, Shape{}.color};
   ASSERT_EQ(robot.visuals.at("b").size(), std::size(expected));
   for (std::size_t i = 0; i < std::size(expected); ++i) EXPECT_EQ(robot.visuals.at("b")[i].color, expected[i]) << i;
+}
+
+TEST(UrdfModels, ATextureIsFoundBesideTheModelAndIsWhiteUnlessColoured) {
+  const test::ScratchFolder folder;
+  folder.file("wood.png", "a picture");
+  const std::string sphere = "<visual><geometry><sphere radius='1'/></geometry>";
+  const auto robot =
+      recorded("<robot name='r'><material name='wood'><texture filename='wood.png'/></material>" +
+                   std::string(body_a).replace(std::string(body_a).find("</link>"), 7, "") + sphere +
+                   "<material name='wood'/></visual>" + sphere +
+                   "<material><color rgba='1 0 0 1'/><texture filename='wood.png'/></material></visual>" + sphere +
+                   "<material><texture filename='none.png'/></material></visual></link></robot>",
+               folder.path(""));
+  ASSERT_EQ(robot.problems.size(), 1u);
+  EXPECT_NE(robot.problems[0].find("texture `none.png` is not found; it is plain"), std::string::npos);
+  const std::vector<Shape>& shapes = robot.visuals.at("a");
+  ASSERT_EQ(shapes.size(), 3u);
+  for (const int i : {0, 1}) EXPECT_EQ(robot.texts[std::size_t(shapes[i].texture)], folder.path("wood.png"));
+  EXPECT_EQ(shapes[0].color, Eigen::Vector4d::Ones());
+  EXPECT_EQ(shapes[1].color, Eigen::Vector4d(1, 0, 0, 1));
+  EXPECT_EQ(shapes[2].texture, no_text);
+  for (const Shape& s : shapes) EXPECT_EQ(s.painted_by, PaintedBy::model);
 }
 
 TEST(UrdfModels, APlanarJointIsTwoSlidesAndATurnAboutItsNormal) {

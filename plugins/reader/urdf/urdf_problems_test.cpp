@@ -196,8 +196,8 @@ TEST(UrdfProblems, MaterialsThatShowNoColour) {
             "warning 3:84 link `b`: <color> has no rgba=\"red green blue alpha\" and is ignored");
   EXPECT_EQ(problems_of("<material name='m'><color rgba='1 1 1 1'/></material><material name='m'/>"),
             Lines{"warning 3:54 material `m` is defined twice; the first definition is used"});
-  EXPECT_EQ(problems_of("<material name='m'><texture filename='t.png'/></material>"),
-            Lines{"note 3:1 material `m` has a texture only; textures are not shown, and it is grey"});
+  EXPECT_EQ(problems_of("<material name='m'><texture/></material>"),
+            Lines{"warning 3:20 material `m`: <texture> has no filename=\"...\" and is ignored"});
 }
 
 TEST(UrdfProblems, JointsWithoutTheirParts) {
