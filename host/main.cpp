@@ -115,12 +115,19 @@ int dispatch(int argc, char** argv) {
   compare_command.add_option("--csv", compare_options.table, "Write the table to this file (CSV)");
 
   RenderOptions render_options;
-  CLI::App& render_command = *app.add_subcommand("render", "Draw a picture of a scenario at one time");
+  CLI::App& render_command = *app.add_subcommand("render", "Draw a picture of a scenario at one time, or a film");
   add_scenario_options(render_command, render_options.scenario);
   render_command.add_option("--at", render_options.at, "Simulated seconds after which it is drawn")
       ->check(check_duration)
       ->capture_default_str();
-  render_command.add_option("--out", render_options.out, "File (PNG)")->required();
+  render_command.add_option("--out", render_options.out, "File of the picture (PNG)");
+  render_command.add_option("--video", render_options.video, "File of a film from --at on, by ffmpeg: NAME.mp4");
+  render_command
+      .add_option("--until", render_options.until, "Simulated seconds at its end; default: as the scenario says")
+      ->check(check_duration);
+  render_command.add_option("--fps", render_options.fps, "Frames of the film in a simulated second")
+      ->check(CLI::Range(0.01, 1000.0))
+      ->capture_default_str();
   render_command.add_option("--camera", render_options.camera, "What a robot's camera sees, e.g. rover/camera");
   render_command
       .add_option("--from", render_options.from, "Where from, x,y,z in metres; default: so that all robots are seen")

@@ -48,7 +48,10 @@ struct RenderOptions {
   double fov = 50;           ///< deg, horizontal, of a view from outside
   std::string size = "1280x720";
   std::string device = "auto";
-  std::string out;  ///< file (PNG)
+  std::string out;              ///< file (PNG), or empty
+  std::string video;            ///< file of a film from `at` on, or empty
+  std::optional<double> until;  ///< s; empty: as long as the scenario runs
+  double fps = 25;              ///< frames of the film in a simulated second
 };
 
 int run(const RunOptions& options);

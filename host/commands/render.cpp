@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A picture of a scenario at one time.
+// A picture of a scenario at one time, or a film.
 #include <fmt/format.h>
 
 #include <charconv>
@@ -10,6 +10,7 @@
 #include "host/constants.hpp"
 #include "host/png.hpp"
 #include "host/report.hpp"
+#include "host/video.hpp"
 #include "muro/nearest.hpp"
 #include "muro/vocabulary.hpp"
 
@@ -75,7 +76,7 @@ void add_eye(const RenderOptions& options, Simulation& simulation) {
   AlgorithmSetup setup;
   setup.name = "muro render";
   setup.use = algorithm;
-  setup.rate = Rate(1e-6);
+  setup.rate = Rate(options.video.empty() ? 1e-6 : options.fps);
   setup.phase = std::llround(options.at * 1e9);
   setup.items = {{nullptr, object}};
   setup.parameters = {{"width", width},
@@ -107,24 +108,43 @@ int render(const RenderOptions& options) {
   if (!options.camera.empty() && (!options.from.empty() || !options.to.empty()))
     throw SetupError(
         "--camera shows what a camera of a robot sees, --from and --to a view from outside; give one of both");
-  if (!options.out.ends_with(".png")) throw SetupError("--out is `" + options.out + "` but must be a file NAME.png");
+  if (options.out.empty() == options.video.empty())
+    throw SetupError("give --out FILE.png for a picture, or --video FILE.mp4 for a film");
+  if (options.video.empty() && !options.out.ends_with(".png"))
+    throw SetupError("--out is `" + options.out + "` but must be a file NAME.png");
   Registry registry(Registry::search_path(options.scenario.plugin_path));
   const auto offers = registry.offers();
   if (std::none_of(offers.begin(), offers.end(), [](const Offer& o) { return o.id == algorithm; }))
     throw SetupError(
         "a picture needs the plugin camera.opengl, which is not there; install libepoxy-dev and libegl-dev, "
         "and build muro again");
-  check_writable(options.out);
+  const std::string& file = options.video.empty() ? options.out : options.video;
+  check_writable(file);
   BuiltScenario built = open_scenario(options.scenario, registry, [&](Simulation& simulation) {
     if (options.camera.empty()) add_eye(options, simulation);
   });
   Simulation& simulation = *built.simulation;
   const ObjectId camera = camera_of(options, simulation);
-  simulation.run_until(std::llround(options.at * 1e9) + 1);
   const std::uint32_t width = constant(simulation.world(), camera, keys::camera_width, 0u);
   const std::uint32_t height = constant(simulation.world(), camera, keys::camera_height, 0u);
-  write_file(options.out, png(width, height, simulation.world().values(camera, keys::camera_image)));
-  fmt::print("{}: {} x {} pixels, {} at {:g} s\n", options.out, width, height, built.scenario.name, options.at);
+  const auto picture_at = [&](double time) {
+    simulation.run_until(std::llround(time * 1e9) + 1);
+    return simulation.world().values(camera, keys::camera_image);
+  };
+  if (options.video.empty()) {
+    write_file(file, png(width, height, picture_at(options.at)));
+    fmt::print("{}: {} x {} pixels, {} at {:g} s\n", file, width, height, built.scenario.name, options.at);
+    return 0;
+  }
+  const double until = options.until.value_or(built.scenario.duration);
+  if (until <= options.at)
+    throw SetupError(fmt::format("--until is {:g} s but must be later than --at, {:g} s", until, options.at));
+  Video video(file, width, height, options.fps);
+  const int frames = 1 + int((until - options.at) * options.fps + 1e-6);
+  for (int k = 0; k < frames; ++k) video.add(picture_at(options.at + k / options.fps));
+  video.close();
+  fmt::print("{}: {} frames of {} x {} pixels, {} from {:g} to {:g} s\n", file, frames, width, height,
+             built.scenario.name, options.at, until);
   return 0;
 }
 
