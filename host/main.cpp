@@ -136,6 +136,10 @@ int dispatch(int argc, char** argv) {
   render_command.add_option("--to", render_options.to, "Where to, x,y,z in metres; default: the middle of the robots")
       ->delimiter(',')
       ->expected(3);
+  render_command
+      .add_option("--shows", render_options.shows, "Of a robot's camera: rgb, depth (dark is near) or labels")
+      ->check(CLI::IsMember({"rgb", "depth", "labels"}))
+      ->capture_default_str();
   render_command.add_option("--fov", render_options.fov, "Horizontal opening angle in degrees")
       ->check(CLI::Range(1.0, 170.0))
       ->capture_default_str();

@@ -8,6 +8,7 @@
 #include "host/commands/commands.hpp"
 #include "host/commands/open.hpp"
 #include "host/constants.hpp"
+#include "host/false_colors.hpp"
 #include "host/png.hpp"
 #include "host/report.hpp"
 #include "host/video.hpp"
@@ -102,6 +103,14 @@ ObjectId camera_of(const RenderOptions& options, Simulation& simulation) {
                    (listed.empty() ? "; no robot has one that writes camera.image" : "; there are: " + listed));
 }
 
+/// What the camera has written last, as colours.
+std::vector<std::uint8_t> picture_of(const World& world, ObjectId camera, const std::string& shows) {
+  if (shows == "depth") return colors_of(world.values(camera, keys::camera_depth));
+  if (shows == "labels") return colors_of(world.values(camera, keys::camera_labels));
+  const auto image = world.values(camera, keys::camera_image);
+  return {image.begin(), image.end()};
+}
+
 }  // namespace
 
 int render(const RenderOptions& options) {
@@ -125,11 +134,15 @@ int render(const RenderOptions& options) {
   });
   Simulation& simulation = *built.simulation;
   const ObjectId camera = camera_of(options, simulation);
+  if (options.shows != "rgb" && !simulation.world().store().find(camera, "camera." + options.shows))
+    throw SetupError("camera `" + (options.camera.empty() ? std::string("from outside") : options.camera) +
+                     "` writes no camera." + options.shows + "; give a robot's camera `" + options.shows +
+                     ": true`, and name it by --camera");
   const std::uint32_t width = constant(simulation.world(), camera, keys::camera_width, 0u);
   const std::uint32_t height = constant(simulation.world(), camera, keys::camera_height, 0u);
   const auto picture_at = [&](double time) {
     simulation.run_until(std::llround(time * 1e9) + 1);
-    return simulation.world().values(camera, keys::camera_image);
+    return picture_of(simulation.world(), camera, options.shows);
   };
   if (options.video.empty()) {
     write_file(file, png(width, height, picture_at(options.at)));

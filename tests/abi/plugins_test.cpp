@@ -144,8 +144,18 @@ TEST_P(Plugin, ExplainsEveryParameterAndKeepsItsDefaultsWithinTheRange) {
     }
 }
 
+/// The page of a folder, and pages that it leads to: what plugins share is told once.
+std::string pages_of(const std::string& folder) {
+  std::string pages = content(folder + "/README.md");
+  const std::regex link(R"(\]\(([^)]*README\.md)\))");
+  const std::string own = pages;
+  for (std::sregex_iterator it(own.begin(), own.end(), link), end; it != end; ++it)
+    pages += content(folder + "/" + (*it)[1].str());
+  return pages;
+}
+
 TEST_P(Plugin, HasAReadmeThatNamesAllItOffers) {
-  const std::string readme = content(std::string(GetParam().folder) + "/README.md");
+  const std::string readme = pages_of(GetParam().folder);
   for (const abi::AlgorithmEntry& entry : table_of(GetParam()).algorithms) {
     EXPECT_NE(readme.find(entry.description->id), std::string::npos) << entry.description->id;
     for (const Parameter& p : entry.description->parameters)

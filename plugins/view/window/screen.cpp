@@ -54,9 +54,11 @@ Screen::Screen(const std::string& title, int width, int height) {
   glfwSetKeyCallback(window_, &Screen::on_key);  // before those of ImGui, which hand on
   ImGui_ImplGlfw_InitForOpenGL(window_, true);
   ImGui_ImplOpenGL3_Init("#version 450");
+  glfwMakeContextCurrent(nullptr);
 }
 
 Screen::~Screen() {
+  glfwMakeContextCurrent(window_);
   ImGui_ImplOpenGL3_Shutdown();
   ImGui_ImplGlfw_Shutdown();
   ImGui::DestroyContext();
@@ -71,7 +73,8 @@ bool Screen::is_software() const {
   return renderer.find("llvmpipe") != std::string_view::npos || renderer.find("softpipe") != std::string_view::npos;
 }
 
-void Screen::make_current() const { glfwMakeContextCurrent(window_); }
+Screen::Current::Current(const Screen& screen) { glfwMakeContextCurrent(screen.window_); }
+Screen::Current::~Current() { glfwMakeContextCurrent(nullptr); }
 
 void Screen::on_key(GLFWwindow* window, int key, int, int action, int) {
   constexpr std::pair<int, Key> known[] = {{GLFW_KEY_SPACE, Key::space},

@@ -15,7 +15,7 @@ enum class Key { space, right, escape, home };
 /// Everything from one thread.
 class Screen {
  public:
-  /// Throws muro::Error where no window can be opened, with what to do. Its context is current then.
+  /// Throws muro::Error where no window can be opened, with what to do.
   Screen(const std::string& title, int width, int height);
   ~Screen();
   Screen(const Screen&) = delete;
@@ -34,8 +34,15 @@ class Screen {
 
   /// Whether the processor draws.
   bool is_software() const;
-  /// While another context was current in this thread.
-  void make_current() const;
+  /// While it lives, the window's context is current in this thread; then none is: cameras and lasers have contexts of
+  /// their own, by EGL, which is refused where one of a window is current.
+  class Current {
+   public:
+    explicit Current(const Screen& screen);
+    ~Current();
+    Current(const Current&) = delete;
+    Current& operator=(const Current&) = delete;
+  };
 
  private:
   std::vector<std::uint8_t> read() const;

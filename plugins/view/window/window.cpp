@@ -24,14 +24,18 @@ using namespace muro;
 using view::Eye;
 
 constexpr double chord = 1e-3;  ///< m: how far circles lie inside of themselves
-constexpr double fov = 0.9;  ///< rad, up and down
+constexpr double fov = 0.9;     ///< rad, up and down
 
 constexpr Parameter parameters[] = {
     integer("width", 1280, "pixels of the window").between(320, 16384),
     integer("height", 800, "pixels of the window").between(240, 16384),
     integer("samples", 0, "a pixel: smooth edges; 0: four on a GPU, one where the processor draws").between(0, 16),
+    boolean("scans", true, "draw what laser scanners measure"),
+    boolean("contacts", true, "draw where robots touch something"),
+    boolean("frames", false, "draw frames of robots"),
+    boolean("panels", true, "whether there is anything beside the scene"),
     boolean("shadows", true, "the sun throws shadows; without them pictures are made faster"),
-    real("frames", "1/s", 60, "at most so many pictures in a second of the wall clock").between(0.1, 1000),
+    real("pictures", "1/s", 60, "at most so many in a second of the wall clock").between(0.1, 1000),
     real("speed", "1", 1, "simulated seconds in a second; 0: as fast as possible").between(0, 1e6),
     boolean("paused", false, "whether the run begins paused"),
     text("follow", "", "object that is chosen and followed from the start, such as `robot` or `robot/link`"),
@@ -64,9 +68,13 @@ class Window final : public Algorithm {
         throw Error(std::string(name) + " has to be three numbers, x, y, z in metres");
     if (p.given("from") != p.given("to")) throw Error("from and to go together; give both or none");
     size_ = {int(p.integer("width")), int(p.integer("height"))};
+    overlay_.scans = p.boolean("scans");
+    overlay_.contacts = p.boolean("contacts");
+    overlay_.frames = p.boolean("frames");
+    has_panels_ = p.boolean("panels");
     light_.shadows = p.boolean("shadows");
     samples_ = std::uint32_t(p.integer("samples"));
-    period_ = 1 / p.real("frames");
+    period_ = 1 / p.real("pictures");
     pace_ = {p.real("speed"), p.boolean("paused")};
     if (!p.text("picture").empty()) picture_ = std::filesystem::absolute(std::string(p.text("picture"))).string();
     if (const std::string name(p.text("follow")); !name.empty()) choose(c, name);
@@ -164,7 +172,9 @@ class Window final : public Algorithm {
     c.width = std::uint32_t(screen_->width());
     c.height = std::uint32_t(screen_->height());
     c.fx = c.fy = 0.5 * c.height / std::tan(0.5 * fov);
-    const auto [left, top, right, bottom] = panels_.free_area(c.width, c.height);
+    using Area = std::array<double, 4>;
+    const auto [left, top, right, bottom] =
+        has_panels_ ? panels_.free_area(c.width, c.height) : Area{0, 0, double(c.width), double(c.height)};
     c.cx = 0.5 * (left + right);
     c.cy = 0.5 * (top + bottom);
     c.pose = eye_.pose();
@@ -172,7 +182,7 @@ class Window final : public Algorithm {
   }
 
   void draw(double simulated, std::vector<std::uint8_t>* picture = nullptr) {
-    screen_->make_current();
+    const view::Screen::Current current(*screen_);
     screen_->begin();
     if (!stage_) {
       stage_.emplace(scene_);
@@ -183,7 +193,7 @@ class Window final : public Algorithm {
     if (looks_at_all_ || panels_.wants_all) see_all();
     looks_at_all_ = panels_.wants_all = false;
     for (const view::Key key : screen_->keys()) panels_.press(key, pace_, eye_);
-    panels_.draw(*simulation_, pace_, eye_, overlay_, simulated, wall());
+    if (has_panels_) panels_.draw(*simulation_, pace_, eye_, overlay_, simulated, wall());
     move_eye();
     if (const Pose* target = chosen_pose()) {
       if (starts_behind_) eye_.look_from(*target * Vec3(-1.9, -0.25, 1.5), target->position);
@@ -235,12 +245,14 @@ class Window final : public Algorithm {
   }
 
   void forget() {
-    screen_->make_current();
-    target_.reset();
-    lines_.reset();
-    labels_.reset();
-    renderer_.reset();
-    stage_.reset();
+    {
+      const view::Screen::Current current(*screen_);
+      target_.reset();
+      lines_.reset();
+      labels_.reset();
+      renderer_.reset();
+      stage_.reset();
+    }
     screen_.reset();
   }
 
@@ -256,6 +268,7 @@ class Window final : public Algorithm {
   Eye eye_;
   view::Overlay overlay_;
   view::Panels panels_;
+  bool has_panels_ = true;
   bool looks_at_all_ = true, starts_behind_ = false;
   Clock::time_point begun_;
   double next_frame_ = 0;  ///< s of the wall clock since the start

@@ -149,7 +149,7 @@ TEST_F(TheWindow, GivesTheSameStateAsWithoutIt) {
   for (const bool view : {false, true}) {
     Show s;
     if (view) {
-      s.use_window({{"frames", 5.0}});
+      s.use_window({{"pictures", 5.0}});
     } else {
       s.use("motion.point", 100, s.all_robots());
       s.use_kinematics();

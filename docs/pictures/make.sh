@@ -1,0 +1,31 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Makes the pictures of README.md anew: docs/pictures/make.sh, in a built checkout. Needs xvfb.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+muro=build/bin/muro out=docs/pictures
+export MURO_PLUGIN_PATH=${MURO_PLUGIN_PATH:-build/lib/muro}
+sensors=examples/sensors/sensors.yaml urban=examples/urban/urban.yaml
+
+camera() { "$muro" render "$sensors" --at 0.2 --camera scout/camera --shows "$1" --out "$out/$2.png"; }
+camera rgb camera
+camera depth depth
+camera labels labels
+"$muro" render "$urban" --set robots.rovers.count=250 --at 8 --from 0.5,-17,3.4 --to 0,-6,0.3 --fov 60 --size 960x540 \
+  --out "$out/urban.png"
+"$muro" render examples/levels/levels.yaml --at 4 --from -3,-3,2.2 --to 0,0,0 --size 960x540 --out "$out/levels.png"
+
+window() { xvfb-run -a -s "-screen 0 1400x900x24" "$muro" run "$@"; }
+scans() {
+  local name=$1
+  shift
+  window "$sensors" --view --speed max --set algorithms.view.panels=false --set algorithms.view.contacts=false \
+    --set algorithms.view.samples=4 --set algorithms.view.width=960 --set algorithms.view.height=540 \
+    --set 'algorithms.view.from=[-6,-3.6,3.6]' --set 'algorithms.view.to=[1.2,0,0.2]' \
+    --set "algorithms.view.picture=$out/$name.png" "$@"
+}
+scans lidar --duration 0.3 --set robots.scout.sweep=off --set robots.scout.laser_error=off --set robots.scout.control=off \
+  --set robots.scout.laser=off
+scans scan --duration 3 --set robots.scout.lidar=off
+window "$urban" --view --duration 4 --set algorithms.view.follow=rovers_0 --set algorithms.view.samples=4 \
+  --set "algorithms.view.picture=$out/window.png"
