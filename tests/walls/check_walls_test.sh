@@ -41,16 +41,16 @@ fresh_tree
 expect ''
 
 echo '#include "core/world.hpp"' >plugins/motion/point/kernel.hpp
-expect 'plugins/motion/point/kernel.hpp:1: includes "core/world.hpp" (core/world.hpp); this file may include: std plugins/motion/point sdk eigen posix plugins/render plugins/mesh plugins/encounters plugins/multibody plugins/wheeled plugins/model_file'
+expect 'plugins/motion/point/kernel.hpp:1: includes "core/world.hpp" (core/world.hpp); this file may include: std plugins/motion/point sdk eigen posix plugins/render plugins/mesh plugins/encounters plugins/multibody plugins/wheeled plugins/model_file plugins/scanner plugins/picture_file'
 
 echo '#include "../../../core/world.hpp"' >plugins/motion/bullet/world.cpp
-expect 'plugins/motion/bullet/world.cpp:1: includes "../../../core/world.hpp" (core/world.hpp); this file may include: std plugins/motion/bullet sdk eigen posix plugins/render plugins/mesh plugins/encounters plugins/multibody plugins/wheeled plugins/model_file bullet'
+expect 'plugins/motion/bullet/world.cpp:1: includes "../../../core/world.hpp" (core/world.hpp); this file may include: std plugins/motion/bullet sdk eigen posix plugins/render plugins/mesh plugins/encounters plugins/multibody plugins/wheeled plugins/model_file plugins/scanner plugins/picture_file bullet'
 
 printf '\n#include "plugins/motion/point/kernel.hpp"\n' >plugins/motion/bullet/world.cpp
-expect 'plugins/motion/bullet/world.cpp:2: includes "plugins/motion/point/kernel.hpp" (plugins/motion/point/kernel.hpp); this file may include: std plugins/motion/bullet sdk eigen posix plugins/render plugins/mesh plugins/encounters plugins/multibody plugins/wheeled plugins/model_file bullet'
+expect 'plugins/motion/bullet/world.cpp:2: includes "plugins/motion/point/kernel.hpp" (plugins/motion/point/kernel.hpp); this file may include: std plugins/motion/bullet sdk eigen posix plugins/render plugins/mesh plugins/encounters plugins/multibody plugins/wheeled plugins/model_file plugins/scanner plugins/picture_file bullet'
 
 echo '#include <btBulletDynamicsCommon.h>' >plugins/motion/point/kernel.hpp
-expect 'plugins/motion/point/kernel.hpp:1: includes "btBulletDynamicsCommon.h" (bullet); this file may include: std plugins/motion/point sdk eigen posix plugins/render plugins/mesh plugins/encounters plugins/multibody plugins/wheeled plugins/model_file'
+expect 'plugins/motion/point/kernel.hpp:1: includes "btBulletDynamicsCommon.h" (bullet); this file may include: std plugins/motion/point sdk eigen posix plugins/render plugins/mesh plugins/encounters plugins/multibody plugins/wheeled plugins/model_file plugins/scanner plugins/picture_file'
 
 echo '#include "core/world.hpp"' >sdk/muro/key.hpp
 expect 'sdk/muro/key.hpp:1: includes "core/world.hpp" (core/world.hpp); this file may include: std sdk/muro eigen'
