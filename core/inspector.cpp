@@ -44,12 +44,21 @@ std::span<const LiveProperty> Inspector::properties(ObjectId object) noexcept {
   return properties_;
 }
 
+std::string_view Inspector::object_name(ObjectId object) const noexcept {
+  return index_of(object) < world_.object_count() ? std::string_view(world_.object_name(object)) : "?";
+}
+
+std::string_view Inspector::text(TextId id) const noexcept {
+  return std::size_t(id) < world_.text_count() ? std::string_view(world_.text(id)) : "?";
+}
+
 std::span<const LiveCost> Inspector::costs() noexcept {
   costs_.clear();
   const double seconds_per_tick = scheduler_.seconds_per_tick();
   for (TaskId t = 0; t < scheduler_.tasks().size(); ++t) {
     const TaskCost cost = scheduler_.cost(t);
-    costs_.push_back({scheduler_.tasks()[t].name, cost.runs, double(cost.ticks) * seconds_per_tick});
+    const Task& task = scheduler_.tasks()[t];
+    costs_.push_back({task.name, cost.runs, double(cost.ticks) * seconds_per_tick, task.alone});
   }
   return costs_;
 }

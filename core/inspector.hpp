@@ -2,6 +2,7 @@
 #pragma once
 
 #include <deque>
+#include <functional>
 #include <vector>
 
 #include "core/scheduler.hpp"
@@ -18,10 +19,13 @@ class Inspector final : public Inspection {
   std::span<const LiveProperty> properties(ObjectId object) noexcept override;
   std::span<const LiveCost> costs() noexcept override;
   std::uint32_t object_count() const noexcept override { return world_.object_count(); }
-  std::string_view object_name(ObjectId object) const noexcept override { return world_.object_name(object); }
-  std::string_view text(TextId id) const noexcept override { return world_.text(id); }
+  std::string_view object_name(ObjectId object) const noexcept override;
+  std::string_view text(TextId id) const noexcept override;
   void stop() noexcept override { stopped_ = true; }
+  bool is_stopping() const noexcept override { return stopped_ || (stop_ && stop_()); }
 
+  /// Who else may want the end of the run that now begins.
+  void set_stop(std::function<bool()> stop) { stop_ = std::move(stop); }
   bool stopped() const { return stopped_; }
 
  private:
@@ -30,6 +34,7 @@ class Inspector final : public Inspection {
   std::vector<LiveProperty> properties_;
   std::deque<KeyInfo> keys_;  ///< under the names that an object has for them
   std::vector<LiveCost> costs_;
+  std::function<bool()> stop_;
   bool stopped_ = false;
 };
 

@@ -342,7 +342,9 @@ void Simulation::run_until(std::int64_t time, const std::function<bool()>& stop)
   const auto is_alone = [](const Task& t) { return t.alone; };
   if (std::none_of(scheduler_.tasks().begin(), scheduler_.tasks().end(), is_alone))
     return scheduler_.run_until(time, stop);
-  scheduler_.run_until(time, [&] { return stopped() || (stop && stop()); });
+  inspector_->set_stop(stop);
+  scheduler_.run_until(time, [&] { return inspector_->is_stopping(); });
+  inspector_->set_stop({});
 }
 
 bool Simulation::stopped() const { return inspector_->stopped(); }

@@ -39,6 +39,7 @@ class World {
 
   TextId intern(std::string_view text);
   std::string_view text(TextId id) const { return texts_[static_cast<std::size_t>(id)]; }
+  std::size_t text_count() const { return texts_.size(); }
 
   PropertyStore& store() { return store_; }
   const PropertyStore& store() const { return store_; }

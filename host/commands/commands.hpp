@@ -41,12 +41,12 @@ struct CompareOptions {
 
 struct RenderOptions {
   ScenarioOptions scenario;
-  double at = 0;             ///< s
-  std::string camera;        ///< "rover/camera": what this one sees; empty: a view from outside
-  std::vector<double> from;  ///< x, y, z (m); empty: so that all robots are seen
-  std::vector<double> to;    ///< x, y, z (m); empty: the middle of the robots
+  double at = 0;              ///< s
+  std::string camera;         ///< "rover/camera": what this one sees; empty: a view from outside
+  std::vector<double> from;   ///< x, y, z (m); empty: so that all robots are seen
+  std::vector<double> to;     ///< x, y, z (m); empty: the middle of the robots
   std::string shows = "rgb";  ///< of a robot's camera: "rgb", "depth" or "labels"
-  double fov = 50;           ///< deg, horizontal, of a view from outside
+  double fov = 50;            ///< deg, horizontal, of a view from outside
   std::string size = "1280x720";
   std::string device = "auto";
   std::string out;              ///< file (PNG), or empty

@@ -77,14 +77,18 @@ void print_summary(const RunResult& result, const Simulation& simulation, const 
     fmt::print("{} instants came too late for the chosen speed\n", simulation.scheduler().overruns());
 }
 
-/// The scenario with a window, which sets the pace; what the user says of `algorithms.view` holds.
+/// The scenario with a window, which sets the pace; what the user says of `algorithms.view` holds. One that has a
+/// window of its own is left as it is.
 ScenarioOptions with_view(const RunOptions& options, const Registry& registry) {
-  const auto offers = registry.offers();
+  const auto& offers = registry.offers();
   if (std::none_of(offers.begin(), offers.end(), [](const Offer& o) { return o.id == "view.window"; }))
     throw SetupError(
         "--view needs the plugin view.window, which is not there; install libglfw3-dev, libimgui-dev, libepoxy-dev, "
         "libegl-dev and libstb-dev, and build muro again");
   ScenarioOptions scenario = options.scenario;
+  const Scenario as_it_is = read_scenario(scenario.file, scenario.overrides);
+  for (const Subsystem& s : as_it_is.algorithms)
+    if (s.use == "view.window") return scenario;
   const double speed = options.speed.empty() ? 1 : pacing_factor(options.speed);
   const std::string view[] = {"algorithms.view.use=view.window", "algorithms.view.rate=60",
                               fmt::format("algorithms.view.speed={}", speed)};

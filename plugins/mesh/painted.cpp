@@ -5,6 +5,7 @@
 #include <assimp/postprocess.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "file.hpp"
@@ -31,16 +32,26 @@ std::string find_picture(const std::string& mesh, std::string name) {
   return {};
 }
 
+/// Whose colours are linear light.
+bool is_gltf(const std::string& path) {
+  std::string ending = fs::path(path).extension().string();
+  for (char& c : ending) c = char(std::tolower(static_cast<unsigned char>(c)));
+  return ending == ".gltf" || ending == ".glb";
+}
+
+double to_srgb(double light) { return light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055; }
+
 void paint(PaintedPart& part, const aiScene& scene, const aiMaterial& material, const std::string& path) {
   aiColor4D color;
   if (material.Get(AI_MATKEY_BASE_COLOR, color) == AI_SUCCESS ||
       material.Get(AI_MATKEY_COLOR_DIFFUSE, color) == AI_SUCCESS)
     part.color = Eigen::Vector4f(color.r, color.g, color.b, color.a).cast<double>().cwiseMax(0).cwiseMin(1);
+  if (is_gltf(path))
+    for (int k = 0; k < 3; ++k) part.color[k] = to_srgb(part.color[k]);
   aiString name;
   if (material.GetTexture(aiTextureType_BASE_COLOR, 0, &name) != AI_SUCCESS &&
       material.GetTexture(aiTextureType_DIFFUSE, 0, &name) != AI_SUCCESS)
     return;
-  part.color.head<3>().setOnes();
   const aiTexture* const inside = scene.GetEmbeddedTexture(name.C_Str());
   if (!inside) {
     part.picture = find_picture(path, name.C_Str());
@@ -49,6 +60,10 @@ void paint(PaintedPart& part, const aiScene& scene, const aiMaterial& material, 
     const auto* bytes = reinterpret_cast<const std::uint8_t*>(inside->pcData);
     part.picture_bytes.assign(bytes, bytes + inside->mWidth);
   }
+  if (part.picture.empty())
+    part.missing = name.C_Str();
+  else if (!is_gltf(path))
+    part.color.head<3>().setOnes();  // glTF multiplies; others have any colour beside a picture
 }
 
 }  // namespace

@@ -19,6 +19,7 @@ struct PaintedPart {
   std::vector<Triangle> triangles;
   Eigen::Vector4d color = Eigen::Vector4d(0.7, 0.7, 0.7, 1);  ///< red, green, blue, alpha, 0..1
   std::string picture;                                        ///< path of its picture, or a name; empty: none
+  std::string missing;  ///< what the file calls a picture that is not there, or not to be read; empty: none
   std::vector<std::uint8_t> picture_bytes;  ///< of a file that holds its pictures itself: as a PNG or JPEG file
 };
 

@@ -134,6 +134,9 @@ void Scene::add_mesh(Connector& c, const Shape& shape, Piece piece, Look look) {
       else if (!part.picture.empty())
         s.picture = picture_of(c, part.picture, part.picture_bytes);
       known->second.push_back({keep(std::move(s)), part.color.head<3>()});
+      if (by_file && !part.missing.empty())
+        c.host().log(LogLevel::warning, "mesh " + path + ": its picture `" + part.missing +
+                                            "` is not there, or not PNG or JPEG; what it covers is plain");
     }
   } else if (fresh) {
     known->second.push_back({keep(surface_of(mesh::load(path, shape.size))), Vec3::Ones()});

@@ -24,7 +24,8 @@ std::pair<Vec3, Vec3> across(const Vec3& d) {
 
 }  // namespace
 
-Beam::Beam(double divergence) : tangent_(outer_part * std::tan(0.5 * (divergence > 0 ? divergence : thin))) {
+Beam::Beam(double divergence)
+    : is_line_(divergence <= 0), tangent_(outer_part * std::tan(0.5 * (divergence > 0 ? divergence : thin))) {
   for (std::size_t k = 0; k < around_.size(); ++k) {
     const double a = double(k) * std::numbers::pi / 3;
     around_[k] = tangent_ * Eigen::Vector2d(std::cos(a), std::sin(a));
@@ -48,6 +49,7 @@ RaySet Beam::widened(const RaySet& set) const {
 
 Beam::Reading Beam::read(const double* ranges, double nothing_from) const {
   Reading r{.range = nothing_from};
+  if (is_line_ && ranges[0] >= nothing_from) return r;
   double light = 0, sum = 0, nearest = nothing_from;
   for (std::uint32_t k = 0; k < rays; ++k) {
     if (ranges[k] >= nothing_from) continue;
@@ -57,7 +59,7 @@ Beam::Reading Beam::read(const double* ranges, double nothing_from) const {
     if (ranges[k] < nearest) nearest = ranges[k], r.main = k;
   }
   if (light <= 0) return r;
-  r.range = sum / light;
+  r.range = is_line_ ? ranges[0] : sum / light;
   if (ranges[0] < nothing_from) r.main = 0;
 
   // On a plane 1 / (depth along the middle) is linear in the place on the plane at distance 1. Each triangle of the

@@ -17,6 +17,7 @@ class Beam {
   static constexpr std::uint32_t rays = 7;
 
   /// `divergence`: rad, the full angle of the cone; the rays around the middle stand for the outer part of its area.
+  /// With 0 a reading is that of the middle alone, and the others tell its incidence.
   explicit Beam(double divergence);
 
   /// Every ray of `set` becomes seven, one behind the other.
@@ -31,6 +32,7 @@ class Beam {
   Reading read(const double* ranges, double nothing_from) const;
 
  private:
+  bool is_line_;
   double tangent_;                                  ///< of the angle between the middle and the rays around it
   std::array<Eigen::Vector2d, rays - 1> around_{};  ///< their places on the plane at distance 1
 };

@@ -62,6 +62,14 @@ TEST(ABeam, MixesBothSidesOfAnEdgeByTheLightThatComesBack) {
   EXPECT_EQ(beam.read(ranges, nothing).main, 0u);
 }
 
+TEST(ABeam, ThatIsALineReadsItsMiddleAloneThoughItTellsItsIncidence) {
+  const Beam line(0);
+  const double ranges[] = {4, 2, 2, 2, 4, 4, 4};
+  EXPECT_EQ(line.read(ranges, nothing).range, 4);
+  const double past[] = {nothing, 2, 2, 2, 2, 2, 2};
+  EXPECT_EQ(line.read(past, nothing).range, nothing);
+}
+
 TEST(ABeam, ReadsAnEdgeBeforeNothingAsTheEdge) {
   const Beam beam(0.01);
   const double ranges[] = {nothing, nothing, 4, nothing, nothing, nothing, nothing};

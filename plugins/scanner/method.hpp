@@ -32,7 +32,7 @@ class Method {
   /// A snapshot has replaced the properties. [between steps]
   virtual void restored() {}
 
-  /// Before the first rays of a run: where one of so many scanners looks from. [step, one thread]
+  /// Before the rays of each step: where one of so many scanners looks from. [step, one thread]
   virtual void begin(const View& example, std::size_t scanners) {
     static_cast<void>(example);
     static_cast<void>(scanners);

@@ -37,6 +37,8 @@ inline constexpr Use writes[] = {
     {"laser.hits", "hits: true: the object that each ray meets"},
     {"laser.incidence", "incidence: true: between each ray and the surface's normal"},
     {"laser.sweep.ranges", "sweep_steps: the scan that is being taken"},
+    {"laser.sweep.incidence", "sweep_steps and incidence: likewise"},
+    {"laser.sweep.hits", "sweep_steps and hits: likewise"},
     {"laser.sweep.pose", "sweep_steps: where the device was at the step before"},
     {"laser.min_angle", "constant"},
     {"laser.angle_increment", "constant; 0 for a list of directions"},

@@ -89,7 +89,11 @@ void Scanner::read_pattern(const Parameters& p) {
     return;
   }
   const std::span<const double> pairs = read_directions(p);
-  grid_ = {.min_angle = pairs[0], .max_angle = pairs[0], .columns = std::uint32_t(pairs.size() / 2)};
+  grid_ = {.min_angle = pairs[0],
+           .max_angle = pairs[0],
+           .columns = std::uint32_t(pairs.size() / 2),
+           .min_elevation = pairs[1],
+           .max_elevation = pairs[1]};
 }
 
 void Scanner::bind(Connector& c, const Item& item) {
@@ -159,8 +163,7 @@ bool Scanner::takes_rays(std::uint64_t index) const {
 
 void Scanner::step(const Step& step, Range range) {
   if (step.phase == 0) {
-    if (!begun_ && !devices_.empty()) method_->begin(view_of(devices_.front()), devices_.size());
-    begun_ = true;
+    if (!devices_.empty()) method_->begin(view_of(devices_.front()), devices_.size());
     if (takes_rays(step.index)) method_->look();
     if (method_->is_parallel()) return;
     for (const Device& d : devices_) serve(d, step.index);

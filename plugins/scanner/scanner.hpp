@@ -19,10 +19,7 @@ class Scanner : public Algorithm {
   explicit Scanner(std::unique_ptr<Method> method) : method_(std::move(method)) {}
 
   void connect(Connector& c) override;
-  void start() override {
-    method_->start();
-    begun_ = false;
-  }
+  void start() override { method_->start(); }
   void restored() override { method_->restored(); }
   std::span<const Phase> phases() const override;
   void step(const Step& step, Range range) override;
@@ -65,7 +62,6 @@ class Scanner : public Algorithm {
   std::optional<Sweep> sweep_;
   Pose mounting_;
   double min_range_ = 0, max_range_ = 0;
-  bool begun_ = false;
 };
 
 }  // namespace muro::scanner

@@ -21,7 +21,8 @@ struct LiveProperty {
 struct LiveCost {
   std::string_view name;  ///< "rovers.motion"
   std::uint64_t runs = 0;
-  double seconds = 0;  ///< of the wall clock, over all threads
+  double seconds = 0;     ///< of the wall clock, over all threads
+  bool is_alone = false;  ///< of an algorithm that promises to be alone: it may hold waiting as well
 };
 
 /// An ability of hosts. For algorithms that promise to be alone, in their steps: nothing else runs then. Views are good
@@ -34,10 +35,13 @@ class Inspection {
   virtual std::span<const LiveProperty> properties(ObjectId object) noexcept = 0;
   virtual std::span<const LiveCost> costs() noexcept = 0;
   virtual std::uint32_t object_count() const noexcept = 0;
+  /// "?" where there is none.
   virtual std::string_view object_name(ObjectId object) const noexcept = 0;
   virtual std::string_view text(TextId id) const noexcept = 0;
-  /// Ends the run after this instant. [step]
+  /// Ends the run soon, a few instants later. [step]
   virtual void stop() noexcept = 0;
+  /// Whether the run is to end, by whatever: a step that waits goes on then. [step]
+  virtual bool is_stopping() const noexcept = 0;
 
   /// The host's, or null where it has none. [setup]
   static Inspection* of(Host& host) { return static_cast<Inspection*>(host.ability(ability)); }

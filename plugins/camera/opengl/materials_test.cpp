@@ -136,6 +136,14 @@ TEST(AMesh, HasTheColourOfItsMaterialUnlessTheModelSaysAnother) {
   }
 }
 
+TEST(AMesh, WhosePictureIsMissingHasItsColourAndIsTold) {
+  const Square square;
+  Studio s;
+  s.look_at(mesh_of(s, square.obj("Kd 0 0 1\nmap_Kd gone.png\n")), {{2, 0, 1}, Quat::Identity()});
+  EXPECT_NE(s.warnings.find("its picture `gone.png` is not there"), std::string::npos) << s.warnings;
+  EXPECT_EQ(s.color(50, 50), "blue");
+}
+
 TEST(AMesh, HasThePictureThatTheModelGivesIt) {
   const Square square;
   Studio s;

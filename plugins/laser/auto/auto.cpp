@@ -22,6 +22,8 @@ constexpr auto parameters = scanner::joined(scanner::parameters, own);
 constexpr Use reads[] = {{"pose", "of the sensor's object and of all bodies that are seen"},
                          {"collision.shapes", "of all bodies"},
                          {"scene.index", "of the world"}};
+constexpr Use chosen[] = {{"laser.method", "1: raycast, 2: zbuffer, 3: embree; 0: not chosen yet"}};
+constexpr auto writes = scanner::joined(scanner::writes, chosen);
 constexpr Description description{
     .id = "laser.auto",
     .kind = Kind::sensor,
@@ -29,7 +31,7 @@ constexpr Description description{
     .summary = "A laser scanner by the fastest of the other methods, measured at the start in the scene as it is",
     .parameters = parameters,
     .reads = reads,
-    .writes = scanner::writes,
+    .writes = writes,
     .promises = batched | restorable,
 };
 

@@ -72,13 +72,14 @@ void Choice::leave_out(std::string_view name, const std::string& reason) {
 void Choice::prepare(std::span<const scanner::RaySet> sets, double min_range, double max_range) {
   if (sets.size() > 1) leave_out("zbuffer", "draws too much for scans that take their time ray by ray");
   rays_ = sets[0].size();
-  for (const Candidate& c : candidates_) c.method->prepare(sets, min_range, max_range);
+  try_all([&](Method& m) { m.prepare(sets, min_range, max_range); });
 }
 
-void Choice::start() {
+/// Leaves out what fails.
+void Choice::try_all(const std::function<void(Method&)>& work) {
   for (std::size_t i = 0; i < candidates_.size();) {
     try {
-      candidates_[i].method->start();
+      work(*candidates_[i].method);
       ++i;
     } catch (const Error& e) {
       if (candidates_.size() == 1) throw;
@@ -87,7 +88,16 @@ void Choice::start() {
   }
 }
 
+void Choice::start() {
+  try_all([](Method& m) { m.start(); });
+}
+
 void Choice::restored() {
+  const std::uint32_t number = *number_.front();
+  const auto is_it = [&](const Candidate& c) { return number_of(c.name) == number; };
+  if (number != 0 && std::none_of(candidates_.begin(), candidates_.end(), is_it))
+    throw Error("the snapshot was taken with the method " + std::string(names[std::min<std::size_t>(number, 3)]) +
+                ", which is not available here");
   for (const Candidate& c : candidates_) c.method->restored();
 }
 
@@ -114,9 +124,9 @@ double Choice::seconds_of(Method& method, const scanner::View& example, std::siz
 void Choice::begin(const scanner::View& example, std::size_t scanners) {
   if (*number_.front() != 0) return;
   if (measured_ == 0) {
+    if (candidates_.size() > 1) try_all([&](Method& m) { find(m).seconds = seconds_of(m, example, scanners); });
     std::string figures;
-    for (Candidate& c : candidates_) {
-      if (candidates_.size() > 1) c.seconds = seconds_of(*c.method, example, scanners);
+    for (const Candidate& c : candidates_) {
       figures += (figures.empty() ? "" : ", ") + std::string(c.name) + " " + microseconds(c.seconds);
     }
     const auto faster = [](const Candidate& a, const Candidate& b) { return a.seconds < b.seconds; };
@@ -128,6 +138,11 @@ void Choice::begin(const scanner::View& example, std::size_t scanners) {
                                      std::string(best) + "` would fix");
   }
   for (const Out<std::uint32_t>& number : number_) *number = measured_;
+}
+
+Choice::Candidate& Choice::find(const Method& method) {
+  const auto is_it = [&](const Candidate& c) { return c.method.get() == &method; };
+  return *std::find_if(candidates_.begin(), candidates_.end(), is_it);
 }
 
 scanner::Method& Choice::taken() const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -30,6 +31,8 @@ class Choice final : public scanner::Method {
     double seconds = 0;  ///< that a scan of every scanner takes
   };
 
+  void try_all(const std::function<void(Method&)>& work);
+  Candidate& find(const Method& method);
   void leave_out(std::string_view name, const std::string& reason);
   double seconds_of(Method& method, const scanner::View& example, std::size_t scanners) const;
   scanner::Method& taken() const;

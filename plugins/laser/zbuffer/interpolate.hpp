@@ -12,6 +12,8 @@ using EightFlags = std::int32_t __attribute__((vector_size(32)));
 
 #define MURO_ALWAYS inline __attribute__((always_inline))
 
+MURO_ALWAYS float nought(const float&) { return 0; }
+MURO_ALWAYS Eight nought(const Eight&) { return Eight{}; }
 MURO_ALWAYS float select(bool which, const float& a, const float& b) { return which ? a : b; }
 MURO_ALWAYS Eight select(const EightFlags& which, const Eight& a, const Eight& b) { return which ? a : b; }
 
@@ -22,7 +24,7 @@ MURO_ALWAYS Eight select(const EightFlags& which, const Eight& a, const Eight& b
 /// that is asked for. S is float or Eight.
 template <class S>
 MURO_ALWAYS S between(const S& a, const S& b, const S& c, const S& d, const S& f) {
-  const S none = a - a, one = none + 1;
+  const S none = nought(a), one = none + 1;
   const S before = b - a, step = c - b, after = d - c;
   const S before_size = select(before < none, -before, before), after_size = select(after < none, -after, after);
   const S step_size = select(step < none, -step, step);

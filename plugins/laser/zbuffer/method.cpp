@@ -10,7 +10,9 @@ namespace muro::zbuffer {
 
 namespace {
 
-constexpr double chord = 2e-4;               ///< m: how far circles lie inside of themselves
+constexpr double chord = 2e-4;  ///< m: how far circles lie inside of themselves
+/// m along the axis of a picture. What is nearer than this is not drawn; the precision of depths does not depend on it.
+constexpr double nearest = 1e-3;
 constexpr std::uint32_t most_pixels = 8192;  ///< along a side, which every OpenGL 4.5 can draw
 
 Extent extent_of(const render::Camera& c) {
@@ -36,15 +38,14 @@ void ZBuffer::connect(Connector& c) {
   scene_.connect(c, render::Look::as_collides, chord);
 }
 
-void ZBuffer::prepare(std::span<const scanner::RaySet> sets, double min_range, double max_range) {
-  near_ = std::clamp(0.5 * min_range, 1e-3, 0.05);
+void ZBuffer::prepare(std::span<const scanner::RaySet> sets, double, double max_range) {
   for (const scanner::RaySet& set : sets) {
     Picture p;
     p.views = Views::of(set, supersampling_);
     p.columns = set.rows > 1 ? set.columns : 0;
     p.width = p.views.width();
     for (render::Camera& camera : p.views.cameras) {
-      camera.near = near_;
+      camera.near = nearest;
       camera.far = max_range;
       p.tops.push_back(p.height);
       p.height += camera.height;
@@ -160,7 +161,7 @@ void ZBuffer::cast(std::size_t set, const scanner::View& view, std::span<double>
       sample(extent_of(camera), inverse_.data(), stride, s, found_.data());
     for (std::size_t i = 0; i < s.size(); ++i) {
       const double inverse = double(found_[i]);
-      const double range = inverse > 0 ? near_ / inverse * s.per_depth[i] : view.max_range;
+      const double range = inverse > 0 ? nearest / inverse * s.per_depth[i] : view.max_range;
       ranges[s.ray[i]] = std::clamp(range, view.min_range, view.max_range);
       if (!hits.empty())
         hits[s.ray[i]] = range < view.max_range ? ObjectId(labels_[std::size_t(s.nearest[i])]) : no_object;

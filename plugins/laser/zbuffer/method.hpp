@@ -54,7 +54,6 @@ class ZBuffer final : public scanner::Method {
   render::Scene scene_;
   std::vector<Picture> pictures_;
   std::uint32_t width_ = 1, height_ = 1;  ///< that hold any picture
-  double near_ = 0;                       ///< m
   bool moved_ = true;                     ///< since the stage was placed
   std::optional<render::Context> context_;
   std::optional<render::Stage> stage_;

@@ -62,7 +62,8 @@ void Overlay::add_scan(Inspection& simulation, ObjectId sensor, render::Lines& l
   const std::size_t every = 1 + ranges.size() / shown;
   const std::size_t fan = std::max<std::size_t>(every, ranges.size() / 90);
   for (std::size_t i = 0; i < ranges.size(); i += every) {
-    const double a = first + double(i % columns) * increment, e = low + double(i / columns) * step;
+    const std::size_t row = i / columns;
+    const double a = first + double(i % columns) * increment, e = low + double(row) * step;
     const Vec3 way(std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e));
     const Vec3 end = device * Vec3(ranges[i] * way);
     const bool hit = ranges[i] < most;

@@ -34,6 +34,8 @@ class Pace {
     speed_ = speed;
     begun_ = false;
   }
+  /// Simulated time has jumped.
+  void begin_anew() { begun_ = false; }
   /// Lets a paused run go on to the next frame.
   void step() { stepping_ = paused_ = true; }
 

@@ -26,8 +26,7 @@ void text(std::string_view s) { ImGui::TextUnformatted(s.data(), s.data() + s.si
 
 }  // namespace
 
-void Panels::connect(Connector& c, std::string_view own_name) {
-  own_name_ = own_name;
+void Panels::connect(Connector& c) {
   for (const RobotView* robot : c.robots()) groups_.push_back({std::string(robot->name), {}});
   groups_.push_back({"scenery", {}});
   for (std::uint32_t i = 0; i < c.object_count(); ++i) {
@@ -202,7 +201,7 @@ void Panels::draw_costs(Inspection& simulation, double simulated) {
   place(margin, size.y - cost_height - margin, width, cost_height);
   ImGui::Begin("cost: ms of computing for each simulated second", nullptr, fixed);
   std::vector<LiveCost> costs(simulation.costs().begin(), simulation.costs().end());
-  std::erase_if(costs, [&](const LiveCost& c) { return c.name == own_name_; });
+  std::erase_if(costs, [](const LiveCost& c) { return c.is_alone; });
   std::sort(costs.begin(), costs.end(), [](const LiveCost& a, const LiveCost& b) { return a.seconds > b.seconds; });
   const double most = costs.empty() ? 1 : std::max(costs.front().seconds, 1e-9);
   for (const LiveCost& c : costs) {

@@ -20,7 +20,9 @@ class Panels {
   bool wants_all = false;  ///< the whole scene is to be seen
 
   /// Remembers the tree of robots. [setup]
-  void connect(Connector& c, std::string_view own_name);
+  void connect(Connector& c);
+  /// Simulated time has jumped.
+  void begin_anew() { last_wall_ = last_simulated_ = 0; }
   /// Draws all and does what buttons and keys say. `simulated`, `wall`: s.
   void draw(Inspection& simulation, Pace& pace, Eye& eye, Overlay& overlay, double simulated, double wall);
   void press(Key key, Pace& pace, Eye& eye);
@@ -40,7 +42,6 @@ class Panels {
   void edit(const LiveProperty& property);
 
   std::vector<Group> groups_;
-  std::string own_name_;
   std::array<char, 64> filter_{};
   double last_simulated_ = 0, last_wall_ = 0, factor_ = 0;
 };

@@ -19,6 +19,8 @@ namespace muro::view {
 
 namespace {
 
+bool is_open = false;  ///< GLFW and ImGui know one thread and one window of ours
+
 [[noreturn]] void fail(const std::string& what) {
   const char* words = nullptr;
   glfwGetError(&words);
@@ -31,6 +33,7 @@ namespace {
 }  // namespace
 
 Screen::Screen(const std::string& title, int width, int height) {
+  if (is_open) throw Error("a program has one window; remove all algorithms view.window but one");
   glfwSetErrorCallback(nullptr);
   if (!glfwInit()) fail("there is no display to open a window on");
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
@@ -55,9 +58,11 @@ Screen::Screen(const std::string& title, int width, int height) {
   ImGui_ImplGlfw_InitForOpenGL(window_, true);
   ImGui_ImplOpenGL3_Init("#version 450");
   glfwMakeContextCurrent(nullptr);
+  is_open = true;
 }
 
 Screen::~Screen() {
+  is_open = false;
   glfwMakeContextCurrent(window_);
   ImGui_ImplOpenGL3_Shutdown();
   ImGui_ImplGlfw_Shutdown();

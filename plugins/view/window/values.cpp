@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <limits>
+#include <type_traits>
 
 namespace muro::view {
 
@@ -19,7 +21,14 @@ double read(const std::byte* at) {
 
 template <class T>
 void write(std::byte* at, double number) {
-  const auto value = T(number);
+  T value{};
+  if constexpr (std::is_integral_v<T>) {
+    // the greatest double that the type holds, and no NaN
+    const double most = std::nextafter(std::ldexp(1.0, std::numeric_limits<T>::digits), 0.0);
+    value = std::isnan(number) ? T(0) : T(std::clamp(number, double(std::numeric_limits<T>::lowest()), most));
+  } else {
+    value = T(number);
+  }
   std::memcpy(at, &value, sizeof value);
 }
 
@@ -45,7 +54,7 @@ double read(Scalar kind, const std::byte* at) {
 }
 
 void write(Scalar kind, std::byte* at, double number) {
-  const double whole = std::round(number), natural = std::max(0.0, whole);
+  const double whole = std::round(number);
   switch (kind) {
     case Scalar::f64:
       return write<double>(at, number);
@@ -56,11 +65,11 @@ void write(Scalar kind, std::byte* at, double number) {
     case Scalar::i32:
       return write<std::int32_t>(at, whole);
     case Scalar::u64:
-      return write<std::uint64_t>(at, natural);
+      return write<std::uint64_t>(at, whole);
     case Scalar::u32:
-      return write<std::uint32_t>(at, natural);
+      return write<std::uint32_t>(at, whole);
     case Scalar::u8:
-      return write<std::uint8_t>(at, std::min(natural, 255.0));
+      return write<std::uint8_t>(at, whole);
     default:
       return;
   }
@@ -102,10 +111,12 @@ std::string in_short(const LiveProperty& p, const Inspection& simulation) {
     char number[32];
     std::snprintf(number, sizeof number, "%.5g", values.get(i));
     std::string shown = number;
-    const auto id = std::uint32_t(values.get(i));
-    if (type == "muro.ObjectId")
-      shown = ObjectId(id) == no_object ? "none" : std::string(simulation.object_name(ObjectId(id)));
-    if (type == "muro.TextId") shown = simulation.text(TextId(id));
+    if (type == "muro.ObjectId") {
+      const ObjectId id{std::uint32_t(values.get(i))};
+      shown = id == no_object ? "none" : std::string(simulation.object_name(id));
+    } else if (type == "muro.TextId") {
+      shown = simulation.text(TextId(std::uint32_t(values.get(i))));
+    }
     text += (i > 0 ? ", " : "") + shown;
   }
   if (values.size() > most) text += ", ... (" + std::to_string(p.count) + ")";

@@ -77,14 +77,17 @@ class Window final : public Algorithm {
     period_ = 1 / p.real("pictures");
     pace_ = {p.real("speed"), p.boolean("paused")};
     if (!p.text("picture").empty()) picture_ = std::filesystem::absolute(std::string(p.text("picture"))).string();
-    if (const std::string name(p.text("follow")); !name.empty()) choose(c, name);
+    if (const std::string name(p.text("follow")); !name.empty()) {
+      if (p.given("from")) throw Error("follow and from are both given: the eye is behind what it follows; remove one");
+      choose(c, name);
+    }
     if (p.given("from")) eye_.look_from(vector(p.reals("from")), vector(p.reals("to")));
     looks_at_all_ = !p.given("from") && panels_.chosen == no_object;
     simulation_ = Inspection::of(c.host());
     if (!simulation_) throw Error("this host does not show its simulation to windows");
     scene_.connect(c, render::Look::as_seen, chord);
     overlay_.connect(c);
-    panels_.connect(c, "view");
+    panels_.connect(c);
     for (const RobotView* robot : c.robots())
       for (const Frame& f : robot->frames) bodies_.push_back({c.read(f.object, keys::pose), f.object});
     for (std::uint32_t i = 0; i < c.object_count(); ++i)
@@ -94,7 +97,13 @@ class Window final : public Algorithm {
             bodies_.push_back({c.read(ObjectId(i), keys::pose), ObjectId(i)});
   }
 
+  void restored() override {
+    pace_.begin_anew();
+    panels_.begin_anew();
+  }
+
   void start() override {
+    restored();
     if (!screen_) screen_.emplace("muro", size_[0], size_[1]);
     begun_ = Clock::now();
     next_frame_ = 0;
@@ -117,9 +126,9 @@ class Window final : public Algorithm {
         // Half of the time at most goes into pictures: where they take long, fewer are shown.
         next_frame_ = std::max(now + period_, wall() + (wall() - now));
         if (screen_->is_closed()) return simulation_->stop();
-        if (!may_go_on) continue;
+        if (!may_go_on && !simulation_->is_stopping()) continue;
       }
-      if (may_go_on) return;
+      if (may_go_on || simulation_->is_stopping()) return;
       std::this_thread::sleep_for(std::chrono::microseconds(500));
     }
   }
@@ -146,7 +155,8 @@ class Window final : public Algorithm {
     for (const RobotView* robot : c.robots())
       if (robot->name == name) panels_.chosen = robot->base();
     if (panels_.chosen == no_object) panels_.chosen = c.find_object(name);
-    if (panels_.chosen == no_object) throw Error("follow names `" + name + "`, which is neither a robot nor an object");
+    if (panels_.chosen == no_object || c.robot_of(panels_.chosen) < 0)
+      throw Error("follow names `" + name + "`, which is neither a robot nor a part of one");
     eye_.mode = Eye::Mode::follow;
     starts_behind_ = true;
   }

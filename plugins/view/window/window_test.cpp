@@ -99,6 +99,7 @@ struct Show : test::Scene {
     Settings settings{
         {"width", std::int64_t(width)},           {"height", std::int64_t(height)},       {"speed", 0.0},
         {"from", std::vector<double>{6, 0, 1.3}}, {"to", std::vector<double>{0, 0, 0.6}}, {"picture", picture()}};
+    if (more.count("follow") > 0) settings.erase("from"), settings.erase("to");
     for (const auto& [name, value] : more) settings[name] = value;
     use("motion.point", 100, all_robots());
     use_kinematics();
@@ -251,7 +252,7 @@ TEST_F(TheWindow, ExplainsWhatIsWrongWithItsParameters) {
     }
     return {};
   };
-  EXPECT_NE(complaint({{"follow", std::string("nobody")}}).find("`nobody`, which is neither a robot nor an object"),
+  EXPECT_NE(complaint({{"follow", std::string("nobody")}}).find("`nobody`, which is neither a robot nor a part of one"),
             std::string::npos);
   EXPECT_NE(complaint({{"from", std::vector<double>{1, 2}}}).find("three numbers"), std::string::npos);
 }

@@ -69,7 +69,10 @@ Difference compare(Room& s, std::size_t tried, std::size_t exact, const Bound& b
     }
     const double allowed = bound.absolute + bound.relative * middle;
     const bool smooth = high - low < 0.05 * middle;
-    if (smooth) d.worst = std::max(d.worst, error - allowed - (bound.blur > 0 ? high - low : 0));
+    // between pixels a curve is taken for its chord
+    const auto bend = [&](std::size_t a, std::size_t b) { return std::abs(1 / r[a] - 2 / middle + 1 / r[b]); };
+    const double curved = bound.blur > 0 ? middle * middle * std::max(bend(10, 14), bend(2, 22)) : 0;
+    if (smooth) d.worst = std::max(d.worst, error - allowed - curved);
     if (!smooth && nearest > allowed + 0.03 * middle) d.made_up += one;
     if (read[i] < low - allowed - 0.01 * low || read[i] > high + allowed + 0.01 * high) d.outside += one;
     if (error > 0.01) d.off += one;

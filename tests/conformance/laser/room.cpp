@@ -61,6 +61,8 @@ void Room::scatter(unsigned seed, int count) {
 std::size_t Room::add_laser(const std::string& method, const Settings& settings) {
   sensors_.push_back(add_sensor_object(*carrier, "laser" + std::to_string(sensors_.size()), carrier->base()));
   lasers_.push_back({method, with({{"max_range", 20.0}}, settings)});
+  // what it is by itself depends on the machine: auto_test.cpp
+  if (method == "laser.auto") lasers_.back().settings.try_emplace("method", std::string("raycast"));
   if (method == "laser.zbuffer" || method == "laser.auto") lasers_.back().settings["device"] = std::string("software");
   return sensors_.size() - 1;
 }
