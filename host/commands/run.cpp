@@ -86,7 +86,9 @@ ScenarioOptions with_view(const RunOptions& options, const Registry& registry) {
         "--view needs the plugin view.window, which is not there; install libglfw3-dev, libimgui-dev, libepoxy-dev, "
         "libegl-dev and libstb-dev, and build muro again");
   ScenarioOptions scenario = options.scenario;
-  const Scenario as_it_is = read_scenario(scenario.file, scenario.overrides);
+  std::vector<std::string> others = scenario.overrides;
+  std::erase_if(others, [](const std::string& o) { return o.starts_with("algorithms.view."); });
+  const Scenario as_it_is = read_scenario(scenario.file, others);
   for (const Subsystem& s : as_it_is.algorithms)
     if (s.use == "view.window") return scenario;
   const double speed = options.speed.empty() ? 1 : pacing_factor(options.speed);

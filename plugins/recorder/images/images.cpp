@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Writes what cameras see to PNG files; see README.md.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 
 #include "muro/plugin.hpp"
 #include "plugins/picture_file/png.hpp"
@@ -12,37 +14,43 @@ namespace {
 using namespace muro;
 namespace fs = std::filesystem;
 
+constexpr std::string_view formats[] = {"png", "raw"};
 constexpr Parameter parameters[] = {
     text("folder", "", "where to write; a relative path starts in the working directory").must_be_given(),
-    texts("cameras", "names of sensors, \"rover_0/camera\"; default: all that write camera.image or camera.depth"),
+    texts("cameras", "names of sensors, \"rover_0/camera\"; default: all cameras"),
+    text("format", "png", "png, or raw: the bytes of the properties as they are").one_of(formats),
 };
-constexpr Use reads[] = {{"camera.image", "of the cameras"}, {"camera.depth", "of the cameras"}};
+constexpr Use reads[] = {
+    {"camera.image", "of the cameras"}, {"camera.depth", "of the cameras"}, {"camera.labels", "of the cameras"}};
 constexpr Description description{
     .id = "recorder.images",
     .kind = Kind::recorder,
-    .version = "1.0.0",
-    .summary = "Writes pictures and depths of cameras to PNG files, one for each run",
+    .version = "1.1.0",
+    .summary = "Writes pictures, depths and labels of cameras to files, PNG or raw, one for each run",
     .parameters = parameters,
     .reads = reads,
     .promises = deterministic | restorable,
 };
 
 constexpr double depth_step = 1e-3;  ///< m: a grey value of depth
+constexpr std::uint32_t no_object_grey = 65535;
 
 class ImageRecorder final : public Algorithm {
  public:
   void connect(Connector& c) override {
     const Parameters& p = c.parameters();
     folder_ = fs::absolute(std::string(p.text("folder")));
+    raw_ = p.text("format") == "raw";
     const auto names = p.texts("cameras");
     if (names.empty())
       for (std::uint32_t i = 0; i < c.object_count(); ++i) add_camera(c, ObjectId{i});
     for (const std::string_view name : names) {
       const ObjectId object = c.find_object(name);
       if (object == no_object || !add_camera(c, object))
-        throw Error("there is no camera `" + std::string(name) + "` that writes camera.image or camera.depth");
+        throw Error("there is no camera `" + std::string(name) +
+                    "` that writes camera.image, camera.depth or camera.labels");
     }
-    if (cameras_.empty()) throw Error("no sensor of the scenario writes camera.image or camera.depth");
+    if (cameras_.empty()) throw Error("no sensor of the scenario writes camera.image, camera.depth or camera.labels");
   }
 
   void start() override {
@@ -55,15 +63,10 @@ class ImageRecorder final : public Algorithm {
     char time[32];
     std::snprintf(time, sizeof time, "_%012.6f", 1e-9 * double(step.time));
     for (Camera& camera : cameras_) {
-      if (camera.image) write(camera, time + std::string(".png"), picture_file::Format::rgb8, (*camera.image).data());
-      if (!camera.depth) continue;
-      const std::span<const float> depth = *camera.depth;
-      camera.grey.resize(depth.size());
-      for (std::size_t k = 0; k < depth.size(); ++k) {
-        const double value = double(depth[k]) / depth_step;
-        camera.grey[k] = value < 65535 ? std::uint16_t(std::lround(value)) : 0;
-      }
-      write(camera, "_depth" + std::string(time) + ".png", picture_file::Format::grey16, camera.grey.data());
+      if (raw_)
+        write_raw(camera, time);
+      else
+        write_pngs(camera, time);
     }
   }
 
@@ -73,8 +76,44 @@ class ImageRecorder final : public Algorithm {
     std::uint32_t width = 0, height = 0;
     ArrayIn<std::uint8_t> image;
     ArrayIn<float> depth;
+    ArrayIn<ObjectId> labels;
     std::vector<std::uint16_t> grey;
   };
+
+  void write_pngs(Camera& camera, const std::string& time) const {
+    using picture_file::Format;
+    if (camera.image) write(camera, time + ".png", Format::rgb8, (*camera.image).data());
+    const auto write_grey = [&](const char* what, auto values, auto grey_of) {
+      camera.grey.resize(values.size());
+      for (std::size_t k = 0; k < values.size(); ++k) camera.grey[k] = grey_of(values[k]);
+      write(camera, what + time + ".png", Format::grey16, camera.grey.data());
+    };
+    if (camera.depth)
+      write_grey("_depth", *camera.depth, [](float depth) {
+        const double value = double(depth) / depth_step;
+        return value < no_object_grey ? std::uint16_t(std::lround(value)) : std::uint16_t(0);
+      });
+    if (camera.labels)
+      write_grey("_labels", *camera.labels,
+                 [](ObjectId label) { return std::uint16_t(std::min(index_of(label), no_object_grey)); });
+  }
+
+  void write_raw(const Camera& camera, const std::string& time) const {
+    if (camera.image) write_bytes(camera, time + ".rgb8", std::as_bytes(*camera.image));
+    if (camera.depth) write_bytes(camera, "_depth" + time + ".f32", std::as_bytes(*camera.depth));
+    if (camera.labels) write_bytes(camera, "_labels" + time + ".u32", std::as_bytes(*camera.labels));
+  }
+
+  /// Under another name first, so that no file is ever half written.
+  void write_bytes(const Camera& camera, const std::string& ending, std::span<const std::byte> bytes) const {
+    const fs::path path = folder_ / (camera.name + ending), part = path.string() + ".part";
+    std::ofstream file(part, std::ios::binary);
+    file.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
+    file.close();
+    std::error_code code;
+    if (file) fs::rename(part, path, code);
+    if (!file || code) throw Error("the picture `" + path.string() + "` cannot be written");
+  }
 
   bool add_camera(Connector& c, ObjectId object) {
     Camera camera;
@@ -83,8 +122,10 @@ class ImageRecorder final : public Algorithm {
           found.key->name == keys::camera_image.name ? c.read_array(object, keys::camera_image) : camera.image;
       camera.depth =
           found.key->name == keys::camera_depth.name ? c.read_array(object, keys::camera_depth) : camera.depth;
+      camera.labels =
+          found.key->name == keys::camera_labels.name ? c.read_array(object, keys::camera_labels) : camera.labels;
     }
-    if (!camera.image && !camera.depth) return false;
+    if (!camera.image && !camera.depth && !camera.labels) return false;
     camera.name = c.object_name(object);
     for (char& letter : camera.name)
       if (letter == '/') letter = '_';
@@ -99,6 +140,7 @@ class ImageRecorder final : public Algorithm {
   }
 
   fs::path folder_;
+  bool raw_ = false;
   std::vector<Camera> cameras_;
 };
 
@@ -106,5 +148,5 @@ constexpr abi::AlgorithmEntry algorithms[] = {algorithm<ImageRecorder>(descripti
 
 }  // namespace
 
-MURO_PLUGIN(.name = "recorder_images", .version = "1.0.0", .licence = "MIT", .summary = "Pictures of cameras to files",
+MURO_PLUGIN(.name = "recorder_images", .version = "1.1.0", .licence = "MIT", .summary = "Pictures of cameras to files",
             .algorithms = algorithms)

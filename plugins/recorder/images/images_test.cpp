@@ -72,6 +72,19 @@ TEST(Images, OfDepthAreMillimetres) {
   for (const std::uint16_t value : grey) EXPECT_EQ(value, 2000);
 }
 
+TEST(Images, RawAreTheBytesOfTheProperties) {
+  const test::ScratchFolder folder;
+  Scene s;
+  s.record({{"folder", folder.path("pictures")}, {"format", std::string("raw")}});
+  s.run_for(0.1);
+  const std::string image = test::text_of(folder.path("pictures/carrier_camera_00000.000000.rgb8"));
+  const auto seen = s.world().values(s.camera, keys::camera_image);
+  ASSERT_EQ(image.size(), seen.size());
+  EXPECT_EQ(image.compare(0, image.size(), reinterpret_cast<const char*>(seen.data()), seen.size()), 0);
+  EXPECT_EQ(test::text_of(folder.path("pictures/carrier_camera_depth_00000.000000.f32")).size(),
+            sizeof(float) * width * height);
+}
+
 TEST(Images, OfACameraThatIsNotThereAreAnError) {
   Scene s;
   try {
