@@ -151,7 +151,7 @@ void Panels::edit(const LiveProperty& property) {
     const std::string label = values.label(i);
     ImGui::SetNextItemWidth(130);
     const bool entered = ImGui::InputDouble(label.empty() ? "##value" : label.c_str(), &value, 0, 0, "%.9g",
-                                            ImGuiInputTextFlags_EnterReturnsTrue);
+                                            ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
     if (entered && property.is_variable) values.set(i, value);
     ImGui::PopID();
   }

@@ -229,6 +229,23 @@ TEST_F(TheWindow, ShowsThePropertiesOfWhatIsClickedOn) {
   EXPECT_LT(corner.sum(), 330) << "a panel where the scene was";
 }
 
+TEST_F(TheWindow, ChangesAPropertyThatTheUserEdits) {
+  Show s;
+  s.use_window({{"paused", true}, {"follow", std::string("robot")}});
+  s.world().value(s.robot->base(), keys::command_twist) = {};
+  EXPECT_FALSE(ends_by_itself(s, 0.05, [] {
+    // the fifth row, behind constants of the model, is the pose: opens it, and writes another x
+    click(731, 182);
+    std::this_thread::sleep_for(500ms);
+    click(805, 202);
+    drive("search --name muro windowfocus sleep 0.3");
+    for (const char* key : {"2", "period", "5"}) drive(std::string("key ") + key + " sleep 0.2");
+    drive("keydown Return sleep 1 keyup Return sleep 0.3");
+    click(play_x, controls_y);
+  }));
+  EXPECT_EQ(s.pose(*s.robot).position.x(), 2.5);
+}
+
 TEST_F(TheWindow, SaysWhatToDoWhereThereIsNoDisplay) {
   ::setenv("DISPLAY", ":no-such-display", 1);
   Show s;
