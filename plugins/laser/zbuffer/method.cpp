@@ -12,7 +12,7 @@ namespace {
 
 constexpr double chord = 2e-4;  ///< m: how far circles lie inside of themselves
 /// m along the axis of a picture. What is nearer than this is not drawn; the precision of depths does not depend on it.
-constexpr double nearest = 1e-3;
+constexpr double near_plane = 1e-3;
 constexpr std::uint32_t most_pixels = 8192;  ///< along a side, which every OpenGL 4.5 can draw
 
 Extent extent_of(const render::Camera& c) {
@@ -45,7 +45,7 @@ void ZBuffer::prepare(std::span<const scanner::RaySet> sets, double, double max_
     p.columns = set.rows > 1 ? set.columns : 0;
     p.width = p.views.width();
     for (render::Camera& camera : p.views.cameras) {
-      camera.near = nearest;
+      camera.near = near_plane;
       camera.far = max_range;
       p.tops.push_back(p.height);
       p.height += camera.height;
@@ -161,7 +161,7 @@ void ZBuffer::cast(std::size_t set, const scanner::View& view, std::span<double>
       sample(extent_of(camera), inverse_.data(), stride, s, found_.data());
     for (std::size_t i = 0; i < s.size(); ++i) {
       const double inverse = double(found_[i]);
-      const double range = inverse > 0 ? nearest / inverse * s.per_depth[i] : view.max_range;
+      const double range = inverse > 0 ? near_plane / inverse * s.per_depth[i] : view.max_range;
       ranges[s.ray[i]] = std::clamp(range, view.min_range, view.max_range);
       if (!hits.empty())
         hits[s.ray[i]] = range < view.max_range ? ObjectId(labels_[std::size_t(s.nearest[i])]) : no_object;
