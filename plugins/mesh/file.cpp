@@ -15,12 +15,17 @@ namespace {
 
 /// Files that state an axis that is up, which Assimp then makes y; all others are taken as they are.
 bool comes_with_y_up(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::string ending = File::ending_of(path);
   return ending == ".dae" || ending == ".gltf" || ending == ".glb";
 }
 
 }  // namespace
+
+std::string File::ending_of(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  return ending;
+}
 
 File::File(const std::string& path, const Vec3& scale, unsigned left_out, unsigned steps) {
   const auto fail = [&](const std::string& what) -> Error { return Error("mesh " + path + " " + what); };

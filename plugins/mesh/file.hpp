@@ -22,6 +22,8 @@ class File {
   void each_mesh(Visit visit) const {
     walk(*scene().mRootNode, root_, visit);
   }
+  /// Of a file's name, with its dot, in small letters.
+  static std::string ending_of(const std::string& path);
   const aiScene& scene() const { return *importer_.GetScene(); }
 
  private:

@@ -5,11 +5,11 @@
 #include <assimp/postprocess.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 
 #include "file.hpp"
 #include "muro/algorithm.hpp"
+#include "srgb.hpp"
 
 namespace muro::mesh {
 
@@ -34,12 +34,9 @@ std::string find_picture(const std::string& mesh, std::string name) {
 
 /// Whose colours are linear light.
 bool is_gltf(const std::string& path) {
-  std::string ending = fs::path(path).extension().string();
-  for (char& c : ending) c = char(std::tolower(static_cast<unsigned char>(c)));
+  const std::string ending = File::ending_of(path);
   return ending == ".gltf" || ending == ".glb";
 }
-
-double to_srgb(double light) { return light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055; }
 
 void paint(PaintedPart& part, const aiScene& scene, const aiMaterial& material, const std::string& path) {
   aiColor4D color;
@@ -47,7 +44,7 @@ void paint(PaintedPart& part, const aiScene& scene, const aiMaterial& material, 
       material.Get(AI_MATKEY_COLOR_DIFFUSE, color) == AI_SUCCESS)
     part.color = Eigen::Vector4f(color.r, color.g, color.b, color.a).cast<double>().cwiseMax(0).cwiseMin(1);
   if (is_gltf(path))
-    for (int k = 0; k < 3; ++k) part.color[k] = to_srgb(part.color[k]);
+    for (int k = 0; k < 3; ++k) part.color[k] = srgb_of(part.color[k]);
   aiString name;
   if (material.GetTexture(aiTextureType_BASE_COLOR, 0, &name) != AI_SUCCESS &&
       material.GetTexture(aiTextureType_DIFFUSE, 0, &name) != AI_SUCCESS)

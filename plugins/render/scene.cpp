@@ -124,8 +124,7 @@ void Scene::add_mesh(Connector& c, const Shape& shape, Piece piece, Look look) {
   const bool covered = look == Look::as_seen && !by_file && shape.texture != no_text;
   std::string name = path + (by_file ? " painted" : "");
   if (covered) name += " " + std::string(c.text(shape.texture));
-  for (int k = 0; k < 3; ++k) name += " " + std::to_string(shape.size[k]);
-  const auto [known, fresh] = meshes_.try_emplace(name);
+  const auto [known, fresh] = meshes_.try_emplace({name, shape.size.x(), shape.size.y(), shape.size.z()});
   if (fresh && (by_file || covered)) {
     for (const mesh::PaintedPart& part : mesh::load_painted(path, shape.size)) {
       Surface s = surface_of(part);

@@ -75,7 +75,8 @@ class Scene {
 
   double chord_ = 0;
   std::map<std::tuple<std::string, int, std::int32_t>, std::uint32_t> basics_;
-  std::map<std::string, std::vector<Part>> meshes_;  ///< by file, scale and what paints them
+  /// By file and what paints them, and scale.
+  std::map<std::tuple<std::string, double, double, double>, std::vector<Part>> meshes_;
   std::map<std::string, std::int32_t> picture_numbers_;
   std::vector<double> radii_;  ///< of the surfaces
   std::vector<Surface> surfaces_;

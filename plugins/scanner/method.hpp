@@ -24,9 +24,8 @@ class Method {
 
   /// Binds what of the world is seen; reads the method's own parameters. [setup]
   virtual void connect(Connector& c) = 0;
-  /// The sets of rays that are asked for from now on, by number; they stay as they are. `max_range`, `min_range`: m.
-  /// [setup]
-  virtual void prepare(std::span<const RaySet> sets, double min_range, double max_range) = 0;
+  /// The sets of rays that are asked for from now on, by number; they stay as they are. [setup]
+  virtual void prepare(std::span<const RaySet> sets) = 0;
   /// All handles may be read. Also called at a reset. [setup]
   virtual void start() {}
   /// A snapshot has replaced the properties. [between steps]

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "keys.hpp"
+#include "memory.hpp"
 
 namespace muro::scanner {
 
@@ -50,12 +51,6 @@ std::span<const double> read_directions(const Parameters& p) {
   for (std::size_t i = 0; i < pairs.size(); ++i)
     if (!std::isfinite(pairs[i])) throw Error("directions: number " + std::to_string(i + 1) + " is not finite");
   return pairs;
-}
-
-template <class T>
-std::span<T> grown(std::vector<T>& memory, std::size_t size) {
-  if (memory.size() < size) memory.resize(size);
-  return {memory.data(), size};
 }
 
 template <class T>
@@ -146,7 +141,7 @@ void Scanner::make_sets(const RaySet& whole) {
       set_of_.push_back(sets.size());
       if (sweep_->first(k) < sweep_->first(k + 1)) add(sweep_->first(k), sweep_->first(k + 1));
     }
-  method_->prepare(sets, min_range_, max_range_);
+  method_->prepare(sets);
 }
 
 std::span<const Phase> Scanner::phases() const {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Pictures as a user makes them, with `muro render`; read by libpng.
 #include <gtest/gtest.h>
-#include <png.h>
 
 #include <array>
 #include <set>
 
 #include "tests/support/files.hpp"
+#include "tests/support/picture.hpp"
 
 namespace muro {
 namespace {
@@ -14,25 +14,14 @@ namespace {
 const std::string muro_program = std::string("MURO_PLUGIN_PATH=" MURO_TEST_PLUGIN_DIR " ") + MURO_PROGRAM;
 const std::string urban = MURO_TEST_SOURCE_DIR "/examples/urban/urban.yaml";
 
-struct Picture {
-  std::uint32_t width = 0, height = 0;
-  std::vector<std::uint8_t> rgb;
+using Picture = test::Picture<>;
 
-  explicit Picture(const std::string& path) {
-    png_image image{};
-    image.version = PNG_IMAGE_VERSION;
-    if (!png_image_begin_read_from_file(&image, path.c_str())) return;
-    image.format = PNG_FORMAT_RGB;
-    rgb.resize(PNG_IMAGE_SIZE(image));
-    width = image.width, height = image.height;
-    png_image_finish_read(&image, nullptr, rgb.data(), 0, nullptr);
-  }
-  std::size_t colors() const {
-    std::set<std::array<std::uint8_t, 3>> all;
-    for (std::size_t i = 0; i + 2 < rgb.size(); i += 3) all.insert({rgb[i], rgb[i + 1], rgb[i + 2]});
-    return all.size();
-  }
-};
+std::size_t colors_of(const Picture& picture) {
+  const std::vector<std::uint8_t>& rgb = picture.values;
+  std::set<std::array<std::uint8_t, 3>> all;
+  for (std::size_t i = 0; i + 2 < rgb.size(); i += 3) all.insert({rgb[i], rgb[i + 1], rgb[i + 2]});
+  return all.size();
+}
 
 test::CommandResult render(const std::string& arguments) {
   return test::run_command(muro_program + " render " + arguments + " --device software");
@@ -46,7 +35,7 @@ TEST(Render, DrawsTheUrbanTeamFromOutside) {
   const Picture picture(file);
   EXPECT_EQ(picture.width, 320u);
   EXPECT_EQ(picture.height, 200u);
-  EXPECT_GT(picture.colors(), 500u);
+  EXPECT_GT(colors_of(picture), 500u);
 }
 
 TEST(Render, DrawsTheSameBytesTwiceAndOthersLater) {
@@ -75,7 +64,7 @@ TEST(Render, DrawsWhatTheCameraOfARobotSees) {
   EXPECT_EQ(result.exit_code, 0) << result.output;
   const Picture picture(file);
   EXPECT_EQ(picture.width, 64u);
-  EXPECT_LT(picture.colors(), 30u) << "a wall, and nothing else";
+  EXPECT_LT(colors_of(picture), 30u) << "a wall, and nothing else";
   const auto wrong = render(scenario + " --camera scout/camer --out " + file);
   EXPECT_EQ(wrong.exit_code, 2);
   EXPECT_NE(wrong.output.find("no camera `scout/camer` (did you mean `scout/camera`?); there are: scout/camera"),
@@ -124,7 +113,7 @@ TEST(Render, HandsTheFramesOfAFilmToFfmpeg) {
   const std::string file = folder.path("still.png");
   render(arguments + " --at 0.8 --out " + file);
   const Picture still(file);
-  EXPECT_EQ(frames.compare(3 * frame, frame, reinterpret_cast<const char*>(still.rgb.data()), frame), 0)
+  EXPECT_EQ(frames.compare(3 * frame, frame, reinterpret_cast<const char*>(still.values.data()), frame), 0)
       << "the fourth frame is the picture at that time";
   EXPECT_NE(frames.substr(0, frame), frames.substr(5 * frame)) << "robots move";
 }

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "plugins/mesh/srgb.hpp"
+
 namespace muro::camera {
 
 namespace {
@@ -38,10 +40,7 @@ float encode(double light) {
 
 float light_of(std::uint8_t value) { return table()[value]; }
 
-double value_of(double light) {
-  const double v = light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055;
-  return 255 * std::clamp(v, 0.0, 1.0);
-}
+double value_of(double light) { return 255 * std::clamp(mesh::srgb_of(light), 0.0, 1.0); }
 
 Film::Film(const render::Camera& c, const FilmSettings& settings)
     : settings_(settings), width_(c.width), height_(c.height), light_(std::size_t(3) * c.width * c.height) {

@@ -39,7 +39,7 @@ void Choice::connect(Connector& c) {
   host_ = &c.host();
   const std::string_view wanted = c.parameters().text("method");
   const auto add = [&](std::string_view name, std::unique_ptr<Method> method) {
-    if (wanted == "auto" || wanted == name) candidates_.push_back({name, std::move(method), 0});
+    if (wanted == "auto" || wanted == name) candidates_.push_back({name, std::move(method), number_of(name), 0});
   };
   add("raycast", std::make_unique<raycast::Raycast>());
 #ifdef MURO_AUTO_ZBUFFER
@@ -69,10 +69,10 @@ void Choice::leave_out(std::string_view name, const std::string& reason) {
   candidates_.erase(found);
 }
 
-void Choice::prepare(std::span<const scanner::RaySet> sets, double min_range, double max_range) {
+void Choice::prepare(std::span<const scanner::RaySet> sets) {
   if (sets.size() > 1) leave_out("zbuffer", "draws too much for scans that take their time ray by ray");
   rays_ = sets[0].size();
-  try_all([&](Method& m) { m.prepare(sets, min_range, max_range); });
+  try_all([&](Method& m) { m.prepare(sets); });
 }
 
 /// Leaves out what fails.
@@ -94,7 +94,7 @@ void Choice::start() {
 
 void Choice::restored() {
   const std::uint32_t number = *number_.front();
-  const auto is_it = [&](const Candidate& c) { return number_of(c.name) == number; };
+  const auto is_it = [&](const Candidate& c) { return c.number == number; };
   if (number != 0 && std::none_of(candidates_.begin(), candidates_.end(), is_it))
     throw Error("the snapshot was taken with the method " + std::string(names[std::min<std::size_t>(number, 3)]) +
                 ", which is not available here");
@@ -130,12 +130,12 @@ void Choice::begin(const scanner::View& example, std::size_t scanners) {
       figures += (figures.empty() ? "" : ", ") + std::string(c.name) + " " + microseconds(c.seconds);
     }
     const auto faster = [](const Candidate& a, const Candidate& b) { return a.seconds < b.seconds; };
-    const std::string_view best = std::min_element(candidates_.begin(), candidates_.end(), faster)->name;
-    measured_ = number_of(best);
+    const Candidate& best = *std::min_element(candidates_.begin(), candidates_.end(), faster);
+    measured_ = best.number;
     if (candidates_.size() > 1)
       host_->log(LogLevel::info, "laser.auto: a scan by all " + std::to_string(scanners) + " scanners takes " +
-                                     figures + "; takes " + std::string(best) + ", which `use: laser." +
-                                     std::string(best) + "` would fix");
+                                     figures + "; takes " + std::string(best.name) + ", which `use: laser." +
+                                     std::string(best.name) + "` would fix");
   }
   for (const Out<std::uint32_t>& number : number_) *number = measured_;
 }
@@ -148,7 +148,7 @@ Choice::Candidate& Choice::find(const Method& method) {
 scanner::Method& Choice::taken() const {
   const std::uint32_t number = *number_.front();
   for (const Candidate& c : candidates_)
-    if (number_of(c.name) == number) return *c.method;
+    if (c.number == number) return *c.method;
   return *candidates_.front().method;
 }
 

@@ -13,7 +13,7 @@ namespace muro::laser_auto {
 class Choice final : public scanner::Method {
  public:
   void connect(Connector& c) override;
-  void prepare(std::span<const scanner::RaySet> sets, double min_range, double max_range) override;
+  void prepare(std::span<const scanner::RaySet> sets) override;
   void start() override;
   void restored() override;
   void begin(const scanner::View& example, std::size_t scanners) override;
@@ -28,7 +28,8 @@ class Choice final : public scanner::Method {
   struct Candidate {
     std::string_view name;
     std::unique_ptr<Method> method;
-    double seconds = 0;  ///< that a scan of every scanner takes
+    std::uint32_t number = 0;  ///< as the state has it
+    double seconds = 0;        ///< that a scan of every scanner takes
   };
 
   void try_all(const std::function<void(Method&)>& work);

@@ -7,18 +7,13 @@
 #include "muro/algorithm.hpp"
 #include "muro/vocabulary.hpp"
 #include "plugins/mesh/mesh.hpp"
+#include "plugins/scanner/memory.hpp"
 
 namespace muro::embree {
 
 namespace {
 
 constexpr unsigned wide = 16;  ///< rays in a call
-
-template <class T>
-T* grown(std::vector<T>& memory, std::size_t size) {
-  if (memory.size() < size) memory.resize(size);
-  return memory.data();
-}
 
 }  // namespace
 
@@ -75,9 +70,7 @@ void Embree::add_body(Connector& c, ObjectId object, const Solid& of_body) {
 }
 
 RTCScene Embree::mesh(const std::string& path, const Vec3& scale) {
-  std::string name = path;
-  for (int k = 0; k < 3; ++k) name += " " + std::to_string(scale[k]);
-  const auto [known, fresh] = meshes_.try_emplace(name, nullptr);
+  const auto [known, fresh] = meshes_.try_emplace({path, scale.x(), scale.y(), scale.z()}, nullptr);
   if (!fresh) return known->second;
   const mesh::Mesh m = mesh::load(path, scale);
   RTCGeometry g = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -98,7 +91,7 @@ RTCScene Embree::mesh(const std::string& path, const Vec3& scale) {
   return known->second = scene;
 }
 
-void Embree::prepare(std::span<const scanner::RaySet> sets, double, double) { sets_.assign(sets.begin(), sets.end()); }
+void Embree::prepare(std::span<const scanner::RaySet> sets) { sets_.assign(sets.begin(), sets.end()); }
 
 void Embree::place(const Placed& p) const {
   const Pose pose = p.solid.pose();
@@ -153,8 +146,8 @@ void Embree::cast(std::size_t set, const scanner::View& view, std::span<double> 
   thread_local std::vector<Vec3> direction_memory;
   thread_local std::vector<ObjectId> object_memory;
   const scanner::RaySet& rays = sets_[set];
-  Vec3* const directions = grown(direction_memory, rays.size());
-  ObjectId* const objects = hits.empty() ? grown(object_memory, rays.size()) : hits.data();
+  Vec3* const directions = scanner::grown(direction_memory, rays.size()).data();
+  ObjectId* const objects = hits.empty() ? scanner::grown(object_memory, rays.size()).data() : hits.data();
   const Mat3 turn = view.device.orientation.toRotationMatrix();
   for (std::uint32_t i = 0; i < rays.size(); ++i) directions[i] = turn * rays.directions[i];
 

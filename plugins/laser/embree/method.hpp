@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <tuple>
 
 #include "plugins/scanner/method.hpp"
 #include "solids.hpp"
@@ -17,7 +18,7 @@ class Embree final : public scanner::Method {
   ~Embree() override;
 
   void connect(Connector& c) override;
-  void prepare(std::span<const scanner::RaySet> sets, double min_range, double max_range) override;
+  void prepare(std::span<const scanner::RaySet> sets) override;
   void start() override;
   void look() override;
   void cast(std::size_t set, const scanner::View& view, std::span<double> ranges, std::span<ObjectId> hits) override;
@@ -38,7 +39,7 @@ class Embree final : public scanner::Method {
 
   RTCDevice device_ = nullptr;
   RTCScene scene_ = nullptr;
-  std::map<std::string, RTCScene> meshes_;  ///< by file and scale
+  std::map<std::tuple<std::string, double, double, double>, RTCScene> meshes_;  ///< by file and scale
   std::vector<Solid> fixed_, moving_, planes_;
   std::vector<Placed> placed_;
   SolidGeometry scenery_, robots_;

@@ -3,14 +3,11 @@
 
 #include <algorithm>
 
+#include "plugins/scanner/memory.hpp"
+
 namespace muro::raycast {
 
 namespace {
-
-template <class T>
-void grow(std::vector<T>& memory, std::size_t size) {
-  if (memory.size() < size) memory.resize(size);
-}
 
 Scanner scanner_of(const View& view, const Pattern& pattern) {
   Scanner s;
@@ -34,14 +31,14 @@ Scanner scanner_of(const View& view, const Pattern& pattern) {
 
 void Caster::reserve(const SceneTable& scene, const Pattern& pattern) {
   const std::size_t blocks = scene.block_count();
-  grow(found_, blocks);
-  grow(order_, Boxes::size * blocks);
-  grow(in_reach_, blocks + 1);
-  grow(in_sector_, blocks + 1);
-  grow(visitors_, scene.robot_count());
-  grow(placed_, scene.solid_count());
-  grow(falls_, scene.plane_count());
-  grow(ids_, pattern.size());
+  scanner::grown(found_, blocks);
+  scanner::grown(order_, Boxes::size * blocks);
+  scanner::grown(in_reach_, blocks + 1);
+  scanner::grown(in_sector_, blocks + 1);
+  scanner::grown(visitors_, scene.robot_count());
+  scanner::grown(placed_, scene.solid_count());
+  scanner::grown(falls_, scene.plane_count());
+  scanner::grown(ids_, pattern.size());
 }
 
 void Caster::cast(const ScanKernels& kernels, const SceneTable& scene, const View& view, const Pattern& pattern,

@@ -10,7 +10,7 @@ void Raycast::connect(Connector& c) {
   kernels_ = &scan_kernels_for(lane::best_isa());
 }
 
-void Raycast::prepare(std::span<const RaySet> sets, double, double) {
+void Raycast::prepare(std::span<const RaySet> sets) {
   patterns_.clear();
   for (const RaySet& set : sets) patterns_.emplace_back(set);
 }

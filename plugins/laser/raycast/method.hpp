@@ -9,7 +9,7 @@ namespace muro::raycast {
 class Raycast final : public scanner::Method {
  public:
   void connect(Connector& c) override;
-  void prepare(std::span<const RaySet> sets, double min_range, double max_range) override;
+  void prepare(std::span<const RaySet> sets) override;
   void start() override { built_ = false; }
   void restored() override { built_ = false; }
   void look() override;

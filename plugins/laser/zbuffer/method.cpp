@@ -38,23 +38,22 @@ void ZBuffer::connect(Connector& c) {
   scene_.connect(c, render::Look::as_collides, chord);
 }
 
-void ZBuffer::prepare(std::span<const scanner::RaySet> sets, double, double max_range) {
+void ZBuffer::prepare(std::span<const scanner::RaySet> sets) {
   for (const scanner::RaySet& set : sets) {
     Picture p;
     p.views = Views::of(set, supersampling_);
     p.columns = set.rows > 1 ? set.columns : 0;
-    p.width = p.views.width();
+    const std::uint32_t width = p.views.width();
     for (render::Camera& camera : p.views.cameras) {
       camera.near = near_plane;
-      camera.far = max_range;
       p.tops.push_back(p.height);
       p.height += camera.height;
     }
-    if (p.width > most_pixels || p.height > most_pixels)
-      throw Error("the z-buffer would need " + std::to_string(p.width) + " x " + std::to_string(p.height) +
+    if (width > most_pixels || p.height > most_pixels)
+      throw Error("the z-buffer would need " + std::to_string(width) + " x " + std::to_string(p.height) +
                   " pixels; at most " + std::to_string(most_pixels) +
                   " either way are possible: take fewer rays, less supersampling, or laser.raycast");
-    width_ = std::max(width_, p.width);
+    width_ = std::max(width_, width);
     height_ = std::max(height_, p.height);
     pictures_.push_back(std::move(p));
   }
@@ -123,6 +122,7 @@ void ZBuffer::draw(const Picture& picture, const scanner::View& view, bool label
   for (std::size_t k = 0; k < picture.views.cameras.size(); ++k) {
     render::Camera camera = picture.views.cameras[k];
     camera.pose = view.device * camera.pose;
+    camera.far = view.max_range;
     camera.ignored_robot = view.ignored_robot;
     renderer_->draw(camera, *target, picture.tops[k]);
   }

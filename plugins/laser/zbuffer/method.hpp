@@ -22,7 +22,7 @@ class ZBuffer final : public scanner::Method {
   ~ZBuffer() override;
 
   void connect(Connector& c) override;
-  void prepare(std::span<const scanner::RaySet> sets, double min_range, double max_range) override;
+  void prepare(std::span<const scanner::RaySet> sets) override;
   void start() override;
   void look() override;
   void cast(std::size_t set, const scanner::View& view, std::span<double> ranges, std::span<ObjectId> hits) override;
@@ -34,7 +34,7 @@ class ZBuffer final : public scanner::Method {
   struct Picture {
     Views views;
     std::uint32_t columns = 0;  ///< of rays, where they lie in rows and columns; else 0
-    std::uint32_t width = 0, height = 0;
+    std::uint32_t height = 0;
     std::vector<std::uint32_t> tops;  ///< first row of each view
     struct Resampling {
       Samples samples;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
-#include <png.h>
 
 #include <filesystem>
 
 #include "tests/support/bodies.hpp"
 #include "tests/support/files.hpp"
+#include "tests/support/picture.hpp"
 
 namespace muro {
 namespace {
@@ -33,17 +33,6 @@ struct Scene : test::Scene {
   }
 };
 
-template <class T>
-std::vector<T> read(const std::string& path, png_uint_32 format) {
-  png_image image{};
-  image.version = PNG_IMAGE_VERSION;
-  if (!png_image_begin_read_from_file(&image, path.c_str())) return {};
-  image.format = format;
-  std::vector<T> pixels(PNG_IMAGE_SIZE(image) / sizeof(T));
-  png_image_finish_read(&image, nullptr, pixels.data(), 0, nullptr);
-  return pixels;
-}
-
 TEST(Images, AreThePixelsThatTheCameraSaw) {
   const test::ScratchFolder folder;
   Scene s;
@@ -55,7 +44,7 @@ TEST(Images, AreThePixelsThatTheCameraSaw) {
             (std::set<std::string>{"carrier_camera_00000.000000.png", "carrier_camera_00000.200000.png",
                                    "carrier_camera_00000.400000.png", "carrier_camera_depth_00000.000000.png",
                                    "carrier_camera_depth_00000.200000.png", "carrier_camera_depth_00000.400000.png"}));
-  const auto rgb = read<std::uint8_t>(folder.path("pictures/carrier_camera_00000.400000.png"), PNG_FORMAT_RGB);
+  const auto rgb = test::Picture<>(folder.path("pictures/carrier_camera_00000.400000.png")).values;
   const auto seen = s.world().values(s.camera, keys::camera_image);
   ASSERT_EQ(rgb.size(), seen.size());
   EXPECT_TRUE(std::equal(rgb.begin(), rgb.end(), seen.begin()));
@@ -66,8 +55,7 @@ TEST(Images, OfDepthAreMillimetres) {
   Scene s;
   s.record({{"folder", folder.path("pictures")}, {"cameras", std::vector<std::string>{"carrier/camera"}}});
   s.run_for(0.1);
-  const auto grey =
-      read<std::uint16_t>(folder.path("pictures/carrier_camera_depth_00000.000000.png"), PNG_FORMAT_LINEAR_Y);
+  const auto grey = test::Picture<std::uint16_t>(folder.path("pictures/carrier_camera_depth_00000.000000.png")).values;
   ASSERT_EQ(grey.size(), std::size_t(width) * height);
   for (const std::uint16_t value : grey) EXPECT_EQ(value, 2000);
 }

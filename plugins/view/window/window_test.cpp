@@ -2,7 +2,6 @@
 // The window as a user has it: on a display without a screen (Xvfb), driven by mouse and keys (xdotool), looked at by
 // what it shows.
 #include <gtest/gtest.h>
-#include <png.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -17,6 +16,7 @@
 #include "tests/support/bodies.hpp"
 #include "tests/support/complaint.hpp"
 #include "tests/support/files.hpp"
+#include "tests/support/picture.hpp"
 
 namespace muro {
 namespace {
@@ -56,28 +56,16 @@ class Display {
   std::string name_;
 };
 
-struct Picture {
-  std::uint32_t width = 0, height = 0;
-  std::vector<std::uint8_t> rgb;
+using Picture = test::Picture<>;
 
-  explicit Picture(const std::string& path) {
-    png_image image{};
-    image.version = PNG_IMAGE_VERSION;
-    if (!png_image_begin_read_from_file(&image, path.c_str())) return;
-    image.format = PNG_FORMAT_RGB;
-    width = image.width, height = image.height;
-    rgb.resize(PNG_IMAGE_SIZE(image));
-    png_image_finish_read(&image, nullptr, rgb.data(), 0, nullptr);
-  }
-  /// Mean colour of a square of 20 pixels, 0..255.
-  Vec3 about(std::uint32_t x, std::uint32_t y) const {
-    Vec3 sum = Vec3::Zero();
-    for (std::uint32_t row = y - 10; row < y + 10; ++row)
-      for (std::uint32_t column = x - 10; column < x + 10; ++column)
-        for (std::uint32_t k = 0; k < 3; ++k) sum[k] += rgb[3 * (row * width + column) + k] / 400.0;
-    return sum;
-  }
-};
+/// Mean colour of a square of 20 pixels, 0..255.
+Vec3 about(const Picture& picture, std::uint32_t x, std::uint32_t y) {
+  Vec3 sum = Vec3::Zero();
+  for (std::uint32_t row = y - 10; row < y + 10; ++row)
+    for (std::uint32_t column = x - 10; column < x + 10; ++column)
+      for (std::uint32_t k = 0; k < 3; ++k) sum[k] += picture.values[3 * (row * picture.width + column) + k] / 400.0;
+  return sum;
+}
 
 constexpr int width = 1100, height = 700;
 constexpr int middle_x = 679, middle_y = 286;  ///< of what the panels leave free
@@ -136,13 +124,13 @@ TEST_F(TheWindow, ShowsTheSceneBetweenItsPanels) {
   const Picture p(s.picture());
   ASSERT_EQ(p.width, std::uint32_t(width));
   ASSERT_EQ(p.height, std::uint32_t(height));
-  const Vec3 middle = p.about(middle_x, middle_y);
+  const Vec3 middle = about(p, middle_x, middle_y);
   EXPECT_GT(middle.x(), 2 * middle.y()) << "the red box";
-  const Vec3 sky = p.about(middle_x, 90), ground = p.about(middle_x + 250, middle_y + 150);
+  const Vec3 sky = about(p, middle_x, 90), ground = about(p, middle_x + 250, middle_y + 150);
   EXPECT_GT(sky.z(), sky.x() + 15) << "blue above";
   EXPECT_LT(std::abs(ground.x() - ground.z()), 40) << "grey below";
   for (const auto& [x, y] : {std::pair{600U, 40U}, {100U, 400U}, {900U, 660U}})
-    EXPECT_LT(p.about(x, y).sum(), 330) << "panels are dark: " << x << ", " << y;
+    EXPECT_LT(about(p, x, y).sum(), 330) << "panels are dark: " << x << ", " << y;
 }
 
 TEST_F(TheWindow, GivesTheSameStateAsWithoutIt) {
@@ -225,7 +213,7 @@ TEST_F(TheWindow, ShowsThePropertiesOfWhatIsClickedOn) {
       click(play_x, controls_y);
     });
     s.finish();
-    return Picture(s.picture()).about(width - 30, 130);
+    return about(Picture(s.picture()), width - 30, 130);
   }();
   EXPECT_LT(corner.sum(), 330) << "a panel where the scene was";
 }
