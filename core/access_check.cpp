@@ -15,10 +15,10 @@ constexpr std::byte poison_byte{0xff};
 std::string call_of(const Task& task, const Step& step, Range range) {
   const Phase phase = task.phases[step.phase];
   std::string text = "phase " + std::to_string(step.phase);
-  if (phase.over == Phase::Over::whole) return text + ", which is not divided";
-  return text + ", for " + (phase.over == Phase::Over::robots ? "robots " : "items ") + std::to_string(range.begin) +
-         " to " + std::to_string(range.end - 1) + ", with " +
-         (phase.reach == Phase::Reach::own ? "Reach::own" : "Reach::wide");
+  if (phase.index_space == Phase::IndexSpace::whole) return text + ", which is not divided";
+  return text + ", for " + (phase.index_space == Phase::IndexSpace::robots ? "robots " : "items ") +
+         std::to_string(range.begin) + " to " + std::to_string(range.end - 1) + ", with " +
+         (phase.scope == Phase::Scope::own_robot ? "Scope::own_robot" : "Scope::reads_all");
 }
 
 }  // namespace
@@ -27,8 +27,8 @@ AccessCheck::AccessCheck(PropertyStore& store, const std::vector<Instance*>& ins
                          std::vector<std::int32_t> robot_of_slot)
     : store_(store), robot_of_slot_(std::move(robot_of_slot)) {
   for (Instance* instance : instances) {
-    Rights r{&instance->algorithm(), &instance->description(), instance->party(), std::vector<bool>(store.slot_count()),
-             std::vector<bool>(store.slot_count())};
+    Rights r{&instance->algorithm(), &instance->description(), instance->accessor(),
+             std::vector<bool>(store.slot_count()), std::vector<bool>(store.slot_count())};
     for (const SlotId s : instance->reads()) r.reads[s] = true;
     for (const SlotId s : instance->writes()) r.reads[s] = r.writes[s] = true;
     rights_.push_back(std::move(r));
@@ -42,22 +42,23 @@ void AccessCheck::find_cells() {
     const ValueType& type = *store_.key_of(s).type;
     if (s.kind == Slot::Class::constant || type.scalar == Scalar::transient) continue;
     std::size_t part = 0;
-    for (const Slot::Usage& u : s.usage)
-      if (u.access == Access::accumulate && part < s.parts.size())
-        cells_.push_back({id, u.party, static_cast<std::byte*>(s.parts[part++]), type.size, nullptr});
+    for (const Slot::User& u : s.users)
+      if (u.usage == usage::accumulate && part < s.parts.size())
+        cells_.push_back({id, u.accessor, static_cast<std::byte*>(s.parts[part++]), type.size, nullptr});
     if (!s.place) continue;
-    if (s.form == Form::list)
-      cells_.push_back({id, setup_party, nullptr, 0, static_cast<ListHeader*>(s.place)});
+    if (s.multiplicity == Multiplicity::list)
+      cells_.push_back({id, setup_accessor, nullptr, 0, static_cast<ListHeader*>(s.place)});
     else
-      cells_.push_back({id, setup_party, static_cast<std::byte*>(s.place), s.count * type.size, nullptr});
+      cells_.push_back({id, setup_accessor, static_cast<std::byte*>(s.place), s.count * type.size, nullptr});
   }
 }
 
 AccessCheck::Allowed AccessCheck::allowed(const Rights& rights, const Task& task, const Step& step, Range range) const {
   const Phase phase = task.phases[step.phase];
-  const bool divided = phase.over != Phase::Over::whole;
+  const bool divided = phase.index_space != Phase::IndexSpace::whole;
   const auto in_range = [&](std::int32_t robot) {
-    if (phase.over == Phase::Over::robots) return robot >= std::int32_t(range.begin) && robot < std::int32_t(range.end);
+    if (phase.index_space == Phase::IndexSpace::robots)
+      return robot >= std::int32_t(range.begin) && robot < std::int32_t(range.end);
     const auto& robots = task.robot_of_item;
     return std::find(robots.begin() + range.begin, robots.begin() + range.end, robot) != robots.begin() + range.end;
   };
@@ -66,9 +67,9 @@ AccessCheck::Allowed AccessCheck::allowed(const Rights& rights, const Task& task
     const Cell& c = cells_[i];
     const std::int32_t robot = robot_of_slot_[c.slot];
     const bool own = !divided || robot < 0 || in_range(robot);
-    const bool others_part = c.adder != setup_party && c.adder != rights.party;
+    const bool others_part = c.adder != setup_accessor && c.adder != rights.accessor;
     a.writes[i] = rights.writes[c.slot] && own && !others_part;
-    a.reads[i] = rights.reads[c.slot] && (own || phase.reach == Phase::Reach::wide);
+    a.reads[i] = rights.reads[c.slot] && (own || phase.scope == Phase::Scope::reads_all);
   }
   return a;
 }
@@ -127,7 +128,8 @@ bool AccessCheck::make(const Task& task, const Step& step, Range range, abi::Err
       return false;
     }
   const Description& d = *rights.description;
-  const bool repeats = (d.promises & Promise::restorable) != 0 && d.kind != Kind::recorder && d.kind != Kind::view;
+  const bool repeats =
+      (d.capabilities & Capability::restorable) != 0 && d.kind != Kind::recorder && d.kind != Kind::view;
   if (!repeats) return true;
 
   if (!come_again(task, step, range, error)) return false;

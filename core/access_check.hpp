@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "core/executor.hpp"
 #include "core/property_store.hpp"
+#include "core/schedule/executor.hpp"
 
 namespace muro {
 
@@ -17,7 +17,7 @@ class Instance;
 /// It asks for calls in the order of turns (see stages_of). The second time, all that the call has no right to read is
 /// poisoned (bytes 0xff: not a number). The call must then write the same bits, and nothing but what it may write: else
 /// it reads or writes in secret, and could not run beside others. What a call may touch follows from the bindings of
-/// its instance and from the reach of its phase (Phase::Reach). Runs take many times longer.
+/// its instance and from the reach of its phase (Phase::Scope). Runs take many times longer.
 class AccessCheck final : public CallObserver {
  public:
   AccessCheck(PropertyStore& store, const std::vector<Instance*>& instances, std::vector<std::int32_t> robot_of_slot);
@@ -27,7 +27,7 @@ class AccessCheck final : public CallObserver {
   /// One value in memory, or the elements of a list.
   struct Cell {
     std::uint32_t slot = 0;
-    Party adder = setup_party;  ///< of a contribution to a sum
+    Accessor adder = setup_accessor;  ///< of a contribution to a sum
     std::byte* memory = nullptr;
     std::size_t size = 0;
     ListHeader* list = nullptr;
@@ -41,7 +41,7 @@ class AccessCheck final : public CallObserver {
   struct Rights {
     const abi::AlgorithmInstance* algorithm = nullptr;
     const Description* description = nullptr;
-    Party party = setup_party;
+    Accessor accessor = setup_accessor;
     std::vector<bool> reads, writes;
   };
   struct Allowed {

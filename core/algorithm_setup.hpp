@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/rate.hpp"
+#include "core/schedule/rate.hpp"
 #include "muro/connector.hpp"
 
 namespace muro {

@@ -8,15 +8,15 @@ namespace {
 /// Where the elements of a property lie now; without data where it has none yet.
 LiveProperty elements_of(const Slot& s) {
   LiveProperty p;
-  p.form = s.form;
-  if (s.form == Form::array && s.array) {
+  p.multiplicity = s.multiplicity;
+  if (s.multiplicity == Multiplicity::array && s.array) {
     p.data = s.array->data;
     p.count = std::uint32_t(s.array->size);
-  } else if (s.form == Form::list && s.place) {
+  } else if (s.multiplicity == Multiplicity::list && s.place) {
     const auto& list = *static_cast<const ListHeader*>(s.place);
     p.data = list.data;
     p.count = std::uint32_t(list.size);
-  } else if (s.form == Form::single) {
+  } else if (s.multiplicity == Multiplicity::single) {
     p.data = s.place;
     p.count = 1;
   }
@@ -32,13 +32,13 @@ std::span<const LiveProperty> Inspector::properties(ObjectId object) noexcept {
   for (const PropertyStore::Named& n : store.properties(object)) {
     const Slot& s = store.slot(n.slot);
     LiveProperty p = elements_of(s);
-    if (!p.data && s.form != Form::list) continue;  // sums, and what has only been shared so far
+    if (!p.data && s.multiplicity != Multiplicity::list) continue;  // sums, and what has only been shared so far
     KeyInfo& key = keys_.emplace_back(store.key_of(s));
     key.name = n.key;
     p.key = &key;
     p.is_constant = s.kind == Slot::Class::constant;
     p.is_variable = s.kind == Slot::Class::variable;
-    if (const Slot::Usage* writer = s.writer()) p.written_by = store.party_name(writer->party);
+    if (const Slot::User* writer = s.writer()) p.written_by = store.accessor_name(writer->accessor);
     properties_.push_back(p);
   }
   return properties_;
@@ -58,7 +58,7 @@ std::span<const LiveCost> Inspector::costs() noexcept {
   for (TaskId t = 0; t < scheduler_.tasks().size(); ++t) {
     const TaskCost cost = scheduler_.cost(t);
     const Task& task = scheduler_.tasks()[t];
-    costs_.push_back({task.name, cost.runs, double(cost.ticks) * seconds_per_tick, task.alone});
+    costs_.push_back({task.name, cost.runs, double(cost.ticks) * seconds_per_tick, task.runs_alone});
   }
   return costs_;
 }

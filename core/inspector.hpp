@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "core/scheduler.hpp"
+#include "core/schedule/scheduler.hpp"
 #include "core/world.hpp"
 #include "muro/inspection.hpp"
 

@@ -5,9 +5,15 @@
 #include <filesystem>
 
 #include "core/error.hpp"
-#include "muro/random.hpp"
+#include "muro/toolkit/random.hpp"
 
 namespace muro {
+
+namespace {
+
+bool reads_alone(Usage u) { return u.access == Access::read || u.access == Access::read_sum; }
+
+}  // namespace
 
 Instance::Instance(const abi::AlgorithmEntry& entry, AlgorithmSetup setup, World& world, Host& host)
     : entry_(entry),
@@ -15,8 +21,8 @@ Instance::Instance(const abi::AlgorithmEntry& entry, AlgorithmSetup setup, World
       world_(world),
       host_(host),
       parameters_(*entry.description, setup_),
-      party_(world.store().add_party(setup_.name + " (" + setup_.use +
-                                     (setup_.place.empty() ? "" : ", " + setup_.place) + ")")) {
+      accessor_(world.store().add_accessor(setup_.name + " (" + setup_.use +
+                                           (setup_.place.empty() ? "" : ", " + setup_.place) + ")")) {
   if (setup_.items.empty()) setup_.items.push_back({});
   for (const AlgorithmSetup::Own& own : setup_.own) {
     AlgorithmSetup one;
@@ -47,6 +53,11 @@ void Instance::connect() {
   require(algorithm_->connect(*this, error), error, "cannot be connected");
 }
 
+void Instance::connect_by_name() {
+  abi::ErrorText error;
+  require(algorithm_->connect_by_name(*this, error), error, "cannot be connected");
+}
+
 void Instance::start() {
   abi::ErrorText error;
   require(algorithm_->start(error), error, "cannot start");
@@ -62,32 +73,33 @@ void Instance::finish() {
   require(algorithm_->finish(error), error, "cannot finish");
 }
 
-void Instance::take_over(std::uint32_t item) {
+void Instance::on_handover(std::uint32_t item) {
   abi::ErrorText error;
-  require(algorithm_->take_over(item, error), error, "cannot take the robot over");
+  require(algorithm_->on_handover(item, error), error, "cannot take the robot over");
 }
 
 std::vector<SlotId> Instance::reads() const {
   std::vector<SlotId> slots;
   for (const Bound& b : bound_)
-    if (b.access == Access::read || b.access == Access::input || b.access == Access::read_sum) slots.push_back(b.slot);
+    if (reads_alone(b.usage)) slots.push_back(b.slot);
   return slots;
 }
 
 std::vector<SlotId> Instance::writes() const {
   std::vector<SlotId> slots;
   for (const Bound& b : bound_)
-    if (b.access != Access::read && b.access != Access::input && b.access != Access::read_sum) slots.push_back(b.slot);
+    if (!reads_alone(b.usage)) slots.push_back(b.slot);
   return slots;
 }
 
-void Instance::read_through(const std::vector<const Instance*>& by_party) {
+void Instance::read_through(const std::vector<const Instance*>& by_accessor) {
   std::vector<Bound> added;
   for (const Bound& b : bound_) {
     const Slot& s = world_.store().slot(b.slot);
-    const Slot::Usage* writer = s.writer();
-    if (world_.store().key_of(s).type->scalar != Scalar::transient || !writer || writer->party == party_) continue;
-    for (const SlotId slot : by_party[writer->party]->reads()) added.push_back({slot, Access::read});
+    const Slot::User* writer = s.writer();
+    if (world_.store().key_of(s).type->scalar != Scalar::transient || !writer || writer->accessor == accessor_)
+      continue;
+    for (const SlotId slot : by_accessor[writer->accessor]->reads()) added.push_back({slot, usage::read});
   }
   bound_.insert(bound_.end(), added.begin(), added.end());
 }
@@ -96,7 +108,7 @@ std::vector<Touch> Instance::touches() const {
   std::vector<Touch> all;
   for (const Bound& b : bound_) {
     if (world_.store().slot(b.slot).kind == Slot::Class::constant) continue;
-    const bool shared = b.access == Access::read || b.access == Access::input || b.access == Access::accumulate;
+    const bool shared = b.usage.access == Access::read || b.usage.access == Access::accumulate;
     all.push_back({b.slot, !shared});
   }
   std::sort(all.begin(), all.end(), [](const Touch& a, const Touch& b) {
@@ -110,8 +122,8 @@ std::vector<Touch> Instance::touches() const {
 std::vector<Phase> Instance::phases() const {
   const std::span<const Phase> given = algorithm_->phases();
   if (!given.empty()) return {given.begin(), given.end()};
-  const bool batched = (description().promises & Promise::batched) != 0;
-  return {{batched ? Phase::Over::items : Phase::Over::whole, Phase::Reach::wide}};
+  const bool batched = (description().capabilities & Capability::batched) != 0;
+  return {{batched ? Phase::IndexSpace::items : Phase::IndexSpace::whole, Phase::Scope::reads_all}};
 }
 
 std::uint64_t Instance::random_key(std::uint32_t i) const noexcept {
@@ -130,34 +142,38 @@ std::span<const FoundProperty> Instance::properties(ObjectId object) const noexc
   for (const PropertyStore::Named& n : world_.store().properties(object)) {
     const Slot& s = world_.store().slot(n.slot);
     const KeyInfo* key = &world_.store().key_of(s);
-    if (!s.place && !s.array) continue;  // sums, and what has only been shared so far
-    if (key->name != n.key) {            // shared with a property of another name
+    const bool is_sum = std::any_of(s.users.begin(), s.users.end(), [](const Slot::User& u) {
+      return u.usage.access == Access::accumulate || u.usage.access == Access::read_sum;
+    });
+    if (!s.place && !s.array && !is_sum) continue;  // what has only been shared so far
+    if (key->name != n.key) {                       // shared with a property of another name
       aliases_.push_back(*key);
       aliases_.back().name = n.key;
       key = &aliases_.back();
     }
-    found_.push_back({object, key, s.form, s.form == Form::list || !s.place ? 0 : s.count});
+    const bool open = !is_sum && (s.multiplicity == Multiplicity::list || !s.place);
+    found_.push_back({object, key, s.multiplicity, open ? 0 : s.count, s.kind == Slot::Class::constant, is_sum});
   }
   return found_;
 }
 
-bool Instance::is_used(ObjectId object, const KeyInfo& key, Access access) const noexcept {
+bool Instance::is_used(ObjectId object, const KeyInfo& key, Usage usage) const noexcept {
   const Slot* s = world_.store().find(object, key.name);
-  return s && s->used_as(access);
+  return s && s->used_as(usage);
 }
 
-void* Instance::bind(ObjectId object, const KeyInfo& key, Access access, Form form, std::uint32_t count,
+void* Instance::bind(ObjectId object, const KeyInfo& key, Usage usage, Multiplicity multiplicity, std::uint32_t count,
                      const void* initial) noexcept {
   const std::int32_t robot = world_.robot_of(object);
   const bool rests = robot >= 0 && std::size_t(robot) < resting_.size() && resting_[std::size_t(robot)];
-  void* handle = world_.store().bind(party_, object, key, access, form, count, initial, rests);
-  bound_.push_back({world_.store().slots_of(party_).back(), access});
+  void* handle = world_.store().bind(accessor_, object, key, usage, multiplicity, count, initial, rests);
+  bound_.push_back({world_.store().slots_of(accessor_).back(), usage});
   return handle;
 }
 
 void* Instance::state_block(ObjectId object, std::string_view name, std::uint32_t size) noexcept {
-  void* block = world_.store().state_block(party_, object, name, size);
-  bound_.push_back({world_.store().slots_of(party_).back(), Access::variable});
+  void* block = world_.store().state_block(accessor_, object, name, size);
+  bound_.push_back({world_.store().slots_of(accessor_).back(), usage::variable});
   return block;
 }
 

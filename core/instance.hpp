@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "core/algorithm_setup.hpp"
-#include "core/task.hpp"
+#include "core/schedule/task.hpp"
 #include "core/world.hpp"
 #include "muro/abi.hpp"
 
@@ -41,26 +41,27 @@ class Instance final : private Connector {
   const AlgorithmSetup& setup() const { return setup_; }
   const Description& description() const { return *entry_.description; }
   abi::AlgorithmInstance& algorithm() { return *algorithm_; }
-  Party party() const { return party_; }
+  Accessor accessor() const { return accessor_; }
 
   /// Of each robot, by number: whether another motion moves it at the start. [before connect]
   void set_resting(std::vector<bool> resting) { resting_ = std::move(resting); }
   /// Throws SetupError with the algorithm's own words.
   void connect();
+  void connect_by_name();
   void start();
   void restored();
   void finish();
-  void take_over(std::uint32_t item);
+  void on_handover(std::uint32_t item);
   /// Slots that it reads and writes, for the scheduler.
   std::vector<SlotId> reads() const;
   std::vector<SlotId> writes() const;
   /// A property whose value points into others (SceneIndex) is read together with all that its writer reads: adds that.
-  void read_through(const std::vector<const Instance*>& by_party);
+  void read_through(const std::vector<const Instance*>& by_accessor);
   /// Every property that is not a constant, once. Contributions to a sum do not exclude each other, but exclude who
   /// reads the sum.
   std::vector<Touch> touches() const;
   /// It needs this property too, to know when to run.
-  void also_reads(SlotId slot) { bound_.push_back({slot, Access::read}); }
+  void also_reads(SlotId slot) { bound_.push_back({slot, usage::read}); }
   /// How a step is divided; one or more.
   std::vector<Phase> phases() const;
 
@@ -80,9 +81,9 @@ class Instance final : private Connector {
   std::int32_t robot_of(ObjectId object) const noexcept override { return world_.robot_of(object); }
   std::string_view text(TextId id) const noexcept override { return world_.text(id); }
   std::span<const FoundProperty> properties(ObjectId object) const noexcept override;
-  bool is_used(ObjectId object, const KeyInfo& key, Access access) const noexcept override;
+  bool is_used(ObjectId object, const KeyInfo& key, Usage usage) const noexcept override;
   void* state_block(ObjectId object, std::string_view name, std::uint32_t size) noexcept override;
-  void* bind(ObjectId object, const KeyInfo& key, Access access, Form form, std::uint32_t count,
+  void* bind(ObjectId object, const KeyInfo& key, Usage usage, Multiplicity multiplicity, std::uint32_t count,
              const void* initial) noexcept override;
   ArrayHeader constant_raw(ObjectId object, const KeyInfo& key) const noexcept override;
   void set_raw(ObjectId object, const KeyInfo& key, const void* value) noexcept override;
@@ -95,14 +96,14 @@ class Instance final : private Connector {
   Host& host_;
   ParameterSet parameters_;
   std::deque<ParameterSet> own_parameters_;  ///< one an item, when they differ
-  Party party_;
+  Accessor accessor_;
   abi::AlgorithmInstance* algorithm_ = nullptr;
   mutable std::vector<FoundProperty> found_;
   mutable std::deque<KeyInfo> aliases_;
   mutable std::deque<std::string> paths_;
   struct Bound {
     SlotId slot;
-    Access access;
+    Usage usage;
   };
   std::vector<Bound> bound_;
   std::vector<bool> resting_;

@@ -9,40 +9,42 @@
 namespace muro {
 
 /// Steps those items of an instance whose robots it moves at present.
-class Levels::Keeper final : public abi::AlgorithmInstance {
+class Levels::LevelFilter final : public abi::AlgorithmInstance {
  public:
-  explicit Keeper(abi::AlgorithmInstance& kept, std::vector<Phase> phases) : kept_(kept), phases_(std::move(phases)) {}
+  explicit LevelFilter(abi::AlgorithmInstance& filtered, std::vector<Phase> phases)
+      : filtered_(filtered), phases_(std::move(phases)) {}
   void add(const std::uint32_t* level, std::uint32_t own) { items_.push_back({level, own}); }
 
-  bool connect(Connector& c, abi::ErrorText& e) noexcept override { return kept_.connect(c, e); }
-  bool start(abi::ErrorText& e) noexcept override { return kept_.start(e); }
-  std::span<const Phase> phases() const noexcept override { return kept_.phases(); }
-  bool restored(abi::ErrorText& e) noexcept override { return kept_.restored(e); }
-  bool finish(abi::ErrorText& e) noexcept override { return kept_.finish(e); }
+  bool connect(Connector& c, abi::ErrorText& e) noexcept override { return filtered_.connect(c, e); }
+  bool connect_by_name(Connector& c, abi::ErrorText& e) noexcept override { return filtered_.connect_by_name(c, e); }
+  bool start(abi::ErrorText& e) noexcept override { return filtered_.start(e); }
+  std::span<const Phase> phases() const noexcept override { return filtered_.phases(); }
+  bool restored(abi::ErrorText& e) noexcept override { return filtered_.restored(e); }
+  bool finish(abi::ErrorText& e) noexcept override { return filtered_.finish(e); }
   void destroy() noexcept override {}
-  bool take_over(std::uint32_t item, abi::ErrorText& e) noexcept override { return kept_.take_over(item, e); }
+  bool on_handover(std::uint32_t item, abi::ErrorText& e) noexcept override { return filtered_.on_handover(item, e); }
 
   bool step(const Step& step, Range range, abi::ErrorText& error) noexcept override {
-    if (phases_[step.phase].over != Phase::Over::items)
-      return std::none_of(items_.begin(), items_.end(), [](const Kept& k) { return k.moves(); }) ||
-             kept_.step(step, range, error);
+    if (phases_[step.phase].index_space != Phase::IndexSpace::items)
+      return std::none_of(items_.begin(), items_.end(), [](const FilteredItem& k) { return k.moves(); }) ||
+             filtered_.step(step, range, error);
     for (std::uint32_t begin = range.begin, end = begin; begin < range.end; begin = end) {
       while (begin < range.end && !items_[begin].moves()) ++begin;
       for (end = begin; end < range.end && items_[end].moves();) ++end;
-      if (begin < end && !kept_.step(step, {begin, end}, error)) return false;
+      if (begin < end && !filtered_.step(step, {begin, end}, error)) return false;
     }
     return true;
   }
 
  private:
-  struct Kept {
+  struct FilteredItem {
     const std::uint32_t* level;  ///< null: no other motion moves it
     std::uint32_t own;
     bool moves() const { return !level || *level == own; }
   };
-  abi::AlgorithmInstance& kept_;
+  abi::AlgorithmInstance& filtered_;
   std::vector<Phase> phases_;
-  std::vector<Kept> items_;
+  std::vector<FilteredItem> items_;
 };
 
 Levels::Levels() = default;
@@ -52,7 +54,7 @@ void Levels::prepare(World& world, const std::vector<LevelsOfRobot>& robots,
                      std::span<const std::unique_ptr<Instance>> all) {
   if (robots.empty()) return;
   PropertyStore& store = world.store();
-  const Party party = store.add_party("the hand-over between motions");
+  const Accessor accessor = store.add_accessor("the hand-over between motions");
   for (const LevelsOfRobot& setup : robots) {
     Robot& r = robots_.emplace_back();
     r.view = setup.robot;
@@ -69,33 +71,33 @@ void Levels::prepare(World& world, const std::vector<LevelsOfRobot>& robots,
           mover = {instance.get(), i};
         }
     }
-    std::vector<Party> parties{party};
+    std::vector<Accessor> accessors{accessor};
     for (const Mover& m : r.movers) {
       if (!m.instance)
         throw SetupError("`" + std::string(setup.robot->name) + "` lists " + std::to_string(setup.names.size()) +
                          " motions, but not all of them are used");
-      parties.push_back(m.instance->party());
+      accessors.push_back(m.instance->accessor());
     }
     std::vector<ObjectId> objects;
     for (std::uint32_t i = 0; i < world.object_count(); ++i)
       if (world.robot_of(ObjectId{i}) == std::int32_t(setup.robot->number)) objects.push_back(ObjectId{i});
-    store.let_alternate(objects, parties);
+    store.let_alternate(objects, accessors);
 
     const ObjectId base = setup.robot->base();
-    const auto own = [&](const KeyInfo& key, Access access, const void* initial) {
-      void* place = store.bind(party, base, key, access, Form::single, 1, initial);
-      if (access == Access::variable) r.written.push_back(store.slots_of(party).back());
+    const auto own = [&](const KeyInfo& key, Usage usage, const void* initial) {
+      void* place = store.bind(accessor, base, key, usage, Multiplicity::single, 1, initial);
+      if (usage == usage::variable) r.written.push_back(store.slots_of(accessor).back());
       return place;
     };
     const std::int32_t nobody = -1;
     const std::uint64_t unmoved = 0;
     const double no_lag = 0;
-    r.level = static_cast<std::uint32_t*>(own(keys::motion_level, Access::variable, &setup.first));
-    r.level_slot = store.slots_of(party).back();
-    r.target = static_cast<const std::int32_t*>(own(keys::motion_level_target, Access::input, &nobody));
-    r.target_slot = store.slots_of(party).back();
-    r.contact_world = static_cast<std::uint64_t*>(own(keys::contact_world, Access::variable, &unmoved));
-    r.twist_lag = static_cast<double*>(own(keys::twist_lag, Access::variable, &no_lag));
+    r.level = static_cast<std::uint32_t*>(own(keys::motion_level, usage::variable, &setup.first));
+    r.level_slot = store.slots_of(accessor).back();
+    r.target = static_cast<const std::int32_t*>(own(keys::motion_level_target, usage::input, &nobody));
+    r.target_slot = store.slots_of(accessor).back();
+    r.contact_world = static_cast<std::uint64_t*>(own(keys::contact_world, usage::variable, &unmoved));
+    r.twist_lag = static_cast<double*>(own(keys::twist_lag, usage::variable, &no_lag));
     std::vector<TextId> names;
     for (const std::string& name : setup.names) names.push_back(world.intern(name));
     world.set_array(base, keys::motion_level_names, std::span<const TextId>(names));
@@ -119,14 +121,14 @@ void Levels::complete() {
     for (const Mover& m : r.movers) m.instance->also_reads(r.level_slot);
 }
 
-abi::AlgorithmInstance* Levels::keeper_of(Instance& instance) {
+abi::AlgorithmInstance* Levels::filter_of(Instance& instance) {
   const std::vector<Item>& items = instance.setup().items;
   const bool part_time = instance.description().kind == Kind::motion &&
-                         (instance.description().promises & Promise::world) == 0 &&
+                         (instance.description().capabilities & Capability::world) == 0 &&
                          std::any_of(items.begin(), items.end(),
                                      [&](const Item& i) { return i.robot && find(std::int32_t(i.robot->number)); });
   if (!part_time) return &instance.algorithm();
-  Keeper& keeper = *keepers_.emplace_back(std::make_unique<Keeper>(instance.algorithm(), instance.phases()));
+  LevelFilter& keeper = *filters_.emplace_back(std::make_unique<LevelFilter>(instance.algorithm(), instance.phases()));
   for (const Item& i : items) {
     const Robot* r = find(std::int32_t(i.robot->number));
     keeper.add(r ? r->level : nullptr, i.level);
@@ -188,7 +190,7 @@ bool Levels::step(const Step&, Range, abi::ErrorText& error) noexcept {
     *r.twist_lag = 0;
     *r.level = std::uint32_t(target);
     const Mover& m = r.movers[std::size_t(target)];
-    if (!m.instance->algorithm().take_over(m.item, error)) return false;
+    if (!m.instance->algorithm().on_handover(m.item, error)) return false;
   }
   return true;
 }

@@ -41,19 +41,20 @@ class Levels final : public abi::AlgorithmInstance {
   void forget_in(std::vector<SlotId>& reads) const;
   /// What the scheduler is to run: on demand, before who reads who moves a robot.
   Task task(std::span<const std::unique_ptr<Instance>> all);
-  /// What steps an instance: itself, or, when it moves a robot for part of the time, a keeper that steps the items
-  /// whose turn it is.
-  abi::AlgorithmInstance* keeper_of(Instance& instance);
+  /// What steps an instance: itself, or, when it moves a robot for part of the time, a level filter that steps the
+  /// items whose turn it is.
+  abi::AlgorithmInstance* filter_of(Instance& instance);
 
  private:
   bool connect(Connector&, abi::ErrorText&) noexcept override { return true; }
+  bool connect_by_name(Connector&, abi::ErrorText&) noexcept override { return true; }
   bool start(abi::ErrorText&) noexcept override { return true; }
   std::span<const Phase> phases() const noexcept override { return {}; }
   bool step(const Step& step, Range range, abi::ErrorText& error) noexcept override;
   bool restored(abi::ErrorText&) noexcept override { return true; }
   bool finish(abi::ErrorText&) noexcept override { return true; }
   void destroy() noexcept override {}
-  bool take_over(std::uint32_t, abi::ErrorText&) noexcept override { return true; }
+  bool on_handover(std::uint32_t, abi::ErrorText&) noexcept override { return true; }
 
   struct Mover {
     Instance* instance = nullptr;
@@ -70,13 +71,13 @@ class Levels final : public abi::AlgorithmInstance {
     std::vector<SlotId> written;
     SlotId level_slot, target_slot;
   };
-  class Keeper;
+  class LevelFilter;
 
   Robot* find(std::int32_t number);
   const Robot* find(std::int32_t number) const;
 
   std::vector<Robot> robots_;
-  std::vector<std::unique_ptr<Keeper>> keepers_;
+  std::vector<std::unique_ptr<LevelFilter>> filters_;
 };
 
 }  // namespace muro

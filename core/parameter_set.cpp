@@ -5,7 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/instance.hpp"
-#include "muro/nearest.hpp"
+#include "muro/toolkit/did_you_mean.hpp"
 
 namespace muro {
 
@@ -38,11 +38,11 @@ std::string shown(const ParameterInput& input) {
 }
 
 std::string range_of(const Parameter& p) {
-  const bool low = std::isfinite(p.least), high = std::isfinite(p.most);
+  const bool low = std::isfinite(p.min), high = std::isfinite(p.max);
   const std::string unit = p.unit == "1" ? "" : " " + std::string(p.unit);
-  if (low && high) return " from " + shown(p.least) + " to " + shown(p.most) + unit;
-  if (low) return " of at least " + shown(p.least) + unit;
-  if (high) return " of at most " + shown(p.most) + unit;
+  if (low && high) return " from " + shown(p.min) + " to " + shown(p.max) + unit;
+  if (low) return " of at least " + shown(p.min) + unit;
+  if (high) return " of at most " + shown(p.max) + unit;
   return unit.empty() ? "" : " in" + unit;
 }
 
@@ -76,7 +76,7 @@ const double* number_in(const ParameterInput& input, double& room) {
   return nullptr;
 }
 
-bool inside(const Parameter& p, double x) { return std::isfinite(x) && x >= p.least && x <= p.most; }
+bool inside(const Parameter& p, double x) { return std::isfinite(x) && x >= p.min && x <= p.max; }
 
 }  // namespace
 
@@ -105,7 +105,7 @@ ParameterValue ParameterSet::value_of(const Parameter& p, const ParameterInput* 
   ParameterValue v{
       .name = p.name, .number = p.default_number, .text = p.default_text, .reals = p.default_reals, .texts = {}};
   if (!given) {
-    if (p.required)
+    if (p.is_required)
       problems.push_back("parameter `" + std::string(p.name) + "` is missing: " + wanted(p) + " (" +
                          std::string(p.doc) + ")");
     return v;

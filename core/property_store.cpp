@@ -15,9 +15,7 @@ namespace {
 constexpr SlotId no_slot = 0xffffffffu;
 constexpr std::uint64_t first_capacity = 32;  ///< elements of a list: enough for the contacts of a vehicle at a wall
 
-bool writes(Access a) {
-  return a == Access::variable || a == Access::derived || a == Access::write || a == Access::offer;
-}
+bool writes(Usage u) { return u.access == Access::write; }
 
 void grow_list(ListHeader* list, std::uint64_t wanted) {
   const std::uint64_t capacity = std::max<std::uint64_t>({wanted, 2 * list->capacity, 8});
@@ -27,23 +25,23 @@ void grow_list(ListHeader* list, std::uint64_t wanted) {
   list->capacity = capacity;
 }
 
-std::string_view name_of(Form form) {
+std::string_view name_of(Multiplicity multiplicity) {
   constexpr std::string_view names[] = {"a single value", "an array", "a list"};
-  return names[static_cast<int>(form)];
+  return names[static_cast<int>(multiplicity)];
 }
 
 }  // namespace
 
-bool Slot::used_as(Access access) const {
-  return std::any_of(usage.begin(), usage.end(), [&](const Usage& u) { return u.access == access; });
+bool Slot::used_as(Usage usage) const {
+  return std::any_of(users.begin(), users.end(), [&](const User& u) { return u.usage == usage; });
 }
 
-const Slot::Usage* Slot::writer() const {
-  const auto it = std::find_if(usage.begin(), usage.end(), [](const Usage& u) { return writes(u.access); });
-  return it == usage.end() ? nullptr : &*it;
+const Slot::User* Slot::writer() const {
+  const auto it = std::find_if(users.begin(), users.end(), [](const User& u) { return writes(u.usage); });
+  return it == users.end() ? nullptr : &*it;
 }
 
-PropertyStore::PropertyStore() { add_party("the set-up"); }
+PropertyStore::PropertyStore() { add_accessor("the set-up"); }
 
 PropertyStore::~PropertyStore() {
   for (ListHeader& list : lists_) std::free(list.data);
@@ -54,40 +52,40 @@ void PropertyStore::add_object(std::string name) {
   objects_.emplace_back();
 }
 
-Party PropertyStore::add_party(std::string name) {
-  parties_.push_back(std::move(name));
+Accessor PropertyStore::add_accessor(std::string name) {
+  accessors_.push_back(std::move(name));
   bound_.emplace_back();
-  return Party(parties_.size() - 1);
+  return Accessor(accessors_.size() - 1);
 }
 
 std::string PropertyStore::where(ObjectId object, std::string_view key) const {
   return "`" + object_name(object) + ":" + std::string(key) + "`";
 }
 
-std::string PropertyStore::who(Party p) const { return parties_[p]; }
+std::string PropertyStore::who(Accessor p) const { return accessors_[p]; }
 
-std::uint32_t PropertyStore::column_of(Party party, const KeyInfo& key) {
+std::uint32_t PropertyStore::column_of(Accessor accessor, const KeyInfo& key) {
   const auto it = column_index_.find(key.name);
   if (it == column_index_.end()) {
     columns_.emplace_back(key);
-    column_party_.push_back(party);
+    column_accessor_.push_back(accessor);
     column_index_.emplace(std::string(key.name), std::uint32_t(columns_.size() - 1));
     return std::uint32_t(columns_.size() - 1);
   }
   const KeyInfo& known = columns_[it->second].key();
-  const std::string parties = who(column_party_[it->second]) + " and " + who(party);
+  const std::string accessors = who(column_accessor_[it->second]) + " and " + who(accessor);
   if (!(*known.type == *key.type))
     problems_.push_back("property `" + std::string(key.name) + "`: type " + std::string(known.type->name) +
-                        " and type " + std::string(key.type->name) + " are declared by " + parties +
+                        " and type " + std::string(key.type->name) + " are declared by " + accessors +
                         "; give the property of one of them another name");
   else if (known.unit != key.unit)
     problems_.push_back("property `" + std::string(key.name) + "`: unit \"" + std::string(known.unit) +
-                        "\" and unit \"" + std::string(key.unit) + "\" are declared by " + parties +
+                        "\" and unit \"" + std::string(key.unit) + "\" are declared by " + accessors +
                         "; use one unit, or another name");
   else
     return it->second;
   columns_.emplace_back(key);  // memory of the right size, so that set-up can go on to the next problem
-  column_party_.push_back(party);
+  column_accessor_.push_back(accessor);
   return std::uint32_t(columns_.size() - 1);
 }
 
@@ -102,8 +100,8 @@ const Slot* PropertyStore::find(ObjectId object, std::string_view key) const {
   return id == no_slot ? nullptr : &slots_[id];
 }
 
-SlotId PropertyStore::slot_for(Party party, ObjectId object, const KeyInfo& key) {
-  const std::uint32_t column = column_of(party, key);
+SlotId PropertyStore::slot_for(Accessor accessor, ObjectId object, const KeyInfo& key) {
+  const std::uint32_t column = column_of(accessor, key);
   const SlotId known = find_id(object, key.name);
   if (known != no_slot && *key_of(slots_[known]).type == *key.type) return known;
   const SlotId id = SlotId(slots_.size());
@@ -114,13 +112,13 @@ SlotId PropertyStore::slot_for(Party party, ObjectId object, const KeyInfo& key)
   return id;
 }
 
-void PropertyStore::set_aside(Slot& s, Form form, std::uint32_t count) {
+void PropertyStore::set_aside(Slot& s, Multiplicity multiplicity, std::uint32_t count) {
   Column& column = columns_[s.column];
-  switch (form) {
-    case Form::single:
+  switch (multiplicity) {
+    case Multiplicity::single:
       if (!s.place) s.place = column.allocate(1, part_of(s.object));
       break;
-    case Form::array:
+    case Multiplicity::array:
       if (!s.array) s.array = &arrays_.emplace_back();
       if (count > 0 && !s.place) {
         s.place = column.allocate(count, part_of(s.object));
@@ -128,7 +126,7 @@ void PropertyStore::set_aside(Slot& s, Form form, std::uint32_t count) {
         *s.array = {s.place, count};
       }
       break;
-    case Form::list:
+    case Multiplicity::list:
       if (!s.place) {
         ListHeader& list = lists_.emplace_back();
         list.grow = &grow_list;
@@ -139,23 +137,23 @@ void PropertyStore::set_aside(Slot& s, Form form, std::uint32_t count) {
       }
       break;
   }
-  s.form = form;
+  s.multiplicity = multiplicity;
 }
 
 void PropertyStore::set_constant(ObjectId object, const KeyInfo& key, const void* data, std::uint32_t count) {
-  Slot& s = slots_[slot_for(setup_party, object, key)];
+  Slot& s = slots_[slot_for(setup_accessor, object, key)];
   if (s.kind == Slot::Class::variable || s.kind == Slot::Class::derived) {
     problems_.push_back(where(object, key.name) + " is written by " +
-                        who(s.writer() ? s.writer()->party : setup_party) + " and cannot be a constant");
+                        who(s.writer() ? s.writer()->accessor : setup_accessor) + " and cannot be a constant");
     return;
   }
-  const Form form = count == single_value ? Form::single : Form::array;
-  const std::uint32_t elements = form == Form::single ? 1 : count;
-  if (s.form != form || s.count != elements) s.place = nullptr;
+  const Multiplicity multiplicity = count == single_value ? Multiplicity::single : Multiplicity::array;
+  const std::uint32_t elements = multiplicity == Multiplicity::single ? 1 : count;
+  if (s.multiplicity != multiplicity || s.count != elements) s.place = nullptr;
   s.kind = Slot::Class::constant;
   s.initialised = true;
   s.count = elements;
-  set_aside(s, form, elements);
+  set_aside(s, multiplicity, elements);
   if (elements > 0) std::memcpy(s.place, data, std::size_t(elements) * key.type->size);
 }
 
@@ -176,18 +174,18 @@ void PropertyStore::share(ObjectId a, const KeyInfo& key_a, ObjectId b, const Ke
   SlotId from = find_id(a, key_a.name), to = find_id(b, key_b.name);
   if (from == to && from != no_slot) return;
   if (from != no_slot && to != no_slot) {
-    const auto fresh = [&](SlotId id) { return slots_[id].usage.empty() && !slots_[id].initialised; };
+    const auto fresh = [&](SlotId id) { return slots_[id].users.empty() && !slots_[id].initialised; };
     if (fresh(to) ||
-        (slots_[to].usage.empty() && slots_[from].usage.empty() && slots_[from].initialised &&
+        (slots_[to].users.empty() && slots_[from].users.empty() && slots_[from].initialised &&
          slots_[from].count == slots_[to].count &&
          std::memcmp(slots_[from].place, slots_[to].place, std::size_t(slots_[to].count) * key_a.type->size) == 0)) {
       std::swap(from, to);
     } else if (!fresh(from)) {
-      std::string parties;
+      std::string accessors;
       for (const SlotId id : {from, to})
-        for (const Slot::Usage& u : slots_[id].usage) parties += (parties.empty() ? "" : ", ") + who(u.party);
+        for (const Slot::User& u : slots_[id].users) accessors += (accessors.empty() ? "" : ", ") + who(u.accessor);
       problems_.push_back(both + " have values of their own already" +
-                          (parties.empty() ? "" : " (bound by " + parties + ")") +
+                          (accessors.empty() ? "" : " (bound by " + accessors + ")") +
                           "; declare the sharing before algorithms connect");
       return;
     }
@@ -197,90 +195,81 @@ void PropertyStore::share(ObjectId a, const KeyInfo& key_a, ObjectId b, const Ke
     return;
   }
   if (to == no_slot && from != no_slot)
-    objects_[index_of(b)].push_back({columns_[column_of(setup_party, key_b)].key().name, from});
+    objects_[index_of(b)].push_back({columns_[column_of(setup_accessor, key_b)].key().name, from});
   else
-    objects_[index_of(a)].push_back(
-        {columns_[column_of(setup_party, key_a)].key().name, to != no_slot ? to : slot_for(setup_party, b, key_b)});
+    objects_[index_of(a)].push_back({columns_[column_of(setup_accessor, key_a)].key().name,
+                                     to != no_slot ? to : slot_for(setup_accessor, b, key_b)});
 }
 
-void PropertyStore::use(Slot& s, SlotId id, Party party, Access access) {
-  s.usage.push_back({party, access});
-  bound_[party].push_back(id);
-  switch (access) {
-    case Access::variable:
-    case Access::input:
-      s.kind = s.kind == Slot::Class::constant ? s.kind : Slot::Class::variable;
-      break;
-    case Access::derived:
-    case Access::accumulate:
-      s.kind = s.kind == Slot::Class::unknown ? Slot::Class::derived : s.kind;
-      break;
-    case Access::write:
-    case Access::offer:
-      s.kind = s.kind == Slot::Class::unknown ? Slot::Class::variable : s.kind;
-      break;
-    case Access::read:
-    case Access::read_sum:
-      break;
+void PropertyStore::use(Slot& s, SlotId id, Accessor accessor, Usage usage) {
+  s.users.push_back({accessor, usage});
+  bound_[accessor].push_back(id);
+  if (usage.creation == Creation::state) {
+    if (s.kind != Slot::Class::constant) s.kind = Slot::Class::variable;
+  } else if (s.kind == Slot::Class::unknown) {
+    if (usage.creation == Creation::derived) s.kind = Slot::Class::derived;
+    if (usage.access == Access::write && usage.creation == Creation::none) s.kind = Slot::Class::variable;
   }
 }
 
-void* PropertyStore::handle(Slot& s, Access access) {
-  if (access == Access::read_sum) {
+void* PropertyStore::handle(Slot& s, Usage usage) {
+  if (usage.access == Access::read_sum) {
     if (!s.sum) s.sum = &sums_.emplace_back();
     *s.sum = {s.parts.data(), s.parts.size()};
     return s.sum;
   }
-  if (access == Access::accumulate) {
+  if (usage.access == Access::accumulate) {
     s.parts.push_back(columns_[s.column].allocate(1, part_of(s.object)));
     if (s.sum) *s.sum = {s.parts.data(), s.parts.size()};
     return s.parts.back();
   }
-  return s.form == Form::array ? static_cast<void*>(s.array) : s.place;
+  return s.multiplicity == Multiplicity::array ? static_cast<void*>(s.array) : s.place;
 }
 
-void* PropertyStore::bind(Party party, ObjectId object, const KeyInfo& key, Access access, Form form,
-                          std::uint32_t count, const void* initial, bool weak) {
-  SlotId id = slot_for(party, object, key);
+void* PropertyStore::bind(Accessor accessor, ObjectId object, const KeyInfo& key, Usage usage,
+                          Multiplicity multiplicity, std::uint32_t count, const void* initial, bool weak) {
+  SlotId id = slot_for(accessor, object, key);
   Slot* s = &slots_[id];
-  const bool clash = s->place && (s->form != form || (form == Form::array && count > 0 && s->count != count));
+  const bool clash = s->place && (s->multiplicity != multiplicity ||
+                                  (multiplicity == Multiplicity::array && count > 0 && s->count != count));
   if (clash) {
-    problems_.push_back(where(object, key.name) + " is " + std::string(name_of(s->form)) +
-                        (s->form == Form::array ? " of " + std::to_string(s->count) : "") + " for " +
-                        who(s->usage.empty() ? setup_party : s->usage.front().party) + " and " +
-                        std::string(name_of(form)) + (form == Form::array ? " of " + std::to_string(count) : "") +
-                        " for " + who(party));
+    problems_.push_back(where(object, key.name) + " is " + std::string(name_of(s->multiplicity)) +
+                        (s->multiplicity == Multiplicity::array ? " of " + std::to_string(s->count) : "") + " for " +
+                        who(s->users.empty() ? setup_accessor : s->users.front().accessor) + " and " +
+                        std::string(name_of(multiplicity)) +
+                        (multiplicity == Multiplicity::array ? " of " + std::to_string(count) : "") + " for " +
+                        who(accessor));
     id = SlotId(slots_.size());
     s = &slots_.emplace_back();
     s->object = object;
-    s->column = column_of(party, key);
+    s->column = column_of(accessor, key);
   }
-  if (access != Access::accumulate && access != Access::read_sum) set_aside(*s, form, count);
-  const bool creates = access == Access::variable || access == Access::derived;
-  if (creates && form == Form::array && count == 0)
-    problems_.push_back(where(object, key.name) + " is created as an array without elements by " + who(party));
-  if ((writes(access) || access == Access::accumulate) && s->kind == Slot::Class::constant)
-    problems_.push_back(where(object, key.name) + " is a constant, but " + who(party) + " writes it");
-  use(*s, id, party, access);
-  if (initial && s->kind != Slot::Class::constant && (!s->initialised || (access == Access::variable && !weak))) {
+  if (usage != usage::accumulate && usage != usage::read_sum) set_aside(*s, multiplicity, count);
+  const bool creates = usage == usage::variable || usage == usage::derived;
+  if (creates && multiplicity == Multiplicity::array && count == 0)
+    problems_.push_back(where(object, key.name) + " is created as an array without elements by " + who(accessor));
+  if ((writes(usage) || usage == usage::accumulate) && s->kind == Slot::Class::constant)
+    problems_.push_back(where(object, key.name) + " is a constant, but " + who(accessor) + " writes it");
+  use(*s, id, accessor, usage);
+  if (initial && s->kind != Slot::Class::constant && (!s->initialised || (usage == usage::variable && !weak))) {
     std::memcpy(s->place, initial, key.type->size);
-    s->initialised = access == Access::variable || access == Access::input;  // others only fill what nobody has set
+    s->initialised = usage == usage::variable || usage == usage::input;  // others only fill what nobody has set
   }
   if (creates) s->object = object;
-  return handle(*s, access);
+  return handle(*s, usage);
 }
 
-void PropertyStore::let_alternate(const std::vector<ObjectId>& objects, const std::vector<Party>& parties) {
+void PropertyStore::let_alternate(const std::vector<ObjectId>& objects, const std::vector<Accessor>& accessors) {
   for (const ObjectId object : objects)
-    for (const Party party : parties) alternating_.emplace(object, party);
+    for (const Accessor accessor : accessors) alternating_.emplace(object, accessor);
 }
 
-void* PropertyStore::state_block(Party party, ObjectId object, std::string_view name, std::uint32_t size) {
+void* PropertyStore::state_block(Accessor accessor, ObjectId object, std::string_view name, std::uint32_t size) {
   const std::string& kept = texts_.emplace_back("state." + std::string(name));
   const KeyInfo key{kept, "1", &value_type<std::uint8_t>, Role::state, "state that only its owner understands"};
   const std::uint32_t whole = (std::max(size, 1u) + 63) / 64 * 64;  // so that each block begins aligned for any type
-  const auto* array =
-      static_cast<const ArrayHeader*>(bind(party, object, key, Access::variable, Form::array, whole, nullptr));
+  const auto* array = static_cast<const ArrayHeader*>(
+      bind(accessor, object, key, usage::variable, Multiplicity::array, whole, nullptr));
   return array->data;
 }
 
@@ -288,35 +277,35 @@ void PropertyStore::check_slot(const Slot& s, const std::function<std::string(st
                                std::vector<std::string>& problems) const {
   const KeyInfo& key = key_of(s);
   const std::string place = where(s.object, key.name);
-  const Slot::Usage* writer = nullptr;
-  const Slot::Usage* reader = nullptr;
-  const Slot::Usage* adder = nullptr;
-  for (const Slot::Usage& u : s.usage) {
-    if (writes(u.access)) {
-      if (writer && writer->party != u.party && !alternate(s.object, writer->party, u.party))
-        problems.push_back(place + " has two writers: " + who(writer->party) + " and " + who(u.party) +
+  const Slot::User* writer = nullptr;
+  const Slot::User* reader = nullptr;
+  const Slot::User* adder = nullptr;
+  for (const Slot::User& u : s.users) {
+    if (writes(u.usage)) {
+      if (writer && writer->accessor != u.accessor && !alternate(s.object, writer->accessor, u.accessor))
+        problems.push_back(place + " has two writers: " + who(writer->accessor) + " and " + who(u.accessor) +
                            "; only one algorithm may write a property");
       writer = writer ? writer : &u;
     }
-    if (u.access == Access::read && !reader) reader = &u;
-    if (u.access == Access::accumulate && !adder) adder = &u;
+    if (u.usage == usage::read && !reader) reader = &u;
+    if (u.usage == usage::accumulate && !adder) adder = &u;
   }
   const auto summed =
-      std::find_if(s.usage.begin(), s.usage.end(), [](const Slot::Usage& u) { return u.access == Access::read_sum; });
-  if (writer && summed != s.usage.end())
-    problems.push_back(place + " is written by " + who(writer->party) + ", but " + who(summed->party) +
+      std::find_if(s.users.begin(), s.users.end(), [](const Slot::User& u) { return u.usage == usage::read_sum; });
+  if (writer && summed != s.users.end())
+    problems.push_back(place + " is written by " + who(writer->accessor) + ", but " + who(summed->accessor) +
                        " reads the sum of contributions; the writer must add to it");
   if (writer && adder)
-    problems.push_back(place + " is written by " + who(writer->party) + " and added to by " + who(adder->party) +
+    problems.push_back(place + " is written by " + who(writer->accessor) + " and added to by " + who(adder->accessor) +
                        "; all of them must add");
-  if (reader && !writer && s.kind != Slot::Class::constant && !s.used_as(Access::input)) {
+  if (reader && !writer && s.kind != Slot::Class::constant && !s.used_as(usage::input)) {
     const std::string help = writers_of(key.name);
-    problems.push_back(place + " (" + std::string(key.doc) + ") is read by " + who(reader->party) +
+    problems.push_back(place + " (" + std::string(key.doc) + ") is read by " + who(reader->accessor) +
                        ", but nothing writes it" + (help.empty() ? "" : "; add one of: " + help));
   }
-  const bool read = reader || s.used_as(Access::input);
-  if (key.role == Role::command && writer && writer->access == Access::write && !read)
-    problems.push_back(place + " (" + std::string(key.doc) + ") is commanded by " + who(writer->party) +
+  const bool read = reader || s.used_as(usage::input);
+  if (key.role == Role::command && writer && writer->usage == usage::write && !read)
+    problems.push_back(place + " (" + std::string(key.doc) + ") is commanded by " + who(writer->accessor) +
                        ", but nothing that moves `" + object_name(s.object) +
                        "` uses this command; choose another motion algorithm, or add a drive");
 }
@@ -371,7 +360,7 @@ std::uint64_t PropertyStore::hash(ObjectId object) const {
     h = hash_bytes(n->key.data(), n->key.size(), h);
     const void* data = s.place;
     std::size_t count = s.place ? s.count : 0;
-    if (s.form == Form::list) {
+    if (s.multiplicity == Multiplicity::list) {
       const auto* list = static_cast<const ListHeader*>(s.place);
       data = list->data;
       count = list->size;

@@ -14,34 +14,34 @@
 namespace muro {
 
 /// Who uses properties: an algorithm instance, or the set-up itself.
-using Party = std::uint32_t;
-inline constexpr Party setup_party = 0;
+using Accessor = std::uint32_t;
+inline constexpr Accessor setup_accessor = 0;
 
 using SlotId = std::uint32_t;
 
 /// One place in memory. Several (object, key) pairs may name it.
 struct Slot {
   enum class Class : std::uint8_t { unknown, constant, variable, derived };
-  struct Usage {
-    Party party;
-    Access access;
+  struct User {
+    Accessor accessor;
+    Usage usage;
   };
 
   ObjectId object = no_object;  ///< through which it was created
   std::uint32_t column = 0;
   Class kind = Class::unknown;
-  Form form = Form::single;
+  Multiplicity multiplicity = Multiplicity::single;
   bool initialised = false;
   std::uint32_t count = 1;
   void* place = nullptr;  ///< the value, the first element, or the ListHeader
   ArrayHeader* array = nullptr;
   SumHeader* sum = nullptr;
   std::vector<void*> parts;  ///< contributions to a sum, in registration order
-  std::vector<Usage> usage;
+  std::vector<User> users;
 
-  bool used_as(Access access) const;
+  bool used_as(Usage usage) const;
   /// The one that writes it, if there is one.
-  const Usage* writer() const;
+  const User* writer() const;
 };
 
 /// All properties of all objects.
@@ -60,8 +60,8 @@ class PropertyStore {
   /// apart between parts.
   void set_parts(std::vector<std::uint32_t> parts) { parts_ = std::move(parts); }
   const std::string& object_name(ObjectId id) const { return names_[index_of(id)]; }
-  Party add_party(std::string name);
-  const std::string& party_name(Party p) const { return parties_[p]; }
+  Accessor add_accessor(std::string name);
+  const std::string& accessor_name(Accessor p) const { return accessors_[p]; }
 
   /// A constant: `count` elements, or single_value. A second value for the same property replaces the first.
   void set_constant(ObjectId object, const KeyInfo& key, const void* data, std::uint32_t count);
@@ -72,15 +72,15 @@ class PropertyStore {
   /// algorithm holds a handle to both.
   void share(ObjectId a, const KeyInfo& key_a, ObjectId b, const KeyInfo& key_b);
 
-  /// A place for `party`; see Connector for the meaning of the arguments. Never fails: a request that
+  /// A place for `accessor`; see Connector for the meaning of the arguments. Never fails: a request that
   /// clashes gets a place of its own and a problem.
   /// `weak`: the initial value counts only where nobody has given one.
-  void* bind(Party party, ObjectId object, const KeyInfo& key, Access access, Form form, std::uint32_t count,
-             const void* initial, bool weak = false);
-  /// These parties may write the same properties of these objects, one at a time.
-  void let_alternate(const std::vector<ObjectId>& objects, const std::vector<Party>& parties);
+  void* bind(Accessor accessor, ObjectId object, const KeyInfo& key, Usage usage, Multiplicity multiplicity,
+             std::uint32_t count, const void* initial, bool weak = false);
+  /// These accessors may write the same properties of these objects, one at a time.
+  void let_alternate(const std::vector<ObjectId>& objects, const std::vector<Accessor>& accessors);
   /// Bytes of state under a name of their own.
-  void* state_block(Party party, ObjectId object, std::string_view name, std::uint32_t size);
+  void* state_block(Accessor accessor, ObjectId object, std::string_view name, std::uint32_t size);
 
   /// Throws SetupError with every problem found. `writers_of(key)` names algorithms that write a key.
   void check(const std::function<std::string(std::string_view)>& writers_of) const;
@@ -96,8 +96,8 @@ class PropertyStore {
   };
   const std::vector<Named>& properties(ObjectId object) const { return objects_[index_of(object)]; }
   std::uint32_t slot_count() const { return std::uint32_t(slots_.size()); }
-  /// The slots that `party` bound last is recorded in order; used by the scheduler.
-  const std::vector<SlotId>& slots_of(Party party) const { return bound_[party]; }
+  /// The slots that `accessor` bound last is recorded in order; used by the scheduler.
+  const std::vector<SlotId>& slots_of(Accessor accessor) const { return bound_[accessor]; }
 
   /// The whole memory of properties, byte by byte; transient values are left out.
   struct Image {
@@ -110,25 +110,25 @@ class PropertyStore {
   std::uint64_t hash(ObjectId object) const;
 
  private:
-  bool alternate(ObjectId object, Party a, Party b) const {
+  bool alternate(ObjectId object, Accessor a, Accessor b) const {
     return alternating_.count({object, a}) > 0 && alternating_.count({object, b}) > 0;
   }
-  std::uint32_t column_of(Party party, const KeyInfo& key);
+  std::uint32_t column_of(Accessor accessor, const KeyInfo& key);
   SlotId find_id(ObjectId object, std::string_view key) const;
-  SlotId slot_for(Party party, ObjectId object, const KeyInfo& key);
+  SlotId slot_for(Accessor accessor, ObjectId object, const KeyInfo& key);
   std::uint32_t part_of(ObjectId id) const { return index_of(id) < parts_.size() ? parts_[index_of(id)] : 0; }
-  void set_aside(Slot& s, Form form, std::uint32_t count);
-  void use(Slot& s, SlotId id, Party party, Access access);
-  void* handle(Slot& s, Access access);
+  void set_aside(Slot& s, Multiplicity multiplicity, std::uint32_t count);
+  void use(Slot& s, SlotId id, Accessor accessor, Usage usage);
+  void* handle(Slot& s, Usage usage);
   std::string where(ObjectId object, std::string_view key) const;
-  std::string who(Party p) const;
+  std::string who(Accessor p) const;
   void check_slot(const Slot& s, const std::function<std::string(std::string_view)>& writers_of,
                   std::vector<std::string>& problems) const;
 
   std::vector<std::string> names_;
   std::vector<std::uint32_t> parts_;  ///< by object
-  std::vector<std::string> parties_;
-  std::vector<Party> column_party_;  ///< who declared the key first
+  std::vector<std::string> accessors_;
+  std::vector<Accessor> column_accessor_;  ///< who declared the key first
   std::deque<Column> columns_;
   std::map<std::string, std::uint32_t, std::less<>> column_index_;
   std::deque<std::string> texts_;  ///< names of state blocks
@@ -138,7 +138,7 @@ class PropertyStore {
   std::deque<ArrayHeader> arrays_;
   std::deque<ListHeader> lists_;
   std::deque<SumHeader> sums_;
-  std::set<std::pair<ObjectId, Party>> alternating_;
+  std::set<std::pair<ObjectId, Accessor>> alternating_;
   std::vector<std::string> problems_;
 };
 

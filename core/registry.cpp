@@ -9,8 +9,8 @@
 
 #include "core/error.hpp"
 #include "core/plugin_library.hpp"
-#include "muro/describe.hpp"
-#include "muro/nearest.hpp"
+#include "describe/describe.hpp"
+#include "muro/toolkit/did_you_mean.hpp"
 
 namespace muro {
 
@@ -36,8 +36,8 @@ std::optional<Features> features_in(const ptree& entry) {
   return bits;
 }
 
-Offer offer_from(const ptree& entry, const ptree& plugin, const fs::path& description) {
-  Offer o;
+CatalogEntry catalog_entry_from(const ptree& entry, const ptree& plugin, const fs::path& description) {
+  CatalogEntry o;
   o.id = entry.get<std::string>("id");
   o.kind = entry.get<std::string>("kind");
   o.version = entry.get<std::string>("version");
@@ -79,7 +79,7 @@ Registry::Registry(const std::vector<std::string>& folders) {
     folders_.push_back(absolute);
     scan(absolute);
   }
-  std::sort(offers_.begin(), offers_.end(), [](const Offer& a, const Offer& b) { return a.id < b.id; });
+  std::sort(catalog_.begin(), catalog_.end(), [](const CatalogEntry& a, const CatalogEntry& b) { return a.id < b.id; });
 }
 
 void Registry::scan(const std::string& folder) {
@@ -88,18 +88,19 @@ void Registry::scan(const std::string& folder) {
   for (const auto& file : fs::directory_iterator(folder, none))
     if (file.path().filename().string().ends_with(".muro.json")) files.push_back(file.path());
   std::sort(files.begin(), files.end());
-  const std::size_t before = offers_.size();
+  const std::size_t before = catalog_.size();
   for (const fs::path& file : files) {
     try {
       ptree plugin;
       boost::property_tree::read_json(file.string(), plugin);
       for (const char* list : {"algorithms", "readers"})
         for (const auto& [unused, entry] : plugin.get_child(list)) {
-          Offer o = offer_from(entry, plugin, file);
-          const auto known = std::find_if(offers_.begin(), offers_.end(), [&](const Offer& k) { return k.id == o.id; });
-          if (known == offers_.end())
-            offers_.push_back(std::move(o));
-          else if (std::size_t(known - offers_.begin()) >= before)
+          CatalogEntry o = catalog_entry_from(entry, plugin, file);
+          const auto known =
+              std::find_if(catalog_.begin(), catalog_.end(), [&](const CatalogEntry& k) { return k.id == o.id; });
+          if (known == catalog_.end())
+            catalog_.push_back(std::move(o));
+          else if (std::size_t(known - catalog_.begin()) >= before)
             rivals_[o.id] = "`" + o.id + "` is offered by two plugins: " + known->library + " and " + o.library +
                             "; remove one of them";
         }
@@ -109,12 +110,12 @@ void Registry::scan(const std::string& folder) {
   }
 }
 
-const Offer& Registry::find(const std::string& id) const {
+const CatalogEntry& Registry::find(const std::string& id) const {
   if (const auto rival = rivals_.find(id); rival != rivals_.end()) throw SetupError(rival->second);
-  const auto it = std::find_if(offers_.begin(), offers_.end(), [&](const Offer& o) { return o.id == id; });
-  if (it != offers_.end()) return *it;
+  const auto it = std::find_if(catalog_.begin(), catalog_.end(), [&](const CatalogEntry& o) { return o.id == id; });
+  if (it != catalog_.end()) return *it;
   std::vector<std::string> ids, family;
-  for (const Offer& o : offers_) {
+  for (const CatalogEntry& o : catalog_) {
     ids.push_back(o.id);
     if (o.id.substr(0, o.id.find('.')) == id.substr(0, id.find('.'))) family.push_back(o.id);
   }
@@ -132,7 +133,7 @@ const Offer& Registry::find(const std::string& id) const {
   throw SetupError(message);
 }
 
-const abi::PluginTable& Registry::load(const Offer& offer) {
+const abi::PluginTable& Registry::load(const CatalogEntry& offer) {
   const auto known = tables_.find(offer.library);
   if (known != tables_.end()) return *known->second;
   const abi::PluginTable& table = load_plugin(offer.library);
@@ -146,14 +147,14 @@ const abi::PluginTable& Registry::load(const Offer& offer) {
 }
 
 const abi::AlgorithmEntry& Registry::algorithm(const std::string& id) {
-  const Offer& offer = find(id);
+  const CatalogEntry& offer = find(id);
   for (const abi::AlgorithmEntry& e : load(offer).algorithms)
     if (e.description->id == id) return e;
   throw SetupError("`" + id + "` is a " + offer.kind + ", no algorithm");
 }
 
 const abi::ReaderEntry& Registry::reader(const std::string& id) {
-  const Offer& offer = find(id);
+  const CatalogEntry& offer = find(id);
   for (const abi::ReaderEntry& e : load(offer).readers)
     if (e.description->id == id) return e;
   throw SetupError("`" + id + "` is an algorithm of kind " + offer.kind + ", no model reader");
@@ -164,7 +165,7 @@ const abi::ReaderEntry& Registry::reader_for(const std::string& path) {
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return char(std::tolower(c)); });
   std::string known;
-  for (const Offer& o : offers_)
+  for (const CatalogEntry& o : catalog_)
     for (const std::string& e : o.extensions) {
       if (e == extension) return reader(o.id);
       known += (known.empty() ? "" : ", ") + e;
@@ -175,7 +176,7 @@ const abi::ReaderEntry& Registry::reader_for(const std::string& path) {
 
 std::string Registry::writers_of(std::string_view key) const {
   std::string all;
-  for (const Offer& o : offers_)
+  for (const CatalogEntry& o : catalog_)
     if (std::find(o.writes.begin(), o.writes.end(), key) != o.writes.end()) all += (all.empty() ? "" : ", ") + o.id;
   return all;
 }

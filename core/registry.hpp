@@ -12,7 +12,7 @@
 namespace muro {
 
 /// One line of what a plugin offers, from its description file: no code of the plugin has run.
-struct Offer {
+struct CatalogEntry {
   std::string id;    ///< "motion.point"
   std::string kind;  ///< "motion", "reader"
   std::string version;
@@ -36,13 +36,13 @@ class Registry {
   /// plugins of one folder with the same name: an error when the name is used.
   explicit Registry(const std::vector<std::string>& folders);
 
-  const std::vector<Offer>& offers() const { return offers_; }
+  const std::vector<CatalogEntry>& catalog() const { return catalog_; }
   const std::vector<std::string>& folders() const { return folders_; }
   /// What could not be read while scanning, a line each.
   const std::vector<std::string>& problems() const { return problems_; }
 
   /// Throws SetupError with the nearest name, the allowed ones of that family, or the rival plugins.
-  const Offer& find(const std::string& id) const;
+  const CatalogEntry& find(const std::string& id) const;
   /// Loads the plugin if needed. Throws SetupError when it is refused, or `id` is a reader.
   const abi::AlgorithmEntry& algorithm(const std::string& id);
   const abi::ReaderEntry& reader(const std::string& id);
@@ -53,10 +53,10 @@ class Registry {
 
  private:
   void scan(const std::string& folder);
-  const abi::PluginTable& load(const Offer& offer);
+  const abi::PluginTable& load(const CatalogEntry& offer);
 
   std::vector<std::string> folders_;
-  std::vector<Offer> offers_;
+  std::vector<CatalogEntry> catalog_;
   std::map<std::string, std::string> rivals_;  ///< id -> message
   std::map<std::string, const abi::PluginTable*> tables_;
   std::vector<std::string> problems_;

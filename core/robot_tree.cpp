@@ -15,7 +15,7 @@ std::string in_quotes(std::string_view s) { return "`" + std::string(s) + "`"; }
 }  // namespace
 
 bool RobotTree::started(std::string_view call) {
-  if (at_.frame >= 0 && !at_.closed) return true;
+  if (at_.link >= 0 && !at_.closed) return true;
   if (at_.closed) {
     report(
         Severity::error,
@@ -48,12 +48,12 @@ std::int32_t RobotTree::add_part(std::string_view name) {
 }
 
 void RobotTree::base(std::string_view name) noexcept {
-  if (at_.frame >= 0) return report(Severity::error, "a second base " + in_quotes(name) + "; a robot has one", 0, 0);
+  if (at_.link >= 0) return report(Severity::error, "a second base " + in_quotes(name) + "; a robot has one", 0, 0);
   add_node(NodeKind::base, name);
-  FlatFrame f;
+  FlatLink f;
   f.part = add_part(name);
-  frames_.push_back(std::move(f));
-  at_.frame = 0;
+  links_.push_back(std::move(f));
+  at_.link = 0;
 }
 
 void RobotTree::fork() noexcept {
@@ -95,15 +95,15 @@ void RobotTree::joint(NodeKind kind, std::string_view name, const Vec3& axis, co
   if (!(length > 1e-12) || !axis.allFinite())
     return report(Severity::error, "joint " + in_quotes(name) + ": the axis has no direction", 0, 0);
   add_node(kind, name);
-  FlatFrame f;
+  FlatLink f;
   f.joint_part = add_part(name);
-  f.frame.parent = at_.frame;
-  f.frame.joint = kind == NodeKind::revolute ? JointKind::revolute : JointKind::prismatic;
-  f.frame.origin = at_.since;
-  f.frame.axis = axis / length;
-  f.frame.limits = limits;
-  frames_.push_back(std::move(f));
-  at_.frame = std::int32_t(frames_.size()) - 1;
+  f.link.parent = at_.link;
+  f.link.joint = kind == NodeKind::revolute ? JointKind::revolute : JointKind::prismatic;
+  f.link.origin = at_.since;
+  f.link.axis = axis / length;
+  f.link.limits = limits;
+  links_.push_back(std::move(f));
+  at_.link = std::int32_t(links_.size()) - 1;
   at_.since = {};
   at_.unnamed = true;
 }
@@ -118,26 +118,26 @@ void RobotTree::prismatic(std::string_view name, const Vec3& axis, const JointLi
 
 void RobotTree::mimic(std::string_view leader, double multiplier, double offset) noexcept {
   if (!started("mimic()")) return;
-  FlatFrame& f = frames_.back();
+  FlatLink& f = links_.back();
   if (f.joint_part < 0 || f.joint_part != last_part_)
     return report(Severity::error, "mimic(" + std::string(leader) + ") does not follow a joint", 0, 0);
   f.mimic_leader = leader;
-  f.frame.mimic_multiplier = multiplier;
-  f.frame.mimic_offset = offset;
+  f.link.mimic_multiplier = multiplier;
+  f.link.mimic_offset = offset;
 }
 
 void RobotTree::body(std::string_view name) noexcept {
   if (!started("body()")) return;
   add_node(NodeKind::body, name);
-  if (at_.unnamed && frames_[std::size_t(at_.frame)].part < 0) {
-    frames_[std::size_t(at_.frame)].part = add_part(name);
+  if (at_.unnamed && links_[std::size_t(at_.link)].part < 0) {
+    links_[std::size_t(at_.link)].part = add_part(name);
   } else {
-    FlatFrame f;
+    FlatLink f;
     f.part = add_part(name);
-    f.frame.parent = at_.frame;
-    f.frame.origin = at_.since;
-    frames_.push_back(std::move(f));
-    at_.frame = std::int32_t(frames_.size()) - 1;
+    f.link.parent = at_.link;
+    f.link.origin = at_.since;
+    links_.push_back(std::move(f));
+    at_.link = std::int32_t(links_.size()) - 1;
     at_.since = {};
   }
   at_.unnamed = false;
@@ -158,23 +158,23 @@ void RobotTree::set_raw(const KeyInfo& key, const void* data, std::uint32_t coun
 }
 
 void RobotTree::close() {
-  if (frames_.empty()) return report(Severity::error, "the model has no base", 0, 0);
+  if (links_.empty()) return report(Severity::error, "the model has no base", 0, 0);
   if (!forks_.empty()) report(Severity::error, std::to_string(forks_.size()) + " fork() without two end()", 0, 0);
-  for (FlatFrame& f : frames_) {
+  for (FlatLink& f : links_) {
     if (f.part < 0) f.part = add_part(parts_[std::size_t(f.joint_part)].name + "_frame");
     if (f.mimic_leader.empty()) continue;
-    const auto it = std::find_if(frames_.begin(), frames_.end(), [&](const FlatFrame& g) {
+    const auto it = std::find_if(links_.begin(), links_.end(), [&](const FlatLink& g) {
       return g.joint_part >= 0 && parts_[std::size_t(g.joint_part)].name == f.mimic_leader;
     });
     const std::string name = in_quotes(parts_[std::size_t(f.joint_part)].name);
-    if (it == frames_.end())
+    if (it == links_.end())
       report(Severity::error,
              "joint " + name + " mimics " + in_quotes(f.mimic_leader) + ", which is no joint of the robot", 0, 0);
     else if (!it->mimic_leader.empty())
       report(Severity::error,
              "joint " + name + " mimics " + in_quotes(f.mimic_leader) + ", which mimics a joint itself", 0, 0);
     else
-      f.frame.mimic = std::int32_t(it - frames_.begin());
+      f.link.mimic = std::int32_t(it - links_.begin());
   }
 }
 
@@ -186,8 +186,8 @@ bool RobotTree::usable() const {
 template <class Visit>
 void RobotTree::each_collision_bounds(Visit visit) const {
   std::vector<Pose> poses;
-  for (const FlatFrame& f : frames_) {
-    poses.push_back(f.frame.parent < 0 ? Pose{} : poses[std::size_t(f.frame.parent)] * f.frame.origin);
+  for (const FlatLink& f : links_) {
+    poses.push_back(f.link.parent < 0 ? Pose{} : poses[std::size_t(f.link.parent)] * f.link.origin);
     for (const Constant& c : parts_[std::size_t(f.part)].constants) {
       if (c.key.name != keys::collision_shapes.name) continue;
       for (std::uint32_t i = 0; i < c.count; ++i) {

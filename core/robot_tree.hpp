@@ -30,11 +30,11 @@ class RobotTree final : public RobotBuilder {
     std::string name;
     std::vector<Constant> constants;
   };
-  /// A frame whose objects are still indices of parts.
-  struct FlatFrame {
+  /// A link whose objects are still indices of parts.
+  struct FlatLink {
     std::int32_t part = -1;        ///< the body
     std::int32_t joint_part = -1;  ///< the joint, if any
-    Frame frame;                   ///< without object ids
+    Link link;                     ///< without object ids
     std::string mimic_leader;
   };
   struct Problem {
@@ -60,7 +60,7 @@ class RobotTree final : public RobotBuilder {
 
   const std::vector<Node>& nodes() const { return nodes_; }
   const std::vector<Part>& parts() const { return parts_; }
-  const std::vector<FlatFrame>& frames() const { return frames_; }
+  const std::vector<FlatLink>& links() const { return links_; }
   const std::vector<std::string>& texts() const { return texts_; }
   const std::vector<Problem>& problems() const { return problems_; }
   bool usable() const;
@@ -81,9 +81,9 @@ class RobotTree final : public RobotBuilder {
 
   struct Cursor {
     std::int32_t node = -1;
-    std::int32_t frame = -1;
-    Pose since;            ///< from that frame to here
-    bool unnamed = false;  ///< the frame's joint has no body yet, and nothing lies between
+    std::int32_t link = -1;
+    Pose since;            ///< from that link to here
+    bool unnamed = false;  ///< the link's joint has no body yet, and nothing lies between
     int branches = 0;      ///< of a fork: how many are closed
     bool closed = false;   ///< behind a fork with two closed branches: nothing may follow
   };
@@ -92,7 +92,7 @@ class RobotTree final : public RobotBuilder {
   std::int32_t last_part_ = -1;
   std::vector<Node> nodes_;
   std::vector<Part> parts_;
-  std::vector<FlatFrame> frames_;
+  std::vector<FlatLink> links_;
   std::vector<std::string> texts_{""};
   std::vector<Problem> problems_;
   std::map<std::string, std::int32_t, std::less<>> part_index_;

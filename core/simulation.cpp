@@ -16,36 +16,7 @@ namespace muro {
 
 namespace {
 
-/// The order in which kinds connect: who moves things first, who looks at everything last.
-int connect_order(const Description& d) {
-  switch (d.kind) {
-    case Kind::motion:
-      return 0;
-    case Kind::kinematics:
-      return 1;
-    case Kind::scene:
-      return 2;
-    case Kind::collision:
-      return 3;
-    case Kind::contact:
-      return 4;
-    case Kind::drive:
-      return 5;
-    case Kind::sensor:
-      return 6;
-    case Kind::sensor_error:
-      return 7;
-    case Kind::controller:
-      return 8;
-    case Kind::recorder:
-      return 9;
-    case Kind::view:
-      return 10;
-    case Kind::level:
-      return 1;  // whether a robot touches something is asked before it is known who finds it out
-  }
-  return 11;
-}
+int connect_order(const Description& d) { return info_of(d.kind).connect_order; }
 
 /// Lets several steps of the set-up fail, so that all their problems are told at once.
 class Collected {
@@ -80,8 +51,8 @@ class Simulation::Log final : public Host {
     const std::lock_guard lock(mutex_);
     sink(level, text);
   }
-  void* ability(std::string_view name) noexcept override {
-    return name == Inspection::ability ? static_cast<Inspection*>(&inspector_) : nullptr;
+  void* extension(std::string_view name) noexcept override {
+    return name == Inspection::extension ? static_cast<Inspection*>(&inspector_) : nullptr;
   }
 
  private:
@@ -217,8 +188,8 @@ void Simulation::merge_batched() {
     return named == s.parameters.end() ? ParameterInput(std::string()) : named->second;
   };
   for (AlgorithmSetup& s : setups_) {
-    const std::uint32_t promises = registry_.algorithm(s.use).description->promises;
-    const bool world = (promises & Promise::world) != 0, batched = (promises & Promise::batched) != 0;
+    const std::uint32_t promises = registry_.algorithm(s.use).description->capabilities;
+    const bool world = (promises & Capability::world) != 0, batched = (promises & Capability::batched) != 0;
     const auto same = [&](const AlgorithmSetup& m) {
       if (m.use != s.use || m.items.empty()) return false;
       if (world) return world_of(m) == world_of(s);
@@ -274,6 +245,8 @@ void Simulation::build() {
   Collected problems;
   for (const std::size_t i : in_order_of(connect_order)) problems.run([&] { instances_[i]->connect(); });
   problems.check();
+  for (const std::size_t i : in_order_of(connect_order)) problems.run([&] { instances_[i]->connect_by_name(); });
+  problems.check();
   levels_->complete();
   world_.store().check([&](std::string_view key) { return registry_.writers_of(key); });
   schedule();
@@ -282,24 +255,24 @@ void Simulation::build() {
 }
 
 void Simulation::schedule() {
-  std::vector<const Instance*> by_party;
+  std::vector<const Instance*> by_accessor;
   for (const auto& instance : instances_) {
-    by_party.resize(std::max<std::size_t>(by_party.size(), instance->party() + 1));
-    by_party[instance->party()] = instance.get();
+    by_accessor.resize(std::max<std::size_t>(by_accessor.size(), instance->accessor() + 1));
+    by_accessor[instance->accessor()] = instance.get();
   }
-  for (const auto& instance : instances_) instance->read_through(by_party);
+  for (const auto& instance : instances_) instance->read_through(by_accessor);
   for (const auto& instance : instances_) {
     const AlgorithmSetup& s = instance->setup();
     Task task;
     task.name = s.name;
-    task.instance = levels_->keeper_of(*instance);
+    task.instance = levels_->filter_of(*instance);
     task.items = std::uint32_t(s.items.size());
     for (const Item& item : s.items)
       task.robot_of_item.push_back(item.robot ? std::int32_t(item.robot->number) : world_.robot_of(item.object));
     task.phases = instance->phases();
     task.touches = instance->touches();
     task.robots = std::uint32_t(world_.robots().size());
-    task.alone = (instance->description().promises & Promise::alone) != 0;
+    task.runs_alone = (instance->description().capabilities & Capability::runs_alone) != 0;
     task.rate = s.rate;
     task.phase = s.phase;
     task.order = order_of(instance->description());
@@ -339,8 +312,8 @@ void Simulation::verify_access() {
 void Simulation::run_for(double seconds) { run_until(now() + std::llround(seconds * 1e9)); }
 
 void Simulation::run_until(std::int64_t time, const std::function<bool()>& stop) {
-  const auto is_alone = [](const Task& t) { return t.alone; };
-  if (std::none_of(scheduler_.tasks().begin(), scheduler_.tasks().end(), is_alone))
+  const auto runs_alone = [](const Task& t) { return t.runs_alone; };
+  if (std::none_of(scheduler_.tasks().begin(), scheduler_.tasks().end(), runs_alone))
     return scheduler_.run_until(time, stop);
   inspector_->set_stop(stop);
   scheduler_.run_until(time, [&] { return inspector_->is_stopping(); });

@@ -8,7 +8,7 @@
 #include "core/algorithm_setup.hpp"
 #include "core/error.hpp"
 #include "core/registry.hpp"
-#include "core/scheduler.hpp"
+#include "core/schedule/scheduler.hpp"
 #include "core/world.hpp"
 #include "core/world_model.hpp"
 

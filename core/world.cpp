@@ -6,8 +6,8 @@
 
 #include "core/error.hpp"
 #include "core/hash.hpp"
-#include "muro/nearest.hpp"
-#include "muro/random.hpp"
+#include "muro/toolkit/did_you_mean.hpp"
+#include "muro/toolkit/random.hpp"
 #include "muro/vocabulary.hpp"
 
 namespace muro {
@@ -85,13 +85,13 @@ const RobotView& World::add_robot(std::string_view name, const RobotTree& tree, 
       store_.set_constant(objects.back(), c.key, data.data(), c.count);
     }
   }
-  for (const RobotTree::FlatFrame& f : tree.frames()) {
-    Frame frame = f.frame;
+  for (const RobotTree::FlatLink& f : tree.links()) {
+    Link frame = f.link;
     frame.object = objects[std::size_t(f.part)];
     frame.joint_object = f.joint_part < 0 ? no_object : objects[std::size_t(f.joint_part)];
-    r.frames.push_back(frame);
+    r.links.push_back(frame);
   }
-  r.view = {r.name, number, fnv1a(r.name), r.frames};
+  r.view = {r.name, number, fnv1a(r.name), r.links};
   robot_pointers_.push_back(&r.view);
   set(r.view.base(), keys::initial_pose, start);
   return r.view;
@@ -133,7 +133,8 @@ void* World::place(ObjectId object, const KeyInfo& key) const {
 ArrayHeader World::elements(ObjectId object, const KeyInfo& key) const {
   void* data = place(object, key);
   const Slot* s = store_.find(object, key.name);
-  if (s->form == Form::list) return {static_cast<ListHeader*>(data)->data, static_cast<ListHeader*>(data)->size};
+  if (s->multiplicity == Multiplicity::list)
+    return {static_cast<ListHeader*>(data)->data, static_cast<ListHeader*>(data)->size};
   return {data, s->count};
 }
 

@@ -87,7 +87,7 @@ class World {
   std::unordered_map<std::string, ObjectId> by_name_;
   struct Robot {
     std::string name;
-    std::vector<Frame> frames;
+    std::vector<Link> links;
     RobotView view;
     std::vector<ObjectId> objects;
   };

@@ -9,7 +9,7 @@
 #include "core/error.hpp"
 #include "host/commands/commands.hpp"
 #include "host/scenario/scenario.hpp"
-#include "muro/nearest.hpp"
+#include "muro/toolkit/did_you_mean.hpp"
 
 namespace {
 

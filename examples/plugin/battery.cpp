@@ -20,8 +20,8 @@ constexpr Parameter parameters[] = {
     real("rolling_resistance", "1", 0.02, "coefficient of rolling resistance of the wheels").between(0, 1),
     real("efficiency", "1", 0.7, "of the drive train: mechanical over electrical power").between(0.01, 1),
 };
-constexpr Use reads[] = {{"twist", "of the robot's base"}, {"inertial", "of all bodies: the robot's mass"}};
-constexpr Use writes[] = {{"battery.energy", "what is left"}, {"battery.power", "what the robot draws"}};
+constexpr PropertyUse reads[] = {{"twist", "of the robot's base"}, {"inertial", "of all bodies: the robot's mass"}};
+constexpr PropertyUse writes[] = {{"battery.energy", "what is left"}, {"battery.power", "what the robot draws"}};
 constexpr Description description{
     .id = "sensor.battery",
     .kind = Kind::sensor,
@@ -30,7 +30,7 @@ constexpr Description description{
     .parameters = parameters,
     .reads = reads,
     .writes = writes,
-    .promises = deterministic | batched | allocation_free | restorable,
+    .capabilities = deterministic | batched | allocation_free | restorable,
 };
 
 class Battery final : public Algorithm {
@@ -41,7 +41,7 @@ class Battery final : public Algorithm {
     drag_per_mass_ = p.real("rolling_resistance") * standard_gravity / p.real("efficiency");
     for (const Item& item : c.items()) {
       double mass = 0;
-      for (const Frame& frame : item.robot->frames)
+      for (const Link& frame : item.robot->links)
         if (const auto inertia = c.constant(frame.object, keys::inertial)) mass += inertia->mass;
       if (mass == 0)
         throw Error("robot " + std::string(item.robot->name) +

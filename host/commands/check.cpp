@@ -3,7 +3,7 @@
 
 #include "host/commands/commands.hpp"
 #include "host/commands/open.hpp"
-#include "host/losses/losses.hpp"
+#include "host/unsupported_features/unsupported_features.hpp"
 
 namespace muro::host {
 

@@ -7,7 +7,7 @@
 #include "host/commands/commands.hpp"
 #include "host/compare/table.hpp"
 #include "host/report.hpp"
-#include "muro/nearest.hpp"
+#include "muro/toolkit/did_you_mean.hpp"
 
 namespace muro::host {
 

@@ -17,12 +17,12 @@ using Json = nlohmann::ordered_json;
 
 std::string type_of(const PropertyStore& store, const Slot& s) {
   std::string type(store.key_of(s).type->name);
-  if (s.form == Form::array) type += "[" + std::to_string(s.count) + "]";
-  if (s.form == Form::list) type += " list";
+  if (s.multiplicity == Multiplicity::array) type += "[" + std::to_string(s.count) + "]";
+  if (s.multiplicity == Multiplicity::list) type += " list";
   return type;
 }
 
-bool reads(Access a) { return a == Access::read || a == Access::input || a == Access::read_sum; }
+bool reads(Usage u) { return u.access == Access::read || u.access == Access::read_sum; }
 
 Json describe_property(const PropertyStore& store, const PropertyStore::Named& named, ObjectId object) {
   const Slot& s = store.slot(named.slot);
@@ -33,9 +33,9 @@ Json describe_property(const PropertyStore& store, const PropertyStore::Named& n
             {"unit", key.unit},
             {"is", kinds[static_cast<int>(s.kind)]}};
   Json writers = Json::array(), readers = Json::array();
-  for (const Slot::Usage& u : s.usage) {
-    Json& list = reads(u.access) ? readers : writers;
-    const std::string& who = store.party_name(u.party);
+  for (const Slot::User& u : s.users) {
+    Json& list = reads(u.usage) ? readers : writers;
+    const std::string& who = store.accessor_name(u.accessor);
     if (std::find(list.begin(), list.end(), Json(who)) == list.end()) list.push_back(who);
   }
   p["writers"] = writers;

@@ -21,13 +21,13 @@ std::string default_of(const Json& p) {
 
 std::string range_of(const Json& p) {
   if (p.contains("choices")) return ", one of " + p["choices"].dump();
-  const bool low = p.contains("least"), high = p.contains("most");
-  if (low && high) return fmt::format(", from {} to {}", p["least"].dump(), p["most"].dump());
-  if (low) return ", at least " + p["least"].dump();
-  return high ? ", at most " + p["most"].dump() : "";
+  const bool low = p.contains("min"), high = p.contains("max");
+  if (low && high) return fmt::format(", from {} to {}", p["min"].dump(), p["max"].dump());
+  if (low) return ", at least " + p["min"].dump();
+  return high ? ", at most " + p["max"].dump() : "";
 }
 
-void print_info(const Offer& offer, const Json& plugin, const Json& entry) {
+void print_info(const CatalogEntry& offer, const Json& plugin, const Json& entry) {
   fmt::print("{}  ({}, version {})\n{}\n\n", offer.id, offer.kind, offer.version, offer.summary);
   fmt::print("plugin    {} {}, licence {}\nlibrary   {}\nbuilt by  {}\n", plugin["name"].get<std::string>(),
              plugin["version"].get<std::string>(), plugin["licence"].get<std::string>(), offer.library,
@@ -58,7 +58,7 @@ int list_plugins(const std::vector<std::string>& plugin_path, ListForm form) {
   for (const std::string& p : registry.problems()) fmt::print(stderr, "warning: {}\n", p);
   if (form == ListForm::json) {
     Json all = Json::array();
-    for (const Offer& o : registry.offers())
+    for (const CatalogEntry& o : registry.catalog())
       all.push_back(
           {{"id", o.id}, {"kind", o.kind}, {"version", o.version}, {"summary", o.summary}, {"library", o.library}});
     fmt::print("{}\n", all.dump(2));
@@ -66,11 +66,12 @@ int list_plugins(const std::vector<std::string>& plugin_path, ListForm form) {
   }
   if (form == ListForm::markdown) {
     fmt::print("| name | kind | what it does |\n|---|---|---|\n");
-    for (const Offer& o : registry.offers()) fmt::print("| `{}` | {} | {} |\n", o.id, o.kind, o.summary);
+    for (const CatalogEntry& o : registry.catalog()) fmt::print("| `{}` | {} | {} |\n", o.id, o.kind, o.summary);
     return 0;
   }
-  for (const Offer& o : registry.offers()) fmt::print("{:<28} {:<13} {:<8} {}\n", o.id, o.kind, o.version, o.summary);
-  if (registry.offers().empty()) {
+  for (const CatalogEntry& o : registry.catalog())
+    fmt::print("{:<28} {:<13} {:<8} {}\n", o.id, o.kind, o.version, o.summary);
+  if (registry.catalog().empty()) {
     fmt::print(stderr, "no plugin was found in:\n");
     for (const std::string& f : registry.folders()) fmt::print(stderr, "  {}\n", f);
     fmt::print(stderr, "set MURO_PLUGIN_PATH or --plugin-path\n");
@@ -80,7 +81,7 @@ int list_plugins(const std::vector<std::string>& plugin_path, ListForm form) {
 
 int plugin_info(const std::string& id, const std::vector<std::string>& plugin_path, bool json) {
   const Registry registry(Registry::search_path(plugin_path));
-  const Offer& offer = registry.find(id);
+  const CatalogEntry& offer = registry.find(id);
   std::ifstream file(offer.description);
   const Json plugin = Json::parse(file);
   for (const char* list : {"algorithms", "readers"})

@@ -12,7 +12,7 @@
 #include "host/png.hpp"
 #include "host/report.hpp"
 #include "host/video.hpp"
-#include "muro/nearest.hpp"
+#include "muro/toolkit/did_you_mean.hpp"
 #include "muro/vocabulary.hpp"
 
 namespace muro::host {
@@ -122,8 +122,8 @@ int render(const RenderOptions& options) {
   if (options.video.empty() && !options.out.ends_with(".png"))
     throw SetupError("--out is `" + options.out + "` but must be a file NAME.png");
   Registry registry(Registry::search_path(options.scenario.plugin_path));
-  const auto offers = registry.offers();
-  if (std::none_of(offers.begin(), offers.end(), [](const Offer& o) { return o.id == algorithm; }))
+  const auto offers = registry.catalog();
+  if (std::none_of(offers.begin(), offers.end(), [](const CatalogEntry& o) { return o.id == algorithm; }))
     throw SetupError(
         "a picture needs the plugin camera.opengl, which is not there; install libepoxy-dev and libegl-dev, "
         "and build muro again");

@@ -10,10 +10,10 @@
 
 #include "host/commands/commands.hpp"
 #include "host/commands/open.hpp"
-#include "host/losses/losses.hpp"
 #include "host/report.hpp"
 #include "host/shadows.hpp"
 #include "host/timeline.hpp"
+#include "host/unsupported_features/unsupported_features.hpp"
 
 namespace muro::host {
 
@@ -80,8 +80,8 @@ void print_summary(const RunResult& result, const Simulation& simulation, const 
 /// The scenario with a window, which sets the pace; what the user says of `algorithms.view` holds. One that has a
 /// window of its own is left as it is.
 ScenarioOptions with_view(const RunOptions& options, const Registry& registry) {
-  const auto& offers = registry.offers();
-  if (std::none_of(offers.begin(), offers.end(), [](const Offer& o) { return o.id == "view.window"; }))
+  const auto& offers = registry.catalog();
+  if (std::none_of(offers.begin(), offers.end(), [](const CatalogEntry& o) { return o.id == "view.window"; }))
     throw SetupError(
         "--view needs the plugin view.window, which is not there; install libglfw3-dev, libimgui-dev, libepoxy-dev, "
         "libegl-dev and libstb-dev, and build muro again");

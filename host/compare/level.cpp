@@ -21,7 +21,7 @@ double varied_part(const AlgorithmSetup& s, const Description& d, const Comparis
                    const Variation& variation) {
   for (std::size_t v = 0; v < comparison.varieties.size(); ++v) {
     const Variety& variety = comparison.varieties[v];
-    const bool world = (d.promises & Promise::world) != 0;  // one for robots of several templates, or subsystems
+    const bool world = (d.capabilities & Capability::world) != 0;  // one for robots of several templates, or subsystems
     if (s.use != variation.choices[v]->use || (s.subsystem != variety.subsystem && !world)) continue;
     if (variety.robots.empty()) return 1;
     const std::size_t own = std::size_t(std::count_if(s.items.begin(), s.items.end(), [&](const Item& item) {
@@ -110,9 +110,9 @@ Scenario read_level(const Comparison& comparison, const std::vector<std::string>
   if (comparison.seed) s.seed = *comparison.seed;
   std::set<std::string> gone;
   std::erase_if(s.algorithms, [&](const Subsystem& a) {
-    const auto offer =
-        std::find_if(registry.offers().begin(), registry.offers().end(), [&](const Offer& o) { return o.id == a.use; });
-    const bool writes = offer != registry.offers().end() &&
+    const auto offer = std::find_if(registry.catalog().begin(), registry.catalog().end(),
+                                    [&](const CatalogEntry& o) { return o.id == a.use; });
+    const bool writes = offer != registry.catalog().end() &&
                         (offer->kind == name_of(Kind::recorder) || offer->kind == name_of(Kind::view));
     if (writes) gone.insert(a.name);
     return writes;

@@ -8,7 +8,7 @@
 #include "host/compare/track.hpp"
 #include "host/compare/vary.hpp"
 #include "host/compare/witness.hpp"
-#include "host/losses/losses.hpp"
+#include "host/unsupported_features/unsupported_features.hpp"
 
 namespace muro::host {
 

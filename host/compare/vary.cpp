@@ -7,7 +7,7 @@
 #include "core/error.hpp"
 #include "host/scenario/defaults.hpp"
 #include "host/scenario/section.hpp"
-#include "muro/nearest.hpp"
+#include "muro/toolkit/did_you_mean.hpp"
 
 namespace muro::host {
 

@@ -28,7 +28,7 @@ Witness::Witness(Simulation& watched, const std::vector<std::uint32_t>& robots,
   counted_.assign(world.robots().size(), false);
   for (const std::uint32_t r : robots) {
     const Slot* slot = world.store().find(world.robots()[r]->base(), keys::external_wrench.name);
-    counted_[r] = slot && slot->used_as(Access::read_sum);
+    counted_[r] = slot && slot->used_as(usage::read_sum);
     any_ = any_ || counted_[r];
   }
   if (!any_) return;
@@ -79,7 +79,7 @@ void Witness::add_bodies() {
   const World& world = watched_.world();
   for (const RobotView* r : world.robots()) {
     if (world.store().constant(r->base(), keys::shadow_of).data) continue;
-    for (const Frame& f : r->frames) {
+    for (const Link& f : r->links) {
       std::vector<Shape> shapes;
       for (const Shape& s : constants(world, f.object, keys::collision_shapes)) shapes.push_back(shape_of(s, reach));
       const Pose* pose = pose_of(world, f.object);

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "host/scenario/defaults.hpp"
-#include "muro/nearest.hpp"
+#include "muro/toolkit/did_you_mean.hpp"
 #include "muro/vocabulary.hpp"
 
 namespace muro::host {
@@ -30,7 +30,7 @@ void Algorithms::add_to_scene(const Subsystem& s) {
     case Kind::kinematics: {
       std::vector<Item> items;
       for (const RobotView* r : simulation_.world().robots())
-        if (r->frames.size() > 1 && has_kinematics_.count(r->number) == 0) items.push_back({r, r->base()});
+        if (r->links.size() > 1 && has_kinematics_.count(r->number) == 0) items.push_back({r, r->base()});
       if (!items.empty()) add(s, s.name, std::move(items));
       break;
     }
@@ -66,14 +66,15 @@ void Algorithms::add(const Subsystem& s, const std::string& name, std::vector<It
   const std::filesystem::path file(s.location.in_file() ? s.location.file : scenario_.file);
   setup.folder = std::filesystem::absolute(file).parent_path().string();
   setup.phase = std::llround(s.phase.value_or(0) * 1e9);
-  const std::optional<double> rate = s.rate ? s.rate : default_rate(d->kind);
-  if (s.on_demand && !may_run_on_demand(d->kind))
-    problems_.add(s.location, "`" + s.name + "` cannot run on demand, since nobody asks a " +
-                                  std::string(name_of(d->kind)) + " for what it does; give it a `rate` in Hz");
-  else if (!s.on_demand && !rate)
+  const KindInfo& kind = info_of(d->kind);
+  const double rate = s.rate.value_or(kind.default_rate);
+  if (s.on_demand && !kind.may_run_on_demand)
+    problems_.add(s.location, "`" + s.name + "` cannot run on demand, since nobody asks a " + std::string(kind.name) +
+                                  " for what it does; give it a `rate` in Hz");
+  else if (!s.on_demand && rate < 0)
     problems_.add(s.location, "`" + s.name + "` needs a `rate` in Hz: how often `" + s.use + "` runs");
   else if (!s.on_demand)
-    setup.rate = Rate(*rate);
+    setup.rate = Rate(rate);
   used_.insert(s.use);
   note_needs(*d, s);
   if (d->kind == Kind::kinematics)
@@ -105,20 +106,20 @@ void Algorithms::add_unnamed(const std::string& name, const std::string& use, co
 void Algorithms::add_kinematics() {
   if (is_off("kinematics")) return;
   for (const RobotView* r : simulation_.world().robots())
-    if (r->frames.size() > 1 && has_kinematics_.count(r->number) == 0)
+    if (r->links.size() > 1 && has_kinematics_.count(r->number) == 0)
       add_unnamed("kinematics", "kinematics.direct", "robots of several bodies need kinematics", {Item{r, r->base()}});
 }
 
 /// What the algorithm reads with these parameters. A world asks for forces from outside only when there are bodies that
 /// forces move outside of it.
 void Algorithms::note_needs(const Description& d, const Subsystem& s) {
-  const bool world = (d.promises & Promise::world) != 0;
+  const bool world = (d.capabilities & Capability::world) != 0;
   if (world) {
     const auto named = s.parameters.find("world");
     const auto* name = named == s.parameters.end() ? nullptr : std::get_if<std::string>(&named->second);
     worlds_.insert(s.use + "/" + (name ? *name : ""));
   }
-  for (const Use& use : d.reads) {
+  for (const PropertyUse& use : d.reads) {
     if (world && use.key == keys::external_wrench.name) continue;
     const std::size_t equals = use.when.find('=');
     if (equals != std::string_view::npos) {

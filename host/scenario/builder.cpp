@@ -9,7 +9,7 @@
 #include "host/scenario/placement.hpp"
 #include "host/scenario/section.hpp"
 #include "host/scenario/world_file.hpp"
-#include "muro/nearest.hpp"
+#include "muro/toolkit/did_you_mean.hpp"
 #include "muro/vocabulary.hpp"
 
 namespace muro::host {
@@ -138,15 +138,16 @@ class SceneBuilder {
     for (const auto& [joint, position] : t.joints) set_joint(t, *added, joint, position);
     world_.share(added->base(), keys::command_twist, robot.base(), keys::command_twist);
     world_.share(added->base(), keys::command_pose, robot.base(), keys::command_pose);
-    for (std::size_t i = 0; i < robot.frames.size(); ++i) {
-      const ObjectId mine = added->frames[i].joint_object, theirs = robot.frames[i].joint_object;
+    for (std::size_t i = 0; i < robot.links.size(); ++i) {
+      const ObjectId mine = added->links[i].joint_object, theirs = robot.links[i].joint_object;
       if (mine == no_object) continue;
       for (const Key<double>& key : {keys::joint_velocity_target, keys::joint_position_target,
                                      keys::joint_acceleration_target, keys::joint_effort_target})
         world_.share(mine, key, theirs, key);
     }
     Subsystem motion = *setup.motion;
-    if ((d->promises & Promise::world) != 0) motion.parameters["world"] = "the shadow of " + std::string(robot.name);
+    if ((d->capabilities & Capability::world) != 0)
+      motion.parameters["world"] = "the shadow of " + std::string(robot.name);
     algorithms_.add(motion, name + ".motion", {{added, added->base()}});
     Subsystem measure;
     measure.name = "shadow";
@@ -158,11 +159,11 @@ class SceneBuilder {
 
   void set_joint(const RobotTemplate& t, const RobotView& robot, const Name& joint, double position) {
     const ObjectId object = world_.find_object(std::string(robot.name) + "/" + joint.text);
-    const bool known = std::any_of(robot.frames.begin(), robot.frames.end(),
-                                   [&](const Frame& f) { return object != no_object && f.joint_object == object; });
+    const bool known = std::any_of(robot.links.begin(), robot.links.end(),
+                                   [&](const Link& f) { return object != no_object && f.joint_object == object; });
     if (known) return world_.set(object, keys::initial_joint_position, position);
     std::vector<std::string> names;
-    for (const Frame& f : robot.frames)
+    for (const Link& f : robot.links)
       if (f.joint_object != no_object) names.push_back(part_name(robot, f.joint_object));
     problems_.add(joint.location, "robot `" + t.name + "` has no joint `" + joint.text + "`" +
                                       did_you_mean(joint.text, names) +
@@ -254,7 +255,7 @@ class SceneBuilder {
       item.level = s.level->number;
       if (s.level->number == 0) simulation_.set_levels(robot, s.level->names, s.level->start);
     }
-    const bool batched = (d.promises & Promise::batched) != 0;
+    const bool batched = (d.capabilities & Capability::batched) != 0;
     algorithms_.add(s, (batched ? t.name : std::string(robot.name)) + "." + s.name, {item}, t.name + "." + s.name);
     return d.kind == Kind::motion;
   }

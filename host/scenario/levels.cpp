@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "host/scenario/robot.hpp"
-#include "muro/nearest.hpp"
+#include "muro/toolkit/did_you_mean.hpp"
 
 namespace muro::host {
 

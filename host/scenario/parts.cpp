@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "muro/nearest.hpp"
+#include "muro/toolkit/did_you_mean.hpp"
 
 namespace muro::host {
 
@@ -142,7 +142,7 @@ std::optional<Shape> read_shape(Section& s, std::string& mesh, Problems& problem
   shape.restitution = s.number("restitution", shape.restitution, 0, 1);
   if (const auto c = s.numbers("color", {3, 4})) {
     shape.color = {(*c)[0], (*c)[1], (*c)[2], c->size() == 4 ? (*c)[3] : 1.0};
-    shape.painted_by = PaintedBy::model;
+    shape.material_source = MaterialSource::model;
   }
   return shape;
 }

@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "core/error.hpp"
-#include "muro/nearest.hpp"
-#include "muro/random.hpp"
+#include "muro/toolkit/did_you_mean.hpp"
+#include "muro/toolkit/random.hpp"
 
 namespace muro::host {
 

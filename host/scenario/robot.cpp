@@ -6,7 +6,7 @@
 
 #include "host/scenario/levels.hpp"
 #include "host/scenario/parts.hpp"
-#include "muro/nearest.hpp"
+#include "muro/toolkit/did_you_mean.hpp"
 
 namespace muro::host {
 

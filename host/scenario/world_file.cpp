@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cstring>
 
-#include "muro/nearest.hpp"
 #include "muro/scene.hpp"
+#include "muro/toolkit/did_you_mean.hpp"
 #include "muro/vocabulary.hpp"
 
 namespace muro::host {
@@ -98,8 +98,8 @@ void WorldFileParts::stand_still(const WorldModel::Model& model, std::vector<Obs
                    "` stands still, as the scenario does not name it; write `robots: {" + model.name +
                    ": {model: world, ...}}` to move it");
   std::vector<Pose> poses;
-  for (const RobotTree::FlatFrame& f : tree.frames()) {
-    poses.push_back(f.frame.parent < 0 ? model.pose : poses[std::size_t(f.frame.parent)] * f.frame.origin);
+  for (const RobotTree::FlatLink& f : tree.links()) {
+    poses.push_back(f.link.parent < 0 ? model.pose : poses[std::size_t(f.link.parent)] * f.link.origin);
     const RobotTree::Part& part = tree.parts()[std::size_t(f.part)];
     std::vector<Shape> collisions = shapes_of(part, keys::collision_shapes);
     std::vector<Shape> visuals = shapes_of(part, keys::visual_shapes);

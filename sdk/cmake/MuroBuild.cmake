@@ -43,9 +43,9 @@ function(muro_compile_as_test target)
   endif()
 endfunction()
 
-# muro_add_parts(NAME muro_x SOURCES ... [LIBRARIES ...] [PRIVATE ...]): a static library that plugins share, or a plugin
+# muro_add_static_library(NAME muro_x SOURCES ... [LIBRARIES ...] [PRIVATE ...]): a static library that plugins share, or a plugin
 # and its tests; included as "plugins/x/...". PRIVATE: libraries that its users do not see.
-function(muro_add_parts)
+function(muro_add_static_library)
   cmake_parse_arguments(ARG "" "NAME" "SOURCES;LIBRARIES;PRIVATE" ${ARGN})
   add_library(${ARG_NAME} STATIC EXCLUDE_FROM_ALL ${ARG_SOURCES})
   target_link_libraries(${ARG_NAME} PUBLIC muro::sdk ${ARG_LIBRARIES} PRIVATE ${ARG_PRIVATE})

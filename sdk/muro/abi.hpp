@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What crosses the border between host and plugin, and the stamp that says whether it may.
+// What crosses the boundary between host and plugin, and the stamp that says whether it may.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 
 namespace muro::abi {
 
-inline constexpr std::uint32_t sdk_major = 2;
+inline constexpr std::uint32_t sdk_major = 3;
 inline constexpr std::uint32_t sdk_minor = 0;
 
 /// Values whose layout both sides must agree on.
@@ -40,7 +40,7 @@ constexpr std::uint32_t layout_of_values() {
                                     sizeof(Shape),
                                     offsetof(Shape, mesh),
                                     offsetof(Shape, texture),
-                                    offsetof(Shape, painted_by),
+                                    offsetof(Shape, material_source),
                                     offsetof(Shape, size),
                                     offsetof(Shape, origin),
                                     offsetof(Shape, friction),
@@ -50,7 +50,7 @@ constexpr std::uint32_t layout_of_values() {
                                     offsetof(Parameter, choices),
                                     sizeof(KeyInfo),
                                     offsetof(KeyInfo, doc),
-                                    offsetof(Description, promises)};
+                                    offsetof(Description, capabilities)};
   std::uint32_t hash = 2166136261u;  // FNV-1a
   for (const std::size_t place : places) hash = (hash ^ std::uint32_t(place)) * 16777619u;
   return hash;
@@ -114,7 +114,7 @@ constexpr Stamp make_stamp() {
   return s;
 }
 
-/// Text of a failure, copied across the border.
+/// Text of a failure, copied across the boundary.
 class ErrorText {
  public:
   ErrorText() { buffer_[0] = 0; }  // the rest is written when there is an error
@@ -133,13 +133,14 @@ class ErrorText {
 class AlgorithmInstance {
  public:
   virtual bool connect(Connector&, ErrorText&) noexcept = 0;
+  virtual bool connect_by_name(Connector&, ErrorText&) noexcept = 0;
   virtual bool start(ErrorText&) noexcept = 0;
   virtual std::span<const Phase> phases() const noexcept = 0;
   virtual bool step(const Step&, Range, ErrorText&) noexcept = 0;
+  virtual bool on_handover(std::uint32_t item, ErrorText&) noexcept = 0;
   virtual bool restored(ErrorText&) noexcept = 0;
   virtual bool finish(ErrorText&) noexcept = 0;
   virtual void destroy() noexcept = 0;
-  virtual bool take_over(std::uint32_t item, ErrorText&) noexcept = 0;
 
  protected:
   ~AlgorithmInstance() = default;
@@ -175,6 +176,9 @@ class AlgorithmOf final : public AlgorithmInstance {
   bool connect(Connector& c, ErrorText& e) noexcept override {
     return guarded(e, [&] { algorithm_.connect(c); });
   }
+  bool connect_by_name(Connector& c, ErrorText& e) noexcept override {
+    return guarded(e, [&] { algorithm_.connect_by_name(c); });
+  }
   bool start(ErrorText& e) noexcept override {
     return guarded(e, [&] { algorithm_.start(); });
   }
@@ -189,8 +193,8 @@ class AlgorithmOf final : public AlgorithmInstance {
     return guarded(e, [&] { algorithm_.finish(); });
   }
   void destroy() noexcept override { delete this; }
-  bool take_over(std::uint32_t item, ErrorText& e) noexcept override {
-    return guarded(e, [&] { algorithm_.take_over(item); });
+  bool on_handover(std::uint32_t item, ErrorText& e) noexcept override {
+    return guarded(e, [&] { algorithm_.on_handover(item); });
   }
 
  private:

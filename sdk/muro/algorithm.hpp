@@ -33,6 +33,10 @@ class Algorithm {
   /// files. [setup]
   virtual void connect(Connector& connector) = 0;
 
+  /// Binds what is looked up by its name or by what others have made of it, when all algorithms have connected: for
+  /// recorders, controllers, views. Creates no property that another algorithm could look for. [setup]
+  virtual void connect_by_name(Connector& connector) { static_cast<void>(connector); }
+
   /// All handles may be read. Opens what the algorithm needs to run; also called again at a reset. [setup]
   virtual void start() {}
 
@@ -47,7 +51,7 @@ class Algorithm {
 
   /// Another motion has moved robot `item` so far; from the next step on this one does. The state lies in the
   /// properties; here goes what only this motion keeps beside them. [between steps]
-  virtual void take_over(std::uint32_t item) { static_cast<void>(item); }
+  virtual void on_handover(std::uint32_t item) { static_cast<void>(item); }
 
   /// A snapshot has replaced the properties: rebuild what was kept beside them. [between steps]
   virtual void restored() {}

@@ -19,25 +19,53 @@ struct Item {
   std::uint32_t level = 0;
 };
 
-/// How an algorithm uses a property.
+/// What the steps of an algorithm do with a property.
 enum class Access : std::uint8_t {
-  read,        ///< must be constant, or written by another algorithm
-  input,       ///< read; created with a value of its own, so nobody needs to write it
-  variable,    ///< written here; part of the state
-  derived,     ///< written here; can be computed again from the state
-  write,       ///< written here, created by whoever reads it (a command)
-  offer,       ///< as write, but it is no error when nobody reads it
-  accumulate,  ///< adds one contribution
+  read,
+  write,
+  accumulate,  ///< adds one contribution to a sum
   read_sum,    ///< reads all contributions
 };
-enum class Form : std::uint8_t { single, array, list };
+
+/// Whether a request creates the property, and what it then is for a snapshot.
+enum class Creation : std::uint8_t {
+  none,     ///< somebody else creates it
+  state,    ///< part of the state: saved, restored, hashed
+  derived,  ///< can be computed again from the state
+};
+
+/// How an algorithm uses a property.
+struct Usage {
+  Access access = Access::read;
+  Creation creation = Creation::none;
+  bool is_optional = false;  ///< it is no error when nobody reads what is written
+
+  bool operator==(const Usage&) const = default;
+};
+
+/// The usages that the functions of Connector stand for.
+namespace usage {
+inline constexpr Usage read{Access::read};                    ///< a constant, or written by another
+inline constexpr Usage input{Access::read, Creation::state};  ///< has a value even if nobody writes it
+inline constexpr Usage variable{Access::write, Creation::state};
+inline constexpr Usage derived{Access::write, Creation::derived};
+inline constexpr Usage write{Access::write};  ///< created by who reads it: a command
+inline constexpr Usage optional_output{Access::write, Creation::none, true};
+inline constexpr Usage accumulate{Access::accumulate, Creation::derived};
+inline constexpr Usage read_sum{Access::read_sum};
+}  // namespace usage
+
+/// Whether a property is one value, an array of a fixed length or a list of a changing one.
+enum class Multiplicity : std::uint8_t { single, array, list };
 
 /// A property found by its name at set-up.
 struct FoundProperty {
   ObjectId object = no_object;
   const KeyInfo* key = nullptr;
-  Form form = Form::single;
-  std::uint32_t count = 1;  ///< elements; 0 when not known yet, or a list
+  Multiplicity multiplicity = Multiplicity::single;
+  std::uint32_t count = 1;   ///< elements; 0 when not known yet, or a list
+  bool is_constant = false;  ///< given at set-up: no algorithm writes it
+  bool is_sum = false;       ///< several algorithms add to it: see Connector::read_sum
 };
 
 enum class LogLevel : std::uint8_t { debug, info, warning, error };
@@ -46,8 +74,8 @@ enum class LogLevel : std::uint8_t { debug, info, warning, error };
 class Host {
  public:
   virtual void log(LogLevel level, std::string_view text) noexcept = 0;
-  /// The interface of this name, such as Inspection::ability; null where the host has it not. [setup]
-  virtual void* ability(std::string_view name) noexcept {
+  /// The interface of this name, such as Inspection::extension; null where the host has it not. [setup]
+  virtual void* extension(std::string_view name) noexcept {
     static_cast<void>(name);
     return nullptr;
   }
@@ -66,7 +94,7 @@ class Connector {
   // --- what this instance serves
   virtual std::span<const Item> items() const noexcept = 0;
   virtual const Parameters& parameters() const noexcept = 0;
-  /// Of item `i`: they differ among the robots of a world alone, see Promise::world.
+  /// Of item `i`: they differ among the robots of a world alone, see Capability::world.
   virtual const Parameters& parameters_of(std::uint32_t i) const noexcept = 0;
   virtual Host& host() const noexcept = 0;
   /// Keys the random numbers of item `i`: depends on the names of robot and subsystem only.
@@ -83,10 +111,12 @@ class Connector {
   /// Number of the robot that the object is part of; -1 for scenery.
   virtual std::int32_t robot_of(ObjectId object) const noexcept = 0;
   virtual std::string_view text(TextId id) const noexcept = 0;
-  /// All properties so far of one object, in order of creation. Valid until the next call.
+  /// All properties so far of one object, in order of creation: all there are in `connect_by_name`. Valid until the
+  /// next call.
   virtual std::span<const FoundProperty> properties(ObjectId object) const noexcept = 0;
-  /// Whether an algorithm that is connected so far uses the property in this way.
-  virtual bool is_used(ObjectId object, const KeyInfo& key, Access access) const noexcept = 0;
+  /// Whether an algorithm that is connected so far uses the property in this way. In `connect` that depends on the
+  /// order in which kinds connect (see kind_infos), in `connect_by_name` all have connected.
+  virtual bool is_used(ObjectId object, const KeyInfo& key, Usage usage) const noexcept = 0;
 
   // --- constants, readable at once
   template <class T>
@@ -109,72 +139,75 @@ class Connector {
   // --- reading
   template <class T>
   In<T> read(ObjectId object, const Key<T>& key) {
-    return In<T>(bind(object, key, Access::read, Form::single, 1, nullptr));
+    return In<T>(bind(object, key, usage::read, Multiplicity::single, 1, nullptr));
   }
   template <class T>
-  In<T> input(ObjectId object, const Key<T>& key, const T& otherwise) {
-    return In<T>(bind(object, key, Access::input, Form::single, 1, &otherwise));
+  In<T> input(ObjectId object, const Key<T>& key, const T& default_value) {
+    return In<T>(bind(object, key, usage::input, Multiplicity::single, 1, &default_value));
   }
   template <class T>
   ArrayIn<T> read_array(ObjectId object, const Key<T>& key) {
-    return ArrayIn<T>(bind(object, key, Access::read, Form::array, 0, nullptr));
+    return ArrayIn<T>(bind(object, key, usage::read, Multiplicity::array, 0, nullptr));
   }
   template <class T>
   ListIn<T> read_list(ObjectId object, const Key<T>& key) {
-    return ListIn<T>(bind(object, key, Access::read, Form::list, 0, nullptr));
+    return ListIn<T>(bind(object, key, usage::read, Multiplicity::list, 0, nullptr));
   }
   template <class T>
   SumIn<T> read_sum(ObjectId object, const Key<T>& key) {
-    return SumIn<T>(bind(object, key, Access::read_sum, Form::single, 1, nullptr));
+    return SumIn<T>(bind(object, key, usage::read_sum, Multiplicity::single, 1, nullptr));
   }
   /// Untyped: for recorders and controllers, which learn the type when they run.
+  /// The address of the value, of the ArrayHeader or ListHeader, or of the SumHeader of a sum.
   const void* read_any(const FoundProperty& p) {
-    return bind(p.object, *p.key, Access::read, p.form, p.count, nullptr);
+    return bind(p.object, *p.key, p.is_sum ? usage::read_sum : usage::read, p.multiplicity, p.count, nullptr);
   }
 
   // --- writing
   template <class T>
   Out<T> variable(ObjectId object, const Key<T>& key, const T& initial) {
-    return Out<T>(bind(object, key, Access::variable, Form::single, 1, &initial));
+    return Out<T>(bind(object, key, usage::variable, Multiplicity::single, 1, &initial));
   }
   template <class T>
   ArrayOut<T> variable_array(ObjectId object, const Key<T>& key, std::uint32_t count) {
-    return ArrayOut<T>(bind(object, key, Access::variable, Form::array, count, nullptr));
+    return ArrayOut<T>(bind(object, key, usage::variable, Multiplicity::array, count, nullptr));
   }
   template <class T>
   ListOut<T> variable_list(ObjectId object, const Key<T>& key) {
-    return ListOut<T>(bind(object, key, Access::variable, Form::list, 0, nullptr));
+    return ListOut<T>(bind(object, key, usage::variable, Multiplicity::list, 0, nullptr));
   }
   template <class T>
   Out<T> derived(ObjectId object, const Key<T>& key) {
-    return bind_default<T>(object, key, Access::derived);
+    return bind_default<T>(object, key, usage::derived);
   }
   template <class T>
   ArrayOut<T> derived_array(ObjectId object, const Key<T>& key, std::uint32_t count) {
-    return ArrayOut<T>(bind(object, key, Access::derived, Form::array, count, nullptr));
+    return ArrayOut<T>(bind(object, key, usage::derived, Multiplicity::array, count, nullptr));
   }
   template <class T>
   ListOut<T> derived_list(ObjectId object, const Key<T>& key) {
-    return ListOut<T>(bind(object, key, Access::derived, Form::list, 0, nullptr));
+    return ListOut<T>(bind(object, key, usage::derived, Multiplicity::list, 0, nullptr));
   }
   template <class T>
   Out<T> write(ObjectId object, const Key<T>& key) {
-    return bind_default<T>(object, key, Access::write);
+    return bind_default<T>(object, key, usage::write);
   }
   template <class T>
-  Out<T> offer(ObjectId object, const Key<T>& key) {
-    return bind_default<T>(object, key, Access::offer);
+  Out<T> optional_output(ObjectId object, const Key<T>& key) {
+    return bind_default<T>(object, key, usage::optional_output);
   }
   template <class T>
   Sum<T> accumulate(ObjectId object, const Key<T>& key) {
-    return Sum<T>(bind(object, key, Access::accumulate, Form::single, 1, nullptr));
+    return Sum<T>(bind(object, key, usage::accumulate, Multiplicity::single, 1, nullptr));
   }
-  void* write_any(const FoundProperty& p) { return bind(p.object, *p.key, Access::write, p.form, p.count, nullptr); }
+  void* write_any(const FoundProperty& p) {
+    return bind(p.object, *p.key, usage::write, p.multiplicity, p.count, nullptr);
+  }
   /// `size` bytes of state on `object` under a name of their own, for state that only its owner understands.
   virtual void* state_block(ObjectId object, std::string_view name, std::uint32_t size) noexcept = 0;
 
  protected:
-  virtual void* bind(ObjectId object, const KeyInfo& key, Access access, Form form, std::uint32_t count,
+  virtual void* bind(ObjectId object, const KeyInfo& key, Usage usage, Multiplicity multiplicity, std::uint32_t count,
                      const void* initial) noexcept = 0;
   virtual ArrayHeader constant_raw(ObjectId object, const KeyInfo& key) const noexcept = 0;
   virtual void set_raw(ObjectId object, const KeyInfo& key, const void* value) noexcept = 0;
@@ -183,9 +216,9 @@ class Connector {
  private:
   /// Until somebody gives a value, it is that of a default-constructed T.
   template <class T>
-  Out<T> bind_default(ObjectId object, const Key<T>& key, Access access) {
+  Out<T> bind_default(ObjectId object, const Key<T>& key, Usage usage) {
     const T value{};
-    return Out<T>(bind(object, key, access, Form::single, 1, &value));
+    return Out<T>(bind(object, key, usage, Multiplicity::single, 1, &value));
   }
 };
 

@@ -8,8 +8,7 @@
 
 namespace muro {
 
-/// What an algorithm is for. The kind gives its place among the algorithms that run at one instant:
-/// see `order_of`.
+/// What an algorithm is for. The kind decides when it runs: see kind_infos.
 enum class Kind : std::uint8_t {
   motion,        ///< moves a robot: reads commands and wrenches, writes pose, twist and joints
   kinematics,    ///< poses of bodies from base and joints
@@ -25,25 +24,38 @@ enum class Kind : std::uint8_t {
   level,         ///< what decides which of its motions moves a robot
 };
 
-/// The order of kinds within one instant t: the state of t is completed, seen, answered and recorded,
-/// then forces are found and motion carries the state to the next instant.
+/// What holds for all algorithms of a kind.
+struct KindInfo {
+  Kind kind;
+  std::string_view name;
+  int connect_order;       ///< who creates properties connects before who asks whether they are used
+  bool may_run_on_demand;  ///< somebody reads what it writes, so it can run when asked
+  double default_rate;     ///< Hz, when a scenario names none; 0: on demand; below 0: it must name one
+};
+
+/// In the order in which kinds run within one instant t: the state of t is completed, seen, answered and recorded, then
+/// forces are found and motion carries the state to the next instant.
+inline constexpr KindInfo kind_infos[] = {
+    {Kind::kinematics, "kinematics", 1, true, 0},   {Kind::scene, "scene", 2, true, 0},
+    {Kind::sensor, "sensor", 6, true, -1},          {Kind::sensor_error, "sensor_error", 7, true, 0},
+    {Kind::controller, "controller", 8, false, -1}, {Kind::drive, "drive", 5, true, 0},
+    {Kind::recorder, "recorder", 9, false, -1},     {Kind::view, "view", 10, false, -1},
+    {Kind::level, "level", 1, false, -1},           {Kind::collision, "collision", 3, true, 0},
+    {Kind::contact, "contact", 4, true, 0},         {Kind::motion, "motion", 0, false, 1000},
+};
+
+/// The place of a kind within an instant, from 0.
 constexpr int order_of(Kind kind) {
-  constexpr Kind order[] = {Kind::kinematics, Kind::scene,     Kind::sensor,   Kind::sensor_error,
-                            Kind::controller, Kind::drive,     Kind::recorder, Kind::view,
-                            Kind::level,      Kind::collision, Kind::contact,  Kind::motion};
   int place = 0;
-  while (order[place] != kind) ++place;
+  while (kind_infos[place].kind != kind) ++place;
   return place;
 }
+constexpr const KindInfo& info_of(Kind kind) { return kind_infos[order_of(kind)]; }
+constexpr std::string_view name_of(Kind kind) { return info_of(kind).name; }
 
-constexpr std::string_view name_of(Kind kind) {
-  constexpr std::string_view names[] = {"motion",   "kinematics", "scene",     "sensor",  "sensor_error", "controller",
-                                        "recorder", "drive",      "collision", "contact", "view",         "level"};
-  return names[static_cast<int>(kind)];
-}
-
-/// What an algorithm promises; the conformance suite holds it to its word.
-enum Promise : std::uint32_t {
+/// What an algorithm is able to do and what it needs: capability flags, as of an FMU (FMI 3.0, section 2.4). The
+/// conformance suite holds each to its flags.
+enum Capability : std::uint32_t {
   deterministic = 1,    ///< same state, same parameters, same seed: same bits
   batched = 2,          ///< one instance serves many robots; items are independent of each other
   allocation_free = 4,  ///< no allocation in a step after warm-up
@@ -54,11 +66,11 @@ enum Promise : std::uint32_t {
   world = 32,
   /// Runs while nothing else does, on the thread that runs the simulation; it may look at all properties: see
   /// inspection.hpp.
-  alone = 64,
+  runs_alone = 64,
 };
 
 /// A property that an algorithm uses, by name, for the reader and for advice in error messages.
-struct Use {
+struct PropertyUse {
   std::string_view key;
   std::string_view doc;
   std::string_view when{};  ///< "parameter=value": only then; empty: always
@@ -71,16 +83,16 @@ struct Description {
   std::string_view version;  ///< semantic
   std::string_view summary;  ///< one line
   std::span<const Parameter> parameters{};
-  std::span<const Use> reads{};
-  std::span<const Use> writes{};
-  std::uint32_t promises = 0;  ///< Promise, or-ed
-  Features features = 0;       ///< of a motion: what of a robot and its commands it makes use of
+  std::span<const PropertyUse> reads{};
+  std::span<const PropertyUse> writes{};
+  std::uint32_t capabilities = 0;  ///< Capability, or-ed
+  Features features = 0;           ///< of a motion: what of a robot and its commands it makes use of
 };
 
 /// The place of an algorithm in an instant: that of its kind, worlds before all other motions, since they read where
 /// those are.
 constexpr int order_of(const Description& d) {
-  return 2 * order_of(d.kind) + (d.kind == Kind::motion && (d.promises & Promise::world) == 0 ? 1 : 0);
+  return 2 * order_of(d.kind) + (d.kind == Kind::motion && (d.capabilities & Capability::world) == 0 ? 1 : 0);
 }
 
 /// One model reader.

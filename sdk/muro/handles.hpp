@@ -74,12 +74,12 @@ class SumIn {
   explicit SumIn(const void* place) : header_(static_cast<const SumHeader*>(place)) {}
   T value() const {
     T total{};
-    for (std::uint64_t i = 0; i < size(); ++i) total += *part(i);
+    for (std::uint64_t i = 0; i < size(); ++i) total += *contribution(i);
     return total;
   }
   /// The contributions: all are known from `start()` on.
   std::uint64_t size() const { return header_->size; }
-  const T* part(std::uint64_t i) const { return static_cast<const T*>(header_->slots[i]); }
+  const T* contribution(std::uint64_t i) const { return static_cast<const T*>(header_->slots[i]); }
 
  private:
   const SumHeader* header_ = nullptr;

@@ -9,7 +9,7 @@ namespace muro {
 /// A property as it lies in memory.
 struct LiveProperty {
   const KeyInfo* key = nullptr;
-  Form form = Form::single;
+  Multiplicity multiplicity = Multiplicity::single;
   std::uint32_t count = 0;      ///< elements now
   void* data = nullptr;         ///< the first of them
   bool is_constant = false;     ///< given at set-up
@@ -21,15 +21,15 @@ struct LiveProperty {
 struct LiveCost {
   std::string_view name;  ///< "rovers.motion"
   std::uint64_t runs = 0;
-  double seconds = 0;     ///< of the wall clock, over all threads
-  bool is_alone = false;  ///< of an algorithm that promises to be alone: it may hold waiting as well
+  double seconds = 0;       ///< of the wall clock, over all threads
+  bool runs_alone = false;  ///< of an algorithm that runs alone: it may hold waiting as well
 };
 
-/// An ability of hosts. For algorithms that promise to be alone, in their steps: nothing else runs then. Views are good
+/// An extension of hosts. For algorithms that run alone, in their steps: nothing else runs then. Views are good
 /// until the next call.
 class Inspection {
  public:
-  static constexpr std::string_view ability = "muro.Inspection/1";
+  static constexpr std::string_view extension = "muro.Inspection/1";
 
   /// All properties of an object by name, in order of creation. [step]
   virtual std::span<const LiveProperty> properties(ObjectId object) noexcept = 0;
@@ -44,7 +44,7 @@ class Inspection {
   virtual bool is_stopping() const noexcept = 0;
 
   /// The host's, or null where it has none. [setup]
-  static Inspection* of(Host& host) { return static_cast<Inspection*>(host.ability(ability)); }
+  static Inspection* of(Host& host) { return static_cast<Inspection*>(host.extension(extension)); }
 
  protected:
   ~Inspection() = default;

@@ -20,25 +20,25 @@ struct Parameter {
   ParameterType type = ParameterType::real;
   std::string_view unit = "1";  ///< SI
   std::string_view doc{};
-  bool required = false;
+  bool is_required = false;
   bool tunable = false;       ///< may change while the simulation runs
   double default_number = 0;  ///< real, integer, boolean (0 or 1)
   std::string_view default_text{};
   std::span<const double> default_reals{};
-  double least = -std::numeric_limits<double>::infinity();  ///< allowed range, both ends included
-  double most = std::numeric_limits<double>::infinity();
+  double min = -std::numeric_limits<double>::infinity();  ///< allowed range, both ends included
+  double max = std::numeric_limits<double>::infinity();
   std::uint32_t length = 0;                     ///< reals: how many; 0 for any number
   std::span<const std::string_view> choices{};  ///< text: the allowed words; empty for any
 
   constexpr Parameter between(double low, double high) const {
     Parameter p = *this;
-    p.least = low;
-    p.most = high;
+    p.min = low;
+    p.max = high;
     return p;
   }
-  constexpr Parameter must_be_given() const {
+  constexpr Parameter required() const {
     Parameter p = *this;
-    p.required = true;
+    p.is_required = true;
     return p;
   }
   constexpr Parameter of_length(std::uint32_t n) const {
@@ -53,21 +53,21 @@ struct Parameter {
   }
 };
 
-constexpr Parameter real(std::string_view name, std::string_view unit, double otherwise, std::string_view doc) {
-  return {.name = name, .type = ParameterType::real, .unit = unit, .doc = doc, .default_number = otherwise};
+constexpr Parameter real(std::string_view name, std::string_view unit, double default_value, std::string_view doc) {
+  return {.name = name, .type = ParameterType::real, .unit = unit, .doc = doc, .default_number = default_value};
 }
-constexpr Parameter integer(std::string_view name, std::int64_t otherwise, std::string_view doc) {
-  return {.name = name, .type = ParameterType::integer, .doc = doc, .default_number = double(otherwise)};
+constexpr Parameter integer(std::string_view name, std::int64_t default_value, std::string_view doc) {
+  return {.name = name, .type = ParameterType::integer, .doc = doc, .default_number = double(default_value)};
 }
-constexpr Parameter boolean(std::string_view name, bool otherwise, std::string_view doc) {
-  return {.name = name, .type = ParameterType::boolean, .doc = doc, .default_number = otherwise ? 1.0 : 0.0};
+constexpr Parameter boolean(std::string_view name, bool default_value, std::string_view doc) {
+  return {.name = name, .type = ParameterType::boolean, .doc = doc, .default_number = default_value ? 1.0 : 0.0};
 }
-constexpr Parameter text(std::string_view name, std::string_view otherwise, std::string_view doc) {
-  return {.name = name, .type = ParameterType::text, .doc = doc, .default_text = otherwise};
+constexpr Parameter text(std::string_view name, std::string_view default_value, std::string_view doc) {
+  return {.name = name, .type = ParameterType::text, .doc = doc, .default_text = default_value};
 }
-constexpr Parameter reals(std::string_view name, std::string_view unit, std::span<const double> otherwise,
+constexpr Parameter reals(std::string_view name, std::string_view unit, std::span<const double> default_value,
                           std::string_view doc) {
-  return {.name = name, .type = ParameterType::reals, .unit = unit, .doc = doc, .default_reals = otherwise};
+  return {.name = name, .type = ParameterType::reals, .unit = unit, .doc = doc, .default_reals = default_value};
 }
 constexpr Parameter texts(std::string_view name, std::string_view doc) {
   return {.name = name, .type = ParameterType::texts, .doc = doc};

@@ -25,40 +25,40 @@ enum class JointKind : std::uint8_t { fixed, revolute, prismatic };
 
 /// One rigid body of the flattened tree with the joint that leads to it. Fixed translations,
 /// rotations and forks are folded into `origin`.
-struct Frame {
+struct Link {
   ObjectId object = no_object;  ///< holds pose, twist, inertial, shapes
-  std::int32_t parent = -1;     ///< index of the frame it hangs on, always smaller than its own; -1: the base
+  std::int32_t parent = -1;     ///< index of the link it hangs on, always smaller than its own; -1: it is the base
   JointKind joint = JointKind::fixed;
   ObjectId joint_object = no_object;  ///< holds joint.position and so on; none for fixed
-  Pose origin;                        ///< of this frame in its parent's with the joint at 0
-  Vec3 axis = Vec3::UnitX();          ///< unit, in this frame
+  Pose origin;                        ///< of this link's frame in its parent's with the joint at 0
+  Vec3 axis = Vec3::UnitX();          ///< unit, in this link's frame
   JointLimits limits;
-  std::int32_t mimic = -1;  ///< frame whose joint this one follows: q = offset + multiplier * q_mimic
+  std::int32_t mimic = -1;  ///< link whose joint this one follows: q = offset + multiplier * q_mimic
   double mimic_multiplier = 1;
   double mimic_offset = 0;
 };
 
-/// The pose of a frame in its parent's when its joint is at `position` (rad or m).
-inline Pose placed(const Frame& f, double position) {
-  switch (f.joint) {
+/// The pose of a link's frame in its parent's when its joint is at `position` (rad or m).
+inline Pose pose_in_parent(const Link& link, double position) {
+  switch (link.joint) {
     case JointKind::revolute:
-      return f.origin * Pose{Vec3::Zero(), rotation_of(Vec3(f.axis * position))};
+      return link.origin * Pose{Vec3::Zero(), rotation_of(Vec3(link.axis * position))};
     case JointKind::prismatic:
-      return f.origin * Pose{f.axis * position, Quat::Identity()};
+      return link.origin * Pose{link.axis * position, Quat::Identity()};
     case JointKind::fixed:
       break;
   }
-  return f.origin;
+  return link.origin;
 }
 
-/// A robot as algorithms see it. Frame 0 is the base; children follow their parents, depth first.
+/// A robot as algorithms see it. Link 0 is the base; children follow their parents, depth first.
 struct RobotView {
   std::string_view name;
   std::uint32_t number = 0;  ///< dense, from 0
   std::uint64_t key = 0;     ///< from the name alone: keys random numbers
-  std::span<const Frame> frames;
+  std::span<const Link> links;
 
-  ObjectId base() const { return frames.front().object; }
+  ObjectId base() const { return links.front().object; }
 };
 
 }  // namespace muro

@@ -66,8 +66,8 @@ struct Bvh {
 struct RobotColliders {
   std::uint32_t first = 0;
   std::uint32_t count = 0;
-  Aabb bounds;  ///< around all of them
-  Aabb room;    ///< box with a margin in which the robot stays for a while; as in `moving`
+  Aabb bounds;    ///< around all of them
+  Aabb fat_aabb;  ///< box with a margin in which the robot stays for a while; as in `moving`
 };
 
 /// The spatial index of the scene: a derived property of the world, right for the instant in which
@@ -79,7 +79,8 @@ struct SceneIndex {
   std::span<const std::uint32_t> planes;   ///< colliders without bounds, tested by everyone
   Bvh scenery;                             ///< items are indices of colliders
   Bvh moving;                              ///< items are robot numbers
-  /// How often a robot's `room` has changed, by robot number; by itself, since all look for new ones and few find any.
+  /// How often a robot's `fat_aabb` has changed, by robot number; by itself, since all look for new ones and few find
+  /// any.
   std::span<const std::uint64_t> changes{};
   std::uint64_t all_changes = 0;  ///< their sum
 };

@@ -7,7 +7,7 @@ namespace muro {
 
 enum class ShapeKind : std::uint32_t { box, sphere, cylinder, capsule, plane, mesh };
 /// Who says how a shape looks.
-enum class PaintedBy : std::uint32_t {
+enum class MaterialSource : std::uint32_t {
   file,   ///< a mesh has the materials of its file; other shapes have `color`
   model,  ///< `color`, times `texture`
 };
@@ -17,7 +17,7 @@ struct Shape {
   ShapeKind kind = ShapeKind::box;
   TextId mesh = no_text;     ///< mesh: the file, as the model names it, resolved to a path
   TextId texture = no_text;  ///< path of a picture (PNG, JPEG, ...) on its surface
-  PaintedBy painted_by = PaintedBy::file;
+  MaterialSource material_source = MaterialSource::file;
   /// box: full lengths x, y, z. sphere: radius, -, -. cylinder: radius, -, length along z.
   /// capsule: radius, -, length of the straight part along z. plane: unused (normal +z through the
   /// origin, solid below). mesh: scale. All m, the scale 1.

@@ -24,25 +24,26 @@ struct Range {
 
 /// A part of a step, and how it may be divided among threads.
 ///
-/// The phases of a step run one behind the other; one that reaches wide begins when the phase before it is through with
+/// The phases of a step run one behind the other; one that reads all begins when the phase before it is through with
 /// all elements, so it may read what that has found. The range of a divided phase is cut into blocks that do not depend
 /// on the number of threads; `step` is called for the blocks in any order, several at once. Each block writes only what
 /// belongs to its own elements. Memory that a call uses for itself is local to the call or thread_local.
 struct Phase {
-  enum class Over : std::uint8_t {
+  enum class IndexSpace : std::uint8_t {
     whole,   ///< one call, with all items
     items,   ///< the items of the instance
     robots,  ///< all robots of the scene, by robot number: for algorithms that serve the whole scene
   };
-  enum class Reach : std::uint8_t {
-    own,   ///< touches properties of its element's robot alone, beside those that have no robot and that it only reads
-    wide,  ///< writes properties of its element's robot, reads anything that the algorithm has declared
+  enum class Scope : std::uint8_t {
+    /// reads and writes properties of its element's robot alone, and reads those that belong to no robot
+    own_robot,
+    reads_all,  ///< writes properties of its element's robot, reads anything that the algorithm has declared
   };
-  Over over = Over::whole;
-  Reach reach = Reach::wide;
-  bool heavy = false;  ///< an element takes more than some microseconds: each has a call of its own
-  /// Null, or where an earlier phase of the step writes whether this one is wanted. It is left out when that is 0.
-  const std::uint8_t* wanted = nullptr;
+  IndexSpace index_space = IndexSpace::whole;
+  Scope scope = Scope::reads_all;
+  bool fine_grained = false;  ///< an element takes more than some microseconds: each has a call of its own
+  /// Null, or where an earlier phase of the step writes whether this one is to run. It is left out when that is 0.
+  const std::uint8_t* enabled = nullptr;
 };
 
 }  // namespace muro

@@ -17,8 +17,8 @@ constexpr Parameter parameters[] = {
     real("time_constant", "s", 0.2, "after a jump of the speed, the needle has gone 63 % of the way")
         .between(1e-6, 1e3),
 };
-constexpr Use reads[] = {{"twist", "of the object it is mounted on"}};
-constexpr Use writes[] = {{"speedometer.speed", "what the needle shows"}};
+constexpr PropertyUse reads[] = {{"twist", "of the object it is mounted on"}};
+constexpr PropertyUse writes[] = {{"speedometer.speed", "what the needle shows"}};
 constexpr Description description{
     .id = "sensor.speedometer",
     .kind = Kind::sensor,
@@ -27,7 +27,7 @@ constexpr Description description{
     .parameters = parameters,
     .reads = reads,
     .writes = writes,
-    .promises = deterministic | batched | allocation_free | restorable,
+    .capabilities = deterministic | batched | allocation_free | restorable,
 };
 
 class Speedometer final : public Algorithm {

@@ -15,14 +15,14 @@ constexpr double default_axis[] = {0, 0, 1};
 constexpr Parameter parameters[] = {real("rate", "rad/s", 1, "turn rate").between(-10, 10),
                                     reals("axis", "1", default_axis, "axis of the orbit").of_length(3),
                                     text("who", "nobody", "whom to greet")};
-constexpr Use writes[] = {{"pose", "of the base"}, {"twist", "of the base"}, {"abi.paint", "of the base"}};
+constexpr PropertyUse writes[] = {{"pose", "of the base"}, {"twist", "of the base"}, {"abi.paint", "of the base"}};
 constexpr Description description{.id = "motion.orbit_" VARIANT,
                                   .kind = Kind::motion,
                                   .version = "1.0.0",
                                   .summary = "Circles about an axis of the world",
                                   .parameters = parameters,
                                   .writes = writes,
-                                  .promises = deterministic | batched | allocation_free | restorable};
+                                  .capabilities = deterministic | batched | allocation_free | restorable};
 
 class Orbit final : public Algorithm {
  public:

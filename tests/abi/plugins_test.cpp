@@ -11,7 +11,7 @@
 #include <set>
 #include <sstream>
 
-#include "muro/describe.hpp"
+#include "describe/describe.hpp"
 
 namespace muro {
 namespace {
@@ -108,7 +108,7 @@ TEST_P(Plugin, SaysWhatItIs) {
     EXPECT_TRUE(std::regex_match(std::string(d.version), version)) << d.version;
     EXPECT_FALSE(d.summary.empty());
     for (const auto& uses : {d.reads, d.writes})
-      for (const Use& use : uses) EXPECT_FALSE(use.key.empty() || use.doc.empty()) << use.key;
+      for (const PropertyUse& use : uses) EXPECT_FALSE(use.key.empty() || use.doc.empty()) << use.key;
   }
   for (const abi::ReaderEntry& entry : table.readers) {
     const ReaderDescription& d = *entry.description;
@@ -129,15 +129,15 @@ TEST_P(Plugin, ExplainsEveryParameterAndKeepsItsDefaultsWithinTheRange) {
       EXPECT_TRUE(std::regex_match(std::string(p.name), std::regex("[a-z][a-z0-9_]*")));
       EXPECT_FALSE(p.doc.empty());
       EXPECT_FALSE(p.unit.empty());
-      if (p.required) continue;
+      if (p.is_required) continue;
       if (p.type == ParameterType::real || p.type == ParameterType::integer) {
-        EXPECT_GE(p.default_number, p.least);
-        EXPECT_LE(p.default_number, p.most);
+        EXPECT_GE(p.default_number, p.min);
+        EXPECT_LE(p.default_number, p.max);
       }
       if (p.type == ParameterType::reals && p.length > 0) {
         EXPECT_EQ(p.default_reals.size(), p.length);
       }
-      for (const double x : p.default_reals) EXPECT_TRUE(p.least <= x && x <= p.most) << x;
+      for (const double x : p.default_reals) EXPECT_TRUE(p.min <= x && x <= p.max) << x;
       if (p.type == ParameterType::text && !p.choices.empty()) {
         EXPECT_NE(std::find(p.choices.begin(), p.choices.end(), p.default_text), p.choices.end()) << p.default_text;
       }

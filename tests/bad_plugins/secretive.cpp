@@ -8,8 +8,8 @@ namespace {
 
 using namespace muro;
 
-constexpr Phase own[] = {{Phase::Over::items, Phase::Reach::own}};
-constexpr Phase wide[] = {{Phase::Over::items, Phase::Reach::wide}};
+constexpr Phase own[] = {{Phase::IndexSpace::items, Phase::Scope::own_robot}};
+constexpr Phase wide[] = {{Phase::IndexSpace::items, Phase::Scope::reads_all}};
 
 /// Falls at 1 m/s.
 class Honest : public Algorithm {
@@ -66,7 +66,7 @@ constexpr Description description{.id = Id,
                                   .kind = Kind::motion,
                                   .version = "1.0.0",
                                   .summary = "Touches what it should not",
-                                  .promises = deterministic | batched | restorable};
+                                  .capabilities = deterministic | batched | restorable};
 
 constexpr char honest[] = "motion.honest";
 constexpr char reads[] = "motion.reads_another";

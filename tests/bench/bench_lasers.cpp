@@ -6,8 +6,8 @@
 #include <chrono>
 
 #include "core/instance.hpp"
+#include "plugins/common/render/stage.hpp"
 #include "plugins/laser/zbuffer/views.hpp"
-#include "plugins/render/stage.hpp"
 #include "tests/bench/muro_team.hpp"
 #include "tests/bench/peers/depth.hpp"
 #include "tests/bench/report.hpp"

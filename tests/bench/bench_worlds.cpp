@@ -47,7 +47,7 @@ std::string motion_for(const Engine& raw) {
 }
 
 bool is_offered(const std::string& motion) {
-  for (const Offer& o : test::plugins().offers())
+  for (const CatalogEntry& o : test::plugins().catalog())
     if (o.id == motion) return true;
   return false;
 }

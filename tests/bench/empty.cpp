@@ -17,14 +17,14 @@ constexpr Description one_robot{
     .kind = Kind::controller,
     .version = "1.0.0",
     .summary = "Does nothing; each robot has an instance of its own",
-    .promises = deterministic | allocation_free | restorable,
+    .capabilities = deterministic | allocation_free | restorable,
 };
 constexpr Description all_robots{
     .id = "bench.empty_batch",
     .kind = Kind::controller,
     .version = "1.0.0",
     .summary = "Does nothing; one instance for all robots",
-    .promises = deterministic | batched | allocation_free | restorable,
+    .capabilities = deterministic | batched | allocation_free | restorable,
 };
 constexpr abi::AlgorithmEntry algorithms[] = {algorithm<Empty>(one_robot), algorithm<Empty>(all_robots)};
 

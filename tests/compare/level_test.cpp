@@ -59,7 +59,7 @@ TEST(Level, ContactsBeginWhenGeometrySaysSo) {
 
 TEST(Level, AllEnginesTouchAtTheSameTime) {
   std::string motions;
-  for (const Offer& o : test::plugins().offers())
+  for (const CatalogEntry& o : test::plugins().catalog())
     if (o.features.value_or(0) & feature_contact) motions += (motions.empty() ? "" : ",") + o.id;
   for (const Level& l : Runs(billiard, "ball.motion=" + motions).all()) {
     ASSERT_EQ(l.failure, "") << l.label;

@@ -42,7 +42,7 @@ TEST_P(EveryMotionsTeam, AllocatesNothingInAStepOnceWarm) {
   ASSERT_EQ(test::allocations(), 0u) << "sanitizers count allocations themselves";
 #else
   const abi::AlgorithmEntry& entry = test::plugins().algorithm(GetParam());
-  if ((entry.description->promises & Promise::allocation_free) == 0)
+  if ((entry.description->capabilities & Capability::allocation_free) == 0)
     GTEST_SKIP() << GetParam() << " does not promise it: its engine allocates as it likes";
   test::Team team(GetParam());
   const std::uint64_t before_build = test::allocations();
@@ -73,7 +73,7 @@ TEST(BatchedAlgorithms, GiveTheSameBitsItemByItemAsInOnePiece) {
   for (std::size_t i = 0; i < whole.instances().size(); ++i) {
     Instance& a = *whole.instances()[i];
     Instance& b = *split.instances()[i];
-    if ((a.description().promises & Promise::batched) == 0) continue;
+    if ((a.description().capabilities & Capability::batched) == 0) continue;
     tried.insert(a.setup().use);
     const Step step{whole.now(), 0.001, 500, 1};
     const auto items = std::uint32_t(a.setup().items.size());

@@ -11,7 +11,7 @@ namespace muro::test {
 /// The ids of all algorithms of one kind that the build offers.
 inline std::vector<std::string> algorithms_of(const std::string& kind) {
   std::vector<std::string> ids;
-  for (const Offer& o : plugins().offers())
+  for (const CatalogEntry& o : plugins().catalog())
     if (o.kind == kind) ids.push_back(o.id);
   return ids;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/balance.hpp"
+#include "core/schedule/balance.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "core/rate.hpp"
+#include "core/schedule/rate.hpp"
 
 namespace muro {
 namespace {

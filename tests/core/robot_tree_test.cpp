@@ -56,20 +56,20 @@ TEST(RobotTree, KeepsThePapersBlocksInTheOrderOfBuilding) {
 TEST(RobotTree, FlattensToFramesWithFoldedTransforms) {
   World world;
   const RobotView& robot = world.add_robot("cart", cart());
-  ASSERT_EQ(robot.frames.size(), 6u);
-  EXPECT_EQ(robot.frames[1].parent, 0);
-  EXPECT_EQ(robot.frames[1].axis, Vec3::UnitY()) << "axes are normalised";
-  EXPECT_EQ(robot.frames[2].mimic, 1);
-  EXPECT_EQ(robot.frames[2].mimic_multiplier, -1);
-  EXPECT_EQ(world.object_name(robot.frames[3].object), "cart/mast");
-  EXPECT_EQ(robot.frames[3].joint, JointKind::fixed);
-  EXPECT_EQ(world.object_name(robot.frames[4].object), "cart/slider_frame")
+  ASSERT_EQ(robot.links.size(), 6u);
+  EXPECT_EQ(robot.links[1].parent, 0);
+  EXPECT_EQ(robot.links[1].axis, Vec3::UnitY()) << "axes are normalised";
+  EXPECT_EQ(robot.links[2].mimic, 1);
+  EXPECT_EQ(robot.links[2].mimic_multiplier, -1);
+  EXPECT_EQ(world.object_name(robot.links[3].object), "cart/mast");
+  EXPECT_EQ(robot.links[3].joint, JointKind::fixed);
+  EXPECT_EQ(world.object_name(robot.links[4].object), "cart/slider_frame")
       << "a joint without a body has a frame of its own";
-  EXPECT_EQ(world.object_name(robot.frames[5].object), "cart/hand");
-  EXPECT_EQ(robot.frames[5].parent, 4);
+  EXPECT_EQ(world.object_name(robot.links[5].object), "cart/hand");
+  EXPECT_EQ(robot.links[5].parent, 4);
   // mast turned by 90 degrees: its x axis is the cart's y axis
   Pose p;
-  for (const int i : {3, 4, 5}) p = p * placed(robot.frames[std::size_t(i)], i == 4 ? 0.5 : 0);
+  for (const int i : {3, 4, 5}) p = p * pose_in_parent(robot.links[std::size_t(i)], i == 4 ? 0.5 : 0);
   EXPECT_LT((p.position - Vec3(0, 0.5, 1)).norm(), 1e-12);
 }
 
@@ -83,7 +83,7 @@ TEST(RobotTree, MakesAnyNumberOfRobots) {
   const RobotTree tree = cart();
   world.add_robot("a", tree);
   const RobotView& b = world.add_robot("b", tree, {{1, 2, 3}, Quat::Identity()});
-  EXPECT_EQ(world.values(b.frames[0].object, keys::collision_shapes)[0].size.x(), 1);
+  EXPECT_EQ(world.values(b.links[0].object, keys::collision_shapes)[0].size.x(), 1);
   EXPECT_EQ(world.value("b/cart", keys::initial_pose).position.z(), 3);
   EXPECT_EQ(world.robot_of(world.object("b/hand")), 1);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/scheduler.hpp"
+#include "core/schedule/scheduler.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,6 +16,7 @@ class Recorder final : public abi::AlgorithmInstance {
  public:
   Recorder(std::string name, std::vector<std::string>& log) : name_(std::move(name)), log_(log) {}
   bool connect(Connector&, abi::ErrorText&) noexcept override { return true; }
+  bool connect_by_name(Connector&, abi::ErrorText&) noexcept override { return true; }
   bool start(abi::ErrorText&) noexcept override { return true; }
   std::span<const Phase> phases() const noexcept override { return {}; }
   bool step(const Step& step, Range, abi::ErrorText& error) noexcept override {
@@ -27,7 +28,7 @@ class Recorder final : public abi::AlgorithmInstance {
   bool restored(abi::ErrorText&) noexcept override { return true; }
   bool finish(abi::ErrorText&) noexcept override { return true; }
   void destroy() noexcept override {}
-  bool take_over(std::uint32_t, abi::ErrorText&) noexcept override { return true; }
+  bool on_handover(std::uint32_t, abi::ErrorText&) noexcept override { return true; }
   Step last;
   bool fails = false;
 

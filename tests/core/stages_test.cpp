@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/stages.hpp"
+#include "core/schedule/stages.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@
 namespace muro {
 namespace {
 
-using Over = Phase::Over;
-using Reach = Phase::Reach;
+using IndexSpace = Phase::IndexSpace;
+using Scope = Phase::Scope;
 
 TEST(BlockBounds, CoverAllRobotsAndBeginAtLanes) {
   for (std::uint32_t count = 0; count < 3000; ++count) {
@@ -64,7 +64,7 @@ using Stages = Team;
 
 TEST_F(Stages, TasksThatTouchTheirOwnRobotsAloneChainBlockByBlock) {
   tasks.reserve(3);
-  for (int i = 0; i < 3; ++i) every(add({{Over::items, Reach::own}}), 0, true);
+  for (int i = 0; i < 3; ++i) every(add({{IndexSpace::items, Scope::own_robot}}), 0, true);
   const auto all = stages();
   ASSERT_EQ(all.size(), 1u);
   ASSERT_EQ(all[0].chains(), block_bounds(robots).size() - 1);
@@ -81,16 +81,19 @@ TEST_F(Stages, TasksThatTouchTheirOwnRobotsAloneChainBlockByBlock) {
 
 TEST_F(Stages, AWideReaderWaitsForAllWritersAndWritersWaitForIt) {
   tasks.reserve(3);
-  every(add({{Over::items, Reach::own}}), 0, true);
-  Task& reader = add({{Over::items, Reach::wide}});
+  every(add({{IndexSpace::items, Scope::own_robot}}), 0, true);
+  Task& reader = add({{IndexSpace::items, Scope::reads_all}});
   every(reader, 0, false);
   every(reader, 1, true);
-  every(add({{Over::items, Reach::own}}), 0, true);
+  every(add({{IndexSpace::items, Scope::own_robot}}), 0, true);
   EXPECT_EQ(stages().size(), 3u);
 }
 
 TEST_F(Stages, AnUndividedPhaseStandsAloneBetweenDividedOnes) {
-  every(add({{Over::robots, Reach::own}, {Over::whole, Reach::wide}, {Over::robots, Reach::own}}), 0, true);
+  every(add({{IndexSpace::robots, Scope::own_robot},
+             {IndexSpace::whole, Scope::reads_all},
+             {IndexSpace::robots, Scope::own_robot}}),
+        0, true);
   const auto all = stages();
   ASSERT_EQ(all.size(), 3u);
   EXPECT_EQ(all[1].chains(), 1u);
@@ -99,9 +102,9 @@ TEST_F(Stages, AnUndividedPhaseStandsAloneBetweenDividedOnes) {
 
 TEST_F(Stages, ATaskThatIsAloneOverlapsWithNothingThoughItTouchesNothingOfTheOthers) {
   tasks.reserve(3);
-  every(add({{Over::items, Reach::own}}), 0, true);
-  add({{Over::whole}}).alone = true;
-  every(add({{Over::items, Reach::own}}), 1, true);
+  every(add({{IndexSpace::items, Scope::own_robot}}), 0, true);
+  add({{IndexSpace::whole}}).runs_alone = true;
+  every(add({{IndexSpace::items, Scope::own_robot}}), 1, true);
   const auto all = stages();
   ASSERT_EQ(all.size(), 3u);
   EXPECT_EQ(all[1].chains(), 1u);
@@ -110,8 +113,8 @@ TEST_F(Stages, ATaskThatIsAloneOverlapsWithNothingThoughItTouchesNothingOfTheOth
 
 TEST_F(Stages, WithoutOverlapEachPhaseOfATaskIsAStage) {
   tasks.reserve(2);
-  every(add({{Over::robots, Reach::own}, {Over::robots, Reach::own}}), 0, true);
-  every(add({{Over::robots, Reach::own}}), 1, true);
+  every(add({{IndexSpace::robots, Scope::own_robot}, {IndexSpace::robots, Scope::own_robot}}), 0, true);
+  every(add({{IndexSpace::robots, Scope::own_robot}}), 1, true);
   EXPECT_EQ(stages().size(), 1u);
   const auto all = stages_of(turns, tasks, robot_of_slot(), false);
   ASSERT_EQ(all.size(), 3u);
@@ -124,9 +127,9 @@ TEST_F(Stages, WithoutOverlapEachPhaseOfATaskIsAStage) {
 TEST_F(Stages, AStageIsLeftOutWhenNoneOfItsCallsIsWanted) {
   tasks.reserve(2);
   std::uint8_t wanted = 0;
-  const Phase maybe{.over = Over::robots, .wanted = &wanted};
-  every(add({{Over::whole}, maybe, maybe}), 0, true);
-  every(add({{Over::robots, Reach::own}}), 0, true);
+  const Phase maybe{.index_space = IndexSpace::robots, .enabled = &wanted};
+  every(add({{IndexSpace::whole}, maybe, maybe}), 0, true);
+  every(add({{IndexSpace::robots, Scope::own_robot}}), 0, true);
   const auto all = stages();
   ASSERT_EQ(all.size(), 3u);  // the last of the first task goes on with the second
   EXPECT_TRUE(all[0].is_wanted());
@@ -151,14 +154,14 @@ TEST_F(Stages, TasksWithoutCommonPropertiesOverlap) {
 }
 
 TEST_F(Stages, HeavyElementsAreCallsOfTheirOwn) {
-  every(add({{Over::items, Reach::wide, true}}), 0, true);
+  every(add({{IndexSpace::items, Scope::reads_all, true}}), 0, true);
   const auto all = stages();
   ASSERT_EQ(all.size(), 1u);
   EXPECT_EQ(all[0].chains(), robots);
 }
 
 TEST_F(Stages, ItemsThatAreNotInTheOrderOfRobotsAreNotDivided) {
-  Task& t = add({{Over::items, Reach::own}});
+  Task& t = add({{IndexSpace::items, Scope::own_robot}});
   std::swap(t.robot_of_item[3], t.robot_of_item[30]);
   every(t, 0, true);
   const auto all = stages();
@@ -176,7 +179,8 @@ TEST_F(Stages, EveryConflictKeepsTheOrderOfTurns) {
     tasks.reserve(12);
     for (int k = 0; k < 12; ++k) {
       std::vector<Phase> phases;
-      for (std::uint32_t p = 0; p <= below(3); ++p) phases.push_back({Over(below(3)), Reach(below(2)), below(4) == 0});
+      for (std::uint32_t p = 0; p <= below(3); ++p)
+        phases.push_back({IndexSpace(below(3)), Scope(below(2)), below(4) == 0});
       Task& t = add(phases);
       for (std::uint32_t slot = 0; slot < 4; ++slot)
         if (below(3) == 0) every(t, slot, below(2) == 0);
@@ -202,7 +206,8 @@ TEST_F(Stages, EveryConflictKeepsTheOrderOfTurns) {
             const std::int32_t robot = of_slot[t.slot];
             const bool inside =
                 robot < 0 || (std::uint32_t(robot) >= call.range.begin && std::uint32_t(robot) < call.range.end);
-            const bool touched = phase.over == Over::whole || inside || (phase.reach == Reach::wide && !t.exclusive);
+            const bool touched =
+                phase.index_space == IndexSpace::whole || inside || (phase.scope == Scope::reads_all && !t.exclusive);
             if (!touched) continue;
             for (const Seen& before : seen[t.slot]) {
               if (!before.exclusive && !t.exclusive) continue;

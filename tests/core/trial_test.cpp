@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/trial.hpp"
+#include "core/schedule/trial.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/workers.hpp"
+#include "core/schedule/workers.hpp"
 
 #include <gtest/gtest.h>
 

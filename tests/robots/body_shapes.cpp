@@ -66,8 +66,8 @@ std::vector<Vec3> vertices_of(const std::string& path) {
 
 std::vector<Solid> solids_of(const RobotTree& tree) {
   std::vector<Solid> solids;
-  for (std::size_t i = 0; i < tree.frames().size(); ++i)
-    for (const RobotTree::Constant& c : tree.parts()[std::size_t(tree.frames()[i].part)].constants) {
+  for (std::size_t i = 0; i < tree.links().size(); ++i)
+    for (const RobotTree::Constant& c : tree.parts()[std::size_t(tree.links()[i].part)].constants) {
       if (c.key.name != keys::collision_shapes.name) continue;
       for (std::size_t k = 0; k < c.data.size() / sizeof(Shape); ++k) {
         Solid solid{.frame = i, .shape = {}, .vertices = {}};
@@ -98,14 +98,14 @@ double lowest_point(std::span<const Solid> solids, std::span<const Pose> poses, 
 }
 
 std::vector<double> start_positions(const RobotTree& tree) {
-  std::vector<double> q(tree.frames().size(), 0.0);
+  std::vector<double> q(tree.links().size(), 0.0);
   for (std::size_t i = 0; i < q.size(); ++i) {
-    const Frame& f = tree.frames()[i].frame;
+    const Link& f = tree.links()[i].link;
     if (f.joint != JointKind::fixed && f.mimic < 0)
       q[i] = std::min(std::max(0.0, f.limits.lower), std::max(f.limits.lower, f.limits.upper));
   }
   for (std::size_t i = 0; i < q.size(); ++i) {
-    const Frame& f = tree.frames()[i].frame;
+    const Link& f = tree.links()[i].link;
     if (f.mimic >= 0) q[i] = f.mimic_offset + f.mimic_multiplier * q[std::size_t(f.mimic)];
   }
   return q;
@@ -113,9 +113,9 @@ std::vector<double> start_positions(const RobotTree& tree) {
 
 std::vector<Pose> poses_of(const RobotTree& tree, const Pose& base, std::span<const double> positions) {
   std::vector<Pose> poses{base};
-  for (std::size_t i = 1; i < tree.frames().size(); ++i) {
-    const Frame& f = tree.frames()[i].frame;
-    poses.push_back(poses[std::size_t(f.parent)] * placed(f, positions[i]));
+  for (std::size_t i = 1; i < tree.links().size(); ++i) {
+    const Link& f = tree.links()[i].link;
+    poses.push_back(poses[std::size_t(f.parent)] * pose_in_parent(f, positions[i]));
   }
   return poses;
 }

@@ -2,7 +2,7 @@
 // Tensors that no body has, as files hold them.
 #include <gtest/gtest.h>
 
-#include "muro/physical_inertia.hpp"
+#include "plugins/common/multibody/physical_inertia.hpp"
 #include "tests/robots/trial.hpp"
 #include "tests/support/bodies.hpp"
 

@@ -58,8 +58,8 @@ TEST_P(EveryEngine, TellsWhenAStateHasLeftAllBounds) {
   s.use(GetParam(), 1000, s.all_robots());
   s.use_contacts();
   PropertyStore& store = s.world().store();
-  auto& push = *static_cast<Wrench*>(store.bind(store.add_party("the test"), r.base(), keys::external_wrench,
-                                                Access::accumulate, Form::single, 1, nullptr));
+  auto& push = *static_cast<Wrench*>(store.bind(store.add_accessor("the test"), r.base(), keys::external_wrench,
+                                                usage::accumulate, Multiplicity::single, 1, nullptr));
   s.build();
   push.force = {1e300, 0, 0};
   try {

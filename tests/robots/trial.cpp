@@ -28,7 +28,7 @@ class Trial {
     pose.position.z() = std::isfinite(lowest) ? clearance - lowest : 1;
     robot_ = &scene_.add("robot", tree_, pose);
     for (std::size_t i = 0; i < start_.size(); ++i) {
-      const Frame& f = robot_->frames[i];
+      const Link& f = robot_->links[i];
       if (f.joint == JointKind::fixed) continue;
       if (f.mimic < 0) scene_.world().set(f.joint_object, keys::initial_joint_position, start_[i]);
     }
@@ -37,7 +37,7 @@ class Trial {
     scene_.use_contacts();
     scene_.build();
     for (std::size_t i = 0; i < start_.size(); ++i) {
-      const RobotTree::FlatFrame& f = tree_.frames()[i];
+      const RobotTree::FlatLink& f = tree_.links()[i];
       inertias_.push_back(inertia_of(tree_.parts()[std::size_t(f.part)]));
       seen_.scale += inertias_.back().mass * g;
     }
@@ -81,8 +81,8 @@ class Trial {
   bool look(int k, int looks) {
     poses_.clear();
     double energy = 0;
-    for (std::size_t i = 0; i < robot_->frames.size(); ++i) {
-      const ObjectId body = robot_->frames[i].object;
+    for (std::size_t i = 0; i < robot_->links.size(); ++i) {
+      const ObjectId body = robot_->links[i].object;
       const Pose& pose = poses_.emplace_back(scene_.world().value(body, keys::pose));
       const Twist& twist = scene_.world().value(body, keys::twist);
       seen_.from_unit = std::max(seen_.from_unit, std::abs(pose.orientation.norm() - 1));
@@ -107,7 +107,7 @@ class Trial {
   }
 
   bool look_at_limits() {
-    for (const Frame& f : robot_->frames) {
+    for (const Link& f : robot_->links) {
       if (f.joint == JointKind::fixed) continue;
       const double q = scene_.world().value(f.joint_object, keys::joint_position);
       if (!std::isfinite(q + scene_.world().value(f.joint_object, keys::joint_velocity))) {
@@ -123,20 +123,20 @@ class Trial {
   }
 
   void look_at_joints() {
-    for (std::size_t i = 0; i < robot_->frames.size(); ++i) {
-      const Frame& f = robot_->frames[i];
+    for (std::size_t i = 0; i < robot_->links.size(); ++i) {
+      const Link& f = robot_->links[i];
       if (f.joint == JointKind::fixed) continue;
       const double q = scene_.world().value(f.joint_object, keys::joint_position);
       seen_.joints.push_back(
           {name_of(f), f.mimic >= 0, q - start_[i], scene_.world().value(f.joint_object, keys::joint_velocity)});
       if (f.mimic < 0) continue;
       const double leader =
-          scene_.world().value(robot_->frames[std::size_t(f.mimic)].joint_object, keys::joint_position);
+          scene_.world().value(robot_->links[std::size_t(f.mimic)].joint_object, keys::joint_position);
       seen_.apart = std::max(seen_.apart, std::abs(q - f.mimic_offset - f.mimic_multiplier * leader));
     }
   }
 
-  std::string name_of(const Frame& f) const {
+  std::string name_of(const Link& f) const {
     return scene_.world().object_name(f.joint_object).substr(robot_->name.size() + 1);
   }
 
@@ -174,7 +174,7 @@ Seen run(const Setting& setting) {
 
 std::vector<std::string> motions() {
   std::vector<std::string> ids;
-  for (const Offer& o : test::plugins().offers())
+  for (const CatalogEntry& o : test::plugins().catalog())
     if (o.kind == "motion" && o.features && (*o.features & feature_contact) != 0 && (*o.features & feature_forces) != 0)
       ids.push_back(o.id);
   return ids;

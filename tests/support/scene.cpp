@@ -50,8 +50,8 @@ std::vector<Item> Scene::all_robots() {
 
 Wrench& Scene::push(const RobotView& robot) {
   PropertyStore& store = world().store();
-  return *static_cast<Wrench*>(store.bind(store.add_party("the test"), robot.base(), keys::external_wrench,
-                                          Access::accumulate, Form::single, 1, nullptr));
+  return *static_cast<Wrench*>(store.bind(store.add_accessor("the test"), robot.base(), keys::external_wrench,
+                                          usage::accumulate, Multiplicity::single, 1, nullptr));
 }
 
 Pose& Scene::pose(const RobotView& robot) { return world().value(robot.base(), keys::pose); }

@@ -2,7 +2,7 @@
 // A data race on purpose: shows that the runs beside it could fail.
 #include <thread>
 
-#include "core/workers.hpp"
+#include "core/schedule/workers.hpp"
 
 int main() {
   int shared = 0;

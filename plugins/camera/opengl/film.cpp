@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "plugins/mesh/srgb.hpp"
+#include "plugins/common/mesh/srgb.hpp"
 
 namespace muro::camera {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "lens.hpp"
-#include "muro/random.hpp"
+#include "muro/toolkit/random.hpp"
 
 namespace muro::camera {
 

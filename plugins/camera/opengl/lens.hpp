@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "plugins/render/camera.hpp"
+#include "plugins/common/render/camera.hpp"
 
 namespace muro::camera {
 

@@ -77,7 +77,7 @@ TEST(APictureOnABox, StandsUprightOnEachOfItsSides) {
     Shape box = Shape::box({2, 2, 2});
     box.texture = s.world().intern(quarters(folder));
     box.color = {1, 1, 1, 1};
-    box.painted_by = PaintedBy::model;
+    box.material_source = MaterialSource::model;
     s.look_at(box, {{3, 0, 1}, from_rpy(0, 0, yaw)});
     s.expect_quarters();
   }
@@ -129,7 +129,7 @@ TEST(AMesh, HasTheColourOfItsMaterialUnlessTheModelSaysAnother) {
     Shape mesh = mesh_of(s, square.obj("Kd 0 0 1\n"));
     if (model) {
       mesh.color = {1, 0, 0, 1};
-      mesh.painted_by = PaintedBy::model;
+      mesh.material_source = MaterialSource::model;
     }
     s.look_at(mesh, {{2, 0, 1}, Quat::Identity()});
     EXPECT_EQ(s.color(50, 50), model ? "red" : "blue");
@@ -150,7 +150,7 @@ TEST(AMesh, HasThePictureThatTheModelGivesIt) {
   Shape mesh = mesh_of(s, square.obj("Kd 0 0 1\n"));
   mesh.texture = s.world().intern(quarters(square.folder));
   mesh.color = {1, 1, 1, 1};
-  mesh.painted_by = PaintedBy::model;
+  mesh.material_source = MaterialSource::model;
   s.look_at(mesh, {{2, 0, 1}, Quat::Identity()});
   s.expect_quarters();
 }

@@ -7,11 +7,11 @@
 #include <string>
 
 #include "film.hpp"
-#include "muro/mounting.hpp"
 #include "muro/plugin.hpp"
-#include "plugins/render/depth_renderer.hpp"
-#include "plugins/render/device.hpp"
-#include "plugins/render/picture_renderer.hpp"
+#include "muro/toolkit/mounting.hpp"
+#include "plugins/common/render/depth_renderer.hpp"
+#include "plugins/common/render/device.hpp"
+#include "plugins/common/render/picture_renderer.hpp"
 
 namespace {
 
@@ -48,10 +48,10 @@ constexpr Parameter parameters[] = {
     mounting_rpy,
     render::device_parameter,
 };
-constexpr Use reads[] = {{"pose", "of the sensor's object and of all bodies that are seen"},
-                         {"twist", "of the sensor's object: rolling_shutter"},
-                         {"visual.shapes", "of all bodies; else collision.shapes"}};
-constexpr Use writes[] = {
+constexpr PropertyUse reads[] = {{"pose", "of the sensor's object and of all bodies that are seen"},
+                                 {"twist", "of the sensor's object: rolling_shutter"},
+                                 {"visual.shapes", "of all bodies; else collision.shapes"}};
+constexpr PropertyUse writes[] = {
     {"camera.image", "rgb: true: sRGB, rows from the top"},
     {"camera.depth", "depth: true: along the axis, infinite where nothing is"},
     {"camera.labels", "labels: true: the object that each pixel shows"},
@@ -73,7 +73,7 @@ constexpr Description description{
     .parameters = parameters,
     .reads = reads,
     .writes = writes,
-    .promises = deterministic | batched | restorable,
+    .capabilities = deterministic | batched | restorable,
 };
 
 render::Camera read_camera(const Parameters& p) {
@@ -144,7 +144,7 @@ class Camera final : public Algorithm {
   }
 
   std::span<const Phase> phases() const override {
-    static constexpr Phase whole[] = {{Phase::Over::whole}};
+    static constexpr Phase whole[] = {{Phase::IndexSpace::whole}};
     return whole;
   }
 

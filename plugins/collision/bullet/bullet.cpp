@@ -2,7 +2,7 @@
 // Plugin collision_bullet: collision detection by Bullet.
 #include "bullet_engine.hpp"
 #include "muro/plugin.hpp"
-#include "plugins/encounters/engine_collision.hpp"
+#include "plugins/common/contact_geometry/engine_collision.hpp"
 
 namespace {
 
@@ -16,7 +16,7 @@ constexpr Description description{
     .parameters = encounters::engine_parameters,
     .reads = encounters::engine_reads,
     .writes = encounters::engine_writes,
-    .promises = deterministic | allocation_free | restorable,
+    .capabilities = deterministic | allocation_free | restorable,
 };
 
 class BulletCollision final : public encounters::EngineCollision {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "plugins/encounters/engine.hpp"
+#include "plugins/common/contact_geometry/engine.hpp"
 
 class btCollisionShape;
 class btStridingMeshInterface;

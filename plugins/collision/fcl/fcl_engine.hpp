@@ -3,7 +3,7 @@
 
 #include <fcl/geometry/collision_geometry.h>
 
-#include "plugins/encounters/engine.hpp"
+#include "plugins/common/contact_geometry/engine.hpp"
 
 namespace muro::fcl_collision {
 

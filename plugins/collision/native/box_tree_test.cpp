@@ -2,7 +2,7 @@
 #include <set>
 
 #include "pairs_testing.hpp"
-#include "plugins/encounters/box_tree.hpp"
+#include "plugins/common/contact_geometry/box_tree.hpp"
 
 namespace {
 

@@ -7,17 +7,17 @@
 
 #include "mesh_warning.hpp"
 #include "muro/vocabulary.hpp"
-#include "plugins/encounters/listing.hpp"
+#include "plugins/common/contact_geometry/listing.hpp"
 
 namespace muro::native {
 
 namespace {
 
-constexpr Use reads[] = {{"scene.index", "shapes and boxes"},
-                         {"pose", "of all bodies of robots with shapes"},
-                         {"contact.world", "of all robots: who answers for which contacts"}};
-constexpr Use writes[] = {{"contacts", "list on the base of every robot that forces move"}};
-constexpr Phase all_phases[] = {{Phase::Over::whole}, {Phase::Over::robots, Phase::Reach::wide}};
+constexpr PropertyUse reads[] = {{"scene.index", "shapes and boxes"},
+                                 {"pose", "of all bodies of robots with shapes"},
+                                 {"contact.world", "of all robots: who answers for which contacts"}};
+constexpr PropertyUse writes[] = {{"contacts", "list on the base of every robot that forces move"}};
+constexpr Phase all_phases[] = {{Phase::IndexSpace::whole}, {Phase::IndexSpace::robots, Phase::Scope::reads_all}};
 
 /// No points have this signature.
 constexpr double unknown = -1;
@@ -38,7 +38,7 @@ constinit const Description collision_description{
     .parameters = {},
     .reads = reads,
     .writes = writes,
-    .promises = deterministic | allocation_free | restorable,
+    .capabilities = deterministic | allocation_free | restorable,
 };
 
 /// Robots of a team that are worked out together.
@@ -51,8 +51,8 @@ void NativeCollision::connect(Connector& c) {
   kernels_ = &ground_kernels_for(lane::best_isa());
   for (const RobotView* r : c.robots()) {
     Robot& robot = robots_.emplace_back();
-    robot.wants_all = c.is_used(r->base(), keys::contacts, Access::read);
-    const bool dynamic = robot.wants_all || c.is_used(r->base(), keys::external_wrench, Access::read_sum);
+    robot.wants_all = c.is_used(r->base(), keys::contacts, usage::read);
+    const bool dynamic = robot.wants_all || c.is_used(r->base(), keys::external_wrench, usage::read_sum);
     if (dynamic) robot.list = c.derived_list(r->base(), keys::contacts);
     robot.key = r->key;
     if (const auto original = c.constant(r->base(), keys::shadow_of)) robot.shadow_of = c.robot_of(*original);
@@ -63,7 +63,7 @@ void NativeCollision::connect(Connector& c) {
   warn_of_meshes(c);
   index_ = c.read(world_object, keys::scene_index);
   for (const RobotView* r : c.robots())
-    for (const Frame& f : r->frames) {
+    for (const Link& f : r->links) {
       if (c.constant_array(f.object, keys::collision_shapes).empty()) continue;
       const double* const pose = lane::numbers(c.read(f.object, keys::pose).get());
       if (f.object == r->base()) robots_[r->number].poses.base = pose;

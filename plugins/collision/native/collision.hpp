@@ -4,7 +4,7 @@
 #include "encounters.hpp"
 #include "lanes/ground.hpp"
 #include "muro/algorithm.hpp"
-#include "plugins/encounters/neighbours.hpp"
+#include "plugins/common/contact_geometry/neighbours.hpp"
 #include "team.hpp"
 
 namespace muro::native {

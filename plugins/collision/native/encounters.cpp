@@ -2,7 +2,7 @@
 #include "encounters.hpp"
 
 #include "pairs/collide.hpp"
-#include "plugins/encounters/listing.hpp"
+#include "plugins/common/contact_geometry/listing.hpp"
 
 namespace muro::native {
 

@@ -6,7 +6,7 @@
 #include "muro/handles.hpp"
 #include "muro/scene.hpp"
 #include "pairs/placed.hpp"
-#include "plugins/encounters/manifold.hpp"
+#include "plugins/common/contact_geometry/manifold.hpp"
 
 namespace muro::native {
 

@@ -269,7 +269,7 @@ TEST(SceneBvh, DescribesTheSceneOfTheInstant) {
       const Vec3 reach = reach_of(*c.shape, poses[r].orientation), slack = Vec3::Constant(1e-8);
       EXPECT_TRUE(index.robots[r].bounds.contains({poses[r].position - reach, poses[r].position + reach}));
       EXPECT_TRUE((Aabb{tight.low - slack, tight.high + slack}.contains(index.robots[r].bounds)));
-      EXPECT_TRUE(index.robots[r].room.contains(index.robots[r].bounds));
+      EXPECT_TRUE(index.robots[r].fat_aabb.contains(index.robots[r].bounds));
     }
     std::vector<int> seen(poses.size());
     for (const BvhNode& n : index.moving.nodes)

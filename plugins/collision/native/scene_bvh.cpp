@@ -16,16 +16,16 @@ constexpr Parameter parameters[] = {
     real("margin", "m", 0.1, "by which a robot's room is larger than the robot, so that it need not follow each step")
         .between(0, 100),
 };
-constexpr Use reads[] = {{"collision.shapes", "of all objects"}, {"pose", "of all objects with shapes"}};
-constexpr Use writes[] = {{"scene.index", "on the world object"}};
+constexpr PropertyUse reads[] = {{"collision.shapes", "of all objects"}, {"pose", "of all objects with shapes"}};
+constexpr PropertyUse writes[] = {{"scene.index", "on the world object"}};
 
-constexpr Phase all_phases[] = {{Phase::Over::robots, Phase::Reach::own}, {Phase::Over::whole}};
+constexpr Phase all_phases[] = {{Phase::IndexSpace::robots, Phase::Scope::own_robot}, {Phase::IndexSpace::whole}};
 
-/// Part of the margin that goes from behind to ahead where a robot has left its room: it will most likely go on.
+/// Part of the margin that goes from behind to ahead where a robot has left its fat AABB: it will most likely go on.
 constexpr double further_ahead = 0.75;
 
 // what BoundsWork::boxes counts on
-static_assert(offsetof(RobotColliders, room) == offsetof(RobotColliders, bounds) + 6 * sizeof(double));
+static_assert(offsetof(RobotColliders, fat_aabb) == offsetof(RobotColliders, bounds) + 6 * sizeof(double));
 
 }  // namespace
 
@@ -37,7 +37,7 @@ constinit const Description scene_bvh_description{
     .parameters = parameters,
     .reads = reads,
     .writes = writes,
-    .promises = deterministic | allocation_free | restorable,
+    .capabilities = deterministic | allocation_free | restorable,
 };
 
 /// What bounds the shape: itself, or the box around a mesh. None, and a warning, when the mesh cannot be read.
@@ -87,21 +87,21 @@ void SceneBvh::add_robot(Connector& c, const RobotView& robot) {
   const auto first = std::uint32_t(colliders_.size());
   std::vector<bool> follows;
   std::vector<FrameBox> boxes;
-  for (const Frame& f : robot.frames) follows.push_back(c.is_used(f.object, keys::pose, Access::derived));
-  for (std::uint32_t f = 0; f < robot.frames.size(); ++f) {
-    const ObjectId body = robot.frames[f].object;
+  for (const Link& f : robot.links) follows.push_back(c.is_used(f.object, keys::pose, usage::derived));
+  for (std::uint32_t f = 0; f < robot.links.size(); ++f) {
+    const ObjectId body = robot.links[f].object;
     const std::span<const Shape> shapes = c.constant_array(body, keys::collision_shapes);
     const std::size_t first_of_body = outlines_.size();
     if (!shapes.empty()) add_colliders(c, body, c.read(body, keys::pose).get());
     for (const Shape& s : std::span(outlines_).subspan(first_of_body))
-      if (s.kind != ShapeKind::plane) boxes.push_back(swept_box(robot.frames, follows, f, s));
+      if (s.kind != ShapeKind::plane) boxes.push_back(swept_box(robot.links, follows, f, s));
   }
   robots_.push_back({first, std::uint32_t(colliders_.size()) - first, {}, {}});
   Poses& poses = poses_.emplace_back();
   std::vector<Part> parts;
   for (const FrameBox& b : joined(std::move(boxes))) {
     Part& p = parts.emplace_back();
-    const double* const pose = lane::numbers(c.read(robot.frames[b.frame].object, keys::pose).get());
+    const double* const pose = lane::numbers(c.read(robot.links[b.frame].object, keys::pose).get());
     if (b.frame == 0) poses.base = pose;
     p.pose = spot_of(poses, pose);
     Vec3::Map(p.centre) = b.centre;
@@ -142,9 +142,9 @@ void SceneBvh::start() {
   bound({0, std::uint32_t(robots_.size())});
   boxes.assign(robots_.size(), {});
   for (const std::uint32_t r : members_) {
-    robots_[r].room = {};
+    robots_[r].fat_aabb = {};
     new_room(r);
-    boxes[r] = robots_[r].room;
+    boxes[r] = robots_[r].fat_aabb;
   }
   moving_tree_.build(boxes, seen_);
   *index_ = {colliders_, robots_, planes_, scenery_tree_.view(), moving_tree_.view(), changes_, all_changes_};
@@ -179,12 +179,12 @@ void SceneBvh::bound(Range block) {
 
 void SceneBvh::new_room(std::uint32_t robot) {
   RobotColliders& r = robots_[robot];
-  const Aabb old = r.room;
+  const Aabb old = r.fat_aabb;
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     const bool up = r.bounds.high[axis] > old.high[axis], down = r.bounds.low[axis] < old.low[axis];
     const double ahead = up == down ? 0.0 : up ? further_ahead : -further_ahead;
-    r.room.low[axis] = r.bounds.low[axis] - margin_ * (1 - ahead);
-    r.room.high[axis] = r.bounds.high[axis] + margin_ * (1 + ahead);
+    r.fat_aabb.low[axis] = r.bounds.low[axis] - margin_ * (1 - ahead);
+    r.fat_aabb.high[axis] = r.bounds.high[axis] + margin_ * (1 + ahead);
   }
   ++changes_[robot];
   ++all_changes_;
@@ -199,7 +199,7 @@ void SceneBvh::make_room() {
   for (auto at = begin; (at = static_cast<const std::uint8_t*>(std::memchr(at, 1, std::size_t(end - at)))); ++at) {
     const auto r = std::uint32_t(at - begin);
     new_room(r);
-    if (shadows_.count(r) == 0) moving_tree_.move(r, robots_[r].room);
+    if (shadows_.count(r) == 0) moving_tree_.move(r, robots_[r].fat_aabb);
   }
   if (all_changes_ == before) return;
   if (moving_tree_.worn()) moving_tree_.rebuild();

@@ -7,8 +7,8 @@
 
 #include "lanes/bounds.hpp"
 #include "muro/algorithm.hpp"
-#include "plugins/encounters/box_tree.hpp"
-#include "plugins/mesh/store.hpp"
+#include "plugins/common/contact_geometry/box_tree.hpp"
+#include "plugins/common/mesh/store.hpp"
 #include "team.hpp"
 
 namespace muro::native {

@@ -78,12 +78,12 @@ Placed turned_about(const Placed& s, const Vec3& axis) {
 
 }  // namespace
 
-FrameBox swept_box(std::span<const Frame> frames, const std::vector<bool>& follows, std::uint32_t frame,
+FrameBox swept_box(std::span<const Link> frames, const std::vector<bool>& follows, std::uint32_t frame,
                    const Shape& shape) {
   Placed s = placed(shape, shape.origin);
   const double most = tolerable * diagonal_of(s);
   for (; frames[frame].parent >= 0 && follows[frame]; frame = std::uint32_t(frames[frame].parent)) {
-    const Frame& f = frames[frame];
+    const Link& f = frames[frame];
     if (f.joint == JointKind::prismatic) break;
     Placed next = f.joint == JointKind::revolute ? turned_about(s, f.axis) : s;
     const Mat3 turn = f.origin.orientation.toRotationMatrix();

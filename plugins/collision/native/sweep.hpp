@@ -20,7 +20,7 @@ struct FrameBox {
 /// The box that a shape of frame `frame` stays in, in the foremost frame that can have one which is hardly larger: a
 /// wheel's in its carrier, for it stays in its place however far it has turned; an arm's in the arm. `follows[i]`: the
 /// pose of frame i is exactly what the joints make of its parent's.
-FrameBox swept_box(std::span<const Frame> frames, const std::vector<bool>& follows, std::uint32_t frame,
+FrameBox swept_box(std::span<const Link> frames, const std::vector<bool>& follows, std::uint32_t frame,
                    const Shape& shape);
 
 /// One box a frame around all boxes of it, in order of frames.

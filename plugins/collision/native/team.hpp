@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "lanes/spot.hpp"
-#include "muro/lane/numbers.hpp"
+#include "muro/simd/numbers.hpp"
 #include "muro/step.hpp"
 
 namespace muro::native {

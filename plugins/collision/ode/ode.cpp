@@ -2,7 +2,7 @@
 // Plugin collision_ode: collision detection by the Open Dynamics Engine.
 #include "muro/plugin.hpp"
 #include "ode_engine.hpp"
-#include "plugins/encounters/engine_collision.hpp"
+#include "plugins/common/contact_geometry/engine_collision.hpp"
 
 namespace {
 
@@ -16,7 +16,7 @@ constexpr Description description{
     .parameters = encounters::engine_parameters,
     .reads = encounters::engine_reads,
     .writes = encounters::engine_writes,
-    .promises = deterministic | restorable,
+    .capabilities = deterministic | restorable,
 };
 
 class OdeCollision final : public encounters::EngineCollision {

@@ -3,7 +3,7 @@
 
 #include <ode/ode.h>
 
-#include "plugins/encounters/engine.hpp"
+#include "plugins/common/contact_geometry/engine.hpp"
 
 namespace muro::ode_collision {
 

@@ -21,9 +21,9 @@ MassProperties properties(double inverse_mass, const Vec3& com, const Mat3& inve
 /// The bodies of a robot at rest, in the frame of its base.
 class Tree {
  public:
-  Tree(std::span<const Frame> frames, std::span<const double> positions) : frames_(frames), in_base_(frames.size()) {
+  Tree(std::span<const Link> frames, std::span<const double> positions) : frames_(frames), in_base_(frames.size()) {
     for (std::size_t i = 1; i < frames.size(); ++i)
-      in_base_[i] = in_base_[std::size_t(frames[i].parent)] * placed(frames[i], positions[i]);
+      in_base_[i] = in_base_[std::size_t(frames[i].parent)] * pose_in_parent(frames[i], positions[i]);
   }
   const Pose& operator[](std::size_t i) const { return in_base_[i]; }
   Eigen::Index columns() const { return Eigen::Index(6 + frames_.size()); }
@@ -49,7 +49,7 @@ class Tree {
   }
 
  private:
-  std::span<const Frame> frames_;
+  std::span<const Link> frames_;
   std::vector<Pose> in_base_;
 };
 
@@ -59,7 +59,7 @@ MassProperties mass_properties_of(const Inertia& body) {
   return properties(1 / body.mass, body.com, body.tensor().inverse());
 }
 
-std::vector<MassProperties> apparent_masses(std::span<const Frame> frames, std::span<const Inertia> inertias,
+std::vector<MassProperties> apparent_masses(std::span<const Link> frames, std::span<const Inertia> inertias,
                                             std::span<const double> positions, std::span<const std::uint32_t> bodies) {
   const Tree tree(frames, positions);
   Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(tree.columns(), tree.columns());

@@ -18,7 +18,7 @@ MassProperties mass_properties_of(const Inertia& body);
 /// J. Robotics and Automation 3, 1987), without the coupling of shifts and turns, and with the greatest of the inverse
 /// masses of all directions: joints that are held make a body heavier than that, nothing makes it lighter. `inertias`
 /// and `positions` (rad or m): one a frame.
-std::vector<MassProperties> apparent_masses(std::span<const Frame> frames, std::span<const Inertia> inertias,
+std::vector<MassProperties> apparent_masses(std::span<const Link> frames, std::span<const Inertia> inertias,
                                             std::span<const double> positions, std::span<const std::uint32_t> bodies);
 
 }  // namespace muro::penalty

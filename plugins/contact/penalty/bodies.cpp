@@ -5,8 +5,8 @@
 #include <string>
 
 #include "apparent_mass.hpp"
-#include "muro/composite.hpp"
-#include "muro/random.hpp"
+#include "muro/toolkit/mass_properties.hpp"
+#include "muro/toolkit/random.hpp"
 
 namespace muro::penalty {
 
@@ -25,10 +25,10 @@ void Bodies::connect(Connector& c) {
 }
 
 void Bodies::connect_robot(Connector& c, const RobotView& view) {
-  const bool moved = c.is_used(view.base(), keys::external_wrench, Access::read_sum);
+  const bool moved = c.is_used(view.base(), keys::external_wrench, usage::read_sum);
   std::vector<std::uint32_t> frames;  // that are units, beside the base
-  for (std::uint32_t i = 0; i < view.frames.size(); ++i) {
-    const ObjectId object = view.frames[i].object;
+  for (std::uint32_t i = 0; i < view.links.size(); ++i) {
+    const ObjectId object = view.links[i].object;
     Body& b = all[index_of(object)];
     b.whole = index_of(view.base());
     b.robot = moved ? std::int32_t(robots.size()) : nobody;
@@ -36,14 +36,14 @@ void Bodies::connect_robot(Connector& c, const RobotView& view) {
     if (c.constant_array(object, keys::collision_shapes).empty()) continue;
     b.pose = c.read(object, keys::pose).get();
     b.twist = c.read(object, keys::twist).get();
-    if (!moved || i == 0 || !c.is_used(object, keys::external_wrench, Access::read_sum)) continue;
+    if (!moved || i == 0 || !c.is_used(object, keys::external_wrench, usage::read_sum)) continue;
     frames.push_back(i);
     b.unit = std::uint32_t(units.size() + frames.size());
   }
   if (!moved) return;
   const std::vector<Inertia> inertias = inertias_of(c, view);
   const std::vector<double> positions = initial_joint_positions(c, view);
-  const Inertia composite = composite_inertia(view.frames, inertias, positions);
+  const Inertia composite = composite_inertia(view.links, inertias, positions);
   if (!(composite.mass > 0))
     throw Error("`" + std::string(view.name) + "` has no mass, so no contact can push it; give its bodies `inertial`");
   Robot r;
@@ -60,8 +60,8 @@ void Bodies::connect_robot(Connector& c, const RobotView& view) {
   robots.push_back(r);
   if (r.alone) return add_unit(c, view.base(), mass_properties_of(composite));
   frames.insert(frames.begin(), 0);
-  const std::vector<MassProperties> apparent = apparent_masses(view.frames, inertias, positions, frames);
-  for (std::size_t i = 0; i < frames.size(); ++i) add_unit(c, view.frames[frames[i]].object, apparent[i]);
+  const std::vector<MassProperties> apparent = apparent_masses(view.links, inertias, positions, frames);
+  for (std::size_t i = 0; i < frames.size(); ++i) add_unit(c, view.links[frames[i]].object, apparent[i]);
 }
 
 void Bodies::add_unit(Connector& c, ObjectId body, const MassProperties& mass) {

@@ -9,7 +9,7 @@
 // as stability asks for it.
 #pragma once
 
-#include "muro/lane/geometry.hpp"
+#include "muro/simd/geometry.hpp"
 
 namespace muro::penalty {
 

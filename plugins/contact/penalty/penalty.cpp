@@ -18,13 +18,13 @@ constexpr Parameter parameters[] = {
     real("frequency", "Hz", 50, "stiffness: that of a body bobbing on a contact; at most 0.095 of the rate")
         .between(1, 1e5),
 };
-constexpr Use reads[] = {
+constexpr PropertyUse reads[] = {
     {"contacts", "of every robot that forces move"},
     {"pose", "of every body with a collision shape"},
     {"twist", "of every body with a collision shape"},
     {"inertial", "of every body of robots that forces move"},
 };
-constexpr Use writes[] = {
+constexpr PropertyUse writes[] = {
     {"wrench.external", "of every robot that forces move"},
     {"contact.grips", "friction springs, of every robot that forces move"},
     {"contact.time", "of the last run, on the world object"},
@@ -37,7 +37,7 @@ constexpr Description description{
     .parameters = parameters,
     .reads = reads,
     .writes = writes,
-    .promises = deterministic | allocation_free | restorable,
+    .capabilities = deterministic | allocation_free | restorable,
 };
 
 class Penalty final : public Algorithm {
@@ -94,9 +94,10 @@ class Penalty final : public Algorithm {
   std::unique_ptr<Meetings> meetings_;
   Out<std::int64_t> last_run_;
   std::uint8_t many_meet_ = 0;
-  const Phase for_many_{.over = Phase::Over::robots, .wanted = &many_meet_};
+  const Phase for_many_{.index_space = Phase::IndexSpace::robots, .enabled = &many_meet_};
   static_assert(Meetings::passes == 4);
-  const Phase phases_[6] = {{Phase::Over::robots, Phase::Reach::own}, {}, for_many_, for_many_, for_many_, for_many_};
+  const Phase phases_[6] = {
+      {Phase::IndexSpace::robots, Phase::Scope::own_robot}, {}, for_many_, for_many_, for_many_, for_many_};
 };
 
 constexpr abi::AlgorithmEntry algorithms[] = {algorithm<Penalty>(description)};

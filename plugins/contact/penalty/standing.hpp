@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "contact_law.hpp"
-#include "muro/lane/isa.hpp"
+#include "muro/simd/isa.hpp"
 #include "patch.hpp"
 
 namespace muro::penalty {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "standing.hpp"
 
-#include "muro/lane/rows.hpp"
+#include "muro/simd/rows.hpp"
 
 namespace muro::penalty {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "muro/lane/numbers.hpp"
+#include "muro/simd/numbers.hpp"
 
 namespace muro::penalty {
 namespace {

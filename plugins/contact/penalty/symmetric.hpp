@@ -2,7 +2,7 @@
 // Symmetric matrices over a double or a lane of robots: inertias and sums of products.
 #pragma once
 
-#include "muro/lane/geometry.hpp"
+#include "muro/simd/geometry.hpp"
 
 namespace muro::penalty::law {
 inline namespace MURO_ISA {

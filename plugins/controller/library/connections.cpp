@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "muro/algorithm.hpp"
-#include "muro/nearest.hpp"
+#include "muro/toolkit/did_you_mean.hpp"
 
 namespace muro::control {
 
@@ -96,7 +96,7 @@ ObjectId PropertyFinder::object(std::string_view name) const {
 /// Valid until the next call of this or of Connector::properties.
 const FoundProperty* PropertyFinder::property_of(ObjectId object, std::string_view name) const {
   for (const FoundProperty& p : connector_.properties(object))
-    if (p.key->name == name) return &p;
+    if (p.key->name == name && !p.is_sum) return &p;
   return nullptr;
 }
 
@@ -149,7 +149,7 @@ void PropertyFinder::check(const FoundProperty& p, const muro_port& port) const 
   const std::string name = full_name(p);
   if (size_of(p.key->type->scalar) == 0)
     throw Error(name + " is of type " + std::string(p.key->type->name) + ", which is not made of numbers");
-  if (p.form == Form::list)
+  if (p.multiplicity == Multiplicity::list)
     throw Error(name + " is a list, whose length changes from step to step; a port has a fixed size");
   if (port.unit && p.key->unit != port.unit)
     throw Error(name + " is in \"" + std::string(p.key->unit) + "\", but the library works in \"" + port.unit + "\"");

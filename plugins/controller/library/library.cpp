@@ -10,7 +10,7 @@
 #include "connections.hpp"
 #include "control_library.hpp"
 #include "muro/plugin.hpp"
-#include "muro/random.hpp"
+#include "muro/toolkit/random.hpp"
 #include "port.hpp"
 
 namespace {
@@ -19,14 +19,14 @@ using namespace muro;
 using namespace muro::control;
 
 constexpr Parameter parameters[] = {
-    text("library", "", "path of the library, or its name: `wander` for wander.so or libwander.so").must_be_given(),
+    text("library", "", "path of the library, or its name: `wander` for wander.so or libwander.so").required(),
     texts("inputs", "what inputs read: \"port=property\", \"port=object:property\"; several properties by commas"),
     texts("outputs", "what outputs write, in the same form"),
     texts("arguments", "\"name=value\", handed to the library"),
 };
-constexpr Use reads[] = {{"*", "what the library's inputs are named or connected to"}};
-constexpr Use writes[] = {{"*", "what the library's outputs are named or connected to"},
-                          {"state.controller.*", "the library's state"}};
+constexpr PropertyUse reads[] = {{"*", "what the library's inputs are named or connected to"}};
+constexpr PropertyUse writes[] = {{"*", "what the library's outputs are named or connected to"},
+                                  {"state.controller.*", "the library's state"}};
 constexpr Description description{
     .id = "controller.library",
     .kind = Kind::controller,
@@ -35,7 +35,7 @@ constexpr Description description{
     .parameters = parameters,
     .reads = reads,
     .writes = writes,
-    .promises = deterministic | batched | allocation_free | restorable,
+    .capabilities = deterministic | batched | allocation_free | restorable,
 };
 
 constexpr std::size_t error_size = 1024;
@@ -60,19 +60,25 @@ class LibraryController final : public Algorithm {
     const std::filesystem::path as_path(c.resolve_path(name)), beside_scenario(c.resolve_path("name"));
     table_ =
         &load_library(find_library(name, as_path.string(), search_folders(beside_scenario.parent_path().string())));
-    const std::span inputs(table_->inputs, table_->input_count), outputs(table_->outputs, table_->output_count);
-    const Connections in = read_connections("inputs", p.texts("inputs"), inputs, table_->name);
-    const Connections out = read_connections("outputs", p.texts("outputs"), outputs, table_->name);
     for (std::uint32_t i = 0; i < c.items().size(); ++i) {
       const Item& item = c.items()[i];
       Robot& r = robots_.emplace_back();
       r.name = item.robot ? item.robot->name : "world";
       r.random_key = c.random_key(i);
-      const PropertyFinder finder(c, item);
-      for (const muro_port& port : inputs) bind(c, finder, r, port, in, true);
-      for (const muro_port& port : outputs) bind(c, finder, r, port, out, false);
       r.block = static_cast<Block*>(
           c.state_block(item.object, block_name(c, item.object), Block::size_for(table_->state_size)));
+    }
+  }
+
+  void connect_by_name(Connector& c) override {
+    const Parameters& p = c.parameters();
+    const std::span inputs(table_->inputs, table_->input_count), outputs(table_->outputs, table_->output_count);
+    const Connections in = read_connections("inputs", p.texts("inputs"), inputs, table_->name);
+    const Connections out = read_connections("outputs", p.texts("outputs"), outputs, table_->name);
+    for (std::uint32_t i = 0; i < c.items().size(); ++i) {
+      const PropertyFinder finder(c, c.items()[i]);
+      for (const muro_port& port : inputs) bind(c, finder, robots_[i], port, in, true);
+      for (const muro_port& port : outputs) bind(c, finder, robots_[i], port, out, false);
     }
     for (const auto& [port, robot] : missing_)
       c.host().log(LogLevel::warning, "robot `" + robot + "`: `" + table_->name + "` runs without its input `" + port +

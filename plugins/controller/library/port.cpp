@@ -53,7 +53,7 @@ bool convert(double value, T& result) {
 
 void Port::add(const FoundProperty& property, void* handle) {
   runs_.push_back({.handle = handle,
-                   .form = property.form,
+                   .multiplicity = property.multiplicity,
                    .scalar = property.key->type->scalar,
                    .per_element = property.key->type->scalars()});
 }
@@ -63,7 +63,7 @@ void Port::resolve() {
   for (Run& r : runs_) {
     r.place = r.handle;
     r.count = r.per_element;
-    if (r.form == Form::array) {
+    if (r.multiplicity == Multiplicity::array) {
       const auto* array = static_cast<const ArrayHeader*>(r.handle);
       r.place = array->data;
       r.count = std::uint32_t(array->size) * r.per_element;

@@ -29,7 +29,7 @@ class Port {
  private:
   struct Run {  ///< scalars side by side
     void* handle = nullptr;
-    Form form = Form::single;
+    Multiplicity multiplicity = Multiplicity::single;
     Scalar scalar = Scalar::f64;
     std::uint32_t per_element = 1;
     void* place = nullptr;

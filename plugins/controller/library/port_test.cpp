@@ -13,7 +13,7 @@ template <class T>
 struct Place {
   T value;
   KeyInfo key{"test", "1", &value_type<T>, Role::state, ""};
-  FoundProperty found{ObjectId{1}, &key, Form::single, 1};
+  FoundProperty found{ObjectId{1}, &key, Multiplicity::single, 1};
 };
 
 template <class T>
@@ -95,7 +95,7 @@ TEST(Port, SetsPropertiesSideBySide) {
   std::uint8_t bytes[] = {5, 6};
   ArrayHeader array;  // its place and length are told later
   Place<std::uint8_t> third{};
-  third.found.form = Form::array;
+  third.found.multiplicity = Multiplicity::array;
   Port port;
   port.add(first.found, &first.value);
   port.add(second.found, &second.value);

@@ -3,9 +3,9 @@
 // Every wheel stands across to the line from its centre to the one point about which the vehicle turns (R. Ackermann's
 // condition).
 #include "muro/plugin.hpp"
-#include "plugins/wheeled/description.hpp"
-#include "plugins/wheeled/drive.hpp"
-#include "plugins/wheeled/rolling.hpp"
+#include "plugins/common/wheels/description.hpp"
+#include "plugins/common/wheels/drive.hpp"
+#include "plugins/common/wheels/rolling.hpp"
 
 namespace {
 
@@ -21,10 +21,10 @@ constexpr Parameter parameters[] = {
     real("max_steering_angle", "rad", 1e9, "of every joint that steers, either way; its own limits hold as well")
         .between(1e-6, 1e9),
 };
-constexpr Use reads[] = {
+constexpr PropertyUse reads[] = {
     {"command.twist", "of the base: linear x and angular z, and linear y where all wheels are steered"}, sizes};
-constexpr Use writes[] = {{"joint.position.target", "of every joint that steers"},
-                          {"joint.velocity.target", "of every driven wheel"}};
+constexpr PropertyUse writes[] = {{"joint.position.target", "of every joint that steers"},
+                                  {"joint.velocity.target", "of every driven wheel"}};
 constexpr Description description{
     .id = "drive.ackermann",
     .kind = Kind::drive,
@@ -33,7 +33,7 @@ constexpr Description description{
     .parameters = parameters,
     .reads = reads,
     .writes = writes,
-    .promises = deterministic | batched | allocation_free | restorable,
+    .capabilities = deterministic | batched | allocation_free | restorable,
 };
 
 /// A wheel, and where it may stand.
@@ -91,7 +91,7 @@ class Ackermann final : public Algorithm {
   }
 
   std::span<const Phase> phases() const override {
-    static constexpr Phase phases[] = {{Phase::Over::items, Phase::Reach::own}};
+    static constexpr Phase phases[] = {{Phase::IndexSpace::items, Phase::Scope::own_robot}};
     return phases;
   }
 
@@ -173,7 +173,7 @@ class Ackermann final : public Algorithm {
       if (of.steering < 0) {
         r.axle += w.plane.x, ++fixed;
       } else {
-        const Frame& joint = robot.frames[std::size_t(of.steering)];
+        const Link& joint = robot.links[std::size_t(of.steering)];
         const bool follows = joint.mimic >= 0;
         const std::size_t leader = follows ? std::size_t(joint.mimic) : std::size_t(of.steering);
         w.gain = of.sense * (follows ? joint.mimic_multiplier : 1);
@@ -185,7 +185,7 @@ class Ackermann final : public Algorithm {
         w.steering = std::int32_t(known - steers.begin());
         if (known == steers.end()) {
           steers.push_back(leader);
-          steering_.push_back(steering_of(c, robot.frames[leader]));
+          steering_.push_back(steering_of(c, robot.links[leader]));
         }
         DriveSteering& s = steering_[r.steering.begin + std::size_t(w.steering)];
         ++s.wheels;
@@ -201,10 +201,10 @@ class Ackermann final : public Algorithm {
     robots_.push_back(r);
   }
 
-  static DriveSteering steering_of(Connector& c, const Frame& f) {
+  static DriveSteering steering_of(Connector& c, const Link& f) {
     const double most = c.parameters().real("max_steering_angle");
     const bool limited = most < 1e9;
-    return {c.offer(f.joint_object, keys::joint_position_target),
+    return {c.optional_output(f.joint_object, keys::joint_position_target),
             limited ? std::max(f.limits.lower, -most) : f.limits.lower,
             limited ? std::min(f.limits.upper, most) : f.limits.upper, 0};
   }

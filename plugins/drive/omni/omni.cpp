@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // From the wanted velocity of a base to the speeds of its mecanum or omni wheels: the inverse of motion.omni.
-#include "plugins/wheeled/omni.hpp"
+#include "plugins/common/wheels/omni.hpp"
 #include "muro/plugin.hpp"
-#include "plugins/wheeled/description.hpp"
-#include "plugins/wheeled/drive.hpp"
+#include "plugins/common/wheels/description.hpp"
+#include "plugins/common/wheels/drive.hpp"
 
 namespace {
 
@@ -16,8 +16,8 @@ constexpr Parameter parameters[] = {
     wheel_radius,
     max_wheel_speed,
 };
-constexpr Use reads[] = {{"command.twist", "of the base: linear x and y, angular z"}, sizes};
-constexpr Use writes[] = {{"joint.velocity.target", "of every wheel"}};
+constexpr PropertyUse reads[] = {{"command.twist", "of the base: linear x and y, angular z"}, sizes};
+constexpr PropertyUse writes[] = {{"joint.velocity.target", "of every wheel"}};
 constexpr Description description{
     .id = "drive.omni",
     .kind = Kind::drive,
@@ -26,7 +26,7 @@ constexpr Description description{
     .parameters = parameters,
     .reads = reads,
     .writes = writes,
-    .promises = deterministic | batched | allocation_free | restorable,
+    .capabilities = deterministic | batched | allocation_free | restorable,
 };
 
 class Omni final : public Algorithm {
@@ -39,7 +39,7 @@ class Omni final : public Algorithm {
   }
 
   std::span<const Phase> phases() const override {
-    static constexpr Phase phases[] = {{Phase::Over::items, Phase::Reach::own}};
+    static constexpr Phase phases[] = {{Phase::IndexSpace::items, Phase::Scope::own_robot}};
     return phases;
   }
 

@@ -2,10 +2,10 @@
 // From the wanted velocity of a base to the velocities of its wheels: the inverse of motion.differential_drive, and the
 // same with an effective track for vehicles that skid when they turn (Mandow et al., Experimental kinematics for
 // wheeled skid-steer mobile robots, IROS 2007: the wheels act as if they stood farther apart).
-#include "plugins/wheeled/drive.hpp"
+#include "plugins/common/wheels/drive.hpp"
 #include "muro/plugin.hpp"
-#include "muro/wheels.hpp"
-#include "plugins/wheeled/description.hpp"
+#include "plugins/common/wheels/description.hpp"
+#include "plugins/common/wheels/side_wheels.hpp"
 
 namespace {
 
@@ -22,8 +22,8 @@ constexpr Parameter skid_steer_parameters[] = {
     real("track_scale", "1", 1, "effective track by track: above 1 where turning wheels slip sideways")
         .between(0.1, 10),
 };
-constexpr Use reads[] = {{"command.twist", "of the base: linear x and angular z"}, sizes};
-constexpr Use writes[] = {{"joint.velocity.target", "of every driven wheel"}};
+constexpr PropertyUse reads[] = {{"command.twist", "of the base: linear x and angular z"}, sizes};
+constexpr PropertyUse writes[] = {{"joint.velocity.target", "of every driven wheel"}};
 
 constexpr Description differential{
     .id = "drive.differential",
@@ -33,7 +33,7 @@ constexpr Description differential{
     .parameters = differential_parameters,
     .reads = reads,
     .writes = writes,
-    .promises = deterministic | batched | allocation_free | restorable,
+    .capabilities = deterministic | batched | allocation_free | restorable,
 };
 constexpr Description skid_steer{
     .id = "drive.skid_steer",
@@ -43,7 +43,7 @@ constexpr Description skid_steer{
     .parameters = skid_steer_parameters,
     .reads = reads,
     .writes = writes,
-    .promises = deterministic | batched | allocation_free | restorable,
+    .capabilities = deterministic | batched | allocation_free | restorable,
 };
 
 class Drive : public Algorithm {
@@ -56,7 +56,7 @@ class Drive : public Algorithm {
   }
 
   std::span<const Phase> phases() const override {
-    static constexpr Phase phases[] = {{Phase::Over::items, Phase::Reach::own}};
+    static constexpr Phase phases[] = {{Phase::IndexSpace::items, Phase::Scope::own_robot}};
     return phases;
   }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // muro/wheels.hpp, seen through a drive: the speeds that a command asks of the wheels tell which were found, on which
 // side, with which radius, track and sense of rotation.
-#include "muro/wheels.hpp"
+#include "plugins/common/wheels/side_wheels.hpp"
 
 #include <gtest/gtest.h>
 

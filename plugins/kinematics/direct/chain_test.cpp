@@ -25,18 +25,18 @@ class Draw {
 };
 
 /// A tree of `n` frames with all kinds of joints; a third of the origins is not rotated, as in most models.
-std::vector<Frame> random_tree(Draw& draw, int n) {
-  std::vector<Frame> frames(1);
+std::vector<Link> random_tree(Draw& draw, int n) {
+  std::vector<Link> links(1);
   for (int i = 1; i < n; ++i) {
-    Frame f;
+    Link f;
     f.parent = draw.whole(std::max(0, i - 3), i - 1);
     f.joint = JointKind(draw.whole(0, 2));
     f.origin = draw.pose();
     if (draw.whole(0, 2) == 0) f.origin.orientation = Quat::Identity();
     f.axis = draw.whole(0, 1) == 0 ? Vec3(Vec3::Unit(draw.whole(0, 2))) : Vec3(draw.vector(1).normalized());
-    frames.push_back(f);
+    links.push_back(f);
   }
-  return frames;
+  return links;
 }
 
 Isometry3d matrix(const Pose& p) {
@@ -47,10 +47,10 @@ Isometry3d matrix(const Pose& p) {
 }
 
 /// 4 x 4 matrices of all frames, frame by frame.
-std::vector<Isometry3d> by_matrices(const std::vector<Frame>& frames, const Pose& base, const std::vector<double>& q) {
+std::vector<Isometry3d> by_matrices(const std::vector<Link>& links, const Pose& base, const std::vector<double>& q) {
   std::vector<Isometry3d> all{matrix(base)};
-  for (std::size_t i = 1; i < frames.size(); ++i) {
-    const Frame& f = frames[i];
+  for (std::size_t i = 1; i < links.size(); ++i) {
+    const Link& f = links[i];
     Isometry3d moved = Isometry3d::Identity();
     if (f.joint == JointKind::revolute) moved.linear() = AngleAxisd(q[i], f.axis).toRotationMatrix();
     if (f.joint == JointKind::prismatic) moved.translation() = q[i] * f.axis;
@@ -66,14 +66,14 @@ struct Result {
 
 /// Robots of one structure, each with joints of its own.
 struct Team {
-  std::vector<Frame> frames;
+  std::vector<Link> links;
   std::vector<Result> robots;                 ///< frame 0: given
   std::vector<std::vector<double>> q, rates;  ///< one a frame
 
   void place(lane::Isa isa, int at_once) {
-    const Chain chain = chain_of(frames);
+    const Chain chain = chain_of(links);
     std::vector<Spot> spots;
-    for (std::ptrdiff_t i = 0; i + 1 < std::ptrdiff_t(frames.size()); ++i) spots.push_back({7 * i, 6 * i, i, i});
+    for (std::ptrdiff_t i = 0; i + 1 < std::ptrdiff_t(links.size()); ++i) spots.push_back({7 * i, 6 * i, i, i});
     std::vector<RobotState> states;
     for (std::size_t k = 0; k < robots.size(); ++k) {
       double* const poses = robots[k].poses[0].position.data();
@@ -87,9 +87,9 @@ struct Team {
   }
 };
 
-Result placed_by_chain(const std::vector<Frame>& frames, const Pose& base, const Twist& moving,
+Result placed_by_chain(const std::vector<Link>& links, const Pose& base, const Twist& moving,
                        const std::vector<double>& q, const std::vector<double>& rates) {
-  Team one{frames, {{std::vector<Pose>(frames.size()), std::vector<Twist>(frames.size())}}, {q}, {rates}};
+  Team one{links, {{std::vector<Pose>(links.size()), std::vector<Twist>(links.size())}}, {q}, {rates}};
   one.robots[0].poses[0] = base;
   one.robots[0].twists[0] = moving;
   one.place(lane::best_isa(), 1);
@@ -100,7 +100,7 @@ TEST(Chain, RobotsPlacedTogetherGetTheBitsOfEachAloneWithAnyInstructionSet) {
   Draw draw(4);
   for (int round = 0; round < 60; ++round) {
     Team team{random_tree(draw, draw.whole(1, 25)), {}, {}, {}};
-    const std::size_t n = team.frames.size();
+    const std::size_t n = team.links.size();
     for (std::size_t k = 0; k < 8; ++k) {
       team.robots.push_back({std::vector<Pose>(n), std::vector<Twist>(n)});
       team.robots[k].poses[0] = draw.pose();
@@ -133,13 +133,13 @@ TEST(Chain, RobotsPlacedTogetherGetTheBitsOfEachAloneWithAnyInstructionSet) {
 TEST(Chain, PlacesRandomTreesAsProductsOfMatricesDo) {
   Draw draw(1);
   for (int round = 0; round < 200; ++round) {
-    const std::vector<Frame> frames = random_tree(draw, draw.whole(1, 25));
+    const std::vector<Link> links = random_tree(draw, draw.whole(1, 25));
     const Pose base = draw.pose();
-    std::vector<double> q, still(frames.size(), 0.0);
-    for (std::size_t i = 0; i < frames.size(); ++i) q.push_back(draw.number(-7, 7));
-    const std::vector<Isometry3d> expected = by_matrices(frames, base, q);
-    const Result got = placed_by_chain(frames, base, {}, q, still);
-    for (std::size_t i = 0; i < frames.size(); ++i)
+    std::vector<double> q, still(links.size(), 0.0);
+    for (std::size_t i = 0; i < links.size(); ++i) q.push_back(draw.number(-7, 7));
+    const std::vector<Isometry3d> expected = by_matrices(links, base, q);
+    const Result got = placed_by_chain(links, base, {}, q, still);
+    for (std::size_t i = 0; i < links.size(); ++i)
       ASSERT_LT((matrix(got.poses[i]).matrix() - expected[i].matrix()).cwiseAbs().maxCoeff(), 1e-11)
           << "frame " << i << " of round " << round;
   }
@@ -149,11 +149,11 @@ TEST(Chain, TwistsAreTheDerivativesOfPoses) {
   Draw draw(2);
   const double h = 1e-5;
   for (int round = 0; round < 100; ++round) {
-    const std::vector<Frame> frames = random_tree(draw, 12);
+    const std::vector<Link> links = random_tree(draw, 12);
     const Pose base = draw.pose();
     const Twist moving{draw.vector(2), draw.vector(2)};
     std::vector<double> q, rates;
-    for (std::size_t i = 0; i < frames.size(); ++i) {
+    for (std::size_t i = 0; i < links.size(); ++i) {
       q.push_back(draw.number(-3, 3));
       rates.push_back(draw.number(-2, 2));
     }
@@ -161,11 +161,11 @@ TEST(Chain, TwistsAreTheDerivativesOfPoses) {
       std::vector<double> moved = q;
       for (std::size_t i = 0; i < q.size(); ++i) moved[i] += rates[i] * t;
       return by_matrices(
-          frames, {base.position + t * moving.linear, Quat(rotation_of(t * moving.angular) * base.orientation)}, moved);
+          links, {base.position + t * moving.linear, Quat(rotation_of(t * moving.angular) * base.orientation)}, moved);
     };
     const std::vector<Isometry3d> before = at(-h), after = at(h);
-    const Result got = placed_by_chain(frames, base, moving, q, rates);
-    for (std::size_t i = 0; i < frames.size(); ++i) {
+    const Result got = placed_by_chain(links, base, moving, q, rates);
+    for (std::size_t i = 0; i < links.size(); ++i) {
       const Vec3 linear = (after[i].translation() - before[i].translation()) / (2 * h);
       const AngleAxisd turn(after[i].linear() * before[i].linear().transpose());
       ASSERT_LT((got.twists[i].linear - linear).norm(), 1e-6) << "frame " << i << " of round " << round;
@@ -176,21 +176,21 @@ TEST(Chain, TwistsAreTheDerivativesOfPoses) {
 
 TEST(Chain, AgreesWithTheClosedFormOfAPlanarArmWithThreeJoints) {
   const double l1 = 0.5, l2 = 0.4, l3 = 0.2;
-  std::vector<Frame> frames(5);
+  std::vector<Link> links(5);
   const double lengths[] = {0, l1, l2};
   for (std::size_t i = 1; i <= 3; ++i) {
-    frames[i].parent = std::int32_t(i) - 1;
-    frames[i].joint = JointKind::revolute;
-    frames[i].axis = Vec3::UnitZ();
-    frames[i].origin.position.x() = lengths[i - 1];
+    links[i].parent = std::int32_t(i) - 1;
+    links[i].joint = JointKind::revolute;
+    links[i].axis = Vec3::UnitZ();
+    links[i].origin.position.x() = lengths[i - 1];
   }
-  frames[4].parent = 3;  // the tip
-  frames[4].origin.position.x() = l3;
+  links[4].parent = 3;  // the tip
+  links[4].origin.position.x() = l3;
   Draw draw(3);
   for (int round = 0; round < 100; ++round) {
     const double a = draw.number(-3, 3), b = draw.number(-3, 3), c = draw.number(-3, 3);
     const double da = draw.number(-3, 3), db = draw.number(-3, 3), dc = draw.number(-3, 3);
-    const Result r = placed_by_chain(frames, {}, {}, {0, a, b, c, 0}, {0, da, db, dc, 0});
+    const Result r = placed_by_chain(links, {}, {}, {0, a, b, c, 0}, {0, da, db, dc, 0});
     EXPECT_NEAR(r.poses[4].position.x(), l1 * std::cos(a) + l2 * std::cos(a + b) + l3 * std::cos(a + b + c), 1e-14);
     EXPECT_NEAR(r.poses[4].position.y(), l1 * std::sin(a) + l2 * std::sin(a + b) + l3 * std::sin(a + b + c), 1e-14);
     EXPECT_NEAR(std::remainder(yaw_of(r.poses[4].orientation) - (a + b + c), 2 * M_PI), 0, 1e-14);
@@ -204,20 +204,20 @@ TEST(Chain, AgreesWithTheClosedFormOfAPlanarArmWithThreeJoints) {
 }
 
 TEST(Chain, FoldsFixedFramesIntoTheirCarrier) {
-  std::vector<Frame> frames(4);
+  std::vector<Link> links(4);
   for (std::size_t i = 1; i < 4; ++i) {
-    frames[i].parent = std::int32_t(i) - 1;
-    frames[i].origin.position = {1, 0, 0};
+    links[i].parent = std::int32_t(i) - 1;
+    links[i].origin.position = {1, 0, 0};
   }
-  frames[2].joint = JointKind::revolute;
-  const Chain chain = chain_of(frames);
+  links[2].joint = JointKind::revolute;
+  const Chain chain = chain_of(links);
   EXPECT_EQ(chain.links[0].parent, 0);
   EXPECT_EQ(chain.links[1].parent, 0) << "hangs on a fixed frame, so on the base";
   EXPECT_EQ(Vec3(chain.links[1].offset), Vec3(2, 0, 0));
   EXPECT_EQ(chain.links[2].parent, 2);
-  EXPECT_TRUE(chain == chain_of(frames));
-  frames[3].origin.position.x() = 2;
-  EXPECT_FALSE(chain == chain_of(frames));
+  EXPECT_TRUE(chain == chain_of(links));
+  links[3].origin.position.x() = 2;
+  EXPECT_FALSE(chain == chain_of(links));
 }
 
 }  // namespace

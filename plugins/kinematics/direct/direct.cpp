@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Poses and twists of all bodies of a robot from its base and its joints.
 #include "chain.hpp"
-#include "muro/composite.hpp"
-#include "muro/lane/numbers.hpp"
 #include "muro/plugin.hpp"
+#include "muro/simd/numbers.hpp"
+#include "muro/toolkit/mass_properties.hpp"
 
 namespace {
 
@@ -11,14 +11,14 @@ using namespace muro;
 using namespace muro::kinematics;
 using lane::numbers, lane::numbers_between;
 
-constexpr Use reads[] = {
+constexpr PropertyUse reads[] = {
     {"pose", "of the base"},
     {"twist", "of the base"},
     {"joint.position", "of every joint; where nothing moves it, its initial position"},
     {"joint.velocity", "of every joint; where nothing moves it, 0"},
     {"joint.position.initial", "of every joint, optional"},
 };
-constexpr Use writes[] = {
+constexpr PropertyUse writes[] = {
     {"pose", "of every body but the base"},
     {"twist", "of every body but the base"},
     {"joint.position", "of mimic joints that the motion model leaves alone"},
@@ -31,7 +31,7 @@ constexpr Description description{
     .summary = "Poses and twists of all bodies of a robot from its base and joints",
     .reads = reads,
     .writes = writes,
-    .promises = deterministic | batched | allocation_free | restorable,
+    .capabilities = deterministic | batched | allocation_free | restorable,
 };
 
 class Direct final : public Algorithm {
@@ -44,7 +44,7 @@ class Direct final : public Algorithm {
   }
 
   std::span<const Phase> phases() const override {
-    static constexpr Phase phases[] = {{Phase::Over::items, Phase::Reach::own}};
+    static constexpr Phase phases[] = {{Phase::IndexSpace::items, Phase::Scope::own_robot}};
     return phases;
   }
 
@@ -91,8 +91,8 @@ class Direct final : public Algorithm {
     r.first_follower = std::uint32_t(followers_.size());
     const std::vector<double> start = initial_joint_positions(c, robot);
     std::vector<Place> places;
-    for (std::size_t i = 1; i < robot.frames.size(); ++i) {
-      const Frame& f = robot.frames[i];
+    for (std::size_t i = 1; i < robot.links.size(); ++i) {
+      const Link& f = robot.links[i];
       Place p;
       p.pose = numbers(c.derived(f.object, keys::pose).get());
       p.twist = numbers(c.derived(f.object, keys::twist).get());
@@ -104,7 +104,7 @@ class Direct final : public Algorithm {
     RobotState state;
     state.base_pose = numbers(c.read(robot.base(), keys::pose).get());
     state.base_twist = numbers(c.read(robot.base(), keys::twist).get());
-    Model model{kinematics::chain_of(robot.frames), {}};
+    Model model{kinematics::chain_of(robot.links), {}};
     for (const Place& p : places) {
       if (!state.poses) state.poses = p.pose, state.twists = p.twist;
       if (!state.positions) state.positions = p.position, state.velocities = p.velocity;
@@ -126,8 +126,8 @@ class Direct final : public Algorithm {
   }
 
   void connect_joint(Connector& c, const RobotView& robot, std::size_t i, const std::vector<double>& start, Place& p) {
-    const Frame& f = robot.frames[i];
-    const bool moved = c.is_used(f.joint_object, keys::joint_position, Access::variable);
+    const Link& f = robot.links[i];
+    const bool moved = c.is_used(f.joint_object, keys::joint_position, usage::variable);
     if (f.mimic < 0 || moved) {
       p.position = c.input(f.joint_object, keys::joint_position, start[i]).get();
       p.velocity = c.input(f.joint_object, keys::joint_velocity, 0.0).get();
@@ -135,8 +135,8 @@ class Direct final : public Algorithm {
     }
     const auto leader = std::size_t(f.mimic);
     Follower follower;
-    follower.leader_position = c.input(robot.frames[leader].joint_object, keys::joint_position, start[leader]);
-    follower.leader_velocity = c.input(robot.frames[leader].joint_object, keys::joint_velocity, 0.0);
+    follower.leader_position = c.input(robot.links[leader].joint_object, keys::joint_position, start[leader]);
+    follower.leader_velocity = c.input(robot.links[leader].joint_object, keys::joint_velocity, 0.0);
     follower.position = c.derived(f.joint_object, keys::joint_position);
     follower.velocity = c.derived(f.joint_object, keys::joint_velocity);
     follower.multiplier = f.mimic_multiplier;

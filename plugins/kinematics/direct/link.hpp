@@ -5,13 +5,13 @@
 
 #include <cstddef>
 
-#include "muro/lane/isa.hpp"
+#include "muro/simd/isa.hpp"
 
 namespace muro::kinematics {
 
 /// A frame relative to the nearest frame below it that a joint moves (or the base): fixed frames in between are
 /// folded in, so a chain of fixed frames costs no more than one, and errors do not add up along it.
-struct Link {
+struct CarriedLink {
   enum class Joint { fixed, revolute, prismatic };
   int parent = 0;  ///< frame it is placed from, smaller than its own
   Joint joint = Joint::fixed;
@@ -21,7 +21,7 @@ struct Link {
   double axis[3] = {1, 0, 0};     ///< unit, in the parent's frame
   int along = 1;                  ///< 1, 2, 3: the axis is the x, y, z axis of the parent's frame; 0: slanted
 
-  friend bool operator==(const Link&, const Link&) = default;
+  friend bool operator==(const CarriedLink&, const CarriedLink&) = default;
 };
 
 /// Where the state of a link lies: in numbers, from the first of its kind of the same robot (see RobotState).
@@ -46,7 +46,7 @@ struct RobotState {
 struct Kernels {
   /// Fills in pose and twist of all links of up to eight robots with the same links and spots: the bits that each
   /// robot gets alone.
-  void (*place)(const Link* links, const Spot* spots, int link_count, const RobotState* robots, int robot_count);
+  void (*place)(const CarriedLink* links, const Spot* spots, int link_count, const RobotState* robots, int robot_count);
 };
 MURO_DECLARE_KERNELS(Kernels, kernels)
 

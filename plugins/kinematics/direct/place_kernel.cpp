@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "link.hpp"
-#include "muro/lane/rows.hpp"
-#include "muro/lane/trig.hpp"
+#include "muro/simd/rows.hpp"
+#include "muro/simd/trig.hpp"
 
 namespace muro::kinematics {
 namespace {
@@ -10,7 +10,7 @@ using namespace lane;
 
 /// q turned about the joint's axis, which belongs to its frame. `half`: of half the angle.
 template <class S>
-MURO_INLINE Q4<S> turned(const Q4<S>& q, const Link& link, const SinCos<S>& half) {
+MURO_INLINE Q4<S> turned(const Q4<S>& q, const CarriedLink& link, const SinCos<S>& half) {
   const S s = half.sin, c = half.cos;
   switch (link.along) {
     case 1:
@@ -24,7 +24,7 @@ MURO_INLINE Q4<S> turned(const Q4<S>& q, const Link& link, const SinCos<S>& half
   }
 }
 template <class S>
-MURO_INLINE V3<S> axis_in_world(const M3<S>& axes, const Link& link) {
+MURO_INLINE V3<S> axis_in_world(const M3<S>& axes, const CarriedLink& link) {
   switch (link.along) {
     case 1:
       return axes.x;
@@ -65,7 +65,8 @@ struct Carrier {
 };
 
 template <class S>
-void place_some(const Link* links, const Spot* spots, int link_count, const RobotState* robots, int robot_count) {
+void place_some(const CarriedLink* links, const Spot* spots, int link_count, const RobotState* robots,
+                int robot_count) {
   const States<S> states(robots, robot_count);
   const unsigned which = first_lanes(robot_count);
   const auto base = [&] { return Carrier<S>(load_pose(states.base_pose), load_twist(states.base_twist)); };
@@ -75,7 +76,7 @@ void place_some(const Link* links, const Spot* spots, int link_count, const Robo
   int parent = 0;
   Carrier<S> from = base();
   for (int k = 0; k < link_count; ++k) {
-    const Link& link = links[k];
+    const CarriedLink& link = links[k];
     const Spot& spot = spots[k];
     if (link.parent != parent) {  // neighbours mostly share their parent
       parent = link.parent;
@@ -84,10 +85,10 @@ void place_some(const Link* links, const Spot* spots, int link_count, const Robo
     V3<S> arm = from.axes * splat<S>(link.offset);
     Q4<S> orientation = from.pose.orientation;
     TwistOf<S> twist = from.twist;
-    if (link.joint != Link::Joint::fixed) {
+    if (link.joint != CarriedLink::Joint::fixed) {
       const S q = load(states.positions, spot.position), rate = load(states.velocities, spot.velocity);
       const V3<S> axis = axis_in_world(from.axes, link);
-      if (link.joint == Link::Joint::revolute) {
+      if (link.joint == CarriedLink::Joint::revolute) {
         orientation = turned(orientation, link, sincos(S(0.5) * q));
         twist.angular += axis * rate;
       } else {
@@ -103,7 +104,7 @@ void place_some(const Link* links, const Spot* spots, int link_count, const Robo
   }
 }
 
-void place(const Link* links, const Spot* spots, int link_count, const RobotState* robots, int robot_count) {
+void place(const CarriedLink* links, const Spot* spots, int link_count, const RobotState* robots, int robot_count) {
   in_lanes(robot_count, [&]<class S>(int first, int used) {
     place_some<S>(links, spots, link_count, robots + first, used);
     return 0u;

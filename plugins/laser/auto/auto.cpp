@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A laser scanner by the method that is the fastest here; see README.md.
 #include "choice.hpp"
-#include "plugins/scanner/scanner.hpp"
+#include "plugins/common/scanner/scanner.hpp"
 #ifdef MURO_AUTO_ZBUFFER
 #include "plugins/laser/zbuffer/method.hpp"
 #endif
@@ -19,10 +19,10 @@ constexpr Parameter own[] = {
 #endif
 };
 constexpr auto parameters = scanner::joined(scanner::parameters, own);
-constexpr Use reads[] = {{"pose", "of the sensor's object and of all bodies that are seen"},
-                         {"collision.shapes", "of all bodies"},
-                         {"scene.index", "of the world"}};
-constexpr Use chosen[] = {{"laser.method", "1: raycast, 2: zbuffer, 3: embree; 0: not chosen yet"}};
+constexpr PropertyUse reads[] = {{"pose", "of the sensor's object and of all bodies that are seen"},
+                                 {"collision.shapes", "of all bodies"},
+                                 {"scene.index", "of the world"}};
+constexpr PropertyUse chosen[] = {{"laser.method", "1: raycast, 2: zbuffer, 3: embree; 0: not chosen yet"}};
 constexpr auto writes = scanner::joined(scanner::writes, chosen);
 constexpr Description description{
     .id = "laser.auto",
@@ -32,7 +32,7 @@ constexpr Description description{
     .parameters = parameters,
     .reads = reads,
     .writes = writes,
-    .promises = batched | restorable,
+    .capabilities = batched | restorable,
 };
 
 class Auto final : public scanner::Scanner {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 // A laser scanner by Embree's search for rays; see README.md.
 #include "method.hpp"
-#include "plugins/scanner/scanner.hpp"
+#include "plugins/common/scanner/scanner.hpp"
 
 namespace {
 
 using namespace muro;
 
-constexpr Use reads[] = {{"pose", "of the sensor's object and of all bodies that are seen"},
-                         {"collision.shapes", "of all bodies"}};
+constexpr PropertyUse reads[] = {{"pose", "of the sensor's object and of all bodies that are seen"},
+                                 {"collision.shapes", "of all bodies"}};
 constexpr Description description{
     .id = "laser.embree",
     .kind = Kind::sensor,
@@ -17,7 +17,7 @@ constexpr Description description{
     .parameters = scanner::parameters,
     .reads = reads,
     .writes = scanner::writes,
-    .promises = deterministic | batched | restorable,
+    .capabilities = deterministic | batched | restorable,
 };
 
 class Embree final : public scanner::Scanner {

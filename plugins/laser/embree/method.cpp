@@ -6,8 +6,8 @@
 
 #include "muro/algorithm.hpp"
 #include "muro/vocabulary.hpp"
-#include "plugins/mesh/mesh.hpp"
-#include "plugins/scanner/memory.hpp"
+#include "plugins/common/mesh/mesh.hpp"
+#include "plugins/common/scanner/memory.hpp"
 
 namespace muro::embree {
 
@@ -39,7 +39,7 @@ void Embree::connect(Connector& c) {
   }
   for (const RobotView* robot : c.robots()) {
     if (c.constant(robot->base(), keys::shadow_of)) continue;
-    for (const Frame& f : robot->frames) {
+    for (const Link& f : robot->links) {
       Solid s;
       s.object = f.object;
       s.robot = std::int32_t(robot->number);

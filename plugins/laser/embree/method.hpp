@@ -6,7 +6,7 @@
 #include <string>
 #include <tuple>
 
-#include "plugins/scanner/method.hpp"
+#include "plugins/common/scanner/method.hpp"
 #include "solids.hpp"
 
 namespace muro::embree {

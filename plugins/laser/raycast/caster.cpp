@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "plugins/scanner/memory.hpp"
+#include "plugins/common/scanner/memory.hpp"
 
 namespace muro::raycast {
 

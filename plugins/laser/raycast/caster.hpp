@@ -2,7 +2,7 @@
 #pragma once
 
 #include "pattern.hpp"
-#include "plugins/scanner/method.hpp"
+#include "plugins/common/scanner/method.hpp"
 #include "scene_table.hpp"
 
 namespace muro::raycast {

@@ -9,7 +9,7 @@
 // simpler intervals (Kay and Kajiya: Ray tracing complex scenes, SIGGRAPH 1986). S is double or a lane of doubles.
 #pragma once
 
-#include "muro/lane/geometry.hpp"
+#include "muro/simd/geometry.hpp"
 
 namespace muro::raycast::rays {
 inline namespace MURO_ISA {

@@ -2,7 +2,7 @@
 // Sixteen floats, or as many doubles in two lanes.
 #pragma once
 
-#include "muro/lane/geometry.hpp"
+#include "muro/simd/geometry.hpp"
 
 namespace muro::raycast::rays {
 inline namespace MURO_ISA {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bundle.hpp"
-#include "plugins/scanner/rays.hpp"
+#include "plugins/common/scanner/rays.hpp"
 
 namespace muro::raycast {
 

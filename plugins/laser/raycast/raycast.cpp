@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // A laser scanner by exact ray casting; see README.md.
 #include "method.hpp"
-#include "plugins/scanner/scanner.hpp"
+#include "plugins/common/scanner/scanner.hpp"
 
 namespace {
 
 using namespace muro;
 
-constexpr Use reads[] = {{"pose", "of the sensor's object"}, {"scene.index", "of the world"}};
+constexpr PropertyUse reads[] = {{"pose", "of the sensor's object"}, {"scene.index", "of the world"}};
 constexpr Description description{
     .id = "laser.raycast",
     .kind = Kind::sensor,
@@ -17,7 +17,7 @@ constexpr Description description{
     .parameters = scanner::parameters,
     .reads = reads,
     .writes = scanner::writes,
-    .promises = deterministic | batched | allocation_free | restorable,
+    .capabilities = deterministic | batched | allocation_free | restorable,
 };
 
 class Raycast final : public scanner::Scanner {

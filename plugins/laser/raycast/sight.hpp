@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "bundle.hpp"
-#include "muro/lane/isa.hpp"
+#include "muro/simd/isa.hpp"
 
 namespace muro::raycast {
 

@@ -3,9 +3,9 @@
 
 #include <optional>
 
-#include "plugins/render/depth_renderer.hpp"
-#include "plugins/render/device.hpp"
-#include "plugins/scanner/method.hpp"
+#include "plugins/common/render/depth_renderer.hpp"
+#include "plugins/common/render/device.hpp"
+#include "plugins/common/scanner/method.hpp"
 #include "sampling.hpp"
 #include "views.hpp"
 

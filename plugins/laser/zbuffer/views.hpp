@@ -2,8 +2,8 @@
 // Pinhole pictures that hold all rays of a scanner.
 #pragma once
 
-#include "plugins/render/camera.hpp"
-#include "plugins/scanner/rays.hpp"
+#include "plugins/common/render/camera.hpp"
+#include "plugins/common/scanner/rays.hpp"
 
 namespace muro::zbuffer {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A laser scanner by depth pictures (MuRoSimF, Section 4.1); see README.md.
 #include "method.hpp"
-#include "plugins/scanner/scanner.hpp"
+#include "plugins/common/scanner/scanner.hpp"
 
 namespace {
 
@@ -9,8 +9,8 @@ using namespace muro;
 
 constexpr Parameter own[] = {zbuffer::supersampling, zbuffer::device_parameter};
 constexpr auto parameters = scanner::joined(scanner::parameters, own);
-constexpr Use reads[] = {{"pose", "of the sensor's object and of all bodies that are seen"},
-                         {"collision.shapes", "of all bodies"}};
+constexpr PropertyUse reads[] = {{"pose", "of the sensor's object and of all bodies that are seen"},
+                                 {"collision.shapes", "of all bodies"}};
 constexpr Description description{
     .id = "laser.zbuffer",
     .kind = Kind::sensor,
@@ -19,7 +19,7 @@ constexpr Description description{
     .parameters = parameters,
     .reads = reads,
     .writes = scanner::writes,
-    .promises = deterministic | batched | restorable,
+    .capabilities = deterministic | batched | restorable,
 };
 
 class ZBuffer final : public scanner::Scanner {

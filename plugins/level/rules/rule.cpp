@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "muro/algorithm.hpp"
-#include "muro/nearest.hpp"
+#include "muro/toolkit/did_you_mean.hpp"
 
 namespace muro::level {
 

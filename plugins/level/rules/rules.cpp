@@ -5,8 +5,8 @@
 #include <limits>
 #include <optional>
 
-#include "muro/nearest.hpp"
 #include "muro/plugin.hpp"
+#include "muro/toolkit/did_you_mean.hpp"
 #include "rule.hpp"
 
 namespace {
@@ -18,13 +18,13 @@ constexpr Parameter parameters[] = {
     texts("rules", "which motion moves the robot, and when; the first rule that holds decides"),
     real("dwell", "s", 0.1, "a motion moves the robot for so long at least").between(0, 1e6),
 };
-constexpr Use reads[] = {
+constexpr PropertyUse reads[] = {
     {"motion.level", "of the robot"},
     {"motion.level.names", "of the robot"},
     {"pose", "of bases of robots, for rules by distance"},
     {"contacts", "of the robot, for rules by contact"},
 };
-constexpr Use writes[] = {{"motion.level.target", "of the robot"}};
+constexpr PropertyUse writes[] = {{"motion.level.target", "of the robot"}};
 constexpr Description description{
     .id = "level.rules",
     .kind = Kind::level,
@@ -33,7 +33,7 @@ constexpr Description description{
     .parameters = parameters,
     .reads = reads,
     .writes = writes,
-    .promises = deterministic | allocation_free | restorable,
+    .capabilities = deterministic | allocation_free | restorable,
 };
 
 constexpr Key<std::int64_t> last_switch{"level.since", "ns", "when the robot was handed over last"};
@@ -111,7 +111,7 @@ class Rules final : public Algorithm {
     r.number = std::int32_t(view.number);
     r.pose = c.read(view.base(), keys::pose);
     r.level = c.read(view.base(), keys::motion_level);
-    r.target = c.offer(view.base(), keys::motion_level_target);
+    r.target = c.optional_output(view.base(), keys::motion_level_target);
     r.since = c.variable(view.base(), last_switch, std::int64_t{0});
     if (r.by_touch) {
       r.contacts = c.read_list(view.base(), keys::contacts);

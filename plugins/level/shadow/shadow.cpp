@@ -11,11 +11,11 @@ constexpr Key<double> angle{"shadow.angle", "rad", "between the attitudes of a r
 constexpr Key<double> greatest_distance{"shadow.distance.greatest", "m", "so far"};
 constexpr Key<double> greatest_angle{"shadow.angle.greatest", "rad", "so far"};
 
-constexpr Use reads[] = {{"pose", "of the bases of the robot and its shadow"}, {"shadow.of", "of the shadow"}};
-constexpr Use writes[] = {{"shadow.distance", "of the shadow's base"},
-                          {"shadow.angle", "of the shadow's base"},
-                          {"shadow.distance.greatest", "of the shadow's base"},
-                          {"shadow.angle.greatest", "of the shadow's base"}};
+constexpr PropertyUse reads[] = {{"pose", "of the bases of the robot and its shadow"}, {"shadow.of", "of the shadow"}};
+constexpr PropertyUse writes[] = {{"shadow.distance", "of the shadow's base"},
+                                  {"shadow.angle", "of the shadow's base"},
+                                  {"shadow.distance.greatest", "of the shadow's base"},
+                                  {"shadow.angle.greatest", "of the shadow's base"}};
 constexpr Description description{
     .id = "level.shadow",
     .kind = Kind::level,
@@ -23,7 +23,7 @@ constexpr Description description{
     .summary = "Measures how far a robot and its shadow come apart",
     .reads = reads,
     .writes = writes,
-    .promises = deterministic | batched | allocation_free | restorable,
+    .capabilities = deterministic | batched | allocation_free | restorable,
 };
 
 class Shadow final : public Algorithm {

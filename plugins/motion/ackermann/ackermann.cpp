@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Vehicles with steered wheels: their angles give the centre about which the base turns, driven wheels the speed.
 // Siegwart, Nourbakhsh and Scaramuzza, Introduction to Autonomous Mobile Robots, 2nd edition, section 3.2.
-#include "muro/contact_stop.hpp"
-#include "plugins/wheeled/description.hpp"
-#include "plugins/wheeled/other_joints.hpp"
-#include "plugins/wheeled/parameters.hpp"
+#include "muro/toolkit/contact_stop.hpp"
+#include "plugins/common/wheels/description.hpp"
+#include "plugins/common/wheels/other_joints.hpp"
+#include "plugins/common/wheels/parameters.hpp"
 #include "steered_vehicle.hpp"
 
 namespace {
@@ -22,7 +22,7 @@ constexpr Parameter parameters[] = {
     max_wheel_acceleration,
     on_contact,
 };
-constexpr Use reads[] = {
+constexpr PropertyUse reads[] = {
     {"joint.position.target", "of every joint that steers"},
     {"joint.velocity.target", "of every driven wheel, and of every other joint that follows no other"},
     starts_at,
@@ -39,7 +39,7 @@ constexpr Description description{
     .parameters = parameters,
     .reads = reads,
     .writes = motion_writes,
-    .promises = deterministic | batched | allocation_free | restorable,
+    .capabilities = deterministic | batched | allocation_free | restorable,
     .features = feature_joints | feature_velocity_targets | feature_position_targets | feature_joint_limits |
                 feature_joint_speed_limits | feature_mimic_joints,
 };
@@ -55,7 +55,7 @@ class Ackermann final : public Algorithm {
   }
 
   std::span<const Phase> phases() const override {
-    static constexpr Phase phases[] = {{Phase::Over::items, Phase::Reach::own}};
+    static constexpr Phase phases[] = {{Phase::IndexSpace::items, Phase::Scope::own_robot}};
     return phases;
   }
 
@@ -67,7 +67,7 @@ class Ackermann final : public Algorithm {
   }
 
   /// The wheels turn as fits the base's velocity best; the steering goes on from where it stands.
-  void take_over(std::uint32_t item) override {
+  void on_handover(std::uint32_t item) override {
     const Robot& r = robots_[item];
     const PlanarTwist moving = in_plane(*r.pose, *r.twist);
     for (const Steering& s : steering_of(r)) *s.velocity = 0;
@@ -105,7 +105,7 @@ class Ackermann final : public Algorithm {
     const std::vector<double> positions = initial_joint_positions(c, robot);
     JointState state(robot);
     const auto bind = [&](std::size_t frame, double speed) {
-      const ObjectId joint = robot.frames[frame].joint_object;
+      const ObjectId joint = robot.links[frame].joint_object;
       state.position[frame] = c.variable(joint, keys::joint_position, positions[frame]);
       state.velocity[frame] = c.variable(joint, keys::joint_velocity, speed);
     };
@@ -121,7 +121,7 @@ class Ackermann final : public Algorithm {
       w.max_speed = of.driven ? of.limits.velocity : std::numeric_limits<double>::infinity();
       w.stand_at(0, 0);
       if (of.steering >= 0) {
-        const Frame& joint = robot.frames[std::size_t(of.steering)];
+        const Link& joint = robot.links[std::size_t(of.steering)];
         const bool follows = joint.mimic >= 0;
         const std::size_t leader = follows ? std::size_t(joint.mimic) : std::size_t(of.steering);
         w.gain = of.sense * (follows ? joint.mimic_multiplier : 1);
@@ -131,7 +131,7 @@ class Ackermann final : public Algorithm {
         if (known == steers.end()) {
           bind(leader, 0);
           steers.push_back(leader);
-          steering_.push_back(steering_of_joint(c, robot.frames[leader], positions[leader]));
+          steering_.push_back(steering_of_joint(c, robot.links[leader], positions[leader]));
           steering_.back().position = state.position[leader];
           steering_.back().velocity = state.velocity[leader];
         }
@@ -139,7 +139,7 @@ class Ackermann final : public Algorithm {
       }
       const double speed = std::clamp(w.speed_at(in_plane(start, moving)), -w.max_speed, w.max_speed);
       w.rolling.speed = speed / w.plane.per_metre;
-      if (w.driven) w.target = c.input(robot.frames[of.frame].joint_object, keys::joint_velocity_target, 0.0);
+      if (w.driven) w.target = c.input(robot.links[of.frame].joint_object, keys::joint_velocity_target, 0.0);
       bind(of.frame, speed);
       w.position = state.position[of.frame], w.velocity = state.velocity[of.frame];
       wheels_.push_back(w);
@@ -152,7 +152,7 @@ class Ackermann final : public Algorithm {
     robots_.push_back(r);
   }
 
-  static Steering steering_of_joint(Connector& c, const Frame& f, double position) {
+  static Steering steering_of_joint(Connector& c, const Link& f, double position) {
     check_start(c, f.joint_object, f.limits, position);
     Steering s;
     s.target = c.input(f.joint_object, keys::joint_position_target, position);

@@ -5,9 +5,9 @@
 #include <algorithm>
 
 #include "muro/handles.hpp"
-#include "plugins/wheeled/gauss.hpp"
-#include "plugins/wheeled/ramp.hpp"
-#include "plugins/wheeled/rolling.hpp"
+#include "plugins/common/wheels/gauss.hpp"
+#include "plugins/common/wheels/ramp.hpp"
+#include "plugins/common/wheels/rolling.hpp"
 
 namespace muro::wheeled {
 

@@ -108,7 +108,7 @@ TEST(Ackermann, TakesOverAtTheSpeedOfTheBase) {
   const double turn = 1.5 * std::tan(0.4) / 2;
   s.moving() = {{1.5, 0, 0.3}, {0, 0.1, turn}};
   for (const auto& instance : s.instances())
-    if (instance->setup().use == "motion.ackermann") instance->take_over(0);
+    if (instance->setup().use == "motion.ackermann") instance->on_handover(0);
   EXPECT_NEAR(s.turning("rear"), 15, 1e-12);
   EXPECT_NEAR(s.turning("front"), 15 / std::cos(0.4), 1e-12);
   EXPECT_EQ(s.value("front_steering", keys::joint_velocity), 0);

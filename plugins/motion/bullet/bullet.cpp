@@ -3,9 +3,9 @@
 // drives by sequential impulses.
 #include "bullet_world.hpp"
 #include "muro/plugin.hpp"
-#include "plugins/multibody/description.hpp"
-#include "plugins/multibody/motion.hpp"
-#include "plugins/multibody/parameters.hpp"
+#include "plugins/common/multibody/description.hpp"
+#include "plugins/common/multibody/motion.hpp"
+#include "plugins/common/multibody/parameters.hpp"
 
 namespace {
 
@@ -39,7 +39,7 @@ constexpr Description bullet_description{
     .parameters = parameters,
     .reads = multibody::reads,
     .writes = multibody::writes,
-    .promises = multibody::promises,
+    .capabilities = multibody::promises,
     .features = multibody::features,
 };
 

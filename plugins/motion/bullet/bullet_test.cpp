@@ -2,7 +2,7 @@
 // What is particular to motion.bullet; what all motions owe is in tests/conformance.
 #include <gtest/gtest.h>
 
-#include "plugins/mesh/files_testing.hpp"
+#include "plugins/common/mesh/files_testing.hpp"
 #include "tests/support/bodies.hpp"
 #include "tests/support/files.hpp"
 

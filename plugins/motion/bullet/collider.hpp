@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "convert.hpp"
-#include "plugins/multibody/world.hpp"
+#include "plugins/common/multibody/world.hpp"
 
 namespace muro::bullet {
 

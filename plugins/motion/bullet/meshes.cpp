@@ -9,7 +9,7 @@
 #include "convert.hpp"
 #include "muro/algorithm.hpp"
 #include "muro/vocabulary.hpp"
-#include "plugins/mesh/store.hpp"
+#include "plugins/common/mesh/store.hpp"
 
 namespace muro::bullet {
 

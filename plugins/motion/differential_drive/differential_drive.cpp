@@ -2,9 +2,9 @@
 // Differential drive (MuRoSimF, Section 3.1): the wheels of both sides roll on a plane and never slip along it, so the
 // velocity of the base follows from those of the wheels. Kinematics after Siegwart, Nourbakhsh and Scaramuzza,
 // Introduction to Autonomous Mobile Robots, 2nd edition, section 3.2.
-#include "muro/wheels.hpp"
+#include "plugins/common/wheels/side_wheels.hpp"
 
-#include "plugins/wheeled/wheel_motion.hpp"
+#include "plugins/common/wheels/wheel_motion.hpp"
 
 namespace {
 
@@ -14,7 +14,7 @@ using namespace muro::wheeled;
 constexpr Parameter parameters[] = {
     left_wheels, right_wheels, wheel_radius, track, max_wheel_acceleration, on_contact,
 };
-constexpr Use reads[] = {
+constexpr PropertyUse reads[] = {
     {"joint.velocity.target", "of every joint that follows no other"},
     starts_at,
     starts_with,
@@ -32,7 +32,7 @@ constexpr Description description{
     .parameters = parameters,
     .reads = reads,
     .writes = motion_writes,
-    .promises = deterministic | batched | allocation_free | restorable,
+    .capabilities = deterministic | batched | allocation_free | restorable,
     .features = feature_joints | feature_velocity_targets | feature_joint_limits | feature_joint_speed_limits |
                 feature_mimic_joints,
 };

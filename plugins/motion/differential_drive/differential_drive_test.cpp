@@ -246,7 +246,7 @@ TEST(DifferentialDrive, TakesOverAtTheSpeedOfTheBase) {
   const Vec3 up = s.at().orientation * Vec3::UnitZ();
   s.moving() = {0.45 * forward + 0.2 * left, up / 3 + 0.1 * left};
   for (const auto& instance : s.instances())
-    if (instance->setup().use == "motion.differential_drive") instance->take_over(0);
+    if (instance->setup().use == "motion.differential_drive") instance->on_handover(0);
   EXPECT_NEAR(s.value("left", keys::joint_velocity), 8, 1e-12);
   EXPECT_NEAR(s.value("right", keys::joint_velocity), 10, 1e-12);
   s.turn_wheels(8, 10);

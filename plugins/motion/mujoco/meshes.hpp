@@ -7,7 +7,7 @@
 
 #include "muro/connector.hpp"
 #include "muro/vocabulary.hpp"
-#include "plugins/mesh/store.hpp"
+#include "plugins/common/mesh/store.hpp"
 
 namespace muro::mujoco {
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "meshes.hpp"
-#include "plugins/multibody/world.hpp"
+#include "plugins/common/multibody/world.hpp"
 #include "settings.hpp"
 
 namespace muro::mujoco {

@@ -5,9 +5,9 @@
 
 #include "mujoco_world.hpp"
 #include "muro/plugin.hpp"
-#include "plugins/multibody/description.hpp"
-#include "plugins/multibody/motion.hpp"
-#include "plugins/multibody/parameters.hpp"
+#include "plugins/common/multibody/description.hpp"
+#include "plugins/common/multibody/motion.hpp"
+#include "plugins/common/multibody/parameters.hpp"
 
 namespace {
 
@@ -47,7 +47,7 @@ constexpr Description mujoco_description{
     .parameters = parameters,
     .reads = multibody::reads,
     .writes = multibody::writes,
-    .promises = multibody::promises,
+    .capabilities = multibody::promises,
     .features = multibody::features,
 };
 

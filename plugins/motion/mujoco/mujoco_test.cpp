@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "plugins/mesh/files_testing.hpp"
+#include "plugins/common/mesh/files_testing.hpp"
 #include "tests/support/bodies.hpp"
 #include "tests/support/files.hpp"
 

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "engine.hpp"
-#include "plugins/multibody/world.hpp"
+#include "plugins/common/multibody/world.hpp"
 
 namespace muro::mujoco {
 

@@ -5,7 +5,7 @@
 #include <ode/ode.h>
 
 #include "meshes.hpp"
-#include "plugins/multibody/world.hpp"
+#include "plugins/common/multibody/world.hpp"
 
 namespace muro::ode {
 

@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "muro/connector.hpp"
-#include "plugins/mesh/store.hpp"
+#include "plugins/common/mesh/store.hpp"
 
 namespace muro::ode {
 

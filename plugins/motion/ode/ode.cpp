@@ -3,9 +3,9 @@
 // as constraints.
 #include "muro/plugin.hpp"
 #include "ode_world.hpp"
-#include "plugins/multibody/description.hpp"
-#include "plugins/multibody/motion.hpp"
-#include "plugins/multibody/parameters.hpp"
+#include "plugins/common/multibody/description.hpp"
+#include "plugins/common/multibody/motion.hpp"
+#include "plugins/common/multibody/parameters.hpp"
 
 namespace {
 
@@ -45,7 +45,7 @@ constexpr Description ode_description{
     .parameters = parameters,
     .reads = multibody::reads,
     .writes = multibody::writes,
-    .promises = multibody::promises,
+    .capabilities = multibody::promises,
     .features = multibody::features | feature_concave_meshes,
 };
 
@@ -54,11 +54,11 @@ bool are_better_solved_exactly(std::span<const Item> items) {
   constexpr int most_joints = 24;
   bool chains = false;
   for (const Item& item : items) {
-    const auto& frames = item.robot->frames;
+    const auto& frames = item.robot->links;
     std::vector<int> joints_before(frames.size());
     int joints = 0;
     for (std::size_t i = 0; i < frames.size(); ++i) {
-      const Frame& f = frames[i];
+      const Link& f = frames[i];
       const int moves = f.joint == JointKind::fixed ? 0 : 1;
       joints_before[i] = (f.parent >= 0 ? joints_before[std::size_t(f.parent)] : 0) + moves;
       chains = chains || joints_before[i] > 1;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Vehicles with mecanum or omni wheels: three or more wheels with rollers, whose speeds give any velocity in the plane.
-#include "plugins/wheeled/omni.hpp"
-#include "plugins/wheeled/wheel_motion.hpp"
+#include "plugins/common/wheels/omni.hpp"
+#include "plugins/common/wheels/wheel_motion.hpp"
 
 namespace {
 
@@ -11,7 +11,7 @@ using namespace muro::wheeled;
 constexpr Parameter parameters[] = {
     all_wheels, roller_angle, wheel_radius, max_wheel_acceleration, on_contact,
 };
-constexpr Use reads[] = {
+constexpr PropertyUse reads[] = {
     {"joint.velocity.target", "of every joint that follows no other"},
     starts_at,
     starts_with,
@@ -27,7 +27,7 @@ constexpr Description description{
     .parameters = parameters,
     .reads = reads,
     .writes = motion_writes,
-    .promises = deterministic | batched | allocation_free | restorable,
+    .capabilities = deterministic | batched | allocation_free | restorable,
     .features = feature_joints | feature_velocity_targets | feature_joint_limits | feature_joint_speed_limits |
                 feature_mimic_joints,
 };

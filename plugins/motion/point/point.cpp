@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "muro/contact_stop.hpp"
 #include "muro/plugin.hpp"
+#include "muro/toolkit/contact_stop.hpp"
 
 namespace {
 
@@ -19,12 +19,12 @@ constexpr Parameter parameters[] = {
     real("max_turn_acceleration", "rad/s^2", 1e9, "largest change of the angular velocity").between(0, 1e9),
     on_contact,
 };
-constexpr Use reads[] = {{"command.twist", "mode velocity"},
-                         {"command.pose", "mode pose"},
-                         {"pose.initial", "of the base"},
-                         {"twist.initial", "of the base"},
-                         on_contact_reads};
-constexpr Use writes[] = {{"pose", "of the base"}, {"twist", "of the base"}};
+constexpr PropertyUse reads[] = {{"command.twist", "mode velocity"},
+                                 {"command.pose", "mode pose"},
+                                 {"pose.initial", "of the base"},
+                                 {"twist.initial", "of the base"},
+                                 on_contact_reads};
+constexpr PropertyUse writes[] = {{"pose", "of the base"}, {"twist", "of the base"}};
 constexpr Description description{
     .id = "motion.point",
     .kind = Kind::motion,
@@ -33,7 +33,7 @@ constexpr Description description{
     .parameters = parameters,
     .reads = reads,
     .writes = writes,
-    .promises = deterministic | batched | allocation_free | restorable,
+    .capabilities = deterministic | batched | allocation_free | restorable,
 };
 
 Vec3 limited(const Vec3& v, double most) {
@@ -71,7 +71,7 @@ class Point final : public Algorithm {
   }
 
   std::span<const Phase> phases() const override {
-    static constexpr Phase phases[] = {{Phase::Over::items, Phase::Reach::own}};
+    static constexpr Phase phases[] = {{Phase::IndexSpace::items, Phase::Scope::own_robot}};
     return phases;
   }
 

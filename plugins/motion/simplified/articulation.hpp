@@ -8,7 +8,7 @@
 
 #include "move.hpp"
 #include "moving_mass.hpp"
-#include "muro/lane/rows.hpp"
+#include "muro/simd/rows.hpp"
 #include "rigid_body.hpp"
 
 namespace muro::simplified {

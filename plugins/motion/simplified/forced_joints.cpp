@@ -10,7 +10,7 @@ namespace {
 std::vector<std::uint32_t> frames_of_dofs(const RobotView& robot, std::span<const Place> places) {
   std::vector<std::uint32_t> frames;
   for (std::uint32_t i = 0; i < places.size(); ++i)
-    if (places[i].forced && robot.frames[i].mimic < 0) frames.push_back(i);
+    if (places[i].forced && robot.links[i].mimic < 0) frames.push_back(i);
   return frames;
 }
 
@@ -19,11 +19,11 @@ std::vector<std::uint32_t> frames_of_dofs(const RobotView& robot, std::span<cons
 ForcedJoints::ForcedJoints(Connector& c, const RobotView& robot, std::span<const Place> places,
                            std::span<const Inertia> inertias, std::span<const double> start, const Settings& settings)
     : settings_(settings),
-      linkage_(robot.frames, inertias, frames_of_dofs(robot, places), settings.fixed_base),
+      linkage_(robot.links, inertias, frames_of_dofs(robot, places), settings.fixed_base),
       positions_(start.begin(), start.end()) {
   linkage_.update({}, {}, positions_, Vec3::Zero());
   for (const Linkage::Dof& dof : linkage_.dofs()) {
-    const Frame& f = robot.frames[dof.frame];
+    const Link& f = robot.links[dof.frame];
     const double inertia = dof.inertia + settings.armature;
     if (!(inertia > 1e-12))
       throw Error("joint `" + std::string(c.object_name(f.joint_object)) + "` moves an inertia of " +
@@ -32,7 +32,7 @@ ForcedJoints::ForcedJoints(Connector& c, const RobotView& robot, std::span<const
                   "set `armature`");
     Joint j{places[dof.frame], f.limits, 1e-3 * inertia, c.derived(f.joint_object, keys::joint_effort), {}};
     for (std::size_t i = 0; i < places.size(); ++i) {
-      const Frame& other = robot.frames[i];
+      const Link& other = robot.links[i];
       if (other.mimic != std::int32_t(dof.frame)) continue;
       j.followers.push_back({places[i].position, places[i].velocity, other.mimic_multiplier, other.mimic_offset});
       j.limits.damping += other.mimic_multiplier * other.mimic_multiplier * other.limits.damping;
@@ -41,7 +41,7 @@ ForcedJoints::ForcedJoints(Connector& c, const RobotView& robot, std::span<const
     joints_.push_back(std::move(j));
   }
   for (std::uint32_t i = 0; i < places.size(); ++i) {
-    const ObjectId body = robot.frames[i].object;
+    const ObjectId body = robot.links[i].object;
     if (places[i].position) turns_.push_back({places[i].position, places[i].velocity, i});
     if (i == 0 || !c.constant_array(body, keys::collision_shapes).empty())
       linkage_.add_touch(i, c.read_sum(body, keys::external_wrench));

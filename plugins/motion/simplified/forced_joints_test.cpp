@@ -17,7 +17,7 @@ struct Machine : test::Scene {
   const RobotView& robot;
   explicit Machine(const RobotTree& tree, const Parameters& parameters, double start = 0, double rate = 1000)
       : robot(add("r", tree)) {
-    for (const Frame& f : robot.frames)
+    for (const Link& f : robot.links)
       if (f.joint != JointKind::fixed && f.mimic < 0) world().set(f.joint_object, keys::initial_joint_position, start);
     use("motion.simplified", rate, all_robots(), parameters);
     build();
@@ -271,7 +271,7 @@ TEST(ForcedJoints, AnyStateThatAnotherMotionLeavesIsTakenOver) {
   s.of("slide", keys::joint_position) = 0.6;  // that one did not know the limit
   s.of("slide", keys::joint_velocity) = -0.1;
   s.twist(s.robot).linear = {1, 2, 3};
-  s.instances().front()->take_over(0);
+  s.instances().front()->on_handover(0);
   s.run_for(0.5);
   EXPECT_EQ(s.twist(s.robot).linear, Vec3::Zero());
   EXPECT_LE(s.of("slide", keys::joint_position), 0.5);

@@ -6,7 +6,7 @@
 #include <type_traits>
 
 #include "move.hpp"
-#include "muro/lane/lane.hpp"
+#include "muro/simd/lane.hpp"
 
 namespace muro::simplified::joints {
 inline namespace MURO_ISA {

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "move.hpp"
-#include "muro/composite.hpp"
-#include "muro/joint_drives.hpp"
-#include "muro/lane/numbers.hpp"
+#include "muro/simd/numbers.hpp"
+#include "muro/toolkit/joint_drives.hpp"
+#include "muro/toolkit/mass_properties.hpp"
 
 namespace muro::simplified {
 
@@ -50,16 +50,16 @@ inline In<double> connect_target(Connector& c, ObjectId joint, DriveMode mode, d
 inline std::vector<Place> connect_places(Connector& c, const RobotView& robot, const std::vector<double>& start,
                                          bool limited) {
   const std::vector<DriveMode> modes = drive_modes_of(c, robot, c.parameters());
-  std::vector<Place> places(robot.frames.size());
+  std::vector<Place> places(robot.links.size());
   for (std::size_t i = 0; i < places.size(); ++i) {
-    const Frame& f = robot.frames[i];
+    const Link& f = robot.links[i];
     if (f.joint == JointKind::fixed) continue;
     check_start(c, f.joint_object, f.limits, start[i]);
     Place& p = places[i];
     const std::size_t leader = f.mimic >= 0 ? std::size_t(f.mimic) : i;
     p.mode = modes[leader];
     p.forced = p.mode == DriveMode::effort || p.mode == DriveMode::passive ||
-               (limited && std::isfinite(robot.frames[leader].limits.effort));
+               (limited && std::isfinite(robot.links[leader].limits.effort));
     p.position = c.variable(f.joint_object, keys::joint_position, start[i]).get();
     p.velocity = c.variable(f.joint_object, keys::joint_velocity, 0.0).get();
     if (f.mimic < 0) p.target = connect_target(c, f.joint_object, p.mode, start[i]).get();
@@ -77,7 +77,7 @@ inline std::vector<Joint> kernel_joints(const RobotView& robot, const std::vecto
   for (std::size_t i = 0, count = 0; i < places.size(); ++i)
     if (is_one(places[i])) number[i] = int(count++);
   for (std::size_t i = 0; i < places.size(); ++i) {
-    const Frame& f = robot.frames[i];
+    const Link& f = robot.links[i];
     const Place& p = places[i];
     if (!is_one(p)) continue;
     if (!state.positions) state.positions = p.position, state.velocities = p.velocity;

@@ -7,7 +7,7 @@
 
 namespace muro::simplified {
 
-Linkage::Linkage(std::span<const Frame> frames, std::span<const Inertia> inertias, std::span<const std::uint32_t> dofs,
+Linkage::Linkage(std::span<const Link> frames, std::span<const Inertia> inertias, std::span<const std::uint32_t> dofs,
                  bool fixed_base)
     : fixed_base_(fixed_base), link_of_(frames.size()), in_link_(frames.size()) {
   links_.emplace_back();
@@ -17,7 +17,7 @@ Linkage::Linkage(std::span<const Frame> frames, std::span<const Inertia> inertia
       link_of_[i] = link_of_[parent];
       in_link_[i] = in_link_[parent] * frames[i].origin;
       if (frames[i].joint != JointKind::fixed) {
-        Link l;
+        RigidGroup l;
         l.parent = std::int32_t(link_of_[parent]);
         l.frame = i;
         l.joint = frames[i];
@@ -27,18 +27,18 @@ Linkage::Linkage(std::span<const Frame> frames, std::span<const Inertia> inertia
         links_.push_back(l);
       }
     }
-    Link& l = links_[link_of_[i]];
+    RigidGroup& l = links_[link_of_[i]];
     l.inertia = l.inertia + inertias[i].in(in_link_[i]);
   }
-  for (const Link& l : links_) mass_ += l.inertia.mass;
+  for (const RigidGroup& l : links_) mass_ += l.inertia.mass;
   find_still_links();
-  for (Link& l : links_) place(l, 0);
+  for (RigidGroup& l : links_) place(l, 0);
   weigh();
   for (const std::uint32_t frame : dofs) {
     std::vector<Moved> moved;
     std::vector<bool> moves(links_.size());
     for (std::uint32_t k = 1; k < links_.size(); ++k) {
-      const Link& l = links_[k];
+      const RigidGroup& l = links_[k];
       const bool own = l.frame == frame, follows = l.joint.mimic == std::int32_t(frame);
       const bool carried = moves[std::size_t(l.parent)];
       moves[k] = own || follows || carried;
@@ -56,21 +56,21 @@ void Linkage::add_touch(std::uint32_t frame, SumIn<Wrench> wrench) {
 
 /// A still link has its place whatever its position, so it carries no other link, and nothing off its axis.
 void Linkage::find_still_links() {
-  for (Link& l : links_)
+  for (RigidGroup& l : links_)
     l.still =
         l.parent <= 0 && (l.parent < 0 || (l.joint.joint == JointKind::revolute && balanced(l.inertia, l.joint.axis)));
-  for (const Link& l : links_)
+  for (const RigidGroup& l : links_)
     if (l.parent > 0) links_[std::size_t(l.parent)].still = false;
   for (std::size_t i = 0; i < in_link_.size(); ++i) {
-    Link& l = links_[link_of_[i]];
+    RigidGroup& l = links_[link_of_[i]];
     if (l.parent >= 0 && l.joint.axis.cross(in_link_[i].position).norm() > 1e-6) l.still = false;
   }
-  for (const Link& l : links_) still_ = still_ && l.still;
+  for (const RigidGroup& l : links_) still_ = still_ && l.still;
 }
 
-void Linkage::place(Link& l, double position) {
+void Linkage::place(RigidGroup& l, double position) {
   if (l.parent >= 0) {
-    l.in_base = links_[std::size_t(l.parent)].in_base * placed(l.joint, position);
+    l.in_base = links_[std::size_t(l.parent)].in_base * pose_in_parent(l.joint, position);
     l.axis = l.in_base.orientation * l.joint.axis;
   }
   const Mat3 turn = l.in_base.orientation.toRotationMatrix();
@@ -82,9 +82,9 @@ void Linkage::place(Link& l, double position) {
 void Linkage::weigh() {
   centre_ = Vec3::Zero();
   tensor_ = Mat3::Zero();
-  for (const Link& l : links_) centre_ += l.inertia.mass * l.centre;
+  for (const RigidGroup& l : links_) centre_ += l.inertia.mass * l.centre;
   centre_ /= mass_;
-  for (const Link& l : links_) {
+  for (const RigidGroup& l : links_) {
     const Vec3 d = l.centre - centre_;
     tensor_ += l.tensor + l.inertia.mass * (d.squaredNorm() * Mat3::Identity() - d * d.transpose());
   }
@@ -99,7 +99,7 @@ void Linkage::add_motion_of_base(const Vec3& force, const Vec3& torque, const Ve
     turn = inverse_ * (torque - centre_.cross(force) - spin.cross(tensor_ * spin));
     origin = force / mass_ + gravity - turn.cross(centre_) - spin.cross(spin.cross(centre_));
   }
-  for (Link& l : links_) {
+  for (RigidGroup& l : links_) {
     l.force += l.inertia.mass * (gravity - origin - turn.cross(l.centre) - rate.cross(rate.cross(l.centre)));
     l.torque -= l.tensor * turn + rate.cross(l.tensor * rate);
   }
@@ -109,10 +109,10 @@ void Linkage::sum_up(Dof& dof, std::span<const Moved> moved) {
   Vec3 momentum = Vec3::Zero();
   dof.inertia = dof.force = 0;
   for (const Moved& m : moved) {
-    Link& l = links_[m.link];
+    RigidGroup& l = links_[m.link];
     l.linear = l.angular = Vec3::Zero();
     if (m.carrier >= 0) {
-      const Link& by = links_[std::size_t(m.carrier)];
+      const RigidGroup& by = links_[std::size_t(m.carrier)];
       l.angular = by.angular;
       l.linear = by.linear + by.angular.cross(l.in_base.position - by.in_base.position);
     }
@@ -127,7 +127,7 @@ void Linkage::sum_up(Dof& dof, std::span<const Moved> moved) {
 }
 
 Wrench Linkage::update(const Pose& pose, const Twist& twist, std::span<const double> positions, const Vec3& gravity) {
-  for (Link& l : links_) {
+  for (RigidGroup& l : links_) {
     l.force = l.torque = Vec3::Zero();
     if (!l.still) place(l, positions[l.frame]);
   }
@@ -138,7 +138,7 @@ Wrench Linkage::update(const Pose& pose, const Twist& twist, std::span<const dou
     if (p.wrench.size() == 0) continue;
     const Wrench w = p.wrench.value();
     const Vec3 f = to_base * w.force, t = to_base * w.torque;
-    Link& l = links_[p.link];
+    RigidGroup& l = links_[p.link];
     const Vec3 at = l.in_base * p.origin;
     l.force += f;
     l.torque += t + (at - l.centre).cross(f);

@@ -34,7 +34,7 @@ class Linkage {
   };
 
   /// `inertias`: one a frame. `dofs`: frames of joints, none of them a mimic.
-  Linkage(std::span<const Frame> frames, std::span<const Inertia> inertias, std::span<const std::uint32_t> dofs,
+  Linkage(std::span<const Link> frames, std::span<const Inertia> inertias, std::span<const std::uint32_t> dofs,
           bool fixed_base);
 
   void add_touch(std::uint32_t frame, SumIn<Wrench> wrench);
@@ -46,10 +46,10 @@ class Linkage {
 
  private:
   /// The bodies that move as one behind a joint. Vectors in axes of the base, from its origin.
-  struct Link {
+  struct RigidGroup {
     std::int32_t parent = -1;
     std::uint32_t frame = 0;
-    Frame joint;         ///< `origin` in the frame of the parent link
+    Link joint;          ///< `origin` in the frame of the parent link
     Inertia inertia;     ///< in the link's frame
     bool still = false;  ///< no joint moves its masses: it is the base, or a wheel on it
     Pose in_base;
@@ -71,7 +71,7 @@ class Linkage {
   };
 
   void find_still_links();
-  void place(Link& link, double position);
+  void place(RigidGroup& link, double position);
   void weigh();
   void add_motion_of_base(const Vec3& force, const Vec3& torque, const Vec3& spin, const Vec3& gravity);
   void sum_up(Dof& dof, std::span<const Moved> moved);
@@ -82,7 +82,7 @@ class Linkage {
   Vec3 centre_ = Vec3::Zero();   ///< m, of mass of all links
   Mat3 tensor_ = Mat3::Zero();   ///< kg m^2, of all links, about centre_
   Mat3 inverse_ = Mat3::Zero();  ///< of tensor_; for a free base
-  std::vector<Link> links_;
+  std::vector<RigidGroup> links_;
   std::vector<std::uint32_t> link_of_;  ///< by frame
   std::vector<Pose> in_link_;           ///< of each frame
   std::vector<Dof> dofs_;

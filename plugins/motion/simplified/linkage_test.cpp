@@ -3,28 +3,28 @@
 
 #include <gtest/gtest.h>
 
-#include "muro/composite.hpp"
-#include "muro/joint_inertia.hpp"
+#include "muro/toolkit/joint_inertia.hpp"
+#include "muro/toolkit/mass_properties.hpp"
 
 namespace muro::simplified {
 namespace {
 
 const Vec3 gravity(0, 0, -9.81);
 
-Frame frame(std::int32_t parent, JointKind joint, const Vec3& offset, const Vec3& axis) {
-  Frame f;
+Link frame(std::int32_t parent, JointKind joint, const Vec3& offset, const Vec3& axis) {
+  Link f;
   f.parent = parent, f.joint = joint, f.origin.position = offset, f.axis = axis;
   return f;
 }
 
 /// A trunk with a shoulder, a fixed bracket on the arm, an elbow, a finger that mimics the elbow, and a slide.
 struct Arm {
-  std::vector<Frame> frames{Frame{},
-                            frame(0, JointKind::revolute, {0.1, 0, 0.2}, Vec3::UnitY()),
-                            frame(1, JointKind::fixed, {0.2, 0.1, 0}, Vec3::UnitX()),
-                            frame(1, JointKind::revolute, {0.4, 0, 0}, Vec3::UnitZ()),
-                            frame(3, JointKind::revolute, {0.3, 0, 0}, Vec3::UnitZ()),
-                            frame(0, JointKind::prismatic, {0, 0.2, 0}, Vec3(0, 0.6, 0.8))};
+  std::vector<Link> links{Link{},
+                          frame(0, JointKind::revolute, {0.1, 0, 0.2}, Vec3::UnitY()),
+                          frame(1, JointKind::fixed, {0.2, 0.1, 0}, Vec3::UnitX()),
+                          frame(1, JointKind::revolute, {0.4, 0, 0}, Vec3::UnitZ()),
+                          frame(3, JointKind::revolute, {0.3, 0, 0}, Vec3::UnitZ()),
+                          frame(0, JointKind::prismatic, {0, 0.2, 0}, Vec3(0, 0.6, 0.8))};
   std::vector<Inertia> inertias{{.mass = 5, .com = {0.02, 0.01, 0.1}, .ixx = 0.1, .iyy = 0.12, .izz = 0.08},
                                 {.mass = 1.5, .com = {0.2, 0, 0}, .ixx = 0.001, .iyy = 0.02, .izz = 0.02},
                                 {.mass = 0.4, .ixx = 0.001, .iyy = 0.001, .izz = 0.001},
@@ -34,15 +34,16 @@ struct Arm {
   std::vector<double> q{0, 0.4, 0, -0.7, 0.1 - 0.5 * -0.7, 0.15};
   std::vector<std::uint32_t> dofs{1, 3, 5};
 
-  Arm() { frames[4].mimic = 3, frames[4].mimic_multiplier = -0.5, frames[4].mimic_offset = 0.1; }
+  Arm() { links[4].mimic = 3, links[4].mimic_multiplier = -0.5, links[4].mimic_offset = 0.1; }
 
   void turn(std::size_t joint, double by) {
     q[joint] += by;
     if (joint == 3) q[4] -= 0.5 * by;
   }
   std::vector<Pose> poses() const {
-    std::vector<Pose> all(frames.size());
-    for (std::size_t i = 1; i < all.size(); ++i) all[i] = all[std::size_t(frames[i].parent)] * placed(frames[i], q[i]);
+    std::vector<Pose> all(links.size());
+    for (std::size_t i = 1; i < all.size(); ++i)
+      all[i] = all[std::size_t(links[i].parent)] * pose_in_parent(links[i], q[i]);
     return all;
   }
   double mass() const {
@@ -50,7 +51,7 @@ struct Arm {
     for (const Inertia& i : inertias) m += i.mass;
     return m;
   }
-  Vec3 com() const { return composite_inertia(frames, inertias, q).com; }
+  Vec3 com() const { return composite_inertia(links, inertias, q).com; }
   /// What `value` changes by when `joint` turns by 1, by central differences.
   template <class Value>
   auto slope(std::size_t joint, Value value) {
@@ -67,11 +68,11 @@ struct Arm {
 
 TEST(Linkage, InertiasAreThoseOfTheKineticEnergy) {
   Arm arm;
-  Linkage linkage(arm.frames, arm.inertias, arm.dofs, true);
+  Linkage linkage(arm.links, arm.inertias, arm.dofs, true);
   linkage.update({}, {}, arm.q, gravity);
   for (const Linkage::Dof& dof : linkage.dofs()) {
     double energy2 = 0;
-    for (std::size_t i = 0; i < arm.frames.size(); ++i) {
+    for (std::size_t i = 0; i < arm.links.size(); ++i) {
       const Vec3 v = arm.slope(dof.frame, [&] { return Vec3(arm.poses()[i] * arm.inertias[i].com); });
       const Mat3 turn = arm.poses()[i].orientation.toRotationMatrix();
       const Mat3 rate = arm.slope(dof.frame, [&] { return arm.poses()[i].orientation.toRotationMatrix(); });
@@ -80,13 +81,13 @@ TEST(Linkage, InertiasAreThoseOfTheKineticEnergy) {
       energy2 += arm.inertias[i].mass * v.squaredNorm() + w.dot(arm.inertias[i].tensor() * w);
     }
     EXPECT_NEAR(dof.inertia, energy2, 1e-8);
-    EXPECT_NEAR(dof.inertia, joint_inertia(arm.frames, arm.inertias, arm.q, dof.frame), 1e-14);
+    EXPECT_NEAR(dof.inertia, joint_inertia(arm.links, arm.inertias, arm.q, dof.frame), 1e-14);
   }
 }
 
 TEST(Linkage, WeightActsByTheSlopeOfThePotentialEnergy) {
   Arm arm;
-  Linkage linkage(arm.frames, arm.inertias, arm.dofs, true);
+  Linkage linkage(arm.links, arm.inertias, arm.dofs, true);
   const Pose base{{1, 2, 3}, from_rpy(0.5, -0.3, 2)};
   linkage.update(base, {}, arm.q, gravity);
   for (const Linkage::Dof& dof : linkage.dofs())
@@ -95,7 +96,7 @@ TEST(Linkage, WeightActsByTheSlopeOfThePotentialEnergy) {
 
 TEST(Linkage, AWrenchActsByThePowerThatItHas) {
   Arm arm;
-  Linkage linkage(arm.frames, arm.inertias, arm.dofs, true);
+  Linkage linkage(arm.links, arm.inertias, arm.dofs, true);
   const Wrench wrench{{3, -4, 5}, {0.2, 0.3, -0.5}};
   const void* slots[] = {&wrench};
   const SumHeader sum{slots, 1};
@@ -117,14 +118,14 @@ TEST(Linkage, AWrenchActsByThePowerThatItHas) {
 
 TEST(Linkage, InFreeFallNothingHangsDown) {
   Arm arm;
-  Linkage linkage(arm.frames, arm.inertias, arm.dofs, false);
+  Linkage linkage(arm.links, arm.inertias, arm.dofs, false);
   linkage.update({{1, 2, 3}, from_rpy(0.5, -0.3, 2)}, {}, arm.q, gravity);
   for (const Linkage::Dof& dof : linkage.dofs()) EXPECT_NEAR(dof.force, 0, 1e-12);
 }
 
 TEST(Linkage, AFreeBaseGivesWayToTheMomentumOfAJoint) {
   Arm arm;
-  Linkage free(arm.frames, arm.inertias, arm.dofs, false), fixed(arm.frames, arm.inertias, arm.dofs, true);
+  Linkage free(arm.links, arm.inertias, arm.dofs, false), fixed(arm.links, arm.inertias, arm.dofs, true);
   free.update({}, {}, arm.q, gravity);
   fixed.update({}, {}, arm.q, gravity);
   for (std::size_t k = 0; k < 3; ++k) {
@@ -132,24 +133,24 @@ TEST(Linkage, AFreeBaseGivesWayToTheMomentumOfAJoint) {
     EXPECT_NEAR(free.dofs()[k].inertia, fixed.dofs()[k].inertia - arm.mass() * com.squaredNorm(), 1e-8);
   }
   // Two masses and a slide between them: the reduced mass.
-  const std::vector<Frame> frames{Frame{}, frame(0, JointKind::prismatic, Vec3::Zero(), Vec3::UnitX())};
+  const std::vector<Link> links{Link{}, frame(0, JointKind::prismatic, Vec3::Zero(), Vec3::UnitX())};
   const std::vector<Inertia> two{{.mass = 3, .ixx = 1, .iyy = 1, .izz = 1}, {.mass = 2}};
   const std::vector<std::uint32_t> slide{1};
-  Linkage pair(frames, two, slide, false);
+  Linkage pair(links, two, slide, false);
   pair.update({}, {}, std::vector<double>{0, 0.4}, Vec3::Zero());
   EXPECT_NEAR(pair.dofs()[0].inertia, 3 * 2 / 5.0, 1e-14);
 }
 
 TEST(Linkage, AWheelIsTheSameHoweverItHasTurned) {
   // The one is not taken for a wheel, since it carries something, without mass.
-  std::vector<Frame> frames{Frame{}, frame(0, JointKind::revolute, {0.1, 0.2, 0}, Vec3::UnitY())};
+  std::vector<Link> links{Link{}, frame(0, JointKind::revolute, {0.1, 0.2, 0}, Vec3::UnitY())};
   std::vector<Inertia> inertias{{.mass = 4, .com = {0, 0, 0.1}, .ixx = 0.1, .iyy = 0.2, .izz = 0.3},
                                 {.mass = 0.3, .com = {0, 0.01, 0}, .ixx = 3e-4, .iyy = 5e-4, .izz = 3e-4}};
   const std::vector<std::uint32_t> dof{1};
-  Linkage wheel(frames, inertias, dof, false);
-  frames.push_back(frame(1, JointKind::revolute, {0.05, 0, 0}, Vec3::UnitX()));
+  Linkage wheel(links, inertias, dof, false);
+  links.push_back(frame(1, JointKind::revolute, {0.05, 0, 0}, Vec3::UnitX()));
   inertias.emplace_back();
-  Linkage other(frames, inertias, dof, false);
+  Linkage other(links, inertias, dof, false);
   const Wrench wrench{{3, -4, 5}, {0.2, 0.3, -0.5}};
   const void* slots[] = {&wrench};
   const SumHeader sum{slots, 1};
@@ -166,21 +167,21 @@ TEST(Linkage, AWheelIsTheSameHoweverItHasTurned) {
 
 TEST(Linkage, ASpinningBaseThrowsASlideOut) {
   // Centrifugal force m w^2 r of a mass on a radial slide; a heavy base, so that its centre of mass stays.
-  const std::vector<Frame> frames{Frame{}, frame(0, JointKind::prismatic, {0.1, 0, 0}, Vec3::UnitX())};
+  const std::vector<Link> links{Link{}, frame(0, JointKind::prismatic, {0.1, 0, 0}, Vec3::UnitX())};
   const std::vector<Inertia> masses{{.mass = 1e9, .ixx = 1e9, .iyy = 1e9, .izz = 1e9}, {.mass = 2}};
   const std::vector<std::uint32_t> slide{1};
-  Linkage linkage(frames, masses, slide, false);
+  Linkage linkage(links, masses, slide, false);
   linkage.update({{}, from_rpy(0, 0, 1)}, {{}, {0, 0, 3}}, std::vector<double>{0, 0.4}, Vec3::Zero());
   EXPECT_NEAR(linkage.dofs()[0].force, 2 * 9 * 0.5, 1e-6);
 }
 
 TEST(Linkage, ABaseThatIsPushedLeavesAPendulumBehind) {
   // A point mass on a rod, straight down, under a heavy base that accelerates with 2 m/s^2 along x: - m l a.
-  const std::vector<Frame> frames{Frame{}, frame(0, JointKind::revolute, Vec3::Zero(), -Vec3::UnitY())};
+  const std::vector<Link> links{Link{}, frame(0, JointKind::revolute, Vec3::Zero(), -Vec3::UnitY())};
   const std::vector<Inertia> masses{{.mass = 1e9, .ixx = 1e9, .iyy = 1e9, .izz = 1e9},
                                     {.mass = 2, .com = {0, 0, -0.5}, .ixx = 1e-6, .iyy = 1e-6, .izz = 1e-6}};
   const std::vector<std::uint32_t> pivot{1};
-  Linkage linkage(frames, masses, pivot, false);
+  Linkage linkage(links, masses, pivot, false);
   const Wrench push{{2e9, 0, 0}, {0, 0, 0}};
   const void* slots[] = {&push};
   const SumHeader sum{slots, 1};

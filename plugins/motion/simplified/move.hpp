@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-#include "muro/lane/isa.hpp"
+#include "muro/simd/isa.hpp"
 
 namespace muro::simplified {
 

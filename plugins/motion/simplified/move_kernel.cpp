@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "joint_motion.hpp"
 #include "move.hpp"
-#include "muro/lane/rows.hpp"
+#include "muro/simd/rows.hpp"
 #include "rigid_body.hpp"
 
 namespace muro::simplified {

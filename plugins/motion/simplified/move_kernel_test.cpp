@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "move.hpp"
-#include "muro/lane/numbers.hpp"
+#include "muro/simd/numbers.hpp"
 
 namespace muro::simplified {
 namespace {

@@ -16,26 +16,25 @@ bool balanced(const Inertia& body, const Vec3& axis) {
 namespace {
 
 /// For every frame: whether its joint moves mass relative to the frame's parent.
-std::vector<bool> movers(std::span<const Frame> frames, std::span<const Inertia> inertias,
+std::vector<bool> movers(std::span<const Link> frames, std::span<const Inertia> inertias,
                          std::span<const double> start) {
   std::vector<Inertia> subtree(inertias.begin(), inertias.end());
   std::vector<bool> moves(frames.size()), moves_below(frames.size());
   for (std::size_t i = frames.size(); i-- > 1;) {
-    const Frame& f = frames[i];
+    const Link& f = frames[i];
     const bool heavy = subtree[i].mass > 0;
     const bool wheel = f.joint == JointKind::revolute && !moves_below[i] && balanced(subtree[i], f.axis);
     moves[i] = f.joint != JointKind::fixed && heavy && !wheel;
     const auto parent = std::size_t(f.parent);
     moves_below[parent] = moves_below[parent] || moves[i] || moves_below[i];
-    subtree[parent] = subtree[parent] + subtree[i].in(placed(f, start[i]));
+    subtree[parent] = subtree[parent] + subtree[i].in(pose_in_parent(f, start[i]));
   }
   return moves;
 }
 
 }  // namespace
 
-MovingMass::MovingMass(std::span<const Frame> frames, std::span<const Inertia> inertias,
-                       std::span<const double> start) {
+MovingMass::MovingMass(std::span<const Link> frames, std::span<const Inertia> inertias, std::span<const double> start) {
   const std::vector<bool> moves = movers(frames, inertias, start);
   std::vector<std::uint32_t> group_of(frames.size());
   std::vector<Pose> in_group(frames.size());
@@ -55,7 +54,7 @@ MovingMass::MovingMass(std::span<const Frame> frames, std::span<const Inertia> i
         groups_.push_back(g);
         joints_.push_back(std::uint32_t(i));
       } else {
-        in_group[i] = in_group[parent] * placed(frames[i], start[i]);
+        in_group[i] = in_group[parent] * pose_in_parent(frames[i], start[i]);
       }
     }
     Group& g = groups_[group_of[i]];
@@ -71,7 +70,7 @@ MassState MovingMass::state(std::span<const double> positions, std::span<const d
     if (i > 0) {
       const Group& parent = groups_[g.parent];
       const double q = positions[i - 1], rate = velocities[i - 1];
-      g.in_base = parent.in_base * placed(g.joint, q);
+      g.in_base = parent.in_base * pose_in_parent(g.joint, q);
       const Vec3 axis = parent.in_base.orientation * Vec3(g.joint.origin.orientation * g.joint.axis);
       g.motion.angular = parent.motion.angular;
       g.motion.linear = parent.motion.at(g.in_base.position - parent.in_base.position);

@@ -28,7 +28,7 @@ class MovingMass {
  public:
   /// `inertias`, `start`: one a frame, the joint positions (rad or m) at the start. Positions of joints that open no
   /// group do not matter later.
-  MovingMass(std::span<const Frame> frames, std::span<const Inertia> inertias, std::span<const double> start);
+  MovingMass(std::span<const Link> frames, std::span<const Inertia> inertias, std::span<const double> start);
 
   double mass() const { return mass_; }
   /// Whether no joint moves centre or inertia.
@@ -41,7 +41,7 @@ class MovingMass {
  private:
   struct Group {
     std::uint32_t parent = 0;  ///< always smaller than its own number
-    Frame joint;               ///< `origin` in the frame of the parent group
+    Link joint;                ///< `origin` in the frame of the parent group
     Inertia inertia;           ///< in the group's frame
     Pose in_base;
     Twist motion;  ///< relative to the base, its axes, at the group's origin

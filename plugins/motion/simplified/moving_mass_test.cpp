@@ -6,8 +6,8 @@
 namespace muro::simplified {
 namespace {
 
-Frame frame(int parent, JointKind joint, const Vec3& offset, const Vec3& axis) {
-  Frame f;
+Link frame(int parent, JointKind joint, const Vec3& offset, const Vec3& axis) {
+  Link f;
   f.parent = parent;
   f.joint = joint;
   f.origin.position = offset;
@@ -19,9 +19,9 @@ Frame frame(int parent, JointKind joint, const Vec3& offset, const Vec3& axis) {
 /// that hangs along -z at zero.
 struct TwoLinks {
   double base_mass = 3, m = 2, l = 0.5;
-  std::vector<Frame> frames{frame(-1, JointKind::fixed, {0, 0, 0}, Vec3::UnitX()),
-                            frame(0, JointKind::revolute, {0, 0, 0}, Vec3::UnitY()),
-                            frame(1, JointKind::revolute, {0, 0, -0.5}, Vec3::UnitY())};
+  std::vector<Link> links{frame(-1, JointKind::fixed, {0, 0, 0}, Vec3::UnitX()),
+                          frame(0, JointKind::revolute, {0, 0, 0}, Vec3::UnitY()),
+                          frame(1, JointKind::revolute, {0, 0, -0.5}, Vec3::UnitY())};
   std::vector<Inertia> inertias{
       {.mass = base_mass, .com = Vec3::Zero(), .ixx = 0.1, .iyy = 0.2, .izz = 0.3},
       {.mass = m, .com = {0, 0, -l / 2}, .ixx = m * l * l / 12, .iyy = m * l * l / 12, .izz = 1e-9},
@@ -36,7 +36,7 @@ Vec3 hand(double a, double b, const TwoLinks& t) {  // centre of mass by hand
 
 TEST(MovingMass, FollowsTwoLinksAsInTheClosedForm) {
   const TwoLinks t;
-  MovingMass mass(t.frames, t.inertias, t.start);
+  MovingMass mass(t.links, t.inertias, t.start);
   ASSERT_EQ(mass.joints().size(), 2u);
   EXPECT_EQ(mass.mass(), 7);
   for (const auto& [a, b] : {std::pair{0.0, 0.0}, {0.3, -0.8}, {2.0, 1.0}, {-1.2, 0.4}}) {
@@ -55,10 +55,10 @@ TEST(MovingMass, FollowsTwoLinksAsInTheClosedForm) {
 
 TEST(MovingMass, TheVelocityOfTheCentreIsItsDerivative) {
   TwoLinks t;
-  t.frames.push_back(frame(2, JointKind::prismatic, {0.1, 0.2, 0}, Vec3(1, 2, 2) / 3));
+  t.links.push_back(frame(2, JointKind::prismatic, {0.1, 0.2, 0}, Vec3(1, 2, 2) / 3));
   t.inertias.push_back({.mass = 0.7, .com = {0.1, 0, 0.2}, .ixx = 0.01, .iyy = 0.02, .izz = 0.02});
   t.start.push_back(0);
-  MovingMass mass(t.frames, t.inertias, t.start);
+  MovingMass mass(t.links, t.inertias, t.start);
   const double q[] = {0.4, -1.1, 0.3}, rate[] = {1.5, -0.7, 0.9}, rest[] = {0, 0, 0}, h = 1e-6;
   double ahead[3], back[3];
   for (int k = 0; k < 3; ++k) ahead[k] = q[k] + h * rate[k], back[k] = q[k] - h * rate[k];
@@ -67,32 +67,32 @@ TEST(MovingMass, TheVelocityOfTheCentreIsItsDerivative) {
 }
 
 TEST(MovingMass, WheelsMoveNoMassButAnUnbalancedOneDoes) {
-  std::vector<Frame> frames{frame(-1, JointKind::fixed, {0, 0, 0}, Vec3::UnitX())};
+  std::vector<Link> links{frame(-1, JointKind::fixed, {0, 0, 0}, Vec3::UnitX())};
   std::vector<Inertia> inertias{{.mass = 4, .com = {0, 0, 0.02}, .ixx = 0.04, .iyy = 0.06, .izz = 0.09}};
   for (const double x : {-0.12, 0.12})
     for (const double y : {-0.15, 0.15}) {
-      frames.push_back(frame(0, JointKind::revolute, {x, y, -0.03}, Vec3::UnitY()));
+      links.push_back(frame(0, JointKind::revolute, {x, y, -0.03}, Vec3::UnitY()));
       inertias.push_back({.mass = 0.3, .com = Vec3::Zero(), .ixx = 3.1e-4, .iyy = 5.4e-4, .izz = 3.1e-4});
     }
   const std::vector<double> start(5, 0.7);
-  EXPECT_TRUE(MovingMass(frames, inertias, start).rigid());
+  EXPECT_TRUE(MovingMass(links, inertias, start).rigid());
   auto shifted = inertias;
   shifted[2].com = {0.001, 0, 0};
-  EXPECT_EQ(MovingMass(frames, shifted, start).joints().size(), 1u);
+  EXPECT_EQ(MovingMass(links, shifted, start).joints().size(), 1u);
   auto uneven = inertias;
   uneven[3].ixx = 4e-4;
-  EXPECT_EQ(MovingMass(frames, uneven, start).joints().size(), 1u);
+  EXPECT_EQ(MovingMass(links, uneven, start).joints().size(), 1u);
   auto tilted = inertias;
   tilted[4].ixy = 1e-5;
-  EXPECT_EQ(MovingMass(frames, tilted, start).joints().size(), 1u);
+  EXPECT_EQ(MovingMass(links, tilted, start).joints().size(), 1u);
 }
 
 TEST(MovingMass, ABalancedWheelOnAMovingArmBelongsToTheArm) {
   TwoLinks t;
-  t.frames.push_back(frame(2, JointKind::revolute, {0, 0, -0.5}, Vec3::UnitY()));
+  t.links.push_back(frame(2, JointKind::revolute, {0, 0, -0.5}, Vec3::UnitY()));
   t.inertias.push_back({.mass = 1, .com = Vec3::Zero(), .ixx = 0.01, .iyy = 0.02, .izz = 0.01});
   t.start.push_back(0.4);
-  MovingMass mass(t.frames, t.inertias, t.start);
+  MovingMass mass(t.links, t.inertias, t.start);
   EXPECT_EQ(mass.joints().size(), 2u);
   EXPECT_EQ(mass.mass(), 8);
 }

@@ -2,8 +2,8 @@
 // One rigid body under a wrench: the integrator of motion.simplified, over a double or a lane of robots.
 #pragma once
 
-#include "muro/lane/geometry.hpp"
-#include "muro/lane/trig.hpp"
+#include "muro/simd/geometry.hpp"
+#include "muro/simd/trig.hpp"
 
 namespace muro::simplified::integrator {
 inline namespace MURO_ISA {

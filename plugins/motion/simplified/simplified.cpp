@@ -10,9 +10,9 @@
 #include "forced_joints.hpp"
 #include "joint_places.hpp"
 #include "move.hpp"
-#include "muro/composite.hpp"
-#include "muro/physical_inertia.hpp"
 #include "muro/plugin.hpp"
+#include "muro/toolkit/mass_properties.hpp"
+#include "plugins/common/multibody/physical_inertia.hpp"
 
 namespace {
 
@@ -34,7 +34,7 @@ constexpr Parameter parameters[] = {
     real("armature", "kg m^2 or kg", 0, "inertia of each drive, felt by joints that forces move").between(0, 1e6),
     text("base", "free", "free to move, or fixed to the world where it starts").one_of(bases),
 };
-constexpr Use reads[] = {
+constexpr PropertyUse reads[] = {
     {"wrench.external", "of the base; of each body with a shape, too, where forces move joints: sums"},
     {"gravity", "on the world object; 0 0 -9.81 when absent"},
     {"inertial", "of every body"},
@@ -46,13 +46,13 @@ constexpr Use reads[] = {
     {"twist.initial", "of the base"},
     {"joint.position.initial", "of every joint"},
 };
-constexpr Use writes[] = {{"pose", "of the base"},
-                          {"twist", "of the base"},
-                          {"joint.position", "of every joint"},
-                          {"joint.velocity", "of every joint"},
-                          {"joint.effort", "of joints that forces move: what the drive applies"},
-                          {"contact.world", "that the contact algorithm answers for all contacts"},
-                          {"twist.lag", "0: pose and twist are those of one instant"}};
+constexpr PropertyUse writes[] = {{"pose", "of the base"},
+                                  {"twist", "of the base"},
+                                  {"joint.position", "of every joint"},
+                                  {"joint.velocity", "of every joint"},
+                                  {"joint.effort", "of joints that forces move: what the drive applies"},
+                                  {"contact.world", "that the contact algorithm answers for all contacts"},
+                                  {"twist.lag", "0: pose and twist are those of one instant"}};
 constexpr Description description{
     .id = "motion.simplified",
     .kind = Kind::motion,
@@ -63,7 +63,7 @@ constexpr Description description{
     .parameters = parameters,
     .reads = reads,
     .writes = writes,
-    .promises = deterministic | batched | allocation_free | restorable,
+    .capabilities = deterministic | batched | allocation_free | restorable,
     .features = feature_forces | feature_joints | feature_velocity_targets | feature_position_targets |
                 feature_acceleration_targets | feature_effort_targets | feature_joint_limits |
                 feature_joint_speed_limits | feature_joint_effort_limits | feature_joint_damping |
@@ -94,20 +94,20 @@ class Simplified final : public Algorithm {
         state.wrench = numbers(&totals_[i]);
       } else if (r.external) {
         kinds_[i].wrenches = std::uint32_t(r.external->size());
-        state.wrench = r.external->size() > 0 ? numbers(r.external->part(0)) : nullptr;
-        for (std::uint64_t k = 1; k < r.external->size(); ++k) further_.push_back(numbers(r.external->part(k)));
+        state.wrench = r.external->size() > 0 ? numbers(r.external->contribution(0)) : nullptr;
+        for (std::uint64_t k = 1; k < r.external->size(); ++k) further_.push_back(numbers(r.external->contribution(k)));
       }
     }
   }
 
-  void take_over(std::uint32_t item) override {
+  void on_handover(std::uint32_t item) override {
     *robots_[item].contact_world = contacts_of(robots_[item]);
     *robots_[item].twist_lag = 0;
     if (fixed_) std::fill_n(layers_[0][item].twist, 6, 0.0);
   }
 
   std::span<const Phase> phases() const override {
-    static constexpr Phase phases[] = {{Phase::Over::items, Phase::Reach::own}};
+    static constexpr Phase phases[] = {{Phase::IndexSpace::items, Phase::Scope::own_robot}};
     return phases;
   }
 
@@ -168,8 +168,8 @@ class Simplified final : public Algorithm {
     std::vector<Inertia> inertias = inertias_of(c, robot);
     for (Inertia& i : inertias) i = made_physical(i).value_or(i);
     const std::vector<double> start = initial_joint_positions(c, robot);
-    MovingMass moving(robot.frames, inertias, start);
-    const Inertia whole = composite_inertia(robot.frames, inertias, start);
+    MovingMass moving(robot.links, inertias, start);
+    const Inertia whole = composite_inertia(robot.links, inertias, start);
     check_mass(robot, whole);
 
     Robot r;
@@ -188,7 +188,7 @@ class Simplified final : public Algorithm {
     std::copy_n(inverse.data(), 9, model.mass.inverse);
     const std::vector<Place> places = connect_places(c, robot, start, c.parameters().boolean("effort_limits"));
     // Where another motion of the robot asks for the wrenches on links, they do not act on the base.
-    const bool shares = robot.frames.size() > 1 && !c.constant_array(robot.base(), keys::motion_level_names).empty();
+    const bool shares = robot.links.size() > 1 && !c.constant_array(robot.base(), keys::motion_level_names).empty();
     model.forced = shares || std::any_of(places.begin(), places.end(), [](const Place& p) { return p.forced; });
     if (model.forced) {
       r.forced = std::int32_t(forced_.size());

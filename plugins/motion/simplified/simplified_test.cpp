@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "muro/composite.hpp"
+#include "muro/toolkit/mass_properties.hpp"
 #include "tests/support/bodies.hpp"
 
 namespace muro {
@@ -46,15 +46,15 @@ struct Flight : test::Scene {
     world().set(world_object, keys::gravity, gravity);
     use("motion.simplified", rate, all_robots(), parameters);
     build();
-    for (const Frame& f : robot.frames) inertias.push_back(world().value(f.object, keys::inertial));
+    for (const Link& f : robot.links) inertias.push_back(world().value(f.object, keys::inertial));
   }
   double& of(const char* joint, const Key<double>& key) { return world().value(std::string("r/") + joint, key); }
   /// Centre of mass in the world, from poses of all bodies.
   Vec3 centre() {
     std::vector<double> q;
-    for (const Frame& f : robot.frames)
+    for (const Link& f : robot.links)
       q.push_back(f.joint == JointKind::fixed ? 0 : world().value(f.joint_object, keys::joint_position));
-    return pose(robot) * composite_inertia(robot.frames, inertias, q).com;
+    return pose(robot) * composite_inertia(robot.links, inertias, q).com;
   }
 };
 

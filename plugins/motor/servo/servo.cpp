@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "gear.hpp"
-#include "muro/composite.hpp"
-#include "muro/joint_drives.hpp"
-#include "muro/joint_inertia.hpp"
 #include "muro/plugin.hpp"
+#include "muro/toolkit/joint_drives.hpp"
+#include "muro/toolkit/joint_inertia.hpp"
+#include "muro/toolkit/mass_properties.hpp"
 
 namespace {
 
@@ -50,19 +50,19 @@ constexpr Parameter parameters[] = {
     real("gear_stiffness", "N m/rad or N/m", 0, "of the gear, at the output; 0: as stiff as the rate allows")
         .between(0, 1e12),
 };
-constexpr Use reads[] = {{"joint.position.target", "mode position"},
-                         {"joint.velocity.target", "mode velocity"},
-                         {"joint.position", "of every joint that it drives"},
-                         {"joint.velocity", "of every joint that it drives"},
-                         {"inertial", "of the bodies behind a joint, where the rotor has inertia"}};
-constexpr Use writes[] = {{"joint.effort.target", "of every joint that it drives"},
-                          {"servo.integral", "effort of the controller's integral"},
-                          {"servo.position", "position as the controller sees it"},
-                          {"servo.velocity", "speed as the controller sees it"},
-                          {"servo.commands", "commands on their way, where there is a delay"},
-                          {"motor.position", "of the rotor, at the output, where it has inertia"},
-                          {"motor.velocity", "of the rotor, at the output, where it has inertia"},
-                          {"motor.effort", "what the motor applies to the rotor, at the output"}};
+constexpr PropertyUse reads[] = {{"joint.position.target", "mode position"},
+                                 {"joint.velocity.target", "mode velocity"},
+                                 {"joint.position", "of every joint that it drives"},
+                                 {"joint.velocity", "of every joint that it drives"},
+                                 {"inertial", "of the bodies behind a joint, where the rotor has inertia"}};
+constexpr PropertyUse writes[] = {{"joint.effort.target", "of every joint that it drives"},
+                                  {"servo.integral", "effort of the controller's integral"},
+                                  {"servo.position", "position as the controller sees it"},
+                                  {"servo.velocity", "speed as the controller sees it"},
+                                  {"servo.commands", "commands on their way, where there is a delay"},
+                                  {"motor.position", "of the rotor, at the output, where it has inertia"},
+                                  {"motor.velocity", "of the rotor, at the output, where it has inertia"},
+                                  {"motor.effort", "what the motor applies to the rotor, at the output"}};
 constexpr Description description{
     .id = "motor.servo",
     .kind = Kind::drive,
@@ -71,7 +71,7 @@ constexpr Description description{
     .parameters = parameters,
     .reads = reads,
     .writes = writes,
-    .promises = deterministic | batched | allocation_free | restorable,
+    .capabilities = deterministic | batched | allocation_free | restorable,
 };
 
 class Servo final : public Algorithm {
@@ -85,7 +85,7 @@ class Servo final : public Algorithm {
   }
 
   std::span<const Phase> phases() const override {
-    static constexpr Phase phases[] = {{Phase::Over::items, Phase::Reach::own}};
+    static constexpr Phase phases[] = {{Phase::IndexSpace::items, Phase::Scope::own_robot}};
     return phases;
   }
 
@@ -149,11 +149,11 @@ class Servo final : public Algorithm {
     const std::vector<Inertia> inertias = inertias_of(c, robot);
     const auto begin = std::uint32_t(joints_.size());
     for (const std::size_t i : chosen(c, robot)) {
-      const ObjectId joint = robot.frames[i].joint_object;
+      const ObjectId joint = robot.links[i].joint_object;
       Joint j;
       j.gear = gear_;
       if (gear_.inertia > 0) {
-        j.gear.joint_inertia = joint_inertia(robot.frames, inertias, start, i);
+        j.gear.joint_inertia = joint_inertia(robot.links, inertias, start, i);
         if (!(j.gear.joint_inertia > 0))
           throw Error("joint `" + std::string(c.object_name(joint)) +
                       "` moves no inertia that a gear could turn; give the bodies behind it mass and inertia "
@@ -166,7 +166,7 @@ class Servo final : public Algorithm {
           joint, regulator_.follows_velocity ? keys::joint_velocity_target : keys::joint_position_target, j.rest);
       j.position = c.input(joint, keys::joint_position, start[i]);
       j.velocity = c.input(joint, keys::joint_velocity, 0.0);
-      j.effort = c.offer(joint, keys::joint_effort_target);
+      j.effort = c.optional_output(joint, keys::joint_effort_target);
       j.kept = c.variable(joint, kept_effort, 0.0);
       j.reading = c.variable(joint, encoder_reading, encoder_.reading(start[i]));
       j.speed = c.variable(joint, seen_speed, 0.0);
@@ -183,11 +183,11 @@ class Servo final : public Algorithm {
     std::vector<std::size_t> frames;
     std::vector<std::string> known;
     std::vector<bool> used(names.size());
-    for (std::size_t i = 0; i < robot.frames.size(); ++i) {
-      const Frame& f = robot.frames[i];
+    for (std::size_t i = 0; i < robot.links.size(); ++i) {
+      const Link& f = robot.links[i];
       if (f.joint == JointKind::fixed || f.mimic >= 0) continue;
       known.emplace_back(c.object_name(f.joint_object).substr(robot.name.size() + 1));
-      bool wanted = names.empty() && c.is_used(f.joint_object, keys::joint_effort_target, Access::input);
+      bool wanted = names.empty() && c.is_used(f.joint_object, keys::joint_effort_target, usage::input);
       for (std::size_t k = 0; k < names.size(); ++k) {
         const bool named = muro::detail::names_joint(names[k], known.back());
         wanted = wanted || named;

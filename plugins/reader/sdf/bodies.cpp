@@ -5,7 +5,7 @@
 #include <sdf/sdf.hh>
 
 #include "assembly.hpp"
-#include "plugins/model_file/solid.hpp"
+#include "plugins/common/model_file/solid.hpp"
 
 namespace muro::sdf {
 
@@ -121,15 +121,15 @@ class Reader {
       if (!found || !found->GetExplicitlySetInFile()) continue;
       const auto c = found->Get<ignition::math::Color>();
       shape.color = Eigen::Vector4f(c.R(), c.G(), c.B(), c.A()).cast<double>().cwiseMax(0).cwiseMin(1);
-      shape.painted_by = PaintedBy::model;
+      shape.material_source = MaterialSource::model;
     }
     const ::sdf::ElementPtr pbr = child(material, "pbr");
     for (const char* workflow : {"metal", "specular"}) {
       const ::sdf::ElementPtr map = child(child(pbr, workflow), "albedo_map");
       if (!map || map->Get<std::string>().empty()) continue;
       shape.texture = intern_(map->Get<std::string>());
-      if (shape.painted_by == PaintedBy::file) shape.color.setOnes();
-      shape.painted_by = PaintedBy::model;
+      if (shape.material_source == MaterialSource::file) shape.color.setOnes();
+      shape.material_source = MaterialSource::model;
     }
     shape.color[3] *= 1 - std::clamp(number(visual, "transparency").value_or(0), 0.0, 1.0);
   }

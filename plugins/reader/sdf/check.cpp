@@ -3,8 +3,8 @@
 #include <set>
 
 #include "checks.hpp"
-#include "muro/nearest.hpp"
-#include "plugins/model_file/numbers.hpp"
+#include "muro/toolkit/did_you_mean.hpp"
+#include "plugins/common/model_file/numbers.hpp"
 
 namespace muro::sdf {
 

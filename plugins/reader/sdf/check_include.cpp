@@ -4,8 +4,8 @@
 
 #include "checks.hpp"
 #include "muro/algorithm.hpp"
-#include "plugins/model_file/mesh_path.hpp"
-#include "plugins/model_file/text_file.hpp"
+#include "plugins/common/model_file/mesh_path.hpp"
+#include "plugins/common/model_file/text_file.hpp"
 
 namespace muro::sdf {
 

@@ -6,8 +6,8 @@
 #include <set>
 
 #include "checks.hpp"
-#include "plugins/model_file/mesh_path.hpp"
-#include "plugins/model_file/numbers.hpp"
+#include "plugins/common/model_file/mesh_path.hpp"
+#include "plugins/common/model_file/numbers.hpp"
 
 namespace muro::sdf {
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "muro/robot_builder.hpp"
-#include "plugins/model_file/say.hpp"
+#include "plugins/common/model_file/say.hpp"
 
 namespace muro::sdf {
 

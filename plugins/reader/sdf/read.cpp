@@ -5,7 +5,7 @@
 
 #include "bodies.hpp"
 #include "build.hpp"
-#include "plugins/model_file/text_file.hpp"
+#include "plugins/common/model_file/text_file.hpp"
 
 namespace muro::sdf {
 

@@ -52,13 +52,13 @@ struct Robot {
         }
     return values;
   }
-  const RobotTree::FlatFrame* frame(const std::string& body) const {
-    for (const auto& f : tree.frames())
+  const RobotTree::FlatLink* frame(const std::string& body) const {
+    for (const auto& f : tree.links())
       if (name(f.part) == body) return &f;
     return nullptr;
   }
-  const RobotTree::FlatFrame* joint(const std::string& name_of_joint) const {
-    for (const auto& f : tree.frames())
+  const RobotTree::FlatLink* joint(const std::string& name_of_joint) const {
+    for (const auto& f : tree.links())
       if (f.joint_part >= 0 && name(f.joint_part) == name_of_joint) return &f;
     return nullptr;
   }
@@ -67,10 +67,10 @@ struct Robot {
   /// Of a body in the base's frame, with joints by name at these positions and all others at 0.
   Pose pose(const std::string& body, const std::map<std::string, double>& positions = {}) const {
     std::vector<Pose> poses;
-    for (const auto& f : tree.frames()) {
+    for (const auto& f : tree.links()) {
       const auto q = f.joint_part < 0 ? positions.end() : positions.find(name(f.joint_part));
-      const Pose in_parent = placed(f.frame, q == positions.end() ? 0 : q->second);
-      poses.push_back(f.frame.parent < 0 ? Pose{} : poses[std::size_t(f.frame.parent)] * in_parent);
+      const Pose in_parent = pose_in_parent(f.link, q == positions.end() ? 0 : q->second);
+      poses.push_back(f.link.parent < 0 ? Pose{} : poses[std::size_t(f.link.parent)] * in_parent);
       if (name(f.part) == body) return poses.back();
     }
     return {Vec3::Constant(NAN), Quat::Identity()};

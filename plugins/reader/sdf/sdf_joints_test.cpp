@@ -37,7 +37,7 @@ TEST(SdfJoints, ARevoluteJointTurnsTheChildAboutItsAxisWhereverItsFrameIs) {
             (Lines{"base a", "translation", "rotation", "revolute j", "body j_frame", "translation", "body b"}));
   EXPECT_TRUE(near(robot.pose("b"), b_at_rest));
   EXPECT_TRUE(near(robot.pose("b", {{"j", 0.7}}), moved({Vec3::Zero(), about(Vec3::UnitY(), 0.7)})));
-  const JointLimits& limits = robot.joint("j")->frame.limits;
+  const JointLimits& limits = robot.joint("j")->link.limits;
   EXPECT_EQ(limits.lower, -1);
   EXPECT_EQ(limits.upper, 2);
   EXPECT_EQ(limits.effort, 3);
@@ -59,7 +59,7 @@ TEST(SdfJoints, LimitsOf1e16NegativeEffortAndInfinityStandForNone) {
         "<limit><lower>-inf</lower><upper>inf</upper></limit>"}) {
     const Robot robot = two_links("revolute", axis("0 0 1", limit));
     EXPECT_EQ(robot.problems, Lines{});
-    const JointLimits& limits = robot.joint("j")->frame.limits;
+    const JointLimits& limits = robot.joint("j")->link.limits;
     EXPECT_EQ(limits.lower, -none);
     EXPECT_EQ(limits.upper, none);
     EXPECT_EQ(limits.effort, none);
@@ -71,14 +71,14 @@ TEST(SdfJoints, LimitsOf1e16NegativeEffortAndInfinityStandForNone) {
 TEST(SdfJoints, AContinuousJointHasNoLimitsOfPosition) {
   const Robot robot =
       two_links("continuous", axis("0 0 1", "<limit><lower>-1</lower><upper>1</upper><effort>3</effort></limit>"));
-  EXPECT_EQ(robot.joint("j")->frame.limits.upper, std::numeric_limits<double>::infinity());
-  EXPECT_EQ(robot.joint("j")->frame.limits.effort, 3);
+  EXPECT_EQ(robot.joint("j")->link.limits.upper, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(robot.joint("j")->link.limits.effort, 3);
 }
 
 TEST(SdfJoints, APrismaticJointShiftsTheChildAlongItsAxis) {
   const Robot robot = two_links("prismatic", off + axis("1 0 0"));
   EXPECT_EQ(robot.problems, Lines{});
-  EXPECT_EQ(robot.joint("j")->frame.joint, JointKind::prismatic);
+  EXPECT_EQ(robot.joint("j")->link.joint, JointKind::prismatic);
   EXPECT_TRUE(near(robot.pose("b", {{"j", 0.7}}), moved({{0.7, 0, 0}, Quat::Identity()})));
 }
 
@@ -98,8 +98,8 @@ TEST(SdfJoints, UniversalAndRevolute2AreTwoRevoluteJointsTheFirstOnTheParent) {
     // the first axis stays with the parent, the second goes with the child
     const Quat turn = about(Vec3::UnitX(), 0.4) * about(Vec3::UnitY(), 0.9);
     EXPECT_TRUE(near(robot.pose("b", {{"j_axis", 0.4}, {"j_axis2", 0.9}}), moved({Vec3::Zero(), turn})));
-    EXPECT_EQ(robot.joint("j_axis")->frame.limits.upper, 1);
-    EXPECT_EQ(robot.joint("j_axis2")->frame.limits.upper, 2);
+    EXPECT_EQ(robot.joint("j_axis")->link.limits.upper, 1);
+    EXPECT_EQ(robot.joint("j_axis2")->link.limits.upper, 2);
     EXPECT_EQ(robot.constants("j_axis_body", keys::inertial).size(), 0u);
   }
 }
@@ -120,12 +120,12 @@ TEST(SdfJoints, AScrewSlidesAsItTurns) {
   // SDFormat 1.10 defines: one turn moves the child by -2 pi / thread_pitch
   const Robot robot = two_links("screw", axis("0 0 1") + "<thread_pitch>-4</thread_pitch>");
   EXPECT_EQ(robot.problems, Lines{});
-  const Frame& slide = robot.joint("j_slide")->frame;
+  const Link& slide = robot.joint("j_slide")->link;
   EXPECT_EQ(slide.joint, JointKind::prismatic);
   EXPECT_EQ(robot.joint("j_slide")->mimic_leader, "j");
   EXPECT_EQ(slide.mimic_multiplier * 2 * pi, -2 * pi / -4);
   const Robot newer = two_links("screw", axis("0 0 1") + "<screw_thread_pitch>0.5</screw_thread_pitch>");
-  EXPECT_NEAR(newer.joint("j_slide")->frame.mimic_multiplier * 2 * pi, 0.5, 1e-15);
+  EXPECT_NEAR(newer.joint("j_slide")->link.mimic_multiplier * 2 * pi, 0.5, 1e-15);
 }
 
 std::string wheels(const std::string& gear) {
@@ -142,7 +142,7 @@ TEST(SdfJoints, AGearboxMakesTheChildsJointFollowTheParents) {
   EXPECT_EQ(robot.problems, Lines{});
   // theta_2 = -2.5 theta_1 about z, and jl counts about -z
   EXPECT_EQ(robot.joint("jl")->mimic_leader, "js");
-  EXPECT_EQ(robot.joint("jl")->frame.mimic_multiplier, 2.5);
+  EXPECT_EQ(robot.joint("jl")->link.mimic_multiplier, 2.5);
 }
 
 TEST(SdfJoints, AGearboxAboutOtherAxesThanItsWheelsIsLeftOut) {
@@ -164,11 +164,11 @@ TEST(SdfJoints, AMimicOfAMimicFollowsTheFirst) {
       "1.11"));
   EXPECT_EQ(robot.problems.size(), 1u);  // the version
   // k = 2 (j - 0.25) + 1, l = 3 k
-  EXPECT_EQ(robot.joint("k")->frame.mimic_multiplier, 2);
-  EXPECT_EQ(robot.joint("k")->frame.mimic_offset, 0.5);
+  EXPECT_EQ(robot.joint("k")->link.mimic_multiplier, 2);
+  EXPECT_EQ(robot.joint("k")->link.mimic_offset, 0.5);
   EXPECT_EQ(robot.joint("l")->mimic_leader, "j");
-  EXPECT_EQ(robot.joint("l")->frame.mimic_multiplier, 6);
-  EXPECT_EQ(robot.joint("l")->frame.mimic_offset, 1.5);
+  EXPECT_EQ(robot.joint("l")->link.mimic_multiplier, 6);
+  EXPECT_EQ(robot.joint("l")->link.mimic_offset, 1.5);
 }
 
 TEST(SdfJoints, AJointThatFixesTheBaseToTheWorldIsForTheMotion) {

@@ -24,10 +24,10 @@ TEST(SdfModels, TheRoverIsTheOneThatReaderUrdfReads) {
   EXPECT_EQ(lines_of(sdf_tree.problems()), Lines{});
   const RobotView& a = scene.world().add_robot("a", sdf_tree, Pose{});
   const RobotView& b = scene.world().add_robot("b", urdf_tree, Pose{});
-  ASSERT_EQ(a.frames.size(), b.frames.size());
+  ASSERT_EQ(a.links.size(), b.links.size());
   const auto part = [&](ObjectId id) { return id == no_object ? "" : scene.world().object_name(id).substr(2); };
-  for (std::size_t i = 0; i < a.frames.size(); ++i) {
-    const Frame &f = a.frames[i], &g = b.frames[i];
+  for (std::size_t i = 0; i < a.links.size(); ++i) {
+    const Link &f = a.links[i], &g = b.links[i];
     SCOPED_TRACE(part(g.object));
     EXPECT_EQ(part(f.object), part(g.object));
     EXPECT_EQ(part(f.joint_object), part(g.joint_object));
@@ -217,7 +217,7 @@ TEST(SdfModels, VersionsFrom14To19MeanTheSame) {
               version));
     EXPECT_EQ(robot.problems, Lines{});
     ASSERT_NE(robot.joint("j"), nullptr);
-    const Frame& f = robot.joint("j")->frame;
+    const Link& f = robot.joint("j")->link;
     EXPECT_TRUE(near(f.origin, {{0, 0, 1}, from_rpy(0, 0, pi / 2)}));
     EXPECT_EQ(f.limits.lower, -1);
     EXPECT_EQ(f.limits.upper, 2);
@@ -233,7 +233,7 @@ TEST(SdfModels, AxesAreInTheFrameThatTheyName) {
                                            joint("j", "revolute", "a", "b", "<axis>" + xyz + "</axis>"),
                                        version));
     EXPECT_EQ(robot.problems, Lines{});
-    return Vec3(robot.joint("j")->frame.axis);
+    return Vec3(robot.joint("j")->link.axis);
   };
   EXPECT_TRUE(of("<xyz expressed_in='__model__'>1 0 0</xyz>", "1.7").isApprox(Vec3(0, -1, 0), 1e-9));
   EXPECT_TRUE(of("<xyz expressed_in='a'>1 0 0</xyz>", "1.9").isApprox(Vec3(0, -1, 0), 1e-9));

@@ -5,7 +5,7 @@
 #include <random>
 #include <thread>
 
-#include "plugins/model_file/text_file.hpp"
+#include "plugins/common/model_file/text_file.hpp"
 #include "reading_testing.hpp"
 
 namespace muro::sdf {
@@ -70,10 +70,10 @@ void damage(std::string& text, std::mt19937& random) {
 }
 
 void check_sound(const RobotTree& tree, const std::string& context) {
-  for (const auto& flat : tree.frames()) {
-    ASSERT_TRUE(flat.frame.origin.position.allFinite()) << context;
-    ASSERT_NEAR(flat.frame.origin.orientation.norm(), 1, 1e-9) << context;
-    ASSERT_FALSE(flat.frame.limits.lower > flat.frame.limits.upper) << context;
+  for (const auto& flat : tree.links()) {
+    ASSERT_TRUE(flat.link.origin.position.allFinite()) << context;
+    ASSERT_NEAR(flat.link.origin.orientation.norm(), 1, 1e-9) << context;
+    ASSERT_FALSE(flat.link.limits.lower > flat.link.limits.upper) << context;
   }
 }
 
@@ -144,7 +144,7 @@ TEST(SdfRobustness, AChainOfManyLinksIsReadInOrder) {
     inside += joint(say("j", i), "continuous", say("l", i - 1), say("l", i), axis("0 1 0"));
   const Robot robot = robot_of(model(inside));
   EXPECT_EQ(robot.problems, Lines{});
-  ASSERT_EQ(robot.tree.frames().size(), std::size_t(count));
+  ASSERT_EQ(robot.tree.links().size(), std::size_t(count));
   EXPECT_TRUE(near(robot.pose("l199"), {{0, 0, 199}, Quat::Identity()}));
 }
 

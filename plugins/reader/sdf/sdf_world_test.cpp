@@ -78,7 +78,7 @@ TEST(SdfWorld, OtherModelsCanMoveAndTheirBaseStandsWhereTheFileSays) {
   EXPECT_EQ(cart.name, "cart");
   EXPECT_TRUE(near(cart.pose, {{1, 5, 0.5}, from_rpy(0, 0, pi / 2)}));
   EXPECT_TRUE(cart.tree.usable());
-  EXPECT_EQ(cart.tree.frames().size(), 2u);
+  EXPECT_EQ(cart.tree.links().size(), 2u);
 }
 
 TEST(SdfWorld, IncludedModelsMayBeRobotsOrScenery) {
@@ -128,8 +128,8 @@ TEST(SdfWorld, AModelThatIsNoTreeSaysSoItselfAndStandsWhereItIs) {
   EXPECT_EQ(lines_of(tree.problems()), Lines{"error 4:1 no joint leads to 2 links: `a`, `b`; exactly one is the base. "
                                              "Join the others to it, with fixed joints if they do not "
                                              "move, or make them models of their own"});
-  ASSERT_EQ(tree.frames().size(), 2u);
-  EXPECT_EQ(tree.frames()[1].frame.origin.position, Vec3(0, 0, 1));
+  ASSERT_EQ(tree.links().size(), 2u);
+  EXPECT_EQ(tree.links()[1].link.origin.position, Vec3(0, 0, 1));
 }
 
 TEST(SdfWorld, RobotsAndWorldsAreToldApart) {

@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "checks.hpp"
-#include "plugins/model_file/numbers.hpp"
-#include "plugins/model_file/text_file.hpp"
+#include "plugins/common/model_file/numbers.hpp"
+#include "plugins/common/model_file/text_file.hpp"
 
 namespace muro::sdf {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "memory_file.hpp"
-#include "plugins/model_file/document.hpp"
+#include "plugins/common/model_file/document.hpp"
 #include "problems.hpp"
 
 namespace muro::sdf {

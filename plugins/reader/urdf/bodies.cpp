@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "muro/vocabulary.hpp"
-#include "plugins/model_file/solid.hpp"
+#include "plugins/common/model_file/solid.hpp"
 
 namespace muro::urdf {
 
@@ -27,7 +27,7 @@ void Bodies::fill(const ::urdf::Link& link, const LinkInfo& info) {
     if (!v->material || visuals.size() == before) continue;
     const ::urdf::Color& c = v->material->color;
     visuals.back().color = Eigen::Vector4f(c.r, c.g, c.b, c.a).cast<double>();
-    visuals.back().painted_by = PaintedBy::model;
+    visuals.back().material_source = MaterialSource::model;
     add_texture(visuals.back(), v->material->texture_filename, link, info);
   }
   if (link.inertial) {

@@ -8,7 +8,7 @@
 
 #include "model.hpp"
 #include "muro/shape.hpp"
-#include "plugins/model_file/mesh_path.hpp"
+#include "plugins/common/model_file/mesh_path.hpp"
 
 namespace muro::urdf {
 

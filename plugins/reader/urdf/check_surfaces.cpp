@@ -2,7 +2,7 @@
 #include <array>
 
 #include "model.hpp"
-#include "plugins/model_file/numbers.hpp"
+#include "plugins/common/model_file/numbers.hpp"
 
 namespace muro::urdf {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "document.hpp"
 
-#include "plugins/model_file/numbers.hpp"
+#include "plugins/common/model_file/numbers.hpp"
 
 namespace muro::urdf {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "muro/geometry.hpp"
-#include "plugins/model_file/document.hpp"
+#include "plugins/common/model_file/document.hpp"
 #include "problems.hpp"
 
 namespace muro::urdf {

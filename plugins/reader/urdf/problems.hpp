@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "muro/robot_builder.hpp"
-#include "plugins/model_file/say.hpp"
+#include "plugins/common/model_file/say.hpp"
 
 namespace muro::urdf {
 

@@ -2,7 +2,7 @@
 #include "read.hpp"
 
 #include "build.hpp"
-#include "plugins/model_file/text_file.hpp"
+#include "plugins/common/model_file/text_file.hpp"
 #include "urdfdom_parse.hpp"
 
 namespace muro::urdf {

@@ -116,7 +116,7 @@ TEST(UrdfModels, EveryExampleIsReadThroughThePluginWithItsMassAndJoints) {
   struct Expected {
     const char* name;
     double mass;
-    std::size_t frames, joints, problems;
+    std::size_t links, joints, problems;
   };
   // the planar joint of the air table is told to its user
   const Expected expected[] = {{"rover", 5.36, 6, 4, 0},     {"pendulum", 6.1, 3, 1, 0},  {"arm", 7.41, 8, 7, 0},
@@ -128,10 +128,10 @@ TEST(UrdfModels, EveryExampleIsReadThroughThePluginWithItsMassAndJoints) {
     const RobotTree tree = scene.read_model(example(e.name));
     EXPECT_EQ(tree.problems().size(), e.problems);
     const RobotView& robot = scene.world().add_robot("robot", tree, Pose{});
-    ASSERT_EQ(robot.frames.size(), e.frames);
+    ASSERT_EQ(robot.links.size(), e.links);
     double mass = 0;
     std::size_t joints = 0;
-    for (const Frame& frame : robot.frames) {
+    for (const Link& frame : robot.links) {
       joints += frame.joint != JointKind::fixed;
       const ArrayHeader found = scene.world().store().constant(frame.object, keys::inertial);
       if (const auto* inertia = static_cast<const Inertia*>(found.data)) {
@@ -265,7 +265,7 @@ TEST(UrdfModels, ATextureIsFoundBesideTheModelAndIsWhiteUnlessColoured) {
   EXPECT_EQ(shapes[0].color, Eigen::Vector4d::Ones());
   EXPECT_EQ(shapes[1].color, Eigen::Vector4d(1, 0, 0, 1));
   EXPECT_EQ(shapes[2].texture, no_text);
-  for (const Shape& s : shapes) EXPECT_EQ(s.painted_by, PaintedBy::model);
+  for (const Shape& s : shapes) EXPECT_EQ(s.material_source, MaterialSource::model);
 }
 
 TEST(UrdfModels, APlanarJointIsTwoSlidesAndATurnAboutItsNormal) {

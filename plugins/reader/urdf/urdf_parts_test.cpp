@@ -7,9 +7,9 @@
 #include <numbers>
 
 #include "muro/algorithm.hpp"
-#include "plugins/model_file/mesh_path.hpp"
-#include "plugins/model_file/solid.hpp"
-#include "plugins/model_file/text_file.hpp"
+#include "plugins/common/model_file/mesh_path.hpp"
+#include "plugins/common/model_file/solid.hpp"
+#include "plugins/common/model_file/text_file.hpp"
 #include "recording_builder.hpp"
 #include "urdfdom_parse.hpp"
 

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "core/robot_tree.hpp"
-#include "plugins/model_file/text_file.hpp"
+#include "plugins/common/model_file/text_file.hpp"
 #include "recording_builder.hpp"
 
 namespace muro::urdf {
@@ -145,10 +145,10 @@ TEST(UrdfRobustness, DamagedRoversAreReportedOrBuiltSoundly) {
     // what the reader lets pass, the host can use
     tree.close();
     ASSERT_TRUE(tree.usable()) << "variant " << variant << ": " << tree.problems().back().text << "\n" << text;
-    for (const auto& flat : tree.frames()) {
-      ASSERT_TRUE(flat.frame.origin.position.allFinite()) << "variant " << variant;
-      ASSERT_NEAR(flat.frame.origin.orientation.norm(), 1, 1e-9) << "variant " << variant;
-      ASSERT_FALSE(flat.frame.limits.lower > flat.frame.limits.upper) << "variant " << variant;
+    for (const auto& flat : tree.links()) {
+      ASSERT_TRUE(flat.link.origin.position.allFinite()) << "variant " << variant;
+      ASSERT_NEAR(flat.link.origin.orientation.norm(), 1, 1e-9) << "variant " << variant;
+      ASSERT_FALSE(flat.link.limits.lower > flat.link.limits.upper) << "variant " << variant;
     }
   }
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");

@@ -12,10 +12,10 @@ namespace {
 using namespace muro;
 
 constexpr Parameter parameters[] = {
-    text("file", "", "where to write; a relative path starts in the working directory").must_be_given(),
+    text("file", "", "where to write; a relative path starts in the working directory").required(),
     texts("properties", "\"object:property\", with * and ?; default: the pose of every robot's base"),
 };
-constexpr Use reads[] = {{"*", "what `properties` names"}};
+constexpr PropertyUse reads[] = {{"*", "what `properties` names"}};
 constexpr Description description{
     .id = "recorder.csv",
     .kind = Kind::recorder,
@@ -23,15 +23,15 @@ constexpr Description description{
     .summary = "Writes any properties at any rate to a CSV file, a row for each run",
     .parameters = parameters,
     .reads = reads,
-    .promises = deterministic | allocation_free | restorable,
+    .capabilities = deterministic | allocation_free | restorable,
 };
 
 class CsvRecorder final : public Algorithm {
  public:
   void connect(Connector& c) override {
     path_ = std::filesystem::absolute(std::string(c.parameters().text("file"))).string();
-    sources_ = select(c, c.parameters().texts("properties"));
   }
+  void connect_by_name(Connector& c) override { sources_ = select(c, c.parameters().texts("properties")); }
 
   void start() override {
     file_.reset();  // at a reset: lets go of the file before it is begun anew

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,12 +23,9 @@ class Source {
   /// Calls `visit` with the address of each scalar, in the order of the titles.
   template <class Visit>
   void each(Visit visit) const {
-    if (is_sum_) {
-      const Wrench total = sum_.value();
-      return each_of(&total, 1, visit);
-    }
+    if (is_sum_) return each_sum(visit);
     const auto* array = static_cast<const ArrayHeader*>(place_);
-    form_ == Form::array ? each_of(array->data, array->size, visit) : each_of(place_, 1, visit);
+    multiplicity_ == Multiplicity::array ? each_of(array->data, array->size, visit) : each_of(place_, 1, visit);
   }
 
  private:
@@ -38,13 +36,22 @@ class Source {
     for (std::uint64_t i = 0; i < scalars; ++i, place += size_of(scalar_)) visit(place);
   }
 
+  template <class Visit>
+  void each_sum(Visit visit) const {
+    const auto* sum = static_cast<const SumHeader*>(place_);
+    for (std::size_t i = 0; i < std::max<std::size_t>(labels_.size(), 1); ++i) {
+      double total = 0;
+      for (std::uint64_t k = 0; k < sum->size; ++k) total += static_cast<const double*>(sum->slots[k])[i];
+      visit(&total);
+    }
+  }
+
   std::string name_;
-  Form form_;
+  Multiplicity multiplicity_;
   Scalar scalar_;
   std::span<const std::string_view> labels_;
-  const void* place_ = nullptr;  ///< the value, or an ArrayHeader
+  const void* place_ = nullptr;  ///< the value, an ArrayHeader, or a SumHeader
   bool is_sum_ = false;
-  SumIn<Wrench> sum_;
 };
 
 /// The properties that fit any of the patterns "object:property", in which * stands for any characters and ? for one,

@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "muro/plugin.hpp"
-#include "plugins/picture_file/png.hpp"
+#include "plugins/common/image_file/png.hpp"
 
 namespace {
 
@@ -16,11 +16,11 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view formats[] = {"png", "raw"};
 constexpr Parameter parameters[] = {
-    text("folder", "", "where to write; a relative path starts in the working directory").must_be_given(),
+    text("folder", "", "where to write; a relative path starts in the working directory").required(),
     texts("cameras", "names of sensors, \"rover_0/camera\"; default: all cameras"),
     text("format", "png", "png, or raw: the bytes of the properties as they are").one_of(formats),
 };
-constexpr Use reads[] = {
+constexpr PropertyUse reads[] = {
     {"camera.image", "of the cameras"}, {"camera.depth", "of the cameras"}, {"camera.labels", "of the cameras"}};
 constexpr Description description{
     .id = "recorder.images",
@@ -29,7 +29,7 @@ constexpr Description description{
     .summary = "Writes pictures, depths and labels of cameras to files, PNG or raw, one for each run",
     .parameters = parameters,
     .reads = reads,
-    .promises = deterministic | restorable,
+    .capabilities = deterministic | restorable,
 };
 
 constexpr double depth_step = 1e-3;  ///< m: a grey value of depth

@@ -25,9 +25,9 @@ constexpr Parameter parameters[] = {
     real("dropout", "1", 0, "probability that a reading is lost").between(0, 1),
     real("dropout_value", "as read", 0, "what a lost reading reads"),
 };
-constexpr Use reads[] = {{"ranges", "or the property that `of` names"},
-                         {"laser.incidence", "pointing above 0: between each ray and the surface's normal"}};
-constexpr Use writes[] = {{"ranges.measured", "or `of`.measured"}};
+constexpr PropertyUse reads[] = {{"ranges", "or the property that `of` names"},
+                                 {"laser.incidence", "pointing above 0: between each ray and the surface's normal"}};
+constexpr PropertyUse writes[] = {{"ranges.measured", "or `of`.measured"}};
 constexpr Description description{
     .id = "sensor.error",
     .kind = Kind::sensor_error,
@@ -36,7 +36,7 @@ constexpr Description description{
     .parameters = parameters,
     .reads = reads,
     .writes = writes,
-    .promises = deterministic | batched | allocation_free | restorable,
+    .capabilities = deterministic | batched | allocation_free | restorable,
 };
 
 std::string quoted(std::string_view text) { return "`" + std::string(text) + "`"; }
@@ -53,7 +53,7 @@ class SensorError final : public Algorithm {
       // of one robot, sensors and readings each have numbers of their own
       s.random_key = fnv1a(of, fnv1a(c.object_name(object), c.random_key(i)));
       s.model = model_of(p, c, object);
-      if (found.form == Form::array) {
+      if (found.multiplicity == Multiplicity::array) {
         s.truth = ArrayIn<double>(c.read_any(found));
         s.measured = c.variable_array(object, output_key(*found.key), found.count);
         if (s.model.pointing > 0) s.incidence = ArrayIn<double>(c.read_any(find_incidence(c, object, found.count)));
@@ -106,12 +106,12 @@ class SensorError final : public Algorithm {
   static FoundProperty find(Connector& c, ObjectId object, std::string_view name) {
     std::string others;
     for (const FoundProperty& p : c.properties(object)) {
-      const bool usable = p.form != Form::list && *p.key->type == value_type<double> && p.count > 0;
+      const bool usable = p.multiplicity != Multiplicity::list && *p.key->type == value_type<double> && p.count > 0;
       if (p.key->name == name && usable) return p;
       if (p.key->name == name)
         throw Error(quoted(name) + " of " + quoted(c.object_name(object)) +
                     " is not made of real numbers (f64) but of " + std::string(p.key->type->name) +
-                    (p.form == Form::list ? ", in a list" : "") +
+                    (p.multiplicity == Multiplicity::list ? ", in a list" : "") +
                     "; sensor.error works on single numbers and arrays of f64");
       if (usable) others += (others.empty() ? "" : ", ") + std::string(p.key->name);
     }

@@ -7,7 +7,7 @@
 #include <limits>
 #include <span>
 
-#include "muro/random.hpp"
+#include "muro/toolkit/random.hpp"
 
 namespace muro {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "muro/vocabulary.hpp"
-#include "plugins/scanner/keys.hpp"
+#include "plugins/common/scanner/keys.hpp"
 
 namespace muro::view {
 
@@ -31,7 +31,7 @@ std::span<const T> values_of(std::span<const LiveProperty> properties, const Key
 
 void Overlay::connect(Connector& c) {
   for (const RobotView* robot : c.robots())
-    for (const Frame& f : robot->frames)
+    for (const Link& f : robot->links)
       bodies_.push_back(
           {c.read(f.object, keys::pose), f.object, std::int32_t(robot->number), f.object == robot->base()});
   for (std::uint32_t i = 0; i < c.object_count(); ++i)

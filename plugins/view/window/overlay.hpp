@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "muro/inspection.hpp"
-#include "plugins/render/lines.hpp"
+#include "plugins/common/render/lines.hpp"
 
 namespace muro::view {
 

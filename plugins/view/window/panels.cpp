@@ -201,7 +201,7 @@ void Panels::draw_costs(Inspection& simulation, double simulated) {
   place(margin, size.y - cost_height - margin, width, cost_height);
   ImGui::Begin("cost: ms of computing for each simulated second", nullptr, fixed);
   std::vector<LiveCost> costs(simulation.costs().begin(), simulation.costs().end());
-  std::erase_if(costs, [](const LiveCost& c) { return c.is_alone; });
+  std::erase_if(costs, [](const LiveCost& c) { return c.runs_alone; });
   std::sort(costs.begin(), costs.end(), [](const LiveCost& a, const LiveCost& b) { return a.seconds > b.seconds; });
   const double most = costs.empty() ? 1 : std::max(costs.front().seconds, 1e-9);
   for (const LiveCost& c : costs) {

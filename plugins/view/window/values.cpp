@@ -90,7 +90,8 @@ std::uint32_t Scalars::size() const {
 
 std::string Scalars::label(std::uint32_t i) const {
   const ValueType& type = *property.key->type;
-  std::string text = property.form == Form::single ? "" : "[" + std::to_string(i / type.scalars()) + "]";
+  std::string text =
+      property.multiplicity == Multiplicity::single ? "" : "[" + std::to_string(i / type.scalars()) + "]";
   if (!type.labels.empty()) text += (text.empty() ? "" : ".") + std::string(type.labels[i % type.scalars()]);
   return text;
 }

@@ -9,10 +9,11 @@ namespace muro::view {
 namespace {
 
 template <class T>
-LiveProperty live(const Key<T>& key, T& first, Form form = Form::single, std::uint32_t count = 1) {
+LiveProperty live(const Key<T>& key, T& first, Multiplicity multiplicity = Multiplicity::single,
+                  std::uint32_t count = 1) {
   LiveProperty p;
   p.key = &key;
-  p.form = form;
+  p.multiplicity = multiplicity;
   p.count = count;
   p.data = &first;
   return p;
@@ -31,7 +32,7 @@ TEST(ValuesInTheWindow, AreReadAndEditedByTheirParts) {
 
 TEST(ValuesInTheWindow, HaveNumbersInArrays) {
   std::uint8_t bytes[] = {1, 2, 3};
-  const LiveProperty p = live(keys::camera_image, bytes[0], Form::array, 3);
+  const LiveProperty p = live(keys::camera_image, bytes[0], Multiplicity::array, 3);
   const Scalars values(p);
   ASSERT_EQ(values.size(), 3u);
   EXPECT_EQ(values.label(1), "[1]");
@@ -43,7 +44,7 @@ TEST(ValuesInTheWindow, HaveNumbersInArrays) {
 
 TEST(ValuesInTheWindow, HaveNoNumbersWhenTheyAreOpaque) {
   Shape shape;
-  EXPECT_EQ(Scalars(live(keys::collision_shapes, shape, Form::array, 1)).size(), 0u);
+  EXPECT_EQ(Scalars(live(keys::collision_shapes, shape, Multiplicity::array, 1)).size(), 0u);
 }
 
 }  // namespace

@@ -13,9 +13,9 @@
 #include "muro/plugin.hpp"
 #include "muro/vocabulary.hpp"
 #include "panels.hpp"
-#include "plugins/picture_file/png.hpp"
-#include "plugins/render/depth_renderer.hpp"
-#include "plugins/render/picture_renderer.hpp"
+#include "plugins/common/image_file/png.hpp"
+#include "plugins/common/render/depth_renderer.hpp"
+#include "plugins/common/render/picture_renderer.hpp"
 #include "screen.hpp"
 
 namespace {
@@ -44,7 +44,7 @@ constexpr Parameter parameters[] = {
     text("picture", "",
          "PNG file that gets what the window shows last; a relative path starts in the working directory"),
 };
-constexpr Use reads[] = {{"pose", "of all bodies that are seen"}, {"*", "all properties, to show them"}};
+constexpr PropertyUse reads[] = {{"pose", "of all bodies that are seen"}, {"*", "all properties, to show them"}};
 constexpr Description description{
     .id = "view.window",
     .kind = Kind::view,
@@ -52,7 +52,7 @@ constexpr Description description{
     .summary = "A window on the running simulation: scene, robots, properties, costs; play, pause, step, speed",
     .parameters = parameters,
     .reads = reads,
-    .promises = restorable | alone,
+    .capabilities = restorable | runs_alone,
 };
 
 class Window final : public Algorithm {
@@ -86,10 +86,13 @@ class Window final : public Algorithm {
     simulation_ = Inspection::of(c.host());
     if (!simulation_) throw Error("this host does not show its simulation to windows");
     scene_.connect(c, render::Look::as_seen, chord);
-    overlay_.connect(c);
     panels_.connect(c);
     for (const RobotView* robot : c.robots())
-      for (const Frame& f : robot->frames) bodies_.push_back({c.read(f.object, keys::pose), f.object});
+      for (const Link& f : robot->links) bodies_.push_back({c.read(f.object, keys::pose), f.object});
+  }
+
+  void connect_by_name(Connector& c) override {
+    overlay_.connect(c);
     for (std::uint32_t i = 0; i < c.object_count(); ++i)
       if (c.robot_of(ObjectId(i)) >= 0)
         for (const FoundProperty& found : c.properties(ObjectId(i)))
@@ -110,7 +113,7 @@ class Window final : public Algorithm {
   }
 
   std::span<const Phase> phases() const override {
-    static constexpr Phase whole[] = {{Phase::Over::whole}};
+    static constexpr Phase whole[] = {{Phase::IndexSpace::whole}};
     return whole;
   }
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "muro/random.hpp"
+#include "muro/toolkit/random.hpp"
 
 namespace muro::bench {
 

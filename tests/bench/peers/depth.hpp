@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "plugins/render/surface.hpp"
+#include "plugins/common/render/surface.hpp"
 
 namespace muro::bench {
 

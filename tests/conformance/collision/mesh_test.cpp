@@ -243,8 +243,8 @@ TEST_P(EveryCollisionOfMeshes, AllocatesNothingOnceWarmWherePromised) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "sanitizers count allocations themselves";
 #endif
-  const std::uint32_t promises = test::plugins().algorithm(GetParam()).description->promises;
-  if ((promises & Promise::allocation_free) == 0) GTEST_SKIP() << GetParam() << " does not promise it";
+  const std::uint32_t promises = test::plugins().algorithm(GetParam()).description->capabilities;
+  if ((promises & Capability::allocation_free) == 0) GTEST_SKIP() << GetParam() << " does not promise it";
   for (const bool exact : {false, true}) {
     Standing scene;
     const Shape floor = mesh(scene.world(), floor_file());

@@ -10,7 +10,7 @@ using test::contacts_of;
 using test::deepest;
 
 struct EveryCollision : ::testing::TestWithParam<std::string> {
-  Ability ability = test::ability_of(GetParam());
+  Ability extension = test::ability_of(GetParam());
 
   /// The deepest of the contacts of `shape` with `scenery`.
   void expect_deepest(const Shape& shape, const Pose& at, const Shape& scenery, const Pose& place, const Vec3& point,
@@ -18,9 +18,9 @@ struct EveryCollision : ::testing::TestWithParam<std::string> {
     const std::vector<Contact> contacts = contacts_of(GetParam(), shape, at, scenery, place);
     ASSERT_GT(contacts.size(), 0u);
     const Contact& c = deepest(contacts);
-    EXPECT_NEAR(c.depth, depth, ability.depth);
-    EXPECT_LT((c.normal - normal).norm(), ability.normal) << c.normal.transpose();
-    EXPECT_LT((c.point - point).norm(), ability.point) << c.point.transpose();
+    EXPECT_NEAR(c.depth, depth, extension.depth);
+    EXPECT_LT((c.normal - normal).norm(), extension.normal) << c.normal.transpose();
+    EXPECT_LT((c.point - point).norm(), extension.point) << c.point.transpose();
   }
   /// Every point is there, once, and no other; all with this depth and normal.
   void expect_points(const Shape& shape, const Pose& at, const Shape& scenery, const Pose& place, double depth,
@@ -29,12 +29,12 @@ struct EveryCollision : ::testing::TestWithParam<std::string> {
     EXPECT_EQ(contacts.size(), points.size());
     for (const Vec3& p : points)
       EXPECT_EQ(std::count_if(contacts.begin(), contacts.end(),
-                              [&](const Contact& c) { return (c.point - p).norm() < ability.point; }),
+                              [&](const Contact& c) { return (c.point - p).norm() < extension.point; }),
                 1)
           << p.transpose() << " among " << test::text_of(contacts);
     for (const Contact& c : contacts) {
-      EXPECT_NEAR(c.depth, depth, ability.depth) << c.point.transpose();
-      EXPECT_LT((c.normal - normal).norm(), ability.normal) << c.normal.transpose();
+      EXPECT_NEAR(c.depth, depth, extension.depth) << c.point.transpose();
+      EXPECT_LT((c.normal - normal).norm(), extension.normal) << c.normal.transpose();
     }
   }
 };
@@ -106,10 +106,10 @@ TEST_P(EveryCollision, CylinderStandsOnFourPointsOfItsRim) {
     ASSERT_GE(contacts.size(), 3u);
     Vec3 middle = Vec3::Zero();
     for (const Contact& c : contacts) {
-      EXPECT_NEAR(c.depth, deep, ability.depth);
-      EXPECT_LT((c.normal - up).norm(), ability.normal);
-      EXPECT_NEAR(c.point.head<2>().norm(), 0.4, ability.point);
-      EXPECT_NEAR(c.point.z(), mid, ability.point);
+      EXPECT_NEAR(c.depth, deep, extension.depth);
+      EXPECT_LT((c.normal - up).norm(), extension.normal);
+      EXPECT_NEAR(c.point.head<2>().norm(), 0.4, extension.point);
+      EXPECT_NEAR(c.point.z(), mid, extension.point);
       middle += c.point / double(contacts.size());
     }
     EXPECT_LT(middle.head<2>().norm(), 0.2) << "the points are around the axis";

@@ -194,8 +194,8 @@ TEST_P(EveryCollisionOfATeam, AllocatesNothingOnceWarmWherePromised) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "sanitizers count allocations themselves";
 #endif
-  const std::uint32_t promises = test::plugins().algorithm(GetParam()).description->promises;
-  if ((promises & Promise::allocation_free) == 0) GTEST_SKIP() << GetParam() << " does not promise it";
+  const std::uint32_t promises = test::plugins().algorithm(GetParam()).description->capabilities;
+  if ((promises & Capability::allocation_free) == 0) GTEST_SKIP() << GetParam() << " does not promise it";
   Crowd crowd(GetParam(), in_order(24));
   crowd.run_for(0.2);
   const std::uint64_t before = test::allocations();

@@ -8,7 +8,7 @@ namespace muro::test {
 
 std::vector<std::string> laser_methods() {
   std::vector<std::string> ids;
-  for (const Offer& o : plugins().offers())
+  for (const CatalogEntry& o : plugins().catalog())
     if (o.id.rfind("laser.", 0) == 0) ids.push_back(o.id);
   return ids;
 }

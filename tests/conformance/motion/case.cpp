@@ -31,7 +31,7 @@ std::vector<Case> all_cases() {
 
 std::vector<std::string> motions() {
   std::vector<std::string> ids;
-  for (const Offer& o : test::plugins().offers())
+  for (const CatalogEntry& o : test::plugins().catalog())
     if (o.kind == "motion") ids.push_back(o.id);
   return ids;
 }

@@ -172,7 +172,7 @@ struct Parked : test::Scene {
 
 TEST(ARoverWithLevels, StandsOnItsWheelsWhereOneLevelFeelsForcesOnLinks) {
   for (const std::string& engine : motions()) {
-    if ((description_of(engine).promises & Promise::world) == 0) continue;
+    if ((description_of(engine).capabilities & Capability::world) == 0) continue;
     Parked alone(LevelList{{"motion.simplified", {}}}), with_levels(LevelList{{"motion.simplified", {}}, {engine, {}}});
     alone.run_for(2);
     with_levels.run_for(2);
@@ -184,7 +184,7 @@ TEST(ARoverWithLevels, StandsOnItsWheelsWhereOneLevelFeelsForcesOnLinks) {
 
 TEST(ARoverWithLevels, InTwoWorldsOfOneEngineIsDisturbedByNeither) {
   for (const std::string& engine : motions()) {
-    if ((description_of(engine).promises & Promise::world) == 0) continue;
+    if ((description_of(engine).capabilities & Capability::world) == 0) continue;
     Parked alone(LevelList{{engine, {{"world", std::string("u")}}}});
     Parked two(LevelList{{engine, {{"world", std::string("u")}}}, {engine, {{"world", std::string("v")}}}});
     alone.run_for(2);
@@ -204,7 +204,7 @@ std::string refusal(const LevelList& levels) {
 
 TEST(ARoverWithLevels, TwiceInOneWorldIsRefused) {
   for (const std::string& engine : motions()) {
-    if ((description_of(engine).promises & Promise::world) == 0) continue;
+    if ((description_of(engine).capabilities & Capability::world) == 0) continue;
     const std::string text = refusal(LevelList{{engine, {}}, {engine, {{"joints", std::string("passive")}}}});
     EXPECT_NE(text.find("would move one robot in one world of " + engine + "; give one of them another `world`"),
               std::string::npos)
@@ -216,7 +216,7 @@ TEST(LevelsOfOneRobot, DoNotLetAnotherHaveTwoMotions) {
   const auto engines = [] {
     std::vector<std::string> all;
     for (const std::string& id : motions())
-      if ((description_of(id).promises & Promise::world) != 0) all.push_back(id);
+      if ((description_of(id).capabilities & Capability::world) != 0) all.push_back(id);
     return all;
   }();
   if (engines.size() < 2) GTEST_SKIP() << "two engines are needed";

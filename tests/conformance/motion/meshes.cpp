@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Bodies and scenery whose shapes are triangle meshes.
-#include "plugins/mesh/files_testing.hpp"
+#include "plugins/common/mesh/files_testing.hpp"
 #include "tests/conformance/motion/case.hpp"
 #include "tests/support/files.hpp"
 

@@ -44,7 +44,7 @@ struct Meeting : test::Scene {
                 const Twist& twist = {}, std::map<std::string, ParameterInput> parameters = {}) {
     const std::string name = "r" + std::to_string(bodies.size());
     bodies.push_back({&add(name, tree, at, twist), inertia.mass, inertia.ixx});
-    if ((description_of(motion).promises & Promise::world) == 0) parameters.clear();
+    if ((description_of(motion).capabilities & Capability::world) == 0) parameters.clear();
     use(motion, 1000, {{bodies.back().robot, bodies.back().robot->base()}}, std::move(parameters));
   }
   void add_ball(const std::string& motion, const Ball& b, double friction, double restitution,

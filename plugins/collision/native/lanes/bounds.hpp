@@ -2,7 +2,7 @@
 // Kernels: the boxes around robots of identical structure.
 #pragma once
 
-#include "muro/lane/isa.hpp"
+#include "muro/simd/isa.hpp"
 #include "solid.hpp"
 
 namespace muro::native {

@@ -2,7 +2,7 @@
 // Kernels: robots of identical structure against the planes of the scenery.
 #pragma once
 
-#include "muro/lane/isa.hpp"
+#include "muro/simd/isa.hpp"
 #include "solid.hpp"
 
 namespace muro::native {

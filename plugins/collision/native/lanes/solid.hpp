@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "muro/lane/rows.hpp"
+#include "muro/simd/rows.hpp"
 #include "spot.hpp"
 
 namespace muro::native {

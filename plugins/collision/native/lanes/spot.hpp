@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "muro/lane/lane.hpp"
+#include "muro/simd/lane.hpp"
 
 namespace muro::native {
 

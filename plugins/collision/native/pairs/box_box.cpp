@@ -2,7 +2,7 @@
 // Separating axes of two boxes (Gottschalk, Lin, Manocha: OBBTree, SIGGRAPH 1996): six faces, nine pairs of
 // edges; then the two faces that look at each other are clipped.
 #include "pairs/collide.hpp"
-#include "plugins/encounters/feature.hpp"
+#include "plugins/common/contact_geometry/feature.hpp"
 
 namespace muro::native {
 

@@ -9,7 +9,7 @@
 #pragma once
 
 #include "pairs/placed.hpp"
-#include "plugins/encounters/manifold.hpp"
+#include "plugins/common/contact_geometry/manifold.hpp"
 
 namespace muro::native {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "pairs/collide.hpp"
 #include "pairs/least_depth.hpp"
-#include "plugins/encounters/feature.hpp"
+#include "plugins/common/contact_geometry/feature.hpp"
 
 namespace muro::native {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "lanes/solid.hpp"
-#include "plugins/encounters/placed.hpp"
+#include "plugins/common/contact_geometry/placed.hpp"
 
 namespace muro::native {
 

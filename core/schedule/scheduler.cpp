@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: MIT
+#include "core/schedule/scheduler.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <numeric>
+#include <thread>
+
+#include "core/error.hpp"
+
+namespace muro {
+
+namespace {
+
+constexpr std::int64_t never = std::numeric_limits<std::int64_t>::max();
+
+}  // namespace
+
+TaskId Scheduler::add(Task task) {
+  const auto id = TaskId(tasks_.size());
+  tasks_.push_back(std::move(task));
+  runs_.push_back(0);
+  items_.push_back({id});
+  item_of_.push_back(std::int32_t(items_.size()) - 1);
+  prepared_ = false;
+  return id;
+}
+
+void Scheduler::add_sequence(const std::vector<TaskId>& tasks) {
+  const auto timed = std::find_if(tasks.begin(), tasks.end(), [&](TaskId t) { return !tasks_[t].rate.on_demand(); });
+  if (timed == tasks.end())
+    throw SetupError("the sequence that begins with `" + tasks_[tasks.front()].name +
+                     "` has no rate: all of it runs on demand");
+  const Task& first = tasks_[*timed];
+  for (const TaskId t : tasks)
+    if (!tasks_[t].rate.on_demand() && (tasks_[t].rate != first.rate || tasks_[t].phase != first.phase))
+      throw SetupError("a sequence runs at one rate, but `" + first.name + "` and `" + tasks_[t].name +
+                       "` have different rates or phases; give them the same, or leave one out");
+  const Rate rate = first.rate;
+  const std::int64_t phase = first.phase;
+  for (const TaskId t : tasks) {
+    std::vector<TaskId>& item = items_[std::size_t(item_of_[t])];
+    item.erase(std::remove(item.begin(), item.end(), t), item.end());
+    item_of_[t] = std::int32_t(items_.size());
+    tasks_[t].rate = rate;
+    tasks_[t].phase = phase;
+  }
+  items_.push_back(tasks);
+  prepared_ = false;
+}
+
+void Scheduler::prepare() {
+  prepared_ = true;
+  forget_programs();
+  executor_.prepare(tasks_.size());
+  groups_.clear();
+  group_of_item_.assign(items_.size(), 0);
+  finest_period_ = 0;
+  for (std::size_t i = 0; i < items_.size(); ++i) {
+    if (items_[i].empty() || tasks_[items_[i].front()].rate.on_demand()) continue;
+    const Task& t = tasks_[items_[i].front()];
+    auto g = std::find_if(groups_.begin(), groups_.end(),
+                          [&](const Group& k) { return k.rate == t.rate && k.phase == t.phase; });
+    if (g == groups_.end()) {
+      Group made{t.rate, t.phase, t.rate.first_from(now_ - t.phase), 0};
+      made.next_time = made.rate.time_of(made.next_run) + made.phase;
+      groups_.push_back(made);
+      g = groups_.end() - 1;
+      const auto period = std::int64_t(1e9 * t.rate.period());
+      finest_period_ = finest_period_ == 0 ? period : std::min(finest_period_, period);
+    }
+    group_of_item_[i] = std::uint32_t(g - groups_.begin());
+  }
+  due_.assign(groups_.size(), false);
+  next_due_ = due_;
+  find_providers();
+  find_periods();
+}
+
+/// Who provides, on demand, what a task reads.
+void Scheduler::find_providers() {
+  std::unordered_map<std::uint32_t, std::vector<TaskId>> writers;
+  for (TaskId t = 0; t < tasks_.size(); ++t)
+    if (tasks_[t].rate.on_demand())
+      for (const std::uint32_t slot : tasks_[t].writes) {
+        auto& list = writers[slot];
+        if (list.empty() || list.back() != t) list.push_back(t);
+      }
+  providers_.assign(tasks_.size(), {});
+  for (TaskId t = 0; t < tasks_.size(); ++t) {
+    for (const std::uint32_t slot : tasks_[t].reads)
+      if (const auto found = writers.find(slot); found != writers.end())
+        for (const TaskId w : found->second)
+          if (w != t) providers_[t].push_back(w);
+    auto& p = providers_[t];
+    std::sort(p.begin(), p.end());
+    p.erase(std::unique(p.begin(), p.end()), p.end());
+    std::stable_sort(p.begin(), p.end(), [&](TaskId a, TaskId b) { return tasks_[a].order < tasks_[b].order; });
+  }
+}
+
+/// A task on demand has the longest period of those that ask for it, in every instant, so that its results do not
+/// depend on who else happens to be due.
+void Scheduler::find_periods() {
+  periods_.assign(tasks_.size(), 0);
+  for (TaskId t = 0; t < tasks_.size(); ++t) {
+    if (tasks_[t].rate.on_demand()) continue;
+    periods_[t] = tasks_[t].rate.period();
+    std::vector<bool> seen(tasks_.size());
+    std::vector<TaskId> asking{t};
+    while (!asking.empty()) {
+      const TaskId reader = asking.back();
+      asking.pop_back();
+      for (const TaskId p : providers_[reader]) {
+        if (seen[p]) continue;
+        seen[p] = true;
+        if (tasks_[p].rate.on_demand()) periods_[p] = std::max(periods_[p], periods_[t]);
+        asking.push_back(p);
+      }
+    }
+  }
+}
+
+void Scheduler::demand(TaskId reader, std::vector<bool>& done, Turns& turns) const {
+  for (const TaskId p : providers_[reader]) {
+    if (done[p]) continue;
+    done[p] = true;
+    demand(p, done, turns);
+    turns.push_back({p, periods_[p]});
+  }
+}
+
+Scheduler::Turns Scheduler::turns_of(const Mask& due) const {
+  std::vector<std::size_t> items;
+  for (std::size_t i = 0; i < items_.size(); ++i)
+    if (!items_[i].empty() && !tasks_[items_[i].front()].rate.on_demand() && due[group_of_item_[i]]) items.push_back(i);
+  std::stable_sort(items.begin(), items.end(), [&](std::size_t a, std::size_t b) {
+    const TaskId first = items_[a].front(), second = items_[b].front();
+    if (tasks_[first].order != tasks_[second].order) return tasks_[first].order < tasks_[second].order;
+    return first < second;
+  });
+  Turns turns;
+  std::vector<bool> done(tasks_.size());
+  for (const std::size_t i : items)
+    for (const TaskId t : items_[i]) {
+      demand(t, done, turns);
+      turns.push_back({t, periods_[t]});
+    }
+  return turns;
+}
+
+Program Scheduler::program_of(const Turns& turns, std::uint32_t instants) const {
+  Program program;
+  program.instants = instants;
+  for (std::uint32_t i = 0; i < instants; ++i)
+    for (Turn t : turns) {
+      t.instant = i;
+      program.turns.push_back(t);
+    }
+  program.stages = stages_of(program.turns, tasks_, robot_of_slot_, !executor_.observed());
+  return program;
+}
+
+Scheduler::Programs& Scheduler::programs_for(const Mask& due) {
+  if (last_programs_ && due == last_due_) return *last_programs_;
+  const auto known = programs_.find(due);
+  last_programs_ = known != programs_.end()
+                       ? &known->second
+                       : &programs_.emplace(due, Programs{program_of(turns_of(due), 1), {}}).first->second;
+  last_due_ = due;
+  return *last_programs_;
+}
+
+Scheduler::Turns Scheduler::turns_at(std::int64_t time) const {
+  Mask due(groups_.size());
+  for (std::size_t g = 0; g < due.size(); ++g) {
+    const std::int64_t since = time - groups_[g].phase;
+    due[g] = since >= 0 && groups_[g].rate.time_of(groups_[g].rate.first_from(since)) == since;
+  }
+  return turns_of(due);
+}
+
+std::vector<TaskId> Scheduler::plan_at(std::int64_t time) const {
+  std::vector<TaskId> order;
+  for (const Turn& t : turns_at(time)) order.push_back(t.task);
+  return order;
+}
+
+std::vector<Stage> Scheduler::stages_at(std::int64_t time) const { return program_of(turns_at(time), 1).stages; }
+
+void Scheduler::set_threads(unsigned threads) {
+  forget_programs();
+  executor_.set_threads(threads);
+}
+
+void Scheduler::forget_programs() {
+  programs_.clear();
+  last_programs_ = nullptr;
+}
+
+void Scheduler::set_pacing(Pacing pacing) {
+  pacing_ = pacing;
+  pace_wall_ = std::chrono::steady_clock::now();
+  pace_time_ = now_;
+}
+
+/// Waits until the present instant is due; true when `stop` wants to end the wait.
+bool Scheduler::pace(const std::function<bool()>& stop) {
+  const auto wanted = pace_wall_ + std::chrono::nanoseconds(std::int64_t(double(now_ - pace_time_) / pacing_.factor));
+  auto wall = std::chrono::steady_clock::now();
+  if (wall < wanted) {
+    constexpr auto slice = std::chrono::milliseconds(50);  // between looks at `stop`
+    for (; wall < wanted; wall = std::chrono::steady_clock::now()) {
+      if (stop && stop()) return true;
+      std::this_thread::sleep_until(std::min(wanted, wall + slice));
+    }
+  } else if (wall - wanted > std::chrono::nanoseconds(std::int64_t(double(finest_period_) / pacing_.factor))) {
+    ++overruns_;
+    pace_wall_ += wall - wanted;  // the lost time is not made up for by running faster than asked
+  }
+  return false;
+}
+
+std::int64_t Scheduler::next_time() const {
+  std::int64_t next = never;
+  for (const Group& g : groups_) next = std::min(next, g.next_time);
+  return next;
+}
+
+void Scheduler::mark_due(std::int64_t time, Mask& due) const {
+  for (std::size_t i = 0; i < groups_.size(); ++i) due[i] = groups_[i].next_time == time;
+}
+
+void Scheduler::advance(const Mask& due) {
+  for (std::size_t i = 0; i < groups_.size(); ++i)
+    if (due[i]) {
+      Group& g = groups_[i];
+      g.next_time = g.rate.time_of(++g.next_run) + g.phase;
+    }
+}
+
+/// Takes the present instant, and those behind it in which the same is due, up to as many as are carried out together.
+/// Returns how many there are.
+std::uint32_t Scheduler::gather(std::int64_t end) {
+  mark_due(now_, due_);
+  std::uint32_t count = 0;
+  for (std::int64_t time = now_; count < instants_together && time < end; time = next_time()) {
+    mark_due(time, next_due_);
+    if (next_due_ != due_) break;
+    times_[count++] = time;
+    advance(next_due_);
+    if (pacing_.factor > 0) break;  // each waits for its own time
+  }
+  return count;
+}
+
+void Scheduler::run_until(std::int64_t end, const std::function<bool()>& stop) {
+  if (!prepared_) prepare();
+  for (std::int64_t next = next_time(); next < end; next = next_time()) {
+    now_ = next;
+    if (pacing_.factor > 0 && pace(stop)) return;
+    const std::uint32_t count = gather(end);
+    Programs& programs = programs_for(due_);
+    const std::span<const std::int64_t> times(times_.data(), count);
+    if (count == instants_together) {
+      if (programs.several.turns.empty()) programs.several = program_of(programs.one.turns, instants_together);
+      executor_.run(tasks_, programs.several, times, seed_, runs_);
+    } else {
+      for (std::uint32_t i = 0; i < count; ++i) executor_.run(tasks_, programs.one, times.subspan(i, 1), seed_, runs_);
+    }
+    now_ = times.back();
+    if (stop && stop()) {
+      ++now_;  // the instant is complete
+      return;
+    }
+  }
+  now_ = std::max(now_, end);
+}
+
+void Scheduler::run_extra(const std::vector<TaskId>& tasks) {
+  if (!prepared_) prepare();
+  std::vector<std::uint64_t> runs = runs_;
+  Turns turns;
+  for (const TaskId t : tasks) turns.push_back({t, periods_[t]});
+  Program program = program_of(turns, 1);
+  program.once = true;
+  executor_.run(tasks_, program, {&now_, 1}, seed_, runs);
+}
+
+Scheduler::State Scheduler::state() const { return {now_, runs_}; }
+
+void Scheduler::set_state(const State& state) {
+  if (state.runs.size() != runs_.size())
+    throw SetupError("the snapshot is of another simulation: it has other algorithms");
+  now_ = state.now;
+  runs_ = state.runs;
+  prepared_ = false;
+  set_pacing(pacing_);
+}
+
+}  // namespace muro

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <unordered_map>
+
+#include "core/schedule/executor.hpp"
+
+namespace muro {
+
+/// How fast simulated time may pass.
+struct Pacing {
+  double factor = 0;  ///< simulated seconds per second of wall clock; 0: as fast as possible
+};
+
+/// Runs algorithms at their own rates in integer time.
+///
+/// Simulated time jumps from instant to instant, an instant being any nanosecond in which something is
+/// due. Within an instant the order is fixed: rising `order`, then the order of adding. A sequence
+/// takes one place in that order and runs its tasks one behind the other. A task on demand runs once an
+/// instant, just before the first due task that reads what it writes. Nothing else decides about results:
+/// calls that may overlap (see stages.hpp) run on several threads, and the same input gives the same bits.
+class Scheduler {
+ public:
+  TaskId add(Task task);
+  /// Tasks that run in this order as one item. All that have a rate have the same rate and phase; those on demand take
+  /// it over. Throws SetupError when rates differ or there is none.
+  void add_sequence(const std::vector<TaskId>& tasks);
+
+  /// To be called when all tasks have been added.
+  void prepare();
+
+  /// Runs everything that is due before `end` (ns). `stop` is asked every few instants, in between them.
+  /// Throws StepError; the instant is then incomplete.
+  void run_until(std::int64_t end, const std::function<bool()>& stop = {});
+
+  std::int64_t now() const { return now_; }
+  void set_seed(std::uint64_t seed) { seed_ = seed; }
+  /// Of calls; 1: the calling thread alone. [between runs]
+  void set_threads(unsigned threads);
+  void set_pacing(Pacing pacing);
+  std::uint64_t overruns() const { return overruns_; }
+  const std::vector<Task>& tasks() const { return tasks_; }
+  TaskCost cost(TaskId t) const { return executor_.cost(t); }
+  /// Wall-clock seconds per tick of the costs.
+  double seconds_per_tick() const { return executor_.seconds_per_tick(); }
+  Executor& executor() { return executor_; }
+  const Executor& executor() const { return executor_; }
+  /// The robot that each slot of the property store belongs to; -1: none.
+  void set_slots(std::vector<std::int32_t> robot_of_slot) { robot_of_slot_ = std::move(robot_of_slot); }
+  /// How the instant at `time` is divided.
+  std::vector<Stage> stages_at(std::int64_t time) const;
+  /// Runs these tasks now, outside of the schedule; their run counts stay.
+  void run_extra(const std::vector<TaskId>& tasks);
+  /// The tasks of the instant at `time` in the order in which they run.
+  std::vector<TaskId> plan_at(std::int64_t time) const;
+
+  /// Time and run counts, as part of a snapshot.
+  struct State {
+    std::int64_t now = 0;
+    std::vector<std::uint64_t> runs;
+  };
+  State state() const;
+  void set_state(const State& state);
+
+ private:
+  /// So many instants with equal work are one program: motion of one instant and kinematics of the next go block by
+  /// block, without waiting for all blocks in between.
+  static constexpr std::uint32_t instants_together = 8;
+  struct Group {  ///< items of equal rate and phase
+    Rate rate;
+    std::int64_t phase = 0;
+    std::uint64_t next_run = 0;
+    std::int64_t next_time = 0;
+  };
+  using Mask = std::vector<bool>;
+  using Turns = std::vector<Turn>;
+
+  Turns turns_of(const Mask& due) const;
+  Turns turns_at(std::int64_t time) const;
+  void find_providers();
+  void find_periods();
+  void demand(TaskId reader, std::vector<bool>& done, Turns& turns) const;
+  /// Programs for instants in which the same is due: for one, and for several that follow each other.
+  struct Programs {
+    Program one, several;
+  };
+  Program program_of(const Turns& turns, std::uint32_t instants) const;
+  Programs& programs_for(const Mask& due);
+  void forget_programs();
+  std::int64_t next_time() const;
+  void mark_due(std::int64_t time, Mask& due) const;
+  void advance(const Mask& due);
+  std::uint32_t gather(std::int64_t end);
+  bool pace(const std::function<bool()>& stop);
+
+  std::vector<Task> tasks_;
+  std::vector<std::int32_t> robot_of_slot_;
+  Executor executor_;
+  std::vector<std::uint64_t> runs_;
+  std::vector<std::vector<TaskId>> items_;  ///< single tasks and sequences, as added
+  std::vector<std::int32_t> item_of_;
+  bool prepared_ = false;
+  std::vector<Group> groups_;
+  std::vector<std::uint32_t> group_of_item_;
+  std::vector<std::vector<TaskId>> providers_;  ///< per task: on-demand tasks it needs
+  std::vector<double> periods_;                 ///< s, per task; on demand: the longest of those that ask
+  Mask due_, next_due_, last_due_;
+  Programs* last_programs_ = nullptr;
+  std::unordered_map<Mask, Programs> programs_;
+  std::array<std::int64_t, instants_together> times_{};  ///< ns, of the instants that are carried out together
+
+  std::int64_t now_ = 0;
+  std::uint64_t seed_ = 1;
+  Pacing pacing_;
+  std::chrono::steady_clock::time_point pace_wall_{};
+  std::int64_t pace_time_ = 0;
+  std::int64_t finest_period_ = 0;
+  std::uint64_t overruns_ = 0;
+};
+
+}  // namespace muro

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/schedule/rate.hpp"
+#include "muro/abi.hpp"
+
+namespace muro {
+
+/// A property that a task touches. What is read alone may be touched by several at once.
+struct Touch {
+  std::uint32_t slot = 0;
+  bool exclusive = false;
+};
+
+/// What the scheduler runs: one instance of an algorithm with its items.
+struct Task {
+  std::string name;  ///< "rovers.motion"
+  abi::AlgorithmInstance* instance = nullptr;
+  std::uint32_t items = 0;
+  std::vector<std::int32_t> robot_of_item;   ///< robot number; -1: none. Empty: nobody asks
+  std::vector<Phase> phases = {Phase{}};     ///< one or more
+  std::uint32_t robots = 0;                  ///< of the scene
+  bool runs_alone = false;                   ///< runs while nothing else does, on the calling thread
+  Rate rate;                                 ///< on demand when zero
+  std::int64_t phase = 0;                    ///< ns, 0 or more
+  int order = 0;                             ///< tasks of one instant run by rising order, then as added
+  std::vector<std::uint32_t> reads, writes;  ///< slots of the property store: who needs what on demand
+  std::vector<Touch> touches;                ///< what may run at the same time
+
+  /// How many elements phase number `which` works on.
+  std::uint32_t length(std::uint32_t which) const {
+    return phases[which].index_space == Phase::IndexSpace::robots ? robots : items;
+  }
+};
+using TaskId = std::uint32_t;
+
+/// What a task has cost so far.
+struct TaskCost {
+  std::uint64_t runs = 0;
+  std::uint64_t ticks = 0;  ///< of the cycle counter, over all threads; estimated once there are many runs
+};
+
+/// A task that is due, in the order in which it has its turn.
+struct Turn {
+  TaskId task = 0;
+  double dt = 0;              ///< s
+  std::uint32_t instant = 0;  ///< of several that are carried out together
+};
+
+}  // namespace muro

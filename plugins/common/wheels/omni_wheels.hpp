@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+// The wheels of a vehicle that can move in every direction: mecanum wheels and omni wheels.
+#pragma once
+
+#include <algorithm>
+#include <numbers>
+
+#include "plugins/common/wheels/wheel_finder.hpp"
+
+namespace muro {
+
+/// A wheel with rollers on its circumference.
+struct OmniWheel : Wheel {
+  /// rad, -pi/2 .. pi/2: from the direction in which the wheel rolls (forward or to the left, whatever the sense of its
+  /// joint) to the axis of the roller on the ground, about the base's z axis. 0: an omni wheel, whose rollers turn
+  /// about its circumference; +-pi/4: a mecanum wheel.
+  double roller_angle = 0;
+  Vec3 heading = Vec3::UnitX();  ///< unit, in the base's frame: where a positive joint velocity rolls
+};
+
+/// What the user may say instead of the model.
+struct OmniChoice {
+  std::span<const std::string_view> wheels;  ///< names of joints; empty: as the model has them
+  std::span<const double> roller_angles;     ///< rad: one for all, or one a wheel in the order of `wheels`
+  double radius = 0;                         ///< m, of every wheel; 0: of each wheel's shape
+};
+
+namespace detail {
+
+inline bool is_omni_wheel(const WheelFinder& finder, std::size_t i, OmniWheel& wheel, std::string& why) {
+  if (!finder.turns_freely(i, why)) return false;
+  if (std::abs(finder.axis(i).z()) > WheelFinder::upright)
+    return WheelFinder::reject(
+        why, "turns about " + WheelFinder::text(finder.axis(i)) + ", not a horizontal axis, of the base");
+  for (std::size_t p = finder.parent(i); p > 0; p = finder.parent(p))
+    if (finder.frame(p).joint == JointKind::revolute) {
+      if (std::abs(finder.axis(p).z()) > WheelFinder::upright)
+        return WheelFinder::reject(why, "is steered by " + finder.name(p));
+      if (!finder.has_limits(p)) return WheelFinder::reject(why, "is a roller on the wheel of " + finder.name(p));
+    }
+  static_cast<Wheel&>(wheel) = finder.wheel(i);
+  if (!(wheel.radius > 0)) return WheelFinder::reject(why, "has no cylinder or sphere about its axis as a shape");
+  return true;
+}
+
+/// The sign of each wheel's roller angle where four wheels about the y axis stand at the corners of a rectangle: seen
+/// from above the upper rollers form an X. Empty for other vehicles.
+inline std::vector<double> mecanum_signs(const std::vector<OmniWheel>& wheels) {
+  Vec3 middle = Vec3::Zero();
+  for (const OmniWheel& w : wheels) middle += w.centre / double(wheels.size());
+  std::vector<double> signs;
+  int quadrants = 0;
+  for (const OmniWheel& w : wheels) {
+    const Vec3 at = w.centre - middle;
+    const bool front = at.x() > 0, left = at.y() > 0;
+    if (std::abs(w.axis.y()) < WheelFinder::parallel || std::min(std::abs(at.x()), std::abs(at.y())) < 0.1 * w.radius)
+      return {};
+    quadrants |= 1 << (2 * int(front) + int(left));
+    signs.push_back(front == left ? -1 : 1);
+  }
+  return wheels.size() == 4 && quadrants == 15 ? signs : std::vector<double>{};
+}
+
+/// Whether the axes of all wheels meet in their middle (to 0.1 rad).
+inline bool axes_meet(const std::vector<OmniWheel>& wheels) {
+  Vec3 middle = Vec3::Zero();
+  for (const OmniWheel& w : wheels) middle += w.centre / double(wheels.size());
+  return std::all_of(wheels.begin(), wheels.end(), [&](const OmniWheel& w) {
+    Vec3 out = w.centre - middle;
+    out.z() = 0;
+    return std::abs(out.dot(w.axis)) >= WheelFinder::parallel * out.norm();
+  });
+}
+
+}  // namespace detail
+
+/// The wheels of `robot`, joints at 0: in the order of `choice.wheels`, else of the robot's frames.
+///
+/// Unless they are named, wheels are joints without limits of position about a horizontal axis (to 0.1 rad) that carry
+/// a cylinder or sphere about it and do not hang on another such joint, as rollers do. Unless roller angles are given,
+/// four wheels about the y axis at the corners of a rectangle are mecanum wheels with +-pi/4, of which those of the
+/// diagonal front left to rear right have the minus: seen from above the upper rollers form an X. A single angle that
+/// is given replaces pi/4 there. Wheels whose axes meet in their middle are omni wheels with roller angle 0. Throws
+/// Error with what the model has. [setup]
+inline std::vector<OmniWheel> find_omni_wheels(const Connector& connector, const RobotView& robot,
+                                               const OmniChoice& choice = {}) {
+  const detail::WheelFinder finder(connector, robot);
+  std::vector<OmniWheel> wheels;
+  const auto found = [&] {
+    return finder.what_was_found([&](std::size_t i, std::string& what) {
+      OmniWheel wheel;
+      return detail::is_omni_wheel(finder, i, wheel, what) && (what = "is a wheel", true);
+    });
+  };
+  for (const std::string_view joint : choice.wheels) {
+    OmniWheel wheel;
+    const auto fits = [](const Vec3& axis) { return std::abs(axis.z()) <= detail::WheelFinder::upright; };
+    static_cast<Wheel&>(wheel) = finder.named(joint, choice.radius, fits, "a horizontal axis");
+    for (const OmniWheel& other : wheels)
+      if (other.frame == wheel.frame)
+        throw Error("`wheels` names " + finder.name(wheel.frame) + " twice; name each wheel once");
+    wheels.push_back(wheel);
+  }
+  for (std::size_t i = 1; i < robot.links.size() && choice.wheels.empty(); ++i) {
+    OmniWheel wheel;
+    std::string why;
+    if (detail::is_omni_wheel(finder, i, wheel, why)) wheels.push_back(wheel);
+  }
+  if (wheels.size() < 3)
+    throw Error("`" + std::string(robot.name) + "` has " + std::to_string(wheels.size()) +
+                " wheels, but three are needed to move in every direction: " + found() +
+                ". Name the wheels' joints with `wheels`");
+
+  const std::span<const double> given = choice.roller_angles;
+  const std::vector<double> signs = detail::mecanum_signs(wheels);
+  if (given.size() > 1 && given.size() != wheels.size())
+    throw Error("`roller_angle` has " + std::to_string(given.size()) + " values for " + std::to_string(wheels.size()) +
+                " wheels; give one for all, or one a wheel in the order of `wheels` (without it: of the model)");
+  if (given.empty() && signs.empty() && !detail::axes_meet(wheels))
+    throw Error("`" + std::string(robot.name) +
+                "`: what rollers its wheels have cannot be told: they are neither four about the y axis at the corners "
+                "of a rectangle (mecanum wheels) nor do their axes meet in their middle (omni wheels): " +
+                found() + ". Give `roller_angle`");
+  for (std::size_t i = 0; i < wheels.size(); ++i) {
+    OmniWheel& w = wheels[i];
+    if (choice.radius > 0) w.radius = choice.radius;
+    w.heading = w.axis.cross(Vec3::UnitZ()).normalized();
+    w.roller_angle = given.size() > 1 ? given[i] : given.empty() ? 0 : given[0];
+    if (!signs.empty() && given.size() <= 1)
+      w.roller_angle = signs[i] * (given.empty() ? std::numbers::pi / 4 : given[0]);
+    if (!(std::abs(w.roller_angle) < 1.5))
+      throw Error(
+          "`roller_angle` is " + std::to_string(w.roller_angle) +
+          " rad; a wheel whose rollers turn about its own axle drives nothing: give an angle between -1.5 and 1.5");
+  }
+  return wheels;
+}
+
+}  // namespace muro

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+// The wheels of a vehicle that turns by steering some of them.
+#pragma once
+
+#include <algorithm>
+
+#include "plugins/common/wheels/wheel_finder.hpp"
+
+namespace muro {
+
+struct SteeredWheel : Wheel {
+  std::int32_t steering = -1;  ///< frame whose joint steers it; -1: none
+  Vec3 pivot = Vec3::Zero();   ///< m, in the base's frame: a point on the axis that it is steered about
+  double sense = 1;            ///< 1: a positive steering angle turns it to the left (axis along +z); -1: to the right
+  bool driven = false;         ///< a drive turns it; else the ground does
+};
+
+/// What the user may say instead of the model: names of joints; empty: as the model has them.
+struct SteeringChoice {
+  std::span<const std::string_view> steering;  ///< that steer wheels
+  std::span<const std::string_view> driven;    ///< of wheels that a drive turns
+  std::span<const std::string_view> rolling;   ///< of wheels that the ground turns
+  double radius = 0;                           ///< m, of every wheel; 0: of each wheel's shape
+};
+
+namespace detail {
+
+class SteeredWheelFinder {
+ public:
+  SteeredWheelFinder(const Connector& connector, const RobotView& robot, const SteeringChoice& choice)
+      : finder_(connector, robot), choice_(choice), steers_(robot.links.size(), false) {
+    for (const std::string_view joint : choice.steering) {
+      const std::size_t i = finder_.joint(joint);
+      if (finder_.frame(i).joint != JointKind::revolute || std::abs(finder_.axis(i).z()) < 0.5)
+        throw Error("joint " + finder_.name(i) + " cannot steer: it " +
+                    (finder_.frame(i).joint == JointKind::revolute
+                         ? "turns about " + WheelFinder::text(finder_.axis(i)) + ", not the z axis, of the base"
+                         : "does not turn"));
+      steers_[i] = true;
+    }
+    for (std::size_t i = 1; i < steers_.size() && choice.steering.empty(); ++i)
+      steers_[i] = is_upright(i) && (finder_.has_limits(i) || finder_.frame(i).mimic >= 0);
+  }
+
+  std::vector<SteeredWheel> all() const {
+    std::vector<SteeredWheel> wheels;
+    add_named(wheels, choice_.driven, true);
+    add_named(wheels, choice_.rolling, false);
+    if (choice_.driven.empty() || choice_.rolling.empty()) {
+      for (std::size_t i = 1; i < steers_.size(); ++i) {
+        SteeredWheel wheel;
+        std::string why;
+        if (is_named(wheels, i) || !is_wheel(i, wheel, why)) continue;
+        wheel.driven = choice_.driven.empty() && wheel.steering < 0;
+        wheels.push_back(wheel);
+      }
+      if (std::none_of(wheels.begin(), wheels.end(), [](const SteeredWheel& w) { return w.driven; }))
+        for (SteeredWheel& w : wheels)  // all that may be driven are steered
+          w.driven = !std::any_of(choice_.rolling.begin(), choice_.rolling.end(), [&](std::string_view joint) {
+            return finder_.name(w.frame) == WheelFinder::quoted(joint);
+          });
+    }
+    std::sort(wheels.begin(), wheels.end(), [](const auto& a, const auto& b) { return a.frame < b.frame; });
+    if (choice_.radius > 0)
+      for (SteeredWheel& w : wheels) w.radius = choice_.radius;
+    return wheels;
+  }
+
+  std::string what_was_found() const {
+    return finder_.what_was_found([&](std::size_t i, std::string& what) {
+      if (steers_[i]) return what = "steers", true;
+      SteeredWheel wheel;
+      if (!is_wheel(i, wheel, what)) return false;
+      what = wheel.steering < 0 ? "is a wheel that is not steered" : "is a wheel that is steered";
+      return true;
+    });
+  }
+
+ private:
+  bool is_upright(std::size_t i) const {
+    return finder_.frame(i).joint == JointKind::revolute && std::abs(finder_.axis(i).z()) >= WheelFinder::parallel;
+  }
+
+  /// Whether joint and shape of frame `i` make it a wheel; otherwise `why` says what speaks against it.
+  bool is_wheel(std::size_t i, SteeredWheel& wheel, std::string& why) const {
+    if (!finder_.turns_freely(i, why)) return false;
+    if (std::abs(finder_.axis(i).y()) < WheelFinder::parallel)
+      return WheelFinder::reject(why,
+                                 "turns about " + WheelFinder::text(finder_.axis(i)) + ", not the y axis, of the base");
+    static_cast<Wheel&>(wheel) = finder_.wheel(i);
+    if (!(wheel.radius > 0)) return WheelFinder::reject(why, "has no cylinder or sphere about its axis as a shape");
+    return find_steering(wheel, why);
+  }
+
+  /// Looks for the joint between the wheel and the base that steers it. Those about horizontal axes are suspensions.
+  bool find_steering(SteeredWheel& wheel, std::string& why) const {
+    for (std::size_t p = finder_.parent(wheel.frame); p > 0; p = finder_.parent(p)) {
+      if (finder_.frame(p).joint != JointKind::revolute) continue;
+      if (steers_[p]) {
+        if (wheel.steering >= 0)
+          return WheelFinder::reject(why, "is steered by two joints, " + finder_.name(std::size_t(wheel.steering)) +
+                                              " and " + finder_.name(p));
+        wheel.steering = std::int32_t(p);
+        wheel.pivot = finder_.place(p);
+        wheel.sense = finder_.axis(p).z() > 0 ? 1 : -1;
+      } else if (std::abs(finder_.axis(p).z()) > WheelFinder::upright) {
+        return WheelFinder::reject(why, "swivels about " + finder_.name(p) + " as casters do");
+      }
+    }
+    return true;
+  }
+
+  void add_named(std::vector<SteeredWheel>& wheels, std::span<const std::string_view> joints, bool driven) const {
+    const auto fits = [](const Vec3& axis) { return std::abs(axis.z()) <= WheelFinder::upright; };
+    for (const std::string_view joint : joints) {
+      SteeredWheel wheel;
+      std::string why;
+      static_cast<Wheel&>(wheel) = finder_.named(joint, choice_.radius, fits, "a horizontal axis");
+      if (!find_steering(wheel, why))
+        throw Error("the wheel of joint " + finder_.name(wheel.frame) + " " + why +
+                    "; name the joint that steers it, one alone, with `steering`");
+      if (is_named(wheels, wheel.frame))
+        throw Error("joint " + finder_.name(wheel.frame) +
+                    " is named twice; name a wheel once, in `driven` or in `rolling`");
+      wheel.driven = driven;
+      wheels.push_back(wheel);
+    }
+  }
+  static bool is_named(const std::vector<SteeredWheel>& wheels, std::size_t frame) {
+    return std::any_of(wheels.begin(), wheels.end(), [&](const SteeredWheel& w) { return w.frame == frame; });
+  }
+
+  WheelFinder finder_;
+  const SteeringChoice& choice_;
+  std::vector<bool> steers_;  ///< one a frame
+};
+
+}  // namespace detail
+
+/// The wheels of `robot`, joints at 0, in the order of its frames; at least two, at least one of them steered, at least
+/// one driven.
+///
+/// Unless they are named, wheels are joints without limits of position whose axis is parallel to the base's y axis (to
+/// 0.1 rad) and that carry a cylinder or sphere about this axis. A wheel is steered when a joint parallel to the base's
+/// z axis lies between it and the base that has limits of position or follows another; without either it is the swivel
+/// of a caster, whose wheel does not count. The wheels that are not steered are driven, or all when all are steered.
+/// Throws Error with what the model has. [setup]
+inline std::vector<SteeredWheel> find_steered_wheels(const Connector& connector, const RobotView& robot,
+                                                     const SteeringChoice& choice = {}) {
+  const detail::SteeredWheelFinder finder(connector, robot, choice);
+  std::vector<SteeredWheel> wheels = finder.all();
+  const auto complain = [&](const std::string& what, const std::string& advice) {
+    throw Error("`" + std::string(robot.name) + "` has " + what + ": " + finder.what_was_found() + ". " + advice);
+  };
+  if (std::none_of(wheels.begin(), wheels.end(), [](const SteeredWheel& w) { return w.steering >= 0; }))
+    complain("no steered wheels",
+             "Name the joints that steer with `steering`; a vehicle that turns by the speeds of its wheels is one for "
+             "motion.differential_drive or motion.omni and their drives");
+  if (std::none_of(wheels.begin(), wheels.end(), [](const SteeredWheel& w) { return w.driven; }))
+    complain("no driven wheels", "Name the joints of driven wheels with `driven`");
+  if (wheels.size() < 2)
+    complain("one wheel alone", "At least two are needed; name their joints with `driven` and `rolling`");
+  return wheels;
+}
+
+}  // namespace muro

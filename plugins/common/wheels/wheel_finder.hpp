@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+// Which joints of a model are wheels: what find_wheels, find_steered_wheels and find_omni_wheels have in common.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "muro/algorithm.hpp"
+#include "muro/vocabulary.hpp"
+
+namespace muro {
+
+/// A wheel that rolls on the plane below the base.
+struct Wheel {
+  std::uint32_t frame = 0;     ///< of the robot
+  Vec3 centre = Vec3::Zero();  ///< m, in the base's frame, joints at 0
+  double radius = 0;           ///< m
+  double direction = 1;        ///< 1: a positive joint velocity rolls forward (axis along +y); -1: backward
+  JointLimits limits;
+  Vec3 axis = Vec3::UnitY();  ///< of its joint: unit, in the base's frame, joints at 0
+};
+
+namespace detail {
+
+/// Looks at the joints and shapes of a robot, all joints at 0.
+class WheelFinder {
+ public:
+  static constexpr double parallel = 0.995;  ///< cosine of 0.1 rad
+  static constexpr double upright = 0.1;     ///< sine of 0.1 rad
+
+  WheelFinder(const Connector& connector, const RobotView& robot) : connector_(connector), robot_(robot) {
+    const std::size_t n = robot.links.size();
+    in_base_.resize(n);
+    carrier_.resize(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      const Link& f = robot.links[i];
+      const bool carried = i > 0 && f.joint == JointKind::fixed;
+      if (i > 0) in_base_[i] = in_base_[std::size_t(f.parent)] * f.origin;
+      carrier_[i] = carried ? carrier_[std::size_t(f.parent)] : i;
+    }
+  }
+
+  const RobotView& robot() const { return robot_; }
+  const Link& frame(std::size_t i) const { return robot_.links[i]; }
+  /// The axis of joint `i` in the base's frame, and a point on it.
+  Vec3 axis(std::size_t i) const { return in_base_[i].orientation * robot_.links[i].axis; }
+  const Vec3& place(std::size_t i) const { return in_base_[i].position; }
+  /// The frame that `i` hangs on; 0: the base.
+  std::size_t parent(std::size_t i) const { return std::size_t(robot_.links[i].parent); }
+
+  /// Whether joint `i` can turn without end, driven or by itself; otherwise `why` says what keeps it.
+  bool turns_freely(std::size_t i, std::string& why) const {
+    const Link& f = robot_.links[i];
+    if (f.joint != JointKind::revolute) return reject(why, "does not turn");
+    if (f.mimic >= 0) return reject(why, "follows " + name(std::size_t(f.mimic)));
+    if (has_limits(i)) return reject(why, "has limits of position");
+    return true;
+  }
+  bool has_limits(std::size_t i) const {
+    return std::isfinite(robot_.links[i].limits.lower) || std::isfinite(robot_.links[i].limits.upper);
+  }
+
+  /// The wheel of joint `i`, with the radius and centre of its shape: the largest cylinder or sphere about the axis,
+  /// among the collision shapes of the bodies that the joint carries rigidly, else among their visual shapes. Without
+  /// such a shape the radius is 0.
+  Wheel wheel(std::size_t i) const {
+    Wheel found{std::uint32_t(i), place(i), 0, axis(i).y() > 0 ? 1.0 : -1.0, robot_.links[i].limits, axis(i)};
+    for (const Key<Shape>& key : {keys::collision_shapes, keys::visual_shapes}) {
+      for (std::size_t k = i; k < carrier_.size(); ++k) {
+        if (carrier_[k] != i) continue;
+        for (const Shape& s : connector_.constant_array(robot_.links[k].object, key)) take_shape(found, in_base_[k], s);
+      }
+      if (found.radius > 0) break;
+    }
+    return found;
+  }
+
+  /// The frame of the joint that the user names.
+  std::size_t joint(std::string_view wanted) const {
+    for (std::size_t i = 0; i < robot_.links.size(); ++i)
+      if (robot_.links[i].joint != JointKind::fixed && name(i) == quoted(wanted)) return i;
+    std::string all;
+    for (std::size_t i = 0; i < robot_.links.size(); ++i)
+      if (robot_.links[i].joint != JointKind::fixed) all += " " + name(i);
+    throw Error("`" + std::string(robot_.name) + "` has no joint " + quoted(wanted) +
+                "; its joints are:" + (all.empty() ? " none" : all));
+  }
+
+  /// The wheel of the joint that the user names. Its axis must satisfy `fits`, which the user knows as `wanted`. A
+  /// `radius` (m) above 0 stands for that of its shape.
+  template <class Fits>
+  Wheel named(std::string_view wanted_joint, double radius, const Fits& fits, const char* wanted) const {
+    const std::size_t i = joint(wanted_joint);
+    std::string why;
+    if (!turns_freely(i, why)) throw Error("joint " + name(i) + " cannot drive a wheel: it " + why);
+    if (!fits(axis(i)))
+      throw Error("joint " + name(i) + " cannot drive a wheel: it turns about " + text(axis(i)) + ", not " + wanted +
+                  ", of the base");
+    Wheel found = wheel(i);
+    if (radius > 0) found.radius = radius;
+    if (!(found.radius > 0))
+      throw Error("the wheel of joint " + name(i) + " has no cylinder or sphere about its axis; give `wheel_radius`");
+    return found;
+  }
+
+  /// Every joint that turns, each with what `judge(i, what)` finds, true for a wheel; those with limits that are none
+  /// are only counted.
+  template <class Judge>
+  std::string what_was_found(const Judge& judge) const {
+    std::string all;
+    int limited = 0;
+    const auto add = [&](const std::string& more) { all += (all.empty() ? "" : "; ") + more; };
+    for (std::size_t i = 1; i < robot_.links.size(); ++i) {
+      if (robot_.links[i].joint != JointKind::revolute) continue;
+      std::string what;
+      if (!judge(i, what) && has_limits(i))
+        ++limited;
+      else
+        add(name(i) + " " + what);
+    }
+    if (limited > 0)
+      add(std::to_string(limited) + (limited == 1 ? " joint has" : " joints have") + " limits of position");
+    return all.empty() ? "no joint of it turns" : all;
+  }
+
+  static bool reject(std::string& why, std::string reason) {
+    why = std::move(reason);
+    return false;
+  }
+  static std::string quoted(std::string_view s) { return "`" + std::string(s) + "`"; }
+  static std::string text(const Vec3& v) {
+    const auto number = [](double x) {
+      std::string s = std::to_string(std::abs(x) < 5e-4 ? 0.0 : x);
+      return s.substr(0, s.size() - 3);
+    };
+    return "(" + number(v.x()) + ", " + number(v.y()) + ", " + number(v.z()) + ")";
+  }
+  /// The joint of frame `i` as its model names it.
+  std::string name(std::size_t i) const {
+    return quoted(connector_.object_name(robot_.links[i].joint_object).substr(robot_.name.size() + 1));
+  }
+
+ private:
+  void take_shape(Wheel& wheel, const Pose& body, const Shape& s) const {
+    const Pose pose = body * s.origin;
+    const Vec3 offset = pose.position - place(wheel.frame);
+    const bool round =
+        s.kind == ShapeKind::sphere ||
+        (s.kind == ShapeKind::cylinder && std::abs((pose.orientation * Vec3::UnitZ()).dot(wheel.axis)) >= parallel);
+    const bool centred = (offset - wheel.axis * wheel.axis.dot(offset)).norm() <= 0.1 * s.size.x();
+    if (!round || !centred || s.size.x() <= wheel.radius) return;
+    wheel.radius = s.size.x();
+    wheel.centre = pose.position;
+  }
+
+  const Connector& connector_;
+  const RobotView& robot_;
+  std::vector<Pose> in_base_;         ///< joints at 0
+  std::vector<std::size_t> carrier_;  ///< the frame whose joint moves this one
+};
+
+}  // namespace detail
+}  // namespace muro

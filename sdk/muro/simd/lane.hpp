@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+// Numbers side by side: a Lane holds N values of T and calculates with all of them at once.
+//
+// A kernel is a template over its scalar S: `double`, or a Lane. Every operation of a lane rounds as the same operation
+// of a double does, so both give the same bits. What decides between values is `select`, not `if`; an `if` over
+// any(mask) may only leave out work whose result nobody selects.
+//
+// Kernel sources are compiled once for each instruction set (muro_add_kernels), with MURO_ISA naming it. They include
+// these headers and nothing else that has inline functions of weight: the linker would keep one copy of such a
+// function, perhaps one that the processor cannot run. For that reason all of this lies in a namespace of its own for
+// each instruction set.
+#pragma once
+
+#include <cstdint>
+
+#include "muro/simd/vector.hpp"
+
+namespace muro::lane {
+inline namespace MURO_ISA {
+
+/// Which of N values satisfy a condition.
+template <class T, int N>
+struct Mask {
+  using Vector = decltype(std::declval<typename vectors::VectorOf<T, N>::Type>() <
+                          std::declval<typename vectors::VectorOf<T, N>::Type>());
+  Vector v;
+
+  MURO_INLINE Mask operator&(Mask b) const { return {v & b.v}; }
+  MURO_INLINE Mask operator|(Mask b) const { return {v | b.v}; }
+  MURO_INLINE Mask operator!() const { return {~v}; }
+};
+
+/// N values of T.
+template <class T, int N>
+struct Lane {
+  using Vector = typename vectors::VectorOf<T, N>::Type;
+  using M = Mask<T, N>;
+  Vector v;
+
+  Lane() = default;
+  MURO_INLINE Lane(Vector x) : v(x) {}
+  MURO_INLINE Lane(T x) : v(vectors::splat<Vector>(x)) {}
+
+  MURO_INLINE T operator[](int i) const { return vectors::get(v, i); }
+  MURO_INLINE void set(int i, T x) { vectors::set(v, i, x); }
+  MURO_INLINE Lane operator-() const { return -v; }
+  MURO_INLINE Lane& operator+=(Lane b) { return v = v + b.v, *this; }
+  MURO_INLINE Lane& operator-=(Lane b) { return v = v - b.v, *this; }
+  MURO_INLINE Lane& operator*=(Lane b) { return v = v * b.v, *this; }
+  MURO_INLINE friend Lane operator+(Lane a, Lane b) { return a.v + b.v; }
+  MURO_INLINE friend Lane operator-(Lane a, Lane b) { return a.v - b.v; }
+  MURO_INLINE friend Lane operator*(Lane a, Lane b) { return a.v * b.v; }
+  MURO_INLINE friend Lane operator/(Lane a, Lane b) { return a.v / b.v; }
+  MURO_INLINE friend M operator<(Lane a, Lane b) { return {a.v < b.v}; }
+  MURO_INLINE friend M operator<=(Lane a, Lane b) { return {a.v <= b.v}; }
+  MURO_INLINE friend M operator>(Lane a, Lane b) { return {a.v > b.v}; }
+  MURO_INLINE friend M operator>=(Lane a, Lane b) { return {a.v >= b.v}; }
+  MURO_INLINE friend M operator==(Lane a, Lane b) { return {a.v == b.v}; }
+};
+
+using Double4 = Lane<double, 4>;
+using Double8 = Lane<double, 8>;
+using Float8 = Lane<float, 8>;
+using Float16 = Lane<float, 16>;
+
+/// How many values a scalar stands for, and its mask.
+template <class S>
+struct Traits {
+  static constexpr int count = 1;
+  using M = bool;
+  using Value = S;
+};
+template <class T, int N>
+struct Traits<Lane<T, N>> {
+  static constexpr int count = N;
+  using M = Mask<T, N>;
+  using Value = T;
+};
+template <class S>
+inline constexpr int count_of = Traits<S>::count;
+template <class S>
+using MaskOf = typename Traits<S>::M;
+
+/// Serves `count` robots, at most 8, in one lane or one by one, whichever takes less time: by `part`, which has
+/// `unsigned operator()<S>(int first, int used)`, for `used` of them from number `first` on. It returns bits, that of
+/// its first robot lowest; those of all robots come back.
+template <class Part>
+MURO_INLINE unsigned in_lanes(int count, const Part& part) {
+  constexpr int worth_a_lane = vectors::register_bytes >= 32 ? 2 : 3;
+  if (count > 4) return part.template operator()<Double8>(0, count);
+  if (count >= worth_a_lane) return part.template operator()<Double4>(0, count);
+  unsigned all = 0;
+  for (int i = 0; i < count; ++i) all |= part.template operator()<double>(i, 1) << i;
+  return all;
+}
+
+// --- choosing
+
+MURO_INLINE double select(bool m, double a, double b) { return m ? a : b; }
+MURO_INLINE float select(bool m, float a, float b) { return m ? a : b; }
+template <class T, int N>
+MURO_INLINE Lane<T, N> select(Mask<T, N> m, Lane<T, N> a, Lane<T, N> b) {
+  return vectors::choose(m.v, a.v, b.v);
+}
+/// The lesser; `b` where they are equal or one is NaN.
+template <class S>
+MURO_INLINE S min(S a, S b) {
+  return select(a < b, a, b);
+}
+/// The greater; `b` where they are equal or one is NaN.
+template <class S>
+MURO_INLINE S max(S a, S b) {
+  return select(a > b, a, b);
+}
+MURO_INLINE double abs(double a) { return __builtin_fabs(a); }
+MURO_INLINE float abs(float a) { return __builtin_fabsf(a); }
+template <class T, int N>
+MURO_INLINE Lane<T, N> abs(Lane<T, N> a) {
+  return vectors::magnitude(a.v);
+}
+
+/// With the other sign where bit `bit` of the representation of `t` is set.
+MURO_INLINE double flip_sign(double a, double t, int bit) {
+  const auto sign = __builtin_bit_cast(std::uint64_t, t) << (63 - bit) & std::uint64_t(1) << 63;
+  return __builtin_bit_cast(double, __builtin_bit_cast(std::uint64_t, a) ^ sign);
+}
+template <class T, int N>
+MURO_INLINE Lane<T, N> flip_sign(Lane<T, N> a, Lane<T, N> t, int bit) {
+  return vectors::flipped(a.v, t.v, bit);
+}
+/// Where bit `bit` of the representation is set.
+MURO_INLINE bool has_bit(double t, int bit) { return __builtin_bit_cast(std::uint64_t, t) >> bit & 1; }
+template <class T, int N>
+MURO_INLINE Mask<T, N> has_bit(Lane<T, N> t, int bit) {
+  return {vectors::bit_of(t.v, bit)};
+}
+
+/// Bit i: whether value i satisfies the condition.
+MURO_INLINE unsigned bits(bool m) { return m; }
+template <class T, int N>
+MURO_INLINE unsigned bits(Mask<T, N> m) {
+  return vectors::bits_of(m.v);
+}
+template <class M>
+MURO_INLINE bool any(M m) {
+  return bits(m) != 0;
+}
+
+// --- functions
+
+MURO_INLINE double sqrt(double a) { return __builtin_sqrt(a); }
+MURO_INLINE float sqrt(float a) { return __builtin_sqrtf(a); }
+template <class T, int N>
+MURO_INLINE Lane<T, N> sqrt(Lane<T, N> a) {
+  return vectors::root(a.v);
+}
+
+// --- memory: one place a lane
+
+/// Where each of the values of S has its data.
+template <class S, class T = const double>
+struct Places {
+  T* at[count_of<S>];
+};
+
+template <class S>
+MURO_INLINE Places<S> as_read(const Places<S, double>& places) {
+  Places<S> p;
+  for (int i = 0; i < count_of<S>; ++i) p.at[i] = places.at[i];
+  return p;
+}
+
+/// Number `k` from each place.
+template <class S>
+MURO_INLINE S load(const Places<S>& from, std::ptrdiff_t k) {
+  if constexpr (count_of<S> == 1) {
+    return from.at[0][k];
+  } else {
+    return vectors::gather<typename S::Vector>(from.at, k);
+  }
+}
+/// Number `k` to each place of the first `used` lanes.
+template <class S>
+MURO_INLINE void store(const Places<S, double>& to, std::ptrdiff_t k, S value, int used = count_of<S>) {
+  if constexpr (count_of<S> == 1) {
+    to.at[0][k] = value;
+  } else if (used == count_of<S>) {
+    for (int i = 0; i < count_of<S>; ++i) to.at[i][k] = value[i];
+  } else {
+    for (int i = 0; i < used; ++i) to.at[i][k] = value[i];
+  }
+}
+
+}  // namespace MURO_ISA
+}  // namespace muro::lane

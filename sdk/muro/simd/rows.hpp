@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: MIT
+// Numbers that lie side by side in each place, as those of a pose do. They are read and written row by row and turned
+// into lanes in registers, which takes less time than number by number.
+#pragma once
+
+#include "muro/simd/geometry.hpp"
+
+namespace muro::lane {
+inline namespace MURO_ISA {
+
+namespace detail {
+
+/// Four places at once where registers hold as many doubles, else two.
+inline constexpr int group = vectors::register_bytes >= 32 ? 4 : 2;
+using Two = typename vectors::VectorOf<double, 2>::Type;
+using Group = typename vectors::VectorOf<double, group>::Type;
+template <class S>
+inline constexpr int groups_of = count_of<S> / group;
+/// Whether values are handled in groups: Double4 and Double8.
+template <class S>
+inline constexpr bool has_groups = std::is_same_v<typename Traits<S>::Value, double> && (count_of<S> >= group);
+
+MURO_INLINE Two load_two(const double* from) {
+  Two v;
+  __builtin_memcpy(&v, from, sizeof v);
+  return v;
+}
+template <class Vector>
+MURO_INLINE void store_at(double* to, const Vector& v) {
+  __builtin_memcpy(to, &v, sizeof v);
+}
+
+/// Lanes g * group to g * group + group - 1.
+template <int g, class Vector>
+MURO_INLINE Group part(const Vector& v) {
+  if constexpr (std::is_same_v<Vector, Group>) {
+    return v;
+  } else if constexpr (vectors::is_pair<Vector>) {
+    constexpr int half = vectors::length_of<Vector> / (2 * group);  // in groups
+    return part<g % half>(g < half ? v.low : v.high);
+  } else {
+    return __builtin_shufflevector(v, v, 4 * g, 4 * g + 1, 4 * g + 2, 4 * g + 3);
+  }
+}
+template <class Vector, class Part>
+MURO_INLINE Vector joined(const Part* parts) {
+  if constexpr (std::is_same_v<Vector, Part>) {
+    return parts[0];
+  } else if constexpr (vectors::is_pair<Vector>) {
+    using Half = decltype(Vector::low);
+    return {joined<Half>(parts), joined<Half>(parts + vectors::length_of<Half> / group)};
+  } else {
+    return __builtin_shufflevector(parts[0], parts[1], 0, 1, 2, 3, 4, 5, 6, 7);
+  }
+}
+
+/// The first and the second number of each place of a group.
+MURO_INLINE void load_pairs(const double* const* at, std::ptrdiff_t k, Group& first, Group& second) {
+#if defined(__AVX__)
+  const Group even = __builtin_shufflevector(load_two(at[0] + k), load_two(at[2] + k), 0, 1, 2, 3);
+  const Group odd = __builtin_shufflevector(load_two(at[1] + k), load_two(at[3] + k), 0, 1, 2, 3);
+  first = __builtin_shufflevector(even, odd, 0, 4, 2, 6);
+  second = __builtin_shufflevector(even, odd, 1, 5, 3, 7);
+#else
+  const Group even = load_two(at[0] + k), odd = load_two(at[1] + k);
+  first = __builtin_shufflevector(even, odd, 0, 2);
+  second = __builtin_shufflevector(even, odd, 1, 3);
+#endif
+}
+MURO_INLINE void store_pairs(double* const* at, std::ptrdiff_t k, const Group& first, const Group& second,
+                             unsigned which) {
+#if defined(__AVX__)
+  const Group even = __builtin_shufflevector(first, second, 0, 4, 2, 6);
+  const Group odd = __builtin_shufflevector(first, second, 1, 5, 3, 7);
+  if (which & 1) store_at(at[0] + k, Two(__builtin_shufflevector(even, even, 0, 1)));
+  if (which & 2) store_at(at[1] + k, Two(__builtin_shufflevector(odd, odd, 0, 1)));
+  if (which & 4) store_at(at[2] + k, Two(__builtin_shufflevector(even, even, 2, 3)));
+  if (which & 8) store_at(at[3] + k, Two(__builtin_shufflevector(odd, odd, 2, 3)));
+#else
+  if (which & 1) store_at(at[0] + k, Group(__builtin_shufflevector(first, second, 0, 2)));
+  if (which & 2) store_at(at[1] + k, Group(__builtin_shufflevector(first, second, 1, 3)));
+#endif
+}
+/// Four numbers to each place of a group.
+MURO_INLINE void store_fours(double* const* at, std::ptrdiff_t k, const Group (&v)[4], unsigned which) {
+#if defined(__AVX__)
+  const Group even01 = __builtin_shufflevector(v[0], v[1], 0, 4, 2, 6);
+  const Group odd01 = __builtin_shufflevector(v[0], v[1], 1, 5, 3, 7);
+  const Group even23 = __builtin_shufflevector(v[2], v[3], 0, 4, 2, 6);
+  const Group odd23 = __builtin_shufflevector(v[2], v[3], 1, 5, 3, 7);
+  if (which & 1) store_at(at[0] + k, Group(__builtin_shufflevector(even01, even23, 0, 1, 4, 5)));
+  if (which & 2) store_at(at[1] + k, Group(__builtin_shufflevector(odd01, odd23, 0, 1, 4, 5)));
+  if (which & 4) store_at(at[2] + k, Group(__builtin_shufflevector(even01, even23, 2, 3, 6, 7)));
+  if (which & 8) store_at(at[3] + k, Group(__builtin_shufflevector(odd01, odd23, 2, 3, 6, 7)));
+#else
+  store_pairs(at, k, v[0], v[1], which);
+  store_pairs(at, k + 2, v[2], v[3], which);
+#endif
+}
+
+/// Numbers k to n - 1 of the places of group g.
+template <int k, int n, int g, class S>
+MURO_INLINE void store_from(const Places<S, double>& to, std::ptrdiff_t first, const S (&from)[n], unsigned which) {
+  constexpr int left = n - k, at = left == 3 && n > 3 ? k - 1 : k;  // rather one number twice than two pieces
+  double* const* const places = to.at + g * group;
+  const unsigned mine = which >> g * group;
+  if constexpr (n - at >= 4) {
+    store_fours(places, first + at,
+                {part<g>(from[at].v), part<g>(from[at + 1].v), part<g>(from[at + 2].v), part<g>(from[at + 3].v)}, mine);
+    store_from<at + 4, n, g, S>(to, first, from, which);
+  } else if constexpr (left >= 2) {
+    store_pairs(places, first + k, part<g>(from[k].v), part<g>(from[k + 1].v), mine);
+    store_from<k + 2, n, g, S>(to, first, from, which);
+  } else if constexpr (left == 1) {
+    const Group last = part<g>(from[k].v);
+    for (int i = 0; i < group; ++i)
+      if (mine >> i & 1) places[i][first + k] = last[i];
+  }
+}
+template <int n, class S, int... groups>
+MURO_INLINE void store_groups(const Places<S, double>& to, std::ptrdiff_t first, const S (&from)[n], unsigned which,
+                              std::integer_sequence<int, groups...>) {
+  (store_from<0, n, groups, S>(to, first, from, which), ...);
+}
+
+}  // namespace detail
+
+/// Numbers that lie as the values of S do.
+template <class S>
+MURO_INLINE S load_side_by_side(const double* from) {
+  S value;
+  __builtin_memcpy(&value, from, sizeof value);
+  return value;
+}
+template <class S>
+MURO_INLINE void store_side_by_side(double* to, S value) {
+  __builtin_memcpy(to, &value, sizeof value);
+}
+
+/// Numbers `first` to `first` + n - 1 of each place.
+template <int n, class S>
+MURO_INLINE void load_rows(const Places<S>& from, std::ptrdiff_t first, S (&to)[n]) {
+  if constexpr (detail::has_groups<S>) {
+    for (int k = 0; k + 1 < n; k += 2) {
+      constexpr int groups = detail::groups_of<S>;
+      detail::Group a[groups], b[groups];
+      for (int g = 0; g < groups; ++g) detail::load_pairs(from.at + g * detail::group, first + k, a[g], b[g]);
+      to[k] = detail::joined<typename S::Vector>(a);
+      to[k + 1] = detail::joined<typename S::Vector>(b);
+    }
+    if constexpr (n % 2 == 1) to[n - 1] = load<S>(from, first + n - 1);
+  } else {
+    for (int k = 0; k < n; ++k) to[k] = load<S>(from, first + k);
+  }
+}
+
+/// A bit for each of the first `used` lanes.
+constexpr unsigned first_lanes(int used) { return (1u << used) - 1; }
+template <class S>
+inline constexpr unsigned all_lanes = first_lanes(count_of<S>);
+
+/// To n numbers of each place, from number `first` on, of those lanes whose bit is set in `which`.
+template <int n, class S>
+MURO_INLINE void store_rows(const Places<S, double>& to, std::ptrdiff_t first, const S (&from)[n],
+                            unsigned which = all_lanes<S>) {
+  if constexpr (detail::has_groups<S>) {
+    constexpr std::make_integer_sequence<int, detail::groups_of<S>> groups;
+    if (which == all_lanes<S>)  // without a question for each place
+      detail::store_groups<n, S>(to, first, from, all_lanes<S>, groups);
+    else
+      detail::store_groups<n, S>(to, first, from, which, groups);
+  } else {
+    for (int k = 0; k < n; ++k)
+      for (int i = 0; i < count_of<S>; ++i)
+        if (which >> i & 1) {
+          if constexpr (count_of<S> == 1)
+            to.at[i][first + k] = from[k];
+          else
+            to.at[i][first + k] = from[k][i];
+        }
+  }
+}
+
+// --- values of properties (muro/geometry.hpp), from number `first` on of each place
+
+template <class S>
+MURO_INLINE V3<S> load_vector(const Places<S>& from, std::ptrdiff_t first = 0) {
+  S v[3];
+  load_rows(from, first, v);
+  return {v[0], v[1], v[2]};
+}
+template <class S>
+MURO_INLINE PoseOf<S> load_pose(const Places<S>& from, std::ptrdiff_t first = 0) {
+  S v[7];
+  load_rows(from, first, v);
+  return {{v[0], v[1], v[2]}, {v[3], v[4], v[5], v[6]}};
+}
+template <class S>
+MURO_INLINE TwistOf<S> load_twist(const Places<S>& from, std::ptrdiff_t first = 0) {
+  S v[6];
+  load_rows(from, first, v);
+  return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
+}
+template <class S>
+MURO_INLINE void store_vector(const Places<S, double>& to, std::ptrdiff_t first, const V3<S>& v,
+                              unsigned which = all_lanes<S>) {
+  store_rows(to, first, {v.x, v.y, v.z}, which);
+}
+template <class S>
+MURO_INLINE void store_pose(const Places<S, double>& to, std::ptrdiff_t first, const PoseOf<S>& pose,
+                            unsigned which = all_lanes<S>) {
+  const V3<S>& p = pose.position;
+  const Q4<S>& q = pose.orientation;
+  store_rows(to, first, {p.x, p.y, p.z, q.x, q.y, q.z, q.w}, which);
+}
+template <class S>
+MURO_INLINE void store_twist(const Places<S, double>& to, std::ptrdiff_t first, const TwistOf<S>& twist,
+                             unsigned which = all_lanes<S>) {
+  const V3<S>&v = twist.linear, &w = twist.angular;
+  store_rows(to, first, {v.x, v.y, v.z, w.x, w.y, w.z}, which);
+}
+
+}  // namespace MURO_ISA
+}  // namespace muro::lane

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// For motions that no force moves: what they do when their robot touches something.
+#pragma once
+
+#include "muro/algorithm.hpp"
+#include "muro/vocabulary.hpp"
+
+namespace muro {
+
+inline constexpr std::string_view on_contact_modes[] = {"ignore", "stop"};
+/// The parameter, and what is read when it is `stop`.
+inline constexpr Parameter on_contact =
+    text("on_contact", "ignore", "stop: the robot does not move on against what it touches").one_of(on_contact_modes);
+inline constexpr PropertyUse on_contact_reads{"contacts", "of the robot", "on_contact=stop"};
+
+/// Whether a robot may move on: one for each robot, made while connecting.
+class ContactStop {
+ public:
+  ContactStop() = default;
+  /// [setup]
+  ContactStop(Connector& c, const RobotView& robot) {
+    if (c.parameters().text(on_contact.name) == "stop") contacts_ = c.read_list(robot.base(), keys::contacts);
+  }
+
+  /// Whether the robot touches something against which it would move with `twist` (world axes, at `origin`). What
+  /// slides along, such as a wheel on the ground, is not in the way. [step]
+  bool blocks(const Vec3& origin, const Twist& twist) const {
+    if (!contacts_) return false;
+    for (const Contact& c : *contacts_) {
+      const Vec3 velocity = twist.at(c.point - origin);
+      if (velocity.dot(c.normal) < -steepest * velocity.norm()) return true;
+    }
+    return false;
+  }
+
+ private:
+  static constexpr double steepest = 0.02;  ///< sine of the angle between velocity and surface
+  ListIn<Contact> contacts_;
+};
+
+}  // namespace muro

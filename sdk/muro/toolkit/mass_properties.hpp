@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// Mass properties of a whole robot at the start, for algorithms that see it as one body.
+#pragma once
+
+#include <vector>
+
+#include "muro/algorithm.hpp"
+#include "muro/vocabulary.hpp"
+
+namespace muro {
+
+/// The position (rad or m) of every frame's joint at the start: `joint.position.initial`, mimic joints after
+/// their leader, 0 for fixed ones. [setup]
+inline std::vector<double> initial_joint_positions(const Connector& connector, const RobotView& robot) {
+  std::vector<double> q(robot.links.size(), 0.0);
+  for (std::size_t i = 0; i < q.size(); ++i) {
+    const Link& f = robot.links[i];
+    if (f.joint == JointKind::fixed) continue;
+    const Link& own = f.mimic < 0 ? f : robot.links[std::size_t(f.mimic)];  // a leader follows nobody itself
+    q[i] = connector.constant(own.joint_object, keys::initial_joint_position).value_or(0.0);
+    if (f.mimic >= 0) q[i] = f.mimic_offset + f.mimic_multiplier * q[i];
+  }
+  return q;
+}
+
+/// A joint that starts outside of its limits is the user's mistake: throws Error. [setup]
+inline void check_start(const Connector& connector, ObjectId joint, const JointLimits& limits, double position) {
+  if (position < limits.lower || position > limits.upper)
+    throw Error("joint `" + std::string(connector.object_name(joint)) + "` starts at " + std::to_string(position) +
+                ", outside of its limits " + std::to_string(limits.lower) + " to " + std::to_string(limits.upper) +
+                "; set `joint.position.initial` to a value between them");
+}
+
+/// The constant `inertial` of every frame; zero where there is none. [setup]
+inline std::vector<Inertia> inertias_of(const Connector& connector, const RobotView& robot) {
+  std::vector<Inertia> inertias;
+  for (const Link& f : robot.links)
+    inertias.push_back(connector.constant(f.object, keys::inertial).value_or(Inertia{}));
+  return inertias;
+}
+
+/// All bodies of a robot as one, in the frame of its base. `inertias`, `positions`: one a frame.
+inline Inertia composite_inertia(std::span<const Link> frames, std::span<const Inertia> inertias,
+                                 std::span<const double> positions) {
+  std::vector<Pose> in_base(frames.size());
+  Inertia whole;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (i > 0) in_base[i] = in_base[std::size_t(frames[i].parent)] * pose_in_parent(frames[i], positions[i]);
+    whole = whole + inertias[i].in(in_base[i]);
+  }
+  return whole;
+}
+
+}  // namespace muro

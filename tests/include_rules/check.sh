@@ -1,0 +1,120 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# check.sh [TREE]: holds the includes and links of a source tree (default: this one) against rules.txt, and
+# that core names no plugin. Prints what breaks a rule, one line each; exit code 1 when something does.
+set -euo pipefail
+
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+cd "${1:-$here/../..}"
+
+declare -a library_names=() library_begins=()               # parallel: one entry a beginning
+declare -a folder_regexes=() folder_allows=() folder_for=() # parallel: one entry a rule
+declare -a link_folders=() link_targets=()
+while read -r word name rest; do
+  case $word in
+    '' | '#'*) ;;
+    library) for begin in $rest; do library_names+=("$name") library_begins+=("$begin"); done ;;
+    folder | tests) folder_regexes+=("^(${name//\*/[^/]+})/") folder_allows+=("$rest") folder_for+=("$word") ;;
+    link) link_folders+=("$name") link_targets+=("$rest") ;;
+    *) echo "$here/rules.txt: '$word' is none of library, folder, tests, link" >&2 && exit 2 ;;
+  esac
+done <"$here/rules.txt"
+
+failures=0
+fail() {
+  echo "$1"
+  failures=$((failures + 1))
+}
+
+# What `file` includes by `name`: a path of this tree, a library's name, or nothing. Result in `target`.
+resolve() {
+  local file=$1 name=$2 i folder=${1%/*}
+  # a folder of the file, or one above it, is where its own includes start
+  while [[ $folder == */* && ! -f $folder/$name ]]; do folder=${folder%/*}; done
+  if [[ -f $folder/$name ]]; then
+    target=$folder/$name
+    [[ $target != *..* ]] || target=$(realpath -m --relative-to=. "$target")
+  elif [[ $name == muro/* && -f sdk/$name ]]; then
+    target=sdk/$name
+  elif [[ $name == muro_controller.h ]]; then
+    target=sdk/c/$name
+  elif [[ -f $name ]]; then
+    target=$name
+  elif [[ $name != */* && $name != *.* ]]; then
+    target=std
+  else
+    target=
+    for i in "${!library_begins[@]}"; do
+      [[ $name != "${library_begins[i]}"* ]] || target=${library_names[i]}
+    done
+  fi
+}
+
+# What the rules allow to `file`: folders and libraries. Result in `allowed`.
+allowance() {
+  local file=$1 i
+  allowed=std
+  for i in "${!folder_regexes[@]}"; do
+    [[ $file =~ ${folder_regexes[i]} ]] || continue
+    local own=${BASH_REMATCH[1]} words=" ${folder_allows[i]} "
+    [[ ${folder_for[i]} == folder || $file =~ (_test\.cpp|_testing\.hpp|/bench_[^/]*\.cpp)$ ]] || continue
+    allowed+=${words/ own / $own }
+  done
+}
+
+check_includes() {
+  local folders=() words=() folder file line text target allowed word
+  for folder in sdk core host plugins examples tests; do [[ ! -d $folder ]] || folders+=("$folder"); done
+  while IFS=: read -r file line text; do
+    [[ $text =~ include[[:space:]]*[\"\<]([^\">]+) ]] || continue
+    local name=${BASH_REMATCH[1]}
+    resolve "$file" "$name"
+    allowance "$file"
+    if [[ -z $target ]]; then
+      fail "$file:$line: includes \"$name\", of no library that tests/include_rules/rules.txt knows; add it there"
+      continue
+    fi
+    for word in $allowed; do
+      [[ $target != "$word" && $target != "$word"/* ]] || continue 2
+    done
+    read -ra words <<<"$allowed"
+    fail "$file:$line: includes \"$name\" ($target); this file may include: ${words[*]}"
+  done < <(grep -rnE '^[[:space:]]*#[[:space:]]*include' --include='*.[ch]' --include='*.[ch]pp' "${folders[@]}" | sort -t: -k1,1 -k2n)
+}
+
+check_links() {
+  local i file target code
+  for i in "${!link_folders[@]}"; do
+    [[ -d ${link_folders[i]} ]] || continue
+    while read -r file; do
+      code=$(sed 's/#.*//' "$file" | tr '\n' ' ' | sed -E 's/muro_add_(test|bench)\([^()]*\)//g')
+      for target in ${link_targets[i]}; do
+        [[ ! $code =~ (^|[^a-z_])$target([^a-z_]|$) ]] ||
+          fail "$file: names $target; under ${link_folders[i]}/ only muro_add_test and muro_add_bench may link it"
+      done
+    done < <(find "${link_folders[i]}" -name CMakeLists.txt | sort)
+  done
+}
+
+# The core knows plugins by what they describe, never by name.
+check_core_names_no_plugin() {
+  [[ -d core && -d plugins ]] || return 0
+  local names file line text
+  names=$({
+    grep -rhoE '\.id = "[a-z0-9_.]+"' --include='*.cpp' plugins | grep -oE '"[^"]+"' | tr -d '"' || true
+    grep -rhoE 'muro_add_plugin\([[:space:]]*NAME[[:space:]]+[a-z0-9_]+' --include=CMakeLists.txt plugins |
+      sed 's/.*[[:space:]]//' || true
+  } | sort -u | sed 's/\./\\./g' | paste -sd'|')
+  [[ -n $names ]] || return 0
+  while IFS=: read -r file line text; do
+    [[ ! ${text%%//*} =~ \"($names)\" ]] || fail "$file:$line: names the plugin \"${BASH_REMATCH[1]}\"; core knows no plugin by name"
+  done < <(grep -rnE "\"($names)\"" --include='*.[ch]pp' core | sort -t: -k1,1 -k2n)
+}
+
+check_includes
+check_links
+check_core_names_no_plugin
+if ((failures > 0)); then
+  echo "$failures include rules broken (tests/include_rules/rules.txt says who may include what)"
+  exit 1
+fi
