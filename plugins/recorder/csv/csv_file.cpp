@@ -38,15 +38,15 @@ std::int64_t time_of(std::string_view row) {
   return value;
 }
 
-bool is_plain(int file) {
+bool is_plain(int descriptor) {
   struct stat about {};
-  return fstat(file, &about) == 0 && S_ISREG(about.st_mode);
+  return fstat(descriptor, &about) == 0 && S_ISREG(about.st_mode);
 }
 
 /// Writes everything; false with errno.
-bool write_all(int file, std::string_view bytes) {
+bool write_all(int descriptor, std::string_view bytes) {
   while (!bytes.empty()) {
-    const ssize_t written = write(file, bytes.data(), bytes.size());
+    const ssize_t written = write(descriptor, bytes.data(), bytes.size());
     if (written < 0 && errno != EINTR) return false;
     if (written > 0) bytes.remove_prefix(std::size_t(written));
   }
@@ -55,25 +55,21 @@ bool write_all(int file, std::string_view bytes) {
 
 }  // namespace
 
-CsvFile::CsvFile(const std::string& path) : path_(path), part_(path + ".part") {
-  struct stat about {};
-  if (stat(path.c_str(), &about) == 0 && !S_ISREG(about.st_mode)) {
-    part_ = path_;
-    published_ = true;
-  }
-  file_ = open(part_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (file_ < 0) file_ = open(part_.c_str(), O_WRONLY | O_CLOEXEC);  // a pipe or device that cannot be read
-  if (file_ < 0) fail("cannot be written");
-  if (is_plain(file_)) {
-    if (flock(file_, LOCK_EX | LOCK_NB) != 0) {
+CsvFile::CsvFile(const std::string& path) : file_(path, {.keep_unpublished = true}) {
+  const char* location = file_.location().c_str();
+  descriptor_ = open(location, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  if (descriptor_ < 0) descriptor_ = open(location, O_WRONLY | O_CLOEXEC);  // a pipe or device that cannot be read
+  if (descriptor_ < 0) fail("cannot be written");
+  if (is_plain(descriptor_)) {
+    if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
       const bool busy = errno == EWOULDBLOCK;
-      close(file_);
-      if (busy) throw Error("file " + path_ + " is being written by another recorder; give each a file of its own");
+      close(descriptor_);
+      if (busy) throw Error("file " + path + " is being written by another recorder; give each a file of its own");
       fail("cannot be locked");
     }
-    if (ftruncate(file_, 0) != 0) {
+    if (ftruncate(descriptor_, 0) != 0) {
       const int reason = errno;
-      close(file_);
+      close(descriptor_);
       errno = reason;
       fail("cannot be written");
     }
@@ -82,12 +78,12 @@ CsvFile::CsvFile(const std::string& path) : path_(path), part_(path + ".part") {
 }
 
 CsvFile::~CsvFile() {
-  write_all(file_, buffer_);
-  close(file_);
+  write_all(descriptor_, buffer_);
+  close(descriptor_);
 }
 
 void CsvFile::fail(const char* doing) const {
-  throw Error("file " + path_ + " " + doing + ": " + std::strerror(errno));
+  throw Error("file " + file_.path() + " " + doing + ": " + std::strerror(errno));
 }
 
 void CsvFile::separate() {
@@ -151,31 +147,30 @@ void CsvFile::end_row() {
 }
 
 void CsvFile::flush() {
-  if (!write_all(file_, buffer_)) fail("cannot be written");
+  if (!write_all(descriptor_, buffer_)) fail("cannot be written");
   buffer_.clear();
 }
 
 void CsvFile::cut_back(std::int64_t nanoseconds) {
   flush();
-  if (!is_plain(file_)) return;
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> reader(std::fopen((published_ ? path_ : part_).c_str(), "rb"),
+  if (!is_plain(descriptor_)) return;
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> reader(std::fopen(file_.location().c_str(), "rb"),
                                                                &std::fclose);
   if (!reader) fail("cannot be read back");
   char* row = nullptr;
-  std::size_t room = 0;
+  std::size_t capacity = 0;
   off_t end = 0;
-  while (const ssize_t length = getline(&row, &room, reader.get())) {
+  while (const ssize_t length = getline(&row, &capacity, reader.get())) {
     if (length < 0 || time_of({row, std::size_t(length)}) >= nanoseconds) break;
     end += length;
   }
   std::free(row);
-  if (ftruncate(file_, end) != 0 || lseek(file_, end, SEEK_SET) < 0) fail("cannot be cut back");
+  if (ftruncate(descriptor_, end) != 0 || lseek(descriptor_, end, SEEK_SET) < 0) fail("cannot be cut back");
 }
 
 void CsvFile::publish() {
   flush();
-  if (!published_ && std::rename(part_.c_str(), path_.c_str()) != 0) fail("cannot be given its name");
-  published_ = true;
+  file_.publish();
 }
 
 }  // namespace muro

@@ -5,16 +5,16 @@
 #include <string>
 #include <string_view>
 
+#include "muro/toolkit/whole_file.hpp"
 #include "muro/value_type.hpp"
 
 namespace muro {
 
-/// A CSV file (RFC 4180) under way. What is written stands in PATH.part until it is published as PATH, so that PATH
-/// is either a whole recording or what was there before. A device or pipe is written at once.
-/// Every function throws muro::Error when the file cannot be opened or written.
+/// A CSV file (RFC 4180) under construction, see WholeFile. PATH.part stays when it is not published: it is the
+/// recording of a run that failed. Every function throws muro::Error when the file cannot be opened or written.
 class CsvFile {
  public:
-  /// Begins PATH.part anew. Nobody else may be writing it.
+  /// Empties PATH.part. Nobody else may be writing it.
   explicit CsvFile(const std::string& path);
   /// What is in memory is still written, if it can be.
   ~CsvFile();
@@ -40,10 +40,9 @@ class CsvFile {
   [[noreturn]] void fail(const char* doing) const;
 
   static constexpr std::size_t buffer_bytes = 1 << 16;
-  std::string path_, part_;
-  int file_ = -1;
-  bool published_ = false;  ///< it has its name
-  std::string buffer_;      ///< whole rows that are not in the file yet, and the present one
+  WholeFile file_;
+  int descriptor_ = -1;
+  std::string buffer_;  ///< complete rows that are not in the file yet, and the present one
   bool row_begun_ = false;
 };
 
