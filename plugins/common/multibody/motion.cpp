@@ -6,6 +6,7 @@
 #include "muro/toolkit/mass_properties.hpp"
 #include "muro/toolkit/random.hpp"
 #include "parameters.hpp"
+#include "plugins/common/contact_geometry/contact_responsibility.hpp"
 
 namespace muro::multibody {
 
@@ -41,7 +42,7 @@ void Motion::connect(Connector& c) {
   gravity_ = c.constant(world_object, keys::gravity).value_or(Vec3(0, 0, -9.81));
   position_gain_ = p.real(position_gain.name);
   substeps_ = int(p.integer(substeps.name));
-  number_ = std::max(fnv1a(p.text(world_name.name), fnv1a(description().id)), keys::contact_for_all + 1);
+  number_ = number_of_world(fnv1a(p.text(world_name.name), fnv1a(description().id)));
   configure(c);
   for (std::uint32_t i = 0; i < c.items().size(); ++i) connect_robot(c, c.items()[i], c.parameters_of(i));
   connect_others(c);
@@ -207,16 +208,16 @@ void Motion::step(const Step& step, Range) {
 }
 
 void Motion::import(Other& o) {
-  o.state.presence = *o.contact_world == 0 ? Presence::obstacle : Presence::absent;
+  o.state.presence = is_moved_by_forces(*o.contact_world) ? Presence::absent : Presence::obstacle;
   o.state.pose = *o.pose;
   o.state.twist = *o.twist;
 }
 
 void Motion::import(Robot& r) const {
   RobotState& s = r.state;
-  s.presence = *r.active_level == r.level ? Presence::simulated
-               : *r.contact_world == 0    ? Presence::obstacle
-                                          : Presence::absent;
+  s.presence = *r.active_level == r.level             ? Presence::simulated
+               : is_moved_by_forces(*r.contact_world) ? Presence::absent
+                                                      : Presence::obstacle;
   s.pose = *r.pose;
   s.twist = *r.twist;
   for (std::size_t i = 1; i < r.joints.size(); ++i) {
@@ -224,7 +225,7 @@ void Motion::import(Robot& r) const {
     s.joints[i].velocity = *r.joints[i].velocity;
   }
   if (s.presence != Presence::simulated) {
-    if (r.last[valid] != 0 && *r.contact_world <= keys::contact_for_all) clear_outputs(r);
+    if (r.last[valid] != 0 && !is_in_world(*r.contact_world)) clear_outputs(r);
     r.last[valid] = 0;
     return;
   }

@@ -12,6 +12,7 @@
 #include "move.hpp"
 #include "muro/plugin.hpp"
 #include "muro/toolkit/mass_properties.hpp"
+#include "plugins/common/contact_geometry/contact_responsibility.hpp"
 #include "plugins/common/multibody/physical_inertia.hpp"
 
 namespace {
@@ -101,7 +102,7 @@ class Simplified final : public Algorithm {
   }
 
   void on_handover(std::uint32_t item) override {
-    *robots_[item].contact_world = contacts_of(robots_[item]);
+    *robots_[item].contact_world = contact_world_of(robots_[item].external.has_value());
     *robots_[item].twist_lag = 0;
     if (fixed_) std::fill_n(layers_[0][item].twist, 6, 0.0);
   }
@@ -196,7 +197,7 @@ class Simplified final : public Algorithm {
                            ForcedJoints::Settings{fixed_, acceleration_, c.parameters().real("armature")});
     }
     if (model.forced || !fixed_) r.external = c.read_sum(robot.base(), keys::external_wrench);
-    r.contact_world = c.variable(robot.base(), keys::contact_world, contacts_of(r));
+    r.contact_world = c.variable(robot.base(), keys::contact_world, contact_world_of(r.external.has_value()));
     r.twist_lag = c.variable(robot.base(), keys::twist_lag, 0.0);
     connect_groups(robot, places, model, state);
     model.plain = model.rigid && !model.forced && !fixed_ && model.groups.size() <= 1;
@@ -212,9 +213,6 @@ class Simplified final : public Algorithm {
     kinds_.push_back({model_number(std::move(model)), 0});
     robots_.push_back(std::move(r));
   }
-
-  /// Who answers for contacts: nobody where no wrench moves the robot.
-  static std::uint64_t contacts_of(const Robot& r) { return r.external ? keys::contact_for_all : 0; }
 
   /// The groups of the model, and a layer of states for each; `state`: of the base.
   void connect_groups(const RobotView& robot, const std::vector<Place>& places, Model& model, const RobotState& state) {
