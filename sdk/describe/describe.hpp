@@ -3,8 +3,9 @@
 #pragma once
 
 #include <cmath>
-#include <sstream>
+#include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "muro/abi.hpp"
 #include "muro/toolkit/random.hpp"
@@ -13,120 +14,122 @@ namespace muro::abi {
 
 namespace detail {
 
-inline std::string quoted(std::string_view text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    if (static_cast<unsigned char>(c) < 0x20) {
-      constexpr std::string_view hex = "0123456789abcdef";
-      out += "\\u00";
-      out += hex[static_cast<std::size_t>(c >> 4)];
-      out += hex[static_cast<std::size_t>(c & 15)];
-    } else {
-      out += c;
-    }
+using Json = nlohmann::ordered_json;
+
+inline Json json_of(const Parameter& p) {
+  constexpr const char* types[] = {"real", "integer", "boolean", "text", "reals", "texts"};
+  Json json{{"name", p.name},
+            {"type", types[static_cast<int>(p.type)]},
+            {"unit", p.unit},
+            {"doc", p.doc},
+            {"required", p.is_required},
+            {"tunable", p.tunable}};
+  switch (p.type) {
+    case ParameterType::text:
+      json["default"] = p.default_text;
+      if (!p.choices.empty()) json["choices"] = std::vector(p.choices.begin(), p.choices.end());
+      break;
+    case ParameterType::reals:
+      json["default"] = std::vector(p.default_reals.begin(), p.default_reals.end());
+      if (p.length > 0) json["length"] = p.length;
+      break;
+    case ParameterType::texts:
+      json["default"] = Json::array();
+      break;
+    case ParameterType::boolean:
+      json["default"] = p.default_number != 0;
+      break;
+    case ParameterType::integer:
+      json["default"] = std::llround(p.default_number);
+      break;
+    case ParameterType::real:
+      json["default"] = p.default_number;
   }
-  return out + '"';
+  if (std::isfinite(p.min)) json["min"] = p.min;
+  if (std::isfinite(p.max)) json["max"] = p.max;
+  return json;
 }
 
-inline std::string number(double x) {
-  if (!std::isfinite(x)) return "null";
-  std::ostringstream out;
-  out.precision(17);
-  out << x;
-  return out.str();
+inline Json json_of(const PropertyUse& u) {
+  Json json{{"key", u.key}, {"doc", u.doc}};
+  if (!u.when.empty()) json["when"] = u.when;
+  return json;
 }
 
-/// [a, b, ...] of what `each` makes of the elements.
-template <class Elements, class Each>
-std::string list(const Elements& elements, Each each) {
-  std::string out = "[";
-  for (const auto& e : elements) {
-    if (out.size() > 1) out += ", ";
-    out += each(e);
-  }
-  return out + "]";
+Json json_of(const AlgorithmEntry& entry);
+Json json_of(const ReaderEntry& entry);
+
+/// [a, b, ...] of what json_of() makes of the elements.
+template <class Elements>
+Json list_of(const Elements& elements) {
+  Json list = Json::array();
+  for (const auto& e : elements) list.push_back(json_of(e));
+  return list;
 }
 
-inline std::string parameter(const Parameter& p) {
-  constexpr std::string_view types[] = {"real", "integer", "boolean", "text", "reals", "texts"};
-  std::string out = "\n      {\"name\": " + quoted(p.name) + ", \"type\": " + quoted(types[static_cast<int>(p.type)]) +
-                    ", \"unit\": " + quoted(p.unit) + ", \"doc\": " + quoted(p.doc) +
-                    ", \"required\": " + (p.is_required ? "true" : "false") +
-                    ", \"tunable\": " + (p.tunable ? "true" : "false");
-  if (p.type == ParameterType::text) {
-    out += ", \"default\": " + quoted(p.default_text);
-    if (!p.choices.empty()) out += ", \"choices\": " + list(p.choices, quoted);
-  } else if (p.type == ParameterType::reals) {
-    out += ", \"default\": " + list(p.default_reals, number);
-    if (p.length > 0) out += ", \"length\": " + number(p.length);
-  } else if (p.type == ParameterType::texts) {
-    out += ", \"default\": []";
-  } else if (p.type == ParameterType::boolean) {
-    out += std::string(", \"default\": ") + (p.default_number != 0 ? "true" : "false");
-  } else {
-    out += ", \"default\": " + number(p.default_number);
-  }
-  if (std::isfinite(p.min)) out += ", \"min\": " + number(p.min);
-  if (std::isfinite(p.max)) out += ", \"max\": " + number(p.max);
-  return out + "}";
+inline Json capabilities(std::uint32_t bits) {
+  Json names = Json::array();
+  for (std::uint32_t bit = 1; bit != 0; bit <<= 1)
+    if ((bits & bit) != 0 && !name_of(Capability{bit}).empty()) names.push_back(name_of(Capability{bit}));
+  return names;
 }
 
-inline std::string use(const PropertyUse& u) {
-  return "{\"key\": " + quoted(u.key) + ", \"doc\": " + quoted(u.doc) +
-         (u.when.empty() ? "" : ", \"when\": " + quoted(u.when)) + "}";
-}
-
-inline std::string capabilities(std::uint32_t bits) {
-  constexpr std::string_view names[] = {"deterministic", "batched",   "allocation_free",
-                                        "restorable",    "needs_gpu", "world"};
-  std::string out = "[";
-  for (int i = 0; i < 6; ++i)
-    if ((bits & (1u << i)) != 0) out += (out.size() > 1 ? ", " : "") + quoted(names[i]);
-  return out + "]";
-}
-
-inline std::string features(Features bits) {
-  std::string out = "[";
+inline Json features(Features bits) {
+  Json names = Json::array();
   for (const FeatureInfo& f : feature_infos)
-    if ((bits & f.bit) != 0) out += (out.size() > 1 ? ", " : "") + quoted(f.name);
-  return out + "]";
+    if ((bits & f.bit) != 0) names.push_back(f.name);
+  return names;
 }
 
-inline std::string algorithm(const AlgorithmEntry& entry) {
+inline Json json_of(const AlgorithmEntry& entry) {
   const Description& d = *entry.description;
-  return "\n    {\"id\": " + quoted(d.id) + ", \"kind\": " + quoted(name_of(d.kind)) +
-         ", \"version\": " + quoted(d.version) + ",\n     \"summary\": " + quoted(d.summary) +
-         ",\n     \"capabilities\": " + capabilities(d.capabilities) + ",\n     \"features\": " + features(d.features) +
-         ",\n     \"parameters\": " + list(d.parameters, parameter) + ",\n     \"reads\": " + list(d.reads, use) +
-         ",\n     \"writes\": " + list(d.writes, use) + "}";
+  return {{"id", d.id},
+          {"kind", name_of(d.kind)},
+          {"version", d.version},
+          {"summary", d.summary},
+          {"capabilities", capabilities(d.capabilities)},
+          {"features", features(d.features)},
+          {"parameters", list_of(d.parameters)},
+          {"reads", list_of(d.reads)},
+          {"writes", list_of(d.writes)}};
 }
 
-inline std::string reader(const ReaderEntry& entry) {
+inline Json json_of(const ReaderEntry& entry) {
   const ReaderDescription& d = *entry.description;
-  return "\n    {\"id\": " + quoted(d.id) + ", \"kind\": \"reader\", \"version\": " + quoted(d.version) +
-         ", \"summary\": " + quoted(d.summary) + ", \"extensions\": " + list(d.extensions, quoted) + "}";
+  return {{"id", d.id},
+          {"kind", "reader"},
+          {"version", d.version},
+          {"summary", d.summary},
+          {"extensions", std::vector(d.extensions.begin(), d.extensions.end())}};
 }
 
-inline std::string body(const PluginTable& t) {
-  return "  \"name\": " + quoted(t.name) + ",\n  \"version\": " + quoted(t.version) +
-         ",\n  \"licence\": " + quoted(t.licence) + ",\n  \"summary\": " + quoted(t.summary) +
-         ",\n  \"compiler\": " + quoted(t.stamp.compiler) + ",\n  \"algorithms\": " + list(t.algorithms, algorithm) +
-         ",\n  \"readers\": " + list(t.readers, reader);
+inline Json json_of(const PluginTable& t) {
+  return {{"name", t.name},
+          {"version", t.version},
+          {"licence", t.licence},
+          {"summary", t.summary},
+          {"compiler", std::string(t.stamp.compiler)},
+          {"algorithms", list_of(t.algorithms)},
+          {"readers", list_of(t.readers)}};
 }
+
+/// What is no UTF-8 is replaced: no text of a plugin makes this fail.
+inline std::string text_of(const Json& json) { return json.dump(1, ' ', false, Json::error_handler_t::replace); }
 
 }  // namespace detail
 
 /// Ties a description file to the library it was made from: the hash of the description's text.
 inline std::string token(const PluginTable& table) {
-  const std::uint64_t hash = fnv1a(detail::body(table));
+  const std::uint64_t hash = fnv1a(detail::text_of(detail::json_of(table)));
   std::string out;
   for (int shift = 60; shift >= 0; shift -= 4) out += "0123456789abcdef"[(hash >> shift) & 15];
   return out;
 }
 
 inline std::string describe(const PluginTable& table) {
-  return "{\n  \"muro_plugin\": 1,\n  \"token\": " + detail::quoted(token(table)) + ",\n" + detail::body(table) + "\n}";
+  detail::Json json{{"muro_plugin", 1}, {"token", token(table)}};
+  json.update(detail::json_of(table));
+  return detail::text_of(json);
 }
 
 }  // namespace muro::abi

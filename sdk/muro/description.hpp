@@ -69,6 +69,27 @@ enum Capability : std::uint32_t {
   runs_alone = 64,
 };
 
+/// The name of a single capability; "" for a bit that is none.
+constexpr std::string_view name_of(Capability capability) {
+  switch (capability) {
+    case deterministic:
+      return "deterministic";
+    case batched:
+      return "batched";
+    case allocation_free:
+      return "allocation_free";
+    case restorable:
+      return "restorable";
+    case needs_gpu:
+      return "needs_gpu";
+    case world:
+      return "world";
+    case runs_alone:
+      return "runs_alone";
+  }
+  return "";
+}
+
 /// A property that an algorithm uses, by name, for the reader and for advice in error messages.
 struct PropertyUse {
   std::string_view key;

@@ -8,10 +8,13 @@ namespace muro {
 /// Count of a constant that is a single value, where an array would give its number of elements.
 inline constexpr std::uint32_t single_value = 0xffffffffu;
 
-/// What the set-up check expects of a property.
+/// What the set-up check and a hand-over between motions expect of a property.
 enum class Role : std::uint8_t {
   state,    ///< somebody must write what somebody reads
   command,  ///< as state, and somebody must read what is written: a command that no level uses is an error
+  /// As state, but it tells of the motion rather than of the robot: it is zero whenever a motion that does not write it
+  /// moves the robot. Everything else stays as the motion before has left it (Algorithm::on_handover).
+  motion_trait,
 };
 
 /// Name, unit and type of a property, without the type in the type system.

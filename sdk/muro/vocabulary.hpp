@@ -32,12 +32,14 @@ inline constexpr Key<ObjectId> shadow_of{"shadow.of", "1", "base of the robot wh
 /// the contact algorithm, for all of them. Any other number names a world: it answers for contacts of its robots with
 /// each other, with scenery and with robots that no force moves; for those with robots that forces move in another way
 /// the contact algorithm does.
-inline constexpr Key<std::uint64_t> contact_world{"contact.world", "1", "who answers for contacts of the robot"};
+inline constexpr Key<std::uint64_t> contact_world{"contact.world", "1", "who answers for contacts of the robot",
+                                                  Role::motion_trait};
 inline constexpr std::uint64_t contact_for_all = 1;
 /// How many steps the twist is older than the pose. 0 where pose and twist are those of one instant and a constant
 /// force F carries the centre by v h + F h^2 / 2m; 0.5 for semi-implicit Euler, v' = v + F h / m, x' = x + v' h, whose
 /// velocities are those of the middles of steps (leapfrog). Contact needs it to keep energy and angular momentum.
-inline constexpr Key<double> twist_lag{"twist.lag", "1", "steps by which the twist is older than the pose"};
+inline constexpr Key<double> twist_lag{"twist.lag", "1", "steps by which the twist is older than the pose",
+                                       Role::motion_trait};
 
 // What a body is.
 inline constexpr Key<Inertia> inertial{"inertial", "kg, m, kg m^2", "mass, centre of mass, inertia about it"};
