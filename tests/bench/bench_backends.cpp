@@ -25,8 +25,7 @@ std::vector<std::string> columns() {
 
 /// The error in few digits, with what it is allowed where it is not the bound of the case; "" where it does not apply.
 std::string cell(const std::string& motion, const Case& c) {
-  const Features has = conformance::description_of(motion).features;
-  if ((c.needs & has) != c.needs || (c.excludes & has) != 0) return "";
+  if (!conformance::why_left_out(motion, c).empty()) return "";
   try {
     const Outcome seen = c.run(motion);
     const Bound bound = conformance::bound_of(motion, c);

@@ -223,7 +223,7 @@ TEST(ForcedJoints, MixedTargetsMoveJointsAsTheyDoAlone) {
   EXPECT_EQ(at_end(mixed, "b"), at_end({{"joints", "position"}}, "b"));
 }
 
-TEST(ForcedJoints, ADriveWithLimitedEffortHoldsALightLoadAndGivesWayToAHeavyOne) {
+TEST(ForcedJoints, ALimitedDriveHoldsALightLoadAndYieldsToAHeavyOne) {
   for (const double most : {1.0, 3.0}) {  // the rod needs 1.962 N m at the horizontal
     Machine s(pendulum({.effort = most}), {{"joints", "position"}, {"base", "fixed"}, {"effort_limits", true}},
               -M_PI / 2);

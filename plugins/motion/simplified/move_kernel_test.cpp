@@ -95,7 +95,7 @@ unsigned move(std::vector<Vehicle>& all, lane::Isa isa, int at_once, const std::
 }
 
 /// Slow spins take the series, fast ones sine and cosine, and a lane may have both.
-TEST(MoveKernel, RobotsMovedTogetherGetTheBitsOfEachAloneWithAnyInstructionSet) {
+TEST(MoveKernel, RobotsMovedTogetherGetTheBitsOfEachAlone) {
   std::mt19937 random(5);
   for (const double spin : {1.0, 300.0})
     for (const Mode mode : {Mode::velocity, Mode::position, Mode::acceleration})

@@ -29,6 +29,15 @@ std::vector<Case> all_cases() {
   return all;
 }
 
+std::string why_left_out(const std::string& motion, const Case& c) {
+  if (!c.only_for.empty() && motion != c.only_for) return "it is for " + std::string(c.only_for);
+  const Features has = description_of(motion).features;
+  std::string missing;
+  for (const FeatureInfo& f : feature_infos)
+    if ((c.needs & f.bit) != 0 && (has & f.bit) == 0) missing += (missing.empty() ? "" : ", ") + std::string(f.name);
+  return missing.empty() ? "" : "the motion does not offer " + missing;
+}
+
 std::vector<std::string> motions() {
   std::vector<std::string> ids;
   for (const CatalogEntry& o : test::plugins().catalog())

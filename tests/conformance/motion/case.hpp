@@ -37,10 +37,10 @@ struct Outcome {
 struct Case {
   std::string_view name;  ///< a sentence
   std::string_view unit;  ///< of the error
-  Features needs = 0;     ///< other motions skip it
+  Features needs = 0;     ///< it is for motions that have all of these
   double bound = 0;       ///< of the error
   Outcome (*run)(const std::string& motion) = nullptr;
-  Features excludes = 0;  ///< motions that have one of these skip it
+  std::string_view only_for{};  ///< the motion that it is for; empty: all that have the features
 };
 
 /// All cases, in the order of their table.
@@ -54,6 +54,9 @@ std::vector<Case> pendulum_cases();
 std::vector<Case> vehicle_cases();
 std::vector<Case> obstacle_cases();
 std::vector<Case> mesh_cases();
+
+/// Why the case is not for the motion; empty where it is.
+std::string why_left_out(const std::string& motion, const Case& c);
 
 /// What this motion is allowed in this case: its own bound, where it has one with a reason (see bounds.cpp).
 struct Bound {

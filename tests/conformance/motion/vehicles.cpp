@@ -136,7 +136,7 @@ Outcome arc(const std::string& motion) {
 std::vector<Case> vehicle_cases() {
   constexpr Features needs = feature_contact | feature_friction | feature_velocity_targets;
   return {
-      {"two wheels drive an exact arc", "m, rad", feature_velocity_targets, 1e-6, arc, feature_forces},
+      {"two wheels drive an exact arc", "m, rad", feature_velocity_targets, 1e-6, arc, "motion.differential_drive"},
       {"a rover drives as fast as its wheels turn", "relative", needs, 5e-3, drives},
       {"a rover climbs 20 deg as fast as its wheels turn", "relative", needs, 1e-2, climbs},
       {"a rover parks on 30 deg when tan is below mu", "m/s", needs, 1e-4, parks},
