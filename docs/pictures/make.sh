@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Makes the pictures of README.md anew: docs/pictures/make.sh, in a built checkout. Needs xvfb.
+# Makes the pictures of README.md and docs/ anew: docs/pictures/make.sh, in a built checkout. Needs xvfb.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 muro=build/bin/muro out=docs/pictures
@@ -27,5 +27,9 @@ scans() {
 scans lidar --duration 0.3 --set robots.scout.sweep=off --set robots.scout.laser_error=off --set robots.scout.control=off \
   --set robots.scout.laser=off
 scans scan --duration 3 --set robots.scout.lidar=off
+window examples/team/team.yaml --view --speed max --duration 1.5 --set algorithms.view.panels=false \
+  --set algorithms.view.contacts=false --set algorithms.view.samples=4 --set algorithms.view.width=1280 \
+  --set algorithms.view.height=600 --set 'algorithms.view.from=[-4.2,-3.9,1.6]' \
+  --set 'algorithms.view.to=[-0.5,-0.5,0.32]' --set "algorithms.view.picture=$out/team.png"
 window "$urban" --view --duration 4 --set algorithms.view.follow=rovers_0 --set algorithms.view.samples=4 \
   --set "algorithms.view.picture=$out/window.png"
