@@ -54,11 +54,12 @@ function(muro_add_static_library)
   target_precompile_headers(${ARG_NAME} REUSE_FROM muro_plugin_pch)
 endfunction()
 
-# muro_add_test(NAME x SOURCES ... [LIBRARIES ...] [TIMEOUT s] [FIXTURE f]): a GoogleTest program, each test known to
-# ctest. FIXTURE: the tests that set it up run before.
+# muro_add_test(NAME x SOURCES ... [LIBRARIES ...] [TIMEOUT s] [FIXTURE f] [SLOW]): a GoogleTest program, each test known
+# to ctest. FIXTURE: the tests that set it up run before. Tests whose suite or instantiation is named Slow... have the
+# label `slow`; so have all tests of a program that is SLOW, which is built for `./dev test --slow` alone.
 function(muro_add_test)
-  cmake_parse_arguments(ARG "" "NAME;TIMEOUT;FIXTURE" "SOURCES;LIBRARIES" ${ARGN})
-  if(NOT MURO_TESTS)
+  cmake_parse_arguments(ARG "SLOW" "NAME;TIMEOUT;FIXTURE" "SOURCES;LIBRARIES" ${ARGN})
+  if(NOT MURO_TESTS OR (ARG_SLOW AND NOT MURO_SLOW_TESTS))
     return()
   endif()
   if(NOT ARG_TIMEOUT)
@@ -69,8 +70,16 @@ function(muro_add_test)
   muro_compile_as_test(${ARG_NAME})
   set_target_properties(${ARG_NAME} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   include(GoogleTest)
-  gtest_discover_tests(${ARG_NAME} TEST_PREFIX ${ARG_NAME}. NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60
-                       PROPERTIES TIMEOUT ${ARG_TIMEOUT} FIXTURES_REQUIRED "${ARG_FIXTURE}")
+  set(slow "Slow*")
+  if(ARG_SLOW)
+    set(slow "*")
+  else()
+    gtest_discover_tests(${ARG_NAME} TEST_PREFIX ${ARG_NAME}. TEST_FILTER "-Slow*" NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60
+                         PROPERTIES TIMEOUT ${ARG_TIMEOUT} FIXTURES_REQUIRED "${ARG_FIXTURE}")
+  endif()
+  gtest_discover_tests(${ARG_NAME} TEST_PREFIX ${ARG_NAME}. TEST_FILTER ${slow} TEST_LIST ${ARG_NAME}_slow_tests
+                       NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60
+                       PROPERTIES TIMEOUT ${ARG_TIMEOUT} FIXTURES_REQUIRED "${ARG_FIXTURE}" LABELS slow)
 endfunction()
 
 # muro_add_bench(NAME bench_x SOURCES ... [LIBRARIES ...]): a program that `./dev bench` runs.

@@ -1,10 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# check.sh [TREE]: holds the includes and links of a source tree (default: this one) against rules.txt, and
-# that core names no plugin. Prints what breaks a rule, one line each; exit code 1 when something does.
+# check.sh [TREE [RULES]]: holds the includes and links of a source tree (default: this one) against rules (default:
+# rules.txt), and that core names no plugin; rules name folders that exist. Prints what breaks a rule, one line each;
+# exit code 1 when something does.
 set -euo pipefail
 
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+rules=$(realpath "${2:-$here/rules.txt}")
 cd "${1:-$here/../..}"
 
 declare -a library_names=() library_begins=()               # parallel: one entry a beginning
@@ -16,9 +18,9 @@ while read -r word name rest; do
     library) for begin in $rest; do library_names+=("$name") library_begins+=("$begin"); done ;;
     folder | tests) folder_regexes+=("^(${name//\*/[^/]+})/") folder_allows+=("$rest") folder_for+=("$word") ;;
     link) link_folders+=("$name") link_targets+=("$rest") ;;
-    *) echo "$here/rules.txt: '$word' is none of library, folder, tests, link" >&2 && exit 2 ;;
+    *) echo "$rules: '$word' is none of library, folder, tests, link" >&2 && exit 2 ;;
   esac
-done <"$here/rules.txt"
+done <"$rules"
 
 failures=0
 fail() {
@@ -34,7 +36,7 @@ resolve() {
   if [[ -f $folder/$name ]]; then
     target=$folder/$name
     [[ $target != *..* ]] || target=$(realpath -m --relative-to=. "$target")
-  elif [[ $name == muro/* && -f sdk/$name ]]; then
+  elif [[ $name =~ ^(muro|describe)/ && -f sdk/$name ]]; then
     target=sdk/$name
   elif [[ $name == muro_controller.h ]]; then
     target=sdk/c/$name
@@ -111,8 +113,22 @@ check_core_names_no_plugin() {
   done < <(grep -rnE "\"($names)\"" --include='*.[ch]pp' core | sort -t: -k1,1 -k2n)
 }
 
+# A rule for a folder that is gone says something of a layout that is gone.
+check_rules_name_folders() {
+  local i regex folders
+  folders=$(find . -type d -printf '%P/\n')
+  for i in "${!folder_regexes[@]}"; do
+    regex=${folder_regexes[i]}
+    grep -qE "$regex" <<<"$folders" || fail "$rules: a rule for ${regex:2:-2}, a folder that does not exist"
+    for word in ${folder_allows[i]}; do
+      [[ $word != */* || -e $word ]] || fail "$rules: the rule for ${regex:2:-2} allows $word, which does not exist"
+    done
+  done
+}
+
 check_includes
 check_links
+[[ -n ${1:-} && -z ${2:-} ]] || check_rules_name_folders # a tree under the rules of another has not all of its folders
 check_core_names_no_plugin
 if ((failures > 0)); then
   echo "$failures include rules broken (tests/include_rules/rules.txt says who may include what)"

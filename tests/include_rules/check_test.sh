@@ -12,8 +12,8 @@ failures=0
 # A tree without fault: every kind of arrow that is allowed.
 fresh_tree() {
   find "$tree" -mindepth 1 -delete
-  mkdir -p sdk/muro sdk/c core host plugins/motion/{point,bullet} plugins/render tests/core
-  touch sdk/muro/key.hpp sdk/c/muro_controller.h core/world.hpp plugins/motion/point/kernel.hpp plugins/render/gl.hpp
+  mkdir -p sdk/muro sdk/c core host plugins/motion/{point,bullet} plugins/common/render tests/core
+  touch sdk/muro/key.hpp sdk/c/muro_controller.h core/world.hpp plugins/motion/point/kernel.hpp plugins/common/render/gl.hpp
   echo '#include "core/world.hpp" // a comment; with <brackets> and "quotes"' >host/run.cpp
   printf '%s\n' '#include "muro/key.hpp"' '#include "kernel.hpp"' '#include <Eigen/Core>' '#include <span>' \
     'constexpr D d{.id = "motion.point"};' >plugins/motion/point/point.cpp
@@ -41,16 +41,16 @@ fresh_tree
 expect ''
 
 echo '#include "core/world.hpp"' >plugins/motion/point/kernel.hpp
-expect 'plugins/motion/point/kernel.hpp:1: includes "core/world.hpp" (core/world.hpp); this file may include: std plugins/motion/point sdk eigen posix plugins/render plugins/mesh plugins/encounters plugins/multibody plugins/wheeled plugins/model_file plugins/scanner plugins/picture_file'
+expect 'plugins/motion/point/kernel.hpp:1: includes "core/world.hpp" (core/world.hpp); this file may include: std plugins/motion/point sdk/muro eigen posix plugins/common'
 
 echo '#include "../../../core/world.hpp"' >plugins/motion/bullet/world.cpp
-expect 'plugins/motion/bullet/world.cpp:1: includes "../../../core/world.hpp" (core/world.hpp); this file may include: std plugins/motion/bullet sdk eigen posix plugins/render plugins/mesh plugins/encounters plugins/multibody plugins/wheeled plugins/model_file plugins/scanner plugins/picture_file bullet'
+expect 'plugins/motion/bullet/world.cpp:1: includes "../../../core/world.hpp" (core/world.hpp); this file may include: std plugins/motion/bullet sdk/muro eigen posix plugins/common bullet'
 
 printf '\n#include "plugins/motion/point/kernel.hpp"\n' >plugins/motion/bullet/world.cpp
-expect 'plugins/motion/bullet/world.cpp:2: includes "plugins/motion/point/kernel.hpp" (plugins/motion/point/kernel.hpp); this file may include: std plugins/motion/bullet sdk eigen posix plugins/render plugins/mesh plugins/encounters plugins/multibody plugins/wheeled plugins/model_file plugins/scanner plugins/picture_file bullet'
+expect 'plugins/motion/bullet/world.cpp:2: includes "plugins/motion/point/kernel.hpp" (plugins/motion/point/kernel.hpp); this file may include: std plugins/motion/bullet sdk/muro eigen posix plugins/common bullet'
 
 echo '#include <btBulletDynamicsCommon.h>' >plugins/motion/point/kernel.hpp
-expect 'plugins/motion/point/kernel.hpp:1: includes "btBulletDynamicsCommon.h" (bullet); this file may include: std plugins/motion/point sdk eigen posix plugins/render plugins/mesh plugins/encounters plugins/multibody plugins/wheeled plugins/model_file plugins/scanner plugins/picture_file'
+expect 'plugins/motion/point/kernel.hpp:1: includes "btBulletDynamicsCommon.h" (bullet); this file may include: std plugins/motion/point sdk/muro eigen posix plugins/common'
 
 echo '#include "core/world.hpp"' >sdk/muro/key.hpp
 expect 'sdk/muro/key.hpp:1: includes "core/world.hpp" (core/world.hpp); this file may include: std sdk/muro eigen'
@@ -59,7 +59,7 @@ echo '#include <boost/any.hpp>' >sdk/muro/key.hpp
 expect 'sdk/muro/key.hpp:1: includes "boost/any.hpp" (boost); this file may include: std sdk/muro eigen'
 
 touch host/run.hpp && echo '#include "host/run.hpp"' >core/world.hpp
-expect 'core/world.hpp:1: includes "host/run.hpp" (host/run.hpp); this file may include: std core sdk/muro eigen boost posix'
+expect 'core/world.hpp:1: includes "host/run.hpp" (host/run.hpp); this file may include: std core sdk/muro sdk/describe eigen boost posix json fmt'
 
 echo '#include "plugins/motion/point/kernel.hpp"' >host/run.cpp
 expect 'host/run.cpp:1: includes "plugins/motion/point/kernel.hpp" (plugins/motion/point/kernel.hpp); this file may include: std host core sdk eigen boost posix json yaml cli fmt png'
@@ -80,7 +80,16 @@ echo 'target_link_libraries(muro_core PRIVATE muro_host)' >core/CMakeLists.txt
 expect 'core/CMakeLists.txt: names muro_host; under core/ only muro_add_test and muro_add_bench may link it'
 
 echo '#include <ode/ode.h>' >core/world.hpp && echo '#include <unistd.h>' >sdk/muro/key.hpp
-expect 'core/world.hpp:1: includes "ode/ode.h" (ode); this file may include: std core sdk/muro eigen boost posix
+expect 'core/world.hpp:1: includes "ode/ode.h" (ode); this file may include: std core sdk/muro sdk/describe eigen boost posix json fmt
 sdk/muro/key.hpp:1: includes "unistd.h" (posix); this file may include: std sdk/muro eigen' 2
+
+printf 'folder sdk/muro own\nfolder plugins/walking own sdk/gait\n' >rules.txt
+said=$("$check" "$tree" rules.txt | grep 'does not exist' || true)
+wanted="$tree/rules.txt: a rule for plugins/walking, a folder that does not exist
+$tree/rules.txt: the rule for plugins/walking allows sdk/gait, which does not exist"
+if [[ $said != "$wanted" ]]; then
+  printf 'expected:\n%s\nsaid:\n%s\n\n' "$wanted" "$said"
+  failures=$((failures + 1))
+fi
 
 ((failures == 0))

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// One hash for each property: to say whether two versions of muro, or two machines, compute the same.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "core/world.hpp"
+
+namespace muro::test {
+
+/// What "object:key" holds now: "CLASS HASH", where CLASS is constant, variable or derived. Transient values are left
+/// out, since they hold addresses. A place in memory that has several names has an entry for each.
+std::map<std::string, std::string> property_hashes(const World& world);
+
+/// The same by key: "CLASSES HASH" of all objects that have a property of this name.
+std::map<std::string, std::string> hashes_by_key(const std::map<std::string, std::string>& of_properties);
+
+}  // namespace muro::test
