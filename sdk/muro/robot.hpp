@@ -38,19 +38,6 @@ struct Link {
   double mimic_offset = 0;
 };
 
-/// The pose of a link's frame in its parent's when its joint is at `position` (rad or m).
-inline Pose pose_in_parent(const Link& link, double position) {
-  switch (link.joint) {
-    case JointKind::revolute:
-      return link.origin * Pose{Vec3::Zero(), rotation_of(Vec3(link.axis * position))};
-    case JointKind::prismatic:
-      return link.origin * Pose{link.axis * position, Quat::Identity()};
-    case JointKind::fixed:
-      break;
-  }
-  return link.origin;
-}
-
 /// A robot as algorithms see it. Link 0 is the base; children follow their parents, depth first.
 struct RobotView {
   std::string_view name;

@@ -25,15 +25,6 @@ struct Aabb {
   }
 };
 
-/// The box around `shape` when the shape (not its body) stands at `pose`. Planes are infinite.
-inline Aabb bounds_of(const Shape& shape, const Pose& pose) {
-  const Vec3 half = half_extents(shape);
-  if (shape.kind == ShapeKind::plane) return {-half, half};
-  if (shape.kind == ShapeKind::sphere) return {pose.position - half, pose.position + half};
-  const Vec3 reach = pose.orientation.toRotationMatrix().cwiseAbs() * half;
-  return {pose.position - reach, pose.position + reach};
-}
-
 /// One shape of one body in the scene.
 struct Collider {
   const Shape* shape = nullptr;
@@ -44,8 +35,6 @@ struct Collider {
 
   /// Of the shape in the world.
   Pose pose() const { return *body_pose * shape->origin; }
-  /// Around the shape in the world.
-  Aabb bounds() const { return bounds_of(*shape, pose()); }
 };
 
 /// A node of a hierarchy of boxes. A leaf has `count` > 0 items, from `first` on in `items`;

@@ -39,24 +39,4 @@ struct Shape {
 };
 MURO_OPAQUE_TYPE(Shape, "muro.Shape", opaque);
 
-/// Half lengths (m) of the smallest box around a shape, in the axes of the shape; infinite for a
-/// plane, zero for a mesh (its size is known to who loads it).
-inline Vec3 half_extents(const Shape& s) {
-  switch (s.kind) {
-    case ShapeKind::box:
-      return 0.5 * s.size;
-    case ShapeKind::sphere:
-      return Vec3::Constant(s.size.x());
-    case ShapeKind::cylinder:
-      return {s.size.x(), s.size.x(), 0.5 * s.size.z()};
-    case ShapeKind::capsule:
-      return {s.size.x(), s.size.x(), s.size.x() + 0.5 * s.size.z()};
-    case ShapeKind::plane:
-      return Vec3::Constant(std::numeric_limits<double>::infinity());
-    case ShapeKind::mesh:
-      break;
-  }
-  return Vec3::Zero();
-}
-
 }  // namespace muro

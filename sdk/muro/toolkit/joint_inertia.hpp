@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "muro/robot.hpp"
+#include "muro/toolkit/link_pose.hpp"
 
 namespace muro {
 

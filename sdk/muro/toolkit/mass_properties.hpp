@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "muro/algorithm.hpp"
+#include "muro/toolkit/link_pose.hpp"
 #include "muro/vocabulary.hpp"
 
 namespace muro {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "muro/algorithm.hpp"
+#include "muro/toolkit/rotations.hpp"
 #include "muro/vocabulary.hpp"
 
 namespace muro {

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// The base of algorithms that serve one robot after the other.
+#pragma once
+
+#include <vector>
+
+#include "muro/algorithm.hpp"
+
+namespace muro {
+
+/// An algorithm that serves each robot from the properties of this robot alone, so that robots may be divided among
+/// threads. `Robot` is what it keeps of one: handles and parameters. What is left to a derived class is to connect one
+/// robot, and a step that goes through `robots(range)`.
+template <class Robot>
+class PerRobotAlgorithm : public Algorithm {
+ public:
+  void connect(Connector& c) final {
+    read_parameters(c.parameters());
+    robots_.reserve(c.items().size());
+    for (const Item& item : c.items()) {
+      if (!item.robot) throw Error("it serves robots, but no robot is named");
+      robots_.push_back(connect_robot(c, item));
+    }
+  }
+
+  std::span<const Phase> phases() const final {
+    static constexpr Phase phases[] = {{Phase::IndexSpace::items, Phase::Scope::own_robot}};
+    return phases;
+  }
+
+ protected:
+  /// Keeps what holds for all robots; called before the first one is connected. [setup]
+  virtual void read_parameters(const Parameters& parameters) { static_cast<void>(parameters); }
+  /// Binds every property of one robot; `item.robot` is not null. [setup]
+  virtual Robot connect_robot(Connector& connector, const Item& item) = 0;
+
+  /// Those of the items of `range`. [step]
+  std::span<Robot> robots(Range range) { return {robots_.data() + range.begin, range.end - range.begin}; }
+  Robot& robot(std::uint32_t item) { return robots_[item]; }
+
+ private:
+  std::vector<Robot> robots_;  ///< one an item
+};
+
+}  // namespace muro
