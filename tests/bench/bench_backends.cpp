@@ -40,13 +40,12 @@ std::string cell(const std::string& motion, const Case& c) {
 std::string page(const std::vector<std::string>& motions, const std::vector<std::vector<std::string>>& rows) {
   std::string out =
       "# Backends and what they do\n\n"
-      "Made by `./dev bench backends`. Each case has an answer from outside (a closed "
-      "form, "
-      "a published figure); `tests/conformance/motion` holds every motion that offers what a case needs to the bound. "
-      "All "
-      "at 1000 Hz (the top at 4000) with default parameters. `*`: the motion has a bound of its own, for the reason "
-      "below "
-      "the table. Empty: it does not offer what the case needs.\n\n| case | unit | bound |";
+      "For users who choose a motion: every backend in every case with a known answer, and how far it is\n"
+      "from it. Made by `./dev bench backends`.\n\n"
+      "Each case has an answer from outside (a closed form, a published figure);\n"
+      "`tests/conformance/motion` holds every motion that offers what a case needs to the bound. All at\n"
+      "1000 Hz (the top at 4000) with default parameters. `*`: the motion has a bound of its own, for the\n"
+      "reason below the table. Empty: it does not offer what the case needs.\n\n| case | unit | bound |";
   for (const std::string& m : motions) out += " " + m + " |";
   out += "\n|---|---|---|";
   for (std::size_t i = 0; i < motions.size(); ++i) out += "---|";
@@ -54,11 +53,11 @@ std::string page(const std::vector<std::string>& motions, const std::vector<std:
     out += "\n|";
     for (const std::string& c : row) out += " " + c + " |";
   }
-  out += "\n\n";
+  out += "\n\n| motion | case | its bound | reason |\n|---|---|---|---|\n";
   for (const std::string& m : motions)
     for (const Case& c : conformance::all_cases())
       if (const Bound b = conformance::bound_of(m, c); !b.why.empty())
-        out += fmt::format("- {}: {}: {:g}, for: {}\n", m, c.name, b.error, b.why);
+        out += fmt::format("| {} | {} | {:g} | {} |\n", m, c.name, b.error, b.why);
   return out;
 }
 
