@@ -73,7 +73,7 @@ TEST(BadPlugin, WithoutTheSymbolIsRefused) {
                                       " exports no `muro_plugin`: it is no muro plugin; close it with MURO_PLUGIN");
 }
 
-TEST(BadPlugin, WithAnUnresolvedSymbolIsRefusedWhenItIsLoadedAndNotWhenItIsCalled) {
+TEST(BadPlugin, WithAnUnresolvedSymbolIsRefusedWhenItIsLoaded) {
   const std::string said = refusal("unresolved_symbol");
   EXPECT_EQ(said.find("plugin " + library("unresolved_symbol") + " cannot be loaded: "), 0u) << said;
   EXPECT_NE(said.find("undefined symbol: function_that_nobody_wrote"), std::string::npos) << said;
