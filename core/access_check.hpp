@@ -21,46 +21,46 @@ class Instance;
 class AccessCheck final : public CallObserver {
  public:
   AccessCheck(PropertyStore& store, const std::vector<Instance*>& instances, std::vector<std::int32_t> robot_of_slot);
-  bool make(const Task& task, const Step& step, Range range, abi::ErrorText& error) override;
+  bool call(const Task& task, const Step& step, Range range, abi::ErrorText& error) override;
 
  private:
-  /// One value in memory, or the elements of a list.
-  struct Cell {
+  /// The memory of one property, or of one contribution to a sum.
+  struct Memory {
     std::uint32_t slot = 0;
-    Accessor adder = setup_accessor;  ///< of a contribution to a sum
-    std::byte* memory = nullptr;
+    Accessor contributor = setup_accessor;  ///< of a contribution to a sum
+    std::byte* data = nullptr;
     std::size_t size = 0;
     ListHeader* list = nullptr;
 
     std::span<std::byte> bytes() const {
-      if (!list) return {memory, size};
+      if (!list) return {data, size};
       return {static_cast<std::byte*>(list->data), list->size * list->element_size};
     }
   };
   /// What an instance has bound, by slot.
-  struct Rights {
+  struct Bindings {
     const abi::AlgorithmInstance* algorithm = nullptr;
     const Description* description = nullptr;
     Accessor accessor = setup_accessor;
     std::vector<bool> reads, writes;
   };
   struct Allowed {
-    std::vector<bool> reads, writes;  ///< by cell
+    std::vector<bool> reads, writes;  ///< by number in memory_
   };
   using Copy = std::vector<std::vector<std::byte>>;
 
-  void find_cells();
-  Allowed allowed(const Rights& rights, const Task& task, const Step& step, Range range) const;
+  void find_memory();
+  Allowed allowed(const Bindings& bindings, const Task& task, const Step& step, Range range) const;
   Copy copy() const;
-  void put_back(const Copy& from);
+  void restore(const Copy& from);
   void poison(const Allowed& allowed);
-  bool come_again(const Task& task, Step step, Range range, abi::ErrorText& error);
-  std::string name_of(const Cell& cell) const;
+  bool repeat_until(const Task& task, Step step, Range range, abi::ErrorText& error);
+  std::string name_of(const Memory& memory) const;
 
   PropertyStore& store_;
-  std::vector<Rights> rights_;
+  std::vector<Bindings> bindings_;
   std::vector<std::int32_t> robot_of_slot_;
-  std::vector<Cell> cells_;
+  std::vector<Memory> memory_;
   Copy before_step_;
 };
 

@@ -23,15 +23,15 @@ struct AlgorithmSetup {
   std::int64_t phase = 0;  ///< ns
   std::map<std::string, ParameterInput> parameters;
   std::vector<Item> items;  ///< none: the world
-  /// What one item of a world has of its own.
-  struct Own {
+  /// What one item of a world (Capability::world) has of its own.
+  struct ItemSetup {
     std::string name, place;  ///< as those of the setup
     std::map<std::string, ParameterInput> parameters;
   };
-  std::vector<Own> own;   ///< one an item; none: all have `parameters`
-  std::string subsystem;  ///< "motion": with the robot's name, keys the random numbers
-  std::string folder;     ///< relative paths in parameters start here; "": the working directory
-  std::string place;      ///< "file:line:column" of the scenario, put before messages; may be empty
+  std::vector<ItemSetup> item_setups;  ///< one an item; none: all have `parameters`
+  std::string subsystem;               ///< "motion": with the robot's name, keys the random numbers
+  std::string folder;                  ///< relative paths in parameters start here; "": the working directory
+  std::string place;                   ///< "file:line:column" of the scenario, put before messages; may be empty
 };
 
 }  // namespace muro

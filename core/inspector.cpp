@@ -29,7 +29,7 @@ std::span<const LiveProperty> Inspector::properties(ObjectId object) noexcept {
   const PropertyStore& store = world_.store();
   properties_.clear();
   keys_.clear();
-  for (const PropertyStore::Named& n : store.properties(object)) {
+  for (const PropertyStore::NamedSlot& n : store.properties(object)) {
     const Slot& s = store.slot(n.slot);
     LiveProperty p = elements_of(s);
     if (!p.data && s.multiplicity != Multiplicity::list) continue;  // sums, and what has only been shared so far

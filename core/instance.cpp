@@ -24,10 +24,10 @@ Instance::Instance(const abi::AlgorithmEntry& entry, AlgorithmSetup setup, World
       accessor_(world.store().add_accessor(setup_.name + " (" + setup_.use +
                                            (setup_.place.empty() ? "" : ", " + setup_.place) + ")")) {
   if (setup_.items.empty()) setup_.items.push_back({});
-  for (const AlgorithmSetup::Own& own : setup_.own) {
+  for (const AlgorithmSetup::ItemSetup& item : setup_.item_setups) {
     AlgorithmSetup one;
-    one.name = own.name, one.use = setup_.use, one.place = own.place, one.parameters = own.parameters;
-    own_parameters_.emplace_back(*entry.description, one);
+    one.name = item.name, one.use = setup_.use, one.place = item.place, one.parameters = item.parameters;
+    item_parameters_.emplace_back(*entry.description, one);
   }
   const Kind kind = entry.description->kind;
   if (!setup_.items.front().robot && (kind == Kind::motion || kind == Kind::kinematics || kind == Kind::drive))
@@ -92,7 +92,7 @@ std::vector<SlotId> Instance::writes() const {
   return slots;
 }
 
-void Instance::read_through(const std::vector<const Instance*>& by_accessor) {
+void Instance::add_indirect_reads(const std::vector<const Instance*>& by_accessor) {
   std::vector<Bound> added;
   for (const Bound& b : bound_) {
     const Slot& s = world_.store().slot(b.slot);
@@ -104,18 +104,14 @@ void Instance::read_through(const std::vector<const Instance*>& by_accessor) {
   bound_.insert(bound_.end(), added.begin(), added.end());
 }
 
-std::vector<Touch> Instance::touches() const {
-  std::vector<Touch> all;
+std::vector<SlotAccess> Instance::accesses() const {
+  std::vector<SlotAccess> all;
   for (const Bound& b : bound_) {
     if (world_.store().slot(b.slot).kind == Slot::Class::constant) continue;
     const bool shared = b.usage.access == Access::read || b.usage.access == Access::accumulate;
     all.push_back({b.slot, !shared});
   }
-  std::sort(all.begin(), all.end(), [](const Touch& a, const Touch& b) {
-    return a.slot != b.slot ? a.slot < b.slot : a.exclusive > b.exclusive;
-  });
-  all.erase(std::unique(all.begin(), all.end(), [](const Touch& a, const Touch& b) { return a.slot == b.slot; }),
-            all.end());
+  merge_accesses(all);
   return all;
 }
 
@@ -139,7 +135,7 @@ std::string_view Instance::resolve_path(std::string_view path) const noexcept {
 
 std::span<const FoundProperty> Instance::properties(ObjectId object) const noexcept {
   found_.clear();
-  for (const PropertyStore::Named& n : world_.store().properties(object)) {
+  for (const PropertyStore::NamedSlot& n : world_.store().properties(object)) {
     const Slot& s = world_.store().slot(n.slot);
     const KeyInfo* key = &world_.store().key_of(s);
     const bool is_sum = std::any_of(s.users.begin(), s.users.end(), [](const Slot::User& u) {
@@ -165,8 +161,9 @@ bool Instance::is_used(ObjectId object, const KeyInfo& key, Usage usage) const n
 void* Instance::bind(ObjectId object, const KeyInfo& key, Usage usage, Multiplicity multiplicity, std::uint32_t count,
                      const void* initial) noexcept {
   const std::int32_t robot = world_.robot_of(object);
-  const bool rests = robot >= 0 && std::size_t(robot) < resting_.size() && resting_[std::size_t(robot)];
-  void* handle = world_.store().bind(accessor_, object, key, usage, multiplicity, count, initial, rests);
+  const bool inactive =
+      robot >= 0 && std::size_t(robot) < inactive_at_start_.size() && inactive_at_start_[std::size_t(robot)];
+  void* handle = world_.store().bind(accessor_, object, key, usage, multiplicity, count, initial, inactive);
   bound_.push_back({world_.store().slots_of(accessor_).back(), usage});
   return handle;
 }

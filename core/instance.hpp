@@ -43,8 +43,9 @@ class Instance final : private Connector {
   abi::AlgorithmInstance& algorithm() { return *algorithm_; }
   Accessor accessor() const { return accessor_; }
 
-  /// Of each robot, by number: whether another motion moves it at the start. [before connect]
-  void set_resting(std::vector<bool> resting) { resting_ = std::move(resting); }
+  /// Of each robot, by number: whether another motion moves it at the start, whose initial values count. [before
+  /// connect]
+  void set_inactive_at_start(std::vector<bool> inactive) { inactive_at_start_ = std::move(inactive); }
   /// Throws SetupError with the algorithm's own words.
   void connect();
   void connect_by_name();
@@ -56,12 +57,12 @@ class Instance final : private Connector {
   std::vector<SlotId> reads() const;
   std::vector<SlotId> writes() const;
   /// A property whose value points into others (SceneIndex) is read together with all that its writer reads: adds that.
-  void read_through(const std::vector<const Instance*>& by_accessor);
+  void add_indirect_reads(const std::vector<const Instance*>& by_accessor);
   /// Every property that is not a constant, once. Contributions to a sum do not exclude each other, but exclude who
   /// reads the sum.
-  std::vector<Touch> touches() const;
+  std::vector<SlotAccess> accesses() const;
   /// It needs this property too, to know when to run.
-  void also_reads(SlotId slot) { bound_.push_back({slot, usage::read}); }
+  void add_read(SlotId slot) { bound_.push_back({slot, usage::read}); }
   /// How a step is divided; one or more.
   std::vector<Phase> phases() const;
 
@@ -69,7 +70,7 @@ class Instance final : private Connector {
   std::span<const Item> items() const noexcept override { return setup_.items; }
   const Parameters& parameters() const noexcept override { return parameters_.view(); }
   const Parameters& parameters_of(std::uint32_t i) const noexcept override {
-    return own_parameters_.empty() ? parameters_.view() : own_parameters_[i].view();
+    return item_parameters_.empty() ? parameters_.view() : item_parameters_[i].view();
   }
   Host& host() const noexcept override { return host_; }
   std::uint64_t random_key(std::uint32_t i) const noexcept override;
@@ -95,7 +96,7 @@ class Instance final : private Connector {
   World& world_;
   Host& host_;
   ParameterSet parameters_;
-  std::deque<ParameterSet> own_parameters_;  ///< one an item, when they differ
+  std::deque<ParameterSet> item_parameters_;  ///< one an item, when they differ
   Accessor accessor_;
   abi::AlgorithmInstance* algorithm_ = nullptr;
   mutable std::vector<FoundProperty> found_;
@@ -106,7 +107,7 @@ class Instance final : private Connector {
     Usage usage;
   };
   std::vector<Bound> bound_;
-  std::vector<bool> resting_;
+  std::vector<bool> inactive_at_start_;
 };
 
 }  // namespace muro

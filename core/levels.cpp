@@ -84,20 +84,14 @@ void Levels::prepare(World& world, const std::vector<LevelsOfRobot>& robots,
     store.let_alternate(objects, accessors);
 
     const ObjectId base = setup.robot->base();
-    const auto own = [&](const KeyInfo& key, Usage usage, const void* initial) {
-      void* place = store.bind(accessor, base, key, usage, Multiplicity::single, 1, initial);
-      if (usage == usage::variable) r.written.push_back(store.slots_of(accessor).back());
-      return place;
+    const auto bind = [&](const KeyInfo& key, Usage usage, const void* initial) {
+      return store.bind(accessor, base, key, usage, Multiplicity::single, 1, initial);
     };
     const std::int32_t nobody = -1;
-    const std::uint64_t unmoved = 0;
-    const double no_lag = 0;
-    r.level = static_cast<std::uint32_t*>(own(keys::motion_level, usage::variable, &setup.first));
+    r.level = static_cast<std::uint32_t*>(bind(keys::motion_level, usage::variable, &setup.first));
     r.level_slot = store.slots_of(accessor).back();
-    r.target = static_cast<const std::int32_t*>(own(keys::motion_level_target, usage::input, &nobody));
+    r.target = static_cast<const std::int32_t*>(bind(keys::motion_level_target, usage::input, &nobody));
     r.target_slot = store.slots_of(accessor).back();
-    r.contact_world = static_cast<std::uint64_t*>(own(keys::contact_world, usage::variable, &unmoved));
-    r.twist_lag = static_cast<double*>(own(keys::twist_lag, usage::variable, &no_lag));
     std::vector<TextId> names;
     for (const std::string& name : setup.names) names.push_back(world.intern(name));
     world.set_array(base, keys::motion_level_names, std::span<const TextId>(names));
@@ -111,35 +105,53 @@ Levels::Robot* Levels::find(std::int32_t number) {
 }
 const Levels::Robot* Levels::find(std::int32_t number) const { return const_cast<Levels*>(this)->find(number); }
 
-bool Levels::rests(std::int32_t number, std::uint32_t level) const {
+bool Levels::is_inactive_at_start(std::int32_t number, std::uint32_t level) const {
   const Robot* r = find(number);
   return r && r->first != level;
 }
 
-void Levels::complete() {
-  for (Robot& r : robots_)
-    for (const Mover& m : r.movers) m.instance->also_reads(r.level_slot);
+void Levels::complete(World& world) {
+  store_ = &world.store();
+  for (Robot& r : robots_) {
+    std::vector<SlotId> written_at_start;
+    for (const Mover& m : r.movers) {
+      m.instance->add_read(r.level_slot);
+      for (const SlotId slot : m.instance->writes()) {
+        const Slot& s = store_->slot(slot);
+        if (store_->key_of(s).role != Role::motion_trait || world.robot_of(s.object) != std::int32_t(r.view->number))
+          continue;
+        if (std::find(r.traits.begin(), r.traits.end(), slot) == r.traits.end()) r.traits.push_back(slot);
+        if (&m == &r.movers[r.first]) written_at_start.push_back(slot);
+      }
+    }
+    for (const SlotId slot : r.traits)
+      if (std::find(written_at_start.begin(), written_at_start.end(), slot) == written_at_start.end())
+        store_->clear(slot);
+  }
 }
 
 abi::AlgorithmInstance* Levels::filter_of(Instance& instance) {
   const std::vector<Item>& items = instance.setup().items;
-  const bool part_time = instance.description().kind == Kind::motion &&
-                         (instance.description().capabilities & Capability::world) == 0 &&
-                         std::any_of(items.begin(), items.end(),
-                                     [&](const Item& i) { return i.robot && find(std::int32_t(i.robot->number)); });
-  if (!part_time) return &instance.algorithm();
-  LevelFilter& keeper = *filters_.emplace_back(std::make_unique<LevelFilter>(instance.algorithm(), instance.phases()));
+  const bool alternates = instance.description().kind == Kind::motion &&
+                          (instance.description().capabilities & Capability::world) == 0 &&
+                          std::any_of(items.begin(), items.end(),
+                                      [&](const Item& i) { return i.robot && find(std::int32_t(i.robot->number)); });
+  if (!alternates) return &instance.algorithm();
+  LevelFilter& filter = *filters_.emplace_back(std::make_unique<LevelFilter>(instance.algorithm(), instance.phases()));
   for (const Item& i : items) {
     const Robot* r = find(std::int32_t(i.robot->number));
-    keeper.add(r ? r->level : nullptr, i.level);
+    filter.add(r ? r->level : nullptr, i.level);
   }
-  return &keeper;
+  return &filter;
 }
 
-void Levels::forget_in(std::vector<SlotId>& reads) const {
-  for (const Robot& r : robots_)
-    std::erase_if(reads,
-                  [&](SlotId slot) { return std::find(r.written.begin(), r.written.end(), slot) != r.written.end(); });
+std::vector<SlotId> Levels::written() const {
+  std::vector<SlotId> slots;
+  for (const Robot& r : robots_) {
+    slots.push_back(r.level_slot);
+    slots.insert(slots.end(), r.traits.begin(), r.traits.end());
+  }
+  return slots;
 }
 
 Task Levels::task(std::span<const std::unique_ptr<Instance>> all) {
@@ -148,9 +160,11 @@ Task Levels::task(std::span<const std::unique_ptr<Instance>> all) {
   t.instance = this;
   t.items = 1;
   t.order = 2 * order_of(Kind::level) + 1;
+  t.writes = written();
+  for (const SlotId slot : t.writes) t.accesses.push_back({slot, true});
   for (const Robot& r : robots_) {
     t.reads.push_back(r.target_slot);
-    t.writes.insert(t.writes.end(), r.written.begin(), r.written.end());
+    t.accesses.push_back({r.target_slot, false});
   }
   // A motion that takes over may write whatever it writes in a step.
   for (const auto& instance : all) {
@@ -159,21 +173,12 @@ Task Levels::task(std::span<const std::unique_ptr<Instance>> all) {
                          [&](const Mover& m) { return m.instance == instance.get(); });
     });
     if (!involved) continue;
-    for (Touch touch : instance->touches()) {
-      touch.exclusive = true;
-      t.touches.push_back(touch);
+    for (SlotAccess access : instance->accesses()) {
+      access.exclusive = true;
+      t.accesses.push_back(access);
     }
   }
-  for (const Robot& r : robots_) {
-    for (const SlotId slot : r.written) t.touches.push_back({slot, true});
-    t.touches.push_back({r.target_slot, false});
-  }
-  std::sort(t.touches.begin(), t.touches.end(), [](const Touch& a, const Touch& b) {
-    return a.slot != b.slot ? a.slot < b.slot : a.exclusive > b.exclusive;
-  });
-  t.touches.erase(
-      std::unique(t.touches.begin(), t.touches.end(), [](const Touch& a, const Touch& b) { return a.slot == b.slot; }),
-      t.touches.end());
+  merge_accesses(t.accesses);
   return t;
 }
 
@@ -186,8 +191,7 @@ bool Levels::step(const Step&, Range, abi::ErrorText& error) noexcept {
                 ", but it has " + std::to_string(r.movers.size()) + " motions, from 0");
       return false;
     }
-    *r.contact_world = 0;
-    *r.twist_lag = 0;
+    for (const SlotId slot : r.traits) store_->clear(slot);
     *r.level = std::uint32_t(target);
     const Mover& m = r.movers[std::size_t(target)];
     if (!m.instance->algorithm().on_handover(m.item, error)) return false;

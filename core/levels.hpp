@@ -3,7 +3,8 @@
 //
 // Each motion of such a robot is connected to the same properties; `motion.level` says which of them steps the robot.
 // When `motion.level.target` names another, that one takes over before anything that depends on it runs in this
-// instant. State goes over by lying where it is.
+// instant. State goes over by lying where it is, but for what tells of a motion (Role::motion_trait): that is set to
+// zero, and a motion that has it says it anew (Algorithm::on_handover).
 #pragma once
 
 #include <memory>
@@ -32,17 +33,18 @@ class Levels final : public abi::AlgorithmInstance {
   /// they write.
   void prepare(World& world, const std::vector<LevelsOfRobot>& robots, std::span<const std::unique_ptr<Instance>> all);
   /// When they are connected.
-  void complete();
+  void complete(World& world);
   bool empty() const { return robots_.empty(); }
   /// Of robot `number`: whether `level` is not the one that moves it at the start.
-  bool rests(std::int32_t number, std::uint32_t level) const;
+  bool is_inactive_at_start(std::int32_t number, std::uint32_t level) const;
 
-  /// Takes out of `reads` what it writes: who decides about levels does not wait for the hand-over of the instant.
-  void forget_in(std::vector<SlotId>& reads) const;
+  /// What a hand-over writes beside what the motions do. Who decides about levels does not wait for the hand-over of
+  /// the instant: what it reads of this is no reason to run it first.
+  std::vector<SlotId> written() const;
   /// What the scheduler is to run: on demand, before who reads who moves a robot.
   Task task(std::span<const std::unique_ptr<Instance>> all);
-  /// What steps an instance: itself, or, when it moves a robot for part of the time, a level filter that steps the
-  /// items whose turn it is.
+  /// What steps an instance: itself, or, when another motion may move one of its robots, a level filter that steps the
+  /// items that it moves at present.
   abi::AlgorithmInstance* filter_of(Instance& instance);
 
  private:
@@ -66,16 +68,15 @@ class Levels final : public abi::AlgorithmInstance {
     std::vector<Mover> movers;  ///< by level
     std::uint32_t* level;
     const std::int32_t* target;
-    std::uint64_t* contact_world;
-    double* twist_lag;
-    std::vector<SlotId> written;
     SlotId level_slot, target_slot;
+    std::vector<SlotId> traits;  ///< Role::motion_trait, written by any of the motions
   };
   class LevelFilter;
 
   Robot* find(std::int32_t number);
   const Robot* find(std::int32_t number) const;
 
+  PropertyStore* store_ = nullptr;
   std::vector<Robot> robots_;
   std::vector<std::unique_ptr<LevelFilter>> filters_;
 };

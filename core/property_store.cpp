@@ -90,7 +90,7 @@ std::uint32_t PropertyStore::column_of(Accessor accessor, const KeyInfo& key) {
 }
 
 SlotId PropertyStore::find_id(ObjectId object, std::string_view key) const {
-  for (const Named& n : objects_[index_of(object)])
+  for (const NamedSlot& n : objects_[index_of(object)])
     if (n.key == key) return n.slot;
   return no_slot;
 }
@@ -112,16 +112,16 @@ SlotId PropertyStore::slot_for(Accessor accessor, ObjectId object, const KeyInfo
   return id;
 }
 
-void PropertyStore::set_aside(Slot& s, Multiplicity multiplicity, std::uint32_t count) {
+void PropertyStore::reserve(Slot& s, Multiplicity multiplicity, std::uint32_t count) {
   Column& column = columns_[s.column];
   switch (multiplicity) {
     case Multiplicity::single:
-      if (!s.place) s.place = column.allocate(1, part_of(s.object));
+      if (!s.place) s.place = column.allocate(1, partition_of(s.object));
       break;
     case Multiplicity::array:
       if (!s.array) s.array = &arrays_.emplace_back();
       if (count > 0 && !s.place) {
-        s.place = column.allocate(count, part_of(s.object));
+        s.place = column.allocate(count, partition_of(s.object));
         s.count = count;
         *s.array = {s.place, count};
       }
@@ -153,7 +153,7 @@ void PropertyStore::set_constant(ObjectId object, const KeyInfo& key, const void
   s.kind = Slot::Class::constant;
   s.initialised = true;
   s.count = elements;
-  set_aside(s, multiplicity, elements);
+  reserve(s, multiplicity, elements);
   if (elements > 0) std::memcpy(s.place, data, std::size_t(elements) * key.type->size);
 }
 
@@ -190,7 +190,7 @@ void PropertyStore::share(ObjectId a, const KeyInfo& key_a, ObjectId b, const Ke
       return;
     }
     for (auto& object : objects_)
-      for (Named& n : object)
+      for (NamedSlot& n : object)
         if (n.slot == from) n.slot = to;
     return;
   }
@@ -215,19 +215,19 @@ void PropertyStore::use(Slot& s, SlotId id, Accessor accessor, Usage usage) {
 void* PropertyStore::handle(Slot& s, Usage usage) {
   if (usage.access == Access::read_sum) {
     if (!s.sum) s.sum = &sums_.emplace_back();
-    *s.sum = {s.parts.data(), s.parts.size()};
+    *s.sum = {s.contributions.data(), s.contributions.size()};
     return s.sum;
   }
   if (usage.access == Access::accumulate) {
-    s.parts.push_back(columns_[s.column].allocate(1, part_of(s.object)));
-    if (s.sum) *s.sum = {s.parts.data(), s.parts.size()};
-    return s.parts.back();
+    s.contributions.push_back(columns_[s.column].allocate(1, partition_of(s.object)));
+    if (s.sum) *s.sum = {s.contributions.data(), s.contributions.size()};
+    return s.contributions.back();
   }
   return s.multiplicity == Multiplicity::array ? static_cast<void*>(s.array) : s.place;
 }
 
 void* PropertyStore::bind(Accessor accessor, ObjectId object, const KeyInfo& key, Usage usage,
-                          Multiplicity multiplicity, std::uint32_t count, const void* initial, bool weak) {
+                          Multiplicity multiplicity, std::uint32_t count, const void* initial, bool inactive) {
   SlotId id = slot_for(accessor, object, key);
   Slot* s = &slots_[id];
   const bool clash = s->place && (s->multiplicity != multiplicity ||
@@ -244,14 +244,14 @@ void* PropertyStore::bind(Accessor accessor, ObjectId object, const KeyInfo& key
     s->object = object;
     s->column = column_of(accessor, key);
   }
-  if (usage != usage::accumulate && usage != usage::read_sum) set_aside(*s, multiplicity, count);
+  if (usage != usage::accumulate && usage != usage::read_sum) reserve(*s, multiplicity, count);
   const bool creates = usage == usage::variable || usage == usage::derived;
   if (creates && multiplicity == Multiplicity::array && count == 0)
     problems_.push_back(where(object, key.name) + " is created as an array without elements by " + who(accessor));
   if ((writes(usage) || usage == usage::accumulate) && s->kind == Slot::Class::constant)
     problems_.push_back(where(object, key.name) + " is a constant, but " + who(accessor) + " writes it");
   use(*s, id, accessor, usage);
-  if (initial && s->kind != Slot::Class::constant && (!s->initialised || (usage == usage::variable && !weak))) {
+  if (initial && s->kind != Slot::Class::constant && (!s->initialised || (usage == usage::variable && !inactive))) {
     std::memcpy(s->place, initial, key.type->size);
     s->initialised = usage == usage::variable || usage == usage::input;  // others only fill what nobody has set
   }
@@ -265,11 +265,11 @@ void PropertyStore::let_alternate(const std::vector<ObjectId>& objects, const st
 }
 
 void* PropertyStore::state_block(Accessor accessor, ObjectId object, std::string_view name, std::uint32_t size) {
-  const std::string& kept = texts_.emplace_back("state." + std::string(name));
-  const KeyInfo key{kept, "1", &value_type<std::uint8_t>, Role::state, "state that only its owner understands"};
-  const std::uint32_t whole = (std::max(size, 1u) + 63) / 64 * 64;  // so that each block begins aligned for any type
+  const std::string& key_name = texts_.emplace_back("state." + std::string(name));
+  const KeyInfo key{key_name, "1", &value_type<std::uint8_t>, Role::state, "state that only its owner understands"};
+  const std::uint32_t rounded = (std::max(size, 1u) + 63) / 64 * 64;  // so that each block begins aligned for any type
   const auto* array = static_cast<const ArrayHeader*>(
-      bind(accessor, object, key, usage::variable, Multiplicity::array, whole, nullptr));
+      bind(accessor, object, key, usage::variable, Multiplicity::array, rounded, nullptr));
   return array->data;
 }
 
@@ -349,13 +349,25 @@ void PropertyStore::load(const Image& image) {
   }
 }
 
+void PropertyStore::clear(SlotId id) {
+  const Slot& s = slots_[id];
+  if (!s.place) return;
+  if (s.multiplicity == Multiplicity::list) {
+    auto& list = *static_cast<ListHeader*>(s.place);
+    list.size = 0;
+    ++list.revision;
+  } else {
+    std::memset(s.place, 0, std::size_t(s.count) * key_of(s).type->size);
+  }
+}
+
 std::uint64_t PropertyStore::hash(ObjectId object) const {
-  std::vector<const Named*> sorted;
-  for (const Named& n : objects_[index_of(object)])
+  std::vector<const NamedSlot*> sorted;
+  for (const NamedSlot& n : objects_[index_of(object)])
     if (slots_[n.slot].kind == Slot::Class::variable && slots_[n.slot].object == object) sorted.push_back(&n);
-  std::sort(sorted.begin(), sorted.end(), [](const Named* a, const Named* b) { return a->key < b->key; });
+  std::sort(sorted.begin(), sorted.end(), [](const NamedSlot* a, const NamedSlot* b) { return a->key < b->key; });
   std::uint64_t h = hash_bytes(object_name(object).data(), object_name(object).size(), 0);
-  for (const Named* n : sorted) {
+  for (const NamedSlot* n : sorted) {
     const Slot& s = slots_[n->slot];
     h = hash_bytes(n->key.data(), n->key.size(), h);
     const void* data = s.place;

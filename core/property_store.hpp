@@ -36,7 +36,7 @@ struct Slot {
   void* place = nullptr;  ///< the value, the first element, or the ListHeader
   ArrayHeader* array = nullptr;
   SumHeader* sum = nullptr;
-  std::vector<void*> parts;  ///< contributions to a sum, in registration order
+  std::vector<void*> contributions;  ///< to a sum, in registration order
   std::vector<User> users;
 
   bool used_as(Usage usage) const;
@@ -56,9 +56,9 @@ class PropertyStore {
   PropertyStore& operator=(const PropertyStore&) = delete;
 
   void add_object(std::string name);
-  /// The part of each object, by id; 0 for those that come later. Memory that is set aside from now on lies a page
-  /// apart between parts.
-  void set_parts(std::vector<std::uint32_t> parts) { parts_ = std::move(parts); }
+  /// The memory partition of each object, by id; 0 for those that come later. Memory that is reserved from now on lies
+  /// a page apart between partitions.
+  void set_partitions(std::vector<std::uint32_t> partitions) { partitions_ = std::move(partitions); }
   const std::string& object_name(ObjectId id) const { return names_[index_of(id)]; }
   Accessor add_accessor(std::string name);
   const std::string& accessor_name(Accessor p) const { return accessors_[p]; }
@@ -74,9 +74,9 @@ class PropertyStore {
 
   /// A place for `accessor`; see Connector for the meaning of the arguments. Never fails: a request that
   /// clashes gets a place of its own and a problem.
-  /// `weak`: the initial value counts only where nobody has given one.
+  /// `inactive`: the accessor does not write at the start, so its initial value counts only where nobody has given one.
   void* bind(Accessor accessor, ObjectId object, const KeyInfo& key, Usage usage, Multiplicity multiplicity,
-             std::uint32_t count, const void* initial, bool weak = false);
+             std::uint32_t count, const void* initial, bool inactive = false);
   /// These accessors may write the same properties of these objects, one at a time.
   void let_alternate(const std::vector<ObjectId>& objects, const std::vector<Accessor>& accessors);
   /// Bytes of state under a name of their own.
@@ -90,13 +90,13 @@ class PropertyStore {
   const Slot& slot(SlotId id) const { return slots_[id]; }
   const KeyInfo& key_of(const Slot& s) const { return columns_[s.column].key(); }
   /// All properties of an object by the names under which it has them, in order of creation.
-  struct Named {
+  struct NamedSlot {
     std::string_view key;
     SlotId slot;
   };
-  const std::vector<Named>& properties(ObjectId object) const { return objects_[index_of(object)]; }
+  const std::vector<NamedSlot>& properties(ObjectId object) const { return objects_[index_of(object)]; }
   std::uint32_t slot_count() const { return std::uint32_t(slots_.size()); }
-  /// The slots that `accessor` bound last is recorded in order; used by the scheduler.
+  /// The slots that `accessor` has bound, in the order of binding.
   const std::vector<SlotId>& slots_of(Accessor accessor) const { return bound_[accessor]; }
 
   /// The whole memory of properties, byte by byte; transient values are left out.
@@ -106,6 +106,8 @@ class PropertyStore {
   };
   Image save() const;
   void load(const Image& image);
+  /// Sets the value of a property to zero; empties a list.
+  void clear(SlotId id);
   /// Hash of the variable properties of one object; does not depend on the order of declarations.
   std::uint64_t hash(ObjectId object) const;
 
@@ -116,8 +118,10 @@ class PropertyStore {
   std::uint32_t column_of(Accessor accessor, const KeyInfo& key);
   SlotId find_id(ObjectId object, std::string_view key) const;
   SlotId slot_for(Accessor accessor, ObjectId object, const KeyInfo& key);
-  std::uint32_t part_of(ObjectId id) const { return index_of(id) < parts_.size() ? parts_[index_of(id)] : 0; }
-  void set_aside(Slot& s, Multiplicity multiplicity, std::uint32_t count);
+  std::uint32_t partition_of(ObjectId id) const {
+    return index_of(id) < partitions_.size() ? partitions_[index_of(id)] : 0;
+  }
+  void reserve(Slot& s, Multiplicity multiplicity, std::uint32_t count);
   void use(Slot& s, SlotId id, Accessor accessor, Usage usage);
   void* handle(Slot& s, Usage usage);
   std::string where(ObjectId object, std::string_view key) const;
@@ -126,14 +130,14 @@ class PropertyStore {
                   std::vector<std::string>& problems) const;
 
   std::vector<std::string> names_;
-  std::vector<std::uint32_t> parts_;  ///< by object
+  std::vector<std::uint32_t> partitions_;  ///< by object
   std::vector<std::string> accessors_;
   std::vector<Accessor> column_accessor_;  ///< who declared the key first
   std::deque<Column> columns_;
   std::map<std::string, std::uint32_t, std::less<>> column_index_;
   std::deque<std::string> texts_;  ///< names of state blocks
   std::deque<Slot> slots_;
-  std::vector<std::vector<Named>> objects_;
+  std::vector<std::vector<NamedSlot>> objects_;
   std::vector<std::vector<SlotId>> bound_;
   std::deque<ArrayHeader> arrays_;
   std::deque<ListHeader> lists_;

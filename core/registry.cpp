@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "core/registry.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <boost/dll/runtime_symbol_info.hpp>
-#include <boost/property_tree/json_parser.hpp>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
 #include "core/plugin_library.hpp"
@@ -15,43 +19,48 @@
 namespace muro {
 
 namespace fs = std::filesystem;
-using boost::property_tree::ptree;
+using Json = nlohmann::json;
 
 namespace {
 
-std::vector<std::string> names_in(const ptree& tree, const char* list, const char* member) {
-  std::vector<std::string> names;
-  if (const auto found = tree.get_child_optional(list))
-    for (const auto& [unused, entry] : *found) names.push_back(*member ? entry.get<std::string>(member) : entry.data());
-  return names;
+Json read_description(const fs::path& file) {
+  std::ifstream text(file);
+  return Json::parse(text);
+}
+
+/// The names of the properties that a list of uses contains; none where there is no list.
+std::vector<std::string> keys_in(const Json& entry, const char* list) {
+  std::vector<std::string> keys;
+  for (const Json& use : entry.value(list, Json::array())) keys.push_back(use.at("key"));
+  return keys;
 }
 
 /// Names of features that this muro does not know are left out.
-std::optional<Features> features_in(const ptree& entry) {
-  if (!entry.get_child_optional("features")) return std::nullopt;
+std::optional<Features> features_in(const Json& entry) {
+  if (!entry.contains("features")) return std::nullopt;
   Features bits = 0;
-  for (const std::string& name : names_in(entry, "features", ""))
+  for (const std::string name : entry["features"])
     for (const FeatureInfo& f : feature_infos)
       if (f.name == name) bits |= f.bit;
   return bits;
 }
 
-CatalogEntry catalog_entry_from(const ptree& entry, const ptree& plugin, const fs::path& description) {
-  CatalogEntry o;
-  o.id = entry.get<std::string>("id");
-  o.kind = entry.get<std::string>("kind");
-  o.version = entry.get<std::string>("version");
-  o.summary = entry.get<std::string>("summary");
-  o.reads = names_in(entry, "reads", "key");
-  o.writes = names_in(entry, "writes", "key");
-  o.extensions = names_in(entry, "extensions", "");
-  if (o.kind == name_of(Kind::motion)) o.features = features_in(entry);
-  o.plugin = plugin.get<std::string>("name");
-  o.description = description.string();
+CatalogEntry catalog_entry_from(const Json& json, const Json& plugin, const fs::path& description) {
+  CatalogEntry entry;
+  entry.id = json.at("id");
+  entry.kind = json.at("kind");
+  entry.version = json.at("version");
+  entry.summary = json.at("summary");
+  entry.reads = keys_in(json, "reads");
+  entry.writes = keys_in(json, "writes");
+  entry.extensions = json.value("extensions", std::vector<std::string>{});
+  if (entry.kind == name_of(Kind::motion)) entry.features = features_in(json);
+  entry.plugin = plugin.at("name");
+  entry.description = description.string();
   std::string stem = description.filename().string();
   stem.resize(stem.size() - std::string(".muro.json").size());
-  o.library = (description.parent_path() / (stem + ".so")).string();
-  return o;
+  entry.library = (description.parent_path() / (stem + ".so")).string();
+  return entry;
 }
 
 }  // namespace
@@ -91,94 +100,87 @@ void Registry::scan(const std::string& folder) {
   const std::size_t before = catalog_.size();
   for (const fs::path& file : files) {
     try {
-      ptree plugin;
-      boost::property_tree::read_json(file.string(), plugin);
+      const Json plugin = read_description(file);
       for (const char* list : {"algorithms", "readers"})
-        for (const auto& [unused, entry] : plugin.get_child(list)) {
-          CatalogEntry o = catalog_entry_from(entry, plugin, file);
+        for (const Json& json : plugin.at(list)) {
+          CatalogEntry entry = catalog_entry_from(json, plugin, file);
           const auto known =
-              std::find_if(catalog_.begin(), catalog_.end(), [&](const CatalogEntry& k) { return k.id == o.id; });
+              std::find_if(catalog_.begin(), catalog_.end(), [&](const CatalogEntry& k) { return k.id == entry.id; });
           if (known == catalog_.end())
-            catalog_.push_back(std::move(o));
+            catalog_.push_back(std::move(entry));
           else if (std::size_t(known - catalog_.begin()) >= before)
-            rivals_[o.id] = "`" + o.id + "` is offered by two plugins: " + known->library + " and " + o.library +
-                            "; remove one of them";
+            rivals_[entry.id] = fmt::format("`{}` is offered by two plugins: {} and {}; remove one of them", entry.id,
+                                            known->library, entry.library);
         }
     } catch (const std::exception& e) {
-      problems_.push_back("plugin description " + file.string() + " cannot be read: " + e.what());
+      problems_.push_back(fmt::format("plugin description {} cannot be read: {}", file.string(), e.what()));
     }
   }
 }
 
 const CatalogEntry& Registry::find(const std::string& id) const {
   if (const auto rival = rivals_.find(id); rival != rivals_.end()) throw SetupError(rival->second);
-  const auto it = std::find_if(catalog_.begin(), catalog_.end(), [&](const CatalogEntry& o) { return o.id == id; });
+  const auto it =
+      std::find_if(catalog_.begin(), catalog_.end(), [&](const CatalogEntry& entry) { return entry.id == id; });
   if (it != catalog_.end()) return *it;
   std::vector<std::string> ids, family;
-  for (const CatalogEntry& o : catalog_) {
-    ids.push_back(o.id);
-    if (o.id.substr(0, o.id.find('.')) == id.substr(0, id.find('.'))) family.push_back(o.id);
+  for (const CatalogEntry& entry : catalog_) {
+    ids.push_back(entry.id);
+    if (entry.id.substr(0, entry.id.find('.')) == id.substr(0, id.find('.'))) family.push_back(entry.id);
   }
-  std::string message = "no plugin offers `" + id + "`" + did_you_mean(id, ids);
-  if (ids.empty()) {
-    message += "; no plugin was found in";
-    for (const std::string& f : folders_) message += " " + f;
-    message += "; set MURO_PLUGIN_PATH or --plugin-path";
-  } else if (!family.empty()) {
-    message += "; there are: ";
-    for (const std::string& f : family) message += (&f == family.data() ? "" : ", ") + f;
-  } else {
-    message += "; `muro plugins list` shows all";
-  }
-  throw SetupError(message);
+  const std::string advice =
+      ids.empty()
+          ? fmt::format("no plugin was found in {}; set MURO_PLUGIN_PATH or --plugin-path", fmt::join(folders_, " "))
+      : family.empty() ? "`muro plugins list` shows all"
+                       : fmt::format("there are: {}", fmt::join(family, ", "));
+  throw SetupError(fmt::format("no plugin offers `{}`{}; {}", id, did_you_mean(id, ids), advice));
 }
 
-const abi::PluginTable& Registry::load(const CatalogEntry& offer) {
-  const auto known = tables_.find(offer.library);
+const abi::PluginTable& Registry::load(const CatalogEntry& entry) {
+  const auto known = tables_.find(entry.library);
   if (known != tables_.end()) return *known->second;
-  const abi::PluginTable& table = load_plugin(offer.library);
-  ptree description;
-  boost::property_tree::read_json(offer.description, description);
-  if (description.get<std::string>("token", "") != abi::token(table))
-    throw SetupError("plugin " + offer.library + " is not the one that " + offer.description +
-                     " describes; build it again, so that both are new");
-  tables_[offer.library] = &table;
+  const abi::PluginTable& table = load_plugin(entry.library);
+  if (read_description(entry.description).value("token", "") != abi::token(table))
+    throw SetupError(fmt::format("plugin {} is not the one that {} describes; build it again, so that both are new",
+                                 entry.library, entry.description));
+  tables_[entry.library] = &table;
   return table;
 }
 
 const abi::AlgorithmEntry& Registry::algorithm(const std::string& id) {
-  const CatalogEntry& offer = find(id);
-  for (const abi::AlgorithmEntry& e : load(offer).algorithms)
+  const CatalogEntry& entry = find(id);
+  for (const abi::AlgorithmEntry& e : load(entry).algorithms)
     if (e.description->id == id) return e;
-  throw SetupError("`" + id + "` is a " + offer.kind + ", no algorithm");
+  throw SetupError(fmt::format("`{}` is a {}, no algorithm", id, entry.kind));
 }
 
 const abi::ReaderEntry& Registry::reader(const std::string& id) {
-  const CatalogEntry& offer = find(id);
-  for (const abi::ReaderEntry& e : load(offer).readers)
+  const CatalogEntry& entry = find(id);
+  for (const abi::ReaderEntry& e : load(entry).readers)
     if (e.description->id == id) return e;
-  throw SetupError("`" + id + "` is an algorithm of kind " + offer.kind + ", no model reader");
+  throw SetupError(fmt::format("`{}` is an algorithm of kind {}, no model reader", id, entry.kind));
 }
 
 const abi::ReaderEntry& Registry::reader_for(const std::string& path) {
   std::string extension = fs::path(path).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return char(std::tolower(c)); });
-  std::string known;
-  for (const CatalogEntry& o : catalog_)
-    for (const std::string& e : o.extensions) {
-      if (e == extension) return reader(o.id);
-      known += (known.empty() ? "" : ", ") + e;
+  std::vector<std::string> known;
+  for (const CatalogEntry& entry : catalog_)
+    for (const std::string& e : entry.extensions) {
+      if (e == extension) return reader(entry.id);
+      known.push_back(e);
     }
-  throw SetupError("no reader for models of type `" + extension + "` (" + path +
-                   "); known types: " + (known.empty() ? "none, no reader plugin was found" : known));
+  if (known.empty()) known.push_back("none, no reader plugin was found");
+  throw SetupError(
+      fmt::format("no reader for models of type `{}` ({}); known types: {}", extension, path, fmt::join(known, ", ")));
 }
 
 std::string Registry::writers_of(std::string_view key) const {
-  std::string all;
-  for (const CatalogEntry& o : catalog_)
-    if (std::find(o.writes.begin(), o.writes.end(), key) != o.writes.end()) all += (all.empty() ? "" : ", ") + o.id;
-  return all;
+  std::vector<std::string> ids;
+  for (const CatalogEntry& entry : catalog_)
+    if (std::find(entry.writes.begin(), entry.writes.end(), key) != entry.writes.end()) ids.push_back(entry.id);
+  return fmt::format("{}", fmt::join(ids, ", "));
 }
 
 }  // namespace muro

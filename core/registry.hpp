@@ -11,7 +11,7 @@
 
 namespace muro {
 
-/// One line of what a plugin offers, from its description file: no code of the plugin has run.
+/// An algorithm or reader of a plugin, from its description file: no code of the plugin has run.
 struct CatalogEntry {
   std::string id;    ///< "motion.point"
   std::string kind;  ///< "motion", "reader"
@@ -53,7 +53,7 @@ class Registry {
 
  private:
   void scan(const std::string& folder);
-  const abi::PluginTable& load(const CatalogEntry& offer);
+  const abi::PluginTable& load(const CatalogEntry& entry);
 
   std::vector<std::string> folders_;
   std::vector<CatalogEntry> catalog_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "muro/toolkit/bounds.hpp"
 #include "muro/vocabulary.hpp"
 
 namespace muro {
@@ -36,14 +37,14 @@ void RobotTree::add_node(NodeKind kind, std::string_view name) {
   at_.node = std::int32_t(nodes_.size()) - 1;
 }
 
-std::int32_t RobotTree::add_part(std::string_view name) {
+std::int32_t RobotTree::add_component(std::string_view name) {
   if (name.empty()) report(Severity::error, "a body or joint without a name", 0, 0);
-  const auto index = std::int32_t(parts_.size());
-  if (!part_index_.emplace(std::string(name), index).second)
+  const auto index = std::int32_t(components_.size());
+  if (!component_index_.emplace(std::string(name), index).second)
     report(Severity::error,
            "two parts are named " + in_quotes(name) + "; names of bodies and joints are unique in a robot", 0, 0);
-  parts_.push_back({std::string(name), {}});
-  last_part_ = index;
+  components_.push_back({std::string(name), {}});
+  last_component_ = index;
   return index;
 }
 
@@ -51,7 +52,7 @@ void RobotTree::base(std::string_view name) noexcept {
   if (at_.link >= 0) return report(Severity::error, "a second base " + in_quotes(name) + "; a robot has one", 0, 0);
   add_node(NodeKind::base, name);
   FlatLink f;
-  f.part = add_part(name);
+  f.body = add_component(name);
   links_.push_back(std::move(f));
   at_.link = 0;
 }
@@ -96,7 +97,7 @@ void RobotTree::joint(NodeKind kind, std::string_view name, const Vec3& axis, co
     return report(Severity::error, "joint " + in_quotes(name) + ": the axis has no direction", 0, 0);
   add_node(kind, name);
   FlatLink f;
-  f.joint_part = add_part(name);
+  f.joint = add_component(name);
   f.link.parent = at_.link;
   f.link.joint = kind == NodeKind::revolute ? JointKind::revolute : JointKind::prismatic;
   f.link.origin = at_.since;
@@ -119,7 +120,7 @@ void RobotTree::prismatic(std::string_view name, const Vec3& axis, const JointLi
 void RobotTree::mimic(std::string_view leader, double multiplier, double offset) noexcept {
   if (!started("mimic()")) return;
   FlatLink& f = links_.back();
-  if (f.joint_part < 0 || f.joint_part != last_part_)
+  if (f.joint < 0 || f.joint != last_component_)
     return report(Severity::error, "mimic(" + std::string(leader) + ") does not follow a joint", 0, 0);
   f.mimic_leader = leader;
   f.link.mimic_multiplier = multiplier;
@@ -129,11 +130,11 @@ void RobotTree::mimic(std::string_view leader, double multiplier, double offset)
 void RobotTree::body(std::string_view name) noexcept {
   if (!started("body()")) return;
   add_node(NodeKind::body, name);
-  if (at_.unnamed && links_[std::size_t(at_.link)].part < 0) {
-    links_[std::size_t(at_.link)].part = add_part(name);
+  if (at_.unnamed && links_[std::size_t(at_.link)].body < 0) {
+    links_[std::size_t(at_.link)].body = add_component(name);
   } else {
     FlatLink f;
-    f.part = add_part(name);
+    f.body = add_component(name);
     f.link.parent = at_.link;
     f.link.origin = at_.since;
     links_.push_back(std::move(f));
@@ -151,22 +152,23 @@ TextId RobotTree::intern(std::string_view text) noexcept {
 }
 
 void RobotTree::set_raw(const KeyInfo& key, const void* data, std::uint32_t count) noexcept {
-  if (last_part_ < 0) return report(Severity::error, "constant `" + std::string(key.name) + "` before base()", 0, 0);
+  if (last_component_ < 0)
+    return report(Severity::error, "constant `" + std::string(key.name) + "` before base()", 0, 0);
   const auto* first = static_cast<const std::byte*>(data);
   const std::size_t bytes = std::size_t(count == single_value ? 1 : count) * key.type->size;
-  parts_[std::size_t(last_part_)].constants.push_back({key, count, {first, first + bytes}});
+  components_[std::size_t(last_component_)].constants.push_back({key, count, {first, first + bytes}});
 }
 
 void RobotTree::close() {
   if (links_.empty()) return report(Severity::error, "the model has no base", 0, 0);
   if (!forks_.empty()) report(Severity::error, std::to_string(forks_.size()) + " fork() without two end()", 0, 0);
   for (FlatLink& f : links_) {
-    if (f.part < 0) f.part = add_part(parts_[std::size_t(f.joint_part)].name + "_frame");
+    if (f.body < 0) f.body = add_component(components_[std::size_t(f.joint)].name + "_frame");
     if (f.mimic_leader.empty()) continue;
     const auto it = std::find_if(links_.begin(), links_.end(), [&](const FlatLink& g) {
-      return g.joint_part >= 0 && parts_[std::size_t(g.joint_part)].name == f.mimic_leader;
+      return g.joint >= 0 && components_[std::size_t(g.joint)].name == f.mimic_leader;
     });
-    const std::string name = in_quotes(parts_[std::size_t(f.joint_part)].name);
+    const std::string name = in_quotes(components_[std::size_t(f.joint)].name);
     if (it == links_.end())
       report(Severity::error,
              "joint " + name + " mimics " + in_quotes(f.mimic_leader) + ", which is no joint of the robot", 0, 0);
@@ -188,7 +190,7 @@ void RobotTree::each_collision_bounds(Visit visit) const {
   std::vector<Pose> poses;
   for (const FlatLink& f : links_) {
     poses.push_back(f.link.parent < 0 ? Pose{} : poses[std::size_t(f.link.parent)] * f.link.origin);
-    for (const Constant& c : parts_[std::size_t(f.part)].constants) {
+    for (const Constant& c : components_[std::size_t(f.body)].constants) {
       if (c.key.name != keys::collision_shapes.name) continue;
       for (std::uint32_t i = 0; i < c.count; ++i) {
         Shape s;

@@ -19,22 +19,22 @@ class RobotTree final : public RobotBuilder {
     std::string name;          ///< base, joints and bodies
     std::int32_t parent = -1;  ///< index of the block before it
   };
-  /// A constant of a part.
+  /// A constant of a component.
   struct Constant {
     KeyInfo key;
     std::uint32_t count;  ///< elements of an array, or single_value
     std::vector<std::byte> data;
   };
   /// A body or joint: what becomes an object.
-  struct Part {
+  struct Component {
     std::string name;
     std::vector<Constant> constants;
   };
-  /// A link whose objects are still indices of parts.
+  /// A link whose objects are still indices of components.
   struct FlatLink {
-    std::int32_t part = -1;        ///< the body
-    std::int32_t joint_part = -1;  ///< the joint, if any
-    Link link;                     ///< without object ids
+    std::int32_t body = -1;
+    std::int32_t joint = -1;  ///< -1: none
+    Link link;                ///< without object ids
     std::string mimic_leader;
   };
   struct Problem {
@@ -59,7 +59,7 @@ class RobotTree final : public RobotBuilder {
   void close();
 
   const std::vector<Node>& nodes() const { return nodes_; }
-  const std::vector<Part>& parts() const { return parts_; }
+  const std::vector<Component>& components() const { return components_; }
   const std::vector<FlatLink>& links() const { return links_; }
   const std::vector<std::string>& texts() const { return texts_; }
   const std::vector<Problem>& problems() const { return problems_; }
@@ -73,7 +73,7 @@ class RobotTree final : public RobotBuilder {
  private:
   void set_raw(const KeyInfo& key, const void* data, std::uint32_t count) noexcept override;
   void joint(NodeKind kind, std::string_view name, const Vec3& axis, const JointLimits& limits);
-  std::int32_t add_part(std::string_view name);
+  std::int32_t add_component(std::string_view name);
   void add_node(NodeKind kind, std::string_view name);
   bool started(std::string_view call);
   template <class Visit>
@@ -89,13 +89,13 @@ class RobotTree final : public RobotBuilder {
   };
   Cursor at_;
   std::vector<Cursor> forks_;
-  std::int32_t last_part_ = -1;
+  std::int32_t last_component_ = -1;
   std::vector<Node> nodes_;
-  std::vector<Part> parts_;
+  std::vector<Component> components_;
   std::vector<FlatLink> links_;
   std::vector<std::string> texts_{""};
   std::vector<Problem> problems_;
-  std::map<std::string, std::int32_t, std::less<>> part_index_;
+  std::map<std::string, std::int32_t, std::less<>> component_index_;
 };
 
 }  // namespace muro

@@ -18,7 +18,11 @@ namespace {
 
 int connect_order(const Description& d) { return info_of(d.kind).connect_order; }
 
-/// Lets several steps of the set-up fail, so that all their problems are told at once.
+bool contains(const std::vector<SlotId>& slots, SlotId slot) {
+  return std::find(slots.begin(), slots.end(), slot) != slots.end();
+}
+
+/// Lets several steps of the set-up fail, so that all their problems are reported at once.
 class Collected {
  public:
   template <class Work>
@@ -154,13 +158,13 @@ void Simulation::set_levels(const RobotView& robot, std::vector<std::string> nam
 }
 
 /// Tells each motion which of its robots another one moves at the start.
-void Simulation::rest_others() {
+void Simulation::mark_inactive_motions() {
   for (const auto& instance : instances_) {
-    std::vector<bool> resting(world_.robots().size());
+    std::vector<bool> inactive(world_.robots().size());
     for (const Item& item : instance->setup().items)
       if (item.robot && instance->description().kind == Kind::motion)
-        resting[item.robot->number] = levels_->rests(std::int32_t(item.robot->number), item.level);
-    instance->set_resting(std::move(resting));
+        inactive[item.robot->number] = levels_->is_inactive_at_start(std::int32_t(item.robot->number), item.level);
+    instance->set_inactive_at_start(std::move(inactive));
   }
 }
 
@@ -174,9 +178,9 @@ void Simulation::join_world(AlgorithmSetup& world, AlgorithmSetup& joining) cons
     if (std::any_of(world.items.begin(), world.items.end(), [&](const Item& k) { return k.robot == item.robot; }))
       throw SetupError((joining.place.empty() ? "" : joining.place + ": ") + joining.name + " and " + world.name +
                        " would move one robot in one world of " + joining.use + "; give one of them another `world`");
-  world.own.resize(world.items.size(), {world.name, world.place, world.parameters});
+  world.item_setups.resize(world.items.size(), {world.name, world.place, world.parameters});
   world.items.insert(world.items.end(), joining.items.begin(), joining.items.end());
-  world.own.resize(world.items.size(), {joining.name, joining.place, joining.parameters});
+  world.item_setups.resize(world.items.size(), {joining.name, joining.place, joining.parameters});
 }
 
 void Simulation::merge_batched() {
@@ -188,8 +192,8 @@ void Simulation::merge_batched() {
     return named == s.parameters.end() ? ParameterInput(std::string()) : named->second;
   };
   for (AlgorithmSetup& s : setups_) {
-    const std::uint32_t promises = registry_.algorithm(s.use).description->capabilities;
-    const bool world = (promises & Capability::world) != 0, batched = (promises & Capability::batched) != 0;
+    const std::uint32_t capabilities = registry_.algorithm(s.use).description->capabilities;
+    const bool world = (capabilities & Capability::world) != 0, batched = (capabilities & Capability::batched) != 0;
     const auto same = [&](const AlgorithmSetup& m) {
       if (m.use != s.use || m.items.empty()) return false;
       if (world) return world_of(m) == world_of(s);
@@ -226,28 +230,29 @@ std::vector<std::size_t> Simulation::in_order_of(int (*order)(const Description&
   return all;
 }
 
-/// By the blocks of robots that threads share out.
-void Simulation::part_memory() {
+/// By the blocks of robots that threads work on.
+void Simulation::partition_memory() {
   const std::vector<std::uint32_t> bounds = block_bounds(std::uint32_t(world_.robots().size()));
-  std::vector<std::uint32_t> parts(world_.object_count(), 0);
-  for (std::uint32_t i = 0; i < parts.size(); ++i)
+  std::vector<std::uint32_t> partitions(world_.object_count(), 0);
+  for (std::uint32_t i = 0; i < partitions.size(); ++i)
     if (const std::int32_t robot = world_.robot_of(ObjectId{i}); robot >= 0)
-      parts[i] = std::uint32_t(std::upper_bound(bounds.begin(), bounds.end(), std::uint32_t(robot)) - bounds.begin());
-  world_.store().set_parts(std::move(parts));
+      partitions[i] =
+          std::uint32_t(std::upper_bound(bounds.begin(), bounds.end(), std::uint32_t(robot)) - bounds.begin());
+  world_.store().set_partitions(std::move(partitions));
 }
 
 void Simulation::build() {
   if (!instances_.empty()) throw SetupError("a simulation is built once; make another one");
   merge_batched();
-  part_memory();
+  partition_memory();
   levels_->prepare(world_, levels_of_robots_, instances_);
-  if (!levels_->empty()) rest_others();
+  if (!levels_->empty()) mark_inactive_motions();
   Collected problems;
   for (const std::size_t i : in_order_of(connect_order)) problems.run([&] { instances_[i]->connect(); });
   problems.check();
   for (const std::size_t i : in_order_of(connect_order)) problems.run([&] { instances_[i]->connect_by_name(); });
   problems.check();
-  levels_->complete();
+  levels_->complete(world_);
   world_.store().check([&](std::string_view key) { return registry_.writers_of(key); });
   schedule();
   initial_ = snapshot();
@@ -260,7 +265,8 @@ void Simulation::schedule() {
     by_accessor.resize(std::max<std::size_t>(by_accessor.size(), instance->accessor() + 1));
     by_accessor[instance->accessor()] = instance.get();
   }
-  for (const auto& instance : instances_) instance->read_through(by_accessor);
+  for (const auto& instance : instances_) instance->add_indirect_reads(by_accessor);
+  const std::vector<SlotId> written_by_handover = levels_->written();
   for (const auto& instance : instances_) {
     const AlgorithmSetup& s = instance->setup();
     Task task;
@@ -270,14 +276,15 @@ void Simulation::schedule() {
     for (const Item& item : s.items)
       task.robot_of_item.push_back(item.robot ? std::int32_t(item.robot->number) : world_.robot_of(item.object));
     task.phases = instance->phases();
-    task.touches = instance->touches();
+    task.accesses = instance->accesses();
     task.robots = std::uint32_t(world_.robots().size());
     task.runs_alone = (instance->description().capabilities & Capability::runs_alone) != 0;
     task.rate = s.rate;
     task.phase = s.phase;
     task.order = order_of(instance->description());
     task.reads = instance->reads();
-    if (instance->description().kind == Kind::level) levels_->forget_in(task.reads);
+    if (instance->description().kind == Kind::level)
+      std::erase_if(task.reads, [&](SlotId slot) { return contains(written_by_handover, slot); });
     task.writes = instance->writes();
     tasks_.push_back(scheduler_.add(std::move(task)));
   }

@@ -102,9 +102,9 @@ class Simulation {
  private:
   class Log;
   void merge_batched();
-  void rest_others();
+  void mark_inactive_motions();
   void join_world(AlgorithmSetup& world, AlgorithmSetup& joining) const;
-  void part_memory();
+  void partition_memory();
   std::vector<std::size_t> in_order_of(int (*order)(const Description&)) const;
   void schedule();
   std::vector<std::int32_t> robot_of_slot() const;

@@ -78,18 +78,18 @@ const RobotView& World::add_robot(std::string_view name, const RobotTree& tree, 
   std::vector<TextId> texts;
   for (const std::string& t : tree.texts()) texts.push_back(intern(t));
   std::vector<ObjectId> objects;
-  for (const RobotTree::Part& part : tree.parts()) {
-    objects.push_back(add_object(r.name + "/" + part.name, number));
-    for (const RobotTree::Constant& c : part.constants) {
+  for (const RobotTree::Component& component : tree.components()) {
+    objects.push_back(add_object(r.name + "/" + component.name, number));
+    for (const RobotTree::Constant& c : component.constants) {
       const std::vector<std::byte> data = with_texts(c, texts);
       store_.set_constant(objects.back(), c.key, data.data(), c.count);
     }
   }
   for (const RobotTree::FlatLink& f : tree.links()) {
-    Link frame = f.link;
-    frame.object = objects[std::size_t(f.part)];
-    frame.joint_object = f.joint_part < 0 ? no_object : objects[std::size_t(f.joint_part)];
-    r.links.push_back(frame);
+    Link link = f.link;
+    link.object = objects[std::size_t(f.body)];
+    link.joint_object = f.joint < 0 ? no_object : objects[std::size_t(f.joint)];
+    r.links.push_back(link);
   }
   r.view = {r.name, number, fnv1a(r.name), r.links};
   robot_pointers_.push_back(&r.view);
@@ -143,8 +143,8 @@ std::uint64_t World::hash(const RobotView& robot) const {
   std::sort(objects.begin(), objects.end(), [&](ObjectId a, ObjectId b) { return object_name(a) < object_name(b); });
   std::uint64_t h = 0;
   for (const ObjectId o : objects) {
-    const std::uint64_t part = store_.hash(o);
-    h = hash_bytes(&part, sizeof part, h);
+    const std::uint64_t of_object = store_.hash(o);
+    h = hash_bytes(&of_object, sizeof of_object, h);
   }
   return h;
 }

@@ -25,7 +25,7 @@ class World {
   /// The same for a body that looks other than what it collides with.
   ObjectId add_scenery(std::string_view name, const Pose& pose, std::span<const Shape> collisions,
                        std::span<const Shape> visuals);
-  /// A robot "name" with an object "name/part" for every part of the tree. [setup]
+  /// A robot "name" with an object "name/component" for every component of the tree. [setup]
   const RobotView& add_robot(std::string_view name, const RobotTree& tree, const Pose& start = {});
 
   ObjectId find_object(std::string_view name) const;

@@ -52,23 +52,23 @@ void Scheduler::add_sequence(const std::vector<TaskId>& tasks) {
 
 void Scheduler::prepare() {
   prepared_ = true;
-  forget_programs();
-  executor_.prepare(tasks_.size());
+  forget_plans();
+  executor_.set_tasks(tasks_.size());
   groups_.clear();
   group_of_item_.assign(items_.size(), 0);
-  finest_period_ = 0;
+  min_period_ = 0;
   for (std::size_t i = 0; i < items_.size(); ++i) {
     if (items_[i].empty() || tasks_[items_[i].front()].rate.on_demand()) continue;
     const Task& t = tasks_[items_[i].front()];
     auto g = std::find_if(groups_.begin(), groups_.end(),
                           [&](const Group& k) { return k.rate == t.rate && k.phase == t.phase; });
     if (g == groups_.end()) {
-      Group made{t.rate, t.phase, t.rate.first_from(now_ - t.phase), 0};
-      made.next_time = made.rate.time_of(made.next_run) + made.phase;
-      groups_.push_back(made);
+      Group group{t.rate, t.phase, t.rate.first_from(now_ - t.phase), 0};
+      group.next_time = group.rate.time_of(group.next_run) + group.phase;
+      groups_.push_back(group);
       g = groups_.end() - 1;
       const auto period = std::int64_t(1e9 * t.rate.period());
-      finest_period_ = finest_period_ == 0 ? period : std::min(finest_period_, period);
+      min_period_ = min_period_ == 0 ? period : std::min(min_period_, period);
     }
     group_of_item_[i] = std::uint32_t(g - groups_.begin());
   }
@@ -78,7 +78,7 @@ void Scheduler::prepare() {
   find_periods();
 }
 
-/// Who provides, on demand, what a task reads.
+/// Which tasks on demand write what a task reads.
 void Scheduler::find_providers() {
   std::unordered_map<std::uint32_t, std::vector<TaskId>> writers;
   for (TaskId t = 0; t < tasks_.size(); ++t)
@@ -122,16 +122,16 @@ void Scheduler::find_periods() {
   }
 }
 
-void Scheduler::demand(TaskId reader, std::vector<bool>& done, Turns& turns) const {
+void Scheduler::add_providers(TaskId reader, std::vector<bool>& added, std::vector<DueTask>& due) const {
   for (const TaskId p : providers_[reader]) {
-    if (done[p]) continue;
-    done[p] = true;
-    demand(p, done, turns);
-    turns.push_back({p, periods_[p]});
+    if (added[p]) continue;
+    added[p] = true;
+    add_providers(p, added, due);
+    due.push_back({p, periods_[p]});
   }
 }
 
-Scheduler::Turns Scheduler::turns_of(const Mask& due) const {
+std::vector<DueTask> Scheduler::due_tasks_of(const Mask& due) const {
   std::vector<std::size_t> items;
   for (std::size_t i = 0; i < items_.size(); ++i)
     if (!items_[i].empty() && !tasks_[items_[i].front()].rate.on_demand() && due[group_of_item_[i]]) items.push_back(i);
@@ -140,63 +140,61 @@ Scheduler::Turns Scheduler::turns_of(const Mask& due) const {
     if (tasks_[first].order != tasks_[second].order) return tasks_[first].order < tasks_[second].order;
     return first < second;
   });
-  Turns turns;
-  std::vector<bool> done(tasks_.size());
+  std::vector<DueTask> tasks;
+  std::vector<bool> added(tasks_.size());
   for (const std::size_t i : items)
     for (const TaskId t : items_[i]) {
-      demand(t, done, turns);
-      turns.push_back({t, periods_[t]});
+      add_providers(t, added, tasks);
+      tasks.push_back({t, periods_[t]});
     }
-  return turns;
+  return tasks;
 }
 
-Program Scheduler::program_of(const Turns& turns, std::uint32_t instants) const {
-  Program program;
-  program.instants = instants;
+Plan Scheduler::plan_of(const std::vector<DueTask>& due, std::uint32_t instants) const {
+  Plan plan;
   for (std::uint32_t i = 0; i < instants; ++i)
-    for (Turn t : turns) {
+    for (DueTask t : due) {
       t.instant = i;
-      program.turns.push_back(t);
+      plan.due.push_back(t);
     }
-  program.stages = stages_of(program.turns, tasks_, robot_of_slot_, !executor_.observed());
-  return program;
+  plan.stages = stages_of(plan.due, tasks_, robot_of_slot_, !executor_.is_observed());
+  return plan;
 }
 
-Scheduler::Programs& Scheduler::programs_for(const Mask& due) {
-  if (last_programs_ && due == last_due_) return *last_programs_;
-  const auto known = programs_.find(due);
-  last_programs_ = known != programs_.end()
-                       ? &known->second
-                       : &programs_.emplace(due, Programs{program_of(turns_of(due), 1), {}}).first->second;
+Scheduler::Plans& Scheduler::plans_for(const Mask& due) {
+  if (last_plans_ && due == last_due_) return *last_plans_;
+  const auto known = plans_.find(due);
+  last_plans_ = known != plans_.end() ? &known->second
+                                      : &plans_.emplace(due, Plans{plan_of(due_tasks_of(due), 1), {}}).first->second;
   last_due_ = due;
-  return *last_programs_;
+  return *last_plans_;
 }
 
-Scheduler::Turns Scheduler::turns_at(std::int64_t time) const {
+std::vector<DueTask> Scheduler::due_tasks_at(std::int64_t time) const {
   Mask due(groups_.size());
   for (std::size_t g = 0; g < due.size(); ++g) {
     const std::int64_t since = time - groups_[g].phase;
     due[g] = since >= 0 && groups_[g].rate.time_of(groups_[g].rate.first_from(since)) == since;
   }
-  return turns_of(due);
+  return due_tasks_of(due);
 }
 
-std::vector<TaskId> Scheduler::plan_at(std::int64_t time) const {
+std::vector<TaskId> Scheduler::order_at(std::int64_t time) const {
   std::vector<TaskId> order;
-  for (const Turn& t : turns_at(time)) order.push_back(t.task);
+  for (const DueTask& t : due_tasks_at(time)) order.push_back(t.task);
   return order;
 }
 
-std::vector<Stage> Scheduler::stages_at(std::int64_t time) const { return program_of(turns_at(time), 1).stages; }
+std::vector<Stage> Scheduler::stages_at(std::int64_t time) const { return plan_of(due_tasks_at(time), 1).stages; }
 
 void Scheduler::set_threads(unsigned threads) {
-  forget_programs();
+  forget_plans();
   executor_.set_threads(threads);
 }
 
-void Scheduler::forget_programs() {
-  programs_.clear();
-  last_programs_ = nullptr;
+void Scheduler::forget_plans() {
+  plans_.clear();
+  last_plans_ = nullptr;
 }
 
 void Scheduler::set_pacing(Pacing pacing) {
@@ -207,17 +205,17 @@ void Scheduler::set_pacing(Pacing pacing) {
 
 /// Waits until the present instant is due; true when `stop` wants to end the wait.
 bool Scheduler::pace(const std::function<bool()>& stop) {
-  const auto wanted = pace_wall_ + std::chrono::nanoseconds(std::int64_t(double(now_ - pace_time_) / pacing_.factor));
+  const auto due = pace_wall_ + std::chrono::nanoseconds(std::int64_t(double(now_ - pace_time_) / pacing_.factor));
   auto wall = std::chrono::steady_clock::now();
-  if (wall < wanted) {
+  if (wall < due) {
     constexpr auto slice = std::chrono::milliseconds(50);  // between looks at `stop`
-    for (; wall < wanted; wall = std::chrono::steady_clock::now()) {
+    for (; wall < due; wall = std::chrono::steady_clock::now()) {
       if (stop && stop()) return true;
-      std::this_thread::sleep_until(std::min(wanted, wall + slice));
+      std::this_thread::sleep_until(std::min(due, wall + slice));
     }
-  } else if (wall - wanted > std::chrono::nanoseconds(std::int64_t(double(finest_period_) / pacing_.factor))) {
+  } else if (wall - due > std::chrono::nanoseconds(std::int64_t(double(min_period_) / pacing_.factor))) {
     ++overruns_;
-    pace_wall_ += wall - wanted;  // the lost time is not made up for by running faster than asked
+    pace_wall_ += wall - due;  // the lost time is not made up for by running faster than asked
   }
   return false;
 }
@@ -242,7 +240,7 @@ void Scheduler::advance(const Mask& due) {
 
 /// Takes the present instant, and those behind it in which the same is due, up to as many as are carried out together.
 /// Returns how many there are.
-std::uint32_t Scheduler::gather(std::int64_t end) {
+std::uint32_t Scheduler::take_instants(std::int64_t end) {
   mark_due(now_, due_);
   std::uint32_t count = 0;
   for (std::int64_t time = now_; count < instants_together && time < end; time = next_time()) {
@@ -260,14 +258,14 @@ void Scheduler::run_until(std::int64_t end, const std::function<bool()>& stop) {
   for (std::int64_t next = next_time(); next < end; next = next_time()) {
     now_ = next;
     if (pacing_.factor > 0 && pace(stop)) return;
-    const std::uint32_t count = gather(end);
-    Programs& programs = programs_for(due_);
+    const std::uint32_t count = take_instants(end);
+    Plans& plans = plans_for(due_);
     const std::span<const std::int64_t> times(times_.data(), count);
     if (count == instants_together) {
-      if (programs.several.turns.empty()) programs.several = program_of(programs.one.turns, instants_together);
-      executor_.run(tasks_, programs.several, times, seed_, runs_);
+      if (plans.together.due.empty()) plans.together = plan_of(plans.one.due, instants_together);
+      executor_.run(tasks_, plans.together, times, seed_, runs_);
     } else {
-      for (std::uint32_t i = 0; i < count; ++i) executor_.run(tasks_, programs.one, times.subspan(i, 1), seed_, runs_);
+      for (std::uint32_t i = 0; i < count; ++i) executor_.run(tasks_, plans.one, times.subspan(i, 1), seed_, runs_);
     }
     now_ = times.back();
     if (stop && stop()) {
@@ -281,11 +279,10 @@ void Scheduler::run_until(std::int64_t end, const std::function<bool()>& stop) {
 void Scheduler::run_extra(const std::vector<TaskId>& tasks) {
   if (!prepared_) prepare();
   std::vector<std::uint64_t> runs = runs_;
-  Turns turns;
-  for (const TaskId t : tasks) turns.push_back({t, periods_[t]});
-  Program program = program_of(turns, 1);
-  program.once = true;
-  executor_.run(tasks_, program, {&now_, 1}, seed_, runs);
+  std::vector<DueTask> due;
+  for (const TaskId t : tasks) due.push_back({t, periods_[t]});
+  Plan plan = plan_of(due, 1);
+  executor_.run(tasks_, plan, {&now_, 1}, seed_, runs);
 }
 
 Scheduler::State Scheduler::state() const { return {now_, runs_}; }

@@ -54,7 +54,7 @@ class Scheduler {
   /// Runs these tasks now, outside of the schedule; their run counts stay.
   void run_extra(const std::vector<TaskId>& tasks);
   /// The tasks of the instant at `time` in the order in which they run.
-  std::vector<TaskId> plan_at(std::int64_t time) const;
+  std::vector<TaskId> order_at(std::int64_t time) const;
 
   /// Time and run counts, as part of a snapshot.
   struct State {
@@ -65,7 +65,7 @@ class Scheduler {
   void set_state(const State& state);
 
  private:
-  /// So many instants with equal work are one program: motion of one instant and kinematics of the next go block by
+  /// So many instants with equal work make one plan: motion of one instant and kinematics of the next go block by
   /// block, without waiting for all blocks in between.
   static constexpr std::uint32_t instants_together = 8;
   struct Group {  ///< items of equal rate and phase
@@ -74,25 +74,24 @@ class Scheduler {
     std::uint64_t next_run = 0;
     std::int64_t next_time = 0;
   };
-  using Mask = std::vector<bool>;
-  using Turns = std::vector<Turn>;
+  using Mask = std::vector<bool>;  ///< which groups are due
 
-  Turns turns_of(const Mask& due) const;
-  Turns turns_at(std::int64_t time) const;
+  std::vector<DueTask> due_tasks_of(const Mask& due) const;
+  std::vector<DueTask> due_tasks_at(std::int64_t time) const;
   void find_providers();
   void find_periods();
-  void demand(TaskId reader, std::vector<bool>& done, Turns& turns) const;
-  /// Programs for instants in which the same is due: for one, and for several that follow each other.
-  struct Programs {
-    Program one, several;
+  void add_providers(TaskId reader, std::vector<bool>& added, std::vector<DueTask>& due) const;
+  /// For instants in which the same is due: for one, and for `instants_together` that follow each other.
+  struct Plans {
+    Plan one, together;
   };
-  Program program_of(const Turns& turns, std::uint32_t instants) const;
-  Programs& programs_for(const Mask& due);
-  void forget_programs();
+  Plan plan_of(const std::vector<DueTask>& due, std::uint32_t instants) const;
+  Plans& plans_for(const Mask& due);
+  void forget_plans();
   std::int64_t next_time() const;
   void mark_due(std::int64_t time, Mask& due) const;
   void advance(const Mask& due);
-  std::uint32_t gather(std::int64_t end);
+  std::uint32_t take_instants(std::int64_t end);
   bool pace(const std::function<bool()>& stop);
 
   std::vector<Task> tasks_;
@@ -104,11 +103,11 @@ class Scheduler {
   bool prepared_ = false;
   std::vector<Group> groups_;
   std::vector<std::uint32_t> group_of_item_;
-  std::vector<std::vector<TaskId>> providers_;  ///< per task: on-demand tasks it needs
+  std::vector<std::vector<TaskId>> providers_;  ///< per task: tasks on demand that write what it reads
   std::vector<double> periods_;                 ///< s, per task; on demand: the longest of those that ask
   Mask due_, next_due_, last_due_;
-  Programs* last_programs_ = nullptr;
-  std::unordered_map<Mask, Programs> programs_;
+  Plans* last_plans_ = nullptr;
+  std::unordered_map<Mask, Plans> plans_;
   std::array<std::int64_t, instants_together> times_{};  ///< ns, of the instants that are carried out together
 
   std::int64_t now_ = 0;
@@ -116,7 +115,7 @@ class Scheduler {
   Pacing pacing_;
   std::chrono::steady_clock::time_point pace_wall_{};
   std::int64_t pace_time_ = 0;
-  std::int64_t finest_period_ = 0;
+  std::int64_t min_period_ = 0;  ///< ns
   std::uint64_t overruns_ = 0;
 };
 

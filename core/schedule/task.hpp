@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -9,11 +10,20 @@
 
 namespace muro {
 
-/// A property that a task touches. What is read alone may be touched by several at once.
-struct Touch {
+/// Access to a property, by its slot in the property store. Access that is not exclusive may overlap with its like.
+struct SlotAccess {
   std::uint32_t slot = 0;
   bool exclusive = false;
 };
+
+/// Sorts by slot and leaves one access to each: an exclusive one where there is one.
+inline void merge_accesses(std::vector<SlotAccess>& accesses) {
+  std::sort(accesses.begin(), accesses.end(), [](const SlotAccess& a, const SlotAccess& b) {
+    return a.slot != b.slot ? a.slot < b.slot : a.exclusive > b.exclusive;
+  });
+  const auto same = [](const SlotAccess& a, const SlotAccess& b) { return a.slot == b.slot; };
+  accesses.erase(std::unique(accesses.begin(), accesses.end(), same), accesses.end());
+}
 
 /// What the scheduler runs: one instance of an algorithm with its items.
 struct Task {
@@ -28,7 +38,7 @@ struct Task {
   std::int64_t phase = 0;                    ///< ns, 0 or more
   int order = 0;                             ///< tasks of one instant run by rising order, then as added
   std::vector<std::uint32_t> reads, writes;  ///< slots of the property store: who needs what on demand
-  std::vector<Touch> touches;                ///< what may run at the same time
+  std::vector<SlotAccess> accesses;          ///< they decide what may run at the same time
 
   /// How many elements phase number `which` works on.
   std::uint32_t length(std::uint32_t which) const {
@@ -43,8 +53,8 @@ struct TaskCost {
   std::uint64_t ticks = 0;  ///< of the cycle counter, over all threads; estimated once there are many runs
 };
 
-/// A task that is due, in the order in which it has its turn.
-struct Turn {
+/// A task that is due in an instant.
+struct DueTask {
   TaskId task = 0;
   double dt = 0;              ///< s
   std::uint32_t instant = 0;  ///< of several that are carried out together

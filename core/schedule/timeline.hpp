@@ -2,12 +2,42 @@
 #pragma once
 
 #include <algorithm>
+#include <chrono>
 #include <cstdint>
 #include <vector>
 
 #include "muro/step.hpp"
 
 namespace muro {
+
+/// A cheap clock for the costs of calls.
+inline std::uint64_t ticks() {
+#if defined(__x86_64__)
+  return __builtin_ia32_rdtsc();
+#elif defined(__aarch64__)
+  std::uint64_t t;
+  asm volatile("mrs %0, cntvct_el0" : "=r"(t));
+  return t;
+#else
+  return std::uint64_t(std::chrono::steady_clock::now().time_since_epoch().count());
+#endif
+}
+
+/// Relates ticks to seconds by what has passed since it was made.
+class TickClock {
+ public:
+  TickClock() : first_tick_(ticks()), first_wall_(std::chrono::steady_clock::now()) {}
+  double seconds_per_tick() const {
+    const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - first_wall_).count();
+    const std::uint64_t passed = ticks() - first_tick_;
+    return wall / double(passed > 0 ? passed : 1);
+  }
+  std::uint64_t first_tick() const { return first_tick_; }
+
+ private:
+  std::uint64_t first_tick_;
+  std::chrono::steady_clock::time_point first_wall_;
+};
 
 /// Which call ran when on which thread.
 class Timeline {
@@ -20,22 +50,22 @@ class Timeline {
     std::uint64_t begin = 0, end = 0;  ///< ticks
   };
 
-  /// Records from now on, up to `most` calls of each thread.
-  void start(std::size_t most) { most_ = most; }
-  bool on() const { return most_ > 0; }
+  /// Records from now on, up to `max_spans` calls of each thread.
+  void start(std::size_t max_spans) { max_spans_ = max_spans; }
+  bool on() const { return max_spans_ > 0; }
   void set_threads(std::size_t count) { threads_.resize(count); }
   void add(unsigned thread, const Span& span) {
-    if (threads_[thread].size() < most_) threads_[thread].push_back(span);
+    if (threads_[thread].size() < max_spans_) threads_[thread].push_back(span);
   }
   /// Whether calls were left out.
   bool full() const {
-    return std::any_of(threads_.begin(), threads_.end(), [&](const auto& t) { return on() && t.size() == most_; });
+    return std::any_of(threads_.begin(), threads_.end(), [&](const auto& t) { return on() && t.size() == max_spans_; });
   }
   /// By thread, in the order in which they ran.
   const std::vector<std::vector<Span>>& threads() const { return threads_; }
 
  private:
-  std::size_t most_ = 0;
+  std::size_t max_spans_ = 0;
   std::vector<std::vector<Span>> threads_ = std::vector<std::vector<Span>>(1);
 };
 

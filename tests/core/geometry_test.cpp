@@ -5,6 +5,7 @@
 #include <random>
 
 #include "muro/geometry.hpp"
+#include "muro/toolkit/rotations.hpp"
 
 namespace muro {
 namespace {

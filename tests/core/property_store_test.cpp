@@ -243,7 +243,7 @@ TEST_F(PropertyStoreTest, TheHashSeesEveryBitOfAVariableAndNothingElse) {
 
 TEST_F(PropertyStoreTest, ValuesOfOnePartLieSideBySideAndThoseOfAnotherAPageAway) {
   constexpr std::ptrdiff_t page = 4096;
-  store.set_parts({1, 1, 2});
+  store.set_partitions({1, 1, 2});
   const auto* const of_a = reinterpret_cast<const char*>(bind<double>(writer, a, speed, usage::variable));
   const auto* const of_b = reinterpret_cast<const char*>(bind<double>(writer, b, speed, usage::variable));
   const auto* const of_c = reinterpret_cast<const char*>(bind<double>(writer, c, speed, usage::variable));

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "core/world.hpp"
+#include "muro/toolkit/link_pose.hpp"
+#include "muro/toolkit/rotations.hpp"
 #include "muro/vocabulary.hpp"
 
 namespace muro {

@@ -42,7 +42,7 @@ std::map<std::string, std::string> property_hashes(const World& world) {
   std::map<std::string, std::string> all;
   const PropertyStore& store = world.store();
   for (std::uint32_t i = 0; i < world.object_count(); ++i) {
-    for (const PropertyStore::Named& named : store.properties(ObjectId{i})) {
+    for (const PropertyStore::NamedSlot& named : store.properties(ObjectId{i})) {
       const Slot& slot = store.slot(named.slot);
       const ValueType& type = *store.key_of(slot).type;
       const std::optional<std::uint64_t> hash = hash_of(slot, type.size);

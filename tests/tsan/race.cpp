@@ -2,18 +2,18 @@
 // A data race on purpose: shows that the runs beside it could fail.
 #include <thread>
 
-#include "core/schedule/workers.hpp"
+#include "core/schedule/worker_pool.hpp"
 
 int main() {
   int shared = 0;
-  muro::Workers workers(4);
+  muro::WorkerPool workers(4);
   for (int round = 0; round < 100; ++round)
     workers.run(
         64,
-        [](void* at, std::uint32_t, unsigned) {
+        [](void* at, const void*, std::uint32_t, unsigned) {
           ++*static_cast<int*>(at);
           std::this_thread::yield();
         },
-        &shared);
+        &shared, nullptr);
   return shared == 0 ? 1 : 0;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/schedule/stages.hpp"
+#include "core/schedule/stage.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ namespace {
 using IndexSpace = Phase::IndexSpace;
 using Scope = Phase::Scope;
 
-TEST(BlockBounds, CoverAllRobotsAndBeginAtLanes) {
+TEST(BlockBounds, CoverAllRobotsAndBeginAtSimdLanes) {
   for (std::uint32_t count = 0; count < 3000; ++count) {
     const std::vector<std::uint32_t> bounds = block_bounds(count);
     ASSERT_EQ(bounds.front(), 0u);
@@ -39,7 +39,7 @@ TEST(BlockBounds, GiveTwoThreadsNearlyEqualHalves) {
 struct Team : ::testing::Test {
   std::uint32_t robots = 40;
   std::vector<Task> tasks;
-  std::vector<Turn> turns;
+  std::vector<DueTask> due;
 
   std::uint32_t common(std::uint32_t i) const { return 10 * robots + i; }
   Task& add(std::vector<Phase> phases) {
@@ -47,22 +47,22 @@ struct Team : ::testing::Test {
     t.items = t.robots = robots;
     for (std::uint32_t r = 0; r < robots; ++r) t.robot_of_item.push_back(std::int32_t(r));
     t.phases = std::move(phases);
-    turns.push_back({TaskId(tasks.size()), 0.001});
+    due.push_back({TaskId(tasks.size()), 0.001});
     return tasks.emplace_back(std::move(t));
   }
   void every(Task& t, std::uint32_t slot, bool exclusive) const {
-    for (std::uint32_t r = 0; r < robots; ++r) t.touches.push_back({10 * r + slot, exclusive});
+    for (std::uint32_t r = 0; r < robots; ++r) t.accesses.push_back({10 * r + slot, exclusive});
   }
   std::vector<std::int32_t> robot_of_slot() const {
     std::vector<std::int32_t> of(10 * robots + 10, -1);
     for (std::uint32_t s = 0; s < 10 * robots; ++s) of[s] = std::int32_t(s / 10);
     return of;
   }
-  std::vector<Stage> stages() const { return stages_of(turns, tasks, robot_of_slot()); }
+  std::vector<Stage> stages() const { return stages_of(due, tasks, robot_of_slot()); }
 };
 using Stages = Team;
 
-TEST_F(Stages, TasksThatTouchTheirOwnRobotsAloneChainBlockByBlock) {
+TEST_F(Stages, TasksOnTheirOwnRobotsFormACallChainForEachBlock) {
   tasks.reserve(3);
   for (int i = 0; i < 3; ++i) every(add({{IndexSpace::items, Scope::own_robot}}), 0, true);
   const auto all = stages();
@@ -79,7 +79,7 @@ TEST_F(Stages, TasksThatTouchTheirOwnRobotsAloneChainBlockByBlock) {
   }
 }
 
-TEST_F(Stages, AWideReaderWaitsForAllWritersAndWritersWaitForIt) {
+TEST_F(Stages, AReaderOfAllRobotsIsAStageBetweenWriters) {
   tasks.reserve(3);
   every(add({{IndexSpace::items, Scope::own_robot}}), 0, true);
   Task& reader = add({{IndexSpace::items, Scope::reads_all}});
@@ -89,7 +89,7 @@ TEST_F(Stages, AWideReaderWaitsForAllWritersAndWritersWaitForIt) {
   EXPECT_EQ(stages().size(), 3u);
 }
 
-TEST_F(Stages, AnUndividedPhaseStandsAloneBetweenDividedOnes) {
+TEST_F(Stages, AnUndividedPhaseIsAStageBetweenDividedOnes) {
   every(add({{IndexSpace::robots, Scope::own_robot},
              {IndexSpace::whole, Scope::reads_all},
              {IndexSpace::robots, Scope::own_robot}}),
@@ -100,7 +100,7 @@ TEST_F(Stages, AnUndividedPhaseStandsAloneBetweenDividedOnes) {
   EXPECT_EQ(all[1].calls[0].range.end, robots);
 }
 
-TEST_F(Stages, ATaskThatIsAloneOverlapsWithNothingThoughItTouchesNothingOfTheOthers) {
+TEST_F(Stages, ATaskThatRunsAloneOverlapsWithNothing) {
   tasks.reserve(3);
   every(add({{IndexSpace::items, Scope::own_robot}}), 0, true);
   add({{IndexSpace::whole}}).runs_alone = true;
@@ -116,7 +116,7 @@ TEST_F(Stages, WithoutOverlapEachPhaseOfATaskIsAStage) {
   every(add({{IndexSpace::robots, Scope::own_robot}, {IndexSpace::robots, Scope::own_robot}}), 0, true);
   every(add({{IndexSpace::robots, Scope::own_robot}}), 1, true);
   EXPECT_EQ(stages().size(), 1u);
-  const auto all = stages_of(turns, tasks, robot_of_slot(), false);
+  const auto all = stages_of(due, tasks, robot_of_slot(), false);
   ASSERT_EQ(all.size(), 3u);
   for (std::size_t k = 0; k < 3; ++k) {
     EXPECT_EQ(all[k].chains(), block_bounds(robots).size() - 1);
@@ -124,36 +124,36 @@ TEST_F(Stages, WithoutOverlapEachPhaseOfATaskIsAStage) {
   }
 }
 
-TEST_F(Stages, AStageIsLeftOutWhenNoneOfItsCallsIsWanted) {
+TEST_F(Stages, AStageIsDisabledWhenAllOfItsCallsAre) {
   tasks.reserve(2);
-  std::uint8_t wanted = 0;
-  const Phase maybe{.index_space = IndexSpace::robots, .enabled = &wanted};
+  std::uint8_t enabled = 0;
+  const Phase maybe{.index_space = IndexSpace::robots, .enabled = &enabled};
   every(add({{IndexSpace::whole}, maybe, maybe}), 0, true);
   every(add({{IndexSpace::robots, Scope::own_robot}}), 0, true);
   const auto all = stages();
   ASSERT_EQ(all.size(), 3u);  // the last of the first task goes on with the second
-  EXPECT_TRUE(all[0].is_wanted());
-  EXPECT_FALSE(all[1].is_wanted());
-  EXPECT_TRUE(all[2].is_wanted());
-  EXPECT_FALSE(all[2].chain(0)[0].is_wanted());
-  EXPECT_TRUE(all[2].chain(0)[1].is_wanted());
-  wanted = 1;
-  EXPECT_TRUE(all[1].is_wanted());
-  EXPECT_TRUE(all[2].chain(0)[0].is_wanted());
+  EXPECT_TRUE(all[0].is_enabled());
+  EXPECT_FALSE(all[1].is_enabled());
+  EXPECT_TRUE(all[2].is_enabled());
+  EXPECT_FALSE(all[2].chain(0)[0].is_enabled());
+  EXPECT_TRUE(all[2].chain(0)[1].is_enabled());
+  enabled = 1;
+  EXPECT_TRUE(all[1].is_enabled());
+  EXPECT_TRUE(all[2].chain(0)[0].is_enabled());
 }
 
 TEST_F(Stages, TasksWithoutCommonPropertiesOverlap) {
   tasks.reserve(6);
   for (std::uint32_t i = 0; i < 6; ++i) {
     Task& t = add({{}});
-    t.touches = {{10 * i, true}, {common(0), false}};
+    t.accesses = {{10 * i, true}, {common(0), false}};
   }
   const auto all = stages();
   ASSERT_EQ(all.size(), 1u);
   EXPECT_EQ(all[0].chains(), 6u);
 }
 
-TEST_F(Stages, HeavyElementsAreCallsOfTheirOwn) {
+TEST_F(Stages, FineGrainedElementsAreCallsOfTheirOwn) {
   every(add({{IndexSpace::items, Scope::reads_all, true}}), 0, true);
   const auto all = stages();
   ASSERT_EQ(all.size(), 1u);
@@ -170,12 +170,12 @@ TEST_F(Stages, ItemsThatAreNotInTheOrderOfRobotsAreNotDivided) {
 }
 
 /// Random tasks: whatever two calls share, with one of them writing, keeps its order.
-TEST_F(Stages, EveryConflictKeepsTheOrderOfTurns) {
+TEST_F(Stages, EveryConflictKeepsTheOrderOfDueTasks) {
   std::mt19937 random(7);
   const auto below = [&](std::uint32_t n) { return std::uniform_int_distribution<std::uint32_t>(0, n - 1)(random); };
   for (int round = 0; round < 200; ++round) {
     tasks.clear();
-    turns.clear();
+    due.clear();
     tasks.reserve(12);
     for (int k = 0; k < 12; ++k) {
       std::vector<Phase> phases;
@@ -184,14 +184,14 @@ TEST_F(Stages, EveryConflictKeepsTheOrderOfTurns) {
       Task& t = add(phases);
       for (std::uint32_t slot = 0; slot < 4; ++slot)
         if (below(3) == 0) every(t, slot, below(2) == 0);
-      if (below(3) == 0) t.touches.push_back({common(below(3)), below(2) == 0});
+      if (below(3) == 0) t.accesses.push_back({common(below(3)), below(2) == 0});
     }
     const auto all = stages();
     const auto of_slot = robot_of_slot();
     struct Seen {
       std::size_t stage;
       std::uint32_t chain;
-      std::uint32_t turn, phase;
+      std::uint32_t order, phase;
       bool exclusive;
     };
     std::map<std::uint32_t, std::vector<Seen>> seen;
@@ -201,22 +201,22 @@ TEST_F(Stages, EveryConflictKeepsTheOrderOfTurns) {
         for (const Call& call : all[s].chain(c)) {
           const Phase phase = tasks[call.task].phases[call.phase];
           for (std::uint32_t i = call.range.begin; i < call.range.end; ++i)
-            EXPECT_EQ(served.insert(std::tuple(call.turn, call.phase, i)).second, true);
-          for (const Touch& t : tasks[call.task].touches) {
-            const std::int32_t robot = of_slot[t.slot];
+            EXPECT_EQ(served.insert(std::tuple(call.order, call.phase, i)).second, true);
+          for (const SlotAccess& a : tasks[call.task].accesses) {
+            const std::int32_t robot = of_slot[a.slot];
             const bool inside =
                 robot < 0 || (std::uint32_t(robot) >= call.range.begin && std::uint32_t(robot) < call.range.end);
-            const bool touched =
-                phase.index_space == IndexSpace::whole || inside || (phase.scope == Scope::reads_all && !t.exclusive);
-            if (!touched) continue;
-            for (const Seen& before : seen[t.slot]) {
-              if (!before.exclusive && !t.exclusive) continue;
-              if (before.turn == call.turn && before.phase == call.phase) continue;  // by its promise
-              const bool earlier = before.turn != call.turn ? before.turn < call.turn : before.phase < call.phase;
+            const bool has_access =
+                phase.index_space == IndexSpace::whole || inside || (phase.scope == Scope::reads_all && !a.exclusive);
+            if (!has_access) continue;
+            for (const Seen& before : seen[a.slot]) {
+              if (!before.exclusive && !a.exclusive) continue;
+              if (before.order == call.order && before.phase == call.phase) continue;  // the phase guarantees it
+              const bool earlier = before.order != call.order ? before.order < call.order : before.phase < call.phase;
               ASSERT_TRUE(earlier && (before.stage < s || before.chain == c))
-                  << "round " << round << " slot " << t.slot;
+                  << "round " << round << " slot " << a.slot;
             }
-            seen[t.slot].push_back({s, c, call.turn, call.phase, t.exclusive});
+            seen[a.slot].push_back({s, c, call.order, call.phase, a.exclusive});
           }
         }
     std::size_t phases = 0;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "core/schedule/trial.hpp"
+#include "core/schedule/parallelism_tuner.hpp"
 
 #include <gtest/gtest.h>
 
 namespace muro {
 namespace {
 
-/// A program on some machine: what its runs take on one thread and on several, in ticks.
+/// A plan on some machine: what its runs take on one thread and on several, in ticks.
 struct Runs {
-  Trial trial = {};
+  ParallelismTuner tuner = {};
   std::uint64_t one = 0, several = 0;
   int on_several = 0;
 
@@ -16,27 +16,27 @@ struct Runs {
   int make(int count) {
     on_several = 0;
     for (int i = 0; i < count; ++i) {
-      const bool parallel = trial.parallel();
+      const bool parallel = tuner.parallel();
       on_several += parallel;
-      trial.learn(parallel ? several : one);
+      tuner.learn(parallel ? several : one);
     }
     return on_several;
   }
 };
 
-TEST(Trial, WorkThatThreadsSpeedUpRunsOnThemNearlyAlways) {
+TEST(ParallelismTuner, UsesThreadsThatAreFasterNearlyAlways) {
   Runs runs{.one = 16'000, .several = 9'000};
   runs.make(100);
   EXPECT_GT(runs.make(10'000), 9'850);
 }
 
-TEST(Trial, WorkThatThreadsSlowDownRunsOnOneNearlyAlways) {
+TEST(ParallelismTuner, UsesOneThreadNearlyAlwaysWhereThatIsFaster) {
   Runs runs{.one = 5'000, .several = 6'000};
   runs.make(100);
   EXPECT_LT(runs.make(10'000), 150);
 }
 
-TEST(Trial, WorkThatGrowsStaysOnSeveralThreads) {
+TEST(ParallelismTuner, KeepsSeveralThreadsWhileWorkGrows) {
   Runs runs{.one = 16'000, .several = 9'000};
   runs.make(5'000);
   for (int more = 0; more < 40; ++more) {  // in the end it takes twice as long as one thread took at first
@@ -45,14 +45,14 @@ TEST(Trial, WorkThatGrowsStaysOnSeveralThreads) {
   }
 }
 
-TEST(Trial, WorkThatDoublesAtOnceStaysOnSeveralThreads) {
+TEST(ParallelismTuner, KeepsSeveralThreadsWhenWorkDoublesAtOnce) {
   Runs runs{.one = 16'000, .several = 9'000};
   runs.make(300);
   runs.one *= 2, runs.several *= 2;
   EXPECT_GT(runs.make(1'000), 950);
 }
 
-TEST(Trial, WorkThatShrinksReturnsToOneThread) {
+TEST(ParallelismTuner, ReturnsToOneThreadWhenWorkShrinks) {
   Runs runs{.one = 16'000, .several = 9'000};
   runs.make(5'000);
   runs.one = 2'000, runs.several = 3'000;
@@ -60,24 +60,24 @@ TEST(Trial, WorkThatShrinksReturnsToOneThread) {
   EXPECT_LT(runs.make(10'000), 150);
 }
 
-TEST(Trial, ThreadsThatAreSlowExceptWhenTheyAreTriedAreLeftMoreAndMore) {
-  // A machine with more to do than it has cores: a worker is put aside after some milliseconds, not at once.
+TEST(ParallelismTuner, BacksOffFromThreadsThatAreSlowExceptInTrials) {
+  // A machine with more to do than it has cores: a worker is suspended after some milliseconds, not at once.
   Runs runs{.one = 16'000, .several = 9'000};
   int slow = 0;
   for (int i = 0, in_a_row = 0; i < 50'000; ++i) {
-    in_a_row = runs.trial.parallel() ? in_a_row + 1 : 0;
-    const bool aside = in_a_row > 20;
-    slow += aside;
-    runs.trial.learn(!runs.trial.parallel() ? 16'000 : aside ? 100'000 : 9'000);
+    in_a_row = runs.tuner.parallel() ? in_a_row + 1 : 0;
+    const bool suspended = in_a_row > 20;
+    slow += suspended;
+    runs.tuner.learn(!runs.tuner.parallel() ? 16'000 : suspended ? 100'000 : 9'000);
   }
   EXPECT_LT(slow, 2'000);
 }
 
-TEST(Trial, OneRunThatIsHeldUpDecidesNothing) {
+TEST(ParallelismTuner, IsNotDecidedByOneOutlier) {
   Runs runs{.one = 16'000, .several = 9'000};
-  for (const int before : {10, 20, 500}) {  // in a trial, soon behind it, later
+  for (const int before : {10, 20, 500}) {  // in a trial, soon after it, later
     runs.make(before);
-    runs.trial.learn(50'000'000);  // 3000 times as long
+    runs.tuner.learn(50'000'000);  // 3000 times as long
     EXPECT_GT(runs.make(1'000), 950) << before;
   }
 }

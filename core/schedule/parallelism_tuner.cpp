@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#include "core/schedule/parallelism_tuner.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace muro {
+
+namespace {
+
+constexpr std::uint32_t min_interval = 128, max_interval = 1u << 12;
+constexpr std::uint32_t window = 64, calm = 4;  // windows without suspicion, after which threads are trusted again
+
+}  // namespace
+
+void ParallelismTuner::learn(std::uint64_t duration) {
+  constexpr double worth = 0.97;        // of the time on one thread
+  constexpr double clearly = 0.75;      // the same: a result that holds for longer
+  constexpr double hopeless = 1.5;      // the same, of a whole trial
+  constexpr double max_outlier = 4;     // one run of a trial counts no more than so many serial ones
+  constexpr double growth_limit = 1.1;  // work that takes so much longer on one thread has grown
+  ++runs_;
+  if (state_ == State::settled) {
+    if (parallel_) watch(double(duration));
+    if (runs_ >= interval_) enter(State::serial);
+    return;
+  }
+  constexpr std::uint32_t all = warm_up + counted;
+  total_ += std::min(double(duration), max_outlier * serial_);
+  const bool given_up = state_ == State::parallel && total_ > hopeless * all * serial_;
+  if (runs_ > warm_up) durations_[runs_ - warm_up - 1] = double(duration);
+  if (runs_ < all && !given_up) return;
+  std::nth_element(durations_.begin(), durations_.begin() + counted / 2, durations_.end());
+  const double median = durations_[counted / 2];
+  if (state_ == State::parallel) {
+    const bool clear = !given_up && median < clearly * serial_;
+    return settle(!given_up && median < worth * serial_, clear ? 4 * min_interval : min_interval);
+  }
+  serial_ = median;
+  const double suspected = std::exchange(suspected_, 0);
+  if (suspected > 0 && suspected * growth_limit >= serial_) {  // no more work than before: threads are held up
+    backoff_ = std::clamp(4 * backoff_, min_interval, max_interval);
+    settle(false, backoff_);
+    return;
+  }
+  enter(State::parallel);
+}
+
+void ParallelismTuner::enter(State state) {
+  state_ = state;
+  runs_ = 0;
+  total_ = 0;
+}
+
+void ParallelismTuner::settle(bool parallel, std::uint32_t first_interval) {
+  interval_ = known_ && parallel == parallel_ ? std::min(4 * interval_, max_interval) : first_interval;
+  known_ = true;
+  parallel_ = parallel;
+  enter(State::settled);
+}
+
+/// A machine that is busy with other things may suspend a worker in the midst of its work, which a short trial does not
+/// see. Or there is more work than at the last trial. A look at one thread tells: see learn().
+void ParallelismTuner::watch(double duration) {
+  total_ += std::min(duration, 0.25 * window * serial_);  // one outlier decides nothing
+  if (runs_ % window != 0) return;
+  if (std::exchange(total_, 0) <= window * serial_) {
+    if (runs_ > calm * window) backoff_ = 0;
+    return;
+  }
+  suspected_ = serial_;
+  enter(State::serial);
+}
+
+}  // namespace muro

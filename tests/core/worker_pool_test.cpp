@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "core/schedule/worker_pool.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <chrono>
+
+namespace muro {
+namespace {
+
+/// Counts how often each item was worked on.
+struct Counts {
+  std::vector<std::atomic<int>> of_item;
+  std::array<std::atomic<int>, 16> of_thread{};
+  explicit Counts(std::size_t items) : of_item(items) {}
+  static void work(void* self, const void*, std::uint32_t item, unsigned thread) {
+    auto& counts = *static_cast<Counts*>(self);
+    counts.of_item[item].fetch_add(1, std::memory_order_relaxed);
+    counts.of_thread[thread].fetch_add(1, std::memory_order_relaxed);
+  }
+};
+
+TEST(WorkerPool, WorksOnEachItemOnce) {
+  for (const unsigned threads : {1u, 2u, 3u, 8u}) {
+    WorkerPool workers(threads);
+    for (const std::uint32_t items : {0u, 1u, 2u, 7u, 100u, 200'000u}) {
+      Counts counts(items);
+      workers.run(items, &Counts::work, &counts, nullptr);
+      for (const auto& c : counts.of_item) ASSERT_EQ(c, 1) << items << " items on " << threads << " threads";
+    }
+  }
+}
+
+TEST(WorkerPool, KeepsThousandsOfRoundsApart) {
+  WorkerPool workers(4);
+  for (int round = 0; round < 20'000; ++round) {
+    Counts counts(std::size_t(round % 9));
+    workers.run(std::uint32_t(counts.of_item.size()), &Counts::work, &counts, nullptr);
+    for (const auto& c : counts.of_item) ASSERT_EQ(c, 1) << "round " << round;
+  }
+}
+
+TEST(WorkerPool, WakesSleepingThreads) {
+  WorkerPool workers(3);
+  for (int i = 0; i < 20; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));  // far beyond the spin limit
+    Counts counts(50);
+    workers.run(50, &Counts::work, &counts, nullptr);
+    for (const auto& c : counts.of_item) ASSERT_EQ(c, 1);
+  }
+}
+
+TEST(WorkerPool, SharesLongWork) {
+  struct Long {
+    std::array<std::atomic<int>, 4> of_thread{};
+    static void work_on(void* self, const void*, std::uint32_t, unsigned thread) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));  // sleeping threads overlap on any machine
+      static_cast<Long*>(self)->of_thread[thread].fetch_add(1);
+    }
+  } work;
+  WorkerPool workers(4);
+  workers.run(40, &Long::work_on, &work, nullptr);
+  for (const auto& count : work.of_thread) EXPECT_GT(count, 0);
+}
+
+}  // namespace
+}  // namespace muro
