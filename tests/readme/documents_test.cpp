@@ -41,6 +41,18 @@ TEST(Documents, EveryFileTheyLinkToExists) {
       EXPECT_TRUE(fs::exists((root / page).parent_path() / link)) << page << " links to " << link;
 }
 
+TEST(Documents, TheControllerTheyShowSteersVehicles) {
+  const test::ScratchFolder scratch;
+  const std::string shown = all_of(text_of(root / "docs/controllers.md"), std::regex("\n```c\n([^`]*)```")).at(0);
+  const std::string source = scratch.file("brake.c", shown), library = scratch.path("brake.so");
+  const auto result = test::run_command(
+      "cd " MURO_TEST_SOURCE_DIR " && cc -std=c11 -Wall -Werror -shared -fPIC -I sdk/c -o " + library + " " + source +
+      " -lm && MURO_PLUGIN_PATH=" MURO_TEST_PLUGIN_DIR " " MURO_PROGRAM
+      " run examples/urban/urban.yaml --duration 1 --set robots.rovers.control.library=" +
+      library);
+  EXPECT_EQ(result.exit_code, 0) << result.output;
+}
+
 /// The commands of a document: lines that begin with `build/bin/muro`, and blocks of shell.
 std::vector<std::string> commands_of(const std::string& page) {
   const std::string text = text_of(root / page);
