@@ -38,7 +38,7 @@ class Trial {
     scene_.build();
     for (std::size_t i = 0; i < start_.size(); ++i) {
       const RobotTree::FlatLink& f = tree_.links()[i];
-      inertias_.push_back(inertia_of(tree_.parts()[std::size_t(f.part)]));
+      inertias_.push_back(inertia_of(tree_.components()[std::size_t(f.body)]));
       seen_.scale += inertias_.back().mass * g;
     }
   }
@@ -70,9 +70,9 @@ class Trial {
     return all;
   }
 
-  static Inertia inertia_of(const RobotTree::Part& part) {
+  static Inertia inertia_of(const RobotTree::Component& component) {
     Inertia inertia;
-    for (const RobotTree::Constant& c : part.constants)
+    for (const RobotTree::Constant& c : component.constants)
       if (c.key.name == keys::inertial.name) std::memcpy(static_cast<void*>(&inertia), c.data.data(), sizeof inertia);
     return inertia;
   }
