@@ -13,13 +13,13 @@ constexpr Description description{
     .kind = Kind::collision,
     .version = "1.0.0",
     .summary = "Contact points by Bullet: primitives, planes, convex hulls and meshes",
-    .parameters = encounters::engine_parameters,
-    .reads = encounters::engine_reads,
-    .writes = encounters::engine_writes,
+    .parameters = contact_geometry::engine_parameters,
+    .reads = contact_geometry::collision_reads,
+    .writes = contact_geometry::collision_writes,
     .capabilities = deterministic | allocation_free | restorable,
 };
 
-class BulletCollision final : public encounters::EngineCollision {
+class BulletCollision final : public contact_geometry::EngineCollision {
  public:
   BulletCollision() : EngineCollision(std::make_unique<bullet_collision::BulletEngine>()) {}
 };
@@ -28,5 +28,5 @@ constexpr abi::AlgorithmEntry algorithms[] = {algorithm<BulletCollision>(descrip
 
 }  // namespace
 
-MURO_PLUGIN(.name = "collision_bullet", .version = "1.0.0", .licence = "MIT",
+MURO_PLUGIN(.name = "collision_bullet", .version = description.version, .licence = "MIT",
             .summary = "Collision detection by Bullet", .algorithms = algorithms)

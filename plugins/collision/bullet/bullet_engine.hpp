@@ -8,24 +8,24 @@ class btStridingMeshInterface;
 
 namespace muro::bullet_collision {
 
-/// A shape of Bullet and what it points to.
-struct Form {
-  Form();
-  Form(Form&&) noexcept;
-  ~Form();
+/// A Bullet shape and the triangles that it points to.
+struct ShapeData {
+  ShapeData();
+  ShapeData(ShapeData&&) noexcept;
+  ~ShapeData();
   std::unique_ptr<btStridingMeshInterface> triangles;
   std::unique_ptr<btCollisionShape> shape;
 };
 
-/// Bullet's collision library (Coumans), in double precision: an algorithm for each pair of kinds, made anew for each
-/// pair, so that no manifold lives on.
-class BulletEngine final : public encounters::Engine {
+/// Bullet's collision library (Coumans), in double precision: an algorithm for each pair of kinds, created anew for
+/// each pair, so that no manifold persists.
+class BulletEngine final : public contact_geometry::Engine {
  public:
-  void add(const encounters::Solid& solid) override;
-  std::unique_ptr<encounters::Narrowphase> narrowphase() const override;
+  void add(const contact_geometry::CollisionGeometry& geometry) override;
+  std::unique_ptr<contact_geometry::NarrowPhase> make_narrow_phase() const override;
 
  private:
-  std::vector<Form> forms_;  ///< by number of the solid
+  std::vector<ShapeData> shapes_;  ///< by number of the geometry
 };
 
 }  // namespace muro::bullet_collision

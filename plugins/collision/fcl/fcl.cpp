@@ -13,13 +13,13 @@ constexpr Description description{
     .kind = Kind::collision,
     .version = "1.0.0",
     .summary = "Contact points by FCL: primitives, planes, convex hulls and meshes",
-    .parameters = encounters::engine_parameters,
-    .reads = encounters::engine_reads,
-    .writes = encounters::engine_writes,
+    .parameters = contact_geometry::engine_parameters,
+    .reads = contact_geometry::collision_reads,
+    .writes = contact_geometry::collision_writes,
     .capabilities = deterministic | restorable,
 };
 
-class FclCollision final : public encounters::EngineCollision {
+class FclCollision final : public contact_geometry::EngineCollision {
  public:
   FclCollision() : EngineCollision(std::make_unique<fcl_collision::FclEngine>()) {}
 };
@@ -28,5 +28,5 @@ constexpr abi::AlgorithmEntry algorithms[] = {algorithm<FclCollision>(descriptio
 
 }  // namespace
 
-MURO_PLUGIN(.name = "collision_fcl", .version = "1.0.0", .licence = "MIT", .summary = "Collision detection by FCL",
-            .algorithms = algorithms)
+MURO_PLUGIN(.name = "collision_fcl", .version = description.version, .licence = "MIT",
+            .summary = "Collision detection by FCL", .algorithms = algorithms)

@@ -13,8 +13,8 @@
 namespace muro::fcl_collision {
 namespace {
 
-using encounters::Solid;
-using encounters::Touch;
+using contact_geometry::CollisionGeometry;
+using contact_geometry::EngineContact;
 using Geometry = std::shared_ptr<fcl::CollisionGeometryd>;
 
 Geometry convex_of(const mesh::Hull& hull) {
@@ -37,7 +37,7 @@ Geometry hierarchy_of(const mesh::Mesh& surface) {
   return model;
 }
 
-Geometry geometry_of(const Solid& s) {
+Geometry geometry_of(const CollisionGeometry& s) {
   const Vec3& size = s.shape.size;
   switch (s.shape.kind) {
     case ShapeKind::box:
@@ -53,7 +53,7 @@ Geometry geometry_of(const Solid& s) {
     case ShapeKind::mesh:
       break;
   }
-  return s.terrain ? hierarchy_of(s.terrain->surface()) : convex_of(*s.hull);
+  return s.exact_mesh ? hierarchy_of(s.exact_mesh->surface()) : convex_of(*s.hull);
 }
 
 fcl::Transform3d transform_of(const Pose& p) {
@@ -76,13 +76,13 @@ bool is_rough(const fcl::CollisionGeometryd& a, const fcl::CollisionGeometryd& b
   return !is(b, fcl::GEOM_HALFSPACE) && !(is(a, fcl::GEOM_BOX) && is(b, fcl::GEOM_BOX));
 }
 
-class FclNarrowphase final : public encounters::Narrowphase {
+class FclNarrowPhase final : public contact_geometry::NarrowPhase {
  public:
-  explicit FclNarrowphase(const std::vector<Geometry>& geometries)
+  explicit FclNarrowPhase(const std::vector<Geometry>& geometries)
       : geometries_(geometries), request_(most_contacts, true, 1, false, true, fcl::GST_LIBCCD, 1e-9) {}
 
-  void touch(std::uint32_t a, const Pose& at_a, std::uint32_t b, const Pose& at_b,
-             std::vector<Touch>& touches) override {
+  void collide(std::uint32_t a, const Pose& at_a, std::uint32_t b, const Pose& at_b,
+               std::vector<EngineContact>& contacts) override {
     result_.clear();
     fcl::collide(geometries_[a].get(), transform_of(at_a), geometries_[b].get(), transform_of(at_b), request_, result_);
     const bool is_mesh = geometries_[b]->getObjectType() == fcl::OT_BVH;
@@ -91,7 +91,7 @@ class FclNarrowphase final : public encounters::Narrowphase {
     for (std::size_t i = 0; i < result_.numContacts(); ++i) {
       const fcl::Contactd& c = result_.getContact(i);
       if (!is_mesh) {
-        touches.push_back({c.pos, -c.normal, c.penetration_depth, -1, rough});
+        contacts.push_back({c.pos, -c.normal, c.penetration_depth, -1, rough});
         continue;
       }
       // FCL exchanges a shape and a mesh, and says so here alone
@@ -99,8 +99,8 @@ class FclNarrowphase final : public encounters::Narrowphase {
       Vec3 normal = exchanged ? c.normal : Vec3(-c.normal);
       // of a sphere it gives the depth with the wrong sign, and a normal without one
       if (is_sphere && normal.dot(at_a.position - c.pos) < 0) normal = -normal;
-      touches.push_back({c.pos, normal, is_sphere ? std::abs(c.penetration_depth) : c.penetration_depth,
-                         std::int64_t(exchanged ? c.b1 : c.b2)});
+      contacts.push_back({c.pos, normal, is_sphere ? std::abs(c.penetration_depth) : c.penetration_depth,
+                          std::int64_t(exchanged ? c.b1 : c.b2)});
     }
   }
 
@@ -112,13 +112,13 @@ class FclNarrowphase final : public encounters::Narrowphase {
 
 }  // namespace
 
-void FclEngine::add(const Solid& solid) {
-  geometries_.push_back(geometry_of(solid));
+void FclEngine::add(const CollisionGeometry& geometry) {
+  geometries_.push_back(geometry_of(geometry));
   geometries_.back()->computeLocalAABB();
 }
 
-std::unique_ptr<encounters::Narrowphase> FclEngine::narrowphase() const {
-  return std::make_unique<FclNarrowphase>(geometries_);
+std::unique_ptr<contact_geometry::NarrowPhase> FclEngine::make_narrow_phase() const {
+  return std::make_unique<FclNarrowPhase>(geometries_);
 }
 
 }  // namespace muro::fcl_collision

@@ -9,13 +9,13 @@ namespace muro::fcl_collision {
 
 /// The Flexible Collision Library (Pan, Chitta and Manocha, ICRA 2012): its own solvers for pairs of primitives, GJK
 /// and EPA for the others, hierarchies of boxes for meshes.
-class FclEngine final : public encounters::Engine {
+class FclEngine final : public contact_geometry::Engine {
  public:
-  void add(const encounters::Solid& solid) override;
-  std::unique_ptr<encounters::Narrowphase> narrowphase() const override;
+  void add(const contact_geometry::CollisionGeometry& geometry) override;
+  std::unique_ptr<contact_geometry::NarrowPhase> make_narrow_phase() const override;
 
  private:
-  std::vector<std::shared_ptr<fcl::CollisionGeometryd>> geometries_;  ///< by number of the solid
+  std::vector<std::shared_ptr<fcl::CollisionGeometryd>> geometries_;  ///< by number of the geometry
 };
 
 }  // namespace muro::fcl_collision

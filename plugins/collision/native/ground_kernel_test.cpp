@@ -14,28 +14,28 @@ using testing::Randoms;
 struct Eight {
   static constexpr int most = 8, stride = sizeof(Contact) / sizeof(double);
 
-  Solid solid;
-  Ground ground;
+  KernelShape shape;
+  GroundPlane ground;
   Pose poses[8];
   std::array<double, most * stride> contacts[8] = {};
   double signatures[8];
 
-  explicit Eight(const Solid& of) : solid(of) { std::fill_n(signatures, 8, -1.0); }
+  explicit Eight(const KernelShape& of) : shape(of) { std::fill_n(signatures, 8, -1.0); }
 
   void touch(const GroundKernels& kernels, int first, int count) {
-    GroundWork work;
-    work.solids = &solid;
-    work.solid_count = 1;
-    work.planes = &ground;
-    work.plane_count = 1;
-    work.contact_stride = stride;
-    work.used = count;
+    GroundBatch batch;
+    batch.shapes = &shape;
+    batch.shape_count = 1;
+    batch.planes = &ground;
+    batch.plane_count = 1;
+    batch.contact_stride = stride;
+    batch.used = count;
     for (int i = 0; i < count; ++i) {
-      work.poses[i].base = poses[first + i].position.data();
-      work.contacts[i] = contacts[first + i].data();
-      work.signatures[i] = &signatures[first + i];
+      batch.poses[i].base = poses[first + i].position.data();
+      batch.contacts[i] = contacts[first + i].data();
+      batch.signatures[i] = &signatures[first + i];
     }
-    kernels.touch(work);
+    kernels.find_contacts(batch);
   }
 };
 
@@ -48,12 +48,12 @@ TEST(GroundKernel, ALaneGivesTheBitsOfEachRobotAlone) {
     const double off = random.below(2);
     shape.origin.position = off * 0.1 * random.direction();
     if (random.below(2) == 1) shape.origin.orientation = random.rotation();
-    Eight together(solid_of(shape));
-    together.ground.level = random.below(4) > 0;
-    if (!together.ground.level) Vec3::Map(together.ground.normal) = random.direction();
+    Eight together(kernel_shape_of(shape));
+    together.ground.is_level = random.below(4) > 0;
+    if (!together.ground.is_level) Vec3::Map(together.ground.normal) = random.direction();
     for (Pose& p : together.poses) {
       p.position = {random.uniform(-30, 30), random.uniform(-30, 30), random.uniform(-0.5, 0.5)};
-      if (!together.ground.level) p.position *= 0.02;
+      if (!together.ground.is_level) p.position *= 0.02;
       p.orientation = random.rotation();
     }
     Eight alone = together, base = together;

@@ -2,6 +2,7 @@
 // How many points a resting contact has, and where.
 #include <algorithm>
 
+#include "muro/toolkit/rotations.hpp"
 #include "pairs_testing.hpp"
 
 namespace {
@@ -10,13 +11,13 @@ using namespace muro;
 using namespace muro::native;
 using namespace muro::native::testing;
 
-Placed at(const Shape& s, const Vec3& p, const Quat& q = Quat::Identity()) { return placed(s, {p, q}); }
+TransformedShape at(const Shape& s, const Vec3& p, const Quat& q = Quat::Identity()) { return transformed(s, {p, q}); }
 
 /// Every wanted point is there, once, with this depth, and no other.
-void expect_points(const Placed& a, const Placed& b, double depth, const Vec3& normal,
+void expect_points(const TransformedShape& a, const TransformedShape& b, double depth, const Vec3& normal,
                    const std::vector<Vec3>& wanted) {
   Manifold m;
-  collide(a, b, m);
+  collide_shapes(a, b, m);
   ASSERT_EQ(m.count, int(wanted.size()));
   for (const Vec3& p : wanted) {
     int found = 0;
@@ -29,13 +30,13 @@ void expect_points(const Placed& a, const Placed& b, double depth, const Vec3& n
   }
 }
 
-const Placed ground = at(Shape::plane(), {0, 0, 0});
-const Placed slab = at(Shape::box({10, 10, 1}), {0, 0, -0.5});
+const TransformedShape ground = at(Shape::plane(), {0, 0, 0});
+const TransformedShape slab = at(Shape::box({10, 10, 1}), {0, 0, -0.5});
 const Quat on_side = from_rpy(M_PI / 2, 0, 0);
 const double deep = 0.01, mid = -0.005;
 
 TEST(Manifold, BoxOnPlaneOrBoxRestsOnItsFourCorners) {
-  const Placed box = at(Shape::box({2, 1, 1}), {0.3, 0.2, 0.5 - deep});
+  const TransformedShape box = at(Shape::box({2, 1, 1}), {0.3, 0.2, 0.5 - deep});
   const std::vector<Vec3> corners{{1.3, 0.7, mid}, {1.3, -0.3, mid}, {-0.7, 0.7, mid}, {-0.7, -0.3, mid}};
   expect_points(box, ground, deep, Vec3::UnitZ(), corners);
   expect_points(box, slab, deep, Vec3::UnitZ(), corners);
@@ -62,26 +63,27 @@ TEST(Manifold, BoxTurnedOnABoxRestsOnAnOctagon) {
 }
 
 TEST(Manifold, BoxOnItsEdgeRestsOnTwoPoints) {
-  const Placed box = at(Shape::box({2, 1, 1}), {0, 0, std::sqrt(0.5) - deep}, from_rpy(M_PI / 4, 0, 0));
+  const TransformedShape box = at(Shape::box({2, 1, 1}), {0, 0, std::sqrt(0.5) - deep}, from_rpy(M_PI / 4, 0, 0));
   expect_points(box, ground, deep, Vec3::UnitZ(), {{1, 0, mid}, {-1, 0, mid}});
   expect_points(box, slab, deep, Vec3::UnitZ(), {{1, 0, mid}, {-1, 0, mid}});
 }
 
 TEST(Manifold, WheelRestsOnTheEndsOfItsLowestLineHoweverFarItHasTurned) {
   for (const double angle : {0.0, 0.3, 1.9, -2.5}) {
-    const Placed wheel = at(Shape::cylinder(0.3, 0.1), {1, 2, 0.3 - deep}, on_side * rotation_of({0, 0, angle}));
+    const TransformedShape wheel =
+        at(Shape::cylinder(0.3, 0.1), {1, 2, 0.3 - deep}, on_side * rotation_of({0, 0, angle}));
     expect_points(wheel, ground, deep, Vec3::UnitZ(), {{1, 1.95, mid}, {1, 2.05, mid}});
     expect_points(wheel, slab, deep, Vec3::UnitZ(), {{1, 1.95, mid}, {1, 2.05, mid}});
   }
 }
 
-TEST(Manifold, WheelAgainstAWallTouchesItAlongALineAndWithItsSideOnFourPoints) {
-  const Placed wall = at(Shape::box({1, 8, 2}), {2.5, 0, 0.8});
+TEST(Manifold, AWheelTouchesAWallAlongALineOrOnFourPoints) {
+  const TransformedShape wall = at(Shape::box({1, 8, 2}), {2.5, 0, 0.8});
   const Quat turned = on_side * rotation_of({0, 0, 0.7});
   expect_points(at(Shape::cylinder(0.3, 0.1), {1.7 + deep, 0, 0.3}, turned), wall, deep, -Vec3::UnitX(),
                 {{2 - mid, 0.05, 0.3}, {2 - mid, -0.05, 0.3}});
   Manifold m;  // the flat side against the wall
-  collide(at(Shape::cylinder(0.3, 0.1), {1.95 + deep, 0, 0.3}, from_rpy(0, M_PI / 2, 0)), wall, m);
+  collide_shapes(at(Shape::cylinder(0.3, 0.1), {1.95 + deep, 0, 0.3}, from_rpy(0, M_PI / 2, 0)), wall, m);
   ASSERT_EQ(m.count, 4);
   for (int i = 0; i < 4; ++i) {
     EXPECT_NEAR((m.points[i].point - Vec3(2 - mid, 0, 0.3)).norm(), 0.3, 1e-8);
@@ -91,14 +93,14 @@ TEST(Manifold, WheelAgainstAWallTouchesItAlongALineAndWithItsSideOnFourPoints) {
 
 TEST(Manifold, UprightCylinderRestsOnFourPointsOfItsRim) {
   const std::vector<Vec3> rim{{0.4, 0, mid}, {-0.4, 0, mid}, {0, 0.4, mid}, {0, -0.4, mid}};
-  const Placed cylinder = at(Shape::cylinder(0.4, 1), {0, 0, 0.5 - deep});
+  const TransformedShape cylinder = at(Shape::cylinder(0.4, 1), {0, 0, 0.5 - deep});
   expect_points(cylinder, ground, deep, Vec3::UnitZ(), rim);
   expect_points(cylinder, slab, deep, Vec3::UnitZ(), rim);
   expect_points(cylinder, at(Shape::cylinder(2, 1), {0, 0, -0.5}), deep, Vec3::UnitZ(), rim);
 }
 
 TEST(Manifold, LyingCapsuleRestsOnBothEnds) {
-  const Placed capsule = at(Shape::capsule(0.2, 1), {0, 0, 0.2 - deep}, on_side);
+  const TransformedShape capsule = at(Shape::capsule(0.2, 1), {0, 0, 0.2 - deep}, on_side);
   expect_points(capsule, ground, deep, Vec3::UnitZ(), {{0, 0.5, mid}, {0, -0.5, mid}});
   expect_points(capsule, slab, deep, Vec3::UnitZ(), {{0, 0.5, mid}, {0, -0.5, mid}});
   // Side by side with a capsule that is shifted along: the stretch that both share.
@@ -114,10 +116,10 @@ TEST(Manifold, FourPointsOfATiltedRimPushAndTurnLikeTheWholeRim) {
   // The sum of depths and their moments over equally spaced points do not depend on where the points are.
   const double tilt = 1e-3, r = 0.4;
   for (const double yaw : {0.0, 0.2, 0.77}) {
-    const Placed cylinder = at(Shape::cylinder(r, 1), {0, 0, 0.5 - deep},
-                               Quat(from_rpy(0, 0, yaw) * from_rpy(0, tilt, 0) * from_rpy(0, 0, -1.3 * yaw)));
+    const TransformedShape cylinder = at(Shape::cylinder(r, 1), {0, 0, 0.5 - deep},
+                                         Quat(from_rpy(0, 0, yaw) * from_rpy(0, tilt, 0) * from_rpy(0, 0, -1.3 * yaw)));
     Manifold m;
-    collide(cylinder, ground, m);
+    collide_shapes(cylinder, ground, m);
     ASSERT_EQ(m.count, 4);
     double sum = 0;
     Vec3 moment = Vec3::Zero();

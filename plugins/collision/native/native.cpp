@@ -1,17 +1,27 @@
 // SPDX-License-Identifier: MIT
-// Plugin collision_native: the spatial index and exact collision detection of primitive shapes.
-#include "collision.hpp"
+// Plugin collision_native: exact collision detection of primitive shapes.
 #include "muro/plugin.hpp"
-#include "scene_bvh.hpp"
+#include "native_collision.hpp"
 
 namespace {
 
 using namespace muro;
 
-constexpr abi::AlgorithmEntry algorithms[] = {algorithm<native::SceneBvh>(native::scene_bvh_description),
-                                              algorithm<native::NativeCollision>(native::collision_description)};
+constexpr Description description{
+    .id = "collision.native",
+    .kind = Kind::collision,
+    .version = "1.1.0",
+    .summary =
+        "Contact points between boxes, spheres, cylinders, capsules and planes, in closed form where there is one",
+    .parameters = {},
+    .reads = contact_geometry::collision_reads,
+    .writes = contact_geometry::collision_writes,
+    .capabilities = deterministic | allocation_free | restorable,
+};
+
+constexpr abi::AlgorithmEntry algorithms[] = {algorithm<native::NativeCollision>(description)};
 
 }  // namespace
 
-MURO_PLUGIN(.name = "collision_native", .version = "1.1.0", .licence = "MIT",
-            .summary = "Spatial index and collision detection of primitive shapes", .algorithms = algorithms)
+MURO_PLUGIN(.name = "collision_native", .version = description.version, .licence = "MIT",
+            .summary = "Collision detection of primitive shapes", .algorithms = algorithms)

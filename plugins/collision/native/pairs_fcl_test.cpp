@@ -16,7 +16,7 @@ using namespace muro;
 using namespace muro::native;
 using namespace muro::native::testing;
 
-std::shared_ptr<fcl::CollisionGeometryd> geometry(const Placed& s) {
+std::shared_ptr<fcl::CollisionGeometryd> geometry(const TransformedShape& s) {
   switch (s.kind) {
     case ShapeKind::box:
       return std::make_shared<fcl::Boxd>(2 * s.half);
@@ -31,16 +31,16 @@ std::shared_ptr<fcl::CollisionGeometryd> geometry(const Placed& s) {
   }
 }
 
-fcl::CollisionObjectd object(const Placed& s) { return {geometry(s), s.axes, s.centre}; }
+fcl::CollisionObjectd object(const TransformedShape& s) { return {geometry(s), s.axes, s.centre}; }
 
 /// The depth of FCL's deepest contact; 0 when apart. Between a cylinder or capsule and a box, cylinder or capsule it
 /// comes from the portal refinement of libccd: a translation that separates, but not the least.
-double fcl_depth(const Placed& a, const Placed& b) {
+double fcl_depth(const TransformedShape& a, const TransformedShape& b) {
   fcl::CollisionRequestd request(16, true);
   request.gjk_tolerance = 1e-10;
   fcl::CollisionResultd result;
   const auto first = object(a), second = object(b);
-  fcl::collide(&first, &second, request, result);
+  fcl::collide_shapes(&first, &second, request, result);
   double depth = 0;
   for (std::size_t i = 0; i < result.numContacts(); ++i)
     depth = std::max(depth, std::abs(result.getContact(i).penetration_depth));
@@ -48,7 +48,7 @@ double fcl_depth(const Placed& a, const Placed& b) {
 }
 
 struct Pair {
-  Placed a, b;
+  TransformedShape a, b;
 };
 
 /// About half of them overlap; a quarter stands parallel to the axes of the world.
@@ -57,7 +57,7 @@ Pair random_pair(Randoms& random, ShapeKind first, ShapeKind second) {
   const auto turn = [&] { return parallel ? random.right_angles() : random.rotation(); };
   const Shape a = random.shape(first), b = random.shape(second);
   const Vec3 away = random.direction();
-  Pair p{placed(a, {10 * random.direction(), turn()}), placed(b, {Vec3::Zero(), turn()})};
+  Pair p{transformed(a, {10 * random.direction(), turn()}), transformed(b, {Vec3::Zero(), turn()})};
   const Vec3 aim = second == ShapeKind::plane ? Vec3(-p.b.axis()) : away;
   const bool exact = second == ShapeKind::plane || (first == ShapeKind::sphere && second == ShapeKind::sphere);
   const double reach = extent(p.a, aim) - p.a.centre.dot(aim) + (second == ShapeKind::plane ? 0 : extent(p.b, -aim));
@@ -77,7 +77,7 @@ TEST_P(PairsOfKinds, TouchWhereFclSaysSoWithTheLeastDepth) {
     const auto [a, b] = random_pair(random, first, second);
     const double size = size_of(a) + (second == ShapeKind::plane ? 0 : size_of(b));
     Manifold m;
-    collide(a, b, m);
+    collide_shapes(a, b, m);
     const double fcl = fcl_depth(a, b);
     if (m.count == 0) {
       EXPECT_LT(fcl, band * size) << "pair " << i;

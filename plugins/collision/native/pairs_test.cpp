@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Depth, normal and place of the deepest point, against closed forms and geometry.
+#include "muro/toolkit/rotations.hpp"
 #include "pairs_testing.hpp"
 
 namespace {
@@ -11,11 +12,11 @@ using namespace muro::native::testing;
 constexpr ShapeKind convex[] = {ShapeKind::box, ShapeKind::sphere, ShapeKind::cylinder, ShapeKind::capsule};
 const Quat on_side = from_rpy(M_PI / 2, 0, 0);  // z axis to -y
 
-Placed at(const Shape& s, const Vec3& p, const Quat& q = Quat::Identity()) { return placed(s, {p, q}); }
+TransformedShape at(const Shape& s, const Vec3& p, const Quat& q = Quat::Identity()) { return transformed(s, {p, q}); }
 
-Manifold touch(const Placed& a, const Placed& b) {
+Manifold touch(const TransformedShape& a, const TransformedShape& b) {
   Manifold m;
-  collide(a, b, m);
+  collide_shapes(a, b, m);
   return m;
 }
 
@@ -36,11 +37,11 @@ TEST(Pairs, SphereAndSphereMeetOnTheLineOfCentres) {
 TEST(Pairs, PlaneMeetsEachKindAtItsLowestPoint) {
   const Quat tilt = from_rpy(0.3, -0.5, 1.1);
   const Vec3 n = tilt * Vec3::UnitZ(), origin(0.4, -2, 1);
-  const Placed plane = at(Shape::plane(), origin, tilt);
+  const TransformedShape plane = at(Shape::plane(), origin, tilt);
   Randoms random(3);
   for (const ShapeKind kind : convex)
     for (int i = 0; i < 200; ++i) {
-      Placed s = at(random.shape(kind), random.direction(), random.rotation());
+      TransformedShape s = at(random.shape(kind), random.direction(), random.rotation());
       const double depth = random.uniform(-0.2, 0.5) * s.half.minCoeff();
       s.centre += n * (n.dot(origin) + extent(s, -n) - depth);  // lowest point `depth` below
       const Manifold m = touch(s, plane), mirrored = touch(plane, s);
@@ -59,7 +60,7 @@ TEST(Pairs, PlaneMeetsEachKindAtItsLowestPoint) {
 }
 
 TEST(Pairs, SphereLeavesABoxByTheNearestFaceWhenItsCentreIsInside) {
-  const Placed box = at(Shape::box({2, 4, 6}), {0, 0, 0});
+  const TransformedShape box = at(Shape::box({2, 4, 6}), {0, 0, 0});
   expect_deepest(touch(box, at(Shape::sphere(0.5), {0.9, 0, 0})), {0.7, 0, 0}, {-1, 0, 0}, 0.6);
   expect_deepest(touch(box, at(Shape::sphere(0.5), {0, -1.8, 0})), {0, -1.65, 0}, {0, 1, 0}, 0.7);
   expect_deepest(touch(box, at(Shape::sphere(0.5), {1.3, 0, 0})), {0.9, 0, 0}, {-1, 0, 0}, 0.2);
@@ -69,7 +70,7 @@ TEST(Pairs, SphereLeavesABoxByTheNearestFaceWhenItsCentreIsInside) {
 }
 
 TEST(Pairs, SphereMeetsACylinderAtSideEndAndRim) {
-  const Placed cylinder = at(Shape::cylinder(1, 2), {0, 0, 0});
+  const TransformedShape cylinder = at(Shape::cylinder(1, 2), {0, 0, 0});
   expect_deepest(touch(at(Shape::sphere(0.5), {0, 1.4, 0.3}), cylinder), {0, 0.95, 0.3}, {0, 1, 0}, 0.1);
   expect_deepest(touch(at(Shape::sphere(0.5), {0.2, 0, -1.4}), cylinder), {0.2, 0, -0.95}, {0, 0, -1}, 0.1);
   expect_deepest(touch(at(Shape::sphere(0.5), {0.7, 0, 0.1}), cylinder), {0.6, 0, 0.1}, {1, 0, 0},
@@ -83,7 +84,7 @@ TEST(Pairs, SphereMeetsACylinderAtSideEndAndRim) {
 
 TEST(Pairs, CapsulesMeetWhereTheirAxesAreNearest) {
   const Shape capsule = Shape::capsule(0.5, 4);
-  const Placed upright = at(capsule, {0, 0, 0});
+  const TransformedShape upright = at(capsule, {0, 0, 0});
   expect_deepest(touch(at(capsule, {0.9, 0.7, 0.4}, on_side), upright), {0.45, 0, 0.4}, {1, 0, 0}, 0.1);  // crossed
   expect_deepest(touch(at(capsule, {0, 0, 4.8}), upright), {0, 0, 2.4}, {0, 0, 1}, 0.2);                  // end to end
   expect_deepest(touch(at(Shape::sphere(0.5), {0.6, 0, 1}), upright), {0.3, 0, 1}, {1, 0, 0}, 0.4);
@@ -94,8 +95,8 @@ TEST(Pairs, CapsulesMeetWhereTheirAxesAreNearest) {
 TEST(Pairs, BoxEdgesThatCrossGiveTheirCommonPerpendicular) {
   // Both stand on an edge: one's ridge runs along x, the other's valley-side edge along y.
   const double ridge = std::sqrt(2.0) / 2;
-  const Placed lower = at(Shape::box({4, 1, 1}), {0, 0, 0}, from_rpy(M_PI / 4, 0, 0));
-  const Placed upper = at(Shape::box({1, 4, 1}), {0.2, -0.3, 2 * ridge - 0.05}, from_rpy(0, M_PI / 4, 0));
+  const TransformedShape lower = at(Shape::box({4, 1, 1}), {0, 0, 0}, from_rpy(M_PI / 4, 0, 0));
+  const TransformedShape upper = at(Shape::box({1, 4, 1}), {0.2, -0.3, 2 * ridge - 0.05}, from_rpy(0, M_PI / 4, 0));
   const Manifold m = touch(upper, lower);
   EXPECT_EQ(m.count, 1);
   expect_deepest(m, {0.2, 0, ridge - 0.025}, {0, 0, 1}, 0.05);
@@ -111,7 +112,7 @@ TEST(Pairs, BoxCornerOnAFaceIsOnePoint) {
 }
 
 TEST(Pairs, CrossedCylindersMeetBetweenTheirAxes) {
-  const Placed upright = at(Shape::cylinder(0.5, 4), {0, 0, 0});
+  const TransformedShape upright = at(Shape::cylinder(0.5, 4), {0, 0, 0});
   const Manifold m = touch(at(Shape::cylinder(0.3, 4), {0.7, 0.4, 0.3}, on_side), upright);
   EXPECT_EQ(m.count, 1);
   expect_deepest(m, {0.45, 0, 0.3}, {1, 0, 0}, 0.1);
@@ -120,7 +121,7 @@ TEST(Pairs, CrossedCylindersMeetBetweenTheirAxes) {
 TEST(Pairs, CylinderSideMeetsABoxEdgeAlongTheRadius) {
   // Seen along y: a circle of 0.5 above the corner (1, 1) of a square.
   const Vec3 away = Vec3(1, 0, 2).normalized();
-  const Placed box = at(Shape::box({2, 2, 2}), {0, 0, 0});
+  const TransformedShape box = at(Shape::box({2, 2, 2}), {0, 0, 0});
   const Manifold m = touch(at(Shape::cylinder(0.5, 1), Vec3(1, 0, 1) + 0.4 * away, on_side), box);
   EXPECT_EQ(m.count, 2);
   ASSERT_GT(m.count, 0);
@@ -137,8 +138,10 @@ TEST(Pairs, EqualCentresStillGiveTheLeastDepth) {
     for (const ShapeKind b : convex)
       for (int i = 0; i < 20; ++i) {
         const bool parallel = i < 10;
-        const Placed first = at(random.shape(a), {1, 2, 3}, parallel ? random.right_angles() : random.rotation());
-        const Placed second = at(random.shape(b), {1, 2, 3}, parallel ? random.right_angles() : random.rotation());
+        const TransformedShape first =
+            at(random.shape(a), {1, 2, 3}, parallel ? random.right_angles() : random.rotation());
+        const TransformedShape second =
+            at(random.shape(b), {1, 2, 3}, parallel ? random.right_angles() : random.rotation());
         const Manifold m = touch(first, second);
         ASSERT_GT(m.count, 0);
         const ContactPoint& c = *deepest(m);
@@ -154,8 +157,8 @@ TEST(Pairs, NearlyParallelAxesStillGiveTheLeastDepth) {
       for (int i = 0; i < 40; ++i) {
         const Quat turn = random.rotation();
         const Quat nearly = turn * rotation_of(Vec3(random.direction() * std::pow(10.0, -random.uniform(1, 16))));
-        const Placed first = at(random.shape(a), {0, 0, 0}, turn);
-        const Placed second = at(random.shape(b), 0.3 * random.length() * random.direction(), nearly);
+        const TransformedShape first = at(random.shape(a), {0, 0, 0}, turn);
+        const TransformedShape second = at(random.shape(b), 0.3 * random.length() * random.direction(), nearly);
         const Manifold m = touch(first, second);
         if (m.count == 0) continue;
         const ContactPoint& c = *deepest(m);
@@ -171,8 +174,8 @@ TEST(Pairs, ExchangedArgumentsGiveTheMirroredResult) {
   for (const ShapeKind a : convex)
     for (const ShapeKind b : convex)
       for (int i = 0; i < 100; ++i) {
-        const Placed first = at(random.shape(a), {0, 0, 0}, random.rotation());
-        const Placed second = at(random.shape(b), random.length() * random.direction(), random.rotation());
+        const TransformedShape first = at(random.shape(a), {0, 0, 0}, random.rotation());
+        const TransformedShape second = at(random.shape(b), random.length() * random.direction(), random.rotation());
         const Manifold m = touch(first, second), mirrored = touch(second, first);
         ASSERT_EQ(mirrored.count > 0, m.count > 0);
         if (m.count == 0) continue;
@@ -188,11 +191,11 @@ TEST(Pairs, TinyAndHugeShapesScale) {
   for (const ShapeKind a : convex)
     for (const ShapeKind b : convex)
       for (int i = 0; i < 40; ++i) {
-        const Placed first = at(random.shape(a), {0, 0, 0}, random.rotation());
-        const Placed second = at(random.shape(b), random.length() * random.direction(), random.rotation());
+        const TransformedShape first = at(random.shape(a), {0, 0, 0}, random.rotation());
+        const TransformedShape second = at(random.shape(b), random.length() * random.direction(), random.rotation());
         const Manifold m = touch(first, second);
         for (const double scale : {1e-4, 1e4}) {
-          Placed p = first, q = second;
+          TransformedShape p = first, q = second;
           p.half *= scale, q.half *= scale, q.centre *= scale;
           const Manifold scaled = touch(p, q);
           ASSERT_EQ(scaled.count > 0, m.count > 0);
@@ -205,10 +208,10 @@ TEST(Pairs, TinyAndHugeShapesScale) {
 
 TEST(Pairs, SmallOnHugeAgreesWithAPlane) {
   Randoms random(10);
-  const Placed ground = at(Shape::box({1e4, 1e4, 1e3}), {0, 0, -500}), plane = at(Shape::plane(), {0, 0, 0});
+  const TransformedShape ground = at(Shape::box({1e4, 1e4, 1e3}), {0, 0, -500}), plane = at(Shape::plane(), {0, 0, 0});
   for (const ShapeKind kind : convex)
     for (int i = 0; i < 100; ++i) {
-      Placed s =
+      TransformedShape s =
           at(random.shape(kind), {100 * random.uniform(-1, 1), 100 * random.uniform(-1, 1), 0}, random.rotation());
       s.half *= 1e-2;
       s.centre.z() = extent(s, -Vec3::UnitZ()) - 0.05 * s.half.minCoeff();
@@ -226,9 +229,10 @@ TEST(Pairs, EveryPointLiesHalfWayBetweenTwoPointsOfTheShapes) {
     for (const ShapeKind b : convex)
       for (int i = 0; i < 150; ++i) {
         const bool parallel = i % 3 == 0;
-        const Placed first = at(random.shape(a), {0, 0, 0}, parallel ? random.right_angles() : random.rotation());
-        const Placed second = at(random.shape(b), random.length() * random.direction(),
-                                 parallel ? random.right_angles() : random.rotation());
+        const TransformedShape first =
+            at(random.shape(a), {0, 0, 0}, parallel ? random.right_angles() : random.rotation());
+        const TransformedShape second = at(random.shape(b), random.length() * random.direction(),
+                                           parallel ? random.right_angles() : random.rotation());
         const Manifold m = touch(first, second);
         const double size = size_of(first) + size_of(second);
         for (int k = 0; k < m.count; ++k) {
@@ -242,7 +246,7 @@ TEST(Pairs, EveryPointLiesHalfWayBetweenTwoPointsOfTheShapes) {
 }
 
 TEST(Pairs, PlanesAndMeshesTouchNothing) {
-  const Placed plane = at(Shape::plane(), {0, 0, 0});
+  const TransformedShape plane = at(Shape::plane(), {0, 0, 0});
   EXPECT_EQ(touch(plane, at(Shape::plane(), {0, 0, -1})).count, 0);
   EXPECT_EQ(touch(at({.kind = ShapeKind::mesh, .size = {1, 1, 1}}, {0, 0, -1}), plane).count, 0);
 }

@@ -5,15 +5,15 @@
 
 #include <gtest/gtest.h>
 
-#include <random>
 #include <vector>
 
 #include "pairs/collide.hpp"
+#include "tests/support/randoms.hpp"
 
 namespace muro::native::testing {
 
 /// The farthest extent (m) of the shape along the unit vector n, from the world's origin.
-inline double extent(const Placed& s, const Vec3& n) {
+inline double extent(const TransformedShape& s, const Vec3& n) {
   const Vec3 c = s.axes.transpose() * n;
   double reach = s.radius();
   if (s.kind == ShapeKind::box) reach = s.half.dot(c.cwiseAbs());
@@ -23,53 +23,15 @@ inline double extent(const Placed& s, const Vec3& n) {
 }
 
 /// How far `a` must go along n to be clear of `b`.
-inline double depth_along(const Placed& a, const Placed& b, const Vec3& n) { return extent(b, n) + extent(a, -n); }
+inline double depth_along(const TransformedShape& a, const TransformedShape& b, const Vec3& n) {
+  return extent(b, n) + extent(a, -n);
+}
 
-inline double size_of(const Placed& s) { return s.kind == ShapeKind::box ? s.half.norm() : s.radius() + s.half.z(); }
+inline double size_of(const TransformedShape& s) {
+  return s.kind == ShapeKind::box ? s.half.norm() : s.radius() + s.half.z();
+}
 
-class Randoms {
- public:
-  explicit Randoms(unsigned seed) : engine_(seed) {}
-  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
-  int below(int n) { return std::uniform_int_distribution<int>(0, n - 1)(engine_); }
-  Vec3 direction() {
-    std::normal_distribution<double> g;
-    for (;;) {
-      const Vec3 v(g(engine_), g(engine_), g(engine_));
-      if (v.norm() > 1e-3) return v.normalized();
-    }
-  }
-  Quat rotation() {
-    std::normal_distribution<double> g;
-    return Quat(Eigen::Quaterniond(g(engine_), g(engine_), g(engine_), g(engine_)).normalized());
-  }
-  /// One of the 24 rotations that map the axes on each other.
-  Quat right_angles() {
-    Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
-    for (const int axis : {0, 1, 2, 0}) q = q * Eigen::AngleAxisd(below(4) * M_PI / 2, Vec3::Unit(axis));
-    Mat3 m = q.toRotationMatrix().unaryExpr([](double x) { return std::round(x); });
-    return Quat(m);
-  }
-  /// 0.05 to 2 m, all scales alike.
-  double length() { return 0.05 * std::pow(40.0, uniform(0, 1)); }
-  Shape shape(ShapeKind kind) {
-    switch (kind) {
-      case ShapeKind::box:
-        return Shape::box({length(), length(), length()});
-      case ShapeKind::sphere:
-        return Shape::sphere(0.5 * length());
-      case ShapeKind::cylinder:
-        return Shape::cylinder(0.5 * length(), length());
-      case ShapeKind::capsule:
-        return Shape::capsule(0.5 * length(), length());
-      default:
-        return Shape::plane();
-    }
-  }
-
- private:
-  std::mt19937_64 engine_;
-};
+using test::Randoms;
 
 /// Directions spread evenly over the sphere (Fibonacci lattice).
 inline const std::vector<Vec3>& directions(int count) {
@@ -83,9 +45,9 @@ inline const std::vector<Vec3>& directions(int count) {
   return all;
 }
 
-/// The least depth over many directions, the best few made better by a search downhill: never below the
+/// The least depth over many directions, the best few improved by a local search: never below the
 /// true least depth, and hardly above.
-inline double sampled_depth(const Placed& a, const Placed& b, int count = 600, int starts = 6) {
+inline double sampled_depth(const TransformedShape& a, const TransformedShape& b, int count = 600, int starts = 6) {
   std::vector<std::pair<double, Vec3>> tried;
   for (const Vec3& n : directions(count)) tried.push_back({depth_along(a, b, n), n});
   std::partial_sort(tried.begin(), tried.begin() + starts, tried.end(),
@@ -121,7 +83,7 @@ inline const ContactPoint* deepest(const Manifold& m) {
 }
 
 /// How far (m) the point lies outside the shape; 0 inside.
-inline double outside(const Placed& s, const Vec3& point) {
+inline double outside(const TransformedShape& s, const Vec3& point) {
   const Vec3 p = s.axes.transpose() * (point - s.centre);
   if (s.kind == ShapeKind::sphere) return std::max(0.0, p.norm() - s.radius());
   if (s.kind == ShapeKind::plane) return std::max(0.0, p.z());

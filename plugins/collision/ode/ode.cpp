@@ -13,13 +13,13 @@ constexpr Description description{
     .kind = Kind::collision,
     .version = "1.0.0",
     .summary = "Contact points by the Open Dynamics Engine: primitives, planes, convex hulls and meshes",
-    .parameters = encounters::engine_parameters,
-    .reads = encounters::engine_reads,
-    .writes = encounters::engine_writes,
+    .parameters = contact_geometry::engine_parameters,
+    .reads = contact_geometry::collision_reads,
+    .writes = contact_geometry::collision_writes,
     .capabilities = deterministic | restorable,
 };
 
-class OdeCollision final : public encounters::EngineCollision {
+class OdeCollision final : public contact_geometry::EngineCollision {
  public:
   OdeCollision() : EngineCollision(std::make_unique<ode_collision::OdeEngine>()) {}
 };
@@ -28,5 +28,5 @@ constexpr abi::AlgorithmEntry algorithms[] = {algorithm<OdeCollision>(descriptio
 
 }  // namespace
 
-MURO_PLUGIN(.name = "collision_ode", .version = "1.0.0", .licence = "MIT",
+MURO_PLUGIN(.name = "collision_ode", .version = description.version, .licence = "MIT",
             .summary = "Collision detection by the Open Dynamics Engine", .algorithms = algorithms)

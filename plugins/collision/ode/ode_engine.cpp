@@ -8,8 +8,8 @@
 namespace muro::ode_collision {
 namespace {
 
-using encounters::Solid;
-using encounters::Touch;
+using contact_geometry::CollisionGeometry;
+using contact_geometry::EngineContact;
 
 void plan_hull(const mesh::Hull& hull, GeomPlan& plan) {
   for (const Vec3& v : hull.vertices) plan.points.insert(plan.points.end(), v.data(), v.data() + 3);
@@ -46,21 +46,9 @@ dGeomID polytope_of(const GeomPlan& plan) {
 }
 
 dGeomID geom_of(const GeomPlan& plan) {
-  const Vec3& size = plan.solid->shape.size;
-  switch (plan.solid->shape.kind) {
-    case ShapeKind::box:
-      return dCreateBox(nullptr, size.x(), size.y(), size.z());
-    case ShapeKind::sphere:
-      return dCreateSphere(nullptr, size.x());
-    case ShapeKind::cylinder:
-      return dCreateCylinder(nullptr, size.x(), size.z());
-    case ShapeKind::capsule:
-      return dCreateCapsule(nullptr, size.x(), size.z());
-    case ShapeKind::plane:
-      return dCreatePlane(nullptr, 0, 0, 1, 0);
-    case ShapeKind::mesh:
-      break;
-  }
+  const Shape& shape = plan.geometry->shape;
+  if (shape.kind == ShapeKind::plane) return dCreatePlane(nullptr, 0, 0, 1, 0);
+  if (shape.kind != ShapeKind::mesh) return ode::create_primitive(shape, nullptr);
   if (plan.mesh) return dCreateTriMesh(nullptr, plan.mesh, nullptr, nullptr, nullptr);
   return polytope_of(plan);
 }
@@ -71,7 +59,7 @@ struct GeomDeleter {
 using Geom = std::unique_ptr<dxGeom, GeomDeleter>;
 
 /// Pairs for which ODE asks libccd: its portal refinement (Snethen, XenoCollide, 2008) gives a way out, not the
-/// shortest. And capsule with box, where a deep capsule is pushed out the wrong way.
+/// shortest. And capsule with box, where a capsule that overlaps deeply gets a wrong normal.
 bool is_rough(int a, int b) {
   const auto round = [](int kind) { return kind == dCylinderClass || kind == dCapsuleClass; };
   if (a == dPlaneClass || b == dPlaneClass || a == dSphereClass || b == dSphereClass)
@@ -80,10 +68,10 @@ bool is_rough(int a, int b) {
   return (round(a) && round(b) && a + b != 2 * dCapsuleClass) || a + b == dCapsuleClass + dBoxClass;
 }
 
-class OdeNarrowphase final : public encounters::Narrowphase {
+class OdeNarrowPhase final : public contact_geometry::NarrowPhase {
  public:
-  explicit OdeNarrowphase(const std::vector<std::unique_ptr<GeomPlan>>& plans) : plans_(plans) {
-    dAllocateODEDataForThread(dAllocateMaskAll);
+  explicit OdeNarrowPhase(const std::vector<std::unique_ptr<GeomPlan>>& plans) : plans_(plans) {
+    ode::prepare_this_thread();
     for (Side& side : sides_)
       for (const auto& plan : plans_) {
         side.geoms.emplace_back(geom_of(*plan));
@@ -91,8 +79,8 @@ class OdeNarrowphase final : public encounters::Narrowphase {
       }
   }
 
-  void touch(std::uint32_t a, const Pose& at_a, std::uint32_t b, const Pose& at_b,
-             std::vector<Touch>& touches) override {
+  void collide(std::uint32_t a, const Pose& at_a, std::uint32_t b, const Pose& at_b,
+               std::vector<EngineContact>& contacts) override {
     const bool as_polytope = kind_of(a) == ShapeKind::cylinder || kind_of(b) == ShapeKind::cylinder;
     dxGeom *const first = geom(0, a, as_polytope), *const second = geom(1, b, as_polytope);
     place(first, at_a);
@@ -104,11 +92,11 @@ class OdeNarrowphase final : public encounters::Narrowphase {
     for (int i = 0; i < count; ++i) {
       const dContactGeom& c = contacts_[std::size_t(i)];
       const double side = c.g1 == first ? 1 : -1;
-      touches.push_back({{c.pos[0], c.pos[1], c.pos[2]},
-                         side * Vec3(c.normal[0], c.normal[1], c.normal[2]),
-                         c.depth,
-                         names_triangles ? std::int64_t(c.g1 == first ? c.side2 : c.side1) : -1,
-                         rough});
+      contacts.push_back({{c.pos[0], c.pos[1], c.pos[2]},
+                          side * Vec3(c.normal[0], c.normal[1], c.normal[2]),
+                          c.depth,
+                          names_triangles ? std::int64_t(c.g1 == first ? c.side2 : c.side1) : -1,
+                          rough});
     }
   }
 
@@ -119,20 +107,21 @@ class OdeNarrowphase final : public encounters::Narrowphase {
       dGeomPlaneSetParams(geom, n.x(), n.y(), n.z(), n.dot(pose.position));
       return;
     }
-    const dQuaternion q{pose.orientation.w(), pose.orientation.x(), pose.orientation.y(), pose.orientation.z()};
+    dQuaternion q;
+    ode::copy_quaternion(q, pose.orientation);
     dGeomSetPosition(geom, pose.position.x(), pose.position.y(), pose.position.z());
     dGeomSetQuaternion(geom, q);
   }
 
-  ShapeKind kind_of(std::uint32_t solid) const { return plans_[solid]->solid->shape.kind; }
+  ShapeKind kind_of(std::uint32_t geometry) const { return plans_[geometry]->geometry->shape.kind; }
   /// With `as_polytope` a box is one: ODE's collider of cylinder and box misses one in seven deep overlaps.
-  dxGeom* geom(std::size_t side, std::uint32_t solid, bool as_polytope) const {
+  dxGeom* geom(std::size_t side, std::uint32_t geometry, bool as_polytope) const {
     const Side& s = sides_[side];
-    return as_polytope && s.polytopes[solid] ? s.polytopes[solid].get() : s.geoms[solid].get();
+    return as_polytope && s.polytopes[geometry] ? s.polytopes[geometry].get() : s.geoms[geometry].get();
   }
 
   struct Side {
-    std::vector<Geom> geoms, polytopes;  ///< by number of the solid; not all have the second
+    std::vector<Geom> geoms, polytopes;  ///< by number of the geometry; not all have the second
   };
   const std::vector<std::unique_ptr<GeomPlan>>& plans_;
   std::array<Side, 2> sides_;  ///< for the first and the second of a pair
@@ -142,15 +131,8 @@ class OdeNarrowphase final : public encounters::Narrowphase {
 }  // namespace
 
 OdeEngine::OdeEngine() {
-  struct Library {  // counted by ODE: others in the process may use it as well
-    bool runs = dInitODE2(0) != 0;
-    ~Library() {
-      if (runs) dCloseODE();
-    }
-  };
-  static const Library library;
-  if (!library.runs) throw Error("ODE cannot be started");
-  dAllocateODEDataForThread(dAllocateMaskAll);
+  ode::start_library();
+  ode::prepare_this_thread();
 }
 
 OdeEngine::~OdeEngine() {
@@ -158,17 +140,17 @@ OdeEngine::~OdeEngine() {
     if (plan->mesh) dGeomTriMeshDataDestroy(plan->mesh);
 }
 
-void OdeEngine::add(const Solid& solid) {
+void OdeEngine::add(const CollisionGeometry& geometry) {
   auto plan = std::make_unique<GeomPlan>();
-  plan->solid = &solid;
-  if (solid.hull) plan_hull(*solid.hull, *plan);
-  if (solid.shape.kind == ShapeKind::box) plan_hull(box_of(0.5 * solid.shape.size), *plan);
-  if (solid.terrain) plan_mesh(solid.terrain->surface(), *plan);
+  plan->geometry = &geometry;
+  if (geometry.hull) plan_hull(*geometry.hull, *plan);
+  if (geometry.shape.kind == ShapeKind::box) plan_hull(box_of(0.5 * geometry.shape.size), *plan);
+  if (geometry.exact_mesh) plan_mesh(geometry.exact_mesh->surface(), *plan);
   plans_.push_back(std::move(plan));
 }
 
-std::unique_ptr<encounters::Narrowphase> OdeEngine::narrowphase() const {
-  return std::make_unique<OdeNarrowphase>(plans_);
+std::unique_ptr<contact_geometry::NarrowPhase> OdeEngine::make_narrow_phase() const {
+  return std::make_unique<OdeNarrowPhase>(plans_);
 }
 
 }  // namespace muro::ode_collision

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <ode/ode.h>
-
 #include "plugins/common/contact_geometry/engine.hpp"
+#include "plugins/common/ode/ode_library.hpp"
 
 namespace muro::ode_collision {
 
-/// What makes the geom of a solid; its arrays stay where they are, for geoms point to them.
+/// The data of a geom; its arrays keep their addresses, for geoms point to them.
 struct GeomPlan {
-  const encounters::Solid* solid = nullptr;
+  const contact_geometry::CollisionGeometry* geometry = nullptr;
   std::vector<dReal> planes, points;  ///< of a hull or box
   std::vector<unsigned> polygons;     ///< of the same: count, corners, count, ...
   std::vector<dReal> vertices;        ///< of a mesh
@@ -18,15 +17,15 @@ struct GeomPlan {
 };
 
 /// The collision library of the Open Dynamics Engine (Smith): a collider for each pair of kinds.
-class OdeEngine final : public encounters::Engine {
+class OdeEngine final : public contact_geometry::Engine {
  public:
   OdeEngine();
   ~OdeEngine() override;
-  void add(const encounters::Solid& solid) override;
-  std::unique_ptr<encounters::Narrowphase> narrowphase() const override;
+  void add(const contact_geometry::CollisionGeometry& geometry) override;
+  std::unique_ptr<contact_geometry::NarrowPhase> make_narrow_phase() const override;
 
  private:
-  std::vector<std::unique_ptr<GeomPlan>> plans_;  ///< by number of the solid
+  std::vector<std::unique_ptr<GeomPlan>> plans_;  ///< by number of the geometry
 };
 
 }  // namespace muro::ode_collision

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace muro::encounters {
+namespace muro::contact_geometry {
 
 namespace {
 
@@ -102,7 +102,7 @@ void BoxTree::split(std::uint32_t node, std::uint32_t first, std::uint32_t count
     second = std::partition(items.begin(), items.end(),
                             [&](std::uint32_t i) { return middle(boxes_[i])[cut.axis] < cut.at; });
   auto left = std::uint32_t(second - items.begin());
-  if (left == 0 || left == count) left = count / 2;  // rounding at the border of a bin
+  if (left == 0 || left == count) left = count / 2;  // rounding at the boundary of a bin
   const auto children = std::uint32_t(nodes_.size());
   nodes_.resize(nodes_.size() + 2);
   parents_.resize(nodes_.size(), node);
@@ -112,7 +112,7 @@ void BoxTree::split(std::uint32_t node, std::uint32_t first, std::uint32_t count
   split(children + 1, first + left, count - left, depth + 1);
 }
 
-void BoxTree::fit(std::uint32_t node) {
+void BoxTree::refit(std::uint32_t node) {
   BvhNode& n = nodes_[node];
   cost_ -= surface(n.bounds);
   n.bounds = {};
@@ -126,7 +126,7 @@ void BoxTree::fit(std::uint32_t node) {
 void BoxTree::move(std::uint32_t item, const Aabb& box) {
   boxes_[item] = box;
   std::uint32_t node = leaves_[item];
-  for (fit(node); node != 0; fit(node)) node = parents_[node];
+  for (refit(node); node != 0; refit(node)) node = parents_[node];
 }
 
-}  // namespace muro::encounters
+}  // namespace muro::contact_geometry

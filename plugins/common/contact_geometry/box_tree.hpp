@@ -5,18 +5,18 @@
 
 #include "muro/scene.hpp"
 
-namespace muro::encounters {
+namespace muro::contact_geometry {
 
-/// A hierarchy of boxes over numbered boxes, less than 64 levels deep. Keeps its memory, so building again
-/// allocates nothing.
+/// A bounding volume hierarchy over numbered boxes, less than 64 levels deep. Keeps its memory, so building it again
+/// does not allocate.
 class BoxTree {
  public:
   /// Over `boxes[i]` for every i in `members`; boxes are finite.
   void build(std::span<const Aabb> boxes, std::span<const std::uint32_t> members);
-  /// Box number `item` has changed: fits the boxes on the way to the root.
+  /// Box number `item` has changed: refits the nodes on the way to the root.
   void move(std::uint32_t item, const Aabb& box);
   /// Whether boxes have moved so far that a search costs much more than in a new tree.
-  bool worn() const { return cost_ > 1.5 * built_cost_; }
+  bool is_degraded() const { return cost_ > 1.5 * built_cost_; }
   /// A new tree over the same members as they are now.
   void rebuild();
 
@@ -25,7 +25,7 @@ class BoxTree {
  private:
   void build_nodes();
   void split(std::uint32_t node, std::uint32_t first, std::uint32_t count, int depth);
-  void fit(std::uint32_t node);
+  void refit(std::uint32_t node);
 
   std::vector<Aabb> boxes_;
   std::vector<BvhNode> nodes_;  ///< children behind their parents
@@ -55,4 +55,4 @@ void each_near(const Bvh& tree, const Aabb& box, Visit visit) {
   }
 }
 
-}  // namespace muro::encounters
+}  // namespace muro::contact_geometry

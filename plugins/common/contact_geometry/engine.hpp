@@ -1,37 +1,36 @@
 // SPDX-License-Identifier: MIT
-// What a collision engine does for EngineCollision: pairs of solids, one at a time.
+// What a collision engine does for EngineCollision: the narrow phase, one pair of geometries at a time.
 #pragma once
 
 #include <memory>
 #include <vector>
 
-#include "solid.hpp"
+#include "collision_object.hpp"
 
-namespace muro::encounters {
+namespace muro::contact_geometry {
 
-/// One point in which an engine has found two solids to overlap.
-struct Touch {
+/// One point in which an engine has found two geometries to overlap.
+struct EngineContact {
   Vec3 point;                  ///< m, world: on either surface or between them
-  Vec3 normal;                 ///< unit, world: from the second solid to the first
+  Vec3 normal;                 ///< unit, world: from the second geometry to the first
   double depth = 0;            ///< m, along the normal
-  std::int64_t triangle = -1;  ///< of the second solid, when that is a mesh taken as it is
-  bool rough = false;          ///< the normal is one that parts the solids, but may be far from the shortest way
+  std::int64_t triangle = -1;  ///< of the second geometry, when that is an exact mesh; -1: the engine does not tell
+  bool rough = false;          ///< the normal separates the geometries, but may be far from the shortest way to do so
 };
 
-/// Works out pairs. Holds what an engine needs for that beside the solids: one thread uses it at a time, and nothing
-/// is left in it that has a say in the next pair.
-class Narrowphase {
+/// Finds the contacts of pairs. Holds the buffers that an engine needs for that: one thread uses it at a time, and its
+/// results do not depend on earlier pairs.
+class NarrowPhase {
  public:
-  Narrowphase() = default;
-  Narrowphase(const Narrowphase&) = delete;
-  Narrowphase& operator=(const Narrowphase&) = delete;
-  virtual ~Narrowphase() = default;
+  NarrowPhase() = default;
+  NarrowPhase(const NarrowPhase&) = delete;
+  NarrowPhase& operator=(const NarrowPhase&) = delete;
+  virtual ~NarrowPhase() = default;
 
-  /// Adds where solids `a` and `b` (numbers) overlap, their frames standing at these poses. `b` alone may be a plane or
-  /// a mesh taken as it is, of which every triangle that is touched is named; where an engine does not tell, it
-  /// is looked for at the point.
-  virtual void touch(std::uint32_t a, const Pose& at_a, std::uint32_t b, const Pose& at_b,
-                     std::vector<Touch>& touches) = 0;
+  /// Adds where the geometries with numbers `a` and `b` overlap at these poses. Only `b` may be a plane or an exact
+  /// mesh; of the latter every triangle that is touched is reported, by its number or by a point on it.
+  virtual void collide(std::uint32_t a, const Pose& pose_a, std::uint32_t b, const Pose& pose_b,
+                       std::vector<EngineContact>& contacts) = 0;
 };
 
 class Engine {
@@ -41,10 +40,10 @@ class Engine {
   Engine& operator=(const Engine&) = delete;
   virtual ~Engine() = default;
 
-  /// Solid number 0, 1, ...; it stays where it is. [setup]
-  virtual void add(const Solid& solid) = 0;
+  /// The geometry gets the next number, from 0 on; it outlives the engine at the same address. [setup]
+  virtual void add(const CollisionGeometry& geometry) = 0;
   /// [any thread]
-  virtual std::unique_ptr<Narrowphase> narrowphase() const = 0;
+  virtual std::unique_ptr<NarrowPhase> make_narrow_phase() const = 0;
 };
 
-}  // namespace muro::encounters
+}  // namespace muro::contact_geometry

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace muro::encounters {
+namespace muro::contact_geometry {
 namespace {
 
 using Vec2 = Eigen::Vector2d;
@@ -12,7 +12,7 @@ constexpr double level = 1e-7;  ///< cosine below which a line or face counts as
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-Feature box_face(const Placed& box, const Vec3& direction) {
+Feature box_face(const TransformedShape& box, const Vec3& direction) {
   const Vec3 c = box.axes.transpose() * direction;
   int i;
   c.cwiseAbs().maxCoeff(&i);
@@ -24,15 +24,15 @@ Feature box_face(const Placed& box, const Vec3& direction) {
   f.centre = box.centre + box.half[i] * f.normal;
   const double sj = std::copysign(box.half[j], c[j]), sk = std::copysign(box.half[k], c[k]);
   const Vec3 vj = sj * box.axes.col(j), vk = sk * box.axes.col(k);
-  f.points[0] = f.tip = f.centre + vj + vk;
+  f.points[0] = f.support = f.centre + vj + vk;
   f.points[1] = f.centre - vj + vk;
   f.points[2] = f.centre - vj - vk;
   f.points[3] = f.centre + vj - vk;
-  f.sharp = c.cwiseAbs().minCoeff() > level;
+  f.is_unique = c.cwiseAbs().minCoeff() > level;
   return f;
 }
 
-Feature cylinder_part(const Placed& cylinder, const Vec3& direction) {
+Feature cylinder_feature(const TransformedShape& cylinder, const Vec3& direction) {
   const Vec3 u = cylinder.axis();
   const double along = direction.dot(u), end = std::copysign(cylinder.half.z(), along);
   const Vec3 across = direction - along * u;
@@ -40,56 +40,57 @@ Feature cylinder_part(const Placed& cylinder, const Vec3& direction) {
   Vec3 out =
       steep > level ? Vec3(across * (cylinder.radius() / steep)) : Vec3(cylinder.radius() * cylinder.axes.col(0));
   Feature f;
-  f.tip = cylinder.centre + end * u + out;
+  f.support = cylinder.centre + end * u + out;
   if (std::abs(along) > 0.7) {
     f.count = 4;
     f.normal = std::copysign(1.0, along) * u;
     f.centre = cylinder.centre + end * u;
-    f.disc = cylinder.radius();
+    f.disc_radius = cylinder.radius();
     const Vec3 side = u.cross(out);
-    f.points[0] = f.tip;
+    f.points[0] = f.support;
     f.points[1] = f.centre + side;
     f.points[2] = f.centre - out;
     f.points[3] = f.centre - side;
-    f.sharp = steep > level;
+    f.is_unique = steep > level;
   } else {
     f.count = 2;
     f.centre = cylinder.centre + out;
-    f.points[0] = f.tip;
+    f.points[0] = f.support;
     f.points[1] = f.centre - end * u;
-    f.sharp = std::abs(along) > level;
+    f.is_unique = std::abs(along) > level;
   }
   return f;
 }
 
-Feature capsule_part(const Placed& capsule, const Vec3& direction) {
+Feature capsule_feature(const TransformedShape& capsule, const Vec3& direction) {
   const Vec3 u = capsule.axis();
   const double along = direction.dot(u), end = std::copysign(capsule.half.z(), along);
   Feature f;
   f.centre = capsule.centre + capsule.radius() * direction;
-  f.points[0] = f.tip = f.centre + end * u;
+  f.points[0] = f.support = f.centre + end * u;
   f.count = 1;
-  f.sharp = true;
+  f.is_unique = true;
   if (std::abs(along) < 0.7 && capsule.half.z() > 0) {
     f.points[1] = f.centre - end * u;
     f.count = 2;
-    f.sharp = std::abs(along) > level;
+    f.is_unique = std::abs(along) > level;
   }
   return f;
 }
 
-/// A point of the first feature seen along the normal: where it is in the plane at right angles, and its height.
-struct Seen {
+/// A point projected along the normal: its place in the plane at right angles to it, and its height over that.
+struct Projected {
   Vec2 at;
   double height;
 };
 
 /// The plane at right angles to the normal, with its origin near the contact.
-struct View {
+struct Projection {
   Vec3 x, y, z, origin;
 
-  View(const Vec3& normal, const Vec3& at) : x(perpendicular(normal)), y(normal.cross(x)), z(normal), origin(at) {}
-  Seen operator()(const Vec3& p) const {
+  Projection(const Vec3& normal, const Vec3& at)
+      : x(perpendicular(normal)), y(normal.cross(x)), z(normal), origin(at) {}
+  Projected operator()(const Vec3& p) const {
     const Vec3 d = p - origin;
     return {{x.dot(d), y.dot(d)}, z.dot(d)};
   }
@@ -103,56 +104,57 @@ struct View {
 };
 
 /// The part of the polygon (or line) to the left of the line from p to q, or within `slack` of it.
-int clip(const Seen* in, int count, const Vec2& p, const Vec2& q, double slack, Seen* out) {
+int clip(const Projected* in, int count, const Vec2& p, const Vec2& q, double slack, Projected* out) {
   const Vec2 along = q - p;
   const double length = along.norm();
-  int kept = 0;
+  int left = 0;
   if (!(length > 0)) return 0;
-  const auto inside = [&](const Seen& s) { return cross(along, s.at - p) / length + slack; };
+  const auto inside = [&](const Projected& s) { return cross(along, s.at - p) / length + slack; };
   const int edges = count == 2 ? 1 : count;  // a line has one, and two ends
   for (int i = 0; i < edges; ++i) {
-    const Seen &a = in[i], &b = in[(i + 1) % count];
+    const Projected &a = in[i], &b = in[(i + 1) % count];
     const double da = inside(a), db = inside(b);
-    if (da >= 0) out[kept++] = a;
+    if (da >= 0) out[left++] = a;
     if (da * db < 0) {
       const double t = da / (da - db);
-      out[kept++] = {a.at + t * (b.at - a.at), a.height + t * (b.height - a.height)};
+      out[left++] = {a.at + t * (b.at - a.at), a.height + t * (b.height - a.height)};
     }
-    if (count == 2 && db >= 0) out[kept++] = b;
+    if (count == 2 && db >= 0) out[left++] = b;
   }
-  return kept;
+  return left;
 }
 
 /// The square (m^2) of the length of a line or the diagonal of a face.
 double extent2(const Feature& f) { return (f.points[f.count / 2] - f.points[0]).squaredNorm(); }
 
-/// Line or face against face; what is inside keeps its points.
-void clip_against_face(const Feature& f, const Feature& face, const View& view, double side, Manifold& out) {
-  Seen buffers[2][12], corners[4];
-  for (int i = 0; i < 4; ++i) corners[i] = view(face.points[i]);
+/// Clips a line or face against a face.
+void clip_against_face(const Feature& f, const Feature& face, const Projection& project, double side, Manifold& out) {
+  Projected buffers[2][12], corners[4];
+  for (int i = 0; i < 4; ++i) corners[i] = project(face.points[i]);
   const double slack = 1e-9 * std::sqrt(extent2(f));
   const bool left = cross(corners[1].at - corners[0].at, corners[2].at - corners[0].at) > 0;
   int count = f.count, now = 0;
-  for (int i = 0; i < count; ++i) buffers[0][i] = view(f.points[i]);
+  for (int i = 0; i < count; ++i) buffers[0][i] = project(f.points[i]);
   for (int i = 0; i < 4 && count > 0; ++i, now = 1 - now) {
     const Vec2 &p = corners[i].at, &q = corners[(i + 1) & 3].at;
     count = clip(buffers[now], count, left ? p : q, left ? q : p, slack, buffers[1 - now]);
   }
   for (int i = 0; i < count; ++i) {
-    const Seen& s = buffers[now][i];
-    const double other = view.height_of(face, s.at), depth = side * (other - s.height);
-    if (depth > 0) out.add(view.back(s.at, 0.5 * (other + s.height)), view.z, depth);
+    const Projected& s = buffers[now][i];
+    const double other = project.height_of(face, s.at), depth = side * (other - s.height);
+    if (depth > 0) out.add(project.back(s.at, 0.5 * (other + s.height)), project.z, depth);
   }
 }
 
-/// Line against line: where they cross, or, side by side, the ends of the stretch they share.
-void cross_lines(const Feature& a, const Feature& b, const View& view, Manifold& out) {
-  const Seen a0 = view(a.points[0]), a1 = view(a.points[1]), b0 = view(b.points[0]), b1 = view(b.points[1]);
+/// Line against line: where they cross, or, if they are parallel, the ends of the segment that they share.
+void cross_lines(const Feature& a, const Feature& b, const Projection& project, Manifold& out) {
+  const Projected a0 = project(a.points[0]), a1 = project(a.points[1]), b0 = project(b.points[0]),
+                  b1 = project(b.points[1]);
   const Vec2 u = a1.at - a0.at, v = b1.at - b0.at, d = b0.at - a0.at;
   const double area = cross(u, v), u2 = u.squaredNorm(), v2 = v.squaredNorm();
   const auto add = [&](double s, double t) {
     const double ha = a0.height + s * (a1.height - a0.height), hb = b0.height + t * (b1.height - b0.height);
-    if (hb - ha > 0) out.add(view.back(a0.at + s * u, 0.5 * (ha + hb)), view.z, hb - ha);
+    if (hb - ha > 0) out.add(project.back(a0.at + s * u, 0.5 * (ha + hb)), project.z, hb - ha);
   };
   if (area * area > 1e-6 * u2 * v2) {
     const double s = cross(d, v) / area, t = cross(d, u) / area;
@@ -175,73 +177,73 @@ bool lies_in(const Feature& a, const Feature& b) {
   return both_faces ? extent2(a) <= extent2(b) : b.count == 4;
 }
 
-void overlap(const Feature& a, const Feature& b, bool a_in_b, const View& view, Manifold& out) {
+void overlap(const Feature& a, const Feature& b, bool a_in_b, const Projection& project, Manifold& out) {
   if (a_in_b && a.count > 1)
-    clip_against_face(a, b, view, 1, out);
+    clip_against_face(a, b, project, 1, out);
   else if (!a_in_b && a.count == 4 && b.count > 1)
-    clip_against_face(b, a, view, -1, out);
+    clip_against_face(b, a, project, -1, out);
   else if (a.count == 2 && b.count == 2)
-    cross_lines(a, b, view, out);
+    cross_lines(a, b, project, out);
 }
 
-/// The point of the face or line nearest to `p` (all seen from above).
-Vec2 nearest_in(const Feature& f, const View& view, const Vec2& p) {
-  const Vec2 centre = view(f.centre).at;
-  if (f.disc > 0) {
+/// The point of the face or line nearest to `p`, all projected.
+Vec2 nearest_in(const Feature& f, const Projection& project, const Vec2& p) {
+  const Vec2 centre = project(f.centre).at;
+  if (f.disc_radius > 0) {
     const double off = (p - centre).norm();
-    return off > f.disc ? Vec2(centre + (p - centre) * (f.disc / off)) : p;
+    return off > f.disc_radius ? Vec2(centre + (p - centre) * (f.disc_radius / off)) : p;
   }
-  Vec2 best = view(f.points[0]).at;
+  Vec2 best = project(f.points[0]).at;
   bool in = f.count == 4;
-  const double turn = f.count == 4 ? cross(view(f.points[1]).at - best, view(f.points[2]).at - best) : 0;
+  const double winding = f.count == 4 ? cross(project(f.points[1]).at - best, project(f.points[2]).at - best) : 0;
   for (int i = 0; i < f.count; ++i) {
-    const Vec2 a = view(f.points[i]).at, ab = view(f.points[(i + 1) % f.count]).at - a;
+    const Vec2 a = project(f.points[i]).at, ab = project(f.points[(i + 1) % f.count]).at - a;
     const double t = std::clamp(ab.dot(p - a) / std::max(ab.squaredNorm(), 1e-300), 0.0, 1.0);
     const Vec2 q = a + t * ab;
     if ((q - p).squaredNorm() < (best - p).squaredNorm()) best = q;
-    in = in && cross(ab, p - a) * turn >= 0;
+    in = in && cross(ab, p - a) * winding >= 0;
   }
   return in ? p : best;
 }
 
-/// The deepest point, from what is known of either side.
-Vec3 deepest_point(const Feature& a, const Feature& b, const View& view, double depth) {
-  if (a.sharp) return a.tip + 0.5 * depth * view.z;
-  if (b.sharp) return b.tip - 0.5 * depth * view.z;
-  Vec2 at = nearest_in(b, view, view(a.centre).at);
-  at = nearest_in(a, view, at);
-  return view.back(at, view(a.tip).height + 0.5 * depth);
+/// The deepest point, from the support points of the features.
+Vec3 deepest_point(const Feature& a, const Feature& b, const Projection& project, double depth) {
+  if (a.is_unique) return a.support + 0.5 * depth * project.z;
+  if (b.is_unique) return b.support - 0.5 * depth * project.z;
+  Vec2 at = nearest_in(b, project, project(a.centre).at);
+  at = nearest_in(a, project, at);
+  return project.back(at, project(a.support).height + 0.5 * depth);
 }
 
 }  // namespace
 
-Feature feature_towards(const Placed& shape, const Vec3& direction) {
+Feature feature_towards(const TransformedShape& shape, const Vec3& direction) {
   switch (shape.kind) {
     case ShapeKind::box:
       return box_face(shape, direction);
     case ShapeKind::cylinder:
-      return cylinder_part(shape, direction);
+      return cylinder_feature(shape, direction);
     case ShapeKind::capsule:
-      return capsule_part(shape, direction);
+      return capsule_feature(shape, direction);
     default:
       break;
   }
   Feature f;
   f.count = 1;
-  f.points[0] = f.tip = f.centre = shape.centre + shape.radius() * direction;
-  f.sharp = true;
+  f.points[0] = f.support = f.centre = shape.centre + shape.radius() * direction;
+  f.is_unique = true;
   return f;
 }
 
 void add_overlap(const Feature& first, const Feature& second, const Vec3& normal, Manifold& out) {
   const bool first_in_second = lies_in(first, second);
-  overlap(first, second, first_in_second, View(normal, first_in_second ? first.tip : second.tip), out);
+  overlap(first, second, first_in_second, Projection(normal, first_in_second ? first.support : second.support), out);
 }
 
 void add_patch(const Feature& a, const Feature& b, const Vec3& normal, double depth, Manifold& out) {
   const bool a_in_b = lies_in(a, b);
-  const View view(normal, a_in_b ? a.tip : b.tip);
-  overlap(a, b, a_in_b, view, out);
+  const Projection project(normal, a_in_b ? a.support : b.support);
+  overlap(a, b, a_in_b, project, out);
   int deepest = -1;
   for (int i = 0; i < out.count; ++i) {
     double& at = out.points[i].depth;
@@ -252,9 +254,9 @@ void add_patch(const Feature& a, const Feature& b, const Vec3& normal, double de
     out.points[deepest].depth = depth;
     return;
   }
-  const Vec3 point = deepest_point(a, b, view, depth);
-  if (out.count == Manifold::most) --out.count;
+  const Vec3 point = deepest_point(a, b, project, depth);
+  if (out.count == Manifold::capacity) --out.count;
   out.add(point, normal, depth);
 }
 
-}  // namespace muro::encounters
+}  // namespace muro::contact_geometry

@@ -3,7 +3,7 @@
 
 #include "muro/geometry.hpp"
 
-namespace muro::encounters {
+namespace muro::contact_geometry {
 
 /// One point in which two shapes overlap.
 struct ContactPoint {
@@ -14,13 +14,13 @@ struct ContactPoint {
 
 /// The points in which two shapes overlap; none when they are apart. Fixed size, so it lives on the stack.
 struct Manifold {
-  static constexpr int most = 8;
-  ContactPoint points[most];
+  static constexpr int capacity = 8;
+  ContactPoint points[capacity];
   int count = 0;
 
   /// Further points than fit are dropped; no pair test here has any.
   void add(const Vec3& point, const Vec3& normal, double depth) {
-    if (count < most) points[count++] = {point, normal, depth};
+    if (count < capacity) points[count++] = {point, normal, depth};
   }
   /// As seen with first and second exchanged.
   void flip() {
@@ -28,4 +28,4 @@ struct Manifold {
   }
 };
 
-}  // namespace muro::encounters
+}  // namespace muro::contact_geometry

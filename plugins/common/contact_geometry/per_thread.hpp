@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <memory>
 
-namespace muro::encounters {
+namespace muro::contact_geometry {
 
 /// A number for the calling thread that no other has ever had.
 inline std::uint64_t thread_number() {
@@ -25,7 +25,7 @@ class PerThread {
 
   /// `make()` gives a std::unique_ptr<T>. [any thread]
   template <class Make>
-  T& here(Make make) {
+  T& local(Make make) {
     const std::uint64_t thread = thread_number();
     for (Node* n = first_.load(std::memory_order_acquire); n; n = n->next)
       if (n->thread == thread) return *n->object;
@@ -55,4 +55,4 @@ class PerThread {
   std::atomic<Node*> first_{nullptr};
 };
 
-}  // namespace muro::encounters
+}  // namespace muro::contact_geometry

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "apparent_mass.hpp"
+#include "muro/toolkit/link_pose.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -21,35 +22,35 @@ MassProperties properties(double inverse_mass, const Vec3& com, const Mat3& inve
 /// The bodies of a robot at rest, in the frame of its base.
 class Tree {
  public:
-  Tree(std::span<const Link> frames, std::span<const double> positions) : frames_(frames), in_base_(frames.size()) {
-    for (std::size_t i = 1; i < frames.size(); ++i)
-      in_base_[i] = in_base_[std::size_t(frames[i].parent)] * pose_in_parent(frames[i], positions[i]);
+  Tree(std::span<const Link> links, std::span<const double> positions) : links_(links), in_base_(links.size()) {
+    for (std::size_t i = 1; i < links.size(); ++i)
+      in_base_[i] = in_base_[std::size_t(links[i].parent)] * pose_in_parent(links[i], positions[i]);
   }
   const Pose& operator[](std::size_t i) const { return in_base_[i]; }
-  Eigen::Index columns() const { return Eigen::Index(6 + frames_.size()); }
+  Eigen::Index columns() const { return Eigen::Index(6 + links_.size()); }
 
   /// Velocity (linear, angular) of the point `at` of body `i` by velocities of the base and of all joints.
   Jacobian jacobian(std::size_t i, const Vec3& at) const {
     Jacobian j = Jacobian::Zero(6, columns());
-    const auto turn = [&](Eigen::Index column, const Vec3& axis, const Vec3& centre) {
+    const auto add_rotation = [&](Eigen::Index column, const Vec3& axis, const Vec3& centre) {
       j.col(column).head<3>() = axis.cross(at - centre);
       j.col(column).tail<3>() = axis;
     };
     for (int k = 0; k < 3; ++k) {
       j(k, k) = 1;
-      turn(3 + k, Vec3::Unit(k), Vec3::Zero());
+      add_rotation(3 + k, Vec3::Unit(k), Vec3::Zero());
     }
-    for (std::size_t f = i; f > 0; f = std::size_t(frames_[f].parent)) {
-      const Vec3 axis = in_base_[f].orientation * frames_[f].axis;
+    for (std::size_t f = i; f > 0; f = std::size_t(links_[f].parent)) {
+      const Vec3 axis = in_base_[f].orientation * links_[f].axis;
       const Eigen::Index column = 6 + Eigen::Index(f);
-      if (frames_[f].joint == JointKind::revolute) turn(column, axis, in_base_[f].position);
-      if (frames_[f].joint == JointKind::prismatic) j.col(column).head<3>() = axis;
+      if (links_[f].joint == JointKind::revolute) add_rotation(column, axis, in_base_[f].position);
+      if (links_[f].joint == JointKind::prismatic) j.col(column).head<3>() = axis;
     }
     return j;
   }
 
  private:
-  std::span<const Link> frames_;
+  std::span<const Link> links_;
   std::vector<Pose> in_base_;
 };
 
@@ -59,11 +60,11 @@ MassProperties mass_properties_of(const Inertia& body) {
   return properties(1 / body.mass, body.com, body.tensor().inverse());
 }
 
-std::vector<MassProperties> apparent_masses(std::span<const Link> frames, std::span<const Inertia> inertias,
+std::vector<MassProperties> apparent_masses(std::span<const Link> links, std::span<const Inertia> inertias,
                                             std::span<const double> positions, std::span<const std::uint32_t> bodies) {
-  const Tree tree(frames, positions);
+  const Tree tree(links, positions);
   Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(tree.columns(), tree.columns());
-  for (std::size_t i = 0; i < frames.size(); ++i) {
+  for (std::size_t i = 0; i < links.size(); ++i) {
     if (!(inertias[i].mass > 0)) continue;
     const Jacobian j = tree.jacobian(i, tree[i] * inertias[i].com);
     const Mat3 r = tree[i].orientation.toRotationMatrix(), tensor = r * inertias[i].tensor() * r.transpose();
@@ -81,10 +82,10 @@ std::vector<MassProperties> apparent_masses(std::span<const Link> frames, std::s
     const Vec3& com = inertias[i].com;
     const Jacobian j = tree.jacobian(i, tree[i] * com);
     const Eigen::Matrix<double, 6, 6> mobility = j * solver.solve(j.transpose());
-    const Mat3 shift = mobility.topLeftCorner<3, 3>(), turn = mobility.bottomRightCorner<3, 3>();
+    const Mat3 translation = mobility.topLeftCorner<3, 3>(), rotation = mobility.bottomRightCorner<3, 3>();
     const Mat3 r = tree[i].orientation.toRotationMatrix();
-    const Mat3 own = r.transpose() * (0.5 * (turn + turn.transpose())) * r;
-    apparent.push_back(properties(Eigen::SelfAdjointEigenSolver<Mat3>(shift).eigenvalues().maxCoeff(), com, own));
+    const Mat3 own = r.transpose() * (0.5 * (rotation + rotation.transpose())) * r;
+    apparent.push_back(properties(Eigen::SelfAdjointEigenSolver<Mat3>(translation).eigenvalues().maxCoeff(), com, own));
   }
   return apparent;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How heavy robots are where something touches them.
+// Effective masses of the links of robots.
 #pragma once
 
 #include <span>
@@ -13,12 +13,12 @@ namespace muro::penalty {
 /// Of a rigid body.
 MassProperties mass_properties_of(const Inertia& body);
 
-/// What a force on each of `bodies` (numbers of frames) would seem to move when all joints are free: the apparent
+/// What a force on each of `bodies` (numbers of links) would seem to move when all joints are free: the apparent
 /// inertia J M^-1 J^T of the body at its centre of mass (Khatib, A unified approach for motion and force control, IEEE
-/// J. Robotics and Automation 3, 1987), without the coupling of shifts and turns, and with the greatest of the inverse
-/// masses of all directions: joints that are held make a body heavier than that, nothing makes it lighter. `inertias`
-/// and `positions` (rad or m): one a frame.
-std::vector<MassProperties> apparent_masses(std::span<const Link> frames, std::span<const Inertia> inertias,
+/// J. Robotics and Automation 3, 1987), without the coupling of translation and rotation, and with the greatest of the
+/// inverse masses of all directions: joints that are held make a body heavier than that, never lighter. `inertias` and
+/// `positions` (rad or m): one a link.
+std::vector<MassProperties> apparent_masses(std::span<const Link> links, std::span<const Inertia> inertias,
                                             std::span<const double> positions, std::span<const std::uint32_t> bodies);
 
 }  // namespace muro::penalty

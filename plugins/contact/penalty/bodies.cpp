@@ -14,31 +14,31 @@ void Bodies::connect(Connector& c) {
   all.resize(c.object_count());
   for (std::uint32_t i = 0; i < all.size(); ++i) {
     all[i].name = fnv1a(c.object_name(ObjectId{i}));
-    all[i].whole = i;
+    all[i].model = i;
     for (const Shape& s : c.constant_array(ObjectId{i}, keys::collision_shapes))
       if (std::none_of(materials.begin(), materials.end(),
                        [&](const Material& m) { return m.restitution == s.restitution; }))
         materials.push_back({s.restitution, damping_ratio_of(s.restitution)});
   }
-  robot_of.assign(c.robots().size(), nobody);
+  robot_of.assign(c.robots().size(), no_robot);
   for (const RobotView* robot : c.robots()) connect_robot(c, *robot);
 }
 
 void Bodies::connect_robot(Connector& c, const RobotView& view) {
   const bool moved = c.is_used(view.base(), keys::external_wrench, usage::read_sum);
-  std::vector<std::uint32_t> frames;  // that are units, beside the base
+  std::vector<std::uint32_t> links;  // that are dynamic bodies, beside the base
   for (std::uint32_t i = 0; i < view.links.size(); ++i) {
     const ObjectId object = view.links[i].object;
     Body& b = all[index_of(object)];
-    b.whole = index_of(view.base());
-    b.robot = moved ? std::int32_t(robots.size()) : nobody;
-    b.unit = std::uint32_t(units.size());
+    b.model = index_of(view.base());
+    b.robot = moved ? std::int32_t(robots.size()) : no_robot;
+    b.dynamic_body = std::uint32_t(dynamic_bodies.size());
     if (c.constant_array(object, keys::collision_shapes).empty()) continue;
     b.pose = c.read(object, keys::pose).get();
     b.twist = c.read(object, keys::twist).get();
     if (!moved || i == 0 || !c.is_used(object, keys::external_wrench, usage::read_sum)) continue;
-    frames.push_back(i);
-    b.unit = std::uint32_t(units.size() + frames.size());
+    links.push_back(i);
+    b.dynamic_body = std::uint32_t(dynamic_bodies.size() + links.size());
   }
   if (!moved) return;
   const std::vector<Inertia> inertias = inertias_of(c, view);
@@ -48,28 +48,28 @@ void Bodies::connect_robot(Connector& c, const RobotView& view) {
     throw Error("`" + std::string(view.name) + "` has no mass, so no contact can push it; give its bodies `inertial`");
   Robot r;
   r.contacts = c.read_list(view.base(), keys::contacts);
-  r.grips = c.variable_list(view.base(), grips);
-  r.world = c.input(view.base(), keys::contact_world, std::uint64_t{0});
+  r.anchors = c.variable_list(view.base(), anchors);
+  r.world = c.input(view.base(), keys::contact_world, kinematic_world);
   r.lag = c.input(view.base(), keys::twist_lag, 0.0);
-  r.rank = view.key;
-  r.shadow = c.constant(view.base(), keys::shadow_of).has_value();
-  r.first_unit = std::uint32_t(units.size());
-  r.units = std::uint32_t(1 + frames.size());
-  r.alone = frames.empty();
+  r.order_key = view.key;
+  r.is_shadow = c.constant(view.base(), keys::shadow_of).has_value();
+  r.first_body = std::uint32_t(dynamic_bodies.size());
+  r.body_count = std::uint32_t(1 + links.size());
+  r.is_single_body = links.empty();
   robot_of[view.number] = std::int32_t(robots.size());
   robots.push_back(r);
-  if (r.alone) return add_unit(c, view.base(), mass_properties_of(composite));
-  frames.insert(frames.begin(), 0);
-  const std::vector<MassProperties> apparent = apparent_masses(view.links, inertias, positions, frames);
-  for (std::size_t i = 0; i < frames.size(); ++i) add_unit(c, view.links[frames[i]].object, apparent[i]);
+  if (r.is_single_body) return add_dynamic_body(c, view.base(), mass_properties_of(composite));
+  links.insert(links.begin(), 0);
+  const std::vector<MassProperties> apparent = apparent_masses(view.links, inertias, positions, links);
+  for (std::size_t i = 0; i < links.size(); ++i) add_dynamic_body(c, view.links[links[i]].object, apparent[i]);
 }
 
-void Bodies::add_unit(Connector& c, ObjectId body, const MassProperties& mass) {
-  units.push_back(
-      {c.accumulate(body, keys::external_wrench), c.read(body, keys::pose), c.read(body, keys::twist), note(mass)});
+void Bodies::add_dynamic_body(Connector& c, ObjectId body, const MassProperties& mass) {
+  dynamic_bodies.push_back({c.accumulate(body, keys::external_wrench), c.read(body, keys::pose),
+                            c.read(body, keys::twist), number_of(mass)});
 }
 
-std::uint32_t Bodies::note(const MassProperties& mass) {
+std::uint32_t Bodies::number_of(const MassProperties& mass) {
   const auto found = std::find(masses.begin(), masses.end(), mass);
   if (found != masses.end()) return std::uint32_t(found - masses.begin());
   masses.push_back(mass);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The force of one contact, over a double or a lane of robots: a spring and damper along the normal, a spring with a
-// slider across.
+// The force of one contact, over a double or SIMD lanes of robots: a spring and damper along the normal, a spring with
+// a slider across.
 //
 // Forces are given per unit of effective mass (m/s^2). Both directions are integrated linearly implicitly: the force
 // of a step is the one that spring and damper have in the middle of that step, predicted for a body that this contact
@@ -15,18 +15,18 @@ namespace muro::penalty {
 
 /// What all contacts of a step have in common.
 struct Stiffness {
-  double omega = 0;  ///< rad/s: of a body with the effective mass on the contact; omega h <= finest_step
+  double omega = 0;  ///< rad/s: of a body with the effective mass on the contact; omega h <= max_phase_step
   double h = 0;      ///< s: length of the step
 };
 /// Up to here, a rebound gains no energy, wherever in the step the bodies meet.
-inline constexpr double finest_step = 0.6;
+inline constexpr double max_phase_step = 0.6;
 
 namespace law {
 inline namespace MURO_ISA {
 
 using lane::any, lane::max, lane::min, lane::select, lane::sqrt, lane::V3;
 
-/// tanh x for 0 <= x <= 2 finest_step, to some units in the last place: Lambert's continued fraction
+/// tanh x for 0 <= x <= 2 max_phase_step, to some units in the last place: Lambert's continued fraction
 /// x / (1 + x^2 / (3 + x^2 / (5 + ...))), ten terms of it.
 template <class S>
 MURO_INLINE S tanh(S x) {
@@ -40,7 +40,7 @@ MURO_INLINE S tanh(S x) {
 template <class S>
 struct NormalLaw {
   Stiffness stiffness;
-  double zeta = 0;   ///< damping ratio, at most greatest_damping_ratio
+  double zeta = 0;   ///< damping ratio, at most max_damping_ratio
   S load;            ///< of the bodies, >= 0
   S spring, damper;  ///< 1/s^2, 1/s
   S soft;            ///< 1/s^2: of the spring, as softened
@@ -58,67 +58,68 @@ struct NormalLaw {
   /// Force, >= 0. `depth` in m; `approach`: speed at which it grows, m/s.
   MURO_INLINE S force(S depth, S approach) const {
     const S zero(0), h(stiffness.h);
-    const S standing = depth + S(2 * zeta / stiffness.omega) * approach;  // where the force stands, as a depth
+    const S spring_depth =
+        depth + S(2 * zeta / stiffness.omega) * approach;  // the depth at which the spring alone has this force
     S result = max(spring * depth + damper * approach, zero);
-    if (const auto parts = (approach < zero) & (standing < -approach * h); any(parts))
-      result = select(parts, force_at_parting(*this, standing, approach), result);
-    if (const auto meets = approach * h > depth; any(meets))
-      result = select(meets, force_at_meeting(*this, depth, approach), result);
+    if (const auto separates = (approach < zero) & (spring_depth < -approach * h); any(separates))
+      result = select(separates, force_at_separation(*this, spring_depth, approach), result);
+    if (const auto impacts = approach * h > depth; any(impacts))
+      result = select(impacts, force_at_impact(*this, depth, approach), result);
     return result;
   }
 
  private:
-  /// They part within this step: what the spring still holds becomes speed, and no more.
-  [[gnu::noinline, gnu::cold]] static S force_at_parting(NormalLaw own, S standing, S approach) {
+  /// The bodies separate within this step: the energy stored in the spring becomes speed, and no more.
+  [[gnu::noinline, gnu::cold]] static S force_at_separation(NormalLaw own, S spring_depth, S approach) {
     const double w2 = own.stiffness.omega * own.stiffness.omega;
-    const S held = S(w2) * standing * standing;
-    const S force = held / (sqrt(approach * approach + held) - approach) / S(own.stiffness.h) * (own.soft / S(w2));
-    return select(standing <= S(0), S(0), force);
+    const S stored = S(w2) * spring_depth * spring_depth;
+    const S force = stored / (sqrt(approach * approach + stored) - approach) / S(own.stiffness.h) * (own.soft / S(w2));
+    return select(spring_depth <= S(0), S(0), force);
   }
 
-  /// They met within the last step, a time depth / approach ago, and came this deep without a force. The bodies get the
-  /// energy that they would have, had the contact acted since then; but they do not rebound before their time.
-  [[gnu::noinline, gnu::cold]] static S force_at_meeting(NormalLaw own, S depth, S approach) {
+  /// The bodies met within the last step, a time depth / approach ago, and came this deep without a force. The bodies
+  /// get the energy that they would have, had the contact acted since then; but they do not rebound before their time.
+  [[gnu::noinline, gnu::cold]] static S force_at_impact(NormalLaw own, S depth, S approach) {
     const double w = own.stiffness.omega, w2 = w * w;
     const S h(own.stiffness.h), zero(0), one(1), half(0.5);
     const S since = h + depth / approach, z = law::tanh(S(own.zeta * w) * since);
     const S beta = z + S(0.25 * w2) * since * since;
     const S change = -(S(0.5 * w2) * since + S(2) * z / since) * approach / max(own.load * beta, one + beta);
-    const S speed = approach + since * change, way = since * approach, dip = way + half * since * since * change;
+    const S speed = approach + since * change, path = since * approach, dip = path + half * since * since * change;
     const S energy = min(speed * speed + own.soft * dip * dip, approach * approach);
-    // (approach + h a)^2 + soft (way + h^2 a / 2)^2 = energy, for the acceleration a of this step
-    const S a = one + S(0.25) * own.soft * h * h, half_b = approach + half * own.soft * h * way;
-    const S c = approach * approach + own.soft * way * way - energy;
+    // (approach + h a)^2 + soft (path + h^2 a / 2)^2 = energy, for the acceleration a of this step
+    const S a = one + S(0.25) * own.soft * h * h, half_b = approach + half * own.soft * h * path;
+    const S c = approach * approach + own.soft * path * path - energy;
     const S push = c / (half_b + sqrt(max(half_b * half_b - a * c, zero)));
     return max(min(push, approach - min(speed, zero)) / h, zero);
   }
 };
 
-/// The spring across the normal, critically damped. It is stretched by what a body slips on the other, until the force
-/// reaches its limit; from there on the body slides, and the spring keeps the stretch that holds the limit at rest
+/// The spring across the normal, critically damped. The slip adds to its tangential displacement, until the force
+/// reaches its limit; from there on the body slides, and the displacement stays that of the limit at rest
 /// (Cundall and Strack, A discrete numerical model for granular assemblies, Geotechnique 29, 1979). The limit is a
 /// circle, so friction is the same in every direction.
 template <class S>
 struct FrictionLaw {
   S spring, damper;  ///< 1/s^2, 1/s
-  S give;            ///< s^2: stretch by force
+  S compliance;      ///< s^2: displacement by force
 
   MURO_INLINE FrictionLaw(const Stiffness& s, S load) {
     const double w = s.omega, beta = w * s.h + 0.5 * w * w * s.h * s.h;
-    const S hardness = max(load * S(beta), S(1 + beta));
-    spring = S(w * w) / hardness;
-    damper = S(2 * w + 0.5 * w * w * s.h) / hardness;
-    give = hardness * S(-1 / (w * w));
+    const S softening = max(load * S(beta), S(1 + beta));
+    spring = S(w * w) / softening;
+    damper = S(2 * w + 0.5 * w * w * s.h) / softening;
+    compliance = softening * S(-1 / (w * w));
   }
 
-  /// Force on the body that moves with `slip` (m/s) over the other. `stretch` (m) includes the way of the last step;
-  /// `most`: the limit, m/s^2.
-  MURO_INLINE V3<S> force(V3<S>& stretch, const V3<S>& slip, S most) const {
-    V3<S> f = -(spring * stretch) - damper * slip;
+  /// Force on the body that moves with `slip` (m/s) over the other. `displacement` (m) includes the path of the last
+  /// step; `most`: the limit, m/s^2.
+  MURO_INLINE V3<S> force(V3<S>& displacement, const V3<S>& slip, S most) const {
+    V3<S> f = -(spring * displacement) - damper * slip;
     const S size2 = dot(f, f);
     if (const auto slides = size2 > most * most; any(slides)) {
       f = select(slides, f * (most / sqrt(size2)), f);
-      stretch = select(slides, give * f, stretch);
+      displacement = select(slides, compliance * f, displacement);
     }
     return f;
   }

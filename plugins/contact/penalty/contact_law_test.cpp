@@ -11,10 +11,10 @@ namespace {
 using NormalLaw = law::NormalLaw<double>;
 
 /// Across the normal: muro::penalty::law in Eigen's vectors.
-Vec3 friction_force(const Stiffness& s, double load, Vec3& stretch, const Vec3& slip, double most) {
-  lane::V3<double> spring{stretch.x(), stretch.y(), stretch.z()};
+Vec3 friction_force(const Stiffness& s, double load, Vec3& displacement, const Vec3& slip, double most) {
+  lane::V3<double> spring{displacement.x(), displacement.y(), displacement.z()};
   const lane::V3<double> f = law::FrictionLaw<double>(s, load).force(spring, {slip.x(), slip.y(), slip.z()}, most);
-  stretch = {spring.x, spring.y, spring.z};
+  displacement = {spring.x, spring.y, spring.z};
   return {f.x, f.y, f.z};
 }
 
@@ -50,13 +50,13 @@ TEST(ContactLaw, RestitutionIsThatOfAnIntegratedSpringDamper) {
 }
 
 TEST(ContactLaw, ItsHyperbolicTangentIsThatOfTheLibrary) {
-  for (double x = 0; x <= 2 * finest_step; x += 1e-4) EXPECT_NEAR(law::tanh(x), std::tanh(x), 4e-16) << x;
+  for (double x = 0; x <= 2 * max_phase_step; x += 1e-4) EXPECT_NEAR(law::tanh(x), std::tanh(x), 4e-16) << x;
 }
 
 TEST(ContactLaw, TheDampingRatioInvertsTheRestitution) {
   for (double e = 0.15; e <= 1; e += 0.05) EXPECT_NEAR(restitution_of(damping_ratio_of(e)), e, 1e-12) << e;
-  EXPECT_EQ(damping_ratio_of(0), greatest_damping_ratio);
-  EXPECT_NEAR(restitution_of(greatest_damping_ratio), std::exp(-2), 1e-12);
+  EXPECT_EQ(damping_ratio_of(0), max_damping_ratio);
+  EXPECT_NEAR(restitution_of(max_damping_ratio), std::exp(-2), 1e-12);
 }
 
 TEST(ContactLaw, ARebound20StepsAPeriodHasItsRestitution) {
@@ -81,7 +81,7 @@ TEST(ContactLaw, NoReboundGainsEnergyHoweverCoarseTheStep) {
     for (const double e : {1.0, 0.9, 0.5, 0.0})
       for (const double load : {1.0, 3.0, 10.0})
         for (double phase = 0.005; phase < 1; phase += 0.01) {
-          const double v = rebound(e, {finest_step * share / 1e-3, 1e-3}, phase, load);
+          const double v = rebound(e, {max_phase_step * share / 1e-3, 1e-3}, phase, load);
           EXPECT_LE(v, 1 + 1e-9) << share << " " << e << " " << load << " " << phase;
           EXPECT_GT(v, 0);
         }
@@ -117,12 +117,12 @@ TEST(ContactLaw, StaysStableUnderAnyLoad) {
 TEST(ContactLaw, FrictionNeverExceedsTheConeInAnyDirection) {
   const Stiffness s{300, 1e-3};
   for (double angle = 0; angle < 6.28; angle += 0.1) {
-    Vec3 stretch = Vec3::Zero();
+    Vec3 displacement = Vec3::Zero();
     const Vec3 slip(0.3 * std::cos(angle), 0.3 * std::sin(angle), 0);
     Vec3 force = Vec3::Zero();
     for (int k = 0; k < 50; ++k) {
-      stretch += slip * s.h;
-      force = friction_force(s, 1, stretch, slip, 5);
+      displacement += slip * s.h;
+      force = friction_force(s, 1, displacement, slip, 5);
     }
     EXPECT_NEAR(force.norm(), 5, 1e-12);
     EXPECT_NEAR(force.dot(slip), -5 * 0.3, 1e-12);  // straight against the slip: a cone, no pyramid
@@ -132,11 +132,11 @@ TEST(ContactLaw, FrictionNeverExceedsTheConeInAnyDirection) {
 TEST(ContactLaw, ABodyThatFrictionHoldsDoesNotCreep) {
   const Stiffness s{300, 1e-3};
   for (const double load : {1.0, 5.0}) {
-    Vec3 x = Vec3::Zero(), v = Vec3::Zero(), stretch = Vec3::Zero(), middle = Vec3::Zero();
+    Vec3 x = Vec3::Zero(), v = Vec3::Zero(), displacement = Vec3::Zero(), middle = Vec3::Zero();
     const Vec3 pull(3, 0, 0);  // not gravity: friction cannot foresee it
     for (int k = 0; k < 4000; ++k) {
-      stretch += v * s.h;
-      const Vec3 a = pull + friction_force(s, load, stretch, v, 5);
+      displacement += v * s.h;
+      const Vec3 a = pull + friction_force(s, load, displacement, v, 5);
       x += v * s.h + 0.5 * a * s.h * s.h;
       v += a * s.h;
       if (k == 2000) middle = x;
@@ -148,10 +148,10 @@ TEST(ContactLaw, ABodyThatFrictionHoldsDoesNotCreep) {
 
 TEST(ContactLaw, ASlidingBodyStopsAfterTheTextbookDistance) {
   const Stiffness s{300, 1e-3};
-  Vec3 x = Vec3::Zero(), v(2, 1, 0), stretch = Vec3::Zero();
+  Vec3 x = Vec3::Zero(), v(2, 1, 0), displacement = Vec3::Zero();
   for (int k = 0; k < 3000; ++k) {
-    stretch += v * s.h;
-    const Vec3 a = friction_force(s, 1, stretch, v, 4);
+    displacement += v * s.h;
+    const Vec3 a = friction_force(s, 1, displacement, v, 4);
     x += v * s.h + 0.5 * a * s.h * s.h;
     v += a * s.h;
   }

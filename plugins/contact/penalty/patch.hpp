@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Effective masses: how heavy two bodies are to each other where they touch, over a double or a lane of robots.
+// Effective masses of two bodies where they touch, over a double or SIMD lanes of robots.
 #pragma once
 
 #include "symmetric.hpp"
@@ -23,7 +23,7 @@ inline namespace MURO_ISA {
 
 using lane::max;
 
-/// What resists a force on a free body. World axes.
+/// The inverse of the inertia of a free body. World axes.
 template <class S>
 struct Mobility {
   S mass;                ///< inverse, 1/kg
@@ -36,45 +36,46 @@ MURO_INLINE Mobility<S> mobility_of(const MassProperties& mass, const lane::Pose
   const M3<S> axes = base.orientation.matrix();
   const double* const i = mass.inverse_inertia;
   const Symmetric<S> inertia{S(i[0]), S(i[1]), S(i[2]), S(i[3]), S(i[4]), S(i[5])};
-  return {S(mass.inverse_mass), turned(axes, inertia), base.position + axes * lane::splat<S>(mass.com)};
+  return {S(mass.inverse_mass), rotated(axes, inertia), base.position + axes * lane::splat<S>(mass.com)};
 }
 
-/// Mobility of a point: along the normal, and the sum over both directions across it. 1/kg.
+/// Of a point: along the normal, and the sum over both tangential directions. 1/kg.
 template <class S>
-struct Yield {
+struct InverseEffectiveMass {
   S along, across;
-  MURO_INLINE friend Yield operator+(const Yield& a, const Yield& b) {
+  MURO_INLINE friend InverseEffectiveMass operator+(const InverseEffectiveMass& a, const InverseEffectiveMass& b) {
     return {a.along + b.along, a.across + b.across};
   }
 };
 
-/// Stiffness of a body on springs against shifts, and against turns about its centre of mass. World axes.
+/// Stiffness of a body on springs against translation, and against rotation about its centre of mass. World axes.
 template <class S>
-struct Resistance {
-  Symmetric<S> shift = scaled_identity(S(0)), turn = scaled_identity(S(0));
+struct SpringStiffness {
+  Symmetric<S> translation = scaled_identity(S(0)), rotation = scaled_identity(S(0));
 
-  MURO_INLINE void operator+=(const Resistance& b) { shift += b.shift, turn += b.turn; }
-  /// No less than the largest eigenvalue of M^-1 K: of a matrix of two diagonal blocks it is at most the sum of
-  /// theirs, and in a block, which is similar to a symmetric one, at most the root of the trace of its square.
-  MURO_INLINE S greatest(const Mobility<S>& body) const {
-    const V3<S> x = body.inertia * turn.column_x(), y = body.inertia * turn.column_y(),
-                z = body.inertia * turn.column_z();
+  MURO_INLINE void operator+=(const SpringStiffness& b) { translation += b.translation, rotation += b.rotation; }
+  /// A bound of the largest eigenvalue of M^-1 K: that of a matrix of two diagonal blocks is at most the
+  /// sum of theirs, and that of a block, which is similar to a symmetric one, at most the root of the trace of its
+  /// square.
+  MURO_INLINE S max_eigenvalue_bound(const Mobility<S>& body) const {
+    const V3<S> x = body.inertia * rotation.column_x(), y = body.inertia * rotation.column_y(),
+                z = body.inertia * rotation.column_z();
     const S trace = (x.x * x.x + y.y * y.y + z.z * z.z) + S(2) * (x.y * y.x + x.z * z.x + y.z * z.y);
-    return body.mass * shift.norm() + sqrt(max(trace, S(0)));
+    return body.mass * translation.norm() + sqrt(max(trace, S(0)));
   }
 };
 
-/// Contact points of one pair of bodies with one normal: touching is one event, which they share.
+/// A contact patch: the contact points of one pair of bodies with one normal, which act together.
 ///
 /// The points of a patch together act with the effective mass at their middle, 1 / (1/m + (r x n) . I^-1 (r x n)), each
-/// with its part, so that a box that lands flat on four corners rebounds as a ball does.
+/// with an equal part, so that a box that lands flat on four corners rebounds as a ball does.
 template <class S>
 struct Patch {
   V3<S> normal;
-  V3<S> origin;                                  ///< m; a body is asked about from its centre of mass
+  V3<S> origin;                                  ///< m
   double count = 0;                              ///< of points
   V3<S> sum{S(0), S(0), S(0)};                   ///< of the points from the origin
-  Symmetric<S> squares = scaled_identity(S(0));  ///< of the same
+  Symmetric<S> squares = scaled_identity(S(0));  ///< of the products of their coordinates
 
   MURO_INLINE Patch(const V3<S>& normal_of_all, const V3<S>& from) : normal(normal_of_all), origin(from) {}
 
@@ -94,28 +95,28 @@ struct Patch {
     return p;
   }
   /// Of the middle of the points. The origin is the centre of `body`.
-  MURO_INLINE Yield<S> at_middle(const Mobility<S>& body) const {
+  MURO_INLINE InverseEffectiveMass<S> at_middle(const Mobility<S>& body) const {
     const V3<S> r = sum * S(1 / count), lever = cross(r, normal);
     const S along = dot(lever, body.inertia * lever);
     const S all = body.inertia.trace() * dot(r, r) - dot(r, body.inertia * r);
     return {body.mass + along, S(2) * body.mass + all - along};
   }
-  /// What springs in the points do to a body whose centre is the origin, each of stiffness `along` the normal and
+  /// Stiffness of a body whose centre is the origin on springs in the points, each of stiffness `along` the normal and
   /// `across` it.
-  MURO_INLINE Resistance<S> resistance(S along, S across) const {
+  MURO_INLINE SpringStiffness<S> stiffness(S along, S across) const {
     const S more = along - across;
     return {scaled_identity(S(count) * across) + (S(count) * more) * square(normal),
             across * (scaled_identity(squares.trace()) + S(-1) * squares) + more * crossed(normal, squares)};
   }
 };
 
-/// What the points of a patch share: the effective mass of each, kg.
+/// Of each point of a patch, kg.
 template <class S>
-struct Share {
+struct EffectiveMass {
   S along, across, inverse_across;
 
-  Share() = default;
-  MURO_INLINE Share(const Yield<S>& middle, double points)
+  EffectiveMass() = default;
+  MURO_INLINE EffectiveMass(const InverseEffectiveMass<S>& middle, double points)
       : along(S(1) / (middle.along * S(points))),
         across(S(1) / (middle.across * S(0.5 * points))),
         inverse_across(middle.across * S(0.5 * points)) {}

@@ -4,7 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <random>
 
-#include "grip.hpp"
+#include "friction_anchor.hpp"
 #include "patch.hpp"
 
 namespace muro::penalty {
@@ -74,12 +74,12 @@ TEST(Patch, TheGreatestStiffnessBoundsEveryMotion) {
       jacobian << Mat3::Identity(), (Mat3() << 0, r.z(), -r.y(), -r.z(), 0, r.x(), r.y(), -r.x(), 0).finished();
       k += jacobian.transpose() * (0.7 * Mat3::Identity() + (1.9 - 0.7) * n * n.transpose()) * jacobian;
     }
-    const law::Resistance<double> all = patch.seen_from(plain(body.centre)).resistance(1.9, 0.7);
-    EXPECT_LT((matrix_of(all.shift) - k.topLeftCorner(3, 3)).norm(), 1e-12 * k.norm());
-    EXPECT_LT((matrix_of(all.turn) - k.bottomRightCorner(3, 3)).norm(), 1e-12 * k.norm());
+    const law::SpringStiffness<double> all = patch.seen_from(plain(body.centre)).stiffness(1.9, 0.7);
+    EXPECT_LT((matrix_of(all.translation) - k.topLeftCorner(3, 3)).norm(), 1e-12 * k.norm());
+    EXPECT_LT((matrix_of(all.rotation) - k.bottomRightCorner(3, 3)).norm(), 1e-12 * k.norm());
     const double greatest = (inverse * k).eval().eigenvalues().real().maxCoeff();
-    EXPECT_GE(all.greatest(body), greatest);
-    EXPECT_LE(all.greatest(body), 4 * greatest);
+    EXPECT_GE(all.max_eigenvalue_bound(body), greatest);
+    EXPECT_LE(all.max_eigenvalue_bound(body), 4 * greatest);
   }
 }
 
@@ -91,13 +91,13 @@ TEST(Patch, ABoxThatLandsFlatHasItsWholeMass) {
   EXPECT_NEAR(1 / patch.at_middle(box).along, 4, 1e-12);
 }
 
-TEST(Grip, FollowsItsPointWhateverTheOrderOfTheList) {
-  std::vector<Grip> before;
+TEST(FrictionAnchor, FollowsItsPointWhateverTheOrderOfTheList) {
+  std::vector<FrictionAnchor> before;
   for (int k = 0; k < 6; ++k) before.push_back({k < 2 ? 7u : k < 5 ? 8u : 9u, Vec3(k, 0, 0), Vec3(0, 0.1 * k, 0)});
-  EXPECT_EQ(previous(before, 3, 8, {3.01, 0, 0})->stretch.y(), 0.1 * 3);
-  EXPECT_EQ(previous(before, 0, 8, {4.2, 0.1, 0})->stretch.y(), 0.1 * 4);
-  EXPECT_EQ(previous(before, 5, 8, {1.7, 0, 0})->stretch.y(), 0.1 * 2);
-  EXPECT_EQ(previous(before, 40, 9, {0, 0, 0})->stretch.y(), 0.1 * 5);
+  EXPECT_EQ(previous(before, 3, 8, {3.01, 0, 0})->displacement.y(), 0.1 * 3);
+  EXPECT_EQ(previous(before, 0, 8, {4.2, 0.1, 0})->displacement.y(), 0.1 * 4);
+  EXPECT_EQ(previous(before, 5, 8, {1.7, 0, 0})->displacement.y(), 0.1 * 2);
+  EXPECT_EQ(previous(before, 40, 9, {0, 0, 0})->displacement.y(), 0.1 * 5);
   EXPECT_EQ(previous(before, 2, 10, {2, 0, 0}), nullptr);
   EXPECT_EQ(previous({}, 0, 7, {0, 0, 0}), nullptr);
   EXPECT_NE(pair_of(1, 2, 0, 0), pair_of(2, 1, 0, 0));

@@ -5,9 +5,9 @@
 #include <string>
 #include <utility>
 
-#include "meetings.hpp"
 #include "muro/plugin.hpp"
-#include "standings.hpp"
+#include "pair_contacts.hpp"
+#include "scenery_contacts.hpp"
 
 namespace {
 
@@ -26,7 +26,7 @@ constexpr PropertyUse reads[] = {
 };
 constexpr PropertyUse writes[] = {
     {"wrench.external", "of every robot that forces move"},
-    {"contact.grips", "friction springs, of every robot that forces move"},
+    {"contact.friction_anchors", "friction anchors, of every robot that forces move"},
     {"contact.time", "of the last run, on the world object"},
 };
 constexpr Description description{
@@ -47,39 +47,40 @@ class Penalty final : public Algorithm {
     host_ = &c.host();
     bodies_.connect(c);
     last_run_ = c.variable(world_object, last_run, std::int64_t{-1});
-    standings_ = std::make_unique<Standings>(bodies_);
-    meetings_ = std::make_unique<Meetings>(bodies_);
+    scenery_contacts_ = std::make_unique<SceneryContacts>(bodies_);
+    pair_contacts_ = std::make_unique<PairContacts>(bodies_);
   }
-  void start() override { standings_->start(); }
+  void start() override { scenery_contacts_->start(); }
   void restored() override { start(); }
 
-  /// First, block by block, the robots that touch only scenery, which are nearly all. Then those that meet something
-  /// that moves: a few at once, many block by block.
+  /// First, block by block, the robots that touch only scenery, which are nearly all. Then those that touch something
+  /// that moves: in one task if they are few, else block by block.
   std::span<const Phase> phases() const override { return phases_; }
 
   void step(const Step& step, Range range) override {
-    // As stiff as wanted, as far as the step resolves it.
-    const Moment moment{{std::min(omega_, finest_step / step.dt), step.dt},
-                        *last_run_ < 0 ? 0 : 1e-9 * double(step.time - *last_run_)};
-    if (step.phase == 0) return standings_->push(moment, range);
-    if (step.phase > 1) return meet(int(step.phase) - 2, range);
+    // As stiff as wanted, if the step is short enough.
+    const StepContext context{{std::min(omega_, max_phase_step / step.dt), step.dt},
+                              *last_run_ < 0 ? 0 : 1e-9 * double(step.time - *last_run_)};
+    if (step.phase == 0) return scenery_contacts_->apply_forces(context, range);
+    if (step.phase > 1) return process_pairs(int(step.phase) - 2, range);
     *last_run_ = step.time;
-    if (moment.stiffness.omega < omega_) warn(moment.stiffness);
-    constexpr std::size_t few = 12;  // take less time than threads need to share them
-    const std::size_t meet = meetings_->begin(moment, standings_->left());
-    many_meet_ = meet > few ? 1 : 0;
-    for (int pass = 0; pass < Meetings::passes && !many_meet_; ++pass) meetings_->pass(pass);
+    if (context.stiffness.omega < omega_) report(context.stiffness);
+    constexpr std::size_t few = 12;  // take less time than distributing them to threads
+    const std::size_t count = pair_contacts_->begin(context, scenery_contacts_->remaining());
+    many_pairs_ = count > few ? 1 : 0;
+    for (int pass = 0; pass < PairContacts::passes && !many_pairs_; ++pass) pair_contacts_->pass(pass);
   }
 
  private:
-  void meet(int pass, Range block) {
+  void process_pairs(int pass, Range block) {
     for (std::uint32_t number = block.begin; number < block.end; ++number) {
       const std::int32_t robot = bodies_.robot_of[number];
-      if (robot != nobody && standings_->left()[std::size_t(robot)]) meetings_->pass(pass, std::uint32_t(robot));
+      if (robot != no_robot && scenery_contacts_->remaining()[std::size_t(robot)])
+        pair_contacts_->pass(pass, std::uint32_t(robot));
     }
   }
-  void warn(const Stiffness& s) {
-    if (std::exchange(told_, true)) return;
+  void report(const Stiffness& s) {
+    if (std::exchange(reported_, true)) return;
     host_->log(LogLevel::info, "contact.penalty: at a step of " + std::to_string(s.h) + " s, contacts have " +
                                    std::to_string(s.omega / (2 * M_PI)) + " Hz instead of " +
                                    std::to_string(omega_ / (2 * M_PI)) +
@@ -88,14 +89,14 @@ class Penalty final : public Algorithm {
 
   double omega_ = 0;
   Host* host_ = nullptr;
-  bool told_ = false;
+  bool reported_ = false;
   Bodies bodies_;
-  std::unique_ptr<Standings> standings_;
-  std::unique_ptr<Meetings> meetings_;
+  std::unique_ptr<SceneryContacts> scenery_contacts_;
+  std::unique_ptr<PairContacts> pair_contacts_;
   Out<std::int64_t> last_run_;
-  std::uint8_t many_meet_ = 0;
-  const Phase for_many_{.index_space = Phase::IndexSpace::robots, .enabled = &many_meet_};
-  static_assert(Meetings::passes == 4);
+  std::uint8_t many_pairs_ = 0;
+  const Phase for_many_{.index_space = Phase::IndexSpace::robots, .enabled = &many_pairs_};
+  static_assert(PairContacts::passes == 4);
   const Phase phases_[6] = {
       {Phase::IndexSpace::robots, Phase::Scope::own_robot}, {}, for_many_, for_many_, for_many_, for_many_};
 };
@@ -104,5 +105,5 @@ constexpr abi::AlgorithmEntry algorithms[] = {algorithm<Penalty>(description)};
 
 }  // namespace
 
-MURO_PLUGIN(.name = "contact_penalty", .version = "1.0.0", .licence = "MIT", .summary = "Contact forces by penalty",
-            .algorithms = algorithms)
+MURO_PLUGIN(.name = "contact_penalty", .version = description.version, .licence = "MIT",
+            .summary = "Contact forces by penalty", .algorithms = algorithms)

@@ -5,6 +5,7 @@
 
 #include <random>
 
+#include "muro/toolkit/rotations.hpp"
 #include "penalty_testing.hpp"
 
 namespace muro {

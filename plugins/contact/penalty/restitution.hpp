@@ -16,11 +16,11 @@ inline double restitution_of(double zeta) {
 }
 
 /// Critical damping, e = 0.135. More would make a contact sluggish, and asks for shorter steps.
-inline constexpr double greatest_damping_ratio = 1;
+inline constexpr double max_damping_ratio = 1;
 
 /// The damping ratio for a coefficient of restitution from 0 to 1; by bisection, so ask once a material.
 inline double damping_ratio_of(double restitution) {
-  double low = 0, high = greatest_damping_ratio;
+  double low = 0, high = max_damping_ratio;
   if (restitution <= restitution_of(high)) return high;
   for (int i = 0; i < 60; ++i) {
     const double middle = 0.5 * (low + high);

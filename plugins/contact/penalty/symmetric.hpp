@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Symmetric matrices over a double or a lane of robots: inertias and sums of products.
+// Symmetric matrices over a double or SIMD lanes of robots: inertias and sums of products.
 #pragma once
 
 #include "muro/simd/geometry.hpp"
@@ -52,7 +52,7 @@ MURO_INLINE Symmetric<S> mixed(const V3<S>& a, const V3<S>& b) {
 }
 /// r m r^T
 template <class S>
-MURO_INLINE Symmetric<S> turned(const M3<S>& r, const Symmetric<S>& m) {
+MURO_INLINE Symmetric<S> rotated(const M3<S>& r, const Symmetric<S>& m) {
   const V3<S> a = r * m.column_x(), b = r * m.column_y(), c = r * m.column_z();
   return {a.x * r.x.x + b.x * r.y.x + c.x * r.z.x, a.y * r.x.y + b.y * r.y.y + c.y * r.z.y,
           a.z * r.x.z + b.z * r.y.z + c.z * r.z.z, a.x * r.x.y + b.x * r.y.y + c.x * r.z.y,

@@ -2,6 +2,7 @@
 // A four-wheeled vehicle on contact.penalty and motion.simplified.
 #include <gtest/gtest.h>
 
+#include "muro/toolkit/rotations.hpp"
 #include "penalty_testing.hpp"
 
 namespace muro {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Meshes through every collision algorithm that knows them: as their hulls, and as they are.
+// Meshes through every collision algorithm that takes them: as convex hulls, and exact.
+#include "muro/toolkit/rotations.hpp"
 #include "tests/conformance/collision/touching.hpp"
 #include "tests/support/allocation_counter.hpp"
 #include "tests/support/files.hpp"
@@ -7,20 +8,16 @@
 namespace muro {
 namespace {
 
-using test::Touching;
+using test::CollisionScene;
 
-/// What cannot be tested, and why.
-std::string reason_to_skip(const std::string& algorithm) {
-  return test::ability_of(algorithm).meshes ? "" : algorithm + " knows no meshes: it leaves them out with a warning";
+std::vector<std::string> of_meshes(std::vector<std::string> algorithms) {
+  std::erase_if(algorithms, [](const std::string& id) { return !test::accuracy_of(id).meshes; });
+  return algorithms;
 }
 
 struct EveryCollisionOfMeshes : ::testing::TestWithParam<std::string> {
   test::ScratchFolder folder;
 
-  void SetUp() override {
-    const std::string reason = reason_to_skip(GetParam());
-    if (!reason.empty()) GTEST_SKIP() << reason;
-  }
   /// A box with these lengths about its centre.
   std::string box_file(const Vec3& lengths) const {
     std::ostringstream out;
@@ -81,13 +78,13 @@ TEST_P(EveryCollisionOfMeshes, TheHullOfABoxTouchesAsTheBox) {
   for (const auto& [floor, place] : floors) {
     std::vector<Contact> lists[2];
     for (const bool as_mesh : {false, true}) {
-      Touching scene(GetParam());
+      CollisionScene scene(GetParam());
       scene.add_scenery("floor", floor, place);
       const Pose pose = at(0.2, -0.1, 0.5 - 0.01, from_rpy(0, M_PI / 2, 0));
       const RobotView& r = as_mesh ? scene.add_dynamic("robot", mesh_robot(file, {2, 1, 0.5}), pose)
                                    : scene.add_dynamic("robot", Shape::box({2, 2, 1.5}), pose);
       scene.finish_setup();
-      scene.instant();
+      scene.step_once();
       lists[as_mesh] = scene.contacts(r);
     }
     EXPECT_EQ(lists[0].size(), 4u);
@@ -108,12 +105,12 @@ TEST_P(EveryCollisionOfMeshes, ABallInAChannelTouchesItOnlyWhereItIsTakenAsItIs)
   const std::string file = channel_file();
   for (const double height : {0.29, 0.31})
     for (const bool exact : {false, true}) {
-      Touching scene(GetParam());
+      CollisionScene scene(GetParam());
       scene.parameters = {{"meshes", std::string(exact ? "exact" : "convex")}};
       scene.add_scenery("channel", mesh(scene.world(), file), origin);
       const RobotView& r = scene.add_dynamic("ball", Shape::sphere(0.3), at(0.21, 0.07, height));
       scene.finish_setup();
-      scene.instant();
+      scene.step_once();
       const std::vector<Contact> contacts = scene.contacts(r);
       if (!exact) {
         ASSERT_GT(contacts.size(), 0u);
@@ -130,12 +127,12 @@ TEST_P(EveryCollisionOfMeshes, ABallInAChannelTouchesItOnlyWhereItIsTakenAsItIs)
 }
 
 TEST_P(EveryCollisionOfMeshes, ABoxOnAMeshAsItIsRestsOnItsCornersWithEveryNormalUp) {
-  Touching scene(GetParam());
+  CollisionScene scene(GetParam());
   scene.parameters = {{"meshes", std::string("exact")}};
   scene.add_scenery("floor", mesh(scene.world(), floor_file()), origin);
   const RobotView& r = scene.add_dynamic("box", Shape::box({1.1, 0.9, 0.4}), at(0.03, 0.06, 0.2 - 0.01));
   scene.finish_setup();
-  scene.instant();
+  scene.step_once();
   const std::vector<Contact> contacts = scene.contacts(r);
   ASSERT_GE(contacts.size(), 4u);
   EXPECT_LE(contacts.size(), 8u);
@@ -196,11 +193,11 @@ TEST_P(EveryCollisionOfMeshes, TheHullOfABoxMeetsEveryKindAsTheBox) {
   for (const auto& [other, pose] : others) {
     std::vector<Contact> lists[2];
     for (const bool as_mesh : {false, true}) {
-      Touching scene(GetParam());
+      CollisionScene scene(GetParam());
       scene.add_scenery("box", as_mesh ? mesh(scene.world(), file) : Shape::box({1, 1.2, 0.8}), origin);
       const RobotView& r = scene.add_dynamic("robot", other, pose);
       scene.finish_setup();
-      scene.instant();
+      scene.step_once();
       lists[as_mesh] = scene.contacts(r);
     }
     ASSERT_GT(lists[0].size(), 0u) << int(other.kind);
@@ -239,12 +236,9 @@ TEST_P(EveryCollisionOfMeshes, ABallRollsOverTheEdgesOfTrianglesAsOverAPlane) {
   EXPECT_LT((ends[1].position - ends[0].position).norm(), 1e-3);
 }
 
-TEST_P(EveryCollisionOfMeshes, AllocatesNothingOnceWarmWherePromised) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "sanitizers count allocations themselves";
-#endif
-  const std::uint32_t promises = test::plugins().algorithm(GetParam()).description->capabilities;
-  if ((promises & Capability::allocation_free) == 0) GTEST_SKIP() << GetParam() << " does not promise it";
+struct EveryAllocationFreeCollisionOfMeshes : EveryCollisionOfMeshes {};
+
+TEST_P(EveryAllocationFreeCollisionOfMeshes, AllocatesNothingOnceWarm) {
   for (const bool exact : {false, true}) {
     Standing scene;
     const Shape floor = mesh(scene.world(), floor_file());
@@ -261,7 +255,7 @@ TEST_P(EveryCollisionOfMeshes, AllocatesNothingOnceWarmWherePromised) {
 }
 
 TEST_P(EveryCollisionOfMeshes, AMeshThatCannotBeReadIsOneClearMessage) {
-  Touching scene(GetParam());
+  CollisionScene scene(GetParam());
   scene.add_scenery("rock", mesh(scene.world(), folder.path("rock.stl")), origin);
   scene.add_dynamic("ball", Shape::sphere(0.3), origin);
   try {
@@ -274,8 +268,12 @@ TEST_P(EveryCollisionOfMeshes, AMeshThatCannotBeReadIsOneClearMessage) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Conformance, EveryCollisionOfMeshes, ::testing::ValuesIn(test::algorithms_of("collision")),
-                         test::name_of);
+INSTANTIATE_TEST_SUITE_P(Conformance, EveryCollisionOfMeshes,
+                         ::testing::ValuesIn(of_meshes(test::algorithms_of("collision"))), test::name_of);
+INSTANTIATE_TEST_SUITE_P(Conformance, EveryAllocationFreeCollisionOfMeshes,
+                         ::testing::ValuesIn(of_meshes(test::collisions_that_promise(allocation_free))), test::name_of);
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(EveryCollisionOfMeshes);
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(EveryAllocationFreeCollisionOfMeshes);
 
 }  // namespace
 }  // namespace muro

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
 // Pairs of shapes whose contacts have a closed form, seen through every collision algorithm.
+#include "muro/toolkit/rotations.hpp"
 #include "tests/conformance/collision/touching.hpp"
 
 namespace muro {
 namespace {
 
-using test::Ability;
+using test::Accuracy;
 using test::contacts_of;
 using test::deepest;
 
 struct EveryCollision : ::testing::TestWithParam<std::string> {
-  Ability extension = test::ability_of(GetParam());
+  Accuracy extension = test::accuracy_of(GetParam());
 
   /// The deepest of the contacts of `shape` with `scenery`.
   void expect_deepest(const Shape& shape, const Pose& at, const Shape& scenery, const Pose& place, const Vec3& point,

@@ -3,12 +3,14 @@
 // a pair can be parted.
 #include <random>
 
+#include "muro/toolkit/bounds.hpp"
+#include "muro/toolkit/rotations.hpp"
 #include "tests/conformance/collision/touching.hpp"
 
 namespace muro {
 namespace {
 
-using test::Touching;
+using test::CollisionScene;
 
 const ShapeKind kinds[] = {ShapeKind::box, ShapeKind::sphere, ShapeKind::cylinder, ShapeKind::capsule};
 
@@ -70,14 +72,14 @@ std::vector<Pair> pairs_of(ShapeKind a, ShapeKind b, int count, unsigned seed) {
 
 /// The contacts of each pair.
 std::vector<std::vector<Contact>> contacts_of(const std::string& algorithm, const std::vector<Pair>& pairs) {
-  Touching scene(algorithm);
+  CollisionScene scene(algorithm);
   std::vector<const RobotView*> robots;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     scene.add_scenery("s" + std::to_string(i), pairs[i].scenery, pairs[i].place);
     robots.push_back(&scene.add_dynamic("r" + std::to_string(i), pairs[i].robot, pairs[i].at));
   }
   scene.finish_setup();
-  scene.instant();
+  scene.step_once();
   std::vector<std::vector<Contact>> all;
   for (const RobotView* r : robots) all.push_back(scene.contacts(*r));
   return all;
@@ -123,13 +125,13 @@ struct EveryCollisionAtRandom : ::testing::TestWithParam<std::string> {
 
 TEST_P(EveryCollisionAtRandom, AgreesWithNativeOnPairsThatOverlapALittle) {
   for (const ShapeKind a : kinds)
-    for (const ShapeKind b : kinds) expect_agreement(a, b, true, test::ability_of(GetParam()).shallow);
+    for (const ShapeKind b : kinds) expect_agreement(a, b, true, test::accuracy_of(GetParam()).shallow);
   record_worst();
 }
 
 TEST_P(EveryCollisionAtRandom, AgreesWithNativeOnPairsThatOverlapDeeply) {
   for (const ShapeKind a : kinds)
-    for (const ShapeKind b : kinds) expect_agreement(a, b, false, test::ability_of(GetParam()).deep);
+    for (const ShapeKind b : kinds) expect_agreement(a, b, false, test::accuracy_of(GetParam()).deep);
   record_worst();
 }
 

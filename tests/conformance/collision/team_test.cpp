@@ -2,13 +2,14 @@
 // What every collision algorithm owes a team: lists that depend on the poses alone, and on whom contacts belong to.
 #include <random>
 
+#include "muro/toolkit/rotations.hpp"
 #include "tests/conformance/collision/touching.hpp"
 #include "tests/support/allocation_counter.hpp"
 
 namespace muro {
 namespace {
 
-using test::Touching;
+using test::CollisionScene;
 
 struct EveryCollisionOfATeam : ::testing::TestWithParam<std::string> {};
 
@@ -21,12 +22,12 @@ void expect_equal(const Contact& a, const Contact& b) {
 }
 
 /// Robots of all kinds on a field with obstacles, all so near that they touch.
-struct Crowd : Touching {
+struct Crowd : CollisionScene {
   std::vector<const RobotView*> all;  ///< by name
   std::vector<bool> moved_by_forces;
 
   /// `order[i]`: which robot is the i-th that is declared.
-  Crowd(const std::string& collision, const std::vector<int>& order, unsigned threads = 1) : Touching(collision) {
+  Crowd(const std::string& collision, const std::vector<int>& order, unsigned threads = 1) : CollisionScene(collision) {
     all.resize(order.size());
     moved_by_forces.resize(order.size());
     std::mt19937_64 engine(5);
@@ -69,7 +70,7 @@ std::vector<int> in_order(int count) {
 
 TEST_P(EveryCollisionOfATeam, APairOfRobotsStandsInBothListsWithOppositeNormals) {
   Crowd crowd(GetParam(), in_order(24));
-  crowd.instant();
+  crowd.step_once();
   int pairs = 0;
   for (std::size_t i = 0; i < crowd.all.size(); ++i) {
     if (!crowd.moved_by_forces[i]) continue;
@@ -100,8 +101,8 @@ TEST_P(EveryCollisionOfATeam, NeitherOrderOfDeclarationNorNumberOfThreadsChanges
   std::swap(order[3], order[11]);
   Crowd other(GetParam(), order, 3);
   for (int instant = 0; instant < 5; ++instant) {
-    crowd.instant();
-    other.instant();
+    crowd.step_once();
+    other.step_once();
     const std::vector<Contact> ours = crowd.every_contact(), theirs = other.every_contact();
     ASSERT_EQ(ours.size(), theirs.size());
     ASSERT_GT(ours.size(), 50u);
@@ -111,7 +112,7 @@ TEST_P(EveryCollisionOfATeam, NeitherOrderOfDeclarationNorNumberOfThreadsChanges
 
 TEST_P(EveryCollisionOfATeam, ListsAreSortedByOwnAndOtherBodyAndShape) {
   Crowd crowd(GetParam(), in_order(24));
-  crowd.instant();
+  crowd.step_once();
   World& world = crowd.world();
   const auto pair_of = [&](const Contact& c) {  // scenery as declared, then robots by their keys
     const std::int32_t mate = world.robot_of(c.other);
@@ -128,13 +129,13 @@ TEST_P(EveryCollisionOfATeam, ListsAreSortedByOwnAndOtherBodyAndShape) {
 
 TEST_P(EveryCollisionOfATeam, AMotionThatCommandsMoveIsAnObstacleAndHasNoList) {
   for (const bool first : {true, false}) {
-    Touching scene(GetParam());
+    CollisionScene scene(GetParam());
     const Pose beside{{0.95, 0, 0}, Quat::Identity()};
     if (first) scene.add_kinematic("cart", Shape::sphere(0.5), beside);
     const RobotView& r = scene.add_dynamic("ball", Shape::sphere(0.5), {});
     if (!first) scene.add_kinematic("cart", Shape::sphere(0.5), beside);
     scene.finish_setup();
-    scene.instant();
+    scene.step_once();
     const auto contacts = scene.contacts(r);
     ASSERT_EQ(contacts.size(), 1u);
     EXPECT_EQ(contacts[0].other, scene.world().find_robot("cart")->base());
@@ -144,7 +145,7 @@ TEST_P(EveryCollisionOfATeam, AMotionThatCommandsMoveIsAnObstacleAndHasNoList) {
 }
 
 TEST_P(EveryCollisionOfATeam, ListsAPairOnlyWhereTheContactAlgorithmAnswersForIt) {
-  Touching scene(GetParam());
+  CollisionScene scene(GetParam());
   scene.add_ground();
   const Shape ball = Shape::sphere(0.5);
   const RobotView& a = scene.add_dynamic("a", ball, {{0, 0, 0.45}, Quat::Identity()});
@@ -155,7 +156,7 @@ TEST_P(EveryCollisionOfATeam, ListsAPairOnlyWhereTheContactAlgorithmAnswersForIt
   const auto listed = [&](const RobotView& r, std::uint64_t world_a, std::uint64_t world_b) {
     scene.world().value(a.base(), keys::contact_world) = world_a;
     scene.world().value(b.base(), keys::contact_world) = world_b;
-    scene.instant();
+    scene.step_once();
     std::vector<ObjectId> others;
     for (const Contact& c : scene.contacts(r)) others.push_back(c.other);
     return others;
@@ -190,12 +191,9 @@ TEST_P(EveryCollisionOfATeam, GoesOnFromASnapshotToTheSameBits) {
   for (std::size_t i = 0; i < first.size(); ++i) expect_equal(first[i], second[i]);
 }
 
-TEST_P(EveryCollisionOfATeam, AllocatesNothingOnceWarmWherePromised) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "sanitizers count allocations themselves";
-#endif
-  const std::uint32_t promises = test::plugins().algorithm(GetParam()).description->capabilities;
-  if ((promises & Capability::allocation_free) == 0) GTEST_SKIP() << GetParam() << " does not promise it";
+struct EveryAllocationFreeCollision : EveryCollisionOfATeam {};
+
+TEST_P(EveryAllocationFreeCollision, AllocatesNothingOnceWarm) {
   Crowd crowd(GetParam(), in_order(24));
   crowd.run_for(0.2);
   const std::uint64_t before = test::allocations();
@@ -238,6 +236,8 @@ TEST_P(EveryCollisionOfATeam, BoxAndCylinderStandStillOnABox) {
 
 INSTANTIATE_TEST_SUITE_P(Conformance, EveryCollisionOfATeam, ::testing::ValuesIn(test::algorithms_of("collision")),
                          test::name_of);
+INSTANTIATE_TEST_SUITE_P(Conformance, EveryAllocationFreeCollision,
+                         ::testing::ValuesIn(test::collisions_that_promise(allocation_free)), test::name_of);
 
 }  // namespace
 }  // namespace muro

@@ -84,16 +84,16 @@ struct Appender {
 
 /// As many robots as the scalar has values, from number `first` on. Returns a bit for each whose signature has changed.
 template <class S>
-unsigned touch_some(const GroundWork& work, int first) {
-  const int left = work.used - first, used = left < count_of<S> ? left : count_of<S>;
-  Poses robots[count_of<S>];
+unsigned process(const GroundBatch& batch, int first) {
+  const int left = batch.used - first, used = left < count_of<S> ? left : count_of<S>;
+  RobotPoses robots[count_of<S>];
   Places<S, double> signatures;
-  Appender<S> append{.stride = work.contact_stride, .all = lane::first_lanes(used)};
+  Appender<S> append{.stride = batch.contact_stride, .all = lane::first_lanes(used)};
   for (int i = 0; i < count_of<S>; ++i) {
     const int robot = first + (i < used ? i : 0);
-    robots[i] = work.poses[robot];
-    append.first.at[i] = work.contacts[robot];
-    signatures.at[i] = work.signatures[robot];
+    robots[i] = batch.poses[robot];
+    append.first.at[i] = batch.contacts[robot];
+    signatures.at[i] = batch.signatures[robot];
   }
   unsigned changed = 0;
   int word = 0, slot = 0;  // of the present word
@@ -106,33 +106,34 @@ unsigned touch_some(const GroundWork& work, int first) {
     slot = 0;
     ++word;
   };
-  const Solid* const solids_end = work.solids + work.solid_count;
-  for (const Solid *begin = work.solids, *end = begin; begin != solids_end; begin = end) {
-    bool turns = false;
-    for (; end != solids_end && end->body == begin->body; ++end) turns = turns || end->turns();
+  const KernelShape* const shapes_end = batch.shapes + batch.shape_count;
+  for (const KernelShape *begin = batch.shapes, *end = begin; begin != shapes_end; begin = end) {
+    bool needs_orientation = false;
+    for (; end != shapes_end && end->body == begin->body; ++end)
+      needs_orientation = needs_orientation || end->needs_orientation();
     Places<S> poses;
     for (int i = 0; i < count_of<S>; ++i) poses.at[i] = begin->pose.in(robots[i]);
-    const Body<S> body(poses, turns);
-    for (const Ground* plane = work.planes; plane != work.planes + work.plane_count; ++plane)
-      for (const Solid* solid = begin; solid != end; ++solid) {
-        give_plane_points<S>(Standing<S>(*solid, body), *plane, append);
+    const BodyFrame<S> body(poses, needs_orientation);
+    for (const GroundPlane* plane = batch.planes; plane != batch.planes + batch.plane_count; ++plane)
+      for (const KernelShape* shape = begin; shape != end; ++shape) {
+        give_plane_points<S>(ShapeInWorld<S>(*shape, body), *plane, append);
         append.scale *= 256;
-        if (++slot == slots_of_word) end_word();
+        if (++slot == slots_per_word) end_word();
       }
   }
   end_word();
   return changed;
 }
 
-unsigned touch(const GroundWork& work) {
-  return lane::in_lanes(work.used, [&]<class S>(int first, int) { return touch_some<S>(work, first); });
+unsigned find_contacts(const GroundBatch& batch) {
+  return lane::in_lanes(batch.used, [&]<class S>(int first, int) { return process<S>(batch, first); });
 }
 
 }  // namespace
 
 namespace MURO_ISA {
 extern const GroundKernels ground_kernels;
-const GroundKernels ground_kernels{&touch};
+const GroundKernels ground_kernels{&find_contacts};
 }  // namespace MURO_ISA
 
 }  // namespace muro::native

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The points of solids that lie below a plane.
+// The points of shapes that lie below a plane.
 #pragma once
 
-#include "solid.hpp"
+#include "kernel_shape.hpp"
 
 namespace muro::native::lanes {
 inline namespace MURO_ISA {
@@ -11,10 +11,10 @@ inline namespace MURO_ISA {
 template <class S, bool level>
 class Plane {
  public:
-  explicit Plane(const Ground& g) : normal_(lane::splat<S>(g.normal)), origin_(lane::splat<S>(g.origin)) {}
+  explicit Plane(const GroundPlane& g) : normal_(lane::splat<S>(g.normal)), origin_(lane::splat<S>(g.origin)) {}
 
   /// The normal times `s`, added to `v`.
-  MURO_INLINE V3<S> raised(const V3<S>& v, S s) const {
+  MURO_INLINE V3<S> add_normal(const V3<S>& v, S s) const {
     if constexpr (level) return {v.x, v.y, v.z + s};
     return v + s * normal_;
   }
@@ -32,12 +32,12 @@ class Plane {
   const V3<S> normal_, origin_;
 };
 
-/// Gives `sink(mask, point, depth, number)` the points of a solid that may lie below a plane, each point half way
+/// Gives `sink(mask, point, depth, number)` the points of a shape that may lie below a plane, each point half way
 /// between the two surfaces: sphere: its lowest point. box: its corners. capsule: of either end the lowest point.
 /// cylinder: of the rim of either end the lowest point, the highest, and the two between: so one on its side rests on
 /// the ends of its lowest line, one that stands upright on four points of its rim, with all steps between. `number` is
 /// the same for the same point, below 8. The mask says who is below; a call where nobody is may be left out.
-/// `Shape` is Standing<S>, or what has its functions.
+/// `Shape` is ShapeInWorld<S>, or what has its functions.
 template <class S, class Shape, bool level>
 class PlanePoints {
  public:
@@ -46,27 +46,27 @@ class PlanePoints {
 
   template <class Sink>
   MURO_INLINE void give(Sink& sink) const {
-    switch (at_.form()) {
-      case Form::box:
+    switch (at_.kind()) {
+      case KernelShapeKind::box:
         return corners(sink);
-      case Form::sphere:
-        return lowest(plane_.raised(centre_, -S(half_[0])), deep_ + S(half_[0]), 0, sink);
-      case Form::cylinder:
+      case KernelShapeKind::sphere:
+        return lowest(plane_.add_normal(centre_, -S(half_[0])), deep_ + S(half_[0]), 0, sink);
+      case KernelShapeKind::cylinder:
         return rims(sink);
-      case Form::capsule:
+      case KernelShapeKind::capsule:
         return ends(sink);
-      case Form::plane:
-      case Form::mesh:
+      case KernelShapeKind::plane:
+      case KernelShapeKind::mesh:
         return;
     }
   }
 
  private:
-  /// `point` of the solid is `depth` below.
+  /// `point` of the shape is `depth` below.
   template <class Sink>
   MURO_INLINE void lowest(const V3<S>& point, S depth, int number, Sink& sink) const {
     const auto below = depth > S(0);
-    if (any(below)) sink(below, plane_.raised(point, S(0.5) * depth), depth, number);
+    if (any(below)) sink(below, plane_.add_normal(point, S(0.5) * depth), depth, number);
   }
 
   template <class Sink>
@@ -85,7 +85,7 @@ class PlanePoints {
   MURO_INLINE void rims(Sink& sink) const {
     const V3<S> u = at_.axis(2);
     const S slope = plane_.along_normal(u), r(half_[0]), half(half_[2]), rise = half * slope;
-    V3<S> down = plane_.raised(slope * u, S(-1));  // towards the lowest point of a rim
+    V3<S> down = plane_.add_normal(slope * u, S(-1));  // towards the lowest point of a rim
     const S steep = sqrt(dot(down, down)), low = r * steep, middle = deep_ + abs(rise);
     if (!any(middle + low > S(0))) return;
     const auto upright = steep <= S(1e-9);
@@ -113,7 +113,7 @@ class PlanePoints {
     const V3<S> end = S(half_[2]) * at_.axis(2);
     for (int k = 0; k < 2; ++k) {
       const V3<S> centre = k == 0 ? centre_ + end : centre_ - end;
-      lowest(plane_.raised(centre, -S(half_[0])), plane_.depth_of(centre) + S(half_[0]), k, sink);
+      lowest(plane_.add_normal(centre, -S(half_[0])), plane_.depth_of(centre) + S(half_[0]), k, sink);
     }
   }
 
@@ -125,8 +125,8 @@ class PlanePoints {
 };
 
 template <class S, class Shape, class Sink>
-MURO_INLINE void give_plane_points(const Shape& at, const Ground& plane, Sink& sink) {
-  if (plane.level)
+MURO_INLINE void give_plane_points(const Shape& at, const GroundPlane& plane, Sink& sink) {
+  if (plane.is_level)
     PlanePoints<S, Shape, true>(at, Plane<S, true>(plane)).give(sink);
   else
     PlanePoints<S, Shape, false>(at, Plane<S, false>(plane)).give(sink);

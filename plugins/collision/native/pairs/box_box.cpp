@@ -6,7 +6,7 @@
 
 namespace muro::native {
 
-void box_box(const Placed& a, const Placed& b, Manifold& out) {
+void box_box(const TransformedShape& a, const TransformedShape& b, Manifold& out) {
   const Vec3 d = b.centre - a.centre;
   const Mat3 r = a.axes.transpose() * b.axes, size = r.cwiseAbs();
   const Vec3 da = a.axes.transpose() * d;

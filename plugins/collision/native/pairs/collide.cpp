@@ -9,7 +9,7 @@ namespace {
 constexpr int pair_of(ShapeKind a, ShapeKind b) { return int(a) * 8 + int(b); }
 
 /// Kinds in the order of ShapeKind.
-void ordered(const Placed& a, const Placed& b, Manifold& out) {
+void ordered(const TransformedShape& a, const TransformedShape& b, Manifold& out) {
   using enum ShapeKind;
   switch (pair_of(a.kind, b.kind)) {
     case pair_of(box, box):
@@ -41,7 +41,7 @@ void ordered(const Placed& a, const Placed& b, Manifold& out) {
 
 }  // namespace
 
-void collide(const Placed& first, const Placed& second, Manifold& out) {
+void collide_shapes(const TransformedShape& first, const TransformedShape& second, Manifold& out) {
   if (first.kind <= second.kind) {
     ordered(first, second, out);
   } else {

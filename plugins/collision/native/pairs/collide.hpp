@@ -8,28 +8,28 @@
 // equal bits.
 #pragma once
 
-#include "pairs/placed.hpp"
+#include "pairs/kernel_shapes.hpp"
 #include "plugins/common/contact_geometry/manifold.hpp"
 
 namespace muro::native {
 
 /// Any two shapes but meshes; two planes never touch.
-void collide(const Placed& first, const Placed& second, Manifold& out);
+void collide_shapes(const TransformedShape& first, const TransformedShape& second, Manifold& out);
 
 // plane.cpp: any shape but a plane or mesh.
-void solid_plane(const Placed& solid, const Placed& plane, Manifold& out);
+void solid_plane(const TransformedShape& solid, const TransformedShape& plane, Manifold& out);
 
 // round.cpp: pairs whose nearest points have a closed form.
-void sphere_sphere(const Placed& first, const Placed& second, Manifold& out);
-void box_sphere(const Placed& box, const Placed& sphere, Manifold& out);
-void sphere_cylinder(const Placed& sphere, const Placed& cylinder, Manifold& out);
-void sphere_capsule(const Placed& sphere, const Placed& capsule, Manifold& out);
-void capsule_capsule(const Placed& first, const Placed& second, Manifold& out);
+void sphere_sphere(const TransformedShape& first, const TransformedShape& second, Manifold& out);
+void box_sphere(const TransformedShape& box, const TransformedShape& sphere, Manifold& out);
+void sphere_cylinder(const TransformedShape& sphere, const TransformedShape& cylinder, Manifold& out);
+void sphere_capsule(const TransformedShape& sphere, const TransformedShape& capsule, Manifold& out);
+void capsule_capsule(const TransformedShape& first, const TransformedShape& second, Manifold& out);
 
 // box_box.cpp: separating axes and clipping.
-void box_box(const Placed& first, const Placed& second, Manifold& out);
+void box_box(const TransformedShape& first, const TransformedShape& second, Manifold& out);
 
 // convex.cpp: box-cylinder, box-capsule, cylinder-cylinder, cylinder-capsule, in either order.
-void convex_convex(const Placed& first, const Placed& second, Manifold& out);
+void convex_convex(const TransformedShape& first, const TransformedShape& second, Manifold& out);
 
 }  // namespace muro::native

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "pairs/placed.hpp"
+#include "pairs/kernel_shapes.hpp"
 
 namespace muro::native {
 
@@ -14,8 +14,8 @@ namespace muro::native {
 /// convex and homogeneous; the shapes are apart when h(n) + ball <= 0 for some n, and otherwise the least
 /// h(n) + ball over all unit vectors is the penetration depth.
 struct DepthFunction {
-  const Placed &first, &second;  ///< as they were given
-  Vec3 offset;                   ///< m, from the centre of the first to that of the second
+  const TransformedShape &first, &second;  ///< as they were given
+  Vec3 offset;                             ///< m, from the centre of the first to that of the second
   Vec3 axis[4];
   double half[4];
   Vec3 disc[2];  ///< unit, the axis
@@ -24,7 +24,8 @@ struct DepthFunction {
   int segments = 0, discs = 0;
 
   /// Boxes, cylinders and capsules, of which at most one is a box.
-  DepthFunction(const Placed& a, const Placed& b) : first(a), second(b), offset(b.centre - a.centre) {
+  DepthFunction(const TransformedShape& a, const TransformedShape& b)
+      : first(a), second(b), offset(b.centre - a.centre) {
     add(first);
     add(second);
   }
@@ -55,7 +56,7 @@ struct DepthFunction {
     axis[segments] = direction;
     half[segments++] = length;
   }
-  void add(const Placed& shape) {
+  void add(const TransformedShape& shape) {
     switch (shape.kind) {
       case ShapeKind::box:
         for (int k = 0; k < 3; ++k) add_segment(shape.axes.col(k), shape.half[k]);

@@ -17,10 +17,10 @@ void balls(const Vec3& a, double ra, const Vec3& b, double rb, const Vec3& other
 }
 
 /// Where on the axis of a capsule (m from its centre) it is nearest to `p`.
-double nearest_on(const Placed& capsule, const Vec3& p) {
+double nearest_on(const TransformedShape& capsule, const Vec3& p) {
   return std::clamp(capsule.axis().dot(p - capsule.centre), -capsule.half.z(), capsule.half.z());
 }
-Vec3 on_axis(const Placed& capsule, double s) { return capsule.centre + s * capsule.axis(); }
+Vec3 on_axis(const TransformedShape& capsule, double s) { return capsule.centre + s * capsule.axis(); }
 
 /// A ball whose centre lies in a solid, `surface` below its nearest face, which looks along `outward`.
 /// `side`: 1 when the ball is the first shape, -1 when the solid is.
@@ -30,16 +30,16 @@ void ball_inside(const Vec3& centre, double radius, const Vec3& outward, double 
 
 }  // namespace
 
-void sphere_sphere(const Placed& a, const Placed& b, Manifold& out) {
+void sphere_sphere(const TransformedShape& a, const TransformedShape& b, Manifold& out) {
   balls(a.centre, a.radius(), b.centre, b.radius(), Vec3::UnitZ(), out);
 }
 
-void sphere_capsule(const Placed& sphere, const Placed& capsule, Manifold& out) {
+void sphere_capsule(const TransformedShape& sphere, const TransformedShape& capsule, Manifold& out) {
   balls(sphere.centre, sphere.radius(), on_axis(capsule, nearest_on(capsule, sphere.centre)), capsule.radius(),
         capsule.axes.col(0), out);
 }
 
-void box_sphere(const Placed& box, const Placed& sphere, Manifold& out) {
+void box_sphere(const TransformedShape& box, const TransformedShape& sphere, Manifold& out) {
   const Vec3 c = box.axes.transpose() * (sphere.centre - box.centre);
   const Vec3 nearest = c.cwiseMin(box.half).cwiseMax(-box.half);
   const Vec3 gap = nearest - c;
@@ -56,7 +56,7 @@ void box_sphere(const Placed& box, const Placed& sphere, Manifold& out) {
   ball_inside(sphere.centre, r, box.axes.col(face) * (c[face] < 0 ? -1.0 : 1.0), surface, -1, out);
 }
 
-void sphere_cylinder(const Placed& sphere, const Placed& cylinder, Manifold& out) {
+void sphere_cylinder(const TransformedShape& sphere, const TransformedShape& cylinder, Manifold& out) {
   const Vec3 u = cylinder.axis(), to = sphere.centre - cylinder.centre;
   const double along = u.dot(to), r = sphere.radius();
   const Vec3 radial = to - along * u;
@@ -80,7 +80,7 @@ void sphere_cylinder(const Placed& sphere, const Placed& cylinder, Manifold& out
 
 /// Nearest points of two segments: Ericson, Real-Time Collision Detection, 5.1.9, for segments about centres.
 /// Nearly parallel ones overlap in a stretch, whose two ends make the manifold.
-void capsule_capsule(const Placed& a, const Placed& b, Manifold& out) {
+void capsule_capsule(const TransformedShape& a, const TransformedShape& b, Manifold& out) {
   const Vec3 u = a.axis(), v = b.axis(), d = b.centre - a.centre, cross = u.cross(v);
   const double la = a.half.z(), lb = b.half.z(), c = u.dot(v), du = d.dot(u), dv = d.dot(v);
   const double sine2 = cross.squaredNorm();

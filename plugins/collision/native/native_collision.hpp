@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lanes/ground.hpp"
+#include "pairs/kernel_shapes.hpp"
+#include "plugins/common/contact_geometry/pair_collision.hpp"
+#include "plugins/common/contact_geometry/robot_group.hpp"
+
+namespace muro::native {
+
+/// Collision detection of primitive shapes with a narrow phase of its own. Robots that can touch nothing but the planes
+/// of the scenery are processed by a SIMD kernel, eight of a group at once, the others pair by pair. Both give the same
+/// bits where both could be used.
+class NativeCollision final : public PairCollision {
+ public:
+  void connect(Connector& c) override;
+  void start() override;
+
+ private:
+  /// What the ground kernel needs of a robot.
+  struct GroundRobot {
+    RobotPoses poses;             ///< of its bodies with shapes
+    double* signature = nullptr;  ///< which points of its list's contacts touch; see GroundBatch
+  };
+  struct Batch;
+
+  TransformedShape placed(std::uint32_t collider) const override;
+  void collide(const PlacedCollider& a, const PlacedCollider& b, std::vector<ContactPoint>& points) override;
+  void list_contacts(Range robots) override;
+
+  void add_kernel_shapes();
+  void group_robots();
+  void allocate_signatures();
+  bool touches_only_ground(std::uint32_t robot);
+  bool list_by_pairs(std::uint32_t robot);
+  void find_ground_contacts(Batch& batch) const;
+  void list_ground_contacts(std::uint32_t robot) const;
+  std::size_t signature_size(std::uint32_t robot) const;
+
+  const GroundKernels* kernels_ = nullptr;
+  std::vector<GroundRobot> ground_robots_;                    ///< by robot number
+  std::vector<GroundPlane> ground_planes_;                    ///< as planes_
+  std::vector<RobotGroup<std::vector<KernelShape>>> groups_;  ///< of robots that have a list
+  std::vector<KernelShape> shapes_;                           ///< by collider
+  std::vector<double> signatures_;
+};
+
+}  // namespace muro::native

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lanes/kernel_shape.hpp"
+#include "plugins/common/contact_geometry/transformed_shape.hpp"
+
+namespace muro::native {
+
+using namespace contact_geometry;
+using contact_geometry::transformed;
+
+/// The shape as plain numbers, on body number `body` of its robot.
+KernelShape kernel_shape_of(const Shape& shape, std::uint32_t body = 0);
+/// The shape whose body is at `body`, with the bits that kernels compute.
+TransformedShape transformed(const KernelShape& shape, const Pose& body);
+GroundPlane ground_plane_of(const TransformedShape& plane);
+
+}  // namespace muro::native

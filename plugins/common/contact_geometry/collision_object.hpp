@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "exact_mesh.hpp"
+#include "feature.hpp"
+#include "plugins/common/mesh/hull.hpp"
+
+namespace muro::contact_geometry {
+
+/// A shape as collision engines take it, in its own frame: a primitive, the convex hull of a mesh, or an exact mesh.
+struct CollisionGeometry {
+  Shape shape;                            ///< its origin is not used
+  const mesh::Hull* hull = nullptr;       ///< of a mesh that collides as its convex hull
+  const ExactMesh* exact_mesh = nullptr;  ///< of a mesh that collides triangle by triangle
+  Aabb box;                               ///< m, bounds of a mesh
+  bool is_plane() const { return shape.kind == ShapeKind::plane; }
+};
+
+/// A geometry at a pose.
+struct CollisionObject {
+  const CollisionGeometry* geometry = nullptr;
+  Pose pose;
+  TransformedShape shape;  ///< at the pose; of a mesh: its bounding box
+};
+
+CollisionObject collision_object(const CollisionGeometry& geometry, const Pose& pose);
+
+/// Like feature_towards() of a TransformedShape. A hull gives the face that looks most along the direction, with at
+/// most four of its corners; a plane a square, `reach` (m) in all directions from its point nearest to `centre`. Not
+/// for exact meshes.
+Feature feature_towards(const CollisionObject& object, const Vec3& direction, const Vec3& centre, double reach);
+
+/// A support point (m, world): a point of a convex geometry that lies farthest along `direction` (unit). Not of planes.
+Vec3 support_point(const CollisionObject& object, const Vec3& direction);
+
+/// Distance (m) of a point from the surface, negative inside; of a hull: from the planes of its faces. Not for exact
+/// meshes.
+double signed_distance(const CollisionObject& object, const Vec3& point);
+
+/// Radius (m) of a ball about the origin of the geometry's frame that holds it; 0 for a plane.
+double bounding_radius(const CollisionGeometry& geometry);
+
+}  // namespace muro::contact_geometry

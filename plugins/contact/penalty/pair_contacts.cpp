@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: MIT
+#include "pair_contacts.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+namespace muro::penalty {
+namespace {
+
+lane::V3<double> plain(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+Vec3 vector_of(const lane::V3<double>& v) { return {v.x, v.y, v.z}; }
+
+/// Velocity of a point of a body, m/s.
+Vec3 velocity(const Body& body, const Vec3& point) {
+  return body.twist ? body.twist->at(point - body.pose->position) : Vec3::Zero();
+}
+
+}  // namespace
+
+std::size_t PairContacts::begin(const StepContext& context, const std::vector<std::uint8_t>& flags) {
+  context_ = context;
+  flags_ = &flags;
+  robots_.clear();
+  const std::uint8_t *const begin = flags.data(), *const end = begin + flags.size();
+  for (auto at = begin; at != end; ++at) {
+    at = static_cast<const std::uint8_t*>(std::memchr(at, 1, std::size_t(end - at)));
+    if (!at) break;
+    const auto robot = std::uint32_t(at - begin);
+    record_of_[robot] = std::uint32_t(robots_.size());
+    robots_.push_back(robot);
+  }
+  if (records_.size() < robots_.size()) add_records();
+  return robots_.size();
+}
+
+/// With capacity for what most robots need.
+void PairContacts::add_records() {
+  const std::size_t known = records_.size();
+  records_.resize(2 * robots_.size());
+  for (auto r = records_.begin() + std::ptrdiff_t(known); r != records_.end(); ++r) {
+    r->patches.reserve(8);
+    r->patch_of.reserve(32);
+    r->owners.reserve(8);
+    r->old_anchors.reserve(32);
+  }
+}
+
+void PairContacts::pass(int which, std::uint32_t robot) {
+  switch (which) {
+    case 0:
+      set_up(robot);
+      return find_patches(robot);
+    case 1:
+      return find_load(robot);
+    case 2:
+      return apply_forces(robot);
+    case 3:
+      return add_reactions(robot);
+  }
+}
+
+void PairContacts::set_up(std::uint32_t self) {
+  const Robot& robot = bodies_.robots[self];
+  Record& me = record(self);
+  me.first_body = robot.first_body;
+  me.mobilities.clear();
+  me.springs.assign(robot.body_count, {});
+  for (std::uint32_t u = robot.first_body; u < robot.first_body + robot.body_count; ++u) {
+    const DynamicBody& body = bodies_.dynamic_bodies[u];
+    const Vec3& p = body.pose->position;
+    const Quat& q = body.pose->orientation;
+    me.mobilities.push_back(
+        law::mobility_of<double>(bodies_.masses[body.mass], {{p.x(), p.y(), p.z()}, {q.x(), q.y(), q.z(), q.w()}}));
+  }
+}
+
+/// Whether robot `self` computes the contact: both robots of a pair list it.
+bool PairContacts::computes(std::uint32_t self, std::int32_t other) const {
+  if (other == no_robot) return true;
+  const std::uint64_t mine = bodies_.robots[self].order_key, theirs = bodies_.robots[std::size_t(other)].order_key;
+  return mine != theirs ? mine < theirs : self < std::uint32_t(other);
+}
+
+/// Sorts the contacts of a robot into patches.
+void PairContacts::find_patches(std::uint32_t self) {
+  Record& me = record(self);
+  me.patches.clear();
+  me.patch_of.clear();
+  me.owners.clear();
+  for (const Contact& contact : *bodies_.robots[self].contacts) {
+    std::int32_t other_robot = bodies_.dynamic_robot_of(bodies_[contact.other]);
+    if (!contact_algorithm_resolves(*bodies_.robots[self].world, bodies_.world_of(other_robot))) {
+      me.patch_of.push_back(not_computed);
+      continue;
+    }
+    // Nothing is computed for robots that list nothing: a shadow's partner, and one handed over after the collision
+    // step.
+    const bool takes_part = other_robot != no_robot && (*flags_)[std::size_t(other_robot)] != 0;
+    if (bodies_.robots[self].is_shadow || !takes_part) other_robot = no_robot;
+    if (!computes(self, other_robot)) {
+      me.patch_of.push_back(not_computed);
+      const auto owner = std::uint32_t(other_robot);
+      if (std::find(me.owners.begin(), me.owners.end(), owner) == me.owners.end()) me.owners.push_back(owner);
+      continue;
+    }
+    me.patch_of.push_back(add_to_patch(me, contact, other_robot));
+  }
+  std::sort(me.owners.begin(), me.owners.end(),
+            [this](std::uint32_t a, std::uint32_t b) { return computes(a, std::int32_t(b)); });
+}
+
+/// Returns the number of the patch.
+std::uint32_t PairContacts::add_to_patch(Record& me, const Contact& contact, std::int32_t other_robot) const {
+  const V3 normal = plain(contact.normal);
+  const std::uint32_t body = bodies_[contact.self].dynamic_body;
+  const Body& other = bodies_[contact.other];
+  auto found = std::find_if(me.patches.begin(), me.patches.end(), [&](const ContactPatch& p) {
+    return p.body == body && p.model == other.model &&
+           (other_robot == no_robot || p.other_body == other.dynamic_body) &&
+           dot(p.patch.normal, normal) > same_direction;
+  });
+  if (found == me.patches.end()) {
+    const Patch patch(normal, me.mobilities[body - me.first_body].centre);
+    me.patches.push_back(
+        {.patch = patch, .body = body, .other = other_robot, .other_body = other.dynamic_body, .model = other.model});
+    found = me.patches.end() - 1;
+  }
+  found->patch.add(plain(contact.point));
+  return std::uint32_t(found - me.patches.begin());
+}
+
+/// The effective mass of a patch, divided among its points.
+law::EffectiveMass<double> PairContacts::effective_mass_of(const Mobility& self, const ContactPatch& p) const {
+  const law::InverseEffectiveMass<double> middle = p.patch.at_middle(self);
+  if (p.other == no_robot) return {middle, p.patch.count};
+  const Mobility& other = mobility(p.other, p.other_body);
+  return {middle + p.patch.seen_from(other.centre).at_middle(other), p.patch.count};
+}
+
+/// Adds up the springs of all patches of a robot, its own and those that others compute. The load of several
+/// dynamic bodies is at most the sum of theirs.
+void PairContacts::find_load(std::uint32_t self) {
+  Record& me = record(self);
+  for (ContactPatch& p : me.patches) {
+    const std::uint32_t body = p.body - me.first_body;
+    p.effective_mass = effective_mass_of(me.mobilities[body], p);
+    me.springs[body] += p.patch.stiffness(p.effective_mass.along, p.effective_mass.across);
+  }
+  for (const std::uint32_t owner : me.owners)
+    for (const ContactPatch& p : record(owner).patches)
+      if (p.other == std::int32_t(self)) {
+        const law::EffectiveMass<double> mass = effective_mass_of(mobility(std::int32_t(owner), p.body), p);
+        const std::uint32_t body = p.other_body - me.first_body;
+        me.springs[body] += p.patch.seen_from(me.mobilities[body].centre).stiffness(mass.along, mass.across);
+      }
+  me.load = me.springs[0].max_eigenvalue_bound(me.mobilities[0]);
+  for (std::size_t u = 1; u < me.springs.size(); ++u) me.load += me.springs[u].max_eigenvalue_bound(me.mobilities[u]);
+}
+
+/// Forces in the contacts that a robot computes.
+void PairContacts::apply_forces(std::uint32_t self) {
+  Record& me = record(self);
+  const Robot& robot = bodies_.robots[self];
+  const auto old = *robot.anchors;
+  me.old_anchors.assign(old.begin(), old.end());
+  robot.anchors.clear();
+  bodies_.clear_wrenches(self);
+  std::size_t computed = 0;
+  const std::uint32_t* patch_of = me.patch_of.data();
+  for (const Contact& contact : *robot.contacts) {
+    const std::uint32_t number = *patch_of++;
+    if (number == not_computed) continue;
+    ContactPatch& patch = me.patches[number];
+    if (contact.restitution != patch.restitution) set_up_laws(me, patch, contact.restitution);
+    const std::uint64_t pair = bodies_.pair_of(contact);
+    const FrictionAnchor* const before = previous(me.old_anchors, computed++, pair, contact.point);
+    FrictionAnchor anchor{pair, contact.point, before ? before->displacement : Vec3::Zero()};
+    const Vec3 force = force_on_self(robot, patch, contact, anchor.displacement);
+    robot.anchors.push_back(anchor);
+    const DynamicBody& body = bodies_.dynamic_bodies[patch.body];
+    body.wrench->add_force(force, contact.point - body.pose->position);
+    if (patch.other != no_robot) apply_reaction(self, patch, force, contact.point, before);
+  }
+}
+
+/// A patch rarely has more than one restitution.
+void PairContacts::set_up_laws(const Record& self, ContactPatch& p, double restitution) const {
+  const double load = self.load + (p.other == no_robot ? 0 : record(std::uint32_t(p.other)).load);
+  p.restitution = restitution;
+  p.normal.emplace(context_.stiffness, bodies_.materials[bodies_.material_of(restitution)].damping_ratio, load);
+  p.friction.emplace(context_.stiffness, load);
+}
+
+/// `displacement`: tangential, of the friction anchor; updated.
+Vec3 PairContacts::force_on_self(const Robot& self, const ContactPatch& patch, const Contact& contact,
+                                 Vec3& displacement) const {
+  const Vec3& n = contact.normal;
+  const Vec3 of_self = velocity(bodies_[contact.self], contact.point);
+  const Vec3 of_other = velocity(bodies_[contact.other], contact.point);
+  const Vec3 motion = of_self - of_other;
+  const double approach = -motion.dot(n);
+  const Vec3 slip = motion + approach * n;
+  // The depth at the time of the twists, where poses are ahead of them.
+  double depth = contact.depth;
+  const double lag = *self.lag, other_lag = patch.other == no_robot ? 0 : *bodies_.robots[std::size_t(patch.other)].lag;
+  if (lag != 0 || other_lag != 0) depth += context_.stiffness.h * n.dot(lag * of_self - other_lag * of_other);
+  const double normal = patch.effective_mass.along * patch.normal->force(depth, approach);
+  displacement += slip * context_.elapsed;
+  displacement -= n * n.dot(displacement);
+  V3 spring = plain(displacement);
+  const V3 across =
+      patch.friction->force(spring, plain(slip), contact.friction * normal * patch.effective_mass.inverse_across);
+  displacement = vector_of(spring);
+  return normal * n + patch.effective_mass.across * vector_of(across);
+}
+
+Vec3 PairContacts::centre_velocity(std::int32_t robot, std::uint32_t body) const {
+  const DynamicBody& u = bodies_.dynamic_bodies[body];
+  return u.twist->at(vector_of(mobility(robot, body).centre) - u.pose->position);
+}
+
+/// The force of a contact on the other robot. Levers are those that both have when the force acts, in the middle of the
+/// step where poses and twists are of one instant, and at its start where twists lag by half a step: so the pair keeps
+/// its angular momentum.
+void PairContacts::apply_reaction(std::uint32_t self, ContactPatch& patch, const Vec3& force, const Vec3& point,
+                                  const FrictionAnchor* before) const {
+  const DynamicBody& own = bodies_.dynamic_bodies[patch.body];
+  const DynamicBody& other = bodies_.dynamic_bodies[patch.other_body];
+  patch.reaction.add_force(-force, point - other.pose->position);
+  const Vec3 v = centre_velocity(std::int32_t(self), patch.body), u = centre_velocity(patch.other, patch.other_body);
+  Vec3 point_velocity = 0.5 * (v + u);  // velocity of the point, which belongs to no body
+  if (before && context_.elapsed > 0) {
+    const Vec3 seen = (point - before->point) / context_.elapsed;
+    if ((seen - point_velocity).norm() <= (v - u).norm()) point_velocity = seen;  // else it is another point
+  }
+  const double half = 0.5 * context_.stiffness.h;
+  const double lag = *bodies_.robots[self].lag, other_lag = *bodies_.robots[std::size_t(patch.other)].lag;
+  own.wrench->torque += (half * (point_velocity - (1 - 2 * lag) * v)).cross(force);
+  patch.reaction.torque -= (half * (point_velocity - (1 - 2 * other_lag) * u)).cross(force);
+}
+
+void PairContacts::add_reactions(std::uint32_t self) {
+  for (const std::uint32_t owner : record(self).owners)
+    for (const ContactPatch& p : record(owner).patches)
+      if (p.other == std::int32_t(self)) *bodies_.dynamic_bodies[p.other_body].wrench += p.reaction;
+}
+
+}  // namespace muro::penalty

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// Contacts between moving bodies: of robots that touch each other, or robots that no force moves.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "bodies.hpp"
+
+namespace muro::penalty {
+
+/// Each robot is processed in four passes, which read the results of earlier passes for other robots. A pass writes
+/// only the data of its robot, so threads may share the robots.
+class PairContacts {
+ public:
+  explicit PairContacts(const Bodies& bodies) : bodies_(bodies), record_of_(bodies.robots.size()) {}
+
+  /// Starts a step with the robots (of Bodies::robots) whose flag is set; who touches one of them and is moved by
+  /// forces has its flag set too. Returns their number.
+  std::size_t begin(const StepContext& context, const std::vector<std::uint8_t>& flags);
+
+  static constexpr int passes = 4;
+  /// `which`: 0 to 3, in this order. `robot`: one of those that begin() took.
+  void pass(int which, std::uint32_t robot);
+  /// The same for all of them.
+  void pass(int which) {
+    for (const std::uint32_t r : robots_) pass(which, r);
+  }
+
+ private:
+  using V3 = lane::V3<double>;
+  using Mobility = law::Mobility<double>;
+  using Patch = law::Patch<double>;
+
+  static constexpr std::uint32_t not_computed = 0xffffffffu;
+
+  /// A contact patch between a dynamic body of a robot and something else.
+  struct ContactPatch {
+    Patch patch;                   ///< from the centre of the body
+    std::uint32_t body;            ///< of the robot, in Bodies::dynamic_bodies
+    std::int32_t other;            ///< in Bodies::robots, or no_robot
+    std::uint32_t other_body = 0;  ///< in Bodies::dynamic_bodies, of a robot
+    std::uint32_t model;           ///< of the other
+    law::EffectiveMass<double> effective_mass{};
+    double restitution = -1;  ///< that `normal` is for
+    std::optional<law::NormalLaw<double>> normal{};
+    std::optional<law::FrictionLaw<double>> friction{};
+    Wrench reaction{};  ///< on the other's body
+  };
+  /// A robot in the present step.
+  struct Record {
+    std::uint32_t first_body = 0;
+    std::vector<Mobility> mobilities;                   ///< of its bodies
+    std::vector<law::SpringStiffness<double>> springs;  ///< that hold them
+    std::vector<ContactPatch> patches;                  ///< of the contacts that it computes
+    std::vector<std::uint32_t> patch_of;                ///< of each contact: in `patches`, or not_computed
+    std::vector<std::uint32_t> owners;                  ///< robots that compute its other contacts, by order key
+    std::vector<FrictionAnchor> old_anchors;
+    double load = 0;  ///< its stiffest motion, in units of omega^2
+  };
+
+  void add_records();
+  void set_up(std::uint32_t self);
+  void find_patches(std::uint32_t self);
+  std::uint32_t add_to_patch(Record& me, const Contact& contact, std::int32_t other_robot) const;
+  void find_load(std::uint32_t self);
+  void apply_forces(std::uint32_t self);
+  void add_reactions(std::uint32_t self);
+
+  bool computes(std::uint32_t self, std::int32_t other) const;
+  const Mobility& mobility(std::int32_t robot, std::uint32_t body) const {
+    const Record& r = record(std::uint32_t(robot));
+    return r.mobilities[body - r.first_body];
+  }
+  law::EffectiveMass<double> effective_mass_of(const Mobility& self, const ContactPatch& p) const;
+  void set_up_laws(const Record& self, ContactPatch& p, double restitution) const;
+  Vec3 force_on_self(const Robot& self, const ContactPatch& patch, const Contact& contact, Vec3& displacement) const;
+  void apply_reaction(std::uint32_t self, ContactPatch& patch, const Vec3& force, const Vec3& point,
+                      const FrictionAnchor* before) const;
+  Vec3 centre_velocity(std::int32_t robot, std::uint32_t body) const;
+  Record& record(std::uint32_t robot) { return records_[record_of_[robot]]; }
+  const Record& record(std::uint32_t robot) const { return records_[record_of_[robot]]; }
+
+  const Bodies& bodies_;
+  StepContext context_;
+  const std::vector<std::uint8_t>* flags_ = nullptr;  ///< of this step, see begin()
+  std::vector<std::uint32_t> robots_;                 ///< of this step
+  std::vector<std::uint32_t> record_of_;              ///< by robot: in records_, of those of this step
+  std::vector<Record> records_;                       ///< at least one for each robot of this step
+};
+
+}  // namespace muro::penalty

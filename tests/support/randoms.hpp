@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <random>
+
+#include "muro/shape.hpp"
+
+namespace muro::test {
+
+/// Random numbers, rotations and shapes, the same for the same seed.
+class Randoms {
+ public:
+  explicit Randoms(unsigned seed) : engine_(seed) {}
+  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
+  int below(int n) { return std::uniform_int_distribution<int>(0, n - 1)(engine_); }
+  Vec3 direction() {
+    std::normal_distribution<double> g;
+    for (;;) {
+      const Vec3 v(g(engine_), g(engine_), g(engine_));
+      if (v.norm() > 1e-3) return v.normalized();
+    }
+  }
+  Quat rotation() {
+    std::normal_distribution<double> g;
+    return Quat(Eigen::Quaterniond(g(engine_), g(engine_), g(engine_), g(engine_)).normalized());
+  }
+  /// One of the 24 rotations that map the axes on each other.
+  Quat right_angles() {
+    Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
+    for (const int axis : {0, 1, 2, 0}) q = q * Eigen::AngleAxisd(below(4) * M_PI / 2, Vec3::Unit(axis));
+    Mat3 m = q.toRotationMatrix().unaryExpr([](double x) { return std::round(x); });
+    return Quat(m);
+  }
+  /// 0.05 to 2 m, all scales alike.
+  double length() { return 0.05 * std::pow(40.0, uniform(0, 1)); }
+  Shape shape(ShapeKind kind) {
+    switch (kind) {
+      case ShapeKind::box:
+        return Shape::box({length(), length(), length()});
+      case ShapeKind::sphere:
+        return Shape::sphere(0.5 * length());
+      case ShapeKind::cylinder:
+        return Shape::cylinder(0.5 * length(), length());
+      case ShapeKind::capsule:
+        return Shape::capsule(0.5 * length(), length());
+      default:
+        return Shape::plane();
+    }
+  }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+}  // namespace muro::test
