@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "core/simulation.hpp"
+#include "muro/toolkit/rotations.hpp"
 #include "muro/vocabulary.hpp"
 
 namespace {

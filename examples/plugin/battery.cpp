@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The charge of a robot's battery while it drives: idle power and rolling resistance.
 #include <algorithm>
-#include <vector>
 
 #include "muro/plugin.hpp"
+#include "muro/toolkit/per_robot.hpp"
 
 namespace {
 
@@ -33,42 +33,42 @@ constexpr Description description{
     .capabilities = deterministic | batched | allocation_free | restorable,
 };
 
-class Battery final : public Algorithm {
- public:
-  void connect(Connector& c) override {
-    const Parameters& p = c.parameters();
-    idle_power_ = p.real("idle_power");
-    drag_per_mass_ = p.real("rolling_resistance") * standard_gravity / p.real("efficiency");
-    for (const Item& item : c.items()) {
-      double mass = 0;
-      for (const Link& frame : item.robot->links)
-        if (const auto inertia = c.constant(frame.object, keys::inertial)) mass += inertia->mass;
-      if (mass == 0)
-        throw Error("robot " + std::string(item.robot->name) +
-                    " has no mass; give its links an <inertial> in the model");
-      const ObjectId base = item.robot->base();
-      cells_.push_back({c.read(base, keys::twist), c.variable(base, energy, p.real("capacity")),
-                        c.variable(base, power, idle_power_), mass});
-    }
-  }
+/// What is kept of a robot.
+struct RobotBattery {
+  In<Twist> twist;
+  Out<double> energy;
+  Out<double> power;
+  double mass = 0;  ///< kg, of the robot
+};
 
+class Battery final : public PerRobotAlgorithm<RobotBattery> {
+ public:
   /// P = P_idle + c_rr m g |v| / efficiency (rolling resistance on level ground), paid for the period that just ended.
   void step(const Step& step, Range range) override {
-    for (std::uint32_t i = range.begin; i < range.end; ++i) {
-      const Cell& cell = cells_[i];
-      *cell.power = idle_power_ + drag_per_mass_ * cell.mass * cell.twist->linear.norm();
-      if (step.index > 0) *cell.energy = std::max(0.0, *cell.energy - *cell.power * step.dt);
+    for (const RobotBattery& battery : robots(range)) {
+      *battery.power = idle_power_ + drag_per_mass_ * battery.mass * battery.twist->linear.norm();
+      if (step.index > 0) *battery.energy = std::max(0.0, *battery.energy - *battery.power * step.dt);
     }
   }
 
  private:
-  struct Cell {
-    In<Twist> twist;
-    Out<double> energy;
-    Out<double> power;
-    double mass;  ///< kg
-  };
-  std::vector<Cell> cells_;
+  void read_parameters(const Parameters& p) override {
+    capacity_ = p.real("capacity");
+    idle_power_ = p.real("idle_power");
+    drag_per_mass_ = p.real("rolling_resistance") * standard_gravity / p.real("efficiency");
+  }
+
+  RobotBattery connect_robot(Connector& c, const Item& item) override {
+    double mass = 0;
+    for (const Link& link : item.robot->links)
+      if (const auto inertia = c.constant(link.object, keys::inertial)) mass += inertia->mass;
+    if (mass == 0)
+      throw Error("robot " + std::string(item.robot->name) + " has no mass; give its links an <inertial> in the model");
+    const ObjectId base = item.robot->base();
+    return {c.read(base, keys::twist), c.variable(base, energy, capacity_), c.variable(base, power, idle_power_), mass};
+  }
+
+  double capacity_ = 0;       ///< J
   double idle_power_ = 0;     ///< W
   double drag_per_mass_ = 0;  ///< m/s^2
 };
@@ -77,5 +77,5 @@ constexpr abi::AlgorithmEntry algorithms[] = {algorithm<Battery>(description)};
 
 }  // namespace
 
-MURO_PLUGIN(.name = "sensor_battery", .version = "1.0.0", .licence = "MIT", .summary = "A battery",
+MURO_PLUGIN(.name = "sensor_battery", .version = description.version, .licence = "MIT", .summary = "A battery",
             .algorithms = algorithms)

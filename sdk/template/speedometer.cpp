@@ -32,7 +32,8 @@ constexpr Description description{
 
 class Speedometer final : public Algorithm {
  public:
-  // Once: take the parameters, bind every property of every item.
+  // Once: take the parameters, bind every property of every item. (Where each item is a robot as a whole, the base
+  // PerRobotAlgorithm of muro/toolkit/per_robot.hpp has this loop; examples/plugin uses it.)
   void connect(Connector& c) override {
     time_constant_ = c.parameters().real("time_constant");
     for (const Item& item : c.items())
@@ -45,16 +46,17 @@ class Speedometer final : public Algorithm {
   // y(t + dt) = v + (y(t) - v) exp(-dt / T). The first run only sees the start.
   void step(const Step& step, Range range) override {
     if (step.index == 0) return;
-    const double kept = std::exp(-step.dt / time_constant_);
+    const double decay = std::exp(-step.dt / time_constant_);
     for (std::uint32_t i = range.begin; i < range.end; ++i) {
       const Needle& needle = needles_[i];
       const double v = needle.twist->linear.norm();
-      *needle.speed = v + (*needle.speed - v) * kept;
+      *needle.speed = v + (*needle.speed - v) * decay;
     }
   }
 
  private:
-  // Handles and parameters. The state, the needle's place, is a property: so it is saved, restored, recorded.
+  // Handles and parameters. The state, the speed that the needle shows, is a property: so it is saved, restored,
+  // recorded.
   struct Needle {
     In<Twist> twist;
     Out<double> speed;
@@ -67,5 +69,5 @@ constexpr abi::AlgorithmEntry algorithms[] = {algorithm<Speedometer>(description
 
 }  // namespace
 
-MURO_PLUGIN(.name = "sensor_speedometer", .version = "1.0.0", .licence = "MIT", .summary = "A speedometer",
+MURO_PLUGIN(.name = "sensor_speedometer", .version = description.version, .licence = "MIT", .summary = "A speedometer",
             .algorithms = algorithms)

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <numbers>
 
-#include "plugins/common/wheels/wheel_finder.hpp"
+#include "wheel_finder.hpp"
 
-namespace muro {
+namespace muro::wheels {
 
 /// A wheel with rollers on its circumference.
 struct OmniWheel : Wheel {
@@ -18,23 +18,16 @@ struct OmniWheel : Wheel {
   Vec3 heading = Vec3::UnitX();  ///< unit, in the base's frame: where a positive joint velocity rolls
 };
 
-/// What the user may say instead of the model.
-struct OmniChoice {
-  std::span<const std::string_view> wheels;  ///< names of joints; empty: as the model has them
-  std::span<const double> roller_angles;     ///< rad: one for all, or one a wheel in the order of `wheels`
-  double radius = 0;                         ///< m, of every wheel; 0: of each wheel's shape
-};
-
 namespace detail {
 
 inline bool is_omni_wheel(const WheelFinder& finder, std::size_t i, OmniWheel& wheel, std::string& why) {
   if (!finder.turns_freely(i, why)) return false;
-  if (std::abs(finder.axis(i).z()) > WheelFinder::upright)
+  if (std::abs(finder.axis(i).z()) > WheelFinder::sin_tolerance)
     return WheelFinder::reject(
-        why, "turns about " + WheelFinder::text(finder.axis(i)) + ", not a horizontal axis, of the base");
+        why, "turns about " + WheelFinder::to_text(finder.axis(i)) + ", not a horizontal axis, of the base");
   for (std::size_t p = finder.parent(i); p > 0; p = finder.parent(p))
-    if (finder.frame(p).joint == JointKind::revolute) {
-      if (std::abs(finder.axis(p).z()) > WheelFinder::upright)
+    if (finder.link(p).joint == JointKind::revolute) {
+      if (std::abs(finder.axis(p).z()) > WheelFinder::sin_tolerance)
         return WheelFinder::reject(why, "is steered by " + finder.name(p));
       if (!finder.has_limits(p)) return WheelFinder::reject(why, "is a roller on the wheel of " + finder.name(p));
     }
@@ -43,38 +36,72 @@ inline bool is_omni_wheel(const WheelFinder& finder, std::size_t i, OmniWheel& w
   return true;
 }
 
+inline std::string omni_wheels_found(const WheelFinder& finder) {
+  return finder.what_was_found([&](std::size_t i, std::string& what) {
+    OmniWheel wheel;
+    return is_omni_wheel(finder, i, wheel, what) && (what = "is a wheel", true);
+  });
+}
+
+/// Those that are named, or, where none is, those that the model has.
+inline std::vector<OmniWheel> choose_omni_wheels(const WheelFinder& finder, const RobotView& robot,
+                                                 const Parameters& p) {
+  std::vector<OmniWheel> wheels;
+  for (const std::string_view joint : p.texts(all_wheels.name)) {
+    OmniWheel wheel;
+    const auto fits = [](const Vec3& axis) { return std::abs(axis.z()) <= WheelFinder::sin_tolerance; };
+    static_cast<Wheel&>(wheel) = finder.named(joint, p.real(wheel_radius.name), fits, "a horizontal axis");
+    for (const OmniWheel& other : wheels)
+      if (other.link == wheel.link)
+        throw Error("`wheels` names " + finder.name(wheel.link) + " twice; name each wheel once");
+    wheels.push_back(wheel);
+  }
+  for (std::size_t i = 1; i < robot.links.size() && p.texts(all_wheels.name).empty(); ++i) {
+    OmniWheel wheel;
+    std::string why;
+    if (is_omni_wheel(finder, i, wheel, why)) wheels.push_back(wheel);
+  }
+  return wheels;
+}
+
+inline Vec3 middle_of(const std::vector<OmniWheel>& wheels) {
+  Vec3 middle = Vec3::Zero();
+  for (const OmniWheel& w : wheels) middle += w.centre / double(wheels.size());
+  return middle;
+}
+
 /// The sign of each wheel's roller angle where four wheels about the y axis stand at the corners of a rectangle: seen
 /// from above the upper rollers form an X. Empty for other vehicles.
 inline std::vector<double> mecanum_signs(const std::vector<OmniWheel>& wheels) {
-  Vec3 middle = Vec3::Zero();
-  for (const OmniWheel& w : wheels) middle += w.centre / double(wheels.size());
+  const Vec3 middle = middle_of(wheels);
   std::vector<double> signs;
   int quadrants = 0;
   for (const OmniWheel& w : wheels) {
-    const Vec3 at = w.centre - middle;
-    const bool front = at.x() > 0, left = at.y() > 0;
-    if (std::abs(w.axis.y()) < WheelFinder::parallel || std::min(std::abs(at.x()), std::abs(at.y())) < 0.1 * w.radius)
+    const Vec3 from_middle = w.centre - middle;
+    const bool is_front = from_middle.x() > 0, is_left = from_middle.y() > 0;
+    if (std::abs(w.axis.y()) < WheelFinder::cos_tolerance ||
+        std::min(std::abs(from_middle.x()), std::abs(from_middle.y())) < 0.1 * w.radius)
       return {};
-    quadrants |= 1 << (2 * int(front) + int(left));
-    signs.push_back(front == left ? -1 : 1);
+    quadrants |= 1 << (2 * int(is_front) + int(is_left));
+    signs.push_back(is_front == is_left ? -1 : 1);
   }
   return wheels.size() == 4 && quadrants == 15 ? signs : std::vector<double>{};
 }
 
 /// Whether the axes of all wheels meet in their middle (to 0.1 rad).
 inline bool axes_meet(const std::vector<OmniWheel>& wheels) {
-  Vec3 middle = Vec3::Zero();
-  for (const OmniWheel& w : wheels) middle += w.centre / double(wheels.size());
+  const Vec3 middle = middle_of(wheels);
   return std::all_of(wheels.begin(), wheels.end(), [&](const OmniWheel& w) {
-    Vec3 out = w.centre - middle;
-    out.z() = 0;
-    return std::abs(out.dot(w.axis)) >= WheelFinder::parallel * out.norm();
+    Vec3 radial = w.centre - middle;
+    radial.z() = 0;
+    return std::abs(radial.dot(w.axis)) >= WheelFinder::cos_tolerance * radial.norm();
   });
 }
 
 }  // namespace detail
 
-/// The wheels of `robot`, joints at 0: in the order of `choice.wheels`, else of the robot's frames.
+/// The wheels of `robot`, joints at 0: in the order of the parameter `wheels`, else of the robot's links; as the
+/// parameters `roller_angle` and `wheel_radius` say.
 ///
 /// Unless they are named, wheels are joints without limits of position about a horizontal axis (to 0.1 rad) that carry
 /// a cylinder or sphere about it and do not hang on another such joint, as rollers do. Unless roller angles are given,
@@ -82,36 +109,16 @@ inline bool axes_meet(const std::vector<OmniWheel>& wheels) {
 /// diagonal front left to rear right have the minus: seen from above the upper rollers form an X. A single angle that
 /// is given replaces pi/4 there. Wheels whose axes meet in their middle are omni wheels with roller angle 0. Throws
 /// Error with what the model has. [setup]
-inline std::vector<OmniWheel> find_omni_wheels(const Connector& connector, const RobotView& robot,
-                                               const OmniChoice& choice = {}) {
-  const detail::WheelFinder finder(connector, robot);
-  std::vector<OmniWheel> wheels;
-  const auto found = [&] {
-    return finder.what_was_found([&](std::size_t i, std::string& what) {
-      OmniWheel wheel;
-      return detail::is_omni_wheel(finder, i, wheel, what) && (what = "is a wheel", true);
-    });
-  };
-  for (const std::string_view joint : choice.wheels) {
-    OmniWheel wheel;
-    const auto fits = [](const Vec3& axis) { return std::abs(axis.z()) <= detail::WheelFinder::upright; };
-    static_cast<Wheel&>(wheel) = finder.named(joint, choice.radius, fits, "a horizontal axis");
-    for (const OmniWheel& other : wheels)
-      if (other.frame == wheel.frame)
-        throw Error("`wheels` names " + finder.name(wheel.frame) + " twice; name each wheel once");
-    wheels.push_back(wheel);
-  }
-  for (std::size_t i = 1; i < robot.links.size() && choice.wheels.empty(); ++i) {
-    OmniWheel wheel;
-    std::string why;
-    if (detail::is_omni_wheel(finder, i, wheel, why)) wheels.push_back(wheel);
-  }
+inline std::vector<OmniWheel> find_omni_wheels(const Connector& connector, const RobotView& robot) {
+  const Parameters& p = connector.parameters();
+  const WheelFinder finder(connector, robot);
+  std::vector<OmniWheel> wheels = detail::choose_omni_wheels(finder, robot, p);
   if (wheels.size() < 3)
     throw Error("`" + std::string(robot.name) + "` has " + std::to_string(wheels.size()) +
-                " wheels, but three are needed to move in every direction: " + found() +
+                " wheels, but three are needed to move in every direction: " + detail::omni_wheels_found(finder) +
                 ". Name the wheels' joints with `wheels`");
 
-  const std::span<const double> given = choice.roller_angles;
+  const std::span<const double> given = p.reals(roller_angle.name);
   const std::vector<double> signs = detail::mecanum_signs(wheels);
   if (given.size() > 1 && given.size() != wheels.size())
     throw Error("`roller_angle` has " + std::to_string(given.size()) + " values for " + std::to_string(wheels.size()) +
@@ -120,10 +127,10 @@ inline std::vector<OmniWheel> find_omni_wheels(const Connector& connector, const
     throw Error("`" + std::string(robot.name) +
                 "`: what rollers its wheels have cannot be told: they are neither four about the y axis at the corners "
                 "of a rectangle (mecanum wheels) nor do their axes meet in their middle (omni wheels): " +
-                found() + ". Give `roller_angle`");
+                detail::omni_wheels_found(finder) + ". Give `roller_angle`");
   for (std::size_t i = 0; i < wheels.size(); ++i) {
     OmniWheel& w = wheels[i];
-    if (choice.radius > 0) w.radius = choice.radius;
+    if (p.real(wheel_radius.name) > 0) w.radius = p.real(wheel_radius.name);
     w.heading = w.axis.cross(Vec3::UnitZ()).normalized();
     w.roller_angle = given.size() > 1 ? given[i] : given.empty() ? 0 : given[0];
     if (!signs.empty() && given.size() <= 1)
@@ -136,4 +143,4 @@ inline std::vector<OmniWheel> find_omni_wheels(const Connector& connector, const
   return wheels;
 }
 
-}  // namespace muro
+}  // namespace muro::wheels

@@ -3,9 +3,9 @@
 #pragma once
 
 #include "muro/algorithm.hpp"
-#include "ramp.hpp"
+#include "velocity_ramp.hpp"
 
-namespace muro::wheeled {
+namespace muro::wheels {
 
 // Which wheels a vehicle has.
 inline constexpr Parameter left_wheels = texts("left", "joints of the left wheels; default: as the model has them");
@@ -37,4 +37,4 @@ inline constexpr Parameter max_wheel_acceleration =
     real("max_wheel_acceleration", "rad/s^2", unlimited, "of every driven wheel; 1e9: none, the speed jumps")
         .between(1e-6, unlimited);
 
-}  // namespace muro::wheeled
+}  // namespace muro::wheels

@@ -2,36 +2,28 @@
 // The driven wheels of a robot that turns by the difference of its left and right wheels.
 #pragma once
 
-#include "plugins/common/wheels/wheel_finder.hpp"
+#include "wheel_finder.hpp"
 
-namespace muro {
+namespace muro::wheels {
 
 /// Wheels about an axis along the base's y axis.
-struct Wheels {
+struct SideWheels {
   std::vector<Wheel> left, right;
   double track = 0;            ///< m, between the middle of the left and the middle of the right wheels
   Vec3 middle = Vec3::Zero();  ///< m, in the base's frame: half way between these two
 };
 
-/// What the user may say instead of the model.
-struct WheelChoice {
-  std::span<const std::string_view> left, right;  ///< names of joints; empty: as the model has them
-  double radius = 0;                              ///< m; 0: of each wheel's shape
-  double track = 0;                               ///< m; 0: between the wheels' centres
-};
-
 namespace detail {
 
-/// Whether joint and shape of frame `i` make it a driven wheel on one side; otherwise `why` says what speaks against
-/// it.
+/// Whether joint and shape of link `i` make it a driven wheel on one side; otherwise `why` says what speaks against it.
 inline bool is_side_wheel(const WheelFinder& finder, std::size_t i, Wheel& wheel, std::string& why) {
-  constexpr double parallel = WheelFinder::parallel;
+  constexpr double cos_tolerance = WheelFinder::cos_tolerance;
   if (!finder.turns_freely(i, why)) return false;
-  if (std::abs(finder.axis(i).y()) < parallel)
+  if (std::abs(finder.axis(i).y()) < cos_tolerance)
     return WheelFinder::reject(why,
-                               "turns about " + WheelFinder::text(finder.axis(i)) + ", not the y axis, of the base");
+                               "turns about " + WheelFinder::to_text(finder.axis(i)) + ", not the y axis, of the base");
   for (std::size_t p = finder.parent(i); p > 0; p = finder.parent(p))
-    if (finder.frame(p).joint == JointKind::revolute && std::abs(finder.axis(p).y()) < parallel)
+    if (finder.link(p).joint == JointKind::revolute && std::abs(finder.axis(p).y()) < cos_tolerance)
       return WheelFinder::reject(why, "is steered by " + finder.name(p));
   wheel = finder.wheel(i);
   if (!(wheel.radius > 0)) return WheelFinder::reject(why, "has no cylinder or sphere about its axis as a shape");
@@ -55,53 +47,57 @@ inline Vec3 mean_centre(const std::vector<Wheel>& wheels) {
   return sum / double(wheels.size());
 }
 
+/// The wheels of both sides: those that are named, or, where none is, those that the model has.
+inline SideWheels choose_side_wheels(const WheelFinder& finder, const RobotView& robot, const Parameters& p) {
+  const std::span<const std::string_view> left = p.texts(left_wheels.name), right = p.texts(right_wheels.name);
+  const double radius = p.real(wheel_radius.name);
+  SideWheels wheels;
+  if (left.empty() != right.empty())
+    throw Error(std::string("`") + (left.empty() ? "right" : "left") + "` names wheels, but `" +
+                (left.empty() ? "left" : "right") + "` does not; name the wheels of both sides or of none");
+  const auto fits = [](const Vec3& axis) { return std::abs(axis.y()) >= 0.5; };
+  for (const std::string_view joint : left) wheels.left.push_back(finder.named(joint, radius, fits, "the y axis"));
+  for (const std::string_view joint : right) wheels.right.push_back(finder.named(joint, radius, fits, "the y axis"));
+  for (std::size_t i = 1; i < robot.links.size() && left.empty(); ++i) {
+    Wheel wheel;
+    std::string why;
+    if (robot.links[i].joint == JointKind::revolute && is_side_wheel(finder, i, wheel, why))
+      (wheel.centre.y() > 0 ? wheels.left : wheels.right).push_back(wheel);
+  }
+  if (radius > 0)
+    for (auto* side : {&wheels.left, &wheels.right})
+      for (Wheel& w : *side) w.radius = radius;
+  return wheels;
+}
+
 }  // namespace detail
 
-/// The driven wheels of `robot`, joints at 0.
+/// The driven wheels of `robot`, joints at 0, as the parameters `left`, `right`, `wheel_radius` and `track` say.
 ///
 /// Unless they are named, these are the joints without limits of position whose axis is parallel to the base's y axis
 /// (to 0.1 rad) and that carry a cylinder or sphere about this axis; left is y > 0. Casters and steered wheels (a joint
 /// about another axis lies between them and the base) and joints that follow others are no driven wheels.
 /// Throws Error with what the model has when a side has no wheel or a wheel no radius. [setup]
-inline Wheels find_wheels(const Connector& connector, const RobotView& robot, const WheelChoice& choice = {}) {
-  const detail::WheelFinder finder(connector, robot);
-  Wheels wheels;
-  if (choice.left.empty() != choice.right.empty())
-    throw Error(std::string("`") + (choice.left.empty() ? "right" : "left") + "` names wheels, but `" +
-                (choice.left.empty() ? "left" : "right") + "` does not; name the wheels of both sides or of none");
-  if (!choice.left.empty()) {
-    const auto fits = [](const Vec3& axis) { return std::abs(axis.y()) >= 0.5; };
-    for (const std::string_view joint : choice.left)
-      wheels.left.push_back(finder.named(joint, choice.radius, fits, "the y axis"));
-    for (const std::string_view joint : choice.right)
-      wheels.right.push_back(finder.named(joint, choice.radius, fits, "the y axis"));
-  } else {
-    for (std::size_t i = 1; i < robot.links.size(); ++i) {
-      Wheel wheel;
-      std::string why;
-      if (robot.links[i].joint == JointKind::revolute && detail::is_side_wheel(finder, i, wheel, why))
-        (wheel.centre.y() > 0 ? wheels.left : wheels.right).push_back(wheel);
-    }
-  }
+inline SideWheels find_side_wheels(const Connector& connector, const RobotView& robot) {
+  const Parameters& p = connector.parameters();
+  const WheelFinder finder(connector, robot);
+  SideWheels wheels = detail::choose_side_wheels(finder, robot, p);
   if (wheels.left.empty() || wheels.right.empty())
     throw Error("`" + std::string(robot.name) + "` has no driven wheels on " +
                 (!wheels.left.empty()    ? "the right (y < 0)"
                  : !wheels.right.empty() ? "the left (y > 0)"
                                          : "either side") +
                 ": " + detail::side_wheels_found(finder) + ". Name the wheels' joints with `left` and `right`");
-  if (choice.radius > 0)
-    for (auto* side : {&wheels.left, &wheels.right})
-      for (Wheel& w : *side) w.radius = choice.radius;
   for (const Wheel& l : wheels.left)
     for (const Wheel& r : wheels.right)
-      if (l.frame == r.frame) throw Error("`left` and `right` name the same wheel; each wheel is on one side");
+      if (l.link == r.link) throw Error("`left` and `right` name the same wheel; each wheel is on one side");
   const Vec3 left = detail::mean_centre(wheels.left), right = detail::mean_centre(wheels.right);
   wheels.middle = 0.5 * (left + right);
-  wheels.track = choice.track > 0 ? choice.track : left.y() - right.y();
+  wheels.track = p.real(track.name) > 0 ? p.real(track.name) : left.y() - right.y();
   if (!(wheels.track > 0))
     throw Error("the wheels of `left` lie on the right of those of `right` (their y axis points left): " +
                 detail::side_wheels_found(finder));
   return wheels;
 }
 
-}  // namespace muro
+}  // namespace muro::wheels

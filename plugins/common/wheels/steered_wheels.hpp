@@ -4,65 +4,60 @@
 
 #include <algorithm>
 
-#include "plugins/common/wheels/wheel_finder.hpp"
+#include "wheel_finder.hpp"
 
-namespace muro {
+namespace muro::wheels {
 
 struct SteeredWheel : Wheel {
-  std::int32_t steering = -1;  ///< frame whose joint steers it; -1: none
-  Vec3 pivot = Vec3::Zero();   ///< m, in the base's frame: a point on the axis that it is steered about
-  double sense = 1;            ///< 1: a positive steering angle turns it to the left (axis along +z); -1: to the right
-  bool driven = false;         ///< a drive turns it; else the ground does
-};
-
-/// What the user may say instead of the model: names of joints; empty: as the model has them.
-struct SteeringChoice {
-  std::span<const std::string_view> steering;  ///< that steer wheels
-  std::span<const std::string_view> driven;    ///< of wheels that a drive turns
-  std::span<const std::string_view> rolling;   ///< of wheels that the ground turns
-  double radius = 0;                           ///< m, of every wheel; 0: of each wheel's shape
+  std::int32_t steering = -1;     ///< link whose joint steers it; -1: none
+  Vec3 pivot = Vec3::Zero();      ///< m, in the base's frame: a point on the axis that it is steered about
+  double steering_direction = 1;  ///< 1: a positive angle turns it to the left (axis along +z); -1: to the right
+  bool driven = false;            ///< a drive turns it; else the ground does
 };
 
 namespace detail {
 
 class SteeredWheelFinder {
  public:
-  SteeredWheelFinder(const Connector& connector, const RobotView& robot, const SteeringChoice& choice)
-      : finder_(connector, robot), choice_(choice), steers_(robot.links.size(), false) {
-    for (const std::string_view joint : choice.steering) {
+  SteeredWheelFinder(const Connector& connector, const RobotView& robot)
+      : finder_(connector, robot), parameters_(connector.parameters()), steers_(robot.links.size(), false) {
+    const std::span<const std::string_view> named = parameters_.texts(steering_joints.name);
+    for (const std::string_view joint : named) {
       const std::size_t i = finder_.joint(joint);
-      if (finder_.frame(i).joint != JointKind::revolute || std::abs(finder_.axis(i).z()) < 0.5)
+      if (finder_.link(i).joint != JointKind::revolute || std::abs(finder_.axis(i).z()) < 0.5)
         throw Error("joint " + finder_.name(i) + " cannot steer: it " +
-                    (finder_.frame(i).joint == JointKind::revolute
-                         ? "turns about " + WheelFinder::text(finder_.axis(i)) + ", not the z axis, of the base"
+                    (finder_.link(i).joint == JointKind::revolute
+                         ? "turns about " + WheelFinder::to_text(finder_.axis(i)) + ", not the z axis, of the base"
                          : "does not turn"));
       steers_[i] = true;
     }
-    for (std::size_t i = 1; i < steers_.size() && choice.steering.empty(); ++i)
-      steers_[i] = is_upright(i) && (finder_.has_limits(i) || finder_.frame(i).mimic >= 0);
+    for (std::size_t i = 1; i < steers_.size() && named.empty(); ++i)
+      steers_[i] = is_upright(i) && (finder_.has_limits(i) || finder_.link(i).mimic >= 0);
   }
 
   std::vector<SteeredWheel> all() const {
     std::vector<SteeredWheel> wheels;
-    add_named(wheels, choice_.driven, true);
-    add_named(wheels, choice_.rolling, false);
-    if (choice_.driven.empty() || choice_.rolling.empty()) {
+    const std::span<const std::string_view> driven = parameters_.texts(driven_wheels.name);
+    const std::span<const std::string_view> rolling = parameters_.texts(rolling_wheels.name);
+    add_named(wheels, driven, true);
+    add_named(wheels, rolling, false);
+    if (driven.empty() || rolling.empty()) {
       for (std::size_t i = 1; i < steers_.size(); ++i) {
         SteeredWheel wheel;
         std::string why;
         if (is_named(wheels, i) || !is_wheel(i, wheel, why)) continue;
-        wheel.driven = choice_.driven.empty() && wheel.steering < 0;
+        wheel.driven = driven.empty() && wheel.steering < 0;
         wheels.push_back(wheel);
       }
       if (std::none_of(wheels.begin(), wheels.end(), [](const SteeredWheel& w) { return w.driven; }))
         for (SteeredWheel& w : wheels)  // all that may be driven are steered
-          w.driven = !std::any_of(choice_.rolling.begin(), choice_.rolling.end(), [&](std::string_view joint) {
-            return finder_.name(w.frame) == WheelFinder::quoted(joint);
+          w.driven = !std::any_of(rolling.begin(), rolling.end(), [&](std::string_view joint) {
+            return finder_.name(w.link) == WheelFinder::quoted(joint);
           });
     }
-    std::sort(wheels.begin(), wheels.end(), [](const auto& a, const auto& b) { return a.frame < b.frame; });
-    if (choice_.radius > 0)
-      for (SteeredWheel& w : wheels) w.radius = choice_.radius;
+    std::sort(wheels.begin(), wheels.end(), [](const auto& a, const auto& b) { return a.link < b.link; });
+    if (const double radius = parameters_.real(wheel_radius.name); radius > 0)
+      for (SteeredWheel& w : wheels) w.radius = radius;
     return wheels;
   }
 
@@ -78,15 +73,15 @@ class SteeredWheelFinder {
 
  private:
   bool is_upright(std::size_t i) const {
-    return finder_.frame(i).joint == JointKind::revolute && std::abs(finder_.axis(i).z()) >= WheelFinder::parallel;
+    return finder_.link(i).joint == JointKind::revolute && std::abs(finder_.axis(i).z()) >= WheelFinder::cos_tolerance;
   }
 
-  /// Whether joint and shape of frame `i` make it a wheel; otherwise `why` says what speaks against it.
+  /// Whether joint and shape of link `i` make it a wheel; otherwise `why` says what speaks against it.
   bool is_wheel(std::size_t i, SteeredWheel& wheel, std::string& why) const {
     if (!finder_.turns_freely(i, why)) return false;
-    if (std::abs(finder_.axis(i).y()) < WheelFinder::parallel)
-      return WheelFinder::reject(why,
-                                 "turns about " + WheelFinder::text(finder_.axis(i)) + ", not the y axis, of the base");
+    if (std::abs(finder_.axis(i).y()) < WheelFinder::cos_tolerance)
+      return WheelFinder::reject(
+          why, "turns about " + WheelFinder::to_text(finder_.axis(i)) + ", not the y axis, of the base");
     static_cast<Wheel&>(wheel) = finder_.wheel(i);
     if (!(wheel.radius > 0)) return WheelFinder::reject(why, "has no cylinder or sphere about its axis as a shape");
     return find_steering(wheel, why);
@@ -94,16 +89,16 @@ class SteeredWheelFinder {
 
   /// Looks for the joint between the wheel and the base that steers it. Those about horizontal axes are suspensions.
   bool find_steering(SteeredWheel& wheel, std::string& why) const {
-    for (std::size_t p = finder_.parent(wheel.frame); p > 0; p = finder_.parent(p)) {
-      if (finder_.frame(p).joint != JointKind::revolute) continue;
+    for (std::size_t p = finder_.parent(wheel.link); p > 0; p = finder_.parent(p)) {
+      if (finder_.link(p).joint != JointKind::revolute) continue;
       if (steers_[p]) {
         if (wheel.steering >= 0)
           return WheelFinder::reject(why, "is steered by two joints, " + finder_.name(std::size_t(wheel.steering)) +
                                               " and " + finder_.name(p));
         wheel.steering = std::int32_t(p);
-        wheel.pivot = finder_.place(p);
-        wheel.sense = finder_.axis(p).z() > 0 ? 1 : -1;
-      } else if (std::abs(finder_.axis(p).z()) > WheelFinder::upright) {
+        wheel.pivot = finder_.origin(p);
+        wheel.steering_direction = finder_.axis(p).z() > 0 ? 1 : -1;
+      } else if (std::abs(finder_.axis(p).z()) > WheelFinder::sin_tolerance) {
         return WheelFinder::reject(why, "swivels about " + finder_.name(p) + " as casters do");
       }
     }
@@ -111,56 +106,55 @@ class SteeredWheelFinder {
   }
 
   void add_named(std::vector<SteeredWheel>& wheels, std::span<const std::string_view> joints, bool driven) const {
-    const auto fits = [](const Vec3& axis) { return std::abs(axis.z()) <= WheelFinder::upright; };
+    const auto fits = [](const Vec3& axis) { return std::abs(axis.z()) <= WheelFinder::sin_tolerance; };
     for (const std::string_view joint : joints) {
       SteeredWheel wheel;
       std::string why;
-      static_cast<Wheel&>(wheel) = finder_.named(joint, choice_.radius, fits, "a horizontal axis");
+      static_cast<Wheel&>(wheel) = finder_.named(joint, parameters_.real(wheel_radius.name), fits, "a horizontal axis");
       if (!find_steering(wheel, why))
-        throw Error("the wheel of joint " + finder_.name(wheel.frame) + " " + why +
+        throw Error("the wheel of joint " + finder_.name(wheel.link) + " " + why +
                     "; name the joint that steers it, one alone, with `steering`");
-      if (is_named(wheels, wheel.frame))
-        throw Error("joint " + finder_.name(wheel.frame) +
+      if (is_named(wheels, wheel.link))
+        throw Error("joint " + finder_.name(wheel.link) +
                     " is named twice; name a wheel once, in `driven` or in `rolling`");
       wheel.driven = driven;
       wheels.push_back(wheel);
     }
   }
-  static bool is_named(const std::vector<SteeredWheel>& wheels, std::size_t frame) {
-    return std::any_of(wheels.begin(), wheels.end(), [&](const SteeredWheel& w) { return w.frame == frame; });
+  static bool is_named(const std::vector<SteeredWheel>& wheels, std::size_t link) {
+    return std::any_of(wheels.begin(), wheels.end(), [&](const SteeredWheel& w) { return w.link == link; });
   }
 
   WheelFinder finder_;
-  const SteeringChoice& choice_;
-  std::vector<bool> steers_;  ///< one a frame
+  const Parameters& parameters_;
+  std::vector<bool> steers_;  ///< whether the joint of each link steers
 };
 
 }  // namespace detail
 
-/// The wheels of `robot`, joints at 0, in the order of its frames; at least two, at least one of them steered, at least
-/// one driven.
+/// The wheels of `robot`, joints at 0, in the order of its links; at least two, at least one of them steered, at least
+/// one driven; as the parameters `steering`, `driven`, `rolling` and `wheel_radius` say.
 ///
 /// Unless they are named, wheels are joints without limits of position whose axis is parallel to the base's y axis (to
 /// 0.1 rad) and that carry a cylinder or sphere about this axis. A wheel is steered when a joint parallel to the base's
 /// z axis lies between it and the base that has limits of position or follows another; without either it is the swivel
 /// of a caster, whose wheel does not count. The wheels that are not steered are driven, or all when all are steered.
 /// Throws Error with what the model has. [setup]
-inline std::vector<SteeredWheel> find_steered_wheels(const Connector& connector, const RobotView& robot,
-                                                     const SteeringChoice& choice = {}) {
-  const detail::SteeredWheelFinder finder(connector, robot, choice);
+inline std::vector<SteeredWheel> find_steered_wheels(const Connector& connector, const RobotView& robot) {
+  const detail::SteeredWheelFinder finder(connector, robot);
   std::vector<SteeredWheel> wheels = finder.all();
-  const auto complain = [&](const std::string& what, const std::string& advice) {
+  const auto reject = [&](const std::string& what, const std::string& advice) {
     throw Error("`" + std::string(robot.name) + "` has " + what + ": " + finder.what_was_found() + ". " + advice);
   };
   if (std::none_of(wheels.begin(), wheels.end(), [](const SteeredWheel& w) { return w.steering >= 0; }))
-    complain("no steered wheels",
-             "Name the joints that steer with `steering`; a vehicle that turns by the speeds of its wheels is one for "
-             "motion.differential_drive or motion.omni and their drives");
+    reject("no steered wheels",
+           "Name the joints that steer with `steering`; a vehicle that turns by the speeds of its wheels is one for "
+           "motion.differential_drive or motion.omni and their drives");
   if (std::none_of(wheels.begin(), wheels.end(), [](const SteeredWheel& w) { return w.driven; }))
-    complain("no driven wheels", "Name the joints of driven wheels with `driven`");
+    reject("no driven wheels", "Name the joints of driven wheels with `driven`");
   if (wheels.size() < 2)
-    complain("one wheel alone", "At least two are needed; name their joints with `driven` and `rolling`");
+    reject("one wheel alone", "At least two are needed; name their joints with `driven` and `rolling`");
   return wheels;
 }
 
-}  // namespace muro
+}  // namespace muro::wheels

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which joints of a model are wheels: what find_wheels, find_steered_wheels and find_omni_wheels have in common.
+// Which joints of a model are wheels: what find_side_wheels, find_steered_wheels and find_omni_wheels have in common.
 #pragma once
 
 #include <string>
@@ -7,12 +7,13 @@
 
 #include "muro/algorithm.hpp"
 #include "muro/vocabulary.hpp"
+#include "parameters.hpp"
 
-namespace muro {
+namespace muro::wheels {
 
 /// A wheel that rolls on the plane below the base.
 struct Wheel {
-  std::uint32_t frame = 0;     ///< of the robot
+  std::uint32_t link = 0;      ///< of the robot: that to which the wheel's joint leads
   Vec3 centre = Vec3::Zero();  ///< m, in the base's frame, joints at 0
   double radius = 0;           ///< m
   double direction = 1;        ///< 1: a positive joint velocity rolls forward (axis along +y); -1: backward
@@ -20,39 +21,36 @@ struct Wheel {
   Vec3 axis = Vec3::UnitY();  ///< of its joint: unit, in the base's frame, joints at 0
 };
 
-namespace detail {
-
-/// Looks at the joints and shapes of a robot, all joints at 0.
+/// Looks at the joints and shapes of a robot, all joints at 0. Joint `i` is the one that leads to link `i`.
 class WheelFinder {
  public:
-  static constexpr double parallel = 0.995;  ///< cosine of 0.1 rad
-  static constexpr double upright = 0.1;     ///< sine of 0.1 rad
+  static constexpr double cos_tolerance = 0.995;  ///< directions are parallel up to 0.1 rad
+  static constexpr double sin_tolerance = 0.1;
 
   WheelFinder(const Connector& connector, const RobotView& robot) : connector_(connector), robot_(robot) {
     const std::size_t n = robot.links.size();
     in_base_.resize(n);
-    carrier_.resize(n);
+    welded_to_.resize(n);
     for (std::size_t i = 0; i < n; ++i) {
-      const Link& f = robot.links[i];
-      const bool carried = i > 0 && f.joint == JointKind::fixed;
-      if (i > 0) in_base_[i] = in_base_[std::size_t(f.parent)] * f.origin;
-      carrier_[i] = carried ? carrier_[std::size_t(f.parent)] : i;
+      const Link& l = robot.links[i];
+      const bool welded = i > 0 && l.joint == JointKind::fixed;
+      if (i > 0) in_base_[i] = in_base_[std::size_t(l.parent)] * l.origin;
+      welded_to_[i] = welded ? welded_to_[std::size_t(l.parent)] : i;
     }
   }
 
-  const RobotView& robot() const { return robot_; }
-  const Link& frame(std::size_t i) const { return robot_.links[i]; }
+  const Link& link(std::size_t i) const { return robot_.links[i]; }
   /// The axis of joint `i` in the base's frame, and a point on it.
   Vec3 axis(std::size_t i) const { return in_base_[i].orientation * robot_.links[i].axis; }
-  const Vec3& place(std::size_t i) const { return in_base_[i].position; }
-  /// The frame that `i` hangs on; 0: the base.
+  const Vec3& origin(std::size_t i) const { return in_base_[i].position; }
+  /// The link that `i` hangs on; 0: the base.
   std::size_t parent(std::size_t i) const { return std::size_t(robot_.links[i].parent); }
 
   /// Whether joint `i` can turn without end, driven or by itself; otherwise `why` says what keeps it.
   bool turns_freely(std::size_t i, std::string& why) const {
-    const Link& f = robot_.links[i];
-    if (f.joint != JointKind::revolute) return reject(why, "does not turn");
-    if (f.mimic >= 0) return reject(why, "follows " + name(std::size_t(f.mimic)));
+    const Link& l = robot_.links[i];
+    if (l.joint != JointKind::revolute) return reject(why, "does not turn");
+    if (l.mimic >= 0) return reject(why, "follows " + name(std::size_t(l.mimic)));
     if (has_limits(i)) return reject(why, "has limits of position");
     return true;
   }
@@ -61,21 +59,22 @@ class WheelFinder {
   }
 
   /// The wheel of joint `i`, with the radius and centre of its shape: the largest cylinder or sphere about the axis,
-  /// among the collision shapes of the bodies that the joint carries rigidly, else among their visual shapes. Without
+  /// among the collision shapes of the links that the joint carries rigidly, else among their visual shapes. Without
   /// such a shape the radius is 0.
   Wheel wheel(std::size_t i) const {
-    Wheel found{std::uint32_t(i), place(i), 0, axis(i).y() > 0 ? 1.0 : -1.0, robot_.links[i].limits, axis(i)};
+    Wheel found{std::uint32_t(i), origin(i), 0, axis(i).y() > 0 ? 1.0 : -1.0, robot_.links[i].limits, axis(i)};
     for (const Key<Shape>& key : {keys::collision_shapes, keys::visual_shapes}) {
-      for (std::size_t k = i; k < carrier_.size(); ++k) {
-        if (carrier_[k] != i) continue;
-        for (const Shape& s : connector_.constant_array(robot_.links[k].object, key)) take_shape(found, in_base_[k], s);
+      for (std::size_t k = i; k < welded_to_.size(); ++k) {
+        if (welded_to_[k] != i) continue;
+        for (const Shape& s : connector_.constant_array(robot_.links[k].object, key))
+          consider_shape(found, in_base_[k], s);
       }
       if (found.radius > 0) break;
     }
     return found;
   }
 
-  /// The frame of the joint that the user names.
+  /// The joint that the user names.
   std::size_t joint(std::string_view wanted) const {
     for (std::size_t i = 0; i < robot_.links.size(); ++i)
       if (robot_.links[i].joint != JointKind::fixed && name(i) == quoted(wanted)) return i;
@@ -94,7 +93,7 @@ class WheelFinder {
     std::string why;
     if (!turns_freely(i, why)) throw Error("joint " + name(i) + " cannot drive a wheel: it " + why);
     if (!fits(axis(i)))
-      throw Error("joint " + name(i) + " cannot drive a wheel: it turns about " + text(axis(i)) + ", not " + wanted +
+      throw Error("joint " + name(i) + " cannot drive a wheel: it turns about " + to_text(axis(i)) + ", not " + wanted +
                   ", of the base");
     Wheel found = wheel(i);
     if (radius > 0) found.radius = radius;
@@ -128,36 +127,35 @@ class WheelFinder {
     return false;
   }
   static std::string quoted(std::string_view s) { return "`" + std::string(s) + "`"; }
-  static std::string text(const Vec3& v) {
+  static std::string to_text(const Vec3& v) {
     const auto number = [](double x) {
       std::string s = std::to_string(std::abs(x) < 5e-4 ? 0.0 : x);
       return s.substr(0, s.size() - 3);
     };
     return "(" + number(v.x()) + ", " + number(v.y()) + ", " + number(v.z()) + ")";
   }
-  /// The joint of frame `i` as its model names it.
+  /// Joint `i` as its model names it.
   std::string name(std::size_t i) const {
     return quoted(connector_.object_name(robot_.links[i].joint_object).substr(robot_.name.size() + 1));
   }
 
  private:
-  void take_shape(Wheel& wheel, const Pose& body, const Shape& s) const {
-    const Pose pose = body * s.origin;
-    const Vec3 offset = pose.position - place(wheel.frame);
-    const bool round =
-        s.kind == ShapeKind::sphere ||
-        (s.kind == ShapeKind::cylinder && std::abs((pose.orientation * Vec3::UnitZ()).dot(wheel.axis)) >= parallel);
-    const bool centred = (offset - wheel.axis * wheel.axis.dot(offset)).norm() <= 0.1 * s.size.x();
-    if (!round || !centred || s.size.x() <= wheel.radius) return;
+  void consider_shape(Wheel& wheel, const Pose& link, const Shape& s) const {
+    const Pose pose = link * s.origin;
+    const Vec3 offset = pose.position - origin(wheel.link);
+    const bool is_round =
+        s.kind == ShapeKind::sphere || (s.kind == ShapeKind::cylinder &&
+                                        std::abs((pose.orientation * Vec3::UnitZ()).dot(wheel.axis)) >= cos_tolerance);
+    const bool is_centred = (offset - wheel.axis * wheel.axis.dot(offset)).norm() <= 0.1 * s.size.x();
+    if (!is_round || !is_centred || s.size.x() <= wheel.radius) return;
     wheel.radius = s.size.x();
     wheel.centre = pose.position;
   }
 
   const Connector& connector_;
   const RobotView& robot_;
-  std::vector<Pose> in_base_;         ///< joints at 0
-  std::vector<std::size_t> carrier_;  ///< the frame whose joint moves this one
+  std::vector<Pose> in_base_;           ///< of every link, joints at 0
+  std::vector<std::size_t> welded_to_;  ///< the link to which fixed joints tie this one, or itself
 };
 
-}  // namespace detail
-}  // namespace muro
+}  // namespace muro::wheels

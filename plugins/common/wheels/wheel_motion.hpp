@@ -1,149 +1,145 @@
 // SPDX-License-Identifier: MIT
-// Motion of vehicles whose base moves at a sum of shares, one of each wheel in proportion to its speed.
+// Motion of vehicles the velocity of whose base is linear in the speeds of their wheels.
 #pragma once
 
-#include "description.hpp"
+#include "motion_description.hpp"
 #include "muro/toolkit/contact_stop.hpp"
-#include "other_joints.hpp"
+#include "muro/toolkit/per_robot.hpp"
+#include "non_wheel_joints.hpp"
 #include "parameters.hpp"
-#include "planar.hpp"
-#include "ramp.hpp"
+#include "planar_motion.hpp"
+#include "velocity_ramp.hpp"
 
-namespace muro::wheeled {
+namespace muro::wheels {
+
+inline constexpr PropertyUse wheel_motion_reads[] = {
+    {"joint.velocity.target", "of every joint that follows no other"},
+    reads_initial_pose,
+    reads_initial_twist,
+    reads_initial_positions,
+    reads_wheel_shapes,
+    on_contact_reads,
+};
+inline constexpr Features wheel_motion_features = feature_joints | feature_velocity_targets | feature_joint_limits |
+                                                  feature_joint_speed_limits | feature_mimic_joints;
 
 /// A driven wheel, in the frame of its base.
-struct WheelShare {
-  std::uint32_t frame = 0;
-  double max_speed = 0;  ///< rad/s
-  PlanarTwist share;     ///< of this wheel in the base's velocity, per rad/s of its joint
-  PlanarTwist asks;      ///< rad/s of its joint per m/s along x, m/s along y and rad/s of the base
+struct WheelJacobian {
+  std::uint32_t link = 0;   ///< of the robot
+  double max_speed = 0;     ///< rad/s
+  PlanarTwist column;       ///< of the Jacobian: velocity of the base per rad/s of the wheel's joint
+  PlanarTwist inverse_row;  ///< rad/s of the joint per m/s along x, m/s along y and rad/s of the base
 
-  double speed_at(const PlanarTwist& v) const {
-    return std::clamp(asks.x * v.x + asks.y * v.y + asks.turn * v.turn, -max_speed, max_speed);
-  }
+  double speed_at(const PlanarTwist& v) const { return std::clamp(dot(inverse_row, v), -max_speed, max_speed); }
 };
 
-/// What such motions have in common; each says in `shares_of` what its wheels do. Its descriptions have the parameters
+/// A wheel that turns towards its target.
+struct RampedWheel {
+  In<double> target;
+  Out<double> position, velocity;
+  WheelJacobian jacobian;
+  VelocityRamp ramp;  ///< of the present step
+};
+
+/// What is kept of a robot.
+struct WheeledRobot {
+  Out<Pose> pose;
+  Out<Twist> twist;
+  std::vector<RampedWheel> wheels;
+  NonWheelJoints other_joints;
+  std::string_view name;
+  ContactStop stop;
+};
+
+/// What such motions have in common; each says in `jacobian` what its wheels do. Its descriptions have the parameters
 /// `max_wheel_acceleration` and `on_contact`.
-class WheelMotion : public Algorithm {
+class WheelMotion : public PerRobotAlgorithm<WheeledRobot> {
  public:
-  void connect(Connector& c) override {
-    max_acceleration_ = c.parameters().real(max_wheel_acceleration.name);
-    for (const Item& item : c.items()) {
-      if (!item.robot) throw Error("it moves robots, but no robot is named");
-      connect_robot(c, *item.robot);
-    }
-  }
-
-  std::span<const Phase> phases() const override {
-    static constexpr Phase phases[] = {{Phase::IndexSpace::items, Phase::Scope::own_robot}};
-    return phases;
-  }
-
   void step(const Step& step, Range range) override {
-    for (std::uint32_t i = range.begin; i < range.end; ++i) {
-      const std::span<DrivenWheel> wheels = wheels_of(robots_[i]);
-      for (DrivenWheel& w : wheels)
-        w.ramp = ramp(*w.velocity, std::clamp(*w.target, -w.of.max_speed, w.of.max_speed), max_acceleration_, step.dt);
-      const Robot& r = robots_[i];
+    for (WheeledRobot& r : robots(range)) {
+      for (RampedWheel& w : r.wheels)
+        w.ramp = velocity_ramp(*w.velocity, std::clamp(*w.target, -w.jacobian.max_speed, w.jacobian.max_speed),
+                               max_acceleration_, step.dt);
       const Pose before = *r.pose;
-      move_base(r, wheels, step.dt);
-      const bool stopped = r.stop.blocks(before.position, *r.twist);
-      if (stopped) *r.pose = before, *r.twist = {};
-      for (const DrivenWheel& w : wheels) {
-        *w.position += stopped ? 0 : w.ramp.angle(step.dt);
-        *w.velocity = stopped ? 0 : w.ramp.last;
+      move_base(r, step.dt);
+      const bool is_blocked = r.stop.blocks(before.position, *r.twist);
+      if (is_blocked) *r.pose = before, *r.twist = {};
+      for (const RampedWheel& w : r.wheels) {
+        *w.position += is_blocked ? 0 : w.ramp.angle(step.dt);
+        *w.velocity = is_blocked ? 0 : w.ramp.final;
       }
-      others_.move(i, step.dt);
+      r.other_joints.move(step.dt);
     }
   }
 
   /// The wheels turn as fits the base's velocity best.
   void on_handover(std::uint32_t item) override {
-    const Robot& r = robots_[item];
+    const WheeledRobot& r = robot(item);
     const PlanarTwist moving = in_plane(*r.pose, *r.twist);
-    for (const DrivenWheel& w : wheels_of(r)) *w.velocity = w.of.speed_at(moving);
+    for (const RampedWheel& w : r.wheels) *w.velocity = w.jacobian.speed_at(moving);
   }
 
  protected:
-  virtual std::vector<WheelShare> shares_of(const Connector& c, const RobotView& robot) const = 0;
+  virtual std::vector<WheelJacobian> jacobian(const Connector& c, const RobotView& robot) const = 0;
 
  private:
-  struct DrivenWheel {
-    In<double> target;
-    Out<double> position, velocity;
-    WheelShare of;
-    Ramp ramp;  ///< of the present step
-  };
-  struct Robot {
-    Out<Pose> pose;
-    Out<Twist> twist;
-    Range wheels;  ///< in wheels_
-    std::string_view name;
-    ContactStop stop;
-  };
+  void read_parameters(const Parameters& p) override { max_acceleration_ = p.real(max_wheel_acceleration.name); }
 
-  std::span<DrivenWheel> wheels_of(const Robot& r) {
-    return {wheels_.data() + r.wheels.begin, r.wheels.end - r.wheels.begin};
-  }
-
-  void connect_robot(Connector& c, const RobotView& robot) {
+  WheeledRobot connect_robot(Connector& c, const Item& item) override {
+    const RobotView& robot = *item.robot;
     const Pose start = c.constant(robot.base(), keys::initial_pose).value_or(Pose{});
     const Twist moving = c.constant(robot.base(), keys::initial_twist).value_or(Twist{});
     const std::vector<double> positions = initial_joint_positions(c, robot);
     JointState state(robot);
-    Robot r;
+    WheeledRobot r;
     r.name = robot.name;
     r.pose = c.variable(robot.base(), keys::pose, start);
-    r.wheels.begin = std::uint32_t(wheels_.size());
-    PlanarTwist rolling;
-    for (const WheelShare& of : shares_of(c, robot)) {
-      const ObjectId joint = robot.links[of.frame].joint_object;
-      const double speed = of.speed_at(in_plane(start, moving));
-      DrivenWheel w;
-      w.of = of;
+    PlanarTwist velocity;
+    for (const WheelJacobian& wheel : jacobian(c, robot)) {
+      const ObjectId joint = robot.links[wheel.link].joint_object;
+      const double speed = wheel.speed_at(in_plane(start, moving));
+      RampedWheel w;
+      w.jacobian = wheel;
       w.target = c.input(joint, keys::joint_velocity_target, 0.0);
-      w.position = state.position[of.frame] = c.variable(joint, keys::joint_position, positions[of.frame]);
-      w.velocity = state.velocity[of.frame] = c.variable(joint, keys::joint_velocity, speed);
-      rolling = rolling + of.share * speed;
-      wheels_.push_back(w);
+      w.position = c.variable(joint, keys::joint_position, positions[wheel.link]);
+      w.velocity = c.variable(joint, keys::joint_velocity, speed);
+      state.bind(wheel.link, w);
+      velocity = velocity + wheel.column * speed;
+      r.wheels.push_back(w);
     }
-    r.wheels.end = std::uint32_t(wheels_.size());
-    r.twist = c.variable(robot.base(), keys::twist, in_world(start, rolling));
-    others_.connect(c, robot, positions, state);
+    r.twist = c.variable(robot.base(), keys::twist, in_world(start, velocity));
+    r.other_joints = NonWheelJoints(c, robot, positions, state);
     r.stop = ContactStop(c, robot);
-    robots_.push_back(r);
+    return r;
   }
 
-  /// All wheels' velocities are linear in time between the ends of their ramps: from each end to the next one goes an
-  /// arc, or, while wheels speed up, a curve.
-  static void move_base(const Robot& r, std::span<const DrivenWheel> wheels, double dt) {
+  /// The speeds of all wheels are linear in time between the ends of their ramps: from each end to the next one goes an
+  /// arc, or, while wheels speed up, an accelerated one.
+  static void move_base(const WheeledRobot& r, double dt) {
     Pose& pose = *r.pose;
     PlanarTwist velocity;
     for (double from = 0, to = 0; from < dt; from = to) {
       to = dt;
       velocity = {};
-      PlanarTwist rate;
-      for (const DrivenWheel& w : wheels) {
-        velocity = velocity + w.of.share * w.ramp.at(from);
-        rate = rate + w.of.share * w.ramp.acceleration_at(from);
+      PlanarTwist acceleration;
+      for (const RampedWheel& w : r.wheels) {
+        velocity = velocity + w.jacobian.column * w.ramp.velocity_at(from);
+        acceleration = acceleration + w.jacobian.column * w.ramp.acceleration_at(from);
         if (w.ramp.end > from && w.ramp.end < to) to = w.ramp.end;
       }
-      pose = pose * (rate == PlanarTwist{} ? arc(velocity, to - from) : curve(velocity, rate, to - from));
-      velocity = velocity + rate * (to - from);
+      pose = pose * (acceleration == PlanarTwist{} ? arc(velocity, to - from)
+                                                   : accelerated_arc(velocity, acceleration, to - from));
+      velocity = velocity + acceleration * (to - from);
     }
     pose.orientation.normalize();
     *r.twist = in_world(pose, velocity);
-    if (!std::isfinite(velocity.x + velocity.y + velocity.turn))
+    if (!std::isfinite(velocity.x + velocity.y + velocity.yaw_rate))
       throw Error("a wheel of `" + std::string(r.name) +
                   "` is to turn at a speed that is not finite; look at what writes "
                   "`joint.velocity.target`");
   }
 
   double max_acceleration_ = unlimited;
-  std::vector<Robot> robots_;
-  std::vector<DrivenWheel> wheels_;
-  OtherJoints others_;
 };
 
-}  // namespace muro::wheeled
+}  // namespace muro::wheels

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
-// From the wanted velocity of a base to angles of steered and speeds of driven wheels: the inverse of motion.ackermann.
-// Every wheel stands across to the line from its centre to the one point about which the vehicle turns (R. Ackermann's
-// condition).
+// From the commanded velocity of a base to angles of steered and speeds of driven wheels: the inverse of
+// motion.ackermann. Every wheel stands at right angles to the line from its centre to the one point about which the
+// vehicle turns (R. Ackermann's condition).
 #include "muro/plugin.hpp"
-#include "plugins/common/wheels/description.hpp"
-#include "plugins/common/wheels/drive.hpp"
-#include "plugins/common/wheels/rolling.hpp"
+#include "muro/toolkit/per_robot.hpp"
+#include "plugins/common/wheels/drive_target.hpp"
+#include "plugins/common/wheels/motion_description.hpp"
+#include "plugins/common/wheels/steering_geometry.hpp"
 
 namespace {
 
 using namespace muro;
-using namespace muro::wheeled;
+using namespace muro::wheels;
 
 constexpr Parameter parameters[] = {
     steering_joints,
@@ -22,7 +23,8 @@ constexpr Parameter parameters[] = {
         .between(1e-6, 1e9),
 };
 constexpr PropertyUse reads[] = {
-    {"command.twist", "of the base: linear x and angular z, and linear y where all wheels are steered"}, sizes};
+    {"command.twist", "of the base: linear x and angular z, and linear y where all wheels are steered"},
+    reads_wheel_shapes};
 constexpr PropertyUse writes[] = {{"joint.position.target", "of every joint that steers"},
                                   {"joint.velocity.target", "of every driven wheel"}};
 constexpr Description description{
@@ -36,187 +38,158 @@ constexpr Description description{
     .capabilities = deterministic | batched | allocation_free | restorable,
 };
 
-/// A wheel, and where it may stand.
+/// A wheel, and the headings that its steering allows.
 struct DriveWheel {
   PlanarWheel plane;
-  std::int32_t steering = -1;   ///< among the robot's; -1: none
-  double straight = 0;          ///< rad: its heading where the angle of what steers it is 0
-  double gain = 1;              ///< its heading by this angle
+  WheelSteering steering{};
   double lower = 0, upper = 0;  ///< rad: its heading stays between
   DriveTarget target{};         ///< when driven
 
-  double across(double heading, const PlanarTwist& v) const {
-    return plane.across(std::sin(heading), std::cos(heading), v, 0);
+  double lateral_velocity(double heading, const PlanarTwist& v) const {
+    return plane.lateral_velocity(std::sin(heading), std::cos(heading), v, 0);
   }
-  double along(double heading, const PlanarTwist& v) const {
-    return plane.along(std::sin(heading), std::cos(heading), v, 0);
+  double longitudinal_velocity(double heading, const PlanarTwist& v) const {
+    return plane.longitudinal_velocity(std::sin(heading), std::cos(heading), v, 0);
   }
-  /// The heading (rad) nearest to straight ahead at which the wheel does not slip across.
+  /// The heading (rad) nearest to straight ahead at which the wheel does not slip sideways.
   double heading_at(const PlanarTwist& v) const {
-    const double vx = v.x - v.turn * plane.y, vy = v.y + v.turn * plane.x, size = std::hypot(vx, vy);
+    const double straight = steering.zero_heading;
+    const double vx = v.x - v.yaw_rate * plane.y, vy = v.y + v.yaw_rate * plane.x, size = std::hypot(vx, vy);
     if (size == 0) return straight;
-    const double course = std::atan2(vy, vx), off = std::asin(std::clamp(v.turn * plane.ahead / size, -1.0, 1.0));
-    const double a = std::remainder(course + off - straight, 2 * M_PI);
-    const double b = std::remainder(course + M_PI - off - straight, 2 * M_PI);
-    return straight + (std::abs(a) <= std::abs(b) ? a : b);
+    const double direction = std::atan2(vy, vx);
+    const double off = std::asin(std::clamp(v.yaw_rate * plane.forward_offset / size, -1.0, 1.0));
+    const double forward = std::remainder(direction + off - straight, 2 * M_PI);
+    const double backward = std::remainder(direction + M_PI - off - straight, 2 * M_PI);
+    return straight + (std::abs(forward) <= std::abs(backward) ? forward : backward);
   }
-  /// The part of `more`, 0 .. 1, that can be added to `v` before the wheel stands at a limit.
-  double room(const PlanarTwist& v, const PlanarTwist& more) const {
-    double part = 1;
-    for (const bool up : {false, true}) {
-      const double limit = up ? upper : lower;
+  /// The fraction of `more`, 0 .. 1, that can be added to `v` before the steering is at a limit.
+  double feasible_fraction(const PlanarTwist& v, const PlanarTwist& more) const {
+    double fraction = 1;
+    for (const bool is_upper : {false, true}) {
+      const double limit = is_upper ? upper : lower;
       if (!std::isfinite(limit)) continue;
-      const double turning = across(limit, more), reached = -across(limit, v) / turning;
-      if (!(reached >= 0 && reached < part)) continue;
-      const bool turns_up = turning * along(limit, v + more * reached) > 0;
-      if (turns_up == up) part = reached;
+      const double lateral = lateral_velocity(limit, more), reached = -lateral_velocity(limit, v) / lateral;
+      if (!(reached >= 0 && reached < fraction)) continue;
+      const bool passes_upward = lateral * longitudinal_velocity(limit, v + more * reached) > 0;
+      if (passes_upward == is_upper) fraction = reached;
     }
-    return part;
+    return fraction;
   }
 };
 
 struct DriveSteering {
   Out<double> target;
   double lower = 0, upper = 0;  ///< rad
-  double wheels = 0;            ///< how many it steers
+  double wheel_count = 0;       ///< of wheels that it steers
 };
 
-class Ackermann final : public Algorithm {
+/// What is kept of a robot.
+struct DrivenRobot {
+  In<Twist> command;
+  bool all_steered = true;
+  double axle = 0;  ///< m, x in the frame of the base: of the wheels that are not steered
+  std::vector<DriveWheel> wheels;
+  std::vector<DriveSteering> steering;
+};
+
+class Ackermann final : public PerRobotAlgorithm<DrivenRobot> {
  public:
-  void connect(Connector& c) override {
-    for (const Item& item : c.items()) {
-      if (!item.robot) throw Error("it drives robots, but no robot is named");
-      connect_robot(c, *item.robot);
-    }
-  }
-
-  std::span<const Phase> phases() const override {
-    static constexpr Phase phases[] = {{Phase::IndexSpace::items, Phase::Scope::own_robot}};
-    return phases;
-  }
-
   void step(const Step&, Range range) override {
-    for (std::uint32_t i = range.begin; i < range.end; ++i) drive(robots_[i]);
+    for (const DrivenRobot& r : robots(range)) drive(r);
   }
 
  private:
-  struct Robot {
-    In<Twist> command;
-    bool all_steered = true;
-    double axle = 0;         ///< m, x in the frame of the base: of the wheels that are not steered
-    Range wheels, steering;  ///< in wheels_, steering_
-  };
+  void read_parameters(const Parameters& p) override { max_steering_angle_ = p.real("max_steering_angle"); }
 
-  std::span<const DriveWheel> wheels_of(const Robot& r) const {
-    return {wheels_.data() + r.wheels.begin, r.wheels.end - r.wheels.begin};
+  DrivenRobot connect_robot(Connector& c, const Item& item) override {
+    const RobotView& robot = *item.robot;
+    const std::vector<SteeredWheel> found = find_steered_wheels(c, robot);
+    const SteeringGeometry geometry = steering_geometry(robot.links, found);
+    DrivenRobot r;
+    r.command = c.input(robot.base(), keys::command_twist, Twist{});
+    for (const std::size_t link : geometry.joints) r.steering.push_back(connect_steering(c, robot.links[link]));
+    double fixed_wheels = 0;
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      DriveWheel w{.plane = PlanarWheel(found[k]), .steering = geometry.wheels[k]};
+      if (w.steering.joint < 0) {
+        r.axle += w.plane.x, ++fixed_wheels;
+      } else {
+        const double zero = w.steering.zero_heading, gain = w.steering.gain;
+        if (gain == 0)
+          throw Error("the joint `" +
+                      std::string(c.object_name(robot.links[std::size_t(found[k].steering)].joint_object)) +
+                      "` follows another with the multiplier 0, so it cannot steer; give it one that is not 0");
+        DriveSteering& s = r.steering[std::size_t(w.steering.joint)];
+        ++s.wheel_count;
+        std::tie(w.lower, w.upper) = std::minmax({zero + gain * s.lower, zero + gain * s.upper});
+      }
+      if (found[k].driven) w.target = connect_drive_target(c, robot, found[k].link, found[k].limits);
+      r.wheels.push_back(w);
+    }
+    r.all_steered = fixed_wheels == 0;
+    if (!r.all_steered) r.axle /= fixed_wheels;
+    return r;
   }
 
-  /// What of the command can be driven. When limits of steering leave no room for all of it, the path is as near to the
+  DriveSteering connect_steering(Connector& c, const Link& link) const {
+    const double limit = max_steering_angle_;
+    const bool is_limited = limit < 1e9;
+    return {c.optional_output(link.joint_object, keys::joint_position_target),
+            is_limited ? std::max(link.limits.lower, -limit) : link.limits.lower,
+            is_limited ? std::min(link.limits.upper, limit) : link.limits.upper, 0};
+  }
+
+  /// What of the command can be driven. When limits of steering do not allow all of it, the path is as near to the
   /// wanted one as they allow: less turning at the same speed.
-  struct Course {
+  struct FeasibleMotion {
     PlanarTwist velocity;
     bool moves = false;  ///< else the wheels only take its angles
   };
-  Course course_of(const Robot& r) const {
-    const double turn = r.command->angular.z();
-    const PlanarTwist parts[] = {{0, r.all_steered ? r.command->linear.y() : 0, 0}, {0, -turn * r.axle, turn}};
-    Course course{{r.command->linear.x(), 0, 0}, r.command->linear.x() != 0};
-    for (const PlanarTwist& more : parts) {
+  static FeasibleMotion feasible_motion(const DrivenRobot& r) {
+    const double yaw_rate = r.command->angular.z();
+    const PlanarTwist contributions[] = {{0, r.all_steered ? r.command->linear.y() : 0, 0},
+                                         {0, -yaw_rate * r.axle, yaw_rate}};
+    FeasibleMotion motion{{r.command->linear.x(), 0, 0}, r.command->linear.x() != 0};
+    for (const PlanarTwist& more : contributions) {
       if (more == PlanarTwist{}) continue;
-      if (!course.moves) course.velocity.x = 1e-9 * (std::abs(more.y) + std::abs(more.turn));
-      double part = 1;
-      for (const DriveWheel& w : wheels_of(r))
-        if (w.steering >= 0) part = std::min(part, w.room(course.velocity, more));
-      if (part == 1 && !course.moves)
-        course = {more, true};
+      if (!motion.moves) motion.velocity.x = 1e-9 * (std::abs(more.y) + std::abs(more.yaw_rate));
+      double fraction = 1;
+      for (const DriveWheel& w : r.wheels)
+        if (w.steering.joint >= 0) fraction = std::min(fraction, w.feasible_fraction(motion.velocity, more));
+      if (fraction == 1 && !motion.moves)
+        motion = {more, true};
       else
-        course.velocity = course.velocity + more * part;
+        motion.velocity = motion.velocity + more * fraction;
     }
-    return course;
+    return motion;
   }
 
-  void drive(const Robot& r) const {
-    const Course course = course_of(r);
-    const PlanarTwist& v = course.velocity;
-    if (!(v == PlanarTwist{}))  // at rest wheels stay as they are steered
-      for (std::uint32_t k = r.steering.begin; k < r.steering.end; ++k) *steering_[k].target = 0;
-    double excess = 1;
-    for (const DriveWheel& w : wheels_of(r)) {
-      const double heading = w.steering >= 0 ? w.heading_at(v) : w.straight;
-      if (w.steering >= 0 && !(v == PlanarTwist{})) {
-        const DriveSteering& s = steering_[r.steering.begin + std::uint32_t(w.steering)];
-        *s.target += std::clamp((heading - w.straight) / w.gain, s.lower, s.upper) / s.wheels;
+  static void drive(const DrivenRobot& r) {
+    const FeasibleMotion motion = feasible_motion(r);
+    const PlanarTwist& v = motion.velocity;
+    const bool is_at_rest = v == PlanarTwist{};  // wheels then keep their headings
+    if (!is_at_rest)
+      for (const DriveSteering& s : r.steering) *s.target = 0;
+    for (const DriveWheel& w : r.wheels) {
+      const bool is_steered = w.steering.joint >= 0;
+      const double heading = is_steered ? w.heading_at(v) : w.steering.zero_heading;
+      if (is_steered && !is_at_rest) {
+        const DriveSteering& s = r.steering[std::size_t(w.steering.joint)];
+        *s.target +=
+            std::clamp((heading - w.steering.zero_heading) / w.steering.gain, s.lower, s.upper) / s.wheel_count;
       }
-      if (!w.target.speed) continue;
-      *w.target.speed = course.moves ? w.plane.per_metre * w.along(heading, v) : 0;
-      excess = std::max(excess, std::abs(*w.target.speed) / w.target.most);
+      if (w.target.speed)
+        *w.target.speed = motion.moves ? w.plane.angle_per_metre * w.longitudinal_velocity(heading, v) : 0;
     }
-    for (const DriveWheel& w : wheels_of(r))  // all alike: the path keeps its curvature
-      if (w.target.speed) *w.target.speed /= excess;
+    limit_speeds(r.wheels);
   }
 
-  void connect_robot(Connector& c, const RobotView& robot) {
-    const Parameters& p = c.parameters();
-    const std::vector<SteeredWheel> found =
-        find_steered_wheels(c, robot,
-                            {p.texts(steering_joints.name), p.texts(driven_wheels.name), p.texts(rolling_wheels.name),
-                             p.real(wheel_radius.name)});
-    Robot r;
-    r.command = c.input(robot.base(), keys::command_twist, Twist{});
-    r.wheels.begin = std::uint32_t(wheels_.size());
-    r.steering.begin = std::uint32_t(steering_.size());
-    std::vector<std::size_t> steers;  // frames of the robot's steering joints
-    double fixed = 0;
-    for (const SteeredWheel& of : found) {
-      DriveWheel w{.plane = PlanarWheel(of)};
-      w.straight = w.plane.straight;
-      if (of.steering < 0) {
-        r.axle += w.plane.x, ++fixed;
-      } else {
-        const Link& joint = robot.links[std::size_t(of.steering)];
-        const bool follows = joint.mimic >= 0;
-        const std::size_t leader = follows ? std::size_t(joint.mimic) : std::size_t(of.steering);
-        w.gain = of.sense * (follows ? joint.mimic_multiplier : 1);
-        w.straight += follows ? of.sense * joint.mimic_offset : 0;
-        if (w.gain == 0)
-          throw Error("the joint `" + std::string(c.object_name(joint.joint_object)) +
-                      "` follows another with the multiplier 0, so it cannot steer; give it one that is not 0");
-        const auto known = std::find(steers.begin(), steers.end(), leader);
-        w.steering = std::int32_t(known - steers.begin());
-        if (known == steers.end()) {
-          steers.push_back(leader);
-          steering_.push_back(steering_of(c, robot.links[leader]));
-        }
-        DriveSteering& s = steering_[r.steering.begin + std::size_t(w.steering)];
-        ++s.wheels;
-        std::tie(w.lower, w.upper) = std::minmax({w.straight + w.gain * s.lower, w.straight + w.gain * s.upper});
-      }
-      if (of.driven) w.target = drive_of(c, robot, of.frame, of.limits);
-      wheels_.push_back(w);
-    }
-    r.all_steered = fixed == 0;
-    if (!r.all_steered) r.axle /= fixed;
-    r.wheels.end = std::uint32_t(wheels_.size());
-    r.steering.end = std::uint32_t(steering_.size());
-    robots_.push_back(r);
-  }
-
-  static DriveSteering steering_of(Connector& c, const Link& f) {
-    const double most = c.parameters().real("max_steering_angle");
-    const bool limited = most < 1e9;
-    return {c.optional_output(f.joint_object, keys::joint_position_target),
-            limited ? std::max(f.limits.lower, -most) : f.limits.lower,
-            limited ? std::min(f.limits.upper, most) : f.limits.upper, 0};
-  }
-
-  std::vector<Robot> robots_;
-  std::vector<DriveWheel> wheels_;
-  std::vector<DriveSteering> steering_;
+  double max_steering_angle_ = 1e9;
 };
 
 constexpr abi::AlgorithmEntry algorithms[] = {algorithm<Ackermann>(description)};
 
 }  // namespace
 
-MURO_PLUGIN(.name = "drive_ackermann", .version = "1.0.0", .licence = "MIT",
+MURO_PLUGIN(.name = "drive_ackermann", .version = description.version, .licence = "MIT",
             .summary = "Drive of vehicles with steered wheels", .algorithms = algorithms)

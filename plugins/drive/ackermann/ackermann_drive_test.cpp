@@ -11,7 +11,7 @@ namespace {
 using Settings = std::map<std::string, ParameterInput>;
 using Names = std::vector<std::string>;
 
-struct Part {
+struct WheelSpec {
   std::string name;
   Vec3 at;
   bool steered = false;
@@ -23,10 +23,10 @@ struct Part {
   bool endless = false;
 };
 
-RobotTree vehicle_of(const std::vector<Part>& parts) {
+RobotTree vehicle_of(const std::vector<WheelSpec>& wheels) {
   return test::tree_of([&](RobotBuilder& b) {
     b.base("chassis");
-    for (const Part& p : parts) {
+    for (const WheelSpec& p : wheels) {
       const Shape tyre = test::tyre(p.radius);
       b.fork();
       b.translation(p.at);
@@ -43,12 +43,12 @@ RobotTree vehicle_of(const std::vector<Part>& parts) {
       b.set_array(keys::collision_shapes, std::span<const Shape>(&tyre, 1));
       b.end();
     }
-    for (std::size_t i = 0; i < parts.size(); ++i) b.end();
+    for (std::size_t i = 0; i < wheels.size(); ++i) b.end();
   });
 }
 
 /// Wheelbase 2 m, track 1 m, the base in the middle of the rear axle.
-std::vector<Part> car(double limit = 0.6) {
+std::vector<WheelSpec> car(double limit = 0.6) {
   return {{.name = "rl", .at = {0, 0.5, 0}},
           {.name = "rr", .at = {0, -0.5, 0}},
           {.name = "fl", .at = {2, 0.5, 0}, .steered = true, .limit = limit},
@@ -67,9 +67,9 @@ struct Driven : test::Scene {
     use("drive.ackermann", 100, all_robots(), std::move(settings));
     build();
   }
-  explicit Driven(const std::vector<Part>& parts, Settings settings = {},
+  explicit Driven(const std::vector<WheelSpec>& wheels, Settings settings = {},
                   const std::string& motion = "motion.ackermann")
-      : Driven(vehicle_of(parts), std::move(settings), motion) {}
+      : Driven(vehicle_of(wheels), std::move(settings), motion) {}
   void command(double x, double y, double turn) {
     world().value(robot.base(), keys::command_twist) = {{x, y, 0}, {0, 0, turn}};
     run_for(0.01);
@@ -104,18 +104,18 @@ TEST(AckermannDrive, MovesTheBaseAsCommandedWhateverTheWheelsAre) {
   Draw draw{std::mt19937(1)};
   for (int round = 0; round < 40; ++round) {
     const double axle = draw(-1, 1), side = draw(-1, 1) < 0 ? -1 : 1;
-    std::vector<Part> parts = {{.name = "a", .at = {axle, draw(0.1, 0.5), 0}},
-                               {.name = "b", .at = {axle, draw(-0.5, 0), 0}}};
+    std::vector<WheelSpec> wheels = {{.name = "a", .at = {axle, draw(0.1, 0.5), 0}},
+                                     {.name = "b", .at = {axle, draw(-0.5, 0), 0}}};
     for (const char* name : {"c", "d", "e"})
-      parts.push_back({.name = name,
-                       .at = {axle + side * draw(1, 2), draw(-0.5, 0.5), 0},
-                       .steered = true,
-                       .limit = 1.3,
-                       .arm = {draw(-0.1, 0.1), draw(-0.1, 0.1), 0}});
-    for (Part& p : parts) p.radius = draw(0.05, 0.3);
+      wheels.push_back({.name = name,
+                        .at = {axle + side * draw(1, 2), draw(-0.5, 0.5), 0},
+                        .steered = true,
+                        .limit = 1.3,
+                        .arm = {draw(-0.1, 0.1), draw(-0.1, 0.1), 0}});
+    for (WheelSpec& p : wheels) p.radius = draw(0.05, 0.3);
     Settings all_driven;
     if (round % 2 == 0) all_driven["driven"] = Names{"a_wheel", "b_wheel", "c_wheel", "d_wheel", "e_wheel"};
-    Driven s(parts, all_driven);
+    Driven s(wheels, all_driven);
     const double v = (draw(-1, 1) < 0 ? -1 : 1) * draw(0.5, 2), turn = v * draw(-0.3, 0.3);
     s.command(v, turn);
     EXPECT_NEAR(s.moving().x(), v, 1e-12);
@@ -147,22 +147,22 @@ TEST(AckermannDrive, AtTheSteeringLimitItKeepsTheSpeedAndTurnsLess) {
 }
 
 TEST(AckermannDrive, ALimitOfOneWheelAloneIsKeptByAll) {
-  std::vector<Part> parts = car(1.2);
-  parts[3].limit = 0.3;  // the outer wheel of a left turn
-  Driven s(parts);
+  std::vector<WheelSpec> wheels = car(1.2);
+  wheels[3].limit = 0.3;  // the outer wheel of a left turn
+  Driven s(wheels);
   s.command(1, 2);
   EXPECT_NEAR(s.angle("fr"), 0.3, 1e-14);
   EXPECT_NEAR(s.turning(), 1 / (2 / std::tan(0.3) - 0.5), 1e-13);
 }
 
 TEST(AckermannDrive, SlowsAllWheelsAlikeWhenOneIsAtItsLimit) {
-  std::vector<Part> parts = car();
-  parts[1].wheel_speed = 11;
+  std::vector<WheelSpec> wheels = car();
+  wheels[1].wheel_speed = 11;
   for (const double limit : {1e9, 5.5}) {
-    Driven s(parts, {{"max_wheel_speed", limit}});
+    Driven s(wheels, {{"max_wheel_speed", limit}});
     s.command(2, 0.4);  // wants 18 and 22 rad/s
-    const double most = std::min(11.0, limit);
-    EXPECT_NEAR(s.speed("rr"), most, 1e-12);
+    const double max_speed = std::min(11.0, limit);
+    EXPECT_NEAR(s.speed("rr"), max_speed, 1e-12);
     EXPECT_NEAR(s.turning() / s.moving().x(), 0.2, 1e-13);
   }
 }
@@ -178,10 +178,10 @@ TEST(AckermannDrive, ACarThatIsToTurnWithoutMovingStandsWithItsWheelsTurned) {
 }
 
 TEST(AckermannDrive, ATricycleThatCanTurnsOnTheSpot) {
-  const std::vector<Part> parts = {{.name = "f", .at = {1, 0, 0}, .steered = true, .limit = 1.6},
-                                   {.name = "l", .at = {0, 0.3, 0}},
-                                   {.name = "r", .at = {0, -0.3, 0}}};
-  Driven s(parts, {{"driven", Names{"f_wheel"}}});
+  const std::vector<WheelSpec> wheels = {{.name = "f", .at = {1, 0, 0}, .steered = true, .limit = 1.6},
+                                         {.name = "l", .at = {0, 0.3, 0}},
+                                         {.name = "r", .at = {0, -0.3, 0}}};
+  Driven s(wheels, {{"driven", Names{"f_wheel"}}});
   s.command(0, 0.5);
   EXPECT_NEAR(s.angle("f"), M_PI / 2, 1e-14);
   EXPECT_NEAR(s.turning(), 0.5, 1e-14);
@@ -199,20 +199,20 @@ TEST(AckermannDrive, AtRestTheSteeringStaysAsItWas) {
   EXPECT_EQ(s.angle("fl"), 0);
 }
 
-std::vector<Part> all_steered(double limit) {
-  std::vector<Part> parts = car(limit);
-  for (Part& p : parts) p.at.x() -= 1, p.steered = true, p.limit = limit;
-  return parts;
+std::vector<WheelSpec> all_steered(double limit) {
+  std::vector<WheelSpec> wheels = car(limit);
+  for (WheelSpec& p : wheels) p.at.x() -= 1, p.steered = true, p.limit = limit;
+  return wheels;
 }
 
 TEST(AckermannDrive, WithAllWheelsSteeredItMovesSidewaysToo) {
   Draw draw{std::mt19937(2)};
   for (const bool endless : {false, true}) {
-    std::vector<Part> parts = all_steered(1.58);
+    std::vector<WheelSpec> wheels = all_steered(1.58);
     Settings names;
-    for (Part& p : parts) p.endless = endless;
+    for (WheelSpec& p : wheels) p.endless = endless;
     if (endless) names["steering"] = Names{"rl_steering", "rr_steering", "fl_steering", "fr_steering"};
-    Driven s(parts, names);
+    Driven s(wheels, names);
     for (int round = 0; round < 20; ++round) {
       const double x = draw(0.2, 2), y = draw(-1, 1), turn = endless ? draw(-3, 3) : draw(-0.1, 0.1);
       s.command(x, y, turn);
@@ -235,9 +235,9 @@ TEST(AckermannDrive, WithAllWheelsSteeredItMovesSidewaysToo) {
 }
 
 TEST(AckermannDrive, OneJointMaySteerSeveralWheels) {
-  std::vector<Part> parts = car();
-  parts[3].leader = "fl_steering";
-  Driven s(parts);
+  std::vector<WheelSpec> wheels = car();
+  wheels[3].leader = "fl_steering";
+  Driven s(wheels);
   s.command(2, 0.4);
   EXPECT_NEAR(s.angle("fl"), 0.5 * (std::atan(2 / 4.5) + std::atan(2 / 5.5)), 1e-14) << "the mean of what both need";
   EXPECT_NEAR(s.turning(), 0.4, 0.004) << "parallel wheels are no Ackermann linkage";
@@ -272,10 +272,10 @@ TEST(AckermannDrive, AVehicleWithoutSteeredWheelsIsAnError) {
 }
 
 TEST(AckermannDrive, AWheelThatMayNotTurnIsAnError) {
-  std::vector<Part> parts = car();
-  parts[0].wheel_speed = 0;
+  std::vector<WheelSpec> wheels = car();
+  wheels[0].wheel_speed = 0;
   try {
-    Driven s(parts);
+    Driven s(wheels);
     FAIL() << "a wheel without speed was taken";
   } catch (const SetupError& e) {
     EXPECT_NE(std::string(e.what()).find("the joint `car/rl_wheel` has the velocity limit 0"), std::string::npos)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include "muro/toolkit/rotations.hpp"
 #include "tests/support/scene.hpp"
 
 namespace muro {
@@ -58,21 +59,22 @@ struct Heads : test::Scene {
   }
 };
 
-void expect_near(const Pose& a, const Pose& b, double most) {
-  EXPECT_LT((a.position - b.position).norm(), most);
-  EXPECT_LT(a.orientation.angularDistance(b.orientation), most);
+void expect_near(const Pose& a, const Pose& b, double tolerance) {
+  EXPECT_LT((a.position - b.position).norm(), tolerance);
+  EXPECT_LT(a.orientation.angularDistance(b.orientation), tolerance);
 }
 
-Pose turned(const Vec3& axis, double angle) { return {Vec3::Zero(), Quat(Eigen::AngleAxisd(angle, axis))}; }
+Pose rotation(const Vec3& axis, double angle) { return {Vec3::Zero(), Quat(Eigen::AngleAxisd(angle, axis))}; }
 
 TEST(DirectKinematics, PutsUnmovedJointsAtTheirInitialPosition) {
   Heads s({{{1, 2, 3}, from_rpy(0.1, 0.2, 0.3)}});
   s.settle();
   const Pose base = s.pose_of(0, "base");
   expect_near(s.pose_of(0, "bumper"), base * Pose{{0.3, 0, 0}, Quat::Identity()}, 1e-15);
-  expect_near(s.pose_of(0, "camera"),
-              base * Pose{{0.1, 0, 0.7}, Quat::Identity()} * turned(Vec3::UnitX(), 0.3) * turned(Vec3::UnitY(), 0.25),
-              1e-14);
+  expect_near(
+      s.pose_of(0, "camera"),
+      base * Pose{{0.1, 0, 0.7}, Quat::Identity()} * rotation(Vec3::UnitX(), 0.3) * rotation(Vec3::UnitY(), 0.25),
+      1e-14);
   expect_near(s.pose_of(0, "second_finger"), base * Pose{{0, 0.02, 0}, Quat::Identity()}, 1e-15);
 }
 
@@ -82,7 +84,7 @@ TEST(DirectKinematics, FollowsJointsThatAreSetFromOutside) {
   s.joint(1, "pan", keys::joint_velocity) = 2;
   s.settle();
   expect_near(s.pose_of(0, "head"), {{0.1, 0, 0.7}, Quat::Identity()}, 1e-15);
-  expect_near(s.pose_of(1, "head"), Pose{{5.1, 0, 0.7}, Quat::Identity()} * turned(Vec3::UnitZ(), 0.5), 1e-14);
+  expect_near(s.pose_of(1, "head"), Pose{{5.1, 0, 0.7}, Quat::Identity()} * rotation(Vec3::UnitZ(), 0.5), 1e-14);
   EXPECT_LT((s.twist_of(1, "camera").angular - Vec3(0, 0, 2)).norm(), 1e-15);
   EXPECT_EQ(s.twist_of(0, "camera").angular, Vec3::Zero());
 }

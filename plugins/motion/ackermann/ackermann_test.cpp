@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "ackermann_testing.hpp"
+#include "muro/toolkit/rotations.hpp"
 
 namespace muro {
 namespace {
@@ -41,11 +42,11 @@ TEST(Ackermann, FourWheelsAtAnglesThatFitRollWithoutSlip) {
   for (int round = 0; round < 20; ++round) {
     const double wheelbase = draw(0.2, 3), track = draw(0.2, 2), turn = draw(-1, 1), scrub = draw(0, 0.05);
     const double radius = (draw(0, 1) < 0.5 ? -1 : 1) * (track + draw(0.1, 20));
-    std::vector<Part> parts = car(wheelbase, track, scrub);
-    for (Part& p : parts) p.radius = draw(0.05, 0.2), p.axis.y() = draw(-1, 1) < 0 ? -1 : 1, p.at.z() = p.radius;
-    for (Part& p : parts) p.upright.z() = draw(-1, 1) < 0 ? -2 : 1;
-    Vehicle s(50, parts, {}, {draw.vector(2), rotation_of(draw.vector(2))});
-    for (const Part& p : parts) {
+    std::vector<WheelSpec> wheels = car(wheelbase, track, scrub);
+    for (WheelSpec& p : wheels) p.radius = draw(0.05, 0.2), p.axis.y() = draw(-1, 1) < 0 ? -1 : 1, p.at.z() = p.radius;
+    for (WheelSpec& p : wheels) p.upright.z() = draw(-1, 1) < 0 ? -2 : 1;
+    Vehicle s(50, wheels, {}, {draw.vector(2), rotation_of(draw.vector(2))});
+    for (const WheelSpec& p : wheels) {
       const double y = p.at.y();  // cot(angle) = (radius - y) / wheelbase
       if (p.steered)
         s.steer(p.name, p.upright.z() / std::abs(p.upright.z()) * std::atan(wheelbase / (radius - y)));
@@ -56,7 +57,7 @@ TEST(Ackermann, FourWheelsAtAnglesThatFitRollWithoutSlip) {
     const Twist& v = s.moving();
     EXPECT_NEAR(v.linear.norm(), std::abs(turn * radius), 1e-12);
     EXPECT_NEAR((s.at().orientation.conjugate() * v.angular).z(), turn, 1e-12);
-    for (const Part& p : parts) EXPECT_LT(s.slip(p).norm(), 1e-12) << p.name << " in round " << round;
+    for (const WheelSpec& p : wheels) EXPECT_LT(s.slip(p).norm(), 1e-12) << p.name << " in round " << round;
   }
 }
 
@@ -109,24 +110,24 @@ TEST(Ackermann, AtAConstantAngleSpeedingUpKeepsToTheCircle) {
 TEST(Ackermann, WheelsOnArmsRollWithoutSlipWhileTheyAreSteered) {
   Draw draw{std::mt19937(2)};
   for (int round = 0; round < 10; ++round) {
-    const std::vector<Part> parts = {
+    const std::vector<WheelSpec> wheels = {
         {.name = "fixed", .at = {0, -0.3, 0.1}},
         {.name = "steered", .at = {1, 0.3, 0.1}, .steered = true, .arm = {draw(-0.1, 0.1), draw(-0.1, 0.1), 0}}};
-    Vehicle s(20, parts, {{"max_steering_rate", draw(0.1, 1)}, {"max_wheel_acceleration", 100.0}});
+    Vehicle s(20, wheels, {{"max_steering_rate", draw(0.1, 1)}, {"max_wheel_acceleration", 100.0}});
     s.steer("steered", draw(-1, 1));
     s.drive("fixed", draw(-20, 20));
     s.run_for(0.05);
     for (int step = 0; step < 4; ++step) {
       s.run_for(0.05);
-      for (const Part& p : parts) EXPECT_LT(s.slip(p).norm(), 1e-12) << p.name << " in round " << round;
+      for (const WheelSpec& p : wheels) EXPECT_LT(s.slip(p).norm(), 1e-12) << p.name << " in round " << round;
     }
   }
 }
 
 TEST(Ackermann, TwistIsTheDerivativeOfPoseAndWheelsTurnAsFastAsTheySay) {
-  std::vector<Part> parts = car(1, 0.6, 0.1);
-  for (Part& p : parts) p.arm.x() = p.steered ? -0.05 : 0;
-  Vehicle s(1e4, parts, {{"max_steering_rate", 0.8}, {"max_wheel_acceleration", 5.0}});
+  std::vector<WheelSpec> wheels = car(1, 0.6, 0.1);
+  for (WheelSpec& p : wheels) p.arm.x() = p.steered ? -0.05 : 0;
+  Vehicle s(1e4, wheels, {{"max_steering_rate", 0.8}, {"max_wheel_acceleration", 5.0}});
   for (const char* end : {"left", "right"}) {
     s.steer(std::string("front_") + end, 0.5);
     s.drive(std::string("rear_") + end, 20);
@@ -143,11 +144,11 @@ TEST(Ackermann, TwistIsTheDerivativeOfPoseAndWheelsTurnAsFastAsTheySay) {
 }
 
 TEST(Ackermann, ATricycleDrivenAndSteeredInFrontTurnsOnTheSpot) {
-  std::vector<Part> parts = {
+  std::vector<WheelSpec> wheels = {
       {.name = "front", .at = {0.8, 0, 0}, .steered = true, .steering = {.lower = -2, .upper = 2}},
       {.name = "left", .at = {0, 0.3, 0}},
       {.name = "right", .at = {0, -0.3, 0}}};
-  Vehicle s(10, parts, {{"driven", Names{"front_wheel_joint"}}});
+  Vehicle s(10, wheels, {{"driven", Names{"front_wheel_joint"}}});
   s.steer("front", M_PI / 2);
   s.drive("front", 4);
   s.run_for(2);
@@ -166,10 +167,10 @@ TEST(Ackermann, SteeredBehindItTurnsTheOtherWay) {
 }
 
 TEST(Ackermann, AllWheelsSteeredAlikeMoveItSidewaysWithoutTurning) {
-  std::vector<Part> parts = car(1, 0.6);
-  for (Part& p : parts) p.steered = true;
-  Vehicle s(10, parts);
-  for (const Part& p : parts) s.steer(p.name, 0.9), s.drive(p.name, 7);
+  std::vector<WheelSpec> wheels = car(1, 0.6);
+  for (WheelSpec& p : wheels) p.steered = true;
+  Vehicle s(10, wheels);
+  for (const WheelSpec& p : wheels) s.steer(p.name, 0.9), s.drive(p.name, 7);
   s.run_for(2);
   EXPECT_LT((s.at().position - 1.4 * Vec3(std::cos(0.9), std::sin(0.9), 0)).norm(), 1e-12);
   EXPECT_NEAR(s.yaw(), 0, 1e-13);

@@ -4,16 +4,17 @@
 
 #include <random>
 
+#include "muro/toolkit/rotations.hpp"
 #include "tests/support/wheeled_robot.hpp"
 
 namespace muro::ackermann {
 
 using Settings = std::map<std::string, ParameterInput>;
 using Names = std::vector<std::string>;
-inline constexpr double wide = 1.4;
+inline constexpr double wide_angle = 1.4;
 
 /// A wheel of a test's vehicle: "NAME_wheel_joint", and "NAME_steering_joint" when it is steered.
-struct Part {
+struct WheelSpec {
   std::string name;
   Vec3 at;  ///< m, of the steering joint, or of the wheel
   bool steered = false;
@@ -21,17 +22,17 @@ struct Part {
   Vec3 arm = Vec3::Zero();  ///< m, from the steering joint to the wheel
   Vec3 axis = Vec3::UnitY();
   Vec3 upright = Vec3::UnitZ();
-  JointLimits steering{.lower = -wide, .upper = wide};
+  JointLimits steering{.lower = -wide_angle, .upper = wide_angle};
   JointLimits wheel{};
   std::string leader{};  ///< of the steering joint
   double multiplier = 1;
 };
 
 inline RobotTree vehicle_of(
-    const std::vector<Part>& parts, const std::function<void(RobotBuilder&)>& more = [](RobotBuilder&) {}) {
+    const std::vector<WheelSpec>& wheels, const std::function<void(RobotBuilder&)>& more = [](RobotBuilder&) {}) {
   return test::tree_of([&](RobotBuilder& b) {
     b.base("chassis");
-    for (const Part& p : parts) {
+    for (const WheelSpec& p : wheels) {
       const Shape tyre = test::tyre(p.radius);
       b.fork();
       b.translation(p.at);
@@ -47,25 +48,25 @@ inline RobotTree vehicle_of(
       b.end();
     }
     more(b);
-    for (std::size_t i = 0; i < parts.size(); ++i) b.end();
+    for (std::size_t i = 0; i < wheels.size(); ++i) b.end();
   });
 }
 
-inline std::vector<Part> bicycle(double wheelbase) {
+inline std::vector<WheelSpec> bicycle(double wheelbase) {
   return {{.name = "rear", .at = {0, 0, 0}}, {.name = "front", .at = {wheelbase, 0, 0}, .steered = true}};
 }
 /// Rear wheels driven, front wheels steered about joints `scrub` inside of them.
-inline std::vector<Part> car(double wheelbase, double track, double scrub = 0) {
-  std::vector<Part> parts;
+inline std::vector<WheelSpec> car(double wheelbase, double track, double scrub = 0) {
+  std::vector<WheelSpec> wheels;
   for (const double side : {0.5, -0.5}) {
     const std::string end = side > 0 ? "_left" : "_right";
-    parts.push_back({.name = "rear" + end, .at = {0, side * track, 0}});
-    parts.push_back({.name = "front" + end,
-                     .at = {wheelbase, side * (track - 2 * scrub), 0},
-                     .steered = true,
-                     .arm = {0, 2 * side * scrub, 0}});
+    wheels.push_back({.name = "rear" + end, .at = {0, side * track, 0}});
+    wheels.push_back({.name = "front" + end,
+                      .at = {wheelbase, side * (track - 2 * scrub), 0},
+                      .steered = true,
+                      .arm = {0, 2 * side * scrub, 0}});
   }
-  return parts;
+  return wheels;
 }
 
 struct Vehicle : test::Scene {
@@ -76,9 +77,9 @@ struct Vehicle : test::Scene {
     use("kinematics.direct", 2 * rate, all_robots());  // every other run sees the end of a step
     build();
   }
-  Vehicle(double rate, const std::vector<Part>& parts, Settings settings = {}, const Pose& start = {},
+  Vehicle(double rate, const std::vector<WheelSpec>& wheels, Settings settings = {}, const Pose& start = {},
           const Twist& moving = {})
-      : Vehicle(rate, vehicle_of(parts), std::move(settings), start, moving) {}
+      : Vehicle(rate, vehicle_of(wheels), std::move(settings), start, moving) {}
 
   double& value(const std::string& joint, const Key<double>& key) {
     return world().value("car/" + joint + "_joint", key);
@@ -94,7 +95,7 @@ struct Vehicle : test::Scene {
   Twist& moving() { return twist(robot); }
   double yaw() { return yaw_of(at().orientation); }
   /// m/s of the lowest point of a wheel: 0 when it rolls.
-  Vec3 slip(const Part& p) {
+  Vec3 slip(const WheelSpec& p) {
     return world().value("car/" + p.name + "_wheel", keys::twist).at(at().orientation * Vec3(0, 0, -p.radius));
   }
 };
@@ -102,7 +103,7 @@ struct Vehicle : test::Scene {
 struct Draw {
   std::mt19937 engine;
   double operator()(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine); }
-  Vec3 vector(double most) { return {(*this)(-most, most), (*this)(-most, most), (*this)(-most, most)}; }
+  Vec3 vector(double limit) { return {(*this)(-limit, limit), (*this)(-limit, limit), (*this)(-limit, limit)}; }
 };
 
 }  // namespace muro::ackermann

@@ -4,6 +4,7 @@
 
 #include "ackermann_testing.hpp"
 #include "core/instance.hpp"
+#include "muro/toolkit/rotations.hpp"
 #include "tests/support/complaint.hpp"
 
 namespace muro {
@@ -12,11 +13,11 @@ namespace {
 using namespace ackermann;
 
 TEST(Ackermann, SteeringKeepsItsRateAndItsLimits) {
-  std::vector<Part> parts = bicycle(1);
-  parts[1].steering = {.lower = -0.3, .upper = 0.5, .velocity = 2};
-  for (const double most : {1e9, 0.5}) {
-    Vehicle s(10, parts, {{"max_steering_rate", most}});
-    const double rate = std::min(most, 2.0);
+  std::vector<WheelSpec> wheels = bicycle(1);
+  wheels[1].steering = {.lower = -0.3, .upper = 0.5, .velocity = 2};
+  for (const double max_rate : {1e9, 0.5}) {
+    Vehicle s(10, wheels, {{"max_steering_rate", max_rate}});
+    const double rate = std::min(max_rate, 2.0);
     s.steer("front", 9);
     s.run_for(0.1);
     EXPECT_NEAR(s.angle("front"), 0.1 * rate, 1e-15);
@@ -31,9 +32,9 @@ TEST(Ackermann, SteeringKeepsItsRateAndItsLimits) {
 }
 
 TEST(Ackermann, DrivenWheelsKeepTheirLimits) {
-  std::vector<Part> parts = bicycle(1);
-  parts[0].wheel.velocity = 5;
-  Vehicle s(100, parts, {{"max_wheel_acceleration", 2.0}});
+  std::vector<WheelSpec> wheels = bicycle(1);
+  wheels[0].wheel.velocity = 5;
+  Vehicle s(100, wheels, {{"max_wheel_acceleration", 2.0}});
   s.drive("rear", 100);
   s.run_for(1);
   EXPECT_NEAR(s.turning("rear"), 2, 1e-12);
@@ -52,9 +53,9 @@ TEST(Ackermann, DrivenWheelsThatDisagreeMoveItAtTheirMean) {
 }
 
 TEST(Ackermann, SteeringMayFollowAnotherJoint) {
-  std::vector<Part> parts = car(1, 0.6);
-  parts[3].leader = "front_left_steering_joint";
-  Vehicle linked(10, parts), free(10, car(1, 0.6));
+  std::vector<WheelSpec> wheels = car(1, 0.6);
+  wheels[3].leader = "front_left_steering_joint";
+  Vehicle linked(10, wheels), free(10, car(1, 0.6));
   for (Vehicle* s : {&linked, &free}) s->steer("front_left", 0.3), s->drive("rear_left", 5), s->drive("rear_right", 5);
   free.steer("front_right", 0.3);
   linked.run_for(1), free.run_for(1);
@@ -62,14 +63,14 @@ TEST(Ackermann, SteeringMayFollowAnotherJoint) {
   EXPECT_LT((linked.at().position - free.at().position).norm(), 1e-13);
   EXPECT_GT(linked.yaw(), 0.1);
 
-  for (Part& p : parts)
+  for (WheelSpec& p : wheels)
     if (p.steered) p.leader = "steering_wheel_joint", p.multiplier = 1.0 / 15;
   const auto column = [](RobotBuilder& b) {
     b.translation({0.5, 0, 0.5});
     b.revolute("steering_wheel_joint", Vec3::UnitX(), {.lower = -9, .upper = 9, .velocity = 3});
     b.body("steering_wheel");
   };
-  Vehicle geared(10, vehicle_of(parts, column));
+  Vehicle geared(10, vehicle_of(wheels, column));
   geared.value("steering_wheel", keys::joint_position_target) = 100;
   geared.run_for(2);
   EXPECT_NEAR(geared.angle("front_left"), 6 / 15.0, 1e-13);
@@ -88,8 +89,8 @@ TEST(Ackermann, OtherJointsFollowTheirTargets) {
 }
 
 TEST(Ackermann, StartsAtTheSpeedAndAngleThatItIsGiven) {
-  std::vector<Part> parts = bicycle(2);
-  RobotTree tree = vehicle_of(parts);
+  std::vector<WheelSpec> wheels = bicycle(2);
+  RobotTree tree = vehicle_of(wheels);
   const Pose start{{1, 2, 0}, from_rpy(0, 0, 0.7)};
   const Vec3 forward = start.orientation * Vec3::UnitX(), left = start.orientation * Vec3::UnitY();
   Vehicle s(10, tree, {{"max_wheel_acceleration", 1.0}}, start, {0.5 * forward + 0.1 * left, Vec3::Zero()});
@@ -178,10 +179,10 @@ TEST(Ackermann, AVehicleWithoutSteeredWheelsIsAnErrorThatTellsWhatItHas) {
 }
 
 TEST(Ackermann, ASwivelWithoutLimitsIsACasterUnlessItIsNamed) {
-  std::vector<Part> parts = bicycle(1);
-  parts[1].steering = {};
-  EXPECT_SAYS(complaint(vehicle_of(parts)), "`front_wheel_joint` swivels about `front_steering_joint` as casters do");
-  EXPECT_EQ(complaint(vehicle_of(parts), {{"steering", Names{"front_steering_joint"}}}), "no complaint");
+  std::vector<WheelSpec> wheels = bicycle(1);
+  wheels[1].steering = {};
+  EXPECT_SAYS(complaint(vehicle_of(wheels)), "`front_wheel_joint` swivels about `front_steering_joint` as casters do");
+  EXPECT_EQ(complaint(vehicle_of(wheels), {{"steering", Names{"front_steering_joint"}}}), "no complaint");
 }
 
 TEST(Ackermann, WrongNamesAreErrorsWithTheRightOnes) {
@@ -202,9 +203,9 @@ TEST(Ackermann, WrongNamesAreErrorsWithTheRightOnes) {
 }
 
 TEST(Ackermann, AStartOutsideOfTheLimitsIsAnError) {
-  std::vector<Part> parts = bicycle(1);
-  parts[1].steering = {.lower = 0.1, .upper = 0.5};
-  EXPECT_SAYS(complaint(vehicle_of(parts)),
+  std::vector<WheelSpec> wheels = bicycle(1);
+  wheels[1].steering = {.lower = 0.1, .upper = 0.5};
+  EXPECT_SAYS(complaint(vehicle_of(wheels)),
               "joint `car/front_steering_joint` starts at 0.000000, outside of its limits");
 }
 

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "core/instance.hpp"
+#include "muro/toolkit/rotations.hpp"
 #include "tests/support/wheeled_robot.hpp"
 
 namespace muro {
@@ -39,7 +40,7 @@ struct Vehicle : test::Scene {
 struct Draw {
   std::mt19937 engine;
   double operator()(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine); }
-  Vec3 vector(double most) { return {(*this)(-most, most), (*this)(-most, most), (*this)(-most, most)}; }
+  Vec3 vector(double limit) { return {(*this)(-limit, limit), (*this)(-limit, limit), (*this)(-limit, limit)}; }
 };
 
 TEST(DifferentialDrive, FollowsAnExactArcForAnyStepSize) {

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "core/instance.hpp"
+#include "muro/toolkit/rotations.hpp"
 #include "tests/support/complaint.hpp"
 #include "tests/support/wheeled_robot.hpp"
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The point model (MuRoSimF, Section 3.2): only the motion of the base, as commanded.
 #include <string>
-#include <vector>
 
 #include "muro/plugin.hpp"
 #include "muro/toolkit/contact_stop.hpp"
+#include "muro/toolkit/per_robot.hpp"
+#include "muro/toolkit/rotations.hpp"
 
 namespace {
 
@@ -36,78 +37,74 @@ constexpr Description description{
     .capabilities = deterministic | batched | allocation_free | restorable,
 };
 
-Vec3 limited(const Vec3& v, double most) {
+Vec3 limited(const Vec3& v, double max_length) {
   const double length = v.norm();
-  return length > most ? Vec3(v * (most / length)) : v;
+  return length > max_length ? Vec3(v * (max_length / length)) : v;
 }
 
-/// `from` moved towards `to` by at most `most`.
-Vec3 approached(const Vec3& from, const Vec3& to, double most) { return from + limited(to - from, most); }
+/// `from` moved towards `to` by at most `max_change`.
+Vec3 approached(const Vec3& from, const Vec3& to, double max_change) { return from + limited(to - from, max_change); }
 
-class Point final : public Algorithm {
+/// The velocity that covers `distance` in one step, or from which the deceleration `max_acceleration` still stops in
+/// time.
+Vec3 approach_velocity(const Vec3& distance, double max_acceleration, double dt) {
+  const double length = distance.norm();
+  if (length <= max_acceleration * dt * dt) return distance / dt;
+  // v dt + v^2 / (2 a) = length
+  return distance * (2 / (dt + std::sqrt(dt * dt + 2 * length / max_acceleration)));
+}
+
+/// What is kept of a robot.
+struct PointRobot {
+  Out<Pose> pose;
+  Out<Twist> twist;
+  In<Twist> command_twist;
+  In<Pose> command_pose;
+  std::string_view name;
+  ContactStop stop;
+};
+
+class Point final : public PerRobotAlgorithm<PointRobot> {
  public:
-  void connect(Connector& c) override {
-    const Parameters& p = c.parameters();
+  void step(const Step& step, Range range) override {
+    for (const PointRobot& r : robots(range)) move(r, step.dt);
+  }
+
+ private:
+  void read_parameters(const Parameters& p) override {
     follow_pose_ = p.text("mode") == "pose";
     max_speed_ = p.real("max_speed");
     max_turn_rate_ = p.real("max_turn_rate");
     max_acceleration_ = p.real("max_acceleration");
     max_turn_acceleration_ = p.real("max_turn_acceleration");
-    for (const Item& item : c.items()) {
-      if (!item.robot) throw Error("it moves robots, but no robot is named");
-      const ObjectId base = item.robot->base();
-      const Pose start = c.constant(base, keys::initial_pose).value_or(Pose{});
-      Robot r;
-      r.name = item.robot->name;
-      r.pose = c.variable(base, keys::pose, start);
-      r.twist = c.variable(base, keys::twist, c.constant(base, keys::initial_twist).value_or(Twist{}));
-      if (follow_pose_)
-        r.command_pose = c.input(base, keys::command_pose, start);
-      else
-        r.command_twist = c.input(base, keys::command_twist, Twist{});
-      r.stop = ContactStop(c, *item.robot);
-      robots_.push_back(r);
-    }
   }
 
-  std::span<const Phase> phases() const override {
-    static constexpr Phase phases[] = {{Phase::IndexSpace::items, Phase::Scope::own_robot}};
-    return phases;
+  PointRobot connect_robot(Connector& c, const Item& item) override {
+    const ObjectId base = item.robot->base();
+    const Pose start = c.constant(base, keys::initial_pose).value_or(Pose{});
+    PointRobot r;
+    r.name = item.robot->name;
+    r.pose = c.variable(base, keys::pose, start);
+    r.twist = c.variable(base, keys::twist, c.constant(base, keys::initial_twist).value_or(Twist{}));
+    if (follow_pose_)
+      r.command_pose = c.input(base, keys::command_pose, start);
+    else
+      r.command_twist = c.input(base, keys::command_twist, Twist{});
+    r.stop = ContactStop(c, *item.robot);
+    return r;
   }
-
-  void step(const Step& step, Range range) override {
-    for (std::uint32_t i = range.begin; i < range.end; ++i) move(robots_[i], step.dt);
-  }
-
- private:
-  struct Robot {
-    Out<Pose> pose;
-    Out<Twist> twist;
-    In<Twist> command_twist;
-    In<Pose> command_pose;
-    std::string_view name;
-    ContactStop stop;
-  };
 
   /// The velocity (world axes) that would fulfil the command within this step.
-  Twist wanted(const Robot& r, double dt) const {
+  Twist commanded_velocity(const PointRobot& r, double dt) const {
     const Pose& pose = *r.pose;
     if (!follow_pose_) return {pose.orientation * r.command_twist->linear, pose.orientation * r.command_twist->angular};
     const Eigen::AngleAxisd turn(r.command_pose->orientation * pose.orientation.conjugate());
-    return {braked(r.command_pose->position - pose.position, max_acceleration_, dt),
-            braked(turn.angle() * turn.axis(), max_turn_acceleration_, dt)};
+    return {approach_velocity(r.command_pose->position - pose.position, max_acceleration_, dt),
+            approach_velocity(turn.angle() * turn.axis(), max_turn_acceleration_, dt)};
   }
 
-  /// The velocity that covers `distance` in one step, or from which the deceleration `most` still stops in time.
-  static Vec3 braked(const Vec3& distance, double most, double dt) {
-    const double length = distance.norm();
-    if (length <= most * dt * dt) return distance / dt;
-    // v dt + v^2 / (2 most) = length
-    return distance * (2 / (dt + std::sqrt(dt * dt + 2 * length / most)));
-  }
-
-  void move(const Robot& r, double dt) const {
-    const Twist goal = wanted(r, dt);
+  void move(const PointRobot& r, double dt) const {
+    const Twist goal = commanded_velocity(r, dt);
     Twist& v = *r.twist;
     v.linear = approached(v.linear, limited(goal.linear, max_speed_), max_acceleration_ * dt);
     v.angular = approached(v.angular, limited(goal.angular, max_turn_rate_), max_turn_acceleration_ * dt);
@@ -130,7 +127,6 @@ class Point final : public Algorithm {
     pose.orientation = (turn * pose.orientation).normalized();
   }
 
-  std::vector<Robot> robots_;
   bool follow_pose_ = false;
   double max_speed_ = 0, max_turn_rate_ = 0, max_acceleration_ = 0, max_turn_acceleration_ = 0;
 };
@@ -139,5 +135,5 @@ constexpr abi::AlgorithmEntry algorithms[] = {algorithm<Point>(description)};
 
 }  // namespace
 
-MURO_PLUGIN(.name = "motion_point", .version = "1.0.0", .licence = "MIT", .summary = "The point motion model",
-            .algorithms = algorithms)
+MURO_PLUGIN(.name = "motion_point", .version = description.version, .licence = "MIT",
+            .summary = "The point motion model", .algorithms = algorithms)

@@ -4,6 +4,7 @@
 #include <random>
 #include <unsupported/Eigen/MatrixFunctions>
 
+#include "muro/toolkit/rotations.hpp"
 #include "tests/support/bodies.hpp"
 
 namespace muro {
@@ -29,7 +30,7 @@ class Draw {
  public:
   explicit Draw(unsigned seed) : engine_(seed) {}
   double number(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
-  Vec3 vector(double most) { return {number(-most, most), number(-most, most), number(-most, most)}; }
+  Vec3 vector(double limit) { return {number(-limit, limit), number(-limit, limit), number(-limit, limit)}; }
   Quat turn() { return rotation_of(vector(1.5)); }
 
  private:
@@ -116,8 +117,8 @@ TEST(PointMotion, ReachesAGoalInOneStepWhenNothingLimitsIt) {
 /// One approach to a goal, watched step by step.
 struct Approach {
   double furthest_past = 0;  ///< m or rad beyond the goal
-  double most_acceleration = 0;
-  double most_speed = 0;
+  double max_acceleration = 0;
+  double max_speed = 0;
   double left = 0;  ///< m or rad to go at the end
 };
 
@@ -125,7 +126,7 @@ Approach watch(Point& s, double period, int steps, bool turning) {
   const Vec3 way = s.goal().position - s.at().position;
   const Eigen::AngleAxisd turn(s.goal().orientation * s.at().orientation.conjugate());
   const Vec3 along = turning ? turn.axis() : Vec3(way.normalized());
-  const double whole = turning ? turn.angle() : way.norm();
+  const double distance = turning ? turn.angle() : way.norm();
   const Vec3 start = s.at().position;
   const Quat first = s.at().orientation;
   Approach a;
@@ -136,12 +137,12 @@ Approach watch(Point& s, double period, int steps, bool turning) {
     const Vec3 v = turning ? s.moving().angular : s.moving().linear;
     const Eigen::AngleAxisd since(s.at().orientation * first.conjugate());
     gone = turning ? since.angle() * since.axis().dot(along) : (s.at().position - start).dot(along);
-    a.furthest_past = std::max(a.furthest_past, gone - whole);
-    a.most_acceleration = std::max(a.most_acceleration, (v - before).norm() / period);
-    a.most_speed = std::max(a.most_speed, v.norm());
+    a.furthest_past = std::max(a.furthest_past, gone - distance);
+    a.max_acceleration = std::max(a.max_acceleration, (v - before).norm() / period);
+    a.max_speed = std::max(a.max_speed, v.norm());
     before = v;
   }
-  a.left = std::abs(whole - gone);
+  a.left = std::abs(distance - gone);
   return a;
 }
 
@@ -157,8 +158,8 @@ TEST(PointMotion, BrakesBeforeTheGoalWithoutOvershootForAnyStepSize) {
       const double longest = way / speed + speed / acceleration + 2 * std::sqrt(way / acceleration) + 20 * period;
       const Approach a = watch(s, period, int(2 * longest / period), false);
       ASSERT_LT(a.furthest_past, 1e-9) << "period " << period << " round " << round;
-      ASSERT_LT(a.most_acceleration, acceleration * (1 + 1e-9));
-      ASSERT_LT(a.most_speed, speed * (1 + 1e-9));
+      ASSERT_LT(a.max_acceleration, acceleration * (1 + 1e-9));
+      ASSERT_LT(a.max_speed, speed * (1 + 1e-9));
       ASSERT_LT(a.left, 1e-9);
     }
 }
@@ -174,8 +175,8 @@ TEST(PointMotion, BrakesATurnWithoutOvershoot) {
       s.goal() = {s.at().position, Quat(rotation_of(draw.vector(1.5)) * s.at().orientation)};
       const Approach a = watch(s, period, int((3 / speed + 10 / acceleration + 10) / period), true);
       ASSERT_LT(a.furthest_past, 1e-7) << "period " << period << " round " << round;
-      ASSERT_LT(a.most_acceleration, acceleration * (1 + 1e-7));
-      ASSERT_LT(a.most_speed, speed * (1 + 1e-9));
+      ASSERT_LT(a.max_acceleration, acceleration * (1 + 1e-7));
+      ASSERT_LT(a.max_speed, speed * (1 + 1e-9));
       ASSERT_LT(a.left, 1e-7);
     }
 }

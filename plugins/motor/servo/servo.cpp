@@ -5,27 +5,29 @@
 #include <utility>
 #include <vector>
 
-#include "gear.hpp"
+#include "encoder.hpp"
+#include "gearbox.hpp"
 #include "muro/plugin.hpp"
 #include "muro/toolkit/joint_drives.hpp"
 #include "muro/toolkit/joint_inertia.hpp"
 #include "muro/toolkit/mass_properties.hpp"
+#include "muro/toolkit/per_robot.hpp"
 
 namespace {
 
 using namespace muro;
 using namespace muro::servo;
 
-constexpr Key<double> kept_effort{"servo.integral", "N m or N", "effort of the controller's integral"};
-constexpr Key<double> encoder_reading{"servo.position", "rad or m", "position as the controller sees it"};
-constexpr Key<double> seen_speed{"servo.velocity", "rad/s or m/s", "speed as the controller sees it"};
+constexpr Key<double> integral_effort{"servo.integral", "N m or N", "effort of the controller's integral"};
+constexpr Key<double> encoder_reading{"servo.position", "rad or m", "position as measured"};
+constexpr Key<double> measured_speed{"servo.velocity", "rad/s or m/s", "speed as measured"};
 constexpr Key<double> delayed_commands{"servo.commands", "rad or m, rad/s or m/s", "list: on their way to the servo"};
 constexpr Key<double> rotor_position{"motor.position", "rad or m", "of the rotor, at the output"};
 constexpr Key<double> rotor_velocity{"motor.velocity", "rad/s or m/s", "of the rotor, at the output"};
 constexpr Key<double> motor_effort{"motor.effort", "N m or N", "what the motor applies to the rotor, at the output"};
 
 constexpr std::string_view modes[] = {"position", "velocity"};
-constexpr std::string_view places[] = {"output", "motor"};
+constexpr std::string_view encoder_places[] = {"output", "motor"};
 constexpr Parameter parameters[] = {
     texts("joints", "names, or beginnings of names followed by *; default: all whose motion takes efforts"),
     text("mode", "position", "what it follows: joint.position.target or joint.velocity.target").one_of(modes),
@@ -35,7 +37,7 @@ constexpr Parameter parameters[] = {
     real("damping", "N m s/rad or N s/m", 0, "effort by speed; mode velocity: by speed error").between(0, 1e12),
     real("integral", "N m/(rad s) or N/(m s)", 0, "mode position: growth of effort by position error").between(0, 1e12),
     real("delay", "s", 0, "of commands; rounded to whole runs").between(0, 1),
-    text("encoder", "output", "where the position is measured").one_of(places),
+    text("encoder", "output", "where the position is measured").one_of(encoder_places),
     real("encoder_resolution", "rad or m", 0, "step of the measured position, at the output; 0: exact").between(0, 1),
     real("speed_filter", "s", 0, "time constant of the measured speed; 0: none").between(0, 10),
     real("gear_ratio", "1 or rad/m", 1, "turns of the motor by those of the output").between(1e-6, 1e9),
@@ -57,8 +59,8 @@ constexpr PropertyUse reads[] = {{"joint.position.target", "mode position"},
                                  {"inertial", "of the bodies behind a joint, where the rotor has inertia"}};
 constexpr PropertyUse writes[] = {{"joint.effort.target", "of every joint that it drives"},
                                   {"servo.integral", "effort of the controller's integral"},
-                                  {"servo.position", "position as the controller sees it"},
-                                  {"servo.velocity", "speed as the controller sees it"},
+                                  {"servo.position", "position as measured"},
+                                  {"servo.velocity", "speed as measured"},
                                   {"servo.commands", "commands on their way, where there is a delay"},
                                   {"motor.position", "of the rotor, at the output, where it has inertia"},
                                   {"motor.velocity", "of the rotor, at the output, where it has inertia"},
@@ -74,49 +76,38 @@ constexpr Description description{
     .capabilities = deterministic | batched | allocation_free | restorable,
 };
 
-class Servo final : public Algorithm {
+/// A joint with a servo.
+struct ServoJoint {
+  In<double> command, position, velocity;
+  Out<double> effort, integral, encoder_reading, measured_speed, motor_effort;
+  Out<double> rotor_position, rotor_velocity;  ///< where the rotor has inertia
+  ListOut<double> commands;                    ///< where there is a delay; from the oldest, in a ring
+  Gearbox gear;
+  double initial_command = 0;
+};
+
+class Servo final : public PerRobotAlgorithm<std::vector<ServoJoint>> {
  public:
-  void connect(Connector& c) override {
-    read_parameters(c.parameters());
-    for (const Item& item : c.items()) {
-      if (!item.robot) throw Error("it drives joints of robots, but no robot is named");
-      connect_robot(c, *item.robot);
-    }
-  }
-
-  std::span<const Phase> phases() const override {
-    static constexpr Phase phases[] = {{Phase::IndexSpace::items, Phase::Scope::own_robot}};
-    return phases;
-  }
-
   void step(const Step& step, Range range) override {
-    for (std::uint32_t i = range.begin; i < range.end; ++i)
-      for (std::uint32_t k = robots_[i].begin; k < robots_[i].end; ++k) drive(joints_[k], step);
+    for (const std::vector<ServoJoint>& joints : robots(range))
+      for (const ServoJoint& joint : joints) drive(joint, step);
   }
 
  private:
-  struct Joint {
-    In<double> command, position, velocity;
-    Out<double> effort, kept, reading, speed, motor_effort;
-    Out<double> rotor_position, rotor_velocity;  ///< where the rotor has inertia
-    ListOut<double> commands;                    ///< where there is a delay; from the oldest, in a ring
-    Gear gear;
-    double rest = 0;  ///< the command before any came
-  };
-
-  void read_parameters(const Parameters& p) {
+  void read_parameters(const Parameters& p) override {
     const double ratio = p.real("gear_ratio");
-    regulator_ = {p.text("mode") == "velocity", p.real("stiffness"), p.real("damping"), p.real("integral")};
+    controller_ = {p.text("mode") == "velocity", p.real("stiffness"), p.real("damping"), p.real("integral")};
     encoder_ = {p.real("encoder_resolution"), p.real("speed_filter")};
     encoder_on_motor_ = p.text("encoder") == "motor";
     delay_ = p.real("delay");
-    const double stall = p.real("stall_torque"), fastest = p.real("no_load_speed"), most = p.real("max_torque");
-    if ((stall > 0) != (fastest > 0))
-      throw Error("`stall_torque` is " + std::to_string(stall) + " N m and `no_load_speed` " + std::to_string(fastest) +
-                  " rad/s; the torque-speed line needs both, or leave both out");
-    if (stall > 0) motor_.stall = stall * ratio, motor_.slope = stall / fastest * ratio * ratio;
-    if (most > 0) motor_.current = most * ratio;
-    gear_ = {.inertia = p.real("rotor_inertia") * ratio * ratio,
+    const double stall = p.real("stall_torque"), no_load_speed = p.real("no_load_speed");
+    const double max_torque = p.real("max_torque");
+    if ((stall > 0) != (no_load_speed > 0))
+      throw Error("`stall_torque` is " + std::to_string(stall) + " N m and `no_load_speed` " +
+                  std::to_string(no_load_speed) + " rad/s; the torque-speed line needs both, or leave both out");
+    if (stall > 0) motor_.stall = stall * ratio, motor_.slope = stall / no_load_speed * ratio * ratio;
+    if (max_torque > 0) motor_.max_effort = max_torque * ratio;
+    gear_ = {.rotor_inertia = p.real("rotor_inertia") * ratio * ratio,
              .friction = p.real("friction"),
              .loss = 1 / p.real("efficiency") - 1,
              .viscous = p.real("viscous_friction"),
@@ -126,13 +117,13 @@ class Servo final : public Algorithm {
   }
 
   void check(const Parameters& p) const {
-    if (!regulator_.follows_velocity && !(regulator_.stiffness > 0))
+    if (!controller_.follows_velocity && !(controller_.stiffness > 0))
       throw Error("`stiffness` is 0, so a servo of positions does nothing; give it, in N m/rad");
-    if (regulator_.follows_velocity && !(regulator_.stiffness + regulator_.damping > 0))
+    if (controller_.follows_velocity && !(controller_.stiffness + controller_.damping > 0))
       throw Error("`damping` and `stiffness` are 0, so a servo of speeds does nothing; give `damping`, in N m s/rad");
-    if (regulator_.follows_velocity && p.given("integral"))
+    if (controller_.follows_velocity && p.given("integral"))
       throw Error("`integral` belongs to mode `position`; in mode `velocity` `stiffness` is the gain of the integral");
-    if (gear_.inertia > 0) return;
+    if (gear_.rotor_inertia > 0) return;
     for (const std::string_view name : {"friction", "backlash", "gear_stiffness"})
       if (p.real(name) > 0) throw needs_rotor(name, std::to_string(p.real(name)));
     if (p.real("efficiency") < 1) throw needs_rotor("efficiency", std::to_string(p.real("efficiency")));
@@ -144,15 +135,16 @@ class Servo final : public Algorithm {
                  "1e-7 to 1e-5 for small ones)");
   }
 
-  void connect_robot(Connector& c, const RobotView& robot) {
+  std::vector<ServoJoint> connect_robot(Connector& c, const Item& item) override {
+    const RobotView& robot = *item.robot;
     const std::vector<double> start = initial_joint_positions(c, robot);
     const std::vector<Inertia> inertias = inertias_of(c, robot);
-    const auto begin = std::uint32_t(joints_.size());
-    for (const std::size_t i : chosen(c, robot)) {
+    std::vector<ServoJoint> joints;
+    for (const std::size_t i : driven_links(c, robot)) {
       const ObjectId joint = robot.links[i].joint_object;
-      Joint j;
+      ServoJoint j;
       j.gear = gear_;
-      if (gear_.inertia > 0) {
+      if (gear_.rotor_inertia > 0) {
         j.gear.joint_inertia = joint_inertia(robot.links, inertias, start, i);
         if (!(j.gear.joint_inertia > 0))
           throw Error("joint `" + std::string(c.object_name(joint)) +
@@ -161,39 +153,40 @@ class Servo final : public Algorithm {
         j.rotor_position = c.variable(joint, rotor_position, start[i]);
         j.rotor_velocity = c.variable(joint, rotor_velocity, 0.0);
       }
-      j.rest = regulator_.follows_velocity ? 0 : start[i];
-      j.command = c.input(
-          joint, regulator_.follows_velocity ? keys::joint_velocity_target : keys::joint_position_target, j.rest);
+      j.initial_command = controller_.follows_velocity ? 0 : start[i];
+      j.command =
+          c.input(joint, controller_.follows_velocity ? keys::joint_velocity_target : keys::joint_position_target,
+                  j.initial_command);
       j.position = c.input(joint, keys::joint_position, start[i]);
       j.velocity = c.input(joint, keys::joint_velocity, 0.0);
       j.effort = c.optional_output(joint, keys::joint_effort_target);
-      j.kept = c.variable(joint, kept_effort, 0.0);
-      j.reading = c.variable(joint, encoder_reading, encoder_.reading(start[i]));
-      j.speed = c.variable(joint, seen_speed, 0.0);
+      j.integral = c.variable(joint, integral_effort, 0.0);
+      j.encoder_reading = c.variable(joint, encoder_reading, encoder_.reading(start[i]));
+      j.measured_speed = c.variable(joint, measured_speed, 0.0);
       j.motor_effort = c.derived(joint, motor_effort);
       if (delay_ > 0) j.commands = c.variable_list(joint, delayed_commands);
-      joints_.push_back(j);
+      joints.push_back(j);
     }
-    robots_.push_back({begin, std::uint32_t(joints_.size())});
+    return joints;
   }
 
-  /// Frames of the joints to drive. Where none is named: those whose motion takes efforts.
-  static std::vector<std::size_t> chosen(Connector& c, const RobotView& robot) {
+  /// The links to which the joints to drive lead. Where none is named: those whose motion takes efforts.
+  static std::vector<std::size_t> driven_links(Connector& c, const RobotView& robot) {
     const std::span<const std::string_view> names = c.parameters().texts("joints");
-    std::vector<std::size_t> frames;
+    std::vector<std::size_t> links;
     std::vector<std::string> known;
     std::vector<bool> used(names.size());
     for (std::size_t i = 0; i < robot.links.size(); ++i) {
-      const Link& f = robot.links[i];
-      if (f.joint == JointKind::fixed || f.mimic >= 0) continue;
-      known.emplace_back(c.object_name(f.joint_object).substr(robot.name.size() + 1));
-      bool wanted = names.empty() && c.is_used(f.joint_object, keys::joint_effort_target, usage::input);
+      const Link& link = robot.links[i];
+      if (link.joint == JointKind::fixed || link.mimic >= 0) continue;
+      known.emplace_back(c.object_name(link.joint_object).substr(robot.name.size() + 1));
+      bool is_driven = names.empty() && c.is_used(link.joint_object, keys::joint_effort_target, usage::input);
       for (std::size_t k = 0; k < names.size(); ++k) {
-        const bool named = muro::detail::names_joint(names[k], known.back());
-        wanted = wanted || named;
-        used[k] = used[k] || named;
+        const bool is_named = muro::detail::names_joint(names[k], known.back());
+        is_driven = is_driven || is_named;
+        used[k] = used[k] || is_named;
       }
-      if (wanted) frames.push_back(i);
+      if (is_driven) links.push_back(i);
     }
     std::string all;
     for (const std::string& k : known) all += " `" + k + "`";
@@ -202,59 +195,58 @@ class Servo final : public Algorithm {
         throw Error("`joints` names `" + std::string(names[k]) + "`, but `" + std::string(robot.name) +
                     "` has no such joint to drive" + did_you_mean(names[k], known) +
                     "; its joints are:" + (all.empty() ? " none" : all));
-    if (frames.empty())
+    if (links.empty())
       c.host().log(LogLevel::info, "motor.servo drives nothing of `" + std::string(robot.name) +
                                        "`: its motion takes no efforts (`joints: effort` there, or `effort_joints`)");
-    return frames;
+    return links;
   }
 
   /// The command of `delay_` ago.
-  double delayed(const Joint& j, const Step& step) const {
+  double delayed_command(const ServoJoint& j, const Step& step) const {
     const double command = *j.command;
     if (!j.commands) return command;
     const auto runs = std::uint64_t(std::lround(delay_ / step.dt));
     if ((*j.commands).size() != runs) {
       j.commands.clear();
-      for (std::uint64_t k = 0; k < runs; ++k) j.commands.push_back(step.index == 0 ? j.rest : command);
+      for (std::uint64_t k = 0; k < runs; ++k) j.commands.push_back(step.index == 0 ? j.initial_command : command);
     }
     if (runs == 0) return command;
     return std::exchange((*j.commands)[step.index % runs], command);
   }
 
-  void drive(const Joint& j, const Step& step) const {
+  void drive(const ServoJoint& j, const Step& step) const {
     const double dt = step.dt, q = *j.position, v = *j.velocity;
     Rotor rotor{q, v};
     if (j.rotor_position) rotor = {*j.rotor_position, *j.rotor_velocity};
-    const double target = delayed(j, step);
-    const double seen = encoder_.reading(encoder_on_motor_ ? rotor.position : q);
-    const double speed = encoder_.seen_speed(seen, *j.reading, *j.speed, encoder_on_motor_ ? rotor.velocity : v, dt);
-    *j.reading = seen;
-    *j.speed = speed;
-    const double wanted = regulator_.effort(target, seen, speed, motor_.bounds(rotor.velocity), *j.kept, dt);
+    const double target = delayed_command(j, step);
+    const double position = encoder_.reading(encoder_on_motor_ ? rotor.position : q);
+    const double speed = encoder_.measured_speed(position, *j.encoder_reading, *j.measured_speed,
+                                                 encoder_on_motor_ ? rotor.velocity : v, dt);
+    *j.encoder_reading = position;
+    *j.measured_speed = speed;
+    const double wanted = controller_.effort(target, position, speed, motor_.limits(rotor.velocity), *j.integral, dt);
     if (!j.rotor_position) {
       *j.motor_effort = wanted;
       *j.effort = wanted - gear_.viscous * v;
       return;
     }
     *j.effort = j.gear.effort(rotor, q, v, dt);
-    *j.motor_effort = j.gear.turn(rotor, wanted, motor_, *j.effort, dt);
+    *j.motor_effort = j.gear.advance_rotor(rotor, wanted, motor_, *j.effort, dt);
     *j.rotor_position = rotor.position;
     *j.rotor_velocity = rotor.velocity;
   }
 
-  Regulator regulator_;
+  PidController controller_;
   Encoder encoder_;
   bool encoder_on_motor_ = false;
   double delay_ = 0;  ///< s
   Motor motor_;
-  Gear gear_;                  ///< but the inertia of the joint
-  std::vector<Range> robots_;  ///< in joints_
-  std::vector<Joint> joints_;
+  Gearbox gear_;  ///< but the inertia of the joint
 };
 
 constexpr abi::AlgorithmEntry algorithms[] = {algorithm<Servo>(description)};
 
 }  // namespace
 
-MURO_PLUGIN(.name = "motor_servo", .version = "1.0.0", .licence = "MIT", .summary = "Servos of joints",
+MURO_PLUGIN(.name = "motor_servo", .version = description.version, .licence = "MIT", .summary = "Servos of joints",
             .algorithms = algorithms)

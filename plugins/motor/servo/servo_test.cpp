@@ -69,12 +69,12 @@ TEST(Servo, AStepOvershootsAsTheSecondOrderSystemDoes) {
   const double k = 8, w = std::sqrt(k / inertia), zeta = 0.3, damped = std::sqrt(1 - zeta * zeta);
   Bench s({{"stiffness", k}, {"damping", 2 * zeta * w * inertia}}, {}, 10000);
   s.goal() = 1;
-  double most = 0, when = 0;
+  double peak = 0, when = 0;
   for (int n = 1; n <= 4000; ++n) {
     s.run_for(0.0001);
-    if (s.q() > most) most = s.q(), when = 0.0001 * n;
+    if (s.q() > peak) peak = s.q(), when = 0.0001 * n;
   }
-  EXPECT_NEAR(most - 1, std::exp(-M_PI * zeta / damped), 1e-3);
+  EXPECT_NEAR(peak - 1, std::exp(-M_PI * zeta / damped), 1e-3);
   EXPECT_NEAR(when, M_PI / (w * damped), 0.002 * when);
 }
 
@@ -193,7 +193,7 @@ TEST(Servo, BacklashIsTheHysteresisOfThePosition) {
   }
 }
 
-TEST(Servo, BacklashAndAnIntegralBehindItMakeALimitCycleThatAnEncoderOnTheMotorAvoids) {
+TEST(Servo, AnEncoderOnTheMotorAvoidsTheLimitCycleOfBacklash) {
   // Nordin and Gutman, Section 3: the integral of an error that the gap hides grows until the rotor jumps.
   const auto swing = [](const char* encoder) {
     Bench s(with(loose, {{"encoder", encoder}, {"integral", 40.0}, {"damping", 0.3}}), {.damping = 0.02});

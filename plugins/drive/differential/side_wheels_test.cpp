@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-// muro/wheels.hpp, seen through a drive: the speeds that a command asks of the wheels tell which were found, on which
-// side, with which radius, track and sense of rotation.
-#include "plugins/common/wheels/side_wheels.hpp"
-
+// Which wheels are found, seen through a drive: the speeds that a command asks of the wheels tell which were found, on
+// which side, with which radius, track and sense of rotation.
 #include <gtest/gtest.h>
 
+#include "muro/toolkit/rotations.hpp"
 #include "tests/support/complaint.hpp"
 #include "tests/support/wheeled_robot.hpp"
 
@@ -53,7 +52,7 @@ std::vector<WheelPart> pair_and(const WheelPart& more) {
   return all;
 }
 
-TEST(Wheels, AreThoseOfARoverWithFourWheels) {
+TEST(SideWheels, AreThoseOfARoverWithFourWheels) {
   std::vector<WheelPart> four;
   for (const double x : {0.12, -0.12})
     for (const double y : {0.15, -0.15})
@@ -69,7 +68,7 @@ TEST(Wheels, AreThoseOfARoverWithFourWheels) {
   }
 }
 
-TEST(Wheels, TurnBackwardAboutAnAxisThatPointsRight) {
+TEST(SideWheels, TurnBackwardAboutAnAxisThatPointsRight) {
   std::vector<WheelPart> wheels = pair();
   wheels[1].axis = -Vec3::UnitY();
   Found found(test::wheeled_robot(wheels));
@@ -78,7 +77,7 @@ TEST(Wheels, TurnBackwardAboutAnAxisThatPointsRight) {
   EXPECT_NEAR(found.turn("right"), -4, 1e-12);
 }
 
-TEST(Wheels, MayBeSpheresAndMayOnlyBeSeen) {
+TEST(SideWheels, MayBeSpheresAndMayOnlyBeSeen) {
   std::vector<WheelPart> wheels = pair();
   for (WheelPart& w : wheels) {
     w.own_shape = true;
@@ -89,7 +88,7 @@ TEST(Wheels, MayBeSpheresAndMayOnlyBeSeen) {
   EXPECT_NEAR(found.forward("left"), 10, 1e-12);
 }
 
-TEST(Wheels, StandWhereTheirShapesAre) {
+TEST(SideWheels, StandWhereTheirShapesAre) {
   std::vector<WheelPart> wheels = pair();
   for (WheelPart& w : wheels) {
     w.own_shape = true;
@@ -100,7 +99,7 @@ TEST(Wheels, StandWhereTheirShapesAre) {
   EXPECT_NEAR(found.turn("right"), 0.3 / 0.05, 1e-12) << "track 0.6 m";
 }
 
-TEST(Wheels, HaveEachTheirOwnRadius) {
+TEST(SideWheels, HaveEachTheirOwnRadius) {
   std::vector<WheelPart> wheels = pair();
   wheels[0].radius = 0.1;
   Found found(test::wheeled_robot(wheels));
@@ -108,7 +107,7 @@ TEST(Wheels, HaveEachTheirOwnRadius) {
   EXPECT_NEAR(found.forward("right"), 20, 1e-12);
 }
 
-TEST(Wheels, AreFoundBehindARotatedFrameAndOnAFixedChild) {
+TEST(SideWheels, AreFoundBehindARotatedFrameAndOnAFixedChild) {
   const Shape tyre = test::tyre(0.08);
   const RobotTree tree = test::tree_of([&](RobotBuilder& b) {
     b.base("chassis");
@@ -134,7 +133,7 @@ TEST(Wheels, AreFoundBehindARotatedFrameAndOnAFixedChild) {
   EXPECT_NEAR(found.turn("left"), -0.3 / 0.08, 1e-12);
 }
 
-TEST(Wheels, AreNotFlyingDiscsLimitedJointsArmsOrRollersOfOtherDirections) {
+TEST(SideWheels, AreNotDiscsArmsOrJointsOfOtherDirections) {
   const auto with = [](const WheelPart& part) { return Found(test::wheeled_robot(pair_and(part))).has(part.name); };
   WheelPart arm{.name = "other", .at = {0, 0.5, 0}, .own_shape = true};
   arm.shape = test::tyre(0.05);
@@ -148,7 +147,7 @@ TEST(Wheels, AreNotFlyingDiscsLimitedJointsArmsOrRollersOfOtherDirections) {
   EXPECT_FALSE(with(arm));
 }
 
-TEST(Wheels, AreNotCastersNorFollowers) {
+TEST(SideWheels, AreNotCastersNorFollowers) {
   const Shape tyre = test::tyre(0.02);
   const RobotTree tree = test::wheeled_robot(pair(), [&](RobotBuilder& b) {
     b.fork();
@@ -172,7 +171,7 @@ TEST(Wheels, AreNotCastersNorFollowers) {
   EXPECT_FALSE(found.has("follower"));
 }
 
-TEST(Wheels, MayHangOnASpringOrARocker) {
+TEST(SideWheels, MayHangOnASpringOrARocker) {
   const Shape tyre = test::tyre(0.1);
   const RobotTree tree = test::tree_of([&](RobotBuilder& b) {
     b.base("chassis");
@@ -195,7 +194,7 @@ TEST(Wheels, MayHangOnASpringOrARocker) {
   EXPECT_NEAR(Found(tree).turn("right"), 3, 1e-12);
 }
 
-TEST(Wheels, CanBeNamedByTheUser) {
+TEST(SideWheels, CanBeNamedByTheUser) {
   std::vector<WheelPart> wheels = pair_and({.name = "spare", .at = {0, 0.5, 0}});
   for (WheelPart& w : wheels) {
     w.own_shape = true;
@@ -208,7 +207,7 @@ TEST(Wheels, CanBeNamedByTheUser) {
   EXPECT_NEAR(found.turn("left"), -1, 1e-12);
 }
 
-TEST(Wheels, AModelWithoutWheelsIsAnErrorThatTellsWhatItHas) {
+TEST(SideWheels, AModelWithoutWheelsIsAnErrorThatTellsWhatItHas) {
   EXPECT_SAYS(complaint(test::single_body(Shape::sphere(1), {.mass = 1})),
               "`rover` has no driven wheels on either side: no joint of it turns. Name the wheels' joints with `left` "
               "and `right`");
@@ -222,12 +221,12 @@ TEST(Wheels, AModelWithoutWheelsIsAnErrorThatTellsWhatItHas) {
   EXPECT_SAYS(text, "`c_joint` has no cylinder or sphere about its axis as a shape");
 }
 
-TEST(Wheels, OnOneSideAloneAreAnError) {
+TEST(SideWheels, OnOneSideAloneAreAnError) {
   EXPECT_SAYS(complaint(test::wheeled_robot({{.name = "left", .at = {0, 0.2, 0}}})),
               "`rover` has no driven wheels on the right (y < 0): `left_joint` is on the left.");
 }
 
-TEST(Wheels, WrongNamesAreErrorsWithTheRightOnes) {
+TEST(SideWheels, WrongNamesAreErrorsWithTheRightOnes) {
   const RobotTree tree = test::wheeled_robot(pair());
   const auto named = [&](Names left, Names right) {
     Settings s;
@@ -243,7 +242,7 @@ TEST(Wheels, WrongNamesAreErrorsWithTheRightOnes) {
   EXPECT_SAYS(named({"left_joint"}, {"left_joint"}), "name the same wheel");
 }
 
-TEST(Wheels, NamedJointsMustBeAbleToRoll) {
+TEST(SideWheels, NamedJointsMustBeAbleToRoll) {
   const Settings names{{"left", Names{"left_joint"}}, {"right", Names{"right_joint"}}};
   const auto with = [&](const WheelPart& left) {
     return complaint(test::wheeled_robot({left, {.name = "right", .at = {0, -0.2, 0}}}), names);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "rolling.hpp"
+#include "rolling_constraints.hpp"
 
 #include <Eigen/Eigenvalues>
 
-namespace muro::wheeled {
+namespace muro::wheels {
 
 namespace {
 
@@ -18,7 +18,7 @@ Mat3 adjugate(const Mat3& m) {
 
 }  // namespace
 
-RollingBase::Modes RollingBase::modes_of(const Mat3& normal) {
+RollingConstraints::NullSpace RollingConstraints::null_space_of(const Mat3& normal) {
   const double size = normal.trace();
   const Mat3 first = adjugate(normal);
   const double minors = first.trace();
@@ -26,12 +26,12 @@ RollingBase::Modes RollingBase::modes_of(const Mat3& normal) {
     int column = 0;
     first.diagonal().maxCoeff(&column);
     Vec3 v = first.col(column).normalized();
-    for (int round = 0; round < 4; ++round) {
+    for (int iteration = 0; iteration < 4; ++iteration) {
       const Vec3 image = normal * v;
       const double value = v.dot(image), others = size - value;
       if ((image - value * v).squaredNorm() < 1e-30 * size * size) {
-        const bool least = others > 2 * value && minors - 2 * value * others + value * value > 0;
-        if (least) return {v};
+        const bool is_smallest = others > 2 * value && minors - 2 * value * others + value * value > 0;
+        if (is_smallest) return {v};
         break;
       }
       v = (adjugate(normal - value * Mat3::Identity()) * v).normalized();
@@ -42,4 +42,4 @@ RollingBase::Modes RollingBase::modes_of(const Mat3& normal) {
   return {all.eigenvectors().col(0), all.eigenvectors().col(1)};
 }
 
-}  // namespace muro::wheeled
+}  // namespace muro::wheels

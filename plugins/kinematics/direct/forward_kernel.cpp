@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
-#include "link.hpp"
 #include "muro/simd/rows.hpp"
 #include "muro/simd/trig.hpp"
+#include "tree_link.hpp"
 
 namespace muro::kinematics {
 namespace {
 
 using namespace lane;
 
-/// q turned about the joint's axis, which belongs to its frame. `half`: of half the angle.
+/// q rotated about the joint's axis, which is given in q's own frame. `half`: of half the angle.
 template <class S>
-MURO_INLINE Q4<S> turned(const Q4<S>& q, const CarriedLink& link, const SinCos<S>& half) {
+MURO_INLINE Q4<S> rotated(const Q4<S>& q, const TreeLink& link, const SinCos<S>& half) {
   const S s = half.sin, c = half.cos;
-  switch (link.along) {
+  switch (link.axis_number) {
     case 1:
       return {q.x * c + q.w * s, q.y * c + q.z * s, q.z * c - q.y * s, q.w * c - q.x * s};
     case 2:
@@ -24,8 +24,8 @@ MURO_INLINE Q4<S> turned(const Q4<S>& q, const CarriedLink& link, const SinCos<S
   }
 }
 template <class S>
-MURO_INLINE V3<S> axis_in_world(const M3<S>& axes, const CarriedLink& link) {
-  switch (link.along) {
+MURO_INLINE V3<S> axis_in_world(const M3<S>& axes, const TreeLink& link) {
+  switch (link.axis_number) {
     case 1:
       return axes.x;
     case 2:
@@ -54,59 +54,61 @@ struct States {
   }
 };
 
-/// The frame that others are placed from.
+/// The link from which others are reached.
 template <class S>
-struct Carrier {
+struct Parent {
   PoseOf<S> pose;
   TwistOf<S> twist;
   M3<S> axes;
 
-  MURO_INLINE Carrier(const PoseOf<S>& p, const TwistOf<S>& t) : pose(p), twist(t), axes(p.orientation.matrix()) {}
+  MURO_INLINE Parent(const PoseOf<S>& p, const TwistOf<S>& t) : pose(p), twist(t), axes(p.orientation.matrix()) {}
 };
 
 template <class S>
-void place_some(const CarriedLink* links, const Spot* spots, int link_count, const RobotState* robots,
-                int robot_count) {
+void forward_lanes(const TreeLink* links, const StateOffsets* offsets, int link_count, const RobotState* robots,
+                   int robot_count) {
   const States<S> states(robots, robot_count);
   const unsigned which = first_lanes(robot_count);
-  const auto base = [&] { return Carrier<S>(load_pose(states.base_pose), load_twist(states.base_twist)); };
-  const auto link_at = [&](const Spot& at) {
-    return Carrier<S>(load_pose(as_read(states.poses), at.pose), load_twist(as_read(states.twists), at.twist));
+  const auto base = [&] { return Parent<S>(load_pose(states.base_pose), load_twist(states.base_twist)); };
+  const auto link_at = [&](const StateOffsets& at) {
+    return Parent<S>(load_pose(as_read(states.poses), at.pose), load_twist(as_read(states.twists), at.twist));
   };
   int parent = 0;
-  Carrier<S> from = base();
+  Parent<S> from = base();
   for (int k = 0; k < link_count; ++k) {
-    const CarriedLink& link = links[k];
-    const Spot& spot = spots[k];
+    const TreeLink& link = links[k];
+    const StateOffsets& at = offsets[k];
     if (link.parent != parent) {  // neighbours mostly share their parent
       parent = link.parent;
-      from = parent == 0 ? base() : link_at(spots[parent - 1]);
+      from = parent == 0 ? base() : link_at(offsets[parent - 1]);
     }
     V3<S> arm = from.axes * splat<S>(link.offset);
     Q4<S> orientation = from.pose.orientation;
     TwistOf<S> twist = from.twist;
-    if (link.joint != CarriedLink::Joint::fixed) {
-      const S q = load(states.positions, spot.position), rate = load(states.velocities, spot.velocity);
+    if (link.joint != TreeLink::Joint::fixed) {
+      const S q = load(states.positions, at.position), rate = load(states.velocities, at.velocity);
       const V3<S> axis = axis_in_world(from.axes, link);
-      if (link.joint == CarriedLink::Joint::revolute) {
-        orientation = turned(orientation, link, sincos(S(0.5) * q));
+      if (link.joint == TreeLink::Joint::revolute) {
+        orientation = rotated(orientation, link, sincos(S(0.5) * q));
         twist.angular += axis * rate;
       } else {
         arm += axis * q;
         twist.linear += axis * rate;
       }
     }
-    if (link.turned)
-      orientation = orientation * Q4<S>{S(link.turn[0]), S(link.turn[1]), S(link.turn[2]), S(link.turn[3])};
+    if (link.is_rotated)
+      orientation =
+          orientation * Q4<S>{S(link.rotation[0]), S(link.rotation[1]), S(link.rotation[2]), S(link.rotation[3])};
     twist.linear += cross(from.twist.angular, arm);
-    store_pose(states.poses, spot.pose, {from.pose.position + arm, orientation}, which);
-    store_twist(states.twists, spot.twist, twist, which);
+    store_pose(states.poses, at.pose, {from.pose.position + arm, orientation}, which);
+    store_twist(states.twists, at.twist, twist, which);
   }
 }
 
-void place(const CarriedLink* links, const Spot* spots, int link_count, const RobotState* robots, int robot_count) {
+void forward_kinematics(const TreeLink* links, const StateOffsets* offsets, int link_count, const RobotState* robots,
+                        int robot_count) {
   in_lanes(robot_count, [&]<class S>(int first, int used) {
-    place_some<S>(links, spots, link_count, robots + first, used);
+    forward_lanes<S>(links, offsets, link_count, robots + first, used);
     return 0u;
   });
 }
@@ -115,7 +117,7 @@ void place(const CarriedLink* links, const Spot* spots, int link_count, const Ro
 
 namespace MURO_ISA {
 extern const Kernels kernels;
-const Kernels kernels{&place};
+const Kernels kernels{&forward_kinematics};
 }  // namespace MURO_ISA
 
 }  // namespace muro::kinematics

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "planar.hpp"
+#include "planar_motion.hpp"
+#include "muro/toolkit/rotations.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-namespace muro::wheeled {
+namespace muro::wheels {
 namespace {
 
 struct Draw {
@@ -13,13 +14,13 @@ struct Draw {
   double operator()(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine); }
 };
 
-/// The way of a frame by Simpson's rule over many small intervals.
-Vec3 simpson(const PlanarTwist& v, const PlanarTwist& rate, double dt) {
+/// The displacement of a frame by Simpson's rule over many small intervals.
+Vec3 simpson(const PlanarTwist& v, const PlanarTwist& acceleration, double dt) {
   const int n = 20000;
   Vec3 sum = Vec3::Zero();
   for (int i = 0; i <= n; ++i) {
-    const double t = dt * i / n, heading = v.turn * t + 0.5 * rate.turn * t * t;
-    const PlanarTwist now = v + rate * t;
+    const double t = dt * i / n, heading = v.yaw_rate * t + 0.5 * acceleration.yaw_rate * t * t;
+    const PlanarTwist now = v + acceleration * t;
     const Vec3 f = Eigen::AngleAxisd(heading, Vec3::UnitZ()) * Vec3(now.x, now.y, 0);
     sum += (i == 0 || i == n ? 1 : i % 2 == 1 ? 4 : 2) * f;
   }
@@ -50,29 +51,29 @@ TEST(Arc, TwoArcsOfHalfTheTimeAreOne) {
   Draw draw{std::mt19937(1)};
   for (int i = 0; i < 100; ++i) {
     const PlanarTwist v{draw(-2, 2), draw(-2, 2), draw(-5, 5)};
-    const Pose whole = arc(v, 1), half = arc(v, 0.5), both = half * half;
-    EXPECT_LT((whole.position - both.position).norm(), 1e-15);
-    EXPECT_LT((whole.orientation.coeffs() - both.orientation.coeffs()).norm(), 1e-15);
+    const Pose once = arc(v, 1), half = arc(v, 0.5), both = half * half;
+    EXPECT_LT((once.position - both.position).norm(), 1e-15);
+    EXPECT_LT((once.orientation.coeffs() - both.orientation.coeffs()).norm(), 1e-15);
   }
 }
 
-TEST(Curve, IsTheIntegralOfAVelocityThatChangesEvenly) {
+TEST(AcceleratedArc, IsTheIntegralOfAVelocityThatChangesEvenly) {
   Draw draw{std::mt19937(2)};
   for (int i = 0; i < 30; ++i) {
-    const PlanarTwist v{draw(-2, 2), draw(-2, 2), draw(-1, 1)}, rate{draw(-2, 2), draw(-2, 2), draw(-1, 1)};
-    const Pose end = curve(v, rate, 0.6);
-    EXPECT_LT((end.position - simpson(v, rate, 0.6)).norm(), 1e-10);
-    EXPECT_NEAR(yaw_of(end.orientation), 0.6 * v.turn + 0.18 * rate.turn, 1e-15);
+    const PlanarTwist v{draw(-2, 2), draw(-2, 2), draw(-1, 1)}, acceleration{draw(-2, 2), draw(-2, 2), draw(-1, 1)};
+    const Pose end = accelerated_arc(v, acceleration, 0.6);
+    EXPECT_LT((end.position - simpson(v, acceleration, 0.6)).norm(), 1e-10);
+    EXPECT_NEAR(yaw_of(end.orientation), 0.6 * v.yaw_rate + 0.18 * acceleration.yaw_rate, 1e-15);
   }
 }
 
-TEST(Curve, WithoutChangeIsAnArc) {
+TEST(AcceleratedArc, WithoutChangeIsAnArc) {
   Draw draw{std::mt19937(3)};
   for (int i = 0; i < 30; ++i) {
     const PlanarTwist v{draw(-2, 2), draw(-2, 2), draw(-2, 2)};
-    EXPECT_LT((curve(v, {}, 0.5).position - arc(v, 0.5).position).norm(), 1e-11);
+    EXPECT_LT((accelerated_arc(v, {}, 0.5).position - arc(v, 0.5).position).norm(), 1e-11);
   }
 }
 
 }  // namespace
-}  // namespace muro::wheeled
+}  // namespace muro::wheels

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+
+namespace muro::servo {
+
+/// An encoder with a finite number of steps; speed by differences of its readings.
+struct Encoder {
+  double resolution = 0;  ///< rad or m a step; 0: exact
+  double filter = 0;      ///< s, time constant of the speed; 0: none
+
+  double reading(double position) const {
+    return resolution > 0 ? std::round(position / resolution) * resolution : position;
+  }
+  /// The measured speed. `now`, `last`: readings of this run and of the one before; `speed`: as measured then; `exact`:
+  /// the true one.
+  double measured_speed(double now, double last, double speed, double exact, double dt) const {
+    const double raw = resolution > 0 ? (now - last) / dt : exact;
+    return speed + (raw - speed) * (dt / (filter + dt));
+  }
+};
+
+}  // namespace muro::servo
