@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/access_check.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstring>
 
@@ -14,11 +16,10 @@ constexpr std::byte poison_byte{0xff};
 
 std::string call_of(const Task& task, const Step& step, Range range) {
   const Phase phase = task.phases[step.phase];
-  std::string text = "phase " + std::to_string(step.phase);
-  if (phase.index_space == Phase::IndexSpace::whole) return text + ", which is not divided";
-  return text + ", for " + (phase.index_space == Phase::IndexSpace::robots ? "robots " : "items ") +
-         std::to_string(range.begin) + " to " + std::to_string(range.end - 1) + ", with " +
-         (phase.scope == Phase::Scope::own_robot ? "Scope::own_robot" : "Scope::reads_all");
+  if (phase.index_space == Phase::IndexSpace::whole) return fmt::format("phase {}, which is not divided", step.phase);
+  return fmt::format("phase {}, for {} {} to {}, with {}", step.phase,
+                     phase.index_space == Phase::IndexSpace::robots ? "robots" : "items", range.begin, range.end - 1,
+                     phase.scope == Phase::Scope::own_robot ? "Scope::own_robot" : "Scope::reads_all");
 }
 
 }  // namespace
@@ -100,7 +101,7 @@ void AccessCheck::poison(const Allowed& allowed) {
 
 std::string AccessCheck::name_of(const Memory& memory) const {
   const Slot& s = store_.slot(memory.slot);
-  return "`" + store_.object_name(s.object) + ":" + std::string(store_.key_of(s).name) + "`";
+  return fmt::format("`{}:{}`", store_.object_name(s.object), store_.key_of(s).name);
 }
 
 /// From the state before the step to where a call begins: what phases hand on is there again, and nothing older.
@@ -125,7 +126,8 @@ bool AccessCheck::call(const Task& task, const Step& step, Range range, abi::Err
   const Copy after = copy();
   for (std::size_t i = 0; i < memory_.size(); ++i)
     if (!may.writes[i] && after[i] != before[i]) {
-      error.set("it wrote " + name_of(memory_[i]) + ", which it has no right to in " + call_of(task, step, range));
+      error.set(
+          fmt::format("it wrote {}, which it has no right to in {}", name_of(memory_[i]), call_of(task, step, range)));
       return false;
     }
   const Description& d = *found->description;
@@ -139,15 +141,17 @@ bool AccessCheck::call(const Task& task, const Step& step, Range range, abi::Err
   const bool fine = task.instance->step(step, range, error);
   const Copy again = copy();
   restore(after);
-  const auto tell = [&](const std::string& what) {
-    error.set(what + " in " + call_of(task, step, range) +
-              ", when made again with all poisoned that it has not declared to read: it reads in secret, or keeps "
-              "state outside of properties");
+  const auto report = [&](const std::string& what) {
+    error.set(
+        fmt::format("{} in {}, when made again with all poisoned that it has not declared to read: it reads in secret, "
+                    "or keeps state outside of properties",
+                    what, call_of(task, step, range)));
     return false;
   };
-  if (!fine) return tell("it failed (" + std::string(error.view()) + ")");
+  if (!fine) return report(fmt::format("it failed ({})", error.view()));
   for (std::size_t i = 0; i < memory_.size(); ++i)
-    if (may.writes[i] && again[i] != after[i]) return tell("it wrote " + name_of(memory_[i]) + " differently");
+    if (may.writes[i] && again[i] != after[i])
+      return report(fmt::format("it wrote {} differently", name_of(memory_[i])));
   return true;
 }
 

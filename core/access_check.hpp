@@ -14,10 +14,11 @@ class Instance;
 /// Proves that algorithms keep to the properties that they have declared.
 ///
 /// Every call is made twice from the same state, with restored() and the calls before it in the same step in between.
-/// It asks for calls in the order of turns (see stages_of). The second time, all that the call has no right to read is
-/// poisoned (bytes 0xff: not a number). The call must then write the same bits, and nothing but what it may write: else
-/// it reads or writes in secret, and could not run beside others. What a call may touch follows from the bindings of
-/// its instance and from the reach of its phase (Phase::Scope). Runs take many times longer.
+/// It asks for calls in the order of due tasks (see stages_of). The second time, all that the call has no right to read
+/// is poisoned, as AddressSanitizer poisons memory (here by bytes 0xff: not a number). The call must then write the
+/// same bits, and nothing but what it may write: else it reads or writes in secret, and could not run beside others.
+/// What a call has access to follows from the bindings of its instance and from the scope of its phase. Runs take many
+/// times longer.
 class AccessCheck final : public CallObserver {
  public:
   AccessCheck(PropertyStore& store, const std::vector<Instance*>& instances, std::vector<std::int32_t> robot_of_slot);

@@ -34,4 +34,7 @@ struct AlgorithmSetup {
   std::string place;                   ///< "file:line:column" of the scenario, put before messages; may be empty
 };
 
+/// What stands before a message about something at `place`, a place in a file.
+inline std::string prefix_of(const std::string& place) { return place.empty() ? "" : place + ": "; }
+
 }  // namespace muro

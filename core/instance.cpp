@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/instance.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 
@@ -21,8 +23,8 @@ Instance::Instance(const abi::AlgorithmEntry& entry, AlgorithmSetup setup, World
       world_(world),
       host_(host),
       parameters_(*entry.description, setup_),
-      accessor_(world.store().add_accessor(setup_.name + " (" + setup_.use +
-                                           (setup_.place.empty() ? "" : ", " + setup_.place) + ")")) {
+      accessor_(world.store().add_accessor(
+          fmt::format("{} ({}{}{})", setup_.name, setup_.use, setup_.place.empty() ? "" : ", ", setup_.place))) {
   if (setup_.items.empty()) setup_.items.push_back({});
   for (const AlgorithmSetup::ItemSetup& item : setup_.item_setups) {
     AlgorithmSetup one;
@@ -31,8 +33,9 @@ Instance::Instance(const abi::AlgorithmEntry& entry, AlgorithmSetup setup, World
   }
   const Kind kind = entry.description->kind;
   if (!setup_.items.front().robot && (kind == Kind::motion || kind == Kind::kinematics || kind == Kind::drive))
-    throw SetupError((setup_.place.empty() ? "" : setup_.place + ": ") + setup_.name + " (" + setup_.use +
-                     ") serves robots, but no robot is named; use it in a robot, not for the whole scene");
+    throw SetupError(
+        fmt::format("{}{} ({}) serves robots, but no robot is named; use it in a robot, not for the whole scene",
+                    prefix_of(setup_.place), setup_.name, setup_.use));
   abi::ErrorText error;
   algorithm_ = entry_.create(&error);
   require(algorithm_ != nullptr, error, "cannot be created");
@@ -44,8 +47,8 @@ Instance::~Instance() {
 
 void Instance::require(bool fine, const abi::ErrorText& error, const char* doing) const {
   if (fine) return;
-  const std::string place = setup_.place.empty() ? "" : setup_.place + ": ";
-  throw SetupError(place + setup_.name + " (" + setup_.use + ") " + doing + ": " + std::string(error.view()));
+  throw SetupError(
+      fmt::format("{}{} ({}) {}: {}", prefix_of(setup_.place), setup_.name, setup_.use, doing, error.view()));
 }
 
 void Instance::connect() {

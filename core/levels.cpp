@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/levels.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "core/error.hpp"
@@ -66,16 +68,16 @@ void Levels::prepare(World& world, const std::vector<LevelsOfRobot>& robots,
         if (instance->description().kind == Kind::motion && items[i].robot == setup.robot) {
           Mover& mover = r.movers.at(items[i].level);
           if (mover.instance)
-            throw SetupError("`" + std::string(setup.robot->name) + "` is moved by " + mover.instance->setup().name +
-                             " and by " + instance->setup().name + "; list all of its motions under `levels` of one");
+            throw SetupError(fmt::format("`{}` is moved by {} and by {}; list all of its motions under `levels` of one",
+                                         setup.robot->name, mover.instance->setup().name, instance->setup().name));
           mover = {instance.get(), i};
         }
     }
     std::vector<Accessor> accessors{accessor};
     for (const Mover& m : r.movers) {
       if (!m.instance)
-        throw SetupError("`" + std::string(setup.robot->name) + "` lists " + std::to_string(setup.names.size()) +
-                         " motions, but not all of them are used");
+        throw SetupError(
+            fmt::format("`{}` lists {} motions, but not all of them are used", setup.robot->name, setup.names.size()));
       accessors.push_back(m.instance->accessor());
     }
     std::vector<ObjectId> objects;
@@ -187,8 +189,8 @@ bool Levels::step(const Step&, Range, abi::ErrorText& error) noexcept {
     const std::int32_t target = *r.target;
     if (target < 0 || std::uint32_t(target) == *r.level) continue;
     if (std::size_t(target) >= r.movers.size()) {
-      error.set("`motion.level.target` of `" + std::string(r.view->name) + "` is " + std::to_string(target) +
-                ", but it has " + std::to_string(r.movers.size()) + " motions, from 0");
+      error.set(fmt::format("`motion.level.target` of `{}` is {}, but it has {} motions, from 0", r.view->name, target,
+                            r.movers.size()));
       return false;
     }
     for (const SlotId slot : r.traits) store_->clear(slot);

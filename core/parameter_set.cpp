@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -28,25 +31,21 @@ std::string shown(const ParameterInput& input) {
       for (const double d : v) all += (all.size() > 1 ? ", " : "") + shown(d);
       return all + "]";
     }
-    std::string operator()(const std::vector<std::string>& v) const {
-      std::string all = "[";
-      for (const std::string& s : v) all += (all.size() > 1 ? ", " : "") + s;
-      return all + "]";
-    }
+    std::string operator()(const std::vector<std::string>& v) const { return fmt::format("[{}]", fmt::join(v, ", ")); }
   };
   return std::visit(Visitor{}, input);
 }
 
 std::string range_of(const Parameter& p) {
   const bool low = std::isfinite(p.min), high = std::isfinite(p.max);
-  const std::string unit = p.unit == "1" ? "" : " " + std::string(p.unit);
-  if (low && high) return " from " + shown(p.min) + " to " + shown(p.max) + unit;
-  if (low) return " of at least " + shown(p.min) + unit;
-  if (high) return " of at most " + shown(p.max) + unit;
+  const std::string unit = p.unit == "1" ? "" : fmt::format(" {}", p.unit);
+  if (low && high) return fmt::format(" from {} to {}{}", shown(p.min), shown(p.max), unit);
+  if (low) return fmt::format(" of at least {}{}", shown(p.min), unit);
+  if (high) return fmt::format(" of at most {}{}", shown(p.max), unit);
   return unit.empty() ? "" : " in" + unit;
 }
 
-std::string wanted(const Parameter& p) {
+std::string allowed_values(const Parameter& p) {
   switch (p.type) {
     case ParameterType::real:
       return "a number" + range_of(p);
@@ -55,23 +54,21 @@ std::string wanted(const Parameter& p) {
     case ParameterType::boolean:
       return "true or false";
     case ParameterType::reals:
-      return (p.length > 0 ? "a list of " + std::to_string(p.length) + " numbers" : "a list of numbers") + range_of(p);
+      return (p.length > 0 ? fmt::format("a list of {} numbers", p.length) : "a list of numbers") + range_of(p);
     case ParameterType::texts:
       return "a list of texts";
     case ParameterType::text:
       break;
   }
   if (p.choices.empty()) return "a text";
-  std::string all = "one of";
-  for (const std::string_view c : p.choices) all += " " + std::string(c);
-  return all;
+  return fmt::format("one of {}", fmt::join(p.choices, " "));
 }
 
-const double* number_in(const ParameterInput& input, double& room) {
+const double* number_in(const ParameterInput& input, double& storage) {
   if (const auto* d = std::get_if<double>(&input)) return d;
   if (const auto* i = std::get_if<std::int64_t>(&input)) {
-    room = double(*i);
-    return &room;
+    storage = double(*i);
+    return &storage;
   }
   return nullptr;
 }
@@ -89,13 +86,11 @@ ParameterSet::ParameterSet(const Description& description, const AlgorithmSetup&
   }
   for (const auto& [name, unused] : setup.parameters) {
     if (std::find(names.begin(), names.end(), name) != names.end()) continue;
-    std::string all;
-    for (const std::string& n : names) all += (all.empty() ? "" : ", ") + n;
-    problems.push_back("`" + std::string(description.id) + "` has no parameter `" + name + "`" +
-                       did_you_mean(name, names) + (all.empty() ? "; it has none" : "; it has: " + all));
+    problems.push_back(fmt::format("`{}` has no parameter `{}`{}; it has{}", description.id, name,
+                                   did_you_mean(name, names),
+                                   names.empty() ? " none" : fmt::format(": {}", fmt::join(names, ", "))));
   }
-  const std::string place = setup.place.empty() ? "" : setup.place + ": ";
-  for (std::string& p : problems) p = place + setup.name + ": " + p;
+  for (std::string& p : problems) p = fmt::format("{}{}: {}", prefix_of(setup.place), setup.name, p);
   if (!problems.empty()) throw SetupError(problems);
   view_ = Parameters(values_);
 }
@@ -106,17 +101,16 @@ ParameterValue ParameterSet::value_of(const Parameter& p, const ParameterInput* 
       .name = p.name, .number = p.default_number, .text = p.default_text, .reals = p.default_reals, .texts = {}};
   if (!given) {
     if (p.is_required)
-      problems.push_back("parameter `" + std::string(p.name) + "` is missing: " + wanted(p) + " (" +
-                         std::string(p.doc) + ")");
+      problems.push_back(fmt::format("parameter `{}` is missing: {} ({})", p.name, allowed_values(p), p.doc));
     return v;
   }
   v.given = true;
-  double room = 0;
+  double storage = 0;
   bool fine = false;
   switch (p.type) {
     case ParameterType::real:
     case ParameterType::integer:
-      if (const double* x = number_in(*given, room)) {
+      if (const double* x = number_in(*given, storage)) {
         fine = inside(p, *x) && (p.type == ParameterType::real || *x == std::floor(*x));
         v.number = *x;
       }
@@ -138,7 +132,7 @@ ParameterValue ParameterSet::value_of(const Parameter& p, const ParameterInput* 
         v.reals = reals_.emplace_back(*list);
         fine = (p.length == 0 || v.reals.size() == p.length) &&
                std::all_of(v.reals.begin(), v.reals.end(), [&](double x) { return inside(p, x); });
-      } else if (const double* x = number_in(*given, room)) {
+      } else if (const double* x = number_in(*given, storage)) {
         v.reals = reals_.emplace_back(1, *x);
         fine = p.length <= 1 && inside(p, *x);
       } else if (const auto* none = std::get_if<std::vector<std::string>>(given)) {
@@ -159,7 +153,7 @@ ParameterValue ParameterSet::value_of(const Parameter& p, const ParameterInput* 
     }
   }
   if (!fine)
-    problems.push_back("parameter `" + std::string(p.name) + "` is " + shown(*given) + " but must be " + wanted(p));
+    problems.push_back(fmt::format("parameter `{}` is {} but must be {}", p.name, shown(*given), allowed_values(p)));
   return v;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/plugin_library.hpp"
 
+#include <fmt/format.h>
+
 #include <boost/dll/shared_library.hpp>
 #include <deque>
 
@@ -13,19 +15,17 @@ std::string difference(const abi::Stamp& ours, const abi::Stamp& theirs) {
     return "its table does not begin with \"MUROPLUG\"";
   std::string found;
   const auto field = [&](const char* name, std::uint32_t a, std::uint32_t b) {
-    if (found.empty() && a != b)
-      found =
-          std::string(name) + " is " + std::to_string(b) + " in the plugin and " + std::to_string(a) + " in this muro";
+    if (found.empty() && a != b) found = fmt::format("{} is {} in the plugin and {} in this muro", name, b, a);
   };
   field("stamp_size", ours.stamp_size, theirs.stamp_size);
   field("sdk_major", ours.sdk_major, theirs.sdk_major);
   if (found.empty() && theirs.sdk_minor > ours.sdk_minor)
-    found = "sdk_minor is " + std::to_string(theirs.sdk_minor) + " in the plugin and only " +
-            std::to_string(ours.sdk_minor) + " in this muro";
+    found = fmt::format("sdk_minor is {} in the plugin and only {} in this muro", theirs.sdk_minor, ours.sdk_minor);
   field("pointer_size", ours.pointer_size, theirs.pointer_size);
   if (found.empty() && std::memcmp(ours.standard_library, theirs.standard_library, sizeof ours.standard_library) != 0)
-    found = "standard_library is " + std::string(theirs.standard_library, strnlen(theirs.standard_library, 16)) +
-            " in the plugin and " + ours.standard_library + " in this muro";
+    found = fmt::format("standard_library is {} in the plugin and {} in this muro",
+                        std::string_view(theirs.standard_library, strnlen(theirs.standard_library, 16)),
+                        ours.standard_library);
   field("standard_library_abi", ours.standard_library_abi, theirs.standard_library_abi);
   field("standard_library_debug", ours.standard_library_debug, theirs.standard_library_debug);
   field("eigen_version", ours.eigen_version, theirs.eigen_version);
@@ -61,20 +61,24 @@ const abi::PluginTable& load_plugin(const std::string& path) {
   try {
     library.load(absolute, dll::load_mode::rtld_now | dll::load_mode::rtld_local);
   } catch (const std::exception& e) {
-    throw SetupError("plugin " + path + " cannot be loaded: " + reason_of(e.what(), absolute.string()));
+    throw SetupError(fmt::format("plugin {} cannot be loaded: {}", path, reason_of(e.what(), absolute.string())));
   }
   if (!library.has(abi::table_symbol))
-    throw SetupError("plugin " + path + " exports no `" + abi::table_symbol +
-                     "`: it is no muro plugin; close it with MURO_PLUGIN");
+    throw SetupError(fmt::format("plugin {} exports no `{}`: it is no muro plugin; close it with MURO_PLUGIN", path,
+                                 abi::table_symbol));
   const auto& table = library.get<const abi::PluginTable>(abi::table_symbol);
   static constexpr abi::Stamp ours = abi::make_stamp();
   const std::string differs = difference(ours, table.stamp);
   if (!differs.empty())
-    throw SetupError("plugin " + path + " was built for another muro: " + differs +
-                     "; build it again with muro_add_plugin() of this muro");
+    throw SetupError(
+        fmt::format("plugin {} was built for another muro: {}; build it again with muro_add_plugin() of "
+                    "this muro",
+                    path, differs));
   if (table.table_size != sizeof(abi::PluginTable))
-    throw SetupError("plugin " + path + " has a table of " + std::to_string(table.table_size) + " bytes instead of " +
-                     std::to_string(sizeof(abi::PluginTable)) + "; build it again with muro_add_plugin() of this muro");
+    throw SetupError(
+        fmt::format("plugin {} has a table of {} bytes instead of {}; build it again with "
+                    "muro_add_plugin() of this muro",
+                    path, table.table_size, sizeof(abi::PluginTable)));
   loaded.push_back(library);
   return table;
 }

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "core/property_store.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
@@ -59,7 +62,7 @@ Accessor PropertyStore::add_accessor(std::string name) {
 }
 
 std::string PropertyStore::where(ObjectId object, std::string_view key) const {
-  return "`" + object_name(object) + ":" + std::string(key) + "`";
+  return fmt::format("`{}:{}`", object_name(object), key);
 }
 
 std::string PropertyStore::who(Accessor p) const { return accessors_[p]; }
@@ -75,13 +78,14 @@ std::uint32_t PropertyStore::column_of(Accessor accessor, const KeyInfo& key) {
   const KeyInfo& known = columns_[it->second].key();
   const std::string accessors = who(column_accessor_[it->second]) + " and " + who(accessor);
   if (!(*known.type == *key.type))
-    problems_.push_back("property `" + std::string(key.name) + "`: type " + std::string(known.type->name) +
-                        " and type " + std::string(key.type->name) + " are declared by " + accessors +
-                        "; give the property of one of them another name");
+    problems_.push_back(
+        fmt::format("property `{}`: type {} and type {} are declared by {}; give the property of one of them another "
+                    "name",
+                    key.name, known.type->name, key.type->name, accessors));
   else if (known.unit != key.unit)
-    problems_.push_back("property `" + std::string(key.name) + "`: unit \"" + std::string(known.unit) +
-                        "\" and unit \"" + std::string(key.unit) + "\" are declared by " + accessors +
-                        "; use one unit, or another name");
+    problems_.push_back(
+        fmt::format("property `{}`: unit \"{}\" and unit \"{}\" are declared by {}; use one unit, or another name",
+                    key.name, known.unit, key.unit, accessors));
   else
     return it->second;
   columns_.emplace_back(key);  // memory of the right size, so that set-up can go on to the next problem
@@ -166,9 +170,8 @@ ArrayHeader PropertyStore::constant(ObjectId object, const KeyInfo& key) const {
 void PropertyStore::share(ObjectId a, const KeyInfo& key_a, ObjectId b, const KeyInfo& key_b) {
   const std::string both = where(a, key_a.name) + " and " + where(b, key_b.name);
   if (!(*key_a.type == *key_b.type) || key_a.unit != key_b.unit) {
-    problems_.push_back(both + " cannot share one place: type " + std::string(key_a.type->name) + " in \"" +
-                        std::string(key_a.unit) + "\" and type " + std::string(key_b.type->name) + " in \"" +
-                        std::string(key_b.unit) + "\"");
+    problems_.push_back(fmt::format("{} cannot share one place: type {} in \"{}\" and type {} in \"{}\"", both,
+                                    key_a.type->name, key_a.unit, key_b.type->name, key_b.unit));
     return;
   }
   SlotId from = find_id(a, key_a.name), to = find_id(b, key_b.name);
@@ -181,12 +184,12 @@ void PropertyStore::share(ObjectId a, const KeyInfo& key_a, ObjectId b, const Ke
          std::memcmp(slots_[from].place, slots_[to].place, std::size_t(slots_[to].count) * key_a.type->size) == 0)) {
       std::swap(from, to);
     } else if (!fresh(from)) {
-      std::string accessors;
+      std::vector<std::string_view> accessors;
       for (const SlotId id : {from, to})
-        for (const Slot::User& u : slots_[id].users) accessors += (accessors.empty() ? "" : ", ") + who(u.accessor);
-      problems_.push_back(both + " have values of their own already" +
-                          (accessors.empty() ? "" : " (bound by " + accessors + ")") +
-                          "; declare the sharing before algorithms connect");
+        for (const Slot::User& u : slots_[id].users) accessors.push_back(accessors_[u.accessor]);
+      problems_.push_back(
+          fmt::format("{} have values of their own already{}; declare the sharing before algorithms connect", both,
+                      accessors.empty() ? std::string() : fmt::format(" (bound by {})", fmt::join(accessors, ", "))));
       return;
     }
     for (auto& object : objects_)
@@ -233,12 +236,12 @@ void* PropertyStore::bind(Accessor accessor, ObjectId object, const KeyInfo& key
   const bool clash = s->place && (s->multiplicity != multiplicity ||
                                   (multiplicity == Multiplicity::array && count > 0 && s->count != count));
   if (clash) {
-    problems_.push_back(where(object, key.name) + " is " + std::string(name_of(s->multiplicity)) +
-                        (s->multiplicity == Multiplicity::array ? " of " + std::to_string(s->count) : "") + " for " +
-                        who(s->users.empty() ? setup_accessor : s->users.front().accessor) + " and " +
-                        std::string(name_of(multiplicity)) +
-                        (multiplicity == Multiplicity::array ? " of " + std::to_string(count) : "") + " for " +
-                        who(accessor));
+    const auto shown = [](Multiplicity m, std::uint32_t elements) {
+      return m == Multiplicity::array ? fmt::format("{} of {}", name_of(m), elements) : std::string(name_of(m));
+    };
+    problems_.push_back(fmt::format(
+        "{} is {} for {} and {} for {}", where(object, key.name), shown(s->multiplicity, s->count),
+        who(s->users.empty() ? setup_accessor : s->users.front().accessor), shown(multiplicity, count), who(accessor)));
     id = SlotId(slots_.size());
     s = &slots_.emplace_back();
     s->object = object;
@@ -249,7 +252,7 @@ void* PropertyStore::bind(Accessor accessor, ObjectId object, const KeyInfo& key
   if (creates && multiplicity == Multiplicity::array && count == 0)
     problems_.push_back(where(object, key.name) + " is created as an array without elements by " + who(accessor));
   if ((writes(usage) || usage == usage::accumulate) && s->kind == Slot::Class::constant)
-    problems_.push_back(where(object, key.name) + " is a constant, but " + who(accessor) + " writes it");
+    problems_.push_back(fmt::format("{} is a constant, but {} writes it", where(object, key.name), who(accessor)));
   use(*s, id, accessor, usage);
   if (initial && s->kind != Slot::Class::constant && (!s->initialised || (usage == usage::variable && !inactive))) {
     std::memcpy(s->place, initial, key.type->size);
@@ -271,52 +274,6 @@ void* PropertyStore::state_block(Accessor accessor, ObjectId object, std::string
   const auto* array = static_cast<const ArrayHeader*>(
       bind(accessor, object, key, usage::variable, Multiplicity::array, rounded, nullptr));
   return array->data;
-}
-
-void PropertyStore::check_slot(const Slot& s, const std::function<std::string(std::string_view)>& writers_of,
-                               std::vector<std::string>& problems) const {
-  const KeyInfo& key = key_of(s);
-  const std::string place = where(s.object, key.name);
-  const Slot::User* writer = nullptr;
-  const Slot::User* reader = nullptr;
-  const Slot::User* adder = nullptr;
-  for (const Slot::User& u : s.users) {
-    if (writes(u.usage)) {
-      if (writer && writer->accessor != u.accessor && !alternate(s.object, writer->accessor, u.accessor))
-        problems.push_back(place + " has two writers: " + who(writer->accessor) + " and " + who(u.accessor) +
-                           "; only one algorithm may write a property");
-      writer = writer ? writer : &u;
-    }
-    if (u.usage == usage::read && !reader) reader = &u;
-    if (u.usage == usage::accumulate && !adder) adder = &u;
-  }
-  const auto summed =
-      std::find_if(s.users.begin(), s.users.end(), [](const Slot::User& u) { return u.usage == usage::read_sum; });
-  if (writer && summed != s.users.end())
-    problems.push_back(place + " is written by " + who(writer->accessor) + ", but " + who(summed->accessor) +
-                       " reads the sum of contributions; the writer must add to it");
-  if (writer && adder)
-    problems.push_back(place + " is written by " + who(writer->accessor) + " and added to by " + who(adder->accessor) +
-                       "; all of them must add");
-  if (reader && !writer && s.kind != Slot::Class::constant && !s.used_as(usage::input)) {
-    const std::string help = writers_of(key.name);
-    problems.push_back(place + " (" + std::string(key.doc) + ") is read by " + who(reader->accessor) +
-                       ", but nothing writes it" + (help.empty() ? "" : "; add one of: " + help));
-  }
-  const bool read = reader || s.used_as(usage::input);
-  if (key.role == Role::command && writer && writer->usage == usage::write && !read)
-    problems.push_back(place + " (" + std::string(key.doc) + ") is commanded by " + who(writer->accessor) +
-                       ", but nothing that moves `" + object_name(s.object) +
-                       "` uses this command; choose another motion algorithm, or add a drive");
-}
-
-void PropertyStore::check(const std::function<std::string(std::string_view)>& writers_of) const {
-  std::vector<std::string> all = problems_;
-  for (const Slot& s : slots_) check_slot(s, writers_of, all);
-  std::vector<std::string> problems;  // each once: a mistake in a template stands in all of its robots
-  for (std::string& p : all)
-    if (std::find(problems.begin(), problems.end(), p) == problems.end()) problems.push_back(std::move(p));
-  if (!problems.empty()) throw SetupError(problems);
 }
 
 PropertyStore::Image PropertyStore::save() const {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/simulation.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -85,18 +87,18 @@ void read_file(Registry& registry, const std::string& path, const std::string& w
   if (!std::filesystem::exists(path)) throw SetupError(what + " does not exist");
   abi::ErrorText error;
   abi::ReaderInstance* reader = registry.reader_for(path).create(&error);
-  if (!reader) throw SetupError("the reader for " + path + " cannot be created: " + std::string(error.view()));
+  if (!reader) throw SetupError(fmt::format("the reader for {} cannot be created: {}", path, error.view()));
   const bool fine = read(*reader, std::filesystem::absolute(path).string(), error);
   reader->destroy();
-  if (!fine) throw SetupError(what + ": " + std::string(error.view()));
+  if (!fine) throw SetupError(fmt::format("{}: {}", what, error.view()));
 }
 
 void check_problems(const std::vector<RobotTree::Problem>& found, const std::string& what) {
   std::vector<std::string> problems;
   for (const RobotTree::Problem& p : found)
     if (p.severity == Severity::error)
-      problems.push_back(what + (p.line > 0 ? ":" + std::to_string(p.line) + ":" + std::to_string(p.column) : "") +
-                         ": " + p.text);
+      problems.push_back(p.line > 0 ? fmt::format("{}:{}:{}: {}", what, p.line, p.column, p.text)
+                                    : fmt::format("{}: {}", what, p.text));
   if (!problems.empty()) throw SetupError(problems);
 }
 
@@ -127,7 +129,7 @@ WorldModel Simulation::read_world(const std::string& path) {
 std::size_t Simulation::add(AlgorithmSetup setup) {
   if (setup.name.empty()) setup.name = setup.use + " #" + std::to_string(setups_.size());
   if (setup.phase < 0)
-    throw SetupError(setup.name + ": the phase is " + std::to_string(setup.phase) + " ns but must be 0 or more");
+    throw SetupError(fmt::format("{}: the phase is {} ns but must be 0 or more", setup.name, setup.phase));
   setups_.push_back(std::move(setup));
   return setups_.size() - 1;
 }
@@ -152,8 +154,8 @@ ObjectId Simulation::add_sensor_object(const RobotView& robot, std::string_view 
 
 void Simulation::set_levels(const RobotView& robot, std::vector<std::string> names, std::uint32_t first) {
   if (first >= names.size())
-    throw SetupError("`" + std::string(robot.name) + "` has " + std::to_string(names.size()) +
-                     " motions, so it cannot start with number " + std::to_string(first));
+    throw SetupError(
+        fmt::format("`{}` has {} motions, so it cannot start with number {}", robot.name, names.size(), first));
   levels_of_robots_.push_back({&robot, std::move(names), first});
 }
 
@@ -171,13 +173,15 @@ void Simulation::mark_inactive_motions() {
 /// Robots of one world share an instance; each keeps its parameters.
 void Simulation::join_world(AlgorithmSetup& world, AlgorithmSetup& joining) const {
   if (world.rate != joining.rate || world.phase != joining.phase)
-    throw SetupError((joining.place.empty() ? "" : joining.place + ": ") + joining.name + " and " + world.name +
-                     " share a world of " + joining.use +
-                     " but have different rates or phases; give them the same, or another `world` to one of them");
+    throw SetupError(
+        fmt::format("{}{} and {} share a world of {} but have different rates or phases; give them the "
+                    "same, or another `world` to one of them",
+                    prefix_of(joining.place), joining.name, world.name, joining.use));
   for (const Item& item : joining.items)
     if (std::any_of(world.items.begin(), world.items.end(), [&](const Item& k) { return k.robot == item.robot; }))
-      throw SetupError((joining.place.empty() ? "" : joining.place + ": ") + joining.name + " and " + world.name +
-                       " would move one robot in one world of " + joining.use + "; give one of them another `world`");
+      throw SetupError(
+          fmt::format("{}{} and {} would move one robot in one world of {}; give one of them another `world`",
+                      prefix_of(joining.place), joining.name, world.name, joining.use));
   world.item_setups.resize(world.items.size(), {world.name, world.place, world.parameters});
   world.items.insert(world.items.end(), joining.items.begin(), joining.items.end());
   world.item_setups.resize(world.items.size(), {joining.name, joining.place, joining.parameters});

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/schedule/scheduler.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -30,13 +32,15 @@ TaskId Scheduler::add(Task task) {
 void Scheduler::add_sequence(const std::vector<TaskId>& tasks) {
   const auto timed = std::find_if(tasks.begin(), tasks.end(), [&](TaskId t) { return !tasks_[t].rate.on_demand(); });
   if (timed == tasks.end())
-    throw SetupError("the sequence that begins with `" + tasks_[tasks.front()].name +
-                     "` has no rate: all of it runs on demand");
+    throw SetupError(fmt::format("the sequence that begins with `{}` has no rate: all of it runs on demand",
+                                 tasks_[tasks.front()].name));
   const Task& first = tasks_[*timed];
   for (const TaskId t : tasks)
     if (!tasks_[t].rate.on_demand() && (tasks_[t].rate != first.rate || tasks_[t].phase != first.phase))
-      throw SetupError("a sequence runs at one rate, but `" + first.name + "` and `" + tasks_[t].name +
-                       "` have different rates or phases; give them the same, or leave one out");
+      throw SetupError(
+          fmt::format("a sequence runs at one rate, but `{}` and `{}` have different rates or phases; give "
+                      "them the same, or leave one out",
+                      first.name, tasks_[t].name));
   const Rate rate = first.rate;
   const std::int64_t phase = first.phase;
   for (const TaskId t : tasks) {

@@ -1,4 +1,34 @@
 // SPDX-License-Identifier: MIT
+// From tasks to threads: an example.
+//
+// A Task is an algorithm with its items; it has a Rate, or runs on demand. 48 rovers, everything on demand but their
+// motion at 1000 Hz. Each millisecond is an instant, for which the Scheduler finds the due tasks in their order: motion
+// is due, and before it those on demand whose results it reads:
+//
+//    kinematics, scene index, collision, contact, motion
+//
+// Each task has one phase or more: `index_space` says over what a phase runs (its items, all robots, or a whole that is
+// not divided), `scope` whether it reads its own robot or all. The robots form blocks, here 0-23 and 24-47, and a phase
+// is one call for each block. Stages are made of the calls and what they have access to:
+//
+//    stage 0   [kinematics 0-23  > index 0-23]      [kinematics 24-47  > index 24-47]     each writes its own robots
+//    stage 1   [index, the tree  > collision, new neighbours]                             not divided: one chain
+//    stage 2   [collision 0-23   > contact 0-23]    [collision 24-47   > contact 24-47]
+//    stage 3   [contact, pairs that meet]
+//    stage 4-7 [contact 0-23]                       [contact 24-47]                       disabled while nobody meets
+//    stage 8   [motion 0-23]                        [motion 24-47]                        reads the results of contact
+//
+// [ ] is a call chain: its calls run one after the other. The chains of a stage are the work items of the WorkerPool:
+//
+//    thread 0   chain 0 of stage 0 | stage 1 | chain 0 of stage 2 | stage 3 | chain 1 of stage 8
+//    thread 1   chain 1 of stage 0 |         | chain 1 of stage 2 |         | chain 0 of stage 8
+//
+// A thread that is free takes the next chain, and a stage begins when the one before is done. The Executor carries this
+// out, and the Timeline records who did what. The stages of an instant are a Plan, made once for each set of due tasks;
+// for eight instants in which the same is due there is one plan, in which motion of one instant and kinematics of the
+// next form one chain. A ParallelismTuner measures now and then whether several threads are faster for a plan than one;
+// where they are not, thread 0 does it all. Order and blocks depend on the scene alone, so results never depend on
+// threads.
 #pragma once
 
 #include <chrono>
@@ -18,9 +48,9 @@ struct Pacing {
 ///
 /// Simulated time jumps from instant to instant, an instant being any nanosecond in which something is
 /// due. Within an instant the order is fixed: rising `order`, then the order of adding. A sequence
-/// takes one place in that order and runs its tasks one behind the other. A task on demand runs once an
+/// takes one place in that order and runs its tasks one after the other. A task on demand runs once an
 /// instant, just before the first due task that reads what it writes. Nothing else decides about results:
-/// calls that may overlap (see stages.hpp) run on several threads, and the same input gives the same bits.
+/// calls that may overlap (see stage.hpp) run on several threads, and the same input gives the same bits.
 class Scheduler {
  public:
   TaskId add(Task task);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <bit>
 #include <cstdio>
 #include <fstream>
 #include <map>
@@ -83,6 +84,13 @@ TEST_P(Plugin, IsDescribedByTheFileBesideIt) {
   std::string description = GetParam().library;
   description.replace(description.rfind(".so"), 3, ".muro.json");
   EXPECT_EQ(content(description), abi::describe(table_of(GetParam())) + "\n");
+}
+
+TEST_P(Plugin, HasANameForEachOfItsCapabilities) {
+  for (const abi::AlgorithmEntry& entry : table_of(GetParam()).algorithms) {
+    const std::uint32_t bits = entry.description->capabilities;
+    EXPECT_EQ(abi::detail::capabilities(bits).size(), std::size_t(std::popcount(bits))) << entry.description->id;
+  }
 }
 
 TEST_P(Plugin, BearsTheStampOfThisBuild) {

@@ -241,7 +241,21 @@ TEST_F(PropertyStoreTest, TheHashSeesEveryBitOfAVariableAndNothingElse) {
   EXPECT_NE(store.hash(a), before);
 }
 
-TEST_F(PropertyStoreTest, ValuesOfOnePartLieSideBySideAndThoseOfAnotherAPageAway) {
+TEST_F(PropertyStoreTest, ClearingMakesValuesZeroAndListsEmpty) {
+  double* out = bind(writer, a, speed, usage::variable);
+  const SlotId number = store.slots_of(writer).back();
+  const KeyInfo key = keys::contacts;
+  auto* list = static_cast<ListHeader*>(store.bind(writer, a, key, usage::variable, Multiplicity::list, 0, nullptr));
+  const SlotId contacts = store.slots_of(writer).back();
+  *out = 3;
+  list->size = 2;
+  store.clear(number);
+  store.clear(contacts);
+  EXPECT_EQ(*out, 0);
+  EXPECT_EQ(list->size, 0u);
+}
+
+TEST_F(PropertyStoreTest, MemoryPartitionsLieAPageApart) {
   constexpr std::ptrdiff_t page = 4096;
   store.set_partitions({1, 1, 2});
   const auto* const of_a = reinterpret_cast<const char*>(bind<double>(writer, a, speed, usage::variable));

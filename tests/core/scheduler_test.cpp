@@ -94,7 +94,7 @@ TEST_F(SchedulerTest, OnDemandRunsOnceAnInstantJustBeforeItsFirstReader) {
   EXPECT_DOUBLE_EQ(recorders[1].last.dt, 0.2) << "the period of the reader that asks";
 }
 
-TEST_F(SchedulerTest, ASequenceKeepsItsOwnOrderAndGivesItsRateToTasksOnDemand) {
+TEST_F(SchedulerTest, ASequenceKeepsItsOrderAndGivesItsRateToAll) {
   const TaskId contact = add("contact", 0, 8);
   const TaskId motion = add("motion", 10, 9);
   const TaskId collision = add("collision", 0, 7);
@@ -111,7 +111,7 @@ TEST_F(SchedulerTest, ASequenceOfDifferentRatesOrOfNoneIsAnError) {
   EXPECT_THROW(scheduler.add_sequence({c, d}), SetupError);
 }
 
-TEST_F(SchedulerTest, WhatRunsOnDemandHasTheLongestPeriodOfThoseThatAskInEveryInstant) {
+TEST_F(SchedulerTest, ATaskOnDemandHasTheLongestPeriodOfItsReaders) {
   add("contact", 0, 8, 0, {}, {1});
   add("fast", 1000, 9, 0, {1});
   add("slow", 100, 9, 0, {1});
@@ -119,7 +119,7 @@ TEST_F(SchedulerTest, WhatRunsOnDemandHasTheLongestPeriodOfThoseThatAskInEveryIn
   EXPECT_DOUBLE_EQ(recorders[0].last.dt, 0.01);
 }
 
-TEST_F(SchedulerTest, AStopEndsTheWaitForASlowInstantAndTheInstantIsNotLost) {
+TEST_F(SchedulerTest, AStopEndsAPacedWaitAndLosesNoInstant) {
   add("a", 1);
   scheduler.set_pacing({0.01});  // an instant in 100 s
   int asked = 0;

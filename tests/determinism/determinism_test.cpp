@@ -68,7 +68,7 @@ TEST(Determinism, ASnapshotRestoredMidRunGoesOnBitEqual) {
   EXPECT_EQ(s.state_hash(), end);
 }
 
-TEST(Determinism, ASnapshotGoesOnBitEqualInAnotherSimulationOfTheScenario) {
+TEST(Determinism, ASnapshotContinuesBitEqualInAnotherSimulation) {
   BuiltScenario a = open(), b = open();
   a.simulation->run_for(2.0533);
   b.simulation->run_for(0.5);

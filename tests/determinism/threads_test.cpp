@@ -42,8 +42,14 @@ TEST_P(OfExample, AnyNumberOfThreadsGivesTheSameBits) {
       EXPECT_EQ(hash_after(scenario, 4, threads), alone) << threads << " threads, seed " << seed;
   }
 }
-INSTANTIATE_TEST_SUITE_P(Threads, OfExample, ::testing::ValuesIn(examples()),
-                         [](const auto& example) { return std::filesystem::path(example.param).stem().string(); });
+std::string name_of(const ::testing::TestParamInfo<std::string>& example) {
+  return std::filesystem::path(example.param).stem().string();
+}
+INSTANTIATE_TEST_SUITE_P(Threads, OfExample,
+                         ::testing::Values(MURO_TEST_SOURCE_DIR "/examples/urban/urban.yaml",
+                                           MURO_TEST_SOURCE_DIR "/examples/levels/handover.yaml"),
+                         name_of);
+INSTANTIATE_TEST_SUITE_P(SlowThreads, OfExample, ::testing::ValuesIn(examples()), name_of);
 
 /// Some robots of each level so close together that they meet, and boxes and balls between them.
 constexpr const char* crowd[] = {

@@ -97,6 +97,21 @@ TEST(Levels, AGuestIsAPointFarFromTheBallAndABodyNearIt) {
   EXPECT_GT((pose_of(s, "ball").position - Vec3(0, 0.02, 0.15)).norm(), 0.05) << "the ball was pushed";
 }
 
+TEST(Levels, TraitsOfAMotionAreZeroWhileAnotherWithoutThemMoves) {
+  BuiltScenario built = open("handover.yaml");
+  Simulation& s = *built.simulation;
+  const ObjectId base = s.world().find_robot("guest")->base();
+  ASSERT_EQ(s.world().value(base, keys::motion_level), 0u);
+  std::set<std::uint32_t> levels;
+  for (int k = 0; k < 240; ++k) {
+    const std::uint32_t level = s.world().value(base, keys::motion_level);
+    levels.insert(level);
+    EXPECT_EQ(s.world().value(base, keys::contact_world) != 0, level == 1) << "at " << 0.05 * k;
+    s.run_for(0.05);
+  }
+  EXPECT_EQ(levels.size(), 2u);
+}
+
 TEST(Levels, AShadowTellsWhatTheLevelLeavesOut) {
   BuiltScenario built = open("handover.yaml");
   built.simulation->run_for(6);
