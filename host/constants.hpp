@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: MIT
-// Constants of a world that is built.
+// Constant properties of a world.
 #pragma once
 
 #include "core/world.hpp"
 
 namespace muro::host {
 
-/// The elements of an array; none where there is no such constant.
+/// The elements of an array; none when there is no such constant.
 template <class T>
 std::span<const T> constants(const World& world, ObjectId object, const Key<T>& key) {
   const ArrayHeader found = world.store().constant(object, key);
   return {static_cast<const T*>(found.data), found.size};
 }
 
-/// A single value, whose size tells nothing.
+/// A single value, or `default_value` when there is no such constant.
 template <class T>
-T constant(const World& world, ObjectId object, const Key<T>& key, const T& otherwise) {
+T constant(const World& world, ObjectId object, const Key<T>& key, const T& default_value) {
   const void* data = world.store().constant(object, key).data;
-  return data ? *static_cast<const T*>(data) : otherwise;
+  return data ? *static_cast<const T*>(data) : default_value;
 }
 
 }  // namespace muro::host

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures of what is no colour.
+// Pictures of depths and labels in false colours.
 #pragma once
 
 #include <cstdint>
@@ -10,10 +10,10 @@
 
 namespace muro::host {
 
-/// sRGB: the nearest depth (m) is dark blue, the farthest bright yellow, evenly by its logarithm; what has none is
+/// sRGB: the nearest depth (m) is dark blue, the farthest bright yellow, in between by its logarithm; infinite depth is
 /// black.
 std::vector<std::uint8_t> colors_of(std::span<const float> depth);
-/// sRGB: a colour for each object, the same in every picture; black where there is none.
+/// sRGB: a colour for each object, the same in every picture; black where there is no object.
 std::vector<std::uint8_t> colors_of(std::span<const ObjectId> labels);
 
 }  // namespace muro::host

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "host/commands/commands.hpp"
+#include "host/names.hpp"
 #include "host/scenario/scenario.hpp"
 #include "muro/toolkit/did_you_mean.hpp"
 
@@ -43,129 +44,186 @@ std::string unknown_command(const CLI::App& app) {
   const std::vector<std::string> words = app.remaining();
   const auto word =
       std::find_if(words.begin(), words.end(), [](const std::string& w) { return !w.empty() && w.front() != '-'; });
-  std::string allowed;
-  for (const std::string& n : names) allowed += (allowed.empty() ? "" : ", ") + n;
+  const std::string allowed = comma_separated(names);
   if (app.get_subcommands().empty() && words.empty())
-    return "muro needs a command: " + allowed + "; muro --help tells more";
+    return fmt::format("muro needs a command: {}; muro --help tells more", allowed);
   if (!app.get_subcommands().empty() || word == words.end()) return "";
-  return "muro has no command `" + *word + "`" + muro::did_you_mean(*word, names) + "; commands: " + allowed;
+  return fmt::format("muro has no command `{}`{}; commands: {}", *word, muro::did_you_mean(*word, names), allowed);
 }
+
+CLI::Option* repeatable(CLI::Option* option) { return option->take_all()->allow_extra_args(false); }
 
 void add_scenario_options(CLI::App& command, ScenarioOptions& options) {
   command.add_option("scenario", options.file, "Scenario file (YAML)")->required();
-  command
-      .add_option("--set", options.overrides, "Override a value: path=value, e.g. robots.rovers.count=100 (repeatable)")
-      ->take_all()
-      ->allow_extra_args(false);
+  repeatable(command.add_option("--set", options.overrides,
+                                "Override a value: path=value, e.g. robots.rovers.count=100 (repeatable)"));
   command.add_option("--seed", options.seed, "Seed of all random numbers")->check(check_seed);
 }
+
+void add_strict_option(CLI::App& command, ScenarioOptions& options) {
+  command.add_flag("--strict", options.strict, "Unsupported features of a motion are errors, not notes");
+}
+
+/// Each adds a command to the program and calls it when it is given; the exit code goes to `exit_code`.
+struct Commands {
+  CLI::App& app;
+  std::vector<std::string> plugin_path{};
+  RunOptions run_options{};
+  ScenarioOptions check_options{}, describe_options{};
+  CompareOptions compare_options{};
+  RenderOptions render_options{};
+  bool json = false, markdown = false;
+  std::string id{};
+  int exit_code = 0;
+
+  explicit Commands(CLI::App& a) : app(a) {
+    repeatable(app.add_option("--plugin-path", plugin_path, "Folder with plugins, before all others (repeatable)"));
+    add_run();
+    add_check();
+    add_compare();
+    add_render();
+    add_describe();
+    add_plugins();
+    add_properties();
+  }
+
+  Format format() const { return json ? Format::json : (markdown ? Format::markdown : Format::plain); }
+
+  void add_run() {
+    CLI::App& command = *app.add_subcommand("run", "Run a scenario");
+    add_scenario_options(command, run_options.scenario);
+    command.add_option("--duration", run_options.duration, "Simulated seconds; default: as the scenario says")
+        ->check(check_duration);
+    command.add_option("--speed", run_options.speed,
+                       "max, real, or a factor of real time; default: max, with --view real");
+    command.add_flag("--view", run_options.view, "Show the run in a window: view.window");
+    command.add_option("--threads", run_options.threads, "Threads to use at most, or all; no result depends on it")
+        ->check(check_threads);
+    command.add_option("--report", run_options.report, "Write a report to this file (JSON)");
+    command.add_option("--timeline", run_options.timeline,
+                       "Write which algorithm ran when on which thread (JSON for Perfetto or chrome://tracing)");
+    command.add_flag("--verify-access", run_options.verify_access,
+                     "Prove that algorithms access only the properties that they have declared (slow)");
+    command.add_flag("--profile", run_options.profile, "Print what each algorithm costs");
+    add_strict_option(command, run_options.scenario);
+    command.callback([this] {
+      run_options.scenario.plugin_path = plugin_path;
+      exit_code = run(run_options);
+    });
+  }
+
+  void add_check() {
+    CLI::App& command = *app.add_subcommand("check", "Read and connect a scenario without running it");
+    add_scenario_options(command, check_options);
+    add_strict_option(command, check_options);
+    command.callback([this] {
+      check_options.plugin_path = plugin_path;
+      exit_code = check(check_options);
+    });
+  }
+
+  void add_compare() {
+    CLI::App& command =
+        *app.add_subcommand("compare", "Run a scenario with different algorithms: cost against deviation");
+    add_scenario_options(command, compare_options.scenario);
+    repeatable(command.add_option(
+                   "--vary", compare_options.vary,
+                   "What differs: ROBOTS.SUBSYSTEM=NAME,NAME,..., e.g. rovers.motion=point,simplified (repeatable)"))
+        ->required();
+    command.add_option("--reference", compare_options.reference,
+                       "What the others are compared with; default: the last");
+    command.add_option("--duration", compare_options.duration, "Simulated seconds; default: as the scenario says")
+        ->check(check_duration);
+    command.add_option("--out", compare_options.picture, "Draw cost against deviation into this file (SVG)");
+    command.add_option("--csv", compare_options.table, "Write the table to this file (CSV)");
+    command.callback([this] {
+      compare_options.scenario.plugin_path = plugin_path;
+      exit_code = compare(compare_options);
+    });
+  }
+
+  void add_render() {
+    CLI::App& command = *app.add_subcommand("render", "Draw a picture of a scenario at one time, or a video");
+    add_scenario_options(command, render_options.scenario);
+    command.add_option("--at", render_options.at, "Simulated seconds after which it is drawn")
+        ->check(check_duration)
+        ->capture_default_str();
+    command.add_option("--out", render_options.out, "File of the picture (PNG)");
+    command.add_option("--video", render_options.video, "File of a video from --at on, by ffmpeg: NAME.mp4");
+    command.add_option("--until", render_options.until, "Simulated seconds at its end; default: as the scenario says")
+        ->check(check_duration);
+    command.add_option("--fps", render_options.fps, "Frames of the video in a simulated second")
+        ->check(CLI::Range(0.01, 1000.0))
+        ->capture_default_str();
+    command.add_option("--camera", render_options.camera, "The camera of a robot, e.g. rover/camera");
+    command
+        .add_option("--from", render_options.from,
+                    "Position of a free camera, x,y,z in metres; default: so that all robots are seen")
+        ->delimiter(',')
+        ->expected(3);
+    command
+        .add_option("--to", render_options.to,
+                    "The point that it looks at, x,y,z in metres; default: the middle of the robots")
+        ->delimiter(',')
+        ->expected(3);
+    command
+        .add_option("--shows", render_options.shows, "Output of a robot's camera: rgb, depth (dark is near) or labels")
+        ->check(CLI::IsMember({"rgb", "depth", "labels"}))
+        ->capture_default_str();
+    command.add_option("--fov", render_options.fov, "Horizontal opening angle in degrees")
+        ->check(CLI::Range(1.0, 170.0))
+        ->capture_default_str();
+    command.add_option("--size", render_options.size, "Pixels")->capture_default_str();
+    command.add_option("--device", render_options.device, "Renderer: auto, gpu or software")
+        ->check(CLI::IsMember({"auto", "gpu", "software"}))
+        ->capture_default_str();
+    command.callback([this] {
+      render_options.scenario.plugin_path = plugin_path;
+      exit_code = render(render_options);
+    });
+  }
+
+  void add_describe() {
+    CLI::App& command =
+        *app.add_subcommand("describe", "Show objects, properties, who writes and reads them, and the schedule");
+    add_scenario_options(command, describe_options);
+    command.add_flag("--json", json, "As JSON");
+    command.callback([this] {
+      describe_options.plugin_path = plugin_path;
+      exit_code = describe(describe_options, json);
+    });
+  }
+
+  void add_format_options(CLI::App& command) {
+    CLI::Option* as_json = command.add_flag("--json", json, "As JSON");
+    command.add_flag("--markdown", markdown, "As a page in Markdown")->excludes(as_json);
+  }
+
+  void add_plugins() {
+    CLI::App& command = *app.add_subcommand("plugins", "Show what plugins offer");
+    command.require_subcommand(1);
+    CLI::App& list = *command.add_subcommand("list", "All algorithms and model readers");
+    add_format_options(list);
+    list.callback([this] { exit_code = list_plugins(plugin_path, format()); });
+    CLI::App& info = *command.add_subcommand("info", "One of them: parameters, properties, capabilities");
+    info.add_option("name", id, "Such as motion.point")->required();
+    info.add_flag("--json", json, "As JSON");
+    info.callback([this] { exit_code = plugin_info(id, plugin_path, json); });
+  }
+
+  void add_properties() {
+    CLI::App& command =
+        *app.add_subcommand("properties", "Show the standard properties: types, units, who writes and reads them");
+    add_format_options(command);
+    command.callback([this] { exit_code = list_properties(plugin_path, format()); });
+  }
+};
 
 int dispatch(int argc, char** argv) {
   CLI::App app{"muro: a simulator for teams of robots, each at its own level of detail"};
   app.require_subcommand(1);
-  std::vector<std::string> plugin_path;
-  app.add_option("--plugin-path", plugin_path, "Folder with plugins, before all others (repeatable)")
-      ->take_all()
-      ->allow_extra_args(false);
   app.fallthrough();
-
-  RunOptions run_options;
-  CLI::App& run_command = *app.add_subcommand("run", "Run a scenario");
-  add_scenario_options(run_command, run_options.scenario);
-  run_command.add_option("--duration", run_options.duration, "Simulated seconds; default: as the scenario says")
-      ->check(check_duration);
-  run_command.add_option("--speed", run_options.speed,
-                         "max, real, or a factor of real time; default: max, with --view real");
-  run_command.add_flag("--view", run_options.view, "Show the run in a window: view.window");
-  run_command.add_option("--threads", run_options.threads, "Threads to use at most, or all; no result depends on it")
-      ->check(check_threads);
-  run_command.add_option("--report", run_options.report, "Write a report to this file (JSON)");
-  run_command.add_option("--timeline", run_options.timeline,
-                         "Write which algorithm ran when on which thread (JSON for Perfetto or chrome://tracing)");
-  run_command.add_flag("--verify-access", run_options.verify_access,
-                       "Prove that algorithms touch only the properties that they have declared (slow)");
-  run_command.add_flag("--profile", run_options.profile, "Print what each algorithm costs");
-
-  const auto add_strict = [](CLI::App& command, ScenarioOptions& options) {
-    command.add_flag("--strict", options.strict, "What a motion cannot do for its robot is an error, not a note");
-  };
-  add_strict(run_command, run_options.scenario);
-
-  ScenarioOptions check_options;
-  CLI::App& check_command = *app.add_subcommand("check", "Read and connect a scenario without running it");
-  add_scenario_options(check_command, check_options);
-  add_strict(check_command, check_options);
-
-  CompareOptions compare_options;
-  CLI::App& compare_command =
-      *app.add_subcommand("compare", "Run a scenario with different algorithms: cost against deviation");
-  add_scenario_options(compare_command, compare_options.scenario);
-  compare_command
-      .add_option("--vary", compare_options.vary,
-                  "What differs: ROBOTS.SUBSYSTEM=NAME,NAME,..., e.g. rovers.motion=point,simplified (repeatable)")
-      ->required()
-      ->take_all()
-      ->allow_extra_args(false);
-  compare_command.add_option("--reference", compare_options.reference,
-                             "What the others are compared with; default: the last");
-  compare_command
-      .add_option("--duration", compare_options.duration, "Simulated seconds; default: as the scenario says")
-      ->check(check_duration);
-  compare_command.add_option("--out", compare_options.picture, "Draw cost against deviation into this file (SVG)");
-  compare_command.add_option("--csv", compare_options.table, "Write the table to this file (CSV)");
-
-  RenderOptions render_options;
-  CLI::App& render_command = *app.add_subcommand("render", "Draw a picture of a scenario at one time, or a film");
-  add_scenario_options(render_command, render_options.scenario);
-  render_command.add_option("--at", render_options.at, "Simulated seconds after which it is drawn")
-      ->check(check_duration)
-      ->capture_default_str();
-  render_command.add_option("--out", render_options.out, "File of the picture (PNG)");
-  render_command.add_option("--video", render_options.video, "File of a film from --at on, by ffmpeg: NAME.mp4");
-  render_command
-      .add_option("--until", render_options.until, "Simulated seconds at its end; default: as the scenario says")
-      ->check(check_duration);
-  render_command.add_option("--fps", render_options.fps, "Frames of the film in a simulated second")
-      ->check(CLI::Range(0.01, 1000.0))
-      ->capture_default_str();
-  render_command.add_option("--camera", render_options.camera, "What a robot's camera sees, e.g. rover/camera");
-  render_command
-      .add_option("--from", render_options.from, "Where from, x,y,z in metres; default: so that all robots are seen")
-      ->delimiter(',')
-      ->expected(3);
-  render_command.add_option("--to", render_options.to, "Where to, x,y,z in metres; default: the middle of the robots")
-      ->delimiter(',')
-      ->expected(3);
-  render_command
-      .add_option("--shows", render_options.shows, "Of a robot's camera: rgb, depth (dark is near) or labels")
-      ->check(CLI::IsMember({"rgb", "depth", "labels"}))
-      ->capture_default_str();
-  render_command.add_option("--fov", render_options.fov, "Horizontal opening angle in degrees")
-      ->check(CLI::Range(1.0, 170.0))
-      ->capture_default_str();
-  render_command.add_option("--size", render_options.size, "Pixels")->capture_default_str();
-  render_command.add_option("--device", render_options.device, "What draws: auto, gpu or software")
-      ->check(CLI::IsMember({"auto", "gpu", "software"}))
-      ->capture_default_str();
-
-  ScenarioOptions describe_options;
-  bool json = false;
-  CLI::App& describe_command =
-      *app.add_subcommand("describe", "Show objects, properties, who writes and reads them, and the schedule");
-  add_scenario_options(describe_command, describe_options);
-  describe_command.add_flag("--json", json, "As JSON");
-
-  CLI::App& plugins_command = *app.add_subcommand("plugins", "Show what plugins offer");
-  plugins_command.require_subcommand(1);
-  CLI::App& list_command = *plugins_command.add_subcommand("list", "All algorithms and model readers");
-  bool markdown = false;
-  CLI::Option* as_json = list_command.add_flag("--json", json, "As JSON");
-  list_command.add_flag("--markdown", markdown, "As a table in Markdown")->excludes(as_json);
-  std::string id;
-  CLI::App& info_command = *plugins_command.add_subcommand("info", "One of them: parameters, properties, promises");
-  info_command.add_option("name", id, "Such as motion.point")->required();
-  info_command.add_flag("--json", json, "As JSON");
-
+  Commands commands(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
@@ -173,15 +231,7 @@ int dispatch(int argc, char** argv) {
       throw muro::SetupError(text);
     return app.exit(e) == 0 ? 0 : 2;
   }
-  run_options.scenario.plugin_path = check_options.plugin_path = describe_options.plugin_path =
-      compare_options.scenario.plugin_path = render_options.scenario.plugin_path = plugin_path;
-  if (run_command.parsed()) return run(run_options);
-  if (render_command.parsed()) return render(render_options);
-  if (check_command.parsed()) return check(check_options);
-  if (compare_command.parsed()) return compare(compare_options);
-  if (describe_command.parsed()) return describe(describe_options, json);
-  if (info_command.parsed()) return plugin_info(id, plugin_path, json);
-  return list_plugins(plugin_path, json ? ListForm::json : (markdown ? ListForm::markdown : ListForm::plain));
+  return commands.exit_code;
 }
 
 }  // namespace

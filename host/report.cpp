@@ -4,64 +4,80 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "core/instance.hpp"
 #include "host/shadows.hpp"
-#include "muro/vocabulary.hpp"
+#include "muro/toolkit/rotations.hpp"
 
 namespace muro::host {
 
 namespace {
 
-const Pose& base_pose(const Simulation& s, const RobotView& robot) { return s.world().value(robot.base(), keys::pose); }
+using Json = nlohmann::ordered_json;
 
 double ms_per_simulated_s(const Simulation& s, std::size_t instance, double simulated) {
   const TaskCost& cost = s.scheduler().cost(s.task_of(instance));
   return simulated > 0 ? 1e3 * double(cost.ticks) * s.scheduler().seconds_per_tick() / simulated : 0;
 }
 
-/// As it is scheduled: in a sequence it may be another than the scenario asks for.
+/// The rate at which it is scheduled; in a sequence it may differ from that of the scenario.
 Rate rate_of(const Simulation& s, std::size_t instance) { return s.scheduler().tasks()[s.task_of(instance)].rate; }
 
-bool is_finite(const Pose& p) { return p.position.allFinite() && p.orientation.coeffs().allFinite(); }
-
-/// A file appears under its name when it is complete.
-std::string part_of(const std::string& path) { return path + ".part"; }
-std::ofstream open_part(const std::string& path) { return std::ofstream(part_of(path), std::ios::binary); }
-
-SetupError unwritable(const std::string& path) {
-  return SetupError("file " + path + " cannot be written; is the folder there, may you write to it, is there room?");
+/// Whether the same state, parameters and seed always give the same results.
+bool is_deterministic(const Instance& instance) {
+  return (instance.description().capabilities & Capability::deterministic) != 0;
 }
 
 }  // namespace
 
-Odometer::Odometer(const Simulation& simulation) : simulation_(simulation) {
-  for (const RobotView* r : simulation.world().robots()) last_.push_back(base_pose(simulation, *r).position);
-  distances_.assign(last_.size(), 0);
+std::vector<std::string> nondeterministic_algorithms(const Simulation& simulation) {
+  std::vector<std::string> all;
+  for (const auto& instance : simulation.instances())
+    if (const std::string& id = instance->setup().use;
+        !is_deterministic(*instance) && std::find(all.begin(), all.end(), id) == all.end())
+      all.push_back(id);
+  return all;
 }
 
-void Odometer::sample() {
-  for (const RobotView* r : simulation_.world().robots()) {
-    const Vec3& now = base_pose(simulation_, *r).position;
-    distances_[r->number] += (now - last_[r->number]).norm();
-    last_[r->number] = now;
+namespace {
+
+Json robots_report(const Simulation& simulation, const Odometer& odometer) {
+  Json all = Json::array();
+  for (const RobotView* r : simulation.world().robots()) {
+    const Pose& p = base_pose(simulation, *r);
+    all.push_back({{"name", r->name},
+                   {"distance_m", odometer.distance(r->number)},
+                   {"position_m", {p.position.x(), p.position.y(), p.position.z()}},
+                   {"yaw_rad", yaw_of(p.orientation)},
+                   {"state_hash", fmt::format("{:016x}", simulation.world().hash(*r))}});
   }
+  return all;
 }
 
-void Odometer::check() const {
-  for (const RobotView* r : simulation_.world().robots())
-    if (!is_finite(base_pose(simulation_, *r)))
-      throw StepError(
-          fmt::format("the pose of robot `{}` is not a number any more at t = {:g} s; try a higher "
-                      "rate of its motion, or weaker forces",
-                      r->name, 1e-9 * double(simulation_.now())));
+Json algorithms_report(const RunResult& run, const Simulation& simulation) {
+  Json all = Json::array();
+  for (std::size_t i = 0; i < simulation.instances().size(); ++i) {
+    const Instance& instance = *simulation.instances()[i];
+    const AlgorithmSetup& s = instance.setup();
+    const double ms = ms_per_simulated_s(simulation, i, run.simulated);
+    const Rate rate = rate_of(simulation, i);
+    all.push_back({{"name", s.name},
+                   {"plugin", s.use},
+                   {"deterministic", is_deterministic(instance)},
+                   {"rate_hz", rate.on_demand() ? Json("on_demand") : Json(rate.hertz())},
+                   {"steps", simulation.scheduler().cost(simulation.task_of(i)).runs},
+                   {"items", s.items.size()},
+                   {"ms_per_simulated_s", ms},
+                   {"ms_per_simulated_s_per_item", ms / double(s.items.size())}});
+  }
+  return all;
 }
 
-nlohmann::ordered_json report(const RunResult& run, const Simulation& simulation, const Odometer& odometer) {
-  nlohmann::ordered_json out;
+}  // namespace
+
+Json report(const RunResult& run, const Simulation& simulation, const Odometer& odometer) {
+  Json out;
   out["scenario"] = run.scenario;
   out["seed"] = run.seed;
   out["threads"] = simulation.scheduler().executor().threads();
@@ -69,18 +85,11 @@ nlohmann::ordered_json report(const RunResult& run, const Simulation& simulation
   out["wall_s"] = run.wall;
   out["real_time_factor"] = run.wall > 0 ? run.simulated / run.wall : 0;
   out["state_hash"] = fmt::format("{:016x}", simulation.state_hash());
+  out["nondeterministic_algorithms"] = nondeterministic_algorithms(simulation);
   out["interrupted"] = run.interrupted;
   if (!run.error.empty()) out["error"] = run.error;
   out["overruns"] = simulation.scheduler().overruns();
-  auto& robots = out["robots"] = nlohmann::ordered_json::array();
-  for (const RobotView* r : simulation.world().robots()) {
-    const Pose& p = base_pose(simulation, *r);
-    robots.push_back({{"name", r->name},
-                      {"distance_m", odometer.distance(r->number)},
-                      {"position_m", {p.position.x(), p.position.y(), p.position.z()}},
-                      {"yaw_rad", yaw_of(p.orientation)},
-                      {"state_hash", fmt::format("{:016x}", simulation.world().hash(*r))}});
-  }
+  out["robots"] = robots_report(simulation, odometer);
   for (const ShadowResult& s : shadow_results(simulation))
     out["shadows"].push_back({{"robot", s.robot},
                               {"motion", s.motion},
@@ -88,19 +97,7 @@ nlohmann::ordered_json report(const RunResult& run, const Simulation& simulation
                               {"angle_rad", s.angle},
                               {"greatest_distance_m", s.greatest_distance},
                               {"greatest_angle_rad", s.greatest_angle}});
-  auto& algorithms = out["algorithms"] = nlohmann::ordered_json::array();
-  for (std::size_t i = 0; i < simulation.instances().size(); ++i) {
-    const AlgorithmSetup& s = simulation.instances()[i]->setup();
-    const double ms = ms_per_simulated_s(simulation, i, run.simulated);
-    nlohmann::ordered_json a = {{"name", s.name}, {"plugin", s.use}};
-    const Rate rate = rate_of(simulation, i);
-    a["rate_hz"] = rate.on_demand() ? nlohmann::ordered_json("on_demand") : nlohmann::ordered_json(rate.hertz());
-    a["steps"] = simulation.scheduler().cost(simulation.task_of(i)).runs;
-    a["items"] = s.items.size();
-    a["ms_per_simulated_s"] = ms;
-    a["ms_per_simulated_s_per_item"] = ms / double(s.items.size());
-    algorithms.push_back(std::move(a));
-  }
+  out["algorithms"] = algorithms_report(run, simulation);
   return out;
 }
 
@@ -123,26 +120,6 @@ std::string profile(const RunResult& run, const Simulation& simulation) {
                        per_item, total > 0 ? 100 * ms(i) / total : 0);
   }
   return out;
-}
-
-void write_file(const std::string& path, const std::string& text) {
-  namespace fs = std::filesystem;
-  std::ofstream out = open_part(path);
-  out << text;
-  out.close();
-  std::error_code code;
-  if (out) fs::rename(part_of(path), path, code);
-  if (!out || code) {
-    fs::remove(part_of(path), code);
-    throw unwritable(path);
-  }
-}
-
-void check_writable(const std::string& path) {
-  std::error_code code;
-  const bool fine = !std::filesystem::is_directory(path, code) && open_part(path).good();
-  std::filesystem::remove(part_of(path), code);
-  if (!fine) throw unwritable(path);
 }
 
 }  // namespace muro::host

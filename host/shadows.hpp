@@ -8,12 +8,12 @@
 
 namespace muro::host {
 
-/// How a robot and its shadow came apart in a run.
+/// The deviation of a shadow from its robot in a run.
 struct ShadowResult {
   std::string robot;
   std::string motion;                                ///< that moved the shadow: "motion.ode"
   double distance = 0, angle = 0;                    ///< at the end: m, rad
-  double greatest_distance = 0, greatest_angle = 0;  ///< m, rad
+  double greatest_distance = 0, greatest_angle = 0;  ///< of the run: m, rad
 };
 
 /// Of all shadows in the scene.

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "host/report.hpp"
+#include "host/output_file.hpp"
 
 namespace muro::host {
 

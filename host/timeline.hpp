@@ -7,7 +7,7 @@
 
 namespace muro::host {
 
-/// Calls that a timeline holds of each thread: some seconds of a busy run, a file that viewers still open.
+/// How many calls of each thread a timeline holds: some seconds of a busy run, in a file that viewers can open.
 inline constexpr std::size_t timeline_calls = 200'000;
 
 /// Writes what the simulation's timeline has recorded in the Trace Event Format, which Perfetto (ui.perfetto.dev) and

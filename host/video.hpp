@@ -6,26 +6,28 @@
 #include <span>
 #include <string>
 
+#include "muro/toolkit/whole_file.hpp"
+
 namespace muro::host {
 
-/// A film, by ffmpeg: frames are handed to it one after the other, and the file is there when it is complete.
+/// A video file that ffmpeg encodes from frames; it appears under its name when it is complete.
 class Video {
  public:
   /// Throws SetupError where there is no ffmpeg.
-  Video(std::string path, std::uint32_t width, std::uint32_t height, double frames_per_second);
-  /// What was not closed is removed.
+  Video(const std::string& path, std::uint32_t width, std::uint32_t height, double frames_per_second);
+  /// Removes a file that was not closed.
   ~Video();
   Video(const Video&) = delete;
   Video& operator=(const Video&) = delete;
 
-  /// sRGB, rows from the top. Throws SetupError when ffmpeg takes no more.
+  /// Adds a frame: sRGB, rows from the top. Throws SetupError when ffmpeg fails.
   void add(std::span<const std::uint8_t> rgb);
   void close();
 
  private:
   [[noreturn]] void fail();
 
-  std::string path_, part_;
+  WholeFile file_;
   std::FILE* pipe_ = nullptr;
 };
 

@@ -9,13 +9,13 @@
 
 namespace muro::host {
 
-/// What all commands that read a scenario share.
+/// Options of all commands that read a scenario.
 struct ScenarioOptions {
   std::string file;
   std::vector<std::string> overrides;
   std::vector<std::string> plugin_path;
   std::optional<std::uint64_t> seed;
-  bool strict = false;  ///< what a motion cannot do for its robot is an error
+  bool strict = false;  ///< unsupported features of motions are errors
 };
 
 struct RunOptions {
@@ -27,13 +27,13 @@ struct RunOptions {
   std::string timeline;            ///< file, or empty
   bool profile = false;
   bool verify_access = false;
-  bool view = false;  ///< with a window
+  bool view = false;  ///< show a window
 };
 
 struct CompareOptions {
   ScenarioOptions scenario;
   std::vector<std::string> vary;   ///< "rovers.motion=point,simplified"
-  std::string reference;           ///< one of the levels; empty: the last
+  std::string reference;           ///< one of the variations; empty: the last
   std::optional<double> duration;  ///< s
   std::string picture;             ///< file (SVG), or empty
   std::string table;               ///< file (CSV), or empty
@@ -42,17 +42,17 @@ struct CompareOptions {
 struct RenderOptions {
   ScenarioOptions scenario;
   double at = 0;              ///< s
-  std::string camera;         ///< "rover/camera": what this one sees; empty: a view from outside
+  std::string camera;         ///< of a robot: "rover/camera"; empty: a free camera
   std::vector<double> from;   ///< x, y, z (m); empty: so that all robots are seen
   std::vector<double> to;     ///< x, y, z (m); empty: the middle of the robots
   std::string shows = "rgb";  ///< of a robot's camera: "rgb", "depth" or "labels"
-  double fov = 50;            ///< deg, horizontal, of a view from outside
+  double fov = 50;            ///< deg, horizontal, of the free camera
   std::string size = "1280x720";
   std::string device = "auto";
   std::string out;              ///< file (PNG), or empty
-  std::string video;            ///< file of a film from `at` on, or empty
-  std::optional<double> until;  ///< s; empty: as long as the scenario runs
-  double fps = 25;              ///< frames of the film in a simulated second
+  std::string video;            ///< file of a video from `at` on, or empty
+  std::optional<double> until;  ///< s; empty: as long as the scenario lasts
+  double fps = 25;              ///< frames of the video in a simulated second
 };
 
 int run(const RunOptions& options);
@@ -60,8 +60,9 @@ int render(const RenderOptions& options);
 int check(const ScenarioOptions& options);
 int compare(const CompareOptions& options);
 int describe(const ScenarioOptions& options, bool json);
-enum class ListForm { plain, json, markdown };
-int list_plugins(const std::vector<std::string>& plugin_path, ListForm form);
+enum class Format { plain, json, markdown };
+int list_plugins(const std::vector<std::string>& plugin_path, Format format);
+int list_properties(const std::vector<std::string>& plugin_path, Format format);
 int plugin_info(const std::string& id, const std::vector<std::string>& plugin_path, bool json);
 
 }  // namespace muro::host

@@ -6,8 +6,8 @@
 
 #include "host/commands/commands.hpp"
 #include "host/compare/table.hpp"
-#include "host/report.hpp"
-#include "muro/toolkit/did_you_mean.hpp"
+#include "host/names.hpp"
+#include "host/output_file.hpp"
 
 namespace muro::host {
 
@@ -17,9 +17,10 @@ void check_files(const CompareOptions& options) {
   const std::string& file = options.picture;
   const auto ends = [&](const char* end) { return file.size() > 4 && file.substr(file.size() - 4) == end; };
   if (!file.empty() && !ends(".svg"))
-    throw SetupError(
-        "--out " + file + ": pictures are SVG files, so name it *.svg" +
-        (ends(".png") ? "; `rsvg-convert FILE.svg -o " + file + "` (Debian: librsvg2-bin) makes it a PNG" : ""));
+    throw SetupError(fmt::format(
+        "--out {}: pictures are SVG files, so name it *.svg{}", file,
+        ends(".png") ? fmt::format("; `rsvg-convert FILE.svg -o {}` (Debian: librsvg2-bin) makes it a PNG", file)
+                     : ""));
   for (const std::string& f : {options.picture, options.table})
     if (!f.empty()) check_writable(f);  // now rather than after the runs
 }
@@ -29,11 +30,11 @@ Comparison read_comparison(const CompareOptions& options, const Registry& regist
   c.scenario.file = options.scenario.file;
   c.overrides = options.scenario.overrides;
   c.seed = options.scenario.seed;
-  c.scenario = read_level(c, {}, registry);
-  for (const std::string& v : options.vary) c.varieties.push_back(read_vary(v, c.scenario, registry));
+  c.scenario = read_variation(c, {}, registry);
+  for (const std::string& v : options.vary) c.factors.push_back(read_factor(v, c.scenario, registry));
   c.duration = options.duration.value_or(c.scenario.duration);
   if (c.duration <= 0) throw SetupError("there is nothing to compare in 0 s; give --duration a number of seconds");
-  c.robots = robots_of(c.scenario, c.varieties);
+  c.robots = robots_of(c.scenario, c.factors);
   if (c.robots.empty()) throw SetupError(options.scenario.file + ": there are no robots to compare");
   return c;
 }
@@ -46,13 +47,11 @@ std::size_t find_reference(const std::string& name, const std::vector<Variation>
     if (v.label == name || (v.choices.size() == 1 && v.choices.front()->use == name)) return i;
     labels.push_back(v.label);
   }
-  std::string all;
-  for (const std::string& l : labels) all += (all.empty() ? "" : ", ") + l;
-  throw SetupError("--reference " + name + ": nothing of this name is compared" + muro::did_you_mean(name, labels) +
-                   "; there are: " + all);
+  throw SetupError(fmt::format("--reference {}: nothing of this name is compared{}", name, suggestion(name, labels)));
 }
 
-class RunsShown {
+/// The variation that runs, on one line of the terminal.
+class CurrentRun {
  public:
   void show(const std::string& label) const {
     if (shown_) fmt::print(stderr, "\r\033[K{} ...", label), std::fflush(stderr);
@@ -72,27 +71,27 @@ int compare(const CompareOptions& options) {
   Registry registry(Registry::search_path(options.scenario.plugin_path));
   for (const std::string& p : registry.problems()) fmt::print(stderr, "warning: {}\n", p);
   const Comparison comparison = read_comparison(options, registry);
-  const std::vector<Variation> variations = product(comparison.varieties);
+  const std::vector<Variation> variations = all_variations(comparison.factors);
   const std::size_t reference = find_reference(options.reference, variations);
 
-  const RunsShown progress;
-  std::vector<Level> levels;
+  const CurrentRun progress;
+  std::vector<VariationResult> results;
   bool noted = false;
   for (const Variation& v : variations) {
     progress.show(v.label);
-    levels.push_back(run_level(comparison, v, registry));
+    results.push_back(run_variation(comparison, v, registry));
     progress.close();
     if (!noted)
-      for (const std::string& n : levels.back().notes) fmt::print(stderr, "{}\n", n), noted = true;
+      for (const std::string& n : results.back().notes) fmt::print(stderr, "{}\n", n), noted = true;
   }
 
-  const Compared compared{comparison, levels, reference};
+  const Compared compared{comparison, results, reference};
   fmt::print("{}", table(compared));
   if (!options.table.empty()) write_file(options.table, csv(compared));
   if (!options.picture.empty()) write_file(options.picture, picture(compared));
-  const bool ran = levels[reference].failure.empty();
-  const auto others = std::count_if(levels.begin(), levels.end(), [](const Level& l) { return l.failure.empty(); });
-  return ran && (others > 1 || levels.size() == 1) ? 0 : 1;
+  const auto succeeded =
+      std::count_if(results.begin(), results.end(), [](const VariationResult& r) { return r.failure.empty(); });
+  return results[reference].failure.empty() && (succeeded > 1 || results.size() == 1) ? 0 : 1;
 }
 
 }  // namespace muro::host

@@ -24,7 +24,7 @@ std::string type_of(const PropertyStore& store, const Slot& s) {
 
 bool reads(Usage u) { return u.access == Access::read || u.access == Access::read_sum; }
 
-Json describe_property(const PropertyStore& store, const PropertyStore::Named& named, ObjectId object) {
+Json describe_property(const PropertyStore& store, const PropertyStore::NamedSlot& named, ObjectId object) {
   const Slot& s = store.slot(named.slot);
   const KeyInfo& key = store.key_of(s);
   constexpr const char* kinds[] = {"unused", "constant", "variable", "derived"};
@@ -62,10 +62,10 @@ Json describe_schedule(const Simulation& simulation) {
   return list;
 }
 
-/// What runs at t = 0, one behind the other.
+/// The algorithms that run at t = 0, in their order.
 Json describe_first_instant(const Simulation& simulation) {
   Json names = Json::array();
-  for (const TaskId t : simulation.scheduler().plan_at(0)) names.push_back(simulation.scheduler().tasks()[t].name);
+  for (const TaskId t : simulation.scheduler().order_at(0)) names.push_back(simulation.scheduler().tasks()[t].name);
   return names;
 }
 
@@ -83,7 +83,7 @@ void print(const Json& all) {
                  p["unit"].get<std::string>(), p["is"].get<std::string>());
       if (!p["writers"].empty()) fmt::print("  written by {}", joined(p["writers"]));
       if (!p["readers"].empty()) fmt::print("  read by {}", joined(p["readers"]));
-      if (p.contains("shared_with")) fmt::print("  same place as in {}", p["shared_with"].get<std::string>());
+      if (p.contains("shared_with")) fmt::print("  shared with {}", p["shared_with"].get<std::string>());
       fmt::print("\n");
     }
   }

@@ -6,9 +6,8 @@
 
 namespace muro::host {
 
-/// Reads and builds a scenario; prints what its readers noted to standard error.
-/// `more`: as for build().
+/// Reads and builds a scenario; prints warnings and notes to standard error. `add_more`: as for build().
 BuiltScenario open_scenario(const ScenarioOptions& options, Registry& registry,
-                            const std::function<void(Simulation&)>& more = {});
+                            const std::function<void(Simulation&)>& add_more = {});
 
 }  // namespace muro::host

@@ -27,14 +27,14 @@ std::string range_of(const Json& p) {
   return high ? ", at most " + p["max"].dump() : "";
 }
 
-void print_info(const CatalogEntry& offer, const Json& plugin, const Json& entry) {
-  fmt::print("{}  ({}, version {})\n{}\n\n", offer.id, offer.kind, offer.version, offer.summary);
-  fmt::print("plugin    {} {}, licence {}\nlibrary   {}\nbuilt by  {}\n", plugin["name"].get<std::string>(),
-             plugin["version"].get<std::string>(), plugin["licence"].get<std::string>(), offer.library,
+void print_info(const CatalogEntry& found, const Json& plugin, const Json& entry) {
+  fmt::print("{}  ({}, version {})\n{}\n\n", found.id, found.kind, found.version, found.summary);
+  fmt::print("plugin        {} {}, licence {}\nlibrary       {}\nbuilt by      {}\n", plugin["name"].get<std::string>(),
+             plugin["version"].get<std::string>(), plugin["licence"].get<std::string>(), found.library,
              plugin["compiler"].get<std::string>());
   if (entry.contains("extensions")) fmt::print("reads files of type {}\n", entry["extensions"].dump());
-  if (entry.contains("promises")) fmt::print("promises  {}\n", entry["promises"].dump());
-  if (offer.features) fmt::print("features  {}\n", entry["features"].dump());
+  if (entry.contains("capabilities")) fmt::print("capabilities  {}\n", entry["capabilities"].dump());
+  if (found.features) fmt::print("features      {}\n", entry["features"].dump());
   if (entry.contains("parameters") && !entry["parameters"].empty()) {
     fmt::print("\nparameters\n");
     for (const Json& p : entry["parameters"]) {
@@ -51,38 +51,51 @@ void print_info(const CatalogEntry& offer, const Json& plugin, const Json& entry
     }
 }
 
+void print_catalog_json(const Registry& registry) {
+  Json all = Json::array();
+  for (const CatalogEntry& e : registry.catalog())
+    all.push_back(
+        {{"id", e.id}, {"kind", e.kind}, {"version", e.version}, {"summary", e.summary}, {"library", e.library}});
+  fmt::print("{}\n", all.dump(2));
+}
+
+void print_catalog_markdown(const Registry& registry) {
+  fmt::print(
+      "# Plugins\n\n"
+      "For everyone who writes a scenario: the algorithms and model readers that come with muro, by name.\n"
+      "`muro plugins list --markdown` writes this page; `muro plugins info NAME` shows the parameters of one,\n"
+      "and the properties that it reads and writes.\n\n"
+      "| name | kind | what it does |\n|---|---|---|\n");
+  for (const CatalogEntry& e : registry.catalog()) fmt::print("| `{}` | {} | {} |\n", e.id, e.kind, e.summary);
+}
+
+void print_catalog(const Registry& registry) {
+  for (const CatalogEntry& e : registry.catalog())
+    fmt::print("{:<28} {:<13} {:<8} {}\n", e.id, e.kind, e.version, e.summary);
+  if (!registry.catalog().empty()) return;
+  fmt::print(stderr, "no plugin was found in:\n");
+  for (const std::string& f : registry.folders()) fmt::print(stderr, "  {}\n", f);
+  fmt::print(stderr, "set MURO_PLUGIN_PATH or --plugin-path\n");
+}
+
 }  // namespace
 
-int list_plugins(const std::vector<std::string>& plugin_path, ListForm form) {
+int list_plugins(const std::vector<std::string>& plugin_path, Format format) {
   const Registry registry(Registry::search_path(plugin_path));
   for (const std::string& p : registry.problems()) fmt::print(stderr, "warning: {}\n", p);
-  if (form == ListForm::json) {
-    Json all = Json::array();
-    for (const CatalogEntry& o : registry.catalog())
-      all.push_back(
-          {{"id", o.id}, {"kind", o.kind}, {"version", o.version}, {"summary", o.summary}, {"library", o.library}});
-    fmt::print("{}\n", all.dump(2));
-    return 0;
-  }
-  if (form == ListForm::markdown) {
-    fmt::print("| name | kind | what it does |\n|---|---|---|\n");
-    for (const CatalogEntry& o : registry.catalog()) fmt::print("| `{}` | {} | {} |\n", o.id, o.kind, o.summary);
-    return 0;
-  }
-  for (const CatalogEntry& o : registry.catalog())
-    fmt::print("{:<28} {:<13} {:<8} {}\n", o.id, o.kind, o.version, o.summary);
-  if (registry.catalog().empty()) {
-    fmt::print(stderr, "no plugin was found in:\n");
-    for (const std::string& f : registry.folders()) fmt::print(stderr, "  {}\n", f);
-    fmt::print(stderr, "set MURO_PLUGIN_PATH or --plugin-path\n");
-  }
+  if (format == Format::json)
+    print_catalog_json(registry);
+  else if (format == Format::markdown)
+    print_catalog_markdown(registry);
+  else
+    print_catalog(registry);
   return 0;
 }
 
 int plugin_info(const std::string& id, const std::vector<std::string>& plugin_path, bool json) {
   const Registry registry(Registry::search_path(plugin_path));
-  const CatalogEntry& offer = registry.find(id);
-  std::ifstream file(offer.description);
+  const CatalogEntry& found = registry.find(id);
+  std::ifstream file(found.description);
   const Json plugin = Json::parse(file);
   for (const char* list : {"algorithms", "readers"})
     for (const Json& entry : plugin[list]) {
@@ -90,7 +103,7 @@ int plugin_info(const std::string& id, const std::vector<std::string>& plugin_pa
       if (json)
         fmt::print("{}\n", entry.dump(2));
       else
-        print_info(offer, plugin, entry);
+        print_info(found, plugin, entry);
     }
   return 0;
 }

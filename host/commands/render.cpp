@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A picture of a scenario at one time, or a film.
+// A picture of a scenario at one time, or a video.
 #include <fmt/format.h>
 
 #include <charconv>
@@ -9,18 +9,19 @@
 #include "host/commands/open.hpp"
 #include "host/constants.hpp"
 #include "host/false_colors.hpp"
+#include "host/names.hpp"
+#include "host/output_file.hpp"
 #include "host/png.hpp"
-#include "host/report.hpp"
 #include "host/video.hpp"
-#include "muro/toolkit/did_you_mean.hpp"
+#include "muro/toolkit/rotations.hpp"
 #include "muro/vocabulary.hpp"
 
 namespace muro::host {
 
 namespace {
 
-constexpr const char* algorithm = "camera.opengl";
-constexpr const char* eye = "muro.eye";
+constexpr const char* camera_algorithm = "camera.opengl";
+constexpr const char* free_camera = "muro.camera";
 
 /// "1280x720"
 std::pair<std::int64_t, std::int64_t> size_of(const std::string& text) {
@@ -33,7 +34,8 @@ std::pair<std::int64_t, std::int64_t> size_of(const std::string& text) {
         std::max(sides[0], sides[1]) <= 8192)
       return {sides[0], sides[1]};
   }
-  throw SetupError("--size is `" + text + "` but must be WIDTHxHEIGHT, each from 1 to 8192 pixels, such as 1280x720");
+  throw SetupError(
+      fmt::format("--size is `{}` but must be WIDTHxHEIGHT, each from 1 to 8192 pixels, such as 1280x720", text));
 }
 
 Vec3 point_of(const char* option, const std::vector<double>& xyz) {
@@ -42,20 +44,20 @@ Vec3 point_of(const char* option, const std::vector<double>& xyz) {
   return p;
 }
 
-/// At `from`, looking to `to`, upright.
-Pose looking(const Vec3& from, const Vec3& to) {
+/// The pose of a camera at `from` that looks at `to`, without roll.
+Pose look_at(const Vec3& from, const Vec3& to) {
   const Vec3 forward = to - from;
   if (forward.norm() < 1e-9) throw SetupError("--from and --to are the same point; the picture needs a direction");
   const double yaw = std::atan2(forward.y(), forward.x());
   return {from, from_rpy(0, -std::atan2(forward.z(), forward.head<2>().norm()), yaw)};
 }
 
-struct View {
+struct FreeCamera {
   Pose pose;
-  double distance = 0;  ///< m, to what it looks at
+  double distance = 0;  ///< m, to the point that it looks at
 };
 
-View view_of(const RenderOptions& options, Simulation& simulation) {
+FreeCamera free_camera_of(const RenderOptions& options, Simulation& simulation) {
   Vec3 low = Vec3::Constant(1e300), high = -low;
   for (const RobotView* r : simulation.world().robots()) {
     const Vec3 at = constant(simulation.world(), r->base(), keys::initial_pose, Pose{}).position;
@@ -63,47 +65,46 @@ View view_of(const RenderOptions& options, Simulation& simulation) {
   }
   if (simulation.world().robots().empty()) low = high = Vec3::Zero();
   const Vec3 middle = 0.5 * (low + high);
-  const double around = std::max(1.5, 0.5 * (high - low).norm());
+  const double radius = std::max(1.5, 0.5 * (high - low).norm());
   const Vec3 to = options.to.empty() ? middle : point_of("--to", options.to);
   const Vec3 from =
-      options.from.empty() ? Vec3(to + 1.7 * around * Vec3(-0.75, -0.75, 0.7)) : point_of("--from", options.from);
-  return {looking(from, to), (to - from).norm()};
+      options.from.empty() ? Vec3(to + 1.7 * radius * Vec3(-0.75, -0.75, 0.7)) : point_of("--from", options.from);
+  return {look_at(from, to), (to - from).norm()};
 }
 
-void add_eye(const RenderOptions& options, Simulation& simulation) {
+void add_free_camera(const RenderOptions& options, Simulation& simulation) {
   const auto [width, height] = size_of(options.size);
-  const View view = view_of(options, simulation);
-  const ObjectId object = simulation.world().add_scenery(eye, view.pose, {});
+  const FreeCamera camera = free_camera_of(options, simulation);
+  const ObjectId object = simulation.world().add_scenery(free_camera, camera.pose, {});
   AlgorithmSetup setup;
   setup.name = "muro render";
-  setup.use = algorithm;
+  setup.use = camera_algorithm;
   setup.rate = Rate(options.video.empty() ? 1e-6 : options.fps);
   setup.phase = std::llround(options.at * 1e9);
   setup.items = {{nullptr, object}};
   setup.parameters = {{"width", width},
                       {"height", height},
                       {"horizontal_fov", options.fov * M_PI / 180},
-                      {"shadow_range", std::clamp(view.distance, 1.0, 1e4)},
+                      {"shadow_range", std::clamp(camera.distance, 1.0, 1e4)},
                       {"device", options.device}};
   simulation.add(std::move(setup));
 }
 
-/// The sensor that has the picture.
+/// The sensor object that holds the picture.
 ObjectId camera_of(const RenderOptions& options, Simulation& simulation) {
   std::vector<std::string> cameras;
   for (const auto& instance : simulation.instances())
     for (const Item& item : instance->setup().items)
       if (simulation.world().store().find(item.object, keys::camera_image.name))
         cameras.push_back(simulation.world().object_name(item.object));
-  const std::string wanted = options.camera.empty() ? eye : options.camera;
-  if (std::find(cameras.begin(), cameras.end(), wanted) != cameras.end()) return simulation.world().object(wanted);
-  std::string listed;
-  for (const std::string& name : cameras) listed += (listed.empty() ? "" : ", ") + name;
-  throw SetupError("the scenario has no camera `" + wanted + "`" + did_you_mean(wanted, cameras) +
-                   (listed.empty() ? "; no robot has one that writes camera.image" : "; there are: " + listed));
+  const std::string name = options.camera.empty() ? free_camera : options.camera;
+  if (std::find(cameras.begin(), cameras.end(), name) != cameras.end()) return simulation.world().object(name);
+  throw SetupError(
+      fmt::format("the scenario has no camera `{}`{}", name,
+                  cameras.empty() ? "; no robot has one that writes camera.image" : suggestion(name, cameras)));
 }
 
-/// What the camera has written last, as colours.
+/// The latest output of the camera as colours.
 std::vector<std::uint8_t> picture_of(const World& world, ObjectId camera, const std::string& shows) {
   if (shows == "depth") return colors_of(world.values(camera, keys::camera_depth));
   if (shows == "labels") return colors_of(world.values(camera, keys::camera_labels));
@@ -111,53 +112,79 @@ std::vector<std::uint8_t> picture_of(const World& world, ObjectId camera, const 
   return {image.begin(), image.end()};
 }
 
+void check_options(const RenderOptions& options, const Registry& registry) {
+  if (!options.camera.empty() && (!options.from.empty() || !options.to.empty()))
+    throw SetupError("--camera selects a camera of a robot, --from and --to place a free camera; give one of both");
+  if (options.out.empty() == options.video.empty())
+    throw SetupError("give --out FILE.png for a picture, or --video FILE.mp4 for a video");
+  if (options.video.empty() && !options.out.ends_with(".png"))
+    throw SetupError(fmt::format("--out is `{}` but must be a file NAME.png", options.out));
+  const auto& catalog = registry.catalog();
+  if (std::none_of(catalog.begin(), catalog.end(), [](const CatalogEntry& e) { return e.id == camera_algorithm; }))
+    throw SetupError(
+        "a picture needs the plugin camera.opengl, which is not installed; install libepoxy-dev and libegl-dev, "
+        "and build muro again");
+  check_writable(options.video.empty() ? options.out : options.video);
+}
+
+/// Runs the scenario and takes pictures with one camera.
+class Photographer {
+ public:
+  Photographer(const RenderOptions& options, const BuiltScenario& built)
+      : options_(options), built_(built), simulation_(*built.simulation), camera_(camera_of(options, simulation_)) {
+    const World& world = simulation_.world();
+    if (options.shows != "rgb" && !world.store().find(camera_, "camera." + options.shows))
+      throw SetupError(
+          fmt::format("camera `{0}` writes no camera.{1}; give a robot's camera `{1}: true`, and name it by "
+                      "--camera",
+                      options.camera.empty() ? "from outside" : options.camera, options.shows));
+    width_ = constant(world, camera_, keys::camera_width, 0u);
+    height_ = constant(world, camera_, keys::camera_height, 0u);
+  }
+
+  void take_picture() {
+    write_file(options_.out, png(width_, height_, picture_at(options_.at)));
+    fmt::print("{}: {} x {} pixels, {} at {:g} s\n", options_.out, width_, height_, built_.scenario.name, options_.at);
+  }
+
+  void take_video() {
+    const double until = options_.until.value_or(built_.scenario.duration);
+    if (until <= options_.at)
+      throw SetupError(fmt::format("--until is {:g} s but must be later than --at, {:g} s", until, options_.at));
+    Video video(options_.video, width_, height_, options_.fps);
+    const int frames = 1 + int((until - options_.at) * options_.fps + 1e-6);
+    for (int k = 0; k < frames; ++k) video.add(picture_at(options_.at + k / options_.fps));
+    video.close();
+    fmt::print("{}: {} frames of {} x {} pixels, {} from {:g} to {:g} s\n", options_.video, frames, width_, height_,
+               built_.scenario.name, options_.at, until);
+  }
+
+ private:
+  std::vector<std::uint8_t> picture_at(double time) {
+    simulation_.run_until(std::llround(time * 1e9) + 1);
+    return picture_of(simulation_.world(), camera_, options_.shows);
+  }
+
+  const RenderOptions& options_;
+  const BuiltScenario& built_;
+  Simulation& simulation_;
+  ObjectId camera_;
+  std::uint32_t width_ = 0, height_ = 0;
+};
+
 }  // namespace
 
 int render(const RenderOptions& options) {
-  if (!options.camera.empty() && (!options.from.empty() || !options.to.empty()))
-    throw SetupError(
-        "--camera shows what a camera of a robot sees, --from and --to a view from outside; give one of both");
-  if (options.out.empty() == options.video.empty())
-    throw SetupError("give --out FILE.png for a picture, or --video FILE.mp4 for a film");
-  if (options.video.empty() && !options.out.ends_with(".png"))
-    throw SetupError("--out is `" + options.out + "` but must be a file NAME.png");
   Registry registry(Registry::search_path(options.scenario.plugin_path));
-  const auto offers = registry.catalog();
-  if (std::none_of(offers.begin(), offers.end(), [](const CatalogEntry& o) { return o.id == algorithm; }))
-    throw SetupError(
-        "a picture needs the plugin camera.opengl, which is not there; install libepoxy-dev and libegl-dev, "
-        "and build muro again");
-  const std::string& file = options.video.empty() ? options.out : options.video;
-  check_writable(file);
-  BuiltScenario built = open_scenario(options.scenario, registry, [&](Simulation& simulation) {
-    if (options.camera.empty()) add_eye(options, simulation);
+  check_options(options, registry);
+  const BuiltScenario built = open_scenario(options.scenario, registry, [&](Simulation& simulation) {
+    if (options.camera.empty()) add_free_camera(options, simulation);
   });
-  Simulation& simulation = *built.simulation;
-  const ObjectId camera = camera_of(options, simulation);
-  if (options.shows != "rgb" && !simulation.world().store().find(camera, "camera." + options.shows))
-    throw SetupError("camera `" + (options.camera.empty() ? std::string("from outside") : options.camera) +
-                     "` writes no camera." + options.shows + "; give a robot's camera `" + options.shows +
-                     ": true`, and name it by --camera");
-  const std::uint32_t width = constant(simulation.world(), camera, keys::camera_width, 0u);
-  const std::uint32_t height = constant(simulation.world(), camera, keys::camera_height, 0u);
-  const auto picture_at = [&](double time) {
-    simulation.run_until(std::llround(time * 1e9) + 1);
-    return picture_of(simulation.world(), camera, options.shows);
-  };
-  if (options.video.empty()) {
-    write_file(file, png(width, height, picture_at(options.at)));
-    fmt::print("{}: {} x {} pixels, {} at {:g} s\n", file, width, height, built.scenario.name, options.at);
-    return 0;
-  }
-  const double until = options.until.value_or(built.scenario.duration);
-  if (until <= options.at)
-    throw SetupError(fmt::format("--until is {:g} s but must be later than --at, {:g} s", until, options.at));
-  Video video(file, width, height, options.fps);
-  const int frames = 1 + int((until - options.at) * options.fps + 1e-6);
-  for (int k = 0; k < frames; ++k) video.add(picture_at(options.at + k / options.fps));
-  video.close();
-  fmt::print("{}: {} frames of {} x {} pixels, {} from {:g} to {:g} s\n", file, frames, width, height,
-             built.scenario.name, options.at, until);
+  Photographer photographer(options, built);
+  if (options.video.empty())
+    photographer.take_picture();
+  else
+    photographer.take_video();
   return 0;
 }
 

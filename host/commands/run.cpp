@@ -10,6 +10,7 @@
 
 #include "host/commands/commands.hpp"
 #include "host/commands/open.hpp"
+#include "host/output_file.hpp"
 #include "host/report.hpp"
 #include "host/shadows.hpp"
 #include "host/timeline.hpp"
@@ -28,7 +29,8 @@ double pacing_factor(const std::string& speed) {
   const char* end = speed.data() + speed.size();
   const auto [used, code] = std::from_chars(speed.data(), end, factor);
   if (code == std::errc{} && used == end && factor >= 1e-6 && factor <= 1e6) return factor;
-  throw SetupError("--speed is `" + speed + "` but must be max, real or a factor from 1e-6 to 1e6, such as 0.5");
+  throw SetupError(
+      fmt::format("--speed is `{}` but must be max, real or a factor from 1e-6 to 1e6, such as 0.5", speed));
 }
 
 /// One line on the terminal, at most five times a second.
@@ -56,40 +58,45 @@ void print_summary(const RunResult& result, const Simulation& simulation, const 
   std::vector<const RobotView*> robots;
   for (const RobotView* r : simulation.world().robots())
     if (!is_shadow(simulation, *r)) robots.push_back(r);
-  double least = 1e300, most = 0, sum = 0;
+  double min = 1e300, max = 0, sum = 0;
   for (const RobotView* r : robots) {
     const double d = odometer.distance(r->number);
-    least = std::min(least, d);
-    most = std::max(most, d);
+    min = std::min(min, d);
+    max = std::max(max, d);
     sum += d;
   }
   fmt::print("{}: {:g} s simulated in {:.2f} s ({:.2f} times real time){}\n", result.scenario, result.simulated,
              result.wall, result.wall > 0 ? result.simulated / result.wall : 0,
              result.interrupted ? ", interrupted" : "");
   if (!robots.empty())
-    fmt::print("{} robots travelled {:.2f} m on average (least {:.2f}, most {:.2f})\n", robots.size(),
-               sum / double(robots.size()), least, most);
+    fmt::print("{} robots travelled {:.2f} m on average (minimum {:.2f}, maximum {:.2f})\n", robots.size(),
+               sum / double(robots.size()), min, max);
   for (const ShadowResult& s : shadow_results(simulation))
-    fmt::print("{}: its shadow by {} is {:.4f} m and {:.4f} rad off at the end; at most {:.4f} m and {:.4f} rad\n",
-               s.robot, s.motion, s.distance, s.angle, s.greatest_distance, s.greatest_angle);
+    fmt::print(
+        "{}: its shadow, moved by {}, deviates by {:.4f} m and {:.4f} rad at the end; by at most {:.4f} m and "
+        "{:.4f} rad\n",
+        s.robot, s.motion, s.distance, s.angle, s.greatest_distance, s.greatest_angle);
   fmt::print("state hash {:016x}\n", simulation.state_hash());
+  if (const auto ids = nondeterministic_algorithms(simulation); !ids.empty())
+    fmt::print("not deterministic: {}; another run may end in another state\n", fmt::join(ids, ", "));
   if (simulation.scheduler().overruns() > 0)
-    fmt::print("{} instants came too late for the chosen speed\n", simulation.scheduler().overruns());
+    fmt::print("{} instants were late for the chosen speed\n", simulation.scheduler().overruns());
 }
 
-/// The scenario with a window, which sets the pace; what the user says of `algorithms.view` holds. One that has a
-/// window of its own is left as it is.
+/// The scenario with a window, which sets the pace. Overrides of `algorithms.view` apply to it; a scenario that has a
+/// window of its own stays as it is.
 ScenarioOptions with_view(const RunOptions& options, const Registry& registry) {
-  const auto& offers = registry.catalog();
-  if (std::none_of(offers.begin(), offers.end(), [](const CatalogEntry& o) { return o.id == "view.window"; }))
+  const auto& catalog = registry.catalog();
+  if (std::none_of(catalog.begin(), catalog.end(), [](const CatalogEntry& e) { return e.id == "view.window"; }))
     throw SetupError(
-        "--view needs the plugin view.window, which is not there; install libglfw3-dev, libimgui-dev, libepoxy-dev, "
+        "--view needs the plugin view.window, which is not installed; install libglfw3-dev, libimgui-dev, "
+        "libepoxy-dev, "
         "libegl-dev and libstb-dev, and build muro again");
   ScenarioOptions scenario = options.scenario;
   std::vector<std::string> others = scenario.overrides;
   std::erase_if(others, [](const std::string& o) { return o.starts_with("algorithms.view."); });
-  const Scenario as_it_is = read_scenario(scenario.file, others);
-  for (const Subsystem& s : as_it_is.algorithms)
+  const Scenario without_view = read_scenario(scenario.file, others);
+  for (const Subsystem& s : without_view.algorithms)
     if (s.use == "view.window") return scenario;
   const double speed = options.speed.empty() ? 1 : pacing_factor(options.speed);
   const std::string view[] = {"algorithms.view.use=view.window", "algorithms.view.rate=60",
@@ -98,33 +105,12 @@ ScenarioOptions with_view(const RunOptions& options, const Registry& registry) {
   return scenario;
 }
 
-}  // namespace
-
-int run(const RunOptions& options) {
-  Registry registry(Registry::search_path(options.scenario.plugin_path));
-  const double factor = options.view ? 0 : pacing_factor(options.speed);
-  BuiltScenario built = open_scenario(options.view ? with_view(options, registry) : options.scenario, registry);
-  tell(losses_of(built), Length::shortly, options.scenario.strict);
-  Simulation& simulation = *built.simulation;
-  if (!options.threads.empty())
-    simulation.set_threads(options.threads == "all" ? all_threads() : unsigned(std::stoul(options.threads)));
-  const double duration = options.duration.value_or(built.scenario.duration);
-  const auto end = std::int64_t(std::llround(duration * 1e9));
-  for (const std::string& file : {options.report, options.timeline})
-    if (!file.empty()) check_writable(file);  // now rather than after the run
-  if (!options.timeline.empty()) simulation.scheduler().executor().timeline().start(timeline_calls);
-
-  if (options.verify_access) simulation.verify_access();
-  interrupted = false;
-  std::signal(SIGINT, [](int) { interrupted = true; });
-  std::signal(SIGTERM, [](int) { interrupted = true; });
-  Odometer odometer(simulation);
-  Progress progress(duration);
-  RunResult result{built.scenario.name, built.scenario.seed, 0, 0, false, ""};
+/// Runs to `end` (ns), to an interrupt or to a failure. The error goes to `result`, because recorders complete their
+/// files and the report is written however a run ends.
+void simulate(Simulation& simulation, std::int64_t end, Odometer& odometer, RunResult& result) {
+  Progress progress(1e-9 * double(end));
   const auto start = std::chrono::steady_clock::now();
   const auto wall = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
-  simulation.set_pacing({factor});
-  // Whatever ends the run, recorders get their files complete and the report is written.
   const auto guarded = [&](const auto& work) {
     try {
       work();
@@ -146,6 +132,10 @@ int run(const RunOptions& options) {
   result.interrupted = interrupted;
   progress.close();
   guarded([&] { simulation.finish(); });
+}
+
+void write_outputs(const RunOptions& options, const RunResult& result, const Simulation& simulation,
+                   const Odometer& odometer) {
   print_summary(result, simulation, odometer);
   if (options.profile) fmt::print("\n{}", profile(result, simulation));
   if (!options.report.empty()) write_file(options.report, report(result, simulation, odometer).dump(2) + "\n");
@@ -153,6 +143,32 @@ int run(const RunOptions& options) {
   if (simulation.scheduler().executor().timeline().full())
     fmt::print(stderr, "note: {} holds the first {} calls of a thread; use --duration to record a shorter run\n",
                options.timeline, timeline_calls);
+}
+
+}  // namespace
+
+int run(const RunOptions& options) {
+  Registry registry(Registry::search_path(options.scenario.plugin_path));
+  const double factor = options.view ? 0 : pacing_factor(options.speed);
+  BuiltScenario built = open_scenario(options.view ? with_view(options, registry) : options.scenario, registry);
+  report_unsupported(find_unsupported_features(built), Detail::brief, options.scenario.strict);
+  Simulation& simulation = *built.simulation;
+  if (!options.threads.empty())
+    simulation.set_threads(options.threads == "all" ? all_threads() : unsigned(std::stoul(options.threads)));
+  for (const std::string& file : {options.report, options.timeline})
+    if (!file.empty()) check_writable(file);  // before the run rather than after it
+  if (!options.timeline.empty()) simulation.scheduler().executor().timeline().start(timeline_calls);
+  if (options.verify_access) simulation.verify_access();
+  simulation.set_pacing({factor});
+  interrupted = false;
+  std::signal(SIGINT, [](int) { interrupted = true; });
+  std::signal(SIGTERM, [](int) { interrupted = true; });
+
+  Odometer odometer(simulation);
+  RunResult result{built.scenario.name, built.scenario.seed, 0, 0, false, ""};
+  const double duration = options.duration.value_or(built.scenario.duration);
+  simulate(simulation, std::llround(duration * 1e9), odometer, result);
+  write_outputs(options, result, simulation, odometer);
   if (!result.error.empty()) {
     fmt::print(stderr, "{}\n", result.error);
     return 1;

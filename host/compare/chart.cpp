@@ -12,9 +12,9 @@ namespace {
 
 constexpr double width = 760, height = 484, legend_height = 30;
 constexpr double left = 84, right = 736, top = 72, bottom = 420;  // of the area of points
-constexpr double strip = 34;                                      // where zeros stand, beyond a gap
+constexpr double strip = 34;                                      // for zeros, beyond a gap
 constexpr double gap = 8;
-constexpr double text_size = 13, character = 7.2;  // a character is about so wide
+constexpr double text_size = 13, character_width = 7.2;
 constexpr double radius = 5.5;
 constexpr const char* colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"};
 
@@ -48,25 +48,25 @@ std::string tick_text(double value) {
   return fmt::format("{:.0e}", value);
 }
 
-/// From values to places: `from` is that of the least value, `to` that of the largest.
+/// From values to coordinates: `from` is that of the smallest value, `to` that of the largest.
 struct LogScale {
   double from, to;
   double low = 0, high = 1;  ///< decades
   bool zeros = false;        ///< whether there are values that have no logarithm
-  double zero = 0;           ///< their place
+  double zero = 0;           ///< their coordinate
 
   void fit(std::vector<double> values) {
     const std::size_t all = values.size();
     std::erase_if(values, [](double v) { return !(v > 0); });
     zeros = values.size() < all;
     if (values.empty()) return;
-    const auto [least, most] = std::minmax_element(values.begin(), values.end());
-    low = std::log10(*least) - 0.12;
-    high = std::log10(*most) + 0.12;
+    const auto [min, max] = std::minmax_element(values.begin(), values.end());
+    low = std::log10(*min) - 0.12;
+    high = std::log10(*max) + 0.12;
     const double missing = 1 - (high - low);
     if (missing > 0) low -= missing / 2, high += missing / 2;
   }
-  double place(double value) const {
+  double coordinate(double value) const {
     return value > 0 ? from + (std::log10(value) - low) / (high - low) * (to - from) : zero;
   }
   /// Values at which there is a tick; `labelled`: those with a number.
@@ -85,7 +85,7 @@ struct LogScale {
 
 struct Box {
   double x1, y1, x2, y2;
-  double shared_with(const Box& b) const {
+  double overlap(const Box& b) const {
     return std::max(0.0, std::min(x2, b.x2) - std::max(x1, b.x1)) *
            std::max(0.0, std::min(y2, b.y2) - std::max(y1, b.y1));
   }
@@ -129,7 +129,7 @@ class Drawing {
 
   void add_x_axis() {
     for (const auto& [value, labelled] : x_.ticks()) {
-      const double x = x_.place(value);
+      const double x = x_.coordinate(value);
       out_ += line(x, top, x, bottom, labelled ? "grid" : "fine");
       out_ += line(x, bottom, x, bottom + (labelled ? 6 : 3), "tick");
       if (labelled) out_ += text(x, bottom + 21, "middle", tick_text(value));
@@ -140,7 +140,7 @@ class Drawing {
 
   void add_y_axis() {
     for (const auto& [value, labelled] : y_.ticks()) {
-      const double y = y_.place(value);
+      const double y = y_.coordinate(value);
       out_ += line(left, y, right, y, labelled ? "grid" : "fine");
       out_ += line(left - (labelled ? 6 : 3), y, left, y, "tick");
       if (labelled) out_ += text(left - 10, y + 4.5, "end", tick_text(value));
@@ -153,7 +153,7 @@ class Drawing {
 
   void add_marks() {
     for (const Chart::Mark& m : chart_.marks) {
-      const double x = x_.place(m.x);
+      const double x = x_.coordinate(m.x);
       if (!(x > inner_left() && x < right)) continue;
       out_ += line(x, top, x, bottom, "mark");
       out_ += text(x, top - 6, x > right - 60 ? "end" : "middle", m.text, "font-size=\"11\" fill=\"#b22\"");
@@ -182,38 +182,39 @@ class Drawing {
 
   void add_points() {
     for (const Chart::Point& p : chart_.points) {
-      const double x = x_.place(p.x), y = y_.place(p.y);
-      taken_.push_back({x - radius, y - radius, x + radius, y + radius});
+      const double x = x_.coordinate(p.x), y = y_.coordinate(p.y);
+      occupied_.push_back({x - radius, y - radius, x + radius, y + radius});
     }
     for (std::size_t i = 0; i < chart_.points.size(); ++i) add_label(i);
     for (const Chart::Point& p : chart_.points) {
       const char* colour = colours[p.group % std::size(colours)];
       out_ +=
           fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" fill=\"{}\" stroke=\"{}\" stroke-width=\"1.8\"/>\n",
-                      x_.place(p.x), y_.place(p.y), radius, p.hollow ? "white" : colour, colour);
+                      x_.coordinate(p.x), y_.coordinate(p.y), radius, p.hollow ? "white" : colour, colour);
     }
   }
 
-  /// Beside its point, or farther away and with a line to it: where it covers least.
+  /// Beside its point, or farther away and with a line to it: where it overlaps least with points and other labels.
   void add_label(std::size_t i) {
     const Chart::Point& p = chart_.points[i];
-    const double x = x_.place(p.x), y = y_.place(p.y), w = character * double(p.label.size());
+    const double x = x_.coordinate(p.x), y = y_.coordinate(p.y), w = character_width * double(p.label.size());
     Box best{};
-    double least = 1e300, way = 0, side = 0;
-    int number = 0;
+    double min_cost = 1e300, label_distance = 0, side = 0;
+    int candidates = 0;
     for (const double distance : {9.0, 22.0, 36.0, 52.0, 70.0, 90.0})
       for (const double angle : {0.0, 180.0, -90.0, 90.0, -45.0, 45.0, -135.0, 135.0, -20.0, 20.0, -160.0, 160.0}) {
         const double dx = std::cos(angle * M_PI / 180), dy = std::sin(angle * M_PI / 180);
         const double cx = x + dx * (distance + w / 2), cy = y + dy * (distance + text_size / 2 - (dx == 0 ? 0 : 2));
         const Box box{cx - w / 2, cy - text_size / 2, cx + w / 2, cy + text_size / 2};
         const Box area{left + 2, top + 2, right - 2, bottom - 2};
-        double cost = 0.5 * number++ + 20 * (box.area() - box.shared_with(area));
-        for (const Box& t : taken_) cost += 10 * box.shared_with(t);
-        if (cost < least) least = cost, best = box, way = distance, side = dx;
+        double cost = 0.5 * candidates++ + 20 * (box.area() - box.overlap(area));
+        for (const Box& t : occupied_) cost += 10 * box.overlap(t);
+        if (cost < min_cost) min_cost = cost, best = box, label_distance = distance, side = dx;
       }
-    taken_.push_back(best);
-    if (way > 10) out_ += line(x, y, std::clamp(x, best.x1, best.x2), std::clamp(y, best.y1, best.y2), "lead");
-    const bool beside = std::abs(side) > 0.1;  // then it begins, or ends, by the point, however long it turns out
+    occupied_.push_back(best);
+    if (label_distance > 10)
+      out_ += line(x, y, std::clamp(x, best.x1, best.x2), std::clamp(y, best.y1, best.y2), "lead");
+    const bool beside = std::abs(side) > 0.1;  // then the text begins or ends at the point, whatever its length
     out_ += text(!beside ? (best.x1 + best.x2) / 2 : (side > 0 ? best.x1 : best.x2), best.y2 - 2.5,
                  !beside ? "middle" : (side > 0 ? "start" : "end"), p.label,
                  "paint-order=\"stroke\" stroke=\"white\" stroke-width=\"3\"");
@@ -225,14 +226,14 @@ class Drawing {
       out_ += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" fill=\"{}\"/>\n", x + radius, height + 6.5,
                           radius, colours[i % std::size(colours)]);
       out_ += text(x + 18, height + 11, "start", chart_.groups[i]);
-      x += 46 + character * double(chart_.groups[i].size());
+      x += 46 + character_width * double(chart_.groups[i].size());
     }
   }
 
   const Chart& chart_;
   LogScale x_{.from = left, .to = right};
   LogScale y_{.from = bottom, .to = top};
-  std::vector<Box> taken_;  ///< by points and labels
+  std::vector<Box> occupied_;  ///< by points and labels
   std::string out_;
 };
 

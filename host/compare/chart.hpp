@@ -6,8 +6,8 @@
 
 namespace muro::host {
 
-/// A chart of labelled points with logarithmic axes. Values of 0 and less, which such an axis has no place for, stand
-/// in a strip of their own, marked 0.
+/// A chart of labelled points with logarithmic axes. Values of 0 and less, which have no logarithm, are drawn in a
+/// separate strip that is marked 0.
 struct Chart {
   struct Axis {
     std::string name, unit;
@@ -15,11 +15,11 @@ struct Chart {
   struct Point {
     std::string label;
     double x = 0, y = 0;
-    std::size_t group = 0;  ///< its colour
+    std::size_t group = 0;  ///< index in `groups`; decides the colour
     bool hollow = false;
   };
 
-  /// A line across at a value of x that matters, if there is room for it.
+  /// A labelled vertical line at a value of x, drawn if it lies within the axis.
   struct Mark {
     double x;
     std::string text;
@@ -32,7 +32,8 @@ struct Chart {
   std::vector<std::string> groups;  ///< for the legend; none: no legend
 };
 
-/// As an SVG file, 760 wide. Labels lie where they cover neither points nor each other, as far as there is room.
+/// The chart as an SVG file, 760 units wide. Labels are placed so that they overlap neither points nor each other, as
+/// far as possible.
 std::string svg(const Chart& chart);
 
 }  // namespace muro::host

@@ -1,30 +1,30 @@
 // SPDX-License-Identifier: MIT
-// What a comparison prints: deviation against cost, level by level.
+// The results of a comparison as text: deviation against cost, variation by variation.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "host/compare/level.hpp"
+#include "host/compare/comparison.hpp"
 
 namespace muro::host {
 
 struct Compared {
   const Comparison& comparison;
-  const std::vector<Level>& levels;
-  std::size_t reference;  ///< among the levels
+  const std::vector<VariationResult>& results;
+  std::size_t reference;  ///< index of the result with which the others are compared
 };
 
 /// For the terminal.
 std::string table(const Compared& compared);
-/// For programs, a line each level.
+/// For programs, a line for each variation.
 std::string csv(const Compared& compared);
-/// A drawing (SVG) of the levels that ran: cost across, deviation upwards.
+/// A drawing (SVG) of the variations that ran: cost to the right, deviation upwards.
 std::string picture(const Compared& compared);
 
-/// How many of the robots that are compared run in real time on one core, if all cost the same.
-double real_time_robots(const Comparison& comparison, const Level& level);
-/// Of a level that ran from the reference; none if that did not run.
-std::optional<Deviation> deviation_of(const Level& level, const Level& reference);
+/// How many robots like those that are compared run in real time on one core.
+double real_time_robots(const Comparison& comparison, const VariationResult& result);
+/// From the reference; none when one of both did not run.
+std::optional<Deviation> deviation_of(const VariationResult& result, const VariationResult& reference);
 
 }  // namespace muro::host

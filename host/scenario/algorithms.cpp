@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "host/scenario/algorithms.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "host/scenario/defaults.hpp"
@@ -25,7 +28,7 @@ void Algorithms::add_to_scene(const Subsystem& s) {
     case Kind::drive:
     case Kind::sensor:
     case Kind::sensor_error:
-      problems_.add(s.location, "`" + s.use + "` serves a robot; name it in a robot, not under `algorithms`");
+      problems_.add(s.location, fmt::format("`{}` serves a robot; name it in a robot, not under `algorithms`", s.use));
       break;
     case Kind::kinematics: {
       std::vector<Item> items;
@@ -50,10 +53,11 @@ bool Algorithms::is_kind(const Subsystem& s, Kind kind) {
   return d && d->kind == kind;
 }
 
-void Algorithms::add(const Subsystem& s, const std::string& name, std::vector<Item> items, const std::string& alias) {
+void Algorithms::add(const Subsystem& s, const std::string& name, std::vector<Item> items,
+                     const std::string& template_name) {
   const Description* d = describe(s);
   for (const Name& other : s.alternatives)
-    problems_.collect(other.location.text() + ": parameters of `" + s.name + "`: ",
+    problems_.collect(fmt::format("{}: parameters of `{}`: ", other.location.text(), s.name),
                       [&] { registry_.find(other.text); });
   if (!d) return;
   AlgorithmSetup setup;
@@ -66,53 +70,58 @@ void Algorithms::add(const Subsystem& s, const std::string& name, std::vector<It
   const std::filesystem::path file(s.location.in_file() ? s.location.file : scenario_.file);
   setup.folder = std::filesystem::absolute(file).parent_path().string();
   setup.phase = std::llround(s.phase.value_or(0) * 1e9);
-  const KindInfo& kind = info_of(d->kind);
-  const double rate = s.rate.value_or(kind.default_rate);
-  if (s.on_demand && !kind.may_run_on_demand)
-    problems_.add(s.location, "`" + s.name + "` cannot run on demand, since nobody asks a " + std::string(kind.name) +
-                                  " for what it does; give it a `rate` in Hz");
-  else if (!s.on_demand && rate < 0)
-    problems_.add(s.location, "`" + s.name + "` needs a `rate` in Hz: how often `" + s.use + "` runs");
-  else if (!s.on_demand)
-    setup.rate = Rate(rate);
+  setup.rate = rate_of(s, info_of(d->kind));
   used_.insert(s.use);
-  note_needs(*d, s);
+  record_reads(*d, s);
   if (d->kind == Kind::kinematics)
     for (const Item& item : setup.items)
       if (item.robot) has_kinematics_.insert(item.robot->number);
-  const Rate scheduled = setup.rate;
-  const std::int64_t phase = setup.phase;
-  const Added added{simulation_.add(std::move(setup)), scheduled, phase};
+  Added added{0, setup.rate, setup.phase};
+  added.number = simulation_.add(std::move(setup));
   added_[name].push_back(added);
-  if (!alias.empty() && alias != name) added_[alias].push_back(added);
+  if (!template_name.empty() && template_name != name) added_[template_name].push_back(added);
 }
 
-bool Algorithms::is_off(const char* name) const {
+Rate Algorithms::rate_of(const Subsystem& s, const KindInfo& kind) {
+  const double rate = s.rate.value_or(kind.default_rate);
+  if (!s.on_demand && rate >= 0) return Rate(rate);
+  if (s.on_demand && !kind.may_run_on_demand)
+    problems_.add(s.location,
+                  fmt::format("`{}` cannot run on demand, because no algorithm reads what a {} computes; give "
+                              "it a `rate` in Hz",
+                              s.name, kind.name));
+  else if (!s.on_demand)
+    problems_.add(s.location, fmt::format("`{}` needs a `rate` in Hz: how often `{}` runs", s.name, s.use));
+  return {};
+}
+
+bool Algorithms::is_switched_off(const char* name) const {
   const auto& off = scenario_.switched_off;
   return std::find(off.begin(), off.end(), name) != off.end();
 }
 
-void Algorithms::add_unnamed(const std::string& name, const std::string& use, const std::string& reason,
+void Algorithms::add_default(const std::string& name, const std::string& use, const std::string& reason,
                              std::vector<Item> items) {
   Subsystem s;
   s.name = name;
   s.use = use;
   s.location = {scenario_.file, 0, 0};
-  const std::string why = scenario_.file + ": " + reason + ", by default `" + use +
-                          "` (another goes under `algorithms: {" + name + ": {use: NAME}}`): ";
-  if (problems_.collect(why, [&] { registry_.algorithm(use); })) add(s, name, std::move(items));
+  const std::string prefix =
+      fmt::format("{}: {}, by default `{}` (name another by `algorithms: {{{}: {{use: NAME}}}}`): ", scenario_.file,
+                  reason, use, name);
+  if (problems_.collect(prefix, [&] { registry_.algorithm(use); })) add(s, name, std::move(items));
 }
 
 void Algorithms::add_kinematics() {
-  if (is_off("kinematics")) return;
+  if (is_switched_off("kinematics")) return;
   for (const RobotView* r : simulation_.world().robots())
     if (r->links.size() > 1 && has_kinematics_.count(r->number) == 0)
-      add_unnamed("kinematics", "kinematics.direct", "robots of several bodies need kinematics", {Item{r, r->base()}});
+      add_default("kinematics", "kinematics.direct", "robots of several bodies need kinematics", {Item{r, r->base()}});
 }
 
-/// What the algorithm reads with these parameters. A world asks for forces from outside only when there are bodies that
-/// forces move outside of it.
-void Algorithms::note_needs(const Description& d, const Subsystem& s) {
+/// Records what the algorithm reads with these parameters. A world reads external wrenches only when forces move bodies
+/// that are not in it, so its own declaration does not count.
+void Algorithms::record_reads(const Description& d, const Subsystem& s) {
   const bool world = (d.capabilities & Capability::world) != 0;
   if (world) {
     const auto named = s.parameters.find("world");
@@ -127,23 +136,24 @@ void Algorithms::note_needs(const Description& d, const Subsystem& s) {
       const auto* text = given == s.parameters.end() ? nullptr : std::get_if<std::string>(&given->second);
       if (!text || *text != use.when.substr(equals + 1)) continue;
     }
-    needs_.emplace(use.key, s.use);
+    readers_.emplace(use.key, s.use);
   }
 }
 
 void Algorithms::add_defaults() {
   if (worlds_.size() > 1)
-    needs_.emplace(keys::external_wrench.name, worlds_.begin()->substr(0, worlds_.begin()->find('/')));
+    readers_.emplace(keys::external_wrench.name, worlds_.begin()->substr(0, worlds_.begin()->find('/')));
   const auto is_written = [&](const char* property) {
     return std::any_of(used_.begin(), used_.end(), [&](const std::string& id) {
       const auto& names = registry_.find(id).writes;
       return std::find(names.begin(), names.end(), property) != names.end();
     });
   };
-  for (const Default& d : defaults) {
-    const auto need = needs_.find(d.property);
-    if (is_off(d.name) || need == needs_.end() || is_written(d.property)) continue;
-    add_unnamed(d.name, d.use, "`" + need->second + "` reads `" + d.property + "`, so something must write it", {});
+  for (const DefaultAlgorithm& d : default_algorithms) {
+    const auto reader = readers_.find(d.property);
+    if (is_switched_off(d.name) || reader == readers_.end() || is_written(d.property)) continue;
+    add_default(d.name, d.use, fmt::format("`{}` reads `{}`, so something must write it", reader->second, d.property),
+                {});
   }
 }
 
@@ -151,21 +161,23 @@ void Algorithms::add_sequence(const std::vector<Name>& sequence) {
   std::vector<std::size_t> numbers;
   const Added* first = nullptr;  // of those that have a rate
   for (const Name& name : sequence) {
-    const auto known = added_.find(name.text);
-    if (known == added_.end()) {
+    const auto named = added_.find(name.text);
+    if (named == added_.end()) {
       std::vector<std::string> names;
       for (const auto& [n, unused] : added_) names.push_back(n);
-      problems_.add(name.location, "no algorithm is named `" + name.text + "`" + did_you_mean(name.text, names));
+      problems_.add(name.location,
+                    fmt::format("no algorithm is named `{}`{}", name.text, did_you_mean(name.text, names)));
       return;
     }
-    for (const Added& a : known->second) {
+    for (const Added& a : named->second) {
       numbers.push_back(a.number);
       if (a.rate.on_demand()) continue;
       if (!first) first = &a;
       if (a.rate == first->rate && a.phase == first->phase) continue;
-      problems_.add(
-          name.location,
-          "`" + name.text + "` has another rate or phase than what stands before it; a sequence runs at one rate");
+      problems_.add(name.location,
+                    fmt::format("`{}` has another rate or phase than the algorithms before it; a sequence "
+                                "runs at one rate",
+                                name.text));
       return;
     }
   }

@@ -5,10 +5,10 @@
 
 namespace muro::host {
 
-Inertia solid(const Shape& s, double mass) {
+Inertia homogeneous_inertia(const Shape& s, double mass) {
   const double r = s.size.x(), l = s.size.z();
   Inertia i{.mass = mass};
-  const auto axial = [&](double across, double along) { i.ixx = i.iyy = across, i.izz = along; };
+  const auto set_axisymmetric = [&](double transverse, double axial) { i.ixx = i.iyy = transverse, i.izz = axial; };
   switch (s.kind) {
     case ShapeKind::box: {
       const Vec3 q = s.size.cwiseProduct(s.size) * (mass / 12);
@@ -16,16 +16,17 @@ Inertia solid(const Shape& s, double mass) {
       break;
     }
     case ShapeKind::cylinder:
-      axial(mass * (3 * r * r + l * l) / 12, mass * r * r / 2);
+      set_axisymmetric(mass * (3 * r * r + l * l) / 12, mass * r * r / 2);
       break;
     case ShapeKind::capsule: {
-      const double tube = r * r * l, balls = 4.0 / 3 * r * r * r, mt = mass * tube / (tube + balls), mb = mass - mt;
-      axial(mt * (3 * r * r + l * l) / 12 + mb * (0.4 * r * r + l * l / 4 + 3.0 / 8 * l * r),
-            mt * r * r / 2 + mb * 0.4 * r * r);
+      const double cylinder = r * r * l, caps = 4.0 / 3 * r * r * r;  // volumes, over pi
+      const double mc = mass * cylinder / (cylinder + caps), mh = mass - mc;
+      set_axisymmetric(mc * (3 * r * r + l * l) / 12 + mh * (0.4 * r * r + l * l / 4 + 3.0 / 8 * l * r),
+                       mc * r * r / 2 + mh * 0.4 * r * r);
       break;
     }
     default:
-      axial(0.4 * mass * r * r, 0.4 * mass * r * r);
+      set_axisymmetric(0.4 * mass * r * r, 0.4 * mass * r * r);
   }
   return i;
 }
@@ -33,7 +34,7 @@ Inertia solid(const Shape& s, double mass) {
 RobotTree single_body(const Shape& shape, double mass) {
   RobotTree tree;
   tree.base("body");
-  tree.set(keys::inertial, solid(shape, mass));
+  tree.set(keys::inertial, homogeneous_inertia(shape, mass));
   tree.set_array(keys::collision_shapes, std::span<const Shape>(&shape, 1));
   tree.set_array(keys::visual_shapes, std::span<const Shape>(&shape, 1));
   tree.close();

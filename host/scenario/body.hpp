@@ -6,8 +6,8 @@
 
 namespace muro::host {
 
-/// Inertia of a homogeneous body with a volume.
-Inertia solid(const Shape& shape, double mass);
+/// Inertia of a homogeneous solid.
+Inertia homogeneous_inertia(const Shape& shape, double mass);
 
 /// A robot of one homogeneous body, named `body`.
 RobotTree single_body(const Shape& shape, double mass);

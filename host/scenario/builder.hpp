@@ -15,14 +15,14 @@ namespace muro::host {
 struct BuiltScenario {
   Scenario scenario;
   std::unique_ptr<Simulation> simulation;
-  std::vector<std::string> notes;  ///< what readers and defaults had to say, a line each
+  std::vector<std::string> notes;  ///< warnings and notes of readers, a line each
 };
 
-/// Adds what the scenario leaves open: kinematics for every robot, and, where something needs them, the
+/// Adds what the scenario leaves open: kinematics for every robot, and, where an algorithm reads what they write, the
 /// spatial index, collision detection and contact forces. Throws SetupError with every problem found.
-/// `more`: adds what the command needs beside the scenario, before all is connected.
-BuiltScenario build(Scenario scenario, Registry& registry, const std::function<void(Simulation&)>& more = {});
-/// What `threads: all` means on this machine.
+/// `add_more`: adds what a command needs beside the scenario, before the algorithms are connected.
+BuiltScenario build(Scenario scenario, Registry& registry, const std::function<void(Simulation&)>& add_more = {});
+/// The number of threads that `threads: all` stands for on this machine.
 unsigned all_threads();
 
 }  // namespace muro::host

@@ -1,60 +1,79 @@
 // SPDX-License-Identifier: MIT
 #include "host/scenario/levels.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
-#include "host/scenario/robot.hpp"
-#include "muro/toolkit/did_you_mean.hpp"
+#include "host/names.hpp"
+#include "host/scenario/map_reader.hpp"
+#include "host/scenario/subsystem_reader.hpp"
 
 namespace muro::host {
 
-bool has_levels(const Node& n) { return n.kind == Node::Kind::map && n.find("levels") != nullptr; }
+namespace {
 
-std::vector<Subsystem> read_levels(const std::string& name, const Node& n, const std::string& owner,
-                                   Problems& problems) {
-  const std::string what = "`" + name + "` of " + owner;
-  Section s(n, what, problems);
-  const Node& levels = s.map("levels");
+/// The motions, by the names of their levels.
+std::vector<Subsystem> read_motions(const std::string& name, const Node& levels, const std::string& owner,
+                                    const std::string& what, std::vector<std::string>& names, Problems& problems) {
   std::vector<Subsystem> all;
-  LevelChoice choice;
   for (std::size_t i = 0; i < levels.map.size(); ++i) {
     const auto& [level, node] = levels.map[i];
-    if (node.is_off() || !check_name(level, levels.key_locations[i], "a level", problems)) continue;
+    const Location& at = levels.key_locations[i];
+    if (node.is_off() || !check_name(level, at, "a level", problems)) continue;
     if (!is_subsystem(node)) {
-      problems.add(levels.key_locations[i], "level `" + level + "` of " + what + " needs `use: NAME` of a motion");
+      problems.add(at, fmt::format("level `{}` of {} needs `use: NAME` of a motion", level, what));
       continue;
     }
-    choice.names.push_back(level);
+    names.push_back(level);
     all.push_back(read_subsystem(name + "." + level, node, owner, problems));
   }
-  if (all.size() < 2)
-    problems.add(n.location, what + " lists " + std::to_string(all.size()) +
-                                 " levels; list two or more, or write `use: NAME` instead of `levels`");
-  const std::string start = s.text("start", choice.names.empty() ? "" : choice.names.front());
-  const auto found = std::find(choice.names.begin(), choice.names.end(), start);
-  if (found == choice.names.end() && !choice.names.empty())
-    s.problem("start", "is `" + start + "`, but there is no such level" + did_you_mean(start, choice.names) +
-                           "; there are: " + listed(choice.names));
-  else
-    choice.start = std::uint32_t(found - choice.names.begin());
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    choice.number = std::uint32_t(i);
-    all[i].level = choice;
-  }
+  return all;
+}
 
-  if (const Node* rules = s.find("rules")) {
-    Subsystem r;
-    r.name = name + ".rules";
-    r.use = "level.rules";
-    r.location = rules->location;
-    r.rate = s.number("rules_rate", 100, 1e-3, 1e6);
-    std::vector<std::string> texts;
-    for (const Node& e : s.list("rules").list) texts.push_back(e.scalar);
-    r.parameters["rules"] = std::move(texts);
-    if (s.has("dwell")) r.parameters["dwell"] = s.number("dwell", 0.1, 0, 1e6);
-    all.push_back(std::move(r));
+/// The algorithm that chooses the level.
+Subsystem read_rules(const std::string& name, MapReader& map) {
+  Subsystem s;
+  s.name = name + ".rules";
+  s.location = map.find("rules")->location;
+  s.rate = map.number("rules_rate", 100, 1e-3, 1e6);
+  std::vector<std::string> rules;
+  for (const Node& e : map.list("rules").list) rules.push_back(e.scalar);
+  const bool by_run_speed = std::any_of(rules.begin(), rules.end(), [](const std::string& rule) {
+    return rule.find(" when slower ") != rule.npos || rule.find(" when faster ") != rule.npos;
+  });
+  s.use = by_run_speed ? "level.budget" : "level.rules";
+  s.parameters["rules"] = std::move(rules);
+  if (map.has("dwell")) s.parameters["dwell"] = map.number("dwell", 0.1, 0, 1e6);
+  return s;
+}
+
+}  // namespace
+
+bool has_levels(const Node& node) { return node.kind == Node::Kind::map && node.find("levels") != nullptr; }
+
+std::vector<Subsystem> read_levels(const std::string& name, const Node& node, const std::string& owner,
+                                   Problems& problems) {
+  const std::string what = fmt::format("`{}` of {}", name, owner);
+  MapReader map(node, what, problems);
+  HandoverLevel level;
+  std::vector<Subsystem> all = read_motions(name, map.map("levels"), owner, what, level.names, problems);
+  if (all.size() < 2)
+    problems.add(node.location,
+                 fmt::format("{} lists {} levels; list two or more, or write `use: NAME` instead of `levels`", what,
+                             all.size()));
+  const std::string start = map.text("start", level.names.empty() ? "" : level.names.front());
+  const auto found = std::find(level.names.begin(), level.names.end(), start);
+  if (found == level.names.end() && !level.names.empty())
+    map.problem("start", fmt::format("is `{}`, but there is no such level{}", start, suggestion(start, level.names)));
+  else
+    level.start = std::uint32_t(found - level.names.begin());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    level.index = std::uint32_t(i);
+    all[i].level = level;
   }
-  s.close();
+  if (map.has("rules")) all.push_back(read_rules(name, map));
+  map.reject_unknown_keys();
   return all;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A robot that several motions can move, one at a time:
+// A robot that is handed over between several motions, its levels of detail:
 //
 //     motion:
 //       levels: {far: {use: motion.point}, near: {use: motion.ode}}
@@ -10,16 +10,16 @@
 #include <string>
 #include <vector>
 
+#include "host/scenario/problems.hpp"
 #include "host/scenario/scenario.hpp"
-#include "host/scenario/section.hpp"
 
 namespace muro::host {
 
 /// Whether the subsystem lists levels.
-bool has_levels(const Node& n);
+bool has_levels(const Node& node);
 
 /// A subsystem for each level, and one for the rules if there are any.
-std::vector<Subsystem> read_levels(const std::string& name, const Node& n, const std::string& owner,
+std::vector<Subsystem> read_levels(const std::string& name, const Node& node, const std::string& owner,
                                    Problems& problems);
 
 }  // namespace muro::host

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "host/scenario/node.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 
@@ -26,7 +28,7 @@ Node* Node::find(const std::string& key) { return const_cast<Node*>(std::as_cons
 
 Node& Node::child(const std::string& key, const Location& at) {
   kind = Kind::map;
-  if (Node* known = find(key)) return *known;
+  if (Node* present = find(key)) return *present;
   map.emplace_back(key, Node{});
   key_locations.push_back(at);
   map.back().second.location = at;
@@ -50,29 +52,29 @@ bool Node::is_off() const {
   return word == "off" || word == "false" || word == "no" || word == "none";
 }
 
-void merge(Node& under, const Node& over) {
-  if (under.kind != Node::Kind::map || over.kind != Node::Kind::map) {
-    const bool earlier = under.kind != Node::Kind::null || under.replaces;
-    under = over;
-    under.replaces = under.replaces || earlier;
+void merge(Node& base, const Node& overlay) {
+  if (base.kind != Node::Kind::map || overlay.kind != Node::Kind::map) {
+    const bool replaces = base.kind != Node::Kind::null || base.replaces;
+    base = overlay;
+    base.replaces = base.replaces || replaces;
     return;
   }
-  for (std::size_t i = 0; i < over.map.size(); ++i) {
-    const auto& [key, value] = over.map[i];
-    merge(under.child(key, over.key_locations[i]), value);
+  for (std::size_t i = 0; i < overlay.map.size(); ++i) {
+    const auto& [key, value] = overlay.map[i];
+    merge(base.child(key, overlay.key_locations[i]), value);
   }
 }
 
 namespace {
 
-/// One part of the path of an override: a key, or the range of variants behind a robot's name.
-struct Step {
+/// One step on the path of an override: a key, or the range of variants behind a robot's name.
+struct PathStep {
   std::string name;
   bool range = false;
 };
 
-std::vector<Step> steps_of(std::string path, const std::string& at) {
-  std::vector<Step> steps;
+std::vector<PathStep> steps_of(std::string path, const std::string& at) {
+  std::vector<PathStep> steps;
   while (true) {
     const std::size_t end = std::min(path.find_first_of(".["), path.size());
     if (end == 0) throw SetupError(at + ": the path has an empty part");
@@ -102,16 +104,16 @@ void apply_override(Node& root, const std::string& assignment) {
   if (equals == std::string::npos || equals == 0)
     throw SetupError(at.text() + ": write path=value, such as robots.rovers.count=100");
   Node* n = &root;
-  for (const Step& step : steps_of(assignment.substr(0, equals), at.text())) {
+  for (const PathStep& step : steps_of(assignment.substr(0, equals), at.text())) {
     if (n->kind != Node::Kind::map && n->kind != Node::Kind::null)
-      throw SetupError(at.text() + ": `" + step.name + "` has no place inside a " +
-                       (n->kind == Node::Kind::list ? "list" : "single value"));
+      throw SetupError(fmt::format("{}: `{}` cannot be a key of a {}", at.text(), step.name,
+                                   n->kind == Node::Kind::list ? "list" : "single value"));
     if (step.range) n = &n->child("variants", at);
     n = &n->child(step.name, at);
   }
-  const bool earlier = n->kind != Node::Kind::null || n->replaces;
+  const bool replaces = n->kind != Node::Kind::null || n->replaces;
   *n = parse_yaml(assignment.substr(equals + 1), at);
-  n->replaces = earlier;
+  n->replaces = replaces;
 }
 
 }  // namespace muro::host

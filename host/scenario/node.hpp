@@ -7,7 +7,7 @@
 
 namespace muro::host {
 
-/// Where something stands: a file with line and column (from 1), or an override of the command line.
+/// Where a value is written: a file with line and column (from 1), or an override of the command line.
 struct Location {
   std::string file;
   int line = 0;
@@ -18,8 +18,8 @@ struct Location {
   }
 };
 
-/// A piece of a scenario: a YAML tree that remembers where each part was written, so that files can be
-/// merged and every message can name its place.
+/// A YAML tree that remembers where each value is written, so that files can be merged and every message can name the
+/// location.
 struct Node {
   enum class Kind { null, scalar, list, map };
 
@@ -27,13 +27,13 @@ struct Node {
   Location location;
   std::string scalar;
   bool quoted = false;    ///< a scalar in quotes is a text, never a number
-  bool empty = false;     ///< a null of which nothing is written, not even `~`
-  bool replaces = false;  ///< stands in the place of an earlier value of the same key
+  bool empty = false;     ///< a null without any text, not even `~`
+  bool replaces = false;  ///< replaces an earlier value of the same key
   std::vector<Node> list;
-  std::vector<std::pair<std::string, Node>> map;  ///< in the order of writing
+  std::vector<std::pair<std::string, Node>> map;  ///< in the order of the file
   std::vector<Location> key_locations;            ///< of the keys of `map`
 
-  Node();  // and what follows: out of line, since `map` holds pairs of a type that is complete only below
+  Node();  // these members are out of line, because Node is incomplete where `map` is declared
   Node(const Node&);
   Node(Node&&) noexcept;
   Node& operator=(const Node&);
@@ -42,15 +42,15 @@ struct Node {
 
   const Node* find(const std::string& key) const;
   Node* find(const std::string& key);
-  /// The child of that name, made empty if need be.
+  /// The child of that name; a missing one is added, empty.
   Node& child(const std::string& key, const Location& at);
   void erase(const std::string& key);
-  /// `off`, `false`, `no`, `none`, `~`: a switched-off part.
+  /// Whether the value switches something off: `off`, `false`, `no`, `none`, `~`.
   bool is_off() const;
 };
 
-/// Where both say something, `over` wins; maps are merged.
-void merge(Node& under, const Node& over);
+/// Merges `overlay` into `base`: maps key by key, any other value of `overlay` replaces that of `base`.
+void merge(Node& base, const Node& overlay);
 
 /// Sets one value by its path, "robots.rovers.count=100". `robots.rovers[2-4].motion.use=...` sets it for
 /// some robots of a template only. Throws SetupError when the assignment has no such form.

@@ -1,29 +1,32 @@
 // SPDX-License-Identifier: MIT
 #include "host/scenario/placement.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "core/error.hpp"
-#include "muro/toolkit/did_you_mean.hpp"
+#include "host/names.hpp"
 #include "muro/toolkit/random.hpp"
+#include "muro/toolkit/rotations.hpp"
 
 namespace muro::host {
 
 namespace {
 
-constexpr int most_tries = 10'000;  // for one copy, before the area counts as full
+constexpr int max_attempts = 10'000;  // for one copy, before the place counts as full
 
-Pose pose_of(const Placement::At& at, double standing) {
-  return {{at.x, at.y, at.z.value_or(standing)}, from_rpy(at.roll, at.pitch, at.yaw)};
+Pose pose_of(const PoseInput& pose, double standing_height) {
+  return {{pose.x, pose.y, pose.z.value_or(standing_height)}, from_rpy(pose.roll, pose.pitch, pose.yaw)};
 }
 
-bool touches(const Footprint& f, const Obstacle& o, double clearance) {
+bool overlaps(const Footprint& f, const Obstacle& o, double clearance) {
   const Vec3 p = o.pose.inverse() * Vec3(f.x, f.y, o.pose.position.z());
   const double dx = std::max(0.0, std::abs(p.x()) - o.half_x), dy = std::max(0.0, std::abs(p.y()) - o.half_y);
   return std::hypot(dx, dy) < f.radius + clearance;
 }
 
-bool touches(const Footprint& a, const Footprint& b, double clearance) {
+bool overlaps(const Footprint& a, const Footprint& b, double clearance) {
   return std::hypot(a.x - b.x, a.y - b.y) < a.radius + b.radius + clearance;
 }
 
@@ -31,74 +34,95 @@ const std::vector<Rectangle>& area_of(const Placement& p, const std::map<std::st
   const auto area = places.find(p.area);
   if (area != places.end()) return area->second;
   std::vector<std::string> names;
-  std::string all;
-  for (const auto& [name, unused] : places) {
-    names.push_back(name);
-    all += (all.empty() ? "" : ", ") + name;
-  }
-  throw SetupError(p.location.text() + ": no place is named `" + p.area + "`" + did_you_mean(p.area, names) +
-                   (all.empty() ? "; the world has no `places`" : "; there are: " + all));
+  for (const auto& [name, unused] : places) names.push_back(name);
+  throw SetupError(fmt::format("{}: no place is named `{}`{}", p.location.text(), p.area,
+                               names.empty() ? "; the world has no `places`" : suggestion(p.area, names)));
 }
 
-std::vector<Pose> place_random(const Placement& p, int count, double standing, double radius,
-                               const std::vector<Rectangle>& area, const std::vector<Obstacle>& obstacles,
-                               std::vector<Footprint>& taken, const std::string& what) {
-  double total = 0;
-  for (const Rectangle& r : area) total += r.width * r.depth;
-  const double z = p.list.front().z.value_or(standing);
+/// Draws poses that are uniformly distributed over an area.
+class PoseSampler {
+ public:
+  PoseSampler(const Placement& placement, const std::vector<Rectangle>& area, double radius)
+      : placement_(placement), area_(area), radius_(radius) {
+    for (const Rectangle& r : area) total_ += r.width * r.depth;
+  }
+  struct Sample {
+    Footprint footprint;
+    double yaw;
+  };
+  Sample draw(int copy, int attempt) const {
+    const Random random(placement_.seed.value_or(1), std::uint64_t(copy), std::uint64_t(attempt));
+    double at = random.uniform(0) * total_;
+    std::size_t k = 0;
+    while (k + 1 < area_.size() && at > area_[k].width * area_[k].depth) at -= area_[k].width * area_[k].depth, ++k;
+    const Rectangle& r = area_[k];
+    const Footprint f{r.x + (random.uniform(1) - 0.5) * r.width, r.y + (random.uniform(2) - 0.5) * r.depth, radius_};
+    if (r.headings.empty()) return {f, 2 * M_PI * random.uniform(3)};
+    const auto choice = std::size_t(random.uniform(3) * double(r.headings.size()));
+    return {f, r.headings[std::min(choice, r.headings.size() - 1)]};
+  }
+
+ private:
+  const Placement& placement_;
+  const std::vector<Rectangle>& area_;
+  double radius_, total_ = 0;
+};
+
+std::vector<Pose> place_random(const Placement& p, int count, const Body& body, const std::vector<Rectangle>& area,
+                               const std::vector<Obstacle>& obstacles, std::vector<Footprint>& occupied) {
+  const PoseSampler sampler(p, area, body.radius);
+  const double z = p.poses.front().z.value_or(body.standing_height);
+  const auto is_free = [&](const Footprint& f) {
+    const auto overlapped = [&](const auto& other) { return overlaps(f, other, p.clearance); };
+    return std::none_of(occupied.begin(), occupied.end(), overlapped) &&
+           std::none_of(obstacles.begin(), obstacles.end(), overlapped);
+  };
   std::vector<Pose> poses;
   for (int i = 0; i < count; ++i) {
-    bool found = false;
-    for (int attempt = 0; attempt < most_tries && !found; ++attempt) {
-      const Random random(p.seed.value_or(1), std::uint64_t(i), std::uint64_t(attempt));
-      double at = random.uniform(0) * total;
-      std::size_t k = 0;
-      while (k + 1 < area.size() && at > area[k].width * area[k].depth) at -= area[k].width * area[k].depth, ++k;
-      const Rectangle& r = area[k];
-      const Footprint f{r.x + (random.uniform(1) - 0.5) * r.width, r.y + (random.uniform(2) - 0.5) * r.depth, radius};
-      found =
-          std::none_of(taken.begin(), taken.end(), [&](const Footprint& t) { return touches(f, t, p.clearance); }) &&
-          std::none_of(obstacles.begin(), obstacles.end(),
-                       [&](const Obstacle& o) { return touches(f, o, p.clearance); });
-      if (!found) continue;
-      const std::size_t choice =
-          std::min(std::size_t(random.uniform(3) * double(r.headings.size())), r.headings.size() - 1);
-      const double yaw = r.headings.empty() ? 2 * M_PI * random.uniform(3) : r.headings[choice];
-      poses.push_back({{f.x, f.y, z}, from_rpy(0, 0, yaw)});
-      taken.push_back(f);
+    int attempt = 0;
+    PoseSampler::Sample sample = sampler.draw(i, attempt);
+    while (!is_free(sample.footprint)) {
+      if (++attempt == max_attempts)
+        throw SetupError(
+            fmt::format("{}: only {} of {} copies of `{}` fit into `{}` without overlap; ask for fewer, a "
+                        "larger place or less `clearance`",
+                        p.location.text(), i, count, body.name, p.area));
+      sample = sampler.draw(i, attempt);
     }
-    if (!found)
-      throw SetupError(p.location.text() + ": only " + std::to_string(i) + " of " + std::to_string(count) +
-                       " copies of `" + what + "` fit into `" + p.area +
-                       "` without overlap; ask for fewer, a larger place or less `clearance`");
+    poses.push_back({{sample.footprint.x, sample.footprint.y, z}, from_rpy(0, 0, sample.yaw)});
+    occupied.push_back(sample.footprint);
   }
+  return poses;
+}
+
+std::vector<Pose> grid_poses(const Placement& p, double standing_height) {
+  const Pose centre = pose_of(p.poses.front(), standing_height);
+  std::vector<Pose> poses;
+  for (int row = 0; row < p.rows; ++row)
+    for (int column = 0; column < p.columns; ++column)
+      poses.push_back(
+          centre * Pose{{(column - 0.5 * (p.columns - 1)) * p.spacing_x, (row - 0.5 * (p.rows - 1)) * p.spacing_y, 0},
+                        Quat::Identity()});
   return poses;
 }
 
 }  // namespace
 
-std::vector<Pose> place(const Placement& p, int count, double standing, double radius,
+std::vector<Pose> place(const Placement& p, int count, const Body& body,
                         const std::map<std::string, std::vector<Rectangle>>& places,
-                        const std::vector<Obstacle>& obstacles, std::vector<Footprint>& taken,
-                        const std::string& what) {
-  if (p.form == Placement::Form::random)
-    return place_random(p, count, standing, radius, area_of(p, places), obstacles, taken, what);
+                        const std::vector<Obstacle>& obstacles, std::vector<Footprint>& occupied) {
+  if (p.kind == Placement::Kind::random) return place_random(p, count, body, area_of(p, places), obstacles, occupied);
   std::vector<Pose> poses;
-  if (p.form == Placement::Form::list) {
-    for (const Placement::At& at : p.list) poses.push_back(pose_of(at, standing));
-  } else {
-    const Pose centre = pose_of(p.list.front(), standing);
-    for (int row = 0; row < p.rows; ++row)
-      for (int column = 0; column < p.columns; ++column)
-        poses.push_back(
-            centre * Pose{{(column - 0.5 * (p.columns - 1)) * p.spacing_x, (row - 0.5 * (p.rows - 1)) * p.spacing_y, 0},
-                          Quat::Identity()});
-  }
+  if (p.kind == Placement::Kind::grid)
+    poses = grid_poses(p, body.standing_height);
+  else
+    for (const PoseInput& pose : p.poses) poses.push_back(pose_of(pose, body.standing_height));
   if (int(poses.size()) < count)
-    throw SetupError(p.location.text() + ": " + std::to_string(count) + " copies of `" + what + "` but only " +
-                     std::to_string(poses.size()) + " places for them; lower `count`, or give more places");
+    throw SetupError(
+        fmt::format("{}: {} copies of `{}` but only {} places for them; lower `count`, or give more places",
+                    p.location.text(), count, body.name, poses.size()));
   poses.resize(std::size_t(count));
-  for (const Pose& pose : poses) taken.push_back({pose.position.x(), pose.position.y(), radius});
+  for (const Pose& pose : poses) occupied.push_back({pose.position.x(), pose.position.y(), body.radius});
   return poses;
 }
 

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "host/scenario/scenario.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
-#include "host/scenario/parts.hpp"
-#include "host/scenario/robot.hpp"
-#include "host/scenario/section.hpp"
+#include "host/scenario/map_reader.hpp"
+#include "host/scenario/placement_reader.hpp"
+#include "host/scenario/robot_reader.hpp"
+#include "host/scenario/shape_reader.hpp"
+#include "host/scenario/subsystem_reader.hpp"
 #include "host/scenario/yaml.hpp"
 
 namespace muro::host {
@@ -17,21 +22,21 @@ namespace fs = std::filesystem;
 
 /// One rectangle of a place, with its copies.
 void read_rectangle(const Node& n, const std::string& what, std::vector<Rectangle>& out, Problems& problems) {
-  Section s(n, what, problems);
+  MapReader map(n, what, problems);
   Rectangle r;
-  if (const auto c = s.numbers("center", {2})) r.x = (*c)[0], r.y = (*c)[1];
-  if (const auto size = s.numbers("size", {2})) {
+  if (const auto c = map.numbers("center", {2})) r.x = (*c)[0], r.y = (*c)[1];
+  if (const auto size = map.numbers("size", {2})) {
     r.width = (*size)[0], r.depth = (*size)[1];
-    if (r.width <= 0 || r.depth <= 0) s.problem("size", "must be greater than 0");
+    if (r.width <= 0 || r.depth <= 0) map.problem("size", "must be greater than 0");
   }
-  r.headings = s.numbers("headings", {}).value_or(std::vector<double>{});
+  r.headings = map.numbers("headings", {}).value_or(std::vector<double>{});
   int columns = 1, rows = 1;
   double dx = 0, dy = 0;
-  if (const Node* repeat = s.find("repeat")) {
-    const Placement g = read_grid(*repeat, "`repeat` of " + what, problems);
-    columns = g.columns, rows = g.rows, dx = g.spacing_x, dy = g.spacing_y;
+  if (const Node* repeat = map.find("repeat")) {
+    const Placement grid = read_grid(*repeat, "`repeat` of " + what, problems);
+    columns = grid.columns, rows = grid.rows, dx = grid.spacing_x, dy = grid.spacing_y;
   }
-  s.close();
+  map.reject_unknown_keys();
   for (int i = 0; i < columns; ++i)
     for (int k = 0; k < rows; ++k) {
       Rectangle copy = r;
@@ -42,47 +47,47 @@ void read_rectangle(const Node& n, const std::string& what, std::vector<Rectangl
 }
 
 SceneryObject read_object(const std::string& name, const Node& node, Problems& problems) {
-  Section s(node, "object `" + name + "`", problems);
+  MapReader map(node, "object `" + name + "`", problems);
   SceneryObject object;
   object.name = name;
   object.location = node.location;
-  object.counted = s.has("place");
-  object.placement = read_placement(s, problems);
-  if (object.placement.form == Placement::Form::random)
-    s.problem("place", "must be a `list` or a `grid`: random places are for robots");
-  const auto shape = read_shape(s, object.mesh, problems);
-  if (!shape && node.kind == Node::Kind::map) problems.add(node.location, s.what() + " needs a `shape`");
+  object.numbered = map.has("place");
+  object.placement = read_placement(map, problems);
+  if (object.placement.kind == Placement::Kind::random)
+    map.problem("place", "must be a `list` or a `grid`: random places are for robots");
+  const auto shape = read_shape(map, object.mesh, problems);
+  if (!shape && node.kind == Node::Kind::map) problems.add(node.location, map.what() + " needs a `shape`");
   object.shape = shape.value_or(Shape{});
-  s.close();
+  map.reject_unknown_keys();
   return object;
 }
 
 void read_world(const Node& n, Scenario& out, Problems& problems) {
-  Section s(n, "`world`", problems);
-  if (const Node* file = s.find("file"))
-    out.world_file = {file_beside(file->location, s.text("file", "")), file->location};
-  if (const auto g = s.numbers("gravity", {3})) out.gravity = Vec3((*g)[0], (*g)[1], (*g)[2]);
-  Section places(s.map("places"), "`places`", problems);
-  for (const auto& [name, unused] : places.others())
+  MapReader map(n, "`world`", problems);
+  if (const Node* file = map.find("file"))
+    out.world_file = {resolve_path(file->location, map.text("file", "")), file->location};
+  if (const auto g = map.numbers("gravity", {3})) out.gravity = Vec3((*g)[0], (*g)[1], (*g)[2]);
+  MapReader places(map.map("places"), "`places`", problems);
+  for (const auto& [name, unused] : places.unread())
     for (const Node& e : places.list(name).list) read_rectangle(e, "place `" + name + "`", out.places[name], problems);
-  const Node& objects = s.map("objects");
+  const Node& objects = map.map("objects");
   std::vector<std::string> names;
   for (const auto& [name, node] : objects.map)
     if (!node.is_off()) names.push_back(name);
-  check_off(objects, names, "`objects`", problems);
+  check_switched_off(objects, names, "`objects`", problems);
   for (std::size_t i = 0; i < objects.map.size(); ++i) {
     const auto& [name, node] = objects.map[i];
     if (!node.is_off() && check_name(name, objects.key_locations[i], "an object", problems))
       out.objects.push_back(read_object(name, node, problems));
   }
-  s.close();
+  map.reject_unknown_keys();
 }
 
 void read_algorithms(const Node& n, Scenario& out, Problems& problems) {
   std::vector<std::string> names = {"collision", "contact", "index", "kinematics"};
   for (const auto& [name, node] : n.map)
     if (is_subsystem(node)) names.push_back(name);
-  check_off(n, names, "`algorithms`", problems);
+  check_switched_off(n, names, "`algorithms`", problems);
   for (std::size_t i = 0; i < n.map.size(); ++i) {
     const auto& [name, node] = n.map[i];
     if (node.is_off())
@@ -96,8 +101,8 @@ void read_algorithms(const Node& n, Scenario& out, Problems& problems) {
 }
 
 void read_schedule(const Node& n, Scenario& out, Problems& problems) {
-  Section s(n, "`schedule`", problems);
-  for (const Node& e : s.list("sequences").list) {
+  MapReader map(n, "`schedule`", problems);
+  for (const Node& e : map.list("sequences").list) {
     std::vector<Name> names;
     for (const Node& name : e.list)
       if (name.kind == Node::Kind::scalar) names.push_back({name.scalar, name.location});
@@ -106,19 +111,21 @@ void read_schedule(const Node& n, Scenario& out, Problems& problems) {
                    "a sequence is a list of at least two names of algorithms, such as [collision, contact]");
     out.sequences.push_back(std::move(names));
   }
-  s.close();
+  map.reject_unknown_keys();
 }
 
 unsigned read_threads(const Node& n, Problems& problems) {
   if (n.kind == Node::Kind::scalar && n.scalar == "all") return 0;
   const double count = as_number(n).value_or(0);
   if (count >= 1 && count <= max_threads && count == std::floor(count)) return unsigned(count);
-  problems.add(n.location, "`threads` is " + shown(n) + " but must be a number of threads from 1 to " +
-                               std::to_string(max_threads) + ", or `all` that the machine has");
+  problems.add(n.location,
+               fmt::format("`threads` is {} but must be a number of threads from 1 to {}, or `all` that the "
+                           "machine has",
+                           quoted(n), max_threads));
   return 1;
 }
 
-/// `key:` with nothing behind it is a slip more often than a wish.
+/// A key without a value is more often a mistake than intended.
 void check_empty(const Node& n, Problems& problems) {
   for (std::size_t i = 0; i < n.map.size(); ++i) {
     const auto& [key, value] = n.map[i];
@@ -132,6 +139,10 @@ void check_empty(const Node& n, Problems& problems) {
 
 }  // namespace
 
+std::string instance_name(const std::string& name, bool numbered, std::size_t index) {
+  return numbered ? fmt::format("{}_{}", name, index) : name;
+}
+
 Scenario read_scenario(const std::string& path, const std::vector<std::string>& overrides) {
   Node root = load_yaml(path);
   for (const std::string& o : overrides) apply_override(root, o);
@@ -139,16 +150,16 @@ Scenario read_scenario(const std::string& path, const std::vector<std::string>& 
   out.file = path;
   Problems problems;
   check_empty(root, problems);
-  Section s(root, "the scenario", problems);
-  out.name = s.text("name", fs::path(path).stem().string());
-  out.seed = std::uint64_t(s.integer("seed", 1, 0, std::int64_t(1) << 53));
-  out.duration = s.number("duration", out.duration, 0, 1e9);
-  if (const Node* threads = s.find("threads")) out.threads = read_threads(*threads, problems);
-  if (const Node* world = s.find("world")) read_world(*world, out, problems);
-  out.robots = read_robots(s.map("robots"), problems);
-  read_algorithms(s.map("algorithms"), out, problems);
-  if (const Node* schedule = s.find("schedule")) read_schedule(*schedule, out, problems);
-  s.close();
+  MapReader map(root, "the scenario", problems);
+  out.name = map.text("name", fs::path(path).stem().string());
+  out.seed = std::uint64_t(map.integer("seed", 1, 0, std::int64_t(1) << 53));
+  out.duration = map.number("duration", out.duration, 0, 1e9);
+  if (const Node* threads = map.find("threads")) out.threads = read_threads(*threads, problems);
+  if (const Node* world = map.find("world")) read_world(*world, out, problems);
+  out.robots = read_robots(map.map("robots"), problems);
+  read_algorithms(map.map("algorithms"), out, problems);
+  if (const Node* schedule = map.find("schedule")) read_schedule(*schedule, out, problems);
+  map.reject_unknown_keys();
   problems.check();
   return out;
 }

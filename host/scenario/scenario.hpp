@@ -14,29 +14,29 @@
 
 namespace muro::host {
 
-/// Where copies of something stand.
-struct Placement {
-  enum class Form { list, grid, random };
-  Form form = Form::list;
-  Location location;
+/// A pose as a scenario states it: m, rad.
+struct PoseInput {
+  double x = 0, y = 0;
+  std::optional<double> z;  ///< absent: the object stands on the ground
+  double roll = 0, pitch = 0, yaw = 0;
+};
 
-  /// A pose by its parts; z is absent when the thing is to stand on the ground.
-  struct At {
-    double x = 0, y = 0;
-    std::optional<double> z;
-    double roll = 0, pitch = 0, yaw = 0;
-  };
-  std::vector<At> list;  ///< list: one a copy; grid and random: the first is the pattern
+/// The poses of the copies of an object or robot.
+struct Placement {
+  enum class Kind { list, grid, random };
+  Kind kind = Kind::list;
+  Location location;
+  std::vector<PoseInput> poses;  ///< list: of each copy; grid: of its centre; random: the first gives the height
 
   int columns = 1, rows = 1;            ///< grid
   double spacing_x = 1, spacing_y = 1;  ///< m
 
   std::string area;                   ///< random: name under world.places
   std::optional<std::uint64_t> seed;  ///< absent: the scenario's
-  double clearance = 0.1;             ///< m between footprints
+  double clearance = 0.1;             ///< between footprints, m
 };
 
-/// A rectangle in the plane, part of a named place.
+/// A rectangle in the plane: one of those that a named place consists of.
 struct Rectangle {
   double x = 0, y = 0, width = 1, depth = 1;  ///< centre and full lengths along x and y, m
   std::vector<double> headings;               ///< rad; empty: any
@@ -48,11 +48,11 @@ struct Name {
   Location location;
 };
 
-/// A motion's place among those that can move a robot.
-struct LevelChoice {
-  std::vector<std::string> names;  ///< of all of them
-  std::uint32_t number = 0;        ///< of this one
-  std::uint32_t start = 0;         ///< the one that moves the robot at first
+/// One of the motions between which a robot is handed over.
+struct HandoverLevel {
+  std::vector<std::string> names;  ///< of all levels of the robot
+  std::uint32_t index = 0;         ///< of this one
+  std::uint32_t start = 0;         ///< of the one that moves the robot at first
 };
 
 /// One use of an algorithm.
@@ -62,11 +62,11 @@ struct Subsystem {
   std::optional<double> rate;  ///< Hz; absent: the default of its kind
   bool on_demand = false;
   std::optional<double> phase;  ///< s; absent: 0, and for a sensor's error that of the sensor
-  std::string on;               ///< object of the robot
+  std::string on;               ///< name of the robot's object on which it is mounted
   Location on_location;
   std::map<std::string, ParameterInput> parameters;
-  std::vector<Name> alternatives;  ///< other algorithms for which it holds parameters
-  std::optional<LevelChoice> level;
+  std::vector<Name> alternatives;  ///< algorithms for which it lists parameters under their name
+  std::optional<HandoverLevel> level;
   std::shared_ptr<const Subsystem> shadow;  ///< another motion that moves a shadow of the robot
   Location location;
 };
@@ -74,7 +74,7 @@ struct Subsystem {
 struct SceneryObject {
   std::string name;
   Location location;
-  bool counted = false;  ///< copies are numbered
+  bool numbered = false;  ///< names of copies end in their index
   Placement placement;
   Shape shape;
   std::string mesh;
@@ -88,12 +88,12 @@ struct WorldFile {
 
 struct RobotTemplate {
   std::string name;
-  Location location;        ///< of what says what it is: its model, or all of it
+  Location location;        ///< of its model, or of the whole template
   std::string model;        ///< path; empty for a body described in place, and for a model of the world file
   bool from_world = false;  ///< the model of the world file that has its name
   std::optional<Shape> shape;
-  double mass = 0;  ///< of a body described in place, kg
-  bool counted = false;
+  double mass = 0;        ///< of a body described in place, kg
+  bool numbered = false;  ///< names of robots end in their index
   int count = 1;
   Placement placement;
   Vec3 linear_velocity = Vec3::Zero();          ///< at the start, world axes, m/s
@@ -115,12 +115,15 @@ struct Scenario {
   std::vector<SceneryObject> objects;
   std::vector<RobotTemplate> robots;
   std::vector<Subsystem> algorithms;      ///< of the whole scene
-  std::vector<std::string> switched_off;  ///< scene-wide defaults that are not wanted
+  std::vector<std::string> switched_off;  ///< scene-wide defaults that are not added
   /// Each: names such as "collision" or "rovers.motion", in the order in which they run.
   std::vector<std::vector<Name>> sequences;
 };
 
 inline constexpr unsigned max_threads = 1024;
+
+/// The name of copy `index`: "rover_3", or "rover" when copies are not numbered.
+std::string instance_name(const std::string& name, bool numbered, std::size_t index);
 
 /// Reads a scenario with its includes and overrides. Throws SetupError with every problem found.
 Scenario read_scenario(const std::string& path, const std::vector<std::string>& overrides);

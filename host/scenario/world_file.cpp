@@ -1,23 +1,26 @@
 // SPDX-License-Identifier: MIT
 #include "host/scenario/world_file.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstring>
 
+#include "host/names.hpp"
 #include "muro/scene.hpp"
-#include "muro/toolkit/did_you_mean.hpp"
+#include "muro/toolkit/bounds.hpp"
 #include "muro/vocabulary.hpp"
 
 namespace muro::host {
 
 namespace {
 
-/// What reaches no higher than this (m) lies on the ground, and robots may stand on it.
+/// Scenery that reaches no higher than this (m) counts as ground, on which robots may stand.
 constexpr double floor_height = 0.01;
 
-std::vector<Shape> shapes_of(const RobotTree::Part& part, const KeyInfo& key) {
+std::vector<Shape> shapes_of(const RobotTree::Component& component, const KeyInfo& key) {
   std::vector<Shape> shapes;
-  for (const RobotTree::Constant& c : part.constants) {
+  for (const RobotTree::Constant& c : component.constants) {
     if (c.key.name != key.name) continue;
     shapes.resize(c.count);
     std::memcpy(static_cast<void*>(shapes.data()), c.data.data(), c.count * sizeof(Shape));
@@ -27,27 +30,26 @@ std::vector<Shape> shapes_of(const RobotTree::Part& part, const KeyInfo& key) {
 
 }  // namespace
 
-void WorldFileParts::read() {
+void WorldFileContents::read() {
   if (!scenario_.world_file) return;
   const WorldFile& file = *scenario_.world_file;
   problems_.collect(file.location.text() + ": ", [&] { world_ = simulation_.read_world(file.path); });
-  if (world_) note(world_->problems(), file.path, false);
+  if (world_) note(world_->problems(), false);
 }
 
-void WorldFileParts::note(const std::vector<RobotTree::Problem>& problems, const std::string& prefix, bool demote) {
-  for (const RobotTree::Problem& p : problems) {
-    if (p.severity == Severity::error && !demote) continue;
-    notes_.push_back(prefix + (p.line > 0 ? ":" + std::to_string(p.line) + ":" + std::to_string(p.column) : "") + ": " +
-                     (p.severity == Severity::note ? "note: " : "warning: ") + p.text);
-  }
+void WorldFileContents::note(const std::vector<RobotTree::Problem>& problems, bool errors_too) {
+  for (const RobotTree::Problem& p : problems)
+    if (p.severity != Severity::error || errors_too)
+      notes_.push_back(fmt::format("{}: {}: {}", Location{scenario_.world_file->path, p.line, p.column}.text(),
+                                   p.severity == Severity::note ? "note" : "warning", p.text));
 }
 
-Vec3 WorldFileParts::gravity() const {
+Vec3 WorldFileContents::gravity() const {
   if (scenario_.gravity) return *scenario_.gravity;
   return world_ && world_->gravity() ? *world_->gravity() : Vec3(0, 0, -9.81);
 }
 
-const WorldModel::Model* WorldFileParts::find(const std::string& name) const {
+const WorldModel::Model* WorldFileContents::find(const std::string& name) const {
   if (!world_) return nullptr;
   const auto& models = world_->models();
   const auto found =
@@ -55,63 +57,63 @@ const WorldModel::Model* WorldFileParts::find(const std::string& name) const {
   return found == models.end() ? nullptr : &*found;
 }
 
-RobotTree WorldFileParts::model(const RobotTemplate& t) const {
+RobotTree WorldFileContents::model(const RobotTemplate& t) const {
   if (!scenario_.world_file)
     throw SetupError("`model: world` takes a model of the world file, but there is no `world: {file: ...}`");
   const std::string& path = scenario_.world_file->path;
-  if (!world_) throw SetupError(std::vector<std::string>{});  // read() has told why
+  if (!world_) throw SetupError(std::vector<std::string>{});  // read() has reported the reason
   const WorldModel::Model* found = find(t.name);
   if (!found) {
     std::vector<std::string> names;
     for (const WorldModel::Model& m : world_->models()) names.push_back(m.name);
-    throw SetupError("the world file " + path + " has no movable model of this name" + did_you_mean(t.name, names) +
-                     (names.empty() ? "; all of its models are static" : "; it has: " + listed(names)));
+    throw SetupError(
+        fmt::format("the world file {} has no movable model of this name{}", path,
+                    names.empty() ? "; all of its models are static" : suggestion(t.name, names, "it has")));
   }
   std::vector<std::string> errors;
   for (const RobotTree::Problem& p : found->tree.problems())
     if (p.severity == Severity::error)
-      errors.push_back("world " + path +
-                       (p.line > 0 ? ":" + std::to_string(p.line) + ":" + std::to_string(p.column) : "") + ": " +
-                       p.text);
+      errors.push_back(fmt::format("world {}: {}", Location{path, p.line, p.column}.text(), p.text));
   if (!errors.empty()) throw SetupError(errors);
   return found->tree;
 }
 
-const Pose& WorldFileParts::pose(const RobotTemplate& t) const { return find(t.name)->pose; }
+const Pose& WorldFileContents::pose(const RobotTemplate& t) const { return find(t.name)->pose; }
 
-void WorldFileParts::add_scenery(std::vector<Obstacle>& obstacles) {
+void WorldFileContents::add_scenery(std::vector<Obstacle>& obstacles) {
   if (!world_) return;
   for (const WorldModel::Scenery& s : world_->scenery())
     add(s.name, s.pose, s.collisions, s.visuals, world_->texts(), obstacles);
   for (const WorldModel::Model& m : world_->models()) {
     const bool used = std::any_of(scenario_.robots.begin(), scenario_.robots.end(),
                                   [&](const RobotTemplate& t) { return t.from_world && t.name == m.name; });
-    note(m.tree.problems(), scenario_.world_file->path, !used);
-    if (!used) stand_still(m, obstacles);
+    note(m.tree.problems(), !used);
+    if (!used) add_static(m, obstacles);
   }
 }
 
-/// All of its bodies as scenery, joints at 0.
-void WorldFileParts::stand_still(const WorldModel::Model& model, std::vector<Obstacle>& obstacles) {
+/// Adds all links of a model as scenery, with its joints at 0.
+void WorldFileContents::add_static(const WorldModel::Model& model, std::vector<Obstacle>& obstacles) {
   const RobotTree& tree = model.tree;
-  notes_.push_back(scenario_.world_file->path + ": note: model `" + model.name +
-                   "` stands still, as the scenario does not name it; write `robots: {" + model.name +
-                   ": {model: world, ...}}` to move it");
+  notes_.push_back(
+      fmt::format("{}: note: model `{}` is static, because the scenario does not name it; write `robots: "
+                  "{{{}: {{model: world, ...}}}}` to move it",
+                  scenario_.world_file->path, model.name, model.name));
   std::vector<Pose> poses;
   for (const RobotTree::FlatLink& f : tree.links()) {
     poses.push_back(f.link.parent < 0 ? model.pose : poses[std::size_t(f.link.parent)] * f.link.origin);
-    const RobotTree::Part& part = tree.parts()[std::size_t(f.part)];
-    std::vector<Shape> collisions = shapes_of(part, keys::collision_shapes);
-    std::vector<Shape> visuals = shapes_of(part, keys::visual_shapes);
+    const RobotTree::Component& component = tree.components()[std::size_t(f.body)];
+    std::vector<Shape> collisions = shapes_of(component, keys::collision_shapes);
+    std::vector<Shape> visuals = shapes_of(component, keys::visual_shapes);
     if (!collisions.empty() || !visuals.empty())
-      add(model.name + "." + part.name, poses.back(), std::move(collisions), std::move(visuals), tree.texts(),
+      add(model.name + "." + component.name, poses.back(), std::move(collisions), std::move(visuals), tree.texts(),
           obstacles);
   }
 }
 
-void WorldFileParts::add(const std::string& name, const Pose& pose, std::vector<Shape> collisions,
-                         std::vector<Shape> visuals, const std::vector<std::string>& texts,
-                         std::vector<Obstacle>& obstacles) {
+void WorldFileContents::add(const std::string& name, const Pose& pose, std::vector<Shape> collisions,
+                            std::vector<Shape> visuals, const std::vector<std::string>& texts,
+                            std::vector<Obstacle>& obstacles) {
   World& world = simulation_.world();
   for (std::vector<Shape>* shapes : {&collisions, &visuals})
     for (Shape& s : *shapes)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What robots go without because of the motions that a scenario gives them.
+// Features that robots use and that the motions which a scenario gives them do not support.
 #pragma once
 
 #include <string>
@@ -10,31 +10,31 @@
 
 namespace muro::host {
 
-/// A feature that a robot would use and its motion does not have.
-struct Loss {
+/// A feature that a robot uses and its motion does not support.
+struct UnsupportedFeature {
   Features bit;        ///< one of Feature
   std::string amount;  ///< "4 joints", or empty
-  bool follows;        ///< from another loss: where no force moves a robot, nothing stops it either
+  bool implied;        ///< by another one: where no force moves a robot, contacts do not stop it either
 };
 
-/// What robots of one template lose by one motion.
-struct Losses {
+/// What one motion does not support of what robots of one template use.
+struct UnsupportedFeatures {
   std::string robots;  ///< name of the template
   std::string motion;  ///< "motion.point"
   Location location;   ///< of the motion in the scenario
-  std::vector<Loss> all;
+  std::vector<UnsupportedFeature> all;
 };
 
-/// One for each template and motion by which something is lost, in the order of the scenario. A motion whose plugin
-/// does not say what it can do is left out.
-std::vector<Losses> losses_of(const BuiltScenario& built);
+/// One for each template and motion that has unsupported features, in the order of the scenario. A motion whose plugin
+/// does not declare its features is left out.
+std::vector<UnsupportedFeatures> find_unsupported_features(const BuiltScenario& built);
 
-/// "forces and contacts do not move it; its joints do not move (4 joints)". Fully: and the names of what goes with
-/// that.
-enum class Length { shortly, fully };
-std::string text_of(const Losses& losses, Length length);
+/// brief: "forces and contacts do not move it; its joints do not move (4 joints)". full: the names of the features that
+/// these imply follow.
+enum class Detail { brief, full };
+std::string text_of(const UnsupportedFeatures& unsupported, Detail detail);
 
-/// Prints a line each to standard error; `strict`: throws them as a SetupError.
-void tell(const std::vector<Losses>& losses, Length length, bool strict);
+/// Prints a line for each to standard error; `strict`: throws the lines as a SetupError.
+void report_unsupported(const std::vector<UnsupportedFeatures>& unsupported, Detail detail, bool strict);
 
 }  // namespace muro::host

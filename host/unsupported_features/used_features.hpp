@@ -11,8 +11,8 @@
 
 namespace muro::host {
 
-/// Something that a robot uses of the motion that moves it.
-struct Need {
+/// A feature that a robot uses of the motion that moves it.
+struct UsedFeature {
   Features bit;        ///< one of Feature
   std::string amount;  ///< "4 joints", or empty
 };
@@ -21,12 +21,12 @@ struct Need {
 struct MotionUse {
   const std::map<std::string, ParameterInput>& parameters;
   bool own_contacts = false;  ///< the motion itself finds contacts and their forces: a world
-  bool contacts = true;       ///< something does
+  bool contacts = true;       ///< some algorithm finds contacts and their forces
 };
 
-/// What a robot uses of its motion, in the order of Feature: by its model (mass, shapes, joints with their finite
-/// limits, damping and friction), by the parameters of the motion, and by what writes targets of its joints. [after
-/// set-up]
-std::vector<Need> needs_of(const World& world, const RobotView& robot, const MotionUse& use);
+/// The features that a robot uses of its motion, in the order of Feature. They follow from its model (mass, shapes,
+/// joints with their finite limits, damping and friction), from the parameters of the motion, and from the algorithms
+/// that write targets of its joints. [after set-up]
+std::vector<UsedFeature> used_features(const World& world, const RobotView& robot, const MotionUse& use);
 
 }  // namespace muro::host

@@ -6,10 +6,11 @@
 #include <chrono>
 
 #include "core/instance.hpp"
-#include "plugins/common/render/stage.hpp"
-#include "plugins/laser/zbuffer/views.hpp"
+#include "muro/toolkit/rotations.hpp"
+#include "plugins/common/laser_methods/zbuffer/camera_rig.hpp"
+#include "plugins/common/render/gpu_scene.hpp"
+#include "tests/bench/baselines/depth.hpp"
 #include "tests/bench/muro_team.hpp"
-#include "tests/bench/peers/depth.hpp"
 #include "tests/bench/report.hpp"
 
 namespace {
@@ -51,10 +52,10 @@ class OneScanner {
     sensor_ = scene_.add_sensor_object(carrier, "laser", carrier.base());
     std::map<std::string, ParameterInput> parameters{{"rays", std::int64_t(grid.columns)},
                                                      {"rows", std::int64_t(grid.rows)},
-                                                     {"min_angle", -0.5 * grid.wide},
-                                                     {"max_angle", 0.5 * grid.wide},
-                                                     {"min_elevation", -0.5 * grid.high},
-                                                     {"max_elevation", 0.5 * grid.high},
+                                                     {"min_angle", -0.5 * grid.horizontal_fov},
+                                                     {"max_angle", 0.5 * grid.horizontal_fov},
+                                                     {"min_elevation", -0.5 * grid.vertical_fov},
+                                                     {"max_elevation", 0.5 * grid.vertical_fov},
                                                      {"max_range", range},
                                                      {"offset", std::vector{0.0, 0.0, scanner_height}}};
     if (method == "laser.zbuffer") parameters["device"] = std::string("software");
@@ -99,25 +100,25 @@ class OneScanner {
   std::vector<TaskId> tasks_;
 };
 
-/// What of the city is in sight, as a program would keep it.
-BareDepth::Things in_sight(const City& city, const Pose& eye, const render::Frustum& frustum) {
-  BareDepth::Things found;
-  const auto add = [&](std::vector<BareDepth::Place>& list, const Pose& pose, const Vec3& scale, double radius) {
-    const Vec3 at = pose.position - eye.position;
-    if (at.norm() > range + radius) return;
+/// The visible bodies of the city, as a program of its own would keep them.
+BareDepth::Instances visible_bodies(const City& city, const Pose& camera_pose, const render::Frustum& frustum) {
+  BareDepth::Instances found;
+  const auto add = [&](std::vector<BareDepth::Transform>& list, const Pose& pose, const Vec3& scale, double radius) {
+    const Vec3 position = pose.position - camera_pose.position;
+    if (position.norm() > range + radius) return;
     for (const Eigen::Vector4d& plane : frustum)
-      if (plane.head<3>().dot(at) + plane[3] <= -radius) return;
-    const Mat3 turn = pose.orientation.toRotationMatrix() * scale.asDiagonal();
-    BareDepth::Place& place = list.emplace_back();
+      if (plane.head<3>().dot(position) + plane[3] <= -radius) return;
+    const Mat3 rotation = pose.orientation.toRotationMatrix() * scale.asDiagonal();
+    BareDepth::Transform& transform = list.emplace_back();
     for (int row = 0; row < 3; ++row) {
-      for (int k = 0; k < 3; ++k) place[std::size_t(4 * row + k)] = float(turn(row, k));
-      place[std::size_t(4 * row + 3)] = float(at[row]);
+      for (int k = 0; k < 3; ++k) transform[std::size_t(4 * row + k)] = float(rotation(row, k));
+      transform[std::size_t(4 * row + 3)] = float(position[row]);
     }
   };
   const auto box = [&](const Pose& pose, const Vec3& lengths) {
     add(found.boxes, pose, lengths, 0.5 * lengths.norm());
   };
-  box({{eye.position.x(), eye.position.y(), -0.5}, Quat::Identity()}, {60, 60, 1});  // the ground
+  box({{camera_pose.position.x(), camera_pose.position.y(), -0.5}, Quat::Identity()}, {60, 60, 1});  // the ground
   for (const Block& b : city.blocks()) box({b.centre, Quat::Identity()}, b.lengths);
   for (std::size_t v = 1; v < city.starts().size(); ++v) {
     const Pose& p = city.starts()[v];
@@ -133,22 +134,23 @@ BareDepth::Things in_sight(const City& city, const Pose& eye, const render::Frus
 /// The views that laser.zbuffer draws for a grid, drawn by OpenGL directly: us.
 class BareViews {
  public:
-  BareViews(const City& city, const Grid& grid) : views_(zbuffer::Views::of(scanner::RaySet::of(grid.scanner()), 1)) {
+  BareViews(const City& city, const Grid& grid) : rig_(zbuffer::CameraRig::of(scanner::RaySet::of(grid.scanner()), 1)) {
     const render::Surface wheel = render::unit_cylinder(render::corners_for(Rover::wheel_radius, 2e-4));
-    const Pose eye = city.starts()[0] * Pose{{0, 0, scanner_height}, Quat::Identity()};
-    for (render::Camera& camera : views_.cameras) {
-      camera.pose = eye * camera.pose;
+    const Pose camera_pose = city.starts()[0] * Pose{{0, 0, scanner_height}, Quat::Identity()};
+    for (render::Camera& camera : rig_.cameras) {
+      camera.pose = camera_pose * camera.pose;
       camera.near = 1e-3;
       pixels_ += double(camera.width) * camera.height;
       drawn_.push_back({std::make_unique<BareDepth>(camera.width, camera.height, wheel),
-                        render::projection_of(camera).cast<float>(), in_sight(city, eye, render::frustum_of(camera))});
+                        render::projection_of(camera).cast<float>(),
+                        visible_bodies(city, camera_pose, render::frustum_of(camera))});
     }
   }
   double turn() {
     const double start = now();
     int passes = 0;
     for (; now() - start < 0.15; ++passes)
-      for (View& v : drawn_) v.depth->draw(v.projection, v.things);
+      for (View& v : drawn_) v.depth->draw(v.projection, v.instances);
     return 1e6 * (now() - start) / passes;
   }
   double pixels() const { return pixels_; }
@@ -158,9 +160,9 @@ class BareViews {
   struct View {
     std::unique_ptr<BareDepth> depth;
     Eigen::Matrix4f projection;
-    BareDepth::Things things;
+    BareDepth::Instances instances;
   };
-  zbuffer::Views views_;
+  zbuffer::CameraRig rig_;
   std::vector<View> drawn_;
   double pixels_ = 0;
 };
@@ -168,11 +170,11 @@ class BareViews {
 /// A grid with a tenth of the rays, each way, over the same angles; with so much supersampling it has as many pixels.
 Grid few_of(const Grid& g) {
   const auto fewer = [](int n) { return n > 1 ? std::max(2, 1 + (n - 1) / 10) : 1; };
-  return {fewer(g.columns), fewer(g.rows), g.wide, g.high};
+  return {fewer(g.columns), fewer(g.rows), g.horizontal_fov, g.vertical_fov};
 }
 double supersampling_of_few(const Grid& g) {
   const auto pitch = [](const Grid& grid) {
-    return 1 / zbuffer::Views::of(scanner::RaySet::of(grid.scanner()), 1).cameras.front().fx;
+    return 1 / zbuffer::CameraRig::of(scanner::RaySet::of(grid.scanner()), 1).cameras.front().fx;
   };
   return pitch(few_of(g)) / pitch(g);
 }

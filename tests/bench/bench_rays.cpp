@@ -16,9 +16,9 @@ namespace {
 using namespace muro;
 using namespace muro::bench;
 
-constexpr int turns = 5;
-constexpr double turn_length = 0.03;  // s of wall-clock time at least
-constexpr double most_time = 1.5;     // s of wall-clock time after which an engine has no more turns
+constexpr int rounds = 5;
+constexpr double min_round = 0.03;  // s of wall-clock time
+constexpr double max_time = 1.5;    // s of wall-clock time, after which an engine has no more rounds
 
 struct Case {
   Pattern pattern;
@@ -34,43 +34,43 @@ class Runner {
   Runner(const RayEngine& engine, const City& city, const Case& c)
       : city_(city), case_(c), scanners_(engine.make(city, c.pattern, c.range)) {
     drive(city, 0, poses_);
-    scanners_->pass(poses_, true);
+    scanners_->scan(poses_, true);
     first_.resize(std::size_t(c.rays()));
     for (int v = 0; v < c.vehicles; ++v)
       for (int i = 0; i < c.pattern.size(); ++i)
         first_[std::size_t(v * c.pattern.size() + i)] = float(scanners_->range(v, i));
   }
 
-  void turn() {
-    if (total_ > most_time) return;
+  void run_round() {
+    if (total_ > max_time) return;
     double wall = 0;
-    int passes = 0;
-    while (wall < turn_length) {
-      if (case_.moving) drive(city_, 0.1 * ++pass_, poses_);
+    int scans = 0;
+    while (wall < min_round) {
+      if (case_.moving) drive(city_, 0.1 * ++scan_, poses_);
       const auto start = std::chrono::steady_clock::now();
-      scanners_->pass(poses_, case_.moving);
+      scanners_->scan(poses_, case_.moving);
       wall += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-      ++passes;
+      ++scans;
     }
     total_ += wall;
-    rates_.push_back(case_.rays() * passes / wall);
+    rates_.push_back(case_.rays() * scans / wall);
   }
   double rate() const {
     std::vector<double> sorted = rates_;
     std::sort(sorted.begin(), sorted.end());
     return sorted[sorted.size() / 2];
   }
-  /// Of the first pass.
+  /// Of the first scan.
   double mean_range() const {
     double sum = 0;
     for (const float r : first_) sum += double(r);
     return sum / case_.rays();
   }
-  double share_of_hits() const {
+  double fraction_of_hits() const {
     return double(std::count_if(first_.begin(), first_.end(), [&](float r) { return r < float(case_.range); })) /
            case_.rays();
   }
-  /// Share of rays that read something else, by more than 5 mm.
+  /// Fraction of rays whose range differs by more than 5 mm.
   double differs_from(const Runner& other) const {
     int n = 0;
     for (std::size_t i = 0; i < first_.size(); ++i) n += std::abs(first_[i] - other.first_[i]) > 5e-3f;
@@ -85,20 +85,20 @@ class Runner {
   std::vector<float> first_;
   std::vector<double> rates_;
   double total_ = 0;
-  int pass_ = 0;
+  int scan_ = 0;
 };
 
 void compare(Report& report, const Case& c, const std::vector<RayEngine>& engines) {
   const City city(c.vehicles);
   std::vector<std::optional<Runner>> runners;
   for (const RayEngine& e : engines)
-    if (e.most_rays >= c.rays())
+    if (e.max_rays >= c.rays())
       runners.emplace_back(std::in_place, e, city, c);
     else
       runners.emplace_back();
-  for (int t = 0; t < turns; ++t)
+  for (int t = 0; t < rounds; ++t)
     for (std::optional<Runner>& r : runners)
-      if (r) r->turn();
+      if (r) r->run_round();
   const Runner& own = *runners.front();
   std::vector<Cell> row = {c.pattern.name(), c.range, c.vehicles};
   double embree = 0, differs = 0;
@@ -109,7 +109,7 @@ void compare(Report& report, const Case& c, const std::vector<RayEngine>& engine
     differs = std::max(differs, runners[e]->differs_from(own));
   }
   row.insert(row.end(), {embree > 0 ? Cell(fixed(own.rate() / embree, 2)) : Cell(""), fixed(own.mean_range(), 3),
-                         fixed(100 * own.share_of_hits(), 1), fixed(100 * differs, 3)});
+                         fixed(100 * own.fraction_of_hits(), 1), fixed(100 * differs, 3)});
   report.row(row);
   if (!c.moving) return;
   const std::string what = fmt::format("{} rays, {} m, {} vehicles: ", c.pattern.name(), c.range, c.vehicles);
@@ -130,7 +130,7 @@ RayEngine muro_with(int threads) {
 int main(int argc, char** argv) {
   Report report("rays", "Rays of laser scanners: muro and other engines", argc, argv);
   std::vector<RayEngine> engines = {muro_with(1), muro_with(2)};
-  for (RayEngine& e : ray_peers()) engines.push_back(std::move(e));
+  for (RayEngine& e : ray_baselines()) engines.push_back(std::move(e));
   const std::string only = report.argument("pattern", "");
 
   std::vector<std::string> columns = {"rays", "range, m", "vehicles"};

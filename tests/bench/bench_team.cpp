@@ -38,7 +38,7 @@ double real_time_factor(int vehicles, const Make& make) {
       if (city.changes(v, k)) c.team->command(v, city.command(v, k));
     if (c.scanners) {
       for (int v = 0; v < vehicles; ++v) poses[std::size_t(v)] = c.team->pose(v);
-      c.scanners->pass(poses, true);
+      c.scanners->scan(poses, true);
     }
     c.team->run(City::interval);
     if (k >= 3) factors.push_back(1e-3 * City::interval / (now() - start));
@@ -58,21 +58,21 @@ double vehicles_in_real_time(const Make& make) {
 
 Make muro_with(int threads, const Pattern* lasers, const std::string& method = "laser.raycast") {
   return [threads, lasers, method](const City& city) {
-    return Contender{std::make_unique<MuroTeam>(city, threads, Wheels::balls, Mover{}, lasers, method), nullptr};
+    return Contender{std::make_unique<MuroTeam>(city, threads, Wheels::balls, MotionSetup{}, lasers, method), nullptr};
   };
 }
 
 /// The fastest of the others: vehicles as one body, and rays in packets.
-Make peers_with(const Pattern* lasers) {
-  const std::vector<Engine> engines = peers();
+Make baselines_with(const Pattern* lasers) {
+  const std::vector<Engine> engines = baselines();
   const auto body = std::find_if(engines.begin(), engines.end(),
                                  [](const Engine& e) { return e.name == "ODE, one body, 4 iterations"; });
-  const std::vector<RayEngine> casters = ray_peers();
+  const std::vector<RayEngine> casters = ray_baselines();
   const auto caster =
       std::find_if(casters.begin(), casters.end(), [](const RayEngine& e) { return e.name == "rtcIntersect16"; });
   if (body == engines.end() || caster == casters.end()) return {};
   return [body = *body, caster = *caster, lasers](const City& city) {
-    return Contender{body.make(city, body.effort), lasers ? caster.make(city, *lasers, 5.6) : nullptr};
+    return Contender{body.make(city, body.settings), lasers ? caster.make(city, *lasers, 5.6) : nullptr};
   };
 }
 
@@ -91,11 +91,11 @@ void section_5_2(Report& report) {
   report.table("Section 5.2: vehicles in real time without lasers, collision and dynamics at 1000 Hz",
                {"threads", "paper, computer A", "paper, computer B", "muro", "ODE, one body, 4 iterations"});
   const double one = vehicles_in_real_time(muro_with(1, nullptr)), two = vehicles_in_real_time(muro_with(2, nullptr));
-  const Make others = peers_with(nullptr);
-  const double peer = others ? vehicles_in_real_time(others) : 0;
-  report.row({1, 20, 19, whole(one), others ? Cell(whole(peer)) : Cell("")});
+  const Make others = baselines_with(nullptr);
+  const double baseline = others ? vehicles_in_real_time(others) : 0;
+  report.row({1, 20, 19, whole(one), others ? Cell(whole(baseline)) : Cell("")});
   report.row({2, 30, "", whole(two), ""});
-  if (others) report.ratio("vehicles in real time, one thread: muro to ODE, one body", one / peer);
+  if (others) report.ratio("vehicles in real time, one thread: muro to ODE, one body", one / baseline);
 }
 
 void table_2(Report& report) {
@@ -108,10 +108,10 @@ void table_2(Report& report) {
     const double one = vehicles_in_real_time(muro_with(1, &pattern)),
                  two = vehicles_in_real_time(muro_with(2, &pattern));
     const double pictures = vehicles_in_real_time(muro_with(1, &pattern, "laser.zbuffer"));
-    const Make others = peers_with(&pattern);
-    const double peer = others ? vehicles_in_real_time(others) : 0;
+    const Make others = baselines_with(&pattern);
+    const double baseline = others ? vehicles_in_real_time(others) : 0;
     report.row({pattern.name(), p.rays_a, p.rays_b, p.z_buffer_a, p.z_buffer_b, whole(one), whole(two), whole(pictures),
-                others ? Cell(whole(peer)) : Cell(""), others ? Cell(fixed(one / peer, 1)) : Cell("")});
+                others ? Cell(whole(baseline)) : Cell(""), others ? Cell(fixed(one / baseline, 1)) : Cell("")});
     if (pattern.name() == "100x10")
       report.ratio("vehicles in real time with 100x10 rays at 10 Hz, one thread", one, "at least 1000");
   }

@@ -9,10 +9,10 @@
 #include <map>
 #include <set>
 
-#include "tests/bench/drives.hpp"
 #include "tests/bench/muro_team.hpp"
 #include "tests/bench/report.hpp"
 #include "tests/bench/round_trip.hpp"
+#include "tests/bench/team_runs.hpp"
 
 namespace {
 
@@ -21,17 +21,17 @@ using namespace muro::bench;
 
 constexpr const char* one_thread = "muro, 1 thread";
 
-int rate_of(Effort e) { return 1000 * e.steps; }
+int rate_of(SolverSettings e) { return 1000 * e.steps; }
 
 Engine muro_with(int threads) {
   return {fmt::format("muro, {} thread{}", threads, threads > 1 ? "s" : ""), true,
-          [threads](const City& city, Effort e) {
+          [threads](const City& city, SolverSettings e) {
             return std::make_unique<MuroTeam>(city, threads, Wheels::balls, nullptr, rate_of(e));
           }};
 }
 /// The others have balls as wheels.
 Engine muro_with_cylinders() {
-  return {"muro, wheels as cylinders", true, [](const City& city, Effort e) {
+  return {"muro, wheels as cylinders", true, [](const City& city, SolverSettings e) {
             return std::make_unique<MuroTeam>(city, 1, Wheels::cylinders, nullptr, rate_of(e));
           }};
 }
@@ -39,27 +39,27 @@ Engine muro_with_cylinders() {
 Engine two_programs() {
   return {.name = "muro, two programs of 1 thread",
           .one_body = true,
-          .make = [](const City& city, Effort) { return std::make_unique<TwoTeams>(city); },
+          .make = [](const City& city, SolverSettings) { return std::make_unique<TwoTeams>(city); },
           .teams = 2};
 }
 
 const char* level(const Engine& e) { return e.one_body ? "one body" : "five bodies"; }
 bool is_muro(const Engine& e) { return e.name.starts_with("muro"); }
 
-/// How well engines solve their equations. Returns the names of peers with one body a vehicle that do so as well as
+/// How well engines solve their equations. Returns the names of baselines with one body a vehicle that do so as well as
 /// muro, or better.
 std::set<std::string> compare_accuracy(Report& report, const std::vector<Engine>& engines) {
   std::set<std::string> accurate;
   report.table(
       "10 vehicles on open ground, 6 s: away from where the same engine takes them with "
       "4 steps of 200 iterations each ms",
-      {"engine", "a vehicle is", "root of mean square, mm", "the most, mm"});
+      {"engine", "a vehicle is", "root of mean square, mm", "maximum, mm"});
   double own = 0;
   for (const Engine& e : engines) {
-    const bool is_peer = e.one_body ? !is_muro(e) : e.name.starts_with("ODE");
-    if (e.name != one_thread && !is_peer) continue;
+    const bool is_baseline = e.one_body ? !is_muro(e) : e.name.starts_with("ODE");
+    if (e.name != one_thread && !is_baseline) continue;
     const Deviation d = deviation(e);
-    report.row({e.name, level(e), fixed(1e3 * d.rms, 2), fixed(1e3 * d.most, 2)});
+    report.row({e.name, level(e), fixed(1e3 * d.rms, 2), fixed(1e3 * d.max, 2)});
     if (is_muro(e))
       own = d.rms;
     else if (e.one_body && d.rms <= own)
@@ -68,20 +68,20 @@ std::set<std::string> compare_accuracy(Report& report, const std::vector<Engine>
   return accurate;
 }
 
-void compare_with_peers(Report& report, const std::vector<int>& teams, const std::vector<Engine>& engines,
-                        const std::set<std::string>& accurate) {
+void compare_with_baselines(Report& report, const std::vector<int>& teams, const std::vector<Engine>& engines,
+                            const std::set<std::string>& accurate) {
   for (const int vehicles : teams) {
-    const Plan plan = Plan::for_team(vehicles);
-    const std::vector<Record> records =
+    const RunPlan plan = RunPlan::for_team(vehicles);
+    const std::vector<Measurement> measurements =
         compare(plan, engines, [vehicles](std::uint64_t seed) { return City(vehicles, seed); });
     report.table(fmt::format("N = {}, {} x {:.1f} s at 1000 Hz", vehicles, plan.cities, plan.simulated()),
-                 {"engine", "a vehicle is", "vehicle-steps/s", "slowest turn", "fastest turn", "muro is faster by",
+                 {"engine", "a vehicle is", "vehicle-steps/s", "slowest round", "fastest round", "muro is faster by",
                   "driven, m", "height, m"});
-    const double own = is_muro(engines.front()) ? records.front().rate() : 0;
+    const double own = is_muro(engines.front()) ? measurements.front().rate() : 0;
     double best = 0, best_accurate = 0;
     std::map<std::string, double> articulated;
     for (std::size_t e = 0; e < engines.size(); ++e) {
-      const Record& r = records[e];
+      const Measurement& r = measurements[e];
       const auto [slowest, fastest] = std::minmax_element(r.rates.begin(), r.rates.end());
       report.row({engines[e].name, level(engines[e]), whole(r.rate()), whole(*slowest), whole(*fastest),
                   own > 0 ? Cell(fixed(own / r.rate(), 1)) : Cell(""), fixed(r.distance, 2), fixed(r.height, 4)});
@@ -92,9 +92,9 @@ void compare_with_peers(Report& report, const std::vector<int>& teams, const std
     }
     const bool large = vehicles >= 100;
     if (best_accurate > 0)
-      report.ratio(
-          fmt::format("N = {}: steps of vehicles, muro to the best peer with one body that is as accurate", vehicles),
-          own / best_accurate, large ? "at least 12" : "");
+      report.ratio(fmt::format("N = {}: steps of vehicles, muro to the best baseline with one body that is as accurate",
+                               vehicles),
+                   own / best_accurate, large ? "at least 12" : "");
     if (best > 0) report.ratio(fmt::format("N = {}: the same, to the best that drives properly", vehicles), own / best);
     for (const auto& [name, rate] : articulated)
       report.ratio(fmt::format("N = {}: steps of vehicles, muro to {}", vehicles, name), own / rate,
@@ -105,18 +105,18 @@ void compare_with_peers(Report& report, const std::vector<int>& teams, const std
 /// muro alone: what a vehicle costs in teams of all sizes, on one thread and on two.
 void compare_sizes(Report& report, const std::vector<int>& teams) {
   constexpr int repeats = 5;
-  report.table(fmt::format("muro alone, 4 s at 1000 Hz; of {} drives, the fastest of each turn", repeats),
+  report.table(fmt::format("muro alone, 4 s at 1000 Hz; of {} runs, the fastest of each round", repeats),
                {"vehicles", "1 thread, vehicle-steps/s", "ns a vehicle and step", "2 threads, vehicle-steps/s",
                 "2 threads to 1", "2 programs to 1", "thread to thread and back, ns"});
   const std::vector<Engine> engines = {muro_with(1), muro_with(2), two_programs()};
   for (const int vehicles : teams) {
     const double before = round_trip();
-    const std::vector<Record> r = compare(Plan{vehicles < 100 ? 10 : 3, 3, 10, repeats}, engines,
-                                          [vehicles](std::uint64_t seed) { return City(vehicles, seed); });
-    const double one = r[0].rate(), gain = r[1].gain(r[0]), most = r[2].gain(r[0]);
-    report.row({vehicles, whole(one), whole(1e9 / one), whole(r[1].rate()), fixed(gain, 2), fixed(most, 2),
+    const std::vector<Measurement> r = compare(RunPlan{vehicles < 100 ? 10 : 3, 3, 10, repeats}, engines,
+                                               [vehicles](std::uint64_t seed) { return City(vehicles, seed); });
+    const double one = r[0].rate(), speed_up = r[1].ratio_to(r[0]), max_speed_up = r[2].ratio_to(r[0]);
+    report.row({vehicles, whole(one), whole(1e9 / one), whole(r[1].rate()), fixed(speed_up, 2), fixed(max_speed_up, 2),
                 whole(std::max(before, round_trip()))});
-    report.ratio(fmt::format("N = {}: two threads to one", vehicles), gain,
+    report.ratio(fmt::format("N = {}: two threads to one", vehicles), speed_up,
                  vehicles == 1000  ? "at least 1.8"
                  : vehicles == 100 ? "at least 1.7"
                                    : "at least 1");
@@ -128,7 +128,7 @@ void compare_growth(Report& report) {
   report.table("muro alone, 1 thread, 4 s at 1000 Hz, 5.4 to 6 m of streets for each vehicle",
                {"vehicles", "vehicle-steps/s", "ns a vehicle and step", "the same on open ground"});
   const auto cost = [](int vehicles, auto make_city) {
-    const Plan plan{vehicles < 100 ? 30 : 3, 3, 10};
+    const RunPlan plan{vehicles < 100 ? 30 : 3, 3, 10};
     return 1e9 / compare(plan, {muro_with(1)}, make_city)[0].rate();
   };
   double of_twenty = 0;
@@ -146,13 +146,13 @@ void compare_growth(Report& report) {
 int main(int argc, char** argv) {
   Report report("vehicles", "Vehicles in the city: muro and other engines", argc, argv);
   std::vector<Engine> engines = {muro_with(1), muro_with(2), muro_with_cylinders()};
-  for (Engine& e : peers()) engines.push_back(std::move(e));
+  for (Engine& e : baselines()) engines.push_back(std::move(e));
   const std::string only = report.argument("only", "");
   std::erase_if(engines, [&](const Engine& e) { return e.name.find(only) == std::string::npos; });
 
   const int one = std::stoi(report.argument("vehicles", "0"));
-  compare_with_peers(report, one > 0 ? std::vector{one} : std::vector{1, 10, 100, 1000}, engines,
-                     compare_accuracy(report, engines));
+  compare_with_baselines(report, one > 0 ? std::vector{one} : std::vector{1, 10, 100, 1000}, engines,
+                         compare_accuracy(report, engines));
   if (only.empty() || only == "muro") {
     compare_sizes(report, one > 0 ? std::vector{one} : std::vector{1, 3, 10, 20, 50, 100, 300, 1000});
     if (one == 0) compare_growth(report);

@@ -6,19 +6,19 @@
 
 #include <algorithm>
 
-#include "tests/bench/drives.hpp"
 #include "tests/bench/muro_team.hpp"
 #include "tests/bench/report.hpp"
+#include "tests/bench/team_runs.hpp"
 
 namespace {
 
 using namespace muro;
 using namespace muro::bench;
 
-using Settings = std::map<std::string, ParameterInput>;
+using Parameters = std::map<std::string, ParameterInput>;
 
-/// The motion set as the raw program sets its engine (tests/bench/peers).
-Settings settings_of(const std::string& motion, Effort e) {
+/// The motion set as the raw program sets its engine (tests/bench/baselines).
+Parameters parameters_of(const std::string& motion, SolverSettings e) {
   const std::int64_t iterations = e.iterations;
   if (motion == "motion.mujoco")
     return {{"solver", std::string("cg")},
@@ -30,14 +30,15 @@ Settings settings_of(const std::string& motion, Effort e) {
   return {{"iterations", iterations}};
 }
 
-Engine by_muro(const std::string& motion, Effort effort) {
-  return {.name = fmt::format("muro, {}, {} iterations", motion, effort.iterations),
+Engine by_muro(const std::string& motion, SolverSettings settings) {
+  return {.name = fmt::format("muro, {}, {} iterations", motion, settings.iterations),
           .make =
-              [motion](const City& city, Effort e) {
-                return std::make_unique<MuroTeam>(city, 1, Wheels::balls,
-                                                  Mover{motion, 1000 * e.steps, settings_of(motion, e), false, false});
+              [motion](const City& city, SolverSettings e) {
+                return std::make_unique<MuroTeam>(
+                    city, 1, Wheels::balls,
+                    MotionSetup{motion, 1000 * e.steps, parameters_of(motion, e), false, false});
               },
-          .effort = effort};
+          .settings = settings};
 }
 
 std::string motion_for(const Engine& raw) {
@@ -58,7 +59,7 @@ void add_default_of_ode(std::vector<Engine>& raw) {
   if (last == raw.rend()) return;
   Engine usual = *last;
   usual.name = "ODE, articulated, 50 iterations";
-  usual.effort.iterations = 50;
+  usual.settings.iterations = 50;
   raw.insert(last.base(), usual);
 }
 
@@ -67,25 +68,25 @@ void add_default_of_ode(std::vector<Engine>& raw) {
 int main(int argc, char** argv) {
   Report report("worlds", "What muro adds to an engine", argc, argv);
   const int one = std::stoi(report.argument("vehicles", "0"));
-  std::vector<Engine> raw = peers();
+  std::vector<Engine> raw = baselines();
   std::erase_if(raw, [](const Engine& e) { return e.one_body || !is_offered(motion_for(e)); });
   add_default_of_ode(raw);
   for (const int vehicles : one > 0 ? std::vector{one} : std::vector{1, 10, 50}) {
     report.table(fmt::format("{} vehicles in the city", vehicles),
-                 {"engine", "vehicle-steps/s", "us a vehicle and step", "way, m", "height, m"});
-    for (const Engine& peer : raw) {
-      const std::vector<Engine> pair{peer, by_muro(motion_for(peer), peer.effort)};
-      const std::vector<Record> r =
-          compare(Plan::for_team(vehicles), pair, [=](std::uint64_t seed) { return City(vehicles, seed); });
+                 {"engine", "vehicle-steps/s", "us a vehicle and step", "distance, m", "height, m"});
+    for (const Engine& engine : raw) {
+      const std::vector<Engine> pair{engine, by_muro(motion_for(engine), engine.settings)};
+      const std::vector<Measurement> r =
+          compare(RunPlan::for_team(vehicles), pair, [=](std::uint64_t seed) { return City(vehicles, seed); });
       for (std::size_t k = 0; k < pair.size(); ++k)
         report.row({pair[k].name, whole(r[k].rate()), fixed(1e6 / r[k].rate(), 2), fixed(r[k].distance, 3),
                     fixed(r[k].height, 4)});
-      report.ratio(fmt::format("N = {}: cost of {} to {}", vehicles, pair[1].name, peer.name), 1 / r[1].gain(r[0]),
-                   "at most 1.1");
+      report.ratio(fmt::format("N = {}: cost of {} to {}", vehicles, pair[1].name, engine.name),
+                   1 / r[1].ratio_to(r[0]), "at most 1.1");
     }
   }
   report.note(
-      "The raw programs: tests/bench/peers. Bullet's is of rigid bodies and hinges; motion.bullet moves trees of "
+      "The raw programs: tests/bench/baselines. Bullet's is of rigid bodies and hinges; motion.bullet moves trees of "
       "links in reduced coordinates, which is another solver.");
   report.finish();
   return 0;

@@ -14,7 +14,7 @@ namespace {
 constexpr const char* rover_urdf = MURO_TEST_SOURCE_DIR "/examples/models/rover.urdf";
 
 /// The rover's model without <dynamics>, in a file of its own.
-std::string lossless_rover() {
+std::string rover_without_joint_dynamics() {
   std::stringstream text;
   text << std::ifstream(rover_urdf).rdbuf();
   const auto file = std::filesystem::temp_directory_path() / ("muro_bench_" + std::to_string(::getpid()) + ".urdf");
@@ -26,16 +26,16 @@ constexpr const char* corners[] = {"front_left", "front_right", "rear_left", "re
 
 }  // namespace
 
-CityScene::CityScene(const City& city, Wheels wheels, bool losses) {
+CityScene::CityScene(const City& city, Wheels wheels, bool joint_dynamics) {
   add_ground(Rover::friction);
   int number = 0;
   for (const Block& b : city.blocks()) {
     const Shape box = Shape::box(b.lengths);
     world().add_scenery("block" + std::to_string(number++), {b.centre, Quat::Identity()}, std::span(&box, 1));
   }
-  const std::string model = losses ? rover_urdf : lossless_rover();
+  const std::string model = joint_dynamics ? rover_urdf : rover_without_joint_dynamics();
   const RobotTree rover = read_model(model);
-  if (!losses) std::filesystem::remove(model);
+  if (!joint_dynamics) std::filesystem::remove(model);
   for (int v = 0; v < city.vehicles(); ++v) add(std::to_string(v), rover, city.starts()[std::size_t(v)]);
   if (wheels == Wheels::cylinders) return;
   for (const RobotView* r : world().robots())
@@ -56,10 +56,10 @@ std::vector<ObjectId> CityScene::add_lasers(const Pattern& pattern, double range
   use(method, 10, items,
       {{"rays", std::int64_t(pattern.columns)},
        {"rows", std::int64_t(pattern.rows)},
-       {"min_angle", -0.5 * pattern.wide},
-       {"max_angle", 0.5 * pattern.wide},
-       {"min_elevation", -0.5 * pattern.high},
-       {"max_elevation", 0.5 * pattern.high},
+       {"min_angle", -0.5 * pattern.horizontal_fov},
+       {"max_angle", 0.5 * pattern.horizontal_fov},
+       {"min_elevation", -0.5 * pattern.vertical_fov},
+       {"max_elevation", 0.5 * pattern.vertical_fov},
        {"max_range", range},
        {"offset", std::vector{0.0, 0.0, scanner_height}},
        {"see_self", see_self}});
@@ -67,13 +67,13 @@ std::vector<ObjectId> CityScene::add_lasers(const Pattern& pattern, double range
 }
 
 MuroTeam::MuroTeam(const City& city, int threads, Wheels wheels, const Pattern* lasers, int rate)
-    : MuroTeam(city, threads, wheels, Mover{.rate = rate}, lasers) {}
+    : MuroTeam(city, threads, wheels, MotionSetup{.rate = rate}, lasers) {}
 
-MuroTeam::MuroTeam(const City& city, int threads, Wheels wheels, const Mover& mover, const Pattern* lasers,
+MuroTeam::MuroTeam(const City& city, int threads, Wheels wheels, const MotionSetup& motion, const Pattern* lasers,
                    const std::string& method)
-    : scene_(city, wheels, mover.losses) {
-  scene_.use(mover.motion, mover.rate, scene_.all_robots(), mover.parameters);
-  if (mover.contact)
+    : scene_(city, wheels, motion.joint_dynamics) {
+  scene_.use(motion.motion, motion.rate, scene_.all_robots(), motion.parameters);
+  if (motion.contact)
     scene_.use_contacts();
   else
     scene_.use_kinematics();
@@ -99,8 +99,8 @@ TwoTeams::TwoTeams(const City& city)
     : first_(city, 1, Wheels::balls), second_(city, 1, Wheels::balls), thread_([this] { serve(); }) {}
 
 TwoTeams::~TwoTeams() {
-  wanted_.store(-1);
-  wanted_.notify_one();
+  requested_.store(-1);
+  requested_.notify_one();
   thread_.join();
 }
 
@@ -110,20 +110,20 @@ void TwoTeams::command(int vehicle, WheelSpeeds speeds) {
 }
 
 void TwoTeams::run(int milliseconds) {
-  const int wanted = wanted_.load() + milliseconds;
-  wanted_.store(wanted);
-  wanted_.notify_one();
+  const int requested = requested_.load() + milliseconds;
+  requested_.store(requested);
+  requested_.notify_one();
   first_.run(milliseconds);
-  while (done_.load() != wanted) std::this_thread::yield();
+  while (done_.load() != requested) std::this_thread::yield();
 }
 
 void TwoTeams::serve() {
   for (int done = 0;; done_.store(done)) {
-    wanted_.wait(done);
-    const int wanted = wanted_.load();
-    if (wanted < 0) return;
-    second_.run(wanted - done);
-    done = wanted;
+    requested_.wait(done);
+    const int requested = requested_.load();
+    if (requested < 0) return;
+    second_.run(requested - done);
+    done = requested;
   }
 }
 
@@ -137,7 +137,7 @@ MuroScanners::MuroScanners(const City& city, const Pattern& pattern, double rang
   for (const RobotView* r : scene_.world().robots()) poses_.push_back(&scene_.pose(*r));
 }
 
-void MuroScanners::pass(std::span<const Pose> poses, bool moved) {
+void MuroScanners::scan(std::span<const Pose> poses, bool moved) {
   for (std::size_t v = 0; v < poses.size() && moved; ++v) *poses_[v] = poses[v];
   scene_.run_for(0.1);
 }

@@ -1,41 +1,42 @@
 // SPDX-License-Identifier: MIT
-// muro as the benchmarks use it, beside its peers.
+// muro as the benchmarks use it, beside the engines that it is compared with.
 #pragma once
 
 #include <atomic>
 #include <thread>
 
-#include "tests/bench/peers/scanners.hpp"
-#include "tests/bench/peers/team.hpp"
+#include "tests/bench/baselines/scanners.hpp"
+#include "tests/bench/baselines/team.hpp"
 #include "tests/support/scene.hpp"
 
 namespace muro::bench {
 
-/// The shape of wheels where they touch: cylinders as in the model, or balls, as the wheels of all peers are.
+/// The shape of wheels where they touch: cylinders as in the model, or balls, as in all baselines.
 enum class Wheels { cylinders, balls };
 
 /// The city as scenery, its vehicles as robots "0", "1", ... of examples/models/rover.urdf. Motion is the caller's.
 struct CityScene : test::Scene {
-  /// `losses`: whether joints have the damping and friction of the model, which peers leave out.
-  explicit CityScene(const City& city, Wheels wheels = Wheels::cylinders, bool losses = true);
+  /// `joint_dynamics`: whether joints have the damping and friction of the model (<dynamics>), which baselines leave
+  /// out.
+  explicit CityScene(const City& city, Wheels wheels = Wheels::cylinders, bool joint_dynamics = true);
   /// A scanner at 10 Hz on every vehicle; returns the objects of the scanners.
   std::vector<ObjectId> add_lasers(const Pattern& pattern, double range, bool see_self,
                                    const std::string& method = "laser.raycast");
 };
 
 /// What moves the vehicles, at one rate.
-struct Mover {
+struct MotionSetup {
   std::string motion = "motion.simplified";
   int rate = 1000;  ///< steps/s
   std::map<std::string, ParameterInput> parameters{};
-  bool contact = true;  ///< by the contact algorithm
-  bool losses = true;   ///< see CityScene
+  bool contact = true;         ///< by the contact algorithm
+  bool joint_dynamics = true;  ///< see CityScene
 };
 
 /// The vehicles with full collision.
 class MuroTeam final : public Team {
  public:
-  MuroTeam(const City& city, int threads, Wheels wheels, const Mover& mover, const Pattern* lasers = nullptr,
+  MuroTeam(const City& city, int threads, Wheels wheels, const MotionSetup& motion, const Pattern* lasers = nullptr,
            const std::string& method = "laser.raycast");
   /// `lasers`: what each vehicle carries, with a range of 5.6 m, or null. `rate`: steps/s.
   MuroTeam(const City& city, int threads, Wheels wheels, const Pattern* lasers = nullptr, int rate = 1000);
@@ -65,7 +66,7 @@ class TwoTeams final : public Team {
   void serve();
 
   MuroTeam first_, second_;
-  std::atomic<int> wanted_{0}, done_{0};  ///< ms of the second; negative: the end
+  std::atomic<int> requested_{0}, done_{0};  ///< ms of the second; negative: the end
   std::thread thread_;
 };
 
@@ -74,7 +75,7 @@ class MuroScanners final : public Scanners {
  public:
   MuroScanners(const City& city, const Pattern& pattern, double range, int threads);
 
-  void pass(std::span<const Pose> poses, bool moved) override;
+  void scan(std::span<const Pose> poses, bool moved) override;
   double range(int vehicle, int ray) const override;
 
  private:

@@ -58,9 +58,9 @@ std::string head_of(const ordered_json& columns) {
   return "\n" + line_of(columns) + rule + "\n";
 }
 
-const ordered_json ratio_columns = {"ratio", "found", "wanted"};
+const ordered_json ratio_columns = {"ratio", "found", "target"};
 
-std::string ratio_line(const ordered_json& r) { return line_of(ordered_json{r["what"], r["value"], r["wanted"]}); }
+std::string ratio_line(const ordered_json& r) { return line_of(ordered_json{r["what"], r["value"], r["target"]}); }
 
 /// The whole file as a page.
 std::string page(const ordered_json& all) {
@@ -97,10 +97,10 @@ Report::Report(const std::string& name, const std::string& title, int argc, char
   std::printf("%s; %s\n", machine_line(machine()).c_str(), command.c_str());
 }
 
-std::string Report::argument(const std::string& name, const std::string& otherwise) const {
+std::string Report::argument(const std::string& name, const std::string& default_value) const {
   for (std::size_t i = 0; i + 1 < arguments_.size(); ++i)
     if (arguments_[i] == "--" + name) return arguments_[i + 1];
-  return otherwise;
+  return default_value;
 }
 
 void Report::table(const std::string& title, const std::vector<std::string>& columns) {
@@ -118,8 +118,8 @@ void Report::row(const std::vector<Cell>& cells) {
   std::fflush(stdout);
 }
 
-void Report::ratio(const std::string& what, double value, const std::string& wanted) {
-  found_["ratios"].push_back({{"what", what}, {"value", fixed(value, 2)}, {"wanted", wanted}});
+void Report::ratio(const std::string& what, double value, const std::string& target) {
+  found_["ratios"].push_back({{"what", what}, {"value", fixed(value, 2)}, {"target", target}});
 }
 
 void Report::finish() {

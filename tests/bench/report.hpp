@@ -31,14 +31,14 @@ class Report {
   /// `name` without "bench_". Arguments but --json are left for the program.
   Report(const std::string& name, const std::string& title, int argc, char** argv);
 
-  /// The value of `--NAME VALUE`, or `otherwise`.
-  std::string argument(const std::string& name, const std::string& otherwise) const;
+  /// The value of `--NAME VALUE`, or `default_value`.
+  std::string argument(const std::string& name, const std::string& default_value) const;
 
   /// A table that takes the rows from here on.
   void table(const std::string& title, const std::vector<std::string>& columns);
   void row(const std::vector<Cell>& cells);
-  /// `wanted`: what the project aims at, e.g. "at least 12".
-  void ratio(const std::string& what, double value, const std::string& wanted = "");
+  /// `target`: what the project aims at, e.g. "at least 12".
+  void ratio(const std::string& what, double value, const std::string& target = "");
   void note(const std::string& text) { found_["notes"].push_back(text); }
   /// Prints the ratios and notes and writes the file.
   void finish();

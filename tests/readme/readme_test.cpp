@@ -1,66 +1,150 @@
 // SPDX-License-Identifier: MIT
-// What the README says is what the program does.
+// The README and the documents agree with the program: generated pages, links, and every command that is shown.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <regex>
+#include <sstream>
 
 #include "tests/support/files.hpp"
 
 namespace muro {
 namespace {
 
+namespace fs = std::filesystem;
 using test::run_command;
 using test::text_of;
 
 const std::string root = MURO_TEST_SOURCE_DIR "/";
-const std::string readme = text_of(root + "README.md");
-const std::string here = "cd " MURO_TEST_SOURCE_DIR " && MURO_PLUGIN_PATH=" MURO_TEST_PLUGIN_DIR " ";
-const std::string muro_program = here + MURO_PROGRAM;
+const std::string environment = "MURO_PLUGIN_PATH=" MURO_TEST_PLUGIN_DIR " ";
 
-TEST(Readme, ItsTableOfPluginsIsWhatTheProgramPrints) {
-  const auto table = run_command(muro_program + " plugins list --markdown");
-  EXPECT_EQ(table.exit_code, 0);
-  EXPECT_NE(readme.find(table.output), std::string::npos) << "put this into the README:\n" << table.output;
+/// Pages in Markdown, relative to the root.
+std::vector<std::string> pages() {
+  std::vector<std::string> all = {"README.md", "CONTRIBUTING.md", "sdk/README.md"};
+  for (const fs::directory_entry& e : fs::directory_iterator(root + "docs"))
+    if (e.path().extension() == ".md") all.push_back("docs/" + e.path().filename().string());
+  for (const fs::directory_entry& e : fs::directory_iterator(root + "examples"))
+    if (fs::exists(e.path() / "README.md")) all.push_back("examples/" + e.path().filename().string() + "/README.md");
+  for (const fs::directory_entry& e : fs::recursive_directory_iterator(root + "plugins"))
+    if (e.path().filename() == "README.md") all.push_back(fs::relative(e.path(), root).string());
+  std::sort(all.begin(), all.end());
+  return all;
 }
 
-TEST(Readme, ItsScenarioIsTheUrbanExample) {
-  const std::size_t begin = readme.find("```yaml\n") + 8;
-  const std::string shown = readme.substr(begin, readme.find("```", begin) - begin);
-  std::string example = text_of(root + "examples/urban/urban.yaml");
-  example.erase(std::remove(example.begin(), example.end(), '\n'), example.end());
-  std::string flat = shown;
-  flat.erase(std::remove(flat.begin(), flat.end(), '\n'), flat.end());
-  EXPECT_NE(example.find(flat.substr(flat.find("robots:"))), std::string::npos);
+/// The shell commands of a page: lines that begin with the program, and blocks marked `sh`.
+std::vector<std::string> commands_of(const std::string& page) {
+  std::vector<std::string> all;
+  std::istringstream text(text_of(root + page));
+  bool in_block = false;
+  for (std::string line; std::getline(text, line);) {
+    if (in_block && line == "```") {
+      in_block = false;
+    } else if (in_block) {
+      all.back() += line + "\n";
+    } else if (line == "```sh") {
+      in_block = true;
+      all.emplace_back();
+    } else if (line.starts_with("    build/bin/muro ")) {
+      all.push_back(line.substr(4));
+    }
+  }
+  return all;
 }
 
-TEST(Readme, EveryFileItLinksToExists) {
-  for (const char* page : {"README.md", "CONTRIBUTING.md", "docs/architecture.md", "docs/scenario.md",
-                           "docs/determinism.md", "docs/controllers.md", "docs/plugin-contract.md"}) {
+std::vector<std::string> pages_with_commands() {
+  std::vector<std::string> all;
+  for (const std::string& page : pages())
+    if (!commands_of(page).empty()) all.push_back(page);
+  return all;
+}
+
+/// The command as a test runs it: for a short time, at any speed, and with a window on a virtual display.
+std::string shortened(std::string command) {
+  command = std::regex_replace(command, std::regex(R"( (--duration|--speed) [^ \n]+)"), "");
+  command = std::regex_replace(command, std::regex(R"(build/bin/muro (run|compare) )"), "$& --duration 0.5 ");
+  if (command.find(" --view") != std::string::npos)
+    command = std::regex_replace(command, std::regex("^build/bin/muro "), "xvfb-run -a build/bin/muro ");
+  return command;
+}
+
+/// A folder that looks like the root of the repository after a build; files that commands write stay in it.
+class Checkout {
+ public:
+  Checkout() {
+    for (const fs::directory_entry& e : fs::directory_iterator(root))
+      if (e.path().filename() != "build" && e.path().filename() != "out")
+        fs::create_symlink(e.path(), folder_.path(e.path().filename().string()));
+    fs::create_directories(folder_.path("build/bin"));
+    fs::create_directories(folder_.path("out"));
+    fs::create_symlink(MURO_PROGRAM, folder_.path("build/bin/muro"));
+  }
+  test::CommandResult run(const std::string& commands) const {
+    const std::string script = folder_.file("commands.sh", "set -e\ncd " + folder_.path("") + "\n" + commands + "\n");
+    return run_command(environment + "sh " + script);
+  }
+
+ private:
+  test::ScratchFolder folder_;
+};
+
+class Commands : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(Commands, OfThisPageWork) {
+  const Checkout checkout;
+  for (const std::string& command : commands_of(GetParam())) {
+    const auto result = checkout.run(shortened(command));
+    EXPECT_EQ(result.exit_code, 0) << command << "\n" << result.output;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Pages, Commands, ::testing::ValuesIn(pages_with_commands()), [](const auto& page) {
+  return std::regex_replace(page.param, std::regex("[^A-Za-z0-9]+"), "_");
+});
+
+TEST(Documents, GeneratedPagesAreWhatTheProgramPrints) {
+  for (const auto& [page, command] : {std::pair("docs/plugins.md", "plugins list --markdown"),
+                                      std::pair("docs/properties.md", "properties --markdown")}) {
+    const auto printed = run_command(environment + MURO_PROGRAM + " " + command);
+    EXPECT_EQ(printed.exit_code, 0);
+    EXPECT_EQ(text_of(root + page), printed.output) << "write it again: build/bin/muro " << command << " >" << page;
+  }
+}
+
+TEST(Documents, PropertiesAreThoseOfTheVocabulary) {
+  const std::string listed = run_command(environment + MURO_PROGRAM + " properties").output;
+  const std::string vocabulary = text_of(root + "sdk/muro/vocabulary.hpp");
+  const std::regex key(R"re(inline constexpr Key<[^>]+> \w+\{\s*"([^"]+)")re");
+  int keys = 0;
+  for (auto it = std::sregex_iterator(vocabulary.begin(), vocabulary.end(), key); it != std::sregex_iterator(); ++it) {
+    ++keys;
+    EXPECT_NE(listed.find("\n  " + (*it)[1].str() + " "), std::string::npos) << (*it)[1].str();
+  }
+  EXPECT_EQ(std::count(listed.begin(), listed.end(), '\n') - 9, keys) << "and no other, beside nine titles";
+}
+
+TEST(Documents, EveryFileTheyLinkToExists) {
+  const std::regex link(R"(\]\(([^)#:]+)(#[^)]*)?\))");
+  for (const std::string& page : pages()) {
     const std::string text = text_of(root + page);
     ASSERT_FALSE(text.empty()) << page;
-    const std::regex link(R"(\]\(([^)#:]+)\))");
     for (auto it = std::sregex_iterator(text.begin(), text.end(), link); it != std::sregex_iterator(); ++it) {
-      const auto target = (std::filesystem::path(root + page).parent_path() / (*it)[1].str()).lexically_normal();
-      EXPECT_TRUE(std::filesystem::exists(target)) << page << " links to " << (*it)[1].str();
+      const auto target = (fs::path(root + page).parent_path() / (*it)[1].str()).lexically_normal();
+      EXPECT_TRUE(fs::exists(target)) << page << " links to " << (*it)[1].str();
     }
   }
 }
 
-TEST(Readme, ItsRunCommandsWork) {
-  const std::regex command(R"(    build/bin/muro ((run|render) [^\n]*))");
-  int commands = 0;
-  for (auto it = std::sregex_iterator(readme.begin(), readme.end(), command); it != std::sregex_iterator();
-       ++it, ++commands) {
-    const test::ScratchFolder scratch;
-    std::string arguments = (*it)[1].str();
-    arguments = std::regex_replace(arguments, std::regex("--(out|report|timeline) "), "--$1 " + scratch.path("") + "/");
-    if ((*it)[2] == "run" && arguments.find("--duration") == std::string::npos) arguments += " --duration 2";
-    const bool view = arguments.find("--view") != std::string::npos;  // on a display without a screen
-    const auto result = run_command(here + (view ? "xvfb-run -a " : "") + MURO_PROGRAM + " " + arguments);
-    EXPECT_EQ(result.exit_code, 0) << arguments << "\n" << result.output;
-  }
-  EXPECT_GE(commands, 3);
+TEST(Documents, TheScenarioOfTheReadmeIsTheUrbanExample) {
+  const auto one_line = [](std::string text) {
+    std::erase(text, '\n');
+    return text;
+  };
+  const std::string readme = text_of(root + "README.md");
+  const std::size_t begin = readme.find("```yaml\n") + 8;
+  const std::string shown = one_line(readme.substr(begin, readme.find("```", begin) - begin));
+  EXPECT_NE(one_line(text_of(root + "examples/urban/urban.yaml")).find(shown.substr(shown.find("robots:"))),
+            std::string::npos);
 }
 
 }  // namespace

@@ -89,7 +89,7 @@ TEST(Render, TellsWhatIsWrongAndWritesNothing) {
   EXPECT_TRUE(test::text_of(file).empty());
 }
 
-/// Stands in for ffmpeg: writes down what it is asked for, and puts what it is handed where the film goes.
+/// A substitute for ffmpeg: records its arguments, and copies its input to the file of the video.
 std::string stand_in(const test::ScratchFolder& folder) {
   std::filesystem::create_directory(folder.path("bin"));
   const std::string file = folder.file("bin/ffmpeg", "#!/bin/sh\necho \"$*\" >" + folder.path("asked") +
@@ -98,16 +98,16 @@ std::string stand_in(const test::ScratchFolder& folder) {
   return "PATH=" + folder.path("bin") + ":$PATH ";
 }
 
-TEST(Render, HandsTheFramesOfAFilmToFfmpeg) {
+TEST(Render, HandsTheFramesOfAVideoToFfmpeg) {
   const test::ScratchFolder folder;
-  const std::string film = folder.path("a film.mp4"),
+  const std::string video = folder.path("a video.mp4"),
                     arguments = urban + " --from -42,-30,7 --to -20,-20,0 --size 64x48";
   const auto result = test::run_command(stand_in(folder) + muro_program + " render " + arguments +
-                                        " --device software --at 0.5 --until 1 --fps 10 --video '" + film + "'");
+                                        " --device software --at 0.5 --until 1 --fps 10 --video '" + video + "'");
   EXPECT_EQ(result.exit_code, 0) << result.output;
   EXPECT_NE(test::text_of(folder.path("asked")).find("-f rawvideo -pix_fmt rgb24 -s 64x48 -r 10 -i -"),
             std::string::npos);
-  const std::string frames = test::text_of(film);
+  const std::string frames = test::text_of(video);
   constexpr std::size_t frame = 64 * 48 * 3;
   ASSERT_EQ(frames.size(), 6 * frame) << "at 0.5, 0.6, ... 1 s";
   const std::string file = folder.path("still.png");
@@ -118,32 +118,32 @@ TEST(Render, HandsTheFramesOfAFilmToFfmpeg) {
   EXPECT_NE(frames.substr(0, frame), frames.substr(5 * frame)) << "robots move";
 }
 
-TEST(Render, MakesAFilmThatPlays) {
+TEST(Render, MakesAVideoThatPlays) {
   if (test::run_command("command -v ffmpeg").exit_code != 0) GTEST_SKIP() << "needs the package ffmpeg";
   const test::ScratchFolder folder;
-  const std::string film = folder.path("film.mp4");
-  const auto result = render(urban + " --size 65x49 --until 0.4 --fps 10 --video " + film);
+  const std::string video = folder.path("video.mp4");
+  const auto result = render(urban + " --size 65x49 --until 0.4 --fps 10 --video " + video);
   EXPECT_EQ(result.exit_code, 0) << result.output;
-  EXPECT_EQ(test::run_command("ffmpeg -loglevel error -i " + film + " -f rawvideo -pix_fmt rgb24 - | wc -c").output,
+  EXPECT_EQ(test::run_command("ffmpeg -loglevel error -i " + video + " -f rawvideo -pix_fmt rgb24 - | wc -c").output,
             std::to_string(5 * 64 * 48 * 3) + "\n")
       << "five frames, of an even number of pixels either way";
-  const auto wrong = render(urban + " --size 64x48 --until 0.2 --video " + folder.path("film.what"));
+  const auto wrong = render(urban + " --size 64x48 --until 0.2 --video " + folder.path("video.what"));
   EXPECT_EQ(wrong.exit_code, 2);
-  EXPECT_NE(wrong.output.find("The ending of the name tells the kind of film"), std::string::npos) << wrong.output;
-  EXPECT_FALSE(std::filesystem::exists(folder.path("film.what")));
+  EXPECT_NE(wrong.output.find("The extension of the name decides the format"), std::string::npos) << wrong.output;
+  EXPECT_FALSE(std::filesystem::exists(folder.path("video.what")));
 }
 
-TEST(Render, SaysThatAFilmNeedsFfmpegAndWhatElseIsWrong) {
+TEST(Render, SaysThatAVideoNeedsFfmpegAndWhatElseIsWrong) {
   const auto with_path = [](const std::string& path, const std::string& arguments) {
     return test::run_command("PATH=" + path + " " + muro_program + " render " + urban + " " + arguments);
   };
-  const auto without = with_path("/nowhere", "--video /tmp/film.mp4");
+  const auto without = with_path("/nowhere", "--video /tmp/video.mp4");
   EXPECT_EQ(without.exit_code, 2);
   EXPECT_NE(without.output.find("needs the program ffmpeg"), std::string::npos) << without.output;
-  EXPECT_NE(with_path("$PATH", "").output.find("give --out FILE.png for a picture, or --video FILE.mp4 for a film"),
+  EXPECT_NE(with_path("$PATH", "").output.find("give --out FILE.png for a picture, or --video FILE.mp4 for a video"),
             std::string::npos);
   EXPECT_NE(
-      with_path("$PATH", "--video /tmp/film.mp4 --at 3 --until 2").output.find("--until is 2 s but must be later"),
+      with_path("$PATH", "--video /tmp/video.mp4 --at 3 --until 2").output.find("--until is 2 s but must be later"),
       std::string::npos);
 }
 

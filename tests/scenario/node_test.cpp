@@ -66,8 +66,7 @@ TEST(Node, OverridesOfWrongFormAreNamed) {
   Node root = parse_yaml("a: {b: 1}", {"x", 0, 0});
   EXPECT_EQ(error_of([&] { apply_override(root, "a.b"); }),
             "--set a.b: write path=value, such as robots.rovers.count=100");
-  EXPECT_EQ(error_of([&] { apply_override(root, "a.b.c=1"); }),
-            "--set a.b.c=1: `c` has no place inside a single value");
+  EXPECT_EQ(error_of([&] { apply_override(root, "a.b.c=1"); }), "--set a.b.c=1: `c` cannot be a key of a single value");
   EXPECT_EQ(error_of([&] { apply_override(root, "a..c=1"); }), "--set a..c=1: the path has an empty part");
   EXPECT_EQ(error_of([&] { apply_override(root, "a[1.c=1"); }), "--set a[1.c=1: `[` is not closed by `]`");
   for (const char* wrong : {"a[0].c=1", "robots[0].c=1", "robots.a.b[0].c=1", "robots.a[0][1].c=1"})

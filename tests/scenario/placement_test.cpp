@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "muro/toolkit/rotations.hpp"
 
 namespace muro::host {
 namespace {
@@ -11,20 +12,20 @@ namespace {
 struct PlacementTest : ::testing::Test {
   std::map<std::string, std::vector<Rectangle>> places{{"yard", {{0, 0, 10, 4, {0.5}}, {20, 0, 2, 2, {}}}}};
   std::vector<Obstacle> obstacles{{{{0, 0, 1}, from_rpy(0, 0, 0.3)}, 2, 1}};
-  std::vector<Footprint> taken;
+  std::vector<Footprint> occupied;
   Placement random = [] {
     Placement p;
-    p.form = Placement::Form::random;
+    p.kind = Placement::Kind::random;
     p.area = "yard";
     p.seed = 7;
     p.clearance = 0.1;
-    p.list.emplace_back();
+    p.poses.emplace_back();
     return p;
   }();
 };
 
 TEST_F(PlacementTest, RandomPlacesKeepTheirDistanceToEverything) {
-  const auto poses = place(random, 30, 0.25, 0.3, places, obstacles, taken, "rovers");
+  const auto poses = place(random, 30, {"rovers", 0.25, 0.3}, places, obstacles, occupied);
   ASSERT_EQ(poses.size(), 30u);
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const Vec3& p = poses[i].position;
@@ -43,10 +44,10 @@ TEST_F(PlacementTest, RandomPlacesKeepTheirDistanceToEverything) {
 
 TEST_F(PlacementTest, EqualSeedsGiveEqualPlacesAndOthersDoNot) {
   std::vector<Footprint> again, other;
-  const auto a = place(random, 5, 0, 0.3, places, obstacles, taken, "rovers");
-  const auto b = place(random, 5, 0, 0.3, places, obstacles, again, "rovers");
+  const auto a = place(random, 5, {"rovers", 0, 0.3}, places, obstacles, occupied);
+  const auto b = place(random, 5, {"rovers", 0, 0.3}, places, obstacles, again);
   random.seed = 8;
-  const auto c = place(random, 5, 0, 0.3, places, obstacles, other, "rovers");
+  const auto c = place(random, 5, {"rovers", 0, 0.3}, places, obstacles, other);
   EXPECT_EQ(a[4].position, b[4].position);
   EXPECT_NE(a[4].position, c[4].position);
 }
@@ -54,7 +55,7 @@ TEST_F(PlacementTest, EqualSeedsGiveEqualPlacesAndOthersDoNot) {
 TEST_F(PlacementTest, AFullPlaceSaysHowManyFit) {
   random.location = {"a.yaml", 3, 5};
   try {
-    place(random, 5000, 0, 0.3, places, obstacles, taken, "rovers");
+    place(random, 5000, {"rovers", 0, 0.3}, places, obstacles, occupied);
     FAIL();
   } catch (const SetupError& e) {
     const std::string text = e.what();
@@ -65,13 +66,13 @@ TEST_F(PlacementTest, AFullPlaceSaysHowManyFit) {
 
 TEST_F(PlacementTest, AGridIsCentredAndTurnsWithItsCentre) {
   Placement grid;
-  grid.form = Placement::Form::grid;
+  grid.kind = Placement::Kind::grid;
   grid.columns = 3;
   grid.rows = 2;
   grid.spacing_x = 2;
   grid.spacing_y = 4;
-  grid.list.push_back({.x = 10, .y = 0, .z = {}, .yaw = M_PI / 2});
-  const auto poses = place(grid, 6, 0.5, 1, places, {}, taken, "posts");
+  grid.poses.push_back({.x = 10, .y = 0, .z = {}, .yaw = M_PI / 2});
+  const auto poses = place(grid, 6, {"posts", 0.5, 1}, places, {}, occupied);
   EXPECT_LT((poses[0].position - Vec3(12, -2, 0.5)).norm(), 1e-12);
   EXPECT_LT((poses[5].position - Vec3(8, 2, 0.5)).norm(), 1e-12);
 }

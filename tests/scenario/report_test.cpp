@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "host/output_file.hpp"
 #include "tests/support/bodies.hpp"
 #include "tests/support/files.hpp"
 
@@ -24,7 +26,7 @@ TEST(Report, AskingWhetherAFileCanBeWrittenChangesNothing) {
   EXPECT_THROW(check_writable(folder.path("")), SetupError);
 }
 
-TEST(Report, APoseThatIsNoNumberIsAnError) {
+TEST(Report, APoseThatIsNotFiniteIsAnError) {
   test::Scene scene;
   const RobotView& ball = scene.add("ball", test::single_body(Shape::sphere(0.5), {.mass = 1}));
   scene.use("motion.point", 10, {{&ball, ball.base()}});
@@ -36,9 +38,24 @@ TEST(Report, APoseThatIsNoNumberIsAnError) {
     odometer.check();
     FAIL();
   } catch (const StepError& e) {
-    EXPECT_EQ(std::string(e.what()).rfind("the pose of robot `ball` is not a number any more at t = 0 s", 0), 0u)
+    EXPECT_EQ(std::string(e.what()).rfind("the pose of robot `ball` is not finite any more at t = 0 s", 0), 0u)
         << e.what();
   }
+}
+
+TEST(Report, NamesAlgorithmsThatAreNotDeterministic) {
+  test::Scene scene;
+  const RobotView& ball = scene.add("ball", test::single_body(Shape::sphere(0.5), {.mass = 1}));
+  const ObjectId laser = scene.add_sensor_object(ball, "laser", ball.base());
+  scene.use("motion.point", 10, {{&ball, ball.base()}});
+  scene.use("scene.bvh", 0);
+  scene.use("laser.auto", 10, {{&ball, laser}});  // it measures the machine, and chooses by that
+  scene.build();
+  EXPECT_EQ(nondeterministic_algorithms(scene), std::vector<std::string>{"laser.auto"});
+  const auto written = report({}, scene, Odometer(scene));
+  EXPECT_EQ(written.at("nondeterministic_algorithms"), (nlohmann::ordered_json{"laser.auto"}));
+  for (const auto& algorithm : written.at("algorithms"))
+    EXPECT_EQ(algorithm.at("deterministic").get<bool>(), algorithm.at("plugin") != "laser.auto");
 }
 
 }  // namespace

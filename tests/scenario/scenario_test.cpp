@@ -112,7 +112,7 @@ schedule: {sequences: [[b.motion, a.motion]]}
 )";
   const BuiltScenario built = build(read(text), test::plugins());
   const Scheduler& s = built.simulation->scheduler();
-  const std::vector<TaskId> plan = s.plan_at(50'000'000);
+  const std::vector<TaskId> plan = s.order_at(50'000'000);
   ASSERT_EQ(plan.size(), 2u);
   EXPECT_EQ(s.tasks()[plan[0]].name, "b.motion");
   EXPECT_EQ(s.tasks()[plan[1]].name, "a.motion");
@@ -173,7 +173,7 @@ TEST(Scenario, RandomPlacesKeepClearOfGivenOnesInAnyOrder) {
   }
 }
 
-TEST(Scenario, RandomPlacesFollowTheSeedOfTheScenarioUnlessTheyHaveTheirOwn) {
+TEST(Scenario, RandomPlacesFollowTheirOwnSeedOrTheScenarios) {
   const auto first = [](const std::vector<std::string>& overrides) -> Vec3 {
     const BuiltScenario b = build(read(crowd, overrides), test::plugins());
     return b.simulation->world().value("crowd_0/body", keys::pose).position;
@@ -223,7 +223,7 @@ TEST(Scenario, OverridesOfWhatIsNotThereNameTheNearest) {
       "--set robots.balls.motion=: `motion` has no value; leave the key out, or write `off` to switch a part off");
 }
 
-TEST(Scenario, SequencesNameAlgorithmsOfATemplateEvenWhenEachRobotHasItsOwn) {
+TEST(Scenario, SequencesNameTheAlgorithmsOfAllRobotsOfATemplate) {
   Registry registry({MURO_TEST_PLUGIN_DIR, BAD_PLUGIN_DIR "/throws"});  // motion.step_throws is not batched
   const BuiltScenario built = build(read(R"(
 robots:
@@ -237,7 +237,7 @@ schedule: {sequences: [[balls.motion, others.motion]]}
 )"),
                                     registry);
   std::vector<std::string> names;
-  for (const TaskId t : built.simulation->scheduler().plan_at(0))
+  for (const TaskId t : built.simulation->scheduler().order_at(0))
     names.push_back(built.simulation->scheduler().tasks()[t].name);
   EXPECT_EQ(names, (std::vector<std::string>{"balls_0.motion", "balls_1.motion", "others.motion"}));
 }
@@ -255,7 +255,7 @@ TEST(Scenario, ADefaultThatIsMissingSaysWhoNeedsIt) {
   } catch (const SetupError& e) {
     EXPECT_NE(std::string(e.what()).find(
                   "s.yaml: `laser.raycast` reads `scene.index`, so something must write it, by default `scene.bvh` "
-                  "(another goes under `algorithms: {index: {use: NAME}}`): no plugin offers `scene.bvh`"),
+                  "(name another by `algorithms: {index: {use: NAME}}`): no plugin offers `scene.bvh`"),
               std::string::npos)
         << e.what();
   }

@@ -13,11 +13,11 @@ const std::string urban = MURO_TEST_SOURCE_DIR "/examples/urban/urban.yaml";
 const std::string muro_program =
     std::string("cd " MURO_TEST_SOURCE_DIR " && MURO_PLUGIN_PATH=" MURO_TEST_PLUGIN_DIR " ") + MURO_PROGRAM;
 
-std::vector<Losses> losses(const std::vector<std::string>& overrides = {}) {
-  return losses_of(build(read_scenario(urban, overrides), test::plugins()));
+std::vector<UnsupportedFeatures> unsupported(const std::vector<std::string>& overrides = {}) {
+  return find_unsupported_features(build(read_scenario(urban, overrides), test::plugins()));
 }
 
-TEST(Losses, WhatADescriptionFileSaysOfFeaturesIsWhatThePluginSays) {
+TEST(UnsupportedFeatures, WhatADescriptionFileSaysOfFeaturesIsWhatThePluginSays) {
   int motions = 0;
   for (const CatalogEntry& o : test::plugins().catalog()) {
     if (o.kind != "motion") {
@@ -31,48 +31,50 @@ TEST(Losses, WhatADescriptionFileSaysOfFeaturesIsWhatThePluginSays) {
   EXPECT_GE(motions, 3);
 }
 
-TEST(Losses, TheUrbanTeamLosesNothing) { EXPECT_TRUE(losses().empty()); }
+TEST(UnsupportedFeatures, TheUrbanTeamHasNone) { EXPECT_TRUE(unsupported().empty()); }
 
-TEST(Losses, AKinematicLevelIsToldInOneShortLine) {
-  const auto point = losses({"robots.rovers.motion.use=motion.point"});
+TEST(UnsupportedFeatures, AKinematicLevelIsToldInOneShortLine) {
+  const auto point = unsupported({"robots.rovers.motion.use=motion.point"});
   ASSERT_EQ(point.size(), 1u) << "one for twenty robots";
   EXPECT_EQ(point[0].robots, "rovers");
   EXPECT_EQ(point[0].motion, "motion.point");
   EXPECT_EQ(point[0].location.line, 14);
-  EXPECT_EQ(text_of(point[0], Length::shortly),
-            "forces and contacts do not move it; its joints do not move (4 joints)");
-  EXPECT_EQ(text_of(point[0], Length::fully),
-            "forces and contacts do not move it; its joints do not move (4 joints); with that go velocity_targets (4 "
+  EXPECT_EQ(text_of(point[0], Detail::brief), "forces and contacts do not move it; its joints do not move (4 joints)");
+  EXPECT_EQ(text_of(point[0], Detail::full),
+            "forces and contacts do not move it; its joints do not move (4 joints); therefore not supported either: "
+            "velocity_targets (4 "
             "joints), joint_speed_limits (4 joints), joint_effort_limits (4 joints), joint_damping (4 joints), "
             "joint_friction (4 joints), gyroscopic, contact, friction");
-  const auto drive = losses({"robots.rovers.motion.use=motion.differential_drive"});
+  const auto drive = unsupported({"robots.rovers.motion.use=motion.differential_drive"});
   ASSERT_EQ(drive.size(), 1u);
-  EXPECT_EQ(text_of(drive[0], Length::shortly), "forces and contacts do not move it");
+  EXPECT_EQ(text_of(drive[0], Detail::brief), "forces and contacts do not move it");
 }
 
-TEST(Losses, EachMotionOfATemplateIsToldOnce) {
-  const auto mixed = losses({"robots.rovers[0-4].motion.use=motion.differential_drive",
-                             "robots.rovers[5-6].motion.use=motion.point", "robots.rovers[8].motion.use=motion.point"});
+TEST(UnsupportedFeatures, EachMotionOfATemplateIsToldOnce) {
+  const auto mixed =
+      unsupported({"robots.rovers[0-4].motion.use=motion.differential_drive",
+                   "robots.rovers[5-6].motion.use=motion.point", "robots.rovers[8].motion.use=motion.point"});
   ASSERT_EQ(mixed.size(), 2u);
   EXPECT_EQ(mixed[0].motion, "motion.differential_drive");
   EXPECT_EQ(mixed[1].motion, "motion.point");
 }
 
-TEST(Losses, LinksThatMoveMassAreMissedByALevelOfOneBody) {
+TEST(UnsupportedFeatures, LinkDynamicsAreNotSupportedByALevelOfOneBody) {
   const test::ScratchFolder folder;
   const std::string file =
       folder.file("arm.yaml", "robots:\n  arm: {model: " MURO_TEST_SOURCE_DIR
                               "/examples/models/arm.urdf, motion: {use: motion.simplified, base: fixed}}\n");
-  const auto all = losses_of(build(read_scenario(file, {}), test::plugins()));
+  const auto all = find_unsupported_features(build(read_scenario(file, {}), test::plugins()));
   ASSERT_EQ(all.size(), 1u);
-  EXPECT_EQ(text_of(all[0], Length::shortly).rfind("moving links do not push back on the base (", 0), 0u)
-      << text_of(all[0], Length::fully);
+  EXPECT_EQ(text_of(all[0], Detail::brief).rfind("moving links do not push back on the base (", 0), 0u)
+      << text_of(all[0], Detail::full);
 }
 
-TEST(Losses, ANoteOfARunIsAnErrorWithStrict) {
+TEST(UnsupportedFeatures, ANoteOfARunIsAnErrorWithStrict) {
   const std::string point = " examples/urban/urban.yaml --set robots.rovers.motion.use=motion.point";
   const std::string what =
-      "rovers by motion.point: forces and contacts do not move it; its joints do not move (4 joints)\n";
+      "`motion.point` does not support all features that `rovers` uses: forces and contacts do not move it; its joints "
+      "do not move (4 joints)\n";
   const auto run = test::run_command(muro_program + " run --duration 0.01" + point);
   EXPECT_EQ(run.exit_code, 0);
   EXPECT_EQ(run.output.rfind("examples/urban/urban.yaml:14:13: note: " + what, 0), 0u) << run.output;
@@ -80,13 +82,13 @@ TEST(Losses, ANoteOfARunIsAnErrorWithStrict) {
   EXPECT_EQ(strict.exit_code, 2);
   EXPECT_EQ(strict.output,
             "examples/urban/urban.yaml:14:13: " + what +
-                "with --strict nothing may be lost; choose a motion that has it, or leave --strict out\n");
+                "--strict allows no unsupported features; choose a motion that supports them, or leave --strict out\n");
   EXPECT_EQ(test::run_command(muro_program + " check --strict examples/urban/urban.yaml").exit_code, 0);
 }
 
-TEST(Losses, TheFeaturesOfAMotionAreShown) {
+TEST(UnsupportedFeatures, TheFeaturesOfAMotionAreShown) {
   const auto info = test::run_command(muro_program + " plugins info motion.differential_drive");
-  EXPECT_NE(info.output.find("\nfeatures  [\"joints\",\"velocity_targets\","), std::string::npos) << info.output;
+  EXPECT_NE(info.output.find("\nfeatures      [\"joints\",\"velocity_targets\","), std::string::npos) << info.output;
 }
 
 }  // namespace

@@ -69,7 +69,7 @@ TEST(WorldFileOfAScenario, AModelThatNobodyNamesStandsStillAndIsTold) {
   BuiltScenario built = file.open();
   EXPECT_EQ(built.simulation->world().value("crate.body", keys::pose).position, Vec3(1, 2, 0.5));
   ASSERT_EQ(built.notes.size(), 1u);
-  EXPECT_NE(built.notes[0].find("note: model `crate` stands still, as the scenario does not name it"),
+  EXPECT_NE(built.notes[0].find("note: model `crate` is static, because the scenario does not name it"),
             std::string::npos);
 }
 
@@ -131,8 +131,8 @@ TEST(WorldFileOfAScenario, MistakesAreOneMessageWithThePlaceAndExitCode2) {
        "...}`\n"},
       {"<model name='m'><link name='a'/></model>",
        "world: {file: world.sdf}\nrobots: {m: {model: world, at: {x: 1}, count: 2}}\n",
-       "s.yaml:2:47: `count` of robot `m` does not go with `model: world`: the model stands where the world file says\n"
-       "s.yaml:2:32: `at` of robot `m` does not go with `model: world`: the model stands where the world file says\n"},
+       "s.yaml:2:47: `count` of robot `m` is not allowed with `model: world`: the world file states the pose of the model\n"
+       "s.yaml:2:32: `at` of robot `m` is not allowed with `model: world`: the world file states the pose of the model\n"},
       {"", "robots: {m: {model: world.sdf}}\n",
        "s.yaml:1:21: robot `m`: model world.sdf:1:1: the file holds no <model>; it describes a world: name it under "
        "`world: {file: ...}`\n"},

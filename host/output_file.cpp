@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#include "host/output_file.hpp"
+
+#include "core/error.hpp"
+#include "muro/toolkit/whole_file.hpp"
+
+namespace muro::host {
+
+void write_file(const std::string& path, const std::string& text) {
+  try {
+    WholeFile file(path);
+    file.stream() << text;
+    file.publish();
+  } catch (const Error& e) {
+    throw SetupError(e.what());
+  }
+}
+
+void check_writable(const std::string& path) {
+  try {
+    WholeFile(path).stream();
+  } catch (const Error& e) {
+    throw SetupError(e.what());
+  }
+}
+
+}  // namespace muro::host

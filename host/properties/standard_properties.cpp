@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include "host/properties/standard_properties.hpp"
+
+#include "muro/vocabulary.hpp"
+
+namespace muro::host {
+
+namespace {
+
+constexpr const KeyInfo* motion[] = {
+    &keys::pose,           &keys::initial_pose, &keys::initial_twist, &keys::twist, &keys::external_wrench,
+    &keys::contact_wrench, &keys::gravity,
+};
+constexpr const KeyInfo* levels[] = {
+    &keys::motion_level, &keys::motion_level_target, &keys::motion_level_names,
+    &keys::shadow_of,    &keys::contact_world,       &keys::twist_lag,
+};
+constexpr const KeyInfo* bodies[] = {&keys::inertial, &keys::collision_shapes, &keys::visual_shapes};
+constexpr const KeyInfo* joints[] = {
+    &keys::joint_position,
+    &keys::initial_joint_position,
+    &keys::joint_velocity,
+    &keys::joint_effort,
+    &keys::joint_position_target,
+    &keys::joint_velocity_target,
+    &keys::joint_acceleration_target,
+    &keys::joint_effort_target,
+};
+constexpr const KeyInfo* commands[] = {&keys::command_twist, &keys::command_pose};
+constexpr const KeyInfo* scene[] = {&keys::scene_index, &keys::contacts};
+constexpr const KeyInfo* sensors[] = {&keys::sensor_origin};
+constexpr const KeyInfo* lasers[] = {
+    &keys::laser_min_angle, &keys::laser_angle_increment, &keys::laser_columns, &keys::laser_rows,
+    &keys::laser_min_range, &keys::laser_max_range,       &keys::ranges,        &keys::measured_ranges,
+    &keys::laser_hits,      &keys::laser_incidence,
+};
+constexpr const KeyInfo* cameras[] = {
+    &keys::camera_width, &keys::camera_height, &keys::camera_horizontal_fov, &keys::camera_fx,    &keys::camera_fy,
+    &keys::camera_cx,    &keys::camera_cy,     &keys::camera_image,          &keys::camera_depth, &keys::camera_labels,
+};
+
+constexpr PropertyGroup groups[] = {
+    {"Motion of bodies", "Every body of a robot has them, unless the description says otherwise.", motion},
+    {"Motions, levels of detail and contacts of a robot", "The base of a robot has them.", levels},
+    {"Bodies", "Every body of a robot and of the scenery has them; they are constant.", bodies},
+    {"Joints",
+     "The object of a joint has them. The unit is that of an angle for revolute and continuous joints, that of a "
+     "length "
+     "for prismatic joints.",
+     joints},
+    {"Commands to a whole robot", "The base of a robot has them.", commands},
+    {"Scene and contacts", "The description names the object.", scene},
+    {"Sensors", "The object of a sensor has them; its pose is that of the link on which it is mounted.", sensors},
+    {"Laser scanners", "The object of the sensor has them. Angles are counter-clockwise about z, 0 along x.", lasers},
+    {"Cameras", "The object of the sensor has them; x points forward, as in every sensor frame.", cameras},
+};
+
+}  // namespace
+
+std::span<const PropertyGroup> standard_properties() { return groups; }
+
+}  // namespace muro::host

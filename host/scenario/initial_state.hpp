@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "core/simulation.hpp"
+#include "host/scenario/problems.hpp"
+#include "host/scenario/scenario.hpp"
+
+namespace muro::host {
+
+/// Sets the velocity of a robot and the positions of its joints at the start, as its template states them.
+void set_initial_state(World& world, const RobotTemplate& t, const RobotView& robot, Problems& problems);
+
+/// The name of a robot's object without that of the robot: "laser_link".
+std::string name_within(const World& world, const RobotView& robot, ObjectId object);
+
+}  // namespace muro::host

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "host/scenario/node.hpp"
+#include "host/scenario/problems.hpp"
+#include "host/scenario/scalar.hpp"
+#include "muro/geometry.hpp"
+
+namespace muro::host {
+
+/// Reads the keys of one map with checked types. Every mistake goes to `problems`, and reading continues with the
+/// default value. The keys that are asked for are the schema of the map.
+class MapReader {
+ public:
+  /// `what` names the map in messages: "robot template `rovers`".
+  MapReader(const Node& node, std::string what, Problems& problems);
+
+  const Node* find(const std::string& key);
+  bool has(const std::string& key) { return find(key) != nullptr; }
+  std::string text(const std::string& key, const std::string& default_value);
+  /// A map or a list; an empty one where the key is missing or its value is of another kind.
+  const Node& map(const std::string& key);
+  const Node& list(const std::string& key);
+  /// The one of `keys` that is present. None, and a problem, when none or more than one is.
+  std::optional<std::string> one_of(const std::vector<std::string>& keys);
+  double number(const std::string& key, double default_value, double min = -unbounded, double max = unbounded);
+  std::int64_t integer(const std::string& key, std::int64_t default_value, std::int64_t min, std::int64_t max);
+  /// `lengths`: how many numbers are allowed; none: any.
+  std::optional<std::vector<double>> numbers(const std::string& key, const std::set<std::size_t>& lengths);
+  Vec3 vector(const std::string& key, const Vec3& default_value);
+  /// Keys outside of the schema become problems that name the nearest key of the schema.
+  void reject_unknown_keys();
+  /// The keys that have not been asked for so far.
+  std::vector<std::pair<std::string, const Node*>> unread() const;
+  const Location& location() const { return node_.location; }
+  Location key_location(const std::string& key) const;
+  void problem(const std::string& key, const std::string& text);
+  const std::string& what() const { return what_; }
+
+ private:
+  static constexpr double unbounded = std::numeric_limits<double>::infinity();
+  const Node& child(const std::string& key, Node::Kind kind, const char* expected);
+
+  const Node& node_;
+  std::string what_;
+  Problems& problems_;
+  std::vector<std::string> schema_;
+};
+
+}  // namespace muro::host

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "host/scenario/node.hpp"
+
+namespace muro::host {
+
+/// Collects the mistakes of a scenario, so that all of them can be reported at once; each problem once.
+class Problems {
+ public:
+  void add(const Location& at, const std::string& text) { add(at.text() + ": " + text); }
+  void add(const std::string& line);
+  /// Runs `work`; the lines of what it throws become problems, each behind `prefix`. Returns whether it threw nothing.
+  bool collect(const std::string& prefix, const std::function<void()>& work);
+  /// Throws SetupError if there are any.
+  void check() const;
+
+ private:
+  std::vector<std::string> lines_;
+};
+
+/// Checks that a name can be part of "robot/object:property": not empty, no `/`, `:` or white space. `what` is named
+/// in the message: "a robot".
+bool check_name(const std::string& name, const Location& at, const std::string& what, Problems& problems);
+
+/// Checks each `off` in `map`: it must switch off what an include, a variant or an override replaces by it, or one of
+/// `names`. `what` names the map in the message.
+void check_switched_off(const Node& map, const std::vector<std::string>& names, const std::string& what,
+                        Problems& problems);
+
+}  // namespace muro::host

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+#include "host/scenario/robot_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "host/names.hpp"
+#include "host/scenario/levels.hpp"
+#include "host/scenario/map_reader.hpp"
+#include "host/scenario/placement_reader.hpp"
+#include "host/scenario/shape_reader.hpp"
+#include "host/scenario/subsystem_reader.hpp"
+#include "host/scenario/variants.hpp"
+#include "muro/toolkit/did_you_mean.hpp"
+
+namespace muro::host {
+
+namespace {
+
+class RobotReader {
+ public:
+  RobotReader(const Node& robots, Problems& problems) : robots_(robots), problems_(problems) {
+    for (const auto& [name, robot] : robots.map) {
+      if (!robot.is_off()) robot_names_.push_back(name);
+      collect_subsystem_names(robot);
+      if (const Node* variants = robot.find("variants"))
+        for (const auto& [range, changes] : variants->map) collect_subsystem_names(changes);
+    }
+  }
+
+  std::vector<RobotTemplate> read() {
+    check_switched_off(robots_, robot_names_, "`robots`", problems_);
+    std::vector<RobotTemplate> all;
+    for (std::size_t i = 0; i < robots_.map.size(); ++i) {
+      const auto& [name, robot] = robots_.map[i];
+      if (robot.is_off() || !check_name(name, robots_.key_locations[i], "a robot", problems_)) continue;
+      all.push_back(read_template(name, robot));
+    }
+    return all;
+  }
+
+ private:
+  void collect_subsystem_names(const Node& robot) {
+    for (const auto& [key, value] : robot.map) {
+      const bool new_name = std::find(subsystem_names_.begin(), subsystem_names_.end(), key) == subsystem_names_.end();
+      if ((is_subsystem(value) || (value.is_off() && value.replaces)) && new_name) subsystem_names_.push_back(key);
+    }
+  }
+
+  RobotTemplate read_template(const std::string& name, const Node& node) {
+    MapReader map(node, "robot `" + name + "`", problems_);
+    RobotTemplate t;
+    t.name = name;
+    t.location = node.location;
+    read_body(map, node, t);
+    read_copies(map, node, t);
+    t.linear_velocity = map.vector("velocity", Vec3::Zero());
+    t.angular_velocity = map.vector("angular_velocity", Vec3::Zero());
+    read_joint_positions(map, t);
+    const Node& variants = map.map("variants");
+    if (node.kind == Node::Kind::map)
+      read_subsystems(map, read_variants(variants, map, t.count, subsystem_names_, problems_), t);
+    return t;
+  }
+
+  /// How many robots there are, and where.
+  void read_copies(MapReader& map, const Node& node, RobotTemplate& t) {
+    t.numbered = node.find("count") != nullptr;
+    t.count = int(map.integer("count", 1, 0, 1'000'000));
+    t.placement = read_placement(map, problems_);
+    const Placement& p = t.placement;
+    if (t.numbered || p.kind == Placement::Kind::random) return;
+    const std::size_t copies =
+        p.kind == Placement::Kind::grid ? std::size_t(p.columns) * std::size_t(p.rows) : p.poses.size();
+    t.numbered = copies > 1;
+    t.count = int(copies);
+  }
+
+  void read_joint_positions(MapReader& map, RobotTemplate& t) {
+    const Node& joints = map.map("joints");
+    for (std::size_t i = 0; i < joints.map.size(); ++i) {
+      const auto& [joint, value] = joints.map[i];
+      const auto position = as_number(value);
+      if (!position)
+        problems_.add(value.location, fmt::format("joint `{}` of {} must have a number as its position, not {}", joint,
+                                                  map.what(), quoted(value)));
+      t.joints.push_back({{joint, joints.key_locations[i]}, position.value_or(0)});
+    }
+  }
+
+  void read_body(MapReader& map, const Node& node, RobotTemplate& t) {
+    const Node* model = map.find("model");
+    if (model) {
+      t.from_world = map.text("model", "") == "world";
+      if (!t.from_world) t.model = resolve_path(model->location, map.text("model", ""));
+      t.location = model->location;
+    }
+    if (t.from_world)
+      for (const char* key : {"count", "place", "at"})
+        if (map.has(key))
+          map.problem(key, "is not allowed with `model: world`: the world file states the pose of the model");
+    std::string mesh;
+    t.shape = read_shape(map, mesh, problems_);
+    if (t.shape && (t.shape->kind == ShapeKind::plane || t.shape->kind == ShapeKind::mesh))
+      map.problem("shape", "must have a volume: box, sphere, cylinder or capsule; `plane` and `mesh` are for scenery");
+    t.mass = map.number("mass", 0, 1e-9, 1e9);
+    if (node.kind == Node::Kind::map) check_body(map, node, t);
+  }
+
+  /// A robot has a model, or a shape with a mass.
+  void check_body(MapReader& map, const Node& node, const RobotTemplate& t) {
+    const bool model = node.find("model") != nullptr;
+    if (model && t.shape)
+      map.problem("shape", "and `model` exclude each other: both say what it consists of, so drop one");
+    else if (!model && !t.shape)
+      problems_.add(node.location,
+                    fmt::format("{} needs a `model: FILE`, or a `shape` with a `mass`{}", map.what(),
+                                node.location.in_file() ? "" : did_you_mean(t.name, names_other_than(t.name))));
+    else if (model && map.has("mass"))
+      map.problem("mass", "belongs to a `shape`; a model states it itself");
+    else if (t.shape && !map.has("mass"))
+      problems_.add(node.location, map.what() + " needs a `mass` in kg");
+  }
+
+  std::vector<std::string> names_other_than(const std::string& name) const {
+    std::vector<std::string> names = robot_names_;
+    std::erase(names, name);
+    return names;
+  }
+
+  /// Every key that is not read yet must be a subsystem. Robots with the same variants share one list of subsystems.
+  void read_subsystems(const MapReader& map, const std::vector<Variant>& variants, RobotTemplate& t) {
+    const Node subsystems = subsystem_nodes(map);
+    check_switched_off(subsystems, subsystem_names_, map.what(), problems_);
+    std::map<std::vector<std::size_t>, std::vector<Subsystem>> cache;  // by the variants of a robot
+    for (int i = 0; i < t.count; ++i) {
+      std::vector<std::size_t> indices;
+      for (std::size_t v = 0; v < variants.size(); ++v)
+        if (variants[v].first <= i && i <= variants[v].last) indices.push_back(v);
+      auto entry = cache.find(indices);
+      if (entry == cache.end())
+        entry = cache.emplace(indices, subsystems_of(merged(subsystems, variants, indices), map.what())).first;
+      t.subsystems.push_back(entry->second);
+    }
+    if (t.count == 0) subsystems_of(subsystems, map.what());  // to find their mistakes
+  }
+
+  Node subsystem_nodes(const MapReader& map) {
+    Node nodes;
+    nodes.kind = Node::Kind::map;
+    for (const auto& [key, value] : map.unread()) {
+      const Location at = map.key_location(key);
+      if (is_subsystem(*value) || value->is_off())
+        nodes.child(key, at) = *value;
+      else if (value->kind == Node::Kind::map)
+        problems_.add(at, fmt::format("subsystem `{}` of {} needs `use: NAME`{}; `muro plugins list` shows the names",
+                                      key, map.what(), did_you_mean(key, template_keys)));
+      else
+        problems_.add(
+            at, fmt::format("{} has no key `{}`{}; allowed: {}, and subsystems {{use: NAME, ...}}", map.what(), key,
+                            did_you_mean(key, template_keys), comma_separated(template_keys)));
+    }
+    return nodes;
+  }
+
+  std::vector<Subsystem> subsystems_of(const Node& nodes, const std::string& owner) {
+    std::vector<Subsystem> all;
+    for (std::size_t i = 0; i < nodes.map.size(); ++i) {
+      const auto& [key, value] = nodes.map[i];
+      if (!is_subsystem(value) || !check_name(key, nodes.key_locations[i], "a subsystem", problems_)) continue;
+      if (has_levels(value))
+        for (Subsystem& s : read_levels(key, value, owner, problems_)) all.push_back(std::move(s));
+      else
+        all.push_back(read_subsystem(key, value, owner, problems_));
+    }
+    return all;
+  }
+
+  const Node& robots_;
+  Problems& problems_;
+  std::vector<std::string> robot_names_;
+  std::vector<std::string> subsystem_names_;  ///< of all robots
+};
+
+}  // namespace
+
+std::vector<RobotTemplate> read_robots(const Node& robots, Problems& problems) {
+  return RobotReader(robots, problems).read();
+}
+
+}  // namespace muro::host

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include "host/scenario/shape_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace muro::host {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+Shape read_mesh(MapReader& map, std::string& mesh, Problems& problems) {
+  Shape shape;
+  shape.kind = ShapeKind::mesh;
+  shape.size = map.vector("scale", Vec3::Ones());
+  const Location& at = map.find("mesh")->location;
+  mesh = resolve_path(at, map.text("mesh", ""));
+  std::error_code code;
+  if (!fs::is_regular_file(mesh, code)) problems.add(at, "mesh file " + mesh + " does not exist");
+  return shape;
+}
+
+/// `kind`: the key that names the geometry, "box".
+Shape read_geometry(MapReader& map, const std::string& kind, std::string& mesh, Problems& problems) {
+  if (kind == "sphere") return Shape::sphere(map.number(kind, 1, 1e-6, 1e6));
+  if (kind == "mesh") return read_mesh(map, mesh, problems);
+  const std::size_t length = kind == "box" ? 3 : 2;
+  const auto given = map.numbers(kind, {length});
+  const bool positive = given && std::none_of(given->begin(), given->end(), [](double x) { return x <= 0; });
+  if (given && !positive) map.problem(kind, "must be greater than 0");
+  const std::vector<double> v = positive ? *given : std::vector<double>(length, 1);
+  if (kind == "box") return Shape::box({v[0], v[1], v[2]});
+  return kind == "cylinder" ? Shape::cylinder(v[0], v[1]) : Shape::capsule(v[0], v[1]);
+}
+
+}  // namespace
+
+std::string resolve_path(const Location& at, const std::string& name) {
+  const fs::path file(name);
+  if (file.is_absolute() || !at.in_file()) return file.lexically_normal().string();
+  return (fs::path(at.file).parent_path() / file).lexically_normal().string();
+}
+
+std::optional<Shape> read_shape(MapReader& map, std::string& mesh, Problems& problems) {
+  const Node* n = map.find("shape");
+  if (!n) {
+    for (const char* key : {"friction", "restitution", "color"})
+      if (map.has(key)) map.problem(key, "belongs to a `shape`, which is missing; a model states it itself");
+    return std::nullopt;
+  }
+  Shape shape;
+  if (n->kind == Node::Kind::scalar && n->scalar == "plane") {
+    shape = Shape::plane();
+  } else if (n->kind != Node::Kind::map) {
+    map.problem("shape",
+                fmt::format("is {} but must be `plane` or one of: {{box: [x, y, z]}}, {{sphere: radius}}, {{cylinder: "
+                            "[radius, length]}}, {{capsule: [radius, length]}}, {{mesh: file}}",
+                            quoted(*n)));
+  } else {
+    MapReader geometry(*n, "`shape` of " + map.what(), problems);
+    if (const auto kind = geometry.one_of({"box", "sphere", "cylinder", "capsule", "mesh"})) {
+      shape = read_geometry(geometry, *kind, mesh, problems);
+      geometry.reject_unknown_keys();
+    }
+  }
+  shape.friction = map.number("friction", shape.friction, 0, 100);
+  shape.restitution = map.number("restitution", shape.restitution, 0, 1);
+  if (const auto c = map.numbers("color", {3, 4})) {
+    shape.color = {(*c)[0], (*c)[1], (*c)[2], c->size() == 4 ? (*c)[3] : 1.0};
+    shape.material_source = MaterialSource::model;
+  }
+  return shape;
+}
+
+}  // namespace muro::host

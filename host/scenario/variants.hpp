@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// Robots of a template whose subsystems differ:
+//
+//     variants: {"0-4": {motion: {use: motion.point}}, "7": {laser: off}}
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/scenario/map_reader.hpp"
+
+namespace muro::host {
+
+/// The keys of a robot template that are no subsystems.
+extern const std::vector<std::string> template_keys;
+
+/// Robots `first` to `last` of a template have these changes.
+struct Variant {
+  int first, last;
+  const Node* changes;
+};
+
+/// Reads `variants` of a template of `count` robots, whose other keys `robot` has read. `subsystem_names`: those of
+/// all robots, which may be switched off.
+std::vector<Variant> read_variants(const Node& variants, const MapReader& robot, int count,
+                                   const std::vector<std::string>& subsystem_names, Problems& problems);
+
+/// The subsystems of a template with the changes of some of its variants. `indices`: of these variants.
+Node merged(const Node& subsystems, const std::vector<Variant>& variants, const std::vector<std::size_t>& indices);
+
+}  // namespace muro::host

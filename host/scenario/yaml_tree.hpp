@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "host/scenario/node.hpp"
+
+namespace muro::host {
+
+/// Where a text comes from: lines and columns are part of locations in a file, but not on the command line.
+struct TextSource {
+  std::string name;
+  bool is_file;
+};
+
+/// Counts the values of a scenario. A short text can expand to very many by aliases of aliases and by files that are
+/// included many times.
+class ValueCount {
+ public:
+  /// Throws SetupError when there are more than a scenario may have.
+  void add(std::size_t values, const Location& at);
+
+ private:
+  std::size_t values_ = 0;
+};
+
+/// Parses one YAML document; includes are not resolved. Throws SetupError with file:line:column.
+Node parse_tree(const std::string& text, const TextSource& source, ValueCount& count);
+
+}  // namespace muro::host
