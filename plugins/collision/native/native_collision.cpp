@@ -96,11 +96,12 @@ std::size_t NativeCollision::signature_size(std::uint32_t robot) const {
   return std::size_t(words_of(int(index_->robots[robot].count), int(planes_.size())));
 }
 
-TransformedShape NativeCollision::placed(std::uint32_t collider) const {
+TransformedShape NativeCollision::transformed_shape(std::uint32_t collider) const {
   return transformed(shapes_[collider], *index_->colliders[collider].body_pose);
 }
 
-void NativeCollision::collide(const PlacedCollider& a, const PlacedCollider& b, std::vector<ContactPoint>& points) {
+void NativeCollision::collide(const TransformedCollider& a, const TransformedCollider& b,
+                              std::vector<ContactPoint>& points) {
   Manifold manifold;
   collide_shapes(a.shape, b.shape, manifold);
   points.assign(manifold.points, manifold.points + manifold.count);

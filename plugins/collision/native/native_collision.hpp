@@ -24,8 +24,8 @@ class NativeCollision final : public PairCollision {
   };
   struct Batch;
 
-  TransformedShape placed(std::uint32_t collider) const override;
-  void collide(const PlacedCollider& a, const PlacedCollider& b, std::vector<ContactPoint>& points) override;
+  TransformedShape transformed_shape(std::uint32_t collider) const override;
+  void collide(const TransformedCollider& a, const TransformedCollider& b, std::vector<ContactPoint>& points) override;
   void list_contacts(Range robots) override;
 
   void add_kernel_shapes();

@@ -40,7 +40,7 @@ double fcl_depth(const TransformedShape& a, const TransformedShape& b) {
   request.gjk_tolerance = 1e-10;
   fcl::CollisionResultd result;
   const auto first = object(a), second = object(b);
-  fcl::collide_shapes(&first, &second, request, result);
+  fcl::collide(&first, &second, request, result);
   double depth = 0;
   for (std::size_t i = 0; i < result.numContacts(); ++i)
     depth = std::max(depth, std::abs(result.getContact(i).penetration_depth));

@@ -83,8 +83,8 @@ class OdeNarrowPhase final : public contact_geometry::NarrowPhase {
                std::vector<EngineContact>& contacts) override {
     const bool as_polytope = kind_of(a) == ShapeKind::cylinder || kind_of(b) == ShapeKind::cylinder;
     dxGeom *const first = geom(0, a, as_polytope), *const second = geom(1, b, as_polytope);
-    place(first, at_a);
-    place(second, at_b);
+    set_pose(first, at_a);
+    set_pose(second, at_b);
     const int count = dCollide(first, second, int(contacts_.size()), contacts_.data(), sizeof contacts_[0]);
     // of a polytope and a mesh ODE does not tell the triangle: its number is one of this query
     const bool names_triangles = plans_[b]->mesh && dGeomGetClass(first) != dConvexClass;
@@ -101,7 +101,7 @@ class OdeNarrowPhase final : public contact_geometry::NarrowPhase {
   }
 
  private:
-  static void place(dxGeom* geom, const Pose& pose) {
+  static void set_pose(dxGeom* geom, const Pose& pose) {
     if (dGeomGetClass(geom) == dPlaneClass) {
       const Vec3 n = pose.orientation * Vec3::UnitZ();
       dGeomPlaneSetParams(geom, n.x(), n.y(), n.z(), n.dot(pose.position));

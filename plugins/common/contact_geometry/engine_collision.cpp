@@ -11,7 +11,7 @@ namespace {
 /// Whether two shapes collide alike, apart from their poses.
 bool same_geometry(const Shape& a, const Shape& b) { return a.kind == b.kind && a.mesh == b.mesh && a.size == b.size; }
 
-bool is_plane(const PlacedCollider& c) { return c.shape.kind == ShapeKind::plane; }
+bool is_plane(const TransformedCollider& c) { return c.shape.kind == ShapeKind::plane; }
 
 /// Whether all of the box is on the free side of the plane.
 bool is_clear(const Aabb& box, const TransformedShape& plane) {
@@ -105,13 +105,13 @@ void EngineCollision::start() {
   PairCollision::start();
 }
 
-TransformedShape EngineCollision::placed(std::uint32_t collider) const {
+TransformedShape EngineCollision::transformed_shape(std::uint32_t collider) const {
   return collision_object(geometries_[by_collider_[collider].usual], index_->colliders[collider].pose()).shape;
 }
 
 /// Of two exact meshes that of a robot is taken as its hull; with a plane every mesh is.
-void EngineCollision::choose_geometries(const PlacedCollider& a, const PlacedCollider& b, std::uint32_t& number_a,
-                                        std::uint32_t& number_b) const {
+void EngineCollision::choose_geometries(const TransformedCollider& a, const TransformedCollider& b,
+                                        std::uint32_t& number_a, std::uint32_t& number_b) const {
   const GeometryNumbers &of_a = by_collider_[a.number], &of_b = by_collider_[b.number];
   number_a = of_a.usual, number_b = of_b.usual;
   if (is_exact_mesh(number_a) && (is_exact_mesh(number_b) || is_plane(b))) {
@@ -122,11 +122,11 @@ void EngineCollision::choose_geometries(const PlacedCollider& a, const PlacedCol
   }
 }
 
-void EngineCollision::collide(const PlacedCollider& first, const PlacedCollider& second,
+void EngineCollision::collide(const TransformedCollider& first, const TransformedCollider& second,
                               std::vector<ContactPoint>& points) {
   if (is_plane(second) ? is_clear(first.bounds, second.shape) : is_plane(first) && is_clear(second.bounds, first.shape))
     return;
-  const PlacedCollider *a = &first, *b = &second;
+  const TransformedCollider *a = &first, *b = &second;
   std::uint32_t number_a = none, number_b = none;
   choose_geometries(*a, *b, number_a, number_b);
   if (number_a == none || number_b == none) return;

@@ -33,15 +33,15 @@ class EngineCollision : public PairCollision {
   };
   struct Scratch;
 
-  TransformedShape placed(std::uint32_t collider) const override;
-  void collide(const PlacedCollider& a, const PlacedCollider& b, std::vector<ContactPoint>& points) override;
+  TransformedShape transformed_shape(std::uint32_t collider) const override;
+  void collide(const TransformedCollider& a, const TransformedCollider& b, std::vector<ContactPoint>& points) override;
 
   void add_geometries(Connector& c, ObjectId body, const Shape& shape, bool exact);
   void add_mesh(const std::string& path, const Shape& shape, bool exact, GeometryNumbers& numbers);
   std::uint32_t add_geometry(const CollisionGeometry& geometry);
   const mesh::Hull* hull_if_any(const std::string& path, const Vec3& scale);
   bool is_exact_mesh(std::uint32_t number) const { return geometries_[number].exact_mesh != nullptr; }
-  void choose_geometries(const PlacedCollider& a, const PlacedCollider& b, std::uint32_t& number_a,
+  void choose_geometries(const TransformedCollider& a, const TransformedCollider& b, std::uint32_t& number_a,
                          std::uint32_t& number_b) const;
 
   std::unique_ptr<Engine> engine_;

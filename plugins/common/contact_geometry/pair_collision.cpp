@@ -72,7 +72,7 @@ void PairCollision::start() {
     }
     const auto number = std::uint32_t(scenery_.size());
     if (is_plane) planes_.push_back(number);
-    scenery_.push_back(place(number));
+    scenery_.push_back(transformed_collider(number));
     bounds.push_back(scenery_.back().bounds);
   }
   overlaps_.start(*index_, std::move(bounds));
@@ -95,8 +95,8 @@ bool PairCollision::lists_scenery(const Robot& robot) const {
   return robot.lists_all || contact_algorithm_resolves(*robot.world, kinematic_world);
 }
 
-PlacedCollider PairCollision::place(std::uint32_t collider) const {
-  const TransformedShape shape = placed(collider);
+TransformedCollider PairCollision::transformed_collider(std::uint32_t collider) const {
+  const TransformedShape shape = transformed_shape(collider);
   return {&index_->colliders[collider], collider, shape, bounds_of(shape)};
 }
 
@@ -167,7 +167,7 @@ void PairCollision::add_robots(std::uint32_t robot, const OverlapCache::Overlaps
     const RobotColliders& theirs = index_->robots[r];
     for (std::uint32_t k = theirs.first; k < theirs.first + theirs.count; ++k) {
       if (!has_plane && !ball(k).overlaps(candidates.bounds)) continue;
-      const PlacedCollider collider = place(k);
+      const TransformedCollider collider = transformed_collider(k);
       if (has_plane || collider.bounds.overlaps(candidates.bounds))
         candidates.others.push_back({collider, precedes(r, robot), has_list});
     }
@@ -181,7 +181,8 @@ void PairCollision::list_pairs(std::uint32_t robot, Candidates& candidates) {
   auto& [bounds, own, others, robots, points] = candidates;
   own.clear();
   const RobotColliders& colliders = index_->robots[robot];
-  for (std::uint32_t k = colliders.first; k < colliders.first + colliders.count; ++k) own.push_back(place(k));
+  for (std::uint32_t k = colliders.first; k < colliders.first + colliders.count; ++k)
+    own.push_back(transformed_collider(k));
   for (auto body = own.begin(), body_end = body; body != own.end(); body = body_end) {
     body_end = end_of_body(body, own.end());
     for (auto other = others.begin(), other_end = other; other != others.end(); other = other_end) {
@@ -192,8 +193,8 @@ void PairCollision::list_pairs(std::uint32_t robot, Candidates& candidates) {
   }
 }
 
-void PairCollision::list_pair(const PlacedCollider& own, const Candidates::Other& other, const ListOut<Contact>& list,
-                              std::vector<ContactPoint>& points) {
+void PairCollision::list_pair(const TransformedCollider& own, const Candidates::Other& other,
+                              const ListOut<Contact>& list, std::vector<ContactPoint>& points) {
   // A plane of a robot is touched by those that have a list themselves.
   if (own.shape.kind == ShapeKind::plane && (!other.has_list || other.shape.kind == ShapeKind::plane)) return;
   if (!own.bounds.overlaps(other.bounds)) return;

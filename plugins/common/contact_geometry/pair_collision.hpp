@@ -18,7 +18,7 @@ inline constexpr PropertyUse collision_reads[] = {
 inline constexpr PropertyUse collision_writes[] = {{"contacts", "list on the base of every robot that forces move"}};
 
 /// A collider at its present pose.
-struct PlacedCollider {
+struct TransformedCollider {
   const Collider* collider = nullptr;
   std::uint32_t number = 0;  ///< in SceneIndex::colliders
   TransformedShape shape;    ///< of a mesh: its bounding box
@@ -27,15 +27,15 @@ struct PlacedCollider {
 
 /// What a robot may touch at present. Reused, so that it stops allocating.
 struct Candidates {
-  struct Other : PlacedCollider {
+  struct Other : TransformedCollider {
     bool precedes = false;  ///< its robot has the lower order key, so the pair is computed from its side
     bool has_list = false;  ///< its robot lists the contact too
   };
-  Aabb bounds;                        ///< of the robot
-  std::vector<PlacedCollider> own;    ///< bodies in the order of the model, shapes in the order of the body
-  std::vector<Other> others;          ///< scenery as declared, then robots by order key; bodies side by side
-  std::vector<std::uint32_t> robots;  ///< those of `others`
-  std::vector<ContactPoint> points;   ///< of one pair
+  Aabb bounds;                           ///< of the robot
+  std::vector<TransformedCollider> own;  ///< bodies in the order of the model, shapes in the order of the body
+  std::vector<Other> others;             ///< scenery as declared, then robots by order key; bodies side by side
+  std::vector<std::uint32_t> robots;     ///< those of `others`
+  std::vector<ContactPoint> points;      ///< of one pair
 };
 
 /// A contact of two shapes without its point, normal and depth.
@@ -69,9 +69,10 @@ class PairCollision : public Algorithm {
   };
 
   /// The shape of a collider at its present pose. [any thread]
-  virtual TransformedShape placed(std::uint32_t collider) const = 0;
+  virtual TransformedShape transformed_shape(std::uint32_t collider) const = 0;
   /// Adds the points in which two colliders overlap, whose bounds do; the normals point from `b` to `a`. [any thread]
-  virtual void collide(const PlacedCollider& a, const PlacedCollider& b, std::vector<ContactPoint>& points) = 0;
+  virtual void collide(const TransformedCollider& a, const TransformedCollider& b,
+                       std::vector<ContactPoint>& points) = 0;
   /// Lists the contacts of all robots of a block that have a list.
   virtual void list_contacts(Range robots);
 
@@ -85,20 +86,20 @@ class PairCollision : public Algorithm {
   bool lists_scenery(const Robot& robot) const;
 
   In<SceneIndex> index_;
-  std::vector<Robot> robots_;            ///< by number
-  std::vector<PlacedCollider> scenery_;  ///< by collider
-  std::vector<std::uint32_t> planes_;    ///< colliders of the scenery
+  std::vector<Robot> robots_;                 ///< by number
+  std::vector<TransformedCollider> scenery_;  ///< by collider
+  std::vector<std::uint32_t> planes_;         ///< colliders of the scenery
   bool robots_have_planes_ = false;
   OverlapCache overlaps_;
 
  private:
-  PlacedCollider place(std::uint32_t collider) const;
+  TransformedCollider transformed_collider(std::uint32_t collider) const;
   Aabb ball(std::uint32_t collider) const;
   bool precedes(std::uint32_t a, std::uint32_t b) const;
   bool may_touch(std::uint32_t robot, std::uint32_t other, const Aabb& bounds) const;
   void add_scenery(const OverlapCache::Overlaps& overlaps, Candidates& candidates) const;
   void add_robots(std::uint32_t robot, const OverlapCache::Overlaps& overlaps, Candidates& candidates) const;
-  void list_pair(const PlacedCollider& own, const Candidates::Other& other, const ListOut<Contact>& list,
+  void list_pair(const TransformedCollider& own, const Candidates::Other& other, const ListOut<Contact>& list,
                  std::vector<ContactPoint>& points);
 
   bool is_needed_ = false;

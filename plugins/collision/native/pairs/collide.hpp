@@ -2,8 +2,8 @@
 // Where two shapes overlap: one function per pair of kinds, and the switch between them.
 //
 // Every function takes the shapes in the order of its name and *adds* to an empty manifold. The normal
-// points from second to first. The depth of the deepest point is the least distance by which the first
-// shape must be moved, in any direction, to be clear of the second (except against planes and in the inner
+// points from second to first. The depth of the deepest point is the penetration depth: the length
+// of the shortest translation of the first shape that separates the two (except against planes and in the inner
 // points of a manifold, where it is the overlap at that point). No state, no allocation; equal input gives
 // equal bits.
 #pragma once

@@ -5,7 +5,7 @@
 
 namespace muro::native {
 
-/// How far the first of two shapes must go along the unit vector n to be clear of the second:
+/// How far the first of two shapes must move along the unit vector n to be clear of the second:
 ///
 ///     h(n) = n . offset + sum_k half_k |n . axis_k| + sum_j radius_j |n x disc_j|      [+ ball]
 ///
@@ -14,7 +14,7 @@ namespace muro::native {
 /// convex and homogeneous; the shapes are apart when h(n) + ball <= 0 for some n, and otherwise the least
 /// h(n) + ball over all unit vectors is the penetration depth.
 struct DepthFunction {
-  const TransformedShape &first, &second;  ///< as they were given
+  const TransformedShape &first, &second;  ///< as given
   Vec3 offset;                             ///< m, from the centre of the first to that of the second
   Vec3 axis[4];
   double half[4];

@@ -93,14 +93,14 @@ struct Simplex {
 }  // namespace
 
 Separation separation(const DepthFunction& h) {
-  constexpr int most_rounds = 64;
+  constexpr int max_rounds = 64;
   constexpr double exact = 1e-14, gap = 1e-13;  // relative: of the squared distance, of the size
   Simplex simplex;
   Vec3 v = h.offset.squaredNorm() > 0 ? h.offset : Vec3(Vec3::UnitX());
   v = h.support(-v);
   simplex.keep(v);
   double largest2 = v.squaredNorm();
-  for (int round = 0; round < most_rounds; ++round) {
+  for (int round = 0; round < max_rounds; ++round) {
     const double v2 = v.squaredNorm();
     if (v2 <= gap * gap * largest2) return {Relation::inside, Vec3::UnitZ()};
     const Vec3 w = h.support(-v);

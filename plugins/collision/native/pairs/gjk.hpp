@@ -6,14 +6,14 @@
 namespace muro::native {
 
 enum class Relation {
-  apart,   ///< farther than the ball reaches
-  near,    ///< the ball reaches over the gap; `direction` is where the depth function is least
+  apart,   ///< the distance is larger than the ball
+  near,    ///< the distance is less than the ball; `direction` is near the minimum of the depth function
   inside,  ///< even without the ball they overlap, or touch within rounding
 };
 
 struct Separation {
   Relation relation;
-  Vec3 direction;  ///< unit, the last estimate of the direction of least depth; only with `near`
+  Vec3 direction;  ///< unit, the last estimate of that direction; only with `near`
 };
 
 /// Whether two shapes are apart: the distance of the origin from their Minkowski difference.

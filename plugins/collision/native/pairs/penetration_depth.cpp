@@ -35,14 +35,18 @@ double inscribed_radius(const TransformedShape& shape, const Vec3& point) {
   return std::min(shape.half.z() - std::abs(p.z()), shape.radius() - std::sqrt(p.x() * p.x() + p.y() * p.y()));
 }
 
+struct Strip;
+struct OtherSegments;
+
+/// The minimum of the depth function that is known so far, and the search for a lower one.
 struct Search {
   const DepthFunction& h;
-  double least = std::numeric_limits<double>::infinity();
+  double min_depth = std::numeric_limits<double>::infinity();
   Vec3 normal = Vec3::UnitZ();
 
   void consider(const Vec3& n, double value) {
-    if (value >= least) return;
-    least = value;
+    if (value >= min_depth) return;
+    min_depth = value;
     normal = n;
   }
   void consider(const Vec3& n) { consider(n, h(n)); }
@@ -52,31 +56,39 @@ struct Search {
   /// False: a face separates the shapes.
   bool flat_faces() {
     for (int j = 0; j < h.discs; ++j) consider_axis(h.disc[j]);
-    if (least + h.ball <= 0) return false;
+    if (min_depth + h.ball <= 0) return false;
     for (int k = 0; k < h.segments; ++k)
       for (int m = k + 1; m < h.segments; ++m) {
         const Vec3 n = h.axis[k].cross(h.axis[m]);
         const double sine2 = n.squaredNorm();
         if (sine2 > 1e-20) consider_axis(n / std::sqrt(sine2));
-        if (least + h.ball <= 0) return false;
+        if (min_depth + h.ball <= 0) return false;
       }
     return true;
   }
 
-  /// Whether nothing less can be found: a ball of radius `least` about a point of the one shape lies in the other, and
-  /// so far at least they must go. Not all least depths can be proven so, but most where a face is touched.
-  bool is_least() const {
-    const double reach = least * (1 - 1e-9);
+  /// Whether no depth is less: a ball of radius `min_depth` about a point of the one shape lies in the other, which
+  /// must move by that much in any direction. Not every minimum can be proven so, but most where a face is touched.
+  bool is_minimum() const {
+    const double reach = min_depth * (1 - 1e-9);
     return h.ball == 0 && (inscribed_radius(h.first, support_point(h.second, normal)) >= reach ||
                            inscribed_radius(h.second, support_point(h.first, -normal)) >= reach);
   }
 
   void normals_across(int segment);
+  void search_strip(const Strip& strip, const OtherSegments& others, const Vec2& offset, double along, double reach);
   void around_corners(const Vec3& a, const Vec3& b, const Vec2& offset, const Vec2* edges, int count);
   bool newton(const Vec3& n, Vec3& step) const;
   void descend(Vec3 n);
   void rims();
   void triangle(const RimPatch& patch, const Vec3& a, const Vec3& b, const Vec3& c);
+};
+
+/// The segments but one, seen along that one: their half vectors across it, and their extents along it.
+struct OtherSegments {
+  Vec2 across[3];
+  double along[3];
+  int count = 0;
 };
 
 /// h on the normals n = x a + y b at right angles to one segment, where no kink lies between p and q:
@@ -85,12 +97,12 @@ struct Strip {
   Vec3 a, b;
   double radius, flat, constant;
 
-  /// Whether there may be a minimum not above `most` in the quadrant of m. There the farthest point of the strip,
+  /// Whether there may be a minimum not above `bound` in the quadrant of m. There the farthest point of the strip,
   /// d + radius * (a point of an ellipse) + constant * n, is n times the minimum.
-  bool may_hold_minimum(const Vec2& d, const Vec2& m, double most) const {
+  bool may_hold_minimum(const Vec2& d, const Vec2& m, double bound) const {
     const double x = m.x() < 0 ? d.x() : -d.x(), y = -d.y(), wide = radius * std::sqrt(flat);
-    if (std::min(x, y) < -most || x > wide + constant + most || y > radius + constant + most) return false;
-    return constant > 0 || std::abs(std::sqrt(flat * y * y + x * x) - wide) <= most;
+    if (std::min(x, y) < -bound || x > wide + constant + bound || y > radius + constant + bound) return false;
+    return constant > 0 || std::abs(std::sqrt(flat * y * y + x * x) - wide) <= bound;
   }
 
   double root(const Vec2& m) const { return std::sqrt(m.y() * m.y() + flat * m.x() * m.x()); }
@@ -103,7 +115,7 @@ struct Strip {
     const Vec2 m = (p + q).normalized();
     const double r = root(m), value = d.dot(m) + radius * r, by = slope(d, m, r), cosine = m.dot(p);
     const double level = value > 0 ? value * cosine : value;
-    if (level - std::abs(by) * std::abs(cross(m, p)) + constant >= s.least) return;
+    if (level - std::abs(by) * std::abs(cross(m, p)) + constant >= s.min_depth) return;
     if (cosine < 0.999) {
       search(s, d, sign, p, m);
       search(s, d, sign, m, q);
@@ -155,44 +167,45 @@ void Search::normals_across(int segment) {
   strip.b = u.cross(strip.a);
 
   const Vec2 offset(strip.a.dot(h.offset), strip.b.dot(h.offset));
-  Vec2 edges[3];
-  double along[3];  // u
-  int count = 0;
+  OtherSegments others;
   for (int k = 0; k < h.segments; ++k) {
     if (k == segment) continue;
-    along[count] = h.half[k] * u.dot(h.axis[k]);
-    edges[count++] = h.half[k] * Vec2(strip.a.dot(h.axis[k]), strip.b.dot(h.axis[k]));
+    others.along[others.count] = h.half[k] * u.dot(h.axis[k]);
+    others.across[others.count++] = h.half[k] * Vec2(strip.a.dot(h.axis[k]), strip.b.dot(h.axis[k]));
   }
-  if (!bent) return around_corners(strip.a, strip.b, offset, edges, count);
+  if (!bent) return around_corners(strip.a, strip.b, offset, others.across, others.count);
+  search_strip(strip, others, offset, u.dot(h.offset), reach);
+}
 
-  // The upper half circle between kinks (normals of an edge) and the axes of the ellipse; the lower half is
-  // its mirror image with -offset.
-  Vec2 bounds[6] = {{1, 0}, {0, 1}, {-1, 0}};  // in order of their angle
-  int ends = 3;
-  for (int k = 0; k < count; ++k) {
-    const double length = edges[k].norm();
+/// The upper half circle between kinks (normals of an edge) and the axes of the ellipse, one interval after the other;
+/// the lower half is its mirror image with -offset. `along`: of the offset, along the segment.
+void Search::search_strip(const Strip& strip, const OtherSegments& others, const Vec2& offset, double along,
+                          double reach) {
+  Vec2 bounds[6] = {{1, 0}, {0, 1}, {-1, 0}};  // of the intervals, in order of their angle
+  int count = 3;
+  for (int k = 0; k < others.count; ++k) {
+    const double length = others.across[k].norm();
     if (length < 1e-12 * h.half[0]) continue;
-    const Vec2 kink = left_of(edges[k]) / length;
+    const Vec2 kink = left_of(others.across[k]) / length;
     const Vec2 upper = kink.y() < 0 ? Vec2(-kink) : kink;
-    int slot = ends++;
-    for (; slot > 1 && bounds[slot - 1].x() < upper.x(); --slot) bounds[slot] = bounds[slot - 1];
-    bounds[slot] = upper;
+    int i = count++;
+    for (; i > 1 && bounds[i - 1].x() < upper.x(); --i) bounds[i] = bounds[i - 1];
+    bounds[i] = upper;
   }
-  for (int i = 0; i + 1 < ends; ++i) {
+  for (int i = 0; i + 1 < count; ++i) {
     const Vec2 &p = bounds[i], &q = bounds[i + 1];
     if (cross(p, q) < 1e-12) continue;
     const Vec2 m = p + q;
     Vec2 corner = Vec2::Zero();
     double corner_along = 0;
-    for (int k = 0; k < count; ++k) {
-      const double side = std::copysign(1.0, edges[k].dot(m));
-      corner += side * edges[k];
-      corner_along += side * along[k];
+    for (int k = 0; k < others.count; ++k) {
+      const double side = std::copysign(1.0, others.across[k].dot(m));
+      corner += side * others.across[k];
+      corner_along += side * others.along[k];
     }
     for (const double sign : {1.0, -1.0}) {
       const Vec2 d = corner + sign * offset;
-      if (std::abs(corner_along + sign * u.dot(h.offset)) <= reach &&
-          strip.may_hold_minimum(d, m, std::max(least, 0.0)))
+      if (std::abs(corner_along + sign * along) <= reach && strip.may_hold_minimum(d, m, std::max(min_depth, 0.0)))
         strip.search(*this, d, sign, p, q);
     }
   }
@@ -212,7 +225,7 @@ void Search::around_corners(const Vec3& a, const Vec3& b, const Vec2& offset, co
 
 /// Newton's step on the unit sphere from n, in its tangent plane. With t = disc x n / |disc x n| a disc bends h
 /// by radius / |disc x n| along t; moving on the sphere takes h itself away. False: h has no minimum nearby,
-/// and the step is one downhill.
+/// and the step is one along the negative gradient.
 bool Search::newton(const Vec3& n, Vec3& step) const {
   const Vec3 a = perpendicular(n), b = n.cross(a);
   Vec3 gradient = h.offset;
@@ -238,7 +251,7 @@ bool Search::newton(const Vec3& n, Vec3& step) const {
   return false;
 }
 
-/// Downhill from n by Newton's method.
+/// Descends from n by Newton's method.
 void Search::descend(Vec3 n) {
   double value = h(n);
   for (int round = 0; round < 20; ++round) {
@@ -271,12 +284,12 @@ void Search::rims() {
   for (const double s0 : {1.0, -1.0})
     for (const double s1 : {1.0, -1.0}) {
       const RimPatch patch(h, s0, s1);
-      if (patch.minima_are_near_axes(sine, least)) {
-        if (const auto start = patch.minimum_near_axes(sine, least)) descend(*start);
+      if (patch.minima_are_near_axes(sine, min_depth)) {
+        if (const auto start = patch.minimum_near_axes(sine, min_depth)) descend(*start);
         continue;
       }
       for (const double up : {1.0, -1.0})
-        if (patch.may_hold_minimum(up * w, sine, least)) triangle(patch, -s1 * e0, s0 * e1, up * w);
+        if (patch.may_hold_minimum(up * w, sine, min_depth)) triangle(patch, -s1 * e0, s0 * e1, up * w);
     }
 }
 
@@ -285,7 +298,7 @@ void Search::rims() {
 void Search::triangle(const RimPatch& patch, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 m = (a + b + c).normalized();
   const Vec3 p = patch.support(m);
-  if (std::min({p.dot(a), p.dot(b), p.dot(c)}) >= std::max(least, 0.0)) return;
+  if (std::min({p.dot(a), p.dot(b), p.dot(c)}) >= std::max(min_depth, 0.0)) return;
   const double wide = std::sqrt(std::max({(a - m).squaredNorm(), (b - m).squaredNorm(), (c - m).squaredNorm()}));
   const double tip = std::sqrt(std::min(m.cross(h.disc[0]).squaredNorm(), m.cross(h.disc[1]).squaredNorm()));
   if (wide > 1e-3 && wide > std::min(0.15, 0.5 * tip)) {
@@ -306,14 +319,14 @@ Penetration penetration_depth(const DepthFunction& h) {
   Search search{h};
   if (!search.flat_faces()) return {};
   if (h.discs > 0)  // otherwise all faces are flat
-    for (int k = h.segments; k-- > 0 && !search.is_least();) search.normals_across(k);
-  if (!search.is_least()) {
+    for (int k = h.segments; k-- > 0 && !search.is_minimum();) search.normals_across(k);
+  if (!search.is_minimum()) {
     const Separation cores = separation(h);
     if (cores.relation == Relation::apart) return {};
     if (cores.relation == Relation::near) search.descend(cores.direction);
     if (cores.relation == Relation::inside && h.discs == 2) search.rims();
   }
-  return {search.least + h.ball, search.normal};
+  return {search.min_depth + h.ball, search.normal};
 }
 
 }  // namespace muro::native

@@ -10,7 +10,7 @@ struct Penetration {
   Vec3 normal;       ///< unit, from second to first: the direction of the minimum translation
 };
 
-/// The least value of the depth function over all directions, and where it is.
+/// The minimum of the depth function over all directions.
 ///
 /// The Minkowski difference is a sum of segments and discs. Its surface consists of flat faces (two segments,
 /// or a disc), strips bent one way (a segment and an arc, or an arc and a corner) and, with two discs,
@@ -22,8 +22,8 @@ struct Penetration {
 ///    branch and bound: convexity gives h(m rotated by d) >= h(m) cos d - |h'(m)| sin d;
 ///  - bent both ways: branch and bound on the sphere by the same inequality, then Newton's method.
 ///
-/// Least depths where a face is touched are mostly found first, and can be proven: a ball of that radius about a point
-/// of the one shape, its outermost, lies in the other. Then nothing further is searched.
+/// A minimum at the normal of a face is mostly found first, and can be proven: a ball of that radius about the support
+/// point of one shape lies in the other. Then the search ends.
 ///
 /// Where the cores of capsules are apart but their radius closes the gap, the minimum is the only one, and Newton's
 /// method goes to it from the direction that GJK gives.

@@ -14,7 +14,7 @@ namespace muro::native {
 ///     h(n) = n . offset + radius_0 |n x disc_0| + radius_1 |n x disc_1|.
 ///
 /// Where it has a minimum m, the farthest point is p = offset + radius_0 c_0 + radius_1 c_1 = m n, with units c_j at
-/// right angles to disc_j, towards n. `most`, m, is a bound of minima that are of interest; none is below 0.
+/// right angles to disc_j, towards n. `bound`, m, limits the minima that are of interest; none is below 0.
 class RimPatch {
  public:
   /// `s0`, `s1`: the signs of n . disc_0 and n . disc_1.
@@ -28,37 +28,37 @@ class RimPatch {
   }
 
   /// Whether there may be a minimum on the side of w, which is at right angles to both axes; `sine`: of the angle
-  /// between them. No component of p is above `most`: those along disc_0 and disc_1 bound the angles of c_1 and c_0
+  /// between them. No component of p is above `bound`: those along disc_0 and disc_1 bound the angles of c_1 and c_0
   /// with the plane of both axes, and that along w holds the angles against each other.
-  bool may_hold_minimum(const Vec3& w, double sine, double most) const {
-    const Interval up0 = rise(offset_.dot(h_.disc[1]), h_.radius[0] * sine, most),
-                   up1 = rise(offset_.dot(h_.disc[0]), h_.radius[1] * sine, most);
+  bool may_hold_minimum(const Vec3& w, double sine, double bound) const {
+    const Interval up0 = rise(offset_.dot(h_.disc[1]), h_.radius[0] * sine, bound),
+                   up1 = rise(offset_.dot(h_.disc[0]), h_.radius[1] * sine, bound);
     if (up0.low > up0.high || up1.low > up1.high) return false;
     const double along = -offset_.dot(w);
-    return along >= h_.radius[0] * up0.low + h_.radius[1] * up1.low - most &&
-           along <= h_.radius[0] * up0.high + h_.radius[1] * up1.high + most;
+    return along >= h_.radius[0] * up0.low + h_.radius[1] * up1.low - bound &&
+           along <= h_.radius[0] * up0.high + h_.radius[1] * up1.high + bound;
   }
 
   /// Axes nearly parallel, and n near them, and shapes that overlap little: whether all minima lie within a small angle
   /// of the axes. There h is convex over the plane that touches the sphere, so there is one.
-  bool minima_are_near_axes(double sine, double most) const {
+  bool minima_are_near_axes(double sine, double bound) const {
     if (s_[0] * s_[1] * h_.disc[0].dot(h_.disc[1]) < 0 || sine > 0.1) return false;
-    if (most > 0.1 * std::min(h_.radius[0], h_.radius[1])) return false;
+    if (bound > 0.1 * std::min(h_.radius[0], h_.radius[1])) return false;
     // At the angle x from disc_0 h is at least this. The sum is concave where it is positive, so the ends decide.
     const double depth = s_[0] * offset_.dot(h_.disc[0]), beside = (offset_ - s_[0] * depth * h_.disc[0]).norm();
     const double at_0 = depth - h_.radius[1] * sine,
                  at_90 = h_.radius[0] + h_.radius[1] * std::sqrt(1 - sine * sine) - beside;
-    return at_0 * std::cos(small) + at_90 * std::sin(small) >= most && at_90 >= most;
+    return at_0 * std::cos(small) + at_90 * std::sin(small) >= bound && at_90 >= bound;
   }
 
-  /// Where to look for that one; none when it is at an axis, or above `most`.
-  std::optional<Vec3> minimum_near_axes(double sine, double most) const {
+  /// Where to look for that one; none when it is at an axis, or above `bound`.
+  std::optional<Vec3> minimum_near_axes(double sine, double bound) const {
     const Vec3 up = s_[0] * h_.disc[0], second = s_[1] * h_.disc[1];
     const double r0 = h_.radius[0], r1 = h_.radius[1];
-    if (offset_.dot(up) * std::cos(small) - r0 * std::sin(small) > most) return {};
+    if (offset_.dot(up) * std::cos(small) - r0 * std::sin(small) > bound) return {};
     // At an axis h has the tip of a cone. It is the minimum where the rest of h falls less than the cone rises.
-    const Vec3 fall0 = fall(up, second, r1 / sine), fall1 = fall(second, up, r0 / sine);
-    const double steep0 = fall0.norm(), steep1 = fall1.norm();
+    const Vec3 descent0 = descent(up, second, r1 / sine), descent1 = descent(second, up, r0 / sine);
+    const double steep0 = descent0.norm(), steep1 = descent1.norm();
     if (steep0 <= r0 || steep1 <= r1) return {};
     // Otherwise, were it 0, it would be where r0 c_0 + r1 c_1 = -offset, seen along the axes.
     const Vec3 to = offset_.dot(up) * up - offset_, tip = second / second.dot(up) - up;
@@ -72,8 +72,8 @@ class RimPatch {
     }
     // Or it is near an axis from which it falls only just.
     const double over0 = (steep0 - r0) / r1, over1 = (steep1 - r1) / r0;
-    if (over0 < over1) return (up + (sine * std::min(0.1, over0) / steep0) * fall0).normalized();
-    return (second + (sine * std::min(0.1, over1) / steep1) * fall1).normalized();
+    if (over0 < over1) return (up + (sine * std::min(0.1, over0) / steep0) * descent0).normalized();
+    return (second + (sine * std::min(0.1, over1) / steep1) * descent1).normalized();
   }
 
  private:
@@ -81,14 +81,16 @@ class RimPatch {
   struct Interval {
     double low, high;
   };
-  /// Downhill from the axis `at`, without its own cone. `reach`: radius of the other by the sine between both.
-  Vec3 fall(const Vec3& at, const Vec3& other, double reach) const {
+  /// The negative gradient at the axis `at`, without its own cone. `reach`: radius of the other by the sine between
+  /// both.
+  Vec3 descent(const Vec3& at, const Vec3& other, double reach) const {
     const Vec3 p = offset_ + reach * (at - at.dot(other) * other);
     return at.dot(p) * at - p;
   }
-  /// The sines of angles whose cosines make |offset + reach * cosine| <= most.
-  static Interval rise(double offset, double reach, double most) {
-    const double nearest = std::max(0.0, std::abs(offset) - most) / reach, farthest = (std::abs(offset) + most) / reach;
+  /// The sines of angles whose cosines make |offset + reach * cosine| <= bound.
+  static Interval rise(double offset, double reach, double bound) {
+    const double nearest = std::max(0.0, std::abs(offset) - bound) / reach,
+                 farthest = (std::abs(offset) + bound) / reach;
     if (nearest > 1 + 1e-9) return {1, 0};
     const auto sine_of = [](double cosine) { return std::sqrt(std::max(0.0, 1 - cosine * cosine)); };
     return {sine_of(farthest), sine_of(nearest)};
