@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Control code of the example of levels: drives to the origin and stays on it, whatever stands in the way.
+ * Control code of the example of levels: drives to the origin and stays there, without regard to obstacles.
  *
  *   speed=0.4   m/s, at most
  *   stop=0.05   m from the origin at which it rests
@@ -19,13 +19,13 @@ typedef struct {
 static const muro_port inputs[] = {{"pose", "m", 7, 0}};
 static const muro_port outputs[] = {{"command.twist", "m/s, rad/s", 6, 0}};
 
-/* "name=value" sets *number; returns 1 when `argument` has this name and a value from 0 to `most`. */
-static int sets(const char* argument, const char* name, double most, double* number) {
+/* "name=value" sets *number; returns 1 when `argument` has this name and a value from 0 to `max`. */
+static int parse_argument(const char* argument, const char* name, double max, double* number) {
   const size_t length = strlen(name);
   if (strncmp(argument, name, length) != 0 || argument[length] != '=') return 0;
   char* end;
   const double value = strtod(argument + length + 1, &end);
-  if (end == argument + length + 1 || *end != 0 || !(value >= 0 && value <= most)) return 0;
+  if (end == argument + length + 1 || *end != 0 || !(value >= 0 && value <= max)) return 0;
   *number = value;
   return 1;
 }
@@ -35,7 +35,7 @@ static int create(void* state, const muro_controller_setup* setup, char* error, 
   g->speed = 0.4;
   g->stop = 0.05;
   for (const char* const* a = setup->arguments; *a; ++a) {
-    if (sets(*a, "speed", 2, &g->speed) || sets(*a, "stop", 100, &g->stop)) continue;
+    if (parse_argument(*a, "speed", 2, &g->speed) || parse_argument(*a, "stop", 100, &g->stop)) continue;
     snprintf(error, error_size, "argument `%s` is none of: speed=0..2 (m/s), stop=0..100 (m)", *a);
     return 1;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A city in the plane to try control code in, without the simulator: closed-form rays, unicycles, exact clearances.
+// A city in the plane to test control code in, without the simulator: closed-form rays, unicycles, exact clearances.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ struct Point {
   double x = 0, y = 0;  ///< m
 };
 
-struct Place {
+struct Pose2d {
   double x = 0, y = 0, heading = 0;  ///< m, m, rad
 
   Point to_world(const Point& p) const {
@@ -32,12 +32,12 @@ struct Place {
 
 /// A rectangle: a building, a wall or a vehicle.
 struct Box {
-  Place place;
+  Pose2d pose;
   double half_x = 0, half_y = 0;  ///< m
 
   /// Where a ray from `from` with the unit direction `to` enters (m); infinite when it misses. Slabs: Kay, Kajiya 1986.
   double enter(const Point& from, const Point& to) const {
-    const Point o = place.to_local(from), ahead = place.to_local({from.x + to.x, from.y + to.y});
+    const Point o = pose.to_local(from), ahead = pose.to_local({from.x + to.x, from.y + to.y});
     double near = 0, far = std::numeric_limits<double>::infinity();
     const auto cut = [&](double start, double step, double half) {
       if (step == 0) {
@@ -54,21 +54,21 @@ struct Box {
   }
   /// Distance (m) to a point; 0 inside.
   double distance(const Point& p) const {
-    const Point l = place.to_local(p);
+    const Point l = pose.to_local(p);
     return std::hypot(std::max(0.0, std::abs(l.x) - half_x), std::max(0.0, std::abs(l.y) - half_y));
   }
   std::vector<Point> corners() const {
-    return {place.to_world({half_x, half_y}), place.to_world({-half_x, half_y}), place.to_world({-half_x, -half_y}),
-            place.to_world({half_x, -half_y})};
+    return {pose.to_world({half_x, half_y}), pose.to_world({-half_x, half_y}), pose.to_world({-half_x, -half_y}),
+            pose.to_world({half_x, -half_y})};
   }
 };
 
 /// Distance (m) of two rectangles: from a corner of one to the other, unless they overlap.
 inline double distance(const Box& a, const Box& b) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const Point& p : a.corners()) least = std::min(least, b.distance(p));
-  for (const Point& p : b.corners()) least = std::min(least, a.distance(p));
-  return least;
+  double min = std::numeric_limits<double>::infinity();
+  for (const Point& p : a.corners()) min = std::min(min, b.distance(p));
+  for (const Point& p : b.corners()) min = std::min(min, a.distance(p));
+  return min;
 }
 
 /// A unicycle of 0.4 m x 0.34 m with limited accelerations and a scanner of 240 degrees and 5.6 m.
@@ -78,9 +78,9 @@ class Vehicle {
   static constexpr double min_angle = -2 * M_PI / 3, increment = 4 * M_PI / 3 / (rays - 1), max_range = 5.6;
   static constexpr double laser_x = 0.1, period = 0.1;
 
-  Vehicle(const muro_controller_table& control, const Place& start, std::uint64_t seed,
+  Vehicle(const muro_controller_table& control, const Pose2d& start, std::uint64_t seed,
           std::vector<const char*> arguments = {})
-      : place(start), control_(&control), state_(control.state_size / sizeof(std::max_align_t) + 1) {
+      : pose(start), control_(&control), state_(control.state_size / sizeof(std::max_align_t) + 1) {
     arguments.push_back(nullptr);
     const std::uint32_t sizes[] = {rays, 1, 1, 1};
     const muro_controller_setup setup{"vehicle", period, seed, sizes, arguments.data()};
@@ -88,25 +88,25 @@ class Vehicle {
     if (control.create(state_.data(), &setup, error, sizeof error) != 0) throw std::runtime_error(error);
   }
 
-  Box body() const { return {place, 0.2, 0.17}; }
+  Box body() const { return {pose, 0.2, 0.17}; }
   double speed() const { return speed_; }
-  double way() const { return way_; }        ///< m driven forward so far
-  double turned() const { return turned_; }  ///< rad turned so far, to the left
+  double distance_driven() const { return distance_driven_; }  ///< forward, m
+  double turned() const { return turned_; }                    ///< to the left, rad
 
   /// Reads the scanner among `obstacles`, lets `disturb` change the reading, and lets the control code decide.
   template <class Disturb>
   void control(double time, const std::vector<const Box*>& obstacles, Disturb disturb) {
-    const Point eye = place.to_world({laser_x, 0});
+    const Point laser = pose.to_world({laser_x, 0});
     double ranges[rays];
     for (int i = 0; i < rays; ++i) {
-      const double angle = place.heading + min_angle + i * increment;
+      const double angle = pose.heading + min_angle + i * increment;
       const Point direction{std::cos(angle), std::sin(angle)};
       ranges[i] = max_range;
-      for (const Box* b : obstacles) ranges[i] = std::min(ranges[i], b->enter(eye, direction));
+      for (const Box* b : obstacles) ranges[i] = std::min(ranges[i], b->enter(laser, direction));
       disturb(ranges[i]);
     }
-    const double first = min_angle, between = increment, most = max_range;
-    const double* inputs[] = {ranges, &first, &between, &most};
+    const double first = min_angle, step = increment, max = max_range;
+    const double* inputs[] = {ranges, &first, &step, &max};
     double* outputs[] = {command_};
     const muro_controller_step now{time, inputs, outputs};
     char error[256] = "";
@@ -121,27 +121,27 @@ class Vehicle {
   void move(double dt) {
     speed_ += std::clamp(command_[0] - speed_, -2 * dt, 2 * dt);
     rate_ += std::clamp(command_[5] - rate_, -6 * dt, 6 * dt);
-    const double middle = place.heading + rate_ * dt / 2;
-    place.x += speed_ * dt * std::cos(middle);
-    place.y += speed_ * dt * std::sin(middle);
-    place.heading += rate_ * dt;
-    way_ += std::max(0.0, speed_ * dt);
+    const double middle = pose.heading + rate_ * dt / 2;
+    pose.x += speed_ * dt * std::cos(middle);
+    pose.y += speed_ * dt * std::sin(middle);
+    pose.heading += rate_ * dt;
+    distance_driven_ += std::max(0.0, speed_ * dt);
     turned_ += rate_ * dt;
   }
 
-  Place place;
+  Pose2d pose;
 
  private:
   const muro_controller_table* control_;
   std::vector<std::max_align_t> state_;
   double command_[6] = {};
-  double speed_ = 0, rate_ = 0, way_ = 0, turned_ = 0;
+  double speed_ = 0, rate_ = 0, distance_driven_ = 0, turned_ = 0;
 };
 
 /// Buildings of 6 m x 6 m in a grid of 10 m, streets of 4 m, closed by walls.
 class City {
  public:
-  City() = default;  ///< without anything
+  City() = default;  ///< empty
   explicit City(int blocks) {
     const double half = 5.0 * blocks;
     for (int i = 0; i < blocks; ++i)
@@ -154,16 +154,16 @@ class City {
   }
 
   /// What a scanner at `p` may see.
-  std::vector<const Box*> near(const Place& p) const {
+  std::vector<const Box*> near(const Pose2d& p) const {
     std::vector<const Box*> found;
     for (const Box& b : boxes)
       if (b.distance({p.x, p.y}) < 6) found.push_back(&b);
     return found;
   }
   double clearance(const Vehicle& v) const {
-    double least = std::numeric_limits<double>::infinity();
-    for (const Box* b : near(v.place)) least = std::min(least, distance(v.body(), *b));
-    return least;
+    double min = std::numeric_limits<double>::infinity();
+    for (const Box* b : near(v.pose)) min = std::min(min, distance(v.body(), *b));
+    return min;
   }
 
   std::vector<Box> boxes;

@@ -2,15 +2,15 @@
  *
  * Control code of the urban example: a vehicle that wanders through the streets of a city by its laser
  * scanner alone. It keeps to the right-hand side of the street, turns into side streets as chance has it,
- * drives around what stands in its way and turns on the spot where the way ends.
+ * drives around obstacles and turns on the spot in a dead end.
  *
  * Every step looks for a gap, in the manner of the vector field histogram (Borenstein, Koren: The vector
  * field histogram, IEEE Trans. Robotics and Automation 7(3), 1991), but with the true width of the vehicle:
  *
- *   1. look         the scan becomes at most one obstacle point per sector, in the frame of the vehicle
+ *   1. detect       the scan becomes at most one obstacle point per sector, in the frame of the vehicle
  *   2. prefer       a heading: along the wall on the right, or into a side street
  *   3. find a gap   the heading near that one along which the vehicle, as a disc, gets far
- *   4. drive        towards it, as fast as the free way allows; or turn on the spot when there is none
+ *   4. drive        towards it, as fast as the free distance allows; or turn on the spot when there is none
  *
  * Frames follow ROS REP-103: x forward, y left, angles counter-clockwise. All units are SI.
  */
@@ -26,32 +26,32 @@
 
 enum { SECTORS = 120, HEADINGS = 41 };
 
-/* The vehicle as a disc: half its width, and room for what the scan does not tell. */
-static const double radius = 0.30;      /* m */
-static const double horizon = 5.0;      /* m; a way that is free so far is free */
-static const double too_near = 1.0;     /* m; a way that is free no farther is no way */
-static const double turn_rate = 1.2;    /* rad/s, at most */
-static const double deceleration = 0.5; /* m/s^2, with which it must be able to stop */
-static const double reaction = 0.8;     /* s */
-static const double widest_heading = 100 * DEGREES;
-static const double detour_price = 0.35;  /* of the horizon, for a heading 90 degrees off the preferred one */
+/* The vehicle as a disc: half its width, and a margin for what the scan does not show. */
+static const double radius = 0.30;           /* m */
+static const double horizon = 5.0;           /* m; longer free distances count as this */
+static const double min_free_distance = 1.0; /* m; below this a heading is blocked */
+static const double max_turn_rate = 1.2;     /* rad/s */
+static const double deceleration = 0.5;      /* m/s^2, with which it must be able to stop */
+static const double reaction = 0.8;          /* s */
+static const double max_heading = 100 * DEGREES;
+static const double detour_cost = 0.35;   /* of the horizon, for a heading 90 degrees off the preferred one */
 static const double lane = 1.2;           /* m from the wall on the right */
 static const double lane_lookahead = 1.5; /* m */
-static const double side_street = 4.6;    /* m; a free way to the side that is longer than a street is wide */
-static const double look_right = -90 * DEGREES, look_left = 110 * DEGREES; /* where a side street shows */
+static const double side_street = 4.6;    /* m; a free distance to the side that exceeds the width of a street */
+static const double side_right = -90 * DEGREES, side_left = 110 * DEGREES; /* where a side street is visible */
 
-/* What is kept from step to step: the block that muro saves and restores. */
+/* The state between steps: the block that muro saves and restores. */
 typedef struct {
-  double speed;      /* m/s, at most */
-  double laser_x;    /* m, the scanner in front of the centre of the vehicle */
-  double period;     /* s between steps */
-  uint64_t rays;     /* of the scanner */
-  uint64_t random;   /* state of the random numbers */
-  double wish;       /* at a side street: -1 right, 0 pass, +1 left */
-  double wish_until; /* s */
-  double turn;       /* rad left to turn into a side street, 0 when on no such turn */
-  double spin;       /* -1 or +1 while turning on the spot, else 0 */
-  double spun;       /* rad, so far on the spot */
+  double speed;         /* m/s, at most */
+  double laser_x;       /* m, the scanner in front of the centre of the vehicle */
+  double period;        /* s between steps */
+  uint64_t rays;        /* of the scanner */
+  uint64_t random;      /* state of the random numbers */
+  double desired_turn;  /* at a side street: -1 right, 0 pass, +1 left */
+  double desired_until; /* s */
+  double turn;          /* rad left to turn into a side street, 0 when on no such turn */
+  double spin;          /* -1 or +1 while turning on the spot, else 0 */
+  double spun_angle;    /* rad, so far on the spot */
 } wander;
 
 enum { RANGES, MIN_ANGLE, ANGLE_INCREMENT, MAX_RANGE, INPUTS };
@@ -63,7 +63,7 @@ static const muro_port inputs[INPUTS] = {
 };
 static const muro_port outputs[] = {{"command.twist", "m/s, rad/s", 6, 0}}; /* vx vy vz wx wy wz */
 
-/* ---------------------------------------------------------------- what the vehicle sees */
+/* ---------------------------------------------------------------- obstacles */
 
 typedef struct {
   double x, y; /* m */
@@ -73,9 +73,9 @@ typedef struct {
 typedef struct {
   int count;
   point points[SECTORS];
-} view;
+} obstacles;
 
-static void look(view* seen, const double* const* in, uint32_t rays, double laser_x) {
+static void detect_obstacles(obstacles* seen, const double* const* in, uint32_t rays, double laser_x) {
   const double* ranges = in[RANGES];
   const double max_range = *in[MAX_RANGE];
   uint32_t ray = 0;
@@ -97,11 +97,11 @@ static void look(view* seen, const double* const* in, uint32_t rays, double lase
   }
 }
 
-/* How far (m, at most the horizon) the disc gets in the direction `heading` (rad). What already reaches into
- * the disc stops it only when it lies ahead. */
-static double free_way(const view* seen, double heading) {
+/* The distance (m, at most the horizon) that the disc can move in the direction `heading` (rad). A point inside
+ * of the disc blocks it only when it lies ahead. */
+static double free_distance(const obstacles* seen, double heading) {
   const double cosine = cos(heading), sine = sin(heading);
-  double way = horizon;
+  double distance = horizon;
   for (int i = 0; i < seen->count; ++i) {
     const point p = seen->points[i];
     const double along = p.x * cosine + p.y * sine;
@@ -110,13 +110,13 @@ static double free_way(const view* seen, double heading) {
     if (along <= 0 || rest <= 0) continue;
     const double reach = fmax(0, along - sqrt(rest));
     const int behind_shoulder = reach == 0 && along < 0.3 * radius;
-    if (reach < way && !behind_shoulder) way = reach;
+    if (reach < distance && !behind_shoulder) distance = reach;
   }
-  return way;
+  return distance;
 }
 
 /* The straight wall on the right, by linear regression y = offset + slope * x. Returns 0 when there is none. */
-static int find_right_wall(const view* seen, double* direction, double* distance) {
+static int find_right_wall(const obstacles* seen, double* direction, double* distance) {
   double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0, syy = 0, first = HUGE_VAL, last = -HUGE_VAL;
   for (int i = 0; i < seen->count; ++i) {
     const point p = seen->points[i];
@@ -134,7 +134,7 @@ static int find_right_wall(const view* seen, double* direction, double* distance
   return 1;
 }
 
-/* ---------------------------------------------------------------- where it wants to go */
+/* ---------------------------------------------------------------- heading */
 
 /* Uniform in [0, 1): splitmix64 (Steele, Lea, Flood: Fast splittable pseudorandom number generators, 2014). */
 static double draw(wander* w) {
@@ -144,60 +144,61 @@ static double draw(wander* w) {
   return (double)((z ^ (z >> 31)) >> 11) * 0x1.0p-53;
 }
 
-static double limited(double value, double most) { return fmax(-most, fmin(most, value)); }
+static double clamp_magnitude(double value, double max) { return fmax(-max, fmin(max, value)); }
 
-/* The heading (rad) it would take if nothing stood in the way. */
-static double preferred_heading(wander* w, const view* seen, double time) {
-  if (time >= w->wish_until) {
+/* The heading (rad) that it takes without obstacles. */
+static double preferred_heading(wander* w, const obstacles* seen, double time) {
+  if (time >= w->desired_until) {
     const double dice = draw(w);
-    w->wish = dice < 0.4 ? -1 : dice < 0.8 ? 1 : 0;
-    w->wish_until = time + 4 + 8 * draw(w);
+    w->desired_turn = dice < 0.4 ? -1 : dice < 0.8 ? 1 : 0;
+    w->desired_until = time + 4 + 8 * draw(w);
   }
   double direction = 0, distance = lane;
   const int wall = find_right_wall(seen, &direction, &distance);
   const int along_street = !wall || fabs(direction) < 15 * DEGREES;
-  if (w->turn == 0 && w->wish != 0 && along_street &&
-      free_way(seen, w->wish < 0 ? look_right : look_left) >= side_street) {
-    w->turn = w->wish * 90 * DEGREES;
-    w->wish = 0;
+  if (w->turn == 0 && w->desired_turn != 0 && along_street &&
+      free_distance(seen, w->desired_turn < 0 ? side_right : side_left) >= side_street) {
+    w->turn = w->desired_turn * 90 * DEGREES;
+    w->desired_turn = 0;
   }
   if (w->turn != 0) return w->turn;
   return direction + atan2(lane - distance, lane_lookahead); /* straight on without a wall */
 }
 
-/* The heading with the best ratio of free way and detour; `way` is how far it leads. */
-static double best_heading(const view* seen, double preferred, double* way) {
-  double best = limited(preferred, widest_heading), best_score = -HUGE_VAL;
+/* The heading with the best trade-off of free distance and detour; `free` gets its free distance. */
+static double best_heading(const obstacles* seen, double preferred, double* free) {
+  double best = clamp_magnitude(preferred, max_heading), best_score = -HUGE_VAL;
   for (int i = -1; i < HEADINGS; ++i) {
-    const double heading = i < 0 ? best : widest_heading * (2.0 * i / (HEADINGS - 1) - 1);
-    const double reach = free_way(seen, heading);
-    const double score = reach / horizon - detour_price * fabs(heading - preferred) / (90 * DEGREES);
+    const double heading = i < 0 ? best : max_heading * (2.0 * i / (HEADINGS - 1) - 1);
+    const double reach = free_distance(seen, heading);
+    const double score = reach / horizon - detour_cost * fabs(heading - preferred) / (90 * DEGREES);
     if (score > best_score) {
       best_score = score;
       best = heading;
-      *way = reach;
+      *free = reach;
     }
   }
   return best;
 }
 
-/* ---------------------------------------------------------------- how it moves */
+/* ---------------------------------------------------------------- motion */
 
-/* On the spot, to one side, until there is a way ahead; the longer it takes, the shorter a way will do. */
-static void spin(wander* w, const view* seen, double* twist) {
-  const double wanted = fmax(too_near, 2.5 * (1 - w->spun / (2 * PI)));
+/* Turns on the spot, to one side, until the way ahead is free; the longer it takes, the shorter a free distance
+ * suffices. */
+static void spin(wander* w, const obstacles* seen, double* twist) {
+  const double required = fmax(min_free_distance, 2.5 * (1 - w->spun_angle / (2 * PI)));
   twist[0] = 0;
-  twist[5] = turn_rate * w->spin;
-  w->spun += turn_rate * w->period;
-  if (free_way(seen, 0) >= wanted) w->spin = 0;
+  twist[5] = max_turn_rate * w->spin;
+  w->spun_angle += max_turn_rate * w->period;
+  if (free_distance(seen, 0) >= required) w->spin = 0;
 }
 
-static void drive(wander* w, const view* seen, double heading, double* twist) {
-  const double ahead = free_way(seen, 0);
+static void drive(wander* w, const obstacles* seen, double heading, double* twist) {
+  const double ahead = free_distance(seen, 0);
   const double stopping = deceleration * (sqrt(reaction * reaction + 2 * ahead / deceleration) - reaction);
   const double aligned = fmax(0, 1 - fabs(heading) / (80 * DEGREES));
   twist[0] = fmin(w->speed * aligned, stopping);
-  twist[5] = limited(1.5 * heading, turn_rate);
+  twist[5] = clamp_magnitude(1.5 * heading, max_turn_rate);
   if (w->turn != 0) { /* dead reckoning */
     w->turn -= twist[5] * w->period;
     if (fabs(w->turn) < 10 * DEGREES) w->turn = 0;
@@ -208,37 +209,37 @@ static int step(void* state, const muro_controller_step* now, char* error, size_
   (void)error, (void)error_size;
   wander* w = state;
   double* twist = now->outputs[0];
-  view seen;
+  obstacles seen;
   if (w->rays == 0) {
     twist[0] = twist[5] = 0;
     return 0;
   }
-  look(&seen, now->inputs, (uint32_t)w->rays, w->laser_x);
+  detect_obstacles(&seen, now->inputs, (uint32_t)w->rays, w->laser_x);
 
   if (w->spin == 0) {
-    double way = 0;
-    const double heading = best_heading(&seen, preferred_heading(w, &seen, now->time), &way);
-    if (way >= too_near) {
+    double free = 0;
+    const double heading = best_heading(&seen, preferred_heading(w, &seen, now->time), &free);
+    if (free >= min_free_distance) {
       drive(w, &seen, heading, twist);
       return 0;
     }
     w->spin = draw(w) < 0.5 ? -1 : 1;
-    w->spun = 0;
+    w->spun_angle = 0;
     w->turn = 0;
   }
   spin(w, &seen, twist);
   return 0;
 }
 
-/* ---------------------------------------------------------------- what muro needs to know */
+/* ---------------------------------------------------------------- interface to muro */
 
-/* "name=value" sets *number; returns 1 when `argument` has this name and a value from `least` to `most`. */
-static int sets(const char* argument, const char* name, double least, double most, double* number) {
+/* "name=value" sets *number; returns 1 when `argument` has this name and a value from `min` to `max`. */
+static int parse_argument(const char* argument, const char* name, double min, double max, double* number) {
   const size_t length = strlen(name);
   if (strncmp(argument, name, length) != 0 || argument[length] != '=') return 0;
   char* end;
   const double value = strtod(argument + length + 1, &end);
-  if (end == argument + length + 1 || *end != 0 || !(value >= least && value <= most)) return 0;
+  if (end == argument + length + 1 || *end != 0 || !(value >= min && value <= max)) return 0;
   *number = value;
   return 1;
 }
@@ -256,7 +257,7 @@ static int create(void* state, const muro_controller_setup* setup, char* error, 
     return 1;
   }
   for (const char* const* a = setup->arguments; *a; ++a) {
-    if (sets(*a, "speed", 0.1, 2, &w->speed) || sets(*a, "laser_x", -1, 1, &w->laser_x)) continue;
+    if (parse_argument(*a, "speed", 0.1, 2, &w->speed) || parse_argument(*a, "laser_x", -1, 1, &w->laser_x)) continue;
     snprintf(error, error_size, "argument `%s` is none of: speed=0.1..2 (m/s), laser_x=-1..1 (m)", *a);
     return 1;
   }

@@ -21,7 +21,7 @@ constexpr int steps_per_second = 10;
 constexpr double pi = M_PI;
 
 struct Trip {
-  double least_clearance = 1e9;  ///< m, to anything that stands
+  double min_clearance = 1e9;  ///< m, to anything that stands
   std::set<std::pair<int, int>> crossings;
 };
 
@@ -31,10 +31,10 @@ Trip drive(Vehicle& v, const City& city, double seconds, Disturb disturb,
            const std::function<void(double)>& watch = {}) {
   Trip trip;
   for (int k = 0; k < seconds * steps_per_second; ++k) {
-    v.control(0.1 * k, city.near(v.place), disturb);
+    v.control(0.1 * k, city.near(v.pose), disturb);
     for (int i = 0; i < 10; ++i) v.move(0.01);
-    trip.least_clearance = std::min(trip.least_clearance, city.clearance(v));
-    const double x = v.place.x / 10, y = v.place.y / 10;  // streets lie at half tens for an odd number of blocks
+    trip.min_clearance = std::min(trip.min_clearance, city.clearance(v));
+    const double x = v.pose.x / 10, y = v.pose.y / 10;  // streets lie at half tens for an odd number of blocks
     if (std::abs(x - std::floor(x) - 0.5) < 0.2 && std::abs(y - std::floor(y) - 0.5) < 0.2)
       trip.crossings.insert({int(std::floor(x)), int(std::floor(y))});
     if (watch) watch(0.1 * k);
@@ -42,7 +42,7 @@ Trip drive(Vehicle& v, const City& city, double seconds, Disturb disturb,
   return trip;
 }
 
-void as_it_is(double&) {}
+void undisturbed(double&) {}
 
 /// A street of 4 m along x without side streets, from `from` to `to`; closed at `to`.
 City street(double from, double to) {
@@ -56,14 +56,14 @@ TEST(Wander, DrivesFarThroughACityAndTouchesNothing) {
   const City city(5);
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     Vehicle v(control(), {-24.2, double(seed) - 4, pi / 2}, seed);
-    const Trip trip = drive(v, city, 300, as_it_is);
-    EXPECT_GT(trip.least_clearance, 0.05) << "seed " << seed;
-    EXPECT_GT(v.way(), 150) << "seed " << seed;
+    const Trip trip = drive(v, city, 300, undisturbed);
+    EXPECT_GT(trip.min_clearance, 0.05) << "seed " << seed;
+    EXPECT_GT(v.distance_driven(), 150) << "seed " << seed;
     EXPECT_GE(trip.crossings.size(), 6u) << "seed " << seed;
   }
 }
 
-TEST(Wander, StandsTheNoiseAndTheLostRaysOfARealScanner) {
+TEST(Wander, ToleratesNoiseAndLostRaysOfARealScanner) {
   const City city(5);
   std::mt19937 engine(7);
   std::normal_distribution<double> noise(0, 0.02);
@@ -75,20 +75,20 @@ TEST(Wander, StandsTheNoiseAndTheLostRaysOfARealScanner) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     Vehicle v(control(), {-24.2, 0, pi / 2}, seed);
     const Trip trip = drive(v, city, 120, disturb);
-    EXPECT_GT(trip.least_clearance, 0.05) << "seed " << seed;
-    EXPECT_GT(v.way(), 60) << "seed " << seed;
+    EXPECT_GT(trip.min_clearance, 0.05) << "seed " << seed;
+    EXPECT_GT(v.distance_driven(), 60) << "seed " << seed;
   }
 }
 
-TEST(Wander, KeepsToTheRightFromAnyPlaceInTheStreet) {
+TEST(Wander, KeepsToTheRightFromAnywhereInTheStreet) {
   const City city = street(-10, 60);
   for (const double y : {-1.4, -0.8, 0.0, 1.4})
     for (const double heading : {-0.6, 0.0, 0.6}) {
       Vehicle v(control(), {0, y, heading}, 1);
-      drive(v, city, 30, as_it_is);
-      EXPECT_GT(v.place.x, 15) << y << " " << heading;
-      EXPECT_NEAR(v.place.y, -0.8, 0.1) << y << " " << heading;  // 1.2 m from the wall at y = -2
-      EXPECT_NEAR(v.place.heading, 0, 0.05) << y << " " << heading;
+      drive(v, city, 30, undisturbed);
+      EXPECT_GT(v.pose.x, 15) << y << " " << heading;
+      EXPECT_NEAR(v.pose.y, -0.8, 0.1) << y << " " << heading;  // 1.2 m from the wall at y = -2
+      EXPECT_NEAR(v.pose.heading, 0, 0.05) << y << " " << heading;
     }
 }
 
@@ -96,14 +96,14 @@ TEST(Wander, TurnsAroundInADeadEnd) {
   const City city = street(-20, 8);
   for (const double y : {-0.8, 0.0, 0.8}) {
     Vehicle v(control(), {0, y, 0}, 1);
-    double farthest = 0, least = 1e9;
-    drive(v, city, 40, as_it_is, [&](double) {
-      farthest = std::max(farthest, v.place.x);
-      least = v.place.x > -15 ? std::min(least, city.clearance(v)) : least;
+    double farthest = 0, min_distance = 1e9;
+    drive(v, city, 40, undisturbed, [&](double) {
+      farthest = std::max(farthest, v.pose.x);
+      min_distance = v.pose.x > -15 ? std::min(min_distance, city.clearance(v)) : min_distance;
     });
     EXPECT_GT(farthest, 4) << y;
-    EXPECT_LT(v.place.x, -5) << y;
-    EXPECT_GT(least, 0.05) << y;
+    EXPECT_LT(v.pose.x, -5) << y;
+    EXPECT_GT(min_distance, 0.05) << y;
   }
 }
 
@@ -113,10 +113,10 @@ TEST(Wander, ChoosesTheSideByChanceWhereItHasToTurnOnTheSpot) {
   int left = 0, right = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Vehicle v(control(), {0, 0, 0}, seed);
-    double least = 1e9;
-    drive(v, alley, 30, as_it_is, [&](double) { least = std::min(least, alley.clearance(v)); });
-    EXPECT_LT(v.place.x, 2) << "seed " << seed;
-    EXPECT_GT(least, 0.05) << "seed " << seed;
+    double min_distance = 1e9;
+    drive(v, alley, 30, undisturbed, [&](double) { min_distance = std::min(min_distance, alley.clearance(v)); });
+    EXPECT_LT(v.pose.x, 2) << "seed " << seed;
+    EXPECT_GT(min_distance, 0.05) << "seed " << seed;
     (v.turned() > 0 ? left : right) += 1;
   }
   EXPECT_GE(left, 5);
@@ -127,33 +127,33 @@ TEST(Wander, TurnsOnTheSpotWhereThereIsNoRoomToDrive) {
   City cage;
   cage.boxes = {{{1.8, 0, 0}, 1, 3}, {{-1.8, 0, 0}, 1, 3}, {{0, 1.8, 0}, 3, 1}, {{0, -1.8, 0}, 3, 1}};
   Vehicle v(control(), {0, 0, 0.3}, 5);
-  const Trip trip = drive(v, cage, 30, as_it_is);
-  EXPECT_EQ(v.way(), 0);
+  const Trip trip = drive(v, cage, 30, undisturbed);
+  EXPECT_EQ(v.distance_driven(), 0);
   EXPECT_GT(std::abs(v.turned()), 4 * pi);
-  EXPECT_GT(trip.least_clearance, 0.3);
+  EXPECT_GT(trip.min_clearance, 0.3);
 }
 
-TEST(Wander, PassesAVehicleThatStandsInItsLaneAndOneThatComesTowardsIt) {
+TEST(Wander, PassesAParkedVehicleAndAnOncomingOne) {
   const City city = street(-10, 60);
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     Vehicle v(control(), {0, -0.8, 0}, seed), opposite(control(), {20, 0.8 - 0.2 * double(seed), pi}, seed + 100);
     Box parked{{8, -0.8, 0.1 * double(seed)}, 0.2, 0.17};
-    double least = 1e9;
+    double min_distance = 1e9;
     for (int k = 0; k < 30 * steps_per_second; ++k) {
       const Box a = v.body(), b = opposite.body();
       for (auto& [self, other] : {std::pair{&v, &b}, std::pair{&opposite, &a}}) {
-        auto seen = city.near(self->place);
+        auto seen = city.near(self->pose);
         seen.push_back(other);
         seen.push_back(&parked);
         self->control(0.1 * k, seen);
       }
       for (int i = 0; i < 10; ++i) v.move(0.01), opposite.move(0.01);
-      least = std::min({least, distance(v.body(), opposite.body()), distance(v.body(), parked),
-                        distance(opposite.body(), parked), city.clearance(v)});
+      min_distance = std::min({min_distance, distance(v.body(), opposite.body()), distance(v.body(), parked),
+                               distance(opposite.body(), parked), city.clearance(v)});
     }
-    EXPECT_GT(least, 0.05) << "seed " << seed;
-    EXPECT_GT(v.place.x, 12) << "seed " << seed;
-    EXPECT_LT(opposite.place.x, 8) << "seed " << seed;
+    EXPECT_GT(min_distance, 0.05) << "seed " << seed;
+    EXPECT_GT(v.pose.x, 12) << "seed " << seed;
+    EXPECT_LT(opposite.pose.x, 8) << "seed " << seed;
   }
 }
 
@@ -164,14 +164,14 @@ TEST(Wander, LetsFortyVehiclesShareTheStreets) {
     const double row = -15 + 10 * (i % 4), column = -20 + 4.6 * std::floor(0.25 * i);
     const bool east = i / 4 % 2 == 0;
     vehicles.push_back(
-        std::make_unique<Vehicle>(control(), Place{column, row + (east ? -0.8 : 0.8), east ? 0 : pi}, 1000 + i));
+        std::make_unique<Vehicle>(control(), Pose2d{column, row + (east ? -0.8 : 0.8), east ? 0 : pi}, 1000 + i));
   }
   double clearance = 1e9, gap = 1e9;
   for (int k = 0; k < 60 * steps_per_second; ++k) {
     std::vector<Box> bodies;
     for (const auto& v : vehicles) bodies.push_back(v->body());
     for (std::size_t i = 0; i < vehicles.size(); ++i) {
-      const Place& p = vehicles[i]->place;
+      const Pose2d& p = vehicles[i]->pose;
       auto seen = city.near(p);
       for (std::size_t j = 0; j < bodies.size(); ++j)
         if (j != i && bodies[j].distance({p.x, p.y}) < 6) seen.push_back(&bodies[j]);
@@ -186,37 +186,37 @@ TEST(Wander, LetsFortyVehiclesShareTheStreets) {
   }
   EXPECT_GT(clearance, 0.02);
   EXPECT_GT(gap, 0);
-  for (const auto& v : vehicles) EXPECT_GT(v->way(), 20);
+  for (const auto& v : vehicles) EXPECT_GT(v->distance_driven(), 20);
 }
 
 TEST(Wander, KeepsAllItsStateInItsBlock) {
   const City city(3);
   Vehicle v(control(), {-14.2, 0, pi / 2}, 3);
-  drive(v, city, 20, as_it_is);
+  drive(v, city, 20, undisturbed);
   Vehicle copy = v, other(control(), {5, -4.2, 0}, 4);  // the copy has the bytes of the block
   for (int k = 200; k < 800; ++k) {
-    v.control(0.1 * k, city.near(v.place));
-    other.control(0.1 * k, city.near(other.place));
+    v.control(0.1 * k, city.near(v.pose));
+    other.control(0.1 * k, city.near(other.pose));
     v.move(0.1);
     other.move(0.1);
   }
   for (int k = 200; k < 800; ++k) {
-    copy.control(0.1 * k, city.near(copy.place));
+    copy.control(0.1 * k, city.near(copy.pose));
     copy.move(0.1);
   }
-  EXPECT_EQ(v.place.x, copy.place.x);
-  EXPECT_EQ(v.place.y, copy.place.y);
-  EXPECT_EQ(v.place.heading, copy.place.heading);
+  EXPECT_EQ(v.pose.x, copy.pose.x);
+  EXPECT_EQ(v.pose.y, copy.pose.y);
+  EXPECT_EQ(v.pose.heading, copy.pose.heading);
 }
 
 TEST(Wander, TakesItsSpeedFromAnArgument) {
   const City city = street(-10, 60);
   Vehicle slow(control(), {0, -0.8, 0}, 1, {"speed=0.4"}),
       fast(control(), {0, -0.8, 0}, 1, {"speed=0.9", "laser_x=0.1"});
-  drive(slow, city, 20, as_it_is);
-  drive(fast, city, 20, as_it_is);
-  EXPECT_NEAR(slow.way(), 8, 0.5);
-  EXPECT_NEAR(fast.way(), 18, 1);
+  drive(slow, city, 20, undisturbed);
+  drive(fast, city, 20, undisturbed);
+  EXPECT_NEAR(slow.distance_driven(), 8, 0.5);
+  EXPECT_NEAR(fast.distance_driven(), 18, 1);
 }
 
 TEST(Wander, NamesAnArgumentThatItDoesNotKnow) {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The yard as a user runs it, and watched from outside.
+// The yard as a user runs it, and as its state shows.
 #include <gtest/gtest.h>
 
 #include "host/scenario/builder.hpp"
+#include "muro/toolkit/rotations.hpp"
 #include "muro/vocabulary.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/scene.hpp"
@@ -25,7 +26,7 @@ TEST(Yard, RunsAsItsReadmeSays) {
             "examples/yard/yard.sdf:6:5: note: <physics> in <world> is left out: the scenario names what moves each "
             "robot, and how often\n"
             "examples/yard/yard.sdf:10:5: note: <light> in <world> is left out: there are no lights\n"
-            "examples/yard/yard.sdf: note: model `parked` stands still, as the scenario does not name it; write "
+            "examples/yard/yard.sdf: note: model `parked` is static, because the scenario does not name it; write "
             "`robots: {parked: {model: "
             "world, ...}}` to move it\n");
 }
