@@ -10,8 +10,8 @@ class TagScanner {
  public:
   explicit TagScanner(std::string_view text) : text_(text) {}
 
-  /// The place of the next start tag and its name; false at the end.
-  bool next(Place& place, std::string_view& name) {
+  /// The location of the next start tag and its name; false at the end.
+  bool next(Location& location, std::string_view& name) {
     while (true) {
       const std::size_t open = text_.find('<', at_);
       if (open == std::string_view::npos) return false;
@@ -26,7 +26,7 @@ class TagScanner {
       } else if (rest.starts_with("<!") || rest.starts_with("</")) {
         skip_past(">");
       } else {
-        place = {line_, int(open - line_start_) + 1};
+        location = {line_, int(open - line_start_) + 1};
         name = rest.substr(1, rest.find_first_of(" \t\r\n/>", 1) - 1);
         skip_tag();
         return true;
@@ -69,22 +69,22 @@ class TagScanner {
 };
 
 /// Visits elements in the order of their start tags.
-class PlaceMarker final : public tinyxml2::XMLVisitor {
+class LocationMarker final : public tinyxml2::XMLVisitor {
  public:
-  PlaceMarker(std::string_view text, std::vector<Place>& places) : scanner_(text), places_(places) {}
+  LocationMarker(std::string_view text, std::vector<Location>& places) : scanner_(text), locations_(places) {}
 
   bool VisitEnter(const Element& element, const tinyxml2::XMLAttribute*) override {
-    Place place;
+    Location location;
     std::string_view name;
-    in_step_ = in_step_ && scanner_.next(place, name) && name == element.Name();
-    places_[count_] = in_step_ ? place : Place{element.GetLineNum(), 0};
-    const_cast<Element&>(element).SetUserData(&places_[count_++]);
+    in_step_ = in_step_ && scanner_.next(location, name) && name == element.Name();
+    locations_[count_] = in_step_ ? location : Location{element.GetLineNum(), 0};
+    const_cast<Element&>(element).SetUserData(&locations_[count_++]);
     return true;
   }
 
  private:
   TagScanner scanner_;
-  std::vector<Place>& places_;
+  std::vector<Location>& locations_;
   std::size_t count_ = 0;
   bool in_step_ = true;
 };
@@ -127,23 +127,23 @@ std::string_view meaning_of(tinyxml2::XMLError error) {
 
 }  // namespace
 
-bool Document::parse(const std::string& text, Place& place, std::string& trouble) {
-  if (const auto error = xml_.Parse(text.data(), text.size()); error != tinyxml2::XML_SUCCESS) {
-    place = {xml_.ErrorLineNum(), 0};
-    trouble = say("the file is not well-formed XML: ", meaning_of(error));
+bool Document::parse(const std::string& text, Location& location, std::string& error) {
+  if (const auto code = xml_.Parse(text.data(), text.size()); code != tinyxml2::XML_SUCCESS) {
+    location = {xml_.ErrorLineNum(), 0};
+    error = concat("the file is not well-formed XML: ", meaning_of(code));
     return false;
   }
   ElementCounter counter;
   xml_.Accept(&counter);
-  places_.resize(counter.count);
-  PlaceMarker marker(text, places_);
+  locations_.resize(counter.count);
+  LocationMarker marker(text, locations_);
   xml_.Accept(&marker);
   return true;
 }
 
-Place place_of(const Element& element) {
-  const auto* place = static_cast<const Place*>(element.GetUserData());
-  return place ? *place : Place{};
+Location location_of(const Element& element) {
+  const auto* location = static_cast<const Location*>(element.GetUserData());
+  return location ? *location : Location{};
 }
 
 std::vector<Element*> children(Element& parent, const char* name) {

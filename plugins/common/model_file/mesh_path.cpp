@@ -13,13 +13,13 @@ namespace {
 namespace fs = std::filesystem;
 
 bool is_file(const fs::path& path) {
-  std::error_code trouble;
-  return fs::is_regular_file(path, trouble);
+  std::error_code error;
+  return fs::is_regular_file(path, error);
 }
 
 bool is_folder(const fs::path& path) {
-  std::error_code trouble;
-  return fs::is_directory(path, trouble);
+  std::error_code error;
+  return fs::is_directory(path, error);
 }
 
 std::string lower_case(std::string text) {
@@ -31,9 +31,8 @@ std::string lower_case(std::string text) {
 std::optional<fs::path> in_other_case(const fs::path& path) {
   const std::string wanted = lower_case(path.filename().string());
   std::optional<fs::path> found;
-  std::error_code trouble;
-  for (fs::directory_iterator entry(path.parent_path(), trouble), end; !trouble && entry != end;
-       entry.increment(trouble))
+  std::error_code error;
+  for (fs::directory_iterator entry(path.parent_path(), error), end; !error && entry != end; entry.increment(error))
     if (lower_case(entry->path().filename().string()) == wanted && is_file(entry->path()))
       if (!found || entry->path() < *found) found = entry->path();
   return found;

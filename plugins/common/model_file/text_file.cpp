@@ -41,7 +41,7 @@ std::size_t first_bad_byte(std::string_view text) {
   return i;
 }
 
-Place place_of(std::string_view text, std::size_t index) {
+Location location_of(std::string_view text, std::size_t index) {
   const std::string_view before = text.substr(0, index);
   const std::size_t line_start = before.rfind('\n') + 1;  // npos + 1 is 0
   return {int(std::count(before.begin(), before.end(), '\n')) + 1, int(index - line_start) + 1};
@@ -65,16 +65,16 @@ std::string from_latin1(std::string_view text) {
 }  // namespace
 
 std::string load_file(const std::string& path, const std::string& kind) {
-  std::error_code trouble;
-  const auto status = std::filesystem::status(path, trouble);
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) throw Error("there is no file " + path);
   if (!std::filesystem::is_regular_file(status))
     throw Error(path + " is not a file; give the path of a " + kind + " file");
-  const std::uintmax_t size = std::filesystem::file_size(path, trouble);
-  if (trouble) throw Error(path + " cannot be read: " + trouble.message());
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (error) throw Error(path + " cannot be read: " + error.message());
   if (size > largest_file)
-    throw Error(say(path, " has ", size >> 20, " MiB, and a model may have ", largest_file >> 20,
-                    "; keep meshes in files of their own"));
+    throw Error(concat(path, " has ", size >> 20, " MiB, and a model may have ", largest_file >> 20,
+                       "; keep meshes in files of their own"));
   std::ifstream file(path, std::ios::binary);
   std::string bytes(size, '\0');
   if (!file || !file.read(bytes.data(), std::streamsize(size)))
@@ -82,26 +82,28 @@ std::string load_file(const std::string& path, const std::string& kind) {
   return bytes;
 }
 
-TextTroubles decode(std::string& bytes, const std::string& kind, const std::string& root) {
+DecodingProblems decode(std::string& bytes, const std::string& kind, const std::string& root) {
   if (bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff"))
     return {.error = {{1, 1}, "the file is encoded as UTF-16; save it as UTF-8"}};
   if (bytes.starts_with("\xef\xbb\xbf")) bytes.erase(0, 3);
   const std::size_t start = bytes.find_first_not_of(" \t\r\n");
   if (start == std::string::npos)
-    return {.error = {{}, say("the file is empty; a ", kind, " file holds a <", root, "> element")}};
+    return {.error = {{}, concat("the file is empty; a ", kind, " file holds a <", root, "> element")}};
   if (const std::size_t zero = bytes.find('\0'); zero != std::string::npos)
-    return {.error = {place_of(bytes, zero), "the file holds a zero byte: it is no text file, or cut, or not UTF-8"}};
-  TextTroubles troubles;
+    return {
+        .error = {location_of(bytes, zero), "the file holds a zero byte: it is no text file, or cut, or not UTF-8"}};
+  DecodingProblems problems;
   if (const std::size_t bad = first_bad_byte(bytes); bad < bytes.size()) {
-    troubles.warning = {place_of(bytes, bad), say("byte ", byte_at(bytes, bad),
-                                                  " is not UTF-8; the file is read as ISO-8859-1. Save it as UTF-8")};
+    problems.warning = {
+        location_of(bytes, bad),
+        concat("byte ", byte_at(bytes, bad), " is not UTF-8; the file is read as ISO-8859-1. Save it as UTF-8")};
     bytes = from_latin1(bytes);
   }
   if (bytes[start] != '<')
-    troubles.error = {place_of(bytes, start),
-                      say("the file is not XML: it begins with ", cited(std::string_view(bytes).substr(start, 12)),
-                          "; a ", kind, " file begins with <?xml or <", root)};
-  return troubles;
+    problems.error = {location_of(bytes, start),
+                      concat("the file is not XML: it begins with ", quote(std::string_view(bytes).substr(start, 12)),
+                             "; a ", kind, " file begins with <?xml or <", root)};
+  return problems;
 }
 
 }  // namespace muro::model_file

@@ -5,26 +5,25 @@
 
 #include "muro/algorithm.hpp"
 #include "muro/toolkit/did_you_mean.hpp"
+#include "plugins/common/text/quote.hpp"
 
 namespace muro::control {
 
 namespace {
 
-std::string named(std::string_view text) { return "`" + std::string(text) + "`"; }
-
-std::string listed(const std::vector<std::string>& names) {
+std::string comma_separated(const std::vector<std::string>& names) {
   std::string all;
   for (const std::string& n : names) all += (all.empty() ? "" : ", ") + n;
   return all;
 }
 
-Target read_target(std::string_view text) {
+PropertyReference read_reference(std::string_view text) {
   const std::size_t colon = text.rfind(':');
   if (colon == std::string_view::npos) return {"", std::string(text)};
   return {std::string(text.substr(0, colon)), std::string(text.substr(colon + 1))};
 }
 
-void sort_and_thin(std::vector<std::string>& names) {
+void sort_unique(std::vector<std::string>& names) {
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
 }
@@ -37,21 +36,21 @@ Connections read_connections(std::string_view parameter, std::span<const std::st
   for (const muro_port& p : ports) known.emplace_back(p.name);
   Connections result;
   for (const std::string_view text : texts) {
-    const std::string in_place = named(parameter) + ": " + named(text);
+    const std::string context = quote(parameter) + ": " + quote(text);
     const std::size_t equals = text.find('=');
     if (equals == std::string_view::npos || equals == 0)
-      throw Error(in_place + " must be \"port=object:property\" or \"port=property\"");
+      throw Error(context + " must be \"port=object:property\" or \"port=property\"");
     const std::string port(text.substr(0, equals));
     if (std::find(known.begin(), known.end(), port) == known.end())
-      throw Error(in_place + ": library " + named(library) + " has no such " +
+      throw Error(context + ": library " + quote(library) + " has no such " +
                   (parameter == "inputs" ? "input" : "output") + did_you_mean(port, known) +
-                  "; it has: " + (known.empty() ? "none" : listed(known)));
-    if (result.contains(port)) throw Error(in_place + " connects port " + named(port) + " a second time");
-    std::vector<Target>& targets = result[port];
+                  "; it has: " + (known.empty() ? "none" : comma_separated(known)));
+    if (result.contains(port)) throw Error(context + " connects port " + quote(port) + " a second time");
+    std::vector<PropertyReference>& references = result[port];
     for (std::string_view rest = text.substr(equals + 1);;) {
       const std::size_t comma = std::min(rest.find(','), rest.size());
-      targets.push_back(read_target(rest.substr(0, comma)));
-      if (targets.back().property.empty()) throw Error(in_place + " names no property");
+      references.push_back(read_reference(rest.substr(0, comma)));
+      if (references.back().property.empty()) throw Error(context + " names no property");
       if (comma == rest.size()) break;
       rest.remove_prefix(comma + 1);
     }
@@ -72,7 +71,7 @@ PropertyFinder::PropertyFinder(const Connector& connector, const Item& item) : c
 }
 
 std::string PropertyFinder::robot_or_world() const {
-  return item_.robot ? "robot " + named(item_.robot->name) : "the world";
+  return item_.robot ? "robot " + quote(item_.robot->name) : "the world";
 }
 
 /// The name without the robot's.
@@ -84,7 +83,7 @@ std::string PropertyFinder::local_name(ObjectId object) const {
 }
 
 std::string PropertyFinder::full_name(const FoundProperty& p) const {
-  return named(std::string(connector_.object_name(p.object)) + ":" + std::string(p.key->name));
+  return quote(std::string(connector_.object_name(p.object)) + ":" + std::string(p.key->name));
 }
 
 ObjectId PropertyFinder::object(std::string_view name) const {
@@ -118,31 +117,32 @@ FoundProperty PropertyFinder::find_anywhere(std::string_view property, std::stri
     std::vector<std::string> names;
     for (const ObjectId o : objects_)
       for (const FoundProperty& p : connector_.properties(o)) names.emplace_back(p.key->name);
-    sort_and_thin(names);
-    throw Error("no object of " + robot_or_world() + " has a property " + named(property) +
-                did_you_mean(property, names) + "; its objects have: " + listed(names));
+    sort_unique(names);
+    throw Error("no object of " + robot_or_world() + " has a property " + quote(property) +
+                did_you_mean(property, names) + "; its objects have: " + comma_separated(names));
   }
   std::vector<std::string> candidates;
   for (const FoundProperty& p : found) candidates.push_back(local_name(p.object));
-  throw Error("several objects of " + robot_or_world() + " have a property " + named(property) + ": " +
-              listed(candidates) + "; choose in " + named(parameter) + ", e.g. \"" + std::string(port) + "=" +
+  throw Error("several objects of " + robot_or_world() + " have a property " + quote(property) + ": " +
+              comma_separated(candidates) + "; choose in " + quote(parameter) + ", e.g. \"" + std::string(port) + "=" +
               candidates[0] + ":" + std::string(property) + "\" (several, separated by commas, stand side by side)");
 }
 
-FoundProperty PropertyFinder::find(const Target& target, std::string_view parameter, std::string_view port) const {
-  if (target.object.empty()) return find_anywhere(target.property, parameter, port);
-  const ObjectId o = object(target.object);
+FoundProperty PropertyFinder::find(const PropertyReference& reference, std::string_view parameter,
+                                   std::string_view port) const {
+  if (reference.object.empty()) return find_anywhere(reference.property, parameter, port);
+  const ObjectId o = object(reference.object);
   if (o == no_object) {
     std::vector<std::string> names;
     for (const ObjectId known : objects_) names.push_back(local_name(known));
-    throw Error(robot_or_world() + " has no object " + named(target.object) + did_you_mean(target.object, names) +
-                "; it has: " + listed(names));
+    throw Error(robot_or_world() + " has no object " + quote(reference.object) + did_you_mean(reference.object, names) +
+                "; it has: " + comma_separated(names));
   }
-  if (const FoundProperty* p = property_of(o, target.property)) return *p;
+  if (const FoundProperty* p = property_of(o, reference.property)) return *p;
   std::vector<std::string> names;
   for (const FoundProperty& p : connector_.properties(o)) names.emplace_back(p.key->name);
-  throw Error("object " + named(connector_.object_name(o)) + " has no property " + named(target.property) +
-              did_you_mean(target.property, names) + "; it has: " + listed(names));
+  throw Error("object " + quote(connector_.object_name(o)) + " has no property " + quote(reference.property) +
+              did_you_mean(reference.property, names) + "; it has: " + comma_separated(names));
 }
 
 void PropertyFinder::check(const FoundProperty& p, const muro_port& port) const {
@@ -160,7 +160,7 @@ std::vector<FoundProperty> PropertyFinder::find(const muro_port& port, bool inpu
   const std::string_view parameter = input ? "inputs" : "outputs";
   std::vector<FoundProperty> found;
   if (const auto connected = connections.find(port.name); connected != connections.end()) {
-    for (const Target& t : connected->second) found.push_back(find(t, parameter, port.name));
+    for (const PropertyReference& r : connected->second) found.push_back(find(r, parameter, port.name));
   } else {
     found.push_back(find_anywhere(port.name, parameter, port.name));
     if (const FoundProperty* measured = property_of(found[0].object, std::string(port.name) + ".measured");

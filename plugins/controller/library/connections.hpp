@@ -10,14 +10,14 @@
 
 namespace muro::control {
 
-/// A property that a scenario names: "object:property", or "property" of an object to be found.
-struct Target {
-  std::string object;  ///< empty: to be found
+/// How a scenario refers to a property: "object:property", or "property" of an object that is searched for.
+struct PropertyReference {
+  std::string object;  ///< empty: it is searched for
   std::string property;
 };
 
-/// What a scenario says about ports: "port=target" or "port=target,target,...", by port.
-using Connections = std::map<std::string, std::vector<Target>, std::less<>>;
+/// What a scenario says about ports: "port=reference" or "port=reference,reference,...", by port.
+using Connections = std::map<std::string, std::vector<PropertyReference>, std::less<>>;
 
 /// Reads the texts of parameter `parameter` ("inputs" or "outputs"); names only ports of `ports`. Throws Error.
 Connections read_connections(std::string_view parameter, std::span<const std::string_view> texts,
@@ -38,7 +38,7 @@ class PropertyFinder {
   bool has(std::string_view property) const;
 
  private:
-  FoundProperty find(const Target& target, std::string_view parameter, std::string_view port) const;
+  FoundProperty find(const PropertyReference& reference, std::string_view parameter, std::string_view port) const;
   FoundProperty find_anywhere(std::string_view property, std::string_view parameter, std::string_view port) const;
   ObjectId object(std::string_view name) const;
   const FoundProperty* property_of(ObjectId object, std::string_view name) const;

@@ -9,14 +9,13 @@
 #include <limits>
 
 #include "muro/algorithm.hpp"
+#include "plugins/common/text/quote.hpp"
 
 namespace muro::control {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string named(std::string_view text) { return "`" + std::string(text) + "`"; }
 
 bool ends_with(std::string_view text, std::string_view end) {
   return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
@@ -35,23 +34,23 @@ fs::path own_folder() {
   return fs::absolute(info.dli_fname, unused).parent_path();
 }
 
-/// The floating-point environment, kept as it is: a library linked with -ffast-math turns off subnormal numbers
-/// in the thread that loads it (gcc before 13, clang before 19), and so would change every result.
-class KeptArithmetic {
+/// Restores the floating-point environment at its end: a library linked with -ffast-math turns off subnormal numbers
+/// in the thread that loads it (gcc before 13, clang before 19), which would change every result.
+class FloatingPointGuard {
  public:
-  KeptArithmetic() { fegetenv(&environment_); }
-  ~KeptArithmetic() { fesetenv(&environment_); }
-  KeptArithmetic(const KeptArithmetic&) = delete;
-  KeptArithmetic& operator=(const KeptArithmetic&) = delete;
+  FloatingPointGuard() { fegetenv(&environment_); }
+  ~FloatingPointGuard() { fesetenv(&environment_); }
+  FloatingPointGuard(const FloatingPointGuard&) = delete;
+  FloatingPointGuard& operator=(const FloatingPointGuard&) = delete;
 
  private:
   fenv_t environment_{};
 };
 
-/// The loader's last message without the path, which ours names already.
+/// The loader's last message without the path, which our message names already.
 std::string loader_message(const std::string& path) {
-  const char* said = dlerror();
-  std::string text = said ? said : "unknown reason";
+  const char* message = dlerror();
+  std::string text = message ? message : "unknown reason";
   if (text.rfind(path + ": ", 0) == 0) text.erase(0, path.size() + 2);
   return text;
 }
@@ -64,7 +63,7 @@ void check_ports(const char* what, const muro_port* ports, std::uint32_t count, 
       throw Error(library + ": " + what + " " + std::to_string(i) + " has no name");
     for (std::uint32_t k = 0; k < i; ++k)
       if (std::string_view(ports[i].name) == ports[k].name)
-        throw Error(library + " has two " + what + "s named " + named(ports[i].name) + "; names are unique");
+        throw Error(library + " has two " + what + "s named " + quote(ports[i].name) + "; names are unique");
   }
 }
 
@@ -86,7 +85,7 @@ std::string find_library(std::string_view name, const std::string& as_path, std:
   if (name.empty()) throw Error("parameter `library` is empty; give the path or the name of a library");
   if (name.find('/') != std::string_view::npos) {
     if (is_file(as_path)) return as_path;
-    throw Error("there is no library " + named(as_path) + "; relative paths start at the scenario's folder");
+    throw Error("there is no library " + quote(as_path) + "; relative paths start at the scenario's folder");
   }
   std::vector<std::string> files{std::string(name)};
   if (!ends_with(name, ".so")) files = {files[0] + ".so", "lib" + files[0] + ".so"};
@@ -96,12 +95,12 @@ std::string find_library(std::string_view name, const std::string& as_path, std:
       if (const fs::path path = fs::path(folder) / file; is_file(path)) return fs::absolute(path).string();
     searched += (searched.empty() ? "" : ", ") + folder;
   }
-  throw Error("no library " + named(files[0]) + (files.size() > 1 ? " or " + named(files[1]) : "") +
+  throw Error("no library " + quote(files[0]) + (files.size() > 1 ? " or " + quote(files[1]) : "") +
               " in any of these folders: " + searched + "; give its path, or add its folder to MURO_CONTROLLER_PATH");
 }
 
 const muro_controller_table& load_library(const std::string& path) {
-  const KeptArithmetic kept;
+  const FloatingPointGuard guard;
   void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);  // never closed: its table is used until the end
   if (!library) throw Error("library " + path + " cannot be loaded: " + loader_message(path));
   void* symbol = dlsym(library, "muro_controller");
@@ -134,8 +133,8 @@ void check_table(const muro_controller_table* table, const std::string& path) {
   check_ports("output", table->outputs, table->output_count, library);
   for (std::uint32_t i = 0; i < table->output_count; ++i)
     if (table->outputs[i].size == 0)
-      throw Error(library + ": output " + named(table->outputs[i].name) +
-                  " has size 0; only inputs may leave their size open");
+      throw Error(library + ": output " + quote(table->outputs[i].name) +
+                  " has size 0; only inputs may leave their size undefined");
 }
 
 }  // namespace muro::control

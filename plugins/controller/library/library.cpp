@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <utility>
 
 #include "connections.hpp"
 #include "control_library.hpp"
@@ -40,14 +41,14 @@ constexpr Description description{
 
 constexpr std::size_t error_size = 1024;
 
-/// What is kept of one robot: this, then the library's own state. Blocks are whole multiples of 64 bytes, so that all
-/// blocks of a column are aligned as the C header promises.
-struct alignas(64) Block {
+/// The state of one robot: this, then the library's own state. The size is a multiple of 64 bytes, so that the states
+/// of all robots, one after the other, are aligned as the C header promises.
+struct alignas(64) StateBlock {
   std::uint64_t created;  ///< 0 until the library's `create` has run
 
   void* state() { return this + 1; }
   static std::uint32_t size_for(std::size_t state_size) {
-    return std::uint32_t(sizeof(Block) + (state_size + 63) / 64 * 64);
+    return std::uint32_t(sizeof(StateBlock) + (state_size + 63) / 64 * 64);
   }
 };
 
@@ -65,8 +66,8 @@ class LibraryController final : public Algorithm {
       Robot& r = robots_.emplace_back();
       r.name = item.robot ? item.robot->name : "world";
       r.random_key = c.random_key(i);
-      r.block = static_cast<Block*>(
-          c.state_block(item.object, block_name(c, item.object), Block::size_for(table_->state_size)));
+      r.block = static_cast<StateBlock*>(
+          c.state_block(item.object, block_name(c, item.object), StateBlock::size_for(table_->state_size)));
     }
   }
 
@@ -99,16 +100,14 @@ class LibraryController final : public Algorithm {
       for (std::uint32_t i = 0; i < table_->input_count; ++i) measure(r.inputs[i], table_->inputs[i], true);
       for (std::uint32_t i = 0; i < table_->output_count; ++i) measure(r.outputs[i], table_->outputs[i], false);
       r.copies.assign(copied, 0);
-      double* free = r.copies.data();
-      const auto place_of = [&](const Port& port) {
+      double* next = r.copies.data();
+      const auto data_of = [&](const Port& port) {
         if (port.direct()) return port.direct();
-        double* place = free;
-        free += port.size();
-        return place;
+        return std::exchange(next, next + port.size());
       };
-      r.input_sizes.clear(), r.input_places.clear(), r.output_places.clear();
-      for (const Port& port : r.inputs) r.input_sizes.push_back(port.size()), r.input_places.push_back(place_of(port));
-      for (const Port& port : r.outputs) r.output_places.push_back(place_of(port));
+      r.input_sizes.clear(), r.input_data.clear(), r.output_data.clear();
+      for (const Port& port : r.inputs) r.input_sizes.push_back(port.size()), r.input_data.push_back(data_of(port));
+      for (const Port& port : r.outputs) r.output_data.push_back(data_of(port));
     }
   }
 
@@ -120,11 +119,11 @@ class LibraryController final : public Algorithm {
   struct Robot {
     std::string name;
     std::uint64_t random_key = 0;
-    Block* block = nullptr;
+    StateBlock* block = nullptr;
     std::vector<Port> inputs, outputs;
-    std::vector<double> copies;  ///< of ports that are no run of doubles; no state: made anew in every step
+    std::vector<double> copies;  ///< of ports that are not contiguous doubles; written anew in every step, so no state
     std::vector<std::uint32_t> input_sizes;
-    std::vector<double*> input_places, output_places;
+    std::vector<double*> input_data, output_data;
   };
 
   std::map<std::string, std::string> missing_;  ///< optional inputs that a robot lacks, and the first such robot
@@ -191,7 +190,7 @@ class LibraryController final : public Algorithm {
     return fnv1a({reinterpret_cast<const char*>(&simulation), sizeof simulation}, robot ^ 0xcbf29ce484222325ull);
   }
 
-  /// Whatever stands in the buffer, it ends there.
+  /// Ends the text within the buffer, whatever the library has written.
   static std::string failure(char* error) {
     error[error_size - 1] = 0;
     return *error ? "fails: " + std::string(error) : "fails without giving a reason";
@@ -199,11 +198,11 @@ class LibraryController final : public Algorithm {
 
   void run(Robot& r, const Step& step) const {
     for (std::size_t i = 0; i < r.inputs.size(); ++i)
-      if (!r.inputs[i].direct()) r.inputs[i].read(r.input_places[i]);
+      if (!r.inputs[i].direct()) r.inputs[i].read(r.input_data[i]);
     for (std::size_t i = 0; i < r.outputs.size(); ++i)
-      if (!r.outputs[i].direct()) r.outputs[i].read(r.output_places[i]);
+      if (!r.outputs[i].direct()) r.outputs[i].read(r.output_data[i]);
     if (r.block->created == 0) create(r, step);
-    const muro_controller_step now{step.seconds(), r.input_places.data(), r.output_places.data()};
+    const muro_controller_step now{step.seconds(), r.input_data.data(), r.output_data.data()};
     char error[error_size];
     error[0] = 0;
     if (table_->step(r.block->state(), &now, error, error_size) != 0) throw Error(about(r) + failure(error));
@@ -212,7 +211,7 @@ class LibraryController final : public Algorithm {
 
   void hand_out(const Robot& r, std::size_t i) const {
     const Port& port = r.outputs[i];
-    const double* values = r.output_places[i];
+    const double* values = r.output_data[i];
     std::uint32_t bad = 0;
     while (bad < port.size() && std::isfinite(values[bad])) ++bad;
     if (bad == port.size() && (port.direct() || port.write(values, bad))) return;
@@ -233,5 +232,5 @@ constexpr abi::AlgorithmEntry algorithms[] = {algorithm<LibraryController>(descr
 
 }  // namespace
 
-MURO_PLUGIN(.name = "controller_library", .version = "1.0.0", .licence = "MIT",
+MURO_PLUGIN(.name = "controller_library", .version = description.version, .licence = "MIT",
             .summary = "Control code from shared libraries", .algorithms = algorithms)

@@ -52,41 +52,42 @@ bool convert(double value, T& result) {
 }  // namespace
 
 void Port::add(const FoundProperty& property, void* handle) {
-  runs_.push_back({.handle = handle,
-                   .multiplicity = property.multiplicity,
-                   .scalar = property.key->type->scalar,
-                   .per_element = property.key->type->scalars()});
+  segments_.push_back({.handle = handle,
+                       .multiplicity = property.multiplicity,
+                       .scalar = property.key->type->scalar,
+                       .per_element = property.key->type->scalars()});
 }
 
 void Port::resolve() {
   size_ = 0;
-  for (Run& r : runs_) {
-    r.place = r.handle;
-    r.count = r.per_element;
-    if (r.multiplicity == Multiplicity::array) {
-      const auto* array = static_cast<const ArrayHeader*>(r.handle);
-      r.place = array->data;
-      r.count = std::uint32_t(array->size) * r.per_element;
+  for (Segment& s : segments_) {
+    s.data = s.handle;
+    s.count = s.per_element;
+    if (s.multiplicity == Multiplicity::array) {
+      const auto* array = static_cast<const ArrayHeader*>(s.handle);
+      s.data = array->data;
+      s.count = std::uint32_t(array->size) * s.per_element;
     }
-    size_ += r.count;
+    size_ += s.count;
   }
-  direct_ = runs_.size() == 1 && runs_[0].scalar == Scalar::f64 ? static_cast<double*>(runs_[0].place) : nullptr;
+  direct_ =
+      segments_.size() == 1 && segments_[0].scalar == Scalar::f64 ? static_cast<double*>(segments_[0].data) : nullptr;
 }
 
 void Port::read(double* to) const {
-  for (const Run& r : runs_)
-    with_type(r.scalar, [&](auto* type) {
-      const auto* from = static_cast<decltype(type)>(r.place);
-      for (std::uint32_t i = 0; i < r.count; ++i) *to++ = double(from[i]);
+  for (const Segment& s : segments_)
+    with_type(s.scalar, [&](auto* type) {
+      const auto* from = static_cast<decltype(type)>(s.data);
+      for (std::uint32_t i = 0; i < s.count; ++i) *to++ = double(from[i]);
     });
 }
 
 bool Port::write(const double* from, std::uint32_t& bad) const {
   const double* next = from;
-  for (const Run& r : runs_) {
-    const bool fits = with_type(r.scalar, [&](auto* type) {
-      auto* to = static_cast<decltype(type)>(r.place);
-      for (std::uint32_t i = 0; i < r.count; ++i, ++next)
+  for (const Segment& s : segments_) {
+    const bool fits = with_type(s.scalar, [&](auto* type) {
+      auto* to = static_cast<decltype(type)>(s.data);
+      for (std::uint32_t i = 0; i < s.count; ++i, ++next)
         if (!convert(*next, to[i])) return false;
       return true;
     });

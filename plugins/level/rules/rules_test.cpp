@@ -38,7 +38,7 @@ TEST(LevelRules, HandOverAtATime) {
   s.run_for(0.5);
   EXPECT_EQ(s.level(), 0u);
   EXPECT_EQ(s.world().value(s.ball->base(), keys::contact_world), 0u);
-  EXPECT_NEAR(s.pose(*s.ball).position.x(), 0.5 * 1.01, 1e-12) << "nothing is lost on the way";
+  EXPECT_NEAR(s.pose(*s.ball).position.x(), 0.5 * 1.01, 1e-12) << "the hand-over keeps the pose";
 }
 
 TEST(LevelRules, HandOverWhereRobotsComeNear) {
@@ -49,8 +49,8 @@ TEST(LevelRules, HandOverWhereRobotsComeNear) {
   EXPECT_EQ(s.level(), 1u);
 }
 
-TEST(LevelRules, HandOverOnTouch) {
-  Ruled s({"near when touched", "far when untouched for 0.5"}, {0.5, 0, 0.1});
+TEST(LevelRules, HandOverOnContact) {
+  Ruled s({"near when in contact", "far when out of contact for 0.5"}, {0.5, 0, 0.1});
   s.run_for(0.55);  // surfaces meet at 0.6 s
   EXPECT_EQ(s.level(), 0u);
   s.run_for(0.1);
@@ -58,7 +58,7 @@ TEST(LevelRules, HandOverOnTouch) {
   s.world().value(s.ball->base(), keys::command_twist) = {};
   s.run_for(1);
   EXPECT_LT(s.pose(*s.ball).position.x(), 0.35) << "as a body of mass it cannot go through the other";
-  EXPECT_EQ(s.level(), 0u) << "it has bounced off and was left alone for half a second";
+  EXPECT_EQ(s.level(), 0u) << "it has bounced off and was out of contact for half a second";
 }
 
 TEST(LevelRules, AMotionIsKeptForAWhile) {
@@ -100,6 +100,19 @@ TEST(LevelRules, ThatNameNoOtherRobotAreRefused) {
     FAIL();
   } catch (const std::exception& e) {
     EXPECT_NE(std::string(e.what()).find("no other robot has this name (did you mean `other`?)"), std::string::npos)
+        << e.what();
+  }
+}
+
+TEST(LevelRules, AreDeterministicAndLeaveTheSpeedOfTheRunToLevelBudget) {
+  EXPECT_NE(test::plugins().algorithm("level.rules").description->capabilities & deterministic, 0u);
+  try {
+    Ruled s({"far when slower than 1"});
+    FAIL();
+  } catch (const std::exception& e) {
+    EXPECT_NE(std::string(e.what()).find("the rule `far when slower than 1` goes by the speed of the run, which only "
+                                         "the machine's clock tells; use level.budget"),
+              std::string::npos)
         << e.what();
   }
 }

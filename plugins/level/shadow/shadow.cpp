@@ -7,15 +7,15 @@ namespace {
 using namespace muro;
 
 constexpr Key<double> distance{"shadow.distance", "m", "between the bases of a robot and its shadow"};
-constexpr Key<double> angle{"shadow.angle", "rad", "between the attitudes of a robot and its shadow"};
-constexpr Key<double> greatest_distance{"shadow.distance.greatest", "m", "so far"};
-constexpr Key<double> greatest_angle{"shadow.angle.greatest", "rad", "so far"};
+constexpr Key<double> angle{"shadow.angle", "rad", "between the orientations of a robot and its shadow"};
+constexpr Key<double> max_distance{"shadow.distance.max", "m", "the largest so far"};
+constexpr Key<double> max_angle{"shadow.angle.max", "rad", "the largest so far"};
 
 constexpr PropertyUse reads[] = {{"pose", "of the bases of the robot and its shadow"}, {"shadow.of", "of the shadow"}};
 constexpr PropertyUse writes[] = {{"shadow.distance", "of the shadow's base"},
                                   {"shadow.angle", "of the shadow's base"},
-                                  {"shadow.distance.greatest", "of the shadow's base"},
-                                  {"shadow.angle.greatest", "of the shadow's base"}};
+                                  {"shadow.distance.max", "of the shadow's base"},
+                                  {"shadow.angle.max", "of the shadow's base"}};
 constexpr Description description{
     .id = "level.shadow",
     .kind = Kind::level,
@@ -34,8 +34,8 @@ class Shadow final : public Algorithm {
       if (!original) throw Error("it measures shadows, but `" + std::string(c.object_name(item.object)) + "` is none");
       const ObjectId base = item.robot->base();
       pairs_.push_back({c.read(*original, keys::pose), c.read(base, keys::pose), c.variable(base, distance, 0.0),
-                        c.variable(base, angle, 0.0), c.variable(base, greatest_distance, 0.0),
-                        c.variable(base, greatest_angle, 0.0)});
+                        c.variable(base, angle, 0.0), c.variable(base, max_distance, 0.0),
+                        c.variable(base, max_angle, 0.0)});
     }
   }
 
@@ -44,15 +44,15 @@ class Shadow final : public Algorithm {
       const Pair& p = pairs_[i];
       *p.distance = (p.shadow->position - p.robot->position).norm();
       *p.angle = p.shadow->orientation.angularDistance(p.robot->orientation);
-      *p.greatest_distance = std::max(*p.greatest_distance, *p.distance);
-      *p.greatest_angle = std::max(*p.greatest_angle, *p.angle);
+      *p.max_distance = std::max(*p.max_distance, *p.distance);
+      *p.max_angle = std::max(*p.max_angle, *p.angle);
     }
   }
 
  private:
   struct Pair {
     In<Pose> robot, shadow;
-    Out<double> distance, angle, greatest_distance, greatest_angle;
+    Out<double> distance, angle, max_distance, max_angle;
   };
   std::vector<Pair> pairs_;
 };
@@ -61,5 +61,5 @@ constexpr abi::AlgorithmEntry algorithms[] = {algorithm<Shadow>(description)};
 
 }  // namespace
 
-MURO_PLUGIN(.name = "level_shadow", .version = "1.0.0", .licence = "MIT", .summary = "Robots and their shadows",
-            .algorithms = algorithms)
+MURO_PLUGIN(.name = "level_shadow", .version = description.version, .licence = "MIT",
+            .summary = "Robots and their shadows", .algorithms = algorithms)

@@ -10,7 +10,7 @@ const Inertia light{.mass = 1, .ixx = 0.004, .iyy = 0.004, .izz = 0.004};
 
 RobotTree cube() { return test::single_body(Shape::box({0.2, 0.2, 0.2}), light); }
 
-/// A robot that motion.point moves and its shadow, which forces move; a wall or a mate may stand in the way.
+/// A robot that motion.point moves and its shadow, which forces move; a wall or another robot may stand in the way.
 struct Shaded : test::Scene {
   const RobotView *robot, *shadow;
   Shaded() {
@@ -37,7 +37,7 @@ TEST(Shadow, StaysWithItsRobotWhereBothMoveAlike) {
   s.start();
   s.run_for(1);
   EXPECT_NEAR(s.pose(*s.robot).position.x(), 1, 1e-9);
-  EXPECT_LT(s.value("shadow.distance.greatest"), 1e-9);
+  EXPECT_LT(s.value("shadow.distance.max"), 1e-9);
 }
 
 TEST(Shadow, FeelsAWallThatItsRobotGoesThrough) {
@@ -50,16 +50,16 @@ TEST(Shadow, FeelsAWallThatItsRobotGoesThrough) {
   EXPECT_LT(s.pose(*s.shadow).position.x(), 0.51);
   s.run_for(0.001);
   EXPECT_NEAR(s.value("shadow.distance"), (s.pose(*s.robot).position - s.pose(*s.shadow).position).norm(), 2e-3);
-  EXPECT_GE(s.value("shadow.distance.greatest"), s.value("shadow.distance"));
+  EXPECT_GE(s.value("shadow.distance.max"), s.value("shadow.distance"));
 }
 
 TEST(Shadow, IsFeltByNobody) {
   const auto run = [](bool with_shadow) {
     test::Scene s;
     s.world().set(world_object, keys::gravity, Vec3(0, 0, 0));
-    const RobotView& mate = s.add("mate", cube(), {{1, 0, 0}, Quat::Identity()});
+    const RobotView& other = s.add("other", cube(), {{1, 0, 0}, Quat::Identity()});
     const RobotView& robot = s.add("r", cube(), {{0, 5, 0}, Quat::Identity()});
-    s.use("motion.simplified", 1000, {{&mate, mate.base()}});
+    s.use("motion.simplified", 1000, {{&other, other.base()}});
     s.use("motion.point", 1000, {{&robot, robot.base()}});
     const RobotView* shadow = nullptr;
     if (with_shadow) {
@@ -71,9 +71,9 @@ TEST(Shadow, IsFeltByNobody) {
     s.build();
     s.run_for(2);
     if (shadow) {
-      EXPECT_LT(s.twist(*shadow).linear.x(), 0) << "it has met the mate, which is a wall to it";
+      EXPECT_LT(s.twist(*shadow).linear.x(), 0) << "it has met the other robot, which is a wall to it";
     }
-    return s.world().hash(mate);
+    return s.world().hash(other);
   };
   EXPECT_EQ(run(true), run(false));
 }

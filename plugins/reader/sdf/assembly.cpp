@@ -7,22 +7,23 @@ namespace muro::sdf {
 
 namespace {
 
-/// The first message when libsdformat cannot say something.
+/// False, with the first message, when libsdformat could not resolve something.
 template <class Errors>
-bool fine(const Errors& errors, const At& at, Problems& problems) {
+bool is_resolved(const Errors& errors, const FileLocation& location, Problems& problems) {
   if (errors.empty()) return true;
-  problems.error(at, "libsdformat: " + errors.front().Message());
+  problems.error(location, "libsdformat: " + errors.front().Message());
   return false;
 }
 
-Pose resolved(const ::sdf::SemanticPose& pose, const std::string& frame, const At& at, Problems& problems) {
+Pose resolved(const ::sdf::SemanticPose& pose, const std::string& frame, const FileLocation& location,
+              Problems& problems) {
   ignition::math::Pose3d p;
-  return fine(pose.Resolve(p, frame), at, problems) ? pose_of(p) : Pose{};
+  return is_resolved(pose.Resolve(p, frame), location, problems) ? pose_of(p) : Pose{};
 }
 
 class Assembler {
  public:
-  Assembler(Assembly& out, const Sources& sources, Problems& problems)
+  Assembler(Assembly& out, const SourceFiles& sources, Problems& problems)
       : out_(out), sources_(sources), problems_(problems) {}
 
   void add_links(const ::sdf::Model& model, const std::string& scope, const Pose& pose) {
@@ -30,18 +31,18 @@ class Assembler {
       const ::sdf::Link& link = *model.LinkByIndex(i);
       Body b;
       b.link = &link;
-      b.at = at(sources_, link.Element());
+      b.location = location_of(sources_, link.Element());
       const std::string full = scope + link.Name();
       b.name = out_.unique(plain_name(full), "_");
-      b.pose = pose * resolved(link.SemanticPose(), "__model__", b.at, problems_);
+      b.pose = pose * resolved(link.SemanticPose(), "__model__", b.location, problems_);
       out_.bodies_by_name[full] = int(out_.bodies.size());
       out_.bodies.push_back(std::move(b));
     }
     for (std::uint64_t i = 0; i < model.ModelCount(); ++i) {
       const ::sdf::Model& inner = *model.ModelByIndex(i);
-      const At place = at(sources_, inner.Element());
+      const FileLocation location = location_of(sources_, inner.Element());
       add_links(inner,
-                scope + inner.Name() + "::", pose * resolved(inner.SemanticPose(), "__model__", place, problems_));
+                scope + inner.Name() + "::", pose * resolved(inner.SemanticPose(), "__model__", location, problems_));
     }
   }
 
@@ -49,42 +50,42 @@ class Assembler {
     for (std::uint64_t i = 0; i < model.JointCount(); ++i) add_joint(*model.JointByIndex(i), scope, pose);
     for (std::uint64_t i = 0; i < model.ModelCount(); ++i) {
       const ::sdf::Model& inner = *model.ModelByIndex(i);
-      const At place = at(sources_, inner.Element());
+      const FileLocation location = location_of(sources_, inner.Element());
       add_joints(inner,
-                 scope + inner.Name() + "::", pose * resolved(inner.SemanticPose(), "__model__", place, problems_));
+                 scope + inner.Name() + "::", pose * resolved(inner.SemanticPose(), "__model__", location, problems_));
     }
   }
 
  private:
   void add_joint(const ::sdf::Joint& joint, const std::string& scope, const Pose& pose) {
-    Bond b;
-    b.joint = &joint;
-    b.scope = scope;
-    b.at = at(sources_, joint.Element());
+    Joint j;
+    j.definition = &joint;
+    j.scope = scope;
+    j.location = location_of(sources_, joint.Element());
     std::string parent, child;
-    if (!fine(joint.ResolveParentLink(parent), b.at, problems_) ||
-        !fine(joint.ResolveChildLink(child), b.at, problems_))
+    if (!is_resolved(joint.ResolveParentLink(parent), j.location, problems_) ||
+        !is_resolved(joint.ResolveChildLink(child), j.location, problems_))
       return;
     const auto body = [&](const std::string& name) {
       const auto found = out_.bodies_by_name.find(scope + name);
       return found == out_.bodies_by_name.end() ? -1 : found->second;
     };
-    b.parent = parent == "world" ? -1 : body(parent);
-    b.child = body(child);
-    if (b.child < 0 || (b.parent < 0 && parent != "world"))
+    j.parent = parent == "world" ? -1 : body(parent);
+    j.child = body(child);
+    if (j.child < 0 || (j.parent < 0 && parent != "world"))
+      return problems_.error(j.location, concat("joint ", quote(scope + joint.Name()), ": there is no link ",
+                                                quote(j.child < 0 ? child : parent)));
+    if (j.child == j.parent)
       return problems_.error(
-          b.at, say("joint ", cited(scope + joint.Name()), ": there is no link ", cited(b.child < 0 ? child : parent)));
-    if (b.child == b.parent)
-      return problems_.error(b.at,
-                             say("joint ", cited(scope + joint.Name()), " joins link ", cited(child), " with itself"));
-    b.name = out_.unique(plain_name(scope + joint.Name()), "_joint");
-    b.pose = pose * resolved(joint.SemanticPose(), "__model__", b.at, problems_);
-    out_.joints_by_name[scope + joint.Name()] = int(out_.bonds.size());
-    out_.bonds.push_back(std::move(b));
+          j.location, concat("joint ", quote(scope + joint.Name()), " joins link ", quote(child), " with itself"));
+    j.name = out_.unique(plain_name(scope + joint.Name()), "_joint");
+    j.pose = pose * resolved(joint.SemanticPose(), "__model__", j.location, problems_);
+    out_.joints_by_name[scope + joint.Name()] = int(out_.joints.size());
+    out_.joints.push_back(std::move(j));
   }
 
   Assembly& out_;
-  const Sources& sources_;
+  const SourceFiles& sources_;
   Problems& problems_;
 };
 
@@ -109,7 +110,7 @@ Pose pose_of(const ignition::math::Pose3d& p) {
           Quat(p.Rot().W(), p.Rot().X(), p.Rot().Y(), p.Rot().Z()).normalized()};
 }
 
-Assembly assemble(const ::sdf::Model& model, bool with_joints, const Sources& sources, Problems& problems) {
+Assembly assemble(const ::sdf::Model& model, bool with_joints, const SourceFiles& sources, Problems& problems) {
   Assembly out;
   Assembler assembler(out, sources, problems);
   assembler.add_links(model, "", {});

@@ -5,15 +5,14 @@
 #include <sdf/sdf.hh>
 
 #include "assembly.hpp"
-#include "plugins/common/model_file/solid.hpp"
+#include "muro/toolkit/rotations.hpp"
+#include "plugins/common/model_file/inertia.hpp"
 
 namespace muro::sdf {
 
 namespace {
 
 Vec3 vector_of(const ignition::math::Vector3d& v) { return {v.X(), v.Y(), v.Z()}; }
-
-std::string numbers_of(const Vec3& v) { return say(v.x(), " ", v.y(), " ", v.z()); }
 
 ::sdf::ElementPtr child(const ::sdf::ElementPtr& e, const char* name) {
   return e && e->HasElement(name) ? e->FindElement(name) : nullptr;
@@ -49,14 +48,14 @@ std::optional<Shape> shape_of(const ::sdf::Geometry& g, const Intern& intern) {
   }
 }
 
-class Reader {
+class LinkReader {
  public:
-  Reader(const ::sdf::Link& link, const std::string& name, const Sources& sources, const Intern& intern,
-         Problems& problems)
-      : link_(link), owner_("link " + cited(name)), sources_(sources), intern_(intern), problems_(problems) {}
+  LinkReader(const ::sdf::Link& link, const std::string& name, const SourceFiles& sources, const Intern& intern,
+             Problems& problems)
+      : link_(link), owner_("link " + quote(name)), sources_(sources), intern_(intern), problems_(problems) {}
 
-  Solid run(bool movable) {
-    Solid out;
+  LinkBody run(bool movable) {
+    LinkBody out;
     for (std::uint64_t i = 0; i < link_.CollisionCount(); ++i) {
       const ::sdf::Collision& c = *link_.CollisionByIndex(i);
       const auto shape = placed(c.Geom(), c.SemanticPose(), c.Element());
@@ -83,7 +82,7 @@ class Reader {
     ignition::math::Pose3d p;
     const ::sdf::Errors errors = pose.Resolve(p, link_.Name());
     if (!errors.empty()) {
-      problems_.error(at(sources_, element), "libsdformat: " + errors.front().Message());
+      problems_.error(location_of(sources_, element), "libsdformat: " + errors.front().Message());
       return std::nullopt;
     }
     shape->origin = pose_of(p) * shape->origin;
@@ -97,19 +96,19 @@ class Reader {
     const std::optional<double> other = number(bullet, "friction"), other2 = number(bullet, "friction2");
     const std::optional<double> first = mu ? mu : other, second = mu ? mu2 : other2;
     shape.friction = first.value_or(1);
-    const At place = at(sources_, friction ? friction : collision);
+    const FileLocation location = location_of(sources_, friction ? friction : collision);
     if (first && second && *first != *second)
-      problems_.note(place, say(owner_, ": friction is ", *first, " along and ", *second,
-                                " across; it is the same in all directions, and the first is used"));
+      problems_.note(location, concat(owner_, ": friction is ", *first, " along and ", *second,
+                                      " across; it is the same in all directions, and the first is used"));
     if (shape.friction < 0) {
-      problems_.warning(place,
-                        say(owner_, ": friction ", shape.friction, " is negative; 1 is used, SDFormat's default"));
+      problems_.warning(location,
+                        concat(owner_, ": friction ", shape.friction, " is negative; 1 is used, SDFormat's default"));
       shape.friction = 1;
     }
     shape.restitution = number(child(surface, "bounce"), "restitution_coefficient").value_or(0);
     if (!(shape.restitution >= 0 && shape.restitution <= 1)) {
-      problems_.warning(place, say(owner_, ": restitution_coefficient ", shape.restitution, " is taken as ",
-                                   std::clamp(shape.restitution, 0.0, 1.0), "; it is between 0 and 1"));
+      problems_.warning(location, concat(owner_, ": restitution_coefficient ", shape.restitution, " is taken as ",
+                                         std::clamp(shape.restitution, 0.0, 1.0), "; it is between 0 and 1"));
       shape.restitution = std::clamp(shape.restitution, 0.0, 1.0);
     }
   }
@@ -136,9 +135,9 @@ class Reader {
 
   Inertia inertial(std::span<const Shape> shapes) {
     const ::sdf::ElementPtr given = child(link_.Element(), "inertial");
-    const At place = at(sources_, given ? given : link_.Element());
+    const FileLocation location = location_of(sources_, given ? given : link_.Element());
     if (!given)
-      problems_.warning(place,
+      problems_.warning(location,
                         owner_ + " has no <inertial>; SDFormat's default is used, 1 kg and 1 kg m^2 about each axis");
     const ::sdf::ElementPtr tensor = child(given, "inertia");
     Inertia i{.mass = number(given, "mass").value_or(1),
@@ -149,61 +148,24 @@ class Reader {
               .ixz = number(tensor, "ixz").value_or(0),
               .iyz = number(tensor, "iyz").value_or(0)};
     if (given && !tensor)
-      problems_.warning(place, owner_ + " has no <inertia>; SDFormat's default is used, 1 kg m^2 about each axis");
+      problems_.warning(location, owner_ + " has no <inertia>; SDFormat's default is used, 1 kg m^2 about each axis");
     const ::sdf::ElementPtr pose = child(given, "pose");
     const Pose frame = pose ? pose_of(pose->Get<ignition::math::Pose3d>()) : Pose{};
-    return checked(i, frame, shapes, place);
-  }
-
-  Inertia checked(const Inertia& given, const Pose& frame, std::span<const Shape> shapes, const At& place) {
-    using model_file::TensorFault;
-    if (given.mass < 0) {
-      problems_.error(place,
-                      say(owner_, ": the mass is ", given.mass, " kg; it is 0 (a frame without a body) or more"));
-      return {};
-    }
-    if (given.mass == 0) {
-      problems_.note(place, owner_ + " has the mass 0: it is a frame without a body");
-      return {};
-    }
-    Inertia inertia = given.in(frame);
-    const model_file::TensorCheck check = model_file::check_tensor(given.tensor());
-    if (!inertia.com.allFinite() || !inertia.tensor().allFinite() || !check.moments.allFinite()) {
-      problems_.error(place, owner_ + ": its inertia is too large for a number; use kg, m and kg m^2");
-      return {};
-    }
-    if (check.fault == TensorFault::no_body) {
-      problems_.warning(place, say(owner_, ": its principal moments of inertia are ", numbers_of(check.moments),
-                                   " kg m^2, which no body has: none exceeds the sum of the other two. They are ",
-                                   "used as they are"));
-    } else if (check.fault == TensorFault::not_positive) {
-      Inertia even = model_file::even_solid(shapes, given.mass);
-      const bool solid =
-          std::any_of(shapes.begin(), shapes.end(),
-                      [](auto& s) { return half_extents(s).allFinite() && s.kind != ShapeKind::mesh; }) &&
-          even.tensor().allFinite();
-      if (!solid) even = model_file::even_solid({}, given.mass);
-      problems_.warning(place, say(owner_, ": its principal moments of inertia are ", numbers_of(check.moments),
-                                   " kg m^2, and must be above 0; those of an even body of ", given.mass, " kg in its ",
-                                   solid ? "shapes" : "place, a ball of water,",
-                                   " are used: ", numbers_of({even.ixx, even.iyy, even.izz})));
-      inertia = Inertia::from(given.mass, inertia.com, even.tensor());
-    }
-    return inertia;
+    return model_file::checked_inertia(i, frame, shapes, owner_, location, problems_);
   }
 
   const ::sdf::Link& link_;
   std::string owner_;
-  const Sources& sources_;
+  const SourceFiles& sources_;
   const Intern& intern_;
   Problems& problems_;
 };
 
 }  // namespace
 
-Solid solid_of(const ::sdf::Link& link, const std::string& name, bool movable, const Sources& sources,
-               const Intern& intern, Problems& problems) {
-  return Reader(link, name, sources, intern, problems).run(movable);
+LinkBody body_of(const ::sdf::Link& link, const std::string& name, bool movable, const SourceFiles& sources,
+                 const Intern& intern, Problems& problems) {
+  return LinkReader(link, name, sources, intern, problems).run(movable);
 }
 
 }  // namespace muro::sdf

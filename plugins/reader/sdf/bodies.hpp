@@ -14,13 +14,13 @@ namespace muro::sdf {
 using Intern = std::function<TextId(std::string_view)>;
 
 /// What a link is made of.
-struct Solid {
+struct LinkBody {
   Inertia inertial;
   std::vector<Shape> collisions, visuals;
 };
 
 /// `name` stands for the link in messages. Without `movable` inertia is of no interest, and not checked.
-Solid solid_of(const ::sdf::Link& link, const std::string& name, bool movable, const Sources& sources,
-               const Intern& intern, Problems& problems);
+LinkBody body_of(const ::sdf::Link& link, const std::string& name, bool movable, const SourceFiles& sources,
+                 const Intern& intern, Problems& problems);
 
 }  // namespace muro::sdf

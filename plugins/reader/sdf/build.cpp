@@ -4,6 +4,7 @@
 #include "bodies.hpp"
 #include "joints.hpp"
 #include "muro/vocabulary.hpp"
+#include "plugins/common/model_file/build_tree.hpp"
 
 namespace muro::sdf {
 
@@ -11,7 +12,7 @@ namespace {
 
 class TreeBuilder {
  public:
-  TreeBuilder(Assembly& assembly, const Sources& sources, RobotBuilder& builder, Problems& problems)
+  TreeBuilder(Assembly& assembly, const SourceFiles& sources, RobotBuilder& builder, Problems& problems)
       : a_(assembly),
         sources_(sources),
         builder_(builder),
@@ -21,70 +22,41 @@ class TreeBuilder {
   void run() {
     builder_.base(body(a_.base).name);
     fill(a_.base);
-    // An own stack: a chain of links may be longer than the call stack is deep.
-    std::vector<Task> open;
-    push_children(open, a_.base);
-    while (!open.empty()) {
-      const Task task = open.back();
-      open.pop_back();
-      switch (task.kind) {
-        case Task::open_fork:
-          builder_.fork();
-          break;
-        case Task::close_branch:
-          builder_.end();
-          break;
-        case Task::add:
-          push_children(open, add(task));
-          break;
-      }
-    }
+    model_file::build_tree(builder_, children_of(a_.base), [this](const Child& child) { return add(child); });
     if (mass_ == 0 && !problems_.found_error())
-      problems_.warning(body(a_.base).at, "no link has a mass; only motion without forces can move the robot");
+      problems_.warning(body(a_.base).location, "no link has a mass; only motion without forces can move the robot");
   }
 
  private:
-  struct Task {
-    enum { open_fork, close_branch, add } kind;
-    int bond = -1;               ///< or none:
-    int holder = -1, held = -1;  ///< a body that is held by another
+  struct Child {
+    int body;
+    int joint = -1;   ///< that leads to it, or none:
+    int holder = -1;  ///< the body that holds it
   };
 
   const Body& body(int i) const { return a_.bodies[std::size_t(i)]; }
 
-  /// n children make n - 1 forks, each nested in the second branch of the one before.
-  void push_children(std::vector<Task>& open, int parent) const {
-    std::vector<Task> children, tasks;
-    for (const int j : body(parent).child_joints) children.push_back({Task::add, j});
-    for (const int b : body(parent).attached) children.push_back({Task::add, -1, parent, b});
-    for (std::size_t i = 0; i < children.size(); ++i) {
-      const bool last = i + 1 == children.size();
-      if (!last) tasks.push_back({Task::open_fork});
-      tasks.push_back(children[i]);
-      if (!last) tasks.push_back({Task::close_branch});
-    }
-    for (std::size_t i = 1; i < children.size(); ++i) tasks.push_back({Task::close_branch});
-    open.insert(open.end(), tasks.rbegin(), tasks.rend());
+  std::vector<Child> children_of(int parent) const {
+    std::vector<Child> children;
+    for (const int j : body(parent).child_joints) children.push_back({a_.joints[std::size_t(j)].child, j});
+    for (const int b : body(parent).attached) children.push_back({b, -1, parent});
+    return children;
   }
 
-  /// Returns the body.
-  int add(const Task& task) {
-    int child = task.held;
-    if (task.bond >= 0) {
-      joints_.add(task.bond);
-      child = a_.bonds[std::size_t(task.bond)].child;
-    } else {
-      joints_.place(body(task.holder).pose.inverse() * body(child).pose);
-    }
-    builder_.body(body(child).name);
-    fill(child);
-    return child;
+  std::vector<Child> add(const Child& child) {
+    if (child.joint >= 0)
+      joints_.add(child.joint);
+    else
+      joints_.add_transform(body(child.holder).pose.inverse() * body(child.body).pose);
+    builder_.body(body(child.body).name);
+    fill(child.body);
+    return children_of(child.body);
   }
 
   void fill(int i) {
     const Body& b = body(i);
     if (!b.link) return;
-    const Solid solid = solid_of(
+    const LinkBody solid = body_of(
         *b.link, b.name, true, sources_, [this](std::string_view text) { return builder_.intern(text); }, problems_);
     mass_ += solid.inertial.mass;
     if (solid.inertial.mass > 0) builder_.set(keys::inertial, solid.inertial);
@@ -93,7 +65,7 @@ class TreeBuilder {
   }
 
   Assembly& a_;
-  const Sources& sources_;
+  const SourceFiles& sources_;
   RobotBuilder& builder_;
   Problems& problems_;
   Joints joints_;
@@ -102,7 +74,7 @@ class TreeBuilder {
 
 }  // namespace
 
-void build(Assembly& assembly, const Sources& sources, RobotBuilder& builder, Problems& problems) {
+void build(Assembly& assembly, const SourceFiles& sources, RobotBuilder& builder, Problems& problems) {
   TreeBuilder(assembly, sources, builder, problems).run();
 }
 

@@ -19,14 +19,14 @@ fs::path file_in(const fs::path& folder) {
   try {
     std::string bytes = model_file::load_file((folder / "model.config").string(), "model.config");
     model_file::Document document;
-    Place place;
-    std::string trouble;
+    Location location;
+    std::string error;
     if (!model_file::decode(bytes, "model.config", "model").error.text.empty() ||
-        !document.parse(bytes, place, trouble))
+        !document.parse(bytes, location, error))
       return folder / best;
     int newest = -1;
     for (Element* sdf : model_file::children(*document.root(), "sdf")) {
-      Source source;
+      SourceFile source;
       source.version = attribute(*sdf, "version");
       const int version = source.version_number();
       if (text_of(*sdf).empty() || version > 109 || version <= newest) continue;
@@ -46,8 +46,8 @@ bool Check::complete_include(Element& include) {
   const auto* around = include.Parent()->ToElement();
   const bool in_world = around && std::string_view(around->Name()) == "world";
   const auto fail = [&](const std::string& why) {
-    const std::string text = say("<include> of ", cited(uri), " is left out: ", why);
-    in_world ? problems_.warning(at(include), text) : problems_.error(at(include), text);
+    const std::string text = concat("<include> of ", quote(uri), " is left out: ", why);
+    in_world ? problems_.warning(location_of(include), text) : problems_.error(location_of(include), text);
     return false;
   };
   if (uri.empty()) return fail("it has no <uri>; write <uri>FOLDER/model.sdf</uri>");
@@ -57,24 +57,24 @@ bool Check::complete_include(Element& include) {
   if (found.path.empty()) {
     // two models that most worlds for Gazebo ask for
     if (in_world && uri == "model://sun") {
-      problems_.note(at(include), "<include> of `model://sun` is left out: there are no lights");
+      problems_.note(location_of(include), "<include> of `model://sun` is left out: there are no lights");
       return false;
     }
     if (in_world && uri == "model://ground_plane") {
       put_ground_plane(include);
       return false;
     }
-    std::vector<std::string> places;
-    for (const auto& path : found.searched) places.push_back(path.string());
-    return fail(say("there is no such file or folder; looked for ", listed(places)));
+    std::vector<std::string> paths;
+    for (const auto& path : found.searched) paths.push_back(path.string());
+    return fail(concat("there is no such file or folder; looked for ", quoted_list(paths)));
   }
   const fs::path path = fs::is_directory(found.path) ? file_in(found.path) : fs::path(found.path);
   std::string reason;
-  const Source* source = sources_.include(path.lexically_normal(), reason);
-  if (!source) return fail(say(path.string(), ": ", reason));
+  const SourceFile* source = sources_.include(path.lexically_normal(), reason);
+  if (!source) return fail(concat(path.string(), ": ", reason));
   source_.elements += source->elements;
-  if (source_.elements > most_elements)
-    return fail(say("with all its includes the file has more than ", most_elements, " elements"));
+  if (source_.elements > max_elements)
+    return fail(concat("with all its includes the file has more than ", max_elements, " elements"));
   Element* link = include.FirstChildElement("uri");
   link->DeleteChildren();
   link->SetText(source->memory->path().c_str());
@@ -87,7 +87,7 @@ bool Check::complete_include(Element& include) {
 
 /// Gazebo's model of that name, where it is not installed: a plane at z = 0.
 void Check::put_ground_plane(Element& include) {
-  problems_.note(at(include), "`model://ground_plane` is not found; a plane of friction 1 stands for it");
+  problems_.note(location_of(include), "`model://ground_plane` is not found; a plane of friction 1 stands for it");
   Element* around = include.Parent()->ToElement();
   const auto child = [&](Element* parent, const char* name) {
     Element* made = parent->InsertNewChildElement(name);

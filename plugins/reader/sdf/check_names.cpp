@@ -21,7 +21,7 @@ std::string name_of(Element& e) {
 
 bool Check::named(Element& e, const char* what) {
   if (!attribute(e, "name").empty()) return true;
-  problems_.error(at(e), say("a ", what, " has no name; write <", e.Name(), " name=\"...\">"));
+  problems_.error(location_of(e), concat("a ", what, " has no name; write <", e.Name(), " name=\"...\">"));
   return false;
 }
 
@@ -35,24 +35,26 @@ void Check::names(Element& model, Scope& scope) {
     if (element != "include" && !named(*e, e->Name())) continue;
     std::string name = name_of(*e);
     if (source_.version_number() >= 108 && name.find("::") != name.npos)
-      problems_.error(at(*e), say("the ", kind_of(*e), " is named ", cited(name),
-                                  "; names have no `::` since SDFormat 1.8. Write a <model> within the model"));
+      problems_.error(location_of(*e),
+                      concat("the ", kind_of(*e), " is named ", quote(name),
+                             "; names have no `::` since SDFormat 1.8. Write a <model> within the model"));
     if (name.empty() || scope.names.emplace(name, e).second) continue;
     const Element& first = *scope.names.at(name);
     if (element == "joint" && kind_of(first) == "link") {
       // allowed up to SDFormat 1.6, and still common
       while (!scope.names.emplace(name, e).second) name += "_joint";
-      problems_.note(
-          at(*e), say("joint ", cited(attribute(*e, "name")), " has the name of a link; it is called ", cited(name)));
+      problems_.note(location_of(*e), concat("joint ", quote(attribute(*e, "name")),
+                                             " has the name of a link; it is called ", quote(name)));
       e->SetAttribute("name", name.c_str());
       continue;
     }
-    problems_.error(at(*e), say("a ", kind_of(*e), " has the name ", cited(name), " of the ", kind_of(first),
-                                " in line ", at(first).line(), "; names are unique within a ", model.Name()));
+    problems_.error(location_of(*e),
+                    concat("a ", kind_of(*e), " has the name ", quote(name), " of the ", kind_of(first), " in line ",
+                           location_of(first).line_text(), "; names are unique within a ", model.Name()));
   }
 }
 
-void Check::known_name(const Element& e, const std::string& what, const std::string& name, const Scope& scope) {
+void Check::check_name(const Element& e, const std::string& what, const std::string& name, const Scope& scope) {
   if (name.empty() || scope.open || name.find("::") != name.npos || name.starts_with("__")) return;
   if (name == "world" && (scope.is_world || what == "parent")) return;
   if (scope.names.count(name) != 0) return;
@@ -60,13 +62,13 @@ void Check::known_name(const Element& e, const std::string& what, const std::str
   for (const auto& [known, unused] : scope.names) names.push_back(known);
   const auto* parent = e.Parent()->ToElement();
   const std::string owner =
-      parent && parent->Attribute("name") ? say(" of ", parent->Name(), " ", cited(attribute(*parent, "name"))) : "";
-  problems_.error(
-      at(e), say(what, owner, ": there is no ", cited(name), did_you_mean(name, names), "; there are ", listed(names)));
+      parent && parent->Attribute("name") ? concat(" of ", parent->Name(), " ", quote(attribute(*parent, "name"))) : "";
+  problems_.error(location_of(e), concat(what, owner, ": there is no ", quote(name), did_you_mean(name, names),
+                                         "; there are ", quoted_list(names)));
 }
 
 void Check::reference(Element& e, const char* name, const Scope& scope) {
-  if (e.Attribute(name)) known_name(e, say("<", e.Name(), " ", name, ">"), attribute(e, name), scope);
+  if (e.Attribute(name)) check_name(e, concat("<", e.Name(), " ", name, ">"), attribute(e, name), scope);
 }
 
 /// What names a frame must name one of the model or world it stands in.
@@ -86,7 +88,7 @@ void Check::references(Element& model, const Scope& scope) {
       for (Element* part : model_file::children(*e)) pose(*part);
     if (element != "joint") continue;
     for (const char* end : {"parent", "child"})
-      if (Element* link = e->FirstChildElement(end)) known_name(*link, end, text_of(*link), scope);
+      if (Element* link = e->FirstChildElement(end)) check_name(*link, end, text_of(*link), scope);
     for (const char* axis : {"axis", "axis2"})
       if (Element* a = e->FirstChildElement(axis))
         if (Element* xyz = a->FirstChildElement("xyz")) reference(*xyz, "expressed_in", scope);

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "known.hpp"
-#include "source.hpp"
+#include "schema.hpp"
+#include "source_file.hpp"
 
 namespace muro::sdf {
 
-/// Looks at every element of a file: what is not read is told and removed, so that libsdformat sees only what the
-/// reader uses, with numbers that all parsers read alike, and includes and meshes under the paths of files.
-void check(Source& source, Sources& sources, Problems& problems);
+/// Checks every element of a file: what is not supported is reported and removed, so that libsdformat sees only what
+/// the reader uses, with numbers that all parsers read alike, and includes and meshes under the paths of files.
+void check(SourceFile& source, SourceFiles& sources, Problems& problems);
 
 /// What the checks of one file share.
 class Check {
  public:
-  Check(Source& source, Sources& sources, Problems& problems)
+  Check(SourceFile& source, SourceFiles& sources, Problems& problems)
       : source_(source), sources_(sources), problems_(problems) {}
   void run();
 
@@ -21,11 +21,11 @@ class Check {
   // check.cpp: all elements alike
   void section(Element& e, std::string_view as);
   void attributes(Element& e, std::string_view section);
-  void leaf(Element& e, const Known& known);
+  void leaf(Element& e, const SchemaElement& schema);
   void numbers(Element& e, std::size_t count, bool infinite);
-  void leave_out(Element& e, const Known* known, std::string_view inside);
-  void tell_left_out();
-  At at(const Element& e) const { return source_.at(e); }
+  void remove_unsupported(Element& e, const SchemaElement* schema, std::string_view parent);
+  void report_unsupported();
+  FileLocation location_of(const Element& e) const { return source_.location_of(e); }
 
   // check_names.cpp: names within a model or world
   struct Scope {
@@ -37,28 +37,28 @@ class Check {
   void names(Element& model, Scope& scope);
   void references(Element& model, const Scope& scope);
   void reference(Element& e, const char* attribute, const Scope& scope);
-  void known_name(const Element& e, const std::string& what, const std::string& name, const Scope& scope);
+  void check_name(const Element& e, const std::string& what, const std::string& name, const Scope& scope);
 
-  // check_parts.cpp: what each kind of element needs
+  // check_elements.cpp: what each kind of element needs
   void prepare(Element& e, std::string_view section);
   bool complete(Element& e, std::string_view section);
   bool complete_joint(Element& joint);
   void take_mimic(Element& joint, Element& axis, int number);
   bool complete_shape(Element& e);
   void find_picture(Element& workflow);
-  std::string trouble_of_shape(Element& shape);
+  std::string error_of_shape(Element& shape);
   bool complete_include(Element& include);
   void put_ground_plane(Element& include);
 
-  struct LeftOut {
+  struct Unsupported {
     Severity severity;
-    std::string what, why;
-    std::vector<At> places;
+    std::string element, reason;
+    std::vector<FileLocation> locations = {};
   };
-  Source& source_;
-  Sources& sources_;
+  SourceFile& source_;
+  SourceFiles& sources_;
   Problems& problems_;
-  std::vector<LeftOut> left_out_;
+  std::vector<Unsupported> unsupported_;
 };
 
 /// The value of an attribute, or "".

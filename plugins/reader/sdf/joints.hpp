@@ -6,22 +6,22 @@
 
 namespace muro::sdf {
 
-/// The joints of a robot. A joint of SDFormat with several axes becomes a chain of revolute and prismatic ones.
+/// The joints of a robot. A joint of SDFormat with several axes becomes a dofs of revolute and prismatic ones.
 class Joints {
  public:
-  Joints(Assembly& assembly, const Sources& sources, RobotBuilder& builder, Problems& problems);
+  Joints(Assembly& assembly, const SourceFiles& sources, RobotBuilder& builder, Problems& problems);
 
-  /// From the body that is the joint's parent, whose frame is the present one, to where the child's body begins.
-  void add(int bond);
-  /// A shift and a turn, where there are any.
-  void place(const Pose& pose);
+  /// Adds what leads from the parent body, whose frame is the present one, to the frame of the child body.
+  void add(int joint);
+  /// A translation and a rotation, where they are not zero.
+  void add_transform(const Pose& pose);
 
  private:
-  /// What becomes a joint of the robot.
-  struct Hinge {
+  /// What becomes one joint of the robot.
+  struct SingleDofJoint {
     std::string name;
     unsigned number = 0;  ///< of the <axis>
-    bool slides = false;
+    bool is_prismatic = false;
     Vec3 axis = Vec3::UnitZ();  ///< unit, in the frame of the joint
   };
   /// q = offset + multiplier * q_leader.
@@ -29,22 +29,22 @@ class Joints {
     std::string leader;
     double multiplier = 1, offset = 0;
   };
-  std::vector<Hinge> hinges_of(const Bond& bond);
-  Vec3 axis_of(const Bond& bond, unsigned number);
-  JointLimits limits_of(const Bond& bond, const Hinge& hinge);
-  void put(const Bond& bond, const Hinge& hinge, const Quat& turn);
+  std::vector<SingleDofJoint> dofs_of(const Joint& joint);
+  Vec3 axis_of(const Joint& joint, unsigned number);
+  JointLimits limits_of(const Joint& joint, const SingleDofJoint& dof);
+  void add_dof(const Joint& joint, const SingleDofJoint& dof, const Quat& rotation);
 
-  void take_mimics();
-  void take_gear(const Bond& bond);
+  void find_mimics();
+  void add_gearbox(const Joint& joint);
   std::pair<int, double> wheel(int carrier, int link, const Vec3& axis) const;
   void resolve_followers();
 
   Assembly& a_;
-  const Sources& sources_;
+  const SourceFiles& sources_;
   RobotBuilder& builder_;
   Problems& problems_;
-  std::vector<std::vector<Hinge>> hinges_;     ///< of each bond
-  std::map<std::string, Follower> followers_;  ///< by the name of the hinge
+  std::vector<std::vector<SingleDofJoint>> dofs_;  ///< of each joint
+  std::map<std::string, Follower> followers_;      ///< by name
 };
 
 }  // namespace muro::sdf

@@ -71,14 +71,14 @@ Library::Library() : lock_(one_at_a_time()), messages_(console()->GetMsgStream()
 
 Library::~Library() { console()->GetMsgStream().SetStream(messages_); }
 
-bool Library::load(const Sources& sources, ::sdf::Root& root, Problems& problems) {
+bool Library::load(const SourceFiles& sources, ::sdf::Root& root, Problems& problems) {
   ::sdf::Errors errors;
   std::string thrown;
   try {
     const Quiet quiet;
     const ::sdf::ParserConfig how = config();
     const ::sdf::SDFPtr document = empty_document();
-    if (::sdf::readString(sources.main().printed, how, document, errors)) {
+    if (::sdf::readString(sources.main().normalized, how, document, errors)) {
       const ::sdf::Errors more = root.Load(document, how);
       errors.insert(errors.end(), more.begin(), more.end());
     } else if (errors.empty()) {
@@ -89,25 +89,25 @@ bool Library::load(const Sources& sources, ::sdf::Root& root, Problems& problems
   } catch (const std::exception& e) {
     thrown = e.what();
   }
-  // One mistake breaks much of what stands on it: the first message of a place, and those without place only when there
-  // are no others.
-  std::set<At> told;
+  // One mistake breaks much of what stands on it: the first message of a location, and those without location only when
+  // there are no others.
+  std::set<FileLocation> told;
   for (const bool placed : {true, false})
     for (const ::sdf::Error& e : errors) {
       // inertia is checked by the reader
       if (e.Code() == ::sdf::ErrorCode::NONE || e.Code() == ::sdf::ErrorCode::LINK_INERTIA_INVALID) continue;
-      const At place = sources.at(e.FilePath().value_or(""), e.LineNumber().value_or(0));
-      if ((place.place.line > 0) != placed || (!placed && problems.found_error()) || !told.insert(place).second)
+      const FileLocation location = sources.location_of(e.FilePath().value_or(""), e.LineNumber().value_or(0));
+      if ((location.line > 0) != placed || (!placed && problems.found_error()) || !told.insert(location).second)
         continue;
-      problems.error(place, "libsdformat: " + one_line(e.Message()));
+      problems.error(location, "libsdformat: " + one_line(e.Message()));
     }
   if (!thrown.empty() && !problems.found_error()) problems.error({}, "libsdformat: " + one_line(thrown));
   return !problems.found_error();
 }
 
-At at(const Sources& sources, ::sdf::ElementPtr element) {
+FileLocation location_of(const SourceFiles& sources, ::sdf::ElementPtr element) {
   for (; element; element = element->GetParent())
-    if (element->LineNumber().value_or(0) > 0) return sources.at(element->FilePath(), *element->LineNumber());
+    if (element->LineNumber().value_or(0) > 0) return sources.location_of(element->FilePath(), *element->LineNumber());
   return {};
 }
 

@@ -5,7 +5,7 @@
 #include <mutex>
 #include <sdf/Root.hh>
 
-#include "source.hpp"
+#include "source_file.hpp"
 
 namespace muro::sdf {
 
@@ -18,14 +18,14 @@ class Library {
   Library& operator=(const Library&) = delete;
 
   /// What the library makes of the checked sources. What it finds wrong is reported; false after an error.
-  bool load(const Sources& sources, ::sdf::Root& root, Problems& problems);
+  bool load(const SourceFiles& sources, ::sdf::Root& root, Problems& problems);
 
  private:
   std::unique_lock<std::mutex> lock_;
   std::ostream* messages_;
 };
 
-/// Where an element stands in its file.
-At at(const Sources& sources, ::sdf::ElementPtr element);
+/// Where an element is in its file.
+FileLocation location_of(const SourceFiles& sources, ::sdf::ElementPtr element);
 
 }  // namespace muro::sdf

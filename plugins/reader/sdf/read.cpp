@@ -13,15 +13,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Problems problems_for(RobotBuilder& builder) {
-  return Problems(
-      [&builder](Severity s, std::string_view text, int line, int column) { builder.report(s, text, line, column); });
-}
-
-/// A world on its way to its builder.
+/// Reports a world to its builder.
 class WorldReader {
  public:
-  WorldReader(const Sources& sources, WorldBuilder& builder, Problems& problems)
+  WorldReader(const SourceFiles& sources, WorldBuilder& builder, Problems& problems)
       : sources_(sources), builder_(builder), problems_(problems) {}
 
   void run(const ::sdf::World& world) {
@@ -31,10 +26,10 @@ class WorldReader {
     for (std::uint64_t i = 0; i < world.ModelCount(); ++i) {
       const ::sdf::Model& model = *world.ModelByIndex(i);
       ignition::math::Pose3d pose;
-      const At place = at(sources_, model.Element());
+      const FileLocation location = location_of(sources_, model.Element());
       const ::sdf::Errors errors = model.SemanticPose().Resolve(pose);
       if (!errors.empty())
-        problems_.error(place, "libsdformat: " + errors.front().Message());
+        problems_.error(location, "libsdformat: " + errors.front().Message());
       else if (model.Static())
         add_scenery(model, pose_of(pose));
       else
@@ -51,9 +46,9 @@ class WorldReader {
 
   void add_scenery(const ::sdf::Model& model, const Pose& pose) {
     const Assembly assembly = assemble(model, false, sources_, problems_);
-    std::vector<std::pair<const Body*, Solid>> solids;
+    std::vector<std::pair<const Body*, LinkBody>> solids;
     for (const Body& body : assembly.bodies) {
-      Solid solid = solid_of(
+      LinkBody solid = body_of(
           *body.link, body.name, false, sources_, [this](std::string_view text) { return builder_.intern(text); },
           problems_);
       if (!solid.collisions.empty() || !solid.visuals.empty()) solids.emplace_back(&body, std::move(solid));
@@ -77,25 +72,25 @@ class WorldReader {
     for (const auto& [severity, text, line, column] : reports) robot.report(severity, text, line, column);
   }
 
-  const Sources& sources_;
+  const SourceFiles& sources_;
   WorldBuilder& builder_;
   Problems& problems_;
   std::set<std::string> names_;
 };
 
-void tell_pose(const ::sdf::Model& model, const Sources& sources, Problems& problems) {
+void tell_pose(const ::sdf::Model& model, const SourceFiles& sources, Problems& problems) {
   if (model.RawPose() != ignition::math::Pose3d::Zero)
-    problems.note(at(sources, model.Element()),
+    problems.note(location_of(sources, model.Element()),
                   "the <pose> of the model is not used: the scenario says where a robot stands");
   if (model.Static())
-    problems.note(at(sources, model.Element()), "the model is static; a robot without a motion stands still");
+    problems.note(location_of(sources, model.Element()), "the model is static; a robot without a motion stands still");
 }
 
 }  // namespace
 
 void read_text(std::string bytes, const fs::path& folder, RobotBuilder& builder) {
-  Problems problems = problems_for(builder);
-  Sources sources(folder, problems);
+  Problems problems = Problems::reported_to(builder);
+  SourceFiles sources(folder, problems);
   if (!sources.load(std::move(bytes), Content::model)) return;
   Library library;
   ::sdf::Root root;
@@ -104,16 +99,15 @@ void read_text(std::string bytes, const fs::path& folder, RobotBuilder& builder)
   if (!model) return problems.error({}, "libsdformat finds no model in the file, and gives no reason");
   tell_pose(*model, sources, problems);
   Assembly assembly = assemble(*model, true, sources, problems);
-  if (assembly.bodies.empty()) return problems.error(at(sources, model->Element()), "the model has no link");
+  if (assembly.bodies.empty()) return problems.error(location_of(sources, model->Element()), "the model has no link");
   if (problems.found_error()) return;
   make_tree(assembly, *model, problems);
   build(assembly, sources, builder, problems);
 }
 
 void read_world_text(std::string bytes, const fs::path& folder, WorldBuilder& builder) {
-  Problems problems(
-      [&builder](Severity s, std::string_view text, int line, int column) { builder.report(s, text, line, column); });
-  Sources sources(folder, problems);
+  Problems problems = Problems::reported_to(builder);
+  SourceFiles sources(folder, problems);
   if (!sources.load(std::move(bytes), Content::world)) return;
   Library library;
   ::sdf::Root root;

@@ -9,9 +9,10 @@
 #include <map>
 
 #include "core/world_model.hpp"
+#include "muro/toolkit/link_pose.hpp"
 #include "muro/vocabulary.hpp"
-#include "problems.hpp"
 #include "read.hpp"
+#include "source_file.hpp"
 #include "tests/support/files.hpp"
 
 namespace muro::sdf {
@@ -22,7 +23,7 @@ inline Lines lines_of(const std::vector<RobotTree::Problem>& problems) {
   Lines lines;
   for (const auto& p : problems) {
     const char* name = p.severity == Severity::note ? "note" : p.severity == Severity::warning ? "warning" : "error";
-    lines.push_back(say(name, " ", p.line, ":", p.column, " ", p.text));
+    lines.push_back(concat(name, " ", p.line, ":", p.column, " ", p.text));
   }
   return lines;
 }
@@ -44,7 +45,7 @@ struct Robot {
   template <class T>
   std::vector<T> constants(const std::string& part, const Key<T>& key) const {
     std::vector<T> values;
-    for (const auto& p : tree.parts())
+    for (const auto& p : tree.components())
       for (const auto& c : p.constants)
         if (p.name == part && c.key.name == key.name) {
           values.resize(c.count == single_value ? 1 : c.count);
@@ -54,28 +55,28 @@ struct Robot {
   }
   const RobotTree::FlatLink* frame(const std::string& body) const {
     for (const auto& f : tree.links())
-      if (name(f.part) == body) return &f;
+      if (name(f.body) == body) return &f;
     return nullptr;
   }
   const RobotTree::FlatLink* joint(const std::string& name_of_joint) const {
     for (const auto& f : tree.links())
-      if (f.joint_part >= 0 && name(f.joint_part) == name_of_joint) return &f;
+      if (f.joint >= 0 && name(f.joint) == name_of_joint) return &f;
     return nullptr;
   }
-  std::string name(std::int32_t part) const { return tree.parts().at(std::size_t(part)).name; }
+  std::string name(std::int32_t part) const { return tree.components().at(std::size_t(part)).name; }
 
   /// Of a body in the base's frame, with joints by name at these positions and all others at 0.
   Pose pose(const std::string& body, const std::map<std::string, double>& positions = {}) const {
     std::vector<Pose> poses;
     for (const auto& f : tree.links()) {
-      const auto q = f.joint_part < 0 ? positions.end() : positions.find(name(f.joint_part));
+      const auto q = f.joint < 0 ? positions.end() : positions.find(name(f.joint));
       const Pose in_parent = pose_in_parent(f.link, q == positions.end() ? 0 : q->second);
       poses.push_back(f.link.parent < 0 ? Pose{} : poses[std::size_t(f.link.parent)] * in_parent);
-      if (name(f.part) == body) return poses.back();
+      if (name(f.body) == body) return poses.back();
     }
     return {Vec3::Constant(NAN), Quat::Identity()};
   }
-  /// "base a", "fork", "revolute hinge", ...
+  /// "base a", "fork", "revolute axis_joint", ...
   Lines blocks() const {
     constexpr const char* kinds[] = {"base", "fork", "translation", "rotation", "revolute", "prismatic", "body"};
     Lines lines;
@@ -98,8 +99,9 @@ inline std::string model(const std::string& inside, const std::string& version =
 }
 
 inline std::string inertial(double mass = 1) {
-  return say("<inertial><mass>", mass, "</mass><inertia><ixx>1</ixx><ixy>0</ixy><ixz>0</ixz><iyy>1</iyy><iyz>0</iyz>",
-             "<izz>1</izz></inertia></inertial>");
+  return concat("<inertial><mass>", mass,
+                "</mass><inertia><ixx>1</ixx><ixy>0</ixy><ixz>0</ixz><iyy>1</iyy><iyz>0</iyz>",
+                "<izz>1</izz></inertia></inertial>");
 }
 /// A link of 1 kg.
 inline std::string link(const std::string& name, const std::string& inside = "") {

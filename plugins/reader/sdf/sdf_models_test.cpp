@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/world.hpp"
+#include "muro/toolkit/rotations.hpp"
 #include "reading_testing.hpp"
 #include "tests/support/scene.hpp"
 

@@ -81,9 +81,10 @@ TEST(SdfProblems, JointsThatCannotBe) {
   const auto of = [](const std::string& type, const std::string& inside) {
     return problems_of(link("a") + link("b") + "\n" + joint("j", type, "a", "b", inside));
   };
-  EXPECT_EQ(of("hinge", ""), Lines{"error 4:1 joint `j` is of the unknown type `hinge`; types are `revolute`, "
-                                   "`continuous`, `prismatic`, `fixed`, "
-                                   "`universal`, `revolute2`, `ball`, `screw` and 1 more"});
+  EXPECT_EQ(of("axis_joint", ""),
+            Lines{"error 4:1 joint `j` is of the unknown type `axis_joint`; types are `revolute`, "
+                  "`continuous`, `prismatic`, `fixed`, "
+                  "`universal`, `revolute2`, `ball`, `screw` and 1 more"});
   EXPECT_EQ(of("revolute", ""), Lines{"warning 4:1 joint `j` has no <axis>; the axis is z, SDFormat's default"});
   EXPECT_EQ(
       problems_of(link("a") + link("b") + "\n<joint name='j' type='revolute'><parent>a</parent><child>b</child>\n" +
@@ -100,9 +101,10 @@ TEST(SdfProblems, WhatIsNoTree) {
                         joint("l", "fixed", "a", "b") + "\n" + joint("k", "fixed", "b", "c")),
             Lines{"error 4:1 link `c` is the child of two joints, `j` and `k`; robots are trees, and closed chains are "
                   "not simulated. Leave one out"});
-  EXPECT_EQ(problems_of(link("a") + link("b") + joint("j", "fixed", "a", "b") + "\n" + joint("k", "fixed", "b", "a")),
-            Lines{"error 4:1 joint `k` closes a loop of joints: link `a` hangs on itself; robots are trees, and closed "
-                  "chains are not simulated"});
+  EXPECT_EQ(
+      problems_of(link("a") + link("b") + joint("j", "fixed", "a", "b") + "\n" + joint("k", "fixed", "b", "a")),
+      Lines{"error 4:1 joint `k` closes a loop of joints: link `a` is its own descendant; robots are trees, and closed "
+            "chains are not simulated"});
   EXPECT_EQ(problems_of(link("a") + "\n" + link("b") + "\n" + link("c") + joint("j", "fixed", "b", "c")),
             Lines{"error 4:1 no joint leads to 2 links: `a`, `b`; exactly one is the base. Join the others to it, with "
                   "fixed joints if they do not "
@@ -132,8 +134,8 @@ TEST(SdfProblems, MassesThatNoBodyHas) {
   };
   EXPECT_EQ(of("-1", "1"), Lines{"error 4:1 link `a`: the mass is -1 kg; it is 0 (a frame without a body) or more"});
   EXPECT_EQ(of("5", "0"), Lines{"warning 4:1 link `a`: its principal moments of inertia are 0 1 1 kg m^2, and must be "
-                                "above 0; those of an even body "
-                                "of 5 kg in its shapes are used: 2 2 2"});
+                                "above 0; those of its shapes with uniform density "
+                                "and 5 kg are used: 2 2 2"});
   EXPECT_EQ(of("5", "3"), Lines{"warning 4:1 link `a`: its principal moments of inertia are 1 1 3 kg m^2, which no "
                                 "body has: none exceeds the sum of "
                                 "the other two. They are used as they are"});
@@ -173,8 +175,9 @@ TEST(SdfProblems, IncludesThatMultiplyAreStopped) {
   folder.file("f0.sdf", "<sdf version='1.9'><model name='m'>" + link("a") + "</model></sdf>");
   for (int i = 1; i <= 6; ++i) {
     std::string inside;
-    for (int k = 0; k < 10; ++k) inside += say("<include><uri>f", i - 1, ".sdf</uri><name>n", k, "</name></include>");
-    folder.file(say("f", i, ".sdf"), "<sdf version='1.9'><model name='m'>" + inside + "</model></sdf>");
+    for (int k = 0; k < 10; ++k)
+      inside += concat("<include><uri>f", i - 1, ".sdf</uri><name>n", k, "</name></include>");
+    folder.file(concat("f", i, ".sdf"), "<sdf version='1.9'><model name='m'>" + inside + "</model></sdf>");
   }
   const Robot robot = robot_of(model("<include><uri>f6.sdf</uri></include>"), folder.path(""));
   ASSERT_FALSE(robot.problems.empty());
@@ -184,7 +187,7 @@ TEST(SdfProblems, IncludesThatMultiplyAreStopped) {
 
 TEST(SdfProblems, MistakesOfAFileAreToldAllAtOnce) {
   EXPECT_EQ(problems_of(link("a", "<pose>x</pose>") + "\n" + link("a", "<gravity>0</gravity>") + "\n" +
-                        joint("j", "hinge", "a", "c"))
+                        joint("j", "axis_joint", "a", "c"))
                 .size(),
             5u);
 }

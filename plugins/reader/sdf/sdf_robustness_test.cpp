@@ -107,7 +107,7 @@ Outcomes read_damaged_rovers(unsigned seed, int variants) {
 
 TEST(SdfRobustness, DamagedRoversAreReportedOrBuiltSoundly) {
   const Outcomes outcomes = read_damaged_rovers(20240521, 700);
-  // the damage is neither harmless nor always fatal
+  // the damage is neither neutral_value nor always fatal
   EXPECT_GT(outcomes.refused, 70);
   EXPECT_GT(outcomes.warned, 3);
   EXPECT_GT(outcomes.clean, 15);
@@ -139,9 +139,9 @@ TEST(SdfRobustness, DamagedWorldsAreReportedOrBuiltSoundly) {
 TEST(SdfRobustness, AChainOfManyLinksIsReadInOrder) {
   constexpr int count = 200;
   std::string inside;
-  for (int i = 0; i < count; ++i) inside += link(say("l", i), say("<pose>0 0 ", i, " 0 0 0</pose>"));
+  for (int i = 0; i < count; ++i) inside += link(concat("l", i), concat("<pose>0 0 ", i, " 0 0 0</pose>"));
   for (int i = count - 1; i > 0; --i)
-    inside += joint(say("j", i), "continuous", say("l", i - 1), say("l", i), axis("0 1 0"));
+    inside += joint(concat("j", i), "continuous", concat("l", i - 1), concat("l", i), axis("0 1 0"));
   const Robot robot = robot_of(model(inside));
   EXPECT_EQ(robot.problems, Lines{});
   ASSERT_EQ(robot.tree.links().size(), std::size_t(count));

@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "muro/toolkit/rotations.hpp"
 #include "reading_testing.hpp"
 
 namespace muro::sdf {

@@ -4,15 +4,13 @@
 #include <algorithm>
 
 #include "muro/vocabulary.hpp"
-#include "plugins/common/model_file/solid.hpp"
+#include "plugins/common/model_file/inertia.hpp"
 
 namespace muro::urdf {
 
 namespace {
 
-std::string owner_of(const ::urdf::Link& link) { return "link " + cited(link.name); }
-
-std::string text_of(const Vec3& v) { return say(v.x(), " ", v.y(), " ", v.z()); }
+std::string owner_of(const ::urdf::Link& link) { return "link " + quote(link.name); }
 
 }  // namespace
 
@@ -70,7 +68,7 @@ void Bodies::add_texture(Shape& shape, const std::string& name, const ::urdf::Li
   if (name.empty()) return;
   const model_file::MeshPath found = model_file::find_mesh(name, folder_);
   if (found.path.empty())
-    problems_.warning(info.place, say(owner_of(link), ": texture ", cited(name), " is not found; it is plain"));
+    problems_.warning(info.location, concat(owner_of(link), ": texture ", quote(name), " is not found; it is plain"));
   else
     shape.texture = builder_.intern(found.path);
 }
@@ -81,17 +79,17 @@ bool Bodies::add_mesh(Shape& shape, const ::urdf::Mesh& mesh, const ::urdf::Link
     entry->second = model_file::find_mesh(mesh.filename, folder_);
     const model_file::MeshPath& found = entry->second;
     if (found.path.empty()) {
-      std::vector<std::string> places;
-      for (const auto& path : found.searched) places.push_back(path.string());
+      std::vector<std::string> paths;
+      for (const auto& path : found.searched) paths.push_back(path.string());
       std::string where;
-      constexpr std::size_t most = 6;
-      for (std::size_t i = 0; i < std::min(most, places.size()); ++i) where += (i ? ", " : "") + places[i];
-      if (places.size() > most) where += say(" and ", places.size() - most, " more places");
-      problems_.warning(info.place, say(owner_of(link), ": mesh ", cited(mesh.filename), " is not found and left out; ",
-                                        "looked for ", where));
+      constexpr std::size_t max = 6;
+      for (std::size_t i = 0; i < std::min(max, paths.size()); ++i) where += (i ? ", " : "") + paths[i];
+      if (paths.size() > max) where += concat(" and ", paths.size() - max, " more places");
+      problems_.warning(info.location, concat(owner_of(link), ": mesh ", quote(mesh.filename),
+                                              " is not found and left out; ", "looked for ", where));
     } else if (found.other_case) {
-      problems_.note(info.place, say(owner_of(link), ": mesh ", cited(mesh.filename), " is read from ", found.path,
-                                     ", whose name differs in upper and lower case"));
+      problems_.note(info.location, concat(owner_of(link), ": mesh ", quote(mesh.filename), " is read from ",
+                                           found.path, ", whose name differs in upper and lower case"));
     }
   }
   if (entry->second.path.empty()) return false;
@@ -105,28 +103,7 @@ Inertia Bodies::inertial_of(const ::urdf::Link& link, const LinkInfo& info, std:
   const ::urdf::Inertial& i = *link.inertial;
   const Inertia given{
       .mass = i.mass, .ixx = i.ixx, .iyy = i.iyy, .izz = i.izz, .ixy = i.ixy, .ixz = i.ixz, .iyz = i.iyz};
-  Inertia inertia = given.in(pose_of(i.origin));
-  const model_file::TensorCheck check = model_file::check_tensor(given.tensor());
-  if (!inertia.com.allFinite() || !inertia.tensor().allFinite() || !check.moments.allFinite()) {
-    problems_.error(info.place, owner_of(link) + ": its inertia is too large for a number; use kg, m and kg m^2");
-    return {};
-  }
-  if (check.fault == model_file::TensorFault::no_body) {
-    problems_.warning(info.place, say(owner_of(link), ": its principal moments of inertia are ", text_of(check.moments),
-                                      " kg m^2, which no body has: none exceeds the sum of the other two. They are ",
-                                      "used as they are"));
-  } else if (check.fault == model_file::TensorFault::not_positive) {
-    Inertia even = model_file::even_solid(shapes, i.mass);
-    const bool solid = std::any_of(shapes.begin(), shapes.end(), [](auto& s) { return s.kind != ShapeKind::mesh; }) &&
-                       even.tensor().allFinite();
-    if (!solid) even = model_file::even_solid({}, i.mass);
-    problems_.warning(info.place, say(owner_of(link), ": its principal moments of inertia are ", text_of(check.moments),
-                                      " kg m^2, and must be above 0; those of an even body of ", i.mass, " kg in its ",
-                                      solid ? "shapes" : "place, a ball of water,",
-                                      " are used: ", text_of({even.ixx, even.iyy, even.izz})));
-    inertia = Inertia::from(i.mass, inertia.com, even.tensor());
-  }
-  return inertia;
+  return model_file::checked_inertia(given, pose_of(i.origin), shapes, owner_of(link), info.location, problems_);
 }
 
 }  // namespace muro::urdf

@@ -5,6 +5,8 @@
 #include <set>
 
 #include "bodies.hpp"
+#include "muro/toolkit/rotations.hpp"
+#include "plugins/common/model_file/build_tree.hpp"
 
 namespace muro::urdf {
 
@@ -44,54 +46,20 @@ class TreeBuilder {
   void run() {
     builder_.base(info_.root);
     fill(info_.root);
-    // An own stack: a chain of links may be longer than the call stack is deep.
-    std::vector<Task> open;
-    push_children(open, info_.root);
-    while (!open.empty()) {
-      const Task task = open.back();
-      open.pop_back();
-      switch (task.kind) {
-        case Task::open_fork:
-          builder_.fork();
-          break;
-        case Task::close_branch:
-          builder_.end();
-          break;
-        case Task::add:
-          add_joint(*task.joint);
-          push_children(open, info_.joints.at(*task.joint).child);
-          break;
-      }
-    }
+    model_file::build_tree(builder_, info_.links.at(info_.root).child_joints, [this](const std::string& joint) {
+      add_joint(joint);
+      return info_.links.at(info_.joints.at(joint).child).child_joints;
+    });
     if (bodies_.mass() == 0)
-      problems_.warning(info_.links.at(info_.root).place,
+      problems_.warning(info_.links.at(info_.root).location,
                         "no link has a mass; only motion without forces can move the robot");
   }
 
  private:
-  struct Task {
-    enum { open_fork, close_branch, add } kind;
-    const std::string* joint = nullptr;
-  };
-
-  /// n children make n - 1 forks, each nested in the second branch of the one before.
-  void push_children(std::vector<Task>& open, const std::string& link) const {
-    const auto& joints = info_.links.at(link).child_joints;
-    std::vector<Task> tasks;
-    for (std::size_t i = 0; i < joints.size(); ++i) {
-      const bool last = i + 1 == joints.size();
-      if (!last) tasks.push_back({Task::open_fork});
-      tasks.push_back({Task::add, &joints[i]});
-      if (!last) tasks.push_back({Task::close_branch});
-    }
-    for (std::size_t i = 1; i < joints.size(); ++i) tasks.push_back({Task::close_branch});
-    open.insert(open.end(), tasks.rbegin(), tasks.rend());
-  }
-
-  /// `wanted`, or `wanted` with `suffix` behind it as often as it takes to be the only one.
-  std::string unique(std::string wanted, std::string_view suffix) {
-    while (!used_.insert(wanted).second) wanted += suffix;
-    return wanted;
+  /// `name`, followed by `suffix` as often as it takes to be unique.
+  std::string unique(std::string name, std::string_view suffix) {
+    while (!used_.insert(name).second) name += suffix;
+    return name;
   }
 
   void name_joints() {
@@ -104,13 +72,14 @@ class TreeBuilder {
       part = name;
       if (!info_.links.count(name)) continue;
       part = unique(name, "_joint");
-      problems_.note(joint.place, say("joint ", cited(name), " has the name of a link; it is called ", cited(part)));
+      problems_.note(joint.location,
+                     concat("joint ", quote(name), " has the name of a link; it is called ", quote(part)));
     }
   }
 
   void fill(const std::string& link) { bodies_.fill(*model_.getLink(link), info_.links.at(link)); }
 
-  void place(const Pose& pose) {
+  void add_transform(const Pose& pose) {
     if (!pose.position.isZero(0)) builder_.translation(pose.position);
     if (!pose.orientation.vec().isZero(0)) builder_.rotation(pose.orientation);
   }
@@ -118,7 +87,7 @@ class TreeBuilder {
   void add_joint(const std::string& name) {
     const auto joint = model_.getJoint(name);
     const JointInfo& info = info_.joints.at(name);
-    place(pose_of(joint->parent_to_joint_origin_transform));
+    add_transform(pose_of(joint->parent_to_joint_origin_transform));
     const Vec3 axis(joint->axis.x, joint->axis.y, joint->axis.z);
     switch (joint->type) {
       case ::urdf::Joint::REVOLUTE:
@@ -142,9 +111,9 @@ class TreeBuilder {
     }
     if (joint->mimic) follow(*joint);
     if (info.moves && info_.links.at(info.child).child_joints.empty() && !model_.getLink(info.child)->inertial)
-      problems_.warning(info_.links.at(info.child).place,
-                        say("link ", cited(info.child), " hangs on the moving joint ", cited(name),
-                            " but has no mass; a dynamic motion model ", "needs an <inertial>"));
+      problems_.warning(info_.links.at(info.child).location,
+                        concat("link ", quote(info.child), " hangs on the moving joint ", quote(name),
+                               " but has no mass; a dynamic motion model ", "needs an <inertial>"));
     builder_.body(info.child);
     fill(info.child);
   }
@@ -166,17 +135,17 @@ class TreeBuilder {
   }
 
   void report_free_base(const std::string& name, const JointInfo& joint) {
-    problems_.note(joint.place,
-                   say("joint ", cited(name), " is ", joint.type, " and joins the robot to the empty root ",
-                       cited(joint.parent), "; it is fixed, as the base of a robot moves anyway"));
+    problems_.note(joint.location,
+                   concat("joint ", quote(name), " is ", joint.type, " and joins the robot to the empty root ",
+                          quote(joint.parent), "; it is fixed, as the base of a robot moves anyway"));
   }
 
   /// A root named `world` stands for the world in Gazebo, and what is fixed to it stays where it is.
   void report_fixed_base(const std::string& name, const JointInfo& joint) {
     if (joint.parent != "world" || !hangs_on_bare_root(joint)) return;
-    problems_.note(joint.place,
-                   say("joint ", cited(name), " fixes the robot to the empty root ", cited(joint.parent),
-                       ", which is its base and can move; a motion by forces holds it with `base: fixed`"));
+    problems_.note(joint.location,
+                   concat("joint ", quote(name), " fixes the robot to the empty root ", quote(joint.parent),
+                          ", which is its base and can move; a motion by forces holds it with `base: fixed`"));
   }
 
   /// Two prismatic joints in the plane and a revolute one about its normal, with bodies without mass between.
@@ -185,9 +154,9 @@ class TreeBuilder {
     const Quat turn = turn_between(Vec3::UnitZ(), normal);
     const std::string x = unique(name + "_x", "_joint"), y = unique(name + "_y", "_joint");
     const std::string yaw = unique(name + "_yaw", "_joint");
-    problems_.warning(joint.place,
-                      say("joint ", cited(name), " is planar; it is made of the prismatic joints ", cited(x), " and ",
-                          cited(y), " and the revolute joint ", cited(yaw), ", without limits"));
+    problems_.warning(joint.location,
+                      concat("joint ", quote(name), " is planar; it is made of the prismatic joints ", quote(x),
+                             " and ", quote(y), " and the revolute joint ", quote(yaw), ", without limits"));
     builder_.prismatic(x, turn * Vec3::UnitX(), {});
     builder_.body(unique(name + "_x_body", "_body"));
     builder_.prismatic(y, turn * Vec3::UnitY(), {});
@@ -197,9 +166,9 @@ class TreeBuilder {
 
   void report_floating(const std::string& name, const JointInfo& joint) {
     if (hangs_on_bare_root(joint)) return report_free_base(name, joint);
-    problems_.warning(joint.place,
-                      say("joint ", cited(name), " is floating and taken as fixed; link ", cited(joint.child),
-                          " and what hangs on it move freely only as a robot of their own"));
+    problems_.warning(joint.location,
+                      concat("joint ", quote(name), " is floating and taken as fixed; link ", quote(joint.child),
+                             " and what hangs on it move freely only as a robot of their own"));
   }
 
   const ::urdf::ModelInterface& model_;

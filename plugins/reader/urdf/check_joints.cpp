@@ -15,20 +15,20 @@ constexpr std::array<std::string_view, 6> types = {"fixed",     "revolute", "con
 class JointCheck {
  public:
   JointCheck(Element& xml, const std::string& name, Problems& problems)
-      : xml_(xml), owner_("joint " + cited(name)), problems_(problems) {}
+      : xml_(xml), owner_("joint " + quote(name)), problems_(problems) {}
 
   JointInfo run(const ModelInfo& model) {
-    info_.place = place_of(xml_);
+    info_.location = location_of(xml_);
     check_type();
     info_.parent = check_link("parent", model);
     info_.child = check_link("child", model);
     if (!info_.parent.empty() && info_.parent == info_.child)
-      problems_.error(info_.place, say(owner_, " joins link ", cited(info_.parent), " with itself"));
+      problems_.error(info_.location, concat(owner_, " joins link ", quote(info_.parent), " with itself"));
     if (Element* origin = only_child(xml_, "origin", owner_, problems_)) {
       numbers(*origin, "xyz", 3, owner_, problems_);
       numbers(*origin, "rpy", 3, owner_, problems_);
       if (origin->Attribute("quat_xyzw"))
-        problems_.error(place_of(*origin),
+        problems_.error(location_of(*origin),
                         owner_ + ", <origin quat_xyzw>: quaternions of URDF 1.1 are not read; write rpy");
     }
     check_axis();
@@ -47,22 +47,23 @@ class JointCheck {
     info_.type = type ? type : "";
     info_.moves = info_.type == "revolute" || info_.type == "continuous" || info_.type == "prismatic";
     if (std::find(types.begin(), types.end(), info_.type) != types.end()) return;
-    problems_.error(info_.place, say(owner_, type ? say(" is of the unknown type ", cited(type)) : " has no type",
-                                     "; types are fixed, revolute, continuous, prismatic, planar, floating"));
+    problems_.error(info_.location,
+                    concat(owner_, type ? concat(" is of the unknown type ", quote(type)) : " has no type",
+                           "; types are fixed, revolute, continuous, prismatic, planar, floating"));
   }
 
   std::string check_link(const char* end, const ModelInfo& model) {
     Element* element = only_child(xml_, end, owner_, problems_);
     const char* link = element ? element->Attribute("link") : nullptr;
     if (!link || !*link) {
-      problems_.error(info_.place, say(owner_, " has no ", end, "; write <", end, " link=\"...\"/>"));
+      problems_.error(info_.location, concat(owner_, " has no ", end, "; write <", end, " link=\"...\"/>"));
       return {};
     }
     if (model.links.count(link)) return link;
     std::vector<std::string> names;
     for (const auto& [name, unused] : model.links) names.push_back(name);
-    problems_.error(place_of(*element),
-                    say(owner_, ": its ", end, ", link ", cited(link), ", does not exist; links are ", listed(names)));
+    problems_.error(location_of(*element), concat(owner_, ": its ", end, ", link ", quote(link),
+                                                  ", does not exist; links are ", quoted_list(names)));
     return {};
   }
 
@@ -71,18 +72,18 @@ class JointCheck {
     if (!axis) return;
     if (!info_.moves && info_.type != "planar") return remove(*axis);
     if (!axis->Attribute("xyz")) {
-      problems_.warning(place_of(*axis), owner_ + ": <axis> has no xyz; the axis is x, URDF's default");
+      problems_.warning(location_of(*axis), owner_ + ": <axis> has no xyz; the axis is x, URDF's default");
       return remove(*axis);
     }
     const auto xyz = numbers(*axis, "xyz", 3, owner_, problems_);
     if (!xyz) return;
     const double length = std::hypot((*xyz)[0], (*xyz)[1], (*xyz)[2]);
     if (!(length > 1e-9) || !std::isfinite(length))
-      problems_.error(place_of(*axis), say(owner_, ": axis ", cited(axis->Attribute("xyz")),
-                                           " has no direction; it is a ", "vector of length 1, such as 0 0 1"));
+      problems_.error(location_of(*axis), concat(owner_, ": axis ", quote(axis->Attribute("xyz")),
+                                                 " has no direction; it is a ", "vector of length 1, such as 0 0 1"));
     else if (std::abs(length - 1) > 1e-3)
-      problems_.note(place_of(*axis), say(owner_, ": axis ", cited(axis->Attribute("xyz")),
-                                          " is not of length 1; only its direction is used"));
+      problems_.note(location_of(*axis), concat(owner_, ": axis ", quote(axis->Attribute("xyz")),
+                                                " is not of length 1; only its direction is used"));
   }
 
   void check_limit() {
@@ -94,9 +95,9 @@ class JointCheck {
     const bool bounded = info_.type != "continuous";
     if (!limit) {
       if (!bounded) return;
-      problems_.warning(info_.place,
-                        say(owner_, " is ", info_.type, " but has no <limit>; it is unlimited. Write <limit ",
-                            "lower=\"...\" upper=\"...\" velocity=\"...\" effort=\"...\"/>"));
+      problems_.warning(info_.location,
+                        concat(owner_, " is ", info_.type, " but has no <limit>; it is unlimited. Write <limit ",
+                               "lower=\"...\" upper=\"...\" velocity=\"...\" effort=\"...\"/>"));
       limit = xml_.InsertNewChildElement("limit");
       set(*limit, "lower", -no_limit);
       set(*limit, "upper", no_limit);
@@ -108,7 +109,7 @@ class JointCheck {
     if (!bounded) {
       const double lower = number(*limit, "lower", owner_, problems_).value_or(0);
       if (lower != 0 || number(*limit, "upper", owner_, problems_).value_or(0) != 0)
-        problems_.note(place_of(*limit), owner_ + " is continuous: its lower and upper limits are ignored");
+        problems_.note(location_of(*limit), owner_ + " is continuous: its lower and upper limits are ignored");
       limit->DeleteAttribute("lower");
       limit->DeleteAttribute("upper");
       return;
@@ -116,13 +117,13 @@ class JointCheck {
     const double lower = number(*limit, "lower", owner_, problems_).value_or(0);
     const double upper = number(*limit, "upper", owner_, problems_).value_or(0);
     if (lower > upper) {
-      problems_.warning(place_of(*limit), say(owner_, ": lower limit ", lower, " is above upper limit ", upper,
-                                              "; the two are exchanged"));
+      problems_.warning(location_of(*limit), concat(owner_, ": lower limit ", lower, " is above upper limit ", upper,
+                                                    "; the two are exchanged"));
       set(*limit, "lower", upper);
       set(*limit, "upper", lower);
     } else if (lower == upper) {
-      problems_.warning(place_of(*limit), say(owner_, ": lower and upper limits are both ", lower,
-                                              "; the joint cannot move. Give a range, or make it fixed"));
+      problems_.warning(location_of(*limit), concat(owner_, ": lower and upper limits are both ", lower,
+                                                    "; the joint cannot move. Give a range, or make it fixed"));
     }
   }
 
@@ -131,16 +132,17 @@ class JointCheck {
     const auto value = number(limit, attribute, owner_, problems_);
     if (value && *value >= 0) {
       if (*value == 0)
-        problems_.warning(place_of(limit),
-                          say(owner_, ": its ", attribute, " limit is 0, so that no drive can move it; leave ",
-                              attribute, " out when it is unknown"));
+        problems_.warning(location_of(limit),
+                          concat(owner_, ": its ", attribute, " limit is 0, so that no drive can move it; leave ",
+                                 attribute, " out when it is unknown"));
       return;
     }
     if (!given)
-      problems_.warning(place_of(limit), say(owner_, ": <limit> has no ", attribute, ", which is taken as unlimited"));
+      problems_.warning(location_of(limit),
+                        concat(owner_, ": <limit> has no ", attribute, ", which is taken as unlimited"));
     else if (value)
-      problems_.warning(place_of(limit), say(owner_, ": its ", attribute, " limit ", *value,
-                                             " is negative and taken as ", "unlimited; it is 0 or more"));
+      problems_.warning(location_of(limit), concat(owner_, ": its ", attribute, " limit ", *value,
+                                                   " is negative and taken as ", "unlimited; it is 0 or more"));
     set(limit, attribute, no_limit);
   }
 
@@ -149,8 +151,8 @@ class JointCheck {
     if (!dynamics) return;
     for (const char* attribute : {"damping", "friction"}) {
       if (number(*dynamics, attribute, owner_, problems_).value_or(0) >= 0) continue;
-      problems_.warning(place_of(*dynamics), say(owner_, ": ", attribute, " ", dynamics->Attribute(attribute),
-                                                 " is negative and taken as 0"));
+      problems_.warning(location_of(*dynamics), concat(owner_, ": ", attribute, " ", dynamics->Attribute(attribute),
+                                                       " is negative and taken as 0"));
       dynamics->SetAttribute(attribute, "0");
     }
     if (!dynamics->Attribute("damping") && !dynamics->Attribute("friction")) remove(*dynamics);
@@ -160,7 +162,8 @@ class JointCheck {
     Element* mimic = only_child(xml_, "mimic", owner_, problems_);
     if (!mimic) return;
     if (!info_.moves) {
-      problems_.warning(place_of(*mimic), say(owner_, " is ", info_.type, " and cannot mimic; <mimic> is ignored"));
+      problems_.warning(location_of(*mimic),
+                        concat(owner_, " is ", info_.type, " and cannot mimic; <mimic> is ignored"));
       return remove(*mimic);
     }
     number(*mimic, "multiplier", owner_, problems_);
@@ -188,15 +191,16 @@ void check_leaders(const std::map<std::string, Element*>& xml, const ModelInfo& 
     const std::string leader = leader_of(*joint);
     const auto found = model.joints.find(leader);
     if (found != model.joints.end() && found->second.moves) continue;
-    problems.warning(place_of(*mimic), say("joint ", cited(name), " mimics ", cited(leader), ", which is no ",
-                                           "revolute, continuous or prismatic joint; it moves on its own"));
+    problems.warning(location_of(*mimic), concat("joint ", quote(name), " mimics ", quote(leader), ", which is no ",
+                                                 "revolute, continuous or prismatic joint; it moves on its own"));
     remove(*mimic);
   }
   for (const auto& [name, joint] : xml) {
     std::string leader = leader_of(*joint);
     for (std::size_t steps = 0; !leader.empty() && steps <= xml.size(); ++steps) {
       if (leader == name) {
-        problems.error(place_of(*joint), say("joint ", cited(name), " mimics itself, over ", steps, " other joints"));
+        problems.error(location_of(*joint),
+                       concat("joint ", quote(name), " mimics itself, over ", steps, " other joints"));
         break;
       }
       leader = leader_of(*xml.at(leader));
@@ -209,16 +213,16 @@ void check_leaders(const std::map<std::string, Element*>& xml, const ModelInfo& 
 void check_joints(Element& robot, ModelInfo& model, Problems& problems) {
   std::map<std::string, Element*> xml;
   for (Element* joint : children(robot, "joint")) {
-    const Place place = place_of(*joint);
+    const Location location = location_of(*joint);
     const char* name = joint->Attribute("name");
     if (!name || !*name) {
-      problems.error(place, "a joint has no name; write <joint name=\"...\" type=\"...\">");
+      problems.error(location, "a joint has no name; write <joint name=\"...\" type=\"...\">");
       continue;
     }
     const auto [entry, fresh] = model.joints.try_emplace(name);
     if (!fresh) {
-      problems.error(place, say("two joints are named ", cited(name), ", the other one in line ",
-                                entry->second.place.line, "; names are unique"));
+      problems.error(location, concat("two joints are named ", quote(name), ", the other one in line ",
+                                      entry->second.location.line, "; names are unique"));
       continue;
     }
     entry->second = JointCheck(*joint, name, problems).run(model);

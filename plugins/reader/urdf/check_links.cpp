@@ -13,7 +13,8 @@ void check_origin(Element& parent, const std::string& owner, Problems& problems)
   numbers(*origin, "xyz", 3, owner, problems);
   numbers(*origin, "rpy", 3, owner, problems);
   if (origin->Attribute("quat_xyzw"))
-    problems.error(place_of(*origin), owner + ", <origin quat_xyzw>: quaternions of URDF 1.1 are not read; write rpy");
+    problems.error(location_of(*origin),
+                   owner + ", <origin quat_xyzw>: quaternions of URDF 1.1 are not read; write rpy");
 }
 
 /// Removes an <inertial> that says nothing; completes one that says part.
@@ -23,12 +24,14 @@ void check_inertial(Element& link, const std::string& owner, Problems& problems)
   check_origin(*inertial, owner, problems);
   Element* mass = only_child(*inertial, "mass", owner, problems);
   if (!mass || !mass->Attribute("value")) {
-    problems.warning(place_of(*inertial), owner + ": <inertial> without <mass value=\"...\"/>; the link has no mass");
+    problems.warning(location_of(*inertial),
+                     owner + ": <inertial> without <mass value=\"...\"/>; the link has no mass");
     return remove(*inertial);
   }
   const double kg = number(*mass, "value", owner, problems).value_or(1);
   if (kg < 0)
-    problems.error(place_of(*mass), say(owner, ": the mass is ", kg, " kg; it is 0 (a frame without a body) or more"));
+    problems.error(location_of(*mass),
+                   concat(owner, ": the mass is ", kg, " kg; it is 0 (a frame without a body) or more"));
   Element* inertia = only_child(*inertial, "inertia", owner, problems);
   if (!inertia) inertia = inertial->InsertNewChildElement("inertia");
   bool any = false;
@@ -42,9 +45,9 @@ void check_inertial(Element& link, const std::string& owner, Problems& problems)
     }
   }
   if (!missing.empty() && any)
-    problems.warning(place_of(*inertia), say(owner, ": <inertia> lacks ", missing, ", which count as 0"));
+    problems.warning(location_of(*inertia), concat(owner, ": <inertia> lacks ", missing, ", which count as 0"));
   if (kg != 0) return;
-  if (any) problems.warning(place_of(*inertial), owner + " has an inertia but no mass; the inertia is ignored");
+  if (any) problems.warning(location_of(*inertial), owner + " has an inertia but no mass; the inertia is ignored");
   remove(*inertial);
 }
 
@@ -53,24 +56,24 @@ bool check_shape(Element& element, const std::string& owner, Problems& problems)
   check_origin(element, owner, problems);
   Element* geometry = only_child(element, "geometry", owner, problems);
   Element* shape = geometry ? geometry->FirstChildElement() : nullptr;
-  const std::string left_out = say(owner, ": a <", element.Name(), "> is left out, ");
+  const std::string left_out = concat(owner, ": a <", element.Name(), "> is left out, ");
   if (!shape) {
-    problems.warning(place_of(element), left_out + "as it has no shape in <geometry>");
+    problems.warning(location_of(element), left_out + "as it has no shape in <geometry>");
     return false;
   }
   if (shape->NextSiblingElement())
-    problems.warning(place_of(*geometry),
-                     say(owner, ": <geometry> holds several shapes; only the first one counts. Give ", "each a <",
-                         element.Name(), "> of its own"));
+    problems.warning(location_of(*geometry),
+                     concat(owner, ": <geometry> holds several shapes; only the first one counts. Give ", "each a <",
+                            element.Name(), "> of its own"));
   const std::string kind = shape->Name();
   const auto lacks = [&](const char* attribute) {
     if (shape->Attribute(attribute)) return false;
-    problems.warning(place_of(*shape), say(left_out, "as its <", kind, "> has no ", attribute));
+    problems.warning(location_of(*shape), concat(left_out, "as its <", kind, "> has no ", attribute));
     return true;
   };
   const auto sized = [&](std::initializer_list<double> sizes) {
     if (std::all_of(sizes.begin(), sizes.end(), [](double s) { return s > 0; })) return true;
-    problems.warning(place_of(*shape), say(left_out, "as its <", kind, "> has a size that is not above 0"));
+    problems.warning(location_of(*shape), concat(left_out, "as its <", kind, "> has a size that is not above 0"));
     return false;
   };
   // what is no number was reported as an error; its value does not matter any more
@@ -93,8 +96,8 @@ bool check_shape(Element& element, const std::string& owner, Problems& problems)
     const auto scale = numbers(*shape, "scale", 3, owner, problems).value_or(std::vector<double>{1, 1, 1});
     return sized({std::abs(scale[0]), std::abs(scale[1]), std::abs(scale[2])});
   }
-  problems.warning(place_of(*shape),
-                   say(left_out, "as ", cited(kind), " is no shape of URDF: box, cylinder, sphere, mesh"));
+  problems.warning(location_of(*shape),
+                   concat(left_out, "as ", quote(kind), " is no shape of URDF: box, cylinder, sphere, mesh"));
   return false;
 }
 
@@ -102,29 +105,29 @@ bool check_shape(Element& element, const std::string& owner, Problems& problems)
 
 void check_links(Element& robot, ModelInfo& model, Problems& problems) {
   for (Element* link : children(robot, "link")) {
-    const Place place = place_of(*link);
+    const Location location = location_of(*link);
     const char* name = link->Attribute("name");
     if (!name || !*name) {
-      problems.error(place, "a link has no name; write <link name=\"...\">");
+      problems.error(location, "a link has no name; write <link name=\"...\">");
       continue;
     }
-    const std::string owner = "link " + cited(name);
+    const std::string owner = "link " + quote(name);
     const auto [entry, fresh] = model.links.try_emplace(name);
     if (!fresh) {
-      problems.error(place, say("two links are named ", cited(name), ", the other one in line ",
-                                entry->second.place.line, "; names are unique"));
+      problems.error(location, concat("two links are named ", quote(name), ", the other one in line ",
+                                      entry->second.location.line, "; names are unique"));
       continue;
     }
     check_inertial(*link, owner, problems);
     for (const char* kind : {"collision", "visual"})
       for (Element* element : children(*link, kind))
         if (!check_shape(*element, owner, problems)) remove(*element);
-    entry->second.place = place;
+    entry->second.location = location;
     entry->second.bare = !link->FirstChildElement("inertial") && !link->FirstChildElement("collision") &&
                          !link->FirstChildElement("visual");
   }
   if (model.links.empty() && !problems.found_error())
-    problems.error(place_of(robot), "the robot has no link; it needs at least one <link name=\"...\"/>");
+    problems.error(location_of(robot), "the robot has no link; it needs at least one <link name=\"...\"/>");
 }
 
 }  // namespace muro::urdf

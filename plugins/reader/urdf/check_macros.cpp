@@ -12,7 +12,7 @@ class MacroFinder final : public tinyxml2::XMLVisitor {
     const std::string_view name = element.Name();
     // plugins of other simulators may use such text for purposes of their own
     if (name == "gazebo" || name == "plugin" || name == "transmission") return false;
-    if (name.starts_with("xacro:")) found(element, say("<", name, ">"));
+    if (name.starts_with("xacro:")) found(element, concat("<", name, ">"));
     for (const auto* a = attributes; a; a = a->Next()) {
       const std::string_view value = a->Value();
       const std::size_t begin = std::min(value.find("${"), value.find("$("));
@@ -24,13 +24,13 @@ class MacroFinder final : public tinyxml2::XMLVisitor {
   }
 
   std::size_t count = 0;
-  Place place;
+  Location location;
   std::string first;
 
  private:
   void found(const Element& element, const std::string& what) {
     if (count++ > 0) return;
-    place = place_of(element);
+    location = location_of(element);
     first = what;
   }
 };
@@ -41,9 +41,9 @@ bool has_macros(Element& robot, Problems& problems) {
   MacroFinder finder;
   robot.Accept(&finder);
   if (finder.count == 0) return false;
-  problems.error(finder.place, say("the file is xacro source, not URDF: ", cited(finder.first), " is left in",
-                                   finder.count > 1 ? say(", and ", finder.count - 1, " more") : std::string(),
-                                   "; run `xacro FILE -o model.urdf` first and read model.urdf"));
+  problems.error(finder.location, concat("the file is xacro source, not URDF: ", quote(finder.first), " is left in",
+                                         finder.count > 1 ? concat(", and ", finder.count - 1, " more") : std::string(),
+                                         "; run `xacro FILE -o model.urdf` first and read model.urdf"));
   return true;
 }
 

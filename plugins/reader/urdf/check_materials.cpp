@@ -13,7 +13,8 @@ bool check_color(Element& material, const std::string& owner, Problems& problems
   if (!color) return false;
   const char* rgba = color->Attribute("rgba");
   if (!rgba) {
-    problems.warning(place_of(*color), say(owner, ": <color> has no rgba=\"red green blue alpha\" and is ignored"));
+    problems.warning(location_of(*color),
+                     concat(owner, ": <color> has no rgba=\"red green blue alpha\" and is ignored"));
     return false;
   }
   const auto values = numbers(*color, "rgba", 4, owner, problems);
@@ -25,8 +26,8 @@ bool check_color(Element& material, const std::string& owner, Problems& problems
     bounded += (bounded.empty() ? "" : " ") + shortest(std::clamp(v, 0.0, 1.0));
   }
   if (!outside) return true;
-  problems.warning(place_of(*color), say(owner, ": colour ", cited(color->Attribute("rgba")), " is read as ",
-                                         cited(bounded), "; red, green, blue and alpha are between 0 and 1"));
+  problems.warning(location_of(*color), concat(owner, ": colour ", quote(color->Attribute("rgba")), " is read as ",
+                                               quote(bounded), "; red, green, blue and alpha are between 0 and 1"));
   color->SetAttribute("rgba", bounded.c_str());
   return true;
 }
@@ -37,7 +38,7 @@ std::string texture_of(Element& material, const std::string& owner, Problems& pr
   if (!texture) return {};
   const char* file = texture->Attribute("filename");
   if (file && *file) return file;
-  problems.warning(place_of(*texture), say(owner, ": <texture> has no filename=\"...\" and is ignored"));
+  problems.warning(location_of(*texture), concat(owner, ": <texture> has no filename=\"...\" and is ignored"));
   return {};
 }
 
@@ -69,11 +70,11 @@ Materials check_global_materials(Element& robot, std::vector<std::string>& plain
   Materials materials;
   for (Element* material : children(robot, "material")) {
     const char* name = material->Attribute("name");
-    const std::string owner = say("material ", cited(name ? name : ""));
+    const std::string owner = concat("material ", quote(name ? name : ""));
     if (!name) {
-      problems.warning(place_of(*material), "a material of the robot has no name, so that no link can use it");
+      problems.warning(location_of(*material), "a material of the robot has no name, so that no link can use it");
     } else if (materials.count(name)) {
-      problems.warning(place_of(*material), say(owner, " is defined twice; the first definition is used"));
+      problems.warning(location_of(*material), concat(owner, " is defined twice; the first definition is used"));
     } else if (const Looks looks = looks_of(*material, owner, problems); !looks.empty()) {
       materials[name] = looks;
       looks.write(*material);
@@ -99,7 +100,7 @@ void check_materials(Element& robot, Problems& problems) {
   std::vector<Reference> by_name;
   for (Element* link : children(robot, "link")) {
     const char* link_name = link->Attribute("name");
-    const std::string owner = "link " + cited(link_name ? link_name : "");
+    const std::string owner = "link " + quote(link_name ? link_name : "");
     for (Element* visual : children(*link, "visual")) {
       Element* material = only_child(*visual, "material", owner, problems);
       if (!material) continue;
@@ -121,8 +122,9 @@ void check_materials(Element& robot, Problems& problems) {
       continue;
     }
     if (std::find(plain.begin(), plain.end(), name) == plain.end())
-      problems.warning(place_of(*material), say(owner, ": material ", cited(name),
-                                                " is not defined; it is grey. Give it ", "a <color rgba=\"...\"/>"));
+      problems.warning(location_of(*material),
+                       concat(owner, ": material ", quote(name), " is not defined; it is grey. Give it ",
+                              "a <color rgba=\"...\"/>"));
     remove(*material);
   }
 }

@@ -16,34 +16,34 @@ std::optional<double> value_below(Element& parent, const char* name, const std::
       continue;
     }
     const char* text = e->Attribute("value") ? e->Attribute("value") : e->GetText();
-    std::string trouble;
-    const auto values = model_file::parse_numbers(text ? text : "", trouble);
-    if (trouble.empty() && values.size() == 1) return values.front();
-    problems.warning(place_of(*e),
-                     say(owner, ", <", name, ">: ", cited(text ? text : ""), " is no single number and is ignored"));
+    std::string error;
+    const auto values = model_file::parse_numbers(text ? text : "", error);
+    if (error.empty() && values.size() == 1) return values.front();
+    problems.warning(location_of(*e),
+                     concat(owner, ", <", name, ">: ", quote(text ? text : ""), " is no single number and is ignored"));
   }
   return std::nullopt;
 }
 
 void take_surface(Element& gazebo, const std::string& link, Surface& surface, Problems& problems) {
-  const std::string owner = "link " + cited(link);
-  const Place place = place_of(gazebo);
+  const std::string owner = "link " + quote(link);
+  const Location location = location_of(gazebo);
   const auto mu1 = value_below(gazebo, "mu1", owner, problems), mu2 = value_below(gazebo, "mu2", owner, problems);
   if (mu1 && mu2 && *mu1 != *mu2)
-    problems.note(place, say(owner, ": mu1 is ", *mu1, " and mu2 is ", *mu2,
-                             "; friction is the same in all directions, ", "and mu1 is used"));
+    problems.note(location, concat(owner, ": mu1 is ", *mu1, " and mu2 is ", *mu2,
+                                   "; friction is the same in all directions, ", "and mu1 is used"));
   if (const auto mu = mu1 ? mu1 : mu2) {
     if (*mu >= 0)
       surface.friction = *mu;
     else
-      problems.warning(place, say(owner, ": friction ", *mu, " is negative and ignored; it is 0 or more"));
+      problems.warning(location, concat(owner, ": friction ", *mu, " is negative and ignored; it is 0 or more"));
   }
   if (const auto restitution = value_below(gazebo, "restitution_coefficient", owner, problems)) {
     if (*restitution >= 0 && *restitution <= 1)
       surface.restitution = *restitution;
     else
-      problems.warning(place,
-                       say(owner, ": restitution_coefficient ", *restitution, " is ignored; it is between 0 and 1"));
+      problems.warning(location,
+                       concat(owner, ": restitution_coefficient ", *restitution, " is ignored; it is between 0 and 1"));
   }
 }
 
@@ -56,8 +56,8 @@ void take_surfaces(Element& robot, ModelInfo& model, Problems& problems) {
     if (const auto link = model.links.find(reference); link != model.links.end())
       take_surface(*gazebo, reference, link->second.surface, problems);
     else if (model.joints.find(reference) == model.joints.end())
-      problems.warning(place_of(*gazebo),
-                       say("<gazebo reference=", cited(reference), "> names no link or joint and is ignored"));
+      problems.warning(location_of(*gazebo),
+                       concat("<gazebo reference=", quote(reference), "> names no link or joint and is ignored"));
   }
   constexpr std::array<std::string_view, 3> kept = {"link", "joint", "material"};
   for (tinyxml2::XMLNode* node = robot.FirstChild(); node;) {

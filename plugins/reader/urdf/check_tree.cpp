@@ -12,9 +12,9 @@ void check_tree(ModelInfo& model, Problems& problems) {
     if (joint.parent.empty() || joint.child.empty()) continue;
     LinkInfo& child = model.links.at(joint.child);
     if (!child.parent_joint.empty()) {
-      problems.error(joint.place,
-                     say("link ", cited(joint.child), " is the child of two joints, ", cited(child.parent_joint),
-                         " and ", cited(name), "; URDF describes trees, not closed chains"));
+      problems.error(joint.location,
+                     concat("link ", quote(joint.child), " is the child of two joints, ", quote(child.parent_joint),
+                            " and ", quote(name), "; URDF describes trees, not closed chains"));
       continue;
     }
     child.parent_joint = name;
@@ -29,12 +29,12 @@ void check_tree(ModelInfo& model, Problems& problems) {
   if (roots.size() > 1) {
     // in the order of the file
     std::sort(roots.begin(), roots.end(), [&](const std::string& a, const std::string& b) {
-      const Place &p = model.links.at(a).place, &q = model.links.at(b).place;
+      const Location &p = model.links.at(a).location, &q = model.links.at(b).location;
       return std::pair(p.line, p.column) < std::pair(q.line, q.column);
     });
-    problems.error(model.links.at(roots[1]).place,
-                   say("the robot has ", roots.size(), " links without a parent: ", listed(roots),
-                       "; exactly one is the root. Join the others to it, with fixed joints if they do not move"));
+    problems.error(model.links.at(roots[1]).location,
+                   concat("the robot has ", roots.size(), " links without a parent: ", quoted_list(roots),
+                          "; exactly one is the root. Join the others to it, with fixed joints if they do not move"));
     return;
   }
 
@@ -50,9 +50,10 @@ void check_tree(ModelInfo& model, Problems& problems) {
   for (const auto& [name, link] : model.links)
     if (!reached.count(name)) loop.push_back(name);
   if (!loop.empty())
-    problems.error(model.links.at(loop.front()).place, say("links ", listed(loop), " hang on each other in a loop",
-                                                           roots.empty() ? " and there is no root" : "",
-                                                           "; the root is the one link that is no joint's child"));
+    problems.error(
+        model.links.at(loop.front()).location,
+        concat("links ", quoted_list(loop), " hang on each other in a loop",
+               roots.empty() ? " and there is no root" : "", "; the root is the one link that is no joint's child"));
   else
     model.root = roots.front();
 }

@@ -6,18 +6,19 @@
 namespace muro::urdf {
 
 bool Document::parse(const std::string& text, Problems& problems) {
-  Place place;
-  std::string trouble;
-  if (!file_.parse(text, place, trouble)) {
-    problems.error(place, trouble);
+  Location location;
+  std::string error;
+  if (!file_.parse(text, location, error)) {
+    problems.error(location, error);
     return false;
   }
   Element* root = file_.root();
   robot_ = root && std::string_view(root->Name()) != "robot" ? root->NextSiblingElement("robot") : root;
   if (robot_) return true;
-  problems.error(root ? place_of(*root) : Place{},
-                 say("the file holds no <robot> element", root ? say(", but ", cited(root->Name())) : std::string(),
-                     "; a URDF file is <robot name=\"...\"> with links and joints"));
+  problems.error(
+      root ? location_of(*root) : Location{},
+      concat("the file holds no <robot> element", root ? concat(", but ", quote(root->Name())) : std::string(),
+             "; a URDF file is <robot name=\"...\"> with links and joints"));
   return false;
 }
 
@@ -33,8 +34,8 @@ Element* only_child(Element& parent, const char* name, const std::string& owner,
   const std::vector<Element*> found = children(parent, name);
   if (found.empty()) return nullptr;
   if (found.size() > 1)
-    problems.warning(place_of(*found[1]),
-                     say(owner, " has ", found.size(), " <", name, "> elements; only the first one counts"));
+    problems.warning(location_of(*found[1]),
+                     concat(owner, " has ", found.size(), " <", name, "> elements; only the first one counts"));
   for (std::size_t i = 1; i < found.size(); ++i) remove(*found[i]);
   return found.front();
 }
@@ -43,19 +44,14 @@ std::optional<std::vector<double>> numbers(Element& element, const char* attribu
                                            const std::string& owner, Problems& problems) {
   const char* text = element.Attribute(attribute);
   if (!text) return std::nullopt;
-  std::string trouble;
-  auto values = model_file::parse_numbers(text, trouble);
-  if (trouble.empty() && values.size() != count)
-    trouble = say("has ", values.size(), values.size() == 1 ? " number" : " numbers", ", and needs ", count,
-                  count == 1 ? "" : " separated by blanks");
-  if (!trouble.empty()) {
-    problems.error(place_of(element),
-                   say(owner, ", <", element.Name(), " ", attribute, ">: ", cited(text), " ", trouble));
+  std::string error;
+  auto values = model_file::parse_numbers(text, count, error);
+  if (!values) {
+    problems.error(location_of(element),
+                   concat(owner, ", <", element.Name(), " ", attribute, ">: ", quote(text), " ", error));
     return std::nullopt;
   }
-  std::string rewritten;
-  for (const double v : values) rewritten += (rewritten.empty() ? "" : " ") + shortest(v);
-  element.SetAttribute(attribute, rewritten.c_str());
+  element.SetAttribute(attribute, model_file::text_of(*values).c_str());
   return values;
 }
 

@@ -7,13 +7,19 @@
 
 #include "muro/geometry.hpp"
 #include "plugins/common/model_file/document.hpp"
-#include "problems.hpp"
+#include "plugins/common/model_file/problems.hpp"
 
 namespace muro::urdf {
 
 using model_file::children;
+using model_file::concat;
 using model_file::Element;
-using model_file::place_of;
+using model_file::Location;
+using model_file::location_of;
+using model_file::Problems;
+using model_file::quote;
+using model_file::quoted_list;
+using model_file::shortest;
 
 /// A file that holds a <robot>.
 class Document {

@@ -19,13 +19,13 @@ struct Surface {
 };
 
 struct JointInfo {
-  Place place;
+  Location location;
   std::string type, parent, child;
   bool moves = false;  ///< revolute, continuous, prismatic: becomes a joint of the robot
 };
 
 struct LinkInfo {
-  Place place;
+  Location location;
   bool bare = false;                      ///< nothing but a frame: no inertial, no shape
   std::string parent_joint;               ///< empty for the root
   std::vector<std::string> child_joints;  ///< in the order of the file

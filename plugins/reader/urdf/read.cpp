@@ -11,25 +11,25 @@ namespace {
 
 /// What the <robot> element itself may have wrong, as far as urdfdom cares.
 void check_robot(Element& robot, Problems& problems) {
-  const Place place = place_of(robot);
+  const Location location = location_of(robot);
   if (!robot.Attribute("name")) {
-    problems.warning(place, "<robot> has no name; write <robot name=\"...\">");
+    problems.warning(location, "<robot> has no name; write <robot name=\"...\">");
     robot.SetAttribute("name", "robot");
   }
   const char* version = robot.Attribute("version");
   if (!version) return;
   if (std::string_view(version) != "1.0")
-    problems.warning(place, say("the file is of URDF version ", cited(version), " and is read as version 1.0"));
+    problems.warning(location, concat("the file is of URDF version ", quote(version), " and is read as version 1.0"));
   robot.DeleteAttribute("version");
 }
 
 }  // namespace
 
 void read_text(std::string bytes, const std::filesystem::path& folder, RobotBuilder& builder) {
-  Problems problems(builder);
+  Problems problems = Problems::reported_to(builder);
   const auto [error, warning] = model_file::decode(bytes, "URDF", "robot");
-  if (!warning.text.empty()) problems.warning(warning.place, warning.text);
-  if (!error.text.empty()) return problems.error(error.place, error.text);
+  if (!warning.text.empty()) problems.warning(warning.location, warning.text);
+  if (!error.text.empty()) return problems.error(error.location, error.text);
   Document document;
   if (!document.parse(bytes, problems)) return;
   Element& robot = document.robot();

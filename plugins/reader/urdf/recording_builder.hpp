@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "document.hpp"
 #include "muro/vocabulary.hpp"
-#include "problems.hpp"
 #include "read.hpp"
 
 namespace muro::urdf {
@@ -40,7 +40,7 @@ class RecordingBuilder final : public RobotBuilder {
     limits[last_] = l;
   }
   void mimic(std::string_view leader, double multiplier, double offset) noexcept override {
-    calls.push_back(say("mimic ", leader, " * ", multiplier, " + ", offset));
+    calls.push_back(concat("mimic ", leader, " * ", multiplier, " + ", offset));
   }
   void body(std::string_view name) noexcept override { part("body", name, ""); }
   TextId intern(std::string_view t) noexcept override {
@@ -49,14 +49,14 @@ class RecordingBuilder final : public RobotBuilder {
   }
   void report(Severity severity, std::string_view t, int line, int column) noexcept override {
     const char* name = severity == Severity::note ? "note" : severity == Severity::warning ? "warning" : "error";
-    problems.push_back(say(name, " ", line, ":", column, " ", t));
+    problems.push_back(concat(name, " ", line, ":", column, " ", t));
   }
 
  private:
-  static std::string text(const Vec3& v) { return say(v.x(), " ", v.y(), " ", v.z()); }
+  static std::string text(const Vec3& v) { return concat(v.x(), " ", v.y(), " ", v.z()); }
   void part(const char* kind, std::string_view name, const std::string& more) {
     last_ = name;
-    calls.push_back(say(kind, " ", name, more));
+    calls.push_back(concat(kind, " ", name, more));
   }
   void set_raw(const KeyInfo& key, const void* data, std::uint32_t count) noexcept override {
     if (key.name == keys::inertial.name) {

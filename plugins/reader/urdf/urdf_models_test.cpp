@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/world.hpp"
+#include "muro/toolkit/rotations.hpp"
 #include "recording_builder.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/scene.hpp"

@@ -15,14 +15,14 @@ namespace {
 /// A chain of `count` links; the order of the names is not that of the chain.
 std::string chain(int count) {
   std::string urdf = "<robot name='chain'>\n";
-  const auto name = [](int i) { return say("link", i); };
+  const auto name = [](int i) { return concat("link", i); };
   for (int i = 0; i < count; ++i)
-    urdf +=
-        say("<link name='", name(i), "'><inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' ",
-            "izz='1'/></inertial></link>\n");
+    urdf += concat("<link name='", name(i),
+                   "'><inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' ",
+                   "izz='1'/></inertial></link>\n");
   for (int i = count - 1; i > 0; --i)
-    urdf += say("<joint name='joint", i, "' type='continuous'><parent link='", name(i - 1), "'/><child link='", name(i),
-                "'/><origin xyz='0 0 1'/></joint>\n");
+    urdf += concat("<joint name='joint", i, "' type='continuous'><parent link='", name(i - 1), "'/><child link='",
+                   name(i), "'/><origin xyz='0 0 1'/></joint>\n");
   return urdf + "</robot>\n";
 }
 
@@ -59,8 +59,8 @@ TEST(UrdfRobustness, ALinkWithTenThousandChildrenIsReadInOrder) {
   constexpr int count = 10000;
   std::string urdf = "<robot name='star'><link name='hub'/>";
   for (int i = 0; i < count; ++i)
-    urdf += say("<link name='l", i, "'/><joint name='j", i, "' type='fixed'><parent link='hub'/><child link='l", i,
-                "'/></joint>");
+    urdf += concat("<link name='l", i, "'/><joint name='j", i, "' type='fixed'><parent link='hub'/><child link='l", i,
+                   "'/></joint>");
   const RecordingBuilder robot = recorded(urdf + "</robot>");
   EXPECT_EQ(std::count(robot.calls.begin(), robot.calls.end(), "fork"), count - 1);
   EXPECT_EQ(std::count(robot.calls.begin(), robot.calls.end(), "end"), 2 * (count - 1));

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "problems.hpp"
+#include "document.hpp"
 
 namespace muro::urdf {
 

@@ -31,15 +31,15 @@ class CsvRecorder final : public Algorithm {
   void connect(Connector& c) override {
     path_ = std::filesystem::absolute(std::string(c.parameters().text("file"))).string();
   }
-  void connect_by_name(Connector& c) override { sources_ = select(c, c.parameters().texts("properties")); }
+  void connect_by_name(Connector& c) override { properties_ = select(c, c.parameters().texts("properties")); }
 
   void start() override {
     file_.reset();  // at a reset: lets go of the file before it is begun anew
     file_.emplace(path_);
     last_time_ = -1;
     file_->text("time");
-    for (const Source& s : sources_)
-      for (const std::string& title : s.titles()) file_->text(title);
+    for (const RecordedProperty& p : properties_)
+      for (const std::string& title : p.titles()) file_->text(title);
     file_->end_row();
   }
 
@@ -47,7 +47,8 @@ class CsvRecorder final : public Algorithm {
     if (step.time <= last_time_) file_->cut_back(step.time);  // after a restored snapshot
     last_time_ = step.time;
     file_->time(step.time);
-    for (const Source& s : sources_) s.each([&](const void* scalar) { file_->number(s.scalar(), scalar); });
+    for (const RecordedProperty& p : properties_)
+      p.each([&](const void* scalar) { file_->number(p.scalar(), scalar); });
     file_->end_row();
   }
 
@@ -55,7 +56,7 @@ class CsvRecorder final : public Algorithm {
 
  private:
   std::string path_;
-  std::vector<Source> sources_;
+  std::vector<RecordedProperty> properties_;
   std::optional<CsvFile> file_;
   std::int64_t last_time_ = -1;  ///< ns, of the last row in the file
 };
@@ -64,5 +65,5 @@ constexpr abi::AlgorithmEntry algorithms[] = {algorithm<CsvRecorder>(description
 
 }  // namespace
 
-MURO_PLUGIN(.name = "recorder_csv", .version = "1.0.0", .licence = "MIT", .summary = "Properties to CSV files",
-            .algorithms = algorithms)
+MURO_PLUGIN(.name = "recorder_csv", .version = description.version, .licence = "MIT",
+            .summary = "Properties to CSV files", .algorithms = algorithms)

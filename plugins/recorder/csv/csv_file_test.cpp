@@ -36,26 +36,26 @@ void add_row(CsvFile& file, std::int64_t time, double value) {
 }
 
 TEST(Glob, StarsAndQuestionMarksStandForCharacters) {
-  EXPECT_TRUE(fits("rover_*/base_link:pose", "rover_12/base_link:pose"));
-  EXPECT_TRUE(fits("*:pose", "a/b:pose"));
-  EXPECT_TRUE(fits("a?c", "abc"));
-  EXPECT_TRUE(fits("*a*b*", "xxaxxbxx"));
-  EXPECT_FALSE(fits("*a*b", "xxaxxbxx"));
-  EXPECT_FALSE(fits("a?c", "ac"));
-  EXPECT_FALSE(fits("", "a"));
-  EXPECT_TRUE(fits("*", ""));
-  EXPECT_TRUE(fits("a*?", "ab"));
-  EXPECT_FALSE(fits("a*?", "a"));
+  EXPECT_TRUE(matches("rover_*/base_link:pose", "rover_12/base_link:pose"));
+  EXPECT_TRUE(matches("*:pose", "a/b:pose"));
+  EXPECT_TRUE(matches("a?c", "abc"));
+  EXPECT_TRUE(matches("*a*b*", "xxaxxbxx"));
+  EXPECT_FALSE(matches("*a*b", "xxaxxbxx"));
+  EXPECT_FALSE(matches("a?c", "ac"));
+  EXPECT_FALSE(matches("", "a"));
+  EXPECT_TRUE(matches("*", ""));
+  EXPECT_TRUE(matches("a*?", "ab"));
+  EXPECT_FALSE(matches("a*?", "a"));
 }
 
 /// `*` and `?` by their definition: every split is tried.
-bool fits_by_definition(std::string_view pattern, std::string_view text) {
+bool matches_by_definition(std::string_view pattern, std::string_view text) {
   if (pattern.empty()) return text.empty();
   if (pattern[0] == '*')
-    return fits_by_definition(pattern.substr(1), text) ||
-           (!text.empty() && fits_by_definition(pattern, text.substr(1)));
+    return matches_by_definition(pattern.substr(1), text) ||
+           (!text.empty() && matches_by_definition(pattern, text.substr(1)));
   return !text.empty() && (pattern[0] == '?' || pattern[0] == text[0]) &&
-         fits_by_definition(pattern.substr(1), text.substr(1));
+         matches_by_definition(pattern.substr(1), text.substr(1));
 }
 
 TEST(Glob, AgreesWithItsDefinitionOnRandomTexts) {
@@ -68,8 +68,8 @@ TEST(Glob, AgreesWithItsDefinitionOnRandomTexts) {
   int fitting = 0;
   for (int i = 0; i < 20000; ++i) {
     const std::string pattern = word("ab*?"), text = word("ab");
-    EXPECT_EQ(fits(pattern, text), fits_by_definition(pattern, text)) << pattern << " " << text;
-    fitting += fits(pattern, text) ? 1 : 0;
+    EXPECT_EQ(matches(pattern, text), matches_by_definition(pattern, text)) << pattern << " " << text;
+    fitting += matches(pattern, text) ? 1 : 0;
   }
   EXPECT_GT(fitting, 1000);
 }

@@ -76,7 +76,7 @@ TEST(RecorderCsv, BeginsAnewAfterAReset) {
   EXPECT_EQ(text_of(path), first);
 }
 
-TEST(RecorderCsv, ContinuesFromARestoredSnapshotAsIfTheTimeSinceHadNotBeen) {
+TEST(RecorderCsv, ReplacesTheRowsSinceARestoredSnapshot) {
   const ScratchFolder folder;
   const std::string path = folder.path("log.csv");
   Recording s(path, {});
@@ -140,7 +140,7 @@ TEST(RecorderCsv, NumbersTheElementsOfArrays) {
             "0,0.5,1.5,1,2,3,4,5,6,2\r\n");
 }
 
-TEST(RecorderCsv, RecordsTheSumOfForcesThatCarryTheStateToTheNextInstant) {
+TEST(RecorderCsv, RecordsTheForcesThatCarryTheStateToTheNextInstant) {
   const ScratchFolder folder;
   test::Scene s;
   const double mass = 2, g = 9.81, dt = 1e-3;
@@ -158,7 +158,7 @@ TEST(RecorderCsv, RecordsTheSumOfForcesThatCarryTheStateToTheNextInstant) {
   std::ifstream file(folder.path("log.csv"));
   std::string row;
   std::getline(file, row);
-  double vz_before = 0, fz_before = 0, most = 0;
+  double vz_before = 0, fz_before = 0, max_fz = 0;
   for (int k = 0; std::getline(file, row); ++k) {
     double t = 0, vx = 0, vy = 0, vz = 0, wx = 0, wy = 0, wz = 0, fx = 0, fy = 0, fz = 0;
     ASSERT_EQ(std::sscanf(row.c_str(), "%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf", &t, &vx, &vy, &vz, &wx, &wy, &wz, &fx,
@@ -168,15 +168,15 @@ TEST(RecorderCsv, RecordsTheSumOfForcesThatCarryTheStateToTheNextInstant) {
       EXPECT_NEAR(mass * (vz - vz_before), (fz_before - mass * g) * dt, 1e-7) << "momentum, at t = " << t;
     }
     vz_before = vz, fz_before = fz;
-    most = std::max(most, fz);
+    max_fz = std::max(max_fz, fz);
   }
-  EXPECT_GT(most, mass * g) << "it has met the ground";
+  EXPECT_GT(max_fz, mass * g) << "it has met the ground";
 }
 
-TEST(RecorderCsv, NamesTheNearestPropertyWhenNothingFits) {
+TEST(RecorderCsv, NamesTheNearestPropertyWhenNothingMatches) {
   EXPECT_EQ(
       refusal({"bal/body:pose"}),
-      "recorder.csv #1 (recorder.csv) cannot be connected: no property fits `bal/body:pose` (did you mean "
+      "recorder.csv #1 (recorder.csv) cannot be connected: no property matches `bal/body:pose` (did you mean "
       "`ball/body:pose`?); write \"object:property\", such as \"rover_0/base_link:pose\"; `muro describe` lists all");
 }
 
@@ -185,10 +185,10 @@ TEST(RecorderCsv, RefusesWhatHasNoColumns) {
       refusal({"ball/body:collision.shapes"}),
       "recorder.csv #1 (recorder.csv) cannot be connected: `ball/body:collision.shapes` cannot be recorded: it has no "
       "columns: it is of type muro.Shape, which is not made of numbers");
-  EXPECT_EQ(
-      refusal({"ball/body:inert*"}),
-      "recorder.csv #1 (recorder.csv) cannot be connected: `ball/body:inert*` fits only what does not change or has no "
-      "columns, such as `ball/body:inertial`; name a constant without wildcards to record it");
+  EXPECT_EQ(refusal({"ball/body:inert*"}),
+            "recorder.csv #1 (recorder.csv) cannot be connected: `ball/body:inert*` matches only what does not change "
+            "or has no "
+            "columns, such as `ball/body:inertial`; name a constant without wildcards to record it");
 }
 
 TEST(RecorderCsv, EndsTheRunWhenTheDiskIsFull) {

@@ -5,8 +5,8 @@
 
 namespace muro {
 
-/// Whether `text` fits `pattern`, in which `*` stands for any characters and `?` for one.
-constexpr bool fits(std::string_view pattern, std::string_view text) {
+/// Whether `text` matches `pattern`, in which `*` stands for any characters and `?` for one.
+constexpr bool matches(std::string_view pattern, std::string_view text) {
   std::size_t p = 0, t = 0, star = std::string_view::npos, resume = 0;
   while (t < text.size()) {
     if (p < pattern.size() && (pattern[p] == '?' || (pattern[p] == text[t] && pattern[p] != '*'))) {

@@ -7,13 +7,14 @@
 #include "glob.hpp"
 #include "muro/algorithm.hpp"
 #include "muro/toolkit/did_you_mean.hpp"
+#include "plugins/common/text/quote.hpp"
 
 namespace muro {
 
 namespace {
 
 /// Why a property cannot stand in columns; "" when it can.
-std::string hindrance(const FoundProperty& p) {
+std::string why_unfit(const FoundProperty& p) {
   if (p.multiplicity == Multiplicity::list) return "is a list, whose length changes from row to row";
   if (size_of(p.key->type->scalar) == 0)
     return "has no columns: it is of type " + std::string(p.key->type->name) + ", which is not made of numbers";
@@ -35,18 +36,18 @@ std::vector<std::pair<std::string, FoundProperty>> all_properties(const Connecto
 
 }  // namespace
 
-Source::Source(Connector& connector, const FoundProperty& p, std::string name)
+RecordedProperty::RecordedProperty(Connector& connector, const FoundProperty& p, std::string name)
     : name_(std::move(name)),
       multiplicity_(p.multiplicity),
       scalar_(p.key->type->scalar),
       labels_(p.key->type->labels),
-      place_(connector.read_any(p)),
+      data_(connector.read_any(p)),
       is_sum_(p.is_sum) {}
 
-std::vector<std::string> Source::titles() const {
+std::vector<std::string> RecordedProperty::titles() const {
   std::vector<std::string> titles;
   const std::uint64_t elements =
-      multiplicity_ == Multiplicity::array ? static_cast<const ArrayHeader*>(place_)->size : 1;
+      multiplicity_ == Multiplicity::array ? static_cast<const ArrayHeader*>(data_)->size : 1;
   for (std::uint64_t i = 0; i < elements; ++i) {
     const std::string element = multiplicity_ == Multiplicity::array ? name_ + "[" + std::to_string(i) + "]" : name_;
     if (labels_.empty()) titles.push_back(element);
@@ -55,38 +56,38 @@ std::vector<std::string> Source::titles() const {
   return titles;
 }
 
-std::vector<Source> select(Connector& c, std::span<const std::string_view> patterns) {
-  std::vector<std::string> wanted(patterns.begin(), patterns.end());
-  if (wanted.empty())
-    for (const RobotView* robot : c.robots()) wanted.push_back(std::string(c.object_name(robot->base())) + ":pose");
+std::vector<RecordedProperty> select(Connector& c, std::span<const std::string_view> patterns) {
+  std::vector<std::string> chosen(patterns.begin(), patterns.end());
+  if (chosen.empty())
+    for (const RobotView* robot : c.robots()) chosen.push_back(std::string(c.object_name(robot->base())) + ":pose");
   const auto all = all_properties(c);
-  std::vector<Source> sources;
+  std::vector<RecordedProperty> selected;
   std::set<std::string> taken;
-  for (const std::string& pattern : wanted) {
+  for (const std::string& pattern : chosen) {
     const bool exact = pattern.find_first_of("*?") == std::string::npos;
-    bool fitting = false;
-    std::string passed_over;
+    bool matched = false;
+    std::string skipped;
     for (const auto& [name, property] : all) {
-      if (!fits(pattern, name)) continue;
-      const std::string hindered = hindrance(property);
-      if (exact && !hindered.empty()) throw Error("`" + name + "` cannot be recorded: it " + hindered);
-      if (!exact && (!hindered.empty() || property.is_constant || property.key->name.rfind("state.", 0) == 0)) {
-        passed_over = name;
+      if (!matches(pattern, name)) continue;
+      const std::string unfit = why_unfit(property);
+      if (exact && !unfit.empty()) throw Error(quote(name) + " cannot be recorded: it " + unfit);
+      if (!exact && (!unfit.empty() || property.is_constant || property.key->name.rfind("state.", 0) == 0)) {
+        skipped = name;
         continue;
       }
-      fitting = true;
-      if (taken.insert(name).second) sources.emplace_back(c, property, name);
+      matched = true;
+      if (taken.insert(name).second) selected.emplace_back(c, property, name);
     }
-    if (fitting) continue;
-    if (!passed_over.empty())
-      throw Error("`" + pattern + "` fits only what does not change or has no columns, such as `" + passed_over +
-                  "`; name a constant without wildcards to record it");
+    if (matched) continue;
+    if (!skipped.empty())
+      throw Error(quote(pattern) + " matches only what does not change or has no columns, such as " + quote(skipped) +
+                  "; name a constant without wildcards to record it");
     std::vector<std::string> names;
     for (const auto& [name, unused] : all) names.push_back(name);
-    throw Error("no property fits `" + pattern + "`" + did_you_mean(pattern, names) +
+    throw Error("no property matches " + quote(pattern) + did_you_mean(pattern, names) +
                 "; write \"object:property\", such as \"rover_0/base_link:pose\"; `muro describe` lists all");
   }
-  return sources;
+  return selected;
 }
 
 }  // namespace muro

@@ -11,10 +11,10 @@
 namespace muro {
 
 /// A property to be recorded, bound.
-class Source {
+class RecordedProperty {
  public:
   /// Binds `property`. [setup]
-  Source(Connector& connector, const FoundProperty& property, std::string name);
+  RecordedProperty(Connector& connector, const FoundProperty& property, std::string name);
 
   const std::string& name() const { return name_; }  ///< "object:property"
   Scalar scalar() const { return scalar_; }
@@ -24,21 +24,21 @@ class Source {
   template <class Visit>
   void each(Visit visit) const {
     if (is_sum_) return each_sum(visit);
-    const auto* array = static_cast<const ArrayHeader*>(place_);
-    multiplicity_ == Multiplicity::array ? each_of(array->data, array->size, visit) : each_of(place_, 1, visit);
+    const auto* array = static_cast<const ArrayHeader*>(data_);
+    multiplicity_ == Multiplicity::array ? each_of(array->data, array->size, visit) : each_of(data_, 1, visit);
   }
 
  private:
   template <class Visit>
   void each_of(const void* first, std::uint64_t elements, Visit visit) const {
-    const auto* place = static_cast<const unsigned char*>(first);
+    const auto* scalar = static_cast<const unsigned char*>(first);
     const std::uint64_t scalars = elements * (labels_.empty() ? 1 : labels_.size());
-    for (std::uint64_t i = 0; i < scalars; ++i, place += size_of(scalar_)) visit(place);
+    for (std::uint64_t i = 0; i < scalars; ++i, scalar += size_of(scalar_)) visit(scalar);
   }
 
   template <class Visit>
   void each_sum(Visit visit) const {
-    const auto* sum = static_cast<const SumHeader*>(place_);
+    const auto* sum = static_cast<const SumHeader*>(data_);
     for (std::size_t i = 0; i < std::max<std::size_t>(labels_.size(), 1); ++i) {
       double total = 0;
       for (std::uint64_t k = 0; k < sum->size; ++k) total += static_cast<const double*>(sum->slots[k])[i];
@@ -50,16 +50,16 @@ class Source {
   Multiplicity multiplicity_;
   Scalar scalar_;
   std::span<const std::string_view> labels_;
-  const void* place_ = nullptr;  ///< the value, an ArrayHeader, or a SumHeader
+  const void* data_ = nullptr;  ///< the value, an ArrayHeader, or a SumHeader
   bool is_sum_ = false;
 };
 
-/// The properties that fit any of the patterns "object:property", in which * stands for any characters and ? for one,
-/// each property once. Without patterns: the pose of every robot's base. Throws Error when a pattern fits none.
+/// The properties that match any of the patterns "object:property", in which * stands for any characters and ? for one,
+/// each property once. Without patterns: the pose of every robot's base. Throws Error when a pattern matches none.
 ///
-/// A pattern with a wildcard passes over constants, over states that only their owner understands (`state.*`) and over
-/// what has no fixed columns (shapes, lists). A name without wildcards takes a constant, too; what has no fixed
+/// A pattern with a wildcard skips constants, states that only their owner understands (`state.*`) and what has no
+/// fixed columns (shapes, lists). A name without wildcards takes a constant, too; what has no fixed
 /// columns is then an error.
-std::vector<Source> select(Connector& connector, std::span<const std::string_view> patterns);
+std::vector<RecordedProperty> select(Connector& connector, std::span<const std::string_view> patterns);
 
 }  // namespace muro

@@ -6,6 +6,7 @@
 
 #include "model.hpp"
 #include "muro/plugin.hpp"
+#include "plugins/common/text/quote.hpp"
 
 namespace {
 
@@ -14,14 +15,15 @@ using namespace muro;
 constexpr Parameter parameters[] = {
     text("of", "ranges", "the property of the sensor's object to work on: a real number or an array of them"),
     real("sigma", "as read", 0, "standard deviation of the noise").between(0, 1e9),
-    real("sigma_relative", "1", 0, "standard deviation of further noise, as a share of the reading").between(0, 1e3),
-    real("pointing", "rad", 0, "standard deviation of a ray's direction: adds noise at a slant; needs laser.incidence")
+    real("sigma_relative", "1", 0, "standard deviation of further noise, in proportion to the reading").between(0, 1e3),
+    real("pointing", "rad", 0,
+         "standard deviation of a ray's direction: adds noise with the angle of incidence; needs laser.incidence")
         .between(0, 1),
     real("correlation", "1", 0, "of the noise of neighbours in an array").between(-1, 1),
     real("bias", "as read", 0, "added to every reading").between(-1e9, 1e9),
     real("resolution", "as read", 0, "readings are multiples of this; 0: any value").between(0, 1e9),
-    real("minimum", "as read", 0, "least reading; not given: laser.min_range, otherwise none"),
-    real("maximum", "as read", 0, "greatest reading; not given: laser.max_range, otherwise none"),
+    real("minimum", "as read", 0, "smallest reading; not given: laser.min_range, otherwise none"),
+    real("maximum", "as read", 0, "largest reading; not given: laser.max_range, otherwise none"),
     real("dropout", "1", 0, "probability that a reading is lost").between(0, 1),
     real("dropout_value", "as read", 0, "what a lost reading reads"),
 };
@@ -38,8 +40,6 @@ constexpr Description description{
     .writes = writes,
     .capabilities = deterministic | batched | allocation_free | restorable,
 };
-
-std::string quoted(std::string_view text) { return "`" + std::string(text) + "`"; }
 
 class SensorError final : public Algorithm {
  public:
@@ -59,10 +59,10 @@ class SensorError final : public Algorithm {
         if (s.model.pointing > 0) s.incidence = ArrayIn<double>(c.read_any(find_incidence(c, object, found.count)));
       } else {
         if (p.given("correlation"))
-          throw Error("correlation is between neighbours in an array, but " + quoted(of) +
+          throw Error("correlation is between neighbours in an array, but " + quote(of) +
                       " is a single number; remove it");
         if (p.given("pointing"))
-          throw Error("pointing is of the rays of a laser, but " + quoted(of) + " is a single number; remove it");
+          throw Error("pointing is of the rays of a laser, but " + quote(of) + " is a single number; remove it");
         s.single_truth = In<double>(c.read_any(found));
         s.single_measured = c.variable(object, output_key(*found.key), 0.0);
       }
@@ -93,13 +93,13 @@ class SensorError final : public Algorithm {
   };
 
   /// A key whose texts it owns.
-  struct OwnKey {
+  struct MeasuredKey {
     std::string name, unit;
     Key<double> key;
-    explicit OwnKey(const KeyInfo& of)
+    explicit MeasuredKey(const KeyInfo& of)
         : name(std::string(of.name) + ".measured"), unit(of.unit), key(name, unit, "as the device reports it") {}
-    OwnKey(const OwnKey&) = delete;
-    OwnKey& operator=(const OwnKey&) = delete;
+    MeasuredKey(const MeasuredKey&) = delete;
+    MeasuredKey& operator=(const MeasuredKey&) = delete;
   };
 
   /// The property to work on; throws when it is missing or not made of real numbers.
@@ -109,20 +109,20 @@ class SensorError final : public Algorithm {
       const bool usable = p.multiplicity != Multiplicity::list && *p.key->type == value_type<double> && p.count > 0;
       if (p.key->name == name && usable) return p;
       if (p.key->name == name)
-        throw Error(quoted(name) + " of " + quoted(c.object_name(object)) +
+        throw Error(quote(name) + " of " + quote(c.object_name(object)) +
                     " is not made of real numbers (f64) but of " + std::string(p.key->type->name) +
                     (p.multiplicity == Multiplicity::list ? ", in a list" : "") +
                     "; sensor.error works on single numbers and arrays of f64");
       if (usable) others += (others.empty() ? "" : ", ") + std::string(p.key->name);
     }
-    throw Error(quoted(c.object_name(object)) + " has no property " + quoted(name) +
+    throw Error(quote(c.object_name(object)) + " has no property " + quote(name) +
                 (others.empty() ? "; add the sensor that writes it" : "; it has " + others));
   }
 
   static FoundProperty find_incidence(Connector& c, ObjectId object, std::uint32_t count) {
     for (const FoundProperty& p : c.properties(object))
       if (p.key->name == keys::laser_incidence.name && p.count == count) return p;
-    throw Error("pointing needs to know at what slant rays meet surfaces: give the laser `incidence: true`");
+    throw Error("pointing needs the angle of incidence of the rays: give the laser `incidence: true`");
   }
 
   static ErrorModel model_of(const Parameters& p, const Connector& c, ObjectId object) {
@@ -136,7 +136,7 @@ class SensorError final : public Algorithm {
                  .dropout_value = p.real("dropout_value")};
     if (p.text("of") == keys::ranges.name) {
       m.minimum = c.constant(object, keys::laser_min_range).value_or(m.minimum);
-      m.maximum = m.nothing_from = c.constant(object, keys::laser_max_range).value_or(m.maximum);
+      m.maximum = m.no_echo_from = c.constant(object, keys::laser_max_range).value_or(m.maximum);
     }
     if (p.given("minimum")) m.minimum = p.real("minimum");
     if (p.given("maximum")) m.maximum = p.real("maximum");
@@ -148,17 +148,17 @@ class SensorError final : public Algorithm {
 
   const Key<double>& output_key(const KeyInfo& of) {
     if (of.name == keys::ranges.name) return keys::measured_ranges;
-    if (!own_key_) own_key_ = std::make_unique<OwnKey>(of);
-    return own_key_->key;
+    if (!measured_key_) measured_key_ = std::make_unique<MeasuredKey>(of);
+    return measured_key_->key;
   }
 
   std::vector<Sensor> sensors_;
-  std::unique_ptr<OwnKey> own_key_;  ///< the property keeps pointing to its texts
+  std::unique_ptr<MeasuredKey> measured_key_;  ///< the property keeps pointing to its texts
 };
 
 constexpr abi::AlgorithmEntry algorithms[] = {algorithm<SensorError>(description)};
 
 }  // namespace
 
-MURO_PLUGIN(.name = "sensor_error", .version = "1.0.0", .licence = "MIT",
+MURO_PLUGIN(.name = "sensor_error", .version = description.version, .licence = "MIT",
             .summary = "From the true reading of a sensor to the device's", .algorithms = algorithms)

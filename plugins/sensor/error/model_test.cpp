@@ -172,8 +172,8 @@ TEST(SensorErrorModel, LosesReadingsAtTheGivenRate) {
   EXPECT_EQ(measure({.minimum = 1, .dropout = 1, .dropout_value = 0}, 2, 1, 1)[0], 0) << "may lie outside the limits";
 }
 
-TEST(SensorErrorModel, LeavesAReadingOfNothingAlone) {
-  const ErrorModel model{.sigma = 0.1, .bias = 0.5, .maximum = 5.6, .nothing_from = 5.6};
+TEST(SensorErrorModel, LeavesAReadingWithoutEchoAlone) {
+  const ErrorModel model{.sigma = 0.1, .bias = 0.5, .maximum = 5.6, .no_echo_from = 5.6};
   for (const double v : measure(model, 5.6, 100, 1)) EXPECT_EQ(v, 5.6);
   for (const double v : measure(model, 4, 100, 1)) EXPECT_NE(v, 4);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The pieces of the reader by themselves.
+// The components of the reader by themselves.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "muro/algorithm.hpp"
+#include "plugins/common/model_file/inertia.hpp"
 #include "plugins/common/model_file/mesh_path.hpp"
-#include "plugins/common/model_file/solid.hpp"
 #include "plugins/common/model_file/text_file.hpp"
 #include "recording_builder.hpp"
 #include "urdfdom_parse.hpp"
@@ -18,10 +18,10 @@ namespace {
 
 namespace fs = std::filesystem;
 using model_file::check_tensor;
-using model_file::even_solid;
 using model_file::find_mesh;
 using model_file::MeshPath;
-using model_file::TensorFault;
+using model_file::TensorError;
+using model_file::uniform_density_inertia;
 using Lines = std::vector<std::string>;
 
 /// A folder that is gone after the test.
@@ -63,7 +63,7 @@ TEST(UrdfMeshPath, APackageIsAFolderAboveOrBesideTheModel) {
   EXPECT_EQ(find_mesh("package://nobody/meshes/wheel.stl", folder.path()).path, "");
 }
 
-TEST(UrdfMeshPath, PackagesAreAlsoFoundInTheWorkspacesOfRosAndGazebo) {
+TEST(UrdfMeshPath, PackagesAreFoundInWorkspacesOfRosAndGazebo) {
   const TemporaryFolder folder, model;
   const std::string ros = folder.add("src/first/m.stl"), ament = folder.add("install/share/second/m.stl");
   const std::string gazebo = folder.add("models/third/m.stl");
@@ -91,7 +91,7 @@ TEST(UrdfMeshPath, FilesAreRelativeToTheModelOrAbsoluteInAnyWriting) {
   EXPECT_EQ(find_mesh("file:///C:/Users/me/meshes/the%20wheel.stl", folder.path()).path, mesh);
 }
 
-TEST(UrdfMeshPath, ANameInOtherCaseIsFoundAndTold) {
+TEST(UrdfMeshPath, ANameInOtherCaseIsFoundAndReported) {
   const TemporaryFolder folder;
   const std::string mesh = folder.add("Wheel.STL");
   const MeshPath found = find_mesh("wheel.stl", folder.path());
@@ -113,10 +113,10 @@ TEST(UrdfMeshPath, AMeshIsInternedWithItsScale) {
   EXPECT_EQ(shape.size, Vec3(1, -2, 3));
 }
 
-TEST(UrdfSolid, AnEvenSolidHasTheTextbookTensor) {
+TEST(UrdfInertia, UniformDensityGivesTheTextbookTensor) {
   const double pi = std::numbers::pi;
   const Shape box = Shape::box({1, 2, 3}), sphere = Shape::sphere(0.5), cylinder = Shape::cylinder(0.3, 2);
-  const auto one = [](const Shape& s, double mass) { return even_solid(std::span(&s, 1), mass); };
+  const auto one = [](const Shape& s, double mass) { return uniform_density_inertia(std::span(&s, 1), mass); };
   EXPECT_NEAR(one(box, 6).ixx, 6 * (4 + 9) / 12.0, 1e-12);
   EXPECT_NEAR(one(sphere, 3).izz, 0.4 * 3 * 0.25, 1e-12);
   EXPECT_NEAR(one(cylinder, 5).izz, 0.5 * 5 * 0.09, 1e-12);
@@ -125,29 +125,29 @@ TEST(UrdfSolid, AnEvenSolidHasTheTextbookTensor) {
   Shape balls[] = {sphere, sphere};
   balls[0].origin.position = {2, 0, 0};
   balls[1].origin.position = {-2, 0, 0};
-  const Inertia dumbbell = even_solid(balls, 2);
+  const Inertia dumbbell = uniform_density_inertia(balls, 2);
   EXPECT_NEAR(dumbbell.ixx, 2 * 0.4 * 0.25, 1e-12);
   EXPECT_NEAR(dumbbell.iyy, 2 * (0.4 * 0.25 + 4), 1e-12);
   // a ball of water of 1 m radius
-  EXPECT_NEAR(even_solid({}, 4000 * pi / 3).iyy, 0.4 * 4000 * pi / 3, 1e-9);
+  EXPECT_NEAR(uniform_density_inertia({}, 4000 * pi / 3).iyy, 0.4 * 4000 * pi / 3, 1e-9);
 }
 
-TEST(UrdfSolid, ATensorIsCheckedByItsPrincipalMoments) {
-  const auto fault = [](double xx, double yy, double zz, double xy) {
-    return check_tensor(Inertia{.ixx = xx, .iyy = yy, .izz = zz, .ixy = xy}.tensor()).fault;
+TEST(UrdfInertia, ATensorIsCheckedByItsPrincipalMoments) {
+  const auto error = [](double xx, double yy, double zz, double xy) {
+    return check_tensor(Inertia{.ixx = xx, .iyy = yy, .izz = zz, .ixy = xy}.tensor()).error;
   };
-  EXPECT_EQ(fault(1, 1, 1, 0), TensorFault::none);
-  EXPECT_EQ(fault(1, 2, 3, 0), TensorFault::none);  // a flat plate
-  EXPECT_EQ(fault(1, 1, 2.5, 0), TensorFault::no_body);
-  EXPECT_EQ(fault(1, 1, 1, 0.9), TensorFault::no_body);
-  EXPECT_EQ(fault(1, 1, 1, 1.1), TensorFault::not_positive);
-  EXPECT_EQ(fault(0, 0, 0, 0), TensorFault::not_positive);
-  EXPECT_EQ(fault(-1, 1, 1, 0), TensorFault::not_positive);
+  EXPECT_EQ(error(1, 1, 1, 0), TensorError::none);
+  EXPECT_EQ(error(1, 2, 3, 0), TensorError::none);  // a flat plate
+  EXPECT_EQ(error(1, 1, 2.5, 0), TensorError::violates_triangle_inequality);
+  EXPECT_EQ(error(1, 1, 1, 0.9), TensorError::violates_triangle_inequality);
+  EXPECT_EQ(error(1, 1, 1, 1.1), TensorError::not_positive_definite);
+  EXPECT_EQ(error(0, 0, 0, 0), TensorError::not_positive_definite);
+  EXPECT_EQ(error(-1, 1, 1, 0), TensorError::not_positive_definite);
 }
 
 TEST(UrdfParse, WhatUrdfdomPrintsBecomesReports) {
   RecordingBuilder builder;
-  Problems problems(builder);
+  Problems problems = Problems::reported_to(builder);
   testing::internal::CaptureStderr();
   testing::internal::CaptureStdout();
   EXPECT_EQ(parse_with_urdfdom("<robot/>", problems), nullptr);
@@ -156,7 +156,7 @@ TEST(UrdfParse, WhatUrdfdomPrintsBecomesReports) {
   EXPECT_EQ(builder.problems, Lines{"error 0:0 urdfdom: No name given for the robot."});
 }
 
-TEST(UrdfParse, AllThatUrdfdomComplainsAboutIsFoundAndMendedBefore) {
+TEST(UrdfParse, WhatUrdfdomComplainsAboutIsCorrectedBefore) {
   const std::string joint = "<parent link='a'/><child link='b'/>";
   const std::string shape = "<geometry><sphere radius=' 1 '/></geometry>";
   const Lines odd = {
@@ -195,11 +195,11 @@ TEST(UrdfText, FilesThatCannotBeReadAreErrorsWithTheirPath) {
 }
 
 TEST(UrdfText, NamesInMessagesAreShortAndPrintable) {
-  EXPECT_EQ(cited("a\tb\x1b[31m"), "`a?b?[31m`");
-  EXPECT_EQ(cited(std::string(70, 'x')), "`" + std::string(60, 'x') + "...`");
+  EXPECT_EQ(quote("a\tb\x1b[31m"), "`a?b?[31m`");
+  EXPECT_EQ(quote(std::string(70, 'x')), "`" + std::string(60, 'x') + "...`");
   std::string umlauts;
   for (int i = 0; i < 40; ++i) umlauts += "\xc3\xa4";
-  EXPECT_EQ(cited("x" + umlauts), "`x" + umlauts.substr(0, 58) + "...`");
+  EXPECT_EQ(quote("x" + umlauts), "`x" + umlauts.substr(0, 58) + "...`");
 }
 
 }  // namespace

@@ -24,8 +24,8 @@ TEST(Rule, IsReadInEachOfItsForms) {
   is("near when nearer than 2 to any", 0, Rule::When::nearer, 2, "");
   is("far when farther than 3 from ball", 1, Rule::When::farther, 3, "ball");
   is("far  when farther than 3 from all", 1, Rule::When::farther, 3, "");
-  is("near when touched", 0, Rule::When::touched, 0, "");
-  is("far when untouched for 1.5", 1, Rule::When::untouched, 1.5, "");
+  is("near when in contact", 0, Rule::When::in_contact, 0, "");
+  is("far when out of contact for 1.5", 1, Rule::When::out_of_contact, 1.5, "");
   is("far when slower than 1", 1, Rule::When::slower, 1, "");
   is("near when faster than 2", 0, Rule::When::faster, 2, "");
 }
@@ -40,8 +40,9 @@ std::string refusal(std::string_view text) {
 }
 
 TEST(Rule, ThatIsNotUnderstoodIsRefusedWithAllForms) {
-  for (const char* text : {"", "near", "near now", "near at", "near at noon", "near at -1", "near at inf",
-                           "near when nearer than 2", "near when nearer than 2 from ball", "near at 2 3"}) {
+  for (const char* text :
+       {"", "near", "near now", "near at", "near at noon", "near at -1", "near at inf", "near when nearer than 2",
+        "near when nearer than 2 from ball", "near at 2 3", "far when out of contact"}) {
     const std::string message = refusal(text);
     EXPECT_NE(message.find("a rule is one of: `NAME at SECONDS`"), std::string::npos) << text << ": " << message;
   }

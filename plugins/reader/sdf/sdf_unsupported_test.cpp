@@ -7,14 +7,14 @@
 #include <filesystem>
 #include <set>
 
-#include "known.hpp"
 #include "reading_testing.hpp"
+#include "schema.hpp"
 
 namespace muro::sdf {
 namespace {
 
-/// What is said of a piece of a file in this place, in line 3.
-Lines said(const std::string& place, const std::string& piece) {
+/// What is reported of an element in a section of a file, from line 4 on.
+Lines reports_of(const std::string& section, const std::string& element) {
   const std::string shape = "<geometry><sphere><radius>1</radius></sphere></geometry>";
   const auto in_link = [&](const std::string& more) {
     return model("<link name='a'>\n" + more + inertial() + "</link>");
@@ -27,35 +27,38 @@ Lines said(const std::string& place, const std::string& piece) {
                  "</joint>");
   };
   std::string file;
-  if (place == "sdf") file = "<sdf version='1.9'>\n\n\n" + piece + "<model name='m'>" + link("a") + "</model></sdf>";
-  if (place == "model") file = model(link("a") + "\n" + piece);
-  if (place == "link") file = in_link(piece);
-  if (place == "inertial") {
+  if (section == "sdf")
+    file = "<sdf version='1.9'>\n\n\n" + element + "<model name='m'>" + link("a") + "</model></sdf>";
+  if (section == "model") file = model(link("a") + "\n" + element);
+  if (section == "link") file = in_link(element);
+  if (section == "inertial") {
     std::string with = inertial();
-    with.insert(with.find("<inertia>"), piece);
+    with.insert(with.find("<inertia>"), element);
     file = model("<link name='a'>\n" + with + "</link>");
   }
-  if (place == "collision") file = in_collision(piece);
-  if (place == "visual") file = in_link("<visual name='v'>" + piece + shape + "</visual>");
-  if (place == "geometry")
-    file = in_link("<collision name='c'><geometry>" + piece +
+  if (section == "collision") file = in_collision(element);
+  if (section == "visual") file = in_link("<visual name='v'>" + element + shape + "</visual>");
+  if (section == "geometry")
+    file = in_link("<collision name='c'><geometry>" + element +
                    "<sphere><radius>1</radius></sphere></geometry></collision>");
-  if (place == "mesh") return {};  // below: needs a file
-  if (place == "surface") file = in_collision("<surface>" + piece + "</surface>");
-  if (place == "bounce" || place == "friction" || place == "contact")
-    file = in_collision("<surface><" + place + ">" + piece + "</" + place + "></surface>");
-  if (place == "ode friction") file = in_collision("<surface><friction><ode>" + piece + "</ode></friction></surface>");
-  if (place == "bullet friction")
-    file = in_collision("<surface><friction><bullet>" + piece + "</bullet></friction></surface>");
-  if (place == "material") file = in_link("<visual name='v'><material>" + piece + "</material>" + shape + "</visual>");
-  if (place == "metal" || place == "specular")
-    file = in_link("<visual name='v'><material><pbr><" + place + ">" + piece + "</" + place + "></pbr></material>" +
-                   shape + "</visual>");
-  if (place == "joint") file = in_joint(piece + axis("0 0 1"));
-  if (place == "axis") file = in_joint(axis("0 0 1", piece));
-  if (place == "limit") file = in_joint(axis("0 0 1", "<limit>" + piece + "</limit>"));
-  if (place == "world" || place == "include") {
-    file = "<sdf version='1.9'><world name='w'>\n\n\n" + piece + "</world></sdf>";
+  if (section == "mesh") return {};  // below: needs a file
+  if (section == "surface") file = in_collision("<surface>" + element + "</surface>");
+  if (section == "bounce" || section == "friction" || section == "contact")
+    file = in_collision("<surface><" + section + ">" + element + "</" + section + "></surface>");
+  if (section == "ode friction")
+    file = in_collision("<surface><friction><ode>" + element + "</ode></friction></surface>");
+  if (section == "bullet friction")
+    file = in_collision("<surface><friction><bullet>" + element + "</bullet></friction></surface>");
+  if (section == "material")
+    file = in_link("<visual name='v'><material>" + element + "</material>" + shape + "</visual>");
+  if (section == "metal" || section == "specular")
+    file = in_link("<visual name='v'><material><pbr><" + section + ">" + element + "</" + section +
+                   "></pbr></material>" + shape + "</visual>");
+  if (section == "joint") file = in_joint(element + axis("0 0 1"));
+  if (section == "axis") file = in_joint(axis("0 0 1", element));
+  if (section == "limit") file = in_joint(axis("0 0 1", "<limit>" + element + "</limit>"));
+  if (section == "world" || section == "include") {
+    file = "<sdf version='1.9'><world name='w'>\n\n\n" + element + "</world></sdf>";
     WorldModel world;
     read_world_text(file, "/nowhere", world);
     return lines_of(world.problems());
@@ -63,17 +66,17 @@ Lines said(const std::string& place, const std::string& piece) {
   return robot_of(file).problems;
 }
 
-TEST(SdfLeftOut, EveryElementThatIsNotReadIsToldWithItsLineAndWhy) {
+TEST(SdfUnsupported, ElementsAreReportedWithLineAndReason) {
   int count = 0;
-  for (const Known& k : all_known()) {
-    if (k.form != Known::Form::left_out || k.inside == "mesh" || k.inside == "include") continue;
-    const std::string name(k.name), place(k.inside);
-    const Lines lines = said(place, "<" + name + " name='n' type='t'>7<deep/></" + name + ">");
-    ASSERT_EQ(lines.size(), 1u) << name << " in " << place << "\n" << testing::PrintToString(lines);
-    const std::string element = place.substr(0, place.find(' ') == place.npos ? place.npos : place.find(' '));
-    const std::string severity = k.severity == Severity::note ? "note" : "warning";
+  for (const SchemaElement& e : schema()) {
+    if (e.type != ValueType::unsupported || e.parent == "mesh" || e.parent == "include") continue;
+    const std::string name(e.name), section(e.parent);
+    const Lines lines = reports_of(section, "<" + name + " name='n' type='t'>7<deep/></" + name + ">");
+    ASSERT_EQ(lines.size(), 1u) << name << " in " << section << "\n" << testing::PrintToString(lines);
+    const std::string parent = section.substr(0, section.find(' ') == section.npos ? section.npos : section.find(' '));
+    const std::string severity = e.severity == Severity::note ? "note" : "warning";
     EXPECT_TRUE(lines[0].starts_with(severity + " 4:")) << lines[0];
-    EXPECT_NE(lines[0].find("<" + name + "> in <" + element + "> is left out: " + std::string(k.why)),
+    EXPECT_NE(lines[0].find("<" + name + "> in <" + parent + "> is left out: " + std::string(e.reason)),
               std::string::npos)
         << lines[0];
     ++count;
@@ -81,18 +84,19 @@ TEST(SdfLeftOut, EveryElementThatIsNotReadIsToldWithItsLineAndWhy) {
   EXPECT_GT(count, 80);
 }
 
-TEST(SdfLeftOut, WhatSaysWhatIsTheCaseAnywayIsNotToldOf) {
-  for (const Known& k : all_known()) {
-    if (k.form != Known::Form::left_out || k.harmless.empty()) continue;
-    const std::string name(k.name);
-    EXPECT_EQ(said(std::string(k.inside), "<" + name + ">" + std::string(k.harmless) + "</" + name + ">"), Lines{})
+TEST(SdfUnsupported, ElementsWithTheSupportedValueAreNotReported) {
+  for (const SchemaElement& e : schema()) {
+    if (e.type != ValueType::unsupported || e.supported_value.empty()) continue;
+    const std::string name(e.name);
+    EXPECT_EQ(reports_of(std::string(e.parent), "<" + name + ">" + std::string(e.supported_value) + "</" + name + ">"),
+              Lines{})
         << name;
   }
-  EXPECT_EQ(said("link", "<self_collide>0</self_collide><gravity>1</gravity>"), Lines{});
+  EXPECT_EQ(reports_of("link", "<self_collide>0</self_collide><gravity>1</gravity>"), Lines{});
 }
 
 /// The schema that libsdformat is installed with says what there is.
-TEST(SdfLeftOut, EveryElementOfTheSchemaIsKnown) {
+TEST(SdfUnsupported, ElementsOfTheInstalledSchemaAreAllKnown) {
   namespace fs = std::filesystem;
   const std::string root = "/usr/share/sdformat12";
   if (!fs::exists(root)) return;
@@ -107,7 +111,7 @@ TEST(SdfLeftOut, EveryElementOfTheSchemaIsKnown) {
       tinyxml2::XMLDocument schema;
       if (schema.LoadFile(file.c_str()) != tinyxml2::XML_SUCCESS) continue;
       const auto check = [&](const char* name) {
-        EXPECT_NE(find_known(section, name), nullptr)
+        EXPECT_NE(find_in_schema(section, name), nullptr)
             << "<" << name << "> in <" << section << "> of SDFormat " << version;
       };
       for (const auto* e = schema.RootElement()->FirstChildElement("element"); e; e = e->NextSiblingElement("element"))
@@ -121,21 +125,22 @@ TEST(SdfLeftOut, EveryElementOfTheSchemaIsKnown) {
     }
 }
 
-TEST(SdfLeftOut, ElementsThatSdformatDoesNotHaveAreToldWithTheNearest) {
-  EXPECT_EQ(said("link", "<inertail/>"), Lines{"warning 4:1 <inertail> in <link> is left out: SDFormat has no such "
-                                               "element there (did you mean `inertial`?)"});
-  EXPECT_EQ(said("link", "<mine:thing/>"),
+TEST(SdfUnsupported, UnknownElementsAreReportedWithTheNearest) {
+  EXPECT_EQ(reports_of("link", "<inertail/>"),
+            Lines{"warning 4:1 <inertail> in <link> is left out: SDFormat has no such "
+                  "element there (did you mean `inertial`?)"});
+  EXPECT_EQ(reports_of("link", "<mine:thing/>"),
             Lines{"note 4:1 <mine:thing> in <link> is left out: it is meant for another program"});
-  EXPECT_EQ(said("link", "<pose><x/></pose>"),
+  EXPECT_EQ(reports_of("link", "<pose><x/></pose>"),
             Lines{"warning 4:7 <x> in <pose> is left out: SDFormat has no such element there"});
 }
 
-TEST(SdfLeftOut, AttributesThatAreNotReadAreToldOfUnlessTheyAreForOthers) {
-  EXPECT_EQ(said("link", "<pose relativ_to='x' gz:y='1'>0 0 0 0 0 0</pose>"),
+TEST(SdfUnsupported, AttributesAreReportedUnlessForOtherPrograms) {
+  EXPECT_EQ(reports_of("link", "<pose relativ_to='x' gz:y='1'>0 0 0 0 0 0</pose>"),
             Lines{"warning 4:1 <pose> has the attribute `relativ_to`, which is not read"});
 }
 
-TEST(SdfLeftOut, TheSameElementInManyPlacesIsOneMessage) {
+TEST(SdfUnsupported, TheSameElementInManyLinesIsOneMessage) {
   std::string inside = "<link name='a'>" + inertial();
   for (int i = 0; i < 10; ++i) inside += "\n<sensor name='s' type='ray'/>";
   EXPECT_EQ(
@@ -144,20 +149,21 @@ TEST(SdfLeftOut, TheSameElementInManyPlacesIsOneMessage) {
             "subsystems of a robot in the scenario"});
 }
 
-TEST(SdfLeftOut, ASecondOneOfWhatThereIsOnceIsToldOf) {
-  EXPECT_EQ(said("link", "<pose>0 0 0 0 0 0</pose>\n<pose>1 0 0 0 0 0</pose>"),
+TEST(SdfUnsupported, ASecondElementOfAKindIsReported) {
+  EXPECT_EQ(reports_of("link", "<pose>0 0 0 0 0 0</pose>\n<pose>1 0 0 0 0 0</pose>"),
             Lines{"warning 5:1 a second <pose> in one <link> is left out"});
 }
 
-TEST(SdfLeftOut, ShapesThatAreNotReadLeaveTheirCollisionOut) {
+TEST(SdfUnsupported, ShapesLeaveTheirCollisionOut) {
   EXPECT_EQ(
-      said("link", "<collision name='c'><geometry><ellipsoid><radii>1 1 2</radii></ellipsoid></geometry></collision>"),
+      reports_of("link",
+                 "<collision name='c'><geometry><ellipsoid><radii>1 1 2</radii></ellipsoid></geometry></collision>"),
       (Lines{"warning 4:1 <collision name=`c`> is left out, as it has no shape that is read",
              "warning 4:31 <ellipsoid> in <geometry> is left out: shapes are box, sphere, cylinder, capsule, plane, "
              "mesh"}));
 }
 
-TEST(SdfLeftOut, OfAMeshAllSubmeshesAreUsed) {
+TEST(SdfUnsupported, OfAMeshAllSubmeshesAreUsed) {
   const test::ScratchFolder folder;
   folder.file("m.dae", "");
   const Robot robot = robot_of(model(link("a",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "source.hpp"
+#include "source_file.hpp"
 
 #include <algorithm>
 
@@ -37,24 +37,24 @@ std::string escaped(std::string_view text) {
   return out;
 }
 
-void print(const Element& e, Source& source) {
-  source.printed += say(source.lines.empty() ? "" : "\n", "<", e.Name());
-  source.lines.push_back(model_file::place_of(e));
+void print(const Element& e, SourceFile& source) {
+  source.normalized += concat(source.line_locations.empty() ? "" : "\n", "<", e.Name());
+  source.line_locations.push_back(model_file::location_of(e));
   for (const auto* a = e.FirstAttribute(); a; a = a->Next())
-    source.printed += say(" ", a->Name(), "=\"", escaped(a->Value()), "\"");
-  source.printed += ">";
+    source.normalized += concat(" ", a->Name(), "=\"", escaped(a->Value()), "\"");
+  source.normalized += ">";
   for (const Element* child = e.FirstChildElement(); child; child = child->NextSiblingElement()) print(*child, source);
-  if (!e.FirstChildElement()) source.printed += escaped(text_of(e));
-  source.printed += say("</", e.Name(), ">");
+  if (!e.FirstChildElement()) source.normalized += escaped(text_of(e));
+  source.normalized += concat("</", e.Name(), ">");
 }
 
 /// The <world> or <model> of a file; all others are told.
-Element* content_of(Element& root, Content wanted, const Source& source, Problems& problems) {
+Element* content_of(Element& root, Content wanted, const SourceFile& source, Problems& problems) {
   const char* name = wanted == Content::world ? "world" : "model";
   const std::vector<Element*> found = model_file::children(root, name);
   if (found.size() > 1)
-    problems.warning(source.at(*found[1]),
-                     say("the file holds ", found.size(), " <", name, ">; the first one is read"));
+    problems.warning(source.location_of(*found[1]),
+                     concat("the file holds ", found.size(), " <", name, ">; the first one is read"));
   for (Element* e : model_file::children(root))
     if (e != (found.empty() ? nullptr : found.front()) && std::string_view(e->Name()) == name) root.DeleteChild(e);
   return found.empty() ? nullptr : found.front();
@@ -62,55 +62,55 @@ Element* content_of(Element& root, Content wanted, const Source& source, Problem
 
 }  // namespace
 
-int Source::version_number() const {
-  std::string trouble, digits = version;
+int SourceFile::version_number() const {
+  std::string error, digits = version;
   const std::size_t point = std::min(digits.find('.'), digits.size());
-  const auto whole = model_file::parse_numbers(digits.substr(0, point), trouble);
-  const auto part = model_file::parse_numbers(digits.substr(std::min(point + 1, digits.size())), trouble);
-  if (!trouble.empty() || whole.size() != 1 || part.size() != 1 || !(whole[0] >= 0 && whole[0] < 1000)) return 0;
+  const auto whole = model_file::parse_numbers(digits.substr(0, point), error);
+  const auto part = model_file::parse_numbers(digits.substr(std::min(point + 1, digits.size())), error);
+  if (!error.empty() || whole.size() != 1 || part.size() != 1 || !(whole[0] >= 0 && whole[0] < 1000)) return 0;
   return int(100 * whole[0] + std::clamp(part[0], 0.0, 99.0));
 }
 
-bool Sources::parse(Source& source, std::string bytes, bool included, std::string& reason) {
-  const auto fail = [&](Place place, const std::string& text) {
+bool SourceFiles::parse(SourceFile& source, std::string bytes, bool included, std::string& reason) {
+  const auto fail = [&](Location location, const std::string& text) {
     reason = text;
-    if (!included) problems_.error({source.shown, place}, text);
+    if (!included) problems_.error({source.display_name, location}, text);
     return false;
   };
   const auto [error, warning] = model_file::decode(bytes, format, "sdf");
-  if (!error.text.empty()) return fail(error.place, error.text);
-  if (!warning.text.empty()) problems_.warning({source.shown, warning.place}, warning.text);
+  if (!error.text.empty()) return fail(error.location, error.text);
+  if (!warning.text.empty()) problems_.warning({source.display_name, warning.location}, warning.text);
   source.document = std::make_unique<model_file::Document>();
-  Place place;
+  Location location;
   std::string text;
-  if (!source.document->parse(bytes, place, text)) return fail(place, text);
+  if (!source.document->parse(bytes, location, text)) return fail(location, text);
   Element* root = source.document->root();
   if (!root || std::string_view(root->Name()) != "sdf")
     return fail(
-        root ? model_file::place_of(*root) : Place{},
-        say("the file holds no <sdf> element", root ? say(", but ", cited(root->Name())) : std::string(),
-            root && std::string_view(root->Name()) == "robot" ? "; it is URDF, so give it the ending .urdf" : "",
-            "; an SDFormat file is <sdf version=\"1.9\"> with a <model> or a <world>"));
+        root ? model_file::location_of(*root) : Location{},
+        concat("the file holds no <sdf> element", root ? concat(", but ", quote(root->Name())) : std::string(),
+               root && std::string_view(root->Name()) == "robot" ? "; it is URDF, so give it the ending .urdf" : "",
+               "; an SDFormat file is <sdf version=\"1.9\"> with a <model> or a <world>"));
   const char* version = root->Attribute("version");
-  if (!version) return fail(model_file::place_of(*root), "<sdf> has no version; write <sdf version=\"1.9\">");
+  if (!version) return fail(model_file::location_of(*root), "<sdf> has no version; write <sdf version=\"1.9\">");
   source.version = version;
   const int number = source.version_number();
   if (number < 104 || number >= 200)
-    return fail(model_file::place_of(*root),
-                say("the file is of SDFormat ", cited(version), "; versions 1.4 to 1.9 are ",
-                    "read. `gz sdf -p FILE` of Gazebo converts older ones"));
+    return fail(model_file::location_of(*root),
+                concat("the file is of SDFormat ", quote(version), "; versions 1.4 to 1.9 are ",
+                       "read. `gz sdf -p FILE` of Gazebo converts older ones"));
   if (number > 109) {
-    problems_.warning({source.shown, model_file::place_of(*root)},
-                      say("the file is of SDFormat ", cited(version), " and is read as 1.9"));
+    problems_.warning({source.display_name, model_file::location_of(*root)},
+                      concat("the file is of SDFormat ", quote(version), " and is read as 1.9"));
     root->SetAttribute("version", "1.9");
   }
   source.elements = source.document->element_count();
   return true;
 }
 
-bool Sources::load(std::string bytes, Content wanted) {
-  sources_.push_back(std::make_unique<Source>());
-  Source& source = *sources_.back();
+bool SourceFiles::load(std::string bytes, Content wanted) {
+  sources_.push_back(std::make_unique<SourceFile>());
+  SourceFile& source = *sources_.back();
   source.folder = folder_;
   std::string reason;
   if (!parse(source, std::move(bytes), false, reason)) return false;
@@ -119,10 +119,10 @@ bool Sources::load(std::string bytes, Content wanted) {
   if (!source.content) {
     const bool world = wanted == Content::world;
     const bool other = root.FirstChildElement(world ? "model" : "world") != nullptr;
-    problems_.error(source.at(root),
-                    say("the file holds no <", world ? "world" : "model", ">",
-                        other && world ? "; it describes a robot: name it as the `model` of a robot" : "",
-                        other && !world ? "; it describes a world: name it under `world: {file: ...}`" : ""));
+    problems_.error(source.location_of(root),
+                    concat("the file holds no <", world ? "world" : "model", ">",
+                           other && world ? "; it describes a robot: name it as the `model` of a robot" : "",
+                           other && !world ? "; it describes a world: name it under `world: {file: ...}`" : ""));
     return false;
   }
   check(source, *this, problems_);
@@ -131,7 +131,7 @@ bool Sources::load(std::string bytes, Content wanted) {
   return true;
 }
 
-const Source* Sources::include(const std::filesystem::path& path, std::string& reason) {
+const SourceFile* SourceFiles::include(const std::filesystem::path& path, std::string& reason) {
   if (const auto known = included_.find(path); known != included_.end()) {
     if (!known->second) reason = "it cannot be read, as told before";
     return known->second;
@@ -140,9 +140,9 @@ const Source* Sources::include(const std::filesystem::path& path, std::string& r
     reason = "it includes itself";
     return nullptr;
   }
-  const auto add = [&]() -> const Source* {
-    auto source = std::make_unique<Source>();
-    source->shown = path.lexically_proximate(folder_).string();
+  const auto add = [&]() -> const SourceFile* {
+    auto source = std::make_unique<SourceFile>();
+    source->display_name = path.lexically_proximate(folder_).string();
     source->folder = path.parent_path();
     try {
       if (!parse(*source, model_file::load_file(path.string(), format), true, reason)) return nullptr;
@@ -154,27 +154,28 @@ const Source* Sources::include(const std::filesystem::path& path, std::string& r
     source->content = content_of(root, Content::model, *source, problems_);
     if (!source->content) {
       Element* first = root.FirstChildElement();
-      reason = say("it holds no <model>", first ? say(", but a ", cited(first->Name())) : std::string());
+      reason = concat("it holds no <model>", first ? concat(", but a ", quote(first->Name())) : std::string());
       return nullptr;
     }
     open_.push_back(path);
     check(*source, *this, problems_);
     open_.pop_back();
     print(root, *source);
-    source->memory = std::make_unique<MemoryFile>(source->printed);
+    source->memory = std::make_unique<MemoryFile>(source->normalized);
     sources_.push_back(std::move(source));
     return sources_.back().get();
   };
-  const Source* source = add();
+  const SourceFile* source = add();
   return included_[path] = source;
 }
 
-At Sources::at(const std::string& file, int line) const {
+FileLocation SourceFiles::location_of(const std::string& file, int line) const {
   for (const auto& source : sources_) {
     const bool here = source->memory ? source->memory->path() == file : source == sources_.front();
     if (!here) continue;
-    const bool known = line > 0 && std::size_t(line) <= source->lines.size();
-    if (known || source->memory) return {source->shown, known ? source->lines[std::size_t(line) - 1] : Place{}};
+    const bool known = line > 0 && std::size_t(line) <= source->line_locations.size();
+    if (known || source->memory)
+      return {source->display_name, known ? source->line_locations[std::size_t(line) - 1] : Location{}};
   }
   return {};
 }

@@ -17,8 +17,8 @@ constexpr std::array<std::string_view, 9> joint_types = {"revolute",  "continuou
                                                          "revolute2", "ball",       "screw",     "gearbox"};
 
 std::vector<double> values_of(const Element* e) {
-  std::string trouble;
-  return e ? model_file::parse_numbers(text_of(*e), trouble) : std::vector<double>{};
+  std::string error;
+  return e ? model_file::parse_numbers(text_of(*e), error) : std::vector<double>{};
 }
 
 }  // namespace
@@ -43,8 +43,8 @@ bool Check::complete(Element& e, std::string_view section) {
     const bool still = child_text(e, "static") == "true" || child_text(e, "static") == "1";
     const bool empty = !e.FirstChildElement("link") && !e.FirstChildElement("model") && !e.FirstChildElement("include");
     if (section == "model" && empty && !still)
-      problems_.error(at(e), say("model ", cited(attribute(e, "name")),
-                                 " has no link; it needs at least one <link name=\"...\"/>"));
+      problems_.error(location_of(e), concat("model ", quote(attribute(e, "name")),
+                                             " has no link; it needs at least one <link name=\"...\"/>"));
   } else if (section == "link") {
     for (const char* kind : {"collision", "visual"}) {
       std::set<std::string> used;
@@ -60,7 +60,7 @@ bool Check::complete(Element& e, std::string_view section) {
   } else if (section == "inertial") {
     Element* pose = e.FirstChildElement("pose");
     if (pose && !attribute(*pose, "relative_to").empty()) {
-      problems_.warning(at(*pose),
+      problems_.warning(location_of(*pose),
                         "the <pose> of an <inertial> is always relative to its link; `relative_to` is ignored");
       pose->DeleteAttribute("relative_to");
     }
@@ -82,7 +82,8 @@ void Check::find_picture(Element& workflow) {
   if (!map) return;
   const model_file::MeshPath found = model_file::find_mesh(text_of(*map), source_.folder);
   if (found.path.empty()) {
-    problems_.warning(at(*map), say("picture ", cited(text_of(*map)), " is not found; what it covers is plain"));
+    problems_.warning(location_of(*map),
+                      concat("picture ", quote(text_of(*map)), " is not found; what it covers is plain"));
     workflow.DeleteChild(map);
     return;
   }
@@ -91,18 +92,20 @@ void Check::find_picture(Element& workflow) {
 }
 
 bool Check::complete_joint(Element& joint) {
-  const std::string owner = "joint " + cited(attribute(joint, "name")), type = attribute(joint, "type");
+  const std::string owner = "joint " + quote(attribute(joint, "name")), type = attribute(joint, "type");
   if (std::find(joint_types.begin(), joint_types.end(), type) == joint_types.end()) {
     std::vector<std::string> known(joint_types.begin(), joint_types.end());
-    problems_.error(at(joint), say(owner, type.empty() ? " has no type" : " is of the unknown type " + cited(type),
-                                   "; types are ", listed(known)));
+    problems_.error(location_of(joint),
+                    concat(owner, type.empty() ? " has no type" : " is of the unknown type " + quote(type),
+                           "; types are ", quoted_list(known)));
     return true;
   }
   for (const char* end : {"parent", "child"})
     if (child_text(joint, end).empty())
-      problems_.error(at(joint), say(owner, " has no ", end, "; write <", end, ">LINK</", end, ">"));
+      problems_.error(location_of(joint), concat(owner, " has no ", end, "; write <", end, ">LINK</", end, ">"));
   if (!child_text(joint, "parent").empty() && child_text(joint, "parent") == child_text(joint, "child"))
-    problems_.error(at(joint), say(owner, " joins link ", cited(child_text(joint, "parent")), " with itself"));
+    problems_.error(location_of(joint),
+                    concat(owner, " joins link ", quote(child_text(joint, "parent")), " with itself"));
   const int axes = type == "fixed" || type == "ball"                                 ? 0
                    : type == "universal" || type == "revolute2" || type == "gearbox" ? 2
                                                                                      : 1;
@@ -115,14 +118,14 @@ bool Check::complete_joint(Element& joint) {
       continue;
     }
     if (!axis) {
-      problems_.warning(at(joint), say(owner, " has no <", name, ">; the axis is z, SDFormat's default"));
+      problems_.warning(location_of(joint), concat(owner, " has no <", name, ">; the axis is z, SDFormat's default"));
       axis = joint.InsertNewChildElement(name);
       axis->SetUserData(joint.GetUserData());
     }
     const std::vector<double> xyz = values_of(axis->FirstChildElement("xyz"));
     if (xyz.size() == 3 && !(std::hypot(xyz[0], xyz[1], xyz[2]) > 1e-9))
-      problems_.error(at(*axis),
-                      say(owner, ": its <", name, "> has no direction; <xyz> is a vector of length 1, such as 0 0 1"));
+      problems_.error(location_of(*axis), concat(owner, ": its <", name,
+                                                 "> has no direction; <xyz> is a vector of length 1, such as 0 0 1"));
     take_mimic(joint, *axis, i);
   }
   if (Element* pitch = joint.FirstChildElement("screw_thread_pitch")) {
@@ -136,17 +139,18 @@ bool Check::complete_joint(Element& joint) {
   }
   const std::vector<double> pitch = values_of(joint.FirstChildElement("thread_pitch"));
   if (type == "screw" && !pitch.empty() && pitch[0] == 0)
-    problems_.error(at(joint), say(owner, ": its thread_pitch is 0; it is the angle in rad a metre, and not 0"));
+    problems_.error(location_of(joint),
+                    concat(owner, ": its thread_pitch is 0; it is the angle in rad a metre, and not 0"));
   if (type == "gearbox" && child_text(joint, "gearbox_reference_body").empty())
-    problems_.error(at(joint),
-                    say(owner, " has no <gearbox_reference_body>; it names the link that carries both wheels"));
+    problems_.error(location_of(joint),
+                    concat(owner, " has no <gearbox_reference_body>; it names the link that carries both wheels"));
   return true;
 }
 
 void Check::take_mimic(Element& joint, Element& axis, int number) {
   Element* mimic = axis.FirstChildElement("mimic");
   if (!mimic) return;
-  Mimic taken{attribute(*mimic, "joint"), attribute(*mimic, "axis"), 1, 0, 0, at(*mimic)};
+  Mimic taken{attribute(*mimic, "joint"), attribute(*mimic, "axis"), 1, 0, 0, location_of(*mimic)};
   const auto value = [&](const char* name, double& out) {
     if (const auto v = values_of(mimic->FirstChildElement(name)); v.size() == 1) out = v[0];
   };
@@ -154,9 +158,9 @@ void Check::take_mimic(Element& joint, Element& axis, int number) {
   value("offset", taken.offset);
   value("reference", taken.reference);
   if (taken.joint.empty())
-    problems_.error(at(*mimic), "<mimic> names no joint; write <mimic joint=\"...\">");
+    problems_.error(location_of(*mimic), "<mimic> names no joint; write <mimic joint=\"...\">");
   else
-    sources_.mimics[{at(joint), number}] = taken;
+    sources_.mimics[{location_of(joint), number}] = taken;
   axis.DeleteChild(mimic);
 }
 
@@ -165,30 +169,30 @@ bool Check::complete_shape(Element& e) {
   Element* shape = geometry ? geometry->FirstChildElement() : nullptr;
   // a shape of a kind that is not read was told already
   if (!shape) {
-    problems_.warning(at(e), say("<", e.Name(), " name=", cited(attribute(e, "name")),
-                                 "> is left out, as it has no shape that is read"));
+    problems_.warning(location_of(e), concat("<", e.Name(), " name=", quote(attribute(e, "name")),
+                                             "> is left out, as it has no shape that is read"));
     return false;
   }
   while (Element* second = shape->NextSiblingElement()) {
-    problems_.warning(at(*second),
-                      say("a second shape in one <geometry> is left out; give each a <", e.Name(), "> of its own"));
+    problems_.warning(location_of(*second),
+                      concat("a second shape in one <geometry> is left out; give each a <", e.Name(), "> of its own"));
     geometry->DeleteChild(second);
   }
-  const std::string trouble = trouble_of_shape(*shape);
-  if (!trouble.empty())
-    problems_.warning(at(*shape),
-                      say("<", e.Name(), " name=", cited(attribute(e, "name")), "> is left out, as ", trouble));
-  return trouble.empty();
+  const std::string error = error_of_shape(*shape);
+  if (!error.empty())
+    problems_.warning(location_of(*shape),
+                      concat("<", e.Name(), " name=", quote(attribute(e, "name")), "> is left out, as ", error));
+  return error.empty();
 }
 
-std::string Check::trouble_of_shape(Element& shape) {
+std::string Check::error_of_shape(Element& shape) {
   const std::string_view kind = shape.Name();
   const auto needs = [&](const char* name) -> std::string {
     const Element* size = shape.FirstChildElement(name);
-    if (!size) return say("its <", kind, "> has no <", name, ">");
+    if (!size) return concat("its <", kind, "> has no <", name, ">");
     const auto values = values_of(size);
     const bool fine = std::all_of(values.begin(), values.end(), [](double v) { return v > 0; });
-    return fine ? std::string() : say("its <", kind, "> has a <", name, "> that is not above 0");
+    return fine ? std::string() : concat("its <", kind, "> has a <", name, "> that is not above 0");
   };
   if (kind == "box") return needs("size");
   if (kind == "sphere") return needs("radius");
@@ -208,13 +212,13 @@ std::string Check::trouble_of_shape(Element& shape) {
   if (!uri || text_of(*uri).empty()) return "its <mesh> has no <uri>";
   const model_file::MeshPath found = model_file::find_mesh(text_of(*uri), source_.folder);
   if (found.path.empty()) {
-    std::vector<std::string> places;
-    for (const auto& path : found.searched) places.push_back(path.string());
-    return say("mesh ", cited(text_of(*uri)), " is not found; looked for ", listed(places));
+    std::vector<std::string> paths;
+    for (const auto& path : found.searched) paths.push_back(path.string());
+    return concat("mesh ", quote(text_of(*uri)), " is not found; looked for ", quoted_list(paths));
   }
   if (found.other_case)
-    problems_.note(at(*uri), say("mesh ", cited(text_of(*uri)), " is read from ", found.path,
-                                 ", whose name differs in upper and lower case"));
+    problems_.note(location_of(*uri), concat("mesh ", quote(text_of(*uri)), " is read from ", found.path,
+                                             ", whose name differs in upper and lower case"));
   uri->DeleteChildren();
   uri->SetText(found.path.c_str());
   return {};

@@ -9,12 +9,6 @@
 
 namespace muro::model_file {
 
-/// Where in a file something stands; lines and columns count from 1, 0 when unknown.
-struct Place {
-  int line = 0;
-  int column = 0;
-};
-
 /// The shortest text that reads back as `number`, with a decimal point in every locale.
 inline std::string shortest(double number) {
   char text[32];
@@ -22,46 +16,46 @@ inline std::string shortest(double number) {
 }
 
 /// A name or value from the file as it may stand in a message: in backquotes, of bounded length, printable.
-inline std::string cited(std::string_view text) {
-  constexpr std::size_t most = 60;
-  std::string shown(text.substr(0, most));
+inline std::string quote(std::string_view text) {
+  constexpr std::size_t max = 60;
+  std::string shown(text.substr(0, max));
   for (char& c : shown)
     if (static_cast<unsigned char>(c) < ' ' || c == 0x7f) c = '?';
   // a UTF-8 sequence is not cut in the middle
-  if (text.size() > most) {
+  if (text.size() > max) {
     while (!shown.empty() && (static_cast<unsigned char>(text[shown.size()]) & 0xc0) == 0x80) shown.pop_back();
     shown += "...";
   }
   return "`" + shown + "`";
 }
 
-/// Texts and numbers put together.
-template <class... Parts>
-std::string say(const Parts&... parts) {
-  std::string whole;
-  const auto add = [&whole](const auto& part) {
-    using T = std::decay_t<decltype(part)>;
+/// Texts and numbers, one after the other.
+template <class... Values>
+std::string concat(const Values&... values) {
+  std::string result;
+  const auto add = [&result](const auto& value) {
+    using T = std::decay_t<decltype(value)>;
     if constexpr (std::is_floating_point_v<T>)
-      whole += shortest(part);
+      result += shortest(value);
     else if constexpr (std::is_integral_v<T>)
-      whole += std::to_string(part);
+      result += std::to_string(value);
     else
-      whole += part;
+      result += value;
   };
-  (add(parts), ...);
-  return whole;
+  (add(values), ...);
+  return result;
 }
 
 /// "`a`, `b`, `c` and 4 more", of anything that begins with a name.
 template <class Names>
-std::string listed(const Names& names) {
-  constexpr std::size_t most = 8;
+std::string quoted_list(const Names& names) {
+  constexpr std::size_t max = 8;
   std::string text;
   std::size_t count = 0;
   for (const std::string& name : names)
-    if (++count <= most) text += (count > 1 ? ", " : "") + cited(name);
+    if (++count <= max) text += (count > 1 ? ", " : "") + quote(name);
   if (count == 0) return "none";
-  return count > most ? say(text, " and ", count - most, " more") : text;
+  return count > max ? concat(text, " and ", count - max, " more") : text;
 }
 
 }  // namespace muro::model_file

@@ -6,6 +6,7 @@
 
 #include "muro/algorithm.hpp"
 #include "muro/toolkit/did_you_mean.hpp"
+#include "plugins/common/text/quote.hpp"
 
 namespace muro::level {
 
@@ -23,9 +24,10 @@ std::vector<std::string> words_of(std::string_view text) {
 
 [[noreturn]] void reject(std::string_view text, const std::string& why) {
   throw Error(
-      "the rule `" + std::string(text) + "` " + why +
+      "the rule " + quote(text) + " " + why +
       "; a rule is one of: `NAME at SECONDS`, `NAME when nearer than METRES to ROBOT` (or to `any`), `NAME when "
-      "farther than METRES from ROBOT` (or from `all`), `NAME when touched`, `NAME when untouched for SECONDS`, "
+      "farther than METRES from ROBOT` (or from `all`), `NAME when in contact`, `NAME when out of contact for "
+      "SECONDS`, "
       "`NAME when slower than FACTOR`, `NAME when faster than FACTOR` (the run, in units of real time)");
 }
 
@@ -33,12 +35,12 @@ double number_in(std::string_view text, const std::string& word) {
   double x = 0;
   const auto [used, code] = std::from_chars(word.data(), word.data() + word.size(), x);
   if (code != std::errc{} || used != word.data() + word.size() || !std::isfinite(x) || x < 0)
-    reject(text, "has `" + word + "` where a number of 0 or more belongs");
+    reject(text, "has " + quote(word) + " where a number of 0 or more belongs");
   return x;
 }
 
-/// Whether words from the third on are these; `#` stands for a number, `@` for a name.
-bool are(const std::vector<std::string>& words, std::span<const std::string_view> pattern) {
+/// Whether the words after the first are these; `#` stands for a number, `@` for a name.
+bool fits(const std::vector<std::string>& words, std::span<const std::string_view> pattern) {
   if (words.size() != pattern.size() + 1) return false;
   for (std::size_t i = 0; i < pattern.size(); ++i)
     if (pattern[i] != "#" && pattern[i] != "@" && words[i + 1] != pattern[i]) return false;
@@ -52,28 +54,29 @@ Rule parse_rule(std::string_view text, std::span<const std::string> names) {
   if (words.empty()) reject(text, "is empty");
   Rule rule;
   const auto name = std::find(names.begin(), names.end(), words[0]);
-  if (name == names.end()) {
-    std::string all;
-    for (const std::string& n : names) all += (all.empty() ? "`" : ", `") + n + "`";
-    throw Error("the rule `" + std::string(text) + "` begins with `" + words[0] +
-                "`, but the robot has no motion of this name" + did_you_mean(words[0], names) + "; it has: " + all);
-  }
+  if (name == names.end())
+    throw Error("the rule " + quote(text) + " begins with " + quote(words[0]) +
+                ", but the robot has no motion of this name" + did_you_mean(words[0], names) +
+                "; it has: " + quoted_list(names));
   rule.level = std::uint32_t(name - names.begin());
-  using View = std::string_view;
-  constexpr View at[] = {"at", "#"}, nearer[] = {"when", "nearer", "than", "#", "to", "@"},
-                 farther[] = {"when", "farther", "than", "#", "from", "@"}, touched[] = {"when", "touched"},
-                 untouched[] = {"when", "untouched", "for", "#"}, slower[] = {"when", "slower", "than", "#"},
-                 faster[] = {"when", "faster", "than", "#"};
+  using Words = std::string_view[];
+  constexpr Words at = {"at", "#"}, nearer = {"when", "nearer", "than", "#", "to", "@"},
+                  farther = {"when", "farther", "than", "#", "from", "@"}, in_contact = {"when", "in", "contact"},
+                  out_of_contact = {"when", "out", "of", "contact", "for", "#"},
+                  slower = {"when", "slower", "than", "#"}, faster = {"when", "faster", "than", "#"};
   const struct {
     Rule::When when;
-    std::span<const View> pattern;
-    std::size_t number;
-  } forms[] = {
-      {Rule::When::at, at, 2},           {Rule::When::nearer, nearer, 4},       {Rule::When::farther, farther, 4},
-      {Rule::When::touched, touched, 0}, {Rule::When::untouched, untouched, 4}, {Rule::When::slower, slower, 4},
-      {Rule::When::faster, faster, 4}};
+    std::span<const std::string_view> pattern;
+    std::size_t number;  ///< which of the words, 0: none
+  } forms[] = {{Rule::When::at, at, 2},
+               {Rule::When::nearer, nearer, 4},
+               {Rule::When::farther, farther, 4},
+               {Rule::When::in_contact, in_contact, 0},
+               {Rule::When::out_of_contact, out_of_contact, 6},
+               {Rule::When::slower, slower, 4},
+               {Rule::When::faster, faster, 4}};
   for (const auto& form : forms) {
-    if (!are(words, form.pattern)) continue;
+    if (!fits(words, form.pattern)) continue;
     rule.when = form.when;
     if (form.number > 0) rule.number = number_in(text, words[form.number]);
     if (rule.when == Rule::When::nearer && words.back() != "any") rule.robot = words.back();

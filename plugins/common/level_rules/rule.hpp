@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// When a robot is to be moved by another of its motions, as a user writes it.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace muro::level {
+
+/// One rule: "near when nearer than 2 to ball".
+struct Rule {
+  enum class When : std::uint8_t {
+    at,              ///< NAME at SECONDS
+    nearer,          ///< NAME when nearer than METRES to ROBOT, or to any
+    farther,         ///< NAME when farther than METRES from ROBOT, or from all
+    in_contact,      ///< NAME when in contact: with another robot
+    out_of_contact,  ///< NAME when out of contact for SECONDS
+    slower,          ///< NAME when slower than FACTOR: the run, in units of real time
+    faster,          ///< NAME when faster than FACTOR
+  };
+  std::uint32_t level = 0;  ///< in the list of names
+  When when = When::at;
+  double number = 0;  ///< s, m or 1
+  std::string robot;  ///< empty: any or all
+
+  bool by_distance() const { return when == When::nearer || when == When::farther; }
+  bool by_contact() const { return when == When::in_contact || when == When::out_of_contact; }
+  bool by_run_speed() const { return when == When::slower || when == When::faster; }
+};
+
+/// Throws Error that says what is allowed. `names`: of the robot's motions.
+Rule parse_rule(std::string_view text, std::span<const std::string> names);
+
+}  // namespace muro::level

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "muro/algorithm.hpp"
+#include "muro/vocabulary.hpp"
+#include "rule.hpp"
+
+namespace muro::level {
+
+// For the descriptions of algorithms that go by rules.
+inline constexpr Parameter parameters[] = {
+    texts("rules", "which motion moves the robot, and when; the first rule that holds decides"),
+    real("dwell", "s", 0.1, "a motion moves the robot for so long at least").between(0, 1e6),
+};
+inline constexpr PropertyUse reads[] = {
+    {"motion.level", "of the robot"},
+    {"motion.level.names", "of the robot"},
+    {"pose", "of bases of robots, for rules by distance"},
+    {"contacts", "of the robot, for rules by contact"},
+};
+inline constexpr PropertyUse writes[] = {{"motion.level.target", "of the robot"}};
+
+/// Chooses which of its motions moves each robot, by rules.
+class RulesAlgorithm : public Algorithm {
+ public:
+  /// Throws Error when a rule is not understood, or goes by the speed of the run where `run_speed_is_known` is false.
+  void connect(Connector& connector) override;
+
+ protected:
+  explicit RulesAlgorithm(bool run_speed_is_known) : run_speed_is_known_(run_speed_is_known) {}
+
+  /// `run_speed`, in units of real time: nothing when it is not known yet.
+  void choose(const Step& step, Range range, std::optional<double> run_speed = std::nullopt) const;
+
+ private:
+  struct Condition {
+    Rule rule;
+    std::vector<In<Pose>> others;  ///< for rules by distance
+  };
+  struct Robot {
+    std::vector<Condition> conditions;
+    bool by_contact = false;
+    In<Pose> pose;
+    In<std::uint32_t> level;
+    Out<std::int32_t> target;
+    ListIn<Contact> contacts;
+    Out<std::int64_t> switch_time, contact_time;
+    std::vector<std::int32_t> robot_of;  ///< by object, for rules by contact
+    std::int32_t number = 0;
+  };
+
+  void connect_robot(Connector& c, const RobotView& view);
+  Condition read_condition(Connector& c, const RobotView& view, std::string_view text,
+                           std::span<const std::string> levels) const;
+  void choose(const Robot& r, const Step& step, std::optional<double> run_speed) const;
+  static bool is_in_contact(const Robot& r);
+  static bool holds(const Robot& r, const Condition& c, const Step& step, std::optional<double> run_speed);
+  static double distance(const Robot& r, const Condition& c);
+
+  bool run_speed_is_known_;
+  std::int64_t dwell_ = 0;  ///< ns
+  std::vector<Robot> robots_;
+};
+
+}  // namespace muro::level
