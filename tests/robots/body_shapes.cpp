@@ -6,6 +6,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "muro/toolkit/link_pose.hpp"
 #include "muro/vocabulary.hpp"
 #include "tests/support/files.hpp"
 
@@ -67,10 +68,10 @@ std::vector<Vec3> vertices_of(const std::string& path) {
 std::vector<Solid> solids_of(const RobotTree& tree) {
   std::vector<Solid> solids;
   for (std::size_t i = 0; i < tree.links().size(); ++i)
-    for (const RobotTree::Constant& c : tree.parts()[std::size_t(tree.links()[i].part)].constants) {
+    for (const RobotTree::Constant& c : tree.components()[std::size_t(tree.links()[i].body)].constants) {
       if (c.key.name != keys::collision_shapes.name) continue;
       for (std::size_t k = 0; k < c.data.size() / sizeof(Shape); ++k) {
-        Solid solid{.frame = i, .shape = {}, .vertices = {}};
+        Solid solid{.link = i, .shape = {}, .vertices = {}};
         std::memcpy(static_cast<void*>(&solid.shape), c.data.data() + k * sizeof(Shape), sizeof(Shape));
         if (solid.shape.kind == ShapeKind::mesh) {
           solid.vertices = vertices_of(tree.texts()[std::size_t(solid.shape.mesh)]);
@@ -86,7 +87,7 @@ std::vector<Solid> solids_of(const RobotTree& tree) {
 double lowest_point(std::span<const Solid> solids, std::span<const Pose> poses, bool with_meshes) {
   double lowest = std::numeric_limits<double>::infinity();
   for (const Solid& s : solids) {
-    const Pose pose = poses[s.frame] * s.shape.origin;
+    const Pose pose = poses[s.link] * s.shape.origin;
     if (s.shape.kind == ShapeKind::mesh) {
       if (!with_meshes) continue;
       for (const Vec3& v : s.vertices) lowest = std::min(lowest, (pose * v).z());
@@ -100,13 +101,13 @@ double lowest_point(std::span<const Solid> solids, std::span<const Pose> poses, 
 std::vector<double> start_positions(const RobotTree& tree) {
   std::vector<double> q(tree.links().size(), 0.0);
   for (std::size_t i = 0; i < q.size(); ++i) {
-    const Link& f = tree.links()[i].link;
-    if (f.joint != JointKind::fixed && f.mimic < 0)
-      q[i] = std::min(std::max(0.0, f.limits.lower), std::max(f.limits.lower, f.limits.upper));
+    const Link& link = tree.links()[i].link;
+    if (link.joint != JointKind::fixed && link.mimic < 0)
+      q[i] = std::min(std::max(0.0, link.limits.lower), std::max(link.limits.lower, link.limits.upper));
   }
   for (std::size_t i = 0; i < q.size(); ++i) {
-    const Link& f = tree.links()[i].link;
-    if (f.mimic >= 0) q[i] = f.mimic_offset + f.mimic_multiplier * q[std::size_t(f.mimic)];
+    const Link& link = tree.links()[i].link;
+    if (link.mimic >= 0) q[i] = link.mimic_offset + link.mimic_multiplier * q[std::size_t(link.mimic)];
   }
   return q;
 }
@@ -114,8 +115,8 @@ std::vector<double> start_positions(const RobotTree& tree) {
 std::vector<Pose> poses_of(const RobotTree& tree, const Pose& base, std::span<const double> positions) {
   std::vector<Pose> poses{base};
   for (std::size_t i = 1; i < tree.links().size(); ++i) {
-    const Link& f = tree.links()[i].link;
-    poses.push_back(poses[std::size_t(f.parent)] * pose_in_parent(f, positions[i]));
+    const Link& link = tree.links()[i].link;
+    poses.push_back(poses[std::size_t(link.parent)] * pose_in_parent(link, positions[i]));
   }
   return poses;
 }

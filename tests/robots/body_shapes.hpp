@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What of a robot is solid, as the tests see it: shapes by frame, and how low they reach.
+// What of a robot is solid, as the tests see it: shapes by link, and how low they reach.
 #pragma once
 
 #include <span>
@@ -11,8 +11,8 @@ namespace muro::robots {
 
 /// A collision shape of a robot.
 struct Solid {
-  std::size_t frame = 0;       ///< of the robot
-  Shape shape;                 ///< its origin in the frame
+  std::size_t link = 0;        ///< of the robot
+  Shape shape;                 ///< its origin in the frame of the link
   std::vector<Vec3> vertices;  ///< of a mesh, m, in the frame of the shape
 };
 
@@ -23,13 +23,13 @@ std::vector<Solid> solids_of(const RobotTree& tree);
 /// nothing of these.
 std::vector<Vec3> vertices_of(const std::string& path);
 
-/// Height (m) of the lowest point of all shapes, by the poses of the frames in the world; infinite without shapes.
+/// Height (m) of the lowest point of all shapes, by the poses of the links in the world; infinite without shapes.
 double lowest_point(std::span<const Solid> solids, std::span<const Pose> poses, bool with_meshes);
 
-/// Positions (rad or m) of all joints, one a frame, as near to 0 as their limits allow; mimic joints after their
+/// Positions (rad or m) of all joints, one per link, as near to 0 as their limits allow; mimic joints after their
 /// leader.
 std::vector<double> start_positions(const RobotTree& tree);
-/// Poses of all frames, the base at `base`, joints at `positions`.
+/// Poses of all links, the base at `base`, joints at `positions`.
 std::vector<Pose> poses_of(const RobotTree& tree, const Pose& base, std::span<const double> positions);
 
 }  // namespace muro::robots

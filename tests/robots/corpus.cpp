@@ -38,16 +38,17 @@ bool read_until(Clock::time_point end, int pipe, std::string& text) {
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
 /// "fine", "odd", "refused" or "failed" in the first word.
-std::string outcome_of(const Seen& seen) {
+std::string outcome_of(const Observations& seen) {
   if (!seen.refused.empty()) return "refused " + first_line(seen.refused);
-  if (!seen.broken.empty()) return "failed " + first_line(seen.broken);
+  if (!seen.failure.empty()) return "failed " + first_line(seen.failure);
   std::ostringstream text;
   text << std::setprecision(3);
-  if (seen.from_unit > 1e-9) text << "; orientation off unit by " << seen.from_unit;
-  if (seen.beyond > 0.02) text << "; joint " << seen.beyond_joint << " is " << seen.beyond << " outside of its limits";
+  if (seen.norm_error > 1e-9) text << "; orientation off unit by " << seen.norm_error;
+  if (seen.limit_violation > 0.02)
+    text << "; joint " << seen.violating_joint << " is " << seen.limit_violation << " outside of its limits";
   if (seen.deepest < -0.05) text << "; " << -seen.deepest << " m below the ground";
-  const double gained = std::max(seen.gained, seen.late) / seen.scale;
-  if (gained > 0.02) text << "; gains energy, " << gained << " m of height";
+  const double energy_gain = std::max(seen.energy_gain, seen.late_energy_gain) / seen.energy_scale;
+  if (energy_gain > 0.02) text << "; gains energy, " << energy_gain << " m of height";
   return text.str().empty() ? "fine " : "odd " + text.str().substr(2);
 }
 

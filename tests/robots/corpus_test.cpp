@@ -30,14 +30,14 @@ TEST(Isolation, TellsACrashFromATextFromALoop) {
 
 TEST(Corpus, GoesOnBehindADescriptionThatCannotBeRead) {
   test::ScratchFolder folder;
-  folder.file("a/broken.urdf", "<robot name=\"broken\"><link");
+  folder.file("a/failure.urdf", "<robot name=\"failure\"><link");
   folder.file("b/ball.urdf", test::text_of(MURO_TEST_SOURCE_DIR "/tests/robots/balancer.urdf"));
   std::ostringstream table;
   const CorpusCount count = run_corpus(folder.path("."), 0.1, 30, table);
   EXPECT_EQ(count.refused, int(motions().size())) << table.str();
   EXPECT_EQ(count.fine, int(motions().size())) << table.str();
   EXPECT_EQ(count.failed, 0) << table.str();
-  EXPECT_NE(table.str().find("a/broken.urdf"), std::string::npos);
+  EXPECT_NE(table.str().find("a/failure.urdf"), std::string::npos);
 }
 
 /// MURO_ROBOT_CORPUS names the folder; see README.md.

@@ -1,31 +1,32 @@
 // SPDX-License-Identifier: MIT
-// Tensors that no body has, as files hold them.
+// Inertias that no body has, as files hold them.
 #include <gtest/gtest.h>
 
-#include "plugins/common/multibody/physical_inertia.hpp"
+#include "muro/toolkit/rotations.hpp"
+#include "plugins/common/multibody/consistent_inertia.hpp"
 #include "tests/robots/trial.hpp"
 #include "tests/support/bodies.hpp"
 
 namespace muro::robots {
 namespace {
 
-TEST(PhysicalInertia, OfATensorWithOneLargeMomentIsThatOfAFlatBody) {
+TEST(ConsistentInertia, OfATensorWithOneLargeMomentIsThatOfAFlatBody) {
   const Quat turn = from_rpy(0.3, -1.1, 2);
   const Inertia long_one = Inertia{.mass = 2, .com = {1, 2, 3}, .ixx = 1, .iyy = 0.1, .izz = 0.3};
-  const auto made = made_physical(long_one.in({Vec3::Zero(), turn}));
-  ASSERT_TRUE(made.has_value());
-  const Inertia straight = made->in({Vec3::Zero(), turn.conjugate()});
+  const auto nearest = nearest_consistent_inertia(long_one.in({Vec3::Zero(), turn}));
+  ASSERT_TRUE(nearest.has_value());
+  const Inertia straight = nearest->in({Vec3::Zero(), turn.conjugate()});
   EXPECT_LT((straight.tensor() - Vec3(1, 0.4, 0.6).asDiagonal().toDenseMatrix()).norm(), 1e-12);
   EXPECT_EQ(straight.mass, 2);
   EXPECT_LT((straight.com - Vec3(1, 2, 3)).norm(), 1e-12);
 }
 
-TEST(PhysicalInertia, OfWhatABodyCanHaveIsLeftAsItIs) {
-  EXPECT_FALSE(made_physical({.mass = 1, .ixx = 1, .iyy = 1, .izz = 1}));
-  EXPECT_FALSE(made_physical({.mass = 1, .ixx = 1, .iyy = 0.4, .izz = 0.6})) << "a plate";
-  EXPECT_FALSE(made_physical({.mass = 1, .ixx = 1, .iyy = 0.4, .izz = 0.5995})) << "a plate, rounded";
-  EXPECT_FALSE(made_physical({.mass = 1})) << "a point";
-  EXPECT_FALSE(made_physical({.mass = 1, .ixx = std::nan("")}));
+TEST(ConsistentInertia, IsLeftAsItIs) {
+  EXPECT_FALSE(nearest_consistent_inertia({.mass = 1, .ixx = 1, .iyy = 1, .izz = 1}));
+  EXPECT_FALSE(nearest_consistent_inertia({.mass = 1, .ixx = 1, .iyy = 0.4, .izz = 0.6})) << "a plate";
+  EXPECT_FALSE(nearest_consistent_inertia({.mass = 1, .ixx = 1, .iyy = 0.4, .izz = 0.5995})) << "a plate, rounded";
+  EXPECT_FALSE(nearest_consistent_inertia({.mass = 1})) << "a point";
+  EXPECT_FALSE(nearest_consistent_inertia({.mass = 1, .ixx = std::nan("")}));
 }
 
 class EveryMotion : public ::testing::TestWithParam<std::string> {};

@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "tests/robots/should.hpp"
+#include "tests/robots/expectations.hpp"
 
 namespace muro::robots {
 namespace {
@@ -16,27 +16,27 @@ class EveryRobot : public ::testing::TestWithParam<std::string> {
  protected:
   void SetUp() override {
     robot_ = robot_of(GetParam());
-    should_ = should_of(robot_);
+    expectation_ = expectation_of(robot_);
   }
 
   void hold(Check check, const Variant& v, double seen) const {
-    EXPECT_LE(seen, bound_of(check, v.name, robot_).most) << name_of(check);
+    EXPECT_LE(seen, bound_of(check, v.name, robot_).max) << name_of(check);
   }
 
   /// Whatever drives it.
-  void check_always(const Variant& v, const Seen& seen) const {
-    EXPECT_LT(seen.from_unit, 1e-9);
+  void check_always(const Variant& v, const Observations& seen) const {
+    EXPECT_LT(seen.norm_error, 1e-9);
     hold(Check::ground, v, -seen.lowest);
     hold(Check::impact, v, -seen.deepest);
-    SCOPED_TRACE(seen.beyond_joint);
-    hold(Check::limits, v, seen.beyond);
-    hold(Check::mimic, v, seen.apart);
+    SCOPED_TRACE(seen.violating_joint);
+    hold(Check::limits, v, seen.limit_violation);
+    hold(Check::mimic, v, seen.mimic_error);
   }
 
-  void check_driven(const Variant& v, const Seen& seen, bool fixed) const {
+  void check_driven(const Variant& v, const Observations& seen, bool fixed) const {
     double speed = 0;
-    for (const JointSeen& j : seen.joints) {
-      if (std::count(should_.limp.begin(), should_.limp.end(), j.name) > 0) {
+    for (const JointObservation& j : seen.joints) {
+      if (std::count(expectation_.without_effort.begin(), expectation_.without_effort.end(), j.name) > 0) {
         if (v.name != "simplified") {  // whose drives are without limits of effort unless it is told otherwise
           EXPECT_GT(std::abs(j.moved), 0.5) << j.name << ", whose drive has no effort";
         }
@@ -52,13 +52,13 @@ class EveryRobot : public ::testing::TestWithParam<std::string> {
     } else {
       check_end(v, seen);
     }
-    const bool rests = should_.end == End::stands || should_.end == End::topples;
+    const bool rests = expectation_.end == End::stands || expectation_.end == End::topples;
     if (rests || fixed) hold(Check::rest, v, std::max(speed, seen.speed));
   }
 
   /// Of a free base.
-  void check_end(const Variant& v, const Seen& seen) const {
-    switch (should_.end) {
+  void check_end(const Variant& v, const Observations& seen) const {
+    switch (expectation_.end) {
       case End::stands:
         hold(Check::tilt, v, seen.tilt);
         hold(Check::height, v, std::abs(seen.fall - put_down_from - (sinks(v) ? leg_of_meshes : 0)));
@@ -75,22 +75,22 @@ class EveryRobot : public ::testing::TestWithParam<std::string> {
   }
 
   bool sinks(const Variant& v) const {
-    return should_.on_meshes && (features_of(v.motion) & (feature_convex_meshes | feature_concave_meshes)) == 0;
+    return expectation_.on_meshes && (features_of(v.motion) & (feature_convex_meshes | feature_concave_meshes)) == 0;
   }
 
-  Seen check(const Variant& v, bool fixed, bool passive) const {
+  Observations check(const Variant& v, bool fixed, bool passive) const {
     SCOPED_TRACE(v.name + (fixed ? ", fixed" : ", free") + (passive ? ", passive" : ", driven"));
-    const Seen seen = run({GetParam(), v.motion, fixed, passive, 2, v.more});
+    const Observations seen = run({GetParam(), v.motion, fixed, passive, 2, v.more});
     const std::string_view refusal = refusal_of(v.name, robot_, passive);
-    EXPECT_EQ(seen.broken, "");
+    EXPECT_EQ(seen.failure, "");
     if (!refusal.empty())
       EXPECT_NE(seen.refused.find(refusal), std::string::npos) << "refused with: " << seen.refused;
     else
       EXPECT_EQ(seen.refused, "");
-    if (!refusal.empty() || !seen.refused.empty() || !seen.broken.empty()) return seen;
+    if (!refusal.empty() || !seen.refused.empty() || !seen.failure.empty()) return seen;
     check_always(v, seen);
     if (passive)
-      hold(Check::energy, v, std::max(seen.gained, seen.late) / seen.scale);
+      hold(Check::energy, v, std::max(seen.energy_gain, seen.late_energy_gain) / seen.energy_scale);
     else
       check_driven(v, seen, fixed);
     return seen;
@@ -98,25 +98,25 @@ class EveryRobot : public ::testing::TestWithParam<std::string> {
 
   std::vector<Variant> tried() const {
     std::vector<Variant> some = variants();
-    std::erase_if(some, [&](const Variant& v) { return should_.long_chain && v.name == "ode_quick"; });
+    std::erase_if(some, [&](const Variant& v) { return expectation_.long_chain && v.name == "ode_quick"; });
     return some;
   }
 
   std::string robot_;
-  Should should_;
+  Expectation expectation_;
 };
 
 TEST_P(EveryRobot, WithItsBaseFreeStandsOrFallsAsItShouldInEveryMotion) {
-  double least = 1e9, most = -1e9;
+  double lowest = 1e9, highest = -1e9;
   for (const Variant& v : tried()) {
     const double height = check(v, false, false).height;
     check(v, false, true);
     if (!bound_of(Check::height, v.name, robot_).why.empty() || sinks(v)) continue;
-    least = std::min(least, height);
-    most = std::max(most, height);
+    lowest = std::min(lowest, height);
+    highest = std::max(highest, height);
   }
-  if (should_.end == End::stands) {
-    EXPECT_LT(most - least, 5e-3) << "the height of its base depends on the motion";
+  if (expectation_.end == End::stands) {
+    EXPECT_LT(highest - lowest, 5e-3) << "the height of its base depends on the motion";
   }
 }
 

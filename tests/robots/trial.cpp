@@ -10,60 +10,60 @@ namespace muro::robots {
 
 namespace {
 
-constexpr double g = 9.81, clearance = 0.05, rate = 1000, look_every = 0.01;
+constexpr double g = 9.81, clearance = 0.05, rate = 1000, sampling_interval = 0.01;
 
 class Trial {
  public:
-  Trial(const Setting& setting, Seen& seen) : setting_(setting), seen_(seen) {
+  Trial(const TrialSettings& settings, Observations& seen) : settings_(settings), observations_(seen) {
     scene_.set_log([](LogLevel, std::string_view) {});
   }
 
   void build() {
-    tree_ = scene_.read_model(setting_.file);
+    tree_ = scene_.read_model(settings_.file);
     solids_ = solids_of(tree_);
-    with_meshes_ = (features_of(setting_.motion) & (feature_convex_meshes | feature_concave_meshes)) != 0;
+    with_meshes_ = (features_of(settings_.motion) & (feature_convex_meshes | feature_concave_meshes)) != 0;
     start_ = start_positions(tree_);
     const double lowest = lowest_point(solids_, poses_of(tree_, {}, start_), true);
     Pose pose;
     pose.position.z() = std::isfinite(lowest) ? clearance - lowest : 1;
     robot_ = &scene_.add("robot", tree_, pose);
     for (std::size_t i = 0; i < start_.size(); ++i) {
-      const Link& f = robot_->links[i];
-      if (f.joint == JointKind::fixed) continue;
-      if (f.mimic < 0) scene_.world().set(f.joint_object, keys::initial_joint_position, start_[i]);
+      const Link& link = robot_->links[i];
+      if (link.joint == JointKind::fixed) continue;
+      if (link.mimic < 0) scene_.world().set(link.joint_object, keys::initial_joint_position, start_[i]);
     }
     scene_.add_ground();
-    scene_.use(setting_.motion, rate, scene_.all_robots(), parameters());
+    scene_.use(settings_.motion, rate, scene_.all_robots(), parameters());
     scene_.use_contacts();
     scene_.build();
     for (std::size_t i = 0; i < start_.size(); ++i) {
-      const RobotTree::FlatLink& f = tree_.links()[i];
-      inertias_.push_back(inertia_of(tree_.components()[std::size_t(f.body)]));
-      seen_.scale += inertias_.back().mass * g;
+      const RobotTree::FlatLink& link = tree_.links()[i];
+      inertias_.push_back(inertia_of(tree_.components()[std::size_t(link.body)]));
+      observations_.energy_scale += inertias_.back().mass * g;
     }
   }
 
   void run() {
     first_height_ = scene_.pose(*robot_).position.z();
-    const int looks = int(std::lround(setting_.duration / look_every));
-    for (int k = 0; k <= looks; ++k) {
-      if (k > 0) scene_.run_for(look_every);
+    const int samples = int(std::lround(settings_.duration / sampling_interval));
+    for (int k = 0; k <= samples; ++k) {
+      if (k > 0) scene_.run_for(sampling_interval);
       scene_.refresh();
-      if (!look(k, looks)) return;
+      if (!observe(k, samples)) return;
     }
-    seen_.height = scene_.pose(*robot_).position.z();
-    seen_.fall = first_height_ - seen_.height;
-    seen_.speed = scene_.twist(*robot_).linear.norm();
-    seen_.tilt = std::acos(std::clamp((scene_.pose(*robot_).orientation * Vec3::UnitZ()).z(), -1.0, 1.0));
-    look_at_joints();
+    observations_.height = scene_.pose(*robot_).position.z();
+    observations_.fall = first_height_ - observations_.height;
+    observations_.speed = scene_.twist(*robot_).linear.norm();
+    observations_.tilt = std::acos(std::clamp((scene_.pose(*robot_).orientation * Vec3::UnitZ()).z(), -1.0, 1.0));
+    observe_joints();
   }
 
  private:
   std::map<std::string, ParameterInput> parameters() const {
-    std::map<std::string, ParameterInput> all = setting_.more;
-    if (setting_.passive) all["joints"] = std::string("passive");
-    if (setting_.fixed) all["base"] = std::string("fixed");
-    const Description& d = *test::plugins().algorithm(setting_.motion).description;
+    std::map<std::string, ParameterInput> all = settings_.more;
+    if (settings_.passive) all["joints"] = std::string("passive");
+    if (settings_.fixed) all["base"] = std::string("fixed");
+    const Description& d = *test::plugins().algorithm(settings_.motion).description;
     std::erase_if(all, [&](const auto& p) {
       return std::none_of(d.parameters.begin(), d.parameters.end(), [&](auto& k) { return k.name == p.first; });
     });
@@ -78,14 +78,14 @@ class Trial {
   }
 
   /// Whether the run is to go on.
-  bool look(int k, int looks) {
+  bool observe(int k, int samples) {
     poses_.clear();
     double energy = 0;
     for (std::size_t i = 0; i < robot_->links.size(); ++i) {
       const ObjectId body = robot_->links[i].object;
       const Pose& pose = poses_.emplace_back(scene_.world().value(body, keys::pose));
       const Twist& twist = scene_.world().value(body, keys::twist);
-      seen_.from_unit = std::max(seen_.from_unit, std::abs(pose.orientation.norm() - 1));
+      observations_.norm_error = std::max(observations_.norm_error, std::abs(pose.orientation.norm() - 1));
       const Inertia& inertia = inertias_[i];
       const Vec3 arm = pose.orientation * inertia.com, spin = pose.orientation.conjugate() * twist.angular;
       energy += inertia.mass * (g * (pose.position + arm).z() + 0.5 * twist.at(arm).squaredNorm()) +
@@ -93,55 +93,56 @@ class Trial {
     }
     const double lowest = lowest_point(solids_, poses_, with_meshes_);
     if (!std::isfinite(energy) || std::isnan(lowest)) {
-      seen_.broken = "poses or twists are not finite";
+      observations_.failure = "poses or twists are not finite";
       return false;
     }
-    const bool first_half = 2 * k < looks;
+    const bool first_half = 2 * k < samples;
     if (k == 0) first_energy_ = energy;
     if (first_half) middle_energy_ = energy;
-    seen_.gained = std::max(seen_.gained, energy - first_energy_);
-    if (!first_half) seen_.late = std::max(seen_.late, energy - middle_energy_);
-    seen_.deepest = k == 0 ? lowest : std::min(seen_.deepest, lowest);
-    seen_.lowest = lowest;
-    return look_at_limits();
+    observations_.energy_gain = std::max(observations_.energy_gain, energy - first_energy_);
+    if (!first_half) observations_.late_energy_gain = std::max(observations_.late_energy_gain, energy - middle_energy_);
+    observations_.deepest = k == 0 ? lowest : std::min(observations_.deepest, lowest);
+    observations_.lowest = lowest;
+    return observe_limits();
   }
 
-  bool look_at_limits() {
-    for (const Link& f : robot_->links) {
-      if (f.joint == JointKind::fixed) continue;
-      const double q = scene_.world().value(f.joint_object, keys::joint_position);
-      if (!std::isfinite(q + scene_.world().value(f.joint_object, keys::joint_velocity))) {
-        seen_.broken = "joint " + name_of(f) + " is not finite";
+  bool observe_limits() {
+    for (const Link& link : robot_->links) {
+      if (link.joint == JointKind::fixed) continue;
+      const double q = scene_.world().value(link.joint_object, keys::joint_position);
+      if (!std::isfinite(q + scene_.world().value(link.joint_object, keys::joint_velocity))) {
+        observations_.failure = "joint " + name_of(link) + " is not finite";
         return false;
       }
-      const double beyond = std::max(f.limits.lower - q, q - f.limits.upper);
-      if (f.mimic >= 0 || beyond <= seen_.beyond) continue;
-      seen_.beyond = beyond;
-      seen_.beyond_joint = name_of(f);
+      const double limit_violation = std::max(link.limits.lower - q, q - link.limits.upper);
+      if (link.mimic >= 0 || limit_violation <= observations_.limit_violation) continue;
+      observations_.limit_violation = limit_violation;
+      observations_.violating_joint = name_of(link);
     }
     return true;
   }
 
-  void look_at_joints() {
+  void observe_joints() {
     for (std::size_t i = 0; i < robot_->links.size(); ++i) {
-      const Link& f = robot_->links[i];
-      if (f.joint == JointKind::fixed) continue;
-      const double q = scene_.world().value(f.joint_object, keys::joint_position);
-      seen_.joints.push_back(
-          {name_of(f), f.mimic >= 0, q - start_[i], scene_.world().value(f.joint_object, keys::joint_velocity)});
-      if (f.mimic < 0) continue;
+      const Link& link = robot_->links[i];
+      if (link.joint == JointKind::fixed) continue;
+      const double q = scene_.world().value(link.joint_object, keys::joint_position);
+      observations_.joints.push_back({name_of(link), link.mimic >= 0, q - start_[i],
+                                      scene_.world().value(link.joint_object, keys::joint_velocity)});
+      if (link.mimic < 0) continue;
       const double leader =
-          scene_.world().value(robot_->links[std::size_t(f.mimic)].joint_object, keys::joint_position);
-      seen_.apart = std::max(seen_.apart, std::abs(q - f.mimic_offset - f.mimic_multiplier * leader));
+          scene_.world().value(robot_->links[std::size_t(link.mimic)].joint_object, keys::joint_position);
+      observations_.mimic_error =
+          std::max(observations_.mimic_error, std::abs(q - link.mimic_offset - link.mimic_multiplier * leader));
     }
   }
 
-  std::string name_of(const Link& f) const {
-    return scene_.world().object_name(f.joint_object).substr(robot_->name.size() + 1);
+  std::string name_of(const Link& link) const {
+    return scene_.world().object_name(link.joint_object).substr(robot_->name.size() + 1);
   }
 
-  const Setting& setting_;
-  Seen& seen_;
+  const TrialSettings& settings_;
+  Observations& observations_;
   test::Scene scene_;
   RobotTree tree_;
   const RobotView* robot_ = nullptr;
@@ -155,9 +156,9 @@ class Trial {
 
 }  // namespace
 
-Seen run(const Setting& setting) {
-  Seen seen;
-  Trial trial(setting, seen);
+Observations run(const TrialSettings& settings) {
+  Observations seen;
+  Trial trial(settings, seen);
   try {
     trial.build();
   } catch (const SetupError& refusal) {
@@ -167,7 +168,7 @@ Seen run(const Setting& setting) {
   try {
     trial.run();
   } catch (const StepError& failure) {
-    seen.broken = failure.what();
+    seen.failure = failure.what();
   }
   return seen;
 }

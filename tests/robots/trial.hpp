@@ -11,7 +11,7 @@
 
 namespace muro::robots {
 
-struct Setting {
+struct TrialSettings {
   std::string file;      ///< .urdf
   std::string motion;    ///< "motion.ode"
   bool fixed = false;    ///< the base
@@ -20,35 +20,35 @@ struct Setting {
   std::map<std::string, ParameterInput> more{};  ///< parameters; those that the motion does not have are left out
 };
 
-/// What the joint of one frame did.
-struct JointSeen {
+/// What the joint of one link did.
+struct JointObservation {
   std::string name;
   bool follows = false;  ///< another joint
   double moved = 0;      ///< rad or m, at the end from the start
   double speed = 0;      ///< rad/s or m/s, at the end
 };
 
-struct Seen {
-  std::string refused;   ///< why the robot was not taken; all else is 0 then
-  std::string broken;    ///< why the run ended early, or what was not finite
-  double from_unit = 0;  ///< largest | |orientation| - 1 |
-  double beyond = 0;     ///< rad or m, farthest of a joint outside of its limits
-  std::string beyond_joint;
-  double apart = 0;    ///< rad or m, farthest of a mimic joint from where its leader puts it, at the end
-  double lowest = 0;   ///< m, lowest point of all collision shapes at the end; infinite without shapes
-  double deepest = 0;  ///< m, the same in the whole run, so at the impact
-  double fall = 0;     ///< m, of the base
-  double height = 0;   ///< m, of the base at the end
-  double tilt = 0;     ///< rad, of the base at the end against the start
-  double speed = 0;    ///< m/s, of the origin of the base at the end
-  double scale = 0;    ///< J, mass times gravity times 1 m
-  double gained = 0;   ///< J, most that kinetic and potential energy together were above those of the start
-  double late = 0;     ///< J, the same against the middle of the run, in its second half
-  std::vector<JointSeen> joints{};
+struct Observations {
+  std::string refused;         ///< why the robot was not taken; all else is 0 then
+  std::string failure;         ///< why the run ended early, or what was not finite
+  double norm_error = 0;       ///< largest | |orientation| - 1 |
+  double limit_violation = 0;  ///< rad or m, farthest of a joint outside of its limits
+  std::string violating_joint;
+  double mimic_error = 0;       ///< rad or m, farthest of a mimic joint from where its leader puts it, at the end
+  double lowest = 0;            ///< m, lowest point of all collision shapes at the end; infinite without shapes
+  double deepest = 0;           ///< m, the same in the whole run, so at the impact
+  double fall = 0;              ///< m, of the base
+  double height = 0;            ///< m, of the base at the end
+  double tilt = 0;              ///< rad, of the base at the end against the start
+  double speed = 0;             ///< m/s, of the origin of the base at the end
+  double energy_scale = 0;      ///< J, mass times gravity times 1 m
+  double energy_gain = 0;       ///< J, most that kinetic and potential energy together were above those of the start
+  double late_energy_gain = 0;  ///< J, the same against the middle of the run, in its second half
+  std::vector<JointObservation> joints{};
 };
 
 /// Puts the robot 5 cm above a plane, joints as near to 0 as limits allow, and runs it at 1000 Hz.
-Seen run(const Setting& setting);
+Observations run(const TrialSettings& settings);
 
 /// Motions in which forces and contacts move robots, by id.
 std::vector<std::string> motions();

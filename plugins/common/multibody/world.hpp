@@ -1,24 +1,23 @@
 // SPDX-License-Identifier: MIT
-// What a multi-body engine is for a scene: the interface between motion.bullet, motion.ode, motion.mujoco and what
-// they share.
+// What a multi-body engine is for a scene: the interface between the motions by engines and what they share.
 #pragma once
 
 #include <memory>
 
-#include "live.hpp"
+#include "forward_kinematics.hpp"
 
 namespace muro::multibody {
 
-/// A body that the world does not move: scenery, or a body of a robot that something else moves.
-struct Fixture {
+/// A body that the world does not move: scenery, or a body of a robot that another motion moves.
+struct ExternalBody {
   std::string name;
-  std::vector<PartShape> shapes;
+  std::vector<BodyShape> shapes;
   Pose pose;  ///< of scenery
 };
 
-/// State of a fixture that moves, in.
-struct FixtureState {
-  Presence presence = Presence::obstacle;  ///< or absent
+/// State of an external body that may move, in.
+struct ExternalBodyState {
+  MotionType motion_type = MotionType::kinematic;  ///< or disabled
   Pose pose;
   Twist twist;
 };
@@ -32,14 +31,15 @@ class World {
   World& operator=(const World&) = delete;
   virtual ~World() = default;
 
-  virtual void add_scenery(const Fixture& fixture) = 0;
+  /// Scenery.
+  virtual void add_static_body(const ExternalBody& body) = 0;
   /// `state` stays where it is and is read in each step.
-  virtual void add_obstacle(const Fixture& fixture, const FixtureState& state) = 0;
+  virtual void add_kinematic_body(const ExternalBody& body, const ExternalBodyState& state) = 0;
   /// `model` and `state` stay where they are; the state is read and written in each step.
   virtual void add_robot(const RobotModel& model, RobotState& state) = 0;
   /// Everything has been added; states hold the start.
   virtual void complete() = 0;
-  /// Carries all simulated robots on by `dt` (s). Throws Error when the engine fails.
+  /// Carries all dynamic robots on by `dt` (s). Throws Error when the engine fails.
   virtual void advance(double dt) = 0;
 };
 

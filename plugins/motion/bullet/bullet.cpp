@@ -3,25 +3,15 @@
 // drives by sequential impulses.
 #include "bullet_world.hpp"
 #include "muro/plugin.hpp"
-#include "plugins/common/multibody/description.hpp"
+#include "plugins/common/multibody/engine_description.hpp"
+#include "plugins/common/multibody/engine_parameters.hpp"
 #include "plugins/common/multibody/motion.hpp"
-#include "plugins/common/multibody/parameters.hpp"
 
 namespace {
 
 using namespace muro;
 
-constexpr Parameter parameters[] = {
-    multibody::world_name,
-    multibody::base_mode,
-    multibody::joint_mode,
-    velocity_joints,
-    position_joints,
-    effort_joints,
-    passive_joints,
-    multibody::self_collision,
-    multibody::position_gain,
-    multibody::substeps,
+constexpr Parameter own_parameters[] = {
     integer("iterations", 10, "of the solver").between(1, 10000),
     real("erp", "1", 0.2, "part of a depth or of a passed limit that a step takes back").between(0, 1),
     real("cfm", "s/kg", 0, "softness of contacts").between(0, 1),
@@ -31,22 +21,16 @@ constexpr Parameter parameters[] = {
     real("warm_start", "1", 1, "part of the last step's impulses that the solver begins with").between(0, 1),
     multibody::scenery_meshes,
 };
-constexpr Description bullet_description{
-    .id = "motion.bullet",
-    .kind = Kind::motion,
-    .version = "1.0.0",
-    .summary = "Multi-body dynamics by Bullet; robots of one world touch in it",
-    .parameters = parameters,
-    .reads = multibody::reads,
-    .writes = multibody::writes,
-    .capabilities = multibody::promises,
-    .features = multibody::features,
-};
+constexpr auto parameters = multibody::with_common_parameters(own_parameters);
+constexpr Description bullet_description = multibody::engine_description(
+    "motion.bullet", "1.0.0", "Multi-body dynamics by Bullet; robots of one world touch in it", parameters);
 
 class BulletMotion final : public multibody::Motion {
   const Description& description() const override { return bullet_description; }
-  multibody::InertiaFloor inertia_floor() const override { return {1e-6, 1e-4}; }
-  std::size_t memory_of(const multibody::RobotModel& model) const override { return bullet::Memory::size_of(model); }
+  multibody::MinInertia min_inertia() const override { return {1e-6, 1e-4}; }
+  std::size_t memory_of(const multibody::RobotModel& model) const override {
+    return bullet::ImpulseCache::size_of(model);
+  }
   void configure(Connector& c) override {
     const Parameters& p = c.parameters();
     settings_.gravity = gravity();
@@ -56,22 +40,23 @@ class BulletMotion final : public multibody::Motion {
     settings_.slop = p.real("slop");
     settings_.correcting_speed = p.real(multibody::correcting_speed.name);
     settings_.bounce_speed = p.real(multibody::bounce_speed.name);
-    settings_.warm = p.real("warm_start");
-    auto meshes = std::make_shared<bullet::Meshes>();
-    meshes->load(c, p.text(multibody::scenery_meshes.name) == "exact");
+    settings_.warm_start = p.real("warm_start");
+    auto meshes = std::make_shared<bullet::BulletMeshes>();
+    meshes->load(c, p.text(multibody::scenery_meshes.name) == "exact", &bullet::convex_hull_shape,
+                 &bullet::triangle_mesh_shape);
     meshes_ = std::move(meshes);
   }
   std::unique_ptr<multibody::World> make_world() const override {
     return std::make_unique<bullet::BulletWorld>(settings_, meshes_);
   }
 
-  bullet::Settings settings_;
-  std::shared_ptr<const bullet::Meshes> meshes_;
+  bullet::BulletSettings settings_;
+  std::shared_ptr<const bullet::BulletMeshes> meshes_;
 };
 
 constexpr abi::AlgorithmEntry algorithms[] = {algorithm<BulletMotion>(bullet_description)};
 
 }  // namespace
 
-MURO_PLUGIN(.name = "motion_bullet", .version = "1.0.0", .licence = "MIT", .summary = "Multi-body dynamics by Bullet",
-            .algorithms = algorithms)
+MURO_PLUGIN(.name = "motion_bullet", .version = bullet_description.version, .licence = "MIT",
+            .summary = "Multi-body dynamics by Bullet", .algorithms = algorithms)

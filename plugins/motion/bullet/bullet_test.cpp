@@ -2,6 +2,7 @@
 // What is particular to motion.bullet; what all motions owe is in tests/conformance.
 #include <gtest/gtest.h>
 
+#include "muro/toolkit/rotations.hpp"
 #include "plugins/common/mesh/files_testing.hpp"
 #include "tests/support/bodies.hpp"
 #include "tests/support/files.hpp"

@@ -5,101 +5,102 @@
 
 namespace muro::bullet {
 
-using multibody::PartMotion, multibody::Presence;
+using multibody::BodyState, multibody::MotionType;
 
 namespace {
 
-constexpr double half_reach = 0.5 * NarrowPhase::reach;
-constexpr double room = 0.5;  ///< m: scenery is looked up anew when a robot has moved so far
+constexpr double half_margin = 0.5 * NarrowPhase::margin;
+constexpr double fat_aabb_margin = 0.5;  ///< m: scenery is looked up anew when a robot has moved so far
 
 }  // namespace
 
-BulletWorld::BulletWorld(const Settings& settings, std::shared_ptr<const Meshes> meshes)
+BulletWorld::BulletWorld(const BulletSettings& settings, std::shared_ptr<const BulletMeshes> meshes)
     : settings_(settings), meshes_(std::move(meshes)), solver_(settings) {}
 
-Collider& BulletWorld::add_collider(const multibody::PartShape& shape, bool moves) {
+Collider& BulletWorld::add_collider(const multibody::BodyShape& shape, bool moves) {
   Collider& c = colliders_.emplace_back(make_collider(shape, *meshes_, moves));
   c.number = std::uint32_t(colliders_.size() - 1);
   return c;
 }
 
-void BulletWorld::add_scenery(const multibody::Fixture& fixture) {
-  for (const multibody::PartShape& s : fixture.shapes) {
+void BulletWorld::add_static_body(const multibody::ExternalBody& body) {
+  for (const multibody::BodyShape& s : body.shapes) {
     Collider& c = add_collider(s, false);
-    c.move_to(fixture.pose, half_reach);
+    c.move_to(body.pose, half_margin);
     if (c.kind == ShapeKind::plane)
       planes_.push_back(c.number);
     else if (c.shape)
-      scenery_.insert(btDbvtVolume::FromMM(bullet(c.low), bullet(c.high)),
+      scenery_.insert(btDbvtVolume::FromMM(to_bullet(c.aabb_min), to_bullet(c.aabb_max)),
                       reinterpret_cast<void*>(std::uintptr_t(c.number)));
   }
 }
 
-void BulletWorld::add_obstacle(const multibody::Fixture& fixture, const multibody::FixtureState& state) {
-  Group& g = groups_.emplace_back();
-  g.first = std::uint32_t(colliders_.size());
-  for (const multibody::PartShape& s : fixture.shapes) add_collider(s, true).obstacle = std::int32_t(obstacles_.size());
-  g.count = std::uint32_t(colliders_.size()) - g.first;
-  obstacles_.push_back(&state);
+void BulletWorld::add_kinematic_body(const multibody::ExternalBody& body, const multibody::ExternalBodyState& state) {
+  CollisionObject& o = objects_.emplace_back();
+  o.first = std::uint32_t(colliders_.size());
+  for (const multibody::BodyShape& s : body.shapes)
+    add_collider(s, true).kinematic_body = std::int32_t(kinematic_bodies_.size());
+  o.count = std::uint32_t(colliders_.size()) - o.first;
+  kinematic_bodies_.push_back(&state);
 }
 
 void BulletWorld::add_robot(const multibody::RobotModel& model, multibody::RobotState& state) {
-  Group g;
-  g.first = std::uint32_t(colliders_.size());
-  for (std::size_t i = 0; i < model.parts.size(); ++i)
-    for (const multibody::PartShape& s : model.parts[i].shapes) {
+  CollisionObject o;
+  o.first = std::uint32_t(colliders_.size());
+  for (std::size_t i = 0; i < model.bodies.size(); ++i)
+    for (const multibody::BodyShape& s : model.bodies[i].shapes) {
       Collider& c = add_collider(s, true);
       c.robot = std::int32_t(robots_.size());
-      c.part = std::uint32_t(i);
-      c.place = c.number - g.first;
+      c.body = std::uint32_t(i);
+      c.shape_index = c.number - o.first;
     }
-  g.count = std::uint32_t(colliders_.size()) - g.first;
-  groups_.insert(groups_.begin() + std::ptrdiff_t(robots_.size()), std::move(g));
+  o.count = std::uint32_t(colliders_.size()) - o.first;
+  objects_.insert(objects_.begin() + std::ptrdiff_t(robots_.size()), std::move(o));
   robots_.emplace_back(model, state);
-  memories_.emplace_back(model, state.memory);
+  caches_.emplace_back(model, state.memory);
 }
 
 void BulletWorld::complete() {
   scenery_.optimizeTopDown();
-  for (std::uint32_t i = 0; i < groups_.size(); ++i) order_.push_back(i);
+  for (std::uint32_t i = 0; i < objects_.size(); ++i) order_.push_back(i);
   roots_.resize(robots_.size());
-  first_touch_.resize(robots_.size() + 1);
+  first_contact_.resize(robots_.size() + 1);
 }
 
-void BulletWorld::move(Group& g, const PartMotion* parts) {
-  g.low.setConstant(1e300);
-  g.high.setConstant(-1e300);
-  for (std::uint32_t i = g.first; i < g.first + g.count; ++i) {
+void BulletWorld::move(CollisionObject& o, const BodyState* bodies) {
+  o.aabb_min.setConstant(1e300);
+  o.aabb_max.setConstant(-1e300);
+  for (std::uint32_t i = o.first; i < o.first + o.count; ++i) {
     Collider& c = colliders_[i];
-    c.move_to(parts[c.part].pose, half_reach);
+    c.move_to(bodies[c.body].pose, half_margin);
     if (!c.shape) continue;
-    g.low = g.low.cwiseMin(c.low);
-    g.high = g.high.cwiseMax(c.high);
+    o.aabb_min = o.aabb_min.cwiseMin(c.aabb_min);
+    o.aabb_max = o.aabb_max.cwiseMax(c.aabb_max);
   }
 }
 
 void BulletWorld::advance(double dt) {
   for (std::size_t i = 0; i < robots_.size(); ++i) {
-    Robot& r = robots_[i];
-    Group& g = groups_[i];
-    g.present = r.presence() != Presence::absent;
-    g.simulated = r.simulated();
-    if (!g.simulated || r.state().moved_from_outside) memories_[i].forget();
-    if (!g.present) continue;
-    r.place();
-    move(g, &r.part(0));
+    BulletRobot& r = robots_[i];
+    CollisionObject& o = objects_[i];
+    o.enabled = r.motion_type() != MotionType::disabled;
+    o.dynamic = r.is_dynamic();
+    if (!o.dynamic || r.state().moved_from_outside) caches_[i].clear();
+    if (!o.enabled) continue;
+    r.update_kinematics();
+    move(o, &r.body_state(0));
     for (Wrench& w : r.state().contact) w = Wrench{};
-    if (g.simulated) r.prepare(settings_.gravity, dt, scratch_);
+    if (o.dynamic) r.prepare(settings_.gravity, dt, scratch_);
   }
-  for (std::size_t i = 0; i < obstacles_.size(); ++i) {
-    Group& g = groups_[robots_.size() + i];
-    g.present = obstacles_[i]->presence == Presence::obstacle;
-    if (!g.present) continue;
-    const PartMotion motion{obstacles_[i]->pose, obstacles_[i]->twist};
-    move(g, &motion);
+  for (std::size_t i = 0; i < kinematic_bodies_.size(); ++i) {
+    CollisionObject& o = objects_[robots_.size() + i];
+    o.enabled = kinematic_bodies_[i]->motion_type == MotionType::kinematic;
+    if (!o.enabled) continue;
+    const BodyState state{kinematic_bodies_[i]->pose, kinematic_bodies_[i]->twist};
+    move(o, &state);
   }
   find_pairs();
-  find_touches(dt);
+  find_contacts(dt);
   find_islands();
   for (std::size_t i = 0, end = 0; i < islands_.size(); i = end) {
     while (end < islands_.size() && islands_[end].root == islands_[i].root) ++end;
@@ -111,29 +112,31 @@ void BulletWorld::advance(double dt) {
 void BulletWorld::find_pairs() {
   pairs_.clear();
   for (std::size_t i = 0; i < robots_.size(); ++i) {
-    Group& g = groups_[i];
-    if (!g.simulated) continue;
-    find_scenery(g);
-    for (std::uint32_t k = g.first; k < g.first + g.count; ++k) {
+    CollisionObject& o = objects_[i];
+    if (!o.dynamic) continue;
+    find_scenery(o);
+    for (std::uint32_t k = o.first; k < o.first + o.count; ++k) {
       const Collider& a = colliders_[k];
       if (!a.shape) continue;
       for (const std::uint32_t plane : planes_) pairs_.push_back({&a, &colliders_[plane]});
-      for (const std::uint32_t other : g.near)
-        if (const Collider& b = colliders_[other]; overlap(a.low, a.high, b.low, b.high)) pairs_.push_back({&a, &b});
+      for (const std::uint32_t other : o.nearby_scenery)
+        if (const Collider& b = colliders_[other]; overlap(a.aabb_min, a.aabb_max, b.aabb_min, b.aabb_max))
+          pairs_.push_back({&a, &b});
     }
-    if (robots_[i].model().self_collision) meet_itself(g, robots_[i]);
+    if (robots_[i].model().self_collision) add_self_collision_pairs(o, robots_[i]);
   }
-  // by the least x: insertion, for the order hardly changes from step to step
+  // by the smallest x: insertion, for the order hardly changes from step to step
   for (std::size_t i = 1; i < order_.size(); ++i)
-    for (std::size_t k = i; k > 0 && groups_[order_[k]].low.x() < groups_[order_[k - 1]].low.x(); --k)
+    for (std::size_t k = i; k > 0 && objects_[order_[k]].aabb_min.x() < objects_[order_[k - 1]].aabb_min.x(); --k)
       std::swap(order_[k], order_[k - 1]);
   for (std::size_t i = 0; i < order_.size(); ++i) {
-    const Group& a = groups_[order_[i]];
-    if (!a.present) continue;
+    const CollisionObject& a = objects_[order_[i]];
+    if (!a.enabled) continue;
     for (std::size_t k = i + 1; k < order_.size(); ++k) {
-      const Group& b = groups_[order_[k]];
-      if (b.low.x() > a.high.x()) break;
-      if (b.present && (a.simulated || b.simulated) && overlap(a.low, a.high, b.low, b.high)) meet(a, b);
+      const CollisionObject& b = objects_[order_[k]];
+      if (b.aabb_min.x() > a.aabb_max.x()) break;
+      if (b.enabled && (a.dynamic || b.dynamic) && overlap(a.aabb_min, a.aabb_max, b.aabb_min, b.aabb_max))
+        add_pairs_between(a, b);
     }
   }
   std::sort(pairs_.begin(), pairs_.end(), [](const Pair& x, const Pair& y) {
@@ -141,8 +144,9 @@ void BulletWorld::find_pairs() {
   });
 }
 
-void BulletWorld::find_scenery(Group& g) {
-  if ((g.low.array() >= g.room_low.array()).all() && (g.high.array() <= g.room_high.array()).all()) return;
+void BulletWorld::find_scenery(CollisionObject& o) {
+  if ((o.aabb_min.array() >= o.fat_aabb_min.array()).all() && (o.aabb_max.array() <= o.fat_aabb_max.array()).all())
+    return;
   struct Collect final : btDbvt::ICollide {
     std::vector<std::uint32_t>& found;
     explicit Collect(std::vector<std::uint32_t>& list) : found(list) {}
@@ -150,69 +154,72 @@ void BulletWorld::find_scenery(Group& g) {
       found.push_back(std::uint32_t(reinterpret_cast<std::uintptr_t>(leaf->data)));
     }
   };
-  g.room_low = g.low.array() - room;
-  g.room_high = g.high.array() + room;
-  g.near.clear();
-  Collect collect(g.near);
-  scenery_.collideTV(scenery_.m_root, btDbvtVolume::FromMM(bullet(g.room_low), bullet(g.room_high)), collect);
+  o.fat_aabb_min = o.aabb_min.array() - fat_aabb_margin;
+  o.fat_aabb_max = o.aabb_max.array() + fat_aabb_margin;
+  o.nearby_scenery.clear();
+  Collect collect(o.nearby_scenery);
+  scenery_.collideTV(scenery_.m_root, btDbvtVolume::FromMM(to_bullet(o.fat_aabb_min), to_bullet(o.fat_aabb_max)),
+                     collect);
 }
 
-void BulletWorld::meet(const Group& a, const Group& b) {
-  const bool in_order = a.simulated && (!b.simulated || a.first < b.first);
-  const Group &first = in_order ? a : b, &second = in_order ? b : a;
+void BulletWorld::add_pairs_between(const CollisionObject& a, const CollisionObject& b) {
+  const bool in_order = a.dynamic && (!b.dynamic || a.first < b.first);
+  const CollisionObject &first = in_order ? a : b, &second = in_order ? b : a;
   for (std::uint32_t i = first.first; i < first.first + first.count; ++i) {
     const Collider& x = colliders_[i];
-    if (!x.shape || !overlap(x.low, x.high, second.low, second.high)) continue;
+    if (!x.shape || !overlap(x.aabb_min, x.aabb_max, second.aabb_min, second.aabb_max)) continue;
     for (std::uint32_t k = second.first; k < second.first + second.count; ++k) {
       const Collider& y = colliders_[k];
-      if (y.shape && overlap(x.low, x.high, y.low, y.high)) pairs_.push_back({&x, &y});
+      if (y.shape && overlap(x.aabb_min, x.aabb_max, y.aabb_min, y.aabb_max)) pairs_.push_back({&x, &y});
     }
   }
 }
 
-void BulletWorld::meet_itself(const Group& g, const Robot& robot) {
-  for (std::uint32_t i = g.first; i < g.first + g.count; ++i)
-    for (std::uint32_t k = i + 1; k < g.first + g.count; ++k) {
+void BulletWorld::add_self_collision_pairs(const CollisionObject& o, const BulletRobot& robot) {
+  for (std::uint32_t i = o.first; i < o.first + o.count; ++i)
+    for (std::uint32_t k = i + 1; k < o.first + o.count; ++k) {
       const Collider &a = colliders_[i], &b = colliders_[k];
-      if (a.shape && b.shape && a.part != b.part && !robot.model().adjacent(a.part, b.part) &&
-          overlap(a.low, a.high, b.low, b.high))
+      if (a.shape && b.shape && a.body != b.body && !robot.model().adjacent(a.body, b.body) &&
+          overlap(a.aabb_min, a.aabb_max, b.aabb_min, b.aabb_max))
         pairs_.push_back({&a, &b});
     }
 }
 
-PartMotion BulletWorld::motion_of(const Collider& c) const {
-  if (c.robot >= 0) return robots_[std::size_t(c.robot)].part(c.part);
-  if (c.obstacle >= 0) return {obstacles_[std::size_t(c.obstacle)]->pose, obstacles_[std::size_t(c.obstacle)]->twist};
+BodyState BulletWorld::state_of(const Collider& c) const {
+  if (c.robot >= 0) return robots_[std::size_t(c.robot)].body_state(c.body);
+  if (c.kinematic_body >= 0)
+    return {kinematic_bodies_[std::size_t(c.kinematic_body)]->pose,
+            kinematic_bodies_[std::size_t(c.kinematic_body)]->twist};
   return {};
 }
 
-void BulletWorld::find_touches(double dt) {
-  constexpr double resting = 1e-3;  // m
-  touches_.clear();
-  ContactPoint points[NarrowPhase::most];
+void BulletWorld::find_contacts(double dt) {
+  constexpr double resting_distance = 1e-3;  // m
+  contacts_.clear();
+  ContactPoint points[NarrowPhase::max_points];
   std::size_t robot = 0;
-  first_touch_[0] = 0;
+  first_contact_[0] = 0;
   for (const Pair& p : pairs_) {
-    for (; robot < std::size_t(p.a->robot); ++robot) first_touch_[robot + 1] = std::uint32_t(touches_.size());
+    for (; robot < std::size_t(p.a->robot); ++robot) first_contact_[robot + 1] = std::uint32_t(contacts_.size());
     const int n = narrow_phase_.find(*p.a, *p.b, points);
     if (n == 0) continue;
-    const PartMotion a = motion_of(*p.a), b = motion_of(*p.b);
+    const BodyState a = state_of(*p.a), b = state_of(*p.b);
     for (int i = 0; i < n; ++i) {
-      const Vec3& at = points[i].point;
-      const Vec3 slip = a.twist.at(at - a.pose.position) - b.twist.at(at - b.pose.position);
-      if (points[i].gap > resting - 2 * dt * slip.dot(points[i].normal)) continue;
-      Touch& t = touches_.emplace_back();
-      t.a = p.a;
-      t.b = p.b;
-      t.at = points[i];
-      t.slip = slip;
+      const Vec3& at = points[i].position;
+      const Vec3 relative_velocity = a.twist.at(at - a.pose.position) - b.twist.at(at - b.pose.position);
+      if (points[i].gap > resting_distance - 2 * dt * relative_velocity.dot(points[i].normal)) continue;
+      SolverContact& contact = contacts_.emplace_back();
+      contact.a = p.a;
+      contact.b = p.b;
+      contact.point = points[i];
+      contact.relative_velocity = relative_velocity;
     }
   }
-  for (; robot < robots_.size(); ++robot) first_touch_[robot + 1] = std::uint32_t(touches_.size());
+  for (; robot < robots_.size(); ++robot) first_contact_[robot + 1] = std::uint32_t(contacts_.size());
 }
 
-std::span<Touch> BulletWorld::touches_of(std::uint32_t robot) {
-  return std::span(touches_).subspan(first_touch_[robot], first_touch_[robot + 1] - first_touch_[robot]);
+std::span<SolverContact> BulletWorld::contacts_of(std::uint32_t robot) {
+  return std::span(contacts_).subspan(first_contact_[robot], first_contact_[robot + 1] - first_contact_[robot]);
 }
 
 void BulletWorld::find_islands() {
@@ -221,54 +228,57 @@ void BulletWorld::find_islands() {
     while (roots_[i] != i) i = roots_[i];
     return i;
   };
-  for (const Touch& t : touches_) {
-    if (t.b->robot < 0 || t.b->robot == t.a->robot || !robots_[std::size_t(t.b->robot)].simulated()) continue;
-    const std::uint32_t a = root_of(std::uint32_t(t.a->robot)), b = root_of(std::uint32_t(t.b->robot));
+  for (const SolverContact& contact : contacts_) {
+    if (contact.b->robot < 0 || contact.b->robot == contact.a->robot ||
+        !robots_[std::size_t(contact.b->robot)].is_dynamic())
+      continue;
+    const std::uint32_t a = root_of(std::uint32_t(contact.a->robot)), b = root_of(std::uint32_t(contact.b->robot));
     roots_[std::max(a, b)] = std::min(a, b);
   }
   islands_.clear();
   for (std::uint32_t i = 0; i < roots_.size(); ++i)
-    if (robots_[i].simulated()) islands_.push_back({i, root_of(i)});
+    if (robots_[i].is_dynamic()) islands_.push_back({i, root_of(i)});
   std::sort(islands_.begin(), islands_.end(),
             [](const Island& x, const Island& y) { return x.root != y.root ? x.root < y.root : x.robot < y.robot; });
 }
 
 void BulletWorld::solve(std::span<const Island> island, double dt) {
   solver_.begin(dt);
-  for (const Island& i : island) solver_.add(robots_[i.robot], memories_[i.robot]);
+  for (const Island& i : island) solver_.add(robots_[i.robot], caches_[i.robot]);
   for (const Island& i : island) {
-    memories_[i.robot].recall(touches_of(i.robot));
-    for (Touch& t : touches_of(i.robot)) {
-      Robot* b =
-          t.b->robot >= 0 && robots_[std::size_t(t.b->robot)].simulated() ? &robots_[std::size_t(t.b->robot)] : nullptr;
-      const PartMotion other = b ? PartMotion{} : motion_of(*t.b);
-      solver_.add(t, robots_[i.robot], b, other.twist.at(t.at.point - other.pose.position));
+    caches_[i.robot].match(contacts_of(i.robot));
+    for (SolverContact& contact : contacts_of(i.robot)) {
+      BulletRobot* b = contact.b->robot >= 0 && robots_[std::size_t(contact.b->robot)].is_dynamic()
+                           ? &robots_[std::size_t(contact.b->robot)]
+                           : nullptr;
+      const BodyState other = b ? BodyState{} : state_of(*contact.b);
+      solver_.add(contact, robots_[i.robot], b, other.twist.at(contact.point.position - other.pose.position));
     }
   }
   solver_.solve();
   for (std::size_t k = 0; k < island.size(); ++k) {
     const std::uint32_t robot = island[k].robot;
-    for (Touch& t : touches_of(robot)) solver_.finish(t);
-    memories_[robot].keep(touches_of(robot));
-    solver_.finish(robots_[robot], k, memories_[robot]);
+    for (SolverContact& contact : contacts_of(robot)) solver_.finish(contact);
+    caches_[robot].store(contacts_of(robot));
+    solver_.finish(robots_[robot], k, caches_[robot]);
   }
 }
 
 void BulletWorld::export_contacts(double dt) {
-  for (const Touch& t : touches_) {
-    if (t.row < 0) continue;
-    const Vec3 force = t.impulse / dt;
+  for (const SolverContact& contact : contacts_) {
+    if (contact.row < 0) continue;
+    const Vec3 force = contact.impulse / dt;
     const auto act = [&](const Collider& c, const Vec3& f) {
-      if (c.robot < 0 || !robots_[std::size_t(c.robot)].simulated()) return;
-      Robot& r = robots_[std::size_t(c.robot)];
-      r.set_touched();
-      r.state().contact[c.body].add_force(f, t.at.point - r.part(c.part).pose.position);
+      if (c.robot < 0 || !robots_[std::size_t(c.robot)].is_dynamic()) return;
+      BulletRobot& r = robots_[std::size_t(c.robot)];
+      r.set_has_contact();
+      r.state().contact[c.loaded_link].add_force(f, contact.point.position - r.body_state(c.body).pose.position);
     };
-    act(*t.a, force);
-    act(*t.b, -force);
+    act(*contact.a, force);
+    act(*contact.b, -force);
   }
-  for (Robot& r : robots_)
-    if (r.simulated()) r.finish(settings_.gravity, dt);
+  for (BulletRobot& r : robots_)
+    if (r.is_dynamic()) r.finish(settings_.gravity, dt);
 }
 
 }  // namespace muro::bullet

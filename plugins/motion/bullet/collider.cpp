@@ -6,7 +6,7 @@
 #include <BulletCollision/CollisionShapes/btCylinderShape.h>
 #include <BulletCollision/CollisionShapes/btSphereShape.h>
 
-#include "meshes.hpp"
+#include "muro/toolkit/bounds.hpp"
 
 namespace muro::bullet {
 
@@ -16,11 +16,11 @@ namespace {
 /// edges get this radius.
 double margin_of(const Vec3& half) { return std::min(1e-3, 0.1 * half.minCoeff()); }
 
-std::shared_ptr<btCollisionShape> make_shape(const Shape& s, const Meshes& meshes, bool moves) {
+std::shared_ptr<btCollisionShape> make_shape(const Shape& s, const BulletMeshes& meshes, bool moves) {
   const Vec3 half = half_extents(s);
   switch (s.kind) {
     case ShapeKind::box: {
-      auto box = std::make_shared<btBoxShape>(bullet(half));
+      auto box = std::make_shared<btBoxShape>(to_bullet(half));
       box->setMargin(margin_of(half));
       box->initializePolyhedralFeatures();
       return box;
@@ -28,14 +28,14 @@ std::shared_ptr<btCollisionShape> make_shape(const Shape& s, const Meshes& meshe
     case ShapeKind::sphere:
       return std::make_shared<btSphereShape>(s.size.x());
     case ShapeKind::cylinder: {
-      auto cylinder = std::make_shared<btCylinderShapeZ>(bullet(half));
+      auto cylinder = std::make_shared<btCylinderShapeZ>(to_bullet(half));
       cylinder->setMargin(margin_of(half));
       return cylinder;
     }
     case ShapeKind::capsule:
       return std::make_shared<btCapsuleShapeZ>(s.size.x(), s.size.z());
     case ShapeKind::mesh:
-      return moves ? meshes.hull(s) : meshes.scenery(s);
+      return meshes.of(s, moves);
     case ShapeKind::plane:
       break;
   }
@@ -44,26 +44,26 @@ std::shared_ptr<btCollisionShape> make_shape(const Shape& s, const Meshes& meshe
 
 }  // namespace
 
-Collider make_collider(const multibody::PartShape& shape, const Meshes& meshes, bool moves) {
+Collider make_collider(const multibody::BodyShape& shape, const BulletMeshes& meshes, bool moves) {
   Collider c;
   c.kind = shape.shape.kind;
   if (c.kind == ShapeKind::plane && moves) c.kind = ShapeKind::mesh;
   c.size = shape.shape.size;
   c.friction = shape.shape.friction;
   c.restitution = shape.shape.restitution;
-  c.body = shape.body;
-  c.in_part = shape.shape.origin;
+  c.loaded_link = shape.loaded_link;
+  c.pose_in_body = shape.shape.origin;
   c.shape = make_shape(shape.shape, meshes, moves);
   return c;
 }
 
-void Collider::move_to(const Pose& part_pose, double margin) {
-  pose = bullet(part_pose * in_part);
+void Collider::move_to(const Pose& body_pose, double margin) {
+  pose = to_bullet(body_pose * pose_in_body);
   if (!shape) return;
-  btVector3 least, most;
-  shape->getAabb(pose, least, most);
-  low = muro_of(least).array() - margin;
-  high = muro_of(most).array() + margin;
+  btVector3 min, max;
+  shape->getAabb(pose, min, max);
+  aabb_min = from_bullet(min).array() - margin;
+  aabb_max = from_bullet(max).array() + margin;
 }
 
 }  // namespace muro::bullet

@@ -15,37 +15,37 @@ namespace muro::bullet {
 
 namespace {
 
-/// GJK gives one point of a pair. For shapes with flat sides, the smaller one is turned a little in so many directions
+/// GJK gives one point of a pair. For shapes with flat faces, the smaller one is turned a little in so many directions
 /// about the normal, to find others (van den Bergen).
-constexpr int directions = 4;
-constexpr double flat = 0.999;  ///< cosine: a normal this near to that of a box's side is taken for it
+constexpr int perturbation_count = 4;
+constexpr double min_cosine = 0.999;  ///< cosine: a normal this near to that of a box's face is taken for it
 
 bool is_round(const Collider& c) { return c.kind == ShapeKind::sphere; }
 bool has_corners(const Collider& c) { return c.kind == ShapeKind::box || c.kind == ShapeKind::mesh; }
 
-/// A side of a box, and what of another shape is over it.
-class Side {
+/// A face of a box, and what of another shape is over it.
+class BoxFace {
  public:
-  Side(const Collider& box, int axis, double sign) {
+  BoxFace(const Collider& box, int axis, double sign) {
     const btMatrix3x3& axes = box.pose.getBasis();
     const int i = (axis + 1) % 3, j = (axis + 2) % 3;
-    u_ = muro_of(axes.getColumn(i));
-    v_ = muro_of(axes.getColumn(j));
+    u_ = from_bullet(axes.getColumn(i));
+    v_ = from_bullet(axes.getColumn(j));
     half_u_ = 0.5 * box.size[i];
     half_v_ = 0.5 * box.size[j];
-    const Vec3 n = sign * muro_of(axes.getColumn(axis));
-    middle_ = muro_of(box.pose.getOrigin()) + 0.5 * box.size[axis] * n;
-    plane_ =
-        btTransform(btMatrix3x3(u_.x(), v_.x(), n.x(), u_.y(), v_.y(), n.y(), u_.z(), v_.z(), n.z()), bullet(middle_));
+    const Vec3 n = sign * from_bullet(axes.getColumn(axis));
+    middle_ = from_bullet(box.pose.getOrigin()) + 0.5 * box.size[axis] * n;
+    plane_ = btTransform(btMatrix3x3(u_.x(), v_.x(), n.x(), u_.y(), v_.y(), n.y(), u_.z(), v_.z(), n.z()),
+                         to_bullet(middle_));
   }
   const btTransform& plane() const { return plane_; }
-  bool holds(const ContactPoint& p) const {
-    const Vec3 from = p.point - middle_;
+  bool contains(const ContactPoint& p) const {
+    const Vec3 from = p.position - middle_;
     return std::abs(from.dot(u_)) <= half_u_ && std::abs(from.dot(v_)) <= half_v_;
   }
-  /// The ends of what of the line from `a` to `b` is over the side; their number.
+  /// The ends of the segment of the line from `a` to `b` that is over the face; their number.
   int clip(const ContactPoint& a, const ContactPoint& b, ContactPoint* out) const {
-    const Vec3 from = a.point - middle_, way = b.point - a.point;
+    const Vec3 from = a.position - middle_, span = b.position - a.position;
     double begin = 0, end = 1;
     const auto cut = [&](double at, double speed, double half) {
       if (speed == 0) {
@@ -56,12 +56,12 @@ class Side {
       begin = std::max(begin, std::min(x, y));
       end = std::min(end, std::max(x, y));
     };
-    cut(from.dot(u_), way.dot(u_), half_u_);
-    cut(from.dot(v_), way.dot(v_), half_v_);
+    cut(from.dot(u_), span.dot(u_), half_u_);
+    cut(from.dot(v_), span.dot(v_), half_v_);
     if (begin >= end) return 0;
     for (int k = 0; k < 2; ++k) {
       const double t = k == 0 ? begin : end;
-      out[k] = {a.point + t * way, a.normal, a.gap + t * (b.gap - a.gap)};
+      out[k] = {a.position + t * span, a.normal, a.gap + t * (b.gap - a.gap)};
     }
     return 2;
   }
@@ -72,31 +72,31 @@ class Side {
   btTransform plane_;
 };
 
-/// Where `other` touches the side of `box` that `outward` (world) points out of: as on a plane, where the side
-/// reaches. Returns -1 where it is no side that touches.
-int touch_side(const Collider& box, const Collider& other, const Vec3& outward, ContactPoint* out) {
+/// Where `other` touches the face of `box` that `outward` (world) points out of: as on a plane, within the face.
+/// Returns -1 where it is no face that touches.
+int face_contacts(const Collider& box, const Collider& other, const Vec3& outward, ContactPoint* out) {
   for (int axis = 0; axis < 3; ++axis) {
-    const double along = outward.dot(muro_of(box.pose.getBasis().getColumn(axis)));
-    if (std::abs(along) < flat) continue;
-    const Side side(box, axis, along > 0 ? 1 : -1);
-    ContactPoint points[NarrowPhase::most];
-    const int found = touch_plane(other, side.plane(), points);
-    int kept = found > 1 ? side.clip(points[0], points[1], out) : 0;
+    const double along = outward.dot(from_bullet(box.pose.getBasis().getColumn(axis)));
+    if (std::abs(along) < min_cosine) continue;
+    const BoxFace face(box, axis, along > 0 ? 1 : -1);
+    ContactPoint points[NarrowPhase::max_points];
+    const int found = plane_contacts(other, face.plane(), points);
+    int count = found > 1 ? face.clip(points[0], points[1], out) : 0;
     for (int i = found > 1 ? 2 : 0; i < found; ++i)
-      if (side.holds(points[i])) out[kept++] = points[i];
-    return kept;
+      if (face.contains(points[i])) out[count++] = points[i];
+    return count;
   }
   return -1;
 }
 
 }  // namespace
 
-NarrowPhase::NarrowPhase() : manifold_(&first_, &second_, 0, reach, reach) {
+NarrowPhase::NarrowPhase() : manifold_(&first_, &second_, 0, margin, margin) {
   first_.setWorldTransform(btTransform::getIdentity());
   second_.setWorldTransform(btTransform::getIdentity());
 }
 
-int NarrowPhase::collide(const Collider& a, const Collider& b, int turns, ContactPoint* out) {
+int NarrowPhase::collide(const Collider& a, const Collider& b, int perturbations, ContactPoint* out) {
   first_.setCollisionShape(a.shape.get());
   second_.setCollisionShape(b.shape.get());
   const btCollisionObjectWrapper wrap_a(nullptr, a.shape.get(), &first_, a.pose, -1, -1);
@@ -113,7 +113,7 @@ int NarrowPhase::collide(const Collider& a, const Collider& b, int turns, Contac
     manifolds_.resizeNoInitialize(0);
     algorithm.getAllContactManifolds(manifolds_);
     int n = 0;
-    for (int i = 0; i < manifolds_.size() && n + 4 <= most; ++i)
+    for (int i = 0; i < manifolds_.size() && n + 4 <= max_points; ++i)
       n += read(*manifolds_[i], manifolds_[i]->getBody0() == &first_ ? 1 : -1, out + n);
     return n;
   }
@@ -124,36 +124,36 @@ int NarrowPhase::collide(const Collider& a, const Collider& b, int turns, Contac
     btSphereSphereCollisionAlgorithm algorithm(&manifold_, make, &wrap_a, &wrap_b);
     algorithm.processCollision(&wrap_a, &wrap_b, info_, &result);
   } else {
-    btConvexConvexAlgorithm algorithm(&manifold_, make, &wrap_a, &wrap_b, &depth_solver_, turns, turns);
+    btConvexConvexAlgorithm algorithm(&manifold_, make, &wrap_a, &wrap_b, &depth_solver_, perturbations, perturbations);
     algorithm.processCollision(&wrap_a, &wrap_b, info_, &result);
   }
   return read(manifold_, 1, out);
 }
 
 int NarrowPhase::find(const Collider& a, const Collider& b, ContactPoint* out) {
-  if (b.kind == ShapeKind::plane) return touch_plane(a, b.pose, out);
+  if (b.kind == ShapeKind::plane) return plane_contacts(a, b.pose, out);
   const int n = collide(a, b, 0, out);
   if (n == 0 || is_round(a) || is_round(b) || (has_corners(a) && has_corners(b)) || b.shape->isConcave()) return n;
   const ContactPoint deepest = out[0];
-  int sides = -1;
+  int count = -1;
   if (b.kind == ShapeKind::box) {
-    sides = touch_side(b, a, deepest.normal, out);
+    count = face_contacts(b, a, deepest.normal, out);
   } else if (a.kind == ShapeKind::box) {
-    sides = touch_side(a, b, -deepest.normal, out);
-    for (int i = 0; i < sides; ++i) out[i].normal = -out[i].normal;
+    count = face_contacts(a, b, -deepest.normal, out);
+    for (int i = 0; i < count; ++i) out[i].normal = -out[i].normal;
   }
-  if (sides < 0) return collide(a, b, directions, out);
-  if (sides < 2) out[sides++] = deepest;  // beyond the edges of the side
-  return sides;
+  if (count < 0) return collide(a, b, perturbation_count, out);
+  if (count < 2) out[count++] = deepest;  // beyond the edges of the face
+  return count;
 }
 
 int NarrowPhase::read(const btPersistentManifold& manifold, double sign, ContactPoint* out) {
   const int n = manifold.getNumContacts();
   for (int i = 0; i < n; ++i) {
     const btManifoldPoint& p = manifold.getContactPoint(i);
-    out[i].normal = sign * muro_of(p.m_normalWorldOnB);
+    out[i].normal = sign * from_bullet(p.m_normalWorldOnB);
     out[i].gap = p.getDistance();
-    out[i].point = 0.5 * (muro_of(p.getPositionWorldOnA()) + muro_of(p.getPositionWorldOnB()));
+    out[i].position = 0.5 * (from_bullet(p.getPositionWorldOnA()) + from_bullet(p.getPositionWorldOnB()));
   }
   return n;
 }

@@ -13,7 +13,7 @@
 namespace muro::bullet {
 
 struct ContactPoint {
-  Vec3 point;      ///< m, world: half way between the two surfaces
+  Vec3 position;   ///< m, world: half way between the two surfaces
   Vec3 normal;     ///< unit, world: the direction in which the first is pushed
   double gap = 0;  ///< m; negative where they overlap
 };
@@ -21,16 +21,17 @@ struct ContactPoint {
 /// Bullet's algorithms for pairs of shapes, asked anew each time: nothing is carried from step to step.
 class NarrowPhase {
  public:
-  static constexpr int most = 8;         ///< points of a pair
-  static constexpr double reach = 0.02;  ///< m: points farther apart are not looked for
+  static constexpr int max_points = 8;    ///< of a pair
+  static constexpr double margin = 0.02;  ///< m: surfaces farther apart are not in contact
 
   NarrowPhase();
-  /// Points in which `a` is within `reach` of `b`; returns their number. Neither moves; `a` is no plane.
+  /// Points in which `a` is within `margin` of `b`; returns their number. Neither moves; `a` is no plane.
   int find(const Collider& a, const Collider& b, ContactPoint* out);
 
  private:
-  /// By Bullet's algorithm for the pair. `turns`: in how many directions the smaller shape is turned for more points.
-  int collide(const Collider& a, const Collider& b, int turns, ContactPoint* out);
+  /// By Bullet's algorithm for the pair. `perturbations`: in how many directions the smaller shape is turned a little
+  /// to find more points.
+  int collide(const Collider& a, const Collider& b, int perturbations, ContactPoint* out);
   static int read(const btPersistentManifold& manifold, double sign, ContactPoint* out);
 
   btDefaultCollisionConfiguration configuration_;

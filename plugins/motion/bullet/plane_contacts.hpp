@@ -7,8 +7,8 @@
 
 namespace muro::bullet {
 
-/// Points in which `a` is within NarrowPhase::reach of the plane z = 0 of `plane`, solid below: the lowest ones of a
+/// Points in which `a` is within NarrowPhase::margin of the plane z = 0 of `plane`, solid below: the lowest ones of a
 /// box (four), a cylinder (four of the lower rim, one of the upper), a capsule (two), a sphere (one) or a hull (eight).
-int touch_plane(const Collider& a, const btTransform& plane, ContactPoint* out);
+int plane_contacts(const Collider& a, const btTransform& plane, ContactPoint* out);
 
 }  // namespace muro::bullet

@@ -4,7 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <charconv>
 
-#include "engine.hpp"
+#include "mujoco_library.hpp"
 
 namespace muro::mujoco {
 
@@ -43,16 +43,16 @@ Principal principal_of(const Inertia& inertia) {
   return {solver.eigenvalues(), Quat(axes)};
 }
 
-std::string Mjcf::body_name(std::string_view name, std::size_t owner, std::size_t part) {
+std::string Mjcf::body_name(std::string_view name, std::size_t owner, std::size_t number) {
   std::string text(name);
   for (char& c : text)
     if (std::string_view("<>&'\"").find(c) != std::string_view::npos) c = '_';
-  return text + ":" + std::to_string(owner) + "." + std::to_string(part);
+  return text + ":" + std::to_string(owner) + "." + std::to_string(number);
 }
 
 std::string Mjcf::geom_name(const std::string& body, std::size_t number) { return body + "." + std::to_string(number); }
 
-std::string Mjcf::geom(const multibody::PartShape& shape, const Pose& pose, const std::string& name) {
+std::string Mjcf::geom(const multibody::BodyShape& shape, const Pose& pose, const std::string& name) {
   const Vec3& s = shape.shape.size;
   std::string what;
   switch (shape.shape.kind) {
@@ -72,7 +72,7 @@ std::string Mjcf::geom(const multibody::PartShape& shape, const Pose& pose, cons
       what = " type='plane' size='0 0 1'";
       break;
     case ShapeKind::mesh: {
-      const std::span<const Vec3> hull = meshes_->hull_of(shape.shape);
+      const std::vector<Vec3>& hull = meshes_->of(shape.shape, true);
       std::string& mesh = mesh_names_[hull.data()];
       if (mesh.empty()) {
         mesh = "mesh:" + std::to_string(mesh_names_.size());
@@ -87,12 +87,12 @@ std::string Mjcf::geom(const multibody::PartShape& shape, const Pose& pose, cons
   return "<geom" + named(name) + what + place(pose) + "/>\n";
 }
 
-void Mjcf::add_scenery(const multibody::Fixture& fixture, std::size_t owner) {
-  const std::string name = body_name(fixture.name, owner, 0);
+void Mjcf::add_static_body(const multibody::ExternalBody& body, std::size_t owner) {
+  const std::string name = body_name(body.name, owner, 0);
   std::string in_body;
-  for (std::size_t k = 0; k < fixture.shapes.size(); ++k) {
-    const multibody::PartShape& s = fixture.shapes[k];
-    const std::string in_world = geom(s, fixture.pose * s.shape.origin, geom_name(name, k));
+  for (std::size_t k = 0; k < body.shapes.size(); ++k) {
+    const multibody::BodyShape& s = body.shapes[k];
+    const std::string in_world = geom(s, body.pose * s.shape.origin, geom_name(name, k));
     if (s.shape.kind == ShapeKind::plane) {
       planes_ += in_world;
     } else {
@@ -100,57 +100,56 @@ void Mjcf::add_scenery(const multibody::Fixture& fixture, std::size_t owner) {
       in_body += geom(s, s.shape.origin, geom_name(name, k));
     }
   }
-  if (!in_body.empty())
-    scenery_in_bodies_ += "<body" + named(name) + place(fixture.pose) + ">\n" + in_body + "</body>\n";
+  if (!in_body.empty()) scenery_in_bodies_ += "<body" + named(name) + place(body.pose) + ">\n" + in_body + "</body>\n";
 }
 
-void Mjcf::add_obstacle(const multibody::Fixture& fixture, std::size_t owner) {
-  const std::string name = body_name(fixture.name, owner, 0);
+void Mjcf::add_kinematic_body(const multibody::ExternalBody& body, std::size_t owner) {
+  const std::string name = body_name(body.name, owner, 0);
   std::size_t k = 0;
   bodies_ += "<body mocap='true'" + named(name) + ">\n";
-  for (const multibody::PartShape& s : fixture.shapes)
+  for (const multibody::BodyShape& s : body.shapes)
     if (has_geom(s)) bodies_ += geom(s, s.shape.origin, geom_name(name, k++));
   moving_geoms_ += k;
   bodies_ += "</body>\n";
 }
 
 void Mjcf::add_robot(const multibody::RobotModel& model, std::size_t owner) {
-  write_part(model, 0, owner);
-  for (std::size_t a = 0; a < model.parts.size(); ++a)
-    for (std::size_t b = a + 1; b < model.parts.size(); ++b) {
-      if (model.parts[a].shapes.empty() || model.parts[b].shapes.empty()) continue;
+  write_body(model, 0, owner);
+  for (std::size_t a = 0; a < model.bodies.size(); ++a)
+    for (std::size_t b = a + 1; b < model.bodies.size(); ++b) {
+      if (model.bodies[a].shapes.empty() || model.bodies[b].shapes.empty()) continue;
       if (model.self_collision && !model.adjacent(std::uint32_t(a), std::uint32_t(b))) continue;
       exclusions_ += "<exclude body1='" + body_name(model.name, owner, a) + "' body2='" +
                      body_name(model.name, owner, b) + "'/>\n";
     }
 }
 
-void Mjcf::write_part(const multibody::RobotModel& model, std::size_t number, std::size_t owner) {
-  const multibody::Part& part = model.parts[number];
+void Mjcf::write_body(const multibody::RobotModel& model, std::size_t number, std::size_t owner) {
+  const multibody::RigidBody& body = model.bodies[number];
   const bool base = number == 0, free = base && !model.fixed_base;
-  const Vec3 shift = free ? part.inertia.com : Vec3(Vec3::Zero());
+  const Vec3 shift = free ? body.inertia.com : Vec3(Vec3::Zero());
   const std::string name = body_name(model.name, owner, number);
   std::size_t k = 0;
-  Pose origin = part.origin;
-  if (part.parent == 0 && !model.fixed_base) origin.position -= model.parts[0].inertia.com;
+  Pose origin = body.origin;
+  if (body.parent == 0 && !model.fixed_base) origin.position -= model.bodies[0].inertia.com;
   bodies_ += "<body" + named(name) + (base ? std::string(free ? "" : " mocap='true'") : place(origin)) + ">\n";
   if (free) bodies_ += "<freejoint" + named(name) + "/>";
   if (!base)
-    bodies_ += "<joint" + named(name) + (part.joint == JointKind::revolute ? " type='hinge'" : " type='slide'") +
-               vector("axis", part.axis) + "/>\n";
-  const Principal p = principal_of(part.inertia);
-  bodies_ += "<inertial" + place({part.inertia.com - shift, p.axes}) + attribute("mass", {part.inertia.mass}) +
+    bodies_ += "<joint" + named(name) + (body.joint == JointKind::revolute ? " type='hinge'" : " type='slide'") +
+               vector("axis", body.axis) + "/>\n";
+  const Principal p = principal_of(body.inertia);
+  bodies_ += "<inertial" + place({body.inertia.com - shift, p.axes}) + attribute("mass", {body.inertia.mass}) +
              vector("diaginertia", p.moments) + "/>\n";
-  for (const multibody::PartShape& s : part.shapes)
+  for (const multibody::BodyShape& s : body.shapes)
     if (has_geom(s))
       bodies_ += geom(s, {s.shape.origin.position - shift, s.shape.origin.orientation}, geom_name(name, k++));
   moving_geoms_ += k;
-  for (std::size_t i = number + 1; i < model.parts.size(); ++i)
-    if (model.parts[i].parent == std::int32_t(number)) write_part(model, i, owner);
+  for (std::size_t i = number + 1; i < model.bodies.size(); ++i)
+    if (model.bodies[i].parent == std::int32_t(number)) write_body(model, i, owner);
   bodies_ += "</body>\n";
 }
 
-std::string Mjcf::text(const Settings& settings, const Sizes& sizes) const {
+std::string Mjcf::text(const MujocoSettings& settings, const Sizes& sizes) const {
   const auto impedance = [](const char* name, double d) { return attribute(name, {d, d, 1}); };
   return "<mujoco>\n<compiler angle='radian' inertiafromgeom='false' balanceinertia='true'/>\n<option cone='elliptic'" +
          vector("gravity", settings.gravity) + "><flag filterparent='disable' multiccd='" +

@@ -5,26 +5,16 @@
 
 #include "mujoco_world.hpp"
 #include "muro/plugin.hpp"
-#include "plugins/common/multibody/description.hpp"
+#include "plugins/common/multibody/engine_description.hpp"
+#include "plugins/common/multibody/engine_parameters.hpp"
 #include "plugins/common/multibody/motion.hpp"
-#include "plugins/common/multibody/parameters.hpp"
 
 namespace {
 
 using namespace muro;
 
 constexpr std::string_view solvers[] = {"pgs", "cg", "newton"};  // in the order of mjtSolver
-constexpr Parameter parameters[] = {
-    multibody::world_name,
-    multibody::base_mode,
-    multibody::joint_mode,
-    velocity_joints,
-    position_joints,
-    effort_joints,
-    passive_joints,
-    multibody::self_collision,
-    multibody::position_gain,
-    multibody::substeps,
+constexpr Parameter own_parameters[] = {
     text("solver", "newton",
          "projected Gauss-Seidel, conjugate gradients, or Newton's method: exact in a few iterations")
         .one_of(solvers),
@@ -39,22 +29,16 @@ constexpr Parameter parameters[] = {
     multibody::bounce_speed,
     boolean("several_contacts", true, "cylinders, capsules and meshes touch in several points where they lie flat"),
 };
-constexpr Description mujoco_description{
-    .id = "motion.mujoco",
-    .kind = Kind::motion,
-    .version = "1.0.0",
-    .summary = "Multi-body dynamics by MuJoCo; robots of one world touch in it",
-    .parameters = parameters,
-    .reads = multibody::reads,
-    .writes = multibody::writes,
-    .capabilities = multibody::promises,
-    .features = multibody::features,
-};
+constexpr auto parameters = multibody::with_common_parameters(own_parameters);
+constexpr Description mujoco_description = multibody::engine_description(
+    "motion.mujoco", "1.0.0", "Multi-body dynamics by MuJoCo; robots of one world touch in it", parameters);
 
 class MujocoMotion final : public multibody::Motion {
   const Description& description() const override { return mujoco_description; }
-  multibody::InertiaFloor inertia_floor() const override { return {}; }
-  std::size_t memory_of(const multibody::RobotModel& model) const override { return mujoco::Robot::memory_of(model); }
+  multibody::MinInertia min_inertia() const override { return {}; }
+  std::size_t memory_of(const multibody::RobotModel& model) const override {
+    return mujoco::MujocoRobot::memory_of(model);
+  }
   void configure(Connector& c) override {
     const Parameters& p = c.parameters();
     settings_.gravity = gravity();
@@ -67,19 +51,21 @@ class MujocoMotion final : public multibody::Motion {
     settings_.refinements = int(p.integer("refinements"));
     settings_.bounce_speed = p.real(multibody::bounce_speed.name);
     settings_.several_contacts = p.boolean("several_contacts");
-    meshes_.load(c);
+    meshes_.load(
+        c, false, [](const mesh::Hull& hull) { return hull.vertices; },
+        [](const mesh::Mesh& mesh) { return mesh.vertices; });
   }
   std::unique_ptr<multibody::World> make_world() const override {
     return std::make_unique<mujoco::MujocoWorld>(settings_, meshes_);
   }
 
-  mujoco::Settings settings_;
-  mujoco::Meshes meshes_;
+  mujoco::MujocoSettings settings_;
+  mujoco::MujocoMeshes meshes_;
 };
 
 constexpr abi::AlgorithmEntry algorithms[] = {algorithm<MujocoMotion>(mujoco_description)};
 
 }  // namespace
 
-MURO_PLUGIN(.name = "motion_mujoco", .version = "1.0.0", .licence = "MIT", .summary = "Multi-body dynamics by MuJoCo",
-            .algorithms = algorithms)
+MURO_PLUGIN(.name = "motion_mujoco", .version = mujoco_description.version, .licence = "MIT",
+            .summary = "Multi-body dynamics by MuJoCo", .algorithms = algorithms)

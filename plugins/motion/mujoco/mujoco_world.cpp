@@ -5,25 +5,25 @@
 
 namespace muro::mujoco {
 
-using multibody::Presence;
+using multibody::MotionType;
 
 namespace {
 
 /// m/s^2: sliding that changes what contacts aim at by less needs no further solution. It moves them by 20 um.
-constexpr double settled = 1;
+constexpr double sliding_tolerance = 1;
 /// Numbers on MuJoCo's stack, at most.
-constexpr int largest_stack = 200000000;
+constexpr int max_stack = 200000000;
 
 }  // namespace
 
-void MujocoWorld::add_scenery(const multibody::Fixture& fixture) {
-  scenery_.push_back({&fixture, owners_});
-  mjcf_.add_scenery(fixture, owners_++);
+void MujocoWorld::add_static_body(const multibody::ExternalBody& body) {
+  static_bodies_.push_back({&body, owners_});
+  mjcf_.add_static_body(body, owners_++);
 }
 
-void MujocoWorld::add_obstacle(const multibody::Fixture& fixture, const multibody::FixtureState& state) {
-  obstacles_.push_back({&fixture, &state, owners_});
-  mjcf_.add_obstacle(fixture, owners_++);
+void MujocoWorld::add_kinematic_body(const multibody::ExternalBody& body, const multibody::ExternalBodyState& state) {
+  kinematic_bodies_.push_back({&body, &state, owners_});
+  mjcf_.add_kinematic_body(body, owners_++);
 }
 
 void MujocoWorld::add_robot(const multibody::RobotModel& model, multibody::RobotState& state) {
@@ -33,9 +33,9 @@ void MujocoWorld::add_robot(const multibody::RobotModel& model, multibody::Robot
 
 void MujocoWorld::complete() {
   int shapes = 0, joints = 0;
-  for (const Robot& r : robots_) {
-    joints += int(r.model().parts.size());
-    for (const multibody::Part& p : r.model().parts) shapes += int(p.shapes.size());
+  for (const MujocoRobot& r : robots_) {
+    joints += int(r.model().bodies.size());
+    for (const multibody::RigidBody& p : r.model().bodies) shapes += int(p.shapes.size());
   }
   const int contacts = shapes + 20;
   model_ = compile(mjcf_.text(settings_, {contacts, 2 * joints + 3 * contacts}));
@@ -47,51 +47,51 @@ void MujocoWorld::complete() {
   model_->opt.tolerance = settings_.tolerance;
   model_->opt.impratio = settings_.friction_ratio;
   contacts_.prepare(settings_, std::size_t(model_->ngeom));
-  drives_.resize(std::size_t(model_->nv));
-  wanted_.resize(std::size_t(model_->nv));
-  find_bodies();
-  make_room();
+  dof_owners_.resize(std::size_t(model_->nv));
+  target_velocities_.resize(std::size_t(model_->nv));
+  find_indices();
+  allocate_data();
 }
 
-void MujocoWorld::find_bodies() {
+void MujocoWorld::find_indices() {
   const mjModel& m = *model_;
-  const auto body_of = [&](const std::string& name, std::size_t owner) {
+  const auto body_index = [&](const std::string& name, std::size_t owner) {
     return mj_name2id(&m, mjOBJ_BODY, Mjcf::body_name(name, owner, 0).c_str());
   };
-  const auto mark = [&](int geom, const multibody::PartShape& s) -> Owner& {
-    Owner& o = contacts_.owner_of(geom);
-    o.body = s.body;
-    o.friction = s.shape.friction;
-    o.restitution = s.shape.restitution;
-    return o;
+  const auto set_owner = [&](int geom, const multibody::BodyShape& s) -> GeomOwner& {
+    GeomOwner& owner = contacts_.owner_of(geom);
+    owner.loaded_link = s.loaded_link;
+    owner.friction = s.shape.friction;
+    owner.restitution = s.shape.restitution;
+    return owner;
   };
-  for (const Scenery& s : scenery_) {
-    const std::string name = Mjcf::body_name(s.fixture->name, s.owner, 0);
-    for (std::size_t k = 0; k < s.fixture->shapes.size(); ++k)
-      mark(mj_name2id(&m, mjOBJ_GEOM, Mjcf::geom_name(name, k).c_str()), s.fixture->shapes[k]);
+  for (const StaticBody& s : static_bodies_) {
+    const std::string name = Mjcf::body_name(s.body->name, s.owner, 0);
+    for (std::size_t k = 0; k < s.body->shapes.size(); ++k)
+      set_owner(mj_name2id(&m, mjOBJ_GEOM, Mjcf::geom_name(name, k).c_str()), s.body->shapes[k]);
   }
-  for (Obstacle& o : obstacles_) {
-    o.body = body_of(o.fixture->name, o.owner);
-    o.mocap = m.body_mocapid[o.body];
-    int geom = m.body_geomadr[o.body];
-    for (const multibody::PartShape& s : o.fixture->shapes)
+  for (KinematicBody& k : kinematic_bodies_) {
+    k.index = body_index(k.body->name, k.owner);
+    k.mocap = m.body_mocapid[k.index];
+    int geom = m.body_geomadr[k.index];
+    for (const multibody::BodyShape& s : k.body->shapes)
       if (has_geom(s)) {
-        Owner& owner = mark(geom++, s);
-        owner.pose = &o.state->pose;
-        owner.twist = &o.state->twist;
+        GeomOwner& owner = set_owner(geom++, s);
+        owner.pose = &k.state->pose;
+        owner.twist = &k.state->twist;
       }
   }
   for (std::size_t i = 0; i < robots_.size(); ++i) {
-    Robot& r = robots_[i];
-    r.find(*model_);
-    for (std::size_t k = 0; k < r.model().parts.size(); ++k) {
-      if (k > 0) drives_[std::size_t(r.dof(k))] = {i, k};
+    MujocoRobot& r = robots_[i];
+    r.find_indices(*model_);
+    for (std::size_t k = 0; k < r.model().bodies.size(); ++k) {
+      if (k > 0) dof_owners_[std::size_t(r.dof(k))] = {i, k};
       int geom = m.body_geomadr[r.body(k)];
-      for (const multibody::PartShape& s : r.model().parts[k].shapes)
+      for (const multibody::BodyShape& s : r.model().bodies[k].shapes)
         if (has_geom(s)) {
-          Owner& owner = mark(geom++, s);
+          GeomOwner& owner = set_owner(geom++, s);
           owner.robot = std::int32_t(i);
-          owner.part = std::uint32_t(k);
+          owner.body = std::uint32_t(k);
           if (!r.model().fixed_base) continue;
           owner.pose = &r.state().pose;
           owner.twist = &r.state().twist;
@@ -101,12 +101,12 @@ void MujocoWorld::find_bodies() {
 }
 
 /// Data as big as the model says. Nothing in it outlasts a step.
-void MujocoWorld::make_room() {
+void MujocoWorld::allocate_data() {
   mjModel& m = *model_;
   const double n = m.nv, rows = m.njmax, bodies = m.nbody;
   double stack = 3 * n * n + bodies * bodies + 40 * (rows + n + bodies) + 1000;
   if (settings_.solver == mjSOL_PGS) stack += 4 * rows * (n + rows);
-  m.nstack = int(std::min(stack * stack_factor_, double(largest_stack)));
+  m.nstack = int(std::min(stack * stack_factor_, double(max_stack)));
   data_.reset();
   data_ = make_data(m);
 }
@@ -115,15 +115,15 @@ void MujocoWorld::make_room() {
 void MujocoWorld::advance(double dt) {
   if (model_->nv == 0) return;
   while (true) {
-    if (dt != dt_) set_step(dt);
-    for (Obstacle& o : obstacles_) import(o);
-    for (Robot& r : robots_) r.import(*model_, *data_, wanted_);
+    if (dt != dt_) set_time_step(dt);
+    for (KinematicBody& k : kinematic_bodies_) import(k);
+    for (MujocoRobot& r : robots_) r.import(*model_, *data_, target_velocities_);
     try {
       step();
-    } catch (const EngineError& e) {
-      if (e.text != "Stack overflow" || model_->nstack >= largest_stack) throw Error("MuJoCo: " + e.text);
+    } catch (const LibraryError& e) {
+      if (e.text != "Stack overflow" || model_->nstack >= max_stack) throw Error("MuJoCo: " + e.text);
       stack_factor_ *= 2;
-      make_room();
+      allocate_data();
       continue;
     }
     const mjWarningStat* warnings = data_->warning;
@@ -132,33 +132,33 @@ void MujocoWorld::advance(double dt) {
     if (!warnings[mjWARN_CONTACTFULL].number && !warnings[mjWARN_CNSTRFULL].number) break;
     model_->njmax += 3 * model_->nconmax;
     model_->nconmax *= 2;
-    make_room();
+    allocate_data();
   }
-  for (Robot& r : robots_) r.export_state(*data_);
+  for (MujocoRobot& r : robots_) r.export_state(*data_);
   contacts_.export_wrenches(*data_, robots_);
 }
 
-void MujocoWorld::set_step(double dt) {
+void MujocoWorld::set_time_step(double dt) {
   dt_ = dt;
   model_->opt.timestep = dt;
-  for (Robot& r : robots_) r.set_step(*model_, dt);
+  for (MujocoRobot& r : robots_) r.set_time_step(*model_, dt);
   mj_setConst(model_.get(), data_.get());
 }
 
-void MujocoWorld::import(Obstacle& o) {
-  const bool present = o.state->presence == Presence::obstacle;
-  if (present != o.present) {
-    o.present = present;
-    const int first = model_->body_geomadr[o.body];
-    std::fill_n(model_->geom_contype + first, model_->body_geomnum[o.body], present ? unmoved : 0);
+void MujocoWorld::import(KinematicBody& k) {
+  const bool enabled = k.state->motion_type == MotionType::kinematic;
+  if (enabled != k.enabled) {
+    k.enabled = enabled;
+    const int first = model_->body_geomadr[k.index];
+    std::fill_n(model_->geom_contype + first, model_->body_geomnum[k.index], enabled ? fixed_bit : 0);
   }
-  const Quat& q = o.state->pose.orientation;
-  const mjtNum turn[] = {q.w(), q.x(), q.y(), q.z()};
-  std::copy_n(o.state->pose.position.data(), 3, data_->mocap_pos + 3 * o.mocap);
-  std::copy_n(turn, 4, data_->mocap_quat + 4 * o.mocap);
+  const Quat& q = k.state->pose.orientation;
+  const mjtNum orientation[] = {q.w(), q.x(), q.y(), q.z()};
+  std::copy_n(k.state->pose.position.data(), 3, data_->mocap_pos + 3 * k.mocap);
+  std::copy_n(orientation, 4, data_->mocap_quat + 4 * k.mocap);
 }
 
-/// As mj_step, in its parts.
+/// What mj_step does, call by call.
 void MujocoWorld::step() {
   const mjModel* m = model_.get();
   mjData* d = data_.get();
@@ -171,19 +171,19 @@ void MujocoWorld::step() {
   mj_makeConstraint(m, d);
   mj_projectConstraint(m, d);
   mj_fwdVelocity(m, d);
-  for (Robot& r : robots_) r.set_forces(*d);
+  for (MujocoRobot& r : robots_) r.set_forces(*d);
   mj_fwdActuation(m, d);
   mj_fwdAcceleration(m, d);
   set_references();
-  contacts_.release_sliding(*m, *d, d->qacc_warmstart);
+  contacts_.correct_for_sliding(*m, *d, d->qacc_warmstart);
   for (int i = 0;; ++i) {
     mj_fwdConstraint(m, d);
-    if (i == settings_.refinements || contacts_.release_sliding(*m, *d, d->qacc) < settled) break;
+    if (i == settings_.refinements || contacts_.correct_for_sliding(*m, *d, d->qacc) < sliding_tolerance) break;
   }
   mj_Euler(m, d);
   for (int i = 0; i < d->nefc && d->efc_type[i] == mjCNSTR_FRICTION_DOF; ++i) {
-    const Drive& drive = drives_[std::size_t(d->efc_id[i])];
-    robots_[drive.robot].set_effort(drive.part, d->efc_force[i]);
+    const DofOwner& drive = dof_owners_[std::size_t(d->efc_id[i])];
+    robots_[drive.robot].set_effort(drive.body, d->efc_force[i]);
   }
 }
 
@@ -193,11 +193,11 @@ void MujocoWorld::set_references() {
   if (d.ncon > 0) mj_mulJacVec(model_.get(), &d, d.efc_b, d.qacc_smooth);
   for (int i = 0; i < d.nefc; ++i) switch (d.efc_type[i]) {
       case mjCNSTR_FRICTION_DOF:
-        d.efc_aref[i] = (wanted_[std::size_t(d.efc_id[i])] - d.efc_vel[i]) / dt_;
+        d.efc_aref[i] = (target_velocities_[std::size_t(d.efc_id[i])] - d.efc_vel[i]) / dt_;
         break;
       case mjCNSTR_LIMIT_JOINT: {
-        const double room = d.efc_pos[i];
-        const double speed = -room / (room > 0 ? dt_ : std::max(settings_.time_constant, 2 * dt_));
+        const double distance = d.efc_pos[i];
+        const double speed = -distance / (distance > 0 ? dt_ : std::max(settings_.time_constant, 2 * dt_));
         d.efc_aref[i] = (speed - d.efc_vel[i]) / dt_;
         break;
       }

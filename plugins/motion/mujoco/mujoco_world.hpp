@@ -3,58 +3,58 @@
 
 #include <deque>
 
-#include "contacts.hpp"
-#include "engine.hpp"
 #include "mjcf.hpp"
-#include "robot.hpp"
+#include "mujoco_contacts.hpp"
+#include "mujoco_library.hpp"
+#include "mujoco_robot.hpp"
 
 namespace muro::mujoco {
 
 /// A world of MuJoCo: one model and its data.
 class MujocoWorld final : public multibody::World {
  public:
-  MujocoWorld(const Settings& settings, const Meshes& meshes) : settings_(settings), mjcf_(meshes) {}
+  MujocoWorld(const MujocoSettings& settings, const MujocoMeshes& meshes) : settings_(settings), mjcf_(meshes) {}
 
-  void add_scenery(const multibody::Fixture& fixture) override;
-  void add_obstacle(const multibody::Fixture& fixture, const multibody::FixtureState& state) override;
+  void add_static_body(const multibody::ExternalBody& body) override;
+  void add_kinematic_body(const multibody::ExternalBody& body, const multibody::ExternalBodyState& state) override;
   void add_robot(const multibody::RobotModel& model, multibody::RobotState& state) override;
   void complete() override;
   void advance(double dt) override;
 
  private:
-  struct Scenery {
-    const multibody::Fixture* fixture;
+  struct StaticBody {
+    const multibody::ExternalBody* body;
     std::size_t owner;
   };
-  struct Obstacle {
-    const multibody::Fixture* fixture;
-    const multibody::FixtureState* state;
+  struct KinematicBody {
+    const multibody::ExternalBody* body;
+    const multibody::ExternalBodyState* state;
     std::size_t owner;
-    int body = -1, mocap = -1;
-    bool present = true;
+    int index = -1, mocap = -1;  ///< in the model
+    bool enabled = true;
   };
-  struct Drive {
-    std::size_t robot = 0, part = 0;
+  struct DofOwner {
+    std::size_t robot = 0, body = 0;
   };
 
-  void find_bodies();
-  void set_step(double dt);
-  void make_room();
-  void import(Obstacle& o);
+  void find_indices();
+  void set_time_step(double dt);
+  void allocate_data();
+  void import(KinematicBody& body);
   void step();
   void set_references();
 
-  Settings settings_;
+  MujocoSettings settings_;
   Mjcf mjcf_;
   std::size_t owners_ = 0;
-  std::vector<Scenery> scenery_;
-  std::deque<Obstacle> obstacles_;
-  std::deque<Robot> robots_;
+  std::vector<StaticBody> static_bodies_;
+  std::deque<KinematicBody> kinematic_bodies_;
+  std::deque<MujocoRobot> robots_;
   Model model_;
   Data data_;
-  Contacts contacts_;
-  std::vector<Drive> drives_;   ///< one a degree of freedom
-  std::vector<double> wanted_;  ///< one a degree of freedom: the speed that its drive or friction holds
+  MujocoContacts contacts_;
+  std::vector<DofOwner> dof_owners_;       ///< one per degree of freedom
+  std::vector<double> target_velocities_;  ///< one per degree of freedom: the speed that its drive or friction holds
   double dt_ = 0;
   double stack_factor_ = 1;
 };

@@ -6,8 +6,8 @@
 #include <limits>
 #include <vector>
 
+#include "composite_body.hpp"
 #include "move.hpp"
-#include "moving_mass.hpp"
 #include "muro/simd/rows.hpp"
 #include "rigid_body.hpp"
 
@@ -16,11 +16,11 @@ namespace muro::simplified {
 class Articulation {
  public:
   /// `positions`, `velocities`: of mass.joints().
-  Articulation(MovingMass mass, std::vector<const double*> positions, std::vector<const double*> velocities)
+  Articulation(CompositeBody mass, std::vector<const double*> positions, std::vector<const double*> velocities)
       : mass_(std::move(mass)),
-        places_(std::move(positions)),
-        rate_places_(std::move(velocities)),
-        positions_(places_.size(), std::numeric_limits<double>::quiet_NaN()),
+        position_sources_(std::move(positions)),
+        velocity_sources_(std::move(velocities)),
+        positions_(position_sources_.size(), std::numeric_limits<double>::quiet_NaN()),
         velocities_(positions_) {}
 
   /// To be called before the joints move.
@@ -31,14 +31,14 @@ class Articulation {
   }
 
   /// To be called when the joints have moved. Whether the new state is finite.
-  bool move_base(const Work& work, const RobotState& robot, const Wrench& external) {
+  bool move_base(const BatchParameters& batch, const RobotState& robot, const Wrench& external) {
     update();
     lane::Places<double, double> pose_at{{robot.pose}}, twist_at{{robot.twist}};
     lane::PoseOf<double> pose = lane::load_pose(lane::as_read(pose_at));
     lane::TwistOf<double> twist = lane::load_twist(lane::as_read(twist_at));
     integrator::move_base<true>(pose, twist, plain(external.force), plain(external.torque), plain(before_),
                                 plain(state_), plain(Mat3(0.5 * (inverse_before_ + inverse_))), plain(inverse_),
-                                work.mass->inverse_mass, lane::splat<double>(work.gravity), work.dt);
+                                batch.mass->inverse_mass, lane::splat<double>(batch.gravity), batch.dt);
     lane::store_pose(pose_at, 0, pose);
     lane::store_twist(twist_at, 0, twist);
     const auto all = pose.position + twist.linear + twist.angular;
@@ -57,18 +57,18 @@ class Articulation {
   /// Brings the mass state up to the present joint state, if it is of another one.
   void update() {
     bool same = true;
-    for (std::size_t k = 0; k < places_.size(); ++k) {
-      same = same && positions_[k] == *places_[k] && velocities_[k] == *rate_places_[k];
-      positions_[k] = *places_[k];
-      velocities_[k] = *rate_places_[k];
+    for (std::size_t k = 0; k < position_sources_.size(); ++k) {
+      same = same && positions_[k] == *position_sources_[k] && velocities_[k] == *velocity_sources_[k];
+      positions_[k] = *position_sources_[k];
+      velocities_[k] = *velocity_sources_[k];
     }
     if (same) return;
     state_ = mass_.state(positions_, velocities_);
     inverse_ = state_.tensor.inverse();
   }
 
-  MovingMass mass_;
-  std::vector<const double*> places_, rate_places_;
+  CompositeBody mass_;
+  std::vector<const double*> position_sources_, velocity_sources_;
   std::vector<double> positions_, velocities_;  ///< the joint state that state_ belongs to
   MassState state_, before_;
   Mat3 inverse_ = Mat3::Zero(), inverse_before_ = Mat3::Zero();

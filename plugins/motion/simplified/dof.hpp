@@ -12,8 +12,8 @@ namespace muro::simplified {
 
 using DofState = joints::JointState<double>;
 
-/// What `force` (N m or N) that friction cannot hold is left of it, `friction` >= 0 being the most that it holds.
-inline double beyond(double force, double friction) {
+/// What is left of `force` (N m or N) beyond what friction of at most `friction` >= 0 holds.
+inline double beyond_friction(double force, double friction) {
   return force > 0 ? std::max(force - friction, 0.0) : std::min(force + friction, 0.0);
 }
 
@@ -21,8 +21,8 @@ inline double beyond(double force, double friction) {
 /// and friction those of the end of the step: friction takes what it can and no more, so a joint comes to rest and
 /// stays there. q' = q + (v + v') dt/2, exact for a constant force. Stops are inelastic.
 /// `inertia` > 0: kg m^2 or kg.
-inline DofState pushed(const DofState& s, double force, double inertia, const JointLimits& limits, double dt) {
-  const double momentum = beyond(inertia * s.velocity + force * dt, limits.friction * dt);
+inline DofState integrate_force(const DofState& s, double force, double inertia, const JointLimits& limits, double dt) {
+  const double momentum = beyond_friction(inertia * s.velocity + force * dt, limits.friction * dt);
   const double v = std::clamp(momentum / (inertia + limits.damping * dt), -limits.velocity, limits.velocity);
   const double q = s.position + (s.velocity + v) * (0.5 * dt);
   const double position = std::clamp(q, limits.lower, limits.upper);
@@ -30,25 +30,26 @@ inline DofState pushed(const DofState& s, double force, double inertia, const Jo
 }
 
 /// The drive's effort that brings a joint under `load` (what else acts, N m or N) from velocity `from` to `to` within
-/// `dt`: the inverse of `pushed`; at rest, no more than friction does not hold.
-inline double effort_for(double from, double to, double load, double inertia, const JointLimits& limits, double dt) {
+/// `dt`: the inverse of integrate_force(); at rest, no more than friction does not hold.
+inline double inverse_dynamics(double from, double to, double load, double inertia, const JointLimits& limits,
+                               double dt) {
   const double needed = ((inertia + limits.damping * dt) * to - inertia * from) / dt - load;
-  return to == 0 ? beyond(needed, limits.friction) : needed + std::copysign(limits.friction, to);
+  return to == 0 ? beyond_friction(needed, limits.friction) : needed + std::copysign(limits.friction, to);
 }
 
 /// A drive that follows its target as long as its effort suffices.
 struct Drive {
   Mode mode = Mode::velocity;
-  double target = 0;        ///< of the mode
-  double acceleration = 0;  ///< most, rad/s^2 or m/s^2
+  double target = 0;            ///< of the mode
+  double max_acceleration = 0;  ///< rad/s^2 or m/s^2
 };
 
 /// Follows the drive's target, no stronger than the limit of effort: a load that is too heavy moves the joint.
 /// `effort`: what the drive does, N m or N.
-inline DofState driven(const DofState& s, const Drive& drive, double load, double inertia, const JointLimits& limits,
-                       double dt, double& effort) {
+inline DofState follow_target(const DofState& s, const Drive& drive, double load, double inertia,
+                              const JointLimits& limits, double dt, double& effort) {
   const JointRange range{limits.lower, limits.upper, limits.velocity,
-                         std::min(drive.acceleration, limits.effort / inertia)};
+                         std::min(drive.max_acceleration, limits.effort / inertia)};
   DofState wanted = s;
   if (drive.mode == Mode::velocity)
     joints::follow_velocity(wanted, drive.target, range, dt);
@@ -56,9 +57,9 @@ inline DofState driven(const DofState& s, const Drive& drive, double load, doubl
     joints::follow_position(wanted, drive.target, range, dt);
   else
     joints::follow_acceleration(wanted, drive.target, range, dt);
-  const double needed = effort_for(s.velocity, wanted.velocity, load, inertia, limits, dt);
+  const double needed = inverse_dynamics(s.velocity, wanted.velocity, load, inertia, limits, dt);
   effort = std::clamp(needed, -limits.effort, limits.effort);
-  return effort == needed ? wanted : pushed(s, effort + load, inertia, limits, dt);
+  return effort == needed ? wanted : integrate_force(s, effort + load, inertia, limits, dt);
 }
 
 }  // namespace muro::simplified

@@ -10,35 +10,35 @@ constexpr double h = 1e-3;
 
 TEST(Dof, AConstantForceCarriesItAsInTheTextbook) {
   DofState s{0.3, -1};
-  for (int n = 0; n < 1000; ++n) s = pushed(s, 4, 2, {}, h);
+  for (int n = 0; n < 1000; ++n) s = integrate_force(s, 4, 2, {}, h);
   EXPECT_NEAR(s.velocity, -1 + 2, 1e-12);
   EXPECT_NEAR(s.position, 0.3 - 1 + 1, 1e-12);
 }
 
 TEST(Dof, DampingSlowsItExponentially) {
   DofState s{0, 3};
-  for (int n = 0; n < 1000; ++n) s = pushed(s, 0, 2, {.damping = 5}, h);
+  for (int n = 0; n < 1000; ++n) s = integrate_force(s, 0, 2, {.damping = 5}, h);
   EXPECT_NEAR(s.velocity, 3 * std::exp(-2.5), 3 * std::exp(-2.5) * 2 * 2.5 * h);  // backward Euler: a^2 t h / 2
   EXPECT_NEAR(s.position, 3 * 2 / 5.0 * (1 - std::exp(-2.5)), 2e-3);
 }
 
 TEST(Dof, DampingIsStableHoweverStrong) {
   DofState s{0, 3};
-  for (int n = 0; n < 10; ++n) s = pushed(s, 7, 2, {.damping = 1e9}, h);
+  for (int n = 0; n < 10; ++n) s = integrate_force(s, 7, 2, {.damping = 1e9}, h);
   EXPECT_NEAR(s.velocity, 7e-9, 1e-15);
 }
 
 TEST(Dof, FrictionStopsItAfterTheTextbookWay) {
   DofState s{0, 1.5};
-  for (int n = 0; n < 3000; ++n) s = pushed(s, 0, 2, {.friction = 3}, h);
+  for (int n = 0; n < 3000; ++n) s = integrate_force(s, 0, 2, {.friction = 3}, h);
   EXPECT_NEAR(s.position, 1.5 * 1.5 * 2 / (2 * 3), 1e-9);  // v^2 M / 2 f
   EXPECT_EQ(s.velocity, 0);
 }
 
 TEST(Dof, FrictionHoldsBelowItsLimitAndNotAbove) {
   DofState held{0.1, 0}, moved{0.1, 0};
-  for (int n = 0; n < 1000; ++n) held = pushed(held, -3, 2, {.friction = 3}, h);
-  for (int n = 0; n < 1000; ++n) moved = pushed(moved, -3.2, 2, {.friction = 3}, h);
+  for (int n = 0; n < 1000; ++n) held = integrate_force(held, -3, 2, {.friction = 3}, h);
+  for (int n = 0; n < 1000; ++n) moved = integrate_force(moved, -3.2, 2, {.friction = 3}, h);
   EXPECT_EQ(held.position, 0.1);
   EXPECT_EQ(held.velocity, 0);
   EXPECT_NEAR(moved.velocity, -0.1, 1e-12);
@@ -47,23 +47,23 @@ TEST(Dof, FrictionHoldsBelowItsLimitAndNotAbove) {
 TEST(Dof, StopsDeadAtALimitAndLeavesIt) {
   const JointLimits limits{.lower = -1, .upper = 0.5};
   DofState s{0, 2};
-  for (int n = 0; n < 1000; ++n) s = pushed(s, 1, 2, limits, h);
+  for (int n = 0; n < 1000; ++n) s = integrate_force(s, 1, 2, limits, h);
   EXPECT_EQ(s.position, 0.5);
   EXPECT_EQ(s.velocity, 0);
-  for (int n = 0; n < 1000; ++n) s = pushed(s, -1, 2, limits, h);
+  for (int n = 0; n < 1000; ++n) s = integrate_force(s, -1, 2, limits, h);
   EXPECT_NEAR(s.position, 0.5 - 0.25, 1e-12);
 }
 
 TEST(Dof, IsNoFasterThanItsLimit) {
   DofState s{};
-  for (int n = 0; n < 5000; ++n) s = pushed(s, -9, 2, {.velocity = 3}, h);
+  for (int n = 0; n < 5000; ++n) s = integrate_force(s, -9, 2, {.velocity = 3}, h);
   EXPECT_EQ(s.velocity, -3);
 }
 
 TEST(Dof, AnUndampedSpringKeepsItsEnergyInTheMiddleOfSteps) {
-  // Drift, kick, drift: the force belongs to the middle of the step, as Linkage finds it.
+  // Drift, kick, drift: the force belongs to the middle of the step, as DecoupledDynamics finds it.
   DofState s{1, 0};
-  for (int n = 0; n < 1000000; ++n) s = pushed(s, -25 * (s.position + 0.5 * h * s.velocity), 1, {}, h);
+  for (int n = 0; n < 1000000; ++n) s = integrate_force(s, -25 * (s.position + 0.5 * h * s.velocity), 1, {}, h);
   EXPECT_NEAR(25 * s.position * s.position + s.velocity * s.velocity, 25, 25e-5);
 }
 
@@ -71,11 +71,11 @@ TEST(Dof, TheInverseGivesTheEffortThatMovesItSo) {
   for (const double to : {-2.0, 0.0, 0.7})
     for (const double load : {-8.0, 0.5, 3.0}) {
       const JointLimits limits{.damping = 0.4, .friction = 1};
-      const double effort = effort_for(0.6, to, load, 2, limits, h);
-      EXPECT_NEAR(pushed({0, 0.6}, effort + load, 2, limits, h).velocity, to, 1e-12);
+      const double effort = inverse_dynamics(0.6, to, load, 2, limits, h);
+      EXPECT_NEAR(integrate_force({0, 0.6}, effort + load, 2, limits, h).velocity, to, 1e-12);
     }
-  EXPECT_EQ(effort_for(0, 0, 0.9, 2, {.friction = 1}, h), 0) << "friction holds the load";
-  EXPECT_NEAR(effort_for(0, 0, 3, 2, {.friction = 1}, h), -2, 1e-12);
+  EXPECT_EQ(inverse_dynamics(0, 0, 0.9, 2, {.friction = 1}, h), 0) << "friction holds the load";
+  EXPECT_NEAR(inverse_dynamics(0, 0, 3, 2, {.friction = 1}, h), -2, 1e-12);
 }
 
 TEST(Dof, ADriveAcceleratesByItsEffortAndGivesWayToAHeavyLoad) {
@@ -83,15 +83,15 @@ TEST(Dof, ADriveAcceleratesByItsEffortAndGivesWayToAHeavyLoad) {
   const Drive drive{Mode::velocity, 100, 1000};
   DofState s{};
   double effort = 0;
-  for (int n = 0; n < 1000; ++n) s = driven(s, drive, 0, 2, limits, h, effort);
+  for (int n = 0; n < 1000; ++n) s = follow_target(s, drive, 0, 2, limits, h, effort);
   EXPECT_NEAR(s.velocity, 2, 1e-9);
   EXPECT_NEAR(effort, 4, 1e-9);
   const Drive hold{Mode::position, 0, 1000};
   DofState light{}, heavy{};
-  for (int n = 0; n < 1000; ++n) light = driven(light, hold, 3.9, 2, limits, h, effort);
+  for (int n = 0; n < 1000; ++n) light = follow_target(light, hold, 3.9, 2, limits, h, effort);
   EXPECT_EQ(light.position, 0);
   EXPECT_NEAR(effort, -3.9, 1e-12);
-  for (int n = 0; n < 1000; ++n) heavy = driven(heavy, hold, 5, 2, limits, h, effort);
+  for (int n = 0; n < 1000; ++n) heavy = follow_target(heavy, hold, 5, 2, limits, h, effort);
   EXPECT_NEAR(heavy.velocity, 0.5, 1e-9) << "falls with (5 - 4) / 2";
   EXPECT_EQ(effort, -4);
 }
@@ -103,7 +103,7 @@ TEST(Dof, WithoutALimitOfEffortADriveFollowsAsIfNothingActed) {
   double effort = 0;
   for (int n = 0; n < 400; ++n) {
     joints::follow_position(alone, 0.7, JointRange{.acceleration = 20}, h);
-    loaded = driven(loaded, drive, -55, 2, {.friction = 3}, h, effort);
+    loaded = follow_target(loaded, drive, -55, 2, {.friction = 3}, h, effort);
     ASSERT_EQ(loaded.position, alone.position);
   }
   EXPECT_NEAR(effort, 52, 1e-9);

@@ -2,6 +2,7 @@
 // A vehicle whose wheels are driven by efforts, on the ground of contact.penalty.
 #include <gtest/gtest.h>
 
+#include "muro/toolkit/rotations.hpp"
 #include "tests/support/scene.hpp"
 
 namespace muro {

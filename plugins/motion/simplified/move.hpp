@@ -22,7 +22,7 @@ struct JointRange {
 
 struct Joint {
   JointRange range;
-  /// Where its numbers lie, from those of the robot's first joint (see RobotState).
+  /// Offsets of its numbers from those of the robot's first joint (see RobotState).
   std::ptrdiff_t position = 0, velocity = 0, target = 0;
   int leader = -1;  ///< number of the joint that it follows; -1: follows its own target
   double multiplier = 1, offset = 0;
@@ -51,23 +51,23 @@ struct RobotState {
   const double* targets = nullptr;
 };
 
-/// What the robots of one call have in common.
-struct Work {
+/// What the robots of one call of a kernel have in common.
+struct BatchParameters {
   Mode mode = Mode::velocity;
   const Joint* joints = nullptr;
   int joint_count = 0;
   const RigidMass* mass = nullptr;
-  int wrenches = 1;                        ///< contributions to the wrench of each robot
-  const double* const* further = nullptr;  ///< all but the first of them, robot by robot
-  double gravity[3] = {};                  ///< m/s^2
-  double dt = 0;                           ///< s
+  int wrenches = 1;                                    ///< contributions to the wrench of each robot
+  const double* const* other_contributions = nullptr;  ///< all but the first of them, robot by robot
+  double gravity[3] = {};                              ///< m/s^2
+  double dt = 0;                                       ///< s
 };
 
 /// Each carries up to eight robots over a step: the bits that each of them gets alone.
 struct Kernels {
-  void (*move_joints)(const Work& work, const RobotState* robots, int count);
+  void (*move_joints)(const BatchParameters& batch, const RobotState* robots, int count);
   /// Joints and base. Returns a bit for each robot whose state is no longer finite.
-  unsigned (*move_rigid)(const Work& work, const RobotState* robots, int count);
+  unsigned (*move_rigid)(const BatchParameters& batch, const RobotState* robots, int count);
 };
 MURO_DECLARE_KERNELS(Kernels, kernels)
 

@@ -10,7 +10,7 @@ namespace {
 using namespace lane;
 using joints::JointState;
 
-/// RobotState of as many robots as S has values; without as many, the first stands in.
+/// RobotState of as many robots as S has values; with fewer robots, the first one stands for those that lack.
 template <class S>
 struct States {
   Places<S, double> pose, twist, positions, velocities;
@@ -25,7 +25,7 @@ struct States {
   }
 };
 
-/// Apart, for it needs many registers, and wheels are in no need of it.
+/// A function of its own, since it needs many registers and wheels do not need it.
 template <class S>
 [[gnu::noinline]] void follow_within_limits(Mode mode, JointState<S>& joint, const S& target, const JointRange& range,
                                             double dt) {
@@ -38,44 +38,44 @@ template <class S>
 }
 
 template <class S>
-MURO_INLINE void follow(const Work& work, S& position, S& velocity, S target, const JointRange& range) {
+MURO_INLINE void follow(const BatchParameters& batch, S& position, S& velocity, S target, const JointRange& range) {
   JointState<S> joint{position, velocity};
-  if (work.mode == Mode::velocity && !joints::is_finite(range.lower) && !joints::is_finite(range.upper)) {
+  if (batch.mode == Mode::velocity && !joints::is_finite(range.lower) && !joints::is_finite(range.upper)) {
     joints::follow_velocity(joint, target, JointRange{.speed = range.speed, .acceleration = range.acceleration},
-                            work.dt);
+                            batch.dt);
     position = joint.position, velocity = joint.velocity;
   } else {
     JointState<S> limited = joint;  // has an address; joint need not have one
-    follow_within_limits<S>(work.mode, limited, target, range, work.dt);
+    follow_within_limits<S>(batch.mode, limited, target, range, batch.dt);
     position = limited.position, velocity = limited.velocity;
   }
 }
 
 template <class S>
-MURO_INLINE void move_joints(const Work& work, const States<S>& states, unsigned which) {
+MURO_INLINE void move_joints(const BatchParameters& batch, const States<S>& states, unsigned which) {
   const auto move = [&]<int n>(const Joint* j, std::integral_constant<int, n>) {
     S q[n], v[n], target[n];
     load_rows(as_read(states.positions), j->position, q);
     load_rows(as_read(states.velocities), j->velocity, v);
     load_rows(states.targets, j->target, target);
-    for (int i = 0; i < n; ++i) follow(work, q[i], v[i], target[i], j[i].range);
+    for (int i = 0; i < n; ++i) follow(batch, q[i], v[i], target[i], j[i].range);
     store_rows(states.positions, j->position, q, which);
     store_rows(states.velocities, j->velocity, v, which);
     return n;
   };
   bool leads = false;
-  for (int k = 0; k < work.joint_count;) {
-    const Joint* const j = work.joints + k;
+  for (int k = 0; k < batch.joint_count;) {
+    const Joint* const j = batch.joints + k;
     leads = leads || j->leader >= 0;
     if (j->leader >= 0)
       ++k;
     else
       k += j->four ? move(j, std::integral_constant<int, 4>()) : move(j, std::integral_constant<int, 1>());
   }
-  for (int k = 0; leads && k < work.joint_count; ++k) {
-    const Joint& j = work.joints[k];
+  for (int k = 0; leads && k < batch.joint_count; ++k) {
+    const Joint& j = batch.joints[k];
     if (j.leader < 0) continue;
-    const Joint& leader = work.joints[j.leader];  // follows nobody itself
+    const Joint& leader = batch.joints[j.leader];  // follows nobody itself
     const S factor(j.multiplier);
     const S q[] = {S(j.offset) + factor * load<S>(as_read(states.positions), leader.position)};
     const S v[] = {factor * load<S>(as_read(states.velocities), leader.velocity)};
@@ -91,13 +91,14 @@ MURO_INLINE M3<S> matrix_of(const double* columns) {
 
 /// Force and torque: all contributions, in their order.
 template <class S>
-MURO_INLINE TwistOf<S> wrench_of(const Work& work, const States<S>& states, int count) {
+MURO_INLINE TwistOf<S> wrench_of(const BatchParameters& batch, const States<S>& states, int count) {
   const V3<S> none{S(0), S(0), S(0)};
-  if (work.wrenches == 0) return {none, none};
+  if (batch.wrenches == 0) return {none, none};
   TwistOf<S> sum = load_twist(states.wrench);
-  for (int k = 0; k < work.wrenches - 1; ++k) {
+  for (int k = 0; k < batch.wrenches - 1; ++k) {
     Places<S> at;
-    for (int i = 0; i < count_of<S>; ++i) at.at[i] = work.further[(i < count ? i : 0) * (work.wrenches - 1) + k];
+    for (int i = 0; i < count_of<S>; ++i)
+      at.at[i] = batch.other_contributions[(i < count ? i : 0) * (batch.wrenches - 1) + k];
     const TwistOf<S> one = load_twist(at);
     sum.linear += one.linear, sum.angular += one.angular;
   }
@@ -105,18 +106,18 @@ MURO_INLINE TwistOf<S> wrench_of(const Work& work, const States<S>& states, int 
 }
 
 template <class S>
-unsigned move_some(const Work& work, const RobotState* robots, int count) {
+unsigned move_some(const BatchParameters& batch, const RobotState* robots, int count) {
   const States<S> states(robots, count);
   const unsigned which = first_lanes(count);
-  move_joints(work, states, which);
+  move_joints(batch, states, which);
   PoseOf<S> pose = load_pose(as_read(states.pose));
   TwistOf<S> twist = load_twist(as_read(states.twist));
-  const TwistOf<S> wrench = wrench_of(work, states, count);
+  const TwistOf<S> wrench = wrench_of(batch, states, count);
   const V3<S> none{S(0), S(0), S(0)};
-  const integrator::Mass<S> mass{splat<S>(work.mass->com), none, matrix_of<S>(work.mass->inertia)};
-  const M3<S> inverse = matrix_of<S>(work.mass->inverse);
+  const integrator::Mass<S> mass{splat<S>(batch.mass->com), none, matrix_of<S>(batch.mass->inertia)};
+  const M3<S> inverse = matrix_of<S>(batch.mass->inverse);
   integrator::move_base<false>(pose, twist, wrench.linear, wrench.angular, mass, mass, inverse, inverse,
-                               S(work.mass->inverse_mass), splat<S>(work.gravity), work.dt);
+                               S(batch.mass->inverse_mass), splat<S>(batch.gravity), batch.dt);
   store_pose(states.pose, 0, pose, which);
   store_twist(states.twist, 0, twist, which);
   const V3<S> all = pose.position + twist.linear + twist.angular;
@@ -124,18 +125,18 @@ unsigned move_some(const Work& work, const RobotState* robots, int count) {
   return bits(!(abs(sum) < S(JointRange::infinite))) & which;
 }
 
-void move_joints_of(const Work& work, const RobotState* robots, int count) {
+void move_joints_of(const BatchParameters& batch, const RobotState* robots, int count) {
   in_lanes(count, [&]<class S>(int first, int used) {
-    move_joints(work, States<S>(robots + first, used), first_lanes(used));
+    move_joints(batch, States<S>(robots + first, used), first_lanes(used));
     return 0u;
   });
 }
 
-unsigned move_rigid(const Work& work, const RobotState* robots, int count) {
+unsigned move_rigid(const BatchParameters& batch, const RobotState* robots, int count) {
   return in_lanes(count, [&]<class S>(int first, int used) {
-    Work part = work;
-    if (work.wrenches > 1) part.further += first * (work.wrenches - 1);
-    return move_some<S>(part, robots + first, used);
+    BatchParameters rest = batch;
+    if (batch.wrenches > 1) rest.other_contributions += first * (batch.wrenches - 1);
+    return move_some<S>(rest, robots + first, used);
   });
 }
 

@@ -7,6 +7,7 @@
 
 #include "move.hpp"
 #include "muro/simd/numbers.hpp"
+#include "muro/toolkit/rotations.hpp"
 
 namespace muro::simplified {
 namespace {
@@ -73,23 +74,24 @@ std::vector<Vehicle> team(std::mt19937& random, std::size_t count, double spin) 
 unsigned move(std::vector<Vehicle>& all, lane::Isa isa, int at_once, const std::vector<Joint>& joints,
               Mode mode = Mode::velocity, int wrenches = 1) {
   std::vector<RobotState> states;
-  std::vector<const double*> further;
+  std::vector<const double*> other_contributions;
   for (Vehicle& v : all) {
     states.push_back(v.state());
-    if (wrenches == 2) further.push_back(lane::numbers(&v.second));
+    if (wrenches == 2) other_contributions.push_back(lane::numbers(&v.second));
   }
   unsigned broken = 0;
   const int count = int(all.size());
   for (int k = 0; k < count; k += at_once) {
-    const Work work{.mode = mode,
-                    .joints = joints.data(),
-                    .joint_count = int(joints.size()),
-                    .mass = &mass,
-                    .wrenches = wrenches,
-                    .further = wrenches > 1 ? further.data() + k * (wrenches - 1) : nullptr,
-                    .gravity = {0, 0, -9.81},
-                    .dt = 0.001};
-    broken |= kernels_for(isa).move_rigid(work, &states[std::size_t(k)], std::min(at_once, count - k)) << k;
+    const BatchParameters batch{
+        .mode = mode,
+        .joints = joints.data(),
+        .joint_count = int(joints.size()),
+        .mass = &mass,
+        .wrenches = wrenches,
+        .other_contributions = wrenches > 1 ? other_contributions.data() + k * (wrenches - 1) : nullptr,
+        .gravity = {0, 0, -9.81},
+        .dt = 0.001};
+    broken |= kernels_for(isa).move_rigid(batch, &states[std::size_t(k)], std::min(at_once, count - k)) << k;
   }
   return broken;
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "muro/geometry.hpp"
+#include "muro/toolkit/rotations.hpp"
 
 namespace muro::simplified {
 namespace {

@@ -7,13 +7,13 @@
 #include <string>
 
 #include "articulation.hpp"
-#include "forced_joints.hpp"
-#include "joint_places.hpp"
+#include "force_driven_joints.hpp"
+#include "joint_properties.hpp"
 #include "move.hpp"
 #include "muro/plugin.hpp"
 #include "muro/toolkit/mass_properties.hpp"
 #include "plugins/common/contact_geometry/contact_responsibility.hpp"
-#include "plugins/common/multibody/physical_inertia.hpp"
+#include "plugins/common/multibody/consistent_inertia.hpp"
 
 namespace {
 
@@ -77,26 +77,27 @@ class Simplified final : public Algorithm {
   void connect(Connector& c) override {
     const Parameters& p = c.parameters();
     fixed_ = p.text("base") == "fixed";
-    acceleration_ = p.real("max_joint_acceleration");
+    max_acceleration_ = p.real("max_joint_acceleration");
     gravity_ = c.constant(world_object, keys::gravity).value_or(Vec3(0, 0, -9.81));
     for (const Item& item : c.items()) connect_robot(c, *item.robot);
   }
 
   void start() override {
-    further_.clear();
+    other_contributions_.clear();
     totals_.assign(robots_.size(), Wrench{});
     for (std::size_t i = 0; i < robots_.size(); ++i) {
       Robot& r = robots_[i];
       RobotState& state = layers_[0][i];
-      r.first_further = std::uint32_t(further_.size());
+      r.first_other_contribution = std::uint32_t(other_contributions_.size());
       kinds_[i].wrenches = 0;
-      if (r.forced >= 0) {
+      if (r.force_driven >= 0) {
         kinds_[i].wrenches = 1;
         state.wrench = numbers(&totals_[i]);
       } else if (r.external) {
         kinds_[i].wrenches = std::uint32_t(r.external->size());
         state.wrench = r.external->size() > 0 ? numbers(r.external->contribution(0)) : nullptr;
-        for (std::uint64_t k = 1; k < r.external->size(); ++k) further_.push_back(numbers(r.external->contribution(k)));
+        for (std::uint64_t k = 1; k < r.external->size(); ++k)
+          other_contributions_.push_back(numbers(r.external->contribution(k)));
       }
     }
   }
@@ -117,16 +118,16 @@ class Simplified final : public Algorithm {
     for (std::uint32_t i = range.begin, end = i; i < range.end; i = end) {
       while (end < range.end && end < i + lane_width && kinds_[end] == kinds_[i]) ++end;
       const Model& model = models_[kinds_[i].model];
-      Work work{.mass = &model.mass,
-                .wrenches = int(kinds_[i].wrenches),
-                .further = further_.data() + robots_[i].first_further,
-                .gravity = {gravity_.x(), gravity_.y(), gravity_.z()},
-                .dt = step.dt};
-      if (model.plain) {
-        take_joints(work, model, 0);
-        move_rigid(work, i, end);
+      BatchParameters batch{.mass = &model.mass,
+                            .wrenches = int(kinds_[i].wrenches),
+                            .other_contributions = other_contributions_.data() + robots_[i].first_other_contribution,
+                            .gravity = {gravity_.x(), gravity_.y(), gravity_.z()},
+                            .dt = step.dt};
+      if (model.single_kernel) {
+        set_joints(batch, model, 0);
+        move_rigid(batch, i, end);
       } else {
-        move_in_parts(work, model, i, end);
+        move_by_steps(batch, model, i, end);
       }
     }
   }
@@ -144,9 +145,9 @@ class Simplified final : public Algorithm {
       bool operator==(const Group&) const = default;
     };
     std::vector<Group> groups;
-    bool rigid = true;    ///< no joint moves mass
-    bool forced = false;  ///< forces move joints
-    bool plain = true;    ///< one call of a kernel moves it
+    bool rigid = true;          ///< no joint moves mass
+    bool force_driven = false;  ///< forces drive joints
+    bool single_kernel = true;  ///< one call of a kernel moves it
     bool operator==(const Model&) const = default;
   };
   /// What robots that are moved together have in common.
@@ -159,19 +160,19 @@ class Simplified final : public Algorithm {
     std::optional<SumIn<Wrench>> external;  ///< none: no wrench moves it
     Out<std::uint64_t> contact_world;
     Out<double> twist_lag;
-    std::uint32_t first_further = 0;  ///< in further_
-    std::int32_t articulation = -1;   ///< in articulations_; -1: no joint moves mass
-    std::int32_t forced = -1;         ///< in forced_; -1: no force moves a joint
+    std::uint32_t first_other_contribution = 0;  ///< in other_contributions_
+    std::int32_t articulation = -1;              ///< in articulations_; -1: no joint moves mass
+    std::int32_t force_driven = -1;              ///< in force_driven_; -1: no force drives a joint
     std::string name;
   };
 
   void connect_robot(Connector& c, const RobotView& robot) {
     std::vector<Inertia> inertias = inertias_of(c, robot);
-    for (Inertia& i : inertias) i = made_physical(i).value_or(i);
+    for (Inertia& i : inertias) i = nearest_consistent_inertia(i).value_or(i);
     const std::vector<double> start = initial_joint_positions(c, robot);
-    MovingMass moving(robot.links, inertias, start);
-    const Inertia whole = composite_inertia(robot.links, inertias, start);
-    check_mass(robot, whole);
+    CompositeBody composite(robot.links, inertias, start);
+    const Inertia total = composite_inertia(robot.links, inertias, start);
+    check_mass(robot, total);
 
     Robot r;
     r.name = robot.name;
@@ -181,45 +182,49 @@ class Simplified final : public Algorithm {
     state.pose = numbers(c.variable(robot.base(), keys::pose, pose).get());
     state.twist = numbers(c.variable(robot.base(), keys::twist, fixed_ ? Twist{} : twist).get());
     Model model;
-    model.rigid = moving.rigid();
-    model.mass.inverse_mass = 1 / whole.mass;
-    std::copy_n(whole.com.data(), 3, model.mass.com);
-    const Mat3 inertia = whole.tensor(), inverse = inertia.inverse();
+    model.rigid = composite.rigid();
+    model.mass.inverse_mass = 1 / total.mass;
+    std::copy_n(total.com.data(), 3, model.mass.com);
+    const Mat3 inertia = total.tensor(), inverse = inertia.inverse();
     std::copy_n(inertia.data(), 9, model.mass.inertia);
     std::copy_n(inverse.data(), 9, model.mass.inverse);
-    const std::vector<Place> places = connect_places(c, robot, start, c.parameters().boolean("effort_limits"));
+    const std::vector<JointProperties> properties =
+        connect_joint_properties(c, robot, start, c.parameters().boolean("effort_limits"));
     // Where another motion of the robot asks for the wrenches on links, they do not act on the base.
-    const bool shares = robot.links.size() > 1 && !c.constant_array(robot.base(), keys::motion_level_names).empty();
-    model.forced = shares || std::any_of(places.begin(), places.end(), [](const Place& p) { return p.forced; });
-    if (model.forced) {
-      r.forced = std::int32_t(forced_.size());
-      forced_.emplace_back(c, robot, places, inertias, start,
-                           ForcedJoints::Settings{fixed_, acceleration_, c.parameters().real("armature")});
+    const bool has_levels = robot.links.size() > 1 && !c.constant_array(robot.base(), keys::motion_level_names).empty();
+    model.force_driven = has_levels || std::any_of(properties.begin(), properties.end(),
+                                                   [](const JointProperties& p) { return p.force_driven; });
+    if (model.force_driven) {
+      r.force_driven = std::int32_t(force_driven_.size());
+      force_driven_.emplace_back(
+          c, robot, properties, inertias, start,
+          ForceDrivenJoints::Settings{fixed_, max_acceleration_, c.parameters().real("armature")});
     }
-    if (model.forced || !fixed_) r.external = c.read_sum(robot.base(), keys::external_wrench);
+    if (model.force_driven || !fixed_) r.external = c.read_sum(robot.base(), keys::external_wrench);
     r.contact_world = c.variable(robot.base(), keys::contact_world, contact_world_of(r.external.has_value()));
     r.twist_lag = c.variable(robot.base(), keys::twist_lag, 0.0);
-    connect_groups(robot, places, model, state);
-    model.plain = model.rigid && !model.forced && !fixed_ && model.groups.size() <= 1;
-    if (!moving.rigid()) {
+    connect_groups(robot, properties, model, state);
+    model.single_kernel = model.rigid && !model.force_driven && !fixed_ && model.groups.size() <= 1;
+    if (!composite.rigid()) {
       r.articulation = std::int32_t(articulations_.size());
       std::vector<const double*> positions, velocities;
-      for (const std::uint32_t frame : moving.joints()) {
-        positions.push_back(places[frame].position);
-        velocities.push_back(places[frame].velocity);
+      for (const std::uint32_t link : composite.joints()) {
+        positions.push_back(properties[link].position);
+        velocities.push_back(properties[link].velocity);
       }
-      articulations_.emplace_back(std::move(moving), std::move(positions), std::move(velocities));
+      articulations_.emplace_back(std::move(composite), std::move(positions), std::move(velocities));
     }
     kinds_.push_back({model_number(std::move(model)), 0});
     robots_.push_back(std::move(r));
   }
 
   /// The groups of the model, and a layer of states for each; `state`: of the base.
-  void connect_groups(const RobotView& robot, const std::vector<Place>& places, Model& model, const RobotState& state) {
+  void connect_groups(const RobotView& robot, const std::vector<JointProperties>& properties, Model& model,
+                      const RobotState& state) {
     std::vector<RobotState> states;
     for (const Mode mode : {Mode::velocity, Mode::position, Mode::acceleration}) {
       RobotState of_group = states.empty() ? state : RobotState{};
-      std::vector<Joint> joints = kernel_joints(robot, places, mode, acceleration_, of_group);
+      std::vector<Joint> joints = kernel_joints(robot, properties, mode, max_acceleration_, of_group);
       if (joints.empty()) continue;
       model.groups.push_back({mode, std::move(joints)});
       states.push_back(of_group);
@@ -231,11 +236,11 @@ class Simplified final : public Algorithm {
     }
   }
 
-  static void check_mass(const RobotView& robot, const Inertia& whole) {
+  static void check_mass(const RobotView& robot, const Inertia& total) {
     const std::string name = "`" + std::string(robot.name) + "`";
-    if (!(whole.mass > 0))
+    if (!(total.mass > 0))
       throw Error(name + " has no mass; give its bodies mass and inertia (`inertial`), or move it with motion.point");
-    const Eigen::SelfAdjointEigenSolver<Mat3> principal(whole.tensor());
+    const Eigen::SelfAdjointEigenSolver<Mat3> principal(total.tensor());
     if (!(principal.eigenvalues().minCoeff() > 1e-12 * principal.eigenvalues().maxCoeff()))
       throw Error(name + ": the inertia of all its bodies together has the principal moments " +
                   std::to_string(principal.eigenvalues()[0]) + ", " + std::to_string(principal.eigenvalues()[1]) +
@@ -250,53 +255,53 @@ class Simplified final : public Algorithm {
     return std::uint32_t(models_.size() - 1);
   }
 
-  static void take_joints(Work& work, const Model& model, std::size_t group) {
+  static void set_joints(BatchParameters& batch, const Model& model, std::size_t group) {
     if (group >= model.groups.size()) return;
     const Model::Group& g = model.groups[group];
-    work.mode = g.mode;
-    work.joints = g.joints.data();
-    work.joint_count = int(g.joints.size());
+    batch.mode = g.mode;
+    batch.joints = g.joints.data();
+    batch.joint_count = int(g.joints.size());
   }
 
-  void move_rigid(const Work& work, std::uint32_t begin, std::uint32_t end) const {
-    const unsigned broken = kernels_->move_rigid(work, &layers_[0][begin], int(end - begin));
+  void move_rigid(const BatchParameters& batch, std::uint32_t begin, std::uint32_t end) const {
+    const unsigned broken = kernels_->move_rigid(batch, &layers_[0][begin], int(end - begin));
     if (broken != 0) fail(begin + std::uint32_t(std::countr_zero(broken)));
   }
 
   /// Joints, then bases.
-  void move_in_parts(Work& work, const Model& model, std::uint32_t begin, std::uint32_t end) {
+  void move_by_steps(BatchParameters& batch, const Model& model, std::uint32_t begin, std::uint32_t end) {
     const auto articulation = [&](std::uint32_t i) -> Articulation& {
       return articulations_[std::size_t(robots_[i].articulation)];
     };
     if (!fixed_ && !model.rigid)
       for (std::uint32_t i = begin; i < end; ++i) articulation(i).begin_step();
-    if (model.forced)
-      for (std::uint32_t i = begin; i < end; ++i) move_forced(i, work.dt);
+    if (model.force_driven)
+      for (std::uint32_t i = begin; i < end; ++i) move_force_driven_joints(i, batch.dt);
     for (std::size_t g = 0; g < model.groups.size(); ++g) {
-      take_joints(work, model, g);
-      kernels_->move_joints(work, &layers_[g][begin], int(end - begin));
+      set_joints(batch, model, g);
+      kernels_->move_joints(batch, &layers_[g][begin], int(end - begin));
     }
-    work.joint_count = 0;
+    batch.joint_count = 0;
     if (fixed_) return;
-    if (model.rigid) return move_rigid(work, begin, end);
+    if (model.rigid) return move_rigid(batch, begin, end);
     for (std::uint32_t i = begin; i < end; ++i) {
-      const Wrench external = model.forced ? totals_[i] : robots_[i].external->value();
-      if (!articulation(i).move_base(work, layers_[0][i], external)) fail(i);
+      const Wrench external = model.force_driven ? totals_[i] : robots_[i].external->value();
+      if (!articulation(i).move_base(batch, layers_[0][i], external)) fail(i);
     }
   }
 
-  void move_forced(std::uint32_t i, double dt) {
-    ForcedJoints& joints = forced_[std::size_t(robots_[i].forced)];
+  void move_force_driven_joints(std::uint32_t i, double dt) {
+    ForceDrivenJoints& joints = force_driven_[std::size_t(robots_[i].force_driven)];
     const RobotState& s = layers_[0][i];
     const Pose pose{Vec3(s.pose[0], s.pose[1], s.pose[2]), Quat(s.pose + 3)};
     const Twist twist{Vec3(s.twist[0], s.twist[1], s.twist[2]), Vec3(s.twist[3], s.twist[4], s.twist[5])};
-    totals_[i] = joints.look(pose, twist, gravity_, dt);
+    totals_[i] = joints.evaluate(pose, twist, gravity_, dt);
     if (!joints.move(dt)) fail(i);
   }
 
   [[noreturn]] void fail(std::uint32_t i) const {
     const Robot& r = robots_[i];
-    const Wrench external = r.forced >= 0 ? totals_[i] : r.external ? r.external->value() : Wrench{};
+    const Wrench external = r.force_driven >= 0 ? totals_[i] : r.external ? r.external->value() : Wrench{};
     const bool bad_input = !std::isfinite(external.force.sum() + external.torque.sum());
     throw Error("the motion of `" + r.name + "` is no longer finite" +
                 (bad_input
@@ -306,22 +311,22 @@ class Simplified final : public Algorithm {
   }
 
   bool fixed_ = false;
-  double acceleration_ = 0;
+  double max_acceleration_ = 0;
   Vec3 gravity_ = Vec3::Zero();
   const Kernels* kernels_ = &kernels_for(lane::best_isa());
   std::vector<Model> models_;
-  std::vector<Kind> kinds_;                        ///< one a robot
-  std::array<std::vector<RobotState>, 3> layers_;  ///< by group of joints; one a robot. The first has the base, too
-  std::vector<Robot> robots_;                      ///< the rest of them
-  std::vector<const double*> further_;             ///< contributions to wrenches, but the first of each robot
-  std::vector<Wrench> totals_;                     ///< of robots with forced joints: what acts on them in this step
+  std::vector<Kind> kinds_;                         ///< one per robot
+  std::array<std::vector<RobotState>, 3> layers_;   ///< by group of joints; one per robot. The first has the base, too
+  std::vector<Robot> robots_;                       ///< the rest of them
+  std::vector<const double*> other_contributions_;  ///< contributions to wrenches, all but the first of each robot
+  std::vector<Wrench> totals_;  ///< of robots with force-driven joints: what acts on them in this step
   std::vector<Articulation> articulations_;
-  std::vector<ForcedJoints> forced_;
+  std::vector<ForceDrivenJoints> force_driven_;
 };
 
 constexpr abi::AlgorithmEntry algorithms[] = {algorithm<Simplified>(description)};
 
 }  // namespace
 
-MURO_PLUGIN(.name = "motion_simplified", .version = "1.1.0", .licence = "MIT",
+MURO_PLUGIN(.name = "motion_simplified", .version = description.version, .licence = "MIT",
             .summary = "The simplified dynamics model", .algorithms = algorithms)

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "muro/toolkit/mass_properties.hpp"
+#include "muro/toolkit/rotations.hpp"
 #include "tests/support/bodies.hpp"
 
 namespace muro {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One joint on a base that is fixed to the world, unless said otherwise.
+#include "muro/toolkit/rotations.hpp"
 #include "tests/conformance/motion/case.hpp"
 
 namespace muro::conformance {

@@ -2,6 +2,7 @@
 // Robots that different motions move, and that touch: for every pair of motions by forces.
 #include <gtest/gtest.h>
 
+#include "muro/toolkit/rotations.hpp"
 #include "tests/conformance/motion/case.hpp"
 
 namespace muro::conformance {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Bodies that slide.
+#include "muro/toolkit/rotations.hpp"
 #include "tests/conformance/motion/case.hpp"
 
 namespace muro::conformance {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Vehicles on wheels.
+#include "muro/toolkit/rotations.hpp"
 #include "tests/conformance/motion/case.hpp"
 #include "tests/support/wheeled_robot.hpp"
 

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// What all motions by multi-body engines say of themselves.
+#pragma once
+
+#include "muro/description.hpp"
+#include "muro/features.hpp"
+
+namespace muro::multibody {
+
+inline constexpr PropertyUse reads[] = {
+    {"wrench.external", "of the base and every body with collision shapes"},
+    {"gravity", "on the world object; 0 0 -9.81 when absent"},
+    {"inertial", "of every body"},
+    {"collision.shapes", "of every body in the scene"},
+    {"joint.velocity.target", "of joints in mode velocity"},
+    {"joint.position.target", "of joints in mode position"},
+    {"joint.effort.target", "of joints in mode effort"},
+    {"pose", "of bodies of other robots"},
+    {"twist", "of bodies of other robots"},
+    {"contact.world", "of other robots"},
+    {"pose.initial", "of the base"},
+    {"twist.initial", "of the base"},
+    {"joint.position.initial", "of every joint"},
+};
+inline constexpr PropertyUse writes[] = {
+    {"pose", "of the base"},
+    {"twist", "of the base"},
+    {"joint.position", "of every joint"},
+    {"joint.velocity", "of every joint"},
+    {"joint.effort", "of every joint: what its drive applies"},
+    {"wrench.contact", "of every body with collision shapes"},
+    {"contact.world", "that this world answers for contacts"},
+    {"twist.lag", "0.5: semi-implicit Euler"},
+};
+inline constexpr std::uint32_t capabilities = deterministic | restorable | world;
+inline constexpr Features features =
+    feature_forces | feature_joints | feature_velocity_targets | feature_position_targets | feature_effort_targets |
+    feature_joint_limits | feature_joint_speed_limits | feature_joint_effort_limits | feature_joint_damping |
+    feature_joint_friction | feature_mimic_joints | feature_link_dynamics | feature_gyroscopic | feature_contact |
+    feature_friction | feature_restitution | feature_convex_meshes | feature_fixed_base | feature_self_collision;
+
+/// What a motion by an engine says of itself.
+constexpr Description engine_description(std::string_view id, std::string_view version, std::string_view summary,
+                                         std::span<const Parameter> parameters, Features more_features = 0) {
+  return {.id = id,
+          .kind = Kind::motion,
+          .version = version,
+          .summary = summary,
+          .parameters = parameters,
+          .reads = reads,
+          .writes = writes,
+          .capabilities = capabilities,
+          .features = features | more_features};
+}
+
+}  // namespace muro::multibody

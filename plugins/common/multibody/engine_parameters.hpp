@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// Parameters that all motions by multi-body engines share.
+#pragma once
+
+#include <array>
+
+#include "muro/toolkit/joint_drives.hpp"
+
+namespace muro::multibody {
+
+inline constexpr std::string_view joint_modes[] = {"velocity", "position", "effort", "passive"};
+inline constexpr std::string_view base_modes[] = {"free", "fixed"};
+
+// Of each robot.
+inline constexpr Parameter world_name = text("world", "", "robots that name the same world share it and meet in it");
+inline constexpr Parameter base_mode =
+    text("base", "free", "whether the base is fixed to the world").one_of(base_modes);
+inline constexpr Parameter joint_mode =
+    text("joints", "velocity", "what joints follow that no list below names").one_of(joint_modes);
+inline constexpr Parameter self_collision =
+    boolean("self_collision", false, "whether links of the robot touch each other, but neighbours");
+
+// Of a world: equal for all of its robots.
+inline constexpr Parameter position_gain =
+    real("position_gain", "1/s", 100,
+         "speed of a joint in mode position by its distance to the target, and of mimic joints")
+        .between(1e-3, 1e6);
+inline constexpr Parameter substeps =
+    integer("substeps", 1, "steps of the engine in each step of the motion").between(1, 1000);
+
+// Of worlds whose engines know them.
+inline constexpr std::string_view mesh_modes[] = {"convex", "exact"};
+inline constexpr Parameter scenery_meshes =
+    text("meshes", "convex", "meshes of scenery collide as their convex hulls or as they are").one_of(mesh_modes);
+inline constexpr Parameter correcting_speed =
+    real("correcting_speed", "m/s", 1, "bodies that overlap are parted no faster").between(0, 1e9);
+inline constexpr Parameter bounce_speed =
+    real("bounce_speed", "m/s", 0.02, "impacts slower than this do not rebound").between(0, 1e9);
+
+/// Those of all engines, in the order in which they are shown.
+inline constexpr Parameter common_parameters[] = {
+    world_name,    base_mode,      joint_mode,     velocity_joints, position_joints,
+    effort_joints, passive_joints, self_collision, position_gain,   substeps,
+};
+
+/// The parameters of an engine: those of all engines, then its own.
+template <std::size_t n>
+constexpr std::array<Parameter, std::size(common_parameters) + n> with_common_parameters(const Parameter (&own)[n]) {
+  std::array<Parameter, std::size(common_parameters) + n> all{};
+  std::size_t count = 0;
+  for (const Parameter& p : common_parameters) all[count++] = p;
+  for (const Parameter& p : own) all[count++] = p;
+  return all;
+}
+
+/// Whether robots of one world may differ in it.
+inline bool is_of_robot(std::string_view parameter) {
+  for (const Parameter* p : {&world_name, &base_mode, &joint_mode, &self_collision, &velocity_joints, &position_joints,
+                             &effort_joints, &passive_joints})
+    if (p->name == parameter) return true;
+  return false;
+}
+
+}  // namespace muro::multibody

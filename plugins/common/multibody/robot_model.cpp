@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include "robot_model.hpp"
+
+#include <Eigen/Eigenvalues>
+
+#include "consistent_inertia.hpp"
+#include "muro/toolkit/link_pose.hpp"
+#include "muro/toolkit/mass_properties.hpp"
+
+namespace muro::multibody {
+
+namespace {
+
+/// Raises `inertia` to at least `mass` and the principal moments of a ball of `radius`, and makes it physically
+/// consistent; whether it had to be changed.
+bool regularize(Inertia& inertia, double mass, double radius) {
+  bool changed = false;
+  if (!(inertia.mass >= mass)) {
+    inertia.mass = mass;
+    changed = true;
+  }
+  const double moment = 0.4 * inertia.mass * radius * radius;
+  const Eigen::SelfAdjointEigenSolver<Mat3> principal(inertia.tensor());
+  if (!principal.eigenvalues().allFinite() || principal.eigenvalues().minCoeff() < moment) {
+    Vec3 moments = Vec3::Constant(moment);
+    Mat3 axes = Mat3::Identity();
+    if (principal.eigenvalues().allFinite()) {
+      moments = principal.eigenvalues().cwiseMax(moment);
+      axes = principal.eigenvectors();
+    }
+    inertia = Inertia::from(inertia.mass, inertia.com, axes * moments.asDiagonal() * axes.transpose());
+    changed = true;
+  }
+  const std::optional<Inertia> consistent = nearest_consistent_inertia(inertia);
+  if (consistent) inertia = *consistent;
+  return changed || consistent;
+}
+
+RigidBody body_of(const Link& link, std::uint32_t number, DriveMode mode) {
+  RigidBody body;
+  body.link = number;
+  body.joint = link.joint;
+  body.axis = link.axis;
+  body.limits = link.limits;
+  body.drive = mode;
+  return body;
+}
+
+/// Finds the bodies and where links are in them; returns the placement of each link.
+std::vector<LinkPlacement> add_bodies(RobotModel& model, const RobotView& robot, std::span<const DriveMode> modes,
+                                      std::span<const double> initial_positions) {
+  std::vector<LinkPlacement> placements(robot.links.size());
+  for (std::size_t i = 0; i < robot.links.size(); ++i) {
+    const Link& link = robot.links[i];
+    LinkPlacement& placement = placements[i];
+    if (i > 0 && link.joint == JointKind::fixed) {
+      placement = placements[std::size_t(link.parent)];
+      placement.pose = placement.pose * link.origin;
+      continue;
+    }
+    placement.body = std::uint32_t(model.bodies.size());
+    RigidBody body = body_of(link, std::uint32_t(i), modes[i]);
+    if (i > 0) {
+      const LinkPlacement& parent = placements[std::size_t(link.parent)];
+      body.parent = std::int32_t(parent.body);
+      body.origin = parent.pose * link.origin;
+    }
+    model.bodies.push_back(std::move(body));
+    model.initial_positions.push_back(initial_positions[i]);
+  }
+  return placements;
+}
+
+}  // namespace
+
+Pose pose_in_parent(const RigidBody& body, double position) {
+  Link link;
+  link.joint = body.joint;
+  link.origin = body.origin;
+  link.axis = body.axis;
+  return muro::pose_in_parent(link, position);
+}
+
+RobotModel model_of(const Connector& connector, const RobotView& robot, std::span<const DriveMode> modes,
+                    const MinInertia& min_inertia) {
+  const std::vector<Inertia> inertias = inertias_of(connector, robot);
+  RobotModel model;
+  model.name = robot.name;
+  for (const Inertia& i : inertias) model.mass += i.mass;
+  if (!(model.mass > 0) || !std::isfinite(model.mass))
+    throw Error("`" + model.name +
+                "` has no mass; give its bodies mass and inertia (`inertial`), or move it with motion.point");
+  const std::vector<LinkPlacement> placements =
+      add_bodies(model, robot, modes, initial_joint_positions(connector, robot));
+  for (std::size_t i = 0; i < robot.links.size(); ++i) {
+    const LinkPlacement& placement = placements[i];
+    RigidBody& body = model.bodies[placement.body];
+    body.inertia = body.inertia + inertias[i].in(placement.pose);
+    const auto shapes = connector.constant_array(robot.links[i].object, keys::collision_shapes);
+    for (const Shape& s : shapes) {
+      body.shapes.push_back({s, std::uint32_t(model.loaded_links.size())});
+      body.shapes.back().shape.origin = placement.pose * s.origin;
+    }
+    if (i == 0 || !shapes.empty()) model.loaded_links.push_back({std::uint32_t(i), !shapes.empty(), placement});
+  }
+  for (RigidBody& body : model.bodies) {
+    const Link& link = robot.links[body.link];
+    if (link.mimic >= 0) {
+      body.leader = std::int32_t(placements[std::size_t(link.mimic)].body);
+      body.multiplier = link.mimic_multiplier;
+      body.offset = link.mimic_offset;
+    }
+    if (regularize(body.inertia, min_inertia.mass_fraction * model.mass, min_inertia.radius))
+      model.regularized_links.emplace_back(connector.object_name(link.object));
+  }
+  return model;
+}
+
+}  // namespace muro::multibody

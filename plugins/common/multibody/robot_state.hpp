@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// What passes between the properties of a scene and an engine's world in each step.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "muro/geometry.hpp"
+
+namespace muro::multibody {
+
+/// How a world treats a robot, or a body that is not of the world, at present.
+enum class MotionType : std::uint8_t {
+  dynamic,    ///< the world moves it
+  kinematic,  ///< no force moves it: it pushes and is not pushed
+  disabled,   ///< forces move it elsewhere: contact with it is not resolved here
+};
+
+/// What the drive of a joint is to do in a step.
+struct DriveTarget {
+  bool tracks_velocity = false;  ///< reach `velocity` with an effort of at most `max_effort`; else `effort` acts
+  double velocity = 0;           ///< rad/s or m/s
+  double max_effort = 0;         ///< N m or N; may be infinite
+  double effort = 0;             ///< N m or N
+};
+
+/// State of a body's joint; unused for the base.
+struct JointState {
+  double position = 0;  ///< rad or m, along the axis
+  double velocity = 0;
+  double effort = 0;  ///< out: what the drive applied in the last step
+  DriveTarget target;
+};
+
+/// State of a robot, in and out.
+struct RobotState {
+  MotionType motion_type = MotionType::dynamic;
+  Pose pose;                         ///< of the base
+  Twist twist;                       ///< of the base, at its origin
+  std::vector<JointState> joints;    ///< one per body
+  std::vector<Wrench> external;      ///< in: one per body, at the body's origin, world axes
+  std::vector<Wrench> contact;       ///< out: one per loaded link, at its body's origin: by contacts in the world
+  bool moved_from_outside = false;   ///< in: it is not where the last step left it
+  bool has_external_wrench = false;  ///< in: some `external` is not zero
+  std::span<double> memory;          ///< in and out: what the engine keeps of it, part of the state
+};
+
+/// Pose (world) and twist (at the body's origin, world axes) of a body.
+struct BodyState {
+  Pose pose;
+  Twist twist;
+};
+
+}  // namespace muro::multibody

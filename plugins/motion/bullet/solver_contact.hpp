@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "narrow_phase.hpp"
+
+namespace muro::bullet {
+
+/// A contact point between narrow phase and solver.
+struct SolverContact {
+  const Collider* a = nullptr;  ///< of a dynamic robot
+  const Collider* b = nullptr;
+  ContactPoint point;
+  Vec3 relative_velocity = Vec3::Zero();  ///< m/s: of `a` against `b` at the point at the start of the step
+  Vec3 tangent, bitangent;                ///< unit: directions of friction
+  Vec3 impulse = Vec3::Zero();            ///< N s, on `a`: before solve() the initial guess, then what it found
+  int row = -1;                           ///< in the solver; -1: too far away to act
+};
+
+}  // namespace muro::bullet

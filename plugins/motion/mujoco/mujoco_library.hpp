@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// MuJoCo as a library: who owns what it makes, and its errors as exceptions.
+#pragma once
+
+#include <mujoco/mujoco.h>
+
+#include <memory>
+#include <string>
+
+namespace muro::mujoco {
+
+struct Deleter {
+  void operator()(mjModel* m) const { mj_deleteModel(m); }
+  void operator()(mjData* d) const { mj_deleteData(d); }
+};
+using Model = std::unique_ptr<mjModel, Deleter>;
+using Data = std::unique_ptr<mjData, Deleter>;
+
+/// What MuJoCo calls an error. It would end the process: see catch_errors.
+struct LibraryError {
+  std::string text;
+};
+
+/// From now on errors of MuJoCo in this process throw LibraryError, unless the process has its own handler, and
+/// warnings are neither printed nor written to a file: mjData::warning has them. [any thread]
+void catch_errors();
+
+/// Compiles a model. Throws muro::Error with the compiler's text. [any thread]
+Model compile(const std::string& mjcf);
+
+/// Data for a model. Throws muro::Error when there is no memory for it. [any thread]
+Data make_data(const mjModel& model);
+
+}  // namespace muro::mujoco

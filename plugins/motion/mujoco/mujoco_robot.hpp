@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// A robot in MuJoCo: a tree of bodies in reduced coordinates, whose state is a range of qpos and qvel.
+#pragma once
+
+#include <optional>
+
+#include "mujoco_library.hpp"
+#include "plugins/common/multibody/world.hpp"
+
+namespace muro::mujoco {
+
+/// Inertia (kg, kg m^2) that is added to each degree of freedom of a robot that no force moves: constraints see its
+/// velocity and cannot change it.
+inline constexpr double kinematic_armature = 1e15;
+
+/// Bits of geoms: what forces move touches everything, what they do not move touches only that.
+inline constexpr int dynamic_bit = 1, fixed_bit = 2;
+
+class MujocoRobot {
+ public:
+  /// How many numbers a robot keeps from step to step: accelerations, from which the solver starts.
+  static std::size_t memory_of(const multibody::RobotModel& model) {
+    return model.bodies.size() - 1 + (model.fixed_base ? 0 : 6);
+  }
+
+  MujocoRobot(const multibody::RobotModel& model, multibody::RobotState& state, std::size_t owner)
+      : model_(&model), state_(&state), owner_(owner) {}
+
+  /// Finds its bodies in the compiled model, and puts in what the compiler has changed.
+  void find_indices(mjModel& m);
+  /// Steps take `dt` (s) from now on. Inertia of joints grows by dt times their damping, which makes the damping
+  /// implicit: M a = f - B (v + a dt).
+  void set_time_step(mjModel& m, double dt);
+  /// Takes over state and drive targets. `target_velocities`: for each degree of freedom the speed that its drive or
+  /// friction holds.
+  void import(mjModel& m, mjData& d, std::span<double> target_velocities);
+  /// Forces from outside, when bodies are in their places.
+  void set_forces(mjData& d);
+  /// Hands back what the step made of it.
+  void export_state(const mjData& d);
+  /// What the row of a joint's drive or friction applied.
+  void set_effort(std::size_t number, double effort) { efforts_[number] = effort; }
+  /// Adds a force (N) that acts at `point` (m) on a body of the model.
+  void add_contact(const mjData& d, std::uint32_t body, std::uint32_t loaded_link, const Vec3& force,
+                   const Vec3& point) const;
+
+  const multibody::RobotModel& model() const { return *model_; }
+  const multibody::RobotState& state() const { return *state_; }
+  std::size_t owner() const { return owner_; }
+  /// In the engine, of a body.
+  int body(std::size_t number) const { return bodies_[number]; }
+  int dof(std::size_t number) const { return dofs_[number]; }
+
+ private:
+  void set_motion_type(mjModel& m);
+  void set_state(mjData& d) const;
+  void set_joint(mjModel& m, mjData& d, std::size_t number, std::span<double> target_velocities) const;
+  Vec3 rotated(const mjData& d, std::size_t number, const Vec3& v) const;
+
+  const multibody::RobotModel* model_;
+  multibody::RobotState* state_;
+  std::size_t owner_;
+  int first_dof_ = 0, dof_count_ = 0;           ///< degrees of freedom
+  int base_position_ = 0;                       ///< of a free base, in qpos
+  int mocap_ = -1;                              ///< of a fixed base
+  std::vector<int> bodies_;                     ///< one per body
+  std::vector<int> joints_, positions_, dofs_;  ///< one per body; none for the base
+  std::vector<double> efforts_;                 ///< one per body
+  double dt_ = 0;
+  std::optional<multibody::MotionType> motion_type_;  ///< that the model is set to
+  bool has_forces_ = false;                           ///< forces from outside are set
+};
+
+}  // namespace muro::mujoco

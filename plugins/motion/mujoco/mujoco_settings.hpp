@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "muro/geometry.hpp"
+
+namespace muro::mujoco {
+
+/// What a world of MuJoCo is set to (MuJoCo documentation, chapters Computation and XML reference).
+struct MujocoSettings {
+  Vec3 gravity = Vec3::Zero();   ///< m/s^2
+  int solver = 2;                ///< mjtSolver
+  int iterations = 100;          ///< at most, of the solver
+  double tolerance = 1e-8;       ///< of the solver
+  double time_constant = 0.02;   ///< s: overlap decays by e in it
+  double impedance = 0.95;       ///< of contacts, MuJoCo's d: what part of its demand a constraint gets
+  double friction_ratio = 500;   ///< impratio: by how much friction is harder than the normal direction
+  int refinements = 2;           ///< solutions of a step beyond the first, at most
+  double bounce_speed = 0.02;    ///< m/s: slower impacts do not rebound
+  bool several_contacts = true;  ///< mjENBL_MULTICCD
+};
+
+}  // namespace muro::mujoco

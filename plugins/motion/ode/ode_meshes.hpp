@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+
+#include "plugins/common/multibody/mesh_shapes.hpp"
+#include "plugins/common/ode/ode_library.hpp"
+
+namespace muro::ode {
+
+/// Triangles as ODE takes them. It refers to them, so they stay where they are.
+struct TriangleMesh {
+  explicit TriangleMesh(mesh::Mesh of_file) : mesh(std::move(of_file)), data(dGeomTriMeshDataCreate()) {
+    static_assert(sizeof(mesh::Triangle) == 3 * sizeof(dTriIndex) && sizeof(Vec3) == 3 * sizeof(double));
+    dGeomTriMeshDataBuildDouble(data, mesh.vertices.data(), sizeof(Vec3), int(mesh.vertices.size()),
+                                mesh.triangles.data(), int(3 * mesh.triangles.size()), sizeof(mesh::Triangle));
+  }
+  ~TriangleMesh() { dGeomTriMeshDataDestroy(data); }
+  TriangleMesh(const TriangleMesh&) = delete;
+  TriangleMesh& operator=(const TriangleMesh&) = delete;
+
+  mesh::Mesh mesh;
+  dTriMeshDataID data;
+};
+
+using OdeMeshes = multibody::MeshShapes<std::unique_ptr<TriangleMesh>>;
+
+}  // namespace muro::ode

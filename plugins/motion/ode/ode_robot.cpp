@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: MIT
+#include "ode_robot.hpp"
+
+#include <cmath>
+
+namespace muro::ode {
+
+using multibody::JointState, multibody::RigidBody, multibody::BodyState, multibody::MotionType;
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double min_far_stop = 3;  ///< rad
+
+void set_pose(dBodyID body, const Vec3& centre, const Quat& q) {
+  dQuaternion orientation;
+  copy_quaternion(orientation, q);
+  dBodySetPosition(body, centre.x(), centre.y(), centre.z());
+  dBodySetQuaternion(body, orientation);
+}
+
+void set_velocity(dBodyID body, const Vec3& v, const Vec3& w) {
+  dBodySetLinearVel(body, v.x(), v.y(), v.z());
+  dBodySetAngularVel(body, w.x(), w.y(), w.z());
+}
+
+dReal ode_effort(double max_effort) { return std::isfinite(max_effort) ? max_effort : dInfinity; }
+
+/// `angle` brought to [-pi, pi].
+double wrapped(double angle) { return angle - 2 * M_PI * std::nearbyint(angle / (2 * M_PI)); }
+
+/// ODE normalises what is set, which can change the last bit of what is normalised already.
+bool is_normalized(const dReal* q) {
+  if (q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3] == 1) return true;
+  dQuaternion normalized = {q[0], q[1], q[2], q[3]};
+  dNormalize4(normalized);
+  return std::equal(normalized, normalized + 4, q);
+}
+
+}  // namespace
+
+OdeRobot::OdeRobot(dWorldID world, dSpaceID space, const multibody::RobotModel& model, multibody::RobotState& state,
+                   std::int32_t number, std::deque<GeomOwner>& owners, const OdeMeshes& meshes, bool reactions)
+    : world_(world),
+      space_(space),
+      model_(&model),
+      state_(&state),
+      reactions_(reactions),
+      body_states_(model.bodies.size()) {
+  multibody::RobotState zero;  // joints are made where all of them are at 0
+  zero.joints.resize(model.bodies.size());
+  forward_kinematics(model, zero, body_states_);
+  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
+    add_body(i);
+    for (const multibody::BodyShape& s : model.bodies[i].shapes) {
+      Pose pose = s.shape.origin;
+      pose.position -= bodies_[i].com;
+      const dGeomID geom = create_geom(s.shape, pose, bodies_[i].id, space, meshes);
+      if (!geom) continue;
+      owners.push_back({std::uint32_t(owners.size()), number, std::uint32_t(i), s.loaded_link, s.shape.friction,
+                        s.shape.restitution});
+      dGeomSetData(geom, &owners.back());
+      geoms_.push_back(geom);
+    }
+    if (i > 0) add_joint(i);
+  }
+}
+
+void OdeRobot::add_body(std::size_t number) {
+  const Inertia& inertia = model_->bodies[number].inertia;
+  OdeBody& b = bodies_.emplace_back();
+  b.id = dBodyCreate(world_);
+  b.com = inertia.com;
+  dMass mass;
+  dMassSetParameters(&mass, inertia.mass, 0, 0, 0, inertia.ixx, inertia.iyy, inertia.izz, inertia.ixy, inertia.ixz,
+                     inertia.iyz);
+  dBodySetMass(b.id, &mass);
+  dBodySetFiniteRotationMode(b.id, 1);
+  dBodySetAutoDisableFlag(b.id, 0);
+  if (number == 0 && model_->fixed_base) dBodySetKinematic(b.id);
+  set_pose(b.id, body_states_[number].pose * b.com, body_states_[number].pose.orientation);
+}
+
+void OdeRobot::add_joint(std::size_t number) {
+  const RigidBody& body = model_->bodies[number];
+  OdeBody& b = bodies_[number];
+  const dBodyID parent = bodies_[std::size_t(body.parent)].id;
+  const Vec3 axis = body_states_[number].pose.orientation * body.axis, anchor = body_states_[number].pose.position;
+  const double damping = body.limits.damping;
+  if (body.joint == JointKind::revolute) {
+    b.joint = dJointCreateHinge(world_, nullptr);
+    dJointAttach(b.joint, b.id, parent);
+    dJointSetHingeAnchor(b.joint, anchor.x(), anchor.y(), anchor.z());
+    dJointSetHingeAxis(b.joint, axis.x(), axis.y(), axis.z());
+  } else {
+    b.joint = dJointCreateSlider(world_, nullptr);
+    dJointAttach(b.joint, b.id, parent);
+    dJointSetSliderAxis(b.joint, axis.x(), axis.y(), axis.z());
+  }
+  b.only_rotates = body.joint == JointKind::revolute;
+  if (!b.only_rotates) bodies_[std::size_t(body.parent)].only_rotates = false;
+  // At a stop, the motor of a hinge or slider of ODE gives all its effort whatever the speed: it needs one of its own.
+  if (std::isfinite(body.limits.lower) || std::isfinite(body.limits.upper)) b.drive = create_motor(number, axis);
+  if (damping > 0) {
+    b.damper = create_motor(number, axis);
+    const auto set = body.joint == JointKind::revolute ? &dJointSetAMotorParam : &dJointSetLMotorParam;
+    set(b.damper, dParamFMax, dInfinity);
+    set(b.damper, dParamCFM, 1 / damping);
+  }
+  if (reactions_) dJointSetFeedback(b.drive ? b.drive : b.joint, &b.feedback);
+  b.has_far_stops =
+      body.joint == JointKind::revolute && ((std::isfinite(body.limits.lower) && body.limits.lower < -min_far_stop) ||
+                                            (std::isfinite(body.limits.upper) && body.limits.upper > min_far_stop));
+  if (!b.has_far_stops) set_stops(b, body.joint, body.limits.lower, body.limits.upper);
+}
+
+/// A motor along or about `axis` (world) of the joint of a body.
+dJointID OdeRobot::create_motor(std::size_t number, const Vec3& axis) const {
+  const RigidBody& body = model_->bodies[number];
+  const bool turns = body.joint == JointKind::revolute;
+  const dJointID motor = turns ? dJointCreateAMotor(world_, nullptr) : dJointCreateLMotor(world_, nullptr);
+  dJointAttach(motor, bodies_[number].id, bodies_[std::size_t(body.parent)].id);
+  if (turns) {
+    dJointSetAMotorNumAxes(motor, 1);
+    dJointSetAMotorAxis(motor, 0, 1, axis.x(), axis.y(), axis.z());
+  } else {
+    dJointSetLMotorNumAxes(motor, 1);
+    dJointSetLMotorAxis(motor, 0, 1, axis.x(), axis.y(), axis.z());
+  }
+  return motor;
+}
+
+void OdeRobot::set_motion_type(MotionType motion_type) {
+  if (motion_type == motion_type_) return;
+  motion_type_ = motion_type;
+  for (const dGeomID geom : geoms_) motion_type == MotionType::disabled ? dGeomDisable(geom) : dGeomEnable(geom);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    motion_type == MotionType::disabled ? dBodyDisable(bodies_[i].id) : dBodyEnable(bodies_[i].id);
+    const bool moved = motion_type == MotionType::dynamic && !(i == 0 && model_->fixed_base);
+    moved ? dBodySetDynamic(bodies_[i].id) : dBodySetKinematic(bodies_[i].id);
+  }
+}
+
+void OdeRobot::import() {
+  set_motion_type(state_->motion_type);
+  if (motion_type_ == MotionType::disabled) return;
+  if (motion_type_ == MotionType::kinematic || state_->moved_from_outside)
+    set_bodies_from_state();
+  else if (!bodies_match_memory_)
+    set_bodies_from_memory();
+  bodies_match_memory_ = false;
+  for (Wrench& w : state_->contact) w = Wrench{};
+  if (motion_type_ != MotionType::dynamic) return;
+  set_forces();
+  for (std::size_t i = 1; i < bodies_.size(); ++i) set_drive_target(i);
+}
+
+void OdeRobot::set_bodies_from_state() {
+  forward_kinematics(*model_, *state_, body_states_);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const BodyState& m = body_states_[i];
+    const Vec3 arm = m.pose.orientation * bodies_[i].com;
+    set_pose(bodies_[i].id, m.pose.position + arm, m.pose.orientation);
+    set_velocity(bodies_[i].id, m.twist.at(arm), m.twist.angular);
+  }
+}
+
+/// A step begins with the same bits whether bodies are placed here or have stayed where the last step left them: see
+/// export_state().
+void OdeRobot::set_bodies_from_memory() {
+  const double* m = state_->memory.data();
+  for (const OdeBody& b : bodies_) {
+    set_pose(b.id, vector_of(m), quaternion_of(m + 3));
+    set_velocity(b.id, vector_of(m + 7), vector_of(m + 10));
+    m += numbers;
+  }
+}
+
+void OdeRobot::set_forces() {
+  if (!state_->has_external_wrench) return;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const Wrench& w = state_->external[i];
+    if (w.force.isZero(0) && w.torque.isZero(0)) continue;
+    const Vec3 arm = quaternion_of(dBodyGetQuaternion(bodies_[i].id)) * bodies_[i].com;
+    const Vec3 torque = w.torque - arm.cross(w.force);
+    dBodyAddForce(bodies_[i].id, w.force.x(), w.force.y(), w.force.z());
+    dBodyAddTorque(bodies_[i].id, torque.x(), torque.y(), torque.z());
+  }
+}
+
+void OdeRobot::set_drive_target(std::size_t number) {
+  const RigidBody& body = model_->bodies[number];
+  const multibody::DriveTarget& target = state_->joints[number].target;
+  const bool turns = body.joint == JointKind::revolute;
+  const dJointID joint = bodies_[number].joint, drive = bodies_[number].drive;
+  const double velocity = target.tracks_velocity ? target.velocity : 0;
+  const double max_effort = target.tracks_velocity ? target.max_effort : body.limits.friction;
+  const auto set = drive ? (turns ? &dJointSetAMotorParam : &dJointSetLMotorParam)
+                         : (turns ? &dJointSetHingeParam : &dJointSetSliderParam);
+  if (velocity != bodies_[number].velocity) set(drive ? drive : joint, dParamVel, velocity);
+  if (max_effort != bodies_[number].max_effort) set(drive ? drive : joint, dParamFMax, ode_effort(max_effort));
+  bodies_[number].velocity = velocity;
+  bodies_[number].max_effort = max_effort;
+  if (!target.tracks_velocity && target.effort != 0)
+    turns ? dJointAddHingeTorque(joint, target.effort) : dJointAddSliderForce(joint, target.effort);
+  if (bodies_[number].has_far_stops) set_near_stops(number);
+}
+
+void OdeRobot::set_stops(const OdeBody& body, JointKind kind, double low, double high) {
+  const auto set = kind == JointKind::revolute ? &dJointSetHingeParam : &dJointSetSliderParam;
+  set(body.joint, dParamLoStop, std::isfinite(low) ? low : -dInfinity);
+  set(body.joint, dParamHiStop, std::isfinite(high) ? high : dInfinity);
+  set(body.joint, dParamLoStop, std::isfinite(low) ? low : -dInfinity);  // not taken while it is above the other
+}
+
+/// ODE knows the angle of a hinge up to whole turns: a stop that is farther off than half a turn is set when it is
+/// near.
+void OdeRobot::set_near_stops(std::size_t number) const {
+  const JointLimits& l = model_->bodies[number].limits;
+  const double q = state_->joints[number].position;
+  const auto near = [&](double limit) {
+    return std::isfinite(limit) && std::abs(q - limit) < std::min(1.0, M_PI - std::abs(wrapped(limit)));
+  };
+  set_stops(bodies_[number], JointKind::revolute, near(l.lower) ? wrapped(l.lower) : -infinity,
+            near(l.upper) ? wrapped(l.upper) : infinity);
+}
+
+/// What its joints need: pose and twist of a base and of bodies on sliders, the rotation of the others.
+BodyState OdeRobot::body_state_of(std::size_t number) const {
+  const OdeBody& b = bodies_[number];
+  const double* const memory = state_->memory.data() + numbers * number;
+  BodyState s;
+  s.pose.orientation = quaternion_of(memory + 3);
+  s.twist.angular = vector_of(memory + 10);
+  if (b.only_rotates) return s;
+  const Vec3 arm = s.pose.orientation * b.com;
+  s.pose.position = vector_of(memory) - arm;
+  s.twist.linear = vector_of(memory + 7) - s.twist.angular.cross(arm);
+  return s;
+}
+
+void OdeRobot::export_state(double dt) {
+  if (motion_type_ != MotionType::dynamic) return;
+  double* m = state_->memory.data();
+  for (const OdeBody& b : bodies_) {
+    std::copy_n(dBodyGetPosition(b.id), 3, m);
+    std::copy_n(dBodyGetQuaternion(b.id), 4, m + 3);
+    if (!is_normalized(m + 3)) dBodySetQuaternion(b.id, m + 3);
+    std::copy_n(dBodyGetLinearVel(b.id), 3, m + 7);
+    std::copy_n(dBodyGetAngularVel(b.id), 3, m + 10);
+    m += numbers;
+  }
+  bodies_match_memory_ = true;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) body_states_[i] = body_state_of(i);
+  if (!model_->fixed_base) {
+    state_->pose = body_states_[0].pose;
+    state_->twist = body_states_[0].twist;
+  }
+  for (std::size_t i = 1; i < bodies_.size(); ++i) export_joint(i, dt);
+}
+
+void OdeRobot::export_joint(std::size_t number, double dt) {
+  const RigidBody& body = model_->bodies[number];
+  const BodyState &child = body_states_[number], &parent = body_states_[std::size_t(body.parent)];
+  JointState& joint = state_->joints[number];
+  const Vec3 axis = child.pose.orientation * body.axis;
+  const OdeBody& b = bodies_[number];
+  const Vec3 force = vector_of(b.feedback.f1), torque = vector_of(b.feedback.t1);
+  if (body.joint == JointKind::revolute) {
+    const Quat rotation = (parent.pose.orientation * body.origin.orientation).conjugate() * child.pose.orientation;
+    const double angle = 2 * std::atan2(rotation.vec().dot(body.axis), rotation.w());
+    const double expected = joint.position + dt * joint.velocity;
+    joint.position = expected + wrapped(angle - expected);
+    joint.velocity = axis.dot(child.twist.angular - parent.twist.angular);
+    if (reactions_) joint.effort = axis.dot(torque + Vec3(child.pose.orientation * b.com).cross(force));
+  } else {
+    const Vec3 zero = parent.pose * body.origin.position;  // where the child is with the joint at 0
+    joint.position = axis.dot(child.pose.position - zero);
+    joint.velocity = axis.dot(child.twist.linear - parent.twist.at(child.pose.position - parent.pose.position));
+    joint.effort = axis.dot(force);
+  }
+  if (!joint.target.tracks_velocity) joint.effort = joint.target.effort;
+}
+
+void OdeRobot::add_contact(const GeomOwner& owner, const Vec3& force, const Vec3& torque) {
+  const OdeBody& b = bodies_[owner.body];
+  const Vec3 arm = quaternion_of(dBodyGetQuaternion(b.id)) * b.com;
+  Wrench& sum = state_->contact[owner.loaded_link];
+  sum.add_force(force, arm);
+  sum.torque += torque;
+}
+
+}  // namespace muro::ode

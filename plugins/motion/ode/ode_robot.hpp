@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// A robot in ODE: one body for each rigid body, one hinge or slider for each joint.
+#pragma once
+
+#include <deque>
+
+#include "geoms.hpp"
+
+namespace muro::ode {
+
+class OdeRobot {
+ public:
+  /// How many numbers a robot keeps from step to step: poses and velocities of its bodies.
+  static std::size_t memory_of(const multibody::RobotModel& model) { return numbers * model.bodies.size(); }
+
+  /// `space`: for its geoms. `owners`: those of all geoms of the world, to which it adds its own.
+  OdeRobot(dWorldID world, dSpaceID space, const multibody::RobotModel& model, multibody::RobotState& state,
+           std::int32_t number, std::deque<GeomOwner>& owners, const OdeMeshes& meshes, bool reactions);
+
+  /// Places bodies and sets forces and drives for a step.
+  void import();
+  /// Takes over what the step made of it.
+  void export_state(double dt);
+  /// Adds what a contact did to the body that `owner` names: force (N) and torque (N m) about its centre of mass.
+  void add_contact(const GeomOwner& owner, const Vec3& force, const Vec3& torque);
+
+  const multibody::RobotModel& model() const { return *model_; }
+  multibody::MotionType motion_type() const { return motion_type_; }
+  dSpaceID space() const { return space_; }
+  const std::vector<dGeomID>& geoms() const { return geoms_; }
+
+ private:
+  static constexpr std::size_t numbers = 13;  ///< of a body: position, orientation, velocity, spin
+
+  struct OdeBody {
+    dBodyID id = nullptr;
+    Vec3 com = Vec3::Zero();              ///< in the frame of the body
+    dJointID joint = nullptr;             ///< that moves it; none for the base
+    dJointID drive = nullptr;             ///< of a joint with stops; none: `joint` drives itself
+    dJointID damper = nullptr;            ///< none where the model has no damping
+    double velocity = 0, max_effort = 0;  ///< what the drive was told last
+    bool only_rotates = false;            ///< on a hinge, and carries no slider: its position is not asked for
+    bool has_far_stops = false;           ///< see set_near_stops
+    dJointFeedback feedback{};            ///< of what drives the joint
+  };
+
+  void add_body(std::size_t body);
+  void add_joint(std::size_t body);
+  dJointID create_motor(std::size_t body, const Vec3& axis) const;
+  void set_motion_type(multibody::MotionType motion_type);
+  void set_bodies_from_state();
+  void set_bodies_from_memory();
+  void set_forces();
+  void set_drive_target(std::size_t body);
+  static void set_stops(const OdeBody& body, JointKind kind, double low, double high);
+  void set_near_stops(std::size_t body) const;
+  multibody::BodyState body_state_of(std::size_t body) const;
+  void export_joint(std::size_t body, double dt);
+
+  dWorldID world_;
+  dSpaceID space_;
+  const multibody::RobotModel* model_;
+  multibody::RobotState* state_;
+  bool reactions_;  ///< whether efforts of drives are found out
+  multibody::MotionType motion_type_ = multibody::MotionType::dynamic;
+  std::deque<OdeBody> bodies_;        ///< one per body
+  bool bodies_match_memory_ = false;  ///< they are where the memory says
+  std::vector<dGeomID> geoms_;
+  std::vector<multibody::BodyState> body_states_;
+};
+
+}  // namespace muro::ode

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// Centre of mass and inertia of a robot as its joints move.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "muro/robot.hpp"
+
+namespace muro::simplified {
+
+/// The whole robot as one body, in the frame of its base.
+struct MassState {
+  Vec3 com = Vec3::Zero();           ///< m
+  Vec3 com_velocity = Vec3::Zero();  ///< m/s, relative to the base: what the moving joints do to the centre
+  Mat3 tensor = Mat3::Zero();        ///< kg m^2, about the centre
+};
+
+/// Whether turning about `axis` (unit, through the origin of its frame) leaves the centre of mass and the inertia of a
+/// body as they are. Models state both with few digits, hence the margins: 1 um, and 1e-6 of the inertia.
+bool balanced(const Inertia& body, const Vec3& axis);
+
+/// The links of a robot as one composite body: joined to as few rigid groups as its moving masses allow.
+///
+/// A joint that turns a subtree about an axis on which the subtree's centre of mass lies and about which its
+/// inertia is symmetric (a wheel) changes nothing and opens no group. A vehicle is one group.
+class CompositeBody {
+ public:
+  /// `inertias`, `start`: one per link, the joint positions (rad or m) at the start. Positions of joints that open no
+  /// group do not matter later.
+  CompositeBody(std::span<const Link> links, std::span<const Inertia> inertias, std::span<const double> start);
+
+  double mass() const { return mass_; }
+  /// Whether no joint moves centre or inertia.
+  bool rigid() const { return groups_.size() == 1; }
+  /// Links whose joint moves mass, in the order in which `state` wants them.
+  std::span<const std::uint32_t> joints() const { return joints_; }
+  /// `positions`, `velocities`: of `joints()`. Does not allocate.
+  MassState state(std::span<const double> positions, std::span<const double> velocities);
+
+ private:
+  struct Group {
+    std::uint32_t parent = 0;  ///< always smaller than its own number
+    Link joint;                ///< `origin` in the frame of the parent group
+    Inertia inertia;           ///< in the group's frame
+    Pose in_base;
+    Twist motion;  ///< relative to the base, its axes, at the group's origin
+  };
+  double mass_ = 0;
+  std::vector<Group> groups_;
+  std::vector<std::uint32_t> joints_;
+};
+
+}  // namespace muro::simplified

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// What acts on the joints of a robot: their inertias, and the forces along them.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "muro/handles.hpp"
+#include "muro/robot.hpp"
+
+namespace muro::simplified {
+
+/// The dynamics of each joint of a robot, as if all other joints were locked.
+///
+/// A joint and the mimic joints that follow it are one degree of freedom. It has the kinetic energy M q'^2 / 2 of all
+/// bodies that it moves (composite rigid bodies: Featherstone, Rigid Body Dynamics Algorithms, Section 6.2, the
+/// diagonal of the joint-space inertia matrix), and the generalized force Q: the power of all that acts on these
+/// bodies, for q' = 1. That is wrenches, gravity, and the inertia of the bodies in the base's frame, which the sum of
+/// wrenches accelerates. A free base gives way to a joint as far as its centre of mass does not move: M loses P^2 / m,
+/// with P the momentum for q' = 1 (the angular part is left out: a swinging arm does not turn the trunk). Velocity
+/// terms between joints and off-diagonal inertias are left out.
+class DecoupledDynamics {
+ public:
+  /// Of one degree of freedom.
+  struct Dof {
+    std::uint32_t link = 0;  ///< of its joint
+    double inertia = 0;      ///< kg m^2 or kg
+    double force = 0;        ///< N m or N: all but the drive and what the joint itself holds back
+  };
+  /// `inertias`: one per link. `dofs`: links whose joints they are, none of them a mimic.
+  DecoupledDynamics(std::span<const Link> links, std::span<const Inertia> inertias, std::span<const std::uint32_t> dofs,
+                    bool fixed_base);
+
+  void add_wrench(std::uint32_t link, SumIn<Wrench> wrench);
+
+  /// `pose`, `twist`: of the base; `positions` (rad or m): one per link, 0 for fixed joints; `gravity` in world axes.
+  /// Fills `dofs` and returns the sum of all wrenches, as one on the base. Does not allocate.
+  Wrench update(const Pose& pose, const Twist& twist, std::span<const double> positions, const Vec3& gravity);
+  std::span<const Dof> dofs() const { return dofs_; }
+
+ private:
+  /// Links that fixed joints hold together, behind the joint that moves them. Vectors in axes of the base, from its
+  /// origin.
+  struct Body {
+    std::int32_t parent = -1;
+    std::uint32_t link = 0;             ///< the first
+    Link joint;                         ///< `origin` in the frame of the parent body
+    Inertia inertia;                    ///< in the body's frame
+    bool has_constant_inertia = false;  ///< no joint moves its masses: it is the base, or a wheel on it
+    Pose pose_in_base;
+    Vec3 axis = Vec3::Zero(), centre = Vec3::Zero();
+    Mat3 tensor = Mat3::Zero();                          ///< about the centre
+    Vec3 force = Vec3::Zero(), torque = Vec3::Zero();    ///< all that acts, about the centre
+    Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();  ///< at its origin, for q' = 1 of the joint at hand
+  };
+  /// A body that a degree of freedom moves.
+  struct MovedBody {
+    std::uint32_t body = 0;
+    std::int32_t carrier = -1;  ///< body that it hangs on, if that one moves, too
+    double rate = 0;            ///< of its own joint for q' = 1
+  };
+  struct AppliedWrench {
+    std::uint32_t body = 0;
+    Vec3 origin = Vec3::Zero();  ///< m, in the body's frame
+    SumIn<Wrench> wrench;
+  };
+
+  void find_constant_inertias();
+  void update_kinematics(Body& body, double position);
+  void update_composite();
+  void add_inertial_forces(const Vec3& force, const Vec3& torque, const Vec3& spin, const Vec3& gravity);
+  void project_onto(Dof& dof, std::span<const MovedBody> moved);
+
+  bool fixed_base_;
+  double mass_ = 0;
+  bool all_constant_ = true;     ///< all bodies are
+  Vec3 centre_ = Vec3::Zero();   ///< m, of mass of all bodies
+  Mat3 tensor_ = Mat3::Zero();   ///< kg m^2, of all bodies, about centre_
+  Mat3 inverse_ = Mat3::Zero();  ///< of tensor_; for a free base
+  std::vector<Body> bodies_;
+  std::vector<std::uint32_t> body_of_link_;
+  std::vector<Pose> pose_in_body_;  ///< of each link
+  std::vector<Dof> dofs_;
+  std::vector<std::vector<MovedBody>> moved_;  ///< by degree of freedom
+  std::vector<AppliedWrench> wrenches_;
+};
+
+}  // namespace muro::simplified
