@@ -30,9 +30,9 @@ std::optional<std::uint64_t> hash_of(const Slot& slot, std::size_t element_size)
   if (slot.multiplicity == Multiplicity::array && slot.array)
     return hash_bytes(slot.array->data, slot.array->size * element_size, 0);
   if (slot.place) return hash_bytes(slot.place, element_size, 0);
-  if (slot.parts.empty()) return std::nullopt;
+  if (slot.contributions.empty()) return std::nullopt;
   std::uint64_t h = 0;  // A sum is its contributions, one after the other.
-  for (const void* part : slot.parts) h = hash_bytes(part, element_size, h);
+  for (const void* contribution : slot.contributions) h = hash_bytes(contribution, element_size, h);
   return h;
 }
 
