@@ -37,7 +37,7 @@ std::string check_threads(const std::string& text) {
   return fine || text == "all" ? "" : "`" + text + "` is neither `all` nor a number of threads from 1 to 1024";
 }
 
-/// What to say when there is no command, or a word that is none; else nothing.
+/// The message when there is no command, or an unknown one; else empty.
 std::string unknown_command(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::App* c : app.get_subcommands([](const CLI::App*) { return true; })) names.push_back(c->get_name());

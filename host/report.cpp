@@ -95,8 +95,8 @@ Json report(const RunResult& run, const Simulation& simulation, const Odometer& 
                               {"motion", s.motion},
                               {"distance_m", s.distance},
                               {"angle_rad", s.angle},
-                              {"greatest_distance_m", s.greatest_distance},
-                              {"greatest_angle_rad", s.greatest_angle}});
+                              {"max_distance_m", s.max_distance},
+                              {"max_angle_rad", s.max_angle}});
   out["algorithms"] = algorithms_report(run, simulation);
   return out;
 }

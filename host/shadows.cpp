@@ -36,8 +36,8 @@ std::vector<ShadowResult> shadow_results(const Simulation& s) {
     }
     r.distance = value(s, *robot, "shadow.distance");
     r.angle = value(s, *robot, "shadow.angle");
-    r.greatest_distance = value(s, *robot, "shadow.distance.max");
-    r.greatest_angle = value(s, *robot, "shadow.angle.max");
+    r.max_distance = value(s, *robot, "shadow.distance.max");
+    r.max_angle = value(s, *robot, "shadow.angle.max");
     all.push_back(std::move(r));
   }
   return all;

@@ -11,9 +11,9 @@ namespace muro::host {
 /// The deviation of a shadow from its robot in a run.
 struct ShadowResult {
   std::string robot;
-  std::string motion;                                ///< that moved the shadow: "motion.ode"
-  double distance = 0, angle = 0;                    ///< at the end: m, rad
-  double greatest_distance = 0, greatest_angle = 0;  ///< of the run: m, rad
+  std::string motion;                      ///< that moved the shadow: "motion.ode"
+  double distance = 0, angle = 0;          ///< at the end: m, rad
+  double max_distance = 0, max_angle = 0;  ///< over the run: m, rad
 };
 
 /// Of all shadows in the scene.

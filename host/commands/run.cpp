@@ -75,7 +75,7 @@ void print_summary(const RunResult& result, const Simulation& simulation, const 
     fmt::print(
         "{}: its shadow, moved by {}, deviates by {:.4f} m and {:.4f} rad at the end; by at most {:.4f} m and "
         "{:.4f} rad\n",
-        s.robot, s.motion, s.distance, s.angle, s.greatest_distance, s.greatest_angle);
+        s.robot, s.motion, s.distance, s.angle, s.max_distance, s.max_angle);
   fmt::print("state hash {:016x}\n", simulation.state_hash());
   if (const auto ids = nondeterministic_algorithms(simulation); !ids.empty())
     fmt::print("not deterministic: {}; another run may end in another state\n", fmt::join(ids, ", "));

@@ -154,7 +154,7 @@ std::string picture(const Compared& all) {
     const std::optional<Deviation> d = deviation_of(r, all.results[all.reference]);
     if (!d) continue;
     std::string label = r.label;
-    if (per_group > 0) label.erase(0, chart.groups[i / per_group].size() + 3);  // the colour says it
+    if (per_group > 0) label.erase(0, chart.groups[i / per_group].size() + 3);  // the colour shows the group
     chart.points.push_back({label + (i == all.reference ? " (reference)" : ""), 1e3 * (r.cost.varied + r.cost.contact),
                             d->position_rms, per_group > 0 ? i / per_group : 0, i == all.reference});
   }

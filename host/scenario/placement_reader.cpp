@@ -25,7 +25,7 @@ PoseInput read_pose(const Node& node, const std::string& what, Problems& problem
   return pose;
 }
 
-/// What `place:` says.
+/// Reads the value of `place:`.
 Placement read_place(const Node& node, const std::string& what, Problems& problems) {
   Placement p;
   MapReader map(node, "`place` of " + what, problems);

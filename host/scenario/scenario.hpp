@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a scenario file says, before anything is built from it. docs/scenario.md describes the format.
+// The contents of a scenario file, before a simulation is built from them. docs/scenario.md describes the format.
 #pragma once
 
 #include <map>

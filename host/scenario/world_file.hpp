@@ -32,7 +32,7 @@ class WorldFileContents {
 
  private:
   const WorldModel::Model* find(const std::string& name) const;
-  /// `errors_too`: errors are noted as warnings, because nobody depends on the model.
+  /// `errors_too`: errors are noted as warnings, because the scenario does not use the model.
   void note(const std::vector<RobotTree::Problem>& problems, bool errors_too);
   void add_static(const WorldModel::Model& model, std::vector<Obstacle>& obstacles);
   void add(const std::string& name, const Pose& pose, std::vector<Shape> collisions, std::vector<Shape> visuals,

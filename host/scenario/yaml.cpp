@@ -47,7 +47,7 @@ class Loader {
     return text.str();
   }
 
-  /// Replaces every `include: FILE` by what the file holds; what stands beside it wins.
+  /// Replaces every `include: FILE` by the contents of the file; keys beside it override them.
   void include(Node& n) {
     for (auto& [key, value] : n.map) include(value);
     for (Node& e : n.list) include(e);

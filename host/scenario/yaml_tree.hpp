@@ -7,7 +7,7 @@
 
 namespace muro::host {
 
-/// Where a text comes from: lines and columns are part of locations in a file, but not on the command line.
+/// The source of a text: lines and columns are part of locations in a file, but not on the command line.
 struct TextSource {
   std::string name;
   bool is_file;

@@ -119,8 +119,8 @@ TEST(Levels, AShadowTellsWhatTheLevelLeavesOut) {
   ASSERT_EQ(shadows.size(), 1u);
   EXPECT_EQ(shadows[0].robot, "scout");
   EXPECT_EQ(shadows[0].motion, "motion.bullet");
-  EXPECT_GT(shadows[0].greatest_distance, 0.001) << "skidding wheels take another way";
-  EXPECT_LT(shadows[0].greatest_distance, 3);
+  EXPECT_GT(shadows[0].max_distance, 0.001) << "skidding wheels take another way";
+  EXPECT_LT(shadows[0].max_distance, 3);
 }
 
 }  // namespace
