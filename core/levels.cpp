@@ -55,49 +55,59 @@ Levels::~Levels() = default;
 void Levels::prepare(World& world, const std::vector<LevelsOfRobot>& robots,
                      std::span<const std::unique_ptr<Instance>> all) {
   if (robots.empty()) return;
-  PropertyStore& store = world.store();
-  const Accessor accessor = store.add_accessor("the hand-over between motions");
+  const Accessor accessor = world.store().add_accessor("the hand-over between motions");
   for (const LevelsOfRobot& setup : robots) {
     Robot& r = robots_.emplace_back();
     r.view = setup.robot;
     r.first = setup.first;
-    r.movers.resize(setup.names.size());
-    for (const auto& instance : all) {
-      const std::vector<Item>& items = instance->setup().items;
-      for (std::uint32_t i = 0; i < items.size(); ++i)
-        if (instance->description().kind == Kind::motion && items[i].robot == setup.robot) {
-          Mover& mover = r.movers.at(items[i].level);
-          if (mover.instance)
-            throw SetupError(fmt::format("`{}` is moved by {} and by {}; list all of its motions under `levels` of one",
-                                         setup.robot->name, mover.instance->setup().name, instance->setup().name));
-          mover = {instance.get(), i};
-        }
-    }
+    r.movers = movers_of(setup, all);
     std::vector<Accessor> accessors{accessor};
-    for (const Mover& m : r.movers) {
-      if (!m.instance)
-        throw SetupError(
-            fmt::format("`{}` lists {} motions, but not all of them are used", setup.robot->name, setup.names.size()));
-      accessors.push_back(m.instance->accessor());
-    }
+    for (const Mover& m : r.movers) accessors.push_back(m.instance->accessor());
     std::vector<ObjectId> objects;
     for (std::uint32_t i = 0; i < world.object_count(); ++i)
       if (world.robot_of(ObjectId{i}) == std::int32_t(setup.robot->number)) objects.push_back(ObjectId{i});
-    store.let_alternate(objects, accessors);
-
-    const ObjectId base = setup.robot->base();
-    const auto bind = [&](const KeyInfo& key, Usage usage, const void* initial) {
-      return store.bind(accessor, base, key, usage, Multiplicity::single, 1, initial);
-    };
-    const std::int32_t nobody = -1;
-    r.level = static_cast<std::uint32_t*>(bind(keys::motion_level, usage::variable, &setup.first));
-    r.level_slot = store.slots_of(accessor).back();
-    r.target = static_cast<const std::int32_t*>(bind(keys::motion_level_target, usage::input, &nobody));
-    r.target_slot = store.slots_of(accessor).back();
-    std::vector<TextId> names;
-    for (const std::string& name : setup.names) names.push_back(world.intern(name));
-    world.set_array(base, keys::motion_level_names, std::span<const TextId>(names));
+    world.store().let_alternate(objects, accessors);
+    add_properties(world, accessor, setup.names, r);
   }
+}
+
+/// The motions of a robot, by level.
+std::vector<Levels::Mover> Levels::movers_of(const LevelsOfRobot& setup,
+                                             std::span<const std::unique_ptr<Instance>> all) {
+  std::vector<Mover> movers(setup.names.size());
+  for (const auto& instance : all) {
+    if (instance->description().kind != Kind::motion) continue;
+    const std::vector<Item>& items = instance->setup().items;
+    for (std::uint32_t i = 0; i < items.size(); ++i) {
+      if (items[i].robot != setup.robot) continue;
+      Mover& mover = movers.at(items[i].level);
+      if (mover.instance)
+        throw SetupError(fmt::format("`{}` is moved by {} and by {}; list all of its motions under `levels` of one",
+                                     setup.robot->name, mover.instance->setup().name, instance->setup().name));
+      mover = {instance.get(), i};
+    }
+  }
+  for (const Mover& m : movers)
+    if (!m.instance)
+      throw SetupError(
+          fmt::format("`{}` lists {} motions, but not all of them are used", setup.robot->name, setup.names.size()));
+  return movers;
+}
+
+void Levels::add_properties(World& world, Accessor accessor, const std::vector<std::string>& names, Robot& r) {
+  PropertyStore& store = world.store();
+  const ObjectId base = r.view->base();
+  const auto bind = [&](const KeyInfo& key, Usage usage, const void* initial) {
+    return store.bind(accessor, base, key, usage, Multiplicity::single, 1, initial);
+  };
+  const std::int32_t no_target = -1;
+  r.level = static_cast<std::uint32_t*>(bind(keys::motion_level, usage::variable, &r.first));
+  r.level_slot = store.slots_of(accessor).back();
+  r.target = static_cast<const std::int32_t*>(bind(keys::motion_level_target, usage::input, &no_target));
+  r.target_slot = store.slots_of(accessor).back();
+  std::vector<TextId> texts;
+  for (const std::string& name : names) texts.push_back(world.intern(name));
+  world.set_array(base, keys::motion_level_names, std::span<const TextId>(texts));
 }
 
 Levels::Robot* Levels::find(std::int32_t number) {

@@ -73,6 +73,8 @@ class Levels final : public abi::AlgorithmInstance {
   };
   class LevelFilter;
 
+  static std::vector<Mover> movers_of(const LevelsOfRobot& setup, std::span<const std::unique_ptr<Instance>> all);
+  static void add_properties(World& world, Accessor accessor, const std::vector<std::string>& names, Robot& r);
   Robot* find(std::int32_t number);
   const Robot* find(std::int32_t number) const;
 
