@@ -70,7 +70,7 @@ TEST(WrongCommandLine, EndsWithExitCode2AndSaysWhatIsAllowed) {
   }
 }
 
-TEST(WrongCommandLine, AReportThatCannotBeWrittenIsToldBeforeTheRun) {
+TEST(WrongCommandLine, AReportThatCannotBeWrittenIsRefusedBeforeTheRun) {
   const auto result = run_command("cd " MURO_TEST_SOURCE_DIR " && " + muro_program +
                                   " run examples/urban/urban.yaml --duration 1000 --report /nowhere/report.json");
   EXPECT_EQ(result.output,

@@ -64,7 +64,7 @@ TEST(WorldFileOfAScenario, GravityOfTheScenarioGoesBeforeThatOfTheFile) {
   EXPECT_EQ(file.open().simulation->world().value(world_object, keys::gravity), Vec3(0, 0, -1));
 }
 
-TEST(WorldFileOfAScenario, AModelThatNobodyNamesStandsStillAndIsTold) {
+TEST(WorldFileOfAScenario, AModelThatNobodyNamesIsStaticAndReported) {
   const WorldFile file(crate, "world: {file: world.sdf}\n");
   BuiltScenario built = file.open();
   EXPECT_EQ(built.simulation->world().value("crate.body", keys::pose).position, Vec3(1, 2, 0.5));
@@ -131,8 +131,10 @@ TEST(WorldFileOfAScenario, MistakesAreOneMessageWithThePlaceAndExitCode2) {
        "...}`\n"},
       {"<model name='m'><link name='a'/></model>",
        "world: {file: world.sdf}\nrobots: {m: {model: world, at: {x: 1}, count: 2}}\n",
-       "s.yaml:2:47: `count` of robot `m` is not allowed with `model: world`: the world file states the pose of the model\n"
-       "s.yaml:2:32: `at` of robot `m` is not allowed with `model: world`: the world file states the pose of the model\n"},
+       "s.yaml:2:47: `count` of robot `m` is not allowed with `model: world`: the world file states the pose of the "
+       "model\n"
+       "s.yaml:2:32: `at` of robot `m` is not allowed with `model: world`: the world file states the pose of the "
+       "model\n"},
       {"", "robots: {m: {model: world.sdf}}\n",
        "s.yaml:1:21: robot `m`: model world.sdf:1:1: the file holds no <model>; it describes a world: name it under "
        "`world: {file: ...}`\n"},

@@ -134,7 +134,7 @@ void check_table(const muro_controller_table* table, const std::string& path) {
   for (std::uint32_t i = 0; i < table->output_count; ++i)
     if (table->outputs[i].size == 0)
       throw Error(library + ": output " + quote(table->outputs[i].name) +
-                  " has size 0; only inputs may leave their size undefined");
+                  " has size 0; only inputs may leave their size open");
 }
 
 }  // namespace muro::control

@@ -168,7 +168,7 @@ const Parameters loose{
 
 /// Goes to `goal` so slowly that the joint does not coast; returns where the joint comes to rest.
 double creep(Bench& s, double goal) {
-  while (s.goal() != goal) {
+  for (int k = 0; s.goal() != goal && k < 100'000; ++k) {
     s.goal() += std::clamp(goal - s.goal(), -5e-5, 5e-5);
     s.run_for(0.001);
   }

@@ -27,5 +27,5 @@ constexpr abi::ReaderEntry readers[] = {model_reader<SdfReader>(description)};
 
 }  // namespace
 
-MURO_PLUGIN(.name = "reader_sdf", .version = "1.0.0", .licence = "MIT", .summary = "SDFormat models and worlds",
-            .readers = readers)
+MURO_PLUGIN(.name = "reader_sdf", .version = description.version, .licence = "MIT",
+            .summary = "SDFormat models and worlds", .readers = readers)

@@ -90,7 +90,7 @@ TEST(SdfJoints, AFixedJointHoldsTheChild) {
   EXPECT_TRUE(near(robot.pose("b"), b_at_rest));
 }
 
-TEST(SdfJoints, UniversalAndRevolute2AreTwoRevoluteJointsTheFirstOnTheParent) {
+TEST(SdfJoints, UniversalAndRevolute2AreTwoRevoluteJoints) {
   for (const char* type : {"universal", "revolute2"}) {
     const Robot robot = two_links(type, off + axis("1 0 0", "<limit><lower>-1</lower><upper>1</upper></limit>") +
                                             axis("0 1 0", "<limit><lower>-2</lower><upper>2</upper></limit>", "axis2"));

@@ -105,7 +105,7 @@ class JointCheck {
       set(*limit, "effort", no_limit);
       return;
     }
-    for (const char* most : {"velocity", "effort"}) check_most(*limit, most);
+    for (const char* attribute : {"velocity", "effort"}) check_bound(*limit, attribute);
     if (!bounded) {
       const double lower = number(*limit, "lower", owner_, problems_).value_or(0);
       if (lower != 0 || number(*limit, "upper", owner_, problems_).value_or(0) != 0)
@@ -127,7 +127,7 @@ class JointCheck {
     }
   }
 
-  void check_most(Element& limit, const char* attribute) {
+  void check_bound(Element& limit, const char* attribute) {
     const bool given = limit.Attribute(attribute) != nullptr;
     const auto value = number(limit, attribute, owner_, problems_);
     if (value && *value >= 0) {

@@ -24,4 +24,5 @@ constexpr abi::ReaderEntry readers[] = {model_reader<UrdfReader>(description)};
 
 }  // namespace
 
-MURO_PLUGIN(.name = "reader_urdf", .version = "1.0.0", .licence = "MIT", .summary = "URDF models", .readers = readers)
+MURO_PLUGIN(.name = "reader_urdf", .version = description.version, .licence = "MIT", .summary = "URDF models",
+            .readers = readers)

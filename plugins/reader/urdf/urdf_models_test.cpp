@@ -137,8 +137,8 @@ TEST(UrdfModels, EveryExampleIsReadThroughThePluginWithItsMassAndJoints) {
       const ArrayHeader found = scene.world().store().constant(frame.object, keys::inertial);
       if (const auto* inertia = static_cast<const Inertia*>(found.data)) {
         mass += inertia->mass;
-        const double most = std::max({inertia->ixx, inertia->iyy, inertia->izz});
-        EXPECT_GE(inertia->ixx + inertia->iyy + inertia->izz - most, 0.999 * most);
+        const double largest = std::max({inertia->ixx, inertia->iyy, inertia->izz});
+        EXPECT_GE(inertia->ixx + inertia->iyy + inertia->izz - largest, 0.999 * largest);
       }
     }
     EXPECT_NEAR(mass, e.mass, 1e-12);
