@@ -18,7 +18,7 @@ struct Stiffness {
   double omega = 0;  ///< rad/s: of a body with the effective mass on the contact; omega h <= max_phase_step
   double h = 0;      ///< s: length of the step
 };
-/// Up to here, a rebound gains no energy, wherever in the step the bodies meet.
+/// Up to here, a rebound gains no energy, at whatever time in the step the impact is.
 inline constexpr double max_phase_step = 0.6;
 
 namespace law {

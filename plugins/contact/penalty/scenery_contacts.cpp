@@ -211,7 +211,7 @@ void SceneryContacts::process_queue(const StepContext& context, Queue& q) {
   q.count = 0;
 }
 
-/// Numbers contacts by patch: of one piece of scenery, with normals alike. Returns the number of patches.
+/// Numbers contacts by patch: of one object of the scenery, with normals alike. Returns the number of patches.
 int SceneryContacts::sort_into_patches(std::span<const Contact> contacts, std::uint8_t* patch_of) const {
   std::size_t first[max_contacts];  // contact of each patch
   int patches = 0;
