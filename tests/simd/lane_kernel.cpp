@@ -67,7 +67,7 @@ S result(Operation operation, S a, S b, unsigned& which) {
       return a;
     case Operation::broadcast:
       return any(a < b) ? S(Value(-0.0)) : S(Value(1e-3));
-    case Operation::whole:
+    case Operation::round:
       if constexpr (sizeof(Value) == 8) return nearest(a);
       return a;
   }

@@ -32,9 +32,9 @@ enum class Operation {
   sign_of_bit,
   bit,
   broadcast,
-  whole,
+  round,
 };
-inline constexpr int operations = int(Operation::whole) + 1;
+inline constexpr int operations = int(Operation::round) + 1;
 inline constexpr int values = 16;  ///< in each array
 
 enum class Width { one, four, eight, sixteen };  ///< values at a time

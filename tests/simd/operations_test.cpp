@@ -93,7 +93,7 @@ T plain(Operation operation, T a, T b) {
       return sizeof(T) == 8 && (std::bit_cast<std::uint64_t>(double(b)) >> 51 & 1) ? -a : a;
     case Operation::bit:
       return sizeof(T) == 4 || (std::bit_cast<std::uint64_t>(double(a)) >> 51 & 1) ? a : b;
-    case Operation::whole:
+    case Operation::round:
       return sizeof(T) == 8 ? std::nearbyint(a) : a;
     case Operation::broadcast:
       break;
@@ -124,8 +124,8 @@ void compare(Width width, int at_once, Apply apply) {
           expected = any ? T(-0.0) : T(1e-3);
         }
         // from 2^51 on `nearest` rounds to what it likes
-        if (Operation(operation) == Operation::whole && !(std::fabs(a[i]) < 1e15)) continue;
-        if (Operation(operation) == Operation::whole && expected == 0) expected = 0, out[i] += 0;
+        if (Operation(operation) == Operation::round && !(std::fabs(a[i]) < 1e15)) continue;
+        if (Operation(operation) == Operation::round && expected == 0) expected = 0, out[i] += 0;
         ASSERT_TRUE(same(out[i], expected)) << "operation " << operation << " of " << a[i] << " and " << b[i] << " is "
                                             << out[i] << ", not " << expected << "; " << at_once << " at a time";
         if (is_choice(operation) && !same(a[i], b[i]) && sizeof(T) == 8) {
@@ -135,7 +135,7 @@ void compare(Width width, int at_once, Apply apply) {
     }
 }
 
-TEST(Lane, EveryOperationOfDoublesIsThatOfOneDoubleWithAnyInstructionSet) {
+TEST(Lane, OperationsOfDoublesAreThoseOfOneDoubleOnAnyIsa) {
   for (const lane::Isa isa : each_isa()) {
     compare<double>(Width::one, 1, kernels_for(isa).doubles);
     compare<double>(Width::four, 4, kernels_for(isa).doubles);
@@ -143,7 +143,7 @@ TEST(Lane, EveryOperationOfDoublesIsThatOfOneDoubleWithAnyInstructionSet) {
   }
 }
 
-TEST(Lane, EveryOperationOfFloatsIsThatOfOneFloatWithAnyInstructionSet) {
+TEST(Lane, OperationsOfFloatsAreThoseOfOneFloatOnAnyIsa) {
   for (const lane::Isa isa : each_isa()) {
     compare<float>(Width::one, 1, kernels_for(isa).floats);
     compare<float>(Width::eight, 8, kernels_for(isa).floats);

@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "each_isa.hpp"
+#include "muro/toolkit/rotations.hpp"
 #include "tests/support/scene.hpp"
 
 namespace muro {

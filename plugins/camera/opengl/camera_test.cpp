@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "muro/toolkit/rotations.hpp"
 #include "tests/support/bodies.hpp"
 
 namespace muro {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a real lens does to where things are seen.
+// Lens distortion.
 #pragma once
 
 #include <array>
@@ -25,17 +25,17 @@ struct Distortion {
   Eigen::Vector2d undistorted(const Eigen::Vector2d& p) const;
 };
 
-/// Where each pixel of a picture through a lens lies in a pinhole's picture that is large enough.
+/// For each pixel of an image through a lens, its position in the image of a pinhole camera.
 struct LensMap {
-  render::Camera pinhole;  ///< what has to be drawn: as `seen`, but larger
-  struct Place {
-    float column = -1, row = -1;  ///< whole numbers are middles of pixels; negative: the lens sees nothing there
+  render::Camera pinhole;  ///< as `camera`, but with a larger image
+  struct Position {
+    float column = -1, row = -1;  ///< whole numbers are centres of pixels; negative: the lens sees nothing there
   };
-  std::vector<Place> places;  ///< of the pixels of the picture, row by row
+  std::vector<Position> positions;  ///< of the pixels of the image, row by row
 
-  /// `seen`: the picture that is wanted. Throws muro::Error where the lens would need a picture of more than `most`
-  /// pixels along a side.
-  static LensMap of(const render::Camera& seen, const Distortion& lens, std::uint32_t most);
+  /// `camera`: of the image through the lens. Throws muro::Error where this needs a pinhole image of more than
+  /// `max_pixels` along a side.
+  static LensMap of(const render::Camera& camera, const Distortion& lens, std::uint32_t max_pixels);
 };
 
 }  // namespace muro::camera

@@ -34,18 +34,18 @@ TEST(ALens, SeesNothingBeyondWhereItFoldsThePictureOver) {
 }
 
 TEST(AMapOfALens, TellsForEachPixelWhereThePinholeSeesIt) {
-  const render::Camera seen = render::Camera::of_fov(64, 48, 1.2);
-  const LensMap map = LensMap::of(seen, webcam, 8192);
-  ASSERT_EQ(map.places.size(), 64u * 48u);
-  EXPECT_GT(map.pinhole.width, seen.width) << "a barrel sees more";
+  const render::Camera camera = render::Camera::of_fov(64, 48, 1.2);
+  const LensMap map = LensMap::of(camera, webcam, 8192);
+  ASSERT_EQ(map.positions.size(), 64u * 48u);
+  EXPECT_GT(map.pinhole.width, camera.width) << "a barrel sees more";
   for (std::uint32_t row = 0; row < 48; row += 5)
     for (std::uint32_t column = 0; column < 64; column += 5) {
-      const LensMap::Place& at = map.places[row * 64 + column];
+      const LensMap::Position& at = map.positions[row * 64 + column];
       const render::Camera& p = map.pinhole;
       const Eigen::Vector2d d =
           webcam.distorted({(double(at.column) + 0.5 - p.cx) / p.fx, (double(at.row) + 0.5 - p.cy) / p.fy});
-      EXPECT_NEAR(d.x() * seen.fx + seen.cx, column + 0.5, 1e-4);
-      EXPECT_NEAR(d.y() * seen.fy + seen.cy, row + 0.5, 1e-4);
+      EXPECT_NEAR(d.x() * camera.fx + camera.cx, column + 0.5, 1e-4);
+      EXPECT_NEAR(d.y() * camera.fy + camera.cy, row + 0.5, 1e-4);
       EXPECT_GE(at.column, 0);
       EXPECT_LT(at.column + 1, float(p.width));
       EXPECT_GE(at.row, 0);

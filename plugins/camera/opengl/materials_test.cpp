@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <png.h>
 
+#include "muro/toolkit/rotations.hpp"
 #include "tests/support/bodies.hpp"
 #include "tests/support/files.hpp"
 

@@ -6,19 +6,21 @@
 #include <optional>
 #include <string>
 
-#include "film.hpp"
+#include "image_pipeline.hpp"
 #include "muro/plugin.hpp"
 #include "muro/toolkit/mounting.hpp"
+#include "muro/toolkit/rotations.hpp"
+#include "plugins/common/constant_twist/constant_twist.hpp"
+#include "plugins/common/render/color_renderer.hpp"
 #include "plugins/common/render/depth_renderer.hpp"
 #include "plugins/common/render/device.hpp"
-#include "plugins/common/render/picture_renderer.hpp"
 
 namespace {
 
 using namespace muro;
 using std::numbers::pi;
 
-constexpr double chord = 1e-3;  ///< m: how far circles lie inside of themselves
+constexpr double tolerance = 1e-3;  ///< m: by which the polygons that stand for circles may be too small
 constexpr double no_distortion[] = {0, 0, 0, 0, 0};
 constexpr Parameter parameters[] = {
     integer("width", 640, "pixels in a row").between(1, 8192),
@@ -30,19 +32,21 @@ constexpr Parameter parameters[] = {
     real("far", "m", 1000, "along the axis; nothing farther is seen").between(1e-3, 1e6),
     reals("distortion", "1", no_distortion, "of the lens: k1, k2, p1, p2, k3 of Brown and Conrady (plumb_bob)")
         .of_length(5),
-    real("blur", "px", 0, "standard deviation of the spot that a point becomes").between(0, 50),
+    real("blur", "px", 0, "standard deviation of the Gaussian that blurs the image").between(0, 50),
     real("exposure", "1", 0, "stops: light times 2^exposure").between(-20, 20),
-    real("vignetting", "1", 0, "how much of the law of cos^4 dims the picture off its axis").between(0, 1),
-    real("noise", "1", 0, "standard deviation of each value of camera.image, in terms of the greatest").between(0, 1),
-    real("shot_noise", "1", 0, "standard deviation of white light; it falls with the root of the light").between(0, 1),
-    real("rolling_shutter", "s", 0, "from the first row to the last, which is taken now; 0: all at once")
+    real("vignetting", "1", 0, "strength of the cos^4 law, which darkens the image off its axis").between(0, 1),
+    real("noise", "1", 0, "standard deviation of each value of camera.image; 1: the greatest value").between(0, 1),
+    real("shot_noise", "1", 0, "standard deviation for white; proportional to the square root of the light")
+        .between(0, 1),
+    real("rolling_shutter", "s", 0, "from the first row to the last, which is taken now; 0: all rows at one instant")
         .between(0, 10),
-    integer("shutter_slices", 16, "parts of a picture by a rolling shutter, each taken at once").between(1, 4096),
+    integer("shutter_slices", 16, "parts of an image by a rolling shutter, each taken at one instant").between(1, 4096),
     boolean("rgb", true, "write camera.image"),
     boolean("depth", false, "write camera.depth"),
     boolean("labels", false, "write camera.labels"),
-    boolean("shadows", true, "the sun throws shadows in camera.image"),
-    real("shadow_range", "m", 25, "around what is in front, shadows reach so far; more is coarser").between(0.1, 1e4),
+    boolean("shadows", true, "the sun casts shadows in camera.image"),
+    real("shadow_range", "m", 25, "around what is in front, within which shadows are drawn; more is coarser")
+        .between(0.1, 1e4),
     boolean("see_self", true, "whether the robot that carries the camera is seen"),
     mounting_offset,
     mounting_rpy,
@@ -69,7 +73,7 @@ constexpr Description description{
     .kind = Kind::sensor,
     .version = "1.1.0",
     .summary =
-        "A pinhole camera: colours, depth and labels of what it sees, without display or GPU, with one where it is",
+        "A pinhole camera: colours, depth and labels; needs no display and no GPU, and uses a GPU where there is one",
     .parameters = parameters,
     .reads = reads,
     .writes = writes,
@@ -101,7 +105,7 @@ camera::Distortion read_lens(const Parameters& p) {
   return {k[0], k[1], k[2], k[3], k[4]};
 }
 
-camera::FilmSettings read_film(const Parameters& p) {
+camera::ImageSettings read_image_settings(const Parameters& p) {
   return {.exposure = p.real("exposure"),
           .vignetting = p.real("vignetting"),
           .blur = p.real("blur"),
@@ -114,26 +118,27 @@ class Camera final : public Algorithm {
   ~Camera() override {
     if (!context_) return;
     const render::Current current(*context_);
-    forget();
+    release();
   }
 
   void connect(Connector& c) override {
     const Parameters& p = c.parameters();
-    seen_ = read_camera(p);
+    camera_ = read_camera(p);
     mounting_ = mounting_of(p);
     light_.shadows = p.boolean("shadows");
     light_.shadow_range = p.real("shadow_range");
     device_ = render::device_of(p);
     shutter_ = p.real("rolling_shutter");
-    slices_ = shutter_ > 0 ? std::min(std::uint32_t(p.integer("shutter_slices")), seen_.height) : 1;
-    drawn_ = seen_;
+    slices_ = shutter_ > 0 ? std::min(std::uint32_t(p.integer("shutter_slices")), camera_.height) : 1;
+    drawn_camera_ = camera_;
     if (const camera::Distortion lens = read_lens(p); !lens.is_none()) {
-      lens_ = camera::LensMap::of(seen_, lens, 8192);
-      drawn_ = lens_->pinhole;
+      lens_ = camera::LensMap::of(camera_, lens, 8192);
+      drawn_camera_ = lens_->pinhole;
     }
-    if (const camera::FilmSettings film = read_film(p); !film.does_nothing() || lens_) film_.emplace(seen_, film);
+    const camera::ImageSettings settings = read_image_settings(p);
+    if (!settings.is_identity() || lens_) pipeline_.emplace(camera_, settings);
     for (std::uint32_t i = 0; i < c.items().size(); ++i) bind(c, i);
-    scene_.connect(c, render::Look::as_seen, chord);
+    scene_.connect(c, render::ShapeSource::visual, tolerance);
     host_ = &c.host();
   }
 
@@ -150,25 +155,25 @@ class Camera final : public Algorithm {
 
   void step(const Step& step, Range) override {
     const render::Current current(*context_);
-    if (!stage_) stage_.emplace(scene_);
-    stage_->place();
+    if (!gpu_scene_) gpu_scene_.emplace(scene_);
+    gpu_scene_->update();
     for (const Device& d : devices_) {
-      if (d.image) take_picture(d, Random(step.seed, d.random_key, step.index));
-      if (d.depth || d.labels) take_distances(d);
+      if (d.image) draw_color(d, Random(step.seed, d.random_key, step.index));
+      if (d.depth || d.labels) draw_depth(d);
     }
   }
 
  private:
   struct Device {
     In<Pose> pose;
-    In<Twist> twist;  ///< of a rolling shutter
+    In<Twist> twist;  ///< unset without a rolling shutter
     ArrayOut<std::uint8_t> image;
     ArrayOut<float> depth;
     ArrayOut<ObjectId> labels;
     std::int32_t ignored_robot = -1;
     std::uint64_t random_key = 0;
   };
-  /// Rows that are exposed together, of what is drawn.
+  /// Rows that are exposed together, of the drawn image.
   struct Slice {
     std::uint32_t top = 0, rows = 0;
     render::Camera camera;
@@ -178,15 +183,15 @@ class Camera final : public Algorithm {
     const Parameters& p = c.parameters();
     const Item& item = c.items()[i];
     const ObjectId sensor = item.object;
-    const std::uint32_t pixels = seen_.width * seen_.height;
-    c.set(sensor, keys::camera_width, seen_.width);
-    c.set(sensor, keys::camera_height, seen_.height);
+    const std::uint32_t pixels = camera_.width * camera_.height;
+    c.set(sensor, keys::camera_width, camera_.width);
+    c.set(sensor, keys::camera_height, camera_.height);
     c.set(sensor, keys::camera_horizontal_fov,
-          std::atan(seen_.cx / seen_.fx) + std::atan((seen_.width - seen_.cx) / seen_.fx));
-    c.set(sensor, keys::camera_fx, seen_.fx);
-    c.set(sensor, keys::camera_fy, seen_.fy);
-    c.set(sensor, keys::camera_cx, seen_.cx);
-    c.set(sensor, keys::camera_cy, seen_.cy);
+          std::atan(camera_.cx / camera_.fx) + std::atan((camera_.width - camera_.cx) / camera_.fx));
+    c.set(sensor, keys::camera_fx, camera_.fx);
+    c.set(sensor, keys::camera_fy, camera_.fy);
+    c.set(sensor, keys::camera_cx, camera_.cx);
+    c.set(sensor, keys::camera_cy, camera_.cy);
     c.set(sensor, keys::sensor_origin, mounting_);
     Device d;
     d.pose = c.read(sensor, keys::pose);
@@ -199,98 +204,99 @@ class Camera final : public Algorithm {
     devices_.push_back(d);
   }
 
-  /// Where the link is `seconds` after now, with the twist that it has.
-  static Pose moved(const Pose& pose, const Twist& twist, double seconds) {
-    const Quat back = pose.orientation.conjugate();
-    const Vec3 turn = seconds * Vec3(back * twist.angular), way = seconds * Vec3(back * twist.linear);
-    return pose * Pose{screw_integral(turn) * way, rotation_of(turn)};
+  /// Where the link is after `seconds` with its present twist.
+  static Pose predicted(const Pose& pose, const Twist& twist, double seconds) {
+    const Quat to_link = pose.orientation.conjugate();
+    return constant_twist::advanced(pose, seconds * Vec3(to_link * twist.angular),
+                                    seconds * Vec3(to_link * twist.linear));
   }
 
   Slice slice_of(const Device& d, std::uint32_t number) const {
-    const std::uint32_t each = (drawn_.height + slices_ - 1) / slices_;
+    const std::uint32_t slice_height = (drawn_camera_.height + slices_ - 1) / slices_;
     Slice s;
-    s.top = std::min(number * each, drawn_.height);
-    s.rows = std::min(each, drawn_.height - s.top);
-    s.camera = drawn_;
-    s.camera.height = each;
+    s.top = std::min(number * slice_height, drawn_camera_.height);
+    s.rows = std::min(slice_height, drawn_camera_.height - s.top);
+    s.camera = drawn_camera_;
+    s.camera.height = slice_height;
     s.camera.cy -= s.top;
     s.camera.ignored_robot = d.ignored_robot;
     Pose link = *d.pose;
-    if (d.twist) link = moved(link, *d.twist, -shutter_ * (1 - (s.top + 0.5 * s.rows) / drawn_.height));
+    if (d.twist) link = predicted(link, *d.twist, -shutter_ * (1 - (s.top + 0.5 * s.rows) / drawn_camera_.height));
     s.camera.pose = link * mounting_;
     return s;
   }
 
-  void take_picture(const Device& d, const Random& random) {
-    if (!pictures_) pictures_.emplace(*stage_);
-    if (!colors_) colors_.emplace(drawn_.width, slice_of(d, 0).camera.height);
-    const bool direct = !film_;
-    raw_.resize(direct ? 0 : std::size_t(3) * drawn_.width * drawn_.height);
-    const std::span<std::uint8_t> rows = direct ? *d.image : std::span(raw_);
+  void draw_color(const Device& d, const Random& random) {
+    if (!color_renderer_) color_renderer_.emplace(*gpu_scene_);
+    if (!color_target_) color_target_.emplace(drawn_camera_.width, slice_of(d, 0).camera.height);
+    const bool is_direct = !pipeline_;
+    drawn_image_.resize(is_direct ? 0 : std::size_t(3) * drawn_camera_.width * drawn_camera_.height);
+    const std::span<std::uint8_t> rows = is_direct ? *d.image : std::span(drawn_image_);
     for (std::uint32_t k = 0; k < slices_; ++k) {
       const Slice s = slice_of(d, k);
       if (s.rows == 0) continue;
-      pictures_->draw(s.camera, *colors_, light_);
-      const std::size_t row = std::size_t(3) * drawn_.width;
-      colors_->read(rows.subspan(s.top * row, s.rows * row));
+      color_renderer_->draw(s.camera, *color_target_, light_);
+      const std::size_t row = std::size_t(3) * drawn_camera_.width;
+      color_target_->read(rows.subspan(s.top * row, s.rows * row));
     }
-    if (direct) return;
+    if (is_direct) return;
     if (lens_)
-      film_->expose(raw_, *lens_);
+      pipeline_->load(drawn_image_, *lens_);
     else
-      film_->expose(raw_);
-    film_->develop(random, *d.image);
+      pipeline_->load(drawn_image_);
+    pipeline_->process(random, *d.image);
   }
 
-  void take_distances(const Device& d) {
-    if (!depths_) depths_.emplace(*stage_);
-    const std::uint32_t each = slice_of(d, 0).camera.height;
-    if (!distances_) distances_.emplace(drawn_.width, each * slices_, true);
-    distances_->begin();
+  void draw_depth(const Device& d) {
+    if (!depth_renderer_) depth_renderer_.emplace(*gpu_scene_);
+    const std::uint32_t slice_height = slice_of(d, 0).camera.height;
+    if (!depth_target_) depth_target_.emplace(drawn_camera_.width, slice_height * slices_, true);
+    depth_target_->begin();
     for (std::uint32_t k = 0; k < slices_; ++k)
-      if (const Slice s = slice_of(d, k); s.rows > 0) depths_->draw(s.camera, *distances_, s.top);
-    const std::size_t pixels = std::size_t(drawn_.width) * drawn_.height;
+      if (const Slice s = slice_of(d, k); s.rows > 0) depth_renderer_->draw(s.camera, *depth_target_, s.top);
+    const std::size_t pixels = std::size_t(drawn_camera_.width) * drawn_camera_.height;
     if (d.labels) {
       static_assert(sizeof(ObjectId) == sizeof(std::uint32_t));
       drawn_labels_.resize(pixels);
-      distances_->read(std::span(drawn_labels_));
+      depth_target_->read(std::span(drawn_labels_));
       const std::span<ObjectId> labels = *d.labels;
       for (std::size_t i = 0; i < labels.size(); ++i) {
-        const std::size_t from = pixel_of(i);
+        const std::size_t from = drawn_pixel_of(i);
         labels[i] = from < pixels ? ObjectId(drawn_labels_[from]) : no_object;
       }
     }
     if (!d.depth) return;
     inverse_.resize(pixels);
-    distances_->read(std::span(inverse_));
+    depth_target_->read(std::span(inverse_));
     const std::span<float> depth = *d.depth;
     for (std::size_t i = 0; i < depth.size(); ++i) {
-      const std::size_t from = pixel_of(i);
-      const double x = from < pixels ? double(inverse_[from]) : 0, distance = x > 0 ? seen_.near / x : 0;
-      depth[i] = x > 0 && distance <= seen_.far ? float(distance) : std::numeric_limits<float>::infinity();
+      const std::size_t from = drawn_pixel_of(i);
+      const double x = from < pixels ? double(inverse_[from]) : 0, distance = x > 0 ? camera_.near / x : 0;
+      depth[i] = x > 0 && distance <= camera_.far ? float(distance) : std::numeric_limits<float>::infinity();
     }
   }
 
-  /// The pixel that was drawn for one that is seen: through a lens, the nearest; past the end where there is none.
-  std::size_t pixel_of(std::size_t seen) const {
-    if (!lens_) return seen;
-    const camera::LensMap::Place& at = lens_->places[seen];
+  /// The pixel of the drawn image for a pixel of the camera: through a lens, the nearest; past the end where there is
+  /// none.
+  std::size_t drawn_pixel_of(std::size_t pixel) const {
+    if (!lens_) return pixel;
+    const camera::LensMap::Position& at = lens_->positions[pixel];
     if (at.column < 0) return std::numeric_limits<std::size_t>::max();
-    return std::size_t(std::lround(at.row)) * drawn_.width + std::size_t(std::lround(at.column));
+    return std::size_t(std::lround(at.row)) * drawn_camera_.width + std::size_t(std::lround(at.column));
   }
 
-  void forget() {
-    pictures_.reset();
-    depths_.reset();
-    stage_.reset();
-    colors_.reset();
-    distances_.reset();
+  void release() {
+    color_renderer_.reset();
+    depth_renderer_.reset();
+    gpu_scene_.reset();
+    color_target_.reset();
+    depth_target_.reset();
   }
 
   std::vector<Device> devices_;
-  render::Camera seen_, drawn_;  ///< the picture, and what is drawn for it: larger where there is a lens
+  render::Camera camera_, drawn_camera_;  ///< the drawn image is larger where there is a lens
   std::optional<camera::LensMap> lens_;
-  std::optional<camera::Film> film_;
+  std::optional<camera::ImagePipeline> pipeline_;
   double shutter_ = 0;  ///< s, from the first row to the last
   std::uint32_t slices_ = 1;
   render::Daylight light_;
@@ -299,12 +305,12 @@ class Camera final : public Algorithm {
   render::Scene scene_;
   Host* host_ = nullptr;
   std::optional<render::Context> context_;
-  std::optional<render::Stage> stage_;
-  std::optional<render::PictureRenderer> pictures_;
-  std::optional<render::DepthRenderer> depths_;
-  std::optional<render::ColorTarget> colors_;
-  std::optional<render::DepthTarget> distances_;
-  std::vector<std::uint8_t> raw_;
+  std::optional<render::GpuScene> gpu_scene_;
+  std::optional<render::ColorRenderer> color_renderer_;
+  std::optional<render::DepthRenderer> depth_renderer_;
+  std::optional<render::ColorTarget> color_target_;
+  std::optional<render::DepthTarget> depth_target_;
+  std::vector<std::uint8_t> drawn_image_;
   std::vector<float> inverse_;
   std::vector<std::uint32_t> drawn_labels_;
 };
@@ -313,5 +319,5 @@ constexpr abi::AlgorithmEntry algorithms[] = {algorithm<Camera>(description)};
 
 }  // namespace
 
-MURO_PLUGIN(.name = "camera_opengl", .version = "1.1.0", .licence = "MIT", .summary = "Camera by OpenGL",
+MURO_PLUGIN(.name = "camera_opengl", .version = description.version, .licence = "MIT", .summary = "Camera by OpenGL",
             .algorithms = algorithms)

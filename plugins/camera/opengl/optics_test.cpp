@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "muro/toolkit/rotations.hpp"
 #include "tests/support/bodies.hpp"
 
 namespace muro {
@@ -131,7 +132,7 @@ TEST(ARollingShutter, ChangesNothingWhileTheCameraStands) {
   EXPECT_LT(differ, int(pictures[0].size()) / 500) << "slices meet";
 }
 
-TEST(ACameraWithNoise, TakesOtherNoiseForEachPictureAndEachCameraButTheSameInTwoRuns) {
+TEST(ACameraWithNoise, HasOtherNoiseInEachImageButTheSameInTwoRuns) {
   const auto run = [](double seconds) {
     Studio s;
     s.put("wall", Shape::box({0.2, 20, 20}), {{2.1, 0, 1}, Quat::Identity()});

@@ -3,11 +3,9 @@
 
 #include <png.h>
 
-#include <filesystem>
+#include "muro/toolkit/whole_file.hpp"
 
-#include "muro/algorithm.hpp"
-
-namespace muro::picture_file {
+namespace muro::image_file {
 
 void write_png(const std::string& path, Format format, std::uint32_t width, std::uint32_t height, const void* pixels) {
   png_image image{};
@@ -15,12 +13,10 @@ void write_png(const std::string& path, Format format, std::uint32_t width, std:
   image.width = width;
   image.height = height;
   image.format = format == Format::rgb8 ? PNG_FORMAT_RGB : PNG_FORMAT_LINEAR_Y;
-  const std::string part = path + ".part";
-  if (!png_image_write_to_file(&image, part.c_str(), 0, pixels, 0, nullptr))
+  WholeFile file(path);
+  if (!png_image_write_to_file(&image, file.location().c_str(), 0, pixels, 0, nullptr))
     throw Error("the picture `" + path + "` cannot be written: " + image.message);
-  std::error_code code;
-  std::filesystem::rename(part, path, code);
-  if (code) throw Error("the picture `" + path + "` cannot be written: " + code.message());
+  file.publish();
 }
 
-}  // namespace muro::picture_file
+}  // namespace muro::image_file

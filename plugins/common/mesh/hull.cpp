@@ -15,33 +15,57 @@ extern "C" {
 namespace muro::mesh {
 namespace {
 
-/// Owns what Qhull allocates.
-class Run {
+/// A computation of Qhull; owns its memory.
+class QhullRun {
  public:
-  Run(std::span<const Vec3> points, double tolerance) {
+  QhullRun(std::span<const Vec3> points, double tolerance) {
     qh_zero(&qh_, nullptr);
-    for (const Vec3& p : points) numbers_.insert(numbers_.end(), p.data(), p.data() + 3);
+    for (const Vec3& p : points) coordinates_.insert(coordinates_.end(), p.data(), p.data() + 3);
     char command[64];
     std::snprintf(command, sizeof command, "qhull C-%.9g", tolerance);
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> nowhere(std::fopen("/dev/null", "w"), std::fclose);
-    failed_ = qh_new_qhull(&qh_, 3, int(points.size()), numbers_.data(), False, command, nullptr, nowhere.get()) != 0;
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> no_output(std::fopen("/dev/null", "w"), std::fclose);
+    failed_ =
+        qh_new_qhull(&qh_, 3, int(points.size()), coordinates_.data(), False, command, nullptr, no_output.get()) != 0;
   }
-  ~Run() {
+  ~QhullRun() {
     qh_freeqhull(&qh_, !qh_ALL);
     int left = 0, more = 0;
     qh_memfreeshort(&qh_, &left, &more);
   }
-  Run(const Run&) = delete;
-  Run& operator=(const Run&) = delete;
+  QhullRun(const QhullRun&) = delete;
+  QhullRun& operator=(const QhullRun&) = delete;
 
   bool failed() const { return failed_; }
   qhT* get() { return &qh_; }
 
  private:
   qhT qh_;
-  std::vector<coordT> numbers_;
+  std::vector<coordT> coordinates_;
   bool failed_ = false;
 };
+
+/// Adds a facet with its vertices. `numbers`: those of the points among the vertices of the hull, -1: not there yet.
+void add_face(qhT* qh, facetT* facet, std::span<const Vec3> points, std::vector<std::int64_t>& numbers, Hull& hull) {
+  Hull::Face face;
+  face.first = std::uint32_t(hull.corners.size());
+  face.normal = Vec3(facet->normal[0], facet->normal[1], facet->normal[2]);
+  setT* vertices = qh_facet3vertex(qh, facet);
+  const int count = qh_setsize(qh, vertices);
+  face.count = std::uint32_t(count);
+  face.offset = -std::numeric_limits<double>::infinity();
+  for (int i = count; i-- > 0;) {  // they are in clockwise order
+    const auto* const v = static_cast<const vertexT*>(SETelem_(vertices, i));
+    const auto p = std::size_t(qh_pointid(qh, v->point));
+    if (numbers[p] < 0) {
+      numbers[p] = std::int64_t(hull.vertices.size());
+      hull.vertices.push_back(points[p]);
+    }
+    hull.corners.push_back(std::uint32_t(numbers[p]));
+    face.offset = std::max(face.offset, face.normal.dot(points[p]));
+  }
+  qh_settempfree(qh, &vertices);
+  hull.faces.push_back(face);
+}
 
 }  // namespace
 
@@ -52,32 +76,10 @@ Hull convex_hull(std::span<const Vec3> points) {
   const double size = points.empty() ? 0 : (box.high - box.low).norm();
   Hull hull;
   if (points.size() >= 4 && size > 0) {
-    Run run(points, coplanar * size);
-    if (!run.failed()) {
-      qhT* const qh = run.get();
-      std::vector<std::int64_t> number(points.size(), -1);
-      for (const facetT* f = qh->facet_list; f && f->next; f = f->next) {
-        Hull::Face face;
-        face.first = std::uint32_t(hull.corners.size());
-        face.normal = Vec3(f->normal[0], f->normal[1], f->normal[2]);
-        setT* around = qh_facet3vertex(qh, const_cast<facetT*>(f));
-        const int count = qh_setsize(qh, around);
-        face.count = std::uint32_t(count);
-        face.offset = -std::numeric_limits<double>::infinity();
-        for (int i = count; i-- > 0;) {  // they are in clockwise order
-          const auto* const v = static_cast<const vertexT*>(SETelem_(around, i));
-          const auto p = std::size_t(qh_pointid(qh, v->point));
-          if (number[p] < 0) {
-            number[p] = std::int64_t(hull.vertices.size());
-            hull.vertices.push_back(points[p]);
-          }
-          hull.corners.push_back(std::uint32_t(number[p]));
-          face.offset = std::max(face.offset, face.normal.dot(points[p]));
-        }
-        qh_settempfree(qh, &around);
-        hull.faces.push_back(face);
-      }
-    }
+    QhullRun run(points, coplanar * size);
+    std::vector<std::int64_t> numbers(points.size(), -1);
+    if (!run.failed())
+      for (facetT* f = run.get()->facet_list; f && f->next; f = f->next) add_face(run.get(), f, points, numbers, hull);
   }
   if (hull.faces.empty())
     throw Error(std::to_string(points.size()) +

@@ -5,6 +5,7 @@
 
 #include "files_testing.hpp"
 #include "muro/algorithm.hpp"
+#include "muro/toolkit/rotations.hpp"
 #include "store.hpp"
 #include "tests/support/files.hpp"
 

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
-#include "file.hpp"
 #include "mesh.hpp"
+#include "mesh_file.hpp"
 #include "muro/algorithm.hpp"
 
 namespace muro::mesh {
 namespace {
 
-/// What is left: positions and faces.
-constexpr unsigned all_but_shape = aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS | aiComponent_COLORS |
-                                   aiComponent_TEXCOORDS | aiComponent_BONEWEIGHTS | aiComponent_ANIMATIONS |
-                                   aiComponent_TEXTURES | aiComponent_LIGHTS | aiComponent_CAMERAS |
-                                   aiComponent_MATERIALS;
+/// All but positions and faces.
+constexpr unsigned unused_components = aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS | aiComponent_COLORS |
+                                       aiComponent_TEXCOORDS | aiComponent_BONEWEIGHTS | aiComponent_ANIMATIONS |
+                                       aiComponent_TEXTURES | aiComponent_LIGHTS | aiComponent_CAMERAS |
+                                       aiComponent_MATERIALS;
 
 void add(const aiMesh& m, const Eigen::Matrix4d& at, Mesh& out) {
-  const bool mirrored = at.topLeftCorner<3, 3>().determinant() < 0;
+  const bool is_mirrored = at.topLeftCorner<3, 3>().determinant() < 0;
   const auto first = std::uint32_t(out.vertices.size());
   for (unsigned v = 0; v < m.mNumVertices; ++v) {
     const aiVector3D& p = m.mVertices[v];
@@ -25,7 +25,7 @@ void add(const aiMesh& m, const Eigen::Matrix4d& at, Mesh& out) {
     const aiFace& face = m.mFaces[f];
     if (face.mNumIndices != 3) continue;  // points and lines
     Triangle t{first + face.mIndices[0], first + face.mIndices[1], first + face.mIndices[2]};
-    if (mirrored) std::swap(t[1], t[2]);
+    if (is_mirrored) std::swap(t[1], t[2]);
     out.triangles.push_back(t);
   }
 }
@@ -34,13 +34,13 @@ void add(const aiMesh& m, const Eigen::Matrix4d& at, Mesh& out) {
 
 Mesh load(const std::string& path, const Vec3& scale) {
   const auto fail = [&](const std::string& what) -> Error { return Error("mesh " + path + " " + what); };
-  const File file(path, scale, all_but_shape, 0);
+  const MeshFile file(path, scale, unused_components, 0);
   Mesh m;
-  file.each_mesh([&](const aiMesh& part, const Eigen::Matrix4d& at) { add(part, at, m); });
+  file.each_mesh([&](const aiMesh& mesh, const Eigen::Matrix4d& at) { add(mesh, at, m); });
   if (!std::all_of(m.vertices.begin(), m.vertices.end(), [](const Vec3& v) { return v.allFinite(); }))
     throw fail("has a vertex that is no number or infinite; write the file anew");
   const std::size_t triangles = m.triangles.size();
-  tidy(m);
+  clean(m);
   if (m.triangles.empty())
     throw fail("has no triangle with an area (" + std::to_string(triangles) +
                " without); a shape needs a surface made of faces");

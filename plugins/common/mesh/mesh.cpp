@@ -14,8 +14,8 @@ bool before(const Vec3& a, const Vec3& b) {
   return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
 }
 
-/// For each vertex the first of those equal to it.
-std::vector<std::uint32_t> first_equals(const std::vector<Vec3>& vertices) {
+/// For each vertex the first one that is equal to it.
+std::vector<std::uint32_t> first_equal_vertices(const std::vector<Vec3>& vertices) {
   std::vector<std::uint32_t> order(vertices.size()), first(vertices.size());
   std::iota(order.begin(), order.end(), 0u);
   std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -27,16 +27,16 @@ std::vector<std::uint32_t> first_equals(const std::vector<Vec3>& vertices) {
 }
 
 bool has_area(const Mesh& m, const Triangle& t) {
-  constexpr double least = 1e-14;  // twice the area by the square of the longest side
+  constexpr double min_ratio = 1e-14;  // twice the area by the square of the longest side
   if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return false;
   const Vec3 u = m.vertices[t[1]] - m.vertices[t[0]], v = m.vertices[t[2]] - m.vertices[t[0]];
-  return u.cross(v).norm() > least * std::max({u.squaredNorm(), v.squaredNorm(), (u - v).squaredNorm()});
+  return u.cross(v).norm() > min_ratio * std::max({u.squaredNorm(), v.squaredNorm(), (u - v).squaredNorm()});
 }
 
 }  // namespace
 
-void tidy(Mesh& m) {
-  const std::vector<std::uint32_t> first = first_equals(m.vertices);
+void clean(Mesh& m) {
+  const std::vector<std::uint32_t> first = first_equal_vertices(m.vertices);
   for (Triangle& t : m.triangles)
     for (std::uint32_t& corner : t) corner = first[corner];
   std::erase_if(m.triangles, [&](const Triangle& t) { return !has_area(m, t); });
@@ -60,24 +60,25 @@ Aabb bounds_of(const Mesh& m) {
 }
 
 bool is_closed(const Mesh& m) {
-  std::vector<std::array<std::uint32_t, 2>> there, back;
+  std::vector<std::array<std::uint32_t, 2>> edges, reversed;
   for (const Triangle& t : m.triangles)
     for (std::size_t k = 0; k < 3; ++k) {
-      there.push_back({t[k], t[(k + 1) % 3]});
-      back.push_back({t[(k + 1) % 3], t[k]});
+      edges.push_back({t[k], t[(k + 1) % 3]});
+      reversed.push_back({t[(k + 1) % 3], t[k]});
     }
-  std::sort(there.begin(), there.end());
-  std::sort(back.begin(), back.end());
-  return !there.empty() && there == back && std::adjacent_find(there.begin(), there.end()) == there.end();
+  std::sort(edges.begin(), edges.end());
+  std::sort(reversed.begin(), reversed.end());
+  return !edges.empty() && edges == reversed && std::adjacent_find(edges.begin(), edges.end()) == edges.end();
 }
 
 double volume_of(const Mesh& m) {
   if (m.vertices.empty()) return 0;
-  double six = 0;
+  double six_volumes = 0;
   const Vec3 origin = m.vertices[0];
   for (const Triangle& t : m.triangles)
-    six += (m.vertices[t[0]] - origin).cross(Vec3(m.vertices[t[1]] - origin)).dot(Vec3(m.vertices[t[2]] - origin));
-  return six / 6;
+    six_volumes +=
+        (m.vertices[t[0]] - origin).cross(Vec3(m.vertices[t[1]] - origin)).dot(Vec3(m.vertices[t[2]] - origin));
+  return six_volumes / 6;
 }
 
 bool is_convex(const Mesh& m, double tolerance) {

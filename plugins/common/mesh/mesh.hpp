@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Surfaces made of triangles: what files of shapes hold.
+// Triangle meshes.
 #pragma once
 
 #include <array>
@@ -11,11 +11,11 @@
 
 namespace muro::mesh {
 
-/// Numbers of its corners, counter-clockwise seen from outside.
+/// Numbers of its vertices, counter-clockwise seen from outside.
 using Triangle = std::array<std::uint32_t, 3>;
 
 struct Mesh {
-  std::vector<Vec3> vertices;  ///< m; no two are equal
+  std::vector<Vec3> vertices;  ///< m; all different
   std::vector<Triangle> triangles;
 };
 
@@ -35,7 +35,7 @@ bool is_convex(const Mesh& mesh, double tolerance = 1e-6);
 /// m^3, of a closed mesh; negative when it looks inward.
 double volume_of(const Mesh& mesh);
 
-/// Makes equal vertices one, and drops triangles without an area and vertices without a triangle.
-void tidy(Mesh& mesh);
+/// Joins equal vertices, and removes triangles without an area and vertices without a triangle.
+void clean(Mesh& mesh);
 
 }  // namespace muro::mesh

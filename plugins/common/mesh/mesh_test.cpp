@@ -49,7 +49,7 @@ TEST(Mesh, TidyMakesASoupOfTrianglesOneSurface) {
   EXPECT_FALSE(is_closed(soup));
   soup.triangles.push_back({0, 1, 1});
   soup.vertices.push_back({9, 9, 9});
-  tidy(soup);
+  clean(soup);
   EXPECT_EQ(soup.vertices.size(), 8u);
   EXPECT_EQ(soup.triangles.size(), 12u);
   EXPECT_TRUE(is_closed(soup));

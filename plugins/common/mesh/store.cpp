@@ -8,9 +8,9 @@ namespace muro::mesh {
 Store::Entry& Store::entry(const std::string& path, const Vec3& scale) {
   std::unique_ptr<Entry>& e = entries_[{path, scale.x(), scale.y(), scale.z()}];
   if (!e) {
-    auto fresh = std::make_unique<Entry>();
-    fresh->mesh = load(path, scale);
-    e = std::move(fresh);
+    auto new_entry = std::make_unique<Entry>();
+    new_entry->mesh = load(path, scale);
+    e = std::move(new_entry);
   }
   return *e;
 }

@@ -10,8 +10,8 @@
 
 namespace muro::mesh {
 
-/// Meshes by file and scale: each is read once, and its hull made when it is asked for. What it gives stays where it is
-/// as long as the store lives. [setup]
+/// A cache of meshes by file and scale: each is read once, and its hull computed at the first request. References stay
+/// valid as long as the store lives. [setup]
 class Store {
  public:
   /// As load().

@@ -2,7 +2,7 @@
 // Stands in for load.cpp and hull.cpp where Assimp or Qhull was missing when muro was configured.
 #include "hull.hpp"
 #include "muro/algorithm.hpp"
-#include "painted.hpp"
+#include "submesh.hpp"
 
 namespace muro::mesh {
 namespace {
@@ -13,7 +13,7 @@ constexpr const char* advice =
 }  // namespace
 
 Mesh load(const std::string& path, const Vec3&) { throw Error("mesh " + path + ": " + advice); }
-std::vector<PaintedPart> load_painted(const std::string& path, const Vec3&) {
+std::vector<Submesh> load_submeshes(const std::string& path, const Vec3&) {
   throw Error("mesh " + path + ": " + advice);
 }
 Hull convex_hull(std::span<const Vec3>) { throw Error(advice); }

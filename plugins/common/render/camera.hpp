@@ -9,7 +9,7 @@
 namespace muro::render {
 
 /// A point at x forward, y left, z up in the camera's frame is seen at column cx - fx y/x and row cy - fy z/x, counted
-/// from the upper left corner of the picture, in pixels; the first pixel reaches from 0 to 1.
+/// from the upper left corner of the image, in pixels; the first pixel reaches from 0 to 1.
 struct Camera {
   Pose pose;                            ///< in the world; it looks along x
   std::uint32_t width = 0, height = 0;  ///< pixels

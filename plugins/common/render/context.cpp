@@ -18,7 +18,7 @@ struct Context::Handles {
   EGLContext context = EGL_NO_CONTEXT;
 };
 
-struct Current::Before {
+struct Current::Previous {
   EGLDisplay display = EGL_NO_DISPLAY;
   EGLContext context = EGL_NO_CONTEXT;
   EGLSurface draw = EGL_NO_SURFACE, read = EGL_NO_SURFACE;
@@ -90,19 +90,19 @@ Context::~Context() {
   if (handles_->context != EGL_NO_CONTEXT) eglDestroyContext(handles_->display, handles_->context);
 }
 
-Current::Current(const Context& context) : before_(std::make_unique<Before>()) {
+Current::Current(const Context& context) : previous_(std::make_unique<Previous>()) {
   eglBindAPI(EGL_OPENGL_API);
-  *before_ = {eglGetCurrentDisplay(), eglGetCurrentContext(), eglGetCurrentSurface(EGL_DRAW),
-              eglGetCurrentSurface(EGL_READ), context.handles_->display};
+  *previous_ = {eglGetCurrentDisplay(), eglGetCurrentContext(), eglGetCurrentSurface(EGL_DRAW),
+                eglGetCurrentSurface(EGL_READ), context.handles_->display};
   if (!eglMakeCurrent(context.handles_->display, EGL_NO_SURFACE, EGL_NO_SURFACE, context.handles_->context))
     throw Error("OpenGL's context cannot be used in this thread: EGL error " + std::to_string(eglGetError()));
 }
 
 Current::~Current() {
-  if (before_->context != EGL_NO_CONTEXT)
-    eglMakeCurrent(before_->display, before_->draw, before_->read, before_->context);
+  if (previous_->context != EGL_NO_CONTEXT)
+    eglMakeCurrent(previous_->display, previous_->draw, previous_->read, previous_->context);
   else
-    eglMakeCurrent(before_->own, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    eglMakeCurrent(previous_->own, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
 }
 
 }  // namespace muro::render

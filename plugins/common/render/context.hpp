@@ -7,7 +7,7 @@
 
 namespace muro::render {
 
-/// What draws.
+/// What renders.
 enum class Device {
   any,       ///< the first GPU that can, else the processor
   gpu,       ///< the first GPU that can
@@ -17,13 +17,13 @@ enum class Device {
 /// An OpenGL 4.5 core context. It is current in one thread at a time, while a Current of it lives there.
 class Context {
  public:
-  /// Throws muro::Error with what was tried and what to install where no device gives one. [setup]
+  /// Throws muro::Error with what was tried and what to install where no device offers one. [setup]
   explicit Context(Device device);
   ~Context();
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;
 
-  /// What the driver calls itself.
+  /// The name that the driver reports.
   const std::string& renderer() const { return renderer_; }
   bool is_software() const { return software_; }
 
@@ -35,7 +35,7 @@ class Context {
   bool software_ = false;
 };
 
-/// Makes a context current in this thread, and what was current before again at its end.
+/// Makes a context current in this thread during its lifetime, and the one before current again afterwards.
 class Current {
  public:
   explicit Current(const Context& context);
@@ -44,8 +44,8 @@ class Current {
   Current& operator=(const Current&) = delete;
 
  private:
-  struct Before;
-  std::unique_ptr<Before> before_;
+  struct Previous;
+  std::unique_ptr<Previous> previous_;
 };
 
 }  // namespace muro::render

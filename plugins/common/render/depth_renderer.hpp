@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: MIT
-// Distances, and whose they are. To be made and used while the context is current.
+// Depths, and the labels of objects. To be made and used while the context is current.
 #pragma once
 
+#include "gpu_scene.hpp"
 #include "program.hpp"
-#include "stage.hpp"
 #include "target.hpp"
 
 namespace muro::render {
 
 class DepthRenderer {
  public:
-  explicit DepthRenderer(Stage& stage);
+  explicit DepthRenderer(GpuScene& scene);
 
-  /// Draws what the camera sees into the rows of the target from `top` on, as many as the camera has. The target has
-  /// begun.
+  /// Draws what the camera sees into the rows of the target from `top` on, as many as the camera has. To be called
+  /// after the target's begin().
   void draw(const Camera& camera, const DepthTarget& target, std::uint32_t top = 0);
 
  private:
-  Stage* stage_;
-  Program distances_, labels_;
+  GpuScene* scene_;
+  Program depths_, labels_;
 };
 
 }  // namespace muro::render

@@ -8,7 +8,7 @@
 
 namespace muro::render {
 
-/// A picture to put on surfaces.
+/// A texture image.
 struct Image {
   std::uint32_t width = 0, height = 0;  ///< pixels
   std::vector<std::uint8_t> rgba;       ///< sRGB, rows from the top

@@ -4,23 +4,23 @@
 #include <algorithm>
 
 #include "muro/algorithm.hpp"
-#include "muro/vocabulary.hpp"
+#include "muro/toolkit/bounds.hpp"
 
 namespace muro::render {
 
 namespace {
 
 double radius_of(const Surface& s) {
-  double most = 0;
+  double max = 0;
   for (const Vertex& v : s.vertices)
-    most = std::max(most, double(std::hypot(v.position[0], v.position[1], v.position[2])));
-  return most;
+    max = std::max(max, double(std::hypot(v.position[0], v.position[1], v.position[2])));
+  return max;
 }
 
 }  // namespace
 
-bool Volume::holds(const Vec3& point) const {
-  const Pose& at = body ? *body : place;
+bool SolidShape::contains(const Vec3& point) const {
+  const Pose& at = body.pose();
   if ((point - at.position).squaredNorm() > radius * radius) return false;
   const Vec3 p = (at * shape.origin).inverse() * point;
   const double r = shape.size.x(), half = 0.5 * shape.size.z();
@@ -41,57 +41,41 @@ bool Volume::holds(const Vec3& point) const {
   return false;
 }
 
-void Scene::connect(Connector& c, Look look, double chord) {
-  chord_ = chord;
-  for (std::uint32_t i = 0; i < c.object_count(); ++i) {
-    const ObjectId object{i};
-    if (c.robot_of(object) >= 0) continue;
-    Piece piece;
-    piece.place = c.constant(object, keys::pose).value_or(Pose{});
-    add_body(c, object, piece, look);
-  }
-  for (const RobotView* robot : c.robots()) {
-    if (c.constant(robot->base(), keys::shadow_of)) continue;
-    for (const Link& f : robot->links) {
-      Piece piece;
-      piece.robot = std::int32_t(robot->number);
-      add_body(c, f.object, piece, look);
+void Scene::connect(Connector& c, ShapeSource source, double tolerance) {
+  tolerance_ = tolerance;
+  const auto shapes_of = [&](ObjectId object) {
+    const std::span<const Shape> collision = c.constant_array(object, keys::collision_shapes);
+    if (source == ShapeSource::collision) return collision;
+    const std::span<const Shape> visual = c.constant_array(object, keys::visual_shapes);
+    return visual.empty() ? collision : visual;
+  };
+  const auto add_body = [&](const SceneBody& body, std::span<const Shape> shapes) {
+    Instance instance;
+    instance.body = body;
+    for (const Shape& s : shapes) {
+      solid_shapes_.push_back({s, body, s.origin.position.norm() + half_extents(s).norm()});
+      add_shape(c, s, instance, source);
     }
-  }
+  };
+  scene_bodies::for_each_body(c, shapes_of, add_body);
 }
 
-void Scene::add_body(Connector& c, ObjectId object, const Piece& of_body, Look look) {
-  std::span<const Shape> found = c.constant_array(object, keys::collision_shapes);
-  if (look == Look::as_seen)
-    if (const auto visual = c.constant_array(object, keys::visual_shapes); !visual.empty()) found = visual;
-  if (found.empty()) return;
-  const std::vector<Shape> shapes(found.begin(), found.end());
-  Piece piece = of_body;
-  piece.object = object;
-  if (piece.robot >= 0) piece.body = c.read(object, keys::pose);
-  for (const Shape& s : shapes) {
-    volumes_.push_back(
-        {s, piece.body, piece.place, object, piece.robot, s.origin.position.norm() + half_extents(s).norm()});
-    add_shape(c, s, piece, look);
-  }
-}
-
-void Scene::add_shape(Connector& c, const Shape& shape, Piece piece, Look look) {
-  piece.origin = shape.origin;
-  piece.color = shape.color.head<3>();
-  if (shape.kind == ShapeKind::mesh) return add_mesh(c, shape, piece, look);
-  const bool covered = look == Look::as_seen && shape.texture != no_text;
-  const std::int32_t picture = covered ? picture_of(c, std::string(c.text(shape.texture))) : -1;
-  const bool round = shape.kind != ShapeKind::box && shape.kind != ShapeKind::plane;
-  const int corners = round ? corners_for(shape.size.x(), chord_) : 0;
-  const auto add = [&](const char* name, const Vec3& scale, double up = 0, bool turned = false) {
-    Piece p = piece;
-    p.origin.position += p.origin.orientation * Vec3(0, 0, up);
-    if (turned) p.origin.orientation = p.origin.orientation * Quat(0, 1, 0, 0);
-    p.surface = basic(name, corners, picture);
-    p.scale = scale;
-    p.radius = radii_[p.surface] * scale.cwiseAbs().maxCoeff();
-    pieces_.push_back(p);
+void Scene::add_shape(Connector& c, const Shape& shape, Instance instance, ShapeSource source) {
+  instance.origin = shape.origin;
+  instance.color = shape.color.head<3>();
+  if (shape.kind == ShapeKind::mesh) return add_mesh(c, shape, instance, source);
+  const bool has_texture = source == ShapeSource::visual && shape.texture != no_text;
+  const std::int32_t texture = has_texture ? texture_of(c, std::string(c.text(shape.texture))) : -1;
+  const bool is_round = shape.kind != ShapeKind::box && shape.kind != ShapeKind::plane;
+  const int corners = is_round ? corners_for(shape.size.x(), tolerance_) : 0;
+  const auto add = [&](const char* name, const Vec3& scale, double up = 0, bool upside_down = false) {
+    Instance i = instance;
+    i.origin.position += i.origin.orientation * Vec3(0, 0, up);
+    if (upside_down) i.origin.orientation = i.origin.orientation * Quat(0, 1, 0, 0);
+    i.surface = primitive(name, corners, texture);
+    i.scale = scale;
+    i.radius = radii_[i.surface] * scale.cwiseAbs().maxCoeff();
+    instances_.push_back(i);
   };
   const double r = shape.size.x(), length = shape.size.z();
   switch (shape.kind) {
@@ -110,7 +94,7 @@ void Scene::add_shape(Connector& c, const Shape& shape, Piece piece, Look look) 
       add("dome", {r, r, r}, -0.5 * length, true);
       break;
     case ShapeKind::plane:
-      piece.endless = true;
+      instance.is_infinite = true;
       add("ground", {1, 1, 1});
       break;
     case ShapeKind::mesh:
@@ -118,65 +102,69 @@ void Scene::add_shape(Connector& c, const Shape& shape, Piece piece, Look look) 
   }
 }
 
-void Scene::add_mesh(Connector& c, const Shape& shape, Piece piece, Look look) {
+void Scene::add_mesh(Connector& c, const Shape& shape, Instance instance, ShapeSource source) {
   const std::string path(c.text(shape.mesh));
-  const bool by_file = look == Look::as_seen && shape.material_source == MaterialSource::file;
-  const bool covered = look == Look::as_seen && !by_file && shape.texture != no_text;
-  std::string name = path + (by_file ? " painted" : "");
-  if (covered) name += " " + std::string(c.text(shape.texture));
-  const auto [known, fresh] = meshes_.try_emplace({name, shape.size.x(), shape.size.y(), shape.size.z()});
-  if (fresh && (by_file || covered)) {
-    for (const mesh::PaintedPart& part : mesh::load_painted(path, shape.size)) {
-      Surface s = surface_of(part);
-      if (covered)
-        s.picture = picture_of(c, std::string(c.text(shape.texture)));
-      else if (!part.picture.empty())
-        s.picture = picture_of(c, part.picture, part.picture_bytes);
-      known->second.push_back({keep(std::move(s)), part.color.head<3>()});
-      if (by_file && !part.missing.empty())
-        c.host().log(LogLevel::warning, "mesh " + path + ": its picture `" + part.missing +
-                                            "` is not there, or not PNG or JPEG; what it covers is plain");
-    }
-  } else if (fresh) {
-    known->second.push_back({keep(surface_of(mesh::load(path, shape.size))), Vec3::Ones()});
-  }
-  for (const Part& part : known->second) {
-    piece.surface = part.surface;
-    piece.radius = radii_[part.surface];
-    if (by_file) piece.color = part.color;
-    pieces_.push_back(piece);
+  const bool file_materials = source == ShapeSource::visual && shape.material_source == MaterialSource::file;
+  const bool has_texture = source == ShapeSource::visual && !file_materials && shape.texture != no_text;
+  std::string name = path + (file_materials ? " with its materials" : "");
+  if (has_texture) name += " " + std::string(c.text(shape.texture));
+  const auto [entry, is_new] = meshes_.try_emplace({name, shape.size.x(), shape.size.y(), shape.size.z()});
+  if (is_new) entry->second = load_mesh(c, shape, path, file_materials, has_texture);
+  for (const ColoredSurface& part : entry->second) {
+    instance.surface = part.surface;
+    instance.radius = radii_[part.surface];
+    if (file_materials) instance.color = part.color;
+    instances_.push_back(instance);
   }
 }
 
-std::uint32_t Scene::basic(const std::string& name, int corners, std::int32_t picture) {
-  const auto [known, fresh] = basics_.try_emplace({name, corners, picture}, 0);
-  if (!fresh) return known->second;
-  Surface made = name == "box"        ? unit_box()
-                 : name == "sphere"   ? unit_sphere(corners)
-                 : name == "cylinder" ? unit_cylinder(corners)
-                 : name == "tube"     ? unit_tube(corners)
-                 : name == "dome"     ? unit_dome(corners)
-                                      : unit_ground();
-  made.picture = picture;
-  return known->second = keep(std::move(made));
+std::vector<Scene::ColoredSurface> Scene::load_mesh(Connector& c, const Shape& shape, const std::string& path,
+                                                    bool file_materials, bool has_texture) {
+  if (!file_materials && !has_texture) return {{add(surface_of(mesh::load(path, shape.size))), Vec3::Ones()}};
+  std::vector<ColoredSurface> surfaces;
+  for (const mesh::Submesh& part : mesh::load_submeshes(path, shape.size)) {
+    Surface s = surface_of(part);
+    if (has_texture)
+      s.texture = texture_of(c, std::string(c.text(shape.texture)));
+    else if (!part.texture.empty())
+      s.texture = texture_of(c, part.texture, part.texture_bytes);
+    surfaces.push_back({add(std::move(s)), part.color.head<3>()});
+    if (file_materials && !part.missing_texture.empty())
+      c.host().log(LogLevel::warning, "mesh " + path + ": its picture `" + part.missing_texture +
+                                          "` is not there, or not PNG or JPEG; what it covers is plain");
+  }
+  return surfaces;
 }
 
-std::uint32_t Scene::keep(Surface surface) {
+std::uint32_t Scene::primitive(const std::string& name, int corners, std::int32_t texture) {
+  const auto [entry, is_new] = primitives_.try_emplace({name, corners, texture}, 0);
+  if (!is_new) return entry->second;
+  Surface surface = name == "box"        ? unit_box()
+                    : name == "sphere"   ? unit_sphere(corners)
+                    : name == "cylinder" ? unit_cylinder(corners)
+                    : name == "tube"     ? unit_tube(corners)
+                    : name == "dome"     ? unit_dome(corners)
+                                         : unit_ground();
+  surface.texture = texture;
+  return entry->second = add(std::move(surface));
+}
+
+std::uint32_t Scene::add(Surface surface) {
   radii_.push_back(radius_of(surface));
   surfaces_.push_back(std::move(surface));
   return std::uint32_t(surfaces_.size() - 1);
 }
 
-std::int32_t Scene::picture_of(Connector& c, const std::string& path, std::span<const std::uint8_t> bytes) {
-  const auto [known, fresh] = picture_numbers_.try_emplace(path, -1);
-  if (!fresh) return known->second;
+std::int32_t Scene::texture_of(Connector& c, const std::string& path, std::span<const std::uint8_t> bytes) {
+  const auto [entry, is_new] = texture_numbers_.try_emplace(path, -1);
+  if (!is_new) return entry->second;
   try {
-    pictures_.push_back(bytes.empty() ? Image::from_file(path) : Image::from_bytes(bytes, path));
-    known->second = std::int32_t(pictures_.size() - 1);
+    textures_.push_back(bytes.empty() ? Image::from_file(path) : Image::from_bytes(bytes, path));
+    entry->second = std::int32_t(textures_.size() - 1);
   } catch (const Error& e) {
     c.host().log(LogLevel::warning, std::string(e.what()) + "; what it covers is plain");
   }
-  return known->second;
+  return entry->second;
 }
 
 }  // namespace muro::render

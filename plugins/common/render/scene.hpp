@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What of the world is drawn.
+// What is drawn of the world: surfaces, their textures, and their instances on bodies.
 #pragma once
 
 #include <map>
@@ -8,81 +8,78 @@
 #include <vector>
 
 #include "image.hpp"
-#include "muro/connector.hpp"
-#include "muro/shape.hpp"
+#include "plugins/common/scene_bodies/scene_bodies.hpp"
 #include "surface.hpp"
 
 namespace muro::render {
 
-enum class Look {
-  as_seen,      ///< by eyes and cameras: `visual.shapes`, or `collision.shapes` where a body has none
-  as_collides,  ///< by range finders: `collision.shapes`, without paint
+using scene_bodies::SceneBody;
+
+/// Which shapes of a body are drawn.
+enum class ShapeSource {
+  visual,     ///< for cameras: `visual.shapes`, or `collision.shapes` where a body has none
+  collision,  ///< for range sensors: `collision.shapes`, without materials
 };
 
-/// A surface at a place on a body.
-struct Piece {
+/// A surface on a body.
+struct Instance {
   std::uint32_t surface = 0;  ///< number in Scene::surfaces
   Pose origin;                ///< in the frame of the body
   Vec3 scale = Vec3::Ones();  ///< of the surface, along its axes; m
   Vec3 color = Vec3::Ones();  ///< 0..1
-  In<Pose> body;              ///< of a robot; unset for scenery
-  Pose place;                 ///< of scenery
-  ObjectId object = no_object;
-  std::int32_t robot = -1;  ///< number; -1: scenery
-  double radius = 0;        ///< m, of a ball about the origin that holds it
-  bool endless = false;     ///< a plane: drawn as far as one sees
+  SceneBody body;
+  double radius = 0;         ///< m, of a bounding sphere about the origin
+  bool is_infinite = false;  ///< a plane: drawn up to the range of sight
 
-  Pose pose() const { return (body ? *body : place) * origin; }
+  Pose pose() const { return body.pose() * origin; }
 };
 
-/// A solid shape on a body: to tell whether an eye is in it.
-struct Volume {
+/// A solid shape on a body: to decide whether a sensor is inside of it.
+struct SolidShape {
   Shape shape;
-  In<Pose> body;  ///< of a robot; unset for scenery
-  Pose place;     ///< of scenery
-  ObjectId object = no_object;
-  std::int32_t robot = -1;  ///< number; -1: scenery
-  double radius = 0;        ///< m, of a ball about the body's origin that holds it; infinite for a plane
+  SceneBody body;
+  double radius = 0;  ///< m, of a bounding sphere about the origin of the body; infinite for a plane
 
-  /// Whether it holds a point of the world (m); a mesh holds none.
-  bool holds(const Vec3& point) const;
+  /// Whether it contains a point of the world (m); a mesh contains none.
+  bool contains(const Vec3& point) const;
 };
 
 class Scene {
  public:
-  /// Finds all shapes and binds the poses of their bodies. Circles get so many corners that they lie at most `chord`
-  /// (m) inside of themselves. What cannot be read of how things look is told as a warning, and left out. [setup]
-  void connect(Connector& c, Look look, double chord);
+  /// Finds all shapes and binds the poses of their bodies. Circles become polygons that lie at most `tolerance` (m)
+  /// inside of them. Textures that cannot be read are left out with a warning. [setup]
+  void connect(Connector& c, ShapeSource source, double tolerance);
 
   const std::vector<Surface>& surfaces() const { return surfaces_; }
-  const std::vector<Image>& pictures() const { return pictures_; }
-  const std::vector<Piece>& pieces() const { return pieces_; }
-  const std::vector<Volume>& volumes() const { return volumes_; }
+  const std::vector<Image>& textures() const { return textures_; }
+  const std::vector<Instance>& instances() const { return instances_; }
+  const std::vector<SolidShape>& solid_shapes() const { return solid_shapes_; }
 
  private:
-  struct Part {
+  struct ColoredSurface {
     std::uint32_t surface = 0;
     Vec3 color = Vec3::Ones();
   };
 
-  void add_body(Connector& c, ObjectId object, const Piece& of_body, Look look);
-  void add_shape(Connector& c, const Shape& shape, Piece piece, Look look);
-  void add_mesh(Connector& c, const Shape& shape, Piece piece, Look look);
-  /// The surface of a kind of shape with so many corners, and a picture (-1: none).
-  std::uint32_t basic(const std::string& name, int corners, std::int32_t picture);
-  std::uint32_t keep(Surface surface);
-  std::int32_t picture_of(Connector& c, const std::string& path, std::span<const std::uint8_t> bytes = {});
+  void add_shape(Connector& c, const Shape& shape, Instance instance, ShapeSource source);
+  void add_mesh(Connector& c, const Shape& shape, Instance instance, ShapeSource source);
+  std::vector<ColoredSurface> load_mesh(Connector& c, const Shape& shape, const std::string& path, bool file_materials,
+                                        bool has_texture);
+  /// The surface of a primitive whose circles have so many corners, with a texture (-1: none).
+  std::uint32_t primitive(const std::string& name, int corners, std::int32_t texture);
+  std::uint32_t add(Surface surface);
+  std::int32_t texture_of(Connector& c, const std::string& path, std::span<const std::uint8_t> bytes = {});
 
-  double chord_ = 0;
-  std::map<std::tuple<std::string, int, std::int32_t>, std::uint32_t> basics_;
-  /// By file and what paints them, and scale.
-  std::map<std::tuple<std::string, double, double, double>, std::vector<Part>> meshes_;
-  std::map<std::string, std::int32_t> picture_numbers_;
+  double tolerance_ = 0;
+  std::map<std::tuple<std::string, int, std::int32_t>, std::uint32_t> primitives_;
+  /// By file and source of the material, and scale.
+  std::map<std::tuple<std::string, double, double, double>, std::vector<ColoredSurface>> meshes_;
+  std::map<std::string, std::int32_t> texture_numbers_;
   std::vector<double> radii_;  ///< of the surfaces
   std::vector<Surface> surfaces_;
-  std::vector<Image> pictures_;
-  std::vector<Piece> pieces_;
-  std::vector<Volume> volumes_;
+  std::vector<Image> textures_;
+  std::vector<Instance> instances_;
+  std::vector<SolidShape> solid_shapes_;
 };
 
 }  // namespace muro::render

@@ -46,7 +46,7 @@ Surface unit_box() {
   Surface s;
   for (int axis = 0; axis < 3; ++axis)
     for (const double side : {-0.5, 0.5}) {
-      // pictures stand upright on the sides
+      // textures stand upright on the sides
       const Vec3 normal = 2 * side * Vec3::Unit(axis), v = Vec3::Unit(axis == 2 ? 1 : 2), u = v.cross(normal);
       const auto first = std::uint32_t(s.vertices.size());
       for (const auto& [x, y] : {std::pair{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}})
@@ -126,16 +126,16 @@ Surface surface_of(const mesh::Mesh& mesh) {
   return s;
 }
 
-Surface surface_of(const mesh::PaintedPart& part) {
+Surface surface_of(const mesh::Submesh& part) {
   Surface s;
-  for (const mesh::Corner& c : part.corners)
-    s.vertices.push_back(vertex(c.position, c.normal, c.picture.x(), c.picture.y()));
+  for (const mesh::TexturedVertex& c : part.vertices)
+    s.vertices.push_back(vertex(c.position, c.normal, c.texture_coordinates.x(), c.texture_coordinates.y()));
   for (const mesh::Triangle& t : part.triangles) s.indices.insert(s.indices.end(), t.begin(), t.end());
   return s;
 }
 
-int corners_for(double radius, double chord) {
-  const double n = radius > chord ? pi / std::acos(1 - chord / radius) : 0;
+int corners_for(double radius, double tolerance) {
+  const double n = radius > tolerance ? pi / std::acos(1 - tolerance / radius) : 0;
   return 4 * int(std::ceil(std::clamp(n, 16.0, 512.0) / 4));
 }
 

@@ -16,9 +16,9 @@ void check_framebuffer(GLuint framebuffer) {
 
 }  // namespace
 
-ColorTarget::ColorTarget(std::uint32_t width, std::uint32_t height, std::uint32_t samples_a_pixel)
+ColorTarget::ColorTarget(std::uint32_t width, std::uint32_t height, std::uint32_t samples_per_pixel)
     : width_(width), height_(height) {
-  const auto w = GLsizei(width), h = GLsizei(height), samples = GLsizei(samples_a_pixel > 1 ? samples_a_pixel : 0);
+  const auto w = GLsizei(width), h = GLsizei(height), samples = GLsizei(samples_per_pixel > 1 ? samples_per_pixel : 0);
   glCreateRenderbuffers(3, buffers_);
   glNamedRenderbufferStorageMultisample(buffers_[0], samples, GL_SRGB8_ALPHA8, w, h);
   glNamedRenderbufferStorageMultisample(buffers_[1], samples, GL_DEPTH_COMPONENT32F, w, h);
@@ -26,15 +26,15 @@ ColorTarget::ColorTarget(std::uint32_t width, std::uint32_t height, std::uint32_
   glCreateFramebuffers(1, &drawn_);
   glNamedFramebufferRenderbuffer(drawn_, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, buffers_[0]);
   glNamedFramebufferRenderbuffer(drawn_, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, buffers_[1]);
-  glCreateFramebuffers(1, &mixed_);
-  glNamedFramebufferRenderbuffer(mixed_, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, buffers_[2]);
+  glCreateFramebuffers(1, &resolved_);
+  glNamedFramebufferRenderbuffer(resolved_, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, buffers_[2]);
   check_framebuffer(drawn_);
-  check_framebuffer(mixed_);
+  check_framebuffer(resolved_);
 }
 
 ColorTarget::~ColorTarget() {
   glDeleteFramebuffers(1, &drawn_);
-  glDeleteFramebuffers(1, &mixed_);
+  glDeleteFramebuffers(1, &resolved_);
   glDeleteRenderbuffers(3, buffers_);
 }
 
@@ -47,14 +47,14 @@ void ColorTarget::begin() const {
   glClearBufferfv(GL_DEPTH, 0, &far);
 }
 
-void ColorTarget::mix() const {
+void ColorTarget::resolve() const {
   const auto w = GLint(width_), h = GLint(height_);
-  glBlitNamedFramebuffer(drawn_, mixed_, 0, 0, w, h, 0, 0, w, h, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  glBlitNamedFramebuffer(drawn_, resolved_, 0, 0, w, h, 0, 0, w, h, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
 void ColorTarget::read(std::span<std::uint8_t> rgb) const {
-  mix();
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, mixed_);
+  resolve();
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, resolved_);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   const auto rows = GLsizei(rgb.size() / (std::size_t(3) * width_));
   glReadPixels(0, 0, GLsizei(width_), rows, GL_RGB, GL_UNSIGNED_BYTE, rgb.data());
@@ -62,9 +62,9 @@ void ColorTarget::read(std::span<std::uint8_t> rgb) const {
 
 void ColorTarget::show() const {
   const auto w = GLint(width_), h = GLint(height_);
-  mix();
-  glDisable(GL_FRAMEBUFFER_SRGB);  // as it is
-  glBlitNamedFramebuffer(mixed_, 0, 0, 0, w, h, 0, h, w, 0, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  resolve();
+  glDisable(GL_FRAMEBUFFER_SRGB);  // the values are sRGB already
+  glBlitNamedFramebuffer(resolved_, 0, 0, 0, w, h, 0, h, w, 0, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
 DepthTarget::DepthTarget(std::uint32_t width, std::uint32_t height, bool labels) : width_(width), height_(height) {
@@ -91,9 +91,9 @@ void DepthTarget::begin() const {
   glBindFramebuffer(GL_FRAMEBUFFER, drawn_);
   glViewport(0, 0, GLsizei(width_), GLsizei(height_));
   glDisable(GL_FRAMEBUFFER_SRGB);
-  const GLuint nobody[] = {0xffffffff, 0, 0, 0};
+  const GLuint no_label[] = {0xffffffff, 0, 0, 0};
   const float far = 0;
-  if (has_labels()) glClearBufferuiv(GL_COLOR, 0, nobody);
+  if (has_labels()) glClearBufferuiv(GL_COLOR, 0, no_label);
   glClearBufferfv(GL_DEPTH, 0, &far);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where pictures go, and how they come back. To be made and used while the context is current.
+// What images are drawn into, and how they are read back. To be made and used while the context is current.
 #pragma once
 
 #include <cstdint>
@@ -7,10 +7,10 @@
 
 namespace muro::render {
 
-/// A picture in colours: some samples a pixel, mixed in light, not in what a screen is told.
+/// A colour image: several samples for each pixel, averaged in linear light.
 class ColorTarget {
  public:
-  ColorTarget(std::uint32_t width, std::uint32_t height, std::uint32_t samples = 4);
+  ColorTarget(std::uint32_t width, std::uint32_t height, std::uint32_t samples_per_pixel = 4);
   ~ColorTarget();
   ColorTarget(const ColorTarget&) = delete;
   ColorTarget& operator=(const ColorTarget&) = delete;
@@ -22,14 +22,14 @@ class ColorTarget {
   void show() const;
 
  private:
-  void mix() const;
+  void resolve() const;
 
   std::uint32_t width_, height_;
-  std::uint32_t drawn_ = 0, mixed_ = 0;  ///< framebuffers
+  std::uint32_t drawn_ = 0, resolved_ = 0;  ///< framebuffers
   std::uint32_t buffers_[3] = {};
 };
 
-/// Distances, and, on request, whose they are: one sample in the middle of each pixel.
+/// Depths and, on request, labels: one sample in the centre of each pixel.
 class DepthTarget {
  public:
   DepthTarget(std::uint32_t width, std::uint32_t height, bool labels);
@@ -38,11 +38,12 @@ class DepthTarget {
   DepthTarget& operator=(const DepthTarget&) = delete;
 
   bool has_labels() const { return buffers_[1] != 0; }
-  /// Everything empty; what is drawn from now on comes here.
+  /// Clears the target and directs all following drawing to it.
   void begin() const;
-  /// What the depth buffer holds, near / distance along the axis, or 0; as many rows of `width` as fit, from the top.
+  /// The depth buffer: near / distance along the axis, 0 where nothing was drawn; as many rows of `width` pixels as
+  /// fit, from the top.
   void read(std::span<float> inverse) const;
-  /// The label of each pixel, or 0xffffffff; likewise.
+  /// The label of each pixel, 0xffffffff where nothing was drawn; likewise.
   void read(std::span<std::uint32_t> labels) const;
 
  private:

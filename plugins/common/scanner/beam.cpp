@@ -11,9 +11,10 @@ namespace {
 
 /// The mean distance from the middle of the disc's outer six sevenths, in terms of its radius:
 /// 2/3 (1 - a^3) / (1 - a^2) with a^2 = 1/7.
-constexpr double outer_part = 0.7359;
-/// The cone of a beam that is a line but has to tell its incidence: wide enough for differences, too thin for edges.
-constexpr double thin = 2e-4;
+constexpr double ring_radius = 0.7359;
+/// The divergence of a beam that is a line but has to measure its incidence: wide enough for differences, too thin for
+/// edges.
+constexpr double thin_cone = 2e-4;
 
 /// Two directions square to `d` and to each other.
 std::pair<Vec3, Vec3> across(const Vec3& d) {
@@ -25,10 +26,10 @@ std::pair<Vec3, Vec3> across(const Vec3& d) {
 }  // namespace
 
 Beam::Beam(double divergence)
-    : is_line_(divergence <= 0), tangent_(outer_part * std::tan(0.5 * (divergence > 0 ? divergence : thin))) {
-  for (std::size_t k = 0; k < around_.size(); ++k) {
+    : is_line_(divergence <= 0), tangent_(ring_radius * std::tan(0.5 * (divergence > 0 ? divergence : thin_cone))) {
+  for (std::size_t k = 0; k < ring_.size(); ++k) {
     const double a = double(k) * std::numbers::pi / 3;
-    around_[k] = tangent_ * Eigen::Vector2d(std::cos(a), std::sin(a));
+    ring_[k] = tangent_ * Eigen::Vector2d(std::cos(a), std::sin(a));
   }
 }
 
@@ -38,7 +39,7 @@ RaySet Beam::widened(const RaySet& set) const {
   for (const Vec3& d : set.directions) {
     const auto [left, up] = across(d);
     wide.directions.push_back(d);
-    for (const Eigen::Vector2d& at : around_) {
+    for (const Eigen::Vector2d& at : ring_) {
       const Vec3 outer = d + at.x() * left + at.y() * up;
       wide.directions.push_back(outer.normalized());
     }
@@ -47,38 +48,38 @@ RaySet Beam::widened(const RaySet& set) const {
   return wide;
 }
 
-Beam::Reading Beam::read(const double* ranges, double nothing_from) const {
-  Reading r{.range = nothing_from};
-  if (is_line_ && ranges[0] >= nothing_from) return r;
-  double light = 0, sum = 0, nearest = nothing_from;
+Beam::Reading Beam::read(const double* ranges, double no_return) const {
+  Reading r{.range = no_return};
+  if (is_line_ && ranges[0] >= no_return) return r;
+  double sum_of_weights = 0, weighted_sum = 0, nearest = no_return;
   for (std::uint32_t k = 0; k < rays; ++k) {
-    if (ranges[k] >= nothing_from) continue;
+    if (ranges[k] >= no_return) continue;
     const double weight = 1 / std::max(ranges[k] * ranges[k], 1e-12);
-    light += weight;
-    sum += weight * ranges[k];
-    if (ranges[k] < nearest) nearest = ranges[k], r.main = k;
+    sum_of_weights += weight;
+    weighted_sum += weight * ranges[k];
+    if (ranges[k] < nearest) nearest = ranges[k], r.main_ray = k;
   }
-  if (light <= 0) return r;
-  r.range = is_line_ ? ranges[0] : sum / light;
-  if (ranges[0] < nothing_from) r.main = 0;
+  if (sum_of_weights <= 0) return r;
+  r.range = is_line_ ? ranges[0] : weighted_sum / sum_of_weights;
+  if (ranges[0] < no_return) r.main_ray = 0;
 
-  // On a plane 1 / (depth along the middle) is linear in the place on the plane at distance 1. Each triangle of the
-  // middle and two neighbours around it gives a normal; those that an edge crosses are steep.
+  // On a flat surface 1 / (depth along the central ray) is linear in the position on the plane at distance 1. Each
+  // triangle of the central ray and two neighbours on the ring gives a normal; triangles across an edge are steep.
   const auto inverse = [&](std::uint32_t k) {
     const double depth = ranges[k] / (k == 0 ? 1 : std::sqrt(1 + tangent_ * tangent_));
-    return ranges[k] < nothing_from ? 1 / std::max(depth, 1e-9) : 0.0;
+    return ranges[k] < no_return ? 1 / std::max(depth, 1e-9) : 0.0;
   };
-  if (r.main != 0) return r;
-  double least = std::numeric_limits<double>::infinity();
+  if (r.main_ray != 0) return r;
+  double min_slope = std::numeric_limits<double>::infinity();
   const double w = inverse(0);
   for (std::uint32_t k = 0; k < rays - 1; ++k) {
     const std::uint32_t next = (k + 1) % (rays - 1);
-    const Eigen::Vector2d &p = around_[k], &q = around_[next];
+    const Eigen::Vector2d &p = ring_[k], &q = ring_[next];
     const double a = inverse(k + 1) - w, b = inverse(next + 1) - w, determinant = p.x() * q.y() - p.y() * q.x();
     const double x = (a * q.y() - b * p.y()) / determinant, y = (b * p.x() - a * q.x()) / determinant;
-    least = std::min(least, std::hypot(x, y));
+    min_slope = std::min(min_slope, std::hypot(x, y));
   }
-  r.incidence = std::atan2(least, w);
+  r.incidence = std::atan2(min_slope, w);
   return r;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A beam that is wider than a line, as seven rays: its middle, and six around it.
+// A beam with a divergence, sampled by seven rays: a central ray and a ring of six.
 #pragma once
 
 #include <array>
@@ -8,33 +8,33 @@
 
 namespace muro::scanner {
 
-/// What a device makes of a beam. The light that comes back from each seventh of the beam is as 1 / d^2 (all surfaces
-/// are taken to be equally bright), and what is read is the mean of the distances d, each with that weight: where an
-/// edge lies in the beam, a reading between both sides (a "mixed pixel"; Tang, Huber and Akinci, A comparative analysis
-/// of depth-discontinuity and mixed-pixel detection algorithms, 3DIM 2007). What nothing comes back from has no weight.
+/// How a device reads a beam. The light that returns from each seventh of the beam is proportional to 1 / d^2 (all
+/// surfaces count as equally bright), and the reading is the mean of the distances d with these weights: where an edge
+/// lies in the beam, a value between both sides (a "mixed pixel"; Tang, Huber and Akinci, A comparative analysis of
+/// depth-discontinuity and mixed-pixel detection algorithms, 3DIM 2007). Rays without a return have no weight.
 class Beam {
  public:
   static constexpr std::uint32_t rays = 7;
 
-  /// `divergence`: rad, the full angle of the cone; the rays around the middle stand for the outer part of its area.
-  /// With 0 a reading is that of the middle alone, and the others tell its incidence.
+  /// `divergence`: rad, the full angle of the cone; the ring represents the outer part of its area. With 0 the range is
+  /// that of the central ray alone, and the ring serves to measure the incidence.
   explicit Beam(double divergence);
 
-  /// Every ray of `set` becomes seven, one behind the other.
+  /// Each ray of `set` becomes seven, stored one after the other.
   RaySet widened(const RaySet& set) const;
 
   struct Reading {
-    double range = 0;        ///< m; nothing_from where nothing comes back
-    double incidence = 0;    ///< rad, 0 .. pi/2, to the normal of the surface in the middle; 0 where nothing is
-    std::uint32_t main = 0;  ///< the ray whose surface the reading is of
+    double range = 0;            ///< m; no_return where no light returns
+    double incidence = 0;        ///< rad, 0 .. pi/2: of the central ray to the normal of its surface; 0 where none is
+    std::uint32_t main_ray = 0;  ///< the ray whose object the reading belongs to
   };
-  /// `ranges` (m) along the seven rays; from `nothing_from` on they mean that there was nothing.
-  Reading read(const double* ranges, double nothing_from) const;
+  /// `ranges`: m, along the seven rays; values of `no_return` and more mean that the ray met no surface.
+  Reading read(const double* ranges, double no_return) const;
 
  private:
   bool is_line_;
-  double tangent_;                                  ///< of the angle between the middle and the rays around it
-  std::array<Eigen::Vector2d, rays - 1> around_{};  ///< their places on the plane at distance 1
+  double tangent_;                                ///< of the angle between the central ray and the ring
+  std::array<Eigen::Vector2d, rays - 1> ring_{};  ///< its positions on the plane at distance 1
 };
 
 }  // namespace muro::scanner

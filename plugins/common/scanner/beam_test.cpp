@@ -59,7 +59,7 @@ TEST(ABeam, MixesBothSidesOfAnEdgeByTheLightThatComesBack) {
   const double ranges[] = {2, 2, 2, 2, 6, 6, 6};
   const double light = 4 / 4.0 + 3 / 36.0;
   EXPECT_NEAR(beam.read(ranges, nothing).range, (4 * 2 / 4.0 + 3 * 6 / 36.0) / light, 1e-12);
-  EXPECT_EQ(beam.read(ranges, nothing).main, 0u);
+  EXPECT_EQ(beam.read(ranges, nothing).main_ray, 0u);
 }
 
 TEST(ABeam, ThatIsALineReadsItsMiddleAloneThoughItTellsItsIncidence) {
@@ -74,7 +74,7 @@ TEST(ABeam, ReadsAnEdgeBeforeNothingAsTheEdge) {
   const Beam beam(0.01);
   const double ranges[] = {nothing, nothing, 4, nothing, nothing, nothing, nothing};
   EXPECT_NEAR(beam.read(ranges, nothing).range, 4, 1e-12);
-  EXPECT_EQ(beam.read(ranges, nothing).main, 2u);
+  EXPECT_EQ(beam.read(ranges, nothing).main_ray, 2u);
   const double empty[] = {nothing, nothing, nothing, nothing, nothing, nothing, nothing};
   EXPECT_EQ(beam.read(empty, nothing).range, nothing);
 }

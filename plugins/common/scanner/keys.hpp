@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What laser scanners tell of their rows beside the vocabulary: constants on the sensor's object.
+// Constants of laser scanners that the vocabulary does not have: on the object of the sensor.
 #pragma once
 
 #include "muro/key.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which way the rays of a scanner point.
+// The directions of the rays of a scanner.
 #pragma once
 
 #include <span>
@@ -16,7 +16,7 @@ struct Grid {
   double min_elevation = 0, max_elevation = 0;  ///< rad, -pi/2 .. pi/2
   std::uint32_t rows = 1;
 
-  /// Whether the azimuths go all the way round: the last then lies one increment before the first.
+  /// Whether the azimuths cover a full circle: the last then lies one increment before the first.
   bool full_circle() const;
   double first_angle() const;      ///< rad; a single column looks along the middle
   double angle_increment() const;  ///< rad; 0 for a single column

@@ -6,16 +6,17 @@
 #include <string>
 
 #include "keys.hpp"
-#include "memory.hpp"
+#include "plugins/common/constant_twist/constant_twist.hpp"
+#include "scratch.hpp"
 
 namespace muro::scanner {
 
 namespace {
 
-constexpr Key<double> key_coming{"laser.sweep.ranges", "m", "array: the scan that is being taken"};
-constexpr Key<double> key_coming_incidence{"laser.sweep.incidence", "rad", "array: the scan that is being taken"};
-constexpr Key<ObjectId> key_coming_hits{"laser.sweep.hits", "1", "array: the scan that is being taken"};
-constexpr Key<Pose> key_before{"laser.sweep.pose", "m", "where the device was at the step before"};
+constexpr Key<double> key_sweep_ranges{"laser.sweep.ranges", "m", "array: the scan in progress"};
+constexpr Key<double> key_sweep_incidence{"laser.sweep.incidence", "rad", "array: the scan in progress"};
+constexpr Key<ObjectId> key_sweep_hits{"laser.sweep.hits", "1", "array: the scan in progress"};
+constexpr Key<Pose> key_sweep_pose{"laser.sweep.pose", "m", "where the device was at the step before"};
 
 void check_interval(const char* low_name, double low, const char* high_name, double high) {
   if (low > high)
@@ -112,33 +113,33 @@ void Scanner::bind(Connector& c, const Item& item) {
   if (incidence) d.incidence = c.variable_array(sensor, keys::laser_incidence, size());
   if (item.robot && !p.boolean("see_self")) d.ignored_robot = std::int32_t(item.robot->number);
   if (sweep_) {
-    d.before = c.variable(sensor, key_before, Pose{});
-    d.coming = c.variable_array(sensor, key_coming, size());
-    if (hits) d.coming_hits = c.variable_array(sensor, key_coming_hits, size());
-    if (incidence) d.coming_incidence = c.variable_array(sensor, key_coming_incidence, size());
+    d.previous_pose = c.variable(sensor, key_sweep_pose, Pose{});
+    d.sweep_ranges = c.variable_array(sensor, key_sweep_ranges, size());
+    if (hits) d.sweep_hits = c.variable_array(sensor, key_sweep_hits, size());
+    if (incidence) d.sweep_incidence = c.variable_array(sensor, key_sweep_incidence, size());
   }
   devices_.push_back(d);
 }
 
-/// The whole scan is set 0. Of a sweep, each column is a set of its own, or all columns of a step together are.
-void Scanner::make_sets(const RaySet& whole) {
+/// Set 0 is the full scan. Of a sweep, each column is a set of its own, or all columns of a step are one set.
+void Scanner::make_sets(const RaySet& full) {
   std::vector<RaySet> sets;
   const auto add = [&](std::uint32_t first, std::uint32_t end) {
     RaySet set;
     set.columns = end - first;
     set.rows = grid_.rows;
-    set.spacing = whole.spacing;
+    set.spacing = full.spacing;
     for (std::uint32_t row = 0; row < grid_.rows; ++row)
       for (std::uint32_t column = first; column < end; ++column)
-        set.directions.push_back(whole.directions[row * grid_.columns + column]);
-    sets.push_back(is_wide() ? beam_->widened(set) : std::move(set));
+        set.directions.push_back(full.directions[row * grid_.columns + column]);
+    sets.push_back(has_beam() ? beam_->widened(set) : std::move(set));
   };
   add(0, grid_.columns);
-  if (sweep_ && method_->is_cheap_for_few())
+  if (sweep_ && method_->is_cheap_for_few_rays())
     for (std::uint32_t column = 0; column < grid_.columns; ++column) add(column, column + 1);
   else if (sweep_)
     for (std::uint32_t k = 0; k < sweep_->steps(); ++k) {
-      set_of_.push_back(sets.size());
+      sets_of_steps_.push_back(sets.size());
       if (sweep_->first(k) < sweep_->first(k + 1)) add(sweep_->first(k), sweep_->first(k + 1));
     }
   method_->prepare(sets);
@@ -151,16 +152,16 @@ std::span<const Phase> Scanner::phases() const {
   return size() < 500 ? few_rays : many_rays;
 }
 
-bool Scanner::takes_rays(std::uint64_t index) const {
-  if (!sweep_ || index == 0) return true;
-  const auto k = std::uint32_t((index - 1) % sweep_->steps());
+bool Scanner::casts_rays_in(std::uint64_t step) const {
+  if (!sweep_ || step == 0) return true;
+  const auto k = std::uint32_t((step - 1) % sweep_->steps());
   return sweep_->first(k) < sweep_->first(k + 1);
 }
 
 void Scanner::step(const Step& step, Range range) {
   if (step.phase == 0) {
-    if (!devices_.empty()) method_->begin(view_of(devices_.front()), devices_.size());
-    if (takes_rays(step.index)) method_->look();
+    if (!devices_.empty()) method_->begin_step(viewpoint_of(devices_.front()), devices_.size());
+    if (casts_rays_in(step.index)) method_->update();
     if (method_->is_parallel()) return;
     for (const Device& d : devices_) serve(d, step.index);
   } else if (method_->is_parallel()) {
@@ -170,53 +171,54 @@ void Scanner::step(const Step& step, Range range) {
 
 void Scanner::serve(const Device& d, std::uint64_t index) {
   if (sweep_ && index > 0) return sweep(d, index);
-  const View view = view_of(d);
+  const Viewpoint from = viewpoint_of(d);
   const auto hits = d.hits ? *d.hits : std::span<ObjectId>();
   const auto incidence = d.incidence ? *d.incidence : std::span<double>();
-  cast(0, view, 0, grid_.columns, {*d.ranges, incidence, hits});
-  if (sweep_) *d.before = view.device;
+  cast(0, from, 0, grid_.columns, {*d.ranges, incidence, hits});
+  if (sweep_) *d.previous_pose = from.device;
 }
 
 void Scanner::sweep(const Device& d, std::uint64_t index) {
   const auto k = std::uint32_t((index - 1) % sweep_->steps());
   const std::uint32_t first = sweep_->first(k), end = sweep_->first(k + 1);
-  const Pose before = *d.before, now = *d.pose * mounting_;
-  *d.before = now;
-  const Scan coming{*d.coming, d.coming_incidence ? *d.coming_incidence : std::span<double>(),
-                    d.coming_hits ? *d.coming_hits : std::span<ObjectId>()};
-  if (method_->is_cheap_for_few()) {
+  const Pose previous = *d.previous_pose, now = *d.pose * mounting_;
+  *d.previous_pose = now;
+  const Scan scan{*d.sweep_ranges, d.sweep_incidence ? *d.sweep_incidence : std::span<double>(),
+                  d.sweep_hits ? *d.sweep_hits : std::span<ObjectId>()};
+  if (method_->is_cheap_for_few_rays()) {
     for (std::uint32_t column = first; column < end; ++column) {
-      const Pose device = between(before, now, sweep_->moment(column));
-      cast(1 + column, {device, max_range_, d.ignored_robot, min_range_}, column, 1, coming);
+      const Pose device = constant_twist::interpolated(previous, now, sweep_->time_fraction(column));
+      cast(1 + column, {device, max_range_, d.ignored_robot, min_range_}, column, 1, scan);
     }
   } else if (first < end) {
-    const double middle = 0.5 * (sweep_->moment(first) + sweep_->moment(end - 1));
-    const Pose device = between(before, now, middle);
-    cast(set_of_[k], {device, max_range_, d.ignored_robot, min_range_}, first, end - first, coming);
+    const double middle = 0.5 * (sweep_->time_fraction(first) + sweep_->time_fraction(end - 1));
+    const Pose device = constant_twist::interpolated(previous, now, middle);
+    cast(sets_of_steps_[k], {device, max_range_, d.ignored_robot, min_range_}, first, end - first, scan);
   }
   if (k != sweep_->last_step()) return;
-  copy(d.coming, d.ranges);
-  copy(d.coming_hits, d.hits);
-  copy(d.coming_incidence, d.incidence);
+  copy(d.sweep_ranges, d.ranges);
+  copy(d.sweep_hits, d.hits);
+  copy(d.sweep_incidence, d.incidence);
 }
 
-void Scanner::cast(std::size_t set, const View& view, std::uint32_t first, std::uint32_t columns, const Scan& scan) {
-  const bool whole = columns == grid_.columns;
-  if (whole && !is_wide()) return method_->cast(set, view, scan.ranges, scan.hits);
+void Scanner::cast(std::size_t set, const Viewpoint& from, std::uint32_t first, std::uint32_t columns,
+                   const Scan& scan) {
+  const bool is_full_scan = columns == grid_.columns;
+  if (is_full_scan && !has_beam()) return method_->cast(set, from, scan.ranges, scan.hits);
 
   thread_local std::vector<double> range_memory;
   thread_local std::vector<ObjectId> hit_memory;
-  const std::uint32_t count = columns * grid_.rows, each = is_wide() ? Beam::rays : 1;
-  const std::span<double> ranges = grown(range_memory, std::size_t(count) * each);
-  const std::span<ObjectId> hits = scan.hits.empty() ? std::span<ObjectId>() : grown(hit_memory, ranges.size());
-  method_->cast(set, view, ranges, hits);
+  const std::uint32_t count = columns * grid_.rows, rays_per_reading = has_beam() ? Beam::rays : 1;
+  const std::span<double> ranges = scratch(range_memory, std::size_t(count) * rays_per_reading);
+  const std::span<ObjectId> hits = scan.hits.empty() ? std::span<ObjectId>() : scratch(hit_memory, ranges.size());
+  method_->cast(set, from, ranges, hits);
   for (std::uint32_t i = 0; i < count; ++i) {
-    const std::uint32_t place = i / columns * grid_.columns + first + i % columns;
-    Beam::Reading r{.range = ranges[i * each]};
-    if (is_wide()) r = beam_->read(&ranges[std::size_t(i) * each], max_range_);
-    scan.ranges[place] = r.range;
-    if (!scan.hits.empty()) scan.hits[place] = hits[i * each + r.main];
-    if (!scan.incidence.empty()) scan.incidence[place] = r.incidence;
+    const std::uint32_t target = i / columns * grid_.columns + first + i % columns;
+    Beam::Reading r{.range = ranges[i * rays_per_reading]};
+    if (has_beam()) r = beam_->read(&ranges[std::size_t(i) * rays_per_reading], max_range_);
+    scan.ranges[target] = r.range;
+    if (!scan.hits.empty()) scan.hits[target] = hits[i * rays_per_reading + r.main_ray];
+    if (!scan.incidence.empty()) scan.incidence[target] = r.incidence;
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A laser scanner but for its method: parameters, properties, the width of beams, the time that a scan takes.
+// What laser scanners of all methods have in common: parameters, properties, the width of beams, the sweep of a scan.
 #pragma once
 
 #include <memory>
@@ -13,7 +13,7 @@
 
 namespace muro::scanner {
 
-/// The base of the plugins laser.*. Its descriptions have the parameters and writes of parameters.hpp.
+/// The base of the plugins laser.*, whose descriptions list the parameters and writes of parameters.hpp.
 class Scanner : public Algorithm {
  public:
   explicit Scanner(std::unique_ptr<Method> method) : method_(std::move(method)) {}
@@ -30,9 +30,9 @@ class Scanner : public Algorithm {
     ArrayOut<double> ranges, incidence;
     ArrayOut<ObjectId> hits;
     std::int32_t ignored_robot = -1;
-    Out<Pose> before;                           ///< where it was at the step before
-    ArrayOut<double> coming, coming_incidence;  ///< of the scan that is being taken
-    ArrayOut<ObjectId> coming_hits;
+    Out<Pose> previous_pose;                         ///< at the step before
+    ArrayOut<double> sweep_ranges, sweep_incidence;  ///< of the scan in progress
+    ArrayOut<ObjectId> sweep_hits;
   };
   /// Where the readings of a scan go.
   struct Scan {
@@ -42,22 +42,24 @@ class Scanner : public Algorithm {
 
   void read_pattern(const Parameters& p);
   void bind(Connector& c, const Item& item);
-  void make_sets(const RaySet& whole);
+  void make_sets(const RaySet& full);
   std::uint32_t size() const { return grid_.columns * grid_.rows; }
-  bool is_wide() const { return beam_.has_value(); }
+  bool has_beam() const { return beam_.has_value(); }
 
-  View view_of(const Device& d) const { return {*d.pose * mounting_, max_range_, d.ignored_robot, min_range_}; }
-  bool takes_rays(std::uint64_t index) const;
+  Viewpoint viewpoint_of(const Device& d) const {
+    return {*d.pose * mounting_, max_range_, d.ignored_robot, min_range_};
+  }
+  bool casts_rays_in(std::uint64_t step) const;
   void serve(const Device& d, std::uint64_t index);
   void sweep(const Device& d, std::uint64_t index);
-  /// Casts a set whose rays are those of columns from `first` on, all rows of each.
-  void cast(std::size_t set, const View& view, std::uint32_t first, std::uint32_t columns, const Scan& scan);
+  /// Casts a set with the rays of `columns` columns from `first` on, all rows of each.
+  void cast(std::size_t set, const Viewpoint& from, std::uint32_t first, std::uint32_t columns, const Scan& scan);
 
   std::unique_ptr<Method> method_;
   std::vector<Device> devices_;
-  Grid grid_;  ///< of a list: one row
+  Grid grid_;  ///< a list of directions is one row
   bool is_list_ = false;
-  std::vector<std::size_t> set_of_;  ///< of a sweep: by column, or by step
+  std::vector<std::size_t> sets_of_steps_;  ///< of a sweep whose steps are one set each
   std::optional<Beam> beam_;
   std::optional<Sweep> sweep_;
   Pose mounting_;

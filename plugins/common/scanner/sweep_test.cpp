@@ -20,7 +20,7 @@ TEST(ASweep, TakesEveryColumnOnceWhenTheMirrorPointsThere) {
     for (std::uint32_t k = 0; k < steps; ++k) {
       EXPECT_EQ(sweep.first(k), column);
       for (; column < sweep.first(k + 1); ++column)
-        EXPECT_NEAR((k + sweep.moment(column)) / steps, column / 1024.0, 1e-12) << "in turns";
+        EXPECT_NEAR((k + sweep.time_fraction(column)) / steps, column / 1024.0, 1e-12) << "in revolutions";
     }
     EXPECT_EQ(column, 682u);
     EXPECT_EQ(sweep.last_step(), std::uint32_t(681.0 / 1024 * steps));
@@ -30,27 +30,8 @@ TEST(ASweep, TakesEveryColumnOnceWhenTheMirrorPointsThere) {
 TEST(ASweep, SpreadsTheRaysOfAListOverTheScan) {
   const Sweep sweep({.columns = 8}, true, 4);
   for (std::uint32_t k = 0; k < 4; ++k) EXPECT_EQ(sweep.first(k), 2 * k);
-  EXPECT_EQ(sweep.moment(0), 0);
-  EXPECT_EQ(sweep.moment(1), 0.5);
-}
-
-TEST(ThePoseBetween, FollowsTheArcOfAConstantTwist) {
-  const Vec3 u(0.3, -0.1, 0.2), w(0.2, -0.4, 0.9);  // in the axes of the body, for the whole way
-  const Pose a{{1, 2, 3}, from_rpy(0.3, -0.2, 2)};
-  const auto at = [&](double t) {
-    const Vec3 v = t * w;
-    return a * Pose{screw_integral(v) * Vec3(t * u), rotation_of(v)};
-  };
-  for (const double t : {0.0, 0.1, 0.5, 0.9, 1.0}) {
-    const Pose p = between(a, at(1), t), expected = at(t);
-    EXPECT_NEAR((p.position - expected.position).norm(), 0, 1e-14);
-    EXPECT_NEAR(p.orientation.angularDistance(expected.orientation), 0, 1e-7);
-  }
-}
-
-TEST(ThePoseBetween, IsHalfWayWithoutATurn) {
-  const Pose a{{1, 2, 3}, from_rpy(0.3, -0.2, 2)}, b{{2, 2, 3}, a.orientation};
-  EXPECT_NEAR((between(a, b, 0.5).position - Vec3(1.5, 2, 3)).norm(), 0, 1e-15);
+  EXPECT_EQ(sweep.time_fraction(0), 0);
+  EXPECT_EQ(sweep.time_fraction(1), 0.5);
 }
 
 }  // namespace

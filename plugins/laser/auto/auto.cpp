@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // A laser scanner by the method that is the fastest here; see README.md.
-#include "choice.hpp"
+#include "method_selector.hpp"
 #include "plugins/common/scanner/scanner.hpp"
 #ifdef MURO_AUTO_ZBUFFER
-#include "plugins/laser/zbuffer/method.hpp"
+#include "plugins/common/laser_methods/zbuffer/zbuffer_method.hpp"
 #endif
 
 namespace {
@@ -11,19 +11,19 @@ namespace {
 using namespace muro;
 
 constexpr std::string_view methods[] = {"auto", "raycast", "zbuffer", "embree"};
-constexpr Parameter own[] = {
-    text("method", "auto", "what finds the distances; auto: measured at the start").one_of(methods),
+constexpr Parameter own_parameters[] = {
+    text("method", "auto", "how distances are found; auto: the fastest, measured at the start").one_of(methods),
 #ifdef MURO_AUTO_ZBUFFER
     zbuffer::supersampling,
     zbuffer::device_parameter,
 #endif
 };
-constexpr auto parameters = scanner::joined(scanner::parameters, own);
+constexpr auto parameters = scanner::joined(scanner::parameters, own_parameters);
 constexpr PropertyUse reads[] = {{"pose", "of the sensor's object and of all bodies that are seen"},
                                  {"collision.shapes", "of all bodies"},
                                  {"scene.index", "of the world"}};
-constexpr PropertyUse chosen[] = {{"laser.method", "1: raycast, 2: zbuffer, 3: embree; 0: not chosen yet"}};
-constexpr auto writes = scanner::joined(scanner::writes, chosen);
+constexpr PropertyUse own_writes[] = {{"laser.method", "1: raycast, 2: zbuffer, 3: embree; 0: not chosen yet"}};
+constexpr auto writes = scanner::joined(scanner::writes, own_writes);
 constexpr Description description{
     .id = "laser.auto",
     .kind = Kind::sensor,
@@ -37,12 +37,12 @@ constexpr Description description{
 
 class Auto final : public scanner::Scanner {
  public:
-  Auto() : Scanner(std::make_unique<laser_auto::Choice>()) {}
+  Auto() : Scanner(std::make_unique<laser_auto::MethodSelector>()) {}
 };
 
 constexpr abi::AlgorithmEntry algorithms[] = {algorithm<Auto>(description)};
 
 }  // namespace
 
-MURO_PLUGIN(.name = "laser_auto", .version = "1.0.0", .licence = "MIT",
+MURO_PLUGIN(.name = "laser_auto", .version = description.version, .licence = "MIT",
             .summary = "Laser scanner by the fastest method", .algorithms = algorithms)

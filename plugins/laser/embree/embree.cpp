@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A laser scanner by Embree's search for rays; see README.md.
-#include "method.hpp"
+// A laser scanner by ray casting with Embree; see README.md.
+#include "plugins/common/laser_methods/embree/embree_method.hpp"
 #include "plugins/common/scanner/scanner.hpp"
 
 namespace {
@@ -29,5 +29,5 @@ constexpr abi::AlgorithmEntry algorithms[] = {algorithm<Embree>(description)};
 
 }  // namespace
 
-MURO_PLUGIN(.name = "laser_embree", .version = "1.0.0", .licence = "MIT", .summary = "Laser scanner by Embree",
-            .algorithms = algorithms)
+MURO_PLUGIN(.name = "laser_embree", .version = description.version, .licence = "MIT",
+            .summary = "Laser scanner by Embree", .algorithms = algorithms)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A laser scanner by exact ray casting; see README.md.
-#include "method.hpp"
+#include "plugins/common/laser_methods/raycast/raycast_method.hpp"
 #include "plugins/common/scanner/scanner.hpp"
 
 namespace {
@@ -26,10 +26,11 @@ class Raycast final : public scanner::Scanner {
 
   void connect(Connector& c) override {
     Scanner::connect(c);
-    const raycast::Meshes unseen = raycast::meshes_of(c);
-    if (unseen.count > 0)
-      c.host().log(LogLevel::warning, "laser.raycast does not see meshes: " + std::to_string(unseen.count) +
-                                          " collision shapes are left out, the first on " + std::string(unseen.first) +
+    const raycast::MeshCount meshes = raycast::count_meshes(c);
+    if (meshes.count > 0)
+      c.host().log(LogLevel::warning, "laser.raycast does not see meshes: " + std::to_string(meshes.count) +
+                                          " collision shapes are left out, the first on " +
+                                          std::string(meshes.first_object) +
                                           "; laser.embree and laser.zbuffer see them");
   }
 };
@@ -38,5 +39,5 @@ constexpr abi::AlgorithmEntry algorithms[] = {algorithm<Raycast>(description)};
 
 }  // namespace
 
-MURO_PLUGIN(.name = "laser_raycast", .version = "1.1.0", .licence = "MIT", .summary = "Laser scanner by ray casting",
-            .algorithms = algorithms)
+MURO_PLUGIN(.name = "laser_raycast", .version = description.version, .licence = "MIT",
+            .summary = "Laser scanner by ray casting", .algorithms = algorithms)

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <numbers>
 
+#include "muro/toolkit/rotations.hpp"
 #include "tests/support/scene.hpp"
 
 namespace muro {

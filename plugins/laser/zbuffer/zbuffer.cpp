@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A laser scanner by depth pictures (MuRoSimF, Section 4.1); see README.md.
-#include "method.hpp"
+// A laser scanner by depth images (MuRoSimF, Section 4.1); see README.md.
+#include "plugins/common/laser_methods/zbuffer/zbuffer_method.hpp"
 #include "plugins/common/scanner/scanner.hpp"
 
 namespace {
@@ -15,7 +15,7 @@ constexpr Description description{
     .id = "laser.zbuffer",
     .kind = Kind::sensor,
     .version = "1.0.0",
-    .summary = "A laser scanner by depth pictures: many rays at once, any shape and mesh; by a GPU where there is one",
+    .summary = "A laser scanner by depth images: many rays at once, any shape and mesh; by a GPU where there is one",
     .parameters = parameters,
     .reads = reads,
     .writes = scanner::writes,
@@ -31,5 +31,5 @@ constexpr abi::AlgorithmEntry algorithms[] = {algorithm<ZBuffer>(description)};
 
 }  // namespace
 
-MURO_PLUGIN(.name = "laser_zbuffer", .version = "1.0.0", .licence = "MIT", .summary = "Laser scanner by depth pictures",
-            .algorithms = algorithms)
+MURO_PLUGIN(.name = "laser_zbuffer", .version = description.version, .licence = "MIT",
+            .summary = "Laser scanner by depth images", .algorithms = algorithms)

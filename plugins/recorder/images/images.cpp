@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Writes what cameras see to PNG files; see README.md.
+// Writes the images of cameras to files; see README.md.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 
 #include "muro/plugin.hpp"
+#include "muro/toolkit/whole_file.hpp"
 #include "plugins/common/image_file/png.hpp"
 
 namespace {
@@ -26,13 +26,13 @@ constexpr Description description{
     .id = "recorder.images",
     .kind = Kind::recorder,
     .version = "1.1.0",
-    .summary = "Writes pictures, depths and labels of cameras to files, PNG or raw, one for each run",
+    .summary = "Writes images, depths and labels of cameras to files, PNG or raw",
     .parameters = parameters,
     .reads = reads,
     .capabilities = deterministic | restorable,
 };
 
-constexpr double depth_step = 1e-3;  ///< m: a grey value of depth
+constexpr double depth_resolution = 1e-3;  ///< m for each grey value
 constexpr std::uint32_t no_object_grey = 65535;
 
 class ImageRecorder final : public Algorithm {
@@ -41,7 +41,10 @@ class ImageRecorder final : public Algorithm {
     const Parameters& p = c.parameters();
     folder_ = fs::absolute(std::string(p.text("folder")));
     raw_ = p.text("format") == "raw";
-    const auto names = p.texts("cameras");
+  }
+
+  void connect_by_name(Connector& c) override {
+    const auto names = c.parameters().texts("cameras");
     if (names.empty())
       for (std::uint32_t i = 0; i < c.object_count(); ++i) add_camera(c, ObjectId{i});
     for (const std::string_view name : names) {
@@ -72,7 +75,7 @@ class ImageRecorder final : public Algorithm {
 
  private:
   struct Camera {
-    std::string name;  ///< as in the names of its files
+    std::string file_prefix;
     std::uint32_t width = 0, height = 0;
     ArrayIn<std::uint8_t> image;
     ArrayIn<float> depth;
@@ -81,16 +84,16 @@ class ImageRecorder final : public Algorithm {
   };
 
   void write_pngs(Camera& camera, const std::string& time) const {
-    using picture_file::Format;
-    if (camera.image) write(camera, time + ".png", Format::rgb8, (*camera.image).data());
+    using image_file::Format;
+    if (camera.image) write_png(camera, time + ".png", Format::rgb8, (*camera.image).data());
     const auto write_grey = [&](const char* what, auto values, auto grey_of) {
       camera.grey.resize(values.size());
       for (std::size_t k = 0; k < values.size(); ++k) camera.grey[k] = grey_of(values[k]);
-      write(camera, what + time + ".png", Format::grey16, camera.grey.data());
+      write_png(camera, what + time + ".png", Format::grey16, camera.grey.data());
     };
     if (camera.depth)
       write_grey("_depth", *camera.depth, [](float depth) {
-        const double value = double(depth) / depth_step;
+        const double value = double(depth) / depth_resolution;
         return value < no_object_grey ? std::uint16_t(std::lround(value)) : std::uint16_t(0);
       });
     if (camera.labels)
@@ -104,30 +107,23 @@ class ImageRecorder final : public Algorithm {
     if (camera.labels) write_bytes(camera, "_labels" + time + ".u32", std::as_bytes(*camera.labels));
   }
 
-  /// Under another name first, so that no file is ever half written.
-  void write_bytes(const Camera& camera, const std::string& ending, std::span<const std::byte> bytes) const {
-    const fs::path path = folder_ / (camera.name + ending), part = path.string() + ".part";
-    std::ofstream file(part, std::ios::binary);
-    file.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
-    file.close();
-    std::error_code code;
-    if (file) fs::rename(part, path, code);
-    if (!file || code) throw Error("the picture `" + path.string() + "` cannot be written");
+  void write_bytes(const Camera& camera, const std::string& suffix, std::span<const std::byte> bytes) const {
+    WholeFile file((folder_ / (camera.file_prefix + suffix)).string());
+    file.stream().write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
+    file.publish();
   }
 
   bool add_camera(Connector& c, ObjectId object) {
     Camera camera;
     for (const FoundProperty& found : c.properties(object)) {
-      camera.image =
-          found.key->name == keys::camera_image.name ? c.read_array(object, keys::camera_image) : camera.image;
-      camera.depth =
-          found.key->name == keys::camera_depth.name ? c.read_array(object, keys::camera_depth) : camera.depth;
-      camera.labels =
-          found.key->name == keys::camera_labels.name ? c.read_array(object, keys::camera_labels) : camera.labels;
+      const std::string_view name = found.key->name;
+      if (name == keys::camera_image.name) camera.image = c.read_array(object, keys::camera_image);
+      if (name == keys::camera_depth.name) camera.depth = c.read_array(object, keys::camera_depth);
+      if (name == keys::camera_labels.name) camera.labels = c.read_array(object, keys::camera_labels);
     }
     if (!camera.image && !camera.depth && !camera.labels) return false;
-    camera.name = c.object_name(object);
-    for (char& letter : camera.name)
+    camera.file_prefix = c.object_name(object);
+    for (char& letter : camera.file_prefix)
       if (letter == '/') letter = '_';
     camera.width = c.constant(object, keys::camera_width).value_or(0);
     camera.height = c.constant(object, keys::camera_height).value_or(0);
@@ -135,8 +131,9 @@ class ImageRecorder final : public Algorithm {
     return true;
   }
 
-  void write(const Camera& camera, const std::string& ending, picture_file::Format format, const void* pixels) const {
-    picture_file::write_png((folder_ / (camera.name + ending)).string(), format, camera.width, camera.height, pixels);
+  void write_png(const Camera& camera, const std::string& suffix, image_file::Format format, const void* pixels) const {
+    image_file::write_png((folder_ / (camera.file_prefix + suffix)).string(), format, camera.width, camera.height,
+                          pixels);
   }
 
   fs::path folder_;
@@ -148,5 +145,5 @@ constexpr abi::AlgorithmEntry algorithms[] = {algorithm<ImageRecorder>(descripti
 
 }  // namespace
 
-MURO_PLUGIN(.name = "recorder_images", .version = "1.1.0", .licence = "MIT", .summary = "Pictures of cameras to files",
-            .algorithms = algorithms)
+MURO_PLUGIN(.name = "recorder_images", .version = description.version, .licence = "MIT",
+            .summary = "Pictures of cameras to files", .algorithms = algorithms)

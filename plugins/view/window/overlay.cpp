@@ -12,12 +12,12 @@ namespace {
 
 const Vec3 red(0.95, 0.2, 0.15), green(0.2, 0.8, 0.2), blue(0.25, 0.4, 1), orange(1, 0.6, 0.1);
 
-/// The value of a property, or `otherwise`.
+/// The value of a property; `default_value` where it is missing.
 template <class T>
-T value_of(std::span<const LiveProperty> properties, const Key<T>& key, const T& otherwise) {
+T value_of(std::span<const LiveProperty> properties, const Key<T>& key, const T& default_value) {
   for (const LiveProperty& p : properties)
     if (p.key->name == key.name && *p.key->type == *key.type && p.count > 0) return *static_cast<const T*>(p.data);
-  return otherwise;
+  return default_value;
 }
 
 template <class T>
@@ -29,25 +29,21 @@ std::span<const T> values_of(std::span<const LiveProperty> properties, const Key
 
 }  // namespace
 
-void Overlay::connect(Connector& c) {
-  for (const RobotView* robot : c.robots())
-    for (const Link& f : robot->links)
-      bodies_.push_back(
-          {c.read(f.object, keys::pose), f.object, std::int32_t(robot->number), f.object == robot->base()});
+void Overlay::connect_by_name(Connector& c) {
   for (std::uint32_t i = 0; i < c.object_count(); ++i)
     for (const FoundProperty& p : c.properties(ObjectId(i)))
       if (p.key->name == keys::ranges.name) {
         c.read(ObjectId(i), keys::pose);  // so that it is up to date
-        sensors_.push_back(ObjectId(i));
+        scanners_.push_back(ObjectId(i));
       }
 }
 
-void Overlay::add_frame(const Pose& pose, double length, render::Lines& lines) {
+void Overlay::add_frame(const Pose& pose, double length, render::DebugLines& lines) {
   const Vec3 colors[] = {red, green, blue};
-  for (int k = 0; k < 3; ++k) lines.add(pose.position, pose * Vec3(length * Vec3::Unit(k)), colors[k], 1);
+  for (int k = 0; k < 3; ++k) lines.add_line(pose.position, pose * Vec3(length * Vec3::Unit(k)), colors[k], 1);
 }
 
-void Overlay::add_scan(Inspection& simulation, ObjectId sensor, render::Lines& lines) const {
+void Overlay::add_scan(Inspection& simulation, ObjectId sensor, render::DebugLines& lines) const {
   const std::span<const LiveProperty> properties = simulation.properties(sensor);
   const std::span<const double> ranges = values_of(properties, keys::ranges);
   const auto columns = value_of(properties, keys::laser_columns, 0U);
@@ -57,36 +53,38 @@ void Overlay::add_scan(Inspection& simulation, ObjectId sensor, render::Lines& l
   const double first = value_of(properties, keys::laser_min_angle, 0.0);
   const double low = value_of(properties, scanner::key_min_elevation, 0.0);
   const double step = value_of(properties, scanner::key_elevation_increment, 0.0);
-  const double most = value_of(properties, keys::laser_max_range, 1e9);
-  constexpr std::size_t shown = 4000;  // points of a scan
-  const std::size_t every = 1 + ranges.size() / shown;
-  const std::size_t fan = std::max<std::size_t>(every, ranges.size() / 90);
-  for (std::size_t i = 0; i < ranges.size(); i += every) {
+  const double max_range = value_of(properties, keys::laser_max_range, 1e9);
+  constexpr std::size_t max_points = 4000, max_lines = 90;
+  const std::size_t point_stride = 1 + ranges.size() / max_points;
+  const std::size_t line_stride = std::max<std::size_t>(point_stride, ranges.size() / max_lines);
+  for (std::size_t i = 0; i < ranges.size(); i += point_stride) {
     const std::size_t row = i / columns;
     const double a = first + double(i % columns) * increment, e = low + double(row) * step;
-    const Vec3 way(std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e));
-    const Vec3 end = device * Vec3(ranges[i] * way);
-    const bool hit = ranges[i] < most;
-    if (hit) lines.point(end, red);
-    if (i % fan < every) lines.add(device.position, end, hit ? red : orange, hit ? 0.25 : 0.08);
+    const Vec3 direction(std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e));
+    const Vec3 end = device * Vec3(ranges[i] * direction);
+    const bool hit = ranges[i] < max_range;
+    if (hit) lines.add_point(end, red);
+    if (i % line_stride < point_stride) lines.add_line(device.position, end, hit ? red : orange, hit ? 0.25 : 0.08);
   }
 }
 
-void Overlay::collect(Inspection& simulation, ObjectId chosen, render::Lines& lines) const {
+void Overlay::collect(Inspection& simulation, const BodyPoses& bodies, ObjectId selected,
+                      render::DebugLines& lines) const {
   std::int32_t robot = -1;
-  for (const Body& b : bodies_)
-    if (b.object == chosen) robot = b.robot;
-  for (const Body& b : bodies_) {
+  for (const BodyPoses::Body& b : bodies.links())
+    if (b.object == selected) robot = b.robot;
+  for (const BodyPoses::Body& b : bodies.links()) {
+    const bool is_selected = b.object == selected;
     if (frames && b.is_base) add_frame(*b.pose, 0.4, lines);
-    if (b.robot == robot && (frames || b.object == chosen)) add_frame(*b.pose, b.object == chosen ? 0.3 : 0.12, lines);
+    if (b.robot == robot && (frames || is_selected)) add_frame(*b.pose, is_selected ? 0.3 : 0.12, lines);
     if (contacts && b.is_base)
       for (const Contact& contact : values_of(simulation.properties(b.object), keys::contacts)) {
-        lines.point(contact.point, orange);
-        lines.add(contact.point, contact.point + 0.12 * contact.normal, orange, 1);
+        lines.add_point(contact.point, orange);
+        lines.add_line(contact.point, contact.point + 0.12 * contact.normal, orange, 1);
       }
   }
   if (scans)
-    for (const ObjectId sensor : sensors_) add_scan(simulation, sensor, lines);
+    for (const ObjectId scanner : scanners_) add_scan(simulation, scanner, lines);
 }
 
 }  // namespace muro::view

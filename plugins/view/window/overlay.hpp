@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// What is drawn over the scene: for eyes alone, no sensor sees it.
+// Debug drawing over the scene, which no sensor sees.
 #pragma once
 
 #include <vector>
 
+#include "body_poses.hpp"
 #include "muro/inspection.hpp"
-#include "plugins/common/render/lines.hpp"
+#include "plugins/common/render/debug_lines.hpp"
 
 namespace muro::view {
 
@@ -13,24 +14,16 @@ class Overlay {
  public:
   bool scans = true, frames = false, contacts = true;
 
-  /// Remembers robots and laser scanners. [setup]
-  void connect(Connector& c);
-  /// What there is to draw now. `chosen`: an object whose robot's frames are all shown.
-  void collect(Inspection& simulation, ObjectId chosen, render::Lines& lines) const;
+  /// Finds the laser scanners. [setup]
+  void connect_by_name(Connector& c);
+  /// Adds what is to be drawn now. `selected`: an object whose robot is shown with the frames of all its links.
+  void collect(Inspection& simulation, const BodyPoses& bodies, ObjectId selected, render::DebugLines& lines) const;
 
  private:
-  struct Body {
-    In<Pose> pose;
-    ObjectId object;
-    std::int32_t robot;
-    bool is_base;
-  };
+  void add_scan(Inspection& simulation, ObjectId sensor, render::DebugLines& lines) const;
+  static void add_frame(const Pose& pose, double length, render::DebugLines& lines);
 
-  void add_scan(Inspection& simulation, ObjectId sensor, render::Lines& lines) const;
-  static void add_frame(const Pose& pose, double length, render::Lines& lines);
-
-  std::vector<Body> bodies_;
-  std::vector<ObjectId> sensors_;
+  std::vector<ObjectId> scanners_;
 };
 
 }  // namespace muro::view

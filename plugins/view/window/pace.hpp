@@ -13,7 +13,7 @@ class Pace {
 
   /// Whether the run may leave the instant `simulated` now.
   bool may_go_on(double simulated, double wall) {
-    if (!begun_) begin(simulated, wall);
+    if (!has_begun_) begin(simulated, wall);
     if (paused_) {
       begin(simulated, wall);
       if (!stepping_) return false;
@@ -23,7 +23,7 @@ class Pace {
     if (speed_ <= 0) return true;
     const double due = from_wall_ + (simulated - from_simulated_) / speed_;
     if (wall < due) return false;
-    if (wall - due > 0.5) begin(simulated, wall);  // what is lost is not made up for
+    if (wall - due > 0.5) begin(simulated, wall);  // lost time is not caught up
     return true;
   }
 
@@ -32,10 +32,10 @@ class Pace {
   void set_paused(bool paused) { paused_ = paused; }
   void set_speed(double speed) {
     speed_ = speed;
-    begun_ = false;
+    has_begun_ = false;
   }
   /// Simulated time has jumped.
-  void begin_anew() { begun_ = false; }
+  void begin_anew() { has_begun_ = false; }
   /// Lets a paused run go on to the next frame.
   void step() { stepping_ = paused_ = true; }
 
@@ -43,11 +43,11 @@ class Pace {
   void begin(double simulated, double wall) {
     from_simulated_ = simulated;
     from_wall_ = wall;
-    begun_ = true;
+    has_begun_ = true;
   }
 
   double speed_;
-  bool paused_, stepping_ = false, begun_ = false;
+  bool paused_, stepping_ = false, has_begun_ = false;
   double from_simulated_ = 0, from_wall_ = 0;
 };
 

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <string_view>
 
-#include "values.hpp"
+#include "property_scalars.hpp"
 
 namespace muro::view {
 
@@ -35,14 +35,15 @@ void Panels::connect(Connector& c) {
   }
 }
 
-void Panels::draw(Inspection& simulation, Pace& pace, Eye& eye, Overlay& overlay, double simulated, double wall) {
-  draw_controls(pace, eye, overlay, simulated, wall);
+void Panels::draw(Inspection& simulation, Pace& pace, OrbitCamera& camera, Overlay& overlay, double simulated,
+                  double wall) {
+  draw_controls(pace, camera, overlay, simulated, wall);
   draw_tree(simulation);
   draw_costs(simulation, simulated);
-  if (chosen != no_object) draw_properties(simulation);
+  if (selected != no_object) draw_properties(simulation);
 }
 
-void Panels::press(Key key, Pace& pace, Eye& eye) {
+void Panels::press(Key key, Pace& pace, OrbitCamera& camera) {
   if (ImGui::GetIO().WantTextInput) return;
   switch (key) {
     case Key::space:
@@ -50,20 +51,20 @@ void Panels::press(Key key, Pace& pace, Eye& eye) {
     case Key::right:
       return pace.step();
     case Key::escape:
-      chosen = no_object;
-      eye.mode = Eye::Mode::orbit;
+      selected = no_object;
+      camera.mode = OrbitCamera::Mode::orbit;
       return;
     case Key::home:
-      wants_all = true;
+      show_all_requested = true;
   }
 }
 
 std::array<double, 4> Panels::free_area(double width, double height) const {
-  const double right = chosen == no_object ? 0 : right_width + margin;
+  const double right = selected == no_object ? 0 : right_width + margin;
   return {side_width + margin, bar_height + margin, width - right, height - cost_height - margin};
 }
 
-void Panels::draw_controls(Pace& pace, Eye& eye, Overlay& overlay, double simulated, double wall) {
+void Panels::draw_controls(Pace& pace, OrbitCamera& camera, Overlay& overlay, double simulated, double wall) {
   if (wall - last_wall_ > 0.5) {
     factor_ = (simulated - last_simulated_) / (wall - last_wall_);
     last_simulated_ = simulated;
@@ -89,16 +90,16 @@ void Panels::draw_controls(Pace& pace, Eye& eye, Overlay& overlay, double simula
   ImGui::SameLine();
   ImGui::Text("  t = %.3f s   %.2f x real time   %.0f frames/s", simulated, factor_, double(ImGui::GetIO().Framerate));
 
-  int mode = int(eye.mode);
-  const bool followed = chosen != no_object;
+  int mode = int(camera.mode);
+  const bool followed = selected != no_object;
   ImGui::RadioButton("orbit", &mode, 0);
   ImGui::SameLine();
   ImGui::RadioButton("follow", &mode, 1);
   ImGui::SameLine();
   ImGui::RadioButton("first person", &mode, 2);
-  eye.mode = followed ? Eye::Mode(mode) : Eye::Mode::orbit;
+  camera.mode = followed ? OrbitCamera::Mode(mode) : OrbitCamera::Mode::orbit;
   ImGui::SameLine();
-  if (ImGui::Button("all")) wants_all = true;
+  if (ImGui::Button("all")) show_all_requested = true;
   ImGui::SameLine(0, 30);
   ImGui::Checkbox("scans", &overlay.scans);
   ImGui::SameLine();
@@ -107,7 +108,7 @@ void Panels::draw_controls(Pace& pace, Eye& eye, Overlay& overlay, double simula
   ImGui::Checkbox("frames", &overlay.frames);
   if (!followed && mode != 0) {
     ImGui::SameLine();
-    text("  choose something first: click on it");
+    text("  select something first: click on it");
   }
   ImGui::End();
 }
@@ -125,7 +126,7 @@ void Panels::draw_tree(Inspection& simulation) {
                        return matches(simulation.object_name(object));
                      });
     if (!any) continue;
-    const bool holds = std::find(g.objects.begin(), g.objects.end(), chosen) != g.objects.end();
+    const bool holds = std::find(g.objects.begin(), g.objects.end(), selected) != g.objects.end();
     if (holds) ImGui::SetNextItemOpen(true, ImGuiCond_Once);
     if (!ImGui::TreeNodeEx(g.name.c_str(), holds ? ImGuiTreeNodeFlags_Selected : 0)) continue;
     for (const ObjectId object : g.objects) {
@@ -134,7 +135,7 @@ void Panels::draw_tree(Inspection& simulation) {
       if (!matches(name) && !matches(g.name)) continue;
       if (name.rfind(g.name + "/", 0) == 0) name.erase(0, g.name.size() + 1);
       ImGui::PushID(int(object));
-      if (ImGui::Selectable(name.c_str(), object == chosen)) chosen = object;
+      if (ImGui::Selectable(name.c_str(), object == selected)) selected = object;
       ImGui::PopID();
     }
     ImGui::TreePop();
@@ -162,11 +163,11 @@ void Panels::draw_properties(Inspection& simulation) {
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   const float top = bar_height + 2 * margin;
   place(size.x - right_width - margin, top, right_width, size.y - top - margin);
-  ImGui::Begin(("properties of " + std::string(simulation.object_name(chosen)) + "###properties").c_str(), nullptr,
+  ImGui::Begin(("properties of " + std::string(simulation.object_name(selected)) + "###properties").c_str(), nullptr,
                fixed);
   if (!ImGui::BeginTable("table", 2, ImGuiTableFlags_Resizable | ImGuiTableFlags_BordersInnerV)) return ImGui::End();
   ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthFixed, 0.45F * right_width);
-  for (const LiveProperty& p : simulation.properties(chosen)) {
+  for (const LiveProperty& p : simulation.properties(selected)) {
     const std::string name(p.key->name);
     ImGui::PushID(name.c_str());
     ImGui::TableNextRow();
@@ -187,7 +188,7 @@ void Panels::draw_properties(Inspection& simulation) {
       ImGui::TreePop();
     }
     ImGui::TableNextColumn();
-    const std::string value = in_short(p, simulation), unit(p.key->unit);
+    const std::string value = summary_of(p, simulation), unit(p.key->unit);
     ImGui::Text("%s %s", value.c_str(), unit == "1" ? "" : unit.c_str());
     ImGui::PopID();
   }
@@ -197,7 +198,7 @@ void Panels::draw_properties(Inspection& simulation) {
 
 void Panels::draw_costs(Inspection& simulation, double simulated) {
   const ImVec2 size = ImGui::GetIO().DisplaySize;
-  const float width = chosen == no_object ? size.x - 2 * margin : size.x - right_width - 3 * margin;
+  const float width = selected == no_object ? size.x - 2 * margin : size.x - right_width - 3 * margin;
   place(margin, size.y - cost_height - margin, width, cost_height);
   ImGui::Begin("cost: ms of computing for each simulated second", nullptr, fixed);
   std::vector<LiveCost> costs(simulation.costs().begin(), simulation.costs().end());

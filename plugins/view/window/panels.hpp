@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "eye.hpp"
 #include "muro/inspection.hpp"
+#include "orbit_camera.hpp"
 #include "overlay.hpp"
 #include "pace.hpp"
 #include "screen.hpp"
@@ -16,16 +16,16 @@ namespace muro::view {
 
 class Panels {
  public:
-  ObjectId chosen = no_object;
-  bool wants_all = false;  ///< the whole scene is to be seen
+  ObjectId selected = no_object;
+  bool show_all_requested = false;  ///< by the user: all robots in view
 
   /// Remembers the tree of robots. [setup]
   void connect(Connector& c);
   /// Simulated time has jumped.
   void begin_anew() { last_wall_ = last_simulated_ = 0; }
   /// Draws all and does what buttons and keys say. `simulated`, `wall`: s.
-  void draw(Inspection& simulation, Pace& pace, Eye& eye, Overlay& overlay, double simulated, double wall);
-  void press(Key key, Pace& pace, Eye& eye);
+  void draw(Inspection& simulation, Pace& pace, OrbitCamera& camera, Overlay& overlay, double simulated, double wall);
+  void press(Key key, Pace& pace, OrbitCamera& camera);
   /// Where the scene is not covered: left, top, right, bottom, in pixels.
   std::array<double, 4> free_area(double width, double height) const;
 
@@ -35,7 +35,7 @@ class Panels {
     std::vector<ObjectId> objects;
   };
 
-  void draw_controls(Pace& pace, Eye& eye, Overlay& overlay, double simulated, double wall);
+  void draw_controls(Pace& pace, OrbitCamera& camera, Overlay& overlay, double simulated, double wall);
   void draw_tree(Inspection& simulation);
   void draw_properties(Inspection& simulation);
   void draw_costs(Inspection& simulation, double simulated);

@@ -54,7 +54,7 @@ Screen::Screen(const std::string& title, int width, int height) {
   style.WindowRounding = 4;
   style.Colors[ImGuiCol_WindowBg].w = 0.85F;
   glfwSetWindowUserPointer(window_, this);
-  glfwSetKeyCallback(window_, &Screen::on_key);  // before those of ImGui, which hand on
+  glfwSetKeyCallback(window_, &Screen::on_key);  // before those of ImGui, which call this one
   ImGui_ImplGlfw_InitForOpenGL(window_, true);
   ImGui_ImplOpenGL3_Init("#version 450");
   glfwMakeContextCurrent(nullptr);
@@ -88,13 +88,13 @@ void Screen::on_key(GLFWwindow* window, int key, int, int action, int) {
                                            {GLFW_KEY_HOME, Key::home}};
   auto& screen = *static_cast<Screen*>(glfwGetWindowUserPointer(window));
   for (const auto& [code, meaning] : known)
-    if (code == key && action == GLFW_PRESS) screen.coming_keys_.push_back(meaning);
+    if (code == key && action == GLFW_PRESS) screen.pending_keys_.push_back(meaning);
 }
 
 void Screen::begin() {
   glfwPollEvents();
   keys_.clear();
-  keys_.swap(coming_keys_);
+  keys_.swap(pending_keys_);
   glfwGetFramebufferSize(window_, &width_, &height_);
   width_ = std::max(width_, 1);
   height_ = std::max(height_, 1);

@@ -28,8 +28,8 @@ class Screen {
   const std::vector<Key>& keys() const { return keys_; }
   int width() const { return width_; }
   int height() const { return height_; }
-  /// Draws what the panels have said over what is there, and shows it. `picture`, if any, gets what the window then
-  /// shows, sRGB, rows from the top.
+  /// Draws the panels over the scene, and shows the frame. `picture`, if given, receives the image of the window: sRGB,
+  /// rows from the top.
   void end(std::vector<std::uint8_t>* picture = nullptr);
 
   /// Whether the processor draws.
@@ -50,7 +50,7 @@ class Screen {
   static void on_key(GLFWwindow* window, int key, int code, int action, int modifiers);
 
   GLFWwindow* window_ = nullptr;
-  std::vector<Key> keys_, coming_keys_;
+  std::vector<Key> keys_, pending_keys_;
   int width_ = 0, height_ = 0;
 };
 

@@ -3,6 +3,7 @@
 // others may read: its own distance, or, where there is an edge within their blur, one from the other side.
 #include <algorithm>
 
+#include "muro/toolkit/rotations.hpp"
 #include "tests/conformance/laser/room.hpp"
 
 namespace muro {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Beams that are wider than a line, and what noise makes of their incidence.
+#include "muro/toolkit/rotations.hpp"
 #include "tests/conformance/laser/room.hpp"
 
 namespace muro {

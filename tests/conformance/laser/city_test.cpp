@@ -2,7 +2,8 @@
 // The city of the benchmarks: laser.zbuffer beside laser.raycast, as devices are.
 #include <algorithm>
 
-#include "tests/bench/peers/city.hpp"
+#include "muro/toolkit/rotations.hpp"
+#include "tests/bench/baselines/city.hpp"
 #include "tests/conformance/laser/room.hpp"
 
 namespace muro {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Every laser method against distances that can be written down.
+#include "muro/toolkit/rotations.hpp"
 #include "tests/conformance/laser/room.hpp"
 #include "tests/support/files.hpp"
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tests/conformance/laser/room.hpp"
+#include "muro/toolkit/rotations.hpp"
 
 #include <algorithm>
 #include <random>

@@ -66,10 +66,9 @@ struct Bound {
   double relative = 0, absolute = 0;  ///< of the range; m
   double blur = 0;
 };
-/// For a scanner whose neighbouring rays are `spacing` (rad) apart, with `supersampling` pixels a ray. A picture's
-/// pixels are spacing / supersampling wide; its depths are single precision floats, interpolated over triangles;
-/// circles lie 0.2 mm
-/// inside of themselves.
+/// For a scanner whose neighbouring rays are `spacing` (rad) apart, with `supersampling` pixels for each ray. The pixels
+/// of a depth image are spacing / supersampling wide; its depths are single-precision floats, interpolated over
+/// triangles; circles are polygons that lie 0.2 mm inside of them.
 Bound bound_of(const std::string& method, double spacing, double supersampling);
 
 }  // namespace muro::test

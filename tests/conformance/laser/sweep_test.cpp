@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Scans that take their time, on a robot that drives.
+#include "muro/toolkit/rotations.hpp"
 #include "tests/conformance/laser/room.hpp"
 
 namespace muro {

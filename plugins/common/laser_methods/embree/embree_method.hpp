@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <tuple>
+
+#include "plugins/common/scanner/method.hpp"
+#include "user_geometry.hpp"
+
+namespace muro::embree {
+
+/// Distances by Embree: exact to shapes with a closed form, in single precision to the triangles of meshes.
+class Embree final : public scanner::Method {
+ public:
+  Embree();
+  ~Embree() override;
+
+  void connect(Connector& c) override;
+  void prepare(std::span<const scanner::RaySet> sets) override;
+  void start() override;
+  void update() override;
+  void cast(std::size_t set, const scanner::Viewpoint& from, std::span<double> ranges,
+            std::span<ObjectId> hits) override;
+  bool is_parallel() const override { return true; }
+  bool is_cheap_for_few_rays() const override { return true; }
+
+ private:
+  struct MeshInstance {
+    BodyShape shape;
+    RTCGeometry geometry = nullptr;
+  };
+
+  void add(Connector& c, const BodyShape& shape);
+  RTCScene mesh(const std::string& path, const Vec3& scale);
+  void place(const MeshInstance& instance) const;
+  static void skip_ignored_robot(const RTCFilterFunctionNArguments* a);
+  /// Shapes and meshes, sixteen rays at a time.
+  void intersect_scene(RayQuery& query, std::uint32_t count, double max_range) const;
+  void intersect_planes(const RayQuery& query, std::uint32_t count) const;
+
+  RTCDevice device_ = nullptr;
+  RTCScene scene_ = nullptr;
+  std::map<std::tuple<std::string, double, double, double>, RTCScene> meshes_;  ///< by file and scale
+  std::vector<BodyShape> scenery_shapes_, robot_shapes_, planes_;
+  std::vector<MeshInstance> mesh_instances_;
+  UserGeometry scenery_, robots_;
+  std::vector<std::int32_t> robot_of_;  ///< by geometry of the scene
+  std::vector<ObjectId> object_of_;     ///< likewise
+  std::vector<scanner::RaySet> sets_;
+  bool is_built_ = false;
+};
+
+}  // namespace muro::embree

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "box_table_builder.hpp"
+
+namespace muro::raycast {
+
+/// What rays can hit, in the form that the kernels read: built once from a scene index, updated once an instant.
+/// Meshes are left out.
+class SceneTable {
+ public:
+  /// Copies shapes and scenery, and does what `update` does.
+  void build(const SceneIndex& scene);
+  /// Copies where robots are. Does not allocate. [step]
+  void update(const SceneIndex& scene);
+
+  SceneView view() const;
+  /// The object that has the collider; none for -1.
+  ObjectId body(std::int64_t collider) const { return collider < 0 ? no_object : bodies_[std::size_t(collider)]; }
+  /// Blocks of sixteen boxes.
+  std::size_t block_count() const { return scenery_.block_count() + moving_.block_count(); }
+  std::size_t robot_count() const { return robots_.size(); }
+  std::size_t primitive_count() const { return primitives_.size(); }
+  std::size_t plane_count() const { return planes_.size(); }
+
+ private:
+  BoxTableBuilder scenery_, moving_;
+  std::vector<Primitive> primitives_;
+  std::vector<PrimitiveRange> robots_;  ///< by number
+  std::vector<Plane> planes_;
+  std::vector<ObjectId> bodies_;  ///< by collider
+};
+
+}  // namespace muro::raycast

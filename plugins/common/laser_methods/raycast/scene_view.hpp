@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+// The scene and the scan as the kernels read them: plain numbers, world axes, m.
+#pragma once
+
+#include <cstdint>
+
+#include "muro/simd/isa.hpp"
+#include "ray_packet.hpp"
+
+namespace muro::raycast {
+
+enum class PrimitiveKind : std::uint32_t { aligned_box, box, sphere, cylinder, capsule };
+
+/// A bounded shape. `axes` and `position` are those of the shape in the world for scenery, in its body for a robot.
+struct Primitive {
+  PrimitiveKind kind = PrimitiveKind::box;  ///< aligned_box: parallel to the axes of the world
+  std::uint32_t id = 0;                     ///< number of its collider; of two at one distance the lesser is hit
+  double sx = 0, sy = 0, sz = 0;            ///< half lengths of a box; else radius, -, half length along z
+  double half[3] = {};                      ///< half lengths of the box around the shape, in the axes of the shape
+  double position[3] = {};
+  double axes[9] = {};           ///< the x axis of the shape, then y, then z
+  const double* body = nullptr;  ///< pose of a robot's body in the world: position x y z, orientation x y z w
+};
+
+/// The half space below a plane: normal * x <= offset.
+struct Plane {
+  double normal[3] = {};
+  double offset = 0;
+  std::uint32_t id = 0;
+  std::int32_t robot = -1;
+};
+
+/// Sixteen boxes parallel to the axes of the world, as a structure of arrays. An empty box has low > high.
+struct alignas(64) BoxBlock {
+  static constexpr int size = 16;
+  float low[3][size], high[3][size];
+  std::uint32_t item[size];
+};
+
+/// A hierarchy of two levels: box g of the groups encloses block g. Coordinates are relative to `centre`.
+struct BoxTable {
+  const BoxBlock* groups = nullptr;
+  const BoxBlock* blocks = nullptr;
+  std::uint32_t group_count = 0;
+  double centre[3] = {};
+  float extent = 0;  ///< m, greatest coordinate
+};
+
+struct PrimitiveRange {
+  std::uint32_t first = 0, count = 0;
+};
+
+/// All that rays can hit.
+struct SceneView {
+  BoxTable scenery;  ///< items: index of a primitive
+  BoxTable moving;   ///< items: number of a robot
+  const Primitive* primitives = nullptr;
+  const PrimitiveRange* robots = nullptr;  ///< by number
+  const Plane* planes = nullptr;
+  std::uint32_t plane_count = 0;
+};
+
+/// The rays of a scan: where the scanner is, how far it sees, in which directions.
+struct ScanQuery {
+  double position[3] = {};
+  double axes[9] = {};  ///< row by row: direction in the world = axes * direction in the device's frame
+  double min_range = 0, max_range = 0;
+  std::int32_t ignored_robot = -1;  ///< number of a robot that is not seen; -1: none
+  const RayPacket* packets = nullptr;
+  const Sector* sectors = nullptr;
+  std::uint32_t sector_count = 0;
+  double min_slope = 0, max_slope = 0;  ///< of the rays: z / sqrt(x^2 + y^2) in the device's frame
+};
+
+/// What rays may hit. The boxes are relative to the scanner and a little too large.
+struct alignas(64) Candidates {
+  static constexpr int size = 16;
+  float low[3][size], high[3][size];
+  std::uint32_t item[size];  ///< index of a primitive, or of a `RobotCandidate` with the highest bit set
+  std::uint32_t count;
+  float near;  ///< m: a lower bound of the distance of these and all later candidates
+};
+
+/// Sixteen boxes of a table relative to the scanner, some of them candidates.
+struct alignas(64) RelativeBoxes {
+  float low[3][16], high[3][16];
+  std::uint32_t item[16];
+};
+/// One of the candidates among them.
+struct CandidateRef {
+  std::uint32_t index;         ///< 16 block + number in the block
+  std::uint32_t distance_bin;  ///< of its box
+};
+
+/// A robot in range.
+struct RobotCandidate {
+  std::uint32_t robot = 0;
+  std::int32_t first_placed = -1;  ///< its primitives in Scratch::placed; -1 until a ray enters its box
+};
+
+/// A robot's primitive at its present pose, relative to the scanner.
+struct PlacedPrimitive {
+  PrimitiveKind kind;
+  std::uint32_t id;
+  float low[3], high[3];  ///< as in Candidates
+  double sx, sy, sz;
+  double origin[3];  ///< of the rays, in the frame of the primitive
+  double axes[9];    ///< as in Primitive, in the world
+};
+
+/// A plane that rays may hit.
+struct PlaneCandidate {
+  double normal[3];
+  double height;  ///< m, of the scanner above the plane
+  std::uint32_t id;
+};
+
+/// Memory of one scan: enough for all boxes of the tables and for all primitives of robots.
+struct Scratch {
+  RelativeBoxes* boxes = nullptr;
+  CandidateRef* order = nullptr;
+  Candidates* in_range = nullptr;   ///< two more blocks than are needed
+  Candidates* in_sector = nullptr;  ///< likewise
+  RobotCandidate* robots = nullptr;
+  PlacedPrimitive* placed = nullptr;
+  PlaneCandidate* planes = nullptr;
+};
+
+/// Where the results go, by number of the ray.
+struct ScanOutput {
+  double* ranges = nullptr;
+  std::int64_t* ids = nullptr;  ///< number of the collider that each ray hits, -1 for none; null: not written
+};
+
+struct ScanKernels {
+  void (*cast)(const SceneView&, const ScanQuery&, const Scratch&, const ScanOutput&);
+};
+MURO_DECLARE_KERNELS(ScanKernels, scan_kernels)
+
+}  // namespace muro::raycast

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// Colour images. To be made and used while the context is current.
+#pragma once
+
+#include "gpu_scene.hpp"
+#include "program.hpp"
+#include "target.hpp"
+
+namespace muro::render {
+
+/// The light: a sun and a sky.
+struct Daylight {
+  Vec3 to_sun = Vec3(0.35, -0.5, 0.79).normalized();
+  bool shadows = true;
+  double shadow_range = 25;  ///< m, around what the camera looks at, within which shadows are drawn
+};
+
+class ColorRenderer {
+ public:
+  explicit ColorRenderer(GpuScene& scene);
+  ~ColorRenderer();
+  ColorRenderer(const ColorRenderer&) = delete;
+  ColorRenderer& operator=(const ColorRenderer&) = delete;
+
+  void draw(const Camera& camera, const ColorTarget& target, const Daylight& light);
+
+ private:
+  void draw_shadows(const Camera& camera, const Daylight& light);
+  void draw_sky(const Camera& camera) const;
+
+  GpuScene* scene_;
+  Program color_, sky_, shadow_;
+  std::uint32_t empty_array_ = 0;  ///< a vertex array without attributes
+  std::uint32_t shadow_map_ = 0, shadow_framebuffer_ = 0;
+  Eigen::Matrix4f shadow_matrix_ = Eigen::Matrix4f::Identity();
+};
+
+}  // namespace muro::render

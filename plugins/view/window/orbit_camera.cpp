@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include "orbit_camera.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "muro/toolkit/rotations.hpp"
+
+namespace muro::view {
+
+void OrbitCamera::show_box(const Vec3& low, const Vec3& high) {
+  target_ = 0.5 * (low + high);
+  distance_ = std::max(1.0, 1.1 * (high - low).norm());
+  azimuth_ = -2.2;
+  elevation_ = 0.6;
+}
+
+void OrbitCamera::look_from(const Vec3& from, const Vec3& to) {
+  const Vec3 back = from - to;
+  target_ = to;
+  distance_ = std::max(0.05, back.norm());
+  azimuth_ = std::atan2(back.y(), back.x());
+  elevation_ = std::asin(std::clamp(back.z() / distance_, -1.0, 1.0));
+}
+
+void OrbitCamera::rotate(double across, double down, double height) {
+  const double rad = std::numbers::pi / height;
+  azimuth_ -= across * rad;
+  elevation_ = std::clamp(elevation_ + down * rad, -1.55, 1.55);
+}
+
+void OrbitCamera::shift(double across, double down, double height, double fov) {
+  const double metres = 2 * distance_ * std::tan(0.5 * fov) / height;
+  const Mat3 axes = orientation().toRotationMatrix();
+  target_ += axes.col(1) * (across * metres) + axes.col(2) * (down * metres);
+}
+
+void OrbitCamera::zoom(double notches) { distance_ = std::clamp(distance_ * std::pow(0.85, notches), 0.05, 1e4); }
+
+void OrbitCamera::follow(const Pose& target) {
+  if (mode == Mode::follow) target_ = target.position;
+  carrier_ = target;
+}
+
+Quat OrbitCamera::orientation() const { return from_rpy(0, elevation_, azimuth_ + std::numbers::pi); }
+
+Pose OrbitCamera::pose() const {
+  if (mode == Mode::first_person) return carrier_;
+  const Quat q = orientation();
+  return {target_ - q * Vec3(distance_, 0, 0), q};
+}
+
+}  // namespace muro::view

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#include "property_scalars.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <limits>
+#include <type_traits>
+
+namespace muro::view {
+
+namespace {
+
+template <class T>
+double read(const std::byte* at) {
+  T value;
+  std::memcpy(&value, at, sizeof value);
+  return double(value);
+}
+
+template <class T>
+void write(std::byte* at, double number) {
+  T value{};
+  if constexpr (std::is_integral_v<T>) {
+    // the greatest double that the type holds, and no NaN
+    const double most = std::nextafter(std::ldexp(1.0, std::numeric_limits<T>::digits), 0.0);
+    value = std::isnan(number) ? T(0) : T(std::clamp(number, double(std::numeric_limits<T>::lowest()), most));
+  } else {
+    value = T(number);
+  }
+  std::memcpy(at, &value, sizeof value);
+}
+
+double read(Scalar kind, const std::byte* at) {
+  switch (kind) {
+    case Scalar::f64:
+      return read<double>(at);
+    case Scalar::f32:
+      return read<float>(at);
+    case Scalar::i64:
+      return read<std::int64_t>(at);
+    case Scalar::i32:
+      return read<std::int32_t>(at);
+    case Scalar::u64:
+      return read<std::uint64_t>(at);
+    case Scalar::u32:
+      return read<std::uint32_t>(at);
+    case Scalar::u8:
+      return read<std::uint8_t>(at);
+    default:
+      return 0;
+  }
+}
+
+void write(Scalar kind, std::byte* at, double number) {
+  const double whole = std::round(number);
+  switch (kind) {
+    case Scalar::f64:
+      return write<double>(at, number);
+    case Scalar::f32:
+      return write<float>(at, number);
+    case Scalar::i64:
+      return write<std::int64_t>(at, whole);
+    case Scalar::i32:
+      return write<std::int32_t>(at, whole);
+    case Scalar::u64:
+      return write<std::uint64_t>(at, whole);
+    case Scalar::u32:
+      return write<std::uint32_t>(at, whole);
+    case Scalar::u8:
+      return write<std::uint8_t>(at, whole);
+    default:
+      return;
+  }
+}
+
+std::byte* place_of(const LiveProperty& p, std::uint32_t i) {
+  const ValueType& type = *p.key->type;
+  return static_cast<std::byte*>(p.data) + std::size_t(i / type.scalars()) * type.size +
+         (i % type.scalars()) * size_of(type.scalar);
+}
+
+}  // namespace
+
+std::uint32_t Scalars::size() const {
+  const ValueType& type = *property.key->type;
+  return size_of(type.scalar) == 0 ? 0 : property.count * type.scalars();
+}
+
+std::string Scalars::label(std::uint32_t i) const {
+  const ValueType& type = *property.key->type;
+  std::string text =
+      property.multiplicity == Multiplicity::single ? "" : "[" + std::to_string(i / type.scalars()) + "]";
+  if (!type.labels.empty()) text += (text.empty() ? "" : ".") + std::string(type.labels[i % type.scalars()]);
+  return text;
+}
+
+double Scalars::get(std::uint32_t i) const { return read(property.key->type->scalar, place_of(property, i)); }
+
+void Scalars::set(std::uint32_t i, double value) const {
+  write(property.key->type->scalar, place_of(property, i), value);
+}
+
+std::string summary_of(const LiveProperty& p, const Inspection& simulation) {
+  const Scalars values(p);
+  const std::string_view type = p.key->type->name;
+  constexpr std::uint32_t most = 7;
+  if (values.size() == 0) return std::to_string(p.count) + " x " + std::string(type);
+  std::string text;
+  for (std::uint32_t i = 0; i < std::min(most, values.size()); ++i) {
+    char number[32];
+    std::snprintf(number, sizeof number, "%.5g", values.get(i));
+    std::string shown = number;
+    if (type == "muro.ObjectId") {
+      const ObjectId id{std::uint32_t(values.get(i))};
+      shown = id == no_object ? "none" : std::string(simulation.object_name(id));
+    } else if (type == "muro.TextId") {
+      shown = simulation.text(TextId(std::uint32_t(values.get(i))));
+    }
+    text += (i > 0 ? ", " : "") + shown;
+  }
+  if (values.size() > most) text += ", ... (" + std::to_string(p.count) + ")";
+  return text;
+}
+
+}  // namespace muro::view
