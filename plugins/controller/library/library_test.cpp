@@ -269,15 +269,15 @@ TEST(ControllerLibrary, EndsTheRunWhenAnOutputIsNoFiniteNumber) {
 }
 
 TEST(ControllerLibrary, HandsOverNamePeriodSizesAndArguments) {
-  const auto told = [](const std::string& argument) {
+  const auto failure_with = [](const std::string& argument) {
     Team team;
     team.control(folder + "circle.so", {{"arguments", Texts{"other=1", argument}}});
     team.build();
     return failure(team, 1);
   };
-  EXPECT_TRUE(says(told("tell=all"), "robot `a`: `circle` fails: robot a, period 0.1, sizes 7"));
-  EXPECT_TRUE(says(told("tell=nothing"), "robot `a`: `circle` fails without giving a reason"));
-  EXPECT_TRUE(says(told("tell=endless"), "`circle` fails: xxxxxxxx"));
+  EXPECT_TRUE(says(failure_with("tell=all"), "robot `a`: `circle` fails: robot a, period 0.1, sizes 7"));
+  EXPECT_TRUE(says(failure_with("tell=nothing"), "robot `a`: `circle` fails without giving a reason"));
+  EXPECT_TRUE(says(failure_with("tell=endless"), "`circle` fails: xxxxxxxx"));
 }
 
 TEST(ControllerLibrary, FindsALibraryByItsNameOnThePath) {

@@ -93,7 +93,7 @@ TEST(Port, SetsPropertiesSideBySide) {
   Place<Vec3> first{Vec3(1, 2, 3)};
   Place<std::int32_t> second{4};
   std::uint8_t bytes[] = {5, 6};
-  ArrayHeader array;  // its place and length are told later
+  ArrayHeader array;  // its address and length are set later
   Place<std::uint8_t> third{};
   third.found.multiplicity = Multiplicity::array;
   Port port;

@@ -167,7 +167,7 @@ void Check::take_mimic(Element& joint, Element& axis, int number) {
 bool Check::complete_shape(Element& e) {
   Element* geometry = e.FirstChildElement("geometry");
   Element* shape = geometry ? geometry->FirstChildElement() : nullptr;
-  // a shape of a kind that is not read was told already
+  // a shape of a kind that is not supported was reported already
   if (!shape) {
     problems_.warning(location_of(e), concat("<", e.Name(), " name=", quote(attribute(e, "name")),
                                              "> is left out, as it has no shape that is read"));

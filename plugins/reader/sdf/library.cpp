@@ -91,13 +91,13 @@ bool Library::load(const SourceFiles& sources, ::sdf::Root& root, Problems& prob
   }
   // One mistake breaks much of what stands on it: the first message of a location, and those without location only when
   // there are no others.
-  std::set<FileLocation> told;
+  std::set<FileLocation> reported;
   for (const bool placed : {true, false})
     for (const ::sdf::Error& e : errors) {
       // inertia is checked by the reader
       if (e.Code() == ::sdf::ErrorCode::NONE || e.Code() == ::sdf::ErrorCode::LINK_INERTIA_INVALID) continue;
       const FileLocation location = sources.location_of(e.FilePath().value_or(""), e.LineNumber().value_or(0));
-      if ((location.line > 0) != placed || (!placed && problems.found_error()) || !told.insert(location).second)
+      if ((location.line > 0) != placed || (!placed && problems.found_error()) || !reported.insert(location).second)
         continue;
       problems.error(location, "libsdformat: " + one_line(e.Message()));
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which elements of SDFormat are read, and what the user is told of the others.
+// Which elements of SDFormat are read, and what is reported of the others.
 #pragma once
 
 #include <span>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What robots come out of the example model and of small pieces of SDFormat.
+// What robots come out of the example model and of small SDFormat documents.
 #include <gtest/gtest.h>
 
 #include <numbers>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every mistake is told in full, with its place, and all mistakes of a file at once.
+// Every mistake is reported in full, with its location, and all mistakes of a file at once.
 #include <gtest/gtest.h>
 
 #include <clocale>

@@ -13,7 +13,7 @@ namespace {
 
 const std::string source = MURO_TEST_SOURCE_DIR;
 
-/// One random damage: a bit, a byte, a cut piece, a doubled piece, a lost or doubled tag, another value, a cut end.
+/// One random damage: a bit, a byte, a cut part, a doubled part, a lost or doubled tag, another value, a cut end.
 void damage(std::string& text, std::mt19937& random) {
   const auto below = [&random](std::size_t n) { return std::size_t(random() % std::max<std::size_t>(n, 1)); };
   const std::size_t at = below(text.size());

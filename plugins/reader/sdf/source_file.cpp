@@ -48,7 +48,7 @@ void print(const Element& e, SourceFile& source) {
   source.normalized += concat("</", e.Name(), ">");
 }
 
-/// The <world> or <model> of a file; all others are told.
+/// The <world> or <model> of a file; a warning when there are several.
 Element* content_of(Element& root, Content wanted, const SourceFile& source, Problems& problems) {
   const char* name = wanted == Content::world ? "world" : "model";
   const std::vector<Element*> found = model_file::children(root, name);
@@ -133,7 +133,7 @@ bool SourceFiles::load(std::string bytes, Content wanted) {
 
 const SourceFile* SourceFiles::include(const std::filesystem::path& path, std::string& reason) {
   if (const auto known = included_.find(path); known != included_.end()) {
-    if (!known->second) reason = "it cannot be read, as told before";
+    if (!known->second) reason = "it cannot be read, as reported before";
     return known->second;
   }
   if (std::find(open_.begin(), open_.end(), path) != open_.end()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// For tests: a RobotBuilder that writes down what it is told.
+// For tests: a RobotBuilder that records the calls.
 #pragma once
 
 #include <cstring>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What robots come out of the example models and of small pieces of URDF.
+// What robots come out of the example models and of small URDF documents.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -119,7 +119,7 @@ TEST(UrdfModels, EveryExampleIsReadThroughThePluginWithItsMassAndJoints) {
     double mass;
     std::size_t links, joints, problems;
   };
-  // the planar joint of the air table is told to its user
+  // the planar joint of the air table is reported
   const Expected expected[] = {{"rover", 5.36, 6, 4, 0},     {"pendulum", 6.1, 3, 1, 0},  {"arm", 7.41, 8, 7, 0},
                                {"quadruped", 12, 17, 12, 0}, {"biped", 4.06, 23, 20, 0},  {"air_table", 14.07, 7, 6, 1},
                                {"car", 3.63, 8, 6, 0},       {"mecanum", 20.16, 6, 4, 0}, {"kiwi", 11.06, 5, 3, 0}};

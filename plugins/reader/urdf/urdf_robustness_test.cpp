@@ -77,7 +77,7 @@ TEST(UrdfRobustness, DeeplyNestedElementsAreAnErrorNotAnOverflow) {
   EXPECT_EQ(robot.problems[0], "error 1:0 the file is not well-formed XML: elements are nested more than 100 deep");
 }
 
-/// One random damage: a bit, a byte, a cut piece, a doubled piece, a swapped pair of words.
+/// One random damage: a bit, a byte, a cut part, a doubled part, a swapped pair of words.
 void damage(std::string& text, std::mt19937& random) {
   const auto below = [&random](std::size_t n) { return std::size_t(random() % std::max<std::size_t>(n, 1)); };
   const std::size_t at = below(text.size());

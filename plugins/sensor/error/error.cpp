@@ -109,9 +109,8 @@ class SensorError final : public Algorithm {
       const bool usable = p.multiplicity != Multiplicity::list && *p.key->type == value_type<double> && p.count > 0;
       if (p.key->name == name && usable) return p;
       if (p.key->name == name)
-        throw Error(quote(name) + " of " + quote(c.object_name(object)) +
-                    " is not made of real numbers (f64) but of " + std::string(p.key->type->name) +
-                    (p.multiplicity == Multiplicity::list ? ", in a list" : "") +
+        throw Error(quote(name) + " of " + quote(c.object_name(object)) + " is not made of real numbers (f64) but of " +
+                    std::string(p.key->type->name) + (p.multiplicity == Multiplicity::list ? ", in a list" : "") +
                     "; sensor.error works on single numbers and arrays of f64");
       if (usable) others += (others.empty() ? "" : ", ") + std::string(p.key->name);
     }

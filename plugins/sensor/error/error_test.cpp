@@ -98,18 +98,18 @@ TEST(SensorError, RepeatsItselfAfterARestoreAndAReset) {
   EXPECT_EQ(s.measured(0), end);
 }
 
-TEST(SensorError, TakesTheLimitsOfTheScannerUnlessTold) {
+TEST(SensorError, TakesTheLimitsOfTheScannerUnlessGiven) {
   Devices s({"a"});
   s.use("sensor.error", 10, s.items, {{"bias", 100.0}});
   s.build();
   s.run_for(0.05);
   EXPECT_EQ(s.measured(0)[0], 5.6);
 
-  Devices told({"a"});
-  told.use("sensor.error", 10, told.items, {{"bias", 100.0}, {"maximum", 50.0}});
-  told.build();
-  told.run_for(0.05);
-  EXPECT_EQ(told.measured(0)[0], 50);
+  Devices limited({"a"});
+  limited.use("sensor.error", 10, limited.items, {{"bias", 100.0}, {"maximum", 50.0}});
+  limited.build();
+  limited.run_for(0.05);
+  EXPECT_EQ(limited.measured(0)[0], 50);
 }
 
 TEST(SensorError, WorksOnASingleNumberOfAnyName) {
