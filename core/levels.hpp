@@ -22,15 +22,15 @@ struct LevelsOfRobot {
   std::uint32_t first = 0;  ///< the one that moves it at the start
 };
 
-/// The algorithm that carries hand-overs out.
+/// The algorithm that makes hand-overs.
 class Levels final : public abi::AlgorithmInstance {
  public:
   Levels();
   ~Levels();
   Levels(const Levels&) = delete;
   Levels& operator=(const Levels&) = delete;
-  /// Before motions are connected: makes the properties of all robots with levels, and lets their motions share what
-  /// they write.
+  /// Before motions are connected: creates the properties of all robots with levels, and lets their motions write the
+  /// same properties.
   void prepare(World& world, const std::vector<LevelsOfRobot>& robots, std::span<const std::unique_ptr<Instance>> all);
   /// When they are connected.
   void complete(World& world);
@@ -38,10 +38,10 @@ class Levels final : public abi::AlgorithmInstance {
   /// Of robot `number`: whether `level` is not the one that moves it at the start.
   bool is_inactive_at_start(std::int32_t number, std::uint32_t level) const;
 
-  /// What a hand-over writes beside what the motions do. Who decides about levels does not wait for the hand-over of
-  /// the instant: what it reads of this is no reason to run it first.
+  /// What a hand-over writes beside what the motions write. An algorithm that decides about levels does not wait for
+  /// the hand-over of the instant: that it reads one of these properties is no reason to run the hand-over first.
   std::vector<SlotId> written() const;
-  /// What the scheduler is to run: on demand, before who reads who moves a robot.
+  /// The task of the hand-over: on demand, before those that read which motion moves a robot.
   Task task(std::span<const std::unique_ptr<Instance>> all);
   /// What steps an instance: itself, or, when another motion may move one of its robots, a level filter that steps the
   /// items that it moves at present.
