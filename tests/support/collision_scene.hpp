@@ -5,8 +5,8 @@
 #include <map>
 #include <random>
 
-#include "tests/support/bodies.hpp"
 #include "muro/toolkit/rotations.hpp"
+#include "tests/support/bodies.hpp"
 
 namespace muro::test {
 

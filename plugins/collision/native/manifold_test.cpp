@@ -103,7 +103,7 @@ TEST(Manifold, LyingCapsuleRestsOnBothEnds) {
   const TransformedShape capsule = at(Shape::capsule(0.2, 1), {0, 0, 0.2 - deep}, on_side);
   expect_points(capsule, ground, deep, Vec3::UnitZ(), {{0, 0.5, mid}, {0, -0.5, mid}});
   expect_points(capsule, slab, deep, Vec3::UnitZ(), {{0, 0.5, mid}, {0, -0.5, mid}});
-  // Side by side with a capsule that is shifted along: the stretch that both share.
+  // Side by side with a capsule that is shifted along: the segment that both share.
   expect_points(at(Shape::capsule(0.2, 1), {0, 0, 0}, on_side),
                 at(Shape::capsule(0.3, 1), {0.5 - deep, 0.4, 0}, on_side), deep, -Vec3::UnitX(),
                 {{0.2 + mid, 0.5, 0}, {0.2 + mid, -0.1, 0}});

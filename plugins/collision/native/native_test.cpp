@@ -137,9 +137,9 @@ TEST(CollisionNative, ListsAreSortedAndFreeOfDoubles) {
   crowd.step_once();
   World& world = crowd.world();
   const auto pair_of = [&](const Contact& c) {  // scenery as declared, then robots by their keys
-    const std::int32_t mate = world.robot_of(c.other);
-    const std::uint64_t key = mate < 0 ? 0 : world.robots()[std::size_t(mate)]->key;
-    return std::tuple(c.self, mate >= 0, key, c.other, c.self_shape, c.other_shape);
+    const std::int32_t other_robot = world.robot_of(c.other);
+    const std::uint64_t key = other_robot < 0 ? 0 : world.robots()[std::size_t(other_robot)]->key;
+    return std::tuple(c.self, other_robot >= 0, key, c.other, c.self_shape, c.other_shape);
   };
   for (std::size_t r = 0; r < crowd.all.size(); ++r) {
     if (r % 5 == 4) continue;

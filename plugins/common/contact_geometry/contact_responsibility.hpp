@@ -24,8 +24,8 @@
 //
 // From the table follows what each algorithm does:
 // - a motion without an engine writes its constant (contact_world_of);
-// - a world simulates its own robots, takes kinematic robots as obstacles that it cannot move, and leaves out all robots
-//   that other forces move (is_moved_by_forces);
+// - a world simulates its own robots, takes kinematic robots as obstacles that it cannot move, and leaves out all
+//   robots that other forces move (is_moved_by_forces);
 // - a collision algorithm lists, for each robot, the contacts that the contact algorithm resolves
 //   (contact_algorithm_resolves), and the contact algorithm resolves them.
 #pragma once

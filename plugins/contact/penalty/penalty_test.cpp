@@ -78,17 +78,17 @@ TEST(Penalty, ABouncingBallMeetsTheGroundAtTheTimesOfItsSeries) {
   const RobotView& r = s.add("ball", ball(1, 0.1, 0.5, 0.7), {{0, 0, 1.1}, Quat::Identity()});
   const double frequency = 1000;
   s.start(200000, frequency);
-  std::vector<double> meetings;
-  while (meetings.size() < 6 && s.now() < 3'000'000'000) {
+  std::vector<double> impacts;
+  while (impacts.size() < 6 && s.now() < 3'000'000'000) {
     const double before = s.pose(r).position.z();
     s.run_for(5e-6);
-    if (before >= 0.1 && s.pose(r).position.z() < 0.1) meetings.push_back(1e-9 * double(s.now()));
+    if (before >= 0.1 && s.pose(r).position.z() < 0.1) impacts.push_back(1e-9 * double(s.now()));
   }
-  ASSERT_EQ(meetings.size(), 6u);
+  ASSERT_EQ(impacts.size(), 6u);
   const double series[] = {0.451524, 1.083657, 1.526150, 1.835895, 2.052717, 2.204492};
   for (int k = 0; k < 6; ++k) {
     // each touch lasts about half a period; the series has none of that
-    const double late = meetings[std::size_t(k)] - series[k];
+    const double late = impacts[std::size_t(k)] - series[k];
     EXPECT_GT(late, -1e-4);
     EXPECT_LT(late, 1e-4 + k * 0.6 / frequency);
   }

@@ -5,8 +5,8 @@
 #include <cstring>
 #include <string>
 
-#include "muro/vocabulary.hpp"
 #include "muro/toolkit/bounds.hpp"
+#include "muro/vocabulary.hpp"
 #include "swept_box.hpp"
 
 namespace muro::bvh {
