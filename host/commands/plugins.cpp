@@ -63,8 +63,8 @@ void print_catalog_markdown(const Registry& registry) {
   fmt::print(
       "# Plugins\n\n"
       "For everyone who writes a scenario: the algorithms and model readers that come with muro, by name.\n"
-      "`muro plugins list --markdown` writes this page; `muro plugins info NAME` shows the parameters of one,\n"
-      "and the properties that it reads and writes.\n\n"
+      "`muro plugins list --markdown` writes this page; `muro plugins info NAME` shows the parameters of\n"
+      "one of them, and the properties that it reads and writes.\n\n"
       "| name | kind | what it does |\n|---|---|---|\n");
   for (const CatalogEntry& e : registry.catalog()) fmt::print("| `{}` | {} | {} |\n", e.id, e.kind, e.summary);
 }

@@ -43,10 +43,7 @@ constexpr PropertyGroup groups[] = {
     {"Motion of bodies", "Every body of a robot has them, unless the description says otherwise.", motion},
     {"Motions, levels of detail and contacts of a robot", "The base of a robot has them.", levels},
     {"Bodies", "Every body of a robot and of the scenery has them; they are constant.", bodies},
-    {"Joints",
-     "The object of a joint has them. The unit is that of an angle for revolute and continuous joints, that of a "
-     "length "
-     "for prismatic joints.",
+    {"Joints", "The object of a joint has them; angles for joints that rotate, lengths for those that translate.",
      joints},
     {"Commands to a whole robot", "The base of a robot has them.", commands},
     {"Scene and contacts", "The description names the object.", scene},
