@@ -2,7 +2,7 @@
 #pragma once
 
 #include "lanes/ground.hpp"
-#include "pairs/kernel_shapes.hpp"
+#include "pairs/conversions.hpp"
 #include "plugins/common/contact_geometry/pair_collision.hpp"
 #include "plugins/common/contact_geometry/robot_group.hpp"
 

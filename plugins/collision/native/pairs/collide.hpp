@@ -8,7 +8,7 @@
 // equal bits.
 #pragma once
 
-#include "pairs/kernel_shapes.hpp"
+#include "pairs/conversions.hpp"
 #include "plugins/common/contact_geometry/manifold.hpp"
 
 namespace muro::native {

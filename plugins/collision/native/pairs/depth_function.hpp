@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "pairs/kernel_shapes.hpp"
+#include "pairs/conversions.hpp"
 
 namespace muro::native {
 

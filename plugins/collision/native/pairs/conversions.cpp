@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "pairs/kernel_shapes.hpp"
+#include "pairs/conversions.hpp"
 
 namespace muro::native {
 namespace {
