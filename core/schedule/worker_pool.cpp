@@ -9,6 +9,7 @@ namespace muro {
 namespace {
 
 constexpr auto spin_limit = std::chrono::microseconds(150);  // of a worker before it sleeps
+constexpr unsigned yield_limit = 1024;                       // spins of the caller before it lets others run
 constexpr unsigned clock_interval = 64;  // spins between looks at the clock: one takes as long as a few of them
 
 void relax() {
@@ -56,7 +57,7 @@ void WorkerPool::run_round(std::uint32_t first, std::uint32_t items, Work work, 
   const std::uint32_t done = 1 + work_on(round, 0);
   for (unsigned spins = 1; undone_.load(std::memory_order_acquire) > done; ++spins) {
     relax();
-    if (spins % (16 * clock_interval) == 0) std::this_thread::yield();  // there may be fewer cores than threads
+    if (spins >= yield_limit && spins % clock_interval == 0) std::this_thread::yield();  // fewer cores than threads?
   }
 }
 
