@@ -27,15 +27,15 @@ double now() { return std::chrono::duration<double>(std::chrono::steady_clock::n
 /// A grid of rays about straight ahead.
 struct Grid {
   int columns, rows;
-  double wide, high;  ///< rad
+  double horizontal_fov, vertical_fov;  ///< rad
 
   std::string name() const { return fmt::format("{}x{}", columns, rows); }
   scanner::Grid scanner() const {
-    return {.min_angle = -0.5 * wide,
-            .max_angle = 0.5 * wide,
+    return {.min_angle = -0.5 * horizontal_fov,
+            .max_angle = 0.5 * horizontal_fov,
             .columns = std::uint32_t(columns),
-            .min_elevation = -0.5 * high,
-            .max_elevation = 0.5 * high,
+            .min_elevation = -0.5 * vertical_fov,
+            .max_elevation = 0.5 * vertical_fov,
             .rows = std::uint32_t(rows)};
   }
 };
