@@ -73,8 +73,7 @@ TEST(WrongCommandLine, EndsWithExitCode2AndSaysWhatIsAllowed) {
 TEST(WrongCommandLine, AReportThatCannotBeWrittenIsRefusedBeforeTheRun) {
   const auto result = run_command("cd " MURO_TEST_SOURCE_DIR " && " + muro_program +
                                   " run examples/urban/urban.yaml --duration 1000 --report /nowhere/report.json");
-  EXPECT_EQ(result.output,
-            "file /nowhere/report.json cannot be written; is the folder there, may you write to it, is there room?\n");
+  EXPECT_EQ(result.output, "file /nowhere/report.json cannot be written: No such file or directory\n");
   EXPECT_EQ(result.exit_code, 2);
 }
 
@@ -95,7 +94,7 @@ TEST(WrongCommandLine, ACommandThatDoesNotExistNamesThoseThatDo) {
   const auto result = run_command(muro_program + " chekc x.yaml");
   EXPECT_EQ(result.output,
             "muro has no command `chekc` (did you mean `check`?); commands: run, check, compare, render, describe, "
-            "plugins\n");
+            "plugins, properties\n");
   EXPECT_EQ(result.exit_code, 2);
 }
 
@@ -116,8 +115,9 @@ struct FailedRun {
 
 TEST(WrongCommandLine, WithoutACommandTheCommandsAreNamed) {
   const auto result = run_command(muro_program);
-  EXPECT_EQ(result.output,
-            "muro needs a command: run, check, compare, render, describe, plugins; muro --help tells more\n");
+  EXPECT_EQ(
+      result.output,
+      "muro needs a command: run, check, compare, render, describe, plugins, properties; muro --help tells more\n");
   EXPECT_EQ(result.exit_code, 2);
 }
 
@@ -151,7 +151,7 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Broken{MURO_BROKEN_PLUGIN("wrong_sdk_major"), "unknown_algorithm.yaml:5:13: plugin " BAD_PLUGIN_DIR
                                                       "/wrong_sdk_major/wrong_sdk_major.so was built for another "
-                                                      "muro: sdk_major is 3 in the plugin and 2 in this muro"},
+                                                      "muro: sdk_major is "},
         Broken{MURO_BROKEN_PLUGIN("text_file"),
                "unknown_algorithm.yaml:5:13: plugin " BAD_PLUGIN_DIR "/text_file/text_file.so cannot be loaded: "},
         Broken{"missing_library.yaml --set robots.rover.control.library=" CONTROLLERS "/no_symbol.so",

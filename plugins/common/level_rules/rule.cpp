@@ -28,7 +28,8 @@ std::vector<std::string> words_of(std::string_view text) {
       "; a rule is one of: `NAME at SECONDS`, `NAME when nearer than METRES to ROBOT` (or to `any`), `NAME when "
       "farther than METRES from ROBOT` (or from `all`), `NAME when in contact`, `NAME when out of contact for "
       "SECONDS`, "
-      "`NAME when slower than FACTOR`, `NAME when faster than FACTOR` (the run, in units of real time)");
+      "`NAME when slower than FACTOR`, `NAME when faster than FACTOR` (the speed of the run in units of real time; "
+      "level.budget only)");
 }
 
 double number_in(std::string_view text, const std::string& word) {
