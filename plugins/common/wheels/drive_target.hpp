@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
+#include <span>
 
 #include "muro/algorithm.hpp"
 #include "muro/robot.hpp"
@@ -33,7 +33,7 @@ inline DriveTarget connect_drive_target(Connector& c, const RobotView& robot, st
 /// Where a target exceeds the limit of its wheel, slows down all wheels by the same factor: the path keeps its
 /// curvature. Each wheel has a member `DriveTarget target`. [step]
 template <class Wheel>
-void limit_speeds(const std::vector<Wheel>& wheels) {
+void limit_speeds(std::span<Wheel> wheels) {
   double excess = 1;
   for (const Wheel& w : wheels)
     if (w.target.speed) excess = std::max(excess, std::abs(*w.target.speed) / w.target.max_speed);

@@ -6,6 +6,7 @@
 
 #include "muro/plugin.hpp"
 #include "muro/toolkit/mass_properties.hpp"
+#include "muro/toolkit/per_robot.hpp"
 
 namespace muro::wheels {
 
@@ -21,13 +22,18 @@ struct JointState {
   }
 };
 
-/// Those of one robot.
 class NonWheelJoints {
  public:
-  NonWheelJoints() = default;
+  /// Those of one robot.
+  struct OfRobot {
+    Range joints, mimics;
+  };
+
   /// Takes the joints of `robot` whose `state` is not bound yet, and all that follow others. `positions`: at the start,
   /// one a link. [setup]
-  NonWheelJoints(Connector& c, const RobotView& robot, std::span<const double> positions, JointState& state) {
+  OfRobot connect(Connector& c, const RobotView& robot, std::span<const double> positions, JointState& state) {
+    std::vector<Joint> joints;
+    std::vector<Mimic> mimics;
     for (std::size_t i = 0; i < robot.links.size(); ++i) {
       const Link& link = robot.links[i];
       if (link.joint == JointKind::fixed || state.position[i]) continue;
@@ -35,22 +41,23 @@ class NonWheelJoints {
       state.velocity[i] = c.variable(link.joint_object, keys::joint_velocity, 0.0);
       if (link.mimic >= 0) continue;
       check_start(c, link.joint_object, link.limits, positions[i]);
-      joints_.push_back({c.input(link.joint_object, keys::joint_velocity_target, 0.0), state.position[i],
-                         state.velocity[i], link.limits});
+      joints.push_back({c.input(link.joint_object, keys::joint_velocity_target, 0.0), state.position[i],
+                        state.velocity[i], link.limits});
     }
     for (std::size_t i = 0; i < robot.links.size(); ++i) {
       const Link& link = robot.links[i];
       if (link.mimic < 0) continue;
       const auto leader = std::size_t(link.mimic);
-      mimics_.push_back({state.position[leader], state.velocity[leader], state.position[i], state.velocity[i],
-                         link.mimic_multiplier, link.mimic_offset});
+      mimics.push_back({state.position[leader], state.velocity[leader], state.position[i], state.velocity[i],
+                        link.mimic_multiplier, link.mimic_offset});
     }
+    return {joints_.add(joints), mimics_.add(mimics)};
   }
 
-  /// Moves them for `dt` (s). [step]
-  void move(double dt) const {
-    for (const Joint& joint : joints_) joint.move(dt);
-    for (const Mimic& mimic : mimics_) mimic.follow();
+  /// Moves those of `robot` for `dt` (s). [step]
+  void move(const OfRobot& robot, double dt) const {
+    for (const Joint& joint : joints_[robot.joints]) joint.move(dt);
+    for (const Mimic& mimic : mimics_[robot.mimics]) mimic.follow();
   }
 
  private:
@@ -73,8 +80,8 @@ class NonWheelJoints {
       *velocity = multiplier * *leader_velocity;
     }
   };
-  std::vector<Joint> joints_;
-  std::vector<Mimic> mimics_;
+  PackedLists<Joint> joints_;
+  PackedLists<Mimic> mimics_;
 };
 
 }  // namespace muro::wheels

@@ -23,7 +23,7 @@ struct SideWheelRobot {
     double per_yaw = 0;      ///< rad/rad
   };
   In<Twist> command;
-  std::vector<Wheel> wheels;
+  Range wheels;
 };
 
 class SideWheelDrive : public PerRobotAlgorithm<SideWheelRobot> {
@@ -31,8 +31,9 @@ class SideWheelDrive : public PerRobotAlgorithm<SideWheelRobot> {
   void step(const Step&, Range range) override {
     for (const SideWheelRobot& r : robots(range)) {
       const double forward = r.command->linear.x(), yaw_rate = r.command->angular.z();
-      for (const SideWheelRobot::Wheel& w : r.wheels) *w.target.speed = w.per_forward * forward + w.per_yaw * yaw_rate;
-      limit_speeds(r.wheels);
+      const std::span<SideWheelRobot::Wheel> wheels = wheels_[r.wheels];
+      for (const SideWheelRobot::Wheel& w : wheels) *w.target.speed = w.per_forward * forward + w.per_yaw * yaw_rate;
+      limit_speeds(wheels);
     }
   }
 
@@ -46,15 +47,19 @@ class SideWheelDrive : public PerRobotAlgorithm<SideWheelRobot> {
     const SideWheels found = find_side_wheels(c, robot);
     SideWheelRobot r;
     r.command = c.input(robot.base(), keys::command_twist, Twist{});
+    std::vector<SideWheelRobot::Wheel> wheels;
     const double half_track = 0.5 * track_scale(c.parameters()) * found.track;
     for (const bool is_left : {true, false})
       for (const Wheel& w : is_left ? found.left : found.right) {
         const double per_metre = w.direction / w.radius;
         const double y = found.middle.y() + (is_left ? half_track : -half_track);
-        r.wheels.push_back({connect_drive_target(c, robot, w.link, w.limits), per_metre, -y * per_metre});
+        wheels.push_back({connect_drive_target(c, robot, w.link, w.limits), per_metre, -y * per_metre});
       }
+    r.wheels = wheels_.add(wheels);
     return r;
   }
+
+  PackedLists<SideWheelRobot::Wheel> wheels_;
 };
 
 }  // namespace muro::wheels

@@ -45,8 +45,8 @@ struct RampedWheel {
 struct WheeledRobot {
   Out<Pose> pose;
   Out<Twist> twist;
-  std::vector<RampedWheel> wheels;
-  NonWheelJoints other_joints;
+  Range wheels;
+  NonWheelJoints::OfRobot other_joints;
   std::string_view name;
   ContactStop stop;
 };
@@ -56,19 +56,20 @@ struct WheeledRobot {
 class WheelMotion : public PerRobotAlgorithm<WheeledRobot> {
  public:
   void step(const Step& step, Range range) override {
-    for (WheeledRobot& r : robots(range)) {
-      for (RampedWheel& w : r.wheels)
+    for (const WheeledRobot& r : robots(range)) {
+      const std::span<RampedWheel> wheels = wheels_[r.wheels];
+      for (RampedWheel& w : wheels)
         w.ramp = velocity_ramp(*w.velocity, std::clamp(*w.target, -w.jacobian.max_speed, w.jacobian.max_speed),
                                max_acceleration_, step.dt);
       const Pose before = *r.pose;
-      move_base(r, step.dt);
+      move_base(r, wheels, step.dt);
       const bool is_blocked = r.stop.blocks(before.position, *r.twist);
       if (is_blocked) *r.pose = before, *r.twist = {};
-      for (const RampedWheel& w : r.wheels) {
+      for (const RampedWheel& w : wheels) {
         *w.position += is_blocked ? 0 : w.ramp.angle(step.dt);
         *w.velocity = is_blocked ? 0 : w.ramp.final;
       }
-      r.other_joints.move(step.dt);
+      other_joints_.move(r.other_joints, step.dt);
     }
   }
 
@@ -76,7 +77,7 @@ class WheelMotion : public PerRobotAlgorithm<WheeledRobot> {
   void on_handover(std::uint32_t item) override {
     const WheeledRobot& r = robot(item);
     const PlanarTwist moving = in_plane(*r.pose, *r.twist);
-    for (const RampedWheel& w : r.wheels) *w.velocity = w.jacobian.speed_at(moving);
+    for (const RampedWheel& w : wheels_[r.wheels]) *w.velocity = w.jacobian.speed_at(moving);
   }
 
  protected:
@@ -95,6 +96,7 @@ class WheelMotion : public PerRobotAlgorithm<WheeledRobot> {
     r.name = robot.name;
     r.pose = c.variable(robot.base(), keys::pose, start);
     PlanarTwist velocity;
+    std::vector<RampedWheel> wheels;
     for (const WheelJacobian& wheel : jacobian(c, robot)) {
       const ObjectId joint = robot.links[wheel.link].joint_object;
       const double speed = wheel.speed_at(in_plane(start, moving));
@@ -105,24 +107,25 @@ class WheelMotion : public PerRobotAlgorithm<WheeledRobot> {
       w.velocity = c.variable(joint, keys::joint_velocity, speed);
       state.bind(wheel.link, w);
       velocity = velocity + wheel.column * speed;
-      r.wheels.push_back(w);
+      wheels.push_back(w);
     }
+    r.wheels = wheels_.add(wheels);
     r.twist = c.variable(robot.base(), keys::twist, in_world(start, velocity));
-    r.other_joints = NonWheelJoints(c, robot, positions, state);
+    r.other_joints = other_joints_.connect(c, robot, positions, state);
     r.stop = ContactStop(c, robot);
     return r;
   }
 
   /// The speeds of all wheels are linear in time between the ends of their ramps: from each end to the next one goes an
   /// arc, or, while wheels speed up, an accelerated one.
-  static void move_base(const WheeledRobot& r, double dt) {
+  static void move_base(const WheeledRobot& r, std::span<const RampedWheel> wheels, double dt) {
     Pose& pose = *r.pose;
     PlanarTwist velocity;
     for (double from = 0, to = 0; from < dt; from = to) {
       to = dt;
       velocity = {};
       PlanarTwist acceleration;
-      for (const RampedWheel& w : r.wheels) {
+      for (const RampedWheel& w : wheels) {
         velocity = velocity + w.jacobian.column * w.ramp.velocity_at(from);
         acceleration = acceleration + w.jacobian.column * w.ramp.acceleration_at(from);
         if (w.ramp.end > from && w.ramp.end < to) to = w.ramp.end;
@@ -140,6 +143,8 @@ class WheelMotion : public PerRobotAlgorithm<WheeledRobot> {
   }
 
   double max_acceleration_ = unlimited;
+  PackedLists<RampedWheel> wheels_;
+  NonWheelJoints other_joints_;
 };
 
 }  // namespace muro::wheels

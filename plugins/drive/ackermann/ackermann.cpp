@@ -88,8 +88,7 @@ struct DrivenRobot {
   In<Twist> command;
   bool all_steered = true;
   double axle = 0;  ///< m, x in the frame of the base: of the wheels that are not steered
-  std::vector<DriveWheel> wheels;
-  std::vector<DriveSteering> steering;
+  Range wheels, steering;
 };
 
 class Ackermann final : public PerRobotAlgorithm<DrivenRobot> {
@@ -107,7 +106,9 @@ class Ackermann final : public PerRobotAlgorithm<DrivenRobot> {
     const SteeringGeometry geometry = steering_geometry(robot.links, found);
     DrivenRobot r;
     r.command = c.input(robot.base(), keys::command_twist, Twist{});
-    for (const std::size_t link : geometry.joints) r.steering.push_back(connect_steering(c, robot.links[link]));
+    std::vector<DriveWheel> wheels;
+    std::vector<DriveSteering> steering;
+    for (const std::size_t link : geometry.joints) steering.push_back(connect_steering(c, robot.links[link]));
     double fixed_wheels = 0;
     for (std::size_t k = 0; k < found.size(); ++k) {
       DriveWheel w{.plane = PlanarWheel(found[k]), .steering = geometry.wheels[k]};
@@ -119,15 +120,17 @@ class Ackermann final : public PerRobotAlgorithm<DrivenRobot> {
           throw Error("the joint `" +
                       std::string(c.object_name(robot.links[std::size_t(found[k].steering)].joint_object)) +
                       "` follows another with the multiplier 0, so it cannot steer; give it one that is not 0");
-        DriveSteering& s = r.steering[std::size_t(w.steering.joint)];
+        DriveSteering& s = steering[std::size_t(w.steering.joint)];
         ++s.wheel_count;
         std::tie(w.lower, w.upper) = std::minmax({zero + gain * s.lower, zero + gain * s.upper});
       }
       if (found[k].driven) w.target = connect_drive_target(c, robot, found[k].link, found[k].limits);
-      r.wheels.push_back(w);
+      wheels.push_back(w);
     }
     r.all_steered = fixed_wheels == 0;
     if (!r.all_steered) r.axle /= fixed_wheels;
+    r.wheels = wheels_.add(wheels);
+    r.steering = steering_.add(steering);
     return r;
   }
 
@@ -145,7 +148,7 @@ class Ackermann final : public PerRobotAlgorithm<DrivenRobot> {
     PlanarTwist velocity;
     bool moves = false;  ///< else the wheels only take its angles
   };
-  static FeasibleMotion feasible_motion(const DrivenRobot& r) {
+  FeasibleMotion feasible_motion(const DrivenRobot& r) const {
     const double yaw_rate = r.command->angular.z();
     const PlanarTwist contributions[] = {{0, r.all_steered ? r.command->linear.y() : 0, 0},
                                          {0, -yaw_rate * r.axle, yaw_rate}};
@@ -154,7 +157,7 @@ class Ackermann final : public PerRobotAlgorithm<DrivenRobot> {
       if (more == PlanarTwist{}) continue;
       if (!motion.moves) motion.velocity.x = 1e-9 * (std::abs(more.y) + std::abs(more.yaw_rate));
       double fraction = 1;
-      for (const DriveWheel& w : r.wheels)
+      for (const DriveWheel& w : wheels_[r.wheels])
         if (w.steering.joint >= 0) fraction = std::min(fraction, w.feasible_fraction(motion.velocity, more));
       if (fraction == 1 && !motion.moves)
         motion = {more, true};
@@ -164,27 +167,31 @@ class Ackermann final : public PerRobotAlgorithm<DrivenRobot> {
     return motion;
   }
 
-  static void drive(const DrivenRobot& r) {
+  void drive(const DrivenRobot& r) const {
+    const std::span<const DriveWheel> wheels = wheels_[r.wheels];
+    const std::span<const DriveSteering> steering = steering_[r.steering];
     const FeasibleMotion motion = feasible_motion(r);
     const PlanarTwist& v = motion.velocity;
     const bool is_at_rest = v == PlanarTwist{};  // wheels then keep their headings
     if (!is_at_rest)
-      for (const DriveSteering& s : r.steering) *s.target = 0;
-    for (const DriveWheel& w : r.wheels) {
+      for (const DriveSteering& s : steering) *s.target = 0;
+    for (const DriveWheel& w : wheels) {
       const bool is_steered = w.steering.joint >= 0;
       const double heading = is_steered ? w.heading_at(v) : w.steering.zero_heading;
       if (is_steered && !is_at_rest) {
-        const DriveSteering& s = r.steering[std::size_t(w.steering.joint)];
+        const DriveSteering& s = steering[std::size_t(w.steering.joint)];
         *s.target +=
             std::clamp((heading - w.steering.zero_heading) / w.steering.gain, s.lower, s.upper) / s.wheel_count;
       }
       if (w.target.speed)
         *w.target.speed = motion.moves ? w.plane.angle_per_metre * w.longitudinal_velocity(heading, v) : 0;
     }
-    limit_speeds(r.wheels);
+    limit_speeds(wheels);
   }
 
   double max_steering_angle_ = 1e9;
+  PackedLists<DriveWheel> wheels_;
+  PackedLists<DriveSteering> steering_;
 };
 
 constexpr abi::AlgorithmEntry algorithms[] = {algorithm<Ackermann>(description)};

@@ -37,7 +37,7 @@ struct OmniRobot {
     PlanarTwist inverse_jacobian_row;
   };
   In<Twist> command;
-  std::vector<Wheel> wheels;
+  Range wheels;
 };
 
 class Omni final : public PerRobotAlgorithm<OmniRobot> {
@@ -45,8 +45,9 @@ class Omni final : public PerRobotAlgorithm<OmniRobot> {
   void step(const Step&, Range range) override {
     for (const OmniRobot& r : robots(range)) {
       const PlanarTwist wanted{r.command->linear.x(), r.command->linear.y(), r.command->angular.z()};
-      for (const OmniRobot::Wheel& w : r.wheels) *w.target.speed = dot(w.inverse_jacobian_row, wanted);
-      limit_speeds(r.wheels);
+      const std::span<OmniRobot::Wheel> wheels = wheels_[r.wheels];
+      for (const OmniRobot::Wheel& w : wheels) *w.target.speed = dot(w.inverse_jacobian_row, wanted);
+      limit_speeds(wheels);
     }
   }
 
@@ -57,10 +58,14 @@ class Omni final : public PerRobotAlgorithm<OmniRobot> {
     jacobian_columns(robot, found);  // says when the wheels cannot move the robot in every direction
     OmniRobot r;
     r.command = c.input(robot.base(), keys::command_twist, Twist{});
+    std::vector<OmniRobot::Wheel> wheels;
     for (const OmniWheel& w : found)
-      r.wheels.push_back({connect_drive_target(c, robot, w.link, w.limits), inverse_jacobian_row(w)});
+      wheels.push_back({connect_drive_target(c, robot, w.link, w.limits), inverse_jacobian_row(w)});
+    r.wheels = wheels_.add(wheels);
     return r;
   }
+
+  PackedLists<OmniRobot::Wheel> wheels_;
 };
 
 constexpr abi::AlgorithmEntry algorithms[] = {algorithm<Omni>(description)};

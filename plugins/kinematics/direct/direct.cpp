@@ -45,14 +45,7 @@ struct MimicJoint {
 /// What is kept of a robot.
 struct DirectRobot {
   std::uint32_t model = 0;  ///< index in Direct::models_
-  std::vector<MimicJoint> mimics;
-
-  void follow() const {
-    for (const MimicJoint& m : mimics) {
-      *m.position = m.offset + m.multiplier * *m.leader_position;
-      *m.velocity = m.multiplier * *m.leader_velocity;
-    }
-  }
+  Range mimics;
 };
 
 class Direct final : public PerRobotAlgorithm<DirectRobot> {
@@ -61,7 +54,7 @@ class Direct final : public PerRobotAlgorithm<DirectRobot> {
   void step(const Step&, Range range) override {
     for (std::uint32_t i = range.begin, end = i; i < range.end; i = end) {
       const std::uint32_t model = robot(i).model;
-      for (; end < range.end && end < i + lane_width && robot(end).model == model; ++end) robot(end).follow();
+      for (; end < range.end && end < i + lane_width && robot(end).model == model; ++end) follow(robot(end));
       const Model& m = models_[model];
       kernels_->forward_kinematics(m.tree.links.data(), m.offsets.data(), int(m.offsets.size()), &states_[i],
                                    int(end - i));
@@ -90,12 +83,13 @@ class Direct final : public PerRobotAlgorithm<DirectRobot> {
     DirectRobot r;
     const std::vector<double> start = initial_joint_positions(c, robot);
     std::vector<LinkState> links;
+    std::vector<MimicJoint> mimics;
     for (std::size_t i = 1; i < robot.links.size(); ++i) {
       const Link& link = robot.links[i];
       LinkState s;
       s.pose = numbers(c.derived(link.object, keys::pose).get());
       s.twist = numbers(c.derived(link.object, keys::twist).get());
-      if (link.joint != JointKind::fixed) connect_joint(c, robot, i, start, r, s);
+      if (link.joint != JointKind::fixed) connect_joint(c, robot, i, start, mimics, s);
       links.push_back(s);
     }
 
@@ -111,13 +105,14 @@ class Direct final : public PerRobotAlgorithm<DirectRobot> {
                                s.velocity ? numbers_between(state.velocities, s.velocity) : 0});
     }
     r.model = model_index(std::move(model));
+    r.mimics = mimics_.add(mimics);
     states_.push_back(state);
     return r;
   }
 
   /// Binds the joint that leads to link `i`.
   static void connect_joint(Connector& c, const RobotView& robot, std::size_t i, const std::vector<double>& start,
-                            DirectRobot& r, LinkState& s) {
+                            std::vector<MimicJoint>& mimics, LinkState& s) {
     const Link& link = robot.links[i];
     const bool is_moved = c.is_used(link.joint_object, keys::joint_position, usage::variable);
     if (link.mimic < 0 || is_moved) {
@@ -135,7 +130,14 @@ class Direct final : public PerRobotAlgorithm<DirectRobot> {
     mimic.offset = link.mimic_offset;
     s.position = mimic.position.get();
     s.velocity = mimic.velocity.get();
-    r.mimics.push_back(mimic);
+    mimics.push_back(mimic);
+  }
+
+  void follow(const DirectRobot& r) const {
+    for (const MimicJoint& m : mimics_[r.mimics]) {
+      *m.position = m.offset + m.multiplier * *m.leader_position;
+      *m.velocity = m.multiplier * *m.leader_velocity;
+    }
   }
 
   std::uint32_t model_index(Model model) {
@@ -148,6 +150,7 @@ class Direct final : public PerRobotAlgorithm<DirectRobot> {
   const Kernels* kernels_ = &kernels_for(lane::best_isa());
   std::vector<Model> models_;
   std::vector<RobotState> states_;  ///< one a robot
+  PackedLists<MimicJoint> mimics_;
 };
 
 constexpr abi::AlgorithmEntry algorithms[] = {algorithm<Direct>(description)};

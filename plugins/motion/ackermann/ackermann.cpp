@@ -50,9 +50,8 @@ struct AckermannRobot {
   Out<Pose> pose;
   Out<Twist> twist;
   RollingConstraints constraints;
-  std::vector<VehicleWheel> wheels;
-  std::vector<SteeringJoint> steering;
-  NonWheelJoints other_joints;
+  Range wheels, steering;
+  NonWheelJoints::OfRobot other_joints;
   std::string_view name;
   ContactStop stop;
 };
@@ -60,20 +59,23 @@ struct AckermannRobot {
 class Ackermann final : public PerRobotAlgorithm<AckermannRobot> {
  public:
   void step(const Step& step, Range range) override {
-    for (AckermannRobot& r : robots(range)) {
-      begin_step(r, step.dt);
-      move(r, step.dt);
-      r.other_joints.move(step.dt);
+    for (const AckermannRobot& r : robots(range)) {
+      const std::span<VehicleWheel> wheels = wheels_[r.wheels];
+      const std::span<SteeringJoint> steering = steering_[r.steering];
+      begin_step(r, wheels, steering, step.dt);
+      move(r, wheels, steering, step.dt);
+      other_joints_.move(r.other_joints, step.dt);
     }
   }
 
   /// The wheels turn as fits the base's velocity best; the steering goes on from where it stands.
   void on_handover(std::uint32_t item) override {
-    AckermannRobot& r = robot(item);
+    const AckermannRobot& r = robot(item);
+    const std::span<SteeringJoint> steering = steering_[r.steering];
     const PlanarTwist moving = in_plane(*r.pose, *r.twist);
-    for (const SteeringJoint& s : r.steering) *s.velocity = 0;
-    for (VehicleWheel& w : r.wheels) {
-      if (w.steering.joint >= 0) w.steer(*r.steering[std::size_t(w.steering.joint)].position, 0);
+    for (const SteeringJoint& s : steering) *s.velocity = 0;
+    for (VehicleWheel& w : wheels_[r.wheels]) {
+      if (w.steering.joint >= 0) w.steer(*steering[std::size_t(w.steering.joint)].position, 0);
       *w.velocity = std::clamp(w.speed_at(moving), -w.max_speed, w.max_speed);
     }
   }
@@ -96,8 +98,10 @@ class Ackermann final : public PerRobotAlgorithm<AckermannRobot> {
     const std::vector<PlanarWheel> planes(found.begin(), found.end());
     AckermannRobot r{
         c.variable(robot.base(), keys::pose, start), {}, RollingConstraints(planes), {}, {}, {}, robot.name, {}};
+    std::vector<VehicleWheel> wheels;
+    std::vector<SteeringJoint> steering;
     for (const std::size_t link : geometry.joints)
-      r.steering.push_back(connect_steering(c, robot.links[link], positions[link]));
+      steering.push_back(connect_steering(c, robot.links[link], positions[link]));
     for (std::size_t k = 0; k < found.size(); ++k) {
       VehicleWheel w{.plane = planes[k], .steering = geometry.wheels[k], .is_driven = found[k].driven};
       w.max_speed = w.is_driven ? found[k].limits.velocity : std::numeric_limits<double>::infinity();
@@ -108,13 +112,15 @@ class Ackermann final : public PerRobotAlgorithm<AckermannRobot> {
       if (w.is_driven) w.target = c.input(joint, keys::joint_velocity_target, 0.0);
       w.position = c.variable(joint, keys::joint_position, positions[found[k].link]);
       w.velocity = c.variable(joint, keys::joint_velocity, speed);
-      r.wheels.push_back(w);
+      wheels.push_back(w);
     }
-    const PlanarTwist velocity = SteeredVehicle(r.constraints, r.wheels, r.steering).motion().velocity;
+    const PlanarTwist velocity = SteeredVehicle(r.constraints, wheels, steering).motion().velocity;
     r.twist = c.variable(robot.base(), keys::twist, in_world(start, velocity));
-    for (std::size_t k = 0; k < r.steering.size(); ++k) state.bind(geometry.joints[k], r.steering[k]);
-    for (std::size_t k = 0; k < found.size(); ++k) state.bind(found[k].link, r.wheels[k]);
-    r.other_joints = NonWheelJoints(c, robot, positions, state);
+    for (std::size_t k = 0; k < steering.size(); ++k) state.bind(geometry.joints[k], steering[k]);
+    for (std::size_t k = 0; k < found.size(); ++k) state.bind(found[k].link, wheels[k]);
+    r.wheels = wheels_.add(wheels);
+    r.steering = steering_.add(steering);
+    r.other_joints = other_joints_.connect(c, robot, positions, state);
     r.stop = ContactStop(c, robot);
     return r;
   }
@@ -131,10 +137,11 @@ class Ackermann final : public PerRobotAlgorithm<AckermannRobot> {
   }
 
   /// Reads the targets of wheels and steering, and lays out how they are reached in this step.
-  void begin_step(AckermannRobot& r, double dt) const {
+  void begin_step(const AckermannRobot& r, std::span<VehicleWheel> wheels, std::span<SteeringJoint> steering,
+                  double dt) const {
     double sum = 0;
-    for (SteeringJoint& s : r.steering) s.begin(dt), sum += s.final;
-    for (VehicleWheel& w : r.wheels) {
+    for (SteeringJoint& s : steering) s.begin(dt), sum += s.final;
+    for (VehicleWheel& w : wheels) {
       if (!w.is_driven) continue;
       w.ramp = velocity_ramp(*w.velocity, std::clamp(*w.target, -w.max_speed, w.max_speed), max_acceleration_, dt);
       sum += w.ramp.final;
@@ -145,20 +152,21 @@ class Ackermann final : public PerRobotAlgorithm<AckermannRobot> {
                   "`joint.velocity.target` and `joint.position.target`");
   }
 
-  static void move(AckermannRobot& r, double dt) {
+  static void move(const AckermannRobot& r, std::span<VehicleWheel> wheels, std::span<SteeringJoint> steering,
+                   double dt) {
     const Pose before = *r.pose;
     const PlanarTwist velocity =
-        SteeredVehicle(r.constraints, r.wheels, r.steering).move(*r.pose, r.twist->angular.norm(), dt);
+        SteeredVehicle(r.constraints, wheels, steering).move(*r.pose, r.twist->angular.norm(), dt);
     r.pose->orientation.normalize();
     *r.twist = in_world(*r.pose, velocity);
-    for (const SteeringJoint& s : r.steering) s.finish(dt);
+    for (const SteeringJoint& s : steering) s.finish(dt);
     if (r.stop.blocks(before.position, *r.twist)) {
       *r.pose = before;
       *r.twist = {};
-      for (const VehicleWheel& w : r.wheels) *w.velocity = 0;
+      for (const VehicleWheel& w : wheels) *w.velocity = 0;
       return;
     }
-    for (const VehicleWheel& w : r.wheels) {
+    for (const VehicleWheel& w : wheels) {
       *w.position += w.is_driven ? w.ramp.angle(dt) : w.rolled_angle;
       *w.velocity = w.is_driven ? w.ramp.final : w.speed_at(velocity);
     }
@@ -166,6 +174,9 @@ class Ackermann final : public PerRobotAlgorithm<AckermannRobot> {
 
   double max_acceleration_ = unlimited;
   double max_steering_rate_ = unlimited;
+  PackedLists<VehicleWheel> wheels_;
+  PackedLists<SteeringJoint> steering_;
+  NonWheelJoints other_joints_;
 };
 
 constexpr abi::AlgorithmEntry algorithms[] = {algorithm<Ackermann>(description)};

@@ -86,11 +86,16 @@ struct ServoJoint {
   double initial_command = 0;
 };
 
-class Servo final : public PerRobotAlgorithm<std::vector<ServoJoint>> {
+/// What is kept of a robot.
+struct ServoRobot {
+  Range joints;
+};
+
+class Servo final : public PerRobotAlgorithm<ServoRobot> {
  public:
   void step(const Step& step, Range range) override {
-    for (const std::vector<ServoJoint>& joints : robots(range))
-      for (const ServoJoint& joint : joints) drive(joint, step);
+    for (const ServoRobot& r : robots(range))
+      for (const ServoJoint& joint : joints_[r.joints]) drive(joint, step);
   }
 
  private:
@@ -135,7 +140,7 @@ class Servo final : public PerRobotAlgorithm<std::vector<ServoJoint>> {
                  "1e-7 to 1e-5 for small ones)");
   }
 
-  std::vector<ServoJoint> connect_robot(Connector& c, const Item& item) override {
+  ServoRobot connect_robot(Connector& c, const Item& item) override {
     const RobotView& robot = *item.robot;
     const std::vector<double> start = initial_joint_positions(c, robot);
     const std::vector<Inertia> inertias = inertias_of(c, robot);
@@ -167,7 +172,7 @@ class Servo final : public PerRobotAlgorithm<std::vector<ServoJoint>> {
       if (delay_ > 0) j.commands = c.variable_list(joint, delayed_commands);
       joints.push_back(j);
     }
-    return joints;
+    return {joints_.add(joints)};
   }
 
   /// The links to which the joints to drive lead. Where none is named: those whose motion takes efforts.
@@ -242,6 +247,7 @@ class Servo final : public PerRobotAlgorithm<std::vector<ServoJoint>> {
   double delay_ = 0;  ///< s
   Motor motor_;
   Gearbox gear_;  ///< but the inertia of the joint
+  PackedLists<ServoJoint> joints_;
 };
 
 constexpr abi::AlgorithmEntry algorithms[] = {algorithm<Servo>(description)};

@@ -2,11 +2,30 @@
 // The base of algorithms that serve one robot after the other.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "muro/algorithm.hpp"
 
 namespace muro {
+
+/// Lists of which each robot has one, such as those of its wheels: all in one array, in the order of robots, so that a
+/// step goes through memory from front to back.
+template <class T>
+class PackedLists {
+ public:
+  /// Adds a list; returns where it is. [setup]
+  Range add(const std::vector<T>& list) {
+    const auto begin = std::uint32_t(all_.size());
+    all_.insert(all_.end(), list.begin(), list.end());
+    return {begin, std::uint32_t(all_.size())};
+  }
+  std::span<T> operator[](Range list) { return {all_.data() + list.begin, list.end - list.begin}; }
+  std::span<const T> operator[](Range list) const { return {all_.data() + list.begin, list.end - list.begin}; }
+
+ private:
+  std::vector<T> all_;
+};
 
 /// An algorithm that serves each robot from the properties of this robot alone, so that robots may be divided among
 /// threads. `Robot` is what it keeps of one: handles and parameters. What is left to a derived class is to connect one
