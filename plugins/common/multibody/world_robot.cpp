@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "drive_target.hpp"
+#include "joint_drive_target.hpp"
 #include "joint_target.hpp"
 #include "muro/toolkit/mass_properties.hpp"
 #include "plugins/common/contact_geometry/contact_responsibility.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "drive_target.hpp"
+#include "joint_drive_target.hpp"
 
 #include <algorithm>
 
