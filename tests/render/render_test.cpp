@@ -118,8 +118,8 @@ TEST(Render, HandsTheFramesOfAVideoToFfmpeg) {
   EXPECT_NE(frames.substr(0, frame), frames.substr(5 * frame)) << "robots move";
 }
 
+#ifdef MURO_HAS_FFMPEG
 TEST(Render, MakesAVideoThatPlays) {
-  if (test::run_command("command -v ffmpeg").exit_code != 0) GTEST_SKIP() << "needs the package ffmpeg";
   const test::ScratchFolder folder;
   const std::string video = folder.path("video.mp4");
   const auto result = render(urban + " --size 65x49 --until 0.4 --fps 10 --video " + video);
@@ -132,6 +132,7 @@ TEST(Render, MakesAVideoThatPlays) {
   EXPECT_NE(wrong.output.find("The extension of the name decides the format"), std::string::npos) << wrong.output;
   EXPECT_FALSE(std::filesystem::exists(folder.path("video.what")));
 }
+#endif
 
 TEST(Render, SaysThatAVideoNeedsFfmpegAndWhatElseIsWrong) {
   const auto with_path = [](const std::string& path, const std::string& arguments) {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "orbit_camera.hpp"
-#include "muro/toolkit/rotations.hpp"
 
 #include <gtest/gtest.h>
+
+#include "muro/toolkit/rotations.hpp"
 
 namespace muro::view {
 namespace {

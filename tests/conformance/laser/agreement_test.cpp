@@ -46,11 +46,11 @@ std::vector<double> with_neighbours(const Settings& grid, double pixel) {
 }
 
 struct Difference {
-  double median = 0;   ///< m
-  double worst = 0;    ///< where nothing steps within a pixel and a half: beyond what is allowed, m
-  double made_up = 0;  ///< share of readings that are neither side of a step
-  double outside = 0;  ///< share of readings nearer or farther than all that is there
-  double off = 0;      ///< share of readings that differ by more than a centimetre
+  double median = 0;    ///< m
+  double worst = 0;     ///< where nothing steps within a pixel and a half: beyond what is allowed, m
+  double invented = 0;  ///< fraction of readings that are neither side of a step
+  double outside = 0;   ///< fraction of readings nearer or farther than all that is there
+  double off = 0;       ///< fraction of readings that differ by more than a centimetre
 };
 
 Difference compare(Room& s, std::size_t tried, std::size_t exact, const Bound& bound) {
@@ -74,7 +74,7 @@ Difference compare(Room& s, std::size_t tried, std::size_t exact, const Bound& b
     const auto bend = [&](std::size_t a, std::size_t b) { return std::abs(1 / r[a] - 2 / middle + 1 / r[b]); };
     const double curved = bound.blur > 0 ? middle * middle * std::max(bend(10, 14), bend(2, 22)) : 0;
     if (smooth) d.worst = std::max(d.worst, error - allowed - curved);
-    if (!smooth && nearest > allowed + 0.03 * middle) d.made_up += one;
+    if (!smooth && nearest > allowed + 0.03 * middle) d.invented += one;
     if (read[i] < low - allowed - 0.01 * low || read[i] > high + allowed + 0.01 * high) d.outside += one;
     if (error > 0.01) d.off += one;
     errors.push_back(error);
@@ -84,12 +84,12 @@ Difference compare(Room& s, std::size_t tried, std::size_t exact, const Bound& b
   return d;
 }
 
-/// A way to look, and the angle (rad) between neighbouring rays.
-struct Look {
+/// The rays of a scan, and the angle (rad) between neighbours.
+struct ScanPattern {
   Settings grid;
   double spacing;
 };
-std::vector<Look> looks() {
+std::vector<ScanPattern> scan_patterns() {
   const auto grid = [](int columns, int rows, double wide, double high) {
     return Settings{{"rays", std::int64_t(columns)}, {"rows", std::int64_t(rows)},   {"min_angle", -0.5 * wide},
                     {"max_angle", 0.5 * wide},       {"min_elevation", -0.5 * high}, {"max_elevation", 0.5 * high}};
@@ -100,27 +100,28 @@ std::vector<Look> looks() {
           {grid(90, 40, 6.2, 3.0), 6.2 / 89}};
 }
 
-Difference look(const std::string& method, const Look& how, unsigned seed, double supersampling) {
+Difference difference_from_rays(const std::string& method, const ScanPattern& pattern, unsigned seed,
+                                double supersampling) {
   Room s({{0, 0, 1}, from_rpy(0.05, -0.04, 0.3 * seed)});
   s.add_ground();
   s.scatter(seed, 60);
-  const Bound bound = bound_of(method, how.spacing, supersampling);
-  Settings settings = how.grid;
+  const Bound bound = bound_of(method, pattern.spacing, supersampling);
+  Settings settings = pattern.grid;
   if (method == "laser.zbuffer") settings["supersampling"] = supersampling;
   const std::size_t tried = s.add_laser(method, settings);
   const std::size_t exact =
-      s.add_laser("laser.raycast", {{"directions", with_neighbours(how.grid, bound.blur)}, {"min_range", 0.02}});
-  s.look();
+      s.add_laser("laser.raycast", {{"directions", with_neighbours(pattern.grid, bound.blur)}, {"min_range", 0.02}});
+  s.build_and_run();
   return compare(s, tried, exact, bound);
 }
 
 TEST_P(EveryOtherLaser, AgreesWithRaysOnSceneryAndRobotsOfAllShapes) {
   const bool exact = bound_of(GetParam(), 1, 1).blur == 0;
   for (unsigned seed = 1; seed <= 4; ++seed)
-    for (const Look& how : looks()) {
-      const Difference d = look(GetParam(), how, seed, 1);
+    for (const ScanPattern& pattern : scan_patterns()) {
+      const Difference d = difference_from_rays(GetParam(), pattern, seed, 1);
       EXPECT_LE(d.worst, 0) << "seed " << seed;
-      EXPECT_LE(d.made_up, exact ? 0 : 0.01);
+      EXPECT_LE(d.invented, exact ? 0 : 0.01);
       EXPECT_LE(d.outside, exact ? 0 : 0.002);
       EXPECT_LE(d.off, exact ? 0 : 0.07) << "rays near edges";
       EXPECT_LE(d.median, exact ? 1e-9 : 1e-4);
@@ -128,8 +129,9 @@ TEST_P(EveryOtherLaser, AgreesWithRaysOnSceneryAndRobotsOfAllShapes) {
 }
 
 TEST(TheZBuffer, ComesNearerToRaysWithSupersampling) {
-  for (const Look& how : looks()) {
-    const double once = look("laser.zbuffer", how, 5, 1).off, four_times = look("laser.zbuffer", how, 5, 4).off;
+  for (const ScanPattern& pattern : scan_patterns()) {
+    const double once = difference_from_rays("laser.zbuffer", pattern, 5, 1).off,
+                 four_times = difference_from_rays("laser.zbuffer", pattern, 5, 4).off;
     EXPECT_GT(once, 0);
     EXPECT_LT(four_times, 0.45 * once) << "rays near edges are fewer";
   }
@@ -141,7 +143,7 @@ TEST_P(EveryOtherLaser, SeesTheSameObjectsAsRays) {
   s.scatter(9, 60);
   const Settings grid = with(grid_100(), {{"hits", true}});
   const std::size_t tried = s.add_laser(GetParam(), grid), exact = s.add_laser("laser.raycast", grid);
-  s.look();
+  s.build_and_run();
   int differ = 0;
   for (std::size_t i = 0; i < 10000; ++i) differ += s.hits(tried)[i] != s.hits(exact)[i];
   EXPECT_LT(differ, bound_of(GetParam(), 1, 1).blur > 0 ? 400 : 1) << "of 10 000; only at edges";

@@ -24,7 +24,7 @@ const Settings by_itself{{"method", std::string("auto")}, {"rays", std::int64_t(
 TEST(TheChoiceOfALaser, IsMeasuredAtTheStartAndToldWithItsFigures) {
   Choosing s;
   s.add_laser("laser.auto", by_itself);
-  s.look();
+  s.build_and_run();
   EXPECT_GE(s.method(), 1u);
   EXPECT_LE(s.method(), 3u);
   EXPECT_NE(s.notes.find("laser.auto: a scan by all 1 scanners takes raycast "), std::string::npos) << s.notes;
@@ -40,7 +40,7 @@ TEST(TheChoiceOfALaser, IsOfWhatSeesMeshesWhereThereAreSome) {
   mesh.mesh = s.world().intern(MURO_TEST_SOURCE_DIR "/examples/sensors/crate.obj");
   s.put("crate", mesh, {{3, 0, 1}, Quat::Identity()});
   s.add_laser("laser.auto", by_itself);
-  s.look();
+  s.build_and_run();
   EXPECT_NE(s.method(), 1u);
   EXPECT_NE(s.notes.find("laser.auto leaves raycast out: it does not see the meshes of crate"), std::string::npos)
       << s.notes;
@@ -49,7 +49,7 @@ TEST(TheChoiceOfALaser, IsOfWhatSeesMeshesWhereThereAreSome) {
 TEST(TheChoiceOfALaser, LeavesOutWhatCannotDoIt) {
   Choosing s;
   s.add_laser("laser.auto", with(by_itself, {{"rays", std::int64_t(30000)}}));
-  s.look();
+  s.build_and_run();
   EXPECT_NE(s.method(), 2u);
   EXPECT_NE(s.notes.find("laser.auto leaves zbuffer out"), std::string::npos) << s.notes;
 }
@@ -58,7 +58,7 @@ TEST(TheChoiceOfALaser, CanBeMadeByTheUser) {
   for (const auto& [name, number] : {std::pair{"raycast", 1u}, {"zbuffer", 2u}, {"embree", 3u}}) {
     Choosing s;
     s.add_laser("laser.auto", with(by_itself, {{"method", std::string(name)}}));
-    s.look();
+    s.build_and_run();
     EXPECT_EQ(s.method(), number);
   }
 }
@@ -66,7 +66,7 @@ TEST(TheChoiceOfALaser, CanBeMadeByTheUser) {
 TEST(TheChoiceOfALaser, IsKeptOverARestoreEvenToBeforeIt) {
   Choosing s;
   s.add_laser("laser.auto", by_itself);
-  s.look(0);
+  s.build_and_run(0);
   const Snapshot before = s.snapshot();
   s.run_for(0.25);
   const std::uint64_t end = s.state_hash();
@@ -78,7 +78,7 @@ TEST(TheChoiceOfALaser, IsKeptOverARestoreEvenToBeforeIt) {
 TEST(TheChoiceOfALaser, TouchesOnlyWhatIsDeclared) {
   Choosing s;
   s.add_laser("laser.auto", by_itself);
-  s.look(0);
+  s.build_and_run(0);
   s.verify_access();
   EXPECT_NO_THROW(s.run_for(0.25));
 }

@@ -15,7 +15,7 @@ TEST_P(EveryBeam, TellsTheIncidenceOnAWall) {
   Room s;
   s.put("wall", Shape::box({0.2, 20, 20}), {{2.1, 0, 1}, Quat::Identity()});
   s.add_laser(GetParam(), {{"rays", std::int64_t(121)}, {"min_angle", -1.2}, {"max_angle", 1.2}, {"incidence", true}});
-  s.look();
+  s.build_and_run();
   for (int i = 0; i <= 120; ++i) {
     EXPECT_NEAR(s.incidence(0)[i], std::abs(-1.2 + 0.02 * i), 0.02) << i;
     EXPECT_NEAR(s.ranges(0)[i], 2 / std::cos(-1.2 + 0.02 * i), 1e-3);
@@ -29,7 +29,7 @@ TEST_P(EveryBeam, ReadsBetweenBothSidesOfAnEdgeThatLiesInIt) {
   Settings narrow{{"rays", std::int64_t(401)}, {"min_angle", -0.02}, {"max_angle", 0.02}};
   s.add_laser(GetParam(), narrow);
   s.add_laser(GetParam(), with(narrow, {{"divergence", 0.01}}));
-  s.look();
+  s.build_and_run();
   int mixed[2] = {};
   for (const std::size_t scanner : {0u, 1u})
     for (const double r : s.ranges(scanner)) mixed[scanner] += r > 2.01 && r < 3.99;
@@ -53,7 +53,7 @@ TEST(AUrg, ReadsBetweenBothSidesAtAFewEdges) {
     s.put("around", Shape::box({0.2, 30, 10}), {{3.1, 0, 1}, Quat::Identity()});
     s.add_laser("laser.raycast", with(urg(), {{"max_range", 20.0}}));
     s.add_laser("laser.raycast", with(urg(), {{"max_range", 20.0}, {"divergence", 0.0023}}));
-    s.look();
+    s.build_and_run();
     const std::span<double> line = s.ranges(0), beam = s.ranges(1);
     for (std::size_t i = 1; i < line.size(); ++i) {
       if (std::abs(line[i] - line[i - 1]) < 0.3) continue;
@@ -74,7 +74,7 @@ TEST(AUrg, IsNoisierWhereItsBeamMeetsAWallAtASlant) {
       "laser.raycast", {{"rays", std::int64_t(343)}, {"min_angle", -1.047}, {"max_angle", 1.047}, {"incidence", true}});
   s.use("sensor.error", 10, {{s.carrier, s.sensor(scanner)}},
         {{"sigma", 0.002}, {"pointing", 0.0027}, {"correlation", 0.52}});
-  s.look();
+  s.build_and_run();
   double sum[3] = {}, count[3] = {};
   for (int scan = 0; scan < 300; ++scan) {
     s.run_for(0.1);

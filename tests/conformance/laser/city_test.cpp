@@ -38,7 +38,7 @@ Errors errors_in_the_city(const Settings& settings, double spacing, double super
       exact.push_back(s.add_laser("laser.raycast", with(settings, {{"rpy", std::vector<double>{0, 0, aside}}})));
       exact.push_back(s.add_laser("laser.raycast", with(settings, {{"rpy", std::vector<double>{0, aside, 0}}})));
     }
-    s.look();
+    s.build_and_run();
     const bool flat = settings.count("rows") == 0;
     const auto read = [&](std::size_t k, std::size_t i) { return 1 / s.ranges(exact[k])[i]; };
     for (std::size_t i = 0; i < s.ranges(tried).size(); ++i) {

@@ -33,7 +33,7 @@ TEST_P(EveryLaser, ReadsTheWallsOfARoomAllTheWayRound) {
     s.furnish();
     const int rays = 720;
     s.add_laser(GetParam(), {{"rays", std::int64_t(rays)}, {"min_angle", -0.5 * wide}, {"max_angle", 0.5 * wide}});
-    s.look();
+    s.build_and_run();
     const double step = degrees < 360 ? wide / (rays - 1) : wide / rays;
     const Bound bound = bound_of(GetParam(), step, 1);
     int edges = 0;
@@ -64,7 +64,7 @@ TEST_P(EveryLaser, ReadsGroundAndCeilingWithSeveralRows) {
   s.add_laser(
       GetParam(),
       {{"rays", std::int64_t(columns)}, {"rows", std::int64_t(rows)}, {"min_elevation", low}, {"max_elevation", high}});
-  s.look();
+  s.build_and_run();
   const Bound bound = bound_of(GetParam(), 0.02, 1);
   for (int row = 0; row < rows; ++row) {
     const double e = low + row * (high - low) / (rows - 1);
@@ -87,7 +87,7 @@ TEST_P(EveryLaser, ReadsEveryKindOfShapeAtItsDistance) {
     const bool plane = shape.kind == ShapeKind::plane;
     const ObjectId thing = s.put("thing", shape, {{3, 0, 1}, plane ? from_rpy(0, -pi / 2, 0) : from_rpy(0, 0, pi)});
     s.add_laser(GetParam(), {{"rays", std::int64_t(21)}, {"min_angle", -0.1}, {"max_angle", 0.1}, {"hits", true}});
-    s.look();
+    s.build_and_run();
     EXPECT_NEAR(s.ranges(0)[10], distance, bound_of(GetParam(), 0.01, 1).absolute) << int(shape.kind);
     EXPECT_EQ(s.hits(0)[10], thing);
   }
@@ -97,7 +97,7 @@ TEST_P(EveryLaser, ReadsItsRangeWhereNothingIs) {
   Room s;
   s.put("far", Shape::box({1, 40, 40}), {{25, 0, 0}, Quat::Identity()});
   s.add_laser(GetParam(), {{"rays", std::int64_t(9)}, {"min_angle", -1.0}, {"max_angle", 1.0}, {"hits", true}});
-  s.look();
+  s.build_and_run();
   for (const double r : s.ranges(0)) EXPECT_EQ(r, 20);
   for (const ObjectId hit : s.hits(0)) EXPECT_EQ(hit, no_object);
 }
@@ -106,7 +106,7 @@ TEST_P(EveryLaser, ReadsItsLeastRangeForWhatIsNearer) {
   Room s;
   const ObjectId near = s.put("near", Shape::box({0.1, 1, 1}), {{0.35, 0, 1}, Quat::Identity()});
   s.add_laser(GetParam(), {{"rays", std::int64_t(1)}, {"min_range", 0.5}, {"hits", true}});
-  s.look();
+  s.build_and_run();
   EXPECT_EQ(s.ranges(0)[0], 0.5);
   EXPECT_EQ(s.hits(0)[0], near);
 }
@@ -117,7 +117,7 @@ TEST_P(EveryLaser, DoesNotLookThroughWhatIsVeryNear) {
     s.put("plate", Shape::box({0.004, 1, 1}), {{0.02, 0, 1}, Quat::Identity()});
     s.put("wall", Shape::box({0.2, 9, 9}), {{4, 0, 1}, Quat::Identity()});
     s.add_laser(GetParam(), {{"directions", std::vector<double>{angle, 0}}, {"min_range", 0.2}});
-    s.look();
+    s.build_and_run();
     EXPECT_EQ(s.ranges(0)[0], 0.2) << angle;
   }
 }
@@ -128,7 +128,7 @@ TEST_P(EveryLaser, IsBlindInASolid) {
     Room s;
     const ObjectId around = s.put("around", shape, {{0.1, 0, 1}, Quat::Identity()});
     s.add_laser(GetParam(), {{"rays", std::int64_t(5)}, {"min_range", 0.02}, {"hits", true}});
-    s.look();
+    s.build_and_run();
     for (const double r : s.ranges(0)) EXPECT_EQ(r, 0.02);
     for (const ObjectId hit : s.hits(0)) EXPECT_EQ(hit, around);
   }
@@ -139,7 +139,7 @@ TEST_P(EveryLaser, SeesWhatIsInFront) {
   s.put("far", Shape::box({0.2, 6, 6}), {{5.1, 0, 1}, Quat::Identity()});
   const ObjectId near = s.put("near", Shape::box({0.2, 1, 1}), {{2.1, 0.5, 1}, Quat::Identity()});
   s.add_laser(GetParam(), {{"rays", std::int64_t(3)}, {"min_angle", -0.2}, {"max_angle", 0.2}, {"hits", true}});
-  s.look();
+  s.build_and_run();
   EXPECT_NEAR(s.ranges(0)[0], 5 / std::cos(0.2), 1e-3);
   EXPECT_NEAR(s.ranges(0)[2], 2 / std::cos(0.2), 1e-3);
   EXPECT_EQ(s.hits(0)[2], near);
@@ -150,7 +150,7 @@ TEST_P(EveryLaser, ReadsTheSameAKilometreFromTheOrigin) {
   Room s(far);
   s.put("wall", Shape::box({0.2, 10, 10}), far * Pose{{3.1, 0, 0}, Quat::Identity()});
   s.add_laser(GetParam(), {{"rays", std::int64_t(101)}, {"min_angle", -0.5}, {"max_angle", 0.5}});
-  s.look();
+  s.build_and_run();
   for (int i = 0; i <= 100; ++i) EXPECT_NEAR(s.ranges(0)[i], 3 / std::cos(-0.5 + 0.01 * i), 2e-4);
 }
 
@@ -158,7 +158,7 @@ TEST_P(EveryLaser, TakesAListOfDirections) {
   Room s({{0, 0, 1}, Quat::Identity()});
   s.furnish();
   s.add_laser(GetParam(), {{"directions", std::vector<double>{0, 0, pi / 2, 0, pi, 0, 0, -pi / 6, 1, -pi / 2}}});
-  s.look();
+  s.build_and_run();
   const double expected[] = {5, 4, 5, 2, 1};
   for (int i = 0; i < 5; ++i) EXPECT_NEAR(s.ranges(0)[i], expected[i], 2e-4) << i;
 }
@@ -188,7 +188,7 @@ TEST_P(EveryLaser, SeesRobotsWhereTheyHaveGone) {
   Room s;
   const RobotView& other = s.add("other", ball(1, 0.5, 0.5), {{3, 0, 1}, Quat::Identity()});
   s.add_laser(GetParam(), {{"rays", std::int64_t(1)}});
-  s.look();
+  s.build_and_run();
   EXPECT_NEAR(s.ranges(0)[0], 2.5, 2e-4);
   s.world().value(other.base(), keys::command_twist) = {{1, 0, 0}, {0, 0, 0}};
   s.run_for(1);
@@ -212,7 +212,7 @@ TEST_P(EveryLaser, SeesMeshesOrSaysThatItDoesNot) {
     if (level == LogLevel::warning) log += text;
   });
   s.add_laser(GetParam(), {{"rays", std::int64_t(3)}, {"min_angle", -0.1}, {"max_angle", 0.1}, {"hits", true}});
-  s.look();
+  s.build_and_run();
   if (log.find("not see") != std::string::npos) {
     EXPECT_NEAR(s.ranges(0)[1], 8, 2e-4) << "looks through it";
     return;

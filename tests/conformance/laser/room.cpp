@@ -68,7 +68,7 @@ std::size_t Room::add_laser(const std::string& method, const Settings& settings)
   return sensors_.size() - 1;
 }
 
-void Room::look(double seconds) {
+void Room::build_and_run(double seconds) {
   use("motion.point", motion_rate, all_robots());
   use_kinematics();
   use("scene.bvh", 0);

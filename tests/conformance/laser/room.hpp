@@ -35,8 +35,8 @@ struct Room : Scene {
   void scatter(unsigned seed, int count);
   /// A scanner beside those that are there; known by its number. All have a range of 20 m unless told.
   std::size_t add_laser(const std::string& method, const Settings& settings);
-  /// Connects all and runs so long (s).
-  void look(double seconds = 0.005);
+  /// Connects all algorithms and runs for `seconds`.
+  void build_and_run(double seconds = 0.005);
 
   std::span<double> ranges(std::size_t scanner) { return world().values(sensors_[scanner], keys::ranges); }
   std::span<ObjectId> hits(std::size_t scanner) { return world().values(sensors_[scanner], keys::laser_hits); }
@@ -66,8 +66,8 @@ struct Bound {
   double relative = 0, absolute = 0;  ///< of the range; m
   double blur = 0;
 };
-/// For a scanner whose neighbouring rays are `spacing` (rad) apart, with `supersampling` pixels for each ray. The pixels
-/// of a depth image are spacing / supersampling wide; its depths are single-precision floats, interpolated over
+/// For a scanner whose neighbouring rays are `spacing` (rad) apart, with `supersampling` pixels for each ray. The
+/// pixels of a depth image are spacing / supersampling wide; its depths are single-precision floats, interpolated over
 /// triangles; circles are polygons that lie 0.2 mm inside of them.
 Bound bound_of(const std::string& method, double spacing, double supersampling);
 

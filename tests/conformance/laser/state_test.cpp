@@ -19,7 +19,7 @@ struct Crowd : Room {
     add_laser(method, with(few, {{"hits", true}}));
     add_laser(method, with(few, {{"divergence", 0.003}, {"incidence", true}}));
     add_laser(method, with(few, {{"sweep_steps", std::int64_t(4)}, {"hits", true}}));
-    look();
+    build_and_run();
     drive();
   }
   void drive() {
@@ -76,7 +76,7 @@ TEST_P(EveryLasersState, IsReadByThePropertiesThatAllLasersHave) {
   Room s;
   s.furnish();
   s.add_laser(GetParam(), with(urg(), {{"offset", std::vector<double>{0.1, 0, 0}}}));
-  s.look();
+  s.build_and_run();
   const World& w = s.world();
   EXPECT_EQ(w.value(s.sensor(0), keys::laser_columns), 682u);
   EXPECT_EQ(w.value(s.sensor(0), keys::laser_rows), 1u);

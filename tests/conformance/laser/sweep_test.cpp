@@ -24,7 +24,7 @@ struct Drive : Room {
   void start() {
     motion_rate = 1000;
     laser_rate = 100;
-    look(0.0005);
+    build_and_run(0.0005);
     world().value(carrier->base(), keys::command_twist) = {{v, 0, 0}, {0, 0, w}};
   }
   /// Where the carrier is at t (s), and which way it looks.
@@ -78,7 +78,7 @@ TEST_P(EverySweep, IsAScanAtOneInstantWhileTheDeviceStands) {
   s.laser_rate = 100;
   s.add_laser(GetParam(), with(wide, {{"sweep_steps", std::int64_t(7)}, {"hits", true}}));
   s.add_laser(GetParam(), with(wide, {{"hits", true}}));
-  s.look(0.2);
+  s.build_and_run(0.2);
   const Bound bound = bound_of(GetParam(), 4.0 / (rays - 1), 1);
   int edges = 0;
   for (int i = 0; i < rays; ++i) {

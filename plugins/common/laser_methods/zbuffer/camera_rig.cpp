@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "camera_rig.hpp"
-#include "muro/toolkit/rotations.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+
+#include "muro/toolkit/rotations.hpp"
 
 namespace muro::zbuffer {
 
