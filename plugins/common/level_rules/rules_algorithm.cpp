@@ -53,8 +53,7 @@ void RulesAlgorithm::connect_robot(Connector& c, const RobotView& view) {
   Robot r;
   std::vector<std::string> levels;
   for (const TextId id : c.constant_array(view.base(), keys::motion_level_names)) levels.emplace_back(c.text(id));
-  if (levels.empty())
-    throw Error(quote(view.name) + " has only one motion; list several under `levels` of its motion");
+  if (levels.empty()) throw Error(quote(view.name) + " has only one motion; list several under `levels` of its motion");
   for (const std::string_view text : c.parameters().texts("rules")) {
     r.conditions.push_back(read_condition(c, view, text, levels));
     r.by_contact = r.by_contact || r.conditions.back().rule.by_contact();
