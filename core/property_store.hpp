@@ -47,7 +47,7 @@ struct Slot {
 /// All properties of all objects.
 ///
 /// Memory of a property is set aside when it is first mentioned and never moves, so that handles can be
-/// given out while algorithms connect, in any order. Mistakes are collected and told by `check`.
+/// given out while algorithms connect, in any order. Mistakes are collected, and `check` reports them.
 class PropertyStore {
  public:
   PropertyStore();

@@ -39,7 +39,7 @@ struct Stage {
 /// Divides the due tasks of an instant, or of several that follow each other, into stages, which run one after the
 /// other.
 ///
-/// The order of due tasks is the truth: two calls with access to one property, at least one of them exclusive, keep it,
+/// The order of due tasks decides: two calls with access to one property, at least one of them exclusive, keep it,
 /// by standing in one chain or in two stages. Everything else may overlap. Robots are divided into blocks of some tens;
 /// a task that has access to its own robots only continues the chain of each block, so that a whole team is carried
 /// through kinematics, contact and motion block by block, while its data is in the cache. The division depends on the

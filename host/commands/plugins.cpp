@@ -13,18 +13,21 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+std::string number(const Json& n) { return fmt::format("{}", n.get<double>()); }
+
 std::string default_of(const Json& p) {
   if (p["required"].get<bool>()) return "required";
   const Json& d = p["default"];
-  return d.is_string() ? "default \"" + d.get<std::string>() + "\"" : "default " + d.dump();
+  if (d.is_string()) return "default \"" + d.get<std::string>() + "\"";
+  return "default " + (d.is_number() ? number(d) : d.dump());
 }
 
 std::string range_of(const Json& p) {
   if (p.contains("choices")) return ", one of " + p["choices"].dump();
   const bool low = p.contains("min"), high = p.contains("max");
-  if (low && high) return fmt::format(", from {} to {}", p["min"].dump(), p["max"].dump());
-  if (low) return ", at least " + p["min"].dump();
-  return high ? ", at most " + p["max"].dump() : "";
+  if (low && high) return fmt::format(", from {} to {}", number(p["min"]), number(p["max"]));
+  if (low) return ", at least " + number(p["min"]);
+  return high ? ", at most " + number(p["max"]) : "";
 }
 
 void print_info(const CatalogEntry& found, const Json& plugin, const Json& entry) {

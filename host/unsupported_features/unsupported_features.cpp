@@ -145,7 +145,7 @@ std::string text_of(const UnsupportedFeatures& unsupported, Detail detail) {
     if (u.implied)
       implied += fmt::format("{}{}{}", implied.empty() ? "" : ", ", info_of(u.bit).name, amount);
     else
-      out += fmt::format("{}{}{}", out.empty() ? "" : "; ", info_of(u.bit).lost, amount);
+      out += fmt::format("{}{}{}", out.empty() ? "" : "; ", info_of(u.bit).consequence, amount);
   }
   return detail == Detail::brief || implied.empty() ? out : out + "; therefore not supported either: " + implied;
 }

@@ -21,7 +21,7 @@ class Error : public std::runtime_error {
 ///
 /// An algorithm is created, connected once, started once and then stepped, many times. All of its
 /// state lies in properties; members are handles, parameters and caches that can be built again.
-/// Any of these functions may throw muro::Error; it ends at the plugin's border.
+/// Any of these functions may throw muro::Error; it ends at the plugin's boundary.
 class Algorithm {
  public:
   Algorithm() = default;
@@ -40,8 +40,8 @@ class Algorithm {
   /// All handles may be read. Opens what the algorithm needs to run; also called again at a reset. [setup]
   virtual void start() {}
 
-  /// How a step is divided. Asked once, after connect. None: what promises to be `batched` has one phase over its
-  /// items, of wide reach; anything else runs in one call. [setup]
+  /// How a step is divided. Asked once, after connect. None: an algorithm that is `batched` has one phase over its
+  /// items, which reads all; anything else runs in one call. [setup]
   virtual std::span<const Phase> phases() const { return {}; }
 
   /// Serves the elements of `range` at `step.time`: brings their outputs up to date, or, for a motion

@@ -37,8 +37,8 @@ enum Feature : Features {
 
 struct FeatureInfo {
   Features bit;
-  std::string_view name;  ///< in descriptions and messages
-  std::string_view lost;  ///< what a robot that needs it goes without
+  std::string_view name;         ///< in descriptions and messages
+  std::string_view consequence;  ///< where it is missing: what becomes of a robot that uses it
 };
 
 inline constexpr FeatureInfo feature_infos[] = {

@@ -3,6 +3,7 @@
 // CMake, a comma-separated list.
 #include <gtest/gtest.h>
 
+#include "muro/toolkit/rotations.hpp"
 #include "tests/support/scene.hpp"
 
 namespace muro {

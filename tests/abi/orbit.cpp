@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "muro/plugin.hpp"
+#include "muro/toolkit/rotations.hpp"
 
 namespace {
 

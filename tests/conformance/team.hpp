@@ -4,6 +4,7 @@
 #include <set>
 
 #include "core/instance.hpp"
+#include "muro/toolkit/rotations.hpp"
 #include "tests/support/bodies.hpp"
 
 namespace muro::test {

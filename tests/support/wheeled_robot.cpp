@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tests/support/wheeled_robot.hpp"
+#include "muro/toolkit/rotations.hpp"
 
 namespace muro::test {
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <random>
 
@@ -62,7 +63,7 @@ TEST(Patch, TheGreatestStiffnessBoundsEveryMotion) {
     const Mat3 root = Mat3::Random();
     const Mobility body{0.3, root * root.transpose() + Mat3::Identity(), vector()};
     const Vec3 n = vector().normalized();
-    Eigen::Matrix<double, 6, 6> k = decltype(k)::Zero(), inverse = decltype(k)::Zero();
+    Eigen::MatrixXd k = Eigen::MatrixXd::Zero(6, 6), inverse = k;
     inverse.topLeftCorner<3, 3>() = body.mass * Mat3::Identity();
     inverse.bottomRightCorner<3, 3>() = body.inertia;
     const Vec3 first_origin = vector();
@@ -77,7 +78,9 @@ TEST(Patch, TheGreatestStiffnessBoundsEveryMotion) {
     const law::SpringStiffness<double> all = patch.seen_from(plain(body.centre)).stiffness(1.9, 0.7);
     EXPECT_LT((matrix_of(all.translation) - k.topLeftCorner(3, 3)).norm(), 1e-12 * k.norm());
     EXPECT_LT((matrix_of(all.rotation) - k.bottomRightCorner(3, 3)).norm(), 1e-12 * k.norm());
-    const double greatest = (inverse * k).eval().eigenvalues().real().maxCoeff();
+    // The eigenvalues of A B are those of L^T B L, where A = L L^T.
+    const Eigen::MatrixXd factor = inverse.llt().matrixL(), product = factor.transpose() * k * factor;
+    const double greatest = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(product).eigenvalues().maxCoeff();
     EXPECT_GE(all.max_eigenvalue_bound(body), greatest);
     EXPECT_LE(all.max_eigenvalue_bound(body), 4 * greatest);
   }

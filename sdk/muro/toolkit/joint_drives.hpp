@@ -49,7 +49,7 @@ inline bool names_joint(std::string_view pattern, std::string_view name) {
 
 }  // namespace detail
 
-/// The mode of every frame's joint, from `joints` and the four lists of names; what they say of fixed and mimic joints
+/// The mode of every link's joint, from `joints` and the four lists of names; what they say of fixed and mimic joints
 /// does not count. Throws Error for a name that no joint has and for a joint with two modes. [setup]
 inline std::vector<DriveMode> drive_modes_of(const Connector& connector, const RobotView& robot, const Parameters& p) {
   std::vector<DriveMode> modes(robot.links.size(), drive_mode_of(p.text("joints")));

@@ -10,7 +10,7 @@
 
 namespace muro {
 
-/// The position (rad or m) of every frame's joint at the start: `joint.position.initial`, mimic joints after
+/// The position (rad or m) of every link's joint at the start: `joint.position.initial`, mimic joints after
 /// their leader, 0 for fixed ones. [setup]
 inline std::vector<double> initial_joint_positions(const Connector& connector, const RobotView& robot) {
   std::vector<double> q(robot.links.size(), 0.0);
@@ -32,7 +32,7 @@ inline void check_start(const Connector& connector, ObjectId joint, const JointL
                 "; set `joint.position.initial` to a value between them");
 }
 
-/// The constant `inertial` of every frame; zero where there is none. [setup]
+/// The constant `inertial` of every link; zero where there is none. [setup]
 inline std::vector<Inertia> inertias_of(const Connector& connector, const RobotView& robot) {
   std::vector<Inertia> inertias;
   for (const Link& f : robot.links)
@@ -40,13 +40,13 @@ inline std::vector<Inertia> inertias_of(const Connector& connector, const RobotV
   return inertias;
 }
 
-/// All bodies of a robot as one, in the frame of its base. `inertias`, `positions`: one a frame.
-inline Inertia composite_inertia(std::span<const Link> frames, std::span<const Inertia> inertias,
+/// All bodies of a robot as one, in the frame of its base. `inertias`, `positions`: one a link.
+inline Inertia composite_inertia(std::span<const Link> links, std::span<const Inertia> inertias,
                                  std::span<const double> positions) {
-  std::vector<Pose> in_base(frames.size());
+  std::vector<Pose> in_base(links.size());
   Inertia whole;
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    if (i > 0) in_base[i] = in_base[std::size_t(frames[i].parent)] * pose_in_parent(frames[i], positions[i]);
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    if (i > 0) in_base[i] = in_base[std::size_t(links[i].parent)] * pose_in_parent(links[i], positions[i]);
     whole = whole + inertias[i].in(in_base[i]);
   }
   return whole;
