@@ -79,7 +79,7 @@ function(muro_add_test)
   endif()
   gtest_discover_tests(${ARG_NAME} TEST_PREFIX ${ARG_NAME}. TEST_FILTER ${slow} TEST_LIST ${ARG_NAME}_slow_tests
                        NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60
-                       PROPERTIES TIMEOUT ${ARG_TIMEOUT} FIXTURES_REQUIRED "${ARG_FIXTURE}" LABELS slow)
+                       PROPERTIES LABELS slow TIMEOUT ${ARG_TIMEOUT} FIXTURES_REQUIRED "${ARG_FIXTURE}")
 endfunction()
 
 # muro_add_bench(NAME bench_x SOURCES ... [LIBRARIES ...]): a program that `./dev bench` runs.
