@@ -8,6 +8,23 @@
 
 namespace muro::test {
 
+/// A shape of this kind whose measures are what `random.length()` (m) gives.
+template <class Random>
+Shape shape_of(ShapeKind kind, Random& random) {
+  switch (kind) {
+    case ShapeKind::box:
+      return Shape::box({random.length(), random.length(), random.length()});
+    case ShapeKind::sphere:
+      return Shape::sphere(0.5 * random.length());
+    case ShapeKind::cylinder:
+      return Shape::cylinder(0.5 * random.length(), random.length());
+    case ShapeKind::capsule:
+      return Shape::capsule(0.5 * random.length(), random.length());
+    default:
+      return Shape::plane();
+  }
+}
+
 /// Random numbers, rotations and shapes, the same for the same seed.
 class Randoms {
  public:
@@ -34,20 +51,7 @@ class Randoms {
   }
   /// 0.05 to 2 m, all scales alike.
   double length() { return 0.05 * std::pow(40.0, uniform(0, 1)); }
-  Shape shape(ShapeKind kind) {
-    switch (kind) {
-      case ShapeKind::box:
-        return Shape::box({length(), length(), length()});
-      case ShapeKind::sphere:
-        return Shape::sphere(0.5 * length());
-      case ShapeKind::cylinder:
-        return Shape::cylinder(0.5 * length(), length());
-      case ShapeKind::capsule:
-        return Shape::capsule(0.5 * length(), length());
-      default:
-        return Shape::plane();
-    }
-  }
+  Shape shape(ShapeKind kind) { return shape_of(kind, *this); }
 
  private:
   std::mt19937_64 engine_;

@@ -6,6 +6,7 @@
 #include "muro/toolkit/bounds.hpp"
 #include "muro/toolkit/rotations.hpp"
 #include "tests/conformance/collision/touching.hpp"
+#include "tests/support/randoms.hpp"
 
 namespace muro {
 namespace {
@@ -27,20 +28,7 @@ class Randoms {
     return rotation_of(Vec3(uniform(0, M_PI) * direction()));
   }
   double length() { return 0.1 * std::pow(20.0, uniform(0, 1)); }  // 0.1 to 2 m
-  Shape shape(ShapeKind kind) {
-    switch (kind) {
-      case ShapeKind::box:
-        return Shape::box({length(), length(), length()});
-      case ShapeKind::sphere:
-        return Shape::sphere(0.5 * length());
-      case ShapeKind::cylinder:
-        return Shape::cylinder(0.5 * length(), length());
-      case ShapeKind::capsule:
-        return Shape::capsule(0.5 * length(), length());
-      default:
-        return Shape::plane();
-    }
-  }
+  Shape shape(ShapeKind kind) { return test::shape_of(kind, *this); }
 
  private:
   std::mt19937_64 engine_;
