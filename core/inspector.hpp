@@ -7,7 +7,7 @@
 
 #include "core/schedule/scheduler.hpp"
 #include "core/world.hpp"
-#include "muro/inspection.hpp"
+#include "muro/ext/inspection.hpp"
 
 namespace muro {
 

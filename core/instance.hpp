@@ -11,6 +11,12 @@
 
 namespace muro {
 
+/// The place of an algorithm in an instant: that of its kind, worlds before all other motions, since they read where
+/// those are.
+constexpr int order_of(const Description& d) {
+  return 2 * order_of(d.kind) + (d.kind == Kind::motion && (d.capabilities & Capability::world) == 0 ? 1 : 0);
+}
+
 /// Parameters checked against a description, with memory for what they point to.
 class ParameterSet {
  public:

@@ -7,6 +7,7 @@
 #include <deque>
 
 #include "core/error.hpp"
+#include "muro/detail/stamp.hpp"
 
 namespace muro {
 

@@ -14,6 +14,7 @@
 #include "core/error.hpp"
 #include "core/plugin_library.hpp"
 #include "describe/describe.hpp"
+#include "muro/detail/names.hpp"
 #include "muro/toolkit/did_you_mean.hpp"
 
 namespace muro {

@@ -8,6 +8,7 @@
 
 #include "core/instance.hpp"
 #include "host/unsupported_features/used_features.hpp"
+#include "muro/detail/names.hpp"
 
 namespace muro::host {
 

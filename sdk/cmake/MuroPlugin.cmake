@@ -62,8 +62,8 @@ endfunction()
 
 # muro_add_kernels(TARGET motion_point SOURCES step_kernel.cpp)
 #
-# Compiles sources into a target, once for each instruction set of muro/lane/isa.hpp, with MURO_ISA naming it. Such a
-# source includes the headers of muro/lane/ and declarations of its own, and nothing that has inline functions beside.
+# Compiles sources into a target, once for each instruction set of muro/simd/isa.hpp, with MURO_ISA naming it. Such a
+# source includes the headers of muro/simd/ and declarations of its own, and nothing that has inline functions beside.
 function(muro_add_kernels)
   cmake_parse_arguments(PARSE_ARGV 0 ARG "" "TARGET" "SOURCES")
   if(NOT ARG_TARGET OR NOT ARG_SOURCES OR ARG_UNPARSED_ARGUMENTS)
@@ -77,11 +77,10 @@ function(muro_add_kernels)
   if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     list(APPEND isas avx2 avx512)
   endif()
-  get_target_property(includes muro::sdk INTERFACE_INCLUDE_DIRECTORIES)
   foreach(isa IN LISTS isas)
     set(kernels ${ARG_TARGET}_${isa})
     add_library(${kernels} OBJECT ${ARG_SOURCES})
-    target_include_directories(${kernels} PRIVATE ${includes})
+    target_include_directories(${kernels} PRIVATE $<TARGET_PROPERTY:${ARG_TARGET},INCLUDE_DIRECTORIES>)
     target_compile_features(${kernels} PRIVATE cxx_std_20)
     target_compile_definitions(${kernels} PRIVATE MURO_ISA=${isa})
     # -Wno-psabi: no vector is passed between functions, for all are inlined. -Wno-maybe-uninitialized: the headers of

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "muro/abi.hpp"
+#include "muro/detail/names.hpp"
 #include "muro/toolkit/random.hpp"
 
 namespace muro::abi {

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "describe/describe.hpp"
+#include "muro/detail/stamp.hpp"
 
 namespace {
 

@@ -69,27 +69,6 @@ enum Capability : std::uint32_t {
   runs_alone = 64,
 };
 
-/// The name of a single capability; "" for a bit that is none.
-constexpr std::string_view name_of(Capability capability) {
-  switch (capability) {
-    case deterministic:
-      return "deterministic";
-    case batched:
-      return "batched";
-    case allocation_free:
-      return "allocation_free";
-    case restorable:
-      return "restorable";
-    case needs_gpu:
-      return "needs_gpu";
-    case world:
-      return "world";
-    case runs_alone:
-      return "runs_alone";
-  }
-  return "";
-}
-
 /// A property that an algorithm uses, by name, for the reader and for advice in error messages.
 struct PropertyUse {
   std::string_view key;
@@ -109,12 +88,6 @@ struct Description {
   std::uint32_t capabilities = 0;  ///< Capability, or-ed
   Features features = 0;           ///< of a motion: what of a robot and its commands it makes use of
 };
-
-/// The place of an algorithm in an instant: that of its kind, worlds before all other motions, since they read where
-/// those are.
-constexpr int order_of(const Description& d) {
-  return 2 * order_of(d.kind) + (d.kind == Kind::motion && (d.capabilities & Capability::world) == 0 ? 1 : 0);
-}
 
 /// One model reader.
 struct ReaderDescription {

@@ -13,6 +13,7 @@
 #include <sstream>
 
 #include "describe/describe.hpp"
+#include "muro/detail/stamp.hpp"
 
 namespace muro {
 namespace {

@@ -4,6 +4,7 @@
 #include "core/error.hpp"
 #include "core/registry.hpp"
 #include "core/simulation.hpp"
+#include "muro/detail/stamp.hpp"
 
 namespace muro {
 namespace {

@@ -10,12 +10,12 @@
 
 namespace muro::test {
 
-/// The message of the SetupError that `work` ends with.
-template <class Work>
+/// The message of the Failure that `work` ends with.
+template <class Failure = SetupError, class Work>
 std::string complaint_of(const Work& work) {
   try {
     work();
-  } catch (const SetupError& e) {
+  } catch (const Failure& e) {
     return e.what();
   }
   return "no complaint";

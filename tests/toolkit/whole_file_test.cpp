@@ -3,23 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/complaint.hpp"
 #include "tests/support/files.hpp"
 
 namespace muro {
 namespace {
 
+using test::complaint_of;
 using test::ScratchFolder;
 using test::text_of;
-
-template <class Work>
-std::string failure(Work work) {
-  try {
-    work();
-  } catch (const Error& e) {
-    return e.what();
-  }
-  return "it went well";
-}
 
 TEST(WholeFile, AppearsUnderItsNameWhenItIsPublished) {
   const ScratchFolder folder;
@@ -49,7 +41,8 @@ TEST(WholeFile, TakesWhatAnotherWriterHasWritten) {
   const ScratchFolder folder;
   WholeFile film(folder.path("film.mp4"), {.keep_extension = true});
   EXPECT_EQ(film.location(), folder.path("film.part.mp4"));
-  EXPECT_EQ(failure([&] { film.publish(); }), "file " + film.path() + " cannot be written: No such file or directory");
+  EXPECT_EQ(complaint_of<Error>([&] { film.publish(); }),
+            "file " + film.path() + " cannot be written: No such file or directory");
   std::ofstream(film.location()) << "frames";
   film.publish();
   EXPECT_EQ(text_of(folder.path("film.mp4")), "frames");
@@ -63,18 +56,19 @@ TEST(WholeFile, WritesADeviceInPlace) {
 }
 
 TEST(WholeFile, SaysWhyItCannotBeWritten) {
-  EXPECT_EQ(failure([] { WholeFile("/nowhere/a.txt").stream(); }),
+  EXPECT_EQ(complaint_of<Error>([] { WholeFile("/nowhere/a.txt").stream(); }),
             "file /nowhere/a.txt cannot be written: No such file or directory");
   const ScratchFolder folder;
-  EXPECT_EQ(failure([&] { WholeFile(folder.path("")).stream(); }),
+  EXPECT_EQ(complaint_of<Error>([&] { WholeFile(folder.path("")).stream(); }),
             "file " + folder.path("") + " cannot be written: Is a directory");
   const auto fill = [](int bytes) {
     WholeFile full("/dev/full");
     full.stream() << std::string(std::size_t(bytes), 'x');
     full.publish();
   };
-  EXPECT_EQ(failure([&] { fill(10); }), "file /dev/full cannot be written: No space left on device");
-  EXPECT_EQ(failure([&] { fill(1 << 20); }), "file /dev/full cannot be written; is there room on the disk?");
+  EXPECT_EQ(complaint_of<Error>([&] { fill(10); }), "file /dev/full cannot be written: No space left on device");
+  EXPECT_EQ(complaint_of<Error>([&] { fill(1 << 20); }),
+            "file /dev/full cannot be written; is there room on the disk?");
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "muro/vocabulary.hpp"
+#include "plugins/common/text/quote.hpp"
 
 namespace muro::native {
 
@@ -16,7 +17,7 @@ void warn_of_meshes(Connector& c) {
       if (s.kind != ShapeKind::mesh || std::find(warned.begin(), warned.end(), s.mesh) != warned.end()) continue;
       warned.push_back(s.mesh);
       c.host().log(LogLevel::warning,
-                   "`" + std::string(c.object_name(ObjectId{i})) + "`: mesh " + std::string(c.text(s.mesh)) +
+                   quote(c.object_name(ObjectId{i})) + ": mesh " + std::string(c.text(s.mesh)) +
                        " collides with nothing, for collision.native knows no meshes; use collision.bullet, "
                        "collision.ode or collision.fcl, or give the body boxes, spheres, cylinders or capsules");
     }

@@ -8,6 +8,7 @@
 #include "muro/algorithm.hpp"
 #include "muro/vocabulary.hpp"
 #include "plugins/common/mesh/store.hpp"
+#include "plugins/common/text/quote.hpp"
 
 namespace muro::multibody {
 
@@ -32,7 +33,7 @@ class MeshShapes {
           shapes_.emplace(key_of(s, hull),
                           hull ? of_hull(store.hull(path, s.size)) : of_mesh(store.mesh(path, s.size)));
         } catch (const Error& error) {
-          throw Error("`" + std::string(c.object_name(object)) + "`: " + error.what());
+          throw Error(quote(c.object_name(object)) + ": " + error.what());
         }
       }
     }

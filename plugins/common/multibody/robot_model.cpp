@@ -6,6 +6,7 @@
 #include "consistent_inertia.hpp"
 #include "muro/toolkit/link_pose.hpp"
 #include "muro/toolkit/mass_properties.hpp"
+#include "plugins/common/text/quote.hpp"
 
 namespace muro::multibody {
 
@@ -88,8 +89,8 @@ RobotModel model_of(const Connector& connector, const RobotView& robot, std::spa
   model.name = robot.name;
   for (const Inertia& i : inertias) model.mass += i.mass;
   if (!(model.mass > 0) || !std::isfinite(model.mass))
-    throw Error("`" + model.name +
-                "` has no mass; give its bodies mass and inertia (`inertial`), or move it with motion.point");
+    throw Error(quote(model.name) +
+                " has no mass; give its bodies mass and inertia (`inertial`), or move it with motion.point");
   const std::vector<LinkPlacement> placements =
       add_bodies(model, robot, modes, initial_joint_positions(connector, robot));
   for (std::size_t i = 0; i < robot.links.size(); ++i) {

@@ -7,15 +7,30 @@
 
 namespace muro {
 
-/// "`name`".
-inline std::string quote(std::string_view name) { return "`" + std::string(name) + "`"; }
+/// A name or value as it may stand in a message: in backquotes, of bounded length, printable.
+inline std::string quote(std::string_view text) {
+  constexpr std::size_t max = 60;
+  std::string shown(text.substr(0, max));
+  for (char& c : shown)
+    if (static_cast<unsigned char>(c) < ' ' || c == 0x7f) c = '?';
+  // a UTF-8 sequence is not cut in the middle
+  if (text.size() > max) {
+    while (!shown.empty() && (static_cast<unsigned char>(text[shown.size()]) & 0xc0) == 0x80) shown.pop_back();
+    shown += "...";
+  }
+  return "`" + shown + "`";
+}
 
-/// "`a`, `b`, `c`".
+/// "`a`, `b`, `c` and 4 more".
 template <class Names>
 std::string quoted_list(const Names& names) {
-  std::string all;
-  for (const std::string_view name : names) all += (all.empty() ? "" : ", ") + quote(name);
-  return all;
+  constexpr std::size_t max = 8;
+  std::string text;
+  std::size_t count = 0;
+  for (const std::string_view name : names)
+    if (++count <= max) text += (count > 1 ? ", " : "") + quote(name);
+  if (count == 0) return "none";
+  return count > max ? text + " and " + std::to_string(count - max) + " more" : text;
 }
 
 }  // namespace muro

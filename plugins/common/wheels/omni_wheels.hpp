@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "plugins/common/text/quote.hpp"
 #include "wheel_finder.hpp"
 
 namespace muro::wheels {
@@ -114,7 +115,7 @@ inline std::vector<OmniWheel> find_omni_wheels(const Connector& connector, const
   const WheelFinder finder(connector, robot);
   std::vector<OmniWheel> wheels = detail::choose_omni_wheels(finder, robot, p);
   if (wheels.size() < 3)
-    throw Error("`" + std::string(robot.name) + "` has " + std::to_string(wheels.size()) +
+    throw Error(quote(robot.name) + " has " + std::to_string(wheels.size()) +
                 " wheels, but three are needed to move in every direction: " + detail::omni_wheels_found(finder) +
                 ". Name the wheels' joints with `wheels`");
 
@@ -124,8 +125,8 @@ inline std::vector<OmniWheel> find_omni_wheels(const Connector& connector, const
     throw Error("`roller_angle` has " + std::to_string(given.size()) + " values for " + std::to_string(wheels.size()) +
                 " wheels; give one for all, or one a wheel in the order of `wheels` (without it: of the model)");
   if (given.empty() && signs.empty() && !detail::axes_meet(wheels))
-    throw Error("`" + std::string(robot.name) +
-                "`: what rollers its wheels have cannot be told: they are neither four about the y axis at the corners "
+    throw Error(quote(robot.name) +
+                ": what rollers its wheels have cannot be told: they are neither four about the y axis at the corners "
                 "of a rectangle (mecanum wheels) nor do their axes meet in their middle (omni wheels): " +
                 detail::omni_wheels_found(finder) + ". Give `roller_angle`");
   for (std::size_t i = 0; i < wheels.size(); ++i) {

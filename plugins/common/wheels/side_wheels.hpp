@@ -2,6 +2,7 @@
 // The driven wheels of a robot that turns by the difference of its left and right wheels.
 #pragma once
 
+#include "plugins/common/text/quote.hpp"
 #include "wheel_finder.hpp"
 
 namespace muro::wheels {
@@ -83,7 +84,7 @@ inline SideWheels find_side_wheels(const Connector& connector, const RobotView& 
   const WheelFinder finder(connector, robot);
   SideWheels wheels = detail::choose_side_wheels(finder, robot, p);
   if (wheels.left.empty() || wheels.right.empty())
-    throw Error("`" + std::string(robot.name) + "` has no driven wheels on " +
+    throw Error(quote(robot.name) + " has no driven wheels on " +
                 (!wheels.left.empty()    ? "the right (y < 0)"
                  : !wheels.right.empty() ? "the left (y > 0)"
                                          : "either side") +

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "plugins/common/text/quote.hpp"
 #include "wheel_finder.hpp"
 
 namespace muro::wheels {
@@ -51,9 +52,8 @@ class SteeredWheelFinder {
       }
       if (std::none_of(wheels.begin(), wheels.end(), [](const SteeredWheel& w) { return w.driven; }))
         for (SteeredWheel& w : wheels)  // all that may be driven are steered
-          w.driven = !std::any_of(rolling.begin(), rolling.end(), [&](std::string_view joint) {
-            return finder_.name(w.link) == WheelFinder::quoted(joint);
-          });
+          w.driven = !std::any_of(rolling.begin(), rolling.end(),
+                                  [&](std::string_view joint) { return finder_.name(w.link) == quote(joint); });
     }
     std::sort(wheels.begin(), wheels.end(), [](const auto& a, const auto& b) { return a.link < b.link; });
     if (const double radius = parameters_.real(wheel_radius.name); radius > 0)
@@ -144,7 +144,7 @@ inline std::vector<SteeredWheel> find_steered_wheels(const Connector& connector,
   const detail::SteeredWheelFinder finder(connector, robot);
   std::vector<SteeredWheel> wheels = finder.all();
   const auto reject = [&](const std::string& what, const std::string& advice) {
-    throw Error("`" + std::string(robot.name) + "` has " + what + ": " + finder.what_was_found() + ". " + advice);
+    throw Error(quote(robot.name) + " has " + what + ": " + finder.what_was_found() + ". " + advice);
   };
   if (std::none_of(wheels.begin(), wheels.end(), [](const SteeredWheel& w) { return w.steering >= 0; }))
     reject("no steered wheels",

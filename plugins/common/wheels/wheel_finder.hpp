@@ -8,6 +8,7 @@
 #include "muro/algorithm.hpp"
 #include "muro/vocabulary.hpp"
 #include "parameters.hpp"
+#include "plugins/common/text/quote.hpp"
 
 namespace muro::wheels {
 
@@ -77,11 +78,11 @@ class WheelFinder {
   /// The joint that the user names.
   std::size_t joint(std::string_view wanted) const {
     for (std::size_t i = 0; i < robot_.links.size(); ++i)
-      if (robot_.links[i].joint != JointKind::fixed && name(i) == quoted(wanted)) return i;
+      if (robot_.links[i].joint != JointKind::fixed && name(i) == quote(wanted)) return i;
     std::string all;
     for (std::size_t i = 0; i < robot_.links.size(); ++i)
       if (robot_.links[i].joint != JointKind::fixed) all += " " + name(i);
-    throw Error("`" + std::string(robot_.name) + "` has no joint " + quoted(wanted) +
+    throw Error(quote(robot_.name) + " has no joint " + quote(wanted) +
                 "; its joints are:" + (all.empty() ? " none" : all));
   }
 
@@ -126,7 +127,6 @@ class WheelFinder {
     why = std::move(reason);
     return false;
   }
-  static std::string quoted(std::string_view s) { return "`" + std::string(s) + "`"; }
   static std::string to_text(const Vec3& v) {
     const auto number = [](double x) {
       std::string s = std::to_string(std::abs(x) < 5e-4 ? 0.0 : x);
@@ -136,7 +136,7 @@ class WheelFinder {
   }
   /// Joint `i` as its model names it.
   std::string name(std::size_t i) const {
-    return quoted(connector_.object_name(robot_.links[i].joint_object).substr(robot_.name.size() + 1));
+    return quote(connector_.object_name(robot_.links[i].joint_object).substr(robot_.name.size() + 1));
   }
 
  private:

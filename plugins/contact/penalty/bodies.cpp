@@ -7,6 +7,7 @@
 #include "apparent_mass.hpp"
 #include "muro/toolkit/mass_properties.hpp"
 #include "muro/toolkit/random.hpp"
+#include "plugins/common/text/quote.hpp"
 
 namespace muro::penalty {
 
@@ -45,7 +46,7 @@ void Bodies::connect_robot(Connector& c, const RobotView& view) {
   const std::vector<double> positions = initial_joint_positions(c, view);
   const Inertia composite = composite_inertia(view.links, inertias, positions);
   if (!(composite.mass > 0))
-    throw Error("`" + std::string(view.name) + "` has no mass, so no contact can push it; give its bodies `inertial`");
+    throw Error(quote(view.name) + " has no mass, so no contact can push it; give its bodies `inertial`");
   Robot r;
   r.contacts = c.read_list(view.base(), keys::contacts);
   r.anchors = c.variable_list(view.base(), anchors);

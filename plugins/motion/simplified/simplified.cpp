@@ -14,6 +14,7 @@
 #include "muro/toolkit/mass_properties.hpp"
 #include "plugins/common/contact_geometry/contact_responsibility.hpp"
 #include "plugins/common/multibody/consistent_inertia.hpp"
+#include "plugins/common/text/quote.hpp"
 
 namespace {
 
@@ -237,7 +238,7 @@ class Simplified final : public Algorithm {
   }
 
   static void check_mass(const RobotView& robot, const Inertia& total) {
-    const std::string name = "`" + std::string(robot.name) + "`";
+    const std::string name = quote(robot.name);
     if (!(total.mass > 0))
       throw Error(name + " has no mass; give its bodies mass and inertia (`inertial`), or move it with motion.point");
     const Eigen::SelfAdjointEigenSolver<Mat3> principal(total.tensor());

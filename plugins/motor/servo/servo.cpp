@@ -12,6 +12,7 @@
 #include "muro/toolkit/joint_inertia.hpp"
 #include "muro/toolkit/mass_properties.hpp"
 #include "muro/toolkit/per_robot.hpp"
+#include "plugins/common/text/quote.hpp"
 
 namespace {
 
@@ -135,7 +136,7 @@ class Servo final : public PerRobotAlgorithm<ServoRobot> {
     if (encoder_on_motor_) throw needs_rotor("encoder", "motor");
   }
   static Error needs_rotor(std::string_view name, const std::string& value) {
-    return Error("`" + std::string(name) + "` is " + value +
+    return Error(quote(name) + " is " + value +
                  ", which needs a rotor that moves by itself; give `rotor_inertia`, in kg m^2 (of the motor; "
                  "1e-7 to 1e-5 for small ones)");
   }

@@ -19,8 +19,6 @@ using model_file::Element;
 using model_file::FileLocation;
 using model_file::Location;
 using model_file::Problems;
-using model_file::quote;
-using model_file::quoted_list;
 
 /// The <mimic> of SDFormat 1.11, which libsdformat 12 does not know: q = multiplier (q_joint - reference) +
 /// offset.

@@ -17,8 +17,6 @@ using model_file::Element;
 using model_file::Location;
 using model_file::location_of;
 using model_file::Problems;
-using model_file::quote;
-using model_file::quoted_list;
 using model_file::shortest;
 
 /// A file that holds a <robot>.

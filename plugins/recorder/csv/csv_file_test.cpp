@@ -11,23 +11,15 @@
 
 #include "glob.hpp"
 #include "muro/algorithm.hpp"
+#include "tests/support/complaint.hpp"
 #include "tests/support/files.hpp"
 
 namespace muro {
 namespace {
 
+using test::complaint_of;
 using test::ScratchFolder;
 using test::text_of;
-
-template <class Work>
-std::string failure(Work work) {
-  try {
-    work();
-  } catch (const Error& e) {
-    return e.what();
-  }
-  return "it went well";
-}
 
 void add_row(CsvFile& file, std::int64_t time, double value) {
   file.time(time);
@@ -178,12 +170,12 @@ TEST(CsvFile, CutsBackToATime) {
 }
 
 TEST(CsvFile, SaysWhyItCannotBeWritten) {
-  EXPECT_EQ(failure([] { CsvFile("/nowhere/at/all.csv"); }),
+  EXPECT_EQ(complaint_of<Error>([] { CsvFile("/nowhere/at/all.csv"); }),
             "file /nowhere/at/all.csv cannot be written: No such file or directory");
   const ScratchFolder folder;
-  EXPECT_EQ(failure([&] { CsvFile(folder.path("")); }),
+  EXPECT_EQ(complaint_of<Error>([&] { CsvFile(folder.path("")); }),
             "file " + folder.path("") + " cannot be written: Is a directory");
-  EXPECT_EQ(failure([] {
+  EXPECT_EQ(complaint_of<Error>([] {
               CsvFile full("/dev/full");
               full.text("x");
               full.publish();
@@ -196,7 +188,7 @@ TEST(CsvFile, TwoCannotWriteOneFile) {
   const std::string path = folder.path("a.csv");
   CsvFile first(path);
   add_row(first, 0, 1);
-  EXPECT_EQ(failure([&] { CsvFile second(path); }),
+  EXPECT_EQ(complaint_of<Error>([&] { CsvFile second(path); }),
             "file " + path + " is being written by another recorder; give each a file of its own");
   first.publish();
   EXPECT_EQ(text_of(path), "0,1\r\n");

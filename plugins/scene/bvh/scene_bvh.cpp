@@ -7,6 +7,7 @@
 
 #include "muro/toolkit/bounds.hpp"
 #include "muro/vocabulary.hpp"
+#include "plugins/common/text/quote.hpp"
 #include "swept_box.hpp"
 
 namespace muro::bvh {
@@ -54,7 +55,7 @@ std::optional<Shape> SceneBvh::bounding_shape(Connector& c, ObjectId body, const
     return around;
   } catch (const Error& error) {
     if (unread_.insert(path).second)
-      c.host().log(LogLevel::warning, "`" + std::string(c.object_name(body)) + "`: " + error.what() +
+      c.host().log(LogLevel::warning, quote(c.object_name(body)) + ": " + error.what() +
                                           "; scene.bvh leaves it out, so nothing collides with it");
     return std::nullopt;
   }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "body_poses.hpp"
-#include "muro/inspection.hpp"
+#include "muro/ext/inspection.hpp"
 #include "plugins/common/render/debug_lines.hpp"
 
 namespace muro::view {

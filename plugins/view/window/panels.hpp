@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "muro/inspection.hpp"
+#include "muro/ext/inspection.hpp"
 #include "orbit_camera.hpp"
 #include "overlay.hpp"
 #include "pace.hpp"

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "muro/inspection.hpp"
+#include "muro/ext/inspection.hpp"
 
 namespace muro::view {
 

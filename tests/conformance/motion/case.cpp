@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tests/conformance/motion/case.hpp"
+#include "muro/detail/names.hpp"
 #include "muro/toolkit/rotations.hpp"
 
 #include <cstdio>
