@@ -9,7 +9,7 @@ namespace muro {
 
 /// A name or value as it may stand in a message: in backquotes, of bounded length, printable.
 inline std::string quote(std::string_view text) {
-  constexpr std::size_t max = 60;
+  constexpr std::size_t max = 256;
   std::string shown(text.substr(0, max));
   for (char& c : shown)
     if (static_cast<unsigned char>(c) < ' ' || c == 0x7f) c = '?';

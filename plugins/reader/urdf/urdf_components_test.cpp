@@ -196,10 +196,10 @@ TEST(UrdfText, FilesThatCannotBeReadAreErrorsWithTheirPath) {
 
 TEST(UrdfText, NamesInMessagesAreShortAndPrintable) {
   EXPECT_EQ(quote("a\tb\x1b[31m"), "`a?b?[31m`");
-  EXPECT_EQ(quote(std::string(70, 'x')), "`" + std::string(60, 'x') + "...`");
+  EXPECT_EQ(quote(std::string(300, 'x')), "`" + std::string(256, 'x') + "...`");
   std::string umlauts;
-  for (int i = 0; i < 40; ++i) umlauts += "\xc3\xa4";
-  EXPECT_EQ(quote("x" + umlauts), "`x" + umlauts.substr(0, 58) + "...`");
+  for (int i = 0; i < 200; ++i) umlauts += "\xc3\xa4";
+  EXPECT_EQ(quote("x" + umlauts), "`x" + umlauts.substr(0, 254) + "...`");
 }
 
 }  // namespace
