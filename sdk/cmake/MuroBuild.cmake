@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: MIT
 # Settings of this repository's own targets; plugin authors do not need this file.
 
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE RelWithDebInfo CACHE STRING "Optimised, with line numbers" FORCE)
+endif()
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
@@ -29,10 +32,13 @@ if(MURO_SANITIZE)
   add_compile_options(-O1 -g1 $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized> -fsanitize=${MURO_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   add_link_options(-fsanitize=${MURO_SANITIZE})
 endif()
+if(MURO_FUZZ) # with clang
+  add_compile_options(-fsanitize=fuzzer-no-link)
+endif()
 
 # Makes a target part of test programs: with the headers and options of muro_test_pch. They spend their time in what they
-# test; compiling them is what takes long.
-set(MURO_TEST_OPTIONS -fPIE $<$<CONFIG:RelWithDebInfo>:-O1>)
+# test; compiling them is what takes long. Preset debug has symbols of tests.
+set(MURO_TEST_OPTIONS -fPIE "$<$<CONFIG:RelWithDebInfo>:-O1;-g0>")
 function(muro_compile_as_test target)
   target_link_libraries(${target} PUBLIC muro::sdk GTest::gtest)
   target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR})
@@ -120,9 +126,11 @@ function(muro_add_groups)
   get_property(benchmarks GLOBAL PROPERTY MURO_BENCHMARKS)
   add_custom_target(simulator)
   add_dependencies(simulator ${plugins} ${controllers})
-  if(TARGET muro)
-    add_dependencies(simulator muro)
-  endif()
+  foreach(target IN ITEMS muro muro_parser muro_parser_client)
+    if(TARGET ${target})
+      add_dependencies(simulator ${target})
+    endif()
+  endforeach()
   add_custom_target(benchmarks)
   if(benchmarks)
     add_dependencies(benchmarks simulator ${benchmarks})
