@@ -9,8 +9,24 @@
 
 namespace muro {
 
+/// The property that two algorithms write, and how many more they both write: one mistake is told once.
+struct PropertyStore::TwoWriters {
+  Accessor first, second;
+  std::string property;
+  std::size_t more = 0;
+};
+
+void PropertyStore::add(std::vector<TwoWriters>& all, TwoWriters found) {
+  for (TwoWriters& w : all)
+    if (w.first == found.first && w.second == found.second) {
+      ++w.more;
+      return;
+    }
+  all.push_back(std::move(found));
+}
+
 void PropertyStore::check_slot(const Slot& s, const std::function<std::string(std::string_view)>& writers_of,
-                               std::vector<std::string>& problems) const {
+                               std::vector<TwoWriters>& two_writers, std::vector<std::string>& problems) const {
   const KeyInfo& key = key_of(s);
   const std::string property = where(s.object, key.name);
   const Slot::User* writer = nullptr;
@@ -20,8 +36,7 @@ void PropertyStore::check_slot(const Slot& s, const std::function<std::string(st
   for (const Slot::User& u : s.users) {
     if (u.usage.access == Access::write) {
       if (writer && writer->accessor != u.accessor && !alternate(s.object, writer->accessor, u.accessor))
-        problems.push_back(fmt::format("{} has two writers: {} and {}; only one algorithm may write a property",
-                                       property, who(writer->accessor), who(u.accessor)));
+        add(two_writers, {writer->accessor, u.accessor, property});
       writer = writer ? writer : &u;
     }
     if (u.usage == usage::read && !reader) reader = &u;
@@ -50,7 +65,12 @@ void PropertyStore::check_slot(const Slot& s, const std::function<std::string(st
 
 void PropertyStore::check(const std::function<std::string(std::string_view)>& writers_of) const {
   std::vector<std::string> all = problems_;
-  for (const Slot& s : slots_) check_slot(s, writers_of, all);
+  std::vector<TwoWriters> two_writers;
+  for (const Slot& s : slots_) check_slot(s, writers_of, two_writers, all);
+  for (const TwoWriters& w : two_writers)
+    all.push_back(fmt::format("{} has two writers: {} and {}; only one algorithm may write a property{}", w.property,
+                              who(w.first), who(w.second),
+                              w.more == 0 ? "" : fmt::format(" (the same holds for {} more)", w.more)));
   std::vector<std::string> problems;  // each once: a mistake in a template stands in all of its robots
   for (std::string& p : all)
     if (std::find(problems.begin(), problems.end(), p) == problems.end()) problems.push_back(std::move(p));

@@ -126,8 +126,10 @@ class PropertyStore {
   void* handle(Slot& s, Usage usage);
   std::string where(ObjectId object, std::string_view key) const;
   std::string who(Accessor p) const;
+  struct TwoWriters;
+  static void add(std::vector<TwoWriters>& all, TwoWriters found);
   void check_slot(const Slot& s, const std::function<std::string(std::string_view)>& writers_of,
-                  std::vector<std::string>& problems) const;
+                  std::vector<TwoWriters>& two_writers, std::vector<std::string>& problems) const;
 
   std::vector<std::string> names_;
   std::vector<std::uint32_t> partitions_;  ///< by object

@@ -9,18 +9,10 @@ namespace muro::host {
 void write_file(const std::string& path, const std::string& text) {
   try {
     WholeFile file(path);
-    file.stream() << text;
+    file.write(text);
     file.publish();
   } catch (const Error& e) {
-    throw SetupError(e.what());
-  }
-}
-
-void check_writable(const std::string& path) {
-  try {
-    WholeFile(path).stream();
-  } catch (const Error& e) {
-    throw SetupError(e.what());
+    throw StepError(e.what());
   }
 }
 

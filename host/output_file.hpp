@@ -5,9 +5,7 @@
 
 namespace muro::host {
 
-/// Writes a file completely or not at all: see WholeFile. Throws SetupError.
+/// Writes a file completely or not at all: see WholeFile. Throws StepError: names were checked before the run.
 void write_file(const std::string& path, const std::string& text);
-/// Throws SetupError when the file cannot be written; does not change a file that exists.
-void check_writable(const std::string& path);
 
 }  // namespace muro::host

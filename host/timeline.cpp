@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/output_file.hpp"
+#include "host/outputs/json_text.hpp"
 
 namespace muro::host {
 
@@ -24,7 +25,7 @@ void write_timeline(const std::string& path, const Simulation& simulation) {
     comma = ",\n";
     for (const Timeline::Span& s : threads[thread]) {
       const Task& task = simulation.scheduler().tasks()[s.task];
-      const std::string name = nlohmann::json(task.name).dump();  // with quotes
+      const std::string name = json_text(task.name, -1);  // with quotes
       out += fmt::format(R"({}{{"name":{},"ph":"X","pid":1,"tid":{},"ts":{:.3f},"dur":{:.3f},)"
                          R"("args":{{"simulated_s":{:.9f},"phase":{},"first":{},"end":{}}}}})",
                          comma, name, thread, us * double(s.begin - first), us * double(s.end - s.begin),

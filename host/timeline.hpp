@@ -11,7 +11,7 @@ namespace muro::host {
 inline constexpr std::size_t timeline_calls = 200'000;
 
 /// Writes what the simulation's timeline has recorded in the Trace Event Format, which Perfetto (ui.perfetto.dev) and
-/// chrome://tracing show: a row for each thread, a bar for each call. Throws SetupError when the file cannot be
+/// chrome://tracing show: a row for each thread, a bar for each call. Throws StepError when the file cannot be
 /// written.
 void write_timeline(const std::string& path, const Simulation& simulation);
 

@@ -4,10 +4,13 @@
 
 #include <algorithm>
 
+#include "core/output_registry.hpp"
 #include "host/commands/commands.hpp"
 #include "host/compare/table.hpp"
 #include "host/names.hpp"
 #include "host/output_file.hpp"
+#include "host/outputs/failures.hpp"
+#include "host/outputs/messages.hpp"
 
 namespace muro::host {
 
@@ -21,21 +24,30 @@ void check_files(const CompareOptions& options) {
         "--out {}: pictures are SVG files, so name it *.svg{}", file,
         ends(".png") ? fmt::format("; `rsvg-convert FILE.svg -o {}` (Debian: librsvg2-bin) makes it a PNG", file)
                      : ""));
-  for (const std::string& f : {options.picture, options.table})
-    if (!f.empty()) check_writable(f);  // now rather than after the runs
 }
 
-Comparison read_comparison(const CompareOptions& options, const Registry& registry) {
+/// Once before the runs; each variation adds what it reads.
+void check_outputs(const Comparison& comparison, Registry& registry) {
+  Simulation empty(registry);
+  for (const std::string& file : comparison.scenario.files) empty.outputs().add_input(file, "a file of the scenario");
+  add_outputs(empty, comparison.outputs);
+  empty.outputs().check();
+}
+
+Comparison read_comparison(const CompareOptions& options, Registry& registry) {
   Comparison c;
   c.scenario.file = options.scenario.file;
   c.overrides = options.scenario.overrides;
   c.seed = options.scenario.seed;
   c.scenario = read_variation(c, {}, registry);
+  registry.choose(c.scenario.plugins);
   for (const std::string& v : options.vary) c.factors.push_back(read_factor(v, c.scenario, registry));
   c.duration = options.duration.value_or(c.scenario.duration);
   if (c.duration <= 0) throw SetupError("there is nothing to compare in 0 s; give --duration a number of seconds");
   c.robots = robots_of(c.scenario, c.factors);
   if (c.robots.empty()) throw SetupError(options.scenario.file + ": there are no robots to compare");
+  c.outputs = {{"--out", options.picture}, {"--csv", options.table}};
+  check_outputs(c, registry);
   return c;
 }
 
@@ -75,20 +87,26 @@ int compare(const CompareOptions& options) {
   const std::size_t reference = find_reference(options.reference, variations);
 
   const CurrentRun progress;
+  Messages messages;
   std::vector<VariationResult> results;
-  bool noted = false;
   for (const Variation& v : variations) {
     progress.show(v.label);
-    results.push_back(run_variation(comparison, v, registry));
+    results.push_back(run_variation(comparison, v, registry, [&](LogLevel level, std::string_view text) {
+      progress.close();
+      messages.log(level, text);
+      progress.show(v.label);
+    }));
     progress.close();
-    if (!noted)
-      for (const std::string& n : results.back().notes) fmt::print(stderr, "{}\n", n), noted = true;
+    for (const std::string& n : results.back().notes) messages.say(n);
   }
 
   const Compared compared{comparison, results, reference};
+  std::string unwritten;
+  Failures failures(unwritten);
+  if (!options.table.empty()) failures.guard([&] { write_file(options.table, csv(compared)); });
+  if (!options.picture.empty()) failures.guard([&] { write_file(options.picture, picture(compared)); });
   fmt::print("{}", table(compared));
-  if (!options.table.empty()) write_file(options.table, csv(compared));
-  if (!options.picture.empty()) write_file(options.picture, picture(compared));
+  if (!unwritten.empty()) throw StepError(unwritten);
   const auto succeeded =
       std::count_if(results.begin(), results.end(), [](const VariationResult& r) { return r.failure.empty(); });
   return results[reference].failure.empty() && (succeeded > 1 || results.size() == 1) ? 0 : 1;

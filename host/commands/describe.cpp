@@ -8,6 +8,7 @@
 #include "core/instance.hpp"
 #include "host/commands/commands.hpp"
 #include "host/commands/open.hpp"
+#include "host/outputs/json_text.hpp"
 
 namespace muro::host {
 
@@ -99,7 +100,7 @@ void print(const Json& all) {
 
 int describe(const ScenarioOptions& options, bool json) {
   Registry registry(Registry::search_path(options.plugin_path));
-  const BuiltScenario built = open_scenario(options, registry);
+  const BuiltScenario built = look_at_scenario(options, registry);
   const World& world = built.simulation->world();
   Json all = {{"scenario", built.scenario.name}, {"objects", Json::array()}};
   for (std::uint32_t i = 0; i < world.object_count(); ++i) {
@@ -112,7 +113,7 @@ int describe(const ScenarioOptions& options, bool json) {
   all["schedule"] = describe_schedule(*built.simulation);
   all["first_instant"] = describe_first_instant(*built.simulation);
   if (json)
-    fmt::print("{}\n", all.dump(2));
+    fmt::print("{}\n", json_text(all));
   else
     print(all);
   return 0;

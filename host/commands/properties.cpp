@@ -8,6 +8,7 @@
 #include "core/registry.hpp"
 #include "host/commands/commands.hpp"
 #include "host/names.hpp"
+#include "host/outputs/json_text.hpp"
 #include "host/properties/standard_properties.hpp"
 
 namespace muro::host {
@@ -86,7 +87,7 @@ int list_properties(const std::vector<std::string>& plugin_path, Format format) 
   for (const std::string& p : registry.problems()) fmt::print(stderr, "warning: {}\n", p);
   const Json groups = describe_groups(registry);
   if (format == Format::json)
-    fmt::print("{}\n", groups.dump(2));
+    fmt::print("{}\n", json_text(groups));
   else if (format == Format::markdown)
     print_markdown(groups);
   else

@@ -11,8 +11,12 @@
 #include "host/false_colors.hpp"
 #include "host/names.hpp"
 #include "host/output_file.hpp"
+#include "host/outputs/output_options.hpp"
+#include "host/outputs/remove_outputs.hpp"
 #include "host/png.hpp"
+#include "host/process/interrupt.hpp"
 #include "host/video.hpp"
+#include "muro/toolkit/elementary.hpp"
 #include "muro/toolkit/rotations.hpp"
 #include "muro/vocabulary.hpp"
 
@@ -48,8 +52,8 @@ Vec3 point_of(const char* option, const std::vector<double>& xyz) {
 Pose look_at(const Vec3& from, const Vec3& to) {
   const Vec3 forward = to - from;
   if (forward.norm() < 1e-9) throw SetupError("--from and --to are the same point; the picture needs a direction");
-  const double yaw = std::atan2(forward.y(), forward.x());
-  return {from, from_rpy(0, -std::atan2(forward.z(), forward.head<2>().norm()), yaw)};
+  const double yaw = elementary::atan2(forward.y(), forward.x());
+  return {from, from_rpy(0, -elementary::atan2(forward.z(), forward.head<2>().norm()), yaw)};
 }
 
 struct FreeCamera {
@@ -119,13 +123,27 @@ void check_options(const RenderOptions& options, const Registry& registry) {
     throw SetupError("give --out FILE.png for a picture, or --video FILE.mp4 for a video");
   if (options.video.empty() && !options.out.ends_with(".png"))
     throw SetupError(fmt::format("--out is `{}` but must be a file NAME.png", options.out));
+  if (!options.video.empty()) check_video_format(options.video);
   const auto& catalog = registry.catalog();
   if (std::none_of(catalog.begin(), catalog.end(), [](const CatalogEntry& e) { return e.id == camera_algorithm; }))
     throw SetupError(
         "a picture needs the plugin camera.opengl, which is not installed; install libepoxy-dev and libegl-dev, "
         "and build muro again");
-  check_writable(options.video.empty() ? options.out : options.video);
 }
+
+/// Frames of a video from `begin` to `end` (s), both included.
+std::int64_t frame_count(double begin, double end, double fps) {
+  constexpr double most = 1e7;  // four days at 25 frames in a second
+  const double frames = 1 + std::floor((end - begin) * fps + 1e-6);
+  if (frames <= most) return std::int64_t(frames);
+  throw SetupError(
+      fmt::format("the video would have {:.3g} frames, and may have {:g}; give --until an earlier time, or --fps a "
+                  "smaller number",
+                  frames, most));
+}
+
+/// The user has asked for the end: nothing is written.
+struct Interrupted {};
 
 /// Runs the scenario and takes pictures with one camera.
 class Photographer {
@@ -151,9 +169,9 @@ class Photographer {
     const double until = options_.until.value_or(built_.scenario.duration);
     if (until <= options_.at)
       throw SetupError(fmt::format("--until is {:g} s but must be later than --at, {:g} s", until, options_.at));
+    const std::int64_t frames = frame_count(options_.at, until, options_.fps);
     Video video(options_.video, width_, height_, options_.fps);
-    const int frames = 1 + int((until - options_.at) * options_.fps + 1e-6);
-    for (int k = 0; k < frames; ++k) video.add(picture_at(options_.at + k / options_.fps));
+    for (std::int64_t k = 0; k < frames; ++k) video.add(picture_at(options_.at + double(k) / options_.fps));
     video.close();
     fmt::print("{}: {} frames of {} x {} pixels, {} from {:g} to {:g} s\n", options_.video, frames, width_, height_,
                built_.scenario.name, options_.at, until);
@@ -161,7 +179,8 @@ class Photographer {
 
  private:
   std::vector<std::uint8_t> picture_at(double time) {
-    simulation_.run_until(std::llround(time * 1e9) + 1);
+    simulation_.run_until(std::llround(time * 1e9) + 1, [] { return Interrupt::pending(); });
+    if (Interrupt::pending()) throw Interrupted();
     return picture_of(simulation_.world(), camera_, options_.shows);
   }
 
@@ -177,14 +196,25 @@ class Photographer {
 int render(const RenderOptions& options) {
   Registry registry(Registry::search_path(options.scenario.plugin_path));
   check_options(options, registry);
-  const BuiltScenario built = open_scenario(options.scenario, registry, [&](Simulation& simulation) {
+  Scenario scenario = open_file(options.scenario, registry);
+  remove_outputs(scenario, registry);
+  const Interrupt interrupt;
+  const BuiltScenario built = open_scenario(std::move(scenario), registry, [&](Simulation& simulation) {
+    add_outputs(simulation, {{"--out", options.out}, {"--video", options.video}});
     if (options.camera.empty()) add_free_camera(options, simulation);
   });
   Photographer photographer(options, built);
-  if (options.video.empty())
-    photographer.take_picture();
-  else
-    photographer.take_video();
+  try {
+    if (options.video.empty())
+      photographer.take_picture();
+    else
+      photographer.take_video();
+  } catch (const Interrupted&) {
+    return 130;
+  } catch (const StepError&) {
+    if (Interrupt::pending()) return 130;  // ffmpeg, which Ctrl-C ends as well
+    throw;
+  }
   return 0;
 }
 

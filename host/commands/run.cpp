@@ -2,15 +2,20 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <charconv>
 #include <chrono>
-#include <csignal>
 #include <nlohmann/json.hpp>
 
 #include "host/commands/commands.hpp"
 #include "host/commands/open.hpp"
 #include "host/output_file.hpp"
+#include "host/outputs/failures.hpp"
+#include "host/outputs/json_text.hpp"
+#include "host/outputs/output_options.hpp"
+#include "host/outputs/slow_run.hpp"
+#include "host/outputs/standard_output.hpp"
+#include "host/process/interrupt.hpp"
+#include "host/process/step_watch.hpp"
 #include "host/report.hpp"
 #include "host/shadows.hpp"
 #include "host/timeline.hpp"
@@ -19,8 +24,6 @@
 namespace muro::host {
 
 namespace {
-
-std::atomic<bool> interrupted{false};
 
 double pacing_factor(const std::string& speed) {
   if (speed == "max" || speed.empty()) return 0;
@@ -109,40 +112,44 @@ ScenarioOptions with_view(const RunOptions& options, const Registry& registry) {
 /// files and the report is written however a run ends.
 void simulate(Simulation& simulation, std::int64_t end, Odometer& odometer, RunResult& result) {
   Progress progress(1e-9 * double(end));
+  SlowRun slow(simulation);
   const auto start = std::chrono::steady_clock::now();
   const auto wall = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
-  const auto guarded = [&](const auto& work) {
-    try {
-      work();
-    } catch (const std::exception& e) {
-      if (result.error.empty()) result.error = e.what();
-    }
+  const auto say = [&](const std::string& note) {
+    if (note.empty()) return;
+    progress.close();
+    fmt::print(stderr, "{}\n", note);
   };
-  guarded([&] {
-    while (simulation.now() < end && !interrupted && !simulation.stopped()) {
+  Failures failures(result.error);
+  failures.guard([&] {
+    while (simulation.now() < end && !Interrupt::pending() && !simulation.stopped()) {
       simulation.run_until(std::min(end, simulation.now() - simulation.now() % Odometer::period + Odometer::period),
-                           [] { return interrupted.load(std::memory_order_relaxed); });
+                           [] { return Interrupt::pending(); });
       odometer.check();
       odometer.sample();
+      say(slow.note(wall()));
       progress.show(1e-9 * double(simulation.now()), wall());
     }
   });
   result.wall = wall();
   result.simulated = 1e-9 * double(simulation.now());
-  result.interrupted = interrupted;
+  result.interrupted = Interrupt::pending();
   progress.close();
-  guarded([&] { simulation.finish(); });
+  failures.guard([&] { simulation.finish(); });
 }
 
-void write_outputs(const RunOptions& options, const RunResult& result, const Simulation& simulation,
+/// Files first: what is printed may have nowhere to go.
+void write_outputs(const RunOptions& options, RunResult& result, const Simulation& simulation,
                    const Odometer& odometer) {
-  print_summary(result, simulation, odometer);
-  if (options.profile) fmt::print("\n{}", profile(result, simulation));
-  if (!options.report.empty()) write_file(options.report, report(result, simulation, odometer).dump(2) + "\n");
-  if (!options.timeline.empty()) write_timeline(options.timeline, simulation);
+  Failures failures(result.error);
+  if (!options.report.empty())
+    failures.guard([&] { write_file(options.report, json_text(report(result, simulation, odometer)) + "\n"); });
+  if (!options.timeline.empty()) failures.guard([&] { write_timeline(options.timeline, simulation); });
   if (simulation.scheduler().executor().timeline().full())
     fmt::print(stderr, "note: {} holds the first {} calls of a thread; use --duration to record a shorter run\n",
                options.timeline, timeline_calls);
+  print_summary(result, simulation, odometer);
+  if (options.profile) fmt::print("\n{}", profile(result, simulation));
 }
 
 }  // namespace
@@ -150,25 +157,29 @@ void write_outputs(const RunOptions& options, const RunResult& result, const Sim
 int run(const RunOptions& options) {
   Registry registry(Registry::search_path(options.scenario.plugin_path));
   const double factor = options.view ? 0 : pacing_factor(options.speed);
-  BuiltScenario built = open_scenario(options.view ? with_view(options, registry) : options.scenario, registry);
+  Scenario scenario = open_file(options.view ? with_view(options, registry) : options.scenario, registry);
+  BuiltScenario built = open_scenario(std::move(scenario), registry, [&](Simulation& s) {
+    add_outputs(s, {{"--report", options.report}, {"--timeline", options.timeline}});
+  });
   report_unsupported(find_unsupported_features(built), Detail::brief, options.scenario.strict);
   Simulation& simulation = *built.simulation;
   if (!options.threads.empty())
     simulation.set_threads(options.threads == "all" ? all_threads() : unsigned(std::stoul(options.threads)));
-  for (const std::string& file : {options.report, options.timeline})
-    if (!file.empty()) check_writable(file);  // before the run rather than after it
   if (!options.timeline.empty()) simulation.scheduler().executor().timeline().start(timeline_calls);
   if (options.verify_access) simulation.verify_access();
   simulation.set_pacing({factor});
-  interrupted = false;
-  std::signal(SIGINT, [](int) { interrupted = true; });
-  std::signal(SIGTERM, [](int) { interrupted = true; });
+  const Interrupt interrupt;
+  const StepWatch watch(options.step_timeout);
 
   Odometer odometer(simulation);
   RunResult result{built.scenario.name, built.scenario.seed, 0, 0, false, ""};
   const double duration = options.duration.value_or(built.scenario.duration);
   simulate(simulation, std::llround(duration * 1e9), odometer, result);
-  write_outputs(options, result, simulation, odometer);
+  try {
+    write_outputs(options, result, simulation, odometer);
+  } catch (const std::system_error&) {
+    if (!standard_output_failed()) throw;  // main tells of it
+  }
   if (!result.error.empty()) {
     fmt::print(stderr, "{}\n", result.error);
     return 1;

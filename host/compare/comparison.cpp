@@ -6,6 +6,8 @@
 #include <set>
 
 #include "core/instance.hpp"
+#include "core/output_registry.hpp"
+#include "host/outputs/remove_outputs.hpp"
 #include "host/report.hpp"
 
 namespace muro::host {
@@ -97,8 +99,15 @@ void measure(Simulation& simulation, const Comparison& comparison, const Variati
   result.cost = {wall / simulated, (after.varied - before.varied) * scale, (after.contact - before.contact) * scale};
 }
 
-BuiltScenario build_variation(const Comparison& comparison, const Variation& variation, Registry& registry) {
-  BuiltScenario built = build(read_variation(comparison, variation.overrides, registry), registry);
+using Log = std::function<void(LogLevel, std::string_view)>;
+
+BuiltScenario build_variation(const Comparison& comparison, const Variation& variation, Registry& registry,
+                              const Log& log) {
+  BuiltScenario built =
+      build(read_variation(comparison, variation.overrides, registry), registry, [&](Simulation& simulation) {
+        simulation.set_log(log);
+        add_outputs(simulation, comparison.outputs);
+      });
   built.simulation->set_threads(1);
   return built;
 }
@@ -111,27 +120,18 @@ Scenario read_variation(const Comparison& comparison, const std::vector<std::str
   all.insert(all.end(), overrides.begin(), overrides.end());
   Scenario s = read_scenario(comparison.scenario.file, all);
   if (comparison.seed) s.seed = *comparison.seed;
-  std::set<std::string> removed;
-  std::erase_if(s.algorithms, [&](const Subsystem& a) {
-    const auto entry = std::find_if(registry.catalog().begin(), registry.catalog().end(),
-                                    [&](const CatalogEntry& e) { return e.id == a.use; });
-    const bool output = entry != registry.catalog().end() &&
-                        (entry->kind == name_of(Kind::recorder) || entry->kind == name_of(Kind::view));
-    if (output) removed.insert(a.name);
-    return output;
-  });
-  for (auto& sequence : s.sequences) std::erase_if(sequence, [&](const Name& n) { return removed.count(n.text) > 0; });
-  std::erase_if(s.sequences, [](const auto& sequence) { return sequence.size() < 2; });
+  remove_outputs(s, registry);
   return s;
 }
 
-VariationResult run_variation(const Comparison& comparison, const Variation& variation, Registry& registry) {
+VariationResult run_variation(const Comparison& comparison, const Variation& variation, Registry& registry,
+                              const Log& log) {
   VariationResult result;
   result.label = variation.label;
   try {
     std::uint64_t recorded_hash = 0;
     {
-      const BuiltScenario built = build_variation(comparison, variation, registry);
+      const BuiltScenario built = build_variation(comparison, variation, registry, log);
       result.notes = built.notes;
       for (UnsupportedFeatures& u : find_unsupported_features(built))
         if (std::any_of(comparison.factors.begin(), comparison.factors.end(),
@@ -140,10 +140,12 @@ VariationResult run_variation(const Comparison& comparison, const Variation& var
       record(*built.simulation, comparison, result);
       recorded_hash = built.simulation->state_hash();
     }
-    const BuiltScenario built = build_variation(comparison, variation, registry);
-    built.simulation->set_log([](LogLevel, std::string_view) {});  // the first run has already logged it
+    // the first run has logged it
+    const BuiltScenario built = build_variation(comparison, variation, registry, [](LogLevel, std::string_view) {});
     measure(*built.simulation, comparison, variation, result);
     result.repeatable = recorded_hash == built.simulation->state_hash();
+  } catch (const OutputError&) {
+    throw;
   } catch (const std::exception& e) {
     result.failure = e.what();
   }

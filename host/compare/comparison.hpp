@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "host/compare/contact_monitor.hpp"
 #include "host/compare/factor.hpp"
 #include "host/compare/trajectory.hpp"
+#include "host/outputs/output_options.hpp"
 #include "host/unsupported_features/unsupported_features.hpp"
 
 namespace muro::host {
@@ -41,6 +43,7 @@ struct Comparison {
   std::vector<Factor> factors;
   double duration = 0;                ///< s
   std::vector<std::uint32_t> robots;  ///< numbers of those that are compared
+  OutputOptions outputs{};            ///< files of the results
 };
 
 /// Reads the scenario of the comparison with these overrides, without recorders and views.
@@ -48,8 +51,10 @@ Scenario read_variation(const Comparison& comparison, const std::vector<std::str
                         const Registry& registry);
 
 /// Runs a variation twice, each time from a fresh state and on one thread: once to record what robots do, and once to
-/// measure the cost, because recording takes time too. What prevents a run is in `failure`.
-VariationResult run_variation(const Comparison& comparison, const Variation& variation, Registry& registry);
+/// measure the cost, because recording takes time too. What prevents a run is in `failure`. `log` gets the messages of
+/// algorithms. Throws OutputError when an output of the comparison would overwrite what the variation reads.
+VariationResult run_variation(const Comparison& comparison, const Variation& variation, Registry& registry,
+                              const std::function<void(LogLevel, std::string_view)>& log);
 
 /// Numbers of the robots that the factors name; all of the scene when they name none.
 std::vector<std::uint32_t> robots_of(const Scenario& scenario, const std::vector<Factor>& factors);

@@ -44,11 +44,14 @@ ContactMonitor::ContactMonitor(Simulation& monitored, const std::vector<std::uin
       if (scene_.instances()[i]->description().kind == kind) tasks_.push_back(scene_.task_of(i));
 }
 
-/// Solvers hold bodies a little apart, or let them overlap; so shapes of robots are grown on all sides.
-Shape ContactMonitor::copy_of(Shape shape, double grown_by) {
+/// A collision shape of the monitored scene for `owner`, the World or RobotTree that it goes to. Solvers hold bodies a
+/// little apart, or let them overlap; so shapes of robots are grown on all sides.
+template <class Owner>
+Shape ContactMonitor::copy_of(Shape shape, double grown_by, Owner& owner) const {
+  shape.texture = no_text;
   switch (shape.kind) {
     case ShapeKind::mesh:
-      shape.mesh = scene_.world().intern(monitored_.world().text(shape.mesh));
+      shape.mesh = owner.intern(monitored_.world().text(shape.mesh));
       break;
     case ShapeKind::box:
       shape.size += Vec3::Constant(2 * grown_by);
@@ -68,7 +71,7 @@ void ContactMonitor::add_scenery() {
     const Pose* pose = world.robot_of(ObjectId{i}) < 0 ? pose_of(world, ObjectId{i}) : nullptr;
     std::vector<Shape> shapes;
     for (const Shape& s : constants(world, ObjectId{i}, keys::collision_shapes))
-      if (s.kind != ShapeKind::plane) shapes.push_back(copy_of(s, 0));
+      if (s.kind != ShapeKind::plane) shapes.push_back(copy_of(s, 0, scene_.world()));
     if (pose && !shapes.empty()) scene_.world().add_scenery(world.object_name(ObjectId{i}), *pose, shapes);
   }
 }
@@ -79,11 +82,12 @@ void ContactMonitor::add_bodies() {
   for (const RobotView* r : world.robots()) {
     if (world.store().constant(r->base(), keys::shadow_of).data) continue;
     for (const Link& link : r->links) {
+      RobotTree tree;
       std::vector<Shape> shapes;
-      for (const Shape& s : constants(world, link.object, keys::collision_shapes)) shapes.push_back(copy_of(s, margin));
+      for (const Shape& s : constants(world, link.object, keys::collision_shapes))
+        shapes.push_back(copy_of(s, margin, tree));
       const Pose* pose = pose_of(world, link.object);
       if (shapes.empty() || !pose) continue;
-      RobotTree tree;
       tree.base("body");
       tree.set(keys::inertial, Inertia{.mass = 1, .ixx = 1, .iyy = 1, .izz = 1});
       tree.set_array(keys::collision_shapes, std::span<const Shape>(shapes));

@@ -48,7 +48,8 @@ class ContactMonitor {
 
   void add_scenery();
   void add_bodies();
-  Shape copy_of(Shape shape, double grown_by);
+  template <class Owner>
+  Shape copy_of(Shape shape, double grown_by, Owner& owner) const;
   void add_collision_detection(const std::vector<Subsystem>& algorithms);
   void add_contact(std::uint32_t body, const Contact& contact, double now);
   void add_contact(const Pair& pair, double now);

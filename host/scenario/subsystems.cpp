@@ -22,16 +22,32 @@ bool serves_scene(Kind kind) {
 
 bool Subsystems::add(const RobotTemplate& t, const RobotView& robot, const std::vector<Subsystem>& subsystems) {
   bool moved = false;
+  const Subsystem* motion = nullptr;
   for (const bool sensors : {true, false})
     for (const Subsystem& s : subsystems) {
       const Description* d = algorithms_.describe(s);
       if (!d) {
         moved = true;
       } else if ((d->kind == Kind::sensor) == sensors) {
+        if (d->kind == Kind::motion && !is_only_motion(t, s, motion)) continue;
         moved = add_one(t, robot, s, *d, subsystems) || moved;
       }
     }
   return moved;
+}
+
+/// A robot has one motion, or levels of it. A second one is often a name that is misspelt. `first`: the one so far.
+bool Subsystems::is_only_motion(const RobotTemplate& t, const Subsystem& s, const Subsystem*& first) {
+  if (!first || (first->level && s.level)) {
+    first = &s;
+    return true;
+  }
+  problems_.add(
+      s.location,
+      fmt::format("robot `{}` has a second motion, `{}`{}; `{}` ({}) moves it already: remove one of them, or "
+                  "write them as `levels` of one motion",
+                  t.name, s.name, did_you_mean(s.name, std::vector{first->name}), first->name, first->location.text()));
+  return false;
 }
 
 bool Subsystems::add_one(const RobotTemplate& t, const RobotView& robot, const Subsystem& given, const Description& d,
@@ -69,9 +85,7 @@ ObjectId Subsystems::mounting_object(const RobotView& robot, const Subsystem& s)
   const ObjectId object = world_.find_object(fmt::format("{}/{}", robot.name, s.on));
   if (object != no_object) return object;
   std::vector<std::string> names;
-  for (std::uint32_t i = 0; i < world_.object_count(); ++i)
-    if (world_.robot_of(ObjectId{i}) == std::int32_t(robot.number))
-      names.push_back(name_within(world_, robot, ObjectId{i}));
+  for (const ObjectId part : world_.objects_of(robot)) names.push_back(name_within(world_, robot, part));
   problems_.add(s.on_location, fmt::format("`on: {}` of `{}`: the robot has no part of this name{}", s.on, s.name,
                                            suggestion(s.on, names, "it has")));
   return robot.base();

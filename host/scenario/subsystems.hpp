@@ -20,6 +20,7 @@ class Subsystems {
   bool add(const RobotTemplate& t, const RobotView& robot, const std::vector<Subsystem>& subsystems);
 
  private:
+  bool is_only_motion(const RobotTemplate& t, const Subsystem& s, const Subsystem*& first);
   bool add_one(const RobotTemplate& t, const RobotView& robot, const Subsystem& s, const Description& d,
                const std::vector<Subsystem>& all);
   ObjectId mounting_object(const RobotView& robot, const Subsystem& s);

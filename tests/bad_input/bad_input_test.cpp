@@ -73,7 +73,7 @@ TEST(WrongCommandLine, EndsWithExitCode2AndSaysWhatIsAllowed) {
 TEST(WrongCommandLine, AReportThatCannotBeWrittenIsRefusedBeforeTheRun) {
   const auto result = run_command("cd " MURO_TEST_SOURCE_DIR " && " + muro_program +
                                   " run examples/urban/urban.yaml --duration 1000 --report /nowhere/report.json");
-  EXPECT_EQ(result.output, "file /nowhere/report.json cannot be written: No such file or directory\n");
+  EXPECT_EQ(result.output, "--report: file /nowhere/report.json cannot be written: No such file or directory\n");
   EXPECT_EQ(result.exit_code, 2);
 }
 

@@ -31,6 +31,7 @@ robots:
 struct Runs {
   test::ScratchFolder folder;
   Comparison comparison;
+  std::vector<std::string> said;
   explicit Runs(const std::string& text, const std::string& vary) {
     comparison.scenario.file = folder.file("s.yaml", text);
     comparison.scenario = read_variation(comparison, {}, test::plugins());
@@ -41,7 +42,8 @@ struct Runs {
   std::vector<VariationResult> all() {
     std::vector<VariationResult> results;
     for (const Variation& v : all_variations(comparison.factors))
-      results.push_back(run_variation(comparison, v, test::plugins()));
+      results.push_back(run_variation(comparison, v, test::plugins(),
+                                      [&](LogLevel, std::string_view text) { said.emplace_back(text); }));
     return results;
   }
 };
@@ -101,6 +103,14 @@ TEST(Comparison, AVariationThatCannotRunSaysWhy) {
   const std::vector<VariationResult> results = Runs(limited, "ball.motion=point,simplified").all();
   EXPECT_NE(results[0].failure.find("`max_joint_acceleration`"), std::string::npos) << results[0].failure;
   EXPECT_EQ(results[1].failure, "");
+}
+
+TEST(Comparison, RobotsMayCollideWithMeshes) {
+  const std::string scenario =
+      "duration: 0.3\nworld: {objects: {ground: {shape: plane}}}\nrobots:\n  tool: {model: " MURO_TEST_SOURCE_DIR
+      "/tests/robots/meshes.urdf, at: {z: 2}, motion: {use: motion.simplified}}\n";
+  for (const VariationResult& r : Runs(scenario, "tool.motion=simplified,bullet,ode,mujoco").all())
+    EXPECT_EQ(r.failure, "") << r.label;
 }
 
 TEST(Comparison, RecordersStayOut) {

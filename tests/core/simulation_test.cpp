@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/bodies.hpp"
+#include "tests/support/complaint.hpp"
 
 namespace muro {
 namespace {
@@ -25,6 +26,34 @@ TEST(Simulation, MovesACommandedPointAlongACircle) {
   s.run_for(3);
   EXPECT_NEAR(s.pose(s.robot).position.x(), 2 * std::sin(1.5), 1e-9);
   EXPECT_NEAR(s.pose(s.robot).position.y(), 2 * (1 - std::cos(1.5)), 1e-9);
+}
+
+TEST(Simulation, RefusesTimesThatCannotBe) {
+  Drive s;
+  for (const double wrong : {std::nan(""), -1e-9, -1.0, 1e10, 1e300, HUGE_VAL})
+    EXPECT_SAYS(test::complaint_of([&] { s.run_for(wrong); }), "the duration of a run is ");
+  EXPECT_SAYS(test::complaint_of([&] { s.run_until(-1); }), "the end of a run is -1 ns");
+  EXPECT_SAYS(test::complaint_of([&] { s.run_until(std::numeric_limits<std::int64_t>::max()); }), "ns but must be");
+  EXPECT_EQ(s.now(), 0);
+  s.run_for(0.5);
+  s.run_until(0);
+  EXPECT_EQ(s.now(), 500'000'000) << "what is past has been run";
+  for (const double wrong : {std::nan(""), -1.0, 1e-7, 1e7, HUGE_VAL})
+    EXPECT_SAYS(test::complaint_of([&] { s.set_pacing({wrong}); }), "times real time is not possible");
+  EXPECT_SAYS(test::complaint_of([&] { s.use("motion.point", std::nan("")); }), "a rate of nan Hz is not possible");
+}
+
+TEST(Simulation, RunsNothingBeforeItIsBuilt) {
+  test::Scene s;
+  s.add("box", box());
+  const auto complaint = [&](auto call) { return test::complaint_of(call); };
+  EXPECT_SAYS(complaint([&] { s.run_for(1); }), "is called before build()");
+  EXPECT_SAYS(complaint([&] { s.run_until(1); }), "run_until() is called before build()");
+  EXPECT_SAYS(complaint([&] { s.refresh(); }), "before build()");
+  EXPECT_SAYS(complaint([&] { s.finish(); }), "before build()");
+  EXPECT_SAYS(complaint([&] { static_cast<void>(s.snapshot()); }), "before build()");
+  EXPECT_SAYS(complaint([&] { s.restore({}); }), "before build()");
+  EXPECT_SAYS(complaint([&] { s.reset(); }), "before build()");
 }
 
 TEST(Simulation, AResetIsAFreshStartToTheBit) {
@@ -116,6 +145,26 @@ TEST(Simulation, TwoMotionsOfOneRobotAreTwoWriters) {
               std::string::npos)
         << e.what();
   }
+}
+
+TEST(Simulation, RefusesShapesWhoseTextsAreOfAnotherWorld) {
+  test::Scene other, s;
+  Shape mesh = Shape::box({1, 1, 1});
+  mesh.kind = ShapeKind::mesh;
+  for (const char* text : {"a.stl", "b.stl", "c.stl"}) mesh.mesh = other.world().intern(text);
+  RobotTree tree;
+  tree.base("body");
+  tree.set_array(keys::collision_shapes, std::span<const Shape>(&mesh, 1));
+  tree.close();
+  const std::string told =
+      "names text 3, but there are 1; texts of shapes (mesh, texture) are interned with the World or RobotTree that "
+      "the "
+      "shapes are given to";
+  EXPECT_EQ(test::complaint_of<SetupError>([&] { s.world().add_robot("robot", tree); }),
+            "`robot/body:collision.shapes` " + told);
+  EXPECT_EQ(
+      test::complaint_of<SetupError>([&] { s.world().add_scenery("wall", {}, std::span<const Shape>(&mesh, 1)); }),
+      "`wall:collision.shapes` " + told);
 }
 
 }  // namespace

@@ -72,6 +72,20 @@ TEST(Render, DrawsWhatTheCameraOfARobotSees) {
       << wrong.output;
 }
 
+TEST(Render, WritesWhatItWasAskedForAndNothingElse) {
+  const test::ScratchFolder folder;
+  const std::string kept = folder.file("log.csv", "of the last run");
+  const auto result = render(
+      urban + " --at 0.1 --size 64x48 --out " + folder.path("team.png") +
+      " --set 'algorithms.log={use: recorder.csv, rate: 10, file: " + kept +
+      "}' --set 'algorithms.pictures={use: recorder.images, rate: 10, folder: " + folder.path("pictures") + "}'");
+  EXPECT_EQ(result.exit_code, 0) << result.output;
+  EXPECT_EQ(test::text_of(kept), "of the last run");
+  std::set<std::string> names;
+  for (const auto& f : std::filesystem::directory_iterator(folder.path(""))) names.insert(f.path().filename());
+  EXPECT_EQ(names, (std::set<std::string>{"log.csv", "team.png"}));
+}
+
 TEST(Render, TellsWhatIsWrongAndWritesNothing) {
   const test::ScratchFolder folder;
   const std::string file = folder.path("x.png");
@@ -142,6 +156,8 @@ TEST(Render, SaysThatAVideoNeedsFfmpegAndWhatElseIsWrong) {
   EXPECT_EQ(without.exit_code, 2);
   EXPECT_NE(without.output.find("needs the program ffmpeg"), std::string::npos) << without.output;
   EXPECT_NE(with_path("$PATH", "").output.find("give --out FILE.png for a picture, or --video FILE.mp4 for a video"),
+            std::string::npos);
+  EXPECT_NE(with_path("$PATH", "--video /tmp/video.mp4 --until 1e9 --fps 1000").output.find("the video would have"),
             std::string::npos);
   EXPECT_NE(
       with_path("$PATH", "--video /tmp/video.mp4 --at 3 --until 2").output.find("--until is 2 s but must be later"),

@@ -7,23 +7,20 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
-#include "host/output_file.hpp"
+#include "host/outputs/json_text.hpp"
 #include "tests/support/bodies.hpp"
 #include "tests/support/files.hpp"
 
 namespace muro::host {
 namespace {
 
-TEST(Report, AskingWhetherAFileCanBeWrittenChangesNothing) {
-  const test::ScratchFolder folder;
-  const std::string path = folder.file("report.json", "of the last run");
-  check_writable(path);
-  check_writable(folder.path("new.json"));
-  EXPECT_EQ(test::text_of(path), "of the last run");
-  EXPECT_FALSE(std::filesystem::exists(folder.path("new.json")));
-  EXPECT_FALSE(std::filesystem::exists(path + ".part"));
-  EXPECT_THROW(check_writable(folder.path("nowhere/report.json")), SetupError);
-  EXPECT_THROW(check_writable(folder.path("")), SetupError);
+TEST(Report, ANameThatIsNoUtf8DoesNotLoseIt) {
+  RunResult result;
+  result.scenario = "caf\xe9";
+  test::Scene scene;
+  scene.build();
+  const std::string text = json_text(report(result, scene, Odometer(scene)));
+  EXPECT_EQ(nlohmann::json::parse(text).at("scenario"), "caf\xef\xbf\xbd");
 }
 
 TEST(Report, APoseThatIsNotFiniteIsAnError) {

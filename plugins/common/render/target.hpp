@@ -10,11 +10,13 @@ namespace muro::render {
 /// A colour image: several samples for each pixel, averaged in linear light.
 class ColorTarget {
  public:
+  /// Takes fewer samples where the driver has not as many.
   ColorTarget(std::uint32_t width, std::uint32_t height, std::uint32_t samples_per_pixel = 4);
   ~ColorTarget();
   ColorTarget(const ColorTarget&) = delete;
   ColorTarget& operator=(const ColorTarget&) = delete;
 
+  std::uint32_t samples() const { return samples_; }
   void begin() const;
   /// sRGB, as many rows of `width` pixels as fit, from the top.
   void read(std::span<std::uint8_t> rgb) const;
@@ -25,6 +27,7 @@ class ColorTarget {
   void resolve() const;
 
   std::uint32_t width_, height_;
+  std::uint32_t samples_ = 1;               ///< for each pixel
   std::uint32_t drawn_ = 0, resolved_ = 0;  ///< framebuffers
   std::uint32_t buffers_[3] = {};
 };

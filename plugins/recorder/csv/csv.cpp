@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "csv_file.hpp"
+#include "muro/ext/outputs.hpp"
 #include "muro/plugin.hpp"
 #include "selection.hpp"
 
@@ -28,14 +29,21 @@ constexpr Description description{
 
 class CsvRecorder final : public Algorithm {
  public:
+  ~CsvRecorder() override {
+    if (file_ && last_time_ < 0) file_->discard();  // the run has not begun: there is nothing but titles
+  }
+
   void connect(Connector& c) override {
     path_ = std::filesystem::absolute(std::string(c.parameters().text("file"))).string();
+    if (Outputs* outputs = Outputs::of(c.host())) outputs->file(path_);
   }
   void connect_by_name(Connector& c) override { properties_ = select(c, c.parameters().texts("properties")); }
 
   void start() override {
-    file_.reset();  // at a reset: lets go of the file before it is begun anew
-    file_.emplace(path_);
+    if (file_ && !file_->is_published())
+      file_->begin_anew();
+    else
+      file_.emplace(path_);
     last_time_ = -1;
     file_->text("time");
     for (const RecordedProperty& p : properties_)

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "csv_file.hpp"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -38,48 +35,18 @@ std::int64_t time_of(std::string_view row) {
   return value;
 }
 
-bool is_plain(int descriptor) {
-  struct stat about {};
-  return fstat(descriptor, &about) == 0 && S_ISREG(about.st_mode);
-}
-
-/// Writes everything; false with errno.
-bool write_all(int descriptor, std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t written = write(descriptor, bytes.data(), bytes.size());
-    if (written < 0 && errno != EINTR) return false;
-    if (written > 0) bytes.remove_prefix(std::size_t(written));
-  }
-  return true;
-}
-
 }  // namespace
 
 CsvFile::CsvFile(const std::string& path) : file_(path, {.keep_unpublished = true}) {
-  const char* location = file_.location().c_str();
-  descriptor_ = open(location, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) descriptor_ = open(location, O_WRONLY | O_CLOEXEC);  // a pipe or device that cannot be read
-  if (descriptor_ < 0) fail("cannot be written");
-  if (is_plain(descriptor_)) {
-    if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
-      const bool busy = errno == EWOULDBLOCK;
-      close(descriptor_);
-      if (busy) throw Error("file " + path + " is being written by another recorder; give each a file of its own");
-      fail("cannot be locked");
-    }
-    if (ftruncate(descriptor_, 0) != 0) {
-      const int reason = errno;
-      close(descriptor_);
-      errno = reason;
-      fail("cannot be written");
-    }
-  }
+  file_.descriptor();
   buffer_.reserve(2 * buffer_bytes);
 }
 
 CsvFile::~CsvFile() {
-  write_all(descriptor_, buffer_);
-  close(descriptor_);
+  try {
+    if (!failed_) flush();
+  } catch (const Error&) {  // nobody is left to be told
+  }
 }
 
 void CsvFile::fail(const char* doing) const {
@@ -146,14 +113,39 @@ void CsvFile::end_row() {
   if (buffer_.size() >= buffer_bytes) flush();
 }
 
+/// On a full disk the file keeps the rows that are whole.
 void CsvFile::flush() {
-  if (!write_all(descriptor_, buffer_)) fail("cannot be written");
+  const off_t begin = file_.is_regular() ? lseek(file_.descriptor(), 0, SEEK_CUR) : -1;
+  try {
+    file_.write(buffer_);
+  } catch (const Error&) {
+    failed_ = true;
+    const off_t end = begin < 0 ? -1 : lseek(file_.descriptor(), 0, SEEK_CUR);
+    if (end > begin) {
+      const std::size_t whole = std::string_view(buffer_).substr(0, std::size_t(end - begin)).rfind("\r\n");
+      const off_t rows = whole == std::string_view::npos ? 0 : off_t(whole) + 2;
+      static_cast<void>(ftruncate(file_.descriptor(), begin + rows) == 0);
+    }
+    buffer_.clear();
+    throw;
+  }
   buffer_.clear();
+}
+
+void CsvFile::cut(off_t end) {
+  if (ftruncate(file_.descriptor(), end) != 0 || lseek(file_.descriptor(), end, SEEK_SET) < 0)
+    fail("cannot be cut back");
+}
+
+void CsvFile::begin_anew() {
+  buffer_.clear();
+  row_begun_ = failed_ = false;
+  if (file_.is_regular()) cut(0);
 }
 
 void CsvFile::cut_back(std::int64_t nanoseconds) {
   flush();
-  if (!is_plain(descriptor_)) return;
+  if (!file_.is_regular()) return;
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> reader(std::fopen(file_.location().c_str(), "rb"),
                                                                &std::fclose);
   if (!reader) fail("cannot be read back");
@@ -165,12 +157,18 @@ void CsvFile::cut_back(std::int64_t nanoseconds) {
     end += length;
   }
   std::free(row);
-  if (ftruncate(descriptor_, end) != 0 || lseek(descriptor_, end, SEEK_SET) < 0) fail("cannot be cut back");
+  cut(end);
 }
 
 void CsvFile::publish() {
+  if (failed_) return;
   flush();
-  file_.publish();
+  try {
+    file_.publish();
+  } catch (const Error&) {
+    failed_ = true;
+    throw;
+  }
 }
 
 }  // namespace muro

@@ -14,7 +14,7 @@ namespace muro {
 /// recording of a run that failed. Every function throws muro::Error when the file cannot be opened or written.
 class CsvFile {
  public:
-  /// Empties PATH.part. Nobody else may be writing it.
+  /// Creates PATH.part. A pipe waits for its reader.
   explicit CsvFile(const std::string& path);
   /// What is in memory is still written, if it can be.
   ~CsvFile();
@@ -29,21 +29,28 @@ class CsvFile {
   void time(std::int64_t nanoseconds);
   void end_row();
 
+  bool is_published() const { return file_.is_published(); }
+  /// PATH.part is removed in the end if it was not published.
+  void discard() { file_.discard(); }
+  /// Empties the file, as far as it lets itself be emptied.
+  void begin_anew();
   /// Removes the rows at the end whose first field is a time of `nanoseconds` or later, as far as the file lets it.
   void cut_back(std::int64_t nanoseconds);
-  /// Writes what is in memory and gives the file its name. More rows may follow; they go to the same file.
+  /// Writes what is in memory and gives the file its name; not after a failure, which has been told. More rows may
+  /// follow; they go to the same file.
   void publish();
 
  private:
   void separate();
   void flush();
+  void cut(off_t end);
   [[noreturn]] void fail(const char* doing) const;
 
   static constexpr std::size_t buffer_bytes = 1 << 16;
   WholeFile file_;
-  int descriptor_ = -1;
   std::string buffer_;  ///< complete rows that are not in the file yet, and the present one
   bool row_begun_ = false;
+  bool failed_ = false;  ///< could not be written at some time: its end is missing
 };
 
 }  // namespace muro

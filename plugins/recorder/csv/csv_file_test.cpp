@@ -2,12 +2,16 @@
 #include "csv_file.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 
 #include <charconv>
 #include <cmath>
+#include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <random>
+#include <thread>
 
 #include "glob.hpp"
 #include "muro/algorithm.hpp"
@@ -146,7 +150,8 @@ TEST(CsvFile, KeepsWhatWasThereUntilTheNewFileIsWhole) {
   add_row(file, 0, 2);
   file.publish();
   EXPECT_EQ(text_of(path), "0,2\r\n");
-  EXPECT_FALSE(std::filesystem::exists(path + ".part"));
+  EXPECT_EQ(text_of(path + ".part"), "0,1\r\n") << "nobody else touches it";
+  EXPECT_FALSE(std::filesystem::exists(path + ".part2"));
   add_row(file, 1'000'000'000, 3);
   file.publish();
   EXPECT_EQ(text_of(path), "0,2\r\n1,3\r\n") << "the run went on";
@@ -189,24 +194,50 @@ TEST(CsvFile, TwoCannotWriteOneFile) {
   CsvFile first(path);
   add_row(first, 0, 1);
   EXPECT_EQ(complaint_of<Error>([&] { CsvFile second(path); }),
-            "file " + path + " is being written by another recorder; give each a file of its own");
+            "file " + path + " is being written by another recorder or run; give each a file of its own");
   first.publish();
   EXPECT_EQ(text_of(path), "0,1\r\n");
 }
 
-TEST(CsvFile, WritesAPipeAtOnce) {
+TEST(CsvFile, WritesAPipeToItsReader) {
   const ScratchFolder folder;
   const std::string path = folder.path("pipe");
   ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
-  CsvFile file(path);
-  add_row(file, 0, 1);
-  file.publish();
-  EXPECT_TRUE(std::filesystem::is_fifo(path));
-  std::FILE* reader = std::fopen(path.c_str(), "rb");
-  char text[6] = "";
-  EXPECT_EQ(std::fread(text, 1, 5, reader), 5u);
-  std::fclose(reader);
-  EXPECT_STREQ(text, "0,1\r\n");
+  std::string seen;
+  std::thread reader([&] { seen = text_of(path); });
+  {
+    CsvFile file(path);
+    add_row(file, 0, 1);
+    file.publish();
+    EXPECT_TRUE(std::filesystem::is_fifo(path));
+  }
+  reader.join();
+  EXPECT_EQ(seen, "0,1\r\n");
+}
+
+/// A limit of the size of files stands for a full disk. In a process of its own, since it holds for all of it.
+TEST(CsvFile, OnAFullDiskKeepsItsWholeRows) {
+  const ScratchFolder folder;
+  const std::string path = folder.file("a.csv", "old");
+  const auto fill = [&] {
+    const rlimit limit{100'000, 100'000};
+    setrlimit(RLIMIT_FSIZE, &limit);
+    std::signal(SIGXFSZ, SIG_IGN);
+    std::string said;
+    {
+      CsvFile file(path);
+      said = complaint_of<Error>([&] {
+        for (int i = 0; i < 100'000; ++i) add_row(file, i * 1'000'000L, 0.1);
+      });
+      file.publish();  // the failure has been told
+    }
+    std::_Exit(said == "file " + path + " cannot be written: File too large" ? 0 : 1);
+  };
+  EXPECT_EXIT(fill(), ::testing::ExitedWithCode(0), "");
+  EXPECT_EQ(text_of(path), "old");
+  const std::string part = text_of(path + ".part");
+  EXPECT_GT(part.size(), 99'900u);
+  EXPECT_EQ(part.substr(part.size() - 6), ",0.1\r\n");
 }
 
 }  // namespace

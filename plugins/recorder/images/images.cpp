@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "muro/ext/outputs.hpp"
 #include "muro/plugin.hpp"
 #include "muro/toolkit/whole_file.hpp"
 #include "plugins/common/image_file/png.hpp"
@@ -109,7 +110,7 @@ class ImageRecorder final : public Algorithm {
 
   void write_bytes(const Camera& camera, const std::string& suffix, std::span<const std::byte> bytes) const {
     WholeFile file((folder_ / (camera.file_prefix + suffix)).string());
-    file.stream().write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
+    file.write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     file.publish();
   }
 
@@ -127,8 +128,19 @@ class ImageRecorder final : public Algorithm {
       if (letter == '/') letter = '_';
     camera.width = c.constant(object, keys::camera_width).value_or(0);
     camera.height = c.constant(object, keys::camera_height).value_or(0);
+    if (Outputs* outputs = Outputs::of(c.host())) name_outputs(camera, *outputs);
     cameras_.push_back(std::move(camera));
     return true;
+  }
+
+  void name_outputs(const Camera& camera, Outputs& outputs) const {
+    const auto name = [&](bool is_written, const char* what, const char* raw_ending) {
+      const std::string begin = (folder_ / (camera.file_prefix + what)).string();
+      if (is_written) outputs.series(begin, raw_ ? raw_ending : ".png");
+    };
+    name(bool(camera.image), "_", ".rgb8");
+    name(bool(camera.depth), "_depth_", ".f32");
+    name(bool(camera.labels), "_labels_", ".u32");
   }
 
   void write_png(const Camera& camera, const std::string& suffix, image_file::Format format, const void* pixels) const {

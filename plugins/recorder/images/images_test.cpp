@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "tests/support/bodies.hpp"
+#include "tests/support/complaint.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/picture.hpp"
 
@@ -81,6 +82,19 @@ TEST(Images, OfACameraThatIsNotThereAreAnError) {
   } catch (const SetupError& e) {
     EXPECT_NE(std::string(e.what()).find("no camera `carrier/camer`"), std::string::npos) << e.what();
   }
+}
+
+TEST(Images, OfCamerasWhoseFilesWouldBeOneAreAnError) {
+  const test::ScratchFolder folder;
+  Scene s;
+  const RobotView& other = s.add("carrier_camera", test::tree_of([](RobotBuilder& b) { b.base("body"); }));
+  // the depths of carrier/camera, and the colours of carrier_camera/depth
+  const ObjectId camera = s.add_sensor_object(other, "depth", other.base());
+  s.use("motion.point", 50, {{&other, other.base()}});
+  s.use("camera.opengl", 10, {{&other, camera}}, {{"device", "software"}});
+  const std::string told = test::complaint_of([&] { s.record({{"folder", folder.path("pictures")}}); });
+  EXPECT_SAYS(told, " write to one file, " + folder.path("pictures/carrier_camera_depth_#.png"));
+  EXPECT_FALSE(fs::exists(folder.path("pictures")));
 }
 
 }  // namespace

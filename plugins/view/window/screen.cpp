@@ -9,17 +9,38 @@
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
 
+#include <dlfcn.h>
+
 #include <algorithm>
+#include <atomic>
 #include <string_view>
 #include <utility>
 
 #include "muro/algorithm.hpp"
+
+// Of GLFW for X11, where that is what GLFW was built for.
+extern "C" __attribute__((weak)) void* glfwGetX11Display();
 
 namespace muro::view {
 
 namespace {
 
 bool is_open = false;  ///< GLFW and ImGui know one thread and one window of ours
+std::atomic<bool> display_lost{false};
+
+/// Xlib ends the process when the display goes away, unless somebody has another idea.
+void outlive_display() {
+  display_lost = false;
+  if (!glfwGetX11Display) return;
+  void* const xlib = dlopen("libX11.so.6", RTLD_LAZY | RTLD_NOLOAD);
+  if (!xlib) return;
+  using Handler = void (*)(void* display, void* data);
+  using SetHandler = void (*)(void* display, Handler handler, void* data);
+  if (const auto set = reinterpret_cast<SetHandler>(dlsym(xlib, "XSetIOErrorExitHandler")))
+    set(
+        glfwGetX11Display(), [](void*, void*) { display_lost = true; }, nullptr);
+  dlclose(xlib);
+}
 
 [[noreturn]] void fail(const std::string& what) {
   const char* words = nullptr;
@@ -44,6 +65,7 @@ Screen::Screen(const std::string& title, int width, int height) {
     glfwTerminate();
     fail("no window with OpenGL 4.5 can be opened");
   }
+  outlive_display();
   glfwMakeContextCurrent(window_);
   glfwSwapInterval(0);  // waiting for the screen would hold the simulation up
   ImGui::CreateContext();
@@ -71,6 +93,8 @@ Screen::~Screen() {
   glfwTerminate();
 }
 
+bool Screen::is_lost() const { return display_lost; }
+
 bool Screen::is_closed() const { return glfwWindowShouldClose(window_) != 0; }
 
 bool Screen::is_software() const {
@@ -92,7 +116,10 @@ void Screen::on_key(GLFWwindow* window, int key, int, int action, int) {
 }
 
 void Screen::begin() {
+  if (frame_begun_) ImGui::EndFrame();  // one that could not be drawn
+  frame_begun_ = false;
   glfwPollEvents();
+  if (display_lost) return;
   keys_.clear();
   keys_.swap(pending_keys_);
   glfwGetFramebufferSize(window_, &width_, &height_);
@@ -101,10 +128,12 @@ void Screen::begin() {
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   ImGui::NewFrame();
+  frame_begun_ = true;
 }
 
 void Screen::end(std::vector<std::uint8_t>* picture) {
   ImGui::Render();
+  frame_begun_ = false;
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   glDisable(GL_FRAMEBUFFER_SRGB);
   glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);

@@ -22,7 +22,10 @@ class Screen {
   Screen& operator=(const Screen&) = delete;
 
   bool is_closed() const;
-  /// Takes what the user did since the last frame and begins the next. Size in pixels.
+  /// Whether the display has gone: nothing can be drawn any more.
+  bool is_lost() const;
+  /// Takes what the user did since the last frame and begins the next. Size in pixels. Not when the display is lost,
+  /// which may happen here.
   void begin();
   /// Keys that were pressed since the frame before, however shortly.
   const std::vector<Key>& keys() const { return keys_; }
@@ -52,6 +55,7 @@ class Screen {
   GLFWwindow* window_ = nullptr;
   std::vector<Key> keys_, pending_keys_;
   int width_ = 0, height_ = 0;
+  bool frame_begun_ = false;
 };
 
 }  // namespace muro::view

@@ -11,7 +11,9 @@
 #include <thread>
 
 #include "body_poses.hpp"
+#include "muro/ext/outputs.hpp"
 #include "muro/plugin.hpp"
+#include "muro/toolkit/elementary.hpp"
 #include "muro/vocabulary.hpp"
 #include "panels.hpp"
 #include "plugins/common/image_file/png.hpp"
@@ -77,7 +79,11 @@ class Window final : public Algorithm {
     samples_ = std::uint32_t(p.integer("samples"));
     period_ = 1 / p.real("pictures");
     pace_ = {p.real("speed"), p.boolean("paused")};
-    if (!p.text("picture").empty()) picture_ = std::filesystem::absolute(std::string(p.text("picture"))).string();
+    host_ = &c.host();
+    if (!p.text("picture").empty()) {
+      picture_ = std::filesystem::absolute(std::string(p.text("picture"))).string();
+      if (Outputs* outputs = Outputs::of(c.host())) outputs->file(picture_);
+    }
     if (const std::string name(p.text("follow")); !name.empty()) {
       if (p.given("from"))
         throw Error("follow and from are both given: the camera is behind what it follows; remove one");
@@ -117,13 +123,17 @@ class Window final : public Algorithm {
   /// Returns when the run may go on, and draws meanwhile; when it is on time it draws only if the last frame is old
   /// enough.
   void step(const Step& step, Range) override {
-    if (screen_->is_closed()) return;
+    if (screen_->is_lost() || screen_->is_closed()) return;
     last_time_ = step.seconds();
     for (;;) {
       const double now = wall_time();
       const bool may_go_on = pace_.may_go_on(step.seconds(), now);
       if (now >= next_frame_) {
         draw(step.seconds());
+        if (screen_->is_lost()) {
+          host_->log(LogLevel::warning, "the display of the window is gone; the run goes on without it");
+          return;
+        }
         // At most half of the time is spent drawing: where a frame takes long, fewer are shown.
         next_frame_ = std::max(now + period_, wall_time() + (wall_time() - now));
         if (screen_->is_closed()) return simulation_->stop();
@@ -137,7 +147,9 @@ class Window final : public Algorithm {
   void finish() override {
     if (!screen_ || picture_.empty()) return;
     std::vector<std::uint8_t> picture;
-    draw(last_time_, &picture);
+    if (!screen_->is_lost()) draw(last_time_, &picture);
+    if (screen_->is_lost())
+      throw Error("the picture " + picture_ + " cannot be written: the display of the window is gone");
     image_file::write_png(picture_, image_file::Format::rgb8, std::uint32_t(screen_->width()),
                           std::uint32_t(screen_->height()), picture.data());
   }
@@ -172,7 +184,7 @@ class Window final : public Algorithm {
     render::Camera c;
     c.width = std::uint32_t(screen_->width());
     c.height = std::uint32_t(screen_->height());
-    c.fx = c.fy = 0.5 * c.height / std::tan(0.5 * fov);
+    c.fx = c.fy = 0.5 * c.height / elementary::tan(0.5 * fov);
     using Area = std::array<double, 4>;
     const auto [left, top, right, bottom] =
         has_panels_ ? panels_.free_area(c.width, c.height) : Area{0, 0, double(c.width), double(c.height)};
@@ -185,6 +197,7 @@ class Window final : public Algorithm {
   void draw(double simulated, std::vector<std::uint8_t>* picture = nullptr) {
     const view::Screen::Current current(*screen_);
     screen_->begin();
+    if (screen_->is_lost()) return;
     if (!gpu_scene_) {
       gpu_scene_.emplace(scene_);
       renderer_.emplace(*gpu_scene_);
@@ -206,6 +219,11 @@ class Window final : public Algorithm {
       target_height_ = screen_->height();
       const std::uint32_t samples = samples_ > 0 ? samples_ : screen_->is_software() ? 1 : 4;
       target_.emplace(std::uint32_t(target_width_), std::uint32_t(target_height_), samples);
+      if (target_->samples() < samples && !fewer_samples_told_)
+        host_->log(LogLevel::warning, "samples is " + std::to_string(samples) +
+                                          ", but this driver of OpenGL has at most " +
+                                          std::to_string(target_->samples()) + " for each pixel, which are taken");
+      fewer_samples_told_ = true;
     }
     gpu_scene_->update();
     const render::Camera c = camera();
@@ -260,8 +278,10 @@ class Window final : public Algorithm {
   std::array<int, 2> size_{};
   double period_ = 0;
   std::uint32_t samples_ = 0;
+  bool fewer_samples_told_ = false;
   view::Pace pace_{1, false};
   std::string picture_;
+  Host* host_ = nullptr;
   Inspection* simulation_ = nullptr;
   render::Scene scene_;
   render::Daylight light_;

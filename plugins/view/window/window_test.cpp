@@ -238,6 +238,35 @@ TEST_F(TheWindow, ChangesAPropertyThatTheUserEdits) {
   EXPECT_EQ(s.pose(*s.robot).position.x(), 2.5);
 }
 
+TEST_F(TheWindow, TakesAsManySamplesAsTheDriverHas) {
+  Show s;
+  std::string said;
+  s.set_log([&](LogLevel, std::string_view text) { said += std::string(text) + "\n"; });
+  s.use_window({{"samples", std::int64_t(16)}});
+  s.run_for(0.1);
+  s.finish();
+  EXPECT_SAYS(said, "samples is 16, but this driver of OpenGL has at most ");
+  EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
+  const Picture p(s.picture());
+  const Vec3 middle = about(p, middle_x, middle_y);
+  EXPECT_GT(middle.x(), 2 * middle.y()) << "the red box";
+}
+
+TEST_F(TheWindow, MayLoseItsDisplayAndTheRunGoesOn) {
+  auto own = std::make_unique<Display>();
+  ASSERT_NE(own->name(), "");
+  ::setenv("DISPLAY", own->name().c_str(), 1);
+  Show s;
+  std::string said;
+  s.set_log([&](LogLevel, std::string_view text) { said += std::string(text) + "\n"; });
+  s.use_window({{"picture", std::string()}});
+  s.run_for(0.1);
+  own.reset();
+  s.run_for(1);
+  EXPECT_EQ(s.now(), 1'100'000'000);
+  EXPECT_EQ(said, "the display of the window is gone; the run goes on without it\n");
+}
+
 TEST_F(TheWindow, SaysWhatToDoWhereThereIsNoDisplay) {
   ::setenv("DISPLAY", ":no-such-display", 1);
   Show s;

@@ -2,10 +2,16 @@
 // For recorders and reports: a file is written whole or not at all.
 #pragma once
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
 #include <cerrno>
 #include <filesystem>
-#include <fstream>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -13,70 +19,159 @@
 
 namespace muro {
 
+/// Where a file that is written under this name lies: absolute, with every symbolic link followed, also one that points
+/// to nothing yet. /dev/stdout and the like become /proc/PID/fd/NUMBER. `code` is set where that cannot be told.
+inline std::filesystem::path target_of(std::filesystem::path path, std::error_code& code) {
+  namespace fs = std::filesystem;
+  const fs::path own_descriptors = "/proc/" + std::to_string(getpid()) + "/fd";
+  path = fs::absolute(path, code);
+  for (int links = 0; !code && links < 40; ++links) {
+    std::error_code none;
+    const fs::path folder = fs::canonical(path.parent_path(), none);
+    if (!none) path = folder / path.filename();
+    if (path.parent_path() == own_descriptors || !fs::is_symlink(fs::symlink_status(path, none))) return path;
+    path = path.parent_path() / fs::read_symlink(path, code);
+  }
+  if (!code) code = std::make_error_code(std::errc::too_many_symbolic_link_levels);
+  return path;
+}
+
 struct WholeFileOptions {
   bool keep_extension = false;    ///< "film.part.mp4" instead of "film.mp4.part", for writers that go by the extension
   bool keep_unpublished = false;  ///< what was written stays in PATH.part when the file is never published
 };
 
 /// A file under construction. Its bytes go to PATH.part, which `publish` renames to PATH, so that PATH is either the
-/// complete new file or what it was before. An existing device or pipe is written in place.
-/// Write to `stream()`, or let another library write to `location()`. Errors are muro::Error with path and reason.
+/// complete new file or what it was before. A PATH.part that is there already stays as it is: then PATH.part2, ... is
+/// used. A symbolic link stays one, and what it points to is written. A device, a pipe, or what is open already
+/// (/dev/stdout) is written in place. Errors are muro::Error with path and reason.
 class WholeFile {
  public:
   /// Opens nothing yet.
-  explicit WholeFile(std::string path, WholeFileOptions options = {})
-      : path_(std::move(path)), location_(path_), keep_unpublished_(options.keep_unpublished) {
-    std::error_code none;
-    const std::filesystem::file_status present = std::filesystem::status(path_, none);
-    if (std::filesystem::exists(present) && !std::filesystem::is_regular_file(present)) return;
-    const std::string extension = options.keep_extension ? std::filesystem::path(path_).extension().string() : "";
-    location_.insert(location_.size() - extension.size(), ".part");
-  }
+  explicit WholeFile(std::string path, WholeFileOptions options = {}) : path_(std::move(path)), options_(options) {}
   /// Removes what was not published.
   ~WholeFile() {
-    std::error_code none;
-    if (!keep_unpublished_ && location_ != path_) std::filesystem::remove(location_, none);
+    if (descriptor_ < 0) return;
+    if (has_part() && !options_.keep_unpublished) unlink(location_.c_str());
+    close(descriptor_);
   }
   WholeFile(const WholeFile&) = delete;
   WholeFile& operator=(const WholeFile&) = delete;
 
   const std::string& path() const { return path_; }
-  /// Where the bytes are now: PATH.part; PATH when it is published, a device or a pipe.
-  const std::string& location() const { return location_; }
-
-  /// Opens the file, empty, at the first call. Not after publish.
-  std::ofstream& stream() {
-    if (stream_.is_open()) return stream_;
-    errno = 0;
-    stream_.open(location_, std::ios::binary);
-    if (!stream_) fail(errno);
-    return stream_;
+  /// Where the bytes are now: PATH.part; PATH when it is published, a device or a pipe. Another library may write it.
+  const std::string& location() { return open(), location_; }
+  /// Open for writing; for reading, too, where it is no device or pipe.
+  int descriptor() { return open(), descriptor_; }
+  /// Whether it is a file under construction or a complete one, which has a length; not a device or a pipe.
+  bool is_regular() {
+    struct stat about {};
+    return fstat(descriptor(), &about) == 0 && S_ISREG(about.st_mode);
   }
+  bool is_published() const { return is_published_; }
 
-  /// Closes the stream, if it was used, and gives the file its name.
-  void publish() {
-    if (stream_.is_open()) {
-      if (!stream_) fail(0);  // an earlier write has failed, whose reason is gone
-      errno = 0;
-      stream_.close();
-      if (!stream_) fail(errno);
+  /// Creates the file at the first call. A pipe waits for its reader.
+  void write(std::string_view bytes) {
+    open();
+    while (!bytes.empty()) {
+      const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+      if (written < 0 && errno != EINTR) fail(errno);
+      if (written > 0) bytes.remove_prefix(std::size_t(written));
     }
-    if (location_ == path_) return;
-    std::error_code code;
-    std::filesystem::rename(location_, path_, code);
-    if (code) fail(code.value());
-    location_ = path_;
   }
+
+  /// Gives the file its name. More may be written to it then.
+  void publish() {
+    open();
+    // A copy of the descriptor is closed, because some file systems report a full disk only then.
+    if (const int copy = dup(descriptor_); copy >= 0 && close(copy) != 0) fail(errno);
+    if (has_part()) {
+      if (std::rename(location_.c_str(), target_.c_str()) != 0) fail(errno);
+      location_ = target_;
+    }
+    is_published_ = true;
+  }
+  /// What is not published is removed in the end, whatever the options say.
+  void discard() { options_.keep_unpublished = false; }
 
  private:
-  [[noreturn]] void fail(int reason) const {
-    throw Error("file " + path_ + " cannot be written" +
-                (reason == 0 ? "; is there room on the disk?" : ": " + std::generic_category().message(reason)));
+  bool has_part() const { return location_ != target_; }
+
+  void open() {
+    if (descriptor_ >= 0) return;
+    std::error_code code;
+    const std::filesystem::path target = target_of(path_, code);
+    if (code) fail(code.value());
+    target_ = location_ = target.string();
+    struct stat present {};
+    const bool exists = stat(target_.c_str(), &present) == 0;
+    if (is_own_descriptor(target)) {
+      descriptor_ = fcntl(std::stoi(target.filename().string()), F_DUPFD_CLOEXEC, 0);
+      if (descriptor_ < 0) fail(errno);
+    } else if (exists && !S_ISREG(present.st_mode)) {
+      if (S_ISDIR(present.st_mode)) fail(EISDIR);
+      descriptor_ = ::open(target_.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
+      if (descriptor_ < 0) fail(errno);
+    } else {
+      if (exists && access(target_.c_str(), W_OK) != 0) fail(errno);  // to rename would not ask for this right
+      create_part(target);
+      if (exists) take_over(present);
+    }
   }
 
-  std::string path_, location_;
-  bool keep_unpublished_;
-  std::ofstream stream_;
+  static bool is_own_descriptor(const std::filesystem::path& target) {
+    const std::string name = target.filename().string();
+    return target.parent_path() == "/proc/" + std::to_string(getpid()) + "/fd" && !name.empty() && name.size() < 9 &&
+           std::all_of(name.begin(), name.end(), [](char c) { return c >= '0' && c <= '9'; });
+  }
+
+  void create_part(const std::filesystem::path& target) {
+    constexpr std::size_t longest_name = 255;
+    const std::string extension = options_.keep_extension ? target.extension().string() : "";
+    const std::string name = target.filename().string(), stem = name.substr(0, name.size() - extension.size());
+    for (int k = 1; k < 1000; ++k) {
+      const std::string end = ".part" + (k == 1 ? std::string() : std::to_string(k)) + extension;
+      const std::size_t room = longest_name - std::min(longest_name, end.size());
+      // a name that is too long itself is left to fail
+      const std::string leaf = name.size() > longest_name ? name + end : stem.substr(0, room) + end;
+      location_ = (target.parent_path() / leaf).string();
+      descriptor_ = ::open(location_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+      if (descriptor_ >= 0) {
+        while (flock(descriptor_, LOCK_EX) != 0 && errno == EINTR) {
+        }
+        return;
+      }
+      if (errno != EEXIST) fail(errno);
+      if (is_locked(location_))
+        throw Error("file " + path_ + " is being written by another recorder or run; give each a file of its own");
+    }
+    throw Error("file " + path_ + " cannot be written: " + target_ + ".part and all names up to .part999 exist; " +
+                "remove what runs that did not end have left");
+  }
+
+  static bool is_locked(const std::string& path) {
+    const int other = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOFOLLOW);
+    if (other < 0) return false;
+    const bool locked = flock(other, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    close(other);
+    return locked;
+  }
+
+  /// Owner and permissions of the file that is to be replaced, as far as the user may give them.
+  void take_over(const struct stat& present) const {
+    const bool given = fchown(descriptor_, present.st_uid, present.st_gid) == 0;
+    if (given || present.st_uid == geteuid()) static_cast<void>(fchmod(descriptor_, present.st_mode & 0777));
+  }
+
+  [[noreturn]] void fail(int reason) const {
+    throw Error("file " + path_ + " cannot be written: " + std::generic_category().message(reason));
+  }
+
+  std::string path_;
+  WholeFileOptions options_;
+  std::string target_, location_;  ///< once it is open
+  int descriptor_ = -1;
+  bool is_published_ = false;
 };
 
 }  // namespace muro

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/error.hpp"
+#include "muro/ext/outputs.hpp"
+
+namespace muro {
+
+/// Files that cannot be written, or must not be.
+class OutputError final : public SetupError {
+ public:
+  using SetupError::SetupError;
+};
+
+/// What a simulation reads and writes, to be checked before it runs. Two names are one file when they lead to it by
+/// whatever path or link.
+class OutputRegistry final : public Outputs {
+ public:
+  /// Who names files from now on, as messages call it: "log (recorder.csv, urban.yaml:7:3)", "--report".
+  void set_owner(std::string owner) { owner_ = std::move(owner); }
+  void file(std::string_view path) noexcept override;
+  void series(std::string_view begin, std::string_view end) noexcept override;
+  /// A file that is read, told once. `what`: "the scenario", "which log reads". Of the present owner, which may write
+  /// it.
+  void add_input(const std::string& path, const std::string& what);
+
+  /// Whether anything is written.
+  bool empty() const { return outputs_.empty(); }
+  /// Throws OutputError with all mistakes: two outputs in one file, an output in place of an input, a folder that is
+  /// not there.
+  void check() const;
+
+ private:
+  /// Where a name leads.
+  struct Place {
+    std::string target;       ///< without links
+    std::uint64_t number[2];  ///< device and inode of what is there
+    bool exists = false;
+    bool is_folder = false;
+    bool is_device = false;  ///< a character device, which takes several outputs
+    bool is_regular = false;
+  };
+  struct Output {
+    std::string owner;
+    std::string path;        ///< as given; of a series with # for the number
+    Place place;             ///< of a series that of its folder
+    std::string begin, end;  ///< of the names of a series, in its folder
+    bool is_series = false;
+  };
+  struct Input {
+    std::string owner, path, what;
+    Place place;
+  };
+  static Place place_of(const std::string& path);
+  static bool same_place(const Place& a, const Place& b);
+  static bool is_member(const Output& series, const std::string& target);
+  static bool are_one(const Output& a, const Output& b);
+  static bool is_part_of(const Output& a, const Output& b);
+  void check_folder(const Output& output, std::vector<std::string>& problems) const;
+
+  std::string owner_ = "the program";
+  std::vector<Output> outputs_;
+  std::vector<Input> inputs_;
+  std::set<std::string> known_inputs_;
+};
+
+}  // namespace muro

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+#include "host/outputs/json_text.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace muro::host {
+
+std::string json_text(const nlohmann::ordered_json& json, int indent) {
+  return json.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+}  // namespace muro::host

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#include "host/outputs/standard_output.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+
+namespace muro::host {
+
+bool standard_output_failed() { return std::ferror(stdout) != 0; }
+
+int close_standard_output(int exit_code) {
+  const bool failed_before = standard_output_failed();
+  errno = 0;
+  if (std::fflush(stdout) == 0 && !failed_before) return exit_code;
+  // What failed before gives its reason when it is tried again.
+  if (errno == 0) {
+    std::clearerr(stdout);
+    std::fputc('\n', stdout);
+    std::fflush(stdout);
+  }
+  if (errno == EPIPE) {
+    std::signal(SIGPIPE, SIG_DFL);
+    std::raise(SIGPIPE);
+  }
+  fmt::print(stderr, "standard output cannot be written: {}\n",
+             errno == 0 ? "a part of it is missing" : std::strerror(errno));
+  return exit_code == 0 ? 1 : exit_code;
+}
+
+}  // namespace muro::host
