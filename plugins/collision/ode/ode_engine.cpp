@@ -12,9 +12,14 @@ using contact_geometry::CollisionGeometry;
 using contact_geometry::EngineContact;
 
 void plan_hull(const mesh::Hull& hull, GeomPlan& plan) {
-  for (const Vec3& v : hull.vertices) plan.points.insert(plan.points.end(), v.data(), v.data() + 3);
+  for (const Vec3& v : hull.vertices) plan.middle += v / double(hull.vertices.size());
+  for (const Vec3& v : hull.vertices) {
+    const Vec3 point = v - plan.middle;
+    plan.points.insert(plan.points.end(), point.data(), point.data() + 3);
+  }
   for (const mesh::Hull::Face& f : hull.faces) {
-    plan.planes.insert(plan.planes.end(), {f.normal.x(), f.normal.y(), f.normal.z(), f.offset});
+    const double offset = f.offset - f.normal.dot(plan.middle);
+    plan.planes.insert(plan.planes.end(), {f.normal.x(), f.normal.y(), f.normal.z(), offset});
     const auto corners = hull.corners_of(f);
     plan.polygons.push_back(unsigned(corners.size()));
     plan.polygons.insert(plan.polygons.end(), corners.begin(), corners.end());
@@ -70,8 +75,10 @@ bool is_rough(int a, int b) {
 
 class OdeNarrowPhase final : public contact_geometry::NarrowPhase {
  public:
-  explicit OdeNarrowPhase(const std::vector<std::unique_ptr<GeomPlan>>& plans) : plans_(plans) {
+  OdeNarrowPhase(const std::vector<std::unique_ptr<GeomPlan>>& plans, ode::MessageLog& messages)
+      : plans_(plans), messages_(messages) {
     ode::prepare_this_thread();
+    const ode::ErrorTrap trap(messages_);
     for (Side& side : sides_)
       for (const auto& plan : plans_) {
         side.geoms.emplace_back(geom_of(*plan));
@@ -81,10 +88,11 @@ class OdeNarrowPhase final : public contact_geometry::NarrowPhase {
 
   void collide(std::uint32_t a, const Pose& at_a, std::uint32_t b, const Pose& at_b,
                std::vector<EngineContact>& contacts) override {
+    const ode::ErrorTrap trap(messages_);
     const bool as_polytope = kind_of(a) == ShapeKind::cylinder || kind_of(b) == ShapeKind::cylinder;
     dxGeom *const first = geom(0, a, as_polytope), *const second = geom(1, b, as_polytope);
-    set_pose(first, at_a);
-    set_pose(second, at_b);
+    set_pose(first, at_a, *plans_[a]);
+    set_pose(second, at_b, *plans_[b]);
     const int count = dCollide(first, second, int(contacts_.size()), contacts_.data(), sizeof contacts_[0]);
     // of a polytope and a mesh ODE does not tell the triangle: its number is one of this query
     const bool names_triangles = plans_[b]->mesh && dGeomGetClass(first) != dConvexClass;
@@ -101,7 +109,7 @@ class OdeNarrowPhase final : public contact_geometry::NarrowPhase {
   }
 
  private:
-  static void set_pose(dxGeom* geom, const Pose& pose) {
+  static void set_pose(dxGeom* geom, const Pose& pose, const GeomPlan& plan) {
     if (dGeomGetClass(geom) == dPlaneClass) {
       const Vec3 n = pose.orientation * Vec3::UnitZ();
       dGeomPlaneSetParams(geom, n.x(), n.y(), n.z(), n.dot(pose.position));
@@ -109,7 +117,8 @@ class OdeNarrowPhase final : public contact_geometry::NarrowPhase {
     }
     dQuaternion q;
     ode::copy_quaternion(q, pose.orientation);
-    dGeomSetPosition(geom, pose.position.x(), pose.position.y(), pose.position.z());
+    const Vec3 at = dGeomGetClass(geom) == dConvexClass ? pose * plan.middle : pose.position;
+    dGeomSetPosition(geom, at.x(), at.y(), at.z());
     dGeomSetQuaternion(geom, q);
   }
 
@@ -124,6 +133,7 @@ class OdeNarrowPhase final : public contact_geometry::NarrowPhase {
     std::vector<Geom> geoms, polytopes;  ///< by number of the geometry; not all have the second
   };
   const std::vector<std::unique_ptr<GeomPlan>>& plans_;
+  ode::MessageLog& messages_;
   std::array<Side, 2> sides_;  ///< for the first and the second of a pair
   std::array<dContactGeom, 1024> contacts_{};
 };
@@ -140,7 +150,10 @@ OdeEngine::~OdeEngine() {
     if (plan->mesh) dGeomTriMeshDataDestroy(plan->mesh);
 }
 
+void OdeEngine::use_log(Host& host) { messages_ = std::make_unique<ode::MessageLog>(host, "collision.ode"); }
+
 void OdeEngine::add(const CollisionGeometry& geometry) {
+  const ode::ErrorTrap trap(*messages_);
   auto plan = std::make_unique<GeomPlan>();
   plan->geometry = &geometry;
   if (geometry.hull) plan_hull(*geometry.hull, *plan);
@@ -150,7 +163,7 @@ void OdeEngine::add(const CollisionGeometry& geometry) {
 }
 
 std::unique_ptr<contact_geometry::NarrowPhase> OdeEngine::make_narrow_phase() const {
-  return std::make_unique<OdeNarrowPhase>(plans_);
+  return std::make_unique<OdeNarrowPhase>(plans_, *messages_);
 }
 
 }  // namespace muro::ode_collision

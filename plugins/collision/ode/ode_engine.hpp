@@ -2,6 +2,7 @@
 #pragma once
 
 #include "plugins/common/contact_geometry/engine.hpp"
+#include "plugins/common/ode/error_trap.hpp"
 #include "plugins/common/ode/ode_library.hpp"
 
 namespace muro::ode_collision {
@@ -9,6 +10,7 @@ namespace muro::ode_collision {
 /// The data of a geom; its arrays keep their addresses, for geoms point to them.
 struct GeomPlan {
   const contact_geometry::CollisionGeometry* geometry = nullptr;
+  Vec3 middle = Vec3::Zero();         ///< of a hull: its polytope is about this point, for ODE wants the origin inside
   std::vector<dReal> planes, points;  ///< of a hull or box
   std::vector<unsigned> polygons;     ///< of the same: count, corners, count, ...
   std::vector<dReal> vertices;        ///< of a mesh
@@ -21,11 +23,13 @@ class OdeEngine final : public contact_geometry::Engine {
  public:
   OdeEngine();
   ~OdeEngine() override;
+  void use_log(Host& host) override;
   void add(const contact_geometry::CollisionGeometry& geometry) override;
   std::unique_ptr<contact_geometry::NarrowPhase> make_narrow_phase() const override;
 
  private:
   std::vector<std::unique_ptr<GeomPlan>> plans_;  ///< by number of the geometry
+  std::unique_ptr<ode::MessageLog> messages_ = std::make_unique<ode::MessageLog>();
 };
 
 }  // namespace muro::ode_collision

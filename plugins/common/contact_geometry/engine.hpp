@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "collision_object.hpp"
+#include "muro/connector.hpp"
 
 namespace muro::contact_geometry {
 
@@ -40,6 +41,8 @@ class Engine {
   Engine& operator=(const Engine&) = delete;
   virtual ~Engine() = default;
 
+  /// Where the engine's messages go. [setup]
+  virtual void use_log(Host& host) { static_cast<void>(host); }
   /// The geometry gets the next number, from 0 on; it outlives the engine at the same address. [setup]
   virtual void add(const CollisionGeometry& geometry) = 0;
   /// [any thread]

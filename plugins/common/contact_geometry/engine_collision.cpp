@@ -35,10 +35,14 @@ EngineCollision::~EngineCollision() = default;
 void EngineCollision::connect(Connector& c) {
   PairCollision::connect(c);
   if (!is_needed()) return;
+  engine_->use_log(c.host());
   const bool exact = c.parameters().text("meshes") == "exact";
+  names_.resize(c.object_count());
   for (std::uint32_t i = 0; i < c.object_count(); ++i)
-    for (const Shape& s : c.constant_array(ObjectId{i}, keys::collision_shapes))
+    for (const Shape& s : c.constant_array(ObjectId{i}, keys::collision_shapes)) {
+      names_[i] = c.object_name(ObjectId{i});
       add_geometries(c, ObjectId{i}, s, exact);
+    }
   std::sort(by_shape_.begin(), by_shape_.end(),
             [](const auto& a, const auto& b) { return std::less<>()(a.first, b.first); });
 }
@@ -123,6 +127,17 @@ void EngineCollision::choose_geometries(const TransformedCollider& a, const Tran
   }
 }
 
+void EngineCollision::ask_engine(const TransformedCollider& a, std::uint32_t number_a, const TransformedCollider& b,
+                                 std::uint32_t number_b, Scratch& scratch) const {
+  try {
+    scratch.narrow_phase->collide(number_a, a.collider->pose(), number_b, b.collider->pose(), scratch.contacts);
+  } catch (const std::exception& failure) {
+    throw Error(quote(names_[index_of(a.collider->body)]) + " and " + quote(names_[index_of(b.collider->body)]) +
+                ": the engine cannot tell whether they touch: " + failure.what() +
+                "; look at their sizes and poses, or use collision.native");
+  }
+}
+
 void EngineCollision::collide(const TransformedCollider& first, const TransformedCollider& second,
                               std::vector<ContactPoint>& points) {
   if (is_plane(second) ? is_clear(first.bounds, second.shape) : is_plane(first) && is_clear(second.bounds, first.shape))
@@ -140,7 +155,7 @@ void EngineCollision::collide(const TransformedCollider& first, const Transforme
   scratch.contacts.clear();
   const CollisionObject object_a{&geometries_[number_a], a->collider->pose(), a->shape},
       object_b{&geometries_[number_b], b->collider->pose(), b->shape};
-  scratch.narrow_phase->collide(number_a, object_a.pose, number_b, object_b.pose, scratch.contacts);
+  ask_engine(*a, number_a, *b, number_b, scratch);
   if (scratch.contacts.empty()) return;
   refine_contacts(object_a, object_b, scratch.contacts, points);
   if (!exchanged) return;

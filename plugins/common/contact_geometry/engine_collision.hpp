@@ -33,6 +33,8 @@ class EngineCollision : public PairCollision {
   };
   struct Scratch;
 
+  void ask_engine(const TransformedCollider& a, std::uint32_t number_a, const TransformedCollider& b,
+                  std::uint32_t number_b, Scratch& scratch) const;
   TransformedShape transformed_shape(std::uint32_t collider) const override;
   void collide(const TransformedCollider& a, const TransformedCollider& b, std::vector<ContactPoint>& points) override;
 
@@ -53,6 +55,7 @@ class EngineCollision : public PairCollision {
   std::vector<std::pair<Shape, GeometryNumbers>> known_;            ///< each shape once
   std::vector<std::pair<const Shape*, GeometryNumbers>> by_shape_;  ///< sorted
   std::vector<GeometryNumbers> by_collider_;
+  std::vector<std::string> names_;  ///< by object; empty for those without shapes
 };
 
 }  // namespace muro::contact_geometry

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "muro/toolkit/joint_drives.hpp"
+#include "plugins/common/watch/parameters.hpp"
 
 namespace muro::multibody {
 
@@ -37,10 +38,16 @@ inline constexpr Parameter correcting_speed =
 inline constexpr Parameter bounce_speed =
     real("bounce_speed", "m/s", 0.02, "impacts slower than this do not rebound").between(0, 1e9);
 
+inline constexpr std::string_view attitudes[] = {"engine", "exact"};
+inline constexpr Parameter attitude =
+    text("attitude", "engine", "who turns robots of one body: the engine, or the solution of Euler's equations")
+        .one_of(attitudes);
+
 /// Those of all engines, in the order in which they are shown.
 inline constexpr Parameter common_parameters[] = {
     world_name,    base_mode,      joint_mode,     velocity_joints, position_joints,
     effort_joints, passive_joints, self_collision, position_gain,   substeps,
+    watch::watch,  watch::watch_speed, watch::watch_depth,
 };
 
 /// The parameters of an engine: those of all engines, then its own.
@@ -56,7 +63,7 @@ constexpr std::array<Parameter, std::size(common_parameters) + n> with_common_pa
 /// Whether robots of one world may differ in it.
 inline bool is_of_robot(std::string_view parameter) {
   for (const Parameter* p : {&world_name, &base_mode, &joint_mode, &self_collision, &velocity_joints, &position_joints,
-                             &effort_joints, &passive_joints})
+                             &effort_joints, &passive_joints, &watch::watch, &watch::watch_speed, &watch::watch_depth})
     if (p->name == parameter) return true;
   return false;
 }

@@ -2,6 +2,8 @@
 #include "external_bodies.hpp"
 
 #include "plugins/common/contact_geometry/contact_responsibility.hpp"
+#include "plugins/common/text/quote.hpp"
+#include "plugins/common/watch/watch.hpp"
 
 namespace muro::multibody {
 
@@ -42,9 +44,16 @@ void ExternalBodies::connect(Connector& c) {
 }
 
 void ExternalBodies::add_to(World& world) {
-  for (const ExternalBody& body : scenery_) world.add_static_body(body);
+  const auto add = [](const ExternalBody& body, const auto& how) {
+    try {
+      how();
+    } catch (const Error& error) {
+      throw Error(quote(body.name) + " is nothing that robots can touch: " + error.what());
+    }
+  };
+  for (const ExternalBody& body : scenery_) add(body, [&] { world.add_static_body(body); });
   import();
-  for (const RobotBody& b : robot_bodies_) world.add_kinematic_body(b.body, b.state);
+  for (const RobotBody& b : robot_bodies_) add(b.body, [&] { world.add_kinematic_body(b.body, b.state); });
 }
 
 void ExternalBodies::import() {
@@ -52,6 +61,9 @@ void ExternalBodies::import() {
     b.state.motion_type = is_moved_by_forces(*b.contact_world) ? MotionType::disabled : MotionType::kinematic;
     b.state.pose = *b.pose;
     b.state.twist = *b.twist;
+    if (!watch::is_somewhere(b.state.pose, b.state.twist))
+      throw Error(quote(b.body.name) +
+                  " has a pose or twist that is not finite, or no orientation; look at what moves it");
   }
 }
 

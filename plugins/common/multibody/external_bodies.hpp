@@ -13,9 +13,9 @@ class ExternalBodies {
  public:
   /// Of the scene, but not of the items' robots nor of the originals of which they are shadows. [setup]
   void connect(Connector& c);
-  /// Adds them, with their present states. [setup]
+  /// Adds them, with their present states. Throws Error with the name of one that the engine cannot take. [setup]
   void add_to(World& world);
-  /// Properties to states.
+  /// Properties to states. Throws Error with the name of a body that is nowhere.
   void import();
 
  private:
@@ -30,7 +30,7 @@ class ExternalBodies {
 
   static ExternalBody body_of(const Connector& c, ObjectId object);
 
-  std::vector<ExternalBody> scenery_;
+  std::deque<ExternalBody> scenery_;
   std::deque<RobotBody> robot_bodies_;
 };
 

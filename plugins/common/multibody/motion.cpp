@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "motion.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine_parameters.hpp"
@@ -37,10 +38,16 @@ void Motion::connect(Connector& c) {
   traits_.motion = description().id;
   traits_.contact_world = number_of_world(fnv1a(p.text(world_name.name), fnv1a(description().id)));
   traits_.twist_lag = 0.5 / substeps_;
+  traits_.advice = advice();
   configure(c);
   for (std::uint32_t i = 0; i < c.items().size(); ++i) connect_robot(c, c.items()[i], c.parameters_of(i));
   external_bodies_.connect(c);
   report_regularized_links(c);
+}
+
+void Motion::connect_by_name(Connector& c) {
+  for (std::uint32_t i = 0; i < c.items().size(); ++i)
+    robots_[i].set_has_contact_law(c.is_used(c.items()[i].robot->base(), keys::contacts, usage::read));
 }
 
 void Motion::check_parameters(const Connector& c) const {
@@ -58,7 +65,7 @@ void Motion::connect_robot(Connector& c, const Item& item, const Parameters& p) 
   model.fixed_base = p.text(base_mode.name) == "fixed";
   model.self_collision = p.boolean(self_collision.name);
   const std::size_t engine_memory = memory_of(model);
-  robots_.emplace_back(std::move(model), item.level).connect(c, view, traits_, engine_memory);
+  robots_.emplace_back(std::move(model), item.level).connect(c, view, p, traits_, engine_memory);
 }
 
 void Motion::report_regularized_links(const Connector& c) const {
@@ -78,8 +85,14 @@ void Motion::start() {
   world_ = make_world();
   external_bodies_.add_to(*world_);
   for (WorldRobot& r : robots_) {
+    r.begin_watch();
     r.import();
-    world_->add_robot(r.model(), r.state());
+    try {
+      world_->add_robot(r.model(), r.state());
+    } catch (const Error& error) {
+      throw Error(quote(r.model().name) + " is no robot for " + std::string(description().id) + ": " + error.what() +
+                  "; look at the masses, inertias, sizes and joints of its model");
+    }
   }
   world_->complete();
 }
@@ -93,11 +106,27 @@ void Motion::step(const Step& step, Range) {
   const double gain = std::min(position_gain_, 1 / dt);
   for (int i = 0; i < substeps_; ++i) {
     for (WorldRobot& r : robots_) r.set_drive_targets(gain);
-    world_->advance(dt);
+    advance(dt);
     for (WorldRobot& r : robots_) r.state().moved_from_outside = false;
   }
   for (WorldRobot& r : robots_)
     if (r.is_dynamic()) r.export_state();
+}
+
+/// An engine that does not say which robot it has failed at mostly has at the one that is nearest to its limits.
+void Motion::advance(double dt) {
+  try {
+    world_->advance(dt);
+  } catch (const RobotFailure& failure) {
+    for (const WorldRobot& r : robots_)
+      if (&r.state() == failure.robot()) throw Error(r.failure_text(failure.what()));
+    throw;
+  } catch (const Error& error) {
+    const auto wildest = std::max_element(robots_.begin(), robots_.end(), [](const WorldRobot& a, const WorldRobot& b) {
+      return a.wildness() < b.wildness();
+    });
+    throw Error(wildest->failure_text(error.what()));
+  }
 }
 
 }  // namespace muro::multibody

@@ -14,6 +14,7 @@ namespace muro::multibody {
 class Motion : public Algorithm {
  public:
   void connect(Connector& c) final;
+  void connect_by_name(Connector& c) final;
   void start() final;
   void restored() final { start(); }
   void on_handover(std::uint32_t item) final;
@@ -28,6 +29,8 @@ class Motion : public Algorithm {
   virtual std::size_t memory_of(const RobotModel& model) const = 0;
   /// Reads the engine's own parameters. [setup]
   virtual void configure(Connector& c) = 0;
+  /// What to try when the engine's forces grow: the end of "try ...".
+  virtual std::string_view advice() const = 0;
   /// An empty world.
   virtual std::unique_ptr<World> make_world() const = 0;
 
@@ -37,6 +40,7 @@ class Motion : public Algorithm {
   void check_parameters(const Connector& c) const;
   void connect_robot(Connector& c, const Item& item, const Parameters& p);
   void report_regularized_links(const Connector& c) const;
+  void advance(double dt);
 
   Vec3 gravity_ = Vec3::Zero();
   WorldRobot::WorldTraits traits_;

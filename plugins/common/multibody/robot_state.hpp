@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "muro/geometry.hpp"
@@ -33,6 +34,18 @@ struct JointState {
   DriveTarget target;
 };
 
+/// Where a robot overlaps scenery.
+struct Overlap {
+  double depth = 0;                       ///< m
+  std::uint32_t loaded_link = 0;          ///< see RobotModel
+  const std::string* obstacle = nullptr;  ///< its name; null where nothing overlaps
+
+  /// Keeps the deeper one.
+  void add(double other_depth, std::uint32_t link, const std::string& name) {
+    if (other_depth > depth) *this = {other_depth, link, &name};
+  }
+};
+
 /// State of a robot, in and out.
 struct RobotState {
   MotionType motion_type = MotionType::dynamic;
@@ -41,6 +54,7 @@ struct RobotState {
   std::vector<JointState> joints;    ///< one per body
   std::vector<Wrench> external;      ///< in: one per body, at the body's origin, world axes
   std::vector<Wrench> contact;       ///< out: one per loaded link, at its body's origin: by contacts in the world
+  Overlap overlap;                   ///< out: the deepest with scenery in the last step
   bool moved_from_outside = false;   ///< in: it is not where the last step left it
   bool has_external_wrench = false;  ///< in: some `external` is not zero
   std::span<double> memory;          ///< in and out: what the engine keeps of it, part of the state

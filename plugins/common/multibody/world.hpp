@@ -5,12 +5,23 @@
 #include <memory>
 
 #include "forward_kinematics.hpp"
+#include "muro/algorithm.hpp"
 
 namespace muro::multibody {
 
+/// A failure of an engine that tells the robot.
+class RobotFailure : public Error {
+ public:
+  RobotFailure(const std::string& text, const RobotState& robot) : Error(text), robot_(&robot) {}
+  const RobotState* robot() const { return robot_; }
+
+ private:
+  const RobotState* robot_;
+};
+
 /// A body that the world does not move: scenery, or a body of a robot that another motion moves.
 struct ExternalBody {
-  std::string name;
+  std::string name;  ///< the body and its name stay where they are
   std::vector<BodyShape> shapes;
   Pose pose;  ///< of scenery
 };
@@ -39,7 +50,8 @@ class World {
   virtual void add_robot(const RobotModel& model, RobotState& state) = 0;
   /// Everything has been added; states hold the start.
   virtual void complete() = 0;
-  /// Carries all dynamic robots on by `dt` (s). Throws Error when the engine fails.
+  /// Carries all dynamic robots on by `dt` (s). Throws Error with the engine's words when it fails; it is not used again
+  /// then.
   virtual void advance(double dt) = 0;
 };
 

@@ -11,13 +11,6 @@
 
 namespace muro::multibody {
 
-namespace {
-
-/// m, rad, m/s, rad/s: engines that diverge pass this on their way to infinity, and may stay beyond it.
-constexpr double diverged = 1e12;
-
-}  // namespace
-
 WorldRobot::WorldRobot(RobotModel model, std::uint32_t level) : model_(std::move(model)), level_(level) {
   const std::size_t bodies = model_.bodies.size();
   state_.joints.resize(bodies);
@@ -26,26 +19,33 @@ WorldRobot::WorldRobot(RobotModel model, std::uint32_t level) : model_(std::move
   body_states_.resize(bodies);
 }
 
-void WorldRobot::connect(Connector& c, const RobotView& view, const WorldTraits& traits, std::size_t engine_memory) {
+void WorldRobot::connect(Connector& c, const RobotView& view, const Parameters& p, const WorldTraits& traits,
+                         std::size_t engine_memory) {
+  const watch::Reach reach = watch::reach_of(c, view);
+  watch_ = watch::Watch(c, p, reach);
+  advice_ = traits.advice;
   active_level_ = c.input(view.base(), keys::motion_level, std::uint32_t{0});
   contact_world_ = c.variable(view.base(), keys::contact_world, traits.contact_world);
   twist_lag_ = c.variable(view.base(), keys::twist_lag, traits.twist_lag);
   pose_ = c.variable(view.base(), keys::pose, c.constant(view.base(), keys::initial_pose).value_or(Pose{}));
   const Twist initial_twist = c.constant(view.base(), keys::initial_twist).value_or(Twist{});
   twist_ = c.variable(view.base(), keys::twist, model_.fixed_base ? Twist{} : initial_twist);
-  connect_joints(c, view);
+  connect_joints(c, view, reach);
   connect_links(c, view);
   connect_memory(c, view, traits.motion, engine_memory);
 }
 
-void WorldRobot::connect_joints(Connector& c, const RobotView& view) {
+void WorldRobot::connect_joints(Connector& c, const RobotView& view, const watch::Reach& reach) {
   joints_.resize(model_.bodies.size());
+  joint_names_.resize(joints_.size());
   for (std::size_t i = 1; i < joints_.size(); ++i) {
     const RigidBody& body = model_.bodies[i];
     const ObjectId object = view.links[body.link].joint_object;
     const double start = model_.initial_positions[i];
     check_start(c, object, body.limits, start);
     Joint& j = joints_[i];
+    joint_names_[i] = c.object_name(object);
+    j.reach_square = body.joint == JointKind::revolute ? std::pow(reach.of_link[body.link], 2) : 1;
     j.position = c.variable(object, keys::joint_position, start);
     j.velocity = c.variable(object, keys::joint_velocity, 0.0);
     j.effort = c.derived(object, keys::joint_effort);
@@ -57,6 +57,7 @@ void WorldRobot::connect_links(Connector& c, const RobotView& view) {
   for (const LoadedLink& loaded : model_.loaded_links) {
     const ObjectId object = view.links[loaded.link].object;
     LinkWrenches& w = wrenches_.emplace_back();
+    link_names_.emplace_back(c.object_name(object));
     w.external = c.read_sum(object, keys::external_wrench);
     if (loaded.has_shapes) w.contact = c.derived(object, keys::contact_wrench);
   }
@@ -72,6 +73,12 @@ void WorldRobot::connect_memory(Connector& c, const RobotView& view, std::string
   auto* block = static_cast<double*>(c.state_block(view.base(), name, bytes));
   last_ = LastState({block, last});
   state_.memory = {block + last, engine_memory};
+}
+
+void WorldRobot::begin_watch() {
+  watch_begins_ = true;
+  for (const LinkWrenches& w : wrenches_)
+    if (w.external.size() > (has_contact_law_ ? 1 : 0)) watch_.allow_pushes();
 }
 
 void WorldRobot::take_over(const WorldTraits& traits) {
@@ -95,9 +102,16 @@ void WorldRobot::import() {
   if (!is_dynamic()) {
     if (last_.is_valid() && !is_in_world(*contact_world_)) clear_outputs();
     last_.invalidate();
+    check_input();
     return;
   }
   s.moved_from_outside = !last_.matches(s);
+  if (s.moved_from_outside) check_input();
+  if (s.moved_from_outside || watch_begins_) {
+    watch_.begin(s.pose.position, s.twist);
+    watch_begins_ = true;
+  }
+  s.overlap = {};
   import_wrenches();
 }
 
@@ -114,6 +128,9 @@ void WorldRobot::import_wrenches() {
     for (std::uint64_t k = 0; k < link.external.size(); ++k) {
       const Wrench& w = *link.external.contribution(k);
       state_.has_external_wrench = state_.has_external_wrench || !w.force.isZero(0) || !w.torque.isZero(0);
+      if (!std::isfinite(w.force.sum() + w.torque.sum()))
+        throw Error("the sum of the external wrenches on " + quote(link_names_[std::size_t(&link - wrenches_.data())]) +
+                    " is not finite; look at what adds to its `wrench.external`");
     }
   for (Wrench& w : state_.external) w = Wrench{};
   if (!state_.has_external_wrench) return;
@@ -133,12 +150,13 @@ void WorldRobot::set_drive_targets(double position_gain) {
     JointState& joint = state_.joints[i];
     const JointState* const leader = body.leader >= 0 ? &state_.joints[std::size_t(body.leader)] : nullptr;
     joint.target = drive_target_of(body, joint, leader, joints_[i].target.get(), position_gain);
+    if (!std::isfinite(joint.target.velocity + joint.target.effort))
+      throw Error("the target of " + quote(joint_names_[i]) + " is not finite; look at what writes its `joint.*.target`");
   }
 }
 
 void WorldRobot::export_state() {
   const RobotState& s = state_;
-  double sum = s.pose.position.lpNorm<1>() + s.twist.linear.lpNorm<1>() + s.twist.angular.lpNorm<1>();
   *pose_ = s.pose;
   *twist_ = s.twist;
   for (std::size_t i = 1; i < joints_.size(); ++i) {
@@ -146,14 +164,84 @@ void WorldRobot::export_state() {
     *joints_[i].position = j.position;
     *joints_[i].velocity = j.velocity;
     *joints_[i].effort = j.effort;
-    sum += std::abs(j.position) + std::abs(j.velocity);
   }
-  if (!(sum < diverged))
-    throw Error("the motion of " + quote(model_.name) +
-                " is no longer finite: forces grow from step to step; raise the rate or `substeps`, or look at what "
-                "commands its joints and at masses of its links that differ much");
+  if (watch_begins_) watch_.begin_overlap(s.overlap.depth);
+  watch_begins_ = false;
+  if (!is_within_limits()) {
+    const bool too_deep = !watch_.allows_depth(s.overlap.depth);
+    throw Error(failure_text(broken_limit()) +
+                (std::isfinite(wildness()) ? watch::how_to_go_on(too_deep ? "watch_depth" : "watch_speed") : ""));
+  }
   export_contacts();
   last_.store(s);
+}
+
+bool WorldRobot::is_within_limits() const {
+  const RobotState& s = state_;
+  bool fine = watch_.allows(s.pose.position, s.twist) && watch_.allows_depth(s.overlap.depth);
+  const double square = watch_.allowed_square(s.pose.position);
+  for (std::size_t i = 1; i < joints_.size(); ++i)
+    fine = fine && s.joints[i].velocity * s.joints[i].velocity * joints_[i].reach_square < square &&
+           std::abs(s.joints[i].position) < watch::beyond;
+  return fine;
+}
+
+double WorldRobot::wildness() const {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const RobotState& s = state_;
+  if (!watch::is_somewhere(s.pose, s.twist)) return infinity;
+  double square = s.twist.linear.squaredNorm();
+  for (std::size_t i = 1; i < joints_.size(); ++i) {
+    const double velocity = s.joints[i].velocity;
+    if (!(std::abs(velocity) + std::abs(s.joints[i].position) < watch::beyond)) return infinity;
+    square = std::max(square, velocity * velocity * joints_[i].reach_square);
+  }
+  return std::max(std::sqrt(square / watch_.allowed_square(s.pose.position)), s.overlap.depth / watch_.depth());
+}
+
+/// Which limit of the watch the present state passes.
+std::string WorldRobot::broken_limit() const {
+  const RobotState& s = state_;
+  if (!watch_.allows_depth(s.overlap.depth))
+    return watch_.depth_text(quote(link_names_[s.overlap.loaded_link]), quote(*s.overlap.obstacle), s.overlap.depth);
+  if (!watch_.allows(s.pose.position, s.twist)) return watch_.speed_text(s.pose.position, s.twist);
+  for (std::size_t i = 1; i < joints_.size(); ++i) {
+    const double speed = std::abs(s.joints[i].velocity) * std::sqrt(joints_[i].reach_square);
+    if (!(speed * speed < watch_.allowed_square(s.pose.position)))
+      return watch_.speed_text(s.pose.position, "what " + quote(joint_names_[i]) + " carries moves", speed);
+  }
+  return "its joints are no longer finite";
+}
+
+std::string WorldRobot::likely_cause() const {
+  const RobotState& s = state_;
+  if (s.overlap.obstacle && s.overlap.depth > 0.01)
+    return "it is " + std::to_string(s.overlap.depth) + " m deep in " + quote(*s.overlap.obstacle) +
+           ": start it clear of that";
+  double force = 0, least = model_.mass, most = 0;
+  for (const Wrench& w : s.external) force = std::max(force, w.force.norm());
+  for (const RigidBody& body : model_.bodies) {
+    least = std::min(least, body.inertia.mass);
+    most = std::max(most, body.inertia.mass);
+  }
+  if (constexpr double hard_push = 1e4; force > hard_push * model_.mass)  // m/s^2
+    return "an external force of " + std::to_string(force) + " N acts on it";
+  if (constexpr double far_apart = 1e3; most > far_apart * least)
+    return "masses of its links differ by a factor of " + std::to_string(std::llround(most / least));
+  return "forces that grow from step to step, since steps are too long for its drives, joints or contacts";
+}
+
+std::string WorldRobot::failure_text(const std::string& failure) const {
+  return quote(model_.name) + ": " + failure + ". Likely cause: " + likely_cause() + "; try " + std::string(advice_);
+}
+
+void WorldRobot::check_input() const {
+  bool fine = watch::is_somewhere(state_.pose, state_.twist);
+  for (std::size_t i = 1; i < joints_.size(); ++i)
+    fine = fine && std::abs(state_.joints[i].position) + std::abs(state_.joints[i].velocity) < watch::beyond;
+  if (!fine)
+    throw Error(quote(model_.name) +
+                " has a pose, a twist or a joint that is not finite, or no orientation; look at what writes them");
 }
 
 void WorldRobot::export_contacts() {

@@ -3,6 +3,7 @@
 
 #include "last_state.hpp"
 #include "muro/algorithm.hpp"
+#include "plugins/common/watch/watch.hpp"
 #include "world.hpp"
 
 namespace muro::multibody {
@@ -15,30 +16,44 @@ class WorldRobot {
     std::string_view motion;          ///< id of the algorithm
     std::uint64_t contact_world = 0;  ///< see keys::contact_world
     double twist_lag = 0;             ///< see keys::twist_lag
+    std::string_view advice;          ///< what to try when forces grow
   };
 
   WorldRobot(RobotModel model, std::uint32_t level);
 
   /// `engine_memory`: how many numbers the engine keeps of the robot. [setup]
-  void connect(Connector& c, const RobotView& view, const WorldTraits& traits, std::size_t engine_memory);
+  void connect(Connector& c, const RobotView& view, const Parameters& p, const WorldTraits& traits,
+               std::size_t engine_memory);
+  /// Whether one of those that add to its external wrenches is the contact algorithm. [setup]
+  void set_has_contact_law(bool has) { has_contact_law_ = has; }
 
   const RobotModel& model() const { return model_; }
   RobotState& state() { return state_; }
+  const RobotState& state() const { return state_; }
   bool is_dynamic() const { return state_.motion_type == MotionType::dynamic; }
 
+  /// The run begins or goes on from where the robot is at the next import. [setup]
+  void begin_watch();
   /// The world moves the robot from now on.
   void take_over(const WorldTraits& traits);
-  /// Properties to state.
+  /// Properties to state. Throws Error when they are not those of a body.
   void import();
-  /// Sets what drives are to do in a step of the engine. `position_gain`: 1/s.
+  /// Sets what drives are to do in a step of the engine. `position_gain`: 1/s. Throws Error for targets that are not
+  /// finite.
   void set_drive_targets(double position_gain);
-  /// State to properties. Throws Error when it is not finite.
+  /// State to properties. Throws Error when it passes the limits of the watch.
   void export_state();
+
+  /// How near its motion is to the limits of the watch; above 1 beyond them, infinite when it is not finite.
+  double wildness() const;
+  /// A message on a failure of the engine: with the name of the robot, what it did last and what to try.
+  std::string failure_text(const std::string& failure) const;
 
  private:
   struct Joint {
     Out<double> position, velocity, effort;
     In<double> target;
+    double reach_square = 0;  ///< m^2, see watch::Reach; 1 for a joint that shifts
   };
   /// Of a loaded link.
   struct LinkWrenches {
@@ -46,15 +61,23 @@ class WorldRobot {
     Out<Wrench> contact;  ///< by contacts in the own world; none without shapes
   };
 
-  void connect_joints(Connector& c, const RobotView& view);
+  void connect_joints(Connector& c, const RobotView& view, const watch::Reach& reach);
   void connect_links(Connector& c, const RobotView& view);
   void connect_memory(Connector& c, const RobotView& view, std::string_view motion, std::size_t engine_memory);
   void import_wrenches();
   void export_contacts();
   void clear_outputs() const;
+  void check_input() const;
+  bool is_within_limits() const;
+  std::string broken_limit() const;
+  std::string likely_cause() const;
 
   RobotModel model_;
   RobotState state_;
+  watch::Watch watch_;
+  bool watch_begins_ = true;      ///< with the present step
+  bool has_contact_law_ = false;  ///< adds to external wrenches
+  std::string_view advice_;
   std::uint32_t level_;  ///< the motion.level at which this world moves the robot
   In<std::uint32_t> active_level_;
   Out<std::uint64_t> contact_world_;
@@ -63,6 +86,7 @@ class WorldRobot {
   Out<Twist> twist_;
   std::vector<Joint> joints_;           ///< one per body
   std::vector<LinkWrenches> wrenches_;  ///< one per loaded link
+  std::vector<std::string> joint_names_, link_names_;  ///< the same; for messages
   LastState last_;
   std::vector<BodyState> body_states_;  ///< scratch
 };

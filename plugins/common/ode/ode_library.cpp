@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "ode_library.hpp"
 
+#include "error_trap.hpp"
 #include "muro/algorithm.hpp"
 
 namespace muro::ode {
@@ -14,6 +15,7 @@ void start_library() {
   };
   static const Library library;
   if (!library.runs) throw Error("ODE cannot be started");
+  set_error_handlers();
 }
 
 void prepare_this_thread() {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "gl_errors.hpp"
 #include "image.hpp"
 
 namespace muro::render {
@@ -59,6 +60,7 @@ GpuScene::GpuScene(const Scene& scene)
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_GREATER);
   make_groups();
+  check_gl("take the scene over");
 }
 
 void GpuScene::upload_surfaces() {

@@ -29,6 +29,9 @@ inline constexpr Parameter roller_angle =
           "from a wheel's rolling direction to the axis of the roller on the ground: one for all, or one a wheel; "
           "default: mecanum (pi/4) or omni wheels (0), as they stand");
 
+/// rad/s, m/s: a command that asks for more is a mistake.
+inline constexpr double fastest = 1e12;
+
 // What they can do.
 inline constexpr Parameter max_wheel_speed =
     real("max_wheel_speed", "rad/s", unlimited, "of every driven wheel; the limit of its joint holds as well")

@@ -136,9 +136,9 @@ class WheelMotion : public PerRobotAlgorithm<WheeledRobot> {
     }
     pose.orientation.normalize();
     *r.twist = in_world(pose, velocity);
-    if (!std::isfinite(velocity.x + velocity.y + velocity.yaw_rate))
+    if (!(std::abs(velocity.x) + std::abs(velocity.y) + std::abs(velocity.yaw_rate) < fastest))
       throw Error("a wheel of `" + std::string(r.name) +
-                  "` is to turn at a speed that is not finite; look at what writes "
+                  "` is to turn at a speed that is not finite, or moves it faster than 1e12 m/s; look at what writes "
                   "`joint.velocity.target`");
   }
 

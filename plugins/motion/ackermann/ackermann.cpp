@@ -146,9 +146,9 @@ class Ackermann final : public PerRobotAlgorithm<AckermannRobot> {
       w.ramp = velocity_ramp(*w.velocity, std::clamp(*w.target, -w.max_speed, w.max_speed), max_acceleration_, dt);
       sum += w.ramp.final;
     }
-    if (!std::isfinite(sum))
+    if (!(std::abs(sum) < fastest))
       throw Error("a joint of `" + std::string(r.name) +
-                  "` is to turn at a speed or to an angle that is not finite; look at what writes "
+                  "` is to turn at a speed or to an angle that is not finite, or beyond 1e12; look at what writes "
                   "`joint.velocity.target` and `joint.position.target`");
   }
 

@@ -49,6 +49,7 @@ class BulletMotion final : public multibody::Motion {
   std::unique_ptr<multibody::World> make_world() const override {
     return std::make_unique<bullet::BulletWorld>(settings_, meshes_);
   }
+  std::string_view advice() const override { return "a higher rate, `substeps` or more `iterations`"; }
 
   bullet::BulletSettings settings_;
   std::shared_ptr<const bullet::BulletMeshes> meshes_;

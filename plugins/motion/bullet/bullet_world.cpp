@@ -26,6 +26,7 @@ Collider& BulletWorld::add_collider(const multibody::BodyShape& shape, bool move
 void BulletWorld::add_static_body(const multibody::ExternalBody& body) {
   for (const multibody::BodyShape& s : body.shapes) {
     Collider& c = add_collider(s, false);
+    c.scenery = &body.name;
     c.move_to(body.pose, half_margin);
     if (c.kind == ShapeKind::plane)
       planes_.push_back(c.number);
@@ -203,6 +204,9 @@ void BulletWorld::find_contacts(double dt) {
     for (; robot < std::size_t(p.a->robot); ++robot) first_contact_[robot + 1] = std::uint32_t(contacts_.size());
     const int n = narrow_phase_.find(*p.a, *p.b, points);
     if (n == 0) continue;
+    if (p.b->scenery)
+      for (int i = 0; i < n; ++i)
+        robots_[std::size_t(p.a->robot)].state().overlap.add(-points[i].gap, p.a->loaded_link, *p.b->scenery);
     const BodyState a = state_of(*p.a), b = state_of(*p.b);
     for (int i = 0; i < n; ++i) {
       const Vec3& at = points[i].position;

@@ -26,7 +26,9 @@ constexpr Parameter own_parameters[] = {
     real("friction_ratio", "1", 500, "by how much contacts are harder along the surfaces than across").between(1, 1e4),
     integer("refinements", 2, "solutions of a step beyond the first, where bodies begin or cease to slide; 0: one")
         .between(0, 100),
+    multibody::correcting_speed,
     multibody::bounce_speed,
+    multibody::attitude,
     boolean("several_contacts", true, "cylinders, capsules and meshes touch in several points where they lie flat"),
 };
 constexpr auto parameters = multibody::with_common_parameters(own_parameters);
@@ -42,6 +44,7 @@ class MujocoMotion final : public multibody::Motion {
   void configure(Connector& c) override {
     const Parameters& p = c.parameters();
     settings_.gravity = gravity();
+    warnings_ = std::make_shared<mujoco::WarningLog>(c.host());
     settings_.solver = int(std::find(std::begin(solvers), std::end(solvers), p.text("solver")) - std::begin(solvers));
     settings_.iterations = int(p.integer("iterations"));
     settings_.tolerance = p.real("tolerance");
@@ -49,18 +52,22 @@ class MujocoMotion final : public multibody::Motion {
     settings_.impedance = p.real("impedance");
     settings_.friction_ratio = p.real("friction_ratio");
     settings_.refinements = int(p.integer("refinements"));
+    settings_.correcting_speed = p.real(multibody::correcting_speed.name);
     settings_.bounce_speed = p.real(multibody::bounce_speed.name);
+    settings_.exact_attitude = p.text(multibody::attitude.name) == "exact";
     settings_.several_contacts = p.boolean("several_contacts");
     meshes_.load(
         c, false, [](const mesh::Hull& hull) { return hull.vertices; },
         [](const mesh::Mesh& mesh) { return mesh.vertices; });
   }
   std::unique_ptr<multibody::World> make_world() const override {
-    return std::make_unique<mujoco::MujocoWorld>(settings_, meshes_);
+    return std::make_unique<mujoco::MujocoWorld>(settings_, meshes_, warnings_);
   }
+  std::string_view advice() const override { return "a higher rate or `substeps`"; }
 
   mujoco::MujocoSettings settings_;
   mujoco::MujocoMeshes meshes_;
+  std::shared_ptr<mujoco::WarningLog> warnings_;
 };
 
 constexpr abi::AlgorithmEntry algorithms[] = {algorithm<MujocoMotion>(mujoco_description)};

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "muro/toolkit/elementary.hpp"
+
 namespace muro::mujoco {
 
 namespace {
@@ -18,6 +20,16 @@ Vec3 vector_of(const mjtNum* v) { return {v[0], v[1], v[2]}; }
 void MujocoContacts::prepare(const MujocoSettings& settings, std::size_t geoms) {
   settings_ = settings;
   owners_.assign(geoms, {});
+}
+
+void MujocoContacts::report_overlaps(const mjData& d, std::deque<MujocoRobot>& robots) const {
+  for (int i = 0; i < d.ncon; ++i) {
+    const mjContact& c = d.contact[i];
+    const GeomOwner &a = owners_[std::size_t(c.geom1)], &b = owners_[std::size_t(c.geom2)];
+    const GeomOwner &robot = a.robot >= 0 ? a : b, &other = a.robot >= 0 ? b : a;
+    if (other.scenery && robot.robot >= 0)
+      robots[std::size_t(robot.robot)].state().overlap.add(-c.dist, robot.loaded_link, *other.scenery);
+  }
 }
 
 void MujocoContacts::set_friction(mjData& d) {
@@ -47,7 +59,7 @@ void MujocoContacts::set_reference(mjData& d, int id, int row, double dt) {
   for (int k = 0; k < c.dim; ++k) speed[k] += d.efc_vel[row + k];
   mjtNum* target = d.efc_aref + row;
   const double restitution = std::max(a.restitution, b.restitution);
-  const double recovery = -c.dist / std::max(settings_.time_constant, 2 * dt);
+  const double recovery = std::min(-c.dist / std::max(settings_.time_constant, 2 * dt), settings_.correcting_speed);
   const bool impact = speed[0] < -settings_.bounce_speed, bounces = impact && restitution > 0;
   target[0] = ((bounces ? std::max(-restitution * speed[0], recovery) : recovery) - speed[0]) / dt;
   for (int k = 1; k < c.dim; ++k) target[k] = -speed[k] / dt;
@@ -55,7 +67,7 @@ void MujocoContacts::set_reference(mjData& d, int id, int row, double dt) {
   reference = {target[0], infinity};
   // accelerations of the last step say nothing of an impact, and must not hide it
   if (impact && c.dim == 3)
-    reference.max_friction = std::hypot(target[1] - d.efc_b[row + 1], target[2] - d.efc_b[row + 2]);
+    reference.max_friction = elementary::hypot(target[1] - d.efc_b[row + 1], target[2] - d.efc_b[row + 2]);
   for (int k = 0; bounces && k < c.dim; ++k) {
     d.efc_R[row + k] *= (1 / mjMAXIMP - 1) / (1 / settings_.impedance - 1);
     d.efc_D[row + k] = 1 / d.efc_R[row + k];
@@ -74,7 +86,7 @@ double MujocoContacts::correct_for_sliding(const mjModel& m, mjData& d, const mj
     const Reference& reference = references_[std::size_t(i)];
     const double x = rows_[std::size_t(row) + 1] - d.efc_aref[row + 1];
     const double y = rows_[std::size_t(row) + 2] - d.efc_aref[row + 2];
-    const double normal = reference.normal - c.friction[0] * std::min(std::hypot(x, y), reference.max_friction);
+    const double normal = reference.normal - c.friction[0] * std::min(elementary::hypot(x, y), reference.max_friction);
     largest_change = std::max(largest_change, std::abs(normal - d.efc_aref[row]));
     d.efc_aref[row] = normal;
   }

@@ -15,6 +15,7 @@ struct GeomOwner {
   std::uint32_t body = 0;         ///< of the robot
   std::uint32_t loaded_link = 0;  ///< see BodyShape
   double friction = 0, restitution = 0;
+  const std::string* scenery = nullptr;  ///< its name; null for what moves
   /// Of what is posed from outside and has no degrees of freedom: pose and velocity, none where it rests.
   const Pose* pose = nullptr;
   const Twist* twist = nullptr;
@@ -26,6 +27,8 @@ class MujocoContacts {
   void prepare(const MujocoSettings& settings, std::size_t geoms);
   GeomOwner& owner_of(int geom) { return owners_[std::size_t(geom)]; }
 
+  /// Tells robots how deep they are in scenery.
+  void report_overlaps(const mjData& d, std::deque<MujocoRobot>& robots) const;
   /// Friction of what has been found to touch.
   void set_friction(mjData& d);
   /// What the rows of contact `id`, from `row` on, aim at in a step of `dt` (s). mjData::efc_b holds the accelerations

@@ -15,7 +15,10 @@ constexpr const char* too_big =
     "`world`";
 
 void raise(const char* text) { throw LibraryError{text}; }
-void ignore(const char*) {}
+
+/// What MuJoCo warned of last in this thread.
+thread_local char last_warning[500];
+void keep(const char* text) { std::snprintf(last_warning, sizeof last_warning, "%s", text); }
 
 /// MuJoCo keeps what it has read last, one a process.
 std::mutex& compiling() {
@@ -29,12 +32,17 @@ void catch_errors() {
   static std::once_flag once;
   std::call_once(once, [] {
     if (!mju_user_error) mju_user_error = &raise;
-    if (!mju_user_warning) mju_user_warning = &ignore;
+    if (!mju_user_warning) mju_user_warning = &keep;
   });
 }
 
-Model compile(const std::string& mjcf) {
+void WarningLog::tell(const std::string& text) {
+  if (told_.insert(text).second) host_.log(LogLevel::warning, "motion.mujoco: MuJoCo says: " + text);
+}
+
+Model compile(const std::string& mjcf, WarningLog& warnings) {
   catch_errors();
+  last_warning[0] = 0;
   const std::lock_guard lock(compiling());
   const auto files = std::make_unique<mjVFS>();
   mj_defaultVFS(files.get());
@@ -57,6 +65,7 @@ Model compile(const std::string& mjcf) {
     std::replace(std::begin(text), std::end(text), '\n', ' ');
     throw Error("MuJoCo cannot make a model of this world; mend the link or joint that it names: " + std::string(text));
   }
+  if (last_warning[0]) warnings.tell(last_warning);
   return model;
 }
 

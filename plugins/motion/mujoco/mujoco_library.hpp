@@ -5,7 +5,10 @@
 #include <mujoco/mujoco.h>
 
 #include <memory>
+#include <set>
 #include <string>
+
+#include "muro/connector.hpp"
 
 namespace muro::mujoco {
 
@@ -21,12 +24,23 @@ struct LibraryError {
   std::string text;
 };
 
+/// What MuJoCo's compiler warns of, each text once, through the log of a host.
+class WarningLog {
+ public:
+  explicit WarningLog(Host& host) : host_(host) {}
+  void tell(const std::string& text);
+
+ private:
+  Host& host_;
+  std::set<std::string> told_;
+};
+
 /// From now on errors of MuJoCo in this process throw LibraryError, unless the process has its own handler, and
-/// warnings are neither printed nor written to a file: mjData::warning has them. [any thread]
+/// warnings are neither printed nor written to a file: those of steps are in mjData::warning. [any thread]
 void catch_errors();
 
 /// Compiles a model. Throws muro::Error with the compiler's text. [any thread]
-Model compile(const std::string& mjcf);
+Model compile(const std::string& mjcf, WarningLog& warnings);
 
 /// Data for a model. Throws muro::Error when there is no memory for it. [any thread]
 Data make_data(const mjModel& model);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mjcf.hpp"
+#include "plugins/common/multibody/free_rotation.hpp"
 
 namespace muro::mujoco {
 
@@ -105,7 +106,14 @@ void MujocoRobot::set_state(mjData& d) const {
     std::fill_n(d.qacc_warmstart + first_dof_, dof_count_, 0.0);
 }
 
+/// Euler's equations are solved when the step is done: see export_state. MuJoCo has the spin in axes of the body.
+void MujocoRobot::cancel_gyroscopic_torque(mjData& d) const {
+  const Vec3 spin = vector_of(d.qvel + first_dof_ + 3);
+  copy(d.qfrc_applied + first_dof_ + 3, Vec3(spin.cross(model_->bodies[0].inertia.tensor() * spin)));
+}
+
 void MujocoRobot::set_forces(mjData& d) {
+  if (rotates_exactly_) cancel_gyroscopic_torque(d);
   const bool has_forces = state_->has_external_wrench && motion_type_ == MotionType::dynamic;
   if (!has_forces && !has_forces_) return;
   has_forces_ = has_forces;
@@ -139,8 +147,16 @@ void MujocoRobot::export_state(const mjData& d) {
   if (motion_type_ != MotionType::dynamic) return;
   multibody::RobotState& s = *state_;
   if (mocap_ < 0) {
+    const Quat start = s.pose.orientation;
     s.pose.orientation = quaternion_of(d.qpos + base_position_ + 3);
     s.twist.angular = s.pose.orientation * vector_of(d.qvel + first_dof_ + 3);
+    if (rotates_exactly_) {
+      const Mat3 inertia = model_->bodies[0].inertia.tensor();
+      multibody::FreeRotation free{start, start * vector_of(d.qvel + first_dof_ + 3)};
+      free.advance(inertia, inertia.inverse(), dt_);
+      s.pose.orientation = free.orientation;
+      s.twist.angular = free.spin;
+    }
     const Vec3 arm = s.pose.orientation * model_->bodies[0].inertia.com;
     s.pose.position = vector_of(d.qpos + base_position_) - arm;
     s.twist.linear = vector_of(d.qvel + first_dof_) - s.twist.angular.cross(arm);

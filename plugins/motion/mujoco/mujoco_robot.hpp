@@ -23,8 +23,12 @@ class MujocoRobot {
     return model.bodies.size() - 1 + (model.fixed_base ? 0 : 6);
   }
 
-  MujocoRobot(const multibody::RobotModel& model, multibody::RobotState& state, std::size_t owner)
-      : model_(&model), state_(&state), owner_(owner) {}
+  /// `exact_attitude`: see MujocoSettings.
+  MujocoRobot(const multibody::RobotModel& model, multibody::RobotState& state, std::size_t owner, bool exact_attitude)
+      : model_(&model),
+        state_(&state),
+        owner_(owner),
+        rotates_exactly_(exact_attitude && model.bodies.size() == 1 && !model.fixed_base) {}
 
   /// Finds its bodies in the compiled model, and puts in what the compiler has changed.
   void find_indices(mjModel& m);
@@ -45,7 +49,9 @@ class MujocoRobot {
                    const Vec3& point) const;
 
   const multibody::RobotModel& model() const { return *model_; }
-  const multibody::RobotState& state() const { return *state_; }
+  multibody::RobotState& state() const { return *state_; }
+  /// Whether this degree of freedom of the world is one of the robot's.
+  bool has_dof(int number) const { return number >= first_dof_ && number < first_dof_ + dof_count_; }
   std::size_t owner() const { return owner_; }
   /// In the engine, of a body.
   int body(std::size_t number) const { return bodies_[number]; }
@@ -55,11 +61,13 @@ class MujocoRobot {
   void set_motion_type(mjModel& m);
   void set_state(mjData& d) const;
   void set_joint(mjModel& m, mjData& d, std::size_t number, std::span<double> target_velocities) const;
+  void cancel_gyroscopic_torque(mjData& d) const;
   Vec3 rotated(const mjData& d, std::size_t number, const Vec3& v) const;
 
   const multibody::RobotModel* model_;
   multibody::RobotState* state_;
   std::size_t owner_;
+  bool rotates_exactly_;
   int first_dof_ = 0, dof_count_ = 0;           ///< degrees of freedom
   int base_position_ = 0;                       ///< of a free base, in qpos
   int mocap_ = -1;                              ///< of a fixed base

@@ -15,7 +15,9 @@ struct MujocoSettings {
   double impedance = 0.95;       ///< of contacts, MuJoCo's d: what part of its demand a constraint gets
   double friction_ratio = 500;   ///< impratio: by how much friction is harder than the normal direction
   int refinements = 2;           ///< solutions of a step beyond the first, at most
+  double correcting_speed = 1;   ///< m/s: bodies that overlap are parted no faster
   double bounce_speed = 0.02;    ///< m/s: slower impacts do not rebound
+  bool exact_attitude = false;   ///< of robots of one body: their free rotation is not left to MuJoCo
   bool several_contacts = true;  ///< mjENBL_MULTICCD
 };
 

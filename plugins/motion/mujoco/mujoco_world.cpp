@@ -27,7 +27,7 @@ void MujocoWorld::add_kinematic_body(const multibody::ExternalBody& body, const 
 }
 
 void MujocoWorld::add_robot(const multibody::RobotModel& model, multibody::RobotState& state) {
-  robots_.emplace_back(model, state, owners_);
+  robots_.emplace_back(model, state, owners_, settings_.exact_attitude);
   mjcf_.add_robot(model, owners_++);
 }
 
@@ -38,7 +38,7 @@ void MujocoWorld::complete() {
     for (const multibody::RigidBody& p : r.model().bodies) shapes += int(p.shapes.size());
   }
   const int contacts = shapes + 20;
-  model_ = compile(mjcf_.text(settings_, {contacts, 2 * joints + 3 * contacts}));
+  model_ = compile(mjcf_.text(settings_, {contacts, 2 * joints + 3 * contacts}), *warnings_);
   if (model_->nbody > 30000)
     throw Error("a world of MuJoCo holds 30000 bodies, this one has " + std::to_string(model_->nbody) +
                 "; give some of the robots another `world`");
@@ -68,7 +68,8 @@ void MujocoWorld::find_indices() {
   for (const StaticBody& s : static_bodies_) {
     const std::string name = Mjcf::body_name(s.body->name, s.owner, 0);
     for (std::size_t k = 0; k < s.body->shapes.size(); ++k)
-      set_owner(mj_name2id(&m, mjOBJ_GEOM, Mjcf::geom_name(name, k).c_str()), s.body->shapes[k]);
+      set_owner(mj_name2id(&m, mjOBJ_GEOM, Mjcf::geom_name(name, k).c_str()), s.body->shapes[k]).scenery =
+          &s.body->name;
   }
   for (KinematicBody& k : kinematic_bodies_) {
     k.index = body_index(k.body->name, k.owner);
@@ -115,20 +116,21 @@ void MujocoWorld::allocate_data() {
 void MujocoWorld::advance(double dt) {
   if (model_->nv == 0) return;
   while (true) {
-    if (dt != dt_) set_time_step(dt);
-    for (KinematicBody& k : kinematic_bodies_) import(k);
-    for (MujocoRobot& r : robots_) r.import(*model_, *data_, target_velocities_);
     try {
+      if (dt != dt_) set_time_step(dt);
+      for (KinematicBody& k : kinematic_bodies_) import(k);
+      for (MujocoRobot& r : robots_) r.import(*model_, *data_, target_velocities_);
       step();
     } catch (const LibraryError& e) {
-      if (e.text != "Stack overflow" || model_->nstack >= max_stack) throw Error("MuJoCo: " + e.text);
+      if (e.text.find("tack overflow") == std::string::npos || model_->nstack >= max_stack)
+        throw Error("MuJoCo: " + e.text);
+      dt_ = 0;
       stack_factor_ *= 2;
       allocate_data();
       continue;
     }
     const mjWarningStat* warnings = data_->warning;
-    if (warnings[mjWARN_INERTIA].number)
-      throw Error("MuJoCo: the inertia of a robot is too close to singular; look at masses of links that differ much");
+    check_inertia();
     if (!warnings[mjWARN_CONTACTFULL].number && !warnings[mjWARN_CNSTRFULL].number) break;
     model_->njmax += 3 * model_->nconmax;
     model_->nconmax *= 2;
@@ -136,6 +138,15 @@ void MujocoWorld::advance(double dt) {
   }
   for (MujocoRobot& r : robots_) r.export_state(*data_);
   contacts_.export_wrenches(*data_, robots_);
+}
+
+void MujocoWorld::check_inertia() const {
+  const mjWarningStat& singular = data_->warning[mjWARN_INERTIA];
+  if (!singular.number) return;
+  const std::string text = "MuJoCo: its matrix of inertia is too close to singular; look at masses that differ much";
+  for (const MujocoRobot& r : robots_)
+    if (r.has_dof(singular.lastinfo)) throw multibody::RobotFailure(text, r.state());
+  throw Error(text);
 }
 
 void MujocoWorld::set_time_step(double dt) {
@@ -167,6 +178,7 @@ void MujocoWorld::step() {
   mj_crb(m, d);
   mj_factorM(m, d);
   mj_collision(m, d);
+  contacts_.report_overlaps(*d, robots_);
   contacts_.set_friction(*d);
   mj_makeConstraint(m, d);
   mj_projectConstraint(m, d);
@@ -197,7 +209,9 @@ void MujocoWorld::set_references() {
         break;
       case mjCNSTR_LIMIT_JOINT: {
         const double distance = d.efc_pos[i];
-        const double speed = -distance / (distance > 0 ? dt_ : std::max(settings_.time_constant, 2 * dt_));
+        const double speed = distance > 0 ? -distance / dt_
+                                          : std::min(-distance / std::max(settings_.time_constant, 2 * dt_),
+                                                     settings_.correcting_speed);
         d.efc_aref[i] = (speed - d.efc_vel[i]) / dt_;
         break;
       }

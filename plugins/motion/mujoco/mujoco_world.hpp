@@ -13,7 +13,8 @@ namespace muro::mujoco {
 /// A world of MuJoCo: one model and its data.
 class MujocoWorld final : public multibody::World {
  public:
-  MujocoWorld(const MujocoSettings& settings, const MujocoMeshes& meshes) : settings_(settings), mjcf_(meshes) {}
+  MujocoWorld(const MujocoSettings& settings, const MujocoMeshes& meshes, std::shared_ptr<WarningLog> warnings)
+      : settings_(settings), mjcf_(meshes), warnings_(std::move(warnings)) {}
 
   void add_static_body(const multibody::ExternalBody& body) override;
   void add_kinematic_body(const multibody::ExternalBody& body, const multibody::ExternalBodyState& state) override;
@@ -42,10 +43,12 @@ class MujocoWorld final : public multibody::World {
   void allocate_data();
   void import(KinematicBody& body);
   void step();
+  void check_inertia() const;
   void set_references();
 
   MujocoSettings settings_;
   Mjcf mjcf_;
+  std::shared_ptr<WarningLog> warnings_;
   std::size_t owners_ = 0;
   std::vector<StaticBody> static_bodies_;
   std::deque<KinematicBody> kinematic_bodies_;

@@ -17,7 +17,12 @@ constexpr unsigned packet_size = 16;  ///< rays in a call of Embree
 
 }  // namespace
 
-Embree::Embree() : device_(rtcNewDevice("threads=1")), scene_(rtcNewScene(device_)) {
+Embree::Embree() : device_(rtcNewDevice("threads=1")) {
+  if (!device_)
+    throw Error("Embree cannot be started: error " + std::to_string(int(rtcGetDeviceError(nullptr))) +
+                "; use laser.raycast, which needs no library");
+  rtcSetDeviceErrorFunction(device_, &keep_error, this);
+  scene_ = rtcNewScene(device_);
   // The top level is rebuilt whenever something moves, so that must be quick; meshes are built once.
   rtcSetSceneFlags(scene_, RTCSceneFlags(RTC_SCENE_FLAG_DYNAMIC | RTC_SCENE_FLAG_ROBUST));
   rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_LOW);
@@ -29,12 +34,29 @@ Embree::~Embree() {
   rtcReleaseDevice(device_);
 }
 
+void Embree::keep_error(void* self, RTCError code, const char* text) noexcept {
+  Embree& embree = *static_cast<Embree*>(self);
+  const std::lock_guard lock(embree.mutex_);
+  if (embree.has_failed_) return;
+  embree.error_ = code == RTC_ERROR_OUT_OF_MEMORY ? "there is not enough memory for its trees"
+                                                  : "error " + std::to_string(int(code));
+  if (text) embree.error_ += " (" + std::string(text) + ")";
+  embree.has_failed_ = true;
+}
+
+void Embree::check() const {
+  if (!has_failed_) return;
+  const std::lock_guard lock(mutex_);
+  throw Error("Embree: " + error_ + "; make meshes smaller, or use laser.raycast");
+}
+
 void Embree::connect(Connector& c) {
   const auto shapes_of = [&](ObjectId object) { return c.constant_array(object, keys::collision_shapes); };
   const auto add_all = [&](const scene_bodies::SceneBody& body, std::span<const Shape> shapes) {
     for (const Shape& shape : shapes) add(c, {.shape = shape, .body = body});
   };
   scene_bodies::for_each_body(c, shapes_of, add_all);
+  check();
 }
 
 void Embree::add(Connector& c, const BodyShape& s) {
@@ -57,10 +79,12 @@ RTCScene Embree::mesh(const std::string& path, const Vec3& scale) {
   RTCGeometry g = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
   auto* corners = static_cast<float*>(
       rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), m.vertices.size()));
+  check();
   for (const Vec3& v : m.vertices)
     for (int k = 0; k < 3; ++k) *corners++ = float(v[k]);
   auto* triangles = static_cast<unsigned*>(
       rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), m.triangles.size()));
+  check();
   for (const mesh::Triangle& t : m.triangles) triangles = std::copy(t.begin(), t.end(), triangles);
   rtcCommitGeometry(g);
   RTCScene scene = rtcNewScene(device_);
@@ -98,6 +122,7 @@ void Embree::start() {
     object_of_[id] = instance.shape.body.object;
   }
   is_built_ = true;
+  check();
 }
 
 void Embree::update() {
@@ -106,6 +131,7 @@ void Embree::update() {
     if (instance.shape.body.robot >= 0) place(instance);
   for (BodyShape& plane : planes_) plane.update();
   rtcCommitScene(scene_);
+  check();
 }
 
 /// Rays pass through the robot that is not seen.
@@ -187,6 +213,7 @@ void Embree::cast(std::size_t set, const scanner::Viewpoint& from, std::span<dou
   intersect_scene(query, rays.size(), from.max_range);
   intersect_planes(query, rays.size());
   for (double& r : ranges) r = std::max(r, from.min_range);
+  check();
 }
 
 }  // namespace muro::embree

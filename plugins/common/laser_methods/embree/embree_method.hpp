@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <atomic>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <tuple>
 
@@ -32,6 +34,10 @@ class Embree final : public scanner::Method {
     RTCGeometry geometry = nullptr;
   };
 
+  /// What Embree tells when a call fails. [any thread]
+  static void keep_error(void* self, RTCError code, const char* text) noexcept;
+  /// Throws Error when a call of Embree has failed.
+  void check() const;
   void add(Connector& c, const BodyShape& shape);
   RTCScene mesh(const std::string& path, const Vec3& scale);
   void place(const MeshInstance& instance) const;
@@ -40,6 +46,9 @@ class Embree final : public scanner::Method {
   void intersect_scene(RayQuery& query, std::uint32_t count, double max_range) const;
   void intersect_planes(const RayQuery& query, std::uint32_t count) const;
 
+  std::atomic<bool> has_failed_ = false;
+  mutable std::mutex mutex_;
+  std::string error_;  ///< the first one
   RTCDevice device_ = nullptr;
   RTCScene scene_ = nullptr;
   std::map<std::tuple<std::string, double, double, double>, RTCScene> meshes_;  ///< by file and scale
