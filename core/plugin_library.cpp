@@ -5,9 +5,13 @@
 
 #include <boost/dll/shared_library.hpp>
 #include <deque>
+#include <mutex>
 
 #include "core/error.hpp"
+#include "core/running_call.hpp"
+#include "muro/detail/contract_layout.hpp"
 #include "muro/detail/stamp.hpp"
+#include "muro/toolkit/whole_library.hpp"
 
 namespace muro {
 
@@ -52,13 +56,37 @@ std::string reason_of(std::string text, const std::string& path) {
   return first == std::string::npos ? text : text.substr(first);
 }
 
+/// Throws SetupError when the table is none that this muro can use. Reads nothing behind what it has found right.
+void check_table(const abi::PluginTable& table, const std::string& path) {
+  constexpr const char* again = "build it again with muro_add_plugin() of this muro";
+  static constexpr abi::Stamp ours = abi::make_stamp();
+  const std::string differs = difference(ours, table.stamp);
+  if (!differs.empty())
+    throw SetupError(fmt::format("plugin {} was built for another muro: {}; {}", path, differs, again));
+  const std::size_t size = abi::table_size_of(table.stamp.sdk_minor);
+  if (table.table_size != size)
+    throw SetupError(
+        fmt::format("plugin {} has a table of {} bytes instead of {}; {}", path, table.table_size, size, again));
+  if (table.stamp.sdk_minor >= 1 && table.layout != abi::layout_of_contract())
+    throw SetupError(
+        fmt::format("plugin {} was built for another muro: layout is {:08x} in the plugin and {:08x} in this muro: "
+                    "structs of its SDK were changed; {}",
+                    path, table.layout, abi::layout_of_contract(), again));
+}
+
 }  // namespace
 
 const abi::PluginTable& load_plugin(const std::string& path) {
   namespace dll = boost::dll;
-  static std::deque<dll::shared_library> loaded;  // never unloaded: objects of plugins may outlive any caller
+  static std::mutex mutex;
+  // never unloaded, at the end of the program neither: objects of plugins may outlive any caller
+  static auto& loaded = *new std::deque<dll::shared_library>;
+  const Callee callee{.name = "plugin " + path, .library = path};
+  const CallScope scope(callee, "load");  // constructors of the library run
   dll::shared_library library;
   const auto absolute = boost::dll::fs::absolute(path);
+  if (const std::string missing = missing_part_of_library(absolute.string()); !missing.empty())
+    throw SetupError(fmt::format("plugin {} cannot be loaded: {}", path, missing));
   try {
     library.load(absolute, dll::load_mode::rtld_now | dll::load_mode::rtld_local);
   } catch (const std::exception& e) {
@@ -68,18 +96,8 @@ const abi::PluginTable& load_plugin(const std::string& path) {
     throw SetupError(fmt::format("plugin {} exports no `{}`: it is no muro plugin; close it with MURO_PLUGIN", path,
                                  abi::table_symbol));
   const auto& table = library.get<const abi::PluginTable>(abi::table_symbol);
-  static constexpr abi::Stamp ours = abi::make_stamp();
-  const std::string differs = difference(ours, table.stamp);
-  if (!differs.empty())
-    throw SetupError(
-        fmt::format("plugin {} was built for another muro: {}; build it again with muro_add_plugin() of "
-                    "this muro",
-                    path, differs));
-  if (table.table_size != sizeof(abi::PluginTable))
-    throw SetupError(
-        fmt::format("plugin {} has a table of {} bytes instead of {}; build it again with "
-                    "muro_add_plugin() of this muro",
-                    path, table.table_size, sizeof(abi::PluginTable)));
+  check_table(table, path);
+  const std::lock_guard lock(mutex);
   loaded.push_back(library);
   return table;
 }

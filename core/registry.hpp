@@ -2,27 +2,19 @@
 #pragma once
 
 #include <map>
-#include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/plugin_folder.hpp"
+#include "core/used_library.hpp"
 #include "muro/abi.hpp"
 
 namespace muro {
 
-/// An algorithm or reader of a plugin, from its description file: no code of the plugin has run.
-struct CatalogEntry {
-  std::string id;    ///< "motion.point"
-  std::string kind;  ///< "motion", "reader"
-  std::string version;
-  std::string summary;
-  std::vector<std::string> reads, writes;  ///< property names
-  std::vector<std::string> extensions;     ///< readers
-  std::optional<Features> features;        ///< of a motion; none: its plugin does not say
-  std::string plugin;                      ///< name of the plugin
-  std::string library;                     ///< absolute path of the .so
-  std::string description;                 ///< absolute path of the .muro.json
+/// A library that is to offer a name, whatever others do.
+struct PluginChoice {
+  std::string library;  ///< path
+  std::string place;    ///< "file:line:column" of the scenario, put before messages; may be empty
 };
 
 /// Knows the plugins on a search path and loads those that are asked for.
@@ -32,33 +24,43 @@ class Registry {
   /// (~/.local/lib/muro), the installation (../lib/muro beside the program).
   static std::vector<std::string> search_path(const std::vector<std::string>& extra = {});
 
-  /// Reads the description files in all folders. A name that two folders offer: the first counts; two
-  /// plugins of one folder with the same name: an error when the name is used.
+  /// Reads the description files in all folders.
   explicit Registry(const std::vector<std::string>& folders);
 
+  /// What the folders offer and what was chosen, by name; of plugins that offer the same name, the first.
   const std::vector<CatalogEntry>& catalog() const { return catalog_; }
-  const std::vector<std::string>& folders() const { return folders_; }
-  /// What could not be read while scanning, a line each.
+  const std::vector<PluginFolder>& folders() const { return folders_; }
+  /// What was passed over and why, a line each.
   const std::vector<std::string>& problems() const { return problems_; }
+  /// The names that several plugins offer, with the message of who asks for one.
+  const std::map<std::string, std::string>& rivals() const { return rivals_; }
 
-  /// Throws SetupError with the nearest name, the allowed ones of that family, or the rival plugins.
+  /// By an id ("motion.point") or, for readers, by a type of files (".urdf"): from which library it is taken. Replaces
+  /// the choices before. Throws SetupError when a library does not offer the name. [set-up]
+  void choose(const std::map<std::string, PluginChoice>& choices);
+
+  /// Throws SetupError with the nearest name and what was searched, or with the plugins that all offer it.
   const CatalogEntry& find(const std::string& id) const;
   /// Loads the plugin if needed. Throws SetupError when it is refused, or `id` is a reader.
   const abi::AlgorithmEntry& algorithm(const std::string& id);
   const abi::ReaderEntry& reader(const std::string& id);
-  /// The reader for a file name's extension. Throws SetupError that names the known ones.
+  /// The reader for a file name's extension. Throws SetupError that names the known ones, or all that read such files.
   const abi::ReaderEntry& reader_for(const std::string& path);
   /// "a, b" of the algorithms that say they write the property.
   std::string writers_of(std::string_view key) const;
+  /// The plugins that were loaded so far.
+  std::vector<UsedLibrary> loaded() const;
 
  private:
-  void scan(const std::string& folder);
+  std::string searched() const;
   const abi::PluginTable& load(const CatalogEntry& entry);
+  const abi::ReaderEntry& reader_of(const CatalogEntry& entry);
 
-  std::vector<std::string> folders_;
-  std::vector<CatalogEntry> catalog_;
-  std::map<std::string, std::string> rivals_;  ///< id -> message
-  std::map<std::string, const abi::PluginTable*> tables_;
+  std::vector<PluginFolder> folders_;
+  std::vector<CatalogEntry> offered_, catalog_;  ///< by the folders; with what was chosen
+  std::map<std::string, std::string> rivals_;
+  std::map<std::string, CatalogEntry> chosen_;             ///< by name or type of files
+  std::map<std::string, const abi::PluginTable*> tables_;  ///< by path
   std::vector<std::string> problems_;
 };
 

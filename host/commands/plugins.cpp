@@ -4,6 +4,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "core/error.hpp"
 #include "core/registry.hpp"
 #include "host/commands/commands.hpp"
 
@@ -16,41 +17,41 @@ using Json = nlohmann::ordered_json;
 std::string number(const Json& n) { return fmt::format("{}", n.get<double>()); }
 
 std::string default_of(const Json& p) {
-  if (p["required"].get<bool>()) return "required";
-  const Json& d = p["default"];
+  if (p.at("required").get<bool>()) return "required";
+  const Json& d = p.at("default");
   if (d.is_string()) return "default \"" + d.get<std::string>() + "\"";
   return "default " + (d.is_number() ? number(d) : d.dump());
 }
 
 std::string range_of(const Json& p) {
-  if (p.contains("choices")) return ", one of " + p["choices"].dump();
+  if (p.contains("choices")) return ", one of " + p.at("choices").dump();
   const bool low = p.contains("min"), high = p.contains("max");
-  if (low && high) return fmt::format(", from {} to {}", number(p["min"]), number(p["max"]));
-  if (low) return ", at least " + number(p["min"]);
-  return high ? ", at most " + number(p["max"]) : "";
+  if (low && high) return fmt::format(", from {} to {}", number(p.at("min")), number(p.at("max")));
+  if (low) return ", at least " + number(p.at("min"));
+  return high ? ", at most " + number(p.at("max")) : "";
 }
 
 void print_info(const CatalogEntry& found, const Json& plugin, const Json& entry) {
   fmt::print("{}  ({}, version {})\n{}\n\n", found.id, found.kind, found.version, found.summary);
-  fmt::print("plugin        {} {}, licence {}\nlibrary       {}\nbuilt by      {}\n", plugin["name"].get<std::string>(),
-             plugin["version"].get<std::string>(), plugin["licence"].get<std::string>(), found.library,
-             plugin["compiler"].get<std::string>());
-  if (entry.contains("extensions")) fmt::print("reads files of type {}\n", entry["extensions"].dump());
-  if (entry.contains("capabilities")) fmt::print("capabilities  {}\n", entry["capabilities"].dump());
-  if (found.features) fmt::print("features      {}\n", entry["features"].dump());
-  if (entry.contains("parameters") && !entry["parameters"].empty()) {
+  fmt::print("plugin        {} {}, licence {}\nlibrary       {}\nbuilt by      {}\n",
+             plugin.at("name").get<std::string>(), plugin.at("version").get<std::string>(),
+             plugin.at("licence").get<std::string>(), found.library, plugin.at("compiler").get<std::string>());
+  if (entry.contains("extensions")) fmt::print("reads files of type {}\n", entry.at("extensions").dump());
+  if (entry.contains("capabilities")) fmt::print("capabilities  {}\n", entry.at("capabilities").dump());
+  if (found.features) fmt::print("features      {}\n", entry.at("features").dump());
+  if (entry.contains("parameters") && !entry.at("parameters").empty()) {
     fmt::print("\nparameters\n");
-    for (const Json& p : entry["parameters"]) {
-      const std::string unit = p["unit"] == "1" ? "" : ", " + p["unit"].get<std::string>();
-      fmt::print("  {:<24} {}{}, {}{}\n  {:<24} {}\n", p["name"].get<std::string>(), p["type"].get<std::string>(), unit,
-                 default_of(p), range_of(p), "", p["doc"].get<std::string>());
+    for (const Json& p : entry.at("parameters")) {
+      const std::string unit = p.at("unit") == "1" ? "" : ", " + p.at("unit").get<std::string>();
+      fmt::print("  {:<24} {}{}, {}{}\n  {:<24} {}\n", p.at("name").get<std::string>(), p.at("type").get<std::string>(),
+                 unit, default_of(p), range_of(p), "", p.at("doc").get<std::string>());
     }
   }
   for (const char* list : {"reads", "writes"})
-    if (entry.contains(list) && !entry[list].empty()) {
+    if (entry.contains(list) && !entry.at(list).empty()) {
       fmt::print("\n{}\n", list);
-      for (const Json& u : entry[list])
-        fmt::print("  {:<24} {}\n", u["key"].get<std::string>(), u["doc"].get<std::string>());
+      for (const Json& u : entry.at(list))
+        fmt::print("  {:<24} {}\n", u.at("key").get<std::string>(), u.at("doc").get<std::string>());
     }
 }
 
@@ -75,10 +76,10 @@ void print_catalog_markdown(const Registry& registry) {
 void print_catalog(const Registry& registry) {
   for (const CatalogEntry& e : registry.catalog())
     fmt::print("{:<28} {:<13} {:<8} {}\n", e.id, e.kind, e.version, e.summary);
-  if (!registry.catalog().empty()) return;
-  fmt::print(stderr, "no plugin was found in:\n");
-  for (const std::string& f : registry.folders()) fmt::print(stderr, "  {}\n", f);
-  fmt::print(stderr, "set MURO_PLUGIN_PATH or --plugin-path\n");
+  fmt::print("\nsearched\n");
+  for (const PluginFolder& f : registry.folders())
+    fmt::print("  {}: {}\n", f.path, f.problem.empty() ? fmt::format("{} plugins", f.plugins) : f.problem);
+  if (registry.catalog().empty()) fmt::print(stderr, "no plugin was found; set MURO_PLUGIN_PATH or --plugin-path\n");
 }
 
 }  // namespace
@@ -86,6 +87,7 @@ void print_catalog(const Registry& registry) {
 int list_plugins(const std::vector<std::string>& plugin_path, Format format) {
   const Registry registry(Registry::search_path(plugin_path));
   for (const std::string& p : registry.problems()) fmt::print(stderr, "warning: {}\n", p);
+  for (const auto& [id, message] : registry.rivals()) fmt::print(stderr, "warning: {}\n", message);
   if (format == Format::json)
     print_catalog_json(registry);
   else if (format == Format::markdown)
@@ -98,16 +100,21 @@ int list_plugins(const std::vector<std::string>& plugin_path, Format format) {
 int plugin_info(const std::string& id, const std::vector<std::string>& plugin_path, bool json) {
   const Registry registry(Registry::search_path(plugin_path));
   const CatalogEntry& found = registry.find(id);
-  std::ifstream file(found.description);
-  const Json plugin = Json::parse(file);
-  for (const char* list : {"algorithms", "readers"})
-    for (const Json& entry : plugin[list]) {
-      if (entry["id"] != id) continue;
-      if (json)
-        fmt::print("{}\n", entry.dump(2));
-      else
-        print_info(found, plugin, entry);
-    }
+  try {
+    std::ifstream file(found.description);
+    const Json plugin = Json::parse(file);
+    for (const char* list : {"algorithms", "readers"})
+      for (const Json& entry : plugin.at(list)) {
+        if (entry.at("id") != id) continue;
+        if (json)
+          fmt::print("{}\n", entry.dump(2, ' ', false, Json::error_handler_t::replace));
+        else
+          print_info(found, plugin, entry);
+      }
+  } catch (const Json::exception& e) {
+    throw SetupError(
+        fmt::format("the description {} is damaged: {}; build the plugin again", found.description, e.what()));
+  }
   return 0;
 }
 

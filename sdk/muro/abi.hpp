@@ -12,7 +12,7 @@
 namespace muro::abi {
 
 inline constexpr std::uint32_t sdk_major = 3;
-inline constexpr std::uint32_t sdk_minor = 0;
+inline constexpr std::uint32_t sdk_minor = 1;
 
 /// The C-only head of a plugin's table. Hosts read nothing else before all fields agree with theirs.
 struct Stamp {
@@ -48,7 +48,8 @@ class ErrorText {
   char buffer_[2048];
 };
 
-/// An algorithm as the host holds it: nothing throws, false means failure with a text.
+/// An algorithm as the host holds it: nothing throws, false means failure with a text. What a minor version adds here
+/// is not called on plugins of older ones.
 class AlgorithmInstance {
  public:
   virtual bool connect(Connector&, ErrorText&) noexcept = 0;
@@ -94,7 +95,13 @@ struct PluginTable {
   std::string_view summary;
   std::span<const AlgorithmEntry> algorithms;
   std::span<const ReaderEntry> readers;
+  std::uint32_t layout;  ///< of the contract's structs: layout_of_contract(). Since SDK 3.1
 };
+
+/// The size of a table that was made by an SDK of this major and the minor `minor`, which is not newer than ours.
+constexpr std::size_t table_size_of(std::uint32_t minor) {
+  return minor == 0 ? sizeof(PluginTable) - alignof(PluginTable) : sizeof(PluginTable);  // 3.0 had no layout
+}
 
 inline constexpr char table_symbol[] = "muro_plugin";
 

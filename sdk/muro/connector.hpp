@@ -70,13 +70,26 @@ struct FoundProperty {
 
 enum class LogLevel : std::uint8_t { debug, info, warning, error };
 
+/// An extension: an interface that a host may offer beside the contract. Another version is another interface.
+struct ExtensionId {
+  std::string_view name;  ///< "muro.Inspection"
+  std::uint32_t version = 0;
+  std::uint32_t layout = 0;  ///< of its structs and functions: the stamp of this version, see detail/layout.hpp
+};
+
 /// What the host does for algorithms at any time. [any thread]
 class Host {
  public:
   virtual void log(LogLevel level, std::string_view text) noexcept = 0;
-  /// The interface of this name, such as Inspection::extension; null where the host has it not. [setup]
+  /// As plugins of SDK 3.0 ask, with name and version in one text. Use find_extension. [setup]
   virtual void* extension(std::string_view name) noexcept {
     static_cast<void>(name);
+    return nullptr;
+  }
+  /// The extension of this name, version and layout. Null where the host has it not; it logs why when it has another
+  /// version, or one with another layout. Since SDK 3.1. [setup]
+  virtual void* find_extension(const ExtensionId& id) noexcept {
+    static_cast<void>(id);
     return nullptr;
   }
 

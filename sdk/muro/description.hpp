@@ -31,17 +31,24 @@ struct KindInfo {
   int connect_order;       ///< who creates properties connects before who asks whether they are used
   bool may_run_on_demand;  ///< somebody reads what it writes, so it can run when asked
   double default_rate;     ///< Hz, when a scenario names none; 0: on demand; below 0: it must name one
+  bool is_single = false;  ///< an object has at most one of this kind: the results of two would mix or add up
 };
 
 /// In the order in which kinds run within one instant t: the state of t is completed, seen, answered and recorded, then
 /// forces are found and motion carries the state to the next instant.
 inline constexpr KindInfo kind_infos[] = {
-    {Kind::kinematics, "kinematics", 1, true, 0},   {Kind::scene, "scene", 2, true, 0},
-    {Kind::sensor, "sensor", 6, true, -1},          {Kind::sensor_error, "sensor_error", 7, true, 0},
-    {Kind::controller, "controller", 8, false, -1}, {Kind::drive, "drive", 5, true, 0},
-    {Kind::recorder, "recorder", 9, false, -1},     {Kind::view, "view", 10, false, -1},
-    {Kind::level, "level", 1, false, -1},           {Kind::collision, "collision", 3, true, 0},
-    {Kind::contact, "contact", 4, true, 0},         {Kind::motion, "motion", 0, false, 1000},
+    {Kind::kinematics, "kinematics", 1, true, 0, true},
+    {Kind::scene, "scene", 2, true, 0, true},
+    {Kind::sensor, "sensor", 6, true, -1},
+    {Kind::sensor_error, "sensor_error", 7, true, 0},
+    {Kind::controller, "controller", 8, false, -1},
+    {Kind::drive, "drive", 5, true, 0},
+    {Kind::recorder, "recorder", 9, false, -1},
+    {Kind::view, "view", 10, false, -1},
+    {Kind::level, "level", 1, false, -1},
+    {Kind::collision, "collision", 3, true, 0, true},
+    {Kind::contact, "contact", 4, true, 0, true},
+    {Kind::motion, "motion", 0, false, 1000},
 };
 
 /// The place of a kind within an instant, from 0.

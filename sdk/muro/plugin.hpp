@@ -2,6 +2,7 @@
 // Include this in one source file of a plugin, describe what it offers and close with MURO_PLUGIN.
 #pragma once
 
+#include "muro/detail/contract_layout.hpp"
 #include "muro/detail/instances.hpp"
 #include "muro/detail/stamp.hpp"
 #include "muro/vocabulary.hpp"
@@ -28,7 +29,7 @@ struct PluginInfo {
 
 constexpr abi::PluginTable plugin_table(const PluginInfo& p) {
   return {abi::make_stamp(), sizeof(abi::PluginTable), p.name, p.version, p.licence, p.summary, p.algorithms,
-          p.readers};
+          p.readers,         abi::layout_of_contract()};
 }
 
 }  // namespace muro

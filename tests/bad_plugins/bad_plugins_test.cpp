@@ -80,6 +80,12 @@ TEST(BadPlugin, WithAnUnresolvedSymbolIsRefusedWhenItIsLoaded) {
   EXPECT_NE(said.find("undefined symbol: function_that_nobody_wrote"), std::string::npos) << said;
 }
 
+TEST(BadPlugin, WhoseSdkHasOtherStructsIsRefused) {
+  const std::string said = refusal("wrong_layout");
+  EXPECT_EQ(said.find("plugin " + library("wrong_layout") + " was built for another muro: layout is "), 0u) << said;
+  EXPECT_NE(said.find("structs of its SDK were changed; build it again"), std::string::npos) << said;
+}
+
 TEST(BadPlugin, ThatIsATextFileIsRefused) {
   const std::string said = refusal("text_file");
   EXPECT_EQ(said.find("plugin " + library("text_file") + " cannot be loaded: "), 0u) << said;
@@ -87,10 +93,33 @@ TEST(BadPlugin, ThatIsATextFileIsRefused) {
       << said;
 }
 
-TEST(BadPlugin, WhoseLibraryIsGoneIsRefused) {
-  const std::string said = refusal("no_library");
-  EXPECT_EQ(said.find("plugin " + library("no_library") + " cannot be loaded: "), 0u) << said;
-  EXPECT_NE(said.find("No such file or directory"), std::string::npos) << said;
+TEST(BadPlugin, ThatWasCopiedByHalfIsRefused) {
+  const std::string said = refusal("half");
+  EXPECT_EQ(said.find("plugin " + library("half") + " cannot be loaded: the file has 10000 bytes and should have at "),
+            0u)
+      << said;
+}
+
+TEST(BadPlugin, WhoseLibraryIsGoneIsPassedOver) {
+  EXPECT_EQ(refusal("no_library"),
+            "no plugin offers `motion.no_library`; no plugin was found; set MURO_PLUGIN_PATH or --plugin-path; "
+            "searched: " +
+                folder + "no_library (0 plugins); passed over: " + folder +
+                "no_library/no_library.muro.json: it describes " + library("no_library") + ", which is not beside it");
+}
+
+TEST(BadPlugin, WithoutADescriptionIsPassedOver) {
+  EXPECT_EQ(refusal("no_description"),
+            "no plugin offers `motion.no_description`; no plugin was found; set MURO_PLUGIN_PATH or --plugin-path; "
+            "searched: " +
+                folder + "no_description (0 plugins); passed over: " + library("no_description") +
+                ": it has no description no_description.muro.json beside it; muro_add_plugin() or the program "
+                "muro_describe writes one");
+}
+
+TEST(Folder, ThatDoesNotExistIsNamedByWhoFindsNothing) {
+  const std::string said = refusal("never_made");
+  EXPECT_NE(said.find("searched: " + folder + "never_made (it does not exist)"), std::string::npos) << said;
 }
 
 TEST(BadPlugin, ThatIsNotTheOneItsDescriptionDescribesIsRefused) {
@@ -100,23 +129,54 @@ TEST(BadPlugin, ThatIsNotTheOneItsDescriptionDescribesIsRefused) {
                 "both are new");
 }
 
-TEST(BadPlugin, ThatOffersTheNameOfAnotherOneIsRefusedTogetherWithIt) {
-  Registry registry({folder + "two_of_a_name"});
+/// What looking for "motion.twice" says; the library that offers it, when there is no error.
+std::string who_offers_twice(const std::vector<std::string>& folders,
+                             const std::map<std::string, PluginChoice>& choices = {}) {
   try {
-    registry.find("motion.twice");
-    FAIL() << "two plugins of one folder offer motion.twice";
+    std::vector<std::string> paths;
+    for (const std::string& f : folders) paths.push_back(folder + f);
+    Registry registry(paths);
+    registry.choose(choices);
+    return registry.find("motion.twice").library;
   } catch (const SetupError& e) {
-    EXPECT_EQ(std::string(e.what()), "`motion.twice` is offered by two plugins: " + folder +
-                                         "two_of_a_name/first.so and " + folder +
-                                         "two_of_a_name/second.so; remove one of them");
+    return e.what();
   }
+}
+
+TEST(TwoPlugins, OfOneNameAreAnErrorThatNamesBoth) {
+  const std::string first = folder + "two_of_a_name/first.so", second = folder + "two_of_a_name/second.so",
+                    third = folder + "other_folder/third.so",
+                    offered = "`motion.twice` is offered by several plugins: ",
+                    advice =
+                        "; remove the others, or choose one in the scenario: `plugins: {motion.twice: " + first + "}`";
+  EXPECT_EQ(who_offers_twice({"two_of_a_name"}), offered + first + " and " + second + advice);
+  EXPECT_EQ(who_offers_twice({"two_of_a_name", "other_folder"}),
+            offered + first + " and " + second + " and " + third + advice);
+}
+
+TEST(TwoPlugins, ThatAreTheSameAreOne) {
+  EXPECT_EQ(who_offers_twice({"other_folder", "copy"}), folder + "other_folder/third.so");
+  EXPECT_EQ(who_offers_twice({"other_folder", "other_folder/../other_folder"}), folder + "other_folder/third.so");
+}
+
+TEST(TwoPlugins, AreToldApartByTheChoiceOfAScenario) {
+  const std::string second = folder + "two_of_a_name/second.so", third = folder + "other_folder/third.so";
+  EXPECT_EQ(who_offers_twice({"two_of_a_name"}, {{"motion.twice", {second, ""}}}), second);
+  EXPECT_EQ(who_offers_twice({"two_of_a_name"}, {{"motion.twice", {third, ""}}}), third) << "of no folder";
+  EXPECT_EQ(who_offers_twice({"other_folder"}, {{"motion.other", {third, "a.yaml:3:5"}}}),
+            "a.yaml:3:5: " + third + " cannot be chosen for `motion.other`: it offers motion.twice");
+  const std::string gone = folder + "other_folder/gone.so";
+  EXPECT_EQ(who_offers_twice({"other_folder"}, {{"motion.twice", {gone, ""}}}),
+            gone +
+                " cannot be chosen for `motion.twice`: it is no plugin, which is a file NAME.so with a description "
+                "NAME.muro.json beside it");
 }
 
 TEST(BadPlugin, WithAnUnreadableDescriptionIsAProblemAndStopsNoOther) {
   const Registry registry({folder + "bad_description", folder + "throws"});
   ASSERT_EQ(registry.problems().size(), 1u);
-  EXPECT_EQ(registry.problems()[0].find("plugin description " + folder +
-                                        "bad_description/bad_description.muro.json cannot be read: "),
+  EXPECT_EQ(registry.problems()[0].find(library("bad_description") +
+                                        " is passed over: its description bad_description.muro.json cannot be read: "),
             0u)
       << registry.problems()[0];
   EXPECT_EQ(registry.find("motion.step_throws").plugin, "throws");
@@ -156,8 +216,10 @@ TEST(FailingAlgorithm, IsNamedWithItsOwnWordsWhereverItFails) {
             "set-up: rover.motion (motion.connect_throws) cannot be connected: an exception that is no std::exception");
   EXPECT_EQ(failure("motion.start_throws"),
             "set-up: rover.motion (motion.start_throws) cannot start: port 4711 is taken; choose another one");
-  EXPECT_EQ(failure("motion.step_throws"), "step: rover.motion failed at t = 0.030000 s: matrix is singular");
-  EXPECT_EQ(failure("motion.step_has_no_memory"), "step: rover.motion failed at t = 0.000000 s: std::bad_alloc");
+  EXPECT_EQ(failure("motion.step_throws"),
+            "step: rover.motion (motion.step_throws), robot `rover`, failed at t = 0.030000 s: matrix is singular");
+  EXPECT_EQ(failure("motion.step_has_no_memory"),
+            "step: rover.motion (motion.step_has_no_memory), robot `rover`, failed at t = 0.000000 s: std::bad_alloc");
 }
 
 }  // namespace

@@ -9,6 +9,9 @@
 #include <limits>
 
 #include "muro/algorithm.hpp"
+#include "muro/toolkit/whole_library.hpp"
+#include "muro/toolkit/whole_library.hpp"
+#include "own_symbols.hpp"
 #include "plugins/common/text/quote.hpp"
 
 namespace muro::control {
@@ -46,6 +49,16 @@ class FloatingPointGuard {
  private:
   fenv_t environment_{};
 };
+
+/// Throws Error when the library does not get its own functions: with them its steps would be those of a stranger.
+void check_own_symbols(void* library, const std::string& path) {
+  const std::vector<Interposed> lost = interposed_symbols(library);
+  if (lost.empty()) return;
+  std::string names;
+  for (const Interposed& i : lost) names += (names.empty() ? "" : ", ") + quote(i.name) + " (of " + i.by + ")";
+  throw Error("library " + path + " would use functions of others in place of its own: " + names +
+              "; link it with -Wl,-Bsymbolic, or make them static");
+}
 
 /// The loader's last message without the path, which our message names already.
 std::string loader_message(const std::string& path) {
@@ -101,6 +114,8 @@ std::string find_library(std::string_view name, const std::string& as_path, std:
 
 const muro_controller_table& load_library(const std::string& path) {
   const FloatingPointGuard guard;
+  if (const std::string problem = missing_part_of_library(path); !problem.empty())
+    throw Error("library " + path + " cannot be loaded: " + problem);
   void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);  // never closed: its table is used until the end
   if (!library) throw Error("library " + path + " cannot be loaded: " + loader_message(path));
   void* symbol = dlsym(library, "muro_controller");
@@ -109,6 +124,7 @@ const muro_controller_table& load_library(const std::string& path) {
         "library " + path +
         " exports no `muro_controller`; include muro_controller.h and define this function (in C++ the header makes it "
         "extern \"C\")");
+  check_own_symbols(library, path);
   const auto* table = reinterpret_cast<const muro_controller_table* (*)()>(symbol)();
   check_table(table, path);
   return *table;

@@ -10,6 +10,8 @@
 
 #include "connections.hpp"
 #include "control_library.hpp"
+#include "muro/ext/call_note.hpp"
+#include "muro/ext/loaded_libraries.hpp"
 #include "muro/plugin.hpp"
 #include "muro/toolkit/random.hpp"
 #include "port.hpp"
@@ -59,8 +61,13 @@ class LibraryController final : public Algorithm {
     read_arguments(p.texts("arguments"));
     const std::string_view name = p.text("library");
     const std::filesystem::path as_path(c.resolve_path(name)), beside_scenario(c.resolve_path("name"));
-    table_ =
-        &load_library(find_library(name, as_path.string(), search_folders(beside_scenario.parent_path().string())));
+    path_ = find_library(name, as_path.string(), search_folders(beside_scenario.parent_path().string()));
+    notes_ = CallNotes::of(c.host());
+    note("load");
+    table_ = &load_library(path_);
+    note(nullptr);
+    if (LoadedLibraries* told = LoadedLibraries::of(c.host()))
+      told->add({path_, table_->name, table_->version ? table_->version : ""});
     for (std::uint32_t i = 0; i < c.items().size(); ++i) {
       const Item& item = c.items()[i];
       Robot& r = robots_.emplace_back();
@@ -112,10 +119,18 @@ class LibraryController final : public Algorithm {
   }
 
   void step(const Step& step, Range range) override {
-    for (std::uint32_t i = range.begin; i < range.end; ++i) run(robots_[i], step);
+    for (std::uint32_t i = range.begin; i < range.end; ++i) run(i, step);
   }
 
  private:
+  /// Which function of the library runs for which robot, for messages about a call that does not return.
+  void note(const char* function, std::uint32_t robot = CallNote::no_item) const {
+    if (!notes_) return;
+    CallNote& here = notes_->of_this_thread();
+    here.set_item(robot);
+    here.set_library(function ? path_.c_str() : nullptr, function);
+  }
+
   struct Robot {
     std::string name;
     std::uint64_t random_key = 0;
@@ -181,6 +196,7 @@ class LibraryController final : public Algorithm {
                                         .seed = seed_of(step.seed, r.random_key),
                                         .input_sizes = r.input_sizes.data(),
                                         .arguments = arguments_.data()};
+      note("create", std::uint32_t(&r - robots_.data()));
       if (table_->create(r.block->state(), &setup, error, error_size) != 0) throw Error(about(r) + failure(error));
     }
     r.block->created = 1;
@@ -196,7 +212,8 @@ class LibraryController final : public Algorithm {
     return *error ? "fails: " + std::string(error) : "fails without giving a reason";
   }
 
-  void run(Robot& r, const Step& step) const {
+  void run(std::uint32_t number, const Step& step) {
+    Robot& r = robots_[number];
     for (std::size_t i = 0; i < r.inputs.size(); ++i)
       if (!r.inputs[i].direct()) r.inputs[i].read(r.input_data[i]);
     for (std::size_t i = 0; i < r.outputs.size(); ++i)
@@ -205,7 +222,9 @@ class LibraryController final : public Algorithm {
     const muro_controller_step now{step.seconds(), r.input_data.data(), r.output_data.data()};
     char error[error_size];
     error[0] = 0;
+    note("step", number);
     if (table_->step(r.block->state(), &now, error, error_size) != 0) throw Error(about(r) + failure(error));
+    note(nullptr, number);
     for (std::size_t i = 0; i < r.outputs.size(); ++i) hand_out(r, i);
   }
 
@@ -222,6 +241,8 @@ class LibraryController final : public Algorithm {
         (std::isfinite(values[bad]) ? ", which does not fit into its property" : "; outputs must be finite numbers"));
   }
 
+  std::string path_;  ///< of the library
+  CallNotes* notes_ = nullptr;
   const muro_controller_table* table_ = nullptr;
   std::deque<std::string> argument_texts_;
   std::vector<const char*> arguments_;

@@ -321,10 +321,40 @@ TEST(ControllerLibrary, TakesPathsRelativeToTheScenario) {
   EXPECT_TRUE(says(refusal(wrong), "there is no library `" + setup.folder + "/controllers/circel.so`"));
 }
 
+TEST(ControllerLibrary, HasItsOwnStepWhereTheCLibraryHasOneToo) {
+  Team team;
+  team.control(folder + "bound_step.so");
+  team.build();
+  EXPECT_NO_THROW(team.run_for(1));
+}
+
+#ifdef FORTRAN_CONTROLLER
+TEST(ControllerLibrary, MayBeWrittenInFortran) {
+  Team team;
+  team.control(FORTRAN_CONTROLLER);
+  team.build();
+  team.run_for(1);
+  EXPECT_EQ(team.command(*team.a).linear.x(), 0.5);
+}
+#endif
+
+TEST(ControllerLibrary, ThatWasCopiedByHalfIsRefused) {
+  const std::string half = testing::TempDir() + "half.so";
+  std::filesystem::copy_file(folder + "circle.so", half, std::filesystem::copy_options::overwrite_existing);
+  std::filesystem::resize_file(half, 5000);
+  Team team;
+  team.control(half);
+  const std::string said = refusal(team);
+  EXPECT_NE(said.find("library " + half + " cannot be loaded: the file has 5000 bytes and should have at "),
+            std::string::npos)
+      << said;
+}
+
 TEST(ControllerLibrary, NamesWhatIsWrongWithALibrary) {
   for (const auto& [library, message] : {
            std::pair<std::string, std::string>{"no_symbol.so", "exports no `muro_controller`"},
            {"unresolved.so", "cannot be loaded: undefined symbol: function_of_no_library"},
+           {"open_step.so", "would use functions of others in place of its own: 'step' (of "},
            {"no_table.so", "`muro_controller` returns no table"},
            {"other_abi.so", "abi is 7, this muro has 1; build it with the muro_controller.h of this muro"},
            {"other_size.so",

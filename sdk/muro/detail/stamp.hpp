@@ -31,7 +31,8 @@ struct Probe {
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Winvalid-offsetof"
-/// A hash of the places of what plugins and hosts hand each other.
+/// A hash of the places of what shapes and descriptions hold, as SDK 3.0 has it in its stamps; that of all structs is
+/// layout_of_contract().
 constexpr std::uint32_t layout_of_values() {
   constexpr std::size_t places[] = {sizeof(Pose),
                                     offsetof(Pose, orientation),

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "muro/connector.hpp"
+#include "muro/detail/layout.hpp"
 
 namespace muro {
 
@@ -25,12 +26,10 @@ struct LiveCost {
   bool runs_alone = false;  ///< of an algorithm that runs alone: it may hold waiting as well
 };
 
-/// An extension of hosts. For algorithms that run alone, in their steps: nothing else runs then. Views are good
-/// until the next call.
+/// An extension of hosts, version 1. For algorithms that run alone, in their steps: nothing else runs then. Views are
+/// good until the next call.
 class Inspection {
  public:
-  static constexpr std::string_view extension = "muro.Inspection/1";
-
   /// All properties of an object by name, in order of creation. [step]
   virtual std::span<const LiveProperty> properties(ObjectId object) noexcept = 0;
   virtual std::span<const LiveCost> costs() noexcept = 0;
@@ -43,11 +42,35 @@ class Inspection {
   /// Whether the run is to end, by whatever: a step that waits goes on then. [step]
   virtual bool is_stopping() const noexcept = 0;
 
+  static ExtensionId id() noexcept;
   /// The host's, or null where it has none. [setup]
-  static Inspection* of(Host& host) { return static_cast<Inspection*>(host.extension(extension)); }
+  static Inspection* of(Host& host) { return static_cast<Inspection*>(host.find_extension(id())); }
 
  protected:
   ~Inspection() = default;
 };
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Winvalid-offsetof"
+inline ExtensionId Inspection::id() noexcept {
+  static constexpr abi::Place structs[] = {MURO_SIZE(LiveProperty),
+                                           MURO_PLACE(LiveProperty, key),
+                                           MURO_PLACE(LiveProperty, multiplicity),
+                                           MURO_PLACE(LiveProperty, count),
+                                           MURO_PLACE(LiveProperty, data),
+                                           MURO_PLACE(LiveProperty, is_constant),
+                                           MURO_PLACE(LiveProperty, is_variable),
+                                           MURO_PLACE(LiveProperty, written_by),
+                                           MURO_SIZE(LiveCost),
+                                           MURO_PLACE(LiveCost, name),
+                                           MURO_PLACE(LiveCost, runs),
+                                           MURO_PLACE(LiveCost, seconds),
+                                           MURO_PLACE(LiveCost, runs_alone)};
+  return {"muro.Inspection", 1,
+          abi::extension_layout<Inspection>(structs, &Inspection::properties, &Inspection::costs,
+                                            &Inspection::object_count, &Inspection::object_name, &Inspection::text,
+                                            &Inspection::stop, &Inspection::is_stopping)};
+}
+#pragma GCC diagnostic pop
 
 }  // namespace muro

@@ -10,5 +10,6 @@ sed -n '/^```c$/,/^```$/{/^```/d;p}' "$tree/docs/controllers.md" >"$out/brake.c"
 grep -q muro_controller_table "$out/brake.c"
 for source in "$out/brake.c" "$tree/examples/urban/wander.c"; do
   name=$(basename "$source" .c)
-  "$compiler" -std=c11 -O2 -Wall -Wextra -Wpedantic -Werror -shared -fPIC -I "$tree/sdk/c" -o "$out/$name.so" "$source" -lm
+  "$compiler" -std=c11 -O2 -Wall -Wextra -Wpedantic -Werror -ffp-contract=off -shared -fPIC -Wl,-Bsymbolic -I "$tree/sdk/c" \
+    -o "$out/$name.so" "$source" -lm -lsleef
 done

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/inspector.hpp"
+#include "core/output_registry.hpp"
+#include "core/used_library.hpp"
+#include "muro/ext/call_note.hpp"
+#include "muro/ext/loaded_libraries.hpp"
+
+namespace muro {
+
+/// Collects the libraries that algorithms have loaded.
+class UsedLibraries final : public LoadedLibraries {
+ public:
+  void add(const LoadedLibrary& library) noexcept override;
+  const std::vector<UsedLibrary>& all() const { return all_; }
+
+ private:
+  std::vector<UsedLibrary> all_;
+};
+
+/// The note of the calling thread, in its RunningCall.
+class NotesOfThreads final : public CallNotes {
+ public:
+  CallNote& of_this_thread() noexcept override;
+};
+
+/// The extensions that a simulation offers to its algorithms, see Host::find_extension.
+class Extensions {
+ public:
+  Extensions(const World& world, const Scheduler& scheduler) : inspector_(world, scheduler) {}
+
+  /// The interface of exactly this version and layout. Otherwise null; `why_not` says so where another version or
+  /// layout is there.
+  void* find(const ExtensionId& id, std::string& why_not);
+  /// The same for plugins of SDK 3.0, which name an extension as "muro.Inspection/1".
+  void* find(std::string_view name_and_version);
+
+  Inspector& inspector() { return inspector_; }
+  const Inspector& inspector() const { return inspector_; }
+  const std::vector<UsedLibrary>& libraries() const { return libraries_.all(); }
+  OutputRegistry& outputs() { return outputs_; }
+
+ private:
+  Inspector inspector_;
+  UsedLibraries libraries_;
+  NotesOfThreads notes_;
+  OutputRegistry outputs_;
+};
+
+}  // namespace muro
