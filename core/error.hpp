@@ -3,15 +3,23 @@
 
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace muro {
 
+/// `text` as it is shown to a user, in lines: control characters are escaped, and what stands in backquotes and is
+/// longer than a name or a path of a file is cut. A message may hold names from files that nobody has looked at.
+std::string message_text(std::string_view text);
+
+/// `name` in backquotes, in one line, cut where it is long: for names and values from outside.
+std::string in_backquotes(std::string_view name);
+
 /// A mistake of the user that was found before the simulation could run: one line for each problem.
 class SetupError : public std::runtime_error {
  public:
-  explicit SetupError(const std::string& message) : std::runtime_error(message) {}
-  explicit SetupError(const std::vector<std::string>& problems) : std::runtime_error(joined(problems)) {}
+  explicit SetupError(const std::string& message) : std::runtime_error(message_text(message)) {}
+  explicit SetupError(const std::vector<std::string>& problems) : SetupError(joined(problems)) {}
 
  private:
   static std::string joined(const std::vector<std::string>& problems) {
@@ -24,7 +32,7 @@ class SetupError : public std::runtime_error {
 /// A failure inside a step, with algorithm, object and simulated time in its text.
 class StepError : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit StepError(const std::string& message) : std::runtime_error(message_text(message)) {}
 };
 
 }  // namespace muro

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "core/error.hpp"
 #include "core/instance.hpp"
@@ -14,11 +13,10 @@ namespace muro {
 
 namespace {
 
-std::string shown(double x) {
-  std::ostringstream out;
-  out << x;
-  return out.str();
-}
+/// Of parameters without a range of their own: what is beyond is a mistake, and no index is made of it.
+constexpr double largest_number = 1e15;
+
+std::string shown(double x) { return fmt::format("{:g}", x); }
 
 std::string shown(const ParameterInput& input) {
   struct Visitor {
@@ -36,13 +34,12 @@ std::string shown(const ParameterInput& input) {
   return std::visit(Visitor{}, input);
 }
 
+double least(const Parameter& p) { return std::max(p.min, -largest_number); }
+double most(const Parameter& p) { return std::min(p.max, largest_number); }
+
 std::string range_of(const Parameter& p) {
-  const bool low = std::isfinite(p.min), high = std::isfinite(p.max);
   const std::string unit = p.unit == "1" ? "" : fmt::format(" {}", p.unit);
-  if (low && high) return fmt::format(" from {} to {}{}", shown(p.min), shown(p.max), unit);
-  if (low) return fmt::format(" of at least {}{}", shown(p.min), unit);
-  if (high) return fmt::format(" of at most {}{}", shown(p.max), unit);
-  return unit.empty() ? "" : " in" + unit;
+  return fmt::format(" from {} to {}{}", shown(least(p)), shown(most(p)), unit);
 }
 
 std::string allowed_values(const Parameter& p) {
@@ -73,7 +70,7 @@ const double* number_in(const ParameterInput& input, double& storage) {
   return nullptr;
 }
 
-bool inside(const Parameter& p, double x) { return std::isfinite(x) && x >= p.min && x <= p.max; }
+bool inside(const Parameter& p, double x) { return x >= least(p) && x <= most(p); }
 
 }  // namespace
 

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "core/robot_tree.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstring>
 
+#include "core/error.hpp"
+#include "core/value_check.hpp"
 #include "muro/toolkit/bounds.hpp"
+#include "muro/toolkit/elementary.hpp"
+#include "muro/toolkit/limits.hpp"
 #include "muro/vocabulary.hpp"
 
 namespace muro {
-
-namespace {
-
-std::string in_quotes(std::string_view s) { return "`" + std::string(s) + "`"; }
-
-}  // namespace
 
 bool RobotTree::started(std::string_view call) {
   if (at_.link >= 0 && !at_.closed) return true;
@@ -38,18 +38,22 @@ void RobotTree::add_node(NodeKind kind, std::string_view name) {
 }
 
 std::int32_t RobotTree::add_component(std::string_view name) {
-  if (name.empty()) report(Severity::error, "a body or joint without a name", 0, 0);
+  try {
+    check_object_name(name, "a body or joint");
+  } catch (const SetupError& e) {
+    report(Severity::error, e.what(), 0, 0);
+  }
   const auto index = std::int32_t(components_.size());
   if (!component_index_.emplace(std::string(name), index).second)
     report(Severity::error,
-           "two parts are named " + in_quotes(name) + "; names of bodies and joints are unique in a robot", 0, 0);
+           "two parts are named " + in_backquotes(name) + "; names of bodies and joints are unique in a robot", 0, 0);
   components_.push_back({std::string(name), {}});
   last_component_ = index;
   return index;
 }
 
 void RobotTree::base(std::string_view name) noexcept {
-  if (at_.link >= 0) return report(Severity::error, "a second base " + in_quotes(name) + "; a robot has one", 0, 0);
+  if (at_.link >= 0) return report(Severity::error, "a second base " + in_backquotes(name) + "; a robot has one", 0, 0);
   add_node(NodeKind::base, name);
   FlatLink f;
   f.body = add_component(name);
@@ -75,7 +79,8 @@ void RobotTree::end() noexcept {
 
 void RobotTree::translation(const Vec3& offset) noexcept {
   if (!started("translation()")) return;
-  if (!offset.allFinite()) return report(Severity::error, "a translation that is not finite", 0, 0);
+  if (!limits::within(limits::position, offset))
+    return report(Severity::error, "a translation with a component that is not from -1e8 to 1e8 m", 0, 0);
   add_node(NodeKind::translation, "");
   at_.since = at_.since * Pose{offset, Quat::Identity()};
   at_.unnamed = false;
@@ -94,7 +99,9 @@ void RobotTree::joint(NodeKind kind, std::string_view name, const Vec3& axis, co
   if (!started("a joint")) return;
   const double length = axis.norm();
   if (!(length > 1e-12) || !axis.allFinite())
-    return report(Severity::error, "joint " + in_quotes(name) + ": the axis has no direction", 0, 0);
+    return report(Severity::error, "joint " + in_backquotes(name) + ": the axis has no direction", 0, 0);
+  if (const std::string problem = limits::problem_of(limits); !problem.empty())
+    return report(Severity::error, "joint " + in_backquotes(name) + " " + problem, 0, 0);
   add_node(kind, name);
   FlatLink f;
   f.joint = add_component(name);
@@ -102,7 +109,7 @@ void RobotTree::joint(NodeKind kind, std::string_view name, const Vec3& axis, co
   f.link.joint = kind == NodeKind::revolute ? JointKind::revolute : JointKind::prismatic;
   f.link.origin = at_.since;
   f.link.axis = axis / length;
-  f.link.limits = limits;
+  f.link.limits = limits::effective(limits);
   links_.push_back(std::move(f));
   at_.link = std::int32_t(links_.size()) - 1;
   at_.since = {};
@@ -122,6 +129,11 @@ void RobotTree::mimic(std::string_view leader, double multiplier, double offset)
   FlatLink& f = links_.back();
   if (f.joint < 0 || f.joint != last_component_)
     return report(Severity::error, "mimic(" + std::string(leader) + ") does not follow a joint", 0, 0);
+  if (!limits::within(limits::joint_position, multiplier) || !limits::within(limits::joint_position, offset))
+    return report(Severity::error,
+                  fmt::format("joint {} mimics {} with a multiplier or offset that is not from -1e6 to 1e6",
+                              in_backquotes(components_[std::size_t(f.joint)].name), in_backquotes(leader)),
+                  0, 0);
   f.mimic_leader = leader;
   f.link.mimic_multiplier = multiplier;
   f.link.mimic_offset = offset;
@@ -144,18 +156,19 @@ void RobotTree::body(std::string_view name) noexcept {
   at_.unnamed = false;
 }
 
-TextId RobotTree::intern(std::string_view text) noexcept {
-  const auto it = std::find(texts_.begin(), texts_.end(), text);
-  if (it != texts_.end()) return TextId(it - texts_.begin());
-  texts_.emplace_back(text);
-  return TextId(texts_.size() - 1);
-}
+TextId RobotTree::intern(std::string_view text) noexcept { return texts_.intern(text); }
 
 void RobotTree::set_raw(const KeyInfo& key, const void* data, std::uint32_t count) noexcept {
   if (last_component_ < 0)
     return report(Severity::error, "constant `" + std::string(key.name) + "` before base()", 0, 0);
+  const std::uint32_t elements = count == single_value ? 1 : count;
+  if (const std::string problem = problem_of_values(key, data, elements); !problem.empty())
+    report(
+        Severity::error,
+        fmt::format("`{}` of {} {}", key.name, in_backquotes(components_[std::size_t(last_component_)].name), problem),
+        0, 0);
   const auto* first = static_cast<const std::byte*>(data);
-  const std::size_t bytes = std::size_t(count == single_value ? 1 : count) * key.type->size;
+  const std::size_t bytes = std::size_t(elements) * key.type->size;
   components_[std::size_t(last_component_)].constants.push_back({key, count, {first, first + bytes}});
 }
 
@@ -168,16 +181,32 @@ void RobotTree::close() {
     const auto it = std::find_if(links_.begin(), links_.end(), [&](const FlatLink& g) {
       return g.joint >= 0 && components_[std::size_t(g.joint)].name == f.mimic_leader;
     });
-    const std::string name = in_quotes(components_[std::size_t(f.joint)].name);
+    const std::string name = in_backquotes(components_[std::size_t(f.joint)].name);
     if (it == links_.end())
       report(Severity::error,
-             "joint " + name + " mimics " + in_quotes(f.mimic_leader) + ", which is no joint of the robot", 0, 0);
+             "joint " + name + " mimics " + in_backquotes(f.mimic_leader) + ", which is no joint of the robot", 0, 0);
     else if (!it->mimic_leader.empty())
       report(Severity::error,
-             "joint " + name + " mimics " + in_quotes(f.mimic_leader) + ", which mimics a joint itself", 0, 0);
+             "joint " + name + " mimics " + in_backquotes(f.mimic_leader) + ", which mimics a joint itself", 0, 0);
     else
       f.link.mimic = std::int32_t(it - links_.begin());
   }
+  check_mass();
+}
+
+/// A robot with less than the least mass of a body could be moved by no force without an infinite acceleration.
+void RobotTree::check_mass() {
+  double mass = 0;
+  for (const Component& component : components_)
+    for (const Constant& c : component.constants)
+      if (c.key.name == keys::inertial.name && c.data.size() >= sizeof(Inertia)) {
+        Inertia inertia;
+        std::memcpy(static_cast<void*>(&inertia), c.data.data(), sizeof inertia);
+        mass += inertia.mass;
+      }
+  if (mass != 0 && !(mass >= limits::min_mass && mass <= limits::max_mass))
+    report(Severity::error, fmt::format("all its bodies together have {} kg; 0, or 1e-9 to 1e9 kg are possible", mass),
+           0, 0);
 }
 
 bool RobotTree::usable() const {
@@ -215,7 +244,7 @@ double RobotTree::footprint_radius() const {
   double radius = 0;
   each_collision_bounds([&](const Aabb& b) {
     const Vec3 far = b.low.cwiseAbs().cwiseMax(b.high.cwiseAbs());
-    radius = std::max(radius, std::hypot(far.x(), far.y()));
+    radius = std::max(radius, elementary::hypot(far.x(), far.y()));
   });
   return radius;
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/text_table.hpp"
 #include "muro/robot_builder.hpp"
 
 namespace muro {
@@ -61,7 +62,7 @@ class RobotTree final : public RobotBuilder {
   const std::vector<Node>& nodes() const { return nodes_; }
   const std::vector<Component>& components() const { return components_; }
   const std::vector<FlatLink>& links() const { return links_; }
-  const std::vector<std::string>& texts() const { return texts_; }
+  const TextTable& texts() const { return texts_; }
   const std::vector<Problem>& problems() const { return problems_; }
   bool usable() const;
 
@@ -76,6 +77,7 @@ class RobotTree final : public RobotBuilder {
   std::int32_t add_component(std::string_view name);
   void add_node(NodeKind kind, std::string_view name);
   bool started(std::string_view call);
+  void check_mass();
   template <class Visit>
   void each_collision_bounds(Visit visit) const;
 
@@ -93,7 +95,7 @@ class RobotTree final : public RobotBuilder {
   std::vector<Node> nodes_;
   std::vector<Component> components_;
   std::vector<FlatLink> links_;
-  std::vector<std::string> texts_{""};
+  TextTable texts_;
   std::vector<Problem> problems_;
   std::map<std::string, std::int32_t, std::less<>> component_index_;
 };

@@ -9,14 +9,16 @@
 #include "core/error.hpp"
 #include "core/registry.hpp"
 #include "core/schedule/scheduler.hpp"
+#include "core/used_library.hpp"
 #include "core/world.hpp"
 #include "core/world_model.hpp"
 
 namespace muro {
 
-class Inspector;
+class Extensions;
 class Instance;
 class Levels;
+class OutputRegistry;
 struct LevelsOfRobot;
 
 /// The whole state of a simulation at one time, independent of the simulation's later life.
@@ -64,17 +66,26 @@ class Simulation {
   void set_levels(const RobotView& robot, std::vector<std::string> names, std::uint32_t first);
   /// Where log lines of algorithms go; default: warnings and errors to standard error.
   void set_log(std::function<void(LogLevel, std::string_view)> log);
-  /// On how many threads calls are made that may overlap; 1, unless set. Never changes a result. [between runs]
-  void set_threads(unsigned threads) { scheduler_.set_threads(threads); }
+  /// On how many threads calls are made that may overlap; 1, unless set. Never changes a result. When the machine
+  /// starts no more threads, a warning says so, and there are fewer. [between runs]
+  void set_threads(unsigned threads);
   /// Makes runs prove that algorithms touch only what they have declared; see AccessCheck. [between runs]
   void verify_access();
-  void set_pacing(Pacing pacing) { scheduler_.set_pacing(pacing); }
+  /// Throws SetupError unless the factor is 0 (as fast as it goes) or from 1e-6 to 1e6. [between runs]
+  void set_pacing(Pacing pacing);
+  /// What is written: algorithms add their files when they connect; who runs the simulation adds its own, and what it
+  /// reads, before `build`, which checks them all. [setup]
+  OutputRegistry& outputs();
+  /// Recorders and views are to be connected and checked, but not started: nothing is written, and the simulation
+  /// cannot run. For a look at it. [before build]
+  void keep_outputs_closed() { outputs_closed_ = true; }
   /// Connects everything, checks it, starts it. Throws SetupError with every problem found.
   void build();
 
-  // --- running
+  // --- running, all of it after `build`; before, and for times that cannot be, there is a SetupError
+  /// `seconds`: 0 or more, so that the end is at most 4.6e9 s after the start.
   void run_for(double seconds);
-  /// Up to but not including `time` (ns). `stop` is asked every few instants; true ends the run.
+  /// Up to but not including `time` (ns, from 0 to 4.6e18). `stop` is asked every few instants; true ends the run.
   void run_until(std::int64_t time, const std::function<bool()>& stop = {});
   std::int64_t now() const { return scheduler_.now(); }  ///< ns
   /// Whether an algorithm has asked for the end of the run; nothing runs any more then.
@@ -96,23 +107,30 @@ class Simulation {
   const std::vector<std::unique_ptr<Instance>>& instances() const { return instances_; }
   Scheduler& scheduler() { return scheduler_; }
   const Scheduler& scheduler() const { return scheduler_; }
+  /// Those of the plugins that were asked for, then those that algorithms have loaded themselves.
+  std::vector<UsedLibrary> libraries() const;
   /// The task of an instance.
   TaskId task_of(std::size_t instance) const { return tasks_[instance]; }
 
  private:
   class Log;
+  void require_built(const char* call) const;
   void merge_batched();
+  void check_single_roles(const std::vector<AlgorithmSetup>& setups) const;
   void mark_inactive_motions();
   void join_world(AlgorithmSetup& world, AlgorithmSetup& joining) const;
   void partition_memory();
   std::vector<std::size_t> in_order_of(int (*order)(const Description&)) const;
   void schedule();
+  void connect_all();
+  void check_outputs();
+  void start_all();
   std::vector<std::int32_t> robot_of_slot() const;
 
   Registry& registry_;
   World world_;
   Scheduler scheduler_;
-  std::unique_ptr<Inspector> inspector_;
+  std::unique_ptr<Extensions> extensions_;
   std::unique_ptr<Log> log_;
   std::vector<AlgorithmSetup> setups_;
   std::vector<std::size_t> instance_of_setup_;
@@ -122,6 +140,8 @@ class Simulation {
   std::unique_ptr<Levels> levels_;
   std::vector<TaskId> tasks_;
   Snapshot initial_;
+  bool built_ = false;
+  bool outputs_closed_ = false;
 };
 
 }  // namespace muro

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "core/world.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstring>
 
 #include "core/error.hpp"
 #include "core/hash.hpp"
+#include "core/value_check.hpp"
 #include "muro/toolkit/did_you_mean.hpp"
 #include "muro/toolkit/random.hpp"
 #include "muro/vocabulary.hpp"
@@ -19,7 +22,7 @@ World::World() {
 
 ObjectId World::add_object(std::string_view name) {
   const ObjectId id{object_count()};
-  if (name.empty()) throw SetupError("an object has no name");
+  check_object_name(name, "an object");
   if (!by_name_.emplace(std::string(name), id).second)
     throw SetupError("two objects are named `" + std::string(name) + "`; names are unique");
   store_.add_object(std::string(name));
@@ -40,6 +43,10 @@ ObjectId World::add_scenery(std::string_view name, const Pose& pose, std::span<c
 
 ObjectId World::add_scenery(std::string_view name, const Pose& pose, std::span<const Shape> collisions,
                             std::span<const Shape> visuals) {
+  const std::string object(name);
+  check_values(object, keys::pose, &pose, 1);
+  check_values(object, keys::collision_shapes, collisions.data(), std::uint32_t(collisions.size()));
+  check_values(object, keys::visual_shapes, visuals.data(), std::uint32_t(visuals.size()));
   const ObjectId id = add_object(name);
   set(id, keys::pose, pose);
   if (!collisions.empty()) set_array(id, keys::collision_shapes, collisions);
@@ -49,27 +56,46 @@ ObjectId World::add_scenery(std::string_view name, const Pose& pose, std::span<c
 
 namespace {
 
+/// Calls `visit` with the place of every TextId in `size` bytes of values of a key.
+template <class Bytes, class Visit>
+void each_text(const KeyInfo& key, Bytes* data, std::size_t size, Visit visit) {
+  const bool shape = key.type->name == ValueTraits<Shape>::name;
+  if (!shape && key.type->name != ValueTraits<TextId>::name) return;
+  for (std::size_t at = 0; at < size; at += key.type->size) {
+    visit(data + at + (shape ? offsetof(Shape, mesh) : 0));
+    if (shape) visit(data + at + offsetof(Shape, texture));
+  }
+}
+
+/// The number of a text that lies at `place`. Throws SetupError when it is of another world or model.
+std::size_t number_of_text(const std::byte* place, std::size_t texts, const std::string& object, const KeyInfo& key) {
+  TextId id;
+  std::memcpy(&id, place, sizeof id);
+  const auto number = static_cast<std::size_t>(id);
+  if (number >= texts)
+    throw SetupError(
+        fmt::format("`{}:{}` names text {}, but there are {}; texts of shapes (mesh, texture) are interned with the "
+                    "World or RobotTree that the shapes are given to",
+                    object, key.name, number, texts));
+  return number;
+}
+
 /// The bytes of a constant in which texts of the model are texts of the world: `texts` translates.
-std::vector<std::byte> with_texts(const RobotTree::Constant& c, const std::vector<TextId>& texts) {
+std::vector<std::byte> with_texts(const RobotTree::Constant& c, const std::vector<TextId>& texts,
+                                  const std::string& object) {
   std::vector<std::byte> data = c.data;
-  const bool shape = c.key.type->name == ValueTraits<Shape>::name;
-  if (!shape && c.key.type->name != ValueTraits<TextId>::name) return data;
-  const auto translate = [&](std::size_t offset) {
-    for (std::size_t at = offset; at < data.size(); at += c.key.type->size) {
-      TextId id;
-      std::memcpy(&id, data.data() + at, sizeof id);
-      id = texts[static_cast<std::size_t>(id)];
-      std::memcpy(data.data() + at, &id, sizeof id);
-    }
-  };
-  translate(shape ? offsetof(Shape, mesh) : 0);
-  if (shape) translate(offsetof(Shape, texture));
+  each_text(c.key, data.data(), data.size(), [&](std::byte* place) {
+    const TextId id = texts[number_of_text(place, texts.size(), object, c.key)];
+    std::memcpy(place, &id, sizeof id);
+  });
   return data;
 }
 
 }  // namespace
 
 const RobotView& World::add_robot(std::string_view name, const RobotTree& tree, const Pose& start) {
+  check_object_name(name, "a robot");
+  check_values(std::string(name), keys::initial_pose, &start, 1);
   if (find_robot(name)) throw SetupError("two robots are named `" + std::string(name) + "`; names are unique");
   const auto number = std::uint32_t(robots_.size());
   Robot& r = robots_.emplace_back();
@@ -81,7 +107,7 @@ const RobotView& World::add_robot(std::string_view name, const RobotTree& tree, 
   for (const RobotTree::Component& component : tree.components()) {
     objects.push_back(add_object(r.name + "/" + component.name, number));
     for (const RobotTree::Constant& c : component.constants) {
-      const std::vector<std::byte> data = with_texts(c, texts);
+      const std::vector<std::byte> data = with_texts(c, texts, object_name(objects.back()));
       store_.set_constant(objects.back(), c.key, data.data(), c.count);
     }
   }
@@ -116,11 +142,12 @@ const RobotView* World::find_robot(std::string_view name) const {
   return it == robot_by_name_.end() ? nullptr : robot_pointers_[it->second];
 }
 
-TextId World::intern(std::string_view text) {
-  const auto it = std::find(texts_.begin(), texts_.end(), text);
-  if (it != texts_.end()) return TextId(it - texts_.begin());
-  texts_.emplace_back(text);
-  return TextId(texts_.size() - 1);
+void World::set_values(ObjectId object, const KeyInfo& key, const void* data, std::uint32_t count) {
+  const std::uint32_t values = count == single_value ? 1 : count;
+  check_values(object_name(object), key, data, values);
+  each_text(key, static_cast<const std::byte*>(data), std::size_t(values) * key.type->size,
+            [&](const std::byte* place) { number_of_text(place, text_count(), object_name(object), key); });
+  store_.set_constant(object, key, data, count);
 }
 
 void* World::place(ObjectId object, const KeyInfo& key) const {

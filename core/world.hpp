@@ -7,6 +7,7 @@
 
 #include "core/property_store.hpp"
 #include "core/robot_tree.hpp"
+#include "core/text_table.hpp"
 #include "muro/shape.hpp"
 
 namespace muro {
@@ -16,16 +17,18 @@ class World {
  public:
   World();
 
-  /// A new object; throws SetupError when the name is taken. [setup]
+  /// A new object; throws SetupError when the name is taken, or is none: see check_object_name. [setup]
   ObjectId add_object(std::string_view name);
   /// An object of a robot that its model does not have, such as a sensor. [setup]
   ObjectId add_object(std::string_view name, std::uint32_t robot);
-  /// Scenery: a body that does not move. [setup]
+  /// Scenery: a body that does not move. Throws SetupError when its pose or shapes are out of range
+  /// (muro/toolkit/limits.hpp). [setup]
   ObjectId add_scenery(std::string_view name, const Pose& pose, std::span<const Shape> shapes);
   /// The same for a body that looks other than what it collides with.
   ObjectId add_scenery(std::string_view name, const Pose& pose, std::span<const Shape> collisions,
                        std::span<const Shape> visuals);
-  /// A robot "name" with an object "name/component" for every component of the tree. [setup]
+  /// A robot "name" with an object "name/component" for every component of the tree. Throws SetupError when the pose
+  /// is out of range. [setup]
   const RobotView& add_robot(std::string_view name, const RobotTree& tree, const Pose& start = {});
 
   ObjectId find_object(std::string_view name) const;
@@ -34,23 +37,26 @@ class World {
   std::uint32_t object_count() const { return std::uint32_t(robot_of_.size()); }
   const std::string& object_name(ObjectId id) const { return store_.object_name(id); }
   std::int32_t robot_of(ObjectId id) const { return robot_of_[index_of(id)]; }
+  /// All objects of a robot: those of its model, then sensors and the like.
+  const std::vector<ObjectId>& objects_of(const RobotView& robot) const { return robots_[robot.number].objects; }
   std::span<const RobotView* const> robots() const { return robot_pointers_; }
   const RobotView* find_robot(std::string_view name) const;
 
-  TextId intern(std::string_view text);
-  std::string_view text(TextId id) const { return texts_[static_cast<std::size_t>(id)]; }
+  TextId intern(std::string_view text) { return texts_.intern(text); }
+  std::string_view text(TextId id) const { return texts_[id]; }
   std::size_t text_count() const { return texts_.size(); }
 
   PropertyStore& store() { return store_; }
   const PropertyStore& store() const { return store_; }
 
+  /// A constant. Throws SetupError when the value is out of range (muro/toolkit/limits.hpp). [setup]
   template <class T>
   void set(ObjectId object, const Key<T>& key, const T& value) {
-    store_.set_constant(object, key, &value, single_value);
+    set_values(object, key, &value, single_value);
   }
   template <class T>
   void set_array(ObjectId object, const Key<T>& key, std::span<const T> values) {
-    store_.set_constant(object, key, values.data(), std::uint32_t(values.size()));
+    set_values(object, key, values.data(), std::uint32_t(values.size()));
   }
   template <class T, class U>
   void share(ObjectId a, const Key<T>& key_a, ObjectId b, const Key<U>& key_b) {
@@ -79,6 +85,7 @@ class World {
   std::uint64_t hash() const;
 
  private:
+  void set_values(ObjectId object, const KeyInfo& key, const void* data, std::uint32_t count);
   void* place(ObjectId object, const KeyInfo& key) const;
   ArrayHeader elements(ObjectId object, const KeyInfo& key) const;
 
@@ -94,7 +101,7 @@ class World {
   std::deque<Robot> robots_;
   std::unordered_map<std::string, std::uint32_t> robot_by_name_;
   std::vector<const RobotView*> robot_pointers_;
-  std::deque<std::string> texts_{""};
+  TextTable texts_;
 };
 
 }  // namespace muro

@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <set>
 
+#include "muro/toolkit/limits.hpp"
+
 namespace muro {
 
 void WorldModel::gravity(const Vec3& acceleration) noexcept {
-  if (!acceleration.allFinite()) return report(Severity::error, "a gravity that is not finite", 0, 0);
+  if (!limits::within(limits::gravity, acceleration))
+    return report(Severity::error, "a gravity with a component that is not from -1e4 to 1e4 m/s^2", 0, 0);
   gravity_ = acceleration;
 }
 
@@ -21,12 +24,7 @@ RobotBuilder& WorldModel::model(std::string_view name, const Pose& pose) noexcep
   return models_.emplace_back(Model{std::string(name), pose, {}}).tree;
 }
 
-TextId WorldModel::intern(std::string_view text) noexcept {
-  const auto it = std::find(texts_.begin(), texts_.end(), text);
-  if (it != texts_.end()) return TextId(it - texts_.begin());
-  texts_.emplace_back(text);
-  return TextId(texts_.size() - 1);
-}
+TextId WorldModel::intern(std::string_view text) noexcept { return texts_.intern(text); }
 
 void WorldModel::report(Severity severity, std::string_view text, int line, int column) noexcept {
   problems_.push_back({severity, std::string(text), line, column});
@@ -38,8 +36,8 @@ void WorldModel::close() {
     if (name.empty()) report(Severity::error, std::string(what) + " has no name", 0, 0);
     if (!names.insert(name).second)
       report(Severity::error, "two things of the world are named `" + name + "`; names are unique", 0, 0);
-    if (!pose.position.allFinite() || !pose.orientation.coeffs().allFinite())
-      report(Severity::error, std::string(what) + " `" + name + "` stands at no finite pose", 0, 0);
+    if (const std::string problem = limits::problem_of(pose); !problem.empty())
+      report(Severity::error, std::string(what) + " `" + name + "` " + problem, 0, 0);
   };
   for (const Scenery& s : scenery_) check(s.name, s.pose, "scenery");
   for (Model& m : models_) {

@@ -39,7 +39,7 @@ class WorldModel final : public WorldBuilder {
   const std::deque<Scenery>& scenery() const { return scenery_; }
   const std::deque<Model>& models() const { return models_; }
   /// What the shapes of scenery name; a tree has texts of its own.
-  const std::vector<std::string>& texts() const { return texts_; }
+  const TextTable& texts() const { return texts_; }
   /// Of the whole file. Those of one model are in its tree: a tree with errors makes no robot, but may stand still.
   const std::vector<RobotTree::Problem>& problems() const { return problems_; }
 
@@ -47,7 +47,7 @@ class WorldModel final : public WorldBuilder {
   std::optional<Vec3> gravity_;
   std::deque<Scenery> scenery_;
   std::deque<Model> models_;
-  std::vector<std::string> texts_{""};
+  TextTable texts_;
   std::vector<RobotTree::Problem> problems_;
 };
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "muro/toolkit/elementary.hpp"
+
 namespace muro::host {
 
 namespace {
@@ -15,7 +17,7 @@ using Color = std::array<double, 3>;
 /// A colour map from dark blue to bright yellow with rising lightness; `x` in 0..1.
 Color color_map(double x) {
   constexpr Color stops[] = {{40, 15, 90}, {60, 80, 150}, {35, 145, 140}, {95, 200, 100}, {250, 230, 40}};
-  const double at = x * (std::size(stops) - 1);
+  const double at = (x > 0 ? std::min(x, 1.0) : 0) * (std::size(stops) - 1);
   const auto first = std::min(std::size_t(at), std::size(stops) - 2);
   Color c{};
   for (std::size_t k = 0; k < 3; ++k)
@@ -35,7 +37,9 @@ std::vector<std::uint8_t> colors_of(std::span<const float> depth) {
     if (std::isfinite(d)) low = std::min(low, double(d)), high = std::max(high, double(d));
   std::vector<std::uint8_t> rgb;
   for (const float d : depth)
-    put(rgb, std::isfinite(d) ? color_map(high > low ? std::log(double(d) / low) / std::log(high / low) : 0) : Color{});
+    put(rgb, std::isfinite(d)
+                 ? color_map(high > low ? elementary::log(double(d) / low) / elementary::log(high / low) : 0)
+                 : Color{});
   return rgb;
 }
 

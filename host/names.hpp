@@ -8,7 +8,7 @@
 
 namespace muro::host {
 
-/// "a, b, c".
+/// "a, b, c"; of very many the first ones, "a, b and 7 more".
 std::string comma_separated(const std::vector<std::string>& names);
 
 /// What follows a name that is not among `names`: " (did you mean `x`?); there are: a, b". `intro` stands before the

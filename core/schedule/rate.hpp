@@ -18,9 +18,7 @@ class Rate {
   Rate() = default;
   /// From Hz, rounded to 1e-6 Hz; 0 means on demand. Throws SetupError unless 0 or from 1e-6 to 1e9.
   explicit Rate(double hertz) {
-    if (hertz != 0 && !(hertz >= 1e-6 && hertz <= 1e9))
-      throw SetupError("a rate of " + std::to_string(hertz) +
-                       " Hz is not possible; allowed is 1e-6 to 1e9 Hz, or 0 for on demand");
+    if (hertz != 0 && !(hertz >= 1e-6 && hertz <= 1e9)) refuse(hertz);
     microhertz_ = std::llround(hertz * 1e6);
   }
 
@@ -41,6 +39,8 @@ class Rate {
   auto operator<=>(const Rate&) const = default;
 
  private:
+  [[noreturn]] static void refuse(double hertz);  // in scheduler.cpp, which has fmt
+
   std::int64_t microhertz_ = 0;
 };
 

@@ -67,8 +67,8 @@ class Scheduler {
 
   std::int64_t now() const { return now_; }
   void set_seed(std::uint64_t seed) { seed_ = seed; }
-  /// Of calls; 1: the calling thread alone. [between runs]
-  void set_threads(unsigned threads);
+  /// Of calls; 1: the calling thread alone. Returns why there are fewer, or nothing. [between runs]
+  std::string set_threads(unsigned threads);
   void set_pacing(Pacing pacing);
   std::uint64_t overruns() const { return overruns_; }
   const std::vector<Task>& tasks() const { return tasks_; }

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <system_error>
+
+#include "core/c_locale.hpp"
 
 namespace muro {
 
@@ -27,7 +30,12 @@ constexpr std::uint64_t packed(std::uint32_t round, std::uint32_t end, std::uint
 }  // namespace
 
 WorkerPool::WorkerPool(unsigned threads) {
-  for (unsigned t = 1; t < threads; ++t) threads_.emplace_back([this, t] { serve(t); });
+  threads_.reserve(threads);
+  try {
+    for (unsigned t = 1; t < threads; ++t) threads_.emplace_back([this, t] { serve(t); });
+  } catch (const std::system_error& e) {  // limits of users, containers and memory
+    why_fewer_ = e.code().message();
+  }
 }
 
 WorkerPool::~WorkerPool() {
@@ -81,6 +89,7 @@ bool WorkerPool::take(std::uint32_t round, std::uint32_t& item) {
 }
 
 void WorkerPool::serve(unsigned thread) {
+  const CLocale locale;
   for (std::uint32_t seen = 0;;) {
     wait_for_round_after(seen);
     seen = round_.load(std::memory_order_acquire);

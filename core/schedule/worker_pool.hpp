@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -18,13 +19,15 @@ inline constexpr std::size_t cache_distance = 128;
 /// nothing.
 class WorkerPool {
  public:
-  /// `threads` with the caller; 1 or more.
+  /// `threads` with the caller; 1 or more. There are fewer when the machine starts no more.
   explicit WorkerPool(unsigned threads);
   ~WorkerPool();
   WorkerPool(const WorkerPool&) = delete;
   WorkerPool& operator=(const WorkerPool&) = delete;
 
   unsigned threads() const { return unsigned(threads_.size()) + 1; }
+  /// Why there are fewer threads than were asked for; empty when there are as many.
+  const std::string& why_fewer() const { return why_fewer_; }
 
   /// Calls work(owner, batch, item, thread) for every item below `items`, each once, on any thread, the caller's being
   /// number 0; returns when all are done. `work` does not throw.
@@ -55,6 +58,7 @@ class WorkerPool {
   alignas(cache_distance) std::atomic<std::uint32_t> sleepers_{0};
   std::atomic<bool> quit_{false};
   std::vector<std::thread> threads_;
+  std::string why_fewer_;
 };
 
 }  // namespace muro

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "muro/toolkit/elementary.hpp"
+
 namespace muro::host {
 
 namespace {
@@ -57,27 +59,27 @@ struct LogScale {
 
   void fit(std::vector<double> values) {
     const std::size_t all = values.size();
-    std::erase_if(values, [](double v) { return !(v > 0); });
+    std::erase_if(values, [](double v) { return !(v > 0) || !std::isfinite(v); });
     zeros = values.size() < all;
     if (values.empty()) return;
     const auto [min, max] = std::minmax_element(values.begin(), values.end());
-    low = std::log10(*min) - 0.12;
-    high = std::log10(*max) + 0.12;
+    low = elementary::log10(*min) - 0.12;
+    high = elementary::log10(*max) + 0.12;
     const double missing = 1 - (high - low);
     if (missing > 0) low -= missing / 2, high += missing / 2;
   }
   double coordinate(double value) const {
-    return value > 0 ? from + (std::log10(value) - low) / (high - low) * (to - from) : zero;
+    return value > 0 ? from + (elementary::log10(value) - low) / (high - low) * (to - from) : zero;
   }
   /// Values at which there is a tick; `labelled`: those with a number.
   std::vector<std::pair<double, bool>> ticks() const {
     std::vector<std::pair<double, bool>> all;
     for (int decade = int(std::floor(low)); decade <= int(std::ceil(high)); ++decade)
       for (int m = 1; m < 10; ++m) {
-        const double exponent = decade + std::log10(m);
+        const double exponent = decade + elementary::log10(m);
         if (exponent < low || exponent > high) continue;
         const bool labelled = m == 1 || (high - low < 2.5 && (m == 2 || m == 5));
-        all.emplace_back(m * std::pow(10.0, decade), labelled);
+        all.emplace_back(m * elementary::pow(10.0, decade), labelled);
       }
     return all;
   }
@@ -203,7 +205,7 @@ class Drawing {
     int candidates = 0;
     for (const double distance : {9.0, 22.0, 36.0, 52.0, 70.0, 90.0})
       for (const double angle : {0.0, 180.0, -90.0, 90.0, -45.0, 45.0, -135.0, 135.0, -20.0, 20.0, -160.0, 160.0}) {
-        const double dx = std::cos(angle * M_PI / 180), dy = std::sin(angle * M_PI / 180);
+        const double dx = elementary::cos(angle * M_PI / 180), dy = elementary::sin(angle * M_PI / 180);
         const double cx = x + dx * (distance + w / 2), cy = y + dy * (distance + text_size / 2 - (dx == 0 ? 0 : 2));
         const Box box{cx - w / 2, cy - text_size / 2, cx + w / 2, cy + text_size / 2};
         const Box area{left + 2, top + 2, right - 2, bottom - 2};

@@ -114,8 +114,8 @@ class FactorReader {
 
   static std::vector<std::string> subsystems_of(const RobotTemplate& t) {
     std::vector<std::string> names;
-    for (const auto& robot : t.subsystems)
-      for (const Subsystem& s : robot)
+    for (const auto& list : t.subsystems.lists())
+      for (const Subsystem& s : list)
         if (std::find(names.begin(), names.end(), s.name) == names.end()) names.push_back(s.name);
     return names;
   }

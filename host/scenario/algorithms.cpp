@@ -68,7 +68,8 @@ void Algorithms::add(const Subsystem& s, const std::string& name, std::vector<It
   setup.items = std::move(items);
   setup.place = s.location.text();
   const std::filesystem::path file(s.location.in_file() ? s.location.file : scenario_.file);
-  setup.folder = std::filesystem::absolute(file).parent_path().string();
+  std::error_code deleted;  // the working directory may be gone; then the scenario has an absolute path
+  setup.folder = std::filesystem::absolute(file, deleted).parent_path().string();
   setup.phase = std::llround(s.phase.value_or(0) * 1e9);
   setup.rate = rate_of(s, info_of(d->kind));
   used_.insert(s.use);

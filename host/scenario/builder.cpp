@@ -4,16 +4,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <new>
 #include <thread>
 
+#include "core/output_registry.hpp"
+#include "host/process/exit_guard.hpp"
 #include "host/scenario/algorithms.hpp"
 #include "host/scenario/body.hpp"
 #include "host/scenario/initial_state.hpp"
+#include "host/scenario/overlaps.hpp"
 #include "host/scenario/placement.hpp"
 #include "host/scenario/shadow_robot.hpp"
 #include "host/scenario/subsystems.hpp"
 #include "host/scenario/world_file.hpp"
 #include "muro/toolkit/bounds.hpp"
+#include "muro/toolkit/elementary.hpp"
 #include "muro/vocabulary.hpp"
 
 namespace muro::host {
@@ -34,7 +40,7 @@ class SceneBuilder {
   void build() {
     world_file_.read();
     world_.set(world_object, keys::gravity, world_file_.gravity());
-    world_file_.add_scenery(obstacles_);
+    world_file_.add_scenery(occupied_);
     for (const SceneryObject& o : scenario_.objects) problems_.collect("", [&] { add_object(o); });
     add_all_robots();
     algorithms_.complete();
@@ -49,14 +55,14 @@ class SceneBuilder {
     const Vec3 half = half_extents(shape);
     const bool plane = shape.kind == ShapeKind::plane;
     const int count = p.kind == Placement::Kind::grid ? p.columns * p.rows : int(p.poses.size());
-    const Body body{o.name, plane ? 0 : half.z(), std::hypot(half.x(), half.y())};
-    std::vector<Footprint> unused;
-    const auto poses = place(p, count, body, scenario_.places, {}, unused);
+    const Body body{o.name, plane ? 0 : half.z(), elementary::hypot(half.x(), half.y())};
+    Occupancy unused;
+    const auto poses = place(p, count, body, scenario_.places, unused);
     for (std::size_t i = 0; i < poses.size(); ++i) {
       problems_.collect(o.location.text() + ": ", [&] {
         world_.add_scenery(instance_name(o.name, o.numbered, i), poses[i], std::span<const Shape>(&shape, 1));
       });
-      if (!plane) obstacles_.push_back({poses[i], half.x(), half.y()});
+      if (!plane) occupied_.add(Obstacle{poses[i], half.x(), half.y()});
     }
   }
 
@@ -91,13 +97,18 @@ class SceneBuilder {
     std::vector<Pose> poses;
     if (t.from_world) {
       poses = {world_file_.pose(t)};
-      footprints_.push_back({poses[0].position.x(), poses[0].position.y(), tree.footprint_radius()});
+      occupied_.add(Footprint{poses[0].position.x(), poses[0].position.y(), tree.footprint_radius()});
       return poses;
     }
     if (!t.placement.seed) t.placement.seed = scenario_.seed;
+    if (t.placement.kind == Placement::Kind::random) {
+      int& drawn = drawn_[{t.placement.area, *t.placement.seed}];
+      t.placement.first_copy = drawn;
+      drawn += t.count;
+    }
     problems_.collect("", [&] {
       const Body body{t.name, tree.standing_height(), tree.footprint_radius()};
-      poses = place(t.placement, t.count, body, scenario_.places, obstacles_, footprints_);
+      poses = place(t.placement, t.count, body, scenario_.places, occupied_);
     });
     return poses;
   }
@@ -126,8 +137,8 @@ class SceneBuilder {
   Algorithms algorithms_;
   Subsystems subsystems_;
   WorldFileContents world_file_;
-  std::vector<Obstacle> obstacles_;
-  std::vector<Footprint> footprints_;
+  Occupancy occupied_;
+  std::map<std::pair<std::string, std::uint64_t>, int> drawn_;  ///< copies at random, by place and seed
   std::vector<ShadowSetup> shadows_;
 };
 
@@ -138,20 +149,34 @@ void print_line(LogLevel level, std::string_view text) {
   fmt::print(stderr, "{}: {}\n", severity, text);
 }
 
+BuiltScenario built(Scenario scenario, Registry& registry, const std::function<void(Simulation&)>& add_more) {
+  BuiltScenario out;
+  out.scenario = std::move(scenario);
+  registry.choose(out.scenario.plugins);
+  out.simulation = std::make_unique<Simulation>(registry, out.scenario.seed);
+  out.simulation->set_log(print_line);
+  for (const std::string& file : out.scenario.files)
+    out.simulation->outputs().add_input(file, "a file of the scenario");
+  SceneBuilder(out, registry).build();
+  if (add_more) add_more(*out.simulation);
+  out.simulation->build();
+  ExitGuard::renew();
+  for (std::string& note : overlap_notes(*out.simulation)) out.notes.push_back(std::move(note));
+  out.simulation->set_threads(out.scenario.threads > 0 ? out.scenario.threads : all_threads());
+  return out;
+}
+
 }  // namespace
 
 unsigned all_threads() { return std::max(1u, std::thread::hardware_concurrency()); }
 
 BuiltScenario build(Scenario scenario, Registry& registry, const std::function<void(Simulation&)>& add_more) {
-  BuiltScenario out;
-  out.scenario = std::move(scenario);
-  out.simulation = std::make_unique<Simulation>(registry, out.scenario.seed);
-  out.simulation->set_log(print_line);
-  SceneBuilder(out, registry).build();
-  if (add_more) add_more(*out.simulation);
-  out.simulation->build();
-  out.simulation->set_threads(out.scenario.threads > 0 ? out.scenario.threads : all_threads());
-  return out;
+  const std::string file = scenario.file;
+  try {
+    return built(std::move(scenario), registry, add_more);
+  } catch (const std::bad_alloc&) {
+    throw SetupError(fmt::format("{}: the scene needs more memory than there is; make it smaller", file));
+  }
 }
 
 }  // namespace muro::host

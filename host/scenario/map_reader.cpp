@@ -13,6 +13,8 @@ namespace muro::host {
 
 namespace {
 
+constexpr double largest_number = 1e15;  // where no other range is given
+
 /// For messages; `{:g}` prints numbers with six digits.
 std::string range_text(double min, double max) {
   if (std::isfinite(min) && std::isfinite(max)) return fmt::format(" from {:g} to {:g}", min, max);
@@ -37,14 +39,13 @@ MapReader::MapReader(const Node& node, std::string what, Problems& problems)
 }
 
 const Node* MapReader::find(const std::string& key) {
-  schema_.push_back(key);
+  if (asked_.insert(key).second) schema_.push_back(key);
   return node_.find(key);
 }
 
 Location MapReader::key_location(const std::string& key) const {
-  for (std::size_t i = 0; i < node_.map.size(); ++i)
-    if (node_.map[i].first == key) return node_.key_locations[i];
-  return node_.location;
+  const std::size_t at = node_.position_of(key);
+  return at == Node::none ? node_.location : node_.key_locations[at];
 }
 
 void MapReader::problem(const std::string& key, const std::string& text) {
@@ -93,6 +94,7 @@ double MapReader::number(const std::string& key, double default_value, double mi
   const Node* n = find(key);
   if (!n) return default_value;
   const auto x = as_number(*n);
+  min = std::max(min, -largest_number), max = std::min(max, largest_number);
   if (x && *x >= min && *x <= max) return *x;
   problem(key, fmt::format("is {} but must be a number{}", quoted(*n), range_text(min, max)));
   return default_value;
@@ -108,11 +110,14 @@ std::int64_t MapReader::integer(const std::string& key, std::int64_t default_val
   return default_value;
 }
 
-std::optional<std::vector<double>> MapReader::numbers(const std::string& key, const std::set<std::size_t>& lengths) {
+std::optional<std::vector<double>> MapReader::numbers(const std::string& key, const std::set<std::size_t>& lengths,
+                                                      double min, double max) {
   const Node* n = find(key);
   if (!n) return std::nullopt;
+  const std::string range = range_text(min, max);
   const std::string expected =
-      lengths.empty() ? "a list of numbers" : fmt::format("a list of {} numbers", fmt::join(lengths, " or "));
+      (lengths.empty() ? "a list of numbers" : fmt::format("a list of {} numbers", fmt::join(lengths, " or "))) + range;
+  min = std::max(min, -largest_number), max = std::min(max, largest_number);
   if (n->kind != Node::Kind::list || (!lengths.empty() && lengths.count(n->list.size()) == 0)) {
     problem(key, fmt::format("is {} but must be {}", quoted(*n), expected));
     return std::nullopt;
@@ -120,7 +125,7 @@ std::optional<std::vector<double>> MapReader::numbers(const std::string& key, co
   std::vector<double> values;
   for (std::size_t i = 0; i < n->list.size(); ++i) {
     const Node& e = n->list[i];
-    if (const auto x = as_number(e))
+    if (const auto x = as_number(e); x && *x >= min && *x <= max)
       values.push_back(*x);
     else
       problems_.add(e.location, fmt::format("`{}` of {} must be {}, but its {} is {}", key, what_, expected,
@@ -130,22 +135,21 @@ std::optional<std::vector<double>> MapReader::numbers(const std::string& key, co
   return values;
 }
 
-Vec3 MapReader::vector(const std::string& key, const Vec3& default_value) {
-  const auto v = numbers(key, {3});
+Vec3 MapReader::vector(const std::string& key, const Vec3& default_value, double limit) {
+  const auto v = numbers(key, {3}, -limit, limit);
   return v ? Vec3((*v)[0], (*v)[1], (*v)[2]) : default_value;
 }
 
 std::vector<std::pair<std::string, const Node*>> MapReader::unread() const {
   std::vector<std::pair<std::string, const Node*>> all;
   for (const auto& [key, value] : node_.map)
-    if (std::find(schema_.begin(), schema_.end(), key) == schema_.end()) all.emplace_back(key, &value);
+    if (asked_.count(key) == 0) all.emplace_back(key, &value);
   return all;
 }
 
 void MapReader::reject_unknown_keys() {
   std::vector<std::string> allowed = schema_;
   std::sort(allowed.begin(), allowed.end());
-  allowed.erase(std::unique(allowed.begin(), allowed.end()), allowed.end());
   for (const auto& [key, unused] : unread())
     problems_.add(key_location(key), fmt::format("{} has no key `{}`{}; allowed: {}", what_, key,
                                                  did_you_mean(key, allowed), comma_separated(allowed)));

@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 #include "host/scenario/node.hpp"
@@ -32,8 +33,11 @@ class MapReader {
   double number(const std::string& key, double default_value, double min = -unbounded, double max = unbounded);
   std::int64_t integer(const std::string& key, std::int64_t default_value, std::int64_t min, std::int64_t max);
   /// `lengths`: how many numbers are allowed; none: any.
-  std::optional<std::vector<double>> numbers(const std::string& key, const std::set<std::size_t>& lengths);
-  Vec3 vector(const std::string& key, const Vec3& default_value);
+  /// Each of them from `min` to `max`.
+  std::optional<std::vector<double>> numbers(const std::string& key, const std::set<std::size_t>& lengths,
+                                             double min = -unbounded, double max = unbounded);
+  /// Three numbers from -limit to limit.
+  Vec3 vector(const std::string& key, const Vec3& default_value, double limit);
   /// Keys outside of the schema become problems that name the nearest key of the schema.
   void reject_unknown_keys();
   /// The keys that have not been asked for so far.
@@ -51,6 +55,7 @@ class MapReader {
   std::string what_;
   Problems& problems_;
   std::vector<std::string> schema_;
+  std::unordered_set<std::string> asked_;  ///< the keys of schema_
 };
 
 }  // namespace muro::host

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "host/scenario/yaml.hpp"
+#include "muro/toolkit/printable.hpp"
 
 namespace muro::host {
 
@@ -18,10 +19,23 @@ Node& Node::operator=(const Node&) = default;
 Node& Node::operator=(Node&&) noexcept = default;
 Node::~Node() = default;
 
+std::size_t Node::position_of(const std::string& key) const {
+  constexpr std::size_t large = 32;  // keys, from which on an index finds them faster
+  if (map.size() < large) {
+    for (std::size_t i = 0; i < map.size(); ++i)
+      if (map[i].first == key) return i;
+    return none;
+  }
+  if (!index_.positions) index_.positions = std::make_unique<std::unordered_map<std::string, std::size_t>>();
+  auto& positions = *index_.positions;
+  for (std::size_t i = positions.size(); i < map.size(); ++i) positions.emplace(map[i].first, i);
+  const auto found = positions.find(key);
+  return found == positions.end() ? none : found->second;
+}
+
 const Node* Node::find(const std::string& key) const {
-  for (const auto& [name, value] : map)
-    if (name == key) return &value;
-  return nullptr;
+  const std::size_t at = position_of(key);
+  return at == none ? nullptr : &map[at].second;
 }
 
 Node* Node::find(const std::string& key) { return const_cast<Node*>(std::as_const(*this).find(key)); }
@@ -36,12 +50,11 @@ Node& Node::child(const std::string& key, const Location& at) {
 }
 
 void Node::erase(const std::string& key) {
-  for (std::size_t i = 0; i < map.size(); ++i) {
-    if (map[i].first != key) continue;
-    map.erase(map.begin() + std::ptrdiff_t(i));
-    key_locations.erase(key_locations.begin() + std::ptrdiff_t(i));
-    return;
-  }
+  const std::size_t at = position_of(key);
+  if (at == none) return;
+  map.erase(map.begin() + std::ptrdiff_t(at));
+  key_locations.erase(key_locations.begin() + std::ptrdiff_t(at));
+  index_.positions.reset();
 }
 
 bool Node::is_off() const {
@@ -74,6 +87,7 @@ struct PathStep {
 };
 
 std::vector<PathStep> steps_of(std::string path, const std::string& at) {
+  constexpr std::size_t most_steps = 100;
   std::vector<PathStep> steps;
   while (true) {
     const std::size_t end = std::min(path.find_first_of(".["), path.size());
@@ -92,6 +106,8 @@ std::vector<PathStep> steps_of(std::string path, const std::string& at) {
       if (!path.empty() && path.front() != '.') throw SetupError(at + ": behind `]` comes `.` or the end of the path");
     }
     if (path.empty()) return steps;
+    if (steps.size() == most_steps)
+      throw SetupError(fmt::format("{}: the path has more than {} parts", at, most_steps));
     path.erase(0, 1);
   }
 }
@@ -99,7 +115,7 @@ std::vector<PathStep> steps_of(std::string path, const std::string& at) {
 }  // namespace
 
 void apply_override(Node& root, const std::string& assignment) {
-  const Location at{"--set " + assignment, 0, 0};
+  const Location at{"--set " + shortened(printable(assignment), 200), 0, 0};
   const std::size_t equals = assignment.find('=');
   if (equals == std::string::npos || equals == 0)
     throw SetupError(at.text() + ": write path=value, such as robots.rovers.count=100");

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -16,6 +18,21 @@ struct Location {
   std::string text() const {
     return in_file() ? file + ":" + std::to_string(line) + ":" + std::to_string(column) : file;
   }
+};
+
+/// Where the keys of a large map stand. A copy begins empty, and is filled by the first search.
+struct KeyIndex {
+  KeyIndex() = default;
+  KeyIndex(const KeyIndex&) noexcept {}
+  KeyIndex(KeyIndex&&) noexcept = default;
+  KeyIndex& operator=(const KeyIndex& other) noexcept {
+    if (this != &other) positions.reset();
+    return *this;
+  }
+  KeyIndex& operator=(KeyIndex&&) noexcept = default;
+  ~KeyIndex() = default;
+
+  std::unique_ptr<std::unordered_map<std::string, std::size_t>> positions;
 };
 
 /// A YAML tree that remembers where each value is written, so that files can be merged and every message can name the
@@ -40,6 +57,9 @@ struct Node {
   Node& operator=(Node&&) noexcept;
   ~Node();
 
+  static constexpr std::size_t none = ~std::size_t(0);
+  /// Where `key` stands in `map`; none where it does not.
+  std::size_t position_of(const std::string& key) const;
   const Node* find(const std::string& key) const;
   Node* find(const std::string& key);
   /// The child of that name; a missing one is added, empty.
@@ -47,6 +67,9 @@ struct Node {
   void erase(const std::string& key);
   /// Whether the value switches something off: `off`, `false`, `no`, `none`, `~`.
   bool is_off() const;
+
+ private:
+  mutable KeyIndex index_;
 };
 
 /// Merges `overlay` into `base`: maps key by key, any other value of `overlay` replaces that of `base`.

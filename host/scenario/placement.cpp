@@ -20,16 +20,6 @@ Pose pose_of(const PoseInput& pose, double standing_height) {
   return {{pose.x, pose.y, pose.z.value_or(standing_height)}, from_rpy(pose.roll, pose.pitch, pose.yaw)};
 }
 
-bool overlaps(const Footprint& f, const Obstacle& o, double clearance) {
-  const Vec3 p = o.pose.inverse() * Vec3(f.x, f.y, o.pose.position.z());
-  const double dx = std::max(0.0, std::abs(p.x()) - o.half_x), dy = std::max(0.0, std::abs(p.y()) - o.half_y);
-  return std::hypot(dx, dy) < f.radius + clearance;
-}
-
-bool overlaps(const Footprint& a, const Footprint& b, double clearance) {
-  return std::hypot(a.x - b.x, a.y - b.y) < a.radius + b.radius + clearance;
-}
-
 const std::vector<Rectangle>& area_of(const Placement& p, const std::map<std::string, std::vector<Rectangle>>& places) {
   const auto area = places.find(p.area);
   if (area != places.end()) return area->second;
@@ -44,7 +34,7 @@ class PoseSampler {
  public:
   PoseSampler(const Placement& placement, const std::vector<Rectangle>& area, double radius)
       : placement_(placement), area_(area), radius_(radius) {
-    for (const Rectangle& r : area) total_ += r.width * r.depth;
+    for (const Rectangle& r : area) ends_.push_back((ends_.empty() ? 0 : ends_.back()) + r.width * r.depth);
   }
   struct Sample {
     Footprint footprint;
@@ -52,10 +42,8 @@ class PoseSampler {
   };
   Sample draw(int copy, int attempt) const {
     const Random random(placement_.seed.value_or(1), std::uint64_t(copy), std::uint64_t(attempt));
-    double at = random.uniform(0) * total_;
-    std::size_t k = 0;
-    while (k + 1 < area_.size() && at > area_[k].width * area_[k].depth) at -= area_[k].width * area_[k].depth, ++k;
-    const Rectangle& r = area_[k];
+    const auto end = std::lower_bound(ends_.begin(), std::prev(ends_.end()), random.uniform(0) * ends_.back());
+    const Rectangle& r = area_[std::size_t(end - ends_.begin())];
     const Footprint f{r.x + (random.uniform(1) - 0.5) * r.width, r.y + (random.uniform(2) - 0.5) * r.depth, radius_};
     if (r.headings.empty()) return {f, 2 * M_PI * random.uniform(3)};
     const auto choice = std::size_t(random.uniform(3) * double(r.headings.size()));
@@ -65,32 +53,29 @@ class PoseSampler {
  private:
   const Placement& placement_;
   const std::vector<Rectangle>& area_;
-  double radius_, total_ = 0;
+  double radius_;
+  std::vector<double> ends_;  ///< m^2, of each rectangle and those before it together
 };
 
 std::vector<Pose> place_random(const Placement& p, int count, const Body& body, const std::vector<Rectangle>& area,
-                               const std::vector<Obstacle>& obstacles, std::vector<Footprint>& occupied) {
+                               Occupancy& occupied) {
   const PoseSampler sampler(p, area, body.radius);
   const double z = p.poses.front().z.value_or(body.standing_height);
-  const auto is_free = [&](const Footprint& f) {
-    const auto overlapped = [&](const auto& other) { return overlaps(f, other, p.clearance); };
-    return std::none_of(occupied.begin(), occupied.end(), overlapped) &&
-           std::none_of(obstacles.begin(), obstacles.end(), overlapped);
-  };
   std::vector<Pose> poses;
   for (int i = 0; i < count; ++i) {
     int attempt = 0;
-    PoseSampler::Sample sample = sampler.draw(i, attempt);
-    while (!is_free(sample.footprint)) {
+    const int copy = p.first_copy + i;
+    PoseSampler::Sample sample = sampler.draw(copy, attempt);
+    while (!occupied.is_free(sample.footprint, p.clearance)) {
       if (++attempt == max_attempts)
         throw SetupError(
             fmt::format("{}: only {} of {} copies of `{}` fit into `{}` without overlap; ask for fewer, a "
                         "larger place or less `clearance`",
                         p.location.text(), i, count, body.name, p.area));
-      sample = sampler.draw(i, attempt);
+      sample = sampler.draw(copy, attempt);
     }
     poses.push_back({{sample.footprint.x, sample.footprint.y, z}, from_rpy(0, 0, sample.yaw)});
-    occupied.push_back(sample.footprint);
+    occupied.add(sample.footprint);
   }
   return poses;
 }
@@ -109,9 +94,8 @@ std::vector<Pose> grid_poses(const Placement& p, double standing_height) {
 }  // namespace
 
 std::vector<Pose> place(const Placement& p, int count, const Body& body,
-                        const std::map<std::string, std::vector<Rectangle>>& places,
-                        const std::vector<Obstacle>& obstacles, std::vector<Footprint>& occupied) {
-  if (p.kind == Placement::Kind::random) return place_random(p, count, body, area_of(p, places), obstacles, occupied);
+                        const std::map<std::string, std::vector<Rectangle>>& places, Occupancy& occupied) {
+  if (p.kind == Placement::Kind::random) return place_random(p, count, body, area_of(p, places), occupied);
   std::vector<Pose> poses;
   if (p.kind == Placement::Kind::grid)
     poses = grid_poses(p, body.standing_height);
@@ -122,7 +106,7 @@ std::vector<Pose> place(const Placement& p, int count, const Body& body,
         fmt::format("{}: {} copies of `{}` but only {} places for them; lower `count`, or give more places",
                     p.location.text(), count, body.name, poses.size()));
   poses.resize(std::size_t(count));
-  for (const Pose& pose : poses) occupied.push_back({pose.position.x(), pose.position.y(), body.radius});
+  for (const Pose& pose : poses) occupied.add(Footprint{pose.position.x(), pose.position.y(), body.radius});
   return poses;
 }
 

@@ -5,20 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "host/scenario/occupancy.hpp"
 #include "host/scenario/scenario.hpp"
 #include "muro/geometry.hpp"
 
 namespace muro::host {
-
-/// A disc on the ground that a robot occupies.
-struct Footprint {
-  double x, y, radius;  ///< m
-};
-/// The outline of scenery: a rectangle in the plane of its pose.
-struct Obstacle {
-  Pose pose;
-  double half_x, half_y;  ///< m
-};
 
 /// What is placed.
 struct Body {
@@ -27,10 +18,9 @@ struct Body {
   double radius;           ///< of its footprint, m
 };
 
-/// Poses for `count` copies of a body. Random poses keep `placement.clearance` to `occupied` and `obstacles`; the
-/// footprints of all copies are added to `occupied`. Throws SetupError when the copies do not fit.
+/// Poses for `count` copies of a body. Random poses keep `placement.clearance` to all that is `occupied`; the
+/// footprints of all copies are added to it. Throws SetupError when the copies do not fit.
 std::vector<Pose> place(const Placement& placement, int count, const Body& body,
-                        const std::map<std::string, std::vector<Rectangle>>& places,
-                        const std::vector<Obstacle>& obstacles, std::vector<Footprint>& occupied);
+                        const std::map<std::string, std::vector<Rectangle>>& places, Occupancy& occupied);
 
 }  // namespace muro::host

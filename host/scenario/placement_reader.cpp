@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "muro/toolkit/limits.hpp"
+
 namespace muro::host {
 
 namespace {
@@ -15,12 +17,14 @@ constexpr int max_side = 10'000, max_cells = 1'000'000;  // of a grid
 PoseInput read_pose(const Node& node, const std::string& what, Problems& problems) {
   MapReader map(node, what, problems);
   PoseInput pose;
-  pose.x = map.number("x", 0);
-  pose.y = map.number("y", 0);
-  if (map.has("z")) pose.z = map.number("z", 0);
-  pose.roll = map.number("roll", 0);
-  pose.pitch = map.number("pitch", 0);
-  pose.yaw = map.number("yaw", 0);
+  const auto metres = [&](const char* key) { return map.number(key, 0, -limits::position, limits::position); };
+  const auto radians = [&](const char* key) { return map.number(key, 0, -limits::angle, limits::angle); };
+  pose.x = metres("x");
+  pose.y = metres("y");
+  if (map.has("z")) pose.z = metres("z");
+  pose.roll = radians("roll");
+  pose.pitch = radians("pitch");
+  pose.yaw = radians("yaw");
   map.reject_unknown_keys();
   return pose;
 }
@@ -67,7 +71,7 @@ Placement read_grid(const Node& node, const std::string& what, Problems& problem
       p.rows = int((*counts)[1]);
     }
   }
-  if (const auto spacing = map.numbers("spacing", {2})) {
+  if (const auto spacing = map.numbers("spacing", {2}, -limits::position, limits::position)) {
     p.spacing_x = (*spacing)[0];
     p.spacing_y = (*spacing)[1];
   }

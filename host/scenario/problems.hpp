@@ -3,28 +3,33 @@
 
 #include <functional>
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 #include "host/scenario/node.hpp"
 
 namespace muro::host {
 
-/// Collects the mistakes of a scenario, so that all of them can be reported at once; each problem once.
+/// Collects the mistakes of a scenario, so that all of them can be reported at once; each problem once, and of very
+/// many the first ones and how many there are.
 class Problems {
  public:
   void add(const Location& at, const std::string& text) { add(at.text() + ": " + text); }
-  void add(const std::string& line);
+  /// `line` is shown as one line, whatever it holds.
+  void add(std::string line);
   /// Runs `work`; the lines of what it throws become problems, each behind `prefix`. Returns whether it threw nothing.
   bool collect(const std::string& prefix, const std::function<void()>& work);
   /// Throws SetupError if there are any.
   void check() const;
 
  private:
-  std::vector<std::string> lines_;
+  static constexpr std::size_t most_shown = 200;
+  std::vector<std::string> lines_;         ///< those that are shown
+  std::unordered_set<std::string> known_;  ///< all
 };
 
-/// Checks that a name can be part of "robot/object:property": not empty, no `/`, `:` or white space. `what` is named
-/// in the message: "a robot".
+/// Checks that a name can be part of "robot/object:property" and of the name of a file: not empty, at most 255 bytes,
+/// no `/`, `:`, control characters or white space. `what` is named in the message: "a robot".
 bool check_name(const std::string& name, const Location& at, const std::string& what, Problems& problems);
 
 /// Checks each `off` in `map`: it must switch off what an include, a variant or an override replaces by it, or one of

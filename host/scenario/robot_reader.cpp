@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
+#include <unordered_set>
 
 #include "host/names.hpp"
 #include "host/scenario/levels.hpp"
@@ -13,6 +15,7 @@
 #include "host/scenario/subsystem_reader.hpp"
 #include "host/scenario/variants.hpp"
 #include "muro/toolkit/did_you_mean.hpp"
+#include "muro/toolkit/limits.hpp"
 
 namespace muro::host {
 
@@ -42,10 +45,9 @@ class RobotReader {
 
  private:
   void collect_subsystem_names(const Node& robot) {
-    for (const auto& [key, value] : robot.map) {
-      const bool new_name = std::find(subsystem_names_.begin(), subsystem_names_.end(), key) == subsystem_names_.end();
-      if ((is_subsystem(value) || (value.is_off() && value.replaces)) && new_name) subsystem_names_.push_back(key);
-    }
+    for (const auto& [key, value] : robot.map)
+      if ((is_subsystem(value) || (value.is_off() && value.replaces)) && known_subsystem_names_.insert(key).second)
+        subsystem_names_.push_back(key);
   }
 
   RobotTemplate read_template(const std::string& name, const Node& node) {
@@ -55,8 +57,8 @@ class RobotReader {
     t.location = node.location;
     read_body(map, node, t);
     read_copies(map, node, t);
-    t.linear_velocity = map.vector("velocity", Vec3::Zero());
-    t.angular_velocity = map.vector("angular_velocity", Vec3::Zero());
+    t.linear_velocity = map.vector("velocity", Vec3::Zero(), limits::speed);
+    t.angular_velocity = map.vector("angular_velocity", Vec3::Zero(), limits::turn_rate);
     read_joint_positions(map, t);
     const Node& variants = map.map("variants");
     if (node.kind == Node::Kind::map)
@@ -82,9 +84,10 @@ class RobotReader {
     for (std::size_t i = 0; i < joints.map.size(); ++i) {
       const auto& [joint, value] = joints.map[i];
       const auto position = as_number(value);
-      if (!position)
-        problems_.add(value.location, fmt::format("joint `{}` of {} must have a number as its position, not {}", joint,
-                                                  map.what(), quoted(value)));
+      if (!position || !limits::within(limits::joint_position, *position))
+        problems_.add(value.location,
+                      fmt::format("joint `{}` of {} must have a number from -1e6 to 1e6 as its position, not {}", joint,
+                                  map.what(), quoted(value)));
       t.joints.push_back({{joint, joints.key_locations[i]}, position.value_or(0)});
     }
   }
@@ -104,7 +107,7 @@ class RobotReader {
     t.shape = read_shape(map, mesh, problems_);
     if (t.shape && (t.shape->kind == ShapeKind::plane || t.shape->kind == ShapeKind::mesh))
       map.problem("shape", "must have a volume: box, sphere, cylinder or capsule; `plane` and `mesh` are for scenery");
-    t.mass = map.number("mass", 0, 1e-9, 1e9);
+    t.mass = map.number("mass", 0, limits::min_mass, limits::max_mass);
     if (node.kind == Node::Kind::map) check_body(map, node, t);
   }
 
@@ -133,15 +136,30 @@ class RobotReader {
   void read_subsystems(const MapReader& map, const std::vector<Variant>& variants, RobotTemplate& t) {
     const Node subsystems = subsystem_nodes(map);
     check_switched_off(subsystems, subsystem_names_, map.what(), problems_);
-    std::map<std::vector<std::size_t>, std::vector<Subsystem>> cache;  // by the variants of a robot
+    std::map<std::vector<std::size_t>, std::size_t> lists;  // by the variants of a robot
+    std::map<int, std::vector<std::size_t>> changes;        // variants that begin or end with a robot
+    for (std::size_t v = 0; v < variants.size(); ++v) {
+      changes[variants[v].first].push_back(v);
+      changes[variants[v].last + 1].push_back(v);
+    }
+    std::set<std::size_t> present;
+    std::size_t list = 0;
     for (int i = 0; i < t.count; ++i) {
-      std::vector<std::size_t> indices;
-      for (std::size_t v = 0; v < variants.size(); ++v)
-        if (variants[v].first <= i && i <= variants[v].last) indices.push_back(v);
-      auto entry = cache.find(indices);
-      if (entry == cache.end())
-        entry = cache.emplace(indices, subsystems_of(merged(subsystems, variants, indices), map.what())).first;
-      t.subsystems.push_back(entry->second);
+      const auto change = changes.find(i);
+      if (change != changes.end())
+        for (const std::size_t v : change->second)
+          if (!present.insert(v).second) present.erase(v);
+      if (i == 0 || change != changes.end()) {
+        const std::vector<std::size_t> indices(present.begin(), present.end());
+        auto known = lists.find(indices);
+        if (known == lists.end())
+          known = lists
+                      .emplace(indices,
+                               t.subsystems.add_list(subsystems_of(merged(subsystems, variants, indices), map.what())))
+                      .first;
+        list = known->second;
+      }
+      t.subsystems.add(list);
     }
     if (t.count == 0) subsystems_of(subsystems, map.what());  // to find their mistakes
   }
@@ -180,7 +198,8 @@ class RobotReader {
   const Node& robots_;
   Problems& problems_;
   std::vector<std::string> robot_names_;
-  std::vector<std::string> subsystem_names_;  ///< of all robots
+  std::vector<std::string> subsystem_names_;  ///< of all robots, each once
+  std::unordered_set<std::string> known_subsystem_names_;
 };
 
 }  // namespace

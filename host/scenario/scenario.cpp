@@ -13,6 +13,7 @@
 #include "host/scenario/shape_reader.hpp"
 #include "host/scenario/subsystem_reader.hpp"
 #include "host/scenario/yaml.hpp"
+#include "muro/toolkit/limits.hpp"
 
 namespace muro::host {
 
@@ -24,12 +25,10 @@ namespace fs = std::filesystem;
 void read_rectangle(const Node& n, const std::string& what, std::vector<Rectangle>& out, Problems& problems) {
   MapReader map(n, what, problems);
   Rectangle r;
-  if (const auto c = map.numbers("center", {2})) r.x = (*c)[0], r.y = (*c)[1];
-  if (const auto size = map.numbers("size", {2})) {
+  if (const auto c = map.numbers("center", {2}, -limits::position, limits::position)) r.x = (*c)[0], r.y = (*c)[1];
+  if (const auto size = map.numbers("size", {2}, limits::min_size, limits::position))
     r.width = (*size)[0], r.depth = (*size)[1];
-    if (r.width <= 0 || r.depth <= 0) map.problem("size", "must be greater than 0");
-  }
-  r.headings = map.numbers("headings", {}).value_or(std::vector<double>{});
+  r.headings = map.numbers("headings", {}, -limits::angle, limits::angle).value_or(std::vector<double>{});
   int columns = 1, rows = 1;
   double dx = 0, dy = 0;
   if (const Node* repeat = map.find("repeat")) {
@@ -66,7 +65,7 @@ void read_world(const Node& n, Scenario& out, Problems& problems) {
   MapReader map(n, "`world`", problems);
   if (const Node* file = map.find("file"))
     out.world_file = {resolve_path(file->location, map.text("file", "")), file->location};
-  if (const auto g = map.numbers("gravity", {3})) out.gravity = Vec3((*g)[0], (*g)[1], (*g)[2]);
+  if (map.has("gravity")) out.gravity = map.vector("gravity", {0, 0, -9.81}, limits::gravity);
   MapReader places(map.map("places"), "`places`", problems);
   for (const auto& [name, unused] : places.unread())
     for (const Node& e : places.list(name).list) read_rectangle(e, "place `" + name + "`", out.places[name], problems);
@@ -114,6 +113,16 @@ void read_schedule(const Node& n, Scenario& out, Problems& problems) {
   map.reject_unknown_keys();
 }
 
+void read_plugins(const Node& n, Scenario& out, Problems& problems) {
+  for (const auto& [name, library] : n.map) {
+    if (library.kind == Node::Kind::scalar && !library.scalar.empty())
+      out.plugins[name] = {resolve_path(library.location, library.scalar), library.location.text()};
+    else
+      problems.add(library.location,
+                   "`plugins`: `" + name + "` must be the path of the library that is to offer it: NAME.so");
+  }
+}
+
 unsigned read_threads(const Node& n, Problems& problems) {
   if (n.kind == Node::Kind::scalar && n.scalar == "all") return 0;
   const double count = as_number(n).value_or(0);
@@ -144,9 +153,9 @@ std::string instance_name(const std::string& name, bool numbered, std::size_t in
 }
 
 Scenario read_scenario(const std::string& path, const std::vector<std::string>& overrides) {
-  Node root = load_yaml(path);
-  for (const std::string& o : overrides) apply_override(root, o);
   Scenario out;
+  Node root = load_yaml(path, &out.files);
+  for (const std::string& o : overrides) apply_override(root, o);
   out.file = path;
   Problems problems;
   check_empty(root, problems);
@@ -155,6 +164,7 @@ Scenario read_scenario(const std::string& path, const std::vector<std::string>& 
   out.seed = std::uint64_t(map.integer("seed", 1, 0, std::int64_t(1) << 53));
   out.duration = map.number("duration", out.duration, 0, 1e9);
   if (const Node* threads = map.find("threads")) out.threads = read_threads(*threads, problems);
+  read_plugins(map.map("plugins"), out, problems);
   if (const Node* world = map.find("world")) read_world(*world, out, problems);
   out.robots = read_robots(map.map("robots"), problems);
   read_algorithms(map.map("algorithms"), out, problems);

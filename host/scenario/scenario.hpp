@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/algorithm_setup.hpp"
+#include "core/registry.hpp"
 #include "host/scenario/node.hpp"
 #include "muro/shape.hpp"
 
@@ -34,6 +35,7 @@ struct Placement {
   std::string area;                   ///< random: name under world.places
   std::optional<std::uint64_t> seed;  ///< absent: the scenario's
   double clearance = 0.1;             ///< between footprints, m
+  int first_copy = 0;                 ///< so many have been drawn from the same place and seed for other robots
 };
 
 /// A rectangle in the plane: one of those that a named place consists of.
@@ -86,6 +88,26 @@ struct WorldFile {
   Location location;
 };
 
+/// The subsystems of each robot of a template. Most robots have the same, which are kept once.
+class SubsystemsOfRobots {
+ public:
+  /// Those of the next robot: the list of this number in `lists`.
+  void add(std::size_t list) { list_of_robot_.push_back(std::uint32_t(list)); }
+  std::size_t add_list(std::vector<Subsystem> list) {
+    lists_.push_back(std::move(list));
+    return lists_.size() - 1;
+  }
+  const std::vector<Subsystem>& operator[](std::size_t robot) const { return lists_[list_of_robot_[robot]]; }
+  /// Robots.
+  std::size_t size() const { return list_of_robot_.size(); }
+  /// All that differ.
+  const std::vector<std::vector<Subsystem>>& lists() const { return lists_; }
+
+ private:
+  std::vector<std::vector<Subsystem>> lists_;
+  std::vector<std::uint32_t> list_of_robot_;
+};
+
 struct RobotTemplate {
   std::string name;
   Location location;        ///< of its model, or of the whole template
@@ -99,16 +121,17 @@ struct RobotTemplate {
   Vec3 linear_velocity = Vec3::Zero();          ///< at the start, world axes, m/s
   Vec3 angular_velocity = Vec3::Zero();         ///< rad/s
   std::vector<std::pair<Name, double>> joints;  ///< positions at the start
-  /// Subsystems of each robot: variants are merged already. Robot i uses subsystems[i].
-  std::vector<std::vector<Subsystem>> subsystems;
+  SubsystemsOfRobots subsystems;                ///< variants are merged already
 };
 
 struct Scenario {
   std::string file;
+  std::vector<std::string> files;  ///< it and what it includes
   std::string name;
   std::uint64_t seed = 1;
-  double duration = 10;  ///< s
-  unsigned threads = 1;  ///< 0: all that the machine has
+  double duration = 10;                         ///< s
+  unsigned threads = 1;                         ///< 0: all that the machine has
+  std::map<std::string, PluginChoice> plugins;  ///< by name of an algorithm or reader, or by type of files
   std::optional<WorldFile> world_file;
   std::optional<Vec3> gravity;  ///< absent: that of the world file, else 9.81 m/s^2 downwards
   std::map<std::string, std::vector<Rectangle>> places;

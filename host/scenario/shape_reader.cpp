@@ -3,8 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
+
+#include "muro/toolkit/limits.hpp"
 
 namespace muro::host {
 
@@ -15,7 +16,11 @@ namespace fs = std::filesystem;
 Shape read_mesh(MapReader& map, std::string& mesh, Problems& problems) {
   Shape shape;
   shape.kind = ShapeKind::mesh;
-  shape.size = map.vector("scale", Vec3::Ones());
+  shape.size = map.vector("scale", Vec3::Ones(), limits::max_size);
+  if (shape.size.cwiseAbs().minCoeff() < limits::min_size) {
+    map.problem("scale", "has a factor that is nearer to 0 than 1e-9");
+    shape.size = Vec3::Ones();
+  }
   const Location& at = map.find("mesh")->location;
   mesh = resolve_path(at, map.text("mesh", ""));
   std::error_code code;
@@ -25,13 +30,11 @@ Shape read_mesh(MapReader& map, std::string& mesh, Problems& problems) {
 
 /// `kind`: the key that names the geometry, "box".
 Shape read_geometry(MapReader& map, const std::string& kind, std::string& mesh, Problems& problems) {
-  if (kind == "sphere") return Shape::sphere(map.number(kind, 1, 1e-6, 1e6));
+  if (kind == "sphere") return Shape::sphere(map.number(kind, 1, limits::min_size, limits::max_size));
   if (kind == "mesh") return read_mesh(map, mesh, problems);
   const std::size_t length = kind == "box" ? 3 : 2;
-  const auto given = map.numbers(kind, {length});
-  const bool positive = given && std::none_of(given->begin(), given->end(), [](double x) { return x <= 0; });
-  if (given && !positive) map.problem(kind, "must be greater than 0");
-  const std::vector<double> v = positive ? *given : std::vector<double>(length, 1);
+  const auto given = map.numbers(kind, {length}, limits::min_size, limits::max_size);
+  const std::vector<double> v = given ? *given : std::vector<double>(length, 1);
   if (kind == "box") return Shape::box({v[0], v[1], v[2]});
   return kind == "cylinder" ? Shape::cylinder(v[0], v[1]) : Shape::capsule(v[0], v[1]);
 }
@@ -68,7 +71,7 @@ std::optional<Shape> read_shape(MapReader& map, std::string& mesh, Problems& pro
   }
   shape.friction = map.number("friction", shape.friction, 0, 100);
   shape.restitution = map.number("restitution", shape.restitution, 0, 1);
-  if (const auto c = map.numbers("color", {3, 4})) {
+  if (const auto c = map.numbers("color", {3, 4}, 0, 1)) {
     shape.color = {(*c)[0], (*c)[1], (*c)[2], c->size() == 4 ? (*c)[3] : 1.0};
     shape.material_source = MaterialSource::model;
   }

@@ -80,20 +80,20 @@ RobotTree WorldFileContents::model(const RobotTemplate& t) const {
 
 const Pose& WorldFileContents::pose(const RobotTemplate& t) const { return find(t.name)->pose; }
 
-void WorldFileContents::add_scenery(std::vector<Obstacle>& obstacles) {
+void WorldFileContents::add_scenery(Occupancy& occupied) {
   if (!world_) return;
   for (const WorldModel::Scenery& s : world_->scenery())
-    add(s.name, s.pose, s.collisions, s.visuals, world_->texts(), obstacles);
+    add(s.name, s.pose, s.collisions, s.visuals, world_->texts(), occupied);
   for (const WorldModel::Model& m : world_->models()) {
     const bool used = std::any_of(scenario_.robots.begin(), scenario_.robots.end(),
                                   [&](const RobotTemplate& t) { return t.from_world && t.name == m.name; });
     note(m.tree.problems(), !used);
-    if (!used) add_static(m, obstacles);
+    if (!used) add_static(m, occupied);
   }
 }
 
 /// Adds all links of a model as scenery, with its joints at 0.
-void WorldFileContents::add_static(const WorldModel::Model& model, std::vector<Obstacle>& obstacles) {
+void WorldFileContents::add_static(const WorldModel::Model& model, Occupancy& occupied) {
   const RobotTree& tree = model.tree;
   notes_.push_back(
       fmt::format("{}: note: model `{}` is static, because the scenario does not name it; write `robots: "
@@ -107,18 +107,17 @@ void WorldFileContents::add_static(const WorldModel::Model& model, std::vector<O
     std::vector<Shape> visuals = shapes_of(component, keys::visual_shapes);
     if (!collisions.empty() || !visuals.empty())
       add(model.name + "." + component.name, poses.back(), std::move(collisions), std::move(visuals), tree.texts(),
-          obstacles);
+          occupied);
   }
 }
 
 void WorldFileContents::add(const std::string& name, const Pose& pose, std::vector<Shape> collisions,
-                            std::vector<Shape> visuals, const std::vector<std::string>& texts,
-                            std::vector<Obstacle>& obstacles) {
+                            std::vector<Shape> visuals, const TextTable& texts, Occupancy& occupied) {
   World& world = simulation_.world();
   for (std::vector<Shape>* shapes : {&collisions, &visuals})
     for (Shape& s : *shapes)
       for (TextId* text : {&s.mesh, &s.texture})
-        if (*text != no_text) *text = world.intern(texts[std::size_t(*text)]);
+        if (*text != no_text) *text = world.intern(texts[*text]);
   problems_.collect(scenario_.world_file->location.text() + ": world " + scenario_.world_file->path + ": ",
                     [&] { world.add_scenery(name, pose, collisions, visuals); });
   for (const Shape& s : collisions) {
@@ -126,7 +125,7 @@ void WorldFileContents::add(const std::string& name, const Pose& pose, std::vect
     const Aabb box = bounds_of(s, pose * s.origin);
     if (box.high.z() <= floor_height) continue;
     const Vec3 half = 0.5 * (box.high - box.low);
-    obstacles.push_back({{0.5 * (box.low + box.high), Quat::Identity()}, half.x(), half.y()});
+    occupied.add(Obstacle{{0.5 * (box.low + box.high), Quat::Identity()}, half.x(), half.y()});
   }
 }
 

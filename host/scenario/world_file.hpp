@@ -23,8 +23,8 @@ class WorldFileContents {
 
   void read();
   Vec3 gravity() const;
-  /// Adds all that is static, and to `obstacles` what random placement keeps clear of.
-  void add_scenery(std::vector<Obstacle>& obstacles);
+  /// Adds all that is static, and to `occupied` what random placement keeps clear of.
+  void add_scenery(Occupancy& occupied);
   /// The model that a template takes from the file. Throws SetupError when there is none, or it is no robot.
   RobotTree model(const RobotTemplate& t) const;
   /// Of its base; for a template whose model() was found.
@@ -34,9 +34,9 @@ class WorldFileContents {
   const WorldModel::Model* find(const std::string& name) const;
   /// `errors_too`: errors are noted as warnings, because the scenario does not use the model.
   void note(const std::vector<RobotTree::Problem>& problems, bool errors_too);
-  void add_static(const WorldModel::Model& model, std::vector<Obstacle>& obstacles);
+  void add_static(const WorldModel::Model& model, Occupancy& occupied);
   void add(const std::string& name, const Pose& pose, std::vector<Shape> collisions, std::vector<Shape> visuals,
-           const std::vector<std::string>& texts, std::vector<Obstacle>& obstacles);
+           const TextTable& texts, Occupancy& occupied);
 
   const Scenario& scenario_;
   Simulation& simulation_;

@@ -2,13 +2,14 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "host/scenario/node.hpp"
 
 namespace muro::host {
 
-/// Reads a file with all its `include:`s. Throws SetupError with file:line:column.
-Node load_yaml(const std::string& path);
+/// Reads a file with all its `include:`s; `files` gets their paths. Throws SetupError with file:line:column.
+Node load_yaml(const std::string& path, std::vector<std::string>* files = nullptr);
 
 /// Reads a value as written on the command line; all of it gets the location `at`.
 Node parse_yaml(const std::string& text, const Location& at);

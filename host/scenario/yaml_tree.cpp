@@ -128,6 +128,11 @@ class TreeBuilder final : public YAML::EventHandler {
       parent.has_key = false;
     } else {
       if (n.kind != Node::Kind::scalar) throw SetupError(n.location.text() + ": a key must be a word");
+      // lines of other files look like this; a message must not show them, for they may be somebody's secrets
+      if (!n.quoted && n.scalar.find(':') != n.scalar.npos)
+        throw SetupError(n.location.text() +
+                         ": the key here holds a colon; write `key: value` with a blank behind the colon, or put a key "
+                         "that has one in quotes. Is this a YAML file?");
       if (parent.node.find(n.scalar))
         throw SetupError(fmt::format("{}: `{}` stands here a second time", n.location.text(), n.scalar));
       parent.key = n.scalar;
@@ -174,7 +179,9 @@ Node parse_tree(const std::string& text, const TextSource& source, ValueCount& c
     while (parser.HandleNextDocument(tree)) {
     }
   } catch (const YAML::Exception& e) {
-    throw SetupError(fmt::format("{}: not YAML: {}", location_of(e.mark, source).text(), e.msg));
+    // what follows a colon is from the file
+    const std::string reason = e.msg.substr(0, e.msg.find(':'));
+    throw SetupError(fmt::format("{}: not YAML: {}", location_of(e.mark, source).text(), reason));
   }
   return std::move(tree.root);
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <set>
 
+#include "core/error.hpp"
 #include "core/instance.hpp"
 #include "host/unsupported_features/used_features.hpp"
 #include "muro/detail/names.hpp"
@@ -85,7 +86,7 @@ class Search {
       const MotionUse use{motion.item_setups.empty() ? motion.parameters : motion.item_setups[i].parameters, own,
                           own || has_contact_algorithm()};
       std::vector<UnsupportedFeature>& unsupported = found_for(*robot, motion).all;
-      for (UsedFeature& used : used_features(simulation_.world(), *robot, use)) {
+      for (UsedFeature& used : used_features(simulation_.world(), scenery_, *robot, use)) {
         const bool listed = std::any_of(unsupported.begin(), unsupported.end(),
                                         [&](const UnsupportedFeature& u) { return u.bit == used.bit; });
         if ((*entry.features & used.bit) == 0 && !listed)
@@ -130,6 +131,7 @@ class Search {
 
   const BuiltScenario& built_;
   Simulation& simulation_;
+  SceneryTraits scenery_ = scenery_traits(simulation_.world());
   std::vector<Origin> origins_;  ///< by number of the robot
   std::vector<Found> found_;
   std::set<std::string> seen_;
@@ -161,7 +163,7 @@ void report_unsupported(const std::vector<UnsupportedFeatures>& unsupported, Det
         "--strict allows no unsupported features; choose a motion that supports them, or leave --strict out");
     throw SetupError(lines);
   }
-  for (const std::string& l : lines) fmt::print(stderr, "{}\n", l);
+  for (const std::string& l : lines) fmt::print(stderr, "{}\n", message_text(l));
 }
 
 }  // namespace muro::host

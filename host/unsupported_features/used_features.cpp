@@ -25,8 +25,8 @@ bool is_set_to(const ParameterInput* value, const char* word) {
 
 class FeatureSearch {
  public:
-  FeatureSearch(const World& world, const RobotView& robot, const MotionUse& use)
-      : world_(world), robot_(robot), use_(use) {
+  FeatureSearch(const World& world, const SceneryTraits& scenery, const RobotView& robot, const MotionUse& use)
+      : world_(world), scenery_(scenery), robot_(robot), use_(use) {
     for (const Link& link : robot.links) {
       inertias_.push_back(constant(world, link.object, keys::inertial, Inertia{}));
       is_independent_joint_.push_back(link.joint != JointKind::fixed && link.mimic < 0);
@@ -127,36 +127,29 @@ class FeatureSearch {
   }
 
   void add_shapes() {
-    std::size_t shapes = 0, meshes = 0, scenery_meshes = 0;
-    bool has_friction = false, has_restitution = false;
-    for (std::uint32_t i = 0; i < world_.object_count(); ++i) {
-      const std::int32_t owner = world_.robot_of(ObjectId{i});
-      if (owner >= 0 && owner != std::int32_t(robot_.number)) continue;
-      for (const Shape& s : constants(world_, ObjectId{i}, keys::collision_shapes)) {
-        const bool mesh = s.kind == ShapeKind::mesh;
-        has_restitution = has_restitution || s.restitution > 0;
-        if (owner < 0) {
-          scenery_meshes += mesh;
-          continue;
-        }
+    std::size_t shapes = 0, meshes = 0;
+    bool has_friction = false, has_restitution = scenery_.restitution;
+    for (const ObjectId object : world_.objects_of(robot_))
+      for (const Shape& s : constants(world_, object, keys::collision_shapes)) {
         ++shapes;
-        meshes += mesh;
+        meshes += s.kind == ShapeKind::mesh;
         has_friction = has_friction || s.friction > 0;
+        has_restitution = has_restitution || s.restitution > 0;
       }
-    }
     if (shapes == 0) return;
     add_if(true, feature_contact);
     add_if(has_friction, feature_friction);
     add_if(has_restitution, feature_restitution);
-    if (!use_.own_contacts || meshes + scenery_meshes == 0) return;  // else collision detection checks its meshes
+    if (!use_.own_contacts || meshes + scenery_.meshes == 0) return;  // else collision detection checks its meshes
     const std::string own = meshes > 0 ? fmt::format("{} of its own", meshes) : "";
-    const std::string others = scenery_meshes > 0 ? fmt::format("{} of the scenery", scenery_meshes) : "";
+    const std::string others = scenery_.meshes > 0 ? fmt::format("{} of the scenery", scenery_.meshes) : "";
     const std::string amount = own + (own.empty() || others.empty() ? "" : ", ") + others;
     add_if(true, feature_convex_meshes, amount);
     add_if(true, feature_concave_meshes, amount);
   }
 
   const World& world_;
+  const SceneryTraits& scenery_;
   const RobotView& robot_;
   const MotionUse& use_;
   std::vector<Inertia> inertias_;           ///< of each link
@@ -166,8 +159,20 @@ class FeatureSearch {
 
 }  // namespace
 
-std::vector<UsedFeature> used_features(const World& world, const RobotView& robot, const MotionUse& use) {
-  return FeatureSearch(world, robot, use).all();
+SceneryTraits scenery_traits(const World& world) {
+  SceneryTraits traits;
+  for (std::uint32_t i = 0; i < world.object_count(); ++i)
+    if (world.robot_of(ObjectId{i}) < 0)
+      for (const Shape& s : constants(world, ObjectId{i}, keys::collision_shapes)) {
+        traits.meshes += s.kind == ShapeKind::mesh;
+        traits.restitution = traits.restitution || s.restitution > 0;
+      }
+  return traits;
+}
+
+std::vector<UsedFeature> used_features(const World& world, const SceneryTraits& scenery, const RobotView& robot,
+                                       const MotionUse& use) {
+  return FeatureSearch(world, scenery, robot, use).all();
 }
 
 }  // namespace muro::host

@@ -17,6 +17,13 @@ struct UsedFeature {
   std::string amount;  ///< "4 joints", or empty
 };
 
+/// What all robots meet.
+struct SceneryTraits {
+  std::size_t meshes = 0;
+  bool restitution = false;
+};
+SceneryTraits scenery_traits(const World& world);
+
 /// How a motion serves a robot.
 struct MotionUse {
   const std::map<std::string, ParameterInput>& parameters;
@@ -27,6 +34,7 @@ struct MotionUse {
 /// The features that a robot uses of its motion, in the order of Feature. They follow from its model (mass, shapes,
 /// joints with their finite limits, damping and friction), from the parameters of the motion, and from the algorithms
 /// that write targets of its joints. [after set-up]
-std::vector<UsedFeature> used_features(const World& world, const RobotView& robot, const MotionUse& use);
+std::vector<UsedFeature> used_features(const World& world, const SceneryTraits& scenery, const RobotView& robot,
+                                       const MotionUse& use);
 
 }  // namespace muro::host

@@ -2,9 +2,15 @@
 #include "core/schedule/worker_pool.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
 
 namespace muro {
 namespace {
@@ -63,6 +69,32 @@ TEST(WorkerPool, SharesLongWork) {
   workers.run(40, &Long::work_on, &work, nullptr);
   for (const auto& count : work.of_thread) EXPECT_GT(count, 0);
 }
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they need address space of their own
+
+/// Leaves so much address space (bytes) that only a few stacks of threads fit in.
+void limit_address_space(std::size_t free_bytes) {
+  std::size_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  const rlimit limit{pages * std::size_t(sysconf(_SC_PAGESIZE)) + free_bytes, RLIM_INFINITY};
+  ASSERT_EQ(setrlimit(RLIMIT_AS, &limit), 0);
+}
+
+TEST(WorkerPool, GoesOnWithFewerThreadsWhereNoMoreCanStart) {
+  const auto try_many = [] {
+    limit_address_space(100u << 20);
+    WorkerPool workers(64);
+    Counts counts(1000);
+    workers.run(1000, &Counts::work, &counts, nullptr);
+    const bool all = std::all_of(counts.of_item.begin(), counts.of_item.end(), [](const auto& c) { return c == 1; });
+    std::fprintf(stderr, "%s, %s: %s", workers.threads() > 1 && workers.threads() < 64 ? "some" : "not some",
+                 all ? "all done" : "not all done", workers.why_fewer().c_str());
+    std::_Exit(0);
+  };
+  EXPECT_EXIT(try_many(), ::testing::ExitedWithCode(0), "some, all done: Resource temporarily unavailable");
+}
+
+#endif
 
 }  // namespace
 }  // namespace muro

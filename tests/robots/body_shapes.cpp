@@ -74,7 +74,7 @@ std::vector<Solid> solids_of(const RobotTree& tree) {
         Solid solid{.link = i, .shape = {}, .vertices = {}};
         std::memcpy(static_cast<void*>(&solid.shape), c.data.data() + k * sizeof(Shape), sizeof(Shape));
         if (solid.shape.kind == ShapeKind::mesh) {
-          solid.vertices = vertices_of(tree.texts()[std::size_t(solid.shape.mesh)]);
+          solid.vertices = vertices_of(tree.texts()[solid.shape.mesh]);
           for (Vec3& v : solid.vertices) v = v.cwiseProduct(solid.shape.size);
           if (solid.vertices.empty()) continue;
         }

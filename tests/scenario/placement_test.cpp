@@ -11,8 +11,13 @@ namespace {
 
 struct PlacementTest : ::testing::Test {
   std::map<std::string, std::vector<Rectangle>> places{{"yard", {{0, 0, 10, 4, {0.5}}, {20, 0, 2, 2, {}}}}};
-  std::vector<Obstacle> obstacles{{{{0, 0, 1}, from_rpy(0, 0, 0.3)}, 2, 1}};
-  std::vector<Footprint> occupied;
+  Obstacle obstacle{{{0, 0, 1}, from_rpy(0, 0, 0.3)}, 2, 1};
+  Occupancy occupied = with_obstacle();
+  Occupancy with_obstacle() const {
+    Occupancy taken;
+    taken.add(obstacle);
+    return taken;
+  }
   Placement random = [] {
     Placement p;
     p.kind = Placement::Kind::random;
@@ -25,7 +30,7 @@ struct PlacementTest : ::testing::Test {
 };
 
 TEST_F(PlacementTest, RandomPlacesKeepTheirDistanceToEverything) {
-  const auto poses = place(random, 30, {"rovers", 0.25, 0.3}, places, obstacles, occupied);
+  const auto poses = place(random, 30, {"rovers", 0.25, 0.3}, places, occupied);
   ASSERT_EQ(poses.size(), 30u);
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const Vec3& p = poses[i].position;
@@ -37,17 +42,17 @@ TEST_F(PlacementTest, RandomPlacesKeepTheirDistanceToEverything) {
       EXPECT_NEAR(yaw_of(poses[i].orientation), 0.5, 1e-12);
     }
     for (std::size_t k = 0; k < i; ++k) EXPECT_GE((p - poses[k].position).norm(), 0.7);
-    const Vec3 local = obstacles[0].pose.inverse() * Vec3(p.x(), p.y(), 1);
+    const Vec3 local = obstacle.pose.inverse() * Vec3(p.x(), p.y(), 1);
     EXPECT_GE(std::hypot(std::max(0.0, std::abs(local.x()) - 2), std::max(0.0, std::abs(local.y()) - 1)), 0.4);
   }
 }
 
 TEST_F(PlacementTest, EqualSeedsGiveEqualPlacesAndOthersDoNot) {
-  std::vector<Footprint> again, other;
-  const auto a = place(random, 5, {"rovers", 0, 0.3}, places, obstacles, occupied);
-  const auto b = place(random, 5, {"rovers", 0, 0.3}, places, obstacles, again);
+  Occupancy again = with_obstacle(), other = with_obstacle();
+  const auto a = place(random, 5, {"rovers", 0, 0.3}, places, occupied);
+  const auto b = place(random, 5, {"rovers", 0, 0.3}, places, again);
   random.seed = 8;
-  const auto c = place(random, 5, {"rovers", 0, 0.3}, places, obstacles, other);
+  const auto c = place(random, 5, {"rovers", 0, 0.3}, places, other);
   EXPECT_EQ(a[4].position, b[4].position);
   EXPECT_NE(a[4].position, c[4].position);
 }
@@ -55,7 +60,7 @@ TEST_F(PlacementTest, EqualSeedsGiveEqualPlacesAndOthersDoNot) {
 TEST_F(PlacementTest, AFullPlaceSaysHowManyFit) {
   random.location = {"a.yaml", 3, 5};
   try {
-    place(random, 5000, {"rovers", 0, 0.3}, places, obstacles, occupied);
+    place(random, 5000, {"rovers", 0, 0.3}, places, occupied);
     FAIL();
   } catch (const SetupError& e) {
     const std::string text = e.what();
@@ -72,7 +77,7 @@ TEST_F(PlacementTest, AGridIsCentredAndTurnsWithItsCentre) {
   grid.spacing_x = 2;
   grid.spacing_y = 4;
   grid.poses.push_back({.x = 10, .y = 0, .z = {}, .yaw = M_PI / 2});
-  const auto poses = place(grid, 6, {"posts", 0.5, 1}, places, {}, occupied);
+  const auto poses = place(grid, 6, {"posts", 0.5, 1}, places, occupied);
   EXPECT_LT((poses[0].position - Vec3(12, -2, 0.5)).norm(), 1e-12);
   EXPECT_LT((poses[5].position - Vec3(8, 2, 0.5)).norm(), 1e-12);
 }

@@ -38,7 +38,8 @@ std::map<Features, std::string> features_of(const World& world, const RobotView&
                                             const std::map<std::string, ParameterInput>& parameters = {},
                                             bool own_contacts = false, bool contacts = true) {
   std::map<Features, std::string> all;
-  for (const UsedFeature& f : used_features(world, robot, {parameters, own_contacts, contacts})) all[f.bit] = f.amount;
+  for (const UsedFeature& f : used_features(world, scenery_traits(world), robot, {parameters, own_contacts, contacts}))
+    all[f.bit] = f.amount;
   return all;
 }
 

@@ -16,7 +16,13 @@ double surface(const Aabb& b) {
   return d.x() * d.y() + d.y() * d.z() + d.z() * d.x();
 }
 
-Vec3 middle(const Aabb& b) { return 0.5 * (b.low + b.high); }
+Vec3 middle(const Aabb& b) { return 0.5 * b.low + 0.5 * b.high; }
+
+/// The bin of a centre whose distance from the first one is `offset`. Whatever the numbers are, it is one of the bins.
+int bin_of(double offset, double width) {
+  const double bin = bins * (offset / width);
+  return bin > 0 ? (bin < bins ? int(bin) : bins - 1) : 0;
+}
 
 struct Cut {
   int axis = -1;
@@ -36,7 +42,7 @@ Cut best_cut(std::span<const std::uint32_t> items, std::span<const Aabb> boxes) 
     Aabb bounds[bins];
     int counts[bins] = {};
     for (const std::uint32_t i : items) {
-      const int b = std::min(bins - 1, int(bins * (middle(boxes[i])[axis] - low) / width));
+      const int b = bin_of(middle(boxes[i])[axis] - low, width);
       bounds[b].include(boxes[i]);
       ++counts[b];
     }

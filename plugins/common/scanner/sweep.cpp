@@ -13,7 +13,7 @@ Sweep::Sweep(const Grid& grid, bool is_list, std::uint32_t steps) : first_(steps
     const double revolutions =
         is_list ? double(column) / grid.columns : (grid.azimuth(column) - grid.first_angle()) / (2 * std::numbers::pi);
     const double at = revolutions * steps;
-    const std::uint32_t step = std::min(std::uint32_t(std::max(at, 0.0)), steps - 1);
+    const auto step = std::uint32_t(std::clamp(at, 0.0, double(steps - 1)));
     while (next <= step) first_[next++] = column;
     time_fractions_.push_back(std::clamp(at - step, 0.0, 1.0));
     last_step_ = step;

@@ -203,7 +203,10 @@ TEST(Simplified, ARobotWithoutMassIsRefusedWithAdvice) {
 
 TEST(Simplified, AMassWithoutInertiaIsRefusedWithAdvice) {
   const std::string text = refusal([](test::Scene& s) {
-    s.add("point", test::single_body(Shape::box({1, 1, 1}), {.mass = 2}));
+    s.add("point", test::tree_of([](RobotBuilder& b) {
+            b.base("body");
+            b.set(keys::inertial, {.mass = 2});
+          }));
   });
   EXPECT_NE(text.find("all must be positive"), std::string::npos) << text;
 }
@@ -224,6 +227,46 @@ TEST(Simplified, AStateThatIsNoLongerFiniteEndsTheRunWithTheNameOfTheRobot) {
     FAIL();
   } catch (const std::exception& e) {
     EXPECT_NE(std::string(e.what()).find("`r` is no longer finite"), std::string::npos) << e.what();
+  }
+}
+
+TEST(Simplified, ABoxWithAPlaceholderForItsInertiaIsHeldByTheGround) {
+  for (const double moment : {0.0, 1e-12, 1e-9, 1e-7, 1e-5, 1e-3}) {
+    test::Scene s;
+    std::vector<std::string> notes;
+    s.set_log([&](LogLevel, std::string_view text) { notes.emplace_back(text); });
+    s.add_ground();
+    const Inertia placeholder{.mass = 1, .ixx = moment, .iyy = moment, .izz = moment};
+    const RobotView& box = s.add("crate", test::single_body(Shape::box({0.5, 0.4, 0.3}), placeholder),
+                                 {{0, 0, 0.5}, from_rpy(0.4, 0.3, 0)});
+    s.use("motion.simplified", 1000, s.all_robots());
+    s.use_contacts();
+    s.build();
+    double highest = 0;
+    for (int i = 0; i < 400; ++i) {
+      s.run_for(0.01);
+      highest = std::max(highest, s.pose(box).position.z());
+    }
+    EXPECT_LT(highest, 0.5) << moment;
+    EXPECT_NEAR(s.pose(box).position.z(), 0.15, 0.02) << moment;
+    const auto told = [](const std::string& n) { return n.find("the inertia of `crate` is less than") != n.npos; };
+    EXPECT_EQ(std::count_if(notes.begin(), notes.end(), told), 1) << moment;
+  }
+}
+
+TEST(Simplified, AnInertiaThatABodyCanHaveStaysAsItIs) {
+  // a rod of steel, 1 m long and 1 cm thick, and a ball of lead in a large light shell
+  const double rod = 0.6, across = rod / 12;
+  for (const auto& [shape, inertia] :
+       {std::pair(Shape::cylinder(0.005, 1), Inertia{.mass = rod, .ixx = across, .iyy = across, .izz = rod * 1.25e-5}),
+        std::pair(Shape::sphere(0.5), Inertia{.mass = 10, .ixx = 0.1, .iyy = 0.1, .izz = 0.1})}) {
+    test::Scene s;
+    std::vector<std::string> notes;
+    s.set_log([&](LogLevel, std::string_view text) { notes.emplace_back(text); });
+    s.add("body", test::single_body(shape, inertia));
+    s.use("motion.simplified", 1000, s.all_robots());
+    s.build();
+    EXPECT_EQ(notes, std::vector<std::string>{});
   }
 }
 

@@ -144,7 +144,7 @@ TEST(SdfModels, EveryShapeIsReadWithItsPlaceAndSurface) {
   EXPECT_TRUE((shapes[4].origin.orientation * Vec3::UnitZ()).isApprox(Vec3::UnitX(), 1e-12));
   EXPECT_EQ(shapes[5].kind, ShapeKind::mesh);
   EXPECT_EQ(shapes[5].size, Vec3(1, 2, 3));
-  EXPECT_EQ(robot.tree.texts().at(std::size_t(shapes[5].mesh)), mesh);
+  EXPECT_EQ(robot.tree.texts()[shapes[5].mesh], mesh);
 }
 
 TEST(SdfModels, VisualsHaveTheDiffuseColourAndTheirTransparency) {

@@ -2,6 +2,7 @@
 #include "document.hpp"
 
 #include "plugins/common/model_file/numbers.hpp"
+#include "plugins/common/model_file/ranges.hpp"
 
 namespace muro::urdf {
 
@@ -46,7 +47,9 @@ std::optional<std::vector<double>> numbers(Element& element, const char* attribu
   if (!text) return std::nullopt;
   std::string error;
   auto values = model_file::parse_numbers(text, count, error);
-  if (!values) {
+  const bool is_value = std::string_view(attribute) == "value";  // of <mass value="..."/>
+  if (values) error = model_file::range_problem(is_value ? element.Name() : attribute, *values);
+  if (!error.empty()) {
     problems.error(location_of(element),
                    concat(owner, ", <", element.Name(), " ", attribute, ">: ", quote(text), " ", error));
     return std::nullopt;

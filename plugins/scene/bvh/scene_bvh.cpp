@@ -127,7 +127,10 @@ void SceneBvh::connect(Connector& c) {
   kernels_ = &bounds_kernels_for(lane::best_isa());
   index_ = c.derived(world_object, keys::scene_index);
   add_scenery(c);
-  for (const RobotView* robot : c.robots()) add_robot(c, *robot);
+  for (const RobotView* robot : c.robots()) {
+    add_robot(c, *robot);
+    views_.push_back(robot);
+  }
   outside_.resize(robots_.size());
   changes_.resize(robots_.size());
 }
@@ -182,7 +185,14 @@ void SceneBvh::update_bounds(Range block) {
 }
 
 void SceneBvh::set_fat_aabb(std::uint32_t robot) {
+  constexpr double farthest = 1e15;  // m; also to find what is not a number
   RobotColliders& r = robots_[robot];
+  if (!(r.bounds.low.minCoeff() >= -farthest && r.bounds.high.maxCoeff() <= farthest) || !r.bounds.low.allFinite() ||
+      !r.bounds.high.allFinite())
+    throw Error(
+        "the pose of robot " + quote(views_[robot]->name) +
+        " is not finite, or beyond all bounds; look at what moves it: raise the rate of its motion, or lower the "
+        "forces on it");
   const Aabb old = r.fat_aabb;
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     const bool up = r.bounds.high[axis] > old.high[axis], down = r.bounds.low[axis] < old.low[axis];

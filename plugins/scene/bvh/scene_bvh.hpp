@@ -53,6 +53,7 @@ class SceneBvh final : public Algorithm {
 
   std::vector<RobotGroup<std::vector<RoundedBox>>> groups_;  ///< of robots that have bounds
   std::vector<RobotPoses> poses_;                            ///< by robot
+  std::vector<const RobotView*> views_;                      ///< by robot, for messages
 
   std::vector<std::uint32_t> members_;  ///< robots that have bounds
   std::vector<std::uint32_t> in_tree_;  ///< those of them that others touch and see

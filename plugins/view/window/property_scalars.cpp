@@ -7,6 +7,9 @@
 #include <cstring>
 #include <limits>
 #include <type_traits>
+#include <vector>
+
+#include "muro/toolkit/limits.hpp"
 
 namespace muro::view {
 
@@ -75,6 +78,19 @@ void write(Scalar kind, std::byte* at, double number) {
   }
 }
 
+/// Whether an element may have the value that it has now, with `entered` as one of its numbers.
+bool is_possible(const ValueType& type, std::byte* element, double entered) {
+  constexpr double largest = 1e15;
+  if (!limits::within(largest, entered)) return false;
+  if (type.name == ValueTraits<Twist>::name) return limits::problem_of(*reinterpret_cast<Twist*>(element)).empty();
+  if (type.name != ValueTraits<Pose>::name) return true;
+  Pose& pose = *reinterpret_cast<Pose*>(element);
+  const double norm = pose.orientation.norm();
+  if (!(norm > 1e-6)) return false;
+  if (std::abs(norm - 1) > 1e-9) pose.orientation.coeffs() /= norm;
+  return limits::problem_of(pose).empty();
+}
+
 std::byte* place_of(const LiveProperty& p, std::uint32_t i) {
   const ValueType& type = *p.key->type;
   return static_cast<std::byte*>(p.data) + std::size_t(i / type.scalars()) * type.size +
@@ -98,8 +114,14 @@ std::string Scalars::label(std::uint32_t i) const {
 
 double Scalars::get(std::uint32_t i) const { return read(property.key->type->scalar, place_of(property, i)); }
 
-void Scalars::set(std::uint32_t i, double value) const {
-  write(property.key->type->scalar, place_of(property, i), value);
+bool Scalars::set(std::uint32_t i, double value) const {
+  const ValueType& type = *property.key->type;
+  std::byte* const element = place_of(property, i / type.scalars() * type.scalars());
+  const std::vector<std::byte> before(element, element + type.size);
+  write(type.scalar, place_of(property, i), value);
+  if (is_possible(type, element, value)) return true;
+  std::copy(before.begin(), before.end(), element);
+  return false;
 }
 
 std::string summary_of(const LiveProperty& p, const Inspection& simulation) {

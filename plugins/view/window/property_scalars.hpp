@@ -17,7 +17,9 @@ struct Scalars {
   /// "x", "[3]", "[3].x"; empty for a single number.
   std::string label(std::uint32_t i) const;
   double get(std::uint32_t i) const;
-  void set(std::uint32_t i, double value) const;
+  /// Leaves the property as it is, and returns false, when its value would be out of range (muro/toolkit/limits.hpp).
+  /// An orientation stays of length 1.
+  bool set(std::uint32_t i, double value) const;
 
   const LiveProperty& property;
 };

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
 #include "muro/vocabulary.hpp"
 
 namespace muro::view {
@@ -28,6 +31,20 @@ TEST(ValuesInTheWindow, AreReadAndEditedByTheirParts) {
   EXPECT_EQ(values.get(2), 3);
   values.set(2, 4.5);
   EXPECT_EQ(pose.position.z(), 4.5);
+}
+
+TEST(ValuesInTheWindow, TakeNothingThatIsOutOfRange) {
+  Pose pose{{1, 2, 3}, Quat::Identity()};
+  const LiveProperty p = live(keys::pose, pose);
+  const Scalars values(p);
+  for (const double wrong : {1e9, -1e308, std::nan(""), std::numeric_limits<double>::infinity()}) {
+    EXPECT_FALSE(values.set(0, wrong));
+    EXPECT_EQ(pose.position, Vec3(1, 2, 3)) << wrong;
+  }
+  EXPECT_TRUE(values.set(3, 1));  // qx beside qw = 1
+  EXPECT_NEAR(pose.orientation.x(), std::sqrt(0.5), 1e-15);
+  EXPECT_NEAR(pose.orientation.norm(), 1, 1e-15);
+  EXPECT_FALSE(Scalars(live(keys::joint_velocity, pose.position.x())).set(0, std::nan("")));
 }
 
 TEST(ValuesInTheWindow, HaveNumbersInArrays) {

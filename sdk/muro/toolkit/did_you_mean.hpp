@@ -28,14 +28,21 @@ inline std::size_t edit_distance(std::string_view a, std::string_view b) {
   return at(a.size(), b.size());
 }
 
+/// Longer words are no misspelled names, and take long to compare.
+inline constexpr std::size_t longest_misspelling = 100;
+
 /// The `most` candidates that are like `wrong`, the likest first; those that contain it come before all others.
 inline std::vector<std::string> nearest_names(std::string_view wrong, std::span<const std::string> candidates,
                                               std::size_t most) {
   std::vector<std::pair<std::size_t, std::string>> found;
+  if (wrong.size() > longest_misspelling) return {};
+  const std::size_t too_far = wrong.size() / 3 + 2;  // what is farther away is no help
   for (const std::string& c : candidates) {
     const bool contains = wrong.size() >= 3 && c.find(wrong) != std::string::npos;
+    const std::size_t longer = std::max(c.size(), wrong.size()) - std::min(c.size(), wrong.size());
+    if (!contains && longer >= too_far) continue;
     const std::size_t distance = contains ? 0 : edit_distance(wrong, c);
-    if (distance < wrong.size() / 3 + 2) found.emplace_back(distance, c);  // what is farther away is no help
+    if (distance < too_far) found.emplace_back(distance, c);
   }
   std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<std::string> names;

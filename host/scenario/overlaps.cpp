@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: MIT
+#include "host/scenario/overlaps.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <tuple>
+
+#include "core/instance.hpp"
+#include "host/names.hpp"
+#include "muro/toolkit/link_pose.hpp"
+#include "muro/vocabulary.hpp"
+
+namespace muro::host {
+
+namespace {
+
+constexpr double least_depth = 1e-3;  // m; less is what models and placement leave
+
+template <class T>
+std::span<const T> constants(const World& world, ObjectId object, const Key<T>& key) {
+  const ArrayHeader found = world.store().constant(object, key);
+  return {static_cast<const T*>(found.data), found.data ? found.size : 0};
+}
+
+template <class T>
+T constant_or(const World& world, ObjectId object, const Key<T>& key, const T& otherwise) {
+  const std::span<const T> found = constants(world, object, key);
+  return found.empty() ? otherwise : found.front();
+}
+
+/// Of each link in the frame of the base, with the joints where they start.
+std::vector<Pose> link_poses(const World& world, const RobotView& robot) {
+  const auto start = [&](const Link& link) {
+    return constant_or(world, link.joint_object, keys::initial_joint_position, 0.0);
+  };
+  std::vector<Pose> poses(robot.links.size());
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    const Link& link = robot.links[i];
+    double position = 0;
+    if (link.joint != JointKind::fixed)
+      position = link.mimic < 0
+                     ? start(link)
+                     : link.mimic_offset + link.mimic_multiplier * start(robot.links[std::size_t(link.mimic)]);
+    poses[i] = poses[std::size_t(link.parent)] * pose_in_parent(link, position);
+  }
+  return poses;
+}
+
+/// Whether contacts move or stop the robot.
+bool heeds_contacts(const World& world, const RobotView& robot) {
+  const Slot* contact_world = world.store().find(robot.base(), keys::contact_world.name);
+  if (contact_world && contact_world->place && world.value(robot.base(), keys::contact_world) != 0) return true;
+  const Slot* contacts = world.store().find(robot.base(), keys::contacts.name);
+  return contacts && contacts->used_as(usage::read);
+}
+
+/// A scene of the same shapes in which nothing moves: each robot is one body.
+class Still {
+ public:
+  explicit Still(Simulation& simulation)
+      : original_(simulation.world()), still_(simulation.registry()), world_(still_.world()) {
+    still_.set_log([](LogLevel, std::string_view) {});
+    for (std::uint32_t i = 1; i < original_.object_count(); ++i)
+      if (original_.robot_of(ObjectId{i}) < 0) add_scenery(ObjectId{i});
+    for (const RobotView* robot : original_.robots())
+      if (constants(original_, robot->base(), keys::shadow_of).empty()) add_robot(*robot);
+    use_collision(simulation);
+  }
+
+  std::vector<Overlap> overlaps() {
+    if (!finds_contacts_) return {};
+    const Accessor reader = world_.store().add_accessor("the check of overlaps");
+    for (const RobotView* robot : world_.robots())
+      world_.store().bind(reader, robot->base(), keys::contacts, usage::read, Multiplicity::list, 0, nullptr);
+    still_.build();
+    still_.run_until(1);
+    for (const RobotView* robot : world_.robots())
+      for (const Contact& c : world_.values(robot->base(), keys::contacts)) add(c);
+    std::vector<Overlap> all;
+    for (const auto& [bodies, depth] : depths_) all.push_back({name_of(bodies[0]), name_of(bodies[1]), depth});
+    return all;
+  }
+
+ private:
+  Shape with_own_texts(Shape shape) {
+    shape.mesh = world_.intern(original_.text(shape.mesh));
+    shape.texture = no_text;
+    has_meshes_ = has_meshes_ || shape.kind == ShapeKind::mesh;
+    return shape;
+  }
+
+  void add_scenery(ObjectId object) {
+    std::vector<Shape> shapes;
+    for (const Shape& s : constants(original_, object, keys::collision_shapes)) shapes.push_back(with_own_texts(s));
+    const auto pose = constants(original_, object, keys::pose);
+    if (!shapes.empty() && !pose.empty())
+      world_.add_scenery(original_.object_name(object), pose.front(), shapes, std::span<const Shape>());
+  }
+
+  void add_robot(const RobotView& robot) {
+    const std::vector<Pose> poses = link_poses(original_, robot);
+    RobotTree tree;
+    Names names{heeds_contacts(original_, robot), {}, {}};
+    std::vector<Shape> shapes;
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      const std::span<const Shape> of_link = constants(original_, robot.links[i].object, keys::collision_shapes);
+      for (Shape s : of_link) {
+        has_meshes_ = has_meshes_ || s.kind == ShapeKind::mesh;
+        s.origin = poses[i] * s.origin;
+        s.mesh = tree.intern(original_.text(s.mesh));
+        s.texture = no_text;
+        shapes.push_back(s);
+        names.link_of_shape.push_back(std::uint32_t(names.of_link.size()));
+      }
+      if (!of_link.empty()) names.of_link.push_back(original_.object_name(robot.links[i].object));
+    }
+    if (shapes.empty()) return;
+    tree.base("body");
+    tree.set_array<Shape>(keys::collision_shapes, shapes);
+    tree.close();
+    const Pose start = constant_or(original_, robot.base(), keys::initial_pose, Pose{});
+    const ObjectId base = world_.add_robot(robot.name, tree, start).base();
+    world_.set(base, keys::pose, start);
+    world_.set(base, keys::twist, Twist{});
+    robots_[base] = std::move(names);
+  }
+
+  /// That of the scenario, or the one that knows all shapes.
+  void use_collision(const Simulation& simulation) {
+    const auto& catalog = still_.registry().catalog();
+    const auto is_there = [&](std::string_view id) {
+      return std::any_of(catalog.begin(), catalog.end(), [&](const CatalogEntry& e) { return e.id == id; });
+    };
+    AlgorithmSetup collision;
+    collision.use = has_meshes_ && is_there("collision.bullet") ? "collision.bullet" : "collision.native";
+    if (collision.use == "collision.bullet") collision.parameters["meshes"] = std::string("exact");
+    for (const auto& instance : simulation.instances())
+      if (instance->description().kind == Kind::collision) {
+        collision.use = instance->setup().use;
+        collision.parameters = instance->setup().parameters;
+        collision.folder = instance->setup().folder;
+      }
+    finds_contacts_ = is_there("scene.bvh") && is_there(collision.use) && !robots_.empty();
+    if (!finds_contacts_) return;
+    collision.rate = Rate(1);
+    still_.use("scene.bvh", 0);
+    still_.add(std::move(collision));
+  }
+
+  struct Body {
+    ObjectId object;     ///< the base of a robot, or scenery
+    std::uint32_t link;  ///< of a robot, in Names
+    auto operator<=>(const Body&) const = default;
+  };
+
+  Body body_of(ObjectId object, std::uint32_t shape) const {
+    const auto robot = robots_.find(object);
+    return {object, robot == robots_.end() ? 0 : robot->second.link_of_shape[shape]};
+  }
+  const std::string& name_of(const Body& body) const {
+    const auto robot = robots_.find(body.object);
+    return robot == robots_.end() ? world_.object_name(body.object) : robot->second.of_link[body.link];
+  }
+  bool heeds(ObjectId object) const {
+    const auto robot = robots_.find(object);
+    return robot != robots_.end() && robot->second.heeds_contacts;
+  }
+
+  void add(const Contact& c) {
+    if (c.depth < least_depth || (!heeds(c.self) && !heeds(c.other))) return;
+    std::array<Body, 2> bodies{body_of(c.self, c.self_shape), body_of(c.other, c.other_shape)};
+    // a pair of robots stands in the lists of both; scenery comes second
+    if (robots_.count(c.other) > 0 && name_of(bodies[1]) < name_of(bodies[0])) std::swap(bodies[0], bodies[1]);
+    double& depth = depths_[bodies];
+    depth = std::max(depth, c.depth);
+  }
+
+  struct Names {
+    bool heeds_contacts;
+    std::vector<std::string> of_link;  ///< of links with shapes
+    std::vector<std::uint32_t> link_of_shape;
+  };
+
+  const World& original_;
+  Simulation still_;
+  World& world_;
+  std::map<ObjectId, Names> robots_;  ///< by base
+  std::map<std::array<Body, 2>, double> depths_;
+  bool has_meshes_ = false;
+  bool finds_contacts_ = false;
+};
+
+}  // namespace
+
+std::vector<Overlap> overlaps_at_start(Simulation& simulation) {
+  const auto robots = simulation.world().robots();
+  if (std::none_of(robots.begin(), robots.end(),
+                   [&](const RobotView* r) { return heeds_contacts(simulation.world(), *r); }))
+    return {};
+  std::vector<Overlap> all;
+  try {
+    all = Still(simulation).overlaps();
+  } catch (const std::exception&) {  // what cannot be found is not told
+  }
+  std::sort(all.begin(), all.end(), [](const Overlap& a, const Overlap& b) {
+    return std::tie(b.depth, a.first, a.second) < std::tie(a.depth, b.first, b.second);
+  });
+  return all;
+}
+
+std::vector<std::string> overlap_notes(Simulation& simulation) {
+  constexpr std::size_t most = 5;
+  const std::vector<Overlap> all = overlaps_at_start(simulation);
+  std::vector<std::string> notes;
+  for (const Overlap& o : std::span(all).first(std::min(most, all.size())))
+    notes.push_back(
+        fmt::format("note: `{}` and `{}` overlap by {:.2g} m at the start; contacts push them apart, so move "
+                    "one of them",
+                    o.first, o.second, o.depth));
+  if (all.size() > most)
+    notes.push_back(fmt::format("note: {} start in overlap", plural(all.size() - most, "more pair")));
+  return notes;
+}
+
+}  // namespace muro::host

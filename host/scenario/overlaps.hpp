@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/simulation.hpp"
+
+namespace muro::host {
+
+/// Two bodies that overlap where they start.
+struct Overlap {
+  std::string first, second;  ///< names of bodies
+  double depth;               ///< m, of the deepest contact
+};
+
+/// The bodies that overlap by more than a millimetre before the first step of a built simulation, the deepest first.
+/// Pairs that no contact moves or stops are left out, and so is what the plugins that are there cannot find.
+std::vector<Overlap> overlaps_at_start(Simulation& simulation);
+
+/// A line for each of the deepest, and one for how many more there are.
+std::vector<std::string> overlap_notes(Simulation& simulation);
+
+}  // namespace muro::host

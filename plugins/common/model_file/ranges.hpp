@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace muro::model_file {
+
+/// What is wrong with numbers of the element or attribute `name` of a URDF or SDFormat file ("mass", "xyz", "pose"), by
+/// the ranges of muro/toolkit/limits.hpp; it completes a sentence that begins with the text. Empty: nothing is, or no
+/// range is known.
+std::string range_problem(std::string_view name, std::span<const double> values);
+
+}  // namespace muro::model_file

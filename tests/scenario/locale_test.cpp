@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+// An embedding program chooses the locale of its user, in which 0.5 is written 0,5.
+#include <gtest/gtest.h>
+
+#include <clocale>
+#include <cstdlib>
+#include <locale>
+#include <nlohmann/json.hpp>
+
+#include "host/report.hpp"
+#include "host/scenario/builder.hpp"
+#include "tests/support/complaint.hpp"
+#include "tests/support/files.hpp"
+#include "tests/support/scene.hpp"
+
+namespace muro::host {
+namespace {
+
+struct Comma : std::numpunct<char> {
+  char do_decimal_point() const override { return ','; }
+  char do_thousands_sep() const override { return '.'; }
+  std::string do_grouping() const override { return "\3"; }
+};
+
+/// Both kinds of locale with a comma, for as long as it lives: that of C++ by a facet, that of C by one that is made in
+/// `folder` where the machine has what it takes.
+class CommaLocale {
+ public:
+  explicit CommaLocale(const test::ScratchFolder& folder) {
+    const std::string made = folder.path("de_DE.UTF-8");
+    test::run_command("localedef -i de_DE -f UTF-8 " + made + " 2>&1");
+    setenv("LOCPATH", std::filesystem::path(made).parent_path().c_str(), 1);  // NOLINT(concurrency-mt-unsafe)
+    for (const char* name : {"de_DE.UTF-8", "de_DE", "fr_FR.UTF-8", "C.UTF-8"})
+      if (std::setlocale(LC_ALL, name)) break;  // NOLINT(concurrency-mt-unsafe)
+  }
+  ~CommaLocale() {
+    std::locale::global(before_);
+    std::setlocale(LC_ALL, "C");  // NOLINT(concurrency-mt-unsafe)
+    unsetenv("LOCPATH");          // NOLINT(concurrency-mt-unsafe)
+  }
+  CommaLocale(const CommaLocale&) = delete;
+  CommaLocale& operator=(const CommaLocale&) = delete;
+
+ private:
+  std::locale before_ = std::locale::global(std::locale(std::locale::classic(), new Comma));
+};
+
+/// The hash of the state, the recorded file, and the numbers of the report.
+std::string outcome_of(const test::ScratchFolder& folder, const std::string& model, const std::string& motion) {
+  const std::string csv = folder.path(motion + ".csv");
+  const std::string file = folder.file("s.yaml", R"(
+world: {objects: {ground: {shape: plane}}}
+robots:
+  rover:
+    model: )" + std::string(MURO_TEST_SOURCE_DIR "/examples/models/") +
+                                                     model + R"(
+    at: {x: 0.125, z: 1.375, roll: 0.25}
+    motion: {use: motion.)" + motion + R"(, rate: 500}
+algorithms:
+  table: {use: recorder.csv, rate: 10, properties: ["rover/*:pose"], file: )" +
+                                                     csv + "}\n");
+  BuiltScenario b = build(read_scenario(file, {"robots.rover.at.y=0.0625"}), test::plugins());
+  const Odometer odometer(*b.simulation);
+  b.simulation->run_for(0.5);
+  b.simulation->finish();
+  RunResult result;
+  result.simulated = 0.5;
+  const auto written = report(result, *b.simulation, odometer);
+  return std::to_string(b.simulation->state_hash()) + "\n" + test::text_of(csv) + written.at("simulated").dump();
+}
+
+TEST(Locale, OfAnEmbeddingProgramChangesNothing) {
+  const auto& catalog = test::plugins().catalog();
+  const auto is_there = [&](const std::string& id) {
+    return std::any_of(catalog.begin(), catalog.end(), [&](const CatalogEntry& e) { return e.id == id; });
+  };
+  for (const std::string motion : {"simplified", "bullet", "ode", "mujoco"}) {
+    if (!is_there("motion." + motion)) continue;
+    for (const std::string model : {"rover.urdf", "rover.sdf"}) {
+      if (model == "rover.sdf" && !is_there("reader.sdf")) continue;
+      const test::ScratchFolder folder;
+      const std::string before = outcome_of(folder, model, motion);
+      const CommaLocale locale(folder);
+      EXPECT_EQ(outcome_of(folder, model, motion), before) << motion << " " << model;
+    }
+  }
+}
+
+TEST(Locale, OfAnEmbeddingProgramChangesNoMessage) {
+  const auto complaint = [] {
+    return test::complaint_of([] {
+      test::Scene s;
+      s.add("ball", test::tree_of([](RobotBuilder& b) { b.base("body"); }));
+      s.use("motion.point", 100, s.all_robots(), {{"max_speed", -1234.5}});
+      s.build();
+    });
+  };
+  const std::string before = complaint();
+  EXPECT_NE(before.find("-1234.5"), std::string::npos) << before;
+  const test::ScratchFolder folder;
+  const CommaLocale locale(folder);
+  EXPECT_EQ(complaint(), before);
+}
+
+}  // namespace
+}  // namespace muro::host
