@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/instance.hpp"
 
+#include <dlfcn.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -36,49 +37,87 @@ Instance::Instance(const abi::AlgorithmEntry& entry, AlgorithmSetup setup, World
     throw SetupError(
         fmt::format("{}{} ({}) serves robots, but no robot is named; use it in a robot, not for the whole scene",
                     prefix_of(setup_.place), setup_.name, setup_.use));
+  callee_ = make_callee();
+  const CallScope scope(*callee_, "create");
   abi::ErrorText error;
   algorithm_ = entry_.create(&error);
   require(algorithm_ != nullptr, error, "cannot be created");
 }
 
 Instance::~Instance() {
-  if (algorithm_) algorithm_->destroy();
+  if (!algorithm_) return;
+  const CallScope scope(*callee_, "destroy");
+  algorithm_->destroy();
 }
 
+/// The library is that of the plugin's own function.
+std::shared_ptr<const Callee> Instance::make_callee() const {
+  Callee callee{.name = setup_.name, .use = setup_.use, .place = setup_.place};
+  callee.runs_alone = (description().capabilities & Capability::runs_alone) != 0;
+  Dl_info info{};
+  if (dladdr(reinterpret_cast<const void*>(entry_.create), &info) != 0 && info.dli_fname)
+    callee.library = info.dli_fname;
+  const bool whole_scene = setup_.items.size() == 1 && !setup_.items[0].robot && setup_.items[0].object == world_object;
+  for (std::size_t i = 0; i < setup_.items.size() && !whole_scene; ++i) {
+    const Item& item = setup_.items[i];
+    Callee::OfItem& of_item = callee.items.emplace_back();
+    const std::int32_t robot = item.robot ? std::int32_t(item.robot->number) : world_.robot_of(item.object);
+    of_item.is_robot = robot >= 0;
+    of_item.object = robot >= 0 ? world_.robots()[std::size_t(robot)]->name : world_.object_name(item.object);
+    if (setup_.item_setups.empty()) continue;
+    of_item.name = setup_.item_setups[i].name;
+    of_item.place = setup_.item_setups[i].place;
+  }
+  return std::make_shared<const Callee>(std::move(callee));
+}
+
+/// Messages of the set-up name the robot where there are several and the algorithm has noted one.
 void Instance::require(bool fine, const abi::ErrorText& error, const char* doing) const {
   if (fine) return;
-  throw SetupError(
-      fmt::format("{}{} ({}) {}: {}", prefix_of(setup_.place), setup_.name, setup_.use, doing, error.view()));
+  const RunningCall& call = running_call();
+  const bool noted = callee_->items.size() > 1 && call.note.item.load() < callee_->items.size();
+  const std::string about =
+      noted ? who(call, error.view()) : fmt::format("{}{} ({})", prefix_of(setup_.place), setup_.name, setup_.use);
+  throw SetupError(fmt::format("{} {}: {}", about, doing, error.view()));
 }
 
 void Instance::connect() {
+  const CallScope scope(*callee_, "connect");
   abi::ErrorText error;
   require(algorithm_->connect(*this, error), error, "cannot be connected");
 }
 
 void Instance::connect_by_name() {
+  const CallScope scope(*callee_, "connect_by_name");
   abi::ErrorText error;
   require(algorithm_->connect_by_name(*this, error), error, "cannot be connected");
 }
 
 void Instance::start() {
+  const CallScope scope(*callee_, "start");
   abi::ErrorText error;
   require(algorithm_->start(error), error, "cannot start");
 }
 
 void Instance::restored() {
+  const CallScope scope(*callee_, "restored");
   abi::ErrorText error;
   require(algorithm_->restored(error), error, "cannot go on from the restored state");
 }
 
 void Instance::finish() {
+  const CallScope scope(*callee_, "finish");
   abi::ErrorText error;
   require(algorithm_->finish(error), error, "cannot finish");
 }
 
-void Instance::on_handover(std::uint32_t item) {
-  abi::ErrorText error;
-  require(algorithm_->on_handover(item, error), error, "cannot take the robot over");
+bool Instance::on_handover(std::uint32_t item, abi::ErrorText& error) {
+  const CallScope scope(*callee_, "on_handover", running_call().time.load());
+  running_call().note.set_item(item);
+  abi::ErrorText reason;
+  if (algorithm_->on_handover(item, reason)) return true;
+  error.set(fmt::format("{} cannot take the robot over: {}", who(running_call(), reason.view()), reason.view()));
+  return false;
 }
 
 std::vector<SlotId> Instance::reads() const {
@@ -131,9 +170,9 @@ std::uint64_t Instance::random_key(std::uint32_t i) const noexcept {
 
 std::string_view Instance::resolve_path(std::string_view path) const noexcept {
   namespace fs = std::filesystem;
-  const fs::path given(path);
-  const fs::path base = setup_.folder.empty() ? fs::current_path() : fs::path(setup_.folder);
-  return paths_.emplace_back((given.is_absolute() ? given : fs::absolute(base) / given).lexically_normal().string());
+  std::error_code deleted;  // the working directory may be gone; the path then stays as it is
+  const fs::path given(path), base = fs::absolute(setup_.folder.empty() ? "." : setup_.folder, deleted);
+  return paths_.emplace_back((given.is_absolute() ? given : base / given).lexically_normal().string());
 }
 
 std::span<const FoundProperty> Instance::properties(ObjectId object) const noexcept {

@@ -48,6 +48,8 @@ class Instance final : private Connector {
   const Description& description() const { return *entry_.description; }
   abi::AlgorithmInstance& algorithm() { return *algorithm_; }
   Accessor accessor() const { return accessor_; }
+  /// What messages about its calls say of it.
+  const std::shared_ptr<const Callee>& callee() const { return callee_; }
 
   /// Of each robot, by number: whether another motion moves it at the start, whose initial values count. [before
   /// connect]
@@ -58,7 +60,8 @@ class Instance final : private Connector {
   void start();
   void restored();
   void finish();
-  void on_handover(std::uint32_t item);
+  /// False: it cannot take the robot over, and `error` says who it is and why.
+  bool on_handover(std::uint32_t item, abi::ErrorText& error);
   /// Slots that it reads and writes, for the scheduler.
   std::vector<SlotId> reads() const;
   std::vector<SlotId> writes() const;
@@ -69,6 +72,8 @@ class Instance final : private Connector {
   std::vector<SlotAccess> accesses() const;
   /// It needs this property too, to know when to run.
   void add_read(SlotId slot) { bound_.push_back({slot, usage::read}); }
+  /// Paths of its parameters that it has resolved: files that it reads.
+  const std::deque<std::string>& resolved_paths() const { return paths_; }
   /// How a step is divided; one or more.
   std::vector<Phase> phases() const;
 
@@ -96,6 +101,7 @@ class Instance final : private Connector {
   void set_raw(ObjectId object, const KeyInfo& key, const void* value) noexcept override;
 
   void require(bool fine, const abi::ErrorText& error, const char* doing) const;
+  std::shared_ptr<const Callee> make_callee() const;
 
   const abi::AlgorithmEntry& entry_;
   AlgorithmSetup setup_;
@@ -104,6 +110,7 @@ class Instance final : private Connector {
   ParameterSet parameters_;
   std::deque<ParameterSet> item_parameters_;  ///< one an item, when they differ
   Accessor accessor_;
+  std::shared_ptr<const Callee> callee_;
   abi::AlgorithmInstance* algorithm_ = nullptr;
   mutable std::vector<FoundProperty> found_;
   mutable std::deque<KeyInfo> aliases_;

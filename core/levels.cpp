@@ -206,7 +206,7 @@ bool Levels::step(const Step&, Range, abi::ErrorText& error) noexcept {
     for (const SlotId slot : r.traits) store_->clear(slot);
     *r.level = std::uint32_t(target);
     const Mover& m = r.movers[std::size_t(target)];
-    if (!m.instance->algorithm().on_handover(m.item, error)) return false;
+    if (!m.instance->on_handover(m.item, error)) return false;
   }
   return true;
 }

@@ -5,10 +5,17 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
+#include <csignal>
+#include <iostream>
+#include <new>
+#include <sstream>
 
 #include "core/error.hpp"
 #include "host/commands/commands.hpp"
 #include "host/names.hpp"
+#include "host/outputs/standard_output.hpp"
+#include "host/process/crash_report.hpp"
+#include "host/process/exit_guard.hpp"
 #include "host/scenario/scenario.hpp"
 #include "muro/toolkit/did_you_mean.hpp"
 
@@ -22,6 +29,12 @@ std::string check_duration(const std::string& text) {
   const auto [used, code] = std::from_chars(text.data(), text.data() + text.size(), x);
   const bool fine = code == std::errc{} && used == text.data() + text.size() && x >= 0 && x <= 1e9;
   return fine ? "" : "`" + text + "` is no number of seconds from 0 to 1e9";
+}
+std::string check_step_timeout(const std::string& text) {
+  double x = 0;
+  const auto [used, code] = std::from_chars(text.data(), text.data() + text.size(), x);
+  const bool fine = code == std::errc{} && used == text.data() + text.size() && x >= 0.01 && x <= 1e9;
+  return fine ? "" : "`" + text + "` is no number of seconds from 0.01 to 1e9";
 }
 std::string check_seed(const std::string& text) {
   std::uint64_t x = 0;
@@ -102,6 +115,10 @@ struct Commands {
     command.add_option("--report", run_options.report, "Write a report to this file (JSON)");
     command.add_option("--timeline", run_options.timeline,
                        "Write which algorithm ran when on which thread (JSON for Perfetto or chrome://tracing)");
+    command
+        .add_option("--step-timeout", run_options.step_timeout,
+                    "Wall-clock seconds after which a step that does not return ends the run, and is named")
+        ->check(check_step_timeout);
     command.add_flag("--verify-access", run_options.verify_access,
                      "Prove that algorithms access only the properties that they have declared (slow)");
     command.add_flag("--profile", run_options.profile, "Print what each algorithm costs");
@@ -229,14 +246,15 @@ int dispatch(int argc, char** argv) {
   } catch (const CLI::ParseError& e) {
     if (const std::string text = unknown_command(app); e.get_exit_code() != 0 && !text.empty())
       throw muro::SetupError(text);
-    return app.exit(e) == 0 ? 0 : 2;
+    std::ostringstream complaint;
+    const int code = app.exit(e, std::cout, complaint);
+    fmt::print(stderr, "{}", muro::message_text(complaint.str()));
+    return code == 0 ? 0 : 2;
   }
   return commands.exit_code;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int exit_code_of(int argc, char** argv) {
   try {
     return dispatch(argc, argv);
   } catch (const muro::SetupError& e) {
@@ -245,8 +263,20 @@ int main(int argc, char** argv) {
   } catch (const muro::StepError& e) {
     fmt::print(stderr, "{}\n", e.what());
     return 1;
-  } catch (const std::exception& e) {
-    fmt::print(stderr, "muro failed: {}\n", e.what());
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "muro needs more memory than there is; make the scene smaller\n");
     return 1;
+  } catch (const std::exception& e) {
+    if (!standard_output_failed()) fmt::print(stderr, "muro failed: {}\n", muro::message_text(e.what()));
+    return standard_output_failed() ? 0 : 1;  // close_standard_output tells of it
   }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  report_crashes();
+  const ExitGuard guard;
+  std::signal(SIGPIPE, SIG_IGN);  // a reader that leaves is an error of who writes, and outputs are closed
+  return close_standard_output(exit_code_of(argc, argv));
 }

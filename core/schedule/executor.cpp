@@ -9,11 +9,18 @@
 
 namespace muro {
 
-void Executor::set_threads(unsigned threads) {
+std::string Executor::set_threads(unsigned threads) {
   threads_ = std::max(1u, threads);
   workers_.reset();
-  if (threads_ > 1) workers_ = std::make_unique<WorkerPool>(threads_);
+  std::string why_fewer;
+  if (threads_ > 1) {
+    workers_ = std::make_unique<WorkerPool>(threads_);
+    threads_ = workers_->threads();
+    why_fewer = workers_->why_fewer();
+    if (threads_ == 1) workers_.reset();
+  }
   set_tasks(state_.front().costs.size());
+  return why_fewer;
 }
 
 void Executor::set_tasks(std::size_t count) {
@@ -61,14 +68,18 @@ void Executor::run_chain(const Stage& stage, std::uint32_t chain, unsigned threa
   // To read a clock takes as long as a small step: costs of long runs are those of each eighth step.
   constexpr std::uint64_t all_at_first = 64, sampling = 8;
   Thread& state = state_[thread];
+  RunningCall& running = running_call();
+  running.function.store("step", std::memory_order_relaxed);
   for (const Call& call : stage.chain(chain)) {
     if (!call.is_enabled()) continue;
     const Task& task = now_.tasks[call.task];
     const std::int64_t time = now_.times[call.instant];
     const Step step{time, call.dt, now_.runs[call.task] + call.instant, now_.seed, call.phase};
     const bool each = timeline_.on() || step.index < all_at_first, timed = each || step.index % sampling == 0;
+    const bool of_items = task.phases[call.phase].index_space == Phase::IndexSpace::items;
     const std::uint64_t before = timed ? ticks() : 0;
     abi::ErrorText error;
+    running.enter(task.callee.get(), time, of_items ? call.range : Range{});
     const bool fine =
         observer_ ? observer_->call(task, step, call.range, error) : task.instance->step(step, call.range, error);
     if (timed) {
@@ -79,9 +90,11 @@ void Executor::run_chain(const Stage& stage, std::uint32_t chain, unsigned threa
     if (fine) continue;
     const std::uint64_t place = std::uint64_t(call.order) << 32 | call.range.begin;
     if (place < state.failure.place)
-      state.failure = {place, fmt::format("{} failed at t = {:f} s: {}", task.name, 1e-9 * double(time), error.view())};
-    return;
+      state.failure = {place, fmt::format("{} failed at t = {:f} s: {}", who(running, error.view()),
+                                          1e-9 * double(time), error.view())};
+    break;
   }
+  running.leave();
 }
 
 void Executor::throw_first_failure() {

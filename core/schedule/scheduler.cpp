@@ -19,8 +19,14 @@ constexpr std::int64_t never = std::numeric_limits<std::int64_t>::max();
 
 }  // namespace
 
+void Rate::refuse(double hertz) {
+  throw SetupError(
+      fmt::format("a rate of {} Hz is not possible; allowed is 1e-6 to 1e9 Hz, or 0 for on demand", hertz));
+}
+
 TaskId Scheduler::add(Task task) {
   const auto id = TaskId(tasks_.size());
+  if (!task.callee) task.callee = std::make_shared<Callee>(Callee{.name = task.name});
   tasks_.push_back(std::move(task));
   runs_.push_back(0);
   items_.push_back({id});
@@ -191,9 +197,9 @@ std::vector<TaskId> Scheduler::order_at(std::int64_t time) const {
 
 std::vector<Stage> Scheduler::stages_at(std::int64_t time) const { return plan_of(due_tasks_at(time), 1).stages; }
 
-void Scheduler::set_threads(unsigned threads) {
+std::string Scheduler::set_threads(unsigned threads) {
   forget_plans();
-  executor_.set_threads(threads);
+  return executor_.set_threads(threads);
 }
 
 void Scheduler::forget_plans() {
@@ -209,7 +215,9 @@ void Scheduler::set_pacing(Pacing pacing) {
 
 /// Waits until the present instant is due; true when `stop` wants to end the wait.
 bool Scheduler::pace(const std::function<bool()>& stop) {
-  const auto due = pace_wall_ + std::chrono::nanoseconds(std::int64_t(double(now_ - pace_time_) / pacing_.factor));
+  constexpr double longest = 1e18;  // ns: a wait without an end
+  const auto due = pace_wall_ + std::chrono::nanoseconds(
+                                    std::int64_t(std::min(longest, double(now_ - pace_time_) / pacing_.factor)));
   auto wall = std::chrono::steady_clock::now();
   if (wall < due) {
     constexpr auto slice = std::chrono::milliseconds(50);  // between looks at `stop`
@@ -217,7 +225,8 @@ bool Scheduler::pace(const std::function<bool()>& stop) {
       if (stop && stop()) return true;
       std::this_thread::sleep_until(std::min(due, wall + slice));
     }
-  } else if (wall - due > std::chrono::nanoseconds(std::int64_t(double(min_period_) / pacing_.factor))) {
+  } else if (wall - due >
+             std::chrono::nanoseconds(std::int64_t(std::min(longest, double(min_period_) / pacing_.factor)))) {
     ++overruns_;
     pace_wall_ += wall - due;  // the lost time is not made up for by running faster than asked
   }

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <algorithm>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "core/running_call.hpp"
 #include "core/schedule/rate.hpp"
 #include "muro/abi.hpp"
 
@@ -27,7 +29,8 @@ inline void merge_accesses(std::vector<SlotAccess>& accesses) {
 
 /// What the scheduler runs: one instance of an algorithm with its items.
 struct Task {
-  std::string name;  ///< "rovers.motion"
+  std::string name;                      ///< "rovers.motion"
+  std::shared_ptr<const Callee> callee;  ///< what messages say of it; null: the name alone
   abi::AlgorithmInstance* instance = nullptr;
   std::uint32_t items = 0;
   std::vector<std::int32_t> robot_of_item;   ///< robot number; -1: none. Empty: nobody asks

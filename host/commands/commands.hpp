@@ -25,6 +25,7 @@ struct RunOptions {
   std::string threads;             ///< a number, "all", or empty: as the scenario says
   std::string report;              ///< file, or empty
   std::string timeline;            ///< file, or empty
+  double step_timeout = 0;         ///< s of wall-clock time after which a step is taken to hang; 0: never
   bool profile = false;
   bool verify_access = false;
   bool view = false;  ///< show a window

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 
+#include "core/error.hpp"
 #include "host/commands/commands.hpp"
 #include "host/commands/open.hpp"
 #include "host/output_file.hpp"
@@ -68,8 +69,8 @@ void print_summary(const RunResult& result, const Simulation& simulation, const 
     max = std::max(max, d);
     sum += d;
   }
-  fmt::print("{}: {:g} s simulated in {:.2f} s ({:.2f} times real time){}\n", result.scenario, result.simulated,
-             result.wall, result.wall > 0 ? result.simulated / result.wall : 0,
+  fmt::print("{}: {:g} s simulated in {:.2f} s ({:.2f} times real time){}\n", message_text(result.scenario),
+             result.simulated, result.wall, result.wall > 0 ? result.simulated / result.wall : 0,
              result.interrupted ? ", interrupted" : "");
   if (!robots.empty())
     fmt::print("{} robots travelled {:.2f} m on average (minimum {:.2f}, maximum {:.2f})\n", robots.size(),

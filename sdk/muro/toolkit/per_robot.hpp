@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "muro/algorithm.hpp"
+#include "muro/ext/call_note.hpp"
 
 namespace muro {
 
@@ -27,6 +28,45 @@ class PackedLists {
   std::vector<T> all_;
 };
 
+/// Elements for a range-based for loop, which notes at which of them it is.
+template <class T>
+class NotedSpan {
+ public:
+  class Iterator {
+   public:
+    T& operator*() const { return *at_; }
+    Iterator& operator++() {
+      ++at_, ++item_;
+      tell();
+      return *this;
+    }
+    bool operator!=(const Iterator& other) const { return at_ != other.at_; }
+
+   private:
+    friend NotedSpan;
+    Iterator(T* at, const T* end, std::uint32_t item, CallNote* note) : at_(at), end_(end), item_(item), note_(note) {
+      tell();
+    }
+    void tell() const {
+      if (note_) note_->set_item(at_ != end_ ? item_ : CallNote::no_item);
+    }
+    T* at_;
+    const T* end_;
+    std::uint32_t item_;
+    CallNote* note_;
+  };
+
+  /// `note` may be null. `all`: of the instance; `range`: those to go through.
+  NotedSpan(T* all, Range range, CallNote* note) : all_(all), range_(range), note_(note) {}
+  Iterator begin() const { return {all_ + range_.begin, all_ + range_.end, range_.begin, note_}; }
+  Iterator end() const { return {all_ + range_.end, all_ + range_.end, range_.end, nullptr}; }
+
+ private:
+  T* all_;
+  Range range_;
+  CallNote* note_;
+};
+
 /// An algorithm that serves each robot from the properties of this robot alone, so that robots may be divided among
 /// threads. `Robot` is what it keeps of one: handles and parameters. What is left to a derived class is to connect one
 /// robot, and a step that goes through `robots(range)`.
@@ -35,8 +75,9 @@ class PerRobotAlgorithm : public Algorithm {
  public:
   void connect(Connector& c) final {
     read_parameters(c.parameters());
+    notes_ = CallNotes::of(c.host());
     robots_.reserve(c.items().size());
-    for (const Item& item : c.items()) {
+    for (const Item& item : NotedSpan(c.items().data(), {0, std::uint32_t(c.items().size())}, note())) {
       if (!item.robot) throw Error("it serves robots, but no robot is named");
       robots_.push_back(connect_robot(c, item));
     }
@@ -53,12 +94,15 @@ class PerRobotAlgorithm : public Algorithm {
   /// Binds every property of one robot; `item.robot` is not null. [setup]
   virtual Robot connect_robot(Connector& connector, const Item& item) = 0;
 
-  /// Those of the items of `range`. [step]
-  std::span<Robot> robots(Range range) { return {robots_.data() + range.begin, range.end - range.begin}; }
+  /// Those of the items of `range`, for a loop; messages about a call that fails name the robot at which it was. [step]
+  NotedSpan<Robot> robots(Range range) { return {robots_.data(), range, note()}; }
   Robot& robot(std::uint32_t item) { return robots_[item]; }
 
  private:
+  CallNote* note() const { return notes_ ? &notes_->of_this_thread() : nullptr; }
+
   std::vector<Robot> robots_;  ///< one an item
+  CallNotes* notes_ = nullptr;
 };
 
 }  // namespace muro

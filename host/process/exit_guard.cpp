@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#include "host/process/exit_guard.hpp"
+
+#include <unistd.h>
+
+#include <atomic>
+#include <cstdio>
+#include <cstdlib>
+
+#include "core/running_call.hpp"
+
+namespace muro::host {
+
+namespace {
+
+std::atomic<pid_t> guarded_process{0};  // a process that a library has forked may exit as it likes
+
+void check_exit() {
+  if (guarded_process.load() != getpid()) return;
+  SignalText line;
+  const RunningCall& call = running_call();
+  if (call.callee.load()) {
+    add_who(line, call);
+    line.add(" ended the program by exit()");
+    add_where(line, call);
+  } else {
+    line.add("a library ended the program by exit()");
+  }
+  line.add("; files that were being written end in .part\n");
+  std::fflush(stdout);
+  line.write_to(STDERR_FILENO);
+  _exit(1);
+}
+
+}  // namespace
+
+ExitGuard::ExitGuard() {
+  guarded_process = getpid();
+  renew();
+}
+
+void ExitGuard::renew() {
+  if (guarded_process.load() == 0) return;
+  std::atexit(check_exit);
+  at_quick_exit(check_exit);
+}
+
+ExitGuard::~ExitGuard() { guarded_process = 0; }
+
+}  // namespace muro::host

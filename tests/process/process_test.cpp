@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+// What the program says and how it ends when foreign code crashes, hangs, leaves or throws, and when it is interrupted.
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <filesystem>
+
+#include "core/simulation.hpp"
+#include "tests/support/complaint.hpp"
+#include "tests/support/files.hpp"
+
+namespace muro {
+namespace {
+
+using test::run_command;
+
+const std::string program = std::string("MURO_PLUGIN_PATH=" MURO_TEST_PLUGIN_DIR " ") + MURO_PROGRAM;
+
+/// A run of some balls that a foreign library steers, while a recorder writes.
+struct SteeredRun {
+  test::ScratchFolder scratch;
+  std::string record = scratch.path("record.csv"), scenario;
+  test::CommandResult result;
+
+  explicit SteeredRun(const std::string& arguments, const std::string& options = "",
+                      const std::string& library = "misbehaves", int balls = 3) {
+    scenario = scratch.file("s.yaml", "robots:\n  ball:\n    count: " + std::to_string(balls) +
+                                          "\n    shape: {sphere: 0.1}\n    mass: 1\n    place: {grid: {count: [20, "
+                                          "20], spacing: [1, 1]}}\n    motion: {use: motion.point}\n    control: {use: "
+                                          "controller.library, rate: 10, library: " CONTROLLERS "/" +
+                                          library + ".so, arguments: [" + arguments +
+                                          "]}\nalgorithms:\n  log: {use: recorder.csv, rate: 10, file: " + record +
+                                          ", properties: [\"ball_1/body:pose\"]}\n");
+    result = run_command(program + " run " + scenario + " --duration 1 " + options);
+  }
+  /// Everything that a message says of the call: `function` is that of the library.
+  std::string call(const std::string& what, const std::string& function, const std::string& time) const {
+    return scenario + ":8:14: ball.control (controller.library), robot `ball_1`, " + what + " in `" + function +
+           "` of " CONTROLLERS "/misbehaves.so at t = " + time + " s";
+  }
+};
+
+struct Crash {
+  const char *deed, *text;
+  int signal;
+};
+
+class Crashing : public ::testing::TestWithParam<Crash> {};
+
+TEST_P(Crashing, ControlCodeIsNamedWithRobotAndTime) {
+  const auto& [deed, text, signal] = GetParam();
+  const SteeredRun run(std::string("does=") + deed);
+  EXPECT_SAYS(run.result.output, run.call("crashed", "step", "0.200000") + ": " + text);
+  EXPECT_SAYS(run.result.output, "controllers/misbehaves.so(");  // in the stack of calls
+#ifndef MURO_SANITIZED
+  EXPECT_EQ(run.result.exit_code, 128 + signal) << run.result.output;
+  EXPECT_TRUE(std::filesystem::exists(run.record + ".part"));
+#endif
+  EXPECT_EQ(test::text_of(run.record), "") << "the record is not whole";
+}
+
+const Crash crashes[] = {{"invalid_memory", "SIGSEGV, invalid memory access at 0x10; ", SIGSEGV},
+                         {"gives_up", "SIGABRT, ", SIGABRT},
+                         {"divides_by_zero", "SIGFPE, ", SIGFPE},
+                         {"invalid_instruction", "SIGILL, ", SIGILL},
+                         {"lost_memory", "SIGBUS, ", SIGBUS},
+                         {"endless_recursion", "SIGSEGV, ", SIGSEGV}};
+INSTANTIATE_TEST_SUITE_P(Process, Crashing, ::testing::ValuesIn(crashes),
+                         [](const auto& test) { return test.param.deed; });
+
+TEST(Crash, InAnyOfSeveralThreadsNamesTheRobot) {
+  const SteeredRun run("does=endless_recursion", "--threads 4", "misbehaves", 200);
+  EXPECT_SAYS(run.result.output, run.call("crashed", "step", "0.200000") + ": SIGSEGV");
+}
+
+TEST(Crash, BeforeTheFirstStepNamesTheFunction) {
+  const SteeredRun run("does=invalid_memory, when=create");
+  EXPECT_SAYS(run.result.output, run.call("crashed", "create", "0.000000") + ": SIGSEGV");
+}
+
+TEST(Crash, InAThreadOfALibrarySaysSo) {
+  const SteeredRun run("does=thread_of_its_own");
+  EXPECT_SAYS(run.result.output, "a thread crashed that a library has started: SIGSEGV, invalid memory access at 0x10");
+}
+
+TEST(Crash, OfAPluginNamesTheOneRobotOfMany) {
+  const test::ScratchFolder scratch;
+  const std::string file = scratch.file("s.yaml",
+                                        "robots:\n  ball: {count: 40, shape: {sphere: 0.1}, mass: 1, place: {grid: "
+                                        "{count: [20, 20], spacing: [1, 1]}}, motion: {use: motion.point}, eye: {use: "
+                                        "sensor.crashes, rate: 10}}\n");
+  const auto result = run_command(program + " --plugin-path " PLUGINS " run " + file + " --duration 1");
+  EXPECT_SAYS(result.output, file + ":2:");
+  EXPECT_SAYS(result.output, "ball.eye (sensor.crashes), robot `ball_7`, crashed in `step` of " PLUGINS
+                             "/fails.so at t = 0.300000 s: SIGILL");
+}
+
+TEST(Exit, ByControlCodeIsNoSuccess) {
+  for (const char* deed : {"leaves", "leaves_quickly"}) {
+    const SteeredRun run(std::string("does=") + deed);
+    EXPECT_SAYS(run.result.output, run.call("ended the program by exit()", "step", "0.200000"));
+    EXPECT_EQ(run.result.exit_code, 1);
+    EXPECT_EQ(test::text_of(run.record), "");
+  }
+}
+
+TEST(Exit, WhileALibraryIsLoadedIsNoSuccess) {
+  const SteeredRun run("", "", "leaves_when_loaded");
+  EXPECT_SAYS(run.result.output,
+              "ball.control (controller.library) ended the program by exit() in `load` of " CONTROLLERS
+              "/leaves_when_loaded.so;");
+  EXPECT_EQ(run.result.exit_code, 1);
+}
+
+TEST(Hang, IsEndedByTheStepTimeoutAndNamed) {
+  const SteeredRun run("does=hangs", "--step-timeout 0.2");
+  EXPECT_SAYS(run.result.output,
+              run.call("hangs", "step", "0.200000") + ": it has not returned for 0.200000 s (--step-timeout); files");
+  EXPECT_SAYS(run.result.output, "controllers/misbehaves.so(");
+  EXPECT_EQ(run.result.exit_code, 1);
+}
+
+TEST(Hang, AStepTimeoutLeavesARunThatReturnsAlone) {
+  const SteeredRun run("does=interrupts", "--step-timeout 100");
+  EXPECT_EQ(run.result.exit_code, 130) << run.result.output;
+  for (const char* wrong : {"0", "nan", "-1", "soon"})
+    EXPECT_EQ(run_command(program + " run " + run.scenario + " --step-timeout " + wrong).exit_code, 2) << wrong;
+}
+
+TEST(Interrupt, EndsARunWithItsRecordsWhole) {
+  for (const char* deed : {"interrupts", "hangs_up"}) {
+    const SteeredRun run(std::string("does=") + deed);
+    EXPECT_EQ(run.result.exit_code, 130) << run.result.output;
+    EXPECT_SAYS(run.result.output, ", interrupted");
+    EXPECT_SAYS(test::text_of(run.record), "0.2,");
+  }
+}
+
+TEST(Interrupt, ForTheSecondTimeEndsAtOnceAndSaysWhatRan) {
+  const SteeredRun run("does=interrupts_twice");
+  EXPECT_EQ(run.result.exit_code, 128 + SIGINT) << run.result.output;
+  EXPECT_SAYS(run.result.output, "ended while this was busy: " + run.scenario +
+                                     ":8:14: ball.control (controller.library), robot `ball_1`, in `step` of ");
+  EXPECT_EQ(test::text_of(run.record), "");
+}
+
+/// Balls with a sensor of this kind, which fails for ball_7.
+test::CommandResult run_with_eye(const test::ScratchFolder& scratch, const std::string& sensor) {
+  const std::string file =
+      scratch.file("s.yaml",
+                   "robots:\n  ball:\n    count: 40\n    shape: {sphere: 0.1}\n    mass: 1\n    place: {grid: {count: "
+                   "[20, 20], spacing: [1, 1]}}\n    motion: {use: motion.point}\n"
+                   "    eye: {use: " +
+                       sensor + ", rate: 10}\n");
+  return run_command(program + " --plugin-path " PLUGINS " run " + file + " --duration 1");
+}
+
+TEST(Failure, NamesPlaceAlgorithmRobotAndTime) {
+  const test::ScratchFolder scratch;
+  const auto result = run_with_eye(scratch, "sensor.throws");
+  EXPECT_SAYS(result.output, scratch.path("s.yaml") +
+                                 ":8:10: ball.eye (sensor.throws), robot `ball_7`, failed at t = "
+                                 "0.300000 s: the lens is dirty\n");
+  EXPECT_EQ(result.exit_code, 1);
+}
+
+TEST(Log, NamesPlaceAlgorithmRobotAndTime) {
+  const test::ScratchFolder scratch;
+  const auto result = run_with_eye(scratch, "sensor.says");
+  EXPECT_SAYS(result.output, "warning: " + scratch.path("s.yaml") +
+                                 ":8:10: ball.eye (sensor.says), robot `ball_7`, t = 0.300000 s: the lens is dirty\n");
+  EXPECT_EQ(result.exit_code, 0);
+}
+
+TEST(Embedding, LeavesTheSignalsOfTheProcessAlone) {
+  const auto handlers = [] {
+    std::vector<void*> all;
+    for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGINT, SIGTERM, SIGHUP, SIGPIPE}) {
+      struct sigaction action {};
+      sigaction(number, nullptr, &action);
+      all.push_back(reinterpret_cast<void*>(action.sa_handler));
+    }
+    return all;
+  };
+  const auto before = handlers();
+  Registry registry({MURO_TEST_PLUGIN_DIR});
+  Simulation simulation(registry);
+  RobotTree tree;
+  tree.base("base");
+  tree.close();
+  const RobotView& robot = simulation.world().add_robot("rover", tree, {});
+  simulation.use("motion.point", 100, {{&robot, robot.base()}});
+  simulation.build();
+  simulation.set_threads(3);
+  simulation.run_for(1);
+  EXPECT_EQ(handlers(), before);
+}
+
+}  // namespace
+}  // namespace muro
