@@ -84,7 +84,8 @@ const abi::PluginTable& load_plugin(const std::string& path) {
   const Callee callee{.name = "plugin " + path, .library = path};
   const CallScope scope(callee, "load");  // constructors of the library run
   dll::shared_library library;
-  const auto absolute = boost::dll::fs::absolute(path);
+  // an absolute path needs no working directory, which may be gone
+  const boost::dll::fs::path given = path, absolute = given.is_absolute() ? given : boost::dll::fs::absolute(given);
   if (const std::string missing = missing_part_of_library(absolute.string()); !missing.empty())
     throw SetupError(fmt::format("plugin {} cannot be loaded: {}", path, missing));
   try {

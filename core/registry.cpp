@@ -48,6 +48,7 @@ bool reads(const CatalogEntry& entry, const std::string& extension) {
 /// What a library offers under a name or for a type of files. Throws SetupError.
 CatalogEntry entry_of(const std::string& library, const std::string& name) {
   std::error_code none;
+  if (!fs::exists(library, none)) throw SetupError("there is no such file");
   if (!library.ends_with(".so") || !fs::is_regular_file(library, none))
     throw SetupError("it is no plugin, which is a file NAME.so with a description NAME.muro.json beside it");
   std::vector<std::string> offered;
@@ -83,7 +84,9 @@ std::vector<std::string> Registry::search_path(const std::vector<std::string>& e
 
 Registry::Registry(const std::vector<std::string>& folders) {
   for (const std::string& f : folders) {
-    const std::string absolute = fs::weakly_canonical(fs::absolute(f)).string();
+    std::error_code code;  // such as that of a working directory that is gone
+    const fs::path from_root = fs::absolute(f, code), resolved = fs::weakly_canonical(from_root, code);
+    const std::string absolute = code ? f : resolved.string();
     if (std::any_of(folders_.begin(), folders_.end(), [&](const PluginFolder& k) { return k.path == absolute; }))
       continue;
     folders_.push_back(read_plugin_folder(absolute));
@@ -135,8 +138,7 @@ std::string Registry::searched() const {
   std::string text = "searched: ";
   std::vector<std::string> passed_over;
   for (const PluginFolder& f : folders_) {
-    text += (&f == &folders_.front() ? "" : ", ") + f.path;
-    text += f.problem.empty() ? fmt::format(" ({} plugins)", f.plugins) : fmt::format(" ({})", f.problem);
+    text += fmt::format("{}{} ({})", &f == &folders_.front() ? "" : ", ", f.path, f.outcome());
     for (const PassedOver& p : f.passed_over) passed_over.push_back(fmt::format("{}: {}", p.file, p.reason));
   }
   if (folders_.empty()) text += "no folder";

@@ -31,6 +31,12 @@ void Algorithms::add_to_scene(const Subsystem& s) {
       problems_.add(s.location, fmt::format("`{}` serves a robot; name it in a robot, not under `algorithms`", s.use));
       break;
     case Kind::kinematics: {
+      if (scene_kinematics_)
+        problems_.add(s.location, fmt::format("{} ({}) is of kind kinematics, and so is {} ({}) at {}: their results "
+                                              "would mix; remove one of them",
+                                              s.name, s.use, scene_kinematics_->name, scene_kinematics_->use,
+                                              scene_kinematics_->location.text()));
+      scene_kinematics_ = &s;
       std::vector<Item> items;
       for (const RobotView* r : simulation_.world().robots())
         if (r->links.size() > 1 && has_kinematics_.count(r->number) == 0) items.push_back({r, r->base()});

@@ -52,6 +52,7 @@ class Algorithms {
   std::map<std::string, std::string, std::less<>> readers_;  ///< by property: one algorithm that reads it
   std::set<std::string> worlds_;                             ///< in which robots are moved
   std::set<std::uint32_t> has_kinematics_;                   ///< numbers of robots
+  const Subsystem* scene_kinematics_ = nullptr;              ///< the one that serves all others
 };
 
 }  // namespace muro::host

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <tuple>
 
 #include "core/instance.hpp"
 #include "host/names.hpp"
@@ -70,8 +69,10 @@ class Still {
     use_collision(simulation);
   }
 
-  std::vector<Overlap> overlaps() {
-    if (!finds_contacts_) return {};
+  /// With the names of the `most` deepest.
+  Overlaps overlaps(std::size_t most) {
+    Overlaps all;
+    if (!finds_contacts_) return all;
     const Accessor reader = world_.store().add_accessor("the check of overlaps");
     for (const RobotView* robot : world_.robots())
       world_.store().bind(reader, robot->base(), keys::contacts, usage::read, Multiplicity::list, 0, nullptr);
@@ -79,8 +80,10 @@ class Still {
     still_.run_until(1);
     for (const RobotView* robot : world_.robots())
       for (const Contact& c : world_.values(robot->base(), keys::contacts)) add(c);
-    std::vector<Overlap> all;
-    for (const auto& [bodies, depth] : depths_) all.push_back({name_of(bodies[0]), name_of(bodies[1]), depth});
+    keep_deepest();
+    all.count = contacts_.size();
+    for (const PairContact& c : std::span(contacts_).first(std::min(most, contacts_.size())))
+      all.deepest.push_back({name_of(c.bodies[0]), name_of(c.bodies[1]), c.depth});
     return all;
   }
 
@@ -169,13 +172,29 @@ class Still {
     return robot != robots_.end() && robot->second.heeds_contacts;
   }
 
+  struct PairContact {
+    std::array<Body, 2> bodies;
+    double depth;
+  };
+
+  /// A pair of robots stands in the lists of both; scenery comes second.
   void add(const Contact& c) {
     if (c.depth < least_depth || (!heeds(c.self) && !heeds(c.other))) return;
-    std::array<Body, 2> bodies{body_of(c.self, c.self_shape), body_of(c.other, c.other_shape)};
-    // a pair of robots stands in the lists of both; scenery comes second
-    if (robots_.count(c.other) > 0 && name_of(bodies[1]) < name_of(bodies[0])) std::swap(bodies[0], bodies[1]);
-    double& depth = depths_[bodies];
-    depth = std::max(depth, c.depth);
+    PairContact pair{{body_of(c.self, c.self_shape), body_of(c.other, c.other_shape)}, c.depth};
+    if (robots_.count(c.other) > 0 && pair.bodies[1] < pair.bodies[0]) std::swap(pair.bodies[0], pair.bodies[1]);
+    contacts_.push_back(pair);
+  }
+
+  /// One contact of each pair of bodies, the deepest pair first.
+  void keep_deepest() {
+    const auto by_pair = [](const PairContact& a, const PairContact& b) {
+      return a.bodies != b.bodies ? a.bodies < b.bodies : a.depth > b.depth;
+    };
+    std::sort(contacts_.begin(), contacts_.end(), by_pair);
+    const auto same = [](const PairContact& a, const PairContact& b) { return a.bodies == b.bodies; };
+    contacts_.erase(std::unique(contacts_.begin(), contacts_.end(), same), contacts_.end());
+    std::stable_sort(contacts_.begin(), contacts_.end(),
+                     [](const PairContact& a, const PairContact& b) { return a.depth > b.depth; });
   }
 
   struct Names {
@@ -188,40 +207,35 @@ class Still {
   Simulation still_;
   World& world_;
   std::map<ObjectId, Names> robots_;  ///< by base
-  std::map<std::array<Body, 2>, double> depths_;
+  std::vector<PairContact> contacts_;
   bool has_meshes_ = false;
   bool finds_contacts_ = false;
 };
 
 }  // namespace
 
-std::vector<Overlap> overlaps_at_start(Simulation& simulation) {
+Overlaps overlaps_at_start(Simulation& simulation, std::size_t most) {
   const auto robots = simulation.world().robots();
   if (std::none_of(robots.begin(), robots.end(),
                    [&](const RobotView* r) { return heeds_contacts(simulation.world(), *r); }))
     return {};
-  std::vector<Overlap> all;
   try {
-    all = Still(simulation).overlaps();
+    return Still(simulation).overlaps(most);
   } catch (const std::exception&) {  // what cannot be found is not told
+    return {};
   }
-  std::sort(all.begin(), all.end(), [](const Overlap& a, const Overlap& b) {
-    return std::tie(b.depth, a.first, a.second) < std::tie(a.depth, b.first, b.second);
-  });
-  return all;
 }
 
 std::vector<std::string> overlap_notes(Simulation& simulation) {
-  constexpr std::size_t most = 5;
-  const std::vector<Overlap> all = overlaps_at_start(simulation);
+  const Overlaps all = overlaps_at_start(simulation, 5);
   std::vector<std::string> notes;
-  for (const Overlap& o : std::span(all).first(std::min(most, all.size())))
+  for (const Overlap& o : all.deepest)
     notes.push_back(
         fmt::format("note: `{}` and `{}` overlap by {:.2g} m at the start; contacts push them apart, so move "
                     "one of them",
                     o.first, o.second, o.depth));
-  if (all.size() > most)
-    notes.push_back(fmt::format("note: {} start in overlap", plural(all.size() - most, "more pair")));
+  if (all.count > notes.size())
+    notes.push_back(fmt::format("note: {} start in overlap", plural(all.count - notes.size(), "more pair")));
   return notes;
 }
 

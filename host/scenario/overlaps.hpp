@@ -14,9 +14,14 @@ struct Overlap {
   double depth;               ///< m, of the deepest contact
 };
 
-/// The bodies that overlap by more than a millimetre before the first step of a built simulation, the deepest first.
-/// Pairs that no contact moves or stops are left out, and so is what the plugins that are there cannot find.
-std::vector<Overlap> overlaps_at_start(Simulation& simulation);
+struct Overlaps {
+  std::vector<Overlap> deepest;  ///< first the deepest of all
+  std::size_t count = 0;         ///< of all
+};
+
+/// The bodies that overlap by more than a millimetre before the first step of a built simulation. Pairs that no contact
+/// moves or stops are left out, and so is what the plugins that are there cannot find.
+Overlaps overlaps_at_start(Simulation& simulation, std::size_t most);
 
 /// A line for each of the deepest, and one for how many more there are.
 std::vector<std::string> overlap_notes(Simulation& simulation);

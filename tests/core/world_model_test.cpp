@@ -45,9 +45,10 @@ TEST(WorldModel, TellsWhatCannotBe) {
   builder.model("rock", {}).base("body");
   builder.model("far", {Vec3::Constant(INFINITY), Quat::Identity()});
   world.close();
-  EXPECT_EQ(errors(world), (std::vector<std::string>{"a gravity that is not finite", "scenery has no name",
+  EXPECT_EQ(errors(world), (std::vector<std::string>{"a gravity with a component that is not from -1e4 to 1e4 m/s^2",
+                                                     "scenery has no name",
                                                      "two things of the world are named `rock`; names are unique",
-                                                     "a model `far` stands at no finite pose"}));
+                                                     "a model `far` has a coordinate that is not from -1e8 to 1e8 m"}));
   EXPECT_FALSE(world.gravity().has_value());
   // one that was never built is a matter of its own tree
   EXPECT_FALSE(world.models()[1].tree.usable());

@@ -29,13 +29,13 @@ std::vector<std::string> notes_of(const std::string& text) {
 using Notes = std::vector<std::string>;
 
 TEST(Overlaps, AreToldWithBothBodiesAndTheirDepth) {
-  // of two balls: 0.3 + 0.3 - 0.5; of a ball and the wall: 0.3 - (1 - 0.4 / 2 - 0.6)
+  // of two balls: 0.3 + 0.3 - 0.5; of a ball and the wall: 0.3 - (1.05 - 0.4 / 2 - 0.6)
   EXPECT_EQ(
       notes_of(R"(
 world:
   objects:
     ground: {shape: plane}
-    wall: {shape: {box: [0.4, 4, 4]}, at: {x: 1}}
+    wall: {shape: {box: [0.4, 4, 4]}, at: {x: 1.05}}
 robots:
   ball:
     shape: {sphere: 0.3}
@@ -45,7 +45,7 @@ robots:
 )"),
       (Notes{"note: `ball_0/body` and `ball_1/body` overlap by 0.1 m at the start; contacts push them apart, so "
              "move one of them",
-             "note: `ball_0/body` and `wall` overlap by 0.1 m at the start; contacts push them apart, so move one "
+             "note: `ball_0/body` and `wall` overlap by 0.05 m at the start; contacts push them apart, so move one "
              "of them"}));
 }
 

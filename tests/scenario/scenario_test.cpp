@@ -96,7 +96,7 @@ TEST(Scenario, TellsAllProblemsAtOnceWithTheirPlaces) {
         std::string(e.what()),
         path + ":1:7: `seed` of the scenario is `-1` but must be a whole number from 0 to 9.0072e+15\n" +
             "--set duration=long: `duration` of the scenario is `long` but must be a number from 0 to 1e+09\n" + path +
-            ":3:12: `gravity` of `world` is a list of 2 but must be a list of 3 numbers\n" + path +
+            ":3:12: `gravity` of `world` is a list of 2 but must be a list of 3 numbers from -10000 to 10000\n" + path +
             ":5:7: robot `a` has no key `cuont` (did you mean `count`?); allowed: model, shape, mass, friction, "
             "restitution, "
             "color, count, place, at, velocity, angular_velocity, joints, variants, and subsystems {use: NAME, ...}");

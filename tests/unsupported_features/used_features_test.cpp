@@ -73,6 +73,7 @@ TEST(UsedFeatures, MassAndShapesUseForcesAndContact) {
   ball.restitution = 0.5;
   const RobotView& elastic = s.add("elastic", test::single_body(ball, solid));
   ball.kind = ShapeKind::mesh;
+  ball.size = {1, 1, 1};
   const RobotView& mesh = s.add("mesh", test::single_body(ball, solid));
   const auto all = features_of(s.world(), smooth);
   EXPECT_EQ(all.count(feature_forces) + all.count(feature_contact) + all.count(feature_friction), 3u);

@@ -272,7 +272,8 @@ TEST(ForceDrivenJoints, AnyStateThatAnotherMotionLeavesIsTakenOver) {
   s.of("slide", keys::joint_position) = 0.6;  // that one did not know the limit
   s.of("slide", keys::joint_velocity) = -0.1;
   s.twist(s.robot).linear = {1, 2, 3};
-  s.instances().front()->on_handover(0);
+  abi::ErrorText error;
+  ASSERT_TRUE(s.instances().front()->on_handover(0, error)) << error.view();
   s.run_for(0.5);
   EXPECT_EQ(s.twist(s.robot).linear, Vec3::Zero());
   EXPECT_LE(s.of("slide", keys::joint_position), 0.5);

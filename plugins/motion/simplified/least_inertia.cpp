@@ -25,7 +25,7 @@ std::optional<Mat3> missing_inertia(const Inertia& inertia, const Aabb& box) {
   return Mat3(root.asDiagonal() * (axes * missing.asDiagonal() * axes.transpose()) * root.asDiagonal());
 }
 
-bool complete_inertia(const Connector& c, const RobotView& robot, std::span<const double> positions,
+bool complete_inertia(Connector& c, const RobotView& robot, std::span<const double> positions,
                       std::vector<Inertia>& inertias) {
   Aabb box;
   std::vector<Pose> poses(robot.links.size());
@@ -40,8 +40,10 @@ bool complete_inertia(const Connector& c, const RobotView& robot, std::span<cons
   if (!missing) return false;
   const auto heaviest = std::max_element(inertias.begin(), inertias.end(),
                                          [](const Inertia& a, const Inertia& b) { return a.mass < b.mass; });
-  const Mat3 r = poses[std::size_t(heaviest - inertias.begin())].orientation.toRotationMatrix();
+  const auto link = std::size_t(heaviest - inertias.begin());
+  const Mat3 r = poses[link].orientation.toRotationMatrix();
   *heaviest = Inertia::from(heaviest->mass, heaviest->com, heaviest->tensor() + r.transpose() * *missing * r);
+  c.set(robot.links[link].object, keys::inertial, *heaviest);
   return true;
 }
 

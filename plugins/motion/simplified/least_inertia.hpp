@@ -19,10 +19,11 @@ namespace muro::simplified {
 /// possible.
 std::optional<Mat3> missing_inertia(const Inertia& inertia, const Aabb& box);
 
-/// Adds what the inertia of the whole robot lacks to its heaviest body; whether it lacks something. The box is that
-/// around its collision shapes with the joints at `positions`, one a link; without shapes that have a size (planes and
-/// meshes have none here) nothing is lacking. `inertias`: of all links. [setup]
-bool complete_inertia(const Connector& c, const RobotView& robot, std::span<const double> positions,
+/// Adds what the inertia of the whole robot lacks to its heaviest body, also for algorithms that read `inertial` later,
+/// such as those of contact; whether it lacks something. The box is that around its collision shapes with the joints at
+/// `positions`, one a link; without shapes that have a size (planes and meshes have none here) nothing is lacking.
+/// `inertias`: of all links. [setup]
+bool complete_inertia(Connector& c, const RobotView& robot, std::span<const double> positions,
                       std::vector<Inertia>& inertias);
 
 }  // namespace muro::simplified
