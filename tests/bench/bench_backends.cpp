@@ -46,7 +46,8 @@ std::vector<std::vector<std::string>> tunnelling_rows(std::vector<std::string> m
   std::vector<std::vector<std::string>> rows;
   for (const std::string& m : motions) {
     std::vector<std::string> row{m};
-    for (const double thickness : {0.01, 0.1, 0.5, 0.0}) row.push_back(text(conformance::tunnelling_speed(m, thickness)));
+    for (const double thickness : {0.01, 0.1, 0.5, 0.0})
+      row.push_back(text(conformance::tunnelling_speed(m, thickness)));
     rows.push_back(std::move(row));
   }
   return rows;

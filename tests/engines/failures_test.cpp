@@ -122,7 +122,9 @@ TEST(EnginesOfCollision, WriteNothingToTheStandardOutput) {
     Shape shape{.kind = ShapeKind::mesh, .size = {1, 1, 1}};
     const RobotTree tree = test::tree_of([&](RobotBuilder& b) {
       b.base("body");
-      b.set(keys::inertial, test::solid_box(1, {0.2, 0.2, 0.2}));
+      Inertia inertia = test::solid_box(1, {0.2, 0.2, 0.2});
+      inertia.com.x() = 5;
+      b.set(keys::inertial, inertia);
       shape.mesh = b.intern(file);
       b.set_array(keys::collision_shapes, std::span<const Shape>(&shape, 1));
     });

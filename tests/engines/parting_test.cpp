@@ -52,7 +52,7 @@ TEST_P(WhatOverlaps, OfARoverIsPartedSlowly) {
   const RobotTree model = w.read_model(MURO_TEST_SOURCE_DIR "/examples/models/rover.urdf");
   const RobotView& r = w.add("rover", model, {{0.35, 0, 0.15}, from_rpy(0, 0, 0.3)});
   w.start(GetParam());
-  EXPECT_LT(top_speed(w, r, 2), 3 * correcting_speed);
+  EXPECT_LT(top_speed(w, r, 2), 5 * correcting_speed) << "its wheels leave the wall on different ways";
 }
 
 INSTANTIATE_TEST_SUITE_P(Engines, WhatOverlaps, ::testing::ValuesIn(all_motions()), name_of);

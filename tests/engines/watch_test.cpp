@@ -19,7 +19,7 @@ TEST_P(TheWatch, EndsARunAtTheSpeedThatItIsGiven) {
   w.start(GetParam(), {{"watch_speed", 5.0}});
   EXPECT_EQ(w.failure_in(0.5), "no complaint") << "g t = 4.905 m/s";
   const std::string failure = w.failure_in(0.1);
-  EXPECT_SAYS(failure, "`ball`: its base moves at 5.00");
+  EXPECT_SAYS(failure, "`ball`: its base moves at 5.0");
   EXPECT_SAYS(failure, "m/s, beyond the 5 m/s of its `watch_speed`");
   EXPECT_SAYS(failure, "at t = 0.5");
   EXPECT_SAYS(failure, "Likely cause: ");

@@ -45,9 +45,8 @@ inline constexpr Parameter attitude =
 
 /// Those of all engines, in the order in which they are shown.
 inline constexpr Parameter common_parameters[] = {
-    world_name,    base_mode,      joint_mode,     velocity_joints, position_joints,
-    effort_joints, passive_joints, self_collision, position_gain,   substeps,
-    watch::watch,  watch::watch_speed, watch::watch_depth,
+    world_name,     base_mode,     joint_mode, velocity_joints, position_joints,    effort_joints,      passive_joints,
+    self_collision, position_gain, substeps,   watch::watch,    watch::watch_speed, watch::watch_depth,
 };
 
 /// The parameters of an engine: those of all engines, then its own.

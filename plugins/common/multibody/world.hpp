@@ -50,8 +50,8 @@ class World {
   virtual void add_robot(const RobotModel& model, RobotState& state) = 0;
   /// Everything has been added; states hold the start.
   virtual void complete() = 0;
-  /// Carries all dynamic robots on by `dt` (s). Throws Error with the engine's words when it fails; it is not used again
-  /// then.
+  /// Carries all dynamic robots on by `dt` (s). Throws Error with the engine's words when it fails; it is not used
+  /// again then.
   virtual void advance(double dt) = 0;
 };
 

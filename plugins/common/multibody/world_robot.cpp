@@ -151,7 +151,8 @@ void WorldRobot::set_drive_targets(double position_gain) {
     const JointState* const leader = body.leader >= 0 ? &state_.joints[std::size_t(body.leader)] : nullptr;
     joint.target = drive_target_of(body, joint, leader, joints_[i].target.get(), position_gain);
     if (!std::isfinite(joint.target.velocity + joint.target.effort))
-      throw Error("the target of " + quote(joint_names_[i]) + " is not finite; look at what writes its `joint.*.target`");
+      throw Error("the target of " + quote(joint_names_[i]) +
+                  " is not finite; look at what writes its `joint.*.target`");
   }
 }
 
@@ -215,6 +216,7 @@ std::string WorldRobot::broken_limit() const {
 
 std::string WorldRobot::likely_cause() const {
   const RobotState& s = state_;
+  if (!watch_.allows_depth(s.overlap.depth)) return watch::cause_of_depth;
   if (s.overlap.obstacle && s.overlap.depth > 0.01)
     return "it is " + std::to_string(s.overlap.depth) + " m deep in " + quote(*s.overlap.obstacle) +
            ": start it clear of that";

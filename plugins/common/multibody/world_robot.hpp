@@ -84,8 +84,8 @@ class WorldRobot {
   Out<double> twist_lag_;
   Out<Pose> pose_;
   Out<Twist> twist_;
-  std::vector<Joint> joints_;           ///< one per body
-  std::vector<LinkWrenches> wrenches_;  ///< one per loaded link
+  std::vector<Joint> joints_;                          ///< one per body
+  std::vector<LinkWrenches> wrenches_;                 ///< one per loaded link
   std::vector<std::string> joint_names_, link_names_;  ///< the same; for messages
   LastState last_;
   std::vector<BodyState> body_states_;  ///< scratch

@@ -12,11 +12,11 @@ namespace muro::watch {
 
 namespace {
 
-constexpr double least_speed = 100;    ///< m/s: of the limit that is found
-constexpr double pushed_speed = 1e4;   ///< m/s: of robots that something pushes
-constexpr double least_depth = 0.1;    ///< m: likewise
-constexpr double speed_factor = 2;     ///< of what drives and start explain
-constexpr double overlap_factor = 1.5; ///< of an overlap at the start
+constexpr double least_speed = 100;     ///< m/s: of the limit that is found
+constexpr double pushed_speed = 1e4;    ///< m/s: of robots that something pushes
+constexpr double least_depth = 0.1;     ///< m: likewise
+constexpr double speed_factor = 2;      ///< of what drives and start explain
+constexpr double overlap_factor = 1.5;  ///< of an overlap at the start
 
 std::string text(double x) {
   char buffer[32];
@@ -35,9 +35,11 @@ Watch::Watch(const Connector& c, const Parameters& p, const Reach& reach) {
   base_reach_square_ = reach.of_link[0] * reach.of_link[0];
   if (p.text(watch.name) == "off") return;
   speed_is_given_ = p.real(watch_speed.name) > 0;
+  const double toppling = speed_factor * std::sqrt(4 * gravity_.norm() * reach.of_link[0]);
   if (speed_is_given_) gravity_.setZero();  // however far it falls
   depth_is_given_ = p.real(watch_depth.name) > 0;
-  own_speed_ = speed_is_given_ ? p.real(watch_speed.name) : std::max(least_speed, speed_factor * reach.drive_speed);
+  own_speed_ =
+      speed_is_given_ ? p.real(watch_speed.name) : std::max(least_speed, speed_factor * reach.drive_speed) + toppling;
   depth_ = depth_is_given_ ? p.real(watch_depth.name) : std::max(least_depth, reach.of_link[0]);
 }
 

@@ -66,6 +66,9 @@ class Watch {
   bool speed_is_given_ = false, depth_is_given_ = false;
 };
 
+/// Why a robot is too deep in something.
+inline constexpr const char* cause_of_depth =
+    "it is pushed in harder than its contacts hold, or has moved farther than its own size in a step";
 /// How a message on a watch ends.
 std::string how_to_go_on(std::string_view parameter);
 

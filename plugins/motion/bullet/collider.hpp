@@ -18,9 +18,9 @@ struct Collider {
   std::int32_t robot = -1;   ///< of this world; -1: an external body
   std::int32_t kinematic_body = -1;
   const std::string* scenery = nullptr;  ///< its name; null for what moves
-  std::uint32_t body = 0;         ///< of the robot
-  std::uint32_t loaded_link = 0;  ///< see BodyShape
-  std::uint32_t shape_index = 0;  ///< among the shapes of the robot
+  std::uint32_t body = 0;                ///< of the robot
+  std::uint32_t loaded_link = 0;         ///< see BodyShape
+  std::uint32_t shape_index = 0;         ///< among the shapes of the robot
   ShapeKind kind = ShapeKind::box;
   Vec3 size = Vec3::Zero();  ///< see Shape
   double friction = 0, restitution = 0;

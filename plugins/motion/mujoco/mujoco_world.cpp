@@ -209,9 +209,9 @@ void MujocoWorld::set_references() {
         break;
       case mjCNSTR_LIMIT_JOINT: {
         const double distance = d.efc_pos[i];
-        const double speed = distance > 0 ? -distance / dt_
-                                          : std::min(-distance / std::max(settings_.time_constant, 2 * dt_),
-                                                     settings_.correcting_speed);
+        const double speed =
+            distance > 0 ? -distance / dt_
+                         : std::min(-distance / std::max(settings_.time_constant, 2 * dt_), settings_.correcting_speed);
         d.efc_aref[i] = (speed - d.efc_vel[i]) / dt_;
         break;
       }

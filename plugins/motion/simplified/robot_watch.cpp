@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include "robot_watch.hpp"
+
+#include <algorithm>
+
+#include "plugins/common/text/quote.hpp"
+
+namespace muro::simplified {
+
+SceneryNames scenery_names(const Connector& c) {
+  SceneryNames names;
+  for (std::uint32_t i = 0; i < c.object_count(); ++i)
+    if (c.robot_of(ObjectId{i}) < 0 && !c.constant_array(ObjectId{i}, keys::collision_shapes).empty())
+      names.emplace(i, c.object_name(ObjectId{i}));
+  return names;
+}
+
+RobotWatch::RobotWatch(Connector& c, const RobotView& robot, const std::vector<JointProperties>& properties)
+    : base_(robot.base()), name_(robot.name) {
+  const watch::Reach reach = watch::reach_of(c, robot);
+  watch_ = watch::Watch(c, c.parameters(), reach);
+  for (std::size_t i = 1; i < properties.size(); ++i) {
+    if (!properties[i].force_driven) continue;
+    const Link& link = robot.links[i];
+    const double arm = link.joint == JointKind::prismatic ? 1 : reach.of_link[i];
+    joints_.push_back({properties[i].velocity, arm * arm, std::string(c.object_name(link.joint_object))});
+  }
+}
+
+void RobotWatch::connect_contacts(Connector& c) {
+  has_contact_law_ = c.is_used(base_, keys::contacts, usage::read);
+  if (has_contact_law_) contacts_ = c.read_list(base_, keys::contacts);
+}
+
+void RobotWatch::begin(const SumIn<Wrench>* external) {
+  begins_ = true;
+  if (external && external->size() > (has_contact_law_ ? 1 : 0)) watch_.allow_pushes();
+}
+
+RobotWatch::Overlap RobotWatch::deepest_overlap(const SceneryNames& scenery) const {
+  Overlap deepest;
+  if (!contacts_) return deepest;
+  for (const Contact& c : *contacts_) {
+    if (!(c.depth > deepest.depth)) continue;
+    const auto name = scenery.find(index_of(c.other));
+    if (name != scenery.end()) deepest = {c.depth, &name->second};
+  }
+  return deepest;
+}
+
+std::string RobotWatch::problem(const Pose& pose, const Twist& twist, const SceneryNames& scenery) {
+  const Overlap overlap = deepest_overlap(scenery);
+  if (begins_) {
+    watch_.begin(pose.position, twist);
+    watch_.begin_overlap(overlap.depth);
+    begins_ = false;
+  }
+  std::string problem, parameter = "watch_speed";
+  if (!watch_.allows_depth(overlap.depth)) {
+    problem = watch_.depth_text("it", quote(*overlap.obstacle), overlap.depth);
+    parameter = "watch_depth";
+  } else if (!watch_.allows(pose.position, twist)) {
+    problem = watch_.speed_text(pose.position, twist);
+  }
+  const double square = watch_.allowed_square(pose.position);
+  for (const Joint& j : joints_) {
+    if (!problem.empty() || *j.velocity * *j.velocity * j.reach_square < square) continue;
+    problem = watch_.speed_text(pose.position, "what " + quote(j.name) + " carries moves",
+                                std::sqrt(*j.velocity * *j.velocity * j.reach_square));
+  }
+  if (problem.empty()) return problem;
+  const std::string cause =
+      !watch_.allows_depth(overlap.depth) ? std::string(watch::cause_of_depth) + "; try a higher rate, or an engine"
+      : overlap.obstacle && overlap.depth > 0.01
+          ? "it is " + std::to_string(overlap.depth) + " m deep in " + quote(*overlap.obstacle) +
+                ": start it clear of that, or move it less in a step"
+          : "forces that grow from step to step; try a higher rate, or a lower `frequency` of contact.penalty";
+  return quote(name_) + ": " + problem + ". Likely cause: " + cause + watch::how_to_go_on(parameter);
+}
+
+}  // namespace muro::simplified

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// The watch over robots of motion.simplified: as motions by engines have it.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "joint_properties.hpp"
+#include "plugins/common/watch/watch.hpp"
+
+namespace muro::simplified {
+
+/// Names of the scenery, by object.
+using SceneryNames = std::map<std::uint32_t, std::string>;
+SceneryNames scenery_names(const Connector& c);
+
+/// The watch over one robot. Looks at it each `interval` steps: what comes apart stays so.
+class RobotWatch {
+ public:
+  static constexpr std::uint64_t interval = 16;
+
+  /// `properties`: of the joints, one per link. [setup]
+  RobotWatch(Connector& c, const RobotView& robot, const std::vector<JointProperties>& properties);
+  /// Finds out whether there is a contact algorithm, whose contacts it looks at then. [setup]
+  void connect_contacts(Connector& c);
+  /// The run begins or goes on; `external`: what adds to the robot's wrench, null where nothing moves its base. [setup]
+  void begin(const SumIn<Wrench>* external);
+  /// Why the run ends; empty while it goes on.
+  std::string problem(const Pose& pose, const Twist& twist, const SceneryNames& scenery);
+
+ private:
+  struct Joint {
+    const double* velocity;
+    double reach_square;  ///< m^2, see watch::Reach; 1 for a joint that shifts
+    std::string name;
+  };
+  struct Overlap {
+    double depth = 0;
+    const std::string* obstacle = nullptr;
+  };
+
+  Overlap deepest_overlap(const SceneryNames& scenery) const;
+
+  watch::Watch watch_;
+  ObjectId base_;
+  std::string name_;
+  bool begins_ = true;
+  bool has_contact_law_ = false;
+  ListIn<Contact> contacts_;
+  std::vector<Joint> joints_;  ///< those that forces drive
+};
+
+}  // namespace muro::simplified
