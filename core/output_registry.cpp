@@ -17,8 +17,13 @@ namespace fs = std::filesystem;
 OutputRegistry::Place OutputRegistry::place_of(const std::string& path) {
   std::error_code code;
   Place place{target_of(path, code).string(), {}};
+  place.error = code.value();
   struct stat about {};
-  if (stat(place.target.c_str(), &about) != 0) return place;
+  if (code) return place;
+  if (stat(place.target.c_str(), &about) != 0) {
+    place.error = errno == ENOENT ? 0 : errno;
+    return place;
+  }
   place.exists = true;
   place.is_folder = S_ISDIR(about.st_mode);
   place.is_device = S_ISCHR(about.st_mode);
@@ -81,6 +86,7 @@ void OutputRegistry::check_folder(const Output& output, std::vector<std::string>
     problems.push_back(
         fmt::format("{}: file {} cannot be written: {}", output.owner, output.path, std::strerror(reason)));
   };
+  if (output.place.error != 0) return cannot(output.place.error);
   if (output.is_series) {
     if (output.place.exists && !output.place.is_folder) return cannot(ENOTDIR);
     if (output.place.exists && access(output.place.target.c_str(), W_OK | X_OK) != 0) return cannot(errno);

@@ -40,6 +40,7 @@ class OutputRegistry final : public Outputs {
   struct Place {
     std::string target;       ///< without links
     std::uint64_t number[2];  ///< device and inode of what is there
+    int error = 0;  ///< why it cannot be looked at (errno); 0: it can, or is not there
     bool exists = false;
     bool is_folder = false;
     bool is_device = false;  ///< a character device, which takes several outputs

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include "core/error.hpp"
 #include "host/commands/commands.hpp"
 #include "host/commands/open.hpp"
 #include "host/unsupported_features/unsupported_features.hpp"
@@ -16,7 +17,7 @@ Scenario open_file(const ScenarioOptions& options, const Registry& registry) {
 
 BuiltScenario open_scenario(Scenario scenario, Registry& registry, const std::function<void(Simulation&)>& add_more) {
   BuiltScenario built = build(std::move(scenario), registry, add_more);
-  for (const std::string& n : built.notes) fmt::print(stderr, "{}\n", n);
+  for (const std::string& n : built.notes) fmt::print(stderr, "{}\n", message_text(n));
   return built;
 }
 

@@ -44,14 +44,18 @@ std::optional<std::uint64_t> hash_of(const Scenario& scenario, Registry& registr
   return built.simulation->state_hash();
 }
 
+/// What each of them gives when it is the only one at its time.
 struct Worlds : ::testing::Test {
-  test::ScratchFolder folder;
-  const std::vector<Scenario> all = scenarios(folder);
-  std::vector<std::optional<std::uint64_t>> alone;
-  Worlds() {
+  static std::vector<Scenario> all;
+  static std::vector<std::optional<std::uint64_t>> alone;
+  static void SetUpTestSuite() {
+    const test::ScratchFolder folder;
+    all = scenarios(folder);
     for (const Scenario& s : all) alone.push_back(hash_of(s, test::plugins()));
   }
 };
+std::vector<Scenario> Worlds::all;
+std::vector<std::optional<std::uint64_t>> Worlds::alone;
 
 TEST_F(Worlds, OneAfterTheOtherAreAsAlone) {
   for (std::size_t i = all.size(); i-- > 0;) EXPECT_EQ(hash_of(all[i], test::plugins()), alone[i]) << all[i].file;

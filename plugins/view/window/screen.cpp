@@ -28,19 +28,48 @@ namespace {
 bool is_open = false;  ///< GLFW and ImGui know one thread and one window of ours
 std::atomic<bool> display_lost{false};
 
-/// Xlib ends the process when the display goes away, unless somebody has another idea.
-void outlive_display() {
-  display_lost = false;
-  if (!glfwGetX11Display) return;
-  void* const xlib = dlopen("libX11.so.6", RTLD_LAZY | RTLD_NOLOAD);
-  if (!xlib) return;
-  using Handler = void (*)(void* display, void* data);
-  using SetHandler = void (*)(void* display, Handler handler, void* data);
-  if (const auto set = reinterpret_cast<SetHandler>(dlsym(xlib, "XSetIOErrorExitHandler")))
-    set(
-        glfwGetX11Display(), [](void*, void*) { display_lost = true; }, nullptr);
-  dlclose(xlib);
-}
+/// Xlib ends the process when a display goes away, unless it is told otherwise. Of other displays of the program it is
+/// told nothing.
+class DisplayLoss {
+ public:
+  using Handler = int (*)(void* display);
+  using ExitHandler = void (*)(void* display, void* data);
+
+  void begin() {
+    display_lost = false;
+    display_ = glfwGetX11Display ? glfwGetX11Display() : nullptr;
+    library_ = display_ ? dlopen("libX11.so.6", RTLD_LAZY | RTLD_NOLOAD) : nullptr;
+    if (!library_) return;
+    set_ = reinterpret_cast<Handler (*)(Handler)>(dlsym(library_, "XSetIOErrorHandler"));
+    const auto set_exit =
+        reinterpret_cast<void (*)(void*, ExitHandler, void*)>(dlsym(library_, "XSetIOErrorExitHandler"));
+    if (!set_ || !set_exit) return;  // an Xlib that always ends the process
+    set_exit(
+        display_, [](void*, void*) { display_lost = true; }, nullptr);
+    before_ = set_(&take);
+  }
+  void end() {
+    if (before_ && set_) set_(before_);
+    before_ = nullptr;
+    if (library_) dlclose(library_);
+    library_ = nullptr;
+  }
+
+ private:
+  static int take(void* display) {
+    if (display != display_) return before_(display);
+    display_lost = true;
+    return 0;
+  }
+
+  void* library_ = nullptr;
+  Handler (*set_)(Handler) = nullptr;
+  static void* display_;
+  static Handler before_;
+};
+void* DisplayLoss::display_ = nullptr;
+DisplayLoss::Handler DisplayLoss::before_ = nullptr;
+DisplayLoss display_loss;
 
 [[noreturn]] void fail(const std::string& what) {
   const char* words = nullptr;
@@ -65,7 +94,7 @@ Screen::Screen(const std::string& title, int width, int height) {
     glfwTerminate();
     fail("no window with OpenGL 4.5 can be opened");
   }
-  outlive_display();
+  display_loss.begin();
   glfwMakeContextCurrent(window_);
   glfwSwapInterval(0);  // waiting for the screen would hold the simulation up
   ImGui::CreateContext();
@@ -91,6 +120,7 @@ Screen::~Screen() {
   ImGui::DestroyContext();
   glfwDestroyWindow(window_);
   glfwTerminate();
+  display_loss.end();
 }
 
 bool Screen::is_lost() const { return display_lost; }
