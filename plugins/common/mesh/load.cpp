@@ -1,52 +1,67 @@
 // SPDX-License-Identifier: MIT
+// Meshes, read by the parser process.
 #include <algorithm>
+#include <filesystem>
 
-#include "mesh.hpp"
-#include "mesh_file.hpp"
 #include "muro/algorithm.hpp"
+#include "plugins/common/parser_process/ask.hpp"
+#include "submesh.hpp"
 
 namespace muro::mesh {
 namespace {
 
-/// All but positions and faces.
-constexpr unsigned unused_components = aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS | aiComponent_COLORS |
-                                       aiComponent_TEXCOORDS | aiComponent_BONEWEIGHTS | aiComponent_ANIMATIONS |
-                                       aiComponent_TEXTURES | aiComponent_LIGHTS | aiComponent_CAMERAS |
-                                       aiComponent_MATERIALS;
+namespace process = parser_process;
 
-void add(const aiMesh& m, const Eigen::Matrix4d& at, Mesh& out) {
-  const bool is_mirrored = at.topLeftCorner<3, 3>().determinant() < 0;
-  const auto first = std::uint32_t(out.vertices.size());
-  for (unsigned v = 0; v < m.mNumVertices; ++v) {
-    const aiVector3D& p = m.mVertices[v];
-    out.vertices.push_back((at * Eigen::Vector4d(double(p.x), double(p.y), double(p.z), 1)).head<3>());
-  }
-  for (unsigned f = 0; f < m.mNumFaces; ++f) {
-    const aiFace& face = m.mFaces[f];
-    if (face.mNumIndices != 3) continue;  // points and lines
-    Triangle t{first + face.mIndices[0], first + face.mIndices[1], first + face.mIndices[2]};
-    if (is_mirrored) std::swap(t[1], t[2]);
-    out.triangles.push_back(t);
-  }
+process::Answer ask(const char* service, const std::string& path, const Vec3& scale) {
+  std::error_code code;
+  const std::filesystem::path absolute = std::filesystem::absolute(path, code);
+  process::Writer request;
+  request.text(code ? path : absolute.string());
+  request.value(scale);
+  return process::ask(
+      {.service = service,
+       .subject = "mesh " + path,
+       .needs = "libassimp-dev",
+       .advice = "the file is probably damaged: write it anew with the program that made it, or convert "
+                 "it to STL or OBJ"},
+      request.bytes());
+}
+
+/// The triangles of an answer, all corners of which are among `vertices`.
+std::vector<Triangle> triangles_of(process::Reader& answer, std::size_t vertices) {
+  std::vector<Triangle> triangles = answer.list<Triangle>();
+  for (const Triangle& t : triangles)
+    if (*std::max_element(t.begin(), t.end()) >= vertices)
+      throw Error("a mesh of the parser process has corners that are no vertices");
+  return triangles;
 }
 
 }  // namespace
 
 Mesh load(const std::string& path, const Vec3& scale) {
-  const auto fail = [&](const std::string& what) -> Error { return Error("mesh " + path + " " + what); };
-  const MeshFile file(path, scale, unused_components, 0);
-  Mesh m;
-  file.each_mesh([&](const aiMesh& mesh, const Eigen::Matrix4d& at) { add(mesh, at, m); });
-  if (!std::all_of(m.vertices.begin(), m.vertices.end(), [](const Vec3& v) { return v.allFinite(); }))
-    throw fail("has a vertex that is no number or infinite; write the file anew");
-  const std::size_t triangles = m.triangles.size();
-  clean(m);
-  if (m.triangles.empty())
-    throw fail("has no triangle with an area (" + std::to_string(triangles) +
-               " without); a shape needs a surface made of faces");
-  if (is_closed(m) && volume_of(m) < 0)
-    for (Triangle& t : m.triangles) std::swap(t[1], t[2]);
-  return m;
+  const process::Answer answer = ask("mesh", path, scale);
+  process::Reader reader = answer.reader();
+  Mesh mesh;
+  mesh.vertices = reader.list<Vec3>();
+  mesh.triangles = triangles_of(reader, mesh.vertices.size());
+  return mesh;
+}
+
+std::vector<Submesh> load_submeshes(const std::string& path, const Vec3& scale) {
+  const process::Answer answer = ask("submeshes", path, scale);
+  process::Reader reader = answer.reader();
+  std::vector<Submesh> parts;
+  for (auto count = reader.value<std::uint64_t>(); count > 0; --count) {
+    Submesh part;
+    part.vertices = reader.list<TexturedVertex>();
+    part.triangles = triangles_of(reader, part.vertices.size());
+    part.color = reader.value<Eigen::Vector4d>();
+    part.texture = reader.text();
+    part.missing_texture = reader.text();
+    part.texture_bytes = reader.list<std::uint8_t>();
+    parts.push_back(std::move(part));
+  }
+  return parts;
 }
 
 }  // namespace muro::mesh

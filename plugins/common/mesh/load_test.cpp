@@ -128,6 +128,45 @@ TEST(Load, SaysWhatIsWrongWithAFileAndWhatIsAllowed) {
   EXPECT_EQ(message_of(good), "no error");
 }
 
+/// Binary glTF that says that it is 2 GB long.
+std::string glb_of_two_gigabytes() {
+  std::string bytes = "glTF";
+  for (const std::uint32_t word : {2u, 0x7fffffffu, 0x7ffffff0u, 0x4e4f534au})
+    bytes.append(reinterpret_cast<const char*>(&word), sizeof word);
+  return bytes + "{}";
+}
+
+/// COLLADA that says that it has four billion coordinates.
+std::string dae_of_many_numbers(const Mesh& m) {
+  std::string text = dae_text(m, "Z_UP", "1");
+  const std::size_t count = text.find("count=\"", text.find("<float_array")) + 7;
+  return text.replace(count, text.find('"', count) - count, "4294967295");
+}
+
+TEST(Load, AFileThatFillsTheMemoryIsAnErrorAndTheNextIsRead) {
+  const test::ScratchFolder folder;
+  const Mesh m = box(low, high);
+  const std::string good = folder.file("part.stl", stl_text(m));
+  for (const auto& [name, text] :
+       {std::pair("many.dae", dae_of_many_numbers(m)), {"two.glb", glb_of_two_gigabytes()}}) {
+    const std::string path = folder.file(name, text), message = message_of(path);
+    EXPECT_EQ(message.find("mesh " + path + " cannot be read: "), 0u) << message;
+    EXPECT_EQ(message_of(good), "no error");
+  }
+}
+
+TEST(Load, CoordinatesBeyondAnyWorldAreAnError) {
+  const test::ScratchFolder folder;
+  for (const char* number : {"1e30", "-2e8", "nan", "inf"}) {
+    const std::string path =
+        folder.file("far.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 " + std::string(number) + "\nf 1 2 3\nf 1 2 4\n");
+    const std::string message = message_of(path);
+    EXPECT_TRUE(message.find("a coordinate that is not from -1e8 to 1e8 m") != message.npos ||
+                message.find("cannot be read") != message.npos)
+        << number << ": " << message;
+  }
+}
+
 TEST(Store, ReadsAFileOnceForEachScaleAndKeepsWhatItGave) {
   const test::ScratchFolder folder;
   const std::string file = folder.file("part.stl", stl_text(box(low, high)));
@@ -137,7 +176,7 @@ TEST(Store, ReadsAFileOnceForEachScaleAndKeepsWhatItGave) {
   std::remove(file.c_str());
   EXPECT_EQ(&store.mesh(file, Vec3::Ones()), &first);
   EXPECT_EQ(&store.hull(file, Vec3::Ones()), &hull);
-  EXPECT_THROW(store.mesh(file, Vec3::Constant(2)), Error);
+  for (int i = 0; i < 2; ++i) EXPECT_THROW(store.mesh(file, Vec3::Constant(2)), Error);
 }
 
 }  // namespace

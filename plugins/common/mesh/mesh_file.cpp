@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "mesh_file.hpp"
 
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 
 #include "muro/algorithm.hpp"
+#include "plugins/common/parser_process/limits.hpp"
+#include "plugins/common/text/one_line.hpp"
 
 namespace muro::mesh {
 
@@ -17,6 +21,30 @@ namespace {
 bool has_y_up(const std::string& path) {
   const std::string extension = MeshFile::extension_of(path);
   return extension == ".dae" || extension == ".gltf" || extension == ".glb";
+}
+
+/// Files as Assimp opens them, those that a mesh names too: no devices and pipes, and what is large may take longer.
+class Files final : public Assimp::DefaultIOSystem {
+ public:
+  Assimp::IOStream* Open(const char* file, const char* mode) override {
+    std::error_code code;
+    const auto size = std::filesystem::file_size(file, code);
+    if (code || !std::filesystem::is_regular_file(file, code) || std::string_view(mode).find('w') != std::string::npos)
+      return nullptr;
+    // 10 to 60 times their size in memory for sound files
+    if (opened_.insert(file).second) parser_process::allow(parser_process::allowance_for(size, 200, 2));
+    return DefaultIOSystem::Open(file, mode);
+  }
+
+ private:
+  std::set<std::string> opened_;
+};
+
+/// What Assimp says of a file that it cannot read.
+std::string reason_of(const std::string& text) {
+  if (text.find("bad_a") != text.npos || text.find("bad alloc") != text.npos || text.find("vector::") != text.npos)
+    return "it says that it holds more than fits into memory";
+  return one_line(text);
 }
 
 }  // namespace
@@ -36,11 +64,12 @@ MeshFile::MeshFile(const std::string& path, const Vec3& scale, unsigned unused, 
   if (!scale.allFinite() || scale.cwiseAbs().minCoeff() <= 0)
     throw fail("has a scale of " + std::to_string(scale.x()) + " " + std::to_string(scale.y()) + " " +
                std::to_string(scale.z()) + "; each factor must be finite and not 0");
+  importer_.SetIOHandler(new Files);  // which the importer owns
   importer_.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, int(unused));
   importer_.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, 40);
   const aiScene* const scene = importer_.ReadFile(path, aiProcess_RemoveComponent | aiProcess_Triangulate | steps);
   if (!scene || !scene->mRootNode)
-    throw fail("cannot be read: " + std::string(importer_.GetErrorString()) + "; use a DAE, STL, OBJ or glTF file");
+    throw fail("cannot be read: " + reason_of(importer_.GetErrorString()) + "; use a DAE, STL, OBJ or glTF file");
   if (has_y_up(path)) root_.topLeftCorner<3, 3>() << 1, 0, 0, 0, 0, -1, 0, 1, 0;
   root_.topLeftCorner<3, 3>() = (scale.asDiagonal() * root_.topLeftCorner<3, 3>()).eval();
 }

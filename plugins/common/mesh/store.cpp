@@ -9,9 +9,14 @@ Store::Entry& Store::entry(const std::string& path, const Vec3& scale) {
   std::unique_ptr<Entry>& e = entries_[{path, scale.x(), scale.y(), scale.z()}];
   if (!e) {
     auto new_entry = std::make_unique<Entry>();
-    new_entry->mesh = load(path, scale);
+    try {
+      new_entry->mesh = load(path, scale);
+    } catch (const Error& error) {
+      new_entry->error = error.what();
+    }
     e = std::move(new_entry);
   }
+  if (!e->error.empty()) throw Error(e->error);
   return *e;
 }
 

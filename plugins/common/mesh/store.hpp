@@ -10,8 +10,8 @@
 
 namespace muro::mesh {
 
-/// A cache of meshes by file and scale: each is read once, and its hull computed at the first request. References stay
-/// valid as long as the store lives. [setup]
+/// A cache of meshes by file and scale: each is read once, or fails once, and its hull is computed at the first
+/// request. References stay valid as long as the store lives. [setup]
 class Store {
  public:
   /// As load().
@@ -21,6 +21,7 @@ class Store {
 
  private:
   struct Entry {
+    std::string error;  ///< of a file that cannot be read: it may have taken long
     Mesh mesh;
     std::optional<Hull> hull;
   };

@@ -101,8 +101,7 @@ DecodingProblems decode(std::string& bytes, const std::string& kind, const std::
   }
   if (bytes[start] != '<')
     problems.error = {location_of(bytes, start),
-                      concat("the file is not XML: it begins with ", quote(std::string_view(bytes).substr(start, 12)),
-                             "; a ", kind, " file begins with <?xml or <", root)};
+                      concat("the file is not XML; a ", kind, " file begins with <?xml or <", root)};
   return problems;
 }
 

@@ -5,6 +5,8 @@
 #include <sdf/sdf.hh>
 #include <set>
 
+#include "plugins/common/text/one_line.hpp"
+
 namespace muro::sdf {
 
 namespace {
@@ -54,13 +56,6 @@ class Quiet {
   auto document = std::make_shared<::sdf::SDF>();
   document->Root(descriptions->Root()->Clone());
   return document;
-}
-
-std::string one_line(std::string text) {
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < ' ') c = ' ';
-  while (!text.empty() && text.back() == ' ') text.pop_back();
-  return text;
 }
 
 }  // namespace

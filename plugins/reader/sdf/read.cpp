@@ -6,6 +6,7 @@
 #include "bodies.hpp"
 #include "build.hpp"
 #include "plugins/common/model_file/text_file.hpp"
+#include "plugins/common/parser_process/limits.hpp"
 
 namespace muro::sdf {
 
@@ -78,6 +79,12 @@ class WorldReader {
   std::set<std::string> names_;
 };
 
+/// libsdformat takes 90 kB and 0.3 ms for an element.
+void allow_for(const SourceFiles& sources) {
+  const std::size_t elements = sources.main().elements;
+  parser_process::allow({std::uint64_t(elements) * 150'000, double(elements) * 0.005});
+}
+
 void tell_pose(const ::sdf::Model& model, const SourceFiles& sources, Problems& problems) {
   if (model.RawPose() != ignition::math::Pose3d::Zero)
     problems.note(location_of(sources, model.Element()),
@@ -92,6 +99,7 @@ void read_text(std::string bytes, const fs::path& folder, RobotBuilder& builder)
   Problems problems = Problems::reported_to(builder);
   SourceFiles sources(folder, problems);
   if (!sources.load(std::move(bytes), Content::model)) return;
+  allow_for(sources);
   Library library;
   ::sdf::Root root;
   if (!library.load(sources, root, problems)) return;
@@ -109,6 +117,7 @@ void read_world_text(std::string bytes, const fs::path& folder, WorldBuilder& bu
   Problems problems = Problems::reported_to(builder);
   SourceFiles sources(folder, problems);
   if (!sources.load(std::move(bytes), Content::world)) return;
+  allow_for(sources);
   Library library;
   ::sdf::Root root;
   if (!library.load(sources, root, problems)) return;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Reads robots and worlds from SDFormat files (http://sdformat.org), with libsdformat.
+// Reads robots and worlds from SDFormat files (http://sdformat.org): service.cpp does it, in the parser process.
 #include "muro/plugin.hpp"
-#include "read.hpp"
+#include "plugins/common/builder_calls/replay.hpp"
+#include "plugins/common/parser_process/ask.hpp"
 
 namespace {
 
@@ -15,11 +16,25 @@ constexpr ReaderDescription description{
     .extensions = extensions,
 };
 
+parser_process::Answer ask(const char* service, std::string_view path) {
+  parser_process::Writer request;
+  request.text(path);
+  return parser_process::ask({.service = service,
+                              .subject = "model " + std::string(path),
+                              .needs = "libsdformat-dev",
+                              .advice = "look for what is unusual in the file and in those that it includes"},
+                             request.bytes());
+}
+
 class SdfReader final : public ModelReader {
  public:
-  void read(std::string_view path, RobotBuilder& builder) override { sdf::read_file(std::string(path), builder); }
+  void read(std::string_view path, RobotBuilder& builder) override {
+    const parser_process::Answer calls = ask("sdf model", path);
+    builder_calls::replay(calls.reader(), builder);
+  }
   void read_world(std::string_view path, WorldBuilder& builder) override {
-    sdf::read_world_file(std::string(path), builder);
+    const parser_process::Answer calls = ask("sdf world", path);
+    builder_calls::replay(calls.reader(), builder);
   }
 };
 

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "submesh.hpp"
-
 #include <assimp/material.h>
 #include <assimp/postprocess.h>
 
@@ -9,6 +7,8 @@
 
 #include "mesh_file.hpp"
 #include "muro/algorithm.hpp"
+#include "muro/toolkit/limits.hpp"
+#include "read_mesh.hpp"
 #include "srgb.hpp"
 
 namespace muro::mesh {
@@ -81,7 +81,9 @@ Submesh geometry_of(const aiMesh& m, const Eigen::Matrix4d& at, const std::strin
     }
     if (m.HasTextureCoords(0))
       v.texture_coordinates = {double(m.mTextureCoords[0][i].x), double(m.mTextureCoords[0][i].y)};
-    if (!v.position.allFinite()) throw Error("mesh " + path + " has a vertex that is no number or infinite");
+    if (!limits::within(limits::position, v.position))
+      throw Error("mesh " + path +
+                  " has a vertex with a coordinate that is not from -1e8 to 1e8 m; write the file anew, in metres");
     submesh.vertices.push_back(v);
   }
   for (unsigned f = 0; f < m.mNumFaces; ++f) {
@@ -96,7 +98,7 @@ Submesh geometry_of(const aiMesh& m, const Eigen::Matrix4d& at, const std::strin
 
 }  // namespace
 
-std::vector<Submesh> load_submeshes(const std::string& path, const Vec3& scale) {
+std::vector<Submesh> read_submeshes(const std::string& path, const Vec3& scale) {
   const MeshFile file(path, scale, unused_components, aiProcess_GenSmoothNormals | aiProcess_FlipUVs);
   std::vector<Submesh> submeshes;
   file.each_mesh([&](const aiMesh& m, const Eigen::Matrix4d& at) {

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include "record.hpp"
+
+#include <cassert>
+
+namespace muro::builder_calls {
+
+namespace {
+
+void write_report(parser_process::Writer& out, Severity severity, std::string_view text, int line, int column) {
+  out.value(severity);
+  out.text(text);
+  out.value(line);
+  out.value(column);
+}
+
+}  // namespace
+
+void RobotRecorder::base(std::string_view name) noexcept {
+  out_.value(Call::base);
+  out_.text(name);
+}
+
+void RobotRecorder::fork() noexcept { out_.value(Call::fork); }
+
+void RobotRecorder::end() noexcept { out_.value(Call::end); }
+
+void RobotRecorder::translation(const Vec3& offset) noexcept {
+  out_.value(Call::translation);
+  out_.value(offset);
+}
+
+void RobotRecorder::rotation(const Quat& turn) noexcept {
+  out_.value(Call::rotation);
+  out_.value(turn);
+}
+
+void RobotRecorder::revolute(std::string_view name, const Vec3& axis, const JointLimits& limits) noexcept {
+  joint(Call::revolute, name, axis, limits);
+}
+
+void RobotRecorder::prismatic(std::string_view name, const Vec3& axis, const JointLimits& limits) noexcept {
+  joint(Call::prismatic, name, axis, limits);
+}
+
+void RobotRecorder::joint(Call kind, std::string_view name, const Vec3& axis, const JointLimits& limits) {
+  out_.value(kind);
+  out_.text(name);
+  out_.value(axis);
+  out_.value(limits);
+}
+
+void RobotRecorder::mimic(std::string_view leader, double multiplier, double offset) noexcept {
+  out_.value(Call::mimic);
+  out_.text(leader);
+  out_.value(multiplier);
+  out_.value(offset);
+}
+
+void RobotRecorder::body(std::string_view name) noexcept {
+  out_.value(Call::body);
+  out_.text(name);
+}
+
+TextId RobotRecorder::intern(std::string_view text) noexcept {
+  out_.value(Call::intern);
+  out_.text(text);
+  return TextId(++texts_);
+}
+
+void RobotRecorder::report(Severity severity, std::string_view text, int line, int column) noexcept {
+  out_.value(Call::report);
+  write_report(out_, severity, text, line, column);
+}
+
+void RobotRecorder::set_raw(const KeyInfo& key, const void* data, std::uint32_t count) noexcept {
+  for (const auto& [call, known] : constants) {
+    if (known->name != key.name) continue;
+    out_.value(call);
+    if (call == Call::inertial)
+      out_.value(*static_cast<const Inertia*>(data));
+    else
+      out_.list(std::span(static_cast<const Shape*>(data), count));
+    return;
+  }
+  assert(!"a constant that Call does not have");
+}
+
+void WorldRecorder::gravity(const Vec3& acceleration) noexcept {
+  out_.value(Call::gravity);
+  out_.value(acceleration);
+}
+
+void WorldRecorder::scenery(std::string_view name, const Pose& pose, std::span<const Shape> collisions,
+                            std::span<const Shape> visuals) noexcept {
+  out_.value(Call::scenery);
+  out_.text(name);
+  out_.value(pose);
+  out_.list(collisions);
+  out_.list(visuals);
+}
+
+RobotBuilder& WorldRecorder::model(std::string_view name, const Pose& pose) noexcept {
+  out_.value(Call::model);
+  out_.text(name);
+  out_.value(pose);
+  return model_.emplace(out_);
+}
+
+TextId WorldRecorder::intern(std::string_view text) noexcept {
+  out_.value(Call::world_intern);
+  out_.text(text);
+  return TextId(++texts_);
+}
+
+void WorldRecorder::report(Severity severity, std::string_view text, int line, int column) noexcept {
+  out_.value(Call::world_report);
+  write_report(out_, severity, text, line, column);
+}
+
+}  // namespace muro::builder_calls

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+#include "replay.hpp"
+
+#include "call.hpp"
+
+namespace muro::builder_calls {
+
+namespace {
+
+using parser_process::Reader;
+
+[[noreturn]] void fail() { throw Error("what the parser process has recorded is garbled"); }
+
+/// The numbers that a builder has given to texts, by those of the record.
+class Texts {
+ public:
+  void add(TextId id) { ids_.push_back(id); }
+  TextId operator[](TextId recorded) const {
+    if (std::size_t(recorded) >= ids_.size()) fail();
+    return ids_[std::size_t(recorded)];
+  }
+
+ private:
+  std::vector<TextId> ids_{no_text};
+};
+
+std::vector<Shape> shapes_in(Reader& calls, const Texts& texts) {
+  std::vector<Shape> shapes = calls.list<Shape>();
+  for (Shape& s : shapes) {
+    if (s.kind > ShapeKind::mesh || s.material_source > MaterialSource::model) fail();
+    s.mesh = texts[s.mesh];
+    s.texture = texts[s.texture];
+  }
+  return shapes;
+}
+
+struct Report {
+  Severity severity;
+  std::string text;
+  int line, column;
+};
+
+Report report_in(Reader& calls) {
+  const auto severity = calls.value<Severity>();
+  if (severity > Severity::error) fail();
+  std::string text = calls.text();
+  const int line = calls.value<int>();
+  return {severity, std::move(text), line, calls.value<int>()};
+}
+
+/// The calls for one robot.
+class RobotReplay {
+ public:
+  explicit RobotReplay(RobotBuilder& builder) : builder_(builder) {}
+
+  void run(Call call, Reader& calls) {
+    switch (call) {
+      case Call::base:
+        return builder_.base(calls.text());
+      case Call::fork:
+        return builder_.fork();
+      case Call::end:
+        return builder_.end();
+      case Call::translation:
+        return builder_.translation(calls.value<Vec3>());
+      case Call::rotation:
+        return builder_.rotation(calls.value<Quat>());
+      case Call::revolute:
+      case Call::prismatic:
+        return joint(call, calls);
+      case Call::mimic: {
+        const std::string leader = calls.text();
+        const auto multiplier = calls.value<double>();
+        return builder_.mimic(leader, multiplier, calls.value<double>());
+      }
+      case Call::body:
+        return builder_.body(calls.text());
+      case Call::intern:
+        return texts_.add(builder_.intern(calls.text()));
+      case Call::report: {
+        const Report r = report_in(calls);
+        return builder_.report(r.severity, r.text, r.line, r.column);
+      }
+      case Call::inertial:
+        return builder_.set(keys::inertial, calls.value<Inertia>());
+      case Call::collision_shapes:
+        return builder_.set_array<Shape>(keys::collision_shapes, shapes_in(calls, texts_));
+      case Call::visual_shapes:
+        return builder_.set_array<Shape>(keys::visual_shapes, shapes_in(calls, texts_));
+      default:
+        fail();
+    }
+  }
+
+ private:
+  void joint(Call kind, Reader& calls) {
+    const std::string name = calls.text();
+    const Vec3 axis = calls.value<Vec3>();
+    const auto limits = calls.value<JointLimits>();
+    kind == Call::revolute ? builder_.revolute(name, axis, limits) : builder_.prismatic(name, axis, limits);
+  }
+
+  RobotBuilder& builder_;
+  Texts texts_;
+};
+
+}  // namespace
+
+void replay(Reader calls, RobotBuilder& builder) {
+  RobotReplay robot(builder);
+  while (!calls.at_end()) robot.run(calls.value<Call>(), calls);
+}
+
+void replay(Reader calls, WorldBuilder& builder) {
+  Texts texts;
+  std::vector<RobotReplay> model;  // the last one
+  while (!calls.at_end()) {
+    switch (const auto call = calls.value<Call>()) {
+      case Call::gravity:
+        builder.gravity(calls.value<Vec3>());
+        break;
+      case Call::scenery: {
+        const std::string name = calls.text();
+        const auto pose = calls.value<Pose>();
+        const std::vector<Shape> collisions = shapes_in(calls, texts);
+        builder.scenery(name, pose, collisions, shapes_in(calls, texts));
+        break;
+      }
+      case Call::model: {
+        const std::string name = calls.text();
+        model.clear();
+        model.emplace_back(builder.model(name, calls.value<Pose>()));
+        break;
+      }
+      case Call::world_intern:
+        texts.add(builder.intern(calls.text()));
+        break;
+      case Call::world_report: {
+        const Report r = report_in(calls);
+        builder.report(r.severity, r.text, r.line, r.column);
+        break;
+      }
+      default:
+        if (model.empty()) fail();
+        model.back().run(call, calls);
+    }
+  }
+}
+
+}  // namespace muro::builder_calls

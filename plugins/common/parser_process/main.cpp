@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+// The parser process: reads files that others wrote, for a program that is not to suffer from them. Its client starts
+// it; it ends when its client does, or has asked for nothing for a while.
+#include <malloc.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <new>
+#include <thread>
+
+#include "limits.hpp"
+#include "service.hpp"
+
+#if defined(__SANITIZE_ADDRESS__)
+/// In place of the bound of memory, which the sanitizer's own memory would pass.
+extern "C" const char* __asan_default_options() {
+  return "hard_rss_limit_mb=4096:max_allocation_size_mb=2048:allocator_may_return_null=1";
+}
+#endif
+
+namespace muro::parser_process {
+
+std::vector<Service>& services() {
+  static std::vector<Service> all;
+  return all;
+}
+
+namespace {
+
+constexpr Allowance base{std::uint64_t(512) << 20, 5};
+constexpr int idle_milliseconds = 20'000;
+/// Bytes that are left of requests, since libraries lose memory when they fail: from the one on they are given back
+/// where that is possible, from the other on a new process is better.
+constexpr long large_remainder = 64L << 20, largest_remainder = 512L << 20;
+
+[[noreturn]] void out_of_memory() { _exit(exit_out_of_memory); }
+
+/// The client is gone where this fails.
+void send(const void* data, std::uint64_t size) {
+  const auto* at = static_cast<const char*>(data);
+  while (size > 0) {
+    const ssize_t sent = ::send(process_socket, at, size, MSG_NOSIGNAL);
+    if (sent < 0 && errno == EINTR) continue;
+    if (sent <= 0) _exit(0);
+    at += sent;
+    size -= std::uint64_t(sent);
+  }
+}
+
+void receive(void* data, std::uint64_t size) {
+  auto* at = static_cast<char*>(data);
+  while (size > 0) {
+    const ssize_t received = recv(process_socket, at, size, MSG_WAITALL);
+    if (received < 0 && errno == EINTR) continue;
+    if (received <= 0) _exit(0);
+    at += received;
+    size -= std::uint64_t(received);
+  }
+}
+
+void send_frame(Frame frame, const void* data, std::uint64_t size) {
+  const FrameHeader header{frame, size};
+  send(&header, sizeof header);
+  send(data, size);
+}
+
+void serve(const Service& service, std::span<const std::byte> request) {
+  Writer answer;
+  std::string refusal;
+  begin_limits(base);
+  try {
+    Reader reader(request);
+    service.serve(reader, answer);
+  } catch (const std::bad_alloc&) {
+    out_of_memory();
+  } catch (const std::exception& e) {
+    refusal = e.what();
+    if (refusal.empty()) refusal = "a file cannot be read, and its reader gives no reason";
+  }
+  end_limits();
+  if (refusal.empty())
+    send_frame(Frame::answer, answer.bytes().data(), answer.bytes().size());
+  else
+    send_frame(Frame::refusal, refusal.data(), refusal.size());
+}
+
+/// Answers one request.
+void serve_next() {
+  RequestHeader header{};
+  receive(&header, sizeof header);
+  std::string name(header.service_size, '\0');
+  receive(name.data(), name.size());
+  std::vector<std::byte> request(header.size);
+  receive(request.data(), request.size());
+  for (const Service& service : services())
+    if (service.name == name) return serve(service, request);
+  send_frame(Frame::no_service, nullptr, 0);
+}
+
+long resident_bytes() {
+  long size = 0, resident = 0;
+  if (std::FILE* const file = std::fopen("/proc/self/statm", "r")) {
+    if (std::fscanf(file, "%ld %ld", &size, &resident) != 2) resident = 0;
+    std::fclose(file);
+  }
+  return resident * sysconf(_SC_PAGESIZE);
+}
+
+void set_limit(__rlimit_resource resource, rlim_t value) {
+  const rlimit limit{value, value};
+  setrlimit(resource, &limit);
+}
+
+/// Ends the process when its client has ended, also in the middle of a request.
+void watch_client() {
+  try {
+    std::thread([] {
+      pollfd client{process_socket, 0, 0};  // an end of the other side is always told
+      while (poll(&client, 1, -1) < 0 && errno == EINTR) {
+      }
+      _exit(0);
+    }).detach();
+  } catch (const std::exception&) {
+    // without a thread it ends with its request
+  }
+}
+
+}  // namespace
+
+}  // namespace muro::parser_process
+
+int main() {
+  using namespace muro::parser_process;
+  int type = 0;
+  socklen_t size = sizeof type;
+  if (getsockopt(process_socket, SOL_SOCKET, SO_TYPE, &type, &size) != 0) {
+    std::fputs("muro_parser reads meshes, pictures and models for muro, which starts it; it has no other use\n",
+               stderr);
+    return 2;
+  }
+  set_limit(RLIMIT_CORE, 0);
+  set_limit(RLIMIT_FSIZE, rlim_t(1) << 29);  // what it prints, and models in memory
+  signal(SIGXFSZ, SIG_IGN);
+  std::set_new_handler(&out_of_memory);
+  watch_client();
+  const Hello hello = Hello::ours();
+  send(&hello, sizeof hello);
+  const long at_start = resident_bytes();
+  while (true) {
+    pollfd client{process_socket, POLLIN, 0};
+    const int ready = poll(&client, 1, idle_milliseconds);
+    if (ready < 0 && errno == EINTR) continue;
+    if (ready == 0) _exit(0);
+    serve_next();
+    if (resident_bytes() < at_start + large_remainder) continue;
+    malloc_trim(0);
+    if (resident_bytes() > at_start + largest_remainder) _exit(0);
+  }
+}

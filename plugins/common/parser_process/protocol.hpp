@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// What the parser process and its client say to each other on a socket: the process a Hello; then, for each request of
+// the client (RequestHeader, name of the service, bytes), a frame. An Allowance, in a file in memory that both have,
+// says what the request may take.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+
+#include "muro/robot.hpp"
+#include "muro/shape.hpp"
+
+namespace muro::parser_process {
+
+/// Tells apart programs of different builds.
+struct Hello {
+  char magic[16];
+  std::uint32_t shape_size, limits_size;
+
+  static Hello ours() {
+    Hello hello{{}, sizeof(Shape), sizeof(JointLimits)};
+    std::strncpy(hello.magic, "muro parser 1", sizeof hello.magic - 1);
+    return hello;
+  }
+};
+
+struct RequestHeader {
+  std::uint64_t service_size, size;  ///< bytes
+};
+
+enum class Frame : std::uint64_t {
+  answer,      ///< what the service has written
+  refusal,     ///< a text: why there is no answer
+  no_service,  ///< nothing: the program was built without it
+};
+struct FrameHeader {
+  Frame frame;
+  std::uint64_t size;  ///< bytes
+};
+
+/// What a request may take.
+struct Allowance {
+  std::uint64_t memory = 0;  ///< bytes
+  double seconds = 0;        ///< of processor time
+};
+
+/// Descriptors in the parser process: the socket, and the file of the Allowance.
+inline constexpr int process_socket = 3, process_allowance = 4;
+/// Its exit code when it was refused memory; 0: nobody has asked for some time, or nobody listens any more.
+inline constexpr int exit_out_of_memory = 71;
+
+/// How a request ended, for those who ask through the client library.
+enum class Ending : int {
+  answered,
+  refused,     ///< the text is for the user
+  no_service,  ///< this muro was built without it
+  failed,      ///< the text says why: the process died, or cannot be started
+};
+
+/// Gives room for the answer or the text.
+struct Sink {
+  void* (*reserve)(Sink*, std::uint64_t size) noexcept;
+};
+
+/// The function of the client library.
+using AskFunction = int (*)(const char* service, const void* request, std::uint64_t size, Sink*) noexcept;
+inline constexpr char ask_symbol[] = "muro_parser_ask_1";
+inline constexpr char client_file[] = "muro_parser_client.so";
+inline constexpr char program_file[] = "muro_parser";
+
+/// What users set for sound files that need more than 512 MiB, and 5 s of processor time, beside what their size
+/// allows.
+inline constexpr char memory_variable[] = "MURO_PARSER_MEMORY";
+inline constexpr char seconds_variable[] = "MURO_PARSER_SECONDS";
+
+}  // namespace muro::parser_process

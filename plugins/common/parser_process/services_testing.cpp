@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// For tests: a parser process that does what it is told, good or bad.
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <iostream>
+#include <memory>
+
+#include "service.hpp"
+
+namespace muro::parser_process {
+namespace {
+
+const Registration echo("echo", [](Reader& request, Writer& answer) { answer.text(request.text()); });
+
+const Registration pid("pid", [](Reader&, Writer& answer) { answer.value(getpid()); });
+
+const Registration refuse("refuse", [](Reader& request, Writer&) { throw Error(request.text()); });
+
+const Registration hang("hang", [](Reader&, Writer&) {
+  for (volatile bool more = true; more;) {
+  }
+});
+
+const Registration eat("eat", [](Reader&, Writer& answer) {
+  std::vector<std::unique_ptr<std::vector<char>>> all;
+  for (int i = 0; i < 100; ++i) all.push_back(std::make_unique<std::vector<char>>(64 << 20, 'x'));
+  answer.value(all.size());
+});
+
+const Registration crash("crash", [](Reader&, Writer&) {
+  std::signal(SIGSEGV, SIG_DFL);
+  std::raise(SIGSEGV);
+});
+
+const Registration abort_with_words("abort", [](Reader&, Writer&) {
+  std::signal(SIGABRT, SIG_DFL);
+  std::fputs("something else\ncorrupted \x1b[31m list\n", stderr);
+  std::abort();
+});
+
+const Registration leave("leave", [](Reader&, Writer&) { _exit(5); });
+
+const Registration chatter("chatter", [](Reader&, Writer& answer) {
+  std::puts("a warning on standard output");
+  std::fflush(stdout);
+  std::cerr << "a warning on standard error" << std::endl;
+  answer.text(std::getenv("HOME"));
+});
+
+}  // namespace
+}  // namespace muro::parser_process
