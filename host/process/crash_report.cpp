@@ -116,6 +116,7 @@ void report_crashes() {
   action.sa_sigaction = handle_crash;
   action.sa_flags = SA_SIGINFO | SA_ONSTACK;
   sigemptyset(&action.sa_mask);
+  sigaddset(&action.sa_mask, SIGPIPE);  // nobody may be reading what is written
   for (const CrashSignal& s : crash_signals) sigaddset(&action.sa_mask, s.number);
   for (std::size_t i = 0; i < std::size(crash_signals); ++i)
     sigaction(crash_signals[i].number, &action, &previous_actions[i]);

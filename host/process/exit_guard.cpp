@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 
@@ -27,6 +28,7 @@ void check_exit() {
     line.add("a library ended the program by exit()");
   }
   line.add("; files that were being written end in .part\n");
+  std::signal(SIGPIPE, SIG_IGN);
   std::fflush(stdout);
   line.write_to(STDERR_FILENO);
   _exit(1);
