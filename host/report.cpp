@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/instance.hpp"
+#include "host/libraries.hpp"
 #include "host/shadows.hpp"
 #include "muro/toolkit/rotations.hpp"
 
@@ -98,6 +99,7 @@ Json report(const RunResult& run, const Simulation& simulation, const Odometer& 
                               {"max_distance_m", s.max_distance},
                               {"max_angle_rad", s.max_angle}});
   out["algorithms"] = algorithms_report(run, simulation);
+  out["libraries"] = libraries_report(simulation);
   return out;
 }
 

@@ -100,7 +100,7 @@ struct PluginTable {
 
 /// The size of a table that was made by an SDK of this major and the minor `minor`, which is not newer than ours.
 constexpr std::size_t table_size_of(std::uint32_t minor) {
-  return minor == 0 ? sizeof(PluginTable) - alignof(PluginTable) : sizeof(PluginTable);  // 3.0 had no layout
+  return minor == 0 ? sizeof(PluginTable) - alignof(PluginTable) : sizeof(PluginTable);  // NOLINT: 3.0: no layout
 }
 
 inline constexpr char table_symbol[] = "muro_plugin";

@@ -10,7 +10,6 @@
 
 #include "muro/algorithm.hpp"
 #include "muro/toolkit/whole_library.hpp"
-#include "muro/toolkit/whole_library.hpp"
 #include "own_symbols.hpp"
 #include "plugins/common/text/quote.hpp"
 

@@ -354,7 +354,7 @@ TEST(ControllerLibrary, NamesWhatIsWrongWithALibrary) {
   for (const auto& [library, message] : {
            std::pair<std::string, std::string>{"no_symbol.so", "exports no `muro_controller`"},
            {"unresolved.so", "cannot be loaded: undefined symbol: function_of_no_library"},
-           {"open_step.so", "would use functions of others in place of its own: 'step' (of "},
+           {"open_step.so", "would use functions of others in place of its own: `step` (of "},
            {"no_table.so", "`muro_controller` returns no table"},
            {"other_abi.so", "abi is 7, this muro has 1; build it with the muro_controller.h of this muro"},
            {"other_size.so",

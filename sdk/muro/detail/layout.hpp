@@ -20,7 +20,7 @@ struct Place {
 #define MURO_SIZE(STRUCT) \
   ::muro::abi::Place { #STRUCT, alignof(STRUCT), sizeof(STRUCT) }
 #define MURO_PLACE(STRUCT, MEMBER) \
-  ::muro::abi::Place { #STRUCT "." #MEMBER, offsetof(STRUCT, MEMBER), sizeof(STRUCT::MEMBER) }
+  ::muro::abi::Place { #STRUCT "." #MEMBER, offsetof(STRUCT, MEMBER), sizeof(STRUCT::MEMBER) }  // NOLINT: of pointers
 
 /// Adds a number to a hash (FNV-1a).
 constexpr std::uint32_t add_to_layout(std::uint32_t hash, std::uint64_t number) {
