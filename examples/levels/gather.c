@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "muro_controller.h"
+#include "muro_elementary.h"
 
 typedef struct {
   double speed, stop;
@@ -46,13 +47,13 @@ static int step(void* state, const muro_controller_step* now, char* error, size_
   const gather* g = state;
   const double *pose = now->inputs[0], x = pose[0], y = pose[1];
   double* twist = now->outputs[0];
-  const double heading = 2 * atan2(pose[5], pose[6]);
-  const double turn = remainder(atan2(-y, -x) - heading, 2 * 3.14159265358979323846);
+  const double heading = 2 * muro_atan2(pose[5], pose[6]);
+  const double turn = remainder(muro_atan2(-y, -x) - heading, 2 * 3.14159265358979323846);
   (void)error;
   (void)error_size;
   memset(twist, 0, 6 * sizeof(double));
-  if (hypot(x, y) < g->stop) return 0;
-  twist[0] = g->speed * fmax(0, cos(turn));
+  if (muro_hypot(x, y) < g->stop) return 0;
+  twist[0] = g->speed * fmax(0, muro_cos(turn));
   twist[5] = fmax(-1, fmin(1, 2 * turn));
   return 0;
 }

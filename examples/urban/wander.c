@@ -20,6 +20,7 @@
 #include <string.h>
 
 #include "muro_controller.h"
+#include "muro_elementary.h" /* sines and the like with equal bits on every machine */
 
 #define PI 3.14159265358979323846
 #define DEGREES (PI / 180)
@@ -92,7 +93,9 @@ static void detect_obstacles(obstacles* seen, const double* const* in, uint32_t 
     }
     if (nearest < max_range) {
       const double angle = *in[MIN_ANGLE] + nearest_ray * *in[ANGLE_INCREMENT];
-      seen->points[seen->count++] = (point){laser_x + nearest * cos(angle), nearest * sin(angle)};
+      double sine, cosine;
+      muro_sincos(angle, &sine, &cosine);
+      seen->points[seen->count++] = (point){laser_x + nearest * cosine, nearest * sine};
     }
   }
 }
@@ -100,8 +103,8 @@ static void detect_obstacles(obstacles* seen, const double* const* in, uint32_t 
 /* The distance (m, at most the horizon) that the disc can move in the direction `heading` (rad). A point inside
  * of the disc blocks it only when it lies ahead. */
 static double free_distance(const obstacles* seen, double heading) {
-  const double cosine = cos(heading), sine = sin(heading);
-  double distance = horizon;
+  double sine, cosine, distance = horizon;
+  muro_sincos(heading, &sine, &cosine);
   for (int i = 0; i < seen->count; ++i) {
     const point p = seen->points[i];
     const double along = p.x * cosine + p.y * sine;
@@ -129,8 +132,8 @@ static int find_right_wall(const obstacles* seen, double* direction, double* dis
   const double offset = (sy - slope * sx) / n;
   const double error = sqrt(fmax(0, syy - offset * sy - slope * sxy) / n); /* rms, m */
   if (error > 0.05 || fabs(slope) > 1) return 0;
-  *direction = atan(slope);
-  *distance = -offset * cos(*direction);
+  *direction = muro_atan(slope);
+  *distance = -offset / sqrt(1 + slope * slope);
   return 1;
 }
 
@@ -162,7 +165,7 @@ static double preferred_heading(wander* w, const obstacles* seen, double time) {
     w->desired_turn = 0;
   }
   if (w->turn != 0) return w->turn;
-  return direction + atan2(lane - distance, lane_lookahead); /* straight on without a wall */
+  return direction + muro_atan2(lane - distance, lane_lookahead); /* straight on without a wall */
 }
 
 /* The heading with the best trade-off of free distance and detour; `free` gets its free distance. */

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // A plugin to start from: a speedometer whose needle follows the true speed with a lag.
-#include <cmath>
 #include <vector>
 
 #include "muro/plugin.hpp"
+#include "muro/toolkit/elementary.hpp"
 
 namespace {
 
@@ -46,7 +46,7 @@ class Speedometer final : public Algorithm {
   // y(t + dt) = v + (y(t) - v) exp(-dt / T). The first run only sees the start.
   void step(const Step& step, Range range) override {
     if (step.index == 0) return;
-    const double decay = std::exp(-step.dt / time_constant_);
+    const double decay = elementary::exp(-step.dt / time_constant_);
     for (std::uint32_t i = range.begin; i < range.end; ++i) {
       const Needle& needle = needles_[i];
       const double v = needle.twist->linear.norm();

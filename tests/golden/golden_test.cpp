@@ -1,62 +1,66 @@
 // SPDX-License-Identifier: MIT
-// The examples give the results that examples.hashes says, bit for bit: a change that is meant to change no result
-// changes none. One that is meant to replaces the file by what the test prints, and says why.
+// What runs compute is what the files of hashes say, bit for bit: a change that is meant to change no result changes
+// none. One that is meant to writes the files anew (record.sh), and says why.
 //
-// The file is right for x86-64 processors with FMA: those without get other sines and exponentials from glibc. What is
-// drawn (cameras, lasers by the z-buffer) is left out, since it depends on the driver.
+// every_machine.hashes is of scenes in which muro computes all: every machine meets it, with any instruction set and
+// any C library. examples.hashes is of examples with engines, whose sines and exponentials are those of glibc for
+// x86-64 processors with FMA. What is drawn (cameras, lasers by the z-buffer) is left out, since it depends on the
+// driver.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdlib>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "host/scenario/builder.hpp"
+#include "muro/simd/isa.hpp"
 #include "tests/golden/property_hashes.hpp"
+#include "tests/support/files.hpp"
 #include "tests/support/scene.hpp"
 
 namespace muro {
 namespace {
 
-struct GoldenExample {
+using Hashes = std::map<std::string, std::string>;
+
+struct GoldenRun {
   std::string scenario;  ///< path in the source tree
   double duration = 0;   ///< s
-  std::map<std::string, std::string> hashes;
+  Hashes hashes;
+
+  std::string path() const { return std::string(MURO_TEST_SOURCE_DIR "/") + scenario; }
 };
 
-/// A line "SCENARIO DURATION" begins an example; those that follow it are "KEY CLASS HASH".
-std::vector<GoldenExample> golden_examples() {
-  std::vector<GoldenExample> examples;
-  std::ifstream file(MURO_TEST_SOURCE_DIR "/tests/golden/examples.hashes");
+/// A line "SCENARIO DURATION" begins a run; those that follow it are "KEY CLASS HASH".
+std::vector<GoldenRun> golden_runs(const std::string& hashes) {
+  std::vector<GoldenRun> runs;
+  std::ifstream file(MURO_TEST_SOURCE_DIR "/tests/golden/" + hashes);
   for (std::string line; std::getline(file, line);) {
     std::istringstream words(line);
     std::string first, second, third;
     words >> first >> second >> third;
     if (first.empty() || first[0] == '#') continue;
     if (third.empty())
-      examples.push_back({first, std::stod(second), {}});
+      runs.push_back({first, std::stod(second), {}});
     else
-      examples.back().hashes[first] = second + " " + third;
+      runs.back().hashes[first] = second + " " + third;
   }
-  return examples;
+  return runs;
+}
+
+std::string name_of(const ::testing::TestParamInfo<GoldenRun>& run) {
+  const std::string& path = run.param.scenario;
+  const std::size_t begin = path.rfind('/') + 1;
+  return path.substr(begin, path.rfind('.') - begin);
 }
 
 bool is_drawn(const std::string& key) {
   return key.starts_with("camera.") || key.starts_with("ranges") || key.starts_with("laser.");
 }
 
-struct Golden : ::testing::TestWithParam<GoldenExample> {};
-
-TEST_P(Golden, EveryPropertyOfTheExampleHasItsHash) {
-#if defined(__x86_64__)
-  if (!__builtin_cpu_supports("fma")) GTEST_SKIP() << "the hashes are those of processors with FMA";
-#else
-  GTEST_SKIP() << "the hashes are those of x86-64 processors";
-#endif
-  const GoldenExample& golden = GetParam();
-  host::BuiltScenario built =
-      host::build(host::read_scenario(std::string(MURO_TEST_SOURCE_DIR "/") + golden.scenario, {}), test::plugins());
-  built.simulation->run_until(std::llround(golden.duration * 1e9));
-  built.simulation->finish();
-  auto seen = test::hashes_by_key(test::property_hashes(built.simulation->world()));
+void expect_hashes(const GoldenRun& golden, Hashes seen) {
   if (golden.scenario.find("sensors") != std::string::npos)
     std::erase_if(seen, [](const auto& entry) { return is_drawn(entry.first); });
   std::string lines;
@@ -68,11 +72,67 @@ TEST_P(Golden, EveryPropertyOfTheExampleHasItsHash) {
   EXPECT_EQ(seen.size(), golden.hashes.size()) << "there are now:\n" << lines;
 }
 
-INSTANTIATE_TEST_SUITE_P(Examples, Golden, ::testing::ValuesIn(golden_examples()), [](const auto& example) {
-  const std::string& path = example.param.scenario;
-  const std::size_t begin = path.rfind('/') + 1;
-  return path.substr(begin, path.rfind('.') - begin);
-});
+void expect_hashes_here(const GoldenRun& golden) {
+  setenv("MURO_CONTROLLER_PATH", MURO_TEST_CONTROLLERS, 1);
+  host::BuiltScenario built = host::build(host::read_scenario(golden.path(), {}), test::plugins());
+  built.simulation->run_until(std::llround(golden.duration * 1e9));
+  built.simulation->finish();
+  expect_hashes(golden, test::hashes_by_key(test::property_hashes(built.simulation->world())));
+}
+
+/// In a process of its own that begins with `variables`.
+void expect_hashes_with(const std::string& variables, const GoldenRun& golden) {
+  SCOPED_TRACE(variables);
+  const test::ScratchFolder folder;
+  const std::string out = folder.path("hashes.json");
+  const auto run =
+      test::run_command(variables +
+                        " MURO_CONTROLLER_PATH=" MURO_TEST_CONTROLLERS " MURO_PLUGIN_PATH=" MURO_TEST_PLUGIN_DIR
+                        " " MURO_PROPERTY_HASHES " " +
+                        golden.path() + " --by-key --duration " + std::to_string(golden.duration) + " --out " + out);
+  ASSERT_EQ(run.exit_code, 0) << run.output;
+  expect_hashes(golden, nlohmann::json::parse(test::text_of(out)).get<Hashes>());
+}
+
+struct EveryMachine : ::testing::TestWithParam<GoldenRun> {};
+
+TEST_P(EveryMachine, MeetsTheHashes) { expect_hashes_here(GetParam()); }
+
+#if defined(__x86_64__)
+TEST_P(EveryMachine, MeetsTheHashesWithoutFmaAndAvx) {
+  expect_hashes_with("GLIBC_TUNABLES=glibc.cpu.hwcaps=-FMA,-AVX2,-FMA4 MURO_ISA=base", GetParam());
+}
+
+TEST_P(EveryMachine, MeetsTheHashesWithPacksOfAvx2) {
+  if (lane::best_isa() < lane::Isa::avx512) GTEST_SKIP() << "this processor runs nothing wider in any case";
+  expect_hashes_with("MURO_ISA=avx2", GetParam());
+}
+
+/// That GLIBC_TUNABLES does what the test above rests on.
+TEST(CLibrary, HasOtherElementaryFunctionsWithoutFma) {
+  if (!__builtin_cpu_supports("fma")) GTEST_SKIP() << "this processor has no other ones";
+  const auto with = test::run_command(MURO_PROPERTY_HASHES " --c-library"),
+             without = test::run_command("GLIBC_TUNABLES=glibc.cpu.hwcaps=-FMA,-AVX2,-FMA4 " MURO_PROPERTY_HASHES
+                                         " --c-library");
+  ASSERT_EQ(with.exit_code, 0) << with.output;
+  EXPECT_NE(with.output, without.output);
+}
+#endif
+
+INSTANTIATE_TEST_SUITE_P(Golden, EveryMachine, ::testing::ValuesIn(golden_runs("every_machine.hashes")), name_of);
+
+struct Examples : ::testing::TestWithParam<GoldenRun> {};
+
+TEST_P(Examples, WithEnginesMeetTheHashes) {
+#if defined(__x86_64__)
+  if (!__builtin_cpu_supports("fma")) GTEST_SKIP() << "the hashes are those of processors with FMA";
+#else
+  GTEST_SKIP() << "the hashes are those of x86-64 processors";
+#endif
+  expect_hashes_here(GetParam());
+}
+
+INSTANTIATE_TEST_SUITE_P(Golden, Examples, ::testing::ValuesIn(golden_runs("examples.hashes")), name_of);
 
 }  // namespace
 }  // namespace muro

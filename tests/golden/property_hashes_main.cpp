@@ -4,7 +4,8 @@
 //     property_hashes SCENARIO.yaml --duration SECONDS [--threads N] [--by-key] --out FILE.json
 //
 // A line is "object:key": "CLASS HASH", where CLASS is constant, variable or derived. Two versions of muro that compute
-// the same write the same file. Exit codes: 0 done, 1 the simulation failed, 2 wrong input.
+// the same write the same file. `property_hashes --c-library` prints a hash of what elementary functions of the C
+// library give. Exit codes: 0 done, 1 the simulation failed, 2 wrong input.
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -12,6 +13,7 @@
 
 #include "core/error.hpp"
 #include "host/scenario/builder.hpp"
+#include "muro/toolkit/random.hpp"
 #include "tests/golden/property_hashes.hpp"
 
 namespace {
@@ -71,9 +73,23 @@ void run(const Options& options) {
   if (!file.flush()) throw SetupError("cannot write " + options.out);
 }
 
+std::uint64_t hash_of_c_library() {
+  std::uint64_t hash = fnv1a("");
+  for (int i = 1; i < 100'000; ++i) {
+    const double x = 1e-3 * i;
+    for (const double y : {std::sin(x), std::exp(0.01 * x), std::log(x), std::pow(x, 0.7), std::atan2(x, 3)})
+      hash = fnv1a({reinterpret_cast<const char*>(&y), sizeof y}, hash);
+  }
+  return hash;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (argc == 2 && std::string_view(argv[1]) == "--c-library") {
+    std::printf("%016llx\n", static_cast<unsigned long long>(hash_of_c_library()));
+    return 0;
+  }
   try {
     run(parse(argc, argv));
   } catch (const SetupError& e) {

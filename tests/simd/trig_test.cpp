@@ -3,9 +3,11 @@
 
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "each_isa.hpp"
+#include "muro/toolkit/elementary.hpp"
 
 namespace muro::lane_test {
 namespace {
@@ -29,18 +31,25 @@ void draw(std::mt19937& random, double (&angles)[values]) {
   }
 }
 
-TEST(SinCos, AgreesWithLongDoubleTo52Bits) {
+/// How many units in the last place of a double `value` is off.
+double ulps(double value, long double exact) {
+  int exponent = 0;
+  std::frexp(exact, &exponent);
+  return double(std::abs(std::ldexp((long double)(value)-exact, std::numeric_limits<double>::digits - exponent)));
+}
+
+TEST(SinCos, IsWithinOneUnitInTheLastPlace) {
   std::mt19937 random(1);
   double angles[values], worst = 0;
-  for (int round = 0; round < 100000; ++round) {
+  for (int round = 0; round < 20000; ++round) {
     draw(random, angles);
     const Found f = sincos(lane::best_isa(), Width::eight, angles);
     for (int i = 0; i < values; ++i) {
-      worst = std::max(worst, double(std::abs(f.sines[i] - std::sin((long double)(angles[i])))));
-      worst = std::max(worst, double(std::abs(f.cosines[i] - std::cos((long double)(angles[i])))));
+      worst = std::max(worst, ulps(f.sines[i], std::sin((long double)(angles[i]))));
+      worst = std::max(worst, ulps(f.cosines[i], std::cos((long double)(angles[i]))));
     }
   }
-  EXPECT_LT(worst, 0x1p-52);
+  EXPECT_LE(worst, 1);
   EXPECT_GT(worst, 0) << "nothing was compared";
 }
 
@@ -49,29 +58,28 @@ TEST(SinCos, ALaneHasTheBitsOfOneDoubleWithAnyInstructionSet) {
   double angles[values];
   for (int round = 0; round < 10000; ++round) {
     draw(random, angles);
-    if (round % 3 == 0) angles[round % values] *= 1e9;  // beyond the reach of the own method
-    const Found one = sincos(lane::Isa::base, Width::one, angles);
+    if (round % 3 == 0) angles[round % values] *= 1e9;
     for (const lane::Isa isa : each_isa())
       for (const Width width : {Width::one, Width::eight}) {
         const Found f = sincos(isa, width, angles);
         for (int i = 0; i < values; ++i) {
-          ASSERT_EQ(std::bit_cast<std::uint64_t>(f.sines[i]), std::bit_cast<std::uint64_t>(one.sines[i])) << angles[i];
-          ASSERT_EQ(std::bit_cast<std::uint64_t>(f.cosines[i]), std::bit_cast<std::uint64_t>(one.cosines[i]));
+          const auto [sine, cosine] = elementary::sincos(angles[i]);
+          ASSERT_EQ(std::bit_cast<std::uint64_t>(f.sines[i]), std::bit_cast<std::uint64_t>(sine)) << angles[i];
+          ASSERT_EQ(std::bit_cast<std::uint64_t>(f.cosines[i]), std::bit_cast<std::uint64_t>(cosine)) << angles[i];
         }
       }
   }
 }
 
-TEST(SinCos, IsThatOfTheLibraryForHugeAnglesAndNoNumberForNone) {
-  const double angles[values] = {1e7, -1e9, 1e300, HUGE_VAL, -HUGE_VAL, std::nan(""), 0.5, 1e6, -2e6};
+TEST(SinCos, IsRightForHugeAnglesAndNoNumberForNone) {
+  const double angles[values] = {1e7, -1e9, 1e17, HUGE_VAL, -HUGE_VAL, std::nan(""), 0.5, 1e6, -2e6};
   for (const lane::Isa isa : each_isa()) {
     const Found f = sincos(isa, Width::eight, angles);
-    for (const int i : {0, 1, 2, 8}) {
-      EXPECT_EQ(f.sines[i], std::sin(angles[i]));
-      EXPECT_EQ(f.cosines[i], std::cos(angles[i]));
+    for (const int i : {0, 1, 2, 6, 7, 8}) {
+      EXPECT_LE(ulps(f.sines[i], std::sin((long double)(angles[i]))), 1) << angles[i];
+      EXPECT_LE(ulps(f.cosines[i], std::cos((long double)(angles[i]))), 1) << angles[i];
     }
     for (const int i : {3, 4, 5}) EXPECT_TRUE(std::isnan(f.sines[i]) && std::isnan(f.cosines[i]));
-    EXPECT_NEAR(f.sines[6], std::sin(0.5), 0x1p-52);
     EXPECT_EQ(f.sines[9], 0);
     EXPECT_EQ(f.cosines[9], 1);
   }

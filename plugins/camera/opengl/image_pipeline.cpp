@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "muro/toolkit/elementary.hpp"
 #include "plugins/common/mesh/srgb.hpp"
 
 namespace muro::camera {
@@ -16,7 +17,7 @@ const std::array<float, 256>& light_table() {
     std::array<float, 256> t{};
     for (std::size_t i = 0; i < t.size(); ++i) {
       const double v = double(i) / 255;
-      t[i] = float(v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4));
+      t[i] = float(v <= 0.04045 ? v / 12.92 : elementary::pow((v + 0.055) / 1.055, 2.4));
     }
     return t;
   }();
@@ -33,7 +34,7 @@ float encode(double light) {
     for (std::size_t i = 0; i < v.size(); ++i) v[i] = float(value_of(double(i) / 65535));
     return v;
   }();
-  return values[std::size_t(std::lround(65535 * std::clamp(light, 0.0, 1.0)))];
+  return values[std::size_t(std::lround(65535 * (light > 0 ? std::min(light, 1.0) : 0)))];
 }
 
 }  // namespace
@@ -47,12 +48,12 @@ ImagePipeline::ImagePipeline(const render::Camera& c, const ImageSettings& setti
   for (std::uint32_t row = 0; row < height_; ++row)
     for (std::uint32_t column = 0; column < width_; ++column) {
       const double x = (column + 0.5 - c.cx) / c.fx, y = (row + 0.5 - c.cy) / c.fy, cos2 = 1 / (1 + x * x + y * y);
-      gain_.push_back(float(std::exp2(settings_.exposure) * (1 - settings_.vignetting * (1 - cos2 * cos2))));
+      gain_.push_back(float(elementary::exp2(settings_.exposure) * (1 - settings_.vignetting * (1 - cos2 * cos2))));
     }
   if (settings_.blur <= 0) return;
   double sum = 0;
   for (int k = 0; k <= int(std::ceil(4 * settings_.blur)); ++k) {
-    const double weight = std::exp(-0.5 * k * k / (settings_.blur * settings_.blur));
+    const double weight = elementary::exp(-0.5 * k * k / (settings_.blur * settings_.blur));
     kernel_.push_back(float(weight));
     sum += k == 0 ? weight : 2 * weight;
   }

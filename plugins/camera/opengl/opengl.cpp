@@ -8,6 +8,7 @@
 
 #include "image_pipeline.hpp"
 #include "muro/plugin.hpp"
+#include "muro/toolkit/elementary.hpp"
 #include "muro/toolkit/mounting.hpp"
 #include "muro/toolkit/rotations.hpp"
 #include "plugins/common/constant_twist/constant_twist.hpp"
@@ -187,7 +188,7 @@ class Camera final : public Algorithm {
     c.set(sensor, keys::camera_width, camera_.width);
     c.set(sensor, keys::camera_height, camera_.height);
     c.set(sensor, keys::camera_horizontal_fov,
-          std::atan(camera_.cx / camera_.fx) + std::atan((camera_.width - camera_.cx) / camera_.fx));
+          elementary::atan(camera_.cx / camera_.fx) + elementary::atan((camera_.width - camera_.cx) / camera_.fx));
     c.set(sensor, keys::camera_fx, camera_.fx);
     c.set(sensor, keys::camera_fy, camera_.fy);
     c.set(sensor, keys::camera_cx, camera_.cx);

@@ -17,11 +17,7 @@ inline Pose advanced(const Pose& pose, const Vec3& rotation, const Vec3& transla
 /// The pose at `fraction` (0..1) of the screw motion from `a` to `b`. Their orientations differ by less than half a
 /// turn.
 inline Pose interpolated(const Pose& a, const Pose& b, double fraction) {
-  Quat difference = a.orientation.conjugate() * b.orientation;
-  if (difference.w() < 0) difference.coeffs() *= -1;
-  const double sine = difference.vec().norm();
-  const double angle = 2 * std::atan2(sine, difference.w());
-  const Vec3 rotation = sine > 1e-12 ? Vec3(difference.vec() * (angle / sine)) : Vec3(2 * difference.vec());
+  const Vec3 rotation = rotation_vector_of(a.orientation.conjugate() * b.orientation);
   const Vec3 displacement = a.orientation.conjugate() * Vec3(b.position - a.position);
   const Vec3 translation = screw_integral(rotation).inverse() * displacement;
   Pose p = advanced(a, fraction * rotation, fraction * translation);

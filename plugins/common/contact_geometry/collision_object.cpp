@@ -78,6 +78,9 @@ Feature plane_face(const CollisionObject& plane, const Vec3& centre, double reac
   return f;
 }
 
+/// Of a vector with these components.
+double length(double x, double y) { return std::sqrt(x * x + y * y); }
+
 }  // namespace
 
 CollisionObject collision_object(const CollisionGeometry& geometry, const Pose& pose) {
@@ -112,7 +115,7 @@ Vec3 support_point(const CollisionObject& s, const Vec3& direction) {
                                     std::copysign(p.half.z(), c.z()));
   const Vec3 end = p.centre + std::copysign(p.half.z(), c.z()) * p.axis();
   if (p.kind == ShapeKind::capsule) return end + p.radius() * direction;
-  const double steep = std::hypot(c.x(), c.y());
+  const double steep = c.head<2>().norm();
   if (!(steep > 0)) return end;
   return end + p.radius() / steep * (c.x() * p.axes.col(0) + c.y() * p.axes.col(1));
 }
@@ -125,17 +128,17 @@ double signed_distance(const CollisionObject& s, const Vec3& point) {
     return height;
   }
   const Vec3 p = s.shape.axes.transpose() * (point - s.shape.centre);
-  const double off = std::hypot(p.x(), p.y()), r = s.shape.radius(), half = s.shape.half.z();
+  const double off = p.head<2>().norm(), r = s.shape.radius(), half = s.shape.half.z();
   switch (s.shape.kind) {
     case ShapeKind::sphere:
       return p.norm() - r;
     case ShapeKind::plane:
       return p.z();
     case ShapeKind::capsule:
-      return std::hypot(off, std::max(0.0, std::abs(p.z()) - half)) - r;
+      return length(off, std::max(0.0, std::abs(p.z()) - half)) - r;
     case ShapeKind::cylinder: {
       const double side = off - r, end = std::abs(p.z()) - half;
-      return side > 0 && end > 0 ? std::hypot(side, end) : std::max(side, end);
+      return side > 0 && end > 0 ? length(side, end) : std::max(side, end);
     }
     default: {
       const Vec3 out = p.cwiseAbs() - s.shape.half;

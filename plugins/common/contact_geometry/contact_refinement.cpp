@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "gradient_descent.hpp"
+#include "muro/toolkit/elementary.hpp"
 
 namespace muro::contact_geometry {
 namespace {
@@ -97,7 +98,8 @@ void reduce_points(std::vector<ContactPoint>& points, std::size_t first) {
       const Vec3 x = perpendicular(normal), y = normal.cross(x);
       for (kept = 1; kept < max_points_per_normal; ++kept) {
         const double angle = 2 * M_PI * double(kept - 1) / double(max_points_per_normal - 1);
-        const Vec3 side = std::cos(angle) * x + std::sin(angle) * y;
+        const auto [sine, cosine] = elementary::sincos(angle);
+        const Vec3 side = cosine * x + sine * y;
         const auto rest = from + std::ptrdiff_t(kept);
         std::iter_swap(rest, std::max_element(rest, end, [&](const ContactPoint& p, const ContactPoint& q) {
                          return p.point.dot(side) < q.point.dot(side);

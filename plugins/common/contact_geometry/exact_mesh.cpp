@@ -4,6 +4,8 @@
 #include <map>
 #include <numeric>
 
+#include "muro/toolkit/elementary.hpp"
+
 namespace muro::contact_geometry {
 namespace {
 
@@ -40,7 +42,7 @@ ExactMesh::ExactMesh(const mesh::Mesh& surface) : surface_(&surface), closed_(me
         s.max_lean[k] = rim;
       } else {
         const Vec3& n = triangles_[neighbour->second].normal;
-        s.max_lean[k] = std::atan2(n.dot(s.edge_normals[k]), n.dot(s.normal));
+        s.max_lean[k] = elementary::atan2(n.dot(s.edge_normals[k]), n.dot(s.normal));
       }
     }
   }
@@ -67,7 +69,7 @@ bool ExactMesh::allows(std::size_t triangle, const Vec3& n) const {
   const double up = n.dot(s.normal), side = up < 0 ? -1 : 1;
   for (std::size_t k = 0; k < 3; ++k) {
     const double limit = s.max_lean[k] == rim ? rim : std::max(0.0, side * s.max_lean[k]);
-    if (std::atan2(n.dot(s.edge_normals[k]), std::abs(up)) > limit + slack) return false;
+    if (elementary::atan2(n.dot(s.edge_normals[k]), std::abs(up)) > limit + slack) return false;
   }
   return true;
 }

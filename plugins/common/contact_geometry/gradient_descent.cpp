@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "gradient_descent.hpp"
 
+#include "muro/toolkit/elementary.hpp"
+
 namespace muro::contact_geometry {
 namespace {
 
@@ -51,8 +53,12 @@ class Search {
   void search_crease(const Vec3& axis) {
     constexpr int samples = 16;
     const Vec3 x = perpendicular(axis), y = axis.cross(x);
+    const auto direction = [&](double angle) {
+      const auto [sine, cosine] = elementary::sincos(angle);
+      return Vec3(cosine * x + sine * y);
+    };
     const auto depth_at = [&](double angle) {
-      const Vec3 n = std::cos(angle) * x + std::sin(angle) * y;
+      const Vec3 n = direction(angle);
       return n.dot(depth_gradient(a_, b_, n));
     };
     double angle = 0, least = depth_at(0);
@@ -65,7 +71,7 @@ class Search {
     for (int i = 1; i < samples; ++i) better(2 * M_PI * i / samples);
     for (double step = M_PI / samples; step > 1e-9;)
       if (!better(angle + step) && !better(angle - step)) step *= 0.4;
-    consider(std::cos(angle) * x + std::sin(angle) * y);
+    consider(direction(angle));
   }
 
   void descend() {

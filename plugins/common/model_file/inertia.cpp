@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "inertia.hpp"
 #include "muro/toolkit/bounds.hpp"
+#include "muro/toolkit/elementary.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -51,7 +52,7 @@ Inertia uniform_density_inertia(std::span<const Shape> shapes, double mass) {
   for (const Shape& shape : shapes) sum = sum + unit_density_inertia(shape).in(shape.origin);
   if (sum.mass > 0) return Inertia::from(mass, sum.com, sum.tensor() * (mass / sum.mass));
   constexpr double water = 1000;  // kg/m^3
-  const double radius = std::cbrt(3 * mass / (4 * pi * water));
+  const double radius = elementary::cbrt(3 * mass / (4 * pi * water));
   return Inertia::from(mass, Vec3::Zero(), 0.4 * mass * radius * radius * Mat3::Identity());
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "muro/geometry.hpp"
+#include "muro/toolkit/elementary.hpp"
 
 namespace muro::render {
 
@@ -24,7 +25,7 @@ struct Camera {
     Camera c;
     c.width = width;
     c.height = height;
-    c.fx = c.fy = 0.5 * width / std::tan(0.5 * fov);
+    c.fx = c.fy = 0.5 * width / elementary::tan(0.5 * fov);
     c.cx = 0.5 * width;
     c.cy = 0.5 * height;
     return c;

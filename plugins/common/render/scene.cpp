@@ -12,8 +12,7 @@ namespace {
 
 double radius_of(const Surface& s) {
   double max = 0;
-  for (const Vertex& v : s.vertices)
-    max = std::max(max, double(std::hypot(v.position[0], v.position[1], v.position[2])));
+  for (const Vertex& v : s.vertices) max = std::max(max, Vec3(v.position[0], v.position[1], v.position[2]).norm());
   return max;
 }
 

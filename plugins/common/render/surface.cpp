@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "muro/toolkit/elementary.hpp"
+
 namespace muro::render {
 
 using std::numbers::pi;
@@ -30,7 +32,8 @@ Surface part_of_sphere(int n, int rows, double low, double high) {
     const double latitude = low + (high - low) * i / rows;
     for (int k = 0; k <= n; ++k) {
       const double a = 2 * pi * (k % n) / n;
-      const Vec3 p(std::cos(latitude) * std::cos(a), std::cos(latitude) * std::sin(a), std::sin(latitude));
+      const Vec3 p(elementary::cos(latitude) * elementary::cos(a), elementary::cos(latitude) * elementary::sin(a),
+                   elementary::sin(latitude));
       s.vertices.push_back(vertex(p, p, double(k) / n, 0.5 - latitude / pi));
     }
   }
@@ -63,7 +66,7 @@ Surface unit_tube(int n) {
   Surface s;
   for (int k = 0; k <= n; ++k) {
     const double a = 2 * pi * (k % n) / n;
-    const Vec3 out(std::cos(a), std::sin(a), 0);
+    const Vec3 out(elementary::cos(a), elementary::sin(a), 0);
     for (const double z : {-0.5, 0.5})
       s.vertices.push_back(vertex(out + z * Vec3::UnitZ(), out, double(k) / n, 0.5 - z));
   }
@@ -78,8 +81,8 @@ Surface unit_cylinder(int n) {
     const auto first = std::uint32_t(s.vertices.size());
     for (int k = 0; k < n; ++k) {
       const double a = (z > 0 ? 2 : -2) * pi * k / n;
-      s.vertices.push_back(
-          vertex(Vec3(std::cos(a), std::sin(a), z), normal, 0.5 + 0.5 * std::cos(a), 0.5 - 0.5 * std::sin(a)));
+      s.vertices.push_back(vertex(Vec3(elementary::cos(a), elementary::sin(a), z), normal,
+                                  0.5 + 0.5 * elementary::cos(a), 0.5 - 0.5 * elementary::sin(a)));
     }
     for (std::uint32_t k = 1; k + 1 < std::uint32_t(n); ++k)
       s.indices.insert(s.indices.end(), {first, first + k, first + k + 1});
@@ -118,7 +121,7 @@ Surface surface_of(const mesh::Mesh& mesh) {
     for (const std::uint32_t corner : mesh.triangles[i]) {
       Vec3 sum = Vec3::Zero();
       for (const std::uint32_t other : around[corner])
-        if (normals[i].dot(normals[other]) >= std::cos(smooth_angle) * normals[i].norm() * normals[other].norm())
+        if (normals[i].dot(normals[other]) >= elementary::cos(smooth_angle) * normals[i].norm() * normals[other].norm())
           sum += normals[other];
       s.indices.push_back(std::uint32_t(s.vertices.size()));
       s.vertices.push_back(vertex(mesh.vertices[corner], sum.normalized()));
@@ -135,7 +138,7 @@ Surface surface_of(const mesh::Submesh& part) {
 }
 
 int corners_for(double radius, double tolerance) {
-  const double n = radius > tolerance ? pi / std::acos(1 - tolerance / radius) : 0;
+  const double n = radius > tolerance ? pi / elementary::acos(1 - tolerance / radius) : 0;
   return 4 * int(std::ceil(std::clamp(n, 16.0, 512.0) / 4));
 }
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "muro/toolkit/elementary.hpp"
+
 namespace muro::scanner {
 
 namespace {
@@ -26,10 +28,12 @@ std::pair<Vec3, Vec3> across(const Vec3& d) {
 }  // namespace
 
 Beam::Beam(double divergence)
-    : is_line_(divergence <= 0), tangent_(ring_radius * std::tan(0.5 * (divergence > 0 ? divergence : thin_cone))) {
+    : is_line_(divergence <= 0),
+      tangent_(ring_radius * elementary::tan(0.5 * (divergence > 0 ? divergence : thin_cone))) {
   for (std::size_t k = 0; k < ring_.size(); ++k) {
     const double a = double(k) * std::numbers::pi / 3;
-    ring_[k] = tangent_ * Eigen::Vector2d(std::cos(a), std::sin(a));
+    const auto [sine, cosine] = elementary::sincos(a);
+    ring_[k] = tangent_ * Eigen::Vector2d(cosine, sine);
   }
 }
 
@@ -77,9 +81,9 @@ Beam::Reading Beam::read(const double* ranges, double no_return) const {
     const Eigen::Vector2d &p = ring_[k], &q = ring_[next];
     const double a = inverse(k + 1) - w, b = inverse(next + 1) - w, determinant = p.x() * q.y() - p.y() * q.x();
     const double x = (a * q.y() - b * p.y()) / determinant, y = (b * p.x() - a * q.x()) / determinant;
-    min_slope = std::min(min_slope, std::hypot(x, y));
+    min_slope = std::min(min_slope, std::sqrt(x * x + y * y));
   }
-  r.incidence = std::atan2(min_slope, w);
+  r.incidence = elementary::atan2(min_slope, w);
   return r;
 }
 

@@ -5,10 +5,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "muro/toolkit/elementary.hpp"
+
 namespace muro::scanner {
 
 Vec3 direction_of(double azimuth, double elevation) {
-  return {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth), std::sin(elevation)};
+  const auto [up, level] = elementary::sincos(elevation);
+  const auto [left, ahead] = elementary::sincos(azimuth);
+  return {level * ahead, level * left, up};
 }
 
 bool Grid::full_circle() const { return columns > 1 && std::abs(max_angle - min_angle - 2 * std::numbers::pi) < 1e-9; }
@@ -51,7 +55,7 @@ RaySet RaySet::of(std::span<const double> pairs) {
   std::vector<double> angles;
   for (std::size_t i = 1; i < set.directions.size(); ++i) {
     const Vec3 &a = set.directions[i - 1], &b = set.directions[i];
-    const double angle = std::atan2(a.cross(b).norm(), a.dot(b));
+    const double angle = elementary::atan2(a.cross(b).norm(), a.dot(b));
     if (angle > 1e-9) angles.push_back(angle);
   }
   if (angles.empty()) return set;

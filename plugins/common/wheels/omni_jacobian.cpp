@@ -3,6 +3,8 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "muro/toolkit/elementary.hpp"
+
 namespace muro::wheels {
 
 std::vector<PlanarTwist> jacobian_columns(const RobotView& robot, std::span<const OmniWheel> wheels) {
@@ -12,7 +14,7 @@ std::vector<PlanarTwist> jacobian_columns(const RobotView& robot, std::span<cons
   std::vector<Vec3> rows;
   Mat3 normal = Mat3::Zero();
   for (const OmniWheel& w : wheels) {
-    const PlanarTwist e = inverse_jacobian_row(w) * (w.radius * std::cos(w.roller_angle));
+    const PlanarTwist e = inverse_jacobian_row(w) * (w.radius * elementary::cos(w.roller_angle));
     rows.push_back(Vec3(e.x, e.y, e.yaw_rate).cwiseProduct(scale));
     normal += rows.back() * rows.back().transpose();
   }
@@ -26,7 +28,7 @@ std::vector<PlanarTwist> jacobian_columns(const RobotView& robot, std::span<cons
       eigen.eigenvectors() * eigen.eigenvalues().cwiseInverse().asDiagonal() * eigen.eigenvectors().transpose();
   std::vector<PlanarTwist> columns;
   for (std::size_t i = 0; i < wheels.size(); ++i) {
-    const Vec3 v = scale.cwiseProduct(inverse * rows[i]) * (wheels[i].radius * std::cos(wheels[i].roller_angle));
+    const Vec3 v = scale.cwiseProduct(inverse * rows[i]) * (wheels[i].radius * elementary::cos(wheels[i].roller_angle));
     columns.push_back({v.x(), v.y(), v.z()});
   }
   return columns;

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "muro/toolkit/elementary.hpp"
 #include "omni_wheels.hpp"
 #include "planar_motion.hpp"
 
@@ -16,7 +17,7 @@ namespace muro::wheels {
 /// rad/s of the base. Only along the axis of the roller on the ground, the direction e, does the ground hold the wheel:
 /// there its centre at c moves as the wheel turns, e (v + w z x c) = r dq/dt cos(g), g the roller angle.
 inline PlanarTwist inverse_jacobian_row(const OmniWheel& w) {
-  const double c = std::cos(w.roller_angle), s = std::sin(w.roller_angle);
+  const auto [s, c] = elementary::sincos(w.roller_angle);
   const Vec3 &h = w.heading, &p = w.centre;
   const double ex = c * h.x() - s * h.y(), ey = s * h.x() + c * h.y();
   return PlanarTwist{ex, ey, p.x() * ey - p.y() * ex} * (1 / (w.radius * c));

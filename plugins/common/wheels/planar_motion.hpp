@@ -3,6 +3,8 @@
 #pragma once
 
 #include "muro/geometry.hpp"
+#include "muro/toolkit/elementary.hpp"
+#include "muro/toolkit/rotations.hpp"
 
 namespace muro::wheels {
 
@@ -36,7 +38,8 @@ inline Twist in_world(const Pose& pose, const PlanarTwist& v) {
 /// The pose, in the frame's pose before, after the constant `v` for `dt` (s): an arc. Its chord is
 /// v dt sin(h) / h long and h off the start's heading, where h is half the angle by which it turns.
 inline Pose arc(const PlanarTwist& v, double dt) {
-  const double half = 0.5 * v.yaw_rate * dt, s = std::sin(half), c = std::cos(half);
+  const double half = 0.5 * v.yaw_rate * dt;
+  const auto [s, c] = elementary::sincos(half);
   const double chord = half == 0 ? dt : dt * s / half;
   return {{chord * (c * v.x - s * v.y), chord * (s * v.x + c * v.y), 0}, Quat(c, 0, 0, s)};
 }
@@ -51,12 +54,12 @@ inline Pose accelerated_arc(const PlanarTwist& v, const PlanarTwist& acceleratio
   const auto heading = [&](double t) { return t * (v.yaw_rate + 0.5 * t * acceleration.yaw_rate); };
   Vec3 displacement = Vec3::Zero();
   for (int i = 0; i < 5; ++i) {
-    const double t = 0.5 * dt * (1 + nodes[i]), s = std::sin(heading(t)), c = std::cos(heading(t));
+    const double t = 0.5 * dt * (1 + nodes[i]);
+    const auto [s, c] = elementary::sincos(heading(t));
     const PlanarTwist now = v + acceleration * t;
     displacement += 0.5 * dt * weights[i] * Vec3(c * now.x - s * now.y, s * now.x + c * now.y, 0);
   }
-  const double half = 0.5 * heading(dt);
-  return {displacement, Quat(std::cos(half), 0, 0, std::sin(half))};
+  return {displacement, rotation_about(Vec3::UnitZ(), heading(dt))};
 }
 
 }  // namespace muro::wheels

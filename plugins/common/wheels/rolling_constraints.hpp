@@ -6,6 +6,7 @@
 
 #include <span>
 
+#include "muro/toolkit/elementary.hpp"
 #include "planar_motion.hpp"
 #include "steered_wheels.hpp"
 
@@ -22,12 +23,13 @@ struct PlanarWheel {
   explicit PlanarWheel(const SteeredWheel& w) {
     const bool forward = w.axis.y() > 0 || (w.axis.y() == 0 && w.axis.x() < 0);
     const Vec3 left = forward ? w.axis : Vec3(-w.axis);
-    zero_heading = std::atan2(-left.x(), left.y());
+    zero_heading = elementary::atan2(-left.x(), left.y());
     angle_per_metre = (forward ? 1 : -1) / w.radius;
     const Vec3 from = w.steering < 0 ? w.centre : w.pivot, arm = w.centre - from;
     x = from.x(), y = from.y();
-    forward_offset = std::cos(zero_heading) * arm.x() + std::sin(zero_heading) * arm.y();
-    left_offset = std::cos(zero_heading) * arm.y() - std::sin(zero_heading) * arm.x();
+    const auto [sine, cosine] = elementary::sincos(zero_heading);
+    forward_offset = cosine * arm.x() + sine * arm.y();
+    left_offset = cosine * arm.y() - sine * arm.x();
   }
 
   /// Velocity (m/s) of its centre along its rolling direction, at the heading with sine `s` and cosine `c`, when the

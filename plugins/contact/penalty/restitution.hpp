@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "muro/toolkit/elementary.hpp"
+
 namespace muro::penalty {
 
 /// Coefficient of restitution of the linear spring-damper whose force never pulls, for the damping ratio `zeta`
@@ -10,9 +12,9 @@ namespace muro::penalty {
 /// their three cases in one: ln e = -2 zeta acos(zeta) / sqrt(1 - zeta^2)).
 inline double restitution_of(double zeta) {
   const double rest = 1 - zeta * zeta;
-  if (std::abs(rest) < 1e-8) return std::exp(-2.0);
-  const double angle = rest > 0 ? std::acos(zeta) : std::acosh(zeta);
-  return std::exp(-2 * zeta * angle / std::sqrt(std::abs(rest)));
+  if (std::abs(rest) < 1e-8) return elementary::exp(-2.0);
+  const double angle = rest > 0 ? elementary::acos(zeta) : elementary::acosh(zeta);
+  return elementary::exp(-2 * zeta * angle / std::sqrt(std::abs(rest)));
 }
 
 /// Critical damping, e = 0.135. More would make a contact sluggish, and asks for shorter steps.

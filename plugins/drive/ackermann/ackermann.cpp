@@ -3,6 +3,7 @@
 // motion.ackermann. Every wheel stands at right angles to the line from its centre to the one point about which the
 // vehicle turns (R. Ackermann's condition).
 #include "muro/plugin.hpp"
+#include "muro/toolkit/elementary.hpp"
 #include "muro/toolkit/per_robot.hpp"
 #include "plugins/common/wheels/drive_target.hpp"
 #include "plugins/common/wheels/motion_description.hpp"
@@ -46,18 +47,20 @@ struct DriveWheel {
   DriveTarget target{};         ///< when driven
 
   double lateral_velocity(double heading, const PlanarTwist& v) const {
-    return plane.lateral_velocity(std::sin(heading), std::cos(heading), v, 0);
+    const auto [sine, cosine] = elementary::sincos(heading);
+    return plane.lateral_velocity(sine, cosine, v, 0);
   }
   double longitudinal_velocity(double heading, const PlanarTwist& v) const {
-    return plane.longitudinal_velocity(std::sin(heading), std::cos(heading), v, 0);
+    const auto [sine, cosine] = elementary::sincos(heading);
+    return plane.longitudinal_velocity(sine, cosine, v, 0);
   }
   /// The heading (rad) nearest to straight ahead at which the wheel does not slip sideways.
   double heading_at(const PlanarTwist& v) const {
     const double straight = steering.zero_heading;
-    const double vx = v.x - v.yaw_rate * plane.y, vy = v.y + v.yaw_rate * plane.x, size = std::hypot(vx, vy);
+    const double vx = v.x - v.yaw_rate * plane.y, vy = v.y + v.yaw_rate * plane.x, size = elementary::hypot(vx, vy);
     if (size == 0) return straight;
-    const double direction = std::atan2(vy, vx);
-    const double off = std::asin(std::clamp(v.yaw_rate * plane.forward_offset / size, -1.0, 1.0));
+    const double direction = elementary::atan2(vy, vx);
+    const double off = elementary::asin(std::clamp(v.yaw_rate * plane.forward_offset / size, -1.0, 1.0));
     const double forward = std::remainder(direction + off - straight, 2 * M_PI);
     const double backward = std::remainder(direction + M_PI - off - straight, 2 * M_PI);
     return straight + (std::abs(forward) <= std::abs(backward) ? forward : backward);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // How far a robot and its shadow, which another motion moves by the same commands, have come apart.
 #include "muro/plugin.hpp"
+#include "muro/toolkit/rotations.hpp"
 
 namespace {
 
@@ -43,7 +44,7 @@ class Shadow final : public Algorithm {
     for (std::uint32_t i = range.begin; i < range.end; ++i) {
       const Pair& p = pairs_[i];
       *p.distance = (p.shadow->position - p.robot->position).norm();
-      *p.angle = p.shadow->orientation.angularDistance(p.robot->orientation);
+      *p.angle = angle_of(p.shadow->orientation.conjugate() * p.robot->orientation);
       *p.max_distance = std::max(*p.max_distance, *p.distance);
       *p.max_angle = std::max(*p.max_angle, *p.angle);
     }

@@ -5,6 +5,8 @@
 #include <algorithm>
 
 #include "muro/handles.hpp"
+#include "muro/toolkit/elementary.hpp"
+#include "muro/toolkit/rotations.hpp"
 #include "plugins/common/wheels/gauss_collocation.hpp"
 #include "plugins/common/wheels/steering_geometry.hpp"
 #include "plugins/common/wheels/velocity_ramp.hpp"
@@ -54,7 +56,8 @@ struct VehicleWheel {
   /// Takes the heading at which the joint that steers it stands at `angle` and turns at `rate`.
   void steer(double angle, double rate) {
     const double heading = steering.zero_heading + steering.gain * angle;
-    state.sine = std::sin(heading), state.cosine = std::cos(heading);
+    const auto [sine, cosine] = elementary::sincos(heading);
+    state.sine = sine, state.cosine = cosine;
     state.steering_rate = steering.gain * rate;
   }
   /// rad/s of its joint when it does not slip along its rolling direction.
@@ -168,10 +171,11 @@ class SteeredVehicle {
     for (int i = 0; i < N; ++i) {
       double heading = 0;
       for (int j = 0; j < N; ++j) heading += rule.matrix[i][j] * v[j].yaw_rate * dt;
-      const double s = std::sin(heading), c = std::cos(heading), h = rule.weight[i] * dt;
+      const auto [s, c] = elementary::sincos(heading);
+      const double h = rule.weight[i] * dt;
       displacement += Vec3(h * (c * v[i].x - s * v[i].y), h * (s * v[i].x + c * v[i].y), 0);
     }
-    pose = pose * Pose{displacement, Quat(std::cos(0.5 * angle), 0, 0, std::sin(0.5 * angle))};
+    pose = pose * Pose{displacement, rotation_about(Vec3::UnitZ(), angle)};
   }
 
   const RollingConstraints& constraints_;

@@ -98,9 +98,9 @@ class Point final : public PerRobotAlgorithm<PointRobot> {
   Twist commanded_velocity(const PointRobot& r, double dt) const {
     const Pose& pose = *r.pose;
     if (!follow_pose_) return {pose.orientation * r.command_twist->linear, pose.orientation * r.command_twist->angular};
-    const Eigen::AngleAxisd turn(r.command_pose->orientation * pose.orientation.conjugate());
+    const Vec3 turn = rotation_vector_of(r.command_pose->orientation * pose.orientation.conjugate());
     return {approach_velocity(r.command_pose->position - pose.position, max_acceleration_, dt),
-            approach_velocity(turn.angle() * turn.axis(), max_turn_acceleration_, dt)};
+            approach_velocity(turn, max_turn_acceleration_, dt)};
   }
 
   void move(const PointRobot& r, double dt) const {

@@ -4,7 +4,9 @@
 
 #include "checks.hpp"
 #include "muro/toolkit/did_you_mean.hpp"
+#include "muro/toolkit/rotations.hpp"
 #include "plugins/common/model_file/numbers.hpp"
+#include "plugins/common/model_file/ranges.hpp"
 
 namespace muro::sdf {
 
@@ -32,6 +34,20 @@ std::vector<std::string> supported_names(std::string_view parent) {
   for (const SchemaElement& e : schema())
     if (e.parent == parent && e.type != ValueType::unsupported) names.emplace_back(e.name);
   return names;
+}
+
+/// Angles become a quaternion here: the bits of what libsdformat makes of them depend on the processor.
+void write_quaternion(Element& pose) {
+  std::string error;
+  const auto values = model_file::parse_numbers(text_of(pose), 6, error);
+  if (!values) return;  // told before
+  const std::string degrees = lower_case(attribute(pose, "degrees"));
+  const double unit = degrees == "true" || degrees == "1" ? M_PI / 180 : 1;
+  const std::vector<double>& v = *values;
+  const Quat q = from_rpy(unit * v[3], unit * v[4], unit * v[5]);
+  pose.SetText(model_file::text_of({v[0], v[1], v[2], q.x(), q.y(), q.z(), q.w()}).c_str());
+  pose.SetAttribute("rotation_format", "quat_xyzw");
+  pose.DeleteAttribute("degrees");
 }
 
 }  // namespace
@@ -100,9 +116,12 @@ void Check::leaf(Element& e, const SchemaElement& schema) {
     case ValueType::limit:
       return numbers(e, 1, true);
     case ValueType::pose: {
-      const bool quaternion = attribute(e, "rotation_format") == "quat_xyzw";
+      const std::string format = attribute(e, "rotation_format");
+      const bool quaternion = format == "quat_xyzw";
       if (text_of(e).empty()) e.SetText(quaternion ? "0 0 0 0 0 0 1" : "0 0 0 0 0 0");
-      return numbers(e, quaternion ? 7 : 6, false);
+      numbers(e, quaternion ? 7 : 6, false);
+      if (format.empty() || format == "euler_rpy") write_quaternion(e);
+      return;
     }
     case ValueType::color: {
       std::string error;
@@ -128,7 +147,8 @@ void Check::numbers(Element& e, std::size_t count, bool infinite) {
   if (infinite && (lower_case(text) == "inf" || lower_case(text) == "-inf" || lower_case(text) == "+inf")) return;
   std::string error;
   const auto values = model_file::parse_numbers(text, count, error);
-  if (!values) {
+  if (values) error = model_file::range_problem(e.Name(), *values);
+  if (!error.empty()) {
     problems_.error(location_of(e), concat("<", e.Name(), ">: ", quote(text), " ", error));
     return;
   }

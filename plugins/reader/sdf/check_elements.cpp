@@ -6,6 +6,7 @@
 #include <set>
 
 #include "checks.hpp"
+#include "muro/toolkit/elementary.hpp"
 #include "plugins/common/model_file/mesh_path.hpp"
 #include "plugins/common/model_file/numbers.hpp"
 
@@ -123,7 +124,7 @@ bool Check::complete_joint(Element& joint) {
       axis->SetUserData(joint.GetUserData());
     }
     const std::vector<double> xyz = values_of(axis->FirstChildElement("xyz"));
-    if (xyz.size() == 3 && !(std::hypot(xyz[0], xyz[1], xyz[2]) > 1e-9))
+    if (xyz.size() == 3 && !(elementary::hypot(elementary::hypot(xyz[0], xyz[1]), xyz[2]) > 1e-9))
       problems_.error(location_of(*axis), concat(owner, ": its <", name,
                                                  "> has no direction; <xyz> is a vector of length 1, such as 0 0 1"));
     take_mimic(joint, *axis, i);
@@ -202,7 +203,7 @@ std::string Check::error_of_shape(Element& shape) {
   }
   if (kind == "plane") {
     const auto normal = values_of(shape.FirstChildElement("normal"));
-    if (normal.size() == 3 && !(std::hypot(normal[0], normal[1], normal[2]) > 1e-9))
+    if (normal.size() == 3 && !(elementary::hypot(elementary::hypot(normal[0], normal[1]), normal[2]) > 1e-9))
       return "its <plane> has a <normal> without direction";
     return {};
   }

@@ -16,12 +16,15 @@ std::string owner_of(const ::urdf::Link& link) { return "link " + quote(link.nam
 
 void Bodies::fill(const ::urdf::Link& link, const LinkInfo& info) {
   std::vector<Shape> collisions, visuals;
-  for (const auto& c : link.collision_array)
-    if (c->geometry) add_shape(collisions, *c->geometry, c->origin, link, info);
-  for (const auto& v : link.visual_array) {
+  for (std::size_t i = 0; i < link.collision_array.size(); ++i) {
+    const ::urdf::Collision& c = *link.collision_array[i];
+    if (c.geometry) add_shape(collisions, *c.geometry, pose_of(c.origin, info.collision_rotations.at(i)), link, info);
+  }
+  for (std::size_t i = 0; i < link.visual_array.size(); ++i) {
+    const auto& v = link.visual_array[i];
     if (!v->geometry) continue;
     const std::size_t before = visuals.size();
-    add_shape(visuals, *v->geometry, v->origin, link, info);
+    add_shape(visuals, *v->geometry, pose_of(v->origin, info.visual_rotations.at(i)), link, info);
     if (!v->material || visuals.size() == before) continue;
     const ::urdf::Color& c = v->material->color;
     visuals.back().color = Eigen::Vector4f(c.r, c.g, c.b, c.a).cast<double>();
@@ -37,7 +40,7 @@ void Bodies::fill(const ::urdf::Link& link, const LinkInfo& info) {
   if (!visuals.empty()) builder_.set_array<Shape>(keys::visual_shapes, visuals);
 }
 
-void Bodies::add_shape(std::vector<Shape>& shapes, const ::urdf::Geometry& geometry, const ::urdf::Pose& origin,
+void Bodies::add_shape(std::vector<Shape>& shapes, const ::urdf::Geometry& geometry, const Pose& origin,
                        const ::urdf::Link& link, const LinkInfo& info) {
   Shape shape;
   switch (geometry.type) {
@@ -58,7 +61,7 @@ void Bodies::add_shape(std::vector<Shape>& shapes, const ::urdf::Geometry& geome
       if (!add_mesh(shape, static_cast<const ::urdf::Mesh&>(geometry), link, info)) return;
       break;
   }
-  shape.origin = pose_of(origin);
+  shape.origin = origin;
   shape.friction = info.surface.friction.value_or(shape.friction);
   shape.restitution = info.surface.restitution.value_or(shape.restitution);
   shapes.push_back(shape);
@@ -103,7 +106,8 @@ Inertia Bodies::inertial_of(const ::urdf::Link& link, const LinkInfo& info, std:
   const ::urdf::Inertial& i = *link.inertial;
   const Inertia given{
       .mass = i.mass, .ixx = i.ixx, .iyy = i.iyy, .izz = i.izz, .ixy = i.ixy, .ixz = i.ixz, .iyz = i.iyz};
-  return model_file::checked_inertia(given, pose_of(i.origin), shapes, owner_of(link), info.location, problems_);
+  return model_file::checked_inertia(given, pose_of(i.origin, info.inertial_rotation), shapes, owner_of(link),
+                                     info.location, problems_);
 }
 
 }  // namespace muro::urdf

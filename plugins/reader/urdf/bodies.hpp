@@ -12,8 +12,8 @@
 
 namespace muro::urdf {
 
-inline Pose pose_of(const ::urdf::Pose& p) {
-  return {{p.position.x, p.position.y, p.position.z}, Quat(p.rotation.w, p.rotation.x, p.rotation.y, p.rotation.z)};
+inline Pose pose_of(const ::urdf::Pose& p, const Quat& rotation) {
+  return {{p.position.x, p.position.y, p.position.z}, rotation};
 }
 
 /// Sets the constants of a link's body: inertial and shapes.
@@ -28,7 +28,7 @@ class Bodies {
   double mass() const { return mass_; }
 
  private:
-  void add_shape(std::vector<Shape>& shapes, const ::urdf::Geometry& geometry, const ::urdf::Pose& origin,
+  void add_shape(std::vector<Shape>& shapes, const ::urdf::Geometry& geometry, const Pose& origin,
                  const ::urdf::Link& link, const LinkInfo& info);
   void add_texture(Shape& shape, const std::string& name, const ::urdf::Link& link, const LinkInfo& info);
   bool add_mesh(Shape& shape, const ::urdf::Mesh& mesh, const ::urdf::Link& link, const LinkInfo& info);

@@ -87,7 +87,7 @@ class TreeBuilder {
   void add_joint(const std::string& name) {
     const auto joint = model_.getJoint(name);
     const JointInfo& info = info_.joints.at(name);
-    add_transform(pose_of(joint->parent_to_joint_origin_transform));
+    add_transform(pose_of(joint->parent_to_joint_origin_transform, info.rotation));
     const Vec3 axis(joint->axis.x, joint->axis.y, joint->axis.z);
     switch (joint->type) {
       case ::urdf::Joint::REVOLUTE:

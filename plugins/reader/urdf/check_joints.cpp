@@ -3,6 +3,7 @@
 #include <array>
 
 #include "model.hpp"
+#include "muro/toolkit/elementary.hpp"
 
 namespace muro::urdf {
 
@@ -31,6 +32,7 @@ class JointCheck {
         problems_.error(location_of(*origin),
                         owner_ + ", <origin quat_xyzw>: quaternions of URDF 1.1 are not read; write rpy");
     }
+    info_.rotation = origin_rotation(xml_);
     check_axis();
     check_limit();
     check_dynamics();
@@ -77,7 +79,7 @@ class JointCheck {
     }
     const auto xyz = numbers(*axis, "xyz", 3, owner_, problems_);
     if (!xyz) return;
-    const double length = std::hypot((*xyz)[0], (*xyz)[1], (*xyz)[2]);
+    const double length = elementary::hypot(elementary::hypot((*xyz)[0], (*xyz)[1]), (*xyz)[2]);
     if (!(length > 1e-9) || !std::isfinite(length))
       problems_.error(location_of(*axis), concat(owner_, ": axis ", quote(axis->Attribute("xyz")),
                                                  " has no direction; it is a ", "vector of length 1, such as 0 0 1"));

@@ -2,6 +2,8 @@
 #include <algorithm>
 
 #include "model.hpp"
+#include "muro/toolkit/rotations.hpp"
+#include "plugins/common/model_file/numbers.hpp"
 
 namespace muro::urdf {
 
@@ -101,7 +103,24 @@ bool check_shape(Element& element, const std::string& owner, Problems& problems)
   return false;
 }
 
+void take_rotations(const Element& link, LinkInfo& info) {
+  if (const Element* inertial = link.FirstChildElement("inertial")) info.inertial_rotation = origin_rotation(*inertial);
+  for (const Element* e = link.FirstChildElement("collision"); e; e = e->NextSiblingElement("collision"))
+    info.collision_rotations.push_back(origin_rotation(*e));
+  for (const Element* e = link.FirstChildElement("visual"); e; e = e->NextSiblingElement("visual"))
+    info.visual_rotations.push_back(origin_rotation(*e));
+}
+
 }  // namespace
+
+Quat origin_rotation(const Element& owner) {
+  const Element* origin = owner.FirstChildElement("origin");
+  const char* rpy = origin ? origin->Attribute("rpy") : nullptr;
+  std::string error;
+  const auto angles = rpy ? model_file::parse_numbers(rpy, 3, error) : std::nullopt;
+  if (!angles) return Quat::Identity();
+  return from_rpy((*angles)[0], (*angles)[1], (*angles)[2]);
+}
 
 void check_links(Element& robot, ModelInfo& model, Problems& problems) {
   for (Element* link : children(robot, "link")) {
@@ -122,6 +141,7 @@ void check_links(Element& robot, ModelInfo& model, Problems& problems) {
     for (const char* kind : {"collision", "visual"})
       for (Element* element : children(*link, kind))
         if (!check_shape(*element, owner, problems)) remove(*element);
+    take_rotations(*link, entry->second);
     entry->second.location = location;
     entry->second.bare = !link->FirstChildElement("inertial") && !link->FirstChildElement("collision") &&
                          !link->FirstChildElement("visual");

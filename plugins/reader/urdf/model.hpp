@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "document.hpp"
+#include "muro/geometry.hpp"
 
 namespace muro::urdf {
 
@@ -18,8 +19,11 @@ struct Surface {
   std::optional<double> restitution;
 };
 
+// Rotations are those of <origin rpy="...">, worked out here: the bits of urdfdom's depend on the processor.
+
 struct JointInfo {
   Location location;
+  Quat rotation = Quat::Identity();
   std::string type, parent, child;
   bool moves = false;  ///< revolute, continuous, prismatic: becomes a joint of the robot
 };
@@ -30,6 +34,8 @@ struct LinkInfo {
   std::string parent_joint;               ///< empty for the root
   std::vector<std::string> child_joints;  ///< in the order of the file
   Surface surface;
+  Quat inertial_rotation = Quat::Identity();
+  std::vector<Quat> collision_rotations, visual_rotations;  ///< in the order of the file
 };
 
 struct ModelInfo {
@@ -41,6 +47,9 @@ struct ModelInfo {
 
 /// Stands for "no limit" in the text that urdfdom reads, which knows no infinity.
 inline constexpr double no_limit = std::numeric_limits<double>::max();
+
+/// Of the <origin> of a joint, an inertial, a collision or a visual that has passed its check.
+Quat origin_rotation(const Element& owner);
 
 // The checks. Each reports what it finds and changes the document so that urdfdom accepts the rest.
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <span>
 
+#include "muro/toolkit/elementary.hpp"
 #include "muro/toolkit/random.hpp"
 
 namespace muro {
@@ -53,7 +54,7 @@ struct ErrorModel {
       double y = truth[i];
       if (y < no_echo_from) {
         const double relative_pointing =
-            incidence.empty() ? 0 : pointing * std::tan(std::min(incidence[i], max_incidence));
+            incidence.empty() ? 0 : pointing * elementary::tan(std::min(incidence[i], max_incidence));
         y += bias + n * std::sqrt(sigma * sigma +
                                   (sigma_relative * sigma_relative + relative_pointing * relative_pointing) * y * y);
       }

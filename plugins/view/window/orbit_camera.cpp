@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "muro/toolkit/elementary.hpp"
 #include "muro/toolkit/rotations.hpp"
 
 namespace muro::view {
@@ -20,8 +21,8 @@ void OrbitCamera::look_from(const Vec3& from, const Vec3& to) {
   const Vec3 back = from - to;
   target_ = to;
   distance_ = std::max(0.05, back.norm());
-  azimuth_ = std::atan2(back.y(), back.x());
-  elevation_ = std::asin(std::clamp(back.z() / distance_, -1.0, 1.0));
+  azimuth_ = elementary::atan2(back.y(), back.x());
+  elevation_ = elementary::asin(std::clamp(back.z() / distance_, -1.0, 1.0));
 }
 
 void OrbitCamera::rotate(double across, double down, double height) {
@@ -31,12 +32,14 @@ void OrbitCamera::rotate(double across, double down, double height) {
 }
 
 void OrbitCamera::shift(double across, double down, double height, double fov) {
-  const double metres = 2 * distance_ * std::tan(0.5 * fov) / height;
+  const double metres = 2 * distance_ * elementary::tan(0.5 * fov) / height;
   const Mat3 axes = orientation().toRotationMatrix();
   target_ += axes.col(1) * (across * metres) + axes.col(2) * (down * metres);
 }
 
-void OrbitCamera::zoom(double notches) { distance_ = std::clamp(distance_ * std::pow(0.85, notches), 0.05, 1e4); }
+void OrbitCamera::zoom(double notches) {
+  distance_ = std::clamp(distance_ * elementary::pow(0.85, notches), 0.05, 1e4);
+}
 
 void OrbitCamera::follow(const Pose& target) {
   if (mode == Mode::follow) target_ = target.position;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "muro/toolkit/elementary.hpp"
 #include "muro/vocabulary.hpp"
 #include "plugins/common/scanner/keys.hpp"
 
@@ -60,7 +61,8 @@ void Overlay::add_scan(Inspection& simulation, ObjectId sensor, render::DebugLin
   for (std::size_t i = 0; i < ranges.size(); i += point_stride) {
     const std::size_t row = i / columns;
     const double a = first + double(i % columns) * increment, e = low + double(row) * step;
-    const Vec3 direction(std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e));
+    const Vec3 direction(elementary::cos(e) * elementary::cos(a), elementary::cos(e) * elementary::sin(a),
+                         elementary::sin(e));
     const Vec3 end = device * Vec3(ranges[i] * direction);
     const bool hit = ranges[i] < max_range;
     if (hit) lines.add_point(end, red);

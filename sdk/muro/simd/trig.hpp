@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Sine and cosine over any scalar of lane.hpp: the same bits for a double and for a lane, on every machine, which the
-// functions of the C library do not promise.
+// Sine and cosine over any scalar of lane.hpp: the same bits for a double and for a lane, on every machine, and those
+// of elementary::sincos (muro/toolkit/elementary.hpp).
 #pragma once
 
-#include <cmath>
+#include <sleef.h>
 
 #include "muro/simd/lane.hpp"
 
@@ -22,48 +22,54 @@ MURO_INLINE S nearest(S a) {
   return (a + big) - big;
 }
 
-/// Beyond the reach of sincos: the C library's.
-[[gnu::cold, gnu::noinline]] inline void sincos_far(double angle, double& sin, double& cos) {
-  sin = std::sin(angle);
-  cos = std::cos(angle);
+namespace detail {
+
+/// By SLEEF's functions without fused multiply-add, which have equal bits for one number and for packs.
+template <class Vector>
+MURO_INLINE SinCos<Vector> sincos_of(const Vector& a) {
+  if constexpr (vectors::is_pair<Vector>) {
+    const auto low = sincos_of(a.low), high = sincos_of(a.high);
+    return {{low.sin, high.sin}, {low.cos, high.cos}};
+  } else {
+#if defined(__AVX512F__)
+    if constexpr (sizeof a == 64) {
+      const Sleef___m512d_2 r = Sleef_cinz_sincosd8_u10avx512fnofma(__m512d(a));
+      return {Vector(r.x), Vector(r.y)};
+    }
+#endif
+#if defined(__AVX__)
+    if constexpr (sizeof a == 32) {
+      const Sleef___m256d_2 r = Sleef_cinz_sincosd4_u10avx(__m256d(a));
+      return {Vector(r.x), Vector(r.y)};
+    }
+#endif
+#if defined(__x86_64__)
+    if constexpr (sizeof a == 16) {
+      const Sleef___m128d_2 r = Sleef_cinz_sincosd2_u10sse2(__m128d(a));
+      return {Vector(r.x), Vector(r.y)};
+    }
+#endif
+    SinCos<Vector> both{};
+    for (int i = 0; i < vectors::length_of<Vector>; ++i) {
+      const auto r = Sleef_cinz_sincosd1_u10purec(a[i]);
+      both.sin[i] = r.x, both.cos[i] = r.y;
+    }
+    return both;
+  }
 }
 
-/// Sine and cosine of an angle (rad); error below 2^-52 up to 10^6, relative to 1. From there on the C library's,
-/// value by value.
+}  // namespace detail
+
+/// Sine and cosine of an angle (rad), each at most 1 ulp from the true value.
 template <class S>
 MURO_INLINE SinCos<S> sincos(S angle) {
-  // Cody and Waite, Software Manual for the Elementary Functions: pi/2 in parts, of which the first has 33 bits, so its
-  // product with k is exact. The last bits of `whole` are those of k.
-  const S big(0x1.8p52), whole = angle * S(0x1.45f306dc9c883p-1) + big, k = whole - big;
-  const S r = (angle - k * S(0x1.921fb544p0)) - k * S(0x1.0b4611a626331p-34), z = r * r;
-  // Minimax polynomials for |r| <= pi/4, found by Remez' exchange: errors 2^-59 and 2^-64. Pairs of terms, for they do
-  // not wait for each other (Estrin).
-  const S zz = z * z;
-  const S s01 = S(-0x1.555555555553dp-3) + z * S(0x1.111111110eb1ap-7);
-  const S s23 = S(-0x1.a01a019ab4225p-13) + z * S(0x1.71de3474f29dfp-19);
-  const S s45 = S(-0x1.ae5db422cab22p-26) + z * S(0x1.5d64b1076d5ddp-33);
-  const S c01 = S(0x1.555555555554cp-5) + z * S(-0x1.6c16c16c15181p-10);
-  const S c23 = S(0x1.a01a019cb216cp-16) + z * S(-0x1.27e4f80a33d96p-22);
-  const S c45 = S(0x1.1ee9ec18b5e69p-29) + z * S(-0x1.8faeb5fa1872bp-37);
-  const S sine = r + r * z * (s01 + zz * (s23 + zz * s45));
-  const S cosine = (S(1) - S(0.5) * z) + zz * (c01 + zz * (c23 + zz * c45));
-  const auto odd = has_bit(whole, 0);
-  SinCos<S> result{flip_sign(select(odd, cosine, sine), whole, 1),
-                   flip_sign(select(odd, sine, cosine), whole + S(1), 1)};
-  const auto far = !(abs(angle) <= S(1e6));
-  if (any(far)) [[unlikely]] {
-    if constexpr (count_of<S> == 1) {
-      sincos_far(angle, result.sin, result.cos);
-    } else {
-      for (int i = 0; i < count_of<S>; ++i) {
-        if (!(bits(far) >> i & 1)) continue;
-        double s = 0, c = 0;
-        sincos_far(angle[i], s, c);
-        result.sin.set(i, s), result.cos.set(i, c);
-      }
-    }
+  if constexpr (count_of<S> == 1) {
+    const auto r = Sleef_cinz_sincosd1_u10purec(angle);
+    return {r.x, r.y};
+  } else {
+    const auto r = detail::sincos_of(angle.v);
+    return {r.sin, r.cos};
   }
-  return result;
 }
 
 }  // namespace MURO_ISA

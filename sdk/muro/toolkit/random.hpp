@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "muro/toolkit/elementary.hpp"
+
 namespace muro {
 
 /// FNV-1a, 64 bit: keys from names, and hashes of state.
@@ -41,17 +43,14 @@ class Random {
     return unit(words[0], words[1]);
   }
   /// Standard normal, by Box and Muller.
-  double normal(std::uint32_t i) const {
-    const auto words = block(i, 1);
-    const double u = 1 - unit(words[0], words[1]), v = unit(words[2], words[3]);
-    return std::sqrt(-2 * std::log(u)) * std::cos(6.283185307179586 * v);
-  }
+  double normal(std::uint32_t i) const { return normal_pair(i)[0]; }
   /// Two independent standard normal numbers at little more than the price of one; `normal(i)` is the first.
   std::array<double, 2> normal_pair(std::uint32_t i) const {
     const auto words = block(i, 1);
     const double u = 1 - unit(words[0], words[1]), angle = 6.283185307179586 * unit(words[2], words[3]);
-    const double radius = std::sqrt(-2 * std::log(u));
-    return {radius * std::cos(angle), radius * std::sin(angle)};
+    const double radius = std::sqrt(-2 * elementary::log(u));
+    const auto [sine, cosine] = elementary::sincos(angle);
+    return {radius * cosine, radius * sine};
   }
 
  private:

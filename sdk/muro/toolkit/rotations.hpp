@@ -3,6 +3,7 @@
 #pragma once
 
 #include "muro/geometry.hpp"
+#include "muro/toolkit/elementary.hpp"
 
 namespace muro {
 
@@ -14,8 +15,27 @@ inline Quat rotation_of(const Vec3& v) {
     const double s = 0.5 * (1 - x / 6 * (1 - x / 20 * (1 - x / 42 * (1 - x / 72 * (1 - x / 110)))));
     return Quat(c, s * v.x(), s * v.y(), s * v.z());
   }
-  const double half = std::sqrt(x), s = 0.5 * std::sin(half) / half;
-  return Quat(std::cos(half), s * v.x(), s * v.y(), s * v.z());
+  const double half = std::sqrt(x);
+  const auto [sine, cosine] = elementary::sincos(half);
+  const double s = 0.5 * sine / half;
+  return Quat(cosine, s * v.x(), s * v.y(), s * v.z());
+}
+
+/// The rotation about the unit vector `axis` by `angle` (rad).
+inline Quat rotation_about(const Vec3& axis, double angle) {
+  const auto [sine, cosine] = elementary::sincos(0.5 * angle);
+  return Quat(cosine, sine * axis.x(), sine * axis.y(), sine * axis.z());
+}
+
+/// The angle (rad, 0 to pi) of the rotation by the unit quaternion `q`.
+inline double angle_of(const Quat& q) { return 2 * elementary::atan2(q.vec().norm(), std::abs(q.w())); }
+
+/// The rotation by the unit quaternion `q` as a vector (axis times angle, rad, at most pi long): the inverse of
+/// rotation_of.
+inline Vec3 rotation_vector_of(const Quat& q) {
+  const double sine = q.vec().norm(), sign = q.w() < 0 ? -1 : 1;
+  if (sine < 1e-12) return (2 * sign) * q.vec();
+  return (sign * 2 * elementary::atan2(sine, std::abs(q.w())) / sine) * q.vec();
 }
 
 /// The mean of the rotations by t * v for t in [0, 1] (v: axis times angle, rad): a body that turns by `v`
@@ -23,8 +43,9 @@ inline Quat rotation_of(const Vec3& v) {
 inline Mat3 screw_integral(const Vec3& v) {
   const double angle2 = v.squaredNorm(), angle = std::sqrt(angle2);
   const bool small = angle < 1e-3;  // series where the quotients lose digits
-  const double a = small ? 0.5 - angle2 / 24 : (1 - std::cos(angle)) / angle2;
-  const double b = small ? 1.0 / 6 - angle2 / 120 : (angle - std::sin(angle)) / (angle2 * angle);
+  const auto [sine, cosine] = small ? elementary::SinCos{} : elementary::sincos(angle);
+  const double a = small ? 0.5 - angle2 / 24 : (1 - cosine) / angle2;
+  const double b = small ? 1.0 / 6 - angle2 / 120 : (angle - sine) / (angle2 * angle);
   const double x = v.x(), y = v.y(), z = v.z();  // 1 + a [v] + b [v]^2, with [v]^2 = v v^T - |v|^2
   Mat3 mean;
   mean << 1 - b * (y * y + z * z), b * x * y - a * z, b * x * z + a * y,  //
@@ -35,14 +56,13 @@ inline Mat3 screw_integral(const Vec3& v) {
 
 /// Rotation angle (rad) about the z axis: the yaw of the field's roll-pitch-yaw.
 inline double yaw_of(const Quat& q) {
-  return std::atan2(2 * (q.w() * q.z() + q.x() * q.y()), 1 - 2 * (q.y() * q.y() + q.z() * q.z()));
+  return elementary::atan2(2 * (q.w() * q.z() + q.x() * q.y()), 1 - 2 * (q.y() * q.y() + q.z() * q.z()));
 }
 
 /// Fixed-axis roll, pitch, yaw (rad), as in URDF: Rz(yaw) Ry(pitch) Rx(roll).
 inline Quat from_rpy(double roll, double pitch, double yaw) {
-  const Quat x(std::cos(roll / 2), std::sin(roll / 2), 0, 0), y(std::cos(pitch / 2), 0, std::sin(pitch / 2), 0),
-      z(std::cos(yaw / 2), 0, 0, std::sin(yaw / 2));
-  return z * y * x;
+  return rotation_about(Vec3::UnitZ(), yaw) * rotation_about(Vec3::UnitY(), pitch) *
+         rotation_about(Vec3::UnitX(), roll);
 }
 
 /// The shortest turn that takes the direction `from` to the direction `to` (unit vectors).

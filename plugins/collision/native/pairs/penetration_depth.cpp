@@ -247,7 +247,7 @@ bool Search::newton(const Vec3& n, Vec3& step) const {
     step = ((ab * gb - bb * ga) * a + (ab * ga - aa * gb) * b) / determinant;
     return true;
   }
-  step = (ga * a + gb * b) * (-0.3 / (std::hypot(ga, gb) + 1e-300));
+  step = (ga * a + gb * b) * (-0.3 / (std::sqrt(ga * ga + gb * gb) + 1e-300));
   return false;
 }
 

@@ -48,14 +48,14 @@ class RimPatch {
     const double depth = s_[0] * offset_.dot(h_.disc[0]), beside = (offset_ - s_[0] * depth * h_.disc[0]).norm();
     const double at_0 = depth - h_.radius[1] * sine,
                  at_90 = h_.radius[0] + h_.radius[1] * std::sqrt(1 - sine * sine) - beside;
-    return at_0 * std::cos(small) + at_90 * std::sin(small) >= bound && at_90 >= bound;
+    return at_0 * cosine_small + at_90 * sine_small >= bound && at_90 >= bound;
   }
 
   /// Where to look for that one; none when it is at an axis, or above `bound`.
   std::optional<Vec3> minimum_near_axes(double sine, double bound) const {
     const Vec3 up = s_[0] * h_.disc[0], second = s_[1] * h_.disc[1];
     const double r0 = h_.radius[0], r1 = h_.radius[1];
-    if (offset_.dot(up) * std::cos(small) - r0 * std::sin(small) > bound) return {};
+    if (offset_.dot(up) * cosine_small - r0 * sine_small > bound) return {};
     // At an axis h has the tip of a cone. It is the minimum where the rest of h falls less than the cone rises.
     const Vec3 descent0 = descent(up, second, r1 / sine), descent1 = descent(second, up, r0 / sine);
     const double steep0 = descent0.norm(), steep1 = descent1.norm();
@@ -77,7 +77,7 @@ class RimPatch {
   }
 
  private:
-  static constexpr double small = 0.3;  ///< rad
+  static constexpr double sine_small = 0.29552020666133955, cosine_small = 0.955336489125606;  ///< of 0.3 rad
   struct Interval {
     double low, high;
   };

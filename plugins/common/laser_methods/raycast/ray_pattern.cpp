@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "muro/toolkit/elementary.hpp"
+
 namespace muro::raycast {
 
 namespace {
@@ -74,7 +76,7 @@ void RayPattern::add(const Vec3& d, std::uint32_t ray, RayPacket& b) {
   b.z[b.count] = d.z();
   b.ray[b.count++] = ray;
   // Above 89.9 degrees the slope is no useful bound.
-  const double horizontal = std::hypot(d.x(), d.y());
+  const double horizontal = elementary::hypot(d.x(), d.y());
   const double slope =
       horizontal > 1.7e-3 ? d.z() / horizontal : std::copysign(std::numeric_limits<double>::infinity(), d.z());
   const bool first = packets_.empty() && b.count == 1;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "muro/toolkit/elementary.hpp"
 #include "muro/toolkit/rotations.hpp"
 
 namespace muro::zbuffer {
@@ -43,8 +44,8 @@ AzimuthSpan span_of(std::vector<double> azimuths) {
 std::vector<CameraRays> rays_by_camera(const scanner::RaySet& rays) {
   std::vector<double> azimuths;
   for (const Vec3& d : rays.directions)
-    if (std::asin(std::clamp(std::abs(d.z()), 0.0, 1.0)) <= CameraRig::max_elevation)
-      azimuths.push_back(std::atan2(d.y(), d.x()));
+    if (elementary::asin(std::clamp(std::abs(d.z()), 0.0, 1.0)) <= CameraRig::max_elevation)
+      azimuths.push_back(elementary::atan2(d.y(), d.x()));
   const AzimuthSpan span = span_of(azimuths);
   const auto count = std::max<std::size_t>(1, std::size_t(std::ceil(span.width / CameraRig::max_width - 1e-9)));
   const double width = span.width / double(count);
@@ -56,8 +57,8 @@ std::vector<CameraRays> rays_by_camera(const scanner::RaySet& rays) {
   for (std::uint32_t i = 0; i < rays.size(); ++i) {
     const Vec3& d = rays.directions[i];
     std::size_t k = d.z() > 0 ? count : count + 1;
-    if (std::asin(std::clamp(std::abs(d.z()), 0.0, 1.0)) <= CameraRig::max_elevation) {
-      double along = std::atan2(d.y(), d.x()) - span.first;
+    if (elementary::asin(std::clamp(std::abs(d.z()), 0.0, 1.0)) <= CameraRig::max_elevation) {
+      double along = elementary::atan2(d.y(), d.x()) - span.first;
       while (along < -1e-9) along += 2 * pi;
       k = width > 0 ? std::min(count - 1, std::size_t(std::max(0.0, along / width))) : 0;
     }
@@ -87,7 +88,8 @@ struct Side {
 Side side_of(const PlaneInterval& e, double focal) {
   if (e.is_line()) return {1, 0.5 + focal * e.low};
   const double first = e.high * focal;  // the highest point is in the first pixel
-  const auto between = std::uint32_t(std::ceil((e.high - e.low) * focal - 1e-6));
+  constexpr double too_many = 1e9;  // as many as that are refused later
+  const auto between = std::uint32_t(std::ceil(std::min((e.high - e.low) * focal - 1e-6, too_many)));
   return {between + 1 + 2 * CameraRig::margin, first + 0.5 + CameraRig::margin};
 }
 
