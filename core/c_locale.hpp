@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <locale.h>  // NOLINT(modernize-deprecated-headers): uselocale() is POSIX
 #include <clocale>
 
 namespace muro {

@@ -49,7 +49,8 @@ bool Occupancy::is_free(const Footprint& f, double clearance) const {
     return std::visit([&](const auto& other) { return overlaps(f, other, clearance); }, item);
   };
   if (std::any_of(large_.begin(), large_.end(), meets)) return false;
-  for (const auto& [exponent, level] : levels_) {
+  for (const auto& of_size : levels_) {
+    const Level& level = of_size.second;
     const double reach = f.radius + clearance + 0.51 * level.cell;  // an item reaches half a cell from its centre
     const Cell low{cell_of(f.x - reach, level.cell), cell_of(f.y - reach, level.cell)},
         high{cell_of(f.x + reach, level.cell), cell_of(f.y + reach, level.cell)};

@@ -31,8 +31,8 @@ class Loader {
     if (std::find(open_.begin(), open_.end(), path) != open_.end())
       throw SetupError(included_at + "file " + path + " includes itself");
     if (open_.size() > deepest_include)
-      throw SetupError(fmt::format("{}file {}: includes are nested more than {} deep", included_at, path,
-                                   deepest_include));
+      throw SetupError(
+          fmt::format("{}file {}: includes are nested more than {} deep", included_at, path, deepest_include));
     open_.push_back(path);
     files.push_back(path);
     Node n = parse_tree(text_of(path, included_at), {path, true}, count_);

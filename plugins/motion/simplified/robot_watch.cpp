@@ -69,12 +69,16 @@ std::string RobotWatch::problem(const Pose& pose, const Twist& twist, const Scen
                                 std::sqrt(*j.velocity * *j.velocity * j.reach_square));
   }
   if (problem.empty()) return problem;
-  const std::string cause =
-      !watch_.allows_depth(overlap.depth) ? std::string(watch::cause_of_depth) + "; try a higher rate, or an engine"
-      : overlap.obstacle && overlap.depth > 0.01
-          ? "it is " + std::to_string(overlap.depth) + " m deep in " + quote(*overlap.obstacle) +
-                ": start it clear of that, or move it less in a step"
-          : "forces that grow from step to step; try a higher rate, or a lower `frequency` of contact.penalty";
+  std::string cause;
+  if (!watch_.allows_depth(overlap.depth)) {
+    cause = watch::cause_of_depth;
+    cause += "; try a higher rate, or an engine";
+  } else if (overlap.obstacle && overlap.depth > 0.01) {
+    cause = "it is " + std::to_string(overlap.depth) + " m deep in " + quote(*overlap.obstacle);
+    cause += ": start it clear of that, or move it less in a step";
+  } else {
+    cause = "forces that grow from step to step; try a higher rate, or a lower `frequency` of contact.penalty";
+  }
   return quote(name_) + ": " + problem + ". Likely cause: " + cause + watch::how_to_go_on(parameter);
 }
 

@@ -88,7 +88,7 @@ struct Side {
 Side side_of(const PlaneInterval& e, double focal) {
   if (e.is_line()) return {1, 0.5 + focal * e.low};
   const double first = e.high * focal;  // the highest point is in the first pixel
-  constexpr double too_many = 1e9;  // as many as that are refused later
+  constexpr double too_many = 1e9;      // as many as that are refused later
   const auto between = std::uint32_t(std::ceil(std::min((e.high - e.low) * focal - 1e-6, too_many)));
   return {between + 1 + 2 * CameraRig::margin, first + 0.5 + CameraRig::margin};
 }
