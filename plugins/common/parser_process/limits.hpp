@@ -13,7 +13,7 @@ void begin_limits(const Allowance& base);
 void end_limits();
 
 /// For those who read: adds what a file just opened may need. Does nothing outside of begin_limits and end_limits.
-void allow(const Allowance& more);
+__attribute__((visibility("default"))) void allow(const Allowance& more);
 
 /// MiB, and seconds for one MiB.
 constexpr Allowance allowance_for(std::uint64_t bytes, std::uint64_t factor, double seconds) {

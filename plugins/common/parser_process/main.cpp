@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The parser process: reads files that others wrote, for a program that is not to suffer from them. Its client starts
 // it; it ends when its client does, or has asked for nothing for a while.
+#include <dlfcn.h>
 #include <malloc.h>
 #include <poll.h>
 #include <signal.h>
@@ -8,8 +9,10 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <filesystem>
 #include <new>
 #include <thread>
 
@@ -89,6 +92,17 @@ void serve(const Service& service, std::span<const std::byte> request) {
     send_frame(Frame::refusal, refusal.data(), refusal.size());
 }
 
+/// False where there is none of that name beside the program.
+bool load_module(const std::string& word) {
+  std::error_code code;
+  const auto program = std::filesystem::read_symlink("/proc/self/exe", code);
+  const auto file = program.parent_path() / ("muro_parser_" + word + ".so");
+  if (code || !std::filesystem::is_regular_file(file, code)) return false;
+  if (dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL)) return true;
+  std::fprintf(stderr, "%s\n", dlerror());
+  _exit(1);
+}
+
 /// Answers one request.
 void serve_next() {
   RequestHeader header{};
@@ -97,9 +111,13 @@ void serve_next() {
   receive(name.data(), name.size());
   std::vector<std::byte> request(header.size);
   receive(request.data(), request.size());
-  for (const Service& service : services())
-    if (service.name == name) return serve(service, request);
-  send_frame(Frame::no_service, nullptr, 0);
+  const auto known = [&name] {
+    return std::find_if(services().begin(), services().end(), [&](const Service& s) { return s.name == name; });
+  };
+  auto service = known();
+  if (service == services().end() && load_module(name.substr(0, name.find(' ')))) service = known();
+  if (service == services().end()) return send_frame(Frame::no_service, nullptr, 0);
+  serve(*service, request);
 }
 
 long resident_bytes() {

@@ -14,10 +14,12 @@ struct Service {
   Serve serve;
 };
 
-/// All services of this program.
-std::vector<Service>& services();
+/// All services of this program and of the modules that it has loaded.
+__attribute__((visibility("default"))) std::vector<Service>& services();
 
-/// At namespace scope: makes a service known to the process it is linked into.
+/// At namespace scope: makes a service known to the process. It is linked into the program, or, where its library takes
+/// long to load, into a module muro_parser_WORD.so, which is loaded for the first request whose service begins with
+/// WORD.
 struct Registration {
   Registration(std::string_view name, Serve serve) { services().push_back({name, serve}); }
 };
