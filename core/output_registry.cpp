@@ -66,10 +66,15 @@ bool OutputRegistry::is_member(const Output& series, const std::string& target) 
   return number.find_first_not_of("0123456789.") == std::string::npos;
 }
 
+/// Whether a file would have the name of the folder of a series, or of one above it.
+bool OutputRegistry::is_folder_of(const Output& file, const Output& series) {
+  return (series.place.target + "/").starts_with(file.place.target + "/");
+}
+
 bool OutputRegistry::are_one(const Output& a, const Output& b) {
   if (a.is_series && b.is_series) return same_place(a.place, b.place) && a.begin == b.begin && a.end == b.end;
-  if (a.is_series) return is_member(a, b.place.target);
-  if (b.is_series) return is_member(b, a.place.target);
+  if (a.is_series) return is_member(a, b.place.target) || is_folder_of(b, a);
+  if (b.is_series) return is_member(b, a.place.target) || is_folder_of(a, b);
   return same_place(a.place, b.place) && !a.place.is_device;
 }
 

@@ -40,7 +40,7 @@ class OutputRegistry final : public Outputs {
   struct Place {
     std::string target;       ///< without links
     std::uint64_t number[2];  ///< device and inode of what is there
-    int error = 0;  ///< why it cannot be looked at (errno); 0: it can, or is not there
+    int error = 0;            ///< why it cannot be looked at (errno); 0: it can, or is not there
     bool exists = false;
     bool is_folder = false;
     bool is_device = false;  ///< a character device, which takes several outputs
@@ -60,6 +60,7 @@ class OutputRegistry final : public Outputs {
   static Place place_of(const std::string& path);
   static bool same_place(const Place& a, const Place& b);
   static bool is_member(const Output& series, const std::string& target);
+  static bool is_folder_of(const Output& file, const Output& series);
   static bool are_one(const Output& a, const Output& b);
   static bool is_part_of(const Output& a, const Output& b);
   void check_folder(const Output& output, std::vector<std::string>& problems) const;

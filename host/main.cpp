@@ -277,6 +277,9 @@ int exit_code_of(int argc, char** argv) {
 int main(int argc, char** argv) {
   report_crashes();
   const ExitGuard guard;
-  std::signal(SIGPIPE, SIG_IGN);  // a reader that leaves is an error of who writes, and outputs are closed
+  // a reader that leaves and a file that grows too large are errors of who writes, so that other outputs are closed
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+  keep_standard_streams();
   return close_standard_output(exit_code_of(argc, argv));
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "host/outputs/standard_output.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <csignal>
@@ -9,6 +11,15 @@
 #include <cstring>
 
 namespace muro::host {
+
+void keep_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(stream, F_GETFD) >= 0) continue;
+    // the wrong way round, so that what is read or printed fails as before
+    const int opened = open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+    if (opened != stream && opened >= 0) close(opened);
+  }
+}
 
 bool standard_output_failed() { return std::ferror(stdout) != 0; }
 

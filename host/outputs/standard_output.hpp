@@ -3,6 +3,10 @@
 
 namespace muro::host {
 
+/// To be called first: where the program was started with closed standard streams, no file gets their numbers, so that
+/// nothing is printed into it.
+void keep_standard_streams();
+
 /// Whether something that was printed has not arrived, as on a full disk.
 bool standard_output_failed();
 

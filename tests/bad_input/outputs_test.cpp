@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -134,7 +135,7 @@ TEST(Outputs, AReaderThatLeavesIsAFailure) {
 TEST(Outputs, OnAFullDiskTheFirstCauseIsTold) {
   const Ball ball(recorder);
   ball.folder.file("log.csv", "of the last run");
-  const auto result = ball.run("(trap '' XFSZ; ulimit -f 64; " + muro_program +
+  const auto result = ball.run("(ulimit -f 64; " + muro_program +
                                " run s.yaml --duration 100 --report r.json --timeline t.json >/dev/null)");
   EXPECT_EQ(result.exit_code, 1) << result.output;
   const std::string name = "file " + ball.folder.path("log.csv") + " cannot be written: File too large\n";
@@ -156,6 +157,12 @@ TEST(Outputs, ThatCannotBePrintedAreAFailure) {
   }
   EXPECT_EQ(nlohmann::json::parse(text_of(ball.folder.path("r.json"))).at("simulated_s"), 1) << "written nevertheless";
   EXPECT_EQ(ball.run(muro_program + " properties | head -c 1 >/dev/null; echo done").output, "done\n");
+}
+
+TEST(Outputs, DoNotTakeThePlaceOfClosedStreams) {
+  const Ball ball(recorder);
+  EXPECT_EQ(ball.run("(" + muro_program + " run s.yaml >&- 2>/dev/null; echo $?) 2>&1").output, "1\n");
+  EXPECT_EQ(text_of(ball.folder.path("log.csv")).find("state hash"), std::string::npos);
 }
 
 TEST(Outputs, WithNamesOfAnyBytesAreWritten) {
@@ -186,6 +193,18 @@ TEST(Errors, ThatFollowFromAnotherAreNotTold) {
             "--set robots.ball.motoin.use=motion.point: robot `ball` has a second motion, `motoin` (did you mean "
             "`motion`?); `motion` (s.yaml:2:56) moves it already: remove one of them, or write them as `levels` of one "
             "motion\n");
+  ball.folder.file("arm.yaml", "robots:\n  arm: {model: " MURO_TEST_SOURCE_DIR
+                               "/examples/models/arm.urdf, joints: {shoulder: 9},\n        motion: {use: "
+                               "motion.simplified, joints: effort},\n        servo: {use: motor.servo, stiffness: 10, "
+                               "joints: [shoulder]}}\n");
+  const auto follows = ball.muro("check arm.yaml");
+  EXPECT_EQ(follows.exit_code, 2);
+  EXPECT_EQ(
+      follows.output.find("arm.yaml:3:17: arm.motion (motion.simplified) cannot be connected: joint `arm/shoulder` "
+                          "starts at 9.000000, outside of its limits"),
+      0u)
+      << follows.output;
+  EXPECT_EQ(std::count(follows.output.begin(), follows.output.end(), '\n'), 1) << follows.output;
 }
 
 }  // namespace

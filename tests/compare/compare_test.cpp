@@ -91,6 +91,21 @@ TEST(Compare, OtherMistakesAreToldTogetherWithWhatIsAllowed) {
   EXPECT_EQ(test::run_command(muro_program + " compare examples/urban/urban.yaml --duration 0 " + vary).exit_code, 2);
 }
 
+TEST(Compare, SaysANoteOnce) {
+  const test::ScratchFolder folder;
+  const std::string scenario = folder.file(
+      "s.yaml",
+      "duration: 0.05\nworld: {objects: {ground: {shape: plane}}}\nrobots: {tool: {model: " MURO_TEST_SOURCE_DIR
+      "/tests/robots/meshes.urdf, at: {z: 1}, motion: {use: motion.simplified}}}\n");
+  const auto result =
+      test::run_command(muro_program + " compare " + scenario + " --vary tool.motion=simplified,point,bullet");
+  EXPECT_EQ(result.exit_code, 0) << result.output;
+  const std::string note = "mesh " MURO_TEST_SOURCE_DIR "/tests/robots/meshes/wedge.stl collides with nothing";
+  const std::size_t first = result.output.find(note);
+  EXPECT_NE(first, std::string::npos) << result.output;
+  EXPECT_EQ(result.output.find(note, first + 1), std::string::npos) << result.output;
+}
+
 TEST(Compare, DrawsAPointForEachLevel) {
   const test::ScratchFolder folder;
   const std::string file = folder.path("picture.svg");

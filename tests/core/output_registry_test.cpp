@@ -113,6 +113,16 @@ TEST(OutputRegistry, KnowsTheFilesOfSeries) {
       "another name");
 }
 
+TEST(OutputRegistry, NoFileHasTheNameOfAFolderOfPictures) {
+  Files f;
+  f.write("log", f.folder.path("out"));
+  f.registry.set_owner("pictures");
+  f.registry.series(f.folder.path("out/pictures/cam_"), ".png");
+  EXPECT_EQ(f.complaint(),
+            "log and pictures write to one file, FOLDER/out, which is also FOLDER/out/pictures/cam_#.png; give each a "
+            "file of its own");
+}
+
 TEST(OutputRegistry, KeepsPartsApartFromFiles) {
   Files f;
   f.write("a", f.folder.path("x.csv"));
