@@ -103,6 +103,8 @@ Answer ask(const Question& question, std::span<const std::byte> request) {
     case Ending::no_service:
       throw Error(question.subject + " cannot be read: this muro was built without; install " + question.needs +
                   ", configure and build again");
+    case Ending::no_process:
+      throw Error(question.subject + " cannot be read: " + sink.text());
     default:
       throw Error(question.subject + " cannot be read: " + sink.text() + "; " + question.advice);
   }

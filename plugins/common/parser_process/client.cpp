@@ -28,14 +28,14 @@ class Client {
     const std::lock_guard lock(mutex_);
     // A process that nobody has asked for some time ends by itself, maybe just now.
     for (const bool again : {false, true}) {
-      if (!child_.is_there() && !start()) return tell(Ending::failed, reason_, sink);
+      if (!child_.is_there() && !start()) return tell(Ending::no_process, reason_, sink);
       child_.clear_output();
-      Ending ending = Ending::failed;
+      Ending ending = Ending::died;
       if (exchange(service, request, size, sink, ending)) return ending;
       const Child::Death death = child_.end();
-      if (death.signal != 0 || death.code != 0 || again) return tell(Ending::failed, reason_of(death), sink);
+      if (death.signal != 0 || death.code != 0 || again) return tell(Ending::died, reason_of(death), sink);
     }
-    return Ending::failed;
+    return Ending::died;
   }
 
  private:

@@ -57,8 +57,11 @@ class Reader {
     return values;
   }
   std::string text() {
-    const std::vector<char> letters = list<char>();
-    return {letters.begin(), letters.end()};
+    const auto size = value<std::uint64_t>();
+    if (size > bytes_.size()) fail();
+    std::string text(size, '\0');
+    copy(text.data(), size);
+    return text;
   }
   bool at_end() const { return bytes_.empty(); }
 

@@ -54,7 +54,8 @@ enum class Ending : int {
   answered,
   refused,     ///< the text is for the user
   no_service,  ///< this muro was built without it
-  failed,      ///< the text says why: the process died, or cannot be started
+  no_process,  ///< the text says why it cannot be started, and what to do
+  died,        ///< the text says of what
 };
 
 /// Gives room for the answer or the text.
