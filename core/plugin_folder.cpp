@@ -97,6 +97,10 @@ std::vector<CatalogEntry> read_description_of(const std::string& library) {
   return entries;
 }
 
+std::string PluginFolder::outcome() const {
+  return problem.empty() ? fmt::format("{} plugin{}", plugins, plugins == 1 ? "" : "s") : problem;
+}
+
 PluginFolder read_plugin_folder(const std::string& path) {
   PluginFolder folder;
   folder.path = path;

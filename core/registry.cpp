@@ -204,8 +204,9 @@ const abi::ReaderEntry& Registry::reader_for(const std::string& path) {
   }
   if (fitting.size() == 1) return reader(fitting.front()->id);
   if (fitting.empty())
-    throw SetupError(fmt::format("no reader for models of type `{}` ({}); known types: {}; {}", extension, path,
-                                 known.empty() ? "none" : fmt::format("{}", fmt::join(known, ", ")), searched()));
+    throw SetupError(fmt::format("no reader for models of type `{}` ({}); known types: {}{}", extension, path,
+                                 known.empty() ? "none" : fmt::format("{}", fmt::join(known, ", ")),
+                                 known.empty() || !problems_.empty() ? "; " + searched() : ""));
   std::vector<std::string> offers;
   for (const CatalogEntry* entry : fitting) offers.push_back(fmt::format("`{}` of {}", entry->id, entry->library));
   throw SetupError(fmt::format("models of type `{}` ({}) are read by {}; {}", extension, path,

@@ -77,8 +77,7 @@ void print_catalog(const Registry& registry) {
   for (const CatalogEntry& e : registry.catalog())
     fmt::print("{:<28} {:<13} {:<8} {}\n", e.id, e.kind, e.version, e.summary);
   fmt::print("\nsearched\n");
-  for (const PluginFolder& f : registry.folders())
-    fmt::print("  {}: {}\n", f.path, f.problem.empty() ? fmt::format("{} plugins", f.plugins) : f.problem);
+  for (const PluginFolder& f : registry.folders()) fmt::print("  {}: {}\n", f.path, f.outcome());
   if (registry.catalog().empty()) fmt::print(stderr, "no plugin was found; set MURO_PLUGIN_PATH or --plugin-path\n");
 }
 

@@ -167,9 +167,7 @@ TEST(TwoPlugins, AreToldApartByTheChoiceOfAScenario) {
             "a.yaml:3:5: " + third + " cannot be chosen for `motion.other`: it offers motion.twice");
   const std::string gone = folder + "other_folder/gone.so";
   EXPECT_EQ(who_offers_twice({"other_folder"}, {{"motion.twice", {gone, ""}}}),
-            gone +
-                " cannot be chosen for `motion.twice`: it is no plugin, which is a file NAME.so with a description "
-                "NAME.muro.json beside it");
+            gone + " cannot be chosen for `motion.twice`: there is no such file");
 }
 
 TEST(BadPlugin, WithAnUnreadableDescriptionIsAProblemAndStopsNoOther) {

@@ -9,17 +9,33 @@
 namespace muro {
 namespace {
 
-TEST(ControllersPage, TheLibraryThatItShowsSteersVehicles) {
+/// The library that the page shows, built by the command that it shows, in a run; `change` is made to the source.
+test::CommandResult run_as_shown(const std::pair<std::string, std::string>& change) {
   const std::string page = test::text_of(MURO_TEST_SOURCE_DIR "/docs/controllers.md");
-  std::smatch shown;
-  ASSERT_TRUE(std::regex_search(page, shown, std::regex("\n```c\n([^`]*)```")));
+  std::smatch code, command;
+  if (!std::regex_search(page, code, std::regex("\n```c\n([^`]*)```")) ||
+      !std::regex_search(page, command, std::regex("\n    (cc -std=c11 [^\n]*)")))
+    throw std::runtime_error("the page shows no library, or no command that builds it");
   const test::ScratchFolder scratch;
-  const std::string source = scratch.file("brake.c", shown[1].str()), library = scratch.path("brake.so");
-  const auto result = test::run_command(
-      "cd " MURO_TEST_SOURCE_DIR " && cc -std=c11 -Wall -Werror -shared -fPIC -I sdk/c -o " + library + " " + source +
-      " -lm && MURO_PLUGIN_PATH=" MURO_TEST_PLUGIN_DIR " " MURO_PROGRAM
-      " run examples/urban/urban.yaml --duration 1 --set robots.rovers.control.library=" +
-      library);
+  std::string source = code[1];
+  if (const std::size_t at = source.find(change.first); at != std::string::npos)
+    source.replace(at, change.first.size(), change.second);
+  scratch.file("brake.c", source);
+  const std::string build = std::regex_replace(command[1].str(), std::regex("/path/to/muro"), MURO_TEST_SOURCE_DIR);
+  return test::run_command("cd " + scratch.path("") + " && " + build +
+                           " -Werror && cd " MURO_TEST_SOURCE_DIR " && MURO_PLUGIN_PATH=" MURO_TEST_PLUGIN_DIR
+                           " " MURO_PROGRAM
+                           " run examples/urban/urban.yaml --duration 1 --set robots.rovers.control.library=" +
+                           scratch.path("brake.so"));
+}
+
+TEST(ControllersPage, TheLibraryThatItShowsSteersVehicles) {
+  const auto result = run_as_shown({});
+  EXPECT_EQ(result.exit_code, 0) << result.output;
+}
+
+TEST(ControllersPage, ItsCommandKeepsAStepThatTheCLibraryHasToo) {
+  const auto result = run_as_shown({"static int step(", "int step("});
   EXPECT_EQ(result.exit_code, 0) << result.output;
 }
 
