@@ -87,6 +87,7 @@ bool Child::start(const std::string& program, std::string& reason) {
   abandon();
   const auto fail = [&](int code) {
     reason = program + " cannot be started: " + std::strerror(code);
+    if (code == ENOENT || code == EACCES || code == ENOEXEC) reason += "; install muro again";
     abandon();
     return false;
   };
@@ -97,10 +98,11 @@ bool Child::start(const std::string& program, std::string& reason) {
   output_.reset(memfd_create(program_file, MFD_CLOEXEC));
   allowance_.reset(memfd_create(program_file, MFD_CLOEXEC));
   if (!output_ || !allowance_) return fail(errno);
-  // numbers above those that it gets, since each is put in place after the other
-  for (Descriptor* d : {&theirs, &output_, &allowance_})
+  // Numbers above those that it gets, since each is put in place after the other; and ours is no standard stream, where
+  // one was closed.
+  for (Descriptor* d : {&socket_, &theirs, &output_, &allowance_})
     if (d->get() <= process_allowance) d->reset(fcntl(d->get(), F_DUPFD_CLOEXEC, process_allowance + 1));
-  if (!theirs || !output_ || !allowance_) return fail(EMFILE);
+  if (!socket_ || !theirs || !output_ || !allowance_) return fail(EMFILE);
   pid_t pid = 0;
   SpawnSettings settings(theirs.get(), output_.get(), allowance_.get());
   if (const int code = settings.spawn(program, pid); code != 0) return fail(code);

@@ -47,10 +47,7 @@ class Client {
   }
 
   bool start() {
-    if (!child_.start(program(), reason_)) {
-      reason_ += "; install muro again";
-      return false;
-    }
+    if (!child_.start(program(), reason_)) return false;
     Hello theirs{};
     const Hello ours = Hello::ours();
     if (!child_.receive(&theirs, sizeof theirs)) {
