@@ -39,7 +39,7 @@ constexpr std::string_view sizes[] = {"size", "radius", "length", "scale"};
 
 std::string beyond(std::span<const double> values, double limit, std::string_view unit) {
   for (const double v : values)
-    if (!limits::within(limit, v)) return concat("is not from ", -limit, " to ", limit, unit);
+    if (!limits::within(limit, v)) return concat("has a number beyond ", limit, unit);
   return {};
 }
 

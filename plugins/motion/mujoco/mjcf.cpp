@@ -2,7 +2,9 @@
 #include "mjcf.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <charconv>
+#include <locale>
 
 #include "mujoco_library.hpp"
 
@@ -10,10 +12,13 @@ namespace muro::mujoco {
 
 namespace {
 
-/// As short as it can be for exactly this value, whatever the locale.
+/// As short as it can be for exactly this value. MuJoCo reads it by a stream in the C++ locale of the program that
+/// embeds muro, so it has the decimal sign of that.
 std::string number(double value) {
   char text[40];
-  return {text, std::to_chars(text, text + sizeof text, value).ptr};
+  char* const end = std::to_chars(text, text + sizeof text, value).ptr;
+  std::replace(text, end, '.', std::use_facet<std::numpunct<char>>(std::locale()).decimal_point());
+  return {text, end};
 }
 
 std::string attribute(const char* name, std::initializer_list<double> values) {

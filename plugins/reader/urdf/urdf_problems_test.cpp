@@ -154,7 +154,7 @@ TEST(UrdfProblems, AnInertiaBeyondAllBodies) {
       problems_of(link("<inertial><origin rpy='1 1 1'/><mass value='1'/><inertia ixx='1e308' ixy='1e308' ixz='1e308' "
                        "iyy='1e308' iyz='1e308' izz='1e308'/></inertial>"));
   ASSERT_EQ(problems.size(), 6u);
-  EXPECT_EQ(problems[0], "error 3:64 link `b`, <inertia ixx>: `1e308` is not from -1e+21 to 1e+21 kg m^2");
+  EXPECT_EQ(problems[0], "error 3:64 link `b`, <inertia ixx>: `1e308` has a number beyond 1e+21 kg m^2");
 }
 
 TEST(UrdfProblems, ShapesThatAreLeftOut) {
