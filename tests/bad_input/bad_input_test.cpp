@@ -159,19 +159,19 @@ INSTANTIATE_TEST_SUITE_P(
                "/no_symbol.so exports no `muro_controller`"}));
 
 TEST(HalfCopiedLibrary, IsRefusedAndNotRun) {
-  const test::ScratchFolder folder;
+  const test::ScratchFolder scratch;
   const auto half = [&](const std::string& path, const std::string& name) {
     const std::string bytes = test::text_of(path);
-    folder.file(name, bytes.substr(0, bytes.size() / 2));
+    scratch.file(name, bytes.substr(0, bytes.size() / 2));
   };
   half(BAD_PLUGIN_DIR "/throws/throws.so", "throws.so");
   half(CONTROLLERS "/no_symbol.so", "control.so");
-  folder.file("throws.muro.json", test::text_of(BAD_PLUGIN_DIR "/throws/throws.muro.json"));
+  scratch.file("throws.muro.json", test::text_of(BAD_PLUGIN_DIR "/throws/throws.muro.json"));
   const std::string ball = "robots:\n  ball:\n    shape: {sphere: 0.5}\n    mass: 1\n";
-  const std::string motion = folder.file("motion.yaml", ball + "    motion: {use: motion.step_throws, rate: 10}\n");
+  const std::string motion = scratch.file("motion.yaml", ball + "    motion: {use: motion.step_throws, rate: 10}\n");
   const std::string control =
-      folder.file("control.yaml", ball + "    control: {use: controller.library, rate: 10, library: control.so}\n");
-  for (const std::string& arguments : {motion + " --plugin-path " + folder.path(""), control}) {
+      scratch.file("control.yaml", ball + "    control: {use: controller.library, rate: 10, library: control.so}\n");
+  for (const std::string& arguments : {motion + " --plugin-path " + scratch.path(""), control}) {
     const auto result = run_command(muro_program + " check " + arguments);
     EXPECT_NE(result.output.find("it was copied only in part"), std::string::npos) << result.output;
     EXPECT_EQ(result.exit_code, 2);
