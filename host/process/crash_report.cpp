@@ -31,6 +31,9 @@ std::atomic<pid_t> crashing_thread{0};
 class HandlerStack {
  public:
   HandlerStack() {
+    stack_t present{};
+    const bool has_one = sigaltstack(nullptr, &present) == 0 && (present.ss_flags & SS_DISABLE) == 0;
+    if (has_one) return;  // a sanitizer's
     memory_ = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     if (memory_ == MAP_FAILED) return;
     stack_t stack{};
@@ -50,7 +53,7 @@ class HandlerStack {
 
  private:
   static constexpr std::size_t size = 128 * 1024;
-  void* memory_;
+  void* memory_ = MAP_FAILED;
 };
 
 void give_stack_to_thread() { static thread_local const HandlerStack stack; }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host/process/step_watch.hpp"
 
+#include <fmt/format.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
@@ -8,6 +9,7 @@
 #include <csignal>
 #include <cstdio>
 #include <map>
+#include <system_error>
 
 #include "core/running_call.hpp"
 #include "host/process/crash_report.hpp"
@@ -63,7 +65,14 @@ void show_stack_of(const RunningCall& call) {
 }  // namespace
 
 StepWatch::StepWatch(double timeout) : timeout_(timeout) {
-  if (timeout_ > 0) thread_ = std::thread([this] { watch(); });
+  if (!(timeout_ > 0)) return;
+  try {
+    thread_ = std::thread([this] { watch(); });
+  } catch (const std::system_error& e) {
+    fmt::print(stderr,
+               "warning: no thread can be started for --step-timeout ({}); nobody watches for calls that hang\n",
+               e.code().message());
+  }
 }
 
 StepWatch::~StepWatch() {
