@@ -13,7 +13,7 @@ namespace {
 
 constexpr double unlimited_turn_rate = 100, unlimited_speed = 10;  ///< rad/s, m/s
 constexpr double no_limit = 1e4;                                   ///< rad/s, m/s: models write 1e16 and the like
-constexpr double longest_slide = 100;                              ///< m: of a joint without limits
+constexpr double longest_slide = 10;                               ///< m: what is longer has hardly a limit
 
 /// m: of a ball with this mass and inertia.
 double radius_of(const Inertia& inertia) {
@@ -36,7 +36,7 @@ double own_reach(const Connector& c, ObjectId link) {
 double travel_of(const Link& link) {
   if (link.joint != JointKind::prismatic) return 0;
   const double most = std::max(std::abs(link.limits.lower), std::abs(link.limits.upper));
-  return std::min(most, longest_slide);
+  return most < longest_slide ? most : 0;
 }
 
 double joint_speed(const Link& link, double reach) {

@@ -15,8 +15,8 @@ struct Reach {
   double drive_speed = 0;
 };
 
-/// From the constants of the robot. A joint without a limit counts with 100 rad/s or 10 m/s, a mesh, whose file is not
-/// read here, by the inertia of its link. [setup]
+/// From the constants of the robot. A joint without a limit counts with 100 rad/s or 10 m/s and no travel, a mesh,
+/// whose file is not read here, by the inertia of its link. [setup]
 Reach reach_of(const Connector& c, const RobotView& robot);
 
 }  // namespace muro::watch

@@ -26,7 +26,7 @@ Collider& BulletWorld::add_collider(const multibody::BodyShape& shape, bool move
 void BulletWorld::add_static_body(const multibody::ExternalBody& body) {
   for (const multibody::BodyShape& s : body.shapes) {
     Collider& c = add_collider(s, false);
-    c.scenery = &body.name;
+    if (!c.shape || !c.shape->isConcave()) c.scenery = &body.name;
     c.move_to(body.pose, half_margin);
     if (c.kind == ShapeKind::plane)
       planes_.push_back(c.number);

@@ -17,7 +17,7 @@ struct Collider {
   std::uint32_t number = 0;  ///< of all colliders of the world: contacts are made in the order of pairs of numbers
   std::int32_t robot = -1;   ///< of this world; -1: an external body
   std::int32_t kinematic_body = -1;
-  const std::string* scenery = nullptr;  ///< its name; null for what moves
+  const std::string* scenery = nullptr;  ///< its name; null for what moves, and for meshes that are shells
   std::uint32_t body = 0;                ///< of the robot
   std::uint32_t loaded_link = 0;         ///< see BodyShape
   std::uint32_t shape_index = 0;         ///< among the shapes of the robot

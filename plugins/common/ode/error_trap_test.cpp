@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 #include <ode/ode.h>
 
+#include "error_trap.hpp"
 #include "muro/algorithm.hpp"
-#include "plugins/common/ode/error_trap.hpp"
-#include "plugins/common/ode/ode_library.hpp"
+#include "ode_library.hpp"
 #include "tests/support/complaint.hpp"
 
 namespace muro::ode {
