@@ -80,7 +80,7 @@ constexpr Exception exceptions[] = {
 };
 
 /// Robots that 50 iterations of motion.ode's solver `quick` are enough for. All others are held there to what must
-/// never happen alone, and to the rest with the default, which is `exact` for all but long chains.
+/// never happen alone, and to the rest with the default, which is `exact` for them.
 constexpr std::string_view quick_serves[] = {"arm",  "balancer", "caster_base", "dual_arm", "ghost",     "gripper",
                                              "kiwi", "mecanum",  "meshes",      "pendulum", "quadrotor", "rover"};
 constexpr std::string_view not_converged = "50 iterations of the solver `quick` do not converge; use `exact`";
@@ -121,7 +121,6 @@ Expectation expectation_of(const std::string& robot) {
 Bound bound_of(Check check, const std::string& variant, const std::string& robot) {
   for (const Exception& e : exceptions)
     if (e.check == check && e.variant == variant && e.robot == robot) return {e.max, e.why};
-  if (variant == "ode" && expectation_of(robot).long_chain) return {of_quick(check), not_converged};
   if (variant == "ode_quick" &&
       std::find(std::begin(quick_serves), std::end(quick_serves), robot) == std::end(quick_serves))
     return {of_quick(check), not_converged};

@@ -33,7 +33,7 @@ struct Expectation {
   std::vector<std::string_view> without_effort{};  ///< joints that their drives cannot hold
   bool on_meshes = false;                          ///< meshes bear it: it sinks by them where they collide with nothing
   double hold = 0;          ///< rad or m: what the impact turns its joints by, where that is much
-  bool long_chain = false;  ///< direct solvers take longer than a test may
+  bool long_chain = false;  ///< no number of iterations that a test may take holds it
 };
 /// Of robots that are not listed: all of the default.
 Expectation expectation_of(const std::string& robot);

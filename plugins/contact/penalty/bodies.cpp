@@ -57,6 +57,11 @@ void Bodies::connect_robot(Connector& c, const RobotView& view) {
   r.first_body = std::uint32_t(dynamic_bodies.size());
   r.body_count = std::uint32_t(1 + links.size());
   r.is_single_body = links.empty();
+  if (r.is_single_body && c.is_used(view.base(), keys::impact_time, usage::input)) {
+    r.impact_step = c.read(view.base(), keys::impact_step);
+    r.impact_time = c.write(view.base(), keys::impact_time);
+    r.impact = c.write(view.base(), keys::impact);
+  }
   robot_of[view.number] = std::int32_t(robots.size());
   robots.push_back(r);
   if (r.is_single_body) return add_dynamic_body(c, view.base(), mass_properties_of(composite));

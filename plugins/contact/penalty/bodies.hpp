@@ -10,6 +10,7 @@
 #include "muro/vocabulary.hpp"
 #include "patch.hpp"
 #include "plugins/common/contact_geometry/contact_responsibility.hpp"
+#include "plugins/common/contact_geometry/impact_correction.hpp"
 #include "restitution.hpp"
 
 namespace muro::penalty {
@@ -40,9 +41,12 @@ struct Robot {
   ListOut<FrictionAnchor> anchors;
   std::uint32_t first_body = 0, body_count = 1;  ///< in Bodies::dynamic_bodies; the first is that of the base
   bool is_single_body = true;
-  bool is_shadow = false;       ///< it exerts no force on what it touches
-  In<std::uint64_t> world;      ///< see keys::contact_world
-  In<double> lag;               ///< see keys::twist_lag
+  bool is_shadow = false;   ///< it exerts no force on what it touches
+  In<std::uint64_t> world;  ///< see keys::contact_world
+  In<double> lag;           ///< see keys::twist_lag
+  In<double> impact_step;   ///< see keys::impact_step; none: its motion does not correct paths
+  Out<std::int64_t> impact_time;
+  Out<ImpactCorrection> impact;
   std::uint64_t order_key = 0;  ///< of two robots, the one with the lower key computes their contacts
 };
 
@@ -62,6 +66,11 @@ struct Bodies {
 
   const Body& operator[](ObjectId id) const { return all[index_of(id)]; }
   const DynamicBody& base_of(const Robot& robot) const { return dynamic_bodies[robot.first_body]; }
+  /// Of a point of a body, m/s.
+  Vec3 velocity(ObjectId id, const Vec3& point) const {
+    const Body& body = (*this)[id];
+    return body.twist ? body.twist->at(point - body.pose->position) : Vec3::Zero();
+  }
   /// The robot of the body if forces move it at present, or no_robot.
   std::int32_t dynamic_robot_of(const Body& body) const {
     return is_moved_by_forces(world_of(body.robot)) ? body.robot : no_robot;
@@ -69,6 +78,11 @@ struct Bodies {
   /// keys::contact_world of a robot, or of no_robot: scenery and robots that forces never move.
   std::uint64_t world_of(std::int32_t robot) const {
     return robot == no_robot ? kinematic_world : *robots[std::size_t(robot)].world;
+  }
+  /// Length of the steps (s) of a motion that has impacts act in the instant in which they happen; 0 for others.
+  double impact_step_of(std::int32_t robot) const {
+    const Robot& r = robots[std::size_t(robot)];
+    return r.impact_step && *r.lag == 0 ? *r.impact_step : 0;
   }
   void clear_wrenches(std::uint32_t robot) const {
     const Robot& r = robots[robot];
@@ -92,7 +106,11 @@ struct Bodies {
 /// What all contacts of a step share.
 struct StepContext {
   Stiffness stiffness;
-  double elapsed = 0;  ///< s since the last run
+  double elapsed = 0;           ///< s since the last run
+  std::int64_t time = 0;        ///< ns
+  Vec3 gravity = Vec3::Zero();  ///< m/s^2
+  double impact_speed = 0;      ///< m/s: what meets faster collides
+  double correcting_speed = 0;  ///< m/s: overlap that no motion has made is taken back at it
 };
 
 }  // namespace muro::penalty

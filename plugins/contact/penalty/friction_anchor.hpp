@@ -4,7 +4,7 @@
 
 #include <bit>
 #include <limits>
-#include <vector>
+#include <span>
 
 #include "muro/key.hpp"
 
@@ -17,6 +17,7 @@ struct FrictionAnchor {
   std::uint64_t pair = 0;
   Vec3 point = Vec3::Zero();         ///< m, world
   Vec3 displacement = Vec3::Zero();  ///< m, world: tangential
+  double overlap = 0;                ///< m, see overlap.hpp
 };
 
 inline std::uint64_t pair_of(std::uint64_t self, std::uint64_t other, std::uint32_t self_shape,
@@ -26,7 +27,7 @@ inline std::uint64_t pair_of(std::uint64_t self, std::uint64_t other, std::uint3
 
 /// The anchor of a contact in the step before; null for a new one. `place`: how many contacts of the robot came before
 /// this one; there the search begins, since contacts mostly keep their order.
-inline const FrictionAnchor* previous(const std::vector<FrictionAnchor>& before, std::size_t place, std::uint64_t pair,
+inline const FrictionAnchor* previous(std::span<const FrictionAnchor> before, std::size_t place, std::uint64_t pair,
                                       const Vec3& point) {
   std::size_t i = place;
   if (i >= before.size() || before[i].pair != pair)

@@ -4,16 +4,13 @@
 #include <algorithm>
 #include <cstring>
 
+#include "overlap.hpp"
+
 namespace muro::penalty {
 namespace {
 
 lane::V3<double> plain(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 Vec3 vector_of(const lane::V3<double>& v) { return {v.x, v.y, v.z}; }
-
-/// Velocity of a point of a body, m/s.
-Vec3 velocity(const Body& body, const Vec3& point) {
-  return body.twist ? body.twist->at(point - body.pose->position) : Vec3::Zero();
-}
 
 }  // namespace
 
@@ -42,6 +39,9 @@ void PairContacts::add_records() {
     r->patch_of.reserve(32);
     r->owners.reserve(8);
     r->old_anchors.reserve(32);
+    r->impact_patches.reserve(4);
+    r->impact_contacts.reserve(16);
+    r->points.reserve(16);
   }
 }
 
@@ -51,9 +51,11 @@ void PairContacts::pass(int which, std::uint32_t robot) {
       set_up(robot);
       return find_patches(robot);
     case 1:
-      return find_load(robot);
+      find_load(robot);
+      return count_impacts(robot);
     case 2:
-      return apply_forces(robot);
+      apply_forces(robot);
+      return apply_impacts(robot);
     case 3:
       return add_reactions(robot);
   }
@@ -87,6 +89,9 @@ void PairContacts::find_patches(std::uint32_t self) {
   me.patches.clear();
   me.patch_of.clear();
   me.owners.clear();
+  me.impact_patches.clear();
+  me.impact_contacts.clear();
+  std::size_t computed = 0;
   for (const Contact& contact : *bodies_.robots[self].contacts) {
     std::int32_t other_robot = bodies_.dynamic_robot_of(bodies_[contact.other]);
     if (!contact_algorithm_resolves(*bodies_.robots[self].world, bodies_.world_of(other_robot))) {
@@ -103,7 +108,8 @@ void PairContacts::find_patches(std::uint32_t self) {
       if (std::find(me.owners.begin(), me.owners.end(), owner) == me.owners.end()) me.owners.push_back(owner);
       continue;
     }
-    me.patch_of.push_back(add_to_patch(me, contact, other_robot));
+    const bool impact = add_impact(self, contact, other_robot, computed++);
+    me.patch_of.push_back(impact ? in_impact : add_to_patch(me, contact, other_robot));
   }
   std::sort(me.owners.begin(), me.owners.end(),
             [this](std::uint32_t a, std::uint32_t b) { return computes(a, std::int32_t(b)); });
@@ -170,12 +176,19 @@ void PairContacts::apply_forces(std::uint32_t self) {
   for (const Contact& contact : *robot.contacts) {
     const std::uint32_t number = *patch_of++;
     if (number == not_computed) continue;
+    const std::uint64_t pair = bodies_.pair_of(contact);
+    if (number == in_impact) {
+      ++computed;
+      robot.anchors.push_back(anchor_of_impact(pair));
+      continue;
+    }
     ContactPatch& patch = me.patches[number];
     if (contact.restitution != patch.restitution) set_up_laws(me, patch, contact.restitution);
-    const std::uint64_t pair = bodies_.pair_of(contact);
     const FrictionAnchor* const before = previous(me.old_anchors, computed++, pair, contact.point);
     FrictionAnchor anchor{pair, contact.point, before ? before->displacement : Vec3::Zero()};
-    const Vec3 force = force_on_self(robot, patch, contact, anchor.displacement);
+    const Vec3 motion = bodies_.velocity(contact.self, contact.point) - bodies_.velocity(contact.other, contact.point);
+    anchor.overlap = unmoved_overlap(context_, contact, before, -motion.dot(contact.normal));
+    const Vec3 force = force_on_self(robot, patch, contact, anchor);
     robot.anchors.push_back(anchor);
     const DynamicBody& body = bodies_.dynamic_bodies[patch.body];
     body.wrench->add_force(force, contact.point - body.pose->position);
@@ -191,17 +204,18 @@ void PairContacts::set_up_laws(const Record& self, ContactPatch& p, double resti
   p.friction.emplace(context_.stiffness, load);
 }
 
-/// `displacement`: tangential, of the friction anchor; updated.
+/// `anchor`: its displacement is updated.
 Vec3 PairContacts::force_on_self(const Robot& self, const ContactPatch& patch, const Contact& contact,
-                                 Vec3& displacement) const {
+                                 FrictionAnchor& anchor) const {
+  Vec3& displacement = anchor.displacement;
   const Vec3& n = contact.normal;
-  const Vec3 of_self = velocity(bodies_[contact.self], contact.point);
-  const Vec3 of_other = velocity(bodies_[contact.other], contact.point);
+  const Vec3 of_self = bodies_.velocity(contact.self, contact.point);
+  const Vec3 of_other = bodies_.velocity(contact.other, contact.point);
   const Vec3 motion = of_self - of_other;
   const double approach = -motion.dot(n);
   const Vec3 slip = motion + approach * n;
   // The depth at the time of the twists, where poses are ahead of them.
-  double depth = contact.depth;
+  double depth = contact.depth - anchor.overlap;
   const double lag = *self.lag, other_lag = patch.other == no_robot ? 0 : *bodies_.robots[std::size_t(patch.other)].lag;
   if (lag != 0 || other_lag != 0) depth += context_.stiffness.h * n.dot(lag * of_self - other_lag * of_other);
   const double normal = patch.effective_mass.along * patch.normal->force(depth, approach);
@@ -243,6 +257,7 @@ void PairContacts::add_reactions(std::uint32_t self) {
   for (const std::uint32_t owner : record(self).owners)
     for (const ContactPatch& p : record(owner).patches)
       if (p.other == std::int32_t(self)) *bodies_.dynamic_bodies[p.other_body].wrench += p.reaction;
+  if (record(self).impacts > 0) add_impact_reactions(self);
 }
 
 }  // namespace muro::penalty

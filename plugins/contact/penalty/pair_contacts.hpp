@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "bodies.hpp"
+#include "impact.hpp"
 
 namespace muro::penalty {
 
@@ -32,7 +32,21 @@ class PairContacts {
   using Mobility = law::Mobility<double>;
   using Patch = law::Patch<double>;
 
-  static constexpr std::uint32_t not_computed = 0xffffffffu;
+  static constexpr std::uint32_t not_computed = 0xffffffffu, in_impact = 0xfffffffeu;
+
+  /// Where a robot meets something.
+  struct ImpactPatch {
+    Vec3 normal;
+    std::int32_t other;             ///< in Bodies::robots, or no_robot
+    std::uint32_t model;            ///< of the other
+    Wrench reaction{};              ///< on the other's base
+    ImpactCorrection correction{};  ///< of the other's path
+  };
+  /// A contact in which a robot meets something.
+  struct ImpactContact {
+    std::uint32_t patch = 0;  ///< in Record::impact_patches
+    ImpactPoint point;
+  };
 
   /// A contact patch between a dynamic body of a robot and something else.
   struct ContactPatch {
@@ -53,16 +67,25 @@ class PairContacts {
     std::vector<Mobility> mobilities;                   ///< of its bodies
     std::vector<law::SpringStiffness<double>> springs;  ///< that hold them
     std::vector<ContactPatch> patches;                  ///< of the contacts that it computes
-    std::vector<std::uint32_t> patch_of;                ///< of each contact: in `patches`, or not_computed
+    std::vector<std::uint32_t> patch_of;                ///< of each contact: in `patches`, not_computed or in_impact
     std::vector<std::uint32_t> owners;                  ///< robots that compute its other contacts, by order key
     std::vector<FrictionAnchor> old_anchors;
-    double load = 0;  ///< its stiffest motion, in units of omega^2
+    std::vector<ImpactPatch> impact_patches;     ///< of the impacts that it computes
+    std::vector<ImpactContact> impact_contacts;  ///< of these patches
+    std::vector<ImpactPoint> points;             ///< scratch
+    std::size_t impacts = 0;                     ///< patches in which it is, its own and those of others
+    double load = 0;                             ///< its stiffest motion, in units of omega^2
   };
 
   void add_records();
   void set_up(std::uint32_t self);
   void find_patches(std::uint32_t self);
   std::uint32_t add_to_patch(Record& me, const Contact& contact, std::int32_t other_robot) const;
+  bool add_impact(std::uint32_t self, const Contact& contact, std::int32_t other_robot, std::size_t place);
+  void count_impacts(std::uint32_t self);
+  void apply_impacts(std::uint32_t self);
+  void add_impact_reactions(std::uint32_t self);
+  FreeBody free_body(std::uint32_t robot) const { return {bodies_, bodies_.base_of(bodies_.robots[robot])}; }
   void find_load(std::uint32_t self);
   void apply_forces(std::uint32_t self);
   void add_reactions(std::uint32_t self);
@@ -74,7 +97,8 @@ class PairContacts {
   }
   law::EffectiveMass<double> effective_mass_of(const Mobility& self, const ContactPatch& p) const;
   void set_up_laws(const Record& self, ContactPatch& p, double restitution) const;
-  Vec3 force_on_self(const Robot& self, const ContactPatch& patch, const Contact& contact, Vec3& displacement) const;
+  Vec3 force_on_self(const Robot& self, const ContactPatch& patch, const Contact& contact,
+                     FrictionAnchor& anchor) const;
   void apply_reaction(std::uint32_t self, ContactPatch& patch, const Vec3& force, const Vec3& point,
                       const FrictionAnchor* before) const;
   Vec3 centre_velocity(std::int32_t robot, std::uint32_t body) const;

@@ -17,17 +17,22 @@ using namespace muro::penalty;
 constexpr Parameter parameters[] = {
     real("frequency", "Hz", 50, "stiffness: that of a body bobbing on a contact; at most 0.095 of the rate")
         .between(1, 1e5),
+    real("correcting_speed", "m/s", 1, "bodies that are put into each other are parted no faster").between(0, 1e9),
 };
 constexpr PropertyUse reads[] = {
     {"contacts", "of every robot that forces move"},
     {"pose", "of every body with a collision shape"},
     {"twist", "of every body with a collision shape"},
     {"inertial", "of every body of robots that forces move"},
+    {"gravity", "on the world object; 0 0 -9.81 when absent"},
+    {"contact.impact.step", "of every robot whose motion takes impacts at their instant"},
 };
 constexpr PropertyUse writes[] = {
     {"wrench.external", "of every robot that forces move"},
     {"contact.friction_anchors", "friction anchors, of every robot that forces move"},
     {"contact.time", "of the last run, on the world object"},
+    {"contact.impact", "of every robot whose motion takes impacts at their instant"},
+    {"contact.impact.time", "of the same robots, when they were in an impact last"},
 };
 constexpr Description description{
     .id = "contact.penalty",
@@ -44,6 +49,8 @@ class Penalty final : public Algorithm {
  public:
   void connect(Connector& c) override {
     omega_ = 2 * M_PI * c.parameters().real("frequency");
+    correcting_speed_ = c.parameters().real("correcting_speed");
+    gravity_ = c.constant(world_object, keys::gravity).value_or(Vec3(0, 0, -9.81));
     host_ = &c.host();
     bodies_.connect(c);
     last_run_ = c.variable(world_object, last_run, std::int64_t{-1});
@@ -59,8 +66,13 @@ class Penalty final : public Algorithm {
 
   void step(const Step& step, Range range) override {
     // As stiff as wanted, if the step is short enough.
-    const StepContext context{{std::min(omega_, max_phase_step / step.dt), step.dt},
-                              *last_run_ < 0 ? 0 : 1e-9 * double(step.time - *last_run_)};
+    StepContext context{{std::min(omega_, max_phase_step / step.dt), step.dt},
+                        *last_run_ < 0 ? 0 : 1e-9 * double(step.time - *last_run_),
+                        step.time,
+                        gravity_};
+    constexpr double slowest_impact = 0.02;  // m/s
+    context.impact_speed = std::max(slowest_impact, gravity_.norm() / context.stiffness.omega);
+    context.correcting_speed = correcting_speed_;
     if (step.phase == 0) return scenery_contacts_->apply_forces(context, range);
     if (step.phase > 1) return process_pairs(int(step.phase) - 2, range);
     *last_run_ = step.time;
@@ -87,7 +99,8 @@ class Penalty final : public Algorithm {
                                    "; a higher rate of motion makes them as stiff as asked");
   }
 
-  double omega_ = 0;
+  double omega_ = 0, correcting_speed_ = 0;
+  Vec3 gravity_ = Vec3::Zero();
   Host* host_ = nullptr;
   bool reported_ = false;
   Bodies bodies_;

@@ -5,6 +5,8 @@
 #include <cstring>
 
 #include "muro/simd/numbers.hpp"
+#include "overlap.hpp"
+#include "spring_batch.hpp"
 
 namespace muro::penalty {
 namespace {
@@ -119,7 +121,7 @@ void SceneryContacts::apply_forces_on(const StepContext& context, std::uint32_t 
     remaining_[robot] = 1;
     return;
   }
-  if (!known.one_model || !known.anchors_match) return process_single(context, robot);
+  if (!known.one_model || !known.anchors_match || known.is_parting) return process_single(context, robot);
   Queue& q = queue_for(context, known, queues);
   KernelRobot& view = q.views[q.count] = known.view;
   view.contacts = contacts[0].point.data();
@@ -161,13 +163,13 @@ void SceneryContacts::analyse(std::uint32_t robot, std::span<const Contact> cont
     return bodies_[c.other].model == bodies_[contacts[0].other].model;
   });
   if (!known.one_model) return;
-  known.layout = number_of(layout_of(robot, contacts));
+  known.layout = number_of(layout_of(robot, contacts, identities_[robot]));
   known.one_model = known.layout != unknown_layout;
 }
 
-ContactLayout SceneryContacts::layout_of(std::uint32_t robot, std::span<const Contact> contacts) const {
+ContactLayout SceneryContacts::layout_of(std::uint32_t robot, std::span<const Contact> contacts,
+                                         const Identities& identities) const {
   const KernelRobot& view = robots_[robot].view;
-  const Identities& identities = identities_[robot];
   ContactLayout layout;
   for (const Contact& c : contacts) {
     const int k = layout.contacts++;
@@ -227,38 +229,74 @@ int SceneryContacts::sort_into_patches(std::span<const Contact> contacts, std::u
   return patches;
 }
 
-/// With any patches, and anchors in any order.
-void SceneryContacts::process_single(const StepContext& context, std::uint32_t robot) {
-  KnownRobot& known = robots_[robot];
-  const Identities& identities = identities_[robot];
-  const auto contacts = *known.list;
-  const auto springs = *known.anchors;
-  const ContactLayout layout = layout_of(robot, contacts);
-  FrictionAnchor before[max_contacts];
-  std::uint8_t anchors_ends[max_contacts], patch_of[max_contacts];
+/// `contacts`: all of the robot, or some. With any patches, and anchors in any order.
+SceneryContacts::SpringBatch SceneryContacts::springs_of(std::uint32_t robot, std::span<const Contact> contacts,
+                                                         const Identities& identities) const {
+  SpringBatch springs;
+  springs.layout = layout_of(robot, contacts, identities);
   std::size_t count = 0;
-  for (int group = 0; group < layout.groups; ++group) {
-    const std::uint64_t pair = identities[layout.ends[group] - 1u].pair;
-    for (const FrictionAnchor& g : springs)
-      if (g.pair == pair && count < max_contacts) before[count++] = g;
-    anchors_ends[group] = std::uint8_t(count);
+  for (int group = 0; group < springs.layout.groups; ++group) {
+    const std::uint64_t pair = identities[springs.layout.ends[group] - 1u].pair;
+    for (const FrictionAnchor& g : *robots_[robot].anchors)
+      if (g.pair == pair && count < max_contacts) springs.before[count++] = g;
+    springs.anchors_ends[group] = std::uint8_t(count);
   }
+  springs.patches = sort_into_patches(contacts, springs.patch_of);
+  return springs;
+}
+
+/// `written`: a friction anchor for each contact.
+void SceneryContacts::apply_springs(const StepContext& context, std::uint32_t robot, std::span<const Contact> contacts,
+                                    const SpringBatch& springs, FrictionAnchor* written) const {
+  KernelRobot view = robots_[robot].view;
+  const std::span<const FrictionAnchor> before(springs.before, springs.anchors_ends[springs.layout.groups - 1]);
+  bool parts = false;
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    const Contact& c = contacts[k];
+    const FrictionAnchor* const anchor = previous(before, k, bodies_.pair_of(c), c.point);
+    const double approach = -c.normal.dot(bodies_.velocity(c.self, c.point));
+    written[k].overlap = unmoved_overlap(context, c, anchor, approach);
+    parts = parts || written[k].overlap > 0;
+  }
+  view.before = springs.before[0].point.data();
+  view.anchors = written[0].point.data();
+  const KernelBatch batch{.stiffness = context.stiffness,
+                          .elapsed = context.elapsed,
+                          .mass = &bodies_.masses[robots_[robot].mass],
+                          .layout = &springs.layout,
+                          .anchors_ends = springs.anchors_ends,
+                          .patch_of = springs.patch_of,
+                          .patches = springs.patches};
+  const auto apply = [&](const Contact* first) {
+    view.contacts = first->point.data();
+    const KernelRobot* const views[] = {&view};
+    kernels_.apply_forces(batch, views, 1);
+  };
+  if (!parts) return apply(contacts.data());
+  Contact parting[max_contacts];
+  std::copy(contacts.begin(), contacts.end(), parting);
+  for (std::size_t k = 0; k < contacts.size(); ++k) parting[k].depth -= written[k].overlap;
+  apply(parting);
+}
+
+void SceneryContacts::process_single(const StepContext& context, std::uint32_t robot) {
+  MeetingTime met[max_contacts];
+  if (const std::uint32_t which = find_impacts(context, robot, met); which != 0)
+    return process_impacts(context, robot, which, met);
+  KnownRobot& known = robots_[robot];
+  const auto contacts = *known.list;
+  const Identities& identities = identities_[robot];
+  const SpringBatch springs = springs_of(robot, contacts, identities);
   known.anchors.clear();
   for (std::uint32_t k = 0; k < known.contacts; ++k) known.anchors.push_back({.pair = identities[k].pair});
   known.anchors_match = true;
-  KernelRobot view = known.view;
-  view.contacts = contacts[0].point.data();
-  view.before = before[0].point.data();
-  view.anchors = (*known.anchors)[0].point.data();
-  KernelBatch batch{.stiffness = context.stiffness,
-                    .elapsed = context.elapsed,
-                    .mass = &bodies_.masses[known.mass],
-                    .layout = &layout,
-                    .anchors_ends = anchors_ends,
-                    .patch_of = patch_of};
-  batch.patches = sort_into_patches(contacts, patch_of);
-  const KernelRobot* const views[] = {&view};
-  kernels_.apply_forces(batch, views, 1);
+  apply_springs(context, robot, contacts, springs, (*known.anchors).data());
+  note_parting(known);
+}
+
+void SceneryContacts::note_parting(KnownRobot& known) const {
+  const auto all = *known.anchors;
+  known.is_parting = std::any_of(all.begin(), all.end(), [](const FrictionAnchor& a) { return a.overlap > 0; });
 }
 
 }  // namespace muro::penalty

@@ -7,7 +7,7 @@
 #include <mutex>
 #include <vector>
 
-#include "bodies.hpp"
+#include "impact.hpp"
 #include "scenery_kernel.hpp"
 
 namespace muro::penalty {
@@ -42,6 +42,7 @@ class SceneryContacts {
     bool only_scenery = false;
     bool one_model = false;      ///< it touches one object of the scenery, and its layout is known
     bool anchors_match = false;  ///< the robot has an anchor for each contact, in their order
+    bool is_parting = false;     ///< some anchor has an overlap
   };
   using Identities = std::array<Identity, max_contacts>;
   /// Robots of one layout and mass, until they fill the SIMD lanes.
@@ -51,6 +52,7 @@ class SceneryContacts {
     KernelRobot views[8];
   };
   struct Queues;
+  struct SpringBatch;
 
   void fetch(std::uint32_t robot) const;
   bool knows(std::uint32_t robot, std::span<const Contact> now) const;
@@ -58,8 +60,16 @@ class SceneryContacts {
   void analyse(std::uint32_t robot, std::span<const Contact> contacts);
   Queue& queue_for(const StepContext& context, const KnownRobot& robot, Queues& queues);
   void process_single(const StepContext& context, std::uint32_t robot);
+  SpringBatch springs_of(std::uint32_t robot, std::span<const Contact> contacts, const Identities& identities) const;
+  void apply_springs(const StepContext& context, std::uint32_t robot, std::span<const Contact> contacts,
+                     const SpringBatch& springs, FrictionAnchor* written) const;
+  void note_parting(KnownRobot& known) const;
+  std::uint32_t find_impacts(const StepContext& context, std::uint32_t robot, MeetingTime* met) const;
+  void process_impacts(const StepContext& context, std::uint32_t robot, std::uint32_t which, const MeetingTime* met);
+  void apply_impacts(const StepContext& context, std::uint32_t robot, std::span<const Contact> contacts,
+                     const MeetingTime* met) const;
   void process_queue(const StepContext& context, Queue& queue);
-  ContactLayout layout_of(std::uint32_t robot, std::span<const Contact> contacts) const;
+  ContactLayout layout_of(std::uint32_t robot, std::span<const Contact> contacts, const Identities& identities) const;
   std::uint32_t number_of(const ContactLayout& layout);
   int sort_into_patches(std::span<const Contact> contacts, std::uint8_t* patch_of) const;
 

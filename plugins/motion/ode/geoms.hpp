@@ -14,6 +14,7 @@ struct GeomOwner {
   std::uint32_t body = 0;         ///< of the robot
   std::uint32_t loaded_link = 0;  ///< see BodyShape
   double friction = 0, restitution = 0;
+  const std::string* scenery = nullptr;  ///< its name; null for what moves, and for meshes, whose depths are none
 };
 
 /// The shape in `space` (null: in none), at `pose`: of the shape in the world, or, with a body, from its centre of

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: MIT
 // Multi-body dynamics by the Open Dynamics Engine (Smith, ode.org): bodies in maximal coordinates, joints and contacts
 // as constraints.
+#include <algorithm>
+#include <charconv>
+
 #include "muro/plugin.hpp"
 #include "ode_world.hpp"
 #include "plugins/common/multibody/engine_description.hpp"
 #include "plugins/common/multibody/engine_parameters.hpp"
 #include "plugins/common/multibody/motion.hpp"
+#include "plugins/common/text/quote.hpp"
+#include "quick_convergence.hpp"
 
 namespace {
 
@@ -15,14 +20,16 @@ constexpr std::string_view solvers[] = {"auto", "quick", "exact"};
 constexpr Parameter own_parameters[] = {
     text("solver", "auto",
          "iterative (dWorldQuickStep), or direct (dWorldStep), whose cost grows with the cube of the rows of a robot; "
-         "auto: exact where a robot has joints on joints, and none has more than 24")
+         "auto: exact where a robot has joints on joints, or the iterations do not hold them, as found at the start")
         .one_of(solvers),
     integer("iterations", 50, "of the solver `quick`").between(1, 10000),
     real("erp", "1", 0.2, "part of an error of joints and contacts that a step takes back").between(0, 1),
-    real("cfm", "s/kg", 1e-6, "softness of joints and contacts").between(0, 1),
+    real("softness", "1", 1e-4, "of joints and contacts, as part of the inverse effective mass of each").between(0, 1),
+    real("cfm", "s/kg", 0, "softness of joints and contacts beyond that, alike for all masses").between(0, 1),
     multibody::correcting_speed,
     multibody::bounce_speed,
     multibody::scenery_meshes,
+    multibody::attitude,
     boolean("reactions", true,
             "whether efforts of drives and wrenches of contacts are found out; ODE is faster without"),
 };
@@ -31,45 +38,58 @@ constexpr Description ode_description = multibody::engine_description(
     "motion.ode", "1.0.0", "Multi-body dynamics by the Open Dynamics Engine; robots of one world touch in it",
     parameters, feature_concave_meshes);
 
-/// Iterations carry forces from joint to joint, and need many where masses differ or much hangs on little.
-bool need_exact_solver(std::span<const Item> items) {
-  constexpr int max_joints = 24;
-  bool chains = false;
-  for (const Item& item : items) {
-    const std::span<const Link> links = item.robot->links;
-    std::vector<int> joints_before(links.size());
-    int joints = 0;
-    for (std::size_t i = 0; i < links.size(); ++i) {
-      const Link& link = links[i];
-      const int moves = link.joint == JointKind::fixed ? 0 : 1;
-      joints_before[i] = (link.parent >= 0 ? joints_before[std::size_t(link.parent)] : 0) + moves;
-      chains = chains || joints_before[i] > 1;
-      joints += moves;
-    }
-    if (joints > max_joints) return false;
-  }
-  return chains;
+/// What engines with iterations need: they part bodies badly whose masses differ by more.
+constexpr multibody::MinInertia quick_inertia{1e-3, 0.01};
+/// Of what would part a robot's joints, what iterations may leave.
+constexpr double most_unsolved = 1e-3;
+
+/// Its cost, which grows with the cube of the rows, is a matter for a note.
+constexpr std::size_t many_joints = 24;
+
+/// Why iterations do not serve a robot, or nothing.
+std::string objection_to_quick(const Connector& c, std::uint32_t item, int iterations) {
+  const RobotView& robot = *c.items()[item].robot;
+  const std::vector<DriveMode> modes = drive_modes_of(c, robot, c.parameters_of(item));
+  multibody::RobotModel model = multibody::model_of(c, robot, modes, quick_inertia);
+  model.fixed_base = c.parameters_of(item).text(multibody::base_mode.name) == "fixed";
+  const double unsolved = ode::unsolved_part(model, iterations);
+  const bool chains =
+      std::any_of(model.bodies.begin(), model.bodies.end(), [](const auto& body) { return body.parent > 0; });
+  if (unsolved <= most_unsolved && !chains) return {};
+  char share[32];
+  const char* const end = std::to_chars(share, share + sizeof share, unsolved, std::chars_format::general, 2).ptr;
+  std::string text = quote(robot.name);
+  text.append(chains ? " has joints on joints, and " : ": ").append(std::to_string(iterations));
+  text.append(" iterations leave ").append(share, std::size_t(end - share)).append(" of what parts its joints");
+  if (model.bodies.size() > many_joints + 1)
+    text.append("; with ")
+        .append(std::to_string(model.bodies.size() - 1))
+        .append(" joints, motion.mujoco and motion.bullet take less time");
+  return text;
 }
 
 class OdeMotion final : public multibody::Motion {
   const Description& description() const override { return ode_description; }
   // Iterations part bodies badly whose masses differ by more.
   multibody::MinInertia min_inertia() const override {
-    return settings_.exact ? multibody::MinInertia{} : multibody::MinInertia{1e-3, 0.01};
+    return settings_.exact ? multibody::MinInertia{} : quick_inertia;
   }
   std::size_t memory_of(const multibody::RobotModel& model) const override { return ode::OdeRobot::memory_of(model); }
   void configure(Connector& c) override {
     const Parameters& p = c.parameters();
     settings_.gravity = gravity();
-    const std::string_view solver = p.text("solver");
-    settings_.exact = solver == "exact" || (solver == "auto" && need_exact_solver(c.items()));
     settings_.iterations = int(p.integer("iterations"));
+    settings_.exact = needs_exact_solver(c);
     settings_.erp = p.real("erp");
+    settings_.softness = p.real("softness");
     settings_.cfm = p.real("cfm");
+    settings_.exact_attitude = p.text(multibody::attitude.name) == "exact";
     settings_.correcting_speed = p.real(multibody::correcting_speed.name);
     settings_.bounce_speed = p.real(multibody::bounce_speed.name);
     settings_.reactions = p.boolean("reactions");
     ode::start_library();
+    messages_ = std::make_shared<ode::MessageLog>(c.host(), ode_description.id);
+    const ode::ErrorTrap trap(*messages_);
     auto meshes = std::make_shared<ode::OdeMeshes>();
     meshes->load(
         c, p.text(multibody::scenery_meshes.name) == "exact",
@@ -77,12 +97,29 @@ class OdeMotion final : public multibody::Motion {
         [](const mesh::Mesh& mesh) { return std::make_unique<ode::TriangleMesh>(mesh); });
     meshes_ = std::move(meshes);
   }
+  bool needs_exact_solver(const Connector& c) const {
+    const std::string_view solver = c.parameters().text("solver");
+    if (solver != "auto") return solver == "exact";
+    for (std::uint32_t i = 0; i < c.items().size(); ++i) {
+      const std::string objection = objection_to_quick(c, i, settings_.iterations);
+      if (objection.empty()) continue;
+      std::string text(ode_description.id);
+      text.append(": `solver: auto` is `exact` here: ").append(objection);
+      c.host().log(LogLevel::info, text);
+      return true;
+    }
+    return false;
+  }
   std::unique_ptr<multibody::World> make_world() const override {
-    return std::make_unique<ode::OdeWorld>(settings_, meshes_);
+    return std::make_unique<ode::OdeWorld>(settings_, meshes_, messages_);
+  }
+  std::string_view advice() const override {
+    return settings_.exact ? "a higher rate or `substeps`" : "`solver: exact`, a higher rate or `substeps`";
   }
 
   ode::OdeSettings settings_;
   std::shared_ptr<const ode::OdeMeshes> meshes_;
+  std::shared_ptr<ode::MessageLog> messages_;
 };
 
 constexpr abi::AlgorithmEntry algorithms[] = {algorithm<OdeMotion>(ode_description)};

@@ -3,6 +3,9 @@
 
 #include <cmath>
 
+#include "muro/toolkit/elementary.hpp"
+#include "plugins/common/multibody/free_rotation.hpp"
+
 namespace muro::ode {
 
 using multibody::JointState, multibody::RigidBody, multibody::BodyState, multibody::MotionType;
@@ -40,12 +43,14 @@ bool is_normalized(const dReal* q) {
 }  // namespace
 
 OdeRobot::OdeRobot(dWorldID world, dSpaceID space, const multibody::RobotModel& model, multibody::RobotState& state,
-                   std::int32_t number, std::deque<GeomOwner>& owners, const OdeMeshes& meshes, bool reactions)
+                   std::int32_t number, std::deque<GeomOwner>& owners, const OdeMeshes& meshes,
+                   const OdeSettings& settings)
     : world_(world),
       space_(space),
       model_(&model),
       state_(&state),
-      reactions_(reactions),
+      settings_(settings),
+      rotates_exactly_(settings.exact_attitude && model.bodies.size() == 1 && !model.fixed_base),
       body_states_(model.bodies.size()) {
   multibody::RobotState zero;  // joints are made where all of them are at 0
   zero.joints.resize(model.bodies.size());
@@ -71,12 +76,15 @@ void OdeRobot::add_body(std::size_t number) {
   OdeBody& b = bodies_.emplace_back();
   b.id = dBodyCreate(world_);
   b.com = inertia.com;
+  b.inertia = inertia.tensor();
+  b.inverse_inertia = b.inertia.inverse();
   dMass mass;
   dMassSetParameters(&mass, inertia.mass, 0, 0, 0, inertia.ixx, inertia.iyy, inertia.izz, inertia.ixy, inertia.ixz,
                      inertia.iyz);
   dBodySetMass(b.id, &mass);
   dBodySetFiniteRotationMode(b.id, 1);
   dBodySetAutoDisableFlag(b.id, 0);
+  if (rotates_exactly_) dBodySetGyroscopicMode(b.id, 0);
   if (number == 0 && model_->fixed_base) dBodySetKinematic(b.id);
   set_pose(b.id, body_states_[number].pose * b.com, body_states_[number].pose.orientation);
 }
@@ -107,7 +115,7 @@ void OdeRobot::add_joint(std::size_t number) {
     set(b.damper, dParamFMax, dInfinity);
     set(b.damper, dParamCFM, 1 / damping);
   }
-  if (reactions_) dJointSetFeedback(b.drive ? b.drive : b.joint, &b.feedback);
+  if (settings_.reactions) dJointSetFeedback(b.drive ? b.drive : b.joint, &b.feedback);
   b.has_far_stops =
       body.joint == JointKind::revolute && ((std::isfinite(body.limits.lower) && body.limits.lower < -min_far_stop) ||
                                             (std::isfinite(body.limits.upper) && body.limits.upper > min_far_stop));
@@ -130,6 +138,38 @@ dJointID OdeRobot::create_motor(std::size_t number, const Vec3& axis) const {
   return motor;
 }
 
+double OdeRobot::inverse_effective_mass(std::size_t number, const Vec3& point, const Vec3& normal) const {
+  if (motion_type_ != MotionType::dynamic || (number == 0 && model_->fixed_base)) return 0;
+  const OdeBody& b = bodies_[number];
+  const Quat to_body = quaternion_of(dBodyGetQuaternion(b.id)).conjugate();
+  const Vec3 lever = to_body * Vec3((point - vector_of(dBodyGetPosition(b.id))).cross(normal));
+  return 1 / model_->bodies[number].inertia.mass + lever.dot(b.inverse_inertia * lever);
+}
+
+/// 1/kg or 1/(kg m^2): what the joint of a body moves, if its two bodies hang on nothing else.
+double OdeRobot::inverse_joint_inertia(std::size_t number) const {
+  const RigidBody& body = model_->bodies[number];
+  const auto parent = std::size_t(body.parent);
+  const bool parent_moves = parent > 0 || !model_->fixed_base;
+  if (body.joint != JointKind::revolute)
+    return 1 / body.inertia.mass + (parent_moves ? 1 / model_->bodies[parent].inertia.mass : 0);
+  const Vec3 in_parent = body.origin.orientation * body.axis;
+  const double own = body.axis.dot(bodies_[number].inverse_inertia * body.axis);
+  return own + (parent_moves ? in_parent.dot(bodies_[parent].inverse_inertia * in_parent) : 0);
+}
+
+void OdeRobot::set_step(double dt) {
+  for (std::size_t i = 1; i < bodies_.size(); ++i) {
+    const OdeBody& b = bodies_[i];
+    const bool turns = model_->bodies[i].joint == JointKind::revolute;
+    const double cfm = settings_.cfm + settings_.softness * dt * inverse_joint_inertia(i);
+    const auto set_joint = turns ? &dJointSetHingeParam : &dJointSetSliderParam;
+    set_joint(b.joint, dParamCFM, cfm);
+    set_joint(b.joint, dParamStopCFM, cfm);
+    if (b.drive) (turns ? dJointSetAMotorParam : dJointSetLMotorParam)(b.drive, dParamCFM, cfm);
+  }
+}
+
 void OdeRobot::set_motion_type(MotionType motion_type) {
   if (motion_type == motion_type_) return;
   motion_type_ = motion_type;
@@ -149,6 +189,7 @@ void OdeRobot::import() {
   else if (!bodies_match_memory_)
     set_bodies_from_memory();
   bodies_match_memory_ = false;
+  start_ = quaternion_of(dBodyGetQuaternion(bodies_[0].id));
   for (Wrench& w : state_->contact) w = Wrench{};
   if (motion_type_ != MotionType::dynamic) return;
   set_forces();
@@ -241,6 +282,7 @@ BodyState OdeRobot::body_state_of(std::size_t number) const {
 
 void OdeRobot::export_state(double dt) {
   if (motion_type_ != MotionType::dynamic) return;
+  if (rotates_exactly_) rotate_exactly(dt);
   double* m = state_->memory.data();
   for (const OdeBody& b : bodies_) {
     std::copy_n(dBodyGetPosition(b.id), 3, m);
@@ -259,6 +301,17 @@ void OdeRobot::export_state(double dt) {
   for (std::size_t i = 1; i < bodies_.size(); ++i) export_joint(i, dt);
 }
 
+/// ODE has changed the spin by torques alone; what it has made of the orientation is replaced.
+void OdeRobot::rotate_exactly(double dt) {
+  const OdeBody& b = bodies_[0];
+  multibody::FreeRotation free{start_, vector_of(dBodyGetAngularVel(b.id))};
+  free.advance(b.inertia, b.inverse_inertia, dt);
+  dQuaternion orientation;
+  copy_quaternion(orientation, free.orientation);
+  dBodySetQuaternion(b.id, orientation);
+  dBodySetAngularVel(b.id, free.spin.x(), free.spin.y(), free.spin.z());
+}
+
 void OdeRobot::export_joint(std::size_t number, double dt) {
   const RigidBody& body = model_->bodies[number];
   const BodyState &child = body_states_[number], &parent = body_states_[std::size_t(body.parent)];
@@ -268,11 +321,11 @@ void OdeRobot::export_joint(std::size_t number, double dt) {
   const Vec3 force = vector_of(b.feedback.f1), torque = vector_of(b.feedback.t1);
   if (body.joint == JointKind::revolute) {
     const Quat rotation = (parent.pose.orientation * body.origin.orientation).conjugate() * child.pose.orientation;
-    const double angle = 2 * std::atan2(rotation.vec().dot(body.axis), rotation.w());
+    const double angle = 2 * elementary::atan2(rotation.vec().dot(body.axis), rotation.w());
     const double expected = joint.position + dt * joint.velocity;
     joint.position = expected + wrapped(angle - expected);
     joint.velocity = axis.dot(child.twist.angular - parent.twist.angular);
-    if (reactions_) joint.effort = axis.dot(torque + Vec3(child.pose.orientation * b.com).cross(force));
+    if (settings_.reactions) joint.effort = axis.dot(torque + Vec3(child.pose.orientation * b.com).cross(force));
   } else {
     const Vec3 zero = parent.pose * body.origin.position;  // where the child is with the joint at 0
     joint.position = axis.dot(child.pose.position - zero);

@@ -5,6 +5,7 @@
 #include <deque>
 
 #include "geoms.hpp"
+#include "ode_settings.hpp"
 
 namespace muro::ode {
 
@@ -15,7 +16,9 @@ class OdeRobot {
 
   /// `space`: for its geoms. `owners`: those of all geoms of the world, to which it adds its own.
   OdeRobot(dWorldID world, dSpaceID space, const multibody::RobotModel& model, multibody::RobotState& state,
-           std::int32_t number, std::deque<GeomOwner>& owners, const OdeMeshes& meshes, bool reactions);
+           std::int32_t number, std::deque<GeomOwner>& owners, const OdeMeshes& meshes, const OdeSettings& settings);
+  /// Steps take `dt` (s) from now on: see OdeSettings::softness.
+  void set_step(double dt);
 
   /// Places bodies and sets forces and drives for a step.
   void import();
@@ -25,7 +28,10 @@ class OdeRobot {
   void add_contact(const GeomOwner& owner, const Vec3& force, const Vec3& torque);
 
   const multibody::RobotModel& model() const { return *model_; }
+  multibody::RobotState& state() const { return *state_; }
   multibody::MotionType motion_type() const { return motion_type_; }
+  /// 1/kg: what a force along `normal` (unit) at `point` meets in a body that no joint holds; world axes.
+  double inverse_effective_mass(std::size_t body, const Vec3& point, const Vec3& normal) const;
   dSpaceID space() const { return space_; }
   const std::vector<dGeomID>& geoms() const { return geoms_; }
 
@@ -34,8 +40,9 @@ class OdeRobot {
 
   struct OdeBody {
     dBodyID id = nullptr;
-    Vec3 com = Vec3::Zero();              ///< in the frame of the body
-    dJointID joint = nullptr;             ///< that moves it; none for the base
+    Vec3 com = Vec3::Zero();                                      ///< in the frame of the body
+    Mat3 inertia = Mat3::Zero(), inverse_inertia = Mat3::Zero();  ///< about it, axes of the body
+    dJointID joint = nullptr;                                     ///< that moves it; none for the base
     dJointID drive = nullptr;             ///< of a joint with stops; none: `joint` drives itself
     dJointID damper = nullptr;            ///< none where the model has no damping
     double velocity = 0, max_effort = 0;  ///< what the drive was told last
@@ -46,6 +53,7 @@ class OdeRobot {
 
   void add_body(std::size_t body);
   void add_joint(std::size_t body);
+  double inverse_joint_inertia(std::size_t body) const;
   dJointID create_motor(std::size_t body, const Vec3& axis) const;
   void set_motion_type(multibody::MotionType motion_type);
   void set_bodies_from_state();
@@ -56,12 +64,15 @@ class OdeRobot {
   void set_near_stops(std::size_t body) const;
   multibody::BodyState body_state_of(std::size_t body) const;
   void export_joint(std::size_t body, double dt);
+  void rotate_exactly(double dt);
 
   dWorldID world_;
   dSpaceID space_;
   const multibody::RobotModel* model_;
   multibody::RobotState* state_;
-  bool reactions_;  ///< whether efforts of drives are found out
+  OdeSettings settings_;
+  bool rotates_exactly_ = false;   ///< see OdeSettings::exact_attitude
+  Quat start_ = Quat::Identity();  ///< of such a body: its orientation when the step began
   multibody::MotionType motion_type_ = multibody::MotionType::dynamic;
   std::deque<OdeBody> bodies_;        ///< one per body
   bool bodies_match_memory_ = false;  ///< they are where the memory says

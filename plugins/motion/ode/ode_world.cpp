@@ -19,19 +19,31 @@ std::mutex& step_mutex() {
   return mutex;
 }
 
+/// ODE cannot destroy what an error has left half done: it stays.
+void abandon(std::vector<void*> parts) {
+  static std::mutex mutex;
+  static auto& abandoned = *new std::vector<std::vector<void*>>;
+  const std::lock_guard lock(mutex);
+  abandoned.push_back(std::move(parts));
+}
+
+constexpr double deep_softness = 0.1;   ///< see softness_of
 constexpr int max_contacts = 8;         ///< of two geoms
 constexpr double sliding_speed = 1e-2;  ///< m/s
 
 }  // namespace
 
-OdeWorld::OdeWorld(const OdeSettings& settings, std::shared_ptr<const OdeMeshes> meshes)
-    : settings_(settings), meshes_(std::move(meshes)) {
+OdeWorld::OdeWorld(const OdeSettings& settings, std::shared_ptr<const OdeMeshes> meshes,
+                   std::shared_ptr<MessageLog> messages)
+    : settings_(settings), meshes_(std::move(meshes)), messages_(std::move(messages)) {
   start_library();
   prepare_this_thread();
   world_ = dWorldCreate();
+  // Its own, for a failure leaves it with a step half done.
+  threading_ = dThreadingAllocateSelfThreadedImplementation();
+  dWorldSetStepThreadingImplementation(world_, dThreadingImplementationGetFunctions(threading_), threading_);
   dWorldSetGravity(world_, settings.gravity.x(), settings.gravity.y(), settings.gravity.z());
   dWorldSetERP(world_, settings.erp);
-  dWorldSetCFM(world_, settings.cfm);
   dWorldSetQuickStepNumIterations(world_, settings.iterations);
   dWorldSetContactMaxCorrectingVel(world_, settings.correcting_speed);
   dWorldSetAutoDisableFlag(world_, 0);
@@ -42,48 +54,71 @@ OdeWorld::OdeWorld(const OdeSettings& settings, std::shared_ptr<const OdeMeshes>
 }
 
 OdeWorld::~OdeWorld() {
+  if (has_failed_) {
+    abandon({world_, contact_joints_, threading_, static_space_, kinematic_space_, robot_space_});
+    return;
+  }
   dJointGroupDestroy(contact_joints_);
   for (const dGeomID plane : planes_) dGeomDestroy(plane);
   dSpaceDestroy(robot_space_);
   dSpaceDestroy(kinematic_space_);
   dSpaceDestroy(static_space_);
   dWorldDestroy(world_);
+  dThreadingFreeImplementation(threading_);
 }
 
-void OdeWorld::set_owner(dGeomID geom, const multibody::BodyShape& shape) {
+template <class Work>
+void OdeWorld::guarded(const Work& work) {
+  const ErrorTrap trap(*messages_);
+  try {
+    work();
+  } catch (...) {
+    has_failed_ = true;
+    throw;
+  }
+}
+
+GeomOwner& OdeWorld::set_owner(dGeomID geom, const multibody::BodyShape& shape) {
   owners_.push_back(
       {std::uint32_t(owners_.size()), -1, 0, shape.loaded_link, shape.shape.friction, shape.shape.restitution});
   dGeomSetData(geom, &owners_.back());
+  return owners_.back();
 }
 
 void OdeWorld::add_static_body(const multibody::ExternalBody& body) {
-  for (const multibody::BodyShape& s : body.shapes) {
-    const bool plane = s.shape.kind == ShapeKind::plane;
-    const dGeomID geom =
-        create_geom(s.shape, body.pose * s.shape.origin, nullptr, plane ? nullptr : static_space_, *meshes_);
-    if (!geom) continue;
-    set_owner(geom, s);
-    if (plane) planes_.push_back(geom);
-  }
+  guarded([&] {
+    for (const multibody::BodyShape& s : body.shapes) {
+      const bool plane = s.shape.kind == ShapeKind::plane;
+      const dGeomID geom =
+          create_geom(s.shape, body.pose * s.shape.origin, nullptr, plane ? nullptr : static_space_, *meshes_);
+      if (!geom) continue;
+      GeomOwner& owner = set_owner(geom, s);
+      if (s.shape.kind != ShapeKind::mesh) owner.scenery = &body.name;
+      if (plane) planes_.push_back(geom);
+    }
+  });
 }
 
 void OdeWorld::add_kinematic_body(const multibody::ExternalBody& body, const multibody::ExternalBodyState& state) {
   KinematicBody& k = kinematic_bodies_.emplace_back();
   k.state = &state;
-  k.body = dBodyCreate(world_);
-  dBodySetKinematic(k.body);
-  for (const multibody::BodyShape& s : body.shapes)
-    if (const dGeomID geom = create_geom(s.shape, s.shape.origin, k.body, kinematic_space_, *meshes_)) {
-      set_owner(geom, s);
-      k.geoms.push_back(geom);
-    }
+  guarded([&] {
+    k.body = dBodyCreate(world_);
+    dBodySetKinematic(k.body);
+    for (const multibody::BodyShape& s : body.shapes)
+      if (const dGeomID geom = create_geom(s.shape, s.shape.origin, k.body, kinematic_space_, *meshes_)) {
+        set_owner(geom, s);
+        k.geoms.push_back(geom);
+      }
+  });
 }
 
 void OdeWorld::add_robot(const multibody::RobotModel& model, multibody::RobotState& state) {
-  const dSpaceID space = dSimpleSpaceCreate(robot_space_);
-  dSpaceSetSublevel(space, 1);
-  robots_.emplace_back(world_, space, model, state, std::int32_t(robots_.size()), owners_, *meshes_,
-                       settings_.reactions);
+  guarded([&] {
+    const dSpaceID space = dSimpleSpaceCreate(robot_space_);
+    dSpaceSetSublevel(space, 1);
+    robots_.emplace_back(world_, space, model, state, std::int32_t(robots_.size()), owners_, *meshes_, settings_);
+  });
 }
 
 void OdeWorld::complete() {
@@ -113,15 +148,40 @@ void OdeWorld::import(KinematicBody& k) const {
 
 void OdeWorld::advance(double dt) {
   prepare_this_thread();
-  for (KinematicBody& k : kinematic_bodies_) import(k);
-  for (OdeRobot& r : robots_) r.import();
-  find_pairs();
-  find_contacts();
-  create_contact_joints();
-  step_world(dt);
-  for (OdeRobot& r : robots_) r.export_state(dt);
-  if (settings_.reactions) export_contacts();
-  dJointGroupEmpty(contact_joints_);
+  guarded([&] {
+    if (dt != dt_) set_step(dt);
+    for (KinematicBody& k : kinematic_bodies_) import(k);
+    for (OdeRobot& r : robots_) r.import();
+    find_pairs();
+    find_contacts();
+    create_contact_joints();
+    step_world(dt);
+    for (OdeRobot& r : robots_) r.export_state(dt);
+    if (settings_.reactions) export_contacts();
+    dJointGroupEmpty(contact_joints_);
+  });
+}
+
+/// The softness of what has none of its own, the rows that hold joints together, is that of the heaviest body.
+void OdeWorld::set_step(double dt) {
+  dt_ = dt;
+  double heaviest = 0;
+  for (const OdeRobot& r : robots_)
+    for (const multibody::RigidBody& b : r.model().bodies) heaviest = std::max(heaviest, b.inertia.mass);
+  dWorldSetCFM(world_, settings_.cfm + (heaviest > 0 ? settings_.softness * dt / heaviest : 0));
+  for (OdeRobot& r : robots_) r.set_step(dt);
+}
+
+/// In 1/(N s/m): ODE adds it, over the time step, to the inverse effective mass.
+double OdeWorld::softness_of(const FoundContact& found) const {
+  const Vec3 point = vector_of(found.contact.geom.pos), normal = vector_of(found.contact.geom.normal);
+  double inverse = 0;
+  for (const GeomOwner* owner : {found.first, found.second})
+    if (owner->robot >= 0)
+      inverse += robots_[std::size_t(owner->robot)].inverse_effective_mass(owner->body, point, normal);
+  // What is deep in a body is often pushed from several sides at once, which no forces can fulfil.
+  const bool is_deep = settings_.erp * found.contact.geom.depth > settings_.correcting_speed * dt_;
+  return settings_.cfm + (is_deep ? std::max(settings_.softness, deep_softness) : settings_.softness) * dt_ * inverse;
 }
 
 void OdeWorld::step_world(double dt) {
@@ -194,8 +254,12 @@ void OdeWorld::create_contact_joints() {
   for (std::size_t i = 0; i < contact_count_; ++i) {
     FoundContact& found = found_contacts_[i];
     dContactGeom& geom = found.contact.geom;
+    if (found.second->scenery)
+      robots_[std::size_t(found.first->robot)].state().overlap.add(geom.depth, found.first->loaded_link,
+                                                                   *found.second->scenery);
     dSurfaceParameters& surface = found.contact.surface;  // what its mode does not name is not read
-    surface.mode = dContactApprox1;
+    surface.mode = dContactApprox1 | dContactSoftCFM | dContactSlip1 | dContactSlip2;
+    surface.soft_cfm = surface.slip1 = surface.slip2 = softness_of(found);
     surface.mu = std::sqrt(found.first->friction * found.second->friction);
     surface.mu2 = 0;
     const double restitution = std::max(found.first->restitution, found.second->restitution);

@@ -3,6 +3,7 @@
 
 #include "ode_robot.hpp"
 #include "ode_settings.hpp"
+#include "plugins/common/ode/error_trap.hpp"
 
 namespace muro::ode {
 
@@ -12,7 +13,7 @@ namespace muro::ode {
 /// order of their geoms, and the random numbers with which ODE's solver shuffles its rows begin anew.
 class OdeWorld final : public multibody::World {
  public:
-  OdeWorld(const OdeSettings& settings, std::shared_ptr<const OdeMeshes> meshes);
+  OdeWorld(const OdeSettings& settings, std::shared_ptr<const OdeMeshes> meshes, std::shared_ptr<MessageLog> messages);
   ~OdeWorld() override;
 
   void add_static_body(const multibody::ExternalBody& body) override;
@@ -44,13 +45,22 @@ class OdeWorld final : public multibody::World {
   void import(KinematicBody& body) const;
   void find_pairs();
   void find_contacts();
+  void set_step(double dt);
+  double softness_of(const FoundContact& found) const;
   void create_contact_joints();
   void step_world(double dt);
   void export_contacts();
-  void set_owner(dGeomID geom, const multibody::BodyShape& shape);
+  GeomOwner& set_owner(dGeomID geom, const multibody::BodyShape& shape);
+  /// Calls of ODE, with its errors as exceptions.
+  template <class Work>
+  void guarded(const Work& work);
 
   OdeSettings settings_;
+  double dt_ = 0;
   std::shared_ptr<const OdeMeshes> meshes_;
+  std::shared_ptr<MessageLog> messages_;
+  bool has_failed_ = false;  ///< ODE has: nothing of it can be used or destroyed
+  dThreadingImplementationID threading_ = nullptr;
   dWorldID world_ = nullptr;
   dJointGroupID contact_joints_ = nullptr;
   dSpaceID static_space_ = nullptr, kinematic_space_ = nullptr, robot_space_ = nullptr;

@@ -7,9 +7,8 @@
 #include <vector>
 
 #include "composite_body.hpp"
+#include "impact_path.hpp"
 #include "move.hpp"
-#include "muro/simd/rows.hpp"
-#include "rigid_body.hpp"
 
 namespace muro::simplified {
 
@@ -43,6 +42,11 @@ class Articulation {
     lane::store_twist(twist_at, 0, twist);
     const auto all = pose.position + twist.linear + twist.angular;
     return std::isfinite(all.x + all.y + all.z);
+  }
+
+  /// See simplified::correct_path; after move_base.
+  void correct_path(const RobotState& robot, double inverse_mass, const ImpactCorrection& impact) const {
+    simplified::correct_path(robot.pose, robot.twist, plain(state_), plain(inverse_), inverse_mass, impact);
   }
 
  private:

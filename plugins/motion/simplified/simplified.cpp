@@ -3,18 +3,22 @@
 #include <Eigen/Eigenvalues>
 #include <array>
 #include <bit>
+#include <deque>
 #include <optional>
 #include <string>
 
 #include "articulation.hpp"
 #include "force_driven_joints.hpp"
 #include "joint_properties.hpp"
+#include "least_inertia.hpp"
 #include "move.hpp"
 #include "muro/plugin.hpp"
 #include "muro/toolkit/mass_properties.hpp"
 #include "plugins/common/contact_geometry/contact_responsibility.hpp"
 #include "plugins/common/multibody/consistent_inertia.hpp"
 #include "plugins/common/text/quote.hpp"
+#include "plugins/common/watch/parameters.hpp"
+#include "robot_watch.hpp"
 
 namespace {
 
@@ -35,9 +39,13 @@ constexpr Parameter parameters[] = {
     boolean("effort_limits", false, "drives that follow targets are no stronger than the model says, and give way"),
     real("armature", "kg m^2 or kg", 0, "inertia of each drive, felt by joints that forces move").between(0, 1e6),
     text("base", "free", "free to move, or fixed to the world where it starts").one_of(bases),
+    watch::watch,
+    watch::watch_speed,
+    watch::watch_depth,
 };
 constexpr PropertyUse reads[] = {
     {"wrench.external", "of the base; of each body with a shape, too, where forces move joints: sums"},
+    {"contacts", "of the robot, where a contact algorithm reads them: how deep it is in scenery"},
     {"gravity", "on the world object; 0 0 -9.81 when absent"},
     {"inertial", "of every body"},
     {"joint.velocity.target", "of joints in mode velocity"},
@@ -47,6 +55,8 @@ constexpr PropertyUse reads[] = {
     {"pose.initial", "of the base"},
     {"twist.initial", "of the base"},
     {"joint.position.initial", "of every joint"},
+    {"contact.impact", "on the base: where impacts were within the last step"},
+    {"contact.impact.time", "on the base: when they were"},
 };
 constexpr PropertyUse writes[] = {{"pose", "of the base"},
                                   {"twist", "of the base"},
@@ -54,7 +64,8 @@ constexpr PropertyUse writes[] = {{"pose", "of the base"},
                                   {"joint.velocity", "of every joint"},
                                   {"joint.effort", "of joints that forces move: what the drive applies"},
                                   {"contact.world", "that the contact algorithm answers for all contacts"},
-                                  {"twist.lag", "0: pose and twist are those of one instant"}};
+                                  {"twist.lag", "0: pose and twist are those of one instant"},
+                                  {"contact.impact.step", "of a base that impacts push: length of a step"}};
 constexpr Description description{
     .id = "motion.simplified",
     .kind = Kind::motion,
@@ -83,7 +94,15 @@ class Simplified final : public Algorithm {
     for (const Item& item : c.items()) connect_robot(c, *item.robot);
   }
 
+  void connect_by_name(Connector& c) override {
+    scenery_ = scenery_names(c);
+    for (RobotWatch& watch : watches_) watch.connect_contacts(c);
+  }
+
+  void restored() override { begin_watches(); }
+
   void start() override {
+    begin_watches();
     other_contributions_.clear();
     totals_.assign(robots_.size(), Wrench{});
     for (std::size_t i = 0; i < robots_.size(); ++i) {
@@ -104,6 +123,7 @@ class Simplified final : public Algorithm {
   }
 
   void on_handover(std::uint32_t item) override {
+    watches_[item].begin(external_of(item));
     *robots_[item].contact_world = contact_world_of(robots_[item].external.has_value());
     *robots_[item].twist_lag = 0;
     if (fixed_) std::fill_n(layers_[0][item].twist, 6, 0.0);
@@ -116,6 +136,7 @@ class Simplified final : public Algorithm {
 
   /// Neighbours of one kind go eight at a time.
   void step(const Step& step, Range range) override {
+    if (step.index % RobotWatch::interval == 0) look_at(range);
     for (std::uint32_t i = range.begin, end = i; i < range.end; i = end) {
       while (end < range.end && end < i + lane_width && kinds_[end] == kinds_[i]) ++end;
       const Model& model = models_[kinds_[i].model];
@@ -130,6 +151,7 @@ class Simplified final : public Algorithm {
       } else {
         move_by_steps(batch, model, i, end);
       }
+      for (std::uint32_t k = i; k < end; ++k) take_impacts(k, step);
     }
   }
 
@@ -157,6 +179,12 @@ class Simplified final : public Algorithm {
     std::uint32_t wrenches = 0;  ///< contributions to the external wrench
     bool operator==(const Kind&) const = default;
   };
+  /// Of a robot whose impacts act at their instant; none for others.
+  struct ImpactInput {
+    In<std::int64_t> time;
+    In<ImpactCorrection> correction;
+    Out<double> step;
+  };
   struct Robot {
     std::optional<SumIn<Wrench>> external;  ///< none: no wrench moves it
     Out<std::uint64_t> contact_world;
@@ -171,6 +199,11 @@ class Simplified final : public Algorithm {
     std::vector<Inertia> inertias = inertias_of(c, robot);
     for (Inertia& i : inertias) i = nearest_consistent_inertia(i).value_or(i);
     const std::vector<double> start = initial_joint_positions(c, robot);
+    if (complete_inertia(c, robot, start, inertias))
+      c.host().log(LogLevel::info,
+                   "motion.simplified: the inertia of " + quote(robot.name) +
+                       " is less than a hundredth of that of a box of its size and mass, so that contacts could not "
+                       "hold it; it is raised to that. Give its bodies an inertia (`inertial`) that fits them");
     CompositeBody composite(robot.links, inertias, start);
     const Inertia total = composite_inertia(robot.links, inertias, start);
     check_mass(robot, total);
@@ -191,6 +224,7 @@ class Simplified final : public Algorithm {
     std::copy_n(inverse.data(), 9, model.mass.inverse);
     const std::vector<JointProperties> properties =
         connect_joint_properties(c, robot, start, c.parameters().boolean("effort_limits"));
+    watches_.emplace_back(c, robot, properties);
     // Where another motion of the robot asks for the wrenches on links, they do not act on the base.
     const bool has_levels = robot.links.size() > 1 && !c.constant_array(robot.base(), keys::motion_level_names).empty();
     model.force_driven = has_levels || std::any_of(properties.begin(), properties.end(),
@@ -204,6 +238,12 @@ class Simplified final : public Algorithm {
     if (model.force_driven || !fixed_) r.external = c.read_sum(robot.base(), keys::external_wrench);
     r.contact_world = c.variable(robot.base(), keys::contact_world, contact_world_of(r.external.has_value()));
     r.twist_lag = c.variable(robot.base(), keys::twist_lag, 0.0);
+    ImpactInput impacts;
+    if (!model.force_driven && !fixed_)
+      impacts = {c.input(robot.base(), keys::impact_time, std::int64_t{0}),
+                 c.input(robot.base(), keys::impact, ImpactCorrection{}),
+                 c.variable(robot.base(), keys::impact_step, 0.0)};
+    impacts_.push_back(impacts);
     connect_groups(robot, properties, model, state);
     model.single_kernel = model.rigid && !model.force_driven && !fixed_ && model.groups.size() <= 1;
     if (!composite.rigid()) {
@@ -256,6 +296,25 @@ class Simplified final : public Algorithm {
     return std::uint32_t(models_.size() - 1);
   }
 
+  const SumIn<Wrench>* external_of(std::uint32_t i) const {
+    return robots_[i].external ? &*robots_[i].external : nullptr;
+  }
+  void begin_watches() {
+    for (std::uint32_t i = 0; i < watches_.size(); ++i) watches_[i].begin(external_of(i));
+  }
+  /// Throws Error when the watch over one of the robots ends the run.
+  void look_at(Range range) {
+    for (std::uint32_t i = range.begin; i < range.end; ++i) {
+      const RobotState& s = layers_[0][i];
+      const std::string problem = watches_[i].problem(pose_of(s), twist_of(s), scenery_);
+      if (!problem.empty()) throw Error(problem);
+    }
+  }
+  static Pose pose_of(const RobotState& s) { return {Vec3(s.pose[0], s.pose[1], s.pose[2]), Quat(s.pose + 3)}; }
+  static Twist twist_of(const RobotState& s) {
+    return {Vec3(s.twist[0], s.twist[1], s.twist[2]), Vec3(s.twist[3], s.twist[4], s.twist[5])};
+  }
+
   static void set_joints(BatchParameters& batch, const Model& model, std::size_t group) {
     if (group >= model.groups.size()) return;
     const Model::Group& g = model.groups[group];
@@ -291,12 +350,23 @@ class Simplified final : public Algorithm {
     }
   }
 
+  void take_impacts(std::uint32_t i, const Step& step) const {
+    const ImpactInput& in = impacts_[i];
+    if (!in.time) return;
+    if (*in.step != step.dt) *in.step = step.dt;
+    if (*in.time != step.time || in.correction->path.isZero(0)) return;
+    const RigidMass& mass = models_[kinds_[i].model].mass;
+    const RobotState& state = layers_[0][i];
+    if (robots_[i].articulation >= 0)
+      articulations_[std::size_t(robots_[i].articulation)].correct_path(state, mass.inverse_mass, *in.correction);
+    else
+      correct_path(state.pose, state.twist, mass, *in.correction);
+  }
+
   void move_force_driven_joints(std::uint32_t i, double dt) {
     ForceDrivenJoints& joints = force_driven_[std::size_t(robots_[i].force_driven)];
     const RobotState& s = layers_[0][i];
-    const Pose pose{Vec3(s.pose[0], s.pose[1], s.pose[2]), Quat(s.pose + 3)};
-    const Twist twist{Vec3(s.twist[0], s.twist[1], s.twist[2]), Vec3(s.twist[3], s.twist[4], s.twist[5])};
-    totals_[i] = joints.evaluate(pose, twist, gravity_, dt);
+    totals_[i] = joints.evaluate(pose_of(s), twist_of(s), gravity_, dt);
     if (!joints.move(dt)) fail(i);
   }
 
@@ -316,9 +386,12 @@ class Simplified final : public Algorithm {
   Vec3 gravity_ = Vec3::Zero();
   const Kernels* kernels_ = &kernels_for(lane::best_isa());
   std::vector<Model> models_;
-  std::vector<Kind> kinds_;                         ///< one per robot
-  std::array<std::vector<RobotState>, 3> layers_;   ///< by group of joints; one per robot. The first has the base, too
-  std::vector<Robot> robots_;                       ///< the rest of them
+  std::vector<Kind> kinds_;                        ///< one per robot
+  std::array<std::vector<RobotState>, 3> layers_;  ///< by group of joints; one per robot. The first has the base, too
+  std::vector<Robot> robots_;                      ///< the rest of them
+  std::deque<RobotWatch> watches_;                 ///< likewise
+  SceneryNames scenery_;
+  std::vector<ImpactInput> impacts_;                ///< one per robot
   std::vector<const double*> other_contributions_;  ///< contributions to wrenches, all but the first of each robot
   std::vector<Wrench> totals_;  ///< of robots with force-driven joints: what acts on them in this step
   std::vector<Articulation> articulations_;

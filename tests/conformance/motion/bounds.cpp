@@ -12,8 +12,6 @@ struct Exception {
   std::string_view why;
 };
 constexpr Exception exceptions[] = {
-    {"motion.simplified", "a ball of restitution 0.7 bounces when it should", 0.04,
-     "a contact of contact.penalty lasts 10 ms, and delays each bounce by that"},
     {"motion.mujoco", "a tumbling box keeps its angular momentum", 0.02, "Euler steps of the attitude, first order"},
     {"motion.mujoco", "a tumbling box keeps its energy", 0.02, "Euler steps of the attitude, first order"},
     {"motion.mujoco", "a tumbling box flies a parabola", 0.05, "semi-implicit Euler: g dt t / 2 = 0.049 m"},
@@ -23,7 +21,6 @@ constexpr Exception exceptions[] = {
     {"motion.ode", "a tumbling box keeps its energy", 0.02, "Euler steps of the attitude, first order"},
     {"motion.ode", "a tumbling box flies a parabola", 0.05, "semi-implicit Euler: g dt t / 2 = 0.049 m"},
     {"motion.ode", "a tumbling box turns as Euler's equations say", 0.2, "Euler steps of the attitude, first order"},
-    {"motion.ode", "a block holds on 30 deg when tan is below mu", 1e-5, "constraints are soft by `cfm`"},
     {"motion.ode", "a rover parks on 30 deg when tan is below mu", 1e-3, "50 iterations do not converge"},
     {"motion.ode", "a pendulum swings 170 deg wide in its time", 0.02, "Euler steps of the attitude, first order"},
 };

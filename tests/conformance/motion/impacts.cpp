@@ -32,10 +32,10 @@ Outcome bounces(const std::string& motion) {
 }
 
 /// Height of the rebound of a ball with restitution `e`, dropped from 1 m, as the speed's ratio.
-double rebound(const std::string& motion, double e) {
+double rebound(const std::string& motion, double e, double mass = 1) {
   Trial t(motion);
   t.add_ground();
-  const RobotView& r = t.add("ball", ball(1, 0.05, 0.5, e), {{0, 0, 1.05}, Quat::Identity()});
+  const RobotView& r = t.add("ball", ball(mass, 0.05, 0.5, e), {{0, 0, 1.05}, Quat::Identity()});
   t.start();
   t.run_for(0.6);  // on its way up, or at rest
   const double v = t.twist(r).linear.z(), h = std::max(t.pose(r).position.z() - 0.05, 0.0);
@@ -44,6 +44,17 @@ double rebound(const std::string& motion, double e) {
 Outcome elastic(const std::string& motion) {
   const double seen = rebound(motion, 0.9);
   return {std::abs(seen - 0.9), text(seen) + " for 0.9"};
+}
+/// From a gram to a thousand tons: the largest error.
+Outcome elastic_of_any_mass(const std::string& motion) {
+  double worst = 0;
+  std::string all;
+  for (const double mass : {1e-3, 1e3, 1e6}) {
+    const double seen = rebound(motion, 0.9, mass);
+    worst = std::max(worst, std::abs(seen - 0.9));
+    all += (all.empty() ? "" : " ") + text(seen);
+  }
+  return {worst, all + " for 0.9"};
 }
 Outcome plastic(const std::string& motion) {
   const double seen = rebound(motion, 0);
@@ -79,6 +90,23 @@ Outcome carries(const std::string& motion) {
   return {sunk, text(sunk) + " m"};
 }
 
+/// From a gram to ten thousand tons: the deepest.
+Outcome carries_any_mass(const std::string& motion) {
+  double worst = 0;
+  std::string all;
+  for (const double mass : {1e-3, 1e3, 1e6, 1e7}) {
+    Trial t(motion);
+    t.add_ground();
+    const RobotView& r = t.add("box", block(mass, {0.2, 0.2, 0.2}, 0.8), {{0, 0, 0.1}, Quat::Identity()});
+    t.start();
+    t.run_for(1);
+    const double sunk = std::abs(t.pose(r).position.z() - 0.1);
+    worst = std::max(worst, sunk);
+    all += (all.empty() ? "" : " ") + text(sunk);
+  }
+  return {worst, all + " m"};
+}
+
 /// The wrench of the ground on a box whose frame is not at its centre of mass.
 Outcome weighs(const std::string& motion) {
   Trial t(motion);
@@ -104,9 +132,12 @@ std::vector<Case> impact_cases() {
       {"a ball of restitution 0.7 bounces when it should", "s", feature_contact | feature_restitution, 0.01, bounces},
       {"a ball of restitution 0.9 comes up with 0.9 of its speed", "1", feature_contact | feature_restitution, 0.02,
        elastic},
+      {"balls of 1 g to 1000 t and restitution 0.9 come up with 0.9 of their speed", "1",
+       feature_contact | feature_restitution, 0.02, elastic_of_any_mass},
       {"a ball of restitution 1 gains nothing", "1", feature_contact | feature_restitution, 1e-3, gains_nothing},
       {"a ball of restitution 0 stays down", "1", feature_contact, 0.05, plastic},
       {"a box lies on the ground, not in it", "m", feature_contact, 1e-3, carries},
+      {"boxes of 1 g to 10000 t lie on the ground, not in it", "m", feature_contact, 1e-3, carries_any_mass},
       {"the ground carries a box with its weight, below its centre of mass", "relative",
        feature_contact | feature_link_dynamics, 0.02, weighs},
       {"five boxes stand one on the other for 10 s", "m", feature_contact | feature_friction, 1e-3, stands},

@@ -117,8 +117,10 @@ TEST_P(EveryPair, KeepsItsMomentaAndReboundsInAHeadOnCollision) {
   for (const double e : {0.0, 0.5, 0.9}) {
     Collision c(first(), second(), {2, 0.1, {-0.3, 0, 0}, {1, 0, 0}}, {1, 0.1, {0.3, 0, 0}, {-0.5, 0, 0}}, 0, e);
     const double seen = (c.velocity(1).x() - c.velocity(0).x()) / 1.5;
-    // contact.penalty gives 0.135 for 0; where twists lag behind poses, it loses the last half step of a contact
-    EXPECT_NEAR(seen, e == 0 ? 0.135 : e, 0.07) << first() << " and " << second() << " with restitution " << e;
+    // Two bodies of motion.simplified exchange an impulse. Else contact.penalty has springs: 0.135 for 0; where twists
+    // lag behind poses, it loses the last half step of a contact.
+    const bool impulse = first() == "motion.simplified" && second() == "motion.simplified";
+    EXPECT_NEAR(seen, e == 0 && !impulse ? 0.135 : e, impulse ? 1e-9 : 0.07) << first() << " and " << second() << " with restitution " << e;
   }
 }
 

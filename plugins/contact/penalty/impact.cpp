@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+#include "impact.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "muro/toolkit/rotations.hpp"
+
+namespace muro::penalty {
+namespace {
+
+lane::V3<double> plain(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+Vec3 vector_of(const lane::V3<double>& v) { return {v.x, v.y, v.z}; }
+
+/// Impulses on both bodies, summed.
+struct Push {
+  Vec3 force = Vec3::Zero(), torque = Vec3::Zero(), other_torque = Vec3::Zero();
+
+  void add(const ImpactPoint& p, const Vec3& impulse) {
+    force += impulse;
+    torque += p.lever.cross(impulse);
+    other_torque += p.other_lever.cross(impulse);
+  }
+};
+
+Vec3 spin_by(const ImpactBody& body, const Vec3& torque) { return vector_of(body.mobility.inertia * plain(torque)); }
+
+/// Twice the kinetic energy that the push gives to bodies at rest, each of which has only a part of its mass.
+double energy_of(const Push& push, const ImpactBody& self, const ImpactBody* other) {
+  const auto of = [&](const ImpactBody& body, const Vec3& torque) {
+    return body.patches * (body.mobility.mass * push.force.squaredNorm() + torque.dot(spin_by(body, torque)));
+  };
+  return of(self, push.torque) + (other ? of(*other, push.other_torque) : 0);
+}
+
+/// How a push changes the velocity of `self` over the other at a point.
+Vec3 velocity_by(const Push& push, const ImpactPoint& p, const ImpactBody& self, const ImpactBody* other) {
+  Vec3 change = self.mobility.mass * push.force + spin_by(self, push.torque).cross(p.lever);
+  if (other) change += other->mobility.mass * push.force + spin_by(*other, push.other_torque).cross(p.other_lever);
+  return change;
+}
+
+/// Returns what the impulses along the normals do.
+Push resolve_normals(std::span<ImpactPoint> points, const ImpactBody& self, const ImpactBody* other) {
+  Push unit, push;
+  double work = 0, restitution = 0;
+  for (const ImpactPoint& p : points) {
+    const double square = p.approach * p.approach;
+    unit.add(p, p.approach * p.normal);
+    work += square;
+    restitution += p.restitution * square;
+  }
+  const double scale = (1 + restitution / work) * work / energy_of(unit, self, other);
+  for (ImpactPoint& p : points) {
+    p.impulse = scale * p.approach * p.normal;
+    push.add(p, p.impulse);
+  }
+  return push;
+}
+
+void resolve_friction(std::span<ImpactPoint> points, const Push& normals, const ImpactBody& self,
+                      const ImpactBody* other) {
+  const auto slip_of = [&](const ImpactPoint& p) {
+    const Vec3 velocity = p.velocity + velocity_by(normals, p, self, other);
+    return Vec3(velocity - p.normal * p.normal.dot(velocity));
+  };
+  Push unit;
+  double work = 0;
+  for (const ImpactPoint& p : points) {
+    const Vec3 slip = slip_of(p);
+    unit.add(p, -slip);
+    work += slip.squaredNorm();
+  }
+  const double energy = energy_of(unit, self, other);
+  if (!(energy > 0)) return;
+  double scale = work / energy;
+  for (const ImpactPoint& p : points) {
+    const double slip = slip_of(p).norm(), most = p.friction * p.impulse.norm();
+    if (scale * slip > most) scale = most / slip;
+  }
+  for (ImpactPoint& p : points) {
+    const Vec3 slip = slip_of(p);  // its impulse so far is along the normal
+    p.impulse -= scale * slip;
+  }
+}
+
+}  // namespace
+
+FreeBody::FreeBody(const Bodies& bodies, const DynamicBody& base)
+    : mass(&bodies.masses[base.mass]),
+      origin(base.pose->position),
+      orientation(base.pose->orientation),
+      centre(*base.pose * Vec3(mass->com)),
+      velocity(base.twist->at(centre - origin)),
+      spin(base.twist->angular) {}
+
+law::Mobility<double> FreeBody::mobility_before(double since) const {
+  const Quat q = rotation_of(Vec3(-since * spin)) * orientation;
+  return law::mobility_of<double>(*mass, {plain(origin), {q.x(), q.y(), q.z(), q.w()}});
+}
+
+Vec3 FreeBody::spin_before(double since) const {
+  const auto matrix_of = [](const law::Symmetric<double>& m) {
+    return (Mat3() << m.xx, m.xy, m.xz, m.xy, m.yy, m.yz, m.xz, m.yz, m.zz).finished();
+  };
+  const Vec3 momentum = matrix_of(mobility_before(0).inertia).inverse() * spin;
+  return matrix_of(mobility_before(since).inertia) * momentum;
+}
+
+std::optional<MeetingTime> meeting_time(double depth, double speed, double acceleration) {
+  const double square = speed * speed - 2 * acceleration * depth;
+  if (!(speed > 0) || !(square > 0)) return {};
+  const double approach = std::sqrt(square);
+  return MeetingTime{2 * depth / (speed + approach), approach};
+}
+
+void resolve_impact(std::span<ImpactPoint> points, const ImpactBody& self, const ImpactBody* other) {
+  resolve_friction(points, resolve_normals(points, self, other), self, other);
+}
+
+std::optional<MeetingTime> impact_of(const StepContext& context, const Contact& contact, const FrictionAnchor* before,
+                                     const Vec3& velocity, double step, bool other_falls) {
+  const double speed = -velocity.dot(contact.normal), elapsed = context.elapsed;
+  if (!(speed > context.impact_speed)) return {};
+  constexpr double near = 1e-3;  // m: a contact that lasts moves with the bodies
+  const double reach = near + 2 * elapsed * (velocity + speed * contact.normal).norm();
+  if (before && (before->point - contact.point).squaredNorm() < reach * reach) return {};
+  const double fall = other_falls ? 0 : -context.gravity.dot(contact.normal);
+  const std::optional<MeetingTime> met = meeting_time(contact.depth, speed, fall);
+  constexpr double share = 1.5;  // forces that are not known here may have slowed them down
+  if (!met || met->approach < context.impact_speed || met->since > share * std::max(elapsed, step)) return {};
+  return met;
+}
+
+ImpactPoint::ImpactPoint(const StepContext& context, const Contact& contact, const MeetingTime& met,
+                         const Vec3& relative, const FreeBody& self, const FreeBody* other)
+    : at(contact.point),
+      normal(contact.normal),
+      // The point goes half way with either surface across them, and with the bodies that move along them.
+      meeting(other ? Vec3(0.5 * (self.velocity + other->velocity))
+                    : Vec3(self.velocity + 0.5 * contact.depth / met.since * contact.normal)),
+      lever(contact.point - self.centre + met.since * (self.velocity - meeting)),
+      other_lever(Vec3::Zero()),
+      velocity(relative + self.spin_before(met.since).cross(lever) - self.spin.cross(contact.point - self.centre)),
+      since(met.since),
+      friction(contact.friction),
+      restitution(contact.restitution) {
+  if (other) {
+    const Vec3 present = contact.point - other->centre;
+    other_lever = present + since * (other->velocity - meeting);
+    velocity -= other->spin_before(since).cross(other_lever) - other->spin.cross(present);
+  } else {
+    velocity -= since * context.gravity;
+  }
+  approach = std::max(-velocity.dot(normal), 0.5 * met.approach);
+}
+
+void ImpactPoint::add_motion(const law::Mobility<double>& self, const Vec3& pushed, const Vec3& turned) {
+  velocity += self.mass * pushed + vector_of(self.inertia * plain(turned)).cross(lever);
+  approach = -velocity.dot(normal);
+}
+
+double mean_since(std::span<const ImpactPoint> points) {
+  double sum = 0;
+  for (const ImpactPoint& p : points) sum += p.since;
+  return sum / double(points.size());
+}
+
+void add_impulse(const StepContext& context, double step, const ImpactPoint& point, const Vec3& impulse,
+                 const FreeBody& body, Wrench& wrench, ImpactCorrection& correction) {
+  const Vec3 lever = point.at - body.centre + point.since * (body.velocity - point.meeting);
+  const Vec3 force = impulse / step, path = (point.since + 0.5 * step) * impulse;
+  wrench.add_force(force, point.at - body.origin);
+  wrench.torque += (0.5 * step * (point.meeting - body.velocity)).cross(force);  // the lever in the middle of the step
+  correction.path += path;
+  correction.turn += lever.cross(path);
+  correction.carried += path.cross(point.meeting + step * context.gravity);  // what it falls is no part of the impact
+}
+
+}  // namespace muro::penalty

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// Impacts: what two bodies do to each other in the instant in which they meet.
+//
+// Newton's law of restitution along the normal, then Coulomb's friction, which stops the slip or does as much as its
+// limit lets it. The points of a contact patch act together: along their approach speeds the impulse is that of an
+// exact solution, so that an impact never gains energy, in any number of points.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "bodies.hpp"
+
+namespace muro::penalty {
+
+/// A robot that moves as one rigid body.
+struct FreeBody {
+  FreeBody(const Bodies& bodies, const DynamicBody& base);
+
+  /// A time `since` (s) ago, when no torque acted since then.
+  law::Mobility<double> mobility_before(double since) const;
+  Vec3 spin_before(double since) const;
+
+  const MassProperties* mass;
+  Vec3 origin;  ///< m, world: of its base
+  Quat orientation;
+  Vec3 centre;          ///< m, world: of mass
+  Vec3 velocity, spin;  ///< m/s, of the centre; rad/s
+};
+
+/// A body in an impact.
+struct ImpactBody {
+  law::Mobility<double> mobility;
+  double patches = 1;  ///< in which it meets others in this step: each moves this part of its mass
+};
+
+/// When bodies met, and the speed with which they approached each other in that instant.
+struct MeetingTime {
+  double since = 0;     ///< s
+  double approach = 0;  ///< m/s
+};
+/// Of bodies that overlap by `depth` (m), approach each other with `speed` (m/s) and are accelerated towards each other
+/// by `acceleration` (m/s^2).
+std::optional<MeetingTime> meeting_time(double depth, double speed, double acceleration);
+
+/// Whether a contact is an impact: it is new, the bodies met within the last step, and faster than contact at rest can
+/// be. `before`: the friction anchor of its pair that is nearest; null for none. `velocity`: of the own point over the
+/// other (m/s); `step`: of the motion (s); `other_falls`: forces move the other body, too.
+std::optional<MeetingTime> impact_of(const StepContext& context, const Contact& contact, const FrictionAnchor* before,
+                                     const Vec3& velocity, double step, bool other_falls);
+
+/// A point in which bodies meet.
+struct ImpactPoint {
+  ImpactPoint() = default;
+  /// `velocity`: of the own point over the other; `other`: null where no force moves it. Levers and velocities are
+  /// those of the instant of the impact, so that it keeps angular momentum and gains no energy.
+  ImpactPoint(const StepContext& context, const Contact& contact, const MeetingTime& met, const Vec3& velocity,
+              const FreeBody& self, const FreeBody* other);
+
+  Vec3 at;                  ///< m, world
+  Vec3 normal;              ///< unit, world: the direction in which `self` is pushed
+  Vec3 meeting;             ///< m/s: how the point itself moves
+  Vec3 lever, other_lever;  ///< m, world: from the centres of mass
+  Vec3 velocity;            ///< m/s, of `self` over the other
+  double approach = 0;      ///< m/s, > 0
+  double since = 0;         ///< s
+  double friction = 0, restitution = 0;
+  Vec3 impulse = Vec3::Zero();  ///< N s, on `self`: out
+
+  /// What an impulse (N s) and a torque impulse (N m s, about its centre) of other points of `self` change.
+  void add_motion(const law::Mobility<double>& self, const Vec3& pushed, const Vec3& turned);
+};
+
+/// The friction anchor of a contact in an impact: it is far from every point, so that bodies that go on approaching
+/// each other collide anew.
+inline FrictionAnchor anchor_of_impact(std::uint64_t pair) {
+  return {.pair = pair, .point = Vec3::Constant(std::numeric_limits<double>::infinity())};
+}
+
+/// The mean time since the impacts of some points, s.
+double mean_since(std::span<const ImpactPoint> points);
+
+/// Finds the impulses of the points of one patch. `other`: null where it does not move freely.
+void resolve_impact(std::span<ImpactPoint> points, const ImpactBody& self, const ImpactBody* other);
+
+/// Adds the impulse (N s) on a body to its wrench in a step (s) and to the correction of its path.
+void add_impulse(const StepContext& context, double step, const ImpactPoint& point, const Vec3& impulse,
+                 const FreeBody& body, Wrench& wrench, ImpactCorrection& correction);
+
+}  // namespace muro::penalty

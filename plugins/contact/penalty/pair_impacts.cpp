@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// Impacts of robots with each other and with robots that no force moves.
+#include <algorithm>
+
+#include "pair_contacts.hpp"
+
+namespace muro::penalty {
+
+/// Takes the contact up if it is an impact of bodies that move freely; `place`: of the contact among those that the
+/// robot computes.
+bool PairContacts::add_impact(std::uint32_t self, const Contact& contact, std::int32_t other_robot, std::size_t place) {
+  const Robot& robot = bodies_.robots[self];
+  const double step = bodies_.impact_step_of(std::int32_t(self));
+  const bool falls = other_robot != no_robot;
+  if (step == 0 || (falls && bodies_.impact_step_of(other_robot) != step)) return false;
+  const Vec3 velocity = bodies_.velocity(contact.self, contact.point) - bodies_.velocity(contact.other, contact.point);
+  const FrictionAnchor* const before = previous(*robot.anchors, place, bodies_.pair_of(contact), contact.point);
+  const auto met = impact_of(context_, contact, before, velocity, step, falls);
+  if (!met) return false;
+  Record& me = record(self);
+  const std::uint32_t model = bodies_[contact.other].model;
+  auto patch = std::find_if(me.impact_patches.begin(), me.impact_patches.end(), [&](const ImpactPatch& p) {
+    return p.other == other_robot && p.model == model && p.normal.dot(contact.normal) > same_direction;
+  });
+  if (patch == me.impact_patches.end()) {
+    me.impact_patches.push_back({.normal = contact.normal, .other = other_robot, .model = model});
+    patch = me.impact_patches.end() - 1;
+  }
+  const FreeBody body = free_body(self);
+  const auto number = std::uint32_t(patch - me.impact_patches.begin());
+  if (falls) {
+    const FreeBody other = free_body(std::uint32_t(other_robot));
+    me.impact_contacts.push_back({number, {context_, contact, *met, velocity, body, &other}});
+  } else {
+    me.impact_contacts.push_back({number, {context_, contact, *met, velocity, body, nullptr}});
+  }
+  return true;
+}
+
+/// Patches in which a robot is at once share its mass, so that together they give it no energy.
+void PairContacts::count_impacts(std::uint32_t self) {
+  Record& me = record(self);
+  me.impacts = me.impact_patches.size();
+  for (const std::uint32_t owner : me.owners)
+    for (const ImpactPatch& p : record(owner).impact_patches) me.impacts += p.other == std::int32_t(self);
+}
+
+/// Those that a robot computes.
+void PairContacts::apply_impacts(std::uint32_t self) {
+  Record& me = record(self);
+  if (me.impacts == 0) return;
+  const Robot& robot = bodies_.robots[self];
+  *robot.impact = {};
+  *robot.impact_time = context_.time;
+  const FreeBody body = free_body(self);
+  for (std::uint32_t number = 0; number < me.impact_patches.size(); ++number) {
+    ImpactPatch& patch = me.impact_patches[number];
+    me.points.clear();
+    for (const ImpactContact& c : me.impact_contacts)
+      if (c.patch == number) me.points.push_back(c.point);
+    const double since = mean_since(me.points);
+    const ImpactBody own{body.mobility_before(since), double(me.impacts)};
+    if (patch.other == no_robot) {
+      resolve_impact(me.points, own, nullptr);
+    } else {
+      const FreeBody of_other = free_body(std::uint32_t(patch.other));
+      const ImpactBody other{of_other.mobility_before(since), double(record(std::uint32_t(patch.other)).impacts)};
+      resolve_impact(me.points, own, &other);
+      for (const ImpactPoint& p : me.points)
+        add_impulse(context_, *robot.impact_step, p, -p.impulse, of_other, patch.reaction, patch.correction);
+    }
+    Wrench& wrench = *bodies_.base_of(robot).wrench;
+    for (const ImpactPoint& p : me.points)
+      add_impulse(context_, *robot.impact_step, p, p.impulse, body, wrench, *robot.impact);
+  }
+}
+
+/// Those that others compute.
+void PairContacts::add_impact_reactions(std::uint32_t self) {
+  const Robot& robot = bodies_.robots[self];
+  for (const std::uint32_t owner : record(self).owners)
+    for (const ImpactPatch& p : record(owner).impact_patches) {
+      if (p.other != std::int32_t(self)) continue;
+      *bodies_.base_of(robot).wrench += p.reaction;
+      *robot.impact += p.correction;
+    }
+}
+
+}  // namespace muro::penalty

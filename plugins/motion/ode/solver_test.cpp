@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+// Which solver motion.ode chooses, and that it holds what it is for. What every motion owes is tested in
+// tests/conformance.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "quick_convergence.hpp"
+#include "tests/support/bodies.hpp"
+
+namespace muro::ode {
+namespace {
+
+using multibody::RigidBody, multibody::RobotModel;
+using test::solid_box;
+
+RigidBody link(std::int32_t parent, const Vec3& offset, const Inertia& inertia) {
+  RigidBody body;
+  body.parent = parent;
+  if (parent >= 0) body.joint = JointKind::revolute;
+  body.axis = Vec3::UnitY();
+  body.origin.position = offset;
+  body.inertia = inertia;
+  return body;
+}
+
+/// A base with `count` wheels on it.
+RobotModel vehicle(int count, double wheel_mass) {
+  RobotModel model;
+  model.bodies.push_back(link(-1, Vec3::Zero(), solid_box(4, {0.5, 0.4, 0.1})));
+  for (int i = 0; i < count; ++i)
+    model.bodies.push_back(
+        link(0, Vec3(i % 2 == 0 ? 0.2 : -0.2, i < 2 ? 0.2 : -0.2, 0), solid_box(wheel_mass, {0.1, 0.04, 0.1})));
+  model.initial_positions.resize(model.bodies.size());
+  return model;
+}
+
+/// Links of 1 kg one on the other, `tip` (kg) at the end.
+RobotModel chain(int count, double tip) {
+  RobotModel model;
+  model.bodies.push_back(link(-1, Vec3::Zero(), solid_box(1, {0.1, 0.1, 0.1})));
+  for (int i = 0; i < count; ++i)
+    model.bodies.push_back(link(i, Vec3(0, 0, 0.2), solid_box(i + 1 < count ? 1 : tip, {0.05, 0.05, 0.2})));
+  model.initial_positions.resize(model.bodies.size());
+  return model;
+}
+
+TEST(QuickConvergence, IsThatOfWheelsAndNotThatOfChains) {
+  EXPECT_LT(unsolved_part(vehicle(4, 0.3), 50), 1e-4);
+  EXPECT_EQ(unsolved_part(vehicle(0, 0.3), 50), 0);
+  EXPECT_GT(unsolved_part(chain(20, 1), 50), 1e-3);
+  EXPECT_GT(unsolved_part(chain(6, 1000), 50), 1e-2) << "a heavy body on light ones";
+  EXPECT_LT(unsolved_part(chain(20, 1), 5000), 1e-6) << "many iterations do it";
+  EXPECT_GT(unsolved_part(chain(20, 1), 10), unsolved_part(chain(20, 1), 100));
+}
+
+/// A wall of 1 kg with handles of 64 g far from its middle, each of a stiff hinge, as a wall of valves has them.
+RobotTree valve_wall() {
+  return test::tree_of([](RobotBuilder& b) {
+    b.base("wall");
+    Inertia inertia{.mass = 1, .ixx = 1, .iyy = 1, .izz = 1};
+    inertia.com = {0.6, 0.1, 1.2};
+    b.set(keys::inertial, inertia);
+    Shape box = Shape::box({1.2, 0.1, 2.4});
+    box.origin.position = inertia.com;
+    b.set_array(keys::collision_shapes, std::span<const Shape>(&box, 1));
+    const JointLimits limits{.lower = -12.56, .upper = 12.56, .effort = 1e9, .damping = 10, .friction = 10};
+    constexpr int handles = 11;
+    for (int i = 0; i < handles; ++i) {
+      if (i + 1 < handles) b.fork();
+      b.translation({0.3 + 0.3 * (i % 3), -0.02, 0.3 + 0.6 * std::floor(i / 3.0)});
+      b.revolute("joint_" + std::to_string(i), Vec3::UnitY(), limits);
+      b.body("handle_" + std::to_string(i));
+      b.set(keys::inertial, Inertia{.mass = 0.0644, .ixx = 3.1e-5, .iyy = 3.1e-5, .izz = 5.9e-5});
+      if (i + 1 < handles) b.end();
+    }
+    for (int i = 0; i + 1 < handles; ++i) b.end();
+  });
+}
+
+TEST(OdeSolver, LightLinksFarFromTheBodyThatHoldsThemStayOnIt) {
+  // iterations throw them away with kilometres per second
+  test::Scene s;
+  s.add_ground(0.8);
+  const RobotView& r = s.add("wall", valve_wall(), {{0, 0, 0.5}, Quat::Identity()});
+  s.use("motion.ode", 1000, s.all_robots());
+  s.use_contacts();
+  s.build();
+  double fastest = 0;
+  for (int k = 0; k < 200; ++k) {
+    s.run_for(0.01);
+    fastest = std::max(fastest, s.twist(r).linear.norm());
+    for (int i = 0; i < 11; ++i)
+      EXPECT_LT(std::abs(s.world().value("wall/joint_" + std::to_string(i), keys::joint_velocity)), 1);
+  }
+  EXPECT_LT(fastest, 8);  // it falls over: its top comes down with sqrt(3 g 2.4 m)
+  EXPECT_LT(s.twist(r).linear.norm(), 0.1);
+}
+
+TEST(OdeSolver, TheSoftnessOfContactIsThatOfTheMass) {
+  // what a box of any mass sinks in is a part of what it falls in a step
+  for (const double mass : {1e-3, 1.0, 1e3, 1e6}) {
+    test::Scene s;
+    s.add_ground(0.8);
+    const RobotView& r = s.add("box", test::block(mass, {0.2, 0.2, 0.2}, 0.8), {{0, 0, 0.1}, Quat::Identity()});
+    s.use("motion.ode", 1000, s.all_robots(), {{"softness", 0.1}});
+    s.use_contacts();
+    s.build();
+    s.run_for(1);
+    EXPECT_NEAR(0.1 - s.pose(r).position.z(), 3.9e-6, 1e-6) << mass;
+  }
+}
+
+}  // namespace
+}  // namespace muro::ode
