@@ -4,6 +4,7 @@
 #include <dlfcn.h>
 #include <fenv.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
@@ -53,8 +54,11 @@ class FloatingPointGuard {
 void check_own_symbols(void* library, const std::string& path) {
   const std::vector<Interposed> lost = interposed_symbols(library);
   if (lost.empty()) return;
+  constexpr std::size_t most = 5;
   std::string names;
-  for (const Interposed& i : lost) names += (names.empty() ? "" : ", ") + quote(i.name) + " (of " + i.by + ")";
+  for (const Interposed& i : std::span(lost).first(std::min(most, lost.size())))
+    names += (names.empty() ? "" : ", ") + quote(i.name) + " (of " + i.by + ")";
+  if (lost.size() > most) names += ", and " + std::to_string(lost.size() - most) + " more";
   throw Error("library " + path + " would use functions of others in place of its own: " + names +
               "; link it with -Wl,-Bsymbolic, or make them static");
 }
