@@ -56,23 +56,77 @@ bool heeds_contacts(const World& world, const RobotView& robot) {
   return contacts && contacts->used_as(usage::read);
 }
 
+/// A body of the scene below, the same in each of its kinds.
+struct Body {
+  ObjectId object;     ///< the base of a robot, or scenery
+  std::uint32_t link;  ///< of a robot, in Names
+  auto operator<=>(const Body&) const = default;
+};
+
+struct PairContact {
+  std::array<Body, 2> bodies;
+  double depth;
+};
+
+/// By robot: whether its motion takes scenery meshes as their convex hulls. A world says so by `scenery_meshes`, or
+/// knows nothing else; for all others the collision algorithm decides, by `meshes`.
+std::vector<bool> takes_hulls_of_scenery(const Simulation& simulation) {
+  const auto is_convex = [](const Instance& instance, std::string_view name, bool otherwise,
+                            const std::map<std::string, ParameterInput>& given) {
+    const auto& parameters = instance.description().parameters;
+    const auto known =
+        std::find_if(parameters.begin(), parameters.end(), [&](const Parameter& p) { return p.name == name; });
+    if (known == parameters.end()) return otherwise;
+    const auto value = given.find(std::string(name));
+    const auto* text = value == given.end() ? nullptr : std::get_if<std::string>(&value->second);
+    return (text ? std::string_view(*text) : known->default_text) == "convex";
+  };
+  bool by_collision = false;
+  for (const auto& instance : simulation.instances())
+    if (instance->description().kind == Kind::collision)
+      by_collision = is_convex(*instance, "meshes", false, instance->setup().parameters);
+  std::vector<bool> all(simulation.world().robots().size(), by_collision);
+  for (const auto& instance : simulation.instances()) {
+    if ((instance->description().capabilities & Capability::world) == 0) continue;
+    const AlgorithmSetup& setup = instance->setup();
+    for (std::size_t i = 0; i < setup.items.size(); ++i)
+      if (setup.items[i].robot)
+        all[setup.items[i].robot->number] =
+            is_convex(*instance, "scenery_meshes", true,
+                      setup.item_setups.empty() ? setup.parameters : setup.item_setups[i].parameters);
+  }
+  return all;
+}
+
 /// A scene of the same shapes in which nothing moves: each robot is one body.
 class Still {
  public:
-  explicit Still(Simulation& simulation)
-      : original_(simulation.world()), still_(simulation.registry()), world_(still_.world()) {
+  /// `hulls`: meshes count as their convex hulls, and only pairs that they do for are found.
+  Still(Simulation& simulation, bool hulls)
+      : original_(simulation.world()), still_(simulation.registry()), world_(still_.world()), hulls_(hulls) {
+    if (hulls) scenery_is_hulls_ = takes_hulls_of_scenery(simulation);
     still_.set_log([](LogLevel, std::string_view) {});
     for (std::uint32_t i = 1; i < original_.object_count(); ++i)
       if (original_.robot_of(ObjectId{i}) < 0) add_scenery(ObjectId{i});
     for (const RobotView* robot : original_.robots())
       if (constants(original_, robot->base(), keys::shadow_of).empty()) add_robot(*robot);
-    use_collision(simulation);
+    use_collision();
+  }
+  bool has_meshes() const { return has_meshes_; }
+
+  /// With the names of the `most` deepest; `found`: what another scene of the same bodies has found.
+  Overlaps overlaps(std::size_t most, const std::vector<PairContact>& found) {
+    Overlaps all;
+    contacts_.insert(contacts_.end(), found.begin(), found.end());
+    keep_deepest();
+    all.count = contacts_.size();
+    for (const PairContact& c : std::span(contacts_).first(std::min(most, contacts_.size())))
+      all.deepest.push_back({name_of(c.bodies[0]), name_of(c.bodies[1]), c.depth});
+    return all;
   }
 
-  /// With the names of the `most` deepest.
-  Overlaps overlaps(std::size_t most) {
-    Overlaps all;
-    if (!finds_contacts_) return all;
+  const std::vector<PairContact>& find() {
+    if (!finds_contacts_) return contacts_;
     const Accessor reader = world_.store().add_accessor("the check of overlaps");
     for (const RobotView* robot : world_.robots())
       world_.store().bind(reader, robot->base(), keys::contacts, usage::read, Multiplicity::list, 0, nullptr);
@@ -80,11 +134,7 @@ class Still {
     still_.run_until(1);
     for (const RobotView* robot : world_.robots())
       for (const Contact& c : world_.values(robot->base(), keys::contacts)) add(c);
-    keep_deepest();
-    all.count = contacts_.size();
-    for (const PairContact& c : std::span(contacts_).first(std::min(most, contacts_.size())))
-      all.deepest.push_back({name_of(c.bodies[0]), name_of(c.bodies[1]), c.depth});
-    return all;
+    return contacts_;
   }
 
  private:
@@ -106,7 +156,7 @@ class Still {
   void add_robot(const RobotView& robot) {
     const std::vector<Pose> poses = link_poses(original_, robot);
     RobotTree tree;
-    Names names{heeds_contacts(original_, robot), {}, {}};
+    Names names{heeds_contacts(original_, robot), hulls_ && scenery_is_hulls_[robot.number], {}, {}};
     std::vector<Shape> shapes;
     for (std::size_t i = 0; i < poses.size(); ++i) {
       const std::span<const Shape> of_link = constants(original_, robot.links[i].object, keys::collision_shapes);
@@ -131,33 +181,21 @@ class Still {
     robots_[base] = std::move(names);
   }
 
-  /// That of the scenario, or the one that knows all shapes.
-  void use_collision(const Simulation& simulation) {
+  void use_collision() {
     const auto& catalog = still_.registry().catalog();
     const auto is_there = [&](std::string_view id) {
       return std::any_of(catalog.begin(), catalog.end(), [&](const CatalogEntry& e) { return e.id == id; });
     };
     AlgorithmSetup collision;
-    collision.use = has_meshes_ && is_there("collision.bullet") ? "collision.bullet" : "collision.native";
-    if (collision.use == "collision.bullet") collision.parameters["meshes"] = std::string("exact");
-    for (const auto& instance : simulation.instances())
-      if (instance->description().kind == Kind::collision) {
-        collision.use = instance->setup().use;
-        collision.parameters = instance->setup().parameters;
-        collision.folder = instance->setup().folder;
-      }
-    finds_contacts_ = is_there("scene.bvh") && is_there(collision.use) && !robots_.empty();
+    const bool meshes = has_meshes_ && is_there("collision.bullet");
+    collision.use = meshes ? "collision.bullet" : "collision.native";
+    if (meshes) collision.parameters["meshes"] = std::string(hulls_ ? "convex" : "exact");
+    finds_contacts_ = is_there("scene.bvh") && is_there(collision.use) && !robots_.empty() && (meshes || !hulls_);
     if (!finds_contacts_) return;
     collision.rate = Rate(1);
     still_.use("scene.bvh", 0);
     still_.add(std::move(collision));
   }
-
-  struct Body {
-    ObjectId object;     ///< the base of a robot, or scenery
-    std::uint32_t link;  ///< of a robot, in Names
-    auto operator<=>(const Body&) const = default;
-  };
 
   Body body_of(ObjectId object, std::uint32_t shape) const {
     const auto robot = robots_.find(object);
@@ -172,14 +210,10 @@ class Still {
     return robot != robots_.end() && robot->second.heeds_contacts;
   }
 
-  struct PairContact {
-    std::array<Body, 2> bodies;
-    double depth;
-  };
-
   /// A pair of robots stands in the lists of both; scenery comes second.
   void add(const Contact& c) {
     if (c.depth < least_depth || (!heeds(c.self) && !heeds(c.other))) return;
+    if (hulls_ && robots_.count(c.other) == 0 && !robots_.at(c.self).scenery_is_hulls) return;
     PairContact pair{{body_of(c.self, c.self_shape), body_of(c.other, c.other_shape)}, c.depth};
     if (robots_.count(c.other) > 0 && pair.bodies[1] < pair.bodies[0]) std::swap(pair.bodies[0], pair.bodies[1]);
     contacts_.push_back(pair);
@@ -199,6 +233,7 @@ class Still {
 
   struct Names {
     bool heeds_contacts;
+    bool scenery_is_hulls;
     std::vector<std::string> of_link;  ///< of links with shapes
     std::vector<std::uint32_t> link_of_shape;
   };
@@ -208,6 +243,8 @@ class Still {
   World& world_;
   std::map<ObjectId, Names> robots_;  ///< by base
   std::vector<PairContact> contacts_;
+  bool hulls_;
+  std::vector<bool> scenery_is_hulls_;  ///< by robot
   bool has_meshes_ = false;
   bool finds_contacts_ = false;
 };
@@ -220,7 +257,10 @@ Overlaps overlaps_at_start(Simulation& simulation, std::size_t most) {
                    [&](const RobotView* r) { return heeds_contacts(simulation.world(), *r); }))
     return {};
   try {
-    return Still(simulation).overlaps(most);
+    Still exact(simulation, false);
+    exact.find();
+    if (!exact.has_meshes()) return exact.overlaps(most, {});
+    return exact.overlaps(most, Still(simulation, true).find());
   } catch (const std::exception&) {  // what cannot be found is not told
     return {};
   }
