@@ -40,6 +40,8 @@ struct PluginFolder {
   std::size_t plugins = 0;
   std::vector<CatalogEntry> entries;
   std::vector<PassedOver> passed_over;
+
+  std::string outcome() const;  ///< "3 plugins", or the problem
 };
 
 /// Reads the descriptions of all plugins of a folder: NAME.so with NAME.muro.json beside it.
