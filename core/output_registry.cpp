@@ -101,10 +101,21 @@ void OutputRegistry::check_folder(const Output& output, std::vector<std::string>
   if (output.place.exists && access(output.place.target.c_str(), W_OK) != 0) return cannot(errno);
   if (output.place.exists && !output.place.is_regular) return;
   const std::string folder = fs::path(output.place.target).parent_path().string();
+  if (folder == fmt::format("/proc/{}/fd", getpid())) return;  // it is open already
   struct stat about {};
   if (stat(folder.c_str(), &about) != 0) return cannot(errno);
   if (!S_ISDIR(about.st_mode)) return cannot(ENOTDIR);
   if (access(folder.c_str(), W_OK | X_OK) != 0) return cannot(errno);
+}
+
+/// Begins the file and removes it again, since rights alone do not tell whether it can be made.
+void OutputRegistry::try_to_write(const Output& output, std::vector<std::string>& problems) {
+  if (output.is_series || (output.place.exists && !output.place.is_regular)) return;
+  try {
+    WholeFile(output.path).descriptor();
+  } catch (const Error& e) {
+    problems.push_back(fmt::format("{}: {}", output.owner, e.what()));
+  }
 }
 
 void OutputRegistry::check() const {
@@ -131,6 +142,8 @@ void OutputRegistry::check() const {
                                     output.path == input.path ? "" : fmt::format(", which is {}", input.path),
                                     input.what));
     }
+  if (found.empty())
+    for (const Output& output : outputs_) try_to_write(output, found);
   if (!found.empty()) throw OutputError(found);
 }
 

@@ -63,6 +63,7 @@ class OutputRegistry final : public Outputs {
   static bool is_folder_of(const Output& file, const Output& series);
   static bool are_one(const Output& a, const Output& b);
   static bool is_part_of(const Output& a, const Output& b);
+  static void try_to_write(const Output& output, std::vector<std::string>& problems);
   void check_folder(const Output& output, std::vector<std::string>& problems) const;
 
   std::string owner_ = "the program";

@@ -34,13 +34,16 @@ bool contains(const std::vector<SlotId>& slots, SlotId slot) {
 /// Lets several steps of the set-up fail, so that all their problems are reported at once.
 class Collected {
  public:
+  /// Whether `work` has succeeded.
   template <class Work>
-  void run(Work work) {
+  bool run(Work work) {
     try {
       work();
     } catch (const SetupError& e) {
       problems_.emplace_back(e.what());
+      return false;
     }
+    return true;
   }
   void check() const {
     if (!problems_.empty()) throw SetupError(problems_);
@@ -335,12 +338,22 @@ void Simulation::build() {
   start_all();
 }
 
+/// What serves a robot builds on the kinds before it: where one of those has failed, it would only find what follows
+/// from that, and is left out.
 void Simulation::connect_all() {
   Collected problems;
+  std::map<const RobotView*, int> failed;  // the first kind that could not be connected
   const auto connect = [&](void (Instance::*how)()) {
     for (const std::size_t i : in_order_of(connect_order)) {
-      outputs().set_owner(world_.store().accessor_name(instances_[i]->accessor()));
-      problems.run([&] { ((*instances_[i]).*how)(); });
+      Instance& instance = *instances_[i];
+      const int order = connect_order(instance.description());
+      const std::vector<Item>& items = instance.setup().items;
+      const auto follows = [&](const Item& item) { return failed.contains(item.robot) && failed[item.robot] < order; };
+      if (std::any_of(items.begin(), items.end(), follows)) continue;
+      outputs().set_owner(world_.store().accessor_name(instance.accessor()));
+      if (problems.run([&] { (instance.*how)(); })) continue;
+      for (const Item& item : items)
+        if (item.robot) failed.emplace(item.robot, order);
     }
     problems.check();
   };
@@ -491,7 +504,9 @@ void Simulation::refresh() {
 void Simulation::finish() {
   require_built("finish()");
   const CLocale locale;
-  for (const std::size_t i : in_order_of(order_of)) instances_[i]->finish();
+  Collected problems;  // one that fails keeps no other from its files
+  for (const std::size_t i : in_order_of(order_of)) problems.run([&] { instances_[i]->finish(); });
+  problems.check();
 }
 
 Snapshot Simulation::snapshot() const {

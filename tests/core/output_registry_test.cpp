@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "muro/toolkit/whole_file.hpp"
 #include "tests/support/complaint.hpp"
 #include "tests/support/files.hpp"
 
@@ -142,6 +143,15 @@ TEST(OutputRegistry, TellsWhatCannotBeWritten) {
   EXPECT_EQ(complaint("nowhere/x.csv"), "a: file FOLDER/nowhere/x.csv cannot be written: No such file or directory");
   EXPECT_EQ(complaint(""), "a: file FOLDER/ cannot be written: Is a directory");
   EXPECT_EQ(complaint("file/x.csv"), "a: file FOLDER/file/x.csv cannot be written: Not a directory");
+  Files busy;
+  WholeFile other(busy.folder.path("x.csv"));
+  other.write("of another run");
+  busy.write("a", busy.folder.path("x.csv"));
+  EXPECT_EQ(busy.complaint(),
+            "a: file FOLDER/x.csv is being written by another recorder or run; give each a file of its own");
+  Files nowhere;
+  nowhere.write("a", "/dev/fd/12345");
+  EXPECT_EQ(nowhere.complaint(), "a: file /dev/fd/12345 cannot be written: Bad file descriptor");
   const std::string longest(256, 'n');
   EXPECT_EQ(complaint(longest), "a: file FOLDER/" + longest + " cannot be written: File name too long");
 }
