@@ -16,6 +16,7 @@
 #include "host/outputs/standard_output.hpp"
 #include "host/process/crash_report.hpp"
 #include "host/process/exit_guard.hpp"
+#include "host/process/standard_error.hpp"
 #include "host/scenario/scenario.hpp"
 #include "muro/toolkit/did_you_mean.hpp"
 
@@ -281,5 +282,6 @@ int main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
   keep_standard_streams();
+  lose_what_standard_error_refuses();
   return close_standard_output(exit_code_of(argc, argv));
 }

@@ -144,6 +144,18 @@ TEST(Interrupt, ForTheSecondTimeEndsAtOnceAndSaysWhatRan) {
   EXPECT_EQ(test::text_of(run.record), "");
 }
 
+TEST(StandardError, ThatNobodyReadsChangesNoExitCode) {
+  const SteeredRun run("does=interrupts");
+  const auto exit_code = [&](const std::string& arguments) {
+    // the reader has left when the program begins
+    return run_command("{ sleep 0.2; " + program + " " + arguments + "; echo $? >&3; } 3>&1 2>&1 >/dev/null | true")
+        .output;
+  };
+  EXPECT_EQ(exit_code("check " + run.scenario), "0\n");
+  EXPECT_EQ(exit_code("check " + run.scratch.path("none.yaml")), "2\n");
+  EXPECT_EQ(exit_code("run " + run.scenario + " --duration 1"), "130\n");
+}
+
 /// Balls with a sensor of this kind, which fails for ball_7.
 test::CommandResult run_with_eye(const test::ScratchFolder& scratch, const std::string& sensor) {
   const std::string file =
