@@ -59,17 +59,8 @@ S result(Operation operation, S a, S b, unsigned& which) {
       return abs(a);
     case Operation::root:
       return lane::sqrt(a);
-    case Operation::sign_of_bit:
-      if constexpr (sizeof(Value) == 8) return flip_sign(a, b, 51);
-      return a;
-    case Operation::bit:
-      if constexpr (sizeof(Value) == 8) return chosen<S>(has_bit(a, 51), a, b, which);
-      return a;
     case Operation::broadcast:
       return any(a < b) ? S(Value(-0.0)) : S(Value(1e-3));
-    case Operation::round:
-      if constexpr (sizeof(Value) == 8) return nearest(a);
-      return a;
   }
   return a;
 }

@@ -29,12 +29,9 @@ enum class Operation {
   maximum,
   magnitude,
   root,
-  sign_of_bit,
-  bit,
   broadcast,
-  round,
 };
-inline constexpr int operations = int(Operation::round) + 1;
+inline constexpr int operations = int(Operation::broadcast) + 1;
 inline constexpr int values = 16;  ///< in each array
 
 enum class Width { one, four, eight, sixteen };  ///< values at a time

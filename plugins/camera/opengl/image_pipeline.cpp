@@ -109,17 +109,13 @@ void ImagePipeline::process(const Random& random, std::span<std::uint8_t> rgb) {
   for (std::size_t i = 0; i < light_.size(); ++i) light_[i] *= gain_[i / 3];
   if (!kernel_.empty()) blur();
   const bool noisy = settings_.noise > 0 || settings_.shot_noise > 0;
-  std::array<double, 2> pair{}, other{};
+  NormalNumbers numbers(random, light_.size()), others(random, light_.size(), value_noise_draws);
   for (std::size_t i = 0; i < light_.size(); ++i) {
     double light = double(light_[i]);
-    if (noisy && i % 2 == 0) pair = random.normal_pair(std::uint32_t(i / 2));
-    const double n = pair[i % 2];
+    const double n = noisy ? numbers.next() : 0;
     if (settings_.shot_noise > 0) light = std::max(0.0, light + settings_.shot_noise * std::sqrt(light) * n);
     double value = double(encode(light));
-    if (settings_.noise > 0) {
-      if (settings_.shot_noise > 0 && i % 2 == 0) other = random.normal_pair(value_noise_draws + std::uint32_t(i / 2));
-      value += 255 * settings_.noise * (settings_.shot_noise > 0 ? other[i % 2] : n);
-    }
+    if (settings_.noise > 0) value += 255 * settings_.noise * (settings_.shot_noise > 0 ? others.next() : n);
     rgb[i] = std::uint8_t(std::lround(std::clamp(value, 0.0, 255.0)));
   }
 }

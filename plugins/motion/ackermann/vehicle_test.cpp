@@ -108,8 +108,12 @@ TEST(Ackermann, TakesOverAtTheSpeedOfTheBase) {
   s.value("front_steering", keys::joint_velocity) = 3;
   const double turn = 1.5 * std::tan(0.4) / 2;
   s.moving() = {{1.5, 0, 0.3}, {0, 0.1, turn}};
-  for (const auto& instance : s.instances())
-    if (instance->setup().use == "motion.ackermann") instance->on_handover(0);
+  for (const auto& instance : s.instances()) {
+    abi::ErrorText error;
+    if (instance->setup().use == "motion.ackermann") {
+      ASSERT_TRUE(instance->on_handover(0, error)) << error.view();
+    }
+  }
   EXPECT_NEAR(s.turning("rear"), 15, 1e-12);
   EXPECT_NEAR(s.turning("front"), 15 / std::cos(0.4), 1e-12);
   EXPECT_EQ(s.value("front_steering", keys::joint_velocity), 0);

@@ -246,8 +246,12 @@ TEST(DifferentialDrive, TakesOverAtTheSpeedOfTheBase) {
   const Vec3 forward = s.at().orientation * Vec3::UnitX(), left = s.at().orientation * Vec3::UnitY();
   const Vec3 up = s.at().orientation * Vec3::UnitZ();
   s.moving() = {0.45 * forward + 0.2 * left, up / 3 + 0.1 * left};
-  for (const auto& instance : s.instances())
-    if (instance->setup().use == "motion.differential_drive") instance->on_handover(0);
+  for (const auto& instance : s.instances()) {
+    abi::ErrorText error;
+    if (instance->setup().use == "motion.differential_drive") {
+      ASSERT_TRUE(instance->on_handover(0, error)) << error.view();
+    }
+  }
   EXPECT_NEAR(s.value("left", keys::joint_velocity), 8, 1e-12);
   EXPECT_NEAR(s.value("right", keys::joint_velocity), 10, 1e-12);
   s.turn_wheels(8, 10);

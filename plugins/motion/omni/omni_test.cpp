@@ -164,7 +164,8 @@ TEST(Omni, StartsAndTakesOverAtTheSpeedOfTheBase) {
   EXPECT_LT((s.twist(s.robot).linear - velocity).norm(), 1e-14);
   s.run_for(0.5);
   s.twist(s.robot) = {s.at().orientation * Vec3(0.1, 0.4, 9), {0, 0, -0.2}};
-  s.instances()[0]->on_handover(0);
+  abi::ErrorText error;
+  ASSERT_TRUE(s.instances()[0]->on_handover(0, error)) << error.view();
   EXPECT_NEAR(s.value("rl", keys::joint_velocity), (0.1 + 0.4 + (lx + ly) * 0.2) / r, 1e-12);
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -43,12 +42,11 @@ struct ErrorModel {
              std::span<const double> incidence = {}) const {
     const bool noisy = sigma > 0 || sigma_relative > 0 || pointing > 0;
     const double innovation = std::sqrt(1 - correlation * correlation);
-    std::array<double, 2> pair{};
+    NormalNumbers numbers(random, truth.size());
     double n = 0;
     for (std::uint32_t i = 0; i < truth.size(); ++i) {
       if (noisy) {
-        if (i % 2 == 0) pair = random.normal_pair(i / 2);
-        const double e = pair[i % 2];
+        const double e = numbers.next();
         n = i == 0 ? e : correlation * n + innovation * e;
       }
       double y = truth[i];

@@ -11,8 +11,6 @@
 // each instruction set.
 #pragma once
 
-#include <cstdint>
-
 #include "muro/simd/vector.hpp"
 
 namespace muro::lane {
@@ -117,22 +115,6 @@ MURO_INLINE float abs(float a) { return __builtin_fabsf(a); }
 template <class T, int N>
 MURO_INLINE Lane<T, N> abs(Lane<T, N> a) {
   return vectors::magnitude(a.v);
-}
-
-/// With the other sign where bit `bit` of the representation of `t` is set.
-MURO_INLINE double flip_sign(double a, double t, int bit) {
-  const auto sign = __builtin_bit_cast(std::uint64_t, t) << (63 - bit) & std::uint64_t(1) << 63;
-  return __builtin_bit_cast(double, __builtin_bit_cast(std::uint64_t, a) ^ sign);
-}
-template <class T, int N>
-MURO_INLINE Lane<T, N> flip_sign(Lane<T, N> a, Lane<T, N> t, int bit) {
-  return vectors::flipped(a.v, t.v, bit);
-}
-/// Where bit `bit` of the representation is set.
-MURO_INLINE bool has_bit(double t, int bit) { return __builtin_bit_cast(std::uint64_t, t) >> bit & 1; }
-template <class T, int N>
-MURO_INLINE Mask<T, N> has_bit(Lane<T, N> t, int bit) {
-  return {vectors::bit_of(t.v, bit)};
 }
 
 /// Bit i: whether value i satisfies the condition.

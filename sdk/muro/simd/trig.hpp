@@ -15,13 +15,6 @@ struct SinCos {
   S sin, cos;
 };
 
-/// The nearest whole number, for |a| < 2^51.
-template <class S>
-MURO_INLINE S nearest(S a) {
-  const S big(0x1.8p52);
-  return (a + big) - big;
-}
-
 namespace detail {
 
 /// By SLEEF's functions without fused multiply-add, which have equal bits for one number and for packs.

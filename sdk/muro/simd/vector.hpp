@@ -139,28 +139,6 @@ MURO_INLINE Vector magnitude(const Vector& v) {
     return Vector(Bits(v) & ~Bits(-Vector{}));
   }
 }
-/// With the other sign where bit `bit` of the element of `t` is set.
-template <class Vector>
-MURO_INLINE Vector flipped(const Vector& v, const Vector& t, int bit) {
-  if constexpr (is_pair<Vector>) {
-    return {flipped(v.low, t.low, bit), flipped(v.high, t.high, bit)};
-  } else {
-    using Bits = decltype(v < Vector{});
-    constexpr int last = 8 * sizeof(Element<Vector>) - 1;
-    return Vector(Bits(v) ^ ((Bits(t) << (last - bit)) & Bits(-Vector{})));
-  }
-}
-/// A mask: where bit `bit` of the element is set.
-template <class Vector>
-MURO_INLINE auto bit_of(const Vector& t, int bit) {
-  if constexpr (is_pair<Vector>) {
-    return pair_of(bit_of(t.low, bit), bit_of(t.high, bit));
-  } else {
-    using Bits = decltype(t < Vector{});
-    constexpr int last = 8 * sizeof(Element<Vector>) - 1;
-    return (Bits(t) << (last - bit)) < Bits{};
-  }
-}
 /// Bit i: whether element i of the mask is set.
 template <class Mask>
 MURO_INLINE unsigned bits_of(const Mask& m) {

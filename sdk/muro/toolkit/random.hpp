@@ -2,9 +2,12 @@
 // Counter-based random numbers: no state to keep, the same numbers in any order and on any thread.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string_view>
 
 #include "muro/toolkit/elementary.hpp"
@@ -52,8 +55,33 @@ class Random {
     const auto [sine, cosine] = elementary::sincos(angle);
     return {radius * cosine, radius * sine};
   }
+  /// normal_pair of `i`, `i` + 1, ...: the same bits, two at once where the processor has packs of two.
+  void normal_pairs(std::uint32_t i, std::span<std::array<double, 2>> pairs) const {
+    std::size_t k = 0;
+#if defined(__SSE2__)
+    for (; k + 1 < pairs.size(); k += 2) {
+      const auto a = block(std::uint32_t(i + k), 1), b = block(std::uint32_t(i + k + 1), 1);
+      const Two u{1 - unit(a[0], a[1]), 1 - unit(b[0], b[1])}, v{unit(a[2], a[3]), unit(b[2], b[3])};
+      const Two log = log_of_two(u);
+      const TwoSinCos turn = sincos_of_two(6.283185307179586 * v);
+      for (int lane = 0; lane < 2; ++lane) {
+        const double radius = std::sqrt(-2 * log[lane]);
+        pairs[k + std::size_t(lane)] = {radius * turn.cos[lane], radius * turn.sin[lane]};
+      }
+    }
+#endif
+    for (; k < pairs.size(); ++k) pairs[k] = normal_pair(std::uint32_t(i + k));
+  }
 
  private:
+#if defined(__SSE2__)
+  typedef double Two __attribute__((vector_size(16)));
+  struct TwoSinCos {
+    Two sin, cos;
+  };
+  static Two log_of_two(Two) __asm__("Sleef_cinz_logd2_u10sse2");
+  static TwoSinCos sincos_of_two(Two) __asm__("Sleef_cinz_sincosd2_u10sse2");
+#endif
   std::array<std::uint32_t, 4> block(std::uint32_t i, std::uint32_t stream) const {
     return philox({i, stream, std::uint32_t(step_), std::uint32_t(step_ >> 32)}, key_);
   }
@@ -62,6 +90,28 @@ class Random {
   }
   std::uint64_t step_;
   std::array<std::uint32_t, 2> key_{};
+};
+
+/// `count` normal numbers, and no more, one after the other: those of normal_pair(first), normal_pair(first + 1), ...
+class NormalNumbers {
+ public:
+  NormalNumbers(const Random& random, std::size_t count, std::uint32_t first = 0)
+      : random_(random), count_(count), first_(first) {}
+  double next() {
+    const std::size_t at = index_++ % (2 * pairs_.size());
+    if (at == 0) refill();
+    return pairs_[at / 2][at % 2];
+  }
+
+ private:
+  void refill() {
+    const std::size_t left = (count_ - index_ + 2) / 2;
+    random_.normal_pairs(std::uint32_t(first_ + index_ / 2), std::span(pairs_).first(std::min(left, pairs_.size())));
+  }
+  const Random& random_;
+  std::size_t count_, index_ = 0;
+  std::uint32_t first_;
+  std::array<std::array<double, 2>, 16> pairs_{};
 };
 
 }  // namespace muro
