@@ -97,11 +97,11 @@ void OutputRegistry::check_folder(const Output& output, std::vector<std::string>
     if (output.place.exists && access(output.place.target.c_str(), W_OK | X_OK) != 0) return cannot(errno);
     return;
   }
+  const std::string folder = fs::path(output.place.target).parent_path().string();
+  if (folder == fmt::format("/proc/{}/fd", getpid())) return;  // it is open already
   if (output.place.is_folder) return cannot(EISDIR);
   if (output.place.exists && access(output.place.target.c_str(), W_OK) != 0) return cannot(errno);
   if (output.place.exists && !output.place.is_regular) return;
-  const std::string folder = fs::path(output.place.target).parent_path().string();
-  if (folder == fmt::format("/proc/{}/fd", getpid())) return;  // it is open already
   struct stat about {};
   if (stat(folder.c_str(), &about) != 0) return cannot(errno);
   if (!S_ISDIR(about.st_mode)) return cannot(ENOTDIR);

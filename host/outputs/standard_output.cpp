@@ -15,8 +15,8 @@ namespace muro::host {
 void keep_standard_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (fcntl(stream, F_GETFD) >= 0) continue;
-    // the wrong way round, so that what is read or printed fails as before
-    const int opened = open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+    // Of input and output the wrong way round, so that to read or print fails as before. Notes may be lost.
+    const int opened = open("/dev/null", stream == STDOUT_FILENO ? O_RDONLY : O_WRONLY);
     if (opened != stream && opened >= 0) close(opened);
   }
 }

@@ -162,6 +162,7 @@ TEST(Outputs, ThatCannotBePrintedAreAFailure) {
 TEST(Outputs, DoNotTakeThePlaceOfClosedStreams) {
   const Ball ball(recorder);
   EXPECT_EQ(ball.run("(" + muro_program + " run s.yaml >&- 2>/dev/null; echo $?) 2>&1").output, "1\n");
+  EXPECT_EQ(ball.run(muro_program + " run s.yaml 2>&- >/dev/null; echo $?").output, "0\n");
   EXPECT_EQ(text_of(ball.folder.path("log.csv")).find("state hash"), std::string::npos);
 }
 

@@ -34,7 +34,10 @@ class CsvRecorder final : public Algorithm {
   }
 
   void connect(Connector& c) override {
-    path_ = std::filesystem::absolute(std::string(c.parameters().text("file"))).string();
+    std::error_code code;
+    const std::string file(c.parameters().text("file"));
+    path_ = std::filesystem::absolute(file, code).string();
+    if (code) throw Error("file " + file + " cannot be written: the working directory is not there any more");
     if (Outputs* outputs = Outputs::of(c.host())) outputs->file(path_);
   }
   void connect_by_name(Connector& c) override { properties_ = select(c, c.parameters().texts("properties")); }

@@ -40,7 +40,10 @@ class ImageRecorder final : public Algorithm {
  public:
   void connect(Connector& c) override {
     const Parameters& p = c.parameters();
-    folder_ = fs::absolute(std::string(p.text("folder")));
+    std::error_code code;
+    const std::string folder(p.text("folder"));
+    folder_ = fs::absolute(folder, code);
+    if (code) throw Error("the folder " + folder + " cannot be made: the working directory is not there any more");
     raw_ = p.text("format") == "raw";
   }
 
