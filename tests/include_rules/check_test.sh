@@ -62,7 +62,7 @@ touch host/run.hpp && echo '#include "host/run.hpp"' >core/world.hpp
 expect 'core/world.hpp:1: includes "host/run.hpp" (host/run.hpp); this file may include: std core sdk/muro sdk/describe eigen boost posix json fmt'
 
 echo '#include "plugins/motion/point/kernel.hpp"' >host/run.cpp
-expect 'host/run.cpp:1: includes "plugins/motion/point/kernel.hpp" (plugins/motion/point/kernel.hpp); this file may include: std host core sdk eigen boost posix json yaml cli fmt png'
+expect 'host/run.cpp:1: includes "plugins/motion/point/kernel.hpp" (plugins/motion/point/kernel.hpp); this file may include: std host core sdk eigen boost posix json yaml cli fmt png md'
 
 echo '#include <nowhere/to.hpp>' >host/run.cpp
 expect 'host/run.cpp:1: includes "nowhere/to.hpp", of no library that tests/include_rules/rules.txt knows; add it there'
