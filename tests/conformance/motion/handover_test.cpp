@@ -240,7 +240,7 @@ TEST(LevelsOfOneRobot, DoNotLetAnotherHaveTwoMotions) {
     s.build();
     FAIL() << "b has two motions";
   } catch (const SetupError& e) {
-    EXPECT_NE(std::string(e.what()).find("`b/body:pose` has two writers"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("` has two writers: motion.bullet"), std::string::npos) << e.what();
   }
 }
 
