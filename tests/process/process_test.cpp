@@ -148,7 +148,8 @@ TEST(StandardError, ThatNobodyReadsChangesNoExitCode) {
   const SteeredRun run("does=interrupts");
   const auto exit_code = [&](const std::string& arguments) {
     // the reader has left when the program begins
-    return run_command("{ sleep 0.2; " + program + " " + arguments + "; echo $? >&3; } 3>&1 2>&1 >/dev/null | true")
+    return run_command("{ { sleep 0.2; " + program + " " + arguments +
+                       "; echo $? >&3; } 2>&1 >/dev/null | true; } 3>&1")
         .output;
   };
   EXPECT_EQ(exit_code("check " + run.scenario), "0\n");
