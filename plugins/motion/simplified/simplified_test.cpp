@@ -226,12 +226,12 @@ TEST(Simplified, AStateThatIsNoLongerFiniteEndsTheRunWithTheNameOfTheRobot) {
     s.run_for(0.01);
     FAIL();
   } catch (const std::exception& e) {
-    EXPECT_NE(std::string(e.what()).find("`r` is no longer finite"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("`r`: the motion of its base is no longer finite"), std::string::npos) << e.what();
   }
 }
 
 TEST(Simplified, ABoxWithAPlaceholderForItsInertiaIsHeldByTheGround) {
-  for (const double moment : {0.0, 1e-12, 1e-9, 1e-7, 1e-5, 1e-3}) {
+  for (const double moment : {0.0, 1e-12, 1e-9, 1e-7, 1e-5, 1e-4}) {
     test::Scene s;
     std::vector<std::string> notes;
     s.set_log([&](LogLevel, std::string_view text) { notes.emplace_back(text); });
