@@ -120,7 +120,8 @@ TEST_P(EveryPair, KeepsItsMomentaAndReboundsInAHeadOnCollision) {
     // Two bodies of motion.simplified exchange an impulse. Else contact.penalty has springs: 0.135 for 0; where twists
     // lag behind poses, it loses the last half step of a contact.
     const bool impulse = first() == "motion.simplified" && second() == "motion.simplified";
-    EXPECT_NEAR(seen, e == 0 && !impulse ? 0.135 : e, impulse ? 1e-9 : 0.07) << first() << " and " << second() << " with restitution " << e;
+    EXPECT_NEAR(seen, e == 0 && !impulse ? 0.135 : e, impulse ? 1e-9 : 0.07)
+        << first() << " and " << second() << " with restitution " << e;
   }
 }
 
