@@ -99,11 +99,11 @@ TEST(APictureOnABox, IsLeftOutWhereItClaimsMorePixelsThanThereCanBe) {
   const test::ScratchFolder folder;
   Studio s;
   Shape box = Shape::box({2, 2, 2});
-  // a head of PNG: 60000 x 60000 pixels of four bytes
+  // a head of PNG: 20000 x 16 pixels of four bytes
   box.texture = s.world().intern(
-      folder.file("huge.png", "\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR\0\0\xea\x60\0\0\xea\x60\x08\x06\0\0\0\0\0\0\0"s));
+      folder.file("huge.png", "\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR\0\0\x4e\x20\0\0\0\x10\x08\x06\0\0\0\0\0\0\0"s));
   s.look_at(box, {{3, 0, 1}, Quat::Identity()});
-  EXPECT_NE(s.warnings.find("huge.png has 60000 x 60000 pixels, and may have 16384 in each direction; make it smaller; "
+  EXPECT_NE(s.warnings.find("huge.png has 20000 x 16 pixels, and may have 16384 in each direction; make it smaller; "
                             "what it covers is plain"),
             std::string::npos)
       << s.warnings;
