@@ -162,7 +162,9 @@ void OdeRobot::set_step(double dt) {
   for (std::size_t i = 1; i < bodies_.size(); ++i) {
     const OdeBody& b = bodies_[i];
     const bool turns = model_->bodies[i].joint == JointKind::revolute;
-    const double cfm = settings_.cfm + settings_.softness * dt * inverse_joint_inertia(i);
+    constexpr double part =
+        0.01;  // of the softness of contacts: a drive that gives way creeps, and its robot falls over
+    const double cfm = settings_.cfm + part * settings_.softness * dt * inverse_joint_inertia(i);
     const auto set_joint = turns ? &dJointSetHingeParam : &dJointSetSliderParam;
     set_joint(b.joint, dParamCFM, cfm);
     set_joint(b.joint, dParamStopCFM, cfm);
