@@ -97,11 +97,11 @@ TEST(MujocoMotion, MoreContactsThanExpectedGetMoreRoomAndLeaveNoFile) {
 
 TEST(MujocoMotion, AModelThatMujocoRefusesIsAMessageWithItsTextAndTheRobot) {
   World w;
-  w.add("flat", test::single_body(Shape::box({1, 1, 0}), solid_box(1, {1, 1, 0.1})));
+  w.add("mote", test::single_body(Shape::sphere(1e-3), {.mass = 1e-9, .ixx = 4e-16, .iyy = 4e-16, .izz = 4e-16}));
   const std::string message = message_of(w);
   EXPECT_NE(message.find("MuJoCo cannot make a model"), std::string::npos) << message;
-  EXPECT_NE(message.find("sizes must be positive"), std::string::npos) << message;
-  EXPECT_NE(message.find("flat"), std::string::npos) << message;
+  EXPECT_NE(message.find("mass and inertia of moving bodies must be larger"), std::string::npos) << message;
+  EXPECT_NE(message.find("mote"), std::string::npos) << message;
 }
 
 TEST(MujocoMotion, NamesThatXmlWouldMisreadDoNoHarm) {
