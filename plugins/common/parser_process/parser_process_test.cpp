@@ -17,7 +17,7 @@ namespace muro::parser_process {
 namespace {
 
 Answer ask_for(const char* service, const std::string& text = "") {
-  setenv("MURO_PARSER_SECONDS", "0.3", 1);
+  setenv("MURO_PARSER_SECONDS", "1", 1);
   Writer request;
   request.text(text);
   return ask({.service = service, .subject = "thing /a/b", .needs = "libthing-dev", .advice = "look at it"},
@@ -72,7 +72,7 @@ TEST(ParserProcess, SaysWhatTheServiceSays) {
 
 TEST(ParserProcess, EndsWithAnErrorWhereItDiesAndIsStartedAgain) {
   const std::vector<std::pair<const char*, std::string>> deaths {
-    {"hang", "that took more than 0.3 s, which is too long for its size (MURO_PARSER_SECONDS=SECONDS allows more)"},
+    {"hang", "that took more than 1 s, which is too long for its size (MURO_PARSER_SECONDS=SECONDS allows more)"},
         {"crash", "its reader crashed (SIGSEGV)"}, {"abort", "its reader crashed (SIGABRT: corrupted \\x1b[31m list)"},
         {"leave", "its reader ended with exit code 5"},
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)

@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
-#include <memory>
 
 #include "service.hpp"
 
@@ -25,8 +24,8 @@ const Registration hang("hang", [](Reader&, Writer&) {
 });
 
 const Registration eat("eat", [](Reader&, Writer& answer) {
-  std::vector<std::unique_ptr<std::vector<char>>> all;
-  for (int i = 0; i < 100; ++i) all.push_back(std::make_unique<std::vector<char>>(64 << 20, 'x'));
+  std::vector<std::vector<char>> all(100);
+  for (std::vector<char>& part : all) part.reserve(64 << 20);
   answer.value(all.size());
 });
 
