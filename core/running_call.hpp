@@ -15,10 +15,10 @@ namespace muro {
 
 /// Who is called: an algorithm, a model reader or a library that is being loaded. Unchanged while it is called.
 struct Callee {
-  std::string name;       ///< "rovers.motion"
-  std::string use{};      ///< "motion.point"
-  std::string place{};    ///< "file:line:column" of the scenario
-  std::string library{};  ///< path of the plugin
+  std::string name;         ///< "rovers.motion"
+  std::string use{};        ///< "motion.point"
+  std::string place{};      ///< "file:line:column" of the scenario
+  std::string library{};    ///< path of the plugin
   bool runs_alone = false;  ///< it may take as long as it likes
   /// What an item has of its own.
   struct OfItem {

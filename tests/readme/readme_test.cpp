@@ -128,8 +128,11 @@ TEST(Documents, PropertiesAreThoseOfTheVocabulary) {
 TEST(Documents, EveryFileTheyLinkToExists) {
   const std::regex link(R"(\]\(([^)#:]+)(#[^)]*)?\))");
   for (const std::string& page : pages()) {
-    const std::string text = text_of(root + page);
+    std::string text = text_of(root + page);
     ASSERT_FALSE(text.empty()) << page;
+    // a lambda in an example is no link
+    for (std::size_t begin = 0; (begin = text.find("```", begin)) != std::string::npos;)
+      text.erase(begin, text.find("```", begin + 3) + 3 - begin);
     for (auto it = std::sregex_iterator(text.begin(), text.end(), link); it != std::sregex_iterator(); ++it) {
       const auto target = (fs::path(root + page).parent_path() / (*it)[1].str()).lexically_normal();
       EXPECT_TRUE(fs::exists(target)) << page << " links to " << (*it)[1].str();

@@ -226,7 +226,8 @@ TEST(Simplified, AStateThatIsNoLongerFiniteEndsTheRunWithTheNameOfTheRobot) {
     s.run_for(0.01);
     FAIL();
   } catch (const std::exception& e) {
-    EXPECT_NE(std::string(e.what()).find("`r`: the motion of its base is no longer finite"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("`r`: the motion of its base is no longer finite"), std::string::npos)
+        << e.what();
   }
 }
 

@@ -15,9 +15,8 @@ Lines problems_of(const std::string& inside) { return robot_of(model(inside)).pr
 
 TEST(SdfProblems, FilesThatAreNoSdformat) {
   EXPECT_EQ(robot_of("").problems, Lines{"error 0:0 the file is empty; a SDFormat file holds a <sdf> element"});
-  EXPECT_EQ(
-      robot_of("\nsolid x").problems,
-      Lines{"error 2:1 the file is not XML; a SDFormat file begins with <?xml or <sdf"});
+  EXPECT_EQ(robot_of("\nsolid x").problems,
+            Lines{"error 2:1 the file is not XML; a SDFormat file begins with <?xml or <sdf"});
   EXPECT_EQ(robot_of("<sdf version='1.9'>\n<model name='m'>\n</sdf>").problems,
             Lines{"error 2:0 the file is not well-formed XML: a closing tag does not match the element that is open"});
   EXPECT_EQ(robot_of("<robot name='r'/>").problems,

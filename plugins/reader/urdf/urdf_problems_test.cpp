@@ -41,9 +41,8 @@ constexpr char limit[] = "<limit lower='-1' upper='1' velocity='1' effort='1'/>"
 TEST(UrdfProblems, FilesThatAreNoXml) {
   EXPECT_EQ(recorded("").problems, Lines{"error 0:0 the file is empty; a URDF file holds a <robot> element"});
   EXPECT_EQ(recorded(" \n\t\n").problems, Lines{"error 0:0 the file is empty; a URDF file holds a <robot> element"});
-  EXPECT_EQ(
-      recorded("\nsolid wheel").problems,
-      Lines{"error 2:1 the file is not XML; a URDF file begins with <?xml or <robot"});
+  EXPECT_EQ(recorded("\nsolid wheel").problems,
+            Lines{"error 2:1 the file is not XML; a URDF file begins with <?xml or <robot"});
   EXPECT_EQ(recorded("<robot name='r'>\n<link name='a'>\n</robot>").problems,
             Lines{"error 2:0 the file is not well-formed XML: a closing tag does not match the element that is open"});
   EXPECT_EQ(recorded("<robot name='r'>\n<!-- ").problems,

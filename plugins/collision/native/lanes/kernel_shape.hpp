@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
+
 #include "muro/simd/rows.hpp"
 #include "plugins/common/contact_geometry/body_frame.hpp"
 #include "plugins/common/contact_geometry/pose_location.hpp"
