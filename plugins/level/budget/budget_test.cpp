@@ -56,9 +56,11 @@ TEST(LevelBudget, SaysThatItIsNotDeterministic) {
   EXPECT_EQ(test::plugins().algorithm("level.budget").description->capabilities & (deterministic | restorable), 0u);
   const Budgeted s({"fine when faster than 2"}, coarse);
   ASSERT_EQ(s.log.size(), 1u);
-  EXPECT_NE(s.log[0].find("(level.budget): level.budget is not deterministic: it reads the machine's clock, so that no "
-                          "run is repeated exactly"),
-            std::string::npos)
+  EXPECT_NE(
+      s.log[0].find(
+          "(level.budget), robot `ball`: level.budget is not deterministic: it reads the machine's clock, so that no "
+          "run is repeated exactly"),
+      std::string::npos)
       << s.log[0];
 }
 
