@@ -146,25 +146,39 @@ double OdeRobot::inverse_effective_mass(std::size_t number, const Vec3& point, c
   return 1 / model_->bodies[number].inertia.mass + lever.dot(b.inverse_inertia * lever);
 }
 
-/// 1/kg or 1/(kg m^2): what the joint of a body moves, if its two bodies hang on nothing else.
-double OdeRobot::inverse_joint_inertia(std::size_t number) const {
-  const RigidBody& body = model_->bodies[number];
-  const auto parent = std::size_t(body.parent);
-  const bool parent_moves = parent > 0 || !model_->fixed_base;
-  if (body.joint != JointKind::revolute)
-    return 1 / body.inertia.mass + (parent_moves ? 1 / model_->bodies[parent].inertia.mass : 0);
-  const Vec3 in_parent = body.origin.orientation * body.axis;
-  const double own = body.axis.dot(bodies_[number].inverse_inertia * body.axis);
-  return own + (parent_moves ? in_parent.dot(bodies_[parent].inverse_inertia * in_parent) : 0);
+/// 1/kg or 1/(kg m^2): of what the joint of each body moves. The exact solver holds what hangs on a joint as one body,
+/// which may be far heavier than the body next to it. With the quick one that is too hard for its iterations, so there
+/// the two bodies count alone.
+std::vector<double> OdeRobot::inverse_joint_inertias() const {
+  const auto& bodies = model_->bodies;
+  std::vector<Inertia> moved(bodies.size());  // in the frame of each body
+  for (std::size_t i = bodies.size(); i-- > 0;) {
+    moved[i] = moved[i] + bodies[i].inertia;
+    if (i == 0 || !settings_.exact) continue;
+    Inertia& parent = moved[std::size_t(bodies[i].parent)];
+    parent = parent + moved[i].in(bodies[i].origin);
+  }
+  std::vector<double> inverses(bodies.size(), 0.0);
+  for (std::size_t i = 1; i < bodies.size(); ++i) {
+    const RigidBody& body = bodies[i];
+    const auto inverse = [&](const Inertia& inertia, const Vec3& axis) {
+      return body.joint == JointKind::revolute ? axis.dot(inertia.tensor().inverse() * axis) : 1 / inertia.mass;
+    };
+    inverses[i] = inverse(moved[i], body.axis);
+    if (body.parent > 0 || !model_->fixed_base)
+      inverses[i] += inverse(moved[std::size_t(body.parent)], body.origin.orientation * body.axis);
+  }
+  return inverses;
 }
 
 void OdeRobot::set_step(double dt) {
+  const std::vector<double> inverse_inertias = inverse_joint_inertias();
   for (std::size_t i = 1; i < bodies_.size(); ++i) {
     const OdeBody& b = bodies_[i];
     const bool turns = model_->bodies[i].joint == JointKind::revolute;
     constexpr double part =
         0.01;  // of the softness of contacts: a drive that gives way creeps, and its robot falls over
-    const double cfm = settings_.cfm + part * settings_.softness * dt * inverse_joint_inertia(i);
+    const double cfm = settings_.cfm + part * settings_.softness * dt * inverse_inertias[i];
     const auto set_joint = turns ? &dJointSetHingeParam : &dJointSetSliderParam;
     set_joint(b.joint, dParamCFM, cfm);
     set_joint(b.joint, dParamStopCFM, cfm);

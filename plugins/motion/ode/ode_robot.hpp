@@ -53,7 +53,7 @@ class OdeRobot {
 
   void add_body(std::size_t body);
   void add_joint(std::size_t body);
-  double inverse_joint_inertia(std::size_t body) const;
+  std::vector<double> inverse_joint_inertias() const;
   dJointID create_motor(std::size_t body, const Vec3& axis) const;
   void set_motion_type(multibody::MotionType motion_type);
   void set_bodies_from_state();
