@@ -36,6 +36,12 @@ if(MURO_FUZZ) # with clang
   add_compile_options(-fsanitize=fuzzer-no-link)
 endif()
 
+# Compiles the sources of a target in batches, each as one file: what headers cost is paid once a batch. The linter sees
+# each source by itself (MURO_UNITY=OFF).
+function(muro_compile_in_batches target batch_size)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${MURO_UNITY} UNITY_BUILD_BATCH_SIZE ${batch_size})
+endfunction()
+
 # Makes a target part of test programs: with the headers and options of muro_test_pch. They spend their time in what they
 # test; compiling them is what takes long. Preset debug has symbols of tests.
 set(MURO_TEST_OPTIONS -fPIE "$<$<CONFIG:RelWithDebInfo>:-O1;-g0>")
@@ -60,11 +66,12 @@ function(muro_add_static_library)
   target_precompile_headers(${ARG_NAME} REUSE_FROM muro_plugin_pch)
 endfunction()
 
-# muro_add_test(NAME x SOURCES ... [LIBRARIES ...] [TIMEOUT s] [FIXTURE f] [SLOW]): a GoogleTest program, each test known
-# to ctest. FIXTURE: the tests that set it up run before. Tests whose suite or instantiation is named Slow... have the
-# label `slow`; so have all tests of a program that is SLOW, which is built for `./dev test --slow` alone.
+# muro_add_test(NAME x SOURCES ... [LIBRARIES ...] [TIMEOUT s] [FIXTURE f] [SLOW] [SEPARATE]): a GoogleTest program, each
+# test known to ctest. FIXTURE: the tests that set it up run before. Tests whose suite or instantiation is named Slow...
+# have the label `slow`; so have all tests of a program that is SLOW, which is built for `./dev test --slow` alone.
+# SEPARATE: its sources have different helpers under one name, so they are not compiled in batches.
 function(muro_add_test)
-  cmake_parse_arguments(ARG "SLOW" "NAME;TIMEOUT;FIXTURE" "SOURCES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ARG "SLOW;SEPARATE" "NAME;TIMEOUT;FIXTURE" "SOURCES;LIBRARIES" ${ARGN})
   if(NOT MURO_TESTS OR (ARG_SLOW AND NOT MURO_SLOW_TESTS))
     return()
   endif()
@@ -74,6 +81,9 @@ function(muro_add_test)
   add_executable(${ARG_NAME} ${ARG_SOURCES})
   target_link_libraries(${ARG_NAME} PRIVATE GTest::gtest_main ${ARG_LIBRARIES})
   muro_compile_as_test(${ARG_NAME})
+  if(NOT ARG_SEPARATE)
+    muro_compile_in_batches(${ARG_NAME} 6)
+  endif()
   set_target_properties(${ARG_NAME} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   include(GoogleTest)
   set(slow "Slow*")

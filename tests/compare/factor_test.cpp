@@ -9,9 +9,9 @@
 namespace muro::host {
 namespace {
 
-const std::string urban = MURO_TEST_SOURCE_DIR "/examples/urban/urban.yaml";
+const std::string urban_scenario = MURO_TEST_SOURCE_DIR "/examples/urban/urban.yaml";
 
-Factor vary(const std::string& text) { return read_factor(text, read_scenario(urban, {}), test::plugins()); }
+Factor vary(const std::string& text) { return read_factor(text, read_scenario(urban_scenario, {}), test::plugins()); }
 
 std::string refusal(const std::string& text) {
   try {

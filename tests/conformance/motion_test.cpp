@@ -90,14 +90,8 @@ std::vector<std::string> kinematic_motions() {
   return some;
 }
 
-std::string name_of(const ::testing::TestParamInfo<std::string>& test) {
-  std::string name = test.param;
-  std::replace(name.begin(), name.end(), '.', '_');
-  return name;
-}
-
-INSTANTIATE_TEST_SUITE_P(Conformance, EveryMotion, ::testing::ValuesIn(test::algorithms_of("motion")), name_of);
-INSTANTIATE_TEST_SUITE_P(Conformance, EveryKinematicMotion, ::testing::ValuesIn(kinematic_motions()), name_of);
+INSTANTIATE_TEST_SUITE_P(Conformance, EveryMotion, ::testing::ValuesIn(test::algorithms_of("motion")), test::name_of);
+INSTANTIATE_TEST_SUITE_P(Conformance, EveryKinematicMotion, ::testing::ValuesIn(kinematic_motions()), test::name_of);
 
 }  // namespace
 }  // namespace muro

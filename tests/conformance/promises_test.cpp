@@ -62,15 +62,9 @@ std::vector<std::string> allocation_free_motions() {
   return some;
 }
 
-std::string name_of(const ::testing::TestParamInfo<std::string>& test) {
-  std::string name = test.param;
-  std::replace(name.begin(), name.end(), '.', '_');
-  return name;
-}
-
-INSTANTIATE_TEST_SUITE_P(Conformance, EveryMotionsTeam, ::testing::ValuesIn(test::algorithms_of("motion")), name_of);
+INSTANTIATE_TEST_SUITE_P(Conformance, EveryMotionsTeam, ::testing::ValuesIn(test::algorithms_of("motion")), test::name_of);
 INSTANTIATE_TEST_SUITE_P(Conformance, EveryAllocationFreeMotionsTeam, ::testing::ValuesIn(allocation_free_motions()),
-                         name_of);
+                         test::name_of);
 
 /// Steps every batched algorithm once in one piece and once item by item, from the same state.
 TEST(BatchedAlgorithms, GiveTheSameBitsItemByItemAsInOnePiece) {

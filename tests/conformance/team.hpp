@@ -17,6 +17,13 @@ inline std::vector<std::string> algorithms_of(const std::string& kind) {
   return ids;
 }
 
+/// "motion_ode" for motion.ode: names of tests have no dots.
+inline std::string name_of(const ::testing::TestParamInfo<std::string>& test) {
+  std::string name = test.param;
+  std::replace(name.begin(), name.end(), '.', '_');
+  return name;
+}
+
 /// What a motion is tried with: a model that it can move, and its drive.
 struct Vehicle {
   std::string model, drive;

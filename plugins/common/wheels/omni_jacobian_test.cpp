@@ -3,23 +3,18 @@
 
 #include <gtest/gtest.h>
 
-#include <random>
+#include "tests/support/randoms.hpp"
 
 namespace muro::wheels {
 namespace {
 
-struct Draw {
-  std::mt19937 engine;
-  double operator()(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine); }
-};
-
 TEST(OmniJacobian, FollowsTheEquationOfTheSwedishWheel) {
-  Draw draw{std::mt19937(4)};
+  test::Randoms draw(4);
   for (int round = 0; round < 50; ++round) {
-    const double l = draw(0.1, 2), alpha = draw(-3, 3), beta = draw(-3, 3), gamma = draw(-1.2, 1.2),
-                 r = draw(0.02, 0.3);
+    const double l = draw.uniform(0.1, 2), alpha = draw.uniform(-3, 3), beta = draw.uniform(-3, 3), gamma = draw.uniform(-1.2, 1.2),
+                 r = draw.uniform(0.02, 0.3);
     OmniWheel w;
-    w.centre = {l * std::cos(alpha), l * std::sin(alpha), draw(-1, 1)};
+    w.centre = {l * std::cos(alpha), l * std::sin(alpha), draw.uniform(-1, 1)};
     w.axis = {std::cos(alpha + beta), std::sin(alpha + beta), 0};
     w.heading = w.axis.cross(Vec3::UnitZ());
     w.radius = r, w.roller_angle = gamma;
@@ -32,16 +27,16 @@ TEST(OmniJacobian, FollowsTheEquationOfTheSwedishWheel) {
 }
 
 TEST(OmniJacobian, IsTheInverseOfItsRows) {
-  Draw draw{std::mt19937(5)};
+  test::Randoms draw(5);
   for (std::size_t count = 3; count < 8; ++count) {
     std::vector<OmniWheel> wheels(count);
     for (OmniWheel& w : wheels) {
-      const double yaw = draw(-3, 3);
-      w.centre = {draw(-1, 1), draw(-1, 1), 0}, w.radius = draw(0.05, 0.1), w.roller_angle = draw(-1, 1);
+      const double yaw = draw.uniform(-3, 3);
+      w.centre = {draw.uniform(-1, 1), draw.uniform(-1, 1), 0}, w.radius = draw.uniform(0.05, 0.1), w.roller_angle = draw.uniform(-1, 1);
       w.heading = {std::cos(yaw), std::sin(yaw), 0};
     }
     const std::vector<PlanarTwist> columns = jacobian_columns(RobotView{}, wheels);
-    const PlanarTwist v{draw(-1, 1), draw(-1, 1), draw(-1, 1)};
+    const PlanarTwist v{draw.uniform(-1, 1), draw.uniform(-1, 1), draw.uniform(-1, 1)};
     PlanarTwist sum;
     for (std::size_t i = 0; i < count; ++i) {
       const PlanarTwist a = inverse_jacobian_row(wheels[i]);

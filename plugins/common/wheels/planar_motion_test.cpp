@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "planar_motion.hpp"
-#include "muro/toolkit/rotations.hpp"
 
 #include <gtest/gtest.h>
 
-#include <random>
+#include "muro/toolkit/rotations.hpp"
+#include "tests/support/randoms.hpp"
 
 namespace muro::wheels {
 namespace {
-
-struct Draw {
-  std::mt19937 engine;
-  double operator()(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine); }
-};
 
 /// The displacement of a frame by Simpson's rule over many small intervals.
 Vec3 simpson(const PlanarTwist& v, const PlanarTwist& acceleration, double dt) {
@@ -48,9 +43,9 @@ TEST(Arc, BecomesAStraightLineAsTheTurnVanishes) {
 }
 
 TEST(Arc, TwoArcsOfHalfTheTimeAreOne) {
-  Draw draw{std::mt19937(1)};
+  test::Randoms draw(1);
   for (int i = 0; i < 100; ++i) {
-    const PlanarTwist v{draw(-2, 2), draw(-2, 2), draw(-5, 5)};
+    const PlanarTwist v{draw.uniform(-2, 2), draw.uniform(-2, 2), draw.uniform(-5, 5)};
     const Pose once = arc(v, 1), half = arc(v, 0.5), both = half * half;
     EXPECT_LT((once.position - both.position).norm(), 1e-15);
     EXPECT_LT((once.orientation.coeffs() - both.orientation.coeffs()).norm(), 1e-15);
@@ -58,9 +53,9 @@ TEST(Arc, TwoArcsOfHalfTheTimeAreOne) {
 }
 
 TEST(AcceleratedArc, IsTheIntegralOfAVelocityThatChangesEvenly) {
-  Draw draw{std::mt19937(2)};
+  test::Randoms draw(2);
   for (int i = 0; i < 30; ++i) {
-    const PlanarTwist v{draw(-2, 2), draw(-2, 2), draw(-1, 1)}, acceleration{draw(-2, 2), draw(-2, 2), draw(-1, 1)};
+    const PlanarTwist v{draw.uniform(-2, 2), draw.uniform(-2, 2), draw.uniform(-1, 1)}, acceleration{draw.uniform(-2, 2), draw.uniform(-2, 2), draw.uniform(-1, 1)};
     const Pose end = accelerated_arc(v, acceleration, 0.6);
     EXPECT_LT((end.position - simpson(v, acceleration, 0.6)).norm(), 1e-10);
     EXPECT_NEAR(yaw_of(end.orientation), 0.6 * v.yaw_rate + 0.18 * acceleration.yaw_rate, 1e-15);
@@ -68,9 +63,9 @@ TEST(AcceleratedArc, IsTheIntegralOfAVelocityThatChangesEvenly) {
 }
 
 TEST(AcceleratedArc, WithoutChangeIsAnArc) {
-  Draw draw{std::mt19937(3)};
+  test::Randoms draw(3);
   for (int i = 0; i < 30; ++i) {
-    const PlanarTwist v{draw(-2, 2), draw(-2, 2), draw(-2, 2)};
+    const PlanarTwist v{draw.uniform(-2, 2), draw.uniform(-2, 2), draw.uniform(-2, 2)};
     EXPECT_LT((accelerated_arc(v, {}, 0.5).position - arc(v, 0.5).position).norm(), 1e-11);
   }
 }

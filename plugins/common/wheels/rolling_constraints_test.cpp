@@ -3,17 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include <random>
-
 #include "gauss_collocation.hpp"
+#include "tests/support/randoms.hpp"
 
 namespace muro::wheels {
 namespace {
-
-struct Draw {
-  std::mt19937 engine;
-  double operator()(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine); }
-};
 
 template <int N>
 void expect_exact(const GaussCollocation<N>& rule) {
@@ -41,15 +35,15 @@ SteeredWheel steered(const Vec3& pivot, const Vec3& centre, const Vec3& axis = V
 }
 
 TEST(PlanarWheel, MovesAsItsCentreOnAnArmThatTurns) {
-  Draw draw{std::mt19937(1)};
+  test::Randoms draw(1);
   for (int round = 0; round < 50; ++round) {
-    const Vec3 pivot(draw(-2, 2), draw(-2, 2), 0), arm(draw(-0.3, 0.3), draw(-0.3, 0.3), 0);
-    const double yaw = draw(-1.5, 1.5), side = round % 2 == 0 ? 1 : -1;
+    const Vec3 pivot(draw.uniform(-2, 2), draw.uniform(-2, 2), 0), arm(draw.uniform(-0.3, 0.3), draw.uniform(-0.3, 0.3), 0);
+    const double yaw = draw.uniform(-1.5, 1.5), side = round % 2 == 0 ? 1 : -1;
     const PlanarWheel w(steered(pivot, pivot + arm, side * Vec3(-std::sin(yaw), std::cos(yaw), 0)));
     EXPECT_NEAR(w.zero_heading, yaw, 1e-15);
     EXPECT_NEAR(w.angle_per_metre, side / 0.1, 1e-12);
-    const double angle = draw(-2, 2), rate = draw(-3, 3);
-    const PlanarTwist v{draw(-2, 2), draw(-2, 2), draw(-2, 2)};
+    const double angle = draw.uniform(-2, 2), rate = draw.uniform(-3, 3);
+    const PlanarTwist v{draw.uniform(-2, 2), draw.uniform(-2, 2), draw.uniform(-2, 2)};
     const Vec3 turned = Eigen::AngleAxisd(angle, Vec3::UnitZ()) * arm;
     const Vec3 moving =
         Vec3(v.x, v.y, 0) + Vec3(0, 0, v.yaw_rate).cross(pivot) + Vec3(0, 0, v.yaw_rate + rate).cross(turned);
@@ -87,12 +81,12 @@ struct Vehicle {
 };
 
 TEST(RollingConstraints, TurnsAboutThePointToWhichAllAxlesPoint) {
-  Draw draw{std::mt19937(2)};
+  test::Randoms draw(2);
   for (int round = 0; round < 100; ++round) {
-    const double cx = draw(-5, 5), cy = draw(-5, 5), turn = draw(0.1, 2);
+    const double cx = draw.uniform(-5, 5), cy = draw.uniform(-5, 5), turn = draw.uniform(0.1, 2);
     Vehicle vehicle;
     for (int i = 0; i < 2 + round % 4; ++i) {
-      const double x = draw(-1, 1), y = draw(-1, 1), heading = std::atan2(x - cx, cy - y);
+      const double x = draw.uniform(-1, 1), y = draw.uniform(-1, 1), heading = std::atan2(x - cx, cy - y);
       vehicle.add(x, y, heading, turn * ((cy - y) * std::cos(heading) + (x - cx) * std::sin(heading)));
     }
     vehicle.driven = 1 + std::size_t(round) % vehicle.wheels.size();
@@ -105,18 +99,18 @@ TEST(RollingConstraints, TurnsAboutThePointToWhichAllAxlesPoint) {
 }
 
 TEST(RollingConstraints, SlipsLeastWhenAxlesDoNotMeet) {
-  Draw draw{std::mt19937(3)};
+  test::Randoms draw(3);
   for (int round = 0; round < 30; ++round) {
     Vehicle vehicle;
     vehicle.add(0, 0.5, 0, 1);
     vehicle.add(0, -0.5, 0, 1);
-    vehicle.add(2, 0.5, draw(-1, 1));
-    vehicle.add(2, -0.5, draw(-1, 1));
+    vehicle.add(2, 0.5, draw.uniform(-1, 1));
+    vehicle.add(2, -0.5, draw.uniform(-1, 1));
     vehicle.driven = 2;
     const PlanarTwist v = vehicle.motion().velocity;
     const double smallest = vehicle.slip(v);
     for (int i = 0; i < 200; ++i)
-      EXPECT_LE(smallest, vehicle.slip(v + PlanarTwist{draw(-1, 1), draw(-1, 1), draw(-1, 1)} * draw(0, 0.3)) + 1e-15);
+      EXPECT_LE(smallest, vehicle.slip(v + PlanarTwist{draw.uniform(-1, 1), draw.uniform(-1, 1), draw.uniform(-1, 1)} * draw.uniform(0, 0.3)) + 1e-15);
     double along = 0;
     for (int i : {0, 1}) along += 0.5 * vehicle.wheels[std::size_t(i)].longitudinal_velocity(0, 1, v, 0);
     EXPECT_GT(along, 0.8) << "forward, as its driven wheels turn";

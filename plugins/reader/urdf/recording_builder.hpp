@@ -13,6 +13,14 @@
 
 namespace muro::urdf {
 
+/// Links that weigh something.
+inline constexpr char body_a[] =
+    "<link name='a'><inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' "
+    "izz='1'/></inertial></link>";
+inline constexpr char link_b[] =
+    "<link name='b'><inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' "
+    "izz='1'/></inertial></link>";
+
 class RecordingBuilder final : public RobotBuilder {
  public:
   std::vector<std::string> calls;     ///< "translation 0.1 0 0", "revolute hinge about 0 1 0"

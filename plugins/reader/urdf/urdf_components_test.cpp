@@ -114,7 +114,7 @@ TEST(UrdfMeshPath, AMeshIsInternedWithItsScale) {
 }
 
 TEST(UrdfInertia, UniformDensityGivesTheTextbookTensor) {
-  const double pi = std::numbers::pi;
+  using std::numbers::pi;
   const Shape box = Shape::box({1, 2, 3}), sphere = Shape::sphere(0.5), cylinder = Shape::cylinder(0.3, 2);
   const auto one = [](const Shape& s, double mass) { return uniform_density_inertia(std::span(&s, 1), mass); };
   EXPECT_NEAR(one(box, 6).ixx, 6 * (4 + 9) / 12.0, 1e-12);

@@ -26,10 +26,6 @@ RecordingBuilder recorded_file(const std::string& name) {
   return builder;
 }
 
-constexpr char body_a[] =
-    "<link name='a'><inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' "
-    "izz='1'/></inertial></link>";
-
 /// A robot of body `a`, and of what `more` adds to it.
 RecordingBuilder with_body_a(const std::string& more) {
   return recorded("<robot name='r'>\n" + std::string(body_a) + "\n" + more + "\n</robot>");

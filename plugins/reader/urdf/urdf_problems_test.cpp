@@ -12,13 +12,6 @@ namespace {
 
 using Lines = std::vector<std::string>;
 
-constexpr char body_a[] =
-    "<link name='a'><inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' "
-    "izz='1'/></inertial></link>";
-constexpr char link_b[] =
-    "<link name='b'><inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' "
-    "izz='1'/></inertial></link>";
-
 /// Robots whose line 2 is body `a`; `more` begins at line 3, column 1.
 Lines problems_of(const std::string& more) {
   return recorded("<robot name='r'>\n" + std::string(body_a) + "\n" + more + "\n</robot>").problems;

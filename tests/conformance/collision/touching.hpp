@@ -69,10 +69,4 @@ inline std::string text_of(const std::vector<Contact>& contacts) {
   return out.str();
 }
 
-inline std::string name_of(const ::testing::TestParamInfo<std::string>& test) {
-  std::string name = test.param;
-  std::replace(name.begin(), name.end(), '.', '_');
-  return name;
-}
-
 }  // namespace muro::test

@@ -8,6 +8,8 @@
 
 namespace muro::conformance {
 
+inline constexpr double g = 9.81;  ///< m/s^2
+
 /// A motion under test, in a small scene of its own.
 class Trial : public test::Scene {
  public:
@@ -20,8 +22,6 @@ class Trial : public test::Scene {
   /// A plane through the origin that rises along x by `angle` (rad).
   void add_slope(double angle, double friction);
   double& joint(std::string_view name, const Key<double>& key) { return world().value(name, key); }
-
-  static constexpr double g = 9.81;
 
  private:
   std::string motion_;

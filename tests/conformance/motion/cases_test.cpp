@@ -32,7 +32,7 @@ std::vector<Combination> combinations() {
 }
 
 /// "motion_ode_a_block_slides_down_30_deg".
-std::string name_of(const ::testing::TestParamInfo<Combination>& test) {
+std::string name_of_case(const ::testing::TestParamInfo<Combination>& test) {
   std::string name = std::get<0>(test.param) + "_" + std::string(all_cases()[std::get<1>(test.param)].name);
   std::string clean;
   for (const char c : name) {
@@ -64,7 +64,7 @@ TEST(MotionCases, AreLeftOutForAReason) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Conformance, EveryMotion, ::testing::ValuesIn(combinations()), name_of);
+INSTANTIATE_TEST_SUITE_P(Conformance, EveryMotion, ::testing::ValuesIn(combinations()), name_of_case);
 
 }  // namespace
 }  // namespace muro::conformance

@@ -12,7 +12,7 @@ struct Box {
 };
 const Box simple{{0, 0, 0}, {-0.9, 0.4, 0.1}, {0.5, 0, 0}};
 const Box complex{{0, 0, -9.8}, {-2, 2, 8}, {0.1, 5.0, 0.1}};
-const Vec3 size(0.1, 0.4, 0.9);
+const Vec3 body_size(0.1, 0.4, 0.9);
 
 /// Largest errors over 10 s.
 struct Flight {
@@ -22,9 +22,9 @@ struct Flight {
 Flight fly(const std::string& motion, const Box& box) {
   Trial t(motion);
   t.set_gravity(box.gravity);
-  const RobotView& r = t.add("box", block(10, size, 0.5), {{0, 0, 100}, Quat::Identity()}, {box.velocity, box.spin});
+  const RobotView& r = t.add("box", block(10, body_size, 0.5), {{0, 0, 100}, Quat::Identity()}, {box.velocity, box.spin});
   t.start();
-  const Mat3 inertia = solid_box(10, size).tensor();
+  const Mat3 inertia = solid_box(10, body_size).tensor();
   const auto momentum = [&] {
     const Quat& q = t.pose(r).orientation;
     return Vec3(q * Vec3(inertia * (q.conjugate() * t.twist(r).angular)));
@@ -70,7 +70,7 @@ Outcome complex_rates(const std::string& motion) {
   Trial t(motion);
   t.set_gravity(complex.gravity);
   const RobotView& r =
-      t.add("box", block(10, size, 0.5), {{0, 0, 100}, Quat::Identity()}, {complex.velocity, complex.spin});
+      t.add("box", block(10, body_size, 0.5), {{0, 0, 100}, Quat::Identity()}, {complex.velocity, complex.spin});
   t.start();
   t.run_for(1);
   const Vec3 rates = t.pose(r).orientation.conjugate() * t.twist(r).angular;

@@ -34,7 +34,7 @@ std::vector<std::string> block_motions() {
   return some;
 }
 
-std::string name_of(const ::testing::TestParamInfo<Pair>& test) {
+std::string name_of_handover(const ::testing::TestParamInfo<Pair>& test) {
   std::string name = std::get<0>(test.param) + "_to_" + std::get<1>(test.param);
   std::replace(name.begin(), name.end(), '.', '_');
   return name;
@@ -244,8 +244,8 @@ TEST(LevelsOfOneRobot, DoNotLetAnotherHaveTwoMotions) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Conformance, EveryHandOver, ::testing::ValuesIn(pairs_of(vehicle_motions())), name_of);
-INSTANTIATE_TEST_SUITE_P(Conformance, EveryHandOverOfABlock, ::testing::ValuesIn(pairs_of(block_motions())), name_of);
+INSTANTIATE_TEST_SUITE_P(Conformance, EveryHandOver, ::testing::ValuesIn(pairs_of(vehicle_motions())), name_of_handover);
+INSTANTIATE_TEST_SUITE_P(Conformance, EveryHandOverOfABlock, ::testing::ValuesIn(pairs_of(block_motions())), name_of_handover);
 
 }  // namespace
 }  // namespace muro::conformance

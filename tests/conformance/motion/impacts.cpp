@@ -39,7 +39,7 @@ double rebound(const std::string& motion, double e, double mass = 1) {
   t.start();
   t.run_for(0.6);  // on its way up, or at rest
   const double v = t.twist(r).linear.z(), h = std::max(t.pose(r).position.z() - 0.05, 0.0);
-  return v > 0 ? std::sqrt((h + v * v / (2 * Trial::g)) / 1) : 0;
+  return v > 0 ? std::sqrt((h + v * v / (2 * g)) / 1) : 0;
 }
 Outcome elastic(const std::string& motion) {
   const double seen = rebound(motion, 0.9);
@@ -118,7 +118,7 @@ Outcome weighs(const std::string& motion) {
   t.start();
   t.run_for(2);
   const Wrench w = t.world().value(r.base(), keys::contact_wrench);
-  const double weight = 3 * Trial::g;
+  const double weight = 3 * g;
   const double error = std::max((w.force - Vec3(0, 0, weight)).norm() / weight,
                                 (w.torque - Vec3(0, -0.03 * weight, 0)).norm() / (0.1 * weight));
   return {error, text(w.force.z()) + " N for " + text(weight) + ", " + text(w.torque.y()) + " N m for " +

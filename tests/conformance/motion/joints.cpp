@@ -90,7 +90,7 @@ Outcome holds(const std::string& motion) {
 
 Outcome tells_effort(const std::string& motion) {
   HeldArm arm(motion);
-  return relative(arm.joint("r/joint", keys::joint_effort), -Trial::g * 0.5 * std::cos(0.5));
+  return relative(arm.joint("r/joint", keys::joint_effort), -g * 0.5 * std::cos(0.5));
 }
 
 Outcome effort(const std::string& motion) {

@@ -20,7 +20,7 @@ std::vector<Pair> pairs() {
   return all;
 }
 
-std::string name_of(const ::testing::TestParamInfo<Pair>& test) {
+std::string name_of_pair(const ::testing::TestParamInfo<Pair>& test) {
   std::string name = std::get<0>(test.param) + "_meets_" + std::get<1>(test.param);
   std::replace(name.begin(), name.end(), '.', '_');
   return name;
@@ -175,7 +175,7 @@ TEST_P(EveryPair, SlidesOneOnTheOtherWithTheFrictionOfTheMaterials) {
   EXPECT_LT(m.twist(*m.bodies[1].robot).linear.norm(), 1e-3) << "it has come to rest";
 }
 
-INSTANTIATE_TEST_SUITE_P(Conformance, EveryPair, ::testing::ValuesIn(pairs()), name_of);
+INSTANTIATE_TEST_SUITE_P(Conformance, EveryPair, ::testing::ValuesIn(pairs()), name_of_pair);
 
 }  // namespace
 }  // namespace muro::conformance

@@ -7,7 +7,6 @@ namespace muro::conformance {
 
 namespace {
 
-constexpr double g = Trial::g;
 constexpr double slope = 20 * M_PI / 180;
 
 /// Acceleration down the slope of a round body.

@@ -7,8 +7,7 @@ namespace muro::conformance {
 
 namespace {
 
-constexpr double g = Trial::g;
-const Vec3 size(0.2, 0.2, 0.1);
+const Vec3 block_size(0.2, 0.2, 0.1);
 
 /// A block lies on a slope, which falls along -x.
 struct Slope : Trial {
@@ -18,7 +17,7 @@ struct Slope : Trial {
   Slope(const std::string& motion, double angle, double friction) : Trial(motion), angle_(angle) {
     add_slope(angle, friction);
     const Quat turn = from_rpy(0, -angle, 0);
-    block_ = &add("block", conformance::block(1, size, friction), {turn * Vec3(0, 0, 0.05), turn});
+    block_ = &add("block", conformance::block(1, block_size, friction), {turn * Vec3(0, 0, 0.05), turn});
     start();
   }
   double speed() { return -twist(*block_).linear.dot(from_rpy(0, -angle_, 0) * Vec3::UnitX()); }
@@ -77,7 +76,7 @@ Outcome straight(const std::string& motion) {
 Outcome stops(const std::string& motion) {
   Trial t(motion);
   t.add_ground(0.4);
-  const RobotView& r = t.add("block", block(1, size, 0.4), {{0, 0, 0.05}, Quat::Identity()});
+  const RobotView& r = t.add("block", block(1, block_size, 0.4), {{0, 0, 0.05}, Quat::Identity()});
   Wrench& w = t.push(r);
   t.start();
   t.run_for(0.5);

@@ -8,7 +8,6 @@ namespace muro::conformance {
 
 namespace {
 
-constexpr double g = Trial::g;
 constexpr double wheel_radius = 0.06;
 
 /// Its wheels are balls, so that every engine knows where they touch.
