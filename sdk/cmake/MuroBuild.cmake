@@ -64,6 +64,7 @@ function(muro_add_static_library)
   target_include_directories(${ARG_NAME} PUBLIC ${PROJECT_SOURCE_DIR})
   set_target_properties(${ARG_NAME} PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
   target_precompile_headers(${ARG_NAME} REUSE_FROM muro_plugin_pch)
+  muro_compile_in_batches(${ARG_NAME} 5)
 endfunction()
 
 # muro_add_test(NAME x SOURCES ... [LIBRARIES ...] [TIMEOUT s] [FIXTURE f] [SLOW] [SEPARATE]): a GoogleTest program, each

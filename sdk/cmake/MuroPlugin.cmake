@@ -42,6 +42,7 @@ function(muro_add_plugin)
                LIBRARY_OUTPUT_DIRECTORY ${ARG_OUTPUT_DIRECTORY})
   if(TARGET muro_plugin_pch AND NOT MURO_PLUGINS_FOR_TESTS)
     target_precompile_headers(${ARG_NAME} REUSE_FROM muro_plugin_pch)
+    muro_compile_in_batches(${ARG_NAME} 5)
   endif()
 
   set(description ${ARG_OUTPUT_DIRECTORY}/${ARG_NAME}.muro.json)

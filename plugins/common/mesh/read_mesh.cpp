@@ -11,7 +11,7 @@ namespace muro::mesh {
 namespace {
 
 /// All but positions and faces.
-constexpr unsigned unused_components = aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS | aiComponent_COLORS |
+constexpr unsigned unused_by_collision = aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS | aiComponent_COLORS |
                                        aiComponent_TEXCOORDS | aiComponent_BONEWEIGHTS | aiComponent_ANIMATIONS |
                                        aiComponent_TEXTURES | aiComponent_LIGHTS | aiComponent_CAMERAS |
                                        aiComponent_MATERIALS;
@@ -38,7 +38,7 @@ bool is_position(const Vec3& v) { return limits::within(limits::position, v); }
 
 Mesh read_mesh(const std::string& path, const Vec3& scale) {
   const auto fail = [&](const std::string& what) -> Error { return Error("mesh " + path + " " + what); };
-  const MeshFile file(path, scale, unused_components, 0);
+  const MeshFile file(path, scale, unused_by_collision, 0);
   Mesh m;
   file.each_mesh([&](const aiMesh& mesh, const Eigen::Matrix4d& at) { add(mesh, at, m); });
   if (!std::all_of(m.vertices.begin(), m.vertices.end(), is_position))

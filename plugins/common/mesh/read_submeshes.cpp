@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr unsigned unused_components = aiComponent_TANGENTS_AND_BITANGENTS | aiComponent_COLORS |
+constexpr unsigned unused_by_pictures = aiComponent_TANGENTS_AND_BITANGENTS | aiComponent_COLORS |
                                        aiComponent_BONEWEIGHTS | aiComponent_ANIMATIONS | aiComponent_LIGHTS |
                                        aiComponent_CAMERAS;
 
@@ -99,7 +99,7 @@ Submesh geometry_of(const aiMesh& m, const Eigen::Matrix4d& at, const std::strin
 }  // namespace
 
 std::vector<Submesh> read_submeshes(const std::string& path, const Vec3& scale) {
-  const MeshFile file(path, scale, unused_components, aiProcess_GenSmoothNormals | aiProcess_FlipUVs);
+  const MeshFile file(path, scale, unused_by_pictures, aiProcess_GenSmoothNormals | aiProcess_FlipUVs);
   std::vector<Submesh> submeshes;
   file.each_mesh([&](const aiMesh& m, const Eigen::Matrix4d& at) {
     Submesh submesh = geometry_of(m, at, path);

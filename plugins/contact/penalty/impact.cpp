@@ -5,12 +5,10 @@
 #include <cmath>
 
 #include "muro/toolkit/rotations.hpp"
+#include "vectors.hpp"
 
 namespace muro::penalty {
 namespace {
-
-lane::V3<double> plain(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
-Vec3 vector_of(const lane::V3<double>& v) { return {v.x, v.y, v.z}; }
 
 /// Impulses on both bodies, summed.
 struct Push {

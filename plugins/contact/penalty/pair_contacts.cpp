@@ -5,15 +5,9 @@
 #include <cstring>
 
 #include "overlap.hpp"
+#include "vectors.hpp"
 
 namespace muro::penalty {
-namespace {
-
-lane::V3<double> plain(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
-Vec3 vector_of(const lane::V3<double>& v) { return {v.x, v.y, v.z}; }
-
-}  // namespace
-
 std::size_t PairContacts::begin(const StepContext& context, const std::vector<std::uint8_t>& flags) {
   context_ = context;
   flags_ = &flags;

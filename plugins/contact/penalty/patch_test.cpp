@@ -7,13 +7,14 @@
 
 #include "friction_anchor.hpp"
 #include "patch.hpp"
+#include "vectors.hpp"
 
 namespace muro::penalty {
 namespace {
 
 using Patch = law::Patch<double>;
 
-lane::V3<double> plain(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+using penalty::plain;
 law::Symmetric<double> plain(const Mat3& m) { return {m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(0, 2), m(1, 2)}; }
 Mat3 matrix_of(const law::Symmetric<double>& m) {
   return (Mat3() << m.xx, m.xy, m.xz, m.xy, m.yy, m.yz, m.xz, m.yz, m.zz).finished();

@@ -13,8 +13,6 @@ using Frame = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-Vec3 vector_of(const mjtNum* v) { return {v[0], v[1], v[2]}; }
-
 }  // namespace
 
 void MujocoContacts::prepare(const MujocoSettings& settings, std::size_t geoms) {

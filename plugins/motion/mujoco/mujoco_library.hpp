@@ -19,6 +19,8 @@ struct Deleter {
 using Model = std::unique_ptr<mjModel, Deleter>;
 using Data = std::unique_ptr<mjData, Deleter>;
 
+inline Vec3 vector_of(const mjtNum* v) { return {v[0], v[1], v[2]}; }
+
 /// What MuJoCo calls an error. It would end the process: see catch_errors.
 struct LibraryError {
   std::string text;

@@ -15,7 +15,6 @@ namespace {
 /// An effort that no drive reaches.
 constexpr double unlimited = 1e30;
 
-Vec3 vector_of(const mjtNum* v) { return {v[0], v[1], v[2]}; }
 Quat quaternion_of(const mjtNum* q) { return Quat(q[0], q[1], q[2], q[3]); }
 void copy(mjtNum* to, const Vec3& v) { std::copy_n(v.data(), 3, to); }
 void copy(mjtNum* to, const Quat& q) {

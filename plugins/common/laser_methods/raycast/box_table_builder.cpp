@@ -7,9 +7,8 @@ namespace muro::raycast {
 
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
-
 void make_empty(BoxBlock& b, std::size_t i) {
+  constexpr float infinity = std::numeric_limits<float>::infinity();
   for (int k = 0; k < 3; ++k) {
     b.low[k][i] = infinity;
     b.high[k][i] = -infinity;
