@@ -62,7 +62,8 @@ std::vector<std::string> allocation_free_motions() {
   return some;
 }
 
-INSTANTIATE_TEST_SUITE_P(Conformance, EveryMotionsTeam, ::testing::ValuesIn(test::algorithms_of("motion")), test::name_of);
+INSTANTIATE_TEST_SUITE_P(Conformance, EveryMotionsTeam, ::testing::ValuesIn(test::algorithms_of("motion")),
+                         test::name_of);
 INSTANTIATE_TEST_SUITE_P(Conformance, EveryAllocationFreeMotionsTeam, ::testing::ValuesIn(allocation_free_motions()),
                          test::name_of);
 

@@ -11,10 +11,10 @@ namespace muro::mesh {
 namespace {
 
 /// All but positions and faces.
-constexpr unsigned unused_by_collision = aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS | aiComponent_COLORS |
-                                       aiComponent_TEXCOORDS | aiComponent_BONEWEIGHTS | aiComponent_ANIMATIONS |
-                                       aiComponent_TEXTURES | aiComponent_LIGHTS | aiComponent_CAMERAS |
-                                       aiComponent_MATERIALS;
+constexpr unsigned unused_by_collision = aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS |
+                                         aiComponent_COLORS | aiComponent_TEXCOORDS | aiComponent_BONEWEIGHTS |
+                                         aiComponent_ANIMATIONS | aiComponent_TEXTURES | aiComponent_LIGHTS |
+                                         aiComponent_CAMERAS | aiComponent_MATERIALS;
 
 void add(const aiMesh& m, const Eigen::Matrix4d& at, Mesh& out) {
   const bool is_mirrored = at.topLeftCorner<3, 3>().determinant() < 0;

@@ -18,8 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr unsigned unused_by_pictures = aiComponent_TANGENTS_AND_BITANGENTS | aiComponent_COLORS |
-                                       aiComponent_BONEWEIGHTS | aiComponent_ANIMATIONS | aiComponent_LIGHTS |
-                                       aiComponent_CAMERAS;
+                                        aiComponent_BONEWEIGHTS | aiComponent_ANIMATIONS | aiComponent_LIGHTS |
+                                        aiComponent_CAMERAS;
 
 /// The texture file of a material: at its path relative to the mesh, or by its name beside the mesh or in textures/.
 std::string find_texture(const std::string& mesh, std::string name) {

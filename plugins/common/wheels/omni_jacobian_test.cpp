@@ -11,8 +11,8 @@ namespace {
 TEST(OmniJacobian, FollowsTheEquationOfTheSwedishWheel) {
   test::Randoms draw(4);
   for (int round = 0; round < 50; ++round) {
-    const double l = draw.uniform(0.1, 2), alpha = draw.uniform(-3, 3), beta = draw.uniform(-3, 3), gamma = draw.uniform(-1.2, 1.2),
-                 r = draw.uniform(0.02, 0.3);
+    const double l = draw.uniform(0.1, 2), alpha = draw.uniform(-3, 3), beta = draw.uniform(-3, 3),
+                 gamma = draw.uniform(-1.2, 1.2), r = draw.uniform(0.02, 0.3);
     OmniWheel w;
     w.centre = {l * std::cos(alpha), l * std::sin(alpha), draw.uniform(-1, 1)};
     w.axis = {std::cos(alpha + beta), std::sin(alpha + beta), 0};
@@ -32,7 +32,8 @@ TEST(OmniJacobian, IsTheInverseOfItsRows) {
     std::vector<OmniWheel> wheels(count);
     for (OmniWheel& w : wheels) {
       const double yaw = draw.uniform(-3, 3);
-      w.centre = {draw.uniform(-1, 1), draw.uniform(-1, 1), 0}, w.radius = draw.uniform(0.05, 0.1), w.roller_angle = draw.uniform(-1, 1);
+      w.centre = {draw.uniform(-1, 1), draw.uniform(-1, 1), 0}, w.radius = draw.uniform(0.05, 0.1),
+      w.roller_angle = draw.uniform(-1, 1);
       w.heading = {std::cos(yaw), std::sin(yaw), 0};
     }
     const std::vector<PlanarTwist> columns = jacobian_columns(RobotView{}, wheels);

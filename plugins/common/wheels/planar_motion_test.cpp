@@ -55,7 +55,8 @@ TEST(Arc, TwoArcsOfHalfTheTimeAreOne) {
 TEST(AcceleratedArc, IsTheIntegralOfAVelocityThatChangesEvenly) {
   test::Randoms draw(2);
   for (int i = 0; i < 30; ++i) {
-    const PlanarTwist v{draw.uniform(-2, 2), draw.uniform(-2, 2), draw.uniform(-1, 1)}, acceleration{draw.uniform(-2, 2), draw.uniform(-2, 2), draw.uniform(-1, 1)};
+    const PlanarTwist v{draw.uniform(-2, 2), draw.uniform(-2, 2), draw.uniform(-1, 1)},
+        acceleration{draw.uniform(-2, 2), draw.uniform(-2, 2), draw.uniform(-1, 1)};
     const Pose end = accelerated_arc(v, acceleration, 0.6);
     EXPECT_LT((end.position - simpson(v, acceleration, 0.6)).norm(), 1e-10);
     EXPECT_NEAR(yaw_of(end.orientation), 0.6 * v.yaw_rate + 0.18 * acceleration.yaw_rate, 1e-15);

@@ -37,7 +37,8 @@ SteeredWheel steered(const Vec3& pivot, const Vec3& centre, const Vec3& axis = V
 TEST(PlanarWheel, MovesAsItsCentreOnAnArmThatTurns) {
   test::Randoms draw(1);
   for (int round = 0; round < 50; ++round) {
-    const Vec3 pivot(draw.uniform(-2, 2), draw.uniform(-2, 2), 0), arm(draw.uniform(-0.3, 0.3), draw.uniform(-0.3, 0.3), 0);
+    const Vec3 pivot(draw.uniform(-2, 2), draw.uniform(-2, 2), 0),
+        arm(draw.uniform(-0.3, 0.3), draw.uniform(-0.3, 0.3), 0);
     const double yaw = draw.uniform(-1.5, 1.5), side = round % 2 == 0 ? 1 : -1;
     const PlanarWheel w(steered(pivot, pivot + arm, side * Vec3(-std::sin(yaw), std::cos(yaw), 0)));
     EXPECT_NEAR(w.zero_heading, yaw, 1e-15);
@@ -104,13 +105,15 @@ TEST(RollingConstraints, SlipsLeastWhenAxlesDoNotMeet) {
     Vehicle vehicle;
     vehicle.add(0, 0.5, 0, 1);
     vehicle.add(0, -0.5, 0, 1);
-    vehicle.add(2, 0.5, draw.uniform(-1, 1));
-    vehicle.add(2, -0.5, draw.uniform(-1, 1));
+    vehicle.add(2, 0.5, draw.uniform(-0.5, 0.5));
+    vehicle.add(2, -0.5, draw.uniform(-0.5, 0.5));
     vehicle.driven = 2;
     const PlanarTwist v = vehicle.motion().velocity;
     const double smallest = vehicle.slip(v);
     for (int i = 0; i < 200; ++i)
-      EXPECT_LE(smallest, vehicle.slip(v + PlanarTwist{draw.uniform(-1, 1), draw.uniform(-1, 1), draw.uniform(-1, 1)} * draw.uniform(0, 0.3)) + 1e-15);
+      EXPECT_LE(smallest, vehicle.slip(v + PlanarTwist{draw.uniform(-1, 1), draw.uniform(-1, 1), draw.uniform(-1, 1)} *
+                                               draw.uniform(0, 0.3)) +
+                              1e-15);
     double along = 0;
     for (int i : {0, 1}) along += 0.5 * vehicle.wheels[std::size_t(i)].longitudinal_velocity(0, 1, v, 0);
     EXPECT_GT(along, 0.8) << "forward, as its driven wheels turn";

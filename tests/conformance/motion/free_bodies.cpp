@@ -22,7 +22,8 @@ struct Flight {
 Flight fly(const std::string& motion, const Box& box) {
   Trial t(motion);
   t.set_gravity(box.gravity);
-  const RobotView& r = t.add("box", block(10, body_size, 0.5), {{0, 0, 100}, Quat::Identity()}, {box.velocity, box.spin});
+  const RobotView& r =
+      t.add("box", block(10, body_size, 0.5), {{0, 0, 100}, Quat::Identity()}, {box.velocity, box.spin});
   t.start();
   const Mat3 inertia = solid_box(10, body_size).tensor();
   const auto momentum = [&] {

@@ -244,8 +244,10 @@ TEST(LevelsOfOneRobot, DoNotLetAnotherHaveTwoMotions) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Conformance, EveryHandOver, ::testing::ValuesIn(pairs_of(vehicle_motions())), name_of_handover);
-INSTANTIATE_TEST_SUITE_P(Conformance, EveryHandOverOfABlock, ::testing::ValuesIn(pairs_of(block_motions())), name_of_handover);
+INSTANTIATE_TEST_SUITE_P(Conformance, EveryHandOver, ::testing::ValuesIn(pairs_of(vehicle_motions())),
+                         name_of_handover);
+INSTANTIATE_TEST_SUITE_P(Conformance, EveryHandOverOfABlock, ::testing::ValuesIn(pairs_of(block_motions())),
+                         name_of_handover);
 
 }  // namespace
 }  // namespace muro::conformance

@@ -6,7 +6,6 @@ namespace muro::conformance {
 
 namespace {
 
-
 /// The robots under test, and one that motion.point moves.
 struct Meeting : Trial {
   std::string motion;

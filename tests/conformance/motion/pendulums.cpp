@@ -6,7 +6,6 @@ namespace muro::conformance {
 
 namespace {
 
-
 /// Period of a bob of 1 kg on 1 m, in units of that of small swings, from crossings of the lowest point.
 double period(const std::string& motion, double amplitude) {
   Trial t(motion);
