@@ -101,7 +101,7 @@ TEST(Threads, TheirNumberMayChangeBetweenRuns) {
   EXPECT_EQ(built.simulation->state_hash(), hash_after(scenario, 2, 1));
 }
 
-TEST(Threads, TheOrderOfDeclarationChangesNoRobot) {
+TEST(SlowThreads, TheOrderOfDeclarationChangesNoRobot) {
   const test::ScratchFolder folder;
   std::map<std::string, std::uint64_t> first;
   for (const std::vector<int>& order : {std::vector<int>{0, 1, 2, 3}, {2, 0, 3, 1}, {3, 1, 2, 0}}) {

@@ -57,7 +57,7 @@ TEST(Levels, RoversOfAllLevelsPushABallAndBoxesAndEachOther) {
   EXPECT_GE(met.size(), 8u) << "robots of different worlds met";
 }
 
-TEST(Levels, GiveTheSameBitsOnTwoThreads) {
+TEST(SlowLevels, GiveTheSameBitsOnTwoThreads) {
   const auto run = [](unsigned threads) {
     BuiltScenario built = open("levels.yaml");
     built.simulation->set_threads(threads);
@@ -67,7 +67,7 @@ TEST(Levels, GiveTheSameBitsOnTwoThreads) {
   EXPECT_EQ(run(1), run(2));
 }
 
-TEST(Levels, GoOnFromASnapshotToTheSameBits) {
+TEST(SlowLevels, GoOnFromASnapshotToTheSameBits) {
   BuiltScenario built = open("levels.yaml");
   Simulation& s = *built.simulation;
   s.run_for(5);

@@ -116,6 +116,8 @@ struct TheWindow : ::testing::Test {
 
 constexpr int play_x = 43, step_x = 120, controls_y = 26;
 
+using SlowWindow = TheWindow;
+
 TEST_F(TheWindow, ShowsTheSceneBetweenItsPanels) {
   Show s;
   s.use_window({});
@@ -181,21 +183,21 @@ TEST_F(TheWindow, WaitsWhilePausedUntilPlayIsPressed) {
   EXPECT_EQ(s.now(), 500'000'000);
 }
 
-TEST_F(TheWindow, GoesFrameByFrameByItsButton) {
+TEST_F(SlowWindow, GoesFrameByFrameByItsButton) {
   Show s;
   s.use_window({{"paused", true}});
   // at 0, 1/60 and 2/60 s
   EXPECT_GE(acts_until_over(s, 0.04, [] { click(step_x, controls_y); }), 3);
 }
 
-TEST_F(TheWindow, PausesAndPlaysByTheSpaceBar) {
+TEST_F(SlowWindow, PausesAndPlaysByTheSpaceBar) {
   Show s;
   s.use_window({{"paused", true}});
   const auto act = [] { drive("mousemove 550 300 search --name muro windowfocus sleep 0.2 key space"); };
   EXPECT_GE(acts_until_over(s, 0.1, act), 1);
 }
 
-TEST_F(TheWindow, HoldsTheSpeedThatItIsTold) {
+TEST_F(SlowWindow, HoldsTheSpeedThatItIsTold) {
   Show s;
   s.use_window({{"speed", 0.5}});
   const auto start = std::chrono::steady_clock::now();
@@ -218,7 +220,7 @@ TEST_F(TheWindow, ShowsThePropertiesOfWhatIsClickedOn) {
   EXPECT_LT(corner.sum(), 330) << "a panel where the scene was";
 }
 
-TEST_F(TheWindow, ChangesAPropertyThatTheUserEdits) {
+TEST_F(SlowWindow, ChangesAPropertyThatTheUserEdits) {
   Show s;
   s.use_window({{"paused", true}, {"follow", std::string("robot")}});
   s.world().value(s.robot->base(), keys::command_twist) = {};
@@ -238,7 +240,7 @@ TEST_F(TheWindow, ChangesAPropertyThatTheUserEdits) {
   EXPECT_EQ(s.pose(*s.robot).position.x(), 2.5);
 }
 
-TEST_F(TheWindow, TakesAsManySamplesAsTheDriverHas) {
+TEST_F(SlowWindow, TakesAsManySamplesAsTheDriverHas) {
   Show s;
   std::string said;
   s.set_log([&](LogLevel, std::string_view text) { said += std::string(text) + "\n"; });
