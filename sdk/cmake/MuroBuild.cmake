@@ -87,16 +87,21 @@ function(muro_add_test)
   endif()
   set_target_properties(${ARG_NAME} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   include(GoogleTest)
-  set(slow "Slow*")
+  gtest_discover_tests(${ARG_NAME} TEST_PREFIX ${ARG_NAME}. TEST_LIST tests NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60
+                       PROPERTIES TIMEOUT ${ARG_TIMEOUT} FIXTURES_REQUIRED "${ARG_FIXTURE}")
+  set(slow "Slow")
   if(ARG_SLOW)
-    set(slow "*")
-  else()
-    gtest_discover_tests(${ARG_NAME} TEST_PREFIX ${ARG_NAME}. TEST_FILTER "-Slow*" NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60
-                         PROPERTIES TIMEOUT ${ARG_TIMEOUT} FIXTURES_REQUIRED "${ARG_FIXTURE}")
+    set(slow "")
   endif()
-  gtest_discover_tests(${ARG_NAME} TEST_PREFIX ${ARG_NAME}. TEST_FILTER ${slow} TEST_LIST ${ARG_NAME}_slow_tests
-                       NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60
-                       PROPERTIES LABELS slow TIMEOUT ${ARG_TIMEOUT} FIXTURES_REQUIRED "${ARG_FIXTURE}")
+  # ctest reads this after the tests that were found
+  file(CONFIGURE OUTPUT ${ARG_NAME}_labels.cmake CONTENT [[
+foreach(test IN LISTS tests)
+  if(test MATCHES "^@ARG_NAME@[.]@slow@")
+    set_tests_properties(${test} PROPERTIES LABELS slow)
+  endif()
+endforeach()
+]] @ONLY)
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${CMAKE_CURRENT_BINARY_DIR}/${ARG_NAME}_labels.cmake)
 endfunction()
 
 # muro_add_bench(NAME bench_x SOURCES ... [LIBRARIES ...]): a program that `./dev bench` runs.
