@@ -15,6 +15,7 @@
 
 namespace muro {
 
+class AlgorithmLog;
 class Extensions;
 class Instance;
 class Levels;
@@ -113,12 +114,9 @@ class Simulation {
   TaskId task_of(std::size_t instance) const { return tasks_[instance]; }
 
  private:
-  class Log;
   void require_built(const char* call) const;
-  void merge_batched();
-  void check_single_roles(const std::vector<AlgorithmSetup>& setups) const;
+  void make_instances();
   void mark_inactive_motions();
-  void join_world(AlgorithmSetup& world, AlgorithmSetup& joining) const;
   void partition_memory();
   std::vector<std::size_t> in_order_of(int (*order)(const Description&)) const;
   void schedule();
@@ -131,7 +129,7 @@ class Simulation {
   World world_;
   Scheduler scheduler_;
   std::unique_ptr<Extensions> extensions_;
-  std::unique_ptr<Log> log_;
+  std::unique_ptr<AlgorithmLog> log_;
   std::vector<AlgorithmSetup> setups_;
   std::vector<std::size_t> instance_of_setup_;
   std::vector<std::vector<std::size_t>> sequences_;

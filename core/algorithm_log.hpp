@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <mutex>
+#include <string>
+
+#include "core/extensions.hpp"
+#include "muro/algorithm.hpp"
+
+namespace muro {
+
+/// The host of algorithms: hands on what they say, with who says it, and gives them extensions.
+class AlgorithmLog final : public Host {
+ public:
+  explicit AlgorithmLog(Extensions& extensions);
+
+  /// Where lines go; default: warnings and errors to standard error.
+  std::function<void(LogLevel, std::string_view)> sink;
+  void log(LogLevel level, std::string_view text) noexcept override;
+  void* extension(std::string_view name_and_version) noexcept override;
+  void* find_extension(const ExtensionId& id) noexcept override;
+
+ private:
+  std::mutex mutex_;
+  Extensions& extensions_;
+};
+
+}  // namespace muro

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "core/registry.hpp"
+#include "core/world_model.hpp"
+
+namespace muro {
+
+/// Reads a file with the reader of the registry for its type. Problems of severity error make a SetupError; the others
+/// are kept in what is read. [any thread]
+RobotTree read_model(Registry& registry, const std::string& path);
+/// The same for a file that describes a world. Errors in one of its models are left in the model's tree.
+WorldModel read_world(Registry& registry, const std::string& path);
+
+}  // namespace muro
