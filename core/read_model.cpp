@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "core/c_locale.hpp"
+#include "core/error.hpp"
 #include "core/running_call.hpp"
 
 namespace muro {
