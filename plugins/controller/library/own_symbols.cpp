@@ -31,36 +31,13 @@ Puts puts(std::uint64_t type) {
 /// The dynamic section of a loaded library.
 class Dynamic {
  public:
-  explicit Dynamic(const link_map& library) : base_(library.l_addr) {
-    const char *relocations = nullptr, *plt = nullptr;
-    std::uint64_t relocation_bytes = 0, plt_bytes = 0, plt_kind = 0;
-    for (const ElfW(Dyn)* d = library.l_ld; d->d_tag != DT_NULL; ++d) switch (d->d_tag) {
-        case DT_SYMTAB:
-          symbols_ = reinterpret_cast<const ElfW(Sym)*>(at(d->d_un.d_ptr));
-          break;
-        case DT_STRTAB:
-          names_ = at(d->d_un.d_ptr);
-          break;
-        case DT_RELA:
-          relocations = at(d->d_un.d_ptr);
-          break;
-        case DT_RELASZ:
-          relocation_bytes = d->d_un.d_val;
-          break;
-        case DT_JMPREL:
-          plt = at(d->d_un.d_ptr);
-          break;
-        case DT_PLTRELSZ:
-          plt_bytes = d->d_un.d_val;
-          break;
-        case DT_PLTREL:
-          plt_kind = d->d_un.d_val;
-          break;
-        default:
-          break;
-      }
-    if (relocations) relocations_[0] = span(relocations, relocation_bytes);
-    if (plt && plt_kind == DT_RELA) relocations_[1] = span(plt, plt_bytes);
+  explicit Dynamic(const link_map& library)
+      : base_(library.l_addr),
+        entries_(library.l_ld),
+        symbols_(reinterpret_cast<const ElfW(Sym) *>(address(DT_SYMTAB))),
+        names_(address(DT_STRTAB)) {
+    relocations_[0] = relocations(DT_RELA, DT_RELASZ);
+    if (value(DT_PLTREL) == DT_RELA) relocations_[1] = relocations(DT_JMPREL, DT_PLTRELSZ);
   }
 
   /// Calls `see(name, address)` for each reference to a function or variable that the library defines for all.
@@ -82,17 +59,28 @@ class Dynamic {
   }
 
  private:
-  /// glibc has made most of these numbers addresses already.
-  const char* at(std::uintptr_t place) const {
+  /// 0 where there is no such entry.
+  std::uint64_t value(std::int64_t tag) const {
+    for (const ElfW(Dyn)* d = entries_; d->d_tag != DT_NULL; ++d)
+      if (d->d_tag == tag) return d->d_un.d_val;
+    return 0;
+  }
+  /// Null where there is no such entry. glibc has made most of these numbers addresses already.
+  const char* address(std::int64_t tag) const {
+    const std::uintptr_t place = value(tag);
+    if (place == 0) return nullptr;
     return reinterpret_cast<const char*>(place < base_ ? base_ + place : place);
   }
-  static std::span<const ElfW(Rela)> span(const char* begin, std::uint64_t bytes) {
-    return {reinterpret_cast<const ElfW(Rela)*>(begin), bytes / sizeof(ElfW(Rela))};
+  std::span<const ElfW(Rela)> relocations(std::int64_t list, std::int64_t bytes) const {
+    const char* const begin = address(list);
+    if (!begin) return {};
+    return {reinterpret_cast<const ElfW(Rela)*>(begin), value(bytes) / sizeof(ElfW(Rela))};
   }
 
   std::uintptr_t base_;
-  const ElfW(Sym) * symbols_ = nullptr;
-  const char* names_ = nullptr;
+  const ElfW(Dyn) * entries_;
+  const ElfW(Sym) * symbols_;
+  const char* names_;
   std::span<const ElfW(Rela)> relocations_[2];
 };
 
