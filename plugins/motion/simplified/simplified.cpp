@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // The simplified dynamics (MuRoSimF, Section 3.2): one body whose centre of mass and inertia follow the joints.
-#include <Eigen/Eigenvalues>
 #include <array>
 #include <bit>
 #include <deque>
@@ -8,16 +7,18 @@
 #include <string>
 
 #include "articulation.hpp"
+#include "description.hpp"
 #include "force_driven_joints.hpp"
+#include "impact_input.hpp"
 #include "joint_properties.hpp"
 #include "least_inertia.hpp"
+#include "model.hpp"
 #include "move.hpp"
 #include "muro/plugin.hpp"
 #include "muro/toolkit/mass_properties.hpp"
 #include "plugins/common/contact_geometry/contact_responsibility.hpp"
 #include "plugins/common/multibody/consistent_inertia.hpp"
 #include "plugins/common/text/quote.hpp"
-#include "plugins/common/watch/parameters.hpp"
 #include "robot_watch.hpp"
 
 namespace {
@@ -25,64 +26,6 @@ namespace {
 using namespace muro;
 using namespace muro::simplified;
 using lane::numbers;
-
-constexpr std::string_view modes[] = {"velocity", "position", "acceleration", "effort", "passive"};
-constexpr std::string_view bases[] = {"free", "fixed"};
-constexpr Parameter parameters[] = {
-    text("joints", "velocity", "which target the joints follow that the lists below do not name").one_of(modes),
-    velocity_joints,
-    position_joints,
-    effort_joints,
-    passive_joints,
-    real("max_joint_acceleration", "rad/s^2 or m/s^2", 100, "of every joint that follows a target other than an effort")
-        .between(1e-6, 1e9),
-    boolean("effort_limits", false, "drives that follow targets are no stronger than the model says, and give way"),
-    real("armature", "kg m^2 or kg", 0, "inertia of each drive, felt by joints that forces move").between(0, 1e6),
-    text("base", "free", "free to move, or fixed to the world where it starts").one_of(bases),
-    watch::watch,
-    watch::watch_speed,
-    watch::watch_depth,
-};
-constexpr PropertyUse reads[] = {
-    {"wrench.external", "of the base; of each body with a shape, too, where forces move joints: sums"},
-    {"contacts", "of the robot, where a contact algorithm reads them: how deep it is in scenery"},
-    {"gravity", "on the world object; 0 0 -9.81 when absent"},
-    {"inertial", "of every body"},
-    {"joint.velocity.target", "of joints in mode velocity"},
-    {"joint.position.target", "of joints in mode position"},
-    {"joint.acceleration.target", "of joints in mode acceleration"},
-    {"joint.effort.target", "of joints in mode effort"},
-    {"pose.initial", "of the base"},
-    {"twist.initial", "of the base"},
-    {"joint.position.initial", "of every joint"},
-    {"contact.impact", "on the base: where impacts were within the last step"},
-    {"contact.impact.time", "on the base: when they were"},
-};
-constexpr PropertyUse writes[] = {{"pose", "of the base"},
-                                  {"twist", "of the base"},
-                                  {"joint.position", "of every joint"},
-                                  {"joint.velocity", "of every joint"},
-                                  {"joint.effort", "of joints that forces move: what the drive applies"},
-                                  {"contact.world", "that the contact algorithm answers for all contacts"},
-                                  {"twist.lag", "0: pose and twist are those of one instant"},
-                                  {"contact.impact.step", "of a base that impacts push: length of a step"}};
-constexpr Description description{
-    .id = "motion.simplified",
-    .kind = Kind::motion,
-    .version = "1.1.0",
-    .summary =
-        "One rigid body under external wrenches whose centre of mass and inertia follow the joints; "
-        "joints follow their targets, or forces",
-    .parameters = parameters,
-    .reads = reads,
-    .writes = writes,
-    .capabilities = deterministic | batched | allocation_free | restorable,
-    .features = feature_forces | feature_joints | feature_velocity_targets | feature_position_targets |
-                feature_acceleration_targets | feature_effort_targets | feature_joint_limits |
-                feature_joint_speed_limits | feature_joint_effort_limits | feature_joint_damping |
-                feature_joint_friction | feature_mimic_joints | feature_gyroscopic | feature_contact |
-                feature_friction | feature_restitution | feature_fixed_base,
-};
 
 class Simplified final : public Algorithm {
  public:
@@ -146,7 +89,7 @@ class Simplified final : public Algorithm {
                             .gravity = {gravity_.x(), gravity_.y(), gravity_.z()},
                             .dt = step.dt};
       if (model.single_kernel) {
-        set_joints(batch, model, 0);
+        model.set_joints(batch, 0);
         move_rigid(batch, i, end);
       } else {
         move_by_steps(batch, model, i, end);
@@ -158,32 +101,11 @@ class Simplified final : public Algorithm {
  private:
   static constexpr std::uint32_t lane_width = 8;
 
-  /// Robots with the same masses and joints, whose joints lie in memory in the same way.
-  struct Model {
-    RigidMass mass;
-    /// Joints that kernels move; those of one mode.
-    struct Group {
-      Mode mode = Mode::velocity;
-      std::vector<Joint> joints;
-      bool operator==(const Group&) const = default;
-    };
-    std::vector<Group> groups;
-    bool rigid = true;          ///< no joint moves mass
-    bool force_driven = false;  ///< forces drive joints
-    bool single_kernel = true;  ///< one call of a kernel moves it
-    bool operator==(const Model&) const = default;
-  };
   /// What robots that are moved together have in common.
   struct Kind {
     std::uint32_t model = 0;     ///< in models_
     std::uint32_t wrenches = 0;  ///< contributions to the external wrench
     bool operator==(const Kind&) const = default;
-  };
-  /// Of a robot whose impacts act at their instant; none for others.
-  struct ImpactInput {
-    In<std::int64_t> time;
-    In<ImpactCorrection> correction;
-    Out<double> step;
   };
   struct Robot {
     std::optional<SumIn<Wrench>> external;  ///< none: no wrench moves it
@@ -205,8 +127,9 @@ class Simplified final : public Algorithm {
                        " is less than a hundredth of that of a box of its size and mass, so that contacts could not "
                        "hold it; it is raised to that. Give its bodies an inertia (`inertial`) that fits them");
     CompositeBody composite(robot.links, inertias, start);
-    const Inertia total = composite_inertia(robot.links, inertias, start);
-    check_mass(robot, total);
+    Model model;
+    model.rigid = composite.rigid();
+    model.mass = rigid_mass(robot, composite_inertia(robot.links, inertias, start));
 
     Robot r;
     r.name = robot.name;
@@ -215,13 +138,6 @@ class Simplified final : public Algorithm {
     RobotState state;
     state.pose = numbers(c.variable(robot.base(), keys::pose, pose).get());
     state.twist = numbers(c.variable(robot.base(), keys::twist, fixed_ ? Twist{} : twist).get());
-    Model model;
-    model.rigid = composite.rigid();
-    model.mass.inverse_mass = 1 / total.mass;
-    std::copy_n(total.com.data(), 3, model.mass.com);
-    const Mat3 inertia = total.tensor(), inverse = inertia.inverse();
-    std::copy_n(inertia.data(), 9, model.mass.inertia);
-    std::copy_n(inverse.data(), 9, model.mass.inverse);
     const std::vector<JointProperties> properties =
         connect_joint_properties(c, robot, start, c.parameters().boolean("effort_limits"));
     watches_.emplace_back(c, robot, properties);
@@ -238,13 +154,9 @@ class Simplified final : public Algorithm {
     if (model.force_driven || !fixed_) r.external = c.read_sum(robot.base(), keys::external_wrench);
     r.contact_world = c.variable(robot.base(), keys::contact_world, contact_world_of(r.external.has_value()));
     r.twist_lag = c.variable(robot.base(), keys::twist_lag, 0.0);
-    ImpactInput impacts;
-    if (!model.force_driven && !fixed_)
-      impacts = {c.input(robot.base(), keys::impact_time, std::int64_t{0}),
-                 c.input(robot.base(), keys::impact, ImpactCorrection{}),
-                 c.variable(robot.base(), keys::impact_step, 0.0)};
-    impacts_.push_back(impacts);
-    connect_groups(robot, properties, model, state);
+    impacts_.push_back(model.force_driven || fixed_ ? ImpactInput{} : ImpactInput(c, robot));
+    const std::vector<RobotState> states = model.add_groups(robot, properties, max_acceleration_, state);
+    for (std::size_t k = 0; k < layers_.size(); ++k) layers_[k].push_back(k < states.size() ? states[k] : RobotState{});
     model.single_kernel = model.rigid && !model.force_driven && !fixed_ && model.groups.size() <= 1;
     if (!composite.rigid()) {
       r.articulation = std::int32_t(articulations_.size());
@@ -255,45 +167,8 @@ class Simplified final : public Algorithm {
       }
       articulations_.emplace_back(std::move(composite), std::move(positions), std::move(velocities));
     }
-    kinds_.push_back({model_number(std::move(model)), 0});
+    kinds_.push_back({number_of(std::move(model), models_), 0});
     robots_.push_back(std::move(r));
-  }
-
-  /// The groups of the model, and a layer of states for each; `state`: of the base.
-  void connect_groups(const RobotView& robot, const std::vector<JointProperties>& properties, Model& model,
-                      const RobotState& state) {
-    std::vector<RobotState> states;
-    for (const Mode mode : {Mode::velocity, Mode::position, Mode::acceleration}) {
-      RobotState of_group = states.empty() ? state : RobotState{};
-      std::vector<Joint> joints = kernel_joints(robot, properties, mode, max_acceleration_, of_group);
-      if (joints.empty()) continue;
-      model.groups.push_back({mode, std::move(joints)});
-      states.push_back(of_group);
-    }
-    if (states.empty()) states.push_back(state);
-    for (std::size_t k = 0; k < layers_.size(); ++k) {
-      layers_[k].resize(robots_.size() + 1);
-      if (k < states.size()) layers_[k].back() = states[k];
-    }
-  }
-
-  static void check_mass(const RobotView& robot, const Inertia& total) {
-    const std::string name = quote(robot.name);
-    if (!(total.mass > 0))
-      throw Error(name + " has no mass; give its bodies mass and inertia (`inertial`), or move it with motion.point");
-    const Eigen::SelfAdjointEigenSolver<Mat3> principal(total.tensor());
-    if (!(principal.eigenvalues().minCoeff() > 1e-12 * principal.eigenvalues().maxCoeff()))
-      throw Error(name + ": the inertia of all its bodies together has the principal moments " +
-                  std::to_string(principal.eigenvalues()[0]) + ", " + std::to_string(principal.eigenvalues()[1]) +
-                  ", " + std::to_string(principal.eigenvalues()[2]) +
-                  " kg m^2; all must be positive: give its bodies an inertia (`inertial`) that fits their mass");
-  }
-
-  std::uint32_t model_number(Model model) {
-    const auto known = std::find(models_.rbegin(), models_.rend(), model);  // mostly the last one
-    if (known != models_.rend()) return std::uint32_t(models_.rend() - known) - 1;
-    models_.push_back(std::move(model));
-    return std::uint32_t(models_.size() - 1);
   }
 
   const SumIn<Wrench>* external_of(std::uint32_t i) const {
@@ -315,14 +190,6 @@ class Simplified final : public Algorithm {
     return {Vec3(s.twist[0], s.twist[1], s.twist[2]), Vec3(s.twist[3], s.twist[4], s.twist[5])};
   }
 
-  static void set_joints(BatchParameters& batch, const Model& model, std::size_t group) {
-    if (group >= model.groups.size()) return;
-    const Model::Group& g = model.groups[group];
-    batch.mode = g.mode;
-    batch.joints = g.joints.data();
-    batch.joint_count = int(g.joints.size());
-  }
-
   void move_rigid(const BatchParameters& batch, std::uint32_t begin, std::uint32_t end) const {
     const unsigned broken = kernels_->move_rigid(batch, &layers_[0][begin], int(end - begin));
     if (broken != 0) fail(begin + std::uint32_t(std::countr_zero(broken)));
@@ -338,7 +205,7 @@ class Simplified final : public Algorithm {
     if (model.force_driven)
       for (std::uint32_t i = begin; i < end; ++i) move_force_driven_joints(i, batch.dt);
     for (std::size_t g = 0; g < model.groups.size(); ++g) {
-      set_joints(batch, model, g);
+      model.set_joints(batch, g);
       kernels_->move_joints(batch, &layers_[g][begin], int(end - begin));
     }
     batch.joint_count = 0;
@@ -351,16 +218,14 @@ class Simplified final : public Algorithm {
   }
 
   void take_impacts(std::uint32_t i, const Step& step) const {
-    const ImpactInput& in = impacts_[i];
-    if (!in.time) return;
-    if (*in.step != step.dt) *in.step = step.dt;
-    if (*in.time != step.time || in.correction->path.isZero(0)) return;
+    const ImpactCorrection* const correction = impacts_[i].begin_step(step);
+    if (!correction) return;
     const RigidMass& mass = models_[kinds_[i].model].mass;
     const RobotState& state = layers_[0][i];
     if (robots_[i].articulation >= 0)
-      articulations_[std::size_t(robots_[i].articulation)].correct_path(state, mass.inverse_mass, *in.correction);
+      articulations_[std::size_t(robots_[i].articulation)].correct_path(state, mass.inverse_mass, *correction);
     else
-      correct_path(state.pose, state.twist, mass, *in.correction);
+      correct_path(state.pose, state.twist, mass, *correction);
   }
 
   void move_force_driven_joints(std::uint32_t i, double dt) {

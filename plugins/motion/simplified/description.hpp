@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// What muro knows of motion.simplified before it runs: its parameters, what it reads and writes, what it can.
+#pragma once
+
+#include "muro/plugin.hpp"
+#include "muro/toolkit/joint_drives.hpp"
+#include "plugins/common/watch/parameters.hpp"
+
+namespace muro::simplified {
+
+inline constexpr std::string_view joint_modes[] = {"velocity", "position", "acceleration", "effort", "passive"};
+inline constexpr std::string_view base_modes[] = {"free", "fixed"};
+inline constexpr Parameter parameters[] = {
+    text("joints", "velocity", "which target the joints follow that the lists below do not name").one_of(joint_modes),
+    velocity_joints,
+    position_joints,
+    effort_joints,
+    passive_joints,
+    real("max_joint_acceleration", "rad/s^2 or m/s^2", 100, "of every joint that follows a target other than an effort")
+        .between(1e-6, 1e9),
+    boolean("effort_limits", false, "drives that follow targets are no stronger than the model says, and give way"),
+    real("armature", "kg m^2 or kg", 0, "inertia of each drive, felt by joints that forces move").between(0, 1e6),
+    text("base", "free", "free to move, or fixed to the world where it starts").one_of(base_modes),
+    watch::watch,
+    watch::watch_speed,
+    watch::watch_depth,
+};
+inline constexpr PropertyUse reads[] = {
+    {"wrench.external", "of the base; of each body with a shape, too, where forces move joints: sums"},
+    {"contacts", "of the robot, where a contact algorithm reads them: how deep it is in scenery"},
+    {"gravity", "on the world object; 0 0 -9.81 when absent"},
+    {"inertial", "of every body"},
+    {"joint.velocity.target", "of joints in mode velocity"},
+    {"joint.position.target", "of joints in mode position"},
+    {"joint.acceleration.target", "of joints in mode acceleration"},
+    {"joint.effort.target", "of joints in mode effort"},
+    {"pose.initial", "of the base"},
+    {"twist.initial", "of the base"},
+    {"joint.position.initial", "of every joint"},
+    {"contact.impact", "on the base: where impacts were within the last step"},
+    {"contact.impact.time", "on the base: when they were"},
+};
+inline constexpr PropertyUse writes[] = {{"pose", "of the base"},
+                                         {"twist", "of the base"},
+                                         {"joint.position", "of every joint"},
+                                         {"joint.velocity", "of every joint"},
+                                         {"joint.effort", "of joints that forces move: what the drive applies"},
+                                         {"contact.world", "that the contact algorithm answers for all contacts"},
+                                         {"twist.lag", "0: pose and twist are those of one instant"},
+                                         {"contact.impact.step", "of a base that impacts push: length of a step"}};
+inline constexpr Description description{
+    .id = "motion.simplified",
+    .kind = Kind::motion,
+    .version = "1.1.0",
+    .summary =
+        "One rigid body under external wrenches whose centre of mass and inertia follow the joints; "
+        "joints follow their targets, or forces",
+    .parameters = parameters,
+    .reads = reads,
+    .writes = writes,
+    .capabilities = deterministic | batched | allocation_free | restorable,
+    .features = feature_forces | feature_joints | feature_velocity_targets | feature_position_targets |
+                feature_acceleration_targets | feature_effort_targets | feature_joint_limits |
+                feature_joint_speed_limits | feature_joint_effort_limits | feature_joint_damping |
+                feature_joint_friction | feature_mimic_joints | feature_gyroscopic | feature_contact |
+                feature_friction | feature_restitution | feature_fixed_base,
+};
+
+}  // namespace muro::simplified

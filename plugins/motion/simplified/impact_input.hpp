@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// What the contact algorithm tells of impacts within the last step.
+#pragma once
+
+#include "muro/algorithm.hpp"
+#include "plugins/common/contact_geometry/impact_correction.hpp"
+
+namespace muro::simplified {
+
+/// Of a robot whose impacts act at their instant; by default none.
+class ImpactInput {
+ public:
+  ImpactInput() = default;
+  /// Tells the contact algorithm that the motion corrects the path of `robot`. [setup]
+  ImpactInput(Connector& c, const RobotView& robot)
+      : time_(c.input(robot.base(), keys::impact_time, std::int64_t{0})),
+        correction_(c.input(robot.base(), keys::impact, ImpactCorrection{})),
+        step_(c.variable(robot.base(), keys::impact_step, 0.0)) {}
+
+  /// Tells the length of the step. Returns what impacts change in it; null for nothing.
+  const ImpactCorrection* begin_step(const Step& step) const {
+    if (!time_) return nullptr;
+    if (*step_ != step.dt) *step_ = step.dt;
+    return *time_ != step.time || correction_->path.isZero(0) ? nullptr : correction_.get();
+  }
+
+ private:
+  In<std::int64_t> time_;
+  In<ImpactCorrection> correction_;
+  Out<double> step_;
+};
+
+}  // namespace muro::simplified
