@@ -7,7 +7,14 @@ namespace muro::builder_calls {
 
 namespace {
 
-void write_report(parser_process::Writer& out, Severity severity, std::string_view text, int line, int column) {
+void write_text(parser_process::Writer& out, Call call, std::string_view text) {
+  out.value(call);
+  out.text(text);
+}
+
+void write_report(parser_process::Writer& out, Call call, Severity severity, std::string_view text, int line,
+                  int column) {
+  out.value(call);
   out.value(severity);
   out.text(text);
   out.value(line);
@@ -16,10 +23,7 @@ void write_report(parser_process::Writer& out, Severity severity, std::string_vi
 
 }  // namespace
 
-void RobotRecorder::base(std::string_view name) noexcept {
-  out_.value(Call::base);
-  out_.text(name);
-}
+void RobotRecorder::base(std::string_view name) noexcept { write_text(out_, Call::base, name); }
 
 void RobotRecorder::fork() noexcept { out_.value(Call::fork); }
 
@@ -57,20 +61,15 @@ void RobotRecorder::mimic(std::string_view leader, double multiplier, double off
   out_.value(offset);
 }
 
-void RobotRecorder::body(std::string_view name) noexcept {
-  out_.value(Call::body);
-  out_.text(name);
-}
+void RobotRecorder::body(std::string_view name) noexcept { write_text(out_, Call::body, name); }
 
 TextId RobotRecorder::intern(std::string_view text) noexcept {
-  out_.value(Call::intern);
-  out_.text(text);
+  write_text(out_, Call::intern, text);
   return TextId(++texts_);
 }
 
 void RobotRecorder::report(Severity severity, std::string_view text, int line, int column) noexcept {
-  out_.value(Call::report);
-  write_report(out_, severity, text, line, column);
+  write_report(out_, Call::report, severity, text, line, column);
 }
 
 void RobotRecorder::set_raw(const KeyInfo& key, const void* data, std::uint32_t count) noexcept {
@@ -108,14 +107,12 @@ RobotBuilder& WorldRecorder::model(std::string_view name, const Pose& pose) noex
 }
 
 TextId WorldRecorder::intern(std::string_view text) noexcept {
-  out_.value(Call::world_intern);
-  out_.text(text);
+  write_text(out_, Call::world_intern, text);
   return TextId(++texts_);
 }
 
 void WorldRecorder::report(Severity severity, std::string_view text, int line, int column) noexcept {
-  out_.value(Call::world_report);
-  write_report(out_, severity, text, line, column);
+  write_report(out_, Call::world_report, severity, text, line, column);
 }
 
 }  // namespace muro::builder_calls
