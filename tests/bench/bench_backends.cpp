@@ -96,7 +96,7 @@ std::string page(const std::vector<std::string>& motions, const std::vector<std:
       "\n## Tunnelling\n\n"
       "Motions look for contacts at the instants of their steps, so what moves far in one passes through\n"
       "what is thin. The table has the speed, in m/s, up to which a ball of 10 cm never passes through a\n"
-      "wall, wherever in a step it meets it, at 1000 Hz. The rule behind it: a body is pushed back as long\n"
+      "wall, wherever in a step the impact is, at 1000 Hz. The rule behind: a body is pushed back as long\n"
       "as its middle has not passed the middle of the wall, so it may move half its own thickness and half\n"
       "of the wall's in a step. The speeds grow in proportion to the rate, and for engines to the rate\n"
       "times `substeps`. Planes are solid below. Meshes with `meshes: exact` are shells without thickness.\n"

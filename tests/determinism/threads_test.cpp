@@ -51,7 +51,7 @@ INSTANTIATE_TEST_SUITE_P(Threads, OfExample,
                          name_of);
 INSTANTIATE_TEST_SUITE_P(SlowThreads, OfExample, ::testing::ValuesIn(examples()), name_of);
 
-/// Some robots of each level so close together that they meet, and boxes and balls between them.
+/// Some robots of each level so close together that they touch, and boxes and balls between them.
 constexpr const char* crowd[] = {
     "  near:\n    model: {MODELS}/rover.urdf\n    count: 14\n"
     "    place: {grid: {count: [7, 2], spacing: [0.6, 0.6]}}\n"

@@ -43,7 +43,7 @@ TEST_P(TheWatch, LetsAFallReboundWithAllItsSpeed) {
   w.add_ground();
   w.add("ball", ball(1, 0.5, 0, 1), {{0, 0, 2000.5}, Quat::Identity()});
   w.start(GetParam());
-  EXPECT_EQ(w.failure_in(25), "no complaint") << "it meets the ground after 20.2 s at 198 m/s";
+  EXPECT_EQ(w.failure_in(25), "no complaint") << "its impact on the ground is after 20.2 s at 198 m/s";
 }
 
 TEST_P(TheWatch, EndsARunAtTheDepthThatItIsGiven) {

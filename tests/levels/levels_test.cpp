@@ -30,7 +30,7 @@ TEST(Levels, RoversOfAllLevelsPushABallAndBoxesAndEachOther) {
   ASSERT_EQ(robots.size(), 11u);
   std::vector<Vec3> start;
   for (const RobotView* r : robots) start.push_back(s.world().value(r->base(), keys::pose).position);
-  std::set<std::pair<std::string, std::string>> met;  // robots whose contact the contact algorithm answered for
+  std::set<std::pair<std::string, std::string>> pairs;  // robots whose contact the contact algorithm answered for
   for (int k = 0; k < 400; ++k) {
     s.run_for(0.05);
     for (const RobotView* r : robots) {
@@ -42,7 +42,7 @@ TEST(Levels, RoversOfAllLevelsPushABallAndBoxesAndEachOther) {
       if (!s.world().store().find(base, "contacts")) continue;
       for (const Contact& c : s.world().values(base, keys::contacts))
         if (const std::int32_t other = s.world().robot_of(c.other); other >= 0)
-          met.emplace(r->name, robots[std::size_t(other)]->name);
+          pairs.emplace(r->name, robots[std::size_t(other)]->name);
     }
   }
   for (const char* rover : {"point", "differential_drive", "simplified", "bullet", "ode", "mujoco"}) {
@@ -54,7 +54,7 @@ TEST(Levels, RoversOfAllLevelsPushABallAndBoxesAndEachOther) {
     const Vec3 before = start[s.world().find_robot(thing)->number];
     EXPECT_GT((pose_of(s, thing).position - before).head<2>().norm(), 0.1) << thing << " was pushed";
   }
-  EXPECT_GE(met.size(), 8u) << "robots of different worlds met";
+  EXPECT_GE(pairs.size(), 8u) << "robots of different worlds were in contact";
 }
 
 TEST(SlowLevels, GiveTheSameBitsOnTwoThreads) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Impacts at the instant in which bodies meet: what a contact algorithm tells a motion beside wrenches.
+// Impacts at the instant in which contact begins: what a contact algorithm tells a motion beside wrenches.
 //
-// Bodies meet within a step, and contact is found at its end. The force of the next step gives them the momentum of the
+// Contact begins within a step, and is found at its end. The force of the next step gives them the momentum of the
 // impact, but not the path on which they would be by now had the impulse acted at its instant. A motion that offers
 // `contact.impact.step` takes that path from `contact.impact`, in the step that begins at `contact.impact.time`.
 #pragma once
@@ -14,7 +14,7 @@ namespace muro {
 struct ImpactCorrection {
   Vec3 path = Vec3::Zero();  ///< kg m: sum of J t, the path of the centre of mass times the mass
   Vec3 turn = Vec3::Zero();  ///< kg m^2: sum of (lever x J) t, the rotation times the inertia about the centre of mass
-  Vec3 carried = Vec3::Zero();  ///< kg m^2/s: sum of J t x u, where u is the velocity of the point in which bodies meet
+  Vec3 carried = Vec3::Zero();  ///< kg m^2/s: sum of J t x u, where u is the velocity of the contact point
 
   ImpactCorrection& operator+=(const ImpactCorrection& b) {
     path += b.path;

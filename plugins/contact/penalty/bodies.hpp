@@ -109,7 +109,7 @@ struct StepContext {
   double elapsed = 0;           ///< s since the last run
   std::int64_t time = 0;        ///< ns
   Vec3 gravity = Vec3::Zero();  ///< m/s^2
-  double impact_speed = 0;      ///< m/s: what meets faster collides
+  double impact_speed = 0;      ///< m/s: contacts that begin faster are impacts
   double correcting_speed = 0;  ///< m/s: overlap that no motion has made is taken back at it
 };
 

@@ -77,8 +77,9 @@ struct NormalLaw {
     return select(spring_depth <= S(0), S(0), force);
   }
 
-  /// The bodies met within the last step, a time depth / approach ago, and came this deep without a force. The bodies
-  /// get the energy that they would have, had the contact acted since then; but they do not rebound before their time.
+  /// The contact began within the last step, a time depth / approach ago, and the bodies came this deep without a
+  /// force. The bodies get the energy that they would have, had the contact acted since then; but they do not rebound
+  /// before their time.
   [[gnu::noinline, gnu::cold]] static S force_at_impact(NormalLaw own, S depth, S approach) {
     const double w = own.stiffness.omega, w2 = w * w;
     const S h(own.stiffness.h), zero(0), one(1), half(0.5);

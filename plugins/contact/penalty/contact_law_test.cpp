@@ -18,15 +18,15 @@ Vec3 friction_force(const Stiffness& s, double load, Vec3& displacement, const V
   return {f.x, f.y, f.z};
 }
 
-/// A body of effective mass 1 that flies against a wall at 1 m/s and meets it at `phase` (0..1) of a step.
+/// A body of effective mass 1 that flies against a wall at 1 m/s, with the impact at `phase` (0..1) of a step.
 /// Returns the speed with which it leaves.
 double rebound(double restitution, const Stiffness& s, double phase, double load = 1) {
   const NormalLaw law(s, damping_ratio_of(restitution), load);
   double x = phase * s.h, v = -1;
-  bool met = false;
+  bool touched = false;
   for (int k = 0; k < 100000; ++k) {
-    if (met && x >= 0) return v;
-    met = met || x < 0;
+    if (touched && x >= 0) return v;
+    touched = touched || x < 0;
     const double a = x < 0 ? law.force(-x, -v) : 0;
     x += v * s.h + 0.5 * a * s.h * s.h;
     v += a * s.h;

@@ -105,52 +105,52 @@ Vec3 FreeBody::spin_before(double since) const {
   return matrix_of(mobility_before(since).inertia) * momentum;
 }
 
-std::optional<MeetingTime> meeting_time(double depth, double speed, double acceleration) {
+std::optional<TimeOfImpact> time_of_impact(double depth, double speed, double acceleration) {
   const double square = speed * speed - 2 * acceleration * depth;
   if (!(speed > 0) || !(square > 0)) return {};
   const double approach = std::sqrt(square);
-  return MeetingTime{2 * depth / (speed + approach), approach};
+  return TimeOfImpact{2 * depth / (speed + approach), approach};
 }
 
 void resolve_impact(std::span<ImpactPoint> points, const ImpactBody& self, const ImpactBody* other) {
   resolve_friction(points, resolve_normals(points, self, other), self, other);
 }
 
-std::optional<MeetingTime> impact_of(const StepContext& context, const Contact& contact, const FrictionAnchor* before,
-                                     const Vec3& velocity, double step, bool other_falls) {
+std::optional<TimeOfImpact> impact_of(const StepContext& context, const Contact& contact, const FrictionAnchor* before,
+                                      const Vec3& velocity, double step, bool other_falls) {
   const double speed = -velocity.dot(contact.normal), elapsed = context.elapsed;
   if (!(speed > context.impact_speed)) return {};
   constexpr double near = 1e-3;  // m: a contact that lasts moves with the bodies
   const double reach = near + 2 * elapsed * (velocity + speed * contact.normal).norm();
   if (before && (before->point - contact.point).squaredNorm() < reach * reach) return {};
   const double fall = other_falls ? 0 : -context.gravity.dot(contact.normal);
-  const std::optional<MeetingTime> met = meeting_time(contact.depth, speed, fall);
+  const std::optional<TimeOfImpact> time = time_of_impact(contact.depth, speed, fall);
   constexpr double share = 1.5;  // forces that are not known here may have slowed them down
-  if (!met || met->approach < context.impact_speed || met->since > share * std::max(elapsed, step)) return {};
-  return met;
+  if (!time || time->approach < context.impact_speed || time->since > share * std::max(elapsed, step)) return {};
+  return time;
 }
 
-ImpactPoint::ImpactPoint(const StepContext& context, const Contact& contact, const MeetingTime& met,
+ImpactPoint::ImpactPoint(const StepContext& context, const Contact& contact, const TimeOfImpact& time,
                          const Vec3& relative, const FreeBody& self, const FreeBody* other)
     : at(contact.point),
       normal(contact.normal),
       // The point goes half way with either surface across them, and with the bodies that move along them.
-      meeting(other ? Vec3(0.5 * (self.velocity + other->velocity))
-                    : Vec3(self.velocity + 0.5 * contact.depth / met.since * contact.normal)),
-      lever(contact.point - self.centre + met.since * (self.velocity - meeting)),
+      point_velocity(other ? Vec3(0.5 * (self.velocity + other->velocity))
+                           : Vec3(self.velocity + 0.5 * contact.depth / time.since * contact.normal)),
+      lever(contact.point - self.centre + time.since * (self.velocity - point_velocity)),
       other_lever(Vec3::Zero()),
-      velocity(relative + self.spin_before(met.since).cross(lever) - self.spin.cross(contact.point - self.centre)),
-      since(met.since),
+      velocity(relative + self.spin_before(time.since).cross(lever) - self.spin.cross(contact.point - self.centre)),
+      since(time.since),
       friction(contact.friction),
       restitution(contact.restitution) {
   if (other) {
     const Vec3 present = contact.point - other->centre;
-    other_lever = present + since * (other->velocity - meeting);
+    other_lever = present + since * (other->velocity - point_velocity);
     velocity -= other->spin_before(since).cross(other_lever) - other->spin.cross(present);
   } else {
     velocity -= since * context.gravity;
   }
-  approach = std::max(-velocity.dot(normal), 0.5 * met.approach);
+  approach = std::max(-velocity.dot(normal), 0.5 * time.approach);
 }
 
 void ImpactPoint::add_motion(const law::Mobility<double>& self, const Vec3& pushed, const Vec3& turned) {
@@ -166,13 +166,15 @@ double mean_since(std::span<const ImpactPoint> points) {
 
 void add_impulse(const StepContext& context, double step, const ImpactPoint& point, const Vec3& impulse,
                  const FreeBody& body, Wrench& wrench, ImpactCorrection& correction) {
-  const Vec3 lever = point.at - body.centre + point.since * (body.velocity - point.meeting);
+  const Vec3 lever = point.at - body.centre + point.since * (body.velocity - point.point_velocity);
   const Vec3 force = impulse / step, path = (point.since + 0.5 * step) * impulse;
   wrench.add_force(force, point.at - body.origin);
-  wrench.torque += (0.5 * step * (point.meeting - body.velocity)).cross(force);  // the lever in the middle of the step
+  // with the lever in the middle of the step
+  wrench.torque += (0.5 * step * (point.point_velocity - body.velocity)).cross(force);
   correction.path += path;
   correction.turn += lever.cross(path);
-  correction.carried += path.cross(point.meeting + step * context.gravity);  // what it falls is no part of the impact
+  // what it falls is no part of the impact
+  correction.carried += path.cross(point.point_velocity + step * context.gravity);
 }
 
 }  // namespace muro::penalty

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Impacts: what two bodies do to each other in the instant in which they meet.
+// Impacts: what two bodies do to each other at the time of impact.
 //
 // Newton's law of restitution along the normal, then Coulomb's friction, which stops the slip or does as much as its
 // limit lets it. The points of a contact patch act together: along their approach speeds the impulse is that of an
@@ -31,35 +31,35 @@ struct FreeBody {
 /// A body in an impact.
 struct ImpactBody {
   law::Mobility<double> mobility;
-  double patches = 1;  ///< in which it meets others in this step: each moves this part of its mass
+  double patches = 1;  ///< patches of its impacts in this step: each moves this part of its mass
 };
 
-/// When bodies met, and the speed with which they approached each other in that instant.
-struct MeetingTime {
+/// When an impact was, and the speed with which the bodies approached each other then.
+struct TimeOfImpact {
   double since = 0;     ///< s
   double approach = 0;  ///< m/s
 };
 /// Of bodies that overlap by `depth` (m), approach each other with `speed` (m/s) and are accelerated towards each other
 /// by `acceleration` (m/s^2).
-std::optional<MeetingTime> meeting_time(double depth, double speed, double acceleration);
+std::optional<TimeOfImpact> time_of_impact(double depth, double speed, double acceleration);
 
-/// Whether a contact is an impact: it is new, the bodies met within the last step, and faster than contact at rest can
+/// Whether a contact is an impact: it is new, began within the last step, and is faster than contact at rest can
 /// be. `before`: the friction anchor of its pair that is nearest; null for none. `velocity`: of the own point over the
 /// other (m/s); `step`: of the motion (s); `other_falls`: forces move the other body, too.
-std::optional<MeetingTime> impact_of(const StepContext& context, const Contact& contact, const FrictionAnchor* before,
-                                     const Vec3& velocity, double step, bool other_falls);
+std::optional<TimeOfImpact> impact_of(const StepContext& context, const Contact& contact, const FrictionAnchor* before,
+                                      const Vec3& velocity, double step, bool other_falls);
 
-/// A point in which bodies meet.
+/// A contact point in an impact.
 struct ImpactPoint {
   ImpactPoint() = default;
   /// `velocity`: of the own point over the other; `other`: null where no force moves it. Levers and velocities are
   /// those of the instant of the impact, so that it keeps angular momentum and gains no energy.
-  ImpactPoint(const StepContext& context, const Contact& contact, const MeetingTime& met, const Vec3& velocity,
+  ImpactPoint(const StepContext& context, const Contact& contact, const TimeOfImpact& time, const Vec3& velocity,
               const FreeBody& self, const FreeBody* other);
 
   Vec3 at;                  ///< m, world
   Vec3 normal;              ///< unit, world: the direction in which `self` is pushed
-  Vec3 meeting;             ///< m/s: how the point itself moves
+  Vec3 point_velocity;      ///< m/s: how the point itself moves
   Vec3 lever, other_lever;  ///< m, world: from the centres of mass
   Vec3 velocity;            ///< m/s, of `self` over the other
   double approach = 0;      ///< m/s, > 0

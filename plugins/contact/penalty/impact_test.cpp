@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Impacts against their closed forms: Newton's restitution, Coulomb's friction, at the instant in which bodies meet.
+// Impacts against their closed forms: Newton's restitution, Coulomb's friction, at the time of impact.
 #include <gtest/gtest.h>
 #include <cmath>
 #include <random>
@@ -79,12 +79,12 @@ TEST(Impacts, OfTwoBallsExchangeMomentumAsNewtonSays) {
     const RobotView& b = s.add("b", ball(3, 0.1, 0, e), {{1, 0, 0}, Quat::Identity()}, {{-1, 0, 0}, Vec3::Zero()});
     s.start();
     s.run_for(1);
-    const double common = (2 - 3) / 4.0, met = 0.8 / 3;
+    const double common = (2 - 3) / 4.0, impact = 0.8 / 3;
     const double of_a = common - e * 3.0 / 4 * 3, of_b = common + e * 1.0 / 4 * 3;
     EXPECT_NEAR(s.twist(a).linear.x(), of_a, 1e-9) << e;
     EXPECT_NEAR(s.twist(b).linear.x(), of_b, 1e-9) << e;
-    EXPECT_NEAR(s.pose(a).position.x(), 2 * met + of_a * (1 - met), 1e-9) << e;
-    EXPECT_NEAR(s.pose(b).position.x(), 1 - met + of_b * (1 - met), 1e-9) << e;
+    EXPECT_NEAR(s.pose(a).position.x(), 2 * impact + of_a * (1 - impact), 1e-9) << e;
+    EXPECT_NEAR(s.pose(b).position.x(), 1 - impact + of_b * (1 - impact), 1e-9) << e;
   }
 }
 

@@ -34,7 +34,7 @@ class PairContacts {
 
   static constexpr std::uint32_t not_computed = 0xffffffffu, in_impact = 0xfffffffeu;
 
-  /// Where a robot meets something.
+  /// A contact patch in an impact.
   struct ImpactPatch {
     Vec3 normal;
     std::int32_t other;             ///< in Bodies::robots, or no_robot
@@ -42,7 +42,7 @@ class PairContacts {
     Wrench reaction{};              ///< on the other's base
     ImpactCorrection correction{};  ///< of the other's path
   };
-  /// A contact in which a robot meets something.
+  /// A contact in an impact.
   struct ImpactContact {
     std::uint32_t patch = 0;  ///< in Record::impact_patches
     ImpactPoint point;

@@ -15,8 +15,8 @@ bool PairContacts::add_impact(std::uint32_t self, const Contact& contact, std::i
   if (step == 0 || (falls && bodies_.impact_step_of(other_robot) != step)) return false;
   const Vec3 velocity = bodies_.velocity(contact.self, contact.point) - bodies_.velocity(contact.other, contact.point);
   const FrictionAnchor* const before = previous(*robot.anchors, place, bodies_.pair_of(contact), contact.point);
-  const auto met = impact_of(context_, contact, before, velocity, step, falls);
-  if (!met) return false;
+  const auto time = impact_of(context_, contact, before, velocity, step, falls);
+  if (!time) return false;
   Record& me = record(self);
   const std::uint32_t model = bodies_[contact.other].model;
   auto patch = std::find_if(me.impact_patches.begin(), me.impact_patches.end(), [&](const ImpactPatch& p) {
@@ -30,9 +30,9 @@ bool PairContacts::add_impact(std::uint32_t self, const Contact& contact, std::i
   const auto number = std::uint32_t(patch - me.impact_patches.begin());
   if (falls) {
     const FreeBody other = free_body(std::uint32_t(other_robot));
-    me.impact_contacts.push_back({number, {context_, contact, *met, velocity, body, &other}});
+    me.impact_contacts.push_back({number, {context_, contact, *time, velocity, body, &other}});
   } else {
-    me.impact_contacts.push_back({number, {context_, contact, *met, velocity, body, nullptr}});
+    me.impact_contacts.push_back({number, {context_, contact, *time, velocity, body, nullptr}});
   }
   return true;
 }

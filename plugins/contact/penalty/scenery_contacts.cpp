@@ -280,9 +280,9 @@ void SceneryContacts::apply_springs(const StepContext& context, std::uint32_t ro
 }
 
 void SceneryContacts::process_single(const StepContext& context, std::uint32_t robot) {
-  MeetingTime met[max_contacts];
-  if (const std::uint32_t which = find_impacts(context, robot, met); which != 0)
-    return process_impacts(context, robot, which, met);
+  TimeOfImpact times[max_contacts];
+  if (const std::uint32_t which = find_impacts(context, robot, times); which != 0)
+    return process_impacts(context, robot, which, times);
   KnownRobot& known = robots_[robot];
   const auto contacts = *known.list;
   const Identities& identities = identities_[robot];

@@ -64,10 +64,10 @@ class SceneryContacts {
   void apply_springs(const StepContext& context, std::uint32_t robot, std::span<const Contact> contacts,
                      const SpringBatch& springs, FrictionAnchor* written) const;
   void note_parting(KnownRobot& known) const;
-  std::uint32_t find_impacts(const StepContext& context, std::uint32_t robot, MeetingTime* met) const;
-  void process_impacts(const StepContext& context, std::uint32_t robot, std::uint32_t which, const MeetingTime* met);
+  std::uint32_t find_impacts(const StepContext& context, std::uint32_t robot, TimeOfImpact* times) const;
+  void process_impacts(const StepContext& context, std::uint32_t robot, std::uint32_t which, const TimeOfImpact* times);
   void apply_impacts(const StepContext& context, std::uint32_t robot, std::span<const Contact> contacts,
-                     const MeetingTime* met) const;
+                     const TimeOfImpact* times) const;
   void process_queue(const StepContext& context, Queue& queue);
   ContactLayout layout_of(std::uint32_t robot, std::span<const Contact> contacts, const Identities& identities) const;
   std::uint32_t number_of(const ContactLayout& layout);

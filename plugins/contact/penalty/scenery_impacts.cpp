@@ -7,8 +7,9 @@
 
 namespace muro::penalty {
 
-/// Returns a bit for each contact in which the robot has just met something; `met`: when, of these contacts.
-std::uint32_t SceneryContacts::find_impacts(const StepContext& context, std::uint32_t robot, MeetingTime* met) const {
+/// Returns a bit for each contact that is an impact; `times`: when, of these contacts.
+std::uint32_t SceneryContacts::find_impacts(const StepContext& context, std::uint32_t robot,
+                                            TimeOfImpact* times) const {
   static_assert(max_contacts <= 32);
   std::uint32_t which = 0;
   const double step = bodies_.impact_step_of(std::int32_t(robot));
@@ -17,9 +18,9 @@ std::uint32_t SceneryContacts::find_impacts(const StepContext& context, std::uin
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const Contact& c = contacts[k];
     const FrictionAnchor* const before = previous(*robots_[robot].anchors, k, identities_[robot][k].pair, c.point);
-    const auto meeting = impact_of(context, c, before, bodies_.velocity(c.self, c.point), step, false);
-    if (!meeting) continue;
-    met[k] = *meeting;
+    const auto time = impact_of(context, c, before, bodies_.velocity(c.self, c.point), step, false);
+    if (!time) continue;
+    times[k] = *time;
     which |= 1u << k;
   }
   return which;
@@ -27,17 +28,17 @@ std::uint32_t SceneryContacts::find_impacts(const StepContext& context, std::uin
 
 /// Impulses in contacts `which`, springs in the others.
 void SceneryContacts::process_impacts(const StepContext& context, std::uint32_t robot, std::uint32_t which,
-                                      const MeetingTime* met) {
+                                      const TimeOfImpact* times) {
   KnownRobot& known = robots_[robot];
   const auto contacts = *known.list;
   const Identities& identities = identities_[robot];
   Contact impacts[max_contacts], others[max_contacts];
-  MeetingTime impact_met[max_contacts];
+  TimeOfImpact impact_times[max_contacts];
   Identities other_identities;
   std::size_t impact_count = 0, other_count = 0;
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     if (which >> k & 1) {
-      impact_met[impact_count] = met[k];
+      impact_times[impact_count] = times[k];
       impacts[impact_count++] = contacts[k];
     } else {
       other_identities[other_count] = identities[k];
@@ -58,12 +59,12 @@ void SceneryContacts::process_impacts(const StepContext& context, std::uint32_t 
   }
   known.anchors_match = true;
   note_parting(known);
-  apply_impacts(context, robot, {impacts, impact_count}, impact_met);
+  apply_impacts(context, robot, {impacts, impact_count}, impact_times);
 }
 
 /// Patch by patch, each with the motion that those before it have left: so none gains energy.
 void SceneryContacts::apply_impacts(const StepContext& context, std::uint32_t robot, std::span<const Contact> contacts,
-                                    const MeetingTime* met) const {
+                                    const TimeOfImpact* times) const {
   const Robot& r = bodies_.robots[robot];
   const DynamicBody& base = bodies_.base_of(r);
   const FreeBody body(bodies_, base);
@@ -77,7 +78,7 @@ void SceneryContacts::apply_impacts(const StepContext& context, std::uint32_t ro
     std::size_t count = 0;
     for (std::size_t k = 0; k < contacts.size(); ++k) {
       const Contact& c = contacts[k];
-      if (patch_of[k] == p) points[count++] = {context, c, met[k], bodies_.velocity(c.self, c.point), body, nullptr};
+      if (patch_of[k] == p) points[count++] = {context, c, times[k], bodies_.velocity(c.self, c.point), body, nullptr};
     }
     const law::Mobility<double> mobility = body.mobility_before(mean_since({points, count}));
     for (std::size_t k = 0; k < count; ++k) points[k].add_motion(mobility, pushed, turned);

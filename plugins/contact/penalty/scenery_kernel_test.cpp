@@ -36,7 +36,7 @@ struct Vehicle {
   }
 };
 
-/// `speed` (m/s) decides which branch of the law contacts are in: at rest, sliding, meeting, parting.
+/// `speed` (m/s) decides which branch of the law contacts are in: at rest, sliding, approaching, parting.
 Vehicle random_vehicle(std::mt19937& random, double speed) {
   std::normal_distribution<double> g;
   const auto vector = [&](double most) { return Vec3(most * g(random), most * g(random), most * g(random)); };

@@ -130,14 +130,14 @@ TEST(Vehicle, PushesAgainstAWallForMinutesWithoutClimbingIt) {
   s.start();
   s.wheels("r", 10, 10);
   s.run_for(5);
-  const Pose met = s.pose(r);
+  const Pose blocked = s.pose(r);
   for (int k = 0; k < 12; ++k) {
     s.run_for(10);
-    EXPECT_LT((s.pose(r).position - met.position).norm(), 1e-3);
-    EXPECT_LT(s.pose(r).orientation.angularDistance(met.orientation), 0.01);
+    EXPECT_LT((s.pose(r).position - blocked.position).norm(), 1e-3);
+    EXPECT_LT(s.pose(r).orientation.angularDistance(blocked.orientation), 0.01);
   }
-  EXPECT_NEAR(met.position.x(), 1 - 0.18, 0.002);
-  EXPECT_NEAR(met.position.z(), 0.09, 0.001);
+  EXPECT_NEAR(blocked.position.x(), 1 - 0.18, 0.002);
+  EXPECT_NEAR(blocked.position.z(), 0.09, 0.001);
   s.wheels("r", -10, -10);
   s.run_for(2);
   EXPECT_LT(s.pose(r).position.x(), 0.1);

@@ -51,7 +51,7 @@ TEST(LevelRules, HandOverWhereRobotsComeNear) {
 
 TEST(LevelRules, HandOverOnContact) {
   Ruled s({"near when in contact", "far when out of contact for 0.5"}, {0.5, 0, 0.1});
-  s.run_for(0.55);  // surfaces meet at 0.6 s
+  s.run_for(0.55);  // surfaces touch at 0.6 s
   EXPECT_EQ(s.level(), 0u);
   s.run_for(0.1);
   EXPECT_EQ(s.level(), 1u);

@@ -71,7 +71,8 @@ TEST(Shadow, IsFeltByNobody) {
     s.build();
     s.run_for(2);
     if (shadow) {
-      EXPECT_NEAR(s.twist(*shadow).linear.x(), 0, 1e-3) << "it has met the other robot, which is a wall to it";
+      EXPECT_NEAR(s.twist(*shadow).linear.x(), 0, 1e-3)
+          << "it is in contact with the other robot, which is a wall to it";
     }
     return s.world().hash(other);
   };

@@ -148,9 +148,9 @@ BulletSolver::ConstraintRow BulletSolver::contact_row(const SolverContact& c, Bu
   return row;
 }
 
-/// Velocity along the normal that a contact must leave. Bodies that rebound meet in the step that begins or ends
-/// nearest to the instant of impact, and part with the energy that Newton's law leaves of that with which they would
-/// meet; others meet where their surfaces, less the slop, do.
+/// Velocity along the normal that a contact must leave. Bodies that rebound touch in the step that begins or ends
+/// nearest to the instant of impact, and part with the energy that Newton's law leaves of that of their
+/// approach; others touch where their surfaces, less the slop, do.
 double BulletSolver::target_velocity(const SolverContact& c, double speed, double restitution, bool& is_active,
                                      bool& is_rebound) const {
   is_active = true;

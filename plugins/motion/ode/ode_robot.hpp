@@ -30,7 +30,7 @@ class OdeRobot {
   const multibody::RobotModel& model() const { return *model_; }
   multibody::RobotState& state() const { return *state_; }
   multibody::MotionType motion_type() const { return motion_type_; }
-  /// 1/kg: what a force along `normal` (unit) at `point` meets in a body that no joint holds; world axes.
+  /// 1/kg: of a contact at `point` with `normal` (unit) on a body that no joint holds; world axes.
   double inverse_effective_mass(std::size_t body, const Vec3& point, const Vec3& normal) const;
   dSpaceID space() const { return space_; }
   const std::vector<dGeomID>& geoms() const { return geoms_; }

@@ -9,7 +9,7 @@
 
 namespace muro::simplified {
 
-/// Moves a body to where it would be had its last impulses acted when it met others. The angular momentum about any
+/// Moves a body to where it would be had its last impulses acted at the time of impact. The angular momentum about any
 /// point is kept: what the path adds to that of the centre is taken from the spin. `pose`, `twist`: numbers of the
 /// base.
 inline void correct_path(double* pose, double* twist, const integrator::Mass<double>& mass,

@@ -170,7 +170,7 @@ TEST(RecorderCsv, RecordsTheForcesThatCarryTheStateToTheNextInstant) {
     vz_before = vz, fz_before = fz;
     max_fz = std::max(max_fz, fz);
   }
-  EXPECT_GT(max_fz, mass * g) << "it has met the ground";
+  EXPECT_GT(max_fz, mass * g) << "there was an impact on the ground";
 }
 
 TEST(RecorderCsv, NamesTheNearestPropertyWhenNothingMatches) {

@@ -152,7 +152,7 @@ TEST_P(EveryHandOverOfABlock, MakesItABodyOrAnObstacleForOthers) {
     EXPECT_GT(s.twist(robot).linear.x(), 0.3);
   else
     EXPECT_EQ(s.twist(robot).linear.x(), 0);
-  EXPECT_LT(s.twist(ball_).linear.x(), 0.6) << "the ball has met it";
+  EXPECT_LT(s.twist(ball_).linear.x(), 0.6) << "there was an impact on the ball";
   EXPECT_NEAR(s.twist(ball_).linear.x() + (moved ? s.twist(robot).linear.x() : 0), moved ? 1 : 0, 1e-9);
 }
 

@@ -7,10 +7,10 @@ namespace muro::conformance {
 namespace {
 
 /// The robots under test, and one that motion.point moves.
-struct Meeting : Trial {
+struct ObstacleTrial : Trial {
   std::string motion;
   std::vector<Item> tested;
-  explicit Meeting(const std::string& id) : Trial(id), motion(id) {}
+  explicit ObstacleTrial(const std::string& id) : Trial(id), motion(id) {}
 
   /// To be called between the robots under test and the other one.
   void test_those() { tested = all_robots(); }
@@ -25,7 +25,7 @@ struct Meeting : Trial {
 };
 
 Outcome pushes(const std::string& motion) {
-  Meeting m(motion);
+  ObstacleTrial m(motion);
   m.add_ground(0.3);
   const RobotView& box = m.add("box", block(2, {0.2, 0.2, 0.2}, 0.3), {{0.3, 0, 0.1}, Quat::Identity()});
   m.test_those();
@@ -42,7 +42,7 @@ Outcome pushes(const std::string& motion) {
 
 /// A block on a plate that moves on at 1 m/s takes its speed on with mu g.
 Outcome drags(const std::string& motion, bool to_the_end) {
-  Meeting m(motion);
+  ObstacleTrial m(motion);
   const RobotView& box = m.add("box", block(1, {0.2, 0.2, 0.1}, 0.4), {{0, 0, 0.1}, Quat::Identity()});
   m.test_those();
   const RobotView& plate = m.add("plate", block(1, {4, 4, 0.1}, 0.4), {{0, 0, 0}, Quat::Identity()});
@@ -62,7 +62,7 @@ Outcome drags_along(const std::string& motion) { return drags(motion, true); }
 Outcome drags_with_friction(const std::string& motion) { return drags(motion, false); }
 
 Outcome is_blocked(const std::string& motion) {
-  Meeting m(motion);
+  ObstacleTrial m(motion);
   m.add_ground(0.5);
   const RobotView& r = m.add("ball", ball(1, 0.1, 0.5), {{0, 0, 0.1}, Quat::Identity()}, {{1, 0, 0}, {0, 10, 0}});
   m.test_those();

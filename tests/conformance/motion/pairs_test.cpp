@@ -23,7 +23,7 @@ std::vector<Pair> pairs(bool with_simplified) {
 }
 
 std::string name_of_pair(const ::testing::TestParamInfo<Pair>& test) {
-  std::string name = std::get<0>(test.param) + "_meets_" + std::get<1>(test.param);
+  std::string name = std::get<0>(test.param) + "_and_" + std::get<1>(test.param);
   std::replace(name.begin(), name.end(), '.', '_');
   return name;
 }
@@ -34,14 +34,14 @@ struct Ball {
 };
 
 /// Two balls, each in a motion of its own; two of one motion are in one world of it, unless `apart`.
-struct Meeting : test::Scene {
+struct PairScene : test::Scene {
   struct Body {
     const RobotView* robot;
     double mass, moment;
   };
   std::vector<Body> bodies;
 
-  explicit Meeting(const Vec3& gravity = Vec3::Zero()) { world().set(world_object, keys::gravity, gravity); }
+  explicit PairScene(const Vec3& gravity = Vec3::Zero()) { world().set(world_object, keys::gravity, gravity); }
 
   void add_body(const std::string& motion, const RobotTree& tree, const Inertia& inertia, const Pose& at,
                 const Twist& twist = {}, std::map<std::string, ParameterInput> parameters = {}) {
@@ -94,7 +94,7 @@ struct Collision {
   Vec3 before, angular_before;
   double energy_before;
 
-  Meeting scene;
+  PairScene scene;
   Collision(const std::string& a, const std::string& b, const Ball& x, const Ball& y, double friction,
             double restitution, int substeps = 1) {
     scene.add_ball(a, x, friction, restitution, "left", substeps);
@@ -130,7 +130,7 @@ TEST_P(EveryPair, KeepsItsMomentaAndReboundsInAHeadOnCollision) {
 TEST_P(EveryPair, KeepsItsMomentaInAnObliqueCollisionWithFriction) {
   Collision c(first(), second(), {2, 0.1, {-0.3, 0.05, 0.02}, {1, 0, 0}, {1, 2, 3}},
               {1, 0.15, {0.3, 0, 0}, {-0.5, 0.1, 0}, {0, -1, 2}}, 0.4, 0.5);
-  EXPECT_GT((c.velocity(0) - Vec3(1, 0, 0)).norm(), 0.1) << "they met";
+  EXPECT_GT((c.velocity(0) - Vec3(1, 0, 0)).norm(), 0.1) << "there was an impact";
 }
 
 TEST_P(EveryPair, KeepsItsMomentaWhereOneEngineTakesSubsteps) {
@@ -140,7 +140,7 @@ TEST_P(EveryPair, KeepsItsMomentaWhereOneEngineTakesSubsteps) {
 
 TEST_P(EveryPair, ComesToRestOneOnTheOther) {
   // One stands on the other for 60 s. The lower one stands on the ground of its own motion.
-  Meeting m({0, 0, -9.81});
+  PairScene m({0, 0, -9.81});
   m.add_ground();
   const Vec3 low(0.4, 0.4, 0.2), high(0.2, 0.2, 0.2);
   m.add_body(first(), block(4, low, 0.8), solid_box(4, low), {{0, 0, 0.1}, Quat::Identity()}, {},
@@ -158,7 +158,7 @@ TEST_P(EveryPair, ComesToRestOneOnTheOther) {
 }
 
 TEST_P(EveryPair, SlidesOneOnTheOtherWithTheFrictionOfTheMaterials) {
-  Meeting m({0, 0, -9.81});
+  PairScene m({0, 0, -9.81});
   m.add_ground();
   const Vec3 slab(4, 1, 0.2), box(0.2, 0.2, 0.1);
   m.add_body(first(), block(100, slab, 0.4), solid_box(100, slab), {{1, 0, 0.1}, Quat::Identity()}, {},

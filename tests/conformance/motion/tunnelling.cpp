@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From which speed on a ball passes through what it should meet.
+// From which speed on a ball passes through what should stop it.
 #include "tests/conformance/motion/tunnelling.hpp"
 
 #include <algorithm>
@@ -14,8 +14,8 @@ namespace {
 constexpr double dt = 1e-3, radius = 0.05;  // s, m
 constexpr int phases = 8;
 
-/// Whether a ball that meets a wall (a plane: with `thickness` 0) at `speed` goes on behind it. `phase`: part of a step
-/// that it is away from the wall at the beginning of a step.
+/// Whether a ball that flies against a wall (a plane: with `thickness` 0) at `speed` goes on behind it. `phase`: part
+/// of a step that it is away from the wall at the beginning of a step.
 bool passes(const std::string& motion, double thickness, double speed, double phase) {
   Trial m(motion, 1 / dt);
   m.set_gravity(Vec3::Zero());
@@ -61,7 +61,7 @@ double tunnelling_speed(const std::string& motion, double thickness) {
 }
 
 std::vector<Case> tunnelling_cases() {
-  return {{"a ball meets a wall when it moves less than half of both in a step", "passed",
+  return {{"a wall stops a ball that moves less than half of both in a step", "passed",
            feature_contact | feature_forces, 0, is_stopped}};
 }
 
