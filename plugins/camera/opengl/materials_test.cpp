@@ -109,6 +109,34 @@ TEST(APictureOnABox, IsLeftOutWhereItClaimsMorePixelsThanThereCanBe) {
       << s.warnings;
 }
 
+TEST(AMesh, ThatCannotBeReadIsNotDrawnWithOneWarning) {
+  const test::ScratchFolder folder;
+  Studio s;
+  const std::string path = folder.file("broken.obj", "no mesh");
+  for (const double scale : {1.0, 2.0}) {
+    const Shape mesh{.kind = ShapeKind::mesh, .mesh = s.world().intern(path), .size = Vec3::Constant(scale)};
+    s.world().add_scenery("scale " + std::to_string(int(scale)), {}, {}, std::span<const Shape>(&mesh, 1));
+  }
+  s.look_at(Shape::box({2, 2, 2}), {{3, 0, 1}, Quat::Identity()});
+  EXPECT_NE(s.warnings.find("`scale 1`: mesh " + path + " cannot be read"), std::string::npos) << s.warnings;
+  EXPECT_TRUE(s.warnings.ends_with("; it is not drawn")) << s.warnings;
+  EXPECT_EQ(s.warnings.find("scale 2"), std::string::npos) << s.warnings;
+}
+
+TEST(AMesh, ThatIsDrawnForItCollidesAndCannotBeReadIsAnError) {
+  const test::ScratchFolder folder;
+  Studio s;
+  const std::string path = folder.file("broken.obj", "no mesh");
+  const Shape mesh{.kind = ShapeKind::mesh, .mesh = s.world().intern(path), .size = Vec3::Ones()};
+  s.world().add_scenery("rock", {}, std::span<const Shape>(&mesh, 1));
+  try {
+    s.look_at(Shape::box({2, 2, 2}), {{3, 0, 1}, Quat::Identity()});
+    ADD_FAILURE();
+  } catch (const SetupError& e) {
+    EXPECT_NE(std::string(e.what()).find("`rock`: mesh " + path + " cannot be read"), std::string::npos) << e.what();
+  }
+}
+
 /// A square of 2 m at x = 0 that looks along -x, in OBJ with its material, or in glTF.
 struct Square {
   test::ScratchFolder folder;

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "contact_refinement.hpp"
+#include "plugins/common/mesh/collision_mesh.hpp"
 #include "plugins/common/text/quote.hpp"
 
 namespace muro::contact_geometry {
@@ -88,7 +89,7 @@ void EngineCollision::add_geometries(Connector& c, ObjectId body, const Shape& s
     try {
       add_mesh(std::string(c.text(shape.mesh)), shape, exact, numbers);
     } catch (const Error& error) {
-      throw Error(quote(c.object_name(body)) + ": " + error.what());
+      mesh::refuse_collision_mesh(c, body, error);
     }
   } else {
     numbers.convex = add_geometry({.shape = shape, .box = {}});

@@ -143,6 +143,14 @@ MeshPath find(std::string_view name, const fs::path& folder, bool folders) {
 
 MeshPath find_mesh(std::string_view filename, const fs::path& folder) { return find(filename, folder, false); }
 
+std::string advice_for_missing(std::string_view filename) {
+  const std::string scheme = lower_case(std::string(filename.substr(0, filename.find("://"))));
+  if (scheme == "http" || scheme == "https") return "nothing is fetched from the network: save it and give its path";
+  if (scheme != "package" && scheme != "model") return "correct its path";
+  const char* const variable = scheme == "package" ? "ROS_PACKAGE_PATH" : "GZ_SIM_RESOURCE_PATH";
+  return std::string("correct its path, or add the folder that holds the package to ") + variable;
+}
+
 MeshPath find_file_or_folder(std::string_view name, const fs::path& folder) { return find(name, folder, true); }
 
 }  // namespace muro::model_file

@@ -20,6 +20,9 @@ struct MeshPath {
 /// Backslashes count as slashes; of a path with a drive letter, the last parts are looked for beside the model.
 MeshPath find_mesh(std::string_view filename, const std::filesystem::path& folder);
 
+/// What to do where no file of this name is found: "correct its path".
+std::string advice_for_missing(std::string_view filename);
+
 /// As find_mesh; the name may be that of a folder.
 MeshPath find_file_or_folder(std::string_view name, const std::filesystem::path& folder);
 

@@ -7,8 +7,8 @@
 
 #include "muro/algorithm.hpp"
 #include "muro/vocabulary.hpp"
+#include "plugins/common/mesh/collision_mesh.hpp"
 #include "plugins/common/mesh/store.hpp"
-#include "plugins/common/text/quote.hpp"
 
 namespace muro::multibody {
 
@@ -17,10 +17,10 @@ template <class MeshShape>
 class MeshShapes {
  public:
   /// Reads the meshes of all collision shapes. `exact`: scenery collides as its meshes are; all else collides as their
-  /// convex hulls. `of_hull`, `of_mesh`: make a shape from a mesh::Hull or mesh::Mesh. Throws Error with the object
-  /// whose file cannot be read, or has no hull. [setup]
+  /// convex hulls. `of_hull`, `of_mesh`: make a shape from a mesh::Hull or mesh::Mesh. A mesh that cannot be
+  /// read, or has no hull, is refused: see mesh::refuse_collision_mesh. [setup]
   template <class OfHull, class OfMesh>
-  void load(const Connector& c, bool exact, OfHull of_hull, OfMesh of_mesh) {
+  void load(Connector& c, bool exact, OfHull of_hull, OfMesh of_mesh) {
     exact_ = exact;
     mesh::Store store;
     for (std::uint32_t i = 0; i < c.object_count(); ++i) {
@@ -33,7 +33,7 @@ class MeshShapes {
           shapes_.emplace(key_of(s, hull),
                           hull ? of_hull(store.hull(path, s.size)) : of_mesh(store.mesh(path, s.size)));
         } catch (const Error& error) {
-          throw Error(quote(c.object_name(object)) + ": " + error.what());
+          mesh::refuse_collision_mesh(c, object, error);
         }
       }
     }

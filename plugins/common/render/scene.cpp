@@ -5,6 +5,8 @@
 
 #include "muro/algorithm.hpp"
 #include "muro/toolkit/bounds.hpp"
+#include "plugins/common/mesh/collision_mesh.hpp"
+#include "plugins/common/text/quote.hpp"
 
 namespace muro::render {
 
@@ -108,7 +110,20 @@ void Scene::add_mesh(Connector& c, const Shape& shape, Instance instance, ShapeS
   std::string name = path + (file_materials ? " with its materials" : "");
   if (has_texture) name += " " + std::string(c.text(shape.texture));
   const auto [entry, is_new] = meshes_.try_emplace({name, shape.size.x(), shape.size.y(), shape.size.z()});
-  if (is_new) entry->second = load_mesh(c, shape, path, file_materials, has_texture);
+  const ObjectId body = instance.body.object;
+  const std::span<const Shape> collision = c.constant_array(body, keys::collision_shapes);
+  const bool collides = std::any_of(collision.begin(), collision.end(), [&](const Shape& s) {
+    return s.kind == ShapeKind::mesh && c.text(s.mesh) == path;
+  });
+  if (is_new && !unreadable_.contains(path)) try {
+      entry->second = load_mesh(c, shape, path, file_materials, has_texture);
+    } catch (const Error& error) {
+      unreadable_.emplace(path, error.what());
+      if (!collides)
+        c.host().log(LogLevel::warning, quote(c.object_name(body)) + ": " + error.what() + "; it is not drawn");
+    }
+  if (const auto reason = unreadable_.find(path); reason != unreadable_.end() && collides)
+    mesh::refuse_collision_mesh(c, body, Error(reason->second));
   for (const ColoredSurface& part : entry->second) {
     instance.surface = part.surface;
     instance.radius = radii_[part.surface];

@@ -47,7 +47,8 @@ struct SolidShape {
 class Scene {
  public:
   /// Finds all shapes and binds the poses of their bodies. Circles become polygons that lie at most `tolerance` (m)
-  /// inside of them. Textures that cannot be read are left out with a warning. [setup]
+  /// inside of them. Textures and visual meshes that cannot be read are left out with a warning; one that is also a
+  /// collision mesh is refused: see mesh::refuse_collision_mesh. [setup]
   void connect(Connector& c, ShapeSource source, double tolerance);
 
   const std::vector<Surface>& surfaces() const { return surfaces_; }
@@ -74,6 +75,7 @@ class Scene {
   std::map<std::tuple<std::string, int, std::int32_t>, std::uint32_t> primitives_;
   /// By file and source of the material, and scale.
   std::map<std::tuple<std::string, double, double, double>, std::vector<ColoredSurface>> meshes_;
+  std::map<std::string, std::string> unreadable_;  ///< mesh files, and why
   std::map<std::string, std::int32_t> texture_numbers_;
   std::vector<double> radii_;  ///< of the surfaces
   std::vector<Surface> surfaces_;

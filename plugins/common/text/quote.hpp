@@ -5,20 +5,14 @@
 #include <string>
 #include <string_view>
 
+#include "muro/toolkit/printable.hpp"
+
 namespace muro {
 
-/// A name or value as it may stand in a message: in backquotes, of bounded length, printable.
+/// A name or value as it may stand in a message: in backquotes, of bounded length, with control characters as \xHH.
 inline std::string quote(std::string_view text) {
   constexpr std::size_t max = 256;
-  std::string shown(text.substr(0, max));
-  for (char& c : shown)
-    if (static_cast<unsigned char>(c) < ' ' || c == 0x7f) c = '?';
-  // a UTF-8 sequence is not cut in the middle
-  if (text.size() > max) {
-    while (!shown.empty() && (static_cast<unsigned char>(text[shown.size()]) & 0xc0) == 0x80) shown.pop_back();
-    shown += "...";
-  }
-  return "`" + shown + "`";
+  return "`" + shortened(printable(text), max) + "`";
 }
 
 /// "`a`, `b`, `c` and 4 more".

@@ -183,7 +183,33 @@ bool Check::complete_shape(Element& e) {
   if (!error.empty())
     problems_.warning(location_of(*shape),
                       concat("<", e.Name(), " name=", quote(attribute(e, "name")), "> is left out, as ", error));
+  else if (std::string_view(shape->Name()) == "mesh")
+    return find_mesh(e, *shape->FirstChildElement("uri"));
   return error.empty();
+}
+
+/// Puts the path of the file in place of the name. A mesh that is not found is an error of a collision, told once a
+/// file, and is left out of a visual.
+bool Check::find_mesh(const Element& body, Element& uri) {
+  const std::string name = text_of(uri),
+                    owner = concat("<", body.Name(), " name=", quote(attribute(body, "name")), ">");
+  const model_file::MeshPath found = model_file::find_mesh(name, source_.folder);
+  if (found.path.empty()) {
+    std::vector<std::string> paths;
+    for (const auto& path : found.searched) paths.push_back(path.string());
+    const std::string missing = concat("mesh ", quote(name), " is not found; looked for ", quoted_list(paths));
+    if (std::string_view(body.Name()) != "collision")
+      problems_.warning(location_of(uri), concat(owner, " is left out, as ", missing));
+    else if (missing_meshes_.insert(name).second)
+      problems_.error(location_of(uri), concat(owner, ": ", missing, "; ", model_file::advice_for_missing(name)));
+    return false;
+  }
+  if (found.other_case)
+    problems_.note(location_of(uri), concat("mesh ", quote(name), " is read from ", found.path,
+                                            ", whose name differs in upper and lower case"));
+  uri.DeleteChildren();
+  uri.SetText(found.path.c_str());
+  return true;
 }
 
 std::string Check::error_of_shape(Element& shape) {
@@ -209,20 +235,8 @@ std::string Check::error_of_shape(Element& shape) {
   }
   const auto scale = values_of(shape.FirstChildElement("scale"));
   if (std::any_of(scale.begin(), scale.end(), [](double s) { return s == 0; })) return "its <mesh> has a <scale> of 0";
-  Element* uri = shape.FirstChildElement("uri");
-  if (!uri || text_of(*uri).empty()) return "its <mesh> has no <uri>";
-  const model_file::MeshPath found = model_file::find_mesh(text_of(*uri), source_.folder);
-  if (found.path.empty()) {
-    std::vector<std::string> paths;
-    for (const auto& path : found.searched) paths.push_back(path.string());
-    return concat("mesh ", quote(text_of(*uri)), " is not found; looked for ", quoted_list(paths));
-  }
-  if (found.other_case)
-    problems_.note(location_of(*uri), concat("mesh ", quote(text_of(*uri)), " is read from ", found.path,
-                                             ", whose name differs in upper and lower case"));
-  uri->DeleteChildren();
-  uri->SetText(found.path.c_str());
-  return {};
+  const Element* uri = shape.FirstChildElement("uri");
+  return uri && !text_of(*uri).empty() ? "" : "its <mesh> has no <uri>";
 }
 
 }  // namespace muro::sdf

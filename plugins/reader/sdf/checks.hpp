@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <set>
+
 #include "schema.hpp"
 #include "source_file.hpp"
 
@@ -45,6 +47,7 @@ class Check {
   bool complete_joint(Element& joint);
   void take_mimic(Element& joint, Element& axis, int number);
   bool complete_shape(Element& e);
+  bool find_mesh(const Element& body, Element& uri);
   void find_picture(Element& workflow);
   std::string error_of_shape(Element& shape);
   bool complete_include(Element& include);
@@ -59,6 +62,7 @@ class Check {
   SourceFiles& sources_;
   Problems& problems_;
   std::vector<Unsupported> unsupported_;
+  std::set<std::string> missing_meshes_;  ///< of collisions, by the name in the file
 };
 
 /// The value of an attribute, or "".

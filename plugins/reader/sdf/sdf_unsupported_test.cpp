@@ -163,6 +163,19 @@ TEST(SdfUnsupported, ShapesLeaveTheirCollisionOut) {
              "mesh"}));
 }
 
+TEST(SdfUnsupported, AMeshThatIsNotThereIsAnErrorOfACollisionAndAWarningOfAVisual) {
+  const std::string mesh = "<geometry><mesh><uri>gone.stl</uri></mesh></geometry>",
+                    collision =
+                        "<collision name='c'>" + mesh + "</collision>\n<collision name='d'>" + mesh + "</collision>",
+                    visual = "<visual name='v'>" + mesh + "</visual>";
+  EXPECT_EQ(reports_of("link", collision),
+            Lines{"error 4:37 <collision name=`c`>: mesh `gone.stl` is not found; looked for `/nowhere/gone.stl`; "
+                  "correct its path"});
+  EXPECT_EQ(reports_of("link", visual),
+            Lines{"warning 4:34 <visual name=`v`> is left out, as mesh `gone.stl` is not found; looked for "
+                  "`/nowhere/gone.stl`"});
+}
+
 TEST(SdfUnsupported, OfAMeshAllSubmeshesAreUsed) {
   const test::ScratchFolder folder;
   folder.file("m.dae", "");

@@ -18,13 +18,15 @@ void Bodies::fill(const ::urdf::Link& link, const LinkInfo& info) {
   std::vector<Shape> collisions, visuals;
   for (std::size_t i = 0; i < link.collision_array.size(); ++i) {
     const ::urdf::Collision& c = *link.collision_array[i];
-    if (c.geometry) add_shape(collisions, *c.geometry, pose_of(c.origin, info.collision_rotations.at(i)), link, info);
+    if (!c.geometry) continue;
+    const Pose origin = pose_of(c.origin, info.collision_rotations.at(i));
+    add_shape(collisions, Purpose::collision, *c.geometry, origin, link, info);
   }
   for (std::size_t i = 0; i < link.visual_array.size(); ++i) {
     const auto& v = link.visual_array[i];
     if (!v->geometry) continue;
     const std::size_t before = visuals.size();
-    add_shape(visuals, *v->geometry, pose_of(v->origin, info.visual_rotations.at(i)), link, info);
+    add_shape(visuals, Purpose::visual, *v->geometry, pose_of(v->origin, info.visual_rotations.at(i)), link, info);
     if (!v->material || visuals.size() == before) continue;
     const ::urdf::Color& c = v->material->color;
     visuals.back().color = Eigen::Vector4f(c.r, c.g, c.b, c.a).cast<double>();
@@ -40,8 +42,8 @@ void Bodies::fill(const ::urdf::Link& link, const LinkInfo& info) {
   if (!visuals.empty()) builder_.set_array<Shape>(keys::visual_shapes, visuals);
 }
 
-void Bodies::add_shape(std::vector<Shape>& shapes, const ::urdf::Geometry& geometry, const Pose& origin,
-                       const ::urdf::Link& link, const LinkInfo& info) {
+void Bodies::add_shape(std::vector<Shape>& shapes, Purpose purpose, const ::urdf::Geometry& geometry,
+                       const Pose& origin, const ::urdf::Link& link, const LinkInfo& info) {
   Shape shape;
   switch (geometry.type) {
     case ::urdf::Geometry::BOX: {
@@ -58,7 +60,7 @@ void Bodies::add_shape(std::vector<Shape>& shapes, const ::urdf::Geometry& geome
       break;
     }
     case ::urdf::Geometry::MESH:
-      if (!add_mesh(shape, static_cast<const ::urdf::Mesh&>(geometry), link, info)) return;
+      if (!add_mesh(shape, purpose, static_cast<const ::urdf::Mesh&>(geometry), link, info)) return;
       break;
   }
   shape.origin = origin;
@@ -76,29 +78,44 @@ void Bodies::add_texture(Shape& shape, const std::string& name, const ::urdf::Li
     shape.texture = builder_.intern(found.path);
 }
 
-bool Bodies::add_mesh(Shape& shape, const ::urdf::Mesh& mesh, const ::urdf::Link& link, const LinkInfo& info) {
-  auto [entry, fresh] = meshes_.try_emplace(mesh.filename);
+/// Once a file: an error where a robot would collide with nothing, a warning where it would only look different.
+void Bodies::report_missing(NamedMesh& mesh, Purpose purpose, const std::string& name, const ::urdf::Link& link,
+                            const LinkInfo& info) {
+  const bool is_error = purpose == Purpose::collision;
+  if (mesh.is_error || (mesh.is_told && !is_error)) return;
+  mesh.is_told = true;
+  mesh.is_error = is_error;
+  std::vector<std::string> paths;
+  for (const auto& path : mesh.found.searched) paths.push_back(path.string());
+  std::string where;
+  constexpr std::size_t max = 6;
+  for (std::size_t i = 0; i < std::min(max, paths.size()); ++i) where += (i ? ", " : "") + paths[i];
+  if (paths.size() > max) where += concat(" and ", paths.size() - max, " more places");
+  if (is_error)
+    problems_.error(info.location,
+                    concat(owner_of(link), ": collision mesh ", quote(name), " is not found; looked for ", where, "; ",
+                           model_file::advice_for_missing(name)));
+  else
+    problems_.warning(info.location,
+                      concat(owner_of(link), ": mesh ", quote(name), " is not found and left out; looked for ", where));
+}
+
+bool Bodies::add_mesh(Shape& shape, Purpose purpose, const ::urdf::Mesh& mesh, const ::urdf::Link& link,
+                      const LinkInfo& info) {
+  const auto [entry, fresh] = meshes_.try_emplace(mesh.filename);
+  model_file::MeshPath& found = entry->second.found;
   if (fresh) {
-    entry->second = model_file::find_mesh(mesh.filename, folder_);
-    const model_file::MeshPath& found = entry->second;
-    if (found.path.empty()) {
-      std::vector<std::string> paths;
-      for (const auto& path : found.searched) paths.push_back(path.string());
-      std::string where;
-      constexpr std::size_t max = 6;
-      for (std::size_t i = 0; i < std::min(max, paths.size()); ++i) where += (i ? ", " : "") + paths[i];
-      if (paths.size() > max) where += concat(" and ", paths.size() - max, " more places");
-      problems_.warning(info.location, concat(owner_of(link), ": mesh ", quote(mesh.filename),
-                                              " is not found and left out; ", "looked for ", where));
-    } else if (found.other_case) {
+    found = model_file::find_mesh(mesh.filename, folder_);
+    if (found.other_case)
       problems_.note(info.location, concat(owner_of(link), ": mesh ", quote(mesh.filename), " is read from ",
                                            found.path, ", whose name differs in upper and lower case"));
-    }
   }
-  if (entry->second.path.empty()) return false;
-  shape = {.kind = ShapeKind::mesh,
-           .mesh = builder_.intern(entry->second.path),
-           .size = {mesh.scale.x, mesh.scale.y, mesh.scale.z}};
+  if (found.path.empty()) {
+    report_missing(entry->second, purpose, mesh.filename, link, info);
+    return false;
+  }
+  shape = {
+      .kind = ShapeKind::mesh, .mesh = builder_.intern(found.path), .size = {mesh.scale.x, mesh.scale.y, mesh.scale.z}};
   return true;
 }
 

@@ -28,16 +28,25 @@ class Bodies {
   double mass() const { return mass_; }
 
  private:
-  void add_shape(std::vector<Shape>& shapes, const ::urdf::Geometry& geometry, const Pose& origin,
+  enum class Purpose { collision, visual };
+  struct NamedMesh {
+    model_file::MeshPath found;
+    bool is_told = false, is_error = false;  ///< where it is not found
+  };
+
+  void add_shape(std::vector<Shape>& shapes, Purpose purpose, const ::urdf::Geometry& geometry, const Pose& origin,
                  const ::urdf::Link& link, const LinkInfo& info);
   void add_texture(Shape& shape, const std::string& name, const ::urdf::Link& link, const LinkInfo& info);
-  bool add_mesh(Shape& shape, const ::urdf::Mesh& mesh, const ::urdf::Link& link, const LinkInfo& info);
+  bool add_mesh(Shape& shape, Purpose purpose, const ::urdf::Mesh& mesh, const ::urdf::Link& link,
+                const LinkInfo& info);
+  void report_missing(NamedMesh& mesh, Purpose purpose, const std::string& name, const ::urdf::Link& link,
+                      const LinkInfo& info);
   Inertia inertial_of(const ::urdf::Link& link, const LinkInfo& info, std::span<const Shape> shapes);
 
   std::filesystem::path folder_;
   RobotBuilder& builder_;
   Problems& problems_;
-  std::map<std::string, model_file::MeshPath> meshes_;  ///< by the name in the file
+  std::map<std::string, NamedMesh> meshes_;  ///< by the name in the file
   double mass_ = 0;
 };
 

@@ -195,7 +195,7 @@ TEST(UrdfText, FilesThatCannotBeReadAreErrorsWithTheirPath) {
 }
 
 TEST(UrdfText, NamesInMessagesAreShortAndPrintable) {
-  EXPECT_EQ(quote("a\tb\x1b[31m"), "`a?b?[31m`");
+  EXPECT_EQ(quote("a\tb\x1b[31m"), "`a\\x09b\\x1b[31m`");
   EXPECT_EQ(quote(std::string(300, 'x')), "`" + std::string(256, 'x') + "...`");
   std::string umlauts;
   for (int i = 0; i < 200; ++i) umlauts += "\xc3\xa4";

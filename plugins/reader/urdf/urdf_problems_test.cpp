@@ -164,15 +164,36 @@ TEST(UrdfProblems, ShapesThatAreLeftOut) {
   EXPECT_EQ(of("<geometry><box size='1 0 1'/></geometry>"),
             Lines{"warning 3:37 link `b`: a <collision> is left out, as its <box> has a size that is not above 0"});
   EXPECT_EQ(
-      of("<geometry><mesh filename='file:///no/where.stl'/></geometry>"),
-      Lines{"warning 3:1 link `b`: mesh `file:///no/where.stl` is not found and left out; looked for /no/where.stl"});
-  EXPECT_EQ(of("<geometry><mesh filename='m/x.STL'/></geometry>"),
-            Lines{"warning 3:1 link `b`: mesh `m/x.STL` is not found and left out; looked for /nowhere/m/x.STL"});
-  EXPECT_EQ(
       of("<geometry><sphere radius='1'/><sphere radius='2'/></geometry>"),
       Lines{
           "warning 3:27 link `b`: <geometry> holds several shapes; only the first one counts. Give each a <collision> "
           "of its own"});
+}
+
+TEST(UrdfProblems, ACollisionMeshThatIsNotThereIsAnErrorOnceAFile) {
+  const std::string file = "<geometry><mesh filename='file:///no/where.stl'/></geometry>",
+                    collision = "<collision>" + file + "</collision>";
+  const std::string error =
+      "error 3:1 link `b`: collision mesh `file:///no/where.stl` is not found; looked for /no/where.stl; correct its "
+      "path";
+  EXPECT_EQ(problems_of(link(collision)), Lines{error});
+  EXPECT_EQ(problems_of(link(collision + collision + "<visual>" + file + "</visual>")), Lines{error});
+  EXPECT_EQ(problems_of(link("<collision><geometry><mesh filename='m/x.STL'/></geometry></collision>")),
+            Lines{"error 3:1 link `b`: collision mesh `m/x.STL` is not found; looked for /nowhere/m/x.STL; correct its "
+                  "path"});
+  const Lines in_package =
+      problems_of(link("<collision><geometry><mesh filename='package://arm/x.stl'/></geometry></collision>"));
+  ASSERT_EQ(in_package.size(), 1u);
+  EXPECT_TRUE(
+      in_package[0].ends_with("; correct its path, or add the folder that holds the package to "
+                              "ROS_PACKAGE_PATH"))
+      << in_package[0];
+}
+
+TEST(UrdfProblems, AVisualMeshThatIsNotThereIsLeftOutWithAWarning) {
+  EXPECT_EQ(problems_of(link("<visual><geometry><mesh filename='file:///no/where.stl'/></geometry></visual>")),
+            Lines{"warning 3:1 link `b`: mesh `file:///no/where.stl` is not found and left out; looked for "
+                  "/no/where.stl"});
 }
 
 TEST(UrdfProblems, MaterialsThatShowNoColour) {

@@ -7,6 +7,7 @@
 
 #include "muro/toolkit/bounds.hpp"
 #include "muro/vocabulary.hpp"
+#include "plugins/common/mesh/collision_mesh.hpp"
 #include "plugins/common/text/quote.hpp"
 #include "swept_box.hpp"
 
@@ -44,7 +45,7 @@ constinit const Description description{
     .capabilities = deterministic | allocation_free | restorable,
 };
 
-/// The shape itself, or the bounding box of a mesh. None, with a warning, if the mesh cannot be read.
+/// The shape itself, or the bounding box of a mesh. None if an algorithm before has refused a mesh.
 std::optional<Shape> SceneBvh::bounding_shape(Connector& c, ObjectId body, const Shape& shape) {
   if (shape.kind != ShapeKind::mesh) return shape;
   const std::string path(c.text(shape.mesh));
@@ -54,9 +55,7 @@ std::optional<Shape> SceneBvh::bounding_shape(Connector& c, ObjectId body, const
     around.origin = shape.origin * Pose{0.5 * (box.low + box.high), Quat::Identity()};
     return around;
   } catch (const Error& error) {
-    if (unread_.insert(path).second)
-      c.host().log(LogLevel::warning, quote(c.object_name(body)) + ": " + error.what() +
-                                          "; scene.bvh leaves it out, so nothing collides with it");
+    mesh::refuse_collision_mesh(c, body, error);
     return std::nullopt;
   }
 }

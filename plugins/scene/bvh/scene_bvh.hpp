@@ -48,7 +48,6 @@ class SceneBvh final : public Algorithm {
   std::uint32_t scenery_ = 0;  ///< so many colliders at the front are scenery
 
   mesh::Store meshes_;
-  std::set<std::string> unread_;        ///< mesh files warned of
   std::vector<Shape> bounding_shapes_;  ///< by collider: itself; of a mesh its bounding box
 
   std::vector<RobotGroup<std::vector<RoundedBox>>> groups_;  ///< of robots that have bounds

@@ -84,24 +84,16 @@ TEST(SceneBvh, AFatAabbReachesFurtherToWhereItsRobotGoes) {
   EXPECT_NEAR(double(changes_on_the_way(-7)), 39.5, 1);
 }
 
-TEST(SceneBvh, KnowsBoundsOfMeshesAndWarnsOnceOfAnUnreadableOne) {
+TEST(SceneBvh, KnowsBoundsOfMeshes) {
   const test::ScratchFolder folder;
   CollisionScene scene;
-  std::vector<std::string> lines;
-  scene.set_log([&](LogLevel level, std::string_view text) {
-    if (level == LogLevel::warning && text.find("scene.bvh") != text.npos) lines.emplace_back(text);
-  });
   World& world = scene.world();
-  const Shape rock = mesh_shape(world, folder.file("rock.obj", wedge)),
-              missing = mesh_shape(world, folder.path("missing.obj"));
+  const Shape rock = mesh_shape(world, folder.file("rock.obj", wedge));
   const Quat quarter = rotation_of({0, 0, M_PI / 2});
   world.add_scenery("rock", {{10, 0, 0}, quarter}, std::span<const Shape>(&rock, 1));
-  for (const char* name : {"a", "b"}) world.add_scenery(name, {}, std::span<const Shape>(&missing, 1));
   const RobotView& r = scene.add_dynamic("rover", meshed_body(folder.path("rock.obj")), {{-5, 0, 1}, quarter});
   scene.finish_setup();
   scene.step_once();
-  ASSERT_EQ(lines.size(), 1u);
-  EXPECT_NE(lines[0].find("missing.obj is not there"), std::string::npos) << lines[0];
   const SceneIndex& index = world.value(world_object, keys::scene_index);
   ASSERT_EQ(index.colliders.size(), 3u);
   ASSERT_EQ(index.scenery.nodes.size(), 1u);
@@ -111,6 +103,31 @@ TEST(SceneBvh, KnowsBoundsOfMeshesAndWarnsOnceOfAnUnreadableOne) {
   EXPECT_LT((bounds.low - Vec3(-7, -0.05, 0.95)).norm(), 1e-6) << bounds.low.transpose();
   EXPECT_LT((bounds.high - Vec3(-4.95, 1, 5)).norm(), 1e-6) << bounds.high.transpose();
   EXPECT_EQ(index.moving.items.size(), 1u);
+}
+
+TEST(SceneBvh, AMeshThatCannotBeReadIsAnError) {
+  const test::ScratchFolder folder;
+  for (const bool of_robot : {false, true}) {
+    CollisionScene scene;
+    const Shape missing = mesh_shape(scene.world(), folder.path("missing.obj"));
+    if (of_robot)
+      scene.add_dynamic("rover", meshed_body(folder.path("missing.obj")), {});
+    else
+      scene.add_dynamic("ball", Shape::sphere(0.3), {});
+    if (!of_robot)
+      for (const char* name : {"a", "b"}) scene.world().add_scenery(name, {}, std::span<const Shape>(&missing, 1));
+    try {
+      scene.finish_setup();
+      ADD_FAILURE();
+    } catch (const SetupError& e) {
+      const std::string message = e.what(), body = of_robot ? "`rover/body`" : "`a`";
+      EXPECT_NE(message.find("(scene.bvh) cannot be connected: " + body + ": mesh " + folder.path("missing.obj") +
+                             " is not there; give the path of a DAE, STL, OBJ or glTF file"),
+                message.npos)
+          << message;
+      EXPECT_EQ(message.find('\n'), message.npos) << message;
+    }
+  }
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "muro/algorithm.hpp"
 #include "muro/vocabulary.hpp"
+#include "plugins/common/mesh/collision_mesh.hpp"
 #include "plugins/common/mesh/mesh.hpp"
 #include "plugins/common/scanner/scratch.hpp"
 
@@ -29,7 +30,8 @@ Embree::Embree() : device_(rtcNewDevice("threads=1")) {
 }
 
 Embree::~Embree() {
-  for (const auto& [name, scene] : meshes_) rtcReleaseScene(scene);
+  for (const auto& [name, scene] : meshes_)
+    if (scene) rtcReleaseScene(scene);
   rtcReleaseScene(scene_);
   rtcReleaseDevice(device_);
 }
@@ -63,8 +65,10 @@ void Embree::add(Connector& c, const BodyShape& s) {
   if (s.shape.kind == ShapeKind::plane) {
     planes_.push_back(s);
   } else if (s.shape.kind == ShapeKind::mesh) {
+    RTCScene scene = mesh(c, s);
+    if (!scene) return;
     MeshInstance instance{s, rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE)};
-    rtcSetGeometryInstancedScene(instance.geometry, mesh(std::string(c.text(s.shape.mesh)), s.shape.size));
+    rtcSetGeometryInstancedScene(instance.geometry, scene);
     rtcSetGeometryTimeStepCount(instance.geometry, 1);
     mesh_instances_.push_back(instance);
   } else {
@@ -72,10 +76,18 @@ void Embree::add(Connector& c, const BodyShape& s) {
   }
 }
 
-RTCScene Embree::mesh(const std::string& path, const Vec3& scale) {
+RTCScene Embree::mesh(Connector& c, const BodyShape& s) {
+  const std::string path(c.text(s.shape.mesh));
+  const Vec3& scale = s.shape.size;
   const auto [entry, is_new] = meshes_.try_emplace({path, scale.x(), scale.y(), scale.z()}, nullptr);
   if (!is_new) return entry->second;
-  const mesh::Mesh m = mesh::load(path, scale);
+  mesh::Mesh m;
+  try {
+    m = mesh::load(path, scale);
+  } catch (const Error& error) {
+    mesh::refuse_collision_mesh(c, s.body.object, error);
+    return nullptr;
+  }
   RTCGeometry g = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
   auto* corners = static_cast<float*>(
       rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), m.vertices.size()));

@@ -39,7 +39,8 @@ class Embree final : public scanner::Method {
   /// Throws Error when a call of Embree has failed.
   void check() const;
   void add(Connector& c, const BodyShape& shape);
-  RTCScene mesh(const std::string& path, const Vec3& scale);
+  /// Null where it has been refused: see mesh::refuse_collision_mesh.
+  RTCScene mesh(Connector& c, const BodyShape& s);
   void place(const MeshInstance& instance) const;
   static void skip_ignored_robot(const RTCFilterFunctionNArguments* a);
   /// Shapes and meshes, sixteen rays at a time.

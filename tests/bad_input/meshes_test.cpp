@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+// Collision meshes that cannot be read, as a user would hand them to the program: one message with the scenario's line,
+// the body, the file, the cause and what to do, and exit code 2, whoever of the algorithms reads them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+
+#include "tests/support/files.hpp"
+
+namespace muro {
+namespace {
+
+const std::string program = "MURO_PLUGIN_PATH=" MURO_TEST_PLUGIN_DIR " " MURO_PROGRAM " ";
+
+bool is_there(const std::string& plugin) {
+  static const std::string all = "\n" + test::run_command(program + "plugins list").output;
+  return all.find("\n" + plugin + " ") != all.npos;
+}
+
+/// Binary glTF of 22 bytes that says that it is 2 GB long.
+std::string glb_of_two_gigabytes() {
+  std::string bytes = "glTF";
+  for (const std::uint32_t word : {2u, 0x7fffffffu, 0x7ffffff0u, 0x4e4f534au})
+    bytes.append(reinterpret_cast<const char*>(&word), sizeof word);
+  return bytes + "{}";
+}
+
+constexpr const char* tetrahedron = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 4 3\nf 1 2 4\nf 2 3 4\n";
+
+std::string collision_of_meshes() {
+  for (const char* collision : {"collision.bullet", "collision.fcl", "collision.ode"})
+    if (is_there(collision)) return std::string("algorithms: {collision: {use: ") + collision + "}}\n";
+  return "";
+}
+
+/// A rock that is a mesh, and balls and algorithms that touch and see it, each by another engine.
+std::string scenario_of(const std::string& file) {
+  std::string text = "world: {objects: {rock: {shape: {mesh: " + file + "}}}}\nrobots:\n";
+  const std::string laser = is_there("laser.embree") ? ", lidar: {use: laser.embree, rate: 10}" : "",
+                    camera = is_there("camera.opengl") ? ", eye: {use: camera.opengl, rate: 10}" : "";
+  for (const char* motion : {"simplified", "bullet", "ode", "mujoco"})
+    if (is_there(std::string("motion.") + motion))
+      text += std::string("  ") + motion + ": {shape: {sphere: 0.5}, mass: 1, at: {z: 9}, motion: {use: motion." +
+              motion + "}" + laser + camera + "}\n";
+  return text + collision_of_meshes();
+}
+
+/// A robot of one link, whose `element` is a mesh.
+std::string urdf_with(const std::string& element, const std::string& mesh) {
+  return "<robot name='r'><link name='base'><inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' "
+         "ixz='0' iyz='0'/></inertial><" +
+         element + "><geometry><mesh filename='" + mesh + "'/></geometry></" + element + "></link></robot>";
+}
+
+/// The only line that `check` and `run` print, both with exit code 2, without the folder's path.
+std::string complaint_about(const test::ScratchFolder& folder, const std::string& scenario,
+                            const std::string& environment = "") {
+  const std::string path = folder.file("s.yaml", scenario);
+  const auto check = test::run_command(environment + " " + program + "check " + path),
+             run = test::run_command(environment + " " + program + "run --duration 0.01 " + path);
+  EXPECT_EQ(check.exit_code, 2);
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_EQ(check.output, run.output);
+  EXPECT_EQ(std::count(run.output.begin(), run.output.end(), '\n'), 1) << run.output;
+  std::string text = run.output;
+  const std::string root = folder.path("");
+  for (std::size_t at = 0; (at = text.find(root)) != text.npos;) text.erase(at, root.size());
+  return text;
+}
+
+void expect_words(const std::string& text, std::initializer_list<const char*> words) {
+  for (const char* word : words) EXPECT_NE(text.find(word), text.npos) << text;
+}
+
+TEST(ACollisionMesh, ThatSaysItIsLongerThanItIsEndsTheSetUp) {
+  const test::ScratchFolder folder;
+  folder.file("rock.glb", glb_of_two_gigabytes());
+  const std::string text = complaint_about(folder, scenario_of("rock.glb"));
+  expect_words(text, {"s.yaml:", "cannot be connected: `rock`: mesh rock.glb cannot be read: ", "; "});
+}
+
+TEST(ACollisionMesh, ThatTheParserProcessDiesOfEndsTheSetUp) {
+  const test::ScratchFolder folder;
+  folder.file("rock.obj", tetrahedron);
+  expect_words(complaint_about(folder, scenario_of("rock.obj"), "MURO_PARSER_SECONDS=0.0001"),
+               {"s.yaml:", "`rock`: mesh rock.obj cannot be read: that took more than ",
+                "MURO_PARSER_SECONDS=SECONDS allows more", "; the file is probably damaged: write it anew"});
+}
+
+TEST(ACollisionMesh, OfARobotEndsTheSetUpToo) {
+  const test::ScratchFolder folder;
+  folder.file("rock.glb", glb_of_two_gigabytes());
+  folder.file("r.urdf", urdf_with("collision", "rock.glb"));
+  for (const char* motion : {"simplified", "bullet"}) {
+    if (!is_there(std::string("motion.") + motion)) continue;
+    const std::string robots =
+        "robots: {r: {model: r.urdf, count: 3, place: {grid: {count: [3, 1], spacing: [3, 3]}}, "
+        "motion: {use: motion." +
+        std::string(motion) + "}}}\n" + collision_of_meshes();
+    expect_words(complaint_about(folder, robots), {"cannot be connected: `r_0/base`: mesh rock.glb cannot be read: "});
+  }
+}
+
+TEST(ACollisionMesh, ThatIsNotThereEndsTheSetUp) {
+  const test::ScratchFolder folder;
+  EXPECT_EQ(complaint_about(folder, scenario_of("rock.stl")), "s.yaml:1:40: mesh file rock.stl does not exist\n");
+  folder.file("r.urdf", urdf_with("collision", "rock.stl"));
+  if (!is_there("reader.urdf")) return;
+  const std::string scenario = "robots: {r: {model: r.urdf, motion: {use: motion.simplified}}}\n";
+  EXPECT_EQ(complaint_about(folder, scenario),
+            "s.yaml:1:21: robot `r`: model r.urdf:1:17: link `base`: collision mesh `rock.stl` is not found; looked "
+            "for rock.stl; correct its path\n");
+}
+
+TEST(AVisualMesh, ThatCannotBeReadIsAWarning) {
+  if (!is_there("camera.opengl")) return;
+  const test::ScratchFolder folder;
+  folder.file("rock.glb", glb_of_two_gigabytes());
+  folder.file("r.urdf", urdf_with("visual", "rock.glb"));
+  const std::string path = folder.file("s.yaml",
+                                       "robots: {r: {model: r.urdf, motion: {use: motion.simplified}, "
+                                       "eye: {use: camera.opengl, rate: 10}}}\n");
+  const auto result = test::run_command(program + "check " + path);
+  EXPECT_EQ(result.exit_code, 0) << result.output;
+  expect_words(result.output, {"`r/base`: mesh ", "rock.glb cannot be read: ", "; it is not drawn\n"});
+}
+
+}  // namespace
+}  // namespace muro
