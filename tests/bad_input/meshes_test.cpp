@@ -97,7 +97,7 @@ TEST(ACollisionMesh, OfARobotEndsTheSetUpToo) {
     const std::string robots =
         "robots: {r: {model: r.urdf, count: 3, place: {grid: {count: [3, 1], spacing: [3, 3]}}, "
         "motion: {use: motion." +
-        std::string(motion) + "}}}\n" + collision_of_meshes();
+        std::string(motion) + "}, lidar: {use: laser.raycast, rate: 10}}}\n";
     expect_words(complaint_about(folder, robots), {"cannot be connected: `r_0/base`: mesh rock.glb cannot be read: "});
   }
 }

@@ -6,11 +6,13 @@
 #include <vector>
 
 #include "muro/vocabulary.hpp"
+#include "plugins/common/mesh/collision_mesh.hpp"
 #include "plugins/common/text/quote.hpp"
 
 namespace muro::native {
 
 void warn_of_meshes(Connector& c) {
+  if (mesh::is_any_refused(c)) return;
   std::vector<TextId> warned;
   for (std::uint32_t i = 0; i < c.object_count(); ++i)
     for (const Shape& s : c.constant_array(ObjectId{i}, keys::collision_shapes)) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A laser scanner by exact ray casting; see README.md.
 #include "plugins/common/laser_methods/raycast/raycast_method.hpp"
+#include "plugins/common/mesh/collision_mesh.hpp"
 #include "plugins/common/scanner/scanner.hpp"
 
 namespace {
@@ -27,7 +28,7 @@ class Raycast final : public scanner::Scanner {
   void connect(Connector& c) override {
     Scanner::connect(c);
     const raycast::MeshCount meshes = raycast::count_meshes(c);
-    if (meshes.count > 0)
+    if (meshes.count > 0 && !mesh::is_any_refused(c))
       c.host().log(LogLevel::warning, "laser.raycast does not see meshes: " + std::to_string(meshes.count) +
                                           " collision shapes are left out, the first on " +
                                           std::string(meshes.first_object) +
