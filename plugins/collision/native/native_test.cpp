@@ -156,26 +156,37 @@ TEST(CollisionNative, ListsAreSortedAndFreeOfDoubles) {
 
 TEST(CollisionNative, WarnsOfEachMeshFileOnceAndTouchesTheOtherShapes) {
   const test::ScratchFolder folder;
-  for (const std::string& file : {folder.file("rock.obj", wedge), folder.path("missing.obj")}) {
-    CollisionScene scene;
-    std::vector<std::string> lines;
-    scene.set_log([&](LogLevel level, std::string_view text) {
-      if (level == LogLevel::warning && text.find("collision.native") != text.npos) lines.emplace_back(text);
-    });
-    const Shape shapes[] = {mesh_shape(scene.world(), file), Shape::box({1, 1, 1})};
-    for (const char* name : {"rock1", "rock2"}) scene.world().add_scenery(name, {}, std::span<const Shape>(shapes));
-    const RobotView& r = scene.add_dynamic("ball", Shape::sphere(0.2), {{0.6, 0, 0}, Quat::Identity()});
-    const RobotView& meshed = scene.add_dynamic("meshed", meshed_body(file), {{0, 0.5, 0}, Quat::Identity()});
-    scene.finish_setup();
-    scene.step_once();
-    ASSERT_EQ(lines.size(), 1u);
-    EXPECT_NE(lines[0].find(file), std::string::npos) << lines[0];
-    const auto contacts = scene.contacts(r);
-    ASSERT_EQ(contacts.size(), 2u);
-    for (const Contact& c : contacts) EXPECT_EQ(c.other_shape, 1u);
-    ASSERT_GT(scene.contacts(meshed).size(), 0u);
-    for (const Contact& c : scene.contacts(meshed)) EXPECT_NE(c.self_shape, 0u);
-  }
+  const std::string file = folder.file("rock.obj", wedge);
+  CollisionScene scene;
+  std::vector<std::string> lines;
+  scene.set_log([&](LogLevel level, std::string_view text) {
+    if (level == LogLevel::warning && text.find("collision.native") != text.npos) lines.emplace_back(text);
+  });
+  const Shape shapes[] = {mesh_shape(scene.world(), file), Shape::box({1, 1, 1})};
+  for (const char* name : {"rock1", "rock2"}) scene.world().add_scenery(name, {}, std::span<const Shape>(shapes));
+  const RobotView& r = scene.add_dynamic("ball", Shape::sphere(0.2), {{0.6, 0, 0}, Quat::Identity()});
+  const RobotView& meshed = scene.add_dynamic("meshed", meshed_body(file), {{0, 0.5, 0}, Quat::Identity()});
+  scene.finish_setup();
+  scene.step_once();
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_NE(lines[0].find(file), std::string::npos) << lines[0];
+  const auto contacts = scene.contacts(r);
+  ASSERT_EQ(contacts.size(), 2u);
+  for (const Contact& c : contacts) EXPECT_EQ(c.other_shape, 1u);
+  ASSERT_GT(scene.contacts(meshed).size(), 0u);
+  for (const Contact& c : scene.contacts(meshed)) EXPECT_NE(c.self_shape, 0u);
+}
+
+TEST(CollisionNative, SaysNothingOfAMeshThatEndsTheSetUp) {
+  const test::ScratchFolder folder;
+  CollisionScene scene;
+  std::string warnings;
+  scene.set_log([&](LogLevel level, std::string_view text) {
+    if (level == LogLevel::warning) warnings += text;
+  });
+  scene.add_dynamic("meshed", meshed_body(folder.path("missing.obj")), {});
+  EXPECT_THROW(scene.finish_setup(), SetupError);
+  EXPECT_EQ(warnings, "");
 }
 
 }  // namespace
