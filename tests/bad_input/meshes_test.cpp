@@ -113,6 +113,16 @@ TEST(ACollisionMesh, ThatIsNotThereEndsTheSetUp) {
             "for rock.stl; correct its path\n");
 }
 
+/// What is compared with all that share a vertex would take minutes.
+TEST(ACollisionMesh, OfManyTrianglesAtOnePlaceIsReadInTime) {
+  const test::ScratchFolder folder;
+  std::string text = tetrahedron;
+  for (int i = 0; i < 100000; ++i) text += "f 1 3 2\n";
+  folder.file("rock.obj", text);
+  const auto result = test::run_command(program + "check " + folder.file("s.yaml", scenario_of("rock.obj")));
+  EXPECT_EQ(result.exit_code, 0) << result.output;
+}
+
 TEST(AVisualMesh, ThatCannotBeReadIsAWarning) {
   if (!is_there("camera.opengl")) return;
   const test::ScratchFolder folder;

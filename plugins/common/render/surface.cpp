@@ -14,6 +14,8 @@ using std::numbers::pi;
 namespace {
 
 constexpr double smooth_angle = 40 * pi / 180;
+/// Where more triangles than this share a vertex, its normals are those of the triangles: each is compared with each.
+constexpr std::size_t max_smooth_triangles = 1000;
 
 Vertex vertex(const Vec3& position, const Vec3& normal, double across = 0, double down = 0) {
   return {{float(position.x()), float(position.y()), float(position.z())},
@@ -116,13 +118,17 @@ Surface surface_of(const mesh::Mesh& mesh) {
     const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
     normals.push_back(Vec3(b - a).cross(Vec3(c - a)));
   }
+  const double smooth = elementary::cos(smooth_angle);
   Surface s;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
     for (const std::uint32_t corner : mesh.triangles[i]) {
       Vec3 sum = Vec3::Zero();
-      for (const std::uint32_t other : around[corner])
-        if (normals[i].dot(normals[other]) >= elementary::cos(smooth_angle) * normals[i].norm() * normals[other].norm())
-          sum += normals[other];
+      if (around[corner].size() > max_smooth_triangles)
+        sum = normals[i];
+      else
+        for (const std::uint32_t other : around[corner])
+          if (normals[i].dot(normals[other]) >= smooth * normals[i].norm() * normals[other].norm())
+            sum += normals[other];
       s.indices.push_back(std::uint32_t(s.vertices.size()));
       s.vertices.push_back(vertex(mesh.vertices[corner], sum.normalized()));
     }
