@@ -24,7 +24,9 @@ Shape read_mesh(MapReader& map, std::string& mesh, Problems& problems) {
   const Location& at = map.find("mesh")->location;
   mesh = resolve_path(at, map.text("mesh", ""));
   std::error_code code;
-  if (!fs::is_regular_file(mesh, code)) problems.add(at, "mesh file " + mesh + " does not exist");
+  if (!fs::is_regular_file(mesh, code))
+    problems.add(at,
+                 "mesh file " + mesh + " does not exist; correct its path, which starts at the folder of this file");
   return shape;
 }
 

@@ -104,7 +104,9 @@ TEST(ACollisionMesh, OfARobotEndsTheSetUpToo) {
 
 TEST(ACollisionMesh, ThatIsNotThereEndsTheSetUp) {
   const test::ScratchFolder folder;
-  EXPECT_EQ(complaint_about(folder, scenario_of("rock.stl")), "s.yaml:1:40: mesh file rock.stl does not exist\n");
+  EXPECT_EQ(
+      complaint_about(folder, scenario_of("rock.stl")),
+      "s.yaml:1:40: mesh file rock.stl does not exist; correct its path, which starts at the folder of this file\n");
   folder.file("r.urdf", urdf_with("collision", "rock.stl"));
   if (!is_there("reader.urdf")) return;
   const std::string scenario = "robots: {r: {model: r.urdf, motion: {use: motion.simplified}}}\n";
