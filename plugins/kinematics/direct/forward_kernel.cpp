@@ -54,6 +54,42 @@ struct States {
   }
 };
 
+/// Sine and cosine of half the angles of revolute joints, in the order of their links. For one robot several joints are
+/// computed at a time.
+template <class S>
+class HalfAngles {
+ public:
+  MURO_INLINE HalfAngles(const TreeLink* links, const StateOffsets* offsets, int link_count, const States<S>& states)
+      : links_(links), offsets_(offsets), link_count_(link_count), states_(states) {}
+
+  /// Of the joint of link `k`.
+  MURO_INLINE SinCos<S> of(int k) {
+    if constexpr (count_of < S >> 1) {
+      return sincos(S(0.5) * load(states_.positions, offsets_[k].position));
+    } else {
+      if (next_ == found_) look_ahead(k);
+      const int i = next_++;
+      return {turns_.sin[i], turns_.cos[i]};
+    }
+  }
+
+ private:
+  MURO_INLINE void look_ahead(int k) {
+    Double4 angles(0.0);
+    for (next_ = found_ = 0; found_ < 4 && k < link_count_; ++k)
+      if (links_[k].joint == TreeLink::Joint::revolute)
+        angles.set(found_++, 0.5 * load(states_.positions, offsets_[k].position));
+    turns_ = sincos(angles);
+  }
+
+  const TreeLink* links_;
+  const StateOffsets* offsets_;
+  int link_count_;
+  const States<S>& states_;
+  SinCos<Double4> turns_;
+  int next_ = 0, found_ = 0;
+};
+
 /// The link from which others are reached.
 template <class S>
 struct Parent {
@@ -73,6 +109,7 @@ void forward_lanes(const TreeLink* links, const StateOffsets* offsets, int link_
   const auto link_at = [&](const StateOffsets& at) {
     return Parent<S>(load_pose(as_read(states.poses), at.pose), load_twist(as_read(states.twists), at.twist));
   };
+  HalfAngles<S> half_angles(links, offsets, link_count, states);
   int parent = 0;
   Parent<S> from = base();
   for (int k = 0; k < link_count; ++k) {
@@ -89,7 +126,7 @@ void forward_lanes(const TreeLink* links, const StateOffsets* offsets, int link_
       const S q = load(states.positions, at.position), rate = load(states.velocities, at.velocity);
       const V3<S> axis = axis_in_world(from.axes, link);
       if (link.joint == TreeLink::Joint::revolute) {
-        orientation = rotated(orientation, link, sincos(S(0.5) * q));
+        orientation = rotated(orientation, link, half_angles.of(k));
         twist.angular += axis * rate;
       } else {
         arm += axis * q;
