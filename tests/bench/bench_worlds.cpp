@@ -26,7 +26,8 @@ Parameters parameters_of(const std::string& motion, SolverSettings e) {
             {"tolerance", 1e-5},
             {"refinements", std::int64_t(0)},
             {"several_contacts", false}};
-  if (motion == "motion.ode") return {{"iterations", iterations}, {"reactions", false}};
+  if (motion == "motion.ode")
+    return {{"solver", std::string("quick")}, {"iterations", iterations}, {"reactions", false}};
   return {{"iterations", iterations}};
 }
 
