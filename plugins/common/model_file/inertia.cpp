@@ -94,8 +94,8 @@ Inertia checked_inertia(const Inertia& given, const Pose& frame, std::span<const
   if (!from_shapes) uniform = uniform_density_inertia({}, given.mass);
   const std::string used = from_shapes ? "its shapes with uniform density and " : "a ball of water of ";
   problems.warning(location, concat(owner, ": its principal moments of inertia are ", text_of(moments),
-                                    " kg m^2, and must be above 0; those of ", used, given.mass,
-                                    " kg are used: ", text_of({uniform.ixx, uniform.iyy, uniform.izz})));
+                                    " kg m^2, and the least must be above 1e-9 times the greatest; those of ", used,
+                                    given.mass, " kg are used: ", text_of({uniform.ixx, uniform.iyy, uniform.izz})));
   return Inertia::from(given.mass, inertia.com, uniform.tensor());
 }
 

@@ -135,9 +135,9 @@ TEST(UrdfProblems, InertiasThatNoBodyHas) {
                "<collision><geometry><box size='1 2 3'/></geometry></collision></link></robot>");
   EXPECT_EQ(
       robot.problems,
-      Lines{
-          "warning 2:1 link `a`: its principal moments of inertia are 0 0 0 kg m^2, and must be above 0; those of its "
-          "shapes with uniform density and 2 kg are used: 2.1666666666666665 1.6666666666666665 0.8333333333333333"});
+      Lines{"warning 2:1 link `a`: its principal moments of inertia are 0 0 0 kg m^2, and the least must be above 1e-9 "
+            "times the greatest; those of its "
+            "shapes with uniform density and 2 kg are used: 2.1666666666666665 1.6666666666666665 0.8333333333333333"});
   EXPECT_NEAR(robot.inertials.at("a").ixx, 2 * (4 + 9) / 12.0, 1e-12);
 }
 
