@@ -132,9 +132,10 @@ TEST(SdfProblems, MassesThatNoBodyHas) {
         "</ixx><ixy>0</ixy><ixz>0</ixz><iyy>1</iyy><iyz>0</iyz><izz>1</izz></inertia></inertial></link>");
   };
   EXPECT_EQ(of("-1", "1"), Lines{"error 4:1 link `a`: the mass is -1 kg; it is 0 (a frame without a body) or more"});
-  EXPECT_EQ(of("5", "0"), Lines{"warning 4:1 link `a`: its principal moments of inertia are 0 1 1 kg m^2, and must be "
-                                "above 0; those of its shapes with uniform density "
-                                "and 5 kg are used: 2 2 2"});
+  EXPECT_EQ(of("5", "0"),
+            Lines{"warning 4:1 link `a`: its principal moments of inertia are 0 1 1 kg m^2, and the least "
+                  "must be above 1e-9 times the greatest; those of its shapes with uniform density "
+                  "and 5 kg are used: 2 2 2"});
   EXPECT_EQ(of("5", "3"), Lines{"warning 4:1 link `a`: its principal moments of inertia are 1 1 3 kg m^2, which no "
                                 "body has: none exceeds the sum of "
                                 "the other two. They are used as they are"});
