@@ -163,7 +163,7 @@ TEST(SdfUnsupported, ShapesLeaveTheirCollisionOut) {
              "mesh"}));
 }
 
-TEST(SdfUnsupported, AMeshThatIsNotThereIsAnErrorOfACollisionAndAWarningOfAVisual) {
+TEST(SdfUnsupported, AMissingMeshIsAnErrorOfACollisionElseAWarning) {
   const std::string mesh = "<geometry><mesh><uri>gone.stl</uri></mesh></geometry>",
                     collision =
                         "<collision name='c'>" + mesh + "</collision>\n<collision name='d'>" + mesh + "</collision>",
