@@ -6,6 +6,12 @@
 #include "plugins/common/text/quote.hpp"
 
 namespace muro::simplified {
+namespace {
+
+/// m, from which on an overlap is told as a likely cause.
+constexpr double told_depth = 0.01;
+
+}  // namespace
 
 SceneryNames scenery_names(const Connector& c) {
   SceneryNames names;
@@ -41,7 +47,8 @@ RobotWatch::Overlap RobotWatch::deepest_overlap(const SceneryNames& scenery) con
   Overlap deepest;
   if (!contacts_) return deepest;
   for (const Contact& c : *contacts_) {
-    if (!(c.depth > deepest.depth)) continue;
+    // what is neither too deep nor told as a cause needs no name
+    if (!(c.depth > deepest.depth) || (!begins_ && c.depth <= told_depth && watch_.allows_depth(c.depth))) continue;
     const auto name = scenery.find(index_of(c.other));
     if (name != scenery.end()) deepest = {c.depth, &name->second};
   }
@@ -73,7 +80,7 @@ std::string RobotWatch::problem(const Pose& pose, const Twist& twist, const Scen
   if (!watch_.allows_depth(overlap.depth)) {
     cause = watch::cause_of_depth;
     cause += "; try a higher rate, or an engine";
-  } else if (overlap.obstacle && overlap.depth > 0.01) {
+  } else if (overlap.obstacle && overlap.depth > told_depth) {
     cause = "it is " + std::to_string(overlap.depth) + " m deep in " + quote(*overlap.obstacle);
     cause += ": start it clear of that, or move it less in a step";
   } else {
