@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include "muro_program.hpp"
 #include "tests/support/files.hpp"
 
 namespace muro {
@@ -17,7 +18,6 @@ namespace fs = std::filesystem;
 using test::run_command;
 
 const std::string folder = MURO_TEST_SOURCE_DIR "/tests/bad_input/scenarios";
-const std::string muro_program = std::string("MURO_PLUGIN_PATH=" MURO_TEST_PLUGIN_DIR " ") + MURO_PROGRAM;
 
 std::vector<std::string> names() {
   std::vector<std::string> all;

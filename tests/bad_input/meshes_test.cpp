@@ -6,15 +6,14 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "muro_program.hpp"
 #include "tests/support/files.hpp"
 
 namespace muro {
 namespace {
 
-const std::string program = "MURO_PLUGIN_PATH=" MURO_TEST_PLUGIN_DIR " " MURO_PROGRAM " ";
-
 bool is_there(const std::string& plugin) {
-  static const std::string all = "\n" + test::run_command(program + "plugins list").output;
+  static const std::string all = "\n" + test::run_command(muro_program + " plugins list").output;
   return all.find("\n" + plugin + " ") != all.npos;
 }
 
@@ -57,8 +56,8 @@ std::string urdf_with(const std::string& element, const std::string& mesh) {
 std::string complaint_about(const test::ScratchFolder& folder, const std::string& scenario,
                             const std::string& environment = "") {
   const std::string path = folder.file("s.yaml", scenario);
-  const auto check = test::run_command(environment + " " + program + "check " + path),
-             run = test::run_command(environment + " " + program + "run --duration 0.01 " + path);
+  const auto check = test::run_command(environment + " " + muro_program + " check " + path),
+             run = test::run_command(environment + " " + muro_program + " run --duration 0.01 " + path);
   EXPECT_EQ(check.exit_code, 2);
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_EQ(check.output, run.output);
@@ -126,7 +125,7 @@ TEST(ACollisionMesh, OfManyTrianglesAtOnePlaceIsDrawnInTime) {
                                        "world: {objects: {rock: {shape: {mesh: rock.obj}}}}\n"
                                        "robots: {ball: {shape: {sphere: 0.5}, mass: 1, at: {z: 9}, "
                                        "motion: {use: motion.point}, lidar: {use: laser.zbuffer, rate: 10}}}\n");
-  const auto result = test::run_command(program + "check " + path);
+  const auto result = test::run_command(muro_program + " check " + path);
   EXPECT_EQ(result.exit_code, 0) << result.output;
 }
 
@@ -138,7 +137,7 @@ TEST(AVisualMesh, ThatCannotBeReadIsAWarning) {
   const std::string path = folder.file("s.yaml",
                                        "robots: {r: {model: r.urdf, motion: {use: motion.simplified}, "
                                        "eye: {use: camera.opengl, rate: 10}}}\n");
-  const auto result = test::run_command(program + "check " + path);
+  const auto result = test::run_command(muro_program + " check " + path);
   EXPECT_EQ(result.exit_code, 0) << result.output;
   expect_words(result.output, {"`r/base`: mesh ", "rock.glb cannot be read: ", "; it is not drawn\n"});
 }

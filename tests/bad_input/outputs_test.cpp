@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "muro_program.hpp"
 #include "tests/support/complaint.hpp"
 #include "tests/support/files.hpp"
 
@@ -17,8 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 using test::run_command;
 using test::text_of;
-
-const std::string muro_program = std::string("MURO_PLUGIN_PATH=" MURO_TEST_PLUGIN_DIR " ") + MURO_PROGRAM;
 
 /// A folder with the scenario of a ball, in which commands run. Messages say FOLDER for it.
 struct Ball {

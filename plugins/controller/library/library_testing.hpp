@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/complaint.hpp"
 #include "tests/support/scene.hpp"
 
 namespace muro::control {
@@ -51,12 +52,7 @@ struct Team : test::Scene {
 /// The message with which building fails.
 template <class S>
 std::string refusal(S& s) {
-  try {
-    s.build();
-  } catch (const SetupError& e) {
-    return e.what();
-  }
-  return "it was accepted";
+  return test::complaint_of([&] { s.build(); });
 }
 
 inline std::string refusal_of(const std::string& library, Settings settings = {}) {

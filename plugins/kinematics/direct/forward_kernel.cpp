@@ -64,12 +64,12 @@ class HalfAngles {
 
   /// Of the joint of link `k`.
   MURO_INLINE SinCos<S> of(int k) {
-    if constexpr (count_of < S >> 1) {
-      return sincos(S(0.5) * load(states_.positions, offsets_[k].position));
-    } else {
+    if constexpr (count_of<S> == 1) {
       if (next_ == found_) look_ahead(k);
       const int i = next_++;
       return {turns_.sin[i], turns_.cos[i]};
+    } else {
+      return sincos(S(0.5) * load(states_.positions, offsets_[k].position));
     }
   }
 
@@ -123,13 +123,13 @@ void forward_lanes(const TreeLink* links, const StateOffsets* offsets, int link_
     Q4<S> orientation = from.pose.orientation;
     TwistOf<S> twist = from.twist;
     if (link.joint != TreeLink::Joint::fixed) {
-      const S q = load(states.positions, at.position), rate = load(states.velocities, at.velocity);
+      const S rate = load(states.velocities, at.velocity);
       const V3<S> axis = axis_in_world(from.axes, link);
       if (link.joint == TreeLink::Joint::revolute) {
         orientation = rotated(orientation, link, half_angles.of(k));
         twist.angular += axis * rate;
       } else {
-        arm += axis * q;
+        arm += axis * load(states.positions, at.position);
         twist.linear += axis * rate;
       }
     }

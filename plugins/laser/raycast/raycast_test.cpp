@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "muro/toolkit/rotations.hpp"
+#include "tests/support/complaint.hpp"
 #include "tests/support/scene.hpp"
 
 namespace muro {
@@ -78,12 +79,7 @@ double to_pillar(const Vec3& from, double heading) {
 }
 
 std::string message_of(Simulation& simulation) {
-  try {
-    simulation.build();
-  } catch (const SetupError& e) {
-    return e.what();
-  }
-  return "no error";
+  return test::complaint_of([&] { simulation.build(); });
 }
 
 TEST(LaserRaycast, ReadsTheDistancesOfAYardFromARobotThatDrives) {

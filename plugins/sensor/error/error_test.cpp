@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/bodies.hpp"
+#include "tests/support/complaint.hpp"
 
 namespace muro {
 namespace {
@@ -35,12 +36,7 @@ struct Devices : Scene {
 };
 
 std::string message_of(Simulation& simulation) {
-  try {
-    simulation.build();
-  } catch (const SetupError& e) {
-    return e.what();
-  }
-  return "no error";
+  return test::complaint_of([&] { simulation.build(); });
 }
 
 TEST(SensorError, WritesWhatTheDeviceReadsBesideTheTrueReading) {
