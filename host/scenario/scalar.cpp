@@ -49,10 +49,21 @@ std::optional<ParameterInput> list_parameter(const Node& node) {
   return texts;
 }
 
+/// A map of single values is a list of texts "key=value".
+std::optional<ParameterInput> map_parameter(const Node& node) {
+  std::vector<std::string> texts;
+  for (const auto& [key, value] : node.map) {
+    if (value.kind != Node::Kind::scalar) return std::nullopt;
+    texts.push_back(key + "=" + value.scalar);
+  }
+  return texts;
+}
+
 }  // namespace
 
 std::optional<ParameterInput> as_parameter(const Node& node) {
   if (node.kind == Node::Kind::list) return list_parameter(node);
+  if (node.kind == Node::Kind::map) return map_parameter(node);
   if (node.kind != Node::Kind::scalar) return std::nullopt;
   const std::string& text = node.scalar;
   if (const auto x = as_number(node)) {

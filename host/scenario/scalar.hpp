@@ -14,7 +14,8 @@ namespace muro::host {
 std::string quoted(const Node& node);
 /// A scalar as a number, if it is one.
 std::optional<double> as_number(const Node& node);
-/// A scalar or a flat list as a parameter of an algorithm; none for maps and nested lists.
+/// A scalar, a flat list or a flat map as a parameter of an algorithm; a map is a list of texts "key=value". None for
+/// what is nested.
 std::optional<ParameterInput> as_parameter(const Node& node);
 
 }  // namespace muro::host

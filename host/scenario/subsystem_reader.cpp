@@ -28,8 +28,9 @@ void read_parameters(MapReader& map, Subsystem& out, Problems& problems) {
     if (const auto parameter = as_parameter(value))
       out.parameters[key] = *parameter;
     else
-      problems.add(value.location, fmt::format("parameter `{}` of {} must be a single value or a flat list, not {}",
-                                               key, map.what(), quoted(value)));
+      problems.add(value.location,
+                   fmt::format("parameter `{}` of {} must be a single value, a flat list or a flat map, not {}", key,
+                               map.what(), quoted(value)));
   };
   for (const auto& [key, value] : map.unread()) {
     if (key.find('.') == std::string::npos) {
