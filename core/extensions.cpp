@@ -16,6 +16,11 @@ void UsedLibraries::add(const LoadedLibrary& library) noexcept {
 
 CallNote& NotesOfThreads::of_this_thread() noexcept { return running_call().note; }
 
+Extensions::Extensions(const World& world, const Scheduler& scheduler) : inspector_(world, scheduler) {
+  lockstep_.is_stopping = [this] { return inspector_.is_stopping(); };
+  lockstep_.is_replayed = [this] { return inputs_.has_recording(); };
+}
+
 void* Extensions::find(const ExtensionId& id, std::string& why_not) {
   struct Offer {
     ExtensionId id;
@@ -24,10 +29,16 @@ void* Extensions::find(const ExtensionId& id, std::string& why_not) {
   const Offer offers[] = {{Inspection::id(), static_cast<Inspection*>(&inspector_)},
                           {LoadedLibraries::id(), static_cast<LoadedLibraries*>(&libraries_)},
                           {CallNotes::id(), static_cast<CallNotes*>(&notes_)},
-                          {Outputs::id(), static_cast<Outputs*>(&outputs_)}};
+                          {Outputs::id(), static_cast<Outputs*>(&outputs_)},
+                          {ExternalInputs::id(), static_cast<ExternalInputs*>(&inputs_)},
+                          {RunControl::id(), static_cast<RunControl*>(&requests_)},
+                          {Lockstep::id(), static_cast<Lockstep*>(&lockstep_)}};
   for (const Offer& offer : offers) {
     if (offer.id.name != id.name) continue;
-    if (offer.id.version == id.version && offer.id.layout == id.layout) return offer.interface;
+    if (offer.id.version == id.version && offer.id.layout == id.layout) {
+      if (offer.id.name == RunControl::id().name) requests_.want();
+      return offer.interface;
+    }
     why_not =
         offer.id.version == id.version
             ? fmt::format("the plugin has version {} of extension {} with another layout ({:08x} instead of {:08x})",

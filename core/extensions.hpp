@@ -4,6 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "core/external/input_log.hpp"
+#include "core/external/lockstep_clients.hpp"
+#include "core/external/run_requests.hpp"
 #include "core/inspector.hpp"
 #include "core/output_registry.hpp"
 #include "core/used_library.hpp"
@@ -31,7 +34,7 @@ class NotesOfThreads final : public CallNotes {
 /// The extensions that a simulation offers to its algorithms, see Host::find_extension.
 class Extensions {
  public:
-  Extensions(const World& world, const Scheduler& scheduler) : inspector_(world, scheduler) {}
+  Extensions(const World& world, const Scheduler& scheduler);
 
   /// The interface of exactly this version and layout. Otherwise null; `why_not` says so where another version or
   /// layout is there.
@@ -43,12 +46,17 @@ class Extensions {
   const Inspector& inspector() const { return inspector_; }
   const std::vector<UsedLibrary>& libraries() const { return libraries_.all(); }
   OutputRegistry& outputs() { return outputs_; }
+  InputLog& inputs() { return inputs_; }
+  RunRequests& requests() { return requests_; }
 
  private:
   Inspector inspector_;
   UsedLibraries libraries_;
   NotesOfThreads notes_;
   OutputRegistry outputs_;
+  InputLog inputs_;
+  RunRequests requests_{inputs_};
+  LockstepClients lockstep_;
 };
 
 }  // namespace muro

@@ -25,6 +25,9 @@ Simulation::Simulation(Registry& registry, std::uint64_t seed)
       log_(std::make_unique<AlgorithmLog>(*extensions_)),
       levels_(std::make_unique<Levels>()) {
   scheduler_.set_seed(seed);
+  InputLog& inputs = extensions_->inputs();
+  inputs.hash_of_state = [this] { return state_hash(); };
+  inputs.time_of_state = [this] { return now(); };
 }
 
 Simulation::~Simulation() = default;
@@ -109,6 +112,7 @@ void Simulation::set_pacing(Pacing pacing) {
         fmt::format("a run at {} times real time is not possible; allowed are 1e-6 to 1e6, or 0 for as fast as it goes",
                     pacing.factor));
   scheduler_.set_pacing(pacing);
+  extensions_->requests().start_with_speed(pacing.factor);
 }
 
 void Simulation::run_for(double seconds) { run_until(now() + nanoseconds_of(seconds, "the duration of a run")); }
@@ -118,12 +122,18 @@ void Simulation::run_until(std::int64_t time, const std::function<bool()>& stop)
   const CLocale locale;
   check_time(time, "the end of a run");
   if (outputs_closed_) throw SetupError("a simulation that keeps its outputs closed cannot run");
-  const auto runs_alone = [](const Task& t) { return t.runs_alone; };
-  if (std::none_of(scheduler_.tasks().begin(), scheduler_.tasks().end(), runs_alone))
-    return scheduler_.run_until(time, stop);
   Inspector& inspector = extensions_->inspector();
+  RunRequests& requests = extensions_->requests();
+  const auto runs_alone = [](const Task& t) { return t.runs_alone; };
+  if (std::none_of(scheduler_.tasks().begin(), scheduler_.tasks().end(), runs_alone) && !requests.is_wanted())
+    return scheduler_.run_until(time, stop);
   inspector.set_stop(stop);
-  scheduler_.run_until(time, [&] { return inspector.is_stopping(); });
+  const auto is_stopping = [&] { return inspector.is_stopping(); };
+  do {
+    const std::int64_t end = std::min(time, requests.next_time(now()));
+    scheduler_.run_until(end, [&] { return is_stopping() || requests.is_waiting(); });
+    if (!is_stopping()) requests.carry_out(*this, is_stopping);
+  } while (now() < time && !is_stopping());
   inspector.set_stop({});
 }
 
@@ -162,6 +172,7 @@ void Simulation::restore(const Snapshot& snapshot) {
   const CLocale locale;
   world_.store().load(snapshot.properties);
   scheduler_.set_state(snapshot.schedule);
+  begin_epoch();
   for (const std::size_t i : in_order_of(order_of)) instances_[i]->restored();
 }
 
@@ -170,7 +181,36 @@ void Simulation::reset() {
   const CLocale locale;
   world_.store().load(initial_.properties);
   scheduler_.set_state(initial_.schedule);
+  begin_epoch();
   for (const std::size_t i : in_order_of(order_of)) instances_[i]->start();
 }
+
+void Simulation::begin_epoch() {
+  ++jumps_;
+  extensions_->inputs().begin_epoch();
+}
+
+void Simulation::place(const Placement& placement) {
+  require_built("place()");
+  if (const std::string problem = problem_of(world_, placement); !problem.empty()) throw SetupError(problem);
+  if (const std::string other = overlap_check_ && !placement.is_forced ? overlap_check_(placement) : ""; !other.empty())
+    throw SetupError(fmt::format("{} would overlap {} there; put it elsewhere, or force it",
+                                 in_backquotes(world_.object_name(placement.object)), other));
+  write_placement(world_, placement);
+  ++jumps_;
+  tell_of_change();
+}
+
+/// What simulates bodies keeps neighbours, transforms and the like.
+void Simulation::tell_of_change() {
+  const CLocale locale;
+  for (const std::size_t i : in_order_of(order_of)) {
+    const Kind kind = instances_[i]->description().kind;
+    constexpr Kind told[] = {Kind::kinematics, Kind::scene, Kind::collision, Kind::contact, Kind::motion};
+    if (std::find(std::begin(told), std::end(told), kind) != std::end(told)) instances_[i]->restored();
+  }
+}
+
+const InputLog& Simulation::inputs() const { return extensions_->inputs(); }
 
 }  // namespace muro

@@ -7,6 +7,7 @@
 
 #include "core/algorithm_setup.hpp"
 #include "core/error.hpp"
+#include "core/external/placing.hpp"
 #include "core/registry.hpp"
 #include "core/schedule/scheduler.hpp"
 #include "core/used_library.hpp"
@@ -17,6 +18,7 @@ namespace muro {
 
 class AlgorithmLog;
 class Extensions;
+class InputLog;
 class Instance;
 class Levels;
 class OutputRegistry;
@@ -104,6 +106,19 @@ class Simulation {
   void reset();
   std::uint64_t state_hash() const { return world_.hash(); }
 
+  // --- from outside
+  /// Puts a robot, or an object that moves, at a pose with a velocity, for whatever motion. Throws SetupError that says
+  /// why it cannot be there: it does not move, the pose is out of range, or, unless it is forced, it would overlap
+  /// something. [between runs]
+  void place(const Placement& placement);
+  /// How overlaps are found; without it, everything may be put anywhere. [setup]
+  void set_overlap_check(OverlapCheck check) { overlap_check_ = std::move(check); }
+  /// State has been written from outside: tells those that keep something of it. [between runs]
+  void tell_of_change();
+  /// How often poses have jumped: by placing, a reset or a restored snapshot.
+  std::uint64_t jumps() const { return jumps_; }
+  const InputLog& inputs() const;
+
   // --- what it consists of
   const std::vector<std::unique_ptr<Instance>>& instances() const { return instances_; }
   Scheduler& scheduler() { return scheduler_; }
@@ -123,6 +138,7 @@ class Simulation {
   void connect_all();
   void check_outputs();
   void start_all();
+  void begin_epoch();
   std::vector<std::int32_t> robot_of_slot() const;
 
   Registry& registry_;
@@ -138,6 +154,8 @@ class Simulation {
   std::unique_ptr<Levels> levels_;
   std::vector<TaskId> tasks_;
   Snapshot initial_;
+  OverlapCheck overlap_check_;
+  std::uint64_t jumps_ = 0;
   bool built_ = false;
   bool outputs_closed_ = false;
 };

@@ -40,6 +40,11 @@ void Simulation::build() {
   schedule();
   initial_ = {world_.store().save(), scheduler_.state()};
   built_ = true;
+  extensions_->inputs().set_initial_hash(state_hash());
+  if (extensions_->requests().is_wanted() || extensions_->inputs().has_recording()) {
+    extensions_->requests().want();
+    scheduler_.set_one_at_a_time();
+  }
   start_all();
 }
 
@@ -119,6 +124,7 @@ void Simulation::check_outputs() {
 }
 
 void Simulation::start_all() {
+  if (outputs_closed_) extensions_->inputs().keep_closed();
   for (const std::size_t i : in_order_of(order_of)) {
     const Kind kind = instances_[i]->description().kind;
     if (!outputs_closed_ || (kind != Kind::recorder && kind != Kind::view)) instances_[i]->start();

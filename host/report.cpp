@@ -89,7 +89,7 @@ Json report(const RunResult& run, const Simulation& simulation, const Odometer& 
   out["nondeterministic_algorithms"] = nondeterministic_algorithms(simulation);
   out["interrupted"] = run.interrupted;
   if (!run.error.empty()) out["error"] = run.error;
-  out["overruns"] = simulation.scheduler().overruns();
+  out["overruns"] = simulation.scheduler().pacer().lateness().overruns;
   out["robots"] = robots_report(simulation, odometer);
   for (const ShadowResult& s : shadow_results(simulation))
     out["shadows"].push_back({{"robot", s.robot},

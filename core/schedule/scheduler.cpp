@@ -4,10 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <numeric>
-#include <thread>
 
 #include "core/error.hpp"
 
@@ -207,32 +205,6 @@ void Scheduler::forget_plans() {
   last_plans_ = nullptr;
 }
 
-void Scheduler::set_pacing(Pacing pacing) {
-  pacing_ = pacing;
-  pace_wall_ = std::chrono::steady_clock::now();
-  pace_time_ = now_;
-}
-
-/// Waits until the present instant is due; true when `stop` wants to end the wait.
-bool Scheduler::pace(const std::function<bool()>& stop) {
-  constexpr double longest = 1e18;  // ns: a wait without an end
-  const auto due = pace_wall_ + std::chrono::nanoseconds(
-                                    std::int64_t(std::min(longest, double(now_ - pace_time_) / pacing_.factor)));
-  auto wall = std::chrono::steady_clock::now();
-  if (wall < due) {
-    constexpr auto slice = std::chrono::milliseconds(50);  // between looks at `stop`
-    for (; wall < due; wall = std::chrono::steady_clock::now()) {
-      if (stop && stop()) return true;
-      std::this_thread::sleep_until(std::min(due, wall + slice));
-    }
-  } else if (wall - due >
-             std::chrono::nanoseconds(std::int64_t(std::min(longest, double(min_period_) / pacing_.factor)))) {
-    ++overruns_;
-    pace_wall_ += wall - due;  // the lost time is not made up for by running faster than asked
-  }
-  return false;
-}
-
 std::int64_t Scheduler::next_time() const {
   std::int64_t next = never;
   for (const Group& g : groups_) next = std::min(next, g.next_time);
@@ -261,7 +233,7 @@ std::uint32_t Scheduler::take_instants(std::int64_t end) {
     if (next_due_ != due_) break;
     times_[count++] = time;
     advance(next_due_);
-    if (pacing_.factor > 0) break;  // each waits for its own time
+    if (one_at_a_time_ || pacer_.is_active()) break;  // each waits for its own time
   }
   return count;
 }
@@ -270,7 +242,7 @@ void Scheduler::run_until(std::int64_t end, const std::function<bool()>& stop) {
   if (!prepared_) prepare();
   for (std::int64_t next = next_time(); next < end; next = next_time()) {
     now_ = next;
-    if (pacing_.factor > 0 && pace(stop)) return;
+    if (pacer_.is_active() && pacer_.wait(now_, min_period_, stop)) return;
     const std::uint32_t count = take_instants(end);
     Plans& plans = plans_for(due_);
     const std::span<const std::int64_t> times(times_.data(), count);
@@ -306,7 +278,7 @@ void Scheduler::set_state(const State& state) {
   now_ = state.now;
   runs_ = state.runs;
   prepared_ = false;
-  set_pacing(pacing_);
+  set_pacing(pacer_.pacing());
 }
 
 }  // namespace muro

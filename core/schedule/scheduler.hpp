@@ -31,18 +31,13 @@
 // threads.
 #pragma once
 
-#include <chrono>
 #include <functional>
 #include <unordered_map>
 
 #include "core/schedule/executor.hpp"
+#include "core/schedule/pacer.hpp"
 
 namespace muro {
-
-/// How fast simulated time may pass.
-struct Pacing {
-  double factor = 0;  ///< simulated seconds per second of wall clock; 0: as fast as possible
-};
 
 /// Runs algorithms at their own rates in integer time.
 ///
@@ -69,8 +64,10 @@ class Scheduler {
   void set_seed(std::uint64_t seed) { seed_ = seed; }
   /// Of calls; 1: the calling thread alone. Returns why there are fewer, or nothing. [between runs]
   std::string set_threads(unsigned threads);
-  void set_pacing(Pacing pacing);
-  std::uint64_t overruns() const { return overruns_; }
+  void set_pacing(Pacing pacing) { pacer_.begin(pacing, now_); }
+  const Pacer& pacer() const { return pacer_; }
+  /// Each instant is complete before the next one begins, so that something can happen in between. [between runs]
+  void set_one_at_a_time() { one_at_a_time_ = true; }
   const std::vector<Task>& tasks() const { return tasks_; }
   TaskCost cost(TaskId t) const { return executor_.cost(t); }
   /// Wall-clock seconds per tick of the costs.
@@ -122,7 +119,6 @@ class Scheduler {
   void mark_due(std::int64_t time, Mask& due) const;
   void advance(const Mask& due);
   std::uint32_t take_instants(std::int64_t end);
-  bool pace(const std::function<bool()>& stop);
 
   std::vector<Task> tasks_;
   std::vector<std::int32_t> robot_of_slot_;
@@ -142,11 +138,9 @@ class Scheduler {
 
   std::int64_t now_ = 0;
   std::uint64_t seed_ = 1;
-  Pacing pacing_;
-  std::chrono::steady_clock::time_point pace_wall_{};
-  std::int64_t pace_time_ = 0;
+  Pacer pacer_;
+  bool one_at_a_time_ = false;
   std::int64_t min_period_ = 0;  ///< ns
-  std::uint64_t overruns_ = 0;
 };
 
 }  // namespace muro

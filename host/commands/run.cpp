@@ -83,8 +83,8 @@ void print_summary(const RunResult& result, const Simulation& simulation, const 
   fmt::print("state hash {:016x}\n", simulation.state_hash());
   if (const auto ids = nondeterministic_algorithms(simulation); !ids.empty())
     fmt::print("not deterministic: {}; another run may end in another state\n", fmt::join(ids, ", "));
-  if (simulation.scheduler().overruns() > 0)
-    fmt::print("{} instants were late for the chosen speed\n", simulation.scheduler().overruns());
+  if (simulation.scheduler().pacer().lateness().overruns > 0)
+    fmt::print("{} instants were late for the chosen speed\n", simulation.scheduler().pacer().lateness().overruns);
 }
 
 /// The scenario with a window, which sets the pace. Overrides of `algorithms.view` apply to it; a scenario that has a

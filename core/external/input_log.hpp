@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "muro/ext/external_inputs.hpp"
+
+namespace muro {
+
+class InputLog;
+
+/// The inputs of one name. In a replay it holds those of the recording.
+class RecordedChannel final : public InputChannel {
+ public:
+  RecordedChannel(InputLog& log, std::string name) : log_(log), name_(std::move(name)) {}
+  const std::string& name() const { return name_; }
+
+  bool is_replayed() const noexcept override;
+  void record(std::int64_t time, const ExternalInput& input) noexcept override;
+  bool replay(std::int64_t time, ExternalInput& input) noexcept override;
+
+  void add(const RecordedInput& input);
+  /// ns, of the next recorded input of this epoch; the greatest number when there is none.
+  std::int64_t next_time() const;
+  std::size_t unused() const { return unused_ + (entries_.size() - next_); }
+
+ private:
+  struct Entry {
+    std::uint64_t epoch;
+    std::int64_t time;
+    std::uint32_t kind, source;
+    std::size_t begin, size;  ///< in bytes_
+  };
+  void skip_missed(std::int64_t time);
+
+  InputLog& log_;
+  std::string name_;
+  std::vector<Entry> entries_;
+  std::string bytes_;
+  std::size_t next_ = 0;
+  std::size_t unused_ = 0;
+};
+
+/// All that comes from outside of a simulation: handed to a recorder, or taken from a recording.
+class InputLog final : public ExternalInputs {
+ public:
+  InputChannel* channel(std::string_view name) noexcept override;
+  bool may_open() const noexcept override { return may_open_; }
+  bool set_sink(InputSink* sink) noexcept override;
+  bool set_recording(std::span<const RecordedInput> inputs) noexcept override;
+  std::uint64_t unused(std::string_view& channel) const noexcept override;
+  std::uint64_t initial_hash() const noexcept override { return initial_hash_; }
+  std::uint64_t state_hash() const noexcept override { return hash_of_state ? hash_of_state() : 0; }
+  std::int64_t time() const noexcept override { return time_of_state ? time_of_state() : 0; }
+  void not_repeatable(std::string_view why) noexcept override;
+
+  std::function<std::uint64_t()> hash_of_state;
+  std::function<std::int64_t()> time_of_state;
+  void set_initial_hash(std::uint64_t hash) { initial_hash_ = hash; }
+  void keep_closed() { may_open_ = false; }
+  /// The simulation was reset or restored: time jumps.
+  void begin_epoch() { ++epoch_; }
+  std::uint64_t epoch() const { return epoch_; }
+  bool has_recording() const { return has_recording_; }
+  /// The same for the channel of the simulation itself.
+  RecordedChannel& own_channel() { return own_; }
+  void record(const RecordedInput& input) noexcept;
+
+  std::uint64_t count() const { return count_; }  ///< inputs so far, live ones
+  const std::vector<std::string>& reasons() const { return reasons_; }
+
+ private:
+  RecordedChannel* find(std::string_view name);
+
+  std::mutex mutex_;  ///< of `sink_`, `reasons_`
+  RecordedChannel own_{*this, "simulation"};
+  struct Place {
+    RecordedChannel channel;
+    bool is_taken = false;
+  };
+  std::deque<Place> channels_;
+  InputSink* sink_ = nullptr;
+  bool has_recording_ = false;
+  bool may_open_ = true;
+  std::uint64_t epoch_ = 0;
+  std::uint64_t initial_hash_ = 0;
+  std::uint64_t count_ = 0;
+  std::vector<std::string> reasons_;
+};
+
+}  // namespace muro

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "core/external/input_log.hpp"
+#include "muro/ext/run_control.hpp"
+
+namespace muro {
+
+class Simulation;
+struct Snapshot;
+
+/// What algorithms ask of the run, and what a recording has asked of it: carried out between two instants.
+class RunRequests final : public RunControl {
+ public:
+  explicit RunRequests(InputLog& inputs);
+  ~RunRequests();
+
+  bool is_paused() const noexcept override { return paused_; }
+  void set_paused(bool paused) noexcept override;
+  void step_for(std::int64_t ns) noexcept override;
+  double speed() const noexcept override { return speed_; }
+  void set_speed(double factor) noexcept override;
+  void add_attendant(PauseAttendant& attendant) noexcept override;
+  void remove_attendant(PauseAttendant& attendant) noexcept override;
+  void place(const Placement& placement, std::uint64_t ticket, RequestDone* done) noexcept override;
+  void set(ObjectId object, std::string_view key, std::uint32_t element, std::string_view bytes, std::uint64_t ticket,
+           RequestDone* done) noexcept override;
+  void reset(std::uint64_t ticket, RequestDone* done) noexcept override;
+  void snapshot(std::string_view name, std::uint64_t ticket, RequestDone* done) noexcept override;
+  void restore(std::string_view name, std::uint64_t ticket, RequestDone* done) noexcept override;
+  std::uint64_t state_hash() const noexcept override { return inputs_.state_hash(); }
+  std::int64_t time() const noexcept override { return inputs_.time(); }
+
+  /// Somebody may ask for something: instants have to be told apart.
+  void want() { wanted_ = true; }
+  bool is_wanted() const { return wanted_; }
+  /// The speed of the run as it was chosen outside.
+  void start_with_speed(double factor) { speed_ = factor; }
+  /// Whether the run has to stop between instants for something that was asked.
+  bool is_waiting() const { return has_requests_ || speed_changed_ || (paused_ && pause_at_ < 0); }
+  /// ns: the run is to stop there for a recorded request, or for the end of a step.
+  std::int64_t next_time(std::int64_t now) const;
+  /// Carries out what was asked, and stays here while the run is paused. `stop` ends a pause.
+  void carry_out(Simulation& simulation, const std::function<bool()>& stop);
+
+ private:
+  enum class Kind : std::uint32_t { place, set, reset, snapshot, restore };
+  struct Request {
+    Kind kind;
+    std::string bytes;  ///< what is recorded: see encode and decode
+    std::uint64_t ticket = 0;
+    RequestDone* done = nullptr;
+    bool is_in_order = true;
+  };
+  void add(Request request) noexcept;
+  void carry_out_all(Simulation& simulation);
+  void replay_all(Simulation& simulation);
+  /// Why it was refused; empty: it is done.
+  std::string carry_out(Simulation& simulation, Kind kind, std::string_view bytes);
+  std::string set_element(Simulation& simulation, std::string_view bytes);
+
+  InputLog& inputs_;
+  std::mutex mutex_;  ///< of requests_
+  std::vector<Request> requests_;
+  std::atomic<bool> has_requests_{false};
+  std::vector<PauseAttendant*> attendants_;
+  std::map<std::string, std::unique_ptr<Snapshot>, std::less<>> snapshots_;
+  bool wanted_ = false;
+  bool paused_ = false;
+  std::int64_t pause_at_ = -1;  ///< ns: paused from there on; -1: now
+  double speed_ = 0;
+  bool speed_changed_ = false;
+};
+
+}  // namespace muro
