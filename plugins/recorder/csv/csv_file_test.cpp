@@ -13,8 +13,8 @@
 #include <random>
 #include <thread>
 
-#include "glob.hpp"
 #include "muro/algorithm.hpp"
+#include "plugins/common/text/glob.hpp"
 #include "tests/support/complaint.hpp"
 #include "tests/support/files.hpp"
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <set>
 
-#include "glob.hpp"
 #include "muro/algorithm.hpp"
 #include "muro/toolkit/did_you_mean.hpp"
+#include "plugins/common/text/glob.hpp"
 #include "plugins/common/text/quote.hpp"
 
 namespace muro {
