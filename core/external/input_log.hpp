@@ -56,6 +56,7 @@ class InputLog final : public ExternalInputs {
   std::uint64_t initial_hash() const noexcept override { return initial_hash_; }
   std::uint64_t state_hash() const noexcept override { return hash_of_state ? hash_of_state() : 0; }
   std::int64_t time() const noexcept override { return time_of_state ? time_of_state() : 0; }
+  std::uint64_t epoch() const noexcept override { return epoch_; }
   void not_repeatable(std::string_view why) noexcept override;
 
   std::function<std::uint64_t()> hash_of_state;
@@ -64,7 +65,6 @@ class InputLog final : public ExternalInputs {
   void keep_closed() { may_open_ = false; }
   /// The simulation was reset or restored: time jumps.
   void begin_epoch() { ++epoch_; }
-  std::uint64_t epoch() const { return epoch_; }
   bool has_recording() const { return has_recording_; }
   /// The same for the channel of the simulation itself.
   RecordedChannel& own_channel() { return own_; }

@@ -64,7 +64,8 @@ class ExternalInputs {
   virtual std::uint64_t initial_hash() const noexcept = 0;
   /// Of the state now. [between steps]
   virtual std::uint64_t state_hash() const noexcept = 0;
-  virtual std::int64_t time() const noexcept = 0;  ///< ns, of the state now [between steps]
+  virtual std::int64_t time() const noexcept = 0;    ///< ns, of the state now [between steps]
+  virtual std::uint64_t epoch() const noexcept = 0;  ///< of the state now [between steps]
   /// The run cannot be repeated from its scenario alone: an external client did not answer in time, for example.
   /// Reports say why. [any thread]
   virtual void not_repeatable(std::string_view why) noexcept = 0;
@@ -82,12 +83,13 @@ inline ExtensionId ExternalInputs::id() noexcept {
       MURO_SIZE(ExternalInput),         MURO_PLACE(ExternalInput, kind), MURO_PLACE(ExternalInput, source),
       MURO_PLACE(ExternalInput, bytes), MURO_SIZE(RecordedInput),        MURO_PLACE(RecordedInput, channel),
       MURO_PLACE(RecordedInput, epoch), MURO_PLACE(RecordedInput, time), MURO_PLACE(RecordedInput, input)};
-  return {"muro.ExternalInputs", 1,
-          abi::extension_layout<ExternalInputs>(
-              structs, &InputChannel::is_replayed, &InputChannel::record, &InputChannel::replay, &InputSink::take,
-              &ExternalInputs::channel, &ExternalInputs::may_open, &ExternalInputs::set_sink,
-              &ExternalInputs::set_recording, &ExternalInputs::unused, &ExternalInputs::initial_hash,
-              &ExternalInputs::state_hash, &ExternalInputs::time, &ExternalInputs::not_repeatable)};
+  return {
+      "muro.ExternalInputs", 1,
+      abi::extension_layout<ExternalInputs>(
+          structs, &InputChannel::is_replayed, &InputChannel::record, &InputChannel::replay, &InputSink::take,
+          &ExternalInputs::channel, &ExternalInputs::may_open, &ExternalInputs::set_sink,
+          &ExternalInputs::set_recording, &ExternalInputs::unused, &ExternalInputs::initial_hash,
+          &ExternalInputs::state_hash, &ExternalInputs::time, &ExternalInputs::epoch, &ExternalInputs::not_repeatable)};
 }
 
 }  // namespace muro
