@@ -116,6 +116,10 @@ struct Commands {
     command.add_option("--report", run_options.report, "Write a report to this file (JSON)");
     command.add_option("--timeline", run_options.timeline,
                        "Write which algorithm ran when on which thread (JSON for Perfetto or chrome://tracing)");
+    command.add_option("--record", run_options.record,
+                       "Write all that comes from outside (clients, placing) to this file: recorder.inputs");
+    command.add_option("--replay", run_options.replay,
+                       "Run as recorded in this file, without clients: controller.replay");
     command
         .add_option("--step-timeout", run_options.step_timeout,
                     "Wall-clock seconds after which a step that does not return ends the run, and is named")

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "muro/vocabulary.hpp"
 
 namespace muro::host {
@@ -23,9 +25,10 @@ Odometer::Odometer(const Simulation& simulation) : simulation_(simulation) {
 }
 
 void Odometer::sample() {
+  const bool jumped = std::exchange(jumps_, simulation_.jumps()) != simulation_.jumps();
   for (const RobotView* r : simulation_.world().robots()) {
     const Vec3& now = base_pose(simulation_, *r).position;
-    distances_[r->number] += (now - last_[r->number]).norm();
+    if (!jumped) distances_[r->number] += (now - last_[r->number]).norm();
     last_[r->number] = now;
   }
 }

@@ -13,7 +13,7 @@ const Pose& base_pose(const Simulation& simulation, const RobotView& robot);
 class Odometer {
  public:
   explicit Odometer(const Simulation& simulation);
-  /// Adds the straight distance since the last sample to every robot's distance.
+  /// Adds the straight distance since the last sample to every robot's distance, unless poses have jumped meanwhile.
   void sample();
   /// Throws StepError when a robot's pose is not finite.
   void check() const;
@@ -25,6 +25,7 @@ class Odometer {
   const Simulation& simulation_;
   std::vector<Vec3> last_;
   std::vector<double> distances_;
+  std::uint64_t jumps_ = 0;
 };
 
 }  // namespace muro::host

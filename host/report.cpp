@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "core/external/input_log.hpp"
 #include "core/instance.hpp"
 #include "host/libraries.hpp"
 #include "host/shadows.hpp"
@@ -56,6 +57,19 @@ Json robots_report(const Simulation& simulation, const Odometer& odometer) {
   return all;
 }
 
+/// Bins up to the last one that counts something.
+Json pacing_report(const Lateness& late) {
+  Json histogram = Json::array();
+  std::size_t last = Lateness::bins;
+  while (last > 0 && late.histogram[last - 1] == 0) --last;
+  for (std::size_t bin = 0; bin < last; ++bin)
+    histogram.push_back({{"below_s", bin + 1 < Lateness::bins ? Json(Lateness::upper_end(bin)) : Json(nullptr)},
+                         {"instants", late.histogram[bin]}});
+  return {{"instants", late.instants},          {"overruns", late.overruns},
+          {"mean_lateness_s", late.mean()},     {"p99_lateness_s", late.quantile(0.99)},
+          {"longest_lateness_s", late.longest}, {"histogram", histogram}};
+}
+
 Json algorithms_report(const RunResult& run, const Simulation& simulation) {
   Json all = Json::array();
   for (std::size_t i = 0; i < simulation.instances().size(); ++i) {
@@ -90,6 +104,11 @@ Json report(const RunResult& run, const Simulation& simulation, const Odometer& 
   out["interrupted"] = run.interrupted;
   if (!run.error.empty()) out["error"] = run.error;
   out["overruns"] = simulation.scheduler().pacer().lateness().overruns;
+  if (const Lateness& late = simulation.scheduler().pacer().lateness(); late.instants > 0)
+    out["pacing"] = pacing_report(late);
+  out["external_inputs"] = {{"count", simulation.inputs().count()},
+                            {"replayed", simulation.inputs().has_recording()},
+                            {"not_repeatable", simulation.inputs().reasons()}};
   out["robots"] = robots_report(simulation, odometer);
   for (const ShadowResult& s : shadow_results(simulation))
     out["shadows"].push_back({{"robot", s.robot},

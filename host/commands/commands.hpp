@@ -25,6 +25,8 @@ struct RunOptions {
   std::string threads;             ///< a number, "all", or empty: as the scenario says
   std::string report;              ///< file, or empty
   std::string timeline;            ///< file, or empty
+  std::string record;              ///< file for all that comes from outside, or empty
+  std::string replay;              ///< such a file, which takes the place of what is outside, or empty
   double step_timeout = 0;         ///< s of wall-clock time after which a step is taken to hang; 0: never
   bool profile = false;
   bool verify_access = false;

@@ -4,9 +4,11 @@
 
 #include <charconv>
 #include <chrono>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "core/external/input_log.hpp"
 #include "host/commands/commands.hpp"
 #include "host/commands/open.hpp"
 #include "host/output_file.hpp"
@@ -83,8 +85,38 @@ void print_summary(const RunResult& result, const Simulation& simulation, const 
   fmt::print("state hash {:016x}\n", simulation.state_hash());
   if (const auto ids = nondeterministic_algorithms(simulation); !ids.empty())
     fmt::print("not deterministic: {}; another run may end in another state\n", fmt::join(ids, ", "));
-  if (simulation.scheduler().pacer().lateness().overruns > 0)
-    fmt::print("{} instants were late for the chosen speed\n", simulation.scheduler().pacer().lateness().overruns);
+  for (const std::string& why : simulation.inputs().reasons()) fmt::print("not repeatable: {}\n", why);
+  const Lateness& late = simulation.scheduler().pacer().lateness();
+  if (late.instants > 0)
+    fmt::print(
+        "paced: instants began {:.0f} us late on average, 99 % of them by less than {:.0f} us, the latest by {:.0f} "
+        "us\n",
+        1e6 * late.mean(), 1e6 * late.quantile(0.99), 1e6 * late.longest);
+  if (late.overruns > 0) fmt::print("{} instants were late for the chosen speed\n", late.overruns);
+}
+
+/// A text as a value of an override, whatever characters it has.
+std::string yaml_text(const std::string& text) {
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? std::string("''") : std::string(1, c);
+  return quoted + "'";
+}
+
+/// The scenario with the recorder and the replay of inputs that the options ask for.
+ScenarioOptions with_inputs(const RunOptions& options) {
+  ScenarioOptions scenario = options.scenario;
+  const auto add = [&](const std::string& name, const char* use, const std::string& file) {
+    if (file.empty()) return;
+    std::error_code code;
+    const std::string path = std::filesystem::absolute(file, code).string();
+    const std::string all[] = {fmt::format("algorithms.{}.use={}", name, use),
+                               fmt::format("algorithms.{}.rate=10", name),
+                               fmt::format("algorithms.{}.file={}", name, yaml_text(code ? file : path))};
+    scenario.overrides.insert(scenario.overrides.end(), std::begin(all), std::end(all));
+  };
+  add("record_option", "recorder.inputs", options.record);
+  add("replay_option", "controller.replay", options.replay);
+  return scenario;
 }
 
 /// The scenario with a window, which sets the pace. Overrides of `algorithms.view` apply to it; a scenario that has a
@@ -96,7 +128,7 @@ ScenarioOptions with_view(const RunOptions& options, const Registry& registry) {
         "--view needs the plugin view.window, which is not installed; install libglfw3-dev, libimgui-dev, "
         "libepoxy-dev, "
         "libegl-dev and libstb-dev, and build muro again");
-  ScenarioOptions scenario = options.scenario;
+  ScenarioOptions scenario = with_inputs(options);
   std::vector<std::string> others = scenario.overrides;
   std::erase_if(others, [](const std::string& o) { return o.starts_with("algorithms.view."); });
   const Scenario without_view = read_scenario(scenario.file, others);
@@ -158,7 +190,7 @@ void write_outputs(const RunOptions& options, RunResult& result, const Simulatio
 int run(const RunOptions& options) {
   Registry registry(Registry::search_path(options.scenario.plugin_path));
   const double factor = options.view ? 0 : pacing_factor(options.speed);
-  Scenario scenario = open_file(options.view ? with_view(options, registry) : options.scenario, registry);
+  Scenario scenario = open_file(options.view ? with_view(options, registry) : with_inputs(options), registry);
   BuiltScenario built = open_scenario(std::move(scenario), registry, [&](Simulation& s) {
     add_outputs(s, {{"--report", options.report}, {"--timeline", options.timeline}});
   });

@@ -30,10 +30,29 @@ T constant_or(const World& world, ObjectId object, const Key<T>& key, const T& o
   return found.empty() ? otherwise : found.front();
 }
 
-/// Of each link in the frame of the base, with the joints where they start.
-std::vector<Pose> link_poses(const World& world, const RobotView& robot) {
+/// The poses that are looked at: those at the start, or those of now, but for what is to be placed.
+struct Moment {
+  bool is_start = true;
+  const Placement* placed = nullptr;
+};
+
+template <class T>
+T value_or(const World& world, ObjectId object, const Key<T>& key, const T& otherwise) {
+  const Slot* slot = world.store().find(object, key.name);
+  return slot && slot->place ? *static_cast<const T*>(slot->place) : otherwise;
+}
+
+Pose pose_of(const World& world, const RobotView& robot, const Moment& moment) {
+  if (moment.is_start) return constant_or(world, robot.base(), keys::initial_pose, Pose{});
+  if (moment.placed->object == robot.base()) return moment.placed->pose;
+  return value_or(world, robot.base(), keys::pose, Pose{});
+}
+
+/// Of each link in the frame of the base.
+std::vector<Pose> link_poses(const World& world, const RobotView& robot, const Moment& moment) {
   const auto start = [&](const Link& link) {
-    return constant_or(world, link.joint_object, keys::initial_joint_position, 0.0);
+    return moment.is_start ? constant_or(world, link.joint_object, keys::initial_joint_position, 0.0)
+                           : value_or(world, link.joint_object, keys::joint_position, 0.0);
   };
   std::vector<Pose> poses(robot.links.size());
   for (std::size_t i = 1; i < poses.size(); ++i) {
@@ -102,8 +121,12 @@ std::vector<bool> takes_hulls_of_scenery(const Simulation& simulation) {
 class Still {
  public:
   /// `hulls`: meshes count as their convex hulls, and only pairs that they do for are found.
-  Still(Simulation& simulation, bool hulls)
-      : original_(simulation.world()), still_(simulation.registry()), world_(still_.world()), hulls_(hulls) {
+  Still(Simulation& simulation, bool hulls, const Moment& moment = {})
+      : original_(simulation.world()),
+        moment_(moment),
+        still_(simulation.registry()),
+        world_(still_.world()),
+        hulls_(hulls) {
     if (hulls) scenery_is_hulls_ = takes_hulls_of_scenery(simulation);
     still_.set_log([](LogLevel, std::string_view) {});
     for (std::uint32_t i = 1; i < original_.object_count(); ++i)
@@ -154,9 +177,11 @@ class Still {
   }
 
   void add_robot(const RobotView& robot) {
-    const std::vector<Pose> poses = link_poses(original_, robot);
+    const std::vector<Pose> poses = link_poses(original_, robot, moment_);
     RobotTree tree;
-    Names names{heeds_contacts(original_, robot), hulls_ && scenery_is_hulls_[robot.number], {}, {}};
+    const bool is_placed = moment_.placed && moment_.placed->object == robot.base();
+    const bool heeds = moment_.placed ? is_placed : heeds_contacts(original_, robot);
+    Names names{heeds, hulls_ && scenery_is_hulls_[robot.number], {}, {}};
     std::vector<Shape> shapes;
     for (std::size_t i = 0; i < poses.size(); ++i) {
       const std::span<const Shape> of_link = constants(original_, robot.links[i].object, keys::collision_shapes);
@@ -174,7 +199,7 @@ class Still {
     tree.base("body");
     tree.set_array<Shape>(keys::collision_shapes, shapes);
     tree.close();
-    const Pose start = constant_or(original_, robot.base(), keys::initial_pose, Pose{});
+    const Pose start = pose_of(original_, robot, moment_);
     const ObjectId base = world_.add_robot(robot.name, tree, start).base();
     world_.set(base, keys::pose, start);
     world_.set(base, keys::twist, Twist{});
@@ -239,6 +264,7 @@ class Still {
   };
 
   const World& original_;
+  const Moment moment_;
   Simulation still_;
   World& world_;
   std::map<ObjectId, Names> robots_;  ///< by base
@@ -263,6 +289,28 @@ Overlaps overlaps_at_start(Simulation& simulation, std::size_t most) {
     return exact.overlaps(most, Still(simulation, true).find());
   } catch (const std::exception&) {  // what cannot be found is not told
     return {};
+  }
+}
+
+std::string overlap_of(Simulation& simulation, const Placement& placement) {
+  constexpr double most_depth = 5e-3;  // m; by less, wheels and feet sink in where they stand
+  const Moment moment{false, &placement};
+  try {
+    Still exact(simulation, false, moment);
+    exact.find();
+    const Overlaps all =
+        exact.has_meshes() ? exact.overlaps(1, Still(simulation, true, moment).find()) : exact.overlaps(1, {});
+    if (all.deepest.empty() || all.deepest.front().depth < most_depth) return "";
+    const Overlap& deepest = all.deepest.front();
+    const std::int32_t robot = simulation.world().robot_of(placement.object);
+    const auto is_own = [&](const std::string& name) {
+      const ObjectId object = simulation.world().find_object(name);
+      return object != no_object && robot >= 0 && simulation.world().robot_of(object) == robot;
+    };
+    return fmt::format("{} by {:.2g} m", in_backquotes(is_own(deepest.first) ? deepest.second : deepest.first),
+                       deepest.depth);
+  } catch (const std::exception&) {  // what cannot be found is not told
+    return "";
   }
 }
 

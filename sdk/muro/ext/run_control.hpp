@@ -29,8 +29,8 @@ class PauseAttendant {
 /// Where a robot, or an object that moves, is put.
 struct Placement {
   ObjectId object = no_object;  ///< the base of a robot, or an object that moves by itself
-  Pose pose;                    ///< in the world
-  Twist twist;                  ///< of the base, in the world; 0 unless it is to be thrown
+  Pose pose{};                  ///< in the world
+  Twist twist{};                ///< of the base, in the world; 0 unless it is to be thrown
   bool is_forced = false;       ///< also where it overlaps something
 };
 
