@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "encoding.hpp"
+#include "model.hpp"
+#include "scan_block.hpp"
+#include "state.hpp"
+
+namespace muro::scip2 {
+
+/// What a device is built into.
+class DeviceHost {
+ public:
+  /// Bytes to a client: one reply, or one scan.
+  virtual void send(std::uint32_t client, std::string_view bytes) = 0;
+  /// Fills in what each step from AMIN to AMAX sees now: mm or an error code, and the intensity.
+  virtual void read_scan(std::span<std::uint32_t> distances, std::span<std::uint32_t> intensities) = 0;
+  /// A line that was handed to Device::receive got its answer.
+  virtual void answered() {}
+  virtual void set_bit_rate(std::uint32_t bits_per_second) { static_cast<void>(bits_per_second); }
+
+ protected:
+  ~DeviceHost() = default;
+};
+
+/// bit/s, as `SS` and `RS` know it.
+inline constexpr std::uint32_t initial_bit_rate = 19200;
+
+/// A scanner that speaks SCIP: from lines, time and scans to replies. It has no memory but the state that it is given.
+class Device {
+ public:
+  /// `is_swept`: what read_scan fills in has been taken in the course of the last turn of the mirror; else at the
+  /// instant of the call.
+  explicit Device(Model model, bool is_swept = false);
+
+  const Model& model() const { return model_; }
+  std::uint32_t state_size() const;  ///< bytes
+
+  /// Takes a line without its end. Empty ones are left out. It is answered by `advance`; only what finds sixteen others
+  /// waiting is refused at once (0B).
+  void receive(State& s, std::uint32_t client, std::string_view line, DeviceHost& host);
+  /// Does all that is due up to `now`: turns of the mirror, scans, replies. Switches the device on if it is off.
+  void advance(State& s, std::int64_t now, DeviceHost& host);
+  /// A client is gone: nothing is sent to it any more.
+  void forget(State& s, std::uint32_t client) const;
+  /// Makes all times of the state `offset` ns later.
+  void shift(State& s, std::int64_t offset) const;
+
+ private:
+  /// A line and what its answer needs.
+  struct Call {
+    State& state;
+    std::int64_t now;
+    std::uint32_t client;
+    std::string_view line;
+    DeviceHost& host;
+  };
+
+  // device.cpp
+  void switch_on(State& s, std::int64_t now) const;
+  void pass_step_zero(State& s, DeviceHost& host);
+  void store_scan(State& s, std::int64_t time, DeviceHost& host) const;
+  void send_scan(State& s, DeviceHost& host);
+  void answer_pending(State& s, std::int64_t now, DeviceHost& host);
+  void laser_on(State& s, std::int64_t now) const;
+  void laser_off(State& s) const;
+  ScanView scan_of(const State& s) const;
+  static std::uint32_t timestamp(const State& s, std::int64_t time);
+
+  // answers.cpp: false when the answer has to wait for a scan
+  bool answer(const Call& call);
+  bool answer_scip2(const Call& call, const Request& request);
+  bool answer_scan(const Call& call, const Request& request);
+  void start_scans(const Call& call, const Request& request);
+  void reset(const Call& call, Command command);
+  std::string_view change_setting(const Call& call, const Request& request);
+  std::string_view adjust(const Call& call, std::uint32_t code);
+  void reply(const Call& call, std::string_view status);
+  void send(const Call& call) { call.host.send(call.client, text_); }
+
+  // scip1.cpp: of SCIP 1.1
+  bool is_scip1(const State& s, std::string_view line) const;
+  bool answer_scip1(const Call& call);
+  void reply_scip1(const Call& call, char status);
+
+  // texts.cpp
+  void write_version(ReplyWriter& reply) const;
+  void write_parameters(ReplyWriter& reply) const;
+  void write_status(ReplyWriter& reply, const State& s, std::int64_t now) const;
+  void write_version_of_scip1(ReplyWriter& reply) const;
+
+  Model model_;
+  bool is_swept_ = false;
+  std::string text_;  ///< the reply that is being written; has room for the longest
+};
+
+}  // namespace muro::scip2
