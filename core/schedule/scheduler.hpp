@@ -34,6 +34,7 @@
 #include <functional>
 #include <unordered_map>
 
+#include "core/hash.hpp"
 #include "core/schedule/executor.hpp"
 #include "core/schedule/pacer.hpp"
 
@@ -62,6 +63,8 @@ class Scheduler {
 
   std::int64_t now() const { return now_; }
   void set_seed(std::uint64_t seed) { seed_ = seed; }
+  /// A hash in which the seed counts as well.
+  std::uint64_t seeded(std::uint64_t hash) const { return hash_bytes(&seed_, sizeof seed_, hash); }
   /// Of calls; 1: the calling thread alone. Returns why there are fewer, or nothing. [between runs]
   std::string set_threads(unsigned threads);
   void set_pacing(Pacing pacing) { pacer_.begin(pacing, now_); }

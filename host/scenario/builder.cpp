@@ -162,7 +162,7 @@ BuiltScenario built(Scenario scenario, Registry& registry, const std::function<v
   out.simulation->build();
   ExitGuard::renew();
   out.simulation->set_overlap_check(
-      [simulation = out.simulation.get()](const Placement& p) { return overlap_of(*simulation, p); });
+      [simulation = out.simulation.get()](const muro::Placement& p) { return overlap_of(*simulation, p); });
   for (std::string& note : overlap_notes(*out.simulation)) out.notes.push_back(std::move(note));
   out.simulation->set_threads(out.scenario.threads > 0 ? out.scenario.threads : all_threads());
   return out;

@@ -33,7 +33,7 @@ T constant_or(const World& world, ObjectId object, const Key<T>& key, const T& o
 /// The poses that are looked at: those at the start, or those of now, but for what is to be placed.
 struct Moment {
   bool is_start = true;
-  const Placement* placed = nullptr;
+  const muro::Placement* placed = nullptr;
 };
 
 template <class T>
@@ -292,7 +292,7 @@ Overlaps overlaps_at_start(Simulation& simulation, std::size_t most) {
   }
 }
 
-std::string overlap_of(Simulation& simulation, const Placement& placement) {
+std::string overlap_of(Simulation& simulation, const muro::Placement& placement) {
   constexpr double most_depth = 5e-3;  // m; by less, wheels and feet sink in where they stand
   const Moment moment{false, &placement};
   try {

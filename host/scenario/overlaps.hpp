@@ -25,7 +25,7 @@ Overlaps overlaps_at_start(Simulation& simulation, std::size_t most);
 
 /// What the robot would overlap by more than 5 mm, as all bodies are now, if it were placed there, the deepest: "`wall`
 /// by 0.2 m"; empty: nothing that could be found.
-std::string overlap_of(Simulation& simulation, const Placement& placement);
+std::string overlap_of(Simulation& simulation, const muro::Placement& placement);
 
 /// A line for each of the deepest, and one for how many more there are.
 std::vector<std::string> overlap_notes(Simulation& simulation);
