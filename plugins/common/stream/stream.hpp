@@ -15,7 +15,8 @@ namespace muro::stream {
 /// How bytes become messages. Runs in the thread of input and output.
 struct Framing {
   /// How many of `bytes` (one or more, from the begin of a message) are the first message with its terminator. 0: it is
-  /// not complete. `invalid`: this is no message of the protocol; the client is disconnected and counted.
+  /// not complete. `invalid`: this is no message of the protocol; the client is disconnected and counted. Null: bytes
+  /// are handed on as they come.
   static constexpr std::size_t invalid = ~std::size_t(0);
   std::size_t (*size_of_first)(std::string_view bytes, bool is_first_of_client) = nullptr;
   /// Bytes; a message that gets longer without an end is handed on as it is by `keep`, or its client is disconnected.
@@ -23,7 +24,7 @@ struct Framing {
   bool keeps_too_long = false;
 };
 
-/// Lines up to LF, CR or both.
+/// Lines up to LF, CR or both. Where CR and LF come one after the other, the second is left out.
 std::size_t line_size(std::string_view bytes, bool is_first_of_client);
 
 /// What has come in, in its order.
@@ -46,6 +47,7 @@ struct Statistics {
 struct Limits {
   std::size_t input_messages = 1024;   ///< of a client that wait for the next step; then no more is read from it
   std::size_t output_bytes = 1 << 20;  ///< of a client that wait to be sent; then replies are dropped whole
+  std::size_t input_bytes = 1 << 20;   ///< as input_messages
 };
 
 /// One stream with its clients: a server, a client, a pseudo-terminal or a serial device, or a recording of it.
@@ -65,12 +67,13 @@ class Stream {
   /// with the reason of the system: the port is taken, the path cannot be written. [start]
   void open();
 
-  /// Begins a step at `time` (ns): in lockstep, waits for the client. Throws muro::Error when it did not answer in time
-  /// and the address says that this ends the run. [step]
+  /// Begins a step at `time` (ns): in lockstep, waits for the client, and the step has one message at most. Throws
+  /// muro::Error when it did not answer in time and the address says that this ends the run. [step]
   void begin(std::int64_t time);
   /// The next event of this step. Null: there is no other. [step]
   const Event* next();
-  /// Sends to one client, or drops all of it where the client has too much waiting. Never waits. False: dropped. [step]
+  /// Sends to one client, or drops all of it where the client has too much waiting. Never waits. False: dropped, which
+  /// no state may depend on. [step]
   bool send(std::uint32_t client, std::string_view bytes);
   /// To every client. [step]
   void send_to_all(std::string_view bytes);
@@ -82,6 +85,9 @@ class Stream {
   void disconnect(std::uint32_t client);
   /// Simulated bit rate from now on, where the address is timed. [step]
   void set_baud(std::uint32_t baud);
+
+  /// For Algorithm::finish(): puts the counts into the report, and warns of what was dropped or refused. [finish]
+  void finish();
 
   bool is_replayed() const;
   const Address& address() const;  ///< with the port that it has, once open

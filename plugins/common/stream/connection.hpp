@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <boost/asio/posix/stream_descriptor.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <functional>
+#include <memory>
+
+#include "plugins/common/stream/exchange.hpp"
+#include "plugins/common/stream/io_thread.hpp"
+
+namespace muro::stream {
+
+/// One client's bytes, in and out. [I/O thread]
+class Connection : public std::enable_shared_from_this<Connection> {
+ public:
+  enum class Descriptor : std::uint8_t { socket, terminal };
+  /// Takes the descriptor. `closed`: called once, when it has been closed, unless by close().
+  Connection(IoThread& io, Exchange& exchange, const Framing& framing, std::shared_ptr<Client> client, int descriptor,
+             Descriptor kind, std::function<void(Connection&)> closed);
+
+  void start() { read(); }
+  /// After a signal of the steps: sends what waits, reads on where there was no room.
+  void attend();
+  /// Sends what can be sent at once and closes it.
+  void close();
+  /// It says nothing any more; what is left to be sent to it may still be on its way.
+  bool is_silent() const { return is_silent_; }
+  std::uint32_t client() const { return client_->number; }
+
+ private:
+  void read();
+  void take_in(std::size_t bytes);
+  void take_end();
+  bool take_messages();
+  std::size_t next_message();
+  void write();
+  void end_input();
+  void fail();
+  void end_output();
+  void send_now();
+  void release();
+
+  Exchange& exchange_;
+  const Framing framing_;
+  const std::shared_ptr<Client> client_;
+  asio::posix::stream_descriptor stream_;
+  asio::steady_timer deadline_;
+  const Descriptor kind_;
+  std::function<void(Connection&)> closed_;
+
+  const std::size_t capacity_;
+  const std::unique_ptr<char[]> input_;
+  std::size_t begin_ = 0, end_ = 0;  ///< of what has come and is in no message yet
+  char skipped_ = 0;                 ///< the other half of a line's end, which may follow: CR or LF
+  bool is_first_ = true;
+  bool is_reading_ = false;
+  bool is_full_ = false;    ///< waits for room
+  bool has_ended_ = false;  ///< the client has closed its side
+  bool is_silent_ = false;
+  bool is_ending_ = false;  ///< the steps are done with it
+  bool is_closed_ = false;
+
+  std::string output_;
+  std::size_t output_sent_ = 0;
+  bool is_writing_ = false;
+  bool is_output_ended_ = false;
+};
+
+}  // namespace muro::stream

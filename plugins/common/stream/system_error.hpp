@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <sys/resource.h>
+
+#include <cerrno>
+#include <string>
+#include <system_error>
+
+#include "muro/algorithm.hpp"
+
+namespace muro::stream {
+
+/// What the system says about an error number, and what to do about it where the reason is no matter of streams.
+inline std::string system_reason(int error) {
+  std::string text = std::system_category().message(error);
+  if (error == EMFILE || error == ENFILE) {
+    rlimit limit{};
+    getrlimit(RLIMIT_NOFILE, &limit);
+    text += "; this process may have " + std::to_string(limit.rlim_cur) +
+            " files open, streams and their clients included: raise that with `ulimit -n`, or use fewer streams";
+  }
+  return text;
+}
+
+[[noreturn]] inline void throw_system_error(const std::string& what, int error) {
+  throw Error(what + ": " + system_reason(error));
+}
+
+}  // namespace muro::stream
