@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <utility>
 
 namespace muro::view {
 
@@ -28,6 +29,8 @@ class Pace {
   }
 
   bool paused() const { return paused_; }
+  /// Whether one frame is to be made; told once.
+  bool take_step() { return std::exchange(stepping_, false); }
   double speed() const { return speed_; }
   void set_paused(bool paused) { paused_ = paused; }
   void set_speed(double speed) {

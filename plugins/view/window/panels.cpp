@@ -143,7 +143,7 @@ void Panels::draw_tree(Inspection& simulation) {
   ImGui::End();
 }
 
-void Panels::edit(const LiveProperty& property) {
+void Panels::edit(Inspection& simulation, const LiveProperty& property) {
   const Scalars values(property);
   constexpr std::uint32_t most = 64;
   for (std::uint32_t i = 0; i < std::min(most, values.size()); ++i) {
@@ -153,8 +153,8 @@ void Panels::edit(const LiveProperty& property) {
     ImGui::SetNextItemWidth(130);
     const bool entered = ImGui::InputDouble(label.empty() ? "##value" : label.c_str(), &value, 0, 0, "%.9g",
                                             ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
-    if (entered && property.is_variable) values.set(i, value);
     ImGui::PopID();
+    if (entered && property.is_variable) return edits.enter(simulation, selected, property, i, value);
   }
   if (values.size() > most) ImGui::Text("... %u in all", values.size());
 }
@@ -165,6 +165,7 @@ void Panels::draw_properties(Inspection& simulation) {
   place(size.x - right_width - margin, top, right_width, size.y - top - margin);
   ImGui::Begin(("properties of " + std::string(simulation.object_name(selected)) + "###properties").c_str(), nullptr,
                fixed);
+  if (!edits.problem().empty()) ImGui::TextWrapped("%s", edits.problem().c_str());
   if (!ImGui::BeginTable("table", 2, ImGuiTableFlags_Resizable | ImGuiTableFlags_BordersInnerV)) return ImGui::End();
   ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthFixed, 0.45F * right_width);
   for (const LiveProperty& p : simulation.properties(selected)) {
@@ -184,7 +185,7 @@ void Panels::draw_properties(Inspection& simulation) {
                         p.is_variable ? "; open it to edit" : "");
     }
     if (opened) {
-      edit(p);
+      edit(simulation, p);
       ImGui::TreePop();
     }
     ImGui::TableNextColumn();

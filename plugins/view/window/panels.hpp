@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "edits.hpp"
 #include "muro/ext/inspection.hpp"
 #include "orbit_camera.hpp"
 #include "overlay.hpp"
@@ -18,6 +19,7 @@ class Panels {
  public:
   ObjectId selected = no_object;
   bool show_all_requested = false;  ///< by the user: all robots in view
+  Edits edits;
 
   /// Remembers the tree of robots. [setup]
   void connect(Connector& c);
@@ -39,7 +41,7 @@ class Panels {
   void draw_tree(Inspection& simulation);
   void draw_properties(Inspection& simulation);
   void draw_costs(Inspection& simulation, double simulated);
-  void edit(const LiveProperty& property);
+  void edit(Inspection& simulation, const LiveProperty& property);
 
   std::vector<Group> groups_;
   std::array<char, 64> filter_{};

@@ -12,6 +12,7 @@
 
 #include "body_poses.hpp"
 #include "muro/ext/outputs.hpp"
+#include "muro/ext/run_control.hpp"
 #include "muro/plugin.hpp"
 #include "muro/toolkit/elementary.hpp"
 #include "muro/vocabulary.hpp"
@@ -58,9 +59,10 @@ constexpr Description description{
     .capabilities = restorable | runs_alone,
 };
 
-class Window final : public Algorithm {
+class Window final : public Algorithm, private PauseAttendant {
  public:
   ~Window() override {
+    if (control_) control_->remove_attendant(*this);
     if (screen_) release();
   }
 
@@ -92,7 +94,10 @@ class Window final : public Algorithm {
     if (p.given("from")) orbit_camera_.look_from(vector(p.reals("from")), vector(p.reals("to")));
     shows_all_ = !p.given("from") && panels_.selected == no_object;
     simulation_ = Inspection::of(c.host());
-    if (!simulation_) throw Error("this host does not show its simulation to windows");
+    control_ = RunControl::of(c.host());
+    if (!simulation_ || !control_) throw Error("this host does not show its simulation to windows");
+    control_->add_attendant(*this);
+    panels_.edits.connect(*control_);
     scene_.connect(c, render::ShapeSource::visual, tolerance);
     panels_.connect(c);
     bodies_.connect_links(c);
@@ -121,25 +126,21 @@ class Window final : public Algorithm {
   }
 
   /// Returns when the run may go on, and draws meanwhile; when it is on time it draws only if the last frame is old
-  /// enough.
+  /// enough. A paused run is held by the host.
   void step(const Step& step, Range) override {
-    if (screen_->is_lost() || screen_->is_closed()) return;
     last_time_ = step.seconds();
+    if (screen_->is_lost() || screen_->is_closed()) return;
+    if (has_paused_) pace_.set_paused(false);  // somebody else lets the run go on
+    has_paused_ = false;
     for (;;) {
       const double now = wall_time();
       const bool may_go_on = pace_.may_go_on(step.seconds(), now);
-      if (now >= next_frame_) {
-        draw(step.seconds());
-        if (screen_->is_lost()) {
-          host_->log(LogLevel::warning, "the display of the window is gone; the run goes on without it");
-          return;
-        }
-        // At most half of the time is spent drawing: where a frame takes long, fewer are shown.
-        next_frame_ = std::max(now + period_, wall_time() + (wall_time() - now));
-        if (screen_->is_closed()) return simulation_->stop();
-        if (!may_go_on && !simulation_->is_stopping()) continue;
-      }
+      if (now >= next_frame_ && !show_frame(now)) return;
       if (may_go_on || simulation_->is_stopping()) return;
+      if (pace_.paused()) {
+        has_paused_ = true;
+        return control_->set_paused(true);
+      }
       std::this_thread::sleep_for(std::chrono::microseconds(500));
     }
   }
@@ -158,6 +159,33 @@ class Window final : public Algorithm {
   using Clock = std::chrono::steady_clock;
 
   static Vec3 vector(std::span<const double> v) { return {v[0], v[1], v[2]}; }
+  /// While the run is paused, by whomever.
+  void attend() noexcept override {
+    try {
+      const double now = wall_time();
+      const bool is_there = !screen_->is_lost() && !screen_->is_closed() && (now < next_frame_ || show_frame(now));
+      if (!has_paused_ || (is_there && pace_.paused() && !pace_.take_step())) return;
+      has_paused_ = false;
+      control_->set_paused(false);
+    } catch (const std::exception& e) {
+      host_->log(LogLevel::error, e.what());
+      simulation_->stop();
+    }
+  }
+
+  /// False: the window is gone, or closed, which ends the run.
+  bool show_frame(double now) {
+    draw(last_time_);
+    if (screen_->is_lost()) {
+      host_->log(LogLevel::warning, "the display of the window is gone; the run goes on without it");
+      return false;
+    }
+    // At most half of the time is spent drawing: where a frame takes long, fewer are shown.
+    next_frame_ = std::max(now + period_, wall_time() + (wall_time() - now));
+    if (screen_->is_closed()) simulation_->stop();
+    return !screen_->is_closed();
+  }
+
   double wall_time() const { return std::chrono::duration<double>(Clock::now() - start_time_).count(); }
 
   void select(const Connector& c, const std::string& name) {
@@ -283,6 +311,8 @@ class Window final : public Algorithm {
   std::string picture_;
   Host* host_ = nullptr;
   Inspection* simulation_ = nullptr;
+  RunControl* control_ = nullptr;
+  bool has_paused_ = false;  ///< the run stands because the user wants it
   render::Scene scene_;
   render::Daylight light_;
   view::BodyPoses bodies_;
