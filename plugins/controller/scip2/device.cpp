@@ -110,7 +110,7 @@ std::uint32_t Device::timestamp(const State& s, std::int64_t time) {
 
 void Device::send_scan(State& s, DeviceHost& host) {
   Measurement& m = s.measurement;
-  if (Command(m.command) == Command::none) return;
+  if (!sends_scans(s)) return;
   const Health health = health_of(s.fault, s.fault_scans);
   if (health == Health::normal && (!s.has_scan || s.scan_time < m.since)) return;
   if (m.left_out < m.interval && health == Health::normal) {
@@ -166,10 +166,13 @@ void Device::laser_off(State& s) const {
   s.measurement = {};
 }
 
-void Device::forget(State& s, std::uint32_t client) const {
-  for (std::uint32_t i = s.pending_count; i-- > 0;)
-    if (s.pending[i].client == client) remove_pending(s, i, 1);
-  if (s.measurement.client == client && Command(s.measurement.command) != Command::none) laser_off(s);
+void Device::forget(State& s, std::uint32_t client, DeviceHost& host) const {
+  for (std::uint32_t i = s.pending_count; i-- > 0;) {
+    if (s.pending[i].client != client) continue;
+    remove_pending(s, i, 1);
+    host.answered();
+  }
+  if (s.measurement.client == client && sends_scans(s)) laser_off(s);
 }
 
 void Device::shift(State& s, std::int64_t offset) const {

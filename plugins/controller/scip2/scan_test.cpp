@@ -181,7 +181,7 @@ TEST(Scip2Scan, RepliesGoToWhoAskedAndScansEndWithTheirClient) {
   d.run(450);
   EXPECT_EQ(complete(d.output).size(), 2u);
   EXPECT_EQ(complete(d.other_output).size(), 4u) << "each client its own, also commands of one kind at once";
-  d.device.forget(d.state(), 2);
+  d.device.forget(d.state(), 2, d);
   d.other_output.clear();
   d.run(500);
   EXPECT_EQ(d.other_output, "");
