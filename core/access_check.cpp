@@ -131,8 +131,8 @@ bool AccessCheck::call(const Task& task, const Step& step, Range range, abi::Err
       return false;
     }
   const Description& d = *found->description;
-  const bool repeats =
-      (d.capabilities & Capability::restorable) != 0 && d.kind != Kind::recorder && d.kind != Kind::view;
+  const bool talks = (d.capabilities & Capability::runs_alone) != 0;  // with the outside, which says a thing once
+  const bool repeats = (d.capabilities & Capability::restorable) != 0 && d.kind != Kind::recorder && !talks;
   if (!repeats) return true;
 
   if (!repeat_until(task, step, range, error)) return false;
