@@ -83,7 +83,7 @@ void RunRequests::carry_out(Simulation& simulation, const std::function<bool()>&
   const auto is_over = [&] { return stop && stop(); };
   for (;;) {
     if (inputs_.has_recording()) replay_all(simulation);
-    carry_out_all(simulation);
+    while (has_requests_) carry_out_all(simulation);  // who is told that one is done may ask for the next
     if (std::exchange(speed_changed_, false)) simulation.set_pacing({speed_});
     if (paused_ && pause_at_ >= 0 && simulation.now() >= pause_at_) pause_at_ = -1;
     if (!paused_ || pause_at_ >= 0 || is_over()) break;
@@ -94,7 +94,6 @@ void RunRequests::carry_out(Simulation& simulation, const std::function<bool()>&
 }
 
 void RunRequests::carry_out_all(Simulation& simulation) {
-  if (!has_requests_) return;
   std::vector<Request> requests;
   {
     const std::lock_guard lock(mutex_);

@@ -127,10 +127,10 @@ Client* Exchange::find(std::uint32_t number) {
   return nullptr;
 }
 
-Exchange::Sent Exchange::queue(Client& client, std::string_view bytes) {
+Exchange::Sent Exchange::queue(Client& client, std::string_view bytes, std::size_t most) {
   if (client.is_ending) return Sent::nothing;
   const std::size_t waiting = client.outgoing.size() + client.sending;
-  if (waiting > 0 && waiting + bytes.size() > limits_.output_bytes) {
+  if (waiting > 0 && waiting + bytes.size() > most) {
     ++statistics_.dropped;
     return Sent::dropped;
   }
@@ -138,16 +138,16 @@ Exchange::Sent Exchange::queue(Client& client, std::string_view bytes) {
   return Sent::queued;
 }
 
-Exchange::Sent Exchange::send(std::uint32_t number, std::string_view bytes) {
+Exchange::Sent Exchange::send(std::uint32_t number, std::string_view bytes, std::size_t most) {
   const std::lock_guard lock(mutex_);
   Client* const client = find(number);
-  return client ? queue(*client, bytes) : Sent::nothing;
+  return client ? queue(*client, bytes, most) : Sent::nothing;
 }
 
 Exchange::Sent Exchange::send_to_all(std::string_view bytes) {
   const std::lock_guard lock(mutex_);
   Sent sent = Sent::nothing;
-  for (const auto& client : clients_) sent = std::max(sent, queue(*client, bytes));
+  for (const auto& client : clients_) sent = std::max(sent, queue(*client, bytes, limits_.output_bytes));
   return sent;
 }
 

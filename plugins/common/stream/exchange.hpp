@@ -71,15 +71,16 @@ class Exchange {
   /// Moves it behind what is in `inbox`. True: a client waits for room that there is now.
   bool collect(Inbox& inbox);
   enum class Sent : std::uint8_t { nothing, dropped, queued };
-  /// Queues all of it or nothing.
-  Sent send(std::uint32_t client, std::string_view bytes);
+  /// Queues all of it or nothing, where not more than `most` bytes wait then.
+  Sent send(std::uint32_t client, std::string_view bytes) { return send(client, bytes, limits_.output_bytes); }
+  Sent send(std::uint32_t client, std::string_view bytes, std::size_t most);
   Sent send_to_all(std::string_view bytes);
   /// Disconnects the client once all is sent. False: there is none.
   bool end(std::uint32_t client);
   Statistics statistics() const;
 
  private:
-  Sent queue(Client& client, std::string_view bytes);
+  Sent queue(Client& client, std::string_view bytes, std::size_t most);
   Client* find(std::uint32_t number);
 
   const Limits limits_;

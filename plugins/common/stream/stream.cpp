@@ -61,11 +61,15 @@ class Stream::Impl {
 
   bool is_replayed() const { return channel && channel->is_replayed(); }
 
-  void begin(std::int64_t its_time) {
+  void poll(std::int64_t its_time) {
     time = its_time;
     has_handed_out_message = false;
+    if (endpoint) collect();
+  }
+
+  void begin(std::int64_t its_time) {
+    poll(its_time);
     if (!endpoint) return;
-    collect();
     if (lockstep && !has_message()) {
       wait();
       collect();
@@ -93,9 +97,13 @@ class Stream::Impl {
     const Inbox::Entry& entry = inbox.entries[next_entry++];
     has_handed_out_message |= entry.kind == Event::Kind::message;
     event = {entry.kind, entry.client, std::string_view(inbox.bytes).substr(entry.begin, entry.size)};
-    if (entry.kind == Event::Kind::disconnected) disconnect(entry.client);
-    if (channel) channel->record(time, {std::uint32_t(event.kind), event.client, event.bytes});
+    if (entry.kind == Event::Kind::disconnected && !limits.has_late_replies) disconnect(entry.client);
+    record({std::uint32_t(event.kind), event.client, event.bytes});
     return &event;
+  }
+
+  void record(const ExternalInput& input) {
+    if (channel && limits.is_recorded) channel->record(time, input);
   }
 
   const Event* replay() {
@@ -113,7 +121,7 @@ class Stream::Impl {
 
   void wait() {
     if (lockstep->wait(time) != LockstepStream::Outcome::timed_out) return;
-    if (channel) channel->record(time, {timed_out_kind, 0, {}});
+    record({timed_out_kind, 0, {}});
     time_out();
   }
 
@@ -180,10 +188,15 @@ Stream::~Stream() = default;
 
 void Stream::open() { impl_->open(); }
 void Stream::begin(std::int64_t time) { impl_->begin(time); }
+void Stream::poll(std::int64_t time) { impl_->poll(time); }
 const Event* Stream::next() { return impl_->next(); }
 
 bool Stream::send(std::uint32_t client, std::string_view bytes) {
   return !impl_->endpoint || impl_->send(impl_->exchange->send(client, bytes));
+}
+
+bool Stream::send(std::uint32_t client, std::string_view bytes, std::size_t most) {
+  return !impl_->endpoint || impl_->send(impl_->exchange->send(client, bytes, most));
 }
 
 void Stream::send_to_all(std::string_view bytes) {

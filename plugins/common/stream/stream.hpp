@@ -48,6 +48,12 @@ struct Limits {
   std::size_t input_messages = 1024;   ///< of a client that wait for the next step; then no more is read from it
   std::size_t output_bytes = 1 << 20;  ///< of a client that wait to be sent; then replies are dropped whole
   std::size_t input_bytes = 1 << 20;   ///< as input_messages
+  /// Events are recorded, and a replay has them again. False: whoever takes them has their effects recorded by others,
+  /// and in a replay there are none.
+  bool is_recorded = true;
+  /// A client that has said that it says no more is disconnected as soon as a step knows. True: whoever serves it
+  /// disconnects it, when all that it has said is answered.
+  bool has_late_replies = false;
 };
 
 /// One stream with its clients: a server, a client, a pseudo-terminal or a serial device, or a recording of it.
@@ -70,11 +76,15 @@ class Stream {
   /// Begins a step at `time` (ns): in lockstep, waits for the client, and the step has one message at most. Throws
   /// muro::Error when it did not answer in time and the address says that this ends the run. [step]
   void begin(std::int64_t time);
+  /// The same without waiting for anybody: while the run is paused, at `time`. [between steps]
+  void poll(std::int64_t time);
   /// The next event of this step. Null: there is no other. [step]
   const Event* next();
   /// Sends to one client, or drops all of it where the client has too much waiting. Never waits. False: dropped, which
   /// no state may depend on. [step]
   bool send(std::uint32_t client, std::string_view bytes);
+  /// Drops them, and counts them, where more than `most` bytes would wait: the rest of the buffer is for others. [step]
+  bool send(std::uint32_t client, std::string_view bytes, std::size_t most);
   /// To every client. [step]
   void send_to_all(std::string_view bytes);
   /// A message was answered for good, or needs no answer: for lockstep, once for each message. [step]
