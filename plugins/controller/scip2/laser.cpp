@@ -97,14 +97,12 @@ void Laser::read_grid(Connector& c, ObjectId laser, const std::string& name) {
   for (std::uint32_t row = 1; row < rows; ++row)
     if (std::abs(first + row * spacing) < std::abs(first + level * spacing)) level = row;
   grid_.first_ray = level * grid_.columns;
-  min_range_ = c.constant(laser, keys::laser_min_range).value_or(0);
   max_range_ = c.constant(laser, keys::laser_max_range).value_or(1e9);
 }
 
 void Laser::read(const Readings& readings, std::span<std::uint32_t> distances,
                  std::span<std::uint32_t> intensities) const {
-  const LaserScan scan{*measured_, *truth_, incidence_ ? *incidence_ : std::span<const double>(), min_range_,
-                       max_range_};
+  const LaserScan scan{*measured_, *truth_, incidence_ ? *incidence_ : std::span<const double>(), max_range_};
   readings.read(scan, distances, intensities);
 }
 

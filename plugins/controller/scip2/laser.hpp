@@ -27,7 +27,7 @@ class Laser {
 
   ArrayIn<double> truth_, measured_, incidence_;
   RayGrid grid_;
-  double min_range_ = 0, max_range_ = 0;
+  double max_range_ = 0;
 };
 
 }  // namespace muro::scip2

@@ -62,7 +62,7 @@ std::uint32_t Readings::distance(const LaserScan& scan, std::uint32_t ray) const
   if (scan.truth[ray] >= scan.max_range || !(range > 0) || !std::isfinite(range)) return model_.no_return_code;
   const double mm = std::round(1e3 * range);
   if (mm > model_.max_distance) return model_.no_return_code;
-  if (mm < model_.min_distance || scan.truth[ray] <= scan.min_range) return model_.too_near_code;
+  if (mm < model_.min_distance) return model_.too_near_code;
   return std::uint32_t(mm);
 }
 
@@ -80,7 +80,7 @@ double Readings::cosine_of_incidence(std::span<const std::uint32_t> distances, s
   const double half = 0.5 * step_angle_ * double(behind - before);
   const double along = (double(distances[behind]) - distances[before]) * elementary::cos(half);
   const double across = (double(distances[behind]) + distances[before]) * elementary::sin(half);
-  return across / std::hypot(along, across);
+  return across / std::sqrt(along * along + across * across);
 }
 
 /// A run of steps without return ends beside steps that see something: those of its ends read 7.

@@ -21,10 +21,10 @@ struct RayGrid {
 
 /// What a simulated laser reports at one instant, for each ray.
 struct LaserScan {
-  std::span<const double> ranges;                                             ///< m, as the device measures them
-  std::span<const double> truth;                                              ///< m, before errors; may be the same
-  std::span<const double> incidence;                                          ///< rad; may be empty
-  double min_range = 0, max_range = std::numeric_limits<double>::infinity();  ///< m, of the laser
+  std::span<const double> ranges;                              ///< m, as the device measures them
+  std::span<const double> truth;                               ///< m, before errors; may be the same
+  std::span<const double> incidence;                           ///< rad; may be empty
+  double max_range = std::numeric_limits<double>::infinity();  ///< m, of the laser: what nothing reads
 };
 
 /// From the rays of a laser to what the steps of a device read.

@@ -80,6 +80,8 @@ class Station final : private DeviceHost {
     stream_.open();
   }
 
+  void finish() { stream_.finish(); }
+
   /// Copies the state, as it is at `time`, to where a reset does not reach.
   void keep(std::int64_t time) {
     kept_.resize(device_.state_size());
@@ -154,6 +156,10 @@ class Scip2 final : public Algorithm {
     resumes_ = keeps_session_ && !stations_.empty() && stations_.front()->has_kept();
     if (resumes_)
       host_->log(LogLevel::info, "session: keep: devices go on as they were before the reset, which is no fresh start");
+  }
+
+  void finish() override {
+    for (const auto& s : stations_) s->finish();
   }
 
   std::span<const Phase> phases() const override {

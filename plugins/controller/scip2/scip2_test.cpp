@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: MIT
+// The plugin in the whole simulator: clients on TCP, lasers of the scene.
+#include <cmath>
+#include <thread>
+
+#include "plugins/common/stream/echo_testing.hpp"
+#include "scip2_testing.hpp"
+#include "tests/support/bodies.hpp"
+#include "tests/support/complaint.hpp"
+#include "tests/support/scene.hpp"
+
+namespace muro::scip2 {
+namespace {
+
+using Settings = std::map<std::string, ParameterInput>;
+using Texts = std::vector<std::string>;
+using stream::Peer;
+
+/// Ports that other tests at the same time do not take: those of the process.
+std::uint16_t next_port() {
+  static std::uint16_t port = std::uint16_t(20000 + getpid() % 12000);
+  return port++;
+}
+
+/// Robots that stand in a room of 6 m by 4 m, each with a laser of 682 rays.
+struct Room : test::Scene {
+  explicit Room(int robots = 1) {
+    add_ground();
+    wall("east", Shape::box({0.2, 4.4, 3}), {3.1, 0, 1.5});
+    wall("west", Shape::box({0.2, 4.4, 3}), {-3.1, 0, 1.5});
+    wall("north", Shape::box({6.4, 0.2, 3}), {0, 2.1, 1.5});
+    for (int i = 0; i < robots; ++i) {
+      const RobotView& robot = add("rover_" + std::to_string(i),
+                                   test::single_body(Shape::sphere(0.001), {.mass = 1, .ixx = 1, .iyy = 1, .izz = 1}),
+                                   {{0.02 * i - 1, -0.3 + 0.01 * (i % 7), 0.5 + 0.003 * i}, Quat::Identity()});
+      lasers.push_back({&robot, add_sensor_object(robot, "laser", robot.base())});
+    }
+    use("motion.point", 100, all_robots());
+    use_kinematics();
+    use("scene.bvh", 0);
+  }
+  void wall(const std::string& name, const Shape& shape, const Vec3& at) {
+    world().add_scenery(name, {at, Quat::Identity()}, std::span<const Shape>(&shape, 1));
+  }
+  void use_laser(Settings settings = {}) {
+    const Model m = urg_04lx();
+    settings.merge(Settings{{"min_angle", m.angle_of(44)},
+                            {"max_angle", m.angle_of(725)},
+                            {"rays", std::int64_t(682)},
+                            {"min_range", 0.02},
+                            {"max_range", 5.6}});
+    use("laser.raycast", 10, lasers, settings);
+  }
+  std::uint16_t use_device(Settings settings = {}, double rate = 200) {
+    const std::uint16_t port = next_port();
+    if (!settings.contains("stream")) settings["stream"] = Texts{"tcp=" + std::to_string(port) + "+{index}"};
+    use("controller.scip2", rate, lasers, std::move(settings));
+    for (std::size_t i = 1; i < lasers.size(); ++i) next_port();
+    return port;
+  }
+  /// A step of 5 ms, and time for the thread of input and output.
+  void go(double seconds = 0.005) {
+    run_for(seconds);
+    std::this_thread::sleep_for(std::chrono::microseconds(300));
+  }
+  /// What the device says to `lines`, up to `count` whole replies.
+  std::vector<Reply> ask(Peer& client, const std::string& lines, std::size_t count = 1) {
+    client.heard.clear();
+    EXPECT_TRUE(client.say(lines));
+    for (int i = 0; i < 2000; ++i) {
+      const auto replies = replies_in(client.hear());
+      if (replies && replies->size() >= count) return *replies;
+      go();
+    }
+    ADD_FAILURE() << "no " << count << " replies to " << lines << " but " << client.heard;
+    return std::vector<Reply>(count);
+  }
+  std::vector<double> ranges(std::size_t robot, const Key<double>& key = keys::ranges) {
+    const auto found = world().values(lasers[robot].object, key);
+    return {found.begin(), found.end()};
+  }
+  std::vector<Item> lasers;
+};
+
+void expect_equal(const std::vector<long>& millimetres, const std::vector<double>& ranges, double max_range = 5.6) {
+  ASSERT_EQ(millimetres.size(), ranges.size());
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    if (ranges[i] >= max_range)
+      EXPECT_LT(millimetres[i], 20) << i;
+    else
+      EXPECT_NEAR(double(millimetres[i]), 1e3 * ranges[i], 0.501) << i;
+  }
+}
+
+TEST(Scip2, ScansAreThoseOfTheLaserToTheMillimetre) {
+  Room s;
+  s.use_laser();
+  const std::uint16_t port = s.use_device();
+  s.build();
+  Peer client = Peer::tcp(port);
+  EXPECT_EQ(s.ask(client, "SCIP2.0\n")[0].echo, "SCIP2.0");
+  EXPECT_EQ(s.ask(client, "BM\n")[0].status, "00");
+  const Reply scan = s.ask(client, "GD0044072501\n")[0];
+  EXPECT_TRUE(scan.sums_are_right);
+  const std::vector<double> truth = s.ranges(0);
+  expect_equal(scan.values(3), truth);
+  EXPECT_LT(*std::min_element(truth.begin(), truth.end()), 2.5) << "there is something to see";
+  const auto scans = s.ask(client, "MS0044072501003\n", 4);
+  EXPECT_EQ(scans[3].echo, "MS0044072501000");
+  EXPECT_EQ(scans[3].timestamp() - scans[1].timestamp(), 200);
+  EXPECT_EQ(s.ask(client, "ME0044072501101\n", 2)[1].values(3).size(), 2 * 682u);
+}
+
+TEST(Scip2, WhatTheDeviceMeasuresIsSentWhereThereIsNoise) {
+  Room s;
+  s.use_laser();
+  s.use("sensor.error", 10, s.lasers, {{"bias", 0.25}});
+  const std::uint16_t port = s.use_device();
+  s.build();
+  Peer client = Peer::tcp(port);
+  s.ask(client, "BM\n");
+  const std::vector<long> values = s.ask(client, "GD0044072501\n")[0].values(3);
+  const std::vector<double> truth = s.ranges(0);
+  ASSERT_LT(truth[600], 5);
+  EXPECT_NEAR(double(values[600]), 1e3 * truth[600] + 250, 0.501);
+}
+
+TEST(Scip2, TwoClientsOnTwoScannersAtOnce) {
+  Room s(2);
+  s.use_laser();
+  const std::uint16_t port = s.use_device();
+  s.build();
+  Peer a = Peer::tcp(port), b = Peer::tcp(port + 1);
+  a.say("BM\nMD0044072501000\n");
+  b.say("MD0044072501005\n");
+  for (int i = 0; i < 400; ++i) s.go();
+  const auto to_a = replies_in(a.hear()), to_b = replies_in(b.hear());
+  ASSERT_TRUE(to_a && to_b);
+  EXPECT_GE(to_a->size(), 17u);
+  EXPECT_EQ(to_b->size(), 6u);
+  expect_equal(to_a->back().values(3), s.ranges(0));
+  expect_equal(to_b->back().values(3), s.ranges(1));
+  EXPECT_NE(s.ranges(0), s.ranges(1));
+}
+
+TEST(Scip2, ASweptLaserAndOneOfManyRaysAreReadByAngle) {
+  for (const bool is_swept : {false, true}) {
+    Room s;
+    s.use("laser.raycast", is_swept ? 200 : 10, s.lasers,
+          {{"rays", std::int64_t(4096)}, {"max_range", 8.0}, {"sweep_steps", std::int64_t(is_swept ? 20 : 1)}});
+    const std::uint16_t port = s.use_device();
+    s.build();
+    Peer client = Peer::tcp(port);
+    s.ask(client, "BM\n");
+    const std::vector<long> values = s.ask(client, "GD0384038401\n")[0].values(3);
+    EXPECT_NEAR(double(values[0]), 4000, 1) << "the wall ahead";
+    EXPECT_NEAR(double(s.ask(client, "GD0640064001\n")[0].values(3)[0]), 2300, 1) << "90 degrees to the left";
+  }
+}
+
+TEST(Scip2, AResetIsAPowerCycle) {
+  for (const bool keeps : {false, true}) {
+    Room s;
+    s.use_laser();
+    const std::uint16_t port = s.use_device({{"session", keeps ? "keep" : "power_cycle"}});
+    std::string log;
+    s.set_log([&](LogLevel, std::string_view text) { log += std::string(text) + "\n"; });
+    s.build();
+    const std::uint64_t fresh = s.state_hash();
+    Peer client = Peer::tcp(port);
+    EXPECT_EQ(s.ask(client, "BM\n")[0].status, "00");
+    const long before = s.ask(client, "GD0044072501\n")[0].timestamp();
+    s.run_for(2);
+    s.reset();
+    EXPECT_EQ(s.state_hash(), fresh);
+    if (keeps) {
+      EXPECT_EQ(s.ask(client, "BM\n")[0].status, "02");
+      EXPECT_GT(s.ask(client, "GD0044072501\n")[0].timestamp(), before + 1900);
+      EXPECT_SAYS(log, "session: keep: devices go on as they were before the reset, which is no fresh start");
+    } else {
+      EXPECT_EQ(s.ask(client, "GD0044072501\n")[0].status, "10");
+      EXPECT_EQ(s.ask(client, "BM\n")[0].status, "00");
+      EXPECT_LT(s.ask(client, "GD0044072501\n")[0].timestamp(), 1000);
+    }
+  }
+}
+
+TEST(Scip2, ASnapshotHoldsTheDevice) {
+  Room s;
+  s.use_laser();
+  const std::uint16_t port = s.use_device();
+  s.build();
+  Peer client = Peer::tcp(port);
+  s.ask(client, "MD0044072501000\n", 3);
+  const Snapshot middle = s.snapshot();
+  s.run_for(1);
+  const std::uint64_t end = s.state_hash();
+  s.restore(middle);
+  s.run_for(1);
+  EXPECT_EQ(s.state_hash(), end);
+  EXPECT_EQ(s.ask(client, "QT\n")[0].sums_are_right, true);
+}
+
+TEST(Scip2, AHundredScannersServeAHundredClients) {
+  Room s(100);
+  s.use_laser();
+  const std::uint16_t port = s.use_device();
+  s.build();
+  std::vector<Peer> clients;
+  for (std::uint16_t i = 0; i < 100; ++i) clients.push_back(Peer::tcp(std::uint16_t(port + i)));
+  for (Peer& c : clients) ASSERT_TRUE(c.say("MD0044072501000\n"));
+  for (int i = 0; i < 240; ++i) {
+    s.go();
+    for (Peer& c : clients) c.hear();
+  }
+  for (std::size_t i = 0; i < clients.size(); ++i) {
+    const auto replies = replies_in(clients[i].hear());
+    ASSERT_TRUE(replies.has_value());
+    ASSERT_GE(replies->size(), 9u);
+    expect_equal(replies->back().values(3), s.ranges(i));
+  }
+}
+
+TEST(Scip2, GarbageOnAStreamIsAnsweredAndForgotten) {
+  Room s;
+  s.use_laser();
+  const std::uint16_t port = s.use_device();
+  s.build();
+  Peer client = Peer::tcp(port);
+  std::string garbage;
+  for (int i = 0; i < 5000; ++i) garbage += char(i * 7919 % 251);
+  client.say(garbage + std::string(3000, 'x') + "\r\n");
+  for (int i = 0; i < 100; ++i) s.go();
+  EXPECT_TRUE(replies_in(client.hear()).has_value());
+  EXPECT_EQ(s.ask(client, "QT\r\n")[0].status, "00");
+}
+
+TEST(Scip2, RefusesWhatCannotBe) {
+  const auto refusal = [](Settings settings, Settings laser = {}, bool has_laser = true) {
+    Room s;
+    if (has_laser) s.use_laser(laser);
+    s.use_device(std::move(settings));
+    return test::complaint_of([&] { s.build(); });
+  };
+  EXPECT_SAYS(refusal({{"dmin", std::int64_t(6000)}}), "dmin (6000) must be less than dmax (5600)");
+  EXPECT_SAYS(refusal({{"amin", std::int64_t(800)}}), "amin (800) must not be greater than amax (725)");
+  EXPECT_SAYS(refusal({{"ares", std::int64_t(500)}}), "there are 682 steps from amin (44) to amax (725), more than in");
+  EXPECT_SAYS(refusal({{"serial", "a;b"}}), "serial is `a;b`; it must be at most 56 printable ASCII characters");
+  EXPECT_SAYS(refusal({{"model", "urg-05lx"}}), "urg-05lx");
+  EXPECT_SAYS(refusal({}, {}, false), "robot `rover_0` has no laser for the device to report; give it one");
+  EXPECT_SAYS(refusal({}, {{"min_angle", 2.5}, {"max_angle", 3.0}}),
+              "no ray of `rover_0/laser` looks where the 682 steps of the device look; give the laser min_angle: "
+              "-2.086214, max_angle: 2.092350, rays: 682");
+  Room slow;
+  slow.use_laser();
+  slow.use_device({}, 5);
+  slow.build();
+  EXPECT_SAYS(test::complaint_of<StepError>([&] { slow.run_for(1); }),
+              "its rate is 5 Hz, less than the 10 scans that the device takes in a second");
+}
+
+TEST(Scip2, WarnsOfStepsWithoutRay) {
+  Room s;
+  s.use_laser({{"min_angle", -1.0}, {"max_angle", 1.0}, {"rays", std::int64_t(100)}});
+  s.use_device();
+  std::string log;
+  s.set_log([&](LogLevel, std::string_view text) { log += std::string(text) + "\n"; });
+  s.build();
+  EXPECT_SAYS(log, "of 682 steps of the device have no ray of `rover_0/laser` and read 0; what covers them is ");
+  EXPECT_SAYS(log, "rays of `rover_0/laser` are farther apart than steps of the device");
+}
+
+}  // namespace
+}  // namespace muro::scip2
