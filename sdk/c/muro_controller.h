@@ -2,28 +2,36 @@
  *
  * The interface of control code that muro loads from a shared library (algorithm `controller.library`).
  * C11 and C++20; no muro header or library is needed beside this file. docs/controllers.md is the how-to,
- * examples/urban/wander.c a complete library.
+ * examples/controllers the same complete library in four languages. For C++ there is muro_controller.hpp.
  *
  * A library exports one function, `muro_controller`, which returns a constant table: the names of its
- * inputs and outputs, the size of its state, and two functions. One library serves any number of robots;
- * each of them, an instance, has a state block of its own.
+ * inputs and outputs, the size of its state, and its functions. One library serves any number of robots;
+ * each of them is an instance.
  *
- * Inputs and outputs are arrays of double with a name, a unit and a size. The name is that of a property
- * ("ranges", "laser.min_angle", "joint.position", "command.twist"); its elements are converted to double
- * and stand in the order of the property's columns (a twist: vx vy vz wx wy wz). muro looks for the property
- * on the base of the robot, then on its other objects; the scenario can connect a port to any other one.
+ * Inputs and outputs are arrays with a name, a unit and a size, of double unless a flag says otherwise. The
+ * name is that of a property ("ranges", "laser.min_angle", "joint.position", "command.twist"); its elements
+ * are converted to double and stand in the order of the property's columns (a twist: vx vy vz wx wy wz). muro
+ * looks for the property on the base of the robot, then on its other objects; the scenario can connect a port
+ * to any other one.
  *
- * Life of an instance:
+ * An instance keeps what it needs from step to step in one of two ways:
  *
- *     block cleared -> create -> step -> step -> ...
+ *     a block of bytes:      block cleared -> create -> step -> step -> ...
+ *     memory of its own:     instantiate -> step -> step -> ... -> destroy
  *
- * `create` runs just before the first step. A reset clears the block and begins again with `create`. A
- * restored snapshot brings back the bytes of the block and goes on with `step`: nothing else is called,
- * so all that a step leaves for the next one must be in the block.
+ * `create` or `instantiate` runs just before the first step. A reset clears the block, or destroys the
+ * instance, and begins again. A restored snapshot brings back the bytes of the block and goes on with `step`:
+ * nothing else is called, so all that a step leaves for the next one must be in the block. Of an instance with
+ * memory of its own, `save` is called after each step; a restored snapshot destroys it, and goes on with
+ * `instantiate` and `load`.
  *
  * All functions of one instance are called from one thread at a time; instances may run in parallel, so a
- * library keeps no variables outside the state blocks. Nothing may be thrown or jumped out of a function.
- * Control code runs inside the simulator: an invalid memory access ends the whole program.
+ * library keeps no variables outside its instances. Nothing may be thrown or jumped out of a function.
+ * Control code runs inside the simulator, where an invalid memory access ends the whole program, or in a
+ * process of its own, as the scenario says (`isolate: process`).
+ *
+ * Structs grow at their ends. A library that was built with an older header goes on working; a newer one
+ * than that of muro is refused.
  */
 #ifndef MURO_CONTROLLER_H
 #define MURO_CONTROLLER_H
@@ -41,29 +49,85 @@ extern "C" {
 typedef struct muro_port {
   const char* name; /* a property, e.g. "ranges"; no two inputs, and no two outputs, have the same */
   const char* unit; /* its SI unit letter by letter as muro writes it, e.g. "m"; NULL: not checked */
-  uint32_t size;    /* number of doubles; 0: as many as the property has (inputs only) */
-  uint32_t flags;   /* 0, or MURO_PORT_OPTIONAL */
+  uint32_t size;    /* number of elements; 0: as many as the property has (outputs: see output_sizes) */
+  uint32_t flags;   /* 0, or MURO_PORT_..., or-ed */
 } muro_port;
 
 /* An input that may be missing: where nothing of the robot has such a property, muro says so once and the input has
  * size 0, so control code can live with a robot that lacks a sensor. */
 #define MURO_PORT_OPTIONAL 1u
+/* The elements are int64_t, and so are exact; the property holds whole numbers. */
+#define MURO_PORT_INTEGER 2u
+/* One text in UTF-8 with a closing zero; the size counts its bytes and the zero. The property holds texts, objects
+ * (the text is their name) or bytes; several texts stand in lines. What is too long is cut. */
+#define MURO_PORT_TEXT 4u
+/* An input whose number of elements changes from step to step, such as "contacts": muro_controller_step::input_sizes
+ * says how many there are now. The size is the most that are handed over. */
+#define MURO_PORT_LIST 8u
+/* An output for which muro makes a property of this name on the robot, for others to read or record. */
+#define MURO_PORT_OWN 16u
 
-/* What an instance learns when it is created. All pointers are valid during `create` only. */
+/* A number that the scenario may set: `tunables: ["speed=0.8"]`. */
+typedef struct muro_tunable {
+  const char* name;     /* no two have the same */
+  const char* unit;     /* SI, for the reader; NULL: none */
+  double default_value; /* from min to max */
+  double min, max;      /* the allowed range, both included; equal: any finite number */
+  const char* doc;      /* one line for the reader, or NULL */
+} muro_tunable;
+
+/* Levels of log lines. */
+#define MURO_LOG_DEBUG 0u
+#define MURO_LOG_INFO 1u
+#define MURO_LOG_WARNING 2u
+#define MURO_LOG_ERROR 3u
+
+/* Where log lines go: muro adds the names of robot and library, and the simulated time. To be called only within a
+ * function of the instance, from its thread. */
+typedef struct muro_log_sink {
+  void* context;
+  void (*write)(void* context, uint32_t level, const char* text);
+} muro_log_sink;
+
+/* What an instance learns when it is created. All pointers are valid during that call only. */
 typedef struct muro_controller_setup {
   const char* robot;            /* name of the robot */
   double period;                /* s between steps */
   uint64_t seed;                /* from the simulation's seed and the robot's name: equal between runs */
   const uint32_t* input_sizes;  /* actual size of each input */
   const char* const* arguments; /* "name=value" texts from the scenario, ended by NULL */
+  /* What follows is there for tables that have `tunables`. */
+  const uint32_t* output_sizes; /* actual size of each output */
+  uint32_t index;               /* of this instance among those of the controller, from 0, as in the scenario */
+  uint32_t count;               /* of these instances */
+  const double* tunables;       /* the value of each tunable */
+  const muro_log_sink* log;          /* valid as long as the instance */
 } muro_controller_setup;
 
 /* One step. The pointers are valid during `step` only. */
 typedef struct muro_controller_step {
   double time;                 /* s since the start of the simulation */
-  const double* const* inputs; /* inputs[i][0 .. input_sizes[i] - 1] */
+  const double* const* inputs; /* inputs[i][0 .. input_sizes[i] - 1]; NULL for ports of integers and texts */
   double* const* outputs;      /* outputs[i][0 .. size - 1]: finite numbers; they keep their last value */
+  /* What follows is there for tables that have `tunables`. */
+  double period;                        /* s between calls of this function */
+  uint64_t index;                       /* how often the controller has run before */
+  const uint32_t* input_sizes;          /* actual size of each input, which changes for lists */
+  const int64_t* const* integer_inputs; /* by number of the input; NULL for all others */
+  const char* const* text_inputs;       /* the same */
+  int64_t* const* integer_outputs;      /* by number of the output; NULL for all others */
+  char* const* text_outputs;            /* the same */
+  const double* tunables;               /* the value of each tunable */
+  const muro_log_sink* log;
 } muro_controller_step;
+
+/* A part of the control code that runs more rarely than `step`. It is called in the same way, before `step` where both
+ * are due. */
+typedef struct muro_task {
+  const char* name; /* for messages and for the scenario: `rates: ["plan=5"]` */
+  double rate;      /* Hz; a whole fraction of the controller's rate: 20, 10, 5, 4, ... of 20 */
+  int (*step)(void* instance, const muro_controller_step* step, char* error, size_t error_size);
+} muro_task;
 
 typedef struct muro_controller_table {
   uint32_t abi;        /* MURO_CONTROLLER_ABI */
@@ -85,7 +149,29 @@ typedef struct muro_controller_table {
    * zero, to `error`; muro ends the run and reports it with the robot's name. `create` may be NULL. */
   int (*create)(void* state, const muro_controller_setup* setup, char* error, size_t error_size);
   int (*step)(void* state, const muro_controller_step* step, char* error, size_t error_size);
+
+  const muro_tunable* tunables;
+  uint32_t tunable_count;
+  const muro_task* tasks;
+  uint32_t task_count;
+
+  /* Instances with memory of their own: then `create` is NULL and state_size 0, and what `instantiate` returns takes
+   * the place of the block in all other functions. It returns NULL for a failure, with a reason in `error`. */
+  void* (*instantiate)(const muro_controller_setup* setup, char* error, size_t error_size);
+  void (*destroy)(void* instance);
+
+  /* Both or none. Without them a run of such a library has no snapshots, and muro says so. `save` writes all that
+   * `load` needs: at most `*size` bytes, which is save_size, and sets `*size` to their number. `load` is called on a
+   * new instance. Equal instances save equal bytes: muro hashes them. */
+  size_t save_size;
+  int (*save)(void* instance, void* to, size_t* size, char* error, size_t error_size);
+  int (*load)(void* instance, const void* from, size_t size, char* error, size_t error_size);
 } muro_controller_table;
+
+/* Writes a log line, such as muro_write_log(now->log, MURO_LOG_INFO, "at the goal"). */
+static inline void muro_write_log(const muro_log_sink* log, uint32_t level, const char* text) {
+  log->write(log->context, level, text);
+}
 
 #if defined(_WIN32)
 #define MURO_CONTROLLER_EXPORT __declspec(dllexport)

@@ -78,11 +78,6 @@ class SpawnSettings {
 
 }  // namespace
 
-void Descriptor::reset(int number) {
-  if (number_ >= 0) close(number_);
-  number_ = number;
-}
-
 bool Child::start(const std::string& program, std::string& reason) {
   abandon();
   const auto fail = [&](int code) {

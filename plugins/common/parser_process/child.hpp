@@ -4,30 +4,10 @@
 #include <cstdint>
 #include <string>
 
+#include "plugins/common/shared_call/descriptor.hpp"
 #include "protocol.hpp"
 
 namespace muro::parser_process {
-
-/// A file descriptor, closed at its end.
-class Descriptor {
- public:
-  Descriptor() = default;
-  explicit Descriptor(int number) : number_(number) {}
-  ~Descriptor() { reset(); }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  Descriptor& operator=(Descriptor&& from) noexcept {
-    reset(from.number_);
-    from.number_ = -1;
-    return *this;
-  }
-  void reset(int number = -1);
-  int get() const { return number_; }
-  explicit operator bool() const { return number_ >= 0; }
-
- private:
-  int number_ = -1;
-};
 
 /// A running program with a socket to it.
 class Child {

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 
+#include "control_table.hpp"
 #include "muro/algorithm.hpp"
 #include "muro/toolkit/did_you_mean.hpp"
+#include "muro/vocabulary.hpp"
 #include "plugins/common/text/quote.hpp"
+#include "port.hpp"
 
 namespace muro::control {
 
@@ -145,14 +148,103 @@ FoundProperty PropertyFinder::find(const PropertyReference& reference, std::stri
               did_you_mean(reference.property, names) + "; it has: " + comma_separated(names));
 }
 
-void PropertyFinder::check(const FoundProperty& p, const muro_port& port) const {
-  const std::string name = full_name(p);
-  if (size_of(p.key->type->scalar) == 0)
-    throw Error(name + " is of type " + std::string(p.key->type->name) + ", which is not made of numbers");
-  if (p.multiplicity == Multiplicity::list)
-    throw Error(name + " is a list, whose length changes from step to step; a port has a fixed size");
-  if (port.unit && p.key->unit != port.unit)
-    throw Error(name + " is in \"" + std::string(p.key->unit) + "\", but the library works in \"" + port.unit + "\"");
+bool matches(std::string_view pattern, std::string_view name) {
+  std::size_t p = 0, n = 0, star = pattern.npos, from = 0;  // `from`: what the last star has taken ends here
+  while (n < name.size()) {
+    if (p < pattern.size() && pattern[p] == '*') {
+      star = p++, from = n;
+    } else if (p < pattern.size() && pattern[p] == name[n]) {
+      ++p, ++n;
+    } else if (star != pattern.npos && name[from] != '/') {
+      p = star + 1, n = ++from;
+    } else {
+      return false;
+    }
+  }
+  while (p < pattern.size() && pattern[p] == '*') ++p;
+  return p == pattern.size();
+}
+
+bool PropertyFinder::is_shadow(ObjectId object) const {
+  const std::int32_t robot = connector_.robot_of(object);
+  return robot >= 0 && connector_.constant(connector_.robots()[std::size_t(robot)]->base(), keys::shadow_of);
+}
+
+/// In the order of the scenario. First those of the robot itself, where the pattern names some of them; shadows are
+/// nobody's robots.
+std::vector<FoundProperty> PropertyFinder::find_matching(const PropertyReference& reference) const {
+  std::vector<FoundProperty> found;
+  bool any_object = false;
+  const auto add = [&](std::uint32_t o, std::string_view name) {
+    if (!matches(reference.object, name) || is_shadow(ObjectId{o})) return;
+    any_object = true;
+    if (const FoundProperty* p = property_of(ObjectId{o}, reference.property)) found.push_back(*p);
+  };
+  for (std::uint32_t o = 0; item_.robot && o < connector_.object_count(); ++o)
+    if (connector_.robot_of(ObjectId{o}) == std::int32_t(item_.robot->number)) add(o, local_name(ObjectId{o}));
+  for (std::uint32_t o = 0; found.empty() && o < connector_.object_count(); ++o)
+    add(o, connector_.object_name(ObjectId{o}));
+  if (!found.empty()) return found;
+  if (any_object)
+    throw Error("no object with a name like " + quote(reference.object) + " has a property " +
+                quote(reference.property));
+  std::vector<std::string> names;
+  for (const ObjectId o : objects_) names.push_back(local_name(o));
+  for (const RobotView* r : connector_.robots()) names.emplace_back(connector_.object_name(r->base()));
+  throw Error("no object has a name like " + quote(reference.object) + " (a `*` stands for any characters but `/`)" +
+              did_you_mean(reference.object, names) + "; there are: " + quoted_list(names));
+}
+
+/// `fixed` for what is no joint.
+JointKind PropertyFinder::joint_of(ObjectId object) const {
+  const std::int32_t robot = connector_.robot_of(object);
+  if (robot < 0) return JointKind::fixed;
+  for (const Link& link : connector_.robots()[std::size_t(robot)]->links)
+    if (link.joint_object == object) return link.joint;
+  return JointKind::fixed;
+}
+
+/// Properties of joints are in "rad or m": the first where the joint turns, the second where it shifts.
+void PropertyFinder::check_unit(const FoundProperty& p, const muro_port& port) const {
+  if (!port.unit || p.key->unit == port.unit) return;
+  std::string_view unit = p.key->unit;
+  std::string why;
+  const std::size_t alternative = unit.find(" or ");
+  const JointKind joint = alternative == unit.npos ? JointKind::fixed : joint_of(p.object);
+  if (joint == JointKind::revolute) unit = unit.substr(0, alternative), why = ", for the joint turns,";
+  if (joint == JointKind::prismatic) unit = unit.substr(alternative + 4), why = ", for the joint shifts,";
+  if (unit == port.unit) return;
+  throw Error(full_name(p) + " is in \"" + std::string(unit) + "\"" + (why.empty() ? "," : why) +
+              " but the library works in \"" + port.unit + "\"");
+}
+
+void PropertyFinder::check_type(const FoundProperty& p, const muro_port& port, bool input) const {
+  const std::string is_of_type = full_name(p) + " is of type " + std::string(p.key->type->name);
+  const Scalar scalar = p.key->type->scalar;
+  if (type_of(port) == PortType::text) {
+    const bool is_bytes = scalar == Scalar::u8;
+    const bool is_object = input && *p.key->type == value_type<ObjectId>;
+    const bool is_text = input && *p.key->type == value_type<TextId> && p.is_constant;
+    if (!is_bytes && !is_object && !is_text)
+      throw Error(is_of_type + (input ? "; a port of texts reads texts that are constants, names of objects, and bytes"
+                                      : "; a port of texts writes bytes, an array of u8"));
+    return;
+  }
+  const bool is_list_of_contacts = has_flag(port, MURO_PORT_LIST) && is_contact(*p.key);
+  if (size_of(scalar) == 0 && !is_list_of_contacts) throw Error(is_of_type + ", which is not made of numbers");
+  if (type_of(port) == PortType::integer && (scalar == Scalar::f64 || scalar == Scalar::f32))
+    throw Error(is_of_type + ", but the port is of integers; a port of numbers takes it");
+}
+
+void PropertyFinder::check(const FoundProperty& p, const muro_port& port, bool input) const {
+  check_type(p, port, input);
+  const bool is_list = p.multiplicity == Multiplicity::list;
+  if (is_list && !has_flag(port, MURO_PORT_LIST))
+    throw Error(full_name(p) +
+                " is a list, whose length changes from step to step; a port without MURO_PORT_LIST has a fixed size");
+  if (!is_list && has_flag(port, MURO_PORT_LIST))
+    throw Error(full_name(p) + " has a fixed length, but the port is a list (MURO_PORT_LIST)");
+  check_unit(p, port);
 }
 
 std::vector<FoundProperty> PropertyFinder::find(const muro_port& port, bool input,
@@ -160,14 +252,25 @@ std::vector<FoundProperty> PropertyFinder::find(const muro_port& port, bool inpu
   const std::string_view parameter = input ? "inputs" : "outputs";
   std::vector<FoundProperty> found;
   if (const auto connected = connections.find(port.name); connected != connections.end()) {
-    for (const PropertyReference& r : connected->second) found.push_back(find(r, parameter, port.name));
+    for (const PropertyReference& r : connected->second) {
+      if (r.object.find('*') == std::string::npos) {
+        found.push_back(find(r, parameter, port.name));
+      } else {
+        const std::vector<FoundProperty> all = find_matching(r);
+        found.insert(found.end(), all.begin(), all.end());
+      }
+    }
   } else {
     found.push_back(find_anywhere(port.name, parameter, port.name));
     if (const FoundProperty* measured = property_of(found[0].object, std::string(port.name) + ".measured");
         measured && input)
       found[0] = *measured;
   }
-  for (const FoundProperty& p : found) check(p, port);
+  for (const FoundProperty& p : found) check(p, port, input);
+  const bool is_one = has_flag(port, MURO_PORT_LIST) || (!input && type_of(port) == PortType::text);
+  if (is_one && found.size() > 1)
+    throw Error("it is " + std::string(input ? "a list" : "a text") + ", which stands for one property, but " +
+                std::to_string(found.size()) + " are connected");
   return found;
 }
 

@@ -12,7 +12,7 @@ namespace muro::control {
 
 /// How a scenario refers to a property: "object:property", or "property" of an object that is searched for.
 struct PropertyReference {
-  std::string object;  ///< empty: it is searched for
+  std::string object;  ///< empty: it is searched for; with a `*`: all objects of such names
   std::string property;
 };
 
@@ -22,6 +22,9 @@ using Connections = std::map<std::string, std::vector<PropertyReference>, std::l
 /// Reads the texts of parameter `parameter` ("inputs" or "outputs"); names only ports of `ports`. Throws Error.
 Connections read_connections(std::string_view parameter, std::span<const std::string_view> texts,
                              std::span<const muro_port> ports, std::string_view library);
+
+/// Whether a name fits a pattern, in which `*` stands for any characters but "/".
+bool matches(std::string_view pattern, std::string_view name);
 
 /// Finds what the ports of one item stand for.
 class PropertyFinder {
@@ -39,10 +42,15 @@ class PropertyFinder {
 
  private:
   FoundProperty find(const PropertyReference& reference, std::string_view parameter, std::string_view port) const;
+  std::vector<FoundProperty> find_matching(const PropertyReference& reference) const;
   FoundProperty find_anywhere(std::string_view property, std::string_view parameter, std::string_view port) const;
   ObjectId object(std::string_view name) const;
   const FoundProperty* property_of(ObjectId object, std::string_view name) const;
-  void check(const FoundProperty& property, const muro_port& port) const;
+  void check(const FoundProperty& property, const muro_port& port, bool input) const;
+  void check_unit(const FoundProperty& property, const muro_port& port) const;
+  void check_type(const FoundProperty& property, const muro_port& port, bool input) const;
+  JointKind joint_of(ObjectId object) const;
+  bool is_shadow(ObjectId object) const;
   std::string local_name(ObjectId object) const;
   std::string full_name(const FoundProperty& property) const;
   std::string robot_or_world() const;

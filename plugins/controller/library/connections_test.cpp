@@ -80,7 +80,8 @@ TEST(ControllerLibrary, SetsSeveralPropertiesSideBySide) {
   s.world().set(left, keys::joint_position, 0.25);
   s.world().set(right, keys::joint_position, -0.75);
   s.see({{"inputs", Texts{"angle=laser.min_angle", "ranges=left:joint.position,right:joint.position"}}});
-  EXPECT_TRUE(says(refusal(s), "`a/left:joint.position` is in \"rad or m\", but the library works in \"m\""));
+  EXPECT_TRUE(
+      says(refusal(s), "`a/left:joint.position` is in \"rad\", for the joint turns, but the library works in \"m\""));
 
   Team team;
   team.control_by(folder + "team.so", {},

@@ -7,12 +7,13 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <limits>
 
+#include "control_table.hpp"
 #include "muro/algorithm.hpp"
 #include "muro/toolkit/whole_library.hpp"
 #include "own_symbols.hpp"
 #include "plugins/common/text/quote.hpp"
+#include "table_check.hpp"
 
 namespace muro::control {
 
@@ -27,14 +28,6 @@ bool ends_with(std::string_view text, std::string_view end) {
 bool is_file(const fs::path& path) {
   std::error_code unused;
   return fs::is_regular_file(path, unused);
-}
-
-/// The folder of this plugin's own file.
-fs::path own_folder() {
-  Dl_info info{};
-  if (dladdr(reinterpret_cast<const void*>(&own_folder), &info) == 0 || !info.dli_fname) return {};
-  std::error_code unused;
-  return fs::absolute(info.dli_fname, unused).parent_path();
 }
 
 /// Restores the floating-point environment at its end: a library linked with -ffast-math turns off subnormal numbers
@@ -71,19 +64,14 @@ std::string loader_message(const std::string& path) {
   return text;
 }
 
-void check_ports(const char* what, const muro_port* ports, std::uint32_t count, const std::string& library) {
-  if (count > 0 && !ports)
-    throw Error(library + " has " + std::to_string(count) + " " + what + "s, but its table points to none");
-  for (std::uint32_t i = 0; i < count; ++i) {
-    if (!ports[i].name || !*ports[i].name)
-      throw Error(library + ": " + what + " " + std::to_string(i) + " has no name");
-    for (std::uint32_t k = 0; k < i; ++k)
-      if (std::string_view(ports[i].name) == ports[k].name)
-        throw Error(library + " has two " + what + "s named " + quote(ports[i].name) + "; names are unique");
-  }
-}
-
 }  // namespace
+
+std::string own_folder() {
+  Dl_info info{};
+  if (dladdr(reinterpret_cast<const void*>(&own_folder), &info) == 0 || !info.dli_fname) return {};
+  std::error_code unused;
+  return fs::absolute(info.dli_fname, unused).parent_path().string();
+}
 
 std::vector<std::string> search_folders(const std::string& scenario_folder) {
   std::vector<std::string> folders{scenario_folder};
@@ -93,7 +81,7 @@ std::vector<std::string> search_folders(const std::string& scenario_folder) {
     if (end > 0) folders.emplace_back(rest.substr(0, end));
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }
-  folders.push_back((own_folder() / "controllers").string());
+  folders.push_back((fs::path(own_folder()) / "controllers").string());
   return folders;
 }
 
@@ -115,7 +103,7 @@ std::string find_library(std::string_view name, const std::string& as_path, std:
               " in any of these folders: " + searched + "; give its path, or add its folder to MURO_CONTROLLER_PATH");
 }
 
-const muro_controller_table& load_library(const std::string& path) {
+muro_controller_table load_library(const std::string& path) {
   const FloatingPointGuard guard;
   if (const std::string problem = missing_part_of_library(path); !problem.empty())
     throw Error("library " + path + " cannot be loaded: " + problem);
@@ -130,30 +118,7 @@ const muro_controller_table& load_library(const std::string& path) {
   check_own_symbols(library, path);
   const auto* table = reinterpret_cast<const muro_controller_table* (*)()>(symbol)();
   check_table(table, path);
-  return *table;
-}
-
-void check_table(const muro_controller_table* table, const std::string& path) {
-  const std::string library = "library " + path;
-  if (!table) throw Error(library + ": `muro_controller` returns no table");
-  const auto built_for = [&](const char* field, std::uint32_t theirs, std::uint32_t ours) {
-    if (theirs != ours)
-      throw Error(library + ": " + field + " is " + std::to_string(theirs) + ", this muro has " + std::to_string(ours) +
-                  "; build it with the muro_controller.h of this muro");
-  };
-  built_for("abi", table->abi, MURO_CONTROLLER_ABI);  // the first field: what follows depends on it
-  built_for("table_size", table->table_size, sizeof(muro_controller_table));
-  if (!table->name || !*table->name) throw Error(library + ": its table has no name");
-  if (!table->step) throw Error(library + ": its table has no function `step`");
-  if (table->state_size > std::numeric_limits<std::uint32_t>::max() / 2)
-    throw Error(library + ": state_size is " + std::to_string(table->state_size) +
-                " bytes; at most 2147483647 are allowed");
-  check_ports("input", table->inputs, table->input_count, library);
-  check_ports("output", table->outputs, table->output_count, library);
-  for (std::uint32_t i = 0; i < table->output_count; ++i)
-    if (table->outputs[i].size == 0)
-      throw Error(library + ": output " + quote(table->outputs[i].name) +
-                  " has size 0; only inputs may leave their size open");
+  return complete(*table);
 }
 
 }  // namespace muro::control

@@ -70,8 +70,8 @@ TEST(ControllerLibrary, NamesWhatIsWrongWithALibrary) {
            {"open_step.so", "would use functions of others in place of its own: `step` (of "},
            {"no_table.so", "`muro_controller` returns no table"},
            {"other_abi.so", "abi is 7, this muro has 1; build it with the muro_controller.h of this muro"},
-           {"other_size.so",
-            "table_size is 8, this muro has " + std::to_string(sizeof(muro_controller_table)) + "; build it"},
+           {"other_size.so", "table_size is 8, this muro has " + std::to_string(sizeof(muro_controller_table)) +
+                                 ", and older headers have 88; build it"},
            {"no_name.so", "its table has no name"},
            {"no_step.so", "its table has no function `step`"},
            {"huge_state.so", "state_size is 1099511627776 bytes; at most 2147483647 are allowed"},

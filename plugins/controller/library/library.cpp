@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Control code from a shared library with the C interface of sdk/c/muro_controller.h; see README.md.
-#include <cmath>
-#include <cstdio>
-#include <deque>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -10,22 +7,38 @@
 
 #include "connections.hpp"
 #include "control_library.hpp"
-#include "muro/ext/call_note.hpp"
+#include "controlled_robot.hpp"
 #include "muro/ext/loaded_libraries.hpp"
 #include "muro/plugin.hpp"
-#include "muro/toolkit/random.hpp"
-#include "port.hpp"
+#include "plugins/common/text/quote.hpp"
 
 namespace {
 
 using namespace muro;
 using namespace muro::control;
 
+constexpr std::string_view isolations[] = {"none", "process"};
+constexpr std::string_view failures[] = {"stop", "hold", "restart"};
 constexpr Parameter parameters[] = {
     text("library", "", "path of the library, or its name: `wander` for wander.so or libwander.so").required(),
-    texts("inputs", "what inputs read: \"port=property\", \"port=object:property\"; several properties by commas"),
+    texts("inputs",
+          "what inputs read: \"port=property\", \"port=object:property\"; several properties by commas, and a "
+          "`*` in the object for all of such names"),
     texts("outputs", "what outputs write, in the same form"),
     texts("arguments", "\"name=value\", handed to the library"),
+    texts("tunables", "\"name=number\", for numbers that the library lists"),
+    texts("rates", "\"task=Hz\", for tasks that the library lists"),
+    text("isolate", "none", "process: the control code of each robot runs in a process of its own").one_of(isolations),
+    real("timeout", "s", 5, "with `isolate: process`, how long a call may take, by the clock of the machine")
+        .between(1e-3, 1e6),
+    integer("memory", 1024, "with `isolate: process`, MiB that the control code of a robot may take")
+        .between(1, 1 << 24),
+    text("on_failure", "stop",
+         "what becomes of the run: it ends, the robot is left at rest, or its control code begins "
+         "anew")
+        .one_of(failures),
+    integer("restarts", 3, "with `on_failure: restart`, how often a robot's control code may begin anew")
+        .between(1, 1e6),
 };
 constexpr PropertyUse reads[] = {{"*", "what the library's inputs are named or connected to"}};
 constexpr PropertyUse writes[] = {{"*", "what the library's outputs are named or connected to"},
@@ -33,7 +46,7 @@ constexpr PropertyUse writes[] = {{"*", "what the library's outputs are named or
 constexpr Description description{
     .id = "controller.library",
     .kind = Kind::controller,
-    .version = "1.0.0",
+    .version = "2.0.0",
     .summary = "Runs control code from a shared library (C interface, sdk/c/muro_controller.h)",
     .parameters = parameters,
     .reads = reads,
@@ -41,143 +54,104 @@ constexpr Description description{
     .capabilities = deterministic | batched | allocation_free | restorable,
 };
 
-constexpr std::size_t error_size = 1024;
-
-/// The state of one robot: this, then the library's own state. The size is a multiple of 64 bytes, so that the states
-/// of all robots, one after the other, are aligned as the C header promises.
-struct alignas(64) StateBlock {
-  std::uint64_t created;  ///< 0 until the library's `create` has run
-
-  void* state() { return this + 1; }
-  static std::uint32_t size_for(std::size_t state_size) {
-    return std::uint32_t(sizeof(StateBlock) + (state_size + 63) / 64 * 64);
-  }
-};
-
 class LibraryController final : public Algorithm {
  public:
   void connect(Connector& c) override {
     const Parameters& p = c.parameters();
-    read_arguments(p.texts("arguments"));
-    const std::string_view name = p.text("library");
-    const std::filesystem::path as_path(c.resolve_path(name)), beside_scenario(c.resolve_path("name"));
-    path_ = find_library(name, as_path.string(), search_folders(beside_scenario.parent_path().string()));
-    notes_ = CallNotes::of(c.host());
-    note("load");
-    table_ = &load_library(path_);
-    note(nullptr);
+    read_settings(c);
+    std::unique_ptr<ControlProcess> process = load(p.text("isolate") == "process");
+    settings_.tunables = read_tunables(p.texts("tunables"), settings_.table);
+    settings_.task_rates = read_rates(p.texts("rates"), settings_.table);
     if (LoadedLibraries* told = LoadedLibraries::of(c.host()))
-      told->add({path_, table_->name, table_->version ? table_->version : ""});
+      told->add({settings_.path, settings_.table.name, settings_.table.version});
+    tell(c.host());
     for (std::uint32_t i = 0; i < c.items().size(); ++i) {
       const Item& item = c.items()[i];
-      Robot& r = robots_.emplace_back();
-      r.name = item.robot ? item.robot->name : "world";
-      r.random_key = c.random_key(i);
-      r.block = static_cast<StateBlock*>(
-          c.state_block(item.object, block_name(c, item.object), StateBlock::size_for(table_->state_size)));
+      auto* block = static_cast<StateBlock*>(
+          c.state_block(item.object, block_name(c, item.object), StateBlock::size_for(settings_.table.state_size)));
+      robots_.push_back(std::make_unique<ControlledRobot>(settings_,
+                                                          item.robot ? std::string(item.robot->name) : "world", i,
+                                                          std::uint32_t(c.items().size()), c.random_key(i), block));
+      robots_.back()->create_own_properties(c, item.object);
+      if (process) robots_.back()->use_process(std::move(process));
     }
   }
 
   void connect_by_name(Connector& c) override {
     const Parameters& p = c.parameters();
-    const std::span inputs(table_->inputs, table_->input_count), outputs(table_->outputs, table_->output_count);
-    const Connections in = read_connections("inputs", p.texts("inputs"), inputs, table_->name);
-    const Connections out = read_connections("outputs", p.texts("outputs"), outputs, table_->name);
-    for (std::uint32_t i = 0; i < c.items().size(); ++i) {
-      const PropertyFinder finder(c, c.items()[i]);
-      for (const muro_port& port : inputs) bind(c, finder, robots_[i], port, in, true);
-      for (const muro_port& port : outputs) bind(c, finder, robots_[i], port, out, false);
-    }
-    for (const auto& [port, robot] : missing_)
-      c.host().log(LogLevel::warning, "robot `" + robot + "`: `" + table_->name + "` runs without its input `" + port +
+    const ControlTable& table = settings_.table;
+    const Connections in = read_connections("inputs", p.texts("inputs"), table.inputs, table.name);
+    const Connections out = read_connections("outputs", p.texts("outputs"), table.outputs, table.name);
+    std::map<std::string, std::string> missing;  // optional inputs that a robot lacks, and the first such robot
+    for (const auto& robot : robots_)
+      for (const std::string& port : robot->connect(c, in, out)) missing.emplace(port, robot->name());
+    for (const auto& [port, robot] : missing)
+      c.host().log(LogLevel::warning, "robot `" + robot + "`: `" + table.name + "` runs without its input `" + port +
                                           "`, which nothing of the robot provides");
   }
 
   void start() override {
-    for (Robot& r : robots_) {
-      std::size_t copied = 0;
-      const auto measure = [&](Port& port, const muro_port& wanted, bool input) {
-        port.resolve();
-        const bool missing = missing_.contains(wanted.name) && port.size() == 0;
-        if (wanted.size != 0 && wanted.size != port.size() && !missing)
-          throw Error(about(r, wanted, input) + " has " + std::to_string(wanted.size) +
-                      " numbers in the library, but the connected properties have " + std::to_string(port.size()));
-        copied += port.direct() ? 0 : port.size();
-      };
-      for (std::uint32_t i = 0; i < table_->input_count; ++i) measure(r.inputs[i], table_->inputs[i], true);
-      for (std::uint32_t i = 0; i < table_->output_count; ++i) measure(r.outputs[i], table_->outputs[i], false);
-      r.copies.assign(copied, 0);
-      double* next = r.copies.data();
-      const auto data_of = [&](const Port& port) {
-        if (port.direct()) return port.direct();
-        return std::exchange(next, next + port.size());
-      };
-      r.input_sizes.clear(), r.input_data.clear(), r.output_data.clear();
-      for (const Port& port : r.inputs) r.input_sizes.push_back(port.size()), r.input_data.push_back(data_of(port));
-      for (const Port& port : r.outputs) r.output_data.push_back(data_of(port));
-    }
+    for (const auto& robot : robots_) robot->start();
   }
 
   void step(const Step& step, Range range) override {
-    for (std::uint32_t i = range.begin; i < range.end; ++i) run(i, step);
+    for (std::uint32_t i = range.begin; i < range.end; ++i) robots_[i]->step(step);
+  }
+
+  void restored() override {
+    for (const auto& robot : robots_) robot->restored();
   }
 
  private:
-  /// Which function of the library runs for which robot, for messages about a call that does not return.
-  void note(const char* function, std::uint32_t robot = CallNote::no_item) const {
-    if (!notes_) return;
-    CallNote& here = notes_->of_this_thread();
-    here.set_item(robot);
-    here.set_library(function ? path_.c_str() : nullptr, function);
-  }
-
-  struct Robot {
-    std::string name;
-    std::uint64_t random_key = 0;
-    StateBlock* block = nullptr;
-    std::vector<Port> inputs, outputs;
-    std::vector<double> copies;  ///< of ports that are not contiguous doubles; written anew in every step, so no state
-    std::vector<std::uint32_t> input_sizes;
-    std::vector<double*> input_data, output_data;
-  };
-
-  std::map<std::string, std::string> missing_;  ///< optional inputs that a robot lacks, and the first such robot
-
-  void read_arguments(std::span<const std::string_view> texts) {
-    for (const std::string_view text : texts) {
+  void read_settings(Connector& c) {
+    const Parameters& p = c.parameters();
+    for (const std::string_view text : p.texts("arguments")) {
       const std::size_t equals = text.find('=');
       if (equals == std::string_view::npos || equals == 0)
         throw Error("`arguments`: `" + std::string(text) + "` must be \"name=value\"");
-      argument_texts_.emplace_back(text);
+      settings_.arguments.emplace_back(text);
     }
-    for (const std::string& text : argument_texts_) arguments_.push_back(text.c_str());
-    arguments_.push_back(nullptr);
+    const std::string_view name = p.text("library");
+    const std::filesystem::path as_path(c.resolve_path(name)), beside_scenario(c.resolve_path("name"));
+    settings_.path = find_library(name, as_path.string(), search_folders(beside_scenario.parent_path().string()));
+    const std::string_view failure = p.text("on_failure");
+    settings_.on_failure = failure == "stop"   ? OnFailure::stop
+                           : failure == "hold" ? OnFailure::hold
+                                               : OnFailure::restart;
+    settings_.restarts = std::uint32_t(p.integer("restarts"));
+    settings_.limits = {p.real("timeout"), std::uint64_t(p.integer("memory")) << 20};
+    settings_.host = &c.host();
+    settings_.notes = CallNotes::of(c.host());
   }
 
-  std::string about(const Robot& r, const muro_port& port, bool input) const {
-    return "robot `" + r.name + "`: " + (input ? "input" : "output") + " `" + port.name + "` of `" + table_->name + "`";
+  /// Into this process, or into the first of those that are to run it, which is returned.
+  std::unique_ptr<ControlProcess> load(bool isolated) {
+    if (isolated) {
+      auto process = std::make_unique<ControlProcess>(settings_.path, settings_.limits);
+      settings_.table = std::move(process->table());
+      return process;
+    }
+    CallNote* const here = settings_.notes ? &settings_.notes->of_this_thread() : nullptr;
+    if (here) here->set_library(settings_.path.c_str(), "load");
+    settings_.functions = load_library(settings_.path);
+    settings_.table = describe(*settings_.functions);
+    if (here) here->set_library(nullptr, nullptr);
+    return nullptr;
   }
-  std::string about(const Robot& r) const { return "robot `" + r.name + "`: `" + table_->name + "` "; }
 
-  void bind(Connector& c, const PropertyFinder& finder, Robot& r, const muro_port& port, const Connections& connections,
-            bool input) {
-    Port& bound = (input ? r.inputs : r.outputs).emplace_back();
-    const bool may_be_missing = input && (port.flags & MURO_PORT_OPTIONAL) != 0 && !connections.contains(port.name);
-    if (may_be_missing && !finder.has(port.name)) {
-      missing_.emplace(port.name, r.name);
-      return;
-    }
-    try {
-      for (const FoundProperty& found : finder.find(port, input, connections))
-        bound.add(found, input ? const_cast<void*>(c.read_any(found)) : c.write_any(found));
-    } catch (const Error& e) {
-      throw Error(about(r, port, input) + " cannot be connected: " + e.what());
-    }
+  void tell(Host& host) const {
+    const ControlTable& table = settings_.table;
+    if (!table.tunables.empty())
+      host.log(LogLevel::info, quote(table.name) + " runs with " + shown(table, settings_.tunables));
+    if (!table.is_restorable())
+      host.log(LogLevel::warning,
+               "there can be no snapshots of this run: the instances of " + quote(table.name) + " (" + settings_.path +
+                   ") have memory of their own, and its table has no functions `save` and `load`; a reset is possible");
   }
 
   /// A name that no other controller on the same object has, whatever library it runs.
   std::string block_name(const Connector& c, ObjectId object) const {
-    const std::string stem = "controller." + std::string(table_->name);
+    const std::string stem = "controller." + settings_.table.name;
     std::string name = stem;
     const auto taken = [&] {
       for (const FoundProperty& p : c.properties(object))
@@ -188,65 +162,8 @@ class LibraryController final : public Algorithm {
     return name;
   }
 
-  void create(Robot& r, const Step& step) const {
-    char error[error_size] = "";
-    if (table_->create) {
-      const muro_controller_setup setup{.robot = r.name.c_str(),
-                                        .period = step.dt,
-                                        .seed = seed_of(step.seed, r.random_key),
-                                        .input_sizes = r.input_sizes.data(),
-                                        .arguments = arguments_.data()};
-      note("create", std::uint32_t(&r - robots_.data()));
-      if (table_->create(r.block->state(), &setup, error, error_size) != 0) throw Error(about(r) + failure(error));
-    }
-    r.block->created = 1;
-  }
-
-  static std::uint64_t seed_of(std::uint64_t simulation, std::uint64_t robot) {
-    return fnv1a({reinterpret_cast<const char*>(&simulation), sizeof simulation}, robot ^ 0xcbf29ce484222325ull);
-  }
-
-  /// Ends the text within the buffer, whatever the library has written.
-  static std::string failure(char* error) {
-    error[error_size - 1] = 0;
-    return *error ? "fails: " + std::string(error) : "fails without giving a reason";
-  }
-
-  void run(std::uint32_t number, const Step& step) {
-    Robot& r = robots_[number];
-    for (std::size_t i = 0; i < r.inputs.size(); ++i)
-      if (!r.inputs[i].direct()) r.inputs[i].read(r.input_data[i]);
-    for (std::size_t i = 0; i < r.outputs.size(); ++i)
-      if (!r.outputs[i].direct()) r.outputs[i].read(r.output_data[i]);
-    if (r.block->created == 0) create(r, step);
-    const muro_controller_step now{step.seconds(), r.input_data.data(), r.output_data.data()};
-    char error[error_size];
-    error[0] = 0;
-    note("step", number);
-    if (table_->step(r.block->state(), &now, error, error_size) != 0) throw Error(about(r) + failure(error));
-    note(nullptr, number);
-    for (std::size_t i = 0; i < r.outputs.size(); ++i) hand_out(r, i);
-  }
-
-  void hand_out(const Robot& r, std::size_t i) const {
-    const Port& port = r.outputs[i];
-    const double* values = r.output_data[i];
-    std::uint32_t bad = 0;
-    while (bad < port.size() && std::isfinite(values[bad])) ++bad;
-    if (bad == port.size() && (port.direct() || port.write(values, bad))) return;
-    char number[32];
-    std::snprintf(number, sizeof number, "%.17g", values[bad]);
-    throw Error(
-        about(r, table_->outputs[i], false) + "[" + std::to_string(bad) + "] is " + number +
-        (std::isfinite(values[bad]) ? ", which does not fit into its property" : "; outputs must be finite numbers"));
-  }
-
-  std::string path_;  ///< of the library
-  CallNotes* notes_ = nullptr;
-  const muro_controller_table* table_ = nullptr;
-  std::deque<std::string> argument_texts_;
-  std::vector<const char*> arguments_;
-  std::vector<Robot> robots_;
+  ControlSettings settings_;
+  std::vector<std::unique_ptr<ControlledRobot>> robots_;
 };
 
 constexpr abi::AlgorithmEntry algorithms[] = {algorithm<LibraryController>(description)};

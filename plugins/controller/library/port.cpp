@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "port.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
+
+#include "muro/object.hpp"
+#include "muro/scene.hpp"
 
 namespace muro::control {
 
@@ -32,70 +37,203 @@ auto with_type(Scalar scalar, Visit visit) {
   return visit(static_cast<double*>(nullptr));
 }
 
-/// `value` as T, rounded; false when it does not fit.
+/// Whether `value`, rounded where T is a type of whole numbers, fits into T.
 template <class T>
-bool convert(double value, T& result) {
+bool fits(double value) {
   if constexpr (std::is_floating_point_v<T>) {
-    if (!std::isfinite(T(value))) return false;
-    result = T(value);
-    return true;
+    return std::isfinite(T(value));
   } else {
     using Limits = std::numeric_limits<T>;
     const double whole = std::nearbyint(value);
     // 2^digits is the first number above the largest, and exact as a double
-    if (!(whole >= double(Limits::min()) && whole < std::ldexp(1.0, Limits::digits))) return false;
-    result = T(whole);
-    return true;
+    return whole >= double(Limits::min()) && whole < std::ldexp(1.0, Limits::digits);
   }
+}
+/// An integer of 64 bits is the same bits as an unsigned one.
+template <class T>
+bool fits(std::int64_t value) {
+  if constexpr (std::is_floating_point_v<T> || sizeof(T) == 8)
+    return true;
+  else
+    return value >= std::int64_t(std::numeric_limits<T>::min()) && value <= std::int64_t(std::numeric_limits<T>::max());
+}
+
+template <class T, class Number>
+T converted(Number value) {
+  if constexpr (std::is_floating_point_v<Number> && !std::is_floating_point_v<T>)
+    return T(std::nearbyint(value));
+  else
+    return T(value);
+}
+
+/// As much of a text as there is room for.
+char* append(char* to, const char* end, std::string_view text) {
+  const std::size_t size = std::min(text.size(), std::size_t(end - to));
+  std::memcpy(to, text.data(), size);
+  return to + size;
 }
 
 }  // namespace
+
+bool rests_at_zero(std::string_view unit) { return unit.starts_with("N") || unit.find("/s") != unit.npos; }
 
 void Port::add(const FoundProperty& property, void* handle) {
   segments_.push_back({.handle = handle,
                        .multiplicity = property.multiplicity,
                        .scalar = property.key->type->scalar,
-                       .per_element = property.key->type->scalars()});
+                       .per_element = is_contact(*property.key) ? numbers_of_contact : property.key->type->scalars(),
+                       .is_contact = is_contact(*property.key),
+                       .rests_at_zero = rests_at_zero(property.key->unit)});
+}
+
+void Port::add_objects(const FoundProperty& property, void* handle, ObjectNames names) {
+  add(property, handle);
+  segments_.back().names = std::move(names);
+}
+
+void Port::add_text(std::string text) { segments_.emplace_back().text = std::move(text); }
+
+void Port::resolve(Segment& s) const {
+  s.data = s.handle;
+  s.count = s.handle ? s.per_element : 0;
+  if (s.multiplicity == Multiplicity::array) {
+    const auto* array = static_cast<const ArrayHeader*>(s.handle);
+    s.data = array->data;
+    s.count = std::uint32_t(array->size) * s.per_element;
+  }
 }
 
 void Port::resolve() {
   size_ = 0;
+  std::size_t length = segments_.size();  // of texts: the ends of lines, and the closing zero
   for (Segment& s : segments_) {
-    s.data = s.handle;
-    s.count = s.per_element;
-    if (s.multiplicity == Multiplicity::array) {
-      const auto* array = static_cast<const ArrayHeader*>(s.handle);
-      s.data = array->data;
-      s.count = std::uint32_t(array->size) * s.per_element;
-    }
+    resolve(s);
     size_ += s.count;
+    if (type_ == PortType::text) length += longest_text(s);
   }
-  direct_ =
-      segments_.size() == 1 && segments_[0].scalar == Scalar::f64 ? static_cast<double*>(segments_[0].data) : nullptr;
+  if (type_ == PortType::text) size_ = segments_.empty() ? 0 : std::uint32_t(length);
+  const bool is_list = std::any_of(segments_.begin(), segments_.end(),
+                                   [](const Segment& s) { return s.multiplicity == Multiplicity::list; });
+  if (capacity_ > 0 && !segments_.empty() && (type_ == PortType::text || is_list)) size_ = capacity_;
+  const Scalar own = type_ == PortType::number ? Scalar::f64 : Scalar::i64;
+  const bool is_direct = type_ != PortType::text && !is_list && segments_.size() == 1 && segments_[0].scalar == own;
+  direct_ = is_direct ? segments_[0].data : nullptr;
 }
 
-void Port::read(double* to) const {
-  for (const Segment& s : segments_)
-    with_type(s.scalar, [&](auto* type) {
-      const auto* from = static_cast<decltype(type)>(s.data);
-      for (std::uint32_t i = 0; i < s.count; ++i) *to++ = double(from[i]);
-    });
+/// Without its closing zero.
+std::size_t Port::longest_text(const Segment& s) {
+  if (!s.handle) return s.text.size();
+  if (!s.names) return s.count;
+  std::size_t longest = 0;
+  for (const std::string& name : *s.names) longest = std::max(longest, name.size());
+  return s.count * (longest + 1);
 }
 
-bool Port::write(const double* from, std::uint32_t& bad) const {
-  const double* next = from;
+std::uint32_t Port::read_text(char* to) const {
+  char *next = to, *const end = to + size_ - 1;
   for (const Segment& s : segments_) {
-    const bool fits = with_type(s.scalar, [&](auto* type) {
-      auto* to = static_cast<decltype(type)>(s.data);
+    if (&s != segments_.data()) next = append(next, end, "\n");
+    if (s.names) {
+      const auto* ids = static_cast<const ObjectId*>(s.data);
+      for (std::uint32_t i = 0; i < s.count; ++i) {
+        if (i > 0) next = append(next, end, "\n");
+        if (index_of(ids[i]) < s.names->size()) next = append(next, end, (*s.names)[index_of(ids[i])]);
+      }
+    } else if (s.handle) {
+      const auto* bytes = static_cast<const char*>(s.data);
+      next = append(next, end, {bytes, strnlen(bytes, s.count)});
+    } else {
+      next = append(next, end, s.text);
+    }
+  }
+  *next = 0;
+  return std::uint32_t(next - to) + 1;
+}
+
+/// As many numbers as there is room for, of whole elements.
+std::uint32_t Port::read_list(const Segment& s, double* to) const {
+  const auto* list = static_cast<const ListHeader*>(s.handle);
+  const auto most = std::min<std::uint64_t>(list->size, size_ / s.per_element);
+  if (s.is_contact) {
+    const auto* contacts = static_cast<const Contact*>(list->data);
+    for (const Contact& c : std::span(contacts, most)) {
+      for (int k = 0; k < 3; ++k) to[k] = c.point[k], to[3 + k] = c.normal[k];
+      to[6] = c.depth;
+      to += numbers_of_contact;
+    }
+  } else {
+    with_type(s.scalar, [&](auto* type) {
+      const auto* from = static_cast<decltype(type)>(list->data);
+      for (std::uint64_t i = 0; i < most * s.per_element; ++i) to[i] = double(from[i]);
+    });
+  }
+  return std::uint32_t(most) * s.per_element;
+}
+
+std::uint32_t Port::read(void* to) const {
+  if (segments_.empty()) return 0;
+  if (type_ == PortType::text) return read_text(static_cast<char*>(to));
+  if (segments_[0].multiplicity == Multiplicity::list) return read_list(segments_[0], static_cast<double*>(to));
+  const auto copy = [&](auto* next) {
+    using Number = std::remove_pointer_t<decltype(next)>;
+    for (const Segment& s : segments_)
+      with_type(s.scalar, [&](auto* scalar) {
+        const auto* from = static_cast<decltype(scalar)>(s.data);
+        for (std::uint32_t i = 0; i < s.count; ++i) *next++ = Number(from[i]);
+      });
+  };
+  if (type_ == PortType::number)
+    copy(static_cast<double*>(to));
+  else
+    copy(static_cast<std::int64_t*>(to));
+  return size_;
+}
+
+/// Calls `write` with each place and what is to come there; stops at the first that says false.
+template <class T, class Write>
+bool Port::each_of(const void* from, std::uint32_t& bad, Write write) const {
+  const T* next = static_cast<const T*>(from);
+  for (const Segment& s : segments_) {
+    const bool fine = with_type(s.scalar, [&](auto* scalar) {
+      auto* to = static_cast<decltype(scalar)>(s.data);
       for (std::uint32_t i = 0; i < s.count; ++i, ++next)
-        if (!convert(*next, to[i])) return false;
+        if (!write(to[i], *next)) return false;
       return true;
     });
-    if (fits) continue;
-    bad = std::uint32_t(next - from);
+    if (fine) continue;
+    bad = std::uint32_t(next - static_cast<const T*>(from));
     return false;
   }
   return true;
+}
+
+void Port::rest() const {
+  for (const Segment& s : segments_)
+    if (s.rests_at_zero && s.data) std::memset(s.data, 0, s.count * size_of(s.scalar));
+}
+
+bool Port::write(const void* from, std::uint32_t& bad) const {
+  if (segments_.empty()) return true;
+  if (type_ == PortType::text) {
+    const auto* text = static_cast<const char*>(from);
+    const std::size_t length = strnlen(text, size_);
+    bad = size_;
+    if (length == size_) return false;
+    auto* to = static_cast<char*>(segments_[0].data);
+    std::memcpy(to, text, length);
+    std::memset(to + length, 0, segments_[0].count - length);
+    return true;
+  }
+  const auto check = [](auto& place, auto number) {
+    using T = std::remove_reference_t<decltype(place)>;
+    return std::isfinite(double(number)) && fits<T>(number);
+  };
+  const auto set = [](auto& place, auto number) {
+    place = converted<std::remove_reference_t<decltype(place)>>(number);
+    return true;
+  };
+  if (type_ == PortType::number) return each_of<double>(from, bad, check) && each_of<double>(from, bad, set);
+  return each_of<std::int64_t>(from, bad, check) && each_of<std::int64_t>(from, bad, set);
 }
 
 }  // namespace muro::control

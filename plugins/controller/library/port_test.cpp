@@ -84,7 +84,7 @@ TEST(Port, NeedsNoCopyOfOneRunOfDoubles) {
   const Port port = port_to(twist);
   EXPECT_EQ(port.size(), 6u);
   EXPECT_EQ(port.direct(), twist.value.linear.data());
-  EXPECT_EQ(port.direct()[5], 6);
+  EXPECT_EQ(static_cast<double*>(port.direct())[5], 6);
   Place<float> small{0};
   EXPECT_EQ(port_to(small).direct(), nullptr);
 }
@@ -111,9 +111,12 @@ TEST(Port, SetsPropertiesSideBySide) {
   std::uint32_t bad = 0;
   EXPECT_FALSE(port.write(numbers, bad));
   EXPECT_EQ(bad, 4u) << "the first of the bytes";
+  EXPECT_EQ(first.value, Vec3(1, 2, 3)) << "nothing is written when one does not fit";
+  EXPECT_EQ(second.value, 4);
+  numbers[4] = numbers[5] = 7;
+  EXPECT_TRUE(port.write(numbers, bad));
   EXPECT_EQ(first.value, Vec3(-1, -2, -3));
-  EXPECT_EQ(second.value, -4);
-  EXPECT_EQ(bytes[0], 5);
+  EXPECT_EQ(bytes[1], 7);
 }
 
 }  // namespace

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <unistd.h>
+
+namespace muro {
+
+/// A file descriptor, closed at its end.
+class Descriptor {
+ public:
+  Descriptor() = default;
+  explicit Descriptor(int number) : number_(number) {}
+  ~Descriptor() { reset(); }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  Descriptor(Descriptor&& from) noexcept : number_(from.release()) {}
+  Descriptor& operator=(Descriptor&& from) noexcept {
+    reset(from.release());
+    return *this;
+  }
+  void reset(int number = -1) {
+    if (number_ >= 0) close(number_);
+    number_ = number;
+  }
+  int get() const { return number_; }
+  explicit operator bool() const { return number_ >= 0; }
+
+ private:
+  int release() {
+    const int number = number_;
+    number_ = -1;
+    return number;
+  }
+  int number_ = -1;
+};
+
+}  // namespace muro

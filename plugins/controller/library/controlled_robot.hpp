@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "connections.hpp"
+#include "control_instance.hpp"
+#include "control_library.hpp"
+#include "control_process.hpp"
+#include "muro/algorithm.hpp"
+#include "muro/ext/call_note.hpp"
+#include "port.hpp"
+
+namespace muro::control {
+
+/// What becomes of a run in which the control code of a robot fails.
+enum class OnFailure : std::uint8_t {
+  stop,     ///< it ends
+  hold,     ///< the robot is left at rest
+  restart,  ///< the robot is at rest for a step, and its control code begins anew
+};
+
+/// What all robots of one controller have in common.
+struct ControlSettings {
+  std::string path;  ///< of the library
+  ControlTable table;
+  std::optional<muro_controller_table> functions;  ///< none: they run in processes of their own
+  std::vector<std::string> arguments;
+  std::vector<double> tunables, task_rates;
+  OnFailure on_failure = OnFailure::stop;
+  std::uint32_t restarts = 0;  ///< how often a robot's control code may begin anew
+  ProcessLimits limits;
+  Host* host = nullptr;
+  CallNotes* notes = nullptr;
+};
+
+/// The state of one robot: this, then the library's own. The size is a multiple of 64 bytes, so that the states of all
+/// robots, one after the other, are aligned as the C header promises.
+struct alignas(64) StateBlock {
+  std::uint64_t created;     ///< 0 until the library's `create` has run
+  std::uint64_t saved_size;  ///< bytes, of an instance with memory of its own
+  std::uint32_t is_held;     ///< its control code has failed, and it is left at rest
+  std::uint32_t restarts;    ///< how often its control code has begun anew
+
+  void* state() { return this + 1; }
+  static std::uint32_t size_for(std::size_t state_size) {
+    return std::uint32_t(sizeof(StateBlock) + (state_size + 63) / 64 * 64);
+  }
+};
+
+/// One robot and its instance of the control code.
+class ControlledRobot {
+ public:
+  /// `item`: its place among those of the controller. [setup]
+  ControlledRobot(const ControlSettings& settings, std::string name, std::uint32_t item, std::uint32_t count,
+                  std::uint64_t random_key, StateBlock* block);
+
+  const std::string& name() const { return name_; }
+  /// Takes over a process in which the library is loaded already. [setup]
+  void use_process(std::unique_ptr<ControlProcess> process) { process_ = std::move(process); }
+  /// Looks for the properties of all ports and asks for them. Returns the optional inputs that it lacks. [setup]
+  std::vector<std::string> connect(Connector& connector, const Connections& inputs, const Connections& outputs);
+  /// Makes a property for each output that is the library's own. [setup]
+  void create_own_properties(Connector& connector, ObjectId object);
+
+  void start();
+  void step(const Step& step);
+  /// Properties were replaced by those of a snapshot.
+  void restored();
+
+ private:
+  using Ports = std::vector<Port>;
+
+  Port connect_port(Connector& c, const PropertyFinder& finder, const muro_port& port, const Connections& connections,
+                    bool input);
+  void measure();
+  void check_size(const Port& port, const muro_port& wanted, bool input) const;
+  InstanceMemory own_memory();
+  void make_instance();
+  void check_tasks(double period) const;
+  void read_ports(InstanceMemory& memory) const;
+  bool write_ports(const InstanceMemory& memory, std::string& why_not) const;
+  bool call(Call& call, const Step& step);
+  Outcome outcome_of(Call& call, const Step& step);
+  void fail(std::string what, const std::string& stack);
+  std::string describe(const Outcome& outcome) const;
+  std::string about(const muro_port& port, bool input) const;
+  std::string about() const;
+  void note(const char* function) const;
+  static void write_log(void* context, std::uint32_t level, const char* text);
+
+  const ControlSettings& settings_;
+  std::string name_;
+  std::uint32_t item_, count_;
+  std::uint64_t random_key_;
+  StateBlock* block_;
+  Ports inputs_, outputs_;
+  std::vector<std::uint64_t> copies_;  ///< of ports, of all that are not read directly; written anew in every step
+  std::unique_ptr<ControlProcess> process_;
+  std::unique_ptr<ControlInstance> instance_;
+  bool is_stale_ = false;  ///< the instance is not that of the state
+};
+
+}  // namespace muro::control

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: MIT
+// Control code in processes of its own: what it does to the run when it fails, and that it else does the same.
+#include <dirent.h>
+#include <unistd.h>
+
+#include <fstream>
+
+#include "library_testing.hpp"
+
+namespace muro::control {
+namespace {
+
+/// How many processes this one has started that are there still, zombies included.
+int children() {
+  int count = 0;
+  DIR* const all = opendir("/proc");
+  while (const dirent* entry = readdir(all)) {
+    if (entry->d_name[0] < '0' || entry->d_name[0] > '9') continue;
+    std::ifstream stat(std::string("/proc/") + entry->d_name + "/stat");
+    std::string text((std::istreambuf_iterator<char>(stat)), {});
+    const std::size_t end = text.rfind(')');
+    if (end == std::string::npos) continue;
+    int parent = 0;
+    if (std::sscanf(text.c_str() + end + 1, " %*c %d", &parent) == 1 && parent == getpid()) ++count;
+  }
+  closedir(all);
+  return count;
+}
+
+/// A team whose control code runs in processes of its own; robot `a` fails as `does` says.
+struct Failing : Team {
+  explicit Failing(const std::string& does, Settings settings = {}, Texts more = {}) {
+    more.push_back("does=" + does);
+    settings["arguments"] = more;
+    if (!settings.contains("isolate")) settings["isolate"] = std::string("process");
+    if (!settings.contains("timeout")) settings["timeout"] = 0.2;
+    if (!settings.contains("memory")) settings["memory"] = std::int64_t(64);
+    set_log([this](LogLevel, std::string_view line) { log += std::string(line) + "\n"; });
+    control(folder + "fails.so", std::move(settings));
+    build();
+  }
+  /// The message with which a run ends.
+  std::string run(double seconds = 1) {
+    try {
+      run_for(seconds);
+    } catch (const StepError& e) {
+      return e.what();
+    }
+    return "it went well";
+  }
+  std::string log;
+};
+
+TEST(IsolatedController, EndsTheRunWithRobotTimeCauseAndStackWhenItCrashes) {
+  Failing team("invalid_memory");
+  const std::string said = team.run();
+  EXPECT_TRUE(says(said, "failed at t = 0.2"));
+  EXPECT_TRUE(says(said, "robot `a`: `fails` crashed in `step`: SIGSEGV, invalid memory access at 0x10"));
+  EXPECT_TRUE(says(team.log, "robot `a`: `fails` was in these calls:\n"));
+  EXPECT_TRUE(says(team.log, "controllers/fails.so("));
+}
+
+TEST(IsolatedController, IsEndedWhenItDoesNotReturn) {
+  for (const char* how : {"loop", "sleep"}) {
+    Failing team(how);
+    EXPECT_TRUE(
+        says(team.run(), "robot `a`: `fails` did not return from `step` within 0.2 s of wall-clock time (`timeout`)"));
+    EXPECT_TRUE(says(team.log, "controllers/fails.so(")) << "where it was";
+  }
+}
+
+TEST(IsolatedController, IsReportedWithItsWayOfFailing) {
+  for (const auto& [does, message] : {
+           std::pair{"exit", "`fails` ended its process in `step`: exit code 3"},
+           {"exit_at_once", "`fails` ended its process in `step`: exit code 0"},
+           {"abort", "`fails` crashed in `step`: SIGABRT, it gave up by abort()"},
+           {"recurse", "`fails` crashed in `step`: SIGSEGV, invalid memory access at 0x"},
+           {"throw",
+            "`fails` threw an exception out of `step`: a wheel is off; functions of control code throw nothing"},
+           {"throw_a_number", "`fails` threw an exception out of `step`; functions of control code throw nothing"},
+           {"throw_in_thread", "`fails` crashed in `step`: SIGABRT"},
+           {"kill", "`fails` crashed in `step`: SIGKILL, maybe because the system was short of memory"},
+       }) {
+    Failing team(does);
+    EXPECT_TRUE(says(team.run(), message));
+  }
+}
+
+TEST(IsolatedController, IsRefusedMoreMemoryThanItMayTake) {
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  for (const char* how : {"allocate", "allocate_by_new"}) {
+    Failing team(how);
+    EXPECT_TRUE(says(team.run(), "robot `a`: `fails` ran out of memory in `step`"));
+    EXPECT_TRUE(says(team.run(), "")) << "the simulation itself is alive";
+  }
+#endif
+}
+
+TEST(IsolatedController, WhatItPrintsIsALogLineOfItsRobot) {
+  Failing team("print");
+  EXPECT_EQ(team.run(), "it went well");
+  EXPECT_TRUE(says(team.log, "robot `a`: `fails` says: (prints) to standard output\n"));
+  EXPECT_TRUE(says(team.log, "robot `a`: `fails` says: (prints) to standard error\n"));
+}
+
+TEST(IsolatedController, PrintsABoundedNumberOfLines) {
+  Failing team("print_endlessly");
+  EXPECT_EQ(team.run(), "it went well");
+  EXPECT_TRUE(says(team.log, "(prints) line 19\n"));
+  EXPECT_TRUE(says(team.log, "(prints more, which is left out)\n"));
+  EXPECT_LT(team.log.size(), 10000u);
+}
+
+TEST(IsolatedController, LeavesItsRobotAtRestAndTheOthersAloneWhereThatIsWanted) {
+  for (const char* how : {"invalid_memory", "loop", "throw"}) {
+    Failing team(how, {{"on_failure", std::string("hold")}});
+    EXPECT_EQ(team.run(), "it went well") << how;
+    EXPECT_EQ(team.command(*team.a).linear.x(), 0) << how;
+    EXPECT_EQ(team.command(*team.b).linear.x(), 1) << how;
+    EXPECT_TRUE(says(team.log,
+                     "from now on its commands of speed and effort are 0, and all others stay "
+                     "(`on_failure: hold`)"));
+  }
+}
+
+TEST(IsolatedController, BeginsAnewAsOftenAsIsAllowed) {
+  Failing team("exit", {{"on_failure", std::string("restart")}, {"restarts", std::int64_t(2)}});
+  team.run_for(0.4);
+  EXPECT_EQ(team.command(*team.a).linear.x(), 1) << "in its first step after the failure";
+  EXPECT_EQ(team.run(2), "it went well");
+  EXPECT_TRUE(says(team.log, "it begins anew, for the 1. of 2 times"));
+  EXPECT_TRUE(says(team.log, "it begins anew, for the 2. of 2 times"));
+  EXPECT_TRUE(says(team.log, "all others stay (`on_failure: restart`, `restarts` are used up)"));
+  EXPECT_EQ(team.command(*team.a).linear.x(), 0);
+  EXPECT_EQ(team.command(*team.b).linear.x(), 1);
+}
+
+TEST(IsolatedController, GoesOnFromASnapshotOfBeforeItsFailure) {
+  Failing team("invalid_memory", {{"on_failure", std::string("hold")}});
+  team.run_for(0.15);
+  const Snapshot before = team.snapshot();
+  team.run_for(1);
+  const std::uint64_t end = team.state_hash();
+  team.restore(before);
+  team.run_for(0.05);
+  EXPECT_EQ(team.command(*team.a).linear.x(), 1);
+  team.run_for(0.95);
+  EXPECT_EQ(team.state_hash(), end);
+  team.reset();
+  team.run_for(1.15);
+  EXPECT_EQ(team.state_hash(), end);
+}
+
+TEST(IsolatedController, DoesTheSameToTheBitAsInTheSimulatorsProcess) {
+  const auto hash = [](const char* isolate) {
+    Team team;
+    team.control(folder + "circle.so", {{"isolate", std::string(isolate)}, {"arguments", Texts{"name=x"}}});
+    team.build();
+    team.run_for(1);
+    const Snapshot middle = team.snapshot();
+    team.run_for(1.3);
+    const std::uint64_t end = team.state_hash();
+    team.restore(middle);
+    team.run_for(1.3);
+    EXPECT_EQ(team.state_hash(), end);
+    team.reset();
+    team.run_for(2.3);
+    EXPECT_EQ(team.state_hash(), end);
+    return end;
+  };
+  EXPECT_EQ(hash("process"), hash("none"));
+}
+
+TEST(IsolatedController, LeavesNoProcessBehind) {
+  const int before = children();
+  {
+    Failing team("kill", {{"on_failure", std::string("restart")}});
+    EXPECT_EQ(children(), before + 2) << "one a robot";
+    team.run();
+    Failing other("loop");
+    other.run();
+  }
+  EXPECT_EQ(children(), before);
+}
+
+TEST(IsolatedController, ThatIsNoLibraryIsRefusedInTheSameWords) {
+  for (const auto& [library, message] : {std::pair{"no_symbol.so", "exports no `muro_controller`"},
+                                         {"no_name.so", "its table has no name"},
+                                         {"unresolved.so", "cannot be loaded: undefined symbol"},
+                                         {"open_step.so", "would use functions of others in place of its own"}})
+    EXPECT_TRUE(says(refusal_of(library, {{"isolate", std::string("process")}}), message));
+  EXPECT_TRUE(says(refusal_of("crashes_when_loaded.so", {{"isolate", std::string("process")}}),
+                   "/crashes_when_loaded.so crashed: SIGSEGV, invalid memory access"));
+}
+
+TEST(ControllerLibrary, LeavesItsRobotAtRestWhereItFailsInTheSimulatorsProcess) {
+  for (const char* how : {"throw", "throw_a_number"}) {
+    Failing team(how, {{"isolate", std::string("none")}, {"on_failure", std::string("hold")}});
+    EXPECT_EQ(team.run(), "it went well");
+    EXPECT_EQ(team.command(*team.a).linear.x(), 0);
+    EXPECT_EQ(team.command(*team.b).linear.x(), 1);
+    EXPECT_TRUE(says(team.log, "robot `a`: `fails` threw an exception out of `step`"));
+  }
+  Failing team("throw", {{"isolate", std::string("none")}});
+  EXPECT_TRUE(says(team.run(), "robot `a`: `fails` threw an exception out of `step`: a wheel is off"));
+}
+
+}  // namespace
+}  // namespace muro::control
