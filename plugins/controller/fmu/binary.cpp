@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#include "binary.hpp"
+
+#include <dlfcn.h>
+#include <fenv.h>
+
+#include "muro/algorithm.hpp"
+#include "muro/toolkit/whole_library.hpp"
+#include "plugins/common/text/one_line.hpp"
+
+namespace muro::fmu {
+
+std::vector<std::string> own_platforms(int version) {
+#if defined(__x86_64__)
+  if (version == 2) return {"linux64", "x86_64-linux"};
+  return {"x86_64-linux"};
+#elif defined(__aarch64__)
+  static_cast<void>(version);
+  return {"aarch64-linux"};
+#else
+  static_cast<void>(version);
+  return {};
+#endif
+}
+
+Binary::Binary(const std::filesystem::path& path) : path_(path.string()) {
+  if (const std::string problem = missing_part_of_library(path_); !problem.empty())
+    throw Error("its library " + path.filename().string() + " cannot be loaded: " + problem);
+  fenv_t environment{};  // a library linked with -ffast-math turns off subnormal numbers in the thread that loads it
+  fegetenv(&environment);
+  handle_ = dlopen(path_.c_str(), RTLD_NOW | RTLD_LOCAL);
+  fesetenv(&environment);
+  if (handle_) return;
+  const char* message = dlerror();
+  std::string reason = one_line(message ? message : "unknown reason");
+  if (const std::size_t at = reason.find(path_); at != reason.npos)
+    reason.replace(at, path_.size(), path.filename().string());
+  throw Error("its library cannot be loaded: " + reason);
+}
+
+void* Binary::find(const char* function) const { return dlsym(handle_, function); }
+
+void* Binary::needed(const char* name) const {
+  if (void* const found = find(name)) return found;
+  throw Error("its library has no function `" + std::string(name) + "`, which the standard and its flags ask for");
+}
+
+}  // namespace muro::fmu

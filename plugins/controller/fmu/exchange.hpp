@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "component.hpp"
+#include "mapping.hpp"
+
+namespace muro::fmu {
+
+/// Scalars of a property that lie side by side, once addresses are known.
+struct Run {
+  void* handle = nullptr;  ///< of Connector::read_any or write_any
+  Multiplicity multiplicity = Multiplicity::single;
+  const ValueType* type = nullptr;
+  std::uint64_t first = 0;
+  std::optional<std::uint64_t> wanted;  ///< nothing: all from `first` on
+  std::vector<Conversion> conversions;  ///< one for each scalar of an element; empty: none is needed
+  std::string name;                     ///< of the property, for messages
+  std::byte* data = nullptr;            ///< the first scalar
+  std::uint64_t count = 0;
+
+  /// Looks up the address and the length of arrays. Throws Error when they are shorter than was asked for. [start]
+  void resolve();
+};
+
+/// Throws Error unless a variable and its properties, `count` scalars of `name` and so on, have the same size.
+void check_size(const Variable& variable, std::uint64_t count, const std::string& name);
+
+/// Moves the values of variables between the properties of one robot and an instance: inputs, or outputs.
+class Exchange {
+ public:
+  /// `version`: of FMI; decides in how many bytes a Boolean is.
+  void add(const Variable& variable, std::vector<Run> runs, int version);
+  bool is_empty() const { return groups_.empty() && binaries_.empty(); }
+  /// Throws Error when a variable and its properties have different sizes. [start]
+  void resolve();
+
+  void set(Component& component);
+  /// Throws Error when a number is not finite or does not fit.
+  void get(Component& component);
+
+ private:
+  struct Entry {
+    const Variable* variable = nullptr;
+    std::vector<Run> runs;
+    std::size_t offset = 0;  ///< of its first number in the buffer
+  };
+  /// Variables of one type go in one call.
+  struct Group {
+    std::vector<std::uint32_t> references;
+    std::vector<Entry> entries;
+    std::vector<std::uint64_t> buffer;  ///< numbers of up to 8 bytes
+    std::size_t count = 0;              ///< numbers in it
+  };
+
+  int version_ = 2;
+  std::map<Type, Group> groups_;
+  std::vector<Entry> binaries_;
+  std::vector<std::uint8_t> bytes_;
+};
+
+/// Gives a variable the value that a scenario says: a number, several separated by blanks for an array, true or false,
+/// a text, or the bytes of binary data as hexadecimal digits. Throws Error.
+void set_start_value(Component& component, const Variable& variable, const std::string& text, int version);
+
+}  // namespace muro::fmu

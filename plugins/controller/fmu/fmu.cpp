@@ -1,0 +1,405 @@
+// SPDX-License-Identifier: MIT
+// Functional mock-up units (FMI 2.0 and 3.0, co-simulation) as controllers; see README.md.
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "archive.hpp"
+#include "exchange.hpp"
+#include "muro/ext/loaded_libraries.hpp"
+#include "muro/plugin.hpp"
+#include "once_per_process.hpp"
+#include "plugins/common/text/quote.hpp"
+#include "stepper.hpp"
+
+namespace {
+
+using namespace muro;
+using namespace muro::fmu;
+
+constexpr Parameter parameters[] = {
+    text("fmu", "", "path of the FMU; relative ones start at the scenario's folder").required(),
+    texts("inputs", "what inputs read: \"variable=property\", \"variable=object:property[vx]\"; several by commas"),
+    texts("outputs", "what outputs write, in the same form"),
+    texts("parameters", "\"variable=value\": values before the initialization, in the units of the FMU"),
+    boolean("logging", false, "whether all messages of the FMU are logged, also those that are no warnings"),
+};
+constexpr PropertyUse reads[] = {{"*", "what the FMU's inputs are named or connected to"}};
+constexpr PropertyUse writes[] = {{"*", "what the FMU's outputs are named or connected to"},
+                                  {"state.fmu.*", "the FMU's state, where it can be serialized"}};
+constexpr Description description{
+    .id = "controller.fmu",
+    .kind = Kind::controller,
+    .version = "1.0.0",
+    .summary = "Runs functional mock-up units for co-simulation, FMI 2.0 and 3.0",
+    .parameters = parameters,
+    .reads = reads,
+    .writes = writes,
+    .capabilities = batched,  // what else holds depends on the FMU
+};
+
+/// The state of one robot: this, then `capacity` bytes for the serialized state of its instance.
+struct StateBlock {
+  std::uint64_t is_initialized;
+  std::int64_t start;  ///< ns, when it was
+  std::uint64_t size;  ///< bytes of the serialized state
+
+  std::uint8_t* bytes() { return reinterpret_cast<std::uint8_t*>(this + 1); }
+};
+
+class FmuController final : public Algorithm {
+ public:
+  ~FmuController() override {
+    for (Robot& r : robots_) r.log->close();
+  }
+
+  void connect(Connector& c) override {
+    const Parameters& p = c.parameters();
+    path_ = c.resolve_path(p.text("fmu"));
+    notes_ = CallNotes::of(c.host());
+    load(p);
+    if (LoadedLibraries* told = LoadedLibraries::of(c.host()))
+      told->add({path_, description_.model_name, description_.model_version});
+    if (description_.once_per_process) claim_process(c);
+    for (std::uint32_t i = 0; i < c.items().size(); ++i) make_robot(c, i);
+    state_capacity_ = robots_.empty() ? 0 : measured_state(robots_.front());
+    for (std::uint32_t i = 0; i < c.items().size(); ++i) {
+      const ObjectId object = c.items()[i].object;
+      robots_[i].block = static_cast<StateBlock*>(
+          c.state_block(object, block_name(c, object), std::uint32_t(sizeof(StateBlock) + state_capacity_)));
+    }
+    if (!description_.can_serialize_state)
+      c.host().log(LogLevel::info, file_name() + " lacks the flag " + description_.flag_of_state("Serialize") +
+                                       ": the run can be reset, but not restored to a snapshot");
+  }
+
+  void connect_by_name(Connector& c) override {
+    const Parameters& p = c.parameters();
+    const Mapping inputs = read_mapping("inputs", p.texts("inputs"), description_);
+    const Mapping outputs = read_mapping("outputs", p.texts("outputs"), description_);
+    for (std::uint32_t i = 0; i < robots_.size(); ++i)
+      named(i, [&] { connect_robot(c, c.items()[i], robots_[i], inputs, outputs); });
+    if (!robots_.empty() && robots_.front().outputs.is_empty())
+      c.host().log(LogLevel::warning, file_name() + ": none of its outputs is connected to anything; name some in " +
+                                          "`outputs`, as in [\"variable=command.twist[vx]\"]");
+  }
+
+  void start() override {
+    for (std::uint32_t i = 0; i < robots_.size(); ++i)
+      named(i, [&] {
+        robots_[i].inputs.resolve();
+        robots_[i].outputs.resolve();
+        robots_[i].is_stale = true;
+      });
+  }
+
+  void restored() override {
+    for (std::uint32_t i = 0; i < robots_.size(); ++i)
+      named(i, [&] {
+        if (robots_[i].block->is_initialized != 0 && !description_.can_serialize_state)
+          throw Error("it lacks the flag " + description_.flag_of_state("Serialize") +
+                      ", so its state at that time is lost; a reset starts it anew");
+        robots_[i].is_stale = true;
+      });
+  }
+
+  void step(const Step& step, Range range) override {
+    for (std::uint32_t i = range.begin; i < range.end; ++i) named(i, [&] { run(robots_[i], step); });
+  }
+
+ private:
+  struct Robot {
+    std::string name;
+    std::unique_ptr<MessageLog> log;
+    std::unique_ptr<Component> component;
+    Exchange inputs, outputs;
+    StateBlock* block = nullptr;
+    bool is_new = true;     ///< the instance has been instantiated or reset, and no more
+    bool is_stale = false;  ///< the block says something else than the instance
+  };
+
+  std::string file_name() const { return std::filesystem::path(path_).filename().string(); }
+
+  /// Runs `work` for a robot; what it throws gets the names of robot and FMU.
+  template <class Work>
+  void named(std::uint32_t robot, Work work) {
+    CallNote* const note = notes_ ? &notes_->of_this_thread() : nullptr;
+    if (note) note->set_item(robot);
+    try {
+      work();
+    } catch (const Error& e) {
+      throw Error("robot `" + robots_[robot].name + "`: " + file_name() + ": " + e.what());
+    }
+    if (note) note->set_item(CallNote::no_item);
+  }
+
+  void load(const Parameters& p) {
+    folder_.create();
+    std::vector<std::string> platforms = own_platforms(2);
+    for (const std::string& other : own_platforms(3)) platforms.push_back(other);
+    const Archive archive = unpack(path_, folder_.path(), platforms);
+    description_ = read_model_description(archive.description, path_);
+    start_values_ = read_start_values(p.texts("parameters"), description_);
+    if (archive.has_resources) resources_ = folder_.path() / "resources";
+    for (const std::string& platform : own_platforms(description_.version)) {
+      const auto library = folder_.path() / "binaries" / platform / (description_.identifier + ".so");
+      if (!std::filesystem::is_regular_file(library)) continue;
+      CallNote* const note = notes_ ? &notes_->of_this_thread() : nullptr;
+      if (note) note->set_library(path_.c_str(), "load");
+      try {
+        binary_ = std::make_unique<Binary>(library);
+      } catch (const Error& e) {
+        throw Error(path_ + ": " + e.what());
+      }
+      if (note) note->set_library(nullptr, nullptr);
+      return;
+    }
+    std::vector<std::string_view> others(archive.platforms.begin(), archive.platforms.end());
+    throw Error(path_ + " holds no library for this machine, binaries/" + own_platforms(description_.version).front() +
+                "/" + description_.identifier + ".so; it holds folders for: " + quoted_list(others) +
+                ". Export it for Linux on this processor");
+  }
+
+  void claim_process(const Connector& c) {
+    const std::string advice =
+        "; its flag canBeInstantiatedOnlyOncePerProcess allows one instance in a process, and all run in this one. "
+        "Give "
+        "it to one robot, or export it without the flag";
+    if (c.items().size() > 1)
+      throw Error(path_ + " is to control " + std::to_string(c.items().size()) + " robots" + advice);
+    if (!claim_.claim(description_.identifier + " " + description_.token))
+      throw Error(path_ + " is in use by another controller of this process" + advice);
+  }
+
+  void make_robot(Connector& c, std::uint32_t i) {
+    const Item& item = c.items()[i];
+    Robot& r = robots_.emplace_back();
+    r.name = item.robot ? item.robot->name : "world";
+    r.log = std::make_unique<MessageLog>(c.host(), r.name, c.parameters().boolean("logging"));
+    named(i, [&] {
+      r.component = make_component({&description_, binary_.get(), resources_, r.name, notes_, r.log.get()});
+      r.component->instantiate();
+    });
+  }
+
+  /// How many bytes a state may have: those of one after the initialization, and half as much again.
+  std::size_t measured_state(Robot& r) {
+    std::size_t size = 0;
+    if (description_.can_serialize_state)
+      named(0, [&] {
+        r.is_new = false;
+        set_start_values(r);
+        r.component->enter_initialization(0);
+        r.component->exit_initialization();
+        r.component->keep_state();
+        size = r.component->state_size();
+      });
+    constexpr std::size_t most = 256u << 20;
+    if (size > most)
+      throw Error(path_ + ": its state has " + std::to_string(size) + " bytes; at most " + std::to_string(most) +
+                  " are kept");
+    return size == 0 ? 0 : (size + size / 2 + 1024) / 8 * 8;
+  }
+
+  void set_start_values(Robot& r) {
+    for (const auto& [variable, text] : start_values_)
+      set_start_value(*r.component, description_.variables[variable], text, description_.version);
+  }
+
+  void connect_robot(Connector& c, const Item& item, Robot& r, const Mapping& inputs, const Mapping& outputs) {
+    const PropertySearch search(c, item);
+    std::vector<std::string_view> open;
+    for (std::size_t v = 0; v < description_.variables.size(); ++v) {
+      const Variable& variable = description_.variables[v];
+      const auto in = inputs.find(v), out = outputs.find(v);
+      const auto join = [&](const std::vector<Place>& places, bool is_input) {
+        check_sizes(search, variable, places);
+        std::vector<Run> runs;
+        for (const Place& place : places) runs.push_back(run_of(c, search, variable, place, is_input));
+        (is_input ? r.inputs : r.outputs).add(variable, std::move(runs), description_.version);
+      };
+      if (in != inputs.end()) {
+        join(search.places(in->second), true);
+      } else if (variable.causality == Causality::input && !start_values_.contains(v)) {
+        if (const auto place = search.place_of(variable.name, true))
+          join({*place}, true);
+        else
+          open.push_back(variable.name);
+      }
+      if (out != outputs.end()) {
+        join(search.places(out->second), false);
+      } else if (variable.causality == Causality::output) {
+        // an output such as `twist` is no attempt to write the twist: commands only
+        const auto place = search.place_of(variable.name, false);
+        if (place && place->property.key->role == Role::command) join({*place}, false);
+      }
+    }
+    if (!open.empty())
+      throw Error("its inputs " + quoted_list(open) +
+                  " are not connected: no property has that name. Connect them in "
+                  "`inputs`, as in [\"" +
+                  std::string(open.front()) +
+                  "=object:property\"], or give them a value in "
+                  "`parameters`, as in [\"" +
+                  std::string(open.front()) + "=0\"]");
+  }
+
+  /// As far as it can be told before the start, when the lengths of arrays are known: before units, whose message
+  /// would lead astray.
+  static void check_sizes(const PropertySearch& search, const Variable& variable, const std::vector<Place>& places) {
+    std::uint64_t count = 0;
+    for (const Place& p : places) {
+      if (p.property.multiplicity != Multiplicity::single) return;
+      count += p.count.value_or(p.property.key->type->scalars());
+    }
+    if (variable.type != Type::string)
+      check_size(variable, count, search.name_of(places.front().property) + (places.size() > 1 ? " and others" : ""));
+  }
+
+  Run run_of(Connector& c, const PropertySearch& search, const Variable& v, const Place& place, bool is_input) {
+    const FoundProperty& p = place.property;
+    const ValueType& type = *p.key->type;
+    const std::string about = "variable " + quote(v.name) + " cannot be connected to " + search.name_of(p) + ": ";
+    if (v.type == Type::string)
+      throw Error(about + "it is a text, and properties hold numbers; " +
+                  (is_input ? "give it in `parameters`" : "it can only be left out"));
+    if (size_of(type.scalar) == 0)
+      throw Error(about + "that is of type " + std::string(type.name) + ", which is not made of numbers");
+    if (v.type == Type::binary && type.scalar != Scalar::u8)
+      throw Error(about + "it is binary data, and that is made of " + std::string(type.name) +
+                  "; properties of bytes, "
+                  "such as camera.image, fit");
+    if (p.multiplicity == Multiplicity::list)
+      throw Error(about + "that is a list, whose length changes from step to step");
+    Run run;
+    run.multiplicity = p.multiplicity;
+    run.type = &type;
+    run.first = place.first;
+    run.wanted = place.count;
+    run.name = search.name_of(p);
+    set_conversions(c, v, p, place, run, about);
+    void*& handle = handles_[{p.object, std::string(p.key->name), is_input}];
+    if (!handle) handle = is_input ? const_cast<void*>(c.read_any(p)) : c.write_any(p);
+    run.handle = handle;
+    return run;
+  }
+
+  void set_conversions(const Connector& c, const Variable& v, const FoundProperty& p, const Place& place, Run& run,
+                       const std::string& about) const {
+    if (v.unit.empty() || v.type == Type::binary) return;
+    const auto defined = description_.units.find(v.unit);
+    const Unit unit = defined == description_.units.end() ? Unit{v.unit, {}} : defined->second;
+    const std::uint32_t scalars = p.key->type->scalars();
+    run.conversions.resize(scalars);
+    bool is_needed = false;
+    for (std::uint32_t s = 0; s < scalars; ++s) {
+      const std::uint64_t count = place.count.value_or(scalars);
+      const bool is_used = count >= scalars || (s + scalars - place.first % scalars) % scalars < count;
+      if (!is_used) continue;
+      const std::string_view wanted = unit_of_scalar(*p.key, s, is_prismatic(c, p.object));
+      const auto found = conversion(unit, v.is_relative, wanted);
+      if (!found)
+        throw Error(about + "its unit is " + quote(v.unit) + ", and that is in " + quote(wanted) +
+                    (unit.base ? "" : "; the model description does not say what its unit is (<BaseUnit>)"));
+      run.conversions[s] = *found;
+      is_needed = is_needed || !found->is_identity();
+    }
+    if (!is_needed) run.conversions.clear();
+  }
+
+  static bool is_prismatic(const Connector& c, ObjectId object) {
+    const std::int32_t robot = c.robot_of(object);
+    if (robot < 0) return false;
+    for (const Link& link : c.robots()[std::size_t(robot)]->links)
+      if (link.joint_object == object) return link.joint == JointKind::prismatic;
+    return false;
+  }
+
+  /// A name that no other controller on the same object has.
+  std::string block_name(const Connector& c, ObjectId object) const {
+    const std::string stem = "fmu." + description_.identifier;
+    std::string name = stem;
+    const auto is_taken = [&] {
+      for (const FoundProperty& p : c.properties(object))
+        if (p.key->name == "state." + name) return true;
+      return false;
+    };
+    for (int number = 2; is_taken(); ++number) name = stem + "." + std::to_string(number);
+    return name;
+  }
+
+  /// From the instant before to this one, so that the FMU's time is that of the simulation. Communication points are
+  /// multiples of the period after the start, however its nanoseconds were rounded.
+  void run(Robot& r, const Step& step) {
+    if (r.is_stale) synchronise(r, step.dt);
+    if (r.block->is_initialized == 0) {
+      r.is_new = false;
+      set_start_values(r);
+      r.component->enter_initialization(step.seconds());
+      r.inputs.set(*r.component);
+      r.component->exit_initialization();
+      r.block->start = step.time;
+      r.block->is_initialized = 1;
+    } else {
+      const double start = 1e-9 * double(r.block->start);
+      const double periods = std::round(1e-9 * double(step.time - r.block->start) / step.dt);
+      r.inputs.set(*r.component);
+      advance(*r.component, description_, start + (periods - 1) * step.dt, start + periods * step.dt, step.dt,
+              [&] { r.inputs.set(*r.component); });
+    }
+    r.outputs.get(*r.component);
+    if (description_.can_serialize_state) save(r);
+  }
+
+  void synchronise(Robot& r, double period) {
+    check_step_size(description_, period);
+    if (r.block->is_initialized != 0) {
+      r.component->read_state({r.block->bytes(), std::size_t(r.block->size)});
+      r.is_new = false;
+    } else if (!r.is_new) {
+      r.component->reset();
+      r.is_new = true;
+    }
+    r.is_stale = false;
+  }
+
+  void save(Robot& r) const {
+    r.component->keep_state();
+    const std::size_t size = r.component->state_size();
+    if (size > state_capacity_)
+      throw Error("its state has grown to " + std::to_string(size) + " bytes; it had two thirds of " +
+                  std::to_string(state_capacity_) +
+                  " after the initialization, and that much has been set aside for it");
+    r.component->write_state({r.block->bytes(), size});
+    if (size < r.block->size) std::memset(r.block->bytes() + size, 0, r.block->size - size);
+    r.block->size = size;
+  }
+
+  struct Binding {
+    ObjectId object;
+    std::string key;
+    bool is_input;
+    auto operator<=>(const Binding&) const = default;
+  };
+
+  std::string path_;
+  CallNotes* notes_ = nullptr;
+  PrivateFolder folder_;
+  ModelDescription description_;
+  std::filesystem::path resources_;
+  std::unique_ptr<Binary> binary_;
+  ProcessClaim claim_;
+  StartValues start_values_;
+  std::size_t state_capacity_ = 0;
+  std::map<Binding, void*> handles_;  ///< of the properties that are connected
+  std::vector<Robot> robots_;
+};
+
+constexpr abi::AlgorithmEntry algorithms[] = {algorithm<FmuController>(description)};
+
+}  // namespace
+
+MURO_PLUGIN(.name = "controller_fmu", .version = description.version, .licence = "MIT",
+            .summary = "Functional mock-up units as controllers", .algorithms = algorithms)

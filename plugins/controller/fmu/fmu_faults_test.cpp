@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: MIT
+// What users read when an FMU, or what a scenario says about it, is wrong, and how steps that fail are mended.
+#include <cmath>
+
+#include "fmu_testing.hpp"
+
+namespace muro::fmu {
+namespace {
+
+constexpr Key<double> decay{"test.decay", "1", "what `decay` says"};
+constexpr Key<std::int32_t> count{"test.count", "1", "what `count` says"};
+
+const std::string variable_steps = R"(canHandleVariableCommunicationStepSize="true" )";
+
+/// As in model.h.
+enum Fault { error = 1, fatal, end, crash, pending, event, early, nan, grows, at_start, warns, no_last_time };
+
+class FmuFault : public ::testing::TestWithParam<int> {
+ protected:
+  int version() const { return GetParam(); }
+  std::string prefix() const { return "fmi" + std::to_string(version()); }
+  const std::string& able() const { return version() == 2 ? able_2 : able_3; }
+
+  /// A simulation of an FMU with these flags and values for 1 s; returns how it ends, "no complaint" where it is well.
+  std::string run(const std::string& flags, Texts values, const std::string& library = "") {
+    const test::ScratchFolder scratch;
+    write_fmu(scratch.path("x.fmu"), version(), flags, library);
+    Bench bench;
+    const double& d = bench.sink(decay);
+    const std::int32_t& n = bench.sink(count);
+    bench.control(scratch.path("x.fmu"), version(),
+                  Texts{"decay=test.decay", "count=test.count", "speed=command.twist[vx]"}, std::move(values));
+    bench.build();
+    const std::string how = failure(bench, 1.05);
+    decay_ = d, count_ = n, said_ = bench.said;
+    return how;
+  }
+  static std::string fault(Fault f) { return "fault=" + std::to_string(f); }
+
+  double decay_ = 0;
+  int count_ = 0;
+  std::string said_;
+};
+
+TEST_P(FmuFault, EndsTheRunWithTheWordsOfTheFmu) {
+  EXPECT_SAYS(run(able(), {fault(error), "label=my own FMU", "fault_time=0.25"}),
+              "robot `a`: x.fmu: `" + prefix() + "DoStep` fails with " + prefix() +
+                  "Error: it is all wrong at t = 0.2, label 'my own FMU'");
+  EXPECT_SAYS(run(able(), {fault(fatal)}), "`" + prefix() + "DoStep` fails with " + prefix() + "Fatal: it is broken");
+  EXPECT_SAYS(run(able(), {fault(nan)}), "robot `a`: x.fmu: variable `speed` is nan; outputs must be finite numbers");
+  EXPECT_SAYS(run(able(), {fault(end)}), std::string("the FMU asks to end the simulation (") +
+                                             (version() == 2 ? "fmi2Terminated" : "terminateSimulation") +
+                                             ") between t = 0.4 s and 0.5 s");
+}
+
+TEST_P(FmuFault, RepeatsDiscardedStepsWithSmallerOnes) {
+  ASSERT_EQ(run(able(), {"largest_step=0.03"}), "no complaint");
+  EXPECT_NEAR(decay_, std::exp(-1), 1e-12);
+  EXPECT_EQ(count_, 40) << "parts: four in each step";
+  if (version() == 3) return;
+  ASSERT_EQ(run(able(), {"largest_step=0.03", fault(no_last_time)}), "no complaint");
+  EXPECT_NEAR(decay_, std::exp(-1), 1e-12);
+}
+
+TEST_P(FmuFault, NamesTheFlagThatARepetitionNeeds) {
+  EXPECT_SAYS(run("", {"largest_step=0.03"}),
+              "the FMU discards the communication step between t = 0 s and 0.1 s, and the FMU lacks the flag "
+              "canHandleVariableCommunicationStepSize");
+  const std::string without_state = run(variable_steps, {"largest_step=0.03"});
+  if (version() == 2)
+    EXPECT_SAYS(without_state, "lacks the flag canGetAndSetFMUstate");
+  else
+    EXPECT_EQ(without_state, "no complaint") << "a discarded step leaves the state as it was";
+  EXPECT_SAYS(run(able(), {"largest_step=0"}), "and all smaller ones");
+}
+
+TEST_P(FmuFault, AtTheStartIsToldBeforeTheRun) {
+  const test::ScratchFolder scratch;
+  write_fmu(scratch.path("x.fmu"), version(), able());
+  Bench bench;
+  bench.control(scratch.path("x.fmu"), version(), Texts{}, {fault(at_start)});
+  EXPECT_SAYS(refusal(bench), "robot `a`: x.fmu: `" + prefix() + "ExitInitializationMode` fails with " + prefix() +
+                                  "Error: I do not like this start");
+}
+
+TEST_P(FmuFault, WarningsGoToTheLogOfTheRun) {
+  ASSERT_EQ(run("", {fault(warns), "label=x"}), "no complaint");
+  EXPECT_SAYS(said_, "robot `a`: FMU: beware at t = 0.1, label 'x'");
+}
+
+TEST_P(FmuFault, StatesThatGrowBeyondWhatWasSetAsideEndTheRun) {
+  EXPECT_SAYS(run(able(), {fault(grows)}), "x.fmu: its state has grown to ");
+}
+
+TEST_P(FmuFault, OneInstanceAProcessIsAllThatSomeAllow) {
+  const test::ScratchFolder scratch;
+  const std::string path = scratch.path("x.fmu");
+  write_fmu(path, version(), R"(canBeInstantiatedOnlyOncePerProcess="true")");
+  {
+    Bench team(2);
+    team.control(path, version(), Texts{});
+    EXPECT_SAYS(refusal(team), "x.fmu is to control 2 robots; its flag canBeInstantiatedOnlyOncePerProcess allows one");
+    Bench twice;
+    twice.control(path, version(), Texts{});
+    twice.control(path, version(), Texts{});
+    EXPECT_SAYS(refusal(twice),
+                "x.fmu is in use by another controller of this process; its flag "
+                "canBeInstantiatedOnlyOncePerProcess");
+  }
+  for (int i = 0; i < 2; ++i) {
+    Bench one;
+    one.control(path, version(), Texts{});
+    one.build();
+    EXPECT_NO_THROW(one.run_for(0.5)) << "the one before has given it back";
+  }
+}
+
+TEST_P(FmuFault, OfLibrariesIsNamed) {
+  const test::ScratchFolder scratch;
+  const std::string path = scratch.path("x.fmu"), folder = "binaries/" + platform_of[version()] + "/";
+  const std::string library = test::text_of(parts + "model" + std::to_string(version()) + ".so");
+  const auto refusal_of = [&](const std::vector<Entry>& entries) {
+    write_archive(path, entries);
+    Bench bench;
+    bench.control(path, version(), Texts{});
+    return refusal(bench);
+  };
+  const Entry xml{"modelDescription.xml", description(version(), able())};
+  EXPECT_SAYS(refusal_of({xml, {"binaries/win64/model.dll", ""}, {"binaries/darwin64/model.dylib", ""}}),
+              "x.fmu holds no library for this machine, " + folder +
+                  "model.so; it holds folders for: `darwin64`, `win64`. Export it for Linux on this processor");
+  EXPECT_SAYS(refusal_of({xml, {folder + "model.so", library.substr(0, 5000)}}),
+              "its library model.so cannot be loaded: the file has 5000 bytes and should have at least ");
+  EXPECT_SAYS(refusal_of({xml, {folder + "model.so", "no library"}}), "its library cannot be loaded: model.so: ");
+  EXPECT_SAYS(refusal_of({xml, {folder + "model.so", test::text_of(parts + "empty.so")}}),
+              "its library has no function `" + prefix() + "GetVersion`");
+  Entry other = xml;
+  other.bytes.replace(other.bytes.find("{the-token}"), 11, "{another-1}");
+  EXPECT_SAYS(refusal_of({other, {folder + "model.so", library}}), "makes no instance: the ");
+}
+
+TEST_P(FmuFault, OfAScenarioIsNamed) {
+  const test::ScratchFolder scratch;
+  const std::string path = scratch.path("x.fmu");
+  write_fmu(path, version(), able());
+  const auto refusal_with = [&](const Settings& settings, const Texts& values = {}) {
+    Bench bench;
+    bench.control(path, version(), settings, values);
+    return refusal(bench);
+  };
+  const auto inputs = [](const std::string& text) { return Settings{{"inputs", Texts{text}}}; };
+  const auto outputs = [](const std::string& text) { return Settings{{"outputs", Texts{text}}}; };
+  EXPECT_SAYS(refusal_with(inputs("u=pose")),
+              "variable `u` has 1 number, and what it is connected to has 7: "
+              "`a/body:pose`; choose some by [0], [vx] or [0..2] behind its name");
+  EXPECT_SAYS(refusal_with(inputs("u=pose[vx]")),
+              "`vx` is no scalar of `a/body:pose`; they are numbered from 0, as in "
+              "[0] or [0..2], or called `x`, `y`, `z`, `qx`, `qy`, `qz`, `qw`");
+  EXPECT_SAYS(refusal_with(inputs("u=pose[7]")), "`a/body:pose` has 7 scalars, [0] to [6]; number 7 is not among them");
+  EXPECT_SAYS(refusal_with(inputs("angle=pose[x]")),
+              "variable `angle` cannot be connected to `a/body:pose`: its unit is `deg`, and that is in `m`");
+  EXPECT_SAYS(refusal_with(inputs("u=pse[x]")), "no object of robot `a` has a property `pse` (did you mean `pose`?)");
+  EXPECT_SAYS(refusal_with(inputs("u=arm:pose[x]")), "robot `a` has no object `arm`; it has `body`");
+  EXPECT_SAYS(refusal_with(inputs("anlge=pose[x]")),
+              "`inputs`: `anlge=pose[x]`: the FMU has no variable `anlge` (did "
+              "you mean `angle`?); what may stand here: ");
+  EXPECT_SAYS(refusal_with(inputs("speed=pose[x]")), "`speed` is not an input or a tunable parameter");
+  EXPECT_SAYS(refusal_with(inputs("u")), "`inputs`: `u` must be \"variable=object:property\"");
+  EXPECT_SAYS(refusal_with(outputs("u=command.twist[0]")), "`u` is not an output");
+  EXPECT_SAYS(refusal_with(outputs("speed=command.twist[wz]")), "its unit is `m/s`, and that is in `rad/s`");
+  EXPECT_SAYS(refusal_with({}, {"kk=1"}), "the FMU has no variable `kk`");
+  EXPECT_SAYS(refusal_with({}, {"speed=1"}), "`speed` is not a parameter, an input, or a variable with `initial`");
+  EXPECT_SAYS(refusal_with({}, {"k=1,5"}), "value `1,5` of `k` is no number; the decimal sign is a point");
+  EXPECT_SAYS(refusal_with({}, {"k=1 2"}), "value `1 2` of `k` has 2 numbers, and needs 1");
+  EXPECT_SAYS(refusal_with({}, {"fault=0.5"}), "value `0.5` of `fault` does not fit into its type, ");
+  EXPECT_SAYS(refusal_with({}, {"k=1", "k=2"}), "`k` is given twice");
+  Bench open;
+  open.use("controller.fmu", 10, open.all_robots(), Settings{{"fmu", path}});
+  EXPECT_SAYS(refusal(open), "robot `a`: x.fmu: its inputs `u`, `angle`, ");
+  Bench idle;
+  idle.control(path, version(), Texts{});
+  idle.build();
+  EXPECT_SAYS(idle.said, "x.fmu: none of its outputs is connected to anything");
+}
+
+TEST_P(FmuFault, ThatCrashesIsNamedWithItsFunction) {
+  const test::ScratchFolder scratch;
+  write_fmu(scratch.path("x.fmu"), version(), able());
+  std::string values = "\"fault=4\"";
+  for (const std::string& text : closed_inputs(version())) values += ", \"" + text + "\"";
+  scratch.file("r.urdf", "<robot name=\"r\"><link name=\"body\"/></robot>");
+  scratch.file("s.yaml",
+               "robots:\n  r:\n    model: r.urdf\n    motion: {use: motion.point}\n    control: {use: "
+               "controller.fmu, rate: 10, fmu: x.fmu, outputs: [\"speed=command.twist[vx]\"], parameters: [" +
+                   values + "]}\n");
+  const test::CommandResult result =
+      test::run_command("MURO_PLUGIN_PATH=" MURO_TEST_PLUGIN_DIR " " MURO_PROGRAM " run " + scratch.path("s.yaml") +
+                        " --duration 2");
+  EXPECT_NE(result.exit_code, 0);
+  EXPECT_SAYS(result.output, "r.control (controller.fmu), robot `r`, crashed in `" + prefix() + "DoStep` of ");
+  EXPECT_SAYS(result.output, "at t = 0.500000 s: SIGSEGV");
+}
+
+INSTANTIATE_TEST_SUITE_P(OfFmi, FmuFault, ::testing::Values(2, 3),
+                         [](const auto& test) { return std::to_string(test.param); });
+
+class FmuFaultOf2 : public FmuFault {};
+
+TEST_P(FmuFaultOf2, StepsThatAreStillBeingDoneAreWaitedFor) {
+  ASSERT_EQ(run(R"(canRunAsynchronuously="true")", {fault(pending)}), "no complaint");
+  EXPECT_NEAR(decay_, std::exp(-1), 1e-12);
+}
+
+TEST_P(FmuFaultOf2, FunctionsThatFlagsPromiseAndVersionsAreChecked) {
+  const auto refusal_of = [&](const std::string& library) {
+    return test::complaint_of([&] { run(able(), {}, library); });
+  };
+  EXPECT_SAYS(refusal_of("no_state"),
+              "its library has no function `fmi2GetFMUstate`, which the standard and its flags");
+  EXPECT_SAYS(refusal_of("other_version"), "`fmi2GetVersion` of its library says `1.0`, and the model description is");
+}
+
+INSTANTIATE_TEST_SUITE_P(OfFmi, FmuFaultOf2, ::testing::Values(2));
+
+class FmuFaultOf3 : public FmuFault {};
+
+TEST_P(FmuFaultOf3, EarlyReturnsAreFollowedByTheRestOfTheStep) {
+  ASSERT_EQ(run(able(), {fault(early), "fault_time=0.43"}), "no complaint");
+  EXPECT_NEAR(decay_, std::exp(-1), 1e-12);
+  EXPECT_EQ(count_, 10);
+  EXPECT_EQ(said_, "");
+  EXPECT_SAYS(
+      run(R"(mightReturnEarlyFromDoStep="true")", {fault(early), "fault_time=0.43"}),
+      "the FMU returns early from the communication step between t = 0.4 s and 0.5 s, and the FMU lacks the flag "
+      "canHandleVariableCommunicationStepSize");
+  EXPECT_SAYS(said_, "early without leave");
+}
+
+TEST_P(FmuFaultOf3, EventsThatItWasToldNotToHaveEndTheRun) {
+  EXPECT_SAYS(
+      run(able() + R"( hasEventMode="true")", {fault(event)}),
+      "the FMU asks for event mode (eventHandlingNeeded) between t = 0.4 s and 0.5 s; it was told that there is none");
+}
+
+INSTANTIATE_TEST_SUITE_P(OfFmi, FmuFaultOf3, ::testing::Values(3));
+
+}  // namespace
+}  // namespace muro::fmu

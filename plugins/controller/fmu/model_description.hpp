@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "unit.hpp"
+
+namespace muro::fmu {
+
+/// Types of variables, of both versions: Real is float64, Integer is int32.
+enum class Type : std::uint8_t {
+  float64,
+  float32,
+  int64,
+  uint64,
+  int32,
+  uint32,
+  int16,
+  uint16,
+  int8,
+  uint8,
+  boolean,
+  enumeration,
+  string,
+  binary,
+};
+inline constexpr std::size_t type_count = 14;
+
+/// As the standard calls it in this version: "Real", "Float64".
+std::string_view name_of(Type type, int version);
+
+enum class Causality : std::uint8_t {
+  parameter,
+  calculated_parameter,
+  input,
+  output,
+  local,
+  independent,
+  structural_parameter,
+};
+
+struct Variable {
+  std::string name;
+  std::uint32_t reference = 0;
+  Type type = Type::float64;
+  Causality causality = Causality::local;
+  bool is_tunable = false;   ///< a parameter that may change during the run
+  bool may_be_set = false;   ///< before the initialization
+  std::string unit;          ///< empty: none is given
+  bool is_relative = false;  ///< a difference: the offset of its unit does not count
+  std::uint64_t size = 1;    ///< numbers in it: of arrays, all elements
+  int line = 0;
+};
+
+/// What modelDescription.xml says, as far as it matters here.
+struct ModelDescription {
+  int version = 0;  ///< 2 or 3
+  std::string model_name, model_version, generation_tool;
+  std::string token;       ///< guid (FMI 2), instantiationToken (FMI 3)
+  std::string identifier;  ///< the library's name without .so
+  bool once_per_process = false;
+  bool variable_step_size = false;
+  bool can_keep_state = false;       ///< canGetAndSetFMUState
+  bool can_serialize_state = false;  ///< canSerializeFMUState
+  bool might_return_early = false;
+  double fixed_internal_step = 0;  ///< s; 0: none is given
+  double preferred_step = 0;       ///< s; 0: none is given
+  double tolerance = 0;            ///< of the default experiment; 0: none is given
+  std::vector<Variable> variables;
+  std::map<std::string, Unit, std::less<>> units;
+
+  const Variable* find(std::string_view name) const;
+  /// The names of capability flags differ in a letter: "canGetAndSetFMUstate" in FMI 2, "...FMUState" in FMI 3.
+  std::string flag_of_state(std::string_view verb) const;
+
+ private:
+  friend class DescriptionReader;
+  std::map<std::string, std::size_t, std::less<>> by_name_;
+};
+
+/// Reads the bytes of a modelDescription.xml; `path` is that of the FMU, for messages. Throws Error, which says what is
+/// wrong and where, and names what an FMU needs that is not offered here.
+ModelDescription read_model_description(std::string bytes, const std::string& path);
+
+}  // namespace muro::fmu

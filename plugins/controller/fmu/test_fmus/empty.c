@@ -1,0 +1,3 @@
+/* SPDX-License-Identifier: MIT */
+/* A library that is no FMU. */
+int nothing;
