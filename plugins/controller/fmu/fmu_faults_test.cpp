@@ -193,9 +193,9 @@ TEST_P(FmuFault, ThatCrashesIsNamedWithItsFunction) {
                "robots:\n  r:\n    model: r.urdf\n    motion: {use: motion.point}\n    control: {use: "
                "controller.fmu, rate: 10, fmu: x.fmu, outputs: [\"speed=command.twist[vx]\"], parameters: [" +
                    values + "]}\n");
-  const test::CommandResult result =
-      test::run_command("MURO_PLUGIN_PATH=" MURO_TEST_PLUGIN_DIR " " MURO_PROGRAM " run " + scratch.path("s.yaml") +
-                        " --duration 2");
+  const test::CommandResult result = test::run_command(
+      "TMPDIR=" + scratch.path("") + " MURO_PLUGIN_PATH=" MURO_TEST_PLUGIN_DIR " " MURO_PROGRAM " run " +
+      scratch.path("s.yaml") + " --duration 2");
   EXPECT_NE(result.exit_code, 0);
   EXPECT_SAYS(result.output, "r.control (controller.fmu), robot `r`, crashed in `" + prefix() + "DoStep` of ");
   EXPECT_SAYS(result.output, "at t = 0.500000 s: SIGSEGV");
