@@ -10,6 +10,14 @@
 
 namespace muro {
 
+namespace {
+
+/// As in plugins/common/level_rules.
+constexpr Key<std::int32_t> motion_level_rule{"motion.level.rule", "1",
+                                              "which motion is to move it by a rule that holds; -1: none holds"};
+
+}  // namespace
+
 /// Steps those items of an instance whose robots it moves at present.
 class Levels::LevelFilter final : public abi::AlgorithmInstance {
  public:
@@ -105,6 +113,8 @@ void Levels::add_properties(World& world, Accessor accessor, const std::vector<s
   r.level_slot = store.slots_of(accessor).back();
   r.target = static_cast<const std::int32_t*>(bind(keys::motion_level_target, usage::input, &no_target));
   r.target_slot = store.slots_of(accessor).back();
+  r.rule = static_cast<const std::int32_t*>(bind(motion_level_rule, usage::input, &no_target));
+  r.rule_slot = store.slots_of(accessor).back();
   std::vector<TextId> texts;
   for (const std::string& name : names) texts.push_back(world.intern(name));
   world.set_array(base, keys::motion_level_names, std::span<const TextId>(texts));
@@ -175,8 +185,10 @@ Task Levels::task(std::span<const std::unique_ptr<Instance>> all) {
   t.writes = written();
   for (const SlotId slot : t.writes) t.accesses.push_back({slot, true});
   for (const Robot& r : robots_) {
-    t.reads.push_back(r.target_slot);
-    t.accesses.push_back({r.target_slot, false});
+    for (const SlotId slot : {r.target_slot, r.rule_slot}) {
+      t.reads.push_back(slot);
+      t.accesses.push_back({slot, false});
+    }
   }
   // A motion that takes over may write whatever it writes in a step.
   for (const auto& instance : all) {
@@ -196,7 +208,7 @@ Task Levels::task(std::span<const std::unique_ptr<Instance>> all) {
 
 bool Levels::step(const Step&, Range, abi::ErrorText& error) noexcept {
   for (Robot& r : robots_) {
-    const std::int32_t target = *r.target;
+    const std::int32_t target = *r.rule >= 0 ? *r.rule : *r.target;
     if (target < 0 || std::uint32_t(target) == *r.level) continue;
     if (std::size_t(target) >= r.movers.size()) {
       error.set(fmt::format("`motion.level.target` of `{}` is {}, but it has {} motions, from 0", r.view->name, target,

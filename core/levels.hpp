@@ -3,8 +3,9 @@
 //
 // Each motion of such a robot is connected to the same properties; `motion.level` says which of them steps the robot.
 // When `motion.level.target` names another, that one takes over before anything that depends on it runs in this
-// instant. State goes over by lying where it is, but for what tells of a motion (Role::motion_trait): that is set to
-// zero, and a motion that has it says it anew (Algorithm::on_handover).
+// instant. Control code writes it; an algorithm that goes by rules writes `motion.level.rule`, which comes first as
+// long as it names one. State goes over by lying where it is, but for what tells of a motion (Role::motion_trait): that
+// is set to zero, and a motion that has it says it anew (Algorithm::on_handover).
 #pragma once
 
 #include <memory>
@@ -68,7 +69,8 @@ class Levels final : public abi::AlgorithmInstance {
     std::vector<Mover> movers;  ///< by level
     std::uint32_t* level;
     const std::int32_t* target;
-    SlotId level_slot, target_slot;
+    const std::int32_t* rule;  ///< of an algorithm that goes by rules; -1: none holds
+    SlotId level_slot, target_slot, rule_slot;
     std::vector<SlotId> traits;  ///< Role::motion_trait, written by any of the motions
   };
   class LevelFilter;

@@ -11,6 +11,9 @@ namespace muro::level {
 
 namespace {
 
+/// Read by the hand-over (core/levels).
+constexpr Key<std::int32_t> motion_level_rule{"motion.level.rule", "1",
+                                              "which motion is to move it by a rule that holds; -1: none holds"};
 constexpr Key<std::int64_t> switch_time{"level.switch_time", "ns", "when the robot was handed over last"};
 constexpr Key<std::int64_t> contact_time{"level.contact_time", "ns",
                                          "when the robot was in contact with another one last; -1: never"};
@@ -61,7 +64,7 @@ void RulesAlgorithm::connect_robot(Connector& c, const RobotView& view) {
   r.number = std::int32_t(view.number);
   r.pose = c.read(view.base(), keys::pose);
   r.level = c.read(view.base(), keys::motion_level);
-  r.target = c.optional_output(view.base(), keys::motion_level_target);
+  r.choice = c.optional_output(view.base(), motion_level_rule);
   r.switch_time = c.variable(view.base(), switch_time, std::int64_t{0});
   if (r.by_contact) {
     r.contacts = c.read_list(view.base(), keys::contacts);
@@ -77,12 +80,13 @@ void RulesAlgorithm::choose(const Step& step, Range range, std::optional<double>
 
 void RulesAlgorithm::choose(const Robot& r, const Step& step, std::optional<double> run_speed) const {
   if (r.by_contact && is_in_contact(r)) *r.contact_time = step.time;
-  *r.target = std::int32_t(*r.level);
-  if (*r.switch_time > 0 && step.time - *r.switch_time < dwell_) return;
+  const bool dwells = *r.switch_time > 0 && step.time - *r.switch_time < dwell_;
+  *r.choice = dwells ? std::int32_t(*r.level) : -1;
+  if (dwells) return;
   for (const Condition& c : r.conditions) {
     if (!holds(r, c, step, run_speed)) continue;
     if (c.rule.level != *r.level) *r.switch_time = step.time;
-    *r.target = std::int32_t(c.rule.level);
+    *r.choice = std::int32_t(c.rule.level);
     return;
   }
 }

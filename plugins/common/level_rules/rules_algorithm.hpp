@@ -22,9 +22,10 @@ inline constexpr PropertyUse reads[] = {
     {"pose", "of bases of robots, for rules by distance"},
     {"contacts", "of the robot, for rules by contact"},
 };
-inline constexpr PropertyUse writes[] = {{"motion.level.target", "of the robot"}};
+inline constexpr PropertyUse writes[] = {{"motion.level.rule", "of the robot"}};
 
-/// Chooses which of its motions moves each robot, by rules.
+/// Chooses which of its motions moves each robot, by rules. Where none holds, `motion.level.target` is what counts,
+/// which control code writes.
 class RulesAlgorithm : public Algorithm {
  public:
   /// Throws Error when a rule is not understood, or goes by the speed of the run where `run_speed_is_known` is false.
@@ -46,7 +47,7 @@ class RulesAlgorithm : public Algorithm {
     bool by_contact = false;
     In<Pose> pose;
     In<std::uint32_t> level;
-    Out<std::int32_t> target;
+    Out<std::int32_t> choice;  ///< -1: no rule holds, and others may choose
     ListIn<Contact> contacts;
     Out<std::int64_t> switch_time, contact_time;
     std::vector<std::int32_t> robot_of;  ///< by object, for rules by contact

@@ -80,6 +80,22 @@ TEST(LevelRules, GoOnFromASnapshotToTheSameBits) {
   EXPECT_EQ(s.level(), 0u);
 }
 
+TEST(LevelRules, ComeBeforeATargetWhichCountsWhereNoneHolds) {
+  Ruled s({"far when nearer than 1 to other"}, {2, 1e-9, 0.1});
+  s.world().value(s.ball->base(), keys::motion_level_target) = 1;
+  s.run_for(0.05);
+  EXPECT_EQ(s.level(), 1u) << "no rule holds";
+  s.world().value(s.ball->base(), keys::motion_level_target) = -1;
+  s.run_for(0.05);
+  EXPECT_EQ(s.level(), 1u) << "no wish";
+  s.world().value(s.ball->base(), keys::motion_level_target) = 1;
+  s.run_for(2.1);  // 2 - 0.5 t < 1
+  EXPECT_EQ(s.level(), 0u) << "the rule holds";
+  s.world().value(s.ball->base(), keys::command_twist) = {{-1, 0, 0}, Vec3::Zero()};
+  s.run_for(0.5);
+  EXPECT_EQ(s.level(), 1u) << "it holds no more";
+}
+
 TEST(LevelRules, OfARobotWithOneMotionAreRefused) {
   test::Scene s;
   const RobotView& r = s.add("solo", test::single_body(Shape::sphere(0.1), {.mass = 1}));
