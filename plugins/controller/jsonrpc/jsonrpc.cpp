@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+// Any property and the control of the run for programs outside, by JSON-RPC 2.0; see README.md.
+#include <cmath>
+#include <optional>
+
+#include "muro/ext/inspection.hpp"
+#include "muro/plugin.hpp"
+#include "plugins/common/text/quote.hpp"
+#include "request_framing.hpp"
+#include "service.hpp"
+#include "setup.hpp"
+
+namespace {
+
+using namespace muro;
+using namespace muro::jsonrpc;
+
+constexpr Parameter parameters[] = {
+    stream::stream_parameter().required(),
+    texts("write", "what clients may change: \"object:property\" and \"call:NAME\", with * and ?; default: nothing"),
+    texts("refresh", "what is brought up to date for each step though it is computed on demand; default: \"*:pose\""),
+};
+constexpr PropertyUse reads[] = {{"*", "what clients ask for"}};
+constexpr PropertyUse writes[] = {{"*", "what `write` grants, through the host, which records it"}};
+constexpr Description description{
+    .id = "controller.jsonrpc",
+    .kind = Kind::controller,
+    .version = "1.0.0",
+    .summary = "Any property, and the control of the run, for programs outside: JSON-RPC 2.0, one message a line",
+    .parameters = parameters,
+    .reads = reads,
+    .writes = writes,
+    .capabilities = restorable | runs_alone,
+};
+
+constexpr stream::Limits limits{.output_bytes = 32 << 20, .is_recorded = false, .has_late_replies = true};
+/// Of output that waits, above which updates are dropped: the rest is for replies.
+constexpr std::size_t most_for_updates = 4 << 20;
+
+class JsonRpc final : public Algorithm, private Outlet, private PauseAttendant {
+ public:
+  ~JsonRpc() override {
+    if (run_) run_->remove_attendant(*this);
+  }
+
+  void connect(Connector& c) override {
+    const Item item = c.items().empty() ? Item{} : c.items()[0];
+    if (c.items().size() > 1)
+      throw Error("one server serves the whole scene; use it for one robot, or under `algorithms`");
+    inspection_ = Inspection::of(c.host());
+    run_ = RunControl::of(c.host());
+    if (!inspection_ || !run_) throw Error("this host lets nobody look at its simulation, or control it");
+    const stream::Address address = stream::read_address(c, 0, c.parameters().texts("stream"));
+    require_local(address);
+    const std::string owner = item.robot ? std::string(item.robot->name) : "world";
+    stream_.emplace(c, owner + "/jsonrpc", address, request_framing, limits);
+    run_->add_attendant(*this);
+  }
+
+  void connect_by_name(Connector& c) override {
+    const Parameters& p = c.parameters();
+    Served served{SceneNames(*inspection_), *run_, read_grants(c, p.texts("write"))};
+    for (const RobotView* robot : c.robots()) served.scene.add_robot(std::string(robot->name), robot->base());
+    service_.emplace(std::move(served), static_cast<Outlet&>(*this));
+    constexpr std::string_view poses[] = {"*:pose"};
+    const bool is_given = p.given("refresh");
+    refresh(c, is_given ? p.texts("refresh") : std::span<const std::string_view>(poses), is_given);
+  }
+
+  void start() override {
+    stream_->open();
+    service_->time_was_set(run_->time());
+  }
+  void restored() override { service_->time_was_set(run_->time()); }
+
+  std::span<const Phase> phases() const override {
+    static constexpr Phase whole[] = {{Phase::IndexSpace::whole}};
+    return whole;
+  }
+
+  void finish() override { stream_->finish(); }
+
+  void step(const Step& step, Range) override {
+    service_->begin_step(step.time, std::llround(1e9 * step.dt));
+    service_->answer_due();
+    // In lockstep, time stands until the client waits for something that takes time.
+    do stream_->begin(step.time);
+    while (serve_events() && !stream_->address().lockstep.empty() && !service_->is_waiting());
+    service_->send_updates();
+  }
+
+ private:
+  /// Whether there were any.
+  bool serve_events() {
+    bool any = false;
+    while (const stream::Event* event = stream_->next()) {
+      any = true;
+      switch (event->kind) {
+        case stream::Event::Kind::connected:
+          service_->connected(event->client);
+          break;
+        case stream::Event::Kind::message:
+          service_->received(event->client, event->bytes);
+          break;
+        case stream::Event::Kind::disconnected:
+          service_->disconnected(event->client);
+          break;
+      }
+    }
+    return any;
+  }
+
+  void attend() noexcept override {
+    try {
+      service_->begin_pause();
+      service_->answer_due();
+      stream_->poll(run_->time());
+      serve_events();
+      service_->send_updates();
+    } catch (...) {  // there is no memory: what was asked is not answered
+    }
+  }
+
+  bool send(std::uint32_t client, std::string_view line) override { return stream_->send(client, line); }
+  bool send_update(std::uint32_t client, std::string_view line) override {
+    return stream_->send(client, line, most_for_updates);
+  }
+  void answered() override { stream_->answered(); }
+  void disconnect(std::uint32_t client) override { stream_->disconnect(client); }
+
+  Inspection* inspection_ = nullptr;
+  RunControl* run_ = nullptr;
+  std::optional<stream::Stream> stream_;
+  std::optional<Service> service_;
+};
+
+constexpr abi::AlgorithmEntry algorithms[] = {algorithm<JsonRpc>(description)};
+
+}  // namespace
+
+MURO_PLUGIN(.name = "controller_jsonrpc", .version = description.version, .licence = "MIT",
+            .summary = "JSON-RPC 2.0 for any property and the control of the run", .algorithms = algorithms)

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#include "method.hpp"
+
+namespace muro::jsonrpc {
+
+namespace {
+
+using Names = std::string_view[];
+
+constexpr Names of_list = {"pattern"}, of_describe = {"property"}, of_get = {"properties", "element"},
+                of_subscribe = {"properties", "rate", "on_change", "least_period"}, of_unsubscribe = {"subscription"},
+                of_set = {"property", "value", "element", "unit", "values"},
+                of_place = {"object", "position", "orientation_wxyz", "orientation_xyzw", "x",    "y",
+                            "z",      "yaw",      "linear",           "angular",          "force"},
+                of_names = {"name"}, of_speed = {"factor"}, of_step = {"seconds", "steps"}, of_wait = {"seconds"};
+
+constexpr Method all[] = {
+    {"info", {}, false, info},
+    {"list", of_list, false, list},
+    {"describe", of_describe, false, describe},
+    {"get", of_get, false, get},
+    {"time", {}, false, tell_time},
+    {"hash", {}, false, hash},
+    {"wait", of_wait, false, wait},
+    {"subscribe", of_subscribe, false, subscribe},
+    {"unsubscribe", of_unsubscribe, false, unsubscribe},
+    {"set", of_set, false, set},  // each property is granted by itself
+    {"place", of_place, true, place},
+    {"pause", {}, true, pause},
+    {"resume", {}, true, resume},
+    {"step", of_step, true, step},
+    {"speed", of_speed, true, speed},
+    {"reset", {}, true, reset},
+    {"snapshot", of_names, true, snapshot},
+    {"restore", of_names, true, restore},
+};
+
+}  // namespace
+
+std::span<const Method> methods() { return all; }
+
+Reply time_reply(std::int64_t time) { return {{"time", time}, {"seconds", 1e-9 * double(time)}}; }
+
+}  // namespace muro::jsonrpc

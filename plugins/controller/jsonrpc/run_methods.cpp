@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// Methods that let time pass or stand.
+#include <algorithm>
+#include <cmath>
+
+#include "method.hpp"
+
+namespace muro::jsonrpc {
+
+namespace {
+
+constexpr double longest = 1e9;  ///< s that one request lets pass
+
+std::int64_t nanoseconds(double seconds) { return std::int64_t(std::llround(1e9 * seconds)); }
+
+}  // namespace
+
+void pause(Call& c) {
+  c.served.run.set_paused(true);
+  c.wait_for(Pending::Until::pause, c.served.time);
+}
+
+void resume(Call& c) {
+  c.served.run.set_paused(false);
+  c.answer(time_reply(c.served.time));
+}
+
+void speed(Call& c) {
+  const double factor = c.params.real("factor", 0, 1e6);
+  if (factor != 0 && factor < 1e-6)
+    throw RpcError{Code::invalid_params, "`factor` must be 0 (as fast as possible), or from 1e-6 to 1e6"};
+  c.served.run.set_speed(factor);
+  Reply result = time_reply(c.served.time);
+  result["speed"] = factor;
+  c.answer(std::move(result));
+}
+
+void step(Call& c) {
+  if (c.params.has("seconds") == c.params.has("steps"))
+    throw RpcError{Code::invalid_params, "give either `seconds` or `steps`, which are those of this controller"};
+  const std::int64_t ns = c.params.has("seconds") ? nanoseconds(c.params.real("seconds", 1e-9, longest))
+                                                  : c.params.integer("steps", 1, 1'000'000'000) * c.served.period;
+  c.served.run.step_for(ns);
+  c.wait_for(Pending::Until::pause, c.served.time + ns);
+}
+
+void wait(Call& c) {
+  const double seconds = c.params.has("seconds") ? c.params.real("seconds", 0, longest) : 0;
+  const std::int64_t ns = nanoseconds(seconds);
+  // Between instants, time may be 1 ns after the last one; within a step, that step does not count.
+  const std::int64_t rest = c.served.is_complete ? std::max<std::int64_t>(ns - 1, 0) : std::max<std::int64_t>(ns, 1);
+  c.wait_for(Pending::Until::instant, c.served.time + rest);
+}
+
+}  // namespace muro::jsonrpc

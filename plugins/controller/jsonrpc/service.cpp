@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+#include "service.hpp"
+
+#include <algorithm>
+#include <exception>
+
+#include "plugins/common/text/quote.hpp"
+
+namespace muro::jsonrpc {
+
+namespace {
+
+/// Throws RpcError where there is none of that name.
+const Method& method_of(const std::string& name) {
+  std::vector<std::string> known;
+  for (const Method& m : methods()) {
+    if (m.name == name) return m;
+    known.emplace_back(m.name);
+  }
+  throw RpcError{Code::method_not_found, "Method not found", nearest_as_data(name, known)};
+}
+
+bool is_blank(std::string_view line) { return line.find_first_not_of(" \t\r\n") == std::string_view::npos; }
+
+}  // namespace
+
+void Service::begin_step(std::int64_t time, std::int64_t period) {
+  served_.time = time;
+  served_.period = period;
+  served_.is_complete = false;
+  in_step_ = true;
+}
+
+void Service::begin_pause() {
+  served_.time = served_.run.time();
+  served_.is_complete = true;
+  in_step_ = false;
+}
+
+void Service::connected(std::uint32_t client) { conversations_[client].client = client; }
+
+void Service::disconnected(std::uint32_t client) {
+  const auto found = conversations_.find(client);
+  if (found == conversations_.end()) return;
+  found->second.has_left = true;
+  found->second.subscriptions.clear();
+  forget_who_left();
+}
+
+/// Those that have been answered, and the first ones of too many.
+void Service::forget_who_left() {
+  const auto left = [](const auto& entry) { return entry.second.has_left; };
+  auto surplus = std::count_if(conversations_.begin(), conversations_.end(), left) - std::ptrdiff_t(most_left);
+  std::erase_if(conversations_, [&](const auto& entry) {
+    const bool is_forgotten = left(entry) && (entry.second.is_idle() || surplus-- > 0);
+    if (is_forgotten) outlet_.disconnect(entry.first);
+    return is_forgotten;
+  });
+}
+
+void Service::received(std::uint32_t client, std::string_view line) {
+  const auto found = conversations_.find(client);
+  if (found == conversations_.end() || found->second.is_over || is_blank(line)) return outlet_.answered();
+  Conversation& c = found->second;
+  if (c.lines.size() >= Conversation::most_lines || c.bytes + line.size() > Conversation::most_bytes) {
+    Message refused(line);
+    while (refused.present()) refused.fail({Code::too_many, "too many requests wait for others to be answered"});
+    if (const std::string reply = refused.reply(); !reply.empty()) outlet_.send(client, reply);
+    return outlet_.answered();
+  }
+  c.lines.emplace_back(line);
+  c.bytes += line.size();
+  carry_on(c, Lines::may_begin);
+}
+
+/// Carries out requests until one of them waits, or all are answered.
+void Service::carry_on(Conversation& c, Lines lines) {
+  if (c.is_active) return;  // further up the stack it will go on
+  c.is_active = true;
+  while (!c.is_over && c.pending.until == Pending::Until::nothing) {
+    if (!c.message) {
+      if (c.lines.empty() || lines == Lines::later) break;
+      c.message.emplace(c.lines.front());
+      c.bytes -= c.lines.front().size();
+      c.lines.pop_front();
+    }
+    if (c.message->present())
+      begin_request(c);
+    else
+      finish_message(c);
+  }
+  c.is_active = false;
+}
+
+void Service::begin_request(Conversation& c) {
+  const Request& request = *c.message->present();
+  ++c.requests;
+  try {
+    const Method& method = method_of(request.method);
+    const Params params(request.params, method.parameters);
+    if (method.is_granted && !served_.grants.may_call(method.name))
+      throw RpcError{Code::not_granted, quote(method.name) +
+                                            " is not granted: the scenario's `write` would have \"call:" +
+                                            std::string(method.name) + "\""};
+    Call call(served_, c, params, *this);
+    method.carry_out(call);
+    if (Reply result = call.take_result(); !result.is_null()) c.message->answer(std::move(result));
+  } catch (const RpcError& error) {
+    c.pending = {};
+    c.message->fail(error);
+  } catch (const std::exception& error) {
+    c.pending = {};
+    c.message->fail({Code::internal_error, "Internal error", std::string(error.what())});
+  }
+}
+
+void Service::finish_message(Conversation& c) {
+  const std::string reply = c.message->reply();
+  c.message.reset();
+  if (!reply.empty() && !outlet_.send(c.client, reply)) {
+    // it waits for a reply that it will never get
+    c.is_over = true;
+    outlet_.disconnect(c.client);
+  }
+  outlet_.answered();
+}
+
+void Service::end_wait(Conversation& c, Lines lines, const RpcError* error) {
+  c.pending = {};
+  if (error)
+    c.message->fail(*error);
+  else
+    c.message->answer(time_reply(served_.time));
+  carry_on(c, lines);
+}
+
+bool Service::is_waiting() const {
+  return std::any_of(conversations_.begin(), conversations_.end(),
+                     [](const auto& entry) { return entry.second.pending.until != Pending::Until::nothing; });
+}
+
+void Service::answer_due() {
+  forget_who_left();
+  const bool is_paused = !in_step_;
+  const bool will_pause = served_.run.is_paused();
+  for (auto& [client, c] : conversations_) {
+    const Pending& p = c.pending;
+    if (p.until == Pending::Until::nothing) {
+      carry_on(c, Lines::may_begin);
+    } else if (p.until == Pending::Until::instant) {
+      if (in_step_ && served_.time >= p.time) end_wait(c, Lines::may_begin);
+    } else if (p.until == Pending::Until::pause && (is_paused || !will_pause)) {
+      const RpcError other{Code::refused,
+                           is_paused ? "the run was paused before that, by another client or in a window"
+                                     : "the run was resumed, by another client or in a window",
+                           {{"time", served_.time}}};
+      end_wait(c, Lines::may_begin, is_paused && served_.time >= p.time ? nullptr : &other);
+    }
+  }
+}
+
+void Service::send_updates() {
+  for (auto& [client, c] : conversations_) {
+    if (c.is_over) continue;
+    for (Subscription& s : c.subscriptions) {
+      const Reply update = s.update(served_.scene, served_.time, in_step_);
+      if (update.is_null()) continue;
+      if (outlet_.send_update(client, line_of(update)))
+        s.was_sent();
+      else
+        s.was_lost();
+    }
+  }
+}
+
+void Service::time_was_set(std::int64_t time) {
+  served_.time = time;
+  const RpcError gone{Code::refused, "the time was set anew by a reset or a restored snapshot", {{"time", time}}};
+  for (auto& [client, c] : conversations_) {
+    for (Subscription& s : c.subscriptions) s.begin_anew();
+    if (c.pending.until == Pending::Until::instant || c.pending.until == Pending::Until::pause)
+      end_wait(c, Lines::later, &gone);
+  }
+}
+
+void Service::done(std::uint64_t ticket, std::string_view problem) noexcept {
+  try {
+    const auto found = conversations_.find(std::uint32_t(ticket));
+    if (found == conversations_.end() || Call::ticket_of(found->second) != ticket) return;
+    if (found->second.pending.until != Pending::Until::effects) return;
+    begin_pause();
+    Conversation& c = found->second;
+    if (c.pending.problem.empty()) c.pending.problem = problem;
+    if (--c.pending.effects > 0) return;
+    const std::string why = c.pending.problem;
+    const RpcError refused{Code::refused, why};
+    end_wait(c, Lines::later, why.empty() ? nullptr : &refused);
+  } catch (...) {  // no memory for the reply: nobody is left to be told
+  }
+}
+
+}  // namespace muro::jsonrpc

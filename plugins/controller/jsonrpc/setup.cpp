@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#include "setup.hpp"
+
+#include <algorithm>
+
+#include "method.hpp"
+#include "muro/toolkit/did_you_mean.hpp"
+#include "plugins/common/text/glob.hpp"
+#include "plugins/common/text/quote.hpp"
+
+namespace muro::jsonrpc {
+
+namespace {
+
+/// Calls `visit` with each property of the scene and its name, "object:property".
+template <class Visit>
+void each_property(const Connector& c, Visit visit) {
+  for (std::uint32_t o = 0; o < c.object_count(); ++o) {
+    const std::string object = std::string(c.object_name(ObjectId{o})) + ":";
+    const std::span<const FoundProperty> found = c.properties(ObjectId{o});
+    const std::vector<FoundProperty> all(found.begin(), found.end());
+    for (const FoundProperty& p : all) visit(p, object + std::string(p.key->name));
+  }
+}
+
+[[noreturn]] void refuse_pattern(const Connector& c, const char* parameter, std::string_view pattern) {
+  std::vector<std::string> names;
+  each_property(c, [&](const FoundProperty&, const std::string& name) {
+    if (names.size() < 5000) names.push_back(name);
+  });
+  throw Error("`" + std::string(parameter) + "`: no property matches " + quote(pattern) + did_you_mean(pattern, names) +
+              "; write \"object:property\", such as \"*:command.*\"; `muro describe` lists all");
+}
+
+void check_call(std::string_view pattern, std::string_view method) {
+  std::vector<std::string> names;
+  for (const Method& m : methods()) {
+    if (!m.is_granted) continue;
+    if (matches(method, m.name)) return;
+    names.emplace_back(m.name);
+  }
+  throw Error("`write`: no call matches " + quote(pattern) + did_you_mean(method, names) + "; calls are " +
+              quoted_list(names) + "; all others need no grant");
+}
+
+}  // namespace
+
+void require_local(const stream::Address& address) {
+  if (address.is_loopback()) return;
+  throw Error(
+      "`stream`: " + address.text() +
+      " can be reached from other machines, and what is said there can be read and changed by others; listen "
+      "on 127.0.0.1 or on a Unix socket, and let clients on other machines come through an SSH tunnel: ssh -L " +
+      std::to_string(address.port) + ":127.0.0.1:" + std::to_string(address.port) + " HOST");
+}
+
+Grants read_grants(const Connector& c, std::span<const std::string_view> patterns) {
+  for (const std::string_view pattern : patterns) {
+    std::string_view method;
+    if (is_for_calls(pattern, method)) {
+      check_call(pattern, method);
+      continue;
+    }
+    bool is_matched = false;
+    each_property(c, [&](const FoundProperty&, const std::string& name) { is_matched |= matches(pattern, name); });
+    if (!is_matched) refuse_pattern(c, "write", pattern);
+  }
+  return Grants(patterns);
+}
+
+void refresh(Connector& c, std::span<const std::string_view> patterns, bool is_strict) {
+  std::vector<bool> is_matched(patterns.size());
+  each_property(c, [&](const FoundProperty& p, const std::string& name) {
+    bool is_wanted = false;
+    for (std::size_t i = 0; i < patterns.size(); ++i)
+      if (matches(patterns[i], name)) is_matched[i] = is_wanted = true;
+    if (is_wanted && !p.is_constant && !p.key->name.starts_with("state.")) static_cast<void>(c.read_any(p));
+  });
+  const auto missing = std::find(is_matched.begin(), is_matched.end(), false);
+  if (is_strict && missing != is_matched.end())
+    refuse_pattern(c, "refresh", patterns[std::size_t(missing - is_matched.begin())]);
+}
+
+}  // namespace muro::jsonrpc
