@@ -26,7 +26,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void close();
   /// It says nothing any more; what is left to be sent to it may still be on its way.
   bool is_silent() const { return is_silent_; }
-  std::uint32_t client() const { return client_->number; }
+  /// It was disconnected by this side.
+  bool was_ended() const { return is_ending_; }
 
  private:
   void read();

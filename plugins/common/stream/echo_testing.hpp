@@ -69,6 +69,7 @@ struct Echo {
     }
     return true;
   }
+  std::uint16_t port() const { return stream.address().port; }
   std::size_t count(Event::Kind kind) const {
     return std::size_t(std::count_if(heard.begin(), heard.end(), [&](const Heard& h) { return h.kind == kind; }));
   }

@@ -5,8 +5,6 @@
 
 #include <algorithm>
 
-#include "muro/algorithm.hpp"
-
 namespace muro::stream {
 
 bool Connections::add(int descriptor, Connection::Descriptor kind) {
@@ -20,7 +18,7 @@ bool Connections::add(int descriptor, Connection::Descriptor kind) {
   make_place();
   const auto closed = [this](Connection& connection) {
     std::erase_if(all_, [&](const auto& c) { return c.get() == &connection; });
-    if (on_closed) on_closed();
+    if (on_closed) on_closed(connection.was_ended());
   };
   all_.push_back(std::make_shared<Connection>(io_, exchange_, framing_, client, descriptor, kind, closed));
   all_.back()->start();
@@ -50,9 +48,16 @@ std::unique_ptr<Endpoint> make_endpoint(const EndpointSetup& setup) {
   switch (setup.address.kind) {
     case Address::Kind::tcp_server:
       return make_tcp_server(setup);
-    default:
-      throw Error(setup.address.text() + " is not supported");
+    case Address::Kind::tcp_client:
+      return make_tcp_client(setup);
+    case Address::Kind::unix_server:
+      return make_unix_server(setup);
+    case Address::Kind::pty:
+      return make_pty(setup);
+    case Address::Kind::serial:
+      return make_serial(setup);
   }
+  return nullptr;
 }
 
 }  // namespace muro::stream

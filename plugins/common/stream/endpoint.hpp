@@ -20,7 +20,7 @@ class Connections final : public IoThread::Source {
   void on_signal() override;
   bool empty() const { return all_.empty(); }
 
-  std::function<void()> on_closed;  ///< a client has gone
+  std::function<void(bool by_us)> on_closed;  ///< a client has gone, or was disconnected here
 
  private:
   void make_place();

@@ -103,6 +103,11 @@ void Exchange::count_ended() {
   ++statistics_.disconnected;
 }
 
+void Exchange::count_dropped() {
+  const std::lock_guard lock(mutex_);
+  ++statistics_.dropped;
+}
+
 bool Exchange::collect(Inbox& inbox) {
   const std::lock_guard lock(mutex_);
   if (inbox.entries.empty()) {

@@ -29,6 +29,13 @@ struct Inbox {
     entries.clear();
     bytes.clear();
   }
+  /// Forgets the first `count`.
+  void forget(std::size_t count) {
+    const std::size_t begin = count < entries.size() ? entries[count].begin : bytes.size();
+    entries.erase(entries.begin(), entries.begin() + std::ptrdiff_t(count));
+    bytes.erase(0, begin);
+    for (Entry& entry : entries) entry.begin -= begin;
+  }
 };
 
 /// A client, as the exchange knows it. Guarded by its mutex.
@@ -77,6 +84,7 @@ class Exchange {
   Sent send_to_all(std::string_view bytes);
   /// Disconnects the client once all is sent. False: there is none.
   bool end(std::uint32_t client);
+  void count_dropped();
   Statistics statistics() const;
 
  private:
