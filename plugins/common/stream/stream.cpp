@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "plugins/common/stream/stream.hpp"
 
+#include <utility>
+
 #include "muro/algorithm.hpp"
 #include "muro/ext/report_entries.hpp"
 #include "plugins/common/stream/live_stream.hpp"
@@ -61,8 +63,17 @@ class Stream::Impl {
   const Event* next() {
     if (!live) return replay();
     const Event* const event = live->next();
-    if (event) record({std::uint32_t(event->kind), event->client, event->bytes});
+    if (!event) return nullptr;
+    record({std::uint32_t(event->kind), event->client, event->bytes});
+    if (event->kind == Event::Kind::message && address.lockstep.empty() && !std::exchange(has_told, true)) tell();
     return event;
+  }
+
+  /// Where messages are not recorded, what they bring about is told by whoever brings it about.
+  void tell() const {
+    if (inputs && limits.is_recorded)
+      inputs->not_repeatable("stream " + quote(name) +
+                             " is not in lockstep: when its messages take effect depends on the wall clock");
   }
 
   const Event* replay() {
@@ -115,6 +126,7 @@ class Stream::Impl {
   InputChannel* channel = nullptr;
   LockstepStream* lockstep = nullptr;
   std::int64_t time = 0;
+  bool has_told = false;
   Event replayed;
   std::unique_ptr<LiveStream> live;  ///< null: not open
 };

@@ -38,22 +38,23 @@ constexpr Description description{
     .parameters = parameters,
     .reads = reads,
     .writes = writes,
-    .capabilities = batched | allocation_free | restorable | runs_alone,
+    .capabilities = deterministic | batched | allocation_free | restorable | runs_alone,
 };
 
 constexpr stream::Framing lines{.size_of_first = stream::line_size, .longest = 256, .keeps_too_long = true};
 
-/// The name of what belongs to a device: "controller.scip2", with a number where a laser has several.
-std::string state_name(const Connector& c, ObjectId laser) {
-  const std::string stem = "controller.scip2";
-  std::string name = stem;
+constexpr std::string_view state_name = "controller.scip2";
+
+/// What names of a device end with: nothing, or ".2" and so on where a laser has several.
+std::string suffix_of(const Connector& c, ObjectId laser) {
+  std::string suffix;
   const auto is_taken = [&] {
     for (const FoundProperty& p : c.properties(laser))
-      if (p.key->name == "state." + name) return true;
+      if (p.key->name == "state." + std::string(state_name) + suffix) return true;
     return false;
   };
-  for (int number = 2; is_taken(); ++number) name = stem + "." + std::to_string(number);
-  return name;
+  for (int number = 2; is_taken(); ++number) suffix = "." + std::to_string(number);
+  return suffix;
 }
 
 /// One device, its laser and its stream.
@@ -62,11 +63,11 @@ class Station final : private DeviceHost {
   Station(Connector& c, std::uint32_t number, const Model& model)
       : item_(c.items()[number]),
         laser_object_(Laser::find(c, item_)),
-        name_(state_name(c, laser_object_)),
+        suffix_(suffix_of(c, laser_object_)),
         device_(model, Laser::is_swept(c, laser_object_)),
-        stream_(c, std::string(c.object_name(laser_object_)) + "/" + name_,
+        stream_(c, std::string(c.object_name(laser_object_)) + suffix_,
                 stream::read_address(c, number, c.parameters().texts("stream")), lines) {
-    state_ = static_cast<State*>(c.state_block(laser_object_, name_, device_.state_size()));
+    state_ = static_cast<State*>(c.state_block(laser_object_, std::string(state_name) + suffix_, device_.state_size()));
   }
   ~Station() = default;
 
@@ -125,7 +126,7 @@ class Station final : private DeviceHost {
 
   Item item_;
   ObjectId laser_object_;
-  std::string name_;
+  std::string suffix_;
   Device device_;
   stream::Stream stream_;
   Laser laser_;
