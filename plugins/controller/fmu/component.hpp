@@ -31,7 +31,9 @@ class Component {
  public:
   struct Setup {
     const ModelDescription* description = nullptr;
-    const Binary* binary = nullptr;
+    const Binary* binary = nullptr;   ///< of an instance in this process
+    std::filesystem::path library;    ///< of one in a process of its own
+    double timeout = 0;               ///< s of wall-clock time for a call of one in a process of its own
     std::filesystem::path resources;  ///< empty: there are none
     std::string name;
     CallNotes* notes = nullptr;
@@ -95,7 +97,12 @@ class Component {
   bool is_corrupt_ = false;  ///< after a fatal error no function may be called
 };
 
+/// Bytes of a number of a type as functions of FMI take it.
+std::size_t bytes_of(Type type, int version);
+
 std::unique_ptr<Component> make_component(const Component::Setup& setup);
+/// In a process of its own, which crashes alone.
+std::unique_ptr<Component> make_remote_component(const Component::Setup& setup);
 /// For make_component.
 std::unique_ptr<Component> make_component_2(const Component::Setup& setup);
 std::unique_ptr<Component> make_component_3(const Component::Setup& setup);

@@ -19,11 +19,15 @@ namespace {
 using namespace muro;
 using namespace muro::fmu;
 
+constexpr std::string_view isolations[] = {"none", "process"};
 constexpr Parameter parameters[] = {
     text("fmu", "", "path of the FMU; relative ones start at the scenario's folder").required(),
     texts("inputs", "what inputs read: \"variable=property\", \"variable=object:property[vx]\"; several by commas"),
     texts("outputs", "what outputs write, in the same form"),
     texts("parameters", "\"variable=value\": values before the initialization, in the units of the FMU"),
+    text("isolate", "none", "process: the instance of each robot runs in a process of its own").one_of(isolations),
+    real("timeout", "s", 30, "of an instance in a process of its own: how long a call may take, by the wall clock")
+        .between(1e-3, 1e6),
     boolean("logging", false, "whether all messages of the FMU are logged, also those that are no warnings"),
 };
 constexpr PropertyUse reads[] = {{"*", "what the FMU's inputs are named or connected to"}};
@@ -59,10 +63,11 @@ class FmuController final : public Algorithm {
     const Parameters& p = c.parameters();
     path_ = c.resolve_path(p.text("fmu"));
     notes_ = CallNotes::of(c.host());
-    load(p);
+    unpack_and_read(p);
+    is_isolated_ = p.text("isolate") == "process" || (description_.once_per_process && !may_run_here(c));
+    if (!is_isolated_) load();
     if (LoadedLibraries* told = LoadedLibraries::of(c.host()))
       told->add({path_, description_.model_name, description_.model_version});
-    if (description_.once_per_process) claim_process(c);
     for (std::uint32_t i = 0; i < c.items().size(); ++i) make_robot(c, i);
     state_capacity_ = robots_.empty() ? 0 : measured_state(robots_.front());
     for (std::uint32_t i = 0; i < c.items().size(); ++i) {
@@ -135,7 +140,7 @@ class FmuController final : public Algorithm {
     if (note) note->set_item(CallNote::no_item);
   }
 
-  void load(const Parameters& p) {
+  void unpack_and_read(const Parameters& p) {
     folder_.create();
     std::vector<std::string> platforms = own_platforms(2);
     for (const std::string& other : own_platforms(3)) platforms.push_back(other);
@@ -144,17 +149,8 @@ class FmuController final : public Algorithm {
     start_values_ = read_start_values(p.texts("parameters"), description_);
     if (archive.has_resources) resources_ = folder_.path() / "resources";
     for (const std::string& platform : own_platforms(description_.version)) {
-      const auto library = folder_.path() / "binaries" / platform / (description_.identifier + ".so");
-      if (!std::filesystem::is_regular_file(library)) continue;
-      CallNote* const note = notes_ ? &notes_->of_this_thread() : nullptr;
-      if (note) note->set_library(path_.c_str(), "load");
-      try {
-        binary_ = std::make_unique<Binary>(library);
-      } catch (const Error& e) {
-        throw Error(path_ + ": " + e.what());
-      }
-      if (note) note->set_library(nullptr, nullptr);
-      return;
+      library_ = folder_.path() / "binaries" / platform / (description_.identifier + ".so");
+      if (std::filesystem::is_regular_file(library_)) return;
     }
     std::vector<std::string_view> others(archive.platforms.begin(), archive.platforms.end());
     throw Error(path_ + " holds no library for this machine, binaries/" + own_platforms(description_.version).front() +
@@ -162,15 +158,20 @@ class FmuController final : public Algorithm {
                 ". Export it for Linux on this processor");
   }
 
-  void claim_process(const Connector& c) {
-    const std::string advice =
-        "; its flag canBeInstantiatedOnlyOncePerProcess allows one instance in a process, and all run in this one. "
-        "Give "
-        "it to one robot, or export it without the flag";
-    if (c.items().size() > 1)
-      throw Error(path_ + " is to control " + std::to_string(c.items().size()) + " robots" + advice);
-    if (!claim_.claim(description_.identifier + " " + description_.token))
-      throw Error(path_ + " is in use by another controller of this process" + advice);
+  void load() {
+    CallNote* const note = notes_ ? &notes_->of_this_thread() : nullptr;
+    if (note) note->set_library(path_.c_str(), "load");
+    try {
+      binary_ = std::make_unique<Binary>(library_);
+    } catch (const Error& e) {
+      throw Error(path_ + ": " + e.what());
+    }
+    if (note) note->set_library(nullptr, nullptr);
+  }
+
+  /// Whether the only instance that this process may have is free, and is enough.
+  bool may_run_here(const Connector& c) {
+    return c.items().size() <= 1 && claim_.claim(description_.identifier + " " + description_.token);
   }
 
   void make_robot(Connector& c, std::uint32_t i) {
@@ -179,7 +180,16 @@ class FmuController final : public Algorithm {
     r.name = item.robot ? item.robot->name : "world";
     r.log = std::make_unique<MessageLog>(c.host(), r.name, c.parameters().boolean("logging"));
     named(i, [&] {
-      r.component = make_component({&description_, binary_.get(), resources_, r.name, notes_, r.log.get()});
+      Component::Setup setup;
+      setup.description = &description_;
+      setup.binary = binary_.get();
+      setup.library = library_;
+      setup.timeout = c.parameters().real("timeout");
+      setup.resources = resources_;
+      setup.name = r.name;
+      setup.notes = notes_;
+      setup.log = r.log.get();
+      r.component = is_isolated_ ? make_remote_component(setup) : make_component(setup);
       r.component->instantiate();
     });
   }
@@ -388,7 +398,8 @@ class FmuController final : public Algorithm {
   CallNotes* notes_ = nullptr;
   PrivateFolder folder_;
   ModelDescription description_;
-  std::filesystem::path resources_;
+  std::filesystem::path library_, resources_;
+  bool is_isolated_ = false;  ///< each instance is in a process of its own
   std::unique_ptr<Binary> binary_;
   ProcessClaim claim_;
   StartValues start_values_;

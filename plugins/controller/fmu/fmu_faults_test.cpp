@@ -13,7 +13,22 @@ constexpr Key<std::int32_t> count{"test.count", "1", "what `count` says"};
 const std::string variable_steps = R"(canHandleVariableCommunicationStepSize="true" )";
 
 /// As in model.h.
-enum Fault { error = 1, fatal, end, crash, pending, event, early, nan, grows, at_start, warns, no_last_time };
+enum Fault {
+  error = 1,
+  fatal,
+  end,
+  crash,
+  pending,
+  event,
+  early,
+  nan,
+  grows,
+  at_start,
+  warns,
+  no_last_time,
+  hangs,
+  exits
+};
 
 class FmuFault : public ::testing::TestWithParam<int> {
  protected:
@@ -92,27 +107,49 @@ TEST_P(FmuFault, StatesThatGrowBeyondWhatWasSetAsideEndTheRun) {
   EXPECT_SAYS(run(able(), {fault(grows)}), "x.fmu: its state has grown to ");
 }
 
-TEST_P(FmuFault, OneInstanceAProcessIsAllThatSomeAllow) {
+TEST_P(FmuFault, MoreThanOneInstanceOfSomeNeedsProcesses) {
   const test::ScratchFolder scratch;
-  const std::string path = scratch.path("x.fmu");
-  write_fmu(path, version(), R"(canBeInstantiatedOnlyOncePerProcess="true")");
-  {
-    Bench team(2);
-    team.control(path, version(), Texts{});
-    EXPECT_SAYS(refusal(team), "x.fmu is to control 2 robots; its flag canBeInstantiatedOnlyOncePerProcess allows one");
-    Bench twice;
-    twice.control(path, version(), Texts{});
-    twice.control(path, version(), Texts{});
-    EXPECT_SAYS(refusal(twice),
-                "x.fmu is in use by another controller of this process; its flag "
-                "canBeInstantiatedOnlyOncePerProcess");
-  }
-  for (int i = 0; i < 2; ++i) {
-    Bench one;
-    one.control(path, version(), Texts{});
-    one.build();
-    EXPECT_NO_THROW(one.run_for(0.5)) << "the one before has given it back";
-  }
+  const std::string library = "only_one" + std::to_string(version());
+  const std::string plain = scratch.path("plain.fmu"), path = scratch.path("x.fmu");
+  write_fmu(plain, version(), "", library);
+  Bench lie(2);
+  lie.control(plain, version(), Texts{});
+  const std::string said = refusal(lie);
+  EXPECT_SAYS(said, "robot `b`: plain.fmu: `");
+  EXPECT_SAYS(said, "makes no instance: there is one already");
+
+  write_fmu(path, version(), R"(canBeInstantiatedOnlyOncePerProcess="true")", library);
+  const Settings drive{{"inputs", Texts{"u=pose[0]"}}, {"outputs", Texts{"speed=command.twist[0]"}}};
+  Bench one;
+  one.control(path, version(), drive);
+  Bench team(2);
+  team.control(path, version(), drive);
+  one.build();
+  team.build();
+  one.run_for(1), team.run_for(1);
+  const double rest = std::pow(1 - 0.1 * 2, 10);
+  EXPECT_NEAR(one.pose(*one.a).position.x(), 1 - rest, 1e-9) << "in this process";
+  EXPECT_NEAR(team.pose(*team.b).position.x(), 1 + 3 * rest, 1e-9) << "in others";
+}
+
+TEST_P(FmuFault, InAProcessOfItsOwnEndsTheRunAlone) {
+  const test::ScratchFolder scratch;
+  write_fmu(scratch.path("x.fmu"), version(), able());
+  const auto end_with = [&](Fault f) {
+    Bench bench;
+    bench.control(scratch.path("x.fmu"), version(), Settings{{"isolate", std::string("process")}, {"timeout", 0.3}},
+                  {fault(f), "label=far away"});
+    bench.build();
+    return failure(bench, 1);
+  };
+  EXPECT_SAYS(end_with(error), "robot `a`: x.fmu: `" + prefix() + "DoStep` fails with " + prefix() +
+                                   "Error: it is all wrong at t = 0.4, label 'far away'");
+  EXPECT_SAYS(end_with(hangs), "robot `a`: x.fmu: it did not return within `timeout` of 0.3");
+  EXPECT_SAYS(end_with(exits), "robot `a`: x.fmu: its process has ended with exit code 3");
+#if !defined(__SANITIZE_ADDRESS__)
+  EXPECT_SAYS(end_with(crash),
+              "robot `a`: x.fmu: it has crashed in `" + prefix() + "DoStep`: its process was killed by SIGSEGV");
+#endif
 }
 
 TEST_P(FmuFault, OfLibrariesIsNamed) {

@@ -17,9 +17,17 @@ constexpr Key<std::uint8_t> has_resource{"test.has_resource", "1", "what `has_re
 
 const Texts clocks{"decay=test.decay", "euler=test.euler", "step_end=test.step_end", "count=test.count"};
 
-class Fmu : public ::testing::TestWithParam<int> {
+struct Way {
+  int version;
+  bool is_isolated;
+};
+
+class Fmu : public ::testing::TestWithParam<Way> {
  protected:
-  int version() const { return GetParam(); }
+  struct Bench : fmu::Bench {
+    explicit Bench(int robots = 1) : fmu::Bench(robots) { is_isolated = GetParam().is_isolated; }
+  };
+  int version() const { return GetParam().version; }
   const std::string& able() const { return version() == 2 ? able_2 : able_3; }
   std::string fmu(const std::string& flags) const {
     const std::string path = scratch_.path("x.fmu");
@@ -208,8 +216,11 @@ TEST_P(Fmu, RunsAtMultiplesOfItsFixedInternalStepSizeOnly) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(OfFmi, Fmu, ::testing::Values(2, 3),
-                         [](const auto& test) { return std::to_string(test.param); });
+INSTANTIATE_TEST_SUITE_P(OfFmi, Fmu, ::testing::Values(Way{2, false}, Way{3, false}, Way{2, true}, Way{3, true}),
+                         [](const auto& test) {
+                           return std::to_string(test.param.version) +
+                                  (test.param.is_isolated ? "InAProcessOfItsOwn" : "");
+                         });
 
 template <class T>
 void passes(const std::string& type, T value) {

@@ -95,6 +95,7 @@ struct Bench : test::Scene {
     }
     if (!in) settings.erase("inputs");
     settings["fmu"] = path;
+    if (is_isolated) settings["isolate"] = std::string("process");
     settings["parameters"] = values;
     use("controller.fmu", rate, all_robots(), settings);
   }
@@ -124,7 +125,8 @@ struct Bench : test::Scene {
 
   const RobotView* a = nullptr;
   const RobotView* b = nullptr;
-  std::string said;  ///< log lines
+  bool is_isolated = false;  ///< each instance in a process of its own
+  std::string said;          ///< log lines
 };
 
 /// The message with which building, or running, fails.

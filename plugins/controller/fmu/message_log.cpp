@@ -23,6 +23,11 @@ void MessageLog::say(Status status, std::string_view text) {
     host_->log(status == Status::ok ? LogLevel::info : LogLevel::warning, about + "FMU: " + line);
 }
 
+void MessageLog::pass_on(LogLevel level, std::string_view line) {
+  const std::lock_guard lock(mutex_);
+  if (host_) host_->log(level, line);
+}
+
 std::string MessageLog::take_reason() {
   const std::lock_guard lock(mutex_);
   return std::exchange(reason_, {});

@@ -21,6 +21,9 @@ class MessageLog {
   MessageLog(const MessageLog&) = delete;
   MessageLog& operator=(const MessageLog&) = delete;
 
+  bool logs_all() const { return all_; }
+  /// A line that says by itself where it comes from.
+  void pass_on(LogLevel level, std::string_view line);
   void say(Status status, std::string_view text);
   /// What was said last about an error or a discarded step; then it is forgotten.
   std::string take_reason();

@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: MIT */
 /* model.h as an FMU of FMI 2.0. */
-#include <stdlib.h>
-
 #include "../fmi2_api.h"
 #include "model.h"
 
@@ -31,13 +29,21 @@ fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, f
     host->logger(host->componentEnvironment, name, fmi2Error, "", "the guid %s is not mine", guid);
     return NULL;
   }
+  if (!MODEL_MAY_BE_MADE) {
+    host->logger(host->componentEnvironment, name, fmi2Error, "", "there is one already");
+    return NULL;
+  }
+  ++model_instances;
   instance* c = host->allocateMemory(1, sizeof *c);
   c->host = *host;
   model_reset(&c->now);
   c->now.booleans[HAS_RESOURCE] = strncmp(resources, "file:///", 8) == 0 && model_has_resource(resources + 7);
   return c;
 }
-void fmi2FreeInstance(fmi2Component c) { free(c); }
+void fmi2FreeInstance(fmi2Component c) {
+  --model_instances;
+  free(c);
+}
 
 fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean has_tolerance, fmi2Real tolerance, fmi2Real start,
                                fmi2Boolean has_stop, fmi2Real stop) {

@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: MIT */
 /* model.h as an FMU of FMI 3.0. */
-#include <stdlib.h>
-
 #include "../fmi3_api.h"
 #include "model.h"
 
@@ -30,6 +28,11 @@ fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3
     log(host, fmi3Error, "", "the instantiationToken is not mine");
     return NULL;
   }
+  if (!MODEL_MAY_BE_MADE) {
+    log(host, fmi3Error, "", "there is one already");
+    return NULL;
+  }
+  ++model_instances;
   instance* c = calloc(1, sizeof *c);
   c->log = log;
   c->host = host;
@@ -40,7 +43,10 @@ fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3
       end > 0 && resources[0] == '/' && resources[end - 1] == '/' && model_has_resource(resources);
   return c;
 }
-void fmi3FreeInstance(fmi3Instance c) { free(c); }
+void fmi3FreeInstance(fmi3Instance c) {
+  --model_instances;
+  free(c);
+}
 
 fmi3Status fmi3EnterInitializationMode(fmi3Instance c, fmi3Boolean has_tolerance, double tolerance, double start,
                                        fmi3Boolean has_stop, double stop) {

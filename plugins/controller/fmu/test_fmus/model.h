@@ -7,6 +7,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { INTERNAL_STEPS = 100 }; /* a second */
@@ -25,6 +26,8 @@ enum fault {
   FAULT_AT_START,
   FAULT_WARNS,
   FAULT_NO_LAST_TIME,
+  FAULT_HANGS,
+  FAULT_EXITS,
 };
 
 typedef struct {
@@ -81,6 +84,14 @@ enum outcome { DONE, DISCARDED, FAILED, BROKEN, ENDED, EVENT, EARLY };
 
 static volatile uintptr_t model_nowhere = 8;
 
+/* Where there is only one in a process. */
+static int model_instances;
+#ifdef ONLY_ONE
+#define MODEL_MAY_BE_MADE (model_instances == 0)
+#else
+#define MODEL_MAY_BE_MADE (model_instances >= 0)
+#endif
+
 static inline void model_reset(model* m) {
   memset(m, 0, sizeof *m);
   m->reals[DECAY] = m->reals[EULER] = m->reals[K] = 1;
@@ -128,6 +139,11 @@ static inline enum outcome model_step(model* m, double time, double size, double
       case FAULT_CRASH:
         *(volatile int*)model_nowhere = 1;
         break;
+      case FAULT_HANGS:
+        while (model_nowhere) continue;
+        break;
+      case FAULT_EXITS:
+        _Exit(3);
       case FAULT_EARLY:
         if (m->is_paused) break;
         m->is_paused = true;

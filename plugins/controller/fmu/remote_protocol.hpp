@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// What the plugin and the process of an instance (`isolate: process`) say to each other on a socket. The process begins
+// with a greeting. Each request is a size and calls, one behind the other; each answer a size, log lines, how it went,
+// and what the last call returns. A call that fails ends its request.
+#pragma once
+
+#include <cstring>
+#include <string>
+
+#include "model_description.hpp"
+#include "plugins/common/parser_process/message.hpp"
+
+namespace muro::fmu {
+
+using parser_process::Reader;
+using parser_process::Writer;
+
+inline constexpr char process_file[] = "muro_fmu_host";
+inline constexpr int process_socket = 3;  ///< its number in the process
+inline constexpr std::uint64_t largest_message = std::uint64_t(1) << 30;
+
+/// Tells apart programs of different builds.
+struct Greeting {
+  char text[24] = "muro fmu host 1";
+};
+
+enum class Call : std::uint8_t {
+  load,  ///< the first one; the others are those of Component
+  instantiate,
+  reset,
+  enter_initialization,
+  exit_initialization,
+  set,
+  get,
+  set_text,
+  set_bytes,
+  get_bytes,
+  do_step,
+  keep_state,
+  return_to_state,
+  state_size,
+  write_state,
+  read_state,
+  end,
+};
+
+enum class Answer : std::uint8_t {
+  done,
+  failed,   ///< with a text for the user
+  crashed,  ///< with the name of the function that did
+};
+
+/// What the process needs to know of an FMU.
+struct RemoteSetup {
+  std::string library, resources, name, token;
+  std::int32_t version = 0;
+  bool can_keep_state = false, can_serialize_state = false, variable_step_size = false, might_return_early = false;
+  bool logs_all = false;
+  double tolerance = 0;
+
+  void write(Writer& to) const {
+    for (const std::string* t : {&library, &resources, &name, &token}) to.text(*t);
+    to.value(version);
+    for (const bool b : {can_keep_state, can_serialize_state, variable_step_size, might_return_early, logs_all})
+      to.value(b);
+    to.value(tolerance);
+  }
+  static RemoteSetup read(Reader& from) {
+    RemoteSetup s;
+    for (std::string* t : {&s.library, &s.resources, &s.name, &s.token}) *t = from.text();
+    s.version = from.value<std::int32_t>();
+    for (bool* b :
+         {&s.can_keep_state, &s.can_serialize_state, &s.variable_step_size, &s.might_return_early, &s.logs_all})
+      *b = from.value<bool>();
+    s.tolerance = from.value<double>();
+    return s;
+  }
+};
+
+}  // namespace muro::fmu
