@@ -16,6 +16,22 @@ void Device::reply(const Call& call, std::string_view status) {
   send(call);
 }
 
+void Device::reply_state(const Call& call) {
+  const State& s = call.state;
+  text_.clear();
+  ReplyWriter r(text_);
+  r.plain(call.line);
+  r.summed("00");
+  r.summed(health_of(s.fault, s.fault_scans) == Health::failed ? "900"
+           : s.is_adjusting                                    ? "002"
+           : sends_scans(s)                                    ? "004"
+           : s.has_laser_on                                    ? "003"
+           : s.is_asleep                                       ? "005"
+                                                               : "000");
+  r.end();
+  send(call);
+}
+
 bool Device::answer(const Call& call) {
   if (is_scip1(call.state, call.line)) return answer_scip1(call);
   return answer_scip2(call, parse(call.line, model_));
@@ -24,7 +40,7 @@ bool Device::answer(const Call& call) {
 bool Device::answer_scip2(const Call& call, const Request& request) {
   State& s = call.state;
   const Command command = request.command;
-  if (s.is_adjusting && command != Command::TM) return reply(call, "0E"), true;
+  if (s.is_adjusting && command != Command::TM && command != Command::ST) return reply(call, "0E"), true;
   if (request.status != "00") return reply(call, request.status), true;
   if (is_single_scan(command)) return answer_scan(call, request);
   switch (command) {
@@ -48,8 +64,13 @@ bool Device::answer_scip2(const Call& call, const Request& request) {
       laser_on(s, call.now);
       break;
     case Command::QT:
+    case Command::SL:
       laser_off(s);
+      s.is_asleep = command == Command::SL;
       reply(call, "00");
+      break;
+    case Command::ST:
+      reply_state(call);
       break;
     case Command::RS:
     case Command::RT:

@@ -19,7 +19,8 @@ constexpr Form forms[] = {
     {"TM", Command::TM, 1},  {"SS", Command::SS, 6},  {"CR", Command::CR, 2},  {"HS", Command::HS, 1},
     {"DB", Command::DB, 2},  {"GD", Command::GD, 10}, {"GS", Command::GS, 10}, {"GE", Command::GE, 10},
     {"HD", Command::HD, 10}, {"HE", Command::HE, 10}, {"MD", Command::MD, 13}, {"MS", Command::MS, 13},
-    {"ME", Command::ME, 13}, {"ND", Command::ND, 13}, {"NE", Command::NE, 13},
+    {"ME", Command::ME, 13}, {"ND", Command::ND, 13}, {"NE", Command::NE, 13}, {"%ST", Command::ST, 0},
+    {"%SL", Command::SL, 0},
 };
 
 constexpr std::uint32_t bit_rates[] = {19200, 38400, 57600, 115200, 250000, 500000, 750000};
@@ -42,6 +43,9 @@ bool has(const Model& m, Command c) {
     case Command::RT:
     case Command::RB:
       return m.has_restarts;
+    case Command::ST:
+    case Command::SL:
+      return m.has_states;
     default:
       return true;
   }
@@ -117,15 +121,15 @@ Request parse(std::string_view line, const Model& model) {
     r.command = Command::scip2;
     return r;
   }
-  const auto form =
-      std::find_if(std::begin(forms), std::end(forms), [&](const Form& f) { return f.symbol == line.substr(0, 2); });
+  const auto begins_line = [&](const Form& f) { return f.symbol == line.substr(0, f.symbol.size()); };
+  const auto form = std::find_if(std::begin(forms), std::end(forms), begins_line);
   if (form == std::end(forms)) return refused("0E");
   if (!has(model, form->command)) return refused(form->command == Command::HS ? "0C" : "0E");
   r.command = form->command;
   const std::size_t semicolon = line.find(';');
-  const std::string_view digits = line.substr(2, semicolon == line.npos ? line.npos : semicolon - 2);
+  const std::string_view digits = line.substr(0, semicolon).substr(form->symbol.size());
   if (digits.size() < form->digits) return refused(digits.empty() ? "0C" : "0F");
-  if (digits.size() > form->digits) return refused("0E");
+  if (digits.size() > form->digits) return refused("0D");
   if (semicolon != line.npos) {
     const std::string_view string = line.substr(semicolon + 1);
     if (string.size() > longest_string) return refused("0G");

@@ -26,6 +26,8 @@ enum class Command : std::uint8_t {
   CR,
   HS,
   DB,
+  ST,  ///< `%ST`: state
+  SL,  ///< `%SL`: sleep
   GD,
   GS,
   GE,

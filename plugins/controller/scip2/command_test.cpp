@@ -62,7 +62,7 @@ TEST(Scip2Command, BitRatesAreThoseOfTheTable) {
              {"SS750000", "00"},
              {"SS1152", "0F"},
              {"SS", "0C"},
-             {"SS1152000", "0E"}});
+             {"SS1152000", "0D"}});
   EXPECT_EQ(d.bit_rate, 750000u);
   EXPECT_NE(d.ask("II\n").find("SBPS:750000[bps];"), std::string::npos);
   expect(d, {{"RS", "00"}, {"SS019200", "03"}});
@@ -104,7 +104,7 @@ TEST(Scip2Command, WindowsAreCheckedFieldByField) {
                {c + "0044072501", "10"},
                {c + "00440725", "0F"},
                {c, "0C"},
-               {c + "00440725011", "0E"}});
+               {c + "00440725011", "0D"}});
   for (const std::string c : {"MD", "MS", "ME"})
     expect(d, {{c + "x044072501000", "01"},
                {c + "0044x72501000", "02"},
@@ -122,7 +122,7 @@ TEST(Scip2Command, UndefinedAndIncompleteLinesAreRefused) {
   expect(d, {{"X", "0D"},
              {"XX", "0E"},
              {"vv", "0E"},
-             {"VVx", "0E"},
+             {"VVx", "0D"},
              {"SCIP2.0", "0E"},
              {"VV;12345678901234567", "0G"},
              {"VV;a-b", "0H"},
@@ -151,6 +151,25 @@ TEST(Scip2Command, NewerModelsRestart) {
              {"RB", "01"},
              {"RB", "00"},
              {"GD0000108001", "10"}});
+}
+
+TEST(Scip2Command, AUst10LxTellsItsState) {
+  Bench d(ust_10lx());
+  const auto state = [&] {
+    const std::string reply = d.ask("%ST\n", 5);
+    EXPECT_EQ(reply.substr(0, 8), "%ST\n00P\n");
+    EXPECT_EQ(reply.substr(11), std::string(1, expected_sum(reply.substr(8, 3))) + "\n\n");
+    return reply.substr(8, 3);
+  };
+  EXPECT_EQ(state(), "000");
+  for (const auto& [command, expected] :
+       Statuses{{"TM0", "002"}, {"TM2", "000"}, {"BM", "003"}, {"%SL", "005"}, {"BM", "003"}, {"QT", "000"}}) {
+    EXPECT_EQ(d.status_of(command), "00");
+    EXPECT_EQ(state(), expected) << command;
+  }
+  d.ask("MD0000108001000\n", 5);
+  EXPECT_EQ(state(), "004");
+  EXPECT_EQ(Awake().status_of("%ST"), "0E");
 }
 
 TEST(Scip2Command, MultipleEchoesAreWrittenAsOneByDevicesThatSeeOne) {

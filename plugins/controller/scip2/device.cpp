@@ -158,6 +158,7 @@ void Device::answer_pending(State& s, std::int64_t now, DeviceHost& host) {
 void Device::laser_on(State& s, std::int64_t now) const {
   if (s.has_laser_on) return;
   s.has_laser_on = 1;
+  s.is_asleep = 0;
   s.laser_since = now;
 }
 

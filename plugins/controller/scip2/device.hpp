@@ -82,6 +82,7 @@ class Device {
   std::string_view change_setting(const Call& call, const Request& request);
   std::string_view adjust(const Call& call, std::uint32_t code);
   void reply(const Call& call, std::string_view status);
+  void reply_state(const Call& call);
   void send(const Call& call) { call.host.send(call.client, text_); }
 
   // scip1.cpp: of SCIP 1.1

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What drivers of the field send and demand, in the order in which they do: urg_library (and urg_node, urg_node2, which
-// are built on it), hokuyoaist, MRPT, hokuyo_node. Each waits for a line no longer than it does in its own code.
+// are built on it), hokuyoaist, hokuyolx, MRPT, hokuyo_node. Each waits for a line no longer than it does in its own
+// code.
 #include <algorithm>
 
 #include "scip2_testing.hpp"
@@ -197,6 +198,28 @@ TEST(Scip2Handshake, HokuyoaistTakesNewScansAndTheTime) {
   EXPECT_EQ(c.output.size(), 15u) << "it reads fifteen bytes at once";
   c.output.clear();
   EXPECT_EQ(c.reply_to("TM2", 1000)[0], "00P");
+}
+
+/// hokuyolx, for the UST series: asks for the state with %ST, takes the time ten times, reads PP as "key:value" with
+/// one colon, and ends a reply where bytes that it has received end with two line ends.
+TEST(Scip2Handshake, HokuyolxSynchronisesActivatesAndIterates) {
+  Client c(ust_10lx());
+  EXPECT_EQ(c.reply_to("%ST", 5000)[1].substr(0, 3), "000");
+  EXPECT_EQ(c.reply_to("TM0", 5000)[0], "00P");
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(c.reply_to("TM1", 5000)[1].size(), 5u);
+  EXPECT_EQ(c.reply_to("TM2", 5000)[0], "00P");
+  for (const std::string command : {"PP", "II", "VV"}) {
+    const std::vector<std::string> lines = c.reply_to(command, 5000);
+    for (std::size_t i = 1; i + 1 < lines.size(); ++i)
+      EXPECT_EQ(std::count(lines[i].begin(), lines[i].end() - 2, ':'), 1);
+  }
+  EXPECT_EQ(c.reply_to("BM", 5000)[0], "00P");
+  EXPECT_EQ(data_of(c.reply_to("GE0000108000", 5000)), 6 * 1081u);
+  EXPECT_EQ(c.reply_to("MD0000108000005", 5000)[0], "00P");
+  for (int left = 4; left >= 0; --left) {
+    EXPECT_EQ(c.line(5000), "MD000010800000" + std::to_string(left));
+    EXPECT_EQ(data_of(c.rest(5000)), 3 * 1081u);
+  }
 }
 
 /// MRPT: looks for the command as its own echo, then for the status, then for two line ends. 200 ms at a serial line.

@@ -64,6 +64,7 @@ Model ust_10lx() {
   m.status_text = "sensor is working normally";
   m.has_bit_rate = false;
   m.has_high_sensitivity = m.has_malfunctions = false;
+  m.has_states = true;
   return m;
 }
 

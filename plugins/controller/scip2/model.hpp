@@ -55,6 +55,7 @@ struct Model {
   bool has_intensity = true;          ///< ME, GE
   bool has_multiecho = false;         ///< ND, NE, HD, HE
   bool has_restarts = false;          ///< RT and RB
+  bool has_states = false;            ///< %ST and %SL
 
   std::uint32_t step_count() const { return std::uint32_t(last_step - first_step + 1); }
   double angle_of(std::int32_t step) const;  ///< rad, counter-clockwise from the front

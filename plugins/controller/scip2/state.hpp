@@ -49,7 +49,7 @@ struct State {
   std::uint32_t fault_scans;  ///< turns since DB
   std::uint8_t is_on, speaks_scip2, has_laser_on, is_adjusting;
   std::uint8_t is_sensitive, percent_slower, fault, has_scan;
-  std::uint8_t is_restart_asked, unused[3];
+  std::uint8_t is_restart_asked, is_asleep, unused[2];
   std::uint32_t pending_count;
   Measurement measurement;
   Pending pending[queue_size];
