@@ -101,7 +101,7 @@ typedef struct muro_controller_setup {
   uint32_t index;               /* of this instance among those of the controller, from 0, as in the scenario */
   uint32_t count;               /* of these instances */
   const double* tunables;       /* the value of each tunable */
-  const muro_log_sink* log;          /* valid as long as the instance */
+  const muro_log_sink* log;     /* valid as long as the instance */
 } muro_controller_setup;
 
 /* One step. The pointers are valid during `step` only. */
@@ -113,6 +113,7 @@ typedef struct muro_controller_step {
   double period;                        /* s between calls of this function */
   uint64_t index;                       /* how often the controller has run before */
   const uint32_t* input_sizes;          /* actual size of each input, which changes for lists */
+  const uint32_t* output_sizes;         /* actual size of each output */
   const int64_t* const* integer_inputs; /* by number of the input; NULL for all others */
   const char* const* text_inputs;       /* the same */
   int64_t* const* integer_outputs;      /* by number of the output; NULL for all others */

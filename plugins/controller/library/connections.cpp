@@ -182,8 +182,8 @@ std::vector<FoundProperty> PropertyFinder::find_matching(const PropertyReference
   };
   for (std::uint32_t o = 0; item_.robot && o < connector_.object_count(); ++o)
     if (connector_.robot_of(ObjectId{o}) == std::int32_t(item_.robot->number)) add(o, local_name(ObjectId{o}));
-  for (std::uint32_t o = 0; found.empty() && o < connector_.object_count(); ++o)
-    add(o, connector_.object_name(ObjectId{o}));
+  if (!found.empty()) return found;
+  for (std::uint32_t o = 0; o < connector_.object_count(); ++o) add(o, connector_.object_name(ObjectId{o}));
   if (!found.empty()) return found;
   if (any_object)
     throw Error("no object with a name like " + quote(reference.object) + " has a property " +

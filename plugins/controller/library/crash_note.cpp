@@ -8,7 +8,7 @@
 
 #include <array>
 #include <csignal>
-#include <cstring>
+#include <new>
 
 #include "process_protocol.hpp"
 
@@ -42,6 +42,12 @@ std::uint64_t own_address_space() {
   for (ssize_t i = 0; i < size && text[i] >= '0' && text[i] <= '9'; ++i)
     pages = 10 * pages + std::uint64_t(text[i] - '0');
   return pages * std::uint64_t(getpagesize());
+}
+
+/// As the language has it where there is no memory, but noted.
+void note_short_of_memory() {
+  if (noted) noted->is_short_of_memory = 1;
+  throw std::bad_alloc();
 }
 
 void note_crash(int number, siginfo_t* info, void*) {
@@ -79,6 +85,7 @@ void leave_crash_notes_in(SharedHeader& header) { noted = &header; }
 void bound_memory(std::uint64_t bytes) {
   if (is_sanitized) return;
   bound = own_address_space() + bytes;
+  std::set_new_handler(note_short_of_memory);
   const rlimit limit{bound, bound};
   setrlimit(RLIMIT_AS, &limit);
 }

@@ -107,6 +107,7 @@ void LocalInstance::step(const Call& call) {
                            .period = call.period,
                            .index = call.index,
                            .input_sizes = memory_.input_sizes.data(),
+                           .output_sizes = memory_.output_sizes.data(),
                            .integer_inputs = integer_inputs_.data(),
                            .text_inputs = text_inputs_.data(),
                            .integer_outputs = integer_outputs_.data(),

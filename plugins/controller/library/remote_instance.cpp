@@ -82,13 +82,14 @@ Outcome RemoteInstance::call(const Call& call) {
     std::memcpy(layout_.input_sizes_in(process_->memory().data()), memory_.input_sizes.data(),
                 memory_.input_sizes.size() * sizeof(std::uint32_t));
   h.in_function[0] = 0;
+  h.is_short_of_memory = 0;
   h.turn.pass_to(Turn::Side::callee);
   bool timed_out = false;
   if (!wait(timed_out)) return death(timed_out);
   hand_on_log();
   hand_on_output();
   if (h.ending == Ending::fine) return {};
-  Outcome outcome{.ending = h.ending, .function = "step"};
+  Outcome outcome{.ending = h.is_short_of_memory != 0 ? Ending::out_of_memory : h.ending};
   h.in_function[sizeof h.in_function - 1] = h.reason[sizeof h.reason - 1] = 0;
   outcome.function = h.in_function;
   outcome.reason = h.reason;
