@@ -27,6 +27,7 @@ Simulation::Simulation(Registry& registry, std::uint64_t seed)
   scheduler_.set_seed(seed);
   InputLog& inputs = extensions_->inputs();
   inputs.hash_of_state = [this] { return state_hash(); };
+  inputs.hash_of_robots = [this] { return hash_of_robots(); };
   inputs.time_of_state = [this] { return now(); };
 }
 
@@ -183,6 +184,13 @@ void Simulation::reset() {
   scheduler_.set_state(initial_.schedule);
   begin_epoch();
   for (const std::size_t i : in_order_of(order_of)) instances_[i]->start();
+}
+
+/// What is beside robots, such as a camera that looks on, may differ between a run and its replay.
+std::uint64_t Simulation::hash_of_robots() const {
+  std::uint64_t sum = 0;
+  for (const RobotView* r : world_.robots()) sum += world_.hash(*r);
+  return sum;
 }
 
 void Simulation::begin_epoch() {

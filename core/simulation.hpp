@@ -139,6 +139,7 @@ class Simulation {
   void check_outputs();
   void start_all();
   void begin_epoch();
+  std::uint64_t hash_of_robots() const;
   std::vector<std::int32_t> robot_of_slot() const;
 
   Registry& registry_;

@@ -40,7 +40,7 @@ void Simulation::build() {
   schedule();
   initial_ = {world_.store().save(), scheduler_.state()};
   built_ = true;
-  extensions_->inputs().set_initial_hash(scheduler_.seeded(state_hash()));
+  extensions_->inputs().set_initial_hash(scheduler_.seeded(hash_of_robots()));
   if (extensions_->requests().is_wanted() || extensions_->inputs().has_recording()) {
     extensions_->requests().want();
     scheduler_.set_one_at_a_time();

@@ -55,11 +55,13 @@ class InputLog final : public ExternalInputs {
   std::uint64_t unused(std::string_view& channel) const noexcept override;
   std::uint64_t initial_hash() const noexcept override { return initial_hash_; }
   std::uint64_t state_hash() const noexcept override { return hash_of_state ? hash_of_state() : 0; }
+  std::uint64_t robots_hash() const noexcept override { return hash_of_robots ? hash_of_robots() : 0; }
   std::int64_t time() const noexcept override { return time_of_state ? time_of_state() : 0; }
   std::uint64_t epoch() const noexcept override { return epoch_; }
   void not_repeatable(std::string_view why) noexcept override;
 
   std::function<std::uint64_t()> hash_of_state;
+  std::function<std::uint64_t()> hash_of_robots;
   std::function<std::int64_t()> time_of_state;
   void set_initial_hash(std::uint64_t hash) { initial_hash_ = hash; }
   void keep_closed() { may_open_ = false; }

@@ -76,7 +76,7 @@ class InputRecorder final : public Algorithm, private InputSink {
 
   void finish() override {
     flush();
-    file_->write(end_line({inputs_->epoch(), inputs_->time(), inputs_->state_hash()}));
+    file_->write(end_line({inputs_->epoch(), inputs_->time(), inputs_->robots_hash()}));
     file_->publish();
   }
 
@@ -139,7 +139,7 @@ class InputReplay final : public Algorithm {
       throw Error(std::to_string(unused) + " inputs of the recording " + quote(path_) +
                   " were not taken by anyone, the first of channel " + quote(channel) +
                   "; is the algorithm that took them in the scenario, at the same rate?");
-    if (end_->state_hash != inputs_->state_hash())
+    if (end_->robots_hash != inputs_->robots_hash())
       throw Error("the replay of " + quote(path_) + " ended in another state than the recorded run");
     host_->log(LogLevel::info, "the replay ended in the recorded state");
   }

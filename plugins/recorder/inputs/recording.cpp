@@ -112,7 +112,7 @@ RunEnd read_end(Line& line) {
   RunEnd end;
   end.epoch = line.number<std::uint64_t>("epoch");
   end.time = line.number<std::int64_t>("time");
-  end.state_hash = line.number<std::uint64_t>("the hash of the state", 16);
+  end.robots_hash = line.number<std::uint64_t>("the hash of the state", 16);
   line.end();
   return end;
 }
@@ -143,7 +143,7 @@ void add_line(std::string& out, const RecordedInput& input) {
 std::string end_line(const RunEnd& end) {
   std::string line("end,");
   line.append(std::to_string(end.epoch)).append(",").append(std::to_string(end.time)).append(",");
-  return line.append(hexadecimal(end.state_hash)).append("\n");
+  return line.append(hexadecimal(end.robots_hash)).append("\n");
 }
 
 Recording read_recording(const std::string& path) {

@@ -15,8 +15,8 @@ namespace muro::inputs {
 /// The end of a recorded run.
 struct RunEnd {
   std::uint64_t epoch = 0;
-  std::int64_t time = 0;         ///< ns
-  std::uint64_t state_hash = 0;  ///< then
+  std::int64_t time = 0;          ///< ns
+  std::uint64_t robots_hash = 0;  ///< of the state of all robots then
 
   bool operator==(const RunEnd&) const = default;
 };

@@ -60,12 +60,15 @@ class ExternalInputs {
   virtual bool set_recording(std::span<const RecordedInput> inputs) noexcept = 0;
   /// Inputs of the recording that nobody has taken, and the channel of the first of them; 0 when all were. [finish]
   virtual std::uint64_t unused(std::string_view& channel) const noexcept = 0;
-  /// Of the state before the first step: tells whether a recording belongs to this scenario. [step]
+  /// Of the seed and of the state of all robots before the first step: tells whether a recording belongs to this
+  /// scenario. [step]
   virtual std::uint64_t initial_hash() const noexcept = 0;
-  /// Of the state now. [between steps]
-  virtual std::uint64_t state_hash() const noexcept = 0;
-  virtual std::int64_t time() const noexcept = 0;    ///< ns, of the state now [between steps]
-  virtual std::uint64_t epoch() const noexcept = 0;  ///< of the state now [between steps]
+  /// Of the state of all robots now: what is beside them, such as a camera that looks on, has no say in it. [between
+  /// steps]
+  virtual std::uint64_t robots_hash() const noexcept = 0;
+  virtual std::uint64_t state_hash() const noexcept = 0;  ///< of the whole state now [between steps]
+  virtual std::int64_t time() const noexcept = 0;         ///< ns, of the state now [between steps]
+  virtual std::uint64_t epoch() const noexcept = 0;       ///< of the state now [between steps]
   /// The run cannot be repeated from its scenario alone: an external client did not answer in time, for example.
   /// Reports say why. [any thread]
   virtual void not_repeatable(std::string_view why) noexcept = 0;
@@ -83,13 +86,13 @@ inline ExtensionId ExternalInputs::id() noexcept {
       MURO_SIZE(ExternalInput),         MURO_PLACE(ExternalInput, kind), MURO_PLACE(ExternalInput, source),
       MURO_PLACE(ExternalInput, bytes), MURO_SIZE(RecordedInput),        MURO_PLACE(RecordedInput, channel),
       MURO_PLACE(RecordedInput, epoch), MURO_PLACE(RecordedInput, time), MURO_PLACE(RecordedInput, input)};
-  return {
-      "muro.ExternalInputs", 1,
-      abi::extension_layout<ExternalInputs>(
-          structs, &InputChannel::is_replayed, &InputChannel::record, &InputChannel::replay, &InputSink::take,
-          &ExternalInputs::channel, &ExternalInputs::may_open, &ExternalInputs::set_sink,
-          &ExternalInputs::set_recording, &ExternalInputs::unused, &ExternalInputs::initial_hash,
-          &ExternalInputs::state_hash, &ExternalInputs::time, &ExternalInputs::epoch, &ExternalInputs::not_repeatable)};
+  return {"muro.ExternalInputs", 1,
+          abi::extension_layout<ExternalInputs>(
+              structs, &InputChannel::is_replayed, &InputChannel::record, &InputChannel::replay, &InputSink::take,
+              &ExternalInputs::channel, &ExternalInputs::may_open, &ExternalInputs::set_sink,
+              &ExternalInputs::set_recording, &ExternalInputs::unused, &ExternalInputs::initial_hash,
+              &ExternalInputs::robots_hash, &ExternalInputs::state_hash, &ExternalInputs::time, &ExternalInputs::epoch,
+              &ExternalInputs::not_repeatable)};
 }
 
 }  // namespace muro

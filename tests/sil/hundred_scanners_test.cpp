@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+// 100 scanners at 10 Hz over TCP at once, in real time, to a client that has a socket for each.
+#include <arpa/inet.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <thread>
+#include <vector>
+
+#include "tests/support/files.hpp"
+
+namespace muro {
+namespace {
+
+constexpr int scanners = 100, first_port = 21300;
+
+/// What has come from one scanner.
+struct Stream {
+  int socket = -1;
+  std::string last;  ///< begin of a line
+  int scans = 0;     ///< begun: lines "99b", the status of a scan
+  std::size_t bytes = 0;
+};
+
+int connect_to(int port) {
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(std::uint16_t(port));
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  for (int tries = 0; tries < 500; ++tries) {
+    const int s = socket(AF_INET, SOCK_STREAM, 0);
+    if (connect(s, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0) return s;
+    close(s);
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  return -1;
+}
+
+void take(Stream& s) {
+  char buffer[65536];
+  const ssize_t n = recv(s.socket, buffer, sizeof buffer, MSG_DONTWAIT);
+  if (n <= 0) return;
+  s.bytes += std::size_t(n);
+  for (ssize_t i = 0; i < n; ++i) {
+    if (buffer[i] != '\n') {
+      if (s.last.size() < 8) s.last += buffer[i];
+      continue;
+    }
+    if (s.last == "99b") ++s.scans;
+    s.last.clear();
+  }
+}
+
+TEST(SlowHundredScanners, AreServedAt10HzInRealTime) {
+  const test::ScratchFolder scratch;
+  const std::string report = scratch.path("report.json");
+  const std::string scenario = scratch.file(
+      "hundred.yaml",
+      "name: hundred\nduration: 9\nworld: {include: " MURO_TEST_SOURCE_DIR
+      "/examples/urban/city.yaml}\nrobots:\n  rovers:\n    model: " MURO_TEST_SOURCE_DIR
+      "/examples/models/rover.urdf\n    count: 100\n    place: {random: streets, seed: 1}\n    motion: {use: "
+      "motion.differential_drive, rate: 100}\n    drive: {use: drive.skid_steer}\n    laser: {use: laser.raycast, on: "
+      "laser_link, rate: 10, min_angle: -2.0862, max_angle: 2.0924, rays: 682, max_range: 5.6}\n    scanner: {use: "
+      "controller.scip2, on: laser, rate: 100, stream: {tcp: \"" +
+          std::to_string(first_port) + "+{index}\"}}\n");
+  test::CommandResult run;
+  std::thread simulator([&] {
+    run = test::run_command("MURO_PLUGIN_PATH=" MURO_TEST_PLUGIN_DIR " " MURO_PROGRAM " run " + scenario +
+                            " --speed real --report " + report);
+  });
+  std::vector<Stream> streams(scanners);
+  for (int i = 0; i < scanners; ++i) streams[std::size_t(i)].socket = connect_to(first_port + i);
+  for (Stream& s : streams) EXPECT_EQ(send(s.socket, "MD0044072501000\n", 16, MSG_NOSIGNAL), 16);
+  std::vector<pollfd> files;
+  for (const Stream& s : streams) files.push_back({s.socket, POLLIN, 0});
+  const auto receive_for = [&](double seconds) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+    while (std::chrono::steady_clock::now() < end) {
+      poll(files.data(), files.size(), 20);
+      for (std::size_t i = 0; i < files.size(); ++i)
+        if (files[i].revents != 0) take(streams[i]);
+    }
+  };
+  receive_for(2);
+  std::vector<Stream> before = streams;
+  receive_for(4);
+  for (int i = 0; i < scanners; ++i) {
+    const Stream &a = before[std::size_t(i)], &b = streams[std::size_t(i)];
+    EXPECT_NEAR(b.scans - a.scans, 40, 2) << "scanner " << i;
+    EXPECT_GT(b.bytes - a.bytes, std::size_t(38 * 2000)) << "scanner " << i;
+    close(b.socket);
+  }
+  simulator.join();
+  EXPECT_EQ(run.exit_code, 0) << run.output;
+  const auto about = nlohmann::json::parse(test::text_of(report), nullptr, false);
+  EXPECT_NEAR(about.value("real_time_factor", 0.0), 1, 0.05) << run.output;
+}
+
+}  // namespace
+}  // namespace muro

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+// examples/sil: a vehicle that is driven by a program outside, which sees a scanner on a pseudo-terminal and a drive on
+// TCP.
+#include <arpa/inet.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/complaint.hpp"
+#include "tests/support/files.hpp"
+
+namespace muro {
+namespace {
+
+const std::string example = MURO_TEST_SOURCE_DIR "/examples/sil/";
+
+/// A port of this machine that nobody uses.
+std::string free_port() {
+  const int server = socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t size = sizeof address;
+  bind(server, reinterpret_cast<sockaddr*>(&address), size);
+  getsockname(server, reinterpret_cast<sockaddr*>(&address), &size);
+  close(server);
+  return std::to_string(ntohs(address.sin_port));
+}
+
+class AVehicleWithAPilotOutside : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (test::run_command("python3 -c pass").exit_code != 0) GTEST_SKIP() << "needs python3";
+  }
+
+  struct Run {
+    test::CommandResult result;
+    nlohmann::json report;
+    std::string hash() const { return report.value("state_hash", "none"); }
+    double distance() const { return report["robots"][0]["distance_m"]; }
+  };
+
+  /// `pilot`: its options, or what is done in its place; none: nobody drives.
+  Run run(const std::string& options, const std::string& pilot) {
+    const std::string port = free_port(), laser = scratch_.path("laser"), report = scratch_.path("report.json");
+    std::string command = "MURO_PLUGIN_PATH=" MURO_TEST_PLUGIN_DIR " " MURO_PROGRAM " run " + example +
+                          "sil.yaml --duration " + duration_ + " --report " + report +
+                          " --set robots.rover.scanner.stream.pty=" + laser +
+                          " --set robots.rover.command.stream.tcp=" + port + " " + options;
+    if (!pilot.empty())
+      command += " & muro=$!; " + pilot + " " + example + "pilot.py --laser " + laser + " --drive 127.0.0.1:" + port +
+                 " & pilot=$!; " + after_start_ + " wait $muro; code=$?; wait $pilot; exit $code";
+    Run r{test::run_command(command), {}};
+    r.report = nlohmann::json::parse(test::text_of(report), nullptr, false);
+    return r;
+  }
+
+  test::ScratchFolder scratch_;
+  std::string after_start_;     ///< what the shell does meanwhile
+  std::string duration_ = "8";  ///< s
+};
+
+TEST_F(AVehicleWithAPilotOutside, EndsInTheSameStateWhateverThePilotsDelays) {
+  const Run first = run("", "python3");
+  ASSERT_EQ(first.result.exit_code, 0) << first.result.output;
+  EXPECT_GT(first.distance(), 1.5) << "it drives";
+  EXPECT_TRUE(first.report["external_inputs"]["not_repeatable"].empty()) << first.report["external_inputs"];
+  EXPECT_GT(first.report["external_inputs"]["count"], 100);
+  for (const char* delay : {"0.002", "0.006"}) {
+    const Run again = run("--threads 2", std::string("env PILOT_DELAY=") + delay + " python3");
+    EXPECT_EQ(again.hash(), first.hash()) << delay << again.result.output;
+  }
+}
+
+TEST_F(AVehicleWithAPilotOutside, IsReplayedWithoutIt) {
+  const std::string inputs = scratch_.path("inputs.csv");
+  const Run recorded = run("--record " + inputs, "python3");
+  ASSERT_EQ(recorded.result.exit_code, 0) << recorded.result.output;
+  const Run replayed = run("--replay " + inputs, "");
+  EXPECT_EQ(replayed.result.exit_code, 0) << replayed.result.output;
+  EXPECT_SAYS(replayed.result.output, "the replay ended in the recorded state");
+  EXPECT_EQ(replayed.hash(), recorded.hash());
+  EXPECT_FALSE(std::filesystem::exists(scratch_.path("laser"))) << "a replay opens nothing";
+}
+
+TEST_F(AVehicleWithAPilotOutside, IsDrivenByTheSamePilotAtEveryLevel) {
+  for (const char* motion : {"motion.point", "motion.bullet"}) {
+    const Run r = run(std::string("--set robots.rover.motion.use=") + motion, "python3");
+    ASSERT_EQ(r.result.exit_code, 0) << r.result.output;
+    EXPECT_GT(r.distance(), 1.5) << motion;
+  }
+}
+
+TEST_F(AVehicleWithAPilotOutside, StandsWhenThePilotIsKilledAndTheRunGoesOn) {
+  after_start_ = "sleep 0.7; kill -9 $pilot;";
+  duration_ = "40";
+  const Run r = run("--set robots.rover.command.on_disconnect=stop", "env PILOT_DELAY=0.02 python3");
+  ASSERT_EQ(r.result.exit_code, 0) << r.result.output;
+  EXPECT_DOUBLE_EQ(r.report["simulated_s"], 40);
+  EXPECT_LT(r.distance(), 4) << "in 40 s it would have driven farther";
+}
+
+TEST_F(AVehicleWithAPilotOutside, IsWaitedForInVainWhenThereIsNoPilot) {
+  const Run r = run("--set robots.rover.scanner.stream.timeout=0.2", "");
+  EXPECT_EQ(r.result.exit_code, 1);
+  EXPECT_SAYS(r.result.output, "pilot");
+  const Run on =
+      run("--set robots.rover.scanner.stream.timeout=0.2 --set robots.rover.command.stream.timeout=0.2 --set "
+          "robots.rover.scanner.stream.on_timeout=go_on --set robots.rover.command.stream.on_timeout=go_on",
+          "");
+  EXPECT_EQ(on.result.exit_code, 0) << on.result.output;
+  EXPECT_FALSE(on.report["external_inputs"]["not_repeatable"].empty());
+}
+
+}  // namespace
+}  // namespace muro
