@@ -45,6 +45,7 @@ struct Call {
   double period = 0;        ///< s between steps
   std::uint64_t seed = 0;   ///< of the instance
   std::uint64_t index = 0;  ///< of the step
+  bool is_patient = false;  ///< there is no time-out: a recording says whether there was one
   /// Null, or where it is written which function of the library runs: its name, or a copy of it.
   std::atomic<const char*>* running = nullptr;
   std::span<char> running_text{};

@@ -166,6 +166,7 @@ void ControlledRobot::make_instance() {
 }
 
 void ControlledRobot::start() {
+  if (failures_) failures_->begin_anew();
   if (!instance_) {
     measure();
     try {
@@ -185,6 +186,7 @@ void ControlledRobot::restored() {
                 "cannot go on from a snapshot: its instances have memory of their own, and its table has no functions "
                 "`save` and `load`; add them, or reset the simulation");
   is_stale_ = settings_.table.has_instances;
+  if (failures_) failures_->begin_anew();
 }
 
 // --- steps
@@ -236,11 +238,16 @@ bool ControlledRobot::write_ports(const InstanceMemory& m, std::string& why_not)
 }
 
 /// The one place where control code is called, and where it comes in how a call has ended.
-Outcome ControlledRobot::outcome_of(Call& call, const Step&) {
+Outcome ControlledRobot::outcome_of(Call& call, const Step& step) {
+  if (failures_) {
+    if (const Outcome* recorded = failures_->replayed(step.time, call.function)) return *recorded;
+    call.is_patient = failures_->is_replayed();
+  }
   note(name_of(call.function, settings_.table.has_instances));
   if (settings_.notes) call.running = &settings_.notes->of_this_thread().function;
   Outcome outcome = instance_->call(call);
   note(nullptr);
+  if (failures_) failures_->record(step.time, call.function, outcome, about());
   return outcome;
 }
 
@@ -307,6 +314,7 @@ void ControlledRobot::step(const Step& step) {
     try {
       make_instance();
     } catch (const ProcessError& e) {
+      if (failures_) failures_->tell_not_repeatable(about() + e.what());
       return fail(about() + e.what(), "");
     }
     is_stale_ = settings_.table.has_instances;

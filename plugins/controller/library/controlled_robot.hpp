@@ -8,6 +8,7 @@
 #include "control_instance.hpp"
 #include "control_library.hpp"
 #include "control_process.hpp"
+#include "failure_log.hpp"
 #include "muro/algorithm.hpp"
 #include "muro/ext/call_note.hpp"
 #include "port.hpp"
@@ -57,6 +58,8 @@ class ControlledRobot {
                   std::uint64_t random_key, StateBlock* block);
 
   const std::string& name() const { return name_; }
+  /// Where failures that are no matter of the scenario alone are recorded and replayed. [setup]
+  void use_failure_log(std::unique_ptr<FailureLog> log) { failures_ = std::move(log); }
   /// Takes over a process in which the library is loaded already. [setup]
   void use_process(std::unique_ptr<ControlProcess> process) { process_ = std::move(process); }
   /// Looks for the properties of all ports and asks for them. Returns the optional inputs that it lacks. [setup]
@@ -99,7 +102,8 @@ class ControlledRobot {
   std::vector<std::uint64_t> copies_;  ///< of ports, of all that are not read directly; written anew in every step
   std::unique_ptr<ControlProcess> process_;
   std::unique_ptr<ControlInstance> instance_;
-  bool is_stale_ = false;  ///< the instance is not that of the state
+  std::unique_ptr<FailureLog> failures_;  ///< null: in the simulator's process there are none
+  bool is_stale_ = false;                 ///< the instance is not that of the state
 };
 
 }  // namespace muro::control

@@ -67,11 +67,14 @@ class LibraryController final : public Algorithm {
     tell(c.host());
     for (std::uint32_t i = 0; i < c.items().size(); ++i) {
       const Item& item = c.items()[i];
-      auto* block = static_cast<StateBlock*>(
-          c.state_block(item.object, block_name(c, item.object), StateBlock::size_for(settings_.table.state_size)));
-      robots_.push_back(std::make_unique<ControlledRobot>(settings_,
-                                                          item.robot ? std::string(item.robot->name) : "world", i,
-                                                          std::uint32_t(c.items().size()), c.random_key(i), block));
+      const std::string name = item.robot ? std::string(item.robot->name) : "world";
+      const std::string state = block_name(c, item.object);
+      auto* block =
+          static_cast<StateBlock*>(c.state_block(item.object, state, StateBlock::size_for(settings_.table.state_size)));
+      robots_.push_back(std::make_unique<ControlledRobot>(settings_, name, i, std::uint32_t(c.items().size()),
+                                                          c.random_key(i), block));
+      if (ExternalInputs* const inputs = settings_.functions ? nullptr : ExternalInputs::of(c.host()))
+        robots_.back()->use_failure_log(std::make_unique<FailureLog>(*inputs, name + "/" + state));
       robots_.back()->create_own_properties(c, item.object);
       if (process) robots_.back()->use_process(std::move(process));
     }

@@ -34,7 +34,7 @@ struct Failing : Team {
     settings["arguments"] = more;
     if (!settings.contains("isolate")) settings["isolate"] = std::string("process");
     if (!settings.contains("timeout")) settings["timeout"] = 0.2;
-    if (!settings.contains("memory")) settings["memory"] = std::int64_t(64);
+    if (!settings.contains("memory")) settings["memory"] = std::int64_t(16);
     set_log([this](LogLevel, std::string_view line) { log += std::string(line) + "\n"; });
     control(folder + "fails.so", std::move(settings));
     build();
@@ -89,9 +89,10 @@ TEST(IsolatedController, IsReportedWithItsWayOfFailing) {
 TEST(IsolatedController, IsRefusedMoreMemoryThanItMayTake) {
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
   for (const char* how : {"allocate", "allocate_by_new"}) {
-    Failing team(how);
-    EXPECT_TRUE(says(team.run(), "robot `a`: `fails` ran out of memory in `step`"));
-    EXPECT_TRUE(says(team.run(), "")) << "the simulation itself is alive";
+    Failing team(how, {{"timeout", 10.0}});
+    const std::string said = team.run();
+    EXPECT_TRUE(says(said, "robot `a`: `fails` ran out of memory in `step`"));
+    EXPECT_TRUE(says(said, "its process may take 16 MiB (`memory`) beside what it has at its start"));
   }
 #endif
 }
@@ -169,6 +170,27 @@ TEST(IsolatedController, DoesTheSameToTheBitAsInTheSimulatorsProcess) {
     return end;
   };
   EXPECT_EQ(hash("process"), hash("none"));
+}
+
+TEST(IsolatedController, FailsAgainAtTheSameInstantsInAReplay) {
+  const std::string recording = testing::TempDir() + "failures.csv";
+  const auto run = [&](const char* use, const std::string& does) {
+    Settings settings{{"on_failure", std::string("restart")}, {"arguments", Texts{"does=" + does}}};
+    settings["isolate"] = std::string("process");
+    settings["timeout"] = 0.2;
+    Team team;
+    team.set_log([](LogLevel, std::string_view) {});
+    team.use(use, 10, {}, {{"file", recording}});
+    team.control(folder + "fails.so", settings);
+    team.build();
+    team.run_for(2);
+    const std::uint64_t hash = team.state_hash();
+    team.finish();
+    return hash;
+  };
+  const std::uint64_t recorded = run("recorder.inputs", "sleep");
+  EXPECT_EQ(run("controller.replay", "nothing"), recorded) << "the clock has no say, and the recording has";
+  EXPECT_NE(run("recorder.inputs", "nothing"), recorded);
 }
 
 TEST(IsolatedController, LeavesNoProcessBehind) {

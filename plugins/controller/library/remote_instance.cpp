@@ -63,12 +63,12 @@ RemoteInstance::~RemoteInstance() {
   if (is_alive_ && has_instances_) call({.function = Function::destroy});
 }
 
-bool RemoteInstance::wait(bool& timed_out) {
+bool RemoteInstance::wait(bool is_patient, bool& timed_out) {
   const auto until = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                         std::chrono::duration<double>(process_->limits().timeout));
   while (!header().turn.wait_for(Turn::Side::caller, patience_, nap)) {
     if (!process_->is_alive()) return false;
-    timed_out = Clock::now() >= until;
+    timed_out = !is_patient && Clock::now() >= until;
     if (timed_out) return false;
   }
   return true;
@@ -85,7 +85,7 @@ Outcome RemoteInstance::call(const Call& call) {
   h.is_short_of_memory = 0;
   h.turn.pass_to(Turn::Side::callee);
   bool timed_out = false;
-  if (!wait(timed_out)) return death(timed_out);
+  if (!wait(call.is_patient, timed_out)) return death(timed_out);
   hand_on_log();
   hand_on_output();
   if (h.ending == Ending::fine) return {};

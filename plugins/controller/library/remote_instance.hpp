@@ -26,7 +26,7 @@ class RemoteInstance final : public ControlInstance {
  private:
   SharedHeader& header() { return *reinterpret_cast<SharedHeader*>(process_->memory().data()); }
   /// False when the process has ended, or takes too long.
-  bool wait(bool& timed_out);
+  bool wait(bool is_patient, bool& timed_out);
   Outcome death(bool timed_out);
   void hand_on_log();
   void hand_on_output();
