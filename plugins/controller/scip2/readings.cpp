@@ -20,9 +20,13 @@ constexpr double depth_edge = 0.2;
 
 Readings::Readings(const Model& model, const RayGrid& grid) : model_(model) {
   constexpr double turn = 2 * std::numbers::pi;
-  step_angle_ = turn / model.steps_per_turn;
-  const double increment = grid.columns > 1 ? grid.angle_increment : step_angle_;
-  rays_per_step_ = step_angle_ / increment;
+  const double step_angle = turn / model.steps_per_turn;
+  for (std::size_t steps = 0; steps < half_angles_.size(); ++steps) {
+    const double half = 0.5 * double(steps) * step_angle;
+    half_angles_[steps] = {elementary::sin(half), elementary::cos(half)};
+  }
+  const double increment = grid.columns > 1 ? grid.angle_increment : step_angle;
+  rays_per_step_ = step_angle / increment;
   const bool is_full_turn = std::abs(increment * grid.columns - turn) < 1e-9 * turn;
   for (std::int32_t step = model.first_step; step <= model.last_step; ++step) {
     // the turn of the device's angle that is nearest to the middle of the rays
@@ -77,9 +81,9 @@ double Readings::cosine_of_incidence(std::span<const std::uint32_t> distances, s
   const std::size_t behind = i + 1 < distances.size() && is_same_surface(i + 1) ? i + 1 : i;
   if (before == behind) return 1;
   // in the plane of the scan, x along the ray
-  const double half = 0.5 * step_angle_ * double(behind - before);
-  const double along = (double(distances[behind]) - distances[before]) * elementary::cos(half);
-  const double across = (double(distances[behind]) + distances[before]) * elementary::sin(half);
+  const HalfAngle& half = half_angles_[behind - before];
+  const double along = (double(distances[behind]) - distances[before]) * half.cosine;
+  const double across = (double(distances[behind]) + distances[before]) * half.sine;
   return across / std::sqrt(along * along + across * across);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -47,8 +48,12 @@ class Readings {
 
   static constexpr std::uint32_t no_ray = ~0u;
   Model model_;
-  double rays_per_step_ = 1, step_angle_ = 0;
-  std::vector<std::uint32_t> rays_;  ///< the nearest one of each step
+  double rays_per_step_ = 1;
+  struct HalfAngle {
+    double sine = 0, cosine = 1;
+  };
+  std::array<HalfAngle, 3> half_angles_;  ///< of none, one and two steps
+  std::vector<std::uint32_t> rays_;       ///< the nearest one of each step
 };
 
 /// The intensity of a reading `d` m away whose surface is met at an angle of that cosine: 10000 cos a / (1 + (d /

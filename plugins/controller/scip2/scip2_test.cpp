@@ -158,6 +158,56 @@ TEST(Scip2, ASweptLaserAndOneOfManyRaysAreReadByAngle) {
   }
 }
 
+TEST(Scip2, AUst10LxServes1081StepsFortyTimesASecond) {
+  Room s;
+  const Model m = ust_10lx();
+  s.use("laser.raycast", 40, s.lasers,
+        {{"min_angle", m.angle_of(0)},
+         {"max_angle", m.angle_of(1080)},
+         {"rays", std::int64_t(1081)},
+         {"max_range", 31.0}});
+  const std::uint16_t port = s.use_device({{"model", "ust-10lx"}, {"serial", "H1234567"}});
+  s.build();
+  Peer client = Peer::tcp(port);
+  EXPECT_EQ(s.ask(client, "VV\n")[0].lines[4], "SERI:H1234567;" + std::string(1, expected_sum("SERI:H1234567")));
+  const auto scans = s.ask(client, "MD0000108001010\n", 11);
+  EXPECT_EQ(scans[10].timestamp() - scans[1].timestamp(), 9 * 25);
+  const std::vector<long> values = scans[10].values(3);
+  const std::vector<double> truth = s.ranges(0);
+  ASSERT_EQ(values.size(), truth.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (truth[i] >= 31)
+      EXPECT_EQ(values[i], 65533);
+    else
+      EXPECT_NEAR(double(values[i]), 1e3 * truth[i], 0.501);
+  }
+}
+
+TEST(Scip2, ADriverForSerialPortsOpensAPseudoTerminal) {
+  Room s;
+  s.use_laser();
+  const std::string path = "/tmp/muro-scip2-test-" + std::to_string(getpid());
+  s.use_device({{"stream", Texts{"pty=" + path}}});
+  s.build();
+  Peer client = Peer::file(path);
+  for (const char* command : {"QT\n", "SS115200\n", "SCIP2.0\n", "BM\n"}) EXPECT_EQ(s.ask(client, command).size(), 1u);
+  expect_equal(s.ask(client, "GD0044072501\n")[0].values(3), s.ranges(0));
+  client.close();
+  for (int i = 0; i < 200; ++i) s.go();
+  Peer other = Peer::file(path);
+  EXPECT_NE(s.ask(other, "II\n")[0].lines[4].find("115200"), std::string::npos) << "the device stayed on";
+}
+
+TEST(Scip2, SeveralDevicesMayReportOneLaser) {
+  Room s;
+  s.use_laser();
+  const std::uint16_t first = s.use_device(), second = s.use_device({{"reply_grid", 0.0}});
+  s.build();
+  Peer a = Peer::tcp(first), b = Peer::tcp(second);
+  EXPECT_EQ(s.ask(a, "BM\n")[0].status, "00");
+  EXPECT_EQ(s.ask(b, "GD0044072501\n")[0].status, "10") << "it has a laser and a session of its own";
+}
+
 TEST(Scip2, AResetIsAPowerCycle) {
   for (const bool keeps : {false, true}) {
     Room s;
@@ -199,6 +249,34 @@ TEST(Scip2, ASnapshotHoldsTheDevice) {
   s.run_for(1);
   EXPECT_EQ(s.state_hash(), end);
   EXPECT_EQ(s.ask(client, "QT\n")[0].sums_are_right, true);
+}
+
+/// The client has no clock: between two of its requests no simulated time passes, however long it thinks.
+TEST(Scip2, TimeWaitsForAClientInLockstep) {
+  Room s;
+  s.use_laser();
+  const std::uint16_t port = next_port();
+  s.use_device({{"stream", Texts{"tcp=" + std::to_string(port), "lockstep=driver"}}});
+  s.build();
+  std::vector<long> timestamps;
+  Peer client = Peer::tcp(port);
+  std::thread driver([&] {
+    const auto ask = [&](const std::string& line) {
+      client.heard.clear();
+      client.say(line);
+      while (client.heard.size() < 2 || client.heard.substr(client.heard.size() - 2) != "\n\n") client.hear();
+      return replies_in(client.heard).value().back();
+    };
+    ask("BM\n");
+    for (int i = 0; i < 10; ++i) {
+      timestamps.push_back(ask("GD0384038401\n").timestamp());
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    client.close();
+  });
+  s.run_for(3);
+  driver.join();
+  for (std::size_t i = 1; i < timestamps.size(); ++i) EXPECT_EQ(timestamps[i] - timestamps[i - 1], 100);
 }
 
 TEST(Scip2, AHundredScannersServeAHundredClients) {
