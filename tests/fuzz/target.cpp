@@ -18,6 +18,9 @@ const std::vector<Target>& targets() {
                                        {"picture", read_as_picture},
                                        {"description", read_as_description},
                                        {"controller", read_as_controller},
+#ifdef MURO_FUZZ_FMU
+                                       {"fmu", read_as_fmu},
+#endif
                                        {"library", read_as_library}};
   return all;
 }

@@ -29,6 +29,7 @@ void read_as_picture(Bytes);
 void read_as_description(Bytes);
 void read_as_controller(Bytes);
 void read_as_library(Bytes);
+void read_as_fmu(Bytes);  ///< where muro is built with controller.fmu
 
 /// A file of this process for what reads files: the bytes under a name in a folder of its own.
 std::string file_with(Bytes bytes, const std::string& name);

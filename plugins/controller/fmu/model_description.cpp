@@ -82,6 +82,7 @@ class DescriptionReader {
     model_file::Location location;
     std::string error;
     if (!document_.parse(bytes, location, error)) fail(location, error);
+    if (!document_.root()) fail({}, "there is no element; an FMU's file holds <fmiModelDescription>");
     Element& root = *document_.root();
     if (std::string_view(root.Name()) != "fmiModelDescription")
       fail(root, "the root element is <" + std::string(root.Name()) + ">; that of an FMU is <fmiModelDescription>");

@@ -71,6 +71,7 @@ TEST(ModelDescription, SaysWhatIsWrongAndWhere) {
   const std::string good = description(2, "");
   EXPECT_SAYS(refusal_of(""), "x.fmu: modelDescription.xml: the file is empty");
   EXPECT_SAYS(refusal_of("<a>"), "x.fmu: modelDescription.xml:1: the file is not well-formed XML");
+  EXPECT_SAYS(refusal_of("<!<x>"), "x.fmu: modelDescription.xml: there is no element");
   EXPECT_SAYS(refusal_of("<a/>"), "the root element is <a>; that of an FMU is <fmiModelDescription>");
   EXPECT_SAYS(refusal_of(replaced(good, "guid", "gid")), ":2: <fmiModelDescription> has no attribute `guid`");
   EXPECT_SAYS(refusal_of(replaced(good, "modelIdentifier=\"model\"", "modelIdentifier=\"../x\"")),
