@@ -97,7 +97,7 @@ TEST(Scip2Scan, TheFirstScanIsOneThatBeganWithTheLaserOn) {
   }
 }
 
-TEST(Scip2Scan, ASweptScanIsReadWhenItIsCompleteAndOneOfAnInstantWhenItBegins) {
+TEST(Scip2Scan, ASweptScanIsReadAtItsEndAndOneOfAnInstantAtItsBegin) {
   for (const bool is_swept : {false, true}) {
     Awake d(urg_04lx(), is_swept);
     d.ask("MD0044072501000\n", 50);

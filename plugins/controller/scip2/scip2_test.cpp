@@ -314,7 +314,7 @@ TEST(Scip2, GarbageOnAStreamIsAnsweredAndForgotten) {
 }
 
 TEST(Scip2, RefusesWhatCannotBe) {
-  const auto refusal = [](Settings settings, Settings laser = {}, bool has_laser = true) {
+  const auto refusal = [](Settings settings, const Settings& laser = {}, bool has_laser = true) {
     Room s;
     if (has_laser) s.use_laser(laser);
     s.use_device(std::move(settings));

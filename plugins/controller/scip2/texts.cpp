@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The texts of VV, PP, II and of V in SCIP 1.1.
+#include <cmath>
 #include <cstdio>
 
 #include "device.hpp"
@@ -58,7 +59,7 @@ void Device::write_status(ReplyWriter& r, const State& s, std::int64_t now) cons
 }
 
 void Device::write_version_of_scip1(ReplyWriter& r) const {
-  const int degrees = int(360.0 * (model_.last_step - model_.first_step + 1) / model_.steps_per_turn + 0.5);
+  const int degrees = int(std::lround(360.0 * (model_.last_step - model_.first_step + 1) / model_.steps_per_turn));
   const int greatest = int(ReplyWriter::greatest(2));
   r.plain(Text("VEND:%s", model_.vendor.c_str()));
   r.plain(Text("PROD:%s", model_.product.c_str()));
