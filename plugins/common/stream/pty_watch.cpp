@@ -34,10 +34,11 @@ void PtyWatch::look_later() {
 
 void PtyWatch::look() {
   masters_.clear();
-  for (const auto& [master, opened] : opened_) masters_.push_back({master, 0, 0});
+  for (const auto& [master, opened] : opened_) masters_.push_back({master, POLLIN, 0});
   ::poll(masters_.data(), nfds_t(masters_.size()), 0);
   for (const pollfd& state : masters_) {
-    if (state.revents != 0) continue;
+    const bool is_left = (state.revents & POLLHUP) != 0 && (state.revents & POLLIN) == 0;
+    if (is_left) continue;
     if (const auto opened = opened_.extract(state.fd)) opened.mapped()();
   }
   is_waiting_ = !opened_.empty();

@@ -19,7 +19,8 @@ class PtyWatch {
   static std::shared_ptr<PtyWatch> shared(IoThread& io);
   explicit PtyWatch(IoThread& io) : timer_(io.context()) {}
 
-  /// Calls `opened` once, soon after the terminal behind this master has been opened. [I/O thread]
+  /// Calls `opened` once, soon after the terminal behind this master has been opened, though it may be closed again
+  /// with something said. [I/O thread]
   void wait(int master, std::function<void()> opened);
   void forget(int master);  ///< [I/O thread]
 
