@@ -16,11 +16,13 @@ namespace {
 
 constexpr double duration = 0.3;  // s
 
-/// All scenarios of the examples, and robots that collide with meshes at every motion with forces.
+/// All scenarios of the examples but for those with a server, whose port only one can have, and robots that collide
+/// with meshes at every motion with forces.
 std::vector<Scenario> scenarios(const test::ScratchFolder& folder) {
   std::vector<std::string> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(MURO_TEST_SOURCE_DIR "/examples"))
-    if (entry.path().extension() == ".yaml" && test::text_of(entry.path()).find("\nrobots:") != std::string::npos)
+    if (const std::string text = entry.path().extension() == ".yaml" ? test::text_of(entry.path()) : "";
+        text.find("\nrobots:") != std::string::npos && text.find("stream:") == std::string::npos)
       files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   for (const char* motion : {"simplified", "bullet", "ode", "mujoco"})

@@ -26,6 +26,7 @@ TEST(Changing, AnswersWhenTheInstantIsComplete) {
   EXPECT_EQ(d.scene.command.linear.x(), 1);
   EXPECT_EQ(d.scene.command.angular.z(), 0.5);
   EXPECT_EQ(d.outlet.answers, 1u);
+  EXPECT_EQ(d.outlet.changes, 1u);
 }
 
 TEST(Changing, SetsElementsColumnsAndSeveralPropertiesAtOnce) {
@@ -73,11 +74,12 @@ TEST(Changing, ComparesAUnitLetterByLetter) {
 TEST(Changing, IsGrantedByPatternsAlone) {
   Dialogue nobody(std::vector<std::string_view>{});
   EXPECT_EQ(code_of(nobody.say(request("set", R"(["rover:flag",1])"))), -32000);
-  for (const char* method : {"place", "pause", "resume", "step", "speed", "reset", "snapshot", "restore"})
+  for (const char* method : {"place", "pause", "resume", "step", "speed", "stop", "reset", "snapshot", "restore"})
     EXPECT_EQ(code_of(nobody.say(request(method))), -32000) << method;
   nobody.run.complete();
   EXPECT_TRUE(nobody.run.carried_out.empty());
   EXPECT_FALSE(nobody.run.paused);
+  EXPECT_FALSE(nobody.scene.is_stopped);
 
   Dialogue some({"*:command.*", "call:pause"});
   EXPECT_EQ(code_of(some.say(request("set", R"(["rover:flag",1])"))), -32000);

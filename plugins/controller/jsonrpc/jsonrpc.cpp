@@ -2,6 +2,7 @@
 // Any property and the control of the run for programs outside, by JSON-RPC 2.0; see README.md.
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "muro/ext/inspection.hpp"
 #include "muro/plugin.hpp"
@@ -30,7 +31,7 @@ constexpr Description description{
     .parameters = parameters,
     .reads = reads,
     .writes = writes,
-    .capabilities = restorable | runs_alone,
+    .capabilities = deterministic | restorable | runs_alone,
 };
 
 constexpr stream::Limits limits{.output_bytes = 32 << 20, .is_recorded = false, .has_late_replies = true};
@@ -49,6 +50,7 @@ class JsonRpc final : public Algorithm, private Outlet, private PauseAttendant {
       throw Error("one server serves the whole scene; use it for one robot, or under `algorithms`");
     inspection_ = Inspection::of(c.host());
     run_ = RunControl::of(c.host());
+    inputs_ = ExternalInputs::of(c.host());
     if (!inspection_ || !run_) throw Error("this host lets nobody look at its simulation, or control it");
     const stream::Address address = stream::read_address(c, 0, c.parameters().texts("stream"));
     require_local(address);
@@ -125,11 +127,20 @@ class JsonRpc final : public Algorithm, private Outlet, private PauseAttendant {
   bool send_update(std::uint32_t client, std::string_view line) override {
     return stream_->send(client, line, most_for_updates);
   }
+  /// In a replay it is the recording that changes it.
+  void changed() override {
+    ExternalInputs* const inputs = stream_->address().lockstep.empty() ? inputs_ : nullptr;
+    if (inputs && !std::exchange(has_changed_, true))
+      inputs->not_repeatable("clients of " + quote(stream_->name()) +
+                             " have changed the state, and without lockstep the wall clock decides when");
+  }
   void answered() override { stream_->answered(); }
   void disconnect(std::uint32_t client) override { stream_->disconnect(client); }
 
   Inspection* inspection_ = nullptr;
   RunControl* run_ = nullptr;
+  ExternalInputs* inputs_ = nullptr;
+  bool has_changed_ = false;
   std::optional<stream::Stream> stream_;
   std::optional<Service> service_;
 };

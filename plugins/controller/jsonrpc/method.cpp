@@ -30,6 +30,7 @@ constexpr Method all[] = {
     {"resume", {}, true, resume},
     {"step", of_step, true, step},
     {"speed", of_speed, true, speed},
+    {"stop", {}, true, stop},
     {"reset", {}, true, reset},
     {"snapshot", of_names, true, snapshot},
     {"restore", of_names, true, restore},
@@ -39,6 +40,6 @@ constexpr Method all[] = {
 
 std::span<const Method> methods() { return all; }
 
-Reply time_reply(std::int64_t time) { return {{"time", time}, {"seconds", 1e-9 * double(time)}}; }
+Reply time_reply(std::int64_t time) { return {{"time", time}, {"seconds", double(time) / 1e9}}; }
 
 }  // namespace muro::jsonrpc

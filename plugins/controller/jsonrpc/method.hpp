@@ -90,5 +90,6 @@ void resume(Call&);
 void speed(Call&);
 void step(Call&);
 void wait(Call&);
+void stop(Call&);
 
 }  // namespace muro::jsonrpc

@@ -44,6 +44,12 @@ void step(Call& c) {
   c.wait_for(Pending::Until::pause, c.served.time + ns);
 }
 
+/// The reply goes out before the run ends.
+void stop(Call& c) {
+  c.served.scene.inspection().stop();
+  c.answer(time_reply(c.served.time));
+}
+
 void wait(Call& c) {
   const double seconds = c.params.has("seconds") ? c.params.real("seconds", 0, longest) : 0;
   const std::int64_t ns = nanoseconds(seconds);

@@ -190,6 +190,7 @@ void Service::done(std::uint64_t ticket, std::string_view problem) noexcept {
     if (found->second.pending.until != Pending::Until::effects) return;
     begin_pause();
     Conversation& c = found->second;
+    if (problem.empty()) outlet_.changed();
     if (c.pending.problem.empty()) c.pending.problem = problem;
     if (--c.pending.effects > 0) return;
     const std::string why = c.pending.problem;

@@ -16,6 +16,8 @@ class Outlet {
   virtual bool send(std::uint32_t client, std::string_view line) = 0;
   /// The same for updates, which leave room for replies.
   virtual bool send_update(std::uint32_t client, std::string_view line) = 0;
+  /// What a client has asked for has changed the state.
+  virtual void changed() = 0;
   /// A line that came in needs nothing more.
   virtual void answered() = 0;
   virtual void disconnect(std::uint32_t client) = 0;

@@ -22,6 +22,7 @@ class FakeInspection final : public Inspection {
   std::uint8_t flag = 7;
   float gain = 0.1f;
   char secret[16] = {};
+  bool is_stopped = false;
 
   std::span<const LiveProperty> properties(ObjectId object) noexcept override {
     all_.clear();
@@ -44,7 +45,7 @@ class FakeInspection final : public Inspection {
     return std::uint32_t(object) < 3 ? names[std::uint32_t(object)] : "?";
   }
   std::string_view text(TextId) const noexcept override { return "?"; }
-  void stop() noexcept override {}
+  void stop() noexcept override { is_stopped = true; }
   bool is_stopping() const noexcept override { return false; }
 
  private:
@@ -141,7 +142,7 @@ class FakeOutlet final : public Outlet {
  public:
   std::map<std::uint32_t, std::string> sent;
   std::vector<std::uint32_t> ended;
-  std::size_t answers = 0;
+  std::size_t answers = 0, changes = 0;
   bool is_full = false, is_full_for_updates = false;
 
   bool send(std::uint32_t client, std::string_view line) override {
@@ -151,6 +152,7 @@ class FakeOutlet final : public Outlet {
   bool send_update(std::uint32_t client, std::string_view line) override {
     return !is_full_for_updates && send(client, line);
   }
+  void changed() override { ++changes; }
   void answered() override { ++answers; }
   void disconnect(std::uint32_t client) override { ended.push_back(client); }
 };

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+// The clients, and the session of docs/remote.md, with the scenario that is beside them.
+#include <arpa/inet.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <regex>
+
+#include "tests/support/files.hpp"
+
+namespace muro {
+namespace {
+
+using test::run_command;
+using test::text_of;
+
+const std::string root = MURO_TEST_SOURCE_DIR "/";
+const std::string run_remote =
+    "cd " + root + " && MURO_PLUGIN_PATH=" MURO_TEST_PLUGIN_DIR " " MURO_PROGRAM " run examples/clients/remote.yaml";
+
+/// A run of remote.yaml on a port that is free.
+class RemoteRun {
+ public:
+  explicit RemoteRun(const std::string& options)
+      : pipe_(popen((run_remote + " --set algorithms.remote.stream.tcp=0 " + options + " 2>&1").c_str(), "r")) {
+    char line[4096];
+    while (port_.empty() && std::fgets(line, sizeof line, pipe_)) {
+      output_ += line;
+      std::smatch found;
+      if (std::regex_search(output_, found, std::regex("serves on tcp 127.0.0.1:([0-9]+)"))) port_ = found[1];
+    }
+    EXPECT_NE(port_, "") << output_;
+  }
+  ~RemoteRun() {
+    if (pipe_) finish();
+  }
+  RemoteRun(const RemoteRun&) = delete;
+  RemoteRun& operator=(const RemoteRun&) = delete;
+
+  const std::string& port() const { return port_; }
+  /// Waits for its end, and returns what it has printed.
+  std::string finish() {
+    char line[4096];
+    while (std::fgets(line, sizeof line, pipe_)) output_ += line;
+    EXPECT_EQ(pclose(pipe_), 0) << output_;
+    pipe_ = nullptr;
+    return output_;
+  }
+
+ private:
+  FILE* pipe_;
+  std::string port_, output_;
+};
+
+/// What comes back when all of `lines` is pasted at once, as into nc.
+std::string paste(const std::string& port, const std::string& lines) {
+  const int fd = ::socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in server{};
+  server.sin_family = AF_INET;
+  server.sin_port = htons(std::uint16_t(std::stoi(port)));
+  server.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  EXPECT_EQ(::connect(fd, reinterpret_cast<const sockaddr*>(&server), sizeof server), 0);
+  EXPECT_EQ(::write(fd, lines.data(), lines.size()), ssize_t(lines.size()));
+  ::shutdown(fd, SHUT_WR);
+  std::string replies;
+  char buffer[4096];
+  for (ssize_t size; (size = ::read(fd, buffer, sizeof buffer)) > 0;) replies.append(buffer, std::size_t(size));
+  ::close(fd);
+  return replies;
+}
+
+std::string state_hash_in(const std::string& output) {
+  std::smatch found;
+  return std::regex_search(output, found, std::regex("state hash ([0-9a-f]{16})")) ? found[1].str() : "none";
+}
+
+TEST(RemotePage, ShowsASessionThatCanBePasted) {
+  const std::string page = text_of(root + "docs/remote.md");
+  std::smatch requests, replies;
+  ASSERT_TRUE(std::regex_search(page, requests, std::regex("```json-rpc\n([^`]*)```")));
+  const std::string rest = requests.suffix();
+  ASSERT_TRUE(std::regex_search(rest, replies, std::regex("```json-rpc\n((?:[^`]|`[^`])*?)```")));
+  RemoteRun run("--speed 20");
+  EXPECT_EQ(paste(run.port(), requests[1]), replies[1].str());
+  paste(run.port(), "{\"jsonrpc\":\"2.0\",\"method\":\"stop\"}\n");
+}
+
+TEST(CppClient, DrivesToTheWall) {
+  RemoteRun run("--speed 50");
+  const auto client = run_command(MURO_CLIENT " " + run.port());
+  EXPECT_EQ(client.exit_code, 0);
+  EXPECT_EQ(client.output, "the rover stands at x = 1.84 m, y = 0.50 m\n");
+  paste(run.port(), "{\"jsonrpc\":\"2.0\",\"method\":\"stop\"}\n");
+}
+
+TEST(CppClient, SaysThatNobodyIsThere) {
+  const auto client = run_command(MURO_CLIENT " 1");
+  EXPECT_EQ(client.exit_code, 1);
+  EXPECT_EQ(client.output, "nobody serves on port 1: Connection refused\n");
+}
+
+#ifdef PYTHON3
+test::CommandResult python_client(const std::string& port, const std::string& command) {
+  return run_command(PYTHON3 " " + root + "examples/clients/muro_client.py 127.0.0.1:" + port + " " + command);
+}
+
+TEST(PythonClient, DoesAllFromItsCommandLine) {
+  RemoteRun run("--speed 20");
+  const auto say = [&](const std::string& command) { return python_client(run.port(), command).output; };
+  EXPECT_EQ(say("list 'rover/base_link:command*'"), "rover/base_link:command.twist\n");
+  EXPECT_EQ(say("call pause").find("{\"time\": "), 0u);
+  EXPECT_EQ(say("call reset"), "{\"time\": 0, \"seconds\": 0.0}\n");
+  EXPECT_EQ(say("set rover/base_link:command.twist '{\"vx\": 0.5}'"), "{\"time\": 0, \"seconds\": 0.0}\n");
+  EXPECT_EQ(say("get rover/base_link:command.twist"),
+            "{\"time\": 0, \"values\": {\"rover/base_link:command.twist\": [0.5, 0.0, 0.0, 0.0, 0.0, 0.0]}}\n");
+  EXPECT_EQ(say("call step '{\"seconds\": 0.5}'"), "{\"time\": 500000000, \"seconds\": 0.5}\n");
+  EXPECT_NE(say("describe rover/base_link:pose").find("\"qx\", \"qy\", \"qz\", \"qw\""), std::string::npos);
+  EXPECT_EQ(say("call resume").find("{\"time\": "), 0u);
+  const std::string watched = say("watch 'crate/body:pose' --rate 50 --count 3");
+  EXPECT_EQ(std::count(watched.begin(), watched.end(), '\n'), 3) << watched;
+  const auto wrong = python_client(run.port(), "get rovr/base_link:pose");
+  EXPECT_EQ(wrong.exit_code, 1);
+  EXPECT_EQ(wrong.output, "there is no object `rovr/base_link` (did you mean rover/base_link?)\n");
+  EXPECT_NE(say("set crate/body:pose '[0]'").find("may not be set"), std::string::npos);
+  say("call stop");
+}
+
+TEST(PythonClient, IsALibraryToo) {
+  const test::ScratchFolder folder;
+  RemoteRun run("--speed 20");
+  const std::string script = folder.file("script.py", R"(
+import sys
+from muro_client import Client, MuroError
+with Client(sys.argv[1]) as muro:
+    muro.call("pause")
+    muro.call("reset")
+    number = muro.subscribe("rover/base_link:command.twist", rate=10)
+    muro.set("rover/base_link:command.twist", {"vx": 0.25}, unit="m/s, rad/s")
+    muro.batch(("step", {"seconds": 1}), ("time", {}))
+    times = [muro.update()["time"] // 10**6 for i in range(10)]
+    assert times == [100 * i for i in range(10)], times
+    assert muro.get("rover/base_link:command.twist")[0] == 0.25
+    assert len(muro.get("rover/*_joint:joint.velocity")) == 4
+    try:
+        muro.set("rover/base_link:command.twist", {"vx": 1}, unit="km/h")
+        assert False
+    except MuroError as error:
+        assert error.code == -32602 and error.data["unit"] == "m/s, rad/s", error
+    muro.call("stop")
+print("fine")
+)");
+  const auto said =
+      run_command("PYTHONPATH=" + root + "examples/clients " PYTHON3 " -B " + script + " 127.0.0.1:" + run.port());
+  EXPECT_EQ(said.output, "fine\n");
+  EXPECT_EQ(said.exit_code, 0);
+}
+
+TEST(PythonClient, IsNotNeededToRepeatARun) {
+  const test::ScratchFolder folder;
+  const std::string recording = folder.path("inputs.csv");
+  RemoteRun run("--duration 3 --speed 3 --record " + recording);
+  python_client(run.port(), "call pause");
+  python_client(run.port(), "call place '{\"object\": \"rover\", \"x\": -1, \"y\": 0.5, \"yaw\": 1}'");
+  python_client(run.port(), "set rover/base_link:command.twist '{\"vx\": 0.5, \"wz\": 0.3}'");
+  python_client(run.port(), "call resume");
+  const std::string first = run.finish();
+  const auto again =
+      run_command(run_remote + " --set algorithms.remote.stream.tcp=0 --duration 3 --replay " + recording);
+  EXPECT_EQ(again.exit_code, 0) << again.output;
+  EXPECT_EQ(again.output.find("serves on"), std::string::npos) << "nothing is opened";
+  EXPECT_EQ(state_hash_in(again.output), state_hash_in(first)) << first << again.output;
+  EXPECT_NE(state_hash_in(first), "none");
+  const auto without = run_command(run_remote + " --set algorithms.remote.stream.tcp=0 --duration 3");
+  EXPECT_NE(state_hash_in(without.output), state_hash_in(first)) << "the client made a difference";
+}
+#endif
+
+}  // namespace
+}  // namespace muro
