@@ -18,6 +18,7 @@ const std::vector<Target>& targets() {
                                        {"picture", read_as_picture},
                                        {"description", read_as_description},
                                        {"controller", read_as_controller},
+                                       {"jsonrpc", read_as_jsonrpc},
 #ifdef MURO_FUZZ_FMU
                                        {"fmu", read_as_fmu},
 #endif

@@ -28,6 +28,7 @@ void read_as_mesh(Bytes);
 void read_as_picture(Bytes);
 void read_as_description(Bytes);
 void read_as_controller(Bytes);
+void read_as_jsonrpc(Bytes);
 void read_as_library(Bytes);
 void read_as_fmu(Bytes);  ///< where muro is built with controller.fmu
 

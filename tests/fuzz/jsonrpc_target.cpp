@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// Lines of clients of controller.jsonrpc, to which a simulation in memory answers.
+#include <sstream>
+
+#include "plugins/controller/jsonrpc/service_testing.hpp"
+#include "tests/fuzz/target.hpp"
+
+namespace muro::fuzz {
+
+/// What is answered must be JSON, a message a line; a time that does not come is made to come.
+void read_as_jsonrpc(Bytes bytes) {
+  jsonrpc::testing::Dialogue dialogue;
+  const auto check = [&](const std::string& said) {
+    std::istringstream replies(said);
+    for (std::string line; std::getline(replies, line);) {
+      const jsonrpc::Json reply = jsonrpc::Json::parse(line, nullptr, false);
+      require(!reply.is_discarded(), "a reply is no JSON");
+      for (const jsonrpc::Json& one : reply.is_array() ? reply : jsonrpc::Json{reply})
+        if (one.contains("error")) outcome(one["error"]["message"].get<std::string>());
+    }
+  };
+  std::istringstream lines(text_of(bytes));
+  int number = 0;
+  for (std::string line; number < 100 && std::getline(lines, line); ++number) {
+    check(dialogue.say(line + "\n"));
+    dialogue.service.send_updates();
+    if (number % 3 == 2)
+      dialogue.attend();
+    else
+      dialogue.next_step();
+    check(dialogue.heard());
+  }
+  dialogue.service.disconnected(0);
+  dialogue.service.time_was_set(0);
+  dialogue.settle();
+  require(dialogue.service.clients() == 0, "a client that has left and was answered is not forgotten");
+}
+
+}  // namespace muro::fuzz
