@@ -2,6 +2,7 @@
 #include "component.hpp"
 
 #include "muro/algorithm.hpp"
+#include "number.hpp"
 #include "plugins/common/text/quote.hpp"
 
 namespace muro::fmu {
@@ -29,30 +30,7 @@ void Component::check_version(const char* function, std::string_view expected) {
 }
 
 std::size_t bytes_of(Type type, int version) {
-  switch (type) {
-    case Type::float64:
-    case Type::int64:
-    case Type::uint64:
-      return 8;
-    case Type::float32:
-    case Type::int32:
-    case Type::uint32:
-      return 4;
-    case Type::int16:
-    case Type::uint16:
-      return 2;
-    case Type::int8:
-    case Type::uint8:
-      return 1;
-    case Type::boolean:
-      return version == 2 ? 4 : 1;
-    case Type::enumeration:
-      return version == 2 ? 4 : 8;
-    case Type::string:
-    case Type::binary:
-      break;
-  }
-  return 0;  // they have calls of their own
+  return with_fmi_type(type, version, [](auto zero) { return sizeof zero; });
 }
 
 std::unique_ptr<Component> make_component(const Component::Setup& setup) {

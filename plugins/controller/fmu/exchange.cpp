@@ -3,95 +3,16 @@
 
 #include <charconv>
 #include <cmath>
-#include <cstdio>
-#include <limits>
 
 #include "muro/algorithm.hpp"
+#include "number.hpp"
 #include "plugins/common/model_file/numbers.hpp"
+#include "plugins/common/scalar/with_scalar.hpp"
 #include "plugins/common/text/quote.hpp"
 
 namespace muro::fmu {
 
 namespace {
-
-/// Calls `visit` with a null pointer to the type of C in which numbers of a type of FMI go.
-template <class Visit>
-auto with_fmi_type(Type type, int version, Visit visit) {
-  switch (type) {
-    case Type::float32:
-      return visit(static_cast<float*>(nullptr));
-    case Type::int64:
-      return visit(static_cast<std::int64_t*>(nullptr));
-    case Type::uint64:
-      return visit(static_cast<std::uint64_t*>(nullptr));
-    case Type::int32:
-      return visit(static_cast<std::int32_t*>(nullptr));
-    case Type::uint32:
-      return visit(static_cast<std::uint32_t*>(nullptr));
-    case Type::int16:
-      return visit(static_cast<std::int16_t*>(nullptr));
-    case Type::uint16:
-      return visit(static_cast<std::uint16_t*>(nullptr));
-    case Type::int8:
-      return visit(static_cast<std::int8_t*>(nullptr));
-    case Type::uint8:
-      return visit(static_cast<std::uint8_t*>(nullptr));
-    case Type::boolean:
-      return version == 2 ? visit(static_cast<std::int32_t*>(nullptr)) : visit(static_cast<std::uint8_t*>(nullptr));
-    case Type::enumeration:
-      return version == 2 ? visit(static_cast<std::int32_t*>(nullptr)) : visit(static_cast<std::int64_t*>(nullptr));
-    case Type::float64:
-    case Type::string:
-    case Type::binary:
-      break;
-  }
-  return visit(static_cast<double*>(nullptr));
-}
-
-template <class Visit>
-auto with_property_type(Scalar scalar, Visit visit) {
-  switch (scalar) {
-    case Scalar::f32:
-      return visit(static_cast<float*>(nullptr));
-    case Scalar::i64:
-      return visit(static_cast<std::int64_t*>(nullptr));
-    case Scalar::i32:
-      return visit(static_cast<std::int32_t*>(nullptr));
-    case Scalar::u64:
-      return visit(static_cast<std::uint64_t*>(nullptr));
-    case Scalar::u32:
-      return visit(static_cast<std::uint32_t*>(nullptr));
-    case Scalar::u8:
-      return visit(static_cast<std::uint8_t*>(nullptr));
-    case Scalar::f64:
-    case Scalar::opaque:
-    case Scalar::transient:
-      break;  // the last two are refused when they are connected
-  }
-  return visit(static_cast<double*>(nullptr));
-}
-
-/// `value` as T, whole numbers rounded; false when it does not fit. A long double holds all numbers of 64 bits.
-template <class T>
-bool fits(long double value, T& result) {
-  if constexpr (std::is_floating_point_v<T>) {
-    result = T(value);
-    return std::isfinite(result) || !std::isfinite(value);
-  } else {
-    using Limits = std::numeric_limits<T>;
-    const long double whole = std::nearbyint(value);
-    if (!(whole >= static_cast<long double>(Limits::min()) && whole <= static_cast<long double>(Limits::max())))
-      return false;
-    result = T(whole);
-    return true;
-  }
-}
-
-std::string text_of(long double value) {
-  char text[48];
-  std::snprintf(text, sizeof text, "%.17Lg", value);
-  return text;
-}
 
 std::uint32_t scalar_in_element(const Run& run, std::uint64_t i) {
   return std::uint32_t((run.first + i) % run.type->scalars());
@@ -109,14 +30,15 @@ const Conversion* conversion_of(const Run& run, std::uint64_t i) {
 /// From the properties of `run` to numbers of type T.
 template <class T>
 void read_run(const Variable& variable, const Run& run, T* to, std::uint64_t begin) {
-  with_property_type(run.type->scalar, [&](auto* type) {
-    const auto* from = reinterpret_cast<decltype(type)>(run.data);
+  with_scalar(run.type->scalar, [&](auto zero) {
+    const auto* from = reinterpret_cast<const decltype(zero)*>(run.data);
     for (std::uint64_t i = 0; i < run.count; ++i) {
-      auto value = static_cast<long double>(from[i]);
-      if (const Conversion* c = conversion_of(run, i)) value = c->to_fmu(double(from[i]));
-      if (variable.type == Type::boolean) value = value != 0 ? 1 : 0;
-      if (!fits(value, to[i]))
-        fail(variable, begin + i, "does not take " + text_of(value) + ", which " + run.name + " is now");
+      const Conversion* const c = conversion_of(run, i);
+      const bool fits = variable.type == Type::boolean ? convert(from[i] != 0 ? 1 : 0, to[i])
+                        : c                            ? convert(c->to_fmu(double(from[i])), to[i])
+                                                       : convert(from[i], to[i]);
+      if (!fits)
+        fail(variable, begin + i, "does not take " + text_of_number(from[i]) + ", which " + run.name + " is now");
     }
   });
 }
@@ -124,14 +46,14 @@ void read_run(const Variable& variable, const Run& run, T* to, std::uint64_t beg
 /// From numbers of type T to the properties of `run`.
 template <class T>
 void write_run(const Variable& variable, const Run& run, const T* from, std::uint64_t begin) {
-  with_property_type(run.type->scalar, [&](auto* type) {
-    auto* to = reinterpret_cast<decltype(type)>(run.data);
+  with_scalar(run.type->scalar, [&](auto zero) {
+    auto* to = reinterpret_cast<decltype(zero)*>(run.data);
     for (std::uint64_t i = 0; i < run.count; ++i) {
-      auto value = static_cast<long double>(from[i]);
-      if (const Conversion* c = conversion_of(run, i)) value = c->to_property(double(from[i]));
-      if (!std::isfinite(value)) fail(variable, begin + i, "is " + text_of(value) + "; outputs must be finite numbers");
-      if (!fits(value, to[i]))
-        fail(variable, begin + i, "is " + text_of(value) + ", which does not fit into " + run.name);
+      if (!std::isfinite(double(from[i])))
+        fail(variable, begin + i, "is " + text_of_number(from[i]) + "; outputs must be finite numbers");
+      const Conversion* const c = conversion_of(run, i);
+      if (!(c ? convert(c->to_property(double(from[i])), to[i]) : convert(from[i], to[i])))
+        fail(variable, begin + i, "is " + text_of_number(from[i]) + ", which does not fit into " + run.name);
     }
   });
 }
@@ -202,8 +124,8 @@ void Exchange::resolve() {
 
 void Exchange::set(Component& component) {
   for (auto& [type, group] : groups_) {
-    with_fmi_type(type, version_, [&, &g = group](auto* zero) {
-      auto* const numbers = reinterpret_cast<decltype(zero)>(g.buffer.data());
+    with_fmi_type(type, version_, [&, &g = group](auto zero) {
+      auto* const numbers = reinterpret_cast<decltype(zero)*>(g.buffer.data());
       for (const Entry& e : g.entries) {
         std::uint64_t begin = 0;
         for (const Run& r : e.runs) {
@@ -227,8 +149,8 @@ void Exchange::set(Component& component) {
 void Exchange::get(Component& component) {
   for (auto& [type, group] : groups_) {
     component.get(type, group.references, group.buffer.data(), group.count);
-    with_fmi_type(type, version_, [&, &g = group](auto* zero) {
-      const auto* const numbers = reinterpret_cast<decltype(zero)>(g.buffer.data());
+    with_fmi_type(type, version_, [&, &g = group](auto zero) {
+      const auto* const numbers = reinterpret_cast<const decltype(zero)*>(g.buffer.data());
       for (const Entry& e : g.entries) {
         std::uint64_t begin = 0;
         for (const Run& r : e.runs) {
@@ -271,12 +193,11 @@ void set_start_value(Component& component, const Variable& v, const std::string&
                 (v.size > 1 ? " separated by blanks" : "");
     if (!problem.empty()) throw Error(about + problem + (v.type == Type::boolean ? ", or true or false" : ""));
   }
-  with_fmi_type(v.type, version, [&](auto* zero) {
-    using T = std::remove_pointer_t<decltype(zero)>;
+  with_fmi_type(v.type, version, [&](auto zero) {
+    using T = decltype(zero);
     std::vector<T> values(numbers.size());
     for (std::size_t i = 0; i < numbers.size(); ++i)
-      if (!fits(static_cast<long double>(numbers[i]), values[i]) ||
-          (!std::is_floating_point_v<T> && numbers[i] != std::nearbyint(numbers[i])))
+      if (!convert(numbers[i], values[i]) || (!std::is_floating_point_v<T> && numbers[i] != std::nearbyint(numbers[i])))
         throw Error(about + "does not fit into its type, " + std::string(name_of(v.type, version)));
     component.set(v.type, std::span(&v.reference, 1), values.data(), values.size());
   });

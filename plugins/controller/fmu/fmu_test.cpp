@@ -20,6 +20,10 @@ const Texts clocks{"decay=test.decay", "euler=test.euler", "step_end=test.step_e
 struct Way {
   int version;
   bool is_isolated;
+
+  friend void PrintTo(const Way& way, std::ostream* out) {
+    *out << "FMI " << way.version << (way.is_isolated ? " in a process of its own" : "");
+  }
 };
 
 class Fmu : public ::testing::TestWithParam<Way> {
@@ -222,8 +226,10 @@ INSTANTIATE_TEST_SUITE_P(OfFmi, Fmu, ::testing::Values(Way{2, false}, Way{3, fal
                                   (test.param.is_isolated ? "InAProcessOfItsOwn" : "");
                          });
 
+/// A property of `value` to the FMU's variable of a type, and from there to another property, which is `expected` then;
+/// not a number: it does not fit.
 template <class T>
-void passes(const std::string& type, T value) {
+void converts(const std::string& type, T value, T expected) {
   static constexpr Key<T> in{"test.in", "1", ""}, out{"test.out", "1", ""};
   const test::ScratchFolder scratch;
   write_fmu(scratch.path("x.fmu"), 3, able_3);
@@ -233,8 +239,17 @@ void passes(const std::string& type, T value) {
   bench.control(scratch.path("x.fmu"), 3,
                 Settings{{"inputs", Texts{type + "_in=test.in"}}, {"outputs", Texts{type + "_out=test.out"}}});
   bench.build();
-  bench.run_for(0.2);
-  EXPECT_EQ(result, value) << type;
+  if (std::isnan(double(expected))) {
+    EXPECT_SAYS(failure(bench, 0.2), "variable `" + type + "_in` does not take ");
+  } else {
+    bench.run_for(0.2);
+    EXPECT_EQ(result, expected) << type;
+  }
+}
+
+template <class T>
+void passes(const std::string& type, T value) {
+  converts(type, value, value);
 }
 
 TEST(FmuOfFmi3, PassesEveryTypeOfNumber) {
@@ -248,6 +263,20 @@ TEST(FmuOfFmi3, PassesEveryTypeOfNumber) {
   passes<std::int32_t>("u16", 65535);
   passes<std::int32_t>("i8", -128);
   passes<std::uint8_t>("u8", 255);
+}
+
+TEST(FmuOfFmi3, RoundsNumbersAndRefusesThoseThatDoNotFit) {
+  const double nothing = std::nan("");
+  converts<double>("u8", 254.6, 255);
+  converts<double>("u8", -0.4, 0);
+  converts<double>("u8", 255.6, nothing);
+  converts<double>("i8", -129, nothing);
+  converts<double>("i64", 9223372036854775808.0, nothing);
+  converts<double>("u64", 18446744073709549568.0, 18446744073709549568.0);
+  converts<double>("i32", std::numeric_limits<double>::infinity(), nothing);
+  converts<double>("f32", 0.5, 0.5);
+  converts<double>("f32", 1e39, nothing);
+  converts<float>("u16", 65535.0f, 65535.0f);
 }
 
 TEST(FmuOfFmi3, TakesArraysFromSeveralProperties) {

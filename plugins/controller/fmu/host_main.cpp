@@ -193,7 +193,7 @@ class Server {
         return out.list(c.get_bytes(in.value<std::uint32_t>()));
       case Call::do_step: {
         const auto time = in.value<double>();
-        return out.value(c.do_step(time, in.value<double>()));
+        return write(c.do_step(time, in.value<double>()), out);
       }
       case Call::keep_state:
         return c.keep_state();

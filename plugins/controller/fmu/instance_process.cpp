@@ -15,7 +15,6 @@
 #include <cstring>
 #include <filesystem>
 
-#include "model_description.hpp"
 #include "muro/algorithm.hpp"
 #include "remote_protocol.hpp"
 

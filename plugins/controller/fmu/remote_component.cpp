@@ -86,7 +86,8 @@ class RemoteComponent final : public Component {
     add(Call::do_step);
     request_.value(time);
     request_.value(size);
-    return finish("DoStep").value<StepOutcome>();
+    Reader answer = finish("DoStep");
+    return read_outcome(answer);
   }
   std::size_t state_size() override { return run(Call::state_size, "SerializedFMUStateSize").value<std::uint64_t>(); }
   void write_state(std::span<std::uint8_t> bytes) override {

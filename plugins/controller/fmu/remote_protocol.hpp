@@ -7,7 +7,7 @@
 #include <cstring>
 #include <string>
 
-#include "model_description.hpp"
+#include "component.hpp"
 #include "plugins/common/parser_process/message.hpp"
 
 namespace muro::fmu {
@@ -76,5 +76,18 @@ struct RemoteSetup {
     return s;
   }
 };
+
+/// Member by member: padding between them is nobody's.
+inline void write(const StepOutcome& o, Writer& to) {
+  for (const bool b : {o.is_discarded, o.wants_end, o.needs_event, o.returned_early, o.knows_last_time}) to.value(b);
+  to.value(o.last_time);
+}
+inline StepOutcome read_outcome(Reader& from) {
+  StepOutcome o;
+  for (bool* b : {&o.is_discarded, &o.wants_end, &o.needs_event, &o.returned_early, &o.knows_last_time})
+    *b = from.value<bool>();
+  o.last_time = from.value<double>();
+  return o;
+}
 
 }  // namespace muro::fmu
