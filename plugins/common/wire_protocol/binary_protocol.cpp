@@ -93,7 +93,7 @@ class BinaryProtocol final : public Protocol {
 
   bool read(std::string_view bytes, std::span<const std::string> groups, Request& r) const override {
     const std::optional<Frame> frame = read_frame(bytes);
-    if (!frame) return false;
+    if (!frame || frame->payload.size() > longest_request) return false;
     r.tag = {frame->sequence, frame->format == 1};
     if (frame->format > 1) throw Fault{FaultCode::wrong_fields, "the format of numbers must be 0 or 1"};
     r.verb = verb_of(frame->type);

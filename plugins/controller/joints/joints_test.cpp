@@ -79,5 +79,34 @@ TEST(ControllerJoints, ABaseTellsItsVelocityInItsOwnAxes) {
   EXPECT_NEAR(numbers_of(ask(s, client, "get flight"))[1], 2, 1e-12);
 }
 
+TEST(ControllerJoints, FindsFramesOfBytesAfterGarbage) {
+  Arms s("position", 1, stream_at("tcp=0", {{"protocol", "binary"}}));
+  s.build();
+  Client client(s.port("arm_0/joints"));
+  const std::string time("\xa5\x5a\x07\x2a\x00\x00\x00\xce\xd2\x68\x82\xea", 12);
+  client.say("hello\xa5\xa5\x5a" + time + std::string(3000, '\xa5') + time.substr(0, 11) + "x" + time);
+  ASSERT_TRUE(wire::run_until(s, [&] { return client.heard().size() >= 40; }));
+  s.run_for(0.1);
+  const std::string replies = client.heard();
+  ASSERT_EQ(replies.size(), 40u) << "two `time`";
+  EXPECT_EQ(replies.substr(0, 4), "\xa5\x5a\x87\x2a");
+  EXPECT_EQ(replies.substr(20, 4), "\xa5\x5a\x87\x2a");
+}
+
+TEST(ControllerJoints, ReportsOfTwoRobotsComeUnasked) {
+  Arms s("position", 2, stream_at("tcp=0", {{"report", 50.0}}));
+  s.build();
+  Client first(s.port("arm_0/joints")), second(s.port("arm_1/joints"));
+  second.say("get\n");
+  for (Client* client : {&first, &second}) {
+    std::vector<double> times;
+    while (times.size() < 20) {
+      const std::string line = next_line(s, *client);
+      if (line.starts_with("report")) times.push_back(std::stod(line.substr(7)));
+    }
+    for (std::size_t i = 1; i < times.size(); ++i) EXPECT_NEAR(times[i] - times[i - 1], 0.02, 1e-9);
+  }
+}
+
 }  // namespace
 }  // namespace muro::joints
