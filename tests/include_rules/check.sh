@@ -38,7 +38,7 @@ resolve() {
     [[ $target != *..* ]] || target=$(realpath -m --relative-to=. "$target")
   elif [[ $name =~ ^(muro|describe)/ && -f sdk/$name ]]; then
     target=sdk/$name
-  elif [[ $name == muro_*.h && -f sdk/c/$name ]]; then
+  elif [[ $name == muro_*.h* && -f sdk/c/$name ]]; then
     target=sdk/c/$name
   elif [[ -f $name ]]; then
     target=$name
