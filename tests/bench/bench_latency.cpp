@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: MIT
+// How long a value takes from a property to software outside and a command back: over TCP, a Unix socket and shared
+// memory, each beside two threads that hand on a byte, or a turn, by the same means without a simulator.
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <filesystem>
+#include <thread>
+
+#include "plugins/common/shared_call/turn.hpp"
+#include "tests/bench/report.hpp"
+#include "tests/support/bodies.hpp"
+
+namespace {
+
+using namespace muro;
+using namespace muro::bench;
+using Clock = std::chrono::steady_clock;
+
+constexpr int turns = 5000, warm_up = 500;
+
+double us_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::micro>(Clock::now() - start).count();
+}
+
+double quantile(std::vector<double> values, double fraction) {
+  std::sort(values.begin(), values.end());
+  return values[std::size_t(fraction * double(values.size() - 1))];
+}
+
+/// A connected socket of the given family; `port` of TCP, `path` of Unix.
+int connected(int family, std::uint16_t port, const std::string& path) {
+  const int s = socket(family, SOCK_STREAM, 0);
+  sockaddr_in in{};
+  in.sin_family = AF_INET;
+  in.sin_port = htons(port);
+  in.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  sockaddr_un un{};
+  un.sun_family = AF_UNIX;
+  path.copy(un.sun_path, sizeof un.sun_path - 1);
+  const auto* address = family == AF_INET ? reinterpret_cast<sockaddr*>(&in) : reinterpret_cast<sockaddr*>(&un);
+  const socklen_t size = family == AF_INET ? sizeof in : sizeof un;
+  if (connect(s, address, size) != 0) throw SetupError("no connection to the benchmark's own server");
+  const int one = 1;
+  if (family == AF_INET) setsockopt(s, IPPROTO_TCP, TCP_NODELAY, &one, sizeof one);
+  return s;
+}
+
+/// Sends a line and reads the answer, `turns` times: us each.
+std::vector<double> round_trips(int s, const std::string& line) {
+  std::vector<double> all;
+  std::array<char, 4096> buffer{};
+  for (int i = 0; i < warm_up + turns; ++i) {
+    const auto start = Clock::now();
+    if (write(s, line.data(), line.size()) < 0) break;
+    char last = 0;
+    while (last != '\n') {
+      const ssize_t n = read(s, buffer.data(), buffer.size());
+      if (n <= 0) return all;
+      last = buffer[std::size_t(n - 1)];
+    }
+    if (i >= warm_up) all.push_back(us_since(start));
+  }
+  return all;
+}
+
+/// A ball that motion.point moves at 1000 Hz.
+struct Ball : test::Scene {
+  const RobotView& robot =
+      add("ball", test::single_body(Shape::sphere(0.1), {.mass = 1, .ixx = 1, .iyy = 1, .izz = 1}));
+  Ball() { use("motion.point", 1000, all_robots()); }
+};
+
+/// In lockstep: the client asks for the state and gives a velocity in turn; half of the turns is a step of 1 ms.
+std::vector<double> through_simulation(int family) {
+  const std::string path =
+      (std::filesystem::temp_directory_path() / ("muro-latency-" + std::to_string(getpid()))).string();
+  Ball s;
+  std::uint16_t port = 0;
+  s.set_log([&](LogLevel, std::string_view text) {
+    if (const std::size_t at = text.find("127.0.0.1:"); at != text.npos)
+      port = std::uint16_t(std::stoi(std::string(text.substr(at + 10))));
+  });
+  s.use("controller.joints", 1000, s.all_robots(),
+        {{"stream", std::vector<std::string>{family == AF_INET ? "tcp=0" : "unix=" + path, "lockstep=bench"}}});
+  s.build();
+  std::vector<double> all;
+  std::atomic<bool> is_over = false;
+  std::thread client([&] {
+    const int c = connected(family, port, path);
+    all = round_trips(c, "get\n");
+    is_over = true;
+    close(c);
+  });
+  while (!is_over) s.run_until(s.now() + 1'000'000, [&] { return is_over.load(); });
+  client.join();
+  return all;
+}
+
+/// A thread that sends back what it gets.
+std::vector<double> between_threads(int family) {
+  const std::string path =
+      (std::filesystem::temp_directory_path() / ("muro-latency-" + std::to_string(getpid()))).string();
+  const int server = socket(family, SOCK_STREAM, 0);
+  sockaddr_in in{};
+  in.sin_family = AF_INET;
+  in.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  sockaddr_un un{};
+  un.sun_family = AF_UNIX;
+  path.copy(un.sun_path, sizeof un.sun_path - 1);
+  socklen_t size = family == AF_INET ? sizeof in : sizeof un;
+  auto* address = family == AF_INET ? reinterpret_cast<sockaddr*>(&in) : reinterpret_cast<sockaddr*>(&un);
+  if (bind(server, address, size) != 0 || listen(server, 1) != 0) throw SetupError("no socket for the baseline");
+  getsockname(server, address, &size);
+  std::thread echo([&] {
+    const int c = accept(server, nullptr, nullptr);
+    const int one = 1;
+    if (family == AF_INET) setsockopt(c, IPPROTO_TCP, TCP_NODELAY, &one, sizeof one);
+    std::array<char, 4096> buffer{};
+    for (ssize_t n = 1; n > 0;)
+      if (n = read(c, buffer.data(), buffer.size()); n > 0) n = write(c, buffer.data(), std::size_t(n));
+    close(c);
+  });
+  const int c = connected(family, ntohs(in.sin_port), path);
+  std::vector<double> all = round_trips(c, "get\n");
+  close(c);
+  echo.join();
+  close(server);
+  unlink(path.c_str());
+  return all;
+}
+
+/// Two threads that hand on a turn in memory, and look for it before they sleep.
+std::vector<double> turns_between_threads() {
+  Turn turn;
+  std::atomic<bool> is_over = false;
+  constexpr std::chrono::microseconds spin(50);
+  std::thread other([&] {
+    Patience patience(spin);
+    while (!is_over) {
+      while (!turn.wait_for(Turn::Side::callee, patience, std::chrono::milliseconds(100)))
+        if (is_over) return;
+      turn.pass_to(Turn::Side::caller);
+    }
+  });
+  Patience patience(spin);
+  std::vector<double> all;
+  for (int i = 0; i < warm_up + turns; ++i) {
+    const auto start = Clock::now();
+    turn.pass_to(Turn::Side::callee);
+    while (!turn.wait_for(Turn::Side::caller, patience, std::chrono::seconds(1))) continue;
+    if (i >= warm_up) all.push_back(us_since(start));
+  }
+  is_over = true;
+  other.join();
+  return all;
+}
+
+/// Instants of 1 ms in which control code reads a pose and writes a velocity, in a process of its own or in this one.
+std::vector<double> library_calls(const std::string& isolate) {
+  Ball s;
+  s.set_log([](LogLevel, std::string_view) {});
+  s.use("controller.library", 1000, s.all_robots(),
+        {{"library", std::string(MURO_BENCH_CONTROLLER)}, {"isolate", isolate}});
+  s.build();
+  std::vector<double> all;
+  for (int i = 0; i < warm_up + turns; ++i) {
+    const auto start = Clock::now();
+    s.run_until(s.now() + 1'000'000);
+    if (i >= warm_up) all.push_back(us_since(start));
+  }
+  return all;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Report report("latency", "From a property to software outside and back", argc, argv);
+  report.table("Round trips, us",
+               {"means", "median", "99th percentile", "two threads: median", "two threads: 99th percentile"});
+  const auto compare = [&](const char* means, const std::vector<double>& with, const std::vector<double>& without) {
+    report.row({means, fixed(quantile(with, 0.5), 1), fixed(quantile(with, 0.99), 1), fixed(quantile(without, 0.5), 1),
+                fixed(quantile(without, 0.99), 1)});
+    return std::pair(quantile(with, 0.5), quantile(without, 0.5));
+  };
+  const auto tcp = compare("TCP, controller.joints", through_simulation(AF_INET), between_threads(AF_INET));
+  const auto unix_socket =
+      compare("Unix socket, controller.joints", through_simulation(AF_UNIX), between_threads(AF_UNIX));
+  const std::vector<double> apart = library_calls("process"), here = library_calls("none");
+  const auto shared = compare("shared memory, controller.library", apart, turns_between_threads());
+  report.row({"the same in one process", fixed(quantile(here, 0.5), 1), fixed(quantile(here, 0.99), 1), "", ""});
+  report.ratio("TCP, to two threads with a socket", tcp.first / tcp.second);
+  report.ratio("Unix socket, to two threads with one", unix_socket.first / unix_socket.second);
+  report.ratio("shared memory, median of a call in us", shared.first - quantile(here, 0.5), "at most 20");
+  report.note(
+      "A round trip over a socket is a line that asks for the state and its answer, in lockstep; one in shared "
+      "memory is a call of control code, less what the same instant costs within one process.");
+  report.finish();
+  return 0;
+}
