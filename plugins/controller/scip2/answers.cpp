@@ -100,12 +100,18 @@ bool Device::answer_scip2(const Call& call, const Request& request) {
   return true;
 }
 
-/// GD and its like. With the laser on there will be a scan sooner or later.
+/// GD and its like. With the laser on there will be a scan sooner or later. A client that asks for the same twice gets
+/// a new one: drivers take a time stamp that does not change for a fault.
 bool Device::answer_scan(const Call& call, const Request& request) {
-  const State& s = call.state;
+  State& s = call.state;
   if (health_of(s.fault, s.fault_scans) == Health::failed) return reply(call, "50"), true;
   if (!s.has_laser_on) return reply(call, "10"), true;
-  if (!s.has_scan) return false;
+  const bool is_known = Command(s.answered_command) == request.command && s.answered_client == call.client &&
+                        s.answered_scan_time == s.scan_time;
+  if (!s.has_scan || is_known) return false;
+  s.answered_command = std::uint8_t(request.command);
+  s.answered_client = call.client;
+  s.answered_scan_time = s.scan_time;
   text_.clear();
   ReplyWriter r(text_);
   r.plain(call.line);

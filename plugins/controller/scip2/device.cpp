@@ -164,6 +164,7 @@ void Device::laser_on(State& s, std::int64_t now) const {
 
 void Device::laser_off(State& s) const {
   s.has_laser_on = s.has_scan = 0;
+  s.answered_command = std::uint8_t(Command::none);
   s.measurement = {};
 }
 
@@ -177,7 +178,9 @@ void Device::forget(State& s, std::uint32_t client, DeviceHost& host) const {
 }
 
 void Device::shift(State& s, std::int64_t offset) const {
-  for (std::int64_t* time : {&s.power_on, &s.timer_zero, &s.scan_begin, &s.laser_since, &s.scan_time}) *time += offset;
+  for (std::int64_t* time :
+       {&s.power_on, &s.timer_zero, &s.scan_begin, &s.laser_since, &s.scan_time, &s.answered_scan_time})
+    *time += offset;
   s.measurement.since += offset;
 }
 

@@ -174,6 +174,22 @@ TEST(Scip2Scan, AUtm30LxSends1081StepsEvery25Milliseconds) {
   EXPECT_EQ(replies[2].timestamp() - replies[1].timestamp(), 25);
 }
 
+TEST(Scip2Scan, WhoAsksForTheLatestScanAgainGetsANewOne) {
+  Bench d(utm_30lx());
+  d.ask("BM\n", 60);
+  std::vector<long> timestamps;
+  for (int i = 0; i < 5; ++i) {
+    d.output.clear();
+    d.type("GD0000108001\n");
+    for (int k = 0; k < 100 && d.output.empty(); ++k) d.run(1);
+    timestamps.push_back(complete(d.output).at(0).timestamp());
+  }
+  for (std::size_t i = 1; i < timestamps.size(); ++i) EXPECT_EQ(timestamps[i] - timestamps[i - 1], 25);
+  const auto both = complete(d.ask("GS0000108001\nGE0000108001\n", 1));
+  ASSERT_EQ(both.size(), 2u);
+  EXPECT_EQ(both[0].timestamp(), both[1].timestamp());
+}
+
 TEST(Scip2Scan, RepliesGoToWhoAskedAndScansEndWithTheirClient) {
   Awake d;
   d.type("MD0044004401000\n", 2);

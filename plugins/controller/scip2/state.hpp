@@ -43,13 +43,17 @@ struct State {
   std::int64_t power_on, timer_zero;
   std::int64_t scan_begin, scan_period;  ///< of the turn of the mirror that is under way: when it passed step 0
   std::int64_t laser_since;
-  std::int64_t scan_time;    ///< of the scan in memory: when the mirror passed step 0
-  std::int64_t reply_index;  ///< of ReplyTime::at_interval: the last interval whose replies were made
+  std::int64_t scan_time;           ///< of the scan in memory: when the mirror passed step 0
+  std::int64_t answered_scan_time;  ///< of the scan that the last `G_` was answered with
+  std::int64_t reply_index;         ///< of ReplyTime::at_interval: the last interval whose replies were made
   std::uint32_t bit_rate;
   std::uint32_t fault_scans;  ///< turns since DB
   std::uint8_t is_on, speaks_scip2, has_laser_on, is_adjusting;
   std::uint8_t is_sensitive, percent_slower, fault, has_scan;
-  std::uint8_t is_restart_asked, is_asleep, unused[2];
+  std::uint8_t is_restart_asked, is_asleep;
+  std::uint8_t answered_command;  ///< a Command: which `G_` that was
+  std::uint8_t unused[5];
+  std::uint32_t answered_client;
   std::uint32_t pending_count;
   Measurement measurement;
   Pending pending[queue_size];
