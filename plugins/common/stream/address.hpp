@@ -22,7 +22,7 @@ namespace muro::stream {
 ///     stream: {serial: /dev/ttyS0, baud: 115200}  a serial device
 ///
 /// `{robot}` is the robot's name, `{index}` the number at its end (bots_7: 7; 0 where it has none). A port may be a
-/// sum, "4001+{index}".
+/// sum, "4001+{index}". Paths that are relative start in the working directory. The README of this folder has all keys.
 struct Address {
   enum class Kind : std::uint8_t { tcp_server, tcp_client, unix_server, pty, serial };
   Kind kind = Kind::tcp_server;
@@ -31,7 +31,7 @@ struct Address {
   std::string path;             ///< of a Unix socket, of the link to a pseudo-terminal, of a serial device; absolute
   std::uint32_t baud = 0;       ///< bit/s of a serial device; 0: as it is set
   bool is_timed = false;        ///< bytes take their time at `baud` (10 bits a byte), in simulated time
-  std::uint32_t clients = 8;    ///< at most, at once; one for pseudo-terminals and serial devices
+  std::uint32_t clients = 8;    ///< at most, at once; one but for servers, and where bytes take their time
   std::string lockstep;         ///< name of the client for which time waits; empty: it does not
   double timeout = 10;          ///< s of the wall clock that such a wait may take
   bool ends_on_timeout = true;  ///< false: time goes on, and the run is marked as not repeatable

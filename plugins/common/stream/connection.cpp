@@ -62,7 +62,7 @@ void Connection::read() {
                             else if (error == asio::error::eof && self->kind_ == Descriptor::socket)
                               self->take_end();
                             else
-                              self->fail();
+                              self->break_off();
                           });
 }
 
@@ -74,6 +74,7 @@ void Connection::take_in(std::size_t bytes) {
 
 void Connection::take_end() {
   has_ended_ = true;
+  if (!is_silent_ && begin_ < end_) exchange_.count_lost();
   end_input();
   if (is_output_ended_) fail();
 }
@@ -135,7 +136,7 @@ void Connection::write() {
                              self->exchange_.sent(*self->client_, bytes);
                              self->output_sent_ += bytes;
                              if (error)
-                               self->fail();
+                               self->break_off();
                              else
                                self->write();
                            });
@@ -159,6 +160,12 @@ void Connection::end_output() {
   }
   ::shutdown(stream_.native_handle(), SHUT_WR);
   read();
+}
+
+/// An error: a reset; of a terminal also its end.
+void Connection::break_off() {
+  if (!is_silent_ && (kind_ == Descriptor::socket || begin_ < end_)) exchange_.count_lost();
+  fail();
 }
 
 void Connection::fail() {

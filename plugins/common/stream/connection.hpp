@@ -37,6 +37,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   std::size_t next_message();
   void write();
   void end_input();
+  void break_off();
   void fail();
   void end_output();
   void send_now();

@@ -39,6 +39,7 @@ bool Exchange::has_room(Client& client) {
   if (client.generation != generation_) return true;
   const bool has = client.messages_waiting < limits_.input_messages && client.bytes_waiting < limits_.input_bytes;
   is_waited_for_ |= !has;
+  statistics_.held_back += has ? 0 : 1;
   return has;
 }
 
@@ -101,6 +102,11 @@ void Exchange::count_refused() {
 void Exchange::count_ended() {
   const std::lock_guard lock(mutex_);
   ++statistics_.disconnected;
+}
+
+void Exchange::count_lost() {
+  const std::lock_guard lock(mutex_);
+  ++statistics_.lost;
 }
 
 void Exchange::count_dropped() {

@@ -71,6 +71,7 @@ class Exchange {
   void received(std::size_t bytes);
   void count_refused();
   void count_ended();
+  void count_lost();
 
   // --- steps
   /// Whether something has arrived since the last collect: one load.

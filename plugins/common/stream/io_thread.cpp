@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "plugins/common/stream/io_thread.hpp"
 
+#include <pthread.h>
 #include <sys/eventfd.h>
 #include <unistd.h>
 
@@ -68,6 +69,7 @@ IoThread::IoThread() : wake_(context_, new_event()) {
   wait_for_signals();
   const BlockedSignals blocked;
   thread_ = std::thread([this] { run(context_); });
+  ::pthread_setname_np(thread_.native_handle(), "muro streams");
 }
 
 IoThread::~IoThread() {

@@ -2,7 +2,10 @@
 // Many streams, and what they cost a step.
 #include <sys/resource.h>
 
+#include <csignal>
 #include <deque>
+#include <filesystem>
+#include <optional>
 
 #include "plugins/common/stream/echo_testing.hpp"
 #include "tests/support/allocation_counter.hpp"
@@ -92,6 +95,29 @@ TEST(Load, NeedsNoMemoryOnceWarm) {
   EXPECT_LT(allocations, 500);  // of 2000 messages there and back
 }
 
+/// A line of /proc/self/task/*/status of the I/O thread, as a set of signals; none: there is no such thread.
+std::optional<std::uint64_t> blocked_in_io_thread() {
+  for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
+    if (test::text_of(task.path() / "comm") != "muro streams\n") continue;
+    const std::string status = test::text_of(task.path() / "status");
+    return std::stoull(status.substr(status.find("SigBlk:") + 7), nullptr, 16);
+  }
+  return std::nullopt;
+}
+
+TEST(Load, HasOneThreadThatLeavesSignalsToOthers) {
+  const auto has = [](std::uint64_t set, int signal) { return (set >> (signal - 1) & 1) != 0; };
+  {
+    Echo one({"tcp=0"});
+    Echo two({"tcp=0"});
+    const auto blocked = blocked_in_io_thread();
+    ASSERT_TRUE(blocked);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGALRM}) EXPECT_TRUE(has(*blocked, signal));
+    for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGABRT}) EXPECT_FALSE(has(*blocked, signal));
+  }
+  EXPECT_FALSE(blocked_in_io_thread());
+}
+
 TEST(Load, TellsThatThereAreTooManyFiles) {
   rlimit before{};
   ::getrlimit(RLIMIT_NOFILE, &before);
@@ -126,10 +152,11 @@ TEST(Load, IsInTheReport) {
   while (stream.statistics().messages < 2) usleep(100);
   stream.finish();
   const std::vector<std::pair<std::string, std::uint64_t>> wanted = {
-      {"streams/rover_3/laser/clients", 1},     {"streams/rover_3/laser/refused", 0},
-      {"streams/rover_3/laser/messages", 2},    {"streams/rover_3/laser/bytes_in", 4},
-      {"streams/rover_3/laser/bytes_out", 0},   {"streams/rover_3/laser/dropped", 0},
-      {"streams/rover_3/laser/disconnected", 0}};
+      {"streams/rover_3/laser/clients", 1},      {"streams/rover_3/laser/refused", 0},
+      {"streams/rover_3/laser/messages", 2},     {"streams/rover_3/laser/bytes_in", 4},
+      {"streams/rover_3/laser/bytes_out", 0},    {"streams/rover_3/laser/dropped", 0},
+      {"streams/rover_3/laser/disconnected", 0}, {"streams/rover_3/laser/lost", 0},
+      {"streams/rover_3/laser/held_back", 0}};
   EXPECT_EQ(report.numbers, wanted);
   EXPECT_TRUE(connector.fake_host.warnings().empty());
 }

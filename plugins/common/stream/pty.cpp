@@ -41,6 +41,7 @@ class Pty final : public Endpoint {
   }
   void close() override {
     watch_->forget(master_);
+    watch_.reset();
     link_.remove();
   }
 

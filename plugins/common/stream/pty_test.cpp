@@ -46,7 +46,7 @@ TEST_F(PseudoTerminal, HandsOnEveryByteAsItIs) {
 TEST_F(PseudoTerminal, TellsWhenClientsComeAndGo) {
   Echo echo({text});
   const std::size_t before = open_descriptors();
-  for (int i = 0; i < 30; ++i) EXPECT_TRUE((echo.step(), echo.heard.empty()));  // nobody has opened it
+  for (int i = 0; i < 30; ++i) EXPECT_TRUE((usleep(100), echo.step(), echo.heard.empty()));  // nobody has opened it
   for (std::uint32_t i = 0; i < 5; ++i) {
     Peer peer = Peer::file(path);
     EXPECT_TRUE(echo.run_until([&] { return echo.count(Event::Kind::connected) == i + 1; }));

@@ -12,12 +12,13 @@
 
 namespace muro::stream {
 
-/// Looks, 50 times a second, whether a client has opened one of the pseudo-terminals that have none: the system wakes
-/// nobody for that. One system call for all of them, and none while all have a client.
-class PtyWatch {
+/// Finds out when a client opens one of the pseudo-terminals that have none. A master is not told; so this watches the
+/// folder of the terminals, and looks at all masters when somebody has opened something there, and once a second.
+/// Where folders cannot be watched, it looks 50 times a second. Who has waited lets go of it in the I/O thread.
+class PtyWatch : public std::enable_shared_from_this<PtyWatch> {
  public:
   static std::shared_ptr<PtyWatch> shared(IoThread& io);
-  explicit PtyWatch(IoThread& io) : timer_(io.context()) {}
+  explicit PtyWatch(IoThread& io);
 
   /// Calls `opened` once, soon after the terminal behind this master has been opened, though it may be closed again
   /// with something said. [I/O thread]
@@ -26,10 +27,12 @@ class PtyWatch {
 
  private:
   void look_later();
+  void look_when_told();
   void look();
 
   asio::steady_timer timer_;
-  bool is_waiting_ = false;
+  asio::posix::stream_descriptor folder_;
+  bool has_timer_ = false, is_told_ = false;
   std::map<int, std::function<void()>> opened_;
   std::vector<pollfd> masters_;
 };

@@ -104,8 +104,9 @@ class Stream::Impl {
     if (!live) return;
     const Statistics s = live->statistics();
     const std::pair<std::string_view, std::uint64_t> numbers[] = {
-        {"clients", s.clients},     {"refused", s.refused}, {"messages", s.messages},        {"bytes_in", s.bytes_in},
-        {"bytes_out", s.bytes_out}, {"dropped", s.dropped}, {"disconnected", s.disconnected}};
+        {"clients", s.clients},           {"refused", s.refused},     {"messages", s.messages},
+        {"bytes_in", s.bytes_in},         {"bytes_out", s.bytes_out}, {"dropped", s.dropped},
+        {"disconnected", s.disconnected}, {"lost", s.lost},           {"held_back", s.held_back}};
     if (report)
       for (const auto& [key, value] : numbers) report->set({"streams", name, key, value});
     if (s.refused + s.dropped + s.disconnected == 0) return;

@@ -41,7 +41,9 @@ struct Statistics {
   std::uint64_t refused = 0;  ///< connections above the bound
   std::uint64_t messages = 0, bytes_in = 0, bytes_out = 0;
   std::uint64_t dropped = 0;       ///< replies that a client did not take in time: its buffer was full
-  std::uint64_t disconnected = 0;  ///< clients that were disconnected: garbage, floods, too slow
+  std::uint64_t disconnected = 0;  ///< clients that were disconnected: what they sent was no message
+  std::uint64_t lost = 0;          ///< clients that broke off, in a message or by a reset
+  std::uint64_t held_back = 0;     ///< times a client was not read from, because too much of it waited for a step
 };
 
 struct Limits {

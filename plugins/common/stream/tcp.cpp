@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "plugins/common/stream/tcp.hpp"
 
+#include <fcntl.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <sys/socket.h>
@@ -27,6 +28,7 @@ std::vector<tcp::endpoint> resolve(const EndpointSetup& setup, bool is_passive) 
 }
 
 void set_tcp_options(int socket) {
+  ::fcntl(socket, F_SETFD, FD_CLOEXEC);
   const auto set = [&](int level, int option, int value) { ::setsockopt(socket, level, option, &value, sizeof value); };
   set(IPPROTO_TCP, TCP_NODELAY, 1);
   set(SOL_SOCKET, SO_KEEPALIVE, 1);

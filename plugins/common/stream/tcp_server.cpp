@@ -26,7 +26,8 @@ class TcpServer final : public Endpoint {
       if (socket >= 0) acceptors_.emplace_back(setup_, socket, set_tcp_options);
     }
     if (acceptors_.empty()) fail(last_error);
-    setup_.log(LogLevel::info, "serves on " + setup_.address.text());
+    setup_.log(LogLevel::info, "serves on " + setup_.address.text() +
+                                   (setup_.address.is_loopback() ? "" : ", for whoever can reach this machine"));
   }
   void start() override {
     for (Acceptor& acceptor : acceptors_) acceptor.accept();
