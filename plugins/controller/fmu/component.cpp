@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "component.hpp"
 
+#include <mutex>
+
 #include "muro/algorithm.hpp"
 #include "number.hpp"
 #include "plugins/common/text/quote.hpp"
@@ -17,6 +19,13 @@ void Component::fail(const char* name, Status status) {
   throw Error("`" + std::string(name) + "` fails with " +
               (is_known ? prefix + names[int(status)] : "the unknown status " + std::to_string(int(status))) +
               (said.empty() ? ", and the FMU gives no reason" : ": " + said));
+}
+
+void Component::abandon(void* something) {
+  static std::mutex mutex;
+  static std::vector<void*>& all = *new std::vector<void*>;  // for the life of the process
+  const std::lock_guard lock(mutex);
+  all.push_back(something);
 }
 
 void Component::check_version(const char* function, std::string_view expected) {

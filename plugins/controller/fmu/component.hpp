@@ -89,6 +89,8 @@ class Component {
     if (status != Status::ok && status != Status::warning) fail(name, status);
   }
   [[noreturn]] void fail(const char* name, Status status);
+  /// Keeps what belongs to an FMU after a fatal error, when no function may be called that would free it.
+  static void abandon(void* something);
   /// Throws Error unless this function of the FMU returns a text that begins with `expected`.
   void check_version(const char* function, std::string_view expected);
 

@@ -101,7 +101,8 @@ class Component2 final : public Component {
 
   void reset() override {
     is_running_ = false;
-    if (!is_corrupt_ && instance_ && status_of("fmi2Reset", reset_, instance_) == Status::ok) return;
+    if (is_corrupt_) throw Error("it cannot be used again after a fatal error; start the program anew");
+    if (instance_ && status_of("fmi2Reset", reset_, instance_) == Status::ok) return;
     free();
     instantiate();
   }
@@ -185,7 +186,12 @@ class Component2 final : public Component {
 
  private:
   void free() {
-    if (!instance_ || is_corrupt_) return;
+    if (!instance_) return;
+    if (is_corrupt_) {
+      abandon(instance_), abandon(state_);
+      instance_ = nullptr;
+      return;
+    }
     if (state_) status_of("fmi2FreeFMUstate", free_state_, instance_, &state_);
     if (is_running_) status_of("fmi2Terminate", terminate_, instance_);
     is_running_ = false;

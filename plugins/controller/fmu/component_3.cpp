@@ -98,7 +98,8 @@ class Component3 final : public Component {
 
   void reset() override {
     is_running_ = false;
-    if (!is_corrupt_ && instance_ && status_of("fmi3Reset", reset_, instance_) == Status::ok) return;
+    if (is_corrupt_) throw Error("it cannot be used again after a fatal error; start the program anew");
+    if (instance_ && status_of("fmi3Reset", reset_, instance_) == Status::ok) return;
     free();
     instantiate();
   }
@@ -176,7 +177,12 @@ class Component3 final : public Component {
   }
 
   void free() {
-    if (!instance_ || is_corrupt_) return;
+    if (!instance_) return;
+    if (is_corrupt_) {
+      abandon(instance_), abandon(state_);
+      instance_ = nullptr;
+      return;
+    }
     if (state_) status_of("fmi3FreeFMUState", free_state_, instance_, &state_);
     if (is_running_) status_of("fmi3Terminate", terminate_, instance_);
     is_running_ = false;

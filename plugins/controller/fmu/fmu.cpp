@@ -3,11 +3,10 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
-#include <map>
 #include <string>
 
 #include "archive.hpp"
-#include "exchange.hpp"
+#include "binding.hpp"
 #include "muro/ext/loaded_libraries.hpp"
 #include "muro/plugin.hpp"
 #include "once_per_process.hpp"
@@ -84,8 +83,9 @@ class FmuController final : public Algorithm {
     const Parameters& p = c.parameters();
     const Mapping inputs = read_mapping("inputs", p.texts("inputs"), description_);
     const Mapping outputs = read_mapping("outputs", p.texts("outputs"), description_);
+    Binder binder(c, description_, inputs, outputs, start_values_);
     for (std::uint32_t i = 0; i < robots_.size(); ++i)
-      named(i, [&] { connect_robot(c, c.items()[i], robots_[i], inputs, outputs); });
+      named(i, [&] { binder.bind(c.items()[i], robots_[i].inputs, robots_[i].outputs); });
     if (!robots_.empty() && robots_.front().outputs.is_empty())
       c.host().log(LogLevel::warning, file_name() + ": none of its outputs is connected to anything; name some in " +
                                           "`outputs`, as in [\"variable=command.twist[vx]\"]");
@@ -218,115 +218,6 @@ class FmuController final : public Algorithm {
       set_start_value(*r.component, description_.variables[variable], text, description_.version);
   }
 
-  void connect_robot(Connector& c, const Item& item, Robot& r, const Mapping& inputs, const Mapping& outputs) {
-    const PropertySearch search(c, item);
-    std::vector<std::string_view> open;
-    for (std::size_t v = 0; v < description_.variables.size(); ++v) {
-      const Variable& variable = description_.variables[v];
-      const auto in = inputs.find(v), out = outputs.find(v);
-      const auto join = [&](const std::vector<Place>& places, bool is_input) {
-        check_sizes(search, variable, places);
-        std::vector<Run> runs;
-        for (const Place& place : places) runs.push_back(run_of(c, search, variable, place, is_input));
-        (is_input ? r.inputs : r.outputs).add(variable, std::move(runs), description_.version);
-      };
-      if (in != inputs.end()) {
-        join(search.places(in->second), true);
-      } else if (variable.causality == Causality::input && !start_values_.contains(v)) {
-        if (const auto place = search.place_of(variable.name, true))
-          join({*place}, true);
-        else
-          open.push_back(variable.name);
-      }
-      if (out != outputs.end()) {
-        join(search.places(out->second), false);
-      } else if (variable.causality == Causality::output) {
-        // an output such as `twist` is no attempt to write the twist: commands only
-        const auto place = search.place_of(variable.name, false);
-        if (place && place->property.key->role == Role::command) join({*place}, false);
-      }
-    }
-    if (!open.empty())
-      throw Error("its inputs " + quoted_list(open) +
-                  " are not connected: no property has that name. Connect them in "
-                  "`inputs`, as in [\"" +
-                  std::string(open.front()) +
-                  "=object:property\"], or give them a value in "
-                  "`parameters`, as in [\"" +
-                  std::string(open.front()) + "=0\"]");
-  }
-
-  /// As far as it can be told before the start, when the lengths of arrays are known: before units, whose message
-  /// would lead astray.
-  static void check_sizes(const PropertySearch& search, const Variable& variable, const std::vector<Place>& places) {
-    std::uint64_t count = 0;
-    for (const Place& p : places) {
-      if (p.property.multiplicity != Multiplicity::single) return;
-      count += p.count.value_or(p.property.key->type->scalars());
-    }
-    if (variable.type != Type::string)
-      check_size(variable, count, search.name_of(places.front().property) + (places.size() > 1 ? " and others" : ""));
-  }
-
-  Run run_of(Connector& c, const PropertySearch& search, const Variable& v, const Place& place, bool is_input) {
-    const FoundProperty& p = place.property;
-    const ValueType& type = *p.key->type;
-    const std::string about = "variable " + quote(v.name) + " cannot be connected to " + search.name_of(p) + ": ";
-    if (v.type == Type::string)
-      throw Error(about + "it is a text, and properties hold numbers; " +
-                  (is_input ? "give it in `parameters`" : "it can only be left out"));
-    if (size_of(type.scalar) == 0)
-      throw Error(about + "that is of type " + std::string(type.name) + ", which is not made of numbers");
-    if (v.type == Type::binary && type.scalar != Scalar::u8)
-      throw Error(about + "it is binary data, and that is made of " + std::string(type.name) +
-                  "; properties of bytes, "
-                  "such as camera.image, fit");
-    if (p.multiplicity == Multiplicity::list)
-      throw Error(about + "that is a list, whose length changes from step to step");
-    Run run;
-    run.multiplicity = p.multiplicity;
-    run.type = &type;
-    run.first = place.first;
-    run.wanted = place.count;
-    run.name = search.name_of(p);
-    set_conversions(c, v, p, place, run, about);
-    void*& handle = handles_[{p.object, std::string(p.key->name), is_input}];
-    if (!handle) handle = is_input ? const_cast<void*>(c.read_any(p)) : c.write_any(p);
-    run.handle = handle;
-    return run;
-  }
-
-  void set_conversions(const Connector& c, const Variable& v, const FoundProperty& p, const Place& place, Run& run,
-                       const std::string& about) const {
-    if (v.unit.empty() || v.type == Type::binary) return;
-    const auto defined = description_.units.find(v.unit);
-    const Unit unit = defined == description_.units.end() ? Unit{v.unit, {}} : defined->second;
-    const std::uint32_t scalars = p.key->type->scalars();
-    run.conversions.resize(scalars);
-    bool is_needed = false;
-    for (std::uint32_t s = 0; s < scalars; ++s) {
-      const std::uint64_t count = place.count.value_or(scalars);
-      const bool is_used = count >= scalars || (s + scalars - place.first % scalars) % scalars < count;
-      if (!is_used) continue;
-      const std::string_view wanted = unit_of_scalar(*p.key, s, is_prismatic(c, p.object));
-      const auto found = conversion(unit, v.is_relative, wanted);
-      if (!found)
-        throw Error(about + "its unit is " + quote(v.unit) + ", and that is in " + quote(wanted) +
-                    (unit.base ? "" : "; the model description does not say what its unit is (<BaseUnit>)"));
-      run.conversions[s] = *found;
-      is_needed = is_needed || !found->is_identity();
-    }
-    if (!is_needed) run.conversions.clear();
-  }
-
-  static bool is_prismatic(const Connector& c, ObjectId object) {
-    const std::int32_t robot = c.robot_of(object);
-    if (robot < 0) return false;
-    for (const Link& link : c.robots()[std::size_t(robot)]->links)
-      if (link.joint_object == object) return link.joint == JointKind::prismatic;
-    return false;
-  }
-
   /// A name that no other controller on the same object has.
   std::string block_name(const Connector& c, ObjectId object) const {
     const std::string stem = "fmu." + description_.identifier;
@@ -387,13 +278,6 @@ class FmuController final : public Algorithm {
     r.block->size = size;
   }
 
-  struct Binding {
-    ObjectId object;
-    std::string key;
-    bool is_input;
-    auto operator<=>(const Binding&) const = default;
-  };
-
   std::string path_;
   CallNotes* notes_ = nullptr;
   PrivateFolder folder_;
@@ -404,7 +288,6 @@ class FmuController final : public Algorithm {
   ProcessClaim claim_;
   StartValues start_values_;
   std::size_t state_capacity_ = 0;
-  std::map<Binding, void*> handles_;  ///< of the properties that are connected
   std::vector<Robot> robots_;
 };
 

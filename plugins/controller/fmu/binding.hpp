@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "exchange.hpp"
+#include "mapping.hpp"
+
+namespace muro::fmu {
+
+/// Connects the variables of an FMU with the properties of one robot after the other. [setup]
+class Binder {
+ public:
+  Binder(Connector& connector, const ModelDescription& description, const Mapping& inputs, const Mapping& outputs,
+         const StartValues& start_values)
+      : connector_(connector),
+        description_(description),
+        inputs_(inputs),
+        outputs_(outputs),
+        start_values_(start_values) {}
+
+  /// Adds what there is to exchange for an item. Throws Error where an input is connected to nothing, and where sizes,
+  /// units or types do not fit.
+  void bind(const Item& item, Exchange& inputs, Exchange& outputs);
+
+ private:
+  void join(const PropertySearch& search, const Variable& variable, std::span<const Place> places, bool is_input,
+            Exchange& exchange);
+  Run run_of(const PropertySearch& search, const Variable& variable, const Place& place, bool is_input);
+  std::vector<Conversion> conversions(const Variable& variable, const Place& place, const std::string& about) const;
+  bool is_prismatic(ObjectId object) const;
+
+  struct Binding {
+    ObjectId object;
+    std::string key;
+    bool is_input;
+    auto operator<=>(const Binding&) const = default;
+  };
+
+  Connector& connector_;
+  const ModelDescription& description_;
+  const Mapping& inputs_;
+  const Mapping& outputs_;
+  const StartValues& start_values_;
+  std::map<Binding, void*> handles_;  ///< of properties that are connected: each is asked for once
+};
+
+}  // namespace muro::fmu
