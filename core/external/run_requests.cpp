@@ -38,10 +38,11 @@ void RunRequests::set_speed(double factor) noexcept {
 void RunRequests::add_attendant(PauseAttendant& attendant) noexcept { attendants_.push_back(&attendant); }
 void RunRequests::remove_attendant(PauseAttendant& attendant) noexcept { std::erase(attendants_, &attendant); }
 
-/// Algorithms that run alone ask in an order that is that of the run; others may ask from several threads at once.
+/// Algorithms that run alone talk to the outside, and ask in the order of the run. Others belong to the simulation:
+/// they ask again in a replay, and perhaps from several threads at once.
 void RunRequests::add(Request request) noexcept {
   const Callee* callee = running_call().callee.load();
-  request.is_in_order = !callee || callee->runs_alone;
+  request.is_from_outside = !callee || callee->runs_alone;
   const std::lock_guard lock(mutex_);
   requests_.push_back(std::move(request));
   has_requests_ = true;
@@ -101,14 +102,16 @@ void RunRequests::carry_out_all(Simulation& simulation) {
     has_requests_ = false;
   }
   const auto others =
-      std::stable_partition(requests.begin(), requests.end(), [](const Request& r) { return r.is_in_order; });
+      std::stable_partition(requests.begin(), requests.end(), [](const Request& r) { return r.is_from_outside; });
   std::sort(others, requests.end(),
             [](const Request& a, const Request& b) { return std::tie(a.kind, a.bytes) < std::tie(b.kind, b.bytes); });
+  const auto is_same = [](const Request& a, const Request& b) { return a.kind == b.kind && a.bytes == b.bytes; };
+  requests.erase(std::unique(others, requests.end(), is_same), requests.end());
   for (const Request& r : requests) {
     const std::int64_t time = simulation.now();
     const std::uint64_t epoch = inputs_.epoch();
     const std::string problem = carry_out(simulation, r.kind, r.bytes);
-    if (problem.empty())
+    if (problem.empty() && r.is_from_outside)
       inputs_.record({inputs_.own_channel().name(), epoch, time, {std::uint32_t(r.kind), 0, r.bytes}});
     if (r.done) r.done->done(r.ticket, problem);
   }

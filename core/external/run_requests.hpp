@@ -58,7 +58,7 @@ class RunRequests final : public RunControl {
     std::string bytes;  ///< what is recorded: see encode and decode
     std::uint64_t ticket = 0;
     RequestDone* done = nullptr;
-    bool is_in_order = true;
+    bool is_from_outside = true;
   };
   void add(Request request) noexcept;
   void carry_out_all(Simulation& simulation);

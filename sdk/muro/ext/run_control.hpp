@@ -34,10 +34,11 @@ struct Placement {
   bool is_forced = false;       ///< also where it overlaps something
 };
 
-/// An extension of hosts, version 1: for algorithms that run alone, in their steps, and for pause attendants.
+/// An extension of hosts, version 1: for algorithms, in their steps, and for pause attendants.
 ///
-/// Requests are carried out in order when the present instant is complete; each is recorded and replayed as an
-/// external input. `done` may be null.
+/// Requests are carried out when the present instant is complete. Those of pause attendants and of algorithms that run
+/// alone come from outside: they keep their order, and are recorded and replayed as external inputs. Those of other
+/// algorithms follow, in an order of their own; equal ones of one instant are one. `done` may be null.
 class RunControl {
  public:
   virtual bool is_paused() const noexcept = 0;
