@@ -33,7 +33,7 @@ struct Failing : Team {
     more.push_back("does=" + does);
     settings["arguments"] = more;
     if (!settings.contains("isolate")) settings["isolate"] = std::string("process");
-    if (!settings.contains("timeout")) settings["timeout"] = 0.2;
+    if (!settings.contains("timeout")) settings["timeout"] = 20.0;
     if (!settings.contains("memory")) settings["memory"] = std::int64_t(16);
     set_log([this](LogLevel, std::string_view line) { log += std::string(line) + "\n"; });
     control(folder + "fails.so", std::move(settings));
@@ -62,7 +62,7 @@ TEST(IsolatedController, EndsTheRunWithRobotTimeCauseAndStackWhenItCrashes) {
 
 TEST(IsolatedController, IsEndedWhenItDoesNotReturn) {
   for (const char* how : {"loop", "sleep"}) {
-    Failing team(how);
+    Failing team(how, {{"timeout", 0.2}});
     EXPECT_TRUE(
         says(team.run(), "robot `a`: `fails` did not return from `step` within 0.2 s of wall-clock time (`timeout`)"));
     EXPECT_TRUE(says(team.log, "controllers/fails.so(")) << "where it was";
@@ -89,7 +89,7 @@ TEST(IsolatedController, IsReportedWithItsWayOfFailing) {
 TEST(IsolatedController, IsRefusedMoreMemoryThanItMayTake) {
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
   for (const char* how : {"allocate", "allocate_by_new"}) {
-    Failing team(how, {{"timeout", 10.0}});
+    Failing team(how);
     const std::string said = team.run();
     EXPECT_TRUE(says(said, "robot `a`: `fails` ran out of memory in `step`"));
     EXPECT_TRUE(says(said, "its process may take 16 MiB (`memory`) beside what it has at its start"));
@@ -114,7 +114,7 @@ TEST(IsolatedController, PrintsABoundedNumberOfLines) {
 
 TEST(IsolatedController, LeavesItsRobotAtRestAndTheOthersAloneWhereThatIsWanted) {
   for (const char* how : {"invalid_memory", "loop", "throw"}) {
-    Failing team(how, {{"on_failure", std::string("hold")}});
+    Failing team(how, {{"on_failure", std::string("hold")}, {"timeout", how == std::string("loop") ? 0.2 : 20.0}});
     EXPECT_EQ(team.run(), "it went well") << how;
     EXPECT_EQ(team.command(*team.a).linear.x(), 0) << how;
     EXPECT_EQ(team.command(*team.b).linear.x(), 1) << how;
@@ -199,7 +199,7 @@ TEST(IsolatedController, LeavesNoProcessBehind) {
     Failing team("kill", {{"on_failure", std::string("restart")}});
     EXPECT_EQ(children(), before + 2) << "one a robot";
     team.run();
-    Failing other("loop");
+    Failing other("loop", {{"timeout", 0.2}});
     other.run();
   }
   EXPECT_EQ(children(), before);
