@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "muro/toolkit/limits.hpp"
+#include "plugins/common/scalar/with_scalar.hpp"
 
 namespace muro::view {
 
@@ -36,46 +37,11 @@ void write(std::byte* at, double number) {
 }
 
 double read(Scalar kind, const std::byte* at) {
-  switch (kind) {
-    case Scalar::f64:
-      return read<double>(at);
-    case Scalar::f32:
-      return read<float>(at);
-    case Scalar::i64:
-      return read<std::int64_t>(at);
-    case Scalar::i32:
-      return read<std::int32_t>(at);
-    case Scalar::u64:
-      return read<std::uint64_t>(at);
-    case Scalar::u32:
-      return read<std::uint32_t>(at);
-    case Scalar::u8:
-      return read<std::uint8_t>(at);
-    default:
-      return 0;
-  }
+  return with_scalar(kind, [&]<class T>(T) { return read<T>(at); });
 }
 
 void write(Scalar kind, std::byte* at, double number) {
-  const double whole = std::round(number);
-  switch (kind) {
-    case Scalar::f64:
-      return write<double>(at, number);
-    case Scalar::f32:
-      return write<float>(at, number);
-    case Scalar::i64:
-      return write<std::int64_t>(at, whole);
-    case Scalar::i32:
-      return write<std::int32_t>(at, whole);
-    case Scalar::u64:
-      return write<std::uint64_t>(at, whole);
-    case Scalar::u32:
-      return write<std::uint32_t>(at, whole);
-    case Scalar::u8:
-      return write<std::uint8_t>(at, whole);
-    default:
-      return;
-  }
+  with_scalar(kind, [&]<class T>(T) { write<T>(at, std::is_integral_v<T> ? std::round(number) : number); });
 }
 
 /// Whether an element may have the value that it has now, with `entered` as one of its numbers.
