@@ -22,7 +22,9 @@ const std::vector<Target>& targets() {
 #ifdef MURO_FUZZ_FMU
                                        {"fmu", read_as_fmu},
 #endif
-                                       {"library", read_as_library}};
+                                       {"library", read_as_library},
+                                       {"lines", read_as_lines},
+                                       {"frames", read_as_frames}};
   return all;
 }
 
