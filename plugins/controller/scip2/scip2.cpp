@@ -83,13 +83,22 @@ class Station final : private DeviceHost {
 
   void finish() { stream_.finish(); }
 
-  /// Copies the state, as it is at `time`, to where a reset does not reach.
+  /// Copies the state, as it is at `time`, to where a reset does not reach. A device that nobody has spoken to since
+  /// then, and that does not measure, has but turned its mirror.
   void keep(std::int64_t time) {
+    kept_time_ = time;
+    if (!has_acted_ && has_kept()) return;
+    has_acted_ = false;
     kept_.resize(device_.state_size());
     std::memcpy(kept_.data(), static_cast<const void*>(state_), kept_.size());
-    kept_time_ = time;
   }
   bool has_kept() const { return !kept_.empty(); }
+  /// A snapshot has replaced the state: lines that are not in it need no answer any more.
+  void restored() {
+    while (unanswered_ > state_->pending_count) answered();
+    has_acted_ = true;
+    set_bit_rate(state_->bit_rate);
+  }
   /// Goes on from there at `time`.
   void resume(std::int64_t time) {
     std::memcpy(static_cast<void*>(state_), kept_.data(), kept_.size());
@@ -99,12 +108,14 @@ class Station final : private DeviceHost {
   void step(std::int64_t time) {
     stream_.begin(time);
     while (const stream::Event* event = stream_.next()) take(*event);
+    if (!state_->is_on) set_bit_rate(initial_bit_rate);
     device_.advance(*state_, time, *this);
     stream_.set_subscribed(Device::sends_scans(*state_));
   }
 
  private:
   void take(const stream::Event& event) {
+    has_acted_ = true;
     if (event.kind == stream::Event::Kind::disconnected) device_.forget(*state_, event.client, *this);
     if (event.kind != stream::Event::Kind::message) return;
     ++unanswered_;
@@ -113,8 +124,12 @@ class Station final : private DeviceHost {
     device_.receive(*state_, event.client, line, *this);
   }
 
-  void send(std::uint32_t client, std::string_view bytes) override { stream_.send(client, bytes); }
+  void send(std::uint32_t client, std::string_view bytes) override {
+    has_acted_ = true;
+    stream_.send(client, bytes);
+  }
   void read_scan(std::span<std::uint32_t> distances, std::span<std::uint32_t> intensities) override {
+    has_acted_ = true;
     laser_.read(*readings_, distances, intensities);
   }
   void answered() override {
@@ -122,7 +137,11 @@ class Station final : private DeviceHost {
     --unanswered_;
     stream_.answered();
   }
-  void set_bit_rate(std::uint32_t bits_per_second) override { stream_.set_baud(bits_per_second); }
+  /// The device's first bit rate is that of the stream, whatever the device calls it.
+  void set_bit_rate(std::uint32_t bits_per_second) override {
+    const std::uint32_t rate = bits_per_second == initial_bit_rate ? stream_.address().baud : bits_per_second;
+    if (rate > 0) stream_.set_baud(rate);
+  }
 
   Item item_;
   ObjectId laser_object_;
@@ -133,6 +152,7 @@ class Station final : private DeviceHost {
   std::unique_ptr<Readings> readings_;
   State* state_ = nullptr;
   std::uint32_t unanswered_ = 0;  ///< lines of the stream whose answers are due
+  bool has_acted_ = false;        ///< since the state was kept
   std::vector<char> kept_;
   std::int64_t kept_time_ = 0;
 };
@@ -157,6 +177,10 @@ class Scip2 final : public Algorithm {
     resumes_ = keeps_session_ && !stations_.empty() && stations_.front()->has_kept();
     if (resumes_)
       host_->log(LogLevel::info, "session: keep: devices go on as they were before the reset, which is no fresh start");
+  }
+
+  void restored() override {
+    for (const auto& s : stations_) s->restored();
   }
 
   void finish() override {
