@@ -220,5 +220,6 @@ void Simulation::tell_of_change() {
 }
 
 const InputLog& Simulation::inputs() const { return extensions_->inputs(); }
+const ReportedCounts& Simulation::reported_counts() const { return extensions_->reported_counts(); }
 
 }  // namespace muro

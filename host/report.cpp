@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/external/input_log.hpp"
+#include "core/external/reported_counts.hpp"
 #include "core/instance.hpp"
 #include "host/libraries.hpp"
 #include "host/shadows.hpp"
@@ -89,6 +90,18 @@ Json algorithms_report(const RunResult& run, const Simulation& simulation) {
   return all;
 }
 
+/// What algorithms have counted: a section each, of a map for everything that has a name. No section of the host's own.
+void add_counts(const ReportedCounts& counts, Json& out) {
+  for (const auto& [section, all] : counts.sections()) {
+    if (out.contains(section)) continue;
+    for (const auto& [name, numbers] : all) {
+      Json entry = {{"name", name}};
+      for (const auto& [key, value] : numbers) entry[key] = value;
+      out[section].push_back(std::move(entry));
+    }
+  }
+}
+
 }  // namespace
 
 Json report(const RunResult& run, const Simulation& simulation, const Odometer& odometer) {
@@ -119,6 +132,7 @@ Json report(const RunResult& run, const Simulation& simulation, const Odometer& 
                               {"max_angle_rad", s.max_angle}});
   out["algorithms"] = algorithms_report(run, simulation);
   out["libraries"] = libraries_report(simulation);
+  add_counts(simulation.reported_counts(), out);
   return out;
 }
 
