@@ -24,7 +24,8 @@ const std::vector<Target>& targets() {
 #endif
                                        {"library", read_as_library},
                                        {"lines", read_as_lines},
-                                       {"frames", read_as_frames}};
+                                       {"frames", read_as_frames},
+                                       {"scip2", read_as_scip2}};
   return all;
 }
 
