@@ -86,6 +86,39 @@ TEST(Address, ThatIsWrong) {
   EXPECT_SAYS(complaint({"tcp=1", "lockstep=a", "on_timeout=stop"}), "it must be end");
 }
 
+TEST(Address, OfAnythingIsAnAddressOrAnError) {
+  const std::string_view parts[] = {"tcp",     "connect",    "unix",
+                                    "pty",     "serial",     "baud",
+                                    "timed",   "clients",    "lockstep",
+                                    "timeout", "on_timeout", "=",
+                                    "=",       "=",          "true",
+                                    "4001",    "+",          ":",
+                                    "[",       "]",          "::1",
+                                    "{index}", "{robot}",    "{",
+                                    "}",       "/",          "x",
+                                    "-1",      "1e9",        "99999999999999999999",
+                                    "go_on",   "\n",         std::string_view("\0", 1),
+                                    "\xff"};
+  std::uint32_t random = 1;
+  const auto next = [&](std::size_t below) {
+    return std::size_t((random = random * 1664525 + 1013904223) >> 16) % below;
+  };
+  int fine = 0;
+  for (int i = 0; i < 20000; ++i) {
+    std::vector<std::string> texts(next(4));
+    for (std::string& text : texts)
+      for (std::size_t k = next(7); k > 0; --k) text += parts[next(std::size(parts))];
+    try {
+      const Address address = read({texts.begin(), texts.end()});
+      EXPECT_FALSE(address.text().empty());
+      ++fine;
+    } catch (const Error& e) {
+      EXPECT_LT(std::string_view(e.what()).size(), 1500);
+    }
+  }
+  EXPECT_GT(fine, 10);
+}
+
 }  // namespace
 
 }  // namespace muro::stream

@@ -96,9 +96,13 @@ bool Connection::take_messages() {
       end_input();
       return false;
     }
-    const std::string_view message(input_.get() + begin_, size);
-    if (framing_.size_of_first == line_size && !message.ends_with("\r\n"))
-      skipped_ = message.back() == '\r' ? '\n' : message.back() == '\n' ? '\r' : '\0';
+    std::string_view message(input_.get() + begin_, size);
+    if (framing_.size_of_first == line_size) {  // the same bytes however they arrive: CR LF in one piece, or in two
+      if (message.ends_with("\r\n"))
+        message.remove_suffix(1);
+      else
+        skipped_ = message.back() == '\r' ? '\n' : message.back() == '\n' ? '\r' : '\0';
+    }
     exchange_.message(*client_, message);
     begin_ += size;
     is_first_ = false;

@@ -24,7 +24,7 @@ struct Framing {
   bool keeps_too_long = false;
 };
 
-/// Lines up to LF, CR or both. Where CR and LF come one after the other, the second is left out.
+/// Lines that end by LF, CR or both, of which a message has the first.
 std::size_t line_size(std::string_view bytes, bool is_first_of_client);
 
 /// What has come in, in its order.
