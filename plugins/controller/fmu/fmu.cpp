@@ -91,6 +91,11 @@ class FmuController final : public Algorithm {
                                           "`outputs`, as in [\"variable=command.twist[vx]\"]");
   }
 
+  std::span<const Phase> phases() const override {
+    static constexpr Phase phases[] = {{Phase::IndexSpace::items, Phase::Scope::reads_all, true}};
+    return phases;
+  }
+
   void start() override {
     for (std::uint32_t i = 0; i < robots_.size(); ++i)
       named(i, [&] {

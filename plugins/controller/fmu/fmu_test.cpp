@@ -94,6 +94,20 @@ TEST_P(Fmu, ControlsEachRobotByAnInstanceOfItsOwn) {
   EXPECT_NEAR(bench.pose(*bench.b).position.x(), 1 + 3 * rest, 1e-9);
 }
 
+TEST_P(Fmu, GivesTheSameBitsOnAnyNumberOfThreads) {
+  const std::string path = fmu(able());
+  const auto hash = [&](unsigned threads) {
+    Bench bench(6);
+    bench.control(path, version(),
+                  Settings{{"inputs", Texts{"u=pose[0]"}}, {"outputs", Texts{"speed=body:command.twist[0]"}}});
+    bench.build();
+    bench.set_threads(threads);
+    bench.run_for(2);
+    return bench.state_hash();
+  };
+  EXPECT_EQ(hash(4), hash(1));
+}
+
 TEST_P(Fmu, ConvertsUnits) {
   static constexpr Key<double> angle{"test.angle", "rad", ""}, turn{"test.turn", "rad/s", ""};
   Bench bench;

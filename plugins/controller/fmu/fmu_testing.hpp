@@ -70,7 +70,7 @@ inline Texts closed_inputs(int version) {
   return all;
 }
 
-/// Two robots "a" and "b" that go as commanded, at 20 Hz, and properties of any kind for them.
+/// Robots "a", "b", ... that go as commanded, at 20 Hz, and properties of any kind for them.
 struct Bench : test::Scene {
   explicit Bench(int robots = 1) {
     const RobotTree tree = test::tree_of([](RobotBuilder& t) {
@@ -79,6 +79,7 @@ struct Bench : test::Scene {
     });
     a = &add("a", tree);
     if (robots > 1) b = &add("b", tree, {{4, 0, 0}, Quat::Identity()});
+    for (int i = 2; i < robots; ++i) add(std::string(1, char('a' + i)), tree, {{4.0 * i, 0, 0}, Quat::Identity()});
     use("motion.point", 20, all_robots());
     set_log([this](LogLevel level, std::string_view text) {
       if (level >= LogLevel::info) said += std::string(text) + "\n";
