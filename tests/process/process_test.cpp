@@ -2,6 +2,8 @@
 // What the program says and how it ends when foreign code crashes, hangs, leaves or throws, and when it is interrupted.
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <csignal>
 #include <filesystem>
 
@@ -125,6 +127,46 @@ TEST(Hang, AStepTimeoutLeavesARunThatReturnsAlone) {
   EXPECT_EQ(run.result.exit_code, 130) << run.result.output;
   for (const char* wrong : {"0", "nan", "-1", "soon"})
     EXPECT_EQ(run_command(program + " run " + run.scenario + " --step-timeout " + wrong).exit_code, 2) << wrong;
+}
+
+const std::string isolated = "--set robots.ball.control.isolate=process ";
+const std::string impatient = isolated + "--set robots.ball.control.timeout=0.2 ";
+
+TEST(Isolation, OfControlCodeMakesAFailureOfWhateverItDoes) {
+  for (const auto& [deed, cause] : {std::pair{"invalid_memory", "crashed in `step`: SIGSEGV, invalid memory access"},
+                                    {"endless_recursion", "crashed in `step`: SIGSEGV"},
+                                    {"thread_of_its_own", "crashed in `step`: SIGSEGV"},
+                                    {"leaves", "ended its process in `step`: exit code 0"},
+                                    {"hangs", "did not return from `step` within 0.2 s"}}) {
+    const std::string does = std::string("does=") + deed;
+    const SteeredRun run(does, deed == std::string("hangs") ? impatient : isolated);
+    EXPECT_SAYS(run.result.output, run.scenario +
+                                       ":8:14: ball.control (controller.library) failed at t = 0.200000 s: "
+                                       "robot `ball_1`: `misbehaves` " +
+                                       cause);
+    EXPECT_EQ(run.result.exit_code, 1) << run.result.output;
+  }
+}
+
+TEST(Isolation, OfControlCodeKeepsARunGoingWhereThatIsWanted) {
+  const SteeredRun run("does=invalid_memory", isolated + "--set robots.ball.control.on_failure=hold");
+  EXPECT_EQ(run.result.exit_code, 0) << run.result.output;
+  EXPECT_SAYS(run.result.output, "robot `ball_1`: `misbehaves` crashed in `step`");
+  EXPECT_NE(test::text_of(run.record), "");
+}
+
+TEST(Isolation, LeavesNoProcessOfControlCodeWhenTheProgramIsKilled) {
+  const SteeredRun run("does=hangs", impatient);
+  const std::string token = "MURO_TEST_TOKEN=" + std::to_string(getpid());
+  const auto result = run_command(
+      token + " " + program + " run " + run.scenario + " --duration 100 --speed 1 " +
+      "--set robots.ball.control.isolate=process --set robots.ball.control.timeout=1000 >/dev/null 2>&1 & victim=$!\n" +
+      "count() { grep -lzs '^" + token + "$' /proc/[0-9]*/environ | wc -l; }\n" +
+      "for i in $(seq 100); do [ $(count) -ge 4 ] && break; sleep 0.05; done; echo before $(count)\n" +
+      "sleep 0.3; kill -9 $victim; wait $victim\n" +
+      "for i in $(seq 100); do [ $(count) -eq 0 ] && break; sleep 0.05; done; echo after $(count)");
+  EXPECT_SAYS(result.output, "before 4\n") << "one for each ball";
+  EXPECT_SAYS(result.output, "after 0\n") << "also of the one that hangs";
 }
 
 TEST(Interrupt, EndsARunWithItsRecordsWhole) {

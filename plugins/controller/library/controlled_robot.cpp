@@ -247,7 +247,7 @@ Outcome ControlledRobot::outcome_of(Call& call, const Step& step) {
   if (settings_.notes) call.running = &settings_.notes->of_this_thread().function;
   Outcome outcome = instance_->call(call);
   note(nullptr);
-  if (failures_) failures_->record(step.time, call.function, outcome, about());
+  if (failures_ && !outcome.is_fine()) failures_->record(step.time, call.function, outcome, about());
   return outcome;
 }
 

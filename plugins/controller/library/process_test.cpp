@@ -172,6 +172,23 @@ TEST(IsolatedController, DoesTheSameToTheBitAsInTheSimulatorsProcess) {
   EXPECT_EQ(hash("process"), hash("none"));
 }
 
+TEST(IsolatedController, GivesTheSameBitsOnTwoThreads) {
+  const auto hash = [](unsigned threads) {
+    test::Scene s;
+    const RobotTree tree = two_arms();
+    for (int i = 0; i < 6; ++i) s.add("r" + std::to_string(i), tree, {{2.0 * i, 0, 0}, Quat::Identity()});
+    s.use("motion.point", 20, s.all_robots());
+    s.use("controller.library", 10, s.all_robots(),
+          {{"library", folder + "circle.so"}, {"isolate", std::string("process")}});
+    s.set_threads(threads);
+    s.verify_access();
+    s.build();
+    s.run_for(3);
+    return s.state_hash();
+  };
+  EXPECT_EQ(hash(1), hash(2));
+}
+
 TEST(IsolatedController, FailsAgainAtTheSameInstantsInAReplay) {
   const std::string recording = testing::TempDir() + "failures.csv";
   const auto run = [&](const char* use, const std::string& does) {
