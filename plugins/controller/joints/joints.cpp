@@ -58,7 +58,7 @@ constexpr Description description{
     .parameters = parameters,
     .reads = reads,
     .writes = writes,
-    .capabilities = batched | restorable | runs_alone,
+    .capabilities = deterministic | batched | restorable | runs_alone,
 };
 
 class JointsController final : public wire::WireController {

@@ -25,7 +25,7 @@ constexpr Description description{
     .summary = "Readings and any other numbers of the simulation for programs outside, by lines or frames of bytes",
     .parameters = parameters,
     .reads = reads,
-    .capabilities = batched | restorable | runs_alone,
+    .capabilities = deterministic | batched | restorable | runs_alone,
 };
 
 class SensorsController final : public wire::WireController {
