@@ -30,7 +30,7 @@ class RemoteRun {
     while (port_.empty() && std::fgets(line, sizeof line, pipe_)) {
       output_ += line;
       std::smatch found;
-      if (std::regex_search(output_, found, std::regex("serves on tcp 127.0.0.1:([0-9]+)"))) port_ = found[1];
+      if (std::regex_search(output_, found, std::regex("serves on tcp [0-9.]+:([0-9]+)"))) port_ = found[1];
     }
     EXPECT_NE(port_, "") << output_;
   }
@@ -176,6 +176,59 @@ TEST(PythonClient, IsNotNeededToRepeatARun) {
   const auto without = run_command(run_remote + " --set algorithms.remote.stream.tcp=0 --duration 3");
   EXPECT_NE(state_hash_in(without.output), state_hash_in(first)) << "the client made a difference";
 }
+
+#ifdef OPENSSL
+/// A server for other machines, with a certificate of its own, and the options of a client that may talk to it.
+struct Guarded {
+  Guarded() {
+    const auto made = run_command(OPENSSL
+                                  " req -x509 -newkey ec -pkeyopt ec_paramgen_curve:P-256 -nodes -days 2 -subj "
+                                  "/CN=muro -addext subjectAltName=IP:127.0.0.1 -keyout " +
+                                  folder.path("key.pem") + " -out " + folder.path("certificate.pem"));
+    EXPECT_EQ(made.exit_code, 0) << made.output;
+    folder.file("token", "0123456789abcdef0123456789abcdef\n");
+    folder.file("wrong", "1123456789abcdef0123456789abcdef\n");
+    run_command("chmod 600 " + folder.path("token"));
+  }
+  std::string options() const {
+    return "--speed 20 --set algorithms.remote.stream.tcp=0.0.0.0:0 --set 'algorithms.remote.tls={certificate: " +
+           folder.path("certificate.pem") + ", key: " + folder.path("key.pem") +
+           "}' --set 'algorithms.remote.token={file: " + folder.path("token") + "}'";
+  }
+  std::string client(const std::string& token) const {
+    return "--tls " + folder.path("certificate.pem") + " --token-file " + folder.path(token) + " ";
+  }
+  test::ScratchFolder folder;
+};
+
+TEST(PythonClient, TalksToAServerForOtherMachinesByTlsAndToken) {
+  const Guarded guarded;
+  RemoteRun run(guarded.options());
+  const auto say = [&](const std::string& options, const std::string& command) {
+    return run_command(PYTHON3 " " + root + "examples/clients/muro_client.py " + options + "127.0.0.1:" + run.port() +
+                       " " + command);
+  };
+  EXPECT_EQ(say(guarded.client("token"), "list 'rover/base_link:command*'").output, "rover/base_link:command.twist\n");
+  const std::string script = guarded.folder.file("script.py", R"(
+import sys
+from muro_client import Client
+with Client(sys.argv[1], tls=sys.argv[2], token=open(sys.argv[3]).read().strip()) as muro:
+    results = muro.batch(*[("get", {"properties": ["*:*"] * 200})] * 100)  # many records of TLS, both ways
+    assert all(len(r["values"]) == len(results[0]["values"]) > 50 for r in results)
+print("fine")
+)");
+  const auto said =
+      run_command("PYTHONPATH=" + root + "examples/clients " PYTHON3 " -B " + script + " 127.0.0.1:" + run.port() +
+                  " " + guarded.folder.path("certificate.pem") + " " + guarded.folder.path("token"));
+  EXPECT_EQ(said.output, "fine\n");
+  EXPECT_EQ(say(guarded.client("wrong"), "list").output, "this is not the token\n");
+  EXPECT_EQ(say("--tls " + guarded.folder.path("certificate.pem") + " ", "list").output,
+            "say `authenticate` with the token first\n");
+  EXPECT_EQ(say("", "list").exit_code, 1) << "it does not encrypt";
+  say(guarded.client("token"), "call stop");
+  EXPECT_EQ(run.finish().find("0123456789abcdef"), std::string::npos) << "the token is in no log";
+}
+#endif
 #endif
 
 }  // namespace

@@ -23,7 +23,9 @@ As a library:
 
 import argparse
 import json
+import os
 import socket
+import ssl
 import sys
 
 
@@ -39,18 +41,25 @@ class MuroError(Exception):
 class Client:
     """A connection. Every call waits for its reply; updates that come in between are kept."""
 
-    def __init__(self, address, timeout=60.0):
+    def __init__(self, address, timeout=60.0, tls=None, token=None):
+        """`tls`: the certificate of a server that encrypts, or of who vouches for it, a file in PEM format. `token`: what
+        a server wants to hear first."""
         if "/" in address:
             self._socket = socket.socket(socket.AF_UNIX)
             self._socket.settimeout(timeout)
             self._socket.connect(address)
         else:
             host, _, port = address.rpartition(":")
-            self._socket = socket.create_connection((host.strip("[]") or "127.0.0.1", int(port)), timeout)
+            host = host.strip("[]") or "127.0.0.1"
+            self._socket = socket.create_connection((host, int(port)), timeout)
             self._socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+            if tls:
+                self._socket = ssl.create_default_context(cafile=tls).wrap_socket(self._socket, server_hostname=host)
         self._lines = self._socket.makefile("r", encoding="utf-8", newline="\n")
         self._last_id = 0
         self._updates = []
+        if token:
+            self.call("authenticate", token=token)
 
     def close(self):
         self._lines.close()
@@ -132,6 +141,13 @@ def value_of(text):
         return text
 
 
+def token_of(options):
+    if not options.token_file:
+        return os.environ.get("MURO_TOKEN")
+    with open(options.token_file, encoding="utf-8") as file:
+        return file.read().strip()
+
+
 def run(muro, options):
     """What the program is asked for on its command line; yields what it prints."""
     if options.command == "list":
@@ -157,6 +173,8 @@ def run(muro, options):
 def command_line():
     parser = argparse.ArgumentParser(description="Talks to a simulation of muro with a controller.jsonrpc.")
     parser.add_argument("address", help="HOST:PORT, or the path of a Unix socket")
+    parser.add_argument("--tls", metavar="FILE", help="the certificate of a server that encrypts (PEM)")
+    parser.add_argument("--token-file", metavar="FILE", help="what the server wants to hear first; or in MURO_TOKEN")
     commands = parser.add_subparsers(dest="command", required=True)
     one = commands.add_parser("list", help="names of objects, or of properties")
     one.add_argument("pattern", nargs="?", default="*", help='"rover*": objects; "rover*:*": properties')
@@ -181,7 +199,7 @@ def command_line():
 def main():
     options = command_line().parse_args()
     try:
-        with Client(options.address) as muro:
+        with Client(options.address, tls=options.tls, token=token_of(options)) as muro:
             for result in run(muro, options):
                 print(result if isinstance(result, str) else json.dumps(result), flush=True)
     except MuroError as error:

@@ -36,6 +36,9 @@ struct Address {
   double timeout = 10;          ///< s of the wall clock that such a wait may take
   bool ends_on_timeout = true;  ///< false: time goes on, and the run is marked as not repeatable
 
+  /// Files of a TCP server that encrypts (TLS), in PEM format; empty: it does not. Who reads the address sets them.
+  std::string certificate, key;
+
   bool is_loopback() const;  ///< nobody on another machine can reach it
   std::string text() const;  ///< for messages: "tcp 127.0.0.1:4001"
 };

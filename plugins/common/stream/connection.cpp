@@ -16,13 +16,16 @@ constexpr auto time_to_take_the_rest = std::chrono::seconds(5);  // after that a
 }  // namespace
 
 Connection::Connection(IoThread& io, Exchange& exchange, const Framing& framing, std::shared_ptr<Client> client,
-                       int descriptor, Descriptor kind, std::function<void(Connection&)> closed)
+                       int descriptor, Descriptor kind, std::unique_ptr<TlsSession> tls,
+                       std::function<void(Connection&)> closed)
     : exchange_(exchange),
       framing_(framing),
       client_(std::move(client)),
       stream_(io.context(), descriptor),
       deadline_(io.context()),
       kind_(kind),
+      tls_(std::move(tls)),
+      encrypted_(tls_ ? new char[chunk] : nullptr),
       closed_(std::move(closed)),
       capacity_(framing.longest + chunk),
       input_(new char[capacity_]) {}
@@ -39,35 +42,69 @@ void Connection::attend() {
   }
   if (is_full_ && !is_silent_) {
     is_full_ = false;
-    if (take_messages()) read();
+    if (take_messages() && (!tls_ || decrypt())) read();
   }
-  write();
+  if (!is_closed_) write();
 }
 
 void Connection::read() {
   if (is_reading_ || is_closed_) return;
-  if (begin_ == end_ || is_silent_) begin_ = end_ = 0;
-  if (capacity_ - end_ < chunk) {
-    std::memmove(input_.get(), input_.get() + begin_, end_ - begin_);
-    end_ -= begin_;
-    begin_ = 0;
-  }
+  make_room();
   is_reading_ = true;
-  stream_.async_read_some(asio::buffer(input_.get() + end_, capacity_ - end_),
-                          [self = shared_from_this()](const boost::system::error_code& error, std::size_t bytes) {
-                            self->is_reading_ = false;
-                            if (self->is_closed_) return;
-                            if (!error)
-                              self->take_in(bytes);
-                            else if (error == asio::error::eof && self->kind_ == Descriptor::socket)
-                              self->take_end();
-                            else
-                              self->break_off();
-                          });
+  stream_.async_read_some(
+      tls_ ? asio::buffer(encrypted_.get(), chunk) : asio::buffer(input_.get() + end_, capacity_ - end_),
+      [self = shared_from_this()](const boost::system::error_code& error, std::size_t bytes) {
+        self->is_reading_ = false;
+        if (self->is_closed_) return;
+        if (!error)
+          self->take_in(bytes);
+        else if (error == asio::error::eof && self->kind_ == Descriptor::socket)
+          self->take_end();
+        else
+          self->break_off();
+      });
+}
+
+void Connection::make_room() {
+  if (begin_ == end_ || is_silent_) begin_ = end_ = 0;
+  if (capacity_ - end_ >= chunk) return;
+  std::memmove(input_.get(), input_.get() + begin_, end_ - begin_);
+  end_ -= begin_;
+  begin_ = 0;
+}
+
+void Connection::take_encrypted(std::size_t bytes) {
+  if (!is_output_ended_) tls_->take_in({encrypted_.get(), bytes});
+  const bool reads_on = is_output_ended_ || (!is_silent_ && decrypt());
+  if (is_closed_) return;
+  write();
+  if (reads_on) read();
+}
+
+/// Hands on what has come and can be read. False: not to be read on.
+bool Connection::decrypt() {
+  for (;;) {
+    make_room();
+    const std::size_t size = tls_->read(input_.get() + end_, capacity_ - end_);
+    end_ += size;
+    if (size > 0 && !take_messages()) return false;
+    if (size == 0) break;
+  }
+  if (tls_->has_failed()) {
+    exchange_.count_ended();
+    fail();
+  } else if (tls_->has_ended()) {
+    take_end();
+  }
+  return !tls_->has_failed() && !tls_->has_ended();
 }
 
 void Connection::take_in(std::size_t bytes) {
   exchange_.received(bytes);
+  if (tls_) {
+    take_encrypted(bytes);
+    return;
+  }
   end_ += bytes;
   if (is_output_ended_ || (!is_silent_ && take_messages())) read();
 }
@@ -125,9 +162,7 @@ std::size_t Connection::next_message() {
 void Connection::write() {
   if (is_writing_ || is_closed_) return;
   if (output_sent_ == output_.size()) {
-    output_.clear();
-    output_sent_ = 0;
-    if (!exchange_.take_output(*client_, output_)) {
+    if (!take_output()) {
       if (is_ending_) end_output();
       return;
     }
@@ -137,13 +172,33 @@ void Connection::write() {
                            [self = shared_from_this()](const boost::system::error_code& error, std::size_t bytes) {
                              self->is_writing_ = false;
                              if (self->is_closed_) return;
-                             self->exchange_.sent(*self->client_, bytes);
-                             self->output_sent_ += bytes;
+                             self->count_sent(bytes);
                              if (error)
                                self->break_off();
                              else
                                self->write();
                            });
+}
+
+/// What is to be sent next, where all is sent. False: nothing.
+bool Connection::take_output() {
+  output_.clear();
+  output_sent_ = 0;
+  if (!tls_) return exchange_.take_output(*client_, output_);
+  if (tls_->is_ready() && exchange_.take_output(*client_, plain_)) tls_->write(plain_);
+  output_ = tls_->take_output();
+  return !output_.empty();
+}
+
+/// Where there is TLS, what was encrypted counts as sent when all of it is.
+void Connection::count_sent(std::size_t bytes) {
+  output_sent_ += bytes;
+  if (!tls_) {
+    exchange_.sent(*client_, bytes);
+  } else if (output_sent_ == output_.size()) {
+    exchange_.sent(*client_, plain_.size());
+    plain_.clear();
+  }
 }
 
 /// It says nothing any more, or is not listened to. Answers to what it has said may follow.
@@ -157,6 +212,10 @@ void Connection::end_input() {
 /// TCP would take back what is on its way to the client.
 void Connection::end_output() {
   if (is_output_ended_) return;
+  if (tls_ && tls_->end()) {
+    write();
+    return;
+  }
   is_output_ended_ = true;
   if (has_ended_ || kind_ == Descriptor::terminal) {
     fail();
@@ -182,7 +241,7 @@ void Connection::fail() {
 void Connection::close() {
   if (is_closed_) return;
   send_now();
-  while (exchange_.take_output(*client_, output_)) send_now();
+  while (take_output()) send_now();
   if (kind_ == Descriptor::socket) {
     ::shutdown(stream_.native_handle(), SHUT_WR);
     while (::recv(stream_.native_handle(), input_.get(), capacity_, MSG_DONTWAIT) > 0) continue;
@@ -197,7 +256,8 @@ void Connection::send_now() {
   const ssize_t done = kind_ == Descriptor::socket
                            ? ::send(stream_.native_handle(), data, size, MSG_NOSIGNAL | MSG_DONTWAIT)
                            : ::write(stream_.native_handle(), data, size);
-  exchange_.sent(*client_, done > 0 ? std::size_t(done) : 0);
+  count_sent(done > 0 ? std::size_t(done) : 0);
+  plain_.clear();
   output_.clear();
   output_sent_ = 0;
 }

@@ -8,6 +8,7 @@
 
 #include "plugins/common/stream/exchange.hpp"
 #include "plugins/common/stream/io_thread.hpp"
+#include "plugins/common/stream/tls.hpp"
 
 namespace muro::stream {
 
@@ -15,9 +16,10 @@ namespace muro::stream {
 class Connection : public std::enable_shared_from_this<Connection> {
  public:
   enum class Descriptor : std::uint8_t { socket, terminal };
-  /// Takes the descriptor. `closed`: called once, when it has been closed, unless by close().
+  /// Takes the descriptor. `closed`: called once, when it has been closed, unless by close(). `tls`: null where nothing
+  /// is encrypted.
   Connection(IoThread& io, Exchange& exchange, const Framing& framing, std::shared_ptr<Client> client, int descriptor,
-             Descriptor kind, std::function<void(Connection&)> closed);
+             Descriptor kind, std::unique_ptr<TlsSession> tls, std::function<void(Connection&)> closed);
 
   void start() { read(); }
   /// After a signal of the steps: sends what waits, reads on where there was no room.
@@ -31,11 +33,16 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
  private:
   void read();
+  void make_room();
   void take_in(std::size_t bytes);
+  void take_encrypted(std::size_t bytes);
+  bool decrypt();
   void take_end();
   bool take_messages();
   std::size_t next_message();
   void write();
+  bool take_output();
+  void count_sent(std::size_t bytes);
   void end_input();
   void break_off();
   void fail();
@@ -49,6 +56,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
   asio::posix::stream_descriptor stream_;
   asio::steady_timer deadline_;
   const Descriptor kind_;
+  const std::unique_ptr<TlsSession> tls_;
+  const std::unique_ptr<char[]> encrypted_;  ///< as it comes, where there is TLS
   std::function<void(Connection&)> closed_;
 
   const std::size_t capacity_;
@@ -65,6 +74,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
   std::string output_;
   std::size_t output_sent_ = 0;
+  std::string plain_;  ///< what `output_` is the encryption of
   bool is_writing_ = false;
   bool is_output_ended_ = false;
 };

@@ -20,7 +20,8 @@ bool Connections::add(int descriptor, Connection::Descriptor kind) {
     std::erase_if(all_, [&](const auto& c) { return c.get() == &connection; });
     if (on_closed) on_closed(connection.was_ended());
   };
-  all_.push_back(std::make_shared<Connection>(io_, exchange_, framing_, client, descriptor, kind, closed));
+  all_.push_back(std::make_shared<Connection>(io_, exchange_, framing_, client, descriptor, kind,
+                                              tls_ ? tls_->accept() : nullptr, closed));
   all_.back()->start();
   return true;
 }

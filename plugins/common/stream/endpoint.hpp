@@ -11,8 +11,10 @@ namespace muro::stream {
 /// The clients of one stream that are there now. [I/O thread]
 class Connections final : public IoThread::Source {
  public:
-  Connections(IoThread& io, Exchange& exchange, const Framing& framing, std::uint32_t most)
-      : io_(io), exchange_(exchange), framing_(framing), most_(most) {}
+  /// `tls`: null where nothing is encrypted.
+  Connections(IoThread& io, Exchange& exchange, const Framing& framing, std::uint32_t most,
+              std::unique_ptr<TlsServer> tls)
+      : io_(io), exchange_(exchange), framing_(framing), most_(most), tls_(std::move(tls)) {}
 
   /// Serves the client behind a descriptor, or refuses it and closes that.
   bool add(int descriptor, Connection::Descriptor kind);
@@ -29,6 +31,7 @@ class Connections final : public IoThread::Source {
   Exchange& exchange_;
   const Framing framing_;
   const std::uint32_t most_;
+  const std::unique_ptr<TlsServer> tls_;
   std::vector<std::shared_ptr<Connection>> all_;
 };
 

@@ -12,7 +12,9 @@ LiveStream::LiveStream(const std::string& name, Address& address, const Framing&
       lockstep_(lockstep),
       io_(IoThread::shared()),
       exchange_(limits, address.clients, lockstep),
-      connections_(*io_, exchange_, framing, address.clients),
+      connections_(
+          *io_, exchange_, framing, address.clients,
+          address.certificate.empty() ? nullptr : std::make_unique<TlsServer>(address.certificate, address.key)),
       endpoint_(make_endpoint({*io_, connections_, address, name, host})),
       input_(std::max(address.baud, 1u)),
       output_(std::max(address.baud, 1u)) {

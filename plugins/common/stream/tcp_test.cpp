@@ -93,6 +93,10 @@ TEST(TcpServer, ServesIpv4AndIpv6) {
   ASSERT_EQ(::connect(fd, reinterpret_cast<const sockaddr*>(&to), sizeof to), 0) << std::strerror(errno);
   EXPECT_TRUE(six.say("6\n"));
   EXPECT_TRUE(explicitly.run_until([&] { return six.hear() == "6\n"; }));
+  Echo everywhere({"tcp=[::]:0"});
+  Peer four = Peer::tcp(everywhere.port());
+  EXPECT_TRUE(four.say("4\n"));
+  EXPECT_TRUE(everywhere.run_until([&] { return four.hear() == "4\n"; }));
 }
 
 TEST(TcpServer, RefusesClientsAboveItsBound) {

@@ -92,8 +92,10 @@ class OutputLine {
     answers_.erase(answers_.begin(), end);
     return count;
   }
+  /// For another client: nothing is on its way, and nothing is owed.
   void clear() {
     line_.clear();
+    answers_.clear();
     bytes_.clear();
     head_ = 0;
     passed_ = put_;

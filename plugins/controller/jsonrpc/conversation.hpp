@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <chrono>
 #include <deque>
 #include <optional>
 #include <string>
@@ -32,7 +33,12 @@ struct Conversation {
   static constexpr std::size_t most_bytes = 4 << 20;  ///< in those lines
   static constexpr std::size_t most_subscriptions = 64;
 
+  static constexpr int most_failures = 3;  ///< to say the token
+
   std::uint32_t client = 0;
+  bool is_trusted = true;  ///< there is no token, or it has said it
+  int failures = 0;        ///< to say it
+  std::chrono::steady_clock::time_point since = std::chrono::steady_clock::now();
   std::deque<std::string> lines;   ///< not looked at yet
   std::size_t bytes = 0;           ///< in those
   std::optional<Message> message;  ///< that is being carried out

@@ -10,6 +10,7 @@
 #include "request_framing.hpp"
 #include "service.hpp"
 #include "setup.hpp"
+#include "token.hpp"
 
 namespace {
 
@@ -19,6 +20,8 @@ using namespace muro::jsonrpc;
 constexpr Parameter parameters[] = {
     stream::stream_parameter().required(),
     texts("write", "what clients may change: \"object:property\" and \"call:NAME\", with * and ?; default: nothing"),
+    texts("token", "a secret that clients have to say first: {file: PATH} or {environment: NAME}"),
+    texts("tls", "encrypts, for clients on other machines: {certificate: FILE, key: FILE} in PEM format"),
     texts("refresh", "what is brought up to date for each step though it is computed on demand; default: \"*:pose\""),
 };
 constexpr PropertyUse reads[] = {{"*", "what clients ask for"}};
@@ -52,8 +55,11 @@ class JsonRpc final : public Algorithm, private Outlet, private PauseAttendant {
     run_ = RunControl::of(c.host());
     inputs_ = ExternalInputs::of(c.host());
     if (!inspection_ || !run_) throw Error("this host lets nobody look at its simulation, or control it");
-    const stream::Address address = stream::read_address(c, 0, c.parameters().texts("stream"));
-    require_local(address);
+    stream::Address address = stream::read_address(c, 0, c.parameters().texts("stream"));
+    read_tls(c, c.parameters().texts("tls"), address);
+    token_ = read_token_source(c.parameters().texts("token"));
+    if (!token_.file.empty()) token_.file = c.resolve_path(token_.file);
+    require_protection(address, token_.is_given());
     const std::string owner = item.robot ? std::string(item.robot->name) : "world";
     stream_.emplace(c, owner + "/jsonrpc", address, request_framing, limits);
     run_->add_attendant(*this);
@@ -70,6 +76,8 @@ class JsonRpc final : public Algorithm, private Outlet, private PauseAttendant {
   }
 
   void start() override {
+    const bool opens = !stream_->is_replayed() && (!inputs_ || inputs_->may_open());
+    if (token_.is_given() && opens) service_->set_token(read_token(token_));
     stream_->open();
     service_->time_was_set(run_->time());
   }
@@ -141,6 +149,7 @@ class JsonRpc final : public Algorithm, private Outlet, private PauseAttendant {
   RunControl* run_ = nullptr;
   ExternalInputs* inputs_ = nullptr;
   bool has_changed_ = false;
+  TokenSource token_;
   std::optional<stream::Stream> stream_;
   std::optional<Service> service_;
 };

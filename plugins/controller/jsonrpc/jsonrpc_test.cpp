@@ -262,13 +262,39 @@ TEST(JsonRpc, ServesOnAUnixSocketOfItsUserAlone) {
   EXPECT_TRUE(c.ask("time").contains("time"));
 }
 
-TEST(JsonRpc, IsNotOpenedOffThisMachine) {
+TEST(JsonRpc, IsNotOpenedOffThisMachineWithoutProtection) {
+  const auto complaint = [](std::map<std::string, ParameterInput> settings) {
+    Served s(std::move(settings));
+    return test::complaint_of([&] { s.build(); });
+  };
   for (const char* address : {"tcp=0.0.0.0:0", "connect=192.0.2.1:4010"}) {
-    Served s({{"stream", Texts{address}}});
-    const std::string said = test::complaint_of([&] { s.build(); });
+    const std::string said = complaint({{"stream", Texts{address}}});
     EXPECT_SAYS(said, "can be reached from other machines");
     EXPECT_SAYS(said, "ssh -L");
   }
+  const Texts everywhere{"tcp=0.0.0.0:0"}, token{"environment=MURO_TEST_TOKEN"}, tls{"certificate=/a", "key=/b"};
+  EXPECT_SAYS(complaint({{"stream", everywhere}, {"token", token}}), "can be reached from other machines");
+  EXPECT_SAYS(complaint({{"stream", everywhere}, {"tls", tls}}), "can be reached from other machines");
+  EXPECT_SAYS(complaint({{"stream", everywhere}, {"tls", tls}, {"token", token}}), "must hold a secret");
+  EXPECT_SAYS(complaint({{"tls", Texts{"certificate=/a"}}}), "needs both a `certificate` and its `key`");
+  ::setenv("MURO_TEST_TOKEN", "0123456789abcdef", 1);
+  EXPECT_SAYS(complaint({{"tls", tls}, {"token", token}}), "the certificate `/a` cannot be used");
+  ::unsetenv("MURO_TEST_TOKEN");
+}
+
+TEST(JsonRpc, AsksForATokenAndHangsUpOnWhoeverHasNone) {
+  ::setenv("MURO_TEST_TOKEN", "0123456789abcdef", 1);
+  Served s({{"token", Texts{"environment=MURO_TEST_TOKEN"}}});
+  s.run();
+  ::unsetenv("MURO_TEST_TOKEN");
+  Client c(s.port()), silent(s.port());
+  EXPECT_EQ(c.ask("time")["code"], -32004);
+  EXPECT_EQ(c.ask("authenticate", R"(["0123456789abcdef"])"), Json::parse(R"({"authenticated":true})"));
+  EXPECT_TRUE(c.ask("time").contains("time"));
+  EXPECT_EQ(silent.line(), "") << "after 5 s";
+  EXPECT_TRUE(silent.is_closed);
+  s.stop();
+  EXPECT_EQ(s.log.find("0123456789abcdef"), std::string::npos);
 }
 
 TEST(JsonRpc, RefusesGrantsOfWhatIsNotThere) {

@@ -7,14 +7,15 @@ namespace {
 
 using Names = std::string_view[];
 
-constexpr Names of_list = {"pattern"}, of_describe = {"property"}, of_get = {"properties", "element"},
-                of_subscribe = {"properties", "rate", "on_change", "least_period"}, of_unsubscribe = {"subscription"},
-                of_set = {"property", "value", "element", "unit", "values"},
+constexpr Names of_authenticate = {"token"}, of_list = {"pattern"}, of_describe = {"property"},
+                of_get = {"properties", "element"}, of_subscribe = {"properties", "rate", "on_change", "least_period"},
+                of_unsubscribe = {"subscription"}, of_set = {"property", "value", "element", "unit", "values"},
                 of_place = {"object", "position", "orientation_wxyz", "orientation_xyzw", "x",    "y",
                             "z",      "yaw",      "linear",           "angular",          "force"},
                 of_names = {"name"}, of_speed = {"factor"}, of_step = {"seconds", "steps"}, of_wait = {"seconds"};
 
 constexpr Method all[] = {
+    {"authenticate", of_authenticate, false, authenticate},
     {"info", {}, false, info},
     {"list", of_list, false, list},
     {"describe", of_describe, false, describe},

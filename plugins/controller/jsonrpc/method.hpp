@@ -25,6 +25,7 @@ struct Served {
   std::int64_t period = 0;                         ///< ns, of the controller
   bool is_complete = false;                        ///< the instant: not within a step
   std::set<std::string, std::less<>> snapshots{};  ///< names of those that clients have made
+  std::string token{};                             ///< which clients have to say first; empty: they have not
 };
 
 /// A request that is being carried out. Either it is answered at once, or it waits for something.
@@ -72,6 +73,7 @@ std::span<const Method> methods();
 Reply time_reply(std::int64_t time);
 
 // In reading_methods.cpp, subscription_methods.cpp, changing_methods.cpp, run_methods.cpp.
+void authenticate(Call&);
 void info(Call&);
 void list(Call&);
 void describe(Call&);

@@ -19,6 +19,7 @@ enum class Code : int {
   not_there = -32001,  ///< no object, property or snapshot of that name
   refused = -32002,    ///< by the simulation, which says why
   too_many = -32003,   ///< subscriptions, snapshots, requests that wait, numbers in a reply
+  not_authenticated = -32004,
 };
 
 /// Why a request fails, as its client is told.

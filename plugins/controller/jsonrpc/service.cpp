@@ -37,7 +37,21 @@ void Service::begin_pause() {
   in_step_ = false;
 }
 
-void Service::connected(std::uint32_t client) { conversations_[client].client = client; }
+void Service::connected(std::uint32_t client) {
+  Conversation& c = conversations_[client];
+  c.client = client;
+  c.is_trusted = served_.token.empty();
+}
+
+/// Those that have not said the token in time.
+void Service::hang_up_on_strangers() {
+  const auto now = std::chrono::steady_clock::now();
+  for (auto& [client, c] : conversations_) {
+    if (c.is_trusted || c.is_over || now - c.since < time_to_authenticate) continue;
+    c.is_over = true;
+    outlet_.disconnect(client);
+  }
+}
 
 void Service::disconnected(std::uint32_t client) {
   const auto found = conversations_.find(client);
@@ -96,6 +110,8 @@ void Service::begin_request(Conversation& c) {
   const Request& request = *c.message->present();
   ++c.requests;
   try {
+    if (!c.is_trusted && request.method != "authenticate")
+      throw RpcError{Code::not_authenticated, "say `authenticate` with the token first"};
     const Method& method = method_of(request.method);
     const Params params(request.params, method.parameters);
     if (method.is_granted && !served_.grants.may_call(method.name))
@@ -121,6 +137,9 @@ void Service::finish_message(Conversation& c) {
     // it waits for a reply that it will never get
     c.is_over = true;
     outlet_.disconnect(c.client);
+  } else if (c.failures >= Conversation::most_failures) {
+    c.is_over = true;
+    outlet_.disconnect(c.client);
   }
   outlet_.answered();
 }
@@ -141,6 +160,7 @@ bool Service::is_waiting() const {
 
 void Service::answer_due() {
   forget_who_left();
+  if (!served_.token.empty()) hang_up_on_strangers();
   const bool is_paused = !in_step_;
   const bool will_pause = served_.run.is_paused();
   for (auto& [client, c] : conversations_) {

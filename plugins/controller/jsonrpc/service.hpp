@@ -36,6 +36,8 @@ class Service final : public RequestDone {
   Service(Served served, Outlet& outlet) : served_(std::move(served)), outlet_(outlet) {}
 
   SceneNames& scene() { return served_.scene; }
+  /// Clients that connect from now on have to say it first.
+  void set_token(std::string token) { served_.token = std::move(token); }
 
   /// What follows happens at this time (ns), in a step of this period or when an instant is complete.
   void begin_step(std::int64_t time, std::int64_t period);
@@ -62,13 +64,15 @@ class Service final : public RequestDone {
   std::size_t clients() const { return conversations_.size(); }
 
  private:
-  static constexpr std::size_t most_left = 16;  ///< that have left
+  static constexpr std::size_t most_left = 16;                           ///< that have left
+  static constexpr auto time_to_authenticate = std::chrono::seconds(5);  ///< of the wall clock
   enum class Lines : std::uint8_t { may_begin, later };
   void carry_on(Conversation& c, Lines lines);
   void begin_request(Conversation& c);
   void end_wait(Conversation& c, Lines lines, const RpcError* error = nullptr);
   void finish_message(Conversation& c);
   void forget_who_left();
+  void hang_up_on_strangers();
 
   Served served_;
   Outlet& outlet_;

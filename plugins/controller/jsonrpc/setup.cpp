@@ -45,13 +45,28 @@ void check_call(std::string_view pattern, std::string_view method) {
 
 }  // namespace
 
-void require_local(const stream::Address& address) {
-  if (address.is_loopback()) return;
-  throw Error(
-      "`stream`: " + address.text() +
-      " can be reached from other machines, and what is said there can be read and changed by others; listen "
-      "on 127.0.0.1 or on a Unix socket, and let clients on other machines come through an SSH tunnel: ssh -L " +
-      std::to_string(address.port) + ":127.0.0.1:" + std::to_string(address.port) + " HOST");
+void read_tls(const Connector& c, std::span<const std::string_view> texts, stream::Address& address) {
+  for (const std::string_view text : texts) {
+    const std::size_t equals = std::min(text.find('='), text.size());
+    const std::string_view key = text.substr(0, equals), value = text.substr(std::min(equals + 1, text.size()));
+    if ((key != "certificate" && key != "key") || value.empty())
+      throw Error("`tls` is a map {certificate: FILE, key: FILE}, not " + quote(text));
+    (key == "key" ? address.key : address.certificate) = c.resolve_path(value);
+  }
+  if (address.key.empty() != address.certificate.empty())
+    throw Error("`tls` needs both a `certificate` and its `key`, files in PEM format");
+  if (!address.key.empty() && address.kind != stream::Address::Kind::tcp_server)
+    throw Error("`tls` is for TCP servers; " + address.text() + " is none");
+}
+
+void require_protection(const stream::Address& address, bool has_token) {
+  if (address.is_loopback() || (has_token && !address.certificate.empty())) return;
+  const std::string port = std::to_string(address.port);
+  throw Error("`stream`: " + address.text() +
+              " can be reached from other machines, where what is said can be read and changed by others; listen on "
+              "127.0.0.1 or on a Unix socket, and let clients on other machines come through an SSH tunnel (ssh -L " +
+              port + ":127.0.0.1:" + port +
+              " HOST), or give both `tls: {certificate: FILE, key: FILE}` and `token: {file: FILE}`");
 }
 
 Grants read_grants(const Connector& c, std::span<const std::string_view> patterns) {

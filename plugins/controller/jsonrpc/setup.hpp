@@ -8,8 +8,11 @@
 
 namespace muro::jsonrpc {
 
-/// Throws Error where others than this machine could reach it.
-void require_local(const stream::Address& address);
+/// The parameter `tls`, a map: files of the certificate and its key, put into the address. Throws Error.
+void read_tls(const Connector& connector, std::span<const std::string_view> texts, stream::Address& address);
+
+/// Throws Error where others than this machine could reach it, unless it is encrypted and they have to say a token.
+void require_protection(const stream::Address& address, bool has_token);
 
 /// The patterns of `write`. Throws Error where one matches nothing that there is.
 Grants read_grants(const Connector& connector, std::span<const std::string_view> patterns);
