@@ -2,6 +2,8 @@
 // controller.joints in real simulations, with clients on TCP.
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "joints_testing.hpp"
 
 namespace muro::joints {
@@ -91,6 +93,28 @@ TEST(ControllerJoints, FindsFramesOfBytesAfterGarbage) {
   ASSERT_EQ(replies.size(), 40u) << "two `time`";
   EXPECT_EQ(replies.substr(0, 4), "\xa5\x5a\x87\x2a");
   EXPECT_EQ(replies.substr(20, 4), "\xa5\x5a\x87\x2a");
+}
+
+TEST(ControllerJoints, AnswersAfterAnyRubbishInBothProtocols) {
+  const std::string time_frame("\xa5\x5a\x07\x2a\x00\x00\x00\xce\xd2\x68\x82\xea", 12);
+  for (const std::string protocol : {"text", "binary"}) {
+    Arms s("position", 1, stream_at("tcp=0", {{"protocol", protocol}}));
+    s.build();
+    Client client(s.port("arm_0/joints"));
+    std::mt19937 random(11);
+    for (int i = 0; i < 400; ++i) {
+      std::string rubbish(random() % 1024, ' ');
+      for (char& c : rubbish) c = random() % 8 == 0 ? "\n\xa5\x5a\x03"[random() % 4] : char(random());
+      client.say(rubbish);
+      s.run_for(0.01);
+      client.heard();
+    }
+    const bool is_text = protocol == "text";
+    client.say((is_text ? "\n" : std::string(2060, '\0')) + (is_text ? "time 1\n" : time_frame));
+    const std::string answer = is_text ? "error 2 `1` is a field too many: time\n" : "\xa5\x5a\x87\x2a";
+    EXPECT_TRUE(wire::run_until(s, [&] { return client.heard().find(answer) != std::string::npos; })) << protocol;
+    EXPECT_FALSE(client.is_closed());
+  }
 }
 
 TEST(ControllerJoints, ReportsOfTwoRobotsComeUnasked) {
