@@ -83,7 +83,12 @@ class Vehicle {
       : pose(start), control_(&control), state_(control.state_size / sizeof(std::max_align_t) + 1) {
     arguments.push_back(nullptr);
     const std::uint32_t sizes[] = {rays, 1, 1, 1};
-    const muro_controller_setup setup{"vehicle", period, seed, sizes, arguments.data()};
+    muro_controller_setup setup{};
+    setup.robot = "vehicle";
+    setup.period = period;
+    setup.seed = seed;
+    setup.input_sizes = sizes;
+    setup.arguments = arguments.data();
     char error[256] = "";
     if (control.create(state_.data(), &setup, error, sizeof error) != 0) throw std::runtime_error(error);
   }
@@ -108,7 +113,10 @@ class Vehicle {
     const double first = min_angle, step = increment, max = max_range;
     const double* inputs[] = {ranges, &first, &step, &max};
     double* outputs[] = {command_};
-    const muro_controller_step now{time, inputs, outputs};
+    muro_controller_step now{};
+    now.time = time;
+    now.inputs = inputs;
+    now.outputs = outputs;
     char error[256] = "";
     if (control_->step(state_.data(), &now, error, sizeof error) != 0) throw std::runtime_error(error);
   }
