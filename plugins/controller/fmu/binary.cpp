@@ -6,9 +6,20 @@
 
 #include "muro/algorithm.hpp"
 #include "muro/toolkit/whole_library.hpp"
+#include "plugins/common/own_symbols/own_symbols.hpp"
 #include "plugins/common/text/one_line.hpp"
 
 namespace muro::fmu {
+
+namespace {
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool is_sanitized = true;  // sanitizers do not allow RTLD_DEEPBIND
+#else
+constexpr bool is_sanitized = false;
+#endif
+
+}  // namespace
 
 std::vector<std::string> own_platforms(int version) {
 #if defined(__x86_64__)
@@ -26,15 +37,28 @@ std::vector<std::string> own_platforms(int version) {
 Binary::Binary(const std::filesystem::path& path) : path_(path.string()) {
   if (const std::string problem = missing_part_of_library(path_); !problem.empty())
     throw Error("its library " + path.filename().string() + " cannot be loaded: " + problem);
+  handle_ = load(RTLD_NOW | RTLD_LOCAL);
+  if (!handle_) fail_to_load();
+  if (is_sanitized || interposed_symbols(handle_).empty()) return;
+  // its own functions come first then; not always, for some libraries are meant to be replaced
+  dlclose(handle_);
+  handle_ = load(RTLD_NOW | RTLD_LOCAL | RTLD_DEEPBIND);
+  if (!handle_) fail_to_load();
+}
+
+void* Binary::load(int flags) const {
   fenv_t environment{};  // a library linked with -ffast-math turns off subnormal numbers in the thread that loads it
   fegetenv(&environment);
-  handle_ = dlopen(path_.c_str(), RTLD_NOW | RTLD_LOCAL);
+  void* const handle = dlopen(path_.c_str(), flags);
   fesetenv(&environment);
-  if (handle_) return;
+  return handle;
+}
+
+void Binary::fail_to_load() const {
   const char* message = dlerror();
   std::string reason = one_line(message ? message : "unknown reason");
-  if (const std::size_t at = reason.find(path_); at != reason.npos)
-    reason.replace(at, path_.size(), path.filename().string());
+  const std::string name = std::filesystem::path(path_).filename().string();
+  if (const std::size_t at = reason.find(path_); at != reason.npos) reason.replace(at, path_.size(), name);
   throw Error("its library cannot be loaded: " + reason);
 }
 

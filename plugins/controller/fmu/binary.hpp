@@ -11,7 +11,8 @@ namespace muro::fmu {
 /// "linux64" in FMI 2, "x86_64-linux" in FMI 3.
 std::vector<std::string> own_platforms(int version);
 
-/// The library of an FMU, loaded for the life of the process.
+/// The library of an FMU, loaded for the life of the process. Where it has functions with names that others have, too,
+/// such as `step` of the C library, it gets its own.
 class Binary {
  public:
   /// Throws Error with the reason of the loader.
@@ -27,6 +28,8 @@ class Binary {
   }
 
  private:
+  void* load(int flags) const;
+  [[noreturn]] void fail_to_load() const;
   void* needed(const char* name) const;
 
   std::string path_;

@@ -152,6 +152,12 @@ TEST_P(FmuFault, InAProcessOfItsOwnEndsTheRunAlone) {
 #endif
 }
 
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+TEST_P(FmuFault, FunctionsOfTheLibraryItselfComeFirst) {
+  EXPECT_EQ(run(able(), {}, "open_step" + std::to_string(version())), "no complaint");
+}
+#endif
+
 TEST_P(FmuFault, OfLibrariesIsNamed) {
   const test::ScratchFolder scratch;
   const std::string path = scratch.path("x.fmu"), folder = "binaries/" + platform_of[version()] + "/";

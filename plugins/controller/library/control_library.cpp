@@ -11,7 +11,7 @@
 #include "control_table.hpp"
 #include "muro/algorithm.hpp"
 #include "muro/toolkit/whole_library.hpp"
-#include "own_symbols.hpp"
+#include "plugins/common/own_symbols/own_symbols.hpp"
 #include "plugins/common/text/quote.hpp"
 #include "table_check.hpp"
 

@@ -69,6 +69,16 @@ TEST(IsolatedController, IsEndedWhenItDoesNotReturn) {
   }
 }
 
+TEST(IsolatedController, MayFailBeforeItsFirstStep) {
+  Failing late("loop", {{"timeout", 0.2}}, {"when=create"});
+  EXPECT_TRUE(says(late.run(), "`fails` did not return from `create` within 0.2 s"));
+  Failing crashed("invalid_memory", {{"on_failure", std::string("restart")}}, {"when=create"});
+  EXPECT_EQ(crashed.run(), "it went well");
+  EXPECT_TRUE(says(crashed.log,
+                   "`fails` crashed in `create`: SIGSEGV, invalid memory access at 0x10; it begins anew, for "
+                   "the 3. of 3 times"));
+}
+
 TEST(IsolatedController, IsReportedWithItsWayOfFailing) {
   for (const auto& [does, message] : {
            std::pair{"exit", "`fails` ended its process in `step`: exit code 3"},

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace muro::control {
+namespace muro {
 
 /// A function or variable of a library that the library itself does not get when it asks for it.
 struct Interposed {
@@ -17,4 +17,4 @@ struct Interposed {
 /// These are the symbols of `library`, a handle of dlopen, where that was another one.
 std::vector<Interposed> interposed_symbols(void* library);
 
-}  // namespace muro::control
+}  // namespace muro

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <span>
 
-namespace muro::control {
+namespace muro {
 
 namespace {
 
@@ -100,4 +100,4 @@ std::vector<Interposed> interposed_symbols(void* library) {
   return all;
 }
 
-}  // namespace muro::control
+}  // namespace muro
