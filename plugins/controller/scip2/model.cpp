@@ -27,7 +27,7 @@ Model urg_04lx() {
 
 Model utm_30lx() {
   Model m;
-  m.name = "UTM-30LX[Hokuyo Automatic Co.,Ltd.]";
+  m.name = "UTM-30LX(Hokuyo Automatic Co.,Ltd.)";
   m.product = "SOKUIKI Sensor TOP-URG UTM-30LX";
   m.firmware = "1.18.01(09/Jul./2010)";
   m.serial = "H1000484";

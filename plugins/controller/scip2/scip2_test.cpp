@@ -16,12 +16,6 @@ using Settings = std::map<std::string, ParameterInput>;
 using Texts = std::vector<std::string>;
 using stream::Peer;
 
-/// Ports that other tests at the same time do not take: those of the process.
-std::uint16_t next_port() {
-  static std::uint16_t port = std::uint16_t(20000 + getpid() % 12000);
-  return port++;
-}
-
 /// Robots that stand in a room of 6 m by 4 m, each with a laser of 682 rays.
 struct Room : test::Scene {
   explicit Room(int robots = 1) {
@@ -51,12 +45,20 @@ struct Room : test::Scene {
                             {"max_range", 5.6}});
     use("laser.raycast", 10, lasers, settings);
   }
-  std::uint16_t use_device(Settings settings = {}, double rate = 200) {
-    const std::uint16_t port = next_port();
-    if (!settings.contains("stream")) settings["stream"] = Texts{"tcp=" + std::to_string(port) + "+{index}"};
+  void use_device(Settings settings = {}, double rate = 200) {
+    if (!settings.contains("stream")) settings["stream"] = Texts{"tcp=0"};
     use("controller.scip2", rate, lasers, std::move(settings));
-    for (std::size_t i = 1; i < lasers.size(); ++i) next_port();
-    return port;
+  }
+  void build() {
+    set_log([this](LogLevel, std::string_view text) { log += std::string(text) + "\n"; });
+    Scene::build();
+  }
+  /// To the port that a stream has taken, as the log tells.
+  Peer connect(const std::string& stream = "rover_0/laser") const {
+    const std::string told = "stream " + stream + ": serves on tcp 127.0.0.1:";
+    const std::size_t at = log.find(told);
+    EXPECT_NE(at, std::string::npos) << log;
+    return Peer::tcp(std::uint16_t(std::stoi(log.substr(at + told.size()))));
   }
   /// A step of 5 ms, and time for the thread of input and output.
   void go(double seconds = 0.005) {
@@ -80,6 +82,7 @@ struct Room : test::Scene {
     return {found.begin(), found.end()};
   }
   std::vector<Item> lasers;
+  std::string log;
 };
 
 void expect_equal(const std::vector<long>& millimetres, const std::vector<double>& ranges, double max_range = 5.6) {
@@ -95,9 +98,9 @@ void expect_equal(const std::vector<long>& millimetres, const std::vector<double
 TEST(Scip2, ScansAreThoseOfTheLaserToTheMillimetre) {
   Room s;
   s.use_laser();
-  const std::uint16_t port = s.use_device();
+  s.use_device();
   s.build();
-  Peer client = Peer::tcp(port);
+  Peer client = s.connect();
   EXPECT_EQ(s.ask(client, "SCIP2.0\n")[0].echo, "SCIP2.0");
   EXPECT_EQ(s.ask(client, "BM\n")[0].status, "00");
   const Reply scan = s.ask(client, "GD0044072501\n")[0];
@@ -115,9 +118,9 @@ TEST(Scip2, WhatTheDeviceMeasuresIsSentWhereThereIsNoise) {
   Room s;
   s.use_laser();
   s.use("sensor.error", 10, s.lasers, {{"bias", 0.25}});
-  const std::uint16_t port = s.use_device();
+  s.use_device();
   s.build();
-  Peer client = Peer::tcp(port);
+  Peer client = s.connect();
   s.ask(client, "BM\n");
   const std::vector<long> values = s.ask(client, "GD0044072501\n")[0].values(3);
   const std::vector<double> truth = s.ranges(0);
@@ -128,9 +131,9 @@ TEST(Scip2, WhatTheDeviceMeasuresIsSentWhereThereIsNoise) {
 TEST(Scip2, TwoClientsOnTwoScannersAtOnce) {
   Room s(2);
   s.use_laser();
-  const std::uint16_t port = s.use_device();
+  s.use_device();
   s.build();
-  Peer a = Peer::tcp(port), b = Peer::tcp(port + 1);
+  Peer a = s.connect(), b = s.connect("rover_1/laser");
   a.say("BM\nMD0044072501000\n");
   b.say("MD0044072501005\n");
   for (int i = 0; i < 400; ++i) s.go();
@@ -148,9 +151,9 @@ TEST(Scip2, ASweptLaserAndOneOfManyRaysAreReadByAngle) {
     Room s;
     s.use("laser.raycast", is_swept ? 200 : 10, s.lasers,
           {{"rays", std::int64_t(4096)}, {"max_range", 8.0}, {"sweep_steps", std::int64_t(is_swept ? 20 : 1)}});
-    const std::uint16_t port = s.use_device();
+    s.use_device();
     s.build();
-    Peer client = Peer::tcp(port);
+    Peer client = s.connect();
     s.ask(client, "BM\n");
     const std::vector<long> values = s.ask(client, "GD0384038401\n")[0].values(3);
     EXPECT_NEAR(double(values[0]), 4000, 1) << "the wall ahead";
@@ -166,9 +169,9 @@ TEST(Scip2, AUst10LxServes1081StepsFortyTimesASecond) {
          {"max_angle", m.angle_of(1080)},
          {"rays", std::int64_t(1081)},
          {"max_range", 31.0}});
-  const std::uint16_t port = s.use_device({{"model", "ust-10lx"}, {"serial", "H1234567"}});
+  s.use_device({{"model", "ust-10lx"}, {"serial", "H1234567"}});
   s.build();
-  Peer client = Peer::tcp(port);
+  Peer client = s.connect();
   EXPECT_EQ(s.ask(client, "VV\n")[0].lines[4], "SERI:H1234567;" + std::string(1, expected_sum("SERI:H1234567")));
   const auto scans = s.ask(client, "MD0000108001010\n", 11);
   EXPECT_EQ(scans[10].timestamp() - scans[1].timestamp(), 9 * 25);
@@ -201,9 +204,10 @@ TEST(Scip2, ADriverForSerialPortsOpensAPseudoTerminal) {
 TEST(Scip2, SeveralDevicesMayReportOneLaser) {
   Room s;
   s.use_laser();
-  const std::uint16_t first = s.use_device(), second = s.use_device({{"reply_grid", 0.0}});
+  s.use_device();
+  s.use_device({{"reply_grid", 0.0}});
   s.build();
-  Peer a = Peer::tcp(first), b = Peer::tcp(second);
+  Peer a = s.connect(), b = s.connect("rover_0/laser.2");
   EXPECT_EQ(s.ask(a, "BM\n")[0].status, "00");
   EXPECT_EQ(s.ask(b, "GD0044072501\n")[0].status, "10") << "it has a laser and a session of its own";
 }
@@ -212,12 +216,10 @@ TEST(Scip2, AResetIsAPowerCycle) {
   for (const bool keeps : {false, true}) {
     Room s;
     s.use_laser();
-    const std::uint16_t port = s.use_device({{"session", keeps ? "keep" : "power_cycle"}});
-    std::string log;
-    s.set_log([&](LogLevel, std::string_view text) { log += std::string(text) + "\n"; });
+    s.use_device({{"session", keeps ? "keep" : "power_cycle"}});
     s.build();
     const std::uint64_t fresh = s.state_hash();
-    Peer client = Peer::tcp(port);
+    Peer client = s.connect();
     EXPECT_EQ(s.ask(client, "BM\n")[0].status, "00");
     const long before = s.ask(client, "GD0044072501\n")[0].timestamp();
     s.run_for(2);
@@ -226,7 +228,7 @@ TEST(Scip2, AResetIsAPowerCycle) {
     if (keeps) {
       EXPECT_EQ(s.ask(client, "BM\n")[0].status, "02");
       EXPECT_GT(s.ask(client, "GD0044072501\n")[0].timestamp(), before + 1900);
-      EXPECT_SAYS(log, "session: keep: devices go on as they were before the reset, which is no fresh start");
+      EXPECT_SAYS(s.log, "session: keep: devices go on as they were before the reset, which is no fresh start");
     } else {
       EXPECT_EQ(s.ask(client, "GD0044072501\n")[0].status, "10");
       EXPECT_EQ(s.ask(client, "BM\n")[0].status, "00");
@@ -238,9 +240,9 @@ TEST(Scip2, AResetIsAPowerCycle) {
 TEST(Scip2, ASnapshotHoldsTheDevice) {
   Room s;
   s.use_laser();
-  const std::uint16_t port = s.use_device();
+  s.use_device();
   s.build();
-  Peer client = Peer::tcp(port);
+  Peer client = s.connect();
   s.ask(client, "MD0044072501000\n", 3);
   const Snapshot middle = s.snapshot();
   s.run_for(1);
@@ -255,11 +257,10 @@ TEST(Scip2, ASnapshotHoldsTheDevice) {
 TEST(Scip2, TimeWaitsForAClientInLockstep) {
   Room s;
   s.use_laser();
-  const std::uint16_t port = next_port();
-  s.use_device({{"stream", Texts{"tcp=" + std::to_string(port), "lockstep=driver"}}});
+  s.use_device({{"stream", Texts{"tcp=0", "lockstep=driver"}}});
   s.build();
   std::vector<long> timestamps;
-  Peer client = Peer::tcp(port);
+  Peer client = s.connect();
   std::thread driver([&] {
     const auto ask = [&](const std::string& line) {
       client.heard.clear();
@@ -282,10 +283,10 @@ TEST(Scip2, TimeWaitsForAClientInLockstep) {
 TEST(Scip2, AHundredScannersServeAHundredClients) {
   Room s(100);
   s.use_laser();
-  const std::uint16_t port = s.use_device();
+  s.use_device();
   s.build();
   std::vector<Peer> clients;
-  for (std::uint16_t i = 0; i < 100; ++i) clients.push_back(Peer::tcp(std::uint16_t(port + i)));
+  for (int i = 0; i < 100; ++i) clients.push_back(s.connect("rover_" + std::to_string(i) + "/laser"));
   for (Peer& c : clients) ASSERT_TRUE(c.say("MD0044072501000\n"));
   for (int i = 0; i < 240; ++i) {
     s.go();
@@ -302,9 +303,9 @@ TEST(Scip2, AHundredScannersServeAHundredClients) {
 TEST(Scip2, GarbageOnAStreamIsAnsweredAndForgotten) {
   Room s;
   s.use_laser();
-  const std::uint16_t port = s.use_device();
+  s.use_device();
   s.build();
-  Peer client = Peer::tcp(port);
+  Peer client = s.connect();
   std::string garbage;
   for (int i = 0; i < 5000; ++i) garbage += char(i * 7919 % 251);
   client.say(garbage + std::string(3000, 'x') + "\r\n");
@@ -341,11 +342,9 @@ TEST(Scip2, WarnsOfStepsWithoutRay) {
   Room s;
   s.use_laser({{"min_angle", -1.0}, {"max_angle", 1.0}, {"rays", std::int64_t(100)}});
   s.use_device();
-  std::string log;
-  s.set_log([&](LogLevel, std::string_view text) { log += std::string(text) + "\n"; });
   s.build();
-  EXPECT_SAYS(log, "of 682 steps of the device have no ray of `rover_0/laser` and read 0; what covers them is ");
-  EXPECT_SAYS(log, "rays of `rover_0/laser` are farther apart than steps of the device");
+  EXPECT_SAYS(s.log, "of 682 steps of the device have no ray of `rover_0/laser` and read 0; what covers them is ");
+  EXPECT_SAYS(s.log, "rays of `rover_0/laser` are farther apart than steps of the device");
 }
 
 }  // namespace
