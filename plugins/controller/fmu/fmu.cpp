@@ -261,6 +261,8 @@ class FmuController final : public Algorithm {
 
   void synchronise(Robot& r, double period) {
     check_step_size(description_, period);
+    if (const std::string advice = advice_on_step_size(description_, period); !advice.empty() && &r == robots_.data())
+      r.log->pass_on(LogLevel::warning, file_name() + ": " + advice);
     if (r.block->is_initialized != 0) {
       r.component->read_state({r.block->bytes(), std::size_t(r.block->size)});
       r.is_new = false;

@@ -27,7 +27,8 @@ enum Fault {
   warns,
   no_last_time,
   hangs,
-  exits
+  exits,
+  chats
 };
 
 class FmuFault : public ::testing::TestWithParam<int> {
@@ -101,6 +102,60 @@ TEST_P(FmuFault, AtTheStartIsToldBeforeTheRun) {
 TEST_P(FmuFault, WarningsGoToTheLogOfTheRun) {
   ASSERT_EQ(run("", {fault(warns), "label=x"}), "no complaint");
   EXPECT_SAYS(said_, "robot `a`: FMU: beware at t = 0.1, label 'x'");
+  ASSERT_EQ(run("", {fault(chats)}), "no complaint");
+  EXPECT_EQ(said_.find("all is well"), std::string::npos) << "only what matters";
+}
+
+TEST_P(FmuFault, AllItsWordsAreLoggedOnRequestWithinBounds) {
+  const test::ScratchFolder scratch;
+  write_fmu(scratch.path("x.fmu"), version(), "");
+  Bench bench;
+  bench.control(scratch.path("x.fmu"), version(), Settings{{"logging", true}}, {fault(chats)});
+  bench.build();
+  bench.run_for(9.95);
+  EXPECT_SAYS(bench.said, "robot `a`: FMU: all is well at t = 9.9, label ''");
+  bench.run_for(20);
+  EXPECT_EQ(bench.said.find("all is well at t = 10.1"), std::string::npos);
+  const std::string last = "robot `a`: further messages of its FMU are left out\n";
+  EXPECT_SAYS(bench.said, last);
+  EXPECT_EQ(bench.said.find(last), bench.said.rfind(last)) << "said once";
+}
+
+TEST_P(FmuFault, OfItsStepSizeIsAWarningWhereItOnlyHasAPreference) {
+  const test::ScratchFolder scratch;
+  const std::string path = scratch.path("x.fmu");
+  std::string xml = description(version(), "");
+  xml.insert(xml.find("<ModelVariables>"), "<DefaultExperiment stepSize=\"0.03\"/>");
+  write_archive(path, {{"modelDescription.xml", xml},
+                       {"binaries/" + platform_of[version()] + "/model.so",
+                        test::text_of(parts + "model" + std::to_string(version()) + ".so")}});
+  Bench bench;
+  bench.control(path, version(), Texts{"speed=command.twist[vx]"});
+  bench.build();
+  bench.run_for(0.2);
+  EXPECT_SAYS(bench.said,
+              "x.fmu: it prefers communication steps of 0.03 s (stepSize) and lacks the flag "
+              "canHandleVariableCommunicationStepSize, and the period is 0.1 s");
+}
+
+TEST_P(FmuFault, LeavesNoFilesBehind) {
+  const test::ScratchFolder scratch;
+  std::filesystem::create_directory(scratch.path("tmp"));
+  write_fmu(scratch.path("x.fmu"), version(), able());
+  const char* const before = std::getenv("TMPDIR");
+  const std::string kept = before ? before : "";
+  setenv("TMPDIR", scratch.path("tmp").c_str(), 1);
+  for (const bool fails : {false, true}) {
+    Bench bench;
+    bench.control(scratch.path("x.fmu"), version(), Texts{fails ? "nothing=pose[x]" : "speed=command.twist[vx]"});
+    if (fails)
+      EXPECT_SAYS(refusal(bench), "the FMU has no variable `nothing`");
+    else
+      bench.build();
+    EXPECT_FALSE(std::filesystem::is_empty(scratch.path("tmp")) && !fails);
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(scratch.path("tmp")));
+  before ? setenv("TMPDIR", kept.c_str(), 1) : unsetenv("TMPDIR");
 }
 
 TEST_P(FmuFault, StatesThatGrowBeyondWhatWasSetAsideEndTheRun) {

@@ -23,12 +23,22 @@ std::string seconds(double s) { return shortest(s) + " s"; }
               "; a higher rate makes communication steps smaller");
 }
 
+bool is_multiple(double size, double of) {
+  const double multiple = size / of, whole = std::max(1.0, std::round(multiple));
+  return std::abs(multiple - whole) <= 1e-6 * whole;
+}
+
 }  // namespace
 
+std::string advice_on_step_size(const ModelDescription& d, double size) {
+  if (d.variable_step_size || d.preferred_step <= 0 || is_multiple(size, d.preferred_step)) return "";
+  return "it prefers communication steps of " + seconds(d.preferred_step) +
+         " (stepSize) and lacks the flag canHandleVariableCommunicationStepSize, and the period is " + seconds(size) +
+         "; results may be wrong";
+}
+
 void check_step_size(const ModelDescription& d, double size) {
-  if (d.fixed_internal_step <= 0) return;
-  const double multiple = size / d.fixed_internal_step, whole = std::max(1.0, std::round(multiple));
-  if (std::abs(multiple - whole) <= 1e-6 * whole) return;
+  if (d.fixed_internal_step <= 0 || is_multiple(size, d.fixed_internal_step)) return;
   std::string rates;
   for (const double n : {1.0, 2.0, 5.0, 10.0})
     rates += (rates.empty() ? "" : ", ") + shortest(std::round(1e6 / (n * d.fixed_internal_step)) / 1e6);

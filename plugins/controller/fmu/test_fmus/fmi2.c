@@ -108,6 +108,7 @@ fmi2Status fmi2DoStep(fmi2Component c, fmi2Real time, fmi2Real size, fmi2Boolean
     default:
       break;
   }
+  if (me->now.integers[FAULT] == FAULT_CHATS) say(me, fmi2OK, "all is well");
   if (me->now.integers[FAULT] == FAULT_WARNS) say(me, fmi2Warning, "beware");
   if (me->now.integers[FAULT] == FAULT_PENDING) {
     me->now.pending = 2;

@@ -28,6 +28,7 @@ enum fault {
   FAULT_NO_LAST_TIME,
   FAULT_HANGS,
   FAULT_EXITS,
+  FAULT_CHATS,
 };
 
 typedef struct {
