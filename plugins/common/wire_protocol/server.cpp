@@ -46,7 +46,9 @@ bool Server::serve(const Step& step) {
         service_->received(event->client, event->bytes);
         break;
       case stream::Event::Kind::disconnected:
+        is_forgotten_ = service_->client_count() == 1;  // with its last client, what a stream owes is forgotten
         service_->disconnected(event->client);
+        is_forgotten_ = false;
         break;
     }
   }

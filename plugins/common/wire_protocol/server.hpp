@@ -35,12 +35,15 @@ class Server final : private Outlet {
  private:
   void send(std::uint32_t client, std::string_view reply) override { stream_.send(client, reply); }
   void send_report(std::uint32_t client, std::string_view report) override;
-  void answered() override { stream_.answered(); }
+  void answered() override {
+    if (!is_forgotten_) stream_.answered();
+  }
   void disconnect(std::uint32_t client) override { stream_.disconnect(client); }
 
   const Protocol& protocol_;
   stream::Stream stream_;
   std::optional<Service> service_;
+  bool is_forgotten_ = false;  ///< lockstep knows nothing of the messages that are through now
 };
 
 }  // namespace muro::wire

@@ -14,6 +14,8 @@ namespace {
 
 // What a client may send behind a `wait`; who sends more is disconnected.
 constexpr std::size_t most_behind = 1024, most_bytes_behind = 1 << 18;
+/// ns: a time of so many periods may end so much behind the run of the controller, of rounding.
+constexpr std::int64_t rounding = 1;
 
 }  // namespace
 
@@ -71,7 +73,7 @@ void Service::begin_step(std::int64_t time, double dt) {
       s.report.begin = time;
       s.report.count = 0;
     }
-    if (s.waiting && s.due <= time) {
+    if (s.waiting && s.due <= time + rounding) {
       end_wait(s);
       carry_out_behind(s);
     }

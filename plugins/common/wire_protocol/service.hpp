@@ -49,6 +49,7 @@ class Service {
 
   bool is_connected(std::uint32_t client) const;
   bool is_reporting() const;
+  std::size_t client_count() const { return sessions_.size(); }
 
  private:
   struct Report {

@@ -9,6 +9,12 @@
 namespace muro::wire {
 namespace {
 
+std::string number_text(double number) {
+  std::string text;
+  add_number(text, number);
+  return text;
+}
+
 TEST(TextDialogue, AnswersEachRequestWithOneLine) {
   Bench b(text_protocol());
   EXPECT_EQ(b.ask("info\n"), "info bench 1 100 arm gripper\n");
@@ -67,6 +73,22 @@ TEST(TextDialogue, AnswersAWaitWhenItIsOver) {
   EXPECT_EQ(b.run(2), "");
   EXPECT_EQ(b.run(), "state 0.05 0\n");
   EXPECT_EQ(b.answers, 3u);
+}
+
+TEST(TextDialogue, AWaitOfWholePeriodsEndsAtThatRun) {
+  Bench b(text_protocol());
+  const auto run_at_30_hz = [&](std::int64_t k) {
+    b.sent.clear();
+    b.service.begin_step(k * 1'000'000'000 / 30, 1.0 / 30);
+    return !b.sent[1].empty();
+  };
+  for (std::int64_t begin = 1; begin <= 3; ++begin)
+    for (std::int64_t periods = 1; periods <= 60; ++periods) {
+      run_at_30_hz(begin);
+      b.ask("wait " + number_text(double(periods) / 30) + "\n");
+      for (std::int64_t k = 1; k < periods; ++k) EXPECT_FALSE(run_at_30_hz(begin + k)) << periods;
+      EXPECT_TRUE(run_at_30_hz(begin + periods)) << periods << " periods after " << begin;
+    }
 }
 
 TEST(TextDialogue, CarriesOutWhatComesBehindAWaitAfterIt) {

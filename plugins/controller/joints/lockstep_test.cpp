@@ -95,6 +95,20 @@ TEST(LockstepOfJoints, ARunOfManyClientsWithoutLockstepIsReplayedToTheBit) {
   EXPECT_EQ(s.state_hash(), live);
 }
 
+TEST(LockstepOfJoints, AClientThatComesBackIsOwedWhatItAsksFor) {
+  Rovers s({{"stream", Texts{"tcp=0", "lockstep=driver", "timeout=2"}}});
+  s.build();
+  Client client(s.port("rover_0/joints"));
+  client.say("wait 1000\n");
+  s.run_for(0.1);
+  client.close();
+  Client again(s.port("rover_0/joints"));
+  again.say("wait 0.1\nwait 1000\n");
+  ::usleep(20'000);  // both are known when the next step begins
+  s.run_until(210'000'000);
+  EXPECT_EQ(again.wait_line(), "state 0.2 0 0 0");
+}
+
 TEST(LockstepOfJoints, TimeStandsWhileAClientAsksAndSets) {
   Rovers s({{"stream", in_lockstep}});
   s.build();

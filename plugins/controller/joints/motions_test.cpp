@@ -41,7 +41,7 @@ TEST_P(OneClient, DrivesAheadAndTurns) {
   const RobotView& rover = s.add("rover", model, {{0, 0, model.standing_height()}, Quat::Identity()});
   s.use(GetParam(), 500, s.all_robots());
   if (GetParam() != "motion.point") {
-    s.use("drive.skid_steer", 0, s.all_robots(), {{"track_scale", GetParam() == "motion.bullet" ? 1.5 : 1.0}});
+    s.use("drive.skid_steer", 0, s.all_robots());
     s.use_contacts();
   }
   s.use("controller.joints", 50, s.all_robots(), {{"stream", Texts{"tcp=0", "lockstep=driver", "timeout=20"}}});
