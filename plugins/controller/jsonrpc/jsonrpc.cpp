@@ -72,7 +72,7 @@ class JsonRpc final : public Algorithm, private Outlet, private PauseAttendant {
     service_.emplace(std::move(served), static_cast<Outlet&>(*this));
     constexpr std::string_view poses[] = {"*:pose"};
     const bool is_given = p.given("refresh");
-    refresh(c, is_given ? p.texts("refresh") : std::span<const std::string_view>(poses), is_given);
+    refresh(c, is_given ? p.texts("refresh") : std::span<const std::string_view>(poses), is_given, service_->scene());
   }
 
   void start() override {

@@ -136,6 +136,29 @@ TEST(JsonRpc, PutsARobotSomewhereElse) {
   EXPECT_EQ(refused["message"], "the pose for `ball/body` has a coordinate that is not from -1e8 to 1e8 m");
 }
 
+TEST(JsonRpc, AddsUpWhatSeveralContribute) {
+  test::Scene s;
+  const RobotView& ball = s.add("ball", test::ball(1, 0.1, 0.5));
+  s.use("motion.simplified", 100, s.all_robots());
+  s.push(ball) = {{1, 2, 9}, {0, 0, 5}};
+  s.push(ball) = {{-1, -2, 0.81}, {0, 0, -5}};  // it hangs in the air
+  const test::ScratchFolder folder;
+  const std::string path = folder.path("muro.sock");
+  s.use("controller.jsonrpc", 50, {}, {{"stream", Texts{"unix=" + path}}, {"refresh", Texts{"*:pose", "*:wrench.*"}}});
+  s.build();
+  std::atomic<bool> stops{false};
+  std::thread thread([&] { s.run_until(3'600'000'000'000'000, [&] { return stops.load(); }); });
+  {
+    Client c(Peer::unix_socket(path));
+    EXPECT_EQ(c.ask("get", R"(["ball:wrench.external"])")["values"]["ball/body:wrench.external"],
+              Json::parse("[0,0,9.81,0,0,0]"));
+    EXPECT_EQ(c.ask("describe", R"(["ball:wrench.external"])")["unit"], "N, N m");
+    EXPECT_EQ(c.ask("list", R"(["*:wrench.e*"])")["properties"].size(), 1u);
+  }
+  stops = true;
+  thread.join();
+}
+
 TEST(JsonRpc, GoesBackToASnapshotAndToTheBegin) {
   Served s;
   s.run();

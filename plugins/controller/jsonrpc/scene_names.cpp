@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "scene_names.hpp"
 
+#include <algorithm>
+
 #include "plugins/common/text/glob.hpp"
 #include "plugins/common/text/quote.hpp"
 
@@ -28,6 +30,29 @@ SceneNames::SceneNames(Inspection& inspection) : inspection_(inspection) {
     objects_.emplace(inspection.object_name(ObjectId{i}), ObjectId{i});
 }
 
+void SceneNames::add_sum(ObjectId object, const KeyInfo& key, const SumHeader* header) {
+  Sum& sum = sums_.emplace(object, Sum{std::string(key.name), std::string(key.unit), key, header, {}})->second;
+  sum.info.name = sum.key;
+  sum.info.unit = sum.unit;
+  sum.info.doc = {};
+  sum.total.resize(key.type->scalars());
+}
+
+const std::vector<LiveProperty>& SceneNames::all_of(ObjectId object) const {
+  const std::span<const LiveProperty> shown = inspection_.properties(object);
+  all_.assign(shown.begin(), shown.end());
+  const auto [begin, end] = sums_.equal_range(object);
+  for (auto i = begin; i != end; ++i) {
+    Sum& sum = i->second;
+    std::fill(sum.total.begin(), sum.total.end(), 0.0);
+    for (std::uint64_t k = 0; k < sum.header->size; ++k)
+      for (std::size_t c = 0; c < sum.total.size(); ++c)
+        sum.total[c] += static_cast<const double*>(sum.header->slots[k])[c];
+    all_.push_back({&sum.info, Multiplicity::single, 1, sum.total.data(), false, false, {}});
+  }
+  return all_;
+}
+
 ObjectId SceneNames::object(std::string_view name) const {
   if (const auto found = objects_.find(name); found != objects_.end()) return found->second;
   if (const auto found = robots_.find(name); found != robots_.end()) return found->second;
@@ -43,7 +68,7 @@ PropertyName SceneNames::property(std::string_view name) const {
   const std::string_view key = name.substr(colon + 1);
   const std::string object_name(inspection_.object_name(object_id));
   std::vector<std::string> keys;
-  for (const LiveProperty& p : inspection_.properties(object_id)) {
+  for (const LiveProperty& p : all_of(object_id)) {
     if (p.key->name == key) return {object_id, std::string(key), object_name + ":" + std::string(key)};
     keys.emplace_back(p.key->name);
   }
@@ -53,7 +78,7 @@ PropertyName SceneNames::property(std::string_view name) const {
 }
 
 LiveProperty SceneNames::live(const PropertyName& name) const {
-  for (const LiveProperty& p : inspection_.properties(name.object))
+  for (const LiveProperty& p : all_of(name.object))
     if (p.key->name == name.key) return p;
   throw RpcError{Code::not_there, quote(name.text) + " is not there any more"};
 }
@@ -71,7 +96,7 @@ void SceneNames::each(std::string_view pattern, Visit visit) const {
     }
     name += ':';
     const std::size_t stem = name.size();
-    for (const LiveProperty& p : inspection_.properties(id)) {
+    for (const LiveProperty& p : all_of(id)) {
       name.resize(stem);
       name += p.key->name;
       if (matches(pattern, name)) visit(id, p.key->name, name);

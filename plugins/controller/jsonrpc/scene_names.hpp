@@ -28,6 +28,9 @@ class SceneNames {
   /// "rover" is the base of the robot `rover`, as is "rover/base_link".
   void add_robot(std::string name, ObjectId base) { robots_.emplace(std::move(name), base); }
 
+  /// A property that several algorithms add to, which inspection does not show, as it was bound.
+  void add_sum(ObjectId object, const KeyInfo& key, const SumHeader* sum);
+
   Inspection& inspection() const { return inspection_; }
   /// Throws RpcError with the nearest name where there is none.
   ObjectId object(std::string_view name) const;
@@ -48,7 +51,18 @@ class SceneNames {
   void each(std::string_view pattern, Visit visit) const;
 
   Inspection& inspection_;
+  /// All properties of an object; good until the next call.
+  const std::vector<LiveProperty>& all_of(ObjectId object) const;
+
+  struct Sum {
+    std::string key, unit;
+    KeyInfo info;  ///< with these texts
+    const SumHeader* header;
+    std::vector<double> total;
+  };
   std::map<std::string, ObjectId, std::less<>> objects_, robots_;
+  mutable std::multimap<ObjectId, Sum> sums_;
+  mutable std::vector<LiveProperty> all_;
 };
 
 }  // namespace muro::jsonrpc

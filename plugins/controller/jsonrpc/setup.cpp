@@ -83,13 +83,16 @@ Grants read_grants(const Connector& c, std::span<const std::string_view> pattern
   return Grants(patterns);
 }
 
-void refresh(Connector& c, std::span<const std::string_view> patterns, bool is_strict) {
+void refresh(Connector& c, std::span<const std::string_view> patterns, bool is_strict, SceneNames& scene) {
   std::vector<bool> is_matched(patterns.size());
   each_property(c, [&](const FoundProperty& p, const std::string& name) {
     bool is_wanted = false;
     for (std::size_t i = 0; i < patterns.size(); ++i)
       if (matches(patterns[i], name)) is_matched[i] = is_wanted = true;
-    if (is_wanted && !p.is_constant && !p.key->name.starts_with("state.")) static_cast<void>(c.read_any(p));
+    if (!is_wanted || p.is_constant || p.key->name.starts_with("state.")) return;
+    const void* const handle = c.read_any(p);
+    if (p.is_sum && p.key->type->scalar == Scalar::f64)
+      scene.add_sum(p.object, *p.key, static_cast<const SumHeader*>(handle));
   });
   const auto missing = std::find(is_matched.begin(), is_matched.end(), false);
   if (is_strict && missing != is_matched.end())

@@ -5,6 +5,7 @@
 #include "grants.hpp"
 #include "muro/algorithm.hpp"
 #include "plugins/common/stream/address.hpp"
+#include "scene_names.hpp"
 
 namespace muro::jsonrpc {
 
@@ -17,8 +18,8 @@ void require_protection(const stream::Address& address, bool has_token);
 /// The patterns of `write`. Throws Error where one matches nothing that there is.
 Grants read_grants(const Connector& connector, std::span<const std::string_view> patterns);
 
-/// Binds what matches, so that algorithms that run on demand bring it up to date for each step. A pattern that matches
-/// nothing is an error where `is_strict`.
-void refresh(Connector& connector, std::span<const std::string_view> patterns, bool is_strict);
+/// Binds what matches, so that algorithms that run on demand bring it up to date for each step; sums are added to
+/// `scene`. A pattern that matches nothing is an error where `is_strict`.
+void refresh(Connector& connector, std::span<const std::string_view> patterns, bool is_strict, SceneNames& scene);
 
 }  // namespace muro::jsonrpc
