@@ -94,6 +94,17 @@ TEST_P(Fmu, ControlsEachRobotByAnInstanceOfItsOwn) {
   EXPECT_NEAR(bench.pose(*bench.b).position.x(), 1 + 3 * rest, 1e-9);
 }
 
+TEST_P(Fmu, OfTheWorldSeesAndControlsAnyRobot) {
+  Bench bench(2);
+  bench.is_of_world = true;
+  bench.control(fmu(able()), version(),
+                Settings{{"inputs", Texts{"u=b/body:pose[x]"}}, {"outputs", Texts{"speed=a/body:command.twist[vx]"}}},
+                {"goal=4.5"});
+  bench.build();
+  bench.run_for(1);
+  EXPECT_NEAR(bench.pose(*bench.a).position.x(), 2 * (4.5 - 4), 1e-9) << "b stands still at 4 m";
+}
+
 TEST_P(Fmu, GivesTheSameBitsOnAnyNumberOfThreads) {
   const std::string path = fmu(able());
   const auto hash = [&](unsigned threads) {

@@ -98,7 +98,7 @@ struct Bench : test::Scene {
     settings["fmu"] = path;
     if (is_isolated) settings["isolate"] = std::string("process");
     settings["parameters"] = values;
-    use("controller.fmu", rate, all_robots(), settings);
+    use("controller.fmu", rate, is_of_world ? std::vector<Item>{} : all_robots(), settings);
   }
 
   /// `mapping` as "variable=property", for the outputs that a test looks at.
@@ -126,6 +126,7 @@ struct Bench : test::Scene {
 
   const RobotView* a = nullptr;
   const RobotView* b = nullptr;
+  bool is_of_world = false;  ///< one FMU, of no robot
   bool is_isolated = false;  ///< each instance in a process of its own
   std::string said;          ///< log lines
 };
