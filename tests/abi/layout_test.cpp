@@ -10,9 +10,13 @@
 #include "muro/detail/contract_layout.hpp"
 #include "muro/detail/stamp.hpp"
 #include "muro/ext/call_note.hpp"
+#include "muro/ext/external_inputs.hpp"
 #include "muro/ext/inspection.hpp"
 #include "muro/ext/loaded_libraries.hpp"
+#include "muro/ext/lockstep.hpp"
 #include "muro/ext/outputs.hpp"
+#include "muro/ext/report_entries.hpp"
+#include "muro/ext/run_control.hpp"
 #include "muro/model_reader.hpp"
 #include "muro_controller.h"
 
@@ -207,6 +211,10 @@ Lines present() {
   add_extension(LoadedLibraries::id(), out);
   add_extension(Outputs::id(), out);
   add_extension(CallNotes::id(), out);
+  add_extension(ExternalInputs::id(), out);
+  add_extension(Lockstep::id(), out);
+  add_extension(RunControl::id(), out);
+  add_extension(ReportEntries::id(), out);
   return out;
 }
 

@@ -16,12 +16,6 @@ namespace muro::stream {
 
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool with_sanitizer = true;
-#else
-constexpr bool with_sanitizer = false;
-#endif
-
 TEST(Load, ThreeHundredStreams) {
   const std::size_t before = open_descriptors();
   {
@@ -49,28 +43,6 @@ TEST(Load, ThreeHundredStreams) {
     }
   }
   EXPECT_EQ(open_descriptors(), before);
-}
-
-TEST(Load, CostsNextToNothingWhereNothingArrives) {
-  std::deque<Echo> echoes;
-  std::deque<Peer> peers;
-  for (int i = 0; i < 100; ++i) {
-    echoes.emplace_back(std::vector<std::string_view>{"tcp=0"});
-    peers.push_back(Peer::tcp(echoes.back().port()));
-    EXPECT_TRUE(echoes.back().run_until([&] { return echoes.back().count(Event::Kind::connected) == 1; }));
-  }
-  using Clock = std::chrono::steady_clock;
-  double best = 1e9;
-  for (std::int64_t i = 0; i < 1000; ++i) {
-    const auto begin = Clock::now();
-    for (Echo& echo : echoes) {
-      echo.stream.begin(i * 1'000'000);
-      while (echo.stream.next()) continue;
-    }
-    best = std::min(best, std::chrono::duration<double, std::micro>(Clock::now() - begin).count());
-  }
-  RecordProperty("us_for_100_streams", std::to_string(best));
-  EXPECT_LT(best, with_sanitizer ? 100 : 10);
 }
 
 /// The I/O thread may allocate, a few times for each signal; so what a step does is done often.
