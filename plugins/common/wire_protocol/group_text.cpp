@@ -13,21 +13,12 @@ namespace {
 constexpr std::size_t most_groups = 255;  // their places are a byte of the binary protocol
 constexpr std::size_t longest_name = 64;
 
-bool is_name(std::string_view text) {
-  const auto fits = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' ||
-           c == '.';
-  };
-  return !text.empty() && text.size() <= longest_name && std::all_of(text.begin(), text.end(), fits);
-}
-
 GroupText read_group(std::string_view text) {
-  const std::string context = "`groups`: " + quote(text);
+  std::string context = "`groups`: " + quote(text);
   const std::size_t equals = text.find('=');
   if (equals == text.npos) throw Error(context + " must be \"name=member,member,...\", such as \"arm=shoulder,elbow\"");
   GroupText group{std::string(text.substr(0, equals)), {}};
-  if (!is_name(group.name))
-    throw Error(context + " must begin with a name of letters, digits, `_`, `-` and `.`, at most 64 of them");
+  if (!is_name(group.name)) throw Error(context.append(" must begin with a name of ") + name_rule);
   for (std::string_view rest = text.substr(equals + 1);;) {
     const std::size_t comma = std::min(rest.find(','), rest.size());
     std::string_view member = rest.substr(0, comma);
@@ -41,6 +32,14 @@ GroupText read_group(std::string_view text) {
 }
 
 }  // namespace
+
+bool is_name(std::string_view text) {
+  const auto fits = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' ||
+           c == '.';
+  };
+  return !text.empty() && text.size() <= longest_name && std::all_of(text.begin(), text.end(), fits);
+}
 
 std::vector<GroupText> read_groups(std::span<const std::string_view> texts) {
   std::vector<GroupText> groups;

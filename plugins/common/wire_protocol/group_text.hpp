@@ -14,6 +14,10 @@ struct GroupText {
   std::vector<std::string> members;  ///< as given
 };
 
+/// Whether it is made of letters, digits, `_`, `-` and `.`, at most 64 of them.
+bool is_name(std::string_view text);
+inline constexpr char name_rule[] = "letters, digits, `_`, `-` and `.`, at most 64 of them";
+
 /// Reads the parameter `groups`; names differ. Throws muro::Error. [setup]
 std::vector<GroupText> read_groups(std::span<const std::string_view> texts);
 

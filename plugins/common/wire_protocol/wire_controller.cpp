@@ -2,6 +2,8 @@
 #include "plugins/common/wire_protocol/wire_controller.hpp"
 
 #include "muro/toolkit/per_robot.hpp"
+#include "plugins/common/text/quote.hpp"
+#include "plugins/common/wire_protocol/group_text.hpp"
 #include "plugins/common/wire_protocol/number_text.hpp"
 
 namespace muro::wire {
@@ -17,6 +19,7 @@ void WireController::connect(Connector& c) {
   const Parameters& p = c.parameters();
   const Protocol& protocol = protocol_of(p.text("protocol"));
   const std::string name(p.text("name"));
+  if (!is_name(name)) throw Error("`name` is " + quote(name) + ", but must be made of " + name_rule);
   first_report_ = p.real("report");
   notes_ = CallNotes::of(c.host());
   for (std::uint32_t i = 0; i < c.items().size(); ++i) {

@@ -36,6 +36,8 @@ TEST(SetUpOfJoints, RefusesOtherParametersThatMakeNoSense) {
   EXPECT_SAYS(refusal("position", {}), "stream");
   EXPECT_SAYS(refusal("position", stream_at("tpc=1")), "unknown key `tpc` (did you mean `tcp`?)");
   EXPECT_SAYS(refusal("position", stream_at("tcp=0", {{"protocol", "jason"}})), "protocol");
+  EXPECT_SAYS(refusal("position", stream_at("tcp=0", {{"name", "a/b"}})),
+              "`name` is `a/b`, but must be made of letters");
   EXPECT_SAYS(refusal("position", stream_at("tcp=0", {{"on_disconnect", "go"}})), "on_disconnect");
   EXPECT_SAYS(test::complaint_of<StepError>([] {
                 Arms s("position", 1, stream_at("tcp=0", {{"report", 500.0}}));

@@ -119,6 +119,20 @@ TEST(Setpoints, AreThoseOfARestoredSnapshot) {
   EXPECT_NE(s.state_hash(), end);
 }
 
+TEST(Setpoints, OfASnapshotStopWhereTheirClientIsGone) {
+  Rovers s;
+  s.build();
+  Client client(s.port("rover_0/joints"));
+  ask(s, client, "set base 0.5 0 0");
+  const Snapshot snapshot = s.snapshot();
+  client.close();
+  ASSERT_TRUE(wire::run_until(s, [&] { return s.command().linear.x() == 0; }));
+  s.restore(snapshot);
+  EXPECT_EQ(s.command().linear.x(), 0.5);
+  s.run_for(0.05);
+  EXPECT_EQ(s.command().linear.x(), 0);
+}
+
 TEST(Setpoints, OfTwoRobotsAreTheirOwn) {
   Rovers s(stream_at("tcp=0"), 2);
   s.build();
