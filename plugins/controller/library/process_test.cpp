@@ -69,6 +69,32 @@ TEST(IsolatedController, IsEndedWhenItDoesNotReturn) {
   }
 }
 
+TEST(IsolatedController, FailsByAnErrorOrANumberThatIsNotFiniteAsElsewhere) {
+  for (const auto& [argument, message] :
+       {std::pair{"nan_at=3",
+                  "robot `a`: output `command.twist` of `circle`[5] is nan; outputs must be finite numbers"},
+        {"fail_at=5", "robot `a`: `circle` fails: lost at x = "},
+        {"tell=nothing", "robot `a`: `circle` fails without giving a reason"},
+        {"tell=endless", "robot `a`: `circle` fails: xxxxxxxx"},
+        {"tell=all", "robot `a`: `circle` fails: robot a, period 0.1, sizes 7"}}) {
+    Team team;
+    team.control(folder + "circle.so", {{"isolate", std::string("process")}, {"arguments", Texts{argument}}});
+    team.build();
+    try {
+      team.run_for(2);
+      ADD_FAILURE() << argument;
+    } catch (const StepError& e) {
+      EXPECT_TRUE(says(e.what(), message));
+    }
+  }
+  Team held;
+  held.set_log([](LogLevel, std::string_view) {});
+  held.control(folder + "circle.so", {{"on_failure", std::string("hold")}, {"arguments", Texts{"nan_at=3"}}});
+  held.build();
+  held.run_for(2);
+  EXPECT_EQ(held.command(*held.a).linear.x(), 0);
+}
+
 TEST(IsolatedController, MayFailBeforeItsFirstStep) {
   Failing late("loop", {{"timeout", 0.2}}, {"when=create"});
   EXPECT_TRUE(says(late.run(), "`fails` did not return from `create` within 0.2 s"));
