@@ -9,6 +9,7 @@
 
 #include "local_instance.hpp"
 #include "muro/toolkit/random.hpp"
+#include "outcome_text.hpp"
 #include "plugins/common/text/one_line.hpp"
 #include "plugins/common/text/quote.hpp"
 #include "remote_instance.hpp"
@@ -29,12 +30,6 @@ ObjectNames names_of_objects(const Connector& c) {
   auto names = std::make_shared<std::vector<std::string>>();
   for (std::uint32_t o = 0; o < c.object_count(); ++o) names->emplace_back(c.object_name(ObjectId{o}));
   return names;
-}
-
-std::string rounded(double number) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", number);
-  return text;
 }
 
 }  // namespace
@@ -255,36 +250,8 @@ Outcome ControlledRobot::outcome_of(Call& call, const Step& step) {
 bool ControlledRobot::call(Call& call, const Step& step) {
   const Outcome outcome = outcome_of(call, step);
   if (outcome.is_fine()) return true;
-  fail(describe(outcome), outcome.stack);
+  fail(about() + text_of(outcome, !settings_.functions, settings_.limits), outcome.stack);
   return false;
-}
-
-std::string ControlledRobot::describe(const Outcome& outcome) const {
-  const std::string in = *outcome.function ? " in " + quote(outcome.function) : "";
-  const std::string reason = outcome.reason.empty() ? "" : ": " + one_line(outcome.reason);
-  switch (outcome.ending) {
-    case Ending::fine:
-      break;
-    case Ending::refused:
-      return about() + (reason.empty() ? "fails without giving a reason" : "fails" + reason);
-    case Ending::threw:
-      return about() + "threw an exception out of " + quote(outcome.function) + reason +
-             "; functions of control code throw nothing, they return an error";
-    case Ending::out_of_memory:
-      if (settings_.functions) return about() + "ran out of memory" + in;
-      return about() + "ran out of memory" + in + reason + "; its process may take " +
-             std::to_string(settings_.limits.memory >> 20) + " MiB (`memory`) beside what it has at its start";
-    case Ending::crashed:
-      return about() + "crashed" + in + reason;
-    case Ending::exited:
-      return about() + "ended its process" + in + reason;
-    case Ending::timed_out:
-      return about() + "did not return from " + quote(outcome.function) + " within " +
-             rounded(settings_.limits.timeout) + " s of wall-clock time (`timeout`)";
-    case Ending::no_process:
-      return about() + "cannot run" + reason;
-  }
-  return about();
 }
 
 void ControlledRobot::fail(std::string what, const std::string& stack) {

@@ -87,7 +87,6 @@ class ControlledRobot {
   bool call(Call& call, const Step& step);
   Outcome outcome_of(Call& call, const Step& step);
   void fail(std::string what, const std::string& stack);
-  std::string describe(const Outcome& outcome) const;
   std::string about(const muro_port& port, bool input) const;
   std::string about() const;
   void note(const char* function) const;
