@@ -61,7 +61,8 @@ class JsonRpc final : public Algorithm, private Outlet, private PauseAttendant {
     if (!token_.file.empty()) token_.file = c.resolve_path(token_.file);
     require_protection(address, token_.is_given());
     const std::string owner = item.robot ? std::string(item.robot->name) : "world";
-    stream_.emplace(c, owner + "/jsonrpc", address, request_framing, limits);
+    const std::string place = address.path.empty() ? std::to_string(address.port) : address.path;
+    stream_.emplace(c, owner + "/jsonrpc:" + place, address, request_framing, limits);  // there may be several
     run_->add_attendant(*this);
   }
 

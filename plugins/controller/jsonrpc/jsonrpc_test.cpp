@@ -117,7 +117,7 @@ TEST(JsonRpc, DrivesARobotFromOutside) {
   EXPECT_NEAR(after - before, 2, 1e-9);
   s.stop();
   ASSERT_EQ(s.inputs().reasons().size(), 1u) << "without lockstep such a run cannot be repeated from its scenario";
-  EXPECT_SAYS(s.inputs().reasons()[0], "clients of `world/jsonrpc` have changed the state");
+  EXPECT_SAYS(s.inputs().reasons()[0], "clients of `world/jsonrpc:0` have changed the state");
 }
 
 TEST(JsonRpc, PutsARobotSomewhereElse) {
@@ -283,6 +283,21 @@ TEST(JsonRpc, ServesOnAUnixSocketOfItsUserAlone) {
   EXPECT_EQ(status.st_mode & 0777, 0600u);
   Client c(Peer::unix_socket(path));
   EXPECT_TRUE(c.ask("time").contains("time"));
+}
+
+TEST(JsonRpc, ServesSeveralDoorsWithGrantsOfTheirOwn) {
+  const test::ScratchFolder folder;
+  const std::string path = folder.path("muro.sock");
+  Served s;
+  s.use("controller.jsonrpc", 20, {{&s.ball, s.ball.base()}}, {{"stream", Texts{"unix=" + path}}});
+  s.run();
+  Client all(s.port()), looker(Peer::unix_socket(path));
+  EXPECT_TRUE(all.ask("pause").contains("time"));
+  EXPECT_EQ(looker.ask("resume")["code"], -32000);
+  EXPECT_EQ(looker.ask("time")["paused"], true) << "in a pause, all are served";
+  EXPECT_EQ(looker.ask("get", R"(["ball:pose"])")["values"].size(), 1u);
+  EXPECT_TRUE(all.ask("resume").contains("time"));
+  EXPECT_EQ(looker.ask("wait", "[0.1]")["time"].get<std::int64_t>() % 50'000'000, 0);
 }
 
 TEST(JsonRpc, IsNotOpenedOffThisMachineWithoutProtection) {

@@ -14,7 +14,7 @@ namespace muro::jsonrpc {
 
 namespace {
 
-constexpr std::size_t shortest = 16, longest = 4096;  // bytes
+constexpr std::size_t shortest_token = 16, longest_token = 4096;  // bytes
 constexpr std::string_view blank = " \t\r\n";
 
 std::string text_of_file(const std::string& path) {
@@ -24,7 +24,7 @@ std::string text_of_file(const std::string& path) {
     throw Error("`token`: the file " + quote(path) + " cannot be read");
   if ((status.st_mode & (S_IRWXG | S_IRWXO)) != 0)
     throw Error("`token`: the file " + quote(path) + " can be read or written by others; chmod 600 it");
-  std::string text(longest + 1, '\0');
+  std::string text(longest_token + 1, '\0');
   file.read(text.data(), std::streamsize(text.size()));
   text.resize(std::size_t(file.gcount()));
   return text;
@@ -58,9 +58,9 @@ std::string read_token(const TokenSource& source) {
   token.erase(token.find_last_not_of(blank) + 1);
   const std::string where =
       source.file.empty() ? "the environment's " + quote(source.environment) : "the file " + quote(source.file);
-  if (token.size() < shortest || token.size() > longest)
-    throw Error("`token`: " + where + " must hold a secret of " + std::to_string(shortest) + " to " +
-                std::to_string(longest) + " bytes, such as `openssl rand -hex 16` writes");
+  if (token.size() < shortest_token || token.size() > longest_token)
+    throw Error("`token`: " + where + " must hold a secret of " + std::to_string(shortest_token) + " to " +
+                std::to_string(longest_token) + " bytes, such as `openssl rand -hex 16` writes");
   return token;
 }
 
