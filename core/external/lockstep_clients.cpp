@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 namespace muro {
 
@@ -29,7 +30,7 @@ void LockstepClients::Stream::set_connected(bool connected) noexcept {
     ++connections;
     is_expected = client.is_given_up = false;
   } else if (connections > 0 && --connections == 0) {  // nobody is there who waits for an answer
-    pending = 0;
+    void_answers += std::exchange(pending, 0);
     is_subscribed = false;
   }
   client.changed.notify_all();
@@ -44,7 +45,10 @@ void LockstepClients::Stream::message_arrived() noexcept {
 
 void LockstepClients::Stream::message_answered() noexcept {
   const std::lock_guard lock(client.mutex);
-  if (pending > 0) --pending;
+  if (void_answers > 0)
+    --void_answers;
+  else if (pending > 0)
+    --pending;
 }
 
 void LockstepClients::Stream::set_subscribed(bool subscribed) noexcept {

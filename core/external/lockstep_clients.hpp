@@ -47,8 +47,9 @@ class LockstepClients final : public Lockstep {
     std::string name;
     double timeout;  ///< s
     std::uint32_t connections = 0;
-    bool is_expected = true;    ///< nobody has connected yet
-    std::uint64_t pending = 0;  ///< messages that arrived and are not answered
+    bool is_expected = true;         ///< nobody has connected yet
+    std::uint64_t pending = 0;       ///< messages that arrived and are not answered
+    std::uint64_t void_answers = 0;  ///< of messages of clients that have left: they are still to be given
     bool is_subscribed = false;
   };
 

@@ -130,6 +130,18 @@ TEST_F(AClientInLockstep, IsNotWaitedForWhenItHasLeftButWhenItIsExpected) {
   EXPECT_EQ(laser.wait(0), Outcome::go_on);
 }
 
+TEST_F(AClientInLockstep, IsOwedItsAnswersAlsoWhenItComesForOneThatHasLeftWithoutThem) {
+  connect_both();
+  laser.message_arrived();
+  laser.set_connected(false);
+  laser.set_connected(true);
+  laser.message_arrived();
+  laser.message_answered();
+  EXPECT_EQ(laser.wait(0), Outcome::go_on) << "that was the answer for the one before";
+  laser.message_answered();
+  EXPECT_EQ(laser.wait(0), Outcome::timed_out);
+}
+
 TEST_F(AClientInLockstep, WithASubscriptionIsWaitedForOnItsOtherStreamsOnly) {
   connect_both();
   laser.set_subscribed(true);
