@@ -22,6 +22,9 @@ class SharedMemory {
   /// Maps the file that another process has made and sized.
   bool open(int descriptor, std::size_t size);
 
+  /// The file, not the memory, which stays until the end.
+  void close() { file_.reset(); }
+
   int descriptor() const { return file_.get(); }
   std::byte* data() const { return static_cast<std::byte*>(data_); }
   std::size_t size() const { return size_; }

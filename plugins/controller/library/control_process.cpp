@@ -122,7 +122,9 @@ void ControlProcess::start() {
   const auto fail = [&](int code) {
     throw ProcessError("cannot run in a process of its own (`isolate: process`): " + program +
                        " cannot be started: " + std::strerror(code) +
-                       (code == ENOENT || code == EACCES || code == ENOEXEC ? "; install muro again" : ""));
+                       (code == ENOENT || code == EACCES || code == ENOEXEC ? "; install muro again"
+                        : code == EMFILE ? "; a process for each robot takes three files, `ulimit -n` allows more"
+                                         : ""));
   };
   int ends[2], pipe_ends[2];
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) fail(errno);
@@ -139,6 +141,12 @@ void ControlProcess::start() {
   ControlSpawn settings(their_output.get(), theirs.get(), memory_.descriptor());
   if (const int code = settings.spawn(program, pid); code != 0) fail(code);
   process_.reset(pidfd_open(pid, 0));
+  if (!process_) {
+    const int code = errno;
+    kill(pid, SIGKILL);
+    waitpid(pid, nullptr, 0);
+    fail(code);
+  }
   theirs.reset();
   Greeting greeting{};
   const Greeting ours = Greeting::ours();
@@ -190,7 +198,10 @@ std::vector<std::byte> ControlProcess::ask(std::span<const std::byte> request) {
   return answer;
 }
 
-void ControlProcess::prepare(std::span<const std::byte> message) { ask(message); }
+void ControlProcess::prepare(std::span<const std::byte> message) {
+  ask(message);
+  memory_.close();  // both have mapped it
+}
 
 bool ControlProcess::is_alive() const {
   pollfd process{process_.get(), POLLIN, 0};
