@@ -96,7 +96,7 @@ typedef struct muro_controller_setup {
   uint64_t seed;                /* from the simulation's seed and the robot's name: equal between runs */
   const uint32_t* input_sizes;  /* actual size of each input */
   const char* const* arguments; /* "name=value" texts from the scenario, ended by NULL */
-  /* What follows is there for tables that have `tunables`. */
+  /* What follows came with the fields of the table from `tunables` on: a muro that takes such a table has it. */
   const uint32_t* output_sizes; /* actual size of each output */
   uint32_t index;               /* of this instance among those of the controller, from 0, as in the scenario */
   uint32_t count;               /* of these instances */
@@ -109,7 +109,7 @@ typedef struct muro_controller_step {
   double time;                 /* s since the start of the simulation */
   const double* const* inputs; /* inputs[i][0 .. input_sizes[i] - 1]; NULL for ports of integers and texts */
   double* const* outputs;      /* outputs[i][0 .. size - 1]: finite numbers; they keep their last value */
-  /* What follows is there for tables that have `tunables`. */
+  /* What follows came with the fields of the table from `tunables` on: a muro that takes such a table has it. */
   double period;                        /* s between calls of this function */
   uint64_t index;                       /* how often the controller has run before */
   const uint32_t* input_sizes;          /* actual size of each input, which changes for lists */

@@ -63,7 +63,7 @@ class Setup {
   std::uint64_t seed() const { return raw_.seed; }    ///< from the simulation's seed and the robot's name
   std::uint32_t index() const { return raw_.index; }  ///< of this object among those of the controller, from 0
   std::uint32_t count() const { return raw_.count; }  ///< of these objects
-  /// Number of elements of input `i`, by place in `inputs`; of a list the most that there can be.
+  /// Number of elements of input `i`, by place in `inputs`; of a list how many there are now.
   std::uint32_t input_size(std::size_t i) const { return raw_.input_sizes[i]; }
   std::uint32_t output_size(std::size_t i) const { return raw_.output_sizes[i]; }
   double tunable(std::size_t i) const { return raw_.tunables[i]; }  ///< by place in `tunables`

@@ -110,10 +110,12 @@ Port ControlledRobot::connect_port(Connector& c, const PropertyFinder& finder, c
 }
 
 void ControlledRobot::check_size(const Port& port, const muro_port& wanted, bool input) const {
+  if (!input && port.type() == PortType::text && !port.has_room_for_text())
+    throw Error(about(wanted, input) + " has " + std::to_string(wanted.size) +
+                " bytes in the library, which is more than the connected property has");
   if (wanted.size == 0 || port.size() == wanted.size || port.is_missing()) return;
   throw Error(about(wanted, input) + " has " + std::to_string(wanted.size) +
-              (port.type() == PortType::text ? " bytes" : " numbers") +
-              " in the library, but the connected properties have " + std::to_string(port.size()));
+              " numbers in the library, but the connected properties have " + std::to_string(port.size()));
 }
 
 void ControlledRobot::measure() {

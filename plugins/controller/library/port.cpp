@@ -217,8 +217,8 @@ bool Port::write(const void* from, std::uint32_t& bad) const {
   if (type_ == PortType::text) {
     const auto* text = static_cast<const char*>(from);
     const std::size_t length = strnlen(text, size_);
-    bad = size_;
-    if (length == size_) return false;
+    bad = std::uint32_t(length);
+    if (length == size_ || length > segments_[0].count) return false;
     auto* to = static_cast<char*>(segments_[0].data);
     std::memcpy(to, text, length);
     std::memset(to + length, 0, segments_[0].count - length);

@@ -34,6 +34,8 @@ class Port {
   bool is_missing() const { return segments_.empty(); }
   /// Number of elements that it has room for, which is all there are but in a list; known once resolved.
   std::uint32_t size() const { return size_; }
+  /// Whether the longest text fits into the property that it is written to.
+  bool has_room_for_text() const { return segments_.empty() || size_ <= segments_[0].count + 1; }
   std::size_t bytes() const { return std::size_t(size_) * (type_ == PortType::text ? 1 : 8); }
   /// The scalars themselves when they are one segment of the right type, so that nothing is copied; else null.
   void* direct() const { return direct_; }

@@ -89,6 +89,36 @@ TEST(Port, NeedsNoCopyOfOneRunOfDoubles) {
   EXPECT_EQ(port_to(small).direct(), nullptr);
 }
 
+TEST(Port, WritesTextsThatFitTheirProperty) {
+  std::uint8_t bytes[6] = {9, 9, 9, 9, 9, 9};
+  ArrayHeader array{bytes, 4};
+  Place<std::uint8_t> place{};
+  place.found.multiplicity = Multiplicity::array;
+  Port port(PortType::text, 8);
+  port.add(place.found, &array);
+  port.resolve();
+  EXPECT_FALSE(port.has_room_for_text());
+  std::uint32_t bad = 0;
+  EXPECT_TRUE(port.write("ab\0cdefg", bad));
+  EXPECT_EQ(std::vector<int>(bytes, bytes + 6), (std::vector<int>{'a', 'b', 0, 0, 9, 9}));
+  EXPECT_TRUE(port.write("four\0fgh", bad)) << "the end of the property is the end of the text";
+  EXPECT_FALSE(port.write("fives\0gh", bad));
+  EXPECT_FALSE(port.write("no zero.", bad));
+  EXPECT_EQ(std::vector<int>(bytes, bytes + 6), (std::vector<int>{'f', 'o', 'u', 'r', 9, 9}));
+}
+
+TEST(Port, IsAtRestWithoutSpeedAndEffort) {
+  Place<double> speed{2}, angle{3}, torque{4};
+  speed.key.unit = "rad/s or m/s", angle.key.unit = "rad or m", torque.key.unit = "N m or N";
+  Port port;
+  for (Place<double>* p : {&speed, &angle, &torque}) port.add(p->found, &p->value);
+  port.resolve();
+  port.rest();
+  EXPECT_EQ(speed.value, 0);
+  EXPECT_EQ(angle.value, 3);
+  EXPECT_EQ(torque.value, 0);
+}
+
 TEST(Port, SetsPropertiesSideBySide) {
   Place<Vec3> first{Vec3(1, 2, 3)};
   Place<std::int32_t> second{4};

@@ -39,7 +39,8 @@ void check_flags(const char* what, const muro_port& port, bool input, const std:
     throw Error(subject + " has flags that this muro does not know: " + std::to_string(port.flags));
   if (has_flag(port, MURO_PORT_TEXT) && has_flag(port, MURO_PORT_INTEGER))
     throw Error(subject + " is of texts and of integers; a port has one type");
-  if (has_flag(port, MURO_PORT_LIST) && (!input || port.size == 0 || has_flag(port, MURO_PORT_TEXT)))
+  const bool is_of_numbers = (port.flags & (MURO_PORT_TEXT | MURO_PORT_INTEGER)) == 0;
+  if (has_flag(port, MURO_PORT_LIST) && (!input || port.size == 0 || !is_of_numbers))
     throw Error(subject + " is a list; only inputs of numbers are, and their size is the most that they take");
   if (has_flag(port, MURO_PORT_OWN) && (input || port.size == 0))
     throw Error(subject + " is to be a property of its own; only outputs are, and they have a size");
