@@ -17,10 +17,12 @@ class Subscription {
     double rate = 0;          ///< Hz of simulated time, of those that are not on change
     std::int64_t period = 0;  ///< ns, the least between two updates, of those on change
   };
-  Subscription(std::uint32_t number, std::vector<PropertyName> properties, Timing timing)
-      : number_(number), properties_(std::move(properties)), timing_(timing) {}
+  /// `numbers`: that the properties have together.
+  Subscription(std::uint32_t number, std::vector<PropertyName> properties, std::size_t numbers, Timing timing)
+      : number_(number), properties_(std::move(properties)), numbers_(numbers), timing_(timing) {}
 
   std::uint32_t number() const { return number_; }
+  std::size_t numbers() const { return numbers_; }
   /// The notification for this instant, or null where none is due. `at_step`: time goes on, and rates count.
   Reply update(const SceneNames& scene, std::int64_t time, bool at_step);
   /// It was not sent: the next one tells how many were lost. A change is told again as soon as there is room.
@@ -36,6 +38,7 @@ class Subscription {
 
   std::uint32_t number_;
   std::vector<PropertyName> properties_;
+  std::size_t numbers_;
   Timing timing_;
   std::int64_t begin_ = 0;          ///< ns, from which the rate counts
   std::int64_t last_time_ = never;  ///< ns, of the last update

@@ -11,13 +11,14 @@ namespace muro::jsonrpc {
 namespace {
 
 constexpr std::size_t most_subscribed = 1000;             ///< properties of one subscription
-constexpr std::size_t most_subscribed_numbers = 200'000;  ///< of all of them
+constexpr std::size_t most_subscribed_numbers = 200'000;  ///< of a client
 
-/// All properties that the request names, each once.
-std::vector<PropertyName> subscribed(const Call& c) {
+/// All properties that the request names, each once, and how many numbers they have.
+std::vector<PropertyName> subscribed(const Call& c, std::size_t& numbers) {
   const SceneNames& scene = c.served.scene;
   std::vector<PropertyName> all;
-  std::size_t numbers = 0;
+  std::size_t of_others = 0;
+  for (const Subscription& s : c.client.subscriptions) of_others += s.numbers();
   for (const std::string& pattern : c.params.texts("properties", most_subscribed)) {
     const bool is_pattern = pattern.find_first_of("*?") != std::string::npos;
     for (PropertyName& name : scene.properties(pattern, most_subscribed)) {
@@ -30,9 +31,10 @@ std::vector<PropertyName> subscribed(const Call& c) {
       all.push_back(std::move(name));
     }
   }
-  if (all.size() > most_subscribed || numbers > most_subscribed_numbers)
+  if (all.size() > most_subscribed || of_others + numbers > most_subscribed_numbers)
     throw RpcError{Code::too_many, "a subscription has at most " + std::to_string(most_subscribed) +
-                                       " properties with " + std::to_string(most_subscribed_numbers) + " numbers"};
+                                       " properties, and all those of a client have at most " +
+                                       std::to_string(most_subscribed_numbers) + " numbers"};
   if (all.empty()) throw RpcError{Code::not_there, "nothing that matches is made of numbers"};
   return all;
 }
@@ -53,11 +55,12 @@ void subscribe(Call& c) {
       throw RpcError{Code::invalid_params, "`least_period` is for subscriptions with `on_change`"};
     timing.period = std::int64_t(1e9 * c.params.real("least_period", 0, 1e9));
   }
-  std::vector<PropertyName> properties = subscribed(c);
+  std::size_t numbers = 0;
+  std::vector<PropertyName> properties = subscribed(c, numbers);
   Reply names = Reply::array();
   for (const PropertyName& p : properties) names.push_back(p.text);
   const std::uint32_t number = ++c.client.last_subscription;
-  c.client.subscriptions.emplace_back(number, std::move(properties), timing);
+  c.client.subscriptions.emplace_back(number, std::move(properties), numbers, timing);
   c.answer({{"subscription", number}, {"properties", std::move(names)}});
 }
 

@@ -133,8 +133,9 @@ TEST(Subscriptions, AreRefusedWithoutATiming) {
                              R"({"properties":["rover:flag"],"rate":1,"least_period":1})", R"({"rate":1})"})
     EXPECT_EQ(subscribe_to(d, params)["code"], -32602) << params;
   EXPECT_EQ(subscribe_to(d, R"({"properties":["rover:state.block"],"rate":1})")["code"], -32002);
-  d.scene.ranges.assign(200'001, 0);
-  EXPECT_EQ(subscribe_to(d, R"({"properties":["rover:ranges"],"rate":1})")["code"], -32003);
+  d.scene.ranges.assign(150'000, 0);
+  EXPECT_TRUE(subscribe_to(d, R"({"properties":["rover:ranges"],"rate":1})").contains("subscription"));
+  EXPECT_EQ(subscribe_to(d, R"({"properties":["rover:ranges"],"rate":1})")["code"], -32003) << "they add up";
 }
 
 TEST(Subscriptions, BeginAnewWhereTimeJumps) {
