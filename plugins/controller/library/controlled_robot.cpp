@@ -164,6 +164,7 @@ void ControlledRobot::make_instance() {
 
 void ControlledRobot::start() {
   if (failures_) failures_->begin_anew();
+  failure_count_ = 0;
   if (!instance_) {
     measure();
     try {
@@ -256,7 +257,17 @@ bool ControlledRobot::call(Call& call, const Step& step) {
   return false;
 }
 
+void ControlledRobot::report(ReportEntries& report) const {
+  if (failure_count_ == 0) return;
+  const std::string name = name_ + "/" + settings_.table.name;
+  const auto tell = [&](std::string_view key, std::uint64_t value) { report.set({"control_code", name, key, value}); };
+  tell("failures", failure_count_);
+  tell("restarts", block_->restarts);
+  tell("held", block_->is_held);
+}
+
 void ControlledRobot::fail(std::string what, const std::string& stack) {
+  ++failure_count_;
   if (!stack.empty()) settings_.host->log(LogLevel::error, about() + "was in these calls:\n" + stack);
   const bool may_restart = settings_.on_failure == OnFailure::restart && block_->restarts < settings_.restarts;
   if (settings_.on_failure == OnFailure::stop) throw Error(what);

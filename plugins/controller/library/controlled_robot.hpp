@@ -11,6 +11,7 @@
 #include "failure_log.hpp"
 #include "muro/algorithm.hpp"
 #include "muro/ext/call_note.hpp"
+#include "muro/ext/report_entries.hpp"
 #include "port.hpp"
 
 namespace muro::control {
@@ -71,6 +72,8 @@ class ControlledRobot {
   void step(const Step& step);
   /// Properties were replaced by those of a snapshot.
   void restored();
+  /// Tells how often the control code has failed, where it has. [finish]
+  void report(ReportEntries& report) const;
 
  private:
   using Ports = std::vector<Port>;
@@ -102,6 +105,7 @@ class ControlledRobot {
   std::unique_ptr<ControlProcess> process_;
   std::unique_ptr<ControlInstance> instance_;
   std::unique_ptr<FailureLog> failures_;  ///< null: in the simulator's process there are none
+  std::uint64_t failure_count_ = 0;       ///< since the start, for the report
   bool is_stale_ = false;                 ///< the instance is not that of the state
 };
 

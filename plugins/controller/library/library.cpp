@@ -101,6 +101,11 @@ class LibraryController final : public Algorithm {
     for (std::uint32_t i = range.begin; i < range.end; ++i) robots_[i]->step(step);
   }
 
+  void finish() override {
+    ReportEntries* const report = ReportEntries::of(*settings_.host);
+    for (std::size_t i = 0; report && i < robots_.size(); ++i) robots_[i]->report(*report);
+  }
+
   void restored() override {
     for (const auto& robot : robots_) robot->restored();
   }

@@ -5,6 +5,7 @@
 
 #include <fstream>
 
+#include "core/external/reported_counts.hpp"
 #include "library_testing.hpp"
 
 namespace muro::control {
@@ -170,6 +171,14 @@ TEST(IsolatedController, BeginsAnewAsOftenAsIsAllowed) {
   EXPECT_TRUE(says(team.log, "all others stay (`on_failure: restart`, `restarts` are used up)"));
   EXPECT_EQ(team.command(*team.a).linear.x(), 0);
   EXPECT_EQ(team.command(*team.b).linear.x(), 1);
+  team.finish();
+  const auto& sections = team.reported_counts().sections();
+  ASSERT_EQ(sections.size(), 1u);
+  EXPECT_EQ(sections[0].first, "control_code");
+  ASSERT_EQ(sections[0].second.size(), 1u) << "of the robot that has failed";
+  EXPECT_EQ(sections[0].second[0].first, "a/fails");
+  using Counts = ReportedCounts::Counts;
+  EXPECT_EQ(sections[0].second[0].second, (Counts{{"failures", 3}, {"restarts", 2}, {"held", 1}}));
 }
 
 TEST(IsolatedController, GoesOnFromASnapshotOfBeforeItsFailure) {
