@@ -83,6 +83,8 @@ class Simulation {
   /// Recorders and views are to be connected and checked, but not started: nothing is written, and the simulation
   /// cannot run. For a look at it. [before build]
   void keep_outputs_closed() { outputs_closed_ = true; }
+  /// Nothing outside is opened: no stream, no port. A recording may stand in for it. [before build]
+  void keep_inputs_closed() { inputs_closed_ = true; }
   /// Connects everything, checks it, starts it. Throws SetupError with every problem found.
   void build();
 
@@ -160,7 +162,7 @@ class Simulation {
   OverlapCheck overlap_check_;
   std::uint64_t jumps_ = 0;
   bool built_ = false;
-  bool outputs_closed_ = false;
+  bool outputs_closed_ = false, inputs_closed_ = false;
 };
 
 }  // namespace muro

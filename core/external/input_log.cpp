@@ -32,6 +32,7 @@ bool RecordedChannel::replay(std::int64_t time, ExternalInput& input) noexcept {
   if (e.epoch != log_.epoch() || e.time != time) return false;
   input = {e.kind, e.source, std::string_view(bytes_).substr(e.begin, e.size)};
   ++next_;
+  log_.record_again({name_, e.epoch, e.time, input});
   return true;
 }
 
@@ -88,6 +89,11 @@ std::uint64_t InputLog::unused(std::string_view& channel) const noexcept {
 void InputLog::record(const RecordedInput& input) noexcept {
   const std::lock_guard lock(mutex_);
   ++count_;
+  if (sink_) sink_->take(input);
+}
+
+void InputLog::record_again(const RecordedInput& input) noexcept {
+  const std::lock_guard lock(mutex_);
   if (sink_) sink_->take(input);
 }
 

@@ -71,6 +71,8 @@ class InputLog final : public ExternalInputs {
   /// The same for the channel of the simulation itself.
   RecordedChannel& own_channel() { return own_; }
   void record(const RecordedInput& input) noexcept;
+  /// The same for one that comes from a recording, so that a run that is replayed can be recorded: it is no live one.
+  void record_again(const RecordedInput& input) noexcept;
 
   std::uint64_t count() const { return count_; }  ///< inputs so far, live ones
   const std::vector<std::string>& reasons() const { return reasons_; }

@@ -200,6 +200,7 @@ int render(const RenderOptions& options) {
   remove_outputs(scenario, registry);
   const Interrupt interrupt;
   const BuiltScenario built = open_scenario(std::move(scenario), registry, [&](Simulation& simulation) {
+    simulation.keep_inputs_closed();
     add_outputs(simulation, {{"--out", options.out}, {"--video", options.video}});
     if (options.camera.empty()) add_free_camera(options, simulation);
   });

@@ -106,6 +106,7 @@ BuiltScenario build_variation(const Comparison& comparison, const Variation& var
   BuiltScenario built =
       build(read_variation(comparison, variation.overrides, registry), registry, [&](Simulation& simulation) {
         simulation.set_log(log);
+        simulation.keep_inputs_closed();
         add_outputs(simulation, comparison.outputs);
       });
   built.simulation->set_threads(1);

@@ -67,6 +67,29 @@ TEST(InputsFromOutside, ComeBackAtTheirInstantsInAReplay) {
   EXPECT_EQ(channel, "drive");
 }
 
+TEST(InputsFromOutside, AreRecordedOnceMoreFromAReplay) {
+  Sink sink, second;
+  InputLog live;
+  ASSERT_TRUE(live.set_sink(&sink));
+  live.channel("laser")->record(10, {1, 2, "GD"});
+  live.record({live.own_channel().name(), 0, 20, {0, 0, "place"}});
+
+  InputLog replay;
+  ASSERT_TRUE(replay.set_recording(sink.recorded()));
+  ASSERT_TRUE(replay.set_sink(&second));
+  ExternalInput input;
+  ASSERT_TRUE(replay.channel("laser")->replay(10, input));
+  ASSERT_TRUE(replay.own_channel().replay(20, input));
+  EXPECT_EQ(replay.count(), 0u) << "none of them is a live one";
+  ASSERT_EQ(second.entries.size(), sink.entries.size());
+  for (std::size_t i = 0; i < sink.entries.size(); ++i) {
+    EXPECT_EQ(second.entries[i].channel, sink.entries[i].channel);
+    EXPECT_EQ(second.entries[i].time, sink.entries[i].time);
+    EXPECT_EQ(second.entries[i].source, sink.entries[i].source);
+    EXPECT_EQ(second.entries[i].bytes, sink.entries[i].bytes);
+  }
+}
+
 TEST(InputsFromOutside, HaveOneRecorderOneRecordingAndOneUserOfEachChannel) {
   Sink sink;
   InputLog log;

@@ -51,6 +51,14 @@ TEST(Render, DrawsTheSameBytesTwiceAndOthersLater) {
   EXPECT_FALSE(bytes("8") == first) << "the team has moved";
 }
 
+TEST(Render, OpensNoStreamAndWaitsForNoClient) {
+  const test::ScratchFolder folder;
+  const auto result = render(MURO_TEST_SOURCE_DIR "/examples/sil/sil.yaml --at 1 --size 160x120 --out " +
+                             folder.path("sil.png") + " --set robots.rover.scanner.stream.pty=" + folder.path("laser"));
+  EXPECT_EQ(result.exit_code, 0) << result.output;
+  EXPECT_EQ(result.output.find("serves on"), std::string::npos) << result.output;
+}
+
 TEST(Render, DrawsWhatTheCameraOfARobotSees) {
   const test::ScratchFolder folder;
   const std::string scenario = folder.file(

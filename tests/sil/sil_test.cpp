@@ -87,6 +87,42 @@ TEST_F(AVehicleWithAPilotOutside, IsReplayedWithoutIt) {
   EXPECT_FALSE(std::filesystem::exists(scratch_.path("laser"))) << "a replay opens nothing";
 }
 
+TEST_F(AVehicleWithAPilotOutside, IsReplayedFromTheRecordingOfAReplayAsWell) {
+  const std::string inputs = scratch_.path("inputs.csv"), again = scratch_.path("again.csv");
+  duration_ = "2";
+  const Run live = run("--record " + inputs, "python3");
+  ASSERT_EQ(run("--replay " + inputs + " --record " + again, "").result.exit_code, 0);
+  EXPECT_EQ(test::text_of(again), test::text_of(inputs));
+  EXPECT_EQ(run("--replay " + again, "").hash(), live.hash());
+}
+
+TEST_F(AVehicleWithAPilotOutside, IsReplayedForLongerOrShorterAndThenSaysThatTheEndsAreNotCompared) {
+  const std::string inputs = scratch_.path("inputs.csv");
+  duration_ = "2";
+  ASSERT_EQ(run("--record " + inputs, "python3").result.exit_code, 0);
+  const std::string replay = "--replay " + inputs;
+  EXPECT_SAYS(run(replay, "").result.output, "ended in the recorded state");
+  duration_ = "3";
+  const std::string ended = "the recorded run ended at t = 2 s; this one ";
+  EXPECT_SAYS(run(replay, "").result.output, ended + "has gone on, so their ends are not compared");
+  duration_ = "1";
+  EXPECT_SAYS(run(replay, "").result.output, ended + "ends earlier, so their ends are not compared");
+  duration_ = "3";
+  const Run other = run(replay + " --set robots.rover.command.rate=25", "");
+  EXPECT_EQ(other.result.exit_code, 1);
+  EXPECT_SAYS(other.result.output, "were not taken by anyone");
+}
+
+TEST_F(AVehicleWithAPilotOutside, IsComparedWithoutThePilotWhoIsNotWaitedFor) {
+  const std::string laser = scratch_.path("laser");
+  const test::CommandResult result =
+      test::run_command("MURO_PLUGIN_PATH=" MURO_TEST_PLUGIN_DIR " " MURO_PROGRAM " compare " + example +
+                        "sil.yaml --duration 1 --vary rover.motion=differential_drive,simplified" +
+                        " --set robots.rover.scanner.stream.pty=" + laser);
+  EXPECT_EQ(result.exit_code, 0) << result.output;
+  EXPECT_EQ(result.output.find("serves on"), std::string::npos) << result.output;
+}
+
 TEST_F(AVehicleWithAPilotOutside, IsDrivenByTheSamePilotAtEveryLevel) {
   for (const char* motion : {"motion.point", "motion.bullet"}) {
     const Run r = run(std::string("--set robots.rover.motion.use=") + motion, "python3");

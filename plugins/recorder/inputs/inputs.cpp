@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Records all that comes from outside of a simulation, and replays it; see README.md.
+#include <array>
+#include <cstdio>
 #include <filesystem>
 #include <mutex>
 #include <optional>
+#include <tuple>
 
 #include "muro/ext/outputs.hpp"
 #include "muro/plugin.hpp"
@@ -133,18 +136,35 @@ class InputReplay final : public Algorithm {
 
   /// Compares the end with that of the recorded run.
   void finish() override {
-    if (!end_ || end_->epoch != inputs_->epoch() || end_->time != inputs_->time()) return;
+    if (!end_) return;
+    const auto end = std::tuple(end_->epoch, end_->time), now = std::tuple(inputs_->epoch(), inputs_->time());
+    if (now < end) {
+      tell_of_another_end("ends earlier");
+      return;
+    }
     std::string_view channel;
     if (const std::uint64_t unused = inputs_->unused(channel); unused > 0)
       throw Error(std::to_string(unused) + " inputs of the recording " + quote(path_) +
                   " were not taken by anyone, the first of channel " + quote(channel) +
                   "; is the algorithm that took them in the scenario, at the same rate?");
+    if (end < now) {
+      tell_of_another_end("has gone on");
+      return;
+    }
     if (end_->robots_hash != inputs_->robots_hash())
       throw Error("the replay of " + quote(path_) + " ended in another state than the recorded run");
     host_->log(LogLevel::info, "the replay ended in the recorded state");
   }
 
  private:
+  void tell_of_another_end(const char* what_this_run_does) const {
+    std::array<char, 64> time{};
+    std::snprintf(time.data(), time.size(), "%.9g s", 1e-9 * double(end_->time));
+    host_->log(LogLevel::info, std::string("the recorded run ended at t = ") + time.data() +
+                                   (end_->epoch > 0 ? " of epoch " + std::to_string(end_->epoch) : "") + "; this one " +
+                                   what_this_run_does + ", so their ends are not compared");
+  }
+
   std::string path_;
   Host* host_ = nullptr;
   ExternalInputs* inputs_ = nullptr;
