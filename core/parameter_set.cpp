@@ -53,7 +53,7 @@ std::string allowed_values(const Parameter& p) {
     case ParameterType::reals:
       return (p.length > 0 ? fmt::format("a list of {} numbers", p.length) : "a list of numbers") + range_of(p);
     case ParameterType::texts:
-      return "a list of texts";
+      return "a list of texts or a map of single values";
     case ParameterType::text:
       break;
   }
