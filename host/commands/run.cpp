@@ -156,8 +156,9 @@ void simulate(Simulation& simulation, std::int64_t end, Odometer& odometer, RunR
   Failures failures(result.error);
   failures.guard([&] {
     while (simulation.now() < end && !Interrupt::pending() && !simulation.stopped()) {
-      simulation.run_until(std::min(end, simulation.now() - simulation.now() % Odometer::period + Odometer::period),
-                           [] { return Interrupt::pending(); });
+      simulation.run_until(
+          std::min(end, simulation.now() - simulation.now() % Odometer::period + Odometer::period),
+          [&, jumps = simulation.jumps()] { return Interrupt::pending() || simulation.jumps() != jumps; });
       odometer.check();
       odometer.sample();
       say(slow.note(wall()));

@@ -8,12 +8,19 @@
 namespace {
 
 std::atomic<std::uint64_t> count{0};
+constinit thread_local std::uint64_t own_count = 0;
+
+void add_one() {
+  count.fetch_add(1, std::memory_order_relaxed);
+  ++own_count;
+}
 
 }  // namespace
 
 namespace muro::test {
 
 std::uint64_t allocations() { return count.load(std::memory_order_relaxed); }
+std::uint64_t allocations_of_this_thread() { return own_count; }
 
 }  // namespace muro::test
 
@@ -25,15 +32,15 @@ void* __libc_calloc(std::size_t n, std::size_t size);
 void* __libc_realloc(void* old, std::size_t size);
 
 void* malloc(std::size_t size) {
-  count.fetch_add(1, std::memory_order_relaxed);
+  add_one();
   return __libc_malloc(size);
 }
 void* calloc(std::size_t n, std::size_t size) {
-  count.fetch_add(1, std::memory_order_relaxed);
+  add_one();
   return __libc_calloc(n, size);
 }
 void* realloc(void* old, std::size_t size) {
-  count.fetch_add(1, std::memory_order_relaxed);
+  add_one();
   return __libc_realloc(old, size);
 }
 }

@@ -240,6 +240,19 @@ TEST(Penalty, AKinematicRobotPushesAndIsNotPushed) {
   EXPECT_NEAR(s.pose(box).position.x(), 0.8, 2e-3);
 }
 
+/// It rolls over its edges, so its contacts come, go and jump.
+TEST(Penalty, ATumblingBlockGoesTheSameWayFromASnapshotOfAnyStep) {
+  test::ContactScene s;
+  s.add_ground(0.6);
+  s.add_box("wall", {2, 0, 0.5}, {0.2, 4, 1}, 0.6);
+  for (int i = 0; i < 3; ++i)
+    s.add("block_" + std::to_string(i), test::block(1, {0.3, 0.2, 0.25 + 0.05 * i}, 0.6),
+          {{0, double(i), 0.4}, from_rpy(0.3 * i, 0.5, 0.2)}, {{3, 0.2, 1}, {4, 7, 1}});
+  s.start();
+  s.verify_access();  // makes each step again behind restored()
+  EXPECT_NO_THROW(s.run_for(1.5));
+}
+
 TEST(Penalty, ARestoredSnapshotGoesOnToTheSameBits) {
   Incline s(0.4, 0.8, block(3, {0.4, 0.3, 0.2}, 0.8), 0.15);
   s.run_for(0.3);

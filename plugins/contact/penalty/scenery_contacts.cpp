@@ -121,6 +121,7 @@ void SceneryContacts::apply_forces_on(const StepContext& context, std::uint32_t 
     remaining_[robot] = 1;
     return;
   }
+  if (!known.anchors_match) find_match(robot);
   if (!known.one_model || !known.anchors_match || known.is_parting) return process_single(context, robot);
   Queue& q = queue_for(context, known, queues);
   KernelRobot& view = q.views[q.count] = known.view;
@@ -291,6 +292,16 @@ void SceneryContacts::process_single(const StepContext& context, std::uint32_t r
   for (std::uint32_t k = 0; k < known.contacts; ++k) known.anchors.push_back({.pair = identities[k].pair});
   known.anchors_match = true;
   apply_springs(context, robot, contacts, springs, (*known.anchors).data());
+  note_parting(known);
+}
+
+/// From the state alone, so that a restored run goes the way of the one that it was taken from.
+void SceneryContacts::find_match(std::uint32_t robot) {
+  KnownRobot& known = robots_[robot];
+  const auto all = *known.anchors;
+  known.anchors_match = all.size() == known.contacts;
+  for (std::size_t k = 0; k < all.size() && known.anchors_match; ++k)
+    known.anchors_match = all[k].pair == identities_[robot][k].pair;
   note_parting(known);
 }
 

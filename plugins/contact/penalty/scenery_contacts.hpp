@@ -63,6 +63,7 @@ class SceneryContacts {
   SpringBatch springs_of(std::uint32_t robot, std::span<const Contact> contacts, const Identities& identities) const;
   void apply_springs(const StepContext& context, std::uint32_t robot, std::span<const Contact> contacts,
                      const SpringBatch& springs, FrictionAnchor* written) const;
+  void find_match(std::uint32_t robot);
   void note_parting(KnownRobot& known) const;
   std::uint32_t find_impacts(const StepContext& context, std::uint32_t robot, TimeOfImpact* times) const;
   void process_impacts(const StepContext& context, std::uint32_t robot, std::uint32_t which, const TimeOfImpact* times);
