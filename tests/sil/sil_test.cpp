@@ -96,7 +96,7 @@ TEST_F(AVehicleWithAPilotOutside, IsReplayedFromTheRecordingOfAReplayAsWell) {
   EXPECT_EQ(run("--replay " + again, "").hash(), live.hash());
 }
 
-TEST_F(AVehicleWithAPilotOutside, IsReplayedForLongerOrShorterAndThenSaysThatTheEndsAreNotCompared) {
+TEST_F(AVehicleWithAPilotOutside, SaysWhenTheEndOfAReplayIsNotCompared) {
   const std::string inputs = scratch_.path("inputs.csv");
   duration_ = "2";
   ASSERT_EQ(run("--record " + inputs, "python3").result.exit_code, 0);

@@ -2,6 +2,7 @@
 #include "plugins/common/stream/exchange.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace muro::stream {
 

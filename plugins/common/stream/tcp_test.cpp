@@ -264,7 +264,9 @@ TEST(TcpServer, DisconnectsOnceAllIsSent) {
   Echo echo({"tcp=0"}, {line_size}, {.output_bytes = 1 << 24});
   Peer peer = Peer::tcp(echo.port());
   EXPECT_TRUE(echo.run_until([&] { return echo.count(Event::Kind::connected) == 1; }));
-  EXPECT_TRUE(echo.stream.send(0, std::string(10'000'000, 'x')));
+  std::string large;
+  large.resize(10'000'000, 'x');
+  EXPECT_TRUE(echo.stream.send(0, large));
   echo.stream.disconnect(0);
   EXPECT_TRUE(echo.stream.send(0, "nobody gets this"));
   EXPECT_TRUE(peer.say("nobody hears this\n"));
