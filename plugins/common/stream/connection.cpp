@@ -28,7 +28,10 @@ Connection::Connection(IoThread& io, Exchange& exchange, const Framing& framing,
       encrypted_(tls_ ? new char[chunk] : nullptr),
       closed_(std::move(closed)),
       capacity_(framing.longest + chunk),
-      input_(new char[capacity_]) {}
+      input_(new char[capacity_]) {
+  boost::system::error_code ignored;
+  stream_.non_blocking(true, ignored);
+}
 
 void Connection::attend() {
   if (is_closed_) return;
@@ -167,17 +170,18 @@ void Connection::write() {
       return;
     }
   }
-  is_writing_ = true;
-  stream_.async_write_some(asio::buffer(output_.data() + output_sent_, output_.size() - output_sent_),
-                           [self = shared_from_this()](const boost::system::error_code& error, std::size_t bytes) {
-                             self->is_writing_ = false;
-                             if (self->is_closed_) return;
-                             self->count_sent(bytes);
-                             if (error)
-                               self->break_off();
-                             else
-                               self->write();
-                           });
+  is_writing_ = true;  // written in the handler, so that close() knows what has gone out
+  stream_.async_wait(asio::posix::stream_descriptor::wait_write,
+                     [self = shared_from_this()](boost::system::error_code error) {
+                       self->is_writing_ = false;
+                       if (self->is_closed_) return;
+                       const auto rest = asio::buffer(self->output_) + self->output_sent_;
+                       if (!error) self->count_sent(self->stream_.write_some(rest, error));
+                       if (error && error != asio::error::would_block)
+                         self->break_off();
+                       else
+                         self->write();
+                     });
 }
 
 /// What is to be sent next, where all is sent. False: nothing.

@@ -3,6 +3,7 @@
 #include "device.hpp"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "fault.hpp"
@@ -170,11 +171,16 @@ void Device::laser_off(State& s) const {
 
 void Device::forget(State& s, std::uint32_t client, DeviceHost& host) const {
   for (std::uint32_t i = s.pending_count; i-- > 0;) {
-    if (s.pending[i].client != client) continue;
+    if (s.pending[i].client != client || !is_scanning(parse(s.pending[i].text(), model_).command)) continue;
     remove_pending(s, i, 1);
     host.answered();
   }
   if (s.measurement.client == client && sends_scans(s)) laser_off(s);
+}
+
+bool Device::owes(const State& s, std::uint32_t client) {
+  const std::span<const Pending> pending(s.pending, s.pending_count);
+  return std::any_of(pending.begin(), pending.end(), [&](const Pending& p) { return p.client == client; });
 }
 
 void Device::shift(State& s, std::int64_t offset) const {

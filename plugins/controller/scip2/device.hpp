@@ -46,8 +46,10 @@ class Device {
   void receive(State& s, std::uint32_t client, std::string_view line, DeviceHost& host);
   /// Does all that is due up to `now`: turns of the mirror, scans, replies. Switches the device on if it is off.
   void advance(State& s, std::int64_t now, DeviceHost& host);
-  /// A client is gone: nothing is sent to it any more, and scans that it has asked for end.
+  /// A client says no more: scans that it has asked for by `M_` end. Its other lines are answered.
   void forget(State& s, std::uint32_t client, DeviceHost& host) const;
+  /// Whether lines of the client wait for their answers.
+  static bool owes(const State& s, std::uint32_t client);
   static bool sends_scans(const State& s) { return Command(s.measurement.command) != Command::none; }
   /// Makes all times of the state `offset` ns later.
   void shift(State& s, std::int64_t offset) const;

@@ -204,6 +204,17 @@ TEST(Scip2Scan, RepliesGoToWhoAskedAndScansEndWithTheirClient) {
   EXPECT_EQ(d.status_of("GD0044072501"), "10");
 }
 
+TEST(Scip2Scan, WhoSaysNoMoreStillGetsReplies) {
+  Awake d;
+  d.type("MD0044004401000\nVV\n", 2);
+  EXPECT_TRUE(Device::owes(d.state(), 2));
+  d.device.forget(d.state(), 2, d);
+  EXPECT_TRUE(Device::owes(d.state(), 2)) << "VV";
+  d.run(450);
+  EXPECT_FALSE(Device::owes(d.state(), 2));
+  EXPECT_EQ(complete(d.other_output).size(), 1u) << "no scans, which nobody would get";
+}
+
 TEST(Scip2Scan, AStateMovedInTimeGoesOn) {
   Awake a, b;
   a.ask("MD0044072501000\n", 350);

@@ -42,6 +42,7 @@ constexpr Description description{
 };
 
 constexpr stream::Framing lines{.size_of_first = stream::line_size, .longest = 256, .keeps_too_long = true};
+constexpr stream::Limits limits{.has_late_replies = true};
 
 constexpr std::string_view state_name = "controller.scip2";
 
@@ -66,8 +67,9 @@ class Station final : private DeviceHost {
         suffix_(suffix_of(c, laser_object_)),
         device_(model, Laser::is_swept(c, laser_object_)),
         stream_(c, std::string(c.object_name(laser_object_)) + suffix_,
-                stream::read_address(c, number, c.parameters().texts("stream")), lines) {
+                stream::read_address(c, number, c.parameters().texts("stream")), lines, limits) {
     state_ = static_cast<State*>(c.state_block(laser_object_, std::string(state_name) + suffix_, device_.state_size()));
+    leaving_.reserve(stream_.address().clients);
   }
   ~Station() = default;
 
@@ -110,13 +112,21 @@ class Station final : private DeviceHost {
     while (const stream::Event* event = stream_.next()) take(*event);
     if (!state_->is_on) set_bit_rate(initial_bit_rate);
     device_.advance(*state_, time, *this);
+    std::erase_if(leaving_, [&](std::uint32_t client) {
+      if (Device::owes(*state_, client)) return false;
+      stream_.disconnect(client);
+      return true;
+    });
     stream_.set_subscribed(Device::sends_scans(*state_));
   }
 
  private:
   void take(const stream::Event& event) {
     has_acted_ = true;
-    if (event.kind == stream::Event::Kind::disconnected) device_.forget(*state_, event.client, *this);
+    if (event.kind == stream::Event::Kind::disconnected) {
+      device_.forget(*state_, event.client, *this);
+      leaving_.push_back(event.client);
+    }
     if (event.kind != stream::Event::Kind::message) return;
     ++unanswered_;
     std::string_view line = event.bytes;
@@ -151,8 +161,9 @@ class Station final : private DeviceHost {
   Laser laser_;
   std::unique_ptr<Readings> readings_;
   State* state_ = nullptr;
-  std::uint32_t unanswered_ = 0;  ///< lines of the stream whose answers are due
-  bool has_acted_ = false;        ///< since the state was kept
+  std::uint32_t unanswered_ = 0;        ///< lines of the stream whose answers are due
+  bool has_acted_ = false;              ///< since the state was kept
+  std::vector<std::uint32_t> leaving_;  ///< clients that say no more and have not got all answers
   std::vector<char> kept_;
   std::int64_t kept_time_ = 0;
 };

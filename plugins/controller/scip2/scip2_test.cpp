@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The plugin in the whole simulator: clients on TCP, lasers of the scene.
 #include <cmath>
+#include <memory>
 #include <thread>
 
 #include "plugins/common/stream/echo_testing.hpp"
@@ -251,6 +252,39 @@ TEST(Scip2, ASnapshotHoldsTheDevice) {
   s.run_for(1);
   EXPECT_EQ(s.state_hash(), end);
   EXPECT_EQ(s.ask(client, "QT\n")[0].sums_are_right, true);
+}
+
+/// As `printf 'SCIP2.0\\nVV\\n' | nc -N` does.
+TEST(Scip2, AClientThatClosesItsSideGetsTheRepliesOfTheNextTurnAndIsDisconnected) {
+  Room s;
+  s.use_laser();
+  s.use_device();
+  s.build();
+  Peer client = s.connect();
+  ASSERT_TRUE(client.say("SCIP2.0\nVV\n"));
+  ASSERT_EQ(::shutdown(client.fd, SHUT_WR), 0);
+  for (int i = 0; i < 200 && !client.is_closed; ++i) {
+    s.go();
+    client.hear();
+  }
+  EXPECT_TRUE(client.is_closed);
+  EXPECT_NE(client.heard.find("VV\n00P\n"), std::string::npos) << client.heard;
+}
+
+TEST(Scip2, RepliesThatAreOnTheirWayWhenTheRunEndsComeOnce) {
+  for (int i = 0; i < 200; ++i) {
+    auto s = std::make_unique<Room>();
+    s->use_laser();
+    s->use_device({{"start", "scip2.0"}, {"reply_grid", 0.0}});
+    s->build();
+    Peer client = s->connect();
+    ASSERT_TRUE(client.say("VV\n"));
+    std::this_thread::sleep_for(std::chrono::microseconds(300));
+    s->run_for(0.01);
+    s.reset();
+    client.hear();
+    ASSERT_EQ(client.heard.find("VV"), client.heard.rfind("VV")) << client.heard;
+  }
 }
 
 /// The client has no clock: between two of its requests no simulated time passes, however long it thinks.
