@@ -156,9 +156,8 @@ void simulate(Simulation& simulation, std::int64_t end, Odometer& odometer, RunR
   Failures failures(result.error);
   failures.guard([&] {
     while (simulation.now() < end && !Interrupt::pending() && !simulation.stopped()) {
-      simulation.run_until(
-          std::min(end, simulation.now() - simulation.now() % Odometer::period + Odometer::period),
-          [&, jumps = simulation.jumps()] { return Interrupt::pending() || simulation.jumps() != jumps; });
+      simulation.run_until(std::min(end, simulation.now() - simulation.now() % Odometer::period + Odometer::period),
+                           [] { return Interrupt::pending(); });
       odometer.check();
       odometer.sample();
       say(slow.note(wall()));
