@@ -10,7 +10,7 @@ namespace {
 std::atomic<std::uint64_t> count{0};
 constinit thread_local std::uint64_t own_count = 0;
 
-void add_one() {
+[[maybe_unused]] void add_one() {
   count.fetch_add(1, std::memory_order_relaxed);
   ++own_count;
 }
