@@ -100,18 +100,18 @@ std::vector<double> Params::reals(std::string_view name, std::size_t count) cons
 
 std::vector<std::string> Params::texts(std::string_view name, std::size_t most) const {
   const Json& value = at(name);
-  std::vector<std::string> all;
+  std::vector<std::string> found;
   if (value.is_string()) {
-    all.push_back(value.get<std::string>());
+    found.push_back(value.get<std::string>());
   } else if (value.is_array() && !value.empty() && value.size() <= most) {
     for (const Json& x : value) {
       if (!x.is_string()) refuse(quote(name) + " must be a text or an array of texts");
-      all.push_back(x.get<std::string>());
+      found.push_back(x.get<std::string>());
     }
   } else {
     refuse(quote(name) + " must be a text or an array of 1 to " + std::to_string(most) + " texts");
   }
-  return all;
+  return found;
 }
 
 }  // namespace muro::jsonrpc
