@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The clients, and the session of docs/remote.md, with the scenario that is beside them.
-#include <arpa/inet.h>
 #include <gtest/gtest.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <cstdio>
 #include <regex>
 
 #include "tests/support/files.hpp"
+#include "tests/support/peer.hpp"
 
 namespace muro {
 namespace {
@@ -29,8 +26,7 @@ class RemoteRun {
     char line[4096];
     while (port_.empty() && std::fgets(line, sizeof line, pipe_)) {
       output_ += line;
-      std::smatch found;
-      if (std::regex_search(output_, found, std::regex("serves on tcp [0-9.]+:([0-9]+)"))) port_ = found[1];
+      if (const std::uint16_t port = test::tcp_port_in(output_); port != 0) port_ = std::to_string(port);
     }
     EXPECT_NE(port_, "") << output_;
   }
@@ -57,19 +53,10 @@ class RemoteRun {
 
 /// What comes back when all of `lines` is pasted at once, as into nc.
 std::string paste(const std::string& port, const std::string& lines) {
-  const int fd = ::socket(AF_INET, SOCK_STREAM, 0);
-  sockaddr_in server{};
-  server.sin_family = AF_INET;
-  server.sin_port = htons(std::uint16_t(std::stoi(port)));
-  server.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  EXPECT_EQ(::connect(fd, reinterpret_cast<const sockaddr*>(&server), sizeof server), 0);
-  EXPECT_EQ(::write(fd, lines.data(), lines.size()), ssize_t(lines.size()));
-  ::shutdown(fd, SHUT_WR);
-  std::string replies;
-  char buffer[4096];
-  for (ssize_t size; (size = ::read(fd, buffer, sizeof buffer)) > 0;) replies.append(buffer, std::size_t(size));
-  ::close(fd);
-  return replies;
+  test::Peer client = test::Peer::tcp(std::uint16_t(std::stoi(port)));
+  EXPECT_TRUE(client.say(lines));
+  client.end();
+  return client.hear_all();
 }
 
 std::string state_hash_in(const std::string& output) {

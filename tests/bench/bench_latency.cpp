@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 // How long a value takes from a property to software outside and a command back: over TCP, a Unix socket and shared
 // memory, each beside two threads that hand on a byte, or a turn, by the same means without a simulator.
-#include <arpa/inet.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <sys/socket.h>
-#include <sys/un.h>
 #include <unistd.h>
 
 #include <array>
@@ -17,6 +15,7 @@
 #include "plugins/common/shared_call/turn.hpp"
 #include "tests/bench/report.hpp"
 #include "tests/support/bodies.hpp"
+#include "tests/support/peer.hpp"
 
 namespace {
 
@@ -35,21 +34,16 @@ double quantile(std::vector<double> values, double fraction) {
   return values[std::size_t(fraction * double(values.size() - 1))];
 }
 
-/// A connected socket of the given family; `port` of TCP, `path` of Unix.
-int connected(int family, std::uint16_t port, const std::string& path) {
-  const int s = socket(family, SOCK_STREAM, 0);
-  sockaddr_in in{};
-  in.sin_family = AF_INET;
-  in.sin_port = htons(port);
-  in.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  sockaddr_un un{};
-  un.sun_family = AF_UNIX;
-  path.copy(un.sun_path, sizeof un.sun_path - 1);
-  const auto* address = family == AF_INET ? reinterpret_cast<sockaddr*>(&in) : reinterpret_cast<sockaddr*>(&un);
-  const socklen_t size = family == AF_INET ? sizeof in : sizeof un;
-  if (connect(s, address, size) != 0) throw SetupError("no connection to the benchmark's own server");
+void send_at_once(int family, int s) {
   const int one = 1;
   if (family == AF_INET) setsockopt(s, IPPROTO_TCP, TCP_NODELAY, &one, sizeof one);
+}
+
+/// A connected socket of the given family; `port` of TCP, `path` of Unix.
+int connected(int family, std::uint16_t port, const std::string& path) {
+  const int s = family == AF_INET ? test::connected_to_tcp(port) : test::connected_to_unix(path);
+  if (s < 0) throw SetupError("no connection to the benchmark's own server");
+  send_at_once(family, s);
   return s;
 }
 
@@ -85,8 +79,7 @@ std::vector<double> through_simulation(int family) {
   Ball s;
   std::uint16_t port = 0;
   s.set_log([&](LogLevel, std::string_view text) {
-    if (const std::size_t at = text.find("127.0.0.1:"); at != text.npos)
-      port = std::uint16_t(std::stoi(std::string(text.substr(at + 10))));
+    if (const std::uint16_t told = test::tcp_port_in(text); told != 0) port = told;
   });
   s.use("controller.joints", 1000, s.all_robots(),
         {{"stream", std::vector<std::string>{family == AF_INET ? "tcp=0" : "unix=" + path, "lockstep=bench"}}});
@@ -108,27 +101,17 @@ std::vector<double> through_simulation(int family) {
 std::vector<double> between_threads(int family) {
   const std::string path =
       (std::filesystem::temp_directory_path() / ("muro-latency-" + std::to_string(getpid()))).string();
-  const int server = socket(family, SOCK_STREAM, 0);
-  sockaddr_in in{};
-  in.sin_family = AF_INET;
-  in.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  sockaddr_un un{};
-  un.sun_family = AF_UNIX;
-  path.copy(un.sun_path, sizeof un.sun_path - 1);
-  socklen_t size = family == AF_INET ? sizeof in : sizeof un;
-  auto* address = family == AF_INET ? reinterpret_cast<sockaddr*>(&in) : reinterpret_cast<sockaddr*>(&un);
-  if (bind(server, address, size) != 0 || listen(server, 1) != 0) throw SetupError("no socket for the baseline");
-  getsockname(server, address, &size);
+  const int server = family == AF_INET ? test::bound_to_tcp() : test::bound_to_unix(path);
+  if (server < 0 || listen(server, 1) != 0) throw SetupError("no socket for the baseline");
   std::thread echo([&] {
     const int c = accept(server, nullptr, nullptr);
-    const int one = 1;
-    if (family == AF_INET) setsockopt(c, IPPROTO_TCP, TCP_NODELAY, &one, sizeof one);
+    send_at_once(family, c);
     std::array<char, 4096> buffer{};
     for (ssize_t n = 1; n > 0;)
       if (n = read(c, buffer.data(), buffer.size()); n > 0) n = write(c, buffer.data(), std::size_t(n));
     close(c);
   });
-  const int c = connected(family, ntohs(in.sin_port), path);
+  const int c = connected(family, test::port_of(server), path);
   std::vector<double> all = round_trips(c, "get\n");
   close(c);
   echo.join();

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What holds for every controller that serves clients on a stream, whatever its protocol: it has a parameter `stream`.
-#include <arpa/inet.h>
 #include <gtest/gtest.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <random>
@@ -13,6 +9,7 @@
 #include "core/external/input_log.hpp"
 #include "tests/conformance/team.hpp"
 #include "tests/support/files.hpp"
+#include "tests/support/peer.hpp"
 
 namespace muro {
 namespace {
@@ -53,8 +50,7 @@ struct Served : test::Scene {
     if (!recording.empty()) use("recorder.inputs", 10, {}, {{"file", recording}});
     if (!replay.empty()) use("controller.replay", 10, {}, {{"file", replay}});
     set_log([this](LogLevel, std::string_view line) {
-      if (const std::size_t at = line.find("127.0.0.1:"); at != line.npos)
-        port = std::uint16_t(std::stoi(std::string(line.substr(at + 10))));
+      if (const std::uint16_t told = test::tcp_port_in(line); told != 0) port = told;
     });
   }
   void drive() {
@@ -63,35 +59,11 @@ struct Served : test::Scene {
   }
 };
 
-/// A client that knows no protocol.
-class Stranger {
- public:
-  explicit Stranger(std::uint16_t port) : socket_(socket(AF_INET, SOCK_STREAM, 0)) {
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_port = htons(port);
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    is_connected_ = connect(socket_, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0;
-  }
-  ~Stranger() { close(socket_); }
-  Stranger(const Stranger&) = delete;
-  Stranger& operator=(const Stranger&) = delete;
-
-  bool is_connected() const { return is_connected_; }
-  /// And gives it time to arrive.
-  void say(const std::string& bytes) const {
-    static_cast<void>(send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT));
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  }
-  void vanish() const {
-    const linger reset{1, 0};
-    setsockopt(socket_, SOL_SOCKET, SO_LINGER, &reset, sizeof reset);
-  }
-
- private:
-  int socket_;
-  bool is_connected_;
-};
+/// Of a client that knows no protocol; and gives it time to arrive.
+void say(const test::Peer& stranger, const std::string& bytes) {
+  static_cast<void>(stranger.say(bytes));  // who hears it may have hung up
+  std::this_thread::sleep_for(std::chrono::milliseconds(5));
+}
 
 /// Bytes of all values, in lines of different lengths.
 std::string rubbish(unsigned seed, std::size_t size) {
@@ -118,18 +90,17 @@ TEST_P(EveryServedController, LetsNoStrangerDisturbARobot) {
   s.drive();
   ASSERT_NE(s.port, 0);
   for (unsigned i = 0; i < 20; ++i) {
-    const Stranger stranger(s.port);
-    EXPECT_TRUE(stranger.is_connected());
-    stranger.say(rubbish(i, 5000));
+    test::Peer stranger = test::Peer::tcp(s.port);
+    say(stranger, rubbish(i, 5000));
     s.run_for(0.05);
-    if (i % 2 == 0) stranger.vanish();
+    if (i % 2 == 0) stranger.reset();
   }
   EXPECT_EQ(s.now(), alone.now());
   if (GetParam() != "controller.jsonrpc") {  // which hangs up, and records what comes of requests
     EXPECT_GT(s.inputs().count(), 20u) << "what they say is heard";
   }
   EXPECT_EQ(s.pose(*s.rover).position, alone.pose(*alone.rover).position);
-  EXPECT_TRUE(Stranger(s.port).is_connected()) << "it still serves";
+  EXPECT_GE(test::Peer::tcp(s.port).fd, 0) << "it still serves";
 }
 
 TEST_P(EveryServedController, IsFreshAfterAReset) {
@@ -138,14 +109,14 @@ TEST_P(EveryServedController, IsFreshAfterAReset) {
   s.run_for(0.2);
   s.reset();
   const std::uint64_t before = s.state_hash();
-  const Stranger stranger(s.port);
+  const test::Peer stranger = test::Peer::tcp(s.port);
   for (int i = 0; i < 10; ++i) {
-    stranger.say(rubbish(7, 500));
+    say(stranger, rubbish(7, 500));
     s.run_for(0.02);
   }
   s.reset();
   EXPECT_EQ(s.state_hash(), before);
-  EXPECT_TRUE(Stranger(s.port).is_connected());
+  EXPECT_GE(test::Peer::tcp(s.port).fd, 0);
 }
 
 TEST_P(EveryServedController, IsReplayedToTheSameBitsWithoutItsClients) {
@@ -156,8 +127,8 @@ TEST_P(EveryServedController, IsReplayedToTheSameBitsWithoutItsClients) {
     Served s(GetParam(), file);
     s.drive();
     for (unsigned i = 0; i < 10; ++i) {
-      const Stranger stranger(s.port);
-      stranger.say(rubbish(100 + i, 300));
+      const test::Peer stranger = test::Peer::tcp(s.port);
+      say(stranger, rubbish(100 + i, 300));
       s.run_for(0.05);
     }
     hash = s.state_hash();

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
 // 100 scanners at 10 Hz over TCP at once, in real time, to a client that has a socket for each.
-#include <arpa/inet.h>
 #include <gtest/gtest.h>
-#include <netinet/in.h>
 #include <poll.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <nlohmann/json.hpp>
@@ -13,6 +10,7 @@
 #include <vector>
 
 #include "tests/support/files.hpp"
+#include "tests/support/peer.hpp"
 
 namespace muro {
 namespace {
@@ -26,20 +24,6 @@ struct Stream {
   int scans = 0;     ///< begun: lines "99b", the status of a scan
   std::size_t bytes = 0;
 };
-
-int connect_to(int port) {
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_port = htons(std::uint16_t(port));
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  for (int tries = 0; tries < 500; ++tries) {
-    const int s = socket(AF_INET, SOCK_STREAM, 0);
-    if (connect(s, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0) return s;
-    close(s);
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  }
-  return -1;
-}
 
 void take(Stream& s) {
   char buffer[65536];
@@ -73,9 +57,13 @@ TEST(SlowHundredScanners, AreServedAt10HzInRealTime) {
     run = test::run_command("MURO_PLUGIN_PATH=" MURO_TEST_PLUGIN_DIR " " MURO_PROGRAM " run " + scenario +
                             " --speed real --report " + report);
   });
-  std::vector<Stream> streams(scanners);
-  for (int i = 0; i < scanners; ++i) streams[std::size_t(i)].socket = connect_to(first_port + i);
-  for (Stream& s : streams) EXPECT_EQ(send(s.socket, "MD0044072501000\n", 16, MSG_NOSIGNAL), 16);
+  std::vector<test::Peer> clients;
+  for (int i = 0; i < scanners; ++i) clients.push_back(test::Peer::tcp_once_served(std::uint16_t(first_port + i)));
+  std::vector<Stream> streams;
+  for (const test::Peer& client : clients) {
+    EXPECT_TRUE(client.say("MD0044072501000\n"));
+    streams.push_back({.socket = client.fd, .last = {}});
+  }
   std::vector<pollfd> files;
   for (const Stream& s : streams) files.push_back({s.socket, POLLIN, 0});
   const auto receive_for = [&](double seconds) {
@@ -93,8 +81,8 @@ TEST(SlowHundredScanners, AreServedAt10HzInRealTime) {
     const Stream &a = before[std::size_t(i)], &b = streams[std::size_t(i)];
     EXPECT_NEAR(b.scans - a.scans, 40, 2) << "scanner " << i;
     EXPECT_GT(b.bytes - a.bytes, std::size_t(38 * 2000)) << "scanner " << i;
-    close(b.socket);
   }
+  clients.clear();
   simulator.join();
   EXPECT_EQ(run.exit_code, 0) << run.output;
   const auto about = nlohmann::json::parse(test::text_of(report), nullptr, false);

@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: MIT
 // examples/sil: a vehicle that is driven by a program outside, which sees a scanner on a pseudo-terminal and a drive on
 // TCP.
-#include <arpa/inet.h>
 #include <gtest/gtest.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "tests/support/complaint.hpp"
 #include "tests/support/files.hpp"
+#include "tests/support/peer.hpp"
 
 namespace muro {
 namespace {
@@ -19,17 +16,7 @@ namespace {
 const std::string example = MURO_TEST_SOURCE_DIR "/examples/sil/";
 
 /// A port of this machine that nobody uses.
-std::string free_port() {
-  const int server = socket(AF_INET, SOCK_STREAM, 0);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  socklen_t size = sizeof address;
-  bind(server, reinterpret_cast<sockaddr*>(&address), size);
-  getsockname(server, reinterpret_cast<sockaddr*>(&address), &size);
-  close(server);
-  return std::to_string(ntohs(address.sin_port));
-}
+std::string free_port() { return std::to_string(test::port_of(test::Peer(test::bound_to_tcp()).fd)); }
 
 class AVehicleWithAPilotOutside : public testing::Test {
  protected:
@@ -150,6 +137,43 @@ TEST_F(AVehicleWithAPilotOutside, IsWaitedForInVainWhenThereIsNoPilot) {
           "");
   EXPECT_EQ(on.result.exit_code, 0) << on.result.output;
   EXPECT_FALSE(on.report["external_inputs"]["not_repeatable"].empty());
+}
+
+/// The urban team's first rover alone: nobody is outside but who ends the run, or resets it.
+struct ARecordedRun : testing::Test {
+  test::CommandResult run(const std::string& options, const std::string& wrapper = "") const {
+    return test::run_command("MURO_PLUGIN_PATH=" MURO_TEST_PLUGIN_DIR " " + wrapper +
+                             " " MURO_PROGRAM " run " MURO_TEST_SOURCE_DIR
+                             "/examples/urban/urban.yaml --set robots.rovers.count=1 " +
+                             options);
+  }
+  double distance(const std::string& options) const {
+    const std::string report = scratch_.path("report.json");
+    EXPECT_EQ(run(options + " --report " + report).exit_code, 0);
+    return nlohmann::json::parse(test::text_of(report))["robots"][0]["distance_m"];
+  }
+  test::ScratchFolder scratch_;
+};
+
+TEST_F(ARecordedRun, ThatWasInterruptedIsReplayedUpToThere) {
+  const std::string inputs = scratch_.path("inputs.csv"), again = scratch_.path("again.csv");
+  run("--speed real --record " + inputs, "timeout -s INT 1");
+  const std::string recorded = test::text_of(inputs);
+  ASSERT_NE(recorded.find(",simulation,5,0,\nend,"), std::string::npos) << recorded;
+  const auto replayed = run("--replay " + inputs + " --record " + again);
+  EXPECT_EQ(replayed.exit_code, 0);
+  EXPECT_SAYS(replayed.output, "the replay ended in the recorded state");
+  EXPECT_EQ(test::text_of(again), recorded);
+}
+
+TEST_F(ARecordedRun, WithAResetCountsTheDistanceBeforeAndBehindIt) {
+  const std::string inputs = scratch_.path("inputs.csv");
+  run("--duration 1 --record " + inputs);
+  const std::string recorded = test::text_of(inputs);
+  const std::string with_reset =
+      scratch_.file("reset.csv", recorded.substr(0, recorded.find("end,")) + "0,2000000000,simulation,2,0,\n");
+  EXPECT_NEAR(distance("--duration 4 --replay " + with_reset), distance("--duration 2") + distance("--duration 4"),
+              1e-6);
 }
 
 }  // namespace

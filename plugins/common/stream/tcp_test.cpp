@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include <netinet/in.h>
 #include <netinet/tcp.h>
+#include <sys/socket.h>
 
+#include <cerrno>
+#include <cstring>
 #include <map>
 
 #include "plugins/common/stream/echo_testing.hpp"
@@ -72,7 +76,7 @@ TEST(TcpServer, AnswersWhoHasFinishedSpeaking) {
   Peer peer = Peer::tcp(echo.port());
   const std::string text(100000, 'x');
   EXPECT_TRUE(peer.say("one\n" + text.substr(0, 60000) + "\n"));
-  ::shutdown(peer.fd, SHUT_WR);
+  peer.end();
   EXPECT_TRUE(echo.run_until([&] { return peer.hear().size() == 60005 && peer.is_closed; })) << peer.heard.size();
 }
 
@@ -290,24 +294,14 @@ TEST(TcpServer, SendsTheLastWordsAtItsEnd) {
 
 /// A server of plain POSIX.
 Peer server_at(std::uint16_t port) {
-  const int fd = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  const int yes = 1;
-  ::setsockopt(fd, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
-  sockaddr_in at{};
-  at.sin_family = AF_INET;
-  at.sin_port = htons(port);
-  at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  EXPECT_EQ(::bind(fd, reinterpret_cast<const sockaddr*>(&at), sizeof at), 0) << std::strerror(errno);
-  EXPECT_EQ(::listen(fd, 1), 0);
-  return Peer(fd);
+  Peer server(test::bound_to_tcp(port));
+  EXPECT_EQ(::listen(server.fd, 1), 0);
+  return server;
 }
 
 TEST(TcpClient, ConnectsAgainAndAgain) {
-  sockaddr_in at{};
-  socklen_t size = sizeof at;
   std::optional<Peer> server(server_at(0));
-  ::getsockname(server->fd, reinterpret_cast<sockaddr*>(&at), &size);
-  const std::uint16_t port = ntohs(at.sin_port);
+  const std::uint16_t port = test::port_of(server->fd);
   server.reset();
   const std::string connect = "connect=localhost:" + std::to_string(port);
   Echo echo({connect});

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 
+#include <csignal>
 #include <fstream>
 
 #include "plugins/common/stream/echo_testing.hpp"
@@ -21,15 +23,7 @@ struct UnixSocket : testing::Test {
     return ::lstat(path.c_str(), &status) == 0;
   }
   /// A socket at the path that nobody serves.
-  void leave_behind() const { ::close(bound()); }
-  int bound() const {
-    const int fd = ::socket(AF_UNIX, SOCK_STREAM, 0);
-    sockaddr_un at{};
-    at.sun_family = AF_UNIX;
-    path.copy(at.sun_path, sizeof at.sun_path - 1);
-    EXPECT_EQ(::bind(fd, reinterpret_cast<const sockaddr*>(&at), sizeof at), 0) << std::strerror(errno);
-    return fd;
-  }
+  void leave_behind() const { Peer(test::bound_to_unix(path)).close(); }
 };
 
 TEST_F(UnixSocket, AnswersClientsOfItsUserAlone) {
@@ -71,11 +65,11 @@ TEST_F(UnixSocket, ReplacesThatOfAProcessThatWasKilled) {
 }
 
 TEST_F(UnixSocket, LeavesThoseOfOthers) {
-  const int fd = bound();
-  ::listen(fd, 1);
+  Peer other(test::bound_to_unix(path));
+  ::listen(other.fd, 1);
   EXPECT_SAYS(test::complaint_of<Error>([&] { Echo({text}); }), "another program serves on it");
   EXPECT_TRUE(is_there());
-  ::close(fd);
+  other.close();
   ::unlink(path.c_str());
 
   std::ofstream(path) << "precious";

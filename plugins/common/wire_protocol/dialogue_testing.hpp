@@ -3,15 +3,17 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <poll.h>
+#include <unistd.h>
 
+#include <chrono>
+#include <cstdlib>
 #include <cstring>
 #include <map>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "plugins/common/stream/echo_testing.hpp"
+#include "tests/support/peer.hpp"
 #include "tests/support/scene.hpp"
 
 namespace muro::wire {
@@ -24,28 +26,23 @@ struct Served : test::Scene {
   explicit Served(std::uint64_t seed = 1) : Scene(seed) {
     set_log([this](LogLevel level, std::string_view text) {
       if (level >= LogLevel::warning) warnings.emplace_back(text);
-      constexpr std::string_view before = ": serves on tcp 127.0.0.1:";
-      const std::size_t at = text.find(before), stream = text.find("stream ");
-      if (at == text.npos) return;
-      const std::size_t name = stream + 7;
-      ports[std::string(text.substr(name, at - name))] =
-          std::uint16_t(std::stoi(std::string(text.substr(at + before.size()))));
+      log += std::string(text) + "\n";
     });
   }
   /// The port of a stream: "arm_0/joints".
   std::uint16_t port(const std::string& stream) const {
-    const auto found = ports.find(stream);
-    EXPECT_NE(found, ports.end()) << "no stream " << stream;
-    return found == ports.end() ? 0 : found->second;
+    const std::uint16_t found = test::tcp_port_in(log, stream);
+    EXPECT_NE(found, 0) << "no stream " << stream << ": " << log;
+    return found;
   }
-  std::map<std::string, std::uint16_t> ports;
+  std::string log;
   std::vector<std::string> warnings;
 };
 
 /// A client with what it has heard.
 class Client {
  public:
-  explicit Client(std::uint16_t port) : peer_(stream::Peer::tcp(port)) {}
+  explicit Client(std::uint16_t port) : peer_(test::Peer::tcp(port)) {}
 
   void say(std::string_view bytes) const { EXPECT_TRUE(peer_.say(bytes)); }
   void close() { peer_.close(); }
@@ -55,31 +52,20 @@ class Client {
     peer_.hear();
     return peer_.heard;
   }
-  /// The next whole line without its end; "" and false: there is none yet.
+  /// The next whole line without its end; false: there is none yet.
   bool take_line(std::string& line) {
-    std::string& all = heard();
-    const std::size_t end = all.find('\n');
-    if (end == all.npos) return false;
-    line = all.substr(0, end);
-    all.erase(0, end + 1);
-    return true;
+    peer_.hear();
+    return peer_.take_line(line);
   }
   /// Waits for a line of a simulation that runs by itself.
-  std::string wait_line() {
-    for (std::string line; !is_closed();) {
-      if (take_line(line)) return line;
-      pollfd readable{peer_.fd, POLLIN, 0};
-      if (::poll(&readable, 1, 10'000) != 1) break;
-    }
-    return "";
-  }
+  std::string wait_line() { return peer_.wait_line(); }
   std::string ask_running(const std::string& line) {
     say(line + "\n");
     return wait_line();
   }
 
  private:
-  stream::Peer peer_;
+  test::Peer peer_;
 };
 
 /// Runs until `done`, in steps of `seconds`, for at most 5 s of the wall clock.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // controller.jsonrpc in real simulations, spoken to over sockets.
+#include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <fstream>
@@ -9,15 +11,16 @@
 
 #include "core/external/input_log.hpp"
 #include "json.hpp"
-#include "plugins/common/stream/echo_testing.hpp"
 #include "tests/support/bodies.hpp"
 #include "tests/support/complaint.hpp"
 #include "tests/support/files.hpp"
+#include "tests/support/peer.hpp"
+#include "tests/support/scene.hpp"
 
 namespace muro::jsonrpc {
 namespace {
 
-using stream::Peer;
+using test::Peer;
 using Texts = std::vector<std::string>;
 
 /// A ball that moves as commanded, 1 m over the ground, and a server at 50 Hz on any free port.
@@ -54,8 +57,7 @@ struct Served : test::Scene {
   }
   std::uint16_t port() {
     const std::lock_guard lock(mutex);
-    const std::size_t at = log.find("tcp 127.0.0.1:");
-    return at == log.npos ? 0 : std::uint16_t(std::stoi(log.substr(at + 14)));
+    return test::tcp_port_in(log);
   }
 
   std::mutex mutex;
@@ -70,22 +72,7 @@ struct Client {
   explicit Client(std::uint16_t port) : peer(Peer::tcp(port)) {}
   explicit Client(Peer&& its_peer) : peer(std::move(its_peer)) {}
 
-  /// The next line; empty where the connection is closed, or nothing comes within 10 s.
-  std::string line() {
-    for (;;) {
-      if (const std::size_t size = heard.find('\n'); size != std::string::npos) {
-        const std::string first = heard.substr(0, size);
-        heard.erase(0, size + 1);
-        return first;
-      }
-      char buffer[65536];
-      pollfd readable{peer.fd, POLLIN, 0};
-      const ssize_t size = ::poll(&readable, 1, 10'000) == 1 ? ::read(peer.fd, buffer, sizeof buffer) : 0;
-      is_closed = size <= 0;
-      if (is_closed) return "";
-      heard.append(buffer, std::size_t(size));
-    }
-  }
+  std::string line() { return peer.wait_line(); }
   /// Result or error of a request.
   Json ask(const std::string& method, const std::string& params = "{}") {
     EXPECT_TRUE(peer.say(R"({"jsonrpc":"2.0","id":1,"method":")" + method + R"(","params":)" + params + "}\n"));
@@ -98,8 +85,6 @@ struct Client {
     }
   }
   Peer peer;
-  std::string heard;
-  bool is_closed = false;
   std::vector<Json> updates;
 };
 
@@ -202,11 +187,11 @@ TEST(JsonRpc, AnswersAClientThatHasSaidAll) {
   c.peer.say(
       "{\"jsonrpc\":\"2.0\",\"id\":1,\"method\":\"wait\",\"params\":[0.5]}\r\n\r\n"
       "{\"jsonrpc\":\"2.0\",\"id\":2,\"method\":\"time\"}\n");
-  ::shutdown(c.peer.fd, SHUT_WR);
+  c.peer.end();
   EXPECT_EQ(Json::parse(c.line())["id"], 1);
   EXPECT_EQ(Json::parse(c.line())["id"], 2);
   EXPECT_EQ(c.line(), "");
-  EXPECT_TRUE(c.is_closed);
+  EXPECT_TRUE(c.peer.is_closed);
 }
 
 TEST(JsonRpc, HangsUpOnWhoeverSpeaksAnotherProtocol) {
@@ -218,7 +203,7 @@ TEST(JsonRpc, HangsUpOnWhoeverSpeaksAnotherProtocol) {
     Client c(s.port());
     c.peer.say(words);
     EXPECT_EQ(c.line(), "") << words;
-    EXPECT_TRUE(c.is_closed) << words;
+    EXPECT_TRUE(c.peer.is_closed) << words;
   }
   Client c(s.port());
   EXPECT_TRUE(c.ask("time").contains("time")) << "others are served";
@@ -243,10 +228,10 @@ TEST(JsonRpc, HangsUpOnALineWithoutEnd) {
   s.run();
   Client c(s.port());
   const std::string endless = "{" + std::string(100'000, ' ');
-  for (int i = 0; i < 30 && !c.is_closed; ++i)
-    if (::send(c.peer.fd, endless.data(), endless.size(), MSG_NOSIGNAL) < 0) break;
+  for (int i = 0; i < 30; ++i)
+    if (!c.peer.say(endless)) break;
   EXPECT_EQ(c.line(), "");
-  EXPECT_TRUE(c.is_closed);
+  EXPECT_TRUE(c.peer.is_closed);
 }
 
 TEST(JsonRpc, TellsAClientThatReadsTooLateWhatItHasLost) {
@@ -330,7 +315,7 @@ TEST(JsonRpc, AsksForATokenAndHangsUpOnWhoeverHasNone) {
   EXPECT_EQ(c.ask("authenticate", R"(["0123456789abcdef"])"), Json::parse(R"({"authenticated":true})"));
   EXPECT_TRUE(c.ask("time").contains("time"));
   EXPECT_EQ(silent.line(), "") << "after 5 s";
-  EXPECT_TRUE(silent.is_closed);
+  EXPECT_TRUE(silent.peer.is_closed);
   s.stop();
   EXPECT_EQ(s.log.find("0123456789abcdef"), std::string::npos);
 }

@@ -4,10 +4,10 @@
 #include <memory>
 #include <thread>
 
-#include "plugins/common/stream/echo_testing.hpp"
 #include "scip2_testing.hpp"
 #include "tests/support/bodies.hpp"
 #include "tests/support/complaint.hpp"
+#include "tests/support/peer.hpp"
 #include "tests/support/scene.hpp"
 
 namespace muro::scip2 {
@@ -15,7 +15,7 @@ namespace {
 
 using Settings = std::map<std::string, ParameterInput>;
 using Texts = std::vector<std::string>;
-using stream::Peer;
+using test::Peer;
 
 /// Robots that stand in a room of 6 m by 4 m, each with a laser of 682 rays.
 struct Room : test::Scene {
@@ -56,10 +56,9 @@ struct Room : test::Scene {
   }
   /// To the port that a stream has taken, as the log tells.
   Peer connect(const std::string& stream = "rover_0/laser") const {
-    const std::string told = "stream " + stream + ": serves on tcp 127.0.0.1:";
-    const std::size_t at = log.find(told);
-    EXPECT_NE(at, std::string::npos) << log;
-    return Peer::tcp(std::uint16_t(std::stoi(log.substr(at + told.size()))));
+    const std::uint16_t port = test::tcp_port_in(log, stream);
+    EXPECT_NE(port, 0) << log;
+    return Peer::tcp(port);
   }
   /// A step of 5 ms, and time for the thread of input and output.
   void go(double seconds = 0.005) {
@@ -262,7 +261,7 @@ TEST(Scip2, AClientThatClosesItsSideGetsTheRepliesOfTheNextTurnAndIsDisconnected
   s.build();
   Peer client = s.connect();
   ASSERT_TRUE(client.say("SCIP2.0\nVV\n"));
-  ASSERT_EQ(::shutdown(client.fd, SHUT_WR), 0);
+  client.end();
   for (int i = 0; i < 200 && !client.is_closed; ++i) {
     s.go();
     client.hear();
@@ -367,8 +366,7 @@ TEST(Scip2, RefusesWhatCannotBe) {
   Room slow;
   slow.use_laser();
   slow.use_device({}, 5);
-  slow.build();
-  EXPECT_SAYS(test::complaint_of<StepError>([&] { slow.run_for(1); }),
+  EXPECT_SAYS(test::complaint_of([&] { slow.build(); }),
               "its rate is 5 Hz, less than the 10 scans that the device takes in a second");
 }
 
