@@ -16,7 +16,8 @@ void UsedLibraries::add(const LoadedLibrary& library) noexcept {
 
 CallNote& NotesOfThreads::of_this_thread() noexcept { return running_call().note; }
 
-Extensions::Extensions(const World& world, const Scheduler& scheduler) : inspector_(world, scheduler) {
+Extensions::Extensions(const World& world, const Scheduler& scheduler)
+    : inspector_(world, scheduler), inputs_(world, scheduler), requests_(inputs_, world) {
   lockstep_.is_stopping = [this] { return inspector_.is_stopping(); };
   lockstep_.is_replayed = [this] { return inputs_.has_recording(); };
 }

@@ -57,7 +57,7 @@ class Extensions {
   NotesOfThreads notes_;
   OutputRegistry outputs_;
   InputLog inputs_;
-  RunRequests requests_{inputs_};
+  RunRequests requests_;
   LockstepClients lockstep_;
   ReportedCounts reported_counts_;
 };

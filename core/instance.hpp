@@ -51,6 +51,8 @@ class Instance final : private Connector {
   /// What messages about its calls say of it.
   const std::shared_ptr<const Callee>& callee() const { return callee_; }
 
+  /// The rate of the sequence that it is in. [before connect]
+  void set_rate(Rate rate) { setup_.rate = rate; }
   /// Of each robot, by number: whether another motion moves it at the start, whose initial values count. [before
   /// connect]
   void set_inactive_at_start(std::vector<bool> inactive) { inactive_at_start_ = std::move(inactive); }
@@ -99,6 +101,7 @@ class Instance final : private Connector {
              const void* initial) noexcept override;
   ArrayHeader constant_raw(ObjectId object, const KeyInfo& key) const noexcept override;
   void set_raw(ObjectId object, const KeyInfo& key, const void* value) noexcept override;
+  double rate() const noexcept override { return setup_.rate.hertz(); }
 
   void require(bool fine, const abi::ErrorText& error, const char* doing) const;
   std::shared_ptr<const Callee> make_callee() const;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "core/access_check.hpp"
 #include "core/algorithm_log.hpp"
@@ -25,10 +26,6 @@ Simulation::Simulation(Registry& registry, std::uint64_t seed)
       log_(std::make_unique<AlgorithmLog>(*extensions_)),
       levels_(std::make_unique<Levels>()) {
   scheduler_.set_seed(seed);
-  InputLog& inputs = extensions_->inputs();
-  inputs.hash_of_state = [this] { return state_hash(); };
-  inputs.hash_of_robots = [this] { return hash_of_robots(); };
-  inputs.time_of_state = [this] { return now(); };
 }
 
 Simulation::~Simulation() = default;
@@ -125,18 +122,28 @@ void Simulation::run_until(std::int64_t time, const std::function<bool()>& stop)
   if (outputs_closed_) throw SetupError("a simulation that keeps its outputs closed cannot run");
   Inspector& inspector = extensions_->inspector();
   RunRequests& requests = extensions_->requests();
-  const auto runs_alone = [](const Task& t) { return t.runs_alone; };
-  if (std::none_of(scheduler_.tasks().begin(), scheduler_.tasks().end(), runs_alone) && !requests.is_wanted())
-    return scheduler_.run_until(time, stop);
   inspector.set_stop(stop);
   const auto is_stopping = [&] { return inspector.is_stopping(); };
   do {
-    const std::int64_t end = std::min(time, requests.next_time(now()));
-    scheduler_.run_until(end, [&] { return is_stopping() || requests.is_waiting(); });
+    const std::int64_t next_sample =
+        sample_ ? now() - now() % sampling_period_ + sampling_period_ : std::numeric_limits<std::int64_t>::max();
+    scheduler_.run_until(std::min({time, requests.next_time(now()), next_sample}),
+                         [&] { return is_stopping() || requests.is_waiting(); });
+    if (now() >= next_sample) sample_();
+    const std::uint64_t jumps_before = jumps_;
     if (!is_stopping()) requests.carry_out(*this, is_stopping);
+    if (sample_ && jumps_ != jumps_before) sample_();
   } while (now() < time && !is_stopping());
+  if (is_stopping()) requests.record_stop();
   inspector.set_stop({});
 }
+
+void Simulation::set_sampling(std::int64_t period, std::function<void()> sample) {
+  sampling_period_ = period;
+  sample_ = std::move(sample);
+}
+
+void Simulation::stop() { extensions_->inspector().stop(); }
 
 bool Simulation::stopped() const { return extensions_->inspector().stopped(); }
 
@@ -184,13 +191,6 @@ void Simulation::reset() {
   scheduler_.set_state(initial_.schedule);
   begin_epoch();
   for (const std::size_t i : in_order_of(order_of)) instances_[i]->start();
-}
-
-/// What is beside robots, such as a camera that looks on, may differ between a run and its replay.
-std::uint64_t Simulation::hash_of_robots() const {
-  std::uint64_t sum = 0;
-  for (const RobotView* r : world_.robots()) sum += world_.hash(*r);
-  return sum;
 }
 
 void Simulation::begin_epoch() {

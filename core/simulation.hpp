@@ -93,8 +93,12 @@ class Simulation {
   void run_for(double seconds);
   /// Up to but not including `time` (ns, from 0 to 4.6e18). `stop` is asked every few instants; true ends the run.
   void run_until(std::int64_t time, const std::function<bool()>& stop = {});
+  /// Runs call `sample` at each multiple of `period` (ns) of simulated time, and when poses have jumped. [between runs]
+  void set_sampling(std::int64_t period, std::function<void()> sample);
   std::int64_t now() const { return scheduler_.now(); }  ///< ns
-  /// Whether an algorithm has asked for the end of the run; nothing runs any more then.
+  /// Ends the run soon; nothing runs any more then.
+  void stop();
+  /// Whether somebody, such as an algorithm, has called for that.
   bool stopped() const;
   /// Tells algorithms that the run is over for now: recorders write their files.
   void finish();
@@ -136,6 +140,7 @@ class Simulation {
   void require_built(const char* call) const;
   void make_instances();
   void mark_inactive_motions();
+  void adopt_rates_of_sequences();
   void partition_memory();
   std::vector<std::size_t> in_order_of(int (*order)(const Description&)) const;
   void schedule();
@@ -143,7 +148,6 @@ class Simulation {
   void check_outputs();
   void start_all();
   void begin_epoch();
-  std::uint64_t hash_of_robots() const;
   std::vector<std::int32_t> robot_of_slot() const;
 
   Registry& registry_;
@@ -159,6 +163,8 @@ class Simulation {
   std::unique_ptr<Levels> levels_;
   std::vector<TaskId> tasks_;
   Snapshot initial_;
+  std::int64_t sampling_period_ = 0;  ///< ns; 0: nobody samples
+  std::function<void()> sample_;
   OverlapCheck overlap_check_;
   std::uint64_t jumps_ = 0;
   bool built_ = false;

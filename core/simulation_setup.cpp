@@ -31,6 +31,7 @@ void Simulation::build() {
   if (built_ || !instances_.empty()) throw SetupError("a simulation is built once; make another one");
   make_instances();
   partition_memory();
+  adopt_rates_of_sequences();
   levels_->prepare(world_, levels_of_robots_, instances_);
   if (!levels_->empty()) mark_inactive_motions();
   connect_all();
@@ -40,7 +41,7 @@ void Simulation::build() {
   schedule();
   initial_ = {world_.store().save(), scheduler_.state()};
   built_ = true;
-  extensions_->inputs().set_initial_hash(scheduler_.seeded(hash_of_robots()));
+  extensions_->inputs().set_initial_hash(scheduler_.seeded(world_.hash_of_robots()));
   if (extensions_->requests().is_wanted() || extensions_->inputs().has_recording()) {
     extensions_->requests().want();
     scheduler_.set_one_at_a_time();
@@ -57,6 +58,19 @@ void Simulation::make_instances() {
       instances_.push_back(std::make_unique<Instance>(registry_.algorithm(m.use), std::move(m), world_, *log_));
     });
   problems.check();
+}
+
+/// What is on demand in a sequence has the rate of the others; where these differ the scheduler refuses it.
+void Simulation::adopt_rates_of_sequences() {
+  for (const auto& sequence : sequences_) {
+    const auto instance_of = [&](std::size_t a) -> Instance& { return *instances_[instance_of_setup_[a]]; };
+    const auto timed = std::find_if(sequence.begin(), sequence.end(),
+                                    [&](std::size_t a) { return !instance_of(a).setup().rate.on_demand(); });
+    if (timed == sequence.end()) continue;
+    const Rate rate = instance_of(*timed).setup().rate;
+    for (const std::size_t a : sequence)
+      if (instance_of(a).setup().rate.on_demand()) instance_of(a).set_rate(rate);
+  }
 }
 
 /// By the blocks of robots that threads work on.

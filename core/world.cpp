@@ -176,9 +176,14 @@ std::uint64_t World::hash(const RobotView& robot) const {
   return h;
 }
 
-std::uint64_t World::hash() const {
+std::uint64_t World::hash_of_robots() const {
   std::uint64_t sum = 0;  // of hashes that contain the names: commutative, so independent of the order
   for (const RobotView* r : robot_pointers_) sum += hash(*r);
+  return sum;
+}
+
+std::uint64_t World::hash() const {
+  std::uint64_t sum = hash_of_robots();
   for (std::uint32_t i = 0; i < object_count(); ++i)
     if (robot_of_[i] < 0) sum += store_.hash(ObjectId{i});
   return sum;

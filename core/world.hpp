@@ -81,6 +81,8 @@ class World {
 
   /// Hash of the variable properties of a robot's objects; does not depend on other robots.
   std::uint64_t hash(const RobotView& robot) const;
+  /// Hash of those of all robots: what is beside them, such as a camera that looks on, has no say in it.
+  std::uint64_t hash_of_robots() const;
   /// Hash of all variable properties; does not depend on the order in which robots were declared.
   std::uint64_t hash() const;
 

@@ -5,6 +5,9 @@
 #include <limits>
 #include <tuple>
 
+#include "core/schedule/scheduler.hpp"
+#include "core/world.hpp"
+
 namespace muro {
 
 bool RecordedChannel::is_replayed() const noexcept { return log_.has_recording(); }
@@ -47,6 +50,9 @@ RecordedChannel* InputLog::find(std::string_view name) {
       std::find_if(channels_.begin(), channels_.end(), [&](const Place& p) { return p.channel.name() == name; });
   return found == channels_.end() ? nullptr : &found->channel;
 }
+
+std::uint64_t InputLog::robots_hash() const noexcept { return world_.hash_of_robots(); }
+std::int64_t InputLog::time() const noexcept { return scheduler_.now(); }
 
 InputChannel* InputLog::channel(std::string_view name) noexcept {
   if (name == own_.name()) return nullptr;

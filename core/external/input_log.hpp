@@ -2,7 +2,6 @@
 #pragma once
 
 #include <deque>
-#include <functional>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -12,6 +11,8 @@
 namespace muro {
 
 class InputLog;
+class Scheduler;
+class World;
 
 /// The inputs of one name. In a replay it holds those of the recording.
 class RecordedChannel final : public InputChannel {
@@ -48,21 +49,19 @@ class RecordedChannel final : public InputChannel {
 /// All that comes from outside of a simulation: handed to a recorder, or taken from a recording.
 class InputLog final : public ExternalInputs {
  public:
+  InputLog(const World& world, const Scheduler& scheduler) : world_(world), scheduler_(scheduler) {}
+
   InputChannel* channel(std::string_view name) noexcept override;
   bool may_open() const noexcept override { return may_open_; }
   bool set_sink(InputSink* sink) noexcept override;
   bool set_recording(std::span<const RecordedInput> inputs) noexcept override;
   std::uint64_t unused(std::string_view& channel) const noexcept override;
   std::uint64_t initial_hash() const noexcept override { return initial_hash_; }
-  std::uint64_t state_hash() const noexcept override { return hash_of_state ? hash_of_state() : 0; }
-  std::uint64_t robots_hash() const noexcept override { return hash_of_robots ? hash_of_robots() : 0; }
-  std::int64_t time() const noexcept override { return time_of_state ? time_of_state() : 0; }
+  std::uint64_t robots_hash() const noexcept override;
+  std::int64_t time() const noexcept override;
   std::uint64_t epoch() const noexcept override { return epoch_; }
   void not_repeatable(std::string_view why) noexcept override;
 
-  std::function<std::uint64_t()> hash_of_state;
-  std::function<std::uint64_t()> hash_of_robots;
-  std::function<std::int64_t()> time_of_state;
   void set_initial_hash(std::uint64_t hash) { initial_hash_ = hash; }
   void keep_closed() { may_open_ = false; }
   /// The simulation was reset or restored: time jumps.
@@ -71,7 +70,7 @@ class InputLog final : public ExternalInputs {
   /// The same for the channel of the simulation itself.
   RecordedChannel& own_channel() { return own_; }
   void record(const RecordedInput& input) noexcept;
-  /// The same for one that comes from a recording, so that a run that is replayed can be recorded: it is no live one.
+  /// The same for what is no live one: an input that comes from a recording, or the end of the run.
   void record_again(const RecordedInput& input) noexcept;
 
   std::uint64_t count() const { return count_; }  ///< inputs so far, live ones
@@ -80,6 +79,8 @@ class InputLog final : public ExternalInputs {
  private:
   RecordedChannel* find(std::string_view name);
 
+  const World& world_;
+  const Scheduler& scheduler_;
   std::mutex mutex_;  ///< of `sink_`, `reasons_`
   RecordedChannel own_{*this, "simulation"};
   struct Place {

@@ -17,8 +17,10 @@
 
 namespace muro {
 
-RunRequests::RunRequests(InputLog& inputs) : inputs_(inputs) {}
+RunRequests::RunRequests(InputLog& inputs, const World& world) : inputs_(inputs), world_(world) {}
 RunRequests::~RunRequests() = default;
+
+std::uint64_t RunRequests::state_hash() const noexcept { return world_.hash(); }
 
 void RunRequests::set_paused(bool paused) noexcept {
   paused_ = paused;
@@ -78,6 +80,12 @@ std::int64_t RunRequests::next_time(std::int64_t now) const {
       inputs_.has_recording() ? inputs_.own_channel().next_time() : std::numeric_limits<std::int64_t>::max();
   if (paused_ && pause_at_ >= 0) next = std::min(next, pause_at_);
   return std::max(next, now);
+}
+
+void RunRequests::record_stop() {
+  if (std::exchange(has_stopped_, true)) return;
+  inputs_.record_again(
+      {inputs_.own_channel().name(), inputs_.epoch(), inputs_.time(), {std::uint32_t(Kind::stop), 0, ""}});
 }
 
 void RunRequests::carry_out(Simulation& simulation, const std::function<bool()>& stop) {
@@ -147,6 +155,10 @@ std::string RunRequests::carry_out(Simulation& simulation, Kind kind, std::strin
         return set_element(simulation, bytes);
       case Kind::reset:
         simulation.reset();
+        return "";
+      case Kind::stop:
+        simulation.stop();
+        has_stopped_ = true;
         return "";
       case Kind::snapshot:
         snapshots_.insert_or_assign(std::string(reader.text()), std::make_unique<Snapshot>(simulation.snapshot()));

@@ -20,7 +20,7 @@ struct Snapshot;
 /// What algorithms ask of the run, and what a recording has asked of it: carried out between two instants.
 class RunRequests final : public RunControl {
  public:
-  explicit RunRequests(InputLog& inputs);
+  RunRequests(InputLog& inputs, const World& world);
   ~RunRequests();
 
   bool is_paused() const noexcept override { return paused_; }
@@ -36,7 +36,7 @@ class RunRequests final : public RunControl {
   void reset(std::uint64_t ticket, RequestDone* done) noexcept override;
   void snapshot(std::string_view name, std::uint64_t ticket, RequestDone* done) noexcept override;
   void restore(std::string_view name, std::uint64_t ticket, RequestDone* done) noexcept override;
-  std::uint64_t state_hash() const noexcept override { return inputs_.state_hash(); }
+  std::uint64_t state_hash() const noexcept override;
   std::int64_t time() const noexcept override { return inputs_.time(); }
 
   /// Somebody may ask for something: instants have to be told apart.
@@ -48,11 +48,13 @@ class RunRequests final : public RunControl {
   bool is_waiting() const { return has_requests_ || speed_changed_ || (paused_ && pause_at_ < 0); }
   /// ns: the run is to stop there for a recorded request, or for the end of a step.
   std::int64_t next_time(std::int64_t now) const;
+  /// The run ends here, before its time: its replay does so too.
+  void record_stop();
   /// Carries out what was asked, and stays here while the run is paused. `stop` ends a pause.
   void carry_out(Simulation& simulation, const std::function<bool()>& stop);
 
  private:
-  enum class Kind : std::uint32_t { place, set, reset, snapshot, restore };
+  enum class Kind : std::uint32_t { place, set, reset, snapshot, restore, stop };
   struct Request {
     Kind kind;
     std::string bytes;  ///< what is recorded: see encode and decode
@@ -68,6 +70,7 @@ class RunRequests final : public RunControl {
   std::string set_element(Simulation& simulation, std::string_view bytes);
 
   InputLog& inputs_;
+  const World& world_;
   std::mutex mutex_;  ///< of requests_
   std::vector<Request> requests_;
   std::atomic<bool> has_requests_{false};
@@ -75,6 +78,7 @@ class RunRequests final : public RunControl {
   std::map<std::string, std::unique_ptr<Snapshot>, std::less<>> snapshots_;
   bool wanted_ = false;
   bool paused_ = false;
+  bool has_stopped_ = false;    ///< and it is recorded
   std::int64_t pause_at_ = -1;  ///< ns: paused from there on; -1: now
   double speed_ = 0;
   bool speed_changed_ = false;

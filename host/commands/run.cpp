@@ -95,28 +95,22 @@ void print_summary(const RunResult& result, const Simulation& simulation, const 
   if (late.overruns > 0) fmt::print("{} instants were late for the chosen speed\n", late.overruns);
 }
 
-/// A text as a value of an override, whatever characters it has.
-std::string yaml_text(const std::string& text) {
-  std::string quoted = "'";
-  for (const char c : text) quoted += c == '\'' ? std::string("''") : std::string(1, c);
-  return quoted + "'";
-}
-
-/// The scenario with the recorder and the replay of inputs that the options ask for.
-ScenarioOptions with_inputs(const RunOptions& options) {
-  ScenarioOptions scenario = options.scenario;
-  const auto add = [&](const std::string& name, const char* use, const std::string& file) {
+/// Adds the recorder and the replay of inputs that the options ask for.
+void add_inputs(Scenario& scenario, const RunOptions& options) {
+  const auto add = [&](const char* name, const char* use, const std::string& file) {
     if (file.empty()) return;
     std::error_code code;
     const std::string path = std::filesystem::absolute(file, code).string();
-    const std::string all[] = {fmt::format("algorithms.{}.use={}", name, use),
-                               fmt::format("algorithms.{}.rate=10", name),
-                               fmt::format("algorithms.{}.file={}", name, yaml_text(code ? file : path))};
-    scenario.overrides.insert(scenario.overrides.end(), std::begin(all), std::end(all));
+    Subsystem s;
+    s.name = name;
+    s.use = use;
+    s.rate = 10;
+    s.location.file = fmt::format("--{} {}", name, message_text(file));
+    s.parameters.emplace("file", code ? file : path);
+    scenario.algorithms.push_back(std::move(s));
   };
-  add("record_option", "recorder.inputs", options.record);
-  add("replay_option", "controller.replay", options.replay);
-  return scenario;
+  add("record", "recorder.inputs", options.record);
+  add("replay", "controller.replay", options.replay);
 }
 
 /// The scenario with a window, which sets the pace. Overrides of `algorithms.view` apply to it; a scenario that has a
@@ -128,7 +122,7 @@ ScenarioOptions with_view(const RunOptions& options, const Registry& registry) {
         "--view needs the plugin view.window, which is not installed; install libglfw3-dev, libimgui-dev, "
         "libepoxy-dev, "
         "libegl-dev and libstb-dev, and build muro again");
-  ScenarioOptions scenario = with_inputs(options);
+  ScenarioOptions scenario = options.scenario;
   std::vector<std::string> others = scenario.overrides;
   std::erase_if(others, [](const std::string& o) { return o.starts_with("algorithms.view."); });
   const Scenario without_view = read_scenario(scenario.file, others);
@@ -153,16 +147,17 @@ void simulate(Simulation& simulation, std::int64_t end, Odometer& odometer, RunR
     progress.close();
     fmt::print(stderr, "{}\n", note);
   };
+  const auto sample = [&] {
+    odometer.check();
+    odometer.sample();
+    say(slow.note(wall()));
+    progress.show(1e-9 * double(simulation.now()), wall());
+  };
   Failures failures(result.error);
   failures.guard([&] {
-    while (simulation.now() < end && !Interrupt::pending() && !simulation.stopped()) {
-      simulation.run_until(std::min(end, simulation.now() - simulation.now() % Odometer::period + Odometer::period),
-                           [] { return Interrupt::pending(); });
-      odometer.check();
-      odometer.sample();
-      say(slow.note(wall()));
-      progress.show(1e-9 * double(simulation.now()), wall());
-    }
+    simulation.set_sampling(Odometer::period, sample);
+    simulation.run_until(end, Interrupt::pending);
+    sample();
   });
   result.wall = wall();
   result.simulated = 1e-9 * double(simulation.now());
@@ -190,7 +185,8 @@ void write_outputs(const RunOptions& options, RunResult& result, const Simulatio
 int run(const RunOptions& options) {
   Registry registry(Registry::search_path(options.scenario.plugin_path));
   const double factor = options.view ? 0 : pacing_factor(options.speed);
-  Scenario scenario = open_file(options.view ? with_view(options, registry) : with_inputs(options), registry);
+  Scenario scenario = open_file(options.view ? with_view(options, registry) : options.scenario, registry);
+  add_inputs(scenario, options);
   BuiltScenario built = open_scenario(std::move(scenario), registry, [&](Simulation& s) {
     add_outputs(s, {{"--report", options.report}, {"--timeline", options.timeline}});
   });

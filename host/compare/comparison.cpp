@@ -71,7 +71,7 @@ void record(Simulation& simulation, const Comparison& comparison, VariationResul
   trajectory.sample(simulation);
   if (monitors) monitor->update();
   const std::int64_t period = monitors ? ContactMonitor::period : Odometer::period;
-  while (simulation.now() < end) {
+  while (simulation.now() < end && !simulation.stopped()) {
     simulation.run_until(std::min(end, simulation.now() - simulation.now() % period + period));
     if (monitors) monitor->update();
     if (simulation.now() % Odometer::period != 0 && simulation.now() < end) continue;

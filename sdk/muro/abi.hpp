@@ -12,7 +12,7 @@
 namespace muro::abi {
 
 inline constexpr std::uint32_t sdk_major = 3;
-inline constexpr std::uint32_t sdk_minor = 1;
+inline constexpr std::uint32_t sdk_minor = 2;
 
 /// The C-only head of a plugin's table. Hosts read nothing else before all fields agree with theirs.
 struct Stamp {

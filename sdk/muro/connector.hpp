@@ -226,6 +226,10 @@ class Connector {
   virtual void set_raw(ObjectId object, const KeyInfo& key, const void* value) noexcept = 0;
   ~Connector() = default;
 
+ public:
+  /// Hz, of the steps of this instance; 0: on demand, with the period of who reads. Since SDK 3.2.
+  virtual double rate() const noexcept { return 0; }
+
  private:
   /// Until somebody gives a value, it is that of a default-constructed T.
   template <class T>

@@ -47,6 +47,7 @@ struct OpenConnector : Connector {
     add_function("Connector::bind", &OpenConnector::bind, out);
     add_function("Connector::constant_raw", &OpenConnector::constant_raw, out);
     add_function("Connector::set_raw", &OpenConnector::set_raw, out);
+    add_function("Connector::rate", &OpenConnector::rate, out);
   }
 
  protected:

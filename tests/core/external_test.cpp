@@ -6,7 +6,8 @@
 
 #include "core/external/input_log.hpp"
 #include "core/external/lockstep_clients.hpp"
-#include "core/schedule/pacer.hpp"
+#include "core/schedule/scheduler.hpp"
+#include "core/world.hpp"
 #include "tests/support/bodies.hpp"
 #include "tests/support/complaint.hpp"
 
@@ -33,9 +34,17 @@ struct Sink final : InputSink {
   std::vector<Entry> entries;
 };
 
+/// Of a simulation in which nothing is.
+struct EmptyLog {
+  World world;
+  Scheduler scheduler;
+  InputLog log{world, scheduler};
+};
+
 TEST(InputsFromOutside, ComeBackAtTheirInstantsInAReplay) {
   Sink sink;
-  InputLog live;
+  EmptyLog first;
+  InputLog& live = first.log;
   ASSERT_TRUE(live.set_sink(&sink));
   InputChannel* laser = live.channel("laser");
   InputChannel* drive = live.channel("drive");
@@ -46,7 +55,8 @@ TEST(InputsFromOutside, ComeBackAtTheirInstantsInAReplay) {
   live.begin_epoch();
   laser->record(5, {2, 0, ""});
 
-  InputLog replay;
+  EmptyLog again_empty;
+  InputLog& replay = again_empty.log;
   ASSERT_TRUE(replay.set_recording(sink.recorded()));
   InputChannel* again = replay.channel("laser");
   EXPECT_TRUE(again->is_replayed());
@@ -69,12 +79,14 @@ TEST(InputsFromOutside, ComeBackAtTheirInstantsInAReplay) {
 
 TEST(InputsFromOutside, AreRecordedOnceMoreFromAReplay) {
   Sink sink, second;
-  InputLog live;
+  EmptyLog first;
+  InputLog& live = first.log;
   ASSERT_TRUE(live.set_sink(&sink));
   live.channel("laser")->record(10, {1, 2, "GD"});
   live.record({live.own_channel().name(), 0, 20, {0, 0, "place"}});
 
-  InputLog replay;
+  EmptyLog again_empty;
+  InputLog& replay = again_empty.log;
   ASSERT_TRUE(replay.set_recording(sink.recorded()));
   ASSERT_TRUE(replay.set_sink(&second));
   ExternalInput input;
@@ -92,7 +104,8 @@ TEST(InputsFromOutside, AreRecordedOnceMoreFromAReplay) {
 
 TEST(InputsFromOutside, HaveOneRecorderOneRecordingAndOneUserOfEachChannel) {
   Sink sink;
-  InputLog log;
+  EmptyLog empty;
+  InputLog& log = empty.log;
   EXPECT_TRUE(log.set_sink(&sink));
   EXPECT_FALSE(log.set_sink(&sink));
   EXPECT_NE(log.channel("a"), nullptr);

@@ -35,7 +35,6 @@ class FakeInputs final : public ExternalInputs, public InputChannel {
   std::uint64_t unused(std::string_view&) const noexcept override { return inputs.size() - next_; }
   std::uint64_t initial_hash() const noexcept override { return 0; }
   std::uint64_t robots_hash() const noexcept override { return 0; }
-  std::uint64_t state_hash() const noexcept override { return 0; }
   std::int64_t time() const noexcept override { return 0; }
   std::uint64_t epoch() const noexcept override { return 0; }
   void not_repeatable(std::string_view why) noexcept override { why_not_repeatable = why; }

@@ -83,6 +83,9 @@ class Stream::Impl {
         time_out();
         continue;
       }
+      if (input.kind > timed_out_kind)
+        throw Error("the recording cannot be replayed: kind " + std::to_string(input.kind) + " of stream " +
+                    quote(name) + " is none of 0 to " + std::to_string(timed_out_kind));
       replayed = {Event::Kind(input.kind), input.source, input.bytes};
       return &replayed;
     }
@@ -97,7 +100,7 @@ class Stream::Impl {
                              quote(name) + " (" + address.text() + ") for " + seconds + " s";
     if (address.ends_on_timeout)
       throw Error(what + "; start it, raise `timeout`, or let time go on without it by `on_timeout: go_on`");
-    if (inputs) inputs->not_repeatable(what);
+    if (inputs && !is_replayed()) inputs->not_repeatable(what);
   }
 
   void finish() const {

@@ -21,6 +21,7 @@ void WireController::connect(Connector& c) {
   const std::string name(p.text("name"));
   if (!is_name(name)) throw Error("`name` is " + quote(name) + ", but must be made of " + name_rule);
   first_report_ = p.real("report");
+  check_report_rate(c.rate());
   notes_ = CallNotes::of(c.host());
   for (std::uint32_t i = 0; i < c.items().size(); ++i) {
     const Item& item = c.items()[i];
@@ -52,7 +53,6 @@ std::span<const Phase> WireController::phases() const {
 
 /// In lockstep, time stands until every client waits for something that takes time.
 void WireController::step(const Step& step, Range) {
-  check_report_rate(step);
   for (const auto& s : servers_) s->begin(step);
   const bool is_lockstep = !servers_.empty() && servers_.front()->is_lockstep();
   for (int round = 0; serve_all(step) && is_lockstep && round < most_rounds;) ++round;
@@ -67,12 +67,12 @@ bool WireController::serve_all(const Step& step) {
   return any;
 }
 
-void WireController::check_report_rate(const Step& step) const {
-  if (first_report_ * step.dt <= 1 + 1e-9) return;
+void WireController::check_report_rate(double rate) const {
+  if (rate == 0 || first_report_ <= rate * (1 + 1e-9)) return;
   std::string text = "`report` is ";
   add_number(text, first_report_);
   text += " Hz, more than the rate of the controller, ";
-  add_number(text, 1 / step.dt);
+  add_number(text, rate);
   throw Error(text.append(" Hz; raise `rate`, or lower `report`"));
 }
 

@@ -46,7 +46,7 @@ class WireController : public Algorithm {
   const Service& service(std::uint32_t item) const { return servers_[item]->service(); }
 
  private:
-  void check_report_rate(const Step& step) const;
+  void check_report_rate(double rate) const;
   bool serve_all(const Step& step);
 
   const std::string title_;

@@ -74,7 +74,22 @@ void ControlledRobot::create_own_properties(Connector& c, ObjectId object) {
   }
 }
 
+void ControlledRobot::check_tasks(double rate) const {
+  for (std::size_t i = 0; i < settings_.task_rates.size(); ++i) {
+    const std::string task = settings_.table.tasks[i].name;
+    if (rate == 0)
+      throw Error(about() + "runs on demand, and its task " + quote(task) + " at a rate; give it a `rate`");
+    const double wanted = settings_.task_rates[i], steps = rate / wanted;
+    if (steps > 1 - 1e-9 && std::abs(steps - std::nearbyint(steps)) < 1e-6 * steps) continue;
+    throw Error(about() + "runs at " + rounded(rate) + " Hz, and its task " + quote(task) + " is to run at " +
+                rounded(wanted) +
+                " Hz; the rate of a task is a whole fraction of the controller's, set `rate` or `rates: [\"" + task +
+                "=" + rounded(rate / std::max(1.0, std::ceil(steps))) + "\"]`");
+  }
+}
+
 std::vector<std::string> ControlledRobot::connect(Connector& c, const Connections& inputs, const Connections& outputs) {
+  check_tasks(c.rate());
   const PropertyFinder finder(c, c.items()[item_]);
   std::vector<std::string> missing;
   for (const muro_port& port : settings_.table.inputs) {
@@ -189,17 +204,6 @@ void ControlledRobot::restored() {
 
 // --- steps
 
-void ControlledRobot::check_tasks(double period) const {
-  for (std::size_t i = 0; i < settings_.task_rates.size(); ++i) {
-    const double rate = settings_.task_rates[i], steps = 1 / (rate * period);
-    if (steps > 1 - 1e-9 && std::abs(steps - std::nearbyint(steps)) < 1e-6 * steps) continue;
-    throw Error(about() + "runs at " + rounded(1 / period) + " Hz, and its task " +
-                quote(settings_.table.tasks[i].name) + " is to run at " + rounded(rate) +
-                " Hz; the rate of a task is a whole fraction of the controller's, set `rate` or `rates: [\"" +
-                settings_.table.tasks[i].name + "=" + rounded(1 / (period * std::max(1.0, std::ceil(steps)))) + "\"]`");
-  }
-}
-
 void ControlledRobot::read_ports(InstanceMemory& m) const {
   for (std::size_t i = 0; i < inputs_.size(); ++i)
     if (m.inputs[i] != inputs_[i].direct() || !m.inputs[i]) m.input_sizes[i] = inputs_[i].read(m.inputs[i]);
@@ -304,7 +308,6 @@ void ControlledRobot::step(const Step& step) {
   Call call{.time = step.seconds(), .period = step.dt, .seed = seed_of(step.seed, random_key_), .index = step.index};
   const bool begins = block_->created == 0;
   if (begins || is_stale_) {
-    check_tasks(step.dt);
     call.function = begins ? Function::create : Function::resume;
     if (!this->call(call, step)) return;
     is_stale_ = false;

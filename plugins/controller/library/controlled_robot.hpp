@@ -84,7 +84,8 @@ class ControlledRobot {
   void check_size(const Port& port, const muro_port& wanted, bool input) const;
   InstanceMemory own_memory();
   void make_instance();
-  void check_tasks(double period) const;
+  /// Hz, of the controller.
+  void check_tasks(double rate) const;
   void read_ports(InstanceMemory& memory) const;
   bool write_ports(const InstanceMemory& memory, std::string& why_not) const;
   bool call(Call& call, const Step& step);

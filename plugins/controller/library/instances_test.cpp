@@ -161,8 +161,7 @@ TEST(ControllerLibrary, SetsTunablesByTheirNames) {
 
 TEST(ControllerLibrary, RunsTasksAtWholeFractionsOfItsRateOnly) {
   Remembering s({{"rates", Texts{"plan=3"}}});
-  s.build();
-  EXPECT_TRUE(says(s.run(1),
+  EXPECT_TRUE(says(test::complaint_of([&] { s.build(); }),
                    "robot `a`: `remembers` runs at 10 Hz, and its task `plan` is to run at 3 Hz; the rate of "
                    "a task is a whole fraction of the controller's, set `rate` or `rates: [\"plan=2.5\"]`"));
   EXPECT_TRUE(says(refusal_of("remembers.so", {{"rates", Texts{"plan=0"}}}), "rates are above 0"));

@@ -174,6 +174,7 @@ class Scip2 final : public Algorithm {
     if (c.items().empty())
       throw Error("it is a device on a robot; use it within one, `on` a laser, not under `algorithms`");
     model_ = read_model(c.parameters());
+    check_rate(c.rate());
     keeps_session_ = c.parameters().text("session") == "keep";
     host_ = &c.host();
     for (std::uint32_t i = 0; i < c.items().size(); ++i) stations_.push_back(std::make_unique<Station>(c, i, model_));
@@ -204,7 +205,6 @@ class Scip2 final : public Algorithm {
   }
 
   void step(const Step& step, Range) override {
-    check_rate(step.dt);
     for (const auto& s : stations_) {
       if (resumes_) s->resume(step.time);
       s->step(step.time);
@@ -214,11 +214,11 @@ class Scip2 final : public Algorithm {
   }
 
  private:
-  void check_rate(double dt) const {
-    const double scan = 1e-9 * double(model_.scan_period());
-    if (dt <= scan * (1 + 1e-6)) return;
-    throw Error("its rate is " + std::to_string(std::lround(1 / dt)) + " Hz, less than the " +
-                std::to_string(std::lround(1 / scan)) +
+  void check_rate(double rate) const {
+    const double scans = 1e9 / double(model_.scan_period());
+    if (rate == 0 || rate >= scans * (1 - 1e-6)) return;
+    throw Error("its rate is " + std::to_string(std::lround(rate)) + " Hz, less than the " +
+                std::to_string(std::lround(scans)) +
                 " scans that the device takes in a second; 200 Hz answers within 5 ms");
   }
 

@@ -66,9 +66,8 @@ class ExternalInputs {
   /// Of the state of all robots now: what is beside them, such as a camera that looks on, has no say in it. [between
   /// steps]
   virtual std::uint64_t robots_hash() const noexcept = 0;
-  virtual std::uint64_t state_hash() const noexcept = 0;  ///< of the whole state now [between steps]
-  virtual std::int64_t time() const noexcept = 0;         ///< ns, of the state now [between steps]
-  virtual std::uint64_t epoch() const noexcept = 0;       ///< of the state now [between steps]
+  virtual std::int64_t time() const noexcept = 0;    ///< ns, of the state now [between steps]
+  virtual std::uint64_t epoch() const noexcept = 0;  ///< of the state now [between steps]
   /// The run cannot be repeated from its scenario alone: an external client did not answer in time, for example.
   /// Reports say why. [any thread]
   virtual void not_repeatable(std::string_view why) noexcept = 0;
@@ -91,7 +90,7 @@ inline ExtensionId ExternalInputs::id() noexcept {
               structs, &InputChannel::is_replayed, &InputChannel::record, &InputChannel::replay, &InputSink::take,
               &ExternalInputs::channel, &ExternalInputs::may_open, &ExternalInputs::set_sink,
               &ExternalInputs::set_recording, &ExternalInputs::unused, &ExternalInputs::initial_hash,
-              &ExternalInputs::robots_hash, &ExternalInputs::state_hash, &ExternalInputs::time, &ExternalInputs::epoch,
+              &ExternalInputs::robots_hash, &ExternalInputs::time, &ExternalInputs::epoch,
               &ExternalInputs::not_repeatable)};
 }
 
