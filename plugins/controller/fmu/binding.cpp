@@ -50,18 +50,18 @@ void Binder::bind(const Item& item, Exchange& inputs, Exchange& outputs) {
   for (std::size_t v = 0; v < description_.variables.size(); ++v) {
     const Variable& variable = description_.variables[v];
     if (const auto in = inputs_.find(v); in != inputs_.end()) {
-      join(search, variable, search.places(in->second), true, inputs);
+      join(search, variable, places_of(search, in->second, true, variable.name), true, inputs);
     } else if (variable.causality == Causality::input && !start_values_.contains(v)) {
-      if (const auto place = search.place_of(variable.name, true))
+      if (const auto place = place_of(search, variable.name, true))
         join(search, variable, std::span(&*place, 1), true, inputs);
       else
         open.push_back(variable.name);
     }
     if (const auto out = outputs_.find(v); out != outputs_.end()) {
-      join(search, variable, search.places(out->second), false, outputs);
+      join(search, variable, places_of(search, out->second, false, variable.name), false, outputs);
     } else if (variable.causality == Causality::output) {
       // an output such as `twist` is no attempt to write the twist: commands only
-      const auto place = search.place_of(variable.name, false);
+      const auto place = place_of(search, variable.name, false);
       if (place && place->property.key->role == Role::command)
         join(search, variable, std::span(&*place, 1), false, outputs);
     }
@@ -91,7 +91,7 @@ Run Binder::run_of(const PropertySearch& search, const Variable& variable, const
   run.first = place.first;
   run.wanted = place.count;
   run.name = search.name_of(p);
-  run.conversions = conversions(variable, place, about);
+  run.conversions = conversions(search, variable, place, about);
   void*& handle = handles_[{p.object, std::string(p.key->name), is_input}];
   if (!handle) handle = is_input ? const_cast<void*>(connector_.read_any(p)) : connector_.write_any(p);
   run.handle = handle;
@@ -99,15 +99,17 @@ Run Binder::run_of(const PropertySearch& search, const Variable& variable, const
 }
 
 /// One for each scalar of an element; none where no number changes.
-std::vector<Conversion> Binder::conversions(const Variable& v, const Place& place, const std::string& about) const {
+std::vector<Conversion> Binder::conversions(const PropertySearch& search, const Variable& v, const Place& place,
+                                            const std::string& about) const {
   if (v.unit.empty() || v.type == Type::binary) return {};
   const auto defined = description_.units.find(v.unit);
   const Unit unit = defined == description_.units.end() ? Unit{v.unit, {}} : defined->second;
   const KeyInfo& key = *place.property.key;
+  const bool is_prismatic = search.joint_of(place.property.object) == JointKind::prismatic;
   std::vector<Conversion> all(key.type->scalars());
   for (std::uint32_t s = 0; s < all.size(); ++s) {
     if (!holds(place, s, std::uint32_t(all.size()))) continue;
-    const std::string_view wanted = unit_of_scalar(key, s, is_prismatic(place.property.object));
+    const std::string_view wanted = unit_of_scalar(key, s, is_prismatic);
     const auto found = conversion(unit, v.is_relative, wanted);
     if (!found)
       throw Error(about + "its unit is " + quote(v.unit) + ", and that is in " + quote(wanted) +
@@ -116,14 +118,6 @@ std::vector<Conversion> Binder::conversions(const Variable& v, const Place& plac
   }
   if (std::all_of(all.begin(), all.end(), [](const Conversion& c) { return c.is_identity(); })) all.clear();
   return all;
-}
-
-bool Binder::is_prismatic(ObjectId object) const {
-  const std::int32_t robot = connector_.robot_of(object);
-  if (robot < 0) return false;
-  for (const Link& link : connector_.robots()[std::size_t(robot)]->links)
-    if (link.joint_object == object) return link.joint == JointKind::prismatic;
-  return false;
 }
 
 }  // namespace muro::fmu

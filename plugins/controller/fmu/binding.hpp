@@ -28,8 +28,8 @@ class Binder {
   void join(const PropertySearch& search, const Variable& variable, std::span<const Place> places, bool is_input,
             Exchange& exchange);
   Run run_of(const PropertySearch& search, const Variable& variable, const Place& place, bool is_input);
-  std::vector<Conversion> conversions(const Variable& variable, const Place& place, const std::string& about) const;
-  bool is_prismatic(ObjectId object) const;
+  std::vector<Conversion> conversions(const PropertySearch& search, const Variable& variable, const Place& place,
+                                      const std::string& about) const;
 
   struct Binding {
     ObjectId object;

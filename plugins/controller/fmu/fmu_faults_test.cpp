@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 // What users read when an FMU, or what a scenario says about it, is wrong, and how steps that fail are mended.
+#include <signal.h>
+
 #include <cmath>
 
+#include "core/external/input_log.hpp"
 #include "fmu_testing.hpp"
+#include "tests/support/processes.hpp"
 
 namespace muro::fmu {
 namespace {
@@ -28,7 +32,9 @@ enum Fault {
   no_last_time,
   hangs,
   exits,
-  chats
+  chats,
+  forks,
+  closes
 };
 
 class FmuFault : public ::testing::TestWithParam<int> {
@@ -207,6 +213,56 @@ TEST_P(FmuFault, InAProcessOfItsOwnEndsTheRunAlone) {
 #endif
 }
 
+TEST_P(FmuFault, InAProcessOfItsOwnThatHasClosedItsSocketIsNamedAtOnce) {
+  const test::ScratchFolder scratch;
+  write_fmu(scratch.path("x.fmu"), version(), able());
+  Bench bench;
+  bench.is_isolated = true;
+  bench.control(scratch.path("x.fmu"), version(), Texts{"speed=command.twist[vx]"}, {fault(closes)});
+  bench.build();
+  const std::string said = failure(bench, 1);
+  EXPECT_SAYS(said, "robot `a`: x.fmu: its process has closed its socket to the simulation");
+  EXPECT_SAYS(said, "t = 0.5");
+}
+
+TEST_P(FmuFault, InAProcessOfItsOwnTakesProcessesAlong) {
+  const test::ScratchFolder scratch;
+  write_fmu(scratch.path("x.fmu"), version(), able());
+  pid_t other = 0;
+  {
+    Bench bench;
+    const std::int32_t& n = bench.sink(count);
+    bench.is_isolated = true;
+    bench.control(scratch.path("x.fmu"), version(), Texts{"count=test.count"}, {fault(forks)});
+    bench.build();
+    EXPECT_EQ(failure(bench, 1), "no complaint");
+    other = n;
+    EXPECT_TRUE(test::is_running(other));
+  }
+  EXPECT_TRUE(test::ends_soon(other));
+}
+
+TEST_P(FmuFault, ByTheClockOrAKillMakesTheRunNotRepeatable) {
+  const test::ScratchFolder scratch;
+  write_fmu(scratch.path("x.fmu"), version(), able());
+  const auto reasons_of = [&](Fault f, bool is_killed) {
+    Bench bench;
+    bench.control(scratch.path("x.fmu"), version(), Settings{{"isolate", std::string("process")}, {"timeout", 0.3}},
+                  {fault(f)});
+    bench.build();
+    const std::vector<pid_t> children = test::child_processes();
+    EXPECT_EQ(children.size(), 1u);
+    if (is_killed) kill(children.at(0), SIGKILL);
+    EXPECT_NE(failure(bench, 1), "no complaint");
+    return bench.inputs().reasons();
+  };
+  const std::string fmu = "robot `a`: x.fmu: ";
+  EXPECT_EQ(reasons_of(exits, true),
+            Texts{fmu + "its process was killed by SIGKILL, from outside or by the system for want of memory"});
+  EXPECT_EQ(reasons_of(hangs, false), Texts{fmu + "it did not return within `timeout` of 0.300000 s"});
+  EXPECT_EQ(reasons_of(exits, false), Texts{});
+}
+
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 TEST_P(FmuFault, FunctionsOfTheLibraryItselfComeFirst) {
   EXPECT_EQ(run(able(), {}, "open_step" + std::to_string(version())), "no complaint");
@@ -258,6 +314,8 @@ TEST_P(FmuFault, OfAScenarioIsNamed) {
   EXPECT_SAYS(refusal_with(inputs("angle=pose[x]")),
               "variable `angle` cannot be connected to `a/body:pose`: its unit is `deg`, and that is in `m`");
   EXPECT_SAYS(refusal_with(inputs("u=pse[x]")), "no object of robot `a` has a property `pse` (did you mean `pose`?)");
+  EXPECT_SAYS(refusal_with(inputs("u=body:psoe[x]")),
+              "object `a/body` has no property `psoe` (did you mean `pose`?); it has `");
   EXPECT_SAYS(refusal_with(inputs("u=arm:pose[x]")), "robot `a` has no object `arm`; it has `body`");
   EXPECT_SAYS(refusal_with(inputs("anlge=pose[x]")),
               "`inputs`: `anlge=pose[x]`: the FMU has no variable `anlge` (did "

@@ -51,7 +51,7 @@ std::size_t variable_of(std::string_view parameter, std::string_view text, const
   return std::size_t(found - d.variables.data());
 }
 
-Reference read_reference(std::string_view text, const std::string& about) {
+Reference read_scalars(std::string_view text, const std::string& about) {
   Reference r;
   if (text.ends_with(']')) {
     const std::size_t open = text.rfind('[');
@@ -59,10 +59,8 @@ Reference read_reference(std::string_view text, const std::string& about) {
     r.selection = text.substr(open + 1, text.size() - open - 2);
     text = text.substr(0, open);
   }
-  const std::size_t colon = text.rfind(':');
-  if (colon != text.npos) r.object = text.substr(0, colon);
-  r.property = text.substr(colon == text.npos ? 0 : colon + 1);
-  if (r.property.empty()) throw Error(about + "names no property");
+  r.property = read_reference(text);
+  if (r.property.property.empty()) throw Error(about + "names no property");
   return r;
 }
 
@@ -104,7 +102,7 @@ Mapping read_mapping(std::string_view parameter, std::span<const std::string_vie
     if (!is_new) throw Error(about + "maps " + quote(d.variables[variable].name) + " a second time");
     while (true) {
       const std::size_t comma = std::min(rest.find(','), rest.size());
-      entry->second.push_back(read_reference(rest.substr(0, comma), about));
+      entry->second.push_back(read_scalars(rest.substr(0, comma), about));
       if (comma == rest.size()) break;
       rest.remove_prefix(comma + 1);
     }
@@ -123,102 +121,21 @@ StartValues read_start_values(std::span<const std::string_view> texts, const Mod
   return all;
 }
 
-PropertySearch::PropertySearch(const Connector& connector, const Item& item) : connector_(connector), item_(item) {
-  objects_.push_back(item.object);
-  const auto add = [&](ObjectId o) {
-    if (std::find(objects_.begin(), objects_.end(), o) == objects_.end()) objects_.push_back(o);
-  };
-  if (item.robot) add(item.robot->base());
-  preferred_ = objects_.size();
-  for (std::uint32_t o = 0; item.robot && o < connector.object_count(); ++o)
-    if (connector.robot_of(ObjectId{o}) == std::int32_t(item.robot->number)) add(ObjectId{o});
-}
-
-std::string PropertySearch::owner() const { return item_.robot ? "robot " + quote(item_.robot->name) : "the world"; }
-
-std::string PropertySearch::local_name(ObjectId object) const {
-  std::string name(connector_.object_name(object));
-  if (item_.robot && name.starts_with(std::string(item_.robot->name) + "/"))
-    name.erase(0, item_.robot->name.size() + 1);
-  return name;
-}
-
-std::string PropertySearch::name_of(const FoundProperty& p) const {
-  return quote(std::string(connector_.object_name(p.object)) + ":" + std::string(p.key->name));
-}
-
-ObjectId PropertySearch::object(std::string_view name) const {
-  ObjectId found = no_object;
-  if (item_.robot) found = connector_.find_object(std::string(item_.robot->name) + "/" + std::string(name));
-  return found != no_object ? found : connector_.find_object(name);
-}
-
-/// Valid until the next call of this or of Connector::properties.
-const FoundProperty* PropertySearch::property_of(ObjectId object, std::string_view name) const {
-  for (const FoundProperty& p : connector_.properties(object))
-    if (p.key->name == name && !p.is_sum) return &p;
-  return nullptr;
-}
-
-std::optional<FoundProperty> PropertySearch::anywhere(std::string_view property) const {
-  std::vector<FoundProperty> found;
-  for (std::size_t i = 0; i < objects_.size(); ++i) {
-    if (const FoundProperty* p = property_of(objects_[i], property)) found.push_back(*p);
-    if (i < preferred_ && !found.empty()) return found.front();
-  }
-  if (found.empty()) {
-    if (const FoundProperty* p = property_of(world_object, property)) return *p;
-    return std::nullopt;
-  }
-  if (found.size() == 1) return found.front();
-  std::vector<std::string> names;
-  for (const FoundProperty& p : found) names.push_back(local_name(p.object));
-  throw Error("several objects of " + owner() + " have a property " + quote(property) + ": " + quoted_list(names) +
-              "; name one, as in \"" + names[0] + ":" + std::string(property) + "\"");
-}
-
-Place PropertySearch::place_of(const Reference& r) const {
-  std::vector<std::string> names;
-  std::optional<FoundProperty> found;
-  if (r.object.empty()) {
-    found = anywhere(r.property);
-    for (const ObjectId o : objects_)
-      for (const FoundProperty& p : connector_.properties(o)) names.emplace_back(p.key->name);
-  } else {
-    const ObjectId o = object(r.object);
-    if (o == no_object) {
-      for (const ObjectId known : objects_) names.push_back(local_name(known));
-      throw Error(owner() + " has no object " + quote(r.object) + did_you_mean(r.object, names) + "; it has " +
-                  quoted_list(names));
-    }
-    if (const FoundProperty* p = property_of(o, r.property)) found = *p;
-    for (const FoundProperty& p : connector_.properties(o)) names.emplace_back(p.key->name);
-  }
-  if (!found) {
-    std::sort(names.begin(), names.end());
-    names.erase(std::unique(names.begin(), names.end()), names.end());
-    throw Error((r.object.empty() ? "no object of " + owner() + " has" : "object " + quote(r.object) + " has no") +
-                (r.object.empty() ? " a property " : " property ") + quote(r.property) +
-                did_you_mean(r.property, names) + "; there are " + quoted_list(names) + "; `muro describe` lists all");
-  }
-  Place place{*found, 0, {}};
-  if (r.selection) select(place, *r.selection, name_of(*found));
-  return place;
-}
-
-std::vector<Place> PropertySearch::places(std::span<const Reference> references) const {
+std::vector<Place> places_of(const PropertySearch& search, std::span<const Reference> references, bool is_input,
+                             std::string_view variable) {
   std::vector<Place> all;
-  for (const Reference& r : references) all.push_back(place_of(r));
+  for (const Reference& r : references) {
+    Place place{search.find(r.property, is_input ? "inputs" : "outputs", variable)};
+    if (r.selection) select(place, *r.selection, search.name_of(place.property));
+    all.push_back(place);
+  }
   return all;
 }
 
-std::optional<Place> PropertySearch::place_of(std::string_view variable, bool is_input) const {
-  const std::optional<FoundProperty> found = anywhere(variable);
+std::optional<Place> place_of(const PropertySearch& search, std::string_view variable, bool is_input) {
+  const std::optional<FoundProperty> found = search.only(variable, is_input ? "inputs" : "outputs", variable);
   if (!found) return std::nullopt;
-  if (is_input)
-    if (const FoundProperty* measured = property_of(found->object, std::string(variable) + ".measured"))
-      return Place{*measured, 0, {}};
-  return Place{*found, 0, {}};
+  return Place{is_input ? search.measured(*found).value_or(*found) : *found};
 }
 
 }  // namespace muro::fmu

@@ -6,7 +6,6 @@
 #include "control_table.hpp"
 #include "muro/algorithm.hpp"
 #include "muro/toolkit/did_you_mean.hpp"
-#include "muro/vocabulary.hpp"
 #include "plugins/common/text/quote.hpp"
 #include "port.hpp"
 
@@ -18,17 +17,6 @@ std::string comma_separated(const std::vector<std::string>& names) {
   std::string all;
   for (const std::string& n : names) all += (all.empty() ? "" : ", ") + n;
   return all;
-}
-
-PropertyReference read_reference(std::string_view text) {
-  const std::size_t colon = text.rfind(':');
-  if (colon == std::string_view::npos) return {"", std::string(text)};
-  return {std::string(text.substr(0, colon)), std::string(text.substr(colon + 1))};
-}
-
-void sort_unique(std::vector<std::string>& names) {
-  std::sort(names.begin(), names.end());
-  names.erase(std::unique(names.begin(), names.end()), names.end());
 }
 
 }  // namespace
@@ -61,93 +49,6 @@ Connections read_connections(std::string_view parameter, std::span<const std::st
   return result;
 }
 
-PropertyFinder::PropertyFinder(const Connector& connector, const Item& item) : connector_(connector), item_(item) {
-  objects_.push_back(item.object);
-  const auto add = [&](ObjectId o) {
-    if (std::find(objects_.begin(), objects_.end(), o) == objects_.end()) objects_.push_back(o);
-  };
-  if (item.robot) add(item.robot->base());
-  preferred_ = objects_.size();
-  if (!item.robot) return;
-  for (std::uint32_t o = 0; o < connector.object_count(); ++o)
-    if (connector.robot_of(ObjectId{o}) == std::int32_t(item.robot->number)) add(ObjectId{o});
-}
-
-std::string PropertyFinder::robot_or_world() const {
-  return item_.robot ? "robot " + quote(item_.robot->name) : "the world";
-}
-
-/// The name without the robot's.
-std::string PropertyFinder::local_name(ObjectId object) const {
-  std::string name(connector_.object_name(object));
-  if (item_.robot && name.rfind(std::string(item_.robot->name) + "/", 0) == 0)
-    name.erase(0, item_.robot->name.size() + 1);
-  return name;
-}
-
-std::string PropertyFinder::full_name(const FoundProperty& p) const {
-  return quote(std::string(connector_.object_name(p.object)) + ":" + std::string(p.key->name));
-}
-
-ObjectId PropertyFinder::object(std::string_view name) const {
-  ObjectId found = no_object;
-  if (item_.robot) found = connector_.find_object(std::string(item_.robot->name) + "/" + std::string(name));
-  return found != no_object ? found : connector_.find_object(name);
-}
-
-/// Valid until the next call of this or of Connector::properties.
-const FoundProperty* PropertyFinder::property_of(ObjectId object, std::string_view name) const {
-  for (const FoundProperty& p : connector_.properties(object))
-    if (p.key->name == name && !p.is_sum) return &p;
-  return nullptr;
-}
-
-bool PropertyFinder::has(std::string_view property) const {
-  const auto holds = [&](ObjectId o) { return property_of(o, property) != nullptr; };
-  return std::any_of(objects_.begin(), objects_.end(), holds) || holds(world_object);
-}
-
-FoundProperty PropertyFinder::find_anywhere(std::string_view property, std::string_view parameter,
-                                            std::string_view port) const {
-  for (std::size_t i = 0; i < preferred_; ++i)
-    if (const FoundProperty* p = property_of(objects_[i], property)) return *p;
-  std::vector<FoundProperty> found;
-  for (std::size_t i = preferred_; i < objects_.size(); ++i)
-    if (const FoundProperty* p = property_of(objects_[i], property)) found.push_back(*p);
-  if (found.size() == 1) return found.front();
-  if (found.empty()) {
-    if (const FoundProperty* p = property_of(world_object, property)) return *p;
-    std::vector<std::string> names;
-    for (const ObjectId o : objects_)
-      for (const FoundProperty& p : connector_.properties(o)) names.emplace_back(p.key->name);
-    sort_unique(names);
-    throw Error("no object of " + robot_or_world() + " has a property " + quote(property) +
-                did_you_mean(property, names) + "; its objects have: " + comma_separated(names));
-  }
-  std::vector<std::string> candidates;
-  for (const FoundProperty& p : found) candidates.push_back(local_name(p.object));
-  throw Error("several objects of " + robot_or_world() + " have a property " + quote(property) + ": " +
-              comma_separated(candidates) + "; choose in " + quote(parameter) + ", e.g. \"" + std::string(port) + "=" +
-              candidates[0] + ":" + std::string(property) + "\" (several, separated by commas, stand side by side)");
-}
-
-FoundProperty PropertyFinder::find(const PropertyReference& reference, std::string_view parameter,
-                                   std::string_view port) const {
-  if (reference.object.empty()) return find_anywhere(reference.property, parameter, port);
-  const ObjectId o = object(reference.object);
-  if (o == no_object) {
-    std::vector<std::string> names;
-    for (const ObjectId known : objects_) names.push_back(local_name(known));
-    throw Error(robot_or_world() + " has no object " + quote(reference.object) + did_you_mean(reference.object, names) +
-                "; it has: " + comma_separated(names));
-  }
-  if (const FoundProperty* p = property_of(o, reference.property)) return *p;
-  std::vector<std::string> names;
-  for (const FoundProperty& p : connector_.properties(o)) names.emplace_back(p.key->name);
-  throw Error("object " + quote(connector_.object_name(o)) + " has no property " + quote(reference.property) +
-              did_you_mean(reference.property, names) + "; it has: " + comma_separated(names));
-}
-
 bool matches(std::string_view pattern, std::string_view name) {
   std::size_t p = 0, n = 0, star = pattern.npos, from = 0;  // `from`: what the last star has taken ends here
   while (n < name.size()) {
@@ -165,23 +66,18 @@ bool matches(std::string_view pattern, std::string_view name) {
   return p == pattern.size();
 }
 
-bool PropertyFinder::is_shadow(ObjectId object) const {
-  const std::int32_t robot = connector_.robot_of(object);
-  return robot >= 0 && connector_.constant(connector_.robots()[std::size_t(robot)]->base(), keys::shadow_of);
-}
-
 /// In the order of the scenario. First those of the robot itself, where the pattern names some of them; shadows are
 /// nobody's robots.
 std::vector<FoundProperty> PropertyFinder::find_matching(const PropertyReference& reference) const {
   std::vector<FoundProperty> found;
   bool any_object = false;
   const auto add = [&](std::uint32_t o, std::string_view name) {
-    if (!matches(reference.object, name) || is_shadow(ObjectId{o})) return;
+    if (!matches(reference.object, name) || search_.is_shadow(ObjectId{o})) return;
     any_object = true;
-    if (const FoundProperty* p = property_of(ObjectId{o}, reference.property)) found.push_back(*p);
+    if (const auto p = search_.property_of(ObjectId{o}, reference.property)) found.push_back(*p);
   };
-  for (std::uint32_t o = 0; item_.robot && o < connector_.object_count(); ++o)
-    if (connector_.robot_of(ObjectId{o}) == std::int32_t(item_.robot->number)) add(o, local_name(ObjectId{o}));
+  for (std::uint32_t o = 0; o < connector_.object_count(); ++o)
+    if (search_.is_own(ObjectId{o})) add(o, search_.local_name(ObjectId{o}));
   if (!found.empty()) return found;
   for (std::uint32_t o = 0; o < connector_.object_count(); ++o) add(o, connector_.object_name(ObjectId{o}));
   if (!found.empty()) return found;
@@ -189,19 +85,10 @@ std::vector<FoundProperty> PropertyFinder::find_matching(const PropertyReference
     throw Error("no object with a name like " + quote(reference.object) + " has a property " +
                 quote(reference.property));
   std::vector<std::string> names;
-  for (const ObjectId o : objects_) names.push_back(local_name(o));
+  for (const ObjectId o : search_.objects()) names.push_back(search_.local_name(o));
   for (const RobotView* r : connector_.robots()) names.emplace_back(connector_.object_name(r->base()));
   throw Error("no object has a name like " + quote(reference.object) + " (a `*` stands for any characters but `/`)" +
               did_you_mean(reference.object, names) + "; there are: " + quoted_list(names));
-}
-
-/// `fixed` for what is no joint.
-JointKind PropertyFinder::joint_of(ObjectId object) const {
-  const std::int32_t robot = connector_.robot_of(object);
-  if (robot < 0) return JointKind::fixed;
-  for (const Link& link : connector_.robots()[std::size_t(robot)]->links)
-    if (link.joint_object == object) return link.joint;
-  return JointKind::fixed;
 }
 
 /// Properties of joints are in "rad or m": the first where the joint turns, the second where it shifts.
@@ -210,16 +97,16 @@ void PropertyFinder::check_unit(const FoundProperty& p, const muro_port& port) c
   std::string_view unit = p.key->unit;
   std::string why;
   const std::size_t alternative = unit.find(" or ");
-  const JointKind joint = alternative == unit.npos ? JointKind::fixed : joint_of(p.object);
+  const JointKind joint = alternative == unit.npos ? JointKind::fixed : search_.joint_of(p.object);
   if (joint == JointKind::revolute) unit = unit.substr(0, alternative), why = ", for the joint turns,";
   if (joint == JointKind::prismatic) unit = unit.substr(alternative + 4), why = ", for the joint shifts,";
   if (unit == port.unit) return;
-  throw Error(full_name(p) + " is in \"" + std::string(unit) + "\"" + (why.empty() ? "," : why) +
+  throw Error(search_.name_of(p) + " is in \"" + std::string(unit) + "\"" + (why.empty() ? "," : why) +
               " but the library works in \"" + port.unit + "\"");
 }
 
 void PropertyFinder::check_type(const FoundProperty& p, const muro_port& port, bool input) const {
-  const std::string is_of_type = full_name(p) + " is of type " + std::string(p.key->type->name);
+  const std::string is_of_type = search_.name_of(p) + " is of type " + std::string(p.key->type->name);
   const Scalar scalar = p.key->type->scalar;
   if (type_of(port) == PortType::text) {
     const bool is_bytes = scalar == Scalar::u8;
@@ -240,10 +127,10 @@ void PropertyFinder::check(const FoundProperty& p, const muro_port& port, bool i
   check_type(p, port, input);
   const bool is_list = p.multiplicity == Multiplicity::list;
   if (is_list && !has_flag(port, MURO_PORT_LIST))
-    throw Error(full_name(p) +
+    throw Error(search_.name_of(p) +
                 " is a list, whose length changes from step to step; a port without MURO_PORT_LIST has a fixed size");
   if (!is_list && has_flag(port, MURO_PORT_LIST))
-    throw Error(full_name(p) + " has a fixed length, but the port is a list (MURO_PORT_LIST)");
+    throw Error(search_.name_of(p) + " has a fixed length, but the port is a list (MURO_PORT_LIST)");
   check_unit(p, port);
 }
 
@@ -254,17 +141,15 @@ std::vector<FoundProperty> PropertyFinder::find(const muro_port& port, bool inpu
   if (const auto connected = connections.find(port.name); connected != connections.end()) {
     for (const PropertyReference& r : connected->second) {
       if (r.object.find('*') == std::string::npos) {
-        found.push_back(find(r, parameter, port.name));
+        found.push_back(search_.find(r, parameter, port.name));
       } else {
         const std::vector<FoundProperty> all = find_matching(r);
         found.insert(found.end(), all.begin(), all.end());
       }
     }
   } else {
-    found.push_back(find_anywhere(port.name, parameter, port.name));
-    if (const FoundProperty* measured = property_of(found[0].object, std::string(port.name) + ".measured");
-        measured && input)
-      found[0] = *measured;
+    const FoundProperty p = search_.find({"", port.name}, parameter, port.name);
+    found.push_back(input ? search_.measured(p).value_or(p) : p);
   }
   for (const FoundProperty& p : found) check(p, port, input);
   const bool is_one = has_flag(port, MURO_PORT_LIST) || (!input && type_of(port) == PortType::text);

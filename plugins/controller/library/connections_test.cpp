@@ -56,7 +56,7 @@ TEST(ControllerLibrary, AsksWhichObjectIsMeantWhenSeveralHaveAProperty) {
   EXPECT_TRUE(says(
       refusal(s),
       "robot `a`: input `ranges` of `see` cannot be connected: several objects of robot `a` have a property `ranges`: "
-      "laser, rear; choose in `inputs`, e.g. \"ranges=laser:ranges\""));
+      "`laser`, `rear`; choose in `inputs`, e.g. \"ranges=laser:ranges\""));
   Seeing chosen;
   chosen.add_sensor("rear", {7, 8});
   chosen.see({{"inputs", Texts{"ranges=rear:ranges", "angle=rear:laser.min_angle"}}});
@@ -103,7 +103,7 @@ TEST(ControllerLibrary, AJointPropertyOfManyJointsNeedsAChoice) {
   s.see({{"inputs", Texts{"angle=joint.position"}}});
   EXPECT_TRUE(
       says(refusal(s),
-           "several objects of robot `a` have a property `joint.position`: left, right; choose in `inputs`, e.g. "
+           "several objects of robot `a` have a property `joint.position`: `left`, `right`; choose in `inputs`, e.g. "
            "\"angle=left:joint.position\" (several, separated by commas, stand side by side)"));
 }
 
@@ -114,9 +114,9 @@ TEST(ControllerLibrary, NamesWhatIsWrongWithAConnection) {
   EXPECT_TRUE(says(refused("pose"), "`inputs`: `pose` must be \"port=object:property\" or \"port=property\""));
   EXPECT_TRUE(says(refused("pose="), "`inputs`: `pose=` names no property"));
   EXPECT_TRUE(says(refused("pose=body:"), "names no property"));
-  EXPECT_TRUE(says(refused("pose=bdy:pose"), "robot `a` has no object `bdy` (did you mean `body`?); it has: body, "));
+  EXPECT_TRUE(says(refused("pose=bdy:pose"), "robot `a` has no object `bdy` (did you mean `body`?); it has `body`, "));
   EXPECT_TRUE(
-      says(refused("pose=body:psoe"), "object `a/body` has no property `psoe` (did you mean `pose`?); it has: "));
+      says(refused("pose=body:psoe"), "object `a/body` has no property `psoe` (did you mean `pose`?); it has `"));
   EXPECT_TRUE(says(refused("pose=body:collision.shapes"), "has no property `collision.shapes`"));
   EXPECT_TRUE(says(refusal_of("circle.so", {{"inputs", Texts{"pose=body:pose", "pose=b/body:pose"}}}),
                    "connects port `pose` a second time"));

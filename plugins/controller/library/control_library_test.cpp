@@ -81,7 +81,7 @@ TEST(ControllerLibrary, NamesWhatIsWrongWithALibrary) {
            {"open_output.so", "output `command.twist` has size 0; only inputs may leave their size open"},
            {"unknown_output.so",
             "output `comand.twist` of `one` cannot be connected: no object of robot `a` has a property "
-            "`comand.twist` (did you mean `command.twist`?); its objects have: "},
+            "`comand.twist` (did you mean `command.twist`?); its objects have `"},
            {"wrong_unit.so", "`a/body:command.twist` is in \"m/s, rad/s\", but the library works in \"km/h\""},
            {"wrong_size.so",
             "robot `a`: output `command.twist` of `one` has 2 numbers in the library, but the connected properties "

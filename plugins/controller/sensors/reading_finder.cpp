@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "reading_finder.hpp"
 
-#include <algorithm>
-
 #include "muro/algorithm.hpp"
 #include "muro/toolkit/did_you_mean.hpp"
-#include "muro/vocabulary.hpp"
 #include "plugins/common/text/glob.hpp"
 #include "plugins/common/text/quote.hpp"
 #include "reading.hpp"
@@ -36,36 +33,24 @@ std::vector<Found> select(const std::vector<Found>& from, std::string_view patte
 
 }  // namespace
 
-ReadingFinder::ReadingFinder(const Connector& connector, const Item& item) : connector_(connector), item_(item) {
+ReadingFinder::ReadingFinder(const Connector& connector, const Item& item) : search_(connector, item) {
   for (std::uint32_t i = 0; i < connector.object_count(); ++i) {
     const ObjectId object{i};
-    const bool is_own = item.robot && connector.robot_of(object) == std::int32_t(item.robot->number);
-    if (!is_own && is_shadow(object)) continue;
+    const bool is_own = search_.is_own(object);
+    if (!is_own && search_.is_shadow(object)) continue;
     for (const FoundProperty& p : connector.properties(object)) {
       const std::string property = ":" + std::string(p.key->name);
-      if (is_own) own_.emplace_back(local_name(object) + property, p);
+      if (is_own) own_.emplace_back(search_.local_name(object) + property, p);
       all_.emplace_back(std::string(connector.object_name(object)) + property, p);
     }
   }
 }
 
-std::string ReadingFinder::local_name(ObjectId object) const {
-  return std::string(connector_.object_name(object).substr(item_.robot->name.size() + 1));
-}
-
-bool ReadingFinder::is_shadow(ObjectId object) const {
-  const std::int32_t robot = connector_.robot_of(object);
-  return robot >= 0 && connector_.constant(connector_.robots()[std::size_t(robot)]->base(), keys::shadow_of);
-}
-
 std::vector<Found> ReadingFinder::find_measured(std::string_view property) const {
   std::string skipped;
   std::vector<Found> found = select(own_, std::string("*:").append(property), skipped);
-  for (Found& f : found) {
-    const std::string measured = f.first + ".measured";
-    const auto better = std::find_if(own_.begin(), own_.end(), [&](const Found& o) { return o.first == measured; });
-    if (better != own_.end()) f = *better;
-  }
+  for (auto& [name, p] : found)
+    if (const auto measured = search_.measured(p)) name += ".measured", p = *measured;
   return found;
 }
 
@@ -73,7 +58,7 @@ std::vector<Found> ReadingFinder::find(std::string_view member) const {
   std::string skipped;
   std::vector<Found> found;
   const bool names_object = member.find(':') != member.npos;
-  if (!names_object && item_.robot) found = find_measured(member);
+  if (!names_object) found = find_measured(member);
   if (names_object) found = select(own_, member, skipped);
   if (found.empty() && names_object) found = select(all_, member, skipped);
   if (!found.empty()) return found;

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "muro/connector.hpp"
+#include "plugins/common/property_search/property_search.hpp"
 
 namespace muro::sensors {
 
@@ -26,11 +26,8 @@ class ReadingFinder {
 
  private:
   std::vector<Found> find_measured(std::string_view property) const;
-  std::string local_name(ObjectId object) const;
-  bool is_shadow(ObjectId object) const;
 
-  const Connector& connector_;
-  Item item_;
+  PropertySearch search_;
   std::vector<Found> own_, all_;  ///< of the robot, by local names; of all objects
 };
 
