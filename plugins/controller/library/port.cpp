@@ -8,34 +8,11 @@
 
 #include "muro/object.hpp"
 #include "muro/scene.hpp"
+#include "plugins/common/scalar/with_scalar.hpp"
 
 namespace muro::control {
 
 namespace {
-
-/// Calls `visit` with a null pointer to the C++ type of a scalar.
-template <class Visit>
-auto with_type(Scalar scalar, Visit visit) {
-  switch (scalar) {
-    case Scalar::f32:
-      return visit(static_cast<float*>(nullptr));
-    case Scalar::i64:
-      return visit(static_cast<std::int64_t*>(nullptr));
-    case Scalar::i32:
-      return visit(static_cast<std::int32_t*>(nullptr));
-    case Scalar::u64:
-      return visit(static_cast<std::uint64_t*>(nullptr));
-    case Scalar::u32:
-      return visit(static_cast<std::uint32_t*>(nullptr));
-    case Scalar::u8:
-      return visit(static_cast<std::uint8_t*>(nullptr));
-    case Scalar::f64:
-    case Scalar::opaque:
-    case Scalar::transient:
-      break;  // refused at set-up
-  }
-  return visit(static_cast<double*>(nullptr));
-}
 
 /// Whether `value`, rounded where T is a type of whole numbers, fits into T.
 template <class T>
@@ -162,8 +139,8 @@ std::uint32_t Port::read_list(const Segment& s, double* to) const {
       to += numbers_of_contact;
     }
   } else {
-    with_type(s.scalar, [&](auto* type) {
-      const auto* from = static_cast<decltype(type)>(list->data);
+    with_scalar(s.scalar, [&]<class T>(T) {
+      const auto* from = static_cast<const T*>(list->data);
       for (std::uint64_t i = 0; i < most * s.per_element; ++i) to[i] = double(from[i]);
     });
   }
@@ -177,8 +154,8 @@ std::uint32_t Port::read(void* to) const {
   const auto copy = [&](auto* next) {
     using Number = std::remove_pointer_t<decltype(next)>;
     for (const Segment& s : segments_)
-      with_type(s.scalar, [&](auto* scalar) {
-        const auto* from = static_cast<decltype(scalar)>(s.data);
+      with_scalar(s.scalar, [&]<class T>(T) {
+        const auto* from = static_cast<const T*>(s.data);
         for (std::uint32_t i = 0; i < s.count; ++i) *next++ = Number(from[i]);
       });
   };
@@ -194,8 +171,8 @@ template <class T, class Write>
 bool Port::each_of(const void* from, std::uint32_t& bad, Write write) const {
   const T* next = static_cast<const T*>(from);
   for (const Segment& s : segments_) {
-    const bool fine = with_type(s.scalar, [&](auto* scalar) {
-      auto* to = static_cast<decltype(scalar)>(s.data);
+    const bool fine = with_scalar(s.scalar, [&]<class Held>(Held) {
+      auto* to = static_cast<Held*>(s.data);
       for (std::uint32_t i = 0; i < s.count; ++i, ++next)
         if (!write(to[i], *next)) return false;
       return true;

@@ -3,36 +3,17 @@
 
 #include <cstring>
 
+#include "plugins/common/scalar/with_scalar.hpp"
+
 namespace muro::sensors {
 
 namespace {
 
-template <class T>
-double number_at(const void* place) {
-  T number;
-  std::memcpy(&number, place, sizeof number);
-  return double(number);
-}
-
 double number_at(Scalar scalar, const void* place) {
-  switch (scalar) {
-    case Scalar::f64:
-      return number_at<double>(place);
-    case Scalar::f32:
-      return number_at<float>(place);
-    case Scalar::i64:
-      return number_at<std::int64_t>(place);
-    case Scalar::i32:
-      return number_at<std::int32_t>(place);
-    case Scalar::u64:
-      return number_at<std::uint64_t>(place);
-    case Scalar::u32:
-      return number_at<std::uint32_t>(place);
-    case Scalar::u8:
-      return number_at<std::uint8_t>(place);
-    default:
-      return 0;
-  }
+  return with_scalar(scalar, [&]<class T>(T number) {
+    std::memcpy(&number, place, sizeof number);
+    return double(number);
+  });
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "muro/algorithm.hpp"
+#include "plugins/common/scalar/with_scalar.hpp"
 
 namespace muro {
 
@@ -72,29 +73,11 @@ void CsvFile::text(std::string_view field) {
 void CsvFile::number(Scalar type, const void* value) {
   separate();
   char digits[32];
-  const auto put = [&]<class T>(T zero) {
-    std::memcpy(&zero, value, sizeof zero);
-    buffer_.append(digits, std::to_chars(digits, digits + sizeof digits, zero).ptr);
-  };
-  switch (type) {
-    case Scalar::f64:
-      return put(double{});
-    case Scalar::f32:
-      return put(float{});
-    case Scalar::i64:
-      return put(std::int64_t{});
-    case Scalar::i32:
-      return put(std::int32_t{});
-    case Scalar::u64:
-      return put(std::uint64_t{});
-    case Scalar::u32:
-      return put(std::uint32_t{});
-    case Scalar::u8:
-      return put(std::uint8_t{});
-    case Scalar::opaque:
-    case Scalar::transient:
-      break;
-  }
+  if (size_of(type) == 0) return;
+  with_scalar(type, [&]<class T>(T number) {
+    std::memcpy(&number, value, sizeof number);
+    buffer_.append(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
+  });
 }
 
 void CsvFile::time(std::int64_t nanoseconds) {
