@@ -31,6 +31,41 @@ std::string listed(const ControlTable::Tunable& t) {
   return text + "default " + shortest(t.default_value) + ")";
 }
 
+/// What a scenario gives as "name=number", by place in `entries`; the member `initial` of an entry where it gives
+/// nothing. `parameter` is for messages; `what` of the library has these names: "tunable".
+template <class Entry>
+std::vector<double> read_numbers(std::string_view parameter, std::string_view what,
+                                 std::span<const std::string_view> texts, const std::vector<Entry>& entries,
+                                 double Entry::*initial, std::string_view library) {
+  std::vector<std::string> names;
+  std::vector<double> numbers;
+  for (const Entry& e : entries) names.push_back(e.name), numbers.push_back(e.*initial);
+  std::vector<bool> given(names.size());
+  for (const std::string_view text : texts) {
+    const std::string context = quote(parameter) + ": " + quote(text);
+    const std::size_t equals = text.find('=');
+    double number = 0;
+    const char* const end = text.data() + text.size();
+    const auto read = equals == std::string_view::npos ? std::from_chars_result{nullptr, std::errc::invalid_argument}
+                                                       : std::from_chars(text.data() + equals + 1, end, number);
+    if (read.ec != std::errc() || read.ptr != end || !std::isfinite(number))
+      throw Error(context + " must be \"name=number\"");
+    const std::string name(text.substr(0, equals));
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) {
+      std::string all;
+      for (const std::string& n : names) all += (all.empty() ? "" : ", ") + n;
+      throw Error(context + ": library " + quote(library) + " has no " + std::string(what) + " " + quote(name) +
+                  did_you_mean(name, names) + "; it has: " + (all.empty() ? "none" : all));
+    }
+    const auto place = std::size_t(found - names.begin());
+    if (given[place]) throw Error(context + " sets " + quote(name) + " a second time");
+    given[place] = true;
+    numbers[place] = number;
+  }
+  return numbers;
+}
+
 }  // namespace
 
 muro_controller_table complete(const muro_controller_table& table) {
@@ -63,42 +98,12 @@ ControlTable describe(const muro_controller_table& given) {
   return all;
 }
 
-std::vector<double> read_numbers(std::string_view parameter, std::string_view what,
-                                 std::span<const std::string_view> texts, std::span<const std::string> names,
-                                 std::vector<double> initial, std::string_view library) {
-  std::vector<bool> given(names.size());
-  for (const std::string_view text : texts) {
-    const std::string context = quote(parameter) + ": " + quote(text);
-    const std::size_t equals = text.find('=');
-    double number = 0;
-    const char* const end = text.data() + text.size();
-    const auto read = equals == std::string_view::npos ? std::from_chars_result{nullptr, std::errc::invalid_argument}
-                                                       : std::from_chars(text.data() + equals + 1, end, number);
-    if (read.ec != std::errc() || read.ptr != end || !std::isfinite(number))
-      throw Error(context + " must be \"name=number\"");
-    const std::string name(text.substr(0, equals));
-    const auto found = std::find(names.begin(), names.end(), name);
-    if (found == names.end()) {
-      std::string all;
-      for (const std::string& n : names) all += (all.empty() ? "" : ", ") + n;
-      throw Error(context + ": library " + quote(library) + " has no " + std::string(what) + " " + quote(name) +
-                  did_you_mean(name, names) + "; it has: " + (all.empty() ? "none" : all));
-    }
-    const auto place = std::size_t(found - names.begin());
-    if (given[place]) throw Error(context + " sets " + quote(name) + " a second time");
-    given[place] = true;
-    initial[place] = number;
-  }
-  return initial;
-}
-
 std::vector<double> read_tunables(std::span<const std::string_view> texts, const ControlTable& table) {
-  std::vector<std::string> names;
-  std::vector<double> values;
-  for (const ControlTable::Tunable& t : table.tunables) names.push_back(t.name), values.push_back(t.default_value);
-  values = read_numbers("tunables", "tunable", texts, names, std::move(values), table.name);
+  using Tunable = ControlTable::Tunable;
+  std::vector<double> values =
+      read_numbers("tunables", "tunable", texts, table.tunables, &Tunable::default_value, table.name);
   for (std::size_t i = 0; i < values.size(); ++i) {
-    const ControlTable::Tunable& t = table.tunables[i];
+    const Tunable& t = table.tunables[i];
     if (t.is_bounded() && !(values[i] >= t.min && values[i] <= t.max))
       throw Error("`tunables`: " + quote(t.name) + " of " + quote(table.name) + " is " + shortest(values[i]) +
                   "; it has: " + listed(t));
@@ -107,13 +112,10 @@ std::vector<double> read_tunables(std::span<const std::string_view> texts, const
 }
 
 std::vector<double> read_rates(std::span<const std::string_view> texts, const ControlTable& table) {
-  std::vector<std::string> names;
-  std::vector<double> rates;
-  for (const ControlTable::Task& t : table.tasks) names.push_back(t.name), rates.push_back(t.rate);
-  rates = read_numbers("rates", "task", texts, names, std::move(rates), table.name);
+  std::vector<double> rates = read_numbers("rates", "task", texts, table.tasks, &ControlTable::Task::rate, table.name);
   for (std::size_t i = 0; i < rates.size(); ++i)
     if (!(rates[i] > 0))
-      throw Error("`rates`: task " + quote(names[i]) + " of " + quote(table.name) + " is to run at " +
+      throw Error("`rates`: task " + quote(table.tasks[i].name) + " of " + quote(table.name) + " is to run at " +
                   shortest(rates[i]) + " Hz; rates are above 0");
   return rates;
 }

@@ -62,12 +62,6 @@ struct ControlTable {
 /// Of a checked table, see check_table.
 ControlTable describe(const muro_controller_table& table);
 
-/// What a scenario gives as "name=number", by place in `names`; `initial` where it gives nothing. `parameter` is for
-/// messages; `what` of the library has these names: "tunable". Throws Error.
-std::vector<double> read_numbers(std::string_view parameter, std::string_view what,
-                                 std::span<const std::string_view> texts, std::span<const std::string> names,
-                                 std::vector<double> initial, std::string_view library);
-
 /// The value of each tunable: what the scenario sets, else its default. Throws Error for a name that the library does
 /// not have and for a value out of its range.
 std::vector<double> read_tunables(std::span<const std::string_view> texts, const ControlTable& table);
