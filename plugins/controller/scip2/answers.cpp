@@ -7,21 +7,22 @@
 
 namespace muro::scip2 {
 
-void Device::reply(const Call& call, std::string_view status) {
+ReplyWriter Device::begin_reply(const Call& call, std::string_view status) {
   text_.clear();
   ReplyWriter r(text_);
   r.plain(call.line);
   r.summed(status);
-  r.end();
+  return r;
+}
+
+void Device::reply(const Call& call, std::string_view status) {
+  begin_reply(call, status).end();
   send(call);
 }
 
 void Device::reply_state(const Call& call) {
   const State& s = call.state;
-  text_.clear();
-  ReplyWriter r(text_);
-  r.plain(call.line);
-  r.summed("00");
+  ReplyWriter r = begin_reply(call, "00");
   r.summed(health_of(s.fault, s.fault_scans) == Health::failed ? "900"
            : s.is_adjusting                                    ? "002"
            : sends_scans(s)                                    ? "004"
@@ -47,10 +48,7 @@ bool Device::answer_scip2(const Call& call, const Request& request) {
     case Command::VV:
     case Command::PP:
     case Command::II: {
-      text_.clear();
-      ReplyWriter r(text_);
-      r.plain(call.line);
-      r.summed("00");
+      ReplyWriter r = begin_reply(call, "00");
       if (command == Command::VV) write_version(r);
       if (command == Command::PP) write_parameters(r);
       if (command == Command::II) write_status(r, s, call.now);
@@ -112,13 +110,8 @@ bool Device::answer_scan(const Call& call, const Request& request) {
   s.answered_command = std::uint8_t(request.command);
   s.answered_client = call.client;
   s.answered_scan_time = s.scan_time;
-  text_.clear();
-  ReplyWriter r(text_);
-  r.plain(call.line);
-  r.summed("00");
-  r.begin_block();
-  r.value(timestamp(s, s.scan_time), 4);
-  r.end_block();
+  ReplyWriter r = begin_reply(call, "00");
+  write_timestamp(r, s, s.scan_time);
   write_scan(r, scan_of(s), request.window, form_of(request.command));
   r.end();
   send(call);
@@ -203,13 +196,8 @@ std::string_view Device::adjust(const Call& call, std::uint32_t code) {
     s.is_adjusting = 0;
     return "00";
   }
-  text_.clear();
-  ReplyWriter r(text_);
-  r.plain(call.line);
-  r.summed("00");
-  r.begin_block();
-  r.value(timestamp(s, call.now), 4);
-  r.end_block();
+  ReplyWriter r = begin_reply(call, "00");
+  write_timestamp(r, s, call.now);
   r.end();
   send(call);
   return {};

@@ -109,6 +109,12 @@ std::uint32_t Device::timestamp(const State& s, std::int64_t time) {
   return std::uint32_t((time - s.timer_zero) / 1'000'000) & 0xffffff;
 }
 
+void Device::write_timestamp(ReplyWriter& reply, const State& s, std::int64_t time) {
+  reply.begin_block();
+  reply.value(timestamp(s, time), 4);
+  reply.end_block();
+}
+
 void Device::send_scan(State& s, DeviceHost& host) {
   Measurement& m = s.measurement;
   if (!sends_scans(s)) return;
@@ -130,9 +136,7 @@ void Device::send_scan(State& s, DeviceHost& host) {
     reply.summed(health == Health::checking ? "21" : health == Health::resuming ? "98" : "50");
   } else {
     reply.summed("99");
-    reply.begin_block();
-    reply.value(timestamp(s, s.scan_time), 4);
-    reply.end_block();
+    write_timestamp(reply, s, s.scan_time);
     write_scan(reply, scan_of(s), {m.start, m.end, m.cluster}, form_of(Command(m.command)));
   }
   reply.end();

@@ -73,7 +73,8 @@ class Device {
   void laser_on(State& s, std::int64_t now) const;
   void laser_off(State& s) const;
   ScanView scan_of(const State& s) const;
-  static std::uint32_t timestamp(const State& s, std::int64_t time);
+  static std::uint32_t timestamp(const State& s, std::int64_t time);  ///< ms
+  static void write_timestamp(ReplyWriter& reply, const State& s, std::int64_t time);
 
   // answers.cpp: false when the answer has to wait for a scan
   bool answer(const Call& call);
@@ -83,6 +84,7 @@ class Device {
   void reset(const Call& call, Command command);
   std::string_view change_setting(const Call& call, const Request& request);
   std::string_view adjust(const Call& call, std::uint32_t code);
+  ReplyWriter begin_reply(const Call& call, std::string_view status);
   void reply(const Call& call, std::string_view status);
   void reply_state(const Call& call);
   void send(const Call& call) { call.host.send(call.client, text_); }
