@@ -175,10 +175,14 @@ std::string_view Device::change_setting(const Call& call, const Request& request
       if (s.is_sensitive == request.value) return "02";
       s.is_sensitive = std::uint8_t(request.value);
       return "00";
-    default:  // DB
-      s.fault = std::uint8_t(request.value == 10 ? 0 : request.value);
+    default: {  // DB
+      const auto fault = std::uint8_t(request.value == 10 ? 0 : request.value);
+      if (has_ended(s.fault, s.fault_scans)) s.fault = 0;
+      if (s.fault == fault) return fault == 0 ? "03" : "02";
+      s.fault = fault;
       s.fault_scans = 0;
       return "00";
+    }
   }
 }
 

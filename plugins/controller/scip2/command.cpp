@@ -74,7 +74,7 @@ std::string_view read_window(std::string_view digits, const Model& model, Reques
     if (!read_number(digits.substr(10, 1), r.interval)) return "06";
     if (!read_number(digits.substr(11, 2), r.count)) return "07";
   }
-  if (r.window.end > std::uint32_t(model.last_step)) return "04";
+  if (r.window.end > std::uint32_t(model.last_measurement_point())) return "04";
   if (r.window.end < r.window.start) return "05";
   r.window.cluster = std::max(r.window.cluster, 1u);
   return "00";
@@ -93,7 +93,7 @@ std::string_view check_value(const Model& model, const Request& r) {
     case Command::HS:
       return r.value <= 1 ? "00" : "01";
     case Command::DB:
-      return (r.value >= 1 && r.value <= 5) || r.value == 10 ? "00" : "02";
+      return (r.value >= 1 && r.value <= 5) || r.value == 10 ? "00" : "01";
     default:
       return "00";
   }

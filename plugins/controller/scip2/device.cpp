@@ -27,7 +27,7 @@ void remove_pending(State& s, std::uint32_t from, std::uint32_t count) {
 }  // namespace
 
 Device::Device(Model model, bool is_swept) : model_(std::move(model)), is_swept_(is_swept) {
-  const std::size_t values = 6 * (std::size_t(model_.last_step) + 1);
+  const std::size_t values = 6 * (std::size_t(model_.last_measurement_point()) + 1);
   text_.reserve(values + 2 * (values / block_line_length + 1) + 2 * longest_line + 1024);
 }
 

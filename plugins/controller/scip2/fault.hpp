@@ -39,4 +39,10 @@ constexpr Health health_of(std::uint8_t fault, std::uint32_t scans) {
   }
 }
 
+/// Whether the stages are over, and the device is normal until the next `DB`.
+constexpr bool has_ended(std::uint8_t fault, std::uint32_t scans) {
+  const std::uint32_t stages = fault == 1 ? 1 : 2;
+  return fault == 0 || ((fault == 1 || fault == 3) && scans > stages * fault_stage_scans);
+}
+
 }  // namespace muro::scip2

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "model.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <numbers>
 #include <tuple>
 
 namespace muro::scip2 {
+
+std::int32_t Model::last_measurement_point() const {
+  return std::max(last_step, std::min(2 * front_step, steps_per_turn - 1));
+}
 
 double Model::angle_of(std::int32_t step) const {
   return double(step - front_step) * (2 * std::numbers::pi / steps_per_turn);

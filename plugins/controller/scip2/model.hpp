@@ -58,6 +58,8 @@ struct Model {
   bool has_states = false;            ///< %ST and %SL
 
   std::uint32_t step_count() const { return std::uint32_t(last_step - first_step + 1); }
+  /// The last that may be asked for, as far from the front as step 0; those behind AMAX see nothing.
+  std::int32_t last_measurement_point() const;
   double angle_of(std::int32_t step) const;  ///< rad, counter-clockwise from the front
   /// ns that a turn takes at `percent_slower` than SCAN.
   std::int64_t scan_period(std::int32_t percent_slower = 0) const;

@@ -27,6 +27,22 @@ TEST(Scip2Scan, ThreeScansAreCountedDownAndThenTheLaserIsOff) {
   EXPECT_EQ(d.status_of("GD0044072501"), "10");
 }
 
+/// Step D of table 2 in the protocol, "last measurement point": some drivers (Player, gearbox) always ask for all 769.
+TEST(Scip2Scan, StepsGoToTheLastMeasurementPoint) {
+  Awake d;
+  d.ask("BM\n", 250);
+  const auto replies = complete(d.ask("GD0000076801\nGS0720076801\n", 250));
+  ASSERT_EQ(replies.size(), 2u);
+  std::vector<long> wanted(769, 0);
+  std::fill(wanted.begin() + 44, wanted.begin() + 726, 1000);
+  EXPECT_EQ(replies[0].values(3), wanted);
+  EXPECT_EQ(replies[1].values(2), std::vector<long>(wanted.begin() + 720, wanted.end()));
+  EXPECT_EQ(d.status_of("GD0000076901"), "04");
+  Bench utm(utm_30lx());
+  utm.ask("BM\n", 60);
+  EXPECT_EQ(utm.status_of("GD0000108101"), "04");
+}
+
 TEST(Scip2Scan, OneScanThatWasAskedForSays00) {
   const auto replies = complete(Awake().ask("MD0044072501101\n", 1000));
   ASSERT_EQ(replies.size(), 2u);

@@ -40,8 +40,8 @@ bool Device::answer_scip1(const Call& call) {
   ScanWindow window;
   if (letter == 'G') {
     window = {number_in(line.substr(1, 3)), number_in(line.substr(4, 3)), std::max(number_in(line.substr(7, 2)), 1u)};
-    const std::int32_t last = std::max(model_.last_step, 2 * model_.front_step);
-    if (window.start > window.end || window.end > std::uint32_t(last)) return reply_scip1(call, '1'), true;
+    const auto last = std::uint32_t(model_.last_measurement_point());
+    if (window.start > window.end || window.end > last) return reply_scip1(call, '1'), true;
     laser_on(s, call.now);
     if (!s.has_scan) return false;
   }
