@@ -1,35 +1,27 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
 #include <string>
 
-#include "plugins/common/shared_call/descriptor.hpp"
+#include "plugins/common/child_process/child_process.hpp"
 #include "protocol.hpp"
 
 namespace muro::parser_process {
 
-/// A running program with a socket to it.
+/// A parser process, with what it has printed and what it may take.
 class Child {
  public:
-  Child() = default;
-  ~Child() { abandon(); }
-  Child(const Child&) = delete;
-  Child& operator=(const Child&) = delete;
-
   /// False, with the reason, when it cannot be started.
   bool start(const std::string& program, std::string& reason);
   /// Whether it was started by this process and not ended since.
-  bool is_there() const;
+  bool is_there() const { return bool(process_); }
 
   /// False when it has died, or closed its end.
   bool send(const void* data, std::uint64_t size);
   bool receive(void* data, std::uint64_t size);
 
   /// How it ended.
-  struct Death {
-    int signal = 0;          ///< 0: it has ended by itself
-    int code = 0;            ///< -1: unknown
+  struct Death : ChildProcess::End {
     std::string last_words;  ///< the last line that it printed
     Allowance allowed;       ///< for the request, at last
   };
@@ -39,12 +31,11 @@ class Child {
   void clear_output();
 
  private:
-  void abandon();
   std::string last_line() const;
   Allowance allowance() const;
 
-  Descriptor socket_, process_, output_, allowance_;
-  int owner_ = 0;  ///< the process that started it; another one has copies of the descriptors after a fork
+  ChildProcess process_;
+  Descriptor output_, allowance_;
 };
 
 }  // namespace muro::parser_process

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // The client library: one parser process for all libraries of a program, which find each other here.
-#include <dlfcn.h>
 #include <signal.h>
 
 #include <cmath>
@@ -10,6 +9,7 @@
 #include <string>
 
 #include "child.hpp"
+#include "plugins/common/child_process/own_folder.hpp"
 #include "protocol.hpp"
 
 namespace muro::parser_process {
@@ -33,18 +33,14 @@ class Client {
       Ending ending = Ending::died;
       if (exchange(service, request, size, sink, ending)) return ending;
       const Child::Death death = child_.end();
-      if (death.signal != 0 || death.code != 0 || again) return tell(Ending::died, reason_of(death), sink);
+      if (death.signal != 0 || death.exit_code != 0 || again) return tell(Ending::died, reason_of(death), sink);
     }
     return Ending::died;
   }
 
  private:
   /// Of the program, beside this library.
-  static std::string program() {
-    Dl_info here{};
-    if (dladdr(reinterpret_cast<const void*>(&Client::program), &here) == 0 || !here.dli_fname) return program_file;
-    return (std::filesystem::path(here.dli_fname).parent_path() / program_file).string();
-  }
+  static std::string program() { return (std::filesystem::path(own_folder()) / program_file).string(); }
 
   bool start() {
     if (!child_.start(program(), reason_)) return false;
@@ -78,19 +74,17 @@ class Client {
   }
 
   static std::string reason_of(const Child::Death& death) {
-    if (death.code == exit_out_of_memory)
+    if (death.exit_code == exit_out_of_memory)
       return "that needed more than " + rounded(double(death.allowed.memory >> 20)) +
              " MiB of memory, which is too much for its size (" + memory_variable + "=MIB allows more)";
     if (death.signal == SIGPROF || death.signal == SIGALRM)
       return "that took more than " + rounded(death.allowed.seconds) + " s, which is too long for its size (" +
              seconds_variable + "=SECONDS allows more)";
     const std::string last_words = death.last_words.empty() ? "" : ": " + death.last_words;
-    if (death.signal == SIGKILL) return "its reader was killed, maybe because the system was short of memory";
-    if (death.signal != 0) {
-      const char* const name = sigabbrev_np(death.signal);
-      return std::string("its reader crashed (SIG") + (name ? name : "?") + last_words + ")";
-    }
-    return "its reader ended with exit code " + std::to_string(death.code) + last_words;
+    if (death.signal == SIGKILL)
+      return "its reader was killed, maybe because the system was short of memory, or from outside";
+    if (death.signal != 0) return "its reader crashed (" + name_of_signal(death.signal) + last_words + ")";
+    return "its reader ended with exit code " + std::to_string(death.exit_code) + last_words;
   }
 
   static Ending tell(Ending ending, const std::string& text, Sink& sink) {

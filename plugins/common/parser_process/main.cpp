@@ -6,7 +6,6 @@
 #include <poll.h>
 #include <signal.h>
 #include <sys/resource.h>
-#include <sys/socket.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -14,9 +13,9 @@
 #include <cstdio>
 #include <filesystem>
 #include <new>
-#include <thread>
 
 #include "limits.hpp"
+#include "plugins/common/child_process/as_child.hpp"
 #include "service.hpp"
 
 #if defined(__SANITIZE_ADDRESS__)
@@ -43,33 +42,10 @@ constexpr long large_remainder = 64L << 20, largest_remainder = 512L << 20;
 
 [[noreturn]] void out_of_memory() { _exit(exit_out_of_memory); }
 
-/// The client is gone where this fails.
-void send(const void* data, std::uint64_t size) {
-  const auto* at = static_cast<const char*>(data);
-  while (size > 0) {
-    const ssize_t sent = ::send(process_socket, at, size, MSG_NOSIGNAL);
-    if (sent < 0 && errno == EINTR) continue;
-    if (sent <= 0) _exit(0);
-    at += sent;
-    size -= std::uint64_t(sent);
-  }
-}
-
-void receive(void* data, std::uint64_t size) {
-  auto* at = static_cast<char*>(data);
-  while (size > 0) {
-    const ssize_t received = recv(process_socket, at, size, MSG_WAITALL);
-    if (received < 0 && errno == EINTR) continue;
-    if (received <= 0) _exit(0);
-    at += received;
-    size -= std::uint64_t(received);
-  }
-}
-
 void send_frame(Frame frame, const void* data, std::uint64_t size) {
   const FrameHeader header{frame, size};
-  send(&header, sizeof header);
-  send(data, size);
+  as_child::send(&header, sizeof header);
+  as_child::send(data, size);
 }
 
 void serve(const Service& service, std::span<const std::byte> request) {
@@ -106,11 +82,11 @@ bool load_module(const std::string& word) {
 /// Answers one request.
 void serve_next() {
   RequestHeader header{};
-  receive(&header, sizeof header);
+  as_child::receive(&header, sizeof header);
   std::string name(header.service_size, '\0');
-  receive(name.data(), name.size());
+  as_child::receive(name.data(), name.size());
   std::vector<std::byte> request(header.size);
-  receive(request.data(), request.size());
+  as_child::receive(request.data(), request.size());
   const auto known = [&name] {
     return std::find_if(services().begin(), services().end(), [&](const Service& s) { return s.name == name; });
   };
@@ -129,48 +105,28 @@ long resident_bytes() {
   return resident * sysconf(_SC_PAGESIZE);
 }
 
-void set_limit(__rlimit_resource resource, rlim_t value) {
-  const rlimit limit{value, value};
-  setrlimit(resource, &limit);
-}
-
-/// Ends the process when its client has ended, also in the middle of a request.
-void watch_client() {
-  try {
-    std::thread([] {
-      pollfd client{process_socket, 0, 0};  // an end of the other side is always told
-      while (poll(&client, 1, -1) < 0 && errno == EINTR) {
-      }
-      _exit(0);
-    }).detach();
-  } catch (const std::exception&) {
-    // without a thread it ends with its request
-  }
-}
-
 }  // namespace
 
 }  // namespace muro::parser_process
 
 int main() {
   using namespace muro::parser_process;
-  int type = 0;
-  socklen_t size = sizeof type;
-  if (getsockopt(process_socket, SOL_SOCKET, SO_TYPE, &type, &size) != 0) {
+  using namespace muro;
+  if (!as_child::begin()) {
     std::fputs("muro_parser reads meshes, pictures and models for muro, which starts it; it has no other use\n",
                stderr);
     return 2;
   }
-  set_limit(RLIMIT_CORE, 0);
-  set_limit(RLIMIT_FSIZE, rlim_t(1) << 29);  // what it prints, and models in memory
+  const rlimit largest_file{rlim_t(1) << 29, rlim_t(1) << 29};  // what it prints, and models in memory
+  setrlimit(RLIMIT_FSIZE, &largest_file);
   signal(SIGXFSZ, SIG_IGN);
   std::set_new_handler(&out_of_memory);
-  watch_client();
+  as_child::end_with_parent();  // without a thread it ends with its request
   const Hello hello = Hello::ours();
-  send(&hello, sizeof hello);
+  as_child::send(&hello, sizeof hello);
   const long at_start = resident_bytes();
   while (true) {
-    pollfd client{process_socket, POLLIN, 0};
+    pollfd client{child_socket, POLLIN, 0};
     const int ready = poll(&client, 1, idle_milliseconds);
     if (ready < 0 && errno == EINTR) continue;
     if (ready == 0) _exit(0);

@@ -8,10 +8,10 @@
 
 #include <atomic>
 #include <cstdlib>
-#include <fstream>
 #include <thread>
 
 #include "ask.hpp"
+#include "tests/support/processes.hpp"
 
 namespace muro::parser_process {
 namespace {
@@ -27,13 +27,6 @@ Answer ask_for(const char* service, const std::string& text = "") {
 std::string echo_of(const std::string& text) { return ask_for("echo", text).reader().text(); }
 
 pid_t process() { return ask_for("pid").reader().value<pid_t>(); }
-
-/// Neither ended nor a zombie, which only its parent can remove.
-bool is_running(pid_t pid) {
-  std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
-  std::string number, name, state;
-  return file >> number >> name >> state && state != "Z" && state != "X";
-}
 
 std::string complaint_about(const char* service, const std::string& text = "") {
   try {
@@ -86,7 +79,7 @@ TEST(ParserProcess, EndsWithAnErrorWhereItDiesAndIsStartedAgain) {
     EXPECT_EQ(complaint_about(service), "thing /a/b cannot be read: " + reason + "; look at it");
     EXPECT_EQ(echo_of("again"), "again");
     EXPECT_NE(process(), before) << service;
-    EXPECT_FALSE(is_running(before)) << service;
+    EXPECT_FALSE(test::is_running(before)) << service;
   }
 }
 
@@ -120,8 +113,7 @@ TEST(ParserProcess, IsNotSharedWithAForkAndEndsWithItsProgram) {
   ASSERT_EQ(waitpid(child, &status, 0), child);
   EXPECT_NE(theirs, ours);
   EXPECT_EQ(process(), ours);
-  for (int i = 0; i < 1000 && is_running(theirs); ++i) usleep(10'000);
-  EXPECT_FALSE(is_running(theirs));
+  EXPECT_TRUE(test::ends_soon(theirs));
   close(ends[0]);
   close(ends[1]);
 }

@@ -44,8 +44,8 @@ struct Allowance {
   double seconds = 0;        ///< of processor time
 };
 
-/// Descriptors in the parser process: the socket, and the file of the Allowance.
-inline constexpr int process_socket = 3, process_allowance = 4;
+/// The descriptor of the file of the Allowance in the parser process.
+inline constexpr int process_allowance = 4;
 /// Its exit code when it was refused memory; 0: nobody has asked for some time, or nobody listens any more.
 inline constexpr int exit_out_of_memory = 71;
 

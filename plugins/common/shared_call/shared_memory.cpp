@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "shared_memory.hpp"
 
-#include <fcntl.h>
 #include <sys/mman.h>
 
 namespace muro {
 
 bool SharedMemory::create(const char* name) {
-  constexpr int above_streams = 16;  // numbers that no child is given
-  const Descriptor low(memfd_create(name, MFD_CLOEXEC));
-  if (low) file_.reset(fcntl(low.get(), F_DUPFD_CLOEXEC, above_streams));
-  return bool(file_);
+  file_.reset(memfd_create(name, MFD_CLOEXEC));
+  return file_.keep_off_standard_streams();
 }
 
 bool SharedMemory::resize(std::size_t size) {

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "descriptor.hpp"
+#include "plugins/common/child_process/descriptor.hpp"
 
 namespace muro {
 

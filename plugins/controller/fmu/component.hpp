@@ -11,6 +11,7 @@
 #include "binary.hpp"
 #include "message_log.hpp"
 #include "model_description.hpp"
+#include "muro/algorithm.hpp"
 #include "muro/ext/call_note.hpp"
 
 namespace muro::fmu {
@@ -23,6 +24,13 @@ struct StepOutcome {
   bool returned_early = false;
   bool knows_last_time = false;  ///< of a step that was discarded or returned early
   double last_time = 0;          ///< s, how far it got
+};
+
+/// A failure of the process of an instance in which the clock of the machine, or another process, has a part: the run
+/// cannot be repeated.
+class FailureFromOutside : public Error {
+ public:
+  using Error::Error;
 };
 
 /// One instance of an FMU. Functions throw Error when the FMU returns an error, with the words of the FMU. An FMI 3

@@ -7,6 +7,7 @@
 
 #include "archive.hpp"
 #include "binding.hpp"
+#include "muro/ext/external_inputs.hpp"
 #include "muro/ext/loaded_libraries.hpp"
 #include "muro/plugin.hpp"
 #include "once_per_process.hpp"
@@ -60,6 +61,7 @@ class FmuController final : public Algorithm {
 
   void connect(Connector& c) override {
     const Parameters& p = c.parameters();
+    inputs_from_outside_ = ExternalInputs::of(c.host());
     path_ = c.resolve_path(p.text("fmu"));
     notes_ = CallNotes::of(c.host());
     unpack_and_read(p);
@@ -140,7 +142,10 @@ class FmuController final : public Algorithm {
     try {
       work();
     } catch (const Error& e) {
-      throw Error("robot `" + robots_[robot].name + "`: " + file_name() + ": " + e.what());
+      const std::string text = "robot `" + robots_[robot].name + "`: " + file_name() + ": " + e.what();
+      const bool is_from_outside = dynamic_cast<const FailureFromOutside*>(&e) != nullptr;
+      if (is_from_outside && inputs_from_outside_) inputs_from_outside_->not_repeatable(text);
+      throw Error(text);
     }
     if (note) note->set_item(CallNote::no_item);
   }
@@ -287,6 +292,7 @@ class FmuController final : public Algorithm {
 
   std::string path_;
   CallNotes* notes_ = nullptr;
+  ExternalInputs* inputs_from_outside_ = nullptr;
   PrivateFolder folder_;
   ModelDescription description_;
   std::filesystem::path library_, resources_;

@@ -1,45 +1,19 @@
 // SPDX-License-Identifier: MIT
 // The process of one instance of an FMU (`isolate: process`), which the plugin starts and which ends with it.
-#include <poll.h>
-#include <sys/resource.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include <cerrno>
-#include <csignal>
 #include <cstdio>
 #include <mutex>
 #include <optional>
-#include <thread>
 
 #include "component.hpp"
+#include "plugins/common/child_process/as_child.hpp"
 #include "remote_protocol.hpp"
 
 namespace muro::fmu {
 
 namespace {
-
-/// The simulation is gone where these fail.
-void send_all(const void* data, std::size_t size) {
-  const auto* at = static_cast<const char*>(data);
-  while (size > 0) {
-    const ssize_t sent = ::send(process_socket, at, size, MSG_NOSIGNAL);
-    if (sent < 0 && errno == EINTR) continue;
-    if (sent <= 0) _exit(0);
-    at += sent;
-    size -= std::size_t(sent);
-  }
-}
-void receive_all(void* data, std::size_t size) {
-  auto* at = static_cast<char*>(data);
-  while (size > 0) {
-    const ssize_t received = recv(process_socket, at, size, MSG_WAITALL);
-    if (received < 0 && errno == EINTR) continue;
-    if (received <= 0) _exit(0);
-    at += received;
-    size -= std::size_t(received);
-  }
-}
 
 /// Keeps log lines for the next answer.
 class Lines final : public Host {
@@ -72,7 +46,7 @@ class OwnNotes final : public CallNotes {
 OwnNotes own_notes;
 
 /// The last answer: that a function has crashed. Calls nothing that is not allowed in a signal handler.
-void tell_crash(int number) {
+void tell_crash(int, const siginfo_t&) {
   const char* const function = own_notes.note.function.load();
   const char* const name = function ? function : "muro_fmu_host";
   const std::uint64_t length = std::strlen(name), lines = 0;
@@ -89,31 +63,8 @@ void tell_crash(int number) {
   put(&answer, 1);
   put(&length, sizeof length);
   put(name, length);
-  if (used <= sizeof bytes) static_cast<void>(!::send(process_socket, bytes, used, MSG_NOSIGNAL));
-  std::signal(number, SIG_DFL);
-  raise(number);
-}
-
-void watch_crashes() {
-  alignas(64) static char stack[64 * 1024];  // that of a thread that has used up its own is of no use
-  stack_t own{};
-  own.ss_sp = stack;
-  own.ss_size = sizeof stack;
-  sigaltstack(&own, nullptr);
-  struct sigaction action {};
-  action.sa_handler = tell_crash;
-  action.sa_flags = SA_ONSTACK;
-  sigemptyset(&action.sa_mask);
-  for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) sigaction(number, &action, nullptr);
-}
-
-/// Ends the process when the simulation has ended, also in the middle of a call.
-void watch_simulation() {
-  std::thread([] {
-    pollfd simulation{process_socket, 0, 0};  // an end of the other side is always told
-    while (poll(&simulation, 1, -1) < 0 && errno == EINTR) continue;
-    _exit(0);
-  }).detach();
+  if (used <= sizeof bytes && as_child::has_socket())
+    static_cast<void>(!::send(child_socket, bytes, used, MSG_NOSIGNAL));
 }
 
 class Server {
@@ -227,13 +178,13 @@ class Server {
 
 void run() {
   const Greeting greeting;
-  send_all(&greeting, sizeof greeting);
+  as_child::send(&greeting, sizeof greeting);
   Server server;
   while (!server.is_over()) {
     std::uint64_t size = 0;
-    receive_all(&size, sizeof size);
+    as_child::receive(&size, sizeof size);
     std::vector<std::byte> request(size);
-    receive_all(request.data(), request.size());
+    as_child::receive(request.data(), request.size());
     Writer result, answer;
     Answer how = Answer::done;
     std::string problem;
@@ -248,9 +199,9 @@ void run() {
     if (how == Answer::failed) answer.text(problem);
     const std::uint64_t answer_size =
         answer.bytes().size() + (how == Answer::done ? result.bytes().size() : std::size_t(0));
-    send_all(&answer_size, sizeof answer_size);
-    send_all(answer.bytes().data(), answer.bytes().size());
-    if (how == Answer::done) send_all(result.bytes().data(), result.bytes().size());
+    as_child::send(&answer_size, sizeof answer_size);
+    as_child::send(answer.bytes().data(), answer.bytes().size());
+    if (how == Answer::done) as_child::send(result.bytes().data(), result.bytes().size());
   }
 }
 
@@ -259,18 +210,14 @@ void run() {
 }  // namespace muro::fmu
 
 int main() {
-  using namespace muro::fmu;
-  int type = 0;
-  socklen_t size = sizeof type;
-  if (getsockopt(process_socket, SOL_SOCKET, SO_TYPE, &type, &size) != 0) {
+  using namespace muro;
+  if (!as_child::begin()) {
     std::fputs("muro_fmu_host runs an FMU for muro, which starts it; it has no other use\n", stderr);
     return 2;
   }
-  const rlimit none{0, 0};
-  setrlimit(RLIMIT_CORE, &none);
-  watch_crashes();
-  watch_simulation();
-  run();
+  as_child::catch_crashes(fmu::tell_crash);
+  if (!as_child::end_with_parent()) return 1;
+  fmu::run();
   std::fflush(stdout);
   _exit(0);
 }

@@ -128,7 +128,7 @@ class RemoteComponent final : public Component {
     if (how == Answer::done) return reader;
     const std::string text = reader.text();
     if (how == Answer::failed) throw Error(text);
-    throw Error("it has crashed in `" + text + "`: its process " + process_.reap());
+    throw Error("it has crashed in `" + text + "`: its process " + process_.reap().text);
   }
 
   static void check(bool fine) {

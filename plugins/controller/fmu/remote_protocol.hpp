@@ -16,7 +16,6 @@ using parser_process::Reader;
 using parser_process::Writer;
 
 inline constexpr char process_file[] = "muro_fmu_host";
-inline constexpr int process_socket = 3;  ///< its number in the process
 inline constexpr std::uint64_t largest_message = std::uint64_t(1) << 30;
 
 /// Tells apart programs of different builds.

@@ -67,7 +67,8 @@ struct Outcome {
   Ending ending = Ending::fine;
   const char* function = "";  ///< of the library, in which it ended
   std::string reason{};
-  std::string stack{};  ///< of calls, lines; empty where there is none
+  std::string stack{};           ///< of calls, lines; empty where there is none
+  bool is_from_outside = false;  ///< by a signal that another process, or the system, may have sent
 
   bool is_fine() const { return ending == Ending::fine; }
 };

@@ -11,6 +11,7 @@
 #include "control_table.hpp"
 #include "muro/algorithm.hpp"
 #include "muro/toolkit/whole_library.hpp"
+#include "plugins/common/child_process/own_folder.hpp"
 #include "plugins/common/own_symbols/own_symbols.hpp"
 #include "plugins/common/text/quote.hpp"
 #include "table_check.hpp"
@@ -65,13 +66,6 @@ std::string loader_message(const std::string& path) {
 }
 
 }  // namespace
-
-std::string own_folder() {
-  Dl_info info{};
-  if (dladdr(reinterpret_cast<const void*>(&own_folder), &info) == 0 || !info.dli_fname) return {};
-  std::error_code unused;
-  return fs::absolute(info.dli_fname, unused).parent_path().string();
-}
 
 std::vector<std::string> search_folders(const std::string& scenario_folder) {
   std::vector<std::string> folders{scenario_folder};

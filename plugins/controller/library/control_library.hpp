@@ -18,9 +18,6 @@ std::vector<std::string> search_folders(const std::string& scenario_folder);
 /// searched as it is (if it ends in .so), else as NAME.so and libNAME.so. Throws Error with the places searched.
 std::string find_library(std::string_view name, const std::string& as_path, std::span<const std::string> folders);
 
-/// The folder of the plugin's own file.
-std::string own_folder();
-
 /// Loads a library, once for any number of calls, and checks its table, which is returned with all of its fields. It
 /// stays loaded for the life of the process. Throws Error.
 muro_controller_table load_library(const std::string& path);

@@ -2,23 +2,16 @@
 #include "control_process.hpp"
 
 #include <fcntl.h>
-#include <poll.h>
 #include <signal.h>
-#include <spawn.h>
-#include <sys/socket.h>
-#include <sys/wait.h>
 #include <unistd.h>
-
-extern "C" {
-#include <sys/pidfd.h>  // which does not say so itself before glibc 2.37
-}
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 
-#include "control_library.hpp"
+#include "plugins/common/child_process/as_child.hpp"
+#include "plugins/common/child_process/own_folder.hpp"
 #include "plugins/common/text/one_line.hpp"
 #include "process_protocol.hpp"
 
@@ -27,57 +20,10 @@ namespace muro::control {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-constexpr int above_those_of_child = 16;
-
-/// A number that is none of those that the child gets, since each is put in place after the other.
-bool raise_number(Descriptor& d) {
-  if (d) d.reset(fcntl(d.get(), F_DUPFD_CLOEXEC, above_those_of_child));
-  return bool(d);
-}
-
-/// What posix_spawn is told.
-class ControlSpawn {
- public:
-  ControlSpawn(int output, int socket, int memory) {
-    posix_spawn_file_actions_init(&files_);
-    posix_spawn_file_actions_addopen(&files_, 0, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_adddup2(&files_, output, 1);
-    posix_spawn_file_actions_adddup2(&files_, output, 2);
-    posix_spawn_file_actions_adddup2(&files_, socket, process_socket);
-    posix_spawn_file_actions_adddup2(&files_, memory, process_memory);
-    posix_spawn_file_actions_addclosefrom_np(&files_, process_memory + 1);
-    posix_spawnattr_init(&attributes_);
-    sigset_t signals;
-    sigemptyset(&signals);
-    posix_spawnattr_setsigmask(&attributes_, &signals);
-    sigfillset(&signals);
-    posix_spawnattr_setsigdefault(&attributes_, &signals);
-    // of a group of its own: Ctrl-C is for the simulation
-    posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
-  }
-  ~ControlSpawn() {
-    posix_spawn_file_actions_destroy(&files_);
-    posix_spawnattr_destroy(&attributes_);
-  }
-  ControlSpawn(const ControlSpawn&) = delete;
-  ControlSpawn& operator=(const ControlSpawn&) = delete;
-
-  int spawn(const std::string& program, pid_t& pid) {
-    // a child may go by the end of the thread that has started it where that is the one that lives longest
-    std::string name = process_file, starter = gettid() == getpid() ? "main" : "other";
-    char* arguments[] = {name.data(), starter.data(), nullptr};
-    return posix_spawn(&pid, program.c_str(), &files_, &attributes_, arguments, environ);
-  }
-
- private:
-  posix_spawn_file_actions_t files_;
-  posix_spawnattr_t attributes_;
-};
+using Transfer = ChildProcess::Transfer;
 
 std::string meaning_of(int signal) {
-  const char* const name = sigabbrev_np(signal);
-  std::string text = "SIG" + std::string(name ? name : std::to_string(signal));
+  const std::string text = name_of_signal(signal);
   switch (signal) {
     case SIGSEGV:
       return text + ", invalid memory access";
@@ -90,31 +36,31 @@ std::string meaning_of(int signal) {
     case SIGABRT:
       return text + ", it gave up by abort()";
     case SIGKILL:
-      return text + ", maybe because the system was short of memory";
+      return text + ", maybe because the system was short of memory, or because somebody killed it";
     default:
       return text;
   }
+}
+
+Outcome outcome_of(const ChildProcess::End& end) {
+  if (end.signal != 0)
+    return {.ending = Ending::crashed, .reason = meaning_of(end.signal), .is_from_outside = end.may_be_from_outside()};
+  if (end.exit_code < 0) return {.ending = Ending::crashed, .reason = "nobody knows how"};
+  return {.ending = Ending::exited,
+          .reason = end.exit_code == as_child::exit_without_socket ? "it has closed the socket to the simulation"
+                                                                   : "exit code " + std::to_string(end.exit_code)};
 }
 
 }  // namespace
 
 ControlProcess::ControlProcess(const std::string& library, const ProcessLimits& limits)
     : library_(library), limits_(limits) {
-  try {
-    start();
-    Writer request;
-    request.text(library);
-    const std::vector<std::byte> answer = ask(request.bytes());
-    Reader reader(answer);
-    table_ = read_table(reader);
-  } catch (...) {
-    if (process_) end(false);
-    throw;
-  }
-}
-
-ControlProcess::~ControlProcess() {
-  if (process_) end(false);
+  start();
+  Writer request;
+  request.text(library);
+  const std::vector<std::byte> answer = ask(request.bytes());
+  Reader reader(answer);
+  table_ = read_table(reader);
 }
 
 void ControlProcess::start() {
@@ -126,28 +72,15 @@ void ControlProcess::start() {
                         : code == EMFILE ? "; a process for each robot takes three files, `ulimit -n` allows more"
                                          : ""));
   };
-  int ends[2], pipe_ends[2];
-  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) fail(errno);
-  socket_.reset(ends[0]);
-  Descriptor theirs(ends[1]);
+  int ends[2];
   // what does not fit into the pipe is lost: the control code never waits for somebody who reads
-  if (pipe2(pipe_ends, O_CLOEXEC | O_NONBLOCK) != 0) fail(errno);
-  output_.reset(pipe_ends[0]);
-  Descriptor their_output(pipe_ends[1]);
-  if (!memory_.create(process_file)) fail(errno);
-  for (Descriptor* d : {&socket_, &theirs, &output_, &their_output})
-    if (!raise_number(*d)) fail(errno);
-  pid_t pid = 0;
-  ControlSpawn settings(their_output.get(), theirs.get(), memory_.descriptor());
-  if (const int code = settings.spawn(program, pid); code != 0) fail(code);
-  process_.reset(pidfd_open(pid, 0));
-  if (!process_) {
-    const int code = errno;
-    kill(pid, SIGKILL);
-    waitpid(pid, nullptr, 0);
-    fail(code);
-  }
-  theirs.reset();
+  if (pipe2(ends, O_CLOEXEC | O_NONBLOCK) != 0) fail(errno);
+  output_.reset(ends[0]);
+  const Descriptor theirs(ends[1]);
+  if (!output_.keep_off_standard_streams() || !memory_.create(process_file)) fail(errno);
+  const int code = process_.start(
+      {.program = program, .files = {{theirs.get(), 1}, {theirs.get(), 2}, {memory_.descriptor(), process_memory}}});
+  if (code != 0) fail(code);
   Greeting greeting{};
   const Greeting ours = Greeting::ours();
   const std::string problem = receive(&greeting, sizeof greeting, Clock::now() + std::chrono::seconds(10));
@@ -158,26 +91,13 @@ void ControlProcess::start() {
 
 /// Returns what became of the process when it does not answer.
 std::string ControlProcess::receive(void* data, std::uint64_t size, Clock::time_point until) {
-  auto* at = static_cast<char*>(data);
-  const auto said = [](const Outcome& death) { return death.reason.empty() ? "" : ": " + death.reason; };
-  while (size > 0) {
-    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(until - Clock::now()).count();
-    pollfd socket{socket_.get(), POLLIN, 0};
-    if (left <= 0 || (poll(&socket, 1, int(left)) == 0)) {
-      end(true);
-      return "did not return in time";
-    }
-    const ssize_t received = recv(socket_.get(), at, size, MSG_DONTWAIT);
-    if (received < 0 && (errno == EINTR || errno == EAGAIN)) continue;
-    if (received <= 0) {
-      const Outcome death = end(false);
-      return (death.ending == Ending::exited ? "ended its process" : "crashed") + said(death) +
-             (death.stack.empty() ? "" : "; its calls: " + one_line(death.stack));
-    }
-    at += received;
-    size -= std::uint64_t(received);
-  }
-  return "";
+  const Transfer how = process_.receive(data, size, until);
+  if (how == Transfer::whole) return "";
+  const Outcome death = end(how == Transfer::late);
+  if (how == Transfer::late) return "did not return in time";
+  return (death.ending == Ending::exited ? "ended its process" : "crashed") +
+         (death.reason.empty() ? "" : ": " + death.reason) +
+         (death.stack.empty() ? "" : "; its calls: " + one_line(death.stack));
 }
 
 std::vector<std::byte> ControlProcess::ask(std::span<const std::byte> request) {
@@ -185,10 +105,8 @@ std::vector<std::byte> ControlProcess::ask(std::span<const std::byte> request) {
   const double seconds = std::max(limits_.timeout, 10.0);
   const auto until = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
   const MessageHeader size{request.size(), 0};
-  const auto send_all = [&](const void* data, std::size_t bytes) {
-    return ::send(socket_.get(), data, bytes, MSG_NOSIGNAL) == ssize_t(bytes);
-  };
-  if (send_all(&size, sizeof size)) send_all(request.data(), request.size());  // else it is gone, as receive() finds
+  // where it is gone, receive() finds that
+  if (process_.send(&size, sizeof size, until) == Transfer::whole) process_.send(request.data(), request.size(), until);
   MessageHeader header;
   std::string problem = receive(&header, sizeof header, until);
   std::vector<std::byte> answer(problem.empty() ? std::min<std::uint64_t>(header.size, 64u << 20) : 0);
@@ -203,51 +121,19 @@ void ControlProcess::prepare(std::span<const std::byte> message) {
   memory_.close();  // both have mapped it
 }
 
-bool ControlProcess::is_alive() const {
-  pollfd process{process_.get(), POLLIN, 0};
-  return process_ && poll(&process, 1, 0) == 0;
-}
-
-/// What it has written to the socket since it was prepared.
-std::string ControlProcess::stack_of_calls() {
-  std::string text;
-  char some[4096];
-  for (ssize_t got = 0; (got = recv(socket_.get(), some, sizeof some, MSG_DONTWAIT)) > 0 && text.size() < 32768;)
-    text.append(some, std::size_t(got));
-  while (text.ends_with('\n')) text.pop_back();
-  return text;
-}
-
-Outcome ControlProcess::reap() {
-  Outcome death{.ending = Ending::crashed};
-  siginfo_t info{};
-  int done = 0;
-  while ((done = waitid(P_PIDFD, id_t(process_.get()), &info, WEXITED)) != 0 && errno == EINTR) continue;
-  process_.reset();
-  if (done != 0) {
-    death.reason = "nobody knows how";
-  } else if (info.si_code == CLD_EXITED) {
-    death.ending = Ending::exited;
-    death.reason = "exit code " + std::to_string(info.si_status);
-  } else {
-    death.reason = meaning_of(info.si_status);
-  }
-  return death;
-}
-
 Outcome ControlProcess::end(bool timed_out) {
   if (!process_) return {.ending = Ending::no_process};
   if (timed_out) {
-    constexpr int patience = 1000;  // ms
-    pidfd_send_signal(process_.get(), SIGALRM, nullptr, 0);
-    pollfd process{process_.get(), POLLIN, 0};
-    poll(&process, 1, patience);
+    process_.signal(SIGALRM);
+    process_.ends_within(std::chrono::seconds(1));
   }
-  // one that hangs; it changes nothing for one that is dead already
-  if (timed_out || is_alive()) pidfd_send_signal(process_.get(), SIGKILL, nullptr, 0);
-  Outcome death = reap();
-  death.stack = stack_of_calls();
-  if (timed_out) death.ending = Ending::timed_out;
+  Outcome death = outcome_of(process_.end());
+  death.stack = process_.take_rest(32768);
+  while (death.stack.ends_with('\n')) death.stack.pop_back();
+  if (timed_out) {
+    death.ending = Ending::timed_out;
+    death.is_from_outside = false;
+  }
   return death;
 }
 

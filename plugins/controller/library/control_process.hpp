@@ -6,7 +6,7 @@
 
 #include "control_instance.hpp"
 #include "muro/algorithm.hpp"
-#include "plugins/common/shared_call/descriptor.hpp"
+#include "plugins/common/child_process/child_process.hpp"
 #include "plugins/common/shared_call/shared_memory.hpp"
 
 namespace muro::control {
@@ -24,14 +24,11 @@ class ProcessError : public Error {
 };
 
 /// A process in which a library of control code is loaded, for one instance. It ends when this does, and when the
-/// process that has started it is gone.
+/// process that has started it is gone, and all that it has started end with it.
 class ControlProcess {
  public:
   /// Throws Error when something is wrong with the library, and ProcessError.
   ControlProcess(const std::string& library, const ProcessLimits& limits);
-  ~ControlProcess();
-  ControlProcess(const ControlProcess&) = delete;
-  ControlProcess& operator=(const ControlProcess&) = delete;
 
   ControlTable& table() { return table_; }
   SharedMemory& memory() { return memory_; }
@@ -39,7 +36,7 @@ class ControlProcess {
 
   /// Has it do what stands in a message. Throws ProcessError.
   void prepare(std::span<const std::byte> message);
-  bool is_alive() const;
+  bool is_alive() const { return process_.is_running(); }
   /// How it has ended, with what was on its stack. Ends it where it still runs; one that did not return says what it
   /// was doing.
   Outcome end(bool timed_out);
@@ -50,12 +47,11 @@ class ControlProcess {
   void start();
   std::string receive(void* data, std::uint64_t size, std::chrono::steady_clock::time_point until);
   std::vector<std::byte> ask(std::span<const std::byte> request);
-  Outcome reap();
-  std::string stack_of_calls();
 
   std::string library_;
   ProcessLimits limits_;
-  Descriptor socket_, process_, output_;
+  ChildProcess process_;
+  Descriptor output_;
   SharedMemory memory_;
   ControlTable table_;
 };

@@ -26,6 +26,7 @@ void FailureLog::record(std::int64_t time, Function function, const Outcome& out
   if (!is_of_process) return;
   if (outcome.ending == Ending::timed_out)
     tell_not_repeatable(who + "did not return in time, about which the clock of the machine decides");
+  if (outcome.is_from_outside) tell_not_repeatable(who + "was ended by a signal from outside: " + outcome.reason);
   if (!channel_ || is_replayed()) return;
   Writer bytes;
   bytes.value(outcome.ending);

@@ -1,16 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The process of control code (`isolate: process`): loads one library and runs one instance of it, in turns with the
 // simulation, which starts it. It ends with that.
-#include <poll.h>
-#include <pthread.h>
-#include <sys/prctl.h>
-#include <sys/resource.h>
-#include <sys/socket.h>
 #include <unistd.h>
 
-#include <cerrno>
-#include <climits>
-#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <optional>
@@ -18,6 +10,7 @@
 #include "control_library.hpp"
 #include "crash_note.hpp"
 #include "local_instance.hpp"
+#include "plugins/common/child_process/as_child.hpp"
 #include "plugins/common/shared_call/shared_memory.hpp"
 #include "process_protocol.hpp"
 
@@ -25,60 +18,18 @@ namespace muro::control {
 
 namespace {
 
-/// The simulation is gone where these fail.
-void send_bytes(const void* data, std::uint64_t size) {
-  const auto* at = static_cast<const char*>(data);
-  while (size > 0) {
-    const ssize_t sent = ::send(process_socket, at, size, MSG_NOSIGNAL);
-    if (sent < 0 && errno == EINTR) continue;
-    if (sent <= 0) _exit(0);
-    at += sent;
-    size -= std::uint64_t(sent);
-  }
-}
-void receive_bytes(void* data, std::uint64_t size) {
-  auto* at = static_cast<char*>(data);
-  while (size > 0) {
-    const ssize_t received = recv(process_socket, at, size, MSG_WAITALL);
-    if (received < 0 && errno == EINTR) continue;
-    if (received <= 0) _exit(0);
-    at += received;
-    size -= std::uint64_t(received);
-  }
-}
-
 void answer(std::span<const std::byte> bytes, bool is_refusal = false) {
   const MessageHeader header{bytes.size(), is_refusal ? 1u : 0u};
-  send_bytes(&header, sizeof header);
-  send_bytes(bytes.data(), bytes.size());
+  as_child::send(&header, sizeof header);
+  as_child::send(bytes.data(), bytes.size());
 }
 
 std::vector<std::byte> next_request() {
   MessageHeader header;
-  receive_bytes(&header, sizeof header);
+  as_child::receive(&header, sizeof header);
   std::vector<std::byte> bytes(header.size);
-  receive_bytes(bytes.data(), bytes.size());
+  as_child::receive(bytes.data(), bytes.size());
   return bytes;
-}
-
-/// Ends the process when the simulation has ended, also in the middle of a call.
-void* watch_simulation(void*) {
-  pollfd simulation{process_socket, 0, 0};  // an end of the other side is always told
-  while (poll(&simulation, 1, -1) < 0 && errno == EINTR) continue;
-  _exit(0);
-}
-
-void start_watch() {
-  pthread_attr_t attributes;
-  pthread_attr_init(&attributes);
-  pthread_attr_setstacksize(&attributes, 64 * 1024);  // it counts as memory of the control code
-  sigset_t all, before;
-  sigfillset(&all);
-  pthread_sigmask(SIG_SETMASK, &all, &before);  // signals are for the control code's thread
-  pthread_t thread;
-  if (pthread_create(&thread, &attributes, watch_simulation, nullptr) == 0) pthread_detach(thread);
-  pthread_sigmask(SIG_SETMASK, &before, nullptr);
-  pthread_attr_destroy(&attributes);
 }
 
 /// Of the one instance.
@@ -147,7 +98,7 @@ class Server {
 
 void run() {
   const Greeting greeting = Greeting::ours();
-  send_bytes(&greeting, sizeof greeting);
+  as_child::send(&greeting, sizeof greeting);
   const std::vector<std::byte> first = next_request();
   std::optional<Server> server;
   try {
@@ -172,20 +123,15 @@ void run() {
 
 }  // namespace muro::control
 
-int main(int count, char** words) {
-  using namespace muro::control;
-  int type = 0;
-  socklen_t size = sizeof type;
-  if (count != 2 || getsockopt(process_socket, SOL_SOCKET, SO_TYPE, &type, &size) != 0) {
+int main() {
+  using namespace muro;
+  if (!as_child::begin()) {
     std::fputs("muro_controller_host runs control code for muro, which starts it; it has no other use\n", stderr);
     return 2;
   }
-  if (std::strcmp(words[1], "main") == 0) prctl(PR_SET_PDEATHSIG, SIGKILL);
-  const rlimit none{0, 0};
-  setrlimit(RLIMIT_CORE, &none);
   setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);
-  leave_crash_notes();
-  start_watch();
-  run();
+  control::leave_crash_notes();
+  if (!as_child::end_with_parent()) return 1;
+  control::run();
   _exit(0);
 }

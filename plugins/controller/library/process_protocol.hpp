@@ -34,8 +34,8 @@ struct Greeting {
   }
 };
 
-/// Descriptors in the process: the socket, on which the stack of calls of a crash comes too, and the shared memory.
-inline constexpr int process_socket = 3, process_memory = 4;
+/// The descriptor of the shared memory in the process. On its socket the stack of calls of a crash comes too.
+inline constexpr int process_memory = 4;
 
 /// The second request.
 struct Preparation {

@@ -1,32 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Control code in processes of its own: what it does to the run when it fails, and that it else does the same.
-#include <dirent.h>
+#include <signal.h>
 #include <unistd.h>
 
-#include <fstream>
-
+#include "core/external/input_log.hpp"
 #include "core/external/reported_counts.hpp"
 #include "library_testing.hpp"
+#include "tests/support/processes.hpp"
 
 namespace muro::control {
 namespace {
-
-/// How many processes this one has started that are there still, zombies included.
-int children() {
-  int count = 0;
-  DIR* const all = opendir("/proc");
-  while (const dirent* entry = readdir(all)) {
-    if (entry->d_name[0] < '0' || entry->d_name[0] > '9') continue;
-    std::ifstream stat(std::string("/proc/") + entry->d_name + "/stat");
-    std::string text((std::istreambuf_iterator<char>(stat)), {});
-    const std::size_t end = text.rfind(')');
-    if (end == std::string::npos) continue;
-    int parent = 0;
-    if (std::sscanf(text.c_str() + end + 1, " %*c %d", &parent) == 1 && parent == getpid()) ++count;
-  }
-  closedir(all);
-  return count;
-}
 
 /// A team whose control code runs in processes of its own; robot `a` fails as `does` says.
 struct Failing : Team {
@@ -48,6 +31,11 @@ struct Failing : Team {
       return e.what();
     }
     return "it went well";
+  }
+  /// The process that robot `a` has told of.
+  pid_t told() const {
+    const std::size_t at = log.find("(prints) process ");
+    return at == std::string::npos ? 0 : std::atoi(log.c_str() + at + 17);
   }
   std::string log;
 };
@@ -256,15 +244,84 @@ TEST(IsolatedController, FailsAgainAtTheSameInstantsInAReplay) {
 }
 
 TEST(IsolatedController, LeavesNoProcessBehind) {
-  const int before = children();
+  const std::size_t before = test::child_processes().size();
   {
     Failing team("kill", {{"on_failure", std::string("restart")}});
-    EXPECT_EQ(children(), before + 2) << "one a robot";
+    EXPECT_EQ(test::child_processes().size(), before + 2) << "one a robot";
     team.run();
     Failing other("loop", {{"timeout", 0.2}});
     other.run();
   }
-  EXPECT_EQ(children(), before);
+  EXPECT_EQ(test::child_processes().size(), before);
+}
+
+TEST(IsolatedController, TakesTheProcessesAlongThatItHasStarted) {
+  for (const char* policy : {"stop", "hold", "restart"})
+    for (const char* does :
+         {"start_another", "start_another_and_crash", "start_another_and_leave", "start_another_and_loop"}) {
+      const bool loops = does == std::string("start_another_and_loop");
+      pid_t other = 0;
+      {
+        Failing team(does, {{"on_failure", std::string(policy)}, {"timeout", loops ? 0.2 : 20.0}});
+        team.run_for(0.15);
+        const std::string how = team.run();
+        other = team.told();
+        ASSERT_GT(other, 0) << team.log;
+        if (does == std::string("start_another"))
+          EXPECT_EQ(how, "it went well");
+        else
+          EXPECT_TRUE(test::ends_soon(other)) << does << " " << policy << ": with its parent";
+      }
+      EXPECT_TRUE(test::ends_soon(other)) << does << " " << policy << ": with the run";
+    }
+}
+
+TEST(IsolatedController, ThatIsKilledFromOutsideMakesTheRunNotRepeatable) {
+  for (const auto& [sent, reason] : {std::pair{SIGKILL,
+                                               "SIGKILL, maybe because the system was short of memory, or because "
+                                               "somebody killed it"},
+                                     {SIGTERM, "SIGTERM"},
+                                     {SIGSEGV, "SIGSEGV, invalid memory access"}}) {
+    Failing team("tell_process");
+    team.run_for(0.4);
+    ASSERT_GT(team.told(), 0) << team.log;
+    EXPECT_TRUE(team.inputs().reasons().empty());
+    kill(team.told(), sent);
+    EXPECT_TRUE(test::ends_soon(team.told()));
+    EXPECT_TRUE(says(team.run(), std::string("robot `a`: `fails` crashed: ") + reason));
+    ASSERT_EQ(team.inputs().reasons().size(), 1u);
+    EXPECT_EQ(team.inputs().reasons()[0],
+              std::string("robot `a`: `fails` was ended by a signal from outside: ") + reason);
+  }
+}
+
+TEST(IsolatedController, ThatFailsByItselfLeavesTheRunRepeatable) {
+  for (const char* does : {"invalid_memory", "abort", "exit", "throw"}) {
+    Failing team(does);
+    EXPECT_NE(team.run(), "it went well");
+    EXPECT_TRUE(team.inputs().reasons().empty()) << does << ": " << team.inputs().reasons()[0];
+  }
+}
+
+TEST(IsolatedController, MayCloseAllDescriptorsAndGoesOn) {
+  Failing stopped("close_all_and_tell");
+  stopped.run_for(0.4);
+  ASSERT_GT(stopped.told(), 0) << stopped.log;
+  for (const int sent : {SIGSTOP, SIGCONT}) {
+    kill(stopped.told(), sent);
+    EXPECT_TRUE(test::comes_to(stopped.told(), sent == SIGSTOP ? "T" : "SR"));
+  }
+  usleep(100'000);
+  EXPECT_EQ(stopped.run(), "it went well") << "after all of its threads were interrupted";
+  for (const char* when : {"when=step", "when=create"}) {
+    Failing team("close_all", {}, {when});
+    EXPECT_EQ(team.run(5), "it went well") << when;
+    EXPECT_EQ(team.command(*team.a).linear.x(), 1);
+  }
+  const std::string said = refusal_of("closes_all_when_loaded.so", {{"isolate", std::string("process")}});
+  EXPECT_TRUE(says(said,
+                   "/closes_all_when_loaded.so ended its process: it has closed the socket to the simulation when it "
+                   "was loaded"));
 }
 
 TEST(IsolatedController, ThatIsNoLibraryIsRefusedInTheSameWords) {

@@ -110,7 +110,9 @@ Outcome RemoteInstance::death(bool timed_out) {
     std::snprintf(address, sizeof address, " at 0x%llx", static_cast<unsigned long long>(h.fault_address));
     outcome.reason += address;
   }
-  if (h.is_short_of_memory != 0 && outcome.ending != Ending::timed_out) outcome.ending = Ending::out_of_memory;
+  if (outcome.ending == Ending::timed_out) return outcome;
+  if (h.is_short_of_memory != 0) outcome.ending = Ending::out_of_memory;
+  if (h.is_signal_of_others != 0) outcome.is_from_outside = true;
   return outcome;
 }
 

@@ -26,6 +26,7 @@ struct SharedHeader {
   std::int32_t signal = 0;          ///< by which the process dies
   std::uint64_t fault_address = 0;  ///< of an invalid access
   std::uint32_t is_short_of_memory = 0;
+  std::uint32_t is_signal_of_others = 0;
 
   // what was logged meanwhile: a level and a text with its closing zero, one behind the other
   std::uint32_t log_size = 0;  ///< bytes

@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 enum { INTERNAL_STEPS = 100 }; /* a second */
 
@@ -29,6 +30,8 @@ enum fault {
   FAULT_HANGS,
   FAULT_EXITS,
   FAULT_CHATS,
+  FAULT_FORKS,
+  FAULT_CLOSES,
 };
 
 typedef struct {
@@ -40,6 +43,7 @@ typedef struct {
   int64_t internal_steps;
   bool is_paused;  /* it has returned early at `fault_at` */
   int32_t pending; /* how often it is to say that the step is still being done */
+  int32_t child;   /* a process that it has started, which would live on */
   /* FMI 3 alone */
   float f32;
   int64_t i64;
@@ -157,6 +161,13 @@ static inline enum outcome model_step(model* m, double time, double size, double
         break;
       case FAULT_EXITS:
         _Exit(3);
+      case FAULT_FORKS:
+        if (m->child == 0) m->child = fork();
+        while (m->child == 0) pause();
+        break;
+      case FAULT_CLOSES:
+        for (int descriptor = 3; descriptor < 1024; ++descriptor) close(descriptor);
+        break;
       case FAULT_EARLY:
         if (m->is_paused) break;
         m->is_paused = true;
@@ -169,6 +180,7 @@ static inline enum outcome model_step(model* m, double time, double size, double
   model_move(m, end);
   m->reals[STEP_END] = end;
   ++m->integers[COUNT];
+  if (m->child != 0) m->integers[COUNT] = m->child;
   model_outputs(m);
   return DONE;
 }

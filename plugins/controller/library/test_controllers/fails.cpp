@@ -58,6 +58,16 @@ void print_endlessly() {
   for (int i = 0; i < 100000; ++i) std::printf("line %d\n", i);
 }
 void sleep_long() { sleep(100); }
+void close_all() {
+  for (int descriptor = 3; descriptor < 1024; ++descriptor) close(descriptor);
+}
+void tell_process() { std::printf("process %d\n", int(getpid())); }
+/// Starts a process that would live on.
+void start_another() {
+  const pid_t other = fork();
+  if (other != 0) return void(std::printf("process %d\n", int(other)));
+  for (;;) pause();
+}
 
 const struct {
   const char* name;
@@ -76,7 +86,29 @@ const struct {
              {"allocate_by_new", allocate_by_new},
              {"print", print},
              {"print_endlessly", print_endlessly},
-             {"kill", [] { raise(SIGKILL); }}};
+             {"kill", [] { raise(SIGKILL); }},
+             {"close_all", close_all},
+             {"tell_process", tell_process},
+             {"close_all_and_tell",
+              [] {
+                close_all();
+                tell_process();
+              }},
+             {"start_another", start_another},
+             {"start_another_and_crash",
+              [] {
+                start_another();
+                invalid_memory();
+              }},
+             {"start_another_and_loop",
+              [] {
+                start_another();
+                loop();
+              }},
+             {"start_another_and_leave", [] {
+                start_another();
+                std::exit(3);
+              }}};
 
 int create(void* state, const muro_controller_setup* setup, char* error, size_t error_size) {
   auto& s = *static_cast<State*>(state);
@@ -116,6 +148,9 @@ const muro_controller_table table = make_table();
 
 #ifdef CRASHES_WHEN_LOADED
 const int crash = (invalid_memory(), 0);
+#endif
+#ifdef CLOSES_ALL_WHEN_LOADED
+const int closed = (close_all(), 0);
 #endif
 
 }  // namespace

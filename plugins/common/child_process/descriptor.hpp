@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <fcntl.h>
 #include <unistd.h>
 
 namespace muro {
@@ -21,6 +22,12 @@ class Descriptor {
   void reset(int number = -1) {
     if (number_ >= 0) close(number_);
     number_ = number;
+  }
+  /// Gives it a number that is none of the standard streams, which may be closed. False, with errno, when there is
+  /// none.
+  bool keep_off_standard_streams() {
+    if (number_ >= 0 && number_ <= STDERR_FILENO) reset(fcntl(number_, F_DUPFD_CLOEXEC, STDERR_FILENO + 1));
+    return number_ >= 0;
   }
   int get() const { return number_; }
   explicit operator bool() const { return number_ >= 0; }

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include "child_process.hpp"
+
+#include <poll.h>
+#include <signal.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+
+extern "C" {
+#include <sys/pidfd.h>  // which does not say so itself before glibc 2.37
+}
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include "spawn.hpp"
+
+namespace muro {
+
+bool ChildProcess::End::may_be_from_outside() const {
+  constexpr int sent[] = {SIGKILL, SIGTERM, SIGINT, SIGQUIT, SIGHUP, SIGXCPU};
+  return !was_ours && std::find(std::begin(sent), std::end(sent), signal) != std::end(sent);
+}
+
+int ChildProcess::start(const Setup& setup) {
+  end();
+  int ends[2];
+  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) return errno;
+  socket_.reset(ends[0]);
+  const Descriptor theirs(ends[1]);
+  if (!socket_.keep_off_standard_streams()) return errno;
+  pid_t pid = 0;
+  if (const int code = spawn(setup, theirs.get(), pid); code != 0) return code;
+  process_.reset(pidfd_open(pid, 0));
+  if (!process_) {
+    const int code = errno;
+    kill(-pid, SIGKILL);
+    while (waitpid(pid, nullptr, 0) < 0 && errno == EINTR) continue;
+    return code;
+  }
+  pid_ = pid;
+  owner_ = getpid();
+  return 0;
+}
+
+ChildProcess::operator bool() const { return process_ && owner_ == getpid(); }
+
+bool ChildProcess::ends_within(std::chrono::milliseconds patience) const {
+  if (!*this) return true;
+  const Clock::time_point until = Clock::now() + patience;
+  for (;;) {
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - Clock::now()).count();
+    pollfd process{process_.get(), POLLIN, 0};
+    const int ready = poll(&process, 1, int(std::max<std::int64_t>(left, 0)));
+    if (ready >= 0 || errno != EINTR) return ready != 0;
+  }
+}
+
+void ChildProcess::signal(int number) { pidfd_send_signal(process_.get(), number, nullptr, 0); }
+
+ChildProcess::End ChildProcess::end(std::chrono::milliseconds patience) {
+  End how;
+  if (*this) {
+    how.was_ours = !ends_within(patience);
+    signal(SIGKILL);
+    siginfo_t info{};
+    // until it is waited for, its number is that of its group and of no other one
+    if (waitid(P_PIDFD, id_t(process_.get()), &info, WEXITED | WNOHANG | WNOWAIT) == 0) kill(-pid_, SIGKILL);
+    int done = 0;
+    while ((done = waitid(P_PIDFD, id_t(process_.get()), &info, WEXITED)) != 0 && errno == EINTR) continue;
+    if (done == 0 && info.si_code == CLD_EXITED) how.exit_code = info.si_status;
+    if (done == 0 && info.si_code != CLD_EXITED) how.signal = info.si_status;
+  }
+  process_.reset();
+  return how;
+}
+
+/// The process stands before its socket: what it has sent before its end is there then.
+ChildProcess::Transfer ChildProcess::wait_for(short event, Clock::time_point until) const {
+  for (;;) {
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(until - Clock::now()).count();
+    if (left <= 0) return Transfer::late;
+    pollfd both[] = {{process_.get(), POLLIN, 0}, {socket_.get(), event, 0}};
+    const int ready = poll(both, 2, int(std::min<std::int64_t>(left, 1'000'000'000)));
+    if (ready == 0 || (ready < 0 && errno == EINTR)) continue;
+    return both[1].revents != 0 ? Transfer::whole : Transfer::broken;
+  }
+}
+
+ChildProcess::Transfer ChildProcess::send(const void* data, std::size_t size, Clock::time_point until) {
+  for (const auto* at = static_cast<const char*>(data); size > 0;) {
+    if (const Transfer t = wait_for(POLLOUT, until); t != Transfer::whole) return t;
+    const ssize_t sent = ::send(socket_.get(), at, size, MSG_NOSIGNAL | MSG_DONTWAIT);
+    if (sent < 0 && (errno == EINTR || errno == EAGAIN)) continue;
+    if (sent <= 0) return Transfer::broken;
+    at += sent;
+    size -= std::size_t(sent);
+  }
+  return Transfer::whole;
+}
+
+ChildProcess::Transfer ChildProcess::receive(void* data, std::size_t size, Clock::time_point until) {
+  for (auto* at = static_cast<char*>(data); size > 0;) {
+    if (const Transfer t = wait_for(POLLIN, until); t != Transfer::whole) return t;
+    const ssize_t received = recv(socket_.get(), at, size, MSG_DONTWAIT);
+    if (received < 0 && (errno == EINTR || errno == EAGAIN)) continue;
+    if (received <= 0) return Transfer::broken;
+    at += received;
+    size -= std::size_t(received);
+  }
+  return Transfer::whole;
+}
+
+std::string ChildProcess::take_rest(std::size_t most) {
+  std::string text;
+  char some[4096];
+  for (ssize_t got = 0; text.size() < most; text.append(some, std::size_t(got)))
+    if ((got = recv(socket_.get(), some, std::min(sizeof some, most - text.size()), MSG_DONTWAIT)) <= 0) break;
+  return text;
+}
+
+std::string name_of_signal(int number) {
+  const char* const name = sigabbrev_np(number);
+  return "SIG" + std::string(name ? name : std::to_string(number));
+}
+
+}  // namespace muro
