@@ -31,6 +31,10 @@ fail() {
 # What `file` includes by `name`: a path of this tree, a library's name, or nothing. Result in `target`.
 resolve() {
   local file=$1 name=$2 i folder=${1%/*}
+  if [[ $name != */* && $name != *.* ]]; then
+    target=std
+    return
+  fi
   # a folder of the file, or one above it, is where its own includes start
   while [[ $folder == */* && ! -f $folder/$name ]]; do folder=${folder%/*}; done
   if [[ -f $folder/$name ]]; then
@@ -42,8 +46,6 @@ resolve() {
     target=sdk/c/$name
   elif [[ -f $name ]]; then
     target=$name
-  elif [[ $name != */* && $name != *.* ]]; then
-    target=std
   else
     target=
     for i in "${!library_begins[@]}"; do
@@ -65,13 +67,14 @@ allowance() {
 }
 
 check_includes() {
-  local folders=() words=() folder file line text target allowed word
+  local folders=() words=() folder file line text target allowed word of=
   for folder in sdk core host plugins examples tests; do [[ ! -d $folder ]] || folders+=("$folder"); done
   while IFS=: read -r file line text; do
     [[ $text =~ include[[:space:]]*[\"\<]([^\">]+) ]] || continue
     local name=${BASH_REMATCH[1]}
     resolve "$file" "$name"
-    allowance "$file"
+    [[ $file == "$of" ]] || allowance "$file" # includes of a file follow each other
+    of=$file
     if [[ -z $target ]]; then
       fail "$file:$line: includes \"$name\", of no library that tests/include_rules/rules.txt knows; add it there"
       continue
