@@ -7,6 +7,7 @@
 
 #include "keys.hpp"
 #include "plugins/common/constant_twist/constant_twist.hpp"
+#include "plugins/common/text/counted.hpp"
 #include "scratch.hpp"
 
 namespace muro::scanner {
@@ -47,8 +48,8 @@ std::span<const double> read_directions(const Parameters& p) {
     if (p.given(name)) throw Error(std::string("directions and ") + name + " are both given; remove one of them");
   const std::span<const double> pairs = p.reals("directions");
   if (pairs.empty() || pairs.size() % 2 != 0)
-    throw Error("directions has " + std::to_string(pairs.size()) +
-                " numbers; give an azimuth and an elevation for every ray");
+    throw Error("directions has " + counted(pairs.size(), "number") +
+                "; give an azimuth and an elevation for every ray");
   for (std::size_t i = 0; i < pairs.size(); ++i)
     if (!std::isfinite(pairs[i])) throw Error("directions: number " + std::to_string(i + 1) + " is not finite");
   return pairs;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "plugins/common/text/counted.hpp"
 #include "plugins/common/text/quote.hpp"
 #include "wheel_finder.hpp"
 
@@ -115,8 +116,8 @@ inline std::vector<OmniWheel> find_omni_wheels(const Connector& connector, const
   const WheelFinder finder(connector, robot);
   std::vector<OmniWheel> wheels = detail::choose_omni_wheels(finder, robot, p);
   if (wheels.size() < 3)
-    throw Error(quote(robot.name) + " has " + std::to_string(wheels.size()) +
-                " wheels, but three are needed to move in every direction: " + detail::omni_wheels_found(finder) +
+    throw Error(quote(robot.name) + " has " + counted(wheels.size(), "wheel") +
+                ", but three are needed to move in every direction: " + detail::omni_wheels_found(finder) +
                 ". Name the wheels' joints with `wheels`");
 
   const std::span<const double> given = p.reals(roller_angle.name);

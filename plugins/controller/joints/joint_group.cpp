@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "joint_group.hpp"
 
+#include "plugins/common/text/counted.hpp"
 #include "plugins/common/text/quote.hpp"
 #include "plugins/common/wire_protocol/fault.hpp"
 #include "plugins/common/wire_protocol/number_text.hpp"
@@ -34,8 +35,9 @@ void JointGroup::read(Quantity quantity, std::vector<double>& out) const {
 
 void JointGroup::set(Quantity quantity, std::span<const double> values, wire::Origin origin) {
   if (values.size() != axes_.size())
-    throw wire::Fault{wire::FaultCode::wrong_fields, "group " + quote(name()) + " has " + std::to_string(axes_.size()) +
-                                                         " numbers, not " + std::to_string(values.size())};
+    throw wire::Fault{wire::FaultCode::wrong_fields, "group " + quote(name()) + " has " +
+                                                         counted(axes_.size(), "number") + ", not " +
+                                                         std::to_string(values.size())};
   for (std::size_t i = 0; i < axes_.size(); ++i) axes_[i]->check(quantity, values[i]);
   for (std::size_t i = 0; i < axes_.size(); ++i) axes_[i]->set(quantity, values[i], origin);
 }

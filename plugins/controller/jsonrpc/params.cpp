@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "plugins/common/text/counted.hpp"
 #include "plugins/common/text/quote.hpp"
 
 namespace muro::jsonrpc {
@@ -32,8 +33,8 @@ double real_of(const Json& value, const std::string& what, double least, double 
 Params::Params(const Json& given, std::span<const std::string_view> names) {
   if (given.is_array()) {
     if (given.size() > names.size())
-      refuse("there are " + std::to_string(given.size()) + " parameters, but the method has " +
-             std::to_string(names.size()) + ": " + quoted_list(names));
+      refuse((given.size() == 1 ? "there is " : "there are ") + counted(given.size(), "parameter") +
+             ", but the method has " + std::to_string(names.size()) + ": " + quoted_list(names));
     for (std::size_t i = 0; i < given.size(); ++i) values_[std::string(names[i])] = given[i];
   } else if (given.is_object()) {
     for (const auto& [name, value] : given.items())

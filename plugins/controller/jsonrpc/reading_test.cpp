@@ -102,6 +102,7 @@ TEST(Reading, NamesTheNearestOfWhatIsNotThere) {
   EXPECT_EQ(fails("get", "{}"), R"(-32602 the parameter `properties` is missing "")");
   EXPECT_EQ(fails("get", R"(["rover/base:pose",0,1])"),
             R"(-32602 there are 3 parameters, but the method has 2: `properties`, `element` "")");
+  EXPECT_EQ(fails("info", "[1]"), R"(-32602 there is 1 parameter, but the method has 0: none "")");
   EXPECT_EQ(fails("get", R"({"properties":"rover:ranges","element":3})"),
             R"(-32602 `element` must be a whole number from 0 to 2 "")");
   EXPECT_EQ(fails("get", R"(["rover:state.block"])"),

@@ -10,6 +10,7 @@
 #include "local_instance.hpp"
 #include "muro/toolkit/random.hpp"
 #include "outcome_text.hpp"
+#include "plugins/common/text/counted.hpp"
 #include "plugins/common/text/one_line.hpp"
 #include "plugins/common/text/quote.hpp"
 #include "remote_instance.hpp"
@@ -126,11 +127,11 @@ Port ControlledRobot::connect_port(Connector& c, const PropertyFinder& finder, c
 
 void ControlledRobot::check_size(const Port& port, const muro_port& wanted, bool input) const {
   if (!input && port.type() == PortType::text && !port.has_room_for_text())
-    throw Error(about(wanted, input) + " has " + std::to_string(wanted.size) +
-                " bytes in the library, which is more than the connected property has");
+    throw Error(about(wanted, input) + " has " + counted(wanted.size, "byte") +
+                " in the library, which is more than the connected property has");
   if (wanted.size == 0 || port.size() == wanted.size || port.is_missing()) return;
-  throw Error(about(wanted, input) + " has " + std::to_string(wanted.size) +
-              " numbers in the library, but the connected properties have " + std::to_string(port.size()));
+  throw Error(about(wanted, input) + " has " + counted(wanted.size, "number") +
+              " in the library, but the connected properties have " + std::to_string(port.size()));
 }
 
 void ControlledRobot::measure() {

@@ -294,7 +294,8 @@ TEST(LaserRaycast, ExplainsWhatIsWrongWithItsParameters) {
                {"min_range (5.000000 m) must be less than max_range", {{"min_range", 5.0}, {"max_range", 4.0}}},
                {"directions and rays are both given",
                 {{"directions", std::vector<double>{0, 0}}, {"rays", std::int64_t(3)}}},
-               {"directions has 3 numbers", {{"directions", std::vector<double>{0, 0, 1}}}}})
+               {"directions has 3 numbers", {{"directions", std::vector<double>{0, 0, 1}}}},
+               {"directions has 1 number; ", {{"directions", std::vector<double>{0}}}}})
     EXPECT_NE(message(parameters).find(expected), std::string::npos) << message(parameters);
 }
 
