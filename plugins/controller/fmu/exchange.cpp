@@ -50,7 +50,9 @@ void write_run(const Variable& variable, const Run& run, const T* from, std::uin
     auto* to = reinterpret_cast<decltype(zero)*>(run.data);
     for (std::uint64_t i = 0; i < run.count; ++i) {
       if (!std::isfinite(double(from[i])))
-        fail(variable, begin + i, "is " + text_of_number(from[i]) + "; outputs must be finite numbers");
+        fail(variable, begin + i,
+             "is " + (std::isnan(double(from[i])) ? "not a number" : text_of_number(from[i])) +
+                 "; outputs must be finite numbers");
       const Conversion* const c = conversion_of(run, i);
       if (!(c ? convert(c->to_property(double(from[i])), to[i]) : convert(from[i], to[i])))
         fail(variable, begin + i, "is " + text_of_number(from[i]) + ", which does not fit into " + run.name);

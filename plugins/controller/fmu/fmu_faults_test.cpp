@@ -69,7 +69,8 @@ TEST_P(FmuFault, EndsTheRunWithTheWordsOfTheFmu) {
               "robot `a`: x.fmu: `" + prefix() + "DoStep` fails with " + prefix() +
                   "Error: it is all wrong at t = 0.2, label 'my own FMU'");
   EXPECT_SAYS(run(able(), {fault(fatal)}), "`" + prefix() + "DoStep` fails with " + prefix() + "Fatal: it is broken");
-  EXPECT_SAYS(run(able(), {fault(nan)}), "robot `a`: x.fmu: variable `speed` is nan; outputs must be finite numbers");
+  EXPECT_SAYS(run(able(), {fault(nan)}),
+              "robot `a`: x.fmu: variable `speed` is not a number; outputs must be finite numbers");
   EXPECT_SAYS(run(able(), {fault(end)}), std::string("the FMU asks to end the simulation (") +
                                              (version() == 2 ? "fmi2Terminated" : "terminateSimulation") +
                                              ") between t = 0.4 s and 0.5 s");

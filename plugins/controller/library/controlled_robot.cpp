@@ -229,7 +229,8 @@ bool ControlledRobot::write_ports(const InstanceMemory& m, std::string& why_not)
       const double value = static_cast<const double*>(m.outputs[i])[bad];
       char number[32];
       std::snprintf(number, sizeof number, "%.17g", value);
-      why_not = about(port, false) + "[" + std::to_string(bad) + "] is " + number +
+      why_not = about(port, false) + "[" + std::to_string(bad) + "] is " +
+                (std::isnan(value) ? "not a number" : number) +
                 (std::isfinite(value) ? ", which does not fit into its property" : "; outputs must be finite numbers");
     }
     return false;

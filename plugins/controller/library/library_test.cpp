@@ -108,7 +108,7 @@ TEST(ControllerLibrary, EndsTheRunWhenAnOutputIsNoFiniteNumber) {
   team.control(folder + "circle.so", {{"arguments", Texts{"nan_at=3"}}});
   team.build();
   EXPECT_TRUE(says(failure(team, 2),
-                   "robot `a`: output `command.twist` of `circle`[5] is nan; outputs must be finite numbers"));
+                   "robot `a`: output `command.twist` of `circle`[5] is not a number; outputs must be finite numbers"));
 }
 
 #ifdef FORTRAN_CONTROLLER

@@ -61,7 +61,7 @@ TEST(IsolatedController, IsEndedWhenItDoesNotReturn) {
 TEST(IsolatedController, FailsByAnErrorOrANumberThatIsNotFiniteAsElsewhere) {
   for (const auto& [argument, message] :
        {std::pair{"nan_at=3",
-                  "robot `a`: output `command.twist` of `circle`[5] is nan; outputs must be finite numbers"},
+                  "robot `a`: output `command.twist` of `circle`[5] is not a number; outputs must be finite numbers"},
         {"fail_at=5", "robot `a`: `circle` fails: lost at x = "},
         {"tell=nothing", "robot `a`: `circle` fails without giving a reason"},
         {"tell=endless", "robot `a`: `circle` fails: xxxxxxxx"},
