@@ -72,7 +72,7 @@ class Pty final : public Endpoint {
     });
     if (!is_raw) fail(system_reason(errno));
     if (const int error = link_.point_to(name); error != 0)
-      fail("the link to it cannot be made: " + system_reason(error));
+      fail("the link to it cannot be made: " + reason_at(setup_.address.path, error));
     terminal_ = name;
   }
 

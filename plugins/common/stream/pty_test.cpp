@@ -206,7 +206,8 @@ TEST_F(PseudoTerminal, LeavesFilesAndLinksOfOthers) {
     EXPECT_EQ(target(), where);
     ::unlink(path.c_str());
   }
-  EXPECT_SAYS(test::complaint_of<Error>([&] { Echo({"pty=/no/such/folder/laser"}); }), "No such file or directory");
+  EXPECT_SAYS(test::complaint_of<Error>([&] { Echo({"pty=/no/such/folder/laser"}); }),
+              "the link to it cannot be made: there is no folder `/no/such/folder`; create it, or choose another path");
 }
 
 /// A terminal of the test's own stands for a device.

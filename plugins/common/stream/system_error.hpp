@@ -4,10 +4,12 @@
 #include <sys/resource.h>
 
 #include <cerrno>
+#include <filesystem>
 #include <string>
 #include <system_error>
 
 #include "muro/algorithm.hpp"
+#include "plugins/common/text/quote.hpp"
 
 namespace muro::stream {
 
@@ -21,6 +23,14 @@ inline std::string system_reason(int error) {
             " files open, streams and their clients included: raise that with `ulimit -n`, or use fewer streams";
   }
   return text;
+}
+
+/// The same where a file is to be made at `path`.
+inline std::string reason_at(const std::string& path, int error) {
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  std::error_code unknown;
+  if (error != ENOENT || std::filesystem::exists(folder, unknown)) return system_reason(error);
+  return "there is no folder " + quote(folder.string()) + "; create it, or choose another path";
 }
 
 [[noreturn]] inline void throw_system_error(const std::string& what, int error) {

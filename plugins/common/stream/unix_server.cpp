@@ -28,7 +28,7 @@ class UnixServer final : public Endpoint {
     acceptor_.emplace(setup_, socket, [](int) {});
     // The file gets the mode of the socket, so nobody else can open it, not even for a moment.
     struct stat status {};
-    if (::fchmod(socket, 0600) != 0 || ::bind(socket, address(), sizeof name_) != 0) fail(system_reason(errno));
+    if (::fchmod(socket, 0600) != 0 || ::bind(socket, address(), sizeof name_) != 0) fail(reason_at(path, errno));
     if (::chmod(path.c_str(), 0600) != 0 || ::lstat(path.c_str(), &status) != 0 || ::listen(socket, SOMAXCONN) != 0)
       fail(system_reason(errno));
     device_ = status.st_dev;

@@ -97,8 +97,10 @@ TEST_F(UnixSocket, LeavesWhatHasTakenItsPlace) {
 }
 
 TEST_F(UnixSocket, TellsOfAFolderThatIsNotThere) {
-  EXPECT_SAYS(test::complaint_of<Error>([&] { Echo({"unix=/no/such/folder/socket"}); }),
-              "cannot serve on Unix socket `/no/such/folder/socket`: No such file or directory");
+  EXPECT_SAYS(
+      test::complaint_of<Error>([&] { Echo({"unix=/no/such/folder/socket"}); }),
+      "cannot serve on Unix socket `/no/such/folder/socket`: there is no folder `/no/such/folder`; create it, or "
+      "choose another path");
 }
 
 }  // namespace
