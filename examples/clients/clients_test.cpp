@@ -111,6 +111,11 @@ TEST(PythonClient, DoesAllFromItsCommandLine) {
   const auto wrong = python_client(run.port(), "get rovr/base_link:pose");
   EXPECT_EQ(wrong.exit_code, 1);
   EXPECT_EQ(wrong.output, "there is no object `rovr/base_link` (did you mean rover/base_link?)\n");
+  const test::ScratchFolder folder;
+  const std::string headed =
+      say("watch 'crate/body:pose' --rate 50 --count 200 2>" + folder.path("said") + " | head -n 1");
+  EXPECT_EQ(std::count(headed.begin(), headed.end(), '\n'), 1) << headed;
+  EXPECT_EQ(text_of(folder.path("said")), "") << "who reads no more ends it quietly";
   EXPECT_NE(say("set crate/body:pose '[0]'").find("may not be set"), std::string::npos);
   say("call stop");
 }

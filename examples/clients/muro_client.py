@@ -196,12 +196,20 @@ def command_line():
     return parser
 
 
+def show(result):
+    try:
+        print(result if isinstance(result, str) else json.dumps(result), flush=True)
+    except BrokenPipeError:  # who reads this has read enough, as `head` does
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        sys.exit(0)
+
+
 def main():
     options = command_line().parse_args()
     try:
         with Client(options.address, tls=options.tls, token=token_of(options)) as muro:
             for result in run(muro, options):
-                print(result if isinstance(result, str) else json.dumps(result), flush=True)
+                show(result)
     except MuroError as error:
         near = (error.data or {}).get("did_you_mean") if isinstance(error.data, dict) else None
         sys.exit(f"{error}" + (f" (did you mean {near}?)" if near else ""))
