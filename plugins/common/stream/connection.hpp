@@ -28,6 +28,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void close();
   /// It says nothing any more; what is left to be sent to it may still be on its way.
   bool is_silent() const { return is_silent_; }
+  /// Bytes for it have been taken from the steps and have not been written yet.
+  bool has_output() const { return is_writing_; }
   /// It was disconnected by this side.
   bool was_ended() const { return is_ending_; }
 

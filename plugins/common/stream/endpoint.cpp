@@ -40,6 +40,10 @@ void Connections::close() {
   all_.clear();
 }
 
+bool Connections::has_output() const {
+  return std::any_of(all_.begin(), all_.end(), [](const auto& c) { return c->has_output(); });
+}
+
 void Connections::on_signal() {
   const auto all = all_;  // some may go
   for (const auto& connection : all) connection->attend();

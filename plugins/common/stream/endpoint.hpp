@@ -21,6 +21,8 @@ class Connections final : public IoThread::Source {
   void close();
   void on_signal() override;
   bool empty() const { return all_.empty(); }
+  /// Whether bytes for a client wait in this program.
+  bool has_output() const;
 
   std::function<void(bool by_us)> on_closed;  ///< a client has gone, or was disconnected here
 
@@ -54,6 +56,9 @@ class Endpoint {
   virtual void open() = 0;
   virtual void start() = 0;  ///< [I/O thread]
   virtual void close() = 0;  ///< no new clients [I/O thread]
+  /// bit/s of a line that has them, once what was sent before has gone out; 0: as it was opened. Allocates nothing.
+  /// [step]
+  virtual void set_baud(std::uint32_t) {}
 };
 
 std::unique_ptr<Endpoint> make_tcp_server(const EndpointSetup& setup);

@@ -140,6 +140,7 @@ void LiveStream::disconnect(std::uint32_t client) {
 }
 
 void LiveStream::set_baud(std::uint32_t baud) {
+  endpoint_->set_baud(baud);
   if (!address_.is_timed || baud == 0) return;
   input_.set_baud(time_, baud);
   output_.set_baud(time_, baud);

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/ioctl.h>
 #include <termios.h>
 #include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <optional>
 
 #include "plugins/common/stream/baud_rates.hpp"
 #include "plugins/common/stream/endpoint.hpp"
@@ -15,9 +20,10 @@ namespace muro::stream {
 namespace {
 
 /// A serial device of this machine: one client, at the other end of the line. Opened again when it comes back.
-class Serial final : public Endpoint {
+class Serial final : public Endpoint, private IoThread::Source {
  public:
-  explicit Serial(const EndpointSetup& setup) : setup_(setup), retry_(setup.io, [this] { open_again(); }) {}
+  explicit Serial(const EndpointSetup& setup)
+      : setup_(setup), retry_(setup.io, [this] { open_again(); }), rate_timer_(setup.io.context()) {}
   ~Serial() override {
     if (descriptor_ >= 0) ::close(descriptor_);
   }
@@ -27,7 +33,14 @@ class Serial final : public Endpoint {
     setup_.connections.on_closed = [this](bool) { retry_.later(); };
     serve();
   }
-  void close() override { retry_.stop(); }
+  void close() override {
+    retry_.stop();
+    rate_timer_.cancel();
+  }
+  void set_baud(std::uint32_t baud) override {
+    wanted_ = baud;
+    setup_.io.signal(*this);
+  }
 
  private:
   void serve() {
@@ -44,6 +57,32 @@ class Serial final : public Endpoint {
     }
     is_told_ = false;
     serve();
+  }
+
+  void on_signal() override { change_rate(); }
+  /// Now, or when all that is to go out at the rate before has reached the hardware.
+  void change_rate() {
+    const std::uint32_t baud = wanted_;
+    const auto speed = baud == 0 ? first_speed_ : speed_code(baud);
+    if (speed == speed_) return;
+    if (!speed)
+      return setup_.log(LogLevel::warning, "a serial device cannot run at " + std::to_string(baud) + " bit/s");
+    const int device = ::open(setup_.address.path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
+    int queued = 0;
+    if (setup_.connections.has_output() || (::ioctl(device, TIOCOUTQ, &queued) == 0 && queued > 0)) {
+      rate_timer_.expires_after(std::chrono::milliseconds(1));
+      rate_timer_.async_wait([this](const boost::system::error_code& cancelled) {
+        if (!cancelled) change_rate();
+      });
+    } else {
+      speed_ = speed;  // when it is opened again, too
+      termios settings{};
+      if (::tcgetattr(device, &settings) == 0) {
+        ::cfsetspeed(&settings, *speed);
+        ::tcsetattr(device, TCSADRAIN, &settings);  // the last bytes are in the hardware
+      }
+    }
+    if (device >= 0) ::close(device);
   }
 
   void open_device() {
@@ -65,11 +104,13 @@ class Serial final : public Endpoint {
     settings.c_cflag &= ~tcflag_t(CSTOPB | CRTSCTS);
     settings.c_cflag |= CREAD | CLOCAL;
     settings.c_iflag |= IGNBRK;
-    const auto speed = speed_code(setup_.address.baud);
-    if (speed) ::cfsetspeed(&settings, *speed);
+    if (!first_speed_) first_speed_ = speed_code(setup_.address.baud);
+    if (!first_speed_) first_speed_ = ::cfgetospeed(&settings);
+    if (!speed_) speed_ = first_speed_;
+    ::cfsetspeed(&settings, *speed_);
     if (::tcsetattr(descriptor_, TCSANOW, &settings) != 0) fail(system_reason(errno));
     termios found{};
-    if (speed && (::tcgetattr(descriptor_, &found) != 0 || ::cfgetospeed(&found) != *speed))
+    if (setup_.address.baud > 0 && (::tcgetattr(descriptor_, &found) != 0 || ::cfgetospeed(&found) != *speed_))
       fail("it does not run at " + std::to_string(setup_.address.baud) + " bit/s");
     ::tcflush(descriptor_, TCIOFLUSH);
   }
@@ -82,6 +123,10 @@ class Serial final : public Endpoint {
 
   const EndpointSetup setup_;
   Retry retry_;
+  asio::steady_timer rate_timer_;
+  std::optional<speed_t> first_speed_;     ///< as the address says, else as it was found
+  std::optional<speed_t> speed_;           ///< as it is now
+  std::atomic<std::uint32_t> wanted_ = 0;  ///< bit/s; 0: the first
   int descriptor_ = -1;
   bool is_told_ = false;
 };

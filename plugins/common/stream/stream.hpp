@@ -95,7 +95,8 @@ class Stream {
   void set_subscribed(bool subscribed);
   /// Ends the connection once what was sent has gone out. [step]
   void disconnect(std::uint32_t client);
-  /// Simulated bit rate from now on, where the address is timed. [step]
+  /// Bit rate from now on, of a serial device and where the address is timed; 0: as at the start. What was sent before
+  /// goes out at the rate before. [step]
   void set_baud(std::uint32_t baud);
 
   /// For Algorithm::finish(): puts the counts into the report, and warns of what was dropped or refused. [finish]

@@ -150,7 +150,7 @@ class Station final : private DeviceHost {
   /// The device's first bit rate is that of the stream, whatever the device calls it.
   void set_bit_rate(std::uint32_t bits_per_second) override {
     const std::uint32_t rate = bits_per_second == initial_bit_rate ? stream_.address().baud : bits_per_second;
-    if (rate > 0) stream_.set_baud(rate);
+    stream_.set_baud(rate);
   }
 
   Item item_;
