@@ -94,7 +94,7 @@ TEST_P(EveryCollision, BoxEdgesThatCrossGiveTheirCommonPerpendicular) {
 }
 
 TEST_P(EveryCollision, BoxCornerOnAFaceIsOnePoint) {
-  const Quat on_corner(Eigen::Quaterniond::FromTwoVectors(Vec3(1, 1, 1), Vec3(-up)));
+  const Quat on_corner = turn_between(Vec3(1, 1, 1).normalized(), -up);
   expect_points(unit_box, at(0.1, 0.2, std::sqrt(3.0) / 2 - 0.02, on_corner), slab, below, 0.02, up,
                 {{0.1, 0.2, -0.01}});
 }

@@ -11,8 +11,9 @@ using namespace test;
 class EverySweep : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Conformance, EverySweep, testing::ValuesIn(laser_methods()), method_name);
 
-constexpr int rays = 240;
-const Settings wide{{"rays", std::int64_t(rays)}, {"min_angle", -2.0}, {"max_angle", 2.0}, {"max_range", 30.0}};
+constexpr int sweep_rays = 240;
+const Settings sweep_settings{
+    {"rays", std::int64_t(sweep_rays)}, {"min_angle", -2.0}, {"max_angle", 2.0}, {"max_range", 30.0}};
 
 /// A room without corners in sight, and a carrier that drives an arc in it: 1 m/s, 2 rad/s.
 struct Drive : Room {
@@ -40,18 +41,18 @@ struct Drive : Room {
   }
 };
 
-double azimuth_of(int ray) { return -2 + 4.0 * ray / (rays - 1); }
+double azimuth_of(int ray) { return -2 + 4.0 * ray / (sweep_rays - 1); }
 /// When a ray is taken in a scan of 0.1 s that begins at `start`: a turn of the mirror.
 double time_of(int ray, double start) { return start + 0.1 * (azimuth_of(ray) + 2) / (2 * pi); }
 
 TEST_P(EverySweep, TakesEachRayAtItsOwnTimeAlongThePathOfTheDevice) {
   Drive s;
-  s.add_laser(GetParam(), with(wide, {{"sweep_steps", std::int64_t(10)}}));
+  s.add_laser(GetParam(), with(sweep_settings, {{"sweep_steps", std::int64_t(10)}}));
   s.start();
   s.run_for(0.2005);  // two scans: from 0 to 0.1 s and from 0.1 to 0.2 s; motion has begun with the first step
   const bool exact = GetParam() == "laser.raycast" || GetParam() == "laser.embree";
   double worst = 0;
-  for (int i = 0; i < rays; ++i) {
+  for (int i = 0; i < sweep_rays; ++i) {
     const double expected = s.exact(time_of(i, 0.1) - 0.001, azimuth_of(i));
     if (expected > 12) continue;
     worst = std::max(worst, std::abs(s.ranges(0)[i] - expected));
@@ -62,12 +63,12 @@ TEST_P(EverySweep, TakesEachRayAtItsOwnTimeAlongThePathOfTheDevice) {
 
 TEST_P(EverySweep, DiffersFromAScanAtOneInstantByTheWayOfTheDevice) {
   Drive s;
-  s.add_laser(GetParam(), with(wide, {{"sweep_steps", std::int64_t(10)}}));
-  s.add_laser(GetParam(), wide);
+  s.add_laser(GetParam(), with(sweep_settings, {{"sweep_steps", std::int64_t(10)}}));
+  s.add_laser(GetParam(), sweep_settings);
   s.start();
   s.run_for(0.2005);
   double most = 0;
-  for (int i = 0; i < rays; ++i)
+  for (int i = 0; i < sweep_rays; ++i)
     if (s.exact(0.2, azimuth_of(i)) < 12) most = std::max(most, std::abs(s.ranges(0)[i] - s.ranges(1)[i]));
   EXPECT_GT(most, 0.3) << "0.2 rad of turning in a scan";
 }
@@ -76,12 +77,12 @@ TEST_P(EverySweep, IsAScanAtOneInstantWhileTheDeviceStands) {
   Room s({{0.2, 0.3, 1}, from_rpy(0, 0, 0.2)});
   s.furnish();
   s.laser_rate = 100;
-  s.add_laser(GetParam(), with(wide, {{"sweep_steps", std::int64_t(7)}, {"hits", true}}));
-  s.add_laser(GetParam(), with(wide, {{"hits", true}}));
+  s.add_laser(GetParam(), with(sweep_settings, {{"sweep_steps", std::int64_t(7)}, {"hits", true}}));
+  s.add_laser(GetParam(), with(sweep_settings, {{"hits", true}}));
   s.build_and_run(0.2);
-  const Bound bound = bound_of(GetParam(), 4.0 / (rays - 1), 1);
+  const Bound bound = bound_of(GetParam(), 4.0 / (sweep_rays - 1), 1);
   int edges = 0;
-  for (int i = 0; i < rays; ++i) {
+  for (int i = 0; i < sweep_rays; ++i) {
     const bool same = std::abs(s.ranges(0)[i] - s.ranges(1)[i]) <= 2 * (bound.absolute + bound.relative * 10) &&
                       s.hits(0)[i] == s.hits(1)[i];
     edges += !same;
@@ -91,7 +92,7 @@ TEST_P(EverySweep, IsAScanAtOneInstantWhileTheDeviceStands) {
 
 TEST_P(EverySweep, KeepsTheLastScanUntilTheNextIsComplete) {
   Drive s;
-  s.add_laser(GetParam(), with(wide, {{"sweep_steps", std::int64_t(10)}}));
+  s.add_laser(GetParam(), with(sweep_settings, {{"sweep_steps", std::int64_t(10)}}));
   s.start();
   s.run_for(0.1505);
   const std::vector<double> first(s.ranges(0).begin(), s.ranges(0).end());
