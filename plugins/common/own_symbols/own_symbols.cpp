@@ -28,6 +28,11 @@ Puts puts(std::uint64_t type) {
   return Puts::none;
 }
 
+/// The word at `place`, which may be in tables that AddressSanitizer forbids to all but itself.
+[[gnu::no_sanitize_address]] std::uintptr_t word_at(std::uintptr_t place) {
+  return *reinterpret_cast<const std::uintptr_t*>(place);
+}
+
 /// The dynamic section of a loaded library.
 class Dynamic {
  public:
@@ -52,7 +57,7 @@ class Dynamic {
         const ElfW(Sym)& symbol = symbols_[number];
         // weak ones are parts of C++ that libraries are meant to have in common
         if (symbol.st_shndx == SHN_UNDEF || ELF64_ST_BIND(symbol.st_info) != STB_GLOBAL) continue;
-        const std::uintptr_t found = *reinterpret_cast<const std::uintptr_t*>(base_ + r.r_offset);
+        const std::uintptr_t found = word_at(base_ + r.r_offset);
         const std::uintptr_t addend = puts_what == Puts::address ? 0 : std::uintptr_t(r.r_addend);
         see(names_ + symbol.st_name, reinterpret_cast<const void*>(found - addend));
       }
