@@ -16,6 +16,9 @@ class InstanceProcess {
  public:
   /// `timeout`: s of wall-clock time for each request. Throws Error.
   explicit InstanceProcess(double timeout);
+  ~InstanceProcess() { reap(); }  // after what it still prints
+  InstanceProcess(const InstanceProcess&) = delete;
+  InstanceProcess& operator=(const InstanceProcess&) = delete;
 
   /// Sends a request and returns the answer. Throws Error when there is none, with what became of the process:
   /// FailureFromOutside where the clock or another process has a part in it.
