@@ -49,6 +49,12 @@ std::string fault_of(std::string_view name) {
   return "";
 }
 
+/// The name of an entry without the `./` before it that some programs write.
+std::string plain(std::string name) {
+  while (name.starts_with("./") && name.size() > 2) name.erase(0, 2);
+  return name;
+}
+
 class Unpacking {
  public:
   Unpacking(const std::string& path, const fs::path& folder, const std::vector<std::string>& platforms,
@@ -69,7 +75,10 @@ class Unpacking {
     for (zip_int64_t i = 0; i < count; ++i) read_entry(zip_uint64_t(i));
     if (!found_description_)
       throw Error(path_ + " is no FMU: it holds no " + std::string(description_name) +
-                  ", which stands at the top of the archive");
+                  ", which stands at the top of the archive" +
+                  (deeper_description_.empty()
+                       ? ""
+                       : "; it holds " + quote(deeper_description_) + ": pack what is in that folder, not the folder"));
     archive_.platforms.assign(platforms_.begin(), platforms_.end());
     return std::move(archive_);
   }
@@ -79,11 +88,24 @@ class Unpacking {
     std::error_code unused;
     if (!fs::exists(path_, unused))
       throw Error("there is no FMU " + path_ + "; relative paths start at the scenario's folder");
+    if (fs::is_directory(path_, unused))
+      throw Error(path_ + " is a folder; an FMU is a zip archive of what is in it: (cd " + path_ +
+                  " && zip -r ../NAME.fmu .)");
+    if (is_cut_off())
+      throw Error(path_ + " is a zip archive without an end: it was copied only in part; copy it again");
     zip_error_t error;
     zip_error_init_with_code(&error, code);
     const std::string reason = one_line(zip_error_strerror(&error));
     zip_error_fini(&error);
     throw Error(path_ + " cannot be read as a zip archive: " + reason + "; an FMU is one");
+  }
+  /// Whether it begins as a zip archive does. One that cannot be opened nevertheless lacks its end, where the list of
+  /// its files is.
+  bool is_cut_off() const {
+    const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path_.c_str(), "rbe"));
+    char begin[4] = {};
+    return file && std::fread(begin, 1, sizeof begin, file.get()) == sizeof begin &&
+           std::memcmp(begin, "PK\3\4", sizeof begin) == 0;
   }
   [[noreturn]] void fail(const std::string& name, const std::string& what) const {
     throw Error(path_ + ": file " + quote(name) + " of the archive " + what);
@@ -91,7 +113,7 @@ class Unpacking {
 
   void read_entry(zip_uint64_t i) {
     const char* raw = zip_get_name(zip_.get(), i, ZIP_FL_ENC_RAW);
-    const std::string name = raw ? raw : "";
+    const std::string name = plain(raw ? raw : "");
     if (const std::string fault = fault_of(name); !fault.empty())
       throw Error(path_ + " holds a file with the name " + quote(name) + ", " + fault + "; nothing of it is used");
     check_kind(i, name);
@@ -101,6 +123,7 @@ class Unpacking {
       archive_.description = content(i, name, limits_.description_bytes);
       return;
     }
+    if (name.ends_with("/" + std::string(description_name))) deeper_description_ = name;
     constexpr std::string_view binaries = "binaries/";
     if (name.starts_with(binaries)) {
       const std::size_t end = name.find('/', binaries.size());
@@ -127,7 +150,11 @@ class Unpacking {
   template <class Take>
   void read(zip_uint64_t i, const std::string& name, std::uint64_t most, Take take) {
     const std::unique_ptr<zip_file_t, CloseEntry> file(zip_fopen_index(zip_.get(), i, 0));
-    if (!file) fail(name, "cannot be read: " + one_line(zip_strerror(zip_.get())));
+    if (!file) {
+      const bool is_packed_oddly = zip_error_code_zip(zip_get_error(zip_.get())) == ZIP_ER_COMPNOTSUPP;
+      fail(name, "cannot be read: " + one_line(zip_strerror(zip_.get())) +
+                     (is_packed_oddly ? "; pack it by `deflate`, as the standard says" : ""));
+    }
     std::vector<char> buffer(1 << 16);
     std::uint64_t size = 0;
     while (true) {
@@ -181,6 +208,7 @@ class Unpacking {
   std::set<std::string> platforms_;
   std::uint64_t total_ = 0;
   bool found_description_ = false;
+  std::string deeper_description_;  ///< the name of a modelDescription.xml that is in a folder
 };
 
 }  // namespace

@@ -126,9 +126,37 @@ TEST(Archive, SaysWhatIsNoArchiveAndWhatIsNoFmu) {
   EXPECT_SAYS(refusal_of_file(scratch.path("other.fmu")), "is no FMU: it holds no modelDescription.xml");
   write_archive(scratch.path("whole.fmu"), {xml, {"resources/a", std::string(5000, 'a') + "b"}});
   std::string half = test::text_of(scratch.path("whole.fmu"));
-  EXPECT_SAYS(refusal_of_file(scratch.file("half.fmu", half.substr(0, half.size() / 2))), "half.fmu");
+  EXPECT_SAYS(refusal_of_file(scratch.file("half.fmu", half.substr(0, half.size() / 2))),
+              "half.fmu is a zip archive without an end: it was copied only in part");
   half[half.find("resources/a") + 14] ^= 0x55;  // within the packed bytes
   EXPECT_SAYS(refusal_of_file(scratch.file("damaged.fmu", half)), "`resources/a` of the archive cannot be read: ");
+}
+
+TEST(Archive, SaysHowAnFmuIsPackedWhereItIsNot) {
+  const test::ScratchFolder scratch;
+  EXPECT_SAYS(test::complaint_of<Error>([&] { unpack(scratch.path(""), scratch.path("out"), {"linux64"}); }),
+              " is a folder; an FMU is a zip archive of what is in it: (cd ");
+  EXPECT_SAYS(refusal_of({{"model/modelDescription.xml", "<x/>"}, {"model/binaries/linux64/model.so", ""}}),
+              "it holds `model/modelDescription.xml`: pack what is in that folder, not the folder");
+  write_archive(scratch.path("x.fmu"), {xml});
+  std::string bytes = test::text_of(scratch.path("x.fmu"));
+  bytes.replace(bytes.find("PK\3\4") + 8, 1, "\x62");   // PPMd for `xml`, in its own header
+  bytes.replace(bytes.find("PK\1\2") + 10, 1, "\x62");  // and in the list of all
+  const std::string path = scratch.file("ppmd.fmu", bytes);
+  EXPECT_SAYS(test::complaint_of<Error>([&] { unpack(path, scratch.path("out"), {"linux64"}); }),
+              "pack it by `deflate`, as the standard says");
+}
+
+TEST(Archive, TakesNamesThatBeginWithTheFolderItself) {
+  const test::ScratchFolder scratch;
+  write_archive(scratch.path("x.fmu"), {{"./modelDescription.xml", "<x/>"}, {"./binaries/linux64/model.so", "code"}});
+  PrivateFolder folder;
+  folder.create();
+  EXPECT_EQ(unpack(scratch.path("x.fmu"), folder.path(), {"linux64"}).description, "<x/>");
+  EXPECT_EQ(test::text_of(folder.path() / "binaries/linux64/model.so"), "code");
+  EXPECT_SAYS(refusal_of({xml, {"./modelDescription.xml", "<x/>"}}), "is there twice");
+  EXPECT_SAYS(refusal_of({xml, {"./../x", ""}}), "leads out of its folder");
+  EXPECT_SAYS(refusal_of({xml, {".//etc/passwd", ""}}), "is an absolute path");
 }
 
 }  // namespace

@@ -71,6 +71,52 @@ std::optional<std::vector<std::uint8_t>> bytes_of_hexadecimal(std::string_view t
   return bytes;
 }
 
+std::vector<std::string_view> split_words(std::string_view text) {
+  constexpr std::string_view blanks = " \t\r\n";
+  std::vector<std::string_view> words;
+  for (std::size_t begin = 0; (begin = text.find_first_not_of(blanks, begin)) != text.npos;) {
+    const std::size_t end = std::min(text.find_first_of(blanks, begin), text.size());
+    words.push_back(text.substr(begin, end - begin));
+    begin = end;
+  }
+  return words;
+}
+
+/// The number of a word that a Boolean or an item of an enumeration is called by; nothing where it is no such word.
+std::optional<std::int64_t> number_of_name(const Variable& v, std::string_view word) {
+  if (v.type == Type::boolean && (word == "true" || word == "false")) return word == "true" ? 1 : 0;
+  if (!v.items) return std::nullopt;
+  for (const auto& [name, value] : *v.items)
+    if (name == word) return value;
+  return std::nullopt;
+}
+
+/// What a variable takes that is no plain number, as the end of a sentence.
+std::string names_for(const Variable& v) {
+  if (v.type == Type::boolean) return ", or true or false";
+  if (!v.items) return "";
+  std::vector<std::string_view> names;
+  for (const auto& [name, value] : *v.items) names.push_back(name);
+  return "; items of its type are " + quoted_list(names);
+}
+
+/// The number that a word says; integers of 64 bits are exact. Returns what is wrong with it, "" where nothing is.
+template <class T>
+std::string parse(const Variable& v, std::string_view word, int version, T& result) {
+  const std::string misfit = "does not fit into its type, " + std::string(name_of(v.type, version));
+  if (const auto named = number_of_name(v, word)) return convert(*named, result) ? "" : misfit;
+  if constexpr (std::is_integral_v<T>) {
+    const char* const end = word.data() + word.size();
+    if (const auto read = std::from_chars(word.data(), end, result); read.ec == std::errc() && read.ptr == end)
+      return "";
+  }
+  std::string problem;
+  const auto number = model_file::parse_numbers(word, 1, problem);
+  if (!number) return problem + names_for(v);
+  const bool is_whole = number->front() == std::nearbyint(number->front());
+  return convert(number->front(), result) && (is_whole || !std::is_integral_v<T>) ? "" : misfit;
+}
+
 std::uint64_t count_of(const std::vector<Run>& runs) {
   std::uint64_t count = 0;
   for (const Run& r : runs) count += r.count;
@@ -184,23 +230,16 @@ void set_start_value(Component& component, const Variable& v, const std::string&
   }
   if (v.type == Type::string && v.size == 1) return component.set_text(v.reference, text);
   if (v.type == Type::string) throw Error(about + "cannot be given: it is an array of texts");
-  std::string problem;
-  std::vector<double> numbers;
-  if (v.type == Type::boolean && (text == "true" || text == "false")) {
-    numbers.push_back(text == "true" ? 1 : 0);
-  } else {
-    numbers = model_file::parse_numbers(text, problem);
-    if (problem.empty() && numbers.size() != v.size)
-      problem = "has " + std::to_string(numbers.size()) + " numbers, and needs " + std::to_string(v.size) +
-                (v.size > 1 ? " separated by blanks" : "");
-    if (!problem.empty()) throw Error(about + problem + (v.type == Type::boolean ? ", or true or false" : ""));
-  }
+  const std::vector<std::string_view> words =
+      number_of_name(v, text) ? std::vector<std::string_view>{text} : split_words(text);  // names may hold blanks
   with_fmi_type(v.type, version, [&](auto zero) {
-    using T = decltype(zero);
-    std::vector<T> values(numbers.size());
-    for (std::size_t i = 0; i < numbers.size(); ++i)
-      if (!convert(numbers[i], values[i]) || (!std::is_floating_point_v<T> && numbers[i] != std::nearbyint(numbers[i])))
-        throw Error(about + "does not fit into its type, " + std::string(name_of(v.type, version)));
+    std::vector<decltype(zero)> values(words.size());
+    for (std::size_t i = 0; i < words.size(); ++i)
+      if (const std::string problem = parse(v, words[i], version, values[i]); !problem.empty())
+        throw Error(about + problem);
+    if (words.size() != v.size)
+      throw Error(about + "has " + std::to_string(words.size()) + (words.size() == 1 ? " number" : " numbers") +
+                  ", and needs " + std::to_string(v.size) + (v.size > 1 ? " separated by blanks" : ""));
     component.set(v.type, std::span(&v.reference, 1), values.data(), values.size());
   });
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <set>
 #include <string>
 
 #include "archive.hpp"
@@ -162,10 +163,22 @@ class FmuController final : public Algorithm {
       library_ = folder_.path() / "binaries" / platform / (description_.identifier + ".so");
       if (std::filesystem::is_regular_file(library_)) return;
     }
-    std::vector<std::string_view> others(archive.platforms.begin(), archive.platforms.end());
-    throw Error(path_ + " holds no library for this machine, binaries/" + own_platforms(description_.version).front() +
-                "/" + description_.identifier + ".so; it holds folders for: " + quoted_list(others) +
-                ". Export it for Linux on this processor");
+    fail_without_library(archive);
+  }
+
+  [[noreturn]] void fail_without_library(const Archive& archive) const {
+    const std::string platform = own_platforms(description_.version).front();
+    const std::string wanted = "binaries/" + platform + "/" + description_.identifier + ".so";
+    std::set<std::string> there;
+    std::error_code none;
+    for (const auto& file : std::filesystem::directory_iterator(folder_.path() / "binaries" / platform, none))
+      there.insert(file.path().filename().string());
+    if (!there.empty())
+      throw Error(path_ + " holds no " + wanted +
+                  ", where modelIdentifier says that its library is; that folder holds " + quoted_list(there));
+    const std::vector<std::string_view> others(archive.platforms.begin(), archive.platforms.end());
+    throw Error(path_ + " holds no library for this machine, " + wanted +
+                "; it holds folders for: " + quoted_list(others) + ". Export it for Linux on this processor");
   }
 
   void load() {

@@ -74,6 +74,7 @@ TEST_P(FmuFault, EndsTheRunWithTheWordsOfTheFmu) {
   EXPECT_SAYS(run(able(), {fault(end)}), std::string("the FMU asks to end the simulation (") +
                                              (version() == 2 ? "fmi2Terminated" : "terminateSimulation") +
                                              ") between t = 0.4 s and 0.5 s");
+  EXPECT_SAYS(run(able(), {fault(end), "fault_time=0.25"}), " between t = 0.2 s and 0.3 s") << "0.3 is 3 * 0.1";
 }
 
 TEST_P(FmuFault, RepeatsDiscardedStepsWithSmallerOnes) {
@@ -284,6 +285,9 @@ TEST_P(FmuFault, OfLibrariesIsNamed) {
   EXPECT_SAYS(refusal_of({xml, {"binaries/win64/model.dll", ""}, {"binaries/darwin64/model.dylib", ""}}),
               "x.fmu holds no library for this machine, " + folder +
                   "model.so; it holds folders for: `darwin64`, `win64`. Export it for Linux on this processor");
+  EXPECT_SAYS(refusal_of({xml, {folder + "other.so", library}}),
+              "x.fmu holds no " + folder +
+                  "model.so, where modelIdentifier says that its library is; that folder holds `other.so`");
   EXPECT_SAYS(refusal_of({xml, {folder + "model.so", library.substr(0, 5000)}}),
               "its library model.so cannot be loaded: the file has 5000 bytes and should have at least ");
   EXPECT_SAYS(refusal_of({xml, {folder + "model.so", "no library"}}), "its library cannot be loaded: model.so: ");

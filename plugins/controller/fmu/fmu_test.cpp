@@ -159,6 +159,44 @@ TEST_P(Fmu, PassesWholeNumbersBooleansAndEnumerations) {
   EXPECT_EQ(flag_is, 1);
 }
 
+TEST_P(Fmu, TakesStartValuesOfAllTypesExactly) {
+  static constexpr Key<double> choice_out{"test.choice_out", "1", ""};
+  static constexpr Key<std::uint64_t> u64_out{"test.u64_out", "1", ""};
+  static constexpr Key<std::int64_t> i64_out{"test.i64_out", "1", ""};
+  const std::string path = fmu(able());
+  const auto control = [&](Bench& bench, const Texts& outputs, const std::map<std::string, std::string>& values) {
+    Texts all;
+    for (const std::string& text : closed_inputs(version())) {
+      const std::string name = text.substr(0, text.find('='));
+      all.push_back(values.count(name) != 0 ? name + "=" + values.at(name) : text);
+    }
+    bench.use("controller.fmu", 10, bench.all_robots(),
+              Settings{{"fmu", path},
+                       {"outputs", outputs},
+                       {"parameters", all},
+                       {"isolate", std::string(bench.is_isolated ? "process" : "none")}});
+  };
+  Bench bench;
+  const double& choice_is = bench.sink(choice_out);
+  const std::uint64_t& u64_is = bench.sink(u64_out);
+  const std::int64_t& i64_is = bench.sink(i64_out);
+  Texts outputs{"choice_out=test.choice_out"};
+  if (version() == 3) outputs.insert(outputs.end(), {"u64_out=test.u64_out", "i64_out=test.i64_out"});
+  control(bench, outputs, {{"choice_in", "b"}, {"u64_in", "18446744073709551615"}, {"i64_in", "-9007199254740993"}});
+  bench.build();
+  bench.run_for(0.1);
+  EXPECT_EQ(choice_is, 2) << "an item by its name";
+  if (version() == 3) {
+    EXPECT_EQ(u64_is, std::numeric_limits<std::uint64_t>::max());
+    EXPECT_EQ(i64_is, -9007199254740993) << "-(2^53 + 1)";
+  }
+  Bench wrong;
+  control(wrong, {}, {{"choice_in", "c"}});
+  EXPECT_SAYS(refusal(wrong),
+              "value `c` of `choice_in` is no number; write it like 0.05 or 5e-2; items of its type "
+              "are `a`, `b`");
+}
+
 TEST_P(Fmu, FindsItsResources) {
   Bench bench;
   const std::uint8_t& found = bench.sink(has_resource);

@@ -204,7 +204,14 @@ class DescriptionReader {
   struct DeclaredType {
     std::string unit;
     bool is_relative = false;
+    std::shared_ptr<const EnumerationItems> items;
   };
+  std::shared_ptr<const EnumerationItems> read_items(const Element& type) const {
+    auto items = std::make_shared<EnumerationItems>();
+    for (const Element* e = type.FirstChildElement("Item"); e; e = e->NextSiblingElement("Item"))
+      items->emplace_back(text(*e, "name"), whole_number<std::int64_t>(*e, "value"));
+    return items->empty() ? nullptr : items;
+  }
   void read_types(Element& list) {
     for (Element* e = list.FirstChildElement(); e; e = e->NextSiblingElement()) {
       const char* name = e->Attribute("name");
@@ -213,6 +220,7 @@ class DescriptionReader {
       DeclaredType type;
       if (const char* unit = holder->Attribute("unit")) type.unit = unit;
       type.is_relative = flag(*holder, "relativeQuantity");
+      type.items = read_items(*holder);
       types_[name] = type;
     }
   }
@@ -267,6 +275,7 @@ class DescriptionReader {
       if (const auto type = types_.find(declared); type != types_.end()) {
         v.unit = type->second.unit;
         v.is_relative = type->second.is_relative;
+        if (v.type == Type::enumeration) v.items = type->second.items;
       }
     if (const char* unit = typed.Attribute("unit")) v.unit = unit;
     if (typed.Attribute("relativeQuantity")) v.is_relative = flag(typed, "relativeQuantity");

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -44,16 +45,20 @@ enum class Causality : std::uint8_t {
   structural_parameter,
 };
 
+/// The items of a type of enumerations: names and values.
+using EnumerationItems = std::vector<std::pair<std::string, std::int64_t>>;
+
 struct Variable {
   std::string name;
   std::uint32_t reference = 0;
   Type type = Type::float64;
   Causality causality = Causality::local;
-  bool is_tunable = false;   ///< a parameter that may change during the run
-  bool may_be_set = false;   ///< before the initialization
-  std::string unit;          ///< empty: none is given
-  bool is_relative = false;  ///< a difference: the offset of its unit does not count
-  std::uint64_t size = 1;    ///< numbers in it: of arrays, all elements
+  bool is_tunable = false;                        ///< a parameter that may change during the run
+  bool may_be_set = false;                        ///< before the initialization
+  std::string unit;                               ///< empty: none is given
+  bool is_relative = false;                       ///< a difference: the offset of its unit does not count
+  std::uint64_t size = 1;                         ///< numbers in it: of arrays, all elements
+  std::shared_ptr<const EnumerationItems> items;  ///< of its declared type; null: it has none
   int line = 0;
 };
 

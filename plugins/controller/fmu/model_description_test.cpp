@@ -38,6 +38,8 @@ TEST(ModelDescription, OfBothVersionsIsRead) {
     EXPECT_FALSE(d.find("speed")->may_be_set);
     EXPECT_TRUE(d.find("gain")->is_tunable);
     EXPECT_EQ(d.find("choice_in")->type, Type::enumeration);
+    ASSERT_NE(d.find("choice_in")->items, nullptr);
+    EXPECT_EQ(*d.find("choice_in")->items, (EnumerationItems{{"a", 1}, {"b", 2}}));
     EXPECT_EQ(d.units.at("deg").base->exponents[7], 1);
     EXPECT_EQ(d.find("nothing"), nullptr);
   }

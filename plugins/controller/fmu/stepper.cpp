@@ -17,6 +17,8 @@ constexpr int most_parts = 1000;        ///< of one communication step
 constexpr double smallest_part = 1e-6;  ///< of one communication step; what is less is rounding
 
 std::string seconds(double s) { return shortest(s) + " s"; }
+/// Without the last bits of a sum of periods: the times of a simulation are whole nanoseconds.
+std::string instant(double s) { return seconds(std::round(1e9 * s) / 1e9); }
 
 [[noreturn]] void refuse(const std::string& what, const std::string& flag, const std::string& why) {
   throw Error(what + ", and the FMU lacks the flag " + flag + ", which " + why +
@@ -56,18 +58,18 @@ void advance(Component& component, const ModelDescription& d, double begin, doub
   if (keeps_state) component.keep_state();
   for (int parts = 1;; ++parts) {
     const StepOutcome o = component.do_step(at, part);
-    const std::string where = "between t = " + seconds(at) + " and " + seconds(at + part);
+    const auto where = [&] { return "between t = " + instant(at) + " and " + instant(at + part); };
     if (o.wants_end)
       throw Error(std::string("the FMU asks to end the simulation (") +
-                  (d.version == 2 ? "fmi2Terminated" : "terminateSimulation") + ") " + where);
+                  (d.version == 2 ? "fmi2Terminated" : "terminateSimulation") + ") " + where());
     if (o.needs_event)
-      throw Error("the FMU asks for event mode (eventHandlingNeeded) " + where +
+      throw Error("the FMU asks for event mode (eventHandlingNeeded) " + where() +
                   "; it was told that there is none (eventModeUsed is false), so it is to handle events itself");
     if (parts >= most_parts)
       throw Error("the FMU needs more than " + std::to_string(most_parts) + " parts for the communication step " +
-                  where);
+                  where());
     if (o.is_discarded) {
-      const std::string what = "the FMU discards the communication step " + where;
+      const std::string what = "the FMU discards the communication step " + where();
       if (!d.variable_step_size)
         refuse(what, "canHandleVariableCommunicationStepSize", "a repetition with smaller steps needs");
       if (!can_return) refuse(what, d.flag_of_state("GetAndSet"), "a repetition with smaller steps needs");
@@ -80,10 +82,10 @@ void advance(Component& component, const ModelDescription& d, double begin, doub
     }
     if (o.returned_early) {
       if (!d.variable_step_size)
-        refuse("the FMU returns early from the communication step " + where, "canHandleVariableCommunicationStepSize",
+        refuse("the FMU returns early from the communication step " + where(), "canHandleVariableCommunicationStepSize",
                "the rest of the step needs");
       if (!(o.last_time >= at) || !(o.last_time <= at + part + least))
-        throw Error("the FMU returns early " + where + " and says it is at t = " + seconds(o.last_time));
+        throw Error("the FMU returns early " + where() + " and says it is at t = " + seconds(o.last_time));
       at = o.last_time;
     } else {
       at += part;
