@@ -26,7 +26,8 @@ void remove_pending(State& s, std::uint32_t from, std::uint32_t count) {
 
 }  // namespace
 
-Device::Device(Model model, bool is_swept) : model_(std::move(model)), is_swept_(is_swept) {
+Device::Device(Model model, bool is_swept, std::uint32_t line_rate)
+    : model_(std::move(model)), is_swept_(is_swept), line_rate_(line_rate) {
   const std::size_t values = 6 * (std::size_t(model_.last_measurement_point()) + 1);
   text_.reserve(values + 2 * (values / block_line_length + 1) + 2 * longest_line + 1024);
 }
@@ -124,6 +125,8 @@ void Device::send_scan(State& s, DeviceHost& host) {
     ++m.left_out;
     return;
   }
+  const std::int64_t now = s.scan_begin + s.scan_period;
+  if (s.line_free > now) return;  // a device has no room for scans that wait
   m.left_out = 0;
   if (health == Health::normal && !m.is_endless) --m.remaining;
   text_.clear();
@@ -143,7 +146,15 @@ void Device::send_scan(State& s, DeviceHost& host) {
   const std::uint32_t client = m.client;
   const bool is_last = health == Health::failed || (health == Health::normal && !m.is_endless && m.remaining == 0);
   if (is_last) laser_off(s);
+  send(s, now, client, host);
+}
+
+/// Sends `text_`.
+void Device::send(State& s, std::int64_t now, std::uint32_t client, DeviceHost& host) const {
   host.send(client, text_);
+  const std::uint32_t rate = s.bit_rate == initial_bit_rate ? line_rate_ : s.bit_rate;
+  if (line_rate_ == 0 || rate == 0) return;
+  s.line_free = std::max(s.line_free, now) + std::int64_t(text_.size()) * 10'000'000'000 / rate;
 }
 
 void Device::answer_pending(State& s, std::int64_t now, DeviceHost& host) {
@@ -189,7 +200,7 @@ bool Device::owes(const State& s, std::uint32_t client) {
 
 void Device::shift(State& s, std::int64_t offset) const {
   for (std::int64_t* time :
-       {&s.power_on, &s.timer_zero, &s.scan_begin, &s.laser_since, &s.scan_time, &s.answered_scan_time})
+       {&s.power_on, &s.timer_zero, &s.scan_begin, &s.laser_since, &s.scan_time, &s.answered_scan_time, &s.line_free})
     *time += offset;
   s.measurement.since += offset;
 }

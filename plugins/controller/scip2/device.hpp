@@ -35,8 +35,8 @@ inline constexpr std::uint32_t initial_bit_rate = 19200;
 class Device {
  public:
   /// `is_swept`: what read_scan fills in has been taken in the course of the last turn of the mirror; else at the
-  /// instant of the call.
-  explicit Device(Model model, bool is_swept = false);
+  /// instant of the call. `line_rate`: bit/s at first of a line on which bytes take their time; 0: they take none.
+  explicit Device(Model model, bool is_swept = false, std::uint32_t line_rate = 0);
 
   const Model& model() const { return model_; }
   std::uint32_t state_size() const;  ///< bytes
@@ -69,6 +69,7 @@ class Device {
   void pass_step_zero(State& s, DeviceHost& host);
   void store_scan(State& s, std::int64_t time, DeviceHost& host) const;
   void send_scan(State& s, DeviceHost& host);
+  void send(State& s, std::int64_t now, std::uint32_t client, DeviceHost& host) const;
   void answer_pending(State& s, std::int64_t now, DeviceHost& host);
   void laser_on(State& s, std::int64_t now) const;
   void laser_off(State& s) const;
@@ -87,7 +88,7 @@ class Device {
   ReplyWriter begin_reply(const Call& call, std::string_view status);
   void reply(const Call& call, std::string_view status);
   void reply_state(const Call& call);
-  void send(const Call& call) { call.host.send(call.client, text_); }
+  void send(const Call& call) { send(call.state, call.now, call.client, call.host); }
 
   // scip1.cpp: of SCIP 1.1
   bool is_scip1(const State& s, std::string_view line) const;
@@ -102,6 +103,7 @@ class Device {
 
   Model model_;
   bool is_swept_ = false;
+  std::uint32_t line_rate_ = 0;
   std::string text_;  ///< the reply that is being written; has room for the longest
 };
 

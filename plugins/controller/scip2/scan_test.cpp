@@ -43,6 +43,25 @@ TEST(Scip2Scan, StepsGoToTheLastMeasurementPoint) {
   EXPECT_EQ(utm.status_of("GD0000108101"), "04");
 }
 
+/// 2134 bytes, ten bits each: 185 ms at 115200 bit/s, 1.11 s at 19200.
+TEST(Scip2Scan, ScansThatALineIsTooSlowForAreLeftOut) {
+  Awake d;
+  d.device = Device(urg_04lx(), false, 115200);
+  auto replies = complete(d.ask("MD0044072501004\n", 1050));
+  ASSERT_EQ(replies.size(), 5u) << "all that were asked for";
+  for (std::size_t i = 2; i < replies.size(); ++i) EXPECT_EQ(replies[i].timestamp() - replies[i - 1].timestamp(), 200);
+  EXPECT_EQ(replies[4].echo, "MD0044072501000");
+  d.ask("SS019200\n");
+  d.device = Device(urg_04lx(), false, 19200);
+  d.ask("MD0044072501000\n", 3000);
+  replies = complete(d.ask("QT\n", 100));
+  EXPECT_EQ(replies.back().echo, "QT");
+  EXPECT_LE(replies.size(), 2u) << "no scans wait before it";
+  replies = complete(d.ask("SS115200\nMS0384038501000\n", 1150));
+  ASSERT_GE(replies.size(), 3u);
+  EXPECT_EQ(replies[3].timestamp() - replies[2].timestamp(), 100) << "short ones are all sent";
+}
+
 TEST(Scip2Scan, OneScanThatWasAskedForSays00) {
   const auto replies = complete(Awake().ask("MD0044072501101\n", 1000));
   ASSERT_EQ(replies.size(), 2u);

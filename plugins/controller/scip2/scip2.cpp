@@ -58,6 +58,11 @@ std::string suffix_of(const Connector& c, ObjectId laser) {
   return suffix;
 }
 
+/// Bit rate of a line on which bytes take their time; 0: they take none, or nobody says how much.
+std::uint32_t line_rate(const stream::Address& a) {
+  return a.is_timed || a.kind == stream::Address::Kind::serial ? a.baud : 0;
+}
+
 /// One device, its laser and its stream.
 class Station final : private DeviceHost {
  public:
@@ -65,9 +70,9 @@ class Station final : private DeviceHost {
       : item_(c.items()[number]),
         laser_object_(Laser::find(c, item_)),
         suffix_(suffix_of(c, laser_object_)),
-        device_(model, Laser::is_swept(c, laser_object_)),
         stream_(c, std::string(c.object_name(laser_object_)) + suffix_,
-                stream::read_address(c, number, c.parameters().texts("stream")), lines, limits) {
+                stream::read_address(c, number, c.parameters().texts("stream")), lines, limits),
+        device_(model, Laser::is_swept(c, laser_object_), line_rate(stream_.address())) {
     state_ = static_cast<State*>(c.state_block(laser_object_, std::string(state_name) + suffix_, device_.state_size()));
     leaving_.reserve(stream_.address().clients);
   }
@@ -156,8 +161,8 @@ class Station final : private DeviceHost {
   Item item_;
   ObjectId laser_object_;
   std::string suffix_;
-  Device device_;
   stream::Stream stream_;
+  Device device_;
   Laser laser_;
   std::unique_ptr<Readings> readings_;
   State* state_ = nullptr;

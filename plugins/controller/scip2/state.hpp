@@ -46,6 +46,7 @@ struct State {
   std::int64_t scan_time;           ///< of the scan in memory: when the mirror passed step 0
   std::int64_t answered_scan_time;  ///< of the scan that the last `G_` was answered with
   std::int64_t reply_index;         ///< of ReplyTime::at_interval: the last interval whose replies were made
+  std::int64_t line_free;           ///< when all that was sent has passed, on a line where bytes take their time
   std::uint32_t bit_rate;
   std::uint32_t fault_scans;  ///< turns since DB
   std::uint8_t is_on, speaks_scip2, has_laser_on, is_adjusting;
