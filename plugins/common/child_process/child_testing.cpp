@@ -22,6 +22,7 @@ void tell_descriptors() {
   while (const dirent* const entry = readdir(all))
     if (const int number = std::atoi(entry->d_name); entry->d_name[0] != '.' && number != dirfd(all))
       text += entry->d_name + std::string(" ");
+  closedir(all);
   say(text);
 }
 
