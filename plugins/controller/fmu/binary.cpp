@@ -59,6 +59,13 @@ void Binary::fail_to_load() const {
   std::string reason = one_line(message ? message : "unknown reason");
   const std::string name = std::filesystem::path(path_).filename().string();
   if (const std::size_t at = reason.find(path_); at != reason.npos) reason.replace(at, path_.size(), name);
+  const auto says = [&](const char* part) { return reason.find(part) != reason.npos; };
+  if (says("undefined symbol: Py") || says("undefined symbol: _Py"))
+    reason +=
+        "; it takes Python from the program that loads it: start muro with LD_PRELOAD=libpython3.11.so.1.0, or "
+        "as the library of Python is called here";
+  else if (says("cannot open shared object file"))
+    reason += "; install that library, or add its folder to LD_LIBRARY_PATH";
   throw Error("its library cannot be loaded: " + reason);
 }
 

@@ -291,6 +291,9 @@ TEST_P(FmuFault, OfLibrariesIsNamed) {
   EXPECT_SAYS(refusal_of({xml, {folder + "model.so", library.substr(0, 5000)}}),
               "its library model.so cannot be loaded: the file has 5000 bytes and should have at least ");
   EXPECT_SAYS(refusal_of({xml, {folder + "model.so", "no library"}}), "its library cannot be loaded: model.so: ");
+  EXPECT_SAYS(refusal_of({xml, {folder + "model.so", test::text_of(parts + "wants_python.so")}}),
+              "undefined symbol: _Py_NoneStruct; it takes Python from the program that loads it: start muro with "
+              "LD_PRELOAD=");
   EXPECT_SAYS(refusal_of({xml, {folder + "model.so", test::text_of(parts + "empty.so")}}),
               "its library has no function `" + prefix() + "GetVersion`");
   Entry other = xml;
