@@ -6,7 +6,7 @@
 namespace muro::simplified {
 namespace {
 
-Link frame(int parent, JointKind joint, const Vec3& offset, const Vec3& axis) {
+Link frame_of(int parent, JointKind joint, const Vec3& offset, const Vec3& axis) {
   Link f;
   f.parent = parent;
   f.joint = joint;
@@ -19,9 +19,9 @@ Link frame(int parent, JointKind joint, const Vec3& offset, const Vec3& axis) {
 /// that hangs along -z at zero.
 struct TwoLinks {
   double base_mass = 3, m = 2, l = 0.5;
-  std::vector<Link> links{frame(-1, JointKind::fixed, {0, 0, 0}, Vec3::UnitX()),
-                          frame(0, JointKind::revolute, {0, 0, 0}, Vec3::UnitY()),
-                          frame(1, JointKind::revolute, {0, 0, -0.5}, Vec3::UnitY())};
+  std::vector<Link> links{frame_of(-1, JointKind::fixed, {0, 0, 0}, Vec3::UnitX()),
+                          frame_of(0, JointKind::revolute, {0, 0, 0}, Vec3::UnitY()),
+                          frame_of(1, JointKind::revolute, {0, 0, -0.5}, Vec3::UnitY())};
   std::vector<Inertia> inertias{
       {.mass = base_mass, .com = Vec3::Zero(), .ixx = 0.1, .iyy = 0.2, .izz = 0.3},
       {.mass = m, .com = {0, 0, -l / 2}, .ixx = m * l * l / 12, .iyy = m * l * l / 12, .izz = 1e-9},
@@ -55,7 +55,7 @@ TEST(CompositeBody, FollowsTwoLinksAsInTheClosedForm) {
 
 TEST(CompositeBody, TheVelocityOfTheCentreIsItsDerivative) {
   TwoLinks t;
-  t.links.push_back(frame(2, JointKind::prismatic, {0.1, 0.2, 0}, Vec3(1, 2, 2) / 3));
+  t.links.push_back(frame_of(2, JointKind::prismatic, {0.1, 0.2, 0}, Vec3(1, 2, 2) / 3));
   t.inertias.push_back({.mass = 0.7, .com = {0.1, 0, 0.2}, .ixx = 0.01, .iyy = 0.02, .izz = 0.02});
   t.start.push_back(0);
   CompositeBody mass(t.links, t.inertias, t.start);
@@ -67,11 +67,11 @@ TEST(CompositeBody, TheVelocityOfTheCentreIsItsDerivative) {
 }
 
 TEST(CompositeBody, WheelsMoveNoMassButAnUnbalancedOneDoes) {
-  std::vector<Link> links{frame(-1, JointKind::fixed, {0, 0, 0}, Vec3::UnitX())};
+  std::vector<Link> links{frame_of(-1, JointKind::fixed, {0, 0, 0}, Vec3::UnitX())};
   std::vector<Inertia> inertias{{.mass = 4, .com = {0, 0, 0.02}, .ixx = 0.04, .iyy = 0.06, .izz = 0.09}};
   for (const double x : {-0.12, 0.12})
     for (const double y : {-0.15, 0.15}) {
-      links.push_back(frame(0, JointKind::revolute, {x, y, -0.03}, Vec3::UnitY()));
+      links.push_back(frame_of(0, JointKind::revolute, {x, y, -0.03}, Vec3::UnitY()));
       inertias.push_back({.mass = 0.3, .com = Vec3::Zero(), .ixx = 3.1e-4, .iyy = 5.4e-4, .izz = 3.1e-4});
     }
   const std::vector<double> start(5, 0.7);
@@ -89,7 +89,7 @@ TEST(CompositeBody, WheelsMoveNoMassButAnUnbalancedOneDoes) {
 
 TEST(CompositeBody, ABalancedWheelOnAMovingArmBelongsToTheArm) {
   TwoLinks t;
-  t.links.push_back(frame(2, JointKind::revolute, {0, 0, -0.5}, Vec3::UnitY()));
+  t.links.push_back(frame_of(2, JointKind::revolute, {0, 0, -0.5}, Vec3::UnitY()));
   t.inertias.push_back({.mass = 1, .com = Vec3::Zero(), .ixx = 0.01, .iyy = 0.02, .izz = 0.01});
   t.start.push_back(0.4);
   CompositeBody mass(t.links, t.inertias, t.start);

@@ -6,39 +6,40 @@
 namespace muro::simplified {
 namespace {
 
-constexpr double h = 1e-3;
+constexpr double dof_step = 1e-3;
 
 TEST(Dof, AConstantForceCarriesItAsInTheTextbook) {
   DofState s{0.3, -1};
-  for (int n = 0; n < 1000; ++n) s = integrate_force(s, 4, 2, {}, h);
+  for (int n = 0; n < 1000; ++n) s = integrate_force(s, 4, 2, {}, dof_step);
   EXPECT_NEAR(s.velocity, -1 + 2, 1e-12);
   EXPECT_NEAR(s.position, 0.3 - 1 + 1, 1e-12);
 }
 
 TEST(Dof, DampingSlowsItExponentially) {
   DofState s{0, 3};
-  for (int n = 0; n < 1000; ++n) s = integrate_force(s, 0, 2, {.damping = 5}, h);
-  EXPECT_NEAR(s.velocity, 3 * std::exp(-2.5), 3 * std::exp(-2.5) * 2 * 2.5 * h);  // backward Euler: a^2 t h / 2
+  for (int n = 0; n < 1000; ++n) s = integrate_force(s, 0, 2, {.damping = 5}, dof_step);
+  EXPECT_NEAR(s.velocity, 3 * std::exp(-2.5),
+              3 * std::exp(-2.5) * 2 * 2.5 * dof_step);  // backward Euler: a^2 t * step / 2
   EXPECT_NEAR(s.position, 3 * 2 / 5.0 * (1 - std::exp(-2.5)), 2e-3);
 }
 
 TEST(Dof, DampingIsStableHoweverStrong) {
   DofState s{0, 3};
-  for (int n = 0; n < 10; ++n) s = integrate_force(s, 7, 2, {.damping = 1e9}, h);
+  for (int n = 0; n < 10; ++n) s = integrate_force(s, 7, 2, {.damping = 1e9}, dof_step);
   EXPECT_NEAR(s.velocity, 7e-9, 1e-15);
 }
 
 TEST(Dof, FrictionStopsItAfterTheTextbookWay) {
   DofState s{0, 1.5};
-  for (int n = 0; n < 3000; ++n) s = integrate_force(s, 0, 2, {.friction = 3}, h);
+  for (int n = 0; n < 3000; ++n) s = integrate_force(s, 0, 2, {.friction = 3}, dof_step);
   EXPECT_NEAR(s.position, 1.5 * 1.5 * 2 / (2 * 3), 1e-9);  // v^2 M / 2 f
   EXPECT_EQ(s.velocity, 0);
 }
 
 TEST(Dof, FrictionHoldsBelowItsLimitAndNotAbove) {
   DofState held{0.1, 0}, moved{0.1, 0};
-  for (int n = 0; n < 1000; ++n) held = integrate_force(held, -3, 2, {.friction = 3}, h);
-  for (int n = 0; n < 1000; ++n) moved = integrate_force(moved, -3.2, 2, {.friction = 3}, h);
+  for (int n = 0; n < 1000; ++n) held = integrate_force(held, -3, 2, {.friction = 3}, dof_step);
+  for (int n = 0; n < 1000; ++n) moved = integrate_force(moved, -3.2, 2, {.friction = 3}, dof_step);
   EXPECT_EQ(held.position, 0.1);
   EXPECT_EQ(held.velocity, 0);
   EXPECT_NEAR(moved.velocity, -0.1, 1e-12);
@@ -47,23 +48,24 @@ TEST(Dof, FrictionHoldsBelowItsLimitAndNotAbove) {
 TEST(Dof, StopsDeadAtALimitAndLeavesIt) {
   const JointLimits limits{.lower = -1, .upper = 0.5};
   DofState s{0, 2};
-  for (int n = 0; n < 1000; ++n) s = integrate_force(s, 1, 2, limits, h);
+  for (int n = 0; n < 1000; ++n) s = integrate_force(s, 1, 2, limits, dof_step);
   EXPECT_EQ(s.position, 0.5);
   EXPECT_EQ(s.velocity, 0);
-  for (int n = 0; n < 1000; ++n) s = integrate_force(s, -1, 2, limits, h);
+  for (int n = 0; n < 1000; ++n) s = integrate_force(s, -1, 2, limits, dof_step);
   EXPECT_NEAR(s.position, 0.5 - 0.25, 1e-12);
 }
 
 TEST(Dof, IsNoFasterThanItsLimit) {
   DofState s{};
-  for (int n = 0; n < 5000; ++n) s = integrate_force(s, -9, 2, {.velocity = 3}, h);
+  for (int n = 0; n < 5000; ++n) s = integrate_force(s, -9, 2, {.velocity = 3}, dof_step);
   EXPECT_EQ(s.velocity, -3);
 }
 
 TEST(Dof, AnUndampedSpringKeepsItsEnergyInTheMiddleOfSteps) {
   // Drift, kick, drift: the force belongs to the middle of the step, as DecoupledDynamics finds it.
   DofState s{1, 0};
-  for (int n = 0; n < 1000000; ++n) s = integrate_force(s, -25 * (s.position + 0.5 * h * s.velocity), 1, {}, h);
+  for (int n = 0; n < 1000000; ++n)
+    s = integrate_force(s, -25 * (s.position + 0.5 * dof_step * s.velocity), 1, {}, dof_step);
   EXPECT_NEAR(25 * s.position * s.position + s.velocity * s.velocity, 25, 25e-5);
 }
 
@@ -71,11 +73,11 @@ TEST(Dof, TheInverseGivesTheEffortThatMovesItSo) {
   for (const double to : {-2.0, 0.0, 0.7})
     for (const double load : {-8.0, 0.5, 3.0}) {
       const JointLimits limits{.damping = 0.4, .friction = 1};
-      const double effort = inverse_dynamics(0.6, to, load, 2, limits, h);
-      EXPECT_NEAR(integrate_force({0, 0.6}, effort + load, 2, limits, h).velocity, to, 1e-12);
+      const double effort = inverse_dynamics(0.6, to, load, 2, limits, dof_step);
+      EXPECT_NEAR(integrate_force({0, 0.6}, effort + load, 2, limits, dof_step).velocity, to, 1e-12);
     }
-  EXPECT_EQ(inverse_dynamics(0, 0, 0.9, 2, {.friction = 1}, h), 0) << "friction holds the load";
-  EXPECT_NEAR(inverse_dynamics(0, 0, 3, 2, {.friction = 1}, h), -2, 1e-12);
+  EXPECT_EQ(inverse_dynamics(0, 0, 0.9, 2, {.friction = 1}, dof_step), 0) << "friction holds the load";
+  EXPECT_NEAR(inverse_dynamics(0, 0, 3, 2, {.friction = 1}, dof_step), -2, 1e-12);
 }
 
 TEST(Dof, ADriveAcceleratesByItsEffortAndGivesWayToAHeavyLoad) {
@@ -83,15 +85,15 @@ TEST(Dof, ADriveAcceleratesByItsEffortAndGivesWayToAHeavyLoad) {
   const Drive drive{Mode::velocity, 100, 1000};
   DofState s{};
   double effort = 0;
-  for (int n = 0; n < 1000; ++n) s = follow_target(s, drive, 0, 2, limits, h, effort);
+  for (int n = 0; n < 1000; ++n) s = follow_target(s, drive, 0, 2, limits, dof_step, effort);
   EXPECT_NEAR(s.velocity, 2, 1e-9);
   EXPECT_NEAR(effort, 4, 1e-9);
   const Drive hold{Mode::position, 0, 1000};
   DofState light{}, heavy{};
-  for (int n = 0; n < 1000; ++n) light = follow_target(light, hold, 3.9, 2, limits, h, effort);
+  for (int n = 0; n < 1000; ++n) light = follow_target(light, hold, 3.9, 2, limits, dof_step, effort);
   EXPECT_EQ(light.position, 0);
   EXPECT_NEAR(effort, -3.9, 1e-12);
-  for (int n = 0; n < 1000; ++n) heavy = follow_target(heavy, hold, 5, 2, limits, h, effort);
+  for (int n = 0; n < 1000; ++n) heavy = follow_target(heavy, hold, 5, 2, limits, dof_step, effort);
   EXPECT_NEAR(heavy.velocity, 0.5, 1e-9) << "falls with (5 - 4) / 2";
   EXPECT_EQ(effort, -4);
 }
@@ -102,8 +104,8 @@ TEST(Dof, WithoutALimitOfEffortADriveFollowsAsIfNothingActed) {
   DofState loaded{};
   double effort = 0;
   for (int n = 0; n < 400; ++n) {
-    joints::follow_position(alone, 0.7, JointRange{.acceleration = 20}, h);
-    loaded = follow_target(loaded, drive, -55, 2, {.friction = 3}, h, effort);
+    joints::follow_position(alone, 0.7, JointRange{.acceleration = 20}, dof_step);
+    loaded = follow_target(loaded, drive, -55, 2, {.friction = 3}, dof_step, effort);
     ASSERT_EQ(loaded.position, alone.position);
   }
   EXPECT_NEAR(effort, 52, 1e-9);

@@ -9,7 +9,7 @@
 namespace muro::simplified {
 namespace {
 
-constexpr double dt = 0.001;
+constexpr double joint_step = 0.001;
 using JointState = joints::JointState<double>;
 
 TEST(JointMotion, ReachesAPositionInTheTimeOfATrapezoid) {
@@ -18,10 +18,10 @@ TEST(JointMotion, ReachesAPositionInTheTimeOfATrapezoid) {
   JointState joint{};
   double t = 0;
   while (joint.position != 3 && t < 10) {
-    follow_position(joint, 3, range, dt);
-    t += dt;
+    follow_position(joint, 3, range, joint_step);
+    t += joint_step;
   }
-  EXPECT_NEAR(t, 3.0 / 2 + 2.0 / 10, 2 * dt);
+  EXPECT_NEAR(t, 3.0 / 2 + 2.0 / 10, 2 * joint_step);
   EXPECT_NEAR(joint.velocity, 0, 1e-9);
 }
 
@@ -56,7 +56,7 @@ TEST(JointMotion, TurnsBackForATargetBehindIt) {
   JointState joint{0, 3};
   double farthest = 0;
   for (int k = 0; k < 2000; ++k) {
-    follow_position(joint, 0, range, dt);
+    follow_position(joint, 0, range, joint_step);
     farthest = std::max(farthest, joint.position);
   }
   EXPECT_NEAR(farthest, 3.0 * 3.0 / (2 * 20), 0.004);  // v^2 / (2 a): the shortest way to stop
@@ -66,10 +66,10 @@ TEST(JointMotion, TurnsBackForATargetBehindIt) {
 TEST(JointMotion, TakesOnAVelocityAtTheGreatestAcceleration) {
   const JointRange range{.speed = 5, .acceleration = 10};
   JointState joint{};
-  for (int k = 0; k < 400; ++k) follow_velocity(joint, 100, range, dt);
+  for (int k = 0; k < 400; ++k) follow_velocity(joint, 100, range, joint_step);
   EXPECT_NEAR(joint.velocity, 4, 1e-12);
   EXPECT_NEAR(joint.position, 0.5 * 10 * 0.4 * 0.4, 1e-12);
-  for (int k = 0; k < 400; ++k) follow_velocity(joint, 100, range, dt);
+  for (int k = 0; k < 400; ++k) follow_velocity(joint, 100, range, joint_step);
   EXPECT_NEAR(joint.velocity, 5, 1e-12);
 }
 
@@ -79,13 +79,15 @@ TEST(JointMotion, StopsAtALimitWhateverTheTarget) {
       const JointRange range{.lower = -0.5, .upper = 1, .speed = 5, .acceleration = a};
       JointState joint{};
       for (int k = 0; k < 3000; ++k) {
-        by_acceleration ? follow_acceleration(joint, 8, range, dt) : follow_velocity(joint, 4, range, dt);
+        by_acceleration ? follow_acceleration(joint, 8, range, joint_step)
+                        : follow_velocity(joint, 4, range, joint_step);
         ASSERT_LE(joint.position, 1);
       }
       EXPECT_NEAR(joint.position, 1, 1e-9);
       EXPECT_NEAR(joint.velocity, 0, 1e-6);
       for (int k = 0; k < 5000; ++k) {
-        by_acceleration ? follow_acceleration(joint, -8, range, dt) : follow_velocity(joint, -4, range, dt);
+        by_acceleration ? follow_acceleration(joint, -8, range, joint_step)
+                        : follow_velocity(joint, -4, range, joint_step);
         ASSERT_GE(joint.position, -0.5);
       }
       EXPECT_NEAR(joint.position, -0.5, 1e-9);
@@ -95,7 +97,7 @@ TEST(JointMotion, StopsAtALimitWhateverTheTarget) {
 TEST(JointMotion, FollowsAnAccelerationExactly) {
   const JointRange range{.acceleration = 50};
   JointState joint{0.25, -1};
-  for (int k = 0; k < 1000; ++k) follow_acceleration(joint, 3, range, dt);
+  for (int k = 0; k < 1000; ++k) follow_acceleration(joint, 3, range, joint_step);
   EXPECT_NEAR(joint.velocity, 2, 1e-12);
   EXPECT_NEAR(joint.position, 0.25 - 1 + 1.5, 1e-12);
 }

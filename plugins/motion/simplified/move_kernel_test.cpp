@@ -31,7 +31,7 @@ struct Vehicle {
   }
 };
 
-constexpr RigidMass mass{
+constexpr RigidMass vehicle_mass{
     0.2, {0.01, -0.02, 0.03}, {0.05, 0.001, 0, 0.001, 0.07, 0, 0, 0, 0.1}, {20, -0.3, 0, -0.3, 14, 0, 0, 0, 10}};
 
 /// `together`: the wheels are moved at once.
@@ -86,7 +86,7 @@ unsigned move(std::vector<Vehicle>& all, lane::Isa isa, int at_once, const std::
         .mode = mode,
         .joints = joints.data(),
         .joint_count = int(joints.size()),
-        .mass = &mass,
+        .mass = &vehicle_mass,
         .wrenches = wrenches,
         .other_contributions = wrenches > 1 ? other_contributions.data() + k * (wrenches - 1) : nullptr,
         .gravity = {0, 0, -9.81},

@@ -12,9 +12,9 @@ namespace {
 using namespace integrator;
 
 // The free box of S. Peters and J. Hsu, Comparison of Rigid Body Dynamic Simulators for Robotic Simulation in Gazebo.
-constexpr double mass = 10;
+constexpr double box_mass = 10;
 const Vec3 moments(0.80833333333333333, 0.68333333333333333, 0.14166666666666667);
-const Vec3 gravity(0, 0, -9.8);
+const Vec3 box_gravity(0, 0, -9.8);
 
 V3<double> plain(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 M3<double> plain(const Mat3& m) { return {plain(Vec3(m.col(0))), plain(Vec3(m.col(1))), plain(Vec3(m.col(2)))}; }
@@ -59,8 +59,8 @@ struct FreeBox {
   Vec3 body_rates() const { return body.orientation.conjugate() * body.spin; }
   Vec3 momentum() const { return body.orientation * Vec3(inertia * body_rates()); }
   double energy() const {
-    return 0.5 * mass * body.velocity.squaredNorm() + 0.5 * body_rates().dot(inertia * body_rates()) -
-           mass * acceleration.dot(body.centre);
+    return 0.5 * box_mass * body.velocity.squaredNorm() + 0.5 * body_rates().dot(inertia * body_rates()) -
+           box_mass * acceleration.dot(body.centre);
   }
 };
 
@@ -68,7 +68,7 @@ FreeBox complex_box() {
   FreeBox box;
   box.body.velocity = {-2, 2, 8};
   box.body.spin = {0.1, 5.0, 0.1};
-  box.acceleration = gravity;
+  box.acceleration = box_gravity;
   return box;
 }
 
@@ -104,7 +104,8 @@ TEST(RigidBody, ATumblingBoxInFlightBeatsThePublishedErrorsOfGeneralEngines) {
     const double t = 0.001 * k;
     momentum_error = std::max(momentum_error, (box.momentum() - momentum).norm() / momentum.norm());
     energy_error = std::max(energy_error, std::abs(box.energy() - energy) / energy);
-    position_error = std::max(position_error, (box.body.centre - Vec3(-2, 2, 8) * t - 0.5 * gravity * t * t).norm());
+    position_error =
+        std::max(position_error, (box.body.centre - Vec3(-2, 2, 8) * t - 0.5 * box_gravity * t * t).norm());
   }
   EXPECT_LT(momentum_error, 1e-11);  // round-off of 10000 steps
   EXPECT_LT(energy_error, 1e-6);     // second order: (w dt)^2 = 2.5e-5, of the rotational part (2 %) of the energy
