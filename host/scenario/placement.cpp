@@ -103,8 +103,8 @@ std::vector<Pose> place(const Placement& p, int count, const Body& body,
     for (const PoseInput& pose : p.poses) poses.push_back(pose_of(pose, body.standing_height));
   if (int(poses.size()) < count)
     throw SetupError(
-        fmt::format("{}: {} copies of `{}` but only {} places for them; lower `count`, or give more places",
-                    p.location.text(), count, body.name, poses.size()));
+        fmt::format("{}: {} copies of `{}` but only {} place{} for them; lower `count`, or give more places",
+                    p.location.text(), count, body.name, poses.size(), poses.size() == 1 ? "" : "s"));
   poses.resize(std::size_t(count));
   for (const Pose& pose : poses) occupied.add(Footprint{pose.position.x(), pose.position.y(), body.radius});
   return poses;

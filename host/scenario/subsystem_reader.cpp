@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "host/scenario/levels.hpp"
 #include "host/scenario/map_reader.hpp"
 
@@ -22,15 +24,30 @@ void read_rate(MapReader& map, Subsystem& out) {
                 fmt::format("is {} but must be a number from 1e-06 to 1e+09 in Hz, or on_demand", quoted(*rate)));
 }
 
+/// Of which a message tells already.
+bool has_empty_value(const Node& value) {
+  const auto is_null = [](const auto& entry) { return entry.second.kind == Node::Kind::null; };
+  return std::any_of(value.map.begin(), value.map.end(), is_null);
+}
+
+/// Why a list or a map is no parameter: the first of its values that is no single one.
+std::string what_nests(const Node& value) {
+  for (const auto& [key, inner] : value.map)
+    if (inner.kind != Node::Kind::scalar) return fmt::format("; its `{}` is {}", key, quoted(inner));
+  for (const Node& inner : value.list)
+    if (inner.kind != Node::Kind::scalar) return fmt::format("; it contains {}", quoted(inner));
+  return fmt::format(", not {}", quoted(value));
+}
+
 /// All keys that are not read yet are parameters. Those under the name of an algorithm hold for that algorithm alone.
 void read_parameters(MapReader& map, Subsystem& out, Problems& problems) {
   const auto add = [&](const std::string& key, const Node& value) {
     if (const auto parameter = as_parameter(value))
       out.parameters[key] = *parameter;
-    else
+    else if (!has_empty_value(value))
       problems.add(value.location,
-                   fmt::format("parameter `{}` of {} must be a single value, a flat list or a flat map, not {}", key,
-                               map.what(), quoted(value)));
+                   fmt::format("parameter `{}` of {} must be a single value, a flat list or a flat map{}", key,
+                               map.what(), what_nests(value)));
   };
   for (const auto& [key, value] : map.unread()) {
     if (key.find('.') == std::string::npos) {
