@@ -71,6 +71,7 @@ class FmuController final : public Algorithm {
     if (LoadedLibraries* told = LoadedLibraries::of(c.host()))
       told->add({path_, description_.model_name, description_.model_version});
     for (std::uint32_t i = 0; i < c.items().size(); ++i) make_robot(c, i);
+    if (!robots_.empty()) named(0, [&] { check_rate(c); });
     state_capacity_ = robots_.empty() ? 0 : measured_state(robots_.front());
     for (std::uint32_t i = 0; i < c.items().size(); ++i) {
       const ObjectId object = c.items()[i].object;
@@ -257,7 +258,7 @@ class FmuController final : public Algorithm {
   /// From the instant before to this one, so that the FMU's time is that of the simulation. Communication points are
   /// multiples of the period after the start, however its nanoseconds were rounded.
   void run(Robot& r, const Step& step) {
-    if (r.is_stale) synchronise(r, step.dt);
+    if (r.is_stale) synchronise(r);
     if (r.block->is_initialized == 0) {
       r.is_new = false;
       set_start_values(r);
@@ -277,10 +278,19 @@ class FmuController final : public Algorithm {
     if (description_.can_serialize_state) save(r);
   }
 
-  void synchronise(Robot& r, double period) {
+  void check_rate(const Connector& c) const {
+    if (c.rate() == 0) {
+      if (description_.fixed_internal_step > 0)
+        throw Error("it runs on demand, and has a fixedInternalStepSize; give it a `rate`");
+      return;
+    }
+    const double period = 1 / c.rate();
     check_step_size(description_, period);
-    if (const std::string advice = advice_on_step_size(description_, period); !advice.empty() && &r == robots_.data())
-      r.log->pass_on(LogLevel::warning, file_name() + ": " + advice);
+    if (const std::string advice = advice_on_step_size(description_, period); !advice.empty())
+      c.host().log(LogLevel::warning, file_name() + ": " + advice);
+  }
+
+  void synchronise(Robot& r) {
     if (r.block->is_initialized != 0) {
       r.component->read_state({r.block->bytes(), std::size_t(r.block->size)});
       r.is_new = false;
