@@ -29,6 +29,8 @@ constexpr Parameter parameters[] = {
     text("isolate", "none", "process: the instance of each robot runs in a process of its own").one_of(isolations),
     real("timeout", "s", 30, "of an instance in a process of its own: how long a call may take, by the wall clock")
         .between(1e-3, 1e6),
+    boolean("snapshots", true,
+            "whether its serialized state is a part of the simulation's; without, the run can be reset, not restored"),
     boolean("logging", false, "whether all messages of the FMU are logged, also those that are no warnings"),
 };
 constexpr PropertyUse reads[] = {{"*", "what the FMU's inputs are named or connected to"}};
@@ -78,9 +80,9 @@ class FmuController final : public Algorithm {
       robots_[i].block = static_cast<StateBlock*>(
           c.state_block(object, block_name(c, object), std::uint32_t(sizeof(StateBlock) + state_capacity_)));
     }
-    if (!description_.can_serialize_state)
-      c.host().log(LogLevel::info, file_name() + " lacks the flag " + description_.flag_of_state("Serialize") +
-                                       ": the run can be reset, but not restored to a snapshot");
+    if (!saves_state_)
+      c.host().log(LogLevel::info,
+                   file_name() + " " + why_not_saved() + ": the run can be reset, but not restored to a snapshot");
   }
 
   void connect_by_name(Connector& c) override {
@@ -112,9 +114,8 @@ class FmuController final : public Algorithm {
   void restored() override {
     for (std::uint32_t i = 0; i < robots_.size(); ++i)
       named(i, [&] {
-        if (robots_[i].block->is_initialized != 0 && !description_.can_serialize_state)
-          throw Error("it lacks the flag " + description_.flag_of_state("Serialize") +
-                      ", so its state at that time is lost; a reset starts it anew");
+        if (robots_[i].block->is_initialized != 0 && !saves_state_)
+          throw Error("it " + why_not_saved() + ", so its state at that time is lost; a reset starts it anew");
         robots_[i].is_stale = true;
       });
   }
@@ -158,6 +159,7 @@ class FmuController final : public Algorithm {
     for (const std::string& other : own_platforms(3)) platforms.push_back(other);
     const Archive archive = unpack(path_, folder_.path(), platforms);
     description_ = read_model_description(archive.description, path_);
+    saves_state_ = description_.can_serialize_state && p.boolean("snapshots");
     start_values_ = read_start_values(p.texts("parameters"), description_);
     if (archive.has_resources) resources_ = folder_.path() / "resources";
     for (const std::string& platform : own_platforms(description_.version)) {
@@ -221,7 +223,7 @@ class FmuController final : public Algorithm {
   /// How many bytes a state may have: those of one after the initialization, and half as much again.
   std::size_t measured_state(Robot& r) {
     std::size_t size = 0;
-    if (description_.can_serialize_state)
+    if (saves_state_)
       named(0, [&] {
         r.is_new = false;
         set_start_values(r);
@@ -275,7 +277,12 @@ class FmuController final : public Algorithm {
               [&] { r.inputs.set(*r.component); });
     }
     r.outputs.get(*r.component);
-    if (description_.can_serialize_state) save(r);
+    if (saves_state_) save(r);
+  }
+
+  std::string why_not_saved() const {
+    return description_.can_serialize_state ? "is not saved (`snapshots` is false)"
+                                            : "lacks the flag " + description_.flag_of_state("Serialize");
   }
 
   void check_rate(const Connector& c) const {
@@ -319,6 +326,7 @@ class FmuController final : public Algorithm {
   PrivateFolder folder_;
   ModelDescription description_;
   std::filesystem::path library_, resources_;
+  bool saves_state_ = false;
   bool is_isolated_ = false;  ///< each instance is in a process of its own
   std::unique_ptr<Binary> binary_;
   ProcessClaim claim_;

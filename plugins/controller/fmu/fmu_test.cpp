@@ -265,6 +265,27 @@ TEST_P(Fmu, ThatCannotBeSerializedRefusesSnapshotsAndSaysSoBefore) {
   bench.run_for(0.5);
 }
 
+TEST_P(Fmu, WithoutSnapshotsHasItsStateForItself) {
+  const auto hash_after = [&](bool snapshots) {
+    Bench bench;
+    bench.control(fmu(able()), version(),
+                  Settings{{"outputs", Texts{"speed=command.twist[vx]"}}, {"snapshots", snapshots}});
+    bench.build();
+    bench.run_for(0.5);
+    const Snapshot middle = bench.snapshot();
+    EXPECT_SAYS(test::complaint_of([&] { bench.restore(middle); }),
+                snapshots ? "no complaint"
+                          : "robot `a`: x.fmu: it is not saved (`snapshots` is false), so its state at that time is");
+    EXPECT_SAYS(bench.said + "saved",
+                snapshots ? "saved" : "x.fmu is not saved (`snapshots` is false): the run can be reset, but not");
+    bench.reset();
+    bench.run_for(0.5);
+    return bench.state_hash();
+  };
+  EXPECT_NE(hash_after(true), hash_after(false)) << "the state of the FMU counts, or not";
+  EXPECT_EQ(hash_after(false), hash_after(false));
+}
+
 TEST_P(Fmu, RunsAtMultiplesOfItsFixedInternalStepSizeOnly) {
   if (version() == 2) return;  // the flag came with FMI 3
   for (const auto& [rate, is_legal] :
