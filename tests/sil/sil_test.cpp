@@ -141,11 +141,11 @@ TEST_F(AVehicleWithAPilotOutside, IsWaitedForInVainWhenThereIsNoPilot) {
 
 /// The urban team's first rover alone: nobody is outside but who ends the run, or resets it.
 struct ARecordedRun : testing::Test {
-  test::CommandResult run(const std::string& options, const std::string& wrapper = "") const {
-    return test::run_command("MURO_PLUGIN_PATH=" MURO_TEST_PLUGIN_DIR " " + wrapper +
-                             " " MURO_PROGRAM " run " MURO_TEST_SOURCE_DIR
+  /// `then`: what the shell does next.
+  test::CommandResult run(const std::string& options, const std::string& then = "") const {
+    return test::run_command("MURO_PLUGIN_PATH=" MURO_TEST_PLUGIN_DIR " " MURO_PROGRAM " run " MURO_TEST_SOURCE_DIR
                              "/examples/urban/urban.yaml --set robots.rovers.count=1 " +
-                             options);
+                             options + then);
   }
   double distance(const std::string& options) const {
     const std::string report = scratch_.path("report.json");
@@ -157,7 +157,10 @@ struct ARecordedRun : testing::Test {
 
 TEST_F(ARecordedRun, ThatWasInterruptedIsReplayedUpToThere) {
   const std::string inputs = scratch_.path("inputs.csv"), again = scratch_.path("again.csv");
-  run("--speed real --record " + inputs, "timeout -s INT 1");
+  const auto interrupted =
+      run("--speed real --record " + inputs, " & muro=$!; while kill -0 $muro && ! test -s " + inputs +
+                                                 ".part; do sleep 0.02; done; sleep 0.5; kill -TERM $muro; wait $muro");
+  EXPECT_EQ(interrupted.exit_code, 130) << interrupted.output;
   const std::string recorded = test::text_of(inputs);
   ASSERT_NE(recorded.find(",simulation,5,0,\nend,"), std::string::npos) << recorded;
   const auto replayed = run("--replay " + inputs + " --record " + again);
