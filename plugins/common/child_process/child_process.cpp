@@ -18,6 +18,13 @@ extern "C" {
 
 namespace muro {
 
+namespace {
+
+/// From the end of the socket of a process that dies to its own; mostly some microseconds.
+constexpr std::chrono::milliseconds patience_for_the_dying{100};
+
+}  // namespace
+
 bool ChildProcess::End::may_be_from_outside() const {
   constexpr int sent[] = {SIGKILL, SIGTERM, SIGINT, SIGQUIT, SIGHUP, SIGXCPU};
   return !was_ours && std::find(std::begin(sent), std::end(sent), signal) != std::end(sent);
@@ -62,7 +69,7 @@ void ChildProcess::signal(int number) { pidfd_send_signal(process_.get(), number
 ChildProcess::End ChildProcess::end(std::chrono::milliseconds patience) {
   End how;
   if (*this) {
-    how.was_ours = !ends_within(patience);
+    how.was_ours = !ends_within(has_closed_socket_ ? std::max(patience, patience_for_the_dying) : patience);
     signal(SIGKILL);
     siginfo_t info{};
     // until it is waited for, its number is that of its group and of no other one
@@ -73,6 +80,7 @@ ChildProcess::End ChildProcess::end(std::chrono::milliseconds patience) {
     if (done == 0 && info.si_code != CLD_EXITED) how.signal = info.si_status;
   }
   process_.reset();
+  has_closed_socket_ = false;
   return how;
 }
 
@@ -88,12 +96,17 @@ ChildProcess::Transfer ChildProcess::wait_for(short event, Clock::time_point unt
   }
 }
 
+ChildProcess::Transfer ChildProcess::broken() {
+  has_closed_socket_ = true;
+  return Transfer::broken;
+}
+
 ChildProcess::Transfer ChildProcess::send(const void* data, std::size_t size, Clock::time_point until) {
   for (const auto* at = static_cast<const char*>(data); size > 0;) {
     if (const Transfer t = wait_for(POLLOUT, until); t != Transfer::whole) return t;
     const ssize_t sent = ::send(socket_.get(), at, size, MSG_NOSIGNAL | MSG_DONTWAIT);
     if (sent < 0 && (errno == EINTR || errno == EAGAIN)) continue;
-    if (sent <= 0) return Transfer::broken;
+    if (sent <= 0) return broken();
     at += sent;
     size -= std::size_t(sent);
   }
@@ -105,7 +118,7 @@ ChildProcess::Transfer ChildProcess::receive(void* data, std::size_t size, Clock
     if (const Transfer t = wait_for(POLLIN, until); t != Transfer::whole) return t;
     const ssize_t received = recv(socket_.get(), at, size, MSG_DONTWAIT);
     if (received < 0 && (errno == EINTR || errno == EAGAIN)) continue;
-    if (received <= 0) return Transfer::broken;
+    if (received <= 0) return broken();
     at += received;
     size -= std::size_t(received);
   }

@@ -63,7 +63,8 @@ class ChildProcess {
   bool ends_within(std::chrono::milliseconds patience) const;
   /// To the process alone.
   void signal(int number);
-  /// Waits for its end, kills it when it takes longer than that, and kills those that it has started.
+  /// Waits for its end, kills it when it takes longer than that, and kills those that it has started. Where a transfer
+  /// was broken it waits for 100 ms at least: a process closes its socket before the system says how it has ended.
   End end(std::chrono::milliseconds patience = std::chrono::milliseconds(0));
 
   Transfer send(const void* data, std::size_t size, Clock::time_point until = no_deadline);
@@ -73,8 +74,10 @@ class ChildProcess {
 
  private:
   Transfer wait_for(short event, Clock::time_point until) const;
+  Transfer broken();
 
   Descriptor socket_, process_;
+  bool has_closed_socket_ = false;
   pid_t pid_ = 0;
   pid_t owner_ = 0;  ///< who has started it; another one has copies of the descriptors after a fork
 };

@@ -85,6 +85,21 @@ TEST(ChildProcess, SaysHowItHasEnded) {
   EXPECT_TRUE(test::child_processes().empty());
 }
 
+TEST(ChildProcess, SaysHowItHasEndedWhereItsSocketTellsFirst) {
+  for (const int number : {SIGKILL, SIGTERM, SIGUSR1})
+    for (int i = 0; i < 50; ++i) {
+      ChildProcess child;
+      ASSERT_EQ(child.start(child_that("say_and_wait")), 0);
+      int found = number_from(child);
+      child.signal(number);
+      ASSERT_EQ(child.receive(&found, sizeof found), Transfer::broken);
+      const ChildProcess::End how = child.end();
+      ASSERT_EQ(how.signal, number);
+      ASSERT_FALSE(how.was_ours);
+      ASSERT_EQ(how.may_be_from_outside(), number != SIGUSR1);
+    }
+}
+
 TEST(ChildProcess, IsWaitedForAsLongAsIsSaid) {
   ChildProcess child;
   ASSERT_EQ(child.start(child_that("wait")), 0);

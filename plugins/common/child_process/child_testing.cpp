@@ -68,6 +68,7 @@ int main(int, char** words) {
   if (does == "environment") say(std::string(std::getenv("MURO_TEST_A")) + " " + std::getenv("MURO_TEST_B"));
   if (does == "leave") return 5;
   if (does == "wait") wait_for_ever();
+  if (does == "say_and_wait") say_number(0), wait_for_ever();
   if (does == "another") start_another();
   if (does == "another_and_wait") start_another(), wait_for_ever();
   if (does == "another_and_crash") start_another(), std::abort();
