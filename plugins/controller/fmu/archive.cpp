@@ -91,7 +91,7 @@ class Unpacking {
     if (fs::is_directory(path_, unused))
       throw Error(path_ + " is a folder; an FMU is a zip archive of what is in it: (cd " + path_ +
                   " && zip -r ../NAME.fmu .)");
-    if (is_cut_off())
+    if (is_cut_off(code))
       throw Error(path_ + " is a zip archive without an end: it was copied only in part; copy it again");
     zip_error_t error;
     zip_error_init_with_code(&error, code);
@@ -99,13 +99,24 @@ class Unpacking {
     zip_error_fini(&error);
     throw Error(path_ + " cannot be read as a zip archive: " + reason + "; an FMU is one");
   }
-  /// Whether it begins as a zip archive does. One that cannot be opened nevertheless lacks its end, where the list of
-  /// its files is.
-  bool is_cut_off() const {
-    const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path_.c_str(), "rbe"));
+  /// Whether it begins as a zip archive does, and lacks the record at its end that says where the list of its files is:
+  /// 22 bytes and a comment. libzip has one code for that and for other faults of the list.
+  bool is_cut_off(int code) const {
+    bool may_be = code == ZIP_ER_NOZIP;
+#ifdef ZIP_ER_TRUNCATED_ZIP  // which older versions do not have
+    may_be = may_be || code == ZIP_ER_TRUNCATED_ZIP;
+#endif
+    const std::unique_ptr<std::FILE, CloseFile> file(may_be ? std::fopen(path_.c_str(), "rbe") : nullptr);
     char begin[4] = {};
-    return file && std::fread(begin, 1, sizeof begin, file.get()) == sizeof begin &&
-           std::memcmp(begin, "PK\3\4", sizeof begin) == 0;
+    if (!file || std::fread(begin, 1, sizeof begin, file.get()) != sizeof begin ||
+        std::memcmp(begin, "PK\3\4", sizeof begin) != 0)
+      return false;
+    constexpr std::size_t record = 22, longest_comment = 65535;
+    std::string end(record + longest_comment, '\0');
+    if (std::fseek(file.get(), -long(end.size()), SEEK_END) != 0) std::rewind(file.get());  // it is shorter
+    end.resize(std::fread(end.data(), 1, end.size(), file.get()));
+    const std::size_t at = end.rfind("PK\5\6");
+    return at == end.npos || end.size() - at < record;
   }
   [[noreturn]] void fail(const std::string& name, const std::string& what) const {
     throw Error(path_ + ": file " + quote(name) + " of the archive " + what);

@@ -125,11 +125,35 @@ TEST(Archive, SaysWhatIsNoArchiveAndWhatIsNoFmu) {
   write_archive(scratch.path("other.fmu"), {{"word/document.xml", "<x/>"}});
   EXPECT_SAYS(refusal_of_file(scratch.path("other.fmu")), "is no FMU: it holds no modelDescription.xml");
   write_archive(scratch.path("whole.fmu"), {xml, {"resources/a", std::string(5000, 'a') + "b"}});
-  std::string half = test::text_of(scratch.path("whole.fmu"));
-  EXPECT_SAYS(refusal_of_file(scratch.file("half.fmu", half.substr(0, half.size() / 2))),
-              "half.fmu is a zip archive without an end: it was copied only in part");
-  half[half.find("resources/a") + 14] ^= 0x55;  // within the packed bytes
-  EXPECT_SAYS(refusal_of_file(scratch.file("damaged.fmu", half)), "`resources/a` of the archive cannot be read: ");
+  std::string bytes = test::text_of(scratch.path("whole.fmu"));
+  bytes[bytes.find("resources/a") + 14] ^= 0x55;  // within the packed bytes
+  EXPECT_SAYS(refusal_of_file(scratch.file("damaged.fmu", bytes)), "`resources/a` of the archive cannot be read: ");
+}
+
+TEST(Archive, SaysOfThoseAloneThatLackTheirEndThatTheyDo) {
+  const test::ScratchFolder scratch;
+  write_archive(scratch.path("whole.fmu"), {xml, {"resources/a", std::string(5000, 'a') + "b"}});
+  const std::string whole = test::text_of(scratch.path("whole.fmu"));
+  const auto refusal_of_bytes = [&](const std::string& bytes) {
+    const std::string path = scratch.file("x.fmu", bytes);
+    return test::complaint_of<Error>([&] { unpack(path, scratch.path("out"), {"linux64"}); });
+  };
+  const std::size_t list = whole.find("PK\1\2"), end = whole.rfind("PK\5\6");
+  for (const std::size_t size : {whole.size() / 2, list, list + 20, end, whole.size() - 1})
+    EXPECT_SAYS(refusal_of_bytes(whole.substr(0, size)),
+                "x.fmu is a zip archive without an end: it was copied only in part")
+        << size;
+  std::string early = whole, late = whole, damaged = whole, shorter = whole;
+  early[end + 16] = 0;  // where the list begins, in little endian
+  late[end + 17] = 1;
+  damaged[list] = 'X';
+  shorter.erase(40, 20);
+  for (const std::string& bytes : {early, late, damaged, shorter}) {
+    const std::string said = refusal_of_bytes(bytes);
+    EXPECT_SAYS(said, "x.fmu cannot be read as a zip archive: ");
+    EXPECT_EQ(said.find("copied"), said.npos) << said;
+  }
+  EXPECT_SAYS(refusal_of_bytes(late), "inconsistent") << "libzip's reason";
 }
 
 TEST(Archive, SaysHowAnFmuIsPackedWhereItIsNot) {

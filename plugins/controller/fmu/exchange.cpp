@@ -103,8 +103,6 @@ std::string names_for(const Variable& v) {
 /// The number that a word says; integers of 64 bits are exact. Returns what is wrong with it, "" where nothing is.
 template <class T>
 std::string parse(const Variable& v, std::string_view word, int version, T& result) {
-  const std::string misfit = "does not fit into its type, " + std::string(name_of(v.type, version));
-  if (const auto named = number_of_name(v, word)) return convert(*named, result) ? "" : misfit;
   if constexpr (std::is_integral_v<T>) {
     const char* const end = word.data() + word.size();
     if (const auto read = std::from_chars(word.data(), end, result); read.ec == std::errc() && read.ptr == end)
@@ -112,9 +110,12 @@ std::string parse(const Variable& v, std::string_view word, int version, T& resu
   }
   std::string problem;
   const auto number = model_file::parse_numbers(word, 1, problem);
-  if (!number) return problem + names_for(v);
-  const bool is_whole = number->front() == std::nearbyint(number->front());
-  return convert(number->front(), result) && (is_whole || !std::is_integral_v<T>) ? "" : misfit;
+  const bool is_legal = number && (!std::is_integral_v<T> || number->front() == std::nearbyint(number->front()));
+  if (is_legal && convert(number->front(), result)) return "";
+  const auto named = number_of_name(v, word);  // items may be called by digits: what is a number stays one
+  if (named && convert(*named, result)) return "";
+  if (!number && !named) return problem + names_for(v);
+  return "does not fit into its type, " + std::string(name_of(v.type, version));
 }
 
 std::uint64_t count_of(const std::vector<Run>& runs) {
@@ -230,8 +231,8 @@ void set_start_value(Component& component, const Variable& v, const std::string&
   }
   if (v.type == Type::string && v.size == 1) return component.set_text(v.reference, text);
   if (v.type == Type::string) throw Error(about + "cannot be given: it is an array of texts");
-  const std::vector<std::string_view> words =
-      number_of_name(v, text) ? std::vector<std::string_view>{text} : split_words(text);  // names may hold blanks
+  const bool is_name = v.size == 1 && number_of_name(v, text);  // which may hold blanks
+  const std::vector<std::string_view> words = is_name ? std::vector<std::string_view>{text} : split_words(text);
   with_fmi_type(v.type, version, [&](auto zero) {
     std::vector<decltype(zero)> values(words.size());
     for (std::size_t i = 0; i < words.size(); ++i)

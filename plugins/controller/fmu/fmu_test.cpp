@@ -13,6 +13,7 @@ constexpr Key<double> decay{"test.decay", "1", "what `decay` says"};
 constexpr Key<double> euler{"test.euler", "1", "what `euler` says"};
 constexpr Key<double> step_end{"test.step_end", "s", "what `step_end` says"};
 constexpr Key<std::int32_t> count{"test.count", "1", "what `count` says"};
+constexpr Key<double> choice_out{"test.choice_out", "1", "what `choice_out` says"};
 constexpr Key<std::uint8_t> has_resource{"test.has_resource", "1", "what `has_resource` says"};
 
 const Texts clocks{"decay=test.decay", "euler=test.euler", "step_end=test.step_end", "count=test.count"};
@@ -137,7 +138,7 @@ TEST_P(Fmu, ConvertsUnits) {
 TEST_P(Fmu, PassesWholeNumbersBooleansAndEnumerations) {
   static constexpr Key<std::int32_t> whole{"test.int", "1", ""}, whole_out{"test.int_out", "1", ""};
   static constexpr Key<std::uint8_t> flag{"test.flag", "1", ""}, flag_out{"test.flag_out", "1", ""};
-  static constexpr Key<double> choice{"test.choice", "1", ""}, choice_out{"test.choice_out", "1", ""};
+  static constexpr Key<double> choice{"test.choice", "1", ""};
   Bench bench;
   bench.source(whole, std::numeric_limits<std::int32_t>::min());
   std::uint8_t& in = bench.source(flag, std::uint8_t(7));
@@ -160,29 +161,18 @@ TEST_P(Fmu, PassesWholeNumbersBooleansAndEnumerations) {
 }
 
 TEST_P(Fmu, TakesStartValuesOfAllTypesExactly) {
-  static constexpr Key<double> choice_out{"test.choice_out", "1", ""};
   static constexpr Key<std::uint64_t> u64_out{"test.u64_out", "1", ""};
   static constexpr Key<std::int64_t> i64_out{"test.i64_out", "1", ""};
   const std::string path = fmu(able());
-  const auto control = [&](Bench& bench, const Texts& outputs, const std::map<std::string, std::string>& values) {
-    Texts all;
-    for (const std::string& text : closed_inputs(version())) {
-      const std::string name = text.substr(0, text.find('='));
-      all.push_back(values.count(name) != 0 ? name + "=" + values.at(name) : text);
-    }
-    bench.use("controller.fmu", 10, bench.all_robots(),
-              Settings{{"fmu", path},
-                       {"outputs", outputs},
-                       {"parameters", all},
-                       {"isolate", std::string(bench.is_isolated ? "process" : "none")}});
-  };
   Bench bench;
   const double& choice_is = bench.sink(choice_out);
   const std::uint64_t& u64_is = bench.sink(u64_out);
   const std::int64_t& i64_is = bench.sink(i64_out);
   Texts outputs{"choice_out=test.choice_out"};
   if (version() == 3) outputs.insert(outputs.end(), {"u64_out=test.u64_out", "i64_out=test.i64_out"});
-  control(bench, outputs, {{"choice_in", "b"}, {"u64_in", "18446744073709551615"}, {"i64_in", "-9007199254740993"}});
+  Texts values{"choice_in=b"};
+  if (version() == 3) values.insert(values.end(), {"u64_in=18446744073709551615", "i64_in=-9007199254740993"});
+  bench.control(path, version(), outputs, values);
   bench.build();
   bench.run_for(0.1);
   EXPECT_EQ(choice_is, 2) << "an item by its name";
@@ -191,10 +181,32 @@ TEST_P(Fmu, TakesStartValuesOfAllTypesExactly) {
     EXPECT_EQ(i64_is, -9007199254740993) << "-(2^53 + 1)";
   }
   Bench wrong;
-  control(wrong, {}, {{"choice_in", "c"}});
+  wrong.control(path, version(), Texts{}, {"choice_in=c"});
   EXPECT_SAYS(refusal(wrong),
               "value `c` of `choice_in` is no number; write it like 0.05 or 5e-2; items of its type "
               "are `a`, `b`");
+}
+
+TEST_P(Fmu, TakesANumberForItselfWhereItemsAreCalledByDigits) {
+  const std::string path = scratch_.path("digits.fmu");
+  std::string text = description(version(), able());
+  const std::string items = R"(<Item name="a" value="1"/><Item name="b" value="2"/>)";
+  ASSERT_NE(text.find(items), text.npos);
+  text.replace(text.find(items), items.size(),
+               R"(<Item name="2" value="1"/><Item name="1" value="2"/><Item name="1 2" value="3"/>)"
+               R"(<Item name="0.5" value="4"/><Item name="7" value="5"/>)");
+  write_archive(path, {{"modelDescription.xml", text},
+                       {"binaries/" + platform_of[version()] + "/model.so",
+                        test::text_of(parts + "model" + std::to_string(version()) + ".so")}});
+  for (const auto& [said, number] :
+       {std::pair<std::string, double>{"1", 1}, {"2", 2}, {"2.0", 2}, {" 2", 2}, {"7", 7}, {"1 2", 3}, {"0.5", 4}}) {
+    Bench bench;
+    const double& choice_is = bench.sink(choice_out);
+    bench.control(path, version(), Texts{"choice_out=test.choice_out"}, {"choice_in=" + said});
+    bench.build();
+    bench.run_for(0.1);
+    EXPECT_EQ(choice_is, number) << said;
+  }
 }
 
 TEST_P(Fmu, FindsItsResources) {

@@ -86,13 +86,16 @@ struct Bench : test::Scene {
     });
   }
 
-  /// Parameters of the FMU beside those that close its inputs.
+  /// `values`: parameters of the FMU, beside those that close its other inputs.
   void control(const std::string& path, int version, Settings settings = {}, Texts values = {}, double rate = 10) {
     const Texts* in = std::get_if<Texts>(&settings["inputs"]);
+    const Texts connected = in ? *in : Texts();
     for (const std::string& text : closed_inputs(version)) {
       const std::string name = text.substr(0, text.find('=') + 1);
-      const auto is_connected = [&](const std::string& i) { return i.starts_with(name); };
-      if (!in || std::none_of(in->begin(), in->end(), is_connected)) values.push_back(text);
+      const auto is_of_it = [&](const std::string& i) { return i.starts_with(name); };
+      if (std::none_of(connected.begin(), connected.end(), is_of_it) &&
+          std::none_of(values.begin(), values.end(), is_of_it))
+        values.push_back(text);
     }
     if (!in) settings.erase("inputs");
     settings["fmu"] = path;
