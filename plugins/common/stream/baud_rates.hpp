@@ -28,6 +28,13 @@ inline std::optional<speed_t> speed_code(std::uint32_t baud) {
   return std::nullopt;
 }
 
+/// bit/s of a code; of one that is not above, the slowest.
+inline std::uint32_t rate_of(speed_t code) {
+  for (const BaudRate& rate : baud_rates)
+    if (rate.code == code) return rate.baud;
+  return baud_rates[0].baud;
+}
+
 inline bool is_standard_rate(std::uint32_t baud) { return speed_code(baud).has_value(); }
 
 inline std::string standard_rates() {

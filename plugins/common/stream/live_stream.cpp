@@ -141,9 +141,10 @@ void LiveStream::disconnect(std::uint32_t client) {
 
 void LiveStream::set_baud(std::uint32_t baud) {
   endpoint_->set_baud(baud);
-  if (!address_.is_timed || baud == 0) return;
-  input_.set_baud(time_, baud);
-  output_.set_baud(time_, baud);
+  if (!address_.is_timed) return;
+  const std::uint32_t rate = baud == 0 ? address_.baud : baud;
+  input_.set_baud(time_, rate);
+  output_.set_baud(time_, rate);
 }
 
 bool LiveStream::wake(Exchange::Sent sent) {

@@ -8,12 +8,13 @@
 
 namespace muro::stream {
 
-/// Tries something again a quarter of a second later. [I/O thread]
+/// Tries something again later, unless it was stopped before. [I/O thread]
 class Retry {
  public:
   Retry(IoThread& io, std::function<void()> attempt) : timer_(io.context()), attempt_(std::move(attempt)) {}
-  void later() {
-    timer_.expires_after(std::chrono::milliseconds(250));
+  /// In place of the attempt that was to come, if there was one.
+  void later(std::chrono::nanoseconds delay = std::chrono::milliseconds(250)) {
+    timer_.expires_after(delay);
     timer_.async_wait([this](const boost::system::error_code& cancelled) {
       if (!cancelled && !is_stopped_) attempt_();
     });

@@ -19,11 +19,15 @@ namespace muro::stream {
 
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
+constexpr int hardware_bytes = 16;  // that a usual UART holds
+
 /// A serial device of this machine: one client, at the other end of the line. Opened again when it comes back.
 class Serial final : public Endpoint, private IoThread::Source {
  public:
   explicit Serial(const EndpointSetup& setup)
-      : setup_(setup), retry_(setup.io, [this] { open_again(); }), rate_timer_(setup.io.context()) {}
+      : setup_(setup), retry_(setup.io, [this] { open_again(); }), rate_change_(setup.io, [this] { change_rate(); }) {}
   ~Serial() override {
     if (descriptor_ >= 0) ::close(descriptor_);
   }
@@ -35,7 +39,7 @@ class Serial final : public Endpoint, private IoThread::Source {
   }
   void close() override {
     retry_.stop();
-    rate_timer_.cancel();
+    rate_change_.stop();
   }
   void set_baud(std::uint32_t baud) override {
     wanted_ = baud;
@@ -59,30 +63,54 @@ class Serial final : public Endpoint, private IoThread::Source {
     serve();
   }
 
-  void on_signal() override { change_rate(); }
-  /// Now, or when all that is to go out at the rate before has reached the hardware.
+  void on_signal() override {
+    empty_since_.reset();
+    change_rate();
+  }
+  /// Now, or when all that is to go out at the rate before has left the hardware. Never waits: the thread is that of
+  /// all streams.
   void change_rate() {
-    const std::uint32_t baud = wanted_;
+    const std::uint32_t baud = wanted_;  // what was sent before this was set is in the exchange by now
+    setup_.connections.on_signal();      // and has_output() from here on
     const auto speed = baud == 0 ? first_speed_ : speed_code(baud);
     if (speed == speed_) return;
     if (!speed)
       return setup_.log(LogLevel::warning, "a serial device cannot run at " + std::to_string(baud) + " bit/s");
     const int device = ::open(setup_.address.path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
-    int queued = 0;
-    if (setup_.connections.has_output() || (::ioctl(device, TIOCOUTQ, &queued) == 0 && queued > 0)) {
-      rate_timer_.expires_after(std::chrono::milliseconds(1));
-      rate_timer_.async_wait([this](const boost::system::error_code& cancelled) {
-        if (!cancelled) change_rate();
-      });
-    } else {
-      speed_ = speed;  // when it is opened again, too
-      termios settings{};
-      if (::tcgetattr(device, &settings) == 0) {
-        ::cfsetspeed(&settings, *speed);
-        ::tcsetattr(device, TCSADRAIN, &settings);  // the last bytes are in the hardware
-      }
-    }
+    const Clock::duration delay = time_to_wait(device);
+    if (delay > Clock::duration::zero())
+      rate_change_.later(delay);
+    else
+      set_speed(device, *speed);
     if (device >= 0) ::close(device);
+  }
+
+  /// Until the hardware has sent all. Where a driver does not know that, bytes that it has taken from the queue get the
+  /// time of `hardware_bytes`.
+  Clock::duration time_to_wait(int device) {
+    const auto has_bytes = [&] {
+      int queued = 0;
+      return setup_.connections.has_output() || (::ioctl(device, TIOCOUTQ, &queued) == 0 && queued > 0);
+    };
+    int line_status = 0;
+    const bool tells_when_empty = ::ioctl(device, TIOCSERGETLSR, &line_status) == 0;
+    if (has_bytes() || (tells_when_empty && (line_status & TIOCSER_TEMT) == 0)) {
+      empty_since_.reset();
+      return std::chrono::milliseconds(1);
+    }
+    if (tells_when_empty || device < 0) return {};
+    const auto now = Clock::now();
+    if (!empty_since_) empty_since_ = now;
+    const std::chrono::nanoseconds byte_time(10'000'000'000 / rate_of(*speed_));
+    return *empty_since_ + hardware_bytes * byte_time - now;
+  }
+
+  void set_speed(int device, speed_t speed) {
+    speed_ = speed;  // when it is opened again, too
+    termios settings{};
+    if (::tcgetattr(device, &settings) != 0) return;
+    ::cfsetspeed(&settings, speed);
+    ::tcsetattr(device, TCSANOW, &settings);
   }
 
   void open_device() {
@@ -123,10 +151,11 @@ class Serial final : public Endpoint, private IoThread::Source {
 
   const EndpointSetup setup_;
   Retry retry_;
-  asio::steady_timer rate_timer_;
-  std::optional<speed_t> first_speed_;     ///< as the address says, else as it was found
-  std::optional<speed_t> speed_;           ///< as it is now
-  std::atomic<std::uint32_t> wanted_ = 0;  ///< bit/s; 0: the first
+  Retry rate_change_;
+  std::optional<Clock::time_point> empty_since_;  ///< the queue of what is to go out at the rate before
+  std::optional<speed_t> first_speed_;            ///< as the address says, else as it was found
+  std::optional<speed_t> speed_;                  ///< as it is now
+  std::atomic<std::uint32_t> wanted_ = 0;         ///< bit/s; 0: the first
   int descriptor_ = -1;
   bool is_told_ = false;
 };

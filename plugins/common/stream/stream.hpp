@@ -96,7 +96,8 @@ class Stream {
   /// Ends the connection once what was sent has gone out. [step]
   void disconnect(std::uint32_t client);
   /// Bit rate from now on, of a serial device and where the address is timed; 0: as at the start. What was sent before
-  /// goes out at the rate before. [step]
+  /// goes out of a serial device at the rate before; of a timed stream what has not passed goes on at the new one.
+  /// [step]
   void set_baud(std::uint32_t baud);
 
   /// For Algorithm::finish(): puts the counts into the report, and warns of what was dropped or refused. [finish]

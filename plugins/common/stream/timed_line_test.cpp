@@ -83,9 +83,13 @@ TEST_F(TimedStream, ChangesItsRate) {
   echo.stream.set_baud(1000000);
   for (int i = 0; i < 5; ++i) echo.step();
   EXPECT_TRUE((usleep(5000), peer.hear().size() == 510)) << peer.heard.size();
+  echo.stream.set_baud(0);  // as at the start
+  for (int i = 0; i < 10; ++i) echo.step();
+  EXPECT_TRUE((usleep(5000), peer.hear().size() == 520)) << peer.heard.size();
+  echo.stream.set_baud(1000000);
   echo.stream.disconnect(0);  // when all has passed
   for (int i = 0; i < 4; ++i) echo.step();
-  EXPECT_TRUE((usleep(5000), peer.hear().size() == 910 && !peer.is_closed)) << peer.heard.size();
+  EXPECT_TRUE((usleep(5000), peer.hear().size() == 920 && !peer.is_closed)) << peer.heard.size();
   EXPECT_TRUE(echo.run_until([&] { return peer.hear().size() == 1000 && peer.is_closed; }));
 }
 
