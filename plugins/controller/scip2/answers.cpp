@@ -153,8 +153,8 @@ void Device::reset(const Call& call, Command command) {
   s.fault = s.is_restart_asked = 0;
   if (command == Command::RT) return;
   s.percent_slower = s.is_sensitive = 0;
-  if (s.bit_rate != initial_bit_rate) call.host.set_bit_rate(initial_bit_rate);
-  s.bit_rate = initial_bit_rate;
+  if (s.bit_rate != 0) call.host.set_bit_rate(0);
+  s.bit_rate = 0;
 }
 
 /// SS, CR, HS, DB: the status.
@@ -162,7 +162,7 @@ std::string_view Device::change_setting(const Call& call, const Request& request
   State& s = call.state;
   switch (request.command) {
     case Command::SS:
-      if (s.bit_rate == request.value) return "03";
+      if (bit_rate_of(s) == request.value) return "03";
       s.bit_rate = request.value;
       return "00";
     case Command::CR: {

@@ -66,9 +66,22 @@ TEST(Scip2Command, BitRatesAreThoseOfTheTable) {
   EXPECT_EQ(d.bit_rate, 750000u);
   EXPECT_NE(d.ask("II\n").find("SBPS:750000[bps];"), std::string::npos);
   expect(d, {{"RS", "00"}, {"SS019200", "03"}});
-  EXPECT_EQ(d.bit_rate, 19200u);
+  EXPECT_EQ(d.bit_rate, 0u) << "as at the start";
   Bench ethernet(ust_10lx());
   EXPECT_EQ(ethernet.status_of("SS115200"), "04");
+}
+
+TEST(Scip2Command, TheFirstBitRateIsThatOfTheLine) {
+  Awake d;
+  d.device = Device(urg_04lx(), false, 115200);
+  EXPECT_NE(d.ask("II\n").find("SBPS:115200[bps]<-Default setting by user;"), std::string::npos);
+  expect(d, {{"SS115200", "03"}, {"SS019200", "00"}, {"SS019200", "03"}});
+  EXPECT_EQ(d.bit_rate, 19200u);
+  EXPECT_NE(d.ask("II\n").find("SBPS:19200[bps];"), std::string::npos);
+  expect(d, {{"RS", "00"}});
+  EXPECT_EQ(d.bit_rate, 0u);
+  expect(d, {{"SS115200", "03"}, {"SS038400", "00"}, {"SS115200", "00"}});
+  EXPECT_EQ(d.bit_rate, 115200u);
 }
 
 TEST(Scip2Command, MotorSpeedSlowsScansDown) {

@@ -46,7 +46,6 @@ void Device::switch_on(State& s, std::int64_t now) const {
   s.is_on = 1;
   s.power_on = s.timer_zero = s.scan_begin = now;
   s.scan_period = model_.scan_period();
-  s.bit_rate = initial_bit_rate;
   s.speaks_scip2 = model_.start == Start::scip2;
 }
 
@@ -152,9 +151,8 @@ void Device::send_scan(State& s, DeviceHost& host) {
 /// Sends `text_`.
 void Device::send(State& s, std::int64_t now, std::uint32_t client, DeviceHost& host) const {
   host.send(client, text_);
-  const std::uint32_t rate = s.bit_rate == initial_bit_rate ? line_rate_ : s.bit_rate;
-  if (line_rate_ == 0 || rate == 0) return;
-  s.line_free = std::max(s.line_free, now) + std::int64_t(text_.size()) * 10'000'000'000 / rate;
+  if (line_rate_ == 0) return;
+  s.line_free = std::max(s.line_free, now) + std::int64_t(text_.size()) * 10'000'000'000 / bit_rate_of(s);
 }
 
 void Device::answer_pending(State& s, std::int64_t now, DeviceHost& host) {

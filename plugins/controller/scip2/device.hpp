@@ -22,14 +22,15 @@ class DeviceHost {
   virtual void read_scan(std::span<std::uint32_t> distances, std::span<std::uint32_t> intensities) = 0;
   /// A line that was handed to Device::receive got its answer.
   virtual void answered() {}
+  /// 0: as at the start.
   virtual void set_bit_rate(std::uint32_t bits_per_second) { static_cast<void>(bits_per_second); }
 
  protected:
   ~DeviceHost() = default;
 };
 
-/// bit/s, as `SS` and `RS` know it.
-inline constexpr std::uint32_t initial_bit_rate = 19200;
+/// bit/s at first of a line on which bytes take no time.
+inline constexpr std::uint32_t usual_bit_rate = 19200;
 
 /// A scanner that speaks SCIP: from lines, time and scans to replies. It has no memory but the state that it is given.
 class Device {
@@ -89,6 +90,8 @@ class Device {
   void reply(const Call& call, std::string_view status);
   void reply_state(const Call& call);
   void send(const Call& call) { send(call.state, call.now, call.client, call.host); }
+  std::uint32_t first_bit_rate() const { return line_rate_ == 0 ? usual_bit_rate : line_rate_; }
+  std::uint32_t bit_rate_of(const State& s) const { return s.bit_rate == 0 ? first_bit_rate() : s.bit_rate; }
 
   // scip1.cpp: of SCIP 1.1
   bool is_scip1(const State& s, std::string_view line) const;

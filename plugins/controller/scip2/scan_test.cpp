@@ -52,7 +52,6 @@ TEST(Scip2Scan, ScansThatALineIsTooSlowForAreLeftOut) {
   for (std::size_t i = 2; i < replies.size(); ++i) EXPECT_EQ(replies[i].timestamp() - replies[i - 1].timestamp(), 200);
   EXPECT_EQ(replies[4].echo, "MD0044072501000");
   d.ask("SS019200\n");
-  d.device = Device(urg_04lx(), false, 19200);
   d.ask("MD0044072501000\n", 3000);
   replies = complete(d.ask("QT\n", 100));
   EXPECT_EQ(replies.back().echo, "QT");

@@ -104,7 +104,7 @@ class Station final : private DeviceHost {
   void restored() {
     while (unanswered_ > state_->pending_count) answered();
     has_acted_ = true;
-    set_bit_rate(state_->bit_rate);
+    stream_.set_baud(state_->bit_rate);
   }
   /// Goes on from there at `time`.
   void resume(std::int64_t time) {
@@ -115,7 +115,7 @@ class Station final : private DeviceHost {
   void step(std::int64_t time) {
     stream_.begin(time);
     while (const stream::Event* event = stream_.next()) take(*event);
-    if (!state_->is_on) set_bit_rate(initial_bit_rate);
+    if (!state_->is_on) stream_.set_baud(0);
     device_.advance(*state_, time, *this);
     std::erase_if(leaving_, [&](std::uint32_t client) {
       if (Device::owes(*state_, client)) return false;
@@ -152,11 +152,7 @@ class Station final : private DeviceHost {
     --unanswered_;
     stream_.answered();
   }
-  /// The device's first bit rate is that of the stream, whatever the device calls it.
-  void set_bit_rate(std::uint32_t bits_per_second) override {
-    const std::uint32_t rate = bits_per_second == initial_bit_rate ? stream_.address().baud : bits_per_second;
-    stream_.set_baud(rate);
-  }
+  void set_bit_rate(std::uint32_t bits_per_second) override { stream_.set_baud(bits_per_second); }
 
   Item item_;
   ObjectId laser_object_;

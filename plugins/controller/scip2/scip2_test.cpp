@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The plugin in the whole simulator: clients on TCP, lasers of the scene.
+#include <fcntl.h>
+#include <stdlib.h>
+#include <termios.h>
+
 #include <cmath>
 #include <memory>
 #include <thread>
@@ -199,6 +203,50 @@ TEST(Scip2, ADriverForSerialPortsOpensAPseudoTerminal) {
   for (int i = 0; i < 200; ++i) s.go();
   Peer other = Peer::file(path);
   EXPECT_NE(s.ask(other, "II\n")[0].lines[4].find("115200"), std::string::npos) << "the device stayed on";
+}
+
+/// A terminal stands for the serial device; its master tells the rate.
+TEST(Scip2, ASerialDeviceRunsAtTheRateThatTheRepliesTell) {
+  Peer line(::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC));
+  ::grantpt(line.fd);
+  ::unlockpt(line.fd);
+  Room s;
+  s.use_laser();
+  s.use_device({{"stream", Texts{"serial=" + std::string(::ptsname(line.fd)), "baud=115200"}}, {"start", "scip2.0"}});
+  s.build();
+  const auto expect = [&](const char* command, const char* status, speed_t speed) {
+    EXPECT_EQ(s.ask(line, std::string(command) + "\n")[0].status, status) << command;
+    const auto is_set = [&] {
+      termios settings{};
+      return ::tcgetattr(line.fd, &settings) == 0 && ::cfgetospeed(&settings) == speed;
+    };
+    for (int i = 0; i < 1000 && !is_set(); ++i) s.go();
+    EXPECT_TRUE(is_set()) << command;
+  };
+  EXPECT_NE(s.ask(line, "II\n")[0].lines[4].find("SBPS:115200[bps]<-Default"), std::string::npos);
+  expect("SS115200", "03", B115200);
+  expect("SS019200", "00", B19200);
+  expect("SS019200", "03", B19200);
+  expect("SS038400", "00", B38400);
+  expect("SS019200", "00", B19200);
+  expect("RS", "00", B115200);
+  expect("SS115200", "03", B115200);
+}
+
+TEST(Scip2, ATimedLineRunsAtTheRateThatTheRepliesTell) {
+  Room s;
+  s.use_laser();
+  s.use_device({{"stream", Texts{"tcp=0", "timed=true", "baud=115200"}}, {"start", "scip2.0"}, {"reply_grid", 0.0}});
+  s.build();
+  Peer client = s.connect();
+  EXPECT_EQ(s.ask(client, "SS115200\n")[0].status, "03");
+  EXPECT_EQ(s.ask(client, "SS038400\n")[0].status, "00");
+  EXPECT_EQ(s.ask(client, "SS019200\n")[0].status, "00");
+  const std::int64_t begin = s.now();
+  s.ask(client, "VV\n");
+  EXPECT_GT(double(s.now() - begin), 70e6) << "about 150 bytes: 78 ms at 19200 bit/s, 13 ms at 115200";
+  EXPECT_EQ(s.ask(client, "RS\n")[0].status, "00");
+  EXPECT_EQ(s.ask(client, "SS115200\n")[0].status, "03");
 }
 
 TEST(Scip2, SeveralDevicesMayReportOneLaser) {

@@ -129,7 +129,7 @@ struct Bench : DeviceHost {
   std::string output, other_output;
   std::vector<std::int64_t> times;  ///< of all that was sent, ms
   int scans_read = 0, answers = 0;
-  std::uint32_t bit_rate = 19200;
+  std::uint32_t bit_rate = 0;  ///< as it was set; 0: as at the start
 };
 
 /// A device that has been told to speak SCIP 2.0.

@@ -47,8 +47,8 @@ struct State {
   std::int64_t answered_scan_time;  ///< of the scan that the last `G_` was answered with
   std::int64_t reply_index;         ///< of ReplyTime::at_interval: the last interval whose replies were made
   std::int64_t line_free;           ///< when all that was sent has passed, on a line where bytes take their time
-  std::uint32_t bit_rate;
-  std::uint32_t fault_scans;  ///< turns since DB
+  std::uint32_t bit_rate;           ///< bit/s that `SS` has set; 0: that of the line at first
+  std::uint32_t fault_scans;        ///< turns since DB
   std::uint8_t is_on, speaks_scip2, has_laser_on, is_adjusting;
   std::uint8_t is_sensitive, percent_slower, fault, has_scan;
   std::uint8_t is_restart_asked, is_asleep;

@@ -52,7 +52,8 @@ void Device::write_status(ReplyWriter& r, const State& s, std::int64_t now) cons
   if (!model_.bit_rate_text.empty())
     r.keyed("SBPS", model_.bit_rate_text);
   else
-    r.keyed("SBPS", Text(s.bit_rate == initial_bit_rate ? "%u[bps]<-Default setting by user" : "%u[bps]", s.bit_rate));
+    r.keyed("SBPS",
+            Text(bit_rate_of(s) == first_bit_rate() ? "%u[bps]<-Default setting by user" : "%u[bps]", bit_rate_of(s)));
   r.keyed("TIME", Text("%06X", timestamp(s, now)));
   const bool has_failed = health_of(s.fault, s.fault_scans) == Health::failed;
   r.keyed("STAT", has_failed ? "Laser has trouble." : std::string_view(model_.status_text));
