@@ -20,7 +20,7 @@
 // A class may also have
 //
 //     static constexpr muro_tunable tunables[] = {...};                            // numbers that the scenario may set
-//     static constexpr muro::controller::Task<Brake> tasks[] = {{"plan", 5, &Brake::plan}};  // Hz: runs more rarely
+//     static constexpr muro::controller::Task<Brake> tasks[] = {{"plan", 5, &Brake::plan}};  // Hz; behind plan itself
 //     static constexpr std::size_t save_size = 16;                                 // all three, for snapshots:
 //     void save(muro::controller::Saver& to) const;                                // at most save_size bytes
 //     void load(muro::controller::Loader& from);                                   // into an object just made

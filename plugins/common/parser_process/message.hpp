@@ -66,7 +66,7 @@ class Reader {
   bool at_end() const { return bytes_.empty(); }
 
  private:
-  [[noreturn]] static void fail() { throw Error("a message of the parser process is cut or garbled"); }
+  [[noreturn]] static void fail() { throw Error("a message of another process is cut or garbled"); }
   void copy(void* to, std::size_t size) {
     if (size > bytes_.size()) fail();
     if (size > 0) std::memcpy(to, bytes_.data(), size);

@@ -22,6 +22,9 @@ class SharedMemory {
   /// Maps the file that another process has made and sized.
   bool open(int descriptor, std::size_t size);
 
+  /// A copy of this process, made by fork(), gets a copy of the memory for itself. For one memory of a process.
+  void keep_from_copies();
+
   /// The file, not the memory, which stays until the end.
   void close() { file_.reset(); }
 
@@ -31,6 +34,7 @@ class SharedMemory {
 
  private:
   bool map(int descriptor, std::size_t size);
+  void become_private();
   void unmap();
 
   Descriptor file_;

@@ -29,7 +29,8 @@ Message::Message(std::string_view line) {
   };
   if (!all) {
     fail_all(Code::parse_error, "Parse error",
-             "a message is one line of JSON in UTF-8, nested at most " + std::to_string(deepest_nesting) + " deep");
+             "a message is one line of JSON in UTF-8, nested at most " + std::to_string(deepest_nesting) +
+                 " deep, with numbers below 1.8e308");
   } else if (!all->is_array()) {
     add(*all);
   } else if (all->empty()) {

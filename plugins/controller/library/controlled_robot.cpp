@@ -81,7 +81,8 @@ void ControlledRobot::check_tasks(double rate) const {
     if (rate == 0)
       throw Error(about() + "runs on demand, and its task " + quote(task) + " at a rate; give it a `rate`");
     const double wanted = settings_.task_rates[i], steps = rate / wanted;
-    if (steps > 1 - 1e-9 && std::abs(steps - std::nearbyint(steps)) < 1e-6 * steps) continue;
+    if (steps > 1 - 1e-9 && std::abs(steps - std::nearbyint(steps)) < 1e-5 * steps)
+      continue;  // as exact as the message
     throw Error(about() + "runs at " + rounded(rate) + " Hz, and its task " + quote(task) + " is to run at " +
                 rounded(wanted) +
                 " Hz; the rate of a task is a whole fraction of the controller's, set `rate` or `rates: [\"" + task +

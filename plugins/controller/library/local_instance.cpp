@@ -5,6 +5,8 @@
 #include <new>
 #include <utility>
 
+#include "copy_guard.hpp"
+
 namespace muro::control {
 
 namespace {
@@ -152,28 +154,31 @@ void LocalInstance::destroy() {
   table_.destroy(std::exchange(instance_, nullptr));
 }
 
+void LocalInstance::run(const Call& call) {
+  switch (call.function) {
+    case Function::create:
+      create(call);
+      break;
+    case Function::resume:
+      create(call);
+      if (table_.load) load();
+      break;
+    case Function::step:
+      step(call);
+      break;
+    case Function::destroy:
+      destroy();
+      break;
+  }
+}
+
 Outcome LocalInstance::call(const Call& call) {
   Outcome outcome;
+  const CopyGuard guard;
   running_ = call.running;
   running_text_ = call.running_text;
   try {
-    switch (call.function) {
-      case Function::create:
-        create(call);
-        break;
-      case Function::resume:
-        create(call);
-        if (table_.load) load();
-        break;
-      case Function::step:
-        step(call);
-        break;
-      case Function::destroy:
-        destroy();
-        break;
-    }
-    forget_call();
-    return outcome;
+    run(call);
   } catch (const Refusal&) {
     error_[error_size - 1] = 0;  // whatever the library has written
     outcome.ending = Ending::refused;
@@ -186,7 +191,8 @@ Outcome LocalInstance::call(const Call& call) {
   } catch (...) {
     outcome.ending = Ending::threw;
   }
-  outcome.function = function_;
+  CopyGuard::end_copy(function_);
+  if (!outcome.is_fine()) outcome.function = function_;
   forget_call();
   return outcome;
 }

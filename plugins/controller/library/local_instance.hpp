@@ -20,6 +20,7 @@ class LocalInstance final : public ControlInstance {
   static constexpr std::size_t error_size = 1024;
 
   void connect_ports();
+  void run(const Call& call);
   void create(const Call& call);
   void step(const Call& call);
   void save();

@@ -43,6 +43,7 @@ class Server {
       std::perror("the shared memory");
       _exit(1);
     }
+    memory_.keep_from_copies();
     header_ = reinterpret_cast<SharedHeader*>(memory_.data());
     leave_crash_notes_in(*header_);
     input_sizes_ = layout.input_sizes_in(memory_.data());

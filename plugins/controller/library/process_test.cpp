@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Control code in processes of its own: what it does to the run when it fails, and that it else does the same.
 #include <signal.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "core/external/input_log.hpp"
@@ -303,6 +304,16 @@ TEST(IsolatedController, ThatFailsByItselfLeavesTheRunRepeatable) {
   }
 }
 
+TEST(IsolatedController, WhoseCopyComesBackGoesOnWithoutTheCopy) {
+  const auto hash = [] {
+    Failing team("copy_itself");
+    EXPECT_EQ(team.run(), "it went well");
+    return team.state_hash();
+  };
+  const std::uint64_t first = hash();
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(hash(), first);
+}
+
 TEST(IsolatedController, MayCloseAllDescriptorsAndGoesOn) {
   Failing stopped("close_all_and_tell");
   stopped.run_for(0.4);
@@ -332,6 +343,21 @@ TEST(IsolatedController, ThatIsNoLibraryIsRefusedInTheSameWords) {
     EXPECT_TRUE(says(refusal_of(library, {{"isolate", std::string("process")}}), message));
   EXPECT_TRUE(says(refusal_of("crashes_when_loaded.so", {{"isolate", std::string("process")}}),
                    "/crashes_when_loaded.so crashed: SIGSEGV, invalid memory access"));
+}
+
+TEST(ControllerLibrary, WhoseCopyOfTheSimulatorComesBackLeavesOneSimulator) {
+  Team team;
+  team.control(folder + "fails.so", {{"arguments", Texts{"does=copy_itself"}}});
+  team.build();
+  const pid_t own = getpid();
+  testing::internal::CaptureStderr();
+  team.run_for(1);
+  EXPECT_EQ(getpid(), own);
+  int status = -1;
+  EXPECT_GT(waitpid(-1, &status, 0), 0) << "the copy";
+  EXPECT_EQ(status, 0);
+  EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1) << "and no other";
+  EXPECT_TRUE(says(testing::internal::GetCapturedStderr(), "by fork(), came back from `step` and was ended; "));
 }
 
 TEST(ControllerLibrary, LeavesItsRobotAtRestWhereItFailsInTheSimulatorsProcess) {

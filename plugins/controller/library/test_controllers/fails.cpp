@@ -28,6 +28,7 @@ void invalid_memory() {
   volatile int* volatile nowhere = reinterpret_cast<volatile int*>(16);
   *nowhere = 1;
 }
+void copy_itself() { static_cast<void>(fork()); }
 volatile bool forever = true;
 void loop() {
   while (forever) continue;
@@ -86,6 +87,7 @@ const struct {
              {"allocate_by_new", allocate_by_new},
              {"print", print},
              {"print_endlessly", print_endlessly},
+             {"copy_itself", copy_itself},
              {"kill", [] { raise(SIGKILL); }},
              {"close_all", close_all},
              {"tell_process", tell_process},
