@@ -122,19 +122,24 @@ void Simulation::run_until(std::int64_t time, const std::function<bool()>& stop)
   if (outputs_closed_) throw SetupError("a simulation that keeps its outputs closed cannot run");
   Inspector& inspector = extensions_->inspector();
   RunRequests& requests = extensions_->requests();
+  if (inspector.stopped()) return;
   inspector.set_stop(stop);
   const auto is_stopping = [&] { return inspector.is_stopping(); };
-  do {
+  const auto sample = [&](bool is_due) {
+    if (is_due && sample_) sample_();
+  };
+  while (!is_stopping()) {
     const std::int64_t next_sample =
         sample_ ? now() - now() % sampling_period_ + sampling_period_ : std::numeric_limits<std::int64_t>::max();
     scheduler_.run_until(std::min({time, requests.next_time(now()), next_sample}),
                          [&] { return is_stopping() || requests.is_waiting(); });
-    if (now() >= next_sample) sample_();
+    sample(now() >= next_sample || requests.is_due(now()));
     const std::uint64_t jumps_before = jumps_;
     if (!is_stopping()) requests.carry_out(*this, is_stopping);
-    if (sample_ && jumps_ != jumps_before) sample_();
-  } while (now() < time && !is_stopping());
-  if (is_stopping()) requests.record_stop();
+    sample(jumps_ != jumps_before);
+    if (now() >= time) break;
+  }
+  was_ended_ = is_stopping();
   inspector.set_stop({});
 }
 
@@ -165,6 +170,7 @@ void Simulation::refresh() {
 void Simulation::finish() {
   require_built("finish()");
   const CLocale locale;
+  if (was_ended_) extensions_->requests().record_stop();
   CollectedProblems problems;  // one that fails keeps no other from its files
   for (const std::size_t i : in_order_of(order_of)) problems.run([&] { instances_[i]->finish(); });
   problems.check();

@@ -93,10 +93,11 @@ class Simulation {
   void run_for(double seconds);
   /// Up to but not including `time` (ns, from 0 to 4.6e18). `stop` is asked every few instants; true ends the run.
   void run_until(std::int64_t time, const std::function<bool()>& stop = {});
-  /// Runs call `sample` at each multiple of `period` (ns) of simulated time, and when poses have jumped. [between runs]
+  /// Runs call `sample` at each multiple of `period` (ns) of simulated time, and before and after poses jump. None: no
+  /// more. [between runs]
   void set_sampling(std::int64_t period, std::function<void()> sample);
   std::int64_t now() const { return scheduler_.now(); }  ///< ns
-  /// Ends the run soon; nothing runs any more then.
+  /// Ends the run soon; nothing runs any more then. [on the thread that runs]
   void stop();
   /// Whether somebody, such as an algorithm, has called for that.
   bool stopped() const;
@@ -168,6 +169,7 @@ class Simulation {
   OverlapCheck overlap_check_;
   std::uint64_t jumps_ = 0;
   bool built_ = false;
+  bool was_ended_ = false;  ///< the last run, before its time
   bool outputs_closed_ = false, inputs_closed_ = false;
 };
 

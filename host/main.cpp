@@ -285,6 +285,7 @@ int main(int argc, char** argv) {
   // a reader that leaves and a file that grows too large are errors of who writes, so that other outputs are closed
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
+  std::signal(SIGCHLD, SIG_DFL);  // who started this program may have it ignored: then no end of a process is told
   keep_standard_streams();
   lose_what_standard_error_refuses();
   return close_standard_output(exit_code_of(argc, argv));

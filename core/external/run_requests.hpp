@@ -48,7 +48,9 @@ class RunRequests final : public RunControl {
   bool is_waiting() const { return has_requests_ || speed_changed_ || (paused_ && pause_at_ < 0); }
   /// ns: the run is to stop there for a recorded request, or for the end of a step.
   std::int64_t next_time(std::int64_t now) const;
-  /// The run ends here, before its time: its replay does so too.
+  /// Whether there is something to carry out at `now` (ns), or it was asked for.
+  bool is_due(std::int64_t now) const { return is_waiting() || next_time(now) <= now; }
+  /// The run has ended here, before its time: its replay does so too.
   void record_stop();
   /// Carries out what was asked, and stays here while the run is paused. `stop` ends a pause.
   void carry_out(Simulation& simulation, const std::function<bool()>& stop);

@@ -174,8 +174,8 @@ TEST_F(ARecordedRun, WithAResetCountsTheDistanceBeforeAndBehindIt) {
   run("--duration 1 --record " + inputs);
   const std::string recorded = test::text_of(inputs);
   const std::string with_reset =
-      scratch_.file("reset.csv", recorded.substr(0, recorded.find("end,")) + "0,2000000000,simulation,2,0,\n");
-  EXPECT_NEAR(distance("--duration 4 --replay " + with_reset), distance("--duration 2") + distance("--duration 4"),
+      scratch_.file("reset.csv", recorded.substr(0, recorded.find("end,")) + "0,2050000000,simulation,2,0,\n");
+  EXPECT_NEAR(distance("--duration 4 --replay " + with_reset), distance("--duration 2.05") + distance("--duration 4"),
               1e-6);
 }
 
