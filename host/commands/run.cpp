@@ -102,7 +102,7 @@ void add_inputs(Scenario& scenario, const RunOptions& options) {
     std::error_code code;
     const std::string path = std::filesystem::absolute(file, code).string();
     Subsystem s;
-    s.name = name;
+    s.name = fmt::format("{}_option", name);  // beside whatever the scenario calls its own
     s.use = use;
     s.rate = 10;
     s.location.file = fmt::format("--{} {}", name, message_text(file));
@@ -159,6 +159,7 @@ void simulate(Simulation& simulation, std::int64_t end, Odometer& odometer, RunR
     simulation.run_until(end, Interrupt::pending);
     sample();
   });
+  simulation.set_sampling(0, {});
   result.wall = wall();
   result.simulated = 1e-9 * double(simulation.now());
   result.interrupted = Interrupt::pending();
