@@ -102,7 +102,7 @@ void add_inputs(Scenario& scenario, const RunOptions& options) {
     std::error_code code;
     const std::string path = std::filesystem::absolute(file, code).string();
     Subsystem s;
-    s.name = name;
+    s.name = fmt::format("{}_option", name);  // beside whatever the scenario calls its own
     s.use = use;
     s.rate = 10;
     s.location.file = fmt::format("--{} {}", name, message_text(file));
@@ -159,6 +159,7 @@ void simulate(Simulation& simulation, std::int64_t end, Odometer& odometer, RunR
     simulation.run_until(end, Interrupt::pending);
     sample();
   });
+  simulation.set_sampling(0, {});
   result.wall = wall();
   result.simulated = 1e-9 * double(simulation.now());
   result.interrupted = Interrupt::pending();
@@ -190,7 +191,7 @@ int run(const RunOptions& options) {
   BuiltScenario built = open_scenario(std::move(scenario), registry, [&](Simulation& s) {
     add_outputs(s, {{"--report", options.report}, {"--timeline", options.timeline}});
   });
-  report_unsupported(find_unsupported_features(built), Detail::brief, options.scenario.strict);
+  report_unsupported(built, Detail::brief, options.scenario.strict);
   Simulation& simulation = *built.simulation;
   if (!options.threads.empty())
     simulation.set_threads(options.threads == "all" ? all_threads() : unsigned(std::stoul(options.threads)));
