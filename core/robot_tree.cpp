@@ -11,6 +11,7 @@
 #include "muro/toolkit/bounds.hpp"
 #include "muro/toolkit/elementary.hpp"
 #include "muro/toolkit/limits.hpp"
+#include "muro/toolkit/link_pose.hpp"
 #include "muro/vocabulary.hpp"
 
 namespace muro {
@@ -215,10 +216,11 @@ bool RobotTree::usable() const {
 }
 
 template <class Visit>
-void RobotTree::each_collision_bounds(Visit visit) const {
+void RobotTree::each_collision_bounds(std::span<const double> positions, Visit visit) const {
   std::vector<Pose> poses;
   for (const FlatLink& f : links_) {
-    poses.push_back(f.link.parent < 0 ? Pose{} : poses[std::size_t(f.link.parent)] * f.link.origin);
+    const double position = positions.empty() ? 0 : positions[poses.size()];
+    poses.push_back(f.link.parent < 0 ? Pose{} : poses[std::size_t(f.link.parent)] * pose_in_parent(f.link, position));
     for (const Constant& c : components_[std::size_t(f.body)].constants) {
       if (c.key.name != keys::collision_shapes.name) continue;
       for (std::uint32_t i = 0; i < c.count; ++i) {
@@ -230,19 +232,19 @@ void RobotTree::each_collision_bounds(Visit visit) const {
   }
 }
 
-double RobotTree::standing_height() const {
+double RobotTree::standing_height(std::span<const double> positions) const {
   double lowest = 0;
   bool any = false;
-  each_collision_bounds([&](const Aabb& b) {
+  each_collision_bounds(positions, [&](const Aabb& b) {
     lowest = any ? std::min(lowest, b.low.z()) : b.low.z();
     any = true;
   });
   return -lowest;
 }
 
-double RobotTree::footprint_radius() const {
+double RobotTree::footprint_radius(std::span<const double> positions) const {
   double radius = 0;
-  each_collision_bounds([&](const Aabb& b) {
+  each_collision_bounds(positions, [&](const Aabb& b) {
     const Vec3 far = b.low.cwiseAbs().cwiseMax(b.high.cwiseAbs());
     radius = std::max(radius, elementary::hypot(far.x(), far.y()));
   });

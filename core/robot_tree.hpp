@@ -66,10 +66,11 @@ class RobotTree final : public RobotBuilder {
   const std::vector<Problem>& problems() const { return problems_; }
   bool usable() const;
 
-  /// Height (m) of the base above the lowest point of the robot's collision shapes, joints at 0.
-  double standing_height() const;
-  /// Radius (m) of the vertical cylinder about the base's origin that holds all collision shapes, joints at 0.
-  double footprint_radius() const;
+  /// Height (m) of the base above the lowest point of the robot's collision shapes. `positions`: of the joint of each
+  /// link (rad or m); none: all at 0.
+  double standing_height(std::span<const double> positions = {}) const;
+  /// Radius (m) of the vertical cylinder about the base's origin that holds all collision shapes.
+  double footprint_radius(std::span<const double> positions = {}) const;
 
  private:
   void set_raw(const KeyInfo& key, const void* data, std::uint32_t count) noexcept override;
@@ -79,7 +80,7 @@ class RobotTree final : public RobotBuilder {
   bool started(std::string_view call);
   void check_mass();
   template <class Visit>
-  void each_collision_bounds(Visit visit) const;
+  void each_collision_bounds(std::span<const double> positions, Visit visit) const;
 
   struct Cursor {
     std::int32_t node = -1;

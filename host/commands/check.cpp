@@ -28,7 +28,7 @@ BuiltScenario look_at_scenario(const ScenarioOptions& options, Registry& registr
 int check(const ScenarioOptions& options) {
   Registry registry(Registry::search_path(options.plugin_path));
   const BuiltScenario built = look_at_scenario(options, registry);
-  report_unsupported(find_unsupported_features(built), Detail::full, options.strict);
+  report_unsupported(built, Detail::full, options.strict);
   fmt::print("{}: {} robots, {} objects, {} algorithms: all is connected\n", options.file,
              built.simulation->world().robots().size(), built.simulation->world().object_count(),
              built.simulation->instances().size());

@@ -191,7 +191,7 @@ int run(const RunOptions& options) {
   BuiltScenario built = open_scenario(std::move(scenario), registry, [&](Simulation& s) {
     add_outputs(s, {{"--report", options.report}, {"--timeline", options.timeline}});
   });
-  report_unsupported(find_unsupported_features(built), Detail::brief, options.scenario.strict);
+  report_unsupported(built, Detail::brief, options.scenario.strict);
   Simulation& simulation = *built.simulation;
   if (!options.threads.empty())
     simulation.set_threads(options.threads == "all" ? all_threads() : unsigned(std::stoul(options.threads)));

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "core/output_registry.hpp"
+#include "host/names.hpp"
 #include "host/process/exit_guard.hpp"
 #include "host/scenario/algorithms.hpp"
 #include "host/scenario/body.hpp"
@@ -76,28 +77,48 @@ class SceneBuilder {
     return tree;
   }
 
+  /// What the robots of a template have in common, and their poses.
+  struct Model {
+    std::optional<RobotTree> tree;
+    StartPose start;
+    std::vector<Pose> poses;
+  };
+
+  void tell_of_clamped(const RobotTemplate& t, const StartPose& start) {
+    if (start.clamped.empty()) return;
+    out_.clamped.push_back(fmt::format(
+        "{}: robot `{}`: {} cannot be at 0 and start{} at the nearest limit: {}; set `joints` of the robot to "
+        "start elsewhere",
+        t.location.text(), t.name, plural(start.clamped.size(), "joint"), start.clamped.size() == 1 ? "s" : "",
+        comma_separated(start.clamped)));
+  }
+
   /// Robots with given poses come first, so that random ones keep clear of all of them.
   void add_all_robots() {
-    std::vector<std::optional<RobotTree>> trees(scenario_.robots.size());
-    std::vector<std::vector<Pose>> poses(scenario_.robots.size());
+    std::vector<Model> models(scenario_.robots.size());
     for (const bool random : {false, true})
-      for (std::size_t i = 0; i < trees.size(); ++i) {
+      for (std::size_t i = 0; i < models.size(); ++i) {
         RobotTemplate& t = scenario_.robots[i];
+        Model& m = models[i];
         if ((t.placement.kind == Placement::Kind::random) != random) continue;
-        if (problems_.collect(fmt::format("{}: robot `{}`: ", t.location.text(), t.name),
-                              [&] { trees[i] = model_of(t); }))
-          poses[i] = poses_of(t, *trees[i]);
+        if (!problems_.collect(fmt::format("{}: robot `{}`: ", t.location.text(), t.name),
+                               [&] { m.tree = model_of(t); }))
+          continue;
+        m.start = start_pose(*m.tree, t, problems_);
+        tell_of_clamped(t, m.start);
+        m.poses = poses_of(t, m);
       }
-    for (std::size_t i = 0; i < trees.size(); ++i)
-      if (trees[i]) add_robots(scenario_.robots[i], *trees[i], poses[i]);
+    for (std::size_t i = 0; i < models.size(); ++i)
+      if (models[i].tree) add_robots(scenario_.robots[i], models[i]);
     for (const ShadowSetup& s : shadows_) add_shadow(simulation_, algorithms_, s, problems_);
   }
 
-  std::vector<Pose> poses_of(RobotTemplate& t, const RobotTree& tree) {
+  std::vector<Pose> poses_of(RobotTemplate& t, const Model& m) {
+    const double radius = m.tree->footprint_radius(m.start.positions);
     std::vector<Pose> poses;
     if (t.from_world) {
       poses = {world_file_.pose(t)};
-      occupied_.add(Footprint{poses[0].position.x(), poses[0].position.y(), tree.footprint_radius()});
+      occupied_.add(Footprint{poses[0].position.x(), poses[0].position.y(), radius});
       return poses;
     }
     if (!t.placement.seed) t.placement.seed = scenario_.seed;
@@ -107,22 +128,24 @@ class SceneBuilder {
       drawn += t.count;
     }
     problems_.collect("", [&] {
-      const Body body{t.name, tree.standing_height(), tree.footprint_radius()};
+      const Body body{t.name, m.tree->standing_height(m.start.positions), radius};
       poses = place(t.placement, t.count, body, scenario_.places, occupied_);
     });
     return poses;
   }
 
-  void add_robots(const RobotTemplate& t, const RobotTree& tree, const std::vector<Pose>& poses) {
+  void add_robots(const RobotTemplate& t, const Model& m) {
+    const std::vector<Pose>& poses = m.poses;
     for (std::size_t i = 0; i < poses.size(); ++i) {
       const RobotView* added = nullptr;
-      if (!problems_.collect(t.location.text() + ": ",
-                             [&] { added = &world_.add_robot(instance_name(t.name, t.numbered, i), tree, poses[i]); }))
+      if (!problems_.collect(t.location.text() + ": ", [&] {
+            added = &world_.add_robot(instance_name(t.name, t.numbered, i), *m.tree, poses[i]);
+          }))
         continue;
       const RobotView& robot = *added;
-      set_initial_state(world_, t, robot, problems_);
+      set_initial_state(world_, t, robot, m.start);
       for (const Subsystem& s : t.subsystems[i])
-        if (s.shadow) shadows_.push_back({&t, &tree, poses[i], &robot, s.shadow.get()});
+        if (s.shadow) shadows_.push_back({&t, &*m.tree, &m.start, poses[i], &robot, s.shadow.get()});
       if (subsystems_.add(t, robot, t.subsystems[i])) continue;
       world_.set(robot.base(), keys::pose, poses[i]);  // without a motion the robot is parked
       world_.set(robot.base(), keys::twist, Twist{});

@@ -15,7 +15,8 @@ namespace muro::host {
 struct BuiltScenario {
   Scenario scenario;
   std::unique_ptr<Simulation> simulation;
-  std::vector<std::string> notes;  ///< warnings and notes of readers, a line each
+  std::vector<std::string> notes;    ///< warnings and notes of readers, a line each
+  std::vector<std::string> clamped;  ///< robots whose joints cannot start at 0, a line each
 };
 
 /// Adds what the scenario leaves open: kinematics for every robot, and, where an algorithm reads what they write, the

@@ -4,13 +4,13 @@
 #include <string>
 
 #include "core/simulation.hpp"
-#include "host/scenario/problems.hpp"
 #include "host/scenario/scenario.hpp"
+#include "host/scenario/start_pose.hpp"
 
 namespace muro::host {
 
-/// Sets the velocity of a robot and the positions of its joints at the start, as its template states them.
-void set_initial_state(World& world, const RobotTemplate& t, const RobotView& robot, Problems& problems);
+/// Sets the velocity of a robot and the positions of its joints at the start.
+void set_initial_state(World& world, const RobotTemplate& t, const RobotView& robot, const StartPose& start);
 
 /// The name of a robot's object without that of the robot: "laser_link".
 std::string name_within(const World& world, const RobotView& robot, ObjectId object);

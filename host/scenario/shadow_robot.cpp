@@ -38,7 +38,7 @@ void add_shadow(Simulation& simulation, Algorithms& algorithms, const ShadowSetu
                         [&] { shadow = &world.add_robot(name, *setup.tree, setup.pose); }))
     return;
   world.set(shadow->base(), keys::shadow_of, setup.robot->base());
-  set_initial_state(world, *setup.robot_template, *shadow, problems);
+  set_initial_state(world, *setup.robot_template, *shadow, *setup.start);
   share_commands(world, *shadow, *setup.robot);
   Subsystem motion = given;
   if ((d->capabilities & Capability::world) != 0)

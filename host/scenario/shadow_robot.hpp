@@ -3,6 +3,7 @@
 
 #include "core/simulation.hpp"
 #include "host/scenario/algorithms.hpp"
+#include "host/scenario/start_pose.hpp"
 
 namespace muro::host {
 
@@ -10,6 +11,7 @@ namespace muro::host {
 struct ShadowSetup {
   const RobotTemplate* robot_template;
   const RobotTree* tree;
+  const StartPose* start;
   Pose pose;
   const RobotView* robot;
   const Subsystem* motion;  ///< that moves the shadow

@@ -153,16 +153,19 @@ std::string text_of(const UnsupportedFeatures& unsupported, Detail detail) {
   return detail == Detail::brief || implied.empty() ? out : out + "; therefore not supported either: " + implied;
 }
 
-void report_unsupported(const std::vector<UnsupportedFeatures>& unsupported, Detail detail, bool strict) {
+void report_unsupported(const BuiltScenario& built, Detail detail, bool strict) {
   std::vector<std::string> lines;
+  for (const std::string& clamped : built.clamped) lines.push_back((strict ? "" : "warning: ") + clamped);
+  const auto unsupported = find_unsupported_features(built);
   for (const UnsupportedFeatures& u : unsupported)
     lines.push_back(fmt::format("{}: {}`{}` does not support all features that `{}` uses: {}", u.location.text(),
                                 strict ? "" : "note: ", u.motion, u.robots, text_of(u, detail)));
-  if (strict && !lines.empty()) {
+  if (strict && !built.clamped.empty())
+    lines.emplace_back("--strict lets no joint start at a limit unasked; set `joints`, or leave --strict out");
+  if (strict && !unsupported.empty())
     lines.emplace_back(
         "--strict allows no unsupported features; choose a motion that supports them, or leave --strict out");
-    throw SetupError(lines);
-  }
+  if (strict && !lines.empty()) throw SetupError(lines);
   for (const std::string& l : lines) fmt::print(stderr, "{}\n", message_text(l));
 }
 

@@ -34,7 +34,8 @@ std::vector<UnsupportedFeatures> find_unsupported_features(const BuiltScenario& 
 enum class Detail { brief, full };
 std::string text_of(const UnsupportedFeatures& unsupported, Detail detail);
 
-/// Prints a line for each to standard error; `strict`: throws the lines as a SetupError.
-void report_unsupported(const std::vector<UnsupportedFeatures>& unsupported, Detail detail, bool strict);
+/// Prints a line for each, and for each robot whose joints cannot start at 0, to standard error; `strict`: throws the
+/// lines as a SetupError.
+void report_unsupported(const BuiltScenario& built, Detail detail, bool strict);
 
 }  // namespace muro::host

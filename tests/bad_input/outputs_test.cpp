@@ -193,16 +193,17 @@ TEST(Errors, ThatFollowFromAnotherAreNotTold) {
             "--set robots.ball.motoin.use=motion.point: robot `ball` has a second motion, `motoin` (did you mean "
             "`motion`?); `motion` (s.yaml:2:56) moves it already: remove one of them, or write them as `levels` of one "
             "motion\n");
-  ball.folder.file("arm.yaml", "robots:\n  arm: {model: " MURO_TEST_SOURCE_DIR
-                               "/examples/models/arm.urdf, joints: {shoulder: 9},\n        motion: {use: "
-                               "motion.simplified, joints: effort},\n        servo: {use: motor.servo, stiffness: 10, "
-                               "joints: [shoulder]}}\n");
+  ball.folder.file(
+      "arm.urdf",
+      R"(<robot name="arm"><link name="stand"/><link name="boom"/><joint name="shoulder" type="continuous">)"
+      R"(<parent link="stand"/><child link="boom"/><axis xyz="0 1 0"/></joint></robot>)");
+  ball.folder.file("arm.yaml",
+                   "robots:\n  arm: {model: arm.urdf,\n        motion: {use: motion.simplified, joints: effort},\n"
+                   "        servo: {use: motor.servo, stiffness: 10, joints: [shoulder]}}\n");
   const auto follows = ball.muro("check arm.yaml");
   EXPECT_EQ(follows.exit_code, 2);
-  EXPECT_EQ(
-      follows.output.find("arm.yaml:3:17: arm.motion (motion.simplified) cannot be connected: joint `arm/shoulder` "
-                          "starts at 9.000000, outside of its limits"),
-      0u)
+  EXPECT_EQ(follows.output.find("arm.yaml:3:17: arm.motion (motion.simplified) cannot be connected: `arm` has no mass"),
+            0u)
       << follows.output;
   EXPECT_EQ(std::count(follows.output.begin(), follows.output.end(), '\n'), 1) << follows.output;
 }
