@@ -37,7 +37,6 @@ void AlgorithmLog::log(LogLevel level, std::string_view text) noexcept {
   sink(level, line);
 }
 
-void* AlgorithmLog::extension(std::string_view name_and_version) noexcept { return extensions_.find(name_and_version); }
 
 void* AlgorithmLog::find_extension(const ExtensionId& id) noexcept {
   std::string why_not;

@@ -18,7 +18,6 @@ class AlgorithmLog final : public Host {
   /// Where lines go; default: warnings and errors to standard error.
   std::function<void(LogLevel, std::string_view)> sink;
   void log(LogLevel level, std::string_view text) noexcept override;
-  void* extension(std::string_view name_and_version) noexcept override;
   void* find_extension(const ExtensionId& id) noexcept override;
 
  private:

@@ -52,8 +52,4 @@ void* Extensions::find(const ExtensionId& id, std::string& why_not) {
   return nullptr;
 }
 
-void* Extensions::find(std::string_view name_and_version) {
-  return name_and_version == "muro.Inspection/1" ? static_cast<Inspection*>(&inspector_) : nullptr;
-}
-
 }  // namespace muro

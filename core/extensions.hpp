@@ -40,8 +40,6 @@ class Extensions {
   /// The interface of exactly this version and layout. Otherwise null; `why_not` says so where another version or
   /// layout is there.
   void* find(const ExtensionId& id, std::string& why_not);
-  /// The same for plugins of SDK 3.0, which name an extension as "muro.Inspection/1".
-  void* find(std::string_view name_and_version);
 
   Inspector& inspector() { return inspector_; }
   const Inspector& inspector() const { return inspector_; }

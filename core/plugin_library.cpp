@@ -63,11 +63,10 @@ void check_table(const abi::PluginTable& table, const std::string& path) {
   const std::string differs = difference(ours, table.stamp);
   if (!differs.empty())
     throw SetupError(fmt::format("plugin {} was built for another muro: {}; {}", path, differs, again));
-  const std::size_t size = abi::table_size_of(table.stamp.sdk_minor);
-  if (table.table_size != size)
-    throw SetupError(
-        fmt::format("plugin {} has a table of {} bytes instead of {}; {}", path, table.table_size, size, again));
-  if (table.stamp.sdk_minor >= 1 && table.layout != abi::layout_of_contract())
+  if (table.table_size != sizeof table)
+    throw SetupError(fmt::format("plugin {} has a table of {} bytes instead of {}; {}", path, table.table_size,
+                                 sizeof table, again));
+  if (table.layout != abi::layout_of_contract())
     throw SetupError(
         fmt::format("plugin {} was built for another muro: layout is {:08x} in the plugin and {:08x} in this muro: "
                     "structs of its SDK were changed; {}",

@@ -9,7 +9,7 @@ namespace {
 
 constexpr const KeyInfo* motion[] = {
     &keys::pose,           &keys::initial_pose, &keys::initial_twist, &keys::twist, &keys::external_wrench,
-    &keys::contact_wrench, &keys::gravity,
+    &keys::contact_wrench, &keys::gravity,      &keys::friction_rule,
 };
 constexpr const KeyInfo* levels[] = {
     &keys::motion_level, &keys::motion_level_target, &keys::motion_level_names,

@@ -52,7 +52,7 @@ std::string resolve_path(const Location& at, const std::string& name) {
 std::optional<Shape> read_shape(MapReader& map, std::string& mesh, Problems& problems) {
   const Node* n = map.find("shape");
   if (!n) {
-    for (const char* key : {"friction", "restitution", "color"})
+    for (const char* key : {"friction", "restitution", "rolling_resistance", "spinning_resistance", "color"})
       if (map.has(key)) map.problem(key, "belongs to a `shape`, which is missing; a model states it itself");
     return std::nullopt;
   }
@@ -71,8 +71,11 @@ std::optional<Shape> read_shape(MapReader& map, std::string& mesh, Problems& pro
       geometry.reject_unknown_keys();
     }
   }
-  shape.friction = map.number("friction", shape.friction, 0, 100);
-  shape.restitution = map.number("restitution", shape.restitution, 0, 1);
+  shape.surface.friction = map.number("friction", shape.surface.friction, 0, 100);
+  shape.surface.restitution = map.number("restitution", shape.surface.restitution, 0, 1);
+  for (const auto& [key, resistance] : {std::pair{"rolling_resistance", &shape.surface.rolling_resistance},
+                                        std::pair{"spinning_resistance", &shape.surface.spinning_resistance}})
+    *resistance = map.number(key, *resistance, 0, limits::max_size);
   if (const auto c = map.numbers("color", {3, 4}, 0, 1)) {
     shape.color = {(*c)[0], (*c)[1], (*c)[2], c->size() == 4 ? (*c)[3] : 1.0};
     shape.material_source = MaterialSource::model;

@@ -133,8 +133,8 @@ class FeatureSearch {
       for (const Shape& s : constants(world_, object, keys::collision_shapes)) {
         ++shapes;
         meshes += s.kind == ShapeKind::mesh;
-        has_friction = has_friction || s.friction > 0;
-        has_restitution = has_restitution || s.restitution > 0;
+        has_friction = has_friction || s.surface.friction > 0;
+        has_restitution = has_restitution || s.surface.restitution > 0;
       }
     if (shapes == 0) return;
     add_if(true, feature_contact);
@@ -165,7 +165,7 @@ SceneryTraits scenery_traits(const World& world) {
     if (world.robot_of(ObjectId{i}) < 0)
       for (const Shape& s : constants(world, ObjectId{i}, keys::collision_shapes)) {
         traits.meshes += s.kind == ShapeKind::mesh;
-        traits.restitution = traits.restitution || s.restitution > 0;
+        traits.restitution = traits.restitution || s.surface.restitution > 0;
       }
   return traits;
 }

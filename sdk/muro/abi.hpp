@@ -11,8 +11,8 @@
 
 namespace muro::abi {
 
-inline constexpr std::uint32_t sdk_major = 3;
-inline constexpr std::uint32_t sdk_minor = 2;
+inline constexpr std::uint32_t sdk_major = 4;
+inline constexpr std::uint32_t sdk_minor = 0;
 
 /// The C-only head of a plugin's table. Hosts read nothing else before all fields agree with theirs.
 struct Stamp {
@@ -95,13 +95,8 @@ struct PluginTable {
   std::string_view summary;
   std::span<const AlgorithmEntry> algorithms;
   std::span<const ReaderEntry> readers;
-  std::uint32_t layout;  ///< of the contract's structs: layout_of_contract(). Since SDK 3.1
+  std::uint32_t layout;  ///< of the contract's structs: layout_of_contract().
 };
-
-/// The size of a table that was made by an SDK of this major and the minor `minor`, which is not newer than ours.
-constexpr std::size_t table_size_of(std::uint32_t minor) {
-  return minor == 0 ? sizeof(PluginTable) - alignof(PluginTable) : sizeof(PluginTable);  // NOLINT: 3.0: no layout
-}
 
 inline constexpr char table_symbol[] = "muro_plugin";
 

@@ -81,13 +81,8 @@ struct ExtensionId {
 class Host {
  public:
   virtual void log(LogLevel level, std::string_view text) noexcept = 0;
-  /// As plugins of SDK 3.0 ask, with name and version in one text. Use find_extension. [setup]
-  virtual void* extension(std::string_view name) noexcept {
-    static_cast<void>(name);
-    return nullptr;
-  }
   /// The extension of this name, version and layout. Null where the host has it not; it logs why when it has another
-  /// version, or one with another layout. Since SDK 3.1. [setup]
+  /// version, or one with another layout. [setup]
   virtual void* find_extension(const ExtensionId& id) noexcept {
     static_cast<void>(id);
     return nullptr;
@@ -112,6 +107,8 @@ class Connector {
   virtual Host& host() const noexcept = 0;
   /// Keys the random numbers of item `i`: depends on the names of robot and subsystem only.
   virtual std::uint64_t random_key(std::uint32_t i) const noexcept = 0;
+  /// Hz, of the steps of this instance; 0: on demand, with the period of who reads.
+  virtual double rate() const noexcept = 0;
   /// A path of the scenario (relative to its file) as an absolute one. Valid until connect returns.
   virtual std::string_view resolve_path(std::string_view path) const noexcept = 0;
 
@@ -225,10 +222,6 @@ class Connector {
   virtual ArrayHeader constant_raw(ObjectId object, const KeyInfo& key) const noexcept = 0;
   virtual void set_raw(ObjectId object, const KeyInfo& key, const void* value) noexcept = 0;
   ~Connector() = default;
-
- public:
-  /// Hz, of the steps of this instance; 0: on demand, with the period of who reads. Since SDK 3.2.
-  virtual double rate() const noexcept { return 0; }
 
  private:
   /// Until somebody gives a value, it is that of a default-constructed T.

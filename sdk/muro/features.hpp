@@ -31,6 +31,9 @@ enum Feature : Features {
   feature_concave_meshes = 1 << 18,       ///< meshes collide as they are
   feature_fixed_base = 1 << 19,           ///< the base can be fixed to the world
   feature_self_collision = 1 << 20,       ///< bodies of one robot can stop each other
+  feature_rolling_resistance = 1 << 21,   ///< rolling resistance of the shapes
+  feature_spinning_resistance = 1 << 22,  ///< spinning resistance of the shapes
+  feature_armature = 1 << 23,             ///< the rotors of drives have inertia
 };
 
 }  // namespace muro

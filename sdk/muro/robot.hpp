@@ -19,6 +19,7 @@ struct JointLimits {
   double effort = std::numeric_limits<double>::infinity();    ///< N m or N
   double damping = 0;                                         ///< N m s/rad or N s/m
   double friction = 0;                                        ///< N m or N
+  double armature = 0;  ///< kg m^2 or kg: inertia of the drive's rotor, as the joint feels it (MuJoCo's)
 };
 
 enum class JointKind : std::uint8_t { fixed, revolute, prismatic };

@@ -83,8 +83,7 @@ struct Contact {
   Vec3 point = Vec3::Zero();      ///< m, world: half way between the two surfaces
   Vec3 normal = Vec3::Zero();     ///< unit, world: the direction in which `self` is pushed
   double depth = 0;               ///< m, > 0: how far the bodies overlap along the normal
-  double friction = 0;            ///< of the pair
-  double restitution = 0;         ///< of the pair
+  Surface surface{};              ///< of the pair
   std::uint32_t self_shape = 0;   ///< index among the shapes of `self`
   std::uint32_t other_shape = 0;  ///< index among the shapes of `other`
 };

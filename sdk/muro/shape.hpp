@@ -12,19 +12,26 @@ enum class MaterialSource : std::uint32_t {
   model,  ///< `color`, times `texture`
 };
 
+/// What a shape is to others that touch it. Of a pair see toolkit/pair_surface.hpp.
+struct Surface {
+  double friction = 0.8;           ///< Coulomb coefficient
+  double restitution = 0;          ///< 0..1 (Newton)
+  double rolling_resistance = 0;   ///< m: torque against rolling by the normal force (MuJoCo's rolling friction)
+  double spinning_resistance = 0;  ///< m: torque against turning about the normal by the normal force (torsional)
+};
+
 /// A shape of a body, for collision, rays and rendering. Shapes are centred on their origin.
 struct Shape {
   ShapeKind kind = ShapeKind::box;
-  TextId mesh = no_text;     ///< mesh: the file, as the model names it, resolved to a path
+  TextId mesh = no_text;     ///< mesh: path of the file
   TextId texture = no_text;  ///< path of a picture (PNG, JPEG, ...) on its surface
   MaterialSource material_source = MaterialSource::file;
   /// box: full lengths x, y, z. sphere: radius, -, -. cylinder: radius, -, length along z.
   /// capsule: radius, -, length of the straight part along z. plane: unused (normal +z through the
   /// origin, solid below). mesh: scale. All m, the scale 1.
   Vec3 size = Vec3::Zero();
-  Pose origin{};                                              ///< of the shape in the frame of its body
-  double friction = 0.8;                                      ///< Coulomb coefficient; a pair uses the geometric mean
-  double restitution = 0;                                     ///< 0..1 (Newton); a pair uses the larger
+  Pose origin{};  ///< of the shape in the frame of its body
+  Surface surface{};
   Eigen::Vector4d color = Eigen::Vector4d(0.7, 0.7, 0.7, 1);  ///< red, green, blue, alpha, 0..1
 
   static Shape box(const Vec3& lengths) { return {.kind = ShapeKind::box, .size = lengths}; }

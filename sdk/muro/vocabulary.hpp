@@ -17,6 +17,9 @@ inline constexpr Key<Wrench> external_wrench{
 inline constexpr Key<Wrench> contact_wrench{
     "wrench.contact", "N, N m", "what contacts did to a body in the last step: world axes, at the body's origin"};
 inline constexpr Key<Vec3> gravity{"gravity", "m/s^2", "on the world object, world axes"};
+/// Constant on the world object: a FrictionRule (toolkit/pair_surface.hpp); the smaller where it is missing.
+inline constexpr Key<std::uint32_t> friction_rule{"friction.rule", "1",
+                                                  "how a pair's friction follows from those of its two shapes"};
 
 // Who moves a robot, and who finds what its contacts do: properties of its base.
 /// Which of the motions that a robot lists moves it, from 0; see Item::level.

@@ -24,8 +24,8 @@ std::vector<std::string> log_of(const std::string& folder, const std::string& al
   return lines;
 }
 
-TEST(PreviousMinor, PluginOfSdk3_0RunsInThisHost) {
-  const auto lines = log_of(ABI_PLUGIN_DIR "/sdk_3_0", "sensor.of_sdk_3_0");
+TEST(PreviousMinor, PluginOfSdk4_0RunsInThisHost) {
+  const auto lines = log_of(ABI_PLUGIN_DIR "/sdk_4_0", "sensor.of_sdk_4_0");
   ASSERT_EQ(lines.size(), 1u);
   EXPECT_TRUE(lines[0].ends_with("1 items, 100 steps, the last at 990000000 ns, with Inspection")) << lines[0];
 }

@@ -62,7 +62,6 @@ struct OpenRobotBuilder : RobotBuilder {
 
 void add_functions_of_hosts(Lines& out) {
   FUNCTION(Host, log);
-  FUNCTION(Host, extension);
   FUNCTION(Host, find_extension);
   FUNCTION(Connector, items);
   FUNCTION(Connector, parameters);
@@ -318,11 +317,6 @@ TEST(Contract, HasEveryFunctionOfItsInterfacesOnTheList) {
   EXPECT_EQ(listed_of("WorldBuilder"), functions<WorldBuilder>());
   EXPECT_EQ(listed_of("AlgorithmInstance"), functions<abi::AlgorithmInstance>());
   EXPECT_EQ(listed_of("ReaderInstance"), functions<abi::ReaderInstance>());
-}
-
-TEST(Contract, HasATableOfTheSizeThatItsFirstMinorVersionHad) {
-  EXPECT_EQ(abi::table_size_of(0), offsetof(abi::PluginTable, layout));
-  EXPECT_EQ(abi::table_size_of(abi::sdk_minor), sizeof(abi::PluginTable));
 }
 
 }  // namespace

@@ -4,8 +4,8 @@
 namespace muro::test {
 
 Shape with(Shape shape, double friction, double restitution) {
-  shape.friction = friction;
-  shape.restitution = restitution;
+  shape.surface.friction = friction;
+  shape.surface.restitution = restitution;
   return shape;
 }
 

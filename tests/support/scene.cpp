@@ -29,7 +29,7 @@ const RobotView& Scene::add(std::string_view name, const RobotTree& tree, const 
 
 void Scene::add_ground(double friction, const Pose& pose) {
   Shape plane = Shape::plane();
-  plane.friction = friction;
+  plane.surface.friction = friction;
   world().add_scenery("ground", pose, std::span<const Shape>(&plane, 1));
 }
 

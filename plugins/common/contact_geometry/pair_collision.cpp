@@ -4,14 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "contact_responsibility.hpp"
 #include "muro/toolkit/bounds.hpp"
 
 namespace muro::contact_geometry {
 namespace {
-
-constexpr Phase all_phases[] = {{Phase::IndexSpace::whole}, {Phase::IndexSpace::robots, Phase::Scope::reads_all}};
 
 /// Behind the last collider of the body that the first belongs to.
 template <class It>
@@ -21,18 +20,18 @@ It end_of_body(It first, It end) {
 
 }  // namespace
 
-Contact contact_between(const Collider& own, const Collider& other) {
+Contact PairCollision::contact_between(const Collider& own, const Collider& other) const {
   Contact c;
   c.self = own.body;
   c.other = other.body;
   c.self_shape = own.shape_index;
   c.other_shape = other.shape_index;
-  c.friction = std::sqrt(own.shape->friction * other.shape->friction);
-  c.restitution = std::max(own.shape->restitution, other.shape->restitution);
+  c.surface = pair_surface(own.shape->surface, other.shape->surface, friction_rule_);
   return c;
 }
 
 void PairCollision::connect(Connector& c) {
+  friction_rule_ = friction_rule_of(c);
   for (const RobotView* r : c.robots()) {
     Robot& robot = robots_.emplace_back();
     robot.base = r->base();
@@ -52,18 +51,19 @@ void PairCollision::connect(Connector& c) {
   }
 }
 
-std::span<const Phase> PairCollision::phases() const { return all_phases; }
+std::span<const Phase> PairCollision::phases() const { return all_phases_; }
 
 void PairCollision::start() {
   if (!is_needed_) return;
   scenery_.clear();
   planes_.clear();
-  radii_.clear();
+  first_of_body_.clear();
   robots_have_planes_ = false;
   for (Robot& r : robots_) r.has_plane = false;
   std::vector<Aabb> bounds;
   for (const Collider& c : index_->colliders) {
-    radii_.push_back(radius_about_body(*c.shape));
+    const auto collider = std::uint32_t(first_of_body_.size());
+    first_of_body_.push_back(collider > 0 && (&c)[-1].body == c.body ? first_of_body_.back() : collider);
     const bool is_plane = c.shape->kind == ShapeKind::plane;
     if (c.robot >= 0) {
       robots_[std::size_t(c.robot)].has_plane |= is_plane;
@@ -76,14 +76,31 @@ void PairCollision::start() {
     bounds.push_back(scenery_.back().bounds);
   }
   overlaps_.start(*index_, std::move(bounds));
+  placed_.resize(index_->colliders.size());
+  is_near_.assign(robots_.size(), 0);
+  led_.resize(robots_.size());
+  for (Led& led : led_) {
+    led.pairs.clear();
+    led.points.clear();
+    led.pairs.reserve(8);  // more is rare
+    led.points.reserve(16);
+  }
 }
 
 void PairCollision::step(const Step& step, Range range) {
   if (!is_needed_) return;
-  if (step.phase == 0)
-    overlaps_.update(*index_);
-  else
-    list_contacts(range);
+  switch (step.phase) {
+    case 0:
+      overlaps_.update(*index_);
+      is_crowded_ = robots_have_planes_ || overlaps_.any_robots();
+      return;
+    case 1:
+      return place_colliders(range);
+    case 2:
+      return collide_robots(range);
+    default:
+      return list_contacts(range);
+  }
 }
 
 void PairCollision::list_contacts(Range robots) {
@@ -100,117 +117,215 @@ TransformedCollider PairCollision::transformed_collider(std::uint32_t collider) 
   return {&index_->colliders[collider], collider, shape, bounds_of(shape)};
 }
 
-/// Bounds of a collider of a robot, however its body is oriented.
-Aabb PairCollision::ball(std::uint32_t collider) const {
-  const Vec3& centre = index_->colliders[collider].body_pose->position;
-  const Vec3 radius = Vec3::Constant(radii_[collider]);
-  return {centre - radius, centre + radius};
-}
-
 /// An order of robots that does not depend on who was declared first.
 bool PairCollision::precedes(std::uint32_t a, std::uint32_t b) const {
   return robots_[a].order_key != robots_[b].order_key ? robots_[a].order_key < robots_[b].order_key : a < b;
 }
 
+bool PairCollision::has_contacts(const Robot& robot) const {
+  return robot.list && (robot.lists_all || is_moved_by_forces(*robot.world));
+}
+
+/// Whether contacts of the first with the second belong into its list.
+bool PairCollision::lists(std::uint32_t robot, std::uint32_t other) const {
+  const Robot &mine = robots_[robot], &theirs = robots_[other];
+  if (!has_contacts(mine) || theirs.shadow_of >= 0 || mine.shadow_of == std::int32_t(other)) return false;
+  return mine.lists_all || contact_algorithm_resolves(*mine.world, *theirs.world);
+}
+
+/// A plane reaches everyone.
+bool PairCollision::are_near(std::uint32_t a, std::uint32_t b) const {
+  return robots_[a].has_plane || robots_[b].has_plane || index_->robots[a].bounds.overlaps(index_->robots[b].bounds);
+}
+
+/// In any order.
+template <class Use>
+void PairCollision::each_near_robot(std::uint32_t robot, Use use) const {
+  if (!robots_have_planes_) {
+    for (const std::uint32_t other : overlaps_.robots_of(robot))
+      if (are_near(robot, other)) use(other);
+    return;
+  }
+  for (std::uint32_t other = 0; other < robots_.size(); ++other)
+    if (other != robot && are_near(robot, other)) use(other);
+}
+
+void PairCollision::place_colliders(Range robots) {
+  for (std::uint32_t r = robots.begin; r < robots.end; ++r) {
+    is_near_[r] = 0;
+    each_near_robot(r, [&](std::uint32_t) { is_near_[r] = 1; });
+    if (is_near_[r] == 0) continue;
+    const RobotColliders& colliders = index_->robots[r];
+    for (std::uint32_t k = colliders.first; k < colliders.first + colliders.count; ++k)
+      placed_[k] = transformed_collider(k);
+  }
+}
+
+void PairCollision::collide_robots(Range robots) {
+  for (std::uint32_t r = robots.begin; r < robots.end; ++r) {
+    led_[r].pairs.clear();
+    led_[r].points.clear();
+    if (is_near_[r] == 0) continue;
+    each_near_robot(r, [&](std::uint32_t other) {
+      if (precedes(r, other) && (lists(r, other) || lists(other, r))) collide_pair(r, other, led_[r]);
+    });
+  }
+}
+
+void PairCollision::collide_pair(std::uint32_t robot, std::uint32_t other, Led& led) {
+  thread_local std::vector<const TransformedCollider*> theirs;
+  thread_local std::vector<ContactPoint> points;
+  const RobotColliders &mine = index_->robots[robot], &of_other = index_->robots[other];
+  const auto first = std::uint32_t(led.points.size());
+  theirs.clear();
+  const bool any_plane = robots_[robot].has_plane || robots_[other].has_plane;
+  for (std::uint32_t k = of_other.first; k < of_other.first + of_other.count; ++k)
+    if (any_plane || placed_[k].bounds.overlaps(mine.bounds)) theirs.push_back(&placed_[k]);
+  if (theirs.empty()) return;
+  for (std::uint32_t k = mine.first; k < mine.first + mine.count; ++k) {
+    const TransformedCollider& a = placed_[k];
+    if (!any_plane && !a.bounds.overlaps(of_other.bounds)) continue;
+    for (const TransformedCollider* b : theirs) {
+      if (!a.bounds.overlaps(b->bounds)) continue;
+      if (a.shape.kind == ShapeKind::plane && b->shape.kind == ShapeKind::plane) continue;
+      points.clear();
+      collide(a, *b, points);
+      for (const ContactPoint& p : points) led.points.push_back({k, b->number, p});
+    }
+  }
+  if (const auto count = std::uint32_t(led.points.size()) - first; count > 0)
+    led.pairs.push_back({other, first, count});
+}
+
+/// Null: the two do not touch.
+const PairCollision::Led::Pair* PairCollision::pair_of(std::uint32_t robot, std::uint32_t other) const {
+  const bool leads = precedes(robot, other);
+  for (const Led::Pair& p : led_[leads ? robot : other].pairs)
+    if (p.robot == (leads ? other : robot)) return &p;
+  return nullptr;
+}
+
+bool PairCollision::touches_robots(std::uint32_t robot) const {
+  if (is_crowded_ == 0 || is_near_[robot] == 0) return false;
+  bool any = false;
+  each_near_robot(robot,
+                  [&](std::uint32_t other) { any = any || (lists(robot, other) && pair_of(robot, other) != nullptr); });
+  return any;
+}
+
 Candidates& PairCollision::candidates(std::uint32_t robot) {
   thread_local Candidates found;
   const Robot& mine = robots_[robot];
-  found.bounds = index_->robots[robot].bounds;
   found.others.clear();
-  if (!is_moved_by_forces(*mine.world) && !mine.lists_all) return found;
-  const OverlapCache::Overlaps& overlaps = overlaps_.of(robot, *index_);
-  if (lists_scenery(mine)) add_scenery(overlaps, found);
-  add_robots(robot, overlaps, found);
+  found.robots.clear();
+  if (!has_contacts(mine)) return found;
+  if (lists_scenery(mine)) add_scenery(overlaps_.of(robot, *index_), index_->robots[robot].bounds, found);
+  if (is_crowded_ == 0 || is_near_[robot] == 0) return found;
+  each_near_robot(robot, [&](std::uint32_t other) {
+    if (lists(robot, other) && pair_of(robot, other)) found.robots.push_back(other);
+  });
+  std::sort(found.robots.begin(), found.robots.end(),
+            [this](std::uint32_t a, std::uint32_t b) { return precedes(a, b); });
   return found;
 }
 
 /// Near colliders and all planes, as declared.
-void PairCollision::add_scenery(const OverlapCache::Overlaps& overlaps, Candidates& candidates) const {
+void PairCollision::add_scenery(const OverlapCache::Overlaps& overlaps, const Aabb& bounds,
+                                Candidates& candidates) const {
   std::size_t plane = 0;
   const auto add_planes_before = [&](std::uint32_t collider) {
     for (; plane < planes_.size() && planes_[plane] < collider; ++plane)
-      candidates.others.push_back({scenery_[planes_[plane]]});
+      candidates.others.push_back(scenery_[planes_[plane]]);
   };
   for (const std::uint32_t k : overlaps.scenery) {
-    if (!scenery_[k].bounds.overlaps(candidates.bounds)) continue;
+    if (!scenery_[k].bounds.overlaps(bounds)) continue;
     add_planes_before(k);
-    candidates.others.push_back({scenery_[k]});
+    candidates.others.push_back(scenery_[k]);
   }
   add_planes_before(std::numeric_limits<std::uint32_t>::max());
 }
 
-/// A plane reaches everyone.
-bool PairCollision::may_touch(std::uint32_t robot, std::uint32_t other, const Aabb& bounds) const {
-  const Robot &mine = robots_[robot], &theirs = robots_[other];
-  if (theirs.shadow_of >= 0 || mine.shadow_of == std::int32_t(other)) return false;
-  if (!mine.lists_all && !contact_algorithm_resolves(*mine.world, *theirs.world)) return false;
-  return mine.has_plane || theirs.has_plane || index_->robots[other].bounds.overlaps(bounds);
+std::span<const TransformedCollider> PairCollision::own_colliders(std::uint32_t robot, Candidates& candidates) const {
+  const RobotColliders& colliders = index_->robots[robot];
+  if (is_crowded_ != 0 && is_near_[robot] != 0) return std::span(placed_).subspan(colliders.first, colliders.count);
+  candidates.own.clear();
+  for (std::uint32_t k = colliders.first; k < colliders.first + colliders.count; ++k)
+    candidates.own.push_back(transformed_collider(k));
+  return candidates.own;
 }
 
-/// Colliders of near robots, by order key.
-void PairCollision::add_robots(std::uint32_t robot, const OverlapCache::Overlaps& overlaps,
-                               Candidates& candidates) const {
-  candidates.robots.clear();
-  if (!robots_have_planes_) {
-    for (const std::uint32_t r : overlaps.robots)
-      if (may_touch(robot, r, candidates.bounds)) candidates.robots.push_back(r);
-  } else {
-    for (std::uint32_t r = 0; r < robots_.size(); ++r)
-      if (r != robot && may_touch(robot, r, candidates.bounds)) candidates.robots.push_back(r);
-  }
-  std::sort(candidates.robots.begin(), candidates.robots.end(),
-            [this](std::uint32_t a, std::uint32_t b) { return precedes(a, b); });
-  const bool has_plane = robots_[robot].has_plane;
-  for (const std::uint32_t r : candidates.robots) {
-    const Robot& other = robots_[r];
-    const bool has_list = other.list && (other.lists_all || is_moved_by_forces(*other.world));
-    const RobotColliders& theirs = index_->robots[r];
-    for (std::uint32_t k = theirs.first; k < theirs.first + theirs.count; ++k) {
-      if (!has_plane && !ball(k).overlaps(candidates.bounds)) continue;
-      const TransformedCollider collider = transformed_collider(k);
-      if (has_plane || collider.bounds.overlaps(candidates.bounds))
-        candidates.others.push_back({collider, precedes(r, robot), has_list});
+/// Calls `sink(own collider, other collider, points)` for pairs that touch, in the order of the list.
+template <class Sink>
+void PairCollision::collide_scenery(std::span<const TransformedCollider> own, Candidates& candidates, Sink sink) {
+  const auto& others = candidates.others;
+  std::vector<ContactPoint>& points = candidates.points;
+  for (auto body = own.begin(), body_end = body; body != own.end(); body = body_end) {
+    body_end = end_of_body(body, own.end());
+    for (auto other = others.begin(), other_end = other; other != others.end(); other = other_end) {
+      other_end = end_of_body(other, others.end());
+      for (auto a = body; a != body_end; ++a) {
+        if (a->shape.kind == ShapeKind::plane) continue;  // scenery has no list
+        for (auto b = other; b != other_end; ++b) {
+          if (!a->bounds.overlaps(b->bounds)) continue;
+          points.clear();
+          collide(*a, *b, points);
+          if (!points.empty()) sink(*a, *b, points);
+        }
+      }
     }
+  }
+}
+
+/// What two robots have found for each other, as the first sees it.
+void PairCollision::add_listed(std::uint32_t robot, std::uint32_t other, std::uint32_t rank,
+                               Candidates& candidates) const {
+  const bool leads = precedes(robot, other);
+  const Led& led = led_[leads ? robot : other];
+  const Led::Pair& pair = *pair_of(robot, other);
+  for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
+    const PairPoint& found = led.points[i];
+    const std::uint32_t own = leads ? found.own : found.other, theirs = leads ? found.other : found.own;
+    const Collider &mine = index_->colliders[own], &others = index_->colliders[theirs];
+    // A plane of a robot is touched by those that have a list themselves.
+    if (mine.shape->kind == ShapeKind::plane && !has_contacts(robots_[other])) continue;
+    Contact c = contact_between(mine, others);
+    c.point = found.point.point;
+    c.normal = leads ? found.point.normal : Vec3(-found.point.normal);
+    c.depth = found.point.depth;
+    candidates.listed.push_back({first_of_body_[own], rank, first_of_body_[theirs], own, theirs, i, c});
   }
 }
 
 void PairCollision::list_pairs(std::uint32_t robot, Candidates& candidates) {
   const ListOut<Contact>& list = robots_[robot].list;
   if (!(*list).empty()) list.clear();
-  if (candidates.others.empty()) return;
-  auto& [bounds, own, others, robots, points] = candidates;
-  own.clear();
-  const RobotColliders& colliders = index_->robots[robot];
-  for (std::uint32_t k = colliders.first; k < colliders.first + colliders.count; ++k)
-    own.push_back(transformed_collider(k));
-  for (auto body = own.begin(), body_end = body; body != own.end(); body = body_end) {
-    body_end = end_of_body(body, own.end());
-    for (auto other = others.begin(), other_end = other; other != others.end(); other = other_end) {
-      other_end = end_of_body(other, others.end());
-      for (auto a = body; a != body_end; ++a)
-        for (auto b = other; b != other_end; ++b) list_pair(*a, *b, list, points);
+  if (candidates.others.empty() && candidates.robots.empty()) return;
+  const std::span<const TransformedCollider> own = own_colliders(robot, candidates);
+  const bool is_mixed = !candidates.robots.empty();
+  candidates.listed.clear();
+  collide_scenery(own, candidates, [&](const auto& a, const auto& b, const std::vector<ContactPoint>& points) {
+    Contact c = contact_between(*a.collider, *b.collider);
+    for (std::uint32_t i = 0; i < points.size(); ++i) {
+      c.point = points[i].point;
+      c.normal = points[i].normal;
+      c.depth = points[i].depth;
+      if (is_mixed)
+        candidates.listed.push_back({first_of_body_[a.number], 0, first_of_body_[b.number], a.number, b.number, i, c});
+      else
+        list.push_back(c);
     }
-  }
-}
-
-void PairCollision::list_pair(const TransformedCollider& own, const Candidates::Other& other,
-                              const ListOut<Contact>& list, std::vector<ContactPoint>& points) {
-  // A plane of a robot is touched by those that have a list themselves.
-  if (own.shape.kind == ShapeKind::plane && (!other.has_list || other.shape.kind == ShapeKind::plane)) return;
-  if (!own.bounds.overlaps(other.bounds)) return;
-  points.clear();
-  if (other.precedes)
-    collide(other, own, points);
-  else
-    collide(own, other, points);
-  if (points.empty()) return;
-  Contact c = contact_between(*own.collider, *other.collider);
-  for (const ContactPoint& p : points) {
-    c.point = p.point;
-    c.normal = other.precedes ? Vec3(-p.normal) : p.normal;
-    c.depth = p.depth;
-    list.push_back(c);
-  }
+  });
+  if (!is_mixed) return;
+  std::uint32_t rank = 0;
+  for (const std::uint32_t other : candidates.robots) add_listed(robot, other, ++rank, candidates);
+  candidates.order.clear();
+  for (const Candidates::Listed& l : candidates.listed) candidates.order.push_back(&l);
+  const auto place = [](const Candidates::Listed& l) {
+    return std::tie(l.own_body, l.rank, l.other_body, l.own, l.other, l.number);
+  };
+  std::sort(candidates.order.begin(), candidates.order.end(),
+            [&](const auto* x, const auto* y) { return place(*x) < place(*y); });
+  for (const Candidates::Listed* l : candidates.order) list.push_back(l->contact);
 }
 
 }  // namespace muro::contact_geometry

@@ -4,7 +4,7 @@
 
 #include "manifold.hpp"
 #include "muro/algorithm.hpp"
-#include "muro/vocabulary.hpp"
+#include "muro/toolkit/pair_surface.hpp"
 #include "overlap_cache.hpp"
 #include "transformed_shape.hpp"
 
@@ -25,30 +25,30 @@ struct TransformedCollider {
   Aabb bounds;
 };
 
-/// What a robot may touch at present. Reused, so that it stops allocating.
+/// What a robot touches at present. Reused, so that it stops allocating.
 struct Candidates {
-  struct Other : TransformedCollider {
-    bool precedes = false;  ///< its robot has the lower order key, so the pair is computed from its side
-    bool has_list = false;  ///< its robot lists the contact too
+  /// A contact and its place in the list.
+  struct Listed {
+    std::uint32_t own_body, rank, other_body, own, other, number;  ///< bodies: their first colliders
+    Contact contact;
   };
-  Aabb bounds;                           ///< of the robot
-  std::vector<TransformedCollider> own;  ///< bodies in the order of the model, shapes in the order of the body
-  std::vector<Other> others;             ///< scenery as declared, then robots by order key; bodies side by side
-  std::vector<std::uint32_t> robots;     ///< those of `others`
-  std::vector<ContactPoint> points;      ///< of one pair
+  std::vector<TransformedCollider> own;     ///< bodies in the order of the model, shapes in the order of the body
+  std::vector<TransformedCollider> others;  ///< of the scenery, as declared
+  std::vector<std::uint32_t> robots;        ///< that touch it, by order key
+  std::vector<Listed> listed;
+  std::vector<const Listed*> order;
+  std::vector<ContactPoint> points;  ///< of one pair
 };
-
-/// A contact of two shapes without its point, normal and depth.
-Contact contact_between(const Collider& own, const Collider& other);
 
 /// Base of the collision algorithms; they provide the narrow phase.
 ///
-/// Phase 0 updates the broad phase. In phase 1 each robot that needs it gets its list of contacts, sorted by own body,
-/// other body, own shape and other shape: with scenery in the order of declaration and with robots in the order of
-/// their keys. A pair of robots is computed from the side of the one with the lower key and mirrored for the other, so
-/// both lists agree to the bit. Lists depend neither on the order in which robots were declared nor on the number of
-/// threads. A contact is listed only where the contact algorithm resolves it (contact_responsibility.hpp), or where
-/// somebody else reads the list.
+/// Phase 0 updates the broad phase. While any two robots are near each other, phase 1 finds out where the shapes of
+/// such robots are, and phase 2 computes each pair of robots once, from the side of the one with the lower key. In
+/// phase 3 each robot that needs it gets its list of contacts, sorted by own body, other body, own shape and other
+/// shape: with scenery in the order of declaration and with robots in the order of their keys. The robot with the
+/// higher key has the contacts of the pair mirrored, so both lists agree to the bit. Lists depend neither on the order
+/// in which robots were declared nor on the number of threads. A contact is listed only where the contact algorithm
+/// resolves it (contact_responsibility.hpp), or where somebody else reads the list.
 class PairCollision : public Algorithm {
  public:
   void connect(Connector& c) override;
@@ -76,12 +76,17 @@ class PairCollision : public Algorithm {
   /// Lists the contacts of all robots of a block that have a list.
   virtual void list_contacts(Range robots);
 
+  /// A contact of two shapes without its point, normal and depth.
+  Contact contact_between(const Collider& own, const Collider& other) const;
   /// Whether any robot needs contacts; if none does, the algorithm does nothing and `index_` is not connected.
   bool is_needed() const { return is_needed_; }
-  /// What the robot may touch, found for the calling thread; valid until its next call. Empty where nobody needs it.
+  /// The scenery that the robot may touch and the robots that it touches, found for the calling thread; valid until its
+  /// next call. Empty where nobody needs it.
   Candidates& candidates(std::uint32_t robot);
-  /// Replaces the list of the robot by its contacts with these candidates.
+  /// Replaces the list of the robot by its contacts with these.
   void list_pairs(std::uint32_t robot, Candidates& candidates);
+  /// Whether the robot touches another and lists that.
+  bool touches_robots(std::uint32_t robot) const;
   /// Whether the list has contacts with scenery.
   bool lists_scenery(const Robot& robot) const;
 
@@ -93,17 +98,49 @@ class PairCollision : public Algorithm {
   OverlapCache overlaps_;
 
  private:
-  TransformedCollider transformed_collider(std::uint32_t collider) const;
-  Aabb ball(std::uint32_t collider) const;
-  bool precedes(std::uint32_t a, std::uint32_t b) const;
-  bool may_touch(std::uint32_t robot, std::uint32_t other, const Aabb& bounds) const;
-  void add_scenery(const OverlapCache::Overlaps& overlaps, Candidates& candidates) const;
-  void add_robots(std::uint32_t robot, const OverlapCache::Overlaps& overlaps, Candidates& candidates) const;
-  void list_pair(const TransformedCollider& own, const Candidates::Other& other, const ListOut<Contact>& list,
-                 std::vector<ContactPoint>& points);
+  /// A point in which two robots touch, as the one that precedes sees it.
+  struct PairPoint {
+    std::uint32_t own, other;  ///< colliders
+    ContactPoint point;
+  };
+  /// The robots that one touches and precedes.
+  struct Led {
+    struct Pair {
+      std::uint32_t robot, first, count;  ///< in `points`
+    };
+    std::vector<Pair> pairs;
+    std::vector<PairPoint> points;
+  };
 
+  TransformedCollider transformed_collider(std::uint32_t collider) const;
+  bool precedes(std::uint32_t a, std::uint32_t b) const;
+  bool has_contacts(const Robot& robot) const;
+  bool lists(std::uint32_t robot, std::uint32_t other) const;
+  bool are_near(std::uint32_t a, std::uint32_t b) const;
+  template <class Use>
+  void each_near_robot(std::uint32_t robot, Use use) const;
+  void place_colliders(Range robots);
+  void collide_robots(Range robots);
+  void collide_pair(std::uint32_t robot, std::uint32_t other, Led& led);
+  const Led::Pair* pair_of(std::uint32_t robot, std::uint32_t other) const;
+  std::span<const TransformedCollider> own_colliders(std::uint32_t robot, Candidates& candidates) const;
+  void add_scenery(const OverlapCache::Overlaps& overlaps, const Aabb& bounds, Candidates& candidates) const;
+  template <class Sink>
+  void collide_scenery(std::span<const TransformedCollider> own, Candidates& candidates, Sink sink);
+  void add_listed(std::uint32_t robot, std::uint32_t other, std::uint32_t rank, Candidates& candidates) const;
+
+  std::uint8_t is_crowded_ = 0;  ///< any two robots may be near each other
+  const Phase all_phases_[4] = {
+      {Phase::IndexSpace::whole},
+      {.index_space = Phase::IndexSpace::robots, .scope = Phase::Scope::own_robot, .enabled = &is_crowded_},
+      {.index_space = Phase::IndexSpace::robots, .enabled = &is_crowded_},
+      {.index_space = Phase::IndexSpace::robots}};
+  std::vector<Led> led_;                      ///< by robot
+  std::vector<std::uint8_t> is_near_;         ///< by robot: its colliders have been placed
+  std::vector<TransformedCollider> placed_;   ///< by collider
+  std::vector<std::uint32_t> first_of_body_;  ///< by collider: the first of its body
   bool is_needed_ = false;
-  std::vector<double> radii_;  ///< by collider, m: of a ball about the origin of its body that holds it
+  FrictionRule friction_rule_ = FrictionRule::min;
 };
 
 }  // namespace muro::contact_geometry

@@ -104,6 +104,7 @@ class FakeConnector final : public Connector {
   const Parameters& parameters_of(std::uint32_t) const noexcept override { return parameters_; }
   Host& host() const noexcept override { return fake_host; }
   std::uint64_t random_key(std::uint32_t) const noexcept override { return 0; }
+  double rate() const noexcept override { return 0; }
   std::string_view resolve_path(std::string_view path) const noexcept override { return path; }
   std::uint32_t object_count() const noexcept override { return 0; }
   std::string_view object_name(ObjectId) const noexcept override { return {}; }

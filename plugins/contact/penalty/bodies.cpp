@@ -18,8 +18,8 @@ void Bodies::connect(Connector& c) {
     all[i].model = i;
     for (const Shape& s : c.constant_array(ObjectId{i}, keys::collision_shapes))
       if (std::none_of(materials.begin(), materials.end(),
-                       [&](const Material& m) { return m.restitution == s.restitution; }))
-        materials.push_back({s.restitution, damping_ratio_of(s.restitution)});
+                       [&](const Material& m) { return m.restitution == s.surface.restitution; }))
+        materials.push_back({s.surface.restitution, damping_ratio_of(s.surface.restitution)});
   }
   robot_of.assign(c.robots().size(), no_robot);
   for (const RobotView* robot : c.robots()) connect_robot(c, *robot);

@@ -141,8 +141,8 @@ ImpactPoint::ImpactPoint(const StepContext& context, const Contact& contact, con
       other_lever(Vec3::Zero()),
       velocity(relative + self.spin_before(time.since).cross(lever) - self.spin.cross(contact.point - self.centre)),
       since(time.since),
-      friction(contact.friction),
-      restitution(contact.restitution) {
+      friction(contact.surface.friction),
+      restitution(contact.surface.restitution) {
   if (other) {
     const Vec3 present = contact.point - other->centre;
     other_lever = present + since * (other->velocity - point_velocity);

@@ -177,7 +177,7 @@ void PairContacts::apply_forces(std::uint32_t self) {
       continue;
     }
     ContactPatch& patch = me.patches[number];
-    if (contact.restitution != patch.restitution) set_up_laws(me, patch, contact.restitution);
+    if (contact.surface.restitution != patch.restitution) set_up_laws(me, patch, contact.surface.restitution);
     const FrictionAnchor* const before = previous(me.old_anchors, computed++, pair, contact.point);
     FrictionAnchor anchor{pair, contact.point, before ? before->displacement : Vec3::Zero()};
     const Vec3 motion = bodies_.velocity(contact.self, contact.point) - bodies_.velocity(contact.other, contact.point);
@@ -216,8 +216,8 @@ Vec3 PairContacts::force_on_self(const Robot& self, const ContactPatch& patch, c
   displacement += slip * context_.elapsed;
   displacement -= n * n.dot(displacement);
   V3 spring = plain(displacement);
-  const V3 across =
-      patch.friction->force(spring, plain(slip), contact.friction * normal * patch.effective_mass.inverse_across);
+  const V3 across = patch.friction->force(spring, plain(slip),
+                                          contact.surface.friction * normal * patch.effective_mass.inverse_across);
   displacement = vector_of(spring);
   return normal * n + patch.effective_mass.across * vector_of(across);
 }

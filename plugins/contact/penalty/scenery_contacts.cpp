@@ -14,8 +14,8 @@ namespace {
 using lane::numbers_between;
 
 static_assert(sizeof(Contact) == contact_stride * sizeof(double) && offsetof(Contact, point) == 8 &&
-              offsetof(Contact, normal) == 32 && offsetof(Contact, depth) == 56 && offsetof(Contact, friction) == 64 &&
-              offsetof(Contact, self_shape) == 80 && sizeof(FrictionAnchor) == anchor_stride * sizeof(double) &&
+              offsetof(Contact, normal) == 32 && offsetof(Contact, depth) == 56 && offsetof(Contact, surface) == 64 &&
+              offsetof(Contact, self_shape) == 96 && sizeof(FrictionAnchor) == anchor_stride * sizeof(double) &&
               offsetof(FrictionAnchor, point) == 8 && offsetof(FrictionAnchor, displacement) == 32);
 
 /// Two adjacent numbers of 4 bytes.
@@ -176,7 +176,7 @@ ContactLayout SceneryContacts::layout_of(std::uint32_t robot, std::span<const Co
     const int k = layout.contacts++;
     if (k == 0 || identities[std::size_t(k)].pair != identities[std::size_t(k - 1)].pair) {
       const Body& body = bodies_[c.self];
-      layout.zeta[layout.groups] = bodies_.materials[bodies_.material_of(c.restitution)].damping_ratio;
+      layout.zeta[layout.groups] = bodies_.materials[bodies_.material_of(c.surface.restitution)].damping_ratio;
       const double *const pose = body.pose->position.data(), *const twist = body.twist->linear.data();
       BodyOffsets& offsets = layout.bodies[layout.groups++];
       offsets.of_link = pose != view.base_pose;

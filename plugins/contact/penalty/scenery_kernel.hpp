@@ -42,7 +42,7 @@ struct KernelRobot {
   const double *link_pose = nullptr, *link_twist = nullptr;  ///< of the first link that may touch, if there is one
   double* wrench = nullptr;                                  ///< out
 };
-inline constexpr int contact_stride = 11, anchor_stride = 8;  ///< in numbers
+inline constexpr int contact_stride = 13, anchor_stride = 8;  ///< in numbers
 /// A contact, from its point on: point, normal, depth, friction. An anchor: point, displacement.
 inline constexpr int contact_numbers = 8, anchor_numbers = 6;
 

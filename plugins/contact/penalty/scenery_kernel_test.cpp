@@ -55,8 +55,8 @@ Vehicle random_vehicle(std::mt19937& random, double speed) {
     c.point = v.bodies[i / 2].position + vector(0.1);
     c.normal = normal;
     c.depth = 1e-3 * std::abs(g(random));
-    c.friction = 0.8;
-    c.restitution = restitution;
+    c.surface.friction = 0.8;
+    c.surface.restitution = restitution;
     v.anchors[i] = {i / 2, c.point + vector(0.02), vector(1e-4)};
   }
   return v;
@@ -125,7 +125,8 @@ Wrench by_the_model(const Vehicle& v, std::vector<FrictionAnchor>& anchors) {
     displacement -= c.normal * c.normal.dot(displacement);
     const double normal = along * normal_law.force(c.depth, approach);
     lane::V3<double> spring{displacement.x(), displacement.y(), displacement.z()};
-    const lane::V3<double> f = friction_law.force(spring, {slip.x(), slip.y(), slip.z()}, c.friction * normal / across);
+    const lane::V3<double> f =
+        friction_law.force(spring, {slip.x(), slip.y(), slip.z()}, c.surface.friction * normal / across);
     anchors.push_back({k / 2, c.point, {spring.x, spring.y, spring.z}});
     total.add_force(normal * c.normal + across * Vec3(f.x, f.y, f.z), c.point - v.base.position);
   }

@@ -34,6 +34,7 @@ class BulletMotion final : public multibody::Motion {
   void configure(Connector& c) override {
     const Parameters& p = c.parameters();
     settings_.gravity = gravity();
+    settings_.friction_rule = friction_rule();
     settings_.iterations = int(p.integer("iterations"));
     settings_.erp = p.real("erp");
     settings_.cfm = p.real("cfm");

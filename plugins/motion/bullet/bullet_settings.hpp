@@ -2,12 +2,14 @@
 #pragma once
 
 #include "muro/geometry.hpp"
+#include "muro/toolkit/pair_surface.hpp"
 
 namespace muro::bullet {
 
 /// What a world of Bullet is set to.
 struct BulletSettings {
   Vec3 gravity = Vec3::Zero();  ///< m/s^2
+  FrictionRule friction_rule = FrictionRule::min;
   int iterations = 10;          ///< of the solver
   double erp = 0.2;             ///< part of a depth or of a passed limit that a step takes back
   double cfm = 0;               ///< s/kg: softness of contacts

@@ -107,9 +107,10 @@ void BulletSolver::add_joint(BulletRobot& robot, std::size_t number, const Impul
   const double below = joint.position - limits.lower, above = limits.upper - joint.position;
   const double slowest = below < near ? limit_velocity(below) : -unbounded,
                fastest = above < near ? -limit_velocity(above) : unbounded;
-  const double max_impulse = std::min(dt_ * (target.tracks_velocity ? target.max_effort : limits.friction), unbounded);
+  const double max_impulse = std::min(dt_ * (target.tracks_velocity ? target.max_effort : target.friction), unbounded);
+  const double max_friction = target.tracks_velocity ? std::min(dt_ * target.friction, unbounded) : 0;
   drive_rows_.push_back(-1);
-  if (max_impulse == 0 && below >= near && above >= near) return;
+  if (max_impulse == 0 && max_friction == 0 && below >= near && above >= near) return;
 
   ConstraintRow row;
   row.a = &robot.bullet_body();
@@ -122,9 +123,11 @@ void BulletSolver::add_joint(BulletRobot& robot, std::size_t number, const Impul
   if (max_impulse > 0) {
     drive_rows_.back() = m_multiBodyNonContactConstraints.size();
     const double velocity = target.tracks_velocity ? std::clamp(target.velocity, slowest, fastest) : 0;
-    add_row(m_multiBodyNonContactConstraints, row, velocity, -max_impulse, max_impulse, 0,
+    const double cfm = target.tracks_velocity ? target.softness() : 0;
+    add_row(m_multiBodyNonContactConstraints, row, velocity, -max_impulse, max_impulse, cfm,
             settings_.warm_start * cache.drive(number));
   }
+  if (max_friction > 0) add_row(m_multiBodyNonContactConstraints, row, 0, -max_friction, max_friction, 0, 0);
   if (below < near) add_row(m_multiBodyNonContactConstraints, row, slowest, 0, unbounded, 0, 0);
   if (above < near) add_row(m_multiBodyNonContactConstraints, row, fastest, -unbounded, 0, 0, 0);
 }
@@ -167,8 +170,8 @@ double BulletSolver::target_velocity(const SolverContact& c, double speed, doubl
 void BulletSolver::add(SolverContact& c, BulletRobot& a, BulletRobot* b, const Vec3& other_velocity) {
   const ConstraintRow normal = contact_row(c, a, b, other_velocity, c.point.normal);
   bool is_active = false, is_rebound = false;
-  const double velocity =
-      target_velocity(c, normal.speed, std::max(c.a->restitution, c.b->restitution), is_active, is_rebound);
+  const Surface surface = pair_surface(c.a->surface, c.b->surface, settings_.friction_rule);
+  const double velocity = target_velocity(c, normal.speed, surface.restitution, is_active, is_rebound);
   c.row = -1;
   if (!is_active) return;
   const Vec3 slip = c.relative_velocity - c.point.normal * c.point.normal.dot(c.relative_velocity);
@@ -190,7 +193,7 @@ void BulletSolver::add(SolverContact& c, BulletRobot& a, BulletRobot* b, const V
     btMultiBodySolverConstraint& friction = add_row(m_multiBodyFrictionContactConstraints, tangent, 0, -unbounded,
                                                     unbounded, 0, initial_impulse.dot(direction));
     friction.m_frictionIndex = c.row;
-    friction.m_friction = std::sqrt(c.a->friction * c.b->friction);
+    friction.m_friction = surface.friction;
   }
 }
 

@@ -49,8 +49,7 @@ Collider make_collider(const multibody::BodyShape& shape, const BulletMeshes& me
   c.kind = shape.shape.kind;
   if (c.kind == ShapeKind::plane && moves) c.kind = ShapeKind::mesh;
   c.size = shape.shape.size;
-  c.friction = shape.shape.friction;
-  c.restitution = shape.shape.restitution;
+  c.surface = shape.shape.surface;
   c.loaded_link = shape.loaded_link;
   c.pose_in_body = shape.shape.origin;
   c.shape = make_shape(shape.shape, meshes, moves);

@@ -23,7 +23,7 @@ struct Collider {
   std::uint32_t shape_index = 0;         ///< among the shapes of the robot
   ShapeKind kind = ShapeKind::box;
   Vec3 size = Vec3::Zero();  ///< see Shape
-  double friction = 0, restitution = 0;
+  Surface surface;
   Pose pose_in_body;
   std::shared_ptr<btCollisionShape> shape;                ///< none for a plane
   btTransform pose;                                       ///< in the world

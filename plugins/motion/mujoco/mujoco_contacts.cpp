@@ -35,7 +35,7 @@ void MujocoContacts::set_friction(mjData& d) {
   for (int i = 0; i < d.ncon; ++i) {
     mjContact& c = d.contact[i];
     const GeomOwner &a = owners_[std::size_t(c.geom1)], &b = owners_[std::size_t(c.geom2)];
-    const double friction = std::sqrt(a.friction * b.friction);
+    const double friction = pair_surface(a.surface, b.surface, settings_.friction_rule).friction;
     if (friction < mjMINMU) c.dim = 1;
     c.friction[0] = c.friction[1] = std::max(friction, mjMINMU);
   }
@@ -56,7 +56,7 @@ void MujocoContacts::set_reference(mjData& d, int id, int row, double dt) {
   Vec3 speed = external_velocity(c);
   for (int k = 0; k < c.dim; ++k) speed[k] += d.efc_vel[row + k];
   mjtNum* target = d.efc_aref + row;
-  const double restitution = std::max(a.restitution, b.restitution);
+  const double restitution = pair_surface(a.surface, b.surface, settings_.friction_rule).restitution;
   const double recovery = std::min(-c.dist / std::max(settings_.time_constant, 2 * dt), settings_.correcting_speed);
   const bool impact = speed[0] < -settings_.bounce_speed, bounces = impact && restitution > 0;
   target[0] = ((bounces ? std::max(-restitution * speed[0], recovery) : recovery) - speed[0]) / dt;

@@ -2,12 +2,14 @@
 #pragma once
 
 #include "muro/geometry.hpp"
+#include "muro/toolkit/pair_surface.hpp"
 
 namespace muro::mujoco {
 
 /// What a world of MuJoCo is set to (MuJoCo documentation, chapters Computation and XML reference).
 struct MujocoSettings {
-  Vec3 gravity = Vec3::Zero();   ///< m/s^2
+  Vec3 gravity = Vec3::Zero();  ///< m/s^2
+  FrictionRule friction_rule = FrictionRule::min;
   int solver = 2;                ///< mjtSolver
   int iterations = 100;          ///< at most, of the solver
   double tolerance = 1e-8;       ///< of the solver

@@ -13,7 +13,7 @@ struct GeomOwner {
   std::int32_t robot = -1;        ///< of this world; -1: an external body
   std::uint32_t body = 0;         ///< of the robot
   std::uint32_t loaded_link = 0;  ///< see BodyShape
-  double friction = 0, restitution = 0;
+  Surface surface;
   const std::string* scenery = nullptr;  ///< its name; null for what moves, and for meshes, whose depths are none
 };
 

@@ -78,6 +78,7 @@ class OdeMotion final : public multibody::Motion {
   void configure(Connector& c) override {
     const Parameters& p = c.parameters();
     settings_.gravity = gravity();
+    settings_.friction_rule = friction_rule();
     settings_.iterations = int(p.integer("iterations"));
     settings_.exact = needs_exact_solver(c);
     settings_.erp = p.real("erp");
@@ -101,6 +102,7 @@ class OdeMotion final : public multibody::Motion {
     const std::string_view solver = c.parameters().text("solver");
     if (solver != "auto") return solver == "exact";
     for (std::uint32_t i = 0; i < c.items().size(); ++i) {
+      if (multibody::KinematicRobot::is_one(c, *c.items()[i].robot, c.parameters_of(i))) continue;
       const std::string objection = objection_to_quick(c, i, settings_.iterations);
       if (objection.empty()) continue;
       std::string text(ode_description.id);

@@ -62,8 +62,7 @@ OdeRobot::OdeRobot(dWorldID world, dSpaceID space, const multibody::RobotModel& 
       pose.position -= bodies_[i].com;
       const dGeomID geom = create_geom(s.shape, pose, bodies_[i].id, space, meshes);
       if (!geom) continue;
-      owners.push_back({std::uint32_t(owners.size()), number, std::uint32_t(i), s.loaded_link, s.shape.friction,
-                        s.shape.restitution});
+      owners.push_back({std::uint32_t(owners.size()), number, std::uint32_t(i), s.loaded_link, s.shape.surface});
       dGeomSetData(geom, &owners.back());
       geoms_.push_back(geom);
     }
@@ -114,6 +113,12 @@ void OdeRobot::add_joint(std::size_t number) {
     const auto set = body.joint == JointKind::revolute ? &dJointSetAMotorParam : &dJointSetLMotorParam;
     set(b.damper, dParamFMax, dInfinity);
     set(b.damper, dParamCFM, 1 / damping);
+  }
+  if (body.drive == DriveMode::position && body.leader < 0 && body.limits.friction > 0) {
+    const dJointID brake = create_motor(number, axis);
+    const auto set = body.joint == JointKind::revolute ? &dJointSetAMotorParam : &dJointSetLMotorParam;
+    set(brake, dParamVel, 0);
+    set(brake, dParamFMax, ode_effort(body.limits.friction));
   }
   if (settings_.reactions) dJointSetFeedback(b.drive ? b.drive : b.joint, &b.feedback);
   b.has_far_stops =
@@ -174,7 +179,7 @@ std::vector<double> OdeRobot::inverse_joint_inertias() const {
 void OdeRobot::set_step(double dt) {
   const std::vector<double> inverse_inertias = inverse_joint_inertias();
   for (std::size_t i = 1; i < bodies_.size(); ++i) {
-    const OdeBody& b = bodies_[i];
+    OdeBody& b = bodies_[i];
     const bool turns = model_->bodies[i].joint == JointKind::revolute;
     constexpr double part =
         0.01;  // of the softness of contacts: a drive that gives way creeps, and its robot falls over
@@ -183,6 +188,7 @@ void OdeRobot::set_step(double dt) {
     set_joint(b.joint, dParamCFM, cfm);
     set_joint(b.joint, dParamStopCFM, cfm);
     if (b.drive) (turns ? dJointSetAMotorParam : dJointSetLMotorParam)(b.drive, dParamCFM, cfm);
+    b.cfm = b.least_cfm = cfm;
   }
 }
 
@@ -251,11 +257,15 @@ void OdeRobot::set_drive_target(std::size_t number) {
   const bool turns = body.joint == JointKind::revolute;
   const dJointID joint = bodies_[number].joint, drive = bodies_[number].drive;
   const double velocity = target.tracks_velocity ? target.velocity : 0;
-  const double max_effort = target.tracks_velocity ? target.max_effort : body.limits.friction;
+  const double max_effort = target.tracks_velocity ? target.max_effort : target.friction;
   const auto set = drive ? (turns ? &dJointSetAMotorParam : &dJointSetLMotorParam)
                          : (turns ? &dJointSetHingeParam : &dJointSetSliderParam);
   if (velocity != bodies_[number].velocity) set(drive ? drive : joint, dParamVel, velocity);
   if (max_effort != bodies_[number].max_effort) set(drive ? drive : joint, dParamFMax, ode_effort(max_effort));
+  const double least_cfm = bodies_[number].least_cfm;
+  const double cfm = target.tracks_velocity ? std::max(least_cfm, target.softness()) : least_cfm;
+  if (cfm != bodies_[number].cfm) set(drive ? drive : joint, dParamCFM, cfm);
+  bodies_[number].cfm = cfm;
   bodies_[number].velocity = velocity;
   bodies_[number].max_effort = max_effort;
   if (!target.tracks_velocity && target.effort != 0)

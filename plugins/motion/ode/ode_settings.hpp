@@ -2,12 +2,14 @@
 #pragma once
 
 #include "muro/geometry.hpp"
+#include "muro/toolkit/pair_surface.hpp"
 
 namespace muro::ode {
 
 /// What a world of ODE is set to (ODE manual, sections 3.7 and 5).
 struct OdeSettings {
   Vec3 gravity = Vec3::Zero();  ///< m/s^2
+  FrictionRule friction_rule = FrictionRule::min;
   bool exact = false;           ///< dWorldStep instead of dWorldQuickStep
   int iterations = 50;          ///< of dWorldQuickStep
   double erp = 0.2;             ///< part of a joint's or contact's error that a step takes back

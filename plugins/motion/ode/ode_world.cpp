@@ -79,8 +79,7 @@ void OdeWorld::guarded(const Work& work) {
 }
 
 GeomOwner& OdeWorld::set_owner(dGeomID geom, const multibody::BodyShape& shape) {
-  owners_.push_back(
-      {std::uint32_t(owners_.size()), -1, 0, shape.loaded_link, shape.shape.friction, shape.shape.restitution});
+  owners_.push_back({std::uint32_t(owners_.size()), -1, 0, shape.loaded_link, shape.shape.surface});
   dGeomSetData(geom, &owners_.back());
   return owners_.back();
 }
@@ -260,12 +259,12 @@ void OdeWorld::create_contact_joints() {
     dSurfaceParameters& surface = found.contact.surface;  // what its mode does not name is not read
     surface.mode = dContactApprox1 | dContactSoftCFM | dContactSlip1 | dContactSlip2;
     surface.soft_cfm = surface.slip1 = surface.slip2 = softness_of(found);
-    surface.mu = std::sqrt(found.first->friction * found.second->friction);
+    const Surface pair = pair_surface(found.first->surface, found.second->surface, settings_.friction_rule);
+    surface.mu = pair.friction;
     surface.mu2 = 0;
-    const double restitution = std::max(found.first->restitution, found.second->restitution);
-    if (restitution > 0) {
+    if (pair.restitution > 0) {
       surface.mode |= dContactBounce;
-      surface.bounce = restitution;
+      surface.bounce = pair.restitution;
       surface.bounce_vel = settings_.bounce_speed;
     }
     const dBodyID a = dGeomGetBody(geom.g1), b = dGeomGetBody(geom.g2);

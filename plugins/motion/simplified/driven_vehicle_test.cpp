@@ -18,7 +18,7 @@ RobotTree rover(double friction, const JointLimits& limits) {
     b.base("chassis");
     b.set(keys::inertial, Inertia{.mass = 4, .ixx = 0.0256, .iyy = 0.0456, .izz = 0.0617});
     Shape chassis = Shape::box({0.35, 0.25, 0.12});
-    chassis.friction = friction;
+    chassis.surface.friction = friction;
     b.set_array(keys::collision_shapes, std::span<const Shape>(&chassis, 1));
     for (std::size_t k = 0; k < 4; ++k) {
       if (k < 3) b.fork();
@@ -27,7 +27,7 @@ RobotTree rover(double friction, const JointLimits& limits) {
       b.body(wheels[k]);
       b.set(keys::inertial, Inertia{.mass = wheel_mass, .ixx = 0.00031, .iyy = spin, .izz = 0.00031});
       Shape tyre = Shape::cylinder(radius, 0.04);
-      tyre.friction = friction;
+      tyre.surface.friction = friction;
       tyre.origin.orientation = from_rpy(M_PI / 2, 0, 0);
       b.set_array(keys::collision_shapes, std::span<const Shape>(&tyre, 1));
       if (k < 3) b.end();

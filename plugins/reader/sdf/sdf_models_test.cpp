@@ -61,8 +61,8 @@ TEST(SdfModels, TheRoverIsTheOneThatReaderUrdfReads) {
           EXPECT_TRUE(s[k].color.isApprox(t[k].color, 1e-6));
           continue;  // nothing touches them
         }
-        EXPECT_EQ(s[k].friction, t[k].friction);
-        EXPECT_EQ(s[k].restitution, t[k].restitution);
+        EXPECT_EQ(s[k].surface.friction, t[k].surface.friction);
+        EXPECT_EQ(s[k].surface.restitution, t[k].surface.restitution);
       }
     }
   }
@@ -130,14 +130,14 @@ TEST(SdfModels, EveryShapeIsReadWithItsPlaceAndSurface) {
   ASSERT_EQ(shapes.size(), 6u);
   EXPECT_EQ(shapes[0].kind, ShapeKind::box);
   EXPECT_EQ(shapes[0].size, Vec3(1, 2, 3));
-  EXPECT_EQ(shapes[0].friction, 0.7);
-  EXPECT_EQ(shapes[0].restitution, 0.3);
+  EXPECT_EQ(shapes[0].surface.friction, 0.7);
+  EXPECT_EQ(shapes[0].surface.restitution, 0.3);
   EXPECT_EQ(shapes[1].kind, ShapeKind::sphere);
-  EXPECT_EQ(shapes[1].friction, 0.2);
+  EXPECT_EQ(shapes[1].surface.friction, 0.2);
   EXPECT_EQ(shapes[2].kind, ShapeKind::cylinder);
   EXPECT_EQ(shapes[2].size, Vec3(0.5, 0, 2));
   EXPECT_EQ(shapes[2].origin.position, Vec3(1, 0, 0));
-  EXPECT_EQ(shapes[2].friction, 1);  // the default of <mu>
+  EXPECT_EQ(shapes[2].surface.friction, 1);  // the default of <mu>
   EXPECT_EQ(shapes[3].kind, ShapeKind::capsule);
   EXPECT_EQ(shapes[3].size, Vec3(0.5, 0, 2));
   EXPECT_EQ(shapes[4].kind, ShapeKind::plane);

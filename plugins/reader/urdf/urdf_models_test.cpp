@@ -94,10 +94,10 @@ TEST(UrdfModels, TheRoversWheelsAreCylindersAboutTheirAxles) {
   const Shape& wheel = rover.collisions.at("front_left_wheel")[0];
   EXPECT_EQ(wheel.kind, ShapeKind::cylinder);
   EXPECT_EQ(wheel.size, Vec3(0.06, 0, 0.04));
-  EXPECT_EQ(wheel.friction, 0.8);
+  EXPECT_EQ(wheel.surface.friction, 0.8);
   EXPECT_NEAR(std::abs((wheel.origin.orientation * Vec3::UnitZ()).y()), 1, 1e-15);
   EXPECT_EQ(rover.collisions.at("base_link")[0].size, Vec3(0.35, 0.25, 0.12));
-  EXPECT_EQ(rover.collisions.at("base_link")[0].friction, 0.4);
+  EXPECT_EQ(rover.collisions.at("base_link")[0].surface.friction, 0.4);
   EXPECT_TRUE(rover.visuals.at("base_link")[0].color.isApprox(Eigen::Vector4d(0.9, 0.45, 0.1, 1), 1e-6));
   EXPECT_EQ(rover.collisions.count("laser_link"), 0u);
   const JointLimits& limits = rover.limits.at("front_left_wheel_joint");
@@ -208,8 +208,8 @@ TEST(UrdfModels, ShapesKeepTheirKindSizeAndPlace) {
   EXPECT_EQ(shapes[2].kind, ShapeKind::cylinder);
   EXPECT_EQ(shapes[2].size, Vec3(0.2, 0, 0.5));
   for (const Shape& s : shapes) {
-    EXPECT_EQ(s.friction, 0.3);
-    EXPECT_EQ(s.restitution, 0.6);
+    EXPECT_EQ(s.surface.friction, 0.3);
+    EXPECT_EQ(s.surface.restitution, 0.6);
   }
 }
 

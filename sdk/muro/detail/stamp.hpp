@@ -31,8 +31,7 @@ struct Probe {
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Winvalid-offsetof"
-/// A hash of the places of what shapes and descriptions hold, as SDK 3.0 has it in its stamps; that of all structs is
-/// layout_of_contract().
+/// A hash of the places of what shapes and descriptions hold; that of all structs is layout_of_contract().
 constexpr std::uint32_t layout_of_values() {
   constexpr std::size_t places[] = {sizeof(Pose),
                                     offsetof(Pose, orientation),
@@ -44,8 +43,8 @@ constexpr std::uint32_t layout_of_values() {
                                     offsetof(Shape, material_source),
                                     offsetof(Shape, size),
                                     offsetof(Shape, origin),
-                                    offsetof(Shape, friction),
-                                    offsetof(Shape, restitution),
+                                    offsetof(Shape, surface),
+                                    sizeof(Surface),
                                     offsetof(Shape, color),
                                     sizeof(Parameter),
                                     offsetof(Parameter, choices),

@@ -94,8 +94,11 @@ inline std::string problem_of(const Shape& s) {
         return "has a mesh with a factor of scale that is not from 1e-9 to 1e6";
   }
   if (!fine) return "has a size that is not from 1e-9 to 1e6 m";
-  if (!(s.friction >= 0 && s.friction <= friction)) return "has a friction that is not from 0 to 1e20";
-  if (!(s.restitution >= 0 && s.restitution <= 1)) return "has a restitution that is not from 0 to 1";
+  if (!(s.surface.friction >= 0 && s.surface.friction <= friction)) return "has a friction that is not from 0 to 1e20";
+  if (!(s.surface.restitution >= 0 && s.surface.restitution <= 1)) return "has a restitution that is not from 0 to 1";
+  const auto is_resistance = [](double length) { return length >= 0 && length <= max_size; };
+  if (!is_resistance(s.surface.rolling_resistance) || !is_resistance(s.surface.spinning_resistance))
+    return "has a rolling or spinning resistance that is not from 0 to 1e6 m";
   if (!s.color.allFinite()) return "has a color that is not finite";
   return problem_of(s.origin);
 }
@@ -104,6 +107,7 @@ inline std::string problem_of(const JointLimits& l) {
   if (std::isnan(l.lower) || std::isnan(l.upper)) return "has a limit of position that is not a number";
   if (!(l.velocity >= 0) || !(l.effort >= 0)) return "has a limit of velocity or effort that is not 0 or more";
   const auto resistance = [](double x) { return x >= 0 && x <= joint_resistance; };
+  if (!(l.armature >= 0 && l.armature <= inertia)) return "has an armature that is not from 0 to 1e21 kg m^2 or kg";
   return resistance(l.damping) && resistance(l.friction) ? "" : "has a damping or friction that is not from 0 to 1e12";
 }
 

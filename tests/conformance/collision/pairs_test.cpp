@@ -144,11 +144,11 @@ TEST_P(EveryCollision, CrossedCylindersMeetBetweenTheirAxes) {
 
 TEST_P(EveryCollision, AContactHasFrictionAndRestitutionOfThePair) {
   Shape crate = unit_box, floor = slab;
-  crate.friction = 0.4, crate.restitution = 0.3;
-  floor.friction = 0.9, floor.restitution = 0.1;
+  crate.surface.friction = 0.4, crate.surface.restitution = 0.3;
+  floor.surface.friction = 0.9, floor.surface.restitution = 0.1;
   for (const Contact& c : contacts_of(GetParam(), crate, at(0, 0, 0.49), floor, below)) {
-    EXPECT_DOUBLE_EQ(c.friction, std::sqrt(0.9 * 0.4));
-    EXPECT_DOUBLE_EQ(c.restitution, 0.3);
+    EXPECT_DOUBLE_EQ(c.surface.friction, 0.4);
+    EXPECT_DOUBLE_EQ(c.surface.restitution, 0.3);
   }
 }
 

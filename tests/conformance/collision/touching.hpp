@@ -21,12 +21,10 @@ struct Accuracy {
   /// Most difference of the least depth of a random pair from collision.native's, of the size of the pair: where they
   /// overlap by a hundredth of that at most, and where they overlap deeply.
   double shallow = 1e-9, deep = 1e-9;
-  bool meshes = true;
 };
 
 inline Accuracy accuracy_of(const std::string& algorithm) {
   static const std::map<std::string, Accuracy> accuracies{
-      {"collision.native", {.meshes = false}},
       {"collision.fcl", {.shallow = 1e-9, .deep = 0.02}},
       {"collision.ode", {.shallow = 1e-9, .deep = 0.02}},
       {"collision.bullet", {.shallow = 1e-4, .deep = 0.02}},

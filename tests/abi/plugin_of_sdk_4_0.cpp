@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A plugin as SDK 3.0 made it, written from the record of its layout and without the SDK. Hosts of all later minor
+// A plugin as SDK 4.0 made it, written from the record of its layout and without the SDK. Hosts of all later minor
 // versions load it. Its sensor logs what it sees.
 #include <Eigen/Core>
 #include <cstdint>
@@ -7,7 +7,7 @@
 #include <span>
 #include <string_view>
 
-namespace sdk_3_0 {
+namespace sdk_4_0 {
 
 struct Stamp {
   char magic[8];
@@ -36,10 +36,14 @@ struct Range {
 };
 struct Phase;
 
+struct ExtensionId {
+  std::string_view name;
+  std::uint32_t version, layout;
+};
 class Host {
  public:
   virtual void log(std::uint8_t level, std::string_view text) noexcept = 0;
-  virtual void* extension(std::string_view name) noexcept = 0;
+  virtual void* find_extension(const ExtensionId& id) noexcept = 0;
 
  protected:
   ~Host() = default;
@@ -89,16 +93,18 @@ struct PluginTable {
   std::string_view name, version, licence, summary;
   std::span<const AlgorithmEntry> algorithms;
   Nothing readers;
+  std::uint32_t layout;
 };
 
 constexpr std::uint8_t info = 1, sensor = 3;
+constexpr std::uint32_t inspection_layout = 0xdcb9b3c4;
 
 class Counter final : public AlgorithmInstance {
  public:
   bool connect(Connector& c, ErrorText&) noexcept override {
     host_ = &c.host();
     items_ = c.items().size();
-    has_inspection_ = host_->extension("muro.Inspection/1") != nullptr;
+    has_inspection_ = host_->find_extension({"muro.Inspection", 1, inspection_layout}) != nullptr;
     return true;
   }
   bool connect_by_name(Connector&, ErrorText&) noexcept override { return true; }
@@ -130,17 +136,17 @@ class Counter final : public AlgorithmInstance {
   bool has_inspection_ = false;
 };
 
-constexpr Description description{"sensor.of_sdk_3_0", sensor, "1.0.0", "Counts its steps", {}, {}, {}, 0, 0};
+constexpr Description description{"sensor.of_sdk_4_0", sensor, "1.0.0", "Counts its steps", {}, {}, {}, 0, 0};
 constexpr AlgorithmEntry algorithms[] = {
     {&description, [](ErrorText*) noexcept -> AlgorithmInstance* { return new Counter; }}};
 
-}  // namespace sdk_3_0
+}  // namespace sdk_4_0
 
-extern "C" __attribute__((visibility("default"))) const sdk_3_0::PluginTable muro_plugin;
-constinit const sdk_3_0::PluginTable muro_plugin{
+extern "C" __attribute__((visibility("default"))) const sdk_4_0::PluginTable muro_plugin;
+constinit const sdk_4_0::PluginTable muro_plugin{
     .stamp = {.magic = {'M', 'U', 'R', 'O', 'P', 'L', 'U', 'G'},
               .stamp_size = 136,
-              .sdk_major = 3,
+              .sdk_major = 4,
               .sdk_minor = 0,
               .pointer_size = 8,
               .standard_library = "libstdc++",
@@ -149,14 +155,15 @@ constinit const sdk_3_0::PluginTable muro_plugin{
               .eigen_version = EIGEN_WORLD_VERSION * 10000 + EIGEN_MAJOR_VERSION * 100 + EIGEN_MINOR_VERSION,
               .eigen_max_align_bytes = 16,
               .eigen_malloc_already_aligned = 1,
-              .probe_size = 352,
+              .probe_size = 368,
               .probe_align = 16,
-              .probe_layout = 0x1209ec2d,
+              .probe_layout = 0x825c0d25,
               .compiler = "by hand"},
-    .table_size = 240,
-    .name = "of_sdk_3_0",
+    .table_size = 248,
+    .name = "of_sdk_4_0",
     .version = "1.0.0",
     .licence = "MIT",
-    .summary = "A plugin of SDK 3.0",
-    .algorithms = sdk_3_0::algorithms,
-    .readers = {}};
+    .summary = "A plugin of SDK 4.0",
+    .algorithms = sdk_4_0::algorithms,
+    .readers = {},
+    .layout = 0xa0369903};
