@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: MIT
-// The point model (MuRoSimF, Section 3.2): only the motion of the base, as commanded.
+// The point model (MuRoSimF, Section 3.2): the base moves as commanded, and joints follow their targets.
 #include <string>
 
 #include "muro/plugin.hpp"
 #include "muro/toolkit/contact_stop.hpp"
 #include "muro/toolkit/per_robot.hpp"
 #include "muro/toolkit/rotations.hpp"
+#include "plugins/common/kinematic_joints/kinematic_joints.hpp"
+#include "plugins/common/wheels/wheel_finder.hpp"
 
 namespace {
 
 using namespace muro;
 
 constexpr std::string_view modes[] = {"velocity", "pose"};
+constexpr std::string_view joint_modes[] = {"auto", "velocity", "position", "passive"};
 constexpr Parameter parameters[] = {
     text("mode", "velocity", "follow command.twist, or go to command.pose").one_of(modes),
     real("max_speed", "m/s", 1e9, "largest linear speed").between(0, 1e9),
@@ -19,22 +22,34 @@ constexpr Parameter parameters[] = {
     real("max_acceleration", "m/s^2", 1e9, "largest change of the linear velocity").between(0, 1e9),
     real("max_turn_acceleration", "rad/s^2", 1e9, "largest change of the angular velocity").between(0, 1e9),
     on_contact,
+    text("joints", "auto",
+         "which target joints follow; auto: of position where something writes it, else of velocity, and wheels stand "
+         "still; passive: all stand still")
+        .one_of(joint_modes),
 };
 constexpr PropertyUse reads[] = {{"command.twist", "mode velocity"},
                                  {"command.pose", "mode pose"},
                                  {"pose.initial", "of the base"},
                                  {"twist.initial", "of the base"},
+                                 {"joint.position.initial", "of every joint"},
+                                 {"joint.position.target", "of joints that follow it"},
+                                 {"joint.velocity.target", "of joints that follow it"},
                                  on_contact_reads};
-constexpr PropertyUse writes[] = {{"pose", "of the base"}, {"twist", "of the base"}};
+constexpr PropertyUse writes[] = {{"pose", "of the base"},
+                                  {"twist", "of the base"},
+                                  {"joint.position", "of every joint"},
+                                  {"joint.velocity", "of every joint"}};
 constexpr Description description{
     .id = "motion.point",
     .kind = Kind::motion,
     .version = "1.0.0",
-    .summary = "Moves the base as commanded, within limits of speed and acceleration; no forces, no contact",
+    .summary = "Moves the base as commanded and joints to their targets, within limits; no forces, no contact",
     .parameters = parameters,
     .reads = reads,
     .writes = writes,
     .capabilities = deterministic | batched | allocation_free | restorable,
+    .features = feature_joints | feature_velocity_targets | feature_position_targets | feature_joint_limits |
+                feature_joint_speed_limits | feature_mimic_joints,
 };
 
 Vec3 limited(const Vec3& v, double max_length) {
@@ -54,6 +69,20 @@ Vec3 approach_velocity(const Vec3& distance, double max_acceleration, double dt)
   return distance * (2 / (dt + std::sqrt(dt * dt + 2 * length / max_acceleration)));
 }
 
+/// For every link: whether it is a wheel, which turns without limits, carries no other joint and has a round shape
+/// about its axis.
+std::vector<bool> wheels_of(const Connector& c, const RobotView& robot) {
+  const wheels::WheelFinder finder(c, robot);
+  std::vector<bool> carries(robot.links.size()), are_wheels(carries);
+  std::string why;
+  for (std::size_t i = robot.links.size(); i-- > 1;) {
+    const bool moves = robot.links[i].joint != JointKind::fixed;
+    are_wheels[i] = !carries[i] && finder.turns_freely(i, why) && finder.wheel(i).radius > 0;
+    if (moves || carries[i]) carries[std::size_t(robot.links[i].parent)] = true;
+  }
+  return are_wheels;
+}
+
 /// What is kept of a robot.
 struct PointRobot {
   Out<Pose> pose;
@@ -62,12 +91,20 @@ struct PointRobot {
   In<Pose> command_pose;
   std::string_view name;
   ContactStop stop;
+  KinematicJoints joints;
 };
 
 class Point final : public PerRobotAlgorithm<PointRobot> {
  public:
+  void connect_by_name(Connector& c) override {
+    for (std::uint32_t i = 0; i < c.items().size(); ++i) robot(i).joints.follow_what_is_written(c);
+  }
+
   void step(const Step& step, Range range) override {
-    for (const PointRobot& r : robots(range)) move(r, step.dt);
+    for (const PointRobot& r : robots(range)) {
+      move(r, step.dt);
+      r.joints.move(step.dt);
+    }
   }
 
  private:
@@ -91,6 +128,11 @@ class Point final : public PerRobotAlgorithm<PointRobot> {
     else
       r.command_twist = c.input(base, keys::command_twist, Twist{});
     r.stop = ContactStop(c, *item.robot);
+    const std::string_view mode = c.parameters().text("joints");
+    if (mode == "auto")
+      r.joints = KinematicJoints(c, *item.robot, {}, wheels_of(c, *item.robot));
+    else
+      r.joints = KinematicJoints(c, *item.robot, std::vector(item.robot->links.size(), drive_mode_of(mode)));
     return r;
   }
 

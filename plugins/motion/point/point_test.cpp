@@ -5,6 +5,7 @@
 
 #include "muro/toolkit/rotations.hpp"
 #include "tests/support/bodies.hpp"
+#include "tests/support/complaint.hpp"
 
 namespace muro {
 namespace {
@@ -214,6 +215,58 @@ TEST(PointMotion, WithoutAccelerationItStaysWhereItIs) {
   s.run_for(1);
   EXPECT_EQ(s.at().position, Vec3::Zero());
   EXPECT_EQ(s.moving().linear, Vec3::Zero());
+}
+
+/// A robot with one joint; the test writes its target, as control code does.
+struct Jointed : test::Scene {
+  const RobotView* robot;
+  Out<double> target;
+
+  Jointed(const Key<double>& written, const std::string& mode) {
+    robot = &add("r", test::tree_of([](RobotBuilder& b) {
+                   b.base("base");
+                   b.revolute("joint", Vec3::UnitZ(), {.lower = -1, .upper = 1, .velocity = 0.5});
+                   b.body("link");
+                 }));
+    use("motion.point", 100, all_robots(), {{"joints", mode}});
+    PropertyStore& store = world().store();
+    target = Out<double>(store.bind(store.add_accessor("control"), world().object("r/joint"), written,
+                                    usage::optional_output, Multiplicity::single, 1, nullptr));
+    build();
+  }
+  double joint() { return world().value("r/joint", keys::joint_position); }
+};
+
+TEST(PointMotion, JointsFollowTheTargetsThatSomethingWrites) {
+  Jointed by_position(keys::joint_position_target, "auto");
+  *by_position.target = 0.2;
+  by_position.run_for(2);
+  EXPECT_EQ(by_position.joint(), 0.2);
+  EXPECT_EQ(by_position.world().value("r/joint", keys::joint_velocity), 0) << "it has arrived";
+  Jointed by_velocity(keys::joint_velocity_target, "auto");
+  *by_velocity.target = 0.2;
+  by_velocity.run_for(2);
+  EXPECT_NEAR(by_velocity.joint(), 0.4, 1e-12);
+  Jointed still(keys::joint_effort_target, "passive");
+  still.world().value("r/joint", keys::joint_position) = 0.3;
+  still.run_for(1);
+  EXPECT_EQ(still.joint(), 0.3);
+}
+
+TEST(PointMotion, AJointBeyondItsLimitMayComeBackAndGoesNoFurther) {
+  for (const double v : {0.5, -0.5}) {
+    Jointed s(keys::joint_velocity_target, "velocity");
+    s.world().value("r/joint", keys::joint_position) = 1.2;
+    *s.target = v;
+    s.run_for(0.2);
+    EXPECT_NEAR(s.joint(), v > 0 ? 1.2 : 1.1, 1e-12);
+  }
+}
+
+TEST(PointMotion, ATargetThatIsNotFiniteIsAnErrorWithTheJointsName) {
+  Jointed s(keys::joint_position_target, "auto");
+  *s.target = std::nan("");
+  EXPECT_SAYS(test::complaint_of<StepError>([&] { s.run_for(0.1); }), "the target of `r/joint` is not finite");
 }
 
 TEST(PointMotion, ACommandThatIsNotFiniteIsAnErrorWithTheRobotsName) {
