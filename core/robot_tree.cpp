@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "core/error.hpp"
+#include "core/point_bounds.hpp"
 #include "core/value_check.hpp"
 #include "muro/toolkit/bounds.hpp"
 #include "muro/toolkit/elementary.hpp"
@@ -216,7 +217,8 @@ bool RobotTree::usable() const {
 }
 
 template <class Visit>
-void RobotTree::each_collision_bounds(std::span<const double> positions, Visit visit) const {
+void RobotTree::each_collision_bounds(std::span<const double> positions, const CornersOfMesh& corners_of_mesh,
+                                      Visit visit) const {
   std::vector<Pose> poses;
   for (const FlatLink& f : links_) {
     const double position = positions.empty() ? 0 : positions[poses.size()];
@@ -226,25 +228,41 @@ void RobotTree::each_collision_bounds(std::span<const double> positions, Visit v
       for (std::uint32_t i = 0; i < c.count; ++i) {
         Shape s;
         std::memcpy(static_cast<void*>(&s), c.data.data() + i * sizeof(Shape), sizeof(Shape));
-        if (s.kind != ShapeKind::plane) visit(bounds_of(s, poses.back() * s.origin));
+        const Pose pose = poses.back() * s.origin;
+        if (s.kind == ShapeKind::mesh && corners_of_mesh)
+          visit(bounds_of_points(corners_of_mesh(std::string(texts_[s.mesh])), s.size, pose));
+        else if (s.kind != ShapeKind::plane)
+          visit(bounds_of(s, pose));
       }
     }
   }
 }
 
-double RobotTree::standing_height(std::span<const double> positions) const {
+double RobotTree::standing_height(std::span<const double> positions, const CornersOfMesh& corners_of_mesh) const {
   double lowest = 0;
   bool any = false;
-  each_collision_bounds(positions, [&](const Aabb& b) {
+  each_collision_bounds(positions, corners_of_mesh, [&](const Aabb& b) {
     lowest = any ? std::min(lowest, b.low.z()) : b.low.z();
     any = true;
   });
   return -lowest;
 }
 
-double RobotTree::footprint_radius(std::span<const double> positions) const {
+bool RobotTree::has_collision_meshes() const {
+  bool any = false;
+  each_collision_bounds(
+      {},
+      [&](const std::string&) {
+        any = true;
+        return std::span<const Vec3>{};
+      },
+      [](const Aabb&) {});
+  return any;
+}
+
+double RobotTree::footprint_radius(std::span<const double> positions, const CornersOfMesh& corners_of_mesh) const {
   double radius = 0;
-  each_collision_bounds(positions, [&](const Aabb& b) {
+  each_collision_bounds(positions, corners_of_mesh, [&](const Aabb& b) {
     const Vec3 far = b.low.cwiseAbs().cwiseMax(b.high.cwiseAbs());
     radius = std::max(radius, elementary::hypot(far.x(), far.y()));
   });

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "core/text_table.hpp"
+#include "muro/ext/package_folders.hpp"
 #include "muro/robot_builder.hpp"
 
 namespace muro {
 
 /// The tree of a robot model, as built block by block, and flattened for traversal. A model is read
 /// once and makes any number of robots (World::add_robot).
-class RobotTree final : public RobotBuilder {
+class RobotTree final : public RobotBuilder, public PackageFolders {
  public:
   /// One block, in the order of building (depth first).
   struct Node {
@@ -56,6 +58,10 @@ class RobotTree final : public RobotBuilder {
   TextId intern(std::string_view text) noexcept override;
   void report(Severity severity, std::string_view text, int line, int column) noexcept override;
 
+  std::span<const PackageFolder> package_folders() const noexcept override { return packages_; }
+  /// For the reader that builds it; must outlive that.
+  void set_packages(std::span<const PackageFolder> packages) { packages_ = packages; }
+
   /// Closes the tree: names what is missing, resolves mimics. Call once after building.
   void close();
 
@@ -66,11 +72,14 @@ class RobotTree final : public RobotBuilder {
   const std::vector<Problem>& problems() const { return problems_; }
   bool usable() const;
 
+  /// The corners (m) of the convex hull of a mesh file; empty: its mesh counts as a point.
+  using CornersOfMesh = std::function<std::span<const Vec3>(const std::string& path)>;
   /// Height (m) of the base above the lowest point of the robot's collision shapes. `positions`: of the joint of each
   /// link (rad or m); none: all at 0.
-  double standing_height(std::span<const double> positions = {}) const;
+  double standing_height(std::span<const double> positions = {}, const CornersOfMesh& corners_of_mesh = {}) const;
   /// Radius (m) of the vertical cylinder about the base's origin that holds all collision shapes.
-  double footprint_radius(std::span<const double> positions = {}) const;
+  double footprint_radius(std::span<const double> positions = {}, const CornersOfMesh& corners_of_mesh = {}) const;
+  bool has_collision_meshes() const;
 
  private:
   void set_raw(const KeyInfo& key, const void* data, std::uint32_t count) noexcept override;
@@ -80,7 +89,8 @@ class RobotTree final : public RobotBuilder {
   bool started(std::string_view call);
   void check_mass();
   template <class Visit>
-  void each_collision_bounds(std::span<const double> positions, Visit visit) const;
+  void each_collision_bounds(std::span<const double> positions, const CornersOfMesh& corners_of_mesh,
+                             Visit visit) const;
 
   struct Cursor {
     std::int32_t node = -1;
@@ -98,6 +108,7 @@ class RobotTree final : public RobotBuilder {
   std::vector<FlatLink> links_;
   TextTable texts_;
   std::vector<Problem> problems_;
+  std::span<const PackageFolder> packages_;
   std::map<std::string, std::int32_t, std::less<>> component_index_;
 };
 

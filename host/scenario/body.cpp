@@ -31,10 +31,19 @@ Inertia homogeneous_inertia(const Shape& s, double mass) {
   return i;
 }
 
-RobotTree single_body(const Shape& shape, double mass) {
+Inertia stretched_inertia(const Inertia& body, const Vec3& scale, double mass) {
+  const Mat3 tensor = body.tensor();
+  const Mat3 moments = 0.5 * tensor.trace() * Mat3::Identity() - tensor;  // integral of x x^T about the centre
+  const Mat3 stretched = mass / body.mass * (scale.asDiagonal() * moments * scale.asDiagonal());
+  return Inertia::from(mass, body.com.cwiseProduct(scale), stretched.trace() * Mat3::Identity() - stretched);
+}
+
+RobotTree single_body(const Shape& given, const std::string& mesh, const Inertia& inertia) {
   RobotTree tree;
+  Shape shape = given;
+  if (!mesh.empty()) shape.mesh = tree.intern(mesh);
   tree.base("body");
-  tree.set(keys::inertial, homogeneous_inertia(shape, mass));
+  tree.set(keys::inertial, inertia);
   tree.set_array(keys::collision_shapes, std::span<const Shape>(&shape, 1));
   tree.set_array(keys::visual_shapes, std::span<const Shape>(&shape, 1));
   tree.close();

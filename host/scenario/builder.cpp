@@ -14,7 +14,10 @@
 #include "host/scenario/algorithms.hpp"
 #include "host/scenario/body.hpp"
 #include "host/scenario/initial_state.hpp"
+#include "host/scenario/mesh_corners.hpp"
+#include "host/scenario/model_drives.hpp"
 #include "host/scenario/overlaps.hpp"
+#include "host/scenario/place_properties.hpp"
 #include "host/scenario/placement.hpp"
 #include "host/scenario/shadow_robot.hpp"
 #include "host/scenario/subsystems.hpp"
@@ -36,11 +39,13 @@ class SceneBuilder {
         world_(simulation_.world()),
         algorithms_(out.scenario, registry, simulation_, problems_),
         subsystems_(simulation_, algorithms_, problems_),
-        world_file_(out.scenario, simulation_, out.notes, problems_) {}
+        world_file_(out.scenario, simulation_, meshes_, out.notes, problems_) {}
 
   void build() {
     world_file_.read();
     world_.set(world_object, keys::gravity, world_file_.gravity());
+    world_.set(world_object, keys::friction_rule, std::uint32_t(scenario_.friction_rule));
+    set_places(world_, scenario_);
     world_file_.add_scenery(occupied_);
     for (const SceneryObject& o : scenario_.objects) problems_.collect("", [&] { add_object(o); });
     add_all_robots();
@@ -53,28 +58,49 @@ class SceneBuilder {
     const Placement& p = o.placement;
     Shape shape = o.shape;
     if (!o.mesh.empty()) shape.mesh = world_.intern(o.mesh);
-    const Vec3 half = half_extents(shape);
     const bool plane = shape.kind == ShapeKind::plane;
+    const Aabb box = plane || !needs_extent(p) ? Aabb{Vec3::Zero(), Vec3::Zero()}
+                                               : meshes_.bounds_of(shape, o.mesh, {Vec3::Zero(), Quat::Identity()});
+    const Vec3 half = 0.5 * (box.high - box.low), centre = 0.5 * (box.low + box.high);
     const int count = p.kind == Placement::Kind::grid ? p.columns * p.rows : int(p.poses.size());
-    const Body body{o.name, plane ? 0 : half.z(), elementary::hypot(half.x(), half.y())};
+    const Body body{o.name, -box.low.z(), elementary::hypot(half.x(), half.y())};
     Occupancy unused;
     const auto poses = place(p, count, body, scenario_.places, unused);
     for (std::size_t i = 0; i < poses.size(); ++i) {
       problems_.collect(o.location.text() + ": ", [&] {
         world_.add_scenery(instance_name(o.name, o.numbered, i), poses[i], std::span<const Shape>(&shape, 1));
       });
-      if (!plane) occupied_.add(Obstacle{poses[i], half.x(), half.y()});
+      if (!plane) occupied_.add(Obstacle{{poses[i] * centre, poses[i].orientation}, half.x(), half.y()});
     }
   }
 
   RobotTree model_of(const RobotTemplate& t) {
-    if (t.shape) return single_body(*t.shape, t.mass);
+    if (t.shape) return single_body(*t.shape, t.mesh, inertia_of(t));
     if (t.from_world) return world_file_.model(t);
     RobotTree tree = simulation_.read_model(t.model);
     for (const auto& p : tree.problems())
       out_.notes.push_back(fmt::format("{}: {}: {}", Location{t.model, p.line, p.column}.text(),
                                        p.severity == Severity::warning ? "warning" : "note", p.text));
     return tree;
+  }
+
+  Inertia inertia_of(const RobotTemplate& t) {
+    if (t.mesh.empty()) return homogeneous_inertia(*t.shape, t.mass);
+    const std::optional<Inertia> solid = meshes_.inertia_of(t.mesh);
+    if (!solid) throw SetupError(fmt::format("mesh {} has no volume, or cannot be read", t.mesh));
+    return stretched_inertia(*solid, t.shape->size, t.mass);
+  }
+
+  /// Whether it matters how large what is placed so is.
+  bool needs_extent(const Placement& p) const {
+    const auto has_random = [](const RobotTemplate& t) { return t.placement.kind == Placement::Kind::random; };
+    return std::any_of(p.poses.begin(), p.poses.end(), [](const PoseInput& pose) { return !pose.z; }) ||
+           std::any_of(scenario_.robots.begin(), scenario_.robots.end(), has_random);
+  }
+
+  RobotTree::CornersOfMesh corners_of_meshes(const Placement& p) {
+    if (!needs_extent(p)) return {};
+    return [this](const std::string& path) { return meshes_.of(path); };
   }
 
   /// What the robots of a template have in common, and their poses.
@@ -105,6 +131,7 @@ class SceneBuilder {
                                [&] { m.tree = model_of(t); }))
           continue;
         m.start = start_pose(*m.tree, t, problems_);
+        add_model_drives(t, *m.tree, algorithms_);
         tell_of_clamped(t, m.start);
         m.poses = poses_of(t, m);
       }
@@ -114,7 +141,8 @@ class SceneBuilder {
   }
 
   std::vector<Pose> poses_of(RobotTemplate& t, const Model& m) {
-    const double radius = m.tree->footprint_radius(m.start.positions);
+    const RobotTree::CornersOfMesh corners = corners_of_meshes(t.placement);
+    const double radius = m.tree->footprint_radius(m.start.positions, corners);
     std::vector<Pose> poses;
     if (t.from_world) {
       poses = {world_file_.pose(t)};
@@ -128,7 +156,7 @@ class SceneBuilder {
       drawn += t.count;
     }
     problems_.collect("", [&] {
-      const Body body{t.name, m.tree->standing_height(m.start.positions), radius};
+      const Body body{t.name, m.tree->standing_height(m.start.positions, corners), radius};
       poses = place(t.placement, t.count, body, scenario_.places, occupied_);
     });
     return poses;
@@ -159,6 +187,7 @@ class SceneBuilder {
   Problems problems_;
   Algorithms algorithms_;
   Subsystems subsystems_;
+  MeshCorners meshes_{simulation_};
   WorldFileContents world_file_;
   Occupancy occupied_;
   std::map<std::pair<std::string, std::uint64_t>, int> drawn_;  ///< copies at random, by place and seed
@@ -178,6 +207,7 @@ BuiltScenario built(Scenario scenario, Registry& registry, const std::function<v
   registry.choose(out.scenario.plugins);
   out.simulation = std::make_unique<Simulation>(registry, out.scenario.seed);
   out.simulation->set_log(print_line);
+  out.simulation->set_packages(out.scenario.packages);
   for (const std::string& file : out.scenario.files)
     out.simulation->outputs().add_input(file, "a file of the scenario");
   SceneBuilder(out, registry).build();

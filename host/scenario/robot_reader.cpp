@@ -103,10 +103,9 @@ class RobotReader {
       for (const char* key : {"count", "place", "at"})
         if (map.has(key))
           map.problem(key, "is not allowed with `model: world`: the world file states the pose of the model");
-    std::string mesh;
-    t.shape = read_shape(map, mesh, problems_);
-    if (t.shape && (t.shape->kind == ShapeKind::plane || t.shape->kind == ShapeKind::mesh))
-      map.problem("shape", "must have a volume: box, sphere, cylinder or capsule; `plane` and `mesh` are for scenery");
+    t.shape = read_shape(map, t.mesh, problems_);
+    if (t.shape && t.shape->kind == ShapeKind::plane)
+      map.problem("shape", "must have a volume: box, sphere, cylinder, capsule or mesh; `plane` is for scenery");
     t.mass = map.number("mass", 0, limits::min_mass, limits::max_mass);
     if (node.kind == Node::Kind::map) check_body(map, node, t);
   }

@@ -61,11 +61,26 @@ SceneryObject read_object(const std::string& name, const Node& node, Problems& p
   return object;
 }
 
+FrictionRule read_friction_rule(const Node& n, Problems& problems) {
+  MapReader map(n, "`friction` of `world`", problems);
+  const std::string word = map.text("combine", "min");
+  map.reject_unknown_keys();
+  constexpr std::pair<std::string_view, FrictionRule> rules[] = {{"min", FrictionRule::min},
+                                                                 {"mean", FrictionRule::mean},
+                                                                 {"product", FrictionRule::product},
+                                                                 {"max", FrictionRule::max}};
+  for (const auto& [known, rule] : rules)
+    if (known == word) return rule;
+  map.problem("combine", fmt::format("is `{}` but must be one of: min, mean, product, max", word));
+  return FrictionRule::min;
+}
+
 void read_world(const Node& n, Scenario& out, Problems& problems) {
   MapReader map(n, "`world`", problems);
   if (const Node* file = map.find("file"))
     out.world_file = {resolve_path(file->location, map.text("file", "")), file->location};
   if (map.has("gravity")) out.gravity = map.vector("gravity", {0, 0, -9.81}, limits::gravity);
+  if (map.has("friction")) out.friction_rule = read_friction_rule(map.map("friction"), problems);
   MapReader places(map.map("places"), "`places`", problems);
   for (const auto& [name, unused] : places.unread())
     for (const Node& e : places.list(name).list) read_rectangle(e, "place `" + name + "`", out.places[name], problems);
@@ -123,6 +138,25 @@ void read_plugins(const Node& n, Scenario& out, Problems& problems) {
   }
 }
 
+void read_packages(const Node& n, Scenario& out, Problems& problems) {
+  for (const auto& [name, folder] : n.map) {
+    if (folder.is_off()) continue;
+    if (folder.kind != Node::Kind::scalar || folder.scalar.empty()) {
+      problems.add(folder.location, "`packages`: `" + name + "` must be the folder of the package of that name");
+      continue;
+    }
+    const fs::path path = fs::absolute(resolve_path(folder.location, folder.scalar)).lexically_normal();
+    std::error_code error;
+    if (fs::is_directory(path, error))
+      out.packages[name] = path.string();
+    else
+      problems.add(folder.location,
+                   fmt::format("`packages`: `{}` is {}, which is no folder; give the one that holds the meshes/ and "
+                               "models that package://{}/... names",
+                               name, path.string(), name));
+  }
+}
+
 unsigned read_threads(const Node& n, Problems& problems) {
   if (n.kind == Node::Kind::scalar && n.scalar == "all") return 0;
   const double count = as_number(n).value_or(0);
@@ -165,6 +199,7 @@ Scenario read_scenario(const std::string& path, const std::vector<std::string>& 
   out.duration = map.number("duration", out.duration, 0, 1e9);
   if (const Node* threads = map.find("threads")) out.threads = read_threads(*threads, problems);
   read_plugins(map.map("plugins"), out, problems);
+  read_packages(map.map("packages"), out, problems);
   if (const Node* world = map.find("world")) read_world(*world, out, problems);
   out.robots = read_robots(map.map("robots"), problems);
   read_algorithms(map.map("algorithms"), out, problems);

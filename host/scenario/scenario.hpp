@@ -12,6 +12,7 @@
 #include "core/registry.hpp"
 #include "host/scenario/node.hpp"
 #include "muro/shape.hpp"
+#include "muro/toolkit/pair_surface.hpp"
 
 namespace muro::host {
 
@@ -114,6 +115,7 @@ struct RobotTemplate {
   std::string model;        ///< path; empty for a body described in place, and for a model of the world file
   bool from_world = false;  ///< the model of the world file that has its name
   std::optional<Shape> shape;
+  std::string mesh;       ///< path, of a shape that is a mesh
   double mass = 0;        ///< of a body described in place, kg
   bool numbered = false;  ///< names of robots end in their index
   int count = 1;
@@ -132,7 +134,9 @@ struct Scenario {
   double duration = 10;                         ///< s
   unsigned threads = 1;                         ///< 0: all that the machine has
   std::map<std::string, PluginChoice> plugins;  ///< by name of an algorithm or reader, or by type of files
+  std::map<std::string, std::string> packages;  ///< absolute folders, by the name in package://NAME and model://NAME
   std::optional<WorldFile> world_file;
+  FrictionRule friction_rule = FrictionRule::min;
   std::optional<Vec3> gravity;  ///< absent: that of the world file, else 9.81 m/s^2 downwards
   std::map<std::string, std::vector<Rectangle>> places;
   std::vector<SceneryObject> objects;

@@ -120,9 +120,14 @@ void WorldFileContents::add(const std::string& name, const Pose& pose, std::vect
         if (*text != no_text) *text = world.intern(texts[*text]);
   problems_.collect(scenario_.world_file->location.text() + ": world " + scenario_.world_file->path + ": ",
                     [&] { world.add_scenery(name, pose, collisions, visuals); });
+  const bool any_random = std::any_of(scenario_.robots.begin(), scenario_.robots.end(), [](const RobotTemplate& t) {
+    return t.placement.kind == Placement::Kind::random;
+  });
+  if (!any_random) return;  // nobody asks what is occupied
   for (const Shape& s : collisions) {
     if (s.kind == ShapeKind::plane) continue;
-    const Aabb box = bounds_of(s, pose * s.origin);
+    const std::string mesh = s.kind == ShapeKind::mesh ? std::string(world.text(s.mesh)) : "";
+    const Aabb box = meshes_.bounds_of(s, mesh, pose * s.origin);
     if (box.high.z() <= floor_height) continue;
     const Vec3 half = 0.5 * (box.high - box.low);
     occupied.add(Obstacle{{0.5 * (box.low + box.high), Quat::Identity()}, half.x(), half.y()});

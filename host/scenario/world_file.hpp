@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/simulation.hpp"
+#include "host/scenario/mesh_corners.hpp"
 #include "host/scenario/placement.hpp"
 #include "host/scenario/problems.hpp"
 #include "host/scenario/scenario.hpp"
@@ -17,9 +18,9 @@ namespace muro::host {
 class WorldFileContents {
  public:
   /// Warnings and notes of readers go to `notes`, errors to `problems`.
-  WorldFileContents(const Scenario& scenario, Simulation& simulation, std::vector<std::string>& notes,
-                    Problems& problems)
-      : scenario_(scenario), simulation_(simulation), notes_(notes), problems_(problems) {}
+  WorldFileContents(const Scenario& scenario, Simulation& simulation, MeshCorners& meshes,
+                    std::vector<std::string>& notes, Problems& problems)
+      : scenario_(scenario), simulation_(simulation), meshes_(meshes), notes_(notes), problems_(problems) {}
 
   void read();
   Vec3 gravity() const;
@@ -40,6 +41,7 @@ class WorldFileContents {
 
   const Scenario& scenario_;
   Simulation& simulation_;
+  MeshCorners& meshes_;
   std::vector<std::string>& notes_;
   Problems& problems_;
   std::optional<WorldModel> world_;

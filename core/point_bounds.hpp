@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+
+#include "muro/scene.hpp"
+
+namespace muro {
+
+/// The box around points (m), first scaled along their axes, that stand at `pose`; around its position where there are
+/// none.
+inline Aabb bounds_of_points(std::span<const Vec3> points, const Vec3& scale, const Pose& pose) {
+  Aabb box;
+  for (const Vec3& p : points) {
+    const Vec3 at = pose * Vec3(p.cwiseProduct(scale));
+    box.include({at, at});
+  }
+  return points.empty() ? Aabb{pose.position, pose.position} : box;
+}
+
+}  // namespace muro

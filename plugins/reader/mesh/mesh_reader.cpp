@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// Reads a mesh file as a model of one body.
+#include "muro/mesh_corners.hpp"
+#include "muro/plugin.hpp"
+#include "muro/vocabulary.hpp"
+#include "plugins/common/mesh/hull.hpp"
+#include "plugins/common/mesh/solid.hpp"
+
+namespace {
+
+using namespace muro;
+
+constexpr std::string_view extensions[] = {".stl", ".obj", ".dae", ".glb", ".gltf", ".ply"};
+constexpr ReaderDescription description{
+    .id = "reader.mesh",
+    .version = "1.0.0",
+    .summary = "Reads a mesh file as a homogeneous body with the density of water",
+    .extensions = extensions,
+};
+
+constexpr double density = 1000;  ///< kg/m^3: MuJoCo's default
+
+class MeshReader final : public ModelReader {
+ public:
+  void read(std::string_view path, RobotBuilder& builder) override {
+    const mesh::Mesh mesh = mesh::load(std::string(path), Vec3::Ones());
+    builder.base("body");
+    const Shape shape{.kind = ShapeKind::mesh, .mesh = builder.intern(path), .size = Vec3::Ones()};
+    builder.set_array(keys::collision_shapes, std::span(&shape, 1));
+    builder.set_array(keys::visual_shapes, std::span(&shape, 1));
+    try {
+      const mesh::Hull hull = mesh::convex_hull(mesh.vertices);
+      builder.set_array(keys::mesh_corners, std::span<const Vec3>(hull.vertices));
+      builder.set(keys::inertial, mesh::solid_inertia(mesh::is_closed(mesh) ? mesh : surface_of(hull), density));
+    } catch (const Error&) {  // a flat mesh has no volume, and its corners are all there is
+      builder.set_array(keys::mesh_corners, std::span<const Vec3>(mesh.vertices));
+    }
+  }
+};
+
+constexpr abi::ReaderEntry readers[] = {model_reader<MeshReader>(description)};
+
+}  // namespace
+
+MURO_PLUGIN(.name = "reader_mesh", .version = description.version, .licence = "MIT",
+            .summary = "Mesh files as models of one body", .readers = readers)
