@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Bodies that slide.
+#include "muro/toolkit/pair_surface.hpp"
 #include "muro/toolkit/rotations.hpp"
 #include "tests/conformance/motion/case.hpp"
 
@@ -14,10 +15,13 @@ struct Slope : Trial {
   const RobotView* block_;
   double angle_;
 
-  Slope(const std::string& motion, double angle, double friction) : Trial(motion), angle_(angle) {
-    add_slope(angle, friction);
+  Slope(const std::string& motion, double angle, double friction) : Slope(motion, angle, friction, friction) {}
+  Slope(const std::string& motion, double angle, double of_slope, double of_block, FrictionRule rule = {})
+      : Trial(motion), angle_(angle) {
+    world().set(world_object, keys::friction_rule, std::uint32_t(rule));
+    add_slope(angle, of_slope);
     const Quat turn = from_rpy(0, -angle, 0);
-    block_ = &add("block", conformance::block(1, block_size, friction), {turn * Vec3(0, 0, 0.05), turn});
+    block_ = &add("block", conformance::block(1, block_size, of_block), {turn * Vec3(0, 0, 0.05), turn});
     start();
   }
   double speed() { return -twist(*block_).linear.dot(from_rpy(0, -angle_, 0) * Vec3::UnitX()); }
@@ -29,6 +33,24 @@ Outcome slides(const std::string& motion) {
   const double before = s.speed();
   s.run_for(1);
   return relative(s.speed() - before, 2.3562872);
+}
+
+/// A block with mu = 0.2 on a slope with 0.5.
+Outcome slides_by_the_rule(const std::string& motion) {
+  const std::pair<FrictionRule, double> rules[] = {{FrictionRule::min, 0.2},
+                                                   {FrictionRule::mean, std::sqrt(0.2 * 0.5)},
+                                                   {FrictionRule::product, 0.2 * 0.5},
+                                                   {FrictionRule::max, 0.5}};
+  Outcome worst;
+  for (const auto& [rule, friction] : rules) {
+    Slope s(motion, M_PI / 6, 0.5, 0.2, rule);
+    s.run_for(0.5);
+    const double before = s.speed();
+    s.run_for(1);
+    const Outcome found = relative(s.speed() - before, g * (0.5 - friction * std::sqrt(0.75)));
+    if (found.error > worst.error) worst = found;
+  }
+  return worst;
 }
 
 Outcome sticks(const std::string& motion) {
@@ -95,6 +117,7 @@ std::vector<Case> slope_cases() {
   constexpr Features needs = feature_contact | feature_friction;
   return {
       {"a block slides down 30 deg with g (sin - mu cos)", "relative", needs, 1e-3, slides},
+      {"a block slides by the world's rule for the friction of a pair", "relative", needs, 5e-3, slides_by_the_rule},
       {"a block holds on 30 deg when tan is below mu", "m/s", needs, 1e-6, sticks},
       {"friction is the same along the diagonal", "g", needs, 5e-3, cone},
       {"a pushed block moves along the push", "rad", needs, 0.01, straight},
