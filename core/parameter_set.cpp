@@ -144,6 +144,9 @@ ParameterValue ParameterSet::value_of(const Parameter& p, const ParameterInput* 
       } else if (const auto* one = std::get_if<std::string>(given)) {
         fine = true;
         list.push_back(texts_.emplace_back(*one));
+      } else if (const double* number = number_in(*given, storage)) {
+        fine = true;
+        list.push_back(texts_.emplace_back(fmt::format("{}", *number)));
       }
       v.texts = list;
       break;

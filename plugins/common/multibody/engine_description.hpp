@@ -12,7 +12,7 @@ inline constexpr PropertyUse reads[] = {
     {"gravity", "on the world object; 0 0 -9.81 when absent"},
     {"inertial", "of every body"},
     {"collision.shapes", "of every body in the scene"},
-    {"joint.velocity.target", "of joints in mode velocity"},
+    {"joint.velocity.target", "of joints in mode velocity, and in mode position where something writes it"},
     {"joint.position.target", "of joints in mode position"},
     {"joint.effort.target", "of joints in mode effort"},
     {"pose", "of bodies of other robots"},

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "muro/toolkit/joint_drives.hpp"
+#include "plugins/common/position_drive/position_drive.hpp"
 #include "plugins/common/watch/parameters.hpp"
 
 namespace muro::multibody {
@@ -22,9 +22,9 @@ inline constexpr Parameter self_collision =
     boolean("self_collision", false, "whether links of the robot touch each other, but neighbours");
 
 // Of a world: equal for all of its robots.
-inline constexpr Parameter position_gain =
-    real("position_gain", "1/s", 100,
-         "speed of a joint in mode position by its distance to the target, and of mimic joints")
+inline constexpr Parameter mimic_gain =
+    real("mimic_gain", "1/s", 100,
+         "speed of a mimic joint beyond that of its leader by its distance to where it belongs")
         .between(1e-3, 1e6);
 inline constexpr Parameter substeps =
     integer("substeps", 1, "steps of the engine in each step of the motion").between(1, 1000);
@@ -45,8 +45,9 @@ inline constexpr Parameter attitude =
 
 /// Those of all engines, in the order in which they are shown.
 inline constexpr Parameter common_parameters[] = {
-    world_name,     base_mode,     joint_mode, velocity_joints, position_joints,    effort_joints,      passive_joints,
-    self_collision, position_gain, substeps,   watch::watch,    watch::watch_speed, watch::watch_depth,
+    world_name,     base_mode,         joint_mode,      velocity_joints,    position_joints,    effort_joints,
+    passive_joints, natural_frequency, drive_stiffness, drive_damping,      interpolate,        self_collision,
+    mimic_gain,     substeps,          watch::watch,    watch::watch_speed, watch::watch_depth,
 };
 
 /// The parameters of an engine: those of all engines, then its own.
@@ -62,7 +63,8 @@ constexpr std::array<Parameter, std::size(common_parameters) + n> with_common_pa
 /// Whether robots of one world may differ in it.
 inline bool is_of_robot(std::string_view parameter) {
   for (const Parameter* p : {&world_name, &base_mode, &joint_mode, &self_collision, &velocity_joints, &position_joints,
-                             &effort_joints, &passive_joints, &watch::watch, &watch::watch_speed, &watch::watch_depth})
+                             &effort_joints, &passive_joints, &natural_frequency, &drive_stiffness, &drive_damping,
+                             &interpolate, &watch::watch, &watch::watch_speed, &watch::watch_depth})
     if (p->name == parameter) return true;
   return false;
 }

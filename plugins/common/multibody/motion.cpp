@@ -33,7 +33,7 @@ void Motion::connect(Connector& c) {
   const Parameters& p = c.parameters();
   check_parameters(c);
   gravity_ = c.constant(world_object, keys::gravity).value_or(Vec3(0, 0, -9.81));
-  position_gain_ = p.real(position_gain.name);
+  mimic_gain_ = p.real(mimic_gain.name);
   substeps_ = int(p.integer(substeps.name));
   traits_.motion = description().id;
   traits_.contact_world = number_of_world(fnv1a(p.text(world_name.name), fnv1a(description().id)));
@@ -46,8 +46,10 @@ void Motion::connect(Connector& c) {
 }
 
 void Motion::connect_by_name(Connector& c) {
-  for (std::uint32_t i = 0; i < c.items().size(); ++i)
+  for (std::uint32_t i = 0; i < c.items().size(); ++i) {
     robots_[i].set_has_contact_law(c.is_used(c.items()[i].robot->base(), keys::contacts, usage::read));
+    robots_[i].connect_by_name(c);
+  }
 }
 
 void Motion::check_parameters(const Connector& c) const {
@@ -103,9 +105,9 @@ void Motion::step(const Step& step, Range) {
   for (WorldRobot& r : robots_) r.import();
   external_bodies_.import();
   const double dt = step.dt / substeps_;
-  const double gain = std::min(position_gain_, 1 / dt);
+  const double gain = std::min(mimic_gain_, 1 / dt);
   for (int i = 0; i < substeps_; ++i) {
-    for (WorldRobot& r : robots_) r.set_drive_targets(gain);
+    for (WorldRobot& r : robots_) r.set_drive_targets(dt, gain);
     advance(dt);
     for (WorldRobot& r : robots_) r.state().moved_from_outside = false;
   }

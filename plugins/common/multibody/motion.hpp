@@ -44,7 +44,7 @@ class Motion : public Algorithm {
 
   Vec3 gravity_ = Vec3::Zero();
   WorldRobot::WorldTraits traits_;
-  double position_gain_ = 0;
+  double mimic_gain_ = 0;
   int substeps_ = 1;
   std::deque<WorldRobot> robots_;
   ExternalBodies external_bodies_;

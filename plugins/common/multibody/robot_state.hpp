@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,6 +25,13 @@ struct DriveTarget {
   double velocity = 0;           ///< rad/s or m/s
   double max_effort = 0;         ///< N m or N; may be infinite
   double effort = 0;             ///< N m or N
+  double friction = 0;           ///< N m or N: Coulomb friction of the joint, beside the drive
+  /// N m s/rad or N s/m: effort by what the velocity at the end of the step lacks of `velocity`. Infinite: as hard as
+  /// the engine can.
+  double damping = std::numeric_limits<double>::infinity();
+
+  /// Of the constraint that it is (CFM of ODE and Bullet): rad/s by N m or m/s by N.
+  double softness() const { return 1 / damping; }
 };
 
 /// State of a body's joint; unused for the base.

@@ -30,12 +30,13 @@ void WorldRobot::connect(Connector& c, const RobotView& view, const Parameters& 
   pose_ = c.variable(view.base(), keys::pose, c.constant(view.base(), keys::initial_pose).value_or(Pose{}));
   const Twist initial_twist = c.constant(view.base(), keys::initial_twist).value_or(Twist{});
   twist_ = c.variable(view.base(), keys::twist, model_.fixed_base ? Twist{} : initial_twist);
-  connect_joints(c, view, reach);
+  connect_joints(c, view, p, reach);
   connect_links(c, view);
   connect_memory(c, view, traits.motion, engine_memory);
 }
 
-void WorldRobot::connect_joints(Connector& c, const RobotView& view, const watch::Reach& reach) {
+void WorldRobot::connect_joints(Connector& c, const RobotView& view, const Parameters& p, const watch::Reach& reach) {
+  const std::vector<PositionDrive> drives = position_drives_of(c, view, drive_modes_of(c, view, p), p);
   joints_.resize(model_.bodies.size());
   joint_names_.resize(joints_.size());
   for (std::size_t i = 1; i < joints_.size(); ++i) {
@@ -50,7 +51,31 @@ void WorldRobot::connect_joints(Connector& c, const RobotView& view, const watch
     j.velocity = c.variable(object, keys::joint_velocity, 0.0);
     j.effort = c.derived(object, keys::joint_effort);
     if (body.leader < 0) j.target = connect_joint_target(c, object, body.drive, start);
+    if (!follows_positions(i)) continue;
+    has_position_drives_ = true;
+    j.position_drive = drives[body.link];
+    j.position_target = PositionTarget(object, j.target.get(), j.position_drive.interpolation);
   }
+  if (!has_position_drives_) return;
+  std::vector<MovedInertias::Body> bodies(joints_.size());
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const RigidBody& body = model_.bodies[i];
+    Link& link = bodies[i].link;
+    link.parent = body.parent, link.joint = body.joint, link.origin = body.origin, link.axis = body.axis;
+    link.limits = body.limits;
+    bodies[i].inertia = body.inertia;
+  }
+  moved_inertias_ = MovedInertias(std::move(bodies), model_.fixed_base);
+  positions_.resize(joints_.size());
+}
+
+bool WorldRobot::follows_positions(std::size_t body) const {
+  return body > 0 && model_.bodies[body].drive == DriveMode::position && model_.bodies[body].leader < 0;
+}
+
+void WorldRobot::connect_by_name(Connector& c) {
+  for (std::size_t i = 1; i < joints_.size(); ++i)
+    if (follows_positions(i)) joints_[i].position_target.connect_by_name(c);
 }
 
 void WorldRobot::connect_links(Connector& c, const RobotView& view) {
@@ -63,16 +88,23 @@ void WorldRobot::connect_links(Connector& c, const RobotView& view) {
   }
 }
 
-/// One state block holds the last state, then what the engine keeps.
+/// One state block holds the last state, what the engine keeps, and what interpolated targets keep.
 void WorldRobot::connect_memory(Connector& c, const RobotView& view, std::string_view motion,
                                 std::size_t engine_memory) {
   const std::size_t last = LastState::size_for(model_.bodies.size());
   const bool has_levels = !c.constant_array(view.base(), keys::motion_level_names).empty();
   const std::string name = std::string(motion) + (has_levels ? "." + std::to_string(level_) : "");
-  const auto bytes = std::uint32_t((last + engine_memory) * sizeof(double));
-  auto* block = static_cast<double*>(c.state_block(view.base(), name, bytes));
+  std::size_t count = last + engine_memory;
+  for (const Joint& joint : joints_) count += joint.position_target.memory_size();
+  auto* block = static_cast<double*>(c.state_block(view.base(), name, std::uint32_t(count * sizeof(double))));
   last_ = LastState({block, last});
   state_.memory = {block + last, engine_memory};
+  double* next = block + last + engine_memory;
+  for (Joint& joint : joints_) {
+    const std::size_t size = joint.position_target.memory_size();
+    if (size > 0) joint.position_target.keep_in({next, size});
+    next += size;
+  }
 }
 
 void WorldRobot::begin_watch() {
@@ -85,6 +117,7 @@ void WorldRobot::take_over(const WorldTraits& traits) {
   *contact_world_ = traits.contact_world;
   *twist_lag_ = traits.twist_lag;
   last_.invalidate();
+  for (const Joint& joint : joints_) joint.position_target.take_over();
   if (model_.fixed_base) *twist_ = Twist{};
 }
 
@@ -144,12 +177,23 @@ void WorldRobot::import_wrenches() {
   }
 }
 
-void WorldRobot::set_drive_targets(double position_gain) {
+void WorldRobot::set_drive_targets(double dt, double gain_of_mimics) {
+  if (has_position_drives_ && is_dynamic()) {
+    for (std::size_t i = 1; i < joints_.size(); ++i) positions_[i] = state_.joints[i].position;
+    moved_inertias_.update(positions_);
+  }
   for (std::size_t i = 1; i < joints_.size(); ++i) {
     const RigidBody& body = model_.bodies[i];
     JointState& joint = state_.joints[i];
-    const JointState* const leader = body.leader >= 0 ? &state_.joints[std::size_t(body.leader)] : nullptr;
-    joint.target = drive_target_of(body, joint, leader, joints_[i].target.get(), position_gain);
+    if (follows_positions(i)) {
+      if (!is_dynamic()) continue;
+      const PdGains gains = joints_[i].position_drive.gains(moved_inertias_.driven(i));
+      const Reference reference = joints_[i].position_target.advance(joint.position, body.limits, dt);
+      joint.target = position_drive_target(body, joint, gains, reference, moved_inertias_.free(i), dt);
+    } else {
+      const JointState* const leader = body.leader >= 0 ? &state_.joints[std::size_t(body.leader)] : nullptr;
+      joint.target = drive_target_of(body, joint, leader, joints_[i].target.get(), gain_of_mimics);
+    }
     if (!std::isfinite(joint.target.velocity + joint.target.effort))
       throw Error("the target of " + quote(joint_names_[i]) +
                   " is not finite; look at what writes its `joint.*.target`");

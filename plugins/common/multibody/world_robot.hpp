@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "joint_drive_target.hpp"
 #include "last_state.hpp"
 #include "muro/algorithm.hpp"
+#include "plugins/common/position_drive/moved_inertias.hpp"
 #include "plugins/common/watch/watch.hpp"
 #include "world.hpp"
 
@@ -24,6 +26,8 @@ class WorldRobot {
   /// `engine_memory`: how many numbers the engine keeps of the robot. [setup]
   void connect(Connector& c, const RobotView& view, const Parameters& p, const WorldTraits& traits,
                std::size_t engine_memory);
+  /// Finds out whether velocities of joints in mode position are commanded. [setup]
+  void connect_by_name(Connector& c);
   /// Whether one of those that add to its external wrenches is the contact algorithm. [setup]
   void set_has_contact_law(bool has) { has_contact_law_ = has; }
 
@@ -38,9 +42,9 @@ class WorldRobot {
   void take_over(const WorldTraits& traits);
   /// Properties to state. Throws Error when they are not those of a body.
   void import();
-  /// Sets what drives are to do in a step of the engine. `position_gain`: 1/s. Throws Error for targets that are not
-  /// finite.
-  void set_drive_targets(double position_gain);
+  /// Sets what drives are to do in a step of the engine of `dt` (s). `gain_of_mimics`: 1/s. Throws Error for targets
+  /// that are not finite.
+  void set_drive_targets(double dt, double gain_of_mimics);
   /// State to properties. Throws Error when it passes the limits of the watch.
   void export_state();
 
@@ -53,6 +57,8 @@ class WorldRobot {
   struct Joint {
     Out<double> position, velocity, effort;
     In<double> target;
+    PositionDrive position_drive;
+    PositionTarget position_target;
     double reach_square = 0;  ///< m^2, see watch::Reach; 1 for a joint that shifts
   };
   /// Of a loaded link.
@@ -61,12 +67,13 @@ class WorldRobot {
     Out<Wrench> contact;  ///< by contacts in the own world; none without shapes
   };
 
-  void connect_joints(Connector& c, const RobotView& view, const watch::Reach& reach);
+  void connect_joints(Connector& c, const RobotView& view, const Parameters& p, const watch::Reach& reach);
   void connect_links(Connector& c, const RobotView& view);
   void connect_memory(Connector& c, const RobotView& view, std::string_view motion, std::size_t engine_memory);
   void import_wrenches();
   void export_contacts();
   void clear_outputs() const;
+  bool follows_positions(std::size_t body) const;
   void check_input() const;
   bool is_within_limits() const;
   std::string broken_limit() const;
@@ -84,7 +91,10 @@ class WorldRobot {
   Out<double> twist_lag_;
   Out<Pose> pose_;
   Out<Twist> twist_;
-  std::vector<Joint> joints_;                          ///< one per body
+  std::vector<Joint> joints_;     ///< one per body
+  MovedInertias moved_inertias_;  ///< where some joint follows positions
+  bool has_position_drives_ = false;
+  std::vector<double> positions_;                      ///< of joints, one per body
   std::vector<LinkWrenches> wrenches_;                 ///< one per loaded link
   std::vector<std::string> joint_names_, link_names_;  ///< the same; for messages
   LastState last_;

@@ -142,6 +142,10 @@ void Mjcf::write_body(const multibody::RobotModel& model, std::size_t number, st
   if (!base)
     bodies_ += "<joint" + named(name) + (body.joint == JointKind::revolute ? " type='hinge'" : " type='slide'") +
                vector("axis", body.axis) + "/>\n";
+  if (!base && has_friction_beside_drive(body))
+    tendons_ += "<fixed" + attribute("frictionloss", {std::min(body.limits.friction, 1e30)}) +
+                attribute("solimpfriction", {mjMAXIMP, mjMAXIMP, 1}) + "><joint joint='" + name +
+                "' coef='1'/></fixed>\n";
   const Principal p = principal_of(body.inertia);
   bodies_ += "<inertial" + place({body.inertia.com - shift, p.axes}) + attribute("mass", {body.inertia.mass}) +
              vector("diaginertia", p.moments) + "/>\n";
@@ -164,7 +168,7 @@ std::string Mjcf::text(const MujocoSettings& settings, const Sizes& sizes) const
          "/><joint" + impedance("solimplimit", mjMAXIMP) + impedance("solimpfriction", mjMAXIMP) +
          "/></default>\n<asset>\n" + assets_ + "</asset>\n<worldbody>\n" + planes_ +
          (moving_geoms_ <= few_geoms ? scenery_in_world_ : scenery_in_bodies_) + bodies_ + "</worldbody>\n<contact>\n" +
-         exclusions_ + "</contact>\n</mujoco>\n";
+         exclusions_ + "</contact>\n<tendon>\n" + tendons_ + "</tendon>\n</mujoco>\n";
 }
 
 }  // namespace muro::mujoco

@@ -48,7 +48,7 @@ class Mjcf {
   const MujocoMeshes* meshes_;
   static constexpr std::size_t few_geoms = 15;
 
-  std::string planes_, scenery_in_world_, scenery_in_bodies_, bodies_, assets_, exclusions_;
+  std::string planes_, scenery_in_world_, scenery_in_bodies_, bodies_, assets_, exclusions_, tendons_;
   std::size_t moving_geoms_ = 0;
   std::map<const Vec3*, std::string> mesh_names_;
 };
@@ -59,6 +59,11 @@ struct Principal {
   Quat axes;
 };
 Principal principal_of(const Inertia& inertia);
+
+/// Whether Coulomb friction of a body's joint is a row beside that of its drive: a tendon of this joint alone.
+inline bool has_friction_beside_drive(const multibody::RigidBody& body) {
+  return body.drive == DriveMode::position && body.leader < 0 && body.limits.friction > 0;
+}
 
 /// Whether the shape of a body that moves becomes a geom: MuJoCo has planes at rest only.
 inline bool has_geom(const multibody::BodyShape& s) { return s.shape.kind != ShapeKind::plane; }

@@ -75,12 +75,12 @@ void MujocoRobot::set_motion_type(mjModel& m) {
   motion_type_ = state_->motion_type;
 }
 
-void MujocoRobot::import(mjModel& m, mjData& d, std::span<double> target_velocities) {
+void MujocoRobot::import(mjModel& m, mjData& d, std::span<DofDrive> drives) {
   set_motion_type(m);
   set_state(d);
   std::fill(efforts_.begin(), efforts_.end(), 0.0);
   for (Wrench& w : state_->contact) w = Wrench{};
-  for (std::size_t i = 1; i < dofs_.size(); ++i) set_joint(m, d, i, target_velocities);
+  for (std::size_t i = 1; i < dofs_.size(); ++i) set_joint(m, d, i, drives);
 }
 
 void MujocoRobot::set_state(mjData& d) const {
@@ -124,15 +124,15 @@ void MujocoRobot::set_forces(mjData& d) {
   }
 }
 
-void MujocoRobot::set_joint(mjModel& m, mjData& d, std::size_t number, std::span<double> target_velocities) const {
+void MujocoRobot::set_joint(mjModel& m, mjData& d, std::size_t number, std::span<DofDrive> drives) const {
   const RigidBody& body = model_->bodies[number];
   const JointState& joint = state_->joints[number];
   const multibody::DriveTarget& target = joint.target;
   const int dof = dofs_[number], id = joints_[number];
   const bool dynamic = motion_type_ == MotionType::dynamic;
   const double velocity = target.tracks_velocity ? target.velocity : 0;
-  const double max_effort = target.tracks_velocity ? target.max_effort : body.limits.friction;
-  target_velocities[std::size_t(dof)] = velocity;
+  const double max_effort = target.tracks_velocity ? target.max_effort : target.friction;
+  drives[std::size_t(dof)] = {velocity, target.tracks_velocity ? target.softness() : 0};
   m.dof_frictionloss[dof] = dynamic ? std::min(max_effort, unlimited) : 0;
   d.qfrc_applied[dof] =
       dynamic ? (target.tracks_velocity ? 0 : target.effort) - body.limits.damping * joint.velocity : 0;

@@ -16,6 +16,12 @@ inline constexpr double kinematic_armature = 1e15;
 /// Bits of geoms: what forces move touches everything, what they do not move touches only that.
 inline constexpr int dynamic_bit = 1, fixed_bit = 2;
 
+/// What the row of a degree of freedom's drive or friction is to do.
+struct DofDrive {
+  double velocity = 0;  ///< rad/s or m/s, to hold
+  double softness = 0;  ///< see multibody::DriveTarget
+};
+
 class MujocoRobot {
  public:
   /// How many numbers a robot keeps from step to step: accelerations, from which the solver starts.
@@ -35,9 +41,8 @@ class MujocoRobot {
   /// Steps take `dt` (s) from now on. Inertia of joints grows by dt times their damping, which makes the damping
   /// implicit: M a = f - B (v + a dt).
   void set_time_step(mjModel& m, double dt);
-  /// Takes over state and drive targets. `target_velocities`: for each degree of freedom the speed that its drive or
-  /// friction holds.
-  void import(mjModel& m, mjData& d, std::span<double> target_velocities);
+  /// Takes over state and drive targets. `drives`: one for each degree of freedom of the world.
+  void import(mjModel& m, mjData& d, std::span<DofDrive> drives);
   /// Forces from outside, when bodies are in their places.
   void set_forces(mjData& d);
   /// Hands back what the step made of it.
@@ -60,7 +65,7 @@ class MujocoRobot {
  private:
   void set_motion_type(mjModel& m);
   void set_state(mjData& d) const;
-  void set_joint(mjModel& m, mjData& d, std::size_t number, std::span<double> target_velocities) const;
+  void set_joint(mjModel& m, mjData& d, std::size_t number, std::span<DofDrive> drives) const;
   void cancel_gyroscopic_torque(mjData& d) const;
   Vec3 rotated(const mjData& d, std::size_t number, const Vec3& v) const;
 

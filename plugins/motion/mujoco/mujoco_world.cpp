@@ -38,7 +38,7 @@ void MujocoWorld::complete() {
     for (const multibody::RigidBody& p : r.model().bodies) shapes += int(p.shapes.size());
   }
   const int contacts = shapes + 20;
-  model_ = compile(mjcf_.text(settings_, {contacts, 2 * joints + 3 * contacts}), *warnings_);
+  model_ = compile(mjcf_.text(settings_, {contacts, 3 * joints + 3 * contacts}), *warnings_);
   if (model_->nbody > 30000)
     throw Error("a world of MuJoCo holds 30000 bodies, this one has " + std::to_string(model_->nbody) +
                 "; give some of the robots another `world`");
@@ -48,7 +48,7 @@ void MujocoWorld::complete() {
   model_->opt.impratio = settings_.friction_ratio;
   contacts_.prepare(settings_, std::size_t(model_->ngeom));
   dof_owners_.resize(std::size_t(model_->nv));
-  target_velocities_.resize(std::size_t(model_->nv));
+  dof_drives_.resize(std::size_t(model_->nv));
   find_indices();
   allocate_data();
 }
@@ -61,8 +61,7 @@ void MujocoWorld::find_indices() {
   const auto set_owner = [&](int geom, const multibody::BodyShape& s) -> GeomOwner& {
     GeomOwner& owner = contacts_.owner_of(geom);
     owner.loaded_link = s.loaded_link;
-    owner.friction = s.shape.friction;
-    owner.restitution = s.shape.restitution;
+    owner.surface = s.shape.surface;
     return owner;
   };
   for (const StaticBody& s : static_bodies_) {
@@ -119,7 +118,7 @@ void MujocoWorld::advance(double dt) {
     try {
       if (dt != dt_) set_time_step(dt);
       for (KinematicBody& k : kinematic_bodies_) import(k);
-      for (MujocoRobot& r : robots_) r.import(*model_, *data_, target_velocities_);
+      for (MujocoRobot& r : robots_) r.import(*model_, *data_, dof_drives_);
       step();
     } catch (const LibraryError& e) {
       if (e.text.find("tack overflow") == std::string::npos || model_->nstack >= max_stack)
@@ -175,12 +174,14 @@ void MujocoWorld::step() {
   mjData* d = data_.get();
   mj_kinematics(m, d);
   mj_comPos(m, d);
+  mj_tendon(m, d);
   mj_crb(m, d);
   mj_factorM(m, d);
   mj_collision(m, d);
   contacts_.report_overlaps(*d, robots_);
   contacts_.set_friction(*d);
   mj_makeConstraint(m, d);
+  set_softness();
   mj_projectConstraint(m, d);
   mj_fwdVelocity(m, d);
   for (MujocoRobot& r : robots_) r.set_forces(*d);
@@ -199,13 +200,27 @@ void MujocoWorld::step() {
   }
 }
 
+/// A row's force is (a* - J a) / R: with R = softness / dt it is that of a damper on the speed at the end of the step.
+void MujocoWorld::set_softness() {
+  mjData& d = *data_;
+  for (int i = 0; i < d.nefc && d.efc_type[i] == mjCNSTR_FRICTION_DOF; ++i) {
+    const double softness = dof_drives_[std::size_t(d.efc_id[i])].softness;
+    if (softness <= dt_ * d.efc_R[i]) continue;
+    d.efc_R[i] = softness / dt_;
+    d.efc_D[i] = 1 / d.efc_R[i];
+  }
+}
+
 /// What each row of constraints is to do to its speed within the step.
 void MujocoWorld::set_references() {
   mjData& d = *data_;
   if (d.ncon > 0) mj_mulJacVec(model_.get(), &d, d.efc_b, d.qacc_smooth);
   for (int i = 0; i < d.nefc; ++i) switch (d.efc_type[i]) {
       case mjCNSTR_FRICTION_DOF:
-        d.efc_aref[i] = (target_velocities_[std::size_t(d.efc_id[i])] - d.efc_vel[i]) / dt_;
+        d.efc_aref[i] = (dof_drives_[std::size_t(d.efc_id[i])].velocity - d.efc_vel[i]) / dt_;
+        break;
+      case mjCNSTR_FRICTION_TENDON:
+        d.efc_aref[i] = -d.efc_vel[i] / dt_;
         break;
       case mjCNSTR_LIMIT_JOINT: {
         const double distance = d.efc_pos[i];

@@ -44,6 +44,7 @@ class MujocoWorld final : public multibody::World {
   void import(KinematicBody& body);
   void step();
   void check_inertia() const;
+  void set_softness();
   void set_references();
 
   MujocoSettings settings_;
@@ -56,8 +57,8 @@ class MujocoWorld final : public multibody::World {
   Model model_;
   Data data_;
   MujocoContacts contacts_;
-  std::vector<DofOwner> dof_owners_;       ///< one per degree of freedom
-  std::vector<double> target_velocities_;  ///< one per degree of freedom: the speed that its drive or friction holds
+  std::vector<DofOwner> dof_owners_;  ///< one per degree of freedom
+  std::vector<DofDrive> dof_drives_;  ///< the same
   double dt_ = 0;
   double stack_factor_ = 1;
 };

@@ -211,7 +211,7 @@ void OdeRobot::import() {
   else if (!bodies_match_memory_)
     set_bodies_from_memory();
   bodies_match_memory_ = false;
-  start_ = quaternion_of(dBodyGetQuaternion(bodies_[0].id));
+  for (OdeBody& b : bodies_) b.start = quaternion_of(dBodyGetQuaternion(b.id));
   for (Wrench& w : state_->contact) w = Wrench{};
   if (motion_type_ != MotionType::dynamic) return;
   set_forces();
@@ -330,7 +330,7 @@ void OdeRobot::export_state(double dt) {
 /// ODE has changed the spin by torques alone; what it has made of the orientation is replaced.
 void OdeRobot::rotate_exactly(double dt) {
   const OdeBody& b = bodies_[0];
-  multibody::FreeRotation free{start_, vector_of(dBodyGetAngularVel(b.id))};
+  multibody::FreeRotation free{b.start, vector_of(dBodyGetAngularVel(b.id))};
   free.advance(b.inertia, b.inverse_inertia, dt);
   dQuaternion orientation;
   copy_quaternion(orientation, free.orientation);
@@ -344,6 +344,8 @@ void OdeRobot::export_joint(std::size_t number, double dt) {
   JointState& joint = state_->joints[number];
   const Vec3 axis = child.pose.orientation * body.axis;
   const OdeBody& b = bodies_[number];
+  // forces are those of the pose at which the step began
+  const Vec3 effort_axis = b.start * body.axis;
   const Vec3 force = vector_of(b.feedback.f1), torque = vector_of(b.feedback.t1);
   if (body.joint == JointKind::revolute) {
     const Quat rotation = (parent.pose.orientation * body.origin.orientation).conjugate() * child.pose.orientation;
@@ -351,12 +353,12 @@ void OdeRobot::export_joint(std::size_t number, double dt) {
     const double expected = joint.position + dt * joint.velocity;
     joint.position = expected + wrapped(angle - expected);
     joint.velocity = axis.dot(child.twist.angular - parent.twist.angular);
-    if (settings_.reactions) joint.effort = axis.dot(torque + Vec3(child.pose.orientation * b.com).cross(force));
+    if (settings_.reactions) joint.effort = effort_axis.dot(torque + Vec3(b.start * b.com).cross(force));
   } else {
     const Vec3 zero = parent.pose * body.origin.position;  // where the child is with the joint at 0
     joint.position = axis.dot(child.pose.position - zero);
     joint.velocity = axis.dot(child.twist.linear - parent.twist.at(child.pose.position - parent.pose.position));
-    joint.effort = axis.dot(force);
+    joint.effort = effort_axis.dot(force);
   }
   if (!joint.target.tracks_velocity) joint.effort = joint.target.effort;
 }

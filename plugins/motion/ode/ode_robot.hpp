@@ -43,12 +43,14 @@ class OdeRobot {
     Vec3 com = Vec3::Zero();                                      ///< in the frame of the body
     Mat3 inertia = Mat3::Zero(), inverse_inertia = Mat3::Zero();  ///< about it, axes of the body
     dJointID joint = nullptr;                                     ///< that moves it; none for the base
-    dJointID drive = nullptr;             ///< of a joint with stops; none: `joint` drives itself
-    dJointID damper = nullptr;            ///< none where the model has no damping
-    double velocity = 0, max_effort = 0;  ///< what the drive was told last
-    bool only_rotates = false;            ///< on a hinge, and carries no slider: its position is not asked for
-    bool has_far_stops = false;           ///< see set_near_stops
-    dJointFeedback feedback{};            ///< of what drives the joint
+    dJointID drive = nullptr;                      ///< of a joint with stops; none: `joint` drives itself
+    dJointID damper = nullptr;                     ///< none where the model has no damping
+    double velocity = 0, max_effort = 0, cfm = 0;  ///< what the drive was told last
+    double least_cfm = 0;                          ///< of the joint: see OdeSettings::softness
+    Quat start = Quat::Identity();                 ///< orientation when the step began
+    bool only_rotates = false;                     ///< on a hinge, and carries no slider: its position is not asked for
+    bool has_far_stops = false;                    ///< see set_near_stops
+    dJointFeedback feedback{};                     ///< of what drives the joint
   };
 
   void add_body(std::size_t body);
@@ -71,8 +73,7 @@ class OdeRobot {
   const multibody::RobotModel* model_;
   multibody::RobotState* state_;
   OdeSettings settings_;
-  bool rotates_exactly_ = false;   ///< see OdeSettings::exact_attitude
-  Quat start_ = Quat::Identity();  ///< of such a body: its orientation when the step began
+  bool rotates_exactly_ = false;  ///< see OdeSettings::exact_attitude
   multibody::MotionType motion_type_ = multibody::MotionType::dynamic;
   std::deque<OdeBody> bodies_;        ///< one per body
   bool bodies_match_memory_ = false;  ///< they are where the memory says

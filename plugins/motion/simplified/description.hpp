@@ -3,12 +3,13 @@
 #pragma once
 
 #include "muro/plugin.hpp"
-#include "muro/toolkit/joint_drives.hpp"
+#include "plugins/common/position_drive/position_drive.hpp"
 #include "plugins/common/watch/parameters.hpp"
 
 namespace muro::simplified {
 
 inline constexpr std::string_view joint_modes[] = {"velocity", "position", "acceleration", "effort", "passive"};
+inline constexpr std::string_view position_drive_kinds[] = {"pd", "ideal"};
 inline constexpr std::string_view base_modes[] = {"free", "fixed"};
 inline constexpr Parameter parameters[] = {
     text("joints", "velocity", "which target the joints follow that the lists below do not name").one_of(joint_modes),
@@ -18,7 +19,15 @@ inline constexpr Parameter parameters[] = {
     passive_joints,
     real("max_joint_acceleration", "rad/s^2 or m/s^2", 100, "of every joint that follows a target other than an effort")
         .between(1e-6, 1e9),
-    boolean("effort_limits", false, "drives that follow targets are no stronger than the model says, and give way"),
+    boolean("effort_limits", false,
+            "drives that follow targets are no stronger than the model says, and give way to what pushes their links"),
+    text("position_drives", "pd",
+         "joints in mode position have PD drives, or meet targets whatever it takes, at the least cost")
+        .one_of(position_drive_kinds),
+    natural_frequency,
+    drive_stiffness,
+    drive_damping,
+    interpolate,
     real("armature", "kg m^2 or kg", 0, "inertia of each drive, felt by joints that forces move").between(0, 1e6),
     text("base", "free", "free to move, or fixed to the world where it starts").one_of(base_modes),
     watch::watch,
@@ -30,7 +39,7 @@ inline constexpr PropertyUse reads[] = {
     {"contacts", "of the robot, where a contact algorithm reads them: how deep it is in scenery"},
     {"gravity", "on the world object; 0 0 -9.81 when absent"},
     {"inertial", "of every body"},
-    {"joint.velocity.target", "of joints in mode velocity"},
+    {"joint.velocity.target", "of joints in mode velocity, and in mode position where something writes it"},
     {"joint.position.target", "of joints in mode position"},
     {"joint.acceleration.target", "of joints in mode acceleration"},
     {"joint.effort.target", "of joints in mode effort"},
@@ -40,14 +49,15 @@ inline constexpr PropertyUse reads[] = {
     {"contact.impact", "on the base: where impacts were within the last step"},
     {"contact.impact.time", "on the base: when they were"},
 };
-inline constexpr PropertyUse writes[] = {{"pose", "of the base"},
-                                         {"twist", "of the base"},
-                                         {"joint.position", "of every joint"},
-                                         {"joint.velocity", "of every joint"},
-                                         {"joint.effort", "of joints that forces move: what the drive applies"},
-                                         {"contact.world", "that the contact algorithm answers for all contacts"},
-                                         {"twist.lag", "0: pose and twist are those of one instant"},
-                                         {"contact.impact.step", "of a base that impacts push: length of a step"}};
+inline constexpr PropertyUse writes[] = {
+    {"pose", "of the base"},
+    {"twist", "of the base"},
+    {"joint.position", "of every joint"},
+    {"joint.velocity", "of every joint"},
+    {"joint.effort", "of joints with PD drives or moved by forces: what the drive applies"},
+    {"contact.world", "that the contact algorithm answers for all contacts"},
+    {"twist.lag", "0: pose and twist are those of one instant"},
+    {"contact.impact.step", "of a base that impacts push: length of a step"}};
 inline constexpr Description description{
     .id = "motion.simplified",
     .kind = Kind::motion,

@@ -7,6 +7,7 @@
 
 #include "joint_motion.hpp"
 #include "muro/robot.hpp"
+#include "plugins/common/position_drive/position_drive.hpp"
 
 namespace muro::simplified {
 
@@ -17,6 +18,13 @@ inline double beyond_friction(double force, double friction) {
   return force > 0 ? std::max(force - friction, 0.0) : std::min(force + friction, 0.0);
 }
 
+/// Moves on by `dt` (s) with the velocity `v` at its end; stops are inelastic.
+inline DofState moved_on(const DofState& s, double v, const JointLimits& limits, double dt) {
+  const double q = s.position + (s.velocity + v) * (0.5 * dt);
+  const double position = std::clamp(q, limits.lower, limits.upper);
+  return {position, position == q ? v : 0};
+}
+
 /// Moves on by `dt` (s) under the constant `force` (N m or N). inertia v' = force - damping v - friction, with damping
 /// and friction those of the end of the step: friction takes what it can and no more, so a joint comes to rest and
 /// stays there. q' = q + (v + v') dt/2, exact for a constant force. Stops are inelastic.
@@ -24,9 +32,7 @@ inline double beyond_friction(double force, double friction) {
 inline DofState integrate_force(const DofState& s, double force, double inertia, const JointLimits& limits, double dt) {
   const double momentum = beyond_friction(inertia * s.velocity + force * dt, limits.friction * dt);
   const double v = std::clamp(momentum / (inertia + limits.damping * dt), -limits.velocity, limits.velocity);
-  const double q = s.position + (s.velocity + v) * (0.5 * dt);
-  const double position = std::clamp(q, limits.lower, limits.upper);
-  return {position, position == q ? v : 0};
+  return moved_on(s, v, limits, dt);
 }
 
 /// The drive's effort that brings a joint under `load` (what else acts, N m or N) from velocity `from` to `to` within
@@ -35,6 +41,21 @@ inline double inverse_dynamics(double from, double to, double load, double inert
                                double dt) {
   const double needed = ((inertia + limits.damping * dt) * to - inertia * from) / dt - load;
   return to == 0 ? beyond_friction(needed, limits.friction) : needed + std::copysign(limits.friction, to);
+}
+
+/// Moves on by `dt` (s) with a PD drive, no stronger than the limit of effort, under `load` (what else acts, N m or N).
+/// `effort`: what the drive does, N m or N, that of the end of the step.
+inline DofState follow_drive(const DofState& s, const ImplicitDrive& drive, double load, double inertia,
+                             const JointLimits& limits, double dt, double& effort) {
+  const double momentum =
+      beyond_friction(inertia * s.velocity + (drive.damping * drive.velocity + load) * dt, limits.friction * dt);
+  const double free = momentum / (inertia + (limits.damping + drive.damping) * dt);
+  const double v = std::clamp(free, -limits.velocity, limits.velocity);
+  const double wanted = drive.effort(v);
+  // at the limit of speed, what holds it there
+  const double needed = v == free ? wanted : inverse_dynamics(s.velocity, v, load, inertia, limits, dt);
+  effort = std::clamp(needed, -limits.effort, limits.effort);
+  return effort == needed ? moved_on(s, v, limits, dt) : integrate_force(s, effort + load, inertia, limits, dt);
 }
 
 /// A drive that follows its target as long as its effort suffices.

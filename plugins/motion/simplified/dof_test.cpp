@@ -98,6 +98,42 @@ TEST(Dof, ADriveAcceleratesByItsEffortAndGivesWayToAHeavyLoad) {
   EXPECT_EQ(effort, -4);
 }
 
+/// The drive of a joint at `s` that is to be at `target`.
+ImplicitDrive drive_to(double target, const DofState& s, const PdGains& gains) {
+  return implicit_drive(gains, target - s.position, 0, dof_step);
+}
+
+TEST(Dof, APositionDriveHoldsALoadByItsStiffness) {
+  DofState s{};
+  double effort = 0;
+  for (int n = 0; n < 8000; ++n) s = follow_drive(s, drive_to(0.1, s, {40, 18}), 3, 2, {}, dof_step, effort);
+  EXPECT_NEAR(s.position, 0.1 + 3 / 40.0, 1e-9);
+  EXPECT_NEAR(effort, -3, 1e-9);
+}
+
+TEST(Dof, APositionDriveIsNoStrongerAndNoFasterThanItsLimits) {
+  const JointLimits limits{.velocity = 1.5, .effort = 4};
+  DofState s{};
+  double effort = 0;
+  for (int n = 0; n < 500; ++n) s = follow_drive(s, drive_to(50, s, {40, 18}), 0, 2, limits, dof_step, effort);
+  EXPECT_NEAR(s.velocity, 4 * 0.5 / 2, 1e-12);
+  EXPECT_EQ(effort, 4);
+  for (int n = 0; n < 500; ++n) s = follow_drive(s, drive_to(50, s, {40, 18}), -3, 2, limits, dof_step, effort);
+  EXPECT_NEAR(s.velocity, 1 + (4 - 3) * 0.5 / 2, 1e-12);
+  for (int n = 0; n < 1500; ++n) s = follow_drive(s, drive_to(50, s, {40, 18}), -3, 2, limits, dof_step, effort);
+  EXPECT_NEAR(s.velocity, 1.5, 1e-12);
+  EXPECT_NEAR(effort, 3, 1e-9) << "what holds the load at this speed";
+}
+
+TEST(Dof, FrictionHoldsAPositionDriveNearItsTarget) {
+  DofState s{};
+  double effort = 0;
+  for (int n = 0; n < 5000; ++n)
+    s = follow_drive(s, drive_to(0.1, s, {40, 0}), 0, 2, {.friction = 5}, dof_step, effort);
+  EXPECT_EQ(s.position, 0) << "40 N m/rad by 0.1 rad is less than 5 N m";
+  EXPECT_NEAR(effort, 4, 1e-12);
+}
+
 TEST(Dof, WithoutALimitOfEffortADriveFollowsAsIfNothingActed) {
   const Drive drive{Mode::position, 0.7, 20};
   joints::JointState<double> alone{};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "force_driven_joints.hpp"
 
+#include <algorithm>
 #include <string>
 
 namespace muro::simplified {
@@ -18,20 +19,31 @@ std::vector<std::uint32_t> links_of_dofs(const RobotView& robot, std::span<const
 
 ForceDrivenJoints::ForceDrivenJoints(Connector& c, const RobotView& robot, std::span<const JointProperties> properties,
                                      std::span<const Inertia> inertias, std::span<const double> start,
+                                     std::span<const PositionDrive> drives, std::string_view memory,
                                      const Settings& settings)
     : settings_(settings),
       dynamics_(robot.links, inertias, links_of_dofs(robot, properties), settings.fixed_base),
-      positions_(start.begin(), start.end()) {
+      positions_(start.begin(), start.end()),
+      present_(start.begin(), start.end()) {
   dynamics_.update({}, {}, positions_, Vec3::Zero());
   for (const DecoupledDynamics::Dof& dof : dynamics_.dofs()) {
     const Link& link = robot.links[dof.link];
     const double inertia = dof.inertia + settings.armature;
-    if (!(inertia > 1e-12))
+    if (!(inertia > least_dof_inertia))
       throw Error("joint `" + std::string(c.object_name(link.joint_object)) + "` moves an inertia of " +
                   std::to_string(inertia) +
                   " kg m^2 or kg, so no force can move it; give the bodies behind it mass and inertia (`inertial`), or "
                   "set `armature`");
-    Joint j{properties[dof.link], link.limits, 1e-3 * inertia, c.derived(link.joint_object, keys::joint_effort), {}};
+    Joint j;
+    j.properties = properties[dof.link];
+    j.limits = link.limits;
+    j.min_inertia = 1e-3 * inertia;
+    j.effort = c.derived(link.joint_object, keys::joint_effort);
+    if (j.properties.has_position_drive) {
+      has_position_drives_ = true;
+      j.drive = drives[dof.link];
+      j.target = PositionTarget(link.joint_object, j.properties.target, j.drive.interpolation);
+    }
     for (std::size_t i = 0; i < properties.size(); ++i) {
       const Link& other = robot.links[i];
       if (other.mimic != std::int32_t(dof.link)) continue;
@@ -45,9 +57,34 @@ ForceDrivenJoints::ForceDrivenJoints(Connector& c, const RobotView& robot, std::
   for (std::uint32_t i = 0; i < properties.size(); ++i) {
     const ObjectId body = robot.links[i].object;
     if (properties[i].position) link_joints_.push_back({properties[i].position, properties[i].velocity, i});
-    if (i == 0 || !c.constant_array(body, keys::collision_shapes).empty())
+    if (i == 0 ? settings.feels_wrench
+               : settings.feels_contact && !c.constant_array(body, keys::collision_shapes).empty())
       dynamics_.add_wrench(i, c.read_sum(body, keys::external_wrench));
   }
+  if (!has_position_drives_) return;
+  std::vector<MovedInertias::Body> bodies(robot.links.size());
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    bodies[i] = {robot.links[i], inertias[i]};
+    bodies[i].link.limits.armature += settings.armature;
+  }
+  moved_inertias_ = MovedInertias(std::move(bodies), settings.fixed_base);
+  std::size_t count = 0;
+  for (const Joint& j : joints_) count += j.target.memory_size();
+  if (count == 0) return;
+  auto* next = static_cast<double*>(c.state_block(robot.base(), memory, std::uint32_t(count * sizeof(double))));
+  for (Joint& j : joints_) {
+    if (j.target.memory_size() > 0) j.target.keep_in({next, j.target.memory_size()});
+    next += j.target.memory_size();
+  }
+}
+
+void ForceDrivenJoints::connect_by_name(Connector& c) {
+  for (Joint& j : joints_)
+    if (j.properties.has_position_drive) j.target.connect_by_name(c);
+}
+
+void ForceDrivenJoints::take_over() const {
+  for (const Joint& j : joints_) j.target.take_over();
 }
 
 Wrench ForceDrivenJoints::evaluate(const Pose& pose, const Twist& twist, const Vec3& gravity, double dt) {
@@ -57,6 +94,10 @@ Wrench ForceDrivenJoints::evaluate(const Pose& pose, const Twist& twist, const V
 
 bool ForceDrivenJoints::move(double dt) {
   double all = 0;
+  if (has_position_drives_) {
+    for (const LinkJoint& j : link_joints_) present_[j.link] = *j.position;
+    moved_inertias_.update(present_);
+  }
   for (std::size_t k = 0; k < joints_.size(); ++k) {
     const Joint& j = joints_[k];
     const DecoupledDynamics::Dof& dof = dynamics_.dofs()[k];
@@ -65,6 +106,11 @@ bool ForceDrivenJoints::move(double dt) {
     if (j.properties.mode == DriveMode::effort || j.properties.mode == DriveMode::passive) {
       *j.effort = j.properties.target ? std::clamp(*j.properties.target, -j.limits.effort, j.limits.effort) : 0;
       state = integrate_force(state, *j.effort + dof.force, inertia, j.limits, dt);
+    } else if (j.properties.has_position_drive) {
+      const Reference reference = j.target.advance(state.position, j.limits, dt);
+      const PdGains gains = j.drive.gains(moved_inertias_.driven(dof.link));
+      const ImplicitDrive drive = implicit_drive(gains, reference.position - state.position, reference.velocity, dt);
+      state = follow_drive(state, drive, dof.force, inertia, j.limits, dt, *j.effort);
     } else {
       const Drive drive{kernel_mode(j.properties.mode), *j.properties.target, settings_.max_acceleration};
       state = follow_target(state, drive, dof.force, inertia, j.limits, dt, *j.effort);

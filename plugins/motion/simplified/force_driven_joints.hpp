@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: MIT
-// The joints of one robot that forces drive: those in mode effort and passive, and others whose effort is limited
+// The joints of one robot that forces drive: those in mode effort and passive, with PD drives, and others whose effort
+// is limited
 // (force-driven joints of hybrid dynamics: Featherstone, Rigid Body Dynamics Algorithms, Section 9.2).
 #pragma once
 
 #include "decoupled_dynamics.hpp"
 #include "dof.hpp"
 #include "joint_properties.hpp"
+#include "plugins/common/position_drive/moved_inertias.hpp"
+#include "plugins/common/position_drive/position_target.hpp"
 
 namespace muro::simplified {
+
+/// kg m^2 or kg: what joints move that forces drive, at least.
+inline constexpr double least_dof_inertia = 1e-12;
 
 class ForceDrivenJoints {
  public:
@@ -15,10 +21,18 @@ class ForceDrivenJoints {
     bool fixed_base = false;
     double max_acceleration = 0;  ///< rad/s^2 or m/s^2: of joints that follow targets
     double armature = 0;          ///< kg m^2 or kg: adds to the inertia of every joint here
+    bool feels_wrench = true;     ///< that on the base
+    bool feels_contact = true;    ///< wrenches on the other links, too
   };
-  /// `properties`, `inertias`, `start`: one per link. Throws Error for a joint without inertia. [setup]
+  /// `properties`, `inertias`, `start`, `drives`: one per link. `memory`: a name for what drives keep from step to
+  /// step. Throws Error for a joint without inertia. [setup]
   ForceDrivenJoints(Connector& c, const RobotView& robot, std::span<const JointProperties> properties,
-                    std::span<const Inertia> inertias, std::span<const double> start, const Settings& settings);
+                    std::span<const Inertia> inertias, std::span<const double> start,
+                    std::span<const PositionDrive> drives, std::string_view memory, const Settings& settings);
+  /// Finds out whether velocities of joints with PD drives are commanded. [setup]
+  void connect_by_name(Connector& c);
+  /// Another motion has moved the robot so far.
+  void take_over() const;
 
   /// Finds inertias and forces of the joints, before anything moves; returns all that acts on the robot as one wrench
   /// on the base. `dt`: s.
@@ -37,6 +51,8 @@ class ForceDrivenJoints {
     JointLimits limits;  ///< damping and friction: with those of followers
     double min_inertia;  ///< kg m^2 or kg: what remains of the inertia, however the robot folds
     Out<double> effort;
+    PositionDrive drive;
+    PositionTarget target;  ///< of a PD drive
     std::vector<Follower> followers;
   };
   /// Any joint of the robot.
@@ -48,9 +64,12 @@ class ForceDrivenJoints {
 
   Settings settings_;
   DecoupledDynamics dynamics_;
+  MovedInertias moved_inertias_;  ///< where some joint has a PD drive
+  bool has_position_drives_ = false;
   std::vector<Joint> joints_;           ///< as dynamics_.dofs()
   std::vector<LinkJoint> link_joints_;  ///< all joints of the robot
   std::vector<double> positions_;       ///< in the middle of the step, one per link
+  std::vector<double> present_;         ///< at its beginning, for moved_inertias_
 };
 
 }  // namespace muro::simplified

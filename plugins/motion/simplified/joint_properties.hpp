@@ -20,7 +20,9 @@ struct JointProperties {
   double* velocity = nullptr;
   const double* target = nullptr;  ///< of the mode; null: passive, or a mimic
   DriveMode mode = DriveMode::velocity;
-  bool force_driven = false;  ///< moved by ForceDrivenJoints; kernels move the others
+  bool force_driven = false;   ///< moved by ForceDrivenJoints; kernels move the others
+  bool feels_contact = false;  ///< such a joint, moved by the wrenches on links, too
+  bool has_position_drive = false;
 };
 
 /// Of the joints that kernels move.
@@ -31,9 +33,11 @@ constexpr Mode kernel_mode(DriveMode mode) {
 }
 
 /// One per link. `start`: positions (rad or m). `limited`: forces drive all joints whose effort the model limits, also
-/// those with other targets. Throws Error for a joint that starts outside its limits. [setup]
+/// those with other targets. `has_position_drive`: of each link, whether its joint has a PD drive in mode position.
+/// Throws Error for a joint that starts outside its limits. [setup]
 inline std::vector<JointProperties> connect_joint_properties(Connector& c, const RobotView& robot,
-                                                             const std::vector<double>& start, bool limited) {
+                                                             const std::vector<double>& start, bool limited,
+                                                             const std::vector<bool>& has_position_drive) {
   const std::vector<DriveMode> modes = drive_modes_of(c, robot, c.parameters());
   std::vector<JointProperties> properties(robot.links.size());
   for (std::size_t i = 0; i < properties.size(); ++i) {
@@ -43,8 +47,10 @@ inline std::vector<JointProperties> connect_joint_properties(Connector& c, const
     JointProperties& p = properties[i];
     const std::size_t leader = link.mimic >= 0 ? std::size_t(link.mimic) : i;
     p.mode = modes[leader];
-    p.force_driven = p.mode == DriveMode::effort || p.mode == DriveMode::passive ||
-                     (limited && std::isfinite(robot.links[leader].limits.effort));
+    p.feels_contact = p.mode == DriveMode::effort || p.mode == DriveMode::passive ||
+                      (limited && std::isfinite(robot.links[leader].limits.effort));
+    p.has_position_drive = p.mode == DriveMode::position && has_position_drive[leader];
+    p.force_driven = p.feels_contact || p.has_position_drive;
     p.position = c.variable(link.joint_object, keys::joint_position, start[i]).get();
     p.velocity = c.variable(link.joint_object, keys::joint_velocity, 0.0).get();
     if (link.mimic < 0) p.target = connect_joint_target(c, link.joint_object, p.mode, start[i]).get();

@@ -3,6 +3,7 @@
 #include <array>
 #include <bit>
 #include <deque>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -34,12 +35,13 @@ class Simplified final : public Algorithm {
     fixed_ = p.text("base") == "fixed";
     max_acceleration_ = p.real("max_joint_acceleration");
     gravity_ = c.constant(world_object, keys::gravity).value_or(Vec3(0, 0, -9.81));
-    for (const Item& item : c.items()) connect_robot(c, *item.robot);
+    for (const Item& item : c.items()) connect_robot(c, item);
   }
 
   void connect_by_name(Connector& c) override {
     scenery_ = scenery_names(c);
     for (RobotWatch& watch : watches_) watch.connect_contacts(c);
+    for (ForceDrivenJoints& joints : force_driven_) joints.connect_by_name(c);
   }
 
   void restored() override { begin_watches(); }
@@ -69,6 +71,7 @@ class Simplified final : public Algorithm {
     watches_[item].begin(external_of(item));
     *robots_[item].contact_world = contact_world_of(robots_[item].external.has_value());
     *robots_[item].twist_lag = 0;
+    if (robots_[item].force_driven >= 0) force_driven_[std::size_t(robots_[item].force_driven)].take_over();
     if (fixed_) std::fill_n(layers_[0][item].twist, 6, 0.0);
   }
 
@@ -117,7 +120,8 @@ class Simplified final : public Algorithm {
     std::string name;
   };
 
-  void connect_robot(Connector& c, const RobotView& robot) {
+  void connect_robot(Connector& c, const Item& item) {
+    const RobotView& robot = *item.robot;
     std::vector<Inertia> inertias = inertias_of(c, robot);
     for (Inertia& i : inertias) i = nearest_consistent_inertia(i).value_or(i);
     const std::vector<double> start = initial_joint_positions(c, robot);
@@ -139,22 +143,29 @@ class Simplified final : public Algorithm {
     state.pose = numbers(c.variable(robot.base(), keys::pose, pose).get());
     state.twist = numbers(c.variable(robot.base(), keys::twist, fixed_ ? Twist{} : twist).get());
     const std::vector<JointProperties> properties =
-        connect_joint_properties(c, robot, start, c.parameters().boolean("effort_limits"));
+        connect_joint_properties(c, robot, start, c.parameters().boolean("effort_limits"),
+                                 joints_with_position_drives(c, robot, inertias, start));
     watches_.emplace_back(c, robot, properties);
     // Where another motion of the robot asks for the wrenches on links, they do not act on the base.
-    const bool has_levels = robot.links.size() > 1 && !c.constant_array(robot.base(), keys::motion_level_names).empty();
-    model.force_driven = has_levels || std::any_of(properties.begin(), properties.end(),
-                                                   [](const JointProperties& p) { return p.force_driven; });
+    const bool has_levels =
+        robot.links.size() > 1 && !c.constant_array(robot.base(), keys::motion_level_names).empty();
+    const auto any = [&](bool JointProperties::*what) {
+      return std::any_of(properties.begin(), properties.end(), std::mem_fn(what));
+    };
+    const bool feels_contact = has_levels || any(&JointProperties::feels_contact);
+    model.force_driven = has_levels || any(&JointProperties::force_driven);
     if (model.force_driven) {
       r.force_driven = std::int32_t(force_driven_.size());
-      force_driven_.emplace_back(
-          c, robot, properties, inertias, start,
-          ForceDrivenJoints::Settings{fixed_, max_acceleration_, c.parameters().real("armature")});
+      force_driven_.emplace_back(c, robot, properties, inertias, start,
+                                 position_drives_of(c, robot, drive_modes_of(c, robot, c.parameters()), c.parameters()),
+                                 std::string(description.id) + (has_levels ? "." + std::to_string(item.level) : ""),
+                                 ForceDrivenJoints::Settings{fixed_, max_acceleration_, c.parameters().real("armature"),
+                                                             feels_contact || !fixed_, feels_contact});
     }
-    if (model.force_driven || !fixed_) r.external = c.read_sum(robot.base(), keys::external_wrench);
+    if (feels_contact || !fixed_) r.external = c.read_sum(robot.base(), keys::external_wrench);
     r.contact_world = c.variable(robot.base(), keys::contact_world, contact_world_of(r.external.has_value()));
     r.twist_lag = c.variable(robot.base(), keys::twist_lag, 0.0);
-    impacts_.push_back(model.force_driven || fixed_ ? ImpactInput{} : ImpactInput(c, robot));
+    impacts_.push_back(feels_contact || fixed_ ? ImpactInput{} : ImpactInput(c, robot));
     const std::vector<RobotState> states = model.add_groups(robot, properties, max_acceleration_, state);
     for (std::size_t k = 0; k < layers_.size(); ++k) layers_[k].push_back(k < states.size() ? states[k] : RobotState{});
     model.single_kernel = model.rigid && !model.force_driven && !fixed_ && model.groups.size() <= 1;
@@ -169,6 +180,21 @@ class Simplified final : public Algorithm {
     }
     kinds_.push_back({number_of(std::move(model), models_), 0});
     robots_.push_back(std::move(r));
+  }
+
+  /// Of each link, whether its joint has a PD drive in mode position. Those without inertia meet their targets.
+  static std::vector<bool> joints_with_position_drives(const Connector& c, const RobotView& robot,
+                                                       std::span<const Inertia> inertias, std::span<const double> start) {
+    std::vector<bool> result(robot.links.size());
+    if (c.parameters().text("position_drives") != "pd") return result;
+    std::vector<std::uint32_t> joints;
+    for (std::uint32_t i = 0; i < result.size(); ++i)
+      if (robot.links[i].joint != JointKind::fixed && robot.links[i].mimic < 0) joints.push_back(i);
+    DecoupledDynamics dynamics(robot.links, inertias, joints, c.parameters().text("base") == "fixed");
+    dynamics.update({}, {}, start, Vec3::Zero());
+    for (const DecoupledDynamics::Dof& dof : dynamics.dofs())
+      result[dof.link] = dof.inertia + c.parameters().real("armature") > least_dof_inertia;
+    return result;
   }
 
   const SumIn<Wrench>* external_of(std::uint32_t i) const {

@@ -44,6 +44,30 @@ std::string refusal(std::vector<std::string> properties) {
   return "it was accepted";
 }
 
+TEST(RecorderCsv, WritesMeansOverTheRunsSinceTheLastRow) {
+  const ScratchFolder folder;
+  test::Scene s;
+  const RobotView& ball =
+      s.add("ball", test::single_body(Shape::sphere(0.1), {.mass = 1, .ixx = 1, .iyy = 1, .izz = 1}));
+  s.use("motion.point", 64, s.all_robots());
+  s.use("recorder.csv", 64, {},
+        {{"file", folder.path("log.csv")},
+         {"properties", std::vector<std::string>{"ball/body:command.twist"}},
+         {"mean", std::vector<std::string>{"ball/body:pose"}},
+         {"every", 4.0}});
+  s.build();
+  s.world().value(ball.base(), keys::command_twist).linear = {64, 0, 0};  // 1 m a step
+  s.run_for(9.0 / 64);
+  s.finish();
+  const std::string text = text_of(folder.path("log.csv"));
+  EXPECT_NE(text.find("command.twist.wz,ball/body:pose.x.mean,"), std::string::npos) << text;
+  EXPECT_NE(text.find("\r\n0,64,0,0,0,0,0,0,0,0,0,0,0,1\r\n"
+                      "0.0625,64,0,0,0,0,0,2.5,0,0,0,0,0,1\r\n"  // 1, 2, 3, 4
+                      "0.125,64,0,0,0,0,0,6.5,0,0,0,0,0,1\r\n"),
+            std::string::npos)
+      << text;
+}
+
 TEST(RecorderCsv, WritesARowForEachRunWithTheStateOfThatInstant) {
   const ScratchFolder folder;
   Recording s(folder.path("log.csv"), {"ball/body:pose", "world:gravity"});
