@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "host/names.hpp"
+#include "muro/vocabulary.hpp"
 
 namespace muro::host {
 
@@ -20,6 +22,16 @@ const char* unit_of(const Link& link) { return link.joint == JointKind::revolute
 
 std::string range_of(const Link& link) {
   return fmt::format("{:g} to {:g} {}", link.limits.lower, link.limits.upper, unit_of(link));
+}
+
+/// Where the model has a joint at the start (rad or m); 0 where it does not say.
+double position_in_model(const RobotTree& tree, const RobotTree::FlatLink& link) {
+  double position = 0;
+  if (link.joint < 0) return position;
+  for (const RobotTree::Constant& c : tree.components()[std::size_t(link.joint)].constants)
+    if (c.key.name == keys::initial_joint_position.name && c.data.size() == sizeof position)
+      std::memcpy(&position, c.data.data(), sizeof position);
+  return position;
 }
 
 /// Sets the positions that the scenario states.
@@ -61,8 +73,9 @@ StartPose start_pose(const RobotTree& tree, const RobotTemplate& t, Problems& pr
   for (std::size_t i = 0; i < links.size(); ++i) {
     const Link& l = links[i].link;
     if (l.joint == JointKind::fixed || l.mimic >= 0 || is_given[i] || !(l.limits.lower <= l.limits.upper)) continue;
-    out.positions[i] = std::clamp(0.0, l.limits.lower, l.limits.upper);
-    if (std::abs(out.positions[i]) > 1e-6)
+    const double modelled = position_in_model(tree, links[i]);
+    out.positions[i] = std::clamp(modelled, l.limits.lower, l.limits.upper);
+    if (std::abs(out.positions[i] - modelled) > 1e-6)
       out.clamped.push_back(fmt::format("`{}` at {:g} ({})", name_of(tree, links[i]), out.positions[i], range_of(l)));
   }
   for (std::size_t i = 0; i < links.size(); ++i)

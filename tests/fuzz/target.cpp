@@ -22,6 +22,9 @@ const std::vector<Target>& targets() {
 #ifdef MURO_FUZZ_FMU
                                        {"fmu", read_as_fmu},
 #endif
+#ifdef MURO_FUZZ_MJCF
+                                       {"mjcf", read_as_mjcf},
+#endif
                                        {"library", read_as_library},
                                        {"lines", read_as_lines},
                                        {"frames", read_as_frames},

@@ -33,7 +33,8 @@ void read_as_library(Bytes);
 void read_as_lines(Bytes);
 void read_as_frames(Bytes);
 void read_as_scip2(Bytes);
-void read_as_fmu(Bytes);  ///< where muro is built with controller.fmu
+void read_as_fmu(Bytes);   ///< where muro is built with controller.fmu
+void read_as_mjcf(Bytes);  ///< where muro is built with reader.mjcf
 
 /// A file of this process for what reads files: the bytes under a name in a folder of its own.
 std::string file_with(Bytes bytes, const std::string& name);

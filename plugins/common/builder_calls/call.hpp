@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "model_constants.hpp"
 #include "muro/vocabulary.hpp"
 
 namespace muro::builder_calls {
@@ -25,6 +26,12 @@ enum class Call : std::uint8_t {
   inertial,
   collision_shapes,
   visual_shapes,
+  initial_joint_position,
+  joint_drive,
+  mjcf_file,
+  mjcf_in_world,
+  mjcf_body,
+  mjcf_joint,
   gravity,
   scenery,
   model,
@@ -32,10 +39,16 @@ enum class Call : std::uint8_t {
   world_report,
 };
 
-/// The constants that a record can hold, by their call; each is an array but `inertial`.
-inline constexpr std::array<std::pair<Call, const KeyInfo*>, 3> constants{
+/// The constants that a record can hold, by their call; each is one value but the shapes, which are arrays.
+inline constexpr std::array<std::pair<Call, const KeyInfo*>, 9> constants{
     {{Call::inertial, &keys::inertial},
      {Call::collision_shapes, &keys::collision_shapes},
-     {Call::visual_shapes, &keys::visual_shapes}}};
+     {Call::visual_shapes, &keys::visual_shapes},
+     {Call::initial_joint_position, &keys::initial_joint_position},
+     {Call::joint_drive, &model_constants::joint_drive},
+     {Call::mjcf_file, &model_constants::mjcf_file},
+     {Call::mjcf_in_world, &model_constants::mjcf_in_world},
+     {Call::mjcf_body, &model_constants::mjcf_body},
+     {Call::mjcf_joint, &model_constants::mjcf_joint}}};
 
 }  // namespace muro::builder_calls

@@ -76,11 +76,17 @@ void RobotRecorder::set_raw(const KeyInfo& key, const void* data, std::uint32_t 
   for (const auto& [call, known] : constants) {
     if (known->name != key.name) continue;
     out_.value(call);
-    if (call == Call::inertial)
-      out_.value(*static_cast<const Inertia*>(data));
-    else
-      out_.list(std::span(static_cast<const Shape*>(data), count));
-    return;
+    switch (call) {
+      case Call::inertial:
+        return out_.value(*static_cast<const Inertia*>(data));
+      case Call::collision_shapes:
+      case Call::visual_shapes:
+        return out_.list(std::span(static_cast<const Shape*>(data), count));
+      case Call::initial_joint_position:
+        return out_.value(*static_cast<const double*>(data));
+      default:
+        return out_.value(*static_cast<const std::uint32_t*>(data));
+    }
   }
   assert(!"a constant that Call does not have");
 }

@@ -2,6 +2,7 @@
 #include "replay.hpp"
 
 #include "call.hpp"
+#include "muro/toolkit/joint_drives.hpp"
 
 namespace muro::builder_calls {
 
@@ -87,12 +88,29 @@ class RobotReplay {
         return builder_.set_array<Shape>(keys::collision_shapes, shapes_in(calls, texts_));
       case Call::visual_shapes:
         return builder_.set_array<Shape>(keys::visual_shapes, shapes_in(calls, texts_));
+      case Call::initial_joint_position:
+        return builder_.set(keys::initial_joint_position, calls.value<double>());
+      case Call::joint_drive:
+        return drive(calls.value<std::uint32_t>());
+      case Call::mjcf_file:
+        return builder_.set(model_constants::mjcf_file, texts_[calls.value<TextId>()]);
+      case Call::mjcf_in_world:
+        return builder_.set(model_constants::mjcf_in_world, calls.value<std::uint32_t>());
+      case Call::mjcf_body:
+        return builder_.set(model_constants::mjcf_body, calls.value<std::uint32_t>());
+      case Call::mjcf_joint:
+        return builder_.set(model_constants::mjcf_joint, calls.value<std::uint32_t>());
       default:
         fail();
     }
   }
 
  private:
+  void drive(std::uint32_t mode) {
+    if (mode > std::uint32_t(DriveMode::passive)) fail();
+    builder_.set(model_constants::joint_drive, mode);
+  }
+
   void joint(Call kind, Reader& calls) {
     const std::string name = calls.text();
     const Vec3 axis = calls.value<Vec3>();

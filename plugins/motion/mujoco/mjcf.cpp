@@ -12,32 +12,49 @@ namespace muro::mujoco {
 
 namespace {
 
-/// As short as it can be for exactly this value. MuJoCo reads it by a stream in the C++ locale of the program that
-/// embeds muro, so it has the decimal sign of that.
-std::string number(double value) {
+std::string named(const std::string& name) { return " name='" + name + "'"; }
+
+}  // namespace
+
+Mjcf::Mjcf(const MujocoMeshes& meshes, Contacts contacts)
+    : meshes_(&meshes),
+      contacts_(contacts),
+      decimal_sign_(contacts == Contacts::of_each_geom
+                        ? '.'
+                        : std::use_facet<std::numpunct<char>>(std::locale()).decimal_point()) {}
+
+/// As short as it can be for exactly this value.
+std::string Mjcf::number(double value) const {
   char text[40];
   char* const end = std::to_chars(text, text + sizeof text, value).ptr;
-  std::replace(text, end, '.', std::use_facet<std::numpunct<char>>(std::locale()).decimal_point());
+  std::replace(text, end, '.', decimal_sign_);
   return {text, end};
 }
 
-std::string attribute(const char* name, std::initializer_list<double> values) {
+std::string Mjcf::attribute(const char* name, std::initializer_list<double> values) const {
   std::string text = std::string(" ") + name + "='";
   for (const double v : values) text += number(v) + " ";
   text.back() = '\'';
   return text;
 }
 
-std::string vector(const char* name, const Vec3& v) { return attribute(name, {v.x(), v.y(), v.z()}); }
+std::string Mjcf::vector(const char* name, const Vec3& v) const { return attribute(name, {v.x(), v.y(), v.z()}); }
 
-std::string place(const Pose& pose) {
+std::string Mjcf::place(const Pose& pose) const {
   const Quat& q = pose.orientation;
   return vector("pos", pose.position) + attribute("quat", {q.w(), q.x(), q.y(), q.z()});
 }
 
-std::string named(const std::string& name) { return " name='" + name + "'"; }
-
-}  // namespace
+/// What a geom needs where the defaults are another's. All bits: it touches whatever touches anything. The compiler
+/// takes no body of several geoms without mass.
+std::string Mjcf::own_contacts(const Surface& s) const {
+  const int dimensions = s.rolling_resistance > 0 ? 6 : s.spinning_resistance > 0 ? 4 : 3;
+  return attribute("mass", {1e-9}) +
+         " contype='2147483647' conaffinity='2147483647' priority='0' solmix='1' margin='0' gap='0' condim='" +
+         std::to_string(dimensions) + "'" + attribute("solref", {0.02, 1}) +
+         attribute("solimp", {0.9, 0.95, 0.001, 0.5, 2}) +
+         attribute("friction", {s.friction, s.spinning_resistance, s.rolling_resistance});
+}
 
 Principal principal_of(const Inertia& inertia) {
   const Mat3 tensor = inertia.tensor();
@@ -81,7 +98,7 @@ std::string Mjcf::geom(const multibody::BodyShape& shape, const Pose& pose, cons
       std::string& mesh = mesh_names_[hull.data()];
       if (mesh.empty()) {
         mesh = "mesh:" + std::to_string(mesh_names_.size());
-        assets_ += "<mesh" + named(mesh) + " vertex='";
+        assets_ += "<mesh" + named(mesh) + " scale='1 1 1' vertex='";
         for (const Vec3& v : hull) assets_ += number(v.x()) + " " + number(v.y()) + " " + number(v.z()) + " ";
         assets_ += "'/>\n";
       }
@@ -89,6 +106,7 @@ std::string Mjcf::geom(const multibody::BodyShape& shape, const Pose& pose, cons
       break;
     }
   }
+  if (contacts_ == Contacts::of_each_geom) what += own_contacts(shape.shape.surface);
   return "<geom" + named(name) + what + place(pose) + "/>\n";
 }
 
@@ -158,8 +176,12 @@ void Mjcf::write_body(const multibody::RobotModel& model, std::size_t number, st
   bodies_ += "</body>\n";
 }
 
+std::string Mjcf::elements() const {
+  return "<asset>" + assets_ + "</asset><worldbody>" + planes_ + scenery_in_world_ + bodies_ + "</worldbody>";
+}
+
 std::string Mjcf::text(const MujocoSettings& settings, const Sizes& sizes) const {
-  const auto impedance = [](const char* name, double d) { return attribute(name, {d, d, 1}); };
+  const auto impedance = [this](const char* name, double d) { return attribute(name, {d, d, 1}); };
   return "<mujoco>\n<compiler angle='radian' inertiafromgeom='false' balanceinertia='true'/>\n<option cone='elliptic'" +
          vector("gravity", settings.gravity) + "><flag filterparent='disable' multiccd='" +
          (settings.several_contacts ? "enable" : "disable") + "'/></option>\n<size nconmax='" +

@@ -21,7 +21,10 @@ struct Sizes {
 /// its shapes.
 class Mjcf {
  public:
-  explicit Mjcf(const MujocoMeshes& meshes) : meshes_(&meshes) {}
+  /// Where parameters of contacts stand: as defaults of a whole text, or with each geom, as in a file of others. Those
+  /// are MuJoCo's own, with the surface of the shape.
+  enum class Contacts { by_default, of_each_geom };
+  explicit Mjcf(const MujocoMeshes& meshes, Contacts contacts = Contacts::by_default);
 
   /// `owner`: number of the external body or robot, `name`: of it, for messages.
   static std::string body_name(std::string_view name, std::size_t owner, std::size_t number);
@@ -40,12 +43,23 @@ class Mjcf {
 
   /// The whole text.
   std::string text(const MujocoSettings& settings, const Sizes& sizes) const;
+  /// What was added, as elements for the end of another file.
+  std::string elements() const;
 
  private:
   void write_body(const multibody::RobotModel& model, std::size_t number, std::size_t owner);
+  std::string number(double value) const;
+  std::string attribute(const char* name, std::initializer_list<double> values) const;
+  std::string vector(const char* name, const Vec3& v) const;
+  std::string place(const Pose& pose) const;
+  std::string own_contacts(const Surface& s) const;
   std::string geom(const multibody::BodyShape& shape, const Pose& pose, const std::string& name);
 
   const MujocoMeshes* meshes_;
+  Contacts contacts_;
+  /// MuJoCo reads numbers by a stream in the C++ locale of its process: that of the program which embeds muro, or that
+  /// of the parser process, "C".
+  char decimal_sign_;
   static constexpr std::size_t few_geoms = 15;
 
   std::string planes_, scenery_in_world_, scenery_in_bodies_, bodies_, assets_, exclusions_, tendons_;

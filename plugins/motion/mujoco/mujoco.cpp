@@ -3,6 +3,7 @@
 // drives as soft constraints of a convex problem.
 #include <algorithm>
 
+#include "model_world.hpp"
 #include "mujoco_world.hpp"
 #include "muro/plugin.hpp"
 #include "plugins/common/multibody/engine_description.hpp"
@@ -14,7 +15,13 @@ namespace {
 using namespace muro;
 
 constexpr std::string_view solvers[] = {"pgs", "cg", "newton"};  // in the order of mjtSolver
+constexpr std::string_view origins_of_settings[] = {"muro", "model"};
 constexpr Parameter own_parameters[] = {
+    text(
+        "settings", "muro",
+        "whose options, contact parameters, friction rule and actuators count: those stated here, or those of the MJCF "
+        "file that the robots were read from")
+        .one_of(origins_of_settings),
     text("solver", "newton",
          "projected Gauss-Seidel, conjugate gradients, or Newton's method: exact in a few iterations")
         .one_of(solvers),
@@ -39,12 +46,15 @@ class MujocoMotion final : public multibody::Motion {
   const Description& description() const override { return mujoco_description; }
   multibody::MinInertia min_inertia() const override { return {}; }
   std::size_t memory_of(const multibody::RobotModel& model) const override {
-    return mujoco::MujocoRobot::memory_of(model);
+    return source_.is_used() ? mujoco::ModelRobot::memory_of(model, source_.robot(model.name))
+                             : mujoco::MujocoRobot::memory_of(model);
   }
   void configure(Connector& c) override {
     const Parameters& p = c.parameters();
     settings_.gravity = gravity();
     warnings_ = std::make_shared<mujoco::WarningLog>(c.host());
+    host_ = &c.host();
+    if (p.text("settings") == "model") source_.connect(c);
     settings_.solver = int(std::find(std::begin(solvers), std::end(solvers), p.text("solver")) - std::begin(solvers));
     settings_.iterations = int(p.integer("iterations"));
     settings_.tolerance = p.real("tolerance");
@@ -61,11 +71,14 @@ class MujocoMotion final : public multibody::Motion {
         [](const mesh::Mesh& mesh) { return mesh.vertices; });
   }
   std::unique_ptr<multibody::World> make_world() const override {
+    if (source_.is_used()) return std::make_unique<mujoco::ModelWorld>(source_, meshes_, *host_);
     return std::make_unique<mujoco::MujocoWorld>(settings_, meshes_, warnings_);
   }
   std::string_view advice() const override { return "a higher rate or `substeps`"; }
 
   mujoco::MujocoSettings settings_;
+  mujoco::ModelSource source_;
+  Host* host_ = nullptr;
   mujoco::MujocoMeshes meshes_;
   std::shared_ptr<mujoco::WarningLog> warnings_;
 };

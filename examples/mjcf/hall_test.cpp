@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// The hall as a user runs it, and as its state shows.
+#include <gtest/gtest.h>
+
+#include "host/scenario/builder.hpp"
+#include "muro/vocabulary.hpp"
+#include "tests/support/files.hpp"
+#include "tests/support/scene.hpp"
+
+namespace muro::host {
+namespace {
+
+const std::string hall = MURO_TEST_SOURCE_DIR "/examples/mjcf/hall.yaml";
+const std::string muro_program =
+    std::string("cd " MURO_TEST_SOURCE_DIR " && MURO_PLUGIN_PATH=" MURO_TEST_PLUGIN_DIR " ") + MURO_PROGRAM;
+
+BuiltScenario open(const std::vector<std::string>& overrides = {}) {
+  return build(read_scenario(hall, overrides), test::plugins());
+}
+
+TEST(Hall, RunsWithoutAWarning) {
+  const auto result = test::run_command(muro_program + " run examples/mjcf/hall.yaml --duration 1");
+  EXPECT_EQ(result.exit_code, 0) << result.output;
+  EXPECT_EQ(result.output.find("warning"), std::string::npos) << result.output;
+}
+
+TEST(Hall, ServosOfTheFileHoldTheArm) {
+  // at rest a servo of gain 60 N m/rad is off by the torque of gravity over that
+  BuiltScenario built = open();
+  World& world = built.simulation->world();
+  built.simulation->run_for(5);
+  for (const auto& [joint, start] : {std::pair("arm/shoulder", 0.8), std::pair("arm/elbow", 0.6)}) {
+    const double position = world.value(world.object(joint), keys::joint_position);
+    EXPECT_NEAR(position, start, 0.4) << joint;
+    EXPECT_GT(std::abs(position - start), 1e-3) << joint;
+    EXPECT_NEAR(world.value(world.object(joint), keys::joint_velocity), 0, 1e-4) << joint;
+    EXPECT_NEAR(world.value(world.object(joint), keys::joint_effort), 60 * (start - position), 1e-3) << joint;
+  }
+}
+
+TEST(Hall, TheBallLiesOnTheFloor) {
+  BuiltScenario built = open();
+  built.simulation->run_for(5);
+  EXPECT_NEAR(built.simulation->world().value("ball/ball", keys::pose).position.z(), 0.1, 2e-3);
+}
+
+TEST(Hall, InOtherMotionsJointsFollowWhatTheFileDrivesThemBy) {
+  BuiltScenario built = open({"robots.arm.motion={use: motion.bullet, base: fixed, rate: 500}"});
+  World& world = built.simulation->world();
+  world.value(world.object("arm/yaw"), keys::joint_position_target) = 0.5;
+  built.simulation->run_for(3);
+  EXPECT_NEAR(world.value(world.object("arm/yaw"), keys::joint_position), 0.5, 0.02);
+}
+
+}  // namespace
+}  // namespace muro::host

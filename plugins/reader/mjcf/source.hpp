@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// The text of an MJCF file before MuJoCo reads it.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "library.hpp"
+#include "plugins/common/model_file/document.hpp"
+#include "plugins/common/model_file/problems.hpp"
+
+namespace muro::mjcf {
+
+using model_file::concat;
+using model_file::Element;
+using model_file::Location;
+using model_file::Problems;
+
+class Source {
+ public:
+  /// The contents of the file at `path` (absolute). False, with a report, where they are no MJCF.
+  bool load(std::string bytes, const std::string& path, Problems& problems);
+
+  /// Has MuJoCo compile it, with `more` elements at its end. Nothing, with a report, where MuJoCo refuses.
+  Compiled compile(Problems& problems, const std::string& more = "") const;
+
+  const std::string& path() const { return path_; }
+  std::filesystem::path folder() const { return std::filesystem::path(path_).parent_path(); }
+  /// Of the first element `tag` with this name in the file itself; nowhere where it is in an included file or has none.
+  Location location_of(const std::string& tag, const std::string& name) const;
+
+ private:
+  void find_names();
+  void allow_for_files() const;
+
+  std::string path_, text_;
+  model_file::Document document_;
+  std::map<std::pair<std::string, std::string>, Location> places_;  ///< by tag and name
+  bool has_includes_ = false;
+};
+
+}  // namespace muro::mjcf
