@@ -31,14 +31,20 @@ std::vector<Subsystem> read_motions(const std::string& name, const Node& levels,
   return all;
 }
 
-/// The algorithm that chooses the level.
+/// Runs in a second of level.rules, by default: as fast as a controller may write `motion.level.target` where there is
+/// only `dwell`, which counts from the run that sees a change.
+constexpr double rules_rate = 100, dwell_rate = 1000;
+
+/// The algorithm that chooses the level, or has it stay for a while.
 Subsystem read_rules(const std::string& name, MapReader& map) {
   Subsystem s;
   s.name = name + ".rules";
-  s.location = map.find("rules")->location;
-  s.rate = map.number("rules_rate", 100, 1e-3, 1e6);
+  const bool has_rules = map.has("rules");
+  s.location = map.find(has_rules ? "rules" : "dwell")->location;
+  s.rate = map.number("rules_rate", has_rules ? rules_rate : dwell_rate, 1e-3, 1e6);
   std::vector<std::string> rules;
-  for (const Node& e : map.list("rules").list) rules.push_back(e.scalar);
+  if (has_rules)
+    for (const Node& e : map.list("rules").list) rules.push_back(e.scalar);
   const bool by_run_speed = std::any_of(rules.begin(), rules.end(), [](const std::string& rule) {
     return rule.find(" when slower ") != rule.npos || rule.find(" when faster ") != rule.npos;
   });
@@ -72,7 +78,7 @@ std::vector<Subsystem> read_levels(const std::string& name, const Node& node, co
     level.index = std::uint32_t(i);
     all[i].level = level;
   }
-  if (map.has("rules")) all.push_back(read_rules(name, map));
+  if (map.has("rules") || map.has("dwell")) all.push_back(read_rules(name, map));
   map.reject_unknown_keys();
   return all;
 }

@@ -25,9 +25,9 @@ std::vector<std::string> words_of(std::string_view text) {
 [[noreturn]] void reject(std::string_view text, const std::string& why) {
   throw Error(
       "the rule " + quote(text) + " " + why +
-      "; a rule is one of: `NAME at SECONDS`, `NAME when nearer than METRES to ROBOT` (or to `any`), `NAME when "
-      "farther than METRES from ROBOT` (or from `all`), `NAME when in contact`, `NAME when out of contact for "
-      "SECONDS`, "
+      "; a rule is one of: `NAME at SECONDS`, `NAME when nearer than METRES to WHAT` (a robot, an object of the "
+      "scenery, a place, or `any` robot), `NAME when farther than METRES from WHAT` (or from `all` robots), `NAME when "
+      "inside PLACE`, `NAME when outside PLACE`, `NAME when in contact`, `NAME when out of contact for SECONDS`, "
       "`NAME when slower than FACTOR`, `NAME when faster than FACTOR` (the speed of the run in units of real time; "
       "level.budget only)");
 }
@@ -62,7 +62,8 @@ Rule parse_rule(std::string_view text, std::span<const std::string> names) {
   rule.level = std::uint32_t(name - names.begin());
   using Words = std::string_view[];
   constexpr Words at = {"at", "#"}, nearer = {"when", "nearer", "than", "#", "to", "@"},
-                  farther = {"when", "farther", "than", "#", "from", "@"}, in_contact = {"when", "in", "contact"},
+                  farther = {"when", "farther", "than", "#", "from", "@"}, inside = {"when", "inside", "@"},
+                  outside = {"when", "outside", "@"}, in_contact = {"when", "in", "contact"},
                   out_of_contact = {"when", "out", "of", "contact", "for", "#"},
                   slower = {"when", "slower", "than", "#"}, faster = {"when", "faster", "than", "#"};
   const struct {
@@ -72,6 +73,8 @@ Rule parse_rule(std::string_view text, std::span<const std::string> names) {
   } forms[] = {{Rule::When::at, at, 2},
                {Rule::When::nearer, nearer, 4},
                {Rule::When::farther, farther, 4},
+               {Rule::When::inside, inside, 0},
+               {Rule::When::outside, outside, 0},
                {Rule::When::in_contact, in_contact, 0},
                {Rule::When::out_of_contact, out_of_contact, 6},
                {Rule::When::slower, slower, 4},
@@ -80,8 +83,9 @@ Rule parse_rule(std::string_view text, std::span<const std::string> names) {
     if (!fits(words, form.pattern)) continue;
     rule.when = form.when;
     if (form.number > 0) rule.number = number_in(text, words[form.number]);
-    if (rule.when == Rule::When::nearer && words.back() != "any") rule.robot = words.back();
-    if (rule.when == Rule::When::farther && words.back() != "all") rule.robot = words.back();
+    if (rule.when == Rule::When::nearer && words.back() != "any") rule.what = words.back();
+    if (rule.when == Rule::When::farther && words.back() != "all") rule.what = words.back();
+    if (rule.by_place()) rule.what = words.back();
     return rule;
   }
   reject(text, "is not understood");

@@ -13,8 +13,10 @@ namespace muro::level {
 struct Rule {
   enum class When : std::uint8_t {
     at,              ///< NAME at SECONDS
-    nearer,          ///< NAME when nearer than METRES to ROBOT, or to any
-    farther,         ///< NAME when farther than METRES from ROBOT, or from all
+    nearer,          ///< NAME when nearer than METRES to WHAT: a robot, an object or a place; or to any robot
+    farther,         ///< NAME when farther than METRES from WHAT, or from all robots
+    inside,          ///< NAME when inside PLACE
+    outside,         ///< NAME when outside PLACE
     in_contact,      ///< NAME when in contact: with another robot
     out_of_contact,  ///< NAME when out of contact for SECONDS
     slower,          ///< NAME when slower than FACTOR: the run, in units of real time
@@ -23,9 +25,10 @@ struct Rule {
   std::uint32_t level = 0;  ///< in the list of names
   When when = When::at;
   double number = 0;  ///< s, m or 1
-  std::string robot;  ///< empty: any or all
+  std::string what;   ///< empty: any or all robots
 
   bool by_distance() const { return when == When::nearer || when == When::farther; }
+  bool by_place() const { return when == When::inside || when == When::outside; }
   bool by_contact() const { return when == When::in_contact || when == When::out_of_contact; }
   bool by_run_speed() const { return when == When::slower || when == When::faster; }
 };

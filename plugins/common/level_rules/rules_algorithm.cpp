@@ -2,9 +2,7 @@
 #include "rules_algorithm.hpp"
 
 #include <algorithm>
-#include <limits>
 
-#include "muro/toolkit/did_you_mean.hpp"
 #include "plugins/common/text/quote.hpp"
 
 namespace muro::level {
@@ -15,6 +13,7 @@ namespace {
 constexpr Key<std::int32_t> motion_level_rule{"motion.level.rule", "1",
                                               "which motion is to move it by a rule that holds; -1: none holds"};
 constexpr Key<std::int64_t> switch_time{"level.switch_time", "ns", "when the robot was handed over last"};
+constexpr Key<std::int32_t> known_level{"level.known", "1", "which motion moved the robot at the last look; -1: none"};
 constexpr Key<std::int64_t> contact_time{"level.contact_time", "ns",
                                          "when the robot was in contact with another one last; -1: never"};
 
@@ -36,20 +35,9 @@ RulesAlgorithm::Condition RulesAlgorithm::read_condition(Connector& c, const Rob
     throw Error("the rule " + quote(text) +
                 " goes by the speed of the run, which only the machine's clock tells; use level.budget, which reads "
                 "the clock and so is not deterministic");
-  if (!rule.by_distance()) return condition;
-  bool found = rule.robot.empty();
-  for (const RobotView* other : c.robots()) {
-    if (other == &view || c.constant(other->base(), keys::shadow_of)) continue;
-    if (!rule.robot.empty() && rule.robot != other->name) continue;
-    found = true;
-    condition.others.push_back(c.read(other->base(), keys::pose));
-  }
-  if (found) return condition;
-  std::vector<std::string> names;
-  for (const RobotView* other : c.robots())
-    if (other != &view) names.emplace_back(other->name);
-  throw Error("the rule " + quote(text) + " names " + quote(rule.robot) + ", but no other robot has this name" +
-              did_you_mean(rule.robot, names));
+  if (rule.by_distance()) condition.landmark = Landmark(c, view, rule.what, text);
+  if (rule.by_place()) condition.landmark = Landmark::place(c, rule.what, text);
+  return condition;
 }
 
 void RulesAlgorithm::connect_robot(Connector& c, const RobotView& view) {
@@ -66,6 +54,7 @@ void RulesAlgorithm::connect_robot(Connector& c, const RobotView& view) {
   r.level = c.read(view.base(), keys::motion_level);
   r.choice = c.optional_output(view.base(), motion_level_rule);
   r.switch_time = c.variable(view.base(), switch_time, std::int64_t{0});
+  r.known_level = c.variable(view.base(), known_level, std::int32_t{-1});
   if (r.by_contact) {
     r.contacts = c.read_list(view.base(), keys::contacts);
     r.contact_time = c.variable(view.base(), contact_time, std::int64_t{-1});
@@ -80,8 +69,11 @@ void RulesAlgorithm::choose(const Step& step, Range range, std::optional<double>
 
 void RulesAlgorithm::choose(const Robot& r, const Step& step, std::optional<double> run_speed) const {
   if (r.by_contact && is_in_contact(r)) *r.contact_time = step.time;
+  const auto level = std::int32_t(*r.level);
+  if (*r.known_level >= 0 && level != *r.known_level && level != *r.choice) *r.switch_time = step.time;
+  *r.known_level = level;
   const bool dwells = *r.switch_time > 0 && step.time - *r.switch_time < dwell_;
-  *r.choice = dwells ? std::int32_t(*r.level) : -1;
+  *r.choice = dwells ? level : -1;
   if (dwells) return;
   for (const Condition& c : r.conditions) {
     if (!holds(r, c, step, run_speed)) continue;
@@ -103,9 +95,13 @@ bool RulesAlgorithm::holds(const Robot& r, const Condition& c, const Step& step,
     case Rule::When::at:
       return now >= number && now < number + step.dt;
     case Rule::When::nearer:
-      return distance(r, c) < number;
+      return c.landmark.distance(r.pose->position) < number;
     case Rule::When::farther:
-      return distance(r, c) > number;
+      return c.landmark.distance(r.pose->position) > number;
+    case Rule::When::inside:
+      return c.landmark.distance(r.pose->position) == 0;
+    case Rule::When::outside:
+      return c.landmark.distance(r.pose->position) > 0;
     case Rule::When::in_contact:
       return *r.contact_time == step.time;
     case Rule::When::out_of_contact:
@@ -116,13 +112,6 @@ bool RulesAlgorithm::holds(const Robot& r, const Condition& c, const Step& step,
       return run_speed && *run_speed > number;
   }
   return false;
-}
-
-/// To the nearest of those that the rule means, m.
-double RulesAlgorithm::distance(const Robot& r, const Condition& c) {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const In<Pose>& other : c.others) nearest = std::min(nearest, (other->position - r.pose->position).norm());
-  return nearest;
 }
 
 }  // namespace muro::level

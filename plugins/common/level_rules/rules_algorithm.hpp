@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "landmark.hpp"
 #include "muro/algorithm.hpp"
 #include "muro/vocabulary.hpp"
 #include "rule.hpp"
@@ -13,19 +14,20 @@ namespace muro::level {
 
 // For the descriptions of algorithms that go by rules.
 inline constexpr Parameter parameters[] = {
-    texts("rules", "which motion moves the robot, and when; the first rule that holds decides"),
+    texts("rules", "which motion moves the robot, and when; the first rule that holds decides; none: only `dwell`"),
     real("dwell", "s", 0.1, "a motion moves the robot for so long at least").between(0, 1e6),
 };
 inline constexpr PropertyUse reads[] = {
     {"motion.level", "of the robot"},
     {"motion.level.names", "of the robot"},
-    {"pose", "of bases of robots, for rules by distance"},
+    {"pose", "of bases of robots, and of scenery, for rules by distance and place"},
     {"contacts", "of the robot, for rules by contact"},
 };
 inline constexpr PropertyUse writes[] = {{"motion.level.rule", "of the robot"}};
 
 /// Chooses which of its motions moves each robot, by rules. Where none holds, `motion.level.target` is what counts,
-/// which control code writes.
+/// which control code writes. Whoever has handed a robot over, its motion is kept for `dwell`, as counted from the run
+/// that sees it.
 class RulesAlgorithm : public Algorithm {
  public:
   /// Throws Error when a rule is not understood, or goes by the speed of the run where `run_speed_is_known` is false.
@@ -40,7 +42,7 @@ class RulesAlgorithm : public Algorithm {
  private:
   struct Condition {
     Rule rule;
-    std::vector<In<Pose>> others;  ///< for rules by distance
+    Landmark landmark;  ///< for rules by distance and place
   };
   struct Robot {
     std::vector<Condition> conditions;
@@ -50,6 +52,7 @@ class RulesAlgorithm : public Algorithm {
     Out<std::int32_t> choice;  ///< -1: no rule holds, and others may choose
     ListIn<Contact> contacts;
     Out<std::int64_t> switch_time, contact_time;
+    Out<std::int32_t> known_level;       ///< in the last run; -1: none yet
     std::vector<std::int32_t> robot_of;  ///< by object, for rules by contact
     std::int32_t number = 0;
   };
@@ -60,7 +63,6 @@ class RulesAlgorithm : public Algorithm {
   void choose(const Robot& r, const Step& step, std::optional<double> run_speed) const;
   static bool is_in_contact(const Robot& r);
   static bool holds(const Robot& r, const Condition& c, const Step& step, std::optional<double> run_speed);
-  static double distance(const Robot& r, const Condition& c);
 
   bool run_speed_is_known_;
   std::int64_t dwell_ = 0;  ///< ns

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "tests/support/bodies.hpp"
+#include "tests/support/complaint.hpp"
 
 namespace muro {
 namespace {
@@ -10,7 +13,9 @@ namespace {
 struct Ruled : test::Scene {
   const RobotView *ball, *other;
 
-  explicit Ruled(std::vector<std::string> rules, const Vec3& other_at = {5, 0, 0.1}) {
+  /// `add_more`: to the scene, before it is built.
+  explicit Ruled(std::vector<std::string> rules, const Vec3& other_at = {5, 0, 0.1},
+                 const std::function<void(World&)>& add_more = {}, double dwell = 0.1) {
     Shape shape = Shape::sphere(0.1);
     const RobotTree tree = test::single_body(shape, {.mass = 1, .ixx = 0.004, .iyy = 0.004, .izz = 0.004});
     world().set(world_object, keys::gravity, Vec3(0, 0, 0));
@@ -20,7 +25,8 @@ struct Ruled : test::Scene {
     use("motion.simplified", 1000, {{ball, ball->base(), 1}});
     use("motion.point", 1000, {{other, other->base()}});
     set_levels(*ball, {"far", "near"}, 0);
-    use("level.rules", 100, {{ball, ball->base()}}, {{"rules", std::move(rules)}});
+    use("level.rules", 100, {{ball, ball->base()}}, {{"rules", std::move(rules)}, {"dwell", dwell}});
+    if (add_more) add_more(world());
     use_contacts();
     build();
     world().value(ball->base(), keys::command_twist) = {{0.5, 0, 0}, Vec3::Zero()};
@@ -47,6 +53,71 @@ TEST(LevelRules, HandOverWhereRobotsComeNear) {
   EXPECT_EQ(s.level(), 0u);
   s.run_for(0.2);  // 2 - 0.5 t < 1
   EXPECT_EQ(s.level(), 1u);
+}
+
+/// At 0.5 m/s along x from 0: the time (s) at which the level becomes 1, or -1 within 4 s.
+double time_of_change(Ruled& s) {
+  for (int k = 0; k < 400; ++k) {
+    s.run_for(0.01);
+    if (s.level() == 1) return 1e-9 * double(s.now());
+  }
+  return -1;
+}
+
+/// A solid of the scenery, aside of the path of the ball but for its surface.
+std::function<void(World&)> solid(const Shape& shape, const Pose& pose) {
+  return [shape, pose](World& world) { world.add_scenery("rock", pose, std::span<const Shape>(&shape, 1)); };
+}
+
+TEST(LevelRules, MeasureToTheNearestPointOfScenery) {
+  const Quat lying(Eigen::AngleAxisd(M_PI / 2, Vec3::UnitX()));  // its axis, z, along -y
+  const struct {
+    Shape shape;
+    Pose pose;
+    double surface;  ///< x, on the path of the ball
+  } solids[] = {
+      {Shape::box({0.2, 20, 2}), {{2, 8, 1}, Quat::Identity()}, 1.9},
+      {Shape::sphere(3), {{4.5, 0, 0.1}, Quat::Identity()}, 1.5},
+      {Shape::cylinder(0.5, 20), {{2, 8, 0.1}, lying}, 1.5},
+      {Shape::capsule(0.5, 20), {{2, 8, 0.1}, lying}, 1.5},
+  };
+  for (const auto& [shape, pose, surface] : solids) {
+    Ruled s({"near when nearer than 0.8 to rock"}, {50, 0, 0.1}, solid(shape, pose));
+    EXPECT_NEAR(time_of_change(s), (surface - 0.8) / 0.5, 0.021) << int(shape.kind);
+  }
+  Ruled ground({"near when nearer than 0.2 to rock"}, {50, 0, 0.1}, solid(Shape::plane(), {}));
+  EXPECT_LT(time_of_change(ground), 0.03) << "0.1 m above it";
+}
+
+std::function<void(World&)> yard(double x, double y, double width, double depth) {
+  return [=](World& world) {
+    const TextId names[] = {world.intern("yard"), world.intern("yard")};
+    const double rectangles[] = {x, y, width, depth, 40, 40, 1, 1};
+    world.set_array(world_object, Key<TextId>{"place.names", "1", ""}, std::span<const TextId>(names));
+    world.set_array(world_object, Key<double>{"place.rectangles", "m", ""}, std::span<const double>(rectangles));
+  };
+}
+
+TEST(LevelRules, KnowWhatIsInsideAPlaceAndHowFarItIs) {
+  Ruled inside({"near when inside yard", "far when outside yard"}, {50, 0, 0.1}, yard(1, 0, 0.6, 0.4));
+  EXPECT_NEAR(time_of_change(inside), 0.7 / 0.5, 0.021);
+  inside.run_for(1.4);  // to 1.3 m and beyond
+  EXPECT_EQ(inside.level(), 0u) << "it has left the place";
+  Ruled near({"near when nearer than 0.5 to yard"}, {50, 0, 0.1}, yard(1, 0.6, 0.6, 0.4));
+  // its nearest corner is at (0.7, 0.4)
+  EXPECT_NEAR(time_of_change(near), (0.7 - 0.3) / 0.5, 0.021);
+}
+
+TEST(LevelRules, KeepAMotionThatATargetHasChosen) {
+  Ruled s({}, {50, 0, 0.1}, {}, 0.3);
+  s.world().value(s.ball->base(), keys::motion_level_target) = 1;
+  s.run_for(0.02);
+  EXPECT_EQ(s.level(), 1u);
+  s.world().value(s.ball->base(), keys::motion_level_target) = 0;
+  s.run_for(0.25);
+  EXPECT_EQ(s.level(), 1u) << "it dwells";
+  s.run_for(0.06);
+  EXPECT_EQ(s.level(), 0u);
 }
 
 TEST(LevelRules, HandOverOnContact) {
@@ -115,9 +186,32 @@ TEST(LevelRules, ThatNameNoOtherRobotAreRefused) {
     Ruled s({"near when nearer than 1 to othr"});
     FAIL();
   } catch (const std::exception& e) {
-    EXPECT_NE(std::string(e.what()).find("no other robot has this name (did you mean `other`?)"), std::string::npos)
-        << e.what();
+    EXPECT_SAYS(std::string(e.what()),
+                "no other robot, no object of the scenery and no place has this name (did you mean `other`?)");
   }
+}
+
+TEST(LevelRules, ThatNameAPlaceWrongOrTwiceAreRefused) {
+  const auto refusal = [](const std::string& rule) -> std::string {
+    try {
+      Ruled s({rule}, {5, 0, 0.1}, [](World& world) {
+        yard(1, 0, 1, 1)(world);
+        solid(Shape::sphere(1), {{9, 0, 0}, Quat::Identity()})(world);
+        const Shape box = Shape::box({1, 1, 1});
+        world.add_scenery("yard", {{9, 9, 0}, Quat::Identity()}, std::span<const Shape>(&box, 1));
+      });
+    } catch (const std::exception& e) {
+      return e.what();
+    }
+    return {};
+  };
+  EXPECT_SAYS(refusal("near when inside yrd"),
+              "names `yrd`, but there is no place of this name (did you mean `yard`?); places (`world: {places: "
+              "...}`): `yard`");
+  EXPECT_SAYS(refusal("near when inside rock"), "names `rock`, but there is no place of this name");
+  EXPECT_SAYS(refusal("near when nearer than 1 to rok"), "did you mean `rock`?");
+  EXPECT_SAYS(refusal("near when nearer than 1 to yard"),
+              "names `yard`, which is a place and an object of the scenery; give one of the two another name");
 }
 
 TEST(LevelRules, AreDeterministicAndLeaveTheSpeedOfTheRunToLevelBudget) {
