@@ -3,12 +3,15 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <limits>
+#include <optional>
 
 #include "core/instance.hpp"
 #include "host/commands/commands.hpp"
 #include "host/commands/open.hpp"
 #include "host/constants.hpp"
 #include "host/false_colors.hpp"
+#include "host/free_camera.hpp"
 #include "host/names.hpp"
 #include "host/output_file.hpp"
 #include "host/outputs/output_options.hpp"
@@ -16,8 +19,6 @@
 #include "host/png.hpp"
 #include "host/process/interrupt.hpp"
 #include "host/video.hpp"
-#include "muro/toolkit/elementary.hpp"
-#include "muro/toolkit/rotations.hpp"
 #include "muro/vocabulary.hpp"
 
 namespace muro::host {
@@ -25,7 +26,7 @@ namespace muro::host {
 namespace {
 
 constexpr const char* camera_algorithm = "camera.opengl";
-constexpr const char* free_camera = "muro.camera";
+constexpr const char* free_camera_name = "muro.camera";
 
 /// "1280x720"
 std::pair<std::int64_t, std::int64_t> size_of(const std::string& text) {
@@ -48,50 +49,28 @@ Vec3 point_of(const char* option, const std::vector<double>& xyz) {
   return p;
 }
 
-/// The pose of a camera at `from` that looks at `to`, without roll.
-Pose look_at(const Vec3& from, const Vec3& to) {
-  const Vec3 forward = to - from;
-  if (forward.norm() < 1e-9) throw SetupError("--from and --to are the same point; the picture needs a direction");
-  const double yaw = elementary::atan2(forward.y(), forward.x());
-  return {from, from_rpy(0, -elementary::atan2(forward.z(), forward.head<2>().norm()), yaw)};
+std::optional<Vec3> optional_point(const char* option, const std::vector<double>& xyz) {
+  if (xyz.empty()) return {};
+  return point_of(option, xyz);
 }
 
-struct FreeCamera {
-  Pose pose;
-  double distance = 0;  ///< m, to the point that it looks at
-};
-
-FreeCamera free_camera_of(const RenderOptions& options, Simulation& simulation) {
-  Vec3 low = Vec3::Constant(1e300), high = -low;
-  for (const RobotView* r : simulation.world().robots()) {
-    const Vec3 at = constant(simulation.world(), r->base(), keys::initial_pose, Pose{}).position;
-    low = low.cwiseMin(at), high = high.cwiseMax(at);
-  }
-  if (simulation.world().robots().empty()) low = high = Vec3::Zero();
-  const Vec3 middle = 0.5 * (low + high);
-  const double radius = std::max(1.5, 0.5 * (high - low).norm());
-  const Vec3 to = options.to.empty() ? middle : point_of("--to", options.to);
-  const Vec3 from =
-      options.from.empty() ? Vec3(to + 1.7 * radius * Vec3(-0.75, -0.75, 0.7)) : point_of("--from", options.from);
-  return {look_at(from, to), (to - from).norm()};
-}
-
-void add_free_camera(const RenderOptions& options, Simulation& simulation) {
+FreeCamera add_free_camera(const RenderOptions& options, Simulation& simulation) {
   const auto [width, height] = size_of(options.size);
-  const FreeCamera camera = free_camera_of(options, simulation);
-  const ObjectId object = simulation.world().add_scenery(free_camera, camera.pose, {});
+  FreeCamera camera(simulation, free_camera_name, optional_point("--from", options.from),
+                    optional_point("--to", options.to));
   AlgorithmSetup setup;
   setup.name = "muro render";
   setup.use = camera_algorithm;
   setup.rate = Rate(options.video.empty() ? 1e-6 : options.fps);
   setup.phase = std::llround(options.at * 1e9);
-  setup.items = {{nullptr, object}};
+  setup.items = {{nullptr, camera.object()}};
   setup.parameters = {{"width", width},
                       {"height", height},
                       {"horizontal_fov", options.fov * M_PI / 180},
-                      {"shadow_range", std::clamp(camera.distance, 1.0, 1e4)},
+                      {"shadow_range", std::clamp(camera.distance(), 1.0, 1e4)},
                       {"device", options.device}};
   simulation.add(std::move(setup));
+  return camera;
 }
 
 /// The sensor object that holds the picture.
@@ -101,7 +80,7 @@ ObjectId camera_of(const RenderOptions& options, Simulation& simulation) {
     for (const Item& item : instance->setup().items)
       if (simulation.world().store().find(item.object, keys::camera_image.name))
         cameras.push_back(simulation.world().object_name(item.object));
-  const std::string name = options.camera.empty() ? free_camera : options.camera;
+  const std::string name = options.camera.empty() ? free_camera_name : options.camera;
   if (std::find(cameras.begin(), cameras.end(), name) != cameras.end()) return simulation.world().object(name);
   throw SetupError(
       fmt::format("the scenario has no camera `{}`{}", name,
@@ -148,8 +127,13 @@ struct Interrupted {};
 /// Runs the scenario and takes pictures with one camera.
 class Photographer {
  public:
-  Photographer(const RenderOptions& options, const BuiltScenario& built)
-      : options_(options), built_(built), simulation_(*built.simulation), camera_(camera_of(options, simulation_)) {
+  /// `free_camera`: null with a camera of a robot.
+  Photographer(const RenderOptions& options, const BuiltScenario& built, FreeCamera* free_camera)
+      : options_(options),
+        built_(built),
+        simulation_(*built.simulation),
+        camera_(camera_of(options, simulation_)),
+        free_camera_(free_camera) {
     const World& world = simulation_.world();
     if (options.shows != "rgb" && !world.store().find(camera_, "camera." + options.shows))
       throw SetupError(
@@ -179,15 +163,25 @@ class Photographer {
 
  private:
   std::vector<std::uint8_t> picture_at(double time) {
-    simulation_.run_until(std::llround(time * 1e9) + 1, [] { return Interrupt::pending(); });
-    if (Interrupt::pending()) throw Interrupted();
+    const std::int64_t instant = std::llround(time * 1e9);
+    run_until(instant);
+    if (free_camera_) free_camera_->look(time - last_time_);
+    last_time_ = time;
+    run_until(instant + 1);
     return picture_of(simulation_.world(), camera_, options_.shows);
+  }
+
+  void run_until(std::int64_t time) {
+    simulation_.run_until(time, [] { return Interrupt::pending(); });
+    if (Interrupt::pending()) throw Interrupted();
   }
 
   const RenderOptions& options_;
   const BuiltScenario& built_;
   Simulation& simulation_;
   ObjectId camera_;
+  FreeCamera* free_camera_;
+  double last_time_ = -std::numeric_limits<double>::infinity();  ///< s, of the last picture
   std::uint32_t width_ = 0, height_ = 0;
 };
 
@@ -199,12 +193,13 @@ int render(const RenderOptions& options) {
   Scenario scenario = open_file(options.scenario, registry);
   remove_outputs(scenario, registry);
   const Interrupt interrupt;
+  std::optional<FreeCamera> free_camera;
   const BuiltScenario built = open_scenario(std::move(scenario), registry, [&](Simulation& simulation) {
     simulation.keep_inputs_closed();
     add_outputs(simulation, {{"--out", options.out}, {"--video", options.video}});
-    if (options.camera.empty()) add_free_camera(options, simulation);
+    if (options.camera.empty()) free_camera = add_free_camera(options, simulation);
   });
-  Photographer photographer(options, built);
+  Photographer photographer(options, built, free_camera ? &*free_camera : nullptr);
   try {
     if (options.video.empty())
       photographer.take_picture();

@@ -10,9 +10,16 @@
 
 namespace muro::view {
 
+namespace {
+
+/// m, from which a ball is seen.
+double viewing_distance(double radius) { return std::max(1.0, 2.2 * radius); }
+
+}  // namespace
+
 void OrbitCamera::show_box(const Vec3& low, const Vec3& high) {
   target_ = 0.5 * (low + high);
-  distance_ = std::max(1.0, 1.1 * (high - low).norm());
+  distance_ = viewing_distance(0.5 * (high - low).norm());
   azimuth_ = -2.2;
   elevation_ = 0.6;
 }
@@ -44,6 +51,11 @@ void OrbitCamera::zoom(double notches) {
 void OrbitCamera::follow(const Pose& target) {
   if (mode == Mode::follow) target_ = target.position;
   carrier_ = target;
+}
+
+void OrbitCamera::approach(const Vec3& middle, double radius, double part, bool keeps_distance) {
+  target_ += part * (middle - target_);
+  if (!keeps_distance) distance_ += part * (viewing_distance(radius) - distance_);
 }
 
 Quat OrbitCamera::orientation() const { return from_rpy(0, elevation_, azimuth_ + std::numbers::pi); }

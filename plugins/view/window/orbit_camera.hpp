@@ -26,6 +26,9 @@ class OrbitCamera {
   void zoom(double notches);
   /// The present pose of the followed object.
   void follow(const Pose& target);
+  /// Goes this part (0 to 1) of the way to looking at a ball from so far that all of it is seen; the direction stays,
+  /// and the distance where `keeps_distance`.
+  void approach(const Vec3& middle, double radius, double part, bool keeps_distance);
 
   /// Frame of the camera: x along the line of sight, z up.
   Pose pose() const;

@@ -70,6 +70,21 @@ TEST(AnOrbitCamera, FollowsWithoutTurning) {
   EXPECT_EQ(camera.pose().orientation.coeffs(), before.coeffs());
 }
 
+TEST(AnOrbitCamera, StaysWithATeamFromItsOwnDirection) {
+  OrbitCamera camera;
+  camera.look_from({5, 0, 1}, {0, 0, 1});
+  const Quat before = camera.pose().orientation;
+  camera.approach({8, 4, 1}, 3, 1, true);
+  EXPECT_NEAR((camera.pose().position - Vec3(13, 4, 1)).norm(), 0, 1e-12) << "at the distance that the user has chosen";
+  camera.approach({8, 4, 1}, 3, 1, false);
+  EXPECT_EQ(camera.pose().orientation.coeffs(), before.coeffs());
+  for (const Vec3& edge : {Vec3(8, 1, 1), Vec3(8, 7, 1), Vec3(8, 4, 4), Vec3(8, 4, -2)})
+    EXPECT_LT(seen(camera, edge).norm(), std::tan(0.45)) << "all of it is in the picture";
+  camera.look_from({5, 0, 1}, {0, 0, 1});
+  camera.approach({8, 4, 1}, 3, 0.25, true);
+  EXPECT_NEAR((camera.target() - Vec3(2, 1, 1)).norm(), 0, 1e-12) << "a quarter of the way";
+}
+
 TEST(AnOrbitCamera, SeesAsItsCarrierDoes) {
   OrbitCamera camera;
   camera.mode = OrbitCamera::Mode::first_person;

@@ -21,6 +21,7 @@
 #include "plugins/common/render/color_renderer.hpp"
 #include "plugins/common/render/depth_renderer.hpp"
 #include "screen.hpp"
+#include "team.hpp"
 
 namespace {
 
@@ -106,6 +107,7 @@ class Window final : public Algorithm, private PauseAttendant {
   void connect_by_name(Connector& c) override {
     overlay_.connect_by_name(c);
     bodies_.connect_sensors(c);
+    team_.connect(c, bodies_);
   }
 
   void restored() override {
@@ -206,6 +208,25 @@ class Window final : public Algorithm, private PauseAttendant {
     }
     if (bodies_.all().empty()) low.setConstant(-3), high.setConstant(3);
     orbit_camera_.show_box(low, high);
+    follows_team_ = !team_.empty();
+    keeps_distance_ = false;
+    if (follows_team_) approach_team(1);
+  }
+
+  void approach_team(double part) {
+    constexpr double least_radius = 1;  // m
+    const view::Team::Ball ball = team_.bounds();
+    orbit_camera_.approach(ball.middle, std::max(least_radius, ball.radius), part, keeps_distance_);
+  }
+
+  /// Stays with the robots that move, until the user shifts the view or looks at something else. It follows in
+  /// simulated time, so that it rests while the run does.
+  void follow_team(double simulated) {
+    constexpr double slowness = 0.5;  // s
+    const double dt = std::max(0.0, simulated - followed_until_);
+    followed_until_ = simulated;
+    if (orbit_camera_.mode != OrbitCamera::Mode::orbit) follows_team_ = false;
+    if (follows_team_) approach_team(1 - elementary::exp(-dt / slowness));
   }
 
   render::Camera camera() const {
@@ -234,6 +255,7 @@ class Window final : public Algorithm, private PauseAttendant {
     }
     if (shows_all_ || panels_.show_all_requested) show_all();
     shows_all_ = panels_.show_all_requested = false;
+    follow_team(simulated);
     for (const view::Key key : screen_->keys()) panels_.press(key, pace_, orbit_camera_);
     if (has_panels_) panels_.draw(*simulation_, pace_, orbit_camera_, overlay_, simulated, wall_time());
     move_camera();
@@ -270,9 +292,14 @@ class Window final : public Algorithm, private PauseAttendant {
     const double height = screen_->height();
     if (ImGui::IsMouseDragging(ImGuiMouseButton_Left, 3))
       orbit_camera_.rotate(double(io.MouseDelta.x), double(io.MouseDelta.y), height);
-    if (ImGui::IsMouseDragging(ImGuiMouseButton_Right, 1) || ImGui::IsMouseDragging(ImGuiMouseButton_Middle, 1))
+    if (ImGui::IsMouseDragging(ImGuiMouseButton_Right, 1) || ImGui::IsMouseDragging(ImGuiMouseButton_Middle, 1)) {
       orbit_camera_.shift(double(io.MouseDelta.x), double(io.MouseDelta.y), height, fov);
-    if (io.MouseWheel != 0) orbit_camera_.zoom(double(io.MouseWheel));
+      follows_team_ = false;
+    }
+    if (io.MouseWheel != 0) {
+      orbit_camera_.zoom(double(io.MouseWheel));
+      keeps_distance_ = true;
+    }
     const bool dragged = ImGui::GetMouseDragDelta(ImGuiMouseButton_Left, 3).x != 0 ||
                          ImGui::GetMouseDragDelta(ImGuiMouseButton_Left, 3).y != 0;
     if (ImGui::IsMouseReleased(ImGuiMouseButton_Left) && !dragged) pick(io.MousePos.x, io.MousePos.y);
@@ -321,6 +348,10 @@ class Window final : public Algorithm, private PauseAttendant {
   view::Panels panels_;
   bool has_panels_ = true;
   bool shows_all_ = true, starts_behind_target_ = false;
+  view::Team team_;
+  bool follows_team_ = false;    ///< the camera stays with the robots that move
+  bool keeps_distance_ = false;  ///< at the distance that the user has chosen
+  double followed_until_ = 0;    ///< s of simulated time
   Clock::time_point start_time_;
   double next_frame_ = 0;  ///< s of the wall clock since the start
   double last_time_ = 0;   ///< s of simulated time

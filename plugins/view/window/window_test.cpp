@@ -135,6 +135,33 @@ TEST_F(TheWindow, ShowsTheSceneBetweenItsPanels) {
     EXPECT_LT(about(p, x, y).sum(), 330) << "panels are dark: " << x << ", " << y;
 }
 
+TEST_F(TheWindow, StaysWithTheRobotsThatMove) {
+  test::Scene s;
+  s.add_ground();
+  const test::ScratchFolder folder;
+  Shape red = Shape::box({0.8, 0.8, 0.4}), grey = red;
+  red.color = {0.9, 0.1, 0.1, 1};
+  const RobotView& goes =
+      s.add("goes", test::single_body(red, test::solid_box(1, red.size)), {{0, 0, 0.2}, Quat::Identity()});
+  s.add("stays", test::single_body(grey, test::solid_box(1, red.size)), {{0, 6, 0.2}, Quat::Identity()});
+  s.use("motion.point", 100, s.all_robots());
+  s.use("view.window", 60, {},
+        {{"width", std::int64_t(640)},
+         {"height", std::int64_t(480)},
+         {"panels", false},
+         {"speed", 0.0},
+         {"pictures", 1000.0},
+         {"picture", folder.path("window.png")}});
+  s.build();
+  s.world().value(goes.base(), keys::command_twist) = {{8, 0, 0}, Vec3::Zero()};
+  s.run_for(5);
+  s.world().value(goes.base(), keys::command_twist) = {};
+  s.run_for(4);  // the camera comes to rest at it
+  s.finish();
+  const Vec3 middle = about(Picture(folder.path("window.png")), 320, 240);
+  EXPECT_GT(middle.x(), 2 * middle.y()) << "40 m from where it started, it is in the middle";
+}
+
 TEST_F(TheWindow, GivesTheSameStateAsWithoutIt) {
   std::uint64_t hashes[2];
   for (const bool view : {false, true}) {
