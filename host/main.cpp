@@ -83,7 +83,8 @@ struct Commands {
   CLI::App& app;
   std::vector<std::string> plugin_path{};
   RunOptions run_options{};
-  ScenarioOptions check_options{}, describe_options{};
+  CheckOptions check_options{};
+  ScenarioOptions describe_options{};
   CompareOptions compare_options{};
   RenderOptions render_options{};
   bool json = false, markdown = false;
@@ -135,11 +136,14 @@ struct Commands {
   }
 
   void add_check() {
-    CLI::App& command = *app.add_subcommand("check", "Read and connect a scenario without running it");
-    add_scenario_options(command, check_options);
-    add_strict_option(command, check_options);
+    CLI::App& command = *app.add_subcommand(
+        "check", "Read and connect a scenario without running it, and tell what its models lack for their motions");
+    add_scenario_options(command, check_options.scenario);
+    add_strict_option(command, check_options.scenario);
+    command.add_flag("--levels", check_options.levels, "Tell how every motion would serve the robots");
+    command.add_flag("--full", check_options.full, "Tell everything, also where that is more than a screen");
     command.callback([this] {
-      check_options.plugin_path = plugin_path;
+      check_options.scenario.plugin_path = plugin_path;
       exit_code = check(check_options);
     });
   }
@@ -180,12 +184,13 @@ struct Commands {
     command.add_option("--camera", render_options.camera, "The camera of a robot, e.g. rover/camera");
     command
         .add_option("--from", render_options.from,
-                    "Position of a free camera, x,y,z in metres; default: so that all robots are seen")
+                    "Position of a free camera, x,y,z in metres; default: so that the robots that move are seen")
         ->delimiter(',')
         ->expected(3);
     command
         .add_option("--to", render_options.to,
-                    "The point that it looks at, x,y,z in metres; default: the middle of the robots")
+                    "The point that it looks at, x,y,z in metres; default: the middle of the robots that move, which "
+                    "it follows")
         ->delimiter(',')
         ->expected(3);
     command

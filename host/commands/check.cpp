@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/error.hpp"
 #include "host/commands/commands.hpp"
 #include "host/commands/open.hpp"
+#include "host/model_check/level_check.hpp"
+#include "host/names.hpp"
 #include "host/unsupported_features/unsupported_features.hpp"
 
 namespace muro::host {
@@ -25,11 +29,82 @@ BuiltScenario look_at_scenario(const ScenarioOptions& options, Registry& registr
   return open_scenario(open_file(options, registry), registry, [](Simulation& s) { s.keep_outputs_closed(); });
 }
 
-int check(const ScenarioOptions& options) {
-  Registry registry(Registry::search_path(options.plugin_path));
-  const BuiltScenario built = look_at_scenario(options, registry);
-  report_unsupported(built, Detail::full, options.strict);
-  fmt::print("{}: {} robots, {} objects, {} algorithms: all is connected\n", options.file,
+namespace {
+
+/// What readers and algorithms say while the scenario is built, in the order in which they say it. What the check
+/// itself says of models is left out.
+class Remarks {
+ public:
+  void add(const std::string& text) {
+    if (text.find("`muro check`") != text.npos || text.find(": no link has a mass;") != text.npos) return;
+    std::string kind = kind_of(text);
+    const auto known = std::find_if(all_.begin(), all_.end(), [&](const Alike& a) { return a.kind == kind; });
+    if (known == all_.end())
+      all_.push_back({std::move(kind), {text}});
+    else if (std::find(known->texts.begin(), known->texts.end(), text) == known->texts.end())
+      known->texts.push_back(text);
+  }
+
+  void print(Length length) const {
+    std::size_t lines = 0, left = 0;
+    for (const Alike& a : all_) {
+      const std::size_t shown = length == Length::full ? a.texts.size() : lines < most_lines ? 1 : 0;
+      for (std::size_t i = 0; i < shown; ++i) {
+        const std::string more = i + 1 == shown && shown < a.texts.size()
+                                     ? fmt::format(" (and {} more like this)", a.texts.size() - shown)
+                                     : "";
+        fmt::print(stderr, "{}{}\n", message_text(a.texts[i]), more);
+      }
+      lines += shown;
+      left += shown == 0 ? a.texts.size() : 0;
+    }
+    if (left > 0) fmt::print(stderr, "and {}; `muro check --full` prints all\n", plural(left, "other remark"));
+  }
+
+ private:
+  static constexpr std::size_t most_lines = 10;
+  /// Remarks that differ in names and numbers alone.
+  struct Alike {
+    std::string kind;
+    std::vector<std::string> texts;
+  };
+
+  /// The text without what stands in backquotes, and without numbers.
+  static std::string kind_of(const std::string& text) {
+    std::string kind;
+    bool quoted = false;
+    for (const char c : text) {
+      if (c == '`') quoted = !quoted;
+      if (!quoted && !(c >= '0' && c <= '9')) kind += c;
+    }
+    return kind;
+  }
+
+  std::vector<Alike> all_;
+};
+
+}  // namespace
+
+int check(const CheckOptions& options) {
+  Registry registry(Registry::search_path(options.scenario.plugin_path));
+  const Length length = options.full ? Length::full : Length::screen;
+  Remarks remarks;
+  const BuiltScenario built = build(open_file(options.scenario, registry), registry, [&](Simulation& s) {
+    s.keep_outputs_closed();
+    s.set_log([&](LogLevel level, std::string_view text) {
+      if (level == LogLevel::debug) return;
+      const char* const severity = level == LogLevel::error ? "error" : level == LogLevel::warning ? "warning" : "note";
+      remarks.add(fmt::format("{}: {}", severity, text));
+    });
+  });
+  for (const std::string& note : built.notes) remarks.add(note);
+  remarks.print(length);
+  if (options.scenario.strict) report_unsupported(built, Detail::full, true);
+  for (const std::string& line : check_lines(built, length)) fmt::print("{}\n", message_text(line));
+  if (options.levels)
+    for (const std::string& line : level_lines(options.scenario, built, registry, length))
+      fmt::print("{}\n", message_text(line));
+  fmt::print("{}: {} robots, {} objects, {} algorithms: all is connected\n", options.scenario.file,
              built.simulation->world().robots().size(), built.simulation->world().object_count(),
              built.simulation->instances().size());
   return 0;

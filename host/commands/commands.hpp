@@ -33,6 +33,12 @@ struct RunOptions {
   bool view = false;  ///< show a window
 };
 
+struct CheckOptions {
+  ScenarioOptions scenario;
+  bool levels = false;  ///< how every motion would serve the robots
+  bool full = false;    ///< everything, also where that is more than a screen
+};
+
 struct CompareOptions {
   ScenarioOptions scenario;
   std::vector<std::string> vary;   ///< "rovers.motion=point,simplified"
@@ -60,7 +66,7 @@ struct RenderOptions {
 
 int run(const RunOptions& options);
 int render(const RenderOptions& options);
-int check(const ScenarioOptions& options);
+int check(const CheckOptions& options);
 int compare(const CompareOptions& options);
 int describe(const ScenarioOptions& options, bool json);
 enum class Format { plain, json, markdown };

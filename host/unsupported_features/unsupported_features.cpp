@@ -24,7 +24,8 @@ constexpr Features of_joints = feature_velocity_targets | feature_position_targe
                                feature_joint_effort_limits | feature_joint_damping | feature_joint_friction |
                                feature_mimic_joints | feature_link_dynamics;
 constexpr Features of_meshes = feature_convex_meshes | feature_concave_meshes;
-constexpr Features of_contact = feature_friction | feature_restitution | of_meshes | feature_self_collision;
+constexpr Features of_contact = feature_friction | feature_restitution | feature_rolling_resistance |
+                                feature_spinning_resistance | of_meshes | feature_self_collision;
 constexpr Implication implications[] = {
     {feature_forces, feature_contact | of_contact | feature_gyroscopic | feature_link_dynamics |
                          feature_joint_effort_limits | feature_joint_damping | feature_joint_friction},

@@ -29,7 +29,7 @@ struct UnsupportedFeatures {
 /// does not declare its features is left out.
 std::vector<UnsupportedFeatures> find_unsupported_features(const BuiltScenario& built);
 
-/// brief: "forces and contacts do not move it; its joints do not move (4 joints)". full: the names of the features that
+/// brief: "moving links do not push back on the base (3 joints)". full: the names of the features that
 /// these imply follow.
 enum class Detail { brief, full };
 std::string text_of(const UnsupportedFeatures& unsupported, Detail detail);

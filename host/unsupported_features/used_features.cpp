@@ -3,9 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "host/constants.hpp"
+#include "muro/toolkit/pair_surface.hpp"
 #include "muro/toolkit/mass_properties.hpp"
 
 namespace muro::host {
@@ -68,6 +70,9 @@ class FeatureSearch {
     const auto given = use_.parameters.find(name);
     return given == use_.parameters.end() ? nullptr : &given->second;
   }
+  bool has_mass() const {
+    return std::any_of(inertias_.begin(), inertias_.end(), [](const Inertia& i) { return i.mass > 0; });
+  }
   bool has_fixed_base() const { return is_set_to(parameter("base"), "fixed"); }
 
   bool is_written(const Link& link, const KeyInfo& key) const {
@@ -91,9 +96,12 @@ class FeatureSearch {
     add_for_joints(feature_joint_limits,
                    with_limits([](const JointLimits& l) { return is_finite(l.lower) || is_finite(l.upper); }));
     add_for_joints(feature_joint_speed_limits, with_limits([](const JointLimits& l) { return is_finite(l.velocity); }));
-    add_for_joints(feature_joint_effort_limits, with_limits([](const JointLimits& l) { return is_finite(l.effort); }));
-    add_for_joints(feature_joint_damping, with_limits([](const JointLimits& l) { return l.damping > 0; }));
-    add_for_joints(feature_joint_friction, with_limits([](const JointLimits& l) { return l.friction > 0; }));
+    if (has_mass()) {  // else no effort moves a joint, whatever its limits and losses are
+      add_for_joints(feature_joint_effort_limits,
+                     with_limits([](const JointLimits& l) { return is_finite(l.effort); }));
+      add_for_joints(feature_joint_damping, with_limits([](const JointLimits& l) { return l.damping > 0; }));
+      add_for_joints(feature_joint_friction, with_limits([](const JointLimits& l) { return l.friction > 0; }));
+    }
     // a mimic joint whose position is no variable of the motion is moved by kinematics
     add_for_joints(feature_mimic_joints, [&](std::size_t i) {
       const Link& link = robot_.links[i];
@@ -128,18 +136,23 @@ class FeatureSearch {
 
   void add_shapes() {
     std::size_t shapes = 0, meshes = 0;
-    bool has_friction = false, has_restitution = scenery_.restitution;
+    bool has_friction = false, has_restitution = scenery_.surface.restitution > 0;
+    bool rolls = scenery_.surface.rolling_resistance > 0, spins = scenery_.surface.spinning_resistance > 0;
     for (const ObjectId object : world_.objects_of(robot_))
       for (const Shape& s : constants(world_, object, keys::collision_shapes)) {
         ++shapes;
         meshes += s.kind == ShapeKind::mesh;
         has_friction = has_friction || s.surface.friction > 0;
         has_restitution = has_restitution || s.surface.restitution > 0;
+        rolls = rolls || s.surface.rolling_resistance > 0;
+        spins = spins || s.surface.spinning_resistance > 0;
       }
     if (shapes == 0) return;
     add_if(true, feature_contact);
     add_if(has_friction, feature_friction);
     add_if(has_restitution, feature_restitution);
+    add_if(rolls, feature_rolling_resistance);
+    add_if(spins, feature_spinning_resistance);
     if (!use_.own_contacts || meshes + scenery_.meshes == 0) return;  // else collision detection checks its meshes
     const std::string own = meshes > 0 ? fmt::format("{} of its own", meshes) : "";
     const std::string others = scenery_.meshes > 0 ? fmt::format("{} of the scenery", scenery_.meshes) : "";
@@ -165,7 +178,7 @@ SceneryTraits scenery_traits(const World& world) {
     if (world.robot_of(ObjectId{i}) < 0)
       for (const Shape& s : constants(world, ObjectId{i}, keys::collision_shapes)) {
         traits.meshes += s.kind == ShapeKind::mesh;
-        traits.restitution = traits.restitution || s.surface.restitution > 0;
+        traits.surface = pair_surface(traits.surface, s.surface, FrictionRule::max);
       }
   return traits;
 }

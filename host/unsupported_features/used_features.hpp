@@ -20,7 +20,7 @@ struct UsedFeature {
 /// What all robots meet.
 struct SceneryTraits {
   std::size_t meshes = 0;
-  bool restitution = false;
+  Surface surface{0, 0, 0, 0};  ///< the largest of each
 };
 SceneryTraits scenery_traits(const World& world);
 

@@ -70,7 +70,7 @@ TEST(UsedFeatures, MassAndShapesUseForcesAndContact) {
   test::Scene s;
   Shape ball = Shape::sphere(0.1);
   const RobotView& smooth = s.add("smooth", test::single_body(ball, solid));
-  ball.restitution = 0.5;
+  ball.surface.restitution = 0.5;
   const RobotView& elastic = s.add("elastic", test::single_body(ball, solid));
   ball.kind = ShapeKind::mesh;
   ball.size = {1, 1, 1};

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// What the models of a scenario lack for the motions that move them: the text of `muro check`.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/model_check/model_facts.hpp"
+#include "host/scenario/builder.hpp"
+
+namespace muro::host {
+
+/// Something that a model lacks, or a motion leaves out.
+struct Finding {
+  std::string what;    ///< "no link that moves has mass (6 links)"
+  std::string effect;  ///< "motion.ode: joints follow their targets without forces"; may be empty
+  std::string remedy;  ///< "give the links `<inertial>`"; may be empty
+
+  bool operator==(const Finding&) const = default;
+};
+
+/// A motion as far as models concern it.
+struct CheckedMotion {
+  std::string id;  ///< "motion.ode"
+  Features features = 0;
+  bool fixed_base = false;
+};
+
+/// What a model lacks for one motion. `names`: how many are named of each list.
+std::vector<Finding> findings_of(const ModelFacts& facts, const CheckedMotion& motion, std::size_t names);
+
+enum class Length {
+  screen,  ///< about forty lines: the first few of what is alike
+  full,
+};
+
+/// Templates whose robots lack the same, in the order of the scenario, with their findings, and a line for all that
+/// lack nothing. Robots without a motion are left out.
+std::vector<std::string> check_lines(const BuiltScenario& built, Length length);
+
+/// "`a`, `b`, `c` and 4 more".
+std::string first_of(const std::vector<std::string>& names, std::size_t most);
+
+}  // namespace muro::host
