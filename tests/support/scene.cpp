@@ -33,10 +33,11 @@ void Scene::add_ground(double friction, const Pose& pose) {
   world().add_scenery("ground", pose, std::span<const Shape>(&plane, 1));
 }
 
-void Scene::use_contacts(std::map<std::string, ParameterInput> contact_parameters) {
+void Scene::use_contacts(std::map<std::string, ParameterInput> contact_parameters,
+                         std::map<std::string, ParameterInput> collision_parameters) {
   use_kinematics();
   use("scene.bvh", 0);
-  use("collision.native", 0);
+  use("collision.native", 0, {}, std::move(collision_parameters));
   use("contact.penalty", 0, {}, std::move(contact_parameters));
 }
 

@@ -22,7 +22,8 @@ struct Scene : Simulation {
   const RobotView& add(std::string_view name, const RobotTree& tree, const Pose& start = {}, const Twist& twist = {});
   void add_ground(double friction = 0.8, const Pose& pose = {});
   /// Index, collision, contact and kinematics, all on demand, for the robots added so far.
-  void use_contacts(std::map<std::string, ParameterInput> contact_parameters = {});
+  void use_contacts(std::map<std::string, ParameterInput> contact_parameters = {},
+                    std::map<std::string, ParameterInput> collision_parameters = {});
   void use_kinematics();
   std::vector<Item> all_robots();
 

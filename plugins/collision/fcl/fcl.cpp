@@ -13,7 +13,7 @@ constexpr Description description{
     .kind = Kind::collision,
     .version = "1.0.0",
     .summary = "Contact points by FCL: primitives, planes, convex hulls and meshes",
-    .parameters = contact_geometry::engine_parameters,
+    .parameters = contact_geometry::mesh_parameters,
     .reads = contact_geometry::collision_reads,
     .writes = contact_geometry::collision_writes,
     .capabilities = deterministic | restorable,

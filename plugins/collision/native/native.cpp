@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Plugin collision_native: exact collision detection of primitive shapes.
+// Plugin collision_native: collision detection of primitive shapes, convex hulls and triangle meshes.
 #include "muro/plugin.hpp"
 #include "native_collision.hpp"
 
@@ -10,10 +10,11 @@ using namespace muro;
 constexpr Description description{
     .id = "collision.native",
     .kind = Kind::collision,
-    .version = "1.1.0",
+    .version = "1.2.0",
     .summary =
-        "Contact points between boxes, spheres, cylinders, capsules and planes, in closed form where there is one",
-    .parameters = {},
+        "Contact points between boxes, spheres, cylinders, capsules, planes and meshes, in closed form where there is "
+        "one",
+    .parameters = contact_geometry::mesh_parameters,
     .reads = contact_geometry::collision_reads,
     .writes = contact_geometry::collision_writes,
     .capabilities = deterministic | allocation_free | restorable,
@@ -24,4 +25,4 @@ constexpr abi::AlgorithmEntry algorithms[] = {algorithm<native::NativeCollision>
 }  // namespace
 
 MURO_PLUGIN(.name = "collision_native", .version = description.version, .licence = "MIT",
-            .summary = "Collision detection of primitive shapes", .algorithms = algorithms)
+            .summary = "Collision detection of primitive shapes and meshes", .algorithms = algorithms)

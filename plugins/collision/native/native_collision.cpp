@@ -4,7 +4,7 @@
 #include <bit>
 #include <cstddef>
 
-#include "mesh_warning.hpp"
+#include "hulls/hull_plane.hpp"
 #include "pairs/collide.hpp"
 
 namespace muro::native {
@@ -13,11 +13,24 @@ namespace {
 
 /// A signature that no set of points has.
 constexpr double unknown = -1;
-constexpr int batch_size = 8, points_per_slot = 8;
+constexpr int batch_size = 8;
 
 // the layout that GroundBatch::contacts relies on
 static_assert(offsetof(Contact, depth) == offsetof(Contact, point) + depth_number * sizeof(double));
 static_assert(sizeof(Contact) % sizeof(double) == 0);
+
+/// How many points of the next slot touch.
+int points_of(const KernelShape& shape, const double* signature, SignatureCursor& cursor) {
+  cursor.begin(shape);
+  int points = 0;
+  if (shape.kind == KernelShapeKind::mesh)
+    for (int w = 0; w < SignatureCursor::words_of(shape); ++w)
+      points += std::popcount(std::uint64_t(signature[cursor.word() + w]));
+  else
+    points = std::popcount(std::uint64_t(signature[cursor.word()]) >> (8 * cursor.slot()) & 0xff);
+  cursor.end(shape);
+  return points;
+}
 
 }  // namespace
 
@@ -30,11 +43,12 @@ struct NativeCollision::Batch {
 void NativeCollision::connect(Connector& c) {
   kernels_ = &ground_kernels_for(lane::best_isa());
   PairCollision::connect(c);
-  if (is_needed()) warn_of_meshes(c);
+  if (is_needed()) meshes_.connect(c, c.parameters().text("meshes") == "exact");
 }
 
 void NativeCollision::start() {
   if (!is_needed()) return;
+  meshes_.start(index_->colliders);
   add_kernel_shapes();
   PairCollision::start();
   ground_planes_.clear();
@@ -49,7 +63,9 @@ void NativeCollision::add_kernel_shapes() {
   for (const Collider& c : index_->colliders) {
     const bool first_of_robot = shapes_.empty() || (&c)[-1].robot != c.robot;
     const std::uint32_t body = first_of_robot ? 0 : shapes_.back().body + ((&c)[-1].body != c.body);
-    shapes_.push_back(kernel_shape_of(*c.shape, body));
+    shapes_.push_back(c.shape->kind == ShapeKind::mesh
+                          ? meshes_.kernel_shape(std::uint32_t(shapes_.size()), *c.shape, body)
+                          : kernel_shape_of(*c.shape, body));
   }
   ground_robots_.assign(robots_.size(), {});
   for (const Collider& c : index_->colliders)
@@ -78,7 +94,7 @@ void NativeCollision::allocate_signatures() {
   for (std::uint32_t r = 0; r < robots_.size(); ++r) {
     if (!robots_[r].list) continue;
     all += signature_size(r);
-    const std::size_t most = points_per_slot * index_->robots[r].count * planes_.size();
+    const std::size_t most = max_ground_points * index_->robots[r].count * planes_.size();
     for (std::size_t i = 0; i < most; ++i) robots_[r].list.push_back({});
     robots_[r].list.clear();
   }
@@ -93,7 +109,8 @@ void NativeCollision::allocate_signatures() {
 
 /// In words.
 std::size_t NativeCollision::signature_size(std::uint32_t robot) const {
-  return std::size_t(words_of(int(index_->robots[robot].count), int(planes_.size())));
+  const RobotColliders& own = index_->robots[robot];
+  return std::size_t(words_of(shapes_.data() + own.first, int(own.count), int(planes_.size())));
 }
 
 TransformedShape NativeCollision::transformed_shape(std::uint32_t collider) const {
@@ -102,9 +119,22 @@ TransformedShape NativeCollision::transformed_shape(std::uint32_t collider) cons
 
 void NativeCollision::collide(const TransformedCollider& a, const TransformedCollider& b,
                               std::vector<ContactPoint>& points) {
+  if (meshes_.any() && (a.shape.kind == ShapeKind::mesh || b.shape.kind == ShapeKind::mesh))
+    return collide_meshes(a, b, points);
   Manifold manifold;
   collide_shapes(a.shape, b.shape, manifold);
   points.assign(manifold.points, manifold.points + manifold.count);
+}
+
+void NativeCollision::collide_meshes(const TransformedCollider& a, const TransformedCollider& b,
+                                     std::vector<ContactPoint>& points) const {
+  const auto on_plane = [&](const TransformedCollider& mesh, const TransformedCollider& plane) {
+    add_hull_on_plane(shapes_[mesh.number], *mesh.collider->body_pose, plane.shape, points);
+  };
+  if (b.shape.kind == ShapeKind::plane) return on_plane(a, b);
+  if (a.shape.kind != ShapeKind::plane) return meshes_.collide(a, b, points);
+  on_plane(b, a);
+  for (ContactPoint& p : points) p.normal = -p.normal;
 }
 
 void NativeCollision::list_contacts(Range robots) {
@@ -118,7 +148,10 @@ void NativeCollision::list_contacts(Range robots) {
     ground.shape_count = int(group.structure.size());
     ground.used = 0;
     for (const std::uint32_t r : group.in(robots)) {
-      if (!touches_only_ground(r) && list_by_pairs(r)) continue;
+      if (!touches_only_ground(r)) {
+        list_by_pairs(r);
+        continue;
+      }
       const int i = ground.used++;
       batch.robots[i] = r;
       ground.poses[i] = ground_robots_[r].poses;
@@ -130,31 +163,25 @@ void NativeCollision::list_contacts(Range robots) {
   }
 }
 
-/// Whether the robot can touch nothing but the planes of the scenery, as far as bounds tell.
+/// Whether the robot touches nothing but planes of the scenery, as far as bounds and its pairs with robots tell.
 bool NativeCollision::touches_only_ground(std::uint32_t robot) {
   if (robots_have_planes_ || !lists_scenery(robots_[robot])) return false;
-  const OverlapCache::Overlaps& overlaps = overlaps_.of(robot, *index_);
-  if (overlaps.scenery.empty() && overlaps.robots.empty()) return true;
   const Aabb& bounds = index_->robots[robot].bounds;
-  for (const std::uint32_t k : overlaps.scenery)
+  for (const std::uint32_t k : overlaps_.of(robot, *index_).scenery)
     if (scenery_[k].bounds.overlaps(bounds)) return false;
-  for (const std::uint32_t r : overlaps.robots)
-    if (index_->robots[r].bounds.overlaps(bounds)) return false;
-  return true;
+  return !touches_robots(robot);
 }
 
-/// False: there is nothing but planes of the scenery to touch, and nothing has been done.
-bool NativeCollision::list_by_pairs(std::uint32_t robot) {
-  Candidates& found = candidates(robot);
-  if (!robots_have_planes_ && lists_scenery(robots_[robot]) && found.others.size() == planes_.size()) return false;
-  list_pairs(robot, found);
+void NativeCollision::list_by_pairs(std::uint32_t robot) {
+  list_pairs(robot, candidates(robot));
   std::fill_n(ground_robots_[robot].signature, signature_size(robot), unknown);
-  return true;
 }
 
-void NativeCollision::find_ground_contacts(Batch& batch) const {
-  for (unsigned changed = kernels_->find_contacts(batch.ground); changed != 0; changed &= changed - 1)
+void NativeCollision::find_ground_contacts(Batch& batch) {
+  const unsigned found = kernels_->find_contacts(batch.ground), overflow = found >> batch_size;
+  for (unsigned changed = found & ~overflow & ((1U << batch_size) - 1); changed != 0; changed &= changed - 1)
     list_ground_contacts(batch.robots[std::countr_zero(changed)]);
+  for (unsigned left = overflow; left != 0; left &= left - 1) list_by_pairs(batch.robots[std::countr_zero(left)]);
   batch.ground.used = 0;
 }
 
@@ -166,17 +193,17 @@ void NativeCollision::list_ground_contacts(std::uint32_t robot) const {
   const RobotColliders& own = index_->robots[robot];
   const KernelShape* const shapes = shapes_.data() + own.first;
   list.clear();
-  std::size_t slot = 0, written = 0;
+  SignatureCursor cursor;
+  std::size_t written = 0;
   for (std::uint32_t begin = 0, end = 0; begin < own.count; begin = end) {
     while (end < own.count && shapes[end].body == shapes[begin].body) ++end;
     for (std::size_t p = 0; p < planes_.size(); ++p)
-      for (std::uint32_t k = begin; k < end; ++k, ++slot) {
-        const double word = signature[slot / slots_per_word];
-        const auto points = unsigned(std::uint64_t(word) >> (8 * (slot % slots_per_word)) & 0xff);
+      for (std::uint32_t k = begin; k < end; ++k) {
+        const int points = points_of(shapes[k], signature, cursor);
         if (points == 0) continue;
         Contact c = contact_between(index_->colliders[own.first + k], *scenery_[planes_[p]].collider);
         c.normal = Vec3::Map(ground_planes_[p].normal);
-        for (int n = std::popcount(points); n > 0; --n, ++written) {
+        for (int n = points; n > 0; --n, ++written) {
           c.point = contacts[written].point;
           c.depth = contacts[written].depth;
           list.push_back(c);

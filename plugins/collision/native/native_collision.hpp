@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "hulls/mesh_pairs.hpp"
 #include "lanes/ground.hpp"
 #include "pairs/conversions.hpp"
 #include "plugins/common/contact_geometry/pair_collision.hpp"
@@ -8,9 +9,9 @@
 
 namespace muro::native {
 
-/// Collision detection of primitive shapes with a narrow phase of its own. Robots that can touch nothing but the planes
-/// of the scenery are processed by a SIMD kernel, eight of a group at once, the others pair by pair. Both give the same
-/// bits where both could be used.
+/// Collision detection of primitive shapes and meshes with a narrow phase of its own. Robots that can touch nothing but
+/// the planes of the scenery are processed by a SIMD kernel, eight of a group at once, the others pair by pair. Both
+/// give the same bits where both could be used.
 class NativeCollision final : public PairCollision {
  public:
   void connect(Connector& c) override;
@@ -28,16 +29,19 @@ class NativeCollision final : public PairCollision {
   void collide(const TransformedCollider& a, const TransformedCollider& b, std::vector<ContactPoint>& points) override;
   void list_contacts(Range robots) override;
 
+  void collide_meshes(const TransformedCollider& a, const TransformedCollider& b,
+                      std::vector<ContactPoint>& points) const;
   void add_kernel_shapes();
   void group_robots();
   void allocate_signatures();
   bool touches_only_ground(std::uint32_t robot);
-  bool list_by_pairs(std::uint32_t robot);
-  void find_ground_contacts(Batch& batch) const;
+  void list_by_pairs(std::uint32_t robot);
+  void find_ground_contacts(Batch& batch);
   void list_ground_contacts(std::uint32_t robot) const;
   std::size_t signature_size(std::uint32_t robot) const;
 
   const GroundKernels* kernels_ = nullptr;
+  MeshPairs meshes_;
   std::vector<GroundRobot> ground_robots_;                    ///< by robot number
   std::vector<GroundPlane> ground_planes_;                    ///< as planes_
   std::vector<RobotGroup<std::vector<KernelShape>>> groups_;  ///< of robots that have a list

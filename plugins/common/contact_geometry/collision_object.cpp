@@ -43,24 +43,27 @@ void set_corners(const Hull& hull, const Hull::Face& face, const Vec3& direction
 
 Feature hull_face(const Hull& hull, const Pose& pose, const Vec3& towards) {
   const Vec3 direction = pose.orientation.conjugate() * towards;
-  const Hull::Face* best = &hull.faces.front();
-  for (const Hull::Face& f : hull.faces)
-    if (f.normal.dot(direction) > best->normal.dot(direction)) best = &f;
   double farthest = -std::numeric_limits<double>::infinity(), second = farthest;
-  const Vec3* support = nullptr;
-  for (const Vec3& v : hull.vertices) {
-    const double out = v.dot(direction);
+  std::uint32_t support = 0;
+  for (std::uint32_t v = 0; v < hull.vertices.size(); ++v) {
+    const double out = hull.vertices[v].dot(direction);
     if (out > farthest) {
-      second = farthest, farthest = out, support = &v;
+      second = farthest, farthest = out, support = v;
     } else {
       second = std::max(second, out);
     }
+  }
+  const Hull::Face* best = nullptr;  // of those about the support point
+  for (const Hull::Face& f : hull.faces) {
+    if (best && f.normal.dot(direction) <= best->normal.dot(direction)) continue;
+    const std::span<const std::uint32_t> corners = hull.corners_of(f);
+    if (std::find(corners.begin(), corners.end(), support) != corners.end()) best = &f;
   }
   Feature f;
   set_corners(hull, *best, direction, pose, f);
   f.normal = pose.orientation * best->normal;
   f.centre = 0.25 * (f.points[0] + f.points[1] + f.points[2] + f.points[3]);
-  f.support = pose * *support;
+  f.support = pose * hull.vertices[support];
   f.is_unique = farthest - second > 1e-7 * (f.points[2] - f.points[0]).norm();
   return f;
 }
@@ -85,11 +88,13 @@ double length(double x, double y) { return std::sqrt(x * x + y * y); }
 
 CollisionObject collision_object(const CollisionGeometry& geometry, const Pose& pose) {
   CollisionObject s{&geometry, pose, {}};
-  if (geometry.shape.kind == ShapeKind::mesh)
-    s.shape = transformed(Shape::box(geometry.box.high - geometry.box.low),
-                          pose * Pose{0.5 * (geometry.box.low + geometry.box.high), Quat::Identity()});
-  else
+  if (geometry.shape.kind != ShapeKind::mesh) {
     s.shape = transformed(geometry.shape, pose);
+    return s;
+  }
+  s.shape = transformed(Shape::box(geometry.box.high - geometry.box.low),
+                        pose * Pose{0.5 * (geometry.box.low + geometry.box.high), Quat::Identity()});
+  s.shape.kind = ShapeKind::mesh;
   return s;
 }
 

@@ -25,9 +25,9 @@ struct CollisionObject {
 
 CollisionObject collision_object(const CollisionGeometry& geometry, const Pose& pose);
 
-/// Like feature_towards() of a TransformedShape. A hull gives the face that looks most along the direction, with at
-/// most four of its corners; a plane a square, `reach` (m) in all directions from its point nearest to `centre`. Not
-/// for exact meshes.
+/// Like feature_towards() of a TransformedShape. A hull gives, of the faces about its support point, the one that looks
+/// most along the direction, with at most four of its corners; a plane a square, `reach` (m) in all directions from its
+/// point nearest to `centre`. Not for exact meshes.
 Feature feature_towards(const CollisionObject& object, const Vec3& direction, const Vec3& centre, double reach);
 
 /// A support point (m, world): a point of a convex geometry that lies farthest along `direction` (unit). Not of planes.

@@ -82,35 +82,6 @@ void remove_duplicates(std::vector<ContactPoint>& points, std::size_t first, dou
   points.erase(points.begin() + std::ptrdiff_t(count), points.end());
 }
 
-/// Of points with one normal keeps the deepest and the outermost to seven sides.
-void reduce_points(std::vector<ContactPoint>& points, std::size_t first) {
-  for (std::size_t begin = first; begin < points.size();) {
-    const Vec3 normal = points[begin].normal;
-    const auto from = points.begin() + std::ptrdiff_t(begin);
-    const auto end = std::partition(from, points.end(),
-                                    [&](const ContactPoint& p) { return p.normal.dot(normal) >= same_direction; });
-    const auto count = std::size_t(end - from);
-    std::size_t kept = std::min(count, max_points_per_normal);
-    if (count > max_points_per_normal) {
-      std::iter_swap(from, std::max_element(from, end, [](const ContactPoint& p, const ContactPoint& q) {
-                       return p.depth < q.depth;
-                     }));
-      const Vec3 x = perpendicular(normal), y = normal.cross(x);
-      for (kept = 1; kept < max_points_per_normal; ++kept) {
-        const double angle = 2 * M_PI * double(kept - 1) / double(max_points_per_normal - 1);
-        const auto [sine, cosine] = elementary::sincos(angle);
-        const Vec3 side = cosine * x + sine * y;
-        const auto rest = from + std::ptrdiff_t(kept);
-        std::iter_swap(rest, std::max_element(rest, end, [&](const ContactPoint& p, const ContactPoint& q) {
-                         return p.point.dot(side) < q.point.dot(side);
-                       }));
-      }
-    }
-    points.erase(from + std::ptrdiff_t(kept), end);
-    begin += kept;
-  }
-}
-
 /// The support point of a feature that is a single point, if it is over or under the triangle.
 void add_support_point(const Feature& point, const Feature& face, Manifold& out) {
   const double depth = face.normal.dot(face.centre - point.support);
@@ -147,6 +118,34 @@ void refine_triangle(const CollisionObject& a, const CollisionObject& b, const E
 
 }  // namespace
 
+void keep_outermost(std::vector<ContactPoint>& points, std::size_t first) {
+  for (std::size_t begin = first; begin < points.size();) {
+    const Vec3 normal = points[begin].normal;
+    const auto from = points.begin() + std::ptrdiff_t(begin);
+    const auto end = std::partition(from, points.end(),
+                                    [&](const ContactPoint& p) { return p.normal.dot(normal) >= same_direction; });
+    const auto count = std::size_t(end - from);
+    std::size_t kept = std::min(count, max_points_per_normal);
+    if (count > max_points_per_normal) {
+      std::iter_swap(from, std::max_element(from, end, [](const ContactPoint& p, const ContactPoint& q) {
+                       return p.depth < q.depth;
+                     }));
+      const Vec3 x = perpendicular(normal), y = normal.cross(x);
+      for (kept = 1; kept < max_points_per_normal; ++kept) {
+        const double angle = 2 * M_PI * double(kept - 1) / double(max_points_per_normal - 1);
+        const auto [sine, cosine] = elementary::sincos(angle);
+        const Vec3 side = cosine * x + sine * y;
+        const auto rest = from + std::ptrdiff_t(kept);
+        std::iter_swap(rest, std::max_element(rest, end, [&](const ContactPoint& p, const ContactPoint& q) {
+                         return p.point.dot(side) < q.point.dot(side);
+                       }));
+      }
+    }
+    points.erase(from + std::ptrdiff_t(kept), end);
+    begin += kept;
+  }
+}
+
 void refine_contacts(const CollisionObject& a, const CollisionObject& b, std::vector<EngineContact>& contacts,
                      std::vector<ContactPoint>& points) {
   std::erase_if(contacts, [](const EngineContact& t) { return !usable(t); });
@@ -166,15 +165,16 @@ void refine_contacts(const CollisionObject& a, const CollisionObject& b, std::ve
   std::sort(contacts.begin(), contacts.end(), [](const EngineContact& s, const EngineContact& t) {
     return s.triangle != t.triangle ? s.triangle < t.triangle : s.depth > t.depth;
   });
-  double deepest = 0;
-  for (const EngineContact& t : contacts) deepest = std::max(deepest, t.depth);
+  // a slim tip on an edge has a short way out to the side of either triangle, which is none
+  double deepest = 1e-3 * bounding_radius(*a.geometry);
+  for (const EngineContact& t : contacts) deepest = std::max(deepest, 1.5 * t.depth);
   for (std::size_t i = 0; i < contacts.size(); ++i)
     if (contacts[i].triangle < 0)
       points.push_back(at_midpoint(a, b, contacts[i]));
     else if (i == 0 || contacts[i].triangle != contacts[i - 1].triangle)
-      refine_triangle(a, b, contacts[i], 1.5 * deepest, points);
+      refine_triangle(a, b, contacts[i], deepest, points);
   remove_duplicates(points, first, 1e-4 * bounding_radius(*a.geometry));
-  reduce_points(points, first);
+  keep_outermost(points, first);
 }
 
 }  // namespace muro::contact_geometry

@@ -19,4 +19,8 @@ namespace muro::contact_geometry {
 void refine_contacts(const CollisionObject& a, const CollisionObject& b, std::vector<EngineContact>& contacts,
                      std::vector<ContactPoint>& points);
 
+/// Of more than eight points with one normal, to 8 degrees, keeps the deepest and the outermost to seven sides; looks
+/// at the points from number `first` on.
+void keep_outermost(std::vector<ContactPoint>& points, std::size_t first);
+
 }  // namespace muro::contact_geometry

@@ -52,7 +52,7 @@ std::int64_t ExactMesh::triangle_at(const Vec3& point, double reach) const {
   std::int64_t best = -1;
   double nearest = reach;
   const Vec3 margin = Vec3::Constant(reach);
-  each_near(tree_.view(), {point - margin, point + margin}, [&](std::uint32_t i) {
+  each_near({point - margin, point + margin}, [&](std::uint32_t i) {
     const Triangle& s = triangles_[i];
     const mesh::Triangle& t = surface_->triangles[i];
     const double height = std::abs(s.normal.dot(point - surface_->vertices[t[0]]));

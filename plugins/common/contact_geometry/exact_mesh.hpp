@@ -22,6 +22,12 @@ class ExactMesh {
   /// artefacts of taking triangles one by one.
   bool allows(std::size_t triangle, const Vec3& n) const;
 
+  /// Calls `visit(number)` for triangles that a box (m, in the frame of the mesh) may touch.
+  template <class Visit>
+  void each_near(const Aabb& box, Visit visit) const {
+    contact_geometry::each_near(tree_.view(), box, visit);
+  }
+
   /// The triangle nearest to a point (m, in the frame of the mesh) that is over or under it, at most `reach` (m) away;
   /// -1: there is none.
   std::int64_t triangle_at(const Vec3& point, double reach) const;

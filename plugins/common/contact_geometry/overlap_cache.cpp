@@ -20,6 +20,7 @@ void OverlapCache::start(const SceneIndex& scene, std::vector<Aabb> scenery) {
   changes_.assign(of_.size(), 0);
   changed_.reserve(of_.size());
   all_changes_ = 0;
+  pairs_ = 0;
   std::vector<bool> in_tree(of_.size());
   for (const std::uint32_t r : scene.moving.items) in_tree[r] = true;
   hidden_.clear();
@@ -49,6 +50,7 @@ void OverlapCache::update(const SceneIndex& scene) {
 void OverlapCache::add_pair(std::uint32_t a, std::uint32_t b) {
   of_[a].robots.push_back(b);
   of_[b].robots.push_back(a);
+  ++pairs_;
 }
 
 void OverlapCache::remove_pairs_of(std::uint32_t robot) {
@@ -57,6 +59,7 @@ void OverlapCache::remove_pairs_of(std::uint32_t robot) {
     *std::find(theirs.begin(), theirs.end(), robot) = theirs.back();
     theirs.pop_back();
   }
+  pairs_ -= of_[robot].robots.size();
   of_[robot].robots.clear();
 }
 

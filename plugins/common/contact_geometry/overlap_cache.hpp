@@ -28,6 +28,9 @@ class OverlapCache {
     if (overlaps.scenery_is_stale) find_scenery(overlaps, scene.robots[robot].fat_aabb, scene.scenery);
     return overlaps;
   }
+  const std::vector<std::uint32_t>& robots_of(std::uint32_t robot) const { return of_[robot].robots; }
+  /// Whether any two robots overlap.
+  bool any_robots() const { return pairs_ > 0; }
 
  private:
   void find_scenery(Overlaps& overlaps, const Aabb& fat_aabb, const Bvh& tree) const;
@@ -40,6 +43,7 @@ class OverlapCache {
   std::vector<std::uint32_t> changed_;  ///< robots of the present update
   std::vector<std::uint32_t> hidden_;   ///< robots that the scene's tree does not have: shadows
   std::uint64_t all_changes_ = 0;
+  std::size_t pairs_ = 0;
 };
 
 }  // namespace muro::contact_geometry

@@ -18,6 +18,16 @@ It end_of_body(It first, It end) {
   return std::find_if(first, end, [&](const auto& c) { return c.collider->body != first->collider->body; });
 }
 
+/// Radius (m) of a ball about `centre` that holds the shape.
+double radius_about(const Vec3& centre, const TransformedShape& shape) {
+  constexpr double rounding = 1 + 1e-9;
+  double radius = shape.half.norm();
+  if (shape.kind == ShapeKind::plane) return std::numeric_limits<double>::infinity();
+  if (shape.kind == ShapeKind::sphere) radius = shape.radius();
+  if (shape.kind == ShapeKind::capsule) radius = shape.radius() + shape.half.z();
+  return rounding * ((shape.centre - centre).norm() + radius);
+}
+
 }  // namespace
 
 Contact PairCollision::contact_between(const Collider& own, const Collider& other) const {
@@ -76,13 +86,22 @@ void PairCollision::start() {
     bounds.push_back(scenery_.back().bounds);
   }
   overlaps_.start(*index_, std::move(bounds));
-  placed_.resize(index_->colliders.size());
-  is_near_.assign(robots_.size(), 0);
+  placed_.clear();
+  radii_.clear();
+  for (std::uint32_t k = 0; k < index_->colliders.size(); ++k) {
+    placed_.push_back(transformed_collider(k));
+    radii_.push_back(radius_about(index_->colliders[k].body_pose->position, placed_.back().shape));
+  }
+  near_.resize(robots_.size());
+  for (std::vector<std::uint32_t>& near : near_) {
+    near.clear();
+    near.reserve(8);  // more is rare
+  }
   led_.resize(robots_.size());
   for (Led& led : led_) {
     led.pairs.clear();
     led.points.clear();
-    led.pairs.reserve(8);  // more is rare
+    led.pairs.reserve(8);
     led.points.reserve(16);
   }
 }
@@ -95,9 +114,19 @@ void PairCollision::step(const Step& step, Range range) {
       is_crowded_ = robots_have_planes_ || overlaps_.any_robots();
       return;
     case 1:
-      return place_colliders(range);
+      for (std::uint32_t r = range.begin; r < range.end; ++r) {
+        find_near_robots(r);
+        if (!near_[r].empty()) place_colliders(r);
+      }
+      return;
     case 2:
-      return collide_robots(range);
+      for (std::uint32_t r = range.begin; r < range.end; ++r) {
+        led_[r].pairs.clear();
+        led_[r].points.clear();
+        for (const std::uint32_t other : near_[r])
+          if (precedes(r, other) && (lists(r, other) || lists(other, r))) collide_pair(r, other, led_[r]);
+      }
+      return;
     default:
       return list_contacts(range);
   }
@@ -139,36 +168,32 @@ bool PairCollision::are_near(std::uint32_t a, std::uint32_t b) const {
 }
 
 /// In any order.
-template <class Use>
-void PairCollision::each_near_robot(std::uint32_t robot, Use use) const {
+void PairCollision::find_near_robots(std::uint32_t robot) {
+  std::vector<std::uint32_t>& near = near_[robot];
+  near.clear();
   if (!robots_have_planes_) {
     for (const std::uint32_t other : overlaps_.robots_of(robot))
-      if (are_near(robot, other)) use(other);
+      if (are_near(robot, other)) near.push_back(other);
     return;
   }
   for (std::uint32_t other = 0; other < robots_.size(); ++other)
-    if (other != robot && are_near(robot, other)) use(other);
+    if (other != robot && are_near(robot, other)) near.push_back(other);
 }
 
-void PairCollision::place_colliders(Range robots) {
-  for (std::uint32_t r = robots.begin; r < robots.end; ++r) {
-    is_near_[r] = 0;
-    each_near_robot(r, [&](std::uint32_t) { is_near_[r] = 1; });
-    if (is_near_[r] == 0) continue;
-    const RobotColliders& colliders = index_->robots[r];
-    for (std::uint32_t k = colliders.first; k < colliders.first + colliders.count; ++k)
-      placed_[k] = transformed_collider(k);
-  }
-}
-
-void PairCollision::collide_robots(Range robots) {
-  for (std::uint32_t r = robots.begin; r < robots.end; ++r) {
-    led_[r].pairs.clear();
-    led_[r].points.clear();
-    if (is_near_[r] == 0) continue;
-    each_near_robot(r, [&](std::uint32_t other) {
-      if (precedes(r, other) && (lists(r, other) || lists(other, r))) collide_pair(r, other, led_[r]);
+/// Those that may touch a near robot, as far as the balls around them tell; the bounds of the others are empty.
+void PairCollision::place_colliders(std::uint32_t robot) {
+  const RobotColliders& colliders = index_->robots[robot];
+  for (std::uint32_t k = colliders.first; k < colliders.first + colliders.count; ++k) {
+    const Vec3& centre = index_->colliders[k].body_pose->position;
+    const Vec3 radius = Vec3::Constant(radii_[k]);
+    const Aabb ball{centre - radius, centre + radius};
+    const bool is_near = std::any_of(near_[robot].begin(), near_[robot].end(), [&](std::uint32_t other) {
+      return robots_[other].has_plane || index_->robots[other].bounds.overlaps(ball);
     });
+    if (is_near)
+      placed_[k] = transformed_collider(k);
+    else
+      placed_[k].bounds = {};
   }
 }
 
@@ -206,11 +231,9 @@ const PairCollision::Led::Pair* PairCollision::pair_of(std::uint32_t robot, std:
 }
 
 bool PairCollision::touches_robots(std::uint32_t robot) const {
-  if (is_crowded_ == 0 || is_near_[robot] == 0) return false;
-  bool any = false;
-  each_near_robot(robot,
-                  [&](std::uint32_t other) { any = any || (lists(robot, other) && pair_of(robot, other) != nullptr); });
-  return any;
+  return is_crowded_ != 0 && std::any_of(near_[robot].begin(), near_[robot].end(), [&](std::uint32_t other) {
+           return pair_of(robot, other) != nullptr && lists(robot, other);
+         });
 }
 
 Candidates& PairCollision::candidates(std::uint32_t robot) {
@@ -220,10 +243,9 @@ Candidates& PairCollision::candidates(std::uint32_t robot) {
   found.robots.clear();
   if (!has_contacts(mine)) return found;
   if (lists_scenery(mine)) add_scenery(overlaps_.of(robot, *index_), index_->robots[robot].bounds, found);
-  if (is_crowded_ == 0 || is_near_[robot] == 0) return found;
-  each_near_robot(robot, [&](std::uint32_t other) {
-    if (lists(robot, other) && pair_of(robot, other)) found.robots.push_back(other);
-  });
+  if (is_crowded_ == 0) return found;
+  for (const std::uint32_t other : near_[robot])
+    if (pair_of(robot, other) && lists(robot, other)) found.robots.push_back(other);
   std::sort(found.robots.begin(), found.robots.end(),
             [this](std::uint32_t a, std::uint32_t b) { return precedes(a, b); });
   return found;
@@ -245,18 +267,10 @@ void PairCollision::add_scenery(const OverlapCache::Overlaps& overlaps, const Aa
   add_planes_before(std::numeric_limits<std::uint32_t>::max());
 }
 
-std::span<const TransformedCollider> PairCollision::own_colliders(std::uint32_t robot, Candidates& candidates) const {
-  const RobotColliders& colliders = index_->robots[robot];
-  if (is_crowded_ != 0 && is_near_[robot] != 0) return std::span(placed_).subspan(colliders.first, colliders.count);
-  candidates.own.clear();
-  for (std::uint32_t k = colliders.first; k < colliders.first + colliders.count; ++k)
-    candidates.own.push_back(transformed_collider(k));
-  return candidates.own;
-}
-
 /// Calls `sink(own collider, other collider, points)` for pairs that touch, in the order of the list.
 template <class Sink>
-void PairCollision::collide_scenery(std::span<const TransformedCollider> own, Candidates& candidates, Sink sink) {
+void PairCollision::collide_scenery(Candidates& candidates, Sink sink) {
+  const auto& own = candidates.own;
   const auto& others = candidates.others;
   std::vector<ContactPoint>& points = candidates.points;
   for (auto body = own.begin(), body_end = body; body != own.end(); body = body_end) {
@@ -300,10 +314,13 @@ void PairCollision::list_pairs(std::uint32_t robot, Candidates& candidates) {
   const ListOut<Contact>& list = robots_[robot].list;
   if (!(*list).empty()) list.clear();
   if (candidates.others.empty() && candidates.robots.empty()) return;
-  const std::span<const TransformedCollider> own = own_colliders(robot, candidates);
+  const RobotColliders& colliders = index_->robots[robot];
+  candidates.own.clear();
+  for (std::uint32_t k = colliders.first; k < colliders.first + colliders.count; ++k)
+    candidates.own.push_back(transformed_collider(k));
   const bool is_mixed = !candidates.robots.empty();
   candidates.listed.clear();
-  collide_scenery(own, candidates, [&](const auto& a, const auto& b, const std::vector<ContactPoint>& points) {
+  collide_scenery(candidates, [&](const auto& a, const auto& b, const std::vector<ContactPoint>& points) {
     Contact c = contact_between(*a.collider, *b.collider);
     for (std::uint32_t i = 0; i < points.size(); ++i) {
       c.point = points[i].point;

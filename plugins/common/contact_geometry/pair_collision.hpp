@@ -117,16 +117,13 @@ class PairCollision : public Algorithm {
   bool has_contacts(const Robot& robot) const;
   bool lists(std::uint32_t robot, std::uint32_t other) const;
   bool are_near(std::uint32_t a, std::uint32_t b) const;
-  template <class Use>
-  void each_near_robot(std::uint32_t robot, Use use) const;
-  void place_colliders(Range robots);
-  void collide_robots(Range robots);
+  void find_near_robots(std::uint32_t robot);
+  void place_colliders(std::uint32_t robot);
   void collide_pair(std::uint32_t robot, std::uint32_t other, Led& led);
   const Led::Pair* pair_of(std::uint32_t robot, std::uint32_t other) const;
-  std::span<const TransformedCollider> own_colliders(std::uint32_t robot, Candidates& candidates) const;
   void add_scenery(const OverlapCache::Overlaps& overlaps, const Aabb& bounds, Candidates& candidates) const;
   template <class Sink>
-  void collide_scenery(std::span<const TransformedCollider> own, Candidates& candidates, Sink sink);
+  void collide_scenery(Candidates& candidates, Sink sink);
   void add_listed(std::uint32_t robot, std::uint32_t other, std::uint32_t rank, Candidates& candidates) const;
 
   std::uint8_t is_crowded_ = 0;  ///< any two robots may be near each other
@@ -135,9 +132,10 @@ class PairCollision : public Algorithm {
       {.index_space = Phase::IndexSpace::robots, .scope = Phase::Scope::own_robot, .enabled = &is_crowded_},
       {.index_space = Phase::IndexSpace::robots, .enabled = &is_crowded_},
       {.index_space = Phase::IndexSpace::robots}};
-  std::vector<Led> led_;                      ///< by robot
-  std::vector<std::uint8_t> is_near_;         ///< by robot: its colliders have been placed
-  std::vector<TransformedCollider> placed_;   ///< by collider
+  std::vector<Led> led_;                          ///< by robot
+  std::vector<std::vector<std::uint32_t>> near_;  ///< by robot: whose bounds overlap its own, while any two may be near
+  std::vector<TransformedCollider> placed_;       ///< by collider; without bounds where none of those is near
+  std::vector<double> radii_;                 ///< by collider, m: of a ball about the origin of its body that holds it
   std::vector<std::uint32_t> first_of_body_;  ///< by collider: the first of its body
   bool is_needed_ = false;
   FrictionRule friction_rule_ = FrictionRule::min;

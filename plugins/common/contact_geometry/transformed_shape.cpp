@@ -21,25 +21,6 @@ TransformedShape transformed(const Shape& shape, const Pose& pose) {
   return p;
 }
 
-double radius_about_body(const Shape& shape) {
-  constexpr double rounding = 1 + 1e-9;
-  const Vec3 half = half_lengths(shape);
-  const double offset = shape.origin.position.norm();
-  switch (shape.kind) {
-    case ShapeKind::box:
-      return rounding * (offset + half.norm());
-    case ShapeKind::sphere:
-      return rounding * (offset + half.x());
-    case ShapeKind::cylinder:
-    case ShapeKind::capsule:
-      return rounding * (offset + half.x() + half.z());
-    case ShapeKind::plane:
-    case ShapeKind::mesh:
-      break;
-  }
-  return std::numeric_limits<double>::infinity();
-}
-
 Aabb bounds_of(const TransformedShape& shape) {
   if (shape.kind == ShapeKind::plane) {
     const Vec3 half = Vec3::Constant(std::numeric_limits<double>::infinity());

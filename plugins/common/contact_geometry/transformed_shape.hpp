@@ -22,16 +22,14 @@ struct TransformedShape {
 Vec3 half_lengths(const Shape& shape);
 /// `shape` with its own frame (not that of its body) at `pose`.
 TransformedShape transformed(const Shape& shape, const Pose& pose);
-/// Radius (m) of a ball about the origin of its body that holds the shape; infinite for planes and meshes.
-double radius_about_body(const Shape& shape);
 /// Planes are infinite.
 Aabb bounds_of(const TransformedShape& shape);
 
-/// How far (m) a box, cylinder or capsule reaches from its centre along a unit vector, which is given by its products
+/// How far (m) a box (of a mesh: the one around it), cylinder or capsule reaches from its centre along a unit vector, which is given by its products
 /// with the shape's axes.
 template <class Products>
 double extent_along(const TransformedShape& shape, const Products& c) {
-  if (shape.kind == ShapeKind::box)
+  if (shape.kind == ShapeKind::box || shape.kind == ShapeKind::mesh)
     return std::abs(c[0]) * shape.half.x() + std::abs(c[1]) * shape.half.y() + std::abs(c[2]) * shape.half.z();
   const double along = shape.half.z() * std::abs(c[2]);
   if (shape.kind == ShapeKind::capsule) return along + shape.radius();

@@ -8,8 +8,36 @@
 namespace muro::native {
 
 /// A slot is a shape and a plane, in the order of body, plane, shape. Six slots share one word of a signature, so that
-/// the bits of its points (eight a slot) are exact in a double.
-inline constexpr int slots_per_word = 6;
+/// the bits of its points (eight a slot) are exact in a double. A hull has words of its own, a bit a vertex.
+inline constexpr int slots_per_word = 6, vertices_per_word = 8 * slots_per_word;
+/// Of one slot: of a hull that has more below a plane the kernel leaves the rest out, and says so.
+inline constexpr int max_ground_points = 8;
+
+/// Where the bits of slots are in a signature.
+class SignatureCursor {
+ public:
+  int word() const { return word_; }
+  int slot() const { return slot_; }  ///< in the word
+  /// To be called before a slot.
+  void begin(const KernelShape& shape) {
+    if (shape.kind == KernelShapeKind::mesh && slot_ > 0) next_word();
+  }
+  /// To be called behind it.
+  void end(const KernelShape& shape) {
+    if (shape.kind == KernelShapeKind::mesh)
+      word_ += words_of(shape);
+    else if (++slot_ == slots_per_word)
+      next_word();
+  }
+  /// Of a hull.
+  static int words_of(const KernelShape& hull) {
+    return (hull.vertex_count + vertices_per_word - 1) / vertices_per_word;
+  }
+
+ private:
+  void next_word() { ++word_, slot_ = 0; }
+  int word_ = 0, slot_ = 0;
+};
 /// A contact's numbers: point, normal, depth; of which the kernel writes the point (0 to 2) and the depth.
 inline constexpr int depth_number = 6;
 
@@ -26,11 +54,20 @@ struct GroundBatch {
   double* signatures[8];  ///< of each robot, a bit a point that touches: of the step before, then of this one
 };
 
-/// How many words a signature has; the last may be empty.
-constexpr int words_of(int shapes, int planes) { return shapes * planes / slots_per_word + 1; }
+/// How many words a signature has; the last may be empty. `shapes`: body by body.
+inline int words_of(const KernelShape* shapes, int shape_count, int planes) {
+  SignatureCursor cursor;
+  for (int begin = 0, end = 0; begin < shape_count; begin = end) {
+    while (end < shape_count && shapes[end].body == shapes[begin].body) ++end;
+    for (int plane = 0; plane < planes; ++plane)
+      for (int k = begin; k < end; ++k) cursor.begin(shapes[k]), cursor.end(shapes[k]);
+  }
+  return cursor.word() + 1;
+}
 
 /// Writes contacts ordered by body, plane, shape and number of the point, and the signatures. The list of a robot needs
-/// capacity for eight contacts a slot. Returns a bit for each robot whose signature has changed.
+/// capacity for eight contacts a slot. Returns a bit for each robot whose signature has changed, and, eight bits
+/// higher, one for each robot with a hull that has more than eight vertices below a plane.
 struct GroundKernels {
   unsigned (*find_contacts)(const GroundBatch&);
 };

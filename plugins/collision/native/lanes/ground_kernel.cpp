@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "ground.hpp"
-#include "plane_points.hpp"
+#include "hull_points.hpp"
 
 namespace muro::native {
 namespace {
@@ -66,7 +66,7 @@ struct Appender {
   double scale = 1;  ///< of the present slot in it
 
   MURO_INLINE void operator()(MaskOf<S> below, const V3<S>& point, S depth, int number) {
-    points += select(below, S(scale * (1 << number)), S(0));
+    points += select(below, S(scale * double(std::int64_t(1) << number)), S(0));
     const unsigned which = bits(below) & all;
     if (which == lane::all_lanes<S>)
       store_contacts(first, next, point, depth, lane::all_lanes<S>);
@@ -82,7 +82,7 @@ struct Appender {
   }
 };
 
-/// As many robots as the scalar has values, from number `first` on. Returns a bit for each whose signature has changed.
+/// As many robots as the scalar has values, from number `first` on. Returns what GroundKernels does.
 template <class S>
 unsigned process(const GroundBatch& batch, int first) {
   const int left = batch.used - first, used = left < count_of<S> ? left : count_of<S>;
@@ -95,7 +95,7 @@ unsigned process(const GroundBatch& batch, int first) {
     append.first.at[i] = batch.contacts[robot];
     signatures.at[i] = batch.signatures[robot];
   }
-  unsigned changed = 0;
+  unsigned changed = 0, overflow = 0;
   int word = 0, slot = 0;  // of the present word
   const auto end_word = [&] {
     const unsigned now = ~bits(load(as_read(signatures), word) == append.points) & append.all;
@@ -105,6 +105,20 @@ unsigned process(const GroundBatch& batch, int first) {
     append.scale = 1;
     slot = 0;
     ++word;
+  };
+  const auto add_hull = [&](const KernelShape& hull, const BodyFrame<S>& body, const GroundPlane& plane) {
+    if (slot > 0) end_word();
+    int first_of_word = 0;
+    S count(0);
+    const auto sink = [&](MaskOf<S> below, const V3<S>& point, S depth, int number) {
+      for (; number >= first_of_word + vertices_per_word; first_of_word += vertices_per_word) end_word();
+      const MaskOf<S> fits = below & (count < S(max_ground_points));
+      count += select(below, S(1), S(0));
+      if (any(fits)) append(fits, point, depth, number - first_of_word);
+    };
+    lanes::give_hull_points<S>(hull, body, plane, sink);
+    for (; first_of_word < hull.vertex_count; first_of_word += vertices_per_word) end_word();
+    overflow |= bits(count > S(max_ground_points)) & append.all;
   };
   const KernelShape* const shapes_end = batch.shapes + batch.shape_count;
   for (const KernelShape *begin = batch.shapes, *end = begin; begin != shapes_end; begin = end) {
@@ -116,13 +130,17 @@ unsigned process(const GroundBatch& batch, int first) {
     const BodyFrame<S> body(poses, needs_orientation);
     for (const GroundPlane* plane = batch.planes; plane != batch.planes + batch.plane_count; ++plane)
       for (const KernelShape* shape = begin; shape != end; ++shape) {
+        if (shape->kind == KernelShapeKind::mesh) {
+          add_hull(*shape, body, *plane);
+          continue;
+        }
         give_plane_points<S>(ShapeInWorld<S>(*shape, body), *plane, append);
         append.scale *= 256;
         if (++slot == slots_per_word) end_word();
       }
   }
   end_word();
-  return changed;
+  return changed | overflow << 8;
 }
 
 unsigned find_contacts(const GroundBatch& batch) {

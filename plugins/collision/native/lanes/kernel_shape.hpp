@@ -20,7 +20,7 @@ struct KernelShape {
   std::uint32_t body = 0;  ///< which of a robot's bodies with shapes, from 0
   PoseLocation pose;       ///< of that body
   /// m. box: half lengths. sphere: the radius three times. cylinder, capsule: radius, radius, half the
-  /// length along z (of a capsule: of its straight part). plane: unused.
+  /// length along z (of a capsule: of its straight part). plane: unused. mesh: those of the box around it.
   double half[3] = {};
   double centre[3] = {};  ///< m, in the body
   double axes[9] = {};    ///< of the shape in the body, column by column
@@ -28,6 +28,9 @@ struct KernelShape {
   /// negative; 0: it is none of them.
   int along[3] = {};
   bool is_centred = false;  ///< `centre` is 0
+  /// m, in the body: x, y, z of each vertex of the hull of a mesh.
+  const double* vertices = nullptr;
+  int vertex_count = 0;
 
   /// Whether the orientation of the body matters.
   MURO_INLINE bool needs_orientation() const { return kind != KernelShapeKind::sphere || !is_centred; }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "pairs/gjk.hpp"
 
+#include "hulls/convex_core.hpp"
+
 namespace muro::native {
 namespace {
 
@@ -92,7 +94,8 @@ struct Simplex {
 
 }  // namespace
 
-Separation separation(const DepthFunction& h) {
+template <class Difference>
+Separation separation(const Difference& h) {
   constexpr int max_rounds = 64;
   constexpr double exact = 1e-14, gap = 1e-13;  // relative: of the squared distance, of the size
   Simplex simplex;
@@ -116,5 +119,8 @@ Separation separation(const DepthFunction& h) {
   }
   return {Relation::near, -v.normalized()};
 }
+
+template Separation separation(const DepthFunction&);
+template Separation separation(const CorePair&);
 
 }  // namespace muro::native

@@ -16,10 +16,12 @@ struct Separation {
   Vec3 direction;  ///< unit, the last estimate of that direction; only with `near`
 };
 
-/// Whether two shapes are apart: the distance of the origin from their Minkowski difference.
+/// Whether two shapes are apart: the distance of the origin from their Minkowski difference, a DepthFunction or a
+/// CorePair.
 /// Gilbert, Johnson, Keerthi: A fast procedure for computing the distance between complex objects in
 /// three-dimensional space, IEEE J. Robotics and Automation 4(2), 1988; the nearest point of the simplex
 /// by its Voronoi regions (Ericson, Real-Time Collision Detection, 5.1 and 9.5).
-Separation separation(const DepthFunction& h);
+template <class Difference>
+Separation separation(const Difference& h);
 
 }  // namespace muro::native

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "pairs/conversions.hpp"
+#include "plugins/common/contact_geometry/manifold.hpp"
+
+namespace muro::native {
+
+/// Adds the vertices of a hull that lie below a plane, each half way between vertex and plane; of more than eight the
+/// deepest and the outermost. `body`: where that of the hull is.
+void add_hull_on_plane(const KernelShape& hull, const Pose& body, const TransformedShape& plane,
+                       std::vector<ContactPoint>& points);
+
+}  // namespace muro::native

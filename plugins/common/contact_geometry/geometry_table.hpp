@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <deque>
+#include <functional>
+
+#include "collision_object.hpp"
+#include "muro/algorithm.hpp"
+#include "pair_collision.hpp"
+#include "plugins/common/mesh/store.hpp"
+
+namespace muro::contact_geometry {
+
+inline constexpr std::string_view mesh_options[] = {"convex", "exact"};
+/// The parameters of collision algorithms that take meshes; their plugins' descriptions name them.
+inline constexpr Parameter mesh_parameters[] = {
+    text("meshes", "convex", "whether a mesh collides as its convex hull or, exact, as it is").one_of(mesh_options),
+};
+
+/// The geometries of all collision shapes of a scene, numbered, those that are alike once.
+class GeometryTable {
+ public:
+  static constexpr std::uint32_t none = 0xffffffff;
+  /// Of one shape: as it collides, and its convex hull for pairs that need one.
+  struct Numbers {
+    std::uint32_t usual = none, convex = none;
+  };
+
+  /// Reads the meshes of all objects. `exact`: they collide as they are. `added` is called with each geometry, by
+  /// rising number. [setup]
+  void connect(Connector& c, bool exact, const std::function<void(const CollisionGeometry&)>& added = {});
+  /// `colliders` are those of the scene's index. [setup]
+  void start(std::span<const Collider> colliders);
+
+  std::size_t size() const { return geometries_.size(); }
+  const CollisionGeometry& operator[](std::uint32_t number) const { return geometries_[number]; }
+  /// By the number of a collider.
+  const Numbers& of(std::uint32_t collider) const { return by_collider_[collider]; }
+  bool is_exact_mesh(std::uint32_t number) const { return geometries_[number].exact_mesh != nullptr; }
+  /// As which geometries two colliders meet: of two exact meshes that of a robot is taken as its hull; with a plane
+  /// every mesh is. `none`: a flat mesh where its hull is needed; the two do not touch.
+  void choose(const TransformedCollider& a, const TransformedCollider& b, std::uint32_t& number_a,
+              std::uint32_t& number_b) const;
+
+ private:
+  void add_shape(Connector& c, ObjectId body, const Shape& shape, bool exact);
+  void add_mesh(const std::string& path, const Shape& shape, bool exact, Numbers& numbers);
+  std::uint32_t add(const CollisionGeometry& geometry);
+  const mesh::Hull* hull_if_any(const std::string& path, const Vec3& scale);
+
+  mesh::Store meshes_;
+  std::deque<ExactMesh> exact_meshes_;
+  std::deque<CollisionGeometry> geometries_;
+  std::function<void(const CollisionGeometry&)> added_;
+  std::vector<std::pair<Shape, Numbers>> known_;            ///< each shape once
+  std::vector<std::pair<const Shape*, Numbers>> by_shape_;  ///< sorted
+  std::vector<Numbers> by_collider_;
+};
+
+}  // namespace muro::contact_geometry
