@@ -27,11 +27,10 @@ inline bool has_moving_mass(const Connector& c, const RobotView& robot) {
 
 /// Says once that these robots are moved without forces. `still`: some of their joints are in modes in which only
 /// forces move them. [setup]
-inline void tell_of_robots_without_forces(Connector& c, std::string_view motion, const std::vector<std::string>& robots,
-                                          bool still) {
+inline void tell_of_robots_without_forces(Connector& c, const std::vector<std::string>& robots, bool still) {
   if (robots.empty()) return;
   constexpr std::size_t most = 3;
-  std::string text = std::string(motion) + ": no link that moves has mass:";
+  std::string text = "no link that moves has mass:";
   for (std::size_t i = 0; i < std::min(most, robots.size()); ++i) text += (i == 0 ? " `" : ", `") + robots[i] + "`";
   if (robots.size() > most) text += " and " + std::to_string(robots.size() - most) + " more";
   text += "; joints follow their targets within limits, without forces";

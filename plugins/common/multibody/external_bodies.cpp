@@ -14,9 +14,11 @@ ExternalBody ExternalBodies::body_of(const Connector& c, ObjectId object) {
   return body;
 }
 
-void ExternalBodies::connect(Connector& c) {
+void ExternalBodies::connect(Connector& c, const std::vector<bool>& own) {
   std::vector<bool> left_out(c.robots().size());
-  for (const Item& item : c.items()) {
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    if (!own[i]) continue;
+    const Item& item = c.items()[i];
     left_out[item.robot->number] = true;
     if (const auto original = c.constant(item.robot->base(), keys::shadow_of))  // they are in the same place
       left_out[std::size_t(c.robot_of(*original))] = true;

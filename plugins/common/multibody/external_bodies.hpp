@@ -11,8 +11,9 @@ namespace muro::multibody {
 /// All that a world's robots can touch and that the world does not move: scenery, and the bodies of other robots.
 class ExternalBodies {
  public:
-  /// Of the scene, but not of the items' robots nor of the originals of which they are shadows. [setup]
-  void connect(Connector& c);
+  /// Of the scene, but not of those of the items' robots that are the world's `own`, nor of the originals of which they
+  /// are shadows. `own`: one an item. [setup]
+  void connect(Connector& c, const std::vector<bool>& own);
   /// Adds them, with their present states. Throws Error with the name of one that the engine cannot take. [setup]
   void add_to(World& world);
   /// Properties to states. Throws Error with the name of a body that is nowhere.

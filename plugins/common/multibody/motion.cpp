@@ -7,6 +7,7 @@
 #include "engine_parameters.hpp"
 #include "muro/toolkit/random.hpp"
 #include "plugins/common/contact_geometry/contact_responsibility.hpp"
+#include "plugins/common/kinematic_joints/moving_mass.hpp"
 #include "plugins/common/text/quote.hpp"
 
 namespace muro::multibody {
@@ -33,6 +34,7 @@ void Motion::connect(Connector& c) {
   const Parameters& p = c.parameters();
   check_parameters(c);
   gravity_ = c.constant(world_object, keys::gravity).value_or(Vec3(0, 0, -9.81));
+  friction_rule_ = friction_rule_of(c);
   mimic_gain_ = p.real(mimic_gain.name);
   substeps_ = int(p.integer(substeps.name));
   traits_.motion = description().id;
@@ -41,15 +43,19 @@ void Motion::connect(Connector& c) {
   traits_.advice = advice();
   configure(c);
   for (std::uint32_t i = 0; i < c.items().size(); ++i) connect_robot(c, c.items()[i], c.parameters_of(i));
-  external_bodies_.connect(c);
+  std::vector<bool> own(c.items().size());
+  for (std::size_t i = 0; i < own.size(); ++i) own[i] = served_[i].by_world != nullptr;
+  if (!robots_.empty()) external_bodies_.connect(c, own);
   report_regularized_links(c);
+  report_kinematic_robots(c);
 }
 
 void Motion::connect_by_name(Connector& c) {
-  for (std::uint32_t i = 0; i < c.items().size(); ++i) {
-    robots_[i].set_has_contact_law(c.is_used(c.items()[i].robot->base(), keys::contacts, usage::read));
-    robots_[i].connect_by_name(c);
-  }
+  for (std::uint32_t i = 0; i < c.items().size(); ++i)
+    if (WorldRobot* const robot = served_[i].by_world) {
+      robot->set_has_contact_law(c.is_used(c.items()[i].robot->base(), keys::contacts, usage::read));
+      robot->connect_by_name(c);
+    }
 }
 
 void Motion::check_parameters(const Connector& c) const {
@@ -63,27 +69,46 @@ void Motion::check_parameters(const Connector& c) const {
 
 void Motion::connect_robot(Connector& c, const Item& item, const Parameters& p) {
   const RobotView& view = *item.robot;
+  if (KinematicRobot::is_one(c, view, p)) {
+    served_.push_back({nullptr, &kinematic_robots_.emplace_back(c, view, p, item.level)});
+    return;
+  }
   RobotModel model = model_of(c, view, drive_modes_of(c, view, p), min_inertia());
   model.fixed_base = p.text(base_mode.name) == "fixed";
   model.self_collision = p.boolean(self_collision.name);
   const std::size_t engine_memory = memory_of(model);
-  robots_.emplace_back(std::move(model), item.level).connect(c, view, p, traits_, engine_memory);
+  WorldRobot& robot = robots_.emplace_back(std::move(model), item.level);
+  robot.connect(c, view, p, traits_, engine_memory);
+  served_.push_back({&robot, nullptr});
+}
+
+void Motion::report_kinematic_robots(Connector& c) const {
+  std::vector<std::string> names;
+  bool still = false;
+  for (std::size_t i = 0; i < served_.size(); ++i) {
+    const RobotView& view = *c.items()[i].robot;
+    const auto moves = [](const Link& link) { return link.joint != JointKind::fixed; };
+    if (!served_[i].by_targets || std::none_of(view.links.begin(), view.links.end(), moves)) continue;
+    names.emplace_back(view.name);
+    still = still || served_[i].by_targets->stands_still();
+  }
+  tell_of_robots_without_forces(c, names, still);
 }
 
 void Motion::report_regularized_links(const Connector& c) const {
-  std::string links;
+  std::vector<std::string_view> links;
   for (const WorldRobot& r : robots_)
-    for (const std::string& link : r.model().regularized_links)
-      if (links.size() < 500) links += " " + link;
+    links.insert(links.end(), r.model().regularized_links.begin(), r.model().regularized_links.end());
   if (links.empty()) return;
   c.host().log(LogLevel::info,
                std::string(description().id) +
                    ": no engine moves bodies without mass and inertia, or with a moment of inertia that exceeds the "
-                   "sum of the two others; what they lack was added to:" +
-                   links);
+                   "sum of the two others; what they lack was added to " +
+                   quoted_list(links) + "; give them an `inertial` that fits");
 }
 
 void Motion::start() {
+  if (robots_.empty()) return;
   world_ = make_world();
   external_bodies_.add_to(*world_);
   for (WorldRobot& r : robots_) {
@@ -99,9 +124,19 @@ void Motion::start() {
   world_->complete();
 }
 
-void Motion::on_handover(std::uint32_t item) { robots_[item].take_over(traits_); }
+void Motion::on_handover(std::uint32_t item) {
+  if (served_[item].by_world)
+    served_[item].by_world->take_over(traits_);
+  else
+    served_[item].by_targets->take_over();
+}
 
 void Motion::step(const Step& step, Range) {
+  if (!robots_.empty()) step_world(step);
+  for (const KinematicRobot& r : kinematic_robots_) r.step(step.dt);
+}
+
+void Motion::step_world(const Step& step) {
   for (WorldRobot& r : robots_) r.import();
   external_bodies_.import();
   const double dt = step.dt / substeps_;

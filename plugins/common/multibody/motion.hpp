@@ -6,7 +6,9 @@
 #include <deque>
 
 #include "external_bodies.hpp"
+#include "kinematic_robot.hpp"
 #include "muro/description.hpp"
+#include "muro/toolkit/pair_surface.hpp"
 #include "world_robot.hpp"
 
 namespace muro::multibody {
@@ -35,18 +37,29 @@ class Motion : public Algorithm {
   virtual std::unique_ptr<World> make_world() const = 0;
 
   Vec3 gravity() const { return gravity_; }
+  FrictionRule friction_rule() const { return friction_rule_; }
 
  private:
   void check_parameters(const Connector& c) const;
   void connect_robot(Connector& c, const Item& item, const Parameters& p);
   void report_regularized_links(const Connector& c) const;
+  void report_kinematic_robots(Connector& c) const;
+  void step_world(const Step& step);
   void advance(double dt);
 
   Vec3 gravity_ = Vec3::Zero();
+  FrictionRule friction_rule_ = FrictionRule::min;
   WorldRobot::WorldTraits traits_;
   double mimic_gain_ = 0;
   int substeps_ = 1;
   std::deque<WorldRobot> robots_;
+  std::deque<KinematicRobot> kinematic_robots_;
+  /// How an item is moved: one of the two.
+  struct Served {
+    WorldRobot* by_world = nullptr;
+    KinematicRobot* by_targets = nullptr;
+  };
+  std::vector<Served> served_;  ///< one an item
   ExternalBodies external_bodies_;
   std::unique_ptr<World> world_;
 };

@@ -90,7 +90,8 @@ RobotModel model_of(const Connector& connector, const RobotView& robot, std::spa
   for (const Inertia& i : inertias) model.mass += i.mass;
   if (!(model.mass > 0) || !std::isfinite(model.mass))
     throw Error(quote(model.name) +
-                " has no mass; give its bodies mass and inertia (`inertial`), or move it with motion.point");
+                " has no mass; give its bodies mass and inertia (`inertial`), fix its base (`base: fixed`), where its "
+                "joints need no forces, or move it with motion.point");
   const std::vector<LinkPlacement> placements =
       add_bodies(model, robot, modes, initial_joint_positions(connector, robot));
   for (std::size_t i = 0; i < robot.links.size(); ++i) {

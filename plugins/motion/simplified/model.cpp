@@ -14,7 +14,9 @@ namespace {
 void check_mass(const RobotView& robot, const Inertia& total) {
   const std::string name = quote(robot.name);
   if (!(total.mass > 0))
-    throw Error(name + " has no mass; give its bodies mass and inertia (`inertial`), or move it with motion.point");
+    throw Error(name +
+                " has no mass; give its bodies mass and inertia (`inertial`), fix its base (`base: fixed`), where its "
+                "joints need no forces, or move it with motion.point");
   const Eigen::SelfAdjointEigenSolver<Mat3> principal(total.tensor());
   if (!(principal.eigenvalues().minCoeff() > 1e-12 * principal.eigenvalues().maxCoeff()))
     throw Error(name + ": the inertia of all its bodies together has the principal moments " +

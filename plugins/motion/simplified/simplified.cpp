@@ -18,6 +18,7 @@
 #include "muro/plugin.hpp"
 #include "muro/toolkit/mass_properties.hpp"
 #include "plugins/common/contact_geometry/contact_responsibility.hpp"
+#include "plugins/common/kinematic_joints/moving_mass.hpp"
 #include "plugins/common/multibody/consistent_inertia.hpp"
 #include "plugins/common/text/quote.hpp"
 #include "robot_watch.hpp"
@@ -36,6 +37,7 @@ class Simplified final : public Algorithm {
     max_acceleration_ = p.real("max_joint_acceleration");
     gravity_ = c.constant(world_object, keys::gravity).value_or(Vec3(0, 0, -9.81));
     for (const Item& item : c.items()) connect_robot(c, item);
+    tell_of_robots_without_forces(c, without_forces_, stand_still_);
   }
 
   void connect_by_name(Connector& c) override {
@@ -133,7 +135,7 @@ class Simplified final : public Algorithm {
     CompositeBody composite(robot.links, inertias, start);
     Model model;
     model.rigid = composite.rigid();
-    model.mass = rigid_mass(robot, composite_inertia(robot.links, inertias, start));
+    const bool forces = !fixed_ || has_moving_mass(c, robot);
 
     Robot r;
     r.name = robot.name;
@@ -143,17 +145,19 @@ class Simplified final : public Algorithm {
     state.pose = numbers(c.variable(robot.base(), keys::pose, pose).get());
     state.twist = numbers(c.variable(robot.base(), keys::twist, fixed_ ? Twist{} : twist).get());
     const std::vector<JointProperties> properties =
-        connect_joint_properties(c, robot, start, c.parameters().boolean("effort_limits"),
-                                 joints_with_position_drives(c, robot, inertias, start));
+        connect_joint_properties(c, robot, start, forces && c.parameters().boolean("effort_limits"),
+                                 joints_with_position_drives(c, robot, inertias, start, forces));
+    if (!forces) note_without_forces(robot, properties);
     watches_.emplace_back(c, robot, properties);
     // Where another motion of the robot asks for the wrenches on links, they do not act on the base.
     const bool has_levels =
-        robot.links.size() > 1 && !c.constant_array(robot.base(), keys::motion_level_names).empty();
+        forces && robot.links.size() > 1 && !c.constant_array(robot.base(), keys::motion_level_names).empty();
     const auto any = [&](bool JointProperties::*what) {
-      return std::any_of(properties.begin(), properties.end(), std::mem_fn(what));
+      return forces && std::any_of(properties.begin(), properties.end(), std::mem_fn(what));
     };
     const bool feels_contact = has_levels || any(&JointProperties::feels_contact);
     model.force_driven = has_levels || any(&JointProperties::force_driven);
+    if (model.force_driven || !fixed_) model.mass = rigid_mass(robot, composite_inertia(robot.links, inertias, start));
     if (model.force_driven) {
       r.force_driven = std::int32_t(force_driven_.size());
       force_driven_.emplace_back(c, robot, properties, inertias, start,
@@ -184,9 +188,10 @@ class Simplified final : public Algorithm {
 
   /// Of each link, whether its joint has a PD drive in mode position. Those without inertia meet their targets.
   static std::vector<bool> joints_with_position_drives(const Connector& c, const RobotView& robot,
-                                                       std::span<const Inertia> inertias, std::span<const double> start) {
+                                                       std::span<const Inertia> inertias, std::span<const double> start,
+                                                       bool forces) {
     std::vector<bool> result(robot.links.size());
-    if (c.parameters().text("position_drives") != "pd") return result;
+    if (!forces || c.parameters().text("position_drives") != "pd") return result;
     std::vector<std::uint32_t> joints;
     for (std::uint32_t i = 0; i < result.size(); ++i)
       if (robot.links[i].joint != JointKind::fixed && robot.links[i].mimic < 0) joints.push_back(i);
@@ -195,6 +200,14 @@ class Simplified final : public Algorithm {
     for (const DecoupledDynamics::Dof& dof : dynamics.dofs())
       result[dof.link] = dof.inertia + c.parameters().real("armature") > least_dof_inertia;
     return result;
+  }
+
+  /// Of a robot whose joints no force can move: those that forces would move stand still.
+  void note_without_forces(const RobotView& robot, const std::vector<JointProperties>& properties) {
+    const auto is_joint = [](const JointProperties& p) { return p.position != nullptr; };
+    if (std::none_of(properties.begin(), properties.end(), is_joint)) return;
+    without_forces_.emplace_back(robot.name);
+    for (const JointProperties& p : properties) stand_still_ = stand_still_ || p.force_driven;
   }
 
   const SumIn<Wrench>* external_of(std::uint32_t i) const {
@@ -273,6 +286,8 @@ class Simplified final : public Algorithm {
   }
 
   bool fixed_ = false;
+  std::vector<std::string> without_forces_;  ///< robots whose joints no force can move
+  bool stand_still_ = false;                 ///< some of their joints
   double max_acceleration_ = 0;
   Vec3 gravity_ = Vec3::Zero();
   const Kernels* kernels_ = &kernels_for(lane::best_isa());

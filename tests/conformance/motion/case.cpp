@@ -11,13 +11,15 @@ Trial::Trial(const std::string& motion, double rate) : motion_(motion), rate_(ra
 
 void Trial::start(std::map<std::string, ParameterInput> parameters) {
   const Description& d = description_of(motion_);
+  std::map<std::string, ParameterInput> of_collision;  // where the motion does not find its contacts itself
+  if (const auto meshes = parameters.find("meshes"); meshes != parameters.end()) of_collision.insert(*meshes);
   for (auto p = parameters.begin(); p != parameters.end();) {
     const bool known =
         std::any_of(d.parameters.begin(), d.parameters.end(), [&](const Parameter& k) { return k.name == p->first; });
     p = known ? std::next(p) : parameters.erase(p);
   }
   use(motion_, rate_, all_robots(), parameters);
-  use_contacts();
+  use_contacts({}, of_collision);
   build();
 }
 
@@ -25,8 +27,9 @@ void Trial::add_slope(double angle, double friction) { add_ground(friction, {Vec
 
 std::vector<Case> all_cases() {
   std::vector<Case> all;
-  for (const auto& some : {free_body_cases(), slope_cases(), rolling_cases(), impact_cases(), joint_cases(), position_drive_cases(),
-                           pendulum_cases(), vehicle_cases(), obstacle_cases(), mesh_cases(), tunnelling_cases()})
+  for (const auto& some :
+       {free_body_cases(), slope_cases(), rolling_cases(), impact_cases(), joint_cases(), position_drive_cases(),
+        massless_arm_cases(), pendulum_cases(), vehicle_cases(), obstacle_cases(), mesh_cases(), tunnelling_cases()})
     all.insert(all.end(), some.begin(), some.end());
   return all;
 }
