@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "host/scenario/model_drives.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstring>
+#include <optional>
 
 #include "muro/toolkit/joint_drives.hpp"
 
@@ -10,8 +13,11 @@ namespace muro::host {
 
 namespace {
 
-/// Of joints, by reader.mjcf: a DriveMode.
-constexpr std::string_view joint_drive = "joint.drive";
+/// Constants of joints, by reader.mjcf: a DriveMode, and gains of position drives.
+constexpr std::string_view joint_drive = "joint.drive", joint_drive_stiffness = "joint.drive.stiffness",
+                           joint_drive_damping = "joint.drive.damping";
+/// Parameters of motions with position drives: lists of "joint=gain"; a number.
+constexpr std::string_view stiffness = "stiffness", damping = "damping", natural_frequency = "natural_frequency";
 
 constexpr std::pair<const Parameter*, DriveMode> lists[] = {{&velocity_joints, DriveMode::velocity},
                                                             {&position_joints, DriveMode::position},
@@ -24,8 +30,10 @@ std::vector<std::string> list_in(const Subsystem& s, std::string_view name) {
   return given ? *given : std::vector<std::string>{};
 }
 
+/// Whether the algorithm has a list of this name.
 bool has_parameter(const Description& d, std::string_view name) {
-  return std::any_of(d.parameters.begin(), d.parameters.end(), [&](const Parameter& p) { return p.name == name; });
+  return std::any_of(d.parameters.begin(), d.parameters.end(),
+                     [&](const Parameter& p) { return p.name == name && p.type == ParameterType::texts; });
 }
 
 bool is_named(const Subsystem& s, const std::string& joint) {
@@ -35,40 +43,62 @@ bool is_named(const Subsystem& s, const std::string& joint) {
   return false;
 }
 
-/// The joints of a model, with what they follow.
-std::vector<std::pair<std::string, DriveMode>> drives_of(const RobotTree& tree) {
-  std::vector<std::pair<std::string, DriveMode>> drives;
+/// What drives a joint of a model.
+struct ModelDrive {
+  std::string joint;
+  DriveMode mode = DriveMode::passive;
+  std::optional<double> stiffness{}, damping{};  ///< of a joint that follows positions
+};
+
+template <class T>
+std::optional<T> constant_of(const RobotTree::Component& component, std::string_view key) {
+  for (const RobotTree::Constant& c : component.constants) {
+    T value{};
+    if (c.key.name != key || c.data.size() != sizeof value) continue;
+    std::memcpy(&value, c.data.data(), sizeof value);
+    return value;
+  }
+  return std::nullopt;
+}
+
+std::vector<ModelDrive> drives_of(const RobotTree& tree) {
+  std::vector<ModelDrive> drives;
   for (const RobotTree::FlatLink& link : tree.links()) {
     if (link.joint < 0) continue;
     const RobotTree::Component& joint = tree.components()[std::size_t(link.joint)];
-    for (const RobotTree::Constant& c : joint.constants) {
-      std::uint32_t mode = 0;
-      if (c.key.name != joint_drive || c.data.size() != sizeof mode) continue;
-      std::memcpy(&mode, c.data.data(), sizeof mode);
-      drives.emplace_back(joint.name, DriveMode(mode));
-    }
+    if (const auto mode = constant_of<std::uint32_t>(joint, joint_drive))
+      drives.push_back({joint.name, DriveMode(*mode), constant_of<double>(joint, joint_drive_stiffness),
+                        constant_of<double>(joint, joint_drive_damping)});
   }
   return drives;
 }
 
-using Drives = std::vector<std::pair<std::string, DriveMode>>;
+void append(Subsystem& s, std::string_view list, std::string entry) {
+  std::vector<std::string> entries = list_in(s, list);
+  entries.push_back(std::move(entry));
+  s.parameters[std::string(list)] = std::move(entries);
+}
 
-/// The list of a subsystem, with the joints that neither it nor another list names.
-void add_drives(Subsystem& s, const Description& d, const Drives& drives) {
+/// The joints that the subsystem does not name get the modes of the model, and its gains where it states none.
+void add_drives(Subsystem& s, const Description& d, const std::vector<ModelDrive>& drives) {
   const Subsystem given = s;
-  for (const auto& [joint, mode] : drives)
-    for (const auto& [list, listed] : lists) {
-      if (listed != mode || !has_parameter(d, list->name) || is_named(given, joint)) continue;
-      std::vector<std::string> names = list_in(s, list->name);
-      names.push_back(joint);
-      s.parameters[std::string(list->name)] = std::move(names);
-    }
+  const bool takes_gains =
+      has_parameter(d, stiffness) && has_parameter(d, damping) && given.parameters.count(std::string(stiffness)) == 0 &&
+      given.parameters.count(std::string(damping)) == 0 && given.parameters.count(std::string(natural_frequency)) == 0;
+  for (const ModelDrive& drive : drives) {
+    if (is_named(given, drive.joint)) continue;
+    for (const auto& [list, mode] : lists)
+      if (mode == drive.mode && has_parameter(d, list->name)) append(s, list->name, drive.joint);
+    if (!takes_gains || drive.mode != DriveMode::position) continue;
+    if (drive.stiffness) append(s, stiffness, fmt::format("{}={}", drive.joint, *drive.stiffness));
+    if (drive.damping) append(s, damping, fmt::format("{}={}", drive.joint, *drive.damping));
+  }
 }
 
 }  // namespace
 
 void add_model_drives(RobotTemplate& t, const RobotTree& tree, Algorithms& algorithms) {
-  const Drives drives = drives_of(tree);
+  const std::vector<ModelDrive> drives = drives_of(tree);
   if (drives.empty()) return;
   SubsystemsOfRobots changed;
   for (std::vector<Subsystem> list : t.subsystems.lists()) {

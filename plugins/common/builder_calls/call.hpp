@@ -28,6 +28,8 @@ enum class Call : std::uint8_t {
   visual_shapes,
   initial_joint_position,
   joint_drive,
+  joint_drive_stiffness,
+  joint_drive_damping,
   mjcf_file,
   mjcf_in_world,
   mjcf_body,
@@ -40,12 +42,14 @@ enum class Call : std::uint8_t {
 };
 
 /// The constants that a record can hold, by their call; each is one value but the shapes, which are arrays.
-inline constexpr std::array<std::pair<Call, const KeyInfo*>, 9> constants{
+inline constexpr std::array<std::pair<Call, const KeyInfo*>, 11> constants{
     {{Call::inertial, &keys::inertial},
      {Call::collision_shapes, &keys::collision_shapes},
      {Call::visual_shapes, &keys::visual_shapes},
      {Call::initial_joint_position, &keys::initial_joint_position},
      {Call::joint_drive, &model_constants::joint_drive},
+     {Call::joint_drive_stiffness, &model_constants::joint_drive_stiffness},
+     {Call::joint_drive_damping, &model_constants::joint_drive_damping},
      {Call::mjcf_file, &model_constants::mjcf_file},
      {Call::mjcf_in_world, &model_constants::mjcf_in_world},
      {Call::mjcf_body, &model_constants::mjcf_body},

@@ -83,6 +83,8 @@ void RobotRecorder::set_raw(const KeyInfo& key, const void* data, std::uint32_t 
       case Call::visual_shapes:
         return out_.list(std::span(static_cast<const Shape*>(data), count));
       case Call::initial_joint_position:
+      case Call::joint_drive_stiffness:
+      case Call::joint_drive_damping:
         return out_.value(*static_cast<const double*>(data));
       default:
         return out_.value(*static_cast<const std::uint32_t*>(data));

@@ -92,6 +92,10 @@ class RobotReplay {
         return builder_.set(keys::initial_joint_position, calls.value<double>());
       case Call::joint_drive:
         return drive(calls.value<std::uint32_t>());
+      case Call::joint_drive_stiffness:
+        return builder_.set(model_constants::joint_drive_stiffness, calls.value<double>());
+      case Call::joint_drive_damping:
+        return builder_.set(model_constants::joint_drive_damping, calls.value<double>());
       case Call::mjcf_file:
         return builder_.set(model_constants::mjcf_file, texts_[calls.value<TextId>()]);
       case Call::mjcf_in_world:

@@ -134,6 +134,8 @@ void ModelWorld::find_kinematic_bodies() {
   const mjModel& m = *file_.model;
   for (KinematicBody& k : kinematic_bodies_) {
     k.index = mj_name2id(&m, mjOBJ_BODY, Mjcf::body_name(k.body->name, k.owner, 0).c_str());
+    if (k.index < 0 || m.body_mocapid[k.index] < 0)
+      throw Error(quote(k.body->name) + " cannot stand in " + source_.path() + ", whose compiler changes it");
     k.mocap = m.body_mocapid[k.index];
   }
 }

@@ -40,7 +40,8 @@ constexpr Parameter own_parameters[] = {
 };
 constexpr auto parameters = multibody::with_common_parameters(own_parameters);
 constexpr Description mujoco_description = multibody::engine_description(
-    "motion.mujoco", "1.0.0", "Multi-body dynamics by MuJoCo; robots of one world touch in it", parameters);
+    "motion.mujoco", "1.0.0", "Multi-body dynamics by MuJoCo; robots of one world touch in it", parameters,
+    feature_armature);
 
 class MujocoMotion final : public multibody::Motion {
   const Description& description() const override { return mujoco_description; }

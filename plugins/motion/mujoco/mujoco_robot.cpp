@@ -58,7 +58,10 @@ void MujocoRobot::set_time_step(mjModel& m, double dt) {
   dt_ = dt;
   motion_type_.reset();
   std::fill_n(m.dof_armature + first_dof_, dof_count_, 0.0);
-  for (std::size_t i = 1; i < dofs_.size(); ++i) m.dof_armature[dofs_[i]] = dt * model_->bodies[i].limits.damping;
+  for (std::size_t i = 1; i < dofs_.size(); ++i) {
+    const JointLimits& limits = model_->bodies[i].limits;
+    m.dof_armature[dofs_[i]] = limits.armature + dt * limits.damping;
+  }
 }
 
 void MujocoRobot::set_motion_type(mjModel& m) {

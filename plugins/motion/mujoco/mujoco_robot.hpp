@@ -38,8 +38,8 @@ class MujocoRobot {
 
   /// Finds its bodies in the compiled model, and puts in what the compiler has changed.
   void find_indices(mjModel& m);
-  /// Steps take `dt` (s) from now on. Inertia of joints grows by dt times their damping, which makes the damping
-  /// implicit: M a = f - B (v + a dt).
+  /// Steps take `dt` (s) from now on. To the armature of joints dt times their damping is added, which makes the
+  /// damping implicit: M a = f - B (v + a dt).
   void set_time_step(mjModel& m, double dt);
   /// Takes over state and drive targets. `drives`: one for each degree of freedom of the world.
   void import(mjModel& m, mjData& d, std::span<DofDrive> drives);

@@ -73,6 +73,22 @@ TEST(MujocoMotion, AnErrorOfTheEngineEndsTheRunAndNotTheProcess) {
   EXPECT_FALSE(std::filesystem::exists("MUJOCO_LOG.TXT"));
 }
 
+TEST(MujocoMotion, TheArmatureOfAJointIsInertiaThatItFeels) {
+  World w;
+  w.world().set(world_object, keys::gravity, Vec3(Vec3::Zero()));
+  w.add("r", test::tree_of([](RobotBuilder& b) {
+          b.base("base");
+          b.set(keys::inertial, solid_box(10, {1, 1, 0.1}));
+          b.revolute("joint", Vec3::UnitZ(), {.armature = 0.3});
+          b.body("link");
+          b.set(keys::inertial, Inertia{.mass = 1, .ixx = 0.2, .iyy = 0.2, .izz = 0.2});
+        }));
+  w.start({{"joints", "effort"}, {"base", "fixed"}});
+  w.world().value(w.world().object("r/joint"), keys::joint_effort_target) = 2;
+  w.run_for(1);
+  EXPECT_NEAR(w.world().value(w.world().object("r/joint"), keys::joint_velocity), 2 / (0.2 + 0.3), 1e-9);
+}
+
 TEST(MujocoMotion, MoreContactsThanExpectedGetMoreRoomAndLeaveNoFile) {
   // tables of 25 legs, whose soles touch in 4 points each
   const RobotTree table = test::tree_of([](RobotBuilder& b) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "drives.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -16,7 +17,7 @@ std::optional<DriveMode> mode_of(const mjModel& m, int actuator) {
     return std::nullopt;
   if (m.actuator_biastype[actuator] == mjBIAS_NONE) return DriveMode::effort;
   if (m.actuator_biastype[actuator] != mjBIAS_AFFINE || bias[0] != 0) return std::nullopt;
-  if (bias[1] == -gain[0]) return DriveMode::position;
+  if (bias[1] == -gain[0] && gain[0] > 0) return DriveMode::position;
   if (bias[1] == 0 && bias[2] == -gain[0]) return DriveMode::velocity;
   return std::nullopt;
 }
@@ -55,7 +56,13 @@ Drives drives_of(const mjModel& m) {
       out.left_out.emplace_back(a, why);
       continue;
     }
-    out.of_joint[std::size_t(joint)] = {*mode, effort_of(m, a, *mode), a};
+    Drive& drive = out.of_joint[std::size_t(joint)];
+    drive = {*mode, effort_of(m, a, *mode), a};
+    const double gear = m.actuator_gear[6 * a];
+    if (*mode == DriveMode::position) {
+      drive.stiffness = gear * gear * m.actuator_gainprm[mjNGAIN * a];
+      drive.damping = std::max(0.0, -gear * gear * m.actuator_biasprm[mjNBIAS * a + 2]);
+    }
     out.any = true;
   }
   return out;

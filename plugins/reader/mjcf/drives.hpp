@@ -14,6 +14,7 @@ struct Drive {
   DriveMode mode = DriveMode::passive;
   double effort = std::numeric_limits<double>::infinity();  ///< N m or N, at most
   int actuator = -1;                                        ///< none
+  double stiffness = 0, damping = 0;                        ///< of a position servo, at the joint
 };
 
 struct Drives {

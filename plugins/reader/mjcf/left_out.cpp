@@ -35,12 +35,11 @@ class Report {
     for (const auto& [why, names] : by_reason)
       problems_.warning({}, concat(names.size() == 1 ? "actuator " : "actuators ", quoted_list(names),
                                    names.size() == 1 ? " is left out: it " : " are left out: each ", why));
-    const bool servo = std::any_of(drives.of_joint.begin(), drives.of_joint.end(), [](const Drive& d) {
-      return d.mode == DriveMode::position || d.mode == DriveMode::velocity;
-    });
+    const bool servo = std::any_of(drives.of_joint.begin(), drives.of_joint.end(),
+                                   [](const Drive& d) { return d.mode == DriveMode::velocity; });
     if (servo)
       problems_.note({},
-                     "gains of position and velocity servos are those of the motion; motion.mujoco has the file's "
+                     "gains of velocity servos are those of the motion; motion.mujoco has the file's "
                      "with `settings: model`");
   }
 

@@ -57,7 +57,7 @@ const std::string humanoid = R"(<mujoco model="humanoid">
 </worldbody>
 <actuator>
  <motor name="abdomen_z" joint="abdomen_z" gear="100" ctrllimited="true" ctrlrange="-0.4 0.4"/>
- <position name="knee_servo" joint="knee" kp="20" forcelimited="true" forcerange="-30 50"/>
+ <position name="knee_servo" joint="knee" kp="20" gear="3" forcelimited="true" forcerange="-30 50"/>
  <velocity joint="telescope" kv="3"/>
 </actuator>
 </mujoco>)";
@@ -107,7 +107,7 @@ TEST(MjcfModels, MassesInertiasAndJointsAreThoseOfTheCompiler) {
   EXPECT_NEAR(knee.upper, -2 * M_PI / 180, 1e-12);
   EXPECT_EQ(knee.damping, 0.2);
   EXPECT_EQ(knee.armature, 0.01);
-  EXPECT_EQ(knee.effort, 50);
+  EXPECT_EQ(knee.effort, 3 * 50);
   EXPECT_EQ(robot.joint("abdomen_z")->link.limits.effort, 40);
   EXPECT_EQ(robot.joint("abdomen_y")->link.limits.damping, 5);
   EXPECT_EQ(robot.joint("abdomen_y")->link.limits.armature, 0.03);
@@ -124,6 +124,10 @@ TEST(MjcfModels, ActuatorsAreDriveModesAndOtherJointsPassive) {
   EXPECT_EQ(mode("knee"), DriveMode::position);
   EXPECT_EQ(mode("telescope"), DriveMode::velocity);
   EXPECT_EQ(mode("hip_x"), DriveMode::passive);
+  // kp of a length that is gear times the position
+  EXPECT_EQ(robot.constants("knee", model_constants::joint_drive_stiffness).at(0), 20 * 3 * 3);
+  EXPECT_EQ(robot.constants("knee", model_constants::joint_drive_damping).at(0), 0);
+  EXPECT_TRUE(robot.constants("telescope", model_constants::joint_drive_stiffness).empty());
 }
 
 TEST(MjcfModels, GeomsAreShapesWithFullLengthsAndSurfaces) {
