@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Drives that follow positions, on bases that are fixed to the world: PD controllers, as the oscillator that they are.
-#include "tests/conformance/motion/case.hpp"
-
 #include <array>
+
+#include "tests/conformance/motion/case.hpp"
+#include "tests/support/wheeled_robot.hpp"
 
 namespace muro::conformance {
 
@@ -140,6 +141,23 @@ Outcome sine(const std::string& motion) {
   return {worst, text(worst) + " rad off"};
 }
 
+/// A drive of wheels writes velocities, and nothing moves the targets of position: a joint stands where its stiffness
+/// and its damping pull alike, at damping / stiffness times the velocity.
+Outcome commanded_velocity(const std::string& motion) {
+  Trial t(motion);
+  t.set_gravity(Vec3::Zero());
+  const RobotTree rover = test::rover({.wheel_inertia = test::round_body(0.3, 0.06)}, 0.8);
+  const RobotView& r = t.add("r", rover, {{0, 0, 1}, Quat::Identity()});
+  t.use("drive.skid_steer", 0, t.all_robots());
+  t.start({{"base", "fixed"}, {"joints", "position"}, {"natural_frequency", 50.0}});
+  t.world().value(r.base(), keys::command_twist).linear.x() = 0.3;
+  t.run_for(2);
+  const double expected = 2 * (0.3 / 0.06) / 50;
+  const Outcome left = relative(t.joint("r/front_left_joint", keys::joint_position), expected),
+                right = relative(t.joint("r/rear_right_joint", keys::joint_position), expected);
+  return {std::max(left.error, right.error), left.seen + "; " + right.seen};
+}
+
 /// Two links in a vertical plane.
 struct TwoLinks : Trial {
   static constexpr double first = 2, second = 1, length = 0.5, first_com = 0.25, second_com = 0.2;
@@ -147,7 +165,8 @@ struct TwoLinks : Trial {
   explicit TwoLinks(const std::string& motion) : Trial(motion) {
     add("r", test::tree_of([](RobotBuilder& b) {
           const auto rod = [&](double kilograms, double com) {
-            b.set(keys::inertial, Inertia{.mass = kilograms, .com = {com, 0, 0}, .ixx = 0.01, .iyy = 0.03, .izz = 0.03});
+            b.set(keys::inertial,
+                  Inertia{.mass = kilograms, .com = {com, 0, 0}, .ixx = 0.01, .iyy = 0.03, .izz = 0.03});
           };
           b.base("base");
           b.set(keys::inertial, Inertia{.mass = 5, .ixx = 1, .iyy = 1, .izz = 1});
@@ -230,6 +249,7 @@ std::vector<Case> position_drive_cases() {
       {"a position drive is no faster than its limit", "relative", needs | feature_joint_speed_limits, 1e-3,
        drive_speed_limit},
       {"a position drive follows an interpolated sine", "rad", needs, 2e-3, sine},
+      {"a commanded velocity adds to a position drive", "relative", needs, 1e-6, commanded_velocity},
       {"efforts of a steady arm are those of inverse dynamics", "relative", needs, 1e-2, steady_arm},
       {"an interpolated target goes on from a snapshot", "1", needs, 0, drive_snapshot},
   };
