@@ -44,23 +44,27 @@ void check_problems(const std::vector<RobotTree::Problem>& found, const std::str
 
 }  // namespace
 
-RobotTree read_model(Registry& registry, const std::string& path) {
+RobotTree read_model(Registry& registry, const std::string& path, std::span<const PackageFolder> packages) {
   RobotTree tree;
+  tree.set_packages(packages);
   const std::string what = "model " + path;
   read_file(registry, path, what, [&](abi::ReaderInstance& reader, const std::string& file, abi::ErrorText& error) {
     return reader.read(file, tree, error);
   });
+  tree.set_packages({});
   if (tree.usable()) tree.close();
   check_problems(tree.problems(), what);
   return tree;
 }
 
-WorldModel read_world(Registry& registry, const std::string& path) {
+WorldModel read_world(Registry& registry, const std::string& path, std::span<const PackageFolder> packages) {
   WorldModel world;
+  world.set_packages(packages);
   const std::string what = "world " + path;
   read_file(registry, path, what, [&](abi::ReaderInstance& reader, const std::string& file, abi::ErrorText& error) {
     return reader.read_world(file, world, error);
   });
+  world.set_packages({});
   world.close();
   check_problems(world.problems(), what);
   return world;

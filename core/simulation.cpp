@@ -32,14 +32,20 @@ Simulation::~Simulation() = default;
 
 void Simulation::set_log(std::function<void(LogLevel, std::string_view)> log) { log_->sink = std::move(log); }
 
+void Simulation::set_packages(std::map<std::string, std::string> packages) {
+  packages_ = std::move(packages);
+  package_folders_.clear();
+  for (const auto& [name, folder] : packages_) package_folders_.push_back({name, folder});
+}
+
 RobotTree Simulation::read_model(const std::string& path) {
   outputs().add_input(path, "a model");
-  return muro::read_model(registry_, path);
+  return muro::read_model(registry_, path, package_folders_);
 }
 
 WorldModel Simulation::read_world(const std::string& path) {
   outputs().add_input(path, "the world file");
-  return muro::read_world(registry_, path);
+  return muro::read_world(registry_, path, package_folders_);
 }
 
 std::size_t Simulation::add(AlgorithmSetup setup) {

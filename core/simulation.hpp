@@ -51,6 +51,8 @@ class Simulation {
   World& world() { return world_; }
   const World& world() const { return world_; }
   Registry& registry() { return registry_; }
+  /// Folders of packages by name, for models that are read from now on: package://NAME/... is looked for there alone.
+  void set_packages(std::map<std::string, std::string> packages);
   /// Reads a model with the reader for its type. Problems of severity error make a SetupError; the
   /// others are kept in the tree.
   RobotTree read_model(const std::string& path);
@@ -152,6 +154,8 @@ class Simulation {
   std::vector<std::int32_t> robot_of_slot() const;
 
   Registry& registry_;
+  std::map<std::string, std::string> packages_;  ///< folders by name
+  std::vector<PackageFolder> package_folders_;   ///< views of them
   World world_;
   Scheduler scheduler_;
   std::unique_ptr<Extensions> extensions_;

@@ -10,7 +10,7 @@
 namespace muro {
 
 /// A world as a file describes it (Simulation::read_world), before anything of it is in a simulation.
-class WorldModel final : public WorldBuilder {
+class WorldModel final : public WorldBuilder, public PackageFolders {
  public:
   struct Scenery {
     std::string name;
@@ -31,6 +31,10 @@ class WorldModel final : public WorldBuilder {
   TextId intern(std::string_view text) noexcept override;
   void report(Severity severity, std::string_view text, int line, int column) noexcept override;
 
+  std::span<const PackageFolder> package_folders() const noexcept override { return packages_; }
+  /// For the reader that builds it; must outlive that.
+  void set_packages(std::span<const PackageFolder> packages) { packages_ = packages; }
+
   /// Closes the trees, and checks what spans several of them. Call once after building.
   void close();
 
@@ -49,6 +53,7 @@ class WorldModel final : public WorldBuilder {
   std::deque<Model> models_;
   TextTable texts_;
   std::vector<RobotTree::Problem> problems_;
+  std::span<const PackageFolder> packages_;
 };
 
 }  // namespace muro

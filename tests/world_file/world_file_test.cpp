@@ -73,19 +73,34 @@ TEST(WorldFileOfAScenario, AModelThatNobodyNamesIsStaticAndReported) {
             std::string::npos);
 }
 
-TEST(WorldFileOfAScenario, AModelThatIsNoTreeMayStandStillButNotBeARobot) {
+TEST(WorldFileOfAScenario, AModelThatIsNoTreeIsMadeOneWithAWarning) {
   const std::string pile = "<model name='pile'>" + link("a") + "\n" + link("b", "0 0 1 0 0 0") + "</model>";
-  const std::string why =
-      "no joint leads to 2 links: `a`, `b`; exactly one is the base. Join the others to it, with fixed joints if they "
-      "do not "
-      "move, or make them models of their own\n";
   const WorldFile still(pile, "world: {file: world.sdf}\n");
   EXPECT_EQ(still.open().simulation->world().value("pile.b", keys::pose).position, Vec3(0, 0, 1));
   EXPECT_EQ(still.check().exit_code, 0);
   const WorldFile robot(pile,
                         "world: {file: world.sdf}\nrobots:\n  pile: {model: world, motion: {use: motion.point}}\n");
-  EXPECT_EQ(robot.check().output, "s.yaml:3:17: robot `pile`: world world.sdf:3:1: " + why);
-  EXPECT_EQ(robot.check().exit_code, 2);
+  EXPECT_NE(robot.open().simulation->world().find_object("pile/b"), no_object);
+  EXPECT_EQ(robot.check().exit_code, 0);
+  EXPECT_NE(robot.check().output.find("world.sdf:3:1: warning: no joint leads to link `b`; it is fixed to the base, "
+                                      "link `a`. What is to move freely is a model of its own\n"),
+            std::string::npos)
+      << robot.check().output;
+}
+
+TEST(WorldFileOfAScenario, ABadModelIsToldAndTheRestIsThere) {
+  const WorldFile file("<model name='m'><link name='a'><pose>1 2</pose></link></model>" + crate + house,
+                       "world: {file: world.sdf}\nrobots: {crate: {model: world}}\n");
+  const BuiltScenario built = file.open();
+  EXPECT_NE(built.simulation->world().find_object("house"), no_object);
+  EXPECT_NE(built.simulation->world().find_object("crate/body"), no_object);
+  const auto check = file.check();
+  EXPECT_EQ(check.exit_code, 0);
+  EXPECT_NE(
+      check.output.find("world.sdf:2:32: warning: model `m` is left out: <pose>: `1 2` has 2 numbers, and needs 6 "
+                        "separated by blanks\n"),
+      std::string::npos)
+      << check.output;
 }
 
 TEST(WorldFileOfAScenario, RandomPlacesKeepClearOfItsSceneryAndRobots) {
@@ -116,9 +131,11 @@ TEST(WorldFileOfAScenario, MistakesAreOneMessageWithThePlaceAndExitCode2) {
        "s.yaml:1:15: world " MURO_TEST_SOURCE_DIR "/examples/models/rover.urdf: " MURO_TEST_SOURCE_DIR
        "/examples/models/rover.urdf describes a robot, not a world; name it as the `model` of a robot\n"},
       {"", "world: {file: s.yaml}\n",
-       "s.yaml:1:15: no reader for models of type `.yaml` (s.yaml); known types: .sdf, .world, .urdf\n"},
-      {"<model name='m'><link name='a'><pose>1 2</pose></link></model>", "world: {file: world.sdf}\n",
-       "s.yaml:1:15: world world.sdf:2:32: <pose>: `1 2` has 2 numbers, and needs 6 separated by blanks\n"},
+       "s.yaml:1:15: no reader for models of type `.yaml` (s.yaml); known types: .stl, .obj, .dae, .glb, .gltf, .ply, "
+       ".xml, "
+       ".mjcf, .sdf, .world, .urdf, .xacro\n"},
+      {"<gravity>down</gravity>", "world: {file: world.sdf}\n",
+       "s.yaml:1:15: world world.sdf:2:1: <gravity>: `down` is no number; write it like 0.05 or 5e-2\n"},
       {"<model name='m'><static>1</static><link name='a'/></model>",
        "world: {file: world.sdf}\nrobots: {m: {model: world}}\n",
        "s.yaml:2:21: robot `m`: the world file world.sdf has no movable model of this name; all of its models are "

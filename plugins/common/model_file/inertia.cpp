@@ -2,6 +2,7 @@
 #include "inertia.hpp"
 #include "muro/toolkit/bounds.hpp"
 #include "muro/toolkit/elementary.hpp"
+#include "muro/toolkit/limits.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -70,12 +71,17 @@ TensorCheck check_tensor(const Mat3& tensor) {
 Inertia checked_inertia(const Inertia& given, const Pose& frame, std::span<const Shape> shapes,
                         const std::string& owner, const FileLocation& location, Problems& problems) {
   if (given.mass < 0) {
-    problems.error(location,
-                   concat(owner, ": the mass is ", given.mass, " kg; it is 0 (a frame without a body) or more"));
+    problems.warning(location, concat(owner, ": the mass is ", given.mass,
+                                      " kg and taken as 0, a frame without a body; it is 0 or more"));
     return {};
   }
   if (given.mass == 0) {
     problems.note(location, owner + " has the mass 0: it is a frame without a body");
+    return {};
+  }
+  if (given.mass < limits::min_mass) {
+    problems.warning(location, concat(owner, ": the mass is ", given.mass, " kg and taken as 0, a frame without a ",
+                                      "body; the least is ", limits::min_mass, " kg"));
     return {};
   }
   const Inertia inertia = given.in(frame);

@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
+#include <fstream>
 #include <optional>
+
+#include "message.hpp"
 
 namespace muro::model_file {
 
@@ -67,8 +70,50 @@ std::string percent_decoded(std::string_view text) {
   return decoded;
 }
 
+/// Where Gazebo looks for models and for what they consist of.
+constexpr const char* gazebo_paths[] = {"GZ_SIM_RESOURCE_PATH", "IGN_GAZEBO_RESOURCE_PATH", "SDF_PATH"};
+
+/// Whether the folder is the package `name` by its package.xml, whatever the folder is called.
+bool is_package(const fs::path& folder, const std::string& name) {
+  std::ifstream file(folder / "package.xml");
+  if (!file) return false;
+  std::string text(16384, '\0');
+  file.read(text.data(), std::streamsize(text.size()));
+  text.resize(std::size_t(file.gcount()));
+  const std::size_t begin = text.find("<name>");
+  const std::size_t end = text.find("</name>");
+  if (begin == text.npos || end == text.npos || end < begin) return false;
+  std::string_view found = std::string_view(text).substr(begin + 6, end - begin - 6);
+  constexpr std::string_view blanks = " \t\r\n";
+  found.remove_prefix(std::min(found.find_first_not_of(blanks), found.size()));
+  return found.substr(0, found.find_last_not_of(blanks) + 1) == name;
+}
+
+/// The package in `path` or a few levels below it, as ROS finds it: workspaces hold repositories that hold packages.
+std::optional<fs::path> package_below(const fs::path& path, const std::string& name) {
+  constexpr int deepest = 3;
+  constexpr std::size_t most = 1000;  // folders
+  std::vector<std::pair<fs::path, int>> folders = {{path, 0}};
+  for (std::size_t i = 0; i < folders.size() && i < most; ++i) {
+    const auto [folder, depth] = folders[i];
+    std::error_code error;
+    if (is_file(folder / "package.xml")) {
+      if (folder.filename() == name || is_package(folder, name)) return folder;
+      continue;  // packages do not hold others
+    }
+    if (depth == deepest) continue;
+    std::vector<fs::path> inside;
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+      if (is_folder(entry->path()) && entry->path().filename().string().front() != '.') inside.push_back(entry->path());
+    std::sort(inside.begin(), inside.end());
+    for (fs::path& f : inside) folders.emplace_back(std::move(f), depth + 1);
+  }
+  return std::nullopt;
+}
+
 /// The folders that may be the package `name`.
-std::vector<fs::path> package_folders(const std::string& name, const fs::path& folder, bool is_model) {
+std::vector<fs::path> package_folders(const std::string& name, const fs::path& folder, const Packages& packages) {
+  if (const auto given = packages.find(name); given != packages.end()) return {given->second};
   std::vector<fs::path> found;
   const auto add = [&](const fs::path& above) {
     if (above.filename() == name) found.push_back(above);
@@ -76,28 +121,39 @@ std::vector<fs::path> package_folders(const std::string& name, const fs::path& f
   };
   for (fs::path above = folder;; above = above.parent_path()) {
     add(above);
+    if (is_package(above, name)) found.push_back(above);
     if (above == above.parent_path()) break;
   }
-  for (const fs::path& path : paths_in("ROS_PACKAGE_PATH")) add(path);
-  for (const fs::path& path : paths_in("AMENT_PREFIX_PATH")) found.push_back(path / "share" / name);
-  if (is_model)
-    for (const char* variable : {"GAZEBO_MODEL_PATH", "GZ_SIM_RESOURCE_PATH"})
-      for (const fs::path& path : paths_in(variable)) add(path);
+  for (const fs::path& path : paths_in("ROS_PACKAGE_PATH")) {
+    add(path);
+    if (const auto below = package_below(path, name)) found.push_back(*below);
+  }
+  for (const char* variable : {"AMENT_PREFIX_PATH", "CMAKE_PREFIX_PATH"})
+    for (const fs::path& path : paths_in(variable)) found.push_back(path / "share" / name);
+  for (const char* variable : gazebo_paths)
+    for (const fs::path& path : paths_in(variable)) add(path);
+  for (const fs::path& path : paths_in("GAZEBO_MODEL_PATH")) add(path);
   return found;
 }
 
-/// Everything the name may mean, best first.
-std::vector<fs::path> candidates(std::string name, const fs::path& folder) {
+struct Candidates {
+  std::vector<fs::path> paths;  ///< everything the name may mean, best first
+  std::string package = {};
+  std::vector<fs::path> package_folders = {};
+};
+
+Candidates candidates(std::string name, const fs::path& folder, const Packages& packages) {
   std::replace(name.begin(), name.end(), '\\', '/');
-  std::vector<fs::path> found;
+  Candidates found;
   const std::size_t colon = name.find("://");
   const std::string scheme = colon == name.npos ? "" : lower_case(name.substr(0, colon));
   if (scheme == "package" || scheme == "model") {
     const std::string rest = percent_decoded(std::string_view(name).substr(colon + 3));
     const std::size_t slash = std::min(rest.find('/'), rest.size());
     const fs::path inside = fs::path(rest.substr(slash)).relative_path();
-    for (const fs::path& package : package_folders(rest.substr(0, slash), folder, scheme == "model"))
-      found.push_back(package / inside);
+    found.package = rest.substr(0, slash);
+    found.package_folders = package_folders(found.package, folder, packages);
+    for (const fs::path& package : found.package_folders) found.paths.push_back(package / inside);
     return found;
   }
   if (scheme == "file") name = percent_decoded(std::string_view(name).substr(colon + 3));
@@ -107,7 +163,7 @@ std::vector<fs::path> candidates(std::string name, const fs::path& folder) {
   if (name.size() > 2 && std::isalpha(static_cast<unsigned char>(name[0])) && name[1] == ':') {
     fs::path tail = fs::path(name.substr(2)).relative_path();
     while (!tail.empty()) {
-      found.push_back(folder / tail);
+      found.paths.push_back(folder / tail);
       fs::path shorter;
       for (auto part = std::next(tail.begin()); part != tail.end(); ++part) shorter /= *part;
       tail = shorter;
@@ -115,13 +171,20 @@ std::vector<fs::path> candidates(std::string name, const fs::path& folder) {
     return found;
   }
   // `folder / name` is `name` when that is absolute
-  found.push_back(folder / name);
+  found.paths.push_back(folder / name);
+  if (fs::path(name).is_absolute()) return found;
+  for (const char* variable : gazebo_paths)
+    for (const fs::path& path : paths_in(variable)) found.paths.push_back(path / name);
+  for (const fs::path& path : paths_in("GAZEBO_RESOURCE_PATH")) found.paths.push_back(path / name);
   return found;
 }
 
-MeshPath find(std::string_view name, const fs::path& folder, bool folders) {
+MeshPath find(std::string_view name, const fs::path& folder, const Packages& packages, bool folders) {
   MeshPath result;
-  for (const fs::path& candidate : candidates(std::string(name), folder)) {
+  const Candidates all = candidates(std::string(name), folder, packages);
+  result.package = all.package;
+  result.has_package = std::any_of(all.package_folders.begin(), all.package_folders.end(), is_folder);
+  for (const fs::path& candidate : all.paths) {
     const fs::path path = candidate.lexically_normal();
     if (is_file(path) || (folders && is_folder(path))) {
       result.path = path.string();
@@ -141,16 +204,31 @@ MeshPath find(std::string_view name, const fs::path& folder, bool folders) {
 
 }  // namespace
 
-MeshPath find_mesh(std::string_view filename, const fs::path& folder) { return find(filename, folder, false); }
-
-std::string advice_for_missing(std::string_view filename) {
-  const std::string scheme = lower_case(std::string(filename.substr(0, filename.find("://"))));
-  if (scheme == "http" || scheme == "https") return "nothing is fetched from the network: save it and give its path";
-  if (scheme != "package" && scheme != "model") return "correct its path";
-  const char* const variable = scheme == "package" ? "ROS_PACKAGE_PATH" : "GZ_SIM_RESOURCE_PATH";
-  return std::string("correct its path, or add the folder that holds the package to ") + variable;
+MeshPath find_mesh(std::string_view filename, const fs::path& folder, const Packages& packages) {
+  return find(filename, folder, packages, false);
 }
 
-MeshPath find_file_or_folder(std::string_view name, const fs::path& folder) { return find(name, folder, true); }
+std::string advice_for_missing(std::string_view filename, const MeshPath& missing) {
+  const std::string scheme = lower_case(std::string(filename.substr(0, filename.find("://"))));
+  if (scheme == "http" || scheme == "https") return "nothing is fetched from the network: save it and give its path";
+  if (missing.package.empty()) return "correct its path";
+  if (missing.has_package) return concat("package ", quote(missing.package), " is found, but not this file in it");
+  const char* const variable = scheme == "package" ? "ROS_PACKAGE_PATH" : "GZ_SIM_RESOURCE_PATH";
+  return concat("package ", quote(missing.package), " is unknown: add the folder that holds it to ", variable,
+                ", or write `packages: {", missing.package, ": FOLDER}` in the scenario");
+}
+
+std::string searched_places(const MeshPath& missing) {
+  constexpr std::size_t max = 6;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(max, missing.searched.size()); ++i)
+    text += (i ? ", " : "") + missing.searched[i].string();
+  if (missing.searched.size() > max) text += concat(" and ", missing.searched.size() - max, " more places");
+  return text;
+}
+
+MeshPath find_file_or_folder(std::string_view name, const fs::path& folder, const Packages& packages) {
+  return find(name, folder, packages, true);
+}
 
 }  // namespace muro::model_file

@@ -2,28 +2,41 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
 namespace muro::model_file {
 
+/// Folders of packages and models by name, as a scenario gives them.
+using Packages = std::map<std::string, std::filesystem::path>;
+
 struct MeshPath {
   std::string path;                             ///< absolute; empty when there is no such file
   bool other_case = false;                      ///< the file's name differs in upper and lower case
   std::vector<std::filesystem::path> searched;  ///< where it was looked for
+  std::string package;                          ///< NAME of package://NAME and model://NAME
+  bool has_package = false;  ///< a folder of that package was found, whether the file is in it or not
 };
 
 /// Finds the file that a mesh's `filename` means, for a model in `folder` (absolute):
-/// - package://NAME/...  a folder NAME above or beside the model, in ROS_PACKAGE_PATH, in share/ of AMENT_PREFIX_PATH
-/// - model://NAME/...    likewise, and in GAZEBO_MODEL_PATH and GZ_SIM_RESOURCE_PATH
-/// - file://..., an absolute path, or one relative to the model's folder
+/// - package://NAME/..., model://NAME/...  where `packages` has NAME: there and nowhere else. Otherwise in a folder
+/// NAME
+///   above or beside the model; in a folder above it whose package.xml has that name; in the paths of ROS_PACKAGE_PATH
+///   and in packages a few levels below them; in share/ of AMENT_PREFIX_PATH and CMAKE_PREFIX_PATH; in the paths of
+///   GZ_SIM_RESOURCE_PATH, IGN_GAZEBO_RESOURCE_PATH, SDF_PATH and GAZEBO_MODEL_PATH
+/// - file://..., an absolute path, or one relative to the model's folder, then to the paths of GZ_SIM_RESOURCE_PATH,
+///   IGN_GAZEBO_RESOURCE_PATH, SDF_PATH and GAZEBO_RESOURCE_PATH
 /// Backslashes count as slashes; of a path with a drive letter, the last parts are looked for beside the model.
-MeshPath find_mesh(std::string_view filename, const std::filesystem::path& folder);
+MeshPath find_mesh(std::string_view filename, const std::filesystem::path& folder, const Packages& packages = {});
 
 /// What to do where no file of this name is found: "correct its path".
-std::string advice_for_missing(std::string_view filename);
+std::string advice_for_missing(std::string_view filename, const MeshPath& missing);
+
+/// The places where it was looked for, at most six: "/a/x.stl, /b/x.stl and 3 more places".
+std::string searched_places(const MeshPath& missing);
 
 /// As find_mesh; the name may be that of a folder.
-MeshPath find_file_or_folder(std::string_view name, const std::filesystem::path& folder);
+MeshPath find_file_or_folder(std::string_view name, const std::filesystem::path& folder, const Packages& packages = {});
 
 }  // namespace muro::model_file

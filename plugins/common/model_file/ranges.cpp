@@ -45,14 +45,17 @@ std::string beyond(std::span<const double> values, double limit, std::string_vie
 
 }  // namespace
 
+void drop_tiny_sizes(std::string_view name, std::span<double> values) {
+  if (std::find(std::begin(sizes), std::end(sizes), name) == std::end(sizes)) return;
+  for (double& v : values)
+    if (std::abs(v) < limits::min_size) v = 0;
+}
+
 std::string range_problem(std::string_view name, std::span<const double> values) {
   if (name == "pose") {
     const std::string problem = range_problem("xyz", values.first(std::min<std::size_t>(3, values.size())));
     return problem.empty() && values.size() == 6 ? range_problem("rpy", values.subspan(3)) : problem;
   }
-  if (std::find(std::begin(sizes), std::end(sizes), name) != std::end(sizes))
-    for (const double v : values)
-      if (v != 0 && std::abs(v) < limits::min_size) return concat("is nearer to 0 than ", limits::min_size);
   for (const auto& range : known_ranges)
     if (range.name == name) return beyond(values, range.limit, range.unit);
   return {};

@@ -73,11 +73,12 @@ class Assembler {
     j.parent = parent == "world" ? -1 : body(parent);
     j.child = body(child);
     if (j.child < 0 || (j.parent < 0 && parent != "world"))
-      return problems_.error(j.location, concat("joint ", quote(scope + joint.Name()), ": there is no link ",
-                                                quote(j.child < 0 ? child : parent)));
+      return problems_.warning(j.location,
+                               concat("joint ", quote(scope + joint.Name()), " is left out: there is no link ",
+                                      quote(j.child < 0 ? child : parent)));
     if (j.child == j.parent)
-      return problems_.error(
-          j.location, concat("joint ", quote(scope + joint.Name()), " joins link ", quote(child), " with itself"));
+      return problems_.warning(j.location, concat("joint ", quote(scope + joint.Name()), " is left out: it joins link ",
+                                                  quote(child), " with itself"));
     j.name = out_.unique(plain_name(scope + joint.Name()), "_joint");
     j.pose = pose * resolved(joint.SemanticPose(), "__model__", j.location, problems_);
     out_.joints_by_name[scope + joint.Name()] = int(out_.joints.size());

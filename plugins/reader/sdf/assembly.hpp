@@ -19,7 +19,7 @@ struct Body {
   Pose pose;                          ///< in the frame of the outermost model
   int parent_joint = -1;
   std::vector<int> child_joints;  ///< in the order of the file
-  std::vector<int> attached;      ///< bodies without a joint that leads to them; an error was reported
+  std::vector<int> attached;      ///< bodies without a joint that leads to them, fixed here
   FileLocation location;
 };
 
@@ -29,7 +29,8 @@ struct Joint {
   std::string name;   ///< as a part of the robot
   int parent = -1;    ///< -1: the world
   int child = -1;
-  Pose pose;  ///< in the frame of the outermost model
+  Pose pose;              ///< in the frame of the outermost model
+  bool left_out = false;  ///< it would close a chain
   FileLocation location;
 };
 
@@ -51,7 +52,7 @@ struct Assembly {
 /// All links of a model, and its joints where `with_joints`. Poses are those of SDFormat's frame semantics.
 Assembly assemble(const ::sdf::Model& model, bool with_joints, const SourceFiles& sources, Problems& problems);
 
-/// Finds the base and the parent joint of each body. What is no tree is reported as an error, and made one.
+/// Finds the base and the parent joint of each body. What is no tree is made one, with warnings.
 void make_tree(Assembly& assembly, const ::sdf::Model& model, Problems& problems);
 
 /// A name of SDFormat as one of muro: "arm::hand" is arm.hand, and characters that names do not have are _.

@@ -5,6 +5,7 @@
 #include <sdf/sdf.hh>
 
 #include "assembly.hpp"
+#include "muro/toolkit/limits.hpp"
 #include "muro/toolkit/rotations.hpp"
 #include "plugins/common/model_file/inertia.hpp"
 
@@ -95,21 +96,23 @@ class LinkReader {
     const std::optional<double> mu = number(ode, "mu"), mu2 = number(ode, "mu2");
     const std::optional<double> other = number(bullet, "friction"), other2 = number(bullet, "friction2");
     const std::optional<double> first = mu ? mu : other, second = mu ? mu2 : other2;
-    shape.friction = first.value_or(1);
+    shape.surface.friction = first.value_or(1);
     const FileLocation location = location_of(sources_, friction ? friction : collision);
     if (first && second && *first != *second)
       problems_.note(location, concat(owner_, ": friction is ", *first, " along and ", *second,
                                       " across; it is the same in all directions, and the first is used"));
-    if (shape.friction < 0) {
-      problems_.warning(location,
-                        concat(owner_, ": friction ", shape.friction, " is negative; 1 is used, SDFormat's default"));
-      shape.friction = 1;
+    shape.surface.friction = std::min(shape.surface.friction, limits::friction);
+    if (shape.surface.friction < 0) {
+      problems_.warning(location, concat(owner_, ": friction ", shape.surface.friction,
+                                         " is negative; 1 is used, SDFormat's default"));
+      shape.surface.friction = 1;
     }
-    shape.restitution = number(child(surface, "bounce"), "restitution_coefficient").value_or(0);
-    if (!(shape.restitution >= 0 && shape.restitution <= 1)) {
-      problems_.warning(location, concat(owner_, ": restitution_coefficient ", shape.restitution, " is taken as ",
-                                         std::clamp(shape.restitution, 0.0, 1.0), "; it is between 0 and 1"));
-      shape.restitution = std::clamp(shape.restitution, 0.0, 1.0);
+    shape.surface.restitution = number(child(surface, "bounce"), "restitution_coefficient").value_or(0);
+    if (!(shape.surface.restitution >= 0 && shape.surface.restitution <= 1)) {
+      problems_.warning(location,
+                        concat(owner_, ": restitution_coefficient ", shape.surface.restitution, " is taken as ",
+                               std::clamp(shape.surface.restitution, 0.0, 1.0), "; it is between 0 and 1"));
+      shape.surface.restitution = std::clamp(shape.surface.restitution, 0.0, 1.0);
     }
   }
 

@@ -23,7 +23,8 @@ class TreeBuilder {
     builder_.base(body(a_.base).name);
     fill(a_.base);
     model_file::build_tree(builder_, children_of(a_.base), [this](const Child& child) { return add(child); });
-    if (mass_ == 0 && !problems_.found_error())
+    if (problems_.found_error()) return;
+    if (mass_ == 0)
       problems_.warning(body(a_.base).location, "no link has a mass; only motion without forces can move the robot");
   }
 

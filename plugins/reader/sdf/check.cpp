@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <set>
 
 #include "checks.hpp"
@@ -36,6 +38,23 @@ std::vector<std::string> supported_names(std::string_view parent) {
   return names;
 }
 
+/// The numbers at the beginning of a text, where there are as many.
+std::optional<std::vector<double>> first_numbers(const std::string& text, std::size_t count) {
+  std::vector<double> values;
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  while (values.size() < count) {
+    while (at < end && std::isspace(static_cast<unsigned char>(*at))) ++at;
+    if (at < end && *at == '+') ++at;
+    double value = 0;
+    const auto [rest, code] = std::from_chars(at, end, value);
+    if (code != std::errc() || !std::isfinite(value)) return std::nullopt;
+    values.push_back(value);
+    at = rest;
+  }
+  return values;
+}
+
 /// Angles become a quaternion here: the bits of what libsdformat makes of them depend on the processor.
 void write_quaternion(Element& pose) {
   std::string error;
@@ -69,7 +88,25 @@ void check(SourceFile& source, SourceFiles& sources, Problems& problems) { Check
 
 void Check::run() {
   section(*source_.document->root(), "sdf");
+  missing_meshes_.report(problems_);
   report_unsupported();
+}
+
+void Check::error(const FileLocation& at, const std::string& text) {
+  if (model_of_world_.empty()) return problems_.error(at, text);
+  is_model_bad_ = true;
+  problems_.warning(at, concat(model_of_world_, " is left out: ", text));
+}
+
+void Check::child_section(Element& child, std::string_view as) {
+  const bool is_model_of_world = as == "model" && std::string_view(child.Parent()->Value()) == "world";
+  if (!is_model_of_world) return section(child, as);
+  model_of_world_ = concat("model ", quote(attribute(child, "name")));
+  is_model_bad_ = false;
+  tinyxml2::XMLNode* const world = child.Parent();
+  section(child, as);
+  if (is_model_bad_) world->DeleteChild(&child);
+  model_of_world_.clear();
 }
 
 void Check::section(Element& e, std::string_view as) {
@@ -85,7 +122,7 @@ void Check::section(Element& e, std::string_view as) {
       problems_.warning(location_of(*child), concat("a second <", name, "> in one <", e.Name(), "> is left out"));
       e.DeleteChild(child);
     } else if (schema->type == ValueType::section) {
-      section(*child, schema->section);
+      child_section(*child, schema->section);
     } else {
       leaf(*child, *schema);
     }
@@ -119,7 +156,11 @@ void Check::leaf(Element& e, const SchemaElement& schema) {
       const std::string format = attribute(e, "rotation_format");
       const bool quaternion = format == "quat_xyzw";
       if (text_of(e).empty()) e.SetText(quaternion ? "0 0 0 0 0 0 1" : "0 0 0 0 0 0");
-      numbers(e, quaternion ? 7 : 6, false);
+      const std::size_t count = quaternion ? 7 : 6;
+      std::string wrong;
+      if (!model_file::parse_numbers(text_of(e), count, wrong))
+        return error(location_of(e), concat("<pose>: ", quote(text_of(e)), " ", wrong));
+      numbers(e, count, false);
       if (format.empty() || format == "euler_rpy") write_quaternion(e);
       return;
     }
@@ -131,7 +172,11 @@ void Check::leaf(Element& e, const SchemaElement& schema) {
     case ValueType::flag: {
       const std::string value = lower_case(text_of(e));
       if (value == "true" || value == "1" || value == "false" || value == "0") return;
-      problems_.error(location_of(e), concat("<", e.Name(), ">: ", quote(text_of(e)), " is none of true, false, 1, 0"));
+      const std::string wrong = concat("<", e.Name(), ">: ", quote(text_of(e)), " is none of true, false, 1, 0");
+      // libsdformat reads these, too
+      if (!value.empty() && std::string_view(e.Name()) != "use_parent_model_frame") return error(location_of(e), wrong);
+      problems_.warning(location_of(e), wrong + "; it is left out");
+      e.Parent()->DeleteChild(&e);
       return;
     }
     default: {
@@ -142,16 +187,37 @@ void Check::leaf(Element& e, const SchemaElement& schema) {
   }
 }
 
+/// As libsdformat reads them: no text is none, and what follows the last number is ignored.
 void Check::numbers(Element& e, std::size_t count, bool infinite) {
   const std::string text = text_of(e);
   if (infinite && (lower_case(text) == "inf" || lower_case(text) == "-inf" || lower_case(text) == "+inf")) return;
-  std::string error;
-  const auto values = model_file::parse_numbers(text, count, error);
-  if (values) error = model_file::range_problem(e.Name(), *values);
-  if (!error.empty()) {
-    problems_.error(location_of(e), concat("<", e.Name(), ">: ", quote(text), " ", error));
+  if (text.empty()) {
+    problems_.warning(location_of(e), concat("<", e.Name(), "> holds no number and is left out"));
+    e.Parent()->DeleteChild(&e);
     return;
   }
+  std::string problem;
+  auto values = model_file::parse_numbers(text, count, problem);
+  if (!values) {
+    values = first_numbers(text, count);
+    if (values) {
+      problems_.warning(location_of(e), concat("<", e.Name(), ">: ", quote(text), " ", problem, ". It is read as ",
+                                               quote(model_file::text_of(*values))));
+      problem.clear();
+    }
+  }
+  if (values) {
+    model_file::drop_tiny_sizes(e.Name(), *values);
+    problem = model_file::range_problem(e.Name(), *values);
+  }
+  const bool is_out_of_range = values || problem.find("is not finite") != problem.npos;
+  if (is_out_of_range && !problem.empty() && std::string_view(e.Name()) != "pose") {
+    problems_.warning(location_of(e), concat("<", e.Name(), ">: ", quote(text), " ", problem, "; it is left out"));
+    e.Parent()->DeleteChild(&e);
+    return;
+  }
+  if (!values || !problem.empty())
+    return error(location_of(e), concat("<", e.Name(), ">: ", quote(text), " ", problem));
   e.DeleteChildren();
   e.SetText(model_file::text_of(*values).c_str());
 }

@@ -35,8 +35,10 @@ void Check::prepare(Element& e, std::string_view section) {
 /// False when the element is better removed.
 bool Check::complete(Element& e, std::string_view section) {
   if (section == "world" || section == "model") {
-    if (section == "model" && !named(e, "model")) return true;
-    if (attribute(e, "name").empty()) e.SetAttribute("name", "world");
+    if (attribute(e, "name").empty()) {
+      if (section == "model") problems_.warning(location_of(e), "a model has no name; write <model name=\"...\">");
+      e.SetAttribute("name", std::string(section).c_str());
+    }
     Scope scope;
     scope.is_world = section == "world";
     names(e, scope);
@@ -44,8 +46,8 @@ bool Check::complete(Element& e, std::string_view section) {
     const bool still = child_text(e, "static") == "true" || child_text(e, "static") == "1";
     const bool empty = !e.FirstChildElement("link") && !e.FirstChildElement("model") && !e.FirstChildElement("include");
     if (section == "model" && empty && !still)
-      problems_.error(location_of(e), concat("model ", quote(attribute(e, "name")),
-                                             " has no link; it needs at least one <link name=\"...\"/>"));
+      error(location_of(e),
+            concat("model ", quote(attribute(e, "name")), " has no link; it needs at least one <link name=\"...\"/>"));
   } else if (section == "link") {
     for (const char* kind : {"collision", "visual"}) {
       std::set<std::string> used;
@@ -81,7 +83,7 @@ bool Check::complete(Element& e, std::string_view section) {
 void Check::find_picture(Element& workflow) {
   Element* map = workflow.FirstChildElement("albedo_map");
   if (!map) return;
-  const model_file::MeshPath found = model_file::find_mesh(text_of(*map), source_.folder);
+  const model_file::MeshPath found = model_file::find_mesh(text_of(*map), source_.folder, sources_.packages());
   if (found.path.empty()) {
     problems_.warning(location_of(*map),
                       concat("picture ", quote(text_of(*map)), " is not found; what it covers is plain"));
@@ -94,19 +96,29 @@ void Check::find_picture(Element& workflow) {
 
 bool Check::complete_joint(Element& joint) {
   const std::string owner = "joint " + quote(attribute(joint, "name")), type = attribute(joint, "type");
+  const auto fix = [&](const FileLocation& at, const std::string& why) {
+    problems_.warning(at, concat(owner, why, "; it is taken as fixed"));
+    joint.SetAttribute("type", "fixed");
+    for (const char* axis : {"axis", "axis2"})
+      if (Element* e = joint.FirstChildElement(axis)) joint.DeleteChild(e);
+  };
+  for (const char* end : {"parent", "child"})
+    if (child_text(joint, end).empty()) {
+      problems_.warning(location_of(joint),
+                        concat(owner, " is left out: it has no ", end, "; write <", end, ">LINK</", end, ">"));
+      return false;
+    }
+  if (child_text(joint, "parent") == child_text(joint, "child")) {
+    problems_.warning(location_of(joint), concat(owner, " is left out: it joins link ",
+                                                 quote(child_text(joint, "parent")), " with itself"));
+    return false;
+  }
   if (std::find(joint_types.begin(), joint_types.end(), type) == joint_types.end()) {
     std::vector<std::string> known(joint_types.begin(), joint_types.end());
-    problems_.error(location_of(joint),
-                    concat(owner, type.empty() ? " has no type" : " is of the unknown type " + quote(type),
-                           "; types are ", quoted_list(known)));
+    fix(location_of(joint), concat(type.empty() ? " has no type" : " is of the unknown type " + quote(type),
+                                   ", and types are ", quoted_list(known)));
     return true;
   }
-  for (const char* end : {"parent", "child"})
-    if (child_text(joint, end).empty())
-      problems_.error(location_of(joint), concat(owner, " has no ", end, "; write <", end, ">LINK</", end, ">"));
-  if (!child_text(joint, "parent").empty() && child_text(joint, "parent") == child_text(joint, "child"))
-    problems_.error(location_of(joint),
-                    concat(owner, " joins link ", quote(child_text(joint, "parent")), " with itself"));
   const int axes = type == "fixed" || type == "ball"                                 ? 0
                    : type == "universal" || type == "revolute2" || type == "gearbox" ? 2
                                                                                      : 1;
@@ -122,11 +134,16 @@ bool Check::complete_joint(Element& joint) {
       problems_.warning(location_of(joint), concat(owner, " has no <", name, ">; the axis is z, SDFormat's default"));
       axis = joint.InsertNewChildElement(name);
       axis->SetUserData(joint.GetUserData());
+      Element* xyz = axis->InsertNewChildElement("xyz");
+      xyz->SetUserData(joint.GetUserData());
+      xyz->SetText("0 0 1");
     }
     const std::vector<double> xyz = values_of(axis->FirstChildElement("xyz"));
-    if (xyz.size() == 3 && !(elementary::hypot(elementary::hypot(xyz[0], xyz[1]), xyz[2]) > 1e-9))
-      problems_.error(location_of(*axis), concat(owner, ": its <", name,
-                                                 "> has no direction; <xyz> is a vector of length 1, such as 0 0 1"));
+    if (xyz.size() == 3 && !(elementary::hypot(elementary::hypot(xyz[0], xyz[1]), xyz[2]) > 1e-9)) {
+      fix(location_of(*axis),
+          concat(": its <", name, "> has no direction, and <xyz> is a vector of length 1, such as 0 0 1"));
+      return true;
+    }
     take_mimic(joint, *axis, i);
   }
   if (Element* pitch = joint.FirstChildElement("screw_thread_pitch")) {
@@ -140,11 +157,13 @@ bool Check::complete_joint(Element& joint) {
   }
   const std::vector<double> pitch = values_of(joint.FirstChildElement("thread_pitch"));
   if (type == "screw" && !pitch.empty() && pitch[0] == 0)
-    problems_.error(location_of(joint),
-                    concat(owner, ": its thread_pitch is 0; it is the angle in rad a metre, and not 0"));
-  if (type == "gearbox" && child_text(joint, "gearbox_reference_body").empty())
-    problems_.error(location_of(joint),
-                    concat(owner, " has no <gearbox_reference_body>; it names the link that carries both wheels"));
+    fix(location_of(joint), ": its thread_pitch is 0, and it is the angle in rad a metre");
+  if (type == "gearbox" && child_text(joint, "gearbox_reference_body").empty()) {
+    problems_.warning(location_of(joint),
+                      concat(owner, " is left out: it has no <gearbox_reference_body>, which names ",
+                             "the link that carries both wheels"));
+    return false;
+  }
   return true;
 }
 
@@ -159,7 +178,7 @@ void Check::take_mimic(Element& joint, Element& axis, int number) {
   value("offset", taken.offset);
   value("reference", taken.reference);
   if (taken.joint.empty())
-    problems_.error(location_of(*mimic), "<mimic> names no joint; write <mimic joint=\"...\">");
+    problems_.warning(location_of(*mimic), "a <mimic> that names no joint is left out; write <mimic joint=\"...\">");
   else
     sources_.mimics[{location_of(joint), number}] = taken;
   axis.DeleteChild(mimic);
@@ -188,20 +207,12 @@ bool Check::complete_shape(Element& e) {
   return error.empty();
 }
 
-/// Puts the path of the file in place of the name. A mesh that is not found is an error of a collision, told once a
-/// file, and is left out of a visual.
+/// Puts the path of the file in place of the name. A shape whose mesh is not found is left out.
 bool Check::find_mesh(const Element& body, Element& uri) {
-  const std::string name = text_of(uri),
-                    owner = concat("<", body.Name(), " name=", quote(attribute(body, "name")), ">");
-  const model_file::MeshPath found = model_file::find_mesh(name, source_.folder);
+  const std::string name = text_of(uri);
+  const model_file::MeshPath found = model_file::find_mesh(name, source_.folder, sources_.packages());
   if (found.path.empty()) {
-    std::vector<std::string> paths;
-    for (const auto& path : found.searched) paths.push_back(path.string());
-    const std::string missing = concat("mesh ", quote(name), " is not found; looked for ", quoted_list(paths));
-    if (std::string_view(body.Name()) != "collision")
-      problems_.warning(location_of(uri), concat(owner, " is left out, as ", missing));
-    else if (missing_meshes_.insert(name).second)
-      problems_.error(location_of(uri), concat(owner, ": ", missing, "; ", model_file::advice_for_missing(name)));
+    missing_meshes_.add(name, location_of(uri), found, std::string_view(body.Name()) == "collision");
     return false;
   }
   if (found.other_case)

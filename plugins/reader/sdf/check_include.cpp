@@ -47,13 +47,13 @@ bool Check::complete_include(Element& include) {
   const bool in_world = around && std::string_view(around->Name()) == "world";
   const auto fail = [&](const std::string& why) {
     const std::string text = concat("<include> of ", quote(uri), " is left out: ", why);
-    in_world ? problems_.warning(location_of(include), text) : problems_.error(location_of(include), text);
+    problems_.warning(location_of(include), text);
     return false;
   };
   if (uri.empty()) return fail("it has no <uri>; write <uri>FOLDER/model.sdf</uri>");
   if (uri.starts_with("http://") || uri.starts_with("https://") || uri.starts_with("fuel://"))
     return fail("nothing is fetched from the network; save the model beside this file and give its path");
-  const model_file::MeshPath found = model_file::find_file_or_folder(uri, source_.folder);
+  const model_file::MeshPath found = model_file::find_file_or_folder(uri, source_.folder, sources_.packages());
   if (found.path.empty()) {
     // two models that most worlds for Gazebo ask for
     if (in_world && uri == "model://sun") {
@@ -64,17 +64,19 @@ bool Check::complete_include(Element& include) {
       put_ground_plane(include);
       return false;
     }
-    std::vector<std::string> paths;
-    for (const auto& path : found.searched) paths.push_back(path.string());
-    return fail(concat("there is no such file or folder; looked for ", quoted_list(paths)));
+    return fail(concat("there is no such file or folder; looked for ", model_file::searched_places(found), "; ",
+                       model_file::advice_for_missing(uri, found)));
   }
   const fs::path path = fs::is_directory(found.path) ? file_in(found.path) : fs::path(found.path);
   std::string reason;
   const SourceFile* source = sources_.include(path.lexically_normal(), reason);
   if (!source) return fail(concat(path.string(), ": ", reason));
   source_.elements += source->elements;
-  if (source_.elements > max_elements)
-    return fail(concat("with all its includes the file has more than ", max_elements, " elements"));
+  if (source_.elements > max_elements) {
+    problems_.error(location_of(include), concat("<include> of ", quote(uri), ": with all its includes the file has ",
+                                                 "more than ", max_elements, " elements"));
+    return false;
+  }
   Element* link = include.FirstChildElement("uri");
   link->DeleteChildren();
   link->SetText(source->memory->path().c_str());

@@ -3,6 +3,7 @@
 
 #include <set>
 
+#include "plugins/common/model_file/missing_meshes.hpp"
 #include "schema.hpp"
 #include "source_file.hpp"
 
@@ -28,6 +29,9 @@ class Check {
   void remove_unsupported(Element& e, const SchemaElement* schema, std::string_view parent);
   void report_unsupported();
   FileLocation location_of(const Element& e) const { return source_.location_of(e); }
+  /// Ends the reading, except within a model of a world: that model is left out, and the rest is read.
+  void error(const FileLocation& at, const std::string& text);
+  void child_section(Element& child, std::string_view as);
 
   // check_names.cpp: names within a model or world
   struct Scope {
@@ -36,10 +40,13 @@ class Check {
     bool is_world = false;
   };
   bool named(Element& e, const char* what);
+  bool has_links(Element& joint, const Scope& scope);
   void names(Element& model, Scope& scope);
   void references(Element& model, const Scope& scope);
   void reference(Element& e, const char* attribute, const Scope& scope);
-  void check_name(const Element& e, const std::string& what, const std::string& name, const Scope& scope);
+  /// Whether there is something of this name; otherwise `advice` says it all.
+  bool is_known(const Element& e, const std::string& what, const std::string& name, const Scope& scope,
+                std::string& advice) const;
 
   // check_elements.cpp: what each kind of element needs
   void prepare(Element& e, std::string_view section);
@@ -62,7 +69,9 @@ class Check {
   SourceFiles& sources_;
   Problems& problems_;
   std::vector<Unsupported> unsupported_;
-  std::set<std::string> missing_meshes_;  ///< of collisions, by the name in the file
+  model_file::MissingMeshes missing_meshes_;
+  std::string model_of_world_;  ///< that is being checked: "model `house`"; empty elsewhere
+  bool is_model_bad_ = false;
 };
 
 /// The value of an attribute, or "".

@@ -25,7 +25,12 @@ double positive_or_infinite(double limit) {
 
 Joints::Joints(Assembly& assembly, const SourceFiles& sources, RobotBuilder& builder, Problems& problems)
     : a_(assembly), sources_(sources), builder_(builder), problems_(problems) {
-  for (const Joint& joint : a_.joints) dofs_.push_back(dofs_of(joint));
+  for (const Joint& joint : a_.joints) {
+    if (joint.left_out)
+      dofs_.emplace_back();
+    else
+      dofs_.push_back(dofs_of(joint));
+  }
   find_mimics();
   for (const Joint& joint : a_.joints)
     if (joint.definition->Type() == Type::GEARBOX) add_gearbox(joint);
@@ -207,10 +212,13 @@ void Joints::add_gearbox(const Joint& joint) {
 
 /// The robot knows one level: a follower of a follower follows the first leader.
 void Joints::resolve_followers() {
+  std::vector<std::string> circles;
   for (auto& [name, follower] : followers_) {
     for (std::size_t steps = 0; followers_.count(follower.leader) != 0; ++steps) {
       if (follower.leader == name || steps > followers_.size()) {
-        problems_.error({}, concat("joint ", quote(name), " mimics itself through other joints"));
+        problems_.warning({},
+                          concat("joint ", quote(name), " mimics itself through other joints; it moves on its own"));
+        circles.push_back(name);
         break;
       }
       const Follower& next = followers_.at(follower.leader);
@@ -219,6 +227,7 @@ void Joints::resolve_followers() {
       follower.leader = next.leader;
     }
   }
+  for (const std::string& name : circles) followers_.erase(name);
 }
 
 }  // namespace muro::sdf

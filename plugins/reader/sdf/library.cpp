@@ -66,14 +66,14 @@ Library::Library() : lock_(one_at_a_time()), messages_(console()->GetMsgStream()
 
 Library::~Library() { console()->GetMsgStream().SetStream(messages_); }
 
-bool Library::load(const SourceFiles& sources, ::sdf::Root& root, Problems& problems) {
+std::vector<Library::Mistake> Library::load(const SourceFiles& sources, const std::string& text, ::sdf::Root& root) {
   ::sdf::Errors errors;
   std::string thrown;
   try {
     const Quiet quiet;
     const ::sdf::ParserConfig how = config();
     const ::sdf::SDFPtr document = empty_document();
-    if (::sdf::readString(sources.main().normalized, how, document, errors)) {
+    if (::sdf::readString(text, how, document, errors)) {
       const ::sdf::Errors more = root.Load(document, how);
       errors.insert(errors.end(), more.begin(), more.end());
     } else if (errors.empty()) {
@@ -86,18 +86,19 @@ bool Library::load(const SourceFiles& sources, ::sdf::Root& root, Problems& prob
   }
   // One mistake breaks much of what stands on it: the first message of a location, and those without location only when
   // there are no others.
-  std::set<FileLocation> reported;
+  std::vector<Mistake> mistakes;
+  std::set<FileLocation> known;
   for (const bool placed : {true, false})
     for (const ::sdf::Error& e : errors) {
       // inertia is checked by the reader
       if (e.Code() == ::sdf::ErrorCode::NONE || e.Code() == ::sdf::ErrorCode::LINK_INERTIA_INVALID) continue;
       const FileLocation location = sources.location_of(e.FilePath().value_or(""), e.LineNumber().value_or(0));
-      if ((location.line > 0) != placed || (!placed && problems.found_error()) || !reported.insert(location).second)
-        continue;
-      problems.error(location, "libsdformat: " + one_line(e.Message()));
+      if ((location.line > 0) != placed || (!placed && !mistakes.empty()) || !known.insert(location).second) continue;
+      mistakes.push_back({location, "libsdformat: " + sources.with_file_names(one_line(e.Message()))});
     }
-  if (!thrown.empty() && !problems.found_error()) problems.error({}, "libsdformat: " + one_line(thrown));
-  return !problems.found_error();
+  if (!thrown.empty() && mistakes.empty())
+    mistakes.push_back({{}, "libsdformat: " + sources.with_file_names(one_line(thrown))});
+  return mistakes;
 }
 
 FileLocation location_of(const SourceFiles& sources, ::sdf::ElementPtr element) {

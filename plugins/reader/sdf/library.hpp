@@ -17,8 +17,12 @@ class Library {
   Library(const Library&) = delete;
   Library& operator=(const Library&) = delete;
 
-  /// What the library makes of the checked sources. What it finds wrong is reported; false after an error.
-  bool load(const SourceFiles& sources, ::sdf::Root& root, Problems& problems);
+  struct Mistake {
+    FileLocation location;
+    std::string text;
+  };
+  /// What the library makes of the checked sources, when `text` is that of the main one. Returns what it finds wrong.
+  std::vector<Mistake> load(const SourceFiles& sources, const std::string& text, ::sdf::Root& root);
 
  private:
   std::unique_lock<std::mutex> lock_;

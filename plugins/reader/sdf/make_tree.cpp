@@ -13,6 +13,7 @@ class TreeMaker {
   TreeMaker(Assembly& a, Problems& problems) : a_(a), problems_(problems) {}
 
   void run(const ::sdf::Model& model) {
+    is_static_ = model.Static();
     find_parents();
     const std::vector<int> roots = find_roots();
     a_.base = choose_base(model, roots);
@@ -33,7 +34,7 @@ class TreeMaker {
       }
       Body& child = a_.bodies[std::size_t(joint.child)];
       if (child.parent_joint >= 0) {
-        report_two_parents(joint, a_.joints[std::size_t(child.parent_joint)], child);
+        cut(joint, a_.joints[std::size_t(child.parent_joint)], child);
         continue;
       }
       child.parent_joint = int(i);
@@ -42,10 +43,12 @@ class TreeMaker {
     connect_to_world();
   }
 
-  void report_two_parents(const Joint& joint, const Joint& other, const Body& child) {
-    problems_.error(joint.location, concat("link ", quote(child.name), " is the child of two joints, ",
-                                           quote(other.name), " and ", quote(joint.name),
-                                           "; robots are trees, and closed chains are not simulated. Leave one out"));
+  void cut(Joint& joint, const Joint& other, const Body& child) {
+    problems_.warning(
+        joint.location,
+        concat("joint ", quote(joint.name), " closes a chain and is left out: its child, ", "link ", quote(child.name),
+               ", hangs on joint ", quote(other.name), " already, and what moves has one parent"));
+    joint.left_out = true;
   }
 
   /// Joints with the world: a fixed one is reported, for the motion has to know it; others need a body that stands for
@@ -62,7 +65,7 @@ class TreeMaker {
       Joint& joint = a_.joints[std::size_t(i)];
       Body& child = a_.bodies[std::size_t(joint.child)];
       if (child.parent_joint >= 0) {
-        report_two_parents(joint, a_.joints[std::size_t(child.parent_joint)], child);
+        cut(joint, a_.joints[std::size_t(child.parent_joint)], child);
         continue;
       }
       if (!moves && world_joints_.size() == 1) return;
@@ -98,11 +101,14 @@ class TreeMaker {
     if (roots.size() < 2) return;
     std::vector<std::string> names;
     for (const int r : roots) names.push_back(a_.bodies[std::size_t(r)].name);
+    std::erase(names, a_.bodies[std::size_t(a_.base)].name);
     const Body& second = a_.bodies[std::size_t(roots[0] == a_.base ? roots[1] : roots[0])];
-    problems_.error(second.location,
-                    concat("no joint leads to ", roots.size(), " links: ", quoted_list(names),
-                           "; exactly one is the base. Join the ",
-                           "others to it, with fixed joints if they do not move, or make them models of their own"));
+    const bool several = names.size() > 1;
+    problems_.report(is_static_ ? Severity::note : Severity::warning, second.location,
+                     concat("no joint leads to ", several ? "the links " : "link ", quoted_list(names),
+                            several ? "; they are" : "; it is", " fixed to the base, link ",
+                            quote(a_.bodies[std::size_t(a_.base)].name),
+                            is_static_ ? "" : ". What is to move freely is a model of its own"));
   }
 
   /// Bodies that cannot be reached from the base are attached to it, so that all of the model can be shown.
@@ -124,7 +130,7 @@ class TreeMaker {
     for (const bool loops : {false, true})
       for (std::size_t i = 0; i < a_.bodies.size(); ++i) {
         if (reached[i] || (!loops && a_.bodies[i].parent_joint >= 0)) continue;
-        if (loops) report_loop(int(i));
+        if (loops) leave_out_of_loop(a_.bodies[i].parent_joint);
         detach(int(i));
         a_.bodies[std::size_t(a_.base)].attached.push_back(int(i));
         reach(int(i));
@@ -137,23 +143,22 @@ class TreeMaker {
     if (joint < 0) return;
     auto& joints = a_.bodies[std::size_t(a_.joints[std::size_t(joint)].parent)].child_joints;
     joints.erase(std::find(joints.begin(), joints.end(), joint));
-    if (body == a_.base) report_joint_in_loop(joint);
+    if (body == a_.base) leave_out_of_loop(joint);
   }
 
-  void report_loop(int body) { report_joint_in_loop(a_.bodies[std::size_t(body)].parent_joint); }
-
-  void report_joint_in_loop(int number) {
-    const Joint& joint = a_.joints[std::size_t(number)];
-    problems_.error(joint.location,
-                    concat("joint ", quote(joint.name), " closes a loop of joints: link ",
-                           quote(a_.bodies[std::size_t(joint.child)].name),
-                           " is its own descendant; robots are trees, and closed chains are not simulated"));
+  void leave_out_of_loop(int number) {
+    Joint& joint = a_.joints[std::size_t(number)];
+    problems_.warning(joint.location, concat("joint ", quote(joint.name), " closes a loop and is left out: link ",
+                                             quote(a_.bodies[std::size_t(joint.child)].name),
+                                             ", to which it leads, would be its own ", "descendant"));
+    joint.left_out = true;
   }
 
   Assembly& a_;
   Problems& problems_;
   std::vector<int> world_joints_;
   int world_ = -1;
+  bool is_static_ = false;
 };
 
 }  // namespace

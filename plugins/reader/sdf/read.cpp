@@ -30,7 +30,7 @@ class WorldReader {
       const FileLocation location = location_of(sources_, model.Element());
       const ::sdf::Errors errors = model.SemanticPose().Resolve(pose);
       if (!errors.empty())
-        problems_.error(location, "libsdformat: " + errors.front().Message());
+        leave_out(model, location, "libsdformat: " + errors.front().Message());
       else if (model.Static())
         add_scenery(model, pose_of(pose));
       else
@@ -45,15 +45,26 @@ class WorldReader {
     return name;
   }
 
+  void leave_out(const ::sdf::Model& model, const FileLocation& location, const std::string& reason) {
+    problems_.warning(location, concat("model ", quote(model.Name()), " is left out: ", reason));
+  }
+
   void add_scenery(const ::sdf::Model& model, const Pose& pose) {
-    const Assembly assembly = assemble(model, false, sources_, problems_);
+    // mistakes in one model end the reading of that model alone
+    Problems own([&](Severity severity, std::string_view text, int line, int column) {
+      if (severity == Severity::error)
+        leave_out(model, Location{line, column}, std::string(text));
+      else
+        problems_.report(severity, Location{line, column}, std::string(text));
+    });
+    const Assembly assembly = assemble(model, false, sources_, own);
     std::vector<std::pair<const Body*, LinkBody>> solids;
     for (const Body& body : assembly.bodies) {
       LinkBody solid = body_of(
-          *body.link, body.name, false, sources_, [this](std::string_view text) { return builder_.intern(text); },
-          problems_);
+          *body.link, body.name, false, sources_, [this](std::string_view text) { return builder_.intern(text); }, own);
       if (!solid.collisions.empty() || !solid.visuals.empty()) solids.emplace_back(&body, std::move(solid));
     }
+    if (own.found_error()) return;
     for (const auto& [body, solid] : solids)
       builder_.scenery(unique(solids.size() == 1 ? model.Name() : model.Name() + "::" + body->name), pose * body->pose,
                        solid.collisions, solid.visuals);
@@ -93,44 +104,92 @@ void tell_pose(const ::sdf::Model& model, const SourceFiles& sources, Problems& 
     problems.note(location_of(sources, model.Element()), "the model is static; a robot without a motion stands still");
 }
 
+/// The models and includes of the world that is read.
+std::vector<Element*> models_of(const SourceFiles& sources) {
+  std::vector<Element*> models;
+  for (Element* e : model_file::children(*sources.main().content))
+    if (std::string_view(e->Name()) == "model" || std::string_view(e->Name()) == "include") models.push_back(e);
+  return models;
+}
+
+/// Takes out of the world the models that libsdformat does not read, each with its reason; false where it reads each of
+/// them alone.
+bool leave_out_bad_models(SourceFiles& sources, Library& library, Problems& problems) {
+  bool found = false;
+  for (Element* model : models_of(sources)) {
+    ::sdf::Root alone;
+    const auto mistakes = library.load(sources, sources.with_only(*model), alone);
+    if (mistakes.empty()) continue;
+    found = true;
+    const FileLocation here = sources.main().location_of(*model);
+    const char* name = model->Attribute("name");
+    problems.warning(here, concat(name ? "model " : "an included model", name ? quote(name) : "",
+                                  " is left out: ", mistakes.front().text));
+    sources.remove_from_world(*model);
+  }
+  return found;
+}
+
+/// False, with errors reported, when libsdformat reads nothing.
+bool load_world(SourceFiles& sources, Library& library, ::sdf::Root& root, Problems& problems) {
+  auto mistakes = library.load(sources, sources.main().normalized, root);
+  if (!mistakes.empty() && leave_out_bad_models(sources, library, problems)) {
+    root = ::sdf::Root();
+    mistakes = library.load(sources, sources.main().normalized, root);
+  }
+  for (const Library::Mistake& m : mistakes) problems.error(m.location, m.text);
+  return mistakes.empty();
+}
+
+/// A model without links: a light, an actor, or a static one that is empty.
+void build_frame(const std::string& name, RobotBuilder& builder) { builder.base(plain_name(name)); }
+
 }  // namespace
 
-void read_text(std::string bytes, const fs::path& folder, RobotBuilder& builder) {
+void read_text(std::string bytes, const fs::path& folder, RobotBuilder& builder, const model_file::Packages& packages) {
   Problems problems = Problems::reported_to(builder);
-  SourceFiles sources(folder, problems);
+  SourceFiles sources(folder, problems, packages);
   if (!sources.load(std::move(bytes), Content::model)) return;
+  if (!sources.main().content) return build_frame(sources.main().alone, builder);
   allow_for(sources);
   Library library;
   ::sdf::Root root;
-  if (!library.load(sources, root, problems)) return;
+  for (const Library::Mistake& m : library.load(sources, sources.main().normalized, root))
+    problems.error(m.location.line > 0 ? m.location : sources.main().location_of(*sources.main().content), m.text);
+  if (problems.found_error()) return;
   const ::sdf::Model* model = root.Model();
   if (!model) return problems.error({}, "libsdformat finds no model in the file, and gives no reason");
   tell_pose(*model, sources, problems);
   Assembly assembly = assemble(*model, true, sources, problems);
-  if (assembly.bodies.empty()) return problems.error(location_of(sources, model->Element()), "the model has no link");
+  if (assembly.bodies.empty()) {
+    problems.warning(location_of(sources, model->Element()),
+                     "the model has no link; the robot is a frame without a body");
+    return build_frame(model->Name(), builder);
+  }
   if (problems.found_error()) return;
   make_tree(assembly, *model, problems);
   build(assembly, sources, builder, problems);
 }
 
-void read_world_text(std::string bytes, const fs::path& folder, WorldBuilder& builder) {
+void read_world_text(std::string bytes, const fs::path& folder, WorldBuilder& builder,
+                     const model_file::Packages& packages) {
   Problems problems = Problems::reported_to(builder);
-  SourceFiles sources(folder, problems);
+  SourceFiles sources(folder, problems, packages);
   if (!sources.load(std::move(bytes), Content::world)) return;
   allow_for(sources);
   Library library;
   ::sdf::Root root;
-  if (!library.load(sources, root, problems)) return;
+  if (!load_world(sources, library, root, problems)) return;
   if (root.WorldCount() == 0) return problems.error({}, "libsdformat finds no world in the file, and gives no reason");
   WorldReader(sources, builder, problems).run(*root.WorldByIndex(0));
 }
 
-void read_file(const std::string& path, RobotBuilder& builder) {
-  read_text(model_file::load_file(path, ".sdf"), fs::absolute(path).parent_path(), builder);
+void read_file(const std::string& path, RobotBuilder& builder, const model_file::Packages& packages) {
+  read_text(model_file::load_file(path, ".sdf"), fs::absolute(path).parent_path(), builder, packages);
 }
 
-void read_world_file(const std::string& path, WorldBuilder& builder) {
-  read_world_text(model_file::load_file(path, ".sdf"), fs::absolute(path).parent_path(), builder);
+void read_world_file(const std::string& path, WorldBuilder& builder, const model_file::Packages& packages) {
+  read_world_text(model_file::load_file(path, ".sdf"), fs::absolute(path).parent_path(), builder, packages);
 }
 
 }  // namespace muro::sdf

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Reads robots and worlds from SDFormat files (http://sdformat.org): service.cpp does it, in the parser process.
+#include "muro/ext/package_folders.hpp"
 #include "muro/plugin.hpp"
 #include "plugins/common/builder_calls/replay.hpp"
 #include "plugins/common/parser_process/ask.hpp"
@@ -16,9 +17,14 @@ constexpr ReaderDescription description{
     .extensions = extensions,
 };
 
-parser_process::Answer ask(const char* service, std::string_view path) {
+parser_process::Answer ask(const char* service, std::string_view path, std::span<const PackageFolder> packages) {
   parser_process::Writer request;
   request.text(path);
+  request.value(std::uint32_t(packages.size()));
+  for (const PackageFolder& p : packages) {
+    request.text(p.name);
+    request.text(p.folder);
+  }
   return parser_process::ask({.service = service,
                               .subject = "model " + std::string(path),
                               .needs = "libsdformat-dev",
@@ -29,11 +35,11 @@ parser_process::Answer ask(const char* service, std::string_view path) {
 class SdfReader final : public ModelReader {
  public:
   void read(std::string_view path, RobotBuilder& builder) override {
-    const parser_process::Answer calls = ask("sdf model", path);
+    const parser_process::Answer calls = ask("sdf model", path, PackageFolders::of(builder));
     builder_calls::replay(calls.reader(), builder);
   }
   void read_world(std::string_view path, WorldBuilder& builder) override {
-    const parser_process::Answer calls = ask("sdf world", path);
+    const parser_process::Answer calls = ask("sdf world", path, PackageFolders::of(builder));
     builder_calls::replay(calls.reader(), builder);
   }
 };

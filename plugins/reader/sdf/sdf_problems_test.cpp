@@ -24,10 +24,10 @@ TEST(SdfProblems, FilesThatAreNoSdformat) {
                   "SDFormat file is <sdf "
                   "version=\"1.9\"> with a <model> or a <world>"});
   EXPECT_EQ(robot_of("<sdf/>").problems, Lines{"error 1:1 <sdf> has no version; write <sdf version=\"1.9\">"});
-  for (const char* version : {"1.3", "1.0", "", "x", "2.0", "-1.9", "1e9.5"})
+  for (const char* version : {"1.1", "1.0", "", "x", "-1.9", "1e9.5"})
     EXPECT_EQ(robot_of(model(link("a"), version)).problems,
               Lines{"error 1:1 the file is of SDFormat `" + std::string(version) +
-                    "`; versions 1.4 to 1.9 are read. `gz sdf -p FILE` of Gazebo converts older ones"});
+                    "`; versions 1.2 to 1.9 are read. `gz sdf -p FILE` of Gazebo converts older ones"});
   EXPECT_EQ(robot_of("<sdf version='1.9'/>").problems, Lines{"error 1:1 the file holds no <model>"});
 }
 
@@ -36,12 +36,15 @@ TEST(SdfProblems, NumbersThatAreNone) {
     return problems_of(
         link("a", "<collision name='c'>\n<geometry><box><size>" + size + "</size></box></geometry></collision>"));
   };
-  EXPECT_EQ(
-      of("1,5 1 1"),
-      Lines{"error 4:16 <size>: `1,5 1 1` is no number; the decimal sign is a point, and blanks separate numbers"});
   EXPECT_EQ(of("1 1"), Lines{"error 4:16 <size>: `1 1` has 2 numbers, and needs 3 separated by blanks"});
-  EXPECT_EQ(of("1 1 nan"), Lines{"error 4:16 <size>: `1 1 nan` is not finite"});
   EXPECT_EQ(of("1 1 big"), Lines{"error 4:16 <size>: `1 1 big` is no number; write it like 0.05 or 5e-2"});
+  EXPECT_EQ(of("1 1 1,5"), Lines{"warning 4:16 <size>: `1 1 1,5` is no number; the decimal sign is a point, and blanks "
+                                 "separate numbers. It is read as `1 1 1`"});
+  EXPECT_EQ(
+      of("1 1 1 1"),
+      Lines{"warning 4:16 <size>: `1 1 1 1` has 4 numbers, and needs 3 separated by blanks. It is read as `1 1 1`"});
+  EXPECT_EQ(of("1 1 nan"), (Lines{"warning 4:16 <size>: `1 1 nan` is not finite; it is left out",
+                                  "warning 4:11 <collision name=`c`> is left out, as its <box> has no <size>"}));
   EXPECT_EQ(problems_of("<static>maybe</static>" + link("a")),
             Lines{"error 3:1 <static>: `maybe` is none of true, false, 1, 0"});
 }
@@ -55,16 +58,27 @@ TEST(SdfProblems, NumbersAreReadAlikeInEveryLocale) {
 }
 
 TEST(SdfProblems, NamesThatAreMissingTwiceThereOrUnknown) {
+  const std::string base = "warning 4:1 no joint leads to link `";
   EXPECT_EQ(
-      problems_of("<link/>" + link("a") + "\n<joint type='fixed'><parent>a</parent><child>a</child></joint>"),
-      (Lines{"error 4:1 joint `` joins link `a` with itself", "error 3:1 a link has no name; write <link name=\"...\">",
-             "error 4:1 a joint has no name; write <joint name=\"...\">"}));
-  EXPECT_EQ(problems_of(link("a") + "\n" + link("a")),
-            Lines{"error 4:1 a link has the name `a` of the link in line 3; names are unique within a model"});
+      problems_of("<link/>" + link("a") + link("b") +
+                  "\n<joint type='fixed'><parent>a</parent><child>b</child></joint>"),
+      (Lines{"warning 3:1 a link without a name is left out; write <link name=\"...\">",
+             "warning 4:1 a joint without a name is left out; write <joint name=\"...\">",
+             "warning 3:" + std::to_string(1 + std::string("<link/>").size() + link("a").size()) +
+                 " no joint leads to link `b`; it is fixed to the base, link `a`. What is to move freely is a model of "
+                 "its own"}));
   EXPECT_EQ(
-      problems_of(link("wheel") + link("arm") + "\n" + joint("j", "fixed", "wheel", "wheels")),
-      Lines{"error 4:" + std::to_string(1 + std::string("<joint name='j' type='fixed'><parent>wheel</parent>").size()) +
-            " child of joint `j`: there is no `wheels` (did you mean `wheel`?); there are `arm`, `j`, `wheel`"});
+      problems_of(link("a") + "\n" + link("a")),
+      (Lines{"warning 4:1 a link has the name `a` of the link in line 3 and is called `a_2`; names are unique within a "
+             "model",
+             base + "a_2`; it is fixed to the base, link `a`. What is to move freely is a model of its own"}));
+  EXPECT_EQ(
+      problems_of(link("wheel") + "\n" + link("arm") + "\n" + joint("j", "fixed", "wheel", "wheels")),
+      (Lines{
+          "warning 5:" + std::to_string(1 + std::string("<joint name='j' type='fixed'><parent>wheel</parent>").size()) +
+              " child of joint `j`: there is no `wheels` (did you mean `wheel`?); there are `arm`, `j`, `wheel`; the "
+              "joint is left out",
+          base + "arm`; it is fixed to the base, link `wheel`. What is to move freely is a model of its own"}));
   EXPECT_EQ(problems_of(link("a", "\n<pose relative_to='somewhere'>0 0 0 0 0 0</pose>")),
             Lines{"error 4:1 <pose relative_to> of link `a`: there is no `somewhere`; there are `a`"});
   EXPECT_EQ(robot_of("<sdf version='1.9'>\n<model name='m' canonical_link='somewhere'>" + link("a") + "</model></sdf>")
@@ -81,39 +95,66 @@ TEST(SdfProblems, JointsThatCannotBe) {
     return problems_of(link("a") + link("b") + "\n" + joint("j", type, "a", "b", inside));
   };
   EXPECT_EQ(of("axis_joint", ""),
-            Lines{"error 4:1 joint `j` is of the unknown type `axis_joint`; types are `revolute`, "
-                  "`continuous`, `prismatic`, `fixed`, "
-                  "`universal`, `revolute2`, `ball`, `screw` and 1 more"});
+            Lines{"warning 4:1 joint `j` is of the unknown type `axis_joint`, and types are `revolute`, `continuous`, "
+                  "`prismatic`, `fixed`, `universal`, `revolute2`, `ball`, `screw` and 1 more; it is taken as fixed"});
   EXPECT_EQ(of("revolute", ""), Lines{"warning 4:1 joint `j` has no <axis>; the axis is z, SDFormat's default"});
   EXPECT_EQ(
       problems_of(link("a") + link("b") + "\n<joint name='j' type='revolute'><parent>a</parent><child>b</child>\n" +
                   axis("0 0 0") + "</joint>"),
-      Lines{"error 5:1 joint `j`: its <axis> has no direction; <xyz> is a vector of length 1, such as 0 0 1"});
+      Lines{"warning 5:1 joint `j`: its <axis> has no direction, and <xyz> is a vector of length 1, such as 0 0 1; it "
+            "is taken as fixed"});
   EXPECT_EQ(of("revolute", axis("0 0 1", "<limit><lower>2</lower><upper>1</upper></limit>")),
             Lines{"warning 4:1 joint `j`: its lower limit 2 is above the upper one 1; they are exchanged"});
   EXPECT_EQ(problems_of(link("a") + "\n<joint name='j' type='fixed'><parent>a</parent></joint>"),
-            Lines{"error 4:1 joint `j` has no child; write <child>LINK</child>"});
+            Lines{"warning 4:1 joint `j` is left out: it has no child; write <child>LINK</child>"});
 }
 
-TEST(SdfProblems, WhatIsNoTree) {
-  EXPECT_EQ(problems_of(link("a") + link("b") + link("c") + joint("j", "fixed", "a", "c") +
-                        joint("l", "fixed", "a", "b") + "\n" + joint("k", "fixed", "b", "c")),
-            Lines{"error 4:1 link `c` is the child of two joints, `j` and `k`; robots are trees, and closed chains are "
-                  "not simulated. Leave one out"});
-  EXPECT_EQ(
-      problems_of(link("a") + link("b") + joint("j", "fixed", "a", "b") + "\n" + joint("k", "fixed", "b", "a")),
-      Lines{"error 4:1 joint `k` closes a loop of joints: link `a` is its own descendant; robots are trees, and closed "
-            "chains are not simulated"});
-  EXPECT_EQ(problems_of(link("a") + "\n" + link("b") + "\n" + link("c") + joint("j", "fixed", "b", "c")),
-            Lines{"error 4:1 no joint leads to 2 links: `a`, `b`; exactly one is the base. Join the others to it, with "
-                  "fixed joints if they do not "
-                  "move, or make them models of their own"});
+TEST(SdfProblems, ChainsAreCutWhereTheyClose) {
+  const Robot twice = robot_of(model(link("a") + link("b") + link("c") + joint("j", "fixed", "a", "c") +
+                                     joint("l", "fixed", "a", "b") + "\n" + joint("k", "fixed", "b", "c")));
+  EXPECT_EQ(twice.problems, Lines{"warning 4:1 joint `k` closes a chain and is left out: its child, link `c`, hangs on "
+                                  "joint `j` already, and what moves has one parent"});
+  EXPECT_EQ(twice.tree.links().size(), 3u);
+  EXPECT_EQ(problems_of(link("a") + link("b") + joint("j", "fixed", "a", "b") + "\n" + joint("k", "fixed", "b", "a")),
+            Lines{"warning 4:1 joint `k` closes a loop and is left out: link `a`, to which it leads, would be its own "
+                  "descendant"});
   EXPECT_EQ(
       problems_of(link("a") + link("b") + joint("j", "fixed", "world", "b") + "\n" + joint("k", "fixed", "a", "b"))
           .back(),
-      "error 3:" + std::to_string(1 + link("a").size() + link("b").size()) +
-          " link `b` is the child of two joints, `k` and `j`; robots are trees, and closed chains are not simulated. "
-          "Leave one out");
+      "warning 3:" + std::to_string(1 + link("a").size() + link("b").size()) +
+          " joint `j` closes a chain and is left out: its child, link `b`, hangs on joint `k` already, and what moves "
+          "has one parent");
+}
+
+TEST(SdfProblems, WhatNoJointLeadsToIsFixedToTheBase) {
+  const Robot robot = robot_of(model(link("a", "<pose>1 0 0 0 0 0</pose>") + "\n" + link("b") + "\n" + link("c") +
+                                     joint("j", "revolute", "b", "c", axis("0 0 1"))));
+  EXPECT_EQ(robot.problems,
+            Lines{"warning 4:1 no joint leads to link `b`; it is fixed to the base, link `a`. What is to "
+                  "move freely is a model of its own"});
+  EXPECT_EQ(robot.blocks(), (Lines{"base a", "translation", "body b", "revolute j", "body c"}));
+  EXPECT_TRUE(near(robot.pose("c"), {{-1, 0, 0}, Quat::Identity()}));
+  // in a model that does not move it is nothing to warn of
+  EXPECT_EQ(without_notes(problems_of("<static>true</static>" + link("a") + link("b"))), Lines{});
+}
+
+TEST(SdfProblems, AModelOfOldVersionsIsRead) {
+  for (const char* version : {"1.2", "1.3"}) {
+    const Robot robot = robot_of(
+        model(link("a") + link("b", "<pose>0.5 0 0 0 0 0</pose>") + joint("j", "revolute", "a", "b", axis("0 1 0")),
+              version));
+    EXPECT_EQ(robot.problems, Lines{}) << version;
+    EXPECT_EQ(robot.pose("b").position.x(), 0.5) << version;
+  }
+  EXPECT_EQ(robot_of("<gazebo version='1.2'><model name='m'>" + link("a") + "</model></gazebo>").problems, Lines{});
+}
+
+TEST(SdfProblems, AModelThatIsALightIsAFrame) {
+  const Robot robot = robot_of("<sdf version='1.6'>\n<light name='sun' type='directional'/></sdf>");
+  EXPECT_EQ(robot.problems,
+            Lines{"warning 2:1 the file holds only the light `sun`, which is not simulated; the robot is "
+                  "a frame without a body"});
+  EXPECT_EQ(robot.blocks(), Lines{"base sun"});
 }
 
 TEST(SdfProblems, FramesThatStandOnEachOther) {
@@ -131,7 +172,9 @@ TEST(SdfProblems, MassesThatNoBodyHas) {
         mass + "</mass><inertia><ixx>" + ixx +
         "</ixx><ixy>0</ixy><ixz>0</ixz><iyy>1</iyy><iyz>0</iyz><izz>1</izz></inertia></inertial></link>");
   };
-  EXPECT_EQ(of("-1", "1"), Lines{"error 4:1 link `a`: the mass is -1 kg; it is 0 (a frame without a body) or more"});
+  EXPECT_EQ(of("-1", "1"),
+            (Lines{"warning 4:1 link `a`: the mass is -1 kg and taken as 0, a frame without a body; it is 0 or more",
+                   "warning 3:1 no link has a mass; only motion without forces can move the robot"}));
   EXPECT_EQ(of("5", "0"),
             Lines{"warning 4:1 link `a`: its principal moments of inertia are 0 1 1 kg m^2, and the least "
                   "must be above 1e-9 times the greatest; those of its shapes with uniform density "
@@ -156,18 +199,23 @@ TEST(SdfProblems, IncludesThatCannotBe) {
   };
   const auto file = [&](const std::string& name) { return folder.path(name); };
   EXPECT_EQ(of("self.sdf"),
-            (Lines{"error 0:0 in self.sdf:1:36: <include> of `self.sdf` is left out: " + file("self.sdf") +
+            (Lines{"warning 0:0 in self.sdf:1:36: <include> of `self.sdf` is left out: " + file("self.sdf") +
                        ": it includes itself",
-                   "error 0:0 in self.sdf:1:20: model `s` has no link; it needs at least one <link name=\"...\"/>"}));
+                   "warning 0:0 in self.sdf:1:20: model `s` has no link; it needs at least one <link name=\"...\"/>",
+                   "warning 4:1 <include> of `self.sdf` is left out: " + file("self.sdf") +
+                       ": it has mistakes, as reported before"}));
   EXPECT_EQ(of("broken.sdf"),
-            Lines{"error 4:1 <include> of `broken.sdf` is left out: " + file("broken.sdf") +
+            Lines{"warning 4:1 <include> of `broken.sdf` is left out: " + file("broken.sdf") +
                   ": the file is not well-formed XML: a closing tag does not match the element that is open"});
   EXPECT_NE(of("robot.urdf").at(0).find("it is URDF"), std::string::npos);
-  EXPECT_EQ(of("light.sdf"), Lines{"error 4:1 <include> of `light.sdf` is left out: " + file("light.sdf") +
+  EXPECT_EQ(of("light.sdf"), Lines{"warning 4:1 <include> of `light.sdf` is left out: " + file("light.sdf") +
                                    ": it holds no <model>, but a `light`"});
   EXPECT_EQ(of("mistake.sdf"),
-            Lines{"error 0:0 in mistake.sdf:2:16: <pose>: `1 2` has 2 numbers, and needs 6 separated by blanks"});
-  EXPECT_EQ(of(""), Lines{"error 4:1 <include> of `` is left out: it has no <uri>; write <uri>FOLDER/model.sdf</uri>"});
+            (Lines{"warning 0:0 in mistake.sdf:2:16: <pose>: `1 2` has 2 numbers, and needs 6 separated by blanks",
+                   "warning 4:1 <include> of `mistake.sdf` is left out: " + file("mistake.sdf") +
+                       ": it has mistakes, as reported before"}));
+  EXPECT_EQ(of(""),
+            Lines{"warning 4:1 <include> of `` is left out: it has no <uri>; write <uri>FOLDER/model.sdf</uri>"});
 }
 
 TEST(SdfProblems, IncludesThatMultiplyAreStopped) {

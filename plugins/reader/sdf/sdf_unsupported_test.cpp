@@ -163,17 +163,16 @@ TEST(SdfUnsupported, ShapesLeaveTheirCollisionOut) {
              "mesh"}));
 }
 
-TEST(SdfUnsupported, AMissingMeshIsAnErrorOfACollisionElseAWarning) {
+TEST(SdfUnsupported, AMissingMeshIsLeftOutAndToldOnce) {
   const std::string mesh = "<geometry><mesh><uri>gone.stl</uri></mesh></geometry>",
                     collision =
                         "<collision name='c'>" + mesh + "</collision>\n<collision name='d'>" + mesh + "</collision>",
                     visual = "<visual name='v'>" + mesh + "</visual>";
-  EXPECT_EQ(reports_of("link", collision),
-            Lines{"error 4:37 <collision name=`c`>: mesh `gone.stl` is not found; looked for `/nowhere/gone.stl`; "
-                  "correct its path"});
-  EXPECT_EQ(reports_of("link", visual),
-            Lines{"warning 4:34 <visual name=`v`> is left out, as mesh `gone.stl` is not found; looked for "
-                  "`/nowhere/gone.stl`"});
+  const std::string looked = "; looked for /nowhere/gone.stl; correct its path";
+  EXPECT_EQ(reports_of("link", collision), Lines{"warning 4:37 mesh `gone.stl` (also in line 5) is not found and left "
+                                                 "out, so that nothing touches the links there" +
+                                                 looked});
+  EXPECT_EQ(reports_of("link", visual), Lines{"warning 4:34 mesh `gone.stl` is not found and left out" + looked});
 }
 
 TEST(SdfUnsupported, OfAMeshAllSubmeshesAreUsed) {

@@ -121,16 +121,40 @@ TEST(SdfWorld, WhatIsNotFoundIsLeftOutAndNothingIsFetched) {
       "the model beside this file and give its path");
 }
 
-TEST(SdfWorld, AModelThatIsNoTreeSaysSoItselfAndStandsWhereItIs) {
+TEST(SdfWorld, AModelThatIsNoTreeIsMadeOneAndSaysSoItself) {
   const ReadWorld world = world_of("<model name='pile'>" + link("a", box("collision", "1 1 1")) + "\n" +
                                    link("b", "<pose>0 0 1 0 0 0</pose>" + box("collision", "1 1 1")) + "</model>");
   EXPECT_EQ(world.problems, Lines{});
   const RobotTree& tree = world.model.models().at(0).tree;
-  EXPECT_EQ(lines_of(tree.problems()), Lines{"error 4:1 no joint leads to 2 links: `a`, `b`; exactly one is the base. "
-                                             "Join the others to it, with fixed joints if they do not "
-                                             "move, or make them models of their own"});
+  EXPECT_EQ(lines_of(tree.problems()),
+            Lines{"warning 4:1 no joint leads to link `b`; it is fixed to the base, link `a`. "
+                  "What is to move freely is a model of its own"});
   ASSERT_EQ(tree.links().size(), 2u);
   EXPECT_EQ(tree.links()[1].link.origin.position, Vec3(0, 0, 1));
+}
+
+TEST(SdfWorld, ABadModelIsLeftOutAndTheOthersAreThere) {
+  const std::string good = "<model name='good'>" + link("a") + "</model>\n";
+  const std::string house =
+      "<model name='house'><static>true</static><link name='l'>" + box("collision", "1 1 1") + "</link></model>\n";
+  const auto expect_rest = [](const ReadWorld& world) {
+    ASSERT_EQ(world.model.models().size(), 1u);
+    EXPECT_EQ(world.model.models()[0].name, "good");
+    EXPECT_TRUE(world.model.models()[0].tree.usable());
+    EXPECT_NE(scenery(world, "house"), nullptr);
+  };
+  const ReadWorld number = world_of(good + "<model name='bad'><pose>here</pose>" + link("a") + "</model>\n" + house);
+  EXPECT_EQ(number.problems,
+            Lines{"warning 4:19 model `bad` is left out: <pose>: `here` is no number; write it like 0.05 or 5e-2"});
+  expect_rest(number);
+  // what only libsdformat finds
+  const ReadWorld frames = world_of(good + "<model name='bad'>" + link("a", "<pose relative_to='f'/>") +
+                                    "<frame name='f'><pose relative_to='a'/></frame></model>\n" + house);
+  ASSERT_EQ(frames.problems.size(), 1u);
+  EXPECT_TRUE(frames.problems[0].starts_with(
+      "warning 4:1 model `bad` is left out: libsdformat: PoseRelativeToGraph cycle detected"))
+      << frames.problems[0];
+  expect_rest(frames);
 }
 
 TEST(SdfWorld, RobotsAndWorldsAreToldApart) {

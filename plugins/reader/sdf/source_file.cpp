@@ -2,6 +2,7 @@
 #include "source_file.hpp"
 
 #include <algorithm>
+#include <cctype>
 
 #include "checks.hpp"
 #include "plugins/common/model_file/numbers.hpp"
@@ -60,6 +61,13 @@ Element* content_of(Element& root, Content wanted, const SourceFile& source, Pro
   return found.empty() ? nullptr : found.front();
 }
 
+/// What a file of a model holds that has none, as that of Gazebo's sun.
+const Element* only_light_or_actor(const Element& root) {
+  if (root.FirstChildElement("world")) return nullptr;
+  const Element* light = root.FirstChildElement("light");
+  return light ? light : root.FirstChildElement("actor");
+}
+
 }  // namespace
 
 int SourceFile::version_number() const {
@@ -85,6 +93,8 @@ bool SourceFiles::parse(SourceFile& source, std::string bytes, bool included, st
   std::string text;
   if (!source.document->parse(bytes, location, text)) return fail(location, text);
   Element* root = source.document->root();
+  // up to SDFormat 1.2
+  if (root && std::string_view(root->Name()) == "gazebo") root->SetName("sdf");
   if (!root || std::string_view(root->Name()) != "sdf")
     return fail(
         root ? model_file::location_of(*root) : Location{},
@@ -95,9 +105,9 @@ bool SourceFiles::parse(SourceFile& source, std::string bytes, bool included, st
   if (!version) return fail(model_file::location_of(*root), "<sdf> has no version; write <sdf version=\"1.9\">");
   source.version = version;
   const int number = source.version_number();
-  if (number < 104 || number >= 200)
+  if (number < 102)
     return fail(model_file::location_of(*root),
-                concat("the file is of SDFormat ", quote(version), "; versions 1.4 to 1.9 are ",
+                concat("the file is of SDFormat ", quote(version), "; versions 1.2 to 1.9 are ",
                        "read. `gz sdf -p FILE` of Gazebo converts older ones"));
   if (number > 109) {
     problems_.warning({source.display_name, model_file::location_of(*root)},
@@ -116,6 +126,14 @@ bool SourceFiles::load(std::string bytes, Content wanted) {
   if (!parse(source, std::move(bytes), false, reason)) return false;
   Element& root = *source.document->root();
   source.content = content_of(root, wanted, source, problems_);
+  if (const Element* only = source.content || wanted == Content::world ? nullptr : only_light_or_actor(root)) {
+    source.alone = attribute(*only, "name");
+    if (source.alone.empty()) source.alone = only->Name();
+    problems_.warning(source.location_of(*only),
+                      concat("the file holds only the ", only->Name(), " ", quote(source.alone),
+                             ", which is not simulated; the robot is a frame without a body"));
+    return true;
+  }
   if (!source.content) {
     const bool world = wanted == Content::world;
     const bool other = root.FirstChildElement(world ? "model" : "world") != nullptr;
@@ -129,6 +147,36 @@ bool SourceFiles::load(std::string bytes, Content wanted) {
   if (problems_.found_error()) return false;
   print(root, source);
   return true;
+}
+
+void SourceFiles::remove_from_world(Element& model) {
+  SourceFile& source = *sources_.front();
+  source.content->DeleteChild(&model);
+  source.normalized.clear();
+  source.line_locations.clear();
+  print(*source.document->root(), source);
+}
+
+std::string SourceFiles::with_only(const Element& model) const {
+  const SourceFile& source = *sources_.front();
+  SourceFile part;
+  part.normalized = concat("<sdf version=\"", source.document->root()->Attribute("version"), "\"><world name=\"w\">");
+  print(model, part);
+  return part.normalized + "</world></sdf>";
+}
+
+std::string SourceFiles::with_file_names(std::string text) const {
+  for (const auto& source : sources_) {
+    if (!source->memory) continue;
+    const std::string path = source->memory->path();
+    // /proc/self/fd/1 is the beginning of /proc/self/fd/12, too
+    for (std::size_t at = text.find(path); at != text.npos; at = text.find(path, at + 1)) {
+      const std::size_t end = at + path.size();
+      if (end < text.size() && std::isdigit(static_cast<unsigned char>(text[end]))) continue;
+      text.replace(at, path.size(), source->display_name);
+    }
+  }
+  return text;
 }
 
 const SourceFile* SourceFiles::include(const std::filesystem::path& path, std::string& reason) {
@@ -158,8 +206,16 @@ const SourceFile* SourceFiles::include(const std::filesystem::path& path, std::s
       return nullptr;
     }
     open_.push_back(path);
-    check(*source, *this, problems_);
+    // a file with mistakes is left out, and does not end the reading of the one that includes it
+    Problems own([this](Severity severity, std::string_view text, int line, int column) {
+      problems_.report(std::min(severity, Severity::warning), Location{line, column}, std::string(text));
+    });
+    check(*source, *this, own);
     open_.pop_back();
+    if (own.found_error()) {
+      reason = "it has mistakes, as reported before";
+      return nullptr;
+    }
     print(root, *source);
     source->memory = std::make_unique<MemoryFile>(source->normalized);
     sources_.push_back(std::move(source));

@@ -10,6 +10,7 @@
 
 #include "memory_file.hpp"
 #include "plugins/common/model_file/document.hpp"
+#include "plugins/common/model_file/mesh_path.hpp"
 #include "plugins/common/model_file/problems.hpp"
 
 namespace muro::sdf {
@@ -38,7 +39,8 @@ struct SourceFile {
   std::vector<Location> line_locations;  ///< where the tag of each line of `normalized` is in the file
   std::unique_ptr<MemoryFile> memory;    ///< of an included file
   std::size_t elements = 0;              ///< with those of the files it includes
-  Element* content = nullptr;            ///< <world> or <model>
+  Element* content = nullptr;            ///< <world> or <model>; null where there is only what `alone` names
+  std::string alone = {};                ///< a light or an actor that is all that a model's file holds
 
   FileLocation location_of(const Element& e) const { return {display_name, model_file::location_of(e)}; }
   /// 1.4 is 104.
@@ -53,7 +55,8 @@ enum class Content { model, world };
 
 class SourceFiles {
  public:
-  SourceFiles(std::filesystem::path folder, Problems& problems) : folder_(std::move(folder)), problems_(problems) {}
+  SourceFiles(std::filesystem::path folder, Problems& problems, model_file::Packages packages = {})
+      : folder_(std::move(folder)), packages_(std::move(packages)), problems_(problems) {}
 
   /// Checks the text of the file that is read, and the files that it includes. False, with errors reported, when there
   /// is nothing to read.
@@ -63,6 +66,13 @@ class SourceFiles {
   /// The included file; null, with a reason, when there is none. For the checks of a file that includes.
   const SourceFile* include(const std::filesystem::path& path, std::string& reason);
   const std::filesystem::path& folder() const { return folder_; }
+  const model_file::Packages& packages() const { return packages_; }
+  /// Takes a model or an <include> out of the world that is read.
+  void remove_from_world(Element& model);
+  /// The text of the file that is read, with nothing in its world but `model`.
+  std::string with_only(const Element& model) const;
+  /// `text` of libsdformat, with the names of included files in place of where they are kept for it.
+  std::string with_file_names(std::string text) const;
 
   /// Where an element that libsdformat has read is: `file` is the path by which libsdformat knows its file.
   FileLocation location_of(const std::string& file, int line) const;
@@ -73,6 +83,7 @@ class SourceFiles {
   bool parse(SourceFile& source, std::string bytes, bool included, std::string& reason);
 
   std::filesystem::path folder_;
+  model_file::Packages packages_;
   Problems& problems_;
   std::vector<std::unique_ptr<SourceFile>> sources_;
   std::map<std::filesystem::path, const SourceFile*> included_;

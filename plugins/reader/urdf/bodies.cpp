@@ -18,15 +18,13 @@ void Bodies::fill(const ::urdf::Link& link, const LinkInfo& info) {
   std::vector<Shape> collisions, visuals;
   for (std::size_t i = 0; i < link.collision_array.size(); ++i) {
     const ::urdf::Collision& c = *link.collision_array[i];
-    if (!c.geometry) continue;
-    const Pose origin = pose_of(c.origin, info.collision_rotations.at(i));
-    add_shape(collisions, Purpose::collision, *c.geometry, origin, link, info);
+    if (c.geometry) add_shape(collisions, Purpose::collision, *c.geometry, c.origin, info.collisions.at(i), info);
   }
   for (std::size_t i = 0; i < link.visual_array.size(); ++i) {
     const auto& v = link.visual_array[i];
     if (!v->geometry) continue;
     const std::size_t before = visuals.size();
-    add_shape(visuals, Purpose::visual, *v->geometry, pose_of(v->origin, info.visual_rotations.at(i)), link, info);
+    add_shape(visuals, Purpose::visual, *v->geometry, v->origin, info.visuals.at(i), info);
     if (!v->material || visuals.size() == before) continue;
     const ::urdf::Color& c = v->material->color;
     visuals.back().color = Eigen::Vector4f(c.r, c.g, c.b, c.a).cast<double>();
@@ -43,7 +41,7 @@ void Bodies::fill(const ::urdf::Link& link, const LinkInfo& info) {
 }
 
 void Bodies::add_shape(std::vector<Shape>& shapes, Purpose purpose, const ::urdf::Geometry& geometry,
-                       const Pose& origin, const ::urdf::Link& link, const LinkInfo& info) {
+                       const ::urdf::Pose& origin, const LinkInfo::ShapeInfo& place, const LinkInfo& link) {
   Shape shape;
   switch (geometry.type) {
     case ::urdf::Geometry::BOX: {
@@ -60,58 +58,35 @@ void Bodies::add_shape(std::vector<Shape>& shapes, Purpose purpose, const ::urdf
       break;
     }
     case ::urdf::Geometry::MESH:
-      if (!add_mesh(shape, purpose, static_cast<const ::urdf::Mesh&>(geometry), link, info)) return;
+      if (!add_mesh(shape, purpose, static_cast<const ::urdf::Mesh&>(geometry), place.location)) return;
       break;
   }
-  shape.origin = origin;
-  shape.friction = info.surface.friction.value_or(shape.friction);
-  shape.restitution = info.surface.restitution.value_or(shape.restitution);
+  shape.origin = pose_of(origin, place.rotation);
+  shape.surface.friction = link.surface.friction.value_or(shape.surface.friction);
+  shape.surface.restitution = link.surface.restitution.value_or(shape.surface.restitution);
   shapes.push_back(shape);
 }
 
 void Bodies::add_texture(Shape& shape, const std::string& name, const ::urdf::Link& link, const LinkInfo& info) {
   if (name.empty()) return;
-  const model_file::MeshPath found = model_file::find_mesh(name, folder_);
+  const model_file::MeshPath found = model_file::find_mesh(name, places_.folder, places_.packages);
   if (found.path.empty())
     problems_.warning(info.location, concat(owner_of(link), ": texture ", quote(name), " is not found; it is plain"));
   else
     shape.texture = builder_.intern(found.path);
 }
 
-/// Once a file: an error where a robot would collide with nothing, a warning where it would only look different.
-void Bodies::report_missing(NamedMesh& mesh, Purpose purpose, const std::string& name, const ::urdf::Link& link,
-                            const LinkInfo& info) {
-  const bool is_error = purpose == Purpose::collision;
-  if (mesh.is_error || (mesh.is_told && !is_error)) return;
-  mesh.is_told = true;
-  mesh.is_error = is_error;
-  std::vector<std::string> paths;
-  for (const auto& path : mesh.found.searched) paths.push_back(path.string());
-  std::string where;
-  constexpr std::size_t max = 6;
-  for (std::size_t i = 0; i < std::min(max, paths.size()); ++i) where += (i ? ", " : "") + paths[i];
-  if (paths.size() > max) where += concat(" and ", paths.size() - max, " more places");
-  if (is_error)
-    problems_.error(info.location,
-                    concat(owner_of(link), ": collision mesh ", quote(name), " is not found; looked for ", where, "; ",
-                           model_file::advice_for_missing(name)));
-  else
-    problems_.warning(info.location,
-                      concat(owner_of(link), ": mesh ", quote(name), " is not found and left out; looked for ", where));
-}
-
-bool Bodies::add_mesh(Shape& shape, Purpose purpose, const ::urdf::Mesh& mesh, const ::urdf::Link& link,
-                      const LinkInfo& info) {
+bool Bodies::add_mesh(Shape& shape, Purpose purpose, const ::urdf::Mesh& mesh, const Location& location) {
   const auto [entry, fresh] = meshes_.try_emplace(mesh.filename);
-  model_file::MeshPath& found = entry->second.found;
+  model_file::MeshPath& found = entry->second;
   if (fresh) {
-    found = model_file::find_mesh(mesh.filename, folder_);
+    found = model_file::find_mesh(mesh.filename, places_.folder, places_.packages);
     if (found.other_case)
-      problems_.note(info.location, concat(owner_of(link), ": mesh ", quote(mesh.filename), " is read from ",
-                                           found.path, ", whose name differs in upper and lower case"));
+      problems_.note(location, concat("mesh ", quote(mesh.filename), " is read from ", found.path,
+                                      ", whose name differs in upper and lower case"));
   }
   if (found.path.empty()) {
-    report_missing(entry->second, purpose, mesh.filename, link, info);
+    missing_.add(mesh.filename, location, found, purpose == Purpose::collision);
     return false;
   }
   shape = {

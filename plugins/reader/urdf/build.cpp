@@ -36,9 +36,9 @@ JointLimits limits_of(const ::urdf::Joint& joint) {
 
 class TreeBuilder {
  public:
-  TreeBuilder(const ::urdf::ModelInterface& model, const ModelInfo& info, const std::filesystem::path& folder,
-              RobotBuilder& builder, Problems& problems)
-      : model_(model), info_(info), builder_(builder), problems_(problems), bodies_(folder, builder, problems) {
+  TreeBuilder(const ::urdf::ModelInterface& model, const ModelInfo& info, const Places& places, RobotBuilder& builder,
+              Problems& problems)
+      : model_(model), info_(info), builder_(builder), problems_(problems), bodies_(places, builder, problems) {
     for (const auto& [name, link] : info.links) used_.insert(name);
     name_joints();
   }
@@ -50,9 +50,12 @@ class TreeBuilder {
       add_joint(joint);
       return info_.links.at(info_.joints.at(joint).child).child_joints;
     });
+    bodies_.report_missing_meshes();
     if (bodies_.mass() == 0)
       problems_.warning(info_.links.at(info_.root).location,
                         "no link has a mass; only motion without forces can move the robot");
+    else
+      report_massless();
   }
 
  private:
@@ -111,11 +114,18 @@ class TreeBuilder {
     }
     if (joint->mimic) follow(*joint);
     if (info.moves && info_.links.at(info.child).child_joints.empty() && !model_.getLink(info.child)->inertial)
-      problems_.warning(info_.links.at(info.child).location,
-                        concat("link ", quote(info.child), " hangs on the moving joint ", quote(name),
-                               " but has no mass; a dynamic motion model ", "needs an <inertial>"));
+      massless_.push_back(info.child);
     builder_.body(info.child);
     fill(info.child);
+  }
+
+  void report_massless() {
+    if (massless_.empty()) return;
+    const bool several = massless_.size() > 1;
+    problems_.warning(info_.links.at(massless_.front()).location,
+                      concat(several ? "links " : "link ", quoted_list(massless_),
+                             several ? " hang on moving joints but have" : " hangs on a moving joint but has",
+                             " no mass; a motion by forces needs an <inertial> there"));
   }
 
   /// Mimics of mimics are resolved to the joint that leads them all: the host knows one level.
@@ -177,14 +187,15 @@ class TreeBuilder {
   Problems& problems_;
   Bodies bodies_;
   std::set<std::string> used_;
+  std::vector<std::string> massless_;              ///< links at the ends of branches that move
   std::map<std::string, std::string> part_names_;  ///< of joints that move: what the robot calls them
 };
 
 }  // namespace
 
-void build(const ::urdf::ModelInterface& model, const ModelInfo& info, const std::filesystem::path& folder,
-           RobotBuilder& builder, Problems& problems) {
-  TreeBuilder(model, info, folder, builder, problems).run();
+void build(const ::urdf::ModelInterface& model, const ModelInfo& info, const Places& places, RobotBuilder& builder,
+           Problems& problems) {
+  TreeBuilder(model, info, places, builder, problems).run();
 }
 
 }  // namespace muro::urdf

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "model.hpp"
 #include "muro/toolkit/elementary.hpp"
@@ -18,19 +19,23 @@ class JointCheck {
   JointCheck(Element& xml, const std::string& name, Problems& problems)
       : xml_(xml), owner_("joint " + quote(name)), problems_(problems) {}
 
-  JointInfo run(const ModelInfo& model) {
+  /// Nothing when the joint is of no use; the reason is reported.
+  std::optional<JointInfo> run(const ModelInfo& model) {
     info_.location = location_of(xml_);
-    check_type();
+    info_.xml = &xml_;
     info_.parent = check_link("parent", model);
     info_.child = check_link("child", model);
-    if (!info_.parent.empty() && info_.parent == info_.child)
-      problems_.error(info_.location, concat(owner_, " joins link ", quote(info_.parent), " with itself"));
+    if (info_.parent.empty() || info_.child.empty()) return std::nullopt;
+    if (info_.parent == info_.child) {
+      problems_.warning(info_.location,
+                        concat(owner_, " is left out: it joins link ", quote(info_.parent), " with itself"));
+      return std::nullopt;
+    }
+    check_type();
     if (Element* origin = only_child(xml_, "origin", owner_, problems_)) {
       numbers(*origin, "xyz", 3, owner_, problems_);
       numbers(*origin, "rpy", 3, owner_, problems_);
-      if (origin->Attribute("quat_xyzw"))
-        problems_.error(location_of(*origin),
-                        owner_ + ", <origin quat_xyzw>: quaternions of URDF 1.1 are not read; write rpy");
+      numbers(*origin, "quat_xyzw", 4, owner_, problems_);
     }
     info_.rotation = origin_rotation(xml_);
     check_axis();
@@ -49,23 +54,32 @@ class JointCheck {
     info_.type = type ? type : "";
     info_.moves = info_.type == "revolute" || info_.type == "continuous" || info_.type == "prismatic";
     if (std::find(types.begin(), types.end(), info_.type) != types.end()) return;
-    problems_.error(info_.location,
-                    concat(owner_, type ? concat(" is of the unknown type ", quote(type)) : " has no type",
-                           "; types are fixed, revolute, continuous, prismatic, planar, floating"));
+    problems_.warning(
+        info_.location,
+        concat(owner_, type ? concat(" is of the unknown type ", quote(type)) : " has no type",
+               " and taken as fixed; types are fixed, revolute, continuous, prismatic, planar, floating"));
+    make_fixed();
+  }
+
+  void make_fixed() {
+    info_.type = "fixed";
+    info_.moves = false;
+    xml_.SetAttribute("type", "fixed");
   }
 
   std::string check_link(const char* end, const ModelInfo& model) {
     Element* element = only_child(xml_, end, owner_, problems_);
     const char* link = element ? element->Attribute("link") : nullptr;
     if (!link || !*link) {
-      problems_.error(info_.location, concat(owner_, " has no ", end, "; write <", end, " link=\"...\"/>"));
+      problems_.warning(info_.location,
+                        concat(owner_, " is left out: it has no ", end, "; write <", end, " link=\"...\"/>"));
       return {};
     }
     if (model.links.count(link)) return link;
     std::vector<std::string> names;
     for (const auto& [name, unused] : model.links) names.push_back(name);
-    problems_.error(location_of(*element), concat(owner_, ": its ", end, ", link ", quote(link),
-                                                  ", does not exist; links are ", quoted_list(names)));
+    problems_.warning(location_of(*element), concat(owner_, " is left out: its ", end, ", link ", quote(link),
+                                                    ", does not exist; links are ", quoted_list(names)));
     return {};
   }
 
@@ -80,10 +94,14 @@ class JointCheck {
     const auto xyz = numbers(*axis, "xyz", 3, owner_, problems_);
     if (!xyz) return;
     const double length = elementary::hypot(elementary::hypot((*xyz)[0], (*xyz)[1]), (*xyz)[2]);
-    if (!(length > 1e-9) || !std::isfinite(length))
-      problems_.error(location_of(*axis), concat(owner_, ": axis ", quote(axis->Attribute("xyz")),
-                                                 " has no direction; it is a ", "vector of length 1, such as 0 0 1"));
-    else if (std::abs(length - 1) > 1e-3)
+    if (!(length > 1e-9) || !std::isfinite(length)) {
+      problems_.warning(
+          location_of(*axis),
+          concat(owner_, ": axis ", quote(axis->Attribute("xyz")), " has no direction, so that the joint ",
+                 "is taken as fixed; an axis is a vector of length 1, such as 0 0 1"));
+      make_fixed();
+      remove(*axis);
+    } else if (std::abs(length - 1) > 1e-3)
       problems_.note(location_of(*axis), concat(owner_, ": axis ", quote(axis->Attribute("xyz")),
                                                 " is not of length 1; only its direction is used"));
   }
@@ -151,8 +169,11 @@ class JointCheck {
   void check_dynamics() {
     Element* dynamics = only_child(xml_, "dynamics", owner_, problems_);
     if (!dynamics) return;
+    Problems softer = softened(problems_, "it is taken as 0");
     for (const char* attribute : {"damping", "friction"}) {
-      if (number(*dynamics, attribute, owner_, problems_).value_or(0) >= 0) continue;
+      const auto value = number(*dynamics, attribute, owner_, softer);
+      if (!value) dynamics->DeleteAttribute(attribute);
+      if (value.value_or(0) >= 0) continue;
       problems_.warning(location_of(*dynamics), concat(owner_, ": ", attribute, " ", dynamics->Attribute(attribute),
                                                        " is negative and taken as 0"));
       dynamics->SetAttribute(attribute, "0");
@@ -168,8 +189,10 @@ class JointCheck {
                         concat(owner_, " is ", info_.type, " and cannot mimic; <mimic> is ignored"));
       return remove(*mimic);
     }
-    number(*mimic, "multiplier", owner_, problems_);
-    number(*mimic, "offset", owner_, problems_);
+    Problems softer = softened(problems_, "the joint moves on its own");
+    number(*mimic, "multiplier", owner_, softer);
+    number(*mimic, "offset", owner_, softer);
+    if (softer.found_error()) remove(*mimic);
   }
 
   Element& xml_;
@@ -185,53 +208,67 @@ std::string leader_of(Element& xml) {
   return leader ? leader : "";
 }
 
-/// Removes what follows no joint, and reports joints that follow each other in a circle.
-void check_leaders(const std::map<std::string, Element*>& xml, const ModelInfo& model, Problems& problems) {
-  for (const auto& [name, joint] : xml) {
-    Element* mimic = joint->FirstChildElement("mimic");
+/// A name that no joint has yet.
+std::string new_joint_name(const ModelInfo& model, const std::string& wanted) {
+  std::string name = wanted;
+  for (int i = 2; model.joints.count(name) != 0; ++i) name = concat(wanted, "_", i);
+  return name;
+}
+
+}  // namespace
+
+void check_joints(Element& robot, ModelInfo& model, Problems& problems) {
+  for (Element* joint : children(robot, "joint")) {
+    const Location location = location_of(*joint);
+    const char* given = joint->Attribute("name");
+    std::string name = given ? given : "";
+    if (name.empty()) {
+      const Element* child = joint->FirstChildElement("child");
+      const char* link = child ? child->Attribute("link") : nullptr;
+      name = new_joint_name(model, concat(link && *link ? link : "unnamed", "_joint"));
+      problems.warning(location, concat("a joint has no name and is called ", quote(name),
+                                        "; write <joint name=\"...\" type=\"...\">"));
+    } else if (const auto other = model.joints.find(name); other != model.joints.end()) {
+      name = new_joint_name(model, name);
+      problems.warning(location,
+                       concat("a second joint is named ", quote(given), " and called ", quote(name),
+                              "; the first one is in line ", other->second.location.line, ", and names are unique"));
+    }
+    joint->SetAttribute("name", name.c_str());
+    std::optional<JointInfo> info = JointCheck(*joint, name, problems).run(model);
+    if (!info) {
+      remove(*joint);
+      continue;
+    }
+    model.joints.emplace(name, std::move(*info));
+    model.joint_order.push_back(name);
+  }
+}
+
+void check_mimics(ModelInfo& model, Problems& problems) {
+  for (const auto& [name, joint] : model.joints) {
+    Element* mimic = joint.xml->FirstChildElement("mimic");
     if (!mimic) continue;
-    const std::string leader = leader_of(*joint);
+    const std::string leader = leader_of(*joint.xml);
     const auto found = model.joints.find(leader);
     if (found != model.joints.end() && found->second.moves) continue;
     problems.warning(location_of(*mimic), concat("joint ", quote(name), " mimics ", quote(leader), ", which is no ",
                                                  "revolute, continuous or prismatic joint; it moves on its own"));
     remove(*mimic);
   }
-  for (const auto& [name, joint] : xml) {
-    std::string leader = leader_of(*joint);
-    for (std::size_t steps = 0; !leader.empty() && steps <= xml.size(); ++steps) {
+  for (const auto& [name, joint] : model.joints) {
+    std::string leader = leader_of(*joint.xml);
+    for (std::size_t steps = 0; !leader.empty() && steps <= model.joints.size(); ++steps) {
       if (leader == name) {
-        problems.error(location_of(*joint),
-                       concat("joint ", quote(name), " mimics itself, over ", steps, " other joints"));
+        Element* mimic = joint.xml->FirstChildElement("mimic");
+        problems.warning(location_of(*mimic), concat("joint ", quote(name), " mimics itself, over ", steps,
+                                                     " other joints; it moves on its own"));
+        remove(*mimic);
         break;
       }
-      leader = leader_of(*xml.at(leader));
+      leader = leader_of(*model.joints.at(leader).xml);
     }
   }
-}
-
-}  // namespace
-
-void check_joints(Element& robot, ModelInfo& model, Problems& problems) {
-  std::map<std::string, Element*> xml;
-  for (Element* joint : children(robot, "joint")) {
-    const Location location = location_of(*joint);
-    const char* name = joint->Attribute("name");
-    if (!name || !*name) {
-      problems.error(location, "a joint has no name; write <joint name=\"...\" type=\"...\">");
-      continue;
-    }
-    const auto [entry, fresh] = model.joints.try_emplace(name);
-    if (!fresh) {
-      problems.error(location, concat("two joints are named ", quote(name), ", the other one in line ",
-                                      entry->second.location.line, "; names are unique"));
-      continue;
-    }
-    entry->second = JointCheck(*joint, name, problems).run(model);
-    model.joint_order.emplace_back(name);
-    xml.emplace(name, joint);
-  }
-  check_leaders(xml, model, problems);
 }
 
 }  // namespace muro::urdf

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "model.hpp"
+#include "muro/toolkit/elementary.hpp"
 #include "muro/toolkit/rotations.hpp"
 #include "plugins/common/model_file/numbers.hpp"
 
@@ -14,13 +15,12 @@ void check_origin(Element& parent, const std::string& owner, Problems& problems)
   if (!origin) return;
   numbers(*origin, "xyz", 3, owner, problems);
   numbers(*origin, "rpy", 3, owner, problems);
-  if (origin->Attribute("quat_xyzw"))
-    problems.error(location_of(*origin),
-                   owner + ", <origin quat_xyzw>: quaternions of URDF 1.1 are not read; write rpy");
+  numbers(*origin, "quat_xyzw", 4, owner, problems);
 }
 
-/// Removes an <inertial> that says nothing; completes one that says part.
-void check_inertial(Element& link, const std::string& owner, Problems& problems) {
+/// Removes an <inertial> that says nothing, or what cannot be; completes one that says part.
+void check_inertial(Element& link, const std::string& owner, Problems& all_problems) {
+  Problems problems = softened(all_problems, "the link has no mass");
   Element* inertial = only_child(link, "inertial", owner, problems);
   if (!inertial) return;
   check_origin(*inertial, owner, problems);
@@ -31,9 +31,11 @@ void check_inertial(Element& link, const std::string& owner, Problems& problems)
     return remove(*inertial);
   }
   const double kg = number(*mass, "value", owner, problems).value_or(1);
-  if (kg < 0)
-    problems.error(location_of(*mass),
-                   concat(owner, ": the mass is ", kg, " kg; it is 0 (a frame without a body) or more"));
+  if (kg < 0) {
+    problems.warning(location_of(*mass), concat(owner, ": the mass is ", kg,
+                                                " kg and taken as 0, a frame without a body; it is 0 or more"));
+    return remove(*inertial);
+  }
   Element* inertia = only_child(*inertial, "inertia", owner, problems);
   if (!inertia) inertia = inertial->InsertNewChildElement("inertia");
   bool any = false;
@@ -48,6 +50,7 @@ void check_inertial(Element& link, const std::string& owner, Problems& problems)
   }
   if (!missing.empty() && any)
     problems.warning(location_of(*inertia), concat(owner, ": <inertia> lacks ", missing, ", which count as 0"));
+  if (problems.found_error()) return remove(*inertial);
   if (kg != 0) return;
   if (any) problems.warning(location_of(*inertial), owner + " has an inertia but no mass; the inertia is ignored");
   remove(*inertial);
@@ -103,20 +106,29 @@ bool check_shape(Element& element, const std::string& owner, Problems& problems)
   return false;
 }
 
-void take_rotations(const Element& link, LinkInfo& info) {
+void take_shapes(const Element& link, LinkInfo& info) {
   if (const Element* inertial = link.FirstChildElement("inertial")) info.inertial_rotation = origin_rotation(*inertial);
-  for (const Element* e = link.FirstChildElement("collision"); e; e = e->NextSiblingElement("collision"))
-    info.collision_rotations.push_back(origin_rotation(*e));
-  for (const Element* e = link.FirstChildElement("visual"); e; e = e->NextSiblingElement("visual"))
-    info.visual_rotations.push_back(origin_rotation(*e));
+  const auto take = [&](const char* kind, std::vector<LinkInfo::ShapeInfo>& shapes) {
+    for (const Element* e = link.FirstChildElement(kind); e; e = e->NextSiblingElement(kind))
+      shapes.push_back({origin_rotation(*e), location_of(*e->FirstChildElement("geometry")->FirstChildElement())});
+  };
+  take("collision", info.collisions);
+  take("visual", info.visuals);
 }
 
 }  // namespace
 
 Quat origin_rotation(const Element& owner) {
   const Element* origin = owner.FirstChildElement("origin");
-  const char* rpy = origin ? origin->Attribute("rpy") : nullptr;
   std::string error;
+  // of URDF 1.1; it goes before rpy
+  if (const char* xyzw = origin ? origin->Attribute("quat_xyzw") : nullptr)
+    if (const auto q = model_file::parse_numbers(xyzw, 4, error)) {
+      const double length = elementary::hypot(elementary::hypot((*q)[0], (*q)[1]), elementary::hypot((*q)[2], (*q)[3]));
+      if (length > 1e-9 && std::isfinite(length))
+        return Quat((*q)[3] / length, (*q)[0] / length, (*q)[1] / length, (*q)[2] / length);
+    }
+  const char* rpy = origin ? origin->Attribute("rpy") : nullptr;
   const auto angles = rpy ? model_file::parse_numbers(rpy, 3, error) : std::nullopt;
   if (!angles) return Quat::Identity();
   return from_rpy((*angles)[0], (*angles)[1], (*angles)[2]);
@@ -127,21 +139,25 @@ void check_links(Element& robot, ModelInfo& model, Problems& problems) {
     const Location location = location_of(*link);
     const char* name = link->Attribute("name");
     if (!name || !*name) {
-      problems.error(location, "a link has no name; write <link name=\"...\">");
+      problems.warning(location, "a link without a name is left out; write <link name=\"...\">");
+      remove(*link);
       continue;
     }
     const std::string owner = "link " + quote(name);
     const auto [entry, fresh] = model.links.try_emplace(name);
     if (!fresh) {
-      problems.error(location, concat("two links are named ", quote(name), ", the other one in line ",
-                                      entry->second.location.line, "; names are unique"));
+      problems.warning(location, concat("a second link named ", quote(name), " is left out; the first one is in line ",
+                                        entry->second.location.line, ", and names are unique"));
+      remove(*link);
       continue;
     }
     check_inertial(*link, owner, problems);
     for (const char* kind : {"collision", "visual"})
-      for (Element* element : children(*link, kind))
-        if (!check_shape(*element, owner, problems)) remove(*element);
-    take_rotations(*link, entry->second);
+      for (Element* element : children(*link, kind)) {
+        Problems of_shape = softened(problems, concat("the <", kind, "> is left out"));
+        if (!check_shape(*element, owner, of_shape) || of_shape.found_error()) remove(*element);
+      }
+    take_shapes(*link, entry->second);
     entry->second.location = location;
     entry->second.bare = !link->FirstChildElement("inertial") && !link->FirstChildElement("collision") &&
                          !link->FirstChildElement("visual");

@@ -5,45 +5,62 @@ namespace muro::urdf {
 
 namespace {
 
-/// Counts what only a macro processor understands: xacro's elements, and ${...} and $(...) in values.
+bool is_macro(const Element& element) { return std::string_view(element.Name()).starts_with("xacro:"); }
+
+/// Finds what only a macro processor understands: xacro's elements, and ${...} and $(...) in values.
 class MacroFinder final : public tinyxml2::XMLVisitor {
  public:
   bool VisitEnter(const Element& element, const tinyxml2::XMLAttribute* attributes) override {
     const std::string_view name = element.Name();
     // plugins of other simulators may use such text for purposes of their own
     if (name == "gazebo" || name == "plugin" || name == "transmission") return false;
-    if (name.starts_with("xacro:")) found(element, concat("<", name, ">"));
+    if (is_macro(element)) {
+      elements.push_back(&element);
+      return false;
+    }
     for (const auto* a = attributes; a; a = a->Next()) {
       const std::string_view value = a->Value();
       const std::size_t begin = std::min(value.find("${"), value.find("$("));
-      if (begin == value.npos) continue;
+      // a mesh of that name is not found, and told so
+      if (begin == value.npos || std::string_view(a->Name()) == "filename") continue;
       const std::size_t end = value.find_first_of("})", begin);
-      found(element, std::string(value.substr(begin, end == value.npos ? end : end + 1 - begin)));
+      if (expressions++ > 0) continue;
+      first = value.substr(begin, end == value.npos ? end : end + 1 - begin);
+      location = location_of(element);
     }
     return true;
   }
 
-  std::size_t count = 0;
-  Location location;
-  std::string first;
-
- private:
-  void found(const Element& element, const std::string& what) {
-    if (count++ > 0) return;
-    location = location_of(element);
-    first = what;
-  }
+  std::vector<const Element*> elements;
+  std::size_t expressions = 0;
+  std::string first;  ///< expression
+  Location location;  ///< of it
 };
+
+constexpr char advice[] = "run `xacro FILE -o model.urdf` (of ROS, or from `pip install xacro`) and read model.urdf";
 
 }  // namespace
 
-bool has_macros(Element& robot, Problems& problems) {
+bool take_macros(Element& robot, Problems& problems) {
   MacroFinder finder;
   robot.Accept(&finder);
-  if (finder.count == 0) return false;
-  problems.error(finder.location, concat("the file is xacro source, not URDF: ", quote(finder.first), " is left in",
-                                         finder.count > 1 ? concat(", and ", finder.count - 1, " more") : std::string(),
-                                         "; run `xacro FILE -o model.urdf` first and read model.urdf"));
+  if (finder.expressions == 0 && finder.elements.empty()) return true;
+  const auto and_more = [](std::size_t count) {
+    return count > 1 ? concat(", and ", count - 1, " more") : std::string();
+  };
+  if (finder.expressions > 0 || !robot.FirstChildElement("link")) {
+    const bool element = finder.expressions == 0;
+    problems.error(element ? location_of(*finder.elements.front()) : finder.location,
+                   concat("the file is xacro source, not URDF: ",
+                          quote(element ? concat("<", finder.elements.front()->Name(), ">") : finder.first),
+                          " is left in", and_more(finder.expressions + finder.elements.size()), "; ", advice));
+    return false;
+  }
+  problems.warning(
+      location_of(*finder.elements.front()),
+      concat(quote(concat("<", finder.elements.front()->Name(), ">")), " of xacro is left in",
+             and_more(finder.elements.size()), "; it is left out. If what it stands for is missing, ", advice));
+  for (const Element* e : finder.elements) remove(const_cast<Element&>(*e));
   return true;
 }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "model.hpp"
+#include "plugins/common/model_file/numbers.hpp"
 
 namespace muro::urdf {
 
@@ -17,17 +18,22 @@ bool check_color(Element& material, const std::string& owner, Problems& problems
                      concat(owner, ": <color> has no rgba=\"red green blue alpha\" and is ignored"));
     return false;
   }
-  const auto values = numbers(*color, "rgba", 4, owner, problems);
-  if (!values) return false;
+  std::string error;
+  const auto values = model_file::parse_numbers(rgba, 4, error);
+  if (!values) {
+    problems.warning(location_of(*color),
+                     concat(owner, ", <color rgba>: ", quote(rgba), " ", error, "; it is ignored"));
+    return false;
+  }
   std::string bounded;
   bool outside = false;
   for (const double v : *values) {
     outside = outside || v < 0 || v > 1;
     bounded += (bounded.empty() ? "" : " ") + shortest(std::clamp(v, 0.0, 1.0));
   }
-  if (!outside) return true;
-  problems.warning(location_of(*color), concat(owner, ": colour ", quote(color->Attribute("rgba")), " is read as ",
-                                               quote(bounded), "; red, green, blue and alpha are between 0 and 1"));
+  if (outside)
+    problems.warning(location_of(*color), concat(owner, ": colour ", quote(rgba), " is read as ", quote(bounded),
+                                                 "; red, green, blue and alpha are between 0 and 1"));
   color->SetAttribute("rgba", bounded.c_str());
   return true;
 }

@@ -1,14 +1,53 @@
 // SPDX-License-Identifier: MIT
 #include "document.hpp"
 
+#include <algorithm>
+
 #include "plugins/common/model_file/numbers.hpp"
 #include "plugins/common/model_file/ranges.hpp"
 
 namespace muro::urdf {
 
-bool Document::parse(const std::string& text, Problems& problems) {
+namespace {
+
+Location location_at(const std::string& text, std::size_t index) {
+  const auto lines = std::count(text.begin(), text.begin() + std::ptrdiff_t(index), '\n');
+  return {int(lines) + 1, int(index - (text.rfind('\n', index) + 1)) + 1};  // npos + 1 is 0
+}
+
+/// A declaration <?xml ... ?> stands at the very beginning or nowhere. Those elsewhere, as behind a comment that a
+/// macro processor has put first, are read by ROS and become blanks here.
+void blank_stray_declarations(std::string& text, Problems& problems) {
+  const std::size_t start = text.find_first_not_of(" \t\r\n");
+  for (std::size_t at = text.find("<?xml "); at != text.npos; at = text.find("<?xml ", at + 1)) {
+    if (at == start) continue;
+    const std::size_t end = text.find("?>", at);
+    if (end == text.npos) return;
+    problems.note(location_at(text, at),
+                  "the declaration <?xml ... ?> is ignored here; it belongs at the very beginning of the file");
+    for (std::size_t i = at; i < end + 2; ++i)
+      if (text[i] != '\n') text[i] = ' ';
+  }
+}
+
+/// What ROS does not read: text behind the robot.
+void cut_text_behind(std::string& text, Problems& problems) {
+  constexpr std::string_view end = "</robot>";
+  const std::size_t at = text.rfind(end);
+  if (at == text.npos) return;
+  const std::size_t behind = text.find_first_not_of(" \t\r\n", at + end.size());
+  if (behind == text.npos || text[behind] == '<') return;
+  problems.warning(location_at(text, behind), "the text behind </robot> is left out");
+  text.resize(at + end.size());
+}
+
+}  // namespace
+
+bool Document::parse(std::string text, Problems& problems) {
   Location location;
   std::string error;
+  blank_stray_declarations(text, problems);
+  cut_text_behind(text, problems);
   if (!file_.parse(text, location, error)) {
     problems.error(location, error);
     return false;
@@ -27,6 +66,14 @@ std::string Document::printed() const {
   tinyxml2::XMLPrinter printer(nullptr, true);
   robot_->Accept(&printer);
   return printer.CStr();
+}
+
+Problems softened(Problems& problems, const std::string& consequence) {
+  return Problems([&problems, consequence](Severity severity, std::string_view text, int line, int column) {
+    const bool error = severity == Severity::error;
+    problems.report(error ? Severity::warning : severity, Location{line, column},
+                    concat(text, error ? "; " + consequence : ""));
+  });
 }
 
 void remove(Element& element) { element.Parent()->DeleteChild(&element); }
@@ -48,7 +95,11 @@ std::optional<std::vector<double>> numbers(Element& element, const char* attribu
   std::string error;
   auto values = model_file::parse_numbers(text, count, error);
   const bool is_value = std::string_view(attribute) == "value";  // of <mass value="..."/>
-  if (values) error = model_file::range_problem(is_value ? element.Name() : attribute, *values);
+  const char* const quantity = is_value ? element.Name() : attribute;
+  if (values) {
+    model_file::drop_tiny_sizes(quantity, *values);
+    error = model_file::range_problem(quantity, *values);
+  }
   if (!error.empty()) {
     problems.error(location_of(element),
                    concat(owner, ", <", element.Name(), " ", attribute, ">: ", quote(text), " ", error));

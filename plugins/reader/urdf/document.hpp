@@ -23,7 +23,7 @@ using model_file::shortest;
 class Document {
  public:
   /// False, with an error reported, when `text` is not well-formed or holds no <robot>.
-  bool parse(const std::string& text, Problems& problems);
+  bool parse(std::string text, Problems& problems);
   /// The <robot> element; valid after parse returned true.
   Element& robot() { return *robot_; }
   /// The <robot> element as text.
@@ -39,6 +39,10 @@ class Document {
 Element* only_child(Element& parent, const char* name, const std::string& owner, Problems& problems);
 
 void remove(Element& element);
+
+/// Problems to `problems`, with errors as warnings that end in `consequence`; found_error() tells whether there were
+/// any.
+Problems softened(Problems& problems, const std::string& consequence);
 
 /// The value of an attribute that is one finite number, which is then rewritten in a form that every
 /// parser reads alike. Nothing when the attribute is missing, or is no number; the latter is an error.

@@ -2,6 +2,7 @@
 // What the checks learn about a model before urdfdom reads it.
 #pragma once
 
+#include <filesystem>
 #include <limits>
 #include <map>
 #include <optional>
@@ -10,8 +11,15 @@
 
 #include "document.hpp"
 #include "muro/geometry.hpp"
+#include "plugins/common/model_file/mesh_path.hpp"
 
 namespace muro::urdf {
+
+/// Where files that a model names are looked for.
+struct Places {
+  std::filesystem::path folder;  ///< of the model
+  model_file::Packages packages;
+};
 
 /// The surface of a link, from <gazebo reference="link">; URDF itself has no word for it.
 struct Surface {
@@ -23,6 +31,7 @@ struct Surface {
 
 struct JointInfo {
   Location location;
+  Element* xml = nullptr;
   Quat rotation = Quat::Identity();
   std::string type, parent, child;
   bool moves = false;  ///< revolute, continuous, prismatic: becomes a joint of the robot
@@ -35,7 +44,11 @@ struct LinkInfo {
   std::vector<std::string> child_joints;  ///< in the order of the file
   Surface surface;
   Quat inertial_rotation = Quat::Identity();
-  std::vector<Quat> collision_rotations, visual_rotations;  ///< in the order of the file
+  struct ShapeInfo {
+    Quat rotation;
+    Location location;  ///< of <box>, <mesh>, ...
+  };
+  std::vector<ShapeInfo> collisions, visuals;  ///< in the order of the file
 };
 
 struct ModelInfo {
@@ -53,14 +66,18 @@ Quat origin_rotation(const Element& owner);
 
 // The checks. Each reports what it finds and changes the document so that urdfdom accepts the rest.
 
-/// True, with an error reported, when the file is the source of a macro language.
-bool has_macros(Element& robot, Problems& problems);
+/// Removes elements of xacro, with a warning. False, with an error reported, when the file is the source of a robot
+/// that xacro has yet to make.
+bool take_macros(Element& robot, Problems& problems);
 /// Reads friction and restitution and removes everything that is not link, joint or material.
 void take_surfaces(Element& robot, ModelInfo& model, Problems& problems);
 void check_materials(Element& robot, Problems& problems);
 void check_links(Element& robot, ModelInfo& model, Problems& problems);
 void check_joints(Element& robot, ModelInfo& model, Problems& problems);
-/// Finds the root; every link hangs on it by exactly one way, or errors are reported.
-void check_tree(ModelInfo& model, Problems& problems);
+/// Finds the root. Every link hangs on it by exactly one way: joints that close a chain are left out, and links without
+/// a joint that leads to them are fixed to the root, with warnings.
+void check_tree(Element& robot, ModelInfo& model, Problems& problems);
+/// Removes what follows no joint. After check_tree, which may take joints away.
+void check_mimics(ModelInfo& model, Problems& problems);
 
 }  // namespace muro::urdf

@@ -25,15 +25,16 @@ void check_robot(Element& robot, Problems& problems) {
 
 }  // namespace
 
-void read_text(std::string bytes, const std::filesystem::path& folder, RobotBuilder& builder) {
+void read_text(std::string bytes, const std::filesystem::path& folder, RobotBuilder& builder,
+               const model_file::Packages& packages) {
   Problems problems = Problems::reported_to(builder);
   const auto [error, warning] = model_file::decode(bytes, "URDF", "robot");
   if (!warning.text.empty()) problems.warning(warning.location, warning.text);
   if (!error.text.empty()) return problems.error(error.location, error.text);
   Document document;
-  if (!document.parse(bytes, problems)) return;
+  if (!document.parse(std::move(bytes), problems)) return;
   Element& robot = document.robot();
-  if (has_macros(robot, problems)) return;
+  if (!take_macros(robot, problems)) return;
 
   // urdfdom stops at the first mistake, or passes over it, and knows no lines. So the checks come first, find
   // all there is, and leave a document that urdfdom accepts.
@@ -43,15 +44,16 @@ void read_text(std::string bytes, const std::filesystem::path& folder, RobotBuil
   check_links(robot, info, problems);
   check_joints(robot, info, problems);
   take_surfaces(robot, info, problems);
-  check_tree(info, problems);
+  check_tree(robot, info, problems);
+  check_mimics(info, problems);
   if (problems.found_error()) return;
 
   const auto model = parse_with_urdfdom(document.printed(), problems);
-  if (model && !problems.found_error()) build(*model, info, folder, builder, problems);
+  if (model && !problems.found_error()) build(*model, info, {folder, packages}, builder, problems);
 }
 
-void read_file(const std::string& path, RobotBuilder& builder) {
-  read_text(model_file::load_file(path, ".urdf"), std::filesystem::absolute(path).parent_path(), builder);
+void read_file(const std::string& path, RobotBuilder& builder, const model_file::Packages& packages) {
+  read_text(model_file::load_file(path, ".urdf"), std::filesystem::absolute(path).parent_path(), builder, packages);
 }
 
 }  // namespace muro::urdf

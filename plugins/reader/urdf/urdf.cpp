@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Reads robots from URDF files (https://wiki.ros.org/urdf/XML), with urdfdom.
+#include "muro/ext/package_folders.hpp"
 #include "muro/plugin.hpp"
 #include "read.hpp"
 
@@ -7,7 +8,7 @@ namespace {
 
 using namespace muro;
 
-constexpr std::string_view extensions[] = {".urdf"};
+constexpr std::string_view extensions[] = {".urdf", ".xacro"};
 constexpr ReaderDescription description{
     .id = "reader.urdf",
     .version = "1.0.0",
@@ -17,7 +18,11 @@ constexpr ReaderDescription description{
 
 class UrdfReader final : public ModelReader {
  public:
-  void read(std::string_view path, RobotBuilder& builder) override { urdf::read_file(std::string(path), builder); }
+  void read(std::string_view path, RobotBuilder& builder) override {
+    model_file::Packages packages;
+    for (const PackageFolder& p : PackageFolders::of(builder)) packages.emplace(p.name, p.folder);
+    urdf::read_file(std::string(path), builder, packages);
+  }
 };
 
 constexpr abi::ReaderEntry readers[] = {model_reader<UrdfReader>(description)};

@@ -73,10 +73,51 @@ TEST(UrdfMeshPath, PackagesAreFoundInWorkspacesOfRosAndGazebo) {
   EXPECT_EQ(find_mesh("package://first/m.stl", model.path()).path, ros);
   EXPECT_EQ(find_mesh("package://second/m.stl", model.path()).path, ament);
   EXPECT_EQ(find_mesh("model://third/m.stl", model.path()).path, gazebo);
-  const MeshPath none = find_mesh("package://third/m.stl", model.path());
+  EXPECT_EQ(find_mesh("package://third/m.stl", model.path()).path, gazebo) << "as Gazebo reads URDF";
+  const MeshPath none = find_mesh("package://fourth/m.stl", model.path());
   EXPECT_EQ(none.path, "");
-  EXPECT_NE(std::find(none.searched.begin(), none.searched.end(), folder.path() / "install/share/third/m.stl"),
+  EXPECT_NE(std::find(none.searched.begin(), none.searched.end(), folder.path() / "install/share/fourth/m.stl"),
             none.searched.end());
+}
+
+TEST(UrdfMeshPath, ResourcesAreFoundByTheVariablesOfAllGazebos) {
+  const TemporaryFolder folder, model;
+  const std::string mesh = folder.add("chair/m.stl"), loose = folder.add("media/x.stl");
+  for (const char* variable : {"GZ_SIM_RESOURCE_PATH", "IGN_GAZEBO_RESOURCE_PATH", "SDF_PATH"}) {
+    const Environment set(variable, "/no/where:" + folder.path().string());
+    EXPECT_EQ(find_mesh("model://chair/m.stl", model.path()).path, mesh) << variable;
+    EXPECT_EQ(find_mesh("media/x.stl", model.path()).path, loose) << variable;
+  }
+  const Environment set("GAZEBO_RESOURCE_PATH", folder.path().string());
+  EXPECT_EQ(find_mesh("file://media/x.stl", model.path()).path, loose);
+  EXPECT_EQ(find_mesh("model://chair/m.stl", model.path()).path, "");
+}
+
+TEST(UrdfMeshPath, APackageIsKnownByItsPackageXmlWhereverItLies) {
+  const TemporaryFolder folder, model;
+  const auto package = [](const fs::path& file, const std::string& name) {
+    std::ofstream(file) << "<package format='3'>\n  <name> " << name << " </name>\n</package>\n";
+  };
+  const std::string here = folder.add("robot-main/meshes/m.stl");
+  package(folder.add("robot-main/package.xml"), "robot_description");
+  EXPECT_EQ(find_mesh("package://robot_description/meshes/m.stl", folder.path() / "robot-main/urdf").path, here);
+  const std::string deep = folder.add("src/vendor/arm_description/m.stl");
+  package(folder.add("src/vendor/arm_description/package.xml"), "arm_description");
+  const Environment set("ROS_PACKAGE_PATH", (folder.path() / "src").string());
+  EXPECT_EQ(find_mesh("package://arm_description/m.stl", model.path()).path, deep);
+  EXPECT_EQ(find_mesh("package://vendor_description/m.stl", model.path()).path, "");
+}
+
+TEST(UrdfMeshPath, AFolderThatTheUserNamesGoesBeforeAllOthers) {
+  const TemporaryFolder folder;
+  folder.add("arm/m.stl");
+  const std::string named = folder.add("elsewhere/m.stl");
+  const model_file::Packages packages = {{"arm", folder.path() / "elsewhere"}};
+  EXPECT_EQ(find_mesh("package://arm/m.stl", folder.path(), packages).path, named);
+  const MeshPath missing = find_mesh("package://arm/n.stl", folder.path(), packages);
+  EXPECT_EQ(missing.searched, std::vector<fs::path>{folder.path() / "elsewhere/n.stl"});
+  EXPECT_EQ(model_file::advice_for_missing("package://arm/n.stl", missing),
+            "package `arm` is found, but not this file in it");
 }
 
 TEST(UrdfMeshPath, FilesAreRelativeToTheModelOrAbsoluteInAnyWriting) {

@@ -292,13 +292,24 @@ TEST(UrdfModels, AJointThatMimicsAMimicFollowsTheirCommonLeader) {
   EXPECT_NE(std::find(robot.calls.begin(), robot.calls.end(), "mimic one * -6 + -0.5"), robot.calls.end());
 }
 
+TEST(UrdfModels, AQuaternionOfUrdf11TurnsAsRpyDoes) {
+  const auto rotation = [](const std::string& origin) {
+    return recorded("<robot name='r'>" + std::string(body_a) + link_b +
+                    "<joint name='j' type='fixed'><parent link='a'/><child link='b'/><origin " + origin +
+                    "/></joint></robot>")
+        .rotations.at(0);
+  };
+  const Quat given = rotation("quat_xyzw='0 0 2 2'");  // need not be of length 1
+  EXPECT_NEAR(std::abs(given.dot(rotation("rpy='0 0 1.5707963267948966'"))), 1, 1e-15);
+}
+
 TEST(UrdfModels, CommentsUnknownElementsAndAByteOrderMarkDoNotMatter) {
   const auto robot = recorded(
       "\xef\xbb\xbf<?xml version='1.0' encoding='UTF-8'?>\n<!-- <robot> > ' -->\n<!DOCTYPE robot>\n"
       "<robot name='r' xmlns:xacro='http://ros.org/wiki/xacro'>\n<transmission name='t'><joint "
       "name='x'/></transmission>\n" +
       std::string(body_a) + "<![CDATA[<link name='z'/>]]>\n  <link/></robot>");
-  EXPECT_EQ(robot.problems, Lines{"error 7:3 a link has no name; write <link name=\"...\">"});
+  EXPECT_EQ(robot.problems, Lines{"warning 7:3 a link without a name is left out; write <link name=\"...\">"});
 }
 
 }  // namespace

@@ -64,16 +64,29 @@ TEST(UrdfProblems, TextThatIsNotUtf8IsReadAsLatin1) {
 }
 
 TEST(UrdfProblems, XacroThatWasNotRun) {
+  const std::string advice = "run `xacro FILE -o model.urdf` (of ROS, or from `pip install xacro`) and read model.urdf";
+  EXPECT_EQ(problems_of("<link name='b'><visual><geometry><sphere radius='${r}'/></geometry></visual></link>"),
+            Lines{"error 3:34 the file is xacro source, not URDF: `${r}` is left in; " + advice});
+  EXPECT_EQ(recorded("<robot name='r'>\n<xacro:include filename='$(find x)/y.xacro'/></robot>").problems,
+            Lines{"error 2:1 the file is xacro source, not URDF: `<xacro:include>` is left in; " + advice});
+}
+
+TEST(UrdfProblems, XacroThatHasLeftSomethingBehind) {
+  const auto robot = recorded("<robot name='r'>\n" + std::string(body_a) +
+                              "\n<xacro:wheel name='${n}'><link name='b'/></xacro:wheel><xacro:wheel/></robot>");
   EXPECT_EQ(
-      problems_of("<link name='b'><visual><geometry><sphere radius='${r}'/></geometry></visual></link>"),
-      Lines{
-          "error 3:34 the file is xacro source, not URDF: `${r}` is left in; run `xacro FILE -o model.urdf` first and "
-          "read model.urdf"});
-  EXPECT_EQ(
-      problems_of("<xacro:include filename='$(find x)/y.xacro'/>"),
-      Lines{
-          "error 3:1 the file is xacro source, not URDF: `<xacro:include>` is left in, and 1 more; run `xacro FILE -o "
-          "model.urdf` first and read model.urdf"});
+      robot.problems,
+      Lines{"warning 3:1 `<xacro:wheel>` of xacro is left in, and 1 more; it is left out. If what it stands for is "
+            "missing, run `xacro FILE -o model.urdf` (of ROS, or from `pip install xacro`) and read model.urdf"});
+  EXPECT_EQ(robot.calls, Lines{"base a"});
+}
+
+TEST(UrdfProblems, ADeclarationThatIsNotFirstIsIgnored) {
+  const auto robot =
+      recorded("<!-- made by xacro -->\n  <?xml version='1.0'?>\n<robot name='r'>" + std::string(body_a) + "</robot>");
+  EXPECT_EQ(robot.problems, Lines{"note 2:3 the declaration <?xml ... ?> is ignored here; it belongs at the very "
+                                  "beginning of the file"});
+  EXPECT_EQ(robot.calls, Lines{"base a"});
 }
 
 TEST(UrdfProblems, RobotsWithoutNameOrOfAnotherVersion) {
@@ -86,32 +99,37 @@ TEST(UrdfProblems, NumbersThatAreNone) {
   const auto of_radius = [](const std::string& radius) {
     return problems_of(link("<collision><geometry><sphere radius='" + radius + "'/></geometry></collision>"));
   };
-  const std::string start = "error 3:37 link `b`, <sphere radius>: ";
-  EXPECT_EQ(of_radius("1,5"),
-            Lines{start + "`1,5` is no number; the decimal sign is a point, and blanks separate numbers"});
-  EXPECT_EQ(of_radius("big"), Lines{start + "`big` is no number; write it like 0.05 or 5e-2"});
-  EXPECT_EQ(of_radius("0x10"), Lines{start + "`0x10` is no number; write it like 0.05 or 5e-2"});
-  EXPECT_EQ(of_radius("nan"), Lines{start + "`nan` is not finite"});
-  EXPECT_EQ(of_radius("-inf"), Lines{start + "`-inf` is not finite"});
-  EXPECT_EQ(of_radius("1e999"), Lines{start + "`1e999` is out of the range of a number; the largest is 1.8e308"});
-  EXPECT_EQ(of_radius(""), Lines{start + "`` has 0 numbers, and needs 1"});
-  EXPECT_EQ(of_radius("1 2"), Lines{start + "`1 2` has 2 numbers, and needs 1"});
-  EXPECT_EQ(of_radius("%s%n"), Lines{start + "`%s%n` is no number; write it like 0.05 or 5e-2"});
+  const auto wrong = [](const std::string& text) {
+    return Lines{"warning 3:37 link `b`, <sphere radius>: " + text + "; the <collision> is left out"};
+  };
+  EXPECT_EQ(of_radius("1,5"), wrong("`1,5` is no number; the decimal sign is a point, and blanks separate numbers"));
+  EXPECT_EQ(of_radius("big"), wrong("`big` is no number; write it like 0.05 or 5e-2"));
+  EXPECT_EQ(of_radius("0x10"), wrong("`0x10` is no number; write it like 0.05 or 5e-2"));
+  EXPECT_EQ(of_radius("nan"), wrong("`nan` is not finite"));
+  EXPECT_EQ(of_radius("-inf"), wrong("`-inf` is not finite"));
+  EXPECT_EQ(of_radius("1e999"), wrong("`1e999` is out of the range of a number; the largest is 1.8e308"));
+  EXPECT_EQ(of_radius(""), wrong("`` has 0 numbers, and needs 1"));
+  EXPECT_EQ(of_radius("1 2"), wrong("`1 2` has 2 numbers, and needs 1"));
+  EXPECT_EQ(of_radius("%s%n"), wrong("`%s%n` is no number; write it like 0.05 or 5e-2"));
   EXPECT_EQ(problems_of(link("<collision><origin xyz='1 2'/><geometry><sphere radius='1'/></geometry></collision>")),
-            Lines{"error 3:27 link `b`, <origin xyz>: `1 2` has 2 numbers, and needs 3 separated by blanks"});
+            Lines{"warning 3:27 link `b`, <origin xyz>: `1 2` has 2 numbers, and needs 3 separated by blanks; the "
+                  "<collision> is left out"});
+  EXPECT_EQ(joint_problems(joint("fixed", "<origin xyz='1 2'/>")),
+            Lines{"error 4:65 joint `j`, <origin xyz>: `1 2` has 2 numbers, and needs 3 separated by blanks"});
 }
 
 TEST(UrdfProblems, LinksWithoutNameOrWithTheNameOfAnother) {
-  EXPECT_EQ(problems_of("<link/><link name=''/>"), (Lines{"error 3:1 a link has no name; write <link name=\"...\">",
-                                                          "error 3:8 a link has no name; write <link name=\"...\">"}));
+  EXPECT_EQ(problems_of("<link/><link name=''/>"),
+            (Lines{"warning 3:1 a link without a name is left out; write <link name=\"...\">",
+                   "warning 3:8 a link without a name is left out; write <link name=\"...\">"}));
   EXPECT_EQ(problems_of("\n  <link name='a'/>"),
-            Lines{"error 4:3 two links are named `a`, the other one in line 2; names are unique"});
+            Lines{"warning 4:3 a second link named `a` is left out; the first one is in line 2, and names are unique"});
 }
 
 TEST(UrdfProblems, MassesThatNoBodyHas) {
   const std::string unit = "ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'";
   EXPECT_EQ(problems_of(link(inertial("-1", unit))),
-            Lines{"error 3:26 link `b`: the mass is -1 kg; it is 0 (a frame without a body) or more"});
+            Lines{"warning 3:26 link `b`: the mass is -1 kg and taken as 0, a frame without a body; it is 0 or more"});
   EXPECT_EQ(problems_of(link(inertial("0", unit))),
             Lines{"warning 3:16 link `b` has an inertia but no mass; the inertia is ignored"});
   EXPECT_EQ(problems_of(link("<inertial/>")),
@@ -146,7 +164,8 @@ TEST(UrdfProblems, AnInertiaBeyondAllBodies) {
       problems_of(link("<inertial><origin rpy='1 1 1'/><mass value='1'/><inertia ixx='1e308' ixy='1e308' ixz='1e308' "
                        "iyy='1e308' iyz='1e308' izz='1e308'/></inertial>"));
   ASSERT_EQ(problems.size(), 6u);
-  EXPECT_EQ(problems[0], "error 3:64 link `b`, <inertia ixx>: `1e308` has a number beyond 1e+21 kg m^2");
+  EXPECT_EQ(problems[0],
+            "warning 3:64 link `b`, <inertia ixx>: `1e308` has a number beyond 1e+21 kg m^2; the link has no mass");
 }
 
 TEST(UrdfProblems, ShapesThatAreLeftOut) {
@@ -170,30 +189,31 @@ TEST(UrdfProblems, ShapesThatAreLeftOut) {
           "of its own"});
 }
 
-TEST(UrdfProblems, ACollisionMeshThatIsNotThereIsAnErrorOnceAFile) {
-  const std::string file = "<geometry><mesh filename='file:///no/where.stl'/></geometry>",
-                    collision = "<collision>" + file + "</collision>";
-  const std::string error =
-      "error 3:1 link `b`: collision mesh `file:///no/where.stl` is not found; looked for /no/where.stl; correct its "
-      "path";
-  EXPECT_EQ(problems_of(link(collision)), Lines{error});
-  EXPECT_EQ(problems_of(link(collision + collision + "<visual>" + file + "</visual>")), Lines{error});
+TEST(UrdfProblems, MeshesThatAreNotThereAreToldOnceWhereTheyAreNamed) {
+  const std::string file = "<geometry>\n<mesh filename='file:///no/where.stl'/></geometry>",
+                    collision = "<collision>" + file + "</collision>", visual = "<visual>" + file + "</visual>";
+  const std::string touched = ", so that nothing touches the links there";
+  const std::string looked = "; looked for /no/where.stl; correct its path";
+  EXPECT_EQ(problems_of(link(visual)),
+            Lines{"warning 4:1 mesh `file:///no/where.stl` is not found and left out" + looked});
+  EXPECT_EQ(problems_of(link(collision)),
+            Lines{"warning 4:1 mesh `file:///no/where.stl` is not found and left out" + touched + looked});
+  EXPECT_EQ(problems_of(link(visual + collision + visual)),
+            Lines{"warning 4:1 mesh `file:///no/where.stl` (also in lines 5, 6) is not found and left out" + touched +
+                  looked});
+  EXPECT_EQ(
+      problems_of(link(visual + "<visual><geometry><mesh filename='m/x.STL'/></geometry></visual>")),
+      Lines{"warning 4:1 meshes `file:///no/where.stl`, `m/x.STL` in line 4 are not found and left out" + looked});
   EXPECT_EQ(problems_of(link("<collision><geometry><mesh filename='m/x.STL'/></geometry></collision>")),
-            Lines{"error 3:1 link `b`: collision mesh `m/x.STL` is not found; looked for /nowhere/m/x.STL; correct its "
-                  "path"});
+            Lines{"warning 3:37 mesh `m/x.STL` is not found and left out" + touched +
+                  "; looked for /nowhere/m/x.STL; correct its path"});
   const Lines in_package =
       problems_of(link("<collision><geometry><mesh filename='package://arm/x.stl'/></geometry></collision>"));
   ASSERT_EQ(in_package.size(), 1u);
   EXPECT_TRUE(
-      in_package[0].ends_with("; correct its path, or add the folder that holds the package to "
-                              "ROS_PACKAGE_PATH"))
+      in_package[0].ends_with("; package `arm` is unknown: add the folder that holds it to ROS_PACKAGE_PATH, or write "
+                              "`packages: {arm: FOLDER}` in the scenario"))
       << in_package[0];
-}
-
-TEST(UrdfProblems, AVisualMeshThatIsNotThereIsLeftOutWithAWarning) {
-  EXPECT_EQ(problems_of(link("<visual><geometry><mesh filename='file:///no/where.stl'/></geometry></visual>")),
-            Lines{"warning 3:1 link `b`: mesh `file:///no/where.stl` is not found and left out; looked for "
-                  "/no/where.stl"});
 }
 
 TEST(UrdfProblems, MaterialsThatShowNoColour) {
@@ -216,27 +236,33 @@ TEST(UrdfProblems, MaterialsThatShowNoColour) {
 }
 
 TEST(UrdfProblems, JointsWithoutTheirParts) {
-  EXPECT_EQ(joint_problems("<joint type='fixed'/>"),
-            Lines{"error 4:1 a joint has no name; write <joint name=\"...\" type=\"...\">"});
-  EXPECT_EQ(
-      joint_problems("<joint name='j'><child link='b'/></joint>"),
-      (Lines{"error 4:1 joint `j` has no type; types are fixed, revolute, continuous, prismatic, planar, floating",
-             "error 4:1 joint `j` has no parent; write <parent link=\"...\"/>"}));
-  EXPECT_EQ(
-      joint_problems(joint("ball", "")),
-      Lines{"error 4:1 joint `j` is of the unknown type `ball`; types are fixed, revolute, continuous, prismatic, "
-            "planar, floating"});
+  const std::string attached =
+      "warning 3:1 no joint leads to link `b`; it is fixed to the origin of the root, link `a`, on which most others "
+      "hang. Join them to it where they belong";
+  EXPECT_EQ(joint_problems("<joint type='fixed'><parent link='a'/><child link='b'/></joint>"),
+            Lines{"warning 4:1 a joint has no name and is called `b_joint`; write <joint name=\"...\" type=\"...\">"});
+  EXPECT_EQ(joint_problems("<joint name='j'><child link='b'/></joint>"),
+            (Lines{"warning 4:1 joint `j` is left out: it has no parent; write <parent link=\"...\"/>", attached}));
+  EXPECT_EQ(joint_problems(joint("ball", "")),
+            Lines{"warning 4:1 joint `j` is of the unknown type `ball` and taken as fixed; types are fixed, revolute, "
+                  "continuous, prismatic, planar, floating"});
   EXPECT_EQ(joint_problems("<joint name='j' type='fixed'><parent link='chassis'/><child link='b'/></joint>"),
-            Lines{"error 4:30 joint `j`: its parent, link `chassis`, does not exist; links are `a`, `b`"});
+            (Lines{"warning 4:30 joint `j` is left out: its parent, link `chassis`, does not exist; links are `a`, `b`",
+                   attached}));
   EXPECT_EQ(joint_problems("<joint name='j' type='fixed'><parent link='a'/><child link='a'/></joint>"),
-            Lines{"error 4:1 joint `j` joins link `a` with itself"});
-  EXPECT_EQ(joint_problems(joint("fixed", "") + joint("fixed", "")),
-            Lines{"error 4:73 two joints are named `j`, the other one in line 4; names are unique"});
+            (Lines{"warning 4:1 joint `j` is left out: it joins link `a` with itself", attached}));
+  EXPECT_EQ(
+      joint_problems(joint("fixed", "") + "<link name='c'/>"
+                                          "<joint name='j' type='fixed'><parent link='a'/><child link='c'/></joint>"),
+      Lines{"warning 4:89 a second joint is named `j` and called `j_2`; the first one is in line 4, and names are "
+            "unique"});
 }
 
 TEST(UrdfProblems, AxesWithoutDirectionOrUnitLength) {
-  EXPECT_EQ(joint_problems(joint("continuous", "<axis xyz='0 0 0'/>")),
-            Lines{"error 4:70 joint `j`: axis `0 0 0` has no direction; it is a vector of length 1, such as 0 0 1"});
+  EXPECT_EQ(
+      joint_problems(joint("continuous", "<axis xyz='0 0 0'/>")),
+      Lines{"warning 4:70 joint `j`: axis `0 0 0` has no direction, so that the joint is taken as fixed; an axis is a "
+            "vector of length 1, such as 0 0 1"});
   EXPECT_EQ(joint_problems(joint("continuous", "<axis xyz='0 0 2'/>")),
             Lines{"note 4:70 joint `j`: axis `0 0 2` is not of length 1; only its direction is used"});
   EXPECT_EQ(joint_problems(joint("continuous", "<axis/>")),
@@ -286,21 +312,30 @@ TEST(UrdfProblems, MimicsThatFollowNobody) {
   EXPECT_EQ(joint_problems(joint("fixed", "<mimic joint='j'/>")),
             Lines{"warning 4:65 joint `j` is fixed and cannot mimic; <mimic> is ignored"});
   EXPECT_EQ(joint_problems(joint("continuous", "<mimic joint='j'/>")),
-            Lines{"error 4:1 joint `j` mimics itself, over 0 other joints"});
+            Lines{"warning 4:70 joint `j` mimics itself, over 0 other joints; it moves on its own"});
 }
 
-TEST(UrdfProblems, LinksThatAreNoTree) {
-  EXPECT_EQ(
-      problems_of("<link name='c'/>\n<link name='b'/>"),
-      Lines{"error 3:1 the robot has 3 links without a parent: `a`, `c`, `b`; exactly one is the root. Join the others "
-            "to it, with fixed joints if they do not move"});
-  EXPECT_EQ(
-      joint_problems(joint("fixed", "") + "<joint name='k' type='fixed'><parent link='b'/><child link='a'/></joint>"),
-      Lines{"error 2:1 links `a`, `b` hang on each other in a loop and there is no root; the root is the one link that "
-            "is no joint's child"});
-  EXPECT_EQ(
-      joint_problems(joint("fixed", "") + "<joint name='k' type='fixed'><parent link='a'/><child link='b'/></joint>"),
-      Lines{"error 4:73 link `b` is the child of two joints, `j` and `k`; URDF describes trees, not closed chains"});
+TEST(UrdfProblems, SeveralRootsBecomeOneThatHoldsTheOthers) {
+  const auto robot = recorded("<robot name='r'>\n<link name='c'/>\n" + std::string(body_a) + link_b +
+                              joint("continuous", "<origin xyz='1 0 0'/>") + "</robot>");
+  EXPECT_EQ(robot.problems, Lines{"warning 2:1 no joint leads to link `c`; it is fixed to the origin of the root, link "
+                                  "`a`, on which most others hang. Join them to it where they belong"});
+  EXPECT_EQ(robot.calls,
+            (Lines{"base a", "fork", "translation 1 0 0", "revolute j about 1 0 0", "body b", "end", "body c", "end"}));
+}
+
+TEST(UrdfProblems, ChainsAreCutWhereTheyClose) {
+  const auto loop = recorded("<robot name='r'>\n" + std::string(body_a) + link_b + "\n" + joint("fixed", "") +
+                             "<joint name='k' type='fixed'><parent link='b'/><child link='a'/></joint></robot>");
+  EXPECT_EQ(loop.problems, Lines{"warning 3:73 joint `k` closes a loop and is left out: link `a`, to which it leads, "
+                                 "would be its own descendant"});
+  EXPECT_EQ(loop.calls, (Lines{"base a", "body b"}));
+  const auto twice = recorded("<robot name='r'>\n" + std::string(body_a) + link_b + "\n" + joint("fixed", "") +
+                              "<joint name='k' type='fixed'><parent link='a'/><child link='b'/></joint></robot>");
+  EXPECT_EQ(twice.problems,
+            Lines{"warning 3:73 joint `k` closes a chain and is left out: its child, link `b`, hangs on "
+                  "joint `j` already, and what moves has one parent"});
+  EXPECT_EQ(twice.calls, (Lines{"base a", "body b"}));
 }
 
 TEST(UrdfProblems, OneNameForALinkAndAJoint) {
@@ -338,8 +373,8 @@ TEST(UrdfProblems, ARobotThatIsFixedToTheWorldByItsModelAlone) {
 TEST(UrdfProblems, AMovingLinkWithoutMass) {
   EXPECT_EQ(
       problems_of("<link name='b'/><joint name='j' type='continuous'><parent link='a'/><child link='b'/></joint>"),
-      Lines{"warning 3:1 link `b` hangs on the moving joint `j` but has no mass; a dynamic motion model needs an "
-            "<inertial>"});
+      Lines{"warning 3:1 link `b` hangs on a moving joint but has no mass; a motion by forces needs an <inertial> "
+            "there"});
 }
 
 TEST(UrdfProblems, SurfacesOfGazebo) {
@@ -356,16 +391,16 @@ TEST(UrdfProblems, SurfacesOfGazebo) {
             Lines{"warning 3:1 <gazebo reference=`wheel`> names no link or joint and is ignored"});
 }
 
-TEST(UrdfProblems, AllMistakesOfAFileAreToldAtOnceAndNothingIsBuilt) {
+TEST(UrdfProblems, AllMistakesOfAFileAreToldAtOnceAndAnErrorBuildsNothing) {
   const auto robot = recorded(
-      "<robot name='r'>\n<link name='a'/>\n<link name='a'/>\n<joint name='j' type='hinge'>\n<parent link='x'/>\n"
-      "<child link='a'/>\n<axis xyz='1 0'/></joint>\n</robot>");
+      "<robot name='r'>\n<link name='a'/>\n<link name='a'/>\n<link name='b'/><joint name='j' type='hinge'>\n<parent "
+      "link='a'/>\n<child link='b'/>\n<origin xyz='1 0'/></joint>\n</robot>");
   EXPECT_EQ(
       robot.problems,
-      (Lines{"error 3:1 two links are named `a`, the other one in line 2; names are unique",
-             "error 4:1 joint `j` is of the unknown type `hinge`; types are fixed, revolute, continuous, prismatic, "
-             "planar, floating",
-             "error 5:1 joint `j`: its parent, link `x`, does not exist; links are `a`"}));
+      (Lines{"warning 3:1 a second link named `a` is left out; the first one is in line 2, and names are unique",
+             "warning 4:17 joint `j` is of the unknown type `hinge` and taken as fixed; types are fixed, revolute, "
+             "continuous, prismatic, planar, floating",
+             "error 7:1 joint `j`, <origin xyz>: `1 0` has 2 numbers, and needs 3 separated by blanks"}));
   EXPECT_EQ(robot.calls, Lines{});
 }
 
