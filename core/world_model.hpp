@@ -3,6 +3,7 @@
 
 #include <deque>
 #include <optional>
+#include <span>
 
 #include "core/robot_tree.hpp"
 #include "muro/model_reader.hpp"
