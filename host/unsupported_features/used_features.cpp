@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "host/constants.hpp"
-#include "muro/toolkit/pair_surface.hpp"
 #include "muro/toolkit/mass_properties.hpp"
+#include "muro/toolkit/pair_surface.hpp"
 
 namespace muro::host {
 
@@ -101,6 +101,7 @@ class FeatureSearch {
                      with_limits([](const JointLimits& l) { return is_finite(l.effort); }));
       add_for_joints(feature_joint_damping, with_limits([](const JointLimits& l) { return l.damping > 0; }));
       add_for_joints(feature_joint_friction, with_limits([](const JointLimits& l) { return l.friction > 0; }));
+      add_for_joints(feature_armature, with_limits([](const JointLimits& l) { return l.armature > 0; }));
     }
     // a mimic joint whose position is no variable of the motion is moved by kinematics
     add_for_joints(feature_mimic_joints, [&](std::size_t i) {

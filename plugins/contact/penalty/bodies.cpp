@@ -13,19 +13,22 @@ namespace muro::penalty {
 
 void Bodies::connect(Connector& c) {
   all.resize(c.object_count());
+  bool resists_turning = false;
   for (std::uint32_t i = 0; i < all.size(); ++i) {
     all[i].name = fnv1a(c.object_name(ObjectId{i}));
     all[i].model = i;
-    for (const Shape& s : c.constant_array(ObjectId{i}, keys::collision_shapes))
+    for (const Shape& s : c.constant_array(ObjectId{i}, keys::collision_shapes)) {
+      resists_turning = resists_turning || s.surface.rolling_resistance > 0 || s.surface.spinning_resistance > 0;
       if (std::none_of(materials.begin(), materials.end(),
                        [&](const Material& m) { return m.restitution == s.surface.restitution; }))
         materials.push_back({s.surface.restitution, damping_ratio_of(s.surface.restitution)});
+    }
   }
   robot_of.assign(c.robots().size(), no_robot);
-  for (const RobotView* robot : c.robots()) connect_robot(c, *robot);
+  for (const RobotView* robot : c.robots()) connect_robot(c, *robot, resists_turning);
 }
 
-void Bodies::connect_robot(Connector& c, const RobotView& view) {
+void Bodies::connect_robot(Connector& c, const RobotView& view, bool resists_turning) {
   const bool moved = c.is_used(view.base(), keys::external_wrench, usage::read_sum);
   std::vector<std::uint32_t> links;  // that are dynamic bodies, beside the base
   for (std::uint32_t i = 0; i < view.links.size(); ++i) {
@@ -50,6 +53,7 @@ void Bodies::connect_robot(Connector& c, const RobotView& view) {
   Robot r;
   r.contacts = c.read_list(view.base(), keys::contacts);
   r.anchors = c.variable_list(view.base(), anchors);
+  if (resists_turning) r.turning_springs = c.variable_list(view.base(), turning_springs);
   r.world = c.input(view.base(), keys::contact_world, kinematic_world);
   r.lag = c.input(view.base(), keys::twist_lag, 0.0);
   r.order_key = view.key;

@@ -12,6 +12,7 @@
 #include "plugins/common/contact_geometry/contact_responsibility.hpp"
 #include "plugins/common/contact_geometry/impact_correction.hpp"
 #include "restitution.hpp"
+#include "turning_spring.hpp"
 
 namespace muro::penalty {
 
@@ -39,6 +40,7 @@ struct DynamicBody {
 struct Robot {
   ListIn<Contact> contacts;
   ListOut<FrictionAnchor> anchors;
+  ListOut<TurningSpring> turning_springs;        ///< empty: no shape resists rolling or spinning
   std::uint32_t first_body = 0, body_count = 1;  ///< in Bodies::dynamic_bodies; the first is that of the base
   bool is_single_body = true;
   bool is_shadow = false;   ///< it exerts no force on what it touches
@@ -98,7 +100,7 @@ struct Bodies {
   }
 
  private:
-  void connect_robot(Connector& c, const RobotView& view);
+  void connect_robot(Connector& c, const RobotView& view, bool resists_turning);
   void add_dynamic_body(Connector& c, ObjectId body, const MassProperties& mass);
   std::uint32_t number_of(const MassProperties& mass);
 };

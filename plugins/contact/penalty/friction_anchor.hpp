@@ -25,15 +25,15 @@ inline std::uint64_t pair_of(std::uint64_t self, std::uint64_t other, std::uint3
   return (self ^ (std::rotl(other, 17) + self_shape * 0x9E3779B97F4A7C15ull)) + other_shape * 0xC2B2AE3D27D4EB4Full;
 }
 
-/// The anchor of a contact in the step before; null for a new one. `place`: how many contacts of the robot came before
-/// this one; there the search begins, since contacts mostly keep their order.
-inline const FrictionAnchor* previous(std::span<const FrictionAnchor> before, std::size_t place, std::uint64_t pair,
-                                      const Vec3& point) {
+/// What is kept of a contact (its pair and point) in the step before; null for a new one. `place`: how many contacts
+/// of the robot came before this one; there the search begins, since contacts mostly keep their order.
+template <class Kept>
+const Kept* previous(std::span<const Kept> before, std::size_t place, std::uint64_t pair, const Vec3& point) {
   std::size_t i = place;
   if (i >= before.size() || before[i].pair != pair)
     for (i = 0; i < before.size() && before[i].pair != pair;) ++i;
   while (i > 0 && i < before.size() && before[i - 1].pair == pair) --i;
-  const FrictionAnchor* found = nullptr;
+  const Kept* found = nullptr;
   for (double nearest = std::numeric_limits<double>::infinity(); i < before.size() && before[i].pair == pair; ++i) {
     const double distance = (before[i].point - point).squaredNorm();
     if (distance >= nearest) continue;

@@ -164,6 +164,11 @@ void PairContacts::apply_forces(std::uint32_t self) {
   const auto old = *robot.anchors;
   me.old_anchors.assign(old.begin(), old.end());
   robot.anchors.clear();
+  if (robot.turning_springs) {
+    const auto springs = *robot.turning_springs;
+    me.old_turning_springs.assign(springs.begin(), springs.end());
+    robot.turning_springs.clear();
+  }
   bodies_.clear_wrenches(self);
   std::size_t computed = 0;
   const std::uint32_t* patch_of = me.patch_of.data();
@@ -178,7 +183,7 @@ void PairContacts::apply_forces(std::uint32_t self) {
     }
     ContactPatch& patch = me.patches[number];
     if (contact.surface.restitution != patch.restitution) set_up_laws(me, patch, contact.surface.restitution);
-    const FrictionAnchor* const before = previous(me.old_anchors, computed++, pair, contact.point);
+    const FrictionAnchor* const before = previous<FrictionAnchor>(me.old_anchors, computed++, pair, contact.point);
     FrictionAnchor anchor{pair, contact.point, before ? before->displacement : Vec3::Zero()};
     const Vec3 motion = bodies_.velocity(contact.self, contact.point) - bodies_.velocity(contact.other, contact.point);
     anchor.overlap = unmoved_overlap(context_, contact, before, -motion.dot(contact.normal));
@@ -187,7 +192,38 @@ void PairContacts::apply_forces(std::uint32_t self) {
     const DynamicBody& body = bodies_.dynamic_bodies[patch.body];
     body.wrench->add_force(force, contact.point - body.pose->position);
     if (patch.other != no_robot) apply_reaction(self, patch, force, contact.point, before);
+    if (contact.surface.rolling_resistance > 0 || contact.surface.spinning_resistance > 0) {
+      const TurningSpring* const spring =
+          previous<TurningSpring>(me.old_turning_springs, (*robot.turning_springs).size(), pair, contact.point);
+      resist_turning(self, patch, contact, {pair, contact.point, spring ? spring->angle : Vec3::Zero()},
+                     force.dot(contact.normal));
+    }
   }
+}
+
+/// `spring`: as the last step left it.
+void PairContacts::resist_turning(std::uint32_t self, ContactPatch& patch, const Contact& contact,
+                                  const TurningSpring& spring, double normal_force) {
+  const Robot& robot = bodies_.robots[self];
+  const auto rate_of = [&](ObjectId id) {
+    const Body& body = bodies_[id];
+    return body.twist ? body.twist->angular : Vec3::Zero();
+  };
+  double inverse_inertia = largest_eigenvalue_bound(mobility(std::int32_t(self), patch.body).inertia);
+  double load = record(self).load + double(record(self).patches.size());
+  if (patch.other != no_robot) {
+    inverse_inertia += largest_eigenvalue_bound(mobility(patch.other, patch.other_body).inertia);
+    load += record(std::uint32_t(patch.other)).load;
+  }
+  const Vec3 turning = rate_of(contact.self) - rate_of(contact.other);
+  TurningSpring turned = spring;
+  turned.angle += turning * context_.elapsed;
+  const Vec3 torque =
+      turning_resistance(turned, law::FrictionLaw<double>(context_.stiffness, load), contact.surface, contact.normal,
+                         turning, normal_force, 1 / (inverse_inertia * patch.patch.count));
+  robot.turning_springs.push_back(turned);
+  bodies_.dynamic_bodies[patch.body].wrench->torque += torque;
+  if (patch.other != no_robot) patch.reaction.torque -= torque;
 }
 
 /// A patch rarely has more than one restitution.

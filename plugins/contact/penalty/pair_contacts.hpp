@@ -70,6 +70,7 @@ class PairContacts {
     std::vector<std::uint32_t> patch_of;                ///< of each contact: in `patches`, not_computed or in_impact
     std::vector<std::uint32_t> owners;                  ///< robots that compute its other contacts, by order key
     std::vector<FrictionAnchor> old_anchors;
+    std::vector<TurningSpring> old_turning_springs;
     std::vector<ImpactPatch> impact_patches;     ///< of the impacts that it computes
     std::vector<ImpactContact> impact_contacts;  ///< of these patches
     std::vector<ImpactPoint> points;             ///< scratch
@@ -97,6 +98,8 @@ class PairContacts {
   }
   law::EffectiveMass<double> effective_mass_of(const Mobility& self, const ContactPatch& p) const;
   void set_up_laws(const Record& self, ContactPatch& p, double restitution) const;
+  void resist_turning(std::uint32_t self, ContactPatch& patch, const Contact& contact, const TurningSpring& spring,
+                      double normal_force);
   Vec3 force_on_self(const Robot& self, const ContactPatch& patch, const Contact& contact,
                      FrictionAnchor& anchor) const;
   void apply_reaction(std::uint32_t self, ContactPatch& patch, const Vec3& force, const Vec3& point,

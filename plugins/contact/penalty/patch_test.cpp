@@ -102,12 +102,12 @@ TEST(Patch, ABoxThatLandsFlatHasItsWholeMass) {
 TEST(FrictionAnchor, FollowsItsPointWhateverTheOrderOfTheList) {
   std::vector<FrictionAnchor> before;
   for (int k = 0; k < 6; ++k) before.push_back({k < 2 ? 7u : k < 5 ? 8u : 9u, Vec3(k, 0, 0), Vec3(0, 0.1 * k, 0)});
-  EXPECT_EQ(previous(before, 3, 8, {3.01, 0, 0})->displacement.y(), 0.1 * 3);
-  EXPECT_EQ(previous(before, 0, 8, {4.2, 0.1, 0})->displacement.y(), 0.1 * 4);
-  EXPECT_EQ(previous(before, 5, 8, {1.7, 0, 0})->displacement.y(), 0.1 * 2);
-  EXPECT_EQ(previous(before, 40, 9, {0, 0, 0})->displacement.y(), 0.1 * 5);
-  EXPECT_EQ(previous(before, 2, 10, {2, 0, 0}), nullptr);
-  EXPECT_EQ(previous({}, 0, 7, {0, 0, 0}), nullptr);
+  EXPECT_EQ(previous<FrictionAnchor>(before, 3, 8, {3.01, 0, 0})->displacement.y(), 0.1 * 3);
+  EXPECT_EQ(previous<FrictionAnchor>(before, 0, 8, {4.2, 0.1, 0})->displacement.y(), 0.1 * 4);
+  EXPECT_EQ(previous<FrictionAnchor>(before, 5, 8, {1.7, 0, 0})->displacement.y(), 0.1 * 2);
+  EXPECT_EQ(previous<FrictionAnchor>(before, 40, 9, {0, 0, 0})->displacement.y(), 0.1 * 5);
+  EXPECT_EQ(previous<FrictionAnchor>(before, 2, 10, {2, 0, 0}), nullptr);
+  EXPECT_EQ(previous<FrictionAnchor>({}, 0, 7, {0, 0, 0}), nullptr);
   EXPECT_NE(pair_of(1, 2, 0, 0), pair_of(2, 1, 0, 0));
   EXPECT_NE(pair_of(1, 2, 1, 0), pair_of(1, 2, 0, 1));
 }

@@ -30,6 +30,7 @@ constexpr PropertyUse reads[] = {
 constexpr PropertyUse writes[] = {
     {"wrench.external", "of every robot that forces move"},
     {"contact.friction_anchors", "friction anchors, of every robot that forces move"},
+    {"contact.turning_springs", "springs against rolling and spinning, of the same, where shapes resist these"},
     {"contact.time", "of the last run, on the world object"},
     {"contact.impact", "of every robot whose motion takes impacts at their instant"},
     {"contact.impact.time", "of the same robots, when they were in an impact last"},

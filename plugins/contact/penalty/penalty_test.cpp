@@ -5,6 +5,7 @@
 
 #include <random>
 
+#include "muro/toolkit/pair_surface.hpp"
 #include "muro/toolkit/rotations.hpp"
 #include "penalty_testing.hpp"
 
@@ -205,6 +206,7 @@ TEST(Penalty, TheRollingStackMovesAsInTheBenchmark) {
   // 0.211 m/s^2. Friction: box-ground 0.4, box-ball 0.8 (geometric means).
   for (const Vec3& direction : {Vec3(0, 1, 0), Vec3(0.5, 0.8660254, 0)}) {
     ContactScene s;
+    s.world().set(world_object, keys::friction_rule, std::uint32_t(FrictionRule::mean));
     s.add_ground(0.2);
     const RobotView& box = s.add("box", block(10, {20, 20, 1}, 0.8), {{0, 0, 0.5}, Quat::Identity()});
     std::vector<const RobotView*> balls;

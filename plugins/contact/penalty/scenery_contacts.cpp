@@ -103,6 +103,7 @@ void SceneryContacts::apply_forces_on(const StepContext& context, std::uint32_t 
   // It touches nothing, or it only reports what it touches.
   if (contacts.empty() || !is_moved_by_forces(*known.world)) {
     known.anchors.clear();
+    forget_turning(robot);
     known.anchors_match = false;
     bodies_.clear_wrenches(robot);
     return;
@@ -121,6 +122,7 @@ void SceneryContacts::apply_forces_on(const StepContext& context, std::uint32_t 
     remaining_[robot] = 1;
     return;
   }
+  forget_turning(robot);
   if (!known.anchors_match) find_match(robot);
   if (!known.one_model || !known.anchors_match || known.is_parting) return process_single(context, robot);
   Queue& q = queue_for(context, known, queues);
@@ -129,6 +131,12 @@ void SceneryContacts::apply_forces_on(const StepContext& context, std::uint32_t 
   view.before = view.anchors = (*known.anchors)[0].point.data();
   q.robots[q.count++] = robot;
   if (q.count == 8) process_queue(context, q);
+}
+
+/// Nothing that it touches resists its turning.
+void SceneryContacts::forget_turning(std::uint32_t robot) const {
+  const ListOut<TurningSpring>& springs = bodies_.robots[robot].turning_springs;
+  if (springs && !(*springs).empty()) springs.clear();
 }
 
 /// The queue of its layout and mass; if there is none, an empty one.
@@ -155,8 +163,9 @@ void SceneryContacts::analyse(std::uint32_t robot, std::span<const Contact> cont
   known.contacts = 0;
   known.anchors_match = false;
   known.only_scenery =
-      contacts.size() <= max_contacts &&
-      std::none_of(contacts.begin(), contacts.end(), [&](const Contact& c) { return bodies_[c.other].twist; });
+      contacts.size() <= max_contacts && std::none_of(contacts.begin(), contacts.end(), [&](const Contact& c) {
+        return bodies_[c.other].twist || c.surface.rolling_resistance > 0 || c.surface.spinning_resistance > 0;
+      });
   if (!known.only_scenery) return;
   for (const Contact& c : contacts)
     identities_[robot][known.contacts++] = {both(&c.self), both(&c.self_shape), bodies_.pair_of(c)};
@@ -254,7 +263,7 @@ void SceneryContacts::apply_springs(const StepContext& context, std::uint32_t ro
   bool parts = false;
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const Contact& c = contacts[k];
-    const FrictionAnchor* const anchor = previous(before, k, bodies_.pair_of(c), c.point);
+    const FrictionAnchor* const anchor = previous<FrictionAnchor>(before, k, bodies_.pair_of(c), c.point);
     const double approach = -c.normal.dot(bodies_.velocity(c.self, c.point));
     written[k].overlap = unmoved_overlap(context, c, anchor, approach);
     parts = parts || written[k].overlap > 0;

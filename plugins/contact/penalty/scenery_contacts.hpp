@@ -54,6 +54,7 @@ class SceneryContacts {
   struct Queues;
   struct SpringBatch;
 
+  void forget_turning(std::uint32_t robot) const;
   void fetch(std::uint32_t robot) const;
   bool knows(std::uint32_t robot, std::span<const Contact> now) const;
   void apply_forces_on(const StepContext& context, std::uint32_t robot, Queues& queues);

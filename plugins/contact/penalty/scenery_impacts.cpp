@@ -17,7 +17,8 @@ std::uint32_t SceneryContacts::find_impacts(const StepContext& context, std::uin
   const auto contacts = *robots_[robot].list;
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const Contact& c = contacts[k];
-    const FrictionAnchor* const before = previous(*robots_[robot].anchors, k, identities_[robot][k].pair, c.point);
+    const FrictionAnchor* const before =
+        previous<FrictionAnchor>(*robots_[robot].anchors, k, identities_[robot][k].pair, c.point);
     const auto time = impact_of(context, c, before, bodies_.velocity(c.self, c.point), step, false);
     if (!time) continue;
     times[k] = *time;

@@ -121,7 +121,7 @@ Wrench by_the_model(const Vehicle& v, std::vector<FrictionAnchor>& anchors) {
     const Vec3 motion = v.twists[k / 2].at(c.point - v.bodies[k / 2].position);
     const double approach = -motion.dot(c.normal);
     const Vec3 slip = motion + approach * c.normal;
-    Vec3 displacement = previous(before, k, k / 2, c.point)->displacement + slip * elapsed;
+    Vec3 displacement = previous<FrictionAnchor>(before, k, k / 2, c.point)->displacement + slip * elapsed;
     displacement -= c.normal * c.normal.dot(displacement);
     const double normal = along * normal_law.force(c.depth, approach);
     lane::V3<double> spring{displacement.x(), displacement.y(), displacement.z()};

@@ -261,11 +261,16 @@ void OdeWorld::create_contact_joints() {
     surface.soft_cfm = surface.slip1 = surface.slip2 = softness_of(found);
     const Surface pair = pair_surface(found.first->surface, found.second->surface, settings_.friction_rule);
     surface.mu = pair.friction;
-    surface.mu2 = 0;
     if (pair.restitution > 0) {
       surface.mode |= dContactBounce;
       surface.bounce = pair.restitution;
       surface.bounce_vel = settings_.bounce_speed;
+    }
+    if (pair.rolling_resistance > 0 || pair.spinning_resistance > 0) {
+      surface.mode |= dContactRolling | dContactAxisDep;
+      surface.mu2 = pair.friction;
+      surface.rho = surface.rho2 = pair.rolling_resistance;
+      surface.rhoN = pair.spinning_resistance;
     }
     const dBodyID a = dGeomGetBody(geom.g1), b = dGeomGetBody(geom.g2);
     // ODE bounds friction along two directions, each for itself. With the first along the slip, and no friction across
@@ -279,7 +284,10 @@ void OdeWorld::create_contact_joints() {
     if (const double speed = slip.norm(); speed > 1e-9) {
       surface.mode |= dContactFDir1;
       std::copy_n(Vec3(slip / speed).data(), 3, found.contact.fdir1);
-      if (speed > sliding_speed) surface.mode |= dContactMu2;
+      if (speed > sliding_speed) {
+        surface.mode |= dContactMu2;
+        surface.mu2 = 0;
+      }
     }
     const dJointID joint = dJointCreateContact(world_, contact_joints_, &found.contact);
     dJointAttach(joint, a, b);

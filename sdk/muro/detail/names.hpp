@@ -34,6 +34,9 @@ inline constexpr FeatureInfo feature_infos[] = {
     {feature_concave_meshes, "concave_meshes", "its meshes collide as their convex hulls"},
     {feature_fixed_base, "fixed_base", "its base cannot be fixed to the world"},
     {feature_self_collision, "self_collision", "its links pass through each other"},
+    {feature_rolling_resistance, "rolling_resistance", "nothing resists the rolling of its shapes"},
+    {feature_spinning_resistance, "spinning_resistance", "nothing but friction resists the spinning of its shapes"},
+    {feature_armature, "armature", "the rotors of its drives have no inertia"},
 };
 
 /// The name of a single capability; "" for a bit that is none.

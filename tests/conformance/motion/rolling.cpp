@@ -37,6 +37,64 @@ Outcome cylinder(const std::string& motion) {
   return relative(rolls(motion, tree, r, from_rpy(M_PI / 2, 0, 0)), 2.0 / 3 * g * std::sin(slope));
 }
 
+constexpr double ball_radius = 0.1, lever = 0.004;  // m
+
+/// A ball of 1 kg on grass: the ground resists its rolling, or it its own spinning.
+struct Grass : Trial {
+  const RobotView* ball_;
+
+  Grass(const std::string& motion, const Surface& of_ground, const Surface& of_ball, const Twist& twist,
+        double angle = 0)
+      : Trial(motion) {
+    const auto with_surface = [](Shape shape, const Surface& surface) {
+      shape.surface = surface;
+      return shape;
+    };
+    const Quat tilt = from_rpy(0, -angle, 0);
+    const Shape ground = with_surface(Shape::plane(), of_ground);
+    world().add_scenery("ground", {Vec3::Zero(), tilt}, std::span<const Shape>(&ground, 1));
+    const double inertia = 0.4 * ball_radius * ball_radius;
+    ball_ = &add("ball",
+                 test::single_body(with_surface(Shape::sphere(ball_radius), of_ball),
+                                   {.mass = 1, .ixx = inertia, .iyy = inertia, .izz = inertia}),
+                 {tilt * Vec3(0, 0, ball_radius), tilt}, twist);
+    start();
+  }
+};
+
+/// The normal force acts by the coefficient b of rolling lever before the contact: a ball that rolls is slowed by
+/// g b / (1.4 r), and stops after 0.7 r v^2 / (g b).
+Outcome rolls_out(const std::string& motion) {
+  const double speed = 1;
+  Grass t(motion, {.friction = 0.8, .rolling_resistance = lever}, {}, {{speed, 0, 0}, {0, speed / ball_radius, 0}});
+  t.run_for(5);
+  const double way = t.pose(*t.ball_).position.x();
+  if (t.twist(*t.ball_).linear.norm() > 1e-6) return {1, "it rolls on"};
+  return relative(way, 0.7 * ball_radius * speed * speed / (g * lever));
+}
+
+/// tan of the angle below b / r
+Outcome rests_on_a_slope(const std::string& motion) {
+  Grass t(motion, {.friction = 0.8, .rolling_resistance = lever}, {}, {}, std::atan(0.9 * lever / ball_radius));
+  t.run_for(1);
+  const Vec3 before = t.pose(*t.ball_).position;
+  t.run_for(2);
+  const double creep = (t.pose(*t.ball_).position - before).norm() / 2;
+  return {creep, text(creep) + " m/s"};
+}
+
+/// Of two coefficients the larger counts.
+Outcome spins_out(const std::string& motion) {
+  const double rate = 20, slowed = g * lever / (0.4 * ball_radius * ball_radius);
+  Grass t(motion, {.spinning_resistance = 0.5 * lever}, {.spinning_resistance = lever}, {Vec3::Zero(), {0, 0, rate}});
+  t.run_for(0.5 * rate / slowed);
+  const double halfway = t.twist(*t.ball_).angular.z();
+  t.run_for(0.6 * rate / slowed);
+  if (const double rest = std::abs(t.twist(*t.ball_).angular.z()); rest > 1e-6)
+    return {1, "it spins on with " + text(rest)};
+  return relative(halfway, 0.5 * rate);
+}
+
 /// A ball that slides at 5 m/s with mu = 0.2 rolls at 5/7 of it.
 Outcome sliding_ball(const std::string& motion) {
   Trial t(motion);
@@ -83,6 +141,12 @@ std::vector<Case> rolling_cases() {
       {"a hollow sphere rolls down with 3/5 g sin", "relative", needs, 2e-3, hollow},
       {"a cylinder rolls down with 2/3 g sin", "relative", needs, 2e-3, cylinder},
       {"a ball that slides comes to roll at 5/7 of its speed", "relative", needs, 2e-3, sliding_ball},
+      {"a ball on grass stops after 0.7 r v^2 / (g b)", "relative", needs | feature_rolling_resistance, 0.01,
+       rolls_out},
+      {"a ball rests on a slope that its rolling resistance holds", "m/s", needs | feature_rolling_resistance, 1e-4,
+       rests_on_a_slope},
+      {"a spinning ball is slowed by spinning resistance", "relative", needs | feature_spinning_resistance, 0.01,
+       spins_out},
       {"25 balls roll on a box that is pushed along an axis", "relative", needs, 0.02, stack_along},
       {"25 balls roll on a box that is pushed at 60 deg", "relative", needs, 0.02, stack_across},
   };
