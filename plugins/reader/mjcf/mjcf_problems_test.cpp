@@ -38,6 +38,36 @@ TEST(MjcfProblems, WhatMuJoCoRefusesIsToldWithItsLine) {
   EXPECT_NE(refusal_of("<mujoco>\n<include file='lost.xml'/></mujoco>").find("/nowhere/lost.xml"), std::string::npos);
 }
 
+TEST(MjcfProblems, AttributesOfLaterVersionsAreLeftOut) {
+  // each goes by itself; lines stay, and what looks alike elsewhere is left alone
+  const Robot robot = robot_of(R"(<mujoco>
+<option integrator="implicitfast"
+  ls_iterations='5' timestep="0.001"><flag eulerdamp="disable"/></option>
+<!-- <body gravcomp="1"> -->
+<worldbody><body name="kv"
+  gravcomp="1"><freejoint align="true"/><geom size="0.1"/>
+<body><joint name="j" actuatorfrcrange="-1 1"/><geom size="0.1"/></body></body></worldbody>
+<actuator><position joint="j" kp="7" kv="3"/><position name="kv='2'" joint="j" kv="2"/></actuator></mujoco>)");
+  EXPECT_TRUE(robot.tree.usable());
+  for (const char* line :
+       {"note 2: the integrator `implicitfast` is taken as `implicit`",
+        "note 3: attribute `ls_iterations` of <option> is left out, since the MuJoCo that muro is built with is older",
+        "note 3: attribute `eulerdamp` of <flag>", "note 6: attribute `align` of <freejoint>",
+        "warning 6: attribute `gravcomp` of <body> is left out, since the MuJoCo that muro is built with is older: "
+        "gravity pulls at the body in full",
+        "warning 7: attribute `actuatorfrcrange` of <joint>",
+        "warning 8: attribute `kv` of <position> is left out, since the MuJoCo that muro is built with is older: the "
+        "servo has no damping",
+        "actuator `kv='2'` is left out: it is the second of its joint"})
+    EXPECT_TRUE(has_line(robot.problems, line)) << line << "\n" << joined(robot.problems);
+  EXPECT_EQ(robot.joint("j")->link.limits.effort, std::numeric_limits<double>::infinity());
+}
+
+TEST(MjcfProblems, WhatNoVersionKnowsIsAMistake) {
+  EXPECT_NE(refusal_of(mujoco("<body>\n<freejoint/><geom sise='0.1'/></body>")).find("unrecognized attribute: 'sise'"),
+            std::string::npos);
+}
+
 TEST(MjcfProblems, AFileWithoutBodiesIsNoRobot) {
   EXPECT_EQ(refusal_of(mujoco("<geom size='1'/>")),
             "error 0: the file has no <body>; if it is scenery, name it as the scenario's `world: {file: ...}`");

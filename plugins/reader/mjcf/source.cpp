@@ -6,6 +6,7 @@
 #include <set>
 
 #include "muro/algorithm.hpp"
+#include "newer.hpp"
 #include "plugins/common/model_file/text_file.hpp"
 #include "plugins/common/parser_process/limits.hpp"
 #include "plugins/common/text/quote.hpp"
@@ -160,6 +161,7 @@ Compiled Source::compile(Problems& problems, const std::string& more) const {
     }
   }
   Compiled compiled = mjcf::compile(text, path_);
+  while (!compiled.model && leave_out_newer(text, compiled.error, problems)) compiled = mjcf::compile(text, path_);
   if (!compiled.warning.empty()) problems.warning({}, "MuJoCo says: " + shortened(printable(compiled.warning), 500));
   if (!compiled.model) {
     std::string version = std::to_string(mj_version());
