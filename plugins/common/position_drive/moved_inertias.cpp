@@ -11,12 +11,12 @@ MovedInertias::Composite MovedInertias::Composite::without(const Composite& part
   return {mass - part.mass, first_moment - part.first_moment, second_moment - part.second_moment};
 }
 
-double MovedInertias::Composite::along(const Link& link, const Pose& joint) const {
-  if (link.joint == JointKind::prismatic) return std::max(mass, 0.0);
-  if (link.joint == JointKind::fixed) return 0;
-  // about a parallel axis through p: the sum of m |a x (r - p)|^2
-  const Vec3 axis = joint.orientation * link.axis, arm = joint.position - axis * axis.dot(joint.position);
-  const double about_origin = axis.dot(second_moment * axis);
+double MovedInertias::Composite::along(JointKind kind, const Placed& placed) const {
+  if (kind == JointKind::prismatic) return std::max(mass, 0.0);
+  if (kind == JointKind::fixed) return 0;
+  // about a parallel axis through a point p: the sum of m |a x (r - p)|^2
+  const Vec3 arm = placed.joint - placed.axis * placed.axis.dot(placed.joint);
+  const double about_origin = placed.axis.dot(second_moment * placed.axis);
   return std::max(about_origin - 2 * arm.dot(first_moment) + mass * arm.squaredNorm(), 0.0);
 }
 
@@ -24,6 +24,7 @@ MovedInertias::MovedInertias(std::vector<Body> bodies, bool fixed_base)
     : fixed_base_(fixed_base),
       bodies_(std::move(bodies)),
       poses_(bodies_.size()),
+      placed_(bodies_.size()),
       composites_(bodies_.size()),
       moved_(bodies_.size()) {}
 
@@ -32,13 +33,23 @@ void MovedInertias::update(std::span<const double> positions) {
     const auto& [link, inertia] = bodies_[i];
     if (i > 0) poses_[i] = poses_[std::size_t(link.parent)] * pose_in_parent(link, positions[i]);
     const Mat3 rotation = poses_[i].orientation.toRotationMatrix();
-    const Vec3 centre = poses_[i].position + rotation * inertia.com;
-    Composite& c = composites_[i];
-    c.mass = inertia.mass;
-    c.first_moment = inertia.mass * centre;
-    c.second_moment = rotation * inertia.tensor() * rotation.transpose();
-    c.second_moment += inertia.mass * (centre.squaredNorm() * Mat3::Identity() - centre * centre.transpose());
+    place(i, {poses_[i].position, rotation * link.axis, poses_[i].position + rotation * inertia.com,
+              rotation * inertia.tensor() * rotation.transpose()});
   }
+  find();
+}
+
+void MovedInertias::place(std::size_t body, const Placed& placed) {
+  const double mass = bodies_[body].inertia.mass;
+  const Vec3& r = placed.centre;
+  Composite& c = composites_[body];
+  placed_[body] = placed;
+  c.mass = mass;
+  c.first_moment = mass * r;
+  c.second_moment = placed.tensor + mass * (r.squaredNorm() * Mat3::Identity() - r * r.transpose());
+}
+
+void MovedInertias::find() {
   for (std::size_t i = bodies_.size() - 1; i > 0; --i) {
     Composite& on = composites_[std::size_t(bodies_[i].link.parent)];
     on.mass += composites_[i].mass;
@@ -46,13 +57,13 @@ void MovedInertias::update(std::span<const double> positions) {
     on.second_moment += composites_[i].second_moment;
   }
   for (std::size_t i = 1; i < bodies_.size(); ++i) {
-    const Link& link = bodies_[i].link;
-    const double behind = composites_[i].along(link, poses_[i]), armature = link.limits.armature;
+    const JointKind kind = bodies_[i].link.joint;
+    const double behind = composites_[i].along(kind, placed_[i]), armature = bodies_[i].link.limits.armature;
     if (fixed_base_) {
       moved_[i] = {behind + armature, behind + armature};
       continue;
     }
-    const double before = composites_[0].without(composites_[i]).along(link, poses_[i]), sum = behind + before;
+    const double before = composites_[0].without(composites_[i]).along(kind, placed_[i]), sum = behind + before;
     moved_[i] = {std::max(behind, before) + armature, (sum > 0 ? behind * before / sum : 0) + armature};
   }
 }

@@ -24,6 +24,18 @@ class MovedInertias {
 
   /// `positions`: of the joint of each body, rad or m. Does not allocate.
   void update(std::span<const double> positions);
+
+  /// Where a body is; in the frame of the base.
+  struct Placed {
+    Vec3 joint = Vec3::Zero();   ///< m, a point on its joint's axis
+    Vec3 axis = Vec3::Zero();    ///< unit
+    Vec3 centre = Vec3::Zero();  ///< m, of mass
+    Mat3 tensor = Mat3::Zero();  ///< kg m^2, about the centre
+  };
+  /// The same for who knows already where all bodies are: place() each of them, then find().
+  void place(std::size_t body, const Placed& placed);
+  void find();
+
   /// kg m^2 or kg: the larger one, with the armature. A foot on the ground does not move: its joint moves the robot.
   double driven(std::size_t body) const { return moved_[body].driven; }
   /// kg m^2 or kg: of the joint in free motion, by both sides together, with the armature.
@@ -35,8 +47,8 @@ class MovedInertias {
     Vec3 first_moment = Vec3::Zero();   ///< kg m, about the base's origin
     Mat3 second_moment = Mat3::Zero();  ///< kg m^2, tensor of inertia about the base's origin
     Composite without(const Composite& part) const;
-    /// About, or along, the axis of the joint.
-    double along(const Link& link, const Pose& joint) const;
+    /// About, or along, the axis of a joint.
+    double along(JointKind kind, const Placed& placed) const;
   };
   struct Moved {
     double driven = 0, free = 0;
@@ -45,6 +57,7 @@ class MovedInertias {
   bool fixed_base_ = true;
   std::vector<Body> bodies_;
   std::vector<Pose> poses_;  ///< in the frame of the base
+  std::vector<Placed> placed_;
   std::vector<Composite> composites_;
   std::vector<Moved> moved_;
 };

@@ -51,6 +51,24 @@ DecoupledDynamics::DecoupledDynamics(std::span<const Link> links, std::span<cons
   }
 }
 
+MovedInertias DecoupledDynamics::moved_inertias(double armature) const {
+  std::vector<MovedInertias::Body> bodies;
+  for (const Body& b : bodies_) {
+    bodies.push_back({b.joint, b.inertia});
+    bodies.back().link.parent = b.parent;
+    bodies.back().link.limits.armature += armature;
+  }
+  return MovedInertias(std::move(bodies), fixed_base_);
+}
+
+void DecoupledDynamics::find(MovedInertias& inertias) const {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const Body& b = bodies_[i];
+    inertias.place(i, {b.pose_in_base.position, b.axis, b.centre, b.tensor});
+  }
+  inertias.find();
+}
+
 void DecoupledDynamics::add_wrench(std::uint32_t link, SumIn<Wrench> wrench) {
   wrenches_.push_back({body_of_link_[link], pose_in_body_[link].position, wrench});
 }

@@ -7,6 +7,7 @@
 
 #include "muro/handles.hpp"
 #include "muro/robot.hpp"
+#include "plugins/common/position_drive/moved_inertias.hpp"
 
 namespace muro::simplified {
 
@@ -37,6 +38,13 @@ class DecoupledDynamics {
   /// Fills `dofs` and returns the sum of all wrenches, as one on the base. Does not allocate.
   Wrench update(const Pose& pose, const Twist& twist, std::span<const double> positions, const Vec3& gravity);
   std::span<const Dof> dofs() const { return dofs_; }
+
+  /// Of its bodies, for joints whose limits have `armature` (kg m^2 or kg) beside their own. [setup]
+  MovedInertias moved_inertias(double armature) const;
+  /// Finds them where update() has found the bodies.
+  void find(MovedInertias& inertias) const;
+  /// Number of the body that moves with a link.
+  std::uint32_t body_of(std::uint32_t link) const { return body_of_link_[link]; }
 
  private:
   /// Links that fixed joints hold together, behind the joint that moves them. Vectors in axes of the base, from its

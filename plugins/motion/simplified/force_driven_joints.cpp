@@ -23,8 +23,7 @@ ForceDrivenJoints::ForceDrivenJoints(Connector& c, const RobotView& robot, std::
                                      const Settings& settings)
     : settings_(settings),
       dynamics_(robot.links, inertias, links_of_dofs(robot, properties), settings.fixed_base),
-      positions_(start.begin(), start.end()),
-      present_(start.begin(), start.end()) {
+      positions_(start.begin(), start.end()) {
   dynamics_.update({}, {}, positions_, Vec3::Zero());
   for (const DecoupledDynamics::Dof& dof : dynamics_.dofs()) {
     const Link& link = robot.links[dof.link];
@@ -62,12 +61,7 @@ ForceDrivenJoints::ForceDrivenJoints(Connector& c, const RobotView& robot, std::
       dynamics_.add_wrench(i, c.read_sum(body, keys::external_wrench));
   }
   if (!has_position_drives_) return;
-  std::vector<MovedInertias::Body> bodies(robot.links.size());
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    bodies[i] = {robot.links[i], inertias[i]};
-    bodies[i].link.limits.armature += settings.armature;
-  }
-  moved_inertias_ = MovedInertias(std::move(bodies), settings.fixed_base);
+  moved_inertias_ = dynamics_.moved_inertias(settings.armature);
   std::size_t count = 0;
   for (const Joint& j : joints_) count += j.target.memory_size();
   if (count == 0) return;
@@ -94,10 +88,7 @@ Wrench ForceDrivenJoints::evaluate(const Pose& pose, const Twist& twist, const V
 
 bool ForceDrivenJoints::move(double dt) {
   double all = 0;
-  if (has_position_drives_) {
-    for (const LinkJoint& j : link_joints_) present_[j.link] = *j.position;
-    moved_inertias_.update(present_);
-  }
+  if (has_position_drives_) dynamics_.find(moved_inertias_);
   for (std::size_t k = 0; k < joints_.size(); ++k) {
     const Joint& j = joints_[k];
     const DecoupledDynamics::Dof& dof = dynamics_.dofs()[k];
@@ -108,7 +99,7 @@ bool ForceDrivenJoints::move(double dt) {
       state = integrate_force(state, *j.effort + dof.force, inertia, j.limits, dt);
     } else if (j.properties.has_position_drive) {
       const Reference reference = j.target.advance(state.position, j.limits, dt);
-      const PdGains gains = j.drive.gains(moved_inertias_.driven(dof.link));
+      const PdGains gains = j.drive.gains(moved_inertias_.driven(dynamics_.body_of(dof.link)));
       const ImplicitDrive drive = implicit_drive(gains, reference.position - state.position, reference.velocity, dt);
       state = follow_drive(state, drive, dof.force, inertia, j.limits, dt, *j.effort);
     } else {

@@ -7,7 +7,6 @@
 #include "decoupled_dynamics.hpp"
 #include "dof.hpp"
 #include "joint_properties.hpp"
-#include "plugins/common/position_drive/moved_inertias.hpp"
 #include "plugins/common/position_drive/position_target.hpp"
 
 namespace muro::simplified {
@@ -69,7 +68,6 @@ class ForceDrivenJoints {
   std::vector<Joint> joints_;           ///< as dynamics_.dofs()
   std::vector<LinkJoint> link_joints_;  ///< all joints of the robot
   std::vector<double> positions_;       ///< in the middle of the step, one per link
-  std::vector<double> present_;         ///< at its beginning, for moved_inertias_
 };
 
 }  // namespace muro::simplified
