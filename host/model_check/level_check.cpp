@@ -45,13 +45,13 @@ std::string brief(std::string text) {
 /// What would happen with another motion, in words.
 std::string verdict(const ScenarioOptions& options, const std::string& robots, const OwnMotion& own,
                     const CatalogEntry& motion, Registry& registry) {
-  std::vector<std::string> overrides = options.overrides;
-  const Description& description = *registry.algorithm(motion.id).description;
-  const bool fixes = own.fixed_base && std::any_of(description.parameters.begin(), description.parameters.end(),
-                                                   [](const Parameter& p) { return p.name == "base"; });
-  overrides.push_back(
-      fmt::format("robots.{}.{}={{use: {}{}}}", robots, own.name, motion.id, fixes ? ", base: fixed" : ""));
   try {
+    std::vector<std::string> overrides = options.overrides;
+    const Description& description = *registry.algorithm(motion.id).description;
+    const bool fixes = own.fixed_base && std::any_of(description.parameters.begin(), description.parameters.end(),
+                                                     [](const Parameter& p) { return p.name == "base"; });
+    overrides.push_back(
+        fmt::format("robots.{}.{}={{use: {}{}}}", robots, own.name, motion.id, fixes ? ", base: fixed" : ""));
     Scenario scenario = read_scenario(options.file, overrides);
     if (options.seed) scenario.seed = *options.seed;
     const BuiltScenario built = build(std::move(scenario), registry, [](Simulation& s) {

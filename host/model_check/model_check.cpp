@@ -142,6 +142,9 @@ std::vector<Finding> findings_of(const ModelFacts& facts, const CheckedMotion& m
   if (!facts.clamped.empty())
     all.push_back({counted(facts.clamped, "joint", names) + " cannot be at 0 at the start",
                    "the nearest limit is taken", "To start elsewhere, set `joints: {NAME: POSITION}` of the robot."});
+  if ((motion.features & feature_joint_effort_limits) != 0 && facts.moves_mass() && !facts.of_any_strength.empty())
+    all.push_back({counted(facts.of_any_strength, "driven joint", names) + " without a limit of effort",
+                   says("drives are as strong as it takes"), "State it: `<limit effort>`, N m or N."});
   return all;
 }
 

@@ -2,6 +2,7 @@
 #include "host/model_check/model_facts.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "host/constants.hpp"
 #include "muro/vocabulary.hpp"
@@ -14,6 +15,15 @@ namespace {
 std::string name_in(const RobotView& robot, const World& world, ObjectId object) {
   const std::string& name = world.object_name(object);
   return name.size() > robot.name.size() + 1 ? name.substr(robot.name.size() + 1) : name;
+}
+
+/// Whether an algorithm writes a velocity or position that the joint is to follow.
+bool is_driven(const World& world, ObjectId joint) {
+  const auto is_written = [&](const KeyInfo& key) {
+    const Slot* const slot = world.store().find(joint, key.name);
+    return slot && slot->writer();
+  };
+  return is_written(keys::joint_velocity_target) || is_written(keys::joint_position_target);
 }
 
 }  // namespace
@@ -40,6 +50,8 @@ ModelFacts model_facts(const World& world, const RobotView& robot, const RobotTe
                                        [&](const auto& given) { return given.first.text == joint; });
     facts.joints.push_back(joint);
     if (!is_placed && !(link.limits.lower <= 1e-6 && link.limits.upper >= -1e-6)) facts.clamped.push_back(joint);
+    if (!std::isfinite(link.limits.effort) && is_driven(world, link.joint_object))
+      facts.of_any_strength.push_back(joint);
   }
   return facts;
 }

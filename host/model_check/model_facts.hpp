@@ -22,7 +22,8 @@ struct ModelFacts {
   Names without_mass;            ///< of them
   bool moves_mass() const { return without_mass.size() < moving_links; }
 
-  Names clamped;  ///< joints that cannot be at 0, and the scenario does not say where they start
+  Names clamped;          ///< joints that cannot be at 0, and the scenario does not say where they start
+  Names of_any_strength;  ///< joints without a limit of effort that follow a target which something writes
 };
 
 /// Of a robot of `robots`. [after set-up]

@@ -78,6 +78,24 @@ TEST(ModelCheck, SaysOfASoundModelThatNothingIsLacking) {
       "`r`: nothing is lacking\n");
 }
 
+TEST(ModelCheck, TellsOfDrivesWithoutLimits) {
+  const Check check;
+  std::string wheels = "<robot name='cart'><link name='base'>" + std::string(mass) + shape + "</link>";
+  for (const char* side : {"left", "right"})
+    wheels += std::string("<link name='") + side + "_wheel'>" + mass +
+              "<collision><origin rpy='1.5708 0 0'/><geometry><cylinder radius='0.1' length='0.02'/></geometry>"
+              "</collision></link><joint name='" +
+              side + "' type='continuous'><parent link='base'/><child link='" + side + "_wheel'/><origin xyz='0 " +
+              (side[0] == 'l' ? "0.2" : "-0.2") + " 0'/><axis xyz='0 1 0'/></joint>";
+  check.folder.file("cart.urdf", wheels + "</robot>");
+  const std::string robot = "  cart: {model: cart.urdf, motion: {use: motion.simplified}";
+  EXPECT_SAYS(
+      check.of(robot + ", drive: {use: drive.differential}}\n"),
+      "2 driven joints (`left`, `right`) without a limit of effort;\n      motion.simplified: drives are as strong as "
+      "it takes\n");
+  EXPECT_SAYS(check.of(robot + "}\n"), "`cart`: nothing is lacking");
+}
+
 TEST(ModelCheck, TakesAScreenForTheWorstOfModels) {
   const Check check;
   std::string robots;

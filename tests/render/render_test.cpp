@@ -140,6 +140,44 @@ TEST(Render, HandsTheFramesOfAVideoToFfmpeg) {
   EXPECT_NE(frames.substr(0, frame), frames.substr(5 * frame)) << "robots move";
 }
 
+/// A red box that drifts along x, 20 m away from another one after 10 s.
+std::string drifting(const test::ScratchFolder& folder) {
+  return folder.file("drift.yaml",
+                     "duration: 10\nworld: {gravity: [0, 0, 0], objects: {ground: {shape: plane, at: {z: -0.1}}}}\n"
+                     "robots:\n  goes: {shape: {box: [1, 1, 1]}, color: [0.9, 0.1, 0.1], mass: 1, velocity: [2, 0, 0], "
+                     "at: {z: 0.5}, motion: {use: motion.simplified}}\n"
+                     "  stays: {shape: {box: [1, 1, 1]}, mass: 1, at: {y: 4, z: 0.5}, motion: {use: "
+                     "motion.simplified}}\n");
+}
+
+bool is_red(const std::uint8_t* pixel) { return pixel[0] > 2 * pixel[1] && pixel[0] > 60; }
+
+TEST(Render, LooksAtTheRobotsThatMoveWhereTheyAreThen) {
+  const test::ScratchFolder folder;
+  const std::string file = folder.path("late.png");
+  const auto result = render(drifting(folder) + " --at 10 --size 64x48 --out " + file);
+  EXPECT_EQ(result.exit_code, 0) << result.output;
+  const Picture picture(file);
+  EXPECT_TRUE(is_red(&picture.values[3 * (24 * 64 + 32)])) << "in the middle of the picture";
+}
+
+TEST(Render, FollowsTheRobotsThatMoveInAVideo) {
+  const test::ScratchFolder folder;
+  const std::string video = folder.path("v.mp4");
+  const auto result = test::run_command(stand_in(folder) + muro_program + " render " + drifting(folder) +
+                                        " --device software --size 64x48 --fps 2 --video " + video);
+  EXPECT_EQ(result.exit_code, 0) << result.output;
+  const std::string frames = test::text_of(video);
+  constexpr std::size_t frame = 64 * 48 * 3;
+  ASSERT_EQ(frames.size(), 21 * frame);
+  const auto* const bytes = reinterpret_cast<const std::uint8_t*>(frames.data());
+  for (std::size_t k = 0; k < 21; ++k) {
+    std::size_t red = 0;
+    for (std::size_t i = 0; i < frame; i += 3) red += is_red(bytes + k * frame + i);
+    EXPECT_GT(red, 20u) << "it is in frame " << k;
+  }
+}
+
 #ifdef MURO_HAS_FFMPEG
 TEST(Render, MakesAVideoThatPlays) {
   const test::ScratchFolder folder;

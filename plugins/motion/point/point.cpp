@@ -24,7 +24,7 @@ constexpr Parameter parameters[] = {
     on_contact,
     text("joints", "auto",
          "which target joints follow; auto: of position where something writes it, else of velocity, and wheels stand "
-         "still; passive: all stand still")
+         "still; passive: none, control code may write `joint.position` itself")
         .one_of(joint_modes),
 };
 constexpr PropertyUse reads[] = {{"command.twist", "mode velocity"},
@@ -131,7 +131,7 @@ class Point final : public PerRobotAlgorithm<PointRobot> {
     const std::string_view mode = c.parameters().text("joints");
     if (mode == "auto")
       r.joints = KinematicJoints(c, *item.robot, {}, wheels_of(c, *item.robot));
-    else
+    else if (mode != "passive")
       r.joints = KinematicJoints(c, *item.robot, std::vector(item.robot->links.size(), drive_mode_of(mode)));
     return r;
   }
