@@ -202,6 +202,29 @@ TEST(MujocoModel, TreesThatAreNoRobotsStandStillAndAreScenery) {
   EXPECT_NEAR(scene.pose_of("ball").position.z(), 1.2, 2e-3);
 }
 
+TEST(MujocoModel, RobotsThatNoForceMovesAreTouched) {
+  const test::ScratchFolder folder;
+  const std::string path = folder.file("ball.xml",
+                                       "<mujoco><worldbody><body name='ball' pos='0 0 1'><freejoint/><geom size='0.1'/>"
+                                       "</body></worldbody></mujoco>");
+  test::Scene scene;
+  const RobotView& plate = scene.add("plate", test::tree_of([](RobotBuilder& b) {
+                                       b.base("plate");
+                                       Shape shapes[] = {Shape::box({1, 1, 0.2}), Shape::sphere(0.05)};
+                                       shapes[1].origin.position.x() = 3;
+                                       b.set_array<Shape>(keys::collision_shapes, shapes);
+                                     }),
+                                     {{0, 0, 0.4}, Quat::Identity()});
+  const RobotView& ball = scene.add("ball", scene.read_model(path), {{0, 0, 1}, Quat::Identity()});
+  scene.use("motion.point", 500, {{&plate, plate.base()}});
+  scene.use("motion.mujoco", 500, {{&ball, ball.base()}}, {{"settings", "model"}});
+  scene.build();
+  scene.run_for(2);
+  EXPECT_NEAR(scene.pose(ball).position.z(), 0.6, 2e-3);
+  EXPECT_NEAR(scene.world().value(ball.base(), keys::contact_wrench).force.z(), 1000 * 4.0 / 3 * M_PI * 0.001 * 9.81,
+              1e-3);
+}
+
 TEST(MujocoModel, ASnapshotGoesOnBitForBit) {
   const test::ScratchFolder folder;
   Yard scene(folder.file("yard.xml", yard("")));
