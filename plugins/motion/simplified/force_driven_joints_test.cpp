@@ -238,6 +238,21 @@ TEST(ForceDrivenJoints, ALimitedDriveHoldsALightLoadAndYieldsToAHeavyOne) {
   }
 }
 
+TEST(ForceDrivenJoints, GainsThatFitNoJointAreRefusedWithAdvice) {
+  constexpr std::pair<const char*, const char*> cases[] = {
+      {"pivto=5", "`stiffness` names `pivto`, but `r` has no such joint in mode `position` (did you mean `pivot`?)"},
+      {"pivot=soft", "`stiffness`: `pivot=soft` is no gain; write a number from 0 to 1e15, or a map of joints"},
+      {"pivot=-1", "is no gain"}};
+  for (const auto& [given, says] : cases) {
+    try {
+      Machine s(pendulum(), {{"joints", "position"}, {"stiffness", Names{given}}});
+      ADD_FAILURE() << given;
+    } catch (const std::exception& e) {
+      EXPECT_NE(std::string(e.what()).find(says), std::string::npos) << e.what();
+    }
+  }
+}
+
 TEST(ForceDrivenJoints, APositionDriveOfAFallingRobotNeedsNoEffort) {
   for (const bool gives_way : {false, true}) {
     Machine s(pendulum({.effort = 50}), {{"joints", "position"}, {"effort_limits", gives_way}});

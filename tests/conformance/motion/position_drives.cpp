@@ -65,7 +65,7 @@ Outcome drive_overshoot(const std::string& motion) {
 
 Outcome drive_deflection(const std::string& motion) {
   constexpr double stiffness = 100;
-  OneLink link(motion, {}, {{"stiffness", Names{"joint=100"}}}, true);
+  OneLink link(motion, {}, {{"stiffness", stiffness}}, true);
   link.of(keys::joint_position_target) = 0.2;
   link.run_for(3);
   const double q = link.of(keys::joint_position);
