@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "consistent_inertia.hpp"
+#include "muro/toolkit/bounds.hpp"
 #include "muro/toolkit/link_pose.hpp"
 #include "muro/toolkit/mass_properties.hpp"
 #include "plugins/common/text/quote.hpp"
@@ -35,6 +36,17 @@ bool regularize(Inertia& inertia, double mass, double radius) {
   const std::optional<Inertia> consistent = nearest_consistent_inertia(inertia);
   if (consistent) inertia = *consistent;
   return changed || consistent;
+}
+
+/// A body without mass that touches others carries some of the robot: engines with iterations would need too many of
+/// them for the least mass that they take. It is a ball about its shapes with a thousandth of the robot's mass.
+MinInertia least_inertia_of(const RigidBody& body, const MinInertia& of_engine) {
+  constexpr double share = 1e-3;
+  if (body.inertia.mass > 0 || body.shapes.empty()) return of_engine;
+  double radius = of_engine.radius;
+  for (const BodyShape& s : body.shapes)
+    if (s.shape.kind != ShapeKind::plane) radius = std::max(radius, half_extents(s.shape).maxCoeff());
+  return {std::max(share, of_engine.mass_fraction), radius};
 }
 
 RigidBody body_of(const Link& link, std::uint32_t number, DriveMode mode) {
@@ -112,7 +124,8 @@ RobotModel model_of(const Connector& connector, const RobotView& robot, std::spa
       body.multiplier = link.mimic_multiplier;
       body.offset = link.mimic_offset;
     }
-    if (regularize(body.inertia, min_inertia.mass_fraction * model.mass, min_inertia.radius))
+    const MinInertia least = least_inertia_of(body, min_inertia);
+    if (regularize(body.inertia, least.mass_fraction * model.mass, least.radius))
       model.regularized_links.emplace_back(connector.object_name(link.object));
   }
   return model;
