@@ -35,6 +35,8 @@ void Check::prepare(Element& e, std::string_view section) {
 /// False when the element is better removed.
 bool Check::complete(Element& e, std::string_view section) {
   if (section == "world" || section == "model") {
+    // nobody asks for the name of a world, and some are not allowed
+    if (section == "world") e.SetAttribute("name", "default");
     if (attribute(e, "name").empty()) {
       if (section == "model") problems_.warning(location_of(e), "a model has no name; write <model name=\"...\">");
       e.SetAttribute("name", std::string(section).c_str());
