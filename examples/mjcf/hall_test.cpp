@@ -38,6 +38,17 @@ TEST(Hall, ServosOfTheFileHoldTheArm) {
   }
 }
 
+TEST(Hall, JointsBeginAsInTheFileUnlessTheScenarioSaysOther) {
+  const BuiltScenario as_in_file = open(), at_zero = open({"robots.arm.joints.yaw=0"});
+  const auto start = [](const BuiltScenario& built, const char* joint) {
+    const World& world = built.simulation->world();
+    return world.value(world.object(joint), keys::joint_position);
+  };
+  EXPECT_NEAR(start(as_in_file, "arm/yaw"), 10 * M_PI / 180, 1e-12);
+  EXPECT_EQ(start(at_zero, "arm/yaw"), 0);
+  EXPECT_EQ(start(as_in_file, "arm/shoulder"), 0.8);
+}
+
 TEST(Hall, TheBallLiesOnTheFloor) {
   BuiltScenario built = open();
   built.simulation->run_for(5);

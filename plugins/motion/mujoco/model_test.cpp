@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <mujoco/mujoco.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/support/bodies.hpp"
@@ -71,8 +72,7 @@ struct Raw {
 
 /// A file read as the world, with all of its trees as robots.
 struct Yard : test::Scene {
-  explicit Yard(const std::string& path, std::map<std::string, ParameterInput> more = {},
-                const std::vector<std::string>& left_out = {}) {
+  explicit Yard(const std::string& path, const std::vector<std::string>& left_out = {}) {
     const WorldModel model = read_world(path);
     if (model.gravity()) world().set(world_object, keys::gravity, *model.gravity());
     for (const auto& s : model.scenery()) world().add_scenery(s.name, s.pose, s.collisions, s.visuals);
@@ -81,8 +81,7 @@ struct Yard : test::Scene {
       const RobotView& view = add(robot.name, robot.tree, robot.pose);
       std::map<std::string, ParameterInput> parameters = {{"settings", "model"}};
       parameters["base"] = robot.name == "arm" ? "fixed" : "free";
-      for (const auto& [name, value] : more) parameters[name] = value;
-      use("motion.mujoco", 500, {{&view, view.base()}}, parameters);
+      use("motion.mujoco", 500, {{&view, view.base()}}, std::move(parameters));
     }
   }
   double& joint(const std::string& name, const Key<double>& key) { return world().value(world().object(name), key); }
@@ -194,7 +193,7 @@ TEST(MujocoModel, TreesThatAreNoRobotsStandStillAndAreScenery) {
   const std::string path = folder.file("yard.xml", R"(<mujoco><worldbody><geom type="plane" size="1 1 1"/>
 <body name="crate" pos="0 0 1"><freejoint/><geom type="box" size="0.2 0.2 0.1"/></body>
 <body name="ball" pos="0 0 1.3"><freejoint/><geom size="0.1"/></body></worldbody></mujoco>)");
-  Yard scene(path, {}, {"crate"});
+  Yard scene(path, {"crate"});
   const Shape top = Shape::box({0.4, 0.4, 0.2});
   scene.world().add_scenery("crate.crate", {{0, 0, 1}, Quat::Identity()}, std::span<const Shape>(&top, 1));
   scene.build();

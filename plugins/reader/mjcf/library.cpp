@@ -28,7 +28,7 @@ void catch_errors() {
 }
 
 /// Texts of MuJoCo have several lines, some of them empty.
-std::string in_one_line(std::string text) {
+std::string in_one_line(const std::string& text) {
   std::string out;
   for (const char c : text)
     if (c != '\n' && c != '\r')
