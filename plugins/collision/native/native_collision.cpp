@@ -6,6 +6,7 @@
 
 #include "hulls/hull_plane.hpp"
 #include "pairs/collide.hpp"
+#include "pairs/separation_bound.hpp"
 
 namespace muro::native {
 
@@ -124,6 +125,10 @@ void NativeCollision::collide(const TransformedCollider& a, const TransformedCol
   Manifold manifold;
   collide_shapes(a.shape, b.shape, manifold);
   points.assign(manifold.points, manifold.points + manifold.count);
+}
+
+double NativeCollision::distance_bound(const TransformedCollider& a, const TransformedCollider& b) const {
+  return separation_bound(a.shape, b.shape);
 }
 
 void NativeCollision::collide_meshes(const TransformedCollider& a, const TransformedCollider& b,

@@ -27,6 +27,7 @@ class NativeCollision final : public PairCollision {
 
   TransformedShape transformed_shape(std::uint32_t collider) const override;
   void collide(const TransformedCollider& a, const TransformedCollider& b, std::vector<ContactPoint>& points) override;
+  double distance_bound(const TransformedCollider& a, const TransformedCollider& b) const override;
   void list_contacts(Range robots) override;
 
   void collide_meshes(const TransformedCollider& a, const TransformedCollider& b,

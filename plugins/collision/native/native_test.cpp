@@ -226,6 +226,55 @@ TEST(CollisionNative, HullsInAHeapHaveTheSameContactsInAnyOrderAndOnAnyNumberOfT
   EXPECT_GT(of_robots, 50u);
 }
 
+/// Two robots without gravity, each of a box and a capsule beside it.
+struct Dumbbells : CollisionScene {
+  const RobotView *a, *b;
+
+  Dumbbells(const Pose& at_a, const Pose& at_b) {
+    const Shape box[] = {Shape::box({0.4, 0.2, 0.3})}, capsule[] = {Shape::capsule(0.1, 0.3)};
+    const RobotTree tree = test::tree_of([&](RobotBuilder& builder) {
+      builder.base("body");
+      builder.set(keys::inertial, unit_inertia);
+      builder.set_array(keys::collision_shapes, std::span<const Shape>(box));
+      builder.translation({0.1, 0.3, 0});
+      builder.body("arm");
+      builder.set_array(keys::collision_shapes, std::span<const Shape>(capsule));
+    });
+    a = &add_dynamic("a", tree, at_a);
+    b = &add_dynamic("b", tree, at_b);
+    finish_setup();
+  }
+};
+
+TEST(CollisionNative, RobotsThatWereApartAreSeenToTouchAtOnceHoweverTheyMoveAndTurn) {
+  Randoms random(8);
+  Pose at_a{{0, 0, 0}, random.rotation()}, at_b{{0.6, 0.1, 0}, random.rotation()};
+  Dumbbells followed(at_a, at_b);
+  int touching = 0, changes = 0;
+  double phase = 0;
+  for (int i = 0; i < 400; ++i) {
+    // fast, slow, slower and resting for some steps each
+    const double speed = i / 40 % 4 == 3 ? 0 : 0.4 * std::pow(0.1, i / 40 % 4);
+    phase += speed;
+    at_b.position.x() = 0.55 + 0.3 * std::sin(phase);
+    for (Pose* p : {&at_a, &at_b}) {
+      p->orientation = p->orientation * Quat(Eigen::AngleAxisd(0.1 * speed, random.direction()));
+      p->orientation.normalize();
+    }
+    followed.pose(*followed.a) = at_a, followed.pose(*followed.b) = at_b;
+    followed.twist(*followed.a) = followed.twist(*followed.b) = {};
+    followed.step_once();
+    Dumbbells fresh(at_a, at_b);
+    fresh.step_once();
+    const auto seen = followed.contacts(*followed.a), expected = fresh.contacts(*fresh.a);
+    ASSERT_EQ(seen.size(), expected.size()) << i;
+    for (std::size_t k = 0; k < seen.size(); ++k) expect_equal(seen[k], expected[k]);
+    changes += (touching > 0) != !seen.empty();
+    touching = int(seen.size());
+  }
+  EXPECT_GT(changes, 5);
+}
+
 TEST(CollisionNative, SaysNothingOfAMeshThatEndsTheSetUp) {
   const test::ScratchFolder folder;
   CollisionScene scene;

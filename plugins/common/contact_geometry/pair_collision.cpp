@@ -2,6 +2,7 @@
 #include "pair_collision.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <tuple>
@@ -92,6 +93,11 @@ void PairCollision::start() {
     placed_.push_back(transformed_collider(k));
     radii_.push_back(radius_about(index_->colliders[k].body_pose->position, placed_.back().shape));
   }
+  travel_.assign(robots_.size(), 0);
+  last_move_.assign(robots_.size(), 0);
+  followed_in_.assign(robots_.size(), std::numeric_limits<std::uint64_t>::max() - 1);
+  followed_.clear();
+  for (const Collider& c : index_->colliders) followed_.push_back(*c.body_pose);
   near_.resize(robots_.size());
   for (std::vector<std::uint32_t>& near : near_) {
     near.clear();
@@ -103,6 +109,8 @@ void PairCollision::start() {
     led.points.clear();
     led.pairs.reserve(8);
     led.points.reserve(16);
+    led.apart.clear();
+    led.apart.reserve(Led::most_apart);
   }
 }
 
@@ -112,19 +120,25 @@ void PairCollision::step(const Step& step, Range range) {
     case 0:
       overlaps_.update(*index_);
       is_crowded_ = robots_have_planes_ || overlaps_.any_robots();
+      is_anyone_near_ = 0;
       return;
     case 1:
       for (std::uint32_t r = range.begin; r < range.end; ++r) {
         find_near_robots(r);
-        if (!near_[r].empty()) place_colliders(r);
+        if (near_[r].empty()) continue;
+        follow(r, step.index);
+        std::atomic_ref(is_anyone_near_).store(1, std::memory_order_relaxed);
       }
       return;
     case 2:
+      for (std::uint32_t r = range.begin; r < range.end; ++r) place_colliders(r);
+      return;
+    case 3:
       for (std::uint32_t r = range.begin; r < range.end; ++r) {
         led_[r].pairs.clear();
         led_[r].points.clear();
         for (const std::uint32_t other : near_[r])
-          if (precedes(r, other) && (lists(r, other) || lists(other, r))) collide_pair(r, other, led_[r]);
+          if (precedes(r, other) && may_touch(r, other)) collide_pair(r, other, led_[r]);
       }
       return;
     default:
@@ -162,80 +176,6 @@ bool PairCollision::lists(std::uint32_t robot, std::uint32_t other) const {
   return mine.lists_all || contact_algorithm_resolves(*mine.world, *theirs.world);
 }
 
-/// A plane reaches everyone.
-bool PairCollision::are_near(std::uint32_t a, std::uint32_t b) const {
-  return robots_[a].has_plane || robots_[b].has_plane || index_->robots[a].bounds.overlaps(index_->robots[b].bounds);
-}
-
-/// In any order.
-void PairCollision::find_near_robots(std::uint32_t robot) {
-  std::vector<std::uint32_t>& near = near_[robot];
-  near.clear();
-  if (!robots_have_planes_) {
-    for (const std::uint32_t other : overlaps_.robots_of(robot))
-      if (are_near(robot, other)) near.push_back(other);
-    return;
-  }
-  for (std::uint32_t other = 0; other < robots_.size(); ++other)
-    if (other != robot && are_near(robot, other)) near.push_back(other);
-}
-
-/// Those that may touch a near robot, as far as the balls around them tell; the bounds of the others are empty.
-void PairCollision::place_colliders(std::uint32_t robot) {
-  const RobotColliders& colliders = index_->robots[robot];
-  for (std::uint32_t k = colliders.first; k < colliders.first + colliders.count; ++k) {
-    const Vec3& centre = index_->colliders[k].body_pose->position;
-    const Vec3 radius = Vec3::Constant(radii_[k]);
-    const Aabb ball{centre - radius, centre + radius};
-    const bool is_near = std::any_of(near_[robot].begin(), near_[robot].end(), [&](std::uint32_t other) {
-      return robots_[other].has_plane || index_->robots[other].bounds.overlaps(ball);
-    });
-    if (is_near)
-      placed_[k] = transformed_collider(k);
-    else
-      placed_[k].bounds = {};
-  }
-}
-
-void PairCollision::collide_pair(std::uint32_t robot, std::uint32_t other, Led& led) {
-  thread_local std::vector<const TransformedCollider*> theirs;
-  thread_local std::vector<ContactPoint> points;
-  const RobotColliders &mine = index_->robots[robot], &of_other = index_->robots[other];
-  const auto first = std::uint32_t(led.points.size());
-  theirs.clear();
-  const bool any_plane = robots_[robot].has_plane || robots_[other].has_plane;
-  for (std::uint32_t k = of_other.first; k < of_other.first + of_other.count; ++k)
-    if (any_plane || placed_[k].bounds.overlaps(mine.bounds)) theirs.push_back(&placed_[k]);
-  if (theirs.empty()) return;
-  for (std::uint32_t k = mine.first; k < mine.first + mine.count; ++k) {
-    const TransformedCollider& a = placed_[k];
-    if (!any_plane && !a.bounds.overlaps(of_other.bounds)) continue;
-    for (const TransformedCollider* b : theirs) {
-      if (!a.bounds.overlaps(b->bounds)) continue;
-      if (a.shape.kind == ShapeKind::plane && b->shape.kind == ShapeKind::plane) continue;
-      points.clear();
-      collide(a, *b, points);
-      for (const ContactPoint& p : points) led.points.push_back({k, b->number, p});
-    }
-  }
-  if (const auto count = std::uint32_t(led.points.size()) - first; count > 0)
-    led.pairs.push_back({other, first, count});
-}
-
-/// Null: the two do not touch.
-const PairCollision::Led::Pair* PairCollision::pair_of(std::uint32_t robot, std::uint32_t other) const {
-  const bool leads = precedes(robot, other);
-  for (const Led::Pair& p : led_[leads ? robot : other].pairs)
-    if (p.robot == (leads ? other : robot)) return &p;
-  return nullptr;
-}
-
-bool PairCollision::touches_robots(std::uint32_t robot) const {
-  return is_crowded_ != 0 && std::any_of(near_[robot].begin(), near_[robot].end(), [&](std::uint32_t other) {
-           return pair_of(robot, other) != nullptr && lists(robot, other);
-         });
-}
-
 Candidates& PairCollision::candidates(std::uint32_t robot) {
   thread_local Candidates found;
   const Robot& mine = robots_[robot];
@@ -243,7 +183,7 @@ Candidates& PairCollision::candidates(std::uint32_t robot) {
   found.robots.clear();
   if (!has_contacts(mine)) return found;
   if (lists_scenery(mine)) add_scenery(overlaps_.of(robot, *index_), index_->robots[robot].bounds, found);
-  if (is_crowded_ == 0) return found;
+  if (is_anyone_near_ == 0) return found;
   for (const std::uint32_t other : near_[robot])
     if (pair_of(robot, other) && lists(robot, other)) found.robots.push_back(other);
   std::sort(found.robots.begin(), found.robots.end(),

@@ -42,13 +42,14 @@ struct Candidates {
 
 /// Base of the collision algorithms; they provide the narrow phase.
 ///
-/// Phase 0 updates the broad phase. While any two robots are near each other, phase 1 finds out where the shapes of
-/// such robots are, and phase 2 computes each pair of robots once, from the side of the one with the lower key. In
-/// phase 3 each robot that needs it gets its list of contacts, sorted by own body, other body, own shape and other
-/// shape: with scenery in the order of declaration and with robots in the order of their keys. The robot with the
-/// higher key has the contacts of the pair mirrored, so both lists agree to the bit. Lists depend neither on the order
-/// in which robots were declared nor on the number of threads. A contact is listed only where the contact algorithm
-/// resolves it (contact_responsibility.hpp), or where somebody else reads the list.
+/// Phase 0 updates the broad phase. While any two robots are near each other, phase 1 finds out who is near whom, and
+/// how far such robots have moved; phase 2 where the shapes are of those that may touch; and phase 3 computes each pair
+/// of robots once, from the side of the one with the lower key. A pair that is apart by some distance is left out until
+/// both have moved that far together. In phase 4 each robot that needs it gets its list of contacts, sorted by own
+/// body, other body, own shape and other shape: with scenery in the order of declaration and with robots in the order
+/// of their keys. The robot with the higher key has the contacts of the pair mirrored, so both lists agree to the bit.
+/// Lists depend neither on the order in which robots were declared nor on the number of threads. A contact is listed
+/// only where the contact algorithm resolves it (contact_responsibility.hpp), or where somebody else reads the list.
 class PairCollision : public Algorithm {
  public:
   void connect(Connector& c) override;
@@ -73,6 +74,8 @@ class PairCollision : public Algorithm {
   /// Adds the points in which two colliders overlap, whose bounds do; the normals point from `b` to `a`. [any thread]
   virtual void collide(const TransformedCollider& a, const TransformedCollider& b,
                        std::vector<ContactPoint>& points) = 0;
+  /// A distance (m) that two colliders are apart at least; not positive: unknown, or they touch. [any thread]
+  virtual double distance_bound(const TransformedCollider& a, const TransformedCollider& b) const;
   /// Lists the contacts of all robots of a block that have a list.
   virtual void list_contacts(Range robots);
 
@@ -103,13 +106,21 @@ class PairCollision : public Algorithm {
     std::uint32_t own, other;  ///< colliders
     ContactPoint point;
   };
-  /// The robots that one touches and precedes.
+  /// What holds of a pair of robots as long as both together have moved less than `until`, m, in all.
+  struct Apart {
+    std::uint32_t robot;
+    bool is_apart;  ///< they do not touch; otherwise: to measure how far they are apart is not worth while
+    double until;
+  };
+  /// The robots that one precedes, and touches or not.
   struct Led {
+    static constexpr std::size_t most_apart = 12;  ///< further ones are forgotten
     struct Pair {
       std::uint32_t robot, first, count;  ///< in `points`
     };
     std::vector<Pair> pairs;
     std::vector<PairPoint> points;
+    std::vector<Apart> apart;
   };
 
   TransformedCollider transformed_collider(std::uint32_t collider) const;
@@ -118,23 +129,33 @@ class PairCollision : public Algorithm {
   bool lists(std::uint32_t robot, std::uint32_t other) const;
   bool are_near(std::uint32_t a, std::uint32_t b) const;
   void find_near_robots(std::uint32_t robot);
+  void follow(std::uint32_t robot, std::uint64_t step);
+  bool may_touch(std::uint32_t a, std::uint32_t b) const;
   void place_colliders(std::uint32_t robot);
   void collide_pair(std::uint32_t robot, std::uint32_t other, Led& led);
+  double robot_distance(std::uint32_t robot, std::uint32_t other) const;
+  void note_distance(std::uint32_t robot, std::uint32_t other, Led& led) const;
   const Led::Pair* pair_of(std::uint32_t robot, std::uint32_t other) const;
   void add_scenery(const OverlapCache::Overlaps& overlaps, const Aabb& bounds, Candidates& candidates) const;
   template <class Sink>
   void collide_scenery(Candidates& candidates, Sink sink);
   void add_listed(std::uint32_t robot, std::uint32_t other, std::uint32_t rank, Candidates& candidates) const;
 
-  std::uint8_t is_crowded_ = 0;  ///< any two robots may be near each other
-  const Phase all_phases_[4] = {
+  std::uint8_t is_crowded_ = 0;      ///< any two robots may be near each other
+  std::uint8_t is_anyone_near_ = 0;  ///< any two are
+  const Phase all_phases_[5] = {
       {Phase::IndexSpace::whole},
       {.index_space = Phase::IndexSpace::robots, .scope = Phase::Scope::own_robot, .enabled = &is_crowded_},
-      {.index_space = Phase::IndexSpace::robots, .enabled = &is_crowded_},
+      {.index_space = Phase::IndexSpace::robots, .enabled = &is_anyone_near_},
+      {.index_space = Phase::IndexSpace::robots, .enabled = &is_anyone_near_},
       {.index_space = Phase::IndexSpace::robots}};
   std::vector<Led> led_;                          ///< by robot
   std::vector<std::vector<std::uint32_t>> near_;  ///< by robot: whose bounds overlap its own, while any two may be near
-  std::vector<TransformedCollider> placed_;       ///< by collider; without bounds where none of those is near
+  std::vector<double> travel_;                ///< by robot, m: an upper bound of how far its shapes have moved in all
+  std::vector<double> last_move_;             ///< by robot, m: in the last step; 0 where that is not known
+  std::vector<std::uint64_t> followed_in_;    ///< by robot: in which step last
+  std::vector<Pose> followed_;                ///< by collider, of first ones of bodies: where the body was then
+  std::vector<TransformedCollider> placed_;   ///< by collider; without bounds where none of those is near
   std::vector<double> radii_;                 ///< by collider, m: of a ball about the origin of its body that holds it
   std::vector<std::uint32_t> first_of_body_;  ///< by collider: the first of its body
   bool is_needed_ = false;
