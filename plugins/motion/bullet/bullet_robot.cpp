@@ -213,16 +213,21 @@ void BulletRobot::find_inverse_inertia(double dt) {
   find_inertia(dt);
   const Eigen::Index free = inertia_.rows(), all = inverse_inertia_.rows();
   invert_positive_definite(inertia_.data(), int(free), inverse_inertia_.data() + (all - free) * (all + 1), int(all));
-  // The bodies have moved on without damping, which acts on velocities at the end of the step: implicit Euler.
-  for (std::size_t i = 1; i < body_states_.size(); ++i)
-    damping_impulses_[Eigen::Index(i) - 1] = dt * model_->bodies[i].limits.damping * velocity_[Eigen::Index(5 + i)];
+  // The bodies have moved on without damping, which acts on velocities at the end of the step (implicit Euler), and
+  // without the rotors of drives, which resist the change of velocity.
+  for (std::size_t i = 1; i < body_states_.size(); ++i) {
+    const JointLimits& limits = model_->bodies[i].limits;
+    const auto k = Eigen::Index(5 + i);
+    damping_impulses_[Eigen::Index(i) - 1] =
+        dt * limits.damping * velocity_[k] + limits.armature * (velocity_[k] - position_velocity_[k]);
+  }
   for (std::size_t i = 1; i < body_states_.size(); ++i)
     if (const double impulse = damping_impulses_[Eigen::Index(i) - 1]; impulse != 0)
       velocity_ -= impulse * inverse_inertia_.col(Eigen::Index(5 + i));
 }
 
 /// Composite-rigid-body algorithm (Featherstone, Rigid Body Dynamics Algorithms, 6.2), all about the base's centre of
-/// mass, with dt times the damping of joints added.
+/// mass, with the armature and dt times the damping of joints added.
 void BulletRobot::find_inertia(double dt) {
   for (std::size_t i = 0; i < body_states_.size(); ++i) {
     const Inertia& inertia = model_->bodies[i].inertia;
@@ -242,7 +247,8 @@ void BulletRobot::find_inertia(double dt) {
     SpatialForce momentum;
     momentum << c.inertia * spin + c.first_moment.cross(move), c.mass * move + spin.cross(c.first_moment);
     const Eigen::Index row = base + Eigen::Index(i);
-    inertia_(row, row) = motion_subspaces_[i].dot(momentum) + dt * model_->bodies[i].limits.damping;
+    const JointLimits& limits = model_->bodies[i].limits;
+    inertia_(row, row) = motion_subspaces_[i].dot(momentum) + limits.armature + dt * limits.damping;
     for (auto k = std::size_t(model_->bodies[i].parent); k > 0; k = std::size_t(model_->bodies[k].parent))
       inertia_(row, base + Eigen::Index(k)) = motion_subspaces_[k].dot(momentum);
     if (!model_->fixed_base) inertia_.block<1, 6>(row, 0) = momentum.transpose();

@@ -48,7 +48,8 @@ class BulletRobot {
   double* velocity() { return velocity_.data(); }
   double* position_velocity() { return position_velocity_.data(); }  ///< moves positions in this step
   const double* velocity() const { return velocity_.data(); }
-  /// Of the joint-space inertia matrix, damping of joints included: the velocities that unit impulses make.
+  /// Of the joint-space inertia matrix, armature and damping of joints included: the velocities that unit impulses
+  /// make.
   const Eigen::MatrixXd& inverse_inertia() const { return inverse_inertia_; }
   /// Adds `sign` times the generalised force of a wrench on a body to `row`: a row of the Jacobian.
   void add_jacobian(std::size_t body, const SpatialForce& wrench, double sign, double* row) const;
@@ -93,7 +94,7 @@ class BulletRobot {
   };
   std::vector<Composite> composites_;
   Vector velocity_, position_velocity_;
-  Vector damping_impulses_;  ///< N s or N m s in a step, one per joint
+  Vector damping_impulses_;  ///< N s or N m s in a step, of damping and rotors, one per joint
   Eigen::MatrixXd inertia_, inverse_inertia_;
 };
 

@@ -28,7 +28,9 @@ inline constexpr Parameter parameters[] = {
     drive_stiffness,
     drive_damping,
     interpolate,
-    real("armature", "kg m^2 or kg", 0, "inertia of each drive, felt by joints that forces move").between(0, 1e6),
+    real("armature", "kg m^2 or kg", 0,
+         "inertia of each drive beyond that of the model, felt by joints that forces move")
+        .between(0, 1e6),
     text("base", "free", "free to move, or fixed to the world where it starts").one_of(base_modes),
     watch::watch,
     watch::watch_speed,
@@ -72,9 +74,9 @@ inline constexpr Description description{
     .features = feature_forces | feature_joints | feature_velocity_targets | feature_position_targets |
                 feature_acceleration_targets | feature_effort_targets | feature_joint_limits |
                 feature_joint_speed_limits | feature_joint_effort_limits | feature_joint_damping |
-                feature_joint_friction | feature_mimic_joints | feature_gyroscopic | feature_contact |
-                feature_friction | feature_restitution | feature_rolling_resistance | feature_spinning_resistance |
-                feature_convex_meshes | feature_concave_meshes | feature_fixed_base,
+                feature_joint_friction | feature_armature | feature_mimic_joints | feature_gyroscopic |
+                feature_contact | feature_friction | feature_restitution | feature_rolling_resistance |
+                feature_spinning_resistance | feature_convex_meshes | feature_concave_meshes | feature_fixed_base,
 };
 
 }  // namespace muro::simplified

@@ -27,7 +27,7 @@ ForceDrivenJoints::ForceDrivenJoints(Connector& c, const RobotView& robot, std::
   dynamics_.update({}, {}, positions_, Vec3::Zero());
   for (const DecoupledDynamics::Dof& dof : dynamics_.dofs()) {
     const Link& link = robot.links[dof.link];
-    const double inertia = dof.inertia + settings.armature;
+    const double armature = settings.armature + link.limits.armature, inertia = dof.inertia + armature;
     if (!(inertia > least_dof_inertia))
       throw Error("joint `" + std::string(c.object_name(link.joint_object)) + "` moves an inertia of " +
                   std::to_string(inertia) +
@@ -92,7 +92,7 @@ bool ForceDrivenJoints::move(double dt) {
   for (std::size_t k = 0; k < joints_.size(); ++k) {
     const Joint& j = joints_[k];
     const DecoupledDynamics::Dof& dof = dynamics_.dofs()[k];
-    const double inertia = std::max(dof.inertia + settings_.armature, j.min_inertia);
+    const double inertia = std::max(dof.inertia + settings_.armature + j.limits.armature, j.min_inertia);
     DofState state{*j.properties.position, *j.properties.velocity};
     if (j.properties.mode == DriveMode::effort || j.properties.mode == DriveMode::passive) {
       *j.effort = j.properties.target ? std::clamp(*j.properties.target, -j.limits.effort, j.limits.effort) : 0;

@@ -198,7 +198,8 @@ class Simplified final : public Algorithm {
     DecoupledDynamics dynamics(robot.links, inertias, joints, c.parameters().text("base") == "fixed");
     dynamics.update({}, {}, start, Vec3::Zero());
     for (const DecoupledDynamics::Dof& dof : dynamics.dofs())
-      result[dof.link] = dof.inertia + c.parameters().real("armature") > least_dof_inertia;
+      result[dof.link] =
+          dof.inertia + c.parameters().real("armature") + robot.links[dof.link].limits.armature > least_dof_inertia;
     return result;
   }
 

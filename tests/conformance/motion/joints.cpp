@@ -164,6 +164,13 @@ Outcome far_stop(const std::string& motion) {
   return {std::abs(farthest - 6), text(farthest) + " for 6"};
 }
 
+Outcome armature(const std::string& motion) {
+  Joint j(motion, "effort", {.armature = 0.3});
+  j.of(keys::joint_effort_target) = 0.2;
+  j.run_for(1);
+  return relative(j.of(keys::joint_velocity), 0.2 / (moment + 0.3));
+}
+
 Outcome mimic(const std::string& motion) {
   Trial t(motion);
   t.set_gravity(Vec3::Zero());
@@ -226,9 +233,11 @@ std::vector<Case> joint_cases() {
       {"a drive is no faster than its limit of velocity", "relative",
        fixed | feature_velocity_targets | feature_joint_speed_limits, 1e-6, speed_limit},
       {"a position drive holds an arm against gravity", "rad", fixed | feature_position_targets, 2e-3, holds},
-      {"a drive tells with what effort it holds an arm", "relative",
-       fixed | feature_position_targets | feature_forces, 1e-2, tells_effort},
+      {"a drive tells with what effort it holds an arm", "relative", fixed | feature_position_targets | feature_forces,
+       1e-2, tells_effort},
       {"an effort turns a link as its inertia says", "relative", fixed | feature_effort_targets, 1e-6, effort},
+      {"a rotor resists as an inertia at the joint", "relative", fixed | feature_effort_targets | feature_armature,
+       1e-6, armature},
       {"an effort shifts a link as its mass says", "relative", fixed | feature_effort_targets, 1e-6, slider},
       {"an effort is cut at the limit of the model", "relative",
        fixed | feature_effort_targets | feature_joint_effort_limits, 1e-6, effort_limit},
