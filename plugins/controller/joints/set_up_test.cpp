@@ -63,7 +63,7 @@ TEST(SetUpOfJoints, AJointThatNoMotionSimulatesIsNamed) {
   const std::string complaint = test::complaint_of<SetupError>([] {
     wire::Served s;
     s.add("arm_0", arm_tree());
-    s.use("motion.point", 1000, s.all_robots());
+    s.use("motion.point", 1000, s.all_robots(), {{"joints", "passive"}});
     s.use("controller.joints", 50, s.all_robots(), stream_at("tcp=0", {{"groups", Texts{"arm=elbow"}}}));
     s.build();
   });

@@ -16,7 +16,7 @@ struct Looking : test::Scene {
     const RobotTree tree = two_arms();
     for (const char* name : {"bots_10", "bots_2", "bots_1", "other"})
       robots.push_back(&add(name, tree, {{double(robots.size()), 0, 0}, Quat::Identity()}));
-    use("motion.point", 20, all_robots());
+    use("motion.point", 20, all_robots(), {{"joints", "passive"}});
     if (!settings.contains("outputs")) settings["outputs"] = Texts{"commands=command.twist"};
     settings["library"] = folder + "look.so";
     use("controller.library", 10, {{robots[0], robots[0]->base()}}, std::move(settings));
@@ -163,7 +163,7 @@ TEST(Ports, InRadiansAreForJointsThatTurn) {
   });
   const RobotView& a = s.add("a", slider);
   s.world().set(s.world().object("a/rail"), keys::joint_velocity, 0.5);
-  s.use("motion.point", 20, s.all_robots());
+  s.use("motion.point", 20, s.all_robots(), {{"joints", "passive"}});
   s.use("controller.library", 10, {{&a, a.base()}},
         {{"library", folder + "look.so"},
          {"inputs", Texts{"velocity=joint.velocity"}},

@@ -43,7 +43,8 @@ RobotTree head() {
 struct Heads : test::Scene {
   explicit Heads(const std::vector<Pose>& starts) {
     for (std::size_t i = 0; i < starts.size(); ++i) add("head_" + std::to_string(i), head(), starts[i]);
-    use("motion.point", 1, all_robots());  // moves at t = 0; kinematics at 0.01 s sees the result
+    // moves bases at t = 0; kinematics at 0.01 s sees the result
+    use("motion.point", 1, all_robots(), {{"joints", "passive"}});
     use("kinematics.direct", 100, all_robots());
     build();
   }
