@@ -76,14 +76,14 @@ bool heeds_contacts(const World& world, const RobotView& robot) {
 }
 
 /// A body of the scene below, the same in each of its kinds.
-struct Body {
+struct ShapeOfBody {
   ObjectId object;     ///< the base of a robot, or scenery
   std::uint32_t link;  ///< of a robot, in Names
-  auto operator<=>(const Body&) const = default;
+  auto operator<=>(const ShapeOfBody&) const = default;
 };
 
 struct PairContact {
-  std::array<Body, 2> bodies;
+  std::array<ShapeOfBody, 2> bodies;
   double depth;
 };
 
@@ -222,11 +222,11 @@ class Still {
     still_.add(std::move(collision));
   }
 
-  Body body_of(ObjectId object, std::uint32_t shape) const {
+  ShapeOfBody body_of(ObjectId object, std::uint32_t shape) const {
     const auto robot = robots_.find(object);
     return {object, robot == robots_.end() ? 0 : robot->second.link_of_shape[shape]};
   }
-  const std::string& name_of(const Body& body) const {
+  const std::string& name_of(const ShapeOfBody& body) const {
     const auto robot = robots_.find(body.object);
     return robot == robots_.end() ? world_.object_name(body.object) : robot->second.of_link[body.link];
   }
