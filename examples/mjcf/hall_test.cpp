@@ -58,19 +58,23 @@ TEST(Hall, TheBallLiesOnTheFloor) {
 TEST(Hall, InOtherMotionsJointsFollowWhatTheFileDrivesThemBy) {
   // where its servos hold the arm follows from their gains and its weight, whatever moves it
   BuiltScenario as_in_file = open(),
-                by_bullet = open({"robots.arm.motion={use: motion.bullet, base: fixed, rate: 500}"});
+                by_bullet =
+                    open({"robots.arm.motion={use: motion.bullet, base: fixed, rate: 500, shadow: {use: motion.ode, "
+                          "base: fixed}}"});
   for (BuiltScenario* built : {&as_in_file, &by_bullet}) {
     World& world = built->simulation->world();
     world.value(world.object("arm/yaw"), keys::joint_position_target) = 0.5;
     built->simulation->run_for(5);
   }
-  const auto position = [](const BuiltScenario& built, const char* joint) {
+  const auto position = [](const BuiltScenario& built, const std::string& joint) {
     const World& world = built.simulation->world();
     return world.value(world.object(joint), keys::joint_position);
   };
   EXPECT_NEAR(position(by_bullet, "arm/yaw"), 0.5, 1e-3);
-  for (const char* joint : {"arm/yaw", "arm/shoulder", "arm/elbow"})
-    EXPECT_NEAR(position(by_bullet, joint), position(as_in_file, joint), 1e-3) << joint;
+  for (const std::string joint : {"yaw", "shoulder", "elbow"}) {
+    EXPECT_NEAR(position(by_bullet, "arm/" + joint), position(as_in_file, "arm/" + joint), 1e-3) << joint;
+    EXPECT_NEAR(position(by_bullet, "arm.shadow/" + joint), position(as_in_file, "arm/" + joint), 1e-3) << joint;
+  }
 }
 
 }  // namespace

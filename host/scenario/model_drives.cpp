@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <memory>
 #include <optional>
 
 #include "muro/toolkit/joint_drives.hpp"
@@ -95,6 +96,16 @@ void add_drives(Subsystem& s, const Description& d, const std::vector<ModelDrive
   }
 }
 
+/// A motion, and that of its shadow.
+void add_to_motion(Subsystem& s, const std::vector<ModelDrive>& drives, Algorithms& algorithms) {
+  if (s.use.starts_with("motion.") && s.parameters.count("joints") == 0)
+    if (const Description* const d = algorithms.describe(s)) add_drives(s, *d, drives);
+  if (!s.shadow) return;
+  auto shadow = std::make_shared<Subsystem>(*s.shadow);
+  add_to_motion(*shadow, drives, algorithms);
+  s.shadow = std::move(shadow);
+}
+
 }  // namespace
 
 void add_model_drives(RobotTemplate& t, const RobotTree& tree, Algorithms& algorithms) {
@@ -102,9 +113,7 @@ void add_model_drives(RobotTemplate& t, const RobotTree& tree, Algorithms& algor
   if (drives.empty()) return;
   SubsystemsOfRobots changed;
   for (std::vector<Subsystem> list : t.subsystems.lists()) {
-    for (Subsystem& s : list)
-      if (s.use.starts_with("motion.") && s.parameters.count("joints") == 0)
-        if (const Description* const d = algorithms.describe(s)) add_drives(s, *d, drives);
+    for (Subsystem& s : list) add_to_motion(s, drives, algorithms);
     changed.add_list(std::move(list));
   }
   for (std::size_t i = 0; i < t.subsystems.size(); ++i)
