@@ -131,7 +131,7 @@ std::vector<Finding> findings_of(const ModelFacts& facts, const CheckedMotion& m
   const auto says = [&](const char* text) { return motion.id + ": " + text; };
   if (forces && motion.fixed_base && facts.moving_links > 0 && !facts.moves_mass())
     all.push_back({fmt::format("no link that moves has mass: {}", counted(facts.without_mass, "link", names)),
-                   says("joints follow their targets within limits, without forces"),
+                   says("joints follow targets of position or velocity within limits, without forces"),
                    "For forces, give the links mass and inertia: `<inertial>`."});
   if (!facts.has_collision_shapes)
     all.push_back({"no link has a shape for collision",

@@ -53,8 +53,9 @@ TEST(ModelCheck, TellsOnceOfARobotThatNoForceCanMove) {
       "[2, 2]}}}\n");
   EXPECT_SAYS(said,
               "`arms` (12 robots), arm.urdf: 7 links, 6 joints, 0 kg; motion.simplified\n  - no link that moves has "
-              "mass: 6 links (`link_0`, `link_1`, `link_2` and 3 more);\n      motion.simplified: joints follow their "
-              "targets within limits, without forces\n      For forces, give the links mass and inertia: "
+              "mass: 6 links (`link_0`, `link_1`, `link_2` and 3 more);\n      motion.simplified: joints follow "
+              "targets of position or velocity within limits, without forces\n      For forces, give the links mass "
+              "and inertia: "
               "`<inertial>`.\n");
   EXPECT_EQ(count_of(said, "has mass"), 1u) << said;
   EXPECT_EQ(count_of(said, "has a mass"), 0u) << said;
