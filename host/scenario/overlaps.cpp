@@ -87,8 +87,8 @@ struct PairContact {
   double depth;
 };
 
-/// By robot: whether its motion takes scenery meshes as their convex hulls. A world says so by `scenery_meshes`, or
-/// knows nothing else; for all others the collision algorithm decides, by `meshes`.
+/// By robot: whether its motion takes scenery meshes as their convex hulls. A world says so by `meshes`, or
+/// knows nothing else; for all others the collision algorithm decides, by the same.
 std::vector<bool> takes_hulls_of_scenery(const Simulation& simulation) {
   const auto is_convex = [](const Instance& instance, std::string_view name, bool otherwise,
                             const std::map<std::string, ParameterInput>& given) {
@@ -111,7 +111,7 @@ std::vector<bool> takes_hulls_of_scenery(const Simulation& simulation) {
     for (std::size_t i = 0; i < setup.items.size(); ++i)
       if (setup.items[i].robot)
         all[setup.items[i].robot->number] =
-            is_convex(*instance, "scenery_meshes", true,
+            is_convex(*instance, "meshes", true,
                       setup.item_setups.empty() ? setup.parameters : setup.item_setups[i].parameters);
   }
   return all;
@@ -212,10 +212,9 @@ class Still {
       return std::any_of(catalog.begin(), catalog.end(), [&](const CatalogEntry& e) { return e.id == id; });
     };
     AlgorithmSetup collision;
-    const bool meshes = has_meshes_ && is_there("collision.bullet");
-    collision.use = meshes ? "collision.bullet" : "collision.native";
-    if (meshes) collision.parameters["meshes"] = std::string(hulls_ ? "convex" : "exact");
-    finds_contacts_ = is_there("scene.bvh") && is_there(collision.use) && !robots_.empty() && (meshes || !hulls_);
+    collision.use = "collision.native";
+    collision.parameters["meshes"] = std::string(hulls_ ? "convex" : "exact");
+    finds_contacts_ = is_there("scene.bvh") && is_there(collision.use) && !robots_.empty() && (has_meshes_ || !hulls_);
     if (!finds_contacts_) return;
     collision.rate = Rate(1);
     still_.use("scene.bvh", 0);
