@@ -30,12 +30,25 @@ struct Block {
 void add_findings(std::vector<Finding>& all, const std::vector<Finding>& more) {
   for (const Finding& f : more) {
     const auto same = std::find_if(all.begin(), all.end(), [&](const Finding& k) { return k.what == f.what; });
-    if (same == all.end())
+    if (same == all.end()) {
       all.push_back(f);
-    else if (same->effect.find(f.effect) == std::string::npos)
-      same->effect += "; " + f.effect;
+      continue;
+    }
+    for (const Effect& e : f.effects) {
+      const auto known =
+          std::find_if(same->effects.begin(), same->effects.end(), [&](const Effect& k) { return k.text == e.text; });
+      if (known == same->effects.end())
+        same->effects.push_back(e);
+      else
+        for (const std::string& motion : e.motions)
+          if (std::find(known->motions.begin(), known->motions.end(), motion) == known->motions.end())
+            known->motions.push_back(motion);
+    }
   }
 }
+
+/// "motion.ode, motion.bullet: joints follow ..."
+std::string text_of(const Effect& e) { return e.motions.empty() ? e.text : comma_separated(e.motions) + ": " + e.text; }
 
 class ModelCheck {
  public:
@@ -59,11 +72,11 @@ class ModelCheck {
     block.robots = t.subsystems.size();
     std::string used;
     for (const CheckedMotion& m : motions) {
-      used += (used.empty() ? "" : ", ") + m.id;
+      if (used.find(m.id) == used.npos) used += (used.empty() ? "" : ", ") + m.id;
       add_findings(block.findings, findings_of(facts, m, names_));
       for (const UnsupportedFeatures& u : unsupported_)
         if (u.robots == t.name && u.motion == m.id)
-          block.findings.push_back({"", fmt::format("{}: {}", m.id, text_of(u, Detail::brief)), ""});
+          block.findings.push_back({"", {{text_of(u, Detail::brief), {m.id}}}, ""});
     }
     const std::string file = t.shape        ? "a shape"
                              : t.from_world ? "a model of the world file"
@@ -109,10 +122,13 @@ void add_text(const Block& b, std::size_t names, std::vector<std::string>& lines
   const std::string count = b.robots > b.templates.size() ? fmt::format(" ({} robots)", b.robots) : "";
   lines.push_back(fmt::format("{}{}, {}", first_of(b.templates, names), count, b.model));
   for (const Finding& f : b.findings) {
-    const bool one_line = f.what.empty() || f.what.size() + f.effect.size() < 90;
-    const char* const separator = f.what.empty() || f.effect.empty() ? "" : one_line ? "; " : ";\n      ";
-    lines.push_back(
-        fmt::format("  - {}{}{}{}", f.what, separator, f.effect, f.remedy.empty() ? "" : "\n      " + f.remedy));
+    std::string text = "  - " + f.what;
+    for (const Effect& e : f.effects) {
+      const bool one_line = f.what.empty() || (f.effects.size() == 1 && f.what.size() + text_of(e).size() < 90);
+      text += (f.what.empty() ? "" : one_line ? "; " : ";\n      ") + text_of(e);
+    }
+    if (!f.remedy.empty()) text += "\n      " + f.remedy;
+    lines.push_back(std::move(text));
   }
 }
 
@@ -128,7 +144,7 @@ std::string first_of(const std::vector<std::string>& names, std::size_t most) {
 std::vector<Finding> findings_of(const ModelFacts& facts, const CheckedMotion& motion, std::size_t names) {
   std::vector<Finding> all;
   const bool forces = (motion.features & feature_forces) != 0;
-  const auto says = [&](const char* text) { return motion.id + ": " + text; };
+  const auto says = [&](const char* text) { return std::vector<Effect>{{text, {motion.id}}}; };
   if (forces && motion.fixed_base && facts.moving_links > 0 && !facts.moves_mass())
     all.push_back({fmt::format("no link that moves has mass: {}", counted(facts.without_mass, "link", names)),
                    says("joints follow targets of position or velocity within limits, without forces"),
@@ -141,7 +157,8 @@ std::vector<Finding> findings_of(const ModelFacts& facts, const CheckedMotion& m
                    "Give its links shapes: `<collision>`."});
   if (!facts.clamped.empty())
     all.push_back({counted(facts.clamped, "joint", names) + " cannot be at 0 at the start",
-                   "the nearest limit is taken", "To start elsewhere, set `joints: {NAME: POSITION}` of the robot."});
+                   {{"the nearest limit is taken", {}}},
+                   "To start elsewhere, set `joints: {NAME: POSITION}` of the robot."});
   if ((motion.features & feature_joint_effort_limits) != 0 && facts.moves_mass() && !facts.of_any_strength.empty())
     all.push_back({counted(facts.of_any_strength, "driven joint", names) + " without a limit of effort",
                    says("drives are as strong as it takes"), "State it: `<limit effort>`, N m or N."});

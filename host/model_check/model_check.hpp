@@ -10,11 +10,19 @@
 
 namespace muro::host {
 
+/// What follows from something that a model lacks.
+struct Effect {
+  std::string text;                  ///< "joints follow targets of position or velocity within limits, without forces"
+  std::vector<std::string> motions;  ///< where it does: "motion.ode"; none: with any
+
+  bool operator==(const Effect&) const = default;
+};
+
 /// Something that a model lacks, or a motion leaves out.
 struct Finding {
-  std::string what;    ///< "no link that moves has mass (6 links)"
-  std::string effect;  ///< "motion.ode: joints follow their targets without forces"; may be empty
-  std::string remedy;  ///< "give the links `<inertial>`"; may be empty
+  std::string what;  ///< "no link that moves has mass: 6 links (...)"; may be empty
+  std::vector<Effect> effects;
+  std::string remedy;  ///< "Give the links `<inertial>`."; may be empty
 
   bool operator==(const Finding&) const = default;
 };

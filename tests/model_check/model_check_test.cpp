@@ -61,6 +61,18 @@ TEST(ModelCheck, TellsOnceOfARobotThatNoForceCanMove) {
   EXPECT_EQ(count_of(said, "has a mass"), 0u) << said;
 }
 
+TEST(ModelCheck, TellsTogetherWhatIsTheSameAtSeveralLevels) {
+  const Check check;
+  check.folder.file("arm.urdf", chain(2, ""));
+  const std::string said = check.of(
+      "  arm: {model: arm.urdf, motion: {levels: {a: {use: motion.point}, b: {use: motion.simplified, base: "
+      "fixed}, c: {use: motion.simplified, base: fixed, joints: position}}}}\n");
+  EXPECT_SAYS(said,
+              "no link has a shape for collision;\n      motion.point: nothing meets it;\n      motion.simplified: "
+              "nothing meets it, and it meets nothing\n");
+  EXPECT_EQ(count_of(said, "no link that moves has mass"), 1u) << said;
+}
+
 TEST(ModelCheck, TellsOfARobotThatNothingCanTouch) {
   const Check check;
   check.folder.file("arm.urdf", chain(2, mass));
