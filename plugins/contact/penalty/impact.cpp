@@ -10,23 +10,12 @@
 namespace muro::penalty {
 namespace {
 
-/// Impulses on both bodies, summed.
-struct Push {
-  Vec3 force = Vec3::Zero(), torque = Vec3::Zero(), other_torque = Vec3::Zero();
-
-  void add(const ImpactPoint& p, const Vec3& impulse) {
-    force += impulse;
-    torque += p.lever.cross(impulse);
-    other_torque += p.other_lever.cross(impulse);
-  }
-};
-
 Vec3 spin_by(const ImpactBody& body, const Vec3& torque) { return vector_of(body.mobility.inertia * plain(torque)); }
 
-/// Twice the kinetic energy that the push gives to bodies at rest, each of which has only a part of its mass.
+/// Twice the kinetic energy that the push gives to bodies at rest.
 double energy_of(const Push& push, const ImpactBody& self, const ImpactBody* other) {
   const auto of = [&](const ImpactBody& body, const Vec3& torque) {
-    return body.patches * (body.mobility.mass * push.force.squaredNorm() + torque.dot(spin_by(body, torque)));
+    return body.mobility.mass * push.force.squaredNorm() + torque.dot(spin_by(body, torque));
   };
   return of(self, push.torque) + (other ? of(*other, push.other_torque) : 0);
 }
@@ -125,7 +114,8 @@ std::optional<TimeOfImpact> impact_of(const StepContext& context, const Contact&
   if (before && (before->point - contact.point).squaredNorm() < reach * reach) return {};
   const double fall = other_falls ? 0 : -context.gravity.dot(contact.normal);
   const std::optional<TimeOfImpact> time = time_of_impact(contact.depth, speed, fall);
-  constexpr double share = 1.5;  // forces that are not known here may have slowed them down
+  // Forces that are not known here may have slowed them down, and the path of another impact brought them nearer.
+  const double share = other_falls ? 4 : 1.5;
   if (!time || time->approach < context.impact_speed || time->since > share * std::max(elapsed, step)) return {};
   return time;
 }
@@ -155,6 +145,11 @@ ImpactPoint::ImpactPoint(const StepContext& context, const Contact& contact, con
 
 void ImpactPoint::add_motion(const law::Mobility<double>& self, const Vec3& pushed, const Vec3& turned) {
   velocity += self.mass * pushed + vector_of(self.inertia * plain(turned)).cross(lever);
+  approach = -velocity.dot(normal);
+}
+
+void ImpactPoint::add_motion_of_other(const law::Mobility<double>& body, const Vec3& pushed, const Vec3& turned) {
+  velocity -= body.mass * pushed + vector_of(body.inertia * plain(turned)).cross(other_lever);
   approach = -velocity.dot(normal);
 }
 

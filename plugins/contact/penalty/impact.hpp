@@ -6,6 +6,8 @@
 // exact solution, so that an impact never gains energy, in any number of points.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <span>
 
@@ -31,7 +33,6 @@ struct FreeBody {
 /// A body in an impact.
 struct ImpactBody {
   law::Mobility<double> mobility;
-  double patches = 1;  ///< patches of its impacts in this step: each moves this part of its mass
 };
 
 /// When an impact was, and the speed with which the bodies approached each other then.
@@ -69,12 +70,31 @@ struct ImpactPoint {
 
   /// What an impulse (N s) and a torque impulse (N m s, about its centre) of other points of `self` change.
   void add_motion(const law::Mobility<double>& self, const Vec3& pushed, const Vec3& turned);
+  /// The same of the other body.
+  void add_motion_of_other(const law::Mobility<double>& body, const Vec3& pushed, const Vec3& turned);
+};
+
+/// Impulses (N s, N m s about the centres) on both bodies, summed.
+struct Push {
+  Vec3 force = Vec3::Zero(), torque = Vec3::Zero(), other_torque = Vec3::Zero();
+
+  void add(const ImpactPoint& p, const Vec3& impulse) {
+    force += impulse;
+    torque += p.lever.cross(impulse);
+    other_torque += p.other_lever.cross(impulse);
+  }
 };
 
 /// The friction anchor of a contact in an impact: it is far from every point, so that bodies that go on approaching
 /// each other collide anew.
 inline FrictionAnchor anchor_of_impact(std::uint64_t pair) {
   return {.pair = pair, .point = Vec3::Constant(std::numeric_limits<double>::infinity())};
+}
+
+/// Whether a contact of the pair was in an impact in the step before.
+inline bool was_in_impact(std::span<const FrictionAnchor> before, std::uint64_t pair) {
+  return std::any_of(before.begin(), before.end(),
+                     [&](const FrictionAnchor& a) { return a.pair == pair && std::isinf(a.point.x()); });
 }
 
 /// The mean time since the impacts of some points, s.

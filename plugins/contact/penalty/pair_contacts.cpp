@@ -186,6 +186,10 @@ void PairContacts::apply_forces(std::uint32_t self) {
     const FrictionAnchor* const before = previous<FrictionAnchor>(me.old_anchors, computed++, pair, contact.point);
     FrictionAnchor anchor{pair, contact.point, before ? before->displacement : Vec3::Zero()};
     const Vec3 motion = bodies_.velocity(contact.self, contact.point) - bodies_.velocity(contact.other, contact.point);
+    if (motion.dot(contact.normal) > 0 && was_in_impact(me.old_anchors, pair)) {  // it has what it should have
+      robot.anchors.push_back(anchor_of_impact(pair));
+      continue;
+    }
     anchor.overlap = unmoved_overlap(context_, contact, before, -motion.dot(contact.normal));
     const Vec3 force = force_on_self(robot, patch, contact, anchor);
     robot.anchors.push_back(anchor);

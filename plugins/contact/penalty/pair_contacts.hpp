@@ -22,9 +22,15 @@ class PairContacts {
   static constexpr int passes = 4;
   /// `which`: 0 to 3, in this order. `robot`: one of those that begin() took.
   void pass(int which, std::uint32_t robot);
-  /// The same for all of them.
-  void pass(int which) {
-    for (const std::uint32_t r : robots_) pass(which, r);
+  /// Between passes 1 and 2: the impacts of bodies that are in several, one after the other in the order of their
+  /// times.
+  void resolve_in_turns();
+  /// All passes, for all of them.
+  void run() {
+    for (int which = 0; which < passes; ++which) {
+      if (which == 2) resolve_in_turns();
+      for (const std::uint32_t r : robots_) pass(which, r);
+    }
   }
 
  private:
@@ -39,6 +45,7 @@ class PairContacts {
     Vec3 normal;
     std::int32_t other;             ///< in Bodies::robots, or no_robot
     std::uint32_t model;            ///< of the other
+    bool is_resolved = false;       ///< its points have their impulses
     Wrench reaction{};              ///< on the other's base
     ImpactCorrection correction{};  ///< of the other's path
   };
@@ -74,6 +81,7 @@ class PairContacts {
     std::vector<ImpactPatch> impact_patches;     ///< of the impacts that it computes
     std::vector<ImpactContact> impact_contacts;  ///< of these patches
     std::vector<ImpactPoint> points;             ///< scratch
+    Push pushed;                                 ///< in the impacts of this step that came before
     std::size_t impacts = 0;                     ///< patches in which it is, its own and those of others
     double load = 0;                             ///< its stiffest motion, in units of omega^2
   };
@@ -84,6 +92,7 @@ class PairContacts {
   std::uint32_t add_to_patch(Record& me, const Contact& contact, std::int32_t other_robot) const;
   bool add_impact(std::uint32_t self, const Contact& contact, std::int32_t other_robot, std::size_t place);
   void count_impacts(std::uint32_t self);
+  void resolve_in_turn(std::uint32_t self, std::uint32_t number);
   void apply_impacts(std::uint32_t self);
   void add_impact_reactions(std::uint32_t self);
   FreeBody free_body(std::uint32_t robot) const { return {bodies_, bodies_.base_of(bodies_.robots[robot])}; }
@@ -108,11 +117,19 @@ class PairContacts {
   Record& record(std::uint32_t robot) { return records_[record_of_[robot]]; }
   const Record& record(std::uint32_t robot) const { return records_[record_of_[robot]]; }
 
+  /// An impact patch of a body that is in several, in the order of their times.
+  struct Turn {
+    double since;                 ///< s
+    std::uint64_t key;            ///< order key of the robot
+    std::uint32_t robot, number;  ///< in Bodies::robots; in its impact_patches
+  };
+
   const Bodies& bodies_;
   StepContext context_;
   const std::vector<std::uint8_t>* flags_ = nullptr;  ///< of this step, see begin()
   std::vector<std::uint32_t> robots_;                 ///< of this step
   std::vector<std::uint32_t> record_of_;              ///< by robot: in records_, of those of this step
+  std::vector<Turn> turns_;                           ///< scratch
   std::vector<Record> records_;                       ///< at least one for each robot of this step
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Impacts of robots with each other and with robots that no force moves.
 #include <algorithm>
+#include <tuple>
 
 #include "pair_contacts.hpp"
 
@@ -38,12 +39,63 @@ bool PairContacts::add_impact(std::uint32_t self, const Contact& contact, std::i
   return true;
 }
 
-/// Patches in which a robot is at once share its mass, so that together they give it no energy.
+/// The patches in which it is in this step.
 void PairContacts::count_impacts(std::uint32_t self) {
   Record& me = record(self);
   me.impacts = me.impact_patches.size();
   for (const std::uint32_t owner : me.owners)
     for (const ImpactPatch& p : record(owner).impact_patches) me.impacts += p.other == std::int32_t(self);
+}
+
+/// Each is resolved with the velocities that those before it have left, so that each keeps the energy that restitution
+/// leaves it.
+void PairContacts::resolve_in_turns() {
+  turns_.clear();
+  for (const std::uint32_t robot : robots_) {
+    Record& me = record(robot);
+    me.pushed = {};
+    for (std::uint32_t number = 0; number < me.impact_patches.size(); ++number) {
+      const std::int32_t other = me.impact_patches[number].other;
+      if (me.impacts < 2 && (other == no_robot || record(std::uint32_t(other)).impacts < 2)) continue;
+      double since = 0;
+      for (const ImpactContact& c : me.impact_contacts)
+        if (c.patch == number) since = std::max(since, c.point.since);
+      turns_.push_back({since, bodies_.robots[robot].order_key, robot, number});
+    }
+  }
+  std::sort(turns_.begin(), turns_.end(), [](const Turn& a, const Turn& b) {
+    return std::tuple(-a.since, a.key, a.robot, a.number) < std::tuple(-b.since, b.key, b.robot, b.number);
+  });
+  for (const Turn& turn : turns_) resolve_in_turn(turn.robot, turn.number);
+}
+
+void PairContacts::resolve_in_turn(std::uint32_t self, std::uint32_t number) {
+  Record& me = record(self);
+  ImpactPatch& patch = me.impact_patches[number];
+  patch.is_resolved = true;
+  Record* const other_record = patch.other == no_robot ? nullptr : &record(std::uint32_t(patch.other));
+  me.points.clear();
+  for (const ImpactContact& c : me.impact_contacts)
+    if (c.patch == number) me.points.push_back(c.point);
+  const double since = mean_since(me.points);
+  const ImpactBody own{free_body(self).mobility_before(since)};
+  std::optional<ImpactBody> other;
+  if (other_record) other.emplace(ImpactBody{free_body(std::uint32_t(patch.other)).mobility_before(since)});
+  for (ImpactPoint& p : me.points) {
+    p.add_motion(own.mobility, me.pushed.force, me.pushed.torque);
+    if (other) p.add_motion_of_other(other->mobility, other_record->pushed.force, other_record->pushed.torque);
+  }
+  std::erase_if(me.points, [](const ImpactPoint& p) { return !(p.approach > 0); });
+  if (!me.points.empty()) resolve_impact(me.points, own, other ? &*other : nullptr);
+  auto resolved = me.points.begin();
+  for (ImpactContact& c : me.impact_contacts) {
+    if (c.patch != number || resolved == me.points.end() || resolved->at != c.point.at) continue;
+    c.point.impulse = resolved++->impulse;
+    me.pushed.add(c.point, c.point.impulse);
+    if (!other_record) continue;
+    other_record->pushed.force -= c.point.impulse;
+    other_record->pushed.torque -= c.point.other_lever.cross(c.point.impulse);
+  }
 }
 
 /// Those that a robot computes.
@@ -60,13 +112,13 @@ void PairContacts::apply_impacts(std::uint32_t self) {
     for (const ImpactContact& c : me.impact_contacts)
       if (c.patch == number) me.points.push_back(c.point);
     const double since = mean_since(me.points);
-    const ImpactBody own{body.mobility_before(since), double(me.impacts)};
+    const ImpactBody own{body.mobility_before(since)};
     if (patch.other == no_robot) {
-      resolve_impact(me.points, own, nullptr);
+      if (!patch.is_resolved) resolve_impact(me.points, own, nullptr);
     } else {
       const FreeBody of_other = free_body(std::uint32_t(patch.other));
-      const ImpactBody other{of_other.mobility_before(since), double(record(std::uint32_t(patch.other)).impacts)};
-      resolve_impact(me.points, own, &other);
+      const ImpactBody other{of_other.mobility_before(since)};
+      if (!patch.is_resolved) resolve_impact(me.points, own, &other);
       for (const ImpactPoint& p : me.points)
         add_impulse(context_, *robot.impact_step, p, -p.impulse, of_other, patch.reaction, patch.correction);
     }

@@ -75,13 +75,15 @@ class Penalty final : public Algorithm {
     context.impact_speed = std::max(slowest_impact, gravity_.norm() / context.stiffness.omega);
     context.correcting_speed = correcting_speed_;
     if (step.phase == 0) return scenery_contacts_->apply_forces(context, range);
+    if (step.phase == turns_phase) return pair_contacts_->resolve_in_turns();
+    if (step.phase > turns_phase) return process_pairs(int(step.phase) - 3, range);
     if (step.phase > 1) return process_pairs(int(step.phase) - 2, range);
     *last_run_ = step.time;
     if (context.stiffness.omega < omega_) report(context.stiffness);
     constexpr std::size_t few = 12;  // take less time than distributing them to threads
     const std::size_t count = pair_contacts_->begin(context, scenery_contacts_->remaining());
     many_pairs_ = count > few ? 1 : 0;
-    for (int pass = 0; pass < PairContacts::passes && !many_pairs_; ++pass) pair_contacts_->pass(pass);
+    if (!many_pairs_) pair_contacts_->run();
   }
 
  private:
@@ -111,8 +113,14 @@ class Penalty final : public Algorithm {
   std::uint8_t many_pairs_ = 0;
   const Phase for_many_{.index_space = Phase::IndexSpace::robots, .enabled = &many_pairs_};
   static_assert(PairContacts::passes == 4);
-  const Phase phases_[6] = {
-      {Phase::IndexSpace::robots, Phase::Scope::own_robot}, {}, for_many_, for_many_, for_many_, for_many_};
+  static constexpr std::uint32_t turns_phase = 4;
+  const Phase phases_[7] = {{Phase::IndexSpace::robots, Phase::Scope::own_robot},
+                            {},
+                            for_many_,
+                            for_many_,
+                            {.enabled = &many_pairs_},
+                            for_many_,
+                            for_many_};
 };
 
 constexpr abi::AlgorithmEntry algorithms[] = {algorithm<Penalty>(description)};

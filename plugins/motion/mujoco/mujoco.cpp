@@ -53,6 +53,7 @@ class MujocoMotion final : public multibody::Motion {
   void configure(Connector& c) override {
     const Parameters& p = c.parameters();
     settings_.gravity = gravity();
+    settings_.friction_rule = friction_rule();
     warnings_ = std::make_shared<mujoco::WarningLog>(c.host());
     host_ = &c.host();
     if (p.text("settings") == "model") source_.connect(c);
