@@ -99,11 +99,12 @@ TEST(Compare, SaysANoteOnce) {
               "</geometry></collision></link></robot>");
   const std::string scenario =
       folder.file("s.yaml",
-                  "duration: 0.05\nworld: {objects: {ground: {shape: plane}}}\nrobots: "
-                  "{tool: {model: thin.urdf, at: {z: 1}, motion: {use: motion.simplified}}}\n");
+                  "duration: 0.05\nworld: {objects: {ground: {shape: plane}}}\nrobots:\n"
+                  "  tool: &tool {model: thin.urdf, at: {z: 1}, motion: {use: motion.simplified}}\n"
+                  "  other: {<<: *tool, at: {x: 3, z: 1}}\n");
   const auto result = test::run_command(muro_program + " compare " + scenario + " --vary tool.motion=simplified,point");
   EXPECT_EQ(result.exit_code, 0) << result.output;
-  const std::string note = "the inertia of `tool` is less than a hundredth";
+  const std::string note = "the inertia of `other` is less than a hundredth";
   const std::size_t first = result.output.find(note);
   EXPECT_NE(first, std::string::npos) << result.output;
   EXPECT_EQ(result.output.find(note, first + 1), std::string::npos) << result.output;
