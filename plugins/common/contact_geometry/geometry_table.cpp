@@ -39,14 +39,13 @@ const mesh::Hull* GeometryTable::hull_if_any(const std::string& path, const Vec3
 void GeometryTable::add_mesh(const std::string& path, const Shape& shape, bool exact, Numbers& numbers) {
   const mesh::Mesh& surface = meshes_.mesh(path, shape.size);
   CollisionGeometry geometry{.shape = shape, .box = mesh::bounds_of(surface)};
-  if (exact) {
+  const mesh::Hull* const hull = hull_if_any(path, shape.size);
+  if (exact || !hull) {
     geometry.exact_mesh = &exact_meshes_.emplace_back(surface);
     numbers.usual = add(geometry);
     geometry.exact_mesh = nullptr;
-    geometry.hull = hull_if_any(path, shape.size);
-  } else {
-    geometry.hull = &meshes_.hull(path, shape.size);
   }
+  geometry.hull = hull;
   if (geometry.hull) numbers.convex = add(geometry);
 }
 

@@ -26,8 +26,8 @@ class GeometryTable {
     std::uint32_t usual = none, convex = none;
   };
 
-  /// Reads the meshes of all objects. `exact`: they collide as they are. `added` is called with each geometry, by
-  /// rising number. [setup]
+  /// Reads the meshes of all objects. `exact`: they collide as they are; flat ones, which have no hull, always do.
+  /// `added` is called with each geometry, by rising number. [setup]
   void connect(Connector& c, bool exact, const std::function<void(const CollisionGeometry&)>& added = {});
   /// `colliders` are those of the scene's index. [setup]
   void start(std::span<const Collider> colliders);
