@@ -63,7 +63,7 @@ class SceneBuilder {
                                                : meshes_.bounds_of(shape, o.mesh, {Vec3::Zero(), Quat::Identity()});
     const Vec3 half = 0.5 * (box.high - box.low), centre = 0.5 * (box.low + box.high);
     const int count = p.kind == Placement::Kind::grid ? p.columns * p.rows : int(p.poses.size());
-    const Body body{o.name, -box.low.z(), elementary::hypot(half.x(), half.y())};
+    const Body body{o.name, 0 - box.low.z(), elementary::hypot(half.x(), half.y())};
     Occupancy unused;
     const auto poses = place(p, count, body, scenario_.places, unused);
     for (std::size_t i = 0; i < poses.size(); ++i) {
@@ -87,7 +87,9 @@ class SceneBuilder {
   Inertia inertia_of(const RobotTemplate& t) {
     if (t.mesh.empty()) return homogeneous_inertia(*t.shape, t.mass);
     const std::optional<Inertia> solid = meshes_.inertia_of(t.mesh);
-    if (!solid) throw SetupError(fmt::format("mesh {} has no volume, or cannot be read", t.mesh));
+    if (const std::string& problem = meshes_.problem_of(t.mesh); !problem.empty()) throw SetupError(problem);
+    if (!solid)
+      throw SetupError(fmt::format("mesh {} is flat and has no volume, so a mass gives it no inertia", t.mesh));
     return stretched_inertia(*solid, t.shape->size, t.mass);
   }
 

@@ -35,7 +35,8 @@ const MeshCorners::Body& MeshCorners::body_of(const std::string& path) {
         std::memcpy(static_cast<void*>(&*body.inertia), c.data.data(), sizeof(Inertia));
       }
     }
-  } catch (const SetupError&) {  // reported by who collides with it or draws it
+  } catch (const SetupError& e) {
+    body.problem = e.what();
   }
   return body;
 }

@@ -22,6 +22,8 @@ class MeshCorners {
   /// The inertia of the body that the file describes, solid and with the density of water; none where it is flat or
   /// cannot be read.
   std::optional<Inertia> inertia_of(const std::string& path);
+  /// Why the file cannot be read; empty where it can.
+  const std::string& problem_of(const std::string& path) { return body_of(path).problem; }
   /// The box around a shape that stands at `pose`. `mesh`: the path of a mesh's file.
   Aabb bounds_of(const Shape& shape, const std::string& mesh, const Pose& pose);
 
@@ -29,6 +31,7 @@ class MeshCorners {
   struct Body {
     std::vector<Vec3> corners;
     std::optional<Inertia> inertia;
+    std::string problem;
   };
   const Body& body_of(const std::string& path);
 

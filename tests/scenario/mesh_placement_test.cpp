@@ -77,7 +77,7 @@ TEST_F(AMesh, ThatIsFlatIsNoBodyWithAMass) {
   flat.triangles.resize(2);
   folder_.file("flat.stl", mesh::testing::stl_text(flat));
   EXPECT_SAYS(test::complaint_of([&] { built("robots: {sheet: {shape: {mesh: flat.stl}, mass: 3}}\n"); }),
-              "flat.stl has no volume");
+              "flat.stl is flat and has no volume");
 }
 
 TEST_F(AMesh, OfSceneryIsWhereRandomRobotsAreNot) {
