@@ -114,6 +114,24 @@ class LinkReader {
                                std::clamp(shape.surface.restitution, 0.0, 1.0), "; it is between 0 and 1"));
       shape.surface.restitution = std::clamp(shape.surface.restitution, 0.0, 1.0);
     }
+    turning_resistance(shape.surface, friction, location);
+  }
+
+  /// Bullet's rolling friction, and the torsional friction of a patch with an even pressure under a ball, which is
+  /// 3 pi / 16 mu a (SDFormat, torsional friction).
+  void turning_resistance(Surface& surface, const ::sdf::ElementPtr& friction, const FileLocation& location) {
+    const ::sdf::ElementPtr torsional = child(friction, "torsional");
+    const bool has_patch = torsional && torsional->Get<bool>("use_patch_radius", true).first;
+    surface.rolling_resistance = number(child(friction, "bullet"), "rolling_friction").value_or(0);
+    surface.spinning_resistance = has_patch ? 3 * M_PI / 16 * number(torsional, "coefficient").value_or(1) *
+                                                  number(torsional, "patch_radius").value_or(0)
+                                            : 0;
+    for (double* resistance : {&surface.rolling_resistance, &surface.spinning_resistance}) {
+      if (*resistance >= 0 && *resistance <= limits::max_size) continue;
+      problems_.warning(location, concat(owner_, ": a rolling or torsional friction of ", *resistance,
+                                         " m is left out; it is from 0 to 1e6 m"));
+      *resistance = 0;
+    }
   }
 
   void color(Shape& shape, const ::sdf::ElementPtr& visual) {

@@ -115,7 +115,9 @@ TEST(SdfModels, EveryShapeIsReadWithItsPlaceAndSurface) {
   const std::string surface =
       "<surface><bounce><restitution_coefficient>0.3</restitution_coefficient></bounce>"
       "<friction><ode><mu>0.7</mu><mu2>0.7</mu2></ode></friction></surface>";
-  const std::string bullet = "<surface><friction><bullet><friction>0.2</friction></bullet></friction></surface>";
+  const std::string bullet =
+      "<surface><friction><bullet><friction>0.2</friction><rolling_friction>0.01</rolling_friction></bullet>"
+      "<torsional><coefficient>0.8</coefficient><patch_radius>0.05</patch_radius></torsional></friction></surface>";
   const Robot robot =
       robot_of(model(link("a", collision("c1", "<box><size>1 2 3</size></box>", surface) +
                                    collision("c2", "<sphere><radius>0.5</radius></sphere>", bullet) +
@@ -134,6 +136,9 @@ TEST(SdfModels, EveryShapeIsReadWithItsPlaceAndSurface) {
   EXPECT_EQ(shapes[0].surface.restitution, 0.3);
   EXPECT_EQ(shapes[1].kind, ShapeKind::sphere);
   EXPECT_EQ(shapes[1].surface.friction, 0.2);
+  EXPECT_EQ(shapes[1].surface.rolling_resistance, 0.01);
+  EXPECT_NEAR(shapes[1].surface.spinning_resistance, 3 * M_PI / 16 * 0.8 * 0.05, 1e-12);
+  EXPECT_EQ(shapes[0].surface.spinning_resistance, 0);
   EXPECT_EQ(shapes[2].kind, ShapeKind::cylinder);
   EXPECT_EQ(shapes[2].size, Vec3(0.5, 0, 2));
   EXPECT_EQ(shapes[2].origin.position, Vec3(1, 0, 0));

@@ -47,6 +47,8 @@ Lines reports_of(const std::string& section, const std::string& element) {
     file = in_collision("<surface><" + section + ">" + element + "</" + section + "></surface>");
   if (section == "ode friction")
     file = in_collision("<surface><friction><ode>" + element + "</ode></friction></surface>");
+  if (section == "torsional")
+    file = in_collision("<surface><friction><torsional>" + element + "</torsional></friction></surface>");
   if (section == "bullet friction")
     file = in_collision("<surface><friction><bullet>" + element + "</bullet></friction></surface>");
   if (section == "material")
