@@ -19,6 +19,8 @@ using namespace muro::control;
 
 constexpr std::string_view isolations[] = {"none", "process"};
 constexpr std::string_view failures[] = {"stop", "hold", "restart"};
+constexpr double default_timeout = 5;          // s
+constexpr std::int64_t default_memory = 1024;  // MiB
 constexpr Parameter parameters[] = {
     text("library", "", "path of the library, or its name: `wander` for wander.so or libwander.so").required(),
     texts("inputs",
@@ -29,9 +31,10 @@ constexpr Parameter parameters[] = {
     texts("tunables", "\"name=number\", for numbers that the library lists"),
     texts("rates", "\"task=Hz\", for tasks that the library lists"),
     text("isolate", "none", "process: the control code of each robot runs in a process of its own").one_of(isolations),
-    real("timeout", "s", 5, "with `isolate: process`, how long a call may take, by the clock of the machine")
+    real("timeout", "s", default_timeout,
+         "with `isolate: process`, how long a call may take, by the clock of the machine")
         .between(1e-3, 1e6),
-    integer("memory", 1024, "with `isolate: process`, MiB that the control code of a robot may take")
+    integer("memory", default_memory, "with `isolate: process`, MiB that the control code of a robot may take")
         .between(1, 1 << 24),
     text("on_failure", "stop",
          "what becomes of the run: it ends, the robot is left at rest, or its control code begins "
@@ -129,6 +132,12 @@ class LibraryController final : public Algorithm {
     settings_.restarts = std::uint32_t(p.integer("restarts"));
     settings_.limits = {p.real("timeout"), std::uint64_t(p.integer("memory")) << 20};
     settings_.host = &c.host();
+    const bool limited = p.real("timeout") != default_timeout || p.integer("memory") != default_memory;
+    if (limited && p.text("isolate") != "process")
+      c.host().log(
+          LogLevel::warning,
+          "`timeout` and `memory` bound control code in a process of its own alone; nothing bounds it here: set "
+          "`isolate: process`");
     settings_.notes = CallNotes::of(c.host());
   }
 

@@ -41,6 +41,12 @@ struct Failing : Team {
   std::string log;
 };
 
+TEST(IsolatedController, IsTheOnlyOneThatLimitsBound) {
+  Failing alone("nothing", {{"isolate", std::string("none")}, {"timeout", 0.5}});
+  EXPECT_TRUE(says(alone.log, "`timeout` and `memory` bound control code in a process of its own alone"));
+  EXPECT_EQ(Failing("nothing").log.find("bound control code"), std::string::npos);
+}
+
 TEST(IsolatedController, EndsTheRunWithRobotTimeCauseAndStackWhenItCrashes) {
   Failing team("invalid_memory");
   const std::string said = team.run();
