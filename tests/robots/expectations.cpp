@@ -93,7 +93,7 @@ double of_quick(Check check) {
     case Check::impact:
       return 0.06;
     case Check::tilt:
-      return 0.15;
+      return 0.25;
     default:
       return infinity;
   }
