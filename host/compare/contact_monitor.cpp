@@ -51,6 +51,7 @@ Shape ContactMonitor::copy_of(Shape shape, double grown_by, Owner& owner) const 
   shape.texture = no_text;
   switch (shape.kind) {
     case ShapeKind::mesh:
+    case ShapeKind::heightmap:
       shape.mesh = owner.intern(monitored_.world().text(shape.mesh));
       break;
     case ShapeKind::box:

@@ -58,9 +58,9 @@ class SceneBuilder {
     const Placement& p = o.placement;
     Shape shape = o.shape;
     if (!o.mesh.empty()) shape.mesh = world_.intern(o.mesh);
-    const bool plane = shape.kind == ShapeKind::plane;
-    const Aabb box = plane || !needs_extent(p) ? Aabb{Vec3::Zero(), Vec3::Zero()}
-                                               : meshes_.bounds_of(shape, o.mesh, {Vec3::Zero(), Quat::Identity()});
+    const bool ground = shape.kind == ShapeKind::plane || shape.kind == ShapeKind::heightmap;
+    const Aabb box = ground || !needs_extent(p) ? Aabb{Vec3::Zero(), Vec3::Zero()}
+                                                : meshes_.bounds_of(shape, o.mesh, {Vec3::Zero(), Quat::Identity()});
     const Vec3 half = 0.5 * (box.high - box.low), centre = 0.5 * (box.low + box.high);
     const int count = p.kind == Placement::Kind::grid ? p.columns * p.rows : int(p.poses.size());
     const Body body{o.name, 0 - box.low.z(), elementary::hypot(half.x(), half.y())};
@@ -70,7 +70,7 @@ class SceneBuilder {
       problems_.collect(o.location.text() + ": ", [&] {
         world_.add_scenery(instance_name(o.name, o.numbered, i), poses[i], std::span<const Shape>(&shape, 1));
       });
-      if (!plane) occupied_.add(Obstacle{{poses[i] * centre, poses[i].orientation}, half.x(), half.y()});
+      if (!ground) occupied_.add(Obstacle{{poses[i] * centre, poses[i].orientation}, half.x(), half.y()});
     }
   }
 

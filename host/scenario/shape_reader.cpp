@@ -13,6 +13,27 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// The path that the value of `key` names, which starts at the folder of the scenario.
+std::string file_of(MapReader& map, const std::string& key, Problems& problems) {
+  const Location& at = map.find(key)->location;
+  std::string path = resolve_path(at, map.text(key, ""));
+  std::error_code code;
+  if (!fs::is_regular_file(path, code))
+    problems.add(at,
+                 key + " file " + path + " does not exist; correct its path, which starts at the folder of this file");
+  return path;
+}
+
+Shape read_heightmap(MapReader& map, std::string& file, Problems& problems) {
+  Shape shape{.kind = ShapeKind::heightmap, .size = Vec3::Ones()};
+  file = file_of(map, "heightmap", problems);
+  if (!map.has("size"))
+    map.problem("heightmap", "needs `size: [x, y, z]`: its full lengths in x and y, and the height of white, m");
+  else if (const auto size = map.numbers("size", {3}, limits::min_size, limits::max_size))
+    shape.size = {(*size)[0], (*size)[1], (*size)[2]};
+  return shape;
+}
+
 Shape read_mesh(MapReader& map, std::string& mesh, Problems& problems) {
   Shape shape;
   shape.kind = ShapeKind::mesh;
@@ -21,12 +42,7 @@ Shape read_mesh(MapReader& map, std::string& mesh, Problems& problems) {
     map.problem("scale", "has a factor that is nearer to 0 than 1e-9");
     shape.size = Vec3::Ones();
   }
-  const Location& at = map.find("mesh")->location;
-  mesh = resolve_path(at, map.text("mesh", ""));
-  std::error_code code;
-  if (!fs::is_regular_file(mesh, code))
-    problems.add(at,
-                 "mesh file " + mesh + " does not exist; correct its path, which starts at the folder of this file");
+  mesh = file_of(map, "mesh", problems);
   return shape;
 }
 
@@ -34,6 +50,7 @@ Shape read_mesh(MapReader& map, std::string& mesh, Problems& problems) {
 Shape read_geometry(MapReader& map, const std::string& kind, std::string& mesh, Problems& problems) {
   if (kind == "sphere") return Shape::sphere(map.number(kind, 1, limits::min_size, limits::max_size));
   if (kind == "mesh") return read_mesh(map, mesh, problems);
+  if (kind == "heightmap") return read_heightmap(map, mesh, problems);
   const std::size_t length = kind == "box" ? 3 : 2;
   const auto given = map.numbers(kind, {length}, limits::min_size, limits::max_size);
   const std::vector<double> v = given ? *given : std::vector<double>(length, 1);
@@ -60,13 +77,15 @@ std::optional<Shape> read_shape(MapReader& map, std::string& mesh, Problems& pro
   if (n->kind == Node::Kind::scalar && n->scalar == "plane") {
     shape = Shape::plane();
   } else if (n->kind != Node::Kind::map) {
-    map.problem("shape",
-                fmt::format("is {} but must be `plane` or one of: {{box: [x, y, z]}}, {{sphere: radius}}, {{cylinder: "
-                            "[radius, length]}}, {{capsule: [radius, length]}}, {{mesh: file}}",
-                            quoted(*n)));
+    map.problem(
+        "shape",
+        fmt::format(
+            "is {} but must be `plane` or one of: {{box: [x, y, z]}}, {{sphere: radius}}, {{cylinder: "
+            "[radius, length]}}, {{capsule: [radius, length]}}, {{mesh: file}}, {{heightmap: file, size: [x, y, z]}}",
+            quoted(*n)));
   } else {
     MapReader geometry(*n, "`shape` of " + map.what(), problems);
-    if (const auto kind = geometry.one_of({"box", "sphere", "cylinder", "capsule", "mesh"})) {
+    if (const auto kind = geometry.one_of({"box", "sphere", "cylinder", "capsule", "mesh", "heightmap"})) {
       shape = read_geometry(geometry, *kind, mesh, problems);
       geometry.reject_unknown_keys();
     }

@@ -34,6 +34,7 @@ enum Feature : Features {
   feature_rolling_resistance = 1 << 21,   ///< rolling resistance of the shapes
   feature_spinning_resistance = 1 << 22,  ///< spinning resistance of the shapes
   feature_armature = 1 << 23,             ///< the rotors of drives have inertia
+  feature_heightmaps = 1 << 24,           ///< heightmaps of the scenery carry it
 };
 
 }  // namespace muro

@@ -5,7 +5,7 @@
 
 namespace muro {
 
-enum class ShapeKind : std::uint32_t { box, sphere, cylinder, capsule, plane, mesh };
+enum class ShapeKind : std::uint32_t { box, sphere, cylinder, capsule, plane, mesh, heightmap };
 /// Who says how a shape looks.
 enum class MaterialSource : std::uint32_t {
   file,   ///< a mesh has the materials of its file; other shapes have `color`
@@ -20,15 +20,17 @@ struct Surface {
   double spinning_resistance = 0;  ///< m: torque against turning about the normal by the normal force (torsional)
 };
 
-/// A shape of a body, for collision, rays and rendering. Shapes are centred on their origin.
+/// A shape of a body, for collision, rays and rendering. Shapes are centred on their origin,
+/// where nothing else is said.
 struct Shape {
   ShapeKind kind = ShapeKind::box;
-  TextId mesh = no_text;     ///< mesh: path of the file
+  TextId mesh = no_text;     ///< mesh, heightmap: path of the file
   TextId texture = no_text;  ///< path of a picture (PNG, JPEG, ...) on its surface
   MaterialSource material_source = MaterialSource::file;
   /// box: full lengths x, y, z. sphere: radius, -, -. cylinder: radius, -, length along z.
   /// capsule: radius, -, length of the straight part along z. plane: unused (normal +z through the
-  /// origin, solid below). mesh: scale. All m, the scale 1.
+  /// origin, solid below). mesh: scale. heightmap: full lengths in x and y, and the height of its value 1, centred in
+  /// x and y alone; see toolkit/heightmap.hpp; of what does not move. All m, the scale 1.
   Vec3 size = Vec3::Zero();
   Pose origin{};  ///< of the shape in the frame of its body
   Surface surface{};

@@ -48,6 +48,7 @@ double reach_down(const Shape& s, const Vec3& up) {
       return 0.5 * s.size.z() * std::abs(up.z()) + s.size.x();
     case ShapeKind::plane:
     case ShapeKind::mesh:
+    case ShapeKind::heightmap:
       break;
   }
   return -std::numeric_limits<double>::infinity();

@@ -40,6 +40,7 @@ std::unique_ptr<btCollisionShape> shape_of(const CollisionGeometry& s, ShapeData
       shape = std::make_unique<btCylinderShapeZ>(btVector3(r, r, 0.5 * size.z()));
       break;
     case ShapeKind::mesh:
+    case ShapeKind::heightmap:
       if (s.hull) {
         shape = hull_of(*s.hull);
         break;

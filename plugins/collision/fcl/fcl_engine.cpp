@@ -51,6 +51,7 @@ Geometry geometry_of(const CollisionGeometry& s) {
     case ShapeKind::plane:
       return std::make_shared<fcl::Halfspaced>(Vec3::UnitZ(), 0);
     case ShapeKind::mesh:
+    case ShapeKind::heightmap:
       break;
   }
   return s.exact_mesh ? hierarchy_of(s.exact_mesh->surface()) : convex_of(*s.hull);

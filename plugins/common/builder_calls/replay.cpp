@@ -28,7 +28,7 @@ class Texts {
 std::vector<Shape> shapes_in(Reader& calls, const Texts& texts) {
   std::vector<Shape> shapes = calls.list<Shape>();
   for (Shape& s : shapes) {
-    if (s.kind > ShapeKind::mesh || s.material_source > MaterialSource::model) fail();
+    if (s.kind > ShapeKind::heightmap || s.material_source > MaterialSource::model) fail();
     s.mesh = texts[s.mesh];
     s.texture = texts[s.texture];
   }

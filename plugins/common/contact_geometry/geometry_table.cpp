@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "plugins/common/heightmap/heightmap_file.hpp"
 #include "plugins/common/mesh/collision_mesh.hpp"
 
 namespace muro::contact_geometry {
@@ -49,6 +50,15 @@ void GeometryTable::add_mesh(const std::string& path, const Shape& shape, bool e
   if (geometry.hull) numbers.convex = add(geometry);
 }
 
+std::uint32_t GeometryTable::add_heightmap(const std::string& path, const Shape& shape) {
+  const mesh::Mesh& surface =
+      height_meshes_.emplace_back(heightmap::mesh_of(heightmap::load(path).heightmap(shape.size)));
+  CollisionGeometry geometry{.shape = shape, .box = mesh::bounds_of(surface)};
+  geometry.shape.kind = ShapeKind::mesh;
+  geometry.exact_mesh = &exact_meshes_.emplace_back(surface);
+  return add(geometry);
+}
+
 void GeometryTable::add_shape(Connector& c, ObjectId body, const Shape& shape, bool exact) {
   const auto known =
       std::find_if(known_.begin(), known_.end(), [&](const auto& k) { return same_geometry(k.first, shape); });
@@ -60,6 +70,12 @@ void GeometryTable::add_shape(Connector& c, ObjectId body, const Shape& shape, b
   if (shape.kind == ShapeKind::mesh) {
     try {
       add_mesh(std::string(c.text(shape.mesh)), shape, exact, numbers);
+    } catch (const Error& error) {
+      mesh::refuse_collision_mesh(c, body, error);
+    }
+  } else if (shape.kind == ShapeKind::heightmap) {
+    try {
+      numbers.usual = add_heightmap(std::string(c.text(shape.mesh)), shape);
     } catch (const Error& error) {
       mesh::refuse_collision_mesh(c, body, error);
     }

@@ -45,10 +45,12 @@ class GeometryTable {
  private:
   void add_shape(Connector& c, ObjectId body, const Shape& shape, bool exact);
   void add_mesh(const std::string& path, const Shape& shape, bool exact, Numbers& numbers);
+  std::uint32_t add_heightmap(const std::string& path, const Shape& shape);
   std::uint32_t add(const CollisionGeometry& geometry);
   const mesh::Hull* hull_if_any(const std::string& path, const Vec3& scale);
 
   mesh::Store meshes_;
+  std::deque<mesh::Mesh> height_meshes_;
   std::deque<ExactMesh> exact_meshes_;
   std::deque<CollisionGeometry> geometries_;
   std::function<void(const CollisionGeometry&)> added_;

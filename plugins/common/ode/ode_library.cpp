@@ -36,6 +36,7 @@ dGeomID create_primitive(const Shape& shape, dSpaceID space) {
       return dCreateCapsule(space, size.x(), size.z());
     case ShapeKind::plane:
     case ShapeKind::mesh:
+    case ShapeKind::heightmap:
       break;
   }
   return nullptr;

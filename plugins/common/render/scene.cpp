@@ -37,6 +37,7 @@ bool SolidShape::contains(const Vec3& point) const {
     case ShapeKind::plane:
       return p.z() <= 0;
     case ShapeKind::mesh:
+    case ShapeKind::heightmap:
       break;
   }
   return false;
@@ -99,6 +100,7 @@ void Scene::add_shape(Connector& c, const Shape& shape, Instance instance, Shape
       add("ground", {1, 1, 1});
       break;
     case ShapeKind::mesh:
+    case ShapeKind::heightmap:
       break;
   }
 }

@@ -35,6 +35,7 @@ std::shared_ptr<btCollisionShape> make_shape(const Shape& s, const BulletMeshes&
     case ShapeKind::capsule:
       return std::make_shared<btCapsuleShapeZ>(s.size.x(), s.size.z());
     case ShapeKind::mesh:
+    case ShapeKind::heightmap:
       return meshes.of(s, moves);
     case ShapeKind::plane:
       break;

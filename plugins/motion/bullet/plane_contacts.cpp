@@ -95,6 +95,7 @@ int plane_contacts(const Collider& a, const btTransform& plane_pose, ContactPoin
       break;
     }
     case ShapeKind::plane:
+    case ShapeKind::heightmap:
       break;
   }
   return plane.count();

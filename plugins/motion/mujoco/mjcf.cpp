@@ -105,6 +105,8 @@ std::string Mjcf::geom(const multibody::BodyShape& shape, const Pose& pose, cons
       what = " type='mesh' mesh='" + mesh + "'";
       break;
     }
+    case ShapeKind::heightmap:
+      break;
   }
   if (contacts_ == Contacts::of_each_geom) what += own_contacts(shape.shape.surface);
   return "<geom" + named(name) + what + place(pose) + "/>\n";

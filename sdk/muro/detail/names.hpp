@@ -37,6 +37,7 @@ inline constexpr FeatureInfo feature_infos[] = {
     {feature_rolling_resistance, "rolling_resistance", "nothing resists the rolling of its shapes"},
     {feature_spinning_resistance, "spinning_resistance", "nothing but friction resists the spinning of its shapes"},
     {feature_armature, "armature", "the rotors of its drives have no inertia"},
+    {feature_heightmaps, "heightmaps", "it falls through heightmaps"},
 };
 
 /// The name of a single capability; "" for a bit that is none.

@@ -7,7 +7,7 @@
 namespace muro {
 
 /// Half lengths (m) of the smallest box around a shape, in the axes of the shape; infinite for a
-/// plane, zero for a mesh (its size is known to who loads it).
+/// plane, zero for a mesh and in z for a heightmap (what is in its file is known to who loads it).
 inline Vec3 half_extents(const Shape& s) {
   switch (s.kind) {
     case ShapeKind::box:
@@ -22,6 +22,8 @@ inline Vec3 half_extents(const Shape& s) {
       return Vec3::Constant(std::numeric_limits<double>::infinity());
     case ShapeKind::mesh:
       break;
+    case ShapeKind::heightmap:
+      return {0.5 * s.size.x(), 0.5 * s.size.y(), 0};
   }
   return Vec3::Zero();
 }

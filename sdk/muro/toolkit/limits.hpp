@@ -76,6 +76,7 @@ inline std::string problem_of(const Shape& s) {
   bool fine = true;
   switch (s.kind) {
     case ShapeKind::box:
+    case ShapeKind::heightmap:
       fine = sizes({s.size.x(), s.size.y(), s.size.z()}) && s.size.minCoeff() > 0;
       break;
     case ShapeKind::sphere:

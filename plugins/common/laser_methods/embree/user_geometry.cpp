@@ -40,6 +40,7 @@ double BodyShape::distance(const Vec3& origin, const Vec3& direction) const {
     case ShapeKind::plane:
       return enter_half_space(o.z, d.z);
     case ShapeKind::mesh:
+    case ShapeKind::heightmap:
       break;
   }
   return never;

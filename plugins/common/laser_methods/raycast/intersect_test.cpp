@@ -33,6 +33,7 @@ S enter_of(const Shape& s, const lane::V3<S>& o, const lane::V3<S>& d) {
     case ShapeKind::plane:
       return rays::enter_half_space(o.z, d.z);
     case ShapeKind::mesh:
+    case ShapeKind::heightmap:
       break;
   }
   return S(never);

@@ -192,6 +192,7 @@ class Reference {
         if (d.z < 0) return -o.z / d.z;
         break;
       case ShapeKind::mesh:
+      case ShapeKind::heightmap:
         break;
     }
     return search.best;
