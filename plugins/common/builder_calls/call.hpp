@@ -34,6 +34,7 @@ enum class Call : std::uint8_t {
   mjcf_in_world,
   mjcf_body,
   mjcf_joint,
+  friction_rule,
   gravity,
   scenery,
   model,
@@ -42,7 +43,7 @@ enum class Call : std::uint8_t {
 };
 
 /// The constants that a record can hold, by their call; each is one value but the shapes, which are arrays.
-inline constexpr std::array<std::pair<Call, const KeyInfo*>, 11> constants{
+inline constexpr std::array<std::pair<Call, const KeyInfo*>, 12> constants{
     {{Call::inertial, &keys::inertial},
      {Call::collision_shapes, &keys::collision_shapes},
      {Call::visual_shapes, &keys::visual_shapes},
@@ -53,6 +54,7 @@ inline constexpr std::array<std::pair<Call, const KeyInfo*>, 11> constants{
      {Call::mjcf_file, &model_constants::mjcf_file},
      {Call::mjcf_in_world, &model_constants::mjcf_in_world},
      {Call::mjcf_body, &model_constants::mjcf_body},
-     {Call::mjcf_joint, &model_constants::mjcf_joint}}};
+     {Call::mjcf_joint, &model_constants::mjcf_joint},
+     {Call::friction_rule, &keys::friction_rule}}};
 
 }  // namespace muro::builder_calls

@@ -3,6 +3,7 @@
 
 #include "call.hpp"
 #include "muro/toolkit/joint_drives.hpp"
+#include "muro/toolkit/pair_surface.hpp"
 
 namespace muro::builder_calls {
 
@@ -104,12 +105,19 @@ class RobotReplay {
         return builder_.set(model_constants::mjcf_body, calls.value<std::uint32_t>());
       case Call::mjcf_joint:
         return builder_.set(model_constants::mjcf_joint, calls.value<std::uint32_t>());
+      case Call::friction_rule:
+        return friction_rule(calls.value<std::uint32_t>());
       default:
         fail();
     }
   }
 
  private:
+  void friction_rule(std::uint32_t rule) {
+    if (rule > std::uint32_t(FrictionRule::max)) fail();
+    builder_.set(keys::friction_rule, rule);
+  }
+
   void drive(std::uint32_t mode) {
     if (mode > std::uint32_t(DriveMode::passive)) fail();
     builder_.set(model_constants::joint_drive, mode);

@@ -17,6 +17,7 @@ constexpr struct {
   std::string_view unit;
 } known_ranges[] = {
     {"xyz", limits::position, " m"},
+    {"pos", limits::position, " m"},
     {"rpy", limits::angle, " rad"},
     {"mass", limits::max_mass, " kg"},
     {"size", limits::max_size, " m"},

@@ -88,7 +88,7 @@ Compiled compile(const std::string& text, const std::string& path) {
   char error[1000] = "";
   try {
     out.model.reset(mj_loadXML(path.c_str(), files.get(), error, sizeof error));
-    if (out.model && out.model->nmesh > 0) out.canonical = canonical_text(*out.model);
+    if (out.model && out.model->nmesh + out.model->nhfield > 0) out.canonical = canonical_text(*out.model);
   } catch (const LibraryError& e) {
     out.model.reset();
     std::snprintf(error, sizeof error, "%s", e.text.c_str());

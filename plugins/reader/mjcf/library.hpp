@@ -19,8 +19,9 @@ using Model = std::unique_ptr<mjModel, ModelDeleter>;
 
 /// What MuJoCo's compiler makes of a file.
 struct Compiled {
-  Model model;            ///< null: `error` says why
-  std::string canonical;  ///< the file as MuJoCo writes it: one text without includes; only of files with meshes
+  Model model;  ///< null: `error` says why
+  std::string
+      canonical;  ///< the file as MuJoCo writes it: one text without includes; of files with meshes or height fields
   std::string error, warning;
 };
 

@@ -123,15 +123,5 @@ TEST(MjcfProblems, WhatIsLeftOutIsListedByName) {
     EXPECT_TRUE(has_line(robot.problems, line)) << line << "\n" << joined(robot.problems);
 }
 
-TEST(MjcfProblems, HeightFieldsOfAWorldAreNamed) {
-  WorldModel world;
-  read_world_text(
-      "<mujoco><asset><hfield name='h' nrow='2' ncol='2' size='1 1 1 1'/></asset><worldbody>\n<geom "
-      "name='hills' type='hfield' hfield='h'/></worldbody></mujoco>",
-      "/nowhere/w.xml", world);
-  EXPECT_TRUE(has_line(lines_of(world.problems()), "warning 2: geom `hills` is left out: height fields are not read"))
-      << joined(lines_of(world.problems()));
-}
-
 }  // namespace
 }  // namespace muro::mjcf

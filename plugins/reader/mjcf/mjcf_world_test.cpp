@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "muro/toolkit/pair_surface.hpp"
 #include "plugins/common/builder_calls/model_constants.hpp"
 #include "reading_testing.hpp"
 
@@ -40,6 +41,19 @@ TEST(MjcfWorld, GeomsAreSceneryAndTreesAreModels) {
   EXPECT_EQ(world.models()[0].pose.position, Vec3(0, 0, 2));
   EXPECT_EQ(world.models()[1].name, "arm");
   EXPECT_EQ(world.models()[1].pose.position, Vec3(2, 0, 0));
+}
+
+TEST(MjcfWorld, ModelsSayThatTheLargerFrictionCounts) {
+  WorldModel world;
+  read_world_text(yard, "/nowhere/yard.xml", world);
+  world.close();
+  std::uint32_t rule = 0;
+  for (const auto& part : world.models().at(0).tree.components())
+    for (const auto& c : part.constants)
+      if (c.key.name == keys::friction_rule.name) std::memcpy(&rule, c.data.data(), sizeof rule);
+  EXPECT_EQ(rule, std::uint32_t(FrictionRule::max));
+  // a robot alone stands in the world of a scenario, which has a rule of its own
+  EXPECT_TRUE(robot_of(yard).constants("ball", keys::friction_rule).empty());
 }
 
 TEST(MjcfWorld, OneBadModelLeavesTheOthers) {

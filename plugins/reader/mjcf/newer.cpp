@@ -34,6 +34,7 @@ constexpr NewerAttribute newer_attributes[] = {
     {"compiler", "saveinertial", ""},
     {"fixed", "actuatorfrclimited", "actuators of the tendon are as strong as they are"},
     {"fixed", "actuatorfrcrange", "actuators of the tendon are as strong as they are"},
+    {"hfield", "elevation", "the height field is flat; save its values as a grey picture and name it as `file`"},
     {"fixed", "armature", "the tendon has no inertia"},
     {"flag", "autoreset", ""},
     {"flag", "eulerdamp", ""},

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "muro/toolkit/pair_surface.hpp"
 #include "muro/vocabulary.hpp"
 #include "plugins/common/builder_calls/model_constants.hpp"
 #include "plugins/common/model_file/build_tree.hpp"
@@ -28,6 +29,7 @@ class RobotMaker {
     builder_.base(names_.unique(held_by_joints ? "world" : body_name(m_, top)));
     builder_.set(model_constants::mjcf_file, builder_.intern(from_.source.path()));
     builder_.set(model_constants::mjcf_in_world, std::uint32_t(from_.in_world));
+    if (from_.in_world) builder_.set(keys::friction_rule, std::uint32_t(FrictionRule::max));
     std::vector<Child> children = {{Child::body, top}};
     if (!held_by_joints) {
       fill(top);

@@ -2,6 +2,7 @@
 #include "shapes.hpp"
 
 #include <algorithm>
+#include <cstdio>
 
 #include "plugins/common/text/quote.hpp"
 
@@ -17,7 +18,7 @@ constexpr int first_hidden_group = 3;
 }  // namespace
 
 Shapes::Shapes(const Compiled& compiled, const Source& source)
-    : m_(*compiled.model), source_(source), meshes_(compiled, source) {}
+    : m_(*compiled.model), source_(source), meshes_(compiled, source), height_fields_(compiled, source) {}
 
 std::string Shapes::name_of_geom(int number) const {
   const std::string name = name_of(m_, m_.name_geomadr, number);
@@ -41,7 +42,16 @@ Surface Shapes::surface_of(int number) const {
   return surface;
 }
 
-std::optional<Shape> Shapes::shape_of(int number, const Intern& intern, std::string& problem) const {
+std::optional<Shape> Shapes::heights_of(int number, const Intern& intern, std::string& problem) {
+  const std::optional<PlacedHeights> heights = height_fields_.of(number, problem);
+  if (!heights) return std::nullopt;
+  if (heights->error > 1e-6 * heights->size.head<2>().maxCoeff()) rounded_[number] = heights->error;
+  if (heights->path.empty()) return Shape{.kind = ShapeKind::box, .size = heights->size, .origin = heights->pose};
+  return Shape{
+      .kind = ShapeKind::heightmap, .mesh = intern(heights->path), .size = heights->size, .origin = heights->pose};
+}
+
+std::optional<Shape> Shapes::shape_of(int number, const Intern& intern, std::string& problem) {
   const mjtNum* const size = m_.geom_size + 3 * number;
   switch (m_.geom_type[number]) {
     case mjGEOM_PLANE:
@@ -63,8 +73,7 @@ std::optional<Shape> Shapes::shape_of(int number, const Intern& intern, std::str
       problem = "there is no shape `ellipsoid`; take a sphere, a capsule or a mesh";
       return std::nullopt;
     case mjGEOM_HFIELD:
-      problem = "height fields are not read; name the picture as a shape of the scenario";
-      return std::nullopt;
+      return heights_of(number, intern, problem);
     default:
       problem = "there is no such shape";
       return std::nullopt;
@@ -81,7 +90,8 @@ void Shapes::add(int number, const Pose& body, const Intern& intern, Solid& soli
     return;
   }
   const bool is_mesh = shape->kind == ShapeKind::mesh;  // its pose is that of the file
-  shape->origin = body * (is_mesh ? shape->origin : pose_of(m_.geom_pos + 3 * number, m_.geom_quat + 4 * number));
+  const Pose geom = is_mesh ? Pose{} : pose_of(m_.geom_pos + 3 * number, m_.geom_quat + 4 * number);
+  shape->origin = body * geom * shape->origin;
   shape->surface = surface_of(number);
   const float* color = m_.geom_rgba + 4 * number;
   if (const int material = m_.geom_matid[number]; material >= 0 && std::equal(color, color + 4, plain_grey))
@@ -93,6 +103,13 @@ void Shapes::add(int number, const Pose& body, const Intern& intern, Solid& soli
 }
 
 void Shapes::report_left_out(Problems& problems) const {
+  for (const auto& [geom, error] : rounded_) {
+    char metres[32];
+    std::snprintf(metres, sizeof metres, "%.2g", error);
+    problems.note(source_.location_of("geom", name_of(m_, m_.name_geomadr, geom)),
+                  concat("the heights of geom ", quote(name_of_geom(geom)), " differ by up to ", metres,
+                         " m from MuJoCo's, which reads 8 bits of a picture"));
+  }
   for (const auto& [why, geoms] : left_out_) {
     std::vector<std::string> names;
     for (const int g : geoms) names.push_back(name_of_geom(g));

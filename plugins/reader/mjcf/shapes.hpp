@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "height_fields.hpp"
 #include "meshes.hpp"
 #include "muro/shape.hpp"
 
@@ -30,13 +31,16 @@ class Shapes {
   std::string name_of_geom(int number) const;
 
  private:
-  std::optional<Shape> shape_of(int number, const Intern& intern, std::string& problem) const;
+  std::optional<Shape> shape_of(int number, const Intern& intern, std::string& problem);
+  std::optional<Shape> heights_of(int number, const Intern& intern, std::string& problem);
   Surface surface_of(int number) const;
 
   const mjModel& m_;
   const Source& source_;
   Meshes meshes_;
+  HeightFields height_fields_;
   std::vector<std::pair<std::string, std::vector<int>>> left_out_;  ///< why, and which geoms
+  std::map<int, double> rounded_;                                   ///< geoms whose heights differ from MuJoCo's, by m
 };
 
 }  // namespace muro::mjcf

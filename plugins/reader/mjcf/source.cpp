@@ -129,6 +129,7 @@ bool Source::load(std::string bytes, const std::string& path, Problems& problems
 void Source::find_names() {
   each_element(*document_.root(), [this](const Element& e) {
     has_includes_ = has_includes_ || std::string_view(e.Name()) == "include";
+    if (std::string_view(e.Name()) == "hfield" && e.Attribute("elevation")) elevations_.insert(attribute(e, "name"));
     places_.try_emplace({e.Name(), attribute(e, "name")}, model_file::location_of(e));
   });
 }

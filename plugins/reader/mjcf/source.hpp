@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 
 #include "library.hpp"
@@ -29,6 +30,8 @@ class Source {
   std::filesystem::path folder() const { return std::filesystem::path(path_).parent_path(); }
   /// Of the first element `tag` with this name in the file itself; nowhere where it is in an included file or has none.
   Location location_of(const std::string& tag, const std::string& name) const;
+  /// Whether the values of this height field are written in the file itself.
+  bool has_elevation(const std::string& height_field) const { return elevations_.contains(height_field); }
 
  private:
   void find_names();
@@ -37,6 +40,7 @@ class Source {
   std::string path_, text_;
   model_file::Document document_;
   std::map<std::pair<std::string, std::string>, Location> places_;  ///< by tag and name
+  std::set<std::string> elevations_;                                ///< names of height fields
   bool has_includes_ = false;
 };
 

@@ -44,6 +44,16 @@ std::optional<Shape> shape_of(const ::sdf::Geometry& g, const Intern& intern) {
     case ::sdf::GeometryType::MESH:
       return Shape{
           .kind = ShapeKind::mesh, .mesh = intern(g.MeshShape()->Uri()), .size = vector_of(g.MeshShape()->Scale())};
+    case ::sdf::GeometryType::HEIGHTMAP: {
+      const ::sdf::Heightmap& map = *g.HeightmapShape();
+      Shape shape{.kind = ShapeKind::heightmap, .mesh = intern(map.Uri()), .size = vector_of(map.Size())};
+      shape.origin.position = vector_of(map.Position());
+      if (map.TextureCount() == 0) return shape;
+      shape.texture = intern(map.TextureByIndex(0)->Diffuse());
+      shape.material_source = MaterialSource::model;
+      shape.color.setOnes();
+      return shape;
+    }
     default:
       return std::nullopt;
   }

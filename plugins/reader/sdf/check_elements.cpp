@@ -74,26 +74,27 @@ bool Check::complete(Element& e, std::string_view section) {
   } else if (section == "collision" || section == "visual") {
     return complete_shape(e);
   } else if (section == "metal" || section == "specular") {
-    find_picture(e);
+    find_picture(e, "albedo_map");
   } else if (section == "include") {
     return complete_include(e);
   }
   return true;
 }
 
-/// The picture of a material under the path of its file.
-void Check::find_picture(Element& workflow) {
-  Element* map = workflow.FirstChildElement("albedo_map");
-  if (!map) return;
+/// Puts the path of the file in place of the name of a picture in a child of `owner`; false where there is none.
+bool Check::find_picture(Element& owner, const char* name) {
+  Element* map = owner.FirstChildElement(name);
+  if (!map) return false;
   const model_file::MeshPath found = model_file::find_mesh(text_of(*map), source_.folder, sources_.packages());
   if (found.path.empty()) {
     problems_.warning(location_of(*map),
                       concat("picture ", quote(text_of(*map)), " is not found; what it covers is plain"));
-    workflow.DeleteChild(map);
-    return;
+    owner.DeleteChild(map);
+    return false;
   }
   map->DeleteChildren();
   map->SetText(found.path.c_str());
+  return true;
 }
 
 bool Check::complete_joint(Element& joint) {
@@ -206,6 +207,8 @@ bool Check::complete_shape(Element& e) {
                       concat("<", e.Name(), " name=", quote(attribute(e, "name")), "> is left out, as ", error));
   else if (std::string_view(shape->Name()) == "mesh")
     return find_mesh(e, *shape->FirstChildElement("uri"));
+  else if (std::string_view(shape->Name()) == "heightmap")
+    return complete_heightmap(e, *shape);
   return error.empty();
 }
 
@@ -246,10 +249,12 @@ std::string Check::error_of_shape(Element& shape) {
       return "its <plane> has a <normal> without direction";
     return {};
   }
+  if (kind == "heightmap" && shape.FirstChildElement("size"))
+    if (const std::string error = needs("size"); !error.empty()) return error;
   const auto scale = values_of(shape.FirstChildElement("scale"));
   if (std::any_of(scale.begin(), scale.end(), [](double s) { return s == 0; })) return "its <mesh> has a <scale> of 0";
   const Element* uri = shape.FirstChildElement("uri");
-  return uri && !text_of(*uri).empty() ? "" : "its <mesh> has no <uri>";
+  return uri && !text_of(*uri).empty() ? "" : concat("its <", kind, "> has no <uri>");
 }
 
 }  // namespace muro::sdf

@@ -55,8 +55,11 @@ class Check {
   void take_mimic(Element& joint, Element& axis, int number);
   bool complete_shape(Element& e);
   bool find_mesh(const Element& body, Element& uri);
-  void find_picture(Element& workflow);
+  bool find_picture(Element& owner, const char* name);
   std::string error_of_shape(Element& shape);
+  // check_heightmap.cpp
+  bool complete_heightmap(const Element& body, Element& heightmap);
+  bool complete_textures(Element& heightmap);
   bool complete_include(Element& include);
   void put_ground_plane(Element& include);
 

@@ -47,7 +47,8 @@ constexpr std::string_view sound_text = "there is no sound";
 constexpr std::string_view shown_text = "only plain colours are shown";
 constexpr std::string_view engine_text =
     "the stiffness of contacts and joints is a matter of the algorithms in the scenario";
-constexpr std::string_view shape_text = "shapes are box, sphere, cylinder, capsule, plane, mesh";
+constexpr std::string_view shape_text = "shapes are box, sphere, cylinder, capsule, plane, mesh, heightmap";
+constexpr std::string_view blend_text = "the first texture covers all of a heightmap";
 constexpr std::string_view friction_text = "friction is one Coulomb coefficient, the same in all directions";
 constexpr std::string_view frame_text = "only frames of a <model> or <world> are read";
 constexpr std::string_view filter_text = "collisions are not filtered by masks";
@@ -162,12 +163,12 @@ constexpr std::array elements = {
     section("geometry", "box"),
     section("geometry", "capsule"),
     section("geometry", "cylinder"),
+    section("geometry", "heightmap"),
     section("geometry", "mesh"),
     section("geometry", "plane"),
     section("geometry", "sphere"),
     unsupported("geometry", "cone", shape_text),
     unsupported("geometry", "ellipsoid", shape_text),
-    unsupported("geometry", "heightmap", shape_text),
     unsupported("geometry", "image", shape_text),
     unsupported("geometry", "polyline", shape_text),
     irrelevant("geometry", "empty", shape_text),
@@ -179,6 +180,16 @@ constexpr std::array elements = {
     numbers("sphere", "radius"),
     numbers("plane", "normal", 3),
     numbers("plane", "size", 2),
+    value("heightmap", "uri", ValueType::text),
+    numbers("heightmap", "size", 3),
+    numbers("heightmap", "pos", 3),
+    sections("heightmap", "texture"),
+    irrelevant("heightmap", "blend", blend_text),
+    irrelevant("heightmap", "sampling", "the surface is that of the nodes of its file", "1"),
+    irrelevant("heightmap", "use_terrain_paging", shown_text, "false"),
+    numbers("texture", "size"),
+    value("texture", "diffuse", ValueType::text),
+    irrelevant("texture", "normal", shown_text),
     value("mesh", "uri", ValueType::text),
     numbers("mesh", "scale", 3),
     unsupported("mesh", "submesh", "all of the file's mesh is used; give each submesh a file of its own"),
