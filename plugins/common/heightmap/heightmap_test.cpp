@@ -33,7 +33,7 @@ std::string failure_of(const std::string& path) {
 TEST(HeightmapFile, OfAPictureHasItsUpperRowsAtPlusYAndWhiteIsOne) {
   const test::ScratchFolder folder;
   const std::uint16_t pixels[] = {0, 13107, 65535, 6553, 32768, 1};  // 3 x 2
-  const std::string path = (folder.path() / "hills.png").string();
+  const std::string path = folder.path("hills.png");
   image_file::write_png(path, image_file::Format::grey16, 3, 2, pixels);
   const HeightmapFile file = load(path);
   EXPECT_EQ(file.columns, 3u);
@@ -45,7 +45,7 @@ TEST(HeightmapFile, OfAPictureHasItsUpperRowsAtPlusYAndWhiteIsOne) {
 TEST(HeightmapFile, OfEightBitsHasWhiteAtOneAndColoursAreMadeGrey) {
   const test::ScratchFolder folder;
   const std::uint8_t pixels[] = {0, 0, 0, 255, 255, 255, 51, 51, 51, 128, 128, 128};
-  const std::string path = (folder.path() / "hills.png").string();
+  const std::string path = folder.path("hills.png");
   image_file::write_png(path, image_file::Format::rgb8, 2, 2, pixels);
   const HeightmapFile file = load(path);
   EXPECT_FLOAT_EQ(file.values[0], 0.2f);
@@ -73,8 +73,8 @@ TEST(HeightmapFile, ThatIsNoneIsRefusedInOneSentence) {
     EXPECT_NE(said.find(words), std::string::npos) << said;
     EXPECT_NE(said.find(path), std::string::npos) << said;
   };
-  says((folder.path() / "none.png").string(), "is not there");
-  says(folder.path().string(), "is not there, or no file");
+  says(folder.path("none.png"), "is not there");
+  says(folder.path("."), "is not there, or no file");
   says(folder.file("empty.r32", ""), "has 0 bytes and is neither a picture");
   says(folder.file("six.r32", floats({0, 1, 2, 3, 4, 5})), "has 24 bytes and is neither a picture");
   says(folder.file("one.r32", floats({0})), "has 1 x 1 values, and must have 2 or more");
