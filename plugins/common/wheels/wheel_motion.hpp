@@ -8,6 +8,7 @@
 #include "non_wheel_joints.hpp"
 #include "parameters.hpp"
 #include "planar_motion.hpp"
+#include "terrain_travel.hpp"
 #include "velocity_ramp.hpp"
 
 namespace muro::wheels {
@@ -21,14 +22,17 @@ inline constexpr PropertyUse wheel_motion_reads[] = {
     on_contact_reads,
 };
 inline constexpr Features wheel_motion_features = feature_joints | feature_velocity_targets | feature_joint_limits |
-                                                  feature_joint_speed_limits | feature_mimic_joints;
+                                                  feature_joint_speed_limits | feature_mimic_joints |
+                                                  feature_heightmaps;
 
 /// A driven wheel, in the frame of its base.
 struct WheelJacobian {
-  std::uint32_t link = 0;   ///< of the robot
-  double max_speed = 0;     ///< rad/s
-  PlanarTwist column;       ///< of the Jacobian: velocity of the base per rad/s of the wheel's joint
-  PlanarTwist inverse_row;  ///< rad/s of the joint per m/s along x, m/s along y and rad/s of the base
+  std::uint32_t link = 0;      ///< of the robot
+  double max_speed = 0;        ///< rad/s
+  PlanarTwist column;          ///< of the Jacobian: velocity of the base per rad/s of the wheel's joint
+  PlanarTwist inverse_row;     ///< rad/s of the joint per m/s along x, m/s along y and rad/s of the base
+  Vec3 lowest = Vec3::Zero();  ///< m: where it stands on the ground
+  double radius = 0;           ///< m
 
   double speed_at(const PlanarTwist& v) const { return std::clamp(dot(inverse_row, v), -max_speed, max_speed); }
 };
@@ -45,7 +49,7 @@ struct RampedWheel {
 struct WheeledRobot {
   Out<Pose> pose;
   Out<Twist> twist;
-  Range wheels;
+  Range wheels, contacts;
   NonWheelJoints::OfRobot other_joints;
   std::string_view name;
   ContactStop stop;
@@ -81,23 +85,26 @@ class WheelMotion : public PerRobotAlgorithm<WheeledRobot> {
   }
 
  protected:
-  virtual std::vector<WheelJacobian> jacobian(const Connector& c, const RobotView& robot) const = 0;
+  virtual std::vector<WheelJacobian> jacobian_of(const Connector& c, const RobotView& robot) const = 0;
 
  private:
   void read_parameters(const Parameters& p) override { max_acceleration_ = p.real(max_wheel_acceleration.name); }
 
   WheeledRobot connect_robot(Connector& c, const Item& item) override {
     const RobotView& robot = *item.robot;
-    const Pose start = c.constant(robot.base(), keys::initial_pose).value_or(Pose{});
+    Pose start = c.constant(robot.base(), keys::initial_pose).value_or(Pose{});
     const Twist moving = c.constant(robot.base(), keys::initial_twist).value_or(Twist{});
     const std::vector<double> positions = initial_joint_positions(c, robot);
     JointState state(robot);
     WheeledRobot r;
     r.name = robot.name;
+    const std::vector<WheelJacobian> jacobian = jacobian_of(c, robot);
+    r.contacts = terrain_.connect(c, robot, jacobian, positions);
+    terrain_.settle(r.contacts, start, start);
     r.pose = c.variable(robot.base(), keys::pose, start);
     PlanarTwist velocity;
     std::vector<RampedWheel> wheels;
-    for (const WheelJacobian& wheel : jacobian(c, robot)) {
+    for (const WheelJacobian& wheel : jacobian) {
       const ObjectId joint = robot.links[wheel.link].joint_object;
       const double speed = wheel.speed_at(in_plane(start, moving));
       RampedWheel w;
@@ -110,19 +117,21 @@ class WheelMotion : public PerRobotAlgorithm<WheeledRobot> {
       wheels.push_back(w);
     }
     r.wheels = wheels_.add(wheels);
-    r.twist = c.variable(robot.base(), keys::twist, in_world(start, velocity));
+    r.twist = c.variable(robot.base(), keys::twist, terrain_.in_world(r.contacts, start, velocity));
     r.other_joints = other_joints_.connect(c, robot, positions, state);
-    r.stop = ContactStop(c, robot);
+    r.stop = ContactStop(c, robot, terrain_.ground());
     return r;
   }
 
   /// The speeds of all wheels are linear in time between the ends of their ramps: from each end to the next one goes an
   /// arc, or, while wheels speed up, an accelerated one.
-  static void move_base(const WheeledRobot& r, std::span<const RampedWheel> wheels, double dt) {
+  void move_base(const WheeledRobot& r, std::span<const RampedWheel> wheels, double dt) const {
     Pose& pose = *r.pose;
     PlanarTwist velocity;
+    const double longest = terrain_.follows() ? terrain_.longest_interval(fastest_along(wheels), dt) : dt;
     for (double from = 0, to = 0; from < dt; from = to) {
-      to = dt;
+      to = std::min(dt, from + longest);
+      const Pose before = pose;
       velocity = {};
       PlanarTwist acceleration;
       for (const RampedWheel& w : wheels) {
@@ -133,16 +142,27 @@ class WheelMotion : public PerRobotAlgorithm<WheeledRobot> {
       pose = pose * (acceleration == PlanarTwist{} ? arc(velocity, to - from)
                                                    : accelerated_arc(velocity, acceleration, to - from));
       velocity = velocity + acceleration * (to - from);
+      terrain_.settle(r.contacts, before, pose);
     }
     pose.orientation.normalize();
-    *r.twist = in_world(pose, velocity);
+    *r.twist = terrain_.in_world(r.contacts, pose, velocity);
     if (!(std::abs(velocity.x) + std::abs(velocity.y) + std::abs(velocity.yaw_rate) < fastest))
       throw Error("a wheel of `" + std::string(r.name) +
                   "` is to turn at a speed that is not finite, or moves it faster than 1e12 m/s; look at what writes "
                   "`joint.velocity.target`");
   }
 
+  /// m/s: no wheels move the base faster in this step.
+  static double fastest_along(std::span<const RampedWheel> wheels) {
+    double sum = 0;
+    for (const RampedWheel& w : wheels)
+      sum += std::max(std::abs(w.ramp.initial), std::abs(w.ramp.final)) *
+             (std::abs(w.jacobian.column.x) + std::abs(w.jacobian.column.y));
+    return sum;
+  }
+
   double max_acceleration_ = unlimited;
+  TerrainTravel terrain_;
   PackedLists<RampedWheel> wheels_;
   NonWheelJoints other_joints_;
 };

@@ -6,6 +6,7 @@
 #include "plugins/common/wheels/motion_description.hpp"
 #include "plugins/common/wheels/non_wheel_joints.hpp"
 #include "plugins/common/wheels/parameters.hpp"
+#include "plugins/common/wheels/terrain_travel.hpp"
 #include "steered_vehicle.hpp"
 
 namespace {
@@ -42,7 +43,7 @@ constexpr Description description{
     .writes = motion_writes,
     .capabilities = deterministic | batched | allocation_free | restorable,
     .features = feature_joints | feature_velocity_targets | feature_position_targets | feature_joint_limits |
-                feature_joint_speed_limits | feature_mimic_joints,
+                feature_joint_speed_limits | feature_mimic_joints | feature_heightmaps,
 };
 
 /// What is kept of a robot.
@@ -50,7 +51,7 @@ struct AckermannRobot {
   Out<Pose> pose;
   Out<Twist> twist;
   RollingConstraints constraints;
-  Range wheels, steering;
+  Range wheels, steering, contacts;
   NonWheelJoints::OfRobot other_joints;
   std::string_view name;
   ContactStop stop;
@@ -90,14 +91,14 @@ class Ackermann final : public PerRobotAlgorithm<AckermannRobot> {
     const RobotView& robot = *item.robot;
     const std::vector<SteeredWheel> found = find_steered_wheels(c, robot);
     const SteeringGeometry geometry = steering_geometry(robot.links, found);
-    const Pose start = c.constant(robot.base(), keys::initial_pose).value_or(Pose{});
+    Pose start = c.constant(robot.base(), keys::initial_pose).value_or(Pose{});
     const Twist moving = c.constant(robot.base(), keys::initial_twist).value_or(Twist{});
     const std::vector<double> positions = initial_joint_positions(c, robot);
     JointState state(robot);
 
     const std::vector<PlanarWheel> planes(found.begin(), found.end());
-    AckermannRobot r{
-        c.variable(robot.base(), keys::pose, start), {}, RollingConstraints(planes), {}, {}, {}, robot.name, {}};
+    const Range contacts =
+        terrain_.connect(c, robot, std::vector<StandingWheel>(found.begin(), found.end()), positions);
     std::vector<VehicleWheel> wheels;
     std::vector<SteeringJoint> steering;
     for (const std::size_t link : geometry.joints)
@@ -114,14 +115,19 @@ class Ackermann final : public PerRobotAlgorithm<AckermannRobot> {
       w.velocity = c.variable(joint, keys::joint_velocity, speed);
       wheels.push_back(w);
     }
-    const PlanarTwist velocity = SteeredVehicle(r.constraints, wheels, steering).motion().velocity;
-    r.twist = c.variable(robot.base(), keys::twist, in_world(start, velocity));
+    const RollingConstraints constraints(planes);
+    const PlanarTwist velocity = SteeredVehicle(constraints, wheels, steering).motion().velocity;
+    place_contacts(contacts, wheels);
+    terrain_.settle(contacts, start, start);
+    AckermannRobot r{
+        c.variable(robot.base(), keys::pose, start), {}, constraints, {}, {}, contacts, {}, robot.name, {}};
+    r.twist = c.variable(robot.base(), keys::twist, terrain_.in_world(contacts, start, velocity));
     for (std::size_t k = 0; k < steering.size(); ++k) state.bind(geometry.joints[k], steering[k]);
     for (std::size_t k = 0; k < found.size(); ++k) state.bind(found[k].link, wheels[k]);
     r.wheels = wheels_.add(wheels);
     r.steering = steering_.add(steering);
     r.other_joints = other_joints_.connect(c, robot, positions, state);
-    r.stop = ContactStop(c, robot);
+    r.stop = ContactStop(c, robot, terrain_.ground());
     return r;
   }
 
@@ -152,13 +158,47 @@ class Ackermann final : public PerRobotAlgorithm<AckermannRobot> {
                   "`joint.velocity.target` and `joint.position.target`");
   }
 
-  static void move(const AckermannRobot& r, std::span<VehicleWheel> wheels, std::span<SteeringJoint> steering,
-                   double dt) {
+  /// A wheel of which the ground is looked at below its centre.
+  struct StandingWheel {
+    std::uint32_t link;
+    Vec3 lowest;
+    double radius;
+    explicit StandingWheel(const SteeredWheel& w) : link(w.link), lowest(lowest_point(w)), radius(w.radius) {}
+  };
+
+  /// Puts the points on which a robot stands below its wheels, as these are steered.
+  void place_contacts(Range contacts, std::span<const VehicleWheel> wheels) {
+    if (!terrain_.follows()) return;
+    const std::span<ground::ContactPoint> points = terrain_.contacts_of(contacts);
+    for (std::size_t i = 0; i < wheels.size(); ++i) {
+      const PlanarWheel& w = wheels[i].plane;
+      const WheelState& s = wheels[i].state;
+      points[i].at.x() = w.x + s.cosine * w.forward_offset - s.sine * w.left_offset;
+      points[i].at.y() = w.y + s.sine * w.forward_offset + s.cosine * w.left_offset;
+    }
+  }
+
+  /// m/s: no driven wheel rolls faster in this step.
+  static double fastest_along(std::span<const VehicleWheel> wheels) {
+    double speed = 0;
+    for (const VehicleWheel& w : wheels)
+      if (w.is_driven)
+        speed = std::max(
+            speed, std::max(std::abs(w.ramp.initial), std::abs(w.ramp.final)) / std::abs(w.plane.angle_per_metre));
+    return speed;
+  }
+
+  void move(const AckermannRobot& r, std::span<VehicleWheel> wheels, std::span<SteeringJoint> steering, double dt) {
     const Pose before = *r.pose;
+    const double longest = terrain_.follows() ? terrain_.longest_interval(fastest_along(wheels), dt) : dt;
     const PlanarTwist velocity =
-        SteeredVehicle(r.constraints, wheels, steering).move(*r.pose, r.twist->angular.norm(), dt);
+        SteeredVehicle(r.constraints, wheels, steering)
+            .move(*r.pose, r.twist->angular.norm(), dt, longest, [&](const Pose& from, Pose& pose) {
+              place_contacts(r.contacts, wheels);
+              terrain_.settle(r.contacts, from, pose);
+            });
     r.pose->orientation.normalize();
-    *r.twist = in_world(*r.pose, velocity);
+    *r.twist = terrain_.in_world(r.contacts, *r.pose, velocity);
     for (const SteeringJoint& s : steering) s.finish(dt);
     if (r.stop.blocks(before.position, *r.twist)) {
       *r.pose = before;
@@ -174,6 +214,7 @@ class Ackermann final : public PerRobotAlgorithm<AckermannRobot> {
 
   double max_acceleration_ = unlimited;
   double max_steering_rate_ = unlimited;
+  TerrainTravel terrain_;
   PackedLists<VehicleWheel> wheels_;
   PackedLists<SteeringJoint> steering_;
   NonWheelJoints other_joints_;

@@ -73,12 +73,15 @@ class SteeredVehicle {
       : constraints_(constraints), wheels_(wheels), steering_(steering) {}
 
   /// Moves `pose` on by `dt` (s); returns the velocity at the end. Wheels have turned by `rolled_angle` or their ramps.
-  /// `yaw_rate`: rad/s, so far; says how small the intervals must be.
-  PlanarTwist move(Pose& pose, double yaw_rate, double dt) {
+  /// `yaw_rate`: rad/s, so far; says how small the intervals must be. They are no longer than `longest` (s);
+  /// `settle(before, pose)` is called at the end of each.
+  template <class Settle>
+  PlanarTwist move(Pose& pose, double yaw_rate, double dt, double longest, const Settle& settle) {
     PlanarTwist velocity{0, 0, yaw_rate};
     for (VehicleWheel& w : wheels_) w.rolled_angle = 0;
     for (double start = 0, end = 0; start < dt; start = end) {  // from each end of a ramp to the next
-      end = dt;
+      end = std::min(dt, start + longest);
+      const Pose before = pose;
       bool steers = false, speeds_up = false;
       for (const SteeringJoint& s : steering_) {
         if (s.end > start && s.end < end) end = s.end;
@@ -91,6 +94,7 @@ class SteeredVehicle {
       }
       velocity =
           steers ? move_while_steering(pose, velocity.yaw_rate, start, end) : move_on_arc(pose, start, end, speeds_up);
+      settle(before, pose);
     }
     return velocity;
   }

@@ -35,7 +35,7 @@ PlanarTwist velocity_by_side(const SideWheels& wheels, bool is_left) {
 }
 
 class DifferentialDrive final : public WheelMotion {
-  std::vector<WheelJacobian> jacobian(const Connector& c, const RobotView& robot) const override {
+  std::vector<WheelJacobian> jacobian_of(const Connector& c, const RobotView& robot) const override {
     const SideWheels found = find_side_wheels(c, robot);
     std::vector<WheelJacobian> jacobian;
     for (const bool is_left : {true, false}) {
@@ -45,7 +45,7 @@ class DifferentialDrive final : public WheelMotion {
         const double per_metre = w.direction / w.radius;
         jacobian.push_back({w.link, w.limits.velocity,
                             velocity_by_side(found, is_left) * (w.direction * w.radius / double(side.size())),
-                            PlanarTwist{1, 0, -y} * per_metre});
+                            PlanarTwist{1, 0, -y} * per_metre, lowest_point(w), w.radius});
       }
     }
     return jacobian;

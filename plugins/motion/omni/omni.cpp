@@ -24,12 +24,13 @@ constexpr Description description{
 };
 
 class Omni final : public WheelMotion {
-  std::vector<WheelJacobian> jacobian(const Connector& c, const RobotView& robot) const override {
+  std::vector<WheelJacobian> jacobian_of(const Connector& c, const RobotView& robot) const override {
     const std::vector<OmniWheel> found = find_omni_wheels(c, robot);
     const std::vector<PlanarTwist> columns = jacobian_columns(robot, found);
     std::vector<WheelJacobian> jacobian;
     for (std::size_t i = 0; i < found.size(); ++i)
-      jacobian.push_back({found[i].link, found[i].limits.velocity, columns[i], inverse_jacobian_row(found[i])});
+      jacobian.push_back({found[i].link, found[i].limits.velocity, columns[i], inverse_jacobian_row(found[i]),
+                          lowest_point(found[i]), found[i].radius});
     return jacobian;
   }
 };

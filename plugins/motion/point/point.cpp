@@ -6,6 +6,7 @@
 #include "muro/toolkit/contact_stop.hpp"
 #include "muro/toolkit/per_robot.hpp"
 #include "muro/toolkit/rotations.hpp"
+#include "plugins/common/ground/terrain.hpp"
 #include "plugins/common/kinematic_joints/kinematic_joints.hpp"
 #include "plugins/common/wheels/wheel_finder.hpp"
 
@@ -21,6 +22,11 @@ constexpr Parameter parameters[] = {
     real("max_turn_rate", "rad/s", 1e9, "largest angular speed").between(0, 1e9),
     real("max_acceleration", "m/s^2", 1e9, "largest change of the linear velocity").between(0, 1e9),
     real("max_turn_acceleration", "rad/s^2", 1e9, "largest change of the angular velocity").between(0, 1e9),
+    real(
+        "height_above_ground", "m", -1,
+        "terrain following: the height that the base keeps above the heightmaps and planes of the scenery, whatever is "
+        "commanded; -1: none, it moves as commanded")
+        .between(-1, 1e6),
     on_contact,
     text("joints", "auto",
          "which target joints follow; auto: of position where something writes it, else of velocity, and wheels stand "
@@ -49,7 +55,7 @@ constexpr Description description{
     .writes = writes,
     .capabilities = deterministic | batched | allocation_free | restorable,
     .features = feature_joints | feature_velocity_targets | feature_position_targets | feature_joint_limits |
-                feature_joint_speed_limits | feature_mimic_joints,
+                feature_joint_speed_limits | feature_mimic_joints | feature_heightmaps,
 };
 
 Vec3 limited(const Vec3& v, double max_length) {
@@ -114,11 +120,17 @@ class Point final : public PerRobotAlgorithm<PointRobot> {
     max_turn_rate_ = p.real("max_turn_rate");
     max_acceleration_ = p.real("max_acceleration");
     max_turn_acceleration_ = p.real("max_turn_acceleration");
+    height_ = p.real("height_above_ground");
   }
 
   PointRobot connect_robot(Connector& c, const Item& item) override {
     const ObjectId base = item.robot->base();
-    const Pose start = c.constant(base, keys::initial_pose).value_or(Pose{});
+    Pose start = c.constant(base, keys::initial_pose).value_or(Pose{});
+    if (follows_terrain()) {
+      terrain_.connect(c);
+      Twist unused;
+      follow_terrain(start.position.z(), start, unused);
+    }
     PointRobot r;
     r.name = item.robot->name;
     r.pose = c.variable(base, keys::pose, start);
@@ -127,7 +139,7 @@ class Point final : public PerRobotAlgorithm<PointRobot> {
       r.command_pose = c.input(base, keys::command_pose, start);
     else
       r.command_twist = c.input(base, keys::command_twist, Twist{});
-    r.stop = ContactStop(c, *item.robot);
+    r.stop = ContactStop(c, *item.robot, terrain_.objects());
     const std::string_view mode = c.parameters().text("joints");
     if (mode == "auto")
       r.joints = KinematicJoints(c, *item.robot, {}, wheels_of(c, *item.robot));
@@ -145,9 +157,24 @@ class Point final : public PerRobotAlgorithm<PointRobot> {
             approach_velocity(turn, max_turn_acceleration_, dt)};
   }
 
+  bool follows_terrain() const { return height_ >= 0; }
+
+  /// Puts the base at its height above the ground, or, where there is none, at `height` (m). `v` (world axes) goes
+  /// along the slope.
+  void follow_terrain(double height, Pose& pose, Twist& v) const {
+    pose.position.z() = height;
+    if (!pose.position.allFinite()) return;
+    const auto ground = terrain_.ground_at(pose.position.x(), pose.position.y());
+    if (!ground) return;
+    const Vec3& n = ground->normal;
+    pose.position.z() = ground->height + height_;
+    v.linear.z() = -(n.x() * v.linear.x() + n.y() * v.linear.y()) / n.z();
+  }
+
   void move(const PointRobot& r, double dt) const {
-    const Twist goal = commanded_velocity(r, dt);
+    Twist goal = commanded_velocity(r, dt);
     Twist& v = *r.twist;
+    if (follows_terrain()) goal.linear.z() = v.linear.z() = 0;
     v.linear = approached(v.linear, limited(goal.linear, max_speed_), max_acceleration_ * dt);
     v.angular = approached(v.angular, limited(goal.angular, max_turn_rate_), max_turn_acceleration_ * dt);
     if (!std::isfinite(v.linear.sum() + v.angular.sum()))
@@ -160,6 +187,7 @@ class Point final : public PerRobotAlgorithm<PointRobot> {
     }
     const Vec3 angle = v.angular * dt;
     const Quat turn = rotation_of(angle);
+    const double height = pose.position.z();
     if (follow_pose_) {  // straight to the goal, turning on the way
       pose.position += v.linear * dt;
     } else {  // the velocity is constant in the axes of the base, which turn: the path is a screw
@@ -167,8 +195,11 @@ class Point final : public PerRobotAlgorithm<PointRobot> {
       v.linear = turn * v.linear;
     }
     pose.orientation = (turn * pose.orientation).normalized();
+    if (follows_terrain()) follow_terrain(height, pose, v);
   }
 
+  ground::Terrain terrain_;
+  double height_ = -1;  ///< m; below 0: terrain is nothing to it
   bool follow_pose_ = false;
   double max_speed_ = 0, max_turn_rate_ = 0, max_acceleration_ = 0, max_turn_acceleration_ = 0;
 };

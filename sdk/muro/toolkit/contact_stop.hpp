@@ -2,6 +2,8 @@
 // For motions that no force moves: what they do when their robot touches something.
 #pragma once
 
+#include <algorithm>
+
 #include "muro/algorithm.hpp"
 #include "muro/vocabulary.hpp"
 
@@ -17,8 +19,8 @@ inline constexpr PropertyUse on_contact_reads{"contacts", "of the robot", "on_co
 class ContactStop {
  public:
   ContactStop() = default;
-  /// [setup]
-  ContactStop(Connector& c, const RobotView& robot) {
+  /// `ground`: scenery on which the robot goes whatever its slope; must outlive this. [setup]
+  ContactStop(Connector& c, const RobotView& robot, std::span<const ObjectId> ground = {}) : ground_(ground) {
     if (c.parameters().text(on_contact.name) == "stop") contacts_ = c.read_list(robot.base(), keys::contacts);
   }
 
@@ -27,6 +29,7 @@ class ContactStop {
   bool blocks(const Vec3& origin, const Twist& twist) const {
     if (!contacts_) return false;
     for (const Contact& c : *contacts_) {
+      if (std::find(ground_.begin(), ground_.end(), c.other) != ground_.end()) continue;
       const Vec3 velocity = twist.at(c.point - origin);
       if (velocity.dot(c.normal) < -steepest * velocity.norm()) return true;
     }
@@ -36,6 +39,7 @@ class ContactStop {
  private:
   static constexpr double steepest = 0.02;  ///< sine of the angle between velocity and surface
   ListIn<Contact> contacts_;
+  std::span<const ObjectId> ground_;
 };
 
 }  // namespace muro

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// The ground that carries what moves without forces.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "muro/connector.hpp"
+#include "muro/toolkit/heightmap.hpp"
+#include "plugins/common/heightmap/heightmap_file.hpp"
+
+namespace muro::ground {
+
+/// The heightmaps and planes among the collision shapes of the scenery. Where several lie one over the other, the
+/// highest is the ground, as what is below a surface is solid. Surfaces that look down or sideways (more than 84 deg
+/// off) are no ground.
+class Terrain {
+ public:
+  /// Reads the heightmaps, when it is called first. [setup]
+  void connect(const Connector& c);
+
+  bool has_heightmaps() const { return !tiles_.empty(); }
+  /// Scenery that is ground, in the order of objects. [setup]
+  const std::vector<ObjectId>& objects() const { return objects_; }
+  /// m: the shortest side of a cell; infinite without heightmaps.
+  double resolution() const { return resolution_; }
+
+  /// The ground above or below a point of the world: its height and its normal, in the axes of the world. Nothing
+  /// beyond the rims of all heightmaps where there is no plane. [step]
+  std::optional<Heightmap::Ground> ground_at(double x, double y) const;
+
+ private:
+  struct Tile {
+    Heightmap map;
+    Pose shape, inverse;  ///< of the map's frame in the world; of the world in the map's frame
+    bool is_level = true;
+
+    std::optional<Heightmap::Ground> ground_at(double x, double y) const;
+  };
+  struct Plane {
+    Vec3 point, normal;
+  };
+
+  void add(const Connector& c, ObjectId object, const Shape& shape, const Pose& pose);
+
+  heightmap::Store files_;
+  std::vector<Tile> tiles_;
+  std::vector<Plane> planes_;
+  std::vector<ObjectId> objects_;
+  double resolution_ = std::numeric_limits<double>::infinity();
+  bool is_connected_ = false;
+};
+
+}  // namespace muro::ground

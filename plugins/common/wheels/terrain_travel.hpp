@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// Wheeled vehicles on the ground of a scene that has heightmaps.
+#pragma once
+
+#include "contact_points.hpp"
+#include "muro/toolkit/per_robot.hpp"
+#include "planar_motion.hpp"
+
+namespace muro::wheels {
+
+/// Keeps vehicles that move in their own x-y plane on the ground. That plane is the one of their wheels' lowest points,
+/// so that a way along it is a way along the ground; see ground::Standing for the rest. Without heightmaps it does
+/// nothing.
+class TerrainTravel {
+ public:
+  /// Takes a robot. [setup]
+  template <class StandingWheel>
+  Range connect(const Connector& c, const RobotView& robot, const std::vector<StandingWheel>& wheels,
+                std::span<const double> positions) {
+    terrain_.connect(c);
+    if (!follows()) return {};
+    return points_.add(wheels::contact_points(c, robot, std::span<const StandingWheel>(wheels), positions));
+  }
+
+  bool follows() const { return terrain_.has_heightmaps(); }
+  /// Scenery that is ground.
+  std::span<const ObjectId> ground() const {
+    if (!follows()) return {};
+    return terrain_.objects();
+  }
+  /// The points of a robot, those of its wheels first.
+  std::span<ground::ContactPoint> contacts_of(Range robot) { return points_[robot]; }
+
+  /// s: the part of a step of `dt` in which a robot that goes no faster than `speed` (m/s) stays in one cell or comes
+  /// to the next.
+  double longest_interval(double speed, double dt) const {
+    const double cells = speed * dt / terrain_.resolution();
+    return cells > 1 ? dt / std::ceil(std::min(cells, 1e3)) : dt;
+  }
+
+  /// Puts a robot that has gone from `before` to `pose` in its own plane on the ground. [step]
+  void settle(Range robot, const Pose& before, Pose& pose) const {
+    if (!follows() || !pose.position.allFinite()) return;
+    ground::Standing(terrain_, points_[robot]).settle(before, pose);
+  }
+
+  /// The velocity of a robot that goes at `v` in its own plane. [step]
+  Twist in_world(Range robot, const Pose& pose, const PlanarTwist& v) const {
+    if (!follows() || !pose.position.allFinite()) return wheels::in_world(pose, v);
+    return ground::Standing(terrain_, points_[robot]).velocity(pose, {v.x, v.y, v.yaw_rate});
+  }
+
+ private:
+  ground::Terrain terrain_;
+  PackedLists<ground::ContactPoint> points_;
+};
+
+}  // namespace muro::wheels
