@@ -138,7 +138,7 @@ void PairCollision::step(const Step& step, Range range) {
         led_[r].pairs.clear();
         led_[r].points.clear();
         for (const std::uint32_t other : near_[r])
-          if (precedes(r, other) && may_touch(r, other)) collide_pair(r, other, led_[r]);
+          if (precedes(r, other)) collide_pair(r, other, led_[r]);
       }
       return;
     default:
@@ -184,10 +184,14 @@ Candidates& PairCollision::candidates(std::uint32_t robot) {
   if (!has_contacts(mine)) return found;
   if (lists_scenery(mine)) add_scenery(overlaps_.of(robot, *index_), index_->robots[robot].bounds, found);
   if (is_anyone_near_ == 0) return found;
-  for (const std::uint32_t other : near_[robot])
-    if (pair_of(robot, other) && lists(robot, other)) found.robots.push_back(other);
+  for (const std::uint32_t other : near_[robot]) {
+    const Led::Pair* const pair = pair_of(robot, other);
+    if (!pair || !lists(robot, other)) continue;
+    const bool leads = precedes(robot, other);
+    found.robots.push_back({other, pair->first, pair->count, led_[leads ? robot : other].points.data(), leads});
+  }
   std::sort(found.robots.begin(), found.robots.end(),
-            [this](std::uint32_t a, std::uint32_t b) { return precedes(a, b); });
+            [this](const auto& a, const auto& b) { return precedes(a.robot, b.robot); });
   return found;
 }
 
@@ -230,23 +234,40 @@ void PairCollision::collide_scenery(Candidates& candidates, Sink sink) {
   }
 }
 
-/// What two robots have found for each other, as the first sees it.
-void PairCollision::add_listed(std::uint32_t robot, std::uint32_t other, std::uint32_t rank,
-                               Candidates& candidates) const {
-  const bool leads = precedes(robot, other);
-  const Led& led = led_[leads ? robot : other];
-  const Led::Pair& pair = *pair_of(robot, other);
-  for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
-    const PairPoint& found = led.points[i];
-    const std::uint32_t own = leads ? found.own : found.other, theirs = leads ? found.other : found.own;
-    const Collider &mine = index_->colliders[own], &others = index_->colliders[theirs];
-    // A plane of a robot is touched by those that have a list themselves.
-    if (mine.shape->kind == ShapeKind::plane && !has_contacts(robots_[other])) continue;
-    Contact c = contact_between(mine, others);
-    c.point = found.point.point;
-    c.normal = leads ? found.point.normal : Vec3(-found.point.normal);
-    c.depth = found.point.depth;
-    candidates.listed.push_back({first_of_body_[own], rank, first_of_body_[theirs], own, theirs, i, c});
+/// What two robots have found for each other. `rank`: one more than the number of the other in `candidates.robots`.
+void PairCollision::add_listed(std::uint32_t robot, std::uint32_t rank, Candidates& candidates) const {
+  const Candidates::Partner& partner = candidates.robots[rank - 1];
+  // A plane of a robot is touched by those that have a list themselves.
+  const bool without_planes = robots_[robot].has_plane && !has_contacts(robots_[partner.robot]);
+  for (std::uint32_t i = partner.first; i < partner.first + partner.count; ++i) {
+    const PairPoint& found = partner.points[i];
+    const std::uint32_t own = partner.leads ? found.own : found.other, other = partner.leads ? found.other : found.own;
+    if (without_planes && index_->colliders[own].shape->kind == ShapeKind::plane) continue;
+    candidates.listed.push_back({first_of_body_[own], rank, first_of_body_[other], own, other, i});
+  }
+}
+
+/// Fills the list with what has been found, in its order.
+void PairCollision::write_list(const ListOut<Contact>& list, Candidates& candidates) const {
+  std::sort(candidates.listed.begin(), candidates.listed.end());
+  const Collider* const colliders = index_->colliders.data();
+  const Candidates::Listed* before = nullptr;
+  Contact c;
+  for (const Candidates::Listed& l : candidates.listed) {
+    if (!before || l.own != before->own || l.other != before->other)
+      c = contact_between(colliders[l.own], colliders[l.other]);
+    before = &l;
+    const ContactPoint* point = candidates.found.data() + l.number;
+    bool leads = true;
+    if (l.rank > 0) {
+      const Candidates::Partner& partner = candidates.robots[l.rank - 1];
+      point = &partner.points[l.number].point;
+      leads = partner.leads;
+    }
+    c.point = point->point;
+    c.normal = leads ? point->normal : Vec3(-point->normal);
+    c.depth = point->depth;
+    list.push_back(c);
   }
 }
 
@@ -256,33 +277,32 @@ void PairCollision::list_pairs(std::uint32_t robot, Candidates& candidates) {
   if (candidates.others.empty() && candidates.robots.empty()) return;
   const RobotColliders& colliders = index_->robots[robot];
   candidates.own.clear();
+  const bool is_mixed = !candidates.robots.empty();  // then some of its colliders have been placed
   for (std::uint32_t k = colliders.first; k < colliders.first + colliders.count; ++k)
-    candidates.own.push_back(transformed_collider(k));
-  const bool is_mixed = !candidates.robots.empty();
+    candidates.own.push_back(is_mixed && is_placed(k) ? placed_[k] : transformed_collider(k));
   candidates.listed.clear();
+  candidates.found.clear();
   collide_scenery(candidates, [&](const auto& a, const auto& b, const std::vector<ContactPoint>& points) {
+    if (is_mixed) {
+      for (const ContactPoint& p : points) {
+        const auto number = std::uint32_t(candidates.found.size());
+        candidates.listed.push_back(
+            {first_of_body_[a.number], 0, first_of_body_[b.number], a.number, b.number, number});
+        candidates.found.push_back(p);
+      }
+      return;
+    }
     Contact c = contact_between(*a.collider, *b.collider);
-    for (std::uint32_t i = 0; i < points.size(); ++i) {
-      c.point = points[i].point;
-      c.normal = points[i].normal;
-      c.depth = points[i].depth;
-      if (is_mixed)
-        candidates.listed.push_back({first_of_body_[a.number], 0, first_of_body_[b.number], a.number, b.number, i, c});
-      else
-        list.push_back(c);
+    for (const ContactPoint& p : points) {
+      c.point = p.point;
+      c.normal = p.normal;
+      c.depth = p.depth;
+      list.push_back(c);
     }
   });
   if (!is_mixed) return;
-  std::uint32_t rank = 0;
-  for (const std::uint32_t other : candidates.robots) add_listed(robot, other, ++rank, candidates);
-  candidates.order.clear();
-  for (const Candidates::Listed& l : candidates.listed) candidates.order.push_back(&l);
-  const auto place = [](const Candidates::Listed& l) {
-    return std::tie(l.own_body, l.rank, l.other_body, l.own, l.other, l.number);
-  };
-  std::sort(candidates.order.begin(), candidates.order.end(),
-            [&](const auto* x, const auto* y) { return place(*x) < place(*y); });
-  for (const Candidates::Listed* l : candidates.order) list.push_back(l->contact);
+  for (std::uint32_t rank = 1; rank <= candidates.robots.size(); ++rank) add_listed(robot, rank, candidates);
+  write_list(list, candidates);
 }
 
 }  // namespace muro::contact_geometry

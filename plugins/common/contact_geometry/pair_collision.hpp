@@ -2,6 +2,8 @@
 // What all collision algorithms have in common: which shapes may touch, in which order, and the lists of contacts.
 #pragma once
 
+#include <compare>
+
 #include "manifold.hpp"
 #include "muro/algorithm.hpp"
 #include "muro/toolkit/pair_surface.hpp"
@@ -25,18 +27,33 @@ struct TransformedCollider {
   Aabb bounds;
 };
 
+/// A point in which two robots touch, as the one that precedes sees it.
+struct PairPoint {
+  std::uint32_t own, other;  ///< colliders
+  ContactPoint point;
+};
+
 /// What a robot touches at present. Reused, so that it stops allocating.
 struct Candidates {
-  /// A contact and its place in the list.
+  /// The place of a contact in the list.
   struct Listed {
-    std::uint32_t own_body, rank, other_body, own, other, number;  ///< bodies: their first colliders
-    Contact contact;
+    std::uint32_t own_body, rank;   ///< first collider of the body; 0: scenery, else one more than in `robots`
+    std::uint32_t other_body, own;  ///< first collider of the body; colliders
+    std::uint32_t other, number;    ///< collider; in `found` or in what the pair of robots has found
+
+    std::strong_ordering operator<=>(const Listed&) const = default;
+  };
+  /// A robot that it touches, and the points of that pair, as the one that precedes sees them.
+  struct Partner {
+    std::uint32_t robot, first, count;  ///< in `points`
+    const PairPoint* points;
+    bool leads;  ///< the robot whose list it is precedes
   };
   std::vector<TransformedCollider> own;     ///< bodies in the order of the model, shapes in the order of the body
   std::vector<TransformedCollider> others;  ///< of the scenery, as declared
-  std::vector<std::uint32_t> robots;        ///< that touch it, by order key
+  std::vector<Partner> robots;              ///< that touch it, by order key
   std::vector<Listed> listed;
-  std::vector<const Listed*> order;
+  std::vector<ContactPoint> found;   ///< with scenery
   std::vector<ContactPoint> points;  ///< of one pair
 };
 
@@ -101,11 +118,6 @@ class PairCollision : public Algorithm {
   OverlapCache overlaps_;
 
  private:
-  /// A point in which two robots touch, as the one that precedes sees it.
-  struct PairPoint {
-    std::uint32_t own, other;  ///< colliders
-    ContactPoint point;
-  };
   /// What holds of a pair of robots as long as both together have moved less than `until`, m, in all.
   struct Apart {
     std::uint32_t robot;
@@ -132,6 +144,10 @@ class PairCollision : public Algorithm {
   void follow(std::uint32_t robot, std::uint64_t step);
   bool may_touch(std::uint32_t a, std::uint32_t b) const;
   void place_colliders(std::uint32_t robot);
+  /// Of a robot that may touch another.
+  bool is_placed(std::uint32_t collider) const {
+    return placed_[collider].bounds.low.x() <= placed_[collider].bounds.high.x();
+  }
   void collide_pair(std::uint32_t robot, std::uint32_t other, Led& led);
   double robot_distance(std::uint32_t robot, std::uint32_t other) const;
   void note_distance(std::uint32_t robot, std::uint32_t other, Led& led) const;
@@ -139,7 +155,8 @@ class PairCollision : public Algorithm {
   void add_scenery(const OverlapCache::Overlaps& overlaps, const Aabb& bounds, Candidates& candidates) const;
   template <class Sink>
   void collide_scenery(Candidates& candidates, Sink sink);
-  void add_listed(std::uint32_t robot, std::uint32_t other, std::uint32_t rank, Candidates& candidates) const;
+  void add_listed(std::uint32_t robot, std::uint32_t rank, Candidates& candidates) const;
+  void write_list(const ListOut<Contact>& list, Candidates& candidates) const;
 
   std::uint8_t is_crowded_ = 0;      ///< any two robots may be near each other
   std::uint8_t is_anyone_near_ = 0;  ///< any two are
@@ -149,8 +166,9 @@ class PairCollision : public Algorithm {
       {.index_space = Phase::IndexSpace::robots, .enabled = &is_anyone_near_},
       {.index_space = Phase::IndexSpace::robots, .enabled = &is_anyone_near_},
       {.index_space = Phase::IndexSpace::robots}};
-  std::vector<Led> led_;                          ///< by robot
-  std::vector<std::vector<std::uint32_t>> near_;  ///< by robot: whose bounds overlap its own, while any two may be near
+  std::vector<Led> led_;  ///< by robot
+  /// By robot: whose bounds overlap its own, while any two may be near; from phase 2 on those that it may touch.
+  std::vector<std::vector<std::uint32_t>> near_;
   std::vector<double> travel_;                ///< by robot, m: an upper bound of how far its shapes have moved in all
   std::vector<double> last_move_;             ///< by robot, m: in the last step; 0 where that is not known
   std::vector<std::uint64_t> followed_in_;    ///< by robot: in which step last

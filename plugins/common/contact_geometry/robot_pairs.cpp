@@ -34,21 +34,24 @@ void PairCollision::find_near_robots(std::uint32_t robot) {
     if (other != robot && are_near(robot, other)) near.push_back(other);
 }
 
-/// Adds how far the robot has moved since the last time, at most: of each body its origin, and the rest by turning.
+/// Adds how far the robot has moved since the last time, at most: of each body its origin, and the rest by turning. Of
+/// two lengths the sum is at most the root of twice the sum of their squares.
 void PairCollision::follow(std::uint32_t robot, std::uint64_t step) {
   const RobotColliders& colliders = index_->robots[robot];
   const std::uint32_t end = colliders.first + colliders.count;
-  double farthest = 0;
+  double farthest2 = 0;
   for (std::uint32_t k = colliders.first; k < end;) {
     const Pose& now = *index_->colliders[k].body_pose;
     Pose& then = followed_[k];
     double radius = 0;
     for (const std::uint32_t body = k; k < end && first_of_body_[k] == body; ++k) radius = std::max(radius, radii_[k]);
     const auto &q = now.orientation.coeffs(), &p = then.orientation.coeffs();
-    const double turned = std::sqrt(std::min((q - p).squaredNorm(), (q + p).squaredNorm()));  // 2 sin(angle / 4)
-    farthest = std::max(farthest, (now.position - then.position).norm() + (turned > 0 ? 2 * turned * radius : 0));
+    const double turned2 = std::min((q - p).squaredNorm(), (q + p).squaredNorm());  // (2 sin(angle / 4))^2
+    const double by_turning2 = turned2 > 0 ? 4 * turned2 * radius * radius : 0;     // a plane has no radius
+    farthest2 = std::max(farthest2, 2 * ((now.position - then.position).squaredNorm() + by_turning2));
     then = now;
   }
+  const double farthest = std::sqrt(farthest2);
   last_move_[robot] = followed_in_[robot] + 1 == step ? farthest : 0;
   followed_in_[robot] = step;
   travel_[robot] += farthest;
@@ -63,12 +66,11 @@ bool PairCollision::may_touch(std::uint32_t a, std::uint32_t b) const {
   return lists(a, b) || lists(b, a);
 }
 
-/// Those that may touch a near robot, as far as the balls around them tell; the bounds of the others are empty.
+/// Those that may touch a near robot, as far as the balls around them tell; the bounds of the others are empty. Forgets
+/// near robots that it cannot touch.
 void PairCollision::place_colliders(std::uint32_t robot) {
-  thread_local std::vector<std::uint32_t> others;
-  others.clear();
-  for (const std::uint32_t other : near_[robot])
-    if (may_touch(robot, other)) others.push_back(other);
+  std::vector<std::uint32_t>& others = near_[robot];
+  std::erase_if(others, [&](std::uint32_t other) { return !may_touch(robot, other); });
   if (others.empty()) return;
   const RobotColliders& colliders = index_->robots[robot];
   for (std::uint32_t k = colliders.first; k < colliders.first + colliders.count; ++k) {

@@ -91,10 +91,12 @@ inline FrictionAnchor anchor_of_impact(std::uint64_t pair) {
   return {.pair = pair, .point = Vec3::Constant(std::numeric_limits<double>::infinity())};
 }
 
+inline bool is_of_impact(const FrictionAnchor& anchor) { return std::isinf(anchor.point.x()); }
+
 /// Whether a contact of the pair was in an impact in the step before.
 inline bool was_in_impact(std::span<const FrictionAnchor> before, std::uint64_t pair) {
   return std::any_of(before.begin(), before.end(),
-                     [&](const FrictionAnchor& a) { return a.pair == pair && std::isinf(a.point.x()); });
+                     [&](const FrictionAnchor& a) { return a.pair == pair && is_of_impact(a); });
 }
 
 /// The mean time since the impacts of some points, s.

@@ -77,6 +77,20 @@ bool PairContacts::computes(std::uint32_t self, std::int32_t other) const {
   return mine != theirs ? mine < theirs : self < std::uint32_t(other);
 }
 
+/// Whether robot `self` computes its contacts with a body. `other_robot`: that of the body, if forces on it count.
+bool PairContacts::computes_contacts_with(std::uint32_t self, ObjectId body, std::int32_t& other_robot) {
+  other_robot = bodies_.dynamic_robot_of(bodies_[body]);
+  if (!contact_algorithm_resolves(*bodies_.robots[self].world, bodies_.world_of(other_robot))) return false;
+  // Nothing is computed for robots that list nothing: a shadow's partner, and one handed over after the collision step.
+  const bool takes_part = other_robot != no_robot && (*flags_)[std::size_t(other_robot)] != 0;
+  if (bodies_.robots[self].is_shadow || !takes_part) other_robot = no_robot;
+  if (computes(self, other_robot)) return true;
+  std::vector<std::uint32_t>& owners = record(self).owners;
+  const auto owner = std::uint32_t(other_robot);
+  if (std::find(owners.begin(), owners.end(), owner) == owners.end()) owners.push_back(owner);
+  return false;
+}
+
 /// Sorts the contacts of a robot into patches.
 void PairContacts::find_patches(std::uint32_t self) {
   Record& me = record(self);
@@ -86,20 +100,16 @@ void PairContacts::find_patches(std::uint32_t self) {
   me.impact_patches.clear();
   me.impact_contacts.clear();
   std::size_t computed = 0;
+  ObjectId other = no_object;
+  std::int32_t other_robot = no_robot;
+  bool is_computed = false;
   for (const Contact& contact : *bodies_.robots[self].contacts) {
-    std::int32_t other_robot = bodies_.dynamic_robot_of(bodies_[contact.other]);
-    if (!contact_algorithm_resolves(*bodies_.robots[self].world, bodies_.world_of(other_robot))) {
-      me.patch_of.push_back(not_computed);
-      continue;
+    if (contact.other != other) {
+      other = contact.other;
+      is_computed = computes_contacts_with(self, other, other_robot);
     }
-    // Nothing is computed for robots that list nothing: a shadow's partner, and one handed over after the collision
-    // step.
-    const bool takes_part = other_robot != no_robot && (*flags_)[std::size_t(other_robot)] != 0;
-    if (bodies_.robots[self].is_shadow || !takes_part) other_robot = no_robot;
-    if (!computes(self, other_robot)) {
+    if (!is_computed) {
       me.patch_of.push_back(not_computed);
-      const auto owner = std::uint32_t(other_robot);
-      if (std::find(me.owners.begin(), me.owners.end(), owner) == me.owners.end()) me.owners.push_back(owner);
       continue;
     }
     const bool impact = add_impact(self, contact, other_robot, computed++);
@@ -161,8 +171,8 @@ void PairContacts::find_load(std::uint32_t self) {
 void PairContacts::apply_forces(std::uint32_t self) {
   Record& me = record(self);
   const Robot& robot = bodies_.robots[self];
-  const auto old = *robot.anchors;
-  me.old_anchors.assign(old.begin(), old.end());
+  me.old_anchors.assign((*robot.anchors).begin(), (*robot.anchors).end());
+  const auto& old = me.old_anchors;
   robot.anchors.clear();
   if (robot.turning_springs) {
     const auto springs = *robot.turning_springs;
@@ -170,6 +180,7 @@ void PairContacts::apply_forces(std::uint32_t self) {
     robot.turning_springs.clear();
   }
   bodies_.clear_wrenches(self);
+  const bool any_impacts = std::any_of(old.begin(), old.end(), is_of_impact);
   std::size_t computed = 0;
   const std::uint32_t* patch_of = me.patch_of.data();
   for (const Contact& contact : *robot.contacts) {
@@ -182,16 +193,18 @@ void PairContacts::apply_forces(std::uint32_t self) {
       continue;
     }
     ContactPatch& patch = me.patches[number];
-    if (contact.surface.restitution != patch.restitution) set_up_laws(me, patch, contact.surface.restitution);
+    if (contact.surface.restitution != patch.restitution) set_up_laws(self, patch, contact.surface.restitution);
     const FrictionAnchor* const before = previous<FrictionAnchor>(me.old_anchors, computed++, pair, contact.point);
     FrictionAnchor anchor{pair, contact.point, before ? before->displacement : Vec3::Zero()};
-    const Vec3 motion = bodies_.velocity(contact.self, contact.point) - bodies_.velocity(contact.other, contact.point);
-    if (motion.dot(contact.normal) > 0 && was_in_impact(me.old_anchors, pair)) {  // it has what it should have
+    const PointMotion motion{bodies_.velocity(contact.self, contact.point),
+                             bodies_.velocity(contact.other, contact.point)};
+    if (any_impacts && motion.relative().dot(contact.normal) > 0 &&
+        was_in_impact(me.old_anchors, pair)) {  // it has what it should have
       robot.anchors.push_back(anchor_of_impact(pair));
       continue;
     }
-    anchor.overlap = unmoved_overlap(context_, contact, before, -motion.dot(contact.normal));
-    const Vec3 force = force_on_self(robot, patch, contact, anchor);
+    anchor.overlap = unmoved_overlap(context_, contact, before, -motion.relative().dot(contact.normal));
+    const Vec3 force = force_on_self(robot, patch, contact, motion, anchor);
     robot.anchors.push_back(anchor);
     const DynamicBody& body = bodies_.dynamic_bodies[patch.body];
     body.wrench->add_force(force, contact.point - body.pose->position);
@@ -231,27 +244,29 @@ void PairContacts::resist_turning(std::uint32_t self, ContactPatch& patch, const
 }
 
 /// A patch rarely has more than one restitution.
-void PairContacts::set_up_laws(const Record& self, ContactPatch& p, double restitution) const {
-  const double load = self.load + (p.other == no_robot ? 0 : record(std::uint32_t(p.other)).load);
+void PairContacts::set_up_laws(std::uint32_t self, ContactPatch& p, double restitution) const {
+  const double load = record(self).load + (p.other == no_robot ? 0 : record(std::uint32_t(p.other)).load);
   p.restitution = restitution;
   p.normal.emplace(context_.stiffness, bodies_.materials[bodies_.material_of(restitution)].damping_ratio, load);
   p.friction.emplace(context_.stiffness, load);
+  if (p.other == no_robot) return;
+  p.velocity = centre_velocity(std::int32_t(self), p.body);
+  p.other_velocity = centre_velocity(p.other, p.other_body);
 }
 
 /// `anchor`: its displacement is updated.
 Vec3 PairContacts::force_on_self(const Robot& self, const ContactPatch& patch, const Contact& contact,
-                                 FrictionAnchor& anchor) const {
+                                 const PointMotion& point, FrictionAnchor& anchor) const {
   Vec3& displacement = anchor.displacement;
   const Vec3& n = contact.normal;
-  const Vec3 of_self = bodies_.velocity(contact.self, contact.point);
-  const Vec3 of_other = bodies_.velocity(contact.other, contact.point);
-  const Vec3 motion = of_self - of_other;
+  const Vec3 motion = point.relative();
   const double approach = -motion.dot(n);
   const Vec3 slip = motion + approach * n;
   // The depth at the time of the twists, where poses are ahead of them.
   double depth = contact.depth - anchor.overlap;
   const double lag = *self.lag, other_lag = patch.other == no_robot ? 0 : *bodies_.robots[std::size_t(patch.other)].lag;
-  if (lag != 0 || other_lag != 0) depth += context_.stiffness.h * n.dot(lag * of_self - other_lag * of_other);
+  if (lag != 0 || other_lag != 0)
+    depth += context_.stiffness.h * n.dot(lag * point.of_self - other_lag * point.of_other);
   const double normal = patch.effective_mass.along * patch.normal->force(depth, approach);
   displacement += slip * context_.elapsed;
   displacement -= n * n.dot(displacement);
@@ -275,7 +290,7 @@ void PairContacts::apply_reaction(std::uint32_t self, ContactPatch& patch, const
   const DynamicBody& own = bodies_.dynamic_bodies[patch.body];
   const DynamicBody& other = bodies_.dynamic_bodies[patch.other_body];
   patch.reaction.add_force(-force, point - other.pose->position);
-  const Vec3 v = centre_velocity(std::int32_t(self), patch.body), u = centre_velocity(patch.other, patch.other_body);
+  const Vec3 &v = patch.velocity, &u = patch.other_velocity;
   Vec3 point_velocity = 0.5 * (v + u);  // velocity of the point, which belongs to no body
   if (before && context_.elapsed > 0) {
     const Vec3 seen = (point - before->point) / context_.elapsed;

@@ -66,7 +66,14 @@ class PairContacts {
     double restitution = -1;  ///< that `normal` is for
     std::optional<law::NormalLaw<double>> normal{};
     std::optional<law::FrictionLaw<double>> friction{};
-    Wrench reaction{};  ///< on the other's body
+    Vec3 velocity = Vec3::Zero(), other_velocity = Vec3::Zero();  ///< m/s, of the centres of two robots
+    Wrench reaction{};                                            ///< on the other's body
+  };
+  /// Velocities (m/s) of both bodies where they touch.
+  struct PointMotion {
+    Vec3 of_self, of_other;
+
+    Vec3 relative() const { return of_self - of_other; }
   };
   /// A robot in the present step.
   struct Record {
@@ -89,6 +96,7 @@ class PairContacts {
   void add_records();
   void set_up(std::uint32_t self);
   void find_patches(std::uint32_t self);
+  bool computes_contacts_with(std::uint32_t self, ObjectId body, std::int32_t& other_robot);
   std::uint32_t add_to_patch(Record& me, const Contact& contact, std::int32_t other_robot) const;
   bool add_impact(std::uint32_t self, const Contact& contact, std::int32_t other_robot, std::size_t place);
   void count_impacts(std::uint32_t self);
@@ -106,10 +114,10 @@ class PairContacts {
     return r.mobilities[body - r.first_body];
   }
   law::EffectiveMass<double> effective_mass_of(const Mobility& self, const ContactPatch& p) const;
-  void set_up_laws(const Record& self, ContactPatch& p, double restitution) const;
+  void set_up_laws(std::uint32_t self, ContactPatch& p, double restitution) const;
   void resist_turning(std::uint32_t self, ContactPatch& patch, const Contact& contact, const TurningSpring& spring,
                       double normal_force);
-  Vec3 force_on_self(const Robot& self, const ContactPatch& patch, const Contact& contact,
+  Vec3 force_on_self(const Robot& self, const ContactPatch& patch, const Contact& contact, const PointMotion& point,
                      FrictionAnchor& anchor) const;
   void apply_reaction(std::uint32_t self, ContactPatch& patch, const Vec3& force, const Vec3& point,
                       const FrictionAnchor* before) const;

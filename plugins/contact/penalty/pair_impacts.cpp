@@ -15,6 +15,7 @@ bool PairContacts::add_impact(std::uint32_t self, const Contact& contact, std::i
   const bool falls = other_robot != no_robot;
   if (step == 0 || (falls && bodies_.impact_step_of(other_robot) != step)) return false;
   const Vec3 velocity = bodies_.velocity(contact.self, contact.point) - bodies_.velocity(contact.other, contact.point);
+  if (!(-velocity.dot(contact.normal) > context_.impact_speed)) return false;  // most, before anything is looked up
   const FrictionAnchor* const before =
       previous<FrictionAnchor>(*robot.anchors, place, bodies_.pair_of(contact), contact.point);
   const auto time = impact_of(context_, contact, before, velocity, step, falls);
