@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+
+#include "muro/algorithm.hpp"
+#include "plugins/common/heightmap/heightmap_file.hpp"
+#include "terrain_contacts.hpp"
+
+namespace muro::terrain_contact {
+
+/// The heightmaps of a scene's scenery.
+class SceneHeightmaps {
+ public:
+  /// Reads the files of all. One that cannot be read is refused: see mesh::refuse_collision_mesh. [setup]
+  void load(Connector& c);
+  bool empty() const { return files_.empty(); }
+  /// Of a shape of kind heightmap; as long as this lives.
+  Heightmap of(const Shape& shape) const { return files_.at(shape.mesh)->heightmap(shape.size); }
+
+ private:
+  heightmap::Store store_;
+  std::map<TextId, const heightmap::HeightmapFile*> files_;
+};
+
+}  // namespace muro::terrain_contact
