@@ -109,12 +109,21 @@ void Scheduler::find_providers() {
 }
 
 /// A task on demand has the longest period of those that ask for it, in every instant, so that its results do not
-/// depend on who else happens to be due.
+/// depend on who else happens to be due; nor on who only looks, as recorders do: these count where nobody else asks.
 void Scheduler::find_periods() {
   periods_.assign(tasks_.size(), 0);
+  for (TaskId t = 0; t < tasks_.size(); ++t)
+    if (!tasks_[t].rate.on_demand()) periods_[t] = tasks_[t].rate.period();
+  std::vector<double> of_writers = periods_of_asked(false), of_all = periods_of_asked(true);
+  for (TaskId t = 0; t < tasks_.size(); ++t)
+    if (tasks_[t].rate.on_demand()) periods_[t] = of_writers[t] > 0 ? of_writers[t] : of_all[t];
+}
+
+/// Of the tasks on demand: the longest period of those that ask for them and write something, or of all.
+std::vector<double> Scheduler::periods_of_asked(bool by_all) const {
+  std::vector<double> periods(tasks_.size());
   for (TaskId t = 0; t < tasks_.size(); ++t) {
-    if (tasks_[t].rate.on_demand()) continue;
-    periods_[t] = tasks_[t].rate.period();
+    if (tasks_[t].rate.on_demand() || (!by_all && tasks_[t].writes.empty())) continue;
     std::vector<bool> seen(tasks_.size());
     std::vector<TaskId> asking{t};
     while (!asking.empty()) {
@@ -123,11 +132,12 @@ void Scheduler::find_periods() {
       for (const TaskId p : providers_[reader]) {
         if (seen[p]) continue;
         seen[p] = true;
-        if (tasks_[p].rate.on_demand()) periods_[p] = std::max(periods_[p], periods_[t]);
+        if (tasks_[p].rate.on_demand()) periods[p] = std::max(periods[p], periods_[t]);
         asking.push_back(p);
       }
     }
   }
+  return periods;
 }
 
 void Scheduler::add_providers(TaskId reader, std::vector<bool>& added, std::vector<DueTask>& due) const {

@@ -110,6 +110,7 @@ class Scheduler {
   std::vector<DueTask> due_tasks_at(std::int64_t time) const;
   void find_providers();
   void find_periods();
+  std::vector<double> periods_of_asked(bool by_all) const;
   void add_providers(TaskId reader, std::vector<bool>& added, std::vector<DueTask>& due) const;
   /// For instants in which the same is due: for one, and for `instants_together` that follow each other.
   struct Plans {
@@ -133,7 +134,7 @@ class Scheduler {
   std::vector<Group> groups_;
   std::vector<std::uint32_t> group_of_item_;
   std::vector<std::vector<TaskId>> providers_;  ///< per task: tasks on demand that write what it reads
-  std::vector<double> periods_;                 ///< s, per task; on demand: the longest of those that ask
+  std::vector<double> periods_;  ///< s, per task; on demand: the longest of those that ask, see find_periods
   Mask due_, next_due_, last_due_;
   Plans* last_plans_ = nullptr;
   std::unordered_map<Mask, Plans> plans_;

@@ -119,6 +119,14 @@ TEST_F(SchedulerTest, ATaskOnDemandHasTheLongestPeriodOfItsReaders) {
   EXPECT_DOUBLE_EQ(recorders[0].last.dt, 0.01);
 }
 
+TEST_F(SchedulerTest, WhoOnlyLooksDoesNotLengthenThePeriodOfATaskOnDemand) {
+  add("contact", 0, 8, 0, {}, {1});
+  add("motion", 1000, 9, 0, {1}, {2});
+  add("recorder", 100, 3, 0, {1});
+  scheduler.run_until(5'000'000);
+  EXPECT_DOUBLE_EQ(recorders[0].last.dt, 0.001);
+}
+
 TEST_F(SchedulerTest, AStopEndsAPacedWaitAndLosesNoInstant) {
   add("a", 1);
   scheduler.set_pacing({0.01});  // an instant in 100 s

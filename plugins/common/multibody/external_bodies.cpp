@@ -10,7 +10,7 @@ namespace muro::multibody {
 ExternalBody ExternalBodies::body_of(const Connector& c, ObjectId object) {
   ExternalBody body;
   body.name = c.object_name(object);
-  for (const Shape& s : c.constant_array(object, keys::collision_shapes)) body.shapes.push_back({s, 0});
+  for (const Shape& s : c.constant_array(object, keys::collision_shapes)) body.shapes.push_back({s, 0, object});
   return body;
 }
 

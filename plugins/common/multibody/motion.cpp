@@ -54,7 +54,7 @@ void Motion::connect_by_name(Connector& c) {
   for (std::uint32_t i = 0; i < c.items().size(); ++i)
     if (WorldRobot* const robot = served_[i].by_world) {
       robot->set_has_contact_law(c.is_used(c.items()[i].robot->base(), keys::contacts, usage::read));
-      robot->connect_by_name(c);
+      robot->connect_by_name(c, c.items()[i].robot->base());
     }
 }
 

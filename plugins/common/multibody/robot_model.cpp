@@ -112,10 +112,11 @@ RobotModel model_of(const Connector& connector, const RobotView& robot, std::spa
     body.inertia = body.inertia + inertias[i].in(placement.pose);
     const auto shapes = connector.constant_array(robot.links[i].object, keys::collision_shapes);
     for (const Shape& s : shapes) {
-      body.shapes.push_back({s, std::uint32_t(model.loaded_links.size())});
+      body.shapes.push_back({s, std::uint32_t(model.loaded_links.size()), robot.links[i].object});
       body.shapes.back().shape.origin = placement.pose * s.origin;
     }
-    if (i == 0 || !shapes.empty()) model.loaded_links.push_back({std::uint32_t(i), !shapes.empty(), placement});
+    if (i == 0 || !shapes.empty())
+      model.loaded_links.push_back({std::uint32_t(i), !shapes.empty(), placement, robot.links[i].object});
   }
   for (RigidBody& body : model.bodies) {
     const Link& link = robot.links[body.link];

@@ -15,6 +15,7 @@ namespace muro::multibody {
 struct BodyShape {
   Shape shape;                    ///< its origin in the frame of the body
   std::uint32_t loaded_link = 0;  ///< in RobotModel::loaded_links; 0 for bodies that are not of the world
+  ObjectId object = no_object;    ///< that has the shape
 };
 
 /// Links that fixed joints hold together, as one body with the joint that moves it. Its frame is that of its first
@@ -44,6 +45,7 @@ struct LoadedLink {
   std::uint32_t link = 0;  ///< of the robot
   bool has_shapes = false;
   LinkPlacement placement;
+  ObjectId object = no_object;
 };
 
 struct RobotModel {

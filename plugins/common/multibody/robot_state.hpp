@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "muro/geometry.hpp"
+#include "plugins/common/contact_wrench/contact_wrench.hpp"
 
 namespace muro::multibody {
 
@@ -57,15 +58,23 @@ struct Overlap {
 /// State of a robot, in and out.
 struct RobotState {
   MotionType motion_type = MotionType::dynamic;
-  Pose pose;                         ///< of the base
-  Twist twist;                       ///< of the base, at its origin
-  std::vector<JointState> joints;    ///< one per body
-  std::vector<Wrench> external;      ///< in: one per body, at the body's origin, world axes
-  std::vector<Wrench> contact;       ///< out: one per loaded link, at its body's origin: by contacts in the world
+  Pose pose;                       ///< of the base
+  Twist twist;                     ///< of the base, at its origin
+  std::vector<JointState> joints;  ///< one per body
+  std::vector<Wrench> external;    ///< in: one per body, at the body's origin, world axes
+  std::vector<Wrench> contact;     ///< out: one per loaded link, at its body's origin: by contacts in the world
+  bool tells_contacts = false;     ///< in: whether `contacts` are wanted
+  /// Out: those of the last step, each in one of the two robots that it is between, and there with a body of it first.
+  std::vector<ContactWrench> contacts;
   Overlap overlap;                   ///< out: the deepest with scenery in the last step
   bool moved_from_outside = false;   ///< in: it is not where the last step left it
   bool has_external_wrench = false;  ///< in: some `external` is not zero
   std::span<double> memory;          ///< in and out: what the engine keeps of it, part of the state
+
+  void clear_contacts() {
+    for (Wrench& w : contact) w = Wrench{};
+    contacts.clear();
+  }
 };
 
 /// Pose (world) and twist (at the body's origin, world axes) of a body.

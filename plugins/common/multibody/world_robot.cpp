@@ -30,6 +30,7 @@ void WorldRobot::connect(Connector& c, const RobotView& view, const Parameters& 
   pose_ = c.variable(view.base(), keys::pose, c.constant(view.base(), keys::initial_pose).value_or(Pose{}));
   const Twist initial_twist = c.constant(view.base(), keys::initial_twist).value_or(Twist{});
   twist_ = c.variable(view.base(), keys::twist, model_.fixed_base ? Twist{} : initial_twist);
+  contacts_ = c.derived_list(view.base(), keys::contact_wrenches_of_motion);
   connect_joints(c, view, p, reach);
   connect_links(c, view);
   connect_memory(c, view, traits.motion, engine_memory);
@@ -73,7 +74,8 @@ bool WorldRobot::follows_positions(std::size_t body) const {
   return body > 0 && model_.bodies[body].drive == DriveMode::position && model_.bodies[body].leader < 0;
 }
 
-void WorldRobot::connect_by_name(Connector& c) {
+void WorldRobot::connect_by_name(Connector& c, ObjectId base) {
+  state_.tells_contacts = c.is_used(base, keys::contact_wrenches_of_motion, usage::read);
   for (std::size_t i = 1; i < joints_.size(); ++i)
     if (follows_positions(i)) joints_[i].position_target.connect_by_name(c);
 }
@@ -133,6 +135,7 @@ void WorldRobot::import() {
     s.joints[i].velocity = *joints_[i].velocity;
   }
   if (!is_dynamic()) {
+    if (state_.tells_contacts) contacts_.clear();
     if (last_.is_valid() && !is_in_world(*contact_world_)) clear_outputs();
     last_.invalidate();
     check_input();
@@ -291,6 +294,10 @@ void WorldRobot::check_input() const {
 }
 
 void WorldRobot::export_contacts() {
+  if (state_.tells_contacts) {
+    contacts_.clear();
+    for (const ContactWrench& contact : state_.contacts) contacts_.push_back(contact);
+  }
   bool has_body_states = false;
   for (std::size_t i = 0; i < wrenches_.size(); ++i) {
     if (!wrenches_[i].contact) continue;

@@ -27,7 +27,7 @@ class WorldRobot {
   void connect(Connector& c, const RobotView& view, const Parameters& p, const WorldTraits& traits,
                std::size_t engine_memory);
   /// Finds out whether velocities of joints in mode position are commanded. [setup]
-  void connect_by_name(Connector& c);
+  void connect_by_name(Connector& c, ObjectId base);
   /// Whether one of those that add to its external wrenches is the contact algorithm. [setup]
   void set_has_contact_law(bool has) { has_contact_law_ = has; }
 
@@ -94,7 +94,8 @@ class WorldRobot {
   std::vector<Joint> joints_;     ///< one per body
   MovedInertias moved_inertias_;  ///< where some joint follows positions
   bool has_position_drives_ = false;
-  std::vector<double> positions_;                      ///< of joints, one per body
+  std::vector<double> positions_;  ///< of joints, one per body
+  ListOut<ContactWrench> contacts_;
   std::vector<LinkWrenches> wrenches_;                 ///< one per loaded link
   std::vector<std::string> joint_names_, link_names_;  ///< the same; for messages
   LastState last_;

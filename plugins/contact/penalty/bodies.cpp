@@ -28,6 +28,12 @@ void Bodies::connect(Connector& c) {
   for (const RobotView* robot : c.robots()) connect_robot(c, *robot, resists_turning);
 }
 
+void Bodies::connect_by_name(const Connector& c) {
+  for (const RobotView* robot : c.robots())
+    tells_contacts = tells_contacts || (robot_of[robot->number] != no_robot &&
+                                        c.is_used(robot->base(), keys::contact_wrenches_of_law, usage::read));
+}
+
 void Bodies::connect_robot(Connector& c, const RobotView& view, bool resists_turning) {
   const bool moved = c.is_used(view.base(), keys::external_wrench, usage::read_sum);
   std::vector<std::uint32_t> links;  // that are dynamic bodies, beside the base
@@ -53,6 +59,7 @@ void Bodies::connect_robot(Connector& c, const RobotView& view, bool resists_tur
   Robot r;
   r.contacts = c.read_list(view.base(), keys::contacts);
   r.anchors = c.variable_list(view.base(), anchors);
+  r.told = c.derived_list(view.base(), keys::contact_wrenches_of_law);
   if (resists_turning) r.turning_springs = c.variable_list(view.base(), turning_springs);
   r.world = c.input(view.base(), keys::contact_world, kinematic_world);
   r.lag = c.input(view.base(), keys::twist_lag, 0.0);

@@ -11,6 +11,7 @@
 #include "patch.hpp"
 #include "plugins/common/contact_geometry/contact_responsibility.hpp"
 #include "plugins/common/contact_geometry/impact_correction.hpp"
+#include "plugins/common/contact_wrench/contact_wrench.hpp"
 #include "restitution.hpp"
 #include "turning_spring.hpp"
 
@@ -41,6 +42,7 @@ struct Robot {
   ListIn<Contact> contacts;
   ListOut<FrictionAnchor> anchors;
   ListOut<TurningSpring> turning_springs;        ///< empty: no shape resists rolling or spinning
+  ListOut<ContactWrench> told;                   ///< see Bodies::tells_contacts
   std::uint32_t first_body = 0, body_count = 1;  ///< in Bodies::dynamic_bodies; the first is that of the base
   bool is_single_body = true;
   bool is_shadow = false;   ///< it exerts no force on what it touches
@@ -63,8 +65,10 @@ struct Bodies {
   std::vector<std::int32_t> robot_of;  ///< by robot number: in `robots`, or no_robot
   std::vector<MassProperties> masses;  ///< all different
   std::vector<Material> materials;     ///< of all shapes; a pair has the larger restitution of two
+  bool tells_contacts = false;         ///< somebody reads what each contact does
 
   void connect(Connector& c);
+  void connect_by_name(const Connector& c);
 
   const Body& operator[](ObjectId id) const { return all[index_of(id)]; }
   const DynamicBody& base_of(const Robot& robot) const { return dynamic_bodies[robot.first_body]; }
@@ -89,6 +93,11 @@ struct Bodies {
   void clear_wrenches(std::uint32_t robot) const {
     const Robot& r = robots[robot];
     for (std::uint32_t u = r.first_body; u < r.first_body + r.body_count; ++u) *dynamic_bodies[u].wrench = Wrench{};
+  }
+  /// Puts contacts (one or more) into the list of a robot, without what they do. Returns the first.
+  static ContactWrench* tell(const Robot& robot, std::span<const Contact> contacts) {
+    for (const Contact& c : contacts) robot.told.push_back({c.self, c.other, c.point, c.normal, c.depth, {}});
+    return (*robot.told).data() + (*robot.told).size() - contacts.size();
   }
   std::uint32_t material_of(double restitution) const {
     std::uint32_t i = 0;

@@ -132,7 +132,8 @@ ImpactPoint::ImpactPoint(const StepContext& context, const Contact& contact, con
       velocity(relative + self.spin_before(time.since).cross(lever) - self.spin.cross(contact.point - self.centre)),
       since(time.since),
       friction(contact.surface.friction),
-      restitution(contact.surface.restitution) {
+      restitution(contact.surface.restitution),
+      source(&contact) {
   if (other) {
     const Vec3 present = contact.point - other->centre;
     other_lever = present + since * (other->velocity - point_velocity);
@@ -157,6 +158,10 @@ double mean_since(std::span<const ImpactPoint> points) {
   double sum = 0;
   for (const ImpactPoint& p : points) sum += p.since;
   return sum / double(points.size());
+}
+
+void tell_impact(const Robot& robot, const ImpactPoint& point, double step) {
+  Bodies::tell(robot, {point.source, 1})->wrench.force = point.impulse / step;
 }
 
 void add_impulse(const StepContext& context, double step, const ImpactPoint& point, const Vec3& impulse,

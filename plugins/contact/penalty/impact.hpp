@@ -67,6 +67,7 @@ struct ImpactPoint {
   double since = 0;         ///< s
   double friction = 0, restitution = 0;
   Vec3 impulse = Vec3::Zero();  ///< N s, on `self`: out
+  const Contact* source = nullptr;
 
   /// What an impulse (N s) and a torque impulse (N m s, about its centre) of other points of `self` change.
   void add_motion(const law::Mobility<double>& self, const Vec3& pushed, const Vec3& turned);
@@ -104,6 +105,9 @@ double mean_since(std::span<const ImpactPoint> points);
 
 /// Finds the impulses of the points of one patch. `other`: null where it does not move freely.
 void resolve_impact(std::span<ImpactPoint> points, const ImpactBody& self, const ImpactBody* other);
+
+/// Puts what happens in an impact into the list of its robot, as a force in a step (s).
+void tell_impact(const Robot& robot, const ImpactPoint& point, double step);
 
 /// Adds the impulse (N s) on a body to its wrench in a step (s) and to the correction of its path.
 void add_impulse(const StepContext& context, double step, const ImpactPoint& point, const Vec3& impulse,

@@ -192,6 +192,7 @@ void PairContacts::apply_forces(std::uint32_t self) {
       robot.anchors.push_back(anchor_of_impact(pair));
       continue;
     }
+    ContactWrench* const told = bodies_.tells_contacts ? Bodies::tell(robot, {&contact, 1}) : nullptr;
     ContactPatch& patch = me.patches[number];
     if (contact.surface.restitution != patch.restitution) set_up_laws(self, patch, contact.surface.restitution);
     const FrictionAnchor* const before = previous<FrictionAnchor>(me.old_anchors, computed++, pair, contact.point);
@@ -208,18 +209,21 @@ void PairContacts::apply_forces(std::uint32_t self) {
     robot.anchors.push_back(anchor);
     const DynamicBody& body = bodies_.dynamic_bodies[patch.body];
     body.wrench->add_force(force, contact.point - body.pose->position);
+    if (told) told->wrench.force = force;
     if (patch.other != no_robot) apply_reaction(self, patch, force, contact.point, before);
     if (contact.surface.rolling_resistance > 0 || contact.surface.spinning_resistance > 0) {
       const TurningSpring* const spring =
           previous<TurningSpring>(me.old_turning_springs, (*robot.turning_springs).size(), pair, contact.point);
-      resist_turning(self, patch, contact, {pair, contact.point, spring ? spring->angle : Vec3::Zero()},
-                     force.dot(contact.normal));
+      const Vec3 torque =
+          resist_turning(self, patch, contact, {pair, contact.point, spring ? spring->angle : Vec3::Zero()},
+                         force.dot(contact.normal));
+      if (told) told->wrench.torque = torque;
     }
   }
 }
 
-/// `spring`: as the last step left it.
-void PairContacts::resist_turning(std::uint32_t self, ContactPatch& patch, const Contact& contact,
+/// Returns the torque. `spring`: as the last step left it.
+Vec3 PairContacts::resist_turning(std::uint32_t self, ContactPatch& patch, const Contact& contact,
                                   const TurningSpring& spring, double normal_force) {
   const Robot& robot = bodies_.robots[self];
   const auto rate_of = [&](ObjectId id) {
@@ -241,6 +245,7 @@ void PairContacts::resist_turning(std::uint32_t self, ContactPatch& patch, const
   robot.turning_springs.push_back(turned);
   bodies_.dynamic_bodies[patch.body].wrench->torque += torque;
   if (patch.other != no_robot) patch.reaction.torque -= torque;
+  return torque;
 }
 
 /// A patch rarely has more than one restitution.

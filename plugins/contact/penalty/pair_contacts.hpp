@@ -115,7 +115,7 @@ class PairContacts {
   }
   law::EffectiveMass<double> effective_mass_of(const Mobility& self, const ContactPatch& p) const;
   void set_up_laws(std::uint32_t self, ContactPatch& p, double restitution) const;
-  void resist_turning(std::uint32_t self, ContactPatch& patch, const Contact& contact, const TurningSpring& spring,
+  Vec3 resist_turning(std::uint32_t self, ContactPatch& patch, const Contact& contact, const TurningSpring& spring,
                       double normal_force);
   Vec3 force_on_self(const Robot& self, const ContactPatch& patch, const Contact& contact, const PointMotion& point,
                      FrictionAnchor& anchor) const;

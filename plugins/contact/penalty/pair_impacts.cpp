@@ -124,8 +124,10 @@ void PairContacts::apply_impacts(std::uint32_t self) {
         add_impulse(context_, *robot.impact_step, p, -p.impulse, of_other, patch.reaction, patch.correction);
     }
     Wrench& wrench = *bodies_.base_of(robot).wrench;
-    for (const ImpactPoint& p : me.points)
+    for (const ImpactPoint& p : me.points) {
+      if (bodies_.tells_contacts) tell_impact(robot, p, *robot.impact_step);
       add_impulse(context_, *robot.impact_step, p, p.impulse, body, wrench, *robot.impact);
+    }
   }
 }
 

@@ -31,6 +31,7 @@ constexpr PropertyUse writes[] = {
     {"wrench.external", "of every robot that forces move"},
     {"contact.friction_anchors", "friction anchors, of every robot that forces move"},
     {"contact.turning_springs", "springs against rolling and spinning, of the same, where shapes resist these"},
+    {"contact.wrenches.law", "of every robot that forces move: what each contact does, where somebody reads it"},
     {"contact.time", "of the last run, on the world object"},
     {"contact.impact", "of every robot whose motion takes impacts at their instant"},
     {"contact.impact.time", "of the same robots, when they were in an impact last"},
@@ -58,6 +59,7 @@ class Penalty final : public Algorithm {
     scenery_contacts_ = std::make_unique<SceneryContacts>(bodies_);
     pair_contacts_ = std::make_unique<PairContacts>(bodies_);
   }
+  void connect_by_name(Connector& c) override { bodies_.connect_by_name(c); }
   void start() override { scenery_contacts_->start(); }
   void restored() override { start(); }
 

@@ -16,7 +16,8 @@ using lane::numbers_between;
 static_assert(sizeof(Contact) == contact_stride * sizeof(double) && offsetof(Contact, point) == 8 &&
               offsetof(Contact, normal) == 32 && offsetof(Contact, depth) == 56 && offsetof(Contact, surface) == 64 &&
               offsetof(Contact, self_shape) == 96 && sizeof(FrictionAnchor) == anchor_stride * sizeof(double) &&
-              offsetof(FrictionAnchor, point) == 8 && offsetof(FrictionAnchor, displacement) == 32);
+              offsetof(FrictionAnchor, point) == 8 && offsetof(FrictionAnchor, displacement) == 32 &&
+              sizeof(ContactWrench) == force_stride * sizeof(double));
 
 /// Two adjacent numbers of 4 bytes.
 std::uint64_t both(const void* first) {
@@ -99,6 +100,7 @@ void SceneryContacts::fetch(std::uint32_t robot) const {
 void SceneryContacts::apply_forces_on(const StepContext& context, std::uint32_t robot, Queues& queues) {
   KnownRobot& known = robots_[robot];
   const auto contacts = *known.list;
+  if (bodies_.tells_contacts) bodies_.robots[robot].told.clear();
   if (remaining_[robot] != 0) remaining_[robot] = 0;  // avoids a write: other threads have flags in the same cache line
   // It touches nothing, or it only reports what it touches.
   if (contacts.empty() || !is_moved_by_forces(*known.world)) {
@@ -129,6 +131,7 @@ void SceneryContacts::apply_forces_on(const StepContext& context, std::uint32_t 
   KernelRobot& view = q.views[q.count] = known.view;
   view.contacts = contacts[0].point.data();
   view.before = view.anchors = (*known.anchors)[0].point.data();
+  if (bodies_.tells_contacts) view.forces = Bodies::tell(bodies_.robots[robot], contacts)->wrench.force.data();
   q.robots[q.count++] = robot;
   if (q.count == 8) process_queue(context, q);
 }
@@ -214,7 +217,8 @@ void SceneryContacts::process_queue(const StepContext& context, Queue& q) {
                     .elapsed = context.elapsed,
                     .mass = &bodies_.masses[first.mass],
                     .layout = &layout,
-                    .anchors_ends = layout.ends};
+                    .anchors_ends = layout.ends,
+                    .tells_contacts = bodies_.tells_contacts};
   const KernelRobot* views[8];
   for (std::uint32_t i = 0; i < q.count; ++i) views[i] = &q.views[i];
   const unsigned remaining = kernels_.apply_forces(batch, views, int(q.count));
@@ -276,7 +280,9 @@ void SceneryContacts::apply_springs(const StepContext& context, std::uint32_t ro
                           .layout = &springs.layout,
                           .anchors_ends = springs.anchors_ends,
                           .patch_of = springs.patch_of,
-                          .patches = springs.patches};
+                          .patches = springs.patches,
+                          .tells_contacts = bodies_.tells_contacts};
+  if (bodies_.tells_contacts) view.forces = Bodies::tell(bodies_.robots[robot], contacts)->wrench.force.data();
   const auto apply = [&](const Contact* first) {
     view.contacts = first->point.data();
     const KernelRobot* const views[] = {&view};
@@ -290,6 +296,7 @@ void SceneryContacts::apply_springs(const StepContext& context, std::uint32_t ro
 }
 
 void SceneryContacts::process_single(const StepContext& context, std::uint32_t robot) {
+  if (bodies_.tells_contacts) bodies_.robots[robot].told.clear();
   TimeOfImpact times[max_contacts];
   if (const std::uint32_t which = find_impacts(context, robot, times); which != 0)
     return process_impacts(context, robot, which, times);

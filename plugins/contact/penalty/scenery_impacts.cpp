@@ -90,6 +90,7 @@ void SceneryContacts::apply_impacts(const StepContext& context, std::uint32_t ro
     for (std::size_t k = 0; k < count; ++k) {
       pushed += points[k].impulse;
       turned += points[k].lever.cross(points[k].impulse);
+      if (bodies_.tells_contacts) tell_impact(r, points[k], *r.impact_step);
       add_impulse(context, *r.impact_step, points[k], points[k].impulse, body, *base.wrench, *r.impact);
     }
   }

@@ -48,7 +48,7 @@ class RobotContacts {
     for (int i = 0; i < count_of<S>; ++i) {
       const KernelRobot& r = *robots[i < count ? i : 0];
       contacts_.at[i] = r.contacts, before_.at[i] = r.before;
-      anchors_.at[i] = r.anchors, wrench_.at[i] = r.wrench;
+      anchors_.at[i] = r.anchors, wrench_.at[i] = r.wrench, forces_.at[i] = r.forces;
       poses_[0].at[i] = r.base_pose, poses_[1].at[i] = r.link_pose;
       twists_[0].at[i] = r.base_twist, twists_[1].at[i] = r.link_twist;
     }
@@ -164,6 +164,7 @@ class RobotContacts {
         const V3<S> sum = normal * p.normal + mass.across * across;
         force += sum;
         torque += cross(p.at - base_, sum);
+        if (batch_.tells_contacts) store_vector(forces_, k * force_stride, sum, processed);
         store_rows(anchors_, k * anchor_stride,
                    {p.at.x, p.at.y, p.at.z, displacement.x, displacement.y, displacement.z}, processed);
       }
@@ -176,7 +177,7 @@ class RobotContacts {
   const int count_;
   Places<S> contacts_, before_;
   Places<S> poses_[2], twists_[2];  ///< of bases, of links
-  Places<S, double> anchors_, wrench_;
+  Places<S, double> anchors_, wrench_, forces_;
   Mobility<S> body_;
   V3<S> base_;
   Point points_[max_contacts];

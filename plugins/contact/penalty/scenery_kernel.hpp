@@ -41,8 +41,9 @@ struct KernelRobot {
   const double *base_pose = nullptr, *base_twist = nullptr;
   const double *link_pose = nullptr, *link_twist = nullptr;  ///< of the first link that may touch, if there is one
   double* wrench = nullptr;                                  ///< out
+  double* forces = nullptr;  ///< of the first contact; out, where KernelBatch::tells_contacts
 };
-inline constexpr int contact_stride = 13, anchor_stride = 8;  ///< in numbers
+inline constexpr int contact_stride = 13, anchor_stride = 8, force_stride = 14;  ///< in numbers
 /// A contact, from its point on: point, normal, depth, friction. An anchor: point, displacement.
 inline constexpr int contact_numbers = 8, anchor_numbers = 6;
 
@@ -56,6 +57,7 @@ struct KernelBatch {
   /// Of each contact, from 0 to `patches` - 1; null: all are one patch, if their normals agree.
   const std::uint8_t* patch_of = nullptr;
   int patches = 1;
+  bool tells_contacts = false;
 };
 
 struct SceneryKernels {

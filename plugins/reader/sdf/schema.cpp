@@ -189,7 +189,7 @@ constexpr std::array elements = {
     irrelevant("heightmap", "use_terrain_paging", shown_text, "false"),
     numbers("texture", "size"),
     value("texture", "diffuse", ValueType::text),
-    irrelevant("texture", "normal", shown_text),
+    irrelevant("texture", "normal", "surfaces have no maps of normals"),
     value("mesh", "uri", ValueType::text),
     numbers("mesh", "scale", 3),
     unsupported("mesh", "submesh", "all of the file's mesh is used; give each submesh a file of its own"),

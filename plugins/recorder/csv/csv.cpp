@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "csv_file.hpp"
+#include "plugins/common/csv_file/csv_file.hpp"
 #include "means.hpp"
 #include "muro/ext/outputs.hpp"
 #include "muro/plugin.hpp"
