@@ -14,13 +14,14 @@
 #include "host/scenario/algorithms.hpp"
 #include "host/scenario/body.hpp"
 #include "host/scenario/initial_state.hpp"
-#include "host/scenario/mesh_corners.hpp"
 #include "host/scenario/model_drives.hpp"
 #include "host/scenario/overlaps.hpp"
 #include "host/scenario/place_properties.hpp"
 #include "host/scenario/placement.hpp"
 #include "host/scenario/shadow_robot.hpp"
+#include "host/scenario/shape_files.hpp"
 #include "host/scenario/subsystems.hpp"
+#include "host/scenario/terrain.hpp"
 #include "host/scenario/world_file.hpp"
 #include "muro/toolkit/bounds.hpp"
 #include "muro/toolkit/elementary.hpp"
@@ -32,13 +33,15 @@ namespace {
 
 class SceneBuilder {
  public:
-  SceneBuilder(BuiltScenario& out, Registry& registry)
+  SceneBuilder(BuiltScenario& out, Registry& registry, ShapeFiles& files)
       : out_(out),
         scenario_(out.scenario),
         simulation_(*out.simulation),
         world_(simulation_.world()),
         algorithms_(out.scenario, registry, simulation_, problems_),
         subsystems_(simulation_, algorithms_, problems_),
+        meshes_(files.meshes),
+        terrain_(files),
         world_file_(out.scenario, simulation_, meshes_, out.notes, problems_) {}
 
   void build() {
@@ -47,6 +50,7 @@ class SceneBuilder {
     world_.set(world_object, keys::friction_rule, std::uint32_t(scenario_.friction_rule));
     set_places(world_, scenario_);
     world_file_.add_scenery(occupied_);
+    find_terrain();
     for (const SceneryObject& o : scenario_.objects) problems_.collect("", [&] { add_object(o); });
     add_all_robots();
     algorithms_.complete();
@@ -54,18 +58,50 @@ class SceneBuilder {
   }
 
  private:
+  static bool is_ground(const SceneryObject& o) {
+    return o.shape.kind == ShapeKind::plane || o.shape.kind == ShapeKind::heightmap;
+  }
+
+  static std::size_t count_of(const Placement& p) {
+    return p.kind == Placement::Kind::grid ? std::size_t(p.columns) * std::size_t(p.rows) : p.poses.size();
+  }
+
+  /// What everything else stands on, wherever it comes in the scenario.
+  void find_terrain() {
+    terrain_.add_scenery(world_);
+    for (const SceneryObject& o : scenario_.objects) {
+      if (!is_ground(o)) continue;
+      Occupancy unused;
+      try {
+        for (const Pose& pose :
+             place(o.placement, int(count_of(o.placement)), {o.name, 0, 0}, scenario_.places, unused))
+          terrain_.add(o.shape, o.mesh, pose);
+      } catch (const SetupError&) {  // told when the object is added
+      }
+    }
+  }
+
+  /// The height of what has these shapes; not called after this has gone.
+  std::function<double(const Pose&)> height_on_terrain(std::vector<StandingShape> shapes, double otherwise) {
+    if (!terrain_.has_heightmaps()) return {};
+    if (shapes.empty()) shapes.push_back({Shape::sphere(0), "", {}});
+    return [this, otherwise, on = std::move(shapes)](const Pose& at) {
+      return terrain_.height(on, at).value_or(otherwise);
+    };
+  }
+
   void add_object(const SceneryObject& o) {
     const Placement& p = o.placement;
     Shape shape = o.shape;
     if (!o.mesh.empty()) shape.mesh = world_.intern(o.mesh);
-    const bool ground = shape.kind == ShapeKind::plane || shape.kind == ShapeKind::heightmap;
+    const bool ground = is_ground(o);
     const Aabb box = ground || !needs_extent(p) ? Aabb{Vec3::Zero(), Vec3::Zero()}
                                                 : meshes_.bounds_of(shape, o.mesh, {Vec3::Zero(), Quat::Identity()});
     const Vec3 half = 0.5 * (box.high - box.low), centre = 0.5 * (box.low + box.high);
-    const int count = p.kind == Placement::Kind::grid ? p.columns * p.rows : int(p.poses.size());
-    const Body body{o.name, 0 - box.low.z(), elementary::hypot(half.x(), half.y())};
+    Body body{o.name, 0 - box.low.z(), elementary::hypot(half.x(), half.y())};
+    if (!ground) body.height_at = height_on_terrain({{shape, o.mesh, {}}}, body.standing_height);
     Occupancy unused;
-    const auto poses = place(p, count, body, scenario_.places, unused);
+    const auto poses = place(p, int(count_of(p)), body, scenario_.places, unused);
     for (std::size_t i = 0; i < poses.size(); ++i) {
       problems_.collect(o.location.text() + ": ", [&] {
         world_.add_scenery(instance_name(o.name, o.numbered, i), poses[i], std::span<const Shape>(&shape, 1));
@@ -74,7 +110,22 @@ class SceneBuilder {
     }
   }
 
+  /// Bodies of robots move, and heightmaps do not.
+  static void refuse_heightmaps(const RobotTree& tree) {
+    if (const std::string link = link_with_heightmap(tree); !link.empty())
+      throw SetupError(
+          fmt::format("the link `{}` has a heightmap as a collision shape, which only scenery can have; put "
+                      "`{{heightmap: file, size: [x, y, z]}}` into `world: objects` as the `shape` of an object",
+                      link));
+  }
+
   RobotTree model_of(const RobotTemplate& t) {
+    RobotTree tree = read_model_of(t);
+    refuse_heightmaps(tree);
+    return tree;
+  }
+
+  RobotTree read_model_of(const RobotTemplate& t) {
     if (t.shape) return single_body(*t.shape, t.mesh, inertia_of(t));
     if (t.from_world) return world_file_.model(t);
     RobotTree tree = simulation_.read_model(t.model);
@@ -85,7 +136,7 @@ class SceneBuilder {
   }
 
   Inertia inertia_of(const RobotTemplate& t) {
-    if (t.mesh.empty()) return homogeneous_inertia(*t.shape, t.mass);
+    if (t.shape->kind != ShapeKind::mesh) return homogeneous_inertia(*t.shape, t.mass);
     const std::optional<Inertia> solid = meshes_.inertia_of(t.mesh);
     if (const std::string& problem = meshes_.problem_of(t.mesh); !problem.empty()) throw SetupError(problem);
     if (!solid)
@@ -158,7 +209,8 @@ class SceneBuilder {
       drawn += t.count;
     }
     problems_.collect("", [&] {
-      const Body body{t.name, m.tree->standing_height(m.start.positions, corners), radius};
+      Body body{t.name, m.tree->standing_height(m.start.positions, corners), radius};
+      body.height_at = height_on_terrain(standing_shapes(*m.tree, m.start.positions), body.standing_height);
       poses = place(t.placement, t.count, body, scenario_.places, occupied_);
     });
     return poses;
@@ -189,7 +241,8 @@ class SceneBuilder {
   Problems problems_;
   Algorithms algorithms_;
   Subsystems subsystems_;
-  MeshCorners meshes_{simulation_};
+  MeshCorners& meshes_;
+  Terrain terrain_;
   WorldFileContents world_file_;
   Occupancy occupied_;
   std::map<std::pair<std::string, std::uint64_t>, int> drawn_;  ///< copies at random, by place and seed
@@ -212,13 +265,15 @@ BuiltScenario built(Scenario scenario, Registry& registry, const std::function<v
   out.simulation->set_packages(out.scenario.packages);
   for (const std::string& file : out.scenario.files)
     out.simulation->outputs().add_input(file, "a file of the scenario");
-  SceneBuilder(out, registry).build();
+  const auto files = std::make_shared<ShapeFiles>(*out.simulation);
+  SceneBuilder(out, registry, *files).build();
   if (add_more) add_more(*out.simulation);
   out.simulation->build();
   ExitGuard::renew();
-  out.simulation->set_overlap_check(
-      [simulation = out.simulation.get()](const muro::Placement& p) { return overlap_of(*simulation, p); });
-  for (std::string& note : overlap_notes(*out.simulation)) out.notes.push_back(std::move(note));
+  out.simulation->set_overlap_check([simulation = out.simulation.get(), files](const muro::Placement& p) {
+    return overlap_of(*simulation, *files, p);
+  });
+  for (std::string& note : overlap_notes(*out.simulation, *files)) out.notes.push_back(std::move(note));
   out.simulation->set_threads(out.scenario.threads > 0 ? out.scenario.threads : all_threads());
   return out;
 }

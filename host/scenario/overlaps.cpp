@@ -9,6 +9,7 @@
 
 #include "core/instance.hpp"
 #include "host/names.hpp"
+#include "host/scenario/terrain_depth.hpp"
 #include "muro/toolkit/link_pose.hpp"
 #include "muro/vocabulary.hpp"
 
@@ -110,9 +111,8 @@ std::vector<bool> takes_hulls_of_scenery(const Simulation& simulation) {
     const AlgorithmSetup& setup = instance->setup();
     for (std::size_t i = 0; i < setup.items.size(); ++i)
       if (setup.items[i].robot)
-        all[setup.items[i].robot->number] =
-            is_convex(*instance, "meshes", true,
-                      setup.item_setups.empty() ? setup.parameters : setup.item_setups[i].parameters);
+        all[setup.items[i].robot->number] = is_convex(
+            *instance, "meshes", true, setup.item_setups.empty() ? setup.parameters : setup.item_setups[i].parameters);
   }
   return all;
 }
@@ -121,8 +121,9 @@ std::vector<bool> takes_hulls_of_scenery(const Simulation& simulation) {
 class Still {
  public:
   /// `hulls`: meshes count as their convex hulls, and only pairs that they do for are found.
-  Still(Simulation& simulation, bool hulls, const Moment& moment = {})
+  Still(Simulation& simulation, ShapeFiles& files, bool hulls, const Moment& moment = {})
       : original_(simulation.world()),
+        files_(files),
         moment_(moment),
         still_(simulation.registry()),
         world_(still_.world()),
@@ -161,6 +162,13 @@ class Still {
   }
 
  private:
+  struct Names {
+    bool heeds_contacts;
+    bool scenery_is_hulls;
+    std::vector<std::string> of_link;  ///< of links with shapes
+    std::vector<std::uint32_t> link_of_shape;
+  };
+
   Shape with_own_texts(Shape shape) {
     shape.mesh = world_.intern(original_.text(shape.mesh));
     shape.texture = no_text;
@@ -172,8 +180,27 @@ class Still {
     std::vector<Shape> shapes;
     for (const Shape& s : constants(original_, object, keys::collision_shapes)) shapes.push_back(with_own_texts(s));
     const auto pose = constants(original_, object, keys::pose);
-    if (!shapes.empty() && !pose.empty())
-      world_.add_scenery(original_.object_name(object), pose.front(), shapes, std::span<const Shape>());
+    if (shapes.empty() || pose.empty()) return;
+    const ObjectId added =
+        world_.add_scenery(original_.object_name(object), pose.front(), shapes, std::span<const Shape>());
+    for (const Shape& s : shapes)
+      if (s.kind == ShapeKind::heightmap)
+        heightmaps_.push_back({files_.heightmaps.of(std::string(world_.text(s.mesh)), s.size),
+                               (pose.front() * s.origin).inverse(), added});
+  }
+
+  /// What reaches below heightmaps, also where it is so deep that it touches no surface.
+  void find_buried(ObjectId base, const Names& names, const Pose& start, std::span<const Shape> shapes,
+                   const TextTable& texts) {
+    for (const HeightmapAt& h : heightmaps_)
+      for (std::size_t i = 0; i < shapes.size(); ++i) {
+        const Shape& s = shapes[i];
+        const auto corners =
+            s.kind == ShapeKind::mesh ? files_.meshes.of(std::string(texts[s.mesh])) : std::span<const Vec3>{};
+        const double depth = depth_below(h.map, h.inverse * (start * s.origin), s, corners);
+        if (names.heeds_contacts && depth >= least_depth)
+          contacts_.push_back({{ShapeOfBody{base, names.link_of_shape[i]}, ShapeOfBody{h.object, 0}}, depth});
+      }
   }
 
   void add_robot(const RobotView& robot) {
@@ -203,6 +230,7 @@ class Still {
     const ObjectId base = world_.add_robot(robot.name, tree, start).base();
     world_.set(base, keys::pose, start);
     world_.set(base, keys::twist, Twist{});
+    if (!hulls_) find_buried(base, names, start, shapes, tree.texts());
     robots_[base] = std::move(names);
   }
 
@@ -255,18 +283,19 @@ class Still {
                      [](const PairContact& a, const PairContact& b) { return a.depth > b.depth; });
   }
 
-  struct Names {
-    bool heeds_contacts;
-    bool scenery_is_hulls;
-    std::vector<std::string> of_link;  ///< of links with shapes
-    std::vector<std::uint32_t> link_of_shape;
+  struct HeightmapAt {
+    Heightmap map;
+    Pose inverse;  ///< of the world in the frame of the map
+    ObjectId object;
   };
 
   const World& original_;
+  ShapeFiles& files_;
   const Moment moment_;
   Simulation still_;
   World& world_;
   std::map<ObjectId, Names> robots_;  ///< by base
+  std::vector<HeightmapAt> heightmaps_;
   std::vector<PairContact> contacts_;
   bool hulls_;
   std::vector<bool> scenery_is_hulls_;  ///< by robot
@@ -276,29 +305,29 @@ class Still {
 
 }  // namespace
 
-Overlaps overlaps_at_start(Simulation& simulation, std::size_t most) {
+Overlaps overlaps_at_start(Simulation& simulation, ShapeFiles& files, std::size_t most) {
   const auto robots = simulation.world().robots();
   if (std::none_of(robots.begin(), robots.end(),
                    [&](const RobotView* r) { return heeds_contacts(simulation.world(), *r); }))
     return {};
   try {
-    Still exact(simulation, false);
+    Still exact(simulation, files, false);
     exact.find();
     if (!exact.has_meshes()) return exact.overlaps(most, {});
-    return exact.overlaps(most, Still(simulation, true).find());
+    return exact.overlaps(most, Still(simulation, files, true).find());
   } catch (const std::exception&) {  // what cannot be found is not told
     return {};
   }
 }
 
-std::string overlap_of(Simulation& simulation, const muro::Placement& placement) {
+std::string overlap_of(Simulation& simulation, ShapeFiles& files, const muro::Placement& placement) {
   constexpr double most_depth = 5e-3;  // m; by less, wheels and feet sink in where they stand
   const Moment moment{false, &placement};
   try {
-    Still exact(simulation, false, moment);
+    Still exact(simulation, files, false, moment);
     exact.find();
     const Overlaps all =
-        exact.has_meshes() ? exact.overlaps(1, Still(simulation, true, moment).find()) : exact.overlaps(1, {});
+        exact.has_meshes() ? exact.overlaps(1, Still(simulation, files, true, moment).find()) : exact.overlaps(1, {});
     if (all.deepest.empty() || all.deepest.front().depth < most_depth) return "";
     const Overlap& deepest = all.deepest.front();
     const std::int32_t robot = simulation.world().robot_of(placement.object);
@@ -313,8 +342,8 @@ std::string overlap_of(Simulation& simulation, const muro::Placement& placement)
   }
 }
 
-std::vector<std::string> overlap_notes(Simulation& simulation) {
-  const Overlaps all = overlaps_at_start(simulation, 5);
+std::vector<std::string> overlap_notes(Simulation& simulation, ShapeFiles& files) {
+  const Overlaps all = overlaps_at_start(simulation, files, 5);
   std::vector<std::string> notes;
   for (const Overlap& o : all.deepest)
     notes.push_back(

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/simulation.hpp"
+#include "host/scenario/shape_files.hpp"
 
 namespace muro::host {
 
@@ -21,13 +22,13 @@ struct Overlaps {
 
 /// The bodies that overlap by more than a millimetre before the first step of a built simulation. Pairs that no contact
 /// moves or stops are left out, and so is what the plugins that are there cannot find.
-Overlaps overlaps_at_start(Simulation& simulation, std::size_t most);
+Overlaps overlaps_at_start(Simulation& simulation, ShapeFiles& files, std::size_t most);
 
 /// What the robot would overlap by more than 5 mm, as all bodies are now, if it were placed there, the deepest: "`wall`
 /// by 0.2 m"; empty: nothing that could be found.
-std::string overlap_of(Simulation& simulation, const muro::Placement& placement);
+std::string overlap_of(Simulation& simulation, ShapeFiles& files, const muro::Placement& placement);
 
 /// A line for each of the deepest, and one for how many more there are.
-std::vector<std::string> overlap_notes(Simulation& simulation);
+std::vector<std::string> overlap_notes(Simulation& simulation, ShapeFiles& files);
 
 }  // namespace muro::host

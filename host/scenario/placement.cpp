@@ -16,8 +16,15 @@ namespace {
 
 constexpr int max_attempts = 10'000;  // for one copy, before the place counts as full
 
-Pose pose_of(const PoseInput& pose, double standing_height) {
-  return {{pose.x, pose.y, pose.z.value_or(standing_height)}, from_rpy(pose.roll, pose.pitch, pose.yaw)};
+/// Puts a body on the ground, which is where `pose` already is if the scene has no heightmaps.
+void stand(Pose& pose, const Body& body) {
+  if (body.height_at) pose.position.z() = body.height_at(pose);
+}
+
+Pose pose_of(const PoseInput& given, const Body& body) {
+  Pose pose{{given.x, given.y, given.z.value_or(body.standing_height)}, from_rpy(given.roll, given.pitch, given.yaw)};
+  if (!given.z) stand(pose, body);
+  return pose;
 }
 
 const std::vector<Rectangle>& area_of(const Placement& p, const std::map<std::string, std::vector<Rectangle>>& places) {
@@ -75,19 +82,22 @@ std::vector<Pose> place_random(const Placement& p, int count, const Body& body, 
       sample = sampler.draw(copy, attempt);
     }
     poses.push_back({{sample.footprint.x, sample.footprint.y, z}, from_rpy(0, 0, sample.yaw)});
+    if (!p.poses.front().z) stand(poses.back(), body);
     occupied.add(sample.footprint);
   }
   return poses;
 }
 
-std::vector<Pose> grid_poses(const Placement& p, double standing_height) {
-  const Pose centre = pose_of(p.poses.front(), standing_height);
+std::vector<Pose> grid_poses(const Placement& p, const Body& body) {
+  const Pose centre = pose_of(p.poses.front(), body);
   std::vector<Pose> poses;
   for (int row = 0; row < p.rows; ++row)
-    for (int column = 0; column < p.columns; ++column)
+    for (int column = 0; column < p.columns; ++column) {
       poses.push_back(
           centre * Pose{{(column - 0.5 * (p.columns - 1)) * p.spacing_x, (row - 0.5 * (p.rows - 1)) * p.spacing_y, 0},
                         Quat::Identity()});
+      if (!p.poses.front().z) stand(poses.back(), body);
+    }
   return poses;
 }
 
@@ -98,9 +108,9 @@ std::vector<Pose> place(const Placement& p, int count, const Body& body,
   if (p.kind == Placement::Kind::random) return place_random(p, count, body, area_of(p, places), occupied);
   std::vector<Pose> poses;
   if (p.kind == Placement::Kind::grid)
-    poses = grid_poses(p, body.standing_height);
+    poses = grid_poses(p, body);
   else
-    for (const PoseInput& pose : p.poses) poses.push_back(pose_of(pose, body.standing_height));
+    for (const PoseInput& pose : p.poses) poses.push_back(pose_of(pose, body));
   if (int(poses.size()) < count)
     throw SetupError(
         fmt::format("{}: {} copies of `{}` but only {} place{} for them; lower `count`, or give more places",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -16,6 +17,8 @@ struct Body {
   std::string name;        ///< in messages
   double standing_height;  ///< of its origin when it stands on z = 0, m; used where no z is given
   double radius;           ///< of its footprint, m
+  /// Where the scene has heightmaps: of its origin (m) when it stands at a pose, whose own height does not count.
+  std::function<double(const Pose&)> height_at{};
 };
 
 /// Poses for `count` copies of a body. Random poses keep `placement.clearance` to all that is `occupied`; the

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/simulation.hpp"
+#include "muro/toolkit/heightmap.hpp"
+
+namespace muro::host {
+
+/// What placement knows of the files of heightmaps: each is read once, by the reader for its type (reader.heightmap).
+class HeightmapFiles {
+ public:
+  explicit HeightmapFiles(Simulation& simulation) : simulation_(simulation) {}
+
+  /// A view of the file's values, valid as long as this lives. Throws SetupError when the file cannot be read, or is no
+  /// heightmap.
+  Heightmap of(const std::string& path, const Vec3& size);
+
+ private:
+  struct File {
+    std::vector<float> values;
+    std::uint32_t columns = 0;
+    std::string problem;
+  };
+  File read(const std::string& path);
+
+  Simulation& simulation_;
+  std::map<std::string, File> known_;
+};
+
+}  // namespace muro::host
