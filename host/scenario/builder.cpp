@@ -47,7 +47,7 @@ class SceneBuilder {
   void build() {
     world_file_.read();
     world_.set(world_object, keys::gravity, world_file_.gravity());
-    world_.set(world_object, keys::friction_rule, std::uint32_t(scenario_.friction_rule));
+    world_.set(world_object, keys::friction_rule, std::uint32_t(world_file_.friction_rule()));
     set_places(world_, scenario_);
     world_file_.add_scenery(occupied_);
     find_terrain();

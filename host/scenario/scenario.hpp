@@ -136,7 +136,7 @@ struct Scenario {
   std::map<std::string, PluginChoice> plugins;  ///< by name of an algorithm or reader, or by type of files
   std::map<std::string, std::string> packages;  ///< absolute folders, by the name in package://NAME and model://NAME
   std::optional<WorldFile> world_file;
-  FrictionRule friction_rule = FrictionRule::min;
+  std::optional<FrictionRule> friction_rule;
   std::optional<Vec3> gravity;  ///< absent: that of the world file, else 9.81 m/s^2 downwards
   std::map<std::string, std::vector<Rectangle>> places;
   std::vector<SceneryObject> objects;

@@ -49,6 +49,20 @@ Vec3 WorldFileContents::gravity() const {
   return world_ && world_->gravity() ? *world_->gravity() : Vec3(0, 0, -9.81);
 }
 
+FrictionRule WorldFileContents::friction_rule() const {
+  if (scenario_.friction_rule) return *scenario_.friction_rule;
+  if (world_)
+    for (const WorldModel::Model& m : world_->models())
+      for (const RobotTree::Component& part : m.tree.components())
+        for (const RobotTree::Constant& c : part.constants) {
+          if (c.key.name != keys::friction_rule.name || c.data.size() != sizeof(FrictionRule)) continue;
+          FrictionRule rule;
+          std::memcpy(&rule, c.data.data(), sizeof rule);
+          if (rule <= FrictionRule::max) return rule;
+        }
+  return FrictionRule::min;
+}
+
 const WorldModel::Model* WorldFileContents::find(const std::string& name) const {
   if (!world_) return nullptr;
   const auto& models = world_->models();
@@ -125,7 +139,7 @@ void WorldFileContents::add(const std::string& name, const Pose& pose, std::vect
   });
   if (!any_random) return;  // nobody asks what is occupied
   for (const Shape& s : collisions) {
-    if (s.kind == ShapeKind::plane) continue;
+    if (s.kind == ShapeKind::plane || s.kind == ShapeKind::heightmap) continue;
     const std::string mesh = s.kind == ShapeKind::mesh ? std::string(world.text(s.mesh)) : "";
     const Aabb box = meshes_.bounds_of(s, mesh, pose * s.origin);
     if (box.high.z() <= floor_height) continue;

@@ -24,6 +24,8 @@ class WorldFileContents {
 
   void read();
   Vec3 gravity() const;
+  /// The scenario's, else what models of the file say of their format, else the smaller.
+  FrictionRule friction_rule() const;
   /// Adds all that is static, and to `occupied` what random placement keeps clear of.
   void add_scenery(Occupancy& occupied);
   /// The model that a template takes from the file. Throws SetupError when there is none, or it is no robot.

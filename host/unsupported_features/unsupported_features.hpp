@@ -35,7 +35,7 @@ enum class Detail { brief, full };
 std::string text_of(const UnsupportedFeatures& unsupported, Detail detail);
 
 /// Prints a line for each, and for each robot whose joints cannot start at 0, to standard error; `strict`: throws the
-/// lines as a SetupError.
+/// lines as a SetupError, with what readers have said of collision shapes whose files are not there.
 void report_unsupported(const BuiltScenario& built, Detail detail, bool strict);
 
 }  // namespace muro::host

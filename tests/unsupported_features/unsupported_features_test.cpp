@@ -83,6 +83,40 @@ TEST(UnsupportedFeatures, ANoteOfARunIsAnErrorWithStrict) {
   EXPECT_EQ(test::run_command(muro_program + " check --strict examples/urban/urban.yaml").exit_code, 0);
 }
 
+TEST(UnsupportedFeatures, ACollisionMeshThatIsNotFoundIsAnErrorWithStrict) {
+  const test::ScratchFolder folder;
+  const std::string mesh = "<geometry><mesh filename='gone.stl'/></geometry>",
+                    inertial =
+                        "<inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/>"
+                        "</inertial>";
+  const auto model = [&](const std::string& name, const std::string& inside) {
+    folder.file(name + ".urdf", "<robot name='r'><link name='l'>" + inertial + "\n" + inside + "</link></robot>");
+    return folder.file(name + ".yaml", "world: {objects: {ground: {shape: plane}}}\nrobots: {r: {model: " + name +
+                                           ".urdf, motion: {use: motion.simplified}}}\n");
+  };
+  const std::string touched = model("touched", "<collision>" + mesh + "</collision>"),
+                    seen = model("seen", "<visual>" + mesh +
+                                             "</visual><collision><geometry><box size='1 1 1'/>"
+                                             "</geometry></collision>");
+  for (const char* command : {" check ", " run --duration 0.01 "}) {
+    const auto lenient = test::run_command(muro_program + command + touched);
+    EXPECT_EQ(lenient.exit_code, 0) << lenient.output;
+    EXPECT_NE(lenient.output.find("touched.urdf:2:22: warning: mesh `gone.stl` is not found"), std::string::npos)
+        << lenient.output;
+    const auto strict = test::run_command(muro_program + command + "--strict " + touched);
+    EXPECT_EQ(strict.exit_code, 2);
+    EXPECT_NE(strict.output.find("touched.urdf:2:22: mesh `gone.stl` is not found and left out, so that nothing "
+                                 "touches the links there"),
+              std::string::npos)
+        << strict.output;
+    EXPECT_NE(strict.output.find("--strict lets no collision shape be left out; correct the paths, or leave --strict "
+                                 "out\n"),
+              std::string::npos)
+        << strict.output;
+    EXPECT_EQ(test::run_command(muro_program + command + "--strict " + seen).exit_code, 0) << "it is only seen";
+  }
+}
+
 TEST(UnsupportedFeatures, TheFeaturesOfAMotionAreShown) {
   const auto info = test::run_command(muro_program + " plugins info motion.differential_drive");
   EXPECT_NE(info.output.find("\nfeatures      [\"joints\",\"velocity_targets\","), std::string::npos) << info.output;

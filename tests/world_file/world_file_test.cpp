@@ -64,6 +64,27 @@ TEST(WorldFileOfAScenario, GravityOfTheScenarioGoesBeforeThatOfTheFile) {
   EXPECT_EQ(file.open().simulation->world().value(world_object, keys::gravity), Vec3(0, 0, -1));
 }
 
+/// How far a block of friction 0.2 slides at 1 m/s on a floor of 0.8, in a world of MuJoCo.
+double sliding_distance(const std::string& more_of_world) {
+  const test::ScratchFolder folder;
+  folder.file("yard.xml",
+              "<mujoco><worldbody><geom name='floor' type='plane' size='5 5 1' friction='0.8'/><body name='block' "
+              "pos='0 0 0.05'><freejoint/><geom type='box' size='0.2 0.2 0.05' friction='0.2'/></body></worldbody>"
+              "</mujoco>");
+  const std::string scenario = folder.file(
+      "s.yaml", "world: {file: yard.xml" + more_of_world +
+                    "}\nrobots: {block: {model: world, motion: {use: motion.simplified}, velocity: [1, 0, 0]}}\n");
+  BuiltScenario built = build(read_scenario(scenario, {}), test::plugins());
+  built.simulation->run_for(3);
+  return built.simulation->world().value("block/block", keys::pose).position.x();
+}
+
+TEST(WorldFileOfAScenario, FrictionInAWorldOfMuJoCoIsTheLargerUnlessTheScenarioSaysOther) {
+  const double g = 9.81;
+  EXPECT_NEAR(sliding_distance(""), 1 / (2 * 0.8 * g), 0.003);
+  EXPECT_NEAR(sliding_distance(", friction: {combine: min}"), 1 / (2 * 0.2 * g), 0.003);
+}
+
 TEST(WorldFileOfAScenario, AModelThatNobodyNamesIsStaticAndReported) {
   const WorldFile file(crate, "world: {file: world.sdf}\n");
   BuiltScenario built = file.open();
@@ -131,7 +152,8 @@ TEST(WorldFileOfAScenario, MistakesAreOneMessageWithThePlaceAndExitCode2) {
        "s.yaml:1:15: world " MURO_TEST_SOURCE_DIR "/examples/models/rover.urdf: " MURO_TEST_SOURCE_DIR
        "/examples/models/rover.urdf describes a robot, not a world; name it as the `model` of a robot\n"},
       {"", "world: {file: s.yaml}\n",
-       "s.yaml:1:15: no reader for models of type `.yaml` (s.yaml); known types: .stl, .obj, .dae, .glb, .gltf, .ply, "
+       "s.yaml:1:15: no reader for models of type `.yaml` (s.yaml); known types: .png, .r32, .f32, .raw, .bin, "
+       ".hfield, .stl, .obj, .dae, .glb, .gltf, .ply, "
        ".xml, "
        ".mjcf, .sdf, .world, .urdf, .xacro\n"},
       {"<gravity>down</gravity>", "world: {file: world.sdf}\n",
