@@ -75,7 +75,8 @@ void add_scenario_options(CLI::App& command, ScenarioOptions& options) {
 }
 
 void add_strict_option(CLI::App& command, ScenarioOptions& options) {
-  command.add_flag("--strict", options.strict, "Unsupported features and missing collision shapes are errors, not notes");
+  command.add_flag("--strict", options.strict,
+                   "Unsupported features and missing collision shapes are errors, not notes");
 }
 
 /// Each adds a command to the program and calls it when it is given; the exit code goes to `exit_code`.
