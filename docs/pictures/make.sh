@@ -31,5 +31,9 @@ window examples/team/team.yaml --view --speed max --duration 1.5 --set algorithm
   --set algorithms.view.contacts=false --set algorithms.view.samples=4 --set algorithms.view.width=1280 \
   --set algorithms.view.height=600 --set 'algorithms.view.from=[-4.2,-3.9,1.6]' \
   --set 'algorithms.view.to=[-0.5,-0.5,0.32]' --set "algorithms.view.picture=$out/team.png"
+window examples/offroad/offroad.yaml --view --speed max --duration 28 --set algorithms.view.panels=false \
+  --set algorithms.view.contacts=false --set algorithms.view.samples=4 --set algorithms.view.width=1280 \
+  --set algorithms.view.height=640 --set 'algorithms.view.from=[-9.5,-14.5,3.6]' \
+  --set 'algorithms.view.to=[-2.2,-7.6,0.7]' --set "algorithms.view.picture=$out/offroad.png"
 window "$urban" --view --duration 4 --set algorithms.view.follow=rovers_0 --set algorithms.view.samples=4 \
   --set "algorithms.view.picture=$out/window.png"
