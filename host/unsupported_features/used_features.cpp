@@ -154,7 +154,9 @@ class FeatureSearch {
     add_if(has_restitution, feature_restitution);
     add_if(rolls, feature_rolling_resistance);
     add_if(spins, feature_spinning_resistance);
-    if (!use_.own_contacts || meshes + scenery_.meshes == 0) return;  // else collision detection checks its meshes
+    if (!use_.own_contacts) return;  // else collision detection checks its meshes and heightmaps
+    add_if(scenery_.heightmaps > 0, feature_heightmaps, plural(scenery_.heightmaps, "heightmap"));
+    if (meshes + scenery_.meshes == 0) return;
     const std::string own = meshes > 0 ? fmt::format("{} of its own", meshes) : "";
     const std::string others = scenery_.meshes > 0 ? fmt::format("{} of the scenery", scenery_.meshes) : "";
     const std::string amount = own + (own.empty() || others.empty() ? "" : ", ") + others;
@@ -179,6 +181,7 @@ SceneryTraits scenery_traits(const World& world) {
     if (world.robot_of(ObjectId{i}) < 0)
       for (const Shape& s : constants(world, ObjectId{i}, keys::collision_shapes)) {
         traits.meshes += s.kind == ShapeKind::mesh;
+        traits.heightmaps += s.kind == ShapeKind::heightmap;
         traits.surface = pair_surface(traits.surface, s.surface, FrictionRule::max);
       }
   return traits;

@@ -19,7 +19,7 @@ struct UsedFeature {
 
 /// What all robots meet.
 struct SceneryTraits {
-  std::size_t meshes = 0;
+  std::size_t meshes = 0, heightmaps = 0;
   Surface surface{0, 0, 0, 0};  ///< the largest of each
 };
 SceneryTraits scenery_traits(const World& world);

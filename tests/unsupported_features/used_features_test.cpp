@@ -85,6 +85,15 @@ TEST(UsedFeatures, MassAndShapesUseForcesAndContact) {
   EXPECT_EQ(features_of(s.world(), mesh, {}, false, false).count(feature_contact), 0u) << "contact is switched off";
 }
 
+TEST(UsedFeatures, HeightmapsOfTheSceneryAreUsedByMotionsThatFindContactsThemselves) {
+  test::Scene s;
+  const Shape hills{.kind = ShapeKind::heightmap, .size = {8, 8, 1}};
+  s.world().add_scenery("hills", {}, std::span<const Shape>(&hills, 1));
+  const RobotView& ball = s.add("ball", test::single_body(Shape::sphere(0.1), solid));
+  EXPECT_EQ(features_of(s.world(), ball, {}, true).at(feature_heightmaps), "1 heightmap");
+  EXPECT_EQ(features_of(s.world(), ball).count(feature_heightmaps), 0u) << "collision detection has them";
+}
+
 TEST(UsedFeatures, ParametersSayWhetherTheBaseIsFixedAndLinksMeet) {
   test::Scene s;
   const RobotView& robot = s.add("machine", machine());

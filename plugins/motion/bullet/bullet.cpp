@@ -24,7 +24,7 @@ constexpr Parameter own_parameters[] = {
 constexpr auto parameters = multibody::with_common_parameters(own_parameters);
 constexpr Description bullet_description = multibody::engine_description(
     "motion.bullet", "1.0.0", "Multi-body dynamics by Bullet; robots of one world touch in it", parameters,
-    feature_armature);
+    feature_armature | feature_rolling_resistance | feature_spinning_resistance | feature_heightmaps);
 
 class BulletMotion final : public multibody::Motion {
   const Description& description() const override { return bullet_description; }

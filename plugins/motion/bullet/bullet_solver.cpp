@@ -29,6 +29,8 @@ void BulletSolver::begin(double dt) {
   m_multiBodyNonContactConstraints.resizeNoInitialize(0);
   m_multiBodyNormalContactConstraints.resizeNoInitialize(0);
   m_multiBodyFrictionContactConstraints.resizeNoInitialize(0);
+  m_multiBodySpinningFrictionContactConstraints.resizeNoInitialize(0);
+  m_multiBodyTorsionalFrictionContactConstraints.resizeNoInitialize(0);
   m_data.m_jacobians.resizeNoInitialize(0);
   m_data.m_deltaVelocitiesUnitImpulse.resizeNoInitialize(0);
   m_data.m_deltaVelocities.resizeNoInitialize(0);
@@ -134,20 +136,36 @@ void BulletSolver::add_joint(BulletRobot& robot, std::size_t number, const Impul
 
 BulletSolver::ConstraintRow BulletSolver::contact_row(const SolverContact& c, BulletRobot& a, BulletRobot* b,
                                                       const Vec3& other_velocity, const Vec3& direction) {
+  ConstraintRow row =
+      pair_row(c, a, b, a.wrench(c.point.position, direction), (b ? *b : a).wrench(c.point.position, direction));
+  if (!b) row.speed -= direction.dot(other_velocity);
+  return row;
+}
+
+BulletSolver::ConstraintRow BulletSolver::turning_row(const SolverContact& c, BulletRobot& a, BulletRobot* b,
+                                                      const Vec3& other_spin, const Vec3& axis) {
+  BulletRobot::SpatialForce torque;
+  torque << axis, Vec3::Zero();
+  ConstraintRow row = pair_row(c, a, b, torque, torque);
+  if (!b) row.speed -= axis.dot(other_spin);
+  return row;
+}
+
+BulletSolver::ConstraintRow BulletSolver::pair_row(const SolverContact& c, BulletRobot& a, BulletRobot* b,
+                                                   const BulletRobot::SpatialForce& on_a,
+                                                   const BulletRobot::SpatialForce& on_b) {
   ConstraintRow row;
   row.a = &a.bullet_body();
   row.row_a = append(a);
-  const BulletRobot::SpatialForce wrench = a.wrench(c.point.position, direction);
-  a.add_jacobian(c.a->body, wrench, 1, &m_data.m_jacobians[row.row_a]);
-  if (b == &a) a.add_jacobian(c.b->body, wrench, -1, &m_data.m_jacobians[row.row_a]);
+  a.add_jacobian(c.a->body, on_a, 1, &m_data.m_jacobians[row.row_a]);
+  if (b == &a) a.add_jacobian(c.b->body, on_a, -1, &m_data.m_jacobians[row.row_a]);
   find_unit_impulse_response(a, row.row_a, row);
   if (b && b != &a) {
     row.b = &b->bullet_body();
     row.row_b = append(*b);
-    b->add_jacobian(c.b->body, b->wrench(c.point.position, direction), -1, &m_data.m_jacobians[row.row_b]);
+    b->add_jacobian(c.b->body, on_b, -1, &m_data.m_jacobians[row.row_b]);
     find_unit_impulse_response(*b, row.row_b, row);
   }
-  if (!b) row.speed -= direction.dot(other_velocity);
   return row;
 }
 
@@ -167,12 +185,12 @@ double BulletSolver::target_velocity(const SolverContact& c, double speed, doubl
   return std::max(0.0, std::sqrt(std::max(0.0, drop * drop + in - 2 * pull * c.point.gap)) - drop);
 }
 
-void BulletSolver::add(SolverContact& c, BulletRobot& a, BulletRobot* b, const Vec3& other_velocity) {
-  const ConstraintRow normal = contact_row(c, a, b, other_velocity, c.point.normal);
+void BulletSolver::add(SolverContact& c, BulletRobot& a, BulletRobot* b, const Twist& other_velocity) {
+  const ConstraintRow normal = contact_row(c, a, b, other_velocity.linear, c.point.normal);
   bool is_active = false, is_rebound = false;
   const Surface surface = pair_surface(c.a->surface, c.b->surface, settings_.friction_rule);
   const double velocity = target_velocity(c, normal.speed, surface.restitution, is_active, is_rebound);
-  c.row = -1;
+  c.row = c.spinning_row = c.rolling_row = -1;
   if (!is_active) return;
   const Vec3 slip = c.relative_velocity - c.point.normal * c.point.normal.dot(c.relative_velocity);
   const double speed = slip.norm();
@@ -189,11 +207,33 @@ void BulletSolver::add(SolverContact& c, BulletRobot& a, BulletRobot* b, const V
   if (velocity > min_split_velocity && !is_rebound)
     split_impulses_.push_back({c.row, -normal.speed * row.m_jacDiagABInv});
   for (const Vec3& direction : {c.tangent, c.bitangent}) {
-    const ConstraintRow tangent = contact_row(c, a, b, other_velocity, direction);
+    const ConstraintRow tangent = contact_row(c, a, b, other_velocity.linear, direction);
     btMultiBodySolverConstraint& friction = add_row(m_multiBodyFrictionContactConstraints, tangent, 0, -unbounded,
                                                     unbounded, 0, initial_impulse.dot(direction));
     friction.m_frictionIndex = c.row;
     friction.m_friction = surface.friction;
+  }
+  add_resistances(c, a, b, other_velocity.angular, surface);
+}
+
+/// Bullet's rows of spinning and rolling friction: torques against turning about the normal and about what is at right
+/// angles to it, bounded by a length times the normal impulse; the latter on a cone.
+void BulletSolver::add_resistances(SolverContact& c, BulletRobot& a, BulletRobot* b, const Vec3& other_spin,
+                                   const Surface& surface) {
+  const auto add_torque = [&](btMultiBodyConstraintArray& rows, const Vec3& axis, double lever) {
+    const ConstraintRow turning = turning_row(c, a, b, other_spin, axis);
+    btMultiBodySolverConstraint& row = add_row(rows, turning, 0, -unbounded, unbounded, 0, 0);
+    row.m_frictionIndex = c.row;
+    row.m_friction = lever;
+  };
+  if (surface.spinning_resistance > 0) {
+    c.spinning_row = m_multiBodySpinningFrictionContactConstraints.size();
+    add_torque(m_multiBodySpinningFrictionContactConstraints, c.point.normal, surface.spinning_resistance);
+  }
+  if (surface.rolling_resistance > 0) {
+    c.rolling_row = m_multiBodyTorsionalFrictionContactConstraints.size();
+    for (const Vec3& axis : {c.tangent, c.bitangent})
+      add_torque(m_multiBodyTorsionalFrictionContactConstraints, axis, surface.rolling_resistance);
   }
 }
 
@@ -224,8 +264,16 @@ void BulletSolver::finish(BulletRobot& robot, std::size_t number, const ImpulseC
 }
 
 void BulletSolver::finish(SolverContact& c) {
-  c.impulse = Vec3::Zero();
+  c.impulse = c.angular_impulse = Vec3::Zero();
   if (c.row < 0) return;
+  const auto impulse_of = [](const btMultiBodyConstraintArray& rows, int row) {
+    return double(rows[row].m_appliedImpulse);
+  };
+  if (c.spinning_row >= 0)
+    c.angular_impulse = impulse_of(m_multiBodySpinningFrictionContactConstraints, c.spinning_row) * c.point.normal;
+  if (c.rolling_row >= 0)
+    c.angular_impulse += impulse_of(m_multiBodyTorsionalFrictionContactConstraints, c.rolling_row) * c.tangent +
+                         impulse_of(m_multiBodyTorsionalFrictionContactConstraints, c.rolling_row + 1) * c.bitangent;
   c.impulse = double(m_multiBodyNormalContactConstraints[c.row].m_appliedImpulse) * c.point.normal +
               double(m_multiBodyFrictionContactConstraints[2 * c.row].m_appliedImpulse) * c.tangent +
               double(m_multiBodyFrictionContactConstraints[2 * c.row + 1].m_appliedImpulse) * c.bitangent;

@@ -22,8 +22,8 @@ class BulletSolver final : public btMultiBodyConstraintSolver {
   void begin(double dt);
   /// Robots come first. Adds rows for its drives and limits.
   void add(BulletRobot& robot, const ImpulseCache& cache);
-  /// `a` and `b`: robots of the two colliders; no `b` where the velocity of the other at the point is given (m/s).
-  void add(SolverContact& contact, BulletRobot& a, BulletRobot* b, const Vec3& other_velocity);
+  /// `a` and `b`: robots of the two colliders; no `b` where the velocity of the other at the point is given.
+  void add(SolverContact& contact, BulletRobot& a, BulletRobot* b, const Twist& other_velocity);
   /// By split impulses: velocities that move bodies apart that overlap do not last. What is found first moves
   /// positions, then the rows are solved on without it, and velocities are what is left.
   void solve();
@@ -42,6 +42,13 @@ class BulletSolver final : public btMultiBodyConstraintSolver {
 
   ConstraintRow contact_row(const SolverContact& contact, BulletRobot& a, BulletRobot* b, const Vec3& other_velocity,
                             const Vec3& direction);
+  ConstraintRow turning_row(const SolverContact& contact, BulletRobot& a, BulletRobot* b, const Vec3& other_spin,
+                            const Vec3& axis);
+  /// Of what a wrench of size 1 on `a`, and its opposite on `b`, does.
+  ConstraintRow pair_row(const SolverContact& contact, BulletRobot& a, BulletRobot* b,
+                         const BulletRobot::SpatialForce& on_a, const BulletRobot::SpatialForce& on_b);
+  void add_resistances(SolverContact& contact, BulletRobot& a, BulletRobot* b, const Vec3& other_spin,
+                       const Surface& surface);
   int append(const BulletRobot& robot);
   void find_unit_impulse_response(const BulletRobot& robot, int index, ConstraintRow& row);
   /// Makes the velocity `target` by an impulse between bounds (N s), beginning with `initial_impulse`.

@@ -28,8 +28,8 @@ void BulletWorld::add_static_body(const multibody::ExternalBody& body) {
     Collider& c = add_collider(s, false);
     if (!c.shape || !c.shape->isConcave()) c.scenery = &body.name;
     c.move_to(body.pose, half_margin);
-    if (c.kind == ShapeKind::plane)
-      planes_.push_back(c.number);
+    if (is_ground(c.kind))
+      grounds_.push_back(c.number);
     else if (c.shape)
       scenery_.insert(btDbvtVolume::FromMM(to_bullet(c.aabb_min), to_bullet(c.aabb_max)),
                       reinterpret_cast<void*>(std::uintptr_t(c.number)));
@@ -90,7 +90,7 @@ void BulletWorld::advance(double dt) {
     if (!o.enabled) continue;
     r.update_kinematics();
     move(o, &r.body_state(0));
-    for (Wrench& w : r.state().contact) w = Wrench{};
+    r.state().clear_contacts();
     if (o.dynamic) r.prepare(settings_.gravity, dt, scratch_);
   }
   for (std::size_t i = 0; i < kinematic_bodies_.size(); ++i) {
@@ -119,7 +119,7 @@ void BulletWorld::find_pairs() {
     for (std::uint32_t k = o.first; k < o.first + o.count; ++k) {
       const Collider& a = colliders_[k];
       if (!a.shape) continue;
-      for (const std::uint32_t plane : planes_) pairs_.push_back({&a, &colliders_[plane]});
+      for (const std::uint32_t ground : grounds_) pairs_.push_back({&a, &colliders_[ground]});
       for (const std::uint32_t other : o.nearby_scenery)
         if (const Collider& b = colliders_[other]; overlap(a.aabb_min, a.aabb_max, b.aabb_min, b.aabb_max))
           pairs_.push_back({&a, &b});
@@ -256,7 +256,8 @@ void BulletWorld::solve(std::span<const Island> island, double dt) {
                            ? &robots_[std::size_t(contact.b->robot)]
                            : nullptr;
       const BodyState other = b ? BodyState{} : state_of(*contact.b);
-      solver_.add(contact, robots_[i.robot], b, other.twist.at(contact.point.position - other.pose.position));
+      solver_.add(contact, robots_[i.robot], b,
+                  {other.twist.at(contact.point.position - other.pose.position), other.twist.angular});
     }
   }
   solver_.solve();
@@ -268,18 +269,34 @@ void BulletWorld::solve(std::span<const Island> island, double dt) {
   }
 }
 
+/// To the first of the two, or to the other where the world does not move that.
+void BulletWorld::tell_contact(const SolverContact& contact, const Vec3& force, const Vec3& torque) {
+  const bool of_a = contact.a->robot >= 0 && robots_[std::size_t(contact.a->robot)].is_dynamic();
+  const Collider &self = of_a ? *contact.a : *contact.b, &other = of_a ? *contact.b : *contact.a;
+  if (self.robot < 0 || !robots_[std::size_t(self.robot)].is_dynamic()) return;
+  multibody::RobotState& state = robots_[std::size_t(self.robot)].state();
+  const ContactPoint& p = contact.point;
+  if (!state.tells_contacts || (p.gap > 0 && force.isZero(0))) return;
+  const double sign = of_a ? 1 : -1;
+  state.contacts.push_back(
+      {self.object, other.object, p.position, sign * p.normal, -p.gap, {sign * force, sign * torque}});
+}
+
 void BulletWorld::export_contacts(double dt) {
   for (const SolverContact& contact : contacts_) {
     if (contact.row < 0) continue;
-    const Vec3 force = contact.impulse / dt;
-    const auto act = [&](const Collider& c, const Vec3& f) {
+    const Vec3 force = contact.impulse / dt, torque = contact.angular_impulse / dt;
+    const auto act = [&](const Collider& c, const Vec3& f, const Vec3& t) {
       if (c.robot < 0 || !robots_[std::size_t(c.robot)].is_dynamic()) return;
       BulletRobot& r = robots_[std::size_t(c.robot)];
       r.set_has_contact();
-      r.state().contact[c.loaded_link].add_force(f, contact.point.position - r.body_state(c.body).pose.position);
+      Wrench& sum = r.state().contact[c.loaded_link];
+      sum.add_force(f, contact.point.position - r.body_state(c.body).pose.position);
+      sum.torque += t;
     };
-    act(*contact.a, force);
-    act(*contact.b, -force);
+    act(*contact.a, force, torque);
+    act(*contact.b, -force, -torque);
+    tell_contact(contact, force, torque);
   }
   for (BulletRobot& r : robots_)
     if (r.is_dynamic()) r.finish(settings_.gravity, dt);

@@ -52,6 +52,7 @@ class BulletWorld final : public multibody::World {
   void find_islands();
   void solve(std::span<const Island> robots, double dt);
   std::span<SolverContact> contacts_of(std::uint32_t robot);
+  void tell_contact(const SolverContact& contact, const Vec3& force, const Vec3& torque);
   void export_contacts(double dt);
 
   BulletSettings settings_;
@@ -61,7 +62,7 @@ class BulletWorld final : public multibody::World {
   std::vector<ImpulseCache> caches_;
   std::vector<const multibody::ExternalBodyState*> kinematic_bodies_;
   std::vector<CollisionObject> objects_;  ///< robots, then kinematic bodies
-  std::vector<std::uint32_t> planes_, order_;
+  std::vector<std::uint32_t> grounds_, order_;
   btDbvt scenery_;
   NarrowPhase narrow_phase_;
   BulletSolver solver_;

@@ -35,9 +35,9 @@ std::shared_ptr<btCollisionShape> make_shape(const Shape& s, const BulletMeshes&
     case ShapeKind::capsule:
       return std::make_shared<btCapsuleShapeZ>(s.size.x(), s.size.z());
     case ShapeKind::mesh:
-    case ShapeKind::heightmap:
       return meshes.of(s, moves);
     case ShapeKind::plane:
+    case ShapeKind::heightmap:
       break;
   }
   return nullptr;
@@ -48,12 +48,15 @@ std::shared_ptr<btCollisionShape> make_shape(const Shape& s, const BulletMeshes&
 Collider make_collider(const multibody::BodyShape& shape, const BulletMeshes& meshes, bool moves) {
   Collider c;
   c.kind = shape.shape.kind;
-  if (c.kind == ShapeKind::plane && moves) c.kind = ShapeKind::mesh;
+  if (is_ground(c.kind) && moves) c.kind = ShapeKind::mesh;
   c.size = shape.shape.size;
   c.surface = shape.shape.surface;
   c.loaded_link = shape.loaded_link;
+  c.object = shape.object;
   c.pose_in_body = shape.shape.origin;
   c.shape = make_shape(shape.shape, meshes, moves);
+  if (moves) c.convex = meshes.convex_shape(shape.shape);
+  if (c.kind == ShapeKind::heightmap) c.heightmap = meshes.heightmap(shape.shape);
   return c;
 }
 

@@ -21,11 +21,14 @@ struct Collider {
   std::uint32_t body = 0;                ///< of the robot
   std::uint32_t loaded_link = 0;         ///< see BodyShape
   std::uint32_t shape_index = 0;         ///< among the shapes of the robot
+  ObjectId object = no_object;           ///< that has the shape
   ShapeKind kind = ShapeKind::box;
   Vec3 size = Vec3::Zero();  ///< see Shape
   Surface surface;
   Pose pose_in_body;
-  std::shared_ptr<btCollisionShape> shape;                ///< none for a plane
+  terrain_contact::ConvexShape convex;                    ///< of a robot: what touches heightmaps
+  Heightmap heightmap;                                    ///< of that kind
+  std::shared_ptr<btCollisionShape> shape;                ///< none for a plane or heightmap
   btTransform pose;                                       ///< in the world
   Vec3 aabb_min = Vec3::Zero(), aabb_max = Vec3::Zero();  ///< m: axis-aligned bounding box
 
@@ -33,8 +36,11 @@ struct Collider {
   void move_to(const Pose& body_pose, double margin);
 };
 
+/// Whether it is without bounds below, and stands still.
+inline bool is_ground(ShapeKind kind) { return kind == ShapeKind::plane || kind == ShapeKind::heightmap; }
+
 /// A collider for `shape`. `moves`: it belongs to a robot. No shape is made, and the kind is `mesh`, for what Bullet
-/// cannot collide: a plane that moves.
+/// cannot collide: a plane or heightmap that moves.
 Collider make_collider(const multibody::BodyShape& shape, const BulletMeshes& meshes, bool moves);
 
 inline bool overlap(const Vec3& low_a, const Vec3& high_a, const Vec3& low_b, const Vec3& high_b) {

@@ -89,6 +89,25 @@ int face_contacts(const Collider& box, const Collider& other, const Vec3& outwar
   return -1;
 }
 
+Pose pose_of(const Collider& c) {
+  const btQuaternion q = c.pose.getRotation();
+  return {from_bullet(c.pose.getOrigin()), Quat(q.w(), q.x(), q.y(), q.z())};
+}
+
+int terrain_contacts(const Collider& a, const Collider& terrain, ContactPoint* out) {
+  static_assert(terrain_contact::max_contacts <= NarrowPhase::max_points);
+  terrain_contact::ConvexShape shape = a.convex;
+  shape.pose = pose_of(a);
+  terrain_contact::TerrainContacts found;
+  const int count =
+      terrain_contact::find_contacts(terrain.heightmap, pose_of(terrain), shape, NarrowPhase::margin, found);
+  for (int i = 0; i < count; ++i) {
+    const auto& [position, normal, gap] = found[std::size_t(i)];
+    out[i] = {position, normal, gap};
+  }
+  return count;
+}
+
 }  // namespace
 
 NarrowPhase::NarrowPhase() : manifold_(&first_, &second_, 0, margin, margin) {
@@ -132,6 +151,7 @@ int NarrowPhase::collide(const Collider& a, const Collider& b, int perturbations
 
 int NarrowPhase::find(const Collider& a, const Collider& b, ContactPoint* out) {
   if (b.kind == ShapeKind::plane) return plane_contacts(a, b.pose, out);
+  if (b.kind == ShapeKind::heightmap) return terrain_contacts(a, b, out);
   const int n = collide(a, b, 0, out);
   if (n == 0 || is_round(a) || is_round(b) || (has_corners(a) && has_corners(b)) || b.shape->isConcave()) return n;
   const ContactPoint deepest = out[0];

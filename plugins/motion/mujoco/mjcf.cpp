@@ -74,7 +74,50 @@ std::string Mjcf::body_name(std::string_view name, std::size_t owner, std::size_
 
 std::string Mjcf::geom_name(const std::string& body, std::size_t number) { return body + "." + std::to_string(number); }
 
-std::string Mjcf::geom(const multibody::BodyShape& shape, const Pose& pose, const std::string& name) {
+namespace {
+
+std::string height_field_name(std::size_t number) { return "heightmap:" + std::to_string(number); }
+
+/// Of the values of a heightmap.
+struct ValueRange {
+  double low, high;
+  explicit ValueRange(const Heightmap& map) {
+    const auto [least, most] = std::minmax_element(map.values.begin(), map.values.end());
+    low = double(*least);
+    high = double(*most);
+  }
+};
+
+}  // namespace
+
+/// Where geoms have the contacts of this plugin, which finds those with heightmaps itself, a plane that touches nothing
+/// stands for one. Else it is MuJoCo's height field, whose values go from 0 to 1, lifted by what is below 0 there.
+std::string Mjcf::terrain(const Shape& shape, Pose& pose) {
+  constexpr double base = 10;  // m: solid so far below the lowest
+  if (contacts_ == Contacts::by_default) return " type='plane' size='0 0 1' contype='0' conaffinity='0'";
+  const Heightmap map = meshes_->heightmap(shape);
+  const ValueRange range(map);
+  const std::string name = height_field_name(height_fields_.size());
+  height_fields_.push_back(map);
+  const double height = map.size.z() * (range.high - range.low);
+  assets_ += "<hfield" + named(name) + " nrow='" + std::to_string(map.rows) + "' ncol='" + std::to_string(map.columns) +
+             "'" + attribute("size", {0.5 * map.size.x(), 0.5 * map.size.y(), height > 0 ? height : 1, base}) + "/>\n";
+  pose = pose * Pose{{0, 0, map.size.z() * range.low}, Quat::Identity()};
+  return " type='hfield' hfield='" + name + "'";
+}
+
+/// MuJoCo's rows, too, go from -y to +y.
+void Mjcf::fill_height_fields(mjModel& model) const {
+  for (std::size_t i = 0; i < height_fields_.size(); ++i) {
+    const Heightmap& map = height_fields_[i];
+    const ValueRange range(map);
+    float* to = model.hfield_data + model.hfield_adr[mj_name2id(&model, mjOBJ_HFIELD, height_field_name(i).c_str())];
+    for (const float value : map.values)
+      *to++ = range.high > range.low ? float((double(value) - range.low) / (range.high - range.low)) : 0;
+  }
+}
+
+std::string Mjcf::geom(const multibody::BodyShape& shape, Pose pose, const std::string& name) {
   const Vec3& s = shape.shape.size;
   std::string what;
   switch (shape.shape.kind) {
@@ -106,6 +149,7 @@ std::string Mjcf::geom(const multibody::BodyShape& shape, const Pose& pose, cons
       break;
     }
     case ShapeKind::heightmap:
+      what = terrain(shape.shape, pose);
       break;
   }
   if (contacts_ == Contacts::of_each_geom) what += own_contacts(shape.shape.surface);
@@ -118,8 +162,8 @@ void Mjcf::add_static_body(const multibody::ExternalBody& body, std::size_t owne
   for (std::size_t k = 0; k < body.shapes.size(); ++k) {
     const multibody::BodyShape& s = body.shapes[k];
     const std::string in_world = geom(s, body.pose * s.shape.origin, geom_name(name, k));
-    if (s.shape.kind == ShapeKind::plane) {
-      planes_ += in_world;
+    if (is_ground(s.shape)) {
+      ground_ += in_world;
     } else {
       scenery_in_world_ += in_world;
       in_body += geom(s, s.shape.origin, geom_name(name, k));
@@ -179,7 +223,7 @@ void Mjcf::write_body(const multibody::RobotModel& model, std::size_t number, st
 }
 
 std::string Mjcf::elements() const {
-  return "<asset>" + assets_ + "</asset><worldbody>" + planes_ + scenery_in_world_ + bodies_ + "</worldbody>";
+  return "<asset>" + assets_ + "</asset><worldbody>" + ground_ + scenery_in_world_ + bodies_ + "</worldbody>";
 }
 
 std::string Mjcf::text(const MujocoSettings& settings, const Sizes& sizes) const {
@@ -190,7 +234,7 @@ std::string Mjcf::text(const MujocoSettings& settings, const Sizes& sizes) const
          std::to_string(sizes.contacts) + "' njmax='" + std::to_string(sizes.rows) +
          "'/>\n<default><geom condim='3' contype='2' conaffinity='0'" + impedance("solimp", settings.impedance) +
          "/><joint" + impedance("solimplimit", mjMAXIMP) + impedance("solimpfriction", mjMAXIMP) +
-         "/></default>\n<asset>\n" + assets_ + "</asset>\n<worldbody>\n" + planes_ +
+         "/></default>\n<asset>\n" + assets_ + "</asset>\n<worldbody>\n" + ground_ +
          (moving_geoms_ <= few_geoms ? scenery_in_world_ : scenery_in_bodies_) + bodies_ + "</worldbody>\n<contact>\n" +
          exclusions_ + "</contact>\n<tendon>\n" + tendons_ + "</tendon>\n</mujoco>\n";
 }

@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 
+#include "mujoco_library.hpp"
 #include "mujoco_meshes.hpp"
 #include "mujoco_settings.hpp"
 #include "plugins/common/multibody/world.hpp"
@@ -32,8 +33,8 @@ class Mjcf {
   /// The geom of a body's shape `number`, of those that become geoms.
   static std::string geom_name(const std::string& body, std::size_t number);
 
-  /// At rest. Planes belong to the world's body. So do all others beside a few geoms that move, which are tried with
-  /// each of them; beside more, each object is a body, which MuJoCo sorts.
+  /// At rest. Planes and heightmaps belong to the world's body. So do all others beside a few geoms that move, which
+  /// are tried with each of them; beside more, each object is a body, which MuJoCo sorts.
   void add_static_body(const multibody::ExternalBody& body, std::size_t owner);
   /// A body that is posed from outside (mocap).
   void add_kinematic_body(const multibody::ExternalBody& body, std::size_t owner);
@@ -45,6 +46,8 @@ class Mjcf {
   std::string text(const MujocoSettings& settings, const Sizes& sizes) const;
   /// What was added, as elements for the end of another file.
   std::string elements() const;
+  /// Puts the heights of heightmaps into a model compiled with these elements.
+  void fill_height_fields(mjModel& model) const;
 
  private:
   void write_body(const multibody::RobotModel& model, std::size_t number, std::size_t owner);
@@ -53,7 +56,8 @@ class Mjcf {
   std::string vector(const char* name, const Vec3& v) const;
   std::string place(const Pose& pose) const;
   std::string own_contacts(const Surface& s) const;
-  std::string geom(const multibody::BodyShape& shape, const Pose& pose, const std::string& name);
+  std::string terrain(const Shape& shape, Pose& pose);
+  std::string geom(const multibody::BodyShape& shape, Pose pose, const std::string& name);
 
   const MujocoMeshes* meshes_;
   Contacts contacts_;
@@ -62,9 +66,10 @@ class Mjcf {
   char decimal_sign_;
   static constexpr std::size_t few_geoms = 15;
 
-  std::string planes_, scenery_in_world_, scenery_in_bodies_, bodies_, assets_, exclusions_, tendons_;
+  std::string ground_, scenery_in_world_, scenery_in_bodies_, bodies_, assets_, exclusions_, tendons_;
   std::size_t moving_geoms_ = 0;
   std::map<const Vec3*, std::string> mesh_names_;
+  std::vector<Heightmap> height_fields_;  ///< by number, which is in the name
 };
 
 /// The principal moments (kg m^2) of an inertia, and their axes as a rotation.
@@ -79,7 +84,10 @@ inline bool has_friction_beside_drive(const multibody::RigidBody& body) {
   return body.drive == DriveMode::position && body.leader < 0 && body.limits.friction > 0;
 }
 
-/// Whether the shape of a body that moves becomes a geom: MuJoCo has planes at rest only.
-inline bool has_geom(const multibody::BodyShape& s) { return s.shape.kind != ShapeKind::plane; }
+/// Whether it has no bounds below, and stands still.
+inline bool is_ground(const Shape& s) { return s.kind == ShapeKind::plane || s.kind == ShapeKind::heightmap; }
+
+/// Whether the shape of a body that moves becomes a geom: MuJoCo has ground at rest only.
+inline bool has_geom(const multibody::BodyShape& s) { return !is_ground(s.shape); }
 
 }  // namespace muro::mujoco

@@ -92,7 +92,7 @@ void ModelRobot::import(mjModel& m, mjData& d) {
   set_motion_type(m);
   set_base(m, d);
   multibody::RobotState& s = *state_;
-  for (Wrench& w : s.contact) w = Wrench{};
+  s.clear_contacts();
   for (std::size_t i = 1; i < joints_.size(); ++i) {
     d.qpos[joints_[i].position] = s.joints[i].position;
     d.qvel[joints_[i].dof] = s.joints[i].velocity;

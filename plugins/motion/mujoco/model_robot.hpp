@@ -30,7 +30,12 @@ class ModelRobot {
   /// How deep one of its bodies is in scenery.
   void add_overlap(int body, double depth, const std::string& obstacle);
 
-  const multibody::RobotState& state() const { return *state_; }
+  multibody::RobotState& state() const { return *state_; }
+  /// What muro has in place of a body in MuJoCo.
+  ObjectId object_of(int body) const {
+    const std::int32_t link = loaded_links_[std::size_t(body)];
+    return link < 0 ? no_object : model_->loaded_links[std::size_t(link)].object;
+  }
   int root() const { return source_->root; }
 
  private:

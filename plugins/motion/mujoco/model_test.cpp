@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "tests/support/bodies.hpp"
 #include "tests/support/files.hpp"
@@ -75,7 +76,12 @@ struct Yard : test::Scene {
   explicit Yard(const std::string& path, const std::vector<std::string>& left_out = {}) {
     const WorldModel model = read_world(path);
     if (model.gravity()) world().set(world_object, keys::gravity, *model.gravity());
-    for (const auto& s : model.scenery()) world().add_scenery(s.name, s.pose, s.collisions, s.visuals);
+    for (auto s : model.scenery()) {
+      for (std::vector<Shape>* shapes : {&s.collisions, &s.visuals})
+        for (Shape& shape : *shapes)
+          if (shape.mesh != no_text) shape.mesh = world().intern(model.texts()[shape.mesh]);
+      world().add_scenery(s.name, s.pose, s.collisions, s.visuals);
+    }
     for (const auto& robot : model.models()) {
       if (std::find(left_out.begin(), left_out.end(), robot.name) != left_out.end()) continue;
       const RobotView& view = add(robot.name, robot.tree, robot.pose);
@@ -126,6 +132,41 @@ TEST(MujocoModel, OtherOptionsOfTheFileAreFollowedToo) {
   EXPECT_LT(largest_difference("cone='elliptic' solver='CG' iterations='30' impratio='5' gravity='0.5 0 -9'"), 1e-6);
   EXPECT_LT(largest_difference("integrator='RK4'"), 1e-6);
   EXPECT_LT(largest_difference("integrator='implicit' solver='PGS' noslip_iterations='2'"), 1e-6);
+}
+
+/// MuJoCo's binary format of height fields: 9 x 7 nodes of rolling hills.
+std::string hills() {
+  constexpr std::int32_t rows = 9, columns = 7;
+  std::string bytes(8 + 4 * rows * columns, '\0');
+  std::memcpy(bytes.data(), &rows, 4);
+  std::memcpy(bytes.data() + 4, &columns, 4);
+  for (int k = 0; k < rows * columns; ++k) {
+    const auto height = float(3 + std::sin(0.9 * (k / columns)) * std::cos(1.1 * (k % columns)));
+    std::memcpy(bytes.data() + 8 + 4 * k, &height, 4);
+  }
+  return bytes;
+}
+
+TEST(MujocoModel, BodiesOnAHeightFieldFollowRawMuJoCoForOneSecond) {
+  const test::ScratchFolder folder;
+  folder.file("hills.bin", hills());
+  const std::string path = folder.file("yard.xml", R"(<mujoco><option timestep="0.002"/>
+<asset><hfield name="h" file="hills.bin" size="2 3 0.4 0.1"/></asset>
+<worldbody><geom name="hills" type="hfield" hfield="h" pos="0.1 0 0.2" euler="0 0 20"/>
+<body name="ball" pos="0.3 0.4 0.8"><freejoint/><geom size="0.1" condim="6"/></body>
+<body name="box" pos="-0.6 0.1 1" euler="20 30 40"><freejoint/><geom type="box" size="0.1 0.15 0.2"/></body>
+</worldbody></mujoco>)");
+  Raw raw(path);
+  Yard scene(path);
+  scene.build();
+  for (int k = 0; k < 500; ++k) {
+    mj_step(raw.m, raw.d);
+    scene.run_for(0.002);
+    for (const char* name : {"ball", "box"})
+      ASSERT_LT((scene.pose_of(name).position - raw.pose(name).position).norm(), 1e-6) << name << " in step " << k;
+  }
+  EXPECT_GT(raw.d->ncon, 0);
+  EXPECT_LT(raw.pose("ball").position.z(), 0.75) << "the ball has landed";
 }
 
 const char* const hopper = R"(<mujoco><option timestep="0.002"/><worldbody>FLOOR
@@ -299,6 +340,27 @@ TEST(MujocoModel, TwoRobotsOfOneFileHaveWorldsOfTheirOwn) {
   const auto position = [&](const char* name) { return scene.pose(*scene.world().find_robot(name)).position; };
   EXPECT_LT(position("a").z(), 0.9);
   EXPECT_NEAR((position("b") - position("a") - Vec3(3, 0, 0)).norm(), 0, 1e-9);
+}
+
+TEST(MujocoModel, AHeightmapOfTheSceneIsAHeightFieldBesideTheFile) {
+  const test::ScratchFolder folder;
+  const std::string path = folder.file("balls.xml", R"(<mujoco><option timestep="0.002"/><worldbody>
+<body name="low" pos="-1.1 0.4 0.5"><freejoint/><geom size="0.1"/></body>
+<body name="high" pos="0.9 -0.3 1.5"><freejoint/><geom size="0.1"/></body></worldbody></mujoco>)");
+  // -0.2 m to the left, 0.8 m to the right, under a pose that lifts it by 0.3 m; the values are no part of 0 to 1
+  const std::int32_t counts[] = {2, 6};
+  const float values[] = {-0.1f, -0.1f, -0.1f, 0.4f, 0.4f, 0.4f, -0.1f, -0.1f, -0.1f, 0.4f, 0.4f, 0.4f};
+  std::string bytes(sizeof counts + sizeof values, '\0');
+  std::memcpy(bytes.data(), counts, sizeof counts);
+  std::memcpy(bytes.data() + sizeof counts, values, sizeof values);
+  Yard scene(path);
+  Shape hills{.kind = ShapeKind::heightmap, .size = {4, 3, 2}};
+  hills.mesh = scene.world().intern(folder.file("hills.bin", bytes));
+  scene.world().add_scenery("hills", {{0, 0, 0.3}, Quat::Identity()}, std::span<const Shape>(&hills, 1));
+  scene.build();
+  scene.run_for(3);
+  EXPECT_NEAR(scene.pose_of("low").position.z(), 0.3 - 0.2 + 0.1, 5e-3);
+  EXPECT_NEAR(scene.pose_of("high").position.z(), 0.3 + 0.8 + 0.1, 5e-3);
 }
 
 }  // namespace

@@ -46,6 +46,7 @@ void ModelWorld::complete() {
   for (const StaticBody& s : static_bodies_)
     if (!in_file(s)) mjcf_.add_static_body(*s.body, s.owner);
   file_ = compile_file(source_.path(), mjcf_.elements());
+  mjcf_.fill_height_fields(*file_.model);
   data_ = make_data(*file_.model);
   find_robots();
   leave_out_other_parts();
@@ -116,18 +117,27 @@ void ModelWorld::leave_out_other_parts() {
 void ModelWorld::find_scenery() {
   const mjModel& m = *file_.model;
   obstacles_.assign(std::size_t(m.ngeom), nullptr);
-  std::map<std::string_view, const std::string*> by_name;
+  objects_.assign(std::size_t(m.ngeom), no_object);
+  std::map<std::string_view, const StaticBody*> by_name;
   for (const StaticBody& s : static_bodies_) {
-    by_name[s.body->name] = &s.body->name;
+    by_name[s.body->name] = &s;
     const std::string name = Mjcf::body_name(s.body->name, s.owner, 0);
     for (std::size_t k = 0; k < s.body->shapes.size(); ++k)
       if (const int geom = mj_name2id(&m, mjOBJ_GEOM, Mjcf::geom_name(name, k).c_str()); geom >= 0)
-        obstacles_[std::size_t(geom)] = &s.body->name;
+        set_obstacle(geom, s);
   }
   for (int g = 0; source_.in_world() && g < m.ngeom; ++g)
     if (const auto found = by_name.find(file_.scenery[std::size_t(g)]);
         found != by_name.end() && !obstacles_[std::size_t(g)])
-      obstacles_[std::size_t(g)] = found->second;
+      set_obstacle(g, *found->second);
+  for (int g = 0; g < m.ngeom; ++g)
+    if (const std::int32_t robot = robot_of_body_[std::size_t(m.geom_bodyid[g])]; robot >= 0)
+      objects_[std::size_t(g)] = robots_[std::size_t(robot)].object_of(m.geom_bodyid[g]);
+}
+
+void ModelWorld::set_obstacle(int geom, const StaticBody& body) {
+  obstacles_[std::size_t(geom)] = &body.body->name;
+  objects_[std::size_t(geom)] = body.body->shapes.front().object;
 }
 
 void ModelWorld::find_kinematic_bodies() {
@@ -137,6 +147,7 @@ void ModelWorld::find_kinematic_bodies() {
     if (k.index < 0 || m.body_mocapid[k.index] < 0)
       throw Error(quote(k.body->name) + " cannot stand in " + source_.path() + ", whose compiler changes it");
     k.mocap = m.body_mocapid[k.index];
+    std::fill_n(objects_.begin() + m.body_geomadr[k.index], m.body_geomnum[k.index], k.body->shapes.front().object);
   }
 }
 
@@ -206,6 +217,27 @@ bool ModelWorld::step() {
   return !full || m.nconmax >= most_contacts;
 }
 
+/// To the first of the two, or to the other where the world does not move that. `force` and `torque`: on the second, to
+/// which MuJoCo's normal points.
+void ModelWorld::tell_contact(const mjContact& contact, const std::int32_t (&owners)[2], const Vec3& force,
+                              const Vec3& torque) const {
+  for (int side = 0; side < 2; ++side) {
+    if (owners[side] < 0) continue;
+    multibody::RobotState& state = robots_[std::size_t(owners[side])].state();
+    if (state.motion_type != MotionType::dynamic) continue;
+    const double sign = side == 0 ? -1 : 1;
+    const int geoms[] = {contact.geom1, contact.geom2};
+    if (state.tells_contacts)
+      state.contacts.push_back({objects_[std::size_t(geoms[side])],
+                                objects_[std::size_t(geoms[1 - side])],
+                                vector_of(contact.pos),
+                                sign * vector_of(contact.frame),
+                                -contact.dist,
+                                {sign * force, sign * torque}});
+    return;
+  }
+}
+
 /// Contacts are those at the beginning of the step.
 void ModelWorld::report_contacts() {
   const mjModel& m = *file_.model;
@@ -224,6 +256,7 @@ void ModelWorld::report_contacts() {
     mj_contactForce(&m, &d, i, local);
     const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> frame(contact.frame);
     const Vec3 force = frame.transpose() * vector_of(local), torque = frame.transpose() * vector_of(local + 3);
+    tell_contact(contact, owners, force, torque);
     for (int side = 0; side < 2; ++side) {
       const double sign = side == 0 ? -1 : 1;
       if (owners[side] >= 0)

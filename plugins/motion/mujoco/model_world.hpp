@@ -41,6 +41,9 @@ class ModelWorld final : public multibody::World {
   void import(KinematicBody& body);
   bool step();
   void report_contacts();
+  void set_obstacle(int geom, const StaticBody& body);
+  void tell_contact(const mjContact& contact, const std::int32_t (&owners)[2], const Vec3& force,
+                    const Vec3& torque) const;
 
   const ModelSource& source_;
   Host& host_;
@@ -53,6 +56,7 @@ class ModelWorld final : public multibody::World {
   Data data_;
   std::vector<std::int32_t> robot_of_body_;    ///< one per body in MuJoCo; -1
   std::vector<const std::string*> obstacles_;  ///< one per geom: the name of the scenery that it is, or null
+  std::vector<ObjectId> objects_;              ///< one per geom: that has the shape, if any
   std::vector<int> held_joints_;               ///< of trees that are no robots
   double dt_ = 0;
 };

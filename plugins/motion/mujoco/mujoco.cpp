@@ -41,7 +41,7 @@ constexpr Parameter own_parameters[] = {
 constexpr auto parameters = multibody::with_common_parameters(own_parameters);
 constexpr Description mujoco_description = multibody::engine_description(
     "motion.mujoco", "1.0.0", "Multi-body dynamics by MuJoCo; robots of one world touch in it", parameters,
-    feature_armature);
+    feature_armature | feature_rolling_resistance | feature_spinning_resistance | feature_heightmaps);
 
 class MujocoMotion final : public multibody::Motion {
   const Description& description() const override { return mujoco_description; }

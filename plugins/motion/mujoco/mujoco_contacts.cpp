@@ -13,6 +13,15 @@ using Frame = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+/// m/s^2: by what the cone of a contact lifts what slides, spins and rolls by `slip(k)` in its row k.
+template <class Slip>
+double lift_of(const mjContact& c, const Slip& slip) {
+  if (c.dim == 3) return c.friction[0] * elementary::hypot(slip(1), slip(2));
+  double sum = 0;
+  for (int k = 1; k < c.dim; ++k) sum += c.friction[k - 1] * c.friction[k - 1] * slip(k) * slip(k);
+  return std::sqrt(sum);
+}
+
 }  // namespace
 
 void MujocoContacts::prepare(const MujocoSettings& settings, std::size_t geoms) {
@@ -30,30 +39,69 @@ void MujocoContacts::report_overlaps(const mjData& d, std::deque<MujocoRobot>& r
   }
 }
 
+void MujocoContacts::find_terrain_contacts(const mjModel& m, mjData& d, const std::deque<MujocoRobot>& robots) const {
+  if (terrains_.empty()) return;
+  terrain_contact::TerrainContacts found;
+  for (int g = 0; g < m.ngeom; ++g) {
+    const GeomOwner& owner = owners_[std::size_t(g)];
+    const int body = m.geom_bodyid[g];
+    if (owner.robot < 0 || m.body_weldid[body] == 0 ||
+        robots[std::size_t(owner.robot)].state().motion_type != multibody::MotionType::dynamic)
+      continue;
+    const mjtNum* const q = d.xquat + 4 * body;
+    terrain_contact::ConvexShape shape = owner.convex;
+    shape.pose = Pose{vector_of(d.xpos + 3 * body), Quat(q[0], q[1], q[2], q[3])} * owner.in_body;
+    for (const Terrain& terrain : terrains_) {
+      const int count = terrain_contact::find_contacts(terrain.map, terrain.pose, shape, 0, found);
+      for (int i = 0; i < count; ++i) {
+        const terrain_contact::TerrainContact& contact = found[std::size_t(i)];
+        mjContact c{};
+        c.dist = contact.gap;
+        std::copy_n(contact.position.data(), 3, c.pos);
+        const Vec3 tangent = contact.normal.unitOrthogonal(), bitangent = contact.normal.cross(tangent);
+        std::copy_n(contact.normal.data(), 3, c.frame);
+        std::copy_n(tangent.data(), 3, c.frame + 3);
+        std::copy_n(bitangent.data(), 3, c.frame + 6);
+        std::copy_n(m.geom_solref + mjNREF * g, mjNREF, c.solref);
+        std::copy_n(m.geom_solimp + mjNIMP * g, mjNIMP, c.solimp);
+        c.dim = 3;
+        c.geom1 = terrain.geom;
+        c.geom2 = g;
+        c.efc_address = -1;
+        mj_addContact(&m, &d, &c);
+      }
+    }
+  }
+}
+
 void MujocoContacts::set_friction(mjData& d) {
   references_.resize(std::size_t(d.ncon));
   for (int i = 0; i < d.ncon; ++i) {
     mjContact& c = d.contact[i];
     const GeomOwner &a = owners_[std::size_t(c.geom1)], &b = owners_[std::size_t(c.geom2)];
-    const double friction = pair_surface(a.surface, b.surface, settings_.friction_rule).friction;
-    if (friction < mjMINMU) c.dim = 1;
-    c.friction[0] = c.friction[1] = std::max(friction, mjMINMU);
+    const Surface s = pair_surface(a.surface, b.surface, settings_.friction_rule);
+    c.dim = s.rolling_resistance > mjMINMU ? 6 : s.spinning_resistance > mjMINMU ? 4 : s.friction < mjMINMU ? 1 : 3;
+    c.friction[0] = c.friction[1] = std::max(s.friction, mjMINMU);
+    c.friction[2] = std::max(s.spinning_resistance, mjMINMU);
+    c.friction[3] = c.friction[4] = std::max(s.rolling_resistance, mjMINMU);
   }
 }
 
-/// m/s, axes of the contact: what the rows do not know of the speed of the second body over the first.
-Vec3 MujocoContacts::external_velocity(const mjContact& c) const {
-  Vec3 speed = Vec3::Zero();
+/// What the rows do not know of the speed of the second body over the first.
+MujocoContacts::ContactVelocity MujocoContacts::external_velocity(const mjContact& c) const {
+  Vec3 speed = Vec3::Zero(), spin = Vec3::Zero();
   const GeomOwner &a = owners_[std::size_t(c.geom1)], &b = owners_[std::size_t(c.geom2)];
-  if (a.twist) speed -= a.twist->at(vector_of(c.pos) - a.pose->position);
-  if (b.twist) speed += b.twist->at(vector_of(c.pos) - b.pose->position);
-  return a.twist || b.twist ? Vec3(Frame(c.frame) * speed) : speed;
+  if (a.twist) speed -= a.twist->at(vector_of(c.pos) - a.pose->position), spin -= a.twist->angular;
+  if (b.twist) speed += b.twist->at(vector_of(c.pos) - b.pose->position), spin += b.twist->angular;
+  ContactVelocity velocity = ContactVelocity::Zero();
+  if (a.twist || b.twist) velocity << Frame(c.frame) * speed, Frame(c.frame) * spin;
+  return velocity;
 }
 
 void MujocoContacts::set_reference(mjData& d, int id, int row, double dt) {
   const mjContact& c = d.contact[id];
   const GeomOwner &a = owners_[std::size_t(c.geom1)], &b = owners_[std::size_t(c.geom2)];
-  Vec3 speed = external_velocity(c);
+  ContactVelocity speed = external_velocity(c);
   for (int k = 0; k < c.dim; ++k) speed[k] += d.efc_vel[row + k];
   mjtNum* target = d.efc_aref + row;
   const double restitution = pair_surface(a.surface, b.surface, settings_.friction_rule).restitution;
@@ -64,8 +112,7 @@ void MujocoContacts::set_reference(mjData& d, int id, int row, double dt) {
   Reference& reference = references_[std::size_t(id)];
   reference = {target[0], infinity};
   // accelerations of the last step say nothing of an impact, and must not hide it
-  if (impact && c.dim == 3)
-    reference.max_friction = elementary::hypot(target[1] - d.efc_b[row + 1], target[2] - d.efc_b[row + 2]);
+  if (impact && c.dim >= 3) reference.max_lift = lift_of(c, [&](int k) { return target[k] - d.efc_b[row + k]; });
   for (int k = 0; bounces && k < c.dim; ++k) {
     d.efc_R[row + k] *= (1 / mjMAXIMP - 1) / (1 / settings_.impedance - 1);
     d.efc_D[row + k] = 1 / d.efc_R[row + k];
@@ -82,9 +129,8 @@ double MujocoContacts::correct_for_sliding(const mjModel& m, mjData& d, const mj
     const int row = c.efc_address;
     if (row < 0 || c.dim < 3) continue;
     const Reference& reference = references_[std::size_t(i)];
-    const double x = rows_[std::size_t(row) + 1] - d.efc_aref[row + 1];
-    const double y = rows_[std::size_t(row) + 2] - d.efc_aref[row + 2];
-    const double normal = reference.normal - c.friction[0] * std::min(elementary::hypot(x, y), reference.max_friction);
+    const double lift = lift_of(c, [&](int k) { return rows_[std::size_t(row + k)] - d.efc_aref[row + k]; });
+    const double normal = reference.normal - std::min(lift, reference.max_lift);
     largest_change = std::max(largest_change, std::abs(normal - d.efc_aref[row]));
     d.efc_aref[row] = normal;
   }
@@ -95,12 +141,25 @@ void MujocoContacts::export_wrenches(const mjData& d, std::deque<MujocoRobot>& r
   for (int i = 0; i < d.ncon; ++i) {
     const mjContact& c = d.contact[i];
     if (c.efc_address < 0) continue;
-    Vec3 local = Vec3::Zero();
+    ContactVelocity local = ContactVelocity::Zero();
     for (int k = 0; k < c.dim; ++k) local[k] = d.efc_force[c.efc_address + k];
-    const Vec3 force = Frame(c.frame).transpose() * local, point = vector_of(c.pos);
+    const Vec3 force = Frame(c.frame).transpose() * local.head<3>(),
+               torque = Frame(c.frame).transpose() * local.tail<3>(), point = vector_of(c.pos);
     const GeomOwner &a = owners_[std::size_t(c.geom1)], &b = owners_[std::size_t(c.geom2)];
-    if (a.robot >= 0) robots[std::size_t(a.robot)].add_contact(d, a.body, a.loaded_link, -force, point);
-    if (b.robot >= 0) robots[std::size_t(b.robot)].add_contact(d, b.body, b.loaded_link, force, point);
+    if (a.robot >= 0) robots[std::size_t(a.robot)].add_contact(d, a.body, a.loaded_link, -force, -torque, point);
+    if (b.robot >= 0) robots[std::size_t(b.robot)].add_contact(d, b.body, b.loaded_link, force, torque, point);
+    // MuJoCo's normal points from the first to the second
+    const auto is_dynamic = [&robots](const GeomOwner& owner) {
+      return owner.robot >= 0 && robots[std::size_t(owner.robot)].state().motion_type == multibody::MotionType::dynamic;
+    };
+    const bool of_a = is_dynamic(a);
+    if (!of_a && !is_dynamic(b)) continue;
+    const GeomOwner &self = of_a ? a : b, &other = of_a ? b : a;
+    multibody::RobotState& state = robots[std::size_t(self.robot)].state();
+    const double sign = of_a ? -1 : 1;
+    if (state.tells_contacts)
+      state.contacts.push_back(
+          {self.object, other.object, point, sign * vector_of(c.frame), -c.dist, {sign * force, sign * torque}});
   }
 }
 

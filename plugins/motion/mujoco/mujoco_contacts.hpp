@@ -6,6 +6,7 @@
 
 #include "mujoco_robot.hpp"
 #include "mujoco_settings.hpp"
+#include "plugins/common/terrain_contact/terrain_contacts.hpp"
 
 namespace muro::mujoco {
 
@@ -14,7 +15,10 @@ struct GeomOwner {
   std::int32_t robot = -1;        ///< of this world; -1: an external body
   std::uint32_t body = 0;         ///< of the robot
   std::uint32_t loaded_link = 0;  ///< see BodyShape
+  ObjectId object = no_object;    ///< that has the shape
   Surface surface;
+  terrain_contact::ConvexShape convex;   ///< of a robot: what touches heightmaps
+  Pose in_body;                          ///< of a robot: of the shape, from the frame of its body in MuJoCo
   const std::string* scenery = nullptr;  ///< its name; null for what moves
   /// Of what is posed from outside and has no degrees of freedom: pose and velocity, none where it rests.
   const Pose* pose = nullptr;
@@ -29,6 +33,11 @@ class MujocoContacts {
 
   /// Tells robots how deep they are in scenery.
   void report_overlaps(const mjData& d, std::deque<MujocoRobot>& robots) const;
+  /// `geom` is a heightmap at `pose`.
+  void add_terrain(int geom, const Heightmap& map, const Pose& pose) { terrains_.push_back({geom, map, pose}); }
+
+  /// Adds the contacts of robots with heightmaps to those that MuJoCo has found.
+  void find_terrain_contacts(const mjModel& m, mjData& d, const std::deque<MujocoRobot>& robots) const;
   /// Friction of what has been found to touch.
   void set_friction(mjData& d);
   /// What the rows of contact `id`, from `row` on, aim at in a step of `dt` (s). mjData::efc_b holds the accelerations
@@ -43,15 +52,24 @@ class MujocoContacts {
   void export_wrenches(const mjData& d, std::deque<MujocoRobot>& robots) const;
 
  private:
-  Vec3 external_velocity(const mjContact& contact) const;
+  /// m/s and rad/s along and about the axes of a contact.
+  using ContactVelocity = Eigen::Matrix<double, 6, 1>;
+  ContactVelocity external_velocity(const mjContact& contact) const;
+
+  struct Terrain {
+    int geom;
+    Heightmap map;
+    Pose pose;
+  };
 
   struct Reference {
-    double normal = 0;        ///< m/s^2, before the correction for sliding
-    double max_friction = 0;  ///< m/s^2, of an impact: what friction would have to do to stop all sliding
+    double normal = 0;    ///< m/s^2, before the correction for sliding
+    double max_lift = 0;  ///< m/s^2, of an impact: what stopping all sliding would lift
   };
 
   MujocoSettings settings_;
-  std::vector<GeomOwner> owners_;      ///< one per geom
+  std::vector<GeomOwner> owners_;  ///< one per geom
+  std::vector<Terrain> terrains_;
   std::vector<Reference> references_;  ///< one per contact
   std::vector<mjtNum> rows_;           ///< scratch
 };

@@ -82,7 +82,7 @@ void MujocoRobot::import(mjModel& m, mjData& d, std::span<DofDrive> drives) {
   set_motion_type(m);
   set_state(d);
   std::fill(efforts_.begin(), efforts_.end(), 0.0);
-  for (Wrench& w : state_->contact) w = Wrench{};
+  state_->clear_contacts();
   for (std::size_t i = 1; i < dofs_.size(); ++i) set_joint(m, d, i, drives);
 }
 
@@ -177,10 +177,11 @@ Vec3 MujocoRobot::rotated(const mjData& d, std::size_t number, const Vec3& v) co
 }
 
 void MujocoRobot::add_contact(const mjData& d, std::uint32_t body, std::uint32_t loaded_link, const Vec3& force,
-                              const Vec3& point) const {
+                              const Vec3& torque, const Vec3& point) const {
   Vec3 origin = vector_of(d.xpos + 3 * bodies_[body]);
   if (body == 0 && mocap_ < 0) origin -= rotated(d, 0, model_->bodies[0].inertia.com);
   state_->contact[loaded_link].add_force(force, point - origin);
+  state_->contact[loaded_link].torque += torque;
 }
 
 }  // namespace muro::mujoco

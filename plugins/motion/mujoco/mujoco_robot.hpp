@@ -49,9 +49,9 @@ class MujocoRobot {
   void export_state(const mjData& d);
   /// What the row of a joint's drive or friction applied.
   void set_effort(std::size_t number, double effort) { efforts_[number] = effort; }
-  /// Adds a force (N) that acts at `point` (m) on a body of the model.
+  /// Adds a force (N) and a torque (N m) that act at `point` (m) on a body of the model.
   void add_contact(const mjData& d, std::uint32_t body, std::uint32_t loaded_link, const Vec3& force,
-                   const Vec3& point) const;
+                   const Vec3& torque, const Vec3& point) const;
 
   const multibody::RobotModel& model() const { return *model_; }
   multibody::RobotState& state() const { return *state_; }

@@ -61,14 +61,19 @@ void MujocoWorld::find_indices() {
   const auto set_owner = [&](int geom, const multibody::BodyShape& s) -> GeomOwner& {
     GeomOwner& owner = contacts_.owner_of(geom);
     owner.loaded_link = s.loaded_link;
+    owner.object = s.object;
     owner.surface = s.shape.surface;
     return owner;
   };
   for (const StaticBody& s : static_bodies_) {
     const std::string name = Mjcf::body_name(s.body->name, s.owner, 0);
-    for (std::size_t k = 0; k < s.body->shapes.size(); ++k)
-      set_owner(mj_name2id(&m, mjOBJ_GEOM, Mjcf::geom_name(name, k).c_str()), s.body->shapes[k]).scenery =
-          &s.body->name;
+    for (std::size_t k = 0; k < s.body->shapes.size(); ++k) {
+      const Shape& shape = s.body->shapes[k].shape;
+      const int geom = mj_name2id(&m, mjOBJ_GEOM, Mjcf::geom_name(name, k).c_str());
+      set_owner(geom, s.body->shapes[k]).scenery = &s.body->name;
+      if (shape.kind == ShapeKind::heightmap)
+        contacts_.add_terrain(geom, meshes_->heightmap(shape), s.body->pose * shape.origin);
+    }
   }
   for (KinematicBody& k : kinematic_bodies_) {
     k.index = body_index(k.body->name, k.owner);
@@ -92,6 +97,9 @@ void MujocoWorld::find_indices() {
           GeomOwner& owner = set_owner(geom++, s);
           owner.robot = std::int32_t(i);
           owner.body = std::uint32_t(k);
+          owner.convex = meshes_->convex_shape(s.shape);
+          owner.in_body = s.shape.origin;
+          if (k == 0 && !r.model().fixed_base) owner.in_body.position -= r.model().bodies[0].inertia.com;
           if (!r.model().fixed_base) continue;
           owner.pose = &r.state().pose;
           owner.twist = &r.state().twist;
@@ -178,6 +186,7 @@ void MujocoWorld::step() {
   mj_crb(m, d);
   mj_factorM(m, d);
   mj_collision(m, d);
+  contacts_.find_terrain_contacts(*m, *d, robots_);
   contacts_.report_overlaps(*d, robots_);
   contacts_.set_friction(*d);
   mj_makeConstraint(m, d);

@@ -14,7 +14,7 @@ namespace muro::mujoco {
 class MujocoWorld final : public multibody::World {
  public:
   MujocoWorld(const MujocoSettings& settings, const MujocoMeshes& meshes, std::shared_ptr<WarningLog> warnings)
-      : settings_(settings), mjcf_(meshes), warnings_(std::move(warnings)) {}
+      : settings_(settings), meshes_(&meshes), mjcf_(meshes), warnings_(std::move(warnings)) {}
 
   void add_static_body(const multibody::ExternalBody& body) override;
   void add_kinematic_body(const multibody::ExternalBody& body, const multibody::ExternalBodyState& state) override;
@@ -48,6 +48,7 @@ class MujocoWorld final : public multibody::World {
   void set_references();
 
   MujocoSettings settings_;
+  const MujocoMeshes* meshes_;
   Mjcf mjcf_;
   std::shared_ptr<WarningLog> warnings_;
   std::size_t owners_ = 0;

@@ -5,7 +5,7 @@ namespace muro::ode {
 
 dGeomID create_geom(const Shape& shape, const Pose& pose, dBodyID body, dSpaceID space, const OdeMeshes& meshes) {
   const Vec3& p = pose.position;
-  if (shape.kind == ShapeKind::plane) {
+  if (shape.kind == ShapeKind::plane || shape.kind == ShapeKind::heightmap) {
     if (body) return nullptr;
     const Vec3 n = pose.orientation * Vec3::UnitZ();
     return dCreatePlane(space, n.x(), n.y(), n.z(), n.dot(p));

@@ -14,11 +14,17 @@ struct GeomOwner {
   std::uint32_t body = 0;         ///< of the robot
   std::uint32_t loaded_link = 0;  ///< see BodyShape
   Surface surface;
-  const std::string* scenery = nullptr;  ///< its name; null for what moves, and for meshes, whose depths are none
+  const std::string* scenery = nullptr;   ///< its name; null for what moves, and for meshes, whose depths are none
+  ObjectId object = no_object;            ///< that has the shape
+  terrain_contact::ConvexShape convex{};  ///< of a robot: what touches heightmaps
+  bool is_terrain = false;                ///< a heightmap, which is at `pose`
+  Heightmap heightmap{};
+  Pose pose{};
 };
 
 /// The shape in `space` (null: in none), at `pose`: of the shape in the world, or, with a body, from its centre of
-/// mass. Null for what ODE cannot place: a plane on a body.
+/// mass. Null for what ODE cannot place: a plane or heightmap on a body. A heightmap is a plane to ODE, which only
+/// stands for it in contacts: ODE's own heightfield takes a cell for one plane, and knows no ridges.
 dGeomID create_geom(const Shape& shape, const Pose& pose, dBodyID body, dSpaceID space, const OdeMeshes& meshes);
 
 }  // namespace muro::ode

@@ -63,6 +63,8 @@ OdeRobot::OdeRobot(dWorldID world, dSpaceID space, const multibody::RobotModel& 
       const dGeomID geom = create_geom(s.shape, pose, bodies_[i].id, space, meshes);
       if (!geom) continue;
       owners.push_back({std::uint32_t(owners.size()), number, std::uint32_t(i), s.loaded_link, s.shape.surface});
+      owners.back().object = s.object;
+      owners.back().convex = meshes.convex_shape(s.shape);
       dGeomSetData(geom, &owners.back());
       geoms_.push_back(geom);
     }
@@ -212,7 +214,7 @@ void OdeRobot::import() {
     set_bodies_from_memory();
   bodies_match_memory_ = false;
   for (OdeBody& b : bodies_) b.start = quaternion_of(dBodyGetQuaternion(b.id));
-  for (Wrench& w : state_->contact) w = Wrench{};
+  state_->clear_contacts();
   if (motion_type_ != MotionType::dynamic) return;
   set_forces();
   for (std::size_t i = 1; i < bodies_.size(); ++i) set_drive_target(i);

@@ -59,7 +59,7 @@ OdeWorld::~OdeWorld() {
     return;
   }
   dJointGroupDestroy(contact_joints_);
-  for (const dGeomID plane : planes_) dGeomDestroy(plane);
+  for (const dGeomID ground : grounds_) dGeomDestroy(ground);
   dSpaceDestroy(robot_space_);
   dSpaceDestroy(kinematic_space_);
   dSpaceDestroy(static_space_);
@@ -80,6 +80,7 @@ void OdeWorld::guarded(const Work& work) {
 
 GeomOwner& OdeWorld::set_owner(dGeomID geom, const multibody::BodyShape& shape) {
   owners_.push_back({std::uint32_t(owners_.size()), -1, 0, shape.loaded_link, shape.shape.surface});
+  owners_.back().object = shape.object;
   dGeomSetData(geom, &owners_.back());
   return owners_.back();
 }
@@ -87,13 +88,18 @@ GeomOwner& OdeWorld::set_owner(dGeomID geom, const multibody::BodyShape& shape) 
 void OdeWorld::add_static_body(const multibody::ExternalBody& body) {
   guarded([&] {
     for (const multibody::BodyShape& s : body.shapes) {
-      const bool plane = s.shape.kind == ShapeKind::plane;
-      const dGeomID geom =
-          create_geom(s.shape, body.pose * s.shape.origin, nullptr, plane ? nullptr : static_space_, *meshes_);
+      const bool is_terrain = s.shape.kind == ShapeKind::heightmap;
+      const bool is_ground = is_terrain || s.shape.kind == ShapeKind::plane;
+      const Pose pose = body.pose * s.shape.origin;
+      const dGeomID geom = create_geom(s.shape, pose, nullptr, is_ground ? nullptr : static_space_, *meshes_);
       if (!geom) continue;
       GeomOwner& owner = set_owner(geom, s);
       if (s.shape.kind != ShapeKind::mesh) owner.scenery = &body.name;
-      if (plane) planes_.push_back(geom);
+      if (is_ground) grounds_.push_back(geom);
+      if (!is_terrain) continue;
+      owner.is_terrain = true;
+      owner.heightmap = meshes_->heightmap(s.shape);
+      owner.pose = pose;
     }
   });
 }
@@ -156,7 +162,7 @@ void OdeWorld::advance(double dt) {
     create_contact_joints();
     step_world(dt);
     for (OdeRobot& r : robots_) r.export_state(dt);
-    if (settings_.reactions) export_contacts();
+    export_contacts();
     dJointGroupEmpty(contact_joints_);
   });
 }
@@ -196,7 +202,7 @@ void OdeWorld::find_pairs() {
   for (const OdeRobot& r : robots_) {
     if (r.motion_type() != MotionType::dynamic) continue;
     for (const dGeomID geom : r.geoms())
-      for (const dGeomID plane : planes_) add_pair(geom, plane);
+      for (const dGeomID ground : grounds_) add_pair(geom, ground);
     if (r.model().self_collision) dSpaceCollide(r.space(), this, &near_callback);
   }
   dSpaceCollide2(reinterpret_cast<dGeomID>(robot_space_), reinterpret_cast<dGeomID>(static_space_), this,
@@ -235,14 +241,41 @@ bool OdeWorld::may_collide(const GeomOwner& a, const GeomOwner& b) const {
          (b.robot >= 0 && robots_[std::size_t(b.robot)].motion_type() == MotionType::dynamic);
 }
 
-/// Writes what ODE finds into elements that are there already, from step to step.
+int OdeWorld::collide(const Pair& pair, FoundContact* found) {
+  if (owner_of(pair.second).is_terrain) return collide_with_terrain(pair, found);
+  return dCollide(pair.first, pair.second, max_contacts, &found->contact.geom, sizeof(FoundContact));
+}
+
+int OdeWorld::collide_with_terrain(const Pair& pair, FoundContact* found) {
+  static_assert(terrain_contact::max_contacts <= max_contacts);
+  const GeomOwner& terrain = owner_of(pair.second);
+  terrain_contact::ConvexShape shape = owner_of(pair.first).convex;
+  dQuaternion q;
+  dGeomGetQuaternion(pair.first, q);
+  shape.pose = {vector_of(dGeomGetPosition(pair.first)), quaternion_of(q)};
+  terrain_contact::TerrainContacts contacts;
+  const int count = terrain_contact::find_contacts(terrain.heightmap, terrain.pose, shape, 0, contacts);
+  for (int i = 0; i < count; ++i) {
+    const terrain_contact::TerrainContact& c = contacts[std::size_t(i)];
+    dContactGeom& geom = found[i].contact.geom;
+    std::copy_n(c.position.data(), 3, geom.pos);
+    std::copy_n(c.normal.data(), 3, geom.normal);
+    geom.depth = -c.gap;
+    geom.g1 = pair.first;
+    geom.g2 = pair.second;
+    geom.side1 = geom.side2 = -1;
+  }
+  return count;
+}
+
+/// Writes what is found into elements that are there already, from step to step.
 void OdeWorld::find_contacts() {
   contact_count_ = 0;
   for (const Pair& p : pairs_) {
     if (found_contacts_.size() < contact_count_ + max_contacts)
       found_contacts_.resize(2 * (contact_count_ + max_contacts));
     FoundContact* const unused = found_contacts_.data() + contact_count_;
-    const int n = dCollide(p.first, p.second, max_contacts, &unused->contact.geom, sizeof(FoundContact));
+    const int n = collide(p, unused);
     for (int i = 0; i < n; ++i) unused[i].first = &owner_of(p.first), unused[i].second = &owner_of(p.second);
     contact_count_ += std::size_t(n);
   }
@@ -295,12 +328,45 @@ void OdeWorld::create_contact_joints() {
   }
 }
 
+/// To the first of the two, or to the other where the world does not move that. ODE's torque is about the centre of
+/// mass.
+void OdeWorld::tell_contact(const FoundContact& found, const dJointFeedback* feedback, bool first_is_g1) {
+  const dContactGeom& geom = found.contact.geom;
+  const auto is_dynamic = [this](const GeomOwner& owner) {
+    return owner.robot >= 0 && robots_[std::size_t(owner.robot)].motion_type() == MotionType::dynamic;
+  };
+  const bool of_first = is_dynamic(*found.first);
+  if (!of_first && !is_dynamic(*found.second)) return;
+  const GeomOwner &self = of_first ? *found.first : *found.second, &other = of_first ? *found.second : *found.first;
+  multibody::RobotState& state = robots_[std::size_t(self.robot)].state();
+  if (!state.tells_contacts) return;
+  const bool is_g1 = &owner_of(geom.g1) == &self;
+  const Vec3 point = vector_of(geom.pos), normal = vector_of(geom.normal);
+  ContactWrench told{self.object, other.object, point, is_g1 ? normal : Vec3(-normal), geom.depth};
+  if (feedback) {
+    const bool is_first = is_g1 == first_is_g1;
+    told.wrench.force = vector_of(is_first ? feedback->f1 : feedback->f2);
+    const dBodyID body = dGeomGetBody(is_g1 ? geom.g1 : geom.g2);
+    const Vec3 centre = vector_of(dBodyGetPosition(body)) - dt_ * vector_of(dBodyGetLinearVel(body));  // as it was then
+    told.wrench.torque = vector_of(is_first ? feedback->t1 : feedback->t2) - (point - centre).cross(told.wrench.force);
+  } else {
+    told.wrench.force.setConstant(NAN);
+    told.wrench.torque.setConstant(NAN);
+  }
+  state.contacts.push_back(told);
+}
+
 void OdeWorld::export_contacts() {
   for (std::size_t i = 0; i < contact_count_; ++i) {
     const dContactGeom& geom = found_contacts_[i].contact.geom;
-    const dJointFeedback& f = feedbacks_[i];
     // The first of the joint's bodies is that of g1, or of g2 where g1 has none.
     const bool first_is_g1 = dGeomGetBody(geom.g1) != nullptr;
+    if (!settings_.reactions) {
+      tell_contact(found_contacts_[i], nullptr, first_is_g1);
+      continue;
+    }
+    const dJointFeedback& f = feedbacks_[i];
+    tell_contact(found_contacts_[i], &f, first_is_g1);
     const GeomOwner& of_first = owner_of(first_is_g1 ? geom.g1 : geom.g2);
     const GeomOwner& of_second = owner_of(first_is_g1 ? geom.g2 : geom.g1);
     if (of_first.robot >= 0)

@@ -45,10 +45,13 @@ class OdeWorld final : public multibody::World {
   void import(KinematicBody& body) const;
   void find_pairs();
   void find_contacts();
+  static int collide(const Pair& pair, FoundContact* found);
+  static int collide_with_terrain(const Pair& pair, FoundContact* found);
   void set_step(double dt);
   double softness_of(const FoundContact& found) const;
   void create_contact_joints();
   void step_world(double dt);
+  void tell_contact(const FoundContact& found, const dJointFeedback* feedback, bool first_is_g1);
   void export_contacts();
   GeomOwner& set_owner(dGeomID geom, const multibody::BodyShape& shape);
   /// Calls of ODE, with its errors as exceptions.
@@ -64,7 +67,7 @@ class OdeWorld final : public multibody::World {
   dWorldID world_ = nullptr;
   dJointGroupID contact_joints_ = nullptr;
   dSpaceID static_space_ = nullptr, kinematic_space_ = nullptr, robot_space_ = nullptr;
-  std::vector<dGeomID> planes_;
+  std::vector<dGeomID> grounds_;  ///< planes, also those that stand for heightmaps
   std::deque<GeomOwner> owners_;
   std::deque<KinematicBody> kinematic_bodies_;
   std::deque<OdeRobot> robots_;

@@ -76,7 +76,8 @@ inline constexpr Description description{
                 feature_joint_speed_limits | feature_joint_effort_limits | feature_joint_damping |
                 feature_joint_friction | feature_armature | feature_mimic_joints | feature_gyroscopic |
                 feature_contact | feature_friction | feature_restitution | feature_rolling_resistance |
-                feature_spinning_resistance | feature_convex_meshes | feature_concave_meshes | feature_fixed_base,
+                feature_spinning_resistance | feature_convex_meshes | feature_concave_meshes | feature_heightmaps |
+                feature_fixed_base,
 };
 
 }  // namespace muro::simplified

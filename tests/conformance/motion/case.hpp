@@ -56,6 +56,7 @@ std::vector<Case> pendulum_cases();
 std::vector<Case> vehicle_cases();
 std::vector<Case> obstacle_cases();
 std::vector<Case> mesh_cases();
+std::vector<Case> heightmap_cases();
 std::vector<Case> tunnelling_cases();
 
 /// Why the case is not for the motion; empty where it is.
