@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/conformance/laser/room.hpp"
 #include "muro/toolkit/rotations.hpp"
+#include "plugins/common/image_file/png.hpp"
 
 #include <algorithm>
 #include <random>
@@ -57,6 +58,21 @@ void Room::scatter(unsigned seed, int count) {
     else
       put(name, shapes[i % 4], at);
   }
+}
+
+ObjectId Room::put_heightmap(const std::string& name, const Vec3& size,
+                             const std::function<double(double, double)>& height, const Pose& at) {
+  constexpr std::size_t nodes = 129;
+  std::vector<std::uint16_t> pixels;
+  for (std::size_t row = nodes; row-- > 0;)  // the first is at +y
+    for (std::size_t column = 0; column < nodes; ++column) {
+      const double x = (double(column) / (nodes - 1) - 0.5) * size.x(),
+                   y = (double(row) / (nodes - 1) - 0.5) * size.y();
+      pixels.push_back(std::uint16_t(std::lround(65535 * std::clamp(height(x, y) / size.z(), 0.0, 1.0))));
+    }
+  const std::string path = folder_.path(name + ".png");
+  image_file::write_png(path, image_file::Format::grey16, nodes, nodes, pixels.data());
+  return put(name, {.kind = ShapeKind::heightmap, .mesh = world().intern(path), .size = size}, at);
 }
 
 std::size_t Room::add_laser(const std::string& method, const Settings& settings) {

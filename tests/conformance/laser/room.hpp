@@ -4,9 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <numbers>
 
 #include "tests/support/bodies.hpp"
+#include "tests/support/files.hpp"
 
 namespace muro::test {
 
@@ -33,6 +35,9 @@ struct Room : Scene {
   void furnish();
   /// Boxes, balls, cylinders, capsules anywhere about, in scenery and as robots, but none within a metre.
   void scatter(unsigned seed, int count);
+  /// Ground of 129 x 129 nodes over `size` (m), around the origin, with the height (m) 0 to size.z at x, y (m).
+  ObjectId put_heightmap(const std::string& name, const Vec3& size, const std::function<double(double, double)>& height,
+                         const Pose& at = {});
   /// A scanner beside those that are there; known by its number. All have a range of 20 m unless told.
   std::size_t add_laser(const std::string& method, const Settings& settings);
   /// Connects all algorithms and runs for `seconds`.
@@ -51,6 +56,7 @@ struct Room : Scene {
     std::string method;
     Settings settings;
   };
+  ScratchFolder folder_;
   std::vector<ObjectId> sensors_;
   std::vector<Laser> lasers_;
 };

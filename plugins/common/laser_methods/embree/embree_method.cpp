@@ -6,6 +6,7 @@
 
 #include "muro/algorithm.hpp"
 #include "muro/vocabulary.hpp"
+#include "plugins/common/heightmap/solid.hpp"
 #include "plugins/common/mesh/collision_mesh.hpp"
 #include "plugins/common/mesh/mesh.hpp"
 #include "plugins/common/scanner/scratch.hpp"
@@ -64,13 +65,16 @@ void Embree::connect(Connector& c) {
 void Embree::add(Connector& c, const BodyShape& s) {
   if (s.shape.kind == ShapeKind::plane) {
     planes_.push_back(s);
-  } else if (s.shape.kind == ShapeKind::mesh) {
+  } else if (s.shape.kind == ShapeKind::mesh || s.shape.kind == ShapeKind::heightmap) {
     RTCScene scene = mesh(c, s);
     if (!scene) return;
     MeshInstance instance{s, rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE)};
     rtcSetGeometryInstancedScene(instance.geometry, scene);
     rtcSetGeometryTimeStepCount(instance.geometry, 1);
     mesh_instances_.push_back(instance);
+    if (s.shape.kind == ShapeKind::mesh) return;
+    heightmap_shapes_.push_back(s);
+    heightmap_surfaces_.push_back(heightmaps_.file(std::string(c.text(s.shape.mesh))).heightmap(s.shape.size));
   } else {
     (s.body.robot >= 0 ? robot_shapes_ : scenery_shapes_).push_back(s);
   }
@@ -83,11 +87,18 @@ RTCScene Embree::mesh(Connector& c, const BodyShape& s) {
   if (!is_new) return entry->second;
   mesh::Mesh m;
   try {
-    m = mesh::load(path, scale);
+    if (s.shape.kind == ShapeKind::mesh)
+      m = mesh::load(path, scale);
+    else
+      m = heightmap::solid_mesh_of(heightmaps_.file(path).heightmap(scale));
   } catch (const Error& error) {
     mesh::refuse_collision_mesh(c, s.body.object, error);
     return nullptr;
   }
+  return entry->second = build(m);
+}
+
+RTCScene Embree::build(const mesh::Mesh& m) {
   RTCGeometry g = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
   auto* corners = static_cast<float*>(
       rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), m.vertices.size()));
@@ -105,7 +116,7 @@ RTCScene Embree::mesh(Connector& c, const BodyShape& s) {
   rtcAttachGeometry(scene, g);
   rtcReleaseGeometry(g);
   rtcCommitScene(scene);
-  return entry->second = scene;
+  return scene;
 }
 
 void Embree::prepare(std::span<const scanner::RaySet> sets) { sets_.assign(sets.begin(), sets.end()); }
@@ -201,10 +212,22 @@ void Embree::intersect_planes(const RayQuery& query, std::uint32_t count) const 
   }
 }
 
+ObjectId Embree::ground_around(const Vec3& point) const {
+  for (std::size_t i = 0; i < heightmap_shapes_.size(); ++i)
+    if (heightmap::contains(heightmap_surfaces_[i], heightmap_shapes_[i].pose().inverse() * point))
+      return heightmap_shapes_[i].body.object;
+  return no_object;
+}
+
 void Embree::cast(std::size_t set, const scanner::Viewpoint& from, std::span<double> ranges, std::span<ObjectId> hits) {
   std::fill(ranges.begin(), ranges.end(), from.max_range);
   std::fill(hits.begin(), hits.end(), no_object);
   if (!from.device.position.allFinite() || !from.device.orientation.coeffs().allFinite()) return;
+  if (const ObjectId ground = ground_around(from.device.position); ground != no_object) {
+    std::fill(ranges.begin(), ranges.end(), from.min_range);
+    std::fill(hits.begin(), hits.end(), ground);
+    return;
+  }
   thread_local std::vector<Vec3> direction_memory;
   thread_local std::vector<ObjectId> object_memory;
   const scanner::RaySet& rays = sets_[set];

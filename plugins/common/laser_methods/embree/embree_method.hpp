@@ -8,12 +8,14 @@
 #include <string>
 #include <tuple>
 
+#include "plugins/common/heightmap/heightmap_file.hpp"
 #include "plugins/common/scanner/method.hpp"
 #include "user_geometry.hpp"
 
 namespace muro::embree {
 
-/// Distances by Embree: exact to shapes with a closed form, in single precision to the triangles of meshes.
+/// Distances by Embree: exact to shapes with a closed form, in single precision to the triangles of meshes and
+/// heightmaps.
 class Embree final : public scanner::Method {
  public:
   Embree();
@@ -39,8 +41,11 @@ class Embree final : public scanner::Method {
   /// Throws Error when a call of Embree has failed.
   void check() const;
   void add(Connector& c, const BodyShape& shape);
-  /// Null where it has been refused: see mesh::refuse_collision_mesh.
+  /// Of a mesh or a heightmap. Null where it has been refused: see mesh::refuse_collision_mesh.
   RTCScene mesh(Connector& c, const BodyShape& s);
+  RTCScene build(const mesh::Mesh& mesh);
+  /// The heightmap that has a point of the world (m) in the solid below it, or no object.
+  ObjectId ground_around(const Vec3& point) const;
   void place(const MeshInstance& instance) const;
   static void skip_ignored_robot(const RTCFilterFunctionNArguments* a);
   /// Shapes and meshes, sixteen rays at a time.
@@ -55,6 +60,9 @@ class Embree final : public scanner::Method {
   std::map<std::tuple<std::string, double, double, double>, RTCScene> meshes_;  ///< by file and scale
   std::vector<BodyShape> scenery_shapes_, robot_shapes_, planes_;
   std::vector<MeshInstance> mesh_instances_;
+  heightmap::Store heightmaps_;
+  std::vector<BodyShape> heightmap_shapes_;
+  std::vector<Heightmap> heightmap_surfaces_;  ///< of these, in the frames of their shapes
   UserGeometry scenery_, robots_;
   std::vector<std::int32_t> robot_of_;  ///< by geometry of the scene
   std::vector<ObjectId> object_of_;     ///< likewise

@@ -77,6 +77,7 @@ MURO_INLINE D enter(const PlacedPrimitive& p, const V3<D>& direction) {
     case PrimitiveKind::cylinder:
       return enter_cylinder(o, d, p.sx, p.sz);
     case PrimitiveKind::capsule:
+    case PrimitiveKind::heightmap:
       break;
   }
   return enter_capsule(o, d, p.sx, p.sz);
@@ -122,6 +123,11 @@ struct PacketTraversal {
     if (f.height > 0 && signs((down + F(slack)) * far - F(float(f.height) * (1 - slack))) == all_signs) return;
     for (int h = 0; h < 2; ++h)
       accept(h, enter_half_space(D(f.height), dot(splat(f.normal), setup.direction[h])), f.id);
+    update_far();
+  }
+  /// Takes distances that were found for all rays; infinity for those that hit nothing.
+  MURO_INLINE void take(const double* found, std::uint32_t found_id) {
+    for (int h = 0; h < 2; ++h) accept(h, load<D>(found + 8 * h), found_id);
     update_far();
   }
 

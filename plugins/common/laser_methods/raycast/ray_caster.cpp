@@ -38,6 +38,7 @@ void RayCaster::reserve(const SceneTable& scene, const RayPattern& pattern) {
   scanner::scratch(robots_, scene.robot_count());
   scanner::scratch(placed_, scene.primitive_count());
   scanner::scratch(planes_, scene.plane_count());
+  scanner::scratch(heightmaps_, scene.heightmap_count());
   scanner::scratch(ids_, pattern.size());
 }
 
@@ -49,8 +50,10 @@ void RayCaster::cast(const ScanKernels& kernels, const SceneTable& scene, const 
     return;
   }
   reserve(scene, pattern);
-  const Scratch scratch{boxes_.data(),  order_.data(),  in_range_.data(), in_sector_.data(),
-                        robots_.data(), placed_.data(), planes_.data()};
+  scene.place_heightmaps(from.device.position, heightmaps_.data());
+  const Scratch scratch{boxes_.data(),     order_.data(),      in_range_.data(),
+                        in_sector_.data(), robots_.data(),     placed_.data(),
+                        planes_.data(),    heightmaps_.data(), std::uint32_t(scene.heightmap_count())};
   const ScanOutput output{ranges.data(), hits.empty() ? nullptr : ids_.data()};
   kernels.cast(scene.view(), query_of(from, pattern), scratch, output);
   for (std::size_t i = 0; i < hits.size(); ++i) hits[i] = scene.body(ids_[i]);

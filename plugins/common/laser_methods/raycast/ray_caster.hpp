@@ -29,6 +29,7 @@ class RayCaster {
   std::vector<RobotCandidate> robots_;
   std::vector<PlacedPrimitive> placed_;
   std::vector<PlaneCandidate> planes_;
+  std::vector<PlacedHeightmap> heightmaps_;
   std::vector<std::int64_t> ids_;
 };
 

@@ -8,6 +8,7 @@ namespace muro::raycast {
 void Raycast::connect(Connector& c) {
   scene_ = c.read(world_object, keys::scene_index);
   kernels_ = &scan_kernels_for(lane::best_isa());
+  heightmaps_.connect(c);
 }
 
 void Raycast::prepare(std::span<const RaySet> sets) {
@@ -18,7 +19,7 @@ void Raycast::prepare(std::span<const RaySet> sets) {
 /// Copies the shapes at the first time, and the poses of robots every time.
 void Raycast::update() {
   if (built_) return table_.update(*scene_);
-  table_.build(*scene_);
+  table_.build(*scene_, heightmaps_);
   built_ = true;
 }
 

@@ -5,7 +5,7 @@
 
 namespace muro::raycast {
 
-/// Exact distances to the boxes, spheres, cylinders, capsules and planes of scene.index.
+/// Exact distances to the boxes, spheres, cylinders, capsules, planes and heightmaps of scene.index.
 class Raycast final : public scanner::Method {
  public:
   void connect(Connector& c) override;
@@ -21,6 +21,7 @@ class Raycast final : public scanner::Method {
   In<SceneIndex> scene_;
   std::vector<RayPattern> patterns_;
   const ScanKernels* kernels_ = nullptr;
+  HeightTrees heightmaps_;
   SceneTable table_;
   bool built_ = false;
 };

@@ -10,7 +10,7 @@
 //
 // All but the last work in floats, which drop only what is certainly missed (range_culling.hpp); distances, and the
 // decisions at edges and between neighbours, come from doubles alone.
-#include "packet_traversal.hpp"
+#include "heightmap_traversal.hpp"
 
 namespace muro::raycast {
 namespace {
@@ -95,25 +95,41 @@ class Scan {
   void cast(const RayPacket& packet, const PacketSetup& setup) {
     PacketTraversal<with_ids> rays(setup, query_.max_range);
     for (std::uint32_t i = 0; i < planes_; ++i) rays.intersect_plane(scratch_.planes[i]);
+    for (std::uint32_t i = 0; i < scratch_.heightmap_count; ++i)
+      if (scratch_.heightmaps[i].contains_the_start) take_start(scratch_.heightmaps[i], rays);
     for (std::uint32_t b = 0; b < blocks_ && rays.may_pass(candidates_[b].near); ++b) {
       const Candidates& c = candidates_[b];
       for (unsigned in = b == 0 ? setup.first : setup.planes.overlapping(c); in != 0; in &= in - 1) {
         const int i = __builtin_ctz(in);
         if (rays.may_enter({F(c.low[0][i]), F(c.low[1][i]), F(c.low[2][i])},
                            {F(c.high[0][i]), F(c.high[1][i]), F(c.high[2][i])}))
-          intersect(c.item[i], rays);
+          intersect(c.item[i], setup, rays);
       }
     }
     write(packet, rays);
   }
 
-  MURO_INLINE void intersect(std::uint32_t item, PacketTraversal<with_ids>& rays) {
+  MURO_INLINE void intersect(std::uint32_t item, const PacketSetup& setup, PacketTraversal<with_ids>& rays) {
     if (item & robot_bit) return intersect_robot(scratch_.robots[item & ~robot_bit], rays);
     const Primitive& primitive = view_.primitives[item];
     if (primitive.kind == PrimitiveKind::aligned_box) return rays.intersect_aligned_box(primitive, query_);
+    if (primitive.kind == PrimitiveKind::heightmap)
+      return intersect_heightmap(scratch_.heightmaps[primitive.heightmap], setup, rays);
     PlacedPrimitive p;
     place_in_scenery(primitive, query_, p);
     rays.intersect(p);
+  }
+
+  [[gnu::noinline]] void intersect_heightmap(const PlacedHeightmap& map, const PacketSetup& setup,
+                                             PacketTraversal<with_ids>& rays) const {
+    if (map.contains_the_start) return;
+    HeightmapTraversal traversal(map, setup, rays.far);
+    traversal.cast();
+    rays.take(traversal.found, map.id);
+  }
+  static void take_start(const PlacedHeightmap& map, PacketTraversal<with_ids>& rays) {
+    alignas(64) constexpr double at_once[RayPacket::size] = {};
+    rays.take(at_once, map.id);
   }
 
   [[gnu::noinline]] void intersect_robot(RobotCandidate& candidate, PacketTraversal<with_ids>& rays) {

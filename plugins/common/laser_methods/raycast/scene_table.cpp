@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene_table.hpp"
 #include "muro/toolkit/bounds.hpp"
+#include "plugins/common/heightmap/solid.hpp"
 
 namespace muro::raycast {
 
@@ -37,12 +38,22 @@ Primitive primitive_of(const Shape& shape, const Pose& pose, std::uint32_t id) {
   return s;
 }
 
-bool has_bounds(const Shape& shape) { return shape.kind != ShapeKind::plane && shape.kind != ShapeKind::mesh; }
+/// Whether the shape is a primitive; a heightmap, which is one in scenery alone, is looked up before.
+bool has_bounds(const Shape& shape) {
+  return shape.kind != ShapeKind::plane && shape.kind != ShapeKind::mesh && shape.kind != ShapeKind::heightmap;
+}
+
+/// The box around the points of `box`, which is in the frame of `pose`.
+Aabb placed(const Aabb& box, const Pose& pose) {
+  Shape around = Shape::box(box.high - box.low);
+  return bounds_of(around, pose * Pose{0.5 * (box.low + box.high), Quat::Identity()});
+}
 
 }  // namespace
 
-void SceneTable::build(const SceneIndex& scene) {
+void SceneTable::build(const SceneIndex& scene, const HeightTrees& trees) {
   primitives_.clear();
+  heightmaps_.clear();
   planes_.clear();
   bodies_.clear();
   robots_.assign(scene.robots.size(), {});
@@ -50,6 +61,18 @@ void SceneTable::build(const SceneIndex& scene) {
   for (std::uint32_t i = 0; i < scene.colliders.size(); ++i) {
     const Collider& c = scene.colliders[i];
     bodies_.push_back(c.body);
+    if (c.shape->kind == ShapeKind::heightmap && c.robot < 0) {
+      const HeightTree* tree = trees.find(*c.shape);
+      if (!tree) continue;
+      primitive_of_collider[i] = std::uint32_t(primitives_.size());
+      Primitive s;
+      s.kind = PrimitiveKind::heightmap;
+      s.id = i;
+      s.heightmap = std::uint32_t(heightmaps_.size());
+      primitives_.push_back(s);
+      heightmaps_.push_back({tree, tree->field(), c.pose(), i});
+      continue;
+    }
     if (!has_bounds(*c.shape)) continue;
     primitive_of_collider[i] = std::uint32_t(primitives_.size());
     if (c.robot < 0) {
@@ -72,7 +95,10 @@ void SceneTable::build(const SceneIndex& scene) {
   moving_.reserve(scene.robots.size(), centre);
   scenery_.clear();
   for (const std::uint32_t i : scene.scenery.items)
-    if (has_bounds(*scene.colliders[i].shape)) scenery_.add(bounds_of(scene.colliders[i]), primitive_of_collider[i]);
+    if (const Collider& c = scene.colliders[i]; has_bounds(*c.shape))
+      scenery_.add(bounds_of(c), primitive_of_collider[i]);
+    else if (const HeightTree* tree = c.shape->kind == ShapeKind::heightmap ? trees.find(*c.shape) : nullptr)
+      scenery_.add(placed(tree->bounds(), c.pose()), primitive_of_collider[i]);
   scenery_.finish();
   update(scene);
 }
@@ -86,6 +112,21 @@ void SceneTable::update(const SceneIndex& scene) {
     const Vec3 normal = pose.orientation * Vec3::UnitZ();
     for (int k = 0; k < 3; ++k) p.normal[k] = normal[k];
     p.offset = normal.dot(pose.position);
+  }
+}
+
+void SceneTable::place_heightmaps(const Vec3& start, PlacedHeightmap* placed) const {
+  for (const SceneryHeightmap& h : heightmaps_) {
+    const Mat3 turn = h.pose.orientation.toRotationMatrix();
+    const Vec3 origin = turn.transpose() * (start - h.pose.position);
+    placed->field = &h.field;
+    placed->id = h.id;
+    placed->contains_the_start = heightmap::contains(h.tree->heightmap(), origin);
+    for (int k = 0; k < 3; ++k) {
+      placed->origin[k] = origin[k];
+      for (int i = 0; i < 3; ++i) placed->axes[3 * k + i] = turn(i, k);
+    }
+    ++placed;
   }
 }
 

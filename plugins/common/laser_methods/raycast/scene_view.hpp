@@ -9,7 +9,7 @@
 
 namespace muro::raycast {
 
-enum class PrimitiveKind : std::uint32_t { aligned_box, box, sphere, cylinder, capsule };
+enum class PrimitiveKind : std::uint32_t { aligned_box, box, sphere, cylinder, capsule, heightmap };
 
 /// A bounded shape. `axes` and `position` are those of the shape in the world for scenery, in its body for a robot.
 struct Primitive {
@@ -20,6 +20,32 @@ struct Primitive {
   double position[3] = {};
   double axes[9] = {};           ///< the x axis of the shape, then y, then z
   const double* body = nullptr;  ///< pose of a robot's body in the world: position x y z, orientation x y z w
+  std::uint32_t heightmap = 0;   ///< its number in Scratch::heightmaps
+};
+
+/// The heights of the 4 x 4 children of a node of the tree of a heightmap: `low` and so many steps, rounded away from
+/// what is between.
+struct HeightNode {
+  float low = 0, step = 0;  ///< m
+  std::uint8_t lowest[16] = {}, highest[16] = {};
+};
+/// A level of that tree. Its nodes, row by row, divide `columns` x `rows` children, which are cells on the lowest level
+/// and nodes of the level below on others; those at the upper rims have fewer than sixteen.
+struct HeightLevel {
+  const HeightNode* nodes = nullptr;
+  std::uint32_t columns = 0, rows = 0;
+};
+
+/// A heightmap in the frame of its shape.
+struct HeightField {
+  const float* values = nullptr;  ///< at its nodes, `columns` a row
+  std::uint32_t columns = 0;
+  double scale = 0;                      ///< m: height of a value of 1
+  double low = 0;                        ///< m: lowest height
+  double spacing[2] = {}, half[2] = {};  ///< m: of nodes; half of the lengths
+  double extent = 0;                     ///< m: greatest coordinate
+  const HeightLevel* levels = nullptr;   ///< from the lowest on
+  std::uint32_t level_count = 0;         ///< the last has one node
 };
 
 /// The half space below a plane: normal * x <= offset.
@@ -108,6 +134,15 @@ struct PlacedPrimitive {
   double axes[9];    ///< as in Primitive, in the world
 };
 
+/// A heightmap of the scenery.
+struct PlacedHeightmap {
+  const HeightField* field;
+  std::uint32_t id;         ///< of its collider
+  bool contains_the_start;  ///< rays start on or under the surface
+  double origin[3];         ///< of the rays, in the frame of the map
+  double axes[9];           ///< as in Primitive, in the world
+};
+
 /// A plane that rays may hit.
 struct PlaneCandidate {
   double normal[3];
@@ -124,6 +159,8 @@ struct Scratch {
   RobotCandidate* robots = nullptr;
   PlacedPrimitive* placed = nullptr;
   PlaneCandidate* planes = nullptr;
+  const PlacedHeightmap* heightmaps = nullptr;  ///< all of them, placed before the scan
+  std::uint32_t heightmap_count = 0;
 };
 
 /// Where the results go, by number of the ray.

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// Heightmaps as rays search them.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <tuple>
+#include <vector>
+
+#include "muro/algorithm.hpp"
+#include "muro/scene.hpp"
+#include "plugins/common/heightmap/heightmap_file.hpp"
+#include "scene_view.hpp"
+
+namespace muro::raycast {
+
+/// A heightmap with the greatest and least heights of its parts: a tree of 4 x 4 children a node, whose leaves are
+/// cells.
+class HeightTree {
+ public:
+  HeightTree(heightmap::HeightmapFile file, const Vec3& size);
+
+  Heightmap heightmap() const { return file_.heightmap(size_); }
+  const Aabb& bounds() const { return bounds_; }  ///< in the frame of the shape
+  HeightField field() const;                      ///< valid as long as the tree
+
+ private:
+  heightmap::HeightmapFile file_;
+  Vec3 size_;
+  Aabb bounds_;
+  std::vector<std::vector<HeightNode>> nodes_;  ///< of each level, from the one above the cells on
+  std::vector<HeightLevel> levels_;
+};
+
+/// The trees of all heightmaps of a world.
+class HeightTrees {
+ public:
+  /// Reads the files of all heightmaps among the collision shapes; one that cannot be read is refused: see
+  /// mesh::refuse_collision_mesh. [setup]
+  void connect(Connector& c);
+  void add(const Shape& shape, heightmap::HeightmapFile file);
+  /// Null for one that has been refused.
+  const HeightTree* find(const Shape& shape) const;
+
+ private:
+  using Key = std::tuple<std::uint32_t, double, double, double>;
+  static Key key_of(const Shape& s) { return {static_cast<std::uint32_t>(s.mesh), s.size.x(), s.size.y(), s.size.z()}; }
+  std::map<Key, std::unique_ptr<HeightTree>> trees_;
+};
+
+}  // namespace muro::raycast
