@@ -292,7 +292,7 @@ TEST(RecorderContacts, SaysWhyThereIsNothingToRecord) {
 
 TEST(RecorderContacts, ReplacesTheRowsSinceARestoredSnapshot) {
   ContactScene s;
-  s.add("ball", test::ball(1, 0.1, 0.5, 0.5), {{0, 0, 0.3}, Quat::Identity()});
+  s.add("box", test::block(1, {0.2, 0.2, 0.2}, 0.5), {{0, 0, 0.12}, Quat::Identity()}, {{1, 0, 0}, {0, 0, 1}});
   s.add_ground(0.5);
   s.move("motion.ode");
   s.record();
@@ -306,6 +306,7 @@ TEST(RecorderContacts, ReplacesTheRowsSinceARestoredSnapshot) {
   s.run_for(0.4);
   s.finish();
   EXPECT_EQ(test::text_of(s.folder.path("contacts.csv")), straight);
+  EXPECT_NE(straight.find("\n0.4,box/body,ground,"), std::string::npos) << "it touches when the snapshot is taken";
 }
 
 }  // namespace
