@@ -9,6 +9,7 @@
 #include "muro/toolkit/did_you_mean.hpp"
 #include "muro/vocabulary.hpp"
 #include "place_keys.hpp"
+#include "plugins/common/heightmap/heightmap_file.hpp"
 #include "plugins/common/mesh/mesh.hpp"
 #include "plugins/common/text/quote.hpp"
 
@@ -90,8 +91,10 @@ void Landmark::add_scenery(const Connector& c, ObjectId object, std::string_view
   for (const Shape& s : shapes) {
     Solid solid{s.kind, s.size, half_extents(s), {}};
     Pose origin = pose * s.origin;
-    if (s.kind == ShapeKind::mesh) try {
-        const Aabb box = mesh::bounds_of(mesh::load(std::string(c.text(s.mesh)), s.size));
+    if (s.kind == ShapeKind::mesh || s.kind == ShapeKind::heightmap) try {
+        const std::string path(c.text(s.mesh));
+        const Aabb box = s.kind == ShapeKind::mesh ? mesh::bounds_of(mesh::load(path, s.size))
+                                                   : heightmap::bounds_of(heightmap::load(path).heightmap(s.size));
         solid.half = 0.5 * (box.high - box.low);
         origin.position = origin * Vec3(0.5 * (box.low + box.high));
       } catch (const Error& error) {

@@ -13,9 +13,8 @@ namespace muro::level {
 /// What a rule measures distances to: robots, an object of the scenery or a place. From a point in the world, m:
 ///
 /// - robots: to the nearest of their bases;
-/// - scenery: to the nearest point of its shapes, those for collision if it has some; 0 inside. A mesh counts as the
-/// box
-///   around it, in the axes of its file;
+/// - scenery: to the nearest point of its shapes, those for collision if it has some; 0 inside. A mesh or a
+///   heightmap counts as the box around it, in the axes of its file;
 /// - a place: to the nearest of its rectangles, in the ground plane; 0 inside.
 class Landmark {
  public:

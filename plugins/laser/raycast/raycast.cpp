@@ -14,7 +14,8 @@ constexpr Description description{
     .kind = Kind::sensor,
     .version = "1.1.0",
     .summary =
-        "A laser scanner with any pattern of rays: exact distances to boxes, spheres, cylinders, capsules, planes",
+        "A laser scanner with any pattern of rays: exact distances to boxes, spheres, cylinders, capsules, planes, "
+        "heightmaps",
     .parameters = scanner::parameters,
     .reads = reads,
     .writes = scanner::writes,
