@@ -83,7 +83,6 @@ class SceneBuilder {
 
   /// The height of what has these shapes; not called after this has gone.
   std::function<double(const Pose&)> height_on_terrain(std::vector<StandingShape> shapes, double otherwise) {
-    if (!terrain_.has_heightmaps()) return {};
     if (shapes.empty()) shapes.push_back({Shape::sphere(0), "", {}});
     return [this, otherwise, on = std::move(shapes)](const Pose& at) {
       return terrain_.height(on, at).value_or(otherwise);
@@ -99,7 +98,8 @@ class SceneBuilder {
                                                 : meshes_.bounds_of(shape, o.mesh, {Vec3::Zero(), Quat::Identity()});
     const Vec3 half = 0.5 * (box.high - box.low), centre = 0.5 * (box.low + box.high);
     Body body{o.name, 0 - box.low.z(), elementary::hypot(half.x(), half.y())};
-    if (!ground) body.height_at = height_on_terrain({{shape, o.mesh, {}}}, body.standing_height);
+    if (!ground && terrain_.has_heightmaps())
+      body.height_at = height_on_terrain({{shape, o.mesh, {}}}, body.standing_height);
     Occupancy unused;
     const auto poses = place(p, int(count_of(p)), body, scenario_.places, unused);
     for (std::size_t i = 0; i < poses.size(); ++i) {
@@ -210,7 +210,8 @@ class SceneBuilder {
     }
     problems_.collect("", [&] {
       Body body{t.name, m.tree->standing_height(m.start.positions, corners), radius};
-      body.height_at = height_on_terrain(standing_shapes(*m.tree, m.start.positions), body.standing_height);
+      if (terrain_.has_heightmaps())
+        body.height_at = height_on_terrain(standing_shapes(*m.tree, m.start.positions), body.standing_height);
       poses = place(t.placement, t.count, body, scenario_.places, occupied_);
     });
     return poses;

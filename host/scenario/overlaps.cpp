@@ -164,6 +164,7 @@ class Still {
  private:
   struct Names {
     bool heeds_contacts;
+    bool heeds_heightmaps;  ///< on which it goes, or through which, if no contact moves it, wherever it is put
     bool scenery_is_hulls;
     std::vector<std::string> of_link;  ///< of links with shapes
     std::vector<std::uint32_t> link_of_shape;
@@ -198,7 +199,7 @@ class Still {
         const auto corners =
             s.kind == ShapeKind::mesh ? files_.meshes.of(std::string(texts[s.mesh])) : std::span<const Vec3>{};
         const double depth = depth_below(h.map, h.inverse * (start * s.origin), s, corners);
-        if (names.heeds_contacts && depth >= least_depth)
+        if (names.heeds_heightmaps && depth >= least_depth)
           contacts_.push_back({{ShapeOfBody{base, names.link_of_shape[i]}, ShapeOfBody{h.object, 0}}, depth});
       }
   }
@@ -208,7 +209,8 @@ class Still {
     RobotTree tree;
     const bool is_placed = moment_.placed && moment_.placed->object == robot.base();
     const bool heeds = moment_.placed ? is_placed : heeds_contacts(original_, robot);
-    Names names{heeds, hulls_ && scenery_is_hulls_[robot.number], {}, {}};
+    const bool heeds_heightmaps = heeds && heeds_contacts(original_, robot);
+    Names names{heeds, heeds_heightmaps, hulls_ && scenery_is_hulls_[robot.number], {}, {}};
     std::vector<Shape> shapes;
     for (std::size_t i = 0; i < poses.size(); ++i) {
       const std::span<const Shape> of_link = constants(original_, robot.links[i].object, keys::collision_shapes);
@@ -265,6 +267,9 @@ class Still {
   /// A pair of robots stands in the lists of both; scenery comes second.
   void add(const Contact& c) {
     if (c.depth < least_depth || (!heeds(c.self) && !heeds(c.other))) return;
+    const bool on_heightmap =
+        std::any_of(heightmaps_.begin(), heightmaps_.end(), [&](const HeightmapAt& h) { return h.object == c.other; });
+    if (on_heightmap && !robots_.at(c.self).heeds_heightmaps) return;
     if (hulls_ && robots_.count(c.other) == 0 && !robots_.at(c.self).scenery_is_hulls) return;
     PairContact pair{{body_of(c.self, c.self_shape), body_of(c.other, c.other_shape)}, c.depth};
     if (robots_.count(c.other) > 0 && pair.bodies[1] < pair.bodies[0]) std::swap(pair.bodies[0], pair.bodies[1]);

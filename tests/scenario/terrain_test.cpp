@@ -7,10 +7,11 @@
 
 #include "core/error.hpp"
 #include "host/scenario/builder.hpp"
+#include "host/scenario/overlaps.hpp"
 #include "muro/toolkit/rotations.hpp"
 #include "muro/vocabulary.hpp"
-#include "plugins/common/ground/hills_testing.hpp"
 #include "tests/support/complaint.hpp"
+#include "tests/support/hills.hpp"
 
 namespace muro::host {
 namespace {
@@ -18,7 +19,7 @@ namespace {
 /// A scene on a square of 32 m with nodes 0.5 m apart.
 class OnTerrain : public testing::Test {
  protected:
-  explicit OnTerrain(const ground::Hills::Heights& height = [](double x, double y) { return 0.25 * x - 0.125 * y; })
+  explicit OnTerrain(const test::Hills::Heights& height = [](double x, double y) { return 0.25 * x - 0.125 * y; })
       : hills_(32, 64, height) {}
 
   std::string scenario(const std::string& objects, const std::string& rest = "") const {
@@ -37,7 +38,7 @@ class OnTerrain : public testing::Test {
     return b.simulation->world().value(b.simulation->world().find_object(name), keys::pose);
   }
 
-  ground::Hills hills_;
+  test::Hills hills_;
   test::ScratchFolder folder_;
 };
 
@@ -124,6 +125,21 @@ TEST_F(OnTerrain, ARobotThatIsBuriedIsTold) {
   EXPECT_EQ(deep[0], fmt::format("note: `box/body` and `hills` overlap by {:.2g} m at the start; contacts push them "
                                  "apart, so move one of them",
                                  (3 + 1.05 + 0.025 + 0.2) / Vec3(-0.25, 0.125, 1).norm()));
+}
+
+TEST_F(OnTerrain, WhatNoContactMovesMayBePutIntoAHillWhereItStandsAnyway) {
+  const BuiltScenario b = built("", R"(robots:
+  moved: {shape: {box: [0.4, 0.4, 0.4]}, mass: 1, at: {x: 4}, motion: {use: motion.simplified, rate: 100}}
+  point: {shape: {box: [0.4, 0.4, 0.4]}, mass: 1, at: {x: 6}, motion: {use: motion.point, height_above_ground: 0.2}})");
+  const World& world = b.simulation->world();
+  const auto overlap = [&](const char* robot, double x, double z) {
+    ShapeFiles files(*b.simulation);
+    return overlap_of(*b.simulation, files,
+                      {.object = world.find_robot(robot)->base(), .pose = {{x, 8, z}, Quat::Identity()}});
+  };
+  EXPECT_EQ(overlap("moved", 4, -2).substr(0, 11), "`hills` by ");
+  EXPECT_EQ(overlap("moved", 4, 2), "");
+  EXPECT_EQ(overlap("point", 4, -2), "");
 }
 
 TEST_F(OnTerrain, ARobotWithAHeightmapIsRefusedInOneSentence) {

@@ -12,7 +12,7 @@ constexpr double least_upright = 0.17;  ///< cosine of the angle of the z axis w
 constexpr double steepest = 5;          ///< tangent
 constexpr double largest_turn = 0.5;    ///< rad, in an iteration
 constexpr int most_iterations = 12;     ///< two or three do, but where points change between cells
-constexpr double accuracy = 1e-12;      ///< m, rad
+constexpr double accuracy = 1e-7;       ///< m, rad: of the last step, which leaves less by its square
 
 }  // namespace
 
@@ -41,17 +41,38 @@ void Standing::set_axes() {
 
 Standing::Row Standing::row(const ContactPoint& point) const {
   Row row;
-  row.arm = axes_ * (point.at - middle_);
+  const double from_x = point.at.x() - middle_.x(), from_y = point.at.y() - middle_.y();
+  row.arm = from_x * axes_.col(0) + from_y * axes_.col(1) + (point.at.z() - middle_.z()) * axes_.col(2);
   const Vec3 at = place_ + turned(row.arm);
-  const std::optional<Heightmap::Ground> ground = terrain_.ground_at(at.x(), at.y());
+  const std::optional<Ground> ground = terrain_.ground_at(at.x(), at.y());
   row.gap = at.z() - (ground ? ground->height : (before_ * point.at).z());
   row.gradient = Vec3::UnitZ();
   if (ground) {
-    const Vec3 slope = ground->normal / ground->normal.z();
-    row.gradient = Vec3(cosine_ * slope.x() + sine_ * slope.y(), cosine_ * slope.y() - sine_ * slope.x(), 1);
+    row.gradient.x() = -(cosine_ * ground->slope_x + sine_ * ground->slope_y);
+    row.gradient.y() = sine_ * ground->slope_x - cosine_ * ground->slope_y;
   }
-  row.jacobian = {1, row.gradient.dot(Vec3::UnitY().cross(row.arm)), row.gradient.dot(axes_.col(0).cross(row.arm))};
+  const Vec3 &a = row.arm, &g = row.gradient;
+  const double x = axes_(0, 0), z = axes_(2, 0);  // of the base's x axis; its y is 0
+  row.jacobian = {1, g.x() * a.z() - a.x(), -g.x() * z * a.y() + g.y() * (z * a.x() - x * a.z()) + x * a.y()};
   return row;
+}
+
+void Standing::NormalEquations::add(double weight, const Vec3& row, double value) {
+  const double x = weight * row.x(), y = weight * row.y(), z = weight * row.z();
+  xx += x * row.x(), xy += x * row.y(), xz += x * row.z();
+  yy += y * row.y(), yz += y * row.z(), zz += z * row.z();
+  right += Vec3(x * value, y * value, z * value);
+}
+
+/// By Cramer's rule.
+Vec3 Standing::NormalEquations::solution() const {
+  const double ax = yy * zz - yz * yz, ay = xz * yz - xy * zz, az = xy * yz - xz * yy;
+  const double by = xx * zz - xz * xz, bz = xy * xz - xx * yz, cz = xx * yy - xy * xy;
+  const double determinant = xx * ax + xy * ay + xz * az;
+  if (!(determinant > 0)) return Vec3::Zero();
+  return Vec3(ax * right.x() + ay * right.y() + az * right.z(), ay * right.x() + by * right.y() + bz * right.z(),
+              az * right.x() + bz * right.y() + cz * right.z()) /
+         determinant;
 }
 
 /// Gauss and Newton's iteration over height, pitch and roll.
@@ -61,14 +82,12 @@ void Standing::settle(const Pose& before, Pose& pose) {
   if (is_lying_) return;
   for (int i = 0; i < most_iterations; ++i) {
     set_axes();
-    Mat3 normal = Mat3::Zero();
-    Vec3 right = Vec3::Zero();
+    NormalEquations least;
     for (const ContactPoint& p : points_) {
       const Row r = row(p);
-      normal += (p.weight * r.jacobian) * r.jacobian.transpose();
-      right -= (p.weight * r.gap) * r.jacobian;
+      least.add(p.weight, r.jacobian, -r.gap);
     }
-    const Vec3 change = normal.inverse() * right;
+    const Vec3 change = least.solution();
     const double pitch = std::clamp(change.y(), -largest_turn, largest_turn);
     const double roll = std::clamp(change.z(), -largest_turn, largest_turn);
     const double ascent = 1 + along_ * along_;
@@ -92,14 +111,12 @@ Twist Standing::velocity(const Pose& pose, const Gliding& along) {
   set_axes();
   const Vec3 turn = along.yaw_rate * axes_.col(2);
   const Vec3 gliding = axes_ * Vec3(along.x, along.y, 0) + turn.cross(axes_ * middle_);  // of the middle
-  Mat3 normal = Mat3::Zero();
-  Vec3 right = Vec3::Zero();
+  NormalEquations least;
   for (const ContactPoint& p : points_) {
     const Row r = row(p);
-    normal += (p.weight * r.jacobian) * r.jacobian.transpose();
-    right -= (p.weight * r.gradient.dot(gliding + turn.cross(r.arm))) * r.jacobian;
+    least.add(p.weight, r.jacobian, -r.gradient.dot(gliding + turn.cross(r.arm)));
   }
-  const Vec3 rates = normal.inverse() * right;
+  const Vec3 rates = least.solution();
   const Vec3 angular = turn + rates.y() * Vec3::UnitY() + rates.z() * axes_.col(0);
   const Vec3 linear = gliding + Vec3(0, 0, rates.x()) - angular.cross(axes_ * middle_);
   return {turned(linear), turned(angular)};

@@ -48,6 +48,15 @@ class Standing {
     Vec3 jacobian;  ///< by height, pitch and roll
   };
 
+  /// The normal equations of the least squares, for the points' rates: A x = b, A symmetric.
+  struct NormalEquations {
+    double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
+    Vec3 right = Vec3::Zero();
+
+    void add(double weight, const Vec3& row, double value);
+    Vec3 solution() const;
+  };
+
   void take(const Pose& pose);
   void set_axes();
   Row row(const ContactPoint& point) const;

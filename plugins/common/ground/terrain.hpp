@@ -12,6 +12,12 @@
 
 namespace muro::ground {
 
+/// The ground above or below a point of the world.
+struct Ground {
+  double height = 0;                ///< m
+  double slope_x = 0, slope_y = 0;  ///< of the height by x and y of the world
+};
+
 /// The heightmaps and planes among the collision shapes of the scenery. Where several lie one over the other, the
 /// highest is the ground, as what is below a surface is solid. Surfaces that look down or sideways (more than 84 deg
 /// off) are no ground.
@@ -26,17 +32,20 @@ class Terrain {
   /// m: the shortest side of a cell; infinite without heightmaps.
   double resolution() const { return resolution_; }
 
-  /// The ground above or below a point of the world: its height and its normal, in the axes of the world. Nothing
-  /// beyond the rims of all heightmaps where there is no plane. [step]
-  std::optional<Heightmap::Ground> ground_at(double x, double y) const;
+  /// Nothing beyond the rims of all heightmaps where there is no plane. [step]
+  std::optional<Ground> ground_at(double x, double y) const;
 
  private:
   struct Tile {
     Heightmap map;
     Pose shape, inverse;  ///< of the map's frame in the world; of the world in the map's frame
     bool is_level = true;
+    double cosine = 1, sine = 0;              ///< of the yaw of one that is level
+    double cells_per_x = 1, cells_per_y = 1;  ///< 1/m
 
-    std::optional<Heightmap::Ground> ground_at(double x, double y) const;
+    Tile(const Heightmap& m, const Pose& pose);
+    std::optional<Ground> ground_at(double x, double y) const;
+    std::optional<Ground> ground_of_level(double x, double y) const;
   };
   struct Plane {
     Vec3 point, normal;

@@ -4,7 +4,7 @@
 
 #include "ackermann_testing.hpp"
 #include "muro/toolkit/rotations.hpp"
-#include "plugins/common/ground/hills_testing.hpp"
+#include "tests/support/hills.hpp"
 
 namespace muro {
 namespace {
@@ -13,7 +13,7 @@ using namespace ackermann;
 
 struct CarOnHills : test::Scene {
   const RobotView& robot;
-  CarOnHills(const ground::Hills& hills, double rate, const std::vector<WheelSpec>& wheels, const Pose& start)
+  CarOnHills(const test::Hills& hills, double rate, const std::vector<WheelSpec>& wheels, const Pose& start)
       : robot((hills.add_to(*this), add("car", vehicle_of(wheels), start))) {
     use("motion.ackermann", rate, all_robots());
     use("kinematics.direct", 2 * rate, all_robots());
@@ -26,7 +26,7 @@ struct CarOnHills : test::Scene {
 };
 
 TEST(AckermannOnTerrain, ABicycleTurnsOnItsCircleInAnInclinedPlaneOfHeights) {
-  const ground::Hills hills(64, 64, [](double x, double y) { return 0.25 * x - 0.125 * y; });
+  const test::Hills hills(64, 64, [](double x, double y) { return 0.25 * x - 0.125 * y; });
   const double circle = 2 / std::tan(0.4), angle = 0.1 * 12 * 10 / circle;
   for (const double rate : {5.0, 200.0}) {
     CarOnHills s(hills, rate, bicycle(2), {{1, 2, 0}, from_rpy(0, 0, 0.7)});
@@ -45,7 +45,7 @@ TEST(AckermannOnTerrain, ABicycleTurnsOnItsCircleInAnInclinedPlaneOfHeights) {
 
 TEST(AckermannOnTerrain, ThreeWheelsStandOnTheGroundWhereverTheirArmsSteerThem) {
   const auto height = [](double x, double y) { return 0.4 * std::sin(x) * std::cos(0.7 * y); };
-  const ground::Hills hills(32, 640, height);
+  const test::Hills hills(32, 640, height);
   const std::vector<WheelSpec> wheels{
       {.name = "rear", .at = {0, 0, 0.1}},
       {.name = "front_left", .at = {0.8, 0.3, 0.1}, .steered = true, .arm = {-0.05, 0.12, 0}},

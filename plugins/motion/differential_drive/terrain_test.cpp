@@ -3,13 +3,13 @@
 #include <gtest/gtest.h>
 
 #include "muro/toolkit/rotations.hpp"
-#include "plugins/common/ground/hills_testing.hpp"
+#include "tests/support/hills.hpp"
 #include "tests/support/wheeled_robot.hpp"
 
 namespace muro {
 namespace {
 
-using ground::Hills;
+using test::Hills;
 using Settings = std::map<std::string, ParameterInput>;
 
 constexpr double radius = 0.1, half_length = 0.25, half_width = 0.2;

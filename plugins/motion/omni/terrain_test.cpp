@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "muro/toolkit/rotations.hpp"
-#include "plugins/common/ground/hills_testing.hpp"
+#include "tests/support/hills.hpp"
 #include "tests/support/wheeled_robot.hpp"
 
 namespace muro {
@@ -27,7 +27,7 @@ RobotTree kiwi() {
 
 struct KiwiOnHills : test::Scene {
   const RobotView& robot;
-  KiwiOnHills(const ground::Hills& hills, const Pose& start) : robot((hills.add_to(*this), add("bot", kiwi(), start))) {
+  KiwiOnHills(const test::Hills& hills, const Pose& start) : robot((hills.add_to(*this), add("bot", kiwi(), start))) {
     use("motion.omni", 100, all_robots());
     build();
   }
@@ -42,7 +42,7 @@ struct KiwiOnHills : test::Scene {
 
 TEST(OmniOnTerrain, AllThreeWheelsStandOnTheGroundWhileItGoesSideways) {
   const auto height = [](double x, double y) { return 0.4 * std::sin(x) * std::cos(0.7 * y); };
-  const ground::Hills hills(32, 640, height);
+  const test::Hills hills(32, 640, height);
   KiwiOnHills s(hills, {{1, 2, 0}, from_rpy(0, 0, 0.7)});
   s.drive(0.3, -1);
   for (int i = 0; i < 50; ++i) {
@@ -56,7 +56,7 @@ TEST(OmniOnTerrain, AllThreeWheelsStandOnTheGroundWhileItGoesSideways) {
 }
 
 TEST(OmniOnTerrain, GoesStraightAlongAnInclinedPlaneAtTheSpeedOfItsWheels) {
-  const ground::Hills hills(32, 64, [](double x, double y) { return 0.25 * x - 0.125 * y; });
+  const test::Hills hills(32, 64, [](double x, double y) { return 0.25 * x - 0.125 * y; });
   KiwiOnHills s(hills, {{1, 2, 0}, from_rpy(0, 0, 0.7)});
   const Pose start = s.pose(s.robot);
   s.drive(0.3, -1);

@@ -166,9 +166,8 @@ class Point final : public PerRobotAlgorithm<PointRobot> {
     if (!pose.position.allFinite()) return;
     const auto ground = terrain_.ground_at(pose.position.x(), pose.position.y());
     if (!ground) return;
-    const Vec3& n = ground->normal;
     pose.position.z() = ground->height + height_;
-    v.linear.z() = -(n.x() * v.linear.x() + n.y() * v.linear.y()) / n.z();
+    v.linear.z() = ground->slope_x * v.linear.x() + ground->slope_y * v.linear.y();
   }
 
   void move(const PointRobot& r, double dt) const {

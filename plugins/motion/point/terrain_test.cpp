@@ -2,9 +2,11 @@
 // Points that keep a height above heightmaps.
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "muro/toolkit/rotations.hpp"
-#include "plugins/common/ground/hills_testing.hpp"
 #include "tests/support/bodies.hpp"
+#include "tests/support/hills.hpp"
 
 namespace muro {
 namespace {
@@ -13,8 +15,9 @@ using Settings = std::map<std::string, ParameterInput>;
 
 struct PointOnHills : test::Scene {
   const RobotView& robot;
-  PointOnHills(const ground::Hills& hills, const Settings& settings, const Pose& start)
-      : robot((hills.add_to(*this), add("point", test::single_body(Shape::sphere(0.1), {.mass = 1}), start))) {
+  PointOnHills(const test::Hills& hills, const Settings& settings, const Pose& start, const Pose& hills_at = {})
+      : robot(
+            (hills.add_to(*this, hills_at), add("point", test::single_body(Shape::sphere(0.1), {.mass = 1}), start))) {
     use("motion.point", 100, all_robots(), settings);
     build();
   }
@@ -22,12 +25,12 @@ struct PointOnHills : test::Scene {
   Twist& command() { return world().value(robot.base(), keys::command_twist); }
 };
 
-ground::Hills slope() {
+test::Hills slope() {
   return {32, 64, [](double x, double y) { return 0.25 * x - 0.125 * y; }};
 }
 
 TEST(PointMotionOnTerrain, KeepsItsHeightAboveAnInclinedPlane) {
-  const ground::Hills hills = slope();
+  const test::Hills hills = slope();
   PointOnHills s(hills, {{"height_above_ground", 1.5}}, {{1, 2, -7}, from_rpy(0, 0, 0.6)});
   EXPECT_NEAR(s.at().position.z(), 1.5, 1e-12) << "from the start";
   s.command() = {{2, 0, -9}, {0, 0, 0}};
@@ -40,8 +43,29 @@ TEST(PointMotionOnTerrain, KeepsItsHeightAboveAnInclinedPlane) {
   EXPECT_NEAR((s.at().orientation * Vec3::UnitZ()).z(), 1, 1e-12) << "it does not tilt";
 }
 
+TEST(PointMotionOnTerrain, IsWhereTheSurfaceOfAHeightmapIsDefinedToBe) {
+  std::mt19937 engine(5);
+  std::uniform_real_distribution<double> any(-1, 1);
+  const test::Hills hills(8, 7, [&](double, double) { return any(engine); });
+  for (const Pose& at : {Pose{}, Pose{{3, -2, 5}, from_rpy(0, 0, 0.7)}, Pose{{3, -2, 5}, from_rpy(0.1, -0.2, 0.7)}}) {
+    PointOnHills s(hills, {{"height_above_ground", 0.0}}, {}, at);
+    for (int i = 0; i < 300; ++i) {
+      const Vec3 over = at * Vec3(4.5 * any(engine), 4.5 * any(engine), 0);
+      s.at().position = {over.x(), over.y(), 100};
+      s.run_for(0.01);
+      const Vec3 in_map = at.inverse() * s.at().position;
+      const auto ground = hills.heightmap().ground_at(in_map.x(), in_map.y());
+      if (ground) {
+        EXPECT_NEAR(in_map.z(), ground->height, 1e-12) << in_map.transpose();
+      } else {
+        EXPECT_EQ(s.at().position.z(), 100);
+      }
+    }
+  }
+}
+
 TEST(PointMotionOnTerrain, KeepsItsHeightOnTheWayToAPose) {
-  const ground::Hills hills = slope();
+  const test::Hills hills = slope();
   PointOnHills s(hills, {{"height_above_ground", 0.0}, {"mode", std::string("pose")}, {"max_speed", 1.0}}, {});
   s.world().value(s.robot.base(), keys::command_pose) = {{4, 0, 100}, Quat::Identity()};
   s.run_for(3);
@@ -53,7 +77,7 @@ TEST(PointMotionOnTerrain, KeepsItsHeightOnTheWayToAPose) {
 }
 
 TEST(PointMotionOnTerrain, BeyondTheRimKeepsTheHeightOfTheRim) {
-  const ground::Hills hills = slope();
+  const test::Hills hills = slope();
   PointOnHills s(hills, {{"height_above_ground", 1.0}}, {{15, 0, 0}, Quat::Identity()});
   s.command() = {{1, 0, 0}, {0, 0, 0}};
   s.run_for(3);
@@ -63,7 +87,7 @@ TEST(PointMotionOnTerrain, BeyondTheRimKeepsTheHeightOfTheRim) {
 }
 
 TEST(PointMotionOnTerrain, WithoutAHeightTerrainIsNothingToIt) {
-  const ground::Hills hills = slope();
+  const test::Hills hills = slope();
   PointOnHills s(hills, {}, {{1, 2, -7}, Quat::Identity()});
   s.command() = {{1, 0, 0.5}, {0, 0, 0}};
   s.run_for(2);
@@ -71,7 +95,7 @@ TEST(PointMotionOnTerrain, WithoutAHeightTerrainIsNothingToIt) {
 }
 
 TEST(PointMotionOnTerrain, TakesTimeToSpeedUpAlongTheGroundOnly) {
-  const ground::Hills hills = slope();
+  const test::Hills hills = slope();
   PointOnHills s(hills, {{"height_above_ground", 1.0}, {"max_acceleration", 1.0}}, {});
   s.command() = {{4, 0, 0}, {0, 0, 0}};
   s.run_for(2);
