@@ -11,8 +11,9 @@ namespace muro::mjcf {
 
 namespace {
 
-/// Of the range of heights: MuJoCo rounds values of 16 bits down to 8.
-constexpr double largest_rounding = 1.01 / 255;
+/// How far heights of MuJoCo may be from those of the same file, of the range of heights, which are `range` of white:
+/// it rounds values of 16 bits down to 8, those of the lowest and highest too.
+double largest_rounding(double range) { return std::min(2.01 / 255 / range, 0.05); }
 
 /// The files of height fields, in the order of their numbers.
 std::vector<std::string> paths_in(const std::string& canonical, const Source& source) {
@@ -75,7 +76,7 @@ std::optional<PlacedHeights> HeightFields::read(int number, std::string& problem
   for (std::size_t i = 0; i < std::min(compiled.size(), file.values.size()); ++i)
     error = std::max(error, std::abs((file.values[i] - lowest) / range - compiled[i]));
   if (file.values.size() != compiled.size() || file.columns != std::uint32_t(m_.hfield_ncol[number]) ||
-      !(error <= largest_rounding)) {
+      !(error <= largest_rounding(range))) {
     problem = concat("MuJoCo reads other heights from ", quote(path),
                      " than muro; save it as a grey picture (PNG) of 8 bits");
     return std::nullopt;

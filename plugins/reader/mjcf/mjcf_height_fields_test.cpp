@@ -89,16 +89,16 @@ TEST(MjcfHeightField, OfAPictureIsTheSurfaceThatMuJoCoCompiles) {
 TEST(MjcfHeightField, OfSixteenBitsTellsHowFarMuJoCoIsFromIt) {
   const ScratchFolder folder;
   std::filesystem::create_directory(folder.path("land"));
-  const std::uint16_t pixels[] = {0, 65535, 300, 20000};
+  const std::uint16_t pixels[] = {0, 58979, 511, 20000};
   const std::string path = folder.path("land/hills.png");
   image_file::write_png(path, image_file::Format::grey16, 2, 2, pixels);
   const std::string text = hills_yard("<hfield name='h' file='hills.png' size='2 1 255 0.1'/>");
   const HillyWorld world(text, folder);
-  // 20000 is 77.82 of 255, and MuJoCo has 78; 300 is 1.17, and MuJoCo has 1
-  EXPECT_TRUE(has_line(world.problems, "note 4: the heights of geom `hills` differ by up to 0.18 m"))
+  // 511 is 0.0087 of the highest, and MuJoCo has 1 / 230
+  EXPECT_TRUE(has_line(world.problems, "note 4: the heights of geom `hills` differ by up to 1.1 m"))
       << joined(world.problems);
   const double distance = distance_from_mujoco(world.hills().collisions.at(0), path, text, folder);
-  EXPECT_NEAR(distance, 78 - 20000 / 257.0, 1e-3);
+  EXPECT_NEAR(distance, 255 * (511 / 58979.0 - 1 / 230.0), 1e-3);
 }
 
 TEST(MjcfHeightField, ThatIsFlatIsABoxAsDeepAsItsBase) {
