@@ -65,6 +65,8 @@ class Surface {
       };
       const auto ridge = [&](const Vec3& p, std::uint32_t pi, std::uint32_t pj, const Vec3& q, std::uint32_t qi,
                              std::uint32_t qj, const Vec3* one, const Vec3* other) {
+        // the middle of the edge is over that of the corners to its sides, which is the same on the map
+        if (other && p.z() + q.z() <= one->z() + other->z()) return;
         SurfaceEdge edge{p, q, {}, {}, {pi, pj}, {qi, qj}};
         if (near(p, q) && stands_out(edge, one, other)) visit(edge);
       };
