@@ -38,10 +38,11 @@ Inertia stretched_inertia(const Inertia& body, const Vec3& scale, double mass) {
   return Inertia::from(mass, body.com.cwiseProduct(scale), stretched.trace() * Mat3::Identity() - stretched);
 }
 
-RobotTree single_body(const Shape& given, const std::string& mesh, const Inertia& inertia) {
+RobotTree single_body(const Shape& given, const std::string& mesh, const std::string& texture, const Inertia& inertia) {
   RobotTree tree;
   Shape shape = given;
   if (!mesh.empty()) shape.mesh = tree.intern(mesh);
+  if (!texture.empty()) shape.texture = tree.intern(texture);
   tree.base("body");
   tree.set(keys::inertial, inertia);
   tree.set_array(keys::collision_shapes, std::span<const Shape>(&shape, 1));

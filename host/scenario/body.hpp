@@ -13,7 +13,8 @@ Inertia homogeneous_inertia(const Shape& shape, double mass);
 /// axes.
 Inertia stretched_inertia(const Inertia& body, const Vec3& scale, double mass);
 
-/// A robot of one homogeneous body, named `body`. `mesh`: the path, of a shape that is a mesh.
-RobotTree single_body(const Shape& shape, const std::string& mesh, const Inertia& inertia);
+/// A robot of one homogeneous body, named `body`. `mesh`: the path, of a shape that is a mesh; `texture`: that of a
+/// picture on the shape, or empty.
+RobotTree single_body(const Shape& shape, const std::string& mesh, const std::string& texture, const Inertia& inertia);
 
 }  // namespace muro::host

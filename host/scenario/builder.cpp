@@ -93,6 +93,7 @@ class SceneBuilder {
     const Placement& p = o.placement;
     Shape shape = o.shape;
     if (!o.mesh.empty()) shape.mesh = world_.intern(o.mesh);
+    if (!o.texture.empty()) shape.texture = world_.intern(o.texture);
     const bool ground = is_ground(o);
     const Aabb box = ground || !needs_extent(p) ? Aabb{Vec3::Zero(), Vec3::Zero()}
                                                 : meshes_.bounds_of(shape, o.mesh, {Vec3::Zero(), Quat::Identity()});
@@ -126,7 +127,7 @@ class SceneBuilder {
   }
 
   RobotTree read_model_of(const RobotTemplate& t) {
-    if (t.shape) return single_body(*t.shape, t.mesh, inertia_of(t));
+    if (t.shape) return single_body(*t.shape, t.mesh, t.texture, inertia_of(t));
     if (t.from_world) return world_file_.model(t);
     RobotTree tree = simulation_.read_model(t.model);
     for (const auto& p : tree.problems())

@@ -103,7 +103,7 @@ class RobotReader {
       for (const char* key : {"count", "place", "at"})
         if (map.has(key))
           map.problem(key, "is not allowed with `model: world`: the world file states the pose of the model");
-    t.shape = read_shape(map, t.mesh, problems_);
+    t.shape = read_shape(map, t.mesh, t.texture, problems_);
     if (t.shape && t.shape->kind == ShapeKind::plane)
       map.problem("shape", "must have a volume: box, sphere, cylinder, capsule or mesh; `plane` is for scenery");
     t.mass = map.number("mass", 0, limits::min_mass, limits::max_mass);

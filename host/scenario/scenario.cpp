@@ -54,7 +54,7 @@ SceneryObject read_object(const std::string& name, const Node& node, Problems& p
   object.placement = read_placement(map, problems);
   if (object.placement.kind == Placement::Kind::random)
     map.problem("place", "must be a `list` or a `grid`: random places are for robots");
-  const auto shape = read_shape(map, object.mesh, problems);
+  const auto shape = read_shape(map, object.mesh, object.texture, problems);
   if (!shape && node.kind == Node::Kind::map) problems.add(node.location, map.what() + " needs a `shape`");
   object.shape = shape.value_or(Shape{});
   map.reject_unknown_keys();

@@ -80,7 +80,8 @@ struct SceneryObject {
   bool numbered = false;  ///< names of copies end in their index
   Placement placement;
   Shape shape;
-  std::string mesh;
+  std::string mesh;     ///< path, of a mesh or a heightmap
+  std::string texture;  ///< path of a picture on its surface; empty: none
 };
 
 /// A file that describes a world.
@@ -116,6 +117,7 @@ struct RobotTemplate {
   bool from_world = false;  ///< the model of the world file that has its name
   std::optional<Shape> shape;
   std::string mesh;       ///< path, of a shape that is a mesh
+  std::string texture;    ///< path of a picture on the shape; empty: none
   double mass = 0;        ///< of a body described in place, kg
   bool numbered = false;  ///< names of robots end in their index
   int count = 1;

@@ -66,10 +66,10 @@ std::string resolve_path(const Location& at, const std::string& name) {
   return (fs::path(at.file).parent_path() / file).lexically_normal().string();
 }
 
-std::optional<Shape> read_shape(MapReader& map, std::string& mesh, Problems& problems) {
+std::optional<Shape> read_shape(MapReader& map, std::string& mesh, std::string& texture, Problems& problems) {
   const Node* n = map.find("shape");
   if (!n) {
-    for (const char* key : {"friction", "restitution", "rolling_resistance", "spinning_resistance", "color"})
+    for (const char* key : {"friction", "restitution", "rolling_resistance", "spinning_resistance", "color", "texture"})
       if (map.has(key)) map.problem(key, "belongs to a `shape`, which is missing; a model states it itself");
     return std::nullopt;
   }
@@ -95,6 +95,11 @@ std::optional<Shape> read_shape(MapReader& map, std::string& mesh, Problems& pro
   for (const auto& [key, resistance] : {std::pair{"rolling_resistance", &shape.surface.rolling_resistance},
                                         std::pair{"spinning_resistance", &shape.surface.spinning_resistance}})
     *resistance = map.number(key, *resistance, 0, limits::max_size);
+  if (map.has("texture")) {
+    texture = file_of(map, "texture", problems);
+    shape.color = {1, 1, 1, 1};
+    shape.material_source = MaterialSource::model;
+  }
   if (const auto c = map.numbers("color", {3, 4}, 0, 1)) {
     shape.color = {(*c)[0], (*c)[1], (*c)[2], c->size() == 4 ? (*c)[3] : 1.0};
     shape.material_source = MaterialSource::model;

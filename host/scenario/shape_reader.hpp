@@ -13,7 +13,8 @@ namespace muro::host {
 std::string resolve_path(const Location& at, const std::string& name);
 
 /// `shape: plane`, or {box: [x, y, z]}, {sphere: radius}, {cylinder: [radius, length]}, {capsule: [...]},
-/// {mesh: file}, with `friction`, `restitution` and `color` beside it. `mesh` gets the path of the file.
-std::optional<Shape> read_shape(MapReader& map, std::string& mesh, Problems& problems);
+/// {mesh: file}, {heightmap: file, size: [x, y, z]}, with `friction`, `restitution`, `color` and `texture` beside it.
+/// `mesh` and `texture` get the paths of the files.
+std::optional<Shape> read_shape(MapReader& map, std::string& mesh, std::string& texture, Problems& problems);
 
 }  // namespace muro::host

@@ -11,9 +11,9 @@
 
 namespace muro::host {
 
-const std::vector<std::string> template_keys = {"model",   "shape", "mass", "friction", "restitution",      "color",
-                                                "count",   "place", "at",   "velocity", "angular_velocity", "joints",
-                                                "variants"};
+const std::vector<std::string> template_keys = {
+    "model", "shape", "mass", "friction", "restitution",      "color",  "texture",
+    "count", "place", "at",   "velocity", "angular_velocity", "joints", "variants"};
 
 namespace {
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <set>
 
+#include "plugins/common/image_file/png.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/picture.hpp"
 
@@ -36,6 +37,35 @@ TEST(Render, DrawsTheUrbanTeamFromOutside) {
   EXPECT_EQ(picture.width, 320u);
   EXPECT_EQ(picture.height, 200u);
   EXPECT_GT(colors_of(picture), 500u);
+}
+
+TEST(Render, PutsTexturesOfAScenarioOnShapesOfSceneryAndRobots) {
+  const test::ScratchFolder folder;
+  // red, green; blue, white
+  const std::uint8_t quarters[] = {255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255}, green[] = {0, 255, 0};
+  image_file::write_png(folder.path("quarters.png"), image_file::Format::rgb8, 2, 2, quarters);
+  image_file::write_png(folder.path("green.png"), image_file::Format::rgb8, 1, 1, green);
+  const std::string scenario = folder.file("s.yaml", R"(
+duration: 1
+world: {objects: {box: {shape: {box: [2, 2, 2]}, texture: quarters.png, at: {x: 5, z: 1}}}}
+robots: {ball: {shape: {sphere: 1}, mass: 1, texture: green.png, at: {x: 5, y: 4, z: 1}}}
+)");
+  const std::string file = folder.path("picture.png");
+  const auto result = render(scenario + " --size 300x100 --fov 90 --from 0,2,1 --to 5,2,1 --out " + file);
+  EXPECT_EQ(result.exit_code, 0) << result.output;
+  const Picture picture(file);
+  ASSERT_EQ(picture.width, 300u);
+  const auto color = [&](std::size_t column, std::size_t row) {
+    const std::uint8_t* p = &picture.values[3 * (row * 300 + column)];
+    if (std::max({p[0], p[1], p[2]}) - std::min({p[0], p[1], p[2]}) < 40) return "white";
+    return p[0] > p[1] && p[0] > p[2] ? "red" : p[1] > p[2] ? "green" : "blue";
+  };
+  // the face of the box is 4 m away and 2 m to the right, a quarter 37 pixels wide
+  EXPECT_STREQ(color(200, 25), "red");
+  EXPECT_STREQ(color(250, 25), "green");
+  EXPECT_STREQ(color(200, 75), "blue");
+  EXPECT_STREQ(color(250, 75), "white");
+  EXPECT_STREQ(color(90, 50), "green");
 }
 
 TEST(Render, DrawsTheSameBytesTwiceAndOthersLater) {

@@ -9,6 +9,7 @@
 #include "core/instance.hpp"
 #include "host/scenario/builder.hpp"
 #include "muro/vocabulary.hpp"
+#include "tests/support/complaint.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/scene.hpp"
 
@@ -99,8 +100,28 @@ TEST(Scenario, TellsAllProblemsAtOnceWithTheirPlaces) {
             ":3:12: `gravity` of `world` is a list of 2 but must be a list of 3 numbers from -10000 to 10000\n" + path +
             ":5:7: robot `a` has no key `cuont` (did you mean `count`?); allowed: model, shape, mass, friction, "
             "restitution, "
-            "color, count, place, at, velocity, angular_velocity, joints, variants, and subsystems {use: NAME, ...}");
+            "color, texture, count, place, at, velocity, angular_velocity, joints, variants, and subsystems {use: "
+            "NAME, ...}");
   }
+}
+
+TEST(Scenario, TexturesOfShapesAreFilesBesideIt) {
+  const test::ScratchFolder folder;
+  const std::string picture = folder.file("grass.png", "");
+  const auto texts = [&](const std::string& texture, const std::string& more) {
+    return folder.file("s.yaml", "world:\n  objects:\n    crate: {shape: {box: [1, 1, 1]}, texture: " + texture + more +
+                                     "}\nrobots:\n  ball: {shape: {sphere: 1}, mass: 1, texture: grass.png}\n");
+  };
+  const Scenario plain = read_scenario(texts("grass.png", ""), {});
+  EXPECT_EQ(plain.objects.at(0).texture, picture);
+  EXPECT_EQ(plain.objects.at(0).shape.color, Eigen::Vector4d(1, 1, 1, 1)) << "the picture as it is";
+  EXPECT_EQ(plain.objects.at(0).shape.material_source, MaterialSource::model);
+  const Scenario tinted = read_scenario(texts("grass.png", ", color: [1, 0.5, 0]"), {});
+  EXPECT_EQ(tinted.objects.at(0).shape.color, Eigen::Vector4d(1, 0.5, 0, 1));
+  const std::string path = texts("gras.png", "");
+  EXPECT_EQ(test::complaint_of([&] { read_scenario(path, {}); }),
+            path + ":3:47: texture file " + folder.path("gras.png") +
+                " does not exist; correct its path, which starts at the folder of this file");
 }
 
 TEST(Scenario, SequencesRunAsOneItemInTheirOwnOrder) {

@@ -68,9 +68,14 @@ void GpuScene::upload_surfaces() {
   std::vector<std::uint32_t> indices;
   textures_.push_back(upload_texture(Image::white()));
   for (const Image& image : scene_->textures()) textures_.push_back(upload_texture(image));
+  glCreateSamplers(1, &edge_sampler_);
+  glSamplerParameteri(edge_sampler_, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  glSamplerParameteri(edge_sampler_, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  for (const GLenum direction : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
+    glSamplerParameteri(edge_sampler_, direction, GL_CLAMP_TO_EDGE);
   for (const Surface& s : scene_->surfaces()) {
     surfaces_.push_back({std::uint32_t(indices.size()), std::uint32_t(s.indices.size()), std::int32_t(vertices.size()),
-                         textures_[std::size_t(s.texture + 1)]});
+                         textures_[std::size_t(s.texture + 1)], s.repeats ? 0 : edge_sampler_});
     vertices.insert(vertices.end(), s.vertices.begin(), s.vertices.end());
     indices.insert(indices.end(), s.indices.begin(), s.indices.end());
   }
@@ -108,6 +113,7 @@ GpuScene::~GpuScene() {
   glDeleteVertexArrays(1, &vertex_array_);
   for (const GLuint buffer : {vertex_buffer_, index_buffer_, instance_buffer_}) glDeleteBuffers(1, &buffer);
   glDeleteTextures(GLsizei(textures_.size()), textures_.data());
+  glDeleteSamplers(1, &edge_sampler_);
 }
 
 void GpuScene::make_groups() {
@@ -197,12 +203,14 @@ void GpuScene::draw() const {
     if (count == 0) continue;
     const SurfaceRange& surface = surfaces_[s];
     glBindTextureUnit(1, surface.texture);
+    glBindSampler(1, surface.sampler);
     glDrawElementsInstancedBaseVertexBaseInstance(
         GL_TRIANGLES, GLsizei(surface.indices), GL_UNSIGNED_INT,
         reinterpret_cast<const void*>(std::size_t(surface.first_index) * sizeof(std::uint32_t)), count,
         surface.first_vertex, first);
     first += GLuint(count);
   }
+  glBindSampler(1, 0);
 }
 
 }  // namespace muro::render

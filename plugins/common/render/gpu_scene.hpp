@@ -46,6 +46,7 @@ class GpuScene {
     std::uint32_t first_index = 0, indices = 0;
     std::int32_t first_vertex = 0;
     std::uint32_t texture = 0;
+    std::uint32_t sampler = 0;  ///< 0: the texture's own
   };
   struct Transform {
     Vec3 position;  ///< m
@@ -74,6 +75,7 @@ class GpuScene {
   std::vector<std::vector<InstanceData>> selected_;  ///< of each surface
   std::vector<InstanceData> upload_;
   std::vector<std::uint32_t> textures_;  ///< element 0: a white one
+  std::uint32_t edge_sampler_ = 0;       ///< of textures that do not repeat
   std::uint32_t vertex_buffer_ = 0, index_buffer_ = 0, instance_buffer_ = 0, vertex_array_ = 0;
   std::size_t capacity_ = 0;  ///< instances that the buffer holds
 };

@@ -2,9 +2,12 @@
 #include "scene.hpp"
 
 #include <algorithm>
+#include <limits>
 
+#include "heightmap_surface.hpp"
 #include "muro/algorithm.hpp"
 #include "muro/toolkit/bounds.hpp"
+#include "plugins/common/heightmap/solid.hpp"
 #include "plugins/common/mesh/collision_mesh.hpp"
 #include "plugins/common/text/quote.hpp"
 
@@ -36,8 +39,9 @@ bool SolidShape::contains(const Vec3& point) const {
       return (p - Vec3(0, 0, std::clamp(p.z(), -half, half))).squaredNorm() <= r * r;
     case ShapeKind::plane:
       return p.z() <= 0;
-    case ShapeKind::mesh:
     case ShapeKind::heightmap:
+      return heightmap.columns > 0 && heightmap::contains(heightmap, p);
+    case ShapeKind::mesh:
       break;
   }
   return false;
@@ -55,7 +59,12 @@ void Scene::connect(Connector& c, ShapeSource source, double tolerance) {
     Instance instance;
     instance.body = body;
     for (const Shape& s : shapes) {
-      solid_shapes_.push_back({s, body, s.origin.position.norm() + half_extents(s).norm()});
+      SolidShape& solid =
+          solid_shapes_.emplace_back(SolidShape{s, body, s.origin.position.norm() + half_extents(s).norm()});
+      if (s.kind == ShapeKind::heightmap) {
+        solid.radius = std::numeric_limits<double>::infinity();
+        if (const auto* file = file_of_heightmap(c, s, body.object)) solid.heightmap = file->heightmap(s.size);
+      }
       add_shape(c, s, instance, source);
     }
   };
@@ -68,6 +77,7 @@ void Scene::add_shape(Connector& c, const Shape& shape, Instance instance, Shape
   if (shape.kind == ShapeKind::mesh) return add_mesh(c, shape, instance, source);
   const bool has_texture = source == ShapeSource::visual && shape.texture != no_text;
   const std::int32_t texture = has_texture ? texture_of(c, std::string(c.text(shape.texture))) : -1;
+  if (shape.kind == ShapeKind::heightmap) return add_heightmap(c, shape, instance, texture);
   const bool is_round = shape.kind != ShapeKind::box && shape.kind != ShapeKind::plane;
   const int corners = is_round ? corners_for(shape.size.x(), tolerance_) : 0;
   const auto add = [&](const char* name, const Vec3& scale, double up = 0, bool upside_down = false) {
@@ -112,24 +122,59 @@ void Scene::add_mesh(Connector& c, const Shape& shape, Instance instance, ShapeS
   std::string name = path + (file_materials ? " with its materials" : "");
   if (has_texture) name += " " + std::string(c.text(shape.texture));
   const auto [entry, is_new] = meshes_.try_emplace({name, shape.size.x(), shape.size.y(), shape.size.z()});
-  const ObjectId body = instance.body.object;
-  const std::span<const Shape> collision = c.constant_array(body, keys::collision_shapes);
-  const bool collides = std::any_of(collision.begin(), collision.end(), [&](const Shape& s) {
-    return s.kind == ShapeKind::mesh && c.text(s.mesh) == path;
-  });
-  if (is_new && !unreadable_.contains(path)) try {
+  if (const auto reason = unreadable_.find(path); reason != unreadable_.end()) {
+    report_unreadable(c, shape, instance.body.object, reason->second);
+  } else if (is_new) {
+    try {
       entry->second = load_mesh(c, shape, path, file_materials, has_texture);
     } catch (const Error& error) {
-      unreadable_.emplace(path, error.what());
-      if (!collides)
-        c.host().log(LogLevel::warning, quote(c.object_name(body)) + ": " + error.what() + "; it is not drawn");
+      report_unreadable(c, shape, instance.body.object, error.what());
     }
-  if (const auto reason = unreadable_.find(path); reason != unreadable_.end() && collides)
-    mesh::refuse_collision_mesh(c, body, Error(reason->second));
+  }
   for (const ColoredSurface& part : entry->second) {
     instance.surface = part.surface;
     instance.radius = radii_[part.surface];
     if (file_materials) instance.color = part.color;
+    instances_.push_back(instance);
+  }
+}
+
+void Scene::report_unreadable(Connector& c, const Shape& shape, ObjectId body, const std::string& reason) {
+  const std::string path(c.text(shape.mesh));
+  const bool is_first = unreadable_.try_emplace(path, reason).second;
+  const std::span<const Shape> collision = c.constant_array(body, keys::collision_shapes);
+  const bool collides = std::any_of(collision.begin(), collision.end(),
+                                    [&](const Shape& s) { return s.kind == shape.kind && c.text(s.mesh) == path; });
+  if (collides)
+    mesh::refuse_collision_mesh(c, body, Error(reason));
+  else if (is_first)
+    c.host().log(LogLevel::warning, quote(c.object_name(body)) + ": " + reason + "; it is not drawn");
+}
+
+const heightmap::HeightmapFile* Scene::file_of_heightmap(Connector& c, const Shape& shape, ObjectId body) {
+  try {
+    return &heightmap_files_.file(std::string(c.text(shape.mesh)));
+  } catch (const Error& error) {
+    report_unreadable(c, shape, body, error.what());
+    return nullptr;
+  }
+}
+
+void Scene::add_heightmap(Connector& c, const Shape& shape, Instance instance, std::int32_t texture) {
+  const heightmap::HeightmapFile* file = file_of_heightmap(c, shape, instance.body.object);
+  if (!file) return;
+  const auto [entry, is_new] = heightmaps_.try_emplace(
+      {std::string(c.text(shape.mesh)), shape.size.x(), shape.size.y(), shape.size.z(), texture});
+  if (is_new)
+    for (HeightmapPart& part : parts_of(file->heightmap(shape.size))) {
+      part.surface.texture = texture;
+      part.surface.repeats = false;
+      entry->second.push_back({add(std::move(part.surface)), part.centre});
+    }
+  for (const SurfacePart& part : entry->second) {
+    instance.surface = part.surface;
+    instance.origin.position = shape.origin * part.centre;
+    instance.radius = radii_[part.surface];
     instances_.push_back(instance);
   }
 }

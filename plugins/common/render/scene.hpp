@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "image.hpp"
+#include "plugins/common/heightmap/heightmap_file.hpp"
 #include "plugins/common/scene_bodies/scene_bodies.hpp"
 #include "surface.hpp"
 
@@ -38,17 +39,18 @@ struct Instance {
 struct SolidShape {
   Shape shape;
   SceneBody body;
-  double radius = 0;  ///< m, of a bounding sphere about the origin of the body; infinite for a plane
+  double radius = 0;      ///< m, of a bounding sphere about the origin of the body; infinite for a plane or a heightmap
+  Heightmap heightmap{};  ///< of one
 
-  /// Whether it contains a point of the world (m); a mesh contains none.
+  /// Whether it contains a point of the world (m); a mesh contains none, a heightmap what is below its surface.
   bool contains(const Vec3& point) const;
 };
 
 class Scene {
  public:
   /// Finds all shapes and binds the poses of their bodies. Circles become polygons that lie at most `tolerance` (m)
-  /// inside of them. Textures and visual meshes that cannot be read are left out with a warning; one that is also a
-  /// collision mesh is refused: see mesh::refuse_collision_mesh. [setup]
+  /// inside of them. Textures, visual meshes and heightmaps that cannot be read are left out with a warning; one that
+  /// is also a collision shape is refused: see mesh::refuse_collision_mesh. [setup]
   void connect(Connector& c, ShapeSource source, double tolerance);
 
   const std::vector<Surface>& surfaces() const { return surfaces_; }
@@ -64,6 +66,11 @@ class Scene {
 
   void add_shape(Connector& c, const Shape& shape, Instance instance, ShapeSource source);
   void add_mesh(Connector& c, const Shape& shape, Instance instance, ShapeSource source);
+  void add_heightmap(Connector& c, const Shape& shape, Instance instance, std::int32_t texture);
+  /// What is in the file of a heightmap. Null where it cannot be read, which has been reported.
+  const heightmap::HeightmapFile* file_of_heightmap(Connector& c, const Shape& shape, ObjectId body);
+  /// Refuses a file that a body collides with; of others, which are not drawn, it warns once.
+  void report_unreadable(Connector& c, const Shape& shape, ObjectId body, const std::string& reason);
   std::vector<ColoredSurface> load_mesh(Connector& c, const Shape& shape, const std::string& path, bool file_materials,
                                         bool has_texture);
   /// The surface of a primitive whose circles have so many corners, with a texture (-1: none).
@@ -75,7 +82,14 @@ class Scene {
   std::map<std::tuple<std::string, int, std::int32_t>, std::uint32_t> primitives_;
   /// By file and source of the material, and scale.
   std::map<std::tuple<std::string, double, double, double>, std::vector<ColoredSurface>> meshes_;
-  std::map<std::string, std::string> unreadable_;  ///< mesh files, and why
+  struct SurfacePart {
+    std::uint32_t surface = 0;
+    Vec3 centre = Vec3::Zero();
+  };
+  heightmap::Store heightmap_files_;
+  /// By file, size and texture.
+  std::map<std::tuple<std::string, double, double, double, std::int32_t>, std::vector<SurfacePart>> heightmaps_;
+  std::map<std::string, std::string> unreadable_;  ///< files of meshes and heightmaps, and why
   std::map<std::string, std::int32_t> texture_numbers_;
   std::vector<double> radii_;  ///< of the surfaces
   std::vector<Surface> surfaces_;

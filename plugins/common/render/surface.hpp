@@ -13,13 +13,14 @@ namespace muro::render {
 struct Vertex {
   std::array<float, 3> position{};
   std::array<float, 3> normal{};               ///< unit
-  std::array<float, 2> texture_coordinates{};  ///< across and down, 0..1, repeated
+  std::array<float, 2> texture_coordinates{};  ///< across and down, 0..1
 };
 
 struct Surface {
   std::vector<Vertex> vertices;
   std::vector<std::uint32_t> indices;  ///< three a triangle
   std::int32_t texture = -1;           ///< number in Scene::textures; -1: none
+  bool repeats = true;                 ///< the texture, beyond its edges; else these go on
 };
 
 /// Edges of length 1, about the origin.
