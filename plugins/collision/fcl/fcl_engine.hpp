@@ -11,6 +11,7 @@ namespace muro::fcl_collision {
 /// and EPA for the others, hierarchies of boxes for meshes.
 class FclEngine final : public contact_geometry::Engine {
  public:
+  bool takes_heightmaps_as_meshes() const override { return true; }
   void add(const contact_geometry::CollisionGeometry& geometry) override;
   std::unique_ptr<contact_geometry::NarrowPhase> make_narrow_phase() const override;
 

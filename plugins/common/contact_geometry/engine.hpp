@@ -41,6 +41,8 @@ class Engine {
   Engine& operator=(const Engine&) = delete;
   virtual ~Engine() = default;
 
+  /// Whether it takes heightmaps as exact meshes. Else their contacts are found in closed form, without the engine.
+  virtual bool takes_heightmaps_as_meshes() const { return false; }
   /// Where the engine's messages go. [setup]
   virtual void use_log(Host& host) { static_cast<void>(host); }
   /// The geometry gets the next number, from 0 on; it outlives the engine at the same address. [setup]

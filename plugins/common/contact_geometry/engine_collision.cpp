@@ -7,6 +7,8 @@
 namespace muro::contact_geometry {
 namespace {
 
+constexpr double depth_of_ground = 1000;  ///< m: so far below a heightmap bodies are pushed up
+
 bool is_plane(const TransformedCollider& c) { return c.shape.kind == ShapeKind::plane; }
 
 /// Whether all of the box is on the free side of the plane.
@@ -31,8 +33,12 @@ void EngineCollision::connect(Connector& c) {
   PairCollision::connect(c);
   if (!is_needed()) return;
   engine_->use_log(c.host());
-  geometries_.connect(c, c.parameters().text("meshes") == "exact",
-                      [this](const CollisionGeometry& geometry) { engine_->add(geometry); });
+  const bool as_meshes = engine_->takes_heightmaps_as_meshes();
+  geometries_.connect(
+      c, c.parameters().text("meshes") == "exact",
+      [this](const CollisionGeometry& geometry) { engine_->add(geometry); },
+      as_meshes ? GeometryTable::Heightmaps::as_meshes : GeometryTable::Heightmaps::left_out);
+  if (!as_meshes) heightmaps_.load(c);
   names_.resize(c.object_count());
   for (std::uint32_t i = 0; i < c.object_count(); ++i)
     if (!c.constant_array(ObjectId{i}, keys::collision_shapes).empty()) names_[i] = c.object_name(ObjectId{i});
@@ -44,7 +50,17 @@ void EngineCollision::start() {
   PairCollision::start();
 }
 
+/// A heightmap that the engine does not take has the box of what is solid.
 TransformedShape EngineCollision::transformed_shape(std::uint32_t collider) const {
+  const Collider& c = index_->colliders[collider];
+  if (c.shape->kind == ShapeKind::heightmap && !heightmaps_.empty()) {
+    Aabb box = heightmap::bounds_of(heightmaps_.of(*c.shape));
+    box.low.z() -= depth_of_ground;
+    TransformedShape shape =
+        transformed(Shape::box(box.high - box.low), c.pose() * Pose{0.5 * (box.low + box.high), Quat::Identity()});
+    shape.kind = ShapeKind::heightmap;
+    return shape;
+  }
   return collision_object(geometries_[geometries_.of(collider).usual], index_->colliders[collider].pose()).shape;
 }
 
@@ -59,10 +75,27 @@ void EngineCollision::ask_engine(const TransformedCollider& a, std::uint32_t num
   }
 }
 
+void EngineCollision::collide_with_terrain(const TransformedCollider& a, const TransformedCollider& terrain,
+                                           std::vector<ContactPoint>& points) const {
+  const Shape& shape = *a.collider->shape;
+  const GeometryTable::Numbers& numbers = geometries_.of(a.number);
+  const mesh::Hull* const hull = shape.kind == ShapeKind::mesh && numbers.convex != GeometryTable::none
+                                     ? geometries_[numbers.convex].hull
+                                     : nullptr;
+  terrain_contact::TerrainContacts found;
+  const int count = terrain_contact::find_contacts(heightmaps_.of(*terrain.collider->shape), terrain.collider->pose(),
+                                                   {shape.kind, shape.size, hull, a.collider->pose()}, 0, found);
+  for (int i = 0; i < count; ++i) {
+    const terrain_contact::TerrainContact& c = found[std::size_t(i)];
+    if (c.gap < 0) points.push_back({c.position, c.normal, -c.gap});
+  }
+}
+
 void EngineCollision::collide(const TransformedCollider& first, const TransformedCollider& second,
                               std::vector<ContactPoint>& points) {
   if (is_plane(second) ? is_clear(first.bounds, second.shape) : is_plane(first) && is_clear(second.bounds, first.shape))
     return;
+  if (second.shape.kind == ShapeKind::heightmap) return collide_with_terrain(first, second, points);
   const TransformedCollider *a = &first, *b = &second;
   std::uint32_t number_a = GeometryTable::none, number_b = GeometryTable::none;
   geometries_.choose(*a, *b, number_a, number_b);

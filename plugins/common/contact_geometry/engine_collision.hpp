@@ -4,6 +4,7 @@
 #include "engine.hpp"
 #include "geometry_table.hpp"
 #include "per_thread.hpp"
+#include "plugins/common/terrain_contact/scene_heightmaps.hpp"
 
 namespace muro::contact_geometry {
 
@@ -21,6 +22,8 @@ class EngineCollision : public PairCollision {
 
   void ask_engine(const TransformedCollider& a, std::uint32_t number_a, const TransformedCollider& b,
                   std::uint32_t number_b, Scratch& scratch) const;
+  void collide_with_terrain(const TransformedCollider& a, const TransformedCollider& terrain,
+                            std::vector<ContactPoint>& points) const;
   TransformedShape transformed_shape(std::uint32_t collider) const override;
   void collide(const TransformedCollider& a, const TransformedCollider& b, std::vector<ContactPoint>& points) override;
 
@@ -28,7 +31,8 @@ class EngineCollision : public PairCollision {
   PerThread<Scratch> scratch_;  ///< freed before the engine
 
   GeometryTable geometries_;
-  std::vector<std::string> names_;  ///< by object; empty for those without shapes
+  terrain_contact::SceneHeightmaps heightmaps_;  ///< those that the engine does not take
+  std::vector<std::string> names_;               ///< by object; empty for those without shapes
 };
 
 }  // namespace muro::contact_geometry

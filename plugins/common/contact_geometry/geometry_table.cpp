@@ -14,10 +14,15 @@ bool same_geometry(const Shape& a, const Shape& b) { return a.kind == b.kind && 
 
 }  // namespace
 
-void GeometryTable::connect(Connector& c, bool exact, const std::function<void(const CollisionGeometry&)>& added) {
+void GeometryTable::connect(Connector& c, bool exact, const std::function<void(const CollisionGeometry&)>& added,
+                            Heightmaps heightmaps) {
   added_ = added;
   for (std::uint32_t i = 0; i < c.object_count(); ++i)
-    for (const Shape& s : c.constant_array(ObjectId{i}, keys::collision_shapes)) add_shape(c, ObjectId{i}, s, exact);
+    for (const Shape& s : c.constant_array(ObjectId{i}, keys::collision_shapes))
+      if (s.kind == ShapeKind::heightmap && heightmaps == Heightmaps::left_out)
+        by_shape_.push_back({&s, {}});
+      else
+        add_shape(c, ObjectId{i}, s, exact);
   std::sort(by_shape_.begin(), by_shape_.end(),
             [](const auto& a, const auto& b) { return std::less<>()(a.first, b.first); });
 }

@@ -26,9 +26,16 @@ class GeometryTable {
     std::uint32_t usual = none, convex = none;
   };
 
+  /// What becomes of heightmaps.
+  enum class Heightmaps {
+    as_meshes,  ///< they are taken as triangles
+    left_out,   ///< they have no geometry
+  };
+
   /// Reads the meshes of all objects. `exact`: they collide as they are; flat ones, which have no hull, always do.
   /// `added` is called with each geometry, by rising number. [setup]
-  void connect(Connector& c, bool exact, const std::function<void(const CollisionGeometry&)>& added = {});
+  void connect(Connector& c, bool exact, const std::function<void(const CollisionGeometry&)>& added = {},
+               Heightmaps heightmaps = Heightmaps::as_meshes);
   /// `colliders` are those of the scene's index. [setup]
   void start(std::span<const Collider> colliders);
 

@@ -9,7 +9,7 @@ namespace muro::contact_geometry {
 struct TransformedShape {
   ShapeKind kind = ShapeKind::sphere;
   /// m. box: half lengths. sphere: the radius three times. cylinder, capsule: radius, radius, half the
-  /// length along z (of a capsule: of its straight part). plane: unused.
+  /// length along z (of a capsule: of its straight part). plane: unused. mesh, heightmap: of the box around it.
   Vec3 half = Vec3::Zero();
   Vec3 centre = Vec3::Zero();    ///< m, world
   Mat3 axes = Mat3::Identity();  ///< columns: the axes of the shape in the world
@@ -25,11 +25,16 @@ TransformedShape transformed(const Shape& shape, const Pose& pose);
 /// Planes are infinite.
 Aabb bounds_of(const TransformedShape& shape);
 
-/// How far (m) a box (of a mesh: the one around it), cylinder or capsule reaches from its centre along a unit vector, which is given by its products
-/// with the shape's axes.
+/// Whether the shape is a box, or a mesh or heightmap, of which `half` is that of the box around it.
+inline bool is_boxed(const TransformedShape& shape) {
+  return shape.kind == ShapeKind::box || shape.kind == ShapeKind::mesh || shape.kind == ShapeKind::heightmap;
+}
+
+/// How far (m) a box (of a mesh or heightmap: the one around it), cylinder or capsule reaches from its centre along a
+/// unit vector, which is given by its products with the shape's axes.
 template <class Products>
 double extent_along(const TransformedShape& shape, const Products& c) {
-  if (shape.kind == ShapeKind::box || shape.kind == ShapeKind::mesh)
+  if (is_boxed(shape))
     return std::abs(c[0]) * shape.half.x() + std::abs(c[1]) * shape.half.y() + std::abs(c[2]) * shape.half.z();
   const double along = shape.half.z() * std::abs(c[2]);
   if (shape.kind == ShapeKind::capsule) return along + shape.radius();
