@@ -235,18 +235,20 @@ TEST(DifferentialDriveOnTerrain, LongStepsFollowTheHillsAsShortOnesDo) {
 
 TEST(DifferentialDriveOnTerrain, SlopesDoNotStopWhatStopsOnContact) {
   const Hills hills(32, 64, [](double x, double) { return 0.5 * std::sin(x); });
-  const auto end = [&](const char* mode) {
-    OnHills s(hills, 100, four_wheeler(), {}, {{"on_contact", std::string(mode)}}, {}, true);
-    s.drive(10, 10);
-    std::size_t touched = 0;
-    for (int i = 0; i < 50; ++i) {
-      s.run_for(0.1);
-      if (mode == std::string("stop")) touched += s.world().values(s.robot.base(), keys::contacts).size();
+  OnHills free(hills, 100, four_wheeler());
+  OnHills s(hills, 100, four_wheeler(), {}, {{"on_contact", std::string("stop")}}, {}, true);
+  free.drive(10, 10), s.drive(10, 10);
+  int against = 0;
+  for (int i = 0; i < 500; ++i) {
+    free.run_for(0.01), s.run_for(0.01);
+    const Twist moving = s.twist(s.robot);
+    for (const Contact& c : s.world().values(s.robot.base(), keys::contacts)) {
+      const Vec3 velocity = moving.at(c.point - s.at().position);
+      against += velocity.dot(c.normal) < -0.03 * velocity.norm();
     }
-    EXPECT_EQ(touched > 0, mode == std::string("stop")) << "the wheels touch the hills";
-    return s.at().position;
-  };
-  EXPECT_EQ(end("stop"), end("ignore"));
+  }
+  EXPECT_GT(against, 0) << "where cells meet, a wheel touches the next one: scenery so steep would have stopped it";
+  EXPECT_EQ(s.at().position, free.at().position);
 }
 
 }  // namespace
