@@ -126,7 +126,7 @@ TEST(Simulation, ChecksParametersAgainstTheDescription) {
         "motion.point #0: parameter `max_turn_rate` is -1 but must be a number from 0 to 1e+09 rad/s\n"
         "motion.point #0: parameter `max_acceleration` is \"big\" but must be a number from 0 to 1e+09 m/s^2\n"
         "motion.point #0: `motion.point` has no parameter `max_sped` (did you mean `max_speed`?); it has: mode, "
-        "max_speed, max_turn_rate, max_acceleration, max_turn_acceleration, on_contact, joints");
+        "max_speed, max_turn_rate, max_acceleration, max_turn_acceleration, height_above_ground, on_contact, joints");
   }
 }
 
