@@ -5,6 +5,7 @@
 
 #include "muro/toolkit/heightmap.hpp"
 #include "muro/toolkit/rotations.hpp"
+#include "plugins/common/mesh/files_testing.hpp"
 #include "tests/conformance/motion/case.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/wheeled_robot.hpp"
@@ -72,6 +73,28 @@ Outcome lies(const std::string& motion) {
   t.run_for(2);
   const double sunk = std::abs(t.pose(*t.body).position.z() - 0.05);
   return {sunk, text(sunk) + " m"};
+}
+
+/// A wedge whose longest face is below.
+Outcome mesh_lies(const std::string& motion) {
+  const test::ScratchFolder folder;
+  mesh::Mesh wedge;
+  wedge.vertices = {{-0.2, -0.1, 0}, {0.2, -0.1, 0}, {0.2, 0.1, 0}, {-0.2, 0.1, 0}, {0.2, -0.1, 0.1}, {0.2, 0.1, 0.1}};
+  wedge.triangles = {{0, 2, 1}, {0, 3, 2}, {0, 1, 4}, {2, 3, 5}, {1, 2, 5}, {1, 5, 4}, {0, 4, 5}, {0, 5, 3}};
+  const std::string file = folder.file("wedge.obj", mesh::testing::obj_text(wedge));
+  const RobotTree tree = test::tree_of([&](RobotBuilder& b) {
+    Shape shape{.kind = ShapeKind::mesh, .size = {1, 1, 1}};
+    shape.mesh = b.intern(file);
+    b.base("body");
+    b.set(keys::inertial, solid_box(1, {0.4, 0.2, 0.1}));
+    b.set_array(keys::collision_shapes, std::span<const Shape>(&shape, 1));
+  });
+  constexpr double angle = 20 * M_PI / 180;
+  SlopeOfCells t(motion, angle, 0.8, tree, 0.02);
+  t.run_for(2);
+  const double off = std::abs((t.tilt.conjugate() * t.pose(*t.body).position).z());
+  const double turned = t.pose(*t.body).orientation.angularDistance(t.tilt);
+  return {off + turned, text(off) + " m, " + text(turned) + " rad"};
 }
 
 Outcome slides(const std::string& motion) {
@@ -257,6 +280,8 @@ std::vector<Case> heightmap_cases() {
                      with_friction = needs | feature_friction;
   return {
       {"a box lies on a flat heightmap, not in it", "m", needs, 1e-3, lies},
+      {"a mesh lies on a heightmap of 20 deg as it lies on a plane", "m, rad", with_friction | feature_convex_meshes,
+       2e-3, mesh_lies},
       {"a block slides down a heightmap of 30 deg with g (sin - mu cos)", "relative", with_friction, 1e-3, slides},
       {"a block holds on a heightmap of 30 deg when tan is below mu", "m/s", with_friction, 2e-6, sticks},
       {"a block that slides on a heightmap stops after v^2 / (2 mu g)", "relative", with_friction, 0.01, stops},
