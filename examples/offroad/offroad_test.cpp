@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "host/scenario/builder.hpp"
+#include "host/scenario/heightmap_files.hpp"
 #include "muro/vocabulary.hpp"
-#include "plugins/common/heightmap/heightmap_file.hpp"
 #include "tests/support/scene.hpp"
 
 namespace muro::host {
@@ -23,8 +23,8 @@ struct Crossing {
 /// Drives for so many seconds.
 Crossing drive(double seconds, const std::vector<std::string>& overrides = {}) {
   BuiltScenario built = build(read_scenario(folder + "/offroad.yaml", overrides), test::plugins());
-  const heightmap::HeightmapFile file = heightmap::load(folder + "/hills.png");
-  const Heightmap hills = file.heightmap({48, 48, 4});
+  HeightmapFiles files(*built.simulation);
+  const Heightmap hills = files.of(folder + "/hills.png", {48, 48, 4});
   const World& world = built.simulation->world();
   Crossing seen;
   const std::size_t count = world.robots().size();
