@@ -254,6 +254,17 @@ TEST(TerrainContacts, PushUpWhatIsBelowHoweverDeep) {
   }
 }
 
+TEST(TerrainContacts, AreNoneOfAShapeThatIsNowhere) {
+  const Hills flat(5, 5, 4, 4, [](double, double) { return 2; });
+  const mesh::Hull hull = wedge();
+  for (ConvexShape shape : shapes(hull)) {
+    shape.pose.position = {0.3, NAN, 2};
+    EXPECT_EQ(Found(flat.map, shape).count, 0) << int(shape.kind);
+    shape.pose = {{0.3, 0.2, 2}, Quat(NAN, 0, 0, 0)};
+    EXPECT_EQ(Found(flat.map, shape).count, 0) << int(shape.kind);
+  }
+}
+
 TEST(TerrainContacts, EndAtTheRimWhichHoldsWhatLiesOnIt) {
   const Hills flat(5, 5, 2, 2, [](double, double) { return 0; });
   const ConvexShape beyond{.kind = ShapeKind::box, .size = {0.2, 0.2, 0.2}, .pose = {{1.11, 0, 0}, Quat::Identity()}};

@@ -24,6 +24,7 @@ Aabb box_around(const ConvexShape& shape, const Pose& pose) {
 int find_contacts(const Heightmap& map, const Pose& map_pose, const ConvexShape& shape, double margin,
                   TerrainContacts& contacts) {
   const Pose pose = map_pose.inverse() * shape.pose;
+  if (!pose.position.allFinite() || !pose.orientation.coeffs().allFinite()) return 0;
   Aabb box = box_around(shape, pose);
   if (box.low.x() > 0.5 * map.size.x() || box.high.x() < -0.5 * map.size.x() || box.low.y() > 0.5 * map.size.y() ||
       box.high.y() < -0.5 * map.size.y())

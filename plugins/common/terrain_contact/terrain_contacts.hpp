@@ -32,7 +32,7 @@ using TerrainContacts = std::array<TerrainContact, max_contacts>;
 /// and beyond its rim is nothing. Corners, rims and the ends of round shapes touch triangles; nodes and edges of the
 /// surface that stand out touch shapes, and push along a normal between those of their triangles, so that what rolls
 /// over a plane of triangles feels no edge. Returns the number of contacts: of more, the deepest and those that are
-/// far from each other. [any thread]
+/// far from each other; none of a shape that is nowhere. [any thread]
 int find_contacts(const Heightmap& map, const Pose& map_pose, const ConvexShape& shape, double margin,
                   TerrainContacts& contacts);
 
