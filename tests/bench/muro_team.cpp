@@ -42,7 +42,7 @@ CityScene::CityScene(const City& city, Wheels wheels, bool joint_dynamics) {
     for (const char* const corner : corners)
       for (Shape& s :
            world().values(world().object(std::string(r->name) + "/" + corner + "_wheel"), keys::collision_shapes))
-        s = {.kind = ShapeKind::sphere, .size = {s.size.x(), 0, 0}, .friction = s.friction};
+        s = {.kind = ShapeKind::sphere, .size = {s.size.x(), 0, 0}, .surface = s.surface};
 }
 
 std::vector<ObjectId> CityScene::add_lasers(const Pattern& pattern, double range, bool see_self,

@@ -16,7 +16,7 @@ struct Eight {
   static constexpr int most = 8, words = 3, stride = sizeof(Contact) / sizeof(double);
 
   KernelShape shape;
-  GroundPlane ground;
+  Ground ground;
   Pose poses[8];
   std::array<double, most * stride> contacts[8] = {};
   std::array<double, words> signatures[8];
@@ -29,8 +29,8 @@ struct Eight {
     GroundBatch batch;
     batch.shapes = &shape;
     batch.shape_count = 1;
-    batch.planes = &ground;
-    batch.plane_count = 1;
+    batch.grounds = &ground;
+    batch.ground_count = 1;
     batch.contact_stride = stride;
     batch.used = count;
     for (int i = 0; i < count; ++i) {
@@ -52,11 +52,11 @@ TEST(GroundKernel, ALaneGivesTheBitsOfEachRobotAlone) {
     shape.origin.position = off * 0.1 * random.direction();
     if (random.below(2) == 1) shape.origin.orientation = random.rotation();
     Eight together(kernel_shape_of(shape));
-    together.ground.is_level = random.below(4) > 0;
-    if (!together.ground.is_level) Vec3::Map(together.ground.normal) = random.direction();
+    together.ground.plane.is_level = random.below(4) > 0;
+    if (!together.ground.plane.is_level) Vec3::Map(together.ground.plane.normal) = random.direction();
     for (Pose& p : together.poses) {
       p.position = {random.uniform(-30, 30), random.uniform(-30, 30), random.uniform(-0.5, 0.5)};
-      if (!together.ground.is_level) p.position *= 0.02;
+      if (!together.ground.plane.is_level) p.position *= 0.02;
       p.orientation = random.rotation();
     }
     Eight alone = together, base = together;
@@ -86,10 +86,10 @@ TEST(GroundKernel, GivesTheVerticesOfHullsBelowThePlaneAsPairsDoAndSaysWhereThey
     hull.vertex_count = count;
     ASSERT_LE(words_of(&hull, 1, 1), Eight::words);
     Eight together(hull);
-    together.ground.is_level = random.below(4) > 0;
-    if (!together.ground.is_level) Vec3::Map(together.ground.normal) = random.direction();
+    together.ground.plane.is_level = random.below(4) > 0;
+    if (!together.ground.plane.is_level) Vec3::Map(together.ground.plane.normal) = random.direction();
     TransformedShape plane = transformed(Shape::plane(), {});
-    plane.axes.col(2) = Vec3::Map(together.ground.normal);
+    plane.axes.col(2) = Vec3::Map(together.ground.plane.normal);
     for (Pose& p : together.poses) {
       p.orientation = random.rotation();
       p.position = plane.axes.col(2) * random.uniform(0.05, 0.4);

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "native_collision.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 
 #include "hulls/hull_plane.hpp"
 #include "pairs/collide.hpp"
 #include "pairs/separation_bound.hpp"
+#include "terrain/collide_terrain.hpp"
 
 namespace muro::native {
 
@@ -17,6 +19,7 @@ constexpr double unknown = -1;
 constexpr int batch_size = 8;
 
 // the layout that GroundBatch::contacts relies on
+static_assert(offsetof(Contact, normal) == offsetof(Contact, point) + normal_number * sizeof(double));
 static_assert(offsetof(Contact, depth) == offsetof(Contact, point) + depth_number * sizeof(double));
 static_assert(sizeof(Contact) % sizeof(double) == 0);
 
@@ -44,7 +47,9 @@ struct NativeCollision::Batch {
 void NativeCollision::connect(Connector& c) {
   kernels_ = &ground_kernels_for(lane::best_isa());
   PairCollision::connect(c);
-  if (is_needed()) meshes_.connect(c, c.parameters().text("meshes") == "exact");
+  if (!is_needed()) return;
+  meshes_.connect(c, c.parameters().text("meshes") == "exact");
+  terrains_.connect(c);
 }
 
 void NativeCollision::start() {
@@ -52,8 +57,7 @@ void NativeCollision::start() {
   meshes_.start(index_->colliders);
   add_kernel_shapes();
   PairCollision::start();
-  ground_planes_.clear();
-  for (const std::uint32_t k : planes_) ground_planes_.push_back(ground_plane_of(scenery_[k].shape));
+  add_grounds();
   group_robots();
   allocate_signatures();
 }
@@ -64,9 +68,7 @@ void NativeCollision::add_kernel_shapes() {
   for (const Collider& c : index_->colliders) {
     const bool first_of_robot = shapes_.empty() || (&c)[-1].robot != c.robot;
     const std::uint32_t body = first_of_robot ? 0 : shapes_.back().body + ((&c)[-1].body != c.body);
-    shapes_.push_back(c.shape->kind == ShapeKind::mesh
-                          ? meshes_.kernel_shape(std::uint32_t(shapes_.size()), *c.shape, body)
-                          : kernel_shape_of(*c.shape, body));
+    shapes_.push_back(kernel_shape(std::uint32_t(shapes_.size()), body));
   }
   ground_robots_.assign(robots_.size(), {});
   for (const Collider& c : index_->colliders)
@@ -76,6 +78,33 @@ void NativeCollision::add_kernel_shapes() {
     const Collider& c = index_->colliders[k];
     if (c.robot >= 0)
       shapes_[k].pose = location_of(ground_robots_[std::size_t(c.robot)].poses, lane::numbers(c.body_pose));
+  }
+}
+
+KernelShape NativeCollision::kernel_shape(std::uint32_t collider, std::uint32_t body) {
+  const Shape& shape = *index_->colliders[collider].shape;
+  if (shape.kind == ShapeKind::mesh) return meshes_.kernel_shape(collider, shape, body);
+  const Aabb* const box = terrains_.box_of(shape);
+  return box ? kernel_shape_of(shape, *box, body) : kernel_shape_of(shape, body);
+}
+
+void NativeCollision::add_grounds() {
+  double radius = 0;
+  for (const RobotColliders& r : index_->robots)
+    for (std::uint32_t k = r.first; k < r.first + r.count; ++k)
+      radius = std::max(radius, Vec3::Map(shapes_[k].half).sum());
+  terrains_.start(index_->colliders, radius);
+  ground_colliders_.clear();
+  grounds_.clear();
+  for (std::uint32_t k = 0; k < scenery_.size(); ++k) {
+    const Terrain* const terrain = terrains_.of(k);
+    if (!terrain && scenery_[k].shape.kind != ShapeKind::plane) continue;
+    ground_colliders_.push_back(k);
+    Ground& ground = grounds_.emplace_back();
+    if (terrain)
+      ground.terrain = &terrain->grid();
+    else
+      ground.plane = ground_plane_of(scenery_[k].shape);
   }
 }
 
@@ -95,7 +124,7 @@ void NativeCollision::allocate_signatures() {
   for (std::uint32_t r = 0; r < robots_.size(); ++r) {
     if (!robots_[r].list) continue;
     all += signature_size(r);
-    const std::size_t most = max_ground_points * index_->robots[r].count * planes_.size();
+    const std::size_t most = max_ground_points * index_->robots[r].count * grounds_.size();
     for (std::size_t i = 0; i < most; ++i) robots_[r].list.push_back({});
     robots_[r].list.clear();
   }
@@ -111,7 +140,7 @@ void NativeCollision::allocate_signatures() {
 /// In words.
 std::size_t NativeCollision::signature_size(std::uint32_t robot) const {
   const RobotColliders& own = index_->robots[robot];
-  return std::size_t(words_of(shapes_.data() + own.first, int(own.count), int(planes_.size())));
+  return std::size_t(words_of(shapes_.data() + own.first, int(own.count), int(grounds_.size())));
 }
 
 TransformedShape NativeCollision::transformed_shape(std::uint32_t collider) const {
@@ -120,6 +149,10 @@ TransformedShape NativeCollision::transformed_shape(std::uint32_t collider) cons
 
 void NativeCollision::collide(const TransformedCollider& a, const TransformedCollider& b,
                               std::vector<ContactPoint>& points) {
+  if (b.shape.kind == ShapeKind::heightmap) {
+    if (const Terrain* const terrain = terrains_.of(b.number)) collide_with_terrain(a, *terrain, points);
+    return;
+  }
   if (meshes_.any() && (a.shape.kind == ShapeKind::mesh || b.shape.kind == ShapeKind::mesh))
     return collide_meshes(a, b, points);
   Manifold manifold;
@@ -129,6 +162,13 @@ void NativeCollision::collide(const TransformedCollider& a, const TransformedCol
 
 double NativeCollision::distance_bound(const TransformedCollider& a, const TransformedCollider& b) const {
   return separation_bound(a.shape, b.shape);
+}
+
+void NativeCollision::collide_with_terrain(const TransformedCollider& a, const Terrain& terrain,
+                                           std::vector<ContactPoint>& points) const {
+  if (a.shape.kind != ShapeKind::mesh) return collide_terrain(a.shape, terrain, points);
+  if (const MeshPairs::HullOf hull = meshes_.hull_of(a.number); hull.geometry)
+    collide_terrain(a.shape, *hull.geometry, *hull.support, a.collider->pose(), terrain, points);
 }
 
 void NativeCollision::collide_meshes(const TransformedCollider& a, const TransformedCollider& b,
@@ -146,8 +186,8 @@ void NativeCollision::list_contacts(Range robots) {
   Batch batch;
   GroundBatch& ground = batch.ground;
   ground.contact_stride = sizeof(Contact) / sizeof(double);
-  ground.planes = ground_planes_.data();
-  ground.plane_count = int(ground_planes_.size());
+  ground.grounds = grounds_.data();
+  ground.ground_count = int(grounds_.size());
   for (const auto& group : groups_) {
     ground.shapes = group.structure.data();
     ground.shape_count = int(group.structure.size());
@@ -168,12 +208,13 @@ void NativeCollision::list_contacts(Range robots) {
   }
 }
 
-/// Whether the robot touches nothing but planes of the scenery, as far as bounds and its pairs with robots tell.
+/// Whether the robot touches nothing but planes and heightmaps of the scenery, as far as bounds and its pairs with
+/// robots tell.
 bool NativeCollision::touches_only_ground(std::uint32_t robot) {
   if (robots_have_planes_ || !lists_scenery(robots_[robot])) return false;
   const Aabb& bounds = index_->robots[robot].bounds;
   for (const std::uint32_t k : overlaps_.of(robot, *index_).scenery)
-    if (scenery_[k].bounds.overlaps(bounds)) return false;
+    if (scenery_[k].shape.kind != ShapeKind::heightmap && scenery_[k].bounds.overlaps(bounds)) return false;
   return !touches_robots(robot);
 }
 
@@ -190,7 +231,7 @@ void NativeCollision::find_ground_contacts(Batch& batch) {
   batch.ground.used = 0;
 }
 
-/// Makes the list of a robot from its signature: the points and depths are in their places already.
+/// Makes the list of a robot from its signature: points, depths, and normals on heightmaps are in their places already.
 void NativeCollision::list_ground_contacts(std::uint32_t robot) const {
   const ListOut<Contact>& list = robots_[robot].list;
   const double* const signature = ground_robots_[robot].signature;
@@ -202,14 +243,15 @@ void NativeCollision::list_ground_contacts(std::uint32_t robot) const {
   std::size_t written = 0;
   for (std::uint32_t begin = 0, end = 0; begin < own.count; begin = end) {
     while (end < own.count && shapes[end].body == shapes[begin].body) ++end;
-    for (std::size_t p = 0; p < planes_.size(); ++p)
+    for (std::size_t g = 0; g < grounds_.size(); ++g)
       for (std::uint32_t k = begin; k < end; ++k) {
         const int points = points_of(shapes[k], signature, cursor);
         if (points == 0) continue;
-        Contact c = contact_between(index_->colliders[own.first + k], *scenery_[planes_[p]].collider);
-        c.normal = Vec3::Map(ground_planes_[p].normal);
+        Contact c = contact_between(index_->colliders[own.first + k], *scenery_[ground_colliders_[g]].collider);
+        c.normal = Vec3::Map(grounds_[g].plane.normal);
         for (int n = points; n > 0; --n, ++written) {
           c.point = contacts[written].point;
+          if (grounds_[g].terrain) c.normal = contacts[written].normal;
           c.depth = contacts[written].depth;
           list.push_back(c);
         }

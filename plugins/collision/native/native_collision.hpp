@@ -6,12 +6,13 @@
 #include "pairs/conversions.hpp"
 #include "plugins/common/contact_geometry/pair_collision.hpp"
 #include "plugins/common/contact_geometry/robot_group.hpp"
+#include "terrain/terrains.hpp"
 
 namespace muro::native {
 
-/// Collision detection of primitive shapes and meshes with a narrow phase of its own. Robots that can touch nothing but
-/// the planes of the scenery are processed by a SIMD kernel, eight of a group at once, the others pair by pair. Both
-/// give the same bits where both could be used.
+/// Collision detection of primitive shapes, meshes and heightmaps with a narrow phase of its own. Robots that can touch
+/// nothing but planes and heightmaps of the scenery are processed by a SIMD kernel, eight of a group at once, the
+/// others pair by pair. Both give the same bits where both could be used.
 class NativeCollision final : public PairCollision {
  public:
   void connect(Connector& c) override;
@@ -30,9 +31,13 @@ class NativeCollision final : public PairCollision {
   double distance_bound(const TransformedCollider& a, const TransformedCollider& b) const override;
   void list_contacts(Range robots) override;
 
+  void collide_with_terrain(const TransformedCollider& a, const Terrain& terrain,
+                            std::vector<ContactPoint>& points) const;
   void collide_meshes(const TransformedCollider& a, const TransformedCollider& b,
                       std::vector<ContactPoint>& points) const;
   void add_kernel_shapes();
+  KernelShape kernel_shape(std::uint32_t collider, std::uint32_t body);
+  void add_grounds();
   void group_robots();
   void allocate_signatures();
   bool touches_only_ground(std::uint32_t robot);
@@ -43,8 +48,10 @@ class NativeCollision final : public PairCollision {
 
   const GroundKernels* kernels_ = nullptr;
   MeshPairs meshes_;
+  Terrains terrains_;
   std::vector<GroundRobot> ground_robots_;                    ///< by robot number
-  std::vector<GroundPlane> ground_planes_;                    ///< as planes_
+  std::vector<std::uint32_t> ground_colliders_;               ///< planes and heightmaps of the scenery
+  std::vector<Ground> grounds_;                               ///< as these
   std::vector<RobotGroup<std::vector<KernelShape>>> groups_;  ///< of robots that have a list
   std::vector<KernelShape> shapes_;                           ///< by collider
   std::vector<double> signatures_;

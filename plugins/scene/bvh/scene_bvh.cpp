@@ -45,12 +45,14 @@ constinit const Description description{
     .capabilities = deterministic | allocation_free | restorable,
 };
 
-/// The shape itself, or the bounding box of a mesh. None if an algorithm before has refused a mesh.
+/// The shape itself, or the bounding box of a mesh or heightmap. None if an algorithm before has refused its file.
 std::optional<Shape> SceneBvh::bounding_shape(Connector& c, ObjectId body, const Shape& shape) {
-  if (shape.kind != ShapeKind::mesh) return shape;
+  const bool is_mesh = shape.kind == ShapeKind::mesh;
+  if (!is_mesh && shape.kind != ShapeKind::heightmap) return shape;
   const std::string path(c.text(shape.mesh));
   try {
-    const Aabb box = mesh::bounds_of(meshes_.mesh(path, shape.size));
+    const Aabb box = is_mesh ? mesh::bounds_of(meshes_.mesh(path, shape.size))
+                             : heightmap::bounds_of(heightmaps_.file(path).heightmap(shape.size));
     Shape around = Shape::box(box.high - box.low);
     around.origin = shape.origin * Pose{0.5 * (box.low + box.high), Quat::Identity()};
     return around;

@@ -9,6 +9,7 @@
 #include "muro/algorithm.hpp"
 #include "plugins/common/contact_geometry/box_tree.hpp"
 #include "plugins/common/contact_geometry/robot_group.hpp"
+#include "plugins/common/heightmap/heightmap_file.hpp"
 #include "plugins/common/mesh/store.hpp"
 
 namespace muro::bvh {
@@ -48,7 +49,8 @@ class SceneBvh final : public Algorithm {
   std::uint32_t scenery_ = 0;  ///< so many colliders at the front are scenery
 
   mesh::Store meshes_;
-  std::vector<Shape> bounding_shapes_;  ///< by collider: itself; of a mesh its bounding box
+  heightmap::Store heightmaps_;
+  std::vector<Shape> bounding_shapes_;  ///< by collider: itself; of a mesh or heightmap its bounding box
 
   std::vector<RobotGroup<std::vector<RoundedBox>>> groups_;  ///< of robots that have bounds
   std::vector<RobotPoses> poses_;                            ///< by robot

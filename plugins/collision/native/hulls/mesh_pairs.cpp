@@ -44,9 +44,12 @@ void collide_geometries(const CollisionObject& a, const HullSupport* hull_a, con
 
 void MeshPairs::connect(Connector& c, bool exact) {
   if (!has_meshes(c)) return;
-  geometries_.connect(c, exact, [this](const CollisionGeometry& geometry) {
-    hull_of_.push_back(geometry.hull ? &hulls_.emplace_back(*geometry.hull) : nullptr);
-  });
+  geometries_.connect(
+      c, exact,
+      [this](const CollisionGeometry& geometry) {
+        hull_of_.push_back(geometry.hull ? &hulls_.emplace_back(*geometry.hull) : nullptr);
+      },
+      GeometryTable::Heightmaps::left_out);
 }
 
 void MeshPairs::start(std::span<const Collider> colliders) {
@@ -55,11 +58,7 @@ void MeshPairs::start(std::span<const Collider> colliders) {
 
 KernelShape MeshPairs::kernel_shape(std::uint32_t collider, const Shape& mesh, std::uint32_t body) {
   const GeometryTable::Numbers& numbers = geometries_.of(collider);
-  const Aabb& box = geometries_[numbers.usual].box;
-  Shape around = Shape::box(box.high - box.low);
-  around.origin = mesh.origin * Pose{0.5 * (box.low + box.high), Quat::Identity()};
-  KernelShape shape = kernel_shape_of(around, body);
-  shape.kind = KernelShapeKind::mesh;
+  KernelShape shape = kernel_shape_of(mesh, geometries_[numbers.usual].box, body);
   if (numbers.convex == GeometryTable::none) return shape;
   const mesh::Hull* const hull = geometries_[numbers.convex].hull;
   auto placed = std::find_if(placed_.begin(), placed_.end(), [&](const Placed& p) {
@@ -74,6 +73,12 @@ KernelShape MeshPairs::kernel_shape(std::uint32_t collider, const Shape& mesh, s
   shape.vertices = placed->vertices.data()->data();
   shape.vertex_count = int(placed->vertices.size());
   return shape;
+}
+
+MeshPairs::HullOf MeshPairs::hull_of(std::uint32_t collider) const {
+  const std::uint32_t number = geometries_.of(collider).convex;
+  if (number == GeometryTable::none) return {};
+  return {&geometries_[number], hull_of_[number]};
 }
 
 void MeshPairs::collide(const TransformedCollider& first, const TransformedCollider& second,

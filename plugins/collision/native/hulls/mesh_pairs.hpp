@@ -28,6 +28,12 @@ class MeshPairs {
   /// A mesh as kernels take it: the box around it, and the vertices of its hull, if it has one. [setup]
   KernelShape kernel_shape(std::uint32_t collider, const Shape& mesh, std::uint32_t body);
 
+  struct HullOf {
+    const CollisionGeometry* geometry = nullptr;  ///< null: it has none
+    const HullSupport* support = nullptr;
+  };
+  /// The convex hull of a mesh, by the number of its collider.
+  HullOf hull_of(std::uint32_t collider) const;
   /// As PairCollision::collide.
   void collide(const TransformedCollider& a, const TransformedCollider& b, std::vector<ContactPoint>& points) const;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Kernels: robots of identical structure against the planes of the scenery.
+// Kernels: robots of identical structure against planes and heightmaps of the scenery.
 #pragma once
 
 #include "kernel_shape.hpp"
@@ -7,8 +7,8 @@
 
 namespace muro::native {
 
-/// A slot is a shape and a plane, in the order of body, plane, shape. Six slots share one word of a signature, so that
-/// the bits of its points (eight a slot) are exact in a double. A hull has words of its own, a bit a vertex.
+/// A slot is a shape and a ground, in the order of body, ground, shape. Six slots share one word of a signature, so
+/// that the bits of its points (eight a slot) are exact in a double. A hull has words of its own, a bit a vertex.
 inline constexpr int slots_per_word = 6, vertices_per_word = 8 * slots_per_word;
 /// Of one slot: of a hull that has more below a plane the kernel leaves the rest out, and says so.
 inline constexpr int max_ground_points = 8;
@@ -38,15 +38,16 @@ class SignatureCursor {
   void next_word() { ++word_, slot_ = 0; }
   int word_ = 0, slot_ = 0;
 };
-/// A contact's numbers: point, normal, depth; of which the kernel writes the point (0 to 2) and the depth.
-inline constexpr int depth_number = 6;
+/// A contact's numbers: point, normal, depth; of which the kernel writes the point (0 to 2), the depth, and on a
+/// heightmap the normal.
+inline constexpr int normal_number = 3, depth_number = 6;
 
 /// The input and output of one call: at most eight robots.
 struct GroundBatch {
   const KernelShape* shapes = nullptr;  ///< of each robot, body by body
   int shape_count = 0;
-  const GroundPlane* planes = nullptr;
-  int plane_count = 0;
+  const Ground* grounds = nullptr;
+  int ground_count = 0;
   int contact_stride = 0;  ///< in numbers
   int used = 0;            ///< robots
   RobotPoses poses[8];
@@ -55,19 +56,20 @@ struct GroundBatch {
 };
 
 /// How many words a signature has; the last may be empty. `shapes`: body by body.
-inline int words_of(const KernelShape* shapes, int shape_count, int planes) {
+inline int words_of(const KernelShape* shapes, int shape_count, int grounds) {
   SignatureCursor cursor;
   for (int begin = 0, end = 0; begin < shape_count; begin = end) {
     while (end < shape_count && shapes[end].body == shapes[begin].body) ++end;
-    for (int plane = 0; plane < planes; ++plane)
+    for (int ground = 0; ground < grounds; ++ground)
       for (int k = begin; k < end; ++k) cursor.begin(shapes[k]), cursor.end(shapes[k]);
   }
   return cursor.word() + 1;
 }
 
-/// Writes contacts ordered by body, plane, shape and number of the point, and the signatures. The list of a robot needs
-/// capacity for eight contacts a slot. Returns a bit for each robot whose signature has changed, and, eight bits
-/// higher, one for each robot with a hull that has more than eight vertices below a plane.
+/// Writes contacts ordered by body, ground, shape and number of the point, and the signatures. The list of a robot
+/// needs capacity for eight contacts a slot. Returns a bit for each robot whose signature has changed, and, eight bits
+/// higher, one for each robot that needs more than a kernel can do: with a hull that has more than eight vertices below
+/// a plane, or with a shape on a heightmap whose points TerrainPoints cannot tell.
 struct GroundKernels {
   unsigned (*find_contacts)(const GroundBatch&);
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "ground.hpp"
 #include "hull_points.hpp"
+#include "terrain_points.hpp"
 
 namespace muro::native {
 namespace {
@@ -75,6 +76,16 @@ struct Appender {
     next += stride;
   }
 
+  /// On a heightmap.
+  MURO_INLINE void operator()(MaskOf<S> below, const V3<S>& point, const V3<S>& normal, S depth, int number) {
+    static_assert(normal_number == 3 && depth_number == 6);
+    points += select(below, S(scale * double(std::int64_t(1) << number)), S(0));
+    const unsigned which = bits(below) & all;
+    lane::store_rows(first, next, {point.x, point.y, point.z, normal.x, normal.y, normal.z, depth}, which);
+    for (int i = 0; i < count_of<S>; ++i) first.at[i] -= which >> i & 1 ? 0 : stride;
+    next += stride;
+  }
+
   /// Out of the way of the common case.
   [[gnu::noinline]] void append_some(const V3<S>& point, const S& depth, unsigned which) {
     store_contacts(first, next, point, depth, which);
@@ -120,6 +131,11 @@ unsigned process(const GroundBatch& batch, int first) {
     for (; first_of_word < hull.vertex_count; first_of_word += vertices_per_word) end_word();
     overflow |= bits(count > S(max_ground_points)) & append.all;
   };
+  const auto add_terrain = [&](const KernelShape& shape, const BodyFrame<S>& body, const TerrainGrid& terrain) {
+    if (shape.kind == KernelShapeKind::mesh && slot > 0) end_word();
+    overflow |= bits(lanes::give_terrain_points<S>(ShapeInWorld<S>(shape, body), terrain, append)) & append.all;
+    for (int w = 0; shape.kind == KernelShapeKind::mesh && w < SignatureCursor::words_of(shape); ++w) end_word();
+  };
   const KernelShape* const shapes_end = batch.shapes + batch.shape_count;
   for (const KernelShape *begin = batch.shapes, *end = begin; begin != shapes_end; begin = end) {
     bool needs_orientation = false;
@@ -128,13 +144,14 @@ unsigned process(const GroundBatch& batch, int first) {
     Places<S> poses;
     for (int i = 0; i < count_of<S>; ++i) poses.at[i] = begin->pose.in(robots[i]);
     const BodyFrame<S> body(poses, needs_orientation);
-    for (const GroundPlane* plane = batch.planes; plane != batch.planes + batch.plane_count; ++plane)
+    for (const Ground* ground = batch.grounds; ground != batch.grounds + batch.ground_count; ++ground)
       for (const KernelShape* shape = begin; shape != end; ++shape) {
+        if (ground->terrain) add_terrain(*shape, body, *ground->terrain);
         if (shape->kind == KernelShapeKind::mesh) {
-          add_hull(*shape, body, *plane);
+          if (!ground->terrain) add_hull(*shape, body, ground->plane);
           continue;
         }
-        give_plane_points<S>(ShapeInWorld<S>(*shape, body), *plane, append);
+        if (!ground->terrain) give_plane_points<S>(ShapeInWorld<S>(*shape, body), ground->plane, append);
         append.scale *= 256;
         if (++slot == slots_per_word) end_word();
       }

@@ -12,7 +12,7 @@ namespace muro::native {
 using contact_geometry::PoseLocation, contact_geometry::RobotPoses;
 
 /// As muro::ShapeKind, whose header kernels cannot include.
-enum class KernelShapeKind : std::uint32_t { box, sphere, cylinder, capsule, plane, mesh };
+enum class KernelShapeKind : std::uint32_t { box, sphere, cylinder, capsule, plane, mesh, heightmap };
 
 /// A shape in its body, as plain numbers.
 struct KernelShape {
@@ -20,7 +20,7 @@ struct KernelShape {
   std::uint32_t body = 0;  ///< which of a robot's bodies with shapes, from 0
   PoseLocation pose;       ///< of that body
   /// m. box: half lengths. sphere: the radius three times. cylinder, capsule: radius, radius, half the
-  /// length along z (of a capsule: of its straight part). plane: unused. mesh: those of the box around it.
+  /// length along z (of a capsule: of its straight part). plane: unused. mesh, heightmap: those of the box around it.
   double half[3] = {};
   double centre[3] = {};  ///< m, in the body
   double axes[9] = {};    ///< of the shape in the body, column by column
@@ -43,6 +43,13 @@ struct GroundPlane {
   double normal[3] = {0, 0, 1};
   double origin[3] = {};
   bool is_level = true;  ///< the normal is z
+};
+
+struct TerrainGrid;
+/// A plane of the scenery, or a heightmap.
+struct Ground {
+  GroundPlane plane;
+  const TerrainGrid* terrain = nullptr;  ///< of a heightmap
 };
 
 namespace lanes {

@@ -41,8 +41,13 @@ class Plane {
 template <class S, class Shape, bool level>
 class PlanePoints {
  public:
-  PlanePoints(const Shape& at, const Plane<S, level>& plane)
-      : at_(at), plane_(plane), half_(at.half()), centre_(at.centre()), deep_(plane.depth_of(centre_)) {}
+  PlanePoints(const Shape& at, const Plane<S, level>& plane, double least_tilt)
+      : at_(at),
+        plane_(plane),
+        half_(at.half()),
+        centre_(at.centre()),
+        deep_(plane.depth_of(centre_)),
+        least_tilt_(least_tilt) {}
 
   template <class Sink>
   MURO_INLINE void give(Sink& sink) const {
@@ -57,6 +62,7 @@ class PlanePoints {
         return ends(sink);
       case KernelShapeKind::plane:
       case KernelShapeKind::mesh:
+      case KernelShapeKind::heightmap:
         return;
     }
   }
@@ -88,7 +94,7 @@ class PlanePoints {
     V3<S> down = plane_.add_normal(slope * u, S(-1));  // towards the lowest point of a rim
     const S steep = sqrt(dot(down, down)), low = r * steep, middle = deep_ + abs(rise);
     if (!any(middle + low > S(0))) return;
-    const auto upright = steep <= S(1e-9);
+    const auto upright = steep <= S(least_tilt_);
     const auto more = upright | (middle > S(0));
     down = down * (r / steep);
     // Upright any four points serve; those on the axes of the cylinder turn with it.
@@ -122,14 +128,16 @@ class PlanePoints {
   const double* const half_;
   const V3<S> centre_;
   const S deep_;  ///< of the centre
+  const double least_tilt_;
 };
 
+/// `least_tilt`: sine of the angle below which a cylinder is upright.
 template <class S, class Shape, class Sink>
-MURO_INLINE void give_plane_points(const Shape& at, const GroundPlane& plane, Sink& sink) {
+MURO_INLINE void give_plane_points(const Shape& at, const GroundPlane& plane, Sink& sink, double least_tilt = 1e-9) {
   if (plane.is_level)
-    PlanePoints<S, Shape, true>(at, Plane<S, true>(plane)).give(sink);
+    PlanePoints<S, Shape, true>(at, Plane<S, true>(plane), least_tilt).give(sink);
   else
-    PlanePoints<S, Shape, false>(at, Plane<S, false>(plane)).give(sink);
+    PlanePoints<S, Shape, false>(at, Plane<S, false>(plane), least_tilt).give(sink);
 }
 
 }  // namespace MURO_ISA

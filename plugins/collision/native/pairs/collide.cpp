@@ -35,7 +35,7 @@ void ordered(const TransformedShape& a, const TransformedShape& b, Manifold& out
     case pair_of(cylinder, capsule):
       return convex_convex(a, b, out);
     default:
-      return;  // two planes, meshes
+      return;  // two planes, meshes, heightmaps
   }
 }
 

@@ -9,7 +9,8 @@ static_assert(int(KernelShapeKind::box) == int(ShapeKind::box) &&
               int(KernelShapeKind::cylinder) == int(ShapeKind::cylinder) &&
               int(KernelShapeKind::capsule) == int(ShapeKind::capsule) &&
               int(KernelShapeKind::plane) == int(ShapeKind::plane) &&
-              int(KernelShapeKind::mesh) == int(ShapeKind::mesh));
+              int(KernelShapeKind::mesh) == int(ShapeKind::mesh) &&
+              int(KernelShapeKind::heightmap) == int(ShapeKind::heightmap));
 
 /// The axis of the body that `v` is, apart from rounding, as KernelShape::along tells it.
 int axis_along(const Vec3& v) {
@@ -35,6 +36,14 @@ KernelShape kernel_shape_of(const Shape& shape, std::uint32_t body) {
     s.along[k] = axis_along(axis);
     Vec3::Map(s.axes + 3 * k) = s.along[k] == 0 ? axis : Vec3(axis.array().round());
   }
+  return s;
+}
+
+KernelShape kernel_shape_of(const Shape& shape, const Aabb& box, std::uint32_t body) {
+  Shape around = Shape::box(box.high - box.low);
+  around.origin = shape.origin * Pose{0.5 * (box.low + box.high), Quat::Identity()};
+  KernelShape s = kernel_shape_of(around, body);
+  s.kind = KernelShapeKind(shape.kind);
   return s;
 }
 

@@ -20,8 +20,7 @@ double separation_bound(const TransformedShape& first, const TransformedShape& s
   };
   for (const TransformedShape* shape : {&first, &second}) {
     if (shape->kind == ShapeKind::sphere) continue;
-    for (int k = shape->kind == ShapeKind::box || shape->kind == ShapeKind::mesh ? 0 : 2; k < 3; ++k)
-      consider(shape->axes.col(k));
+    for (int k = is_boxed(*shape) ? 0 : 2; k < 3; ++k) consider(shape->axes.col(k));
     if (shape->kind != ShapeKind::cylinder && shape->kind != ShapeKind::capsule) continue;
     const Vec3 u = shape->axis(), aside = d - u.dot(d) * u;
     if (const double length = aside.norm(); length > 0) consider(aside / length);

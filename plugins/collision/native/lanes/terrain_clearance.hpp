@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "terrain_grid.hpp"
+
+namespace muro::native::lanes {
+inline namespace MURO_ISA {
+
+/// A box in the frame of a heightmap.
+struct BoxOverTerrain {
+  double centre[3];   ///< m
+  double axes[3][3];  ///< unit
+  double half[3];     ///< m
+};
+
+/// Whether all of the surface below a box lies below that side of it which looks down: then they do not touch. False
+/// where more than a few cells lie below the box. Cell by cell, over what the box covers of it.
+[[gnu::noinline]] inline bool is_clear(const TerrainGrid& grid, const BoxOverTerrain& box) {
+  constexpr int max_cells = 36;
+  int down = 0;
+  double reach[2] = {0, 0};
+  for (int k = 0; k < 3; ++k) {
+    if (__builtin_fabs(box.axes[k][2]) > __builtin_fabs(box.axes[down][2])) down = k;
+    for (int i = 0; i < 2; ++i) reach[i] += box.half[k] * __builtin_fabs(box.axes[k][i]);
+  }
+  const double* const axis = box.axes[down];
+  if (!(__builtin_fabs(axis[2]) > 0.5)) return false;
+  // the side: z = height + slope_x x + slope_y y, seen from the centre
+  const double slope_x = -axis[0] / axis[2], slope_y = -axis[1] / axis[2],
+               height = box.centre[2] - box.half[down] / __builtin_fabs(axis[2]);
+  const auto clamped = [](double at, int nodes) { return at > 0 ? (at < nodes - 2 ? int(at) : nodes - 2) : 0; };
+  const double low_x = box.centre[0] - reach[0], high_x = box.centre[0] + reach[0];
+  const double low_y = box.centre[1] - reach[1], high_y = box.centre[1] + reach[1];
+  const int first_column = clamped((low_x + grid.half_x) * grid.per_spacing_x, grid.columns),
+            last_column = clamped((high_x + grid.half_x) * grid.per_spacing_x, grid.columns),
+            first_row = clamped((low_y + grid.half_y) * grid.per_spacing_y, grid.rows),
+            last_row = clamped((high_y + grid.half_y) * grid.per_spacing_y, grid.rows);
+  if ((last_column - first_column + 1) * (last_row - first_row + 1) > max_cells) return false;
+  for (int row = first_row; row <= last_row; ++row)
+    for (int column = first_column; column <= last_column; ++column) {
+      const float* const lower = grid.values + long(row) * grid.columns + column;
+      const float* const upper = lower + grid.columns;
+      const double x = column * grid.spacing_x - grid.half_x, y = row * grid.spacing_y - grid.half_y;
+      const double left = low_x > x ? low_x - x : 0, right = high_x < x + grid.spacing_x ? high_x - x : grid.spacing_x;
+      const double front = low_y > y ? low_y - y : 0, back = high_y < y + grid.spacing_y ? high_y - y : grid.spacing_y;
+      // both triangles, as height over the side at the corner and slopes relative to it
+      const double side = height + slope_x * (x - box.centre[0]) + slope_y * (y - box.centre[1]);
+      const double slopes[2][2] = {{(double(lower[1]) - double(lower[0])) * grid.scale * grid.per_spacing_x - slope_x,
+                                    (double(upper[0]) - double(lower[0])) * grid.scale * grid.per_spacing_y - slope_y},
+                                   {(double(upper[1]) - double(upper[0])) * grid.scale * grid.per_spacing_x - slope_x,
+                                    (double(upper[1]) - double(lower[1])) * grid.scale * grid.per_spacing_y - slope_y}};
+      for (int t = 0; t < 2; ++t) {
+        const double(&s)[2] = slopes[t];
+        const double corner = t == 0 ? grid.scale * double(lower[0])
+                                     : grid.scale * double(upper[1]) - (s[0] + slope_x) * grid.spacing_x -
+                                           (s[1] + slope_y) * grid.spacing_y;
+        const double highest =
+            corner - side + (s[0] > 0 ? s[0] * right : s[0] * left) + (s[1] > 0 ? s[1] * back : s[1] * front);
+        if (!(highest < 0)) return false;
+      }
+    }
+  return true;
+}
+
+}  // namespace MURO_ISA
+}  // namespace muro::native::lanes
