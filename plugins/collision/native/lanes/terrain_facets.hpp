@@ -81,25 +81,31 @@ MURO_INLINE Facet<S> facet_at(const TerrainGrid& grid, S x, S y) {
   S u = (x + S(grid.half_x)) * S(grid.per_spacing_x), v = (y + S(grid.half_y)) * S(grid.per_spacing_y);
   u = select(u > S(0), u, S(0)), v = select(v > S(0), v, S(0));  // of what is not a number too
   u = min(u, S(grid.columns - 1)), v = min(v, S(grid.rows - 1));
-  Facet<S> f;
-  f.column = f.row = f.side = S(0);
-  S corner(0), beside(0), above(0);  // values of the corner and of those along x and y from it
-  for (int i = 0; i < count_of<S>; ++i) {
-    const double at_u = value_of(u, i), at_v = value_of(v, i);
-    const int most_column = grid.columns - 2, most_row = grid.rows - 2;
-    const int column = int(at_u) < most_column ? int(at_u) : most_column;
-    const int row = int(at_v) < most_row ? int(at_v) : most_row;
-    const bool upper = (at_u - column) + (at_v - row) > 1;
+  constexpr int count = count_of<S>;
+  double at_u[count], at_v[count], columns[count], rows[count], sides[count], corners[count], besides[count],
+      aboves[count];
+  lane::store_side_by_side(at_u, u), lane::store_side_by_side(at_v, v);
+  const int most_column = grid.columns - 2, most_row = grid.rows - 2;
+  for (int i = 0; i < count; ++i) {
+    const int column = int(at_u[i]) < most_column ? int(at_u[i]) : most_column;
+    const int row = int(at_v[i]) < most_row ? int(at_v[i]) : most_row;
+    const bool upper = (at_u[i] - column) + (at_v[i] - row) > 1;
     const float* const lower_row = grid.values + std::ptrdiff_t(row) * grid.columns + column;
     const float* const upper_row = lower_row + grid.columns;
     const double right = lower_row[1], left = upper_row[0];
-    set_value(f.column, i, column + upper);
-    set_value(f.row, i, row + upper);
-    set_value(f.side, i, upper ? -1 : 1);
-    set_value(corner, i, upper ? upper_row[1] : lower_row[0]);
-    set_value(beside, i, upper ? left : right);
-    set_value(above, i, upper ? right : left);
+    columns[i] = column + upper;
+    rows[i] = row + upper;
+    sides[i] = upper ? -1 : 1;
+    corners[i] = upper ? upper_row[1] : lower_row[0];
+    besides[i] = upper ? left : right;
+    aboves[i] = upper ? right : left;
   }
+  // of the corner and of those along x and y from it
+  const S corner = lane::load_side_by_side<S>(corners), beside = lane::load_side_by_side<S>(besides),
+          above = lane::load_side_by_side<S>(aboves);
+  Facet<S> f;
+  f.column = lane::load_side_by_side<S>(columns), f.row = lane::load_side_by_side<S>(rows);
+  f.side = lane::load_side_by_side<S>(sides);
   f.corner = {f.column * S(grid.spacing_x) - S(grid.half_x), f.row * S(grid.spacing_y) - S(grid.half_y),
               S(grid.scale) * corner};
   f.slope_x = (beside - corner) * (f.side * S(grid.scale * grid.per_spacing_x));
@@ -123,17 +129,21 @@ MURO_INLINE NearSlopes<S> slopes_near(const TerrainGrid& grid, const TerrainLeve
   S u = (centre.x + S(grid.half_x)) * S(level.per_x), v = (centre.y + S(grid.half_y)) * S(level.per_y);
   u = select(u > S(0), u, S(0)), v = select(v > S(0), v, S(0));
   u = min(u, S(level.columns - 1)), v = min(v, S(level.rows - 1));
-  S column(0), row(0), height(0), slope_x(0), slope_y(0);
-  NearSlopes<S> near;
-  near.spread = S(0);
-  for (int i = 0; i < count_of<S>; ++i) {
-    const int c = int(value_of(u, i)), r = int(value_of(v, i));
-    const TerrainTile& tile = level.tiles[std::ptrdiff_t(r) * level.columns + c];
-    set_value(column, i, c), set_value(row, i, r);
-    set_value(height, i, tile.height);
-    set_value(slope_x, i, tile.slope_x), set_value(slope_y, i, tile.slope_y);
-    set_value(near.spread, i, tile.spread);
+  constexpr int count = count_of<S>;
+  double at_u[count], at_v[count], columns[count], rows[count], heights[count], slopes_x[count], slopes_y[count],
+      spreads[count];
+  lane::store_side_by_side(at_u, u), lane::store_side_by_side(at_v, v);
+  for (int i = 0; i < count; ++i) {
+    const int column = int(at_u[i]), row = int(at_v[i]);
+    const TerrainTile& tile = level.tiles[std::ptrdiff_t(row) * level.columns + column];
+    columns[i] = column, rows[i] = row;
+    heights[i] = tile.height, slopes_x[i] = tile.slope_x, slopes_y[i] = tile.slope_y, spreads[i] = tile.spread;
   }
+  const S column = lane::load_side_by_side<S>(columns), row = lane::load_side_by_side<S>(rows),
+          height = lane::load_side_by_side<S>(heights), slope_x = lane::load_side_by_side<S>(slopes_x),
+          slope_y = lane::load_side_by_side<S>(slopes_y);
+  NearSlopes<S> near;
+  near.spread = lane::load_side_by_side<S>(spreads);
   const S x = centre.x + S(grid.half_x) - (column + S(0.5)) * S(level.length_x),
           y = centre.y + S(grid.half_y) - (row + S(0.5)) * S(level.length_y);
   const S up = S(1) / sqrt(S(1) + (slope_x * slope_x + slope_y * slope_y));
