@@ -5,6 +5,7 @@
 
 #include "tests/support/bodies.hpp"
 #include "tests/support/complaint.hpp"
+#include "tests/support/hills.hpp"
 
 namespace muro {
 namespace {
@@ -87,6 +88,19 @@ TEST(LevelRules, MeasureToTheNearestPointOfScenery) {
   }
   Ruled ground({"near when nearer than 0.2 to rock"}, {50, 0, 0.1}, solid(Shape::plane(), {}));
   EXPECT_LT(time_of_change(ground), 0.03) << "0.1 m above it";
+}
+
+TEST(LevelRules, TakeAHeightmapAsTheBoxAroundIt) {
+  // from x = 2 on, between 1 and 3 m high
+  const test::Hills hills(4, 8, [](double x, double) { return 2 + 0.5 * x; });
+  const Shape shape{.kind = ShapeKind::heightmap, .size = {4, 4, 1}};
+  const auto add_hills = [&](World& world) {
+    Shape there = shape;
+    there.mesh = world.intern(hills.path());
+    world.add_scenery("hills", {{4, 0, 0}, Quat::Identity()}, std::span<const Shape>(&there, 1));
+  };
+  Ruled s({"near when nearer than 1 to hills"}, {50, 0, 0.1}, add_hills);
+  EXPECT_NEAR(time_of_change(s), (2 - std::sqrt(1 - 0.9 * 0.9)) / 0.5, 0.021) << "its edge is 0.9 m above the ball";
 }
 
 std::function<void(World&)> yard(double x, double y, double width, double depth) {
