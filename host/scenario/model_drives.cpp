@@ -9,14 +9,12 @@
 #include <optional>
 
 #include "muro/toolkit/joint_drives.hpp"
+#include "muro/vocabulary.hpp"
 
 namespace muro::host {
 
 namespace {
 
-/// Constants of joints, by reader.mjcf: a DriveMode, and gains of position drives.
-constexpr std::string_view joint_drive = "joint.drive", joint_drive_stiffness = "joint.drive.stiffness",
-                           joint_drive_damping = "joint.drive.damping";
 /// Parameters of motions with position drives: lists of "joint=gain"; a number.
 constexpr std::string_view stiffness = "stiffness", damping = "damping", natural_frequency = "natural_frequency";
 
@@ -52,10 +50,10 @@ struct ModelDrive {
 };
 
 template <class T>
-std::optional<T> constant_of(const RobotTree::Component& component, std::string_view key) {
+std::optional<T> constant_of(const RobotTree::Component& component, const Key<T>& key) {
   for (const RobotTree::Constant& c : component.constants) {
     T value{};
-    if (c.key.name != key || c.data.size() != sizeof value) continue;
+    if (c.key.name != key.name || c.data.size() != sizeof value) continue;
     std::memcpy(&value, c.data.data(), sizeof value);
     return value;
   }
@@ -67,9 +65,9 @@ std::vector<ModelDrive> drives_of(const RobotTree& tree) {
   for (const RobotTree::FlatLink& link : tree.links()) {
     if (link.joint < 0) continue;
     const RobotTree::Component& joint = tree.components()[std::size_t(link.joint)];
-    if (const auto mode = constant_of<std::uint32_t>(joint, joint_drive))
-      drives.push_back({joint.name, DriveMode(*mode), constant_of<double>(joint, joint_drive_stiffness),
-                        constant_of<double>(joint, joint_drive_damping)});
+    if (const auto mode = constant_of(joint, keys::joint_drive))
+      drives.push_back({joint.name, DriveMode(*mode), constant_of(joint, keys::joint_drive_stiffness),
+                        constant_of(joint, keys::joint_drive_damping)});
   }
   return drives;
 }

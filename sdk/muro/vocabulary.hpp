@@ -61,6 +61,15 @@ inline constexpr Key<double> joint_velocity_target{"joint.velocity.target", "rad
 inline constexpr Key<double> joint_acceleration_target{"joint.acceleration.target", "rad/s^2 or m/s^2",
                                                        "wanted acceleration", Role::command};
 inline constexpr Key<double> joint_effort_target{"joint.effort.target", "N m or N", "wanted effort", Role::command};
+// Constants of a joint, by the reader of its model.
+/// The DriveMode (toolkit/joint_drives.hpp) of the actuator that the model has for it, or passive where it has
+/// actuators for other joints alone.
+inline constexpr Key<std::uint32_t> joint_drive{"joint.drive", "1", "what the joint follows by its model"};
+/// Of a joint that follows positions: what its actuator does, stiffness (target - position) - damping velocity.
+inline constexpr Key<double> joint_drive_stiffness{"joint.drive.stiffness", "N m/rad or N/m",
+                                                   "of the joint's position drive by its model"};
+inline constexpr Key<double> joint_drive_damping{"joint.drive.damping", "N m s/rad or N s/m",
+                                                 "of the joint's position drive by its model"};
 
 // Commands to a whole robot: properties of its base.
 inline constexpr Key<Twist> command_twist{"command.twist", "m/s, rad/s",
@@ -70,6 +79,10 @@ inline constexpr Key<Pose> command_pose{"command.pose", "m", "wanted pose of the
 // The scene.
 inline constexpr Key<SceneIndex> scene_index{"scene.index", "m", "on the world object: shapes and boxes for search"};
 inline constexpr Key<Contact> contacts{"contacts", "m", "list on the base of a robot: where it touches"};
+/// Arrays, constant, on the world object: the named places of a scenario.
+inline constexpr Key<TextId> place_names{"place.names", "1", "name of the place to which each rectangle belongs"};
+inline constexpr Key<double> place_rectangles{"place.rectangles", "m",
+                                              "for each rectangle: x and y of its centre, lengths along x and y"};
 
 // Sensors: properties of the sensor's object, whose pose is that of the link it is mounted on.
 inline constexpr Key<Pose> sensor_origin{"sensor.origin", "m",

@@ -7,15 +7,6 @@
 
 namespace muro::model_constants {
 
-/// On a joint: the DriveMode of the actuator that the model has for it, or passive where it has actuators for other
-/// joints alone.
-inline constexpr Key<std::uint32_t> joint_drive{"joint.drive", "1", "what the joint follows by its model"};
-/// On a joint that follows positions: what its actuator does, stiffness (target - position) - damping velocity.
-inline constexpr Key<double> joint_drive_stiffness{"joint.drive.stiffness", "N m/rad or N/m",
-                                                   "of the joint's position drive by its model"};
-inline constexpr Key<double> joint_drive_damping{"joint.drive.damping", "N m s/rad or N s/m",
-                                                 "of the joint's position drive by its model"};
-
 // Of a robot that was read from an MJCF file. Numbers are MuJoCo's ids in the compiled model.
 /// On the base: path of the file.
 inline constexpr Key<TextId> mjcf_file{"mjcf.file", "1", "path of the MJCF file of the robot"};

@@ -94,9 +94,9 @@ class RobotReplay {
       case Call::joint_drive:
         return drive(calls.value<std::uint32_t>());
       case Call::joint_drive_stiffness:
-        return builder_.set(model_constants::joint_drive_stiffness, calls.value<double>());
+        return builder_.set(keys::joint_drive_stiffness, calls.value<double>());
       case Call::joint_drive_damping:
-        return builder_.set(model_constants::joint_drive_damping, calls.value<double>());
+        return builder_.set(keys::joint_drive_damping, calls.value<double>());
       case Call::mjcf_file:
         return builder_.set(model_constants::mjcf_file, texts_[calls.value<TextId>()]);
       case Call::mjcf_in_world:
@@ -120,7 +120,7 @@ class RobotReplay {
 
   void drive(std::uint32_t mode) {
     if (mode > std::uint32_t(DriveMode::passive)) fail();
-    builder_.set(model_constants::joint_drive, mode);
+    builder_.set(keys::joint_drive, mode);
   }
 
   void joint(Call kind, Reader& calls) {

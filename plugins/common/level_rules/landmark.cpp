@@ -8,7 +8,6 @@
 #include "muro/toolkit/bounds.hpp"
 #include "muro/toolkit/did_you_mean.hpp"
 #include "muro/vocabulary.hpp"
-#include "place_keys.hpp"
 #include "plugins/common/heightmap/heightmap_file.hpp"
 #include "plugins/common/mesh/mesh.hpp"
 #include "plugins/common/text/quote.hpp"
@@ -23,7 +22,7 @@ bool is_shadow(const Connector& c, const RobotView& robot) {
 
 std::vector<std::string> names_of_places(const Connector& c) {
   std::vector<std::string> names;
-  for (const TextId id : c.constant_array(world_object, place_names))
+  for (const TextId id : c.constant_array(world_object, keys::place_names))
     if (std::string name(c.text(id)); std::find(names.begin(), names.end(), name) == names.end())
       names.push_back(std::move(name));
   return names;
@@ -106,8 +105,8 @@ void Landmark::add_scenery(const Connector& c, ObjectId object, std::string_view
 }
 
 void Landmark::add_place(const Connector& c, std::string_view name) {
-  const auto names = c.constant_array(world_object, place_names);
-  const auto numbers = c.constant_array(world_object, place_rectangles);
+  const auto names = c.constant_array(world_object, keys::place_names);
+  const auto numbers = c.constant_array(world_object, keys::place_rectangles);
   for (std::size_t i = 0; i < names.size() && 4 * i + 3 < numbers.size(); ++i)
     if (c.text(names[i]) == name)
       rectangles_.push_back({numbers[4 * i], numbers[4 * i + 1], 0.5 * numbers[4 * i + 2], 0.5 * numbers[4 * i + 3]});

@@ -117,17 +117,15 @@ TEST(MjcfModels, MassesInertiasAndJointsAreThoseOfTheCompiler) {
 
 TEST(MjcfModels, ActuatorsAreDriveModesAndOtherJointsPassive) {
   const Robot robot = robot_of(humanoid);
-  const auto mode = [&](const char* joint) {
-    return DriveMode(robot.constants(joint, model_constants::joint_drive).at(0));
-  };
+  const auto mode = [&](const char* joint) { return DriveMode(robot.constants(joint, keys::joint_drive).at(0)); };
   EXPECT_EQ(mode("abdomen_z"), DriveMode::effort);
   EXPECT_EQ(mode("knee"), DriveMode::position);
   EXPECT_EQ(mode("telescope"), DriveMode::velocity);
   EXPECT_EQ(mode("hip_x"), DriveMode::passive);
   // kp of a length that is gear times the position
-  EXPECT_EQ(robot.constants("knee", model_constants::joint_drive_stiffness).at(0), 20 * 3 * 3);
-  EXPECT_EQ(robot.constants("knee", model_constants::joint_drive_damping).at(0), 0);
-  EXPECT_TRUE(robot.constants("telescope", model_constants::joint_drive_stiffness).empty());
+  EXPECT_EQ(robot.constants("knee", keys::joint_drive_stiffness).at(0), 20 * 3 * 3);
+  EXPECT_EQ(robot.constants("knee", keys::joint_drive_damping).at(0), 0);
+  EXPECT_TRUE(robot.constants("telescope", keys::joint_drive_stiffness).empty());
 }
 
 TEST(MjcfModels, GeomsAreShapesWithFullLengthsAndSurfaces) {

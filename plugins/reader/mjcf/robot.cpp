@@ -131,10 +131,10 @@ class RobotMaker {
     m_.jnt_type[joint] == mjJNT_SLIDE ? builder_.prismatic(name, axis, limits) : builder_.revolute(name, axis, limits);
     if (reference != 0) builder_.set(keys::initial_joint_position, reference);
     builder_.set(model_constants::mjcf_joint, std::uint32_t(joint));
-    if (from_.drives.any) builder_.set(model_constants::joint_drive, std::uint32_t(drive.mode));
+    if (from_.drives.any) builder_.set(keys::joint_drive, std::uint32_t(drive.mode));
     if (drive.mode == DriveMode::position) {
-      builder_.set(model_constants::joint_drive_stiffness, drive.stiffness);
-      builder_.set(model_constants::joint_drive_damping, drive.damping);
+      builder_.set(keys::joint_drive_stiffness, drive.stiffness);
+      builder_.set(keys::joint_drive_damping, drive.damping);
     }
     if (m_.jnt_stiffness[joint] != 0) springs_.push_back(joint);
   }
