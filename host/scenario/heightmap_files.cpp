@@ -15,7 +15,7 @@ HeightmapFiles::File HeightmapFiles::read(const std::string& path) {
   try {
     const RobotTree tree = simulation_.read_model(path);
     for (const RobotTree::Constant& c : tree.components().front().constants) {
-      if (c.key.name == keys::heightmap_values.name) {
+      if (c.key.name == keys::heightmap_values.name && c.data.size() == c.count * sizeof(float)) {
         file.values.resize(c.count);
         std::memcpy(file.values.data(), c.data.data(), c.data.size());
       } else if (c.key.name == keys::heightmap_columns.name && c.data.size() == sizeof file.columns) {

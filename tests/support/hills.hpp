@@ -28,9 +28,10 @@ class Hills {
 
   const std::string& path() const { return path_; }
   Heightmap heightmap() const { return {values_, columns_, columns_, size_}; }
-  void add_to(Simulation& scene, const Pose& pose = {}) const {
-    const Shape shape{.kind = ShapeKind::heightmap, .mesh = scene.world().intern(path_), .size = size_};
-    scene.world().add_scenery("hills", pose, std::span<const Shape>(&shape, 1));
+  /// `others`: shapes of the same object.
+  void add_to(Simulation& scene, const Pose& pose = {}, std::vector<Shape> others = {}) const {
+    others.push_back({.kind = ShapeKind::heightmap, .mesh = scene.world().intern(path_), .size = size_});
+    scene.world().add_scenery("hills", pose, std::span<const Shape>(others));
   }
 
  private:

@@ -2,12 +2,11 @@
 #include "engine_collision.hpp"
 
 #include "contact_refinement.hpp"
+#include "plugins/common/heightmap/heightmap_file.hpp"
 #include "plugins/common/text/quote.hpp"
 
 namespace muro::contact_geometry {
 namespace {
-
-constexpr double depth_of_ground = 1000;  ///< m: so far below a heightmap bodies are pushed up
 
 bool is_plane(const TransformedCollider& c) { return c.shape.kind == ShapeKind::plane; }
 
@@ -55,7 +54,7 @@ TransformedShape EngineCollision::transformed_shape(std::uint32_t collider) cons
   const Collider& c = index_->colliders[collider];
   if (c.shape->kind == ShapeKind::heightmap && !heightmaps_.empty()) {
     Aabb box = heightmap::bounds_of(heightmaps_.of(*c.shape));
-    box.low.z() -= depth_of_ground;
+    box.low.z() -= heightmap::depth_of_ground;
     TransformedShape shape =
         transformed(Shape::box(box.high - box.low), c.pose() * Pose{0.5 * (box.low + box.high), Quat::Identity()});
     shape.kind = ShapeKind::heightmap;

@@ -5,6 +5,7 @@
 
 #include "plugins/common/heightmap/heightmap_file.hpp"
 #include "plugins/common/mesh/collision_mesh.hpp"
+#include "plugins/common/text/quote.hpp"
 
 namespace muro::contact_geometry {
 namespace {
@@ -18,11 +19,15 @@ void GeometryTable::connect(Connector& c, bool exact, const std::function<void(c
                             Heightmaps heightmaps) {
   added_ = added;
   for (std::uint32_t i = 0; i < c.object_count(); ++i)
-    for (const Shape& s : c.constant_array(ObjectId{i}, keys::collision_shapes))
-      if (s.kind == ShapeKind::heightmap && heightmaps == Heightmaps::left_out)
+    for (const Shape& s : c.constant_array(ObjectId{i}, keys::collision_shapes)) {
+      const bool is_heightmap = s.kind == ShapeKind::heightmap;
+      if (is_heightmap && c.robot_of(ObjectId{i}) >= 0)
+        throw Error(quote(c.object_name(ObjectId{i})) + " belongs to a robot and has a heightmap, which is of scenery");
+      if (is_heightmap && heightmaps == Heightmaps::left_out)
         by_shape_.push_back({&s, {}});
       else
         add_shape(c, ObjectId{i}, s, exact);
+    }
   std::sort(by_shape_.begin(), by_shape_.end(),
             [](const auto& a, const auto& b) { return std::less<>()(a.first, b.first); });
 }

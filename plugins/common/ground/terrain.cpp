@@ -84,10 +84,10 @@ std::optional<Ground> Terrain::ground_at(double x, double y) const {
   return highest;
 }
 
-void Terrain::add(const Connector& c, ObjectId object, const Shape& shape, const Pose& pose) {
+void Terrain::add(const Connector& c, const ShapeOfObject& where, const Shape& shape, const Pose& pose) {
   const Vec3 normal = pose.orientation * Vec3::UnitZ();
   if ((shape.kind != ShapeKind::plane && shape.kind != ShapeKind::heightmap) || normal.z() < least_upward) return;
-  if (objects_.empty() || objects_.back() != object) objects_.push_back(object);
+  shapes_.push_back(where);
   if (shape.kind == ShapeKind::plane) {
     planes_.push_back({pose.position, normal});
     return;
@@ -104,7 +104,11 @@ void Terrain::connect(const Connector& c) {
     const ObjectId object{i};
     if (c.robot_of(object) >= 0) continue;
     const Pose body = c.constant(object, keys::pose).value_or(Pose{});
-    for (const Shape& s : c.constant_array(object, keys::collision_shapes)) add(c, object, s, body * s.origin);
+    ShapeOfObject where{object};
+    for (const Shape& s : c.constant_array(object, keys::collision_shapes)) {
+      add(c, where, s, body * s.origin);
+      ++where.shape;
+    }
   }
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "muro/connector.hpp"
+#include "muro/toolkit/contact_stop.hpp"
 #include "muro/toolkit/heightmap.hpp"
 #include "plugins/common/heightmap/heightmap_file.hpp"
 
@@ -27,8 +28,8 @@ class Terrain {
   void connect(const Connector& c);
 
   bool has_heightmaps() const { return !tiles_.empty(); }
-  /// Scenery that is ground, in the order of objects. [setup]
-  const std::vector<ObjectId>& objects() const { return objects_; }
+  /// Of the scenery, what is ground, in the order of objects. [setup]
+  const std::vector<ShapeOfObject>& shapes() const { return shapes_; }
   /// m: the shortest side of a cell; infinite without heightmaps.
   double resolution() const { return resolution_; }
 
@@ -51,12 +52,12 @@ class Terrain {
     Vec3 point, normal;
   };
 
-  void add(const Connector& c, ObjectId object, const Shape& shape, const Pose& pose);
+  void add(const Connector& c, const ShapeOfObject& where, const Shape& shape, const Pose& pose);
 
   heightmap::Store files_;
   std::vector<Tile> tiles_;
   std::vector<Plane> planes_;
-  std::vector<ObjectId> objects_;
+  std::vector<ShapeOfObject> shapes_;
   double resolution_ = std::numeric_limits<double>::infinity();
   bool is_connected_ = false;
 };

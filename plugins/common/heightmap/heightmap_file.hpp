@@ -26,6 +26,9 @@ struct HeightmapFile {
 /// nodes than 16384 x 16384. [setup]
 HeightmapFile load(const std::string& path);
 
+/// m: so far below the surface of a heightmap bodies are pushed up.
+inline constexpr double depth_of_ground = 1000;
+
 /// Around the surface, m.
 Aabb bounds_of(const Heightmap& heightmap);
 

@@ -23,10 +23,10 @@ class TerrainTravel {
   }
 
   bool follows() const { return terrain_.has_heightmaps(); }
-  /// Scenery that is ground.
-  std::span<const ObjectId> ground() const {
+  /// Of the scenery, what is ground.
+  std::span<const ShapeOfObject> ground() const {
     if (!follows()) return {};
-    return terrain_.objects();
+    return terrain_.shapes();
   }
   /// The points of a robot, those of its wheels first.
   std::span<ground::ContactPoint> contacts_of(Range robot) { return points_[robot]; }

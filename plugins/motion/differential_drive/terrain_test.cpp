@@ -46,8 +46,8 @@ RobotTree two_wheels_and_a_caster() {
 struct OnHills : test::Scene {
   const RobotView& robot;
   OnHills(const Hills& hills, double rate, const RobotTree& tree, const Pose& start = {}, const Settings& settings = {},
-          const Pose& hills_at = {}, bool touches = false)
-      : robot((hills.add_to(*this, hills_at), add("rover", tree, start))) {
+          const Pose& hills_at = {}, bool touches = false, const std::vector<Shape>& walls = {})
+      : robot((hills.add_to(*this, hills_at, walls), add("rover", tree, start))) {
     use("motion.differential_drive", rate, all_robots(), settings);
     if (touches) {
       use_kinematics();
@@ -249,6 +249,17 @@ TEST(DifferentialDriveOnTerrain, SlopesDoNotStopWhatStopsOnContact) {
   }
   EXPECT_GT(against, 0) << "where cells meet, a wheel touches the next one: scenery so steep would have stopped it";
   EXPECT_EQ(s.at().position, free.at().position);
+}
+
+TEST(DifferentialDriveOnTerrain, AWallStopsWhatStopsOnContactThoughItIsOfOneObjectWithTheGround) {
+  const Hills flat(32, 4, [](double, double) { return 0.0; });
+  Shape wall = Shape::box({0.2, 4, 1});
+  wall.origin.position = {2, 0, 0.5};
+  OnHills s(flat, 100, four_wheeler(), {}, {{"on_contact", std::string("stop")}}, {}, true, {wall});
+  s.drive(10, 10);
+  s.run_for(5);
+  EXPECT_GT(s.at().position.x(), 1);
+  EXPECT_LT(s.at().position.x(), 1.9);
 }
 
 }  // namespace

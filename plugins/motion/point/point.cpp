@@ -139,7 +139,7 @@ class Point final : public PerRobotAlgorithm<PointRobot> {
       r.command_pose = c.input(base, keys::command_pose, start);
     else
       r.command_twist = c.input(base, keys::command_twist, Twist{});
-    r.stop = ContactStop(c, *item.robot, terrain_.objects());
+    r.stop = ContactStop(c, *item.robot, terrain_.shapes());
     const std::string_view mode = c.parameters().text("joints");
     if (mode == "auto")
       r.joints = KinematicJoints(c, *item.robot, {}, wheels_of(c, *item.robot));

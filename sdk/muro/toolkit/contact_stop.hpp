@@ -15,12 +15,18 @@ inline constexpr Parameter on_contact =
     text("on_contact", "ignore", "stop: the robot does not move on against what it touches").one_of(on_contact_modes);
 inline constexpr PropertyUse on_contact_reads{"contacts", "of the robot", "on_contact=stop"};
 
+/// One of the collision shapes of an object.
+struct ShapeOfObject {
+  ObjectId object = no_object;
+  std::uint32_t shape = 0;  ///< index among its shapes
+};
+
 /// Whether a robot may move on: one for each robot, made while connecting.
 class ContactStop {
  public:
   ContactStop() = default;
   /// `ground`: scenery on which the robot goes whatever its slope; must outlive this. [setup]
-  ContactStop(Connector& c, const RobotView& robot, std::span<const ObjectId> ground = {}) : ground_(ground) {
+  ContactStop(Connector& c, const RobotView& robot, std::span<const ShapeOfObject> ground = {}) : ground_(ground) {
     if (c.parameters().text(on_contact.name) == "stop") contacts_ = c.read_list(robot.base(), keys::contacts);
   }
 
@@ -29,7 +35,8 @@ class ContactStop {
   bool blocks(const Vec3& origin, const Twist& twist) const {
     if (!contacts_) return false;
     for (const Contact& c : *contacts_) {
-      if (std::find(ground_.begin(), ground_.end(), c.other) != ground_.end()) continue;
+      const auto is_touched = [&c](const ShapeOfObject& s) { return s.object == c.other && s.shape == c.other_shape; };
+      if (std::any_of(ground_.begin(), ground_.end(), is_touched)) continue;
       const Vec3 velocity = twist.at(c.point - origin);
       if (velocity.dot(c.normal) < -steepest * velocity.norm()) return true;
     }
@@ -39,7 +46,7 @@ class ContactStop {
  private:
   static constexpr double steepest = 0.02;  ///< sine of the angle between velocity and surface
   ListIn<Contact> contacts_;
-  std::span<const ObjectId> ground_;
+  std::span<const ShapeOfObject> ground_;
 };
 
 }  // namespace muro

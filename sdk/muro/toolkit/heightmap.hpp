@@ -46,7 +46,7 @@ struct Heightmap {
   /// The cell over or under a point; where it is beyond the rim, the nearest cell.
   Cell cell_at(double x, double y) const {
     const auto number = [](double at, std::uint32_t nodes) {
-      return std::uint32_t(std::clamp(at, 0.0, double(nodes - 2)));
+      return at > 0 ? std::uint32_t(std::min(at, double(nodes - 2))) : 0;  // 0 for what is no number
     };
     return {number((x + 0.5 * size.x()) / spacing_x(), columns), number((y + 0.5 * size.y()) / spacing_y(), rows)};
   }

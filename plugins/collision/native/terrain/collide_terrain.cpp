@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "lanes/ground.hpp"
 #include "lanes/plane_points.hpp"
 #include "lanes/terrain_points.hpp"
 #include "pairs/kernel_view.hpp"
@@ -57,6 +58,7 @@ class TerrainContacts {
     if (points_.size() == first_) add_deep_points();
     remove_duplicates();
     keep_outermost(points_, first_);
+    keep_few();
   }
 
  private:
@@ -166,6 +168,28 @@ class TerrainContacts {
         points_[same] = points_[i];
     }
     points_.resize(count);
+  }
+
+  /// No more than a shape has on a plane: the deepest, then always the one that is farthest from those kept.
+  void keep_few() {
+    if (points_.size() - first_ <= max_ground_points) return;
+    const auto first = points_.begin() + std::ptrdiff_t(first_), end = first + max_ground_points;
+    std::iter_swap(first, std::max_element(first, points_.end(), [](const ContactPoint& a, const ContactPoint& b) {
+                     return a.depth < b.depth;
+                   }));
+    for (auto next = first + 1; next != end; ++next) {
+      const auto distance = [&](const ContactPoint& p) {
+        double nearest = std::numeric_limits<double>::infinity();
+        for (auto kept = first; kept != next; ++kept)
+          nearest = std::min(nearest, (p.point - kept->point).squaredNorm() / solid_.shape.half.squaredNorm() +
+                                          (p.normal - kept->normal).squaredNorm());
+        return nearest;
+      };
+      std::iter_swap(next, std::max_element(next, points_.end(), [&](const ContactPoint& a, const ContactPoint& b) {
+                       return distance(a) < distance(b);
+                     }));
+    }
+    points_.resize(first_ + max_ground_points);
   }
 
   static constexpr int max_numbered = 64;

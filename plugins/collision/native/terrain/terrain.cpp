@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "muro/toolkit/elementary.hpp"
+
 namespace muro::native {
 namespace {
 
@@ -51,7 +53,7 @@ TerrainTile tile_over(const Heightmap& map, const Cells& cells, double x, double
       largest = std::max(largest, std::abs(node.z()));
     }
   return {float(height + rounding * (1e-3 + largest + std::abs(height))), slope_x, slope_y,
-          float((1 + rounding) * std::hypot(off_x, off_y))};
+          float((1 + rounding) * elementary::hypot(off_x, off_y))};
 }
 
 }  // namespace
@@ -73,8 +75,10 @@ Terrain::Terrain(const Heightmap& map, const Pose& pose, double radius) : map_(m
 }
 
 void Terrain::add_level(double reach) {
-  const auto cells_x = std::int64_t(std::ceil(reach / grid_.spacing_x * (1 - 1e-9))),
-             cells_y = std::int64_t(std::ceil(reach / grid_.spacing_y * (1 - 1e-9)));
+  const auto cells_in = [reach](double spacing, std::uint32_t nodes) {
+    return std::int64_t(std::min(std::ceil(reach / spacing * (1 - 1e-9)), double(nodes)));
+  };
+  const std::int64_t cells_x = cells_in(grid_.spacing_x, map_.columns), cells_y = cells_in(grid_.spacing_y, map_.rows);
   const auto columns = (std::int64_t(map_.columns) - 2) / cells_x + 1,
              rows = (std::int64_t(map_.rows) - 2) / cells_y + 1;
   if (std::size_t(columns) * std::size_t(rows) > max_tiles) return;

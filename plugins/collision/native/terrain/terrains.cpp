@@ -16,7 +16,9 @@ void Terrains::connect(Connector& c) {
       if (s.kind != ShapeKind::heightmap) continue;
       try {
         const Heightmap map = store_.file(std::string(c.text(s.mesh))).heightmap(s.size);
-        files_.push_back({&s, map, heightmap::bounds_of(map)});
+        Aabb box = heightmap::bounds_of(map);
+        box.low.z() -= heightmap::depth_of_ground;
+        files_.push_back({&s, map, box});
       } catch (const Error& error) {
         mesh::refuse_collision_mesh(c, object, error);
       }

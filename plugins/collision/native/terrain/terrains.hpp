@@ -19,12 +19,11 @@ class Terrains {
   /// `radius` (m): the farthest that a shape of a robot reaches from its centre. [setup]
   void start(std::span<const Collider> colliders, double radius);
 
-  bool any() const { return !files_.empty(); }
   /// By the number of a collider; null: it is none.
   const Terrain* of(std::uint32_t collider) const {
     return collider < by_collider_.size() ? by_collider_[collider] : nullptr;
   }
-  /// The box around a heightmap of the scenery; null: it is none.
+  /// The box around a heightmap of the scenery and the ground below it; null: it is none.
   const Aabb* box_of(const Shape& shape) const;
 
  private:
