@@ -37,7 +37,6 @@ void AlgorithmLog::log(LogLevel level, std::string_view text) noexcept {
   sink(level, line);
 }
 
-
 void* AlgorithmLog::find_extension(const ExtensionId& id) noexcept {
   std::string why_not;
   void* found = extensions_.find(id, why_not);

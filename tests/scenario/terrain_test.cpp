@@ -160,7 +160,7 @@ class OnRoughTerrain : public OnTerrain {
   OnRoughTerrain() : OnTerrain([](double x, double y) { return 0.6 * std::sin(1.3 * x) * std::cos(0.9 * y); }) {}
 };
 
-TEST_F(OnRoughTerrain, RobotsThatAreMovedByForcesStartAboveTheGroundAndAreToldOfNoOverlap) {
+TEST_F(OnRoughTerrain, RobotsMovedByForcesStartAboveTheGroundWithoutOverlap) {
   const BuiltScenario b = built("", R"(robots:
   crate: {shape: {box: [1, 0.6, 0.4]}, mass: 1, count: 15, place: {random: all}, motion: {use: motion.simplified, rate: 100}}
   tin: {shape: {cylinder: [0.2, 0.6]}, mass: 1, count: 15, place: {random: all}, motion: {use: motion.simplified, rate: 100}})");

@@ -85,7 +85,7 @@ TEST(UsedFeatures, MassAndShapesUseForcesAndContact) {
   EXPECT_EQ(features_of(s.world(), mesh, {}, false, false).count(feature_contact), 0u) << "contact is switched off";
 }
 
-TEST(UsedFeatures, HeightmapsOfTheSceneryAreUsedByMotionsThatFindContactsThemselves) {
+TEST(UsedFeatures, HeightmapsAreUsedByMotionsThatFindContactsThemselves) {
   test::Scene s;
   const Shape hills{.kind = ShapeKind::heightmap, .size = {8, 8, 1}};
   s.world().add_scenery("hills", {}, std::span<const Shape>(&hills, 1));

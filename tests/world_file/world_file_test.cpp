@@ -79,7 +79,7 @@ double sliding_distance(const std::string& more_of_world) {
   return built.simulation->world().value("block/block", keys::pose).position.x();
 }
 
-TEST(WorldFileOfAScenario, FrictionInAWorldOfMuJoCoIsTheLargerUnlessTheScenarioSaysOther) {
+TEST(WorldFileOfAScenario, FrictionOfMuJoCoIsTheLargerUnlessTheScenarioSaysOther) {
   const double g = 9.81;
   EXPECT_NEAR(sliding_distance(""), 1 / (2 * 0.8 * g), 0.003);
   EXPECT_NEAR(sliding_distance(", friction: {combine: min}"), 1 / (2 * 0.2 * g), 0.003);

@@ -72,7 +72,7 @@ TEST(GroundKernel, ALaneGivesTheBitsOfEachRobotAlone) {
   }
 }
 
-TEST(GroundKernel, GivesTheVerticesOfHullsBelowThePlaneAsPairsDoAndSaysWhereTheyAreTooMany) {
+TEST(GroundKernel, GivesVerticesOfHullsAsPairsDoAndTellsWhereTheyAreTooMany) {
   Randoms random(6);
   const lane::Isa best = lane::best_isa();
   int touching = 0, too_many = 0;

@@ -223,7 +223,7 @@ struct Heap : CollisionScene {
   }
 };
 
-TEST(CollisionNative, HullsInAHeapHaveTheSameContactsInAnyOrderAndOnAnyNumberOfThreads) {
+TEST(CollisionNative, HullsInAHeapHaveEqualContactsInAnyOrderAndOnAllThreads) {
   const test::ScratchFolder folder;
   const std::string file = folder.file("rock.obj", wedge);
   Heap heap(file, false, 1), other(file, true, 3);
@@ -262,7 +262,7 @@ struct Dumbbells : CollisionScene {
   }
 };
 
-TEST(CollisionNative, RobotsThatWereApartAreSeenToTouchAtOnceHoweverTheyMoveAndTurn) {
+TEST(CollisionNative, RobotsThatWereApartAreSeenToTouchAtOnceHoweverTheyMove) {
   Randoms random(8);
   Pose at_a{{0, 0, 0}, random.rotation()}, at_b{{0.6, 0.1, 0}, random.rotation()};
   Dumbbells followed(at_a, at_b);

@@ -302,7 +302,7 @@ TEST(Scip2, ASnapshotHoldsTheDevice) {
 }
 
 /// As `printf 'SCIP2.0\\nVV\\n' | nc -N` does.
-TEST(Scip2, AClientThatClosesItsSideGetsTheRepliesOfTheNextTurnAndIsDisconnected) {
+TEST(Scip2, AClientThatClosesItsSideGetsItsRepliesAndIsDisconnected) {
   Room s;
   s.use_laser();
   s.use_device();

@@ -251,7 +251,7 @@ TEST(DifferentialDriveOnTerrain, SlopesDoNotStopWhatStopsOnContact) {
   EXPECT_EQ(s.at().position, free.at().position);
 }
 
-TEST(DifferentialDriveOnTerrain, AWallStopsWhatStopsOnContactThoughItIsOfOneObjectWithTheGround) {
+TEST(DifferentialDriveOnTerrain, AWallOfOneObjectWithTheGroundStopsWhatStopsOnContact) {
   const Hills flat(32, 4, [](double, double) { return 0.0; });
   Shape wall = Shape::box({0.2, 4, 1});
   wall.origin.position = {2, 0, 0.5};

@@ -3,10 +3,10 @@
 #include <filesystem>
 #include <optional>
 
-#include "plugins/common/csv_file/csv_file.hpp"
 #include "means.hpp"
 #include "muro/ext/outputs.hpp"
 #include "muro/plugin.hpp"
+#include "plugins/common/csv_file/csv_file.hpp"
 #include "selection.hpp"
 
 namespace {

@@ -8,8 +8,8 @@
 namespace muro::native::lanes {
 inline namespace MURO_ISA {
 
-/// Where slopes differ by no more than this, normals differ by less than 18 degrees: then all that touches a round shape
-/// at one place is one contact, the deepest.
+/// Where slopes differ by no more than this, normals differ by less than 18 degrees: then all that touches a round
+/// shape at one place is one contact, the deepest.
 inline constexpr double gentle_spread = 0.16;
 
 /// Gives `sink(mask, point, normal, depth, number)` the points in which a shape and the ground below a heightmap
