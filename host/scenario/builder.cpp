@@ -71,6 +71,10 @@ class SceneBuilder {
     terrain_.add_scenery(world_);
     for (const SceneryObject& o : scenario_.objects) {
       if (!is_ground(o)) continue;
+      const bool is_readable = problems_.collect(fmt::format("{}: object `{}`: ", o.location.text(), o.name), [&] {
+        if (o.shape.kind == ShapeKind::heightmap) terrain_.check_file(o.shape, o.mesh);
+      });
+      if (!is_readable) continue;
       Occupancy unused;
       try {
         for (const Pose& pose :

@@ -31,6 +31,8 @@ class Terrain {
  public:
   explicit Terrain(ShapeFiles& files) : files_(files) {}
 
+  /// Throws SetupError when the file of a heightmap cannot be read.
+  void check_file(const Shape& heightmap, const std::string& file) { files_.heightmaps.of(file, heightmap.size); }
   /// Adds a shape of the scenery that stands at `pose`; what is neither heightmap nor plane, or does not look up, is no
   /// ground.
   void add(const Shape& shape, const std::string& file, const Pose& pose);

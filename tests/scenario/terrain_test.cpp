@@ -142,6 +142,15 @@ TEST_F(OnTerrain, WhatNoContactMovesMayBePutIntoAHillWhereItStandsAnyway) {
   EXPECT_EQ(overlap("point", 4, -2), "");
 }
 
+TEST_F(OnTerrain, AFileThatIsNoHeightmapIsToldOnceAtItsObject) {
+  const std::string file = folder_.file("odd.png", "no picture");
+  const std::string said = test::complaint_of(
+      [&] { built(fmt::format("    odd: {{shape: {{heightmap: {}, size: [1, 1, 1]}}}}", file), "robots: {}"); });
+  EXPECT_NE(said.find("s.yaml:4:10: object `odd`: "), std::string::npos) << said;
+  EXPECT_NE(said.find("has 10 bytes and is neither a picture"), std::string::npos) << said;
+  EXPECT_EQ(said.find("neither a picture"), said.rfind("neither a picture")) << said;
+}
+
 TEST_F(OnTerrain, ARobotWithAHeightmapIsRefusedInOneSentence) {
   const std::string advice =
       "has a heightmap as a collision shape, which only scenery can have; put `{heightmap: file, size: [x, y, z]}` "
