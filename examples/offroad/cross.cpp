@@ -63,10 +63,10 @@ class HeightGrid {
   }
 
  private:
-  static constexpr int side = 48;
+  static constexpr int middle = 24, side = 2 * middle;
   static constexpr double cell = 0.2;  // m
   static int number(double x, double y) {
-    const double column = std::floor(x / cell) + side / 2, row = std::floor(y / cell) + side / 2;
+    const double column = std::floor(x / cell) + middle, row = std::floor(y / cell) + middle;
     return column >= 0 && column < side && row >= 0 && row < side ? int(row) * side + int(column) : -1;
   }
   struct Cell {
@@ -145,8 +145,9 @@ class Cross {
   void find_directions(const Step& now) {
     const std::size_t columns = std::size_t(now.integer_input(at_columns)[0]);
     for (std::size_t i = 0; i < now.input(at_ranges).size(); ++i) {
-      const double azimuth = now.input(at_min_angle)[0] + double(i % columns) * now.input(at_increment)[0];
-      const double elevation = now.input(at_min_elevation)[0] + double(i / columns) * now.input(at_rise)[0];
+      const std::size_t row = i / columns, column = i % columns;
+      const double azimuth = now.input(at_min_angle)[0] + double(column) * now.input(at_increment)[0];
+      const double elevation = now.input(at_min_elevation)[0] + double(row) * now.input(at_rise)[0];
       const double level = muro_cos(elevation);
       directions_.push_back({level * muro_cos(azimuth), level * muro_sin(azimuth), muro_sin(elevation)});
     }
