@@ -27,11 +27,14 @@ struct AlgorithmSetup {
   struct ItemSetup {
     std::string name, place;  ///< as those of the setup
     std::map<std::string, ParameterInput> parameters;
+    std::map<std::string, std::string> parameter_places;
   };
   std::vector<ItemSetup> item_setups;  ///< one an item; none: all have `parameters`
   std::string subsystem;               ///< "motion": with the robot's name, keys the random numbers
   std::string folder;                  ///< relative paths in parameters start here; "": the working directory
   std::string place;                   ///< "file:line:column" of the scenario, put before messages; may be empty
+  /// Of parameters that are written elsewhere: in another file, or on the command line.
+  std::map<std::string, std::string> parameter_places;
 };
 
 /// What stands before a message about something at `place`, a place in a file.

@@ -30,6 +30,7 @@ Instance::Instance(const abi::AlgorithmEntry& entry, AlgorithmSetup setup, World
   for (const AlgorithmSetup::ItemSetup& item : setup_.item_setups) {
     AlgorithmSetup one;
     one.name = item.name, one.use = setup_.use, one.place = item.place, one.parameters = item.parameters;
+    one.parameter_places = item.parameter_places;
     item_parameters_.emplace_back(*entry.description, one);
   }
   const Kind kind = entry.description->kind;

@@ -26,9 +26,10 @@ void join_world(AlgorithmSetup& world, const AlgorithmSetup& joining) {
       throw SetupError(
           fmt::format("{}{} and {} would move one robot in one world of {}; give one of them another `world`",
                       prefix_of(joining.place), joining.name, world.name, joining.use));
-  world.item_setups.resize(world.items.size(), {world.name, world.place, world.parameters});
+  world.item_setups.resize(world.items.size(), {world.name, world.place, world.parameters, world.parameter_places});
   world.items.insert(world.items.end(), joining.items.begin(), joining.items.end());
-  world.item_setups.resize(world.items.size(), {joining.name, joining.place, joining.parameters});
+  world.item_setups.resize(world.items.size(),
+                           {joining.name, joining.place, joining.parameters, joining.parameter_places});
 }
 
 /// Of a kind whose results would mix, one algorithm serves an object, and one that serves the world serves all.

@@ -57,7 +57,7 @@ std::string allowed_values(const Parameter& p) {
     case ParameterType::text:
       break;
   }
-  if (p.choices.empty()) return "a text";
+  if (p.choices.empty()) return p.is_required ? "a text that is not empty" : "a text";
   return fmt::format("one of {}", fmt::join(p.choices, " "));
 }
 
@@ -76,18 +76,27 @@ bool inside(const Parameter& p, double x) { return x >= least(p) && x <= most(p)
 
 ParameterSet::ParameterSet(const Description& description, const AlgorithmSetup& setup) {
   std::vector<std::string> problems, names;
+  /// Puts the place of the parameter before the problems from `first` on.
+  const auto place = [&](std::size_t first, const std::string& parameter) {
+    const auto elsewhere = setup.parameter_places.find(parameter);
+    const std::string& at = elsewhere == setup.parameter_places.end() ? setup.place : elsewhere->second;
+    for (std::size_t i = first; i < problems.size(); ++i)
+      problems[i] = fmt::format("{}{}: {}", prefix_of(at), setup.name, problems[i]);
+  };
   for (const Parameter& p : description.parameters) {
     names.emplace_back(p.name);
-    const auto given = setup.parameters.find(std::string(p.name));
+    const auto given = setup.parameters.find(names.back());
+    const std::size_t before = problems.size();
     values_.push_back(value_of(p, given == setup.parameters.end() ? nullptr : &given->second, problems));
+    place(before, names.back());
   }
   for (const auto& [name, unused] : setup.parameters) {
     if (std::find(names.begin(), names.end(), name) != names.end()) continue;
     problems.push_back(fmt::format("`{}` has no parameter `{}`{}; it has{}", description.id, name,
                                    did_you_mean(name, names),
                                    names.empty() ? " none" : fmt::format(": {}", fmt::join(names, ", "))));
+    place(problems.size() - 1, name);
   }
-  for (std::string& p : problems) p = fmt::format("{}{}: {}", prefix_of(setup.place), setup.name, p);
   if (!problems.empty()) throw SetupError(problems);
   view_ = Parameters(values_);
 }
@@ -121,7 +130,8 @@ ParameterValue ParameterSet::value_of(const Parameter& p, const ParameterInput* 
     case ParameterType::text:
       if (const auto* s = std::get_if<std::string>(given)) {
         v.text = texts_.emplace_back(*s);
-        fine = p.choices.empty() || std::find(p.choices.begin(), p.choices.end(), v.text) != p.choices.end();
+        fine = p.choices.empty() ? !p.is_required || !v.text.empty()
+                                 : std::find(p.choices.begin(), p.choices.end(), v.text) != p.choices.end();
       }
       break;
     case ParameterType::reals:

@@ -248,6 +248,21 @@ double RobotTree::standing_height(std::span<const double> positions, const Corne
   return -lowest;
 }
 
+void RobotTree::remove_collision_shapes(
+    const std::function<bool(const std::string& body, const Shape& shape)>& is_lost) {
+  for (Component& component : components_)
+    std::erase_if(component.constants, [&](Constant& c) {
+      if (c.key.name != keys::collision_shapes.name) return false;
+      std::vector<Shape> shapes(c.count);
+      std::memcpy(static_cast<void*>(shapes.data()), c.data.data(), c.data.size());
+      std::erase_if(shapes, [&](const Shape& shape) { return is_lost(component.name, shape); });
+      c.count = std::uint32_t(shapes.size());
+      c.data.resize(shapes.size() * sizeof(Shape));
+      std::memcpy(c.data.data(), static_cast<const void*>(shapes.data()), c.data.size());
+      return shapes.empty();
+    });
+}
+
 bool RobotTree::has_collision_meshes() const {
   bool any = false;
   each_collision_bounds(

@@ -9,6 +9,7 @@
 #include "core/text_table.hpp"
 #include "muro/ext/package_folders.hpp"
 #include "muro/robot_builder.hpp"
+#include "muro/shape.hpp"
 
 namespace muro {
 
@@ -80,6 +81,8 @@ class RobotTree final : public RobotBuilder, public PackageFolders {
   /// Radius (m) of the vertical cylinder about the base's origin that holds all collision shapes.
   double footprint_radius(std::span<const double> positions = {}, const CornersOfMesh& corners_of_mesh = {}) const;
   bool has_collision_meshes() const;
+  /// `is_lost` is asked for each, with the name of its body.
+  void remove_collision_shapes(const std::function<bool(const std::string& body, const Shape& shape)>& is_lost);
 
  private:
   void set_raw(const KeyInfo& key, const void* data, std::uint32_t count) noexcept override;

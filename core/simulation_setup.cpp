@@ -139,10 +139,12 @@ void Simulation::check_outputs() {
 
 void Simulation::start_all() {
   if (outputs_closed_ || inputs_closed_) extensions_->inputs().keep_closed();
+  if (outputs_closed_) extensions_->inputs().show_all();
   for (const std::size_t i : in_order_of(order_of)) {
     const Kind kind = instances_[i]->description().kind;
     if (!outputs_closed_ || (kind != Kind::recorder && kind != Kind::view)) instances_[i]->start();
   }
+  extensions_->inputs().check_recording();
 }
 
 void Simulation::schedule() {

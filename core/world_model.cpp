@@ -14,6 +14,12 @@ void WorldModel::gravity(const Vec3& acceleration) noexcept {
   gravity_ = acceleration;
 }
 
+void WorldModel::friction_rule(std::uint32_t rule) noexcept {
+  if (rule > std::uint32_t(FrictionRule::max))
+    return report(Severity::error, "a friction rule that is none of 0 (min), 1 (mean), 2 (product), 3 (max)", 0, 0);
+  friction_rule_ = static_cast<FrictionRule>(rule);
+}
+
 void WorldModel::scenery(std::string_view name, const Pose& pose, std::span<const Shape> collisions,
                          std::span<const Shape> visuals) noexcept {
   scenery_.push_back(

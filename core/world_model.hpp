@@ -7,6 +7,7 @@
 
 #include "core/robot_tree.hpp"
 #include "muro/model_reader.hpp"
+#include "muro/toolkit/pair_surface.hpp"
 
 namespace muro {
 
@@ -31,6 +32,7 @@ class WorldModel final : public WorldBuilder, public PackageFolders {
   RobotBuilder& model(std::string_view name, const Pose& pose) noexcept override;
   TextId intern(std::string_view text) noexcept override;
   void report(Severity severity, std::string_view text, int line, int column) noexcept override;
+  void friction_rule(std::uint32_t rule) noexcept override;
 
   std::span<const PackageFolder> package_folders() const noexcept override { return packages_; }
   /// For the reader that builds it; must outlive that.
@@ -41,6 +43,7 @@ class WorldModel final : public WorldBuilder, public PackageFolders {
 
   /// What the file says, if it does.
   const std::optional<Vec3>& gravity() const { return gravity_; }
+  std::optional<FrictionRule> friction_rule() const { return friction_rule_; }
   const std::deque<Scenery>& scenery() const { return scenery_; }
   const std::deque<Model>& models() const { return models_; }
   /// What the shapes of scenery name; a tree has texts of its own.
@@ -50,6 +53,7 @@ class WorldModel final : public WorldBuilder, public PackageFolders {
 
  private:
   std::optional<Vec3> gravity_;
+  std::optional<FrictionRule> friction_rule_;
   std::deque<Scenery> scenery_;
   std::deque<Model> models_;
   TextTable texts_;

@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "core/external/input_log.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 #include <tuple>
 
+#include "core/algorithm_setup.hpp"
+#include "core/error.hpp"
+#include "core/external/run_requests.hpp"
+#include "core/running_call.hpp"
 #include "core/schedule/scheduler.hpp"
 #include "core/world.hpp"
 
@@ -29,14 +35,26 @@ void RecordedChannel::skip_missed(std::int64_t time) {
 }
 
 bool RecordedChannel::replay(std::int64_t time, ExternalInput& input) noexcept {
+  if (time < 0) return log_.shows_all() && take_next(input);
   skip_missed(time);
   if (next_ == entries_.size()) return false;
   const Entry& e = entries_[next_];
-  if (e.epoch != log_.epoch() || e.time != time) return false;
-  input = {e.kind, e.source, std::string_view(bytes_).substr(e.begin, e.size)};
-  ++next_;
+  if (e.epoch != log_.epoch() || e.time != time || !take_next(input)) return false;
   log_.record_again({name_, e.epoch, e.time, input});
   return true;
+}
+
+bool RecordedChannel::take_next(ExternalInput& input) {
+  if (next_ == entries_.size()) return false;
+  const Entry& e = entries_[next_++];
+  input = {e.kind, e.source, std::string_view(bytes_).substr(e.begin, e.size)};
+  return true;
+}
+
+std::uint32_t RecordedChannel::highest_kind() const {
+  std::uint32_t highest = 0;
+  for (const Entry& e : entries_) highest = std::max(highest, e.kind);
+  return highest;
 }
 
 std::int64_t RecordedChannel::next_time() const {
@@ -74,11 +92,29 @@ bool InputLog::set_sink(InputSink* sink) noexcept {
 bool InputLog::set_recording(std::span<const RecordedInput> inputs) noexcept {
   if (has_recording_) return false;
   has_recording_ = true;
+  if (const Callee* const replay = running_call().callee.load())
+    replay_ = fmt::format("{}{} ({}): ", prefix_of(replay->place), replay->name, replay->use);
   for (const RecordedInput& input : inputs) {
     if (!find(input.channel)) channels_.push_back({RecordedChannel(*this, std::string(input.channel)), false});
     find(input.channel)->add(input);
   }
   return true;
+}
+
+void InputLog::check_recording() const {
+  std::string channels;
+  for (const Place& p : channels_)
+    if (p.is_taken) channels += (channels.empty() ? "`" : ", `") + p.channel.name() + "`";
+  for (const Place& p : channels_)
+    if (!p.is_taken)
+      throw SetupError(
+          fmt::format("{}the recording has {} of channel `{}`, which no algorithm of the scenario takes; {}", replay_,
+                      p.channel.size() == 1 ? "an input" : fmt::format("{} inputs", p.channel.size()), p.channel.name(),
+                      channels.empty() ? "there is none that takes inputs" : "there are the channels " + channels));
+  constexpr auto last = std::uint32_t(RunRequests::Kind::stop);
+  if (own_.highest_kind() > last)
+    throw SetupError(fmt::format("{}the recording cannot be replayed: kind {} of channel `{}` is none of 0 to {}",
+                                 replay_, own_.highest_kind(), own_.name(), last));
 }
 
 std::uint64_t InputLog::unused(std::string_view& channel) const noexcept {

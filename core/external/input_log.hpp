@@ -27,6 +27,8 @@ class RecordedChannel final : public InputChannel {
   void add(const RecordedInput& input);
   /// ns, of the next recorded input of this epoch; the greatest number when there is none.
   std::int64_t next_time() const;
+  std::size_t size() const { return entries_.size(); }
+  std::uint32_t highest_kind() const;
   std::size_t unused() const { return unused_ + (entries_.size() - next_); }
 
  private:
@@ -37,6 +39,7 @@ class RecordedChannel final : public InputChannel {
     std::size_t begin, size;  ///< in bytes_
   };
   void skip_missed(std::int64_t time);
+  bool take_next(ExternalInput& input);
 
   InputLog& log_;
   std::string name_;
@@ -64,6 +67,11 @@ class InputLog final : public ExternalInputs {
 
   void set_initial_hash(std::uint64_t hash) { initial_hash_ = hash; }
   void keep_closed() { may_open_ = false; }
+  /// The same where nothing is run either: then replay(-1) gives all inputs, to be looked at.
+  void show_all() { shows_all_ = true; }
+  bool shows_all() const { return shows_all_; }
+  /// Throws SetupError where the recording has what this scenario does not take. Once all channels are asked for.
+  void check_recording() const;
   /// The simulation was reset or restored: time jumps.
   void begin_epoch() { ++epoch_; }
   bool has_recording() const { return has_recording_; }
@@ -90,7 +98,8 @@ class InputLog final : public ExternalInputs {
   std::deque<Place> channels_;
   InputSink* sink_ = nullptr;
   bool has_recording_ = false;
-  bool may_open_ = true;
+  bool may_open_ = true, shows_all_ = false;
+  std::string replay_;  ///< who has the recording: begins messages about it
   std::uint64_t epoch_ = 0;
   std::uint64_t initial_hash_ = 0;
   std::uint64_t count_ = 0;

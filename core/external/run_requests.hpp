@@ -55,8 +55,10 @@ class RunRequests final : public RunControl {
   /// Carries out what was asked, and stays here while the run is paused. `stop` ends a pause.
   void carry_out(Simulation& simulation, const std::function<bool()>& stop);
 
- private:
+  /// Of an input of the simulation's own channel.
   enum class Kind : std::uint32_t { place, set, reset, snapshot, restore, stop };
+
+ private:
   struct Request {
     Kind kind;
     std::string bytes;  ///< what is recorded: see encode and decode

@@ -12,7 +12,7 @@
 namespace muro::abi {
 
 inline constexpr std::uint32_t sdk_major = 4;
-inline constexpr std::uint32_t sdk_minor = 0;
+inline constexpr std::uint32_t sdk_minor = 1;
 
 /// The C-only head of a plugin's table. Hosts read nothing else before all fields agree with theirs.
 struct Stamp {

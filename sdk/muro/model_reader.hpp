@@ -20,6 +20,9 @@ class WorldBuilder {
   virtual TextId intern(std::string_view text) noexcept = 0;
   /// As RobotBuilder::report.
   virtual void report(Severity severity, std::string_view text, int line = 0, int column = 0) noexcept = 0;
+  /// How the friction of a pair follows from those of its shapes: a FrictionRule (toolkit/pair_surface.hpp). It counts
+  /// where the scenario names none.
+  virtual void friction_rule(std::uint32_t rule) noexcept = 0;
 
  protected:
   ~WorldBuilder() = default;

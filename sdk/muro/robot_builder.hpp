@@ -6,7 +6,12 @@
 
 namespace muro {
 
-enum class Severity : std::uint8_t { note, warning, error };
+enum class Severity : std::uint8_t {
+  note,
+  warning,
+  error,
+  lost_collision,  ///< a warning: a shape that others would touch is left out; an error with `--strict`
+};
 
 /// Builds a robot's tree depth first (MuRoSimF, Section 2.1). Each call adds one block behind the
 /// last one; `fork` opens two branches, each closed by `end`:

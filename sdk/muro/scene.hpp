@@ -89,4 +89,16 @@ struct Contact {
 };
 MURO_OPAQUE_TYPE(Contact, "muro.Contact", opaque);
 
+/// One point in which two bodies touch, and what it does to the first of them; the other gets the opposite. Each
+/// stands in one list.
+struct ContactWrench {
+  ObjectId body = no_object;
+  ObjectId other = no_object;
+  Vec3 point = Vec3::Zero();   ///< m, world
+  Vec3 normal = Vec3::Zero();  ///< unit, world: the direction in which `body` is pushed
+  double depth = 0;            ///< m: how far the bodies overlap along the normal; below 0 where they are apart
+  Wrench wrench{};             ///< on `body`, at the point, world axes; not a number where it is not known
+};
+MURO_OPAQUE_TYPE(ContactWrench, "muro.ContactWrench", opaque);
+
 }  // namespace muro

@@ -79,6 +79,13 @@ inline constexpr Key<Pose> command_pose{"command.pose", "m", "wanted pose of the
 // The scene.
 inline constexpr Key<SceneIndex> scene_index{"scene.index", "m", "on the world object: shapes and boxes for search"};
 inline constexpr Key<Contact> contacts{"contacts", "m", "list on the base of a robot: where it touches"};
+// Who answers for contacts writes them one by one where somebody reads them, on the base of a robot that forces move.
+/// Of the last step, by the engine that moves the robot.
+inline constexpr Key<ContactWrench> contact_wrenches_of_motion{
+    "contact.wrenches.motion", "m, N, N m", "list on the base of a robot: what its engine's contacts did to it"};
+/// By the contact algorithm, for the step that begins.
+inline constexpr Key<ContactWrench> contact_wrenches_of_law{
+    "contact.wrenches.law", "m, N, N m", "list on the base of a robot: what the contact algorithm does to it"};
 /// Arrays, constant, on the world object: the named places of a scenario.
 inline constexpr Key<TextId> place_names{"place.names", "1", "name of the place to which each rectangle belongs"};
 inline constexpr Key<double> place_rectangles{"place.rectangles", "m",

@@ -96,6 +96,7 @@ void add_functions_of_hosts(Lines& out) {
   FUNCTION(WorldBuilder, model);
   FUNCTION(WorldBuilder, intern);
   FUNCTION(WorldBuilder, report);
+  FUNCTION(WorldBuilder, friction_rule);
 }
 
 void add_functions_of_plugins(Lines& out) {
@@ -201,10 +202,25 @@ void add_tables(Lines& out) {
 }
 #pragma GCC diagnostic pop
 
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Winvalid-offsetof"
+/// Values of properties that minor versions have brought. The hash of the contract is that of N.0, which older plugins
+/// have, so that these are held by this record alone.
+void add_later_structs(Lines& out) {
+  using abi::Place;
+  add_places(std::initializer_list<Place>{MURO_SIZE(ContactWrench), MURO_PLACE(ContactWrench, body),
+                                          MURO_PLACE(ContactWrench, other), MURO_PLACE(ContactWrench, point),
+                                          MURO_PLACE(ContactWrench, normal), MURO_PLACE(ContactWrench, depth),
+                                          MURO_PLACE(ContactWrench, wrench)},
+             out);
+}
+#pragma GCC diagnostic pop
+
 Lines present() {
   Lines out;
   add_tables(out);
   add_places(abi::contract_places, out);
+  add_later_structs(out);
   add_functions_of_hosts(out);
   add_functions_of_plugins(out);
   add_extension(Inspection::id(), out);

@@ -102,6 +102,40 @@ TEST(InputsFromOutside, AreRecordedOnceMoreFromAReplay) {
   }
 }
 
+TEST(InputsFromOutside, OfARecordingFitTheScenarioOrAreRefusedBeforeTheRun) {
+  const auto complaint = [](const RecordedInput& input) {
+    EmptyLog empty;
+    empty.log.channel("laser");
+    const RecordedInput good{"laser", 0, 5, {1, 0, "BM"}}, all[] = {good, input};
+    EXPECT_TRUE(empty.log.set_recording(all));
+    return test::complaint_of([&] { empty.log.check_recording(); });
+  };
+  EXPECT_EQ(complaint({"laser", 0, 7, {1, 0, "GD"}}), "no complaint");
+  EXPECT_EQ(complaint({"simulation", 0, 7, {5, 0, ""}}), "no complaint");
+  EXPECT_EQ(complaint({"laser_2", 0, 7, {1, 0, "GD"}}),
+            "the recording has an input of channel `laser_2`, which no algorithm of the scenario takes; there are the "
+            "channels `laser`");
+  EXPECT_EQ(complaint({"simulation", 0, 7, {6, 0, ""}}),
+            "the recording cannot be replayed: kind 6 of channel `simulation` is none of 0 to 5");
+}
+
+TEST(InputsFromOutside, AreAllShownWhereAScenarioIsOnlyLookedAt) {
+  const RecordedInput all[] = {{"laser", 0, 5, {1, 0, "BM"}}, {"laser", 2, 1, {2, 0, ""}}};
+  ExternalInput input;
+  EmptyLog run;
+  ASSERT_TRUE(run.log.set_recording(all));
+  EXPECT_FALSE(run.log.channel("laser")->replay(-1, input)) << "a run takes them at their times";
+  EmptyLog look;
+  look.log.show_all();
+  ASSERT_TRUE(look.log.set_recording(all));
+  InputChannel* const laser = look.log.channel("laser");
+  ASSERT_TRUE(laser->replay(-1, input));
+  EXPECT_EQ(input.bytes, "BM");
+  ASSERT_TRUE(laser->replay(-1, input));
+  EXPECT_EQ(input.kind, 2u);
+  EXPECT_FALSE(laser->replay(-1, input));
+}
+
 TEST(InputsFromOutside, HaveOneRecorderOneRecordingAndOneUserOfEachChannel) {
   Sink sink;
   EmptyLog empty;

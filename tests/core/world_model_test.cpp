@@ -22,12 +22,14 @@ TEST(WorldModel, KeepsWhatItIsTold) {
   WorldBuilder& builder = world;
   const Shape ball = Shape::sphere(1), box = Shape::box({1, 1, 1});
   builder.gravity({0, 0, -1.6});
+  builder.friction_rule(std::uint32_t(FrictionRule::product));
   builder.scenery("rock", {{1, 2, 3}, Quat::Identity()}, {&ball, 1}, {&box, 1});
   builder.model("cart", {{4, 5, 6}, Quat::Identity()}).base("body");
   builder.model("car", {}).base("chassis");
   world.close();
   EXPECT_EQ(errors(world), std::vector<std::string>{});
   EXPECT_EQ(world.gravity(), Vec3(0, 0, -1.6));
+  EXPECT_EQ(world.friction_rule(), FrictionRule::product);
   ASSERT_EQ(world.scenery().size(), 1u);
   EXPECT_EQ(world.scenery()[0].collisions.at(0).kind, ShapeKind::sphere);
   EXPECT_EQ(world.scenery()[0].visuals.at(0).kind, ShapeKind::box);
@@ -40,16 +42,20 @@ TEST(WorldModel, TellsWhatCannotBe) {
   WorldModel world;
   WorldBuilder& builder = world;
   builder.gravity(Vec3::Constant(NAN));
+  builder.friction_rule(4);
   builder.scenery("rock", {}, {}, {});
   builder.scenery("", {}, {}, {});
   builder.model("rock", {}).base("body");
   builder.model("far", {Vec3::Constant(INFINITY), Quat::Identity()});
   world.close();
   EXPECT_EQ(errors(world), (std::vector<std::string>{"a gravity with a component that is not from -1e4 to 1e4 m/s^2",
+                                                     "a friction rule that is none of 0 (min), 1 (mean), 2 (product), "
+                                                     "3 (max)",
                                                      "scenery has no name",
                                                      "two things of the world are named `rock`; names are unique",
                                                      "a model `far` has a coordinate that is not from -1e8 to 1e8 m"}));
   EXPECT_FALSE(world.gravity().has_value());
+  EXPECT_FALSE(world.friction_rule().has_value());
   // one that was never built is a matter of its own tree
   EXPECT_FALSE(world.models()[1].tree.usable());
 }

@@ -30,6 +30,7 @@ class InputChannel {
   /// `input` takes effect in the step at `time`. Copies. [step]
   virtual void record(std::int64_t time, const ExternalInput& input) noexcept = 0;
   /// In a replay: takes the next input that was recorded for `time`. False: there is no other. [step]
+  /// With a `time` below 0, from start() on: the next of all, where the scenario is only looked at; else none.
   virtual bool replay(std::int64_t time, ExternalInput& input) noexcept = 0;
 
  protected:
