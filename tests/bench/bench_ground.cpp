@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
+#include <ctime>
 #include <random>
 
 #include "muro/toolkit/rotations.hpp"
@@ -23,21 +23,25 @@ using scanner::Viewpoint;
 constexpr std::uint32_t nodes = 513;
 constexpr int turns = 15;
 
-double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+/// s: of this thread, so that other programs do not count.
+double now() {
+  timespec t;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
+}
 
 /// Hills of seven octaves, 200 x 200 m and 15 m high.
 heightmap::HeightmapFile hills() {
-  heightmap::HeightmapFile file;
-  file.columns = file.rows = nodes;
+  std::vector<float> values;
   for (std::uint32_t row = 0; row < nodes; ++row)
     for (std::uint32_t column = 0; column < nodes; ++column) {
       const double x = column / double(nodes - 1), y = row / double(nodes - 1);
       double z = 0, octave = 0.5;
       for (int k = 1; k < 128; k *= 2, octave *= 0.5)
         z += octave * std::sin(6.2 * k * x + k) * std::cos(5.7 * k * y + 2 * k);
-      file.values.push_back(float(0.5 + 0.4 * z));
+      values.push_back(float(0.5 + 0.4 * z));
     }
-  return file;
+  return heightmap::HeightmapFile::of(std::move(values), nodes, nodes);
 }
 
 class EmbreeGround {

@@ -66,7 +66,8 @@ class Vehicles : public test::Scene {
     const RobotTree rover = read_model(rover_urdf);
     const int side = int(std::ceil(std::sqrt(count)));
     for (int v = 0; v < count; ++v) {
-      const double x = apart * (v % side - 0.5 * (side - 1)), y = apart * (v / side - 0.5 * (side - 1));
+      const int row = v / side, column = v % side;
+      const double x = apart * (column - 0.5 * (side - 1)), y = apart * (row - 0.5 * (side - 1));
       add(std::to_string(v), rover,
           {{x, y, 0.15 + (hills ? hills->map.ground_at(x, y)->height : 0)}, Quat::Identity()});
     }

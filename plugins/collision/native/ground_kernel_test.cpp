@@ -20,6 +20,7 @@ struct Eight {
   Pose poses[8];
   std::array<double, most * stride> contacts[8] = {};
   std::array<double, words> signatures[8];
+  std::uint8_t left[1] = {};  ///< by slot
 
   explicit Eight(const KernelShape& of) : shape(of) {
     for (auto& s : signatures) s.fill(-1);
@@ -33,6 +34,8 @@ struct Eight {
     batch.ground_count = 1;
     batch.contact_stride = stride;
     batch.used = count;
+    left[0] = 0;
+    batch.left = left;
     for (int i = 0; i < count; ++i) {
       batch.poses[i].base = poses[first + i].position.data();
       batch.contacts[i] = contacts[first + i].data();

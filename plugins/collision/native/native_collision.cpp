@@ -42,6 +42,7 @@ int points_of(const KernelShape& shape, const double* signature, SignatureCursor
 struct NativeCollision::Batch {
   GroundBatch ground;
   std::uint32_t robots[batch_size];
+  unsigned merged = 0;  ///< a bit for each that touches more than the ground
 };
 
 void NativeCollision::connect(Connector& c) {
@@ -123,7 +124,8 @@ void NativeCollision::allocate_signatures() {
   std::size_t all = 0;
   for (std::uint32_t r = 0; r < robots_.size(); ++r) {
     if (!robots_[r].list) continue;
-    all += signature_size(r);
+    ground_robots_[r].words = signature_size(r);
+    all += ground_robots_[r].words;
     const std::size_t most = max_ground_points * index_->robots[r].count * grounds_.size();
     for (std::size_t i = 0; i < most; ++i) robots_[r].list.push_back({});
     robots_[r].list.clear();
@@ -133,7 +135,7 @@ void NativeCollision::allocate_signatures() {
   for (std::uint32_t r = 0; r < robots_.size(); ++r) {
     if (!robots_[r].list) continue;
     ground_robots_[r].signature = next;
-    next += signature_size(r);
+    next += ground_robots_[r].words;
   }
 }
 
@@ -164,11 +166,12 @@ double NativeCollision::distance_bound(const TransformedCollider& a, const Trans
   return separation_bound(a.shape, b.shape);
 }
 
+/// `is_left`: by the kernel.
 void NativeCollision::collide_with_terrain(const TransformedCollider& a, const Terrain& terrain,
-                                           std::vector<ContactPoint>& points) const {
-  if (a.shape.kind != ShapeKind::mesh) return collide_terrain(a.shape, terrain, points);
+                                           std::vector<ContactPoint>& points, bool is_left) const {
+  if (a.shape.kind != ShapeKind::mesh) return collide_terrain(a.shape, terrain, points, is_left);
   if (const MeshPairs::HullOf hull = meshes_.hull_of(a.number); hull.geometry)
-    collide_terrain(a.shape, *hull.geometry, *hull.support, a.collider->pose(), terrain, points);
+    collide_terrain(a.shape, *hull.geometry, *hull.support, a.collider->pose(), terrain, points, is_left);
 }
 
 void NativeCollision::collide_meshes(const TransformedCollider& a, const TransformedCollider& b,
@@ -191,14 +194,15 @@ void NativeCollision::list_contacts(Range robots) {
   for (const auto& group : groups_) {
     ground.shapes = group.structure.data();
     ground.shape_count = int(group.structure.size());
-    ground.used = 0;
     for (const std::uint32_t r : group.in(robots)) {
-      if (!touches_only_ground(r)) {
-        list_by_pairs(r);
+      if (!takes_kernel(r)) {
+        list_pairs(r, candidates(r));
+        std::fill_n(ground_robots_[r].signature, ground_robots_[r].words, unknown);
         continue;
       }
       const int i = ground.used++;
       batch.robots[i] = r;
+      batch.merged |= unsigned(!touches_only_ground(r)) << i;
       ground.poses[i] = ground_robots_[r].poses;
       ground.contacts[i] = (*robots_[r].list).data()->point.data();
       ground.signatures[i] = ground_robots_[r].signature;
@@ -208,54 +212,119 @@ void NativeCollision::list_contacts(Range robots) {
   }
 }
 
+/// Whether a kernel finds contacts of the robot with the ground.
+bool NativeCollision::takes_kernel(std::uint32_t robot) const {
+  return !grounds_.empty() && !robots_have_planes_ && lists_scenery(robots_[robot]);
+}
+
 /// Whether the robot touches nothing but planes and heightmaps of the scenery, as far as bounds and its pairs with
 /// robots tell.
 bool NativeCollision::touches_only_ground(std::uint32_t robot) {
-  if (robots_have_planes_ || !lists_scenery(robots_[robot])) return false;
   const Aabb& bounds = index_->robots[robot].bounds;
   for (const std::uint32_t k : overlaps_.of(robot, *index_).scenery)
     if (scenery_[k].shape.kind != ShapeKind::heightmap && scenery_[k].bounds.overlaps(bounds)) return false;
   return !touches_robots(robot);
 }
 
-void NativeCollision::list_by_pairs(std::uint32_t robot) {
-  list_pairs(robot, candidates(robot));
-  std::fill_n(ground_robots_[robot].signature, signature_size(robot), unknown);
+void NativeCollision::find_ground_contacts(Batch& batch) {
+  thread_local std::vector<std::uint8_t> left;
+  left.assign(std::size_t(slots_of(batch.ground.shape_count, batch.ground.ground_count)), 0);
+  batch.ground.left = left.data();
+  const unsigned found = kernels_->find_contacts(batch.ground), merged = batch.merged | found >> batch_size;
+  for (unsigned changed = found & ~merged & ((1U << batch_size) - 1); changed != 0; changed &= changed - 1)
+    list_ground_contacts(batch.robots[std::countr_zero(changed)]);
+  for (unsigned rest = merged; rest != 0; rest &= rest - 1)
+    list_merged(batch.robots[std::countr_zero(rest)], left.data(), rest & -rest);
+  batch.ground.used = 0;
+  batch.merged = 0;
 }
 
-void NativeCollision::find_ground_contacts(Batch& batch) {
-  const unsigned found = kernels_->find_contacts(batch.ground), overflow = found >> batch_size;
-  for (unsigned changed = found & ~overflow & ((1U << batch_size) - 1); changed != 0; changed &= changed - 1)
-    list_ground_contacts(batch.robots[std::countr_zero(changed)]);
-  for (unsigned left = overflow; left != 0; left &= left - 1) list_by_pairs(batch.robots[std::countr_zero(left)]);
-  batch.ground.used = 0;
+/// Calls `visit(own collider, ground, points)` for each slot of a robot, in their order.
+template <class Visit>
+void NativeCollision::each_slot(std::uint32_t robot, Visit visit) const {
+  const double* const signature = ground_robots_[robot].signature;
+  const RobotColliders& own = index_->robots[robot];
+  const KernelShape* const shapes = shapes_.data() + own.first;
+  SignatureCursor cursor;
+  for (std::uint32_t begin = 0, end = 0; begin < own.count; begin = end) {
+    while (end < own.count && shapes[end].body == shapes[begin].body) ++end;
+    for (std::size_t g = 0; g < grounds_.size(); ++g)
+      for (std::uint32_t k = begin; k < end; ++k)
+        visit(own.first + k, g, std::size_t(points_of(shapes[k], signature, cursor)));
+  }
 }
 
 /// Makes the list of a robot from its signature: points, depths, and normals on heightmaps are in their places already.
 void NativeCollision::list_ground_contacts(std::uint32_t robot) const {
   const ListOut<Contact>& list = robots_[robot].list;
-  const double* const signature = ground_robots_[robot].signature;
-  Contact* const contacts = (*list).data();
-  const RobotColliders& own = index_->robots[robot];
-  const KernelShape* const shapes = shapes_.data() + own.first;
+  Contact* next = (*list).data();
   list.clear();
-  SignatureCursor cursor;
-  std::size_t written = 0;
-  for (std::uint32_t begin = 0, end = 0; begin < own.count; begin = end) {
-    while (end < own.count && shapes[end].body == shapes[begin].body) ++end;
-    for (std::size_t g = 0; g < grounds_.size(); ++g)
-      for (std::uint32_t k = begin; k < end; ++k) {
-        const int points = points_of(shapes[k], signature, cursor);
-        if (points == 0) continue;
-        Contact c = contact_between(index_->colliders[own.first + k], *scenery_[ground_colliders_[g]].collider);
-        c.normal = Vec3::Map(grounds_[g].plane.normal);
-        for (int n = points; n > 0; --n, ++written) {
-          c.point = contacts[written].point;
-          if (grounds_[g].terrain) c.normal = contacts[written].normal;
-          c.depth = contacts[written].depth;
-          list.push_back(c);
-        }
+  each_slot(robot, [&](std::uint32_t own, std::size_t ground, std::size_t points) {
+    if (points == 0) return;
+    Contact c = contact_between(index_->colliders[own], *scenery_[ground_colliders_[ground]].collider);
+    c.normal = Vec3::Map(grounds_[ground].plane.normal);
+    for (std::size_t n = 0; n < points; ++n, ++next) {
+      c.point = next->point;
+      if (grounds_[ground].terrain) c.normal = next->normal;
+      c.depth = next->depth;
+      list.push_back(c);
+    }
+  });
+}
+
+/// Makes the list of a robot from what the kernel has found, but for slots with its bit in `left`, and from the rest
+/// pair by pair.
+void NativeCollision::list_merged(std::uint32_t robot, const std::uint8_t* left, unsigned bit) {
+  Candidates& candidates = this->candidates(robot);
+  candidates.listed.clear();
+  candidates.found.clear();
+  const Contact* next = (*robots_[robot].list).data();
+  each_slot(robot, [&](std::uint32_t own, std::size_t ground, std::size_t points) {
+    const TransformedCollider& other = scenery_[ground_colliders_[ground]];
+    if (*left++ & bit) {
+      collide_left(transformed_collider(own), other, candidates);
+    } else {
+      for (std::size_t n = 0; n < points; ++n) {
+        const ContactPoint point{
+            next[n].point, grounds_[ground].terrain ? next[n].normal : Vec3(Vec3::Map(grounds_[ground].plane.normal)),
+            next[n].depth};
+        add_found(own, other.number, {&point, 1}, candidates);
       }
+    }
+    next += points;
+  });
+  add_other_scenery(robot, candidates);
+  list_found(robot, candidates);
+  std::fill_n(ground_robots_[robot].signature, ground_robots_[robot].words, unknown);
+}
+
+/// Of a slot that the kernel has left.
+void NativeCollision::collide_left(const TransformedCollider& own, const TransformedCollider& ground,
+                                   Candidates& candidates) {
+  if (!own.bounds.overlaps(ground.bounds)) return;
+  candidates.points.clear();
+  if (const Terrain* const terrain = terrains_.of(ground.number))
+    collide_with_terrain(own, *terrain, candidates.points, true);
+  else
+    collide(own, ground, candidates.points);
+  add_found(own.number, ground.number, candidates.points, candidates);
+}
+
+/// Contacts with scenery that is no ground.
+void NativeCollision::add_other_scenery(std::uint32_t robot, Candidates& candidates) {
+  const auto is_ground = [this](const TransformedCollider* c) {
+    return c->shape.kind == ShapeKind::plane || terrains_.of(c->number) != nullptr;
+  };
+  if (std::all_of(candidates.others.begin(), candidates.others.end(), is_ground)) return;
+  const RobotColliders& own = index_->robots[robot];
+  for (std::uint32_t k = own.first; k < own.first + own.count; ++k) {
+    const TransformedCollider collider = transformed_collider(k);
+    for (const TransformedCollider* const other : candidates.others) {
+      if (is_ground(other) || !collider.bounds.overlaps(other->bounds)) continue;
+      candidates.points.clear();
+      collide(collider, *other, candidates.points);
+      add_found(k, other->number, candidates.points, candidates);
+    }
   }
 }
 

@@ -10,9 +10,9 @@
 
 namespace muro::native {
 
-/// Collision detection of primitive shapes, meshes and heightmaps with a narrow phase of its own. Robots that can touch
-/// nothing but planes and heightmaps of the scenery are processed by a SIMD kernel, eight of a group at once, the
-/// others pair by pair. Both give the same bits where both could be used.
+/// Collision detection of primitive shapes, meshes and heightmaps with a narrow phase of its own. Contacts of robots
+/// with planes and heightmaps of the scenery are found by a SIMD kernel, for eight robots of a group at once; what else
+/// they touch, and what the kernel cannot tell, pair by pair. Both give the same bits where both could be used.
 class NativeCollision final : public PairCollision {
  public:
   void connect(Connector& c) override;
@@ -23,6 +23,7 @@ class NativeCollision final : public PairCollision {
   struct GroundRobot {
     RobotPoses poses;             ///< of its bodies with shapes
     double* signature = nullptr;  ///< which points of its list's contacts touch; see GroundBatch
+    std::size_t words = 0;        ///< of the signature
   };
   struct Batch;
 
@@ -31,8 +32,8 @@ class NativeCollision final : public PairCollision {
   double distance_bound(const TransformedCollider& a, const TransformedCollider& b) const override;
   void list_contacts(Range robots) override;
 
-  void collide_with_terrain(const TransformedCollider& a, const Terrain& terrain,
-                            std::vector<ContactPoint>& points) const;
+  void collide_with_terrain(const TransformedCollider& a, const Terrain& terrain, std::vector<ContactPoint>& points,
+                            bool is_left = false) const;
   void collide_meshes(const TransformedCollider& a, const TransformedCollider& b,
                       std::vector<ContactPoint>& points) const;
   void add_kernel_shapes();
@@ -40,10 +41,15 @@ class NativeCollision final : public PairCollision {
   void add_grounds();
   void group_robots();
   void allocate_signatures();
+  bool takes_kernel(std::uint32_t robot) const;
   bool touches_only_ground(std::uint32_t robot);
-  void list_by_pairs(std::uint32_t robot);
   void find_ground_contacts(Batch& batch);
   void list_ground_contacts(std::uint32_t robot) const;
+  void list_merged(std::uint32_t robot, const std::uint8_t* left, unsigned bit);
+  template <class Visit>
+  void each_slot(std::uint32_t robot, Visit visit) const;
+  void collide_left(const TransformedCollider& own, const TransformedCollider& ground, Candidates& candidates);
+  void add_other_scenery(std::uint32_t robot, Candidates& candidates);
   std::size_t signature_size(std::uint32_t robot) const;
 
   const GroundKernels* kernels_ = nullptr;

@@ -97,7 +97,7 @@ void expect_steady(const testing::Ground& ground, const Shape& shape, double ste
 }
 
 TEST(Terrain, LiftsBallsAndWheelsSteadilyOverHills) {
-  for (const std::uint32_t nodes : {13U, 25U}) {
+  for (const std::uint32_t nodes : {13U, 25U, 201U}) {
     const testing::Ground ground = hills(nodes);
     expect_steady(ground, Shape::sphere(0.2), 0.5, 1e-3, 11);
     expect_steady(ground, Shape::cylinder(0.2, 0.1), 0.5, 1e-3, 12);
@@ -138,6 +138,33 @@ TEST(Terrain, EndsAtItsRim) {
   EXPECT_TRUE(ball(1.4, -0.4).empty());
 }
 
+TEST(Terrain, LiftsWheelsByWhatFewOperationsTellAsByAllThatIsNear) {
+  double worst = 0;
+  int told = 0, edges = 0;
+  for (const std::uint32_t nodes : {25U, 121U, 241U}) {
+    const testing::Ground ground = hills(nodes);
+    Randoms random(9);
+    for (int i = 0; i < 4000; ++i) {
+      const double x = random.uniform(-5, 5), y = random.uniform(-5, 5);
+      const auto [height, normal] = *ground.map.ground_at(x, y);
+      const Quat turn = from_rpy(M_PI / 2 + random.uniform(-0.01, 0.01), 0, random.uniform(-3, 3));
+      const Pose pose{{x, y, height + 0.1 / normal.z() - 5e-4}, turn_between(Vec3::UnitZ(), normal) * turn};
+      const TransformedShape wheel = transformed(kernel_shape_of(Shape::cylinder(0.1, 0.12)), pose);
+      std::vector<ContactPoint> few = ground.contacts(wheel), all;
+      collide_terrain(wheel, *ground.terrain, all, true);
+      double low = 0, high = 0;
+      for (const ContactPoint& p : few) low = std::max(low, p.depth / p.normal.z());
+      for (const ContactPoint& p : all) high = std::max(high, p.depth / p.normal.z());
+      worst = std::max(worst, std::abs(low - high));
+      told += !few.empty();
+      edges += few.size() > 2;
+    }
+  }
+  EXPECT_LT(worst, 2e-4) << "m";
+  EXPECT_GT(told, 5000);
+  EXPECT_GT(edges, 1000) << "edges between the rims are among them";
+}
+
 /// Eight robots of one body with one shape, on a heightmap.
 struct Eight {
   static constexpr int most = 8, words = 1, stride = sizeof(Contact) / sizeof(double);
@@ -146,6 +173,7 @@ struct Eight {
   Pose poses[8];
   std::array<double, most * stride> contacts[8] = {};
   std::array<double, words> signatures[8];
+  std::uint8_t left[1] = {};  ///< by slot
 
   unsigned touch(const GroundKernels& kernels, int first, int count) {
     GroundBatch batch;
@@ -155,6 +183,8 @@ struct Eight {
     batch.ground_count = 1;
     batch.contact_stride = stride;
     batch.used = count;
+    left[0] = 0;
+    batch.left = left;
     for (int i = 0; i < count; ++i) {
       signatures[first + i].fill(-1);
       batch.poses[i].base = poses[first + i].position.data();
@@ -166,13 +196,14 @@ struct Eight {
 };
 
 TEST(GroundKernel, GivesOnAHeightmapTheBitsOfEachRobotAloneAndOfPairs) {
-  const testing::Ground flat = hills(), turned(12, 12, 25, 25, [](double x, double y) { return 0.1 * std::sin(x + y); },
-                                               {{0.3, 0.1, 0.2}, from_rpy(0.05, 0.1, 1)});
+  const testing::Ground coarse = hills(), fine = hills(201),
+                        turned(12, 12, 25, 25, [](double x, double y) { return 0.1 * std::sin(x + y); },
+                               {{0.3, 0.1, 0.2}, from_rpy(0.05, 0.1, 1)});
   Randoms random(8);
   const lane::Isa best = lane::best_isa();
   int told = 0, left = 0;
   for (int k = 0; k < 3000; ++k) {
-    const testing::Ground& ground = k % 3 == 0 ? turned : flat;
+    const testing::Ground& ground = k % 3 == 0 ? turned : k % 3 == 1 ? coarse : fine;
     Shape shape = k % 2 == 0 ? Shape::sphere(0.2) : Shape::cylinder(0.2, 0.1);
     if (k % 7 == 0) shape = Shape::box({0.5, 0.3, 0.2});
     Eight together;

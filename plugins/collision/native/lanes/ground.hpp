@@ -53,7 +53,13 @@ struct GroundBatch {
   RobotPoses poses[8];
   double* contacts[8];    ///< of each robot: the numbers of its first contact
   double* signatures[8];  ///< of each robot, a bit a point that touches: of the step before, then of this one
+  /// A byte a slot, all 0 before: a bit for each robot of whose slot the kernel cannot tell the points. Those that it
+  /// has given there do not count.
+  std::uint8_t* left = nullptr;
 };
+
+/// Slots of a robot.
+inline int slots_of(int shape_count, int ground_count) { return shape_count * ground_count; }
 
 /// How many words a signature has; the last may be empty. `shapes`: body by body.
 inline int words_of(const KernelShape* shapes, int shape_count, int grounds) {
@@ -68,8 +74,8 @@ inline int words_of(const KernelShape* shapes, int shape_count, int grounds) {
 
 /// Writes contacts ordered by body, ground, shape and number of the point, and the signatures. The list of a robot
 /// needs capacity for eight contacts a slot. Returns a bit for each robot whose signature has changed, and, eight bits
-/// higher, one for each robot that needs more than a kernel can do: with a hull that has more than eight vertices below
-/// a plane, or with a shape on a heightmap whose points TerrainPoints cannot tell.
+/// higher, one for each robot with a slot that needs more than a kernel can do: of a hull that has more than eight
+/// vertices below a plane, or of a shape on a heightmap whose points TerrainPoints cannot tell.
 struct GroundKernels {
   unsigned (*find_contacts)(const GroundBatch&);
 };

@@ -96,7 +96,7 @@ struct Appender {
 /// As many robots as the scalar has values, from number `first` on. Returns what GroundKernels does.
 template <class S>
 unsigned process(const GroundBatch& batch, int first) {
-  const int left = batch.used - first, used = left < count_of<S> ? left : count_of<S>;
+  const int rest = batch.used - first, used = rest < count_of<S> ? rest : count_of<S>;
   RobotPoses robots[count_of<S>];
   Places<S, double> signatures;
   Appender<S> append{.stride = batch.contact_stride, .all = lane::first_lanes(used)};
@@ -106,8 +106,15 @@ unsigned process(const GroundBatch& batch, int first) {
     append.first.at[i] = batch.contacts[robot];
     signatures.at[i] = batch.signatures[robot];
   }
-  unsigned changed = 0, overflow = 0;
+  unsigned changed = 0, left_over = 0;
   int word = 0, slot = 0;  // of the present word
+  int slot_number = 0;     // of all slots
+  const auto leave = [&](MaskOf<S> whose) {
+    const unsigned now = bits(whose) & append.all;
+    if (now == 0) return;
+    left_over |= now;
+    batch.left[slot_number] = std::uint8_t(batch.left[slot_number] | now << first);
+  };
   const auto end_word = [&] {
     const unsigned now = ~bits(load(as_read(signatures), word) == append.points) & append.all;
     if (now != 0) lane::store_rows(signatures, word, {append.points}, now);
@@ -129,11 +136,11 @@ unsigned process(const GroundBatch& batch, int first) {
     };
     lanes::give_hull_points<S>(hull, body, plane, sink);
     for (; first_of_word < hull.vertex_count; first_of_word += vertices_per_word) end_word();
-    overflow |= bits(count > S(max_ground_points)) & append.all;
+    leave(count > S(max_ground_points));
   };
   const auto add_terrain = [&](const KernelShape& shape, const BodyFrame<S>& body, const TerrainGrid& terrain) {
     if (shape.kind == KernelShapeKind::mesh && slot > 0) end_word();
-    overflow |= bits(lanes::give_terrain_points<S>(ShapeInWorld<S>(shape, body), terrain, append)) & append.all;
+    leave(lanes::give_terrain_points<S>(ShapeInWorld<S>(shape, body), terrain, append));
     for (int w = 0; shape.kind == KernelShapeKind::mesh && w < SignatureCursor::words_of(shape); ++w) end_word();
   };
   const KernelShape* const shapes_end = batch.shapes + batch.shape_count;
@@ -145,7 +152,7 @@ unsigned process(const GroundBatch& batch, int first) {
     for (int i = 0; i < count_of<S>; ++i) poses.at[i] = begin->pose.in(robots[i]);
     const BodyFrame<S> body(poses, needs_orientation);
     for (const Ground* ground = batch.grounds; ground != batch.grounds + batch.ground_count; ++ground)
-      for (const KernelShape* shape = begin; shape != end; ++shape) {
+      for (const KernelShape* shape = begin; shape != end; ++shape, ++slot_number) {
         if (ground->terrain) add_terrain(*shape, body, *ground->terrain);
         if (shape->kind == KernelShapeKind::mesh) {
           if (!ground->terrain) add_hull(*shape, body, ground->plane);
@@ -157,7 +164,7 @@ unsigned process(const GroundBatch& batch, int first) {
       }
   }
   end_word();
-  return changed | overflow << 8;
+  return changed | left_over << 8;
 }
 
 unsigned find_contacts(const GroundBatch& batch) {

@@ -14,9 +14,10 @@ struct BoxOverTerrain {
 };
 
 /// Whether all of the surface below a box lies below that side of it which looks down: then they do not touch. False
-/// where more than a few cells lie below the box. Cell by cell, over what the box covers of it.
+/// where more than a few cells lie below the box and their tiles do not tell. Tile by tile, then cell by cell, over
+/// what the box covers of it.
 [[gnu::noinline]] inline bool is_clear(const TerrainGrid& grid, const BoxOverTerrain& box) {
-  constexpr int max_cells = 36;
+  constexpr int max_cells = 36, max_tiles = 25;
   int down = 0;
   double reach[2] = {0, 0};
   for (int k = 0; k < 3; ++k) {
@@ -31,6 +32,30 @@ struct BoxOverTerrain {
   const auto clamped = [](double at, int nodes) { return at > 0 ? (at < nodes - 2 ? int(at) : nodes - 2) : 0; };
   const double low_x = box.centre[0] - reach[0], high_x = box.centre[0] + reach[0];
   const double low_y = box.centre[1] - reach[1], high_y = box.centre[1] + reach[1];
+  /// Whether tiles of one size tell that the surface lies below.
+  const auto is_clear_of_tiles = [&](const TerrainLevel& level) {
+    const int first_x = clamped((low_x + grid.half_x) * level.per_x, level.columns + 1),
+              last_x = clamped((high_x + grid.half_x) * level.per_x, level.columns + 1),
+              first_y = clamped((low_y + grid.half_y) * level.per_y, level.rows + 1),
+              last_y = clamped((high_y + grid.half_y) * level.per_y, level.rows + 1);
+    if ((last_x - first_x + 1) * (last_y - first_y + 1) > max_tiles) return false;
+    for (int row = first_y; row <= last_y; ++row)
+      for (int column = first_x; column <= last_x; ++column) {
+        const TerrainTile& tile = level.tiles[long(row) * level.columns + column];
+        // the plane's height over the side at the middle of the tile, and where it is highest
+        const double x = (column + 0.5) * level.length_x - grid.half_x, y = (row + 0.5) * level.length_y - grid.half_y;
+        const double side = height + slope_x * (x - box.centre[0]) + slope_y * (y - box.centre[1]);
+        const double rise = 0.5 * __builtin_fabs(double(tile.slope_x) - slope_x) * level.length_x +
+                            0.5 * __builtin_fabs(double(tile.slope_y) - slope_y) * level.length_y;
+        if (!(double(tile.height) - side + rise < 0)) return false;
+      }
+    return true;
+  };
+  for (int k = grid.level_count - 1; k >= 0; --k) {
+    const TerrainLevel& level = grid.levels[k];
+    if (level.length_x * 4 < high_x - low_x || level.length_y * 4 < high_y - low_y) break;
+    if (level.length_x < high_x - low_x && level.length_y < high_y - low_y && is_clear_of_tiles(level)) return true;
+  }
   const int first_column = clamped((low_x + grid.half_x) * grid.per_spacing_x, grid.columns),
             last_column = clamped((high_x + grid.half_x) * grid.per_spacing_x, grid.columns),
             first_row = clamped((low_y + grid.half_y) * grid.per_spacing_y, grid.rows),

@@ -75,37 +75,34 @@ MURO_INLINE Facet<S> select(MaskOf<S> m, const Facet<S>& a, const Facet<S>& b) {
           select(m, a.normal, b.normal)};
 }
 
-/// The triangle over or under a point; where that is beyond the rim, one near it.
+/// Rounded down, of numbers from 0 to 2^31.
 template <class S>
-MURO_INLINE Facet<S> facet_at(const TerrainGrid& grid, S x, S y) {
-  S u = (x + S(grid.half_x)) * S(grid.per_spacing_x), v = (y + S(grid.half_y)) * S(grid.per_spacing_y);
-  u = select(u > S(0), u, S(0)), v = select(v > S(0), v, S(0));  // of what is not a number too
-  u = min(u, S(grid.columns - 1)), v = min(v, S(grid.rows - 1));
-  constexpr int count = count_of<S>;
-  double at_u[count], at_v[count], columns[count], rows[count], sides[count], corners[count], besides[count],
-      aboves[count];
-  lane::store_side_by_side(at_u, u), lane::store_side_by_side(at_v, v);
-  const int most_column = grid.columns - 2, most_row = grid.rows - 2;
-  for (int i = 0; i < count; ++i) {
-    const int column = int(at_u[i]) < most_column ? int(at_u[i]) : most_column;
-    const int row = int(at_v[i]) < most_row ? int(at_v[i]) : most_row;
-    const bool upper = (at_u[i] - column) + (at_v[i] - row) > 1;
-    const float* const lower_row = grid.values + std::ptrdiff_t(row) * grid.columns + column;
-    const float* const upper_row = lower_row + grid.columns;
-    const double right = lower_row[1], left = upper_row[0];
-    columns[i] = column + upper;
-    rows[i] = row + upper;
-    sides[i] = upper ? -1 : 1;
-    corners[i] = upper ? upper_row[1] : lower_row[0];
-    besides[i] = upper ? left : right;
-    aboves[i] = upper ? right : left;
-  }
-  // of the corner and of those along x and y from it
-  const S corner = lane::load_side_by_side<S>(corners), beside = lane::load_side_by_side<S>(besides),
-          above = lane::load_side_by_side<S>(aboves);
+MURO_INLINE S floor_of(S x) {
+  constexpr double shift = 0x1p52;
+  const S rounded = (x + S(shift)) - S(shift);
+  return rounded - select(rounded > x, S(1), S(0));
+}
+
+/// `from[at]` of each lane; `at`: whole numbers.
+template <class S>
+MURO_INLINE S gathered(const float* from, const S& at) {
+  double values[count_of<S>];
+  lane::store_side_by_side(values, at);
+  for (double& v : values) v = from[std::ptrdiff_t(v)];
+  return lane::load_side_by_side<S>(values);
+}
+
+/// Of a cell the triangle at +x +y (`upper`) or that at -x -y.
+template <class S>
+MURO_INLINE Facet<S> facet_of(const TerrainGrid& grid, S cell_column, S cell_row, MaskOf<S> upper) {
   Facet<S> f;
-  f.column = lane::load_side_by_side<S>(columns), f.row = lane::load_side_by_side<S>(rows);
-  f.side = lane::load_side_by_side<S>(sides);
+  f.side = select(upper, S(-1), S(1));
+  const S is_upper = select(upper, S(1), S(0));
+  f.column = cell_column + is_upper, f.row = cell_row + is_upper;
+  // the corner and those along x and y from it
+  const S node = f.row * S(grid.columns) + f.column;
+  const S corner = gathered<S>(grid.values, node), beside = gathered<S>(grid.values, node + f.side),
+          above = gathered<S>(grid.values, node + f.side * S(grid.columns));
   f.corner = {f.column * S(grid.spacing_x) - S(grid.half_x), f.row * S(grid.spacing_y) - S(grid.half_y),
               S(grid.scale) * corner};
   f.slope_x = (beside - corner) * (f.side * S(grid.scale * grid.per_spacing_x));
@@ -113,6 +110,21 @@ MURO_INLINE Facet<S> facet_at(const TerrainGrid& grid, S x, S y) {
   const S up = S(1) / sqrt(S(1) + (f.slope_x * f.slope_x + f.slope_y * f.slope_y));
   f.normal = {-f.slope_x * up, -f.slope_y * up, up};
   return f;
+}
+
+/// A number from 0 to `most`; 0 of what is not a number.
+template <class S>
+MURO_INLINE S clamped(S x, double most) {
+  return min(select(x > S(0), x, S(0)), S(most));
+}
+
+/// The triangle over or under a point; where that is beyond the rim, one near it.
+template <class S>
+MURO_INLINE Facet<S> facet_at(const TerrainGrid& grid, S x, S y) {
+  const S u = clamped<S>((x + S(grid.half_x)) * S(grid.per_spacing_x), grid.columns - 1),
+          v = clamped<S>((y + S(grid.half_y)) * S(grid.per_spacing_y), grid.rows - 1);
+  const S column = min(floor_of(u), S(grid.columns - 2)), row = min(floor_of(v), S(grid.rows - 2));
+  return facet_of<S>(grid, column, row, (u - column) + (v - row) > S(1));
 }
 
 /// The slopes near a shape, as far as a tile tells.
@@ -126,24 +138,16 @@ struct NearSlopes {
 /// `centre`: of a shape that reaches no farther than the level.
 template <class S>
 MURO_INLINE NearSlopes<S> slopes_near(const TerrainGrid& grid, const TerrainLevel& level, const V3<S>& centre) {
-  S u = (centre.x + S(grid.half_x)) * S(level.per_x), v = (centre.y + S(grid.half_y)) * S(level.per_y);
-  u = select(u > S(0), u, S(0)), v = select(v > S(0), v, S(0));
-  u = min(u, S(level.columns - 1)), v = min(v, S(level.rows - 1));
-  constexpr int count = count_of<S>;
-  double at_u[count], at_v[count], columns[count], rows[count], heights[count], slopes_x[count], slopes_y[count],
-      spreads[count];
-  lane::store_side_by_side(at_u, u), lane::store_side_by_side(at_v, v);
-  for (int i = 0; i < count; ++i) {
-    const int column = int(at_u[i]), row = int(at_v[i]);
-    const TerrainTile& tile = level.tiles[std::ptrdiff_t(row) * level.columns + column];
-    columns[i] = column, rows[i] = row;
-    heights[i] = tile.height, slopes_x[i] = tile.slope_x, slopes_y[i] = tile.slope_y, spreads[i] = tile.spread;
-  }
-  const S column = lane::load_side_by_side<S>(columns), row = lane::load_side_by_side<S>(rows),
-          height = lane::load_side_by_side<S>(heights), slope_x = lane::load_side_by_side<S>(slopes_x),
-          slope_y = lane::load_side_by_side<S>(slopes_y);
+  const S u = clamped<S>((centre.x + S(grid.half_x)) * S(level.per_x), level.columns - 1),
+          v = clamped<S>((centre.y + S(grid.half_y)) * S(level.per_y), level.rows - 1);
+  const S column = floor_of(u), row = floor_of(v);
+  static_assert(sizeof(TerrainTile) == 4 * sizeof(float));
+  const float* const numbers = &level.tiles->height;
+  const S at = S(4) * (row * S(level.columns) + column);
+  const S height = gathered<S>(numbers, at), slope_x = gathered<S>(numbers + 1, at),
+          slope_y = gathered<S>(numbers + 2, at);
   NearSlopes<S> near;
-  near.spread = lane::load_side_by_side<S>(spreads);
+  near.spread = gathered<S>(numbers + 3, at);
   const S x = centre.x + S(grid.half_x) - (column + S(0.5)) * S(level.length_x),
           y = centre.y + S(grid.half_y) - (row + S(0.5)) * S(level.length_y);
   const S up = S(1) / sqrt(S(1) + (slope_x * slope_x + slope_y * slope_y));

@@ -4,6 +4,7 @@
 
 #include "terrain_clearance.hpp"
 #include "terrain_facets.hpp"
+#include "terrain_way.hpp"
 
 namespace muro::native::lanes {
 inline namespace MURO_ISA {
@@ -11,12 +12,14 @@ inline namespace MURO_ISA {
 /// Where slopes differ by no more than this, normals differ by less than 18 degrees: then all that touches a round
 /// shape at one place is one contact, the deepest.
 inline constexpr double gentle_spread = 0.16;
+/// Where they differ by no more than this, all edges count as flat.
+inline constexpr double even_spread = 5e-5;
 
 /// Gives `sink(mask, point, normal, depth, number)` the points in which a shape and the ground below a heightmap
 /// overlap, each half way between the surfaces, in the world, where they can be told in a few operations: those of
-/// spheres and of lying cylinders on gentle slopes, over triangles and over the convex edge of two; and none for
-/// shapes that are above the ground. Of a cylinder these are the lowest point of either rim, and where an edge between
-/// them rises against its side. `Shape` is ShapeInWorld<S>, or what has its functions.
+/// spheres and of lying cylinders on gentle slopes, over triangles and over the convex edge of two; and none for shapes
+/// that are above the ground. Of a cylinder these are the lowest point of either rim, and where edges between them rise
+/// against its side. `Shape` is ShapeInWorld<S>, or what has its functions.
 template <class S, class Shape>
 class TerrainPoints {
  public:
@@ -34,15 +37,18 @@ class TerrainPoints {
     const NearSlopes<S> near = slopes_near(grid_, *level, centre);
     const auto may_touch = all_of(!is_beside, !(near.depth + reach_along(near.normal) <= S(0)));
     if (!any(may_touch)) return nobody;
-    const auto rough = all_of(may_touch, !(near.spread <= S(gentle_spread)));
+    const auto is_gentle = near.spread <= S(gentle_spread);
+    const bool is_round = at_.kind() == KernelShapeKind::sphere || at_.kind() == KernelShapeKind::cylinder;
+    if (is_round && !any(all_of(may_touch, is_gentle))) return may_touch;
     switch (at_.kind()) {
       case KernelShapeKind::sphere: {
         const Touch touch = find_touch(centre, near.normal, V3<S>{S(0), S(0), S(0)}, S(half_[0]));
-        give_touch(all_of(may_touch, touch.is_known), touch, 0, sink);
-        return any_of(rough, all_of(may_touch, !touch.is_known));
+        const auto known = all_of(may_touch, touch.is_known, is_gentle);
+        give_touch(known, touch, 0, sink);
+        return all_of(may_touch, !known);
       }
       case KernelShapeKind::cylinder:
-        return any_of(rough, all_of(may_touch, give_rims(may_touch, centre, near.normal, sink)));
+        return all_of(may_touch, give_rims(may_touch, centre, near, sink));
       default:
         return without_clear(may_touch, centre);
     }
@@ -55,6 +61,10 @@ class TerrainPoints {
     S depth;
     Facet<S> first, second;  ///< the same, or those of the edge that it touches
     MaskOf<S> is_known;
+  };
+  /// Of the side of a wheel with an edge; known where it is between the rims.
+  struct SideTouch : Touch {
+    MaskOf<S> is_off;  ///< it would be known if the edge were longer: the wheel is over an end of it
   };
   /// Where two planes meet, seen from a point, in space or in the plane of a rim.
   struct Fold {
@@ -181,25 +191,47 @@ class TerrainPoints {
 
   /// Returns whose points are not known.
   template <class Sink>
-  MURO_INLINE MaskOf<S> give_rims(MaskOf<S> which, const V3<S>& centre, const V3<S>& guess, Sink& sink) const {
+  MURO_INLINE MaskOf<S> give_rims(MaskOf<S> which, const V3<S>& centre, const NearSlopes<S>& near, Sink& sink) const {
     const V3<S> u = axis(2), end = S(half_[2]) * u;
     const S radius(half_[0]);
-    const Touch a = find_touch(centre + end, guess, u, radius), b = find_touch(centre - end, guess, u, radius);
-    const auto lies = abs(dot(u, guess)) < S(0.5);
-    const auto known = all_of(lies, a.is_known, b.is_known);
+    const Touch a = find_touch(centre + end, near.normal, u, radius),
+                b = find_touch(centre - end, near.normal, u, radius);
+    const auto lies = abs(dot(u, near.normal)) < S(0.5);
+    const auto known = all_of(lies, a.is_known, b.is_known, near.spread <= S(gentle_spread));
     give_touch(all_of(which, known), a, 0, sink);
     give_touch(all_of(which, known), b, 1, sink);
     const auto on_one = any_of(a.first.is(b.first), a.first.is(b.second), a.second.is(b.first), a.second.is(b.second));
-    if (!any(all_of(which, known, !on_one))) return !known;
-    const auto side_known = all_of(known, any_of(on_one, a.first.is_beside(b.first)));
-    Touch side = side_touch(a.first, b.first, centre, u, radius);
-    give_touch(all_of(which, side_known, !on_one, side.is_known), side, 2, sink);
-    return !side_known;
+    const auto on_way = all_of(which, known, !on_one, !(near.spread <= S(even_spread)));
+    if (!any(on_way)) return !known;
+    const auto beside = all_of(on_way, a.first.is_beside(b.first));
+    const SideTouch side = side_touch(a.first, b.first, centre, u, radius);
+    give_touch(all_of(beside, side.is_known), side, 2, sink);
+    const auto lost = any_of(!known, all_of(beside, side.is_off)), farther = all_of(on_way, !beside);
+    if (!any(farther)) return lost;
+    return any_of(lost, give_edges(farther, a, b, centre, u, radius, sink));
   }
 
-  /// Of the side with the edge of two triangles; it is known where it is between the rims.
-  MURO_INLINE Touch side_touch(const Facet<S>& f, const Facet<S>& g, const V3<S>& centre, const V3<S>& u,
-                               S radius) const {
+  /// The edges that the line between the points of both rims crosses. Returns whose are not known.
+  template <class Sink>
+  MURO_INLINE MaskOf<S> give_edges(MaskOf<S> on_way, const Touch& a, const Touch& b, const V3<S>& centre,
+                                   const V3<S>& u, S radius, Sink& sink) const {
+    FacetWay<S> way(grid_, a.first, a.point, b.first, b.point);
+    auto lost = S(0) > S(0);
+    for (int edge = 0; edge < max_edges && any(on_way); ++edge) {
+      const auto is_step = way.step(grid_);
+      lost = any_of(lost, all_of(on_way, !is_step));
+      on_way = all_of(on_way, is_step);
+      const SideTouch side = side_touch(way.before, way.now, centre, u, radius);
+      give_touch(all_of(on_way, side.is_known), side, 2 + edge, sink);
+      lost = any_of(lost, all_of(on_way, side.is_off));
+      on_way = all_of(on_way, !way.now.is(b.first));
+    }
+    return any_of(lost, on_way);
+  }
+
+  /// Of the side with the edge of two triangles.
+  MURO_INLINE SideTouch side_touch(const Facet<S>& f, const Facet<S>& g, const V3<S>& centre, const V3<S>& u,
+                                   S radius) const {
     const V3<S> edge = cross(f.normal, g.normal);
     const S cosine = dot(f.normal, g.normal);
     V3<S> n = cross(u, edge);
@@ -214,18 +246,21 @@ class TerrainPoints {
     const S at = -dot(from_line, beside) / dot(u, beside);
     const S height = dot(n, from_line);
     const V3<S> axis_point = centre + at * u, nearest = axis_point - height * n;
-    Touch touch;
+    SideTouch touch;
     touch.first = f, touch.second = g;
     touch.normal = n;
     touch.depth = radius - height;
     touch.point = axis_point - (radius - S(0.5) * touch.depth) * n;
-    touch.is_known =
-        all_of(sine2 > S(1e-12), size2 > S(1e-12) * sine2, abs(at) < S(half_[2]),
-               f.depth_of(g.inner_point(grid_)) > S(0), along_f - cosine * along_g >= S(0),
-               along_g - cosine * along_f >= S(0), f.covers(grid_, nearest, 1e-3), g.covers(grid_, nearest, 1e-3));
+    const auto is_between = all_of(sine2 > S(1e-12), size2 > S(1e-12) * sine2, abs(at) < S(half_[2]),
+                                   f.depth_of(g.inner_point(grid_)) > S(0), along_f - cosine * along_g >= S(0),
+                                   along_g - cosine * along_f >= S(0));
+    const auto is_on = all_of(f.covers(grid_, nearest, 1e-3), g.covers(grid_, nearest, 1e-3));
+    touch.is_known = all_of(is_between, is_on);
+    touch.is_off = all_of(is_between, !is_on, touch.depth > S(0));
     return touch;
   }
 
+  static constexpr int max_edges = 6;  ///< of the eight points of a slot two are those of the rims
   const Shape& at_;
   const TerrainGrid& grid_;
   const double* const half_;

@@ -24,7 +24,9 @@ Vec3 vector_of(const lane::V3<double>& v) { return {v.x, v.y, v.z}; }
 class TerrainContacts {
  public:
   TerrainContacts(const Solid& solid, const Terrain& terrain, std::vector<ContactPoint>& points)
-      : solid_(solid), terrain_(terrain), points_(points), first_(points.size()) {}
+      : solid_(solid), terrain_(terrain), sides_(solid, terrain), points_(points), first_(points.size()) {
+    points.reserve(first_ + max_points + Manifold::capacity);
+  }
 
   void find() {
     Aabb box = bounds_of(solid_.shape);
@@ -40,11 +42,15 @@ class TerrainContacts {
     const bool is_ball = solid_.shape.kind == ShapeKind::sphere;
     terrain_.each_cell(box, [&](Cell c) {
       if (is_above(c, box)) return;
-      terrain_.each_edge(c, [&](const Terrain::Edge& e) {
-        const std::size_t before = points_.size();
-        add_edge_contacts(solid_, e, points_);
-        if (is_ball && points_.size() > before) add_only_deepest(before);
-      });
+      const auto side_of = [&](Cell cell, bool upper) -> const Side& { return sides_.of(cell, upper); };
+      const auto beyond = [&](const Vec3& normal) { return sides_.along(normal); };
+      terrain_.each_edge(c, side_of, beyond,
+                         [&](const Vec3& from, const Vec3& to, const Side& left, const Side& right) {
+                           const std::size_t before = points_.size();
+                           add_edge_contacts(solid_, {from, to, left, right}, points_);
+                           if (points_.size() == before) return;
+                           is_ball ? add_only_deepest(before) : limit();
+                         });
       for (const std::uint32_t column : {c.column, c.column + 1})
         for (const std::uint32_t row : {c.row, c.row + 1}) {
           if ((column > c.column && c.column + 2 < terrain_.map().columns) ||
@@ -52,13 +58,12 @@ class TerrainContacts {
             continue;  // another cell's
           const std::size_t before = points_.size();
           add_peak_contact(solid_, terrain_, column, row, points_);
-          if (is_ball && points_.size() > before) add_only_deepest(before);
+          if (points_.size() == before) continue;
+          is_ball ? add_only_deepest(before) : limit();
         }
     });
     if (points_.size() == first_) add_deep_points();
-    remove_duplicates();
-    keep_outermost(points_, first_);
-    keep_few();
+    reduce();
   }
 
  private:
@@ -72,7 +77,9 @@ class TerrainContacts {
     const auto ground = terrain_.map().ground_at(v.x(), v.y());
     if (!ground) return;
     const double depth = (ground->height - v.z()) * ground->normal.z();
-    if (depth > 0) points_.push_back({v + 0.5 * depth * ground->normal, ground->normal, depth});
+    if (!(depth > 0)) return;
+    points_.push_back({v + 0.5 * depth * ground->normal, ground->normal, depth});
+    limit();
   }
   void add_corners() {
     const TransformedShape& s = solid_.shape;
@@ -89,7 +96,7 @@ class TerrainContacts {
       if (is_above(c, box)) return;
       for (const bool upper : {false, true}) {
         const Heightmap::Triangle t = terrain_.map().triangle(c, upper);
-        each_plane_point(t[0], terrain_.normal(c, upper), [&](const ContactPoint& p, int number) {
+        each_plane_point(t[0], sides_.of(c, upper).normal, [&](const ContactPoint& p, int number) {
           if (covers(t, p.point + 0.5 * p.depth * p.normal, slack)) add_numbered(p, number);
         });
       }
@@ -153,6 +160,16 @@ class TerrainContacts {
            m.node(c.column, c.row + 1).z() < low && m.node(c.column + 1, c.row + 1).z() < low;
   }
 
+  /// To be called where points have been added that `numbered_` does not know.
+  void limit() {
+    if (points_.size() - first_ >= max_points) reduce();
+  }
+  void reduce() {
+    remove_duplicates();
+    keep_outermost(points_, first_);
+    keep_few();
+  }
+
   /// Keeps the deepest of points at one place.
   void remove_duplicates() {
     const double distance = 1e-4 * solid_.shape.half.norm();
@@ -193,8 +210,10 @@ class TerrainContacts {
   }
 
   static constexpr int max_numbered = 64;
+  static constexpr std::size_t max_points = 2 * max_numbered;  ///< those found, before only some of them are kept
   const Solid& solid_;
   const Terrain& terrain_;
+  Sides sides_;
   std::vector<ContactPoint>& points_;
   const std::size_t first_;
   Numbered numbered_[max_numbered];
@@ -224,13 +243,15 @@ void add_all_points(const Solid& solid, const Terrain& terrain, std::vector<Cont
 
 }  // namespace
 
-void collide_terrain(const TransformedShape& shape, const Terrain& terrain, std::vector<ContactPoint>& points) {
-  if (!add_simple_points(shape, terrain, points)) add_all_points(Solid(shape, terrain.pose()), terrain, points);
+void collide_terrain(const TransformedShape& shape, const Terrain& terrain, std::vector<ContactPoint>& points,
+                     bool is_left) {
+  if (is_left || !add_simple_points(shape, terrain, points))
+    add_all_points(Solid(shape, terrain.pose()), terrain, points);
 }
 
 void collide_terrain(const TransformedShape& box, const CollisionGeometry& hull, const HullSupport& support,
-                     const Pose& pose, const Terrain& terrain, std::vector<ContactPoint>& points) {
-  if (!add_simple_points(box, terrain, points))
+                     const Pose& pose, const Terrain& terrain, std::vector<ContactPoint>& points, bool is_left) {
+  if (is_left || !add_simple_points(box, terrain, points))
     add_all_points(Solid(box, hull, support, pose, terrain.pose()), terrain, points);
 }
 

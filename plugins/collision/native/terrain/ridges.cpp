@@ -21,10 +21,8 @@ class EdgeView {
     Vec3 normal, point;  ///< `point` of the core lies lowest along `normal`
     double aside;        ///< m, across the normal
   };
-  Lowest along(const Vec3& normal) const {
-    const Vec3 point = solid_.core.support(-normal);
-    return {normal, point, aside(normal, point)};
-  }
+  Lowest along(const Vec3& normal) const { return along(Side{normal, solid_.core.support(-normal)}); }
+  Lowest along(const Side& side) const { return {side.normal, side.lowest, aside(side.normal, side.lowest)}; }
   double depth(const Lowest& l) const { return l.normal.dot(on_edge_ - l.point) + solid_.core.ball; }
 
   /// Where the lowest points change from one side of the edge to the other between two normals: that just over it.
@@ -80,14 +78,19 @@ bool is_apart(const Solid& solid, const Vec3& from, const Vec3& to) {
 
 }  // namespace
 
-void add_edge_contacts(const Solid& solid, const Terrain::Edge& edge, std::vector<ContactPoint>& points) {
-  if (is_apart(solid, edge.from, edge.to)) return;
-  const double length = (edge.to - edge.from).norm();
-  const Vec3 along = (edge.to - edge.from) / length;
-  if (edge.left.cross(edge.right).dot(along) < least_fold) return;
+void add_edge_contacts(const Solid& solid, const Edge& edge, std::vector<ContactPoint>& points) {
+  // what most edges fail comes first
+  const Vec3 way = edge.to - edge.from, fold = edge.left.normal.cross(edge.right.normal);
+  if (!(fold.dot(way) > 0)) return;
+  const auto is_below = [&](const Side& side) {
+    return side.normal.dot(edge.from - side.lowest) + solid.core.ball > 0;
+  };
+  if (!is_below(edge.left) || !is_below(edge.right) || is_apart(solid, edge.from, edge.to)) return;
+  const double length = way.norm();
+  const Vec3 along = way / length;
+  if (fold.dot(along) < least_fold) return;
   const EdgeView view(solid, edge.from, along);
   const EdgeView::Lowest left = view.along(edge.left), right = view.along(edge.right);
-  if (!(view.depth(left) > 0 && view.depth(right) > 0)) return;
   const std::optional<EdgeView::Lowest> lowest = view.between(left, right);
   if (!lowest) return;
   const Vec3& normal = lowest->normal;

@@ -3,15 +3,21 @@
 
 #include <vector>
 
-#include "terrain/solid.hpp"
-#include "terrain/terrain.hpp"
+#include "terrain/sides.hpp"
 
 namespace muro::native {
+
+/// An edge between two triangles of a heightmap, or on the rim. Seen along it the triangle with `left` lies to the
+/// left.
+struct Edge {
+  Vec3 from, to;  ///< m
+  const Side &left, &right;
+};
 
 /// Adds the contact of a solid with a convex edge of a heightmap, whose normal lies between those of the triangles
 /// beside it: where that part of the solid which is lowest along the normal lies just over the edge. Nothing where the
 /// solid is over one of the triangles, or above. In the frame of the heightmap.
-void add_edge_contacts(const Solid& solid, const Terrain::Edge& edge, std::vector<ContactPoint>& points);
+void add_edge_contacts(const Solid& solid, const Edge& edge, std::vector<ContactPoint>& points);
 
 /// The same of a peak: a node in the solid, with the shortest way out through a side of the solid whose normal leaves
 /// all that is around the node below.

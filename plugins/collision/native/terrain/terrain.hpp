@@ -13,12 +13,6 @@ namespace muro::native {
 /// A heightmap of the scenery at its place, with tiles that tell how steep and how even it is.
 class Terrain {
  public:
-  /// An edge between two triangles, or on the rim. Seen along it the triangle with `left` lies to the left.
-  struct Edge {
-    Vec3 from, to;     ///< m
-    Vec3 left, right;  ///< unit normals; on the rim `right` is horizontal, outward
-  };
-
   /// `map` is a view. `radius` (m): the farthest that a shape which may touch it reaches from its centre. [setup]
   Terrain(const Heightmap& map, const Pose& pose, double radius);
   Terrain(const Terrain&) = delete;
@@ -38,17 +32,28 @@ class Terrain {
     for (std::uint32_t row = first.row; row <= last.row; ++row)
       for (std::uint32_t column = first.column; column <= last.column; ++column) visit(Heightmap::Cell{column, row});
   }
-  /// Calls `visit(edge)` for the edges at -x and -y of a cell and that across it; at the rim also for the others.
-  template <class Visit>
-  void each_edge(Heightmap::Cell c, Visit visit) const {
+  /// Calls `visit(from, to, left, right)` for the edges at -x and -y of a cell and that across it; at the rim also for
+  /// the others. Seen along an edge the triangle with `left` lies to the left; both are what `side_of(cell, upper)`
+  /// gives, but on the rim `right` is what `beyond(normal)` gives, of a horizontal unit normal, outward.
+  template <class SideOf, class Beyond, class Visit>
+  void each_edge(Heightmap::Cell c, SideOf side_of, Beyond beyond, Visit visit) const {
     const Vec3 first = map_.node(c.column, c.row), right = map_.node(c.column + 1, c.row),
                left = map_.node(c.column, c.row + 1), last = map_.node(c.column + 1, c.row + 1);
-    const Vec3 lower = normal(c, false), upper = normal(c, true);
-    visit(Edge{first, right, lower, c.row > 0 ? normal({c.column, c.row - 1}, true) : outward(first, right)});
-    visit(Edge{left, first, lower, c.column > 0 ? normal({c.column - 1, c.row}, true) : outward(left, first)});
-    visit(Edge{right, left, lower, upper});
-    if (c.row + 2 == map_.rows) visit(Edge{last, left, upper, outward(last, left)});
-    if (c.column + 2 == map_.columns) visit(Edge{right, last, upper, outward(right, last)});
+    const auto on_rim = [&](const Vec3& from, const Vec3& to, bool upper) {
+      const auto outside = beyond(outward(from, to));
+      visit(from, to, side_of(c, upper), outside);
+    };
+    if (c.row > 0)
+      visit(first, right, side_of(c, false), side_of(Heightmap::Cell{c.column, c.row - 1}, true));
+    else
+      on_rim(first, right, false);
+    if (c.column > 0)
+      visit(left, first, side_of(c, false), side_of(Heightmap::Cell{c.column - 1, c.row}, true));
+    else
+      on_rim(left, first, false);
+    visit(right, left, side_of(c, false), side_of(c, true));
+    if (c.row + 2 == map_.rows) on_rim(last, left, true);
+    if (c.column + 2 == map_.columns) on_rim(right, last, true);
   }
   /// Whether a plane through a node with a unit normal touches the surface around it in that node alone.
   bool is_peak(std::uint32_t column, std::uint32_t row, const Vec3& normal) const;
