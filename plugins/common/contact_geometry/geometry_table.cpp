@@ -47,6 +47,15 @@ const mesh::Hull* GeometryTable::hull_if_any(const std::string& path, const Vec3
   }
 }
 
+/// Null when the mesh lies on a line.
+const mesh::Hull* GeometryTable::plate_if_any(const std::string& path, const Vec3& scale) {
+  try {
+    return &meshes_.hull_or_plate(path, scale);
+  } catch (const Error&) {
+    return nullptr;
+  }
+}
+
 void GeometryTable::add_mesh(const std::string& path, const Shape& shape, bool exact, Numbers& numbers) {
   const mesh::Mesh& surface = meshes_.mesh(path, shape.size);
   CollisionGeometry geometry{.shape = shape, .box = mesh::bounds_of(surface)};
@@ -56,8 +65,10 @@ void GeometryTable::add_mesh(const std::string& path, const Shape& shape, bool e
     numbers.usual = add(geometry);
     geometry.exact_mesh = nullptr;
   }
-  geometry.hull = hull;
-  if (geometry.hull) numbers.convex = add(geometry);
+  geometry.hull = hull ? hull : plate_if_any(path, shape.size);
+  if (!geometry.hull) return;
+  for (const Vec3& v : geometry.hull->vertices) geometry.box.include({v, v});
+  numbers.convex = add(geometry);
 }
 
 std::uint32_t GeometryTable::add_heightmap(const std::string& path, const Shape& shape) {

@@ -55,6 +55,7 @@ class GeometryTable {
   std::uint32_t add_heightmap(const std::string& path, const Shape& shape);
   std::uint32_t add(const CollisionGeometry& geometry);
   const mesh::Hull* hull_if_any(const std::string& path, const Vec3& scale);
+  const mesh::Hull* plate_if_any(const std::string& path, const Vec3& scale);
 
   mesh::Store meshes_;
   std::deque<mesh::Mesh> height_meshes_;

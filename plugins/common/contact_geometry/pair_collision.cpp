@@ -13,10 +13,14 @@
 namespace muro::contact_geometry {
 namespace {
 
+const TransformedCollider& collider_of(const TransformedCollider& c) { return c; }
+const TransformedCollider& collider_of(const TransformedCollider* c) { return *c; }
+
 /// Behind the last collider of the body that the first belongs to.
 template <class It>
 It end_of_body(It first, It end) {
-  return std::find_if(first, end, [&](const auto& c) { return c.collider->body != first->collider->body; });
+  const ObjectId body = collider_of(*first).collider->body;
+  return std::find_if(first, end, [body](const auto& c) { return collider_of(c).collider->body != body; });
 }
 
 /// Radius (m) of a ball about `centre` that holds the shape.
@@ -201,12 +205,12 @@ void PairCollision::add_scenery(const OverlapCache::Overlaps& overlaps, const Aa
   std::size_t plane = 0;
   const auto add_planes_before = [&](std::uint32_t collider) {
     for (; plane < planes_.size() && planes_[plane] < collider; ++plane)
-      candidates.others.push_back(scenery_[planes_[plane]]);
+      candidates.others.push_back(&scenery_[planes_[plane]]);
   };
   for (const std::uint32_t k : overlaps.scenery) {
     if (!scenery_[k].bounds.overlaps(bounds)) continue;
     add_planes_before(k);
-    candidates.others.push_back(scenery_[k]);
+    candidates.others.push_back(&scenery_[k]);
   }
   add_planes_before(std::numeric_limits<std::uint32_t>::max());
 }
@@ -224,10 +228,10 @@ void PairCollision::collide_scenery(Candidates& candidates, Sink sink) {
       for (auto a = body; a != body_end; ++a) {
         if (a->shape.kind == ShapeKind::plane) continue;  // scenery has no list
         for (auto b = other; b != other_end; ++b) {
-          if (!a->bounds.overlaps(b->bounds)) continue;
+          if (!a->bounds.overlaps((*b)->bounds)) continue;
           points.clear();
-          collide(*a, *b, points);
-          if (!points.empty()) sink(*a, *b, points);
+          collide(*a, **b, points);
+          if (!points.empty()) sink(*a, **b, points);
         }
       }
     }
@@ -283,15 +287,7 @@ void PairCollision::list_pairs(std::uint32_t robot, Candidates& candidates) {
   candidates.listed.clear();
   candidates.found.clear();
   collide_scenery(candidates, [&](const auto& a, const auto& b, const std::vector<ContactPoint>& points) {
-    if (is_mixed) {
-      for (const ContactPoint& p : points) {
-        const auto number = std::uint32_t(candidates.found.size());
-        candidates.listed.push_back(
-            {first_of_body_[a.number], 0, first_of_body_[b.number], a.number, b.number, number});
-        candidates.found.push_back(p);
-      }
-      return;
-    }
+    if (is_mixed) return add_found(a.number, b.number, points, candidates);
     Contact c = contact_between(*a.collider, *b.collider);
     for (const ContactPoint& p : points) {
       c.point = p.point;
@@ -300,8 +296,22 @@ void PairCollision::list_pairs(std::uint32_t robot, Candidates& candidates) {
       list.push_back(c);
     }
   });
-  if (!is_mixed) return;
+  if (is_mixed) list_found(robot, candidates);
+}
+
+void PairCollision::add_found(std::uint32_t own, std::uint32_t other, std::span<const ContactPoint> points,
+                              Candidates& candidates) const {
+  for (const ContactPoint& p : points) {
+    const auto number = std::uint32_t(candidates.found.size());
+    candidates.listed.push_back({first_of_body_[own], 0, first_of_body_[other], own, other, number});
+    candidates.found.push_back(p);
+  }
+}
+
+void PairCollision::list_found(std::uint32_t robot, Candidates& candidates) const {
   for (std::uint32_t rank = 1; rank <= candidates.robots.size(); ++rank) add_listed(robot, rank, candidates);
+  const ListOut<Contact>& list = robots_[robot].list;
+  if (!(*list).empty()) list.clear();
   write_list(list, candidates);
 }
 

@@ -49,9 +49,9 @@ struct Candidates {
     const PairPoint* points;
     bool leads;  ///< the robot whose list it is precedes
   };
-  std::vector<TransformedCollider> own;     ///< bodies in the order of the model, shapes in the order of the body
-  std::vector<TransformedCollider> others;  ///< of the scenery, as declared
-  std::vector<Partner> robots;              ///< that touch it, by order key
+  std::vector<TransformedCollider> own;  ///< bodies in the order of the model, shapes in the order of the body
+  std::vector<const TransformedCollider*> others;  ///< of the scenery, as declared
+  std::vector<Partner> robots;                     ///< that touch it, by order key
   std::vector<Listed> listed;
   std::vector<ContactPoint> found;   ///< with scenery
   std::vector<ContactPoint> points;  ///< of one pair
@@ -105,6 +105,13 @@ class PairCollision : public Algorithm {
   Candidates& candidates(std::uint32_t robot);
   /// Replaces the list of the robot by its contacts with these.
   void list_pairs(std::uint32_t robot, Candidates& candidates);
+  /// A collider of the robot at its present pose.
+  TransformedCollider transformed_collider(std::uint32_t collider) const;
+  /// Notes the points in which two colliders touch, the second of the scenery, for `list_found`.
+  void add_found(std::uint32_t own, std::uint32_t other, std::span<const ContactPoint> points,
+                 Candidates& candidates) const;
+  /// Replaces the list of the robot by what has been found with scenery, in any order, and by its contacts with robots.
+  void list_found(std::uint32_t robot, Candidates& candidates) const;
   /// Whether the robot touches another and lists that.
   bool touches_robots(std::uint32_t robot) const;
   /// Whether the list has contacts with scenery.
@@ -135,7 +142,6 @@ class PairCollision : public Algorithm {
     std::vector<Apart> apart;
   };
 
-  TransformedCollider transformed_collider(std::uint32_t collider) const;
   bool precedes(std::uint32_t a, std::uint32_t b) const;
   bool has_contacts(const Robot& robot) const;
   bool lists(std::uint32_t robot, std::uint32_t other) const;

@@ -11,7 +11,6 @@
 #include "patch.hpp"
 #include "plugins/common/contact_geometry/contact_responsibility.hpp"
 #include "plugins/common/contact_geometry/impact_correction.hpp"
-#include "plugins/common/contact_wrench/contact_wrench.hpp"
 #include "restitution.hpp"
 #include "turning_spring.hpp"
 

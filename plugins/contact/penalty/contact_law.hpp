@@ -21,6 +21,10 @@ struct Stiffness {
 /// Up to here, a rebound gains no energy, at whatever time in the step the impact is.
 inline constexpr double max_phase_step = 0.6;
 
+/// A contact that lasts moves with the bodies: its point is no farther than this (m), and than so many times the slip
+/// in a step, from its friction anchor of the step before.
+inline constexpr double lasting_reach = 1e-3, lasting_slips = 2;
+
 namespace law {
 inline namespace MURO_ISA {
 
@@ -40,26 +44,27 @@ MURO_INLINE S tanh(S x) {
 template <class S>
 struct NormalLaw {
   Stiffness stiffness;
-  double zeta = 0;   ///< damping ratio, at most max_damping_ratio
+  S zeta;            ///< damping ratio, at most max_damping_ratio
   S load;            ///< of the bodies, >= 0
   S spring, damper;  ///< 1/s^2, 1/s
   S soft;            ///< 1/s^2: of the spring, as softened
 
-  MURO_INLINE NormalLaw(const Stiffness& s, double damping_ratio, S load_of_bodies)
+  MURO_INLINE NormalLaw(const Stiffness& s, S damping_ratio, S load_of_bodies)
       : stiffness(s), zeta(damping_ratio), load(load_of_bodies) {
     // With tanh, the midpoint rule damps a speed by exp(-2 zeta omega h), as it should.
-    const double w = s.omega, h = s.h, z = law::tanh(zeta * w * h), beta = z + 0.25 * w * w * h * h;
-    const S softening = S(1) / max(load * S(beta), S(1 + beta));
+    const double w = s.omega, h = s.h;
+    const S one(1), z = law::tanh(zeta * S(w) * S(h)), beta = z + S(0.25 * w * w * h * h);
+    const S softening = one / max(load * beta, one + beta);
     spring = S(w * w) * softening;
-    damper = S(0.5 * w * w * h + 2 * z / h) * softening;
-    soft = S(w * w * (1 + beta)) * softening;
+    damper = (S(0.5 * w * w * h) + S(2) * z / S(h)) * softening;
+    soft = S(w * w) * (one + beta) * softening;
   }
 
   /// Force, >= 0. `depth` in m; `approach`: speed at which it grows, m/s.
   MURO_INLINE S force(S depth, S approach) const {
     const S zero(0), h(stiffness.h);
     const S spring_depth =
-        depth + S(2 * zeta / stiffness.omega) * approach;  // the depth at which the spring alone has this force
+        depth + S(2) * zeta / S(stiffness.omega) * approach;  // the depth at which the spring alone has this force
     S result = max(spring * depth + damper * approach, zero);
     if (const auto separates = (approach < zero) & (spring_depth < -approach * h); any(separates))
       result = select(separates, force_at_separation(*this, spring_depth, approach), result);
@@ -83,7 +88,7 @@ struct NormalLaw {
   [[gnu::noinline, gnu::cold]] static S force_at_impact(NormalLaw own, S depth, S approach) {
     const double w = own.stiffness.omega, w2 = w * w;
     const S h(own.stiffness.h), zero(0), one(1), half(0.5);
-    const S since = h + depth / approach, z = law::tanh(S(own.zeta * w) * since);
+    const S since = h + depth / approach, z = law::tanh(own.zeta * S(w) * since);
     const S beta = z + S(0.25 * w2) * since * since;
     const S change = -(S(0.5 * w2) * since + S(2) * z / since) * approach / max(own.load * beta, one + beta);
     const S speed = approach + since * change, path = since * approach, dip = path + half * since * since * change;

@@ -83,7 +83,7 @@ FreeBody::FreeBody(const Bodies& bodies, const DynamicBody& base)
 
 law::Mobility<double> FreeBody::mobility_before(double since) const {
   const Quat q = rotation_of(Vec3(-since * spin)) * orientation;
-  return law::mobility_of<double>(*mass, {plain(origin), {q.x(), q.y(), q.z(), q.w()}});
+  return law::mobility_of(*mass, {plain(origin), {q.x(), q.y(), q.z(), q.w()}});
 }
 
 Vec3 FreeBody::spin_before(double since) const {
@@ -109,8 +109,7 @@ std::optional<TimeOfImpact> impact_of(const StepContext& context, const Contact&
                                       const Vec3& velocity, double step, bool other_falls) {
   const double speed = -velocity.dot(contact.normal), elapsed = context.elapsed;
   if (!(speed > context.impact_speed)) return {};
-  constexpr double near = 1e-3;  // m: a contact that lasts moves with the bodies
-  const double reach = near + 2 * elapsed * (velocity + speed * contact.normal).norm();
+  const double reach = lasting_reach + lasting_slips * elapsed * (velocity + speed * contact.normal).norm();
   if (before && (before->point - contact.point).squaredNorm() < reach * reach) return {};
   const double fall = other_falls ? 0 : -context.gravity.dot(contact.normal);
   const std::optional<TimeOfImpact> time = time_of_impact(contact.depth, speed, fall);

@@ -8,16 +8,18 @@
 
 namespace muro::penalty {
 
+/// m: of new contacts that are less deep, none is as good as what there is.
+inline constexpr double least_overlap = 5e-3;
+
 /// What of the depth of a contact its spring does not see (m). A spring of the whole depth would throw bodies out of
 /// each other; what was there before they moved is taken back at `correcting_speed` instead. `before`: the nearest
 /// friction anchor of the pair in the step before; null for none. `approach`: speed of the bodies towards each other
 /// (m/s).
 inline double unmoved_overlap(const StepContext& context, const Contact& contact, const FrictionAnchor* before,
                               double approach) {
-  constexpr double least = 5e-3;  // m: less is as good as none
   if (before) return std::clamp(before->overlap - context.correcting_speed * context.elapsed, 0.0, contact.depth);
   const double moved = 2 * std::max(approach, 0.0) * context.elapsed;
-  return contact.depth > least + moved ? contact.depth : 0;
+  return contact.depth > least_overlap + moved ? contact.depth : 0;
 }
 
 }  // namespace muro::penalty

@@ -29,13 +29,13 @@ void PairContacts::add_records() {
   const std::size_t known = records_.size();
   records_.resize(2 * robots_.size());
   for (auto r = records_.begin() + std::ptrdiff_t(known); r != records_.end(); ++r) {
-    r->patches.reserve(8);
-    r->patch_of.reserve(32);
-    r->owners.reserve(8);
-    r->old_anchors.reserve(32);
-    r->impact_patches.reserve(4);
-    r->impact_contacts.reserve(16);
-    r->points.reserve(16);
+    r->patches.reserve(12);
+    r->patch_of.reserve(64);
+    r->owners.reserve(16);
+    r->old_anchors.reserve(64);
+    r->impact_patches.reserve(8);
+    r->impact_contacts.reserve(32);
+    r->points.reserve(32);
   }
 }
 
@@ -66,7 +66,7 @@ void PairContacts::set_up(std::uint32_t self) {
     const Vec3& p = body.pose->position;
     const Quat& q = body.pose->orientation;
     me.mobilities.push_back(
-        law::mobility_of<double>(bodies_.masses[body.mass], {{p.x(), p.y(), p.z()}, {q.x(), q.y(), q.z(), q.w()}}));
+        law::mobility_of(bodies_.masses[body.mass], {{p.x(), p.y(), p.z()}, {q.x(), q.y(), q.z(), q.w()}}));
   }
 }
 

@@ -17,11 +17,13 @@ struct MassProperties {
 
   friend bool operator==(const MassProperties&, const MassProperties&) = default;
 };
+inline constexpr int mass_numbers = 10;
+static_assert(sizeof(MassProperties) == mass_numbers * sizeof(double));
 
 namespace law {
 inline namespace MURO_ISA {
 
-using lane::max;
+using lane::max, lane::select;
 
 /// The inverse of the inertia of a free body. World axes.
 template <class S>
@@ -31,12 +33,17 @@ struct Mobility {
   V3<S> centre;          ///< centre of mass, m
 };
 
+/// `mass`: the numbers of MassProperties, in their order.
 template <class S>
-MURO_INLINE Mobility<S> mobility_of(const MassProperties& mass, const lane::PoseOf<S>& base) {
+MURO_INLINE Mobility<S> mobility_of(const S (&mass)[mass_numbers], const lane::PoseOf<S>& base) {
   const M3<S> axes = base.orientation.matrix();
-  const double* const i = mass.inverse_inertia;
-  const Symmetric<S> inertia{S(i[0]), S(i[1]), S(i[2]), S(i[3]), S(i[4]), S(i[5])};
-  return {S(mass.inverse_mass), rotated(axes, inertia), base.position + axes * lane::splat<S>(mass.com)};
+  const Symmetric<S> inertia{mass[4], mass[5], mass[6], mass[7], mass[8], mass[9]};
+  return {mass[0], rotated(axes, inertia), base.position + axes * V3<S>{mass[1], mass[2], mass[3]}};
+}
+MURO_INLINE Mobility<double> mobility_of(const MassProperties& mass, const lane::PoseOf<double>& base) {
+  double numbers[mass_numbers];
+  __builtin_memcpy(numbers, &mass, sizeof numbers);
+  return mobility_of(numbers, base);
 }
 
 /// Of a point: along the normal, and the sum over both tangential directions. 1/kg.
@@ -54,6 +61,11 @@ struct SpringStiffness {
   Symmetric<S> translation = scaled_identity(S(0)), rotation = scaled_identity(S(0));
 
   MURO_INLINE void operator+=(const SpringStiffness& b) { translation += b.translation, rotation += b.rotation; }
+  /// The same in those lanes that the mask has, and none in the others.
+  template <class M>
+  MURO_INLINE SpringStiffness where(M mask) const {
+    return {translation.where(mask), rotation.where(mask)};
+  }
   /// A bound of the largest eigenvalue of M^-1 K: that of a matrix of two diagonal blocks is at most the
   /// sum of theirs, and that of a block, which is similar to a symmetric one, at most the root of the trace of its
   /// square.
@@ -73,7 +85,7 @@ template <class S>
 struct Patch {
   V3<S> normal;
   V3<S> origin;                                  ///< m
-  double count = 0;                              ///< of points
+  S count{0};                                    ///< of points
   V3<S> sum{S(0), S(0), S(0)};                   ///< of the points from the origin
   Symmetric<S> squares = scaled_identity(S(0));  ///< of the products of their coordinates
 
@@ -81,7 +93,16 @@ struct Patch {
 
   MURO_INLINE void add(const V3<S>& point) {
     const V3<S> d = point - origin;
-    count += 1;
+    count += S(1);
+    sum += d;
+    squares += square(d);
+  }
+  /// Adds it in those lanes that the mask has.
+  template <class M>
+  MURO_INLINE void add_where(M mask, const V3<S>& point) {
+    const S zero(0);
+    const V3<S> d = select(mask, point - origin, {zero, zero, zero});
+    count += select(mask, S(1), zero);
     sum += d;
     squares += square(d);
   }
@@ -90,13 +111,13 @@ struct Patch {
     const V3<S> shift = origin - centre;
     Patch p(normal, centre);
     p.count = count;
-    p.sum = sum + S(count) * shift;
-    p.squares = squares + mixed(sum, shift) + S(count) * square(shift);
+    p.sum = sum + count * shift;
+    p.squares = squares + mixed(sum, shift) + count * square(shift);
     return p;
   }
   /// Of the middle of the points. The origin is the centre of `body`.
   MURO_INLINE InverseEffectiveMass<S> at_middle(const Mobility<S>& body) const {
-    const V3<S> r = sum * S(1 / count), lever = cross(r, normal);
+    const V3<S> r = sum * (S(1) / count), lever = cross(r, normal);
     const S along = dot(lever, body.inertia * lever);
     const S all = body.inertia.trace() * dot(r, r) - dot(r, body.inertia * r);
     return {body.mass + along, S(2) * body.mass + all - along};
@@ -105,7 +126,7 @@ struct Patch {
   /// `across` it.
   MURO_INLINE SpringStiffness<S> stiffness(S along, S across) const {
     const S more = along - across;
-    return {scaled_identity(S(count) * across) + (S(count) * more) * square(normal),
+    return {scaled_identity(count * across) + (count * more) * square(normal),
             across * (scaled_identity(squares.trace()) + S(-1) * squares) + more * crossed(normal, squares)};
   }
 };
@@ -116,10 +137,10 @@ struct EffectiveMass {
   S along, across, inverse_across;
 
   EffectiveMass() = default;
-  MURO_INLINE EffectiveMass(const InverseEffectiveMass<S>& middle, double points)
-      : along(S(1) / (middle.along * S(points))),
-        across(S(1) / (middle.across * S(0.5 * points))),
-        inverse_across(middle.across * S(0.5 * points)) {}
+  MURO_INLINE EffectiveMass(const InverseEffectiveMass<S>& middle, S points)
+      : along(S(1) / (middle.along * points)),
+        across(S(1) / (middle.across * (S(0.5) * points))),
+        inverse_across(middle.across * (S(0.5) * points)) {}
 };
 
 }  // namespace MURO_ISA

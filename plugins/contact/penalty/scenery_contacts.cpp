@@ -3,15 +3,13 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
+#include <new>
 
-#include "muro/simd/numbers.hpp"
 #include "overlap.hpp"
-#include "spring_batch.hpp"
 
 namespace muro::penalty {
 namespace {
-
-using lane::numbers_between;
 
 static_assert(sizeof(Contact) == contact_stride * sizeof(double) && offsetof(Contact, point) == 8 &&
               offsetof(Contact, normal) == 32 && offsetof(Contact, depth) == 56 && offsetof(Contact, surface) == 64 &&
@@ -28,37 +26,47 @@ std::uint64_t both(const void* first) {
 
 }  // namespace
 
-/// Robots of a few kinds; one kind is the rule.
+/// What the kernel is told of contacts of a robot that are not those of the step before.
+struct SceneryContacts::Plan {
+  int count = 0;
+  std::uint32_t groups = 0;
+  KernelContact contacts[max_contacts];
+  std::size_t before_count = 0;
+  FrictionAnchor before[max_contacts];  ///< of the step before, group by group
+};
+
+/// By number of contacts, since the kernel takes as long as the robot with the most of them.
 struct SceneryContacts::Queues {
-  std::array<Queue, 4> all;
-  std::size_t last = 0, oldest = 0;
+  static constexpr std::size_t sizes = 8, step = 2;  // the last has all with more contacts
+
+  std::array<Queue, sizes> by_size;
+  Queue changed;
+  alignas(Plan) std::byte plans[8][sizeof(Plan)];  ///< of `changed`; most steps need none, so they are not initialised
+
+  Plan& plan(std::uint32_t i) { return *std::launder(reinterpret_cast<Plan*>(plans[i])); }
+
+  Queue& of_size(std::uint32_t contacts) { return by_size[std::min((contacts - 1) / step, sizes - 1)]; }
 };
 
 SceneryContacts::SceneryContacts(const Bodies& bodies)
-    : bodies_(bodies), kernels_(scenery_kernels_for(lane::best_isa())) {
-  layouts_.reserve(max_layouts);
-}
+    : bodies_(bodies), kernels_(scenery_kernels_for(lane::best_isa())) {}
 
 void SceneryContacts::start() {
   robots_.assign(bodies_.robots.size(), {});
   identities_.resize(bodies_.robots.size());
+  contacts_.resize(bodies_.robots.size());
   remaining_.resize(bodies_.robots.size());
   for (std::size_t i = 0; i < robots_.size(); ++i) {
     const Robot& r = bodies_.robots[i];
     KnownRobot& known = robots_[i];
     const DynamicBody& base = bodies_.base_of(r);
-    known.list = r.contacts, known.anchors = r.anchors, known.mass = base.mass;
+    known.list = r.contacts, known.anchors = r.anchors;
     known.world = r.world.get(), known.lag = r.is_single_body ? r.lag.get() : nullptr;
+    known.view.contacts = contacts_[i].data();
+    known.view.in_order = true;
     known.view.base_pose = base.pose->position.data();
-    known.view.base_twist = base.twist->linear.data();
+    known.view.mass = &bodies_.masses[base.mass].inverse_mass;
     known.view.wrench = base.wrench->force.data();
-  }
-  for (const Body& b : bodies_.all) {
-    if (b.robot == no_robot || !b.pose) continue;
-    KernelRobot& view = robots_[std::size_t(b.robot)].view;
-    if (view.link_pose || b.pose->position.data() == view.base_pose) continue;
-    view.link_pose = b.pose->position.data();
-    view.link_twist = b.twist->linear.data();
   }
 }
 
@@ -80,7 +88,7 @@ void SceneryContacts::apply_forces(const StepContext& context, Range block) {
       fetch(std::uint32_t(robot_of(number + ahead)));
     if (robot_of(number) != no_robot) apply_forces_on(context, std::uint32_t(robot_of(number)), queues);
   }
-  for (Queue& q : queues.all) process_queue(context, q);
+  process_rest(context, queues);
 }
 
 /// Prefetches the data of a robot that is processed soon: in large teams it is not in a near cache.
@@ -92,9 +100,11 @@ void SceneryContacts::fetch(std::uint32_t robot) const {
   };
   fetch_lines((*known.list).data(), contacts * sizeof(Contact));
   fetch_lines((*known.anchors).data(), contacts * sizeof(FrictionAnchor));
-  if (!known.view.link_pose) return;
-  fetch_lines(known.view.link_pose, contacts * sizeof(Pose));
-  fetch_lines(known.view.link_twist, contacts * sizeof(Twist));
+  const KernelContacts& before = contacts_[robot];  // their bodies lie side by side
+  if (known.contacts == 0) return;
+  fetch_lines(before.data(), contacts * sizeof(KernelContact));
+  fetch_lines(before[0].pose, contacts * sizeof(Pose));
+  fetch_lines(before[0].twist, contacts * sizeof(Twist));
 }
 
 void SceneryContacts::apply_forces_on(const StepContext& context, std::uint32_t robot, Queues& queues) {
@@ -126,12 +136,11 @@ void SceneryContacts::apply_forces_on(const StepContext& context, std::uint32_t 
   }
   forget_turning(robot);
   if (!known.anchors_match) find_match(robot);
-  if (!known.one_model || !known.anchors_match || known.is_parting) return process_single(context, robot);
-  Queue& q = queue_for(context, known, queues);
-  KernelRobot& view = q.views[q.count] = known.view;
-  view.contacts = contacts[0].point.data();
-  view.before = view.anchors = (*known.anchors)[0].point.data();
-  if (bodies_.tells_contacts) view.forces = Bodies::tell(bodies_.robots[robot], contacts)->wrench.force.data();
+  if (known.is_parting) return process_single(context, robot);
+  if (known.was_in_impact && !(known.anchors_match && is_one_patch(contacts))) return process_single(context, robot);
+  known.was_in_impact = false;
+  if (!known.anchors_match) return enqueue_changed(context, robot, queues);
+  Queue& q = queues.of_size(known.contacts);
   q.robots[q.count++] = robot;
   if (q.count == 8) process_queue(context, q);
 }
@@ -140,25 +149,6 @@ void SceneryContacts::apply_forces_on(const StepContext& context, std::uint32_t 
 void SceneryContacts::forget_turning(std::uint32_t robot) const {
   const ListOut<TurningSpring>& springs = bodies_.robots[robot].turning_springs;
   if (springs && !(*springs).empty()) springs.clear();
-}
-
-/// The queue of its layout and mass; if there is none, an empty one.
-SceneryContacts::Queue& SceneryContacts::queue_for(const StepContext& context, const KnownRobot& robot,
-                                                   Queues& queues) {
-  const auto fits = [&](const Queue& q) {
-    const KnownRobot& first = robots_[q.robots[0]];
-    return q.count > 0 && first.layout == robot.layout && first.mass == robot.mass;
-  };
-  auto& all = queues.all;
-  if (fits(all[queues.last])) return all[queues.last];
-  auto q = std::find_if(all.begin(), all.end(), fits);
-  if (q == all.end()) q = std::find_if(all.begin(), all.end(), [](const Queue& other) { return other.count == 0; });
-  if (q == all.end()) {
-    q = all.begin() + std::ptrdiff_t(queues.oldest++ % all.size());
-    process_queue(context, *q);
-  }
-  queues.last = std::size_t(q - all.begin());
-  return *q;
 }
 
 void SceneryContacts::analyse(std::uint32_t robot, std::span<const Contact> contacts) {
@@ -170,145 +160,216 @@ void SceneryContacts::analyse(std::uint32_t robot, std::span<const Contact> cont
         return bodies_[c.other].twist || c.surface.rolling_resistance > 0 || c.surface.spinning_resistance > 0;
       });
   if (!known.only_scenery) return;
-  for (const Contact& c : contacts)
-    identities_[robot][known.contacts++] = {both(&c.self), both(&c.self_shape), bodies_.pair_of(c)};
-  known.one_model = std::all_of(contacts.begin(), contacts.end(), [&](const Contact& c) {
-    return bodies_[c.other].model == bodies_[contacts[0].other].model;
-  });
-  if (!known.one_model) return;
-  known.layout = number_of(layout_of(robot, contacts, identities_[robot]));
-  known.one_model = known.layout != unknown_layout;
-}
-
-ContactLayout SceneryContacts::layout_of(std::uint32_t robot, std::span<const Contact> contacts,
-                                         const Identities& identities) const {
-  const KernelRobot& view = robots_[robot].view;
-  ContactLayout layout;
+  KernelRobot& view = known.view;
+  view.groups = 0;
+  view.has_many_materials = view.has_many_objects = false;
+  std::uint8_t first = 0, objects = 0;
+  std::uint32_t object_models[max_contacts];
   for (const Contact& c : contacts) {
-    const int k = layout.contacts++;
-    if (k == 0 || identities[std::size_t(k)].pair != identities[std::size_t(k - 1)].pair) {
-      const Body& body = bodies_[c.self];
-      layout.zeta[layout.groups] = bodies_.materials[bodies_.material_of(c.surface.restitution)].damping_ratio;
-      const double *const pose = body.pose->position.data(), *const twist = body.twist->linear.data();
-      BodyOffsets& offsets = layout.bodies[layout.groups++];
-      offsets.of_link = pose != view.base_pose;
-      offsets.pose = numbers_between(offsets.of_link ? view.link_pose : view.base_pose, pose);
-      offsets.twist = numbers_between(offsets.of_link ? view.link_twist : view.base_twist, twist);
+    const auto k = std::uint8_t(known.contacts++);
+    Identity& identity = identities_[robot][k];
+    identity = {both(&c.self), both(&c.self_shape), bodies_.pair_of(c)};
+    if (k == 0 || identity.pair != identities_[robot][k - 1u].pair) {
+      first = k;
+      view.groups |= 1u << k;
     }
-    layout.ends[layout.groups - 1] = std::uint8_t(layout.contacts);
+    const std::uint32_t model = bodies_[c.other].model;
+    const auto object = std::uint8_t(std::find(object_models, object_models + objects, model) - object_models);
+    if (object == objects) object_models[objects++] = model;
+    KernelContact& known_contact = contacts_[robot][k];
+    known_contact = {.pose = bodies_[c.self].pose->position.data(),
+                     .twist = bodies_[c.self].twist->linear.data(),
+                     .zeta = bodies_.materials[bodies_.material_of(c.surface.restitution)].damping_ratio,
+                     .place = k,
+                     .anchor = k,
+                     .anchors_begin = first,
+                     .object = object};
+    for (std::uint8_t i = first; i <= k; ++i) contacts_[robot][i].anchors_end = std::uint8_t(k + 1);
+    view.has_many_materials = view.has_many_materials || known_contact.zeta != contacts_[robot][0].zeta;
   }
-  return layout;
+  view.has_many_objects = objects > 1;
+  view.count = int(known.contacts);
 }
 
-std::uint32_t SceneryContacts::number_of(const ContactLayout& layout) {
-  const std::lock_guard lock(mutex_);
-  const auto found = std::find(layouts_.begin(), layouts_.end(), layout);
-  if (found != layouts_.end()) return std::uint32_t(found - layouts_.begin());
-  if (layouts_.size() == max_layouts) return unknown_layout;
-  layouts_.push_back(layout);
-  return std::uint32_t(layouts_.size() - 1);
+KernelBatch SceneryContacts::batch_of(const StepContext& context) const {
+  return {.stiffness = context.stiffness,
+          .elapsed = context.elapsed,
+          .impact_speed = context.impact_speed,
+          .tells_contacts = bodies_.tells_contacts};
 }
 
 void SceneryContacts::process_queue(const StepContext& context, Queue& q) {
   if (q.count == 0) return;
-  const KnownRobot& first = robots_[q.robots[0]];
-  const ContactLayout& layout = layouts_[first.layout];
-  KernelBatch batch{.stiffness = context.stiffness,
-                    .elapsed = context.elapsed,
-                    .mass = &bodies_.masses[first.mass],
-                    .layout = &layout,
-                    .anchors_ends = layout.ends,
-                    .tells_contacts = bodies_.tells_contacts};
-  const KernelRobot* views[8];
-  for (std::uint32_t i = 0; i < q.count; ++i) views[i] = &q.views[i];
-  const unsigned remaining = kernels_.apply_forces(batch, views, int(q.count));
-  for (std::uint32_t i = 0; remaining >> i; ++i)
-    if (remaining >> i & 1) process_single(context, q.robots[i]);
+  KernelRobot views[8];
+  const KernelRobot* all[8];
+  for (std::uint32_t i = 0; i < q.count; ++i) {
+    const KnownRobot& known = robots_[q.robots[i]];
+    KernelRobot& view = views[i] = known.view;
+    view.listed = (*known.list)[0].point.data();
+    view.before = view.anchors = (*known.anchors)[0].point.data();
+    if (bodies_.tells_contacts)
+      view.forces = Bodies::tell(bodies_.robots[q.robots[i]], *known.list)->wrench.force.data();
+    all[i] = &view;
+  }
+  const unsigned left = kernels_.apply_forces(batch_of(context), all, int(q.count));
+  for (std::uint32_t i = 0; left >> i; ++i)
+    if (left >> i & 1) process_single(context, q.robots[i]);
   q.count = 0;
 }
 
-/// Numbers contacts by patch: of one object of the scenery, with normals alike. Returns the number of patches.
-int SceneryContacts::sort_into_patches(std::span<const Contact> contacts, std::uint8_t* patch_of) const {
-  std::size_t first[max_contacts];  // contact of each patch
-  int patches = 0;
-  for (std::size_t k = 0; k < contacts.size(); ++k) {
-    const Contact& c = contacts[k];
-    int p = patches - 1;
-    while (p >= 0 && !(bodies_[c.other].model == bodies_[contacts[first[p]].other].model &&
-                       contacts[first[p]].normal.dot(c.normal) > same_direction))
-      --p;
-    if (p < 0) first[p = patches++] = k;
-    patch_of[k] = std::uint8_t(p);
+/// What does not fill the lanes, from the robots with the most contacts to those with the fewest.
+void SceneryContacts::process_rest(const StepContext& context, Queues& queues) {
+  Queue all;
+  for (std::size_t size = Queues::sizes; size-- > 0;) {
+    const Queue& q = queues.by_size[size];
+    for (std::uint32_t i = 0; i < q.count; ++i) {
+      all.robots[all.count++] = q.robots[i];
+      if (all.count == 8) process_queue(context, all);
+    }
   }
-  return patches;
+  process_queue(context, all);
+  process_changed(context, queues);
 }
 
-/// `contacts`: all of the robot, or some. With any patches, and anchors in any order.
-SceneryContacts::SpringBatch SceneryContacts::springs_of(std::uint32_t robot, std::span<const Contact> contacts,
-                                                         const Identities& identities) const {
-  SpringBatch springs;
-  springs.layout = layout_of(robot, contacts, identities);
-  std::size_t count = 0;
-  for (int group = 0; group < springs.layout.groups; ++group) {
-    const std::uint64_t pair = identities[springs.layout.ends[group] - 1u].pair;
-    for (const FrictionAnchor& g : *robots_[robot].anchors)
-      if (g.pair == pair && count < max_contacts) springs.before[count++] = g;
-    springs.anchors_ends[group] = std::uint8_t(count);
+/// `which`: a bit for each contact that is a spring. Finds their anchors, in any order.
+void SceneryContacts::make_plan(std::uint32_t robot, std::uint32_t which, Plan& plan) const {
+  std::uint64_t pair = 0;
+  std::size_t begin = 0;
+  for (std::uint32_t k = 0; k < robots_[robot].contacts; ++k) {
+    if (!(which >> k & 1)) continue;
+    const std::uint64_t own = identities_[robot][k].pair;
+    if (plan.count == 0 || own != pair) {
+      pair = own;
+      plan.groups |= 1u << plan.count;
+      begin = plan.before_count;
+      for (const FrictionAnchor& a : *robots_[robot].anchors)
+        if (a.pair == pair && plan.before_count < max_contacts) plan.before[plan.before_count++] = a;
+    }
+    KernelContact& c = plan.contacts[plan.count++] = contacts_[robot][k];
+    c.anchors_begin = std::uint8_t(begin);
+    c.anchors_end = std::uint8_t(plan.before_count);
   }
-  springs.patches = sort_into_patches(contacts, springs.patch_of);
-  return springs;
 }
 
-/// `written`: a friction anchor for each contact.
-void SceneryContacts::apply_springs(const StepContext& context, std::uint32_t robot, std::span<const Contact> contacts,
-                                    const SpringBatch& springs, FrictionAnchor* written) const {
-  KernelRobot view = robots_[robot].view;
-  const std::span<const FrictionAnchor> before(springs.before, springs.anchors_ends[springs.layout.groups - 1]);
-  bool parts = false;
-  for (std::size_t k = 0; k < contacts.size(); ++k) {
+/// For anchors that have a place in the list already.
+KernelRobot SceneryContacts::view_of(std::uint32_t robot, const Plan& plan) const {
+  const KnownRobot& known = robots_[robot];
+  KernelRobot view = known.view;
+  view.count = plan.count;
+  view.contacts = plan.contacts;
+  view.groups = plan.groups;
+  view.in_order = false;
+  view.listed = (*known.list)[0].point.data();
+  view.before = plan.before[0].point.data();
+  view.anchors = (*known.anchors)[0].point.data();
+  return view;
+}
+
+/// A robot some of whose contacts are new, or gone.
+void SceneryContacts::enqueue_changed(const StepContext& context, std::uint32_t robot, Queues& queues) {
+  Queue& q = queues.changed;
+  const auto contacts = *robots_[robot].list;
+  Plan& plan = *new (queues.plans[q.count]) Plan;
+  make_plan(robot, 0xffffffffu, plan);
+  for (const KernelContact& c : std::span(plan.contacts, std::size_t(plan.count)))
+    if (c.anchors_begin == c.anchors_end && contacts[c.place].depth > least_overlap)
+      return process_single(context, robot);
+  q.robots[q.count++] = robot;
+  if (q.count == 8) process_changed(context, queues);
+}
+
+void SceneryContacts::process_changed(const StepContext& context, Queues& queues) {
+  Queue& q = queues.changed;
+  if (q.count == 0) return;
+  KernelRobot views[8];
+  const KernelRobot* all[8];
+  for (std::uint32_t i = 0; i < q.count; ++i) {
+    const std::uint32_t robot = q.robots[i];
+    KnownRobot& known = robots_[robot];
+    known.anchors.clear();
+    for (std::uint32_t k = 0; k < known.contacts; ++k) known.anchors.push_back({.pair = identities_[robot][k].pair});
+    known.anchors_match = true;
+    views[i] = view_of(robot, queues.plan(i));
+    views[i].is_changed = true;
+    if (bodies_.tells_contacts) views[i].forces = Bodies::tell(bodies_.robots[robot], *known.list)->wrench.force.data();
+    all[i] = &views[i];
+  }
+  const unsigned left = kernels_.apply_forces(batch_of(context), all, int(q.count));
+  for (std::uint32_t i = 0; left >> i; ++i) {
+    if (!(left >> i & 1)) continue;
+    const KnownRobot& known = robots_[q.robots[i]];
+    known.anchors.clear();
+    const Plan& plan = queues.plan(i);
+    for (const FrictionAnchor& a : std::span(plan.before, plan.before_count)) known.anchors.push_back(a);
+    process_single(context, q.robots[i]);
+  }
+  q.count = 0;
+}
+
+/// Whether some contact has an overlap that no motion has made. `overlaps`: of each contact of the list, m; out.
+bool SceneryContacts::find_overlaps(const StepContext& context, std::uint32_t robot, const Plan& plan,
+                                    double* overlaps) const {
+  const auto contacts = *robots_[robot].list;
+  const std::span<const FrictionAnchor> before(plan.before, plan.before_count);
+  bool any = false;
+  for (int i = 0; i < plan.count; ++i) {
+    const std::size_t k = plan.contacts[i].place;
     const Contact& c = contacts[k];
-    const FrictionAnchor* const anchor = previous<FrictionAnchor>(before, k, bodies_.pair_of(c), c.point);
+    const FrictionAnchor* const anchor =
+        previous<FrictionAnchor>(before, std::size_t(i), identities_[robot][k].pair, c.point);
     const double approach = -c.normal.dot(bodies_.velocity(c.self, c.point));
-    written[k].overlap = unmoved_overlap(context, c, anchor, approach);
-    parts = parts || written[k].overlap > 0;
+    overlaps[k] = unmoved_overlap(context, c, anchor, approach);
+    any = any || overlaps[k] > 0;
   }
-  view.before = springs.before[0].point.data();
-  view.anchors = written[0].point.data();
-  const KernelBatch batch{.stiffness = context.stiffness,
-                          .elapsed = context.elapsed,
-                          .mass = &bodies_.masses[robots_[robot].mass],
-                          .layout = &springs.layout,
-                          .anchors_ends = springs.anchors_ends,
-                          .patch_of = springs.patch_of,
-                          .patches = springs.patches,
-                          .tells_contacts = bodies_.tells_contacts};
-  if (bodies_.tells_contacts) view.forces = Bodies::tell(bodies_.robots[robot], contacts)->wrench.force.data();
+  return any;
+}
+
+/// `overlaps`: of each contact of the list, m; null: none.
+void SceneryContacts::apply_springs(const StepContext& context, std::uint32_t robot, const Plan& plan,
+                                    const double* overlaps) const {
+  const auto contacts = *robots_[robot].list;
+  KernelRobot view = view_of(robot, plan);
+  if (bodies_.tells_contacts) {
+    for (int i = 0; i < plan.count; ++i)
+      Bodies::tell(bodies_.robots[robot], contacts.subspan(plan.contacts[i].place, 1));
+    view.forces = (*bodies_.robots[robot].told)[0].wrench.force.data();
+  }
+  KernelBatch batch = batch_of(context);
+  batch.impact_speed = std::numeric_limits<double>::infinity();
   const auto apply = [&](const Contact* first) {
-    view.contacts = first->point.data();
+    view.listed = first->point.data();
     const KernelRobot* const views[] = {&view};
     kernels_.apply_forces(batch, views, 1);
   };
-  if (!parts) return apply(contacts.data());
+  if (!overlaps) return apply(contacts.data());
   Contact parting[max_contacts];
   std::copy(contacts.begin(), contacts.end(), parting);
-  for (std::size_t k = 0; k < contacts.size(); ++k) parting[k].depth -= written[k].overlap;
+  for (std::size_t k = 0; k < contacts.size(); ++k) parting[k].depth -= overlaps[k];
   apply(parting);
 }
 
+/// Looks for impacts and for overlaps that no motion has made.
 void SceneryContacts::process_single(const StepContext& context, std::uint32_t robot) {
   if (bodies_.tells_contacts) bodies_.robots[robot].told.clear();
-  TimeOfImpact times[max_contacts];
-  if (const std::uint32_t which = find_impacts(context, robot, times); which != 0)
-    return process_impacts(context, robot, which, times);
   KnownRobot& known = robots_[robot];
-  const auto contacts = *known.list;
-  const Identities& identities = identities_[robot];
-  const SpringBatch springs = springs_of(robot, contacts, identities);
+  TimeOfImpact times[max_contacts];
+  const std::uint32_t impacts = find_impacts(context, robot, times);
+  double overlaps[max_contacts] = {};
+  Plan plan;
+  make_plan(robot, ~impacts, plan);
+  const bool parts = find_overlaps(context, robot, plan, overlaps);
   known.anchors.clear();
-  for (std::uint32_t k = 0; k < known.contacts; ++k) known.anchors.push_back({.pair = identities[k].pair});
+  for (std::uint32_t k = 0; k < known.contacts; ++k) {
+    FrictionAnchor anchor = anchor_of_impact(identities_[robot][k].pair);
+    if (!(impacts >> k & 1)) anchor = {.pair = anchor.pair, .overlap = overlaps[k]};
+    known.anchors.push_back(anchor);
+  }
   known.anchors_match = true;
-  apply_springs(context, robot, contacts, springs, (*known.anchors).data());
-  note_parting(known);
+  known.is_parting = parts;
+  known.was_in_impact = impacts != 0;
+  if (impacts != 0) bodies_.clear_wrenches(robot);
+  if (plan.count > 0) apply_springs(context, robot, plan, parts ? overlaps : nullptr);
+  if (impacts != 0) apply_impacts(context, robot, impacts, times);
 }
 
 /// From the state alone, so that a restored run goes the way of the one that it was taken from.
@@ -318,12 +379,15 @@ void SceneryContacts::find_match(std::uint32_t robot) {
   known.anchors_match = all.size() == known.contacts;
   for (std::size_t k = 0; k < all.size() && known.anchors_match; ++k)
     known.anchors_match = all[k].pair == identities_[robot][k].pair;
-  note_parting(known);
+  known.is_parting = std::any_of(all.begin(), all.end(), [](const FrictionAnchor& a) { return a.overlap > 0; });
+  known.was_in_impact = std::any_of(all.begin(), all.end(), is_of_impact);
 }
 
-void SceneryContacts::note_parting(KnownRobot& known) const {
-  const auto all = *known.anchors;
-  known.is_parting = std::any_of(all.begin(), all.end(), [](const FrictionAnchor& a) { return a.overlap > 0; });
+bool SceneryContacts::is_one_patch(std::span<const Contact> contacts) const {
+  return std::all_of(contacts.begin(), contacts.end(), [&](const Contact& c) {
+    return bodies_[c.other].model == bodies_[contacts[0].other].model &&
+           c.normal.dot(contacts[0].normal) > same_direction;
+  });
 }
 
 }  // namespace muro::penalty

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <array>
-#include <mutex>
 #include <vector>
 
 #include "impact.hpp"
@@ -27,65 +26,58 @@ class SceneryContacts {
   struct Identity {
     std::uint64_t bodies = 0, shapes = 0, pair = 0;
   };
+  using Identities = std::array<Identity, max_contacts>;
+  using KernelContacts = std::array<KernelContact, max_contacts>;
   /// What is known of a robot and its contacts from earlier steps, so that the same contacts are not analysed again.
   /// Results depend on contacts and anchors alone.
   struct KnownRobot {
     ListIn<Contact> list;
     ListOut<FrictionAnchor> anchors;
-    KernelRobot view;            ///< without contacts and anchors
-    std::uint64_t revision = 0;  ///< of the list of contacts, when it was last seen
-    std::uint32_t contacts = 0;  ///< known
-    std::uint32_t layout = 0;    ///< in layouts_; robots of one layout and mass share SIMD lanes
-    std::uint32_t mass = 0;
+    KernelRobot view;                      ///< without addresses of contacts and anchors
+    std::uint64_t revision = 0;            ///< of the list of contacts, when it was last seen
+    std::uint32_t contacts = 0;            ///< known
     const std::uint64_t* world = nullptr;  ///< see keys::contact_world
     const double* lag = nullptr;           ///< see keys::twist_lag; null: forces move its bodies one by one
     bool only_scenery = false;
-    bool one_model = false;      ///< it touches one object of the scenery, and its layout is known
     bool anchors_match = false;  ///< the robot has an anchor for each contact, in their order
     bool is_parting = false;     ///< some anchor has an overlap
+    bool was_in_impact = false;  ///< some anchor is that of an impact
   };
-  using Identities = std::array<Identity, max_contacts>;
-  /// Robots of one layout and mass, until they fill the SIMD lanes.
+  /// Robots with as many contacts, more or less, until they fill the SIMD lanes.
   struct Queue {
     std::uint32_t count = 0;
     std::uint32_t robots[8];
-    KernelRobot views[8];
   };
+  struct Plan;
   struct Queues;
-  struct SpringBatch;
 
   void forget_turning(std::uint32_t robot) const;
   void fetch(std::uint32_t robot) const;
   bool knows(std::uint32_t robot, std::span<const Contact> now) const;
   void apply_forces_on(const StepContext& context, std::uint32_t robot, Queues& queues);
   void analyse(std::uint32_t robot, std::span<const Contact> contacts);
-  Queue& queue_for(const StepContext& context, const KnownRobot& robot, Queues& queues);
-  void process_single(const StepContext& context, std::uint32_t robot);
-  SpringBatch springs_of(std::uint32_t robot, std::span<const Contact> contacts, const Identities& identities) const;
-  void apply_springs(const StepContext& context, std::uint32_t robot, std::span<const Contact> contacts,
-                     const SpringBatch& springs, FrictionAnchor* written) const;
   void find_match(std::uint32_t robot);
-  void note_parting(KnownRobot& known) const;
-  std::uint32_t find_impacts(const StepContext& context, std::uint32_t robot, TimeOfImpact* times) const;
-  void process_impacts(const StepContext& context, std::uint32_t robot, std::uint32_t which, const TimeOfImpact* times);
-  void apply_impacts(const StepContext& context, std::uint32_t robot, std::span<const Contact> contacts,
-                     const TimeOfImpact* times) const;
+  bool is_one_patch(std::span<const Contact> contacts) const;
+  void enqueue_changed(const StepContext& context, std::uint32_t robot, Queues& queues);
+  void process_rest(const StepContext& context, Queues& queues);
   void process_queue(const StepContext& context, Queue& queue);
-  ContactLayout layout_of(std::uint32_t robot, std::span<const Contact> contacts, const Identities& identities) const;
-  std::uint32_t number_of(const ContactLayout& layout);
-  int sort_into_patches(std::span<const Contact> contacts, std::uint8_t* patch_of) const;
-
-  static constexpr std::uint32_t unknown_layout = 0xffffffffu;
-  static constexpr std::size_t max_layouts = 256;
+  void process_changed(const StepContext& context, Queues& queues);
+  void process_single(const StepContext& context, std::uint32_t robot);
+  void make_plan(std::uint32_t robot, std::uint32_t which, Plan& plan) const;
+  KernelRobot view_of(std::uint32_t robot, const Plan& plan) const;
+  KernelBatch batch_of(const StepContext& context) const;
+  bool find_overlaps(const StepContext& context, std::uint32_t robot, const Plan& plan, double* overlaps) const;
+  void apply_springs(const StepContext& context, std::uint32_t robot, const Plan& plan, const double* overlaps) const;
+  std::uint32_t find_impacts(const StepContext& context, std::uint32_t robot, TimeOfImpact* times) const;
+  void apply_impacts(const StepContext& context, std::uint32_t robot, std::uint32_t which,
+                     const TimeOfImpact* times) const;
 
   const Bodies& bodies_;
   const SceneryKernels& kernels_;
-  std::vector<KnownRobot> robots_;      ///< as Bodies::robots
-  std::vector<Identities> identities_;  ///< of the contacts that they know
+  std::vector<KnownRobot> robots_;        ///< as Bodies::robots
+  std::vector<Identities> identities_;    ///< of the contacts that they know
+  std::vector<KernelContacts> contacts_;  ///< the same
   std::vector<std::uint8_t> remaining_;
-  std::mutex mutex_;  ///< of layouts_, for writers
-  std::vector<ContactLayout>
-      layouts_;  ///< all different; never more than max_layouts, so their addresses do not change
 };
 
 }  // namespace muro::penalty

@@ -3,9 +3,27 @@
 #include <algorithm>
 
 #include "scenery_contacts.hpp"
-#include "spring_batch.hpp"
 
 namespace muro::penalty {
+namespace {
+
+/// Numbers contacts by patch: of one object of the scenery, with normals alike. Returns the number of patches.
+int sort_into_patches(const Bodies& bodies, std::span<const Contact> contacts, std::uint8_t* patch_of) {
+  std::size_t first[max_contacts];  // contact of each patch
+  int patches = 0;
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    const Contact& c = contacts[k];
+    int p = patches - 1;
+    while (p >= 0 && !(bodies[c.other].model == bodies[contacts[first[p]].other].model &&
+                       contacts[first[p]].normal.dot(c.normal) > same_direction))
+      --p;
+    if (p < 0) first[p = patches++] = k;
+    patch_of[k] = std::uint8_t(p);
+  }
+  return patches;
+}
+
+}  // namespace
 
 /// Returns a bit for each contact that is an impact; `times`: when, of these contacts.
 std::uint32_t SceneryContacts::find_impacts(const StepContext& context, std::uint32_t robot,
@@ -27,59 +45,34 @@ std::uint32_t SceneryContacts::find_impacts(const StepContext& context, std::uin
   return which;
 }
 
-/// Impulses in contacts `which`, springs in the others.
-void SceneryContacts::process_impacts(const StepContext& context, std::uint32_t robot, std::uint32_t which,
-                                      const TimeOfImpact* times) {
-  KnownRobot& known = robots_[robot];
-  const auto contacts = *known.list;
-  const Identities& identities = identities_[robot];
-  Contact impacts[max_contacts], others[max_contacts];
-  TimeOfImpact impact_times[max_contacts];
-  Identities other_identities;
-  std::size_t impact_count = 0, other_count = 0;
-  for (std::size_t k = 0; k < contacts.size(); ++k) {
-    if (which >> k & 1) {
-      impact_times[impact_count] = times[k];
-      impacts[impact_count++] = contacts[k];
-    } else {
-      other_identities[other_count] = identities[k];
-      others[other_count++] = contacts[k];
-    }
-  }
-  FrictionAnchor of_others[max_contacts];
-  bodies_.clear_wrenches(robot);
-  if (other_count > 0) {
-    const std::span<const Contact> rest(others, other_count);
-    apply_springs(context, robot, rest, springs_of(robot, rest, other_identities), of_others);
-  }
-  known.anchors.clear();
-  for (std::size_t k = 0, other = 0; k < contacts.size(); ++k) {
-    FrictionAnchor anchor = which >> k & 1 ? anchor_of_impact(0) : of_others[other++];
-    anchor.pair = identities[k].pair;
-    known.anchors.push_back(anchor);
-  }
-  known.anchors_match = true;
-  note_parting(known);
-  apply_impacts(context, robot, {impacts, impact_count}, impact_times);
-}
-
-/// Patch by patch, each with the motion that those before it have left: so none gains energy.
-void SceneryContacts::apply_impacts(const StepContext& context, std::uint32_t robot, std::span<const Contact> contacts,
+/// In contacts `which`, patch by patch, each with the motion that those before it have left: so none gains energy.
+/// `times`: of all contacts.
+void SceneryContacts::apply_impacts(const StepContext& context, std::uint32_t robot, std::uint32_t which,
                                     const TimeOfImpact* times) const {
   const Robot& r = bodies_.robots[robot];
+  Contact contacts[max_contacts];
+  TimeOfImpact times_of[max_contacts];
+  std::size_t number = 0;
+  const auto listed = *robots_[robot].list;
+  for (std::size_t k = 0; k < listed.size(); ++k) {
+    if (!(which >> k & 1)) continue;
+    times_of[number] = times[k];
+    contacts[number++] = listed[k];
+  }
   const DynamicBody& base = bodies_.base_of(r);
   const FreeBody body(bodies_, base);
   std::uint8_t patch_of[max_contacts];
-  const int patches = sort_into_patches(contacts, patch_of);
+  const int patches = sort_into_patches(bodies_, {contacts, number}, patch_of);
   *r.impact = {};
   *r.impact_time = context.time;
   Vec3 pushed = Vec3::Zero(), turned = Vec3::Zero();  // by the patches so far
   for (int p = 0; p < patches; ++p) {
     ImpactPoint points[max_contacts];
     std::size_t count = 0;
-    for (std::size_t k = 0; k < contacts.size(); ++k) {
+    for (std::size_t k = 0; k < number; ++k) {
       const Contact& c = contacts[k];
-      if (patch_of[k] == p) points[count++] = {context, c, times[k], bodies_.velocity(c.self, c.point), body, nullptr};
+      if (patch_of[k] == p)
+        points[count++] = {context, c, times_of[k], bodies_.velocity(c.self, c.point), body, nullptr};
     }
     const law::Mobility<double> mobility = body.mobility_before(mean_since({points, count}));
     for (std::size_t k = 0; k < count; ++k) points[k].add_motion(mobility, pushed, turned);

@@ -14,9 +14,9 @@ template <class S, int n>
 struct OldAnchors {
   V3<S> at[n], displacement[n];
 
-  MURO_INLINE void load(int k, const Places<S>& anchors, int anchor) {
+  MURO_INLINE void load(int k, const Places<S>& places, int number) {
     S g[anchor_numbers];
-    load_rows(anchors, anchor * anchor_stride, g);
+    load_rows(places, number, g);
     at[k] = {g[0], g[1], g[2]};
     displacement[k] = {g[3], g[4], g[5]};
   }
@@ -24,173 +24,348 @@ struct OldAnchors {
   MURO_INLINE V3<S> nearest(const V3<S>& point, int count) const {
     V3<S> found = displacement[0];
     if (count == 1) return found;
-    V3<S> away = at[0] - point;
-    S least = dot(away, away);
+    S least = distance2(point, 0);
     for (int k = 1; k < count; ++k) {
-      away = at[k] - point;
-      const S distance = dot(away, away);
+      const S distance = distance2(point, k);
       const auto nearer = distance < least;
       least = select(nearer, distance, least);
       found = select(nearer, displacement[k], found);
     }
     return found;
   }
+  /// The square of the distance of the nearest, m^2.
+  MURO_INLINE S least_distance2(const V3<S>& point, int count) const {
+    S least = distance2(point, 0);
+    for (int k = 1; k < count; ++k) least = min(distance2(point, k), least);
+    return least;
+  }
+  MURO_INLINE S distance2(const V3<S>& point, int k) const {
+    const V3<S> away = at[k] - point;
+    return dot(away, away);
+  }
 };
 
-/// The contacts of as many robots as S has values. `one_patch`: all contacts belong to it. Each pass over the
-/// contacts stores its results for the next, so that the iterations of a pass do not wait for each other.
-template <class S, bool one_patch>
+/// The contacts of as many robots as S has values. Where one has fewer than another, its last contact stands in and
+/// counts for nothing. Each pass over the contacts stores its results for the next, so that the iterations of a pass
+/// do not wait for each other.
+template <class S>
 class RobotContacts {
  public:
-  /// Where there are fewer than S has values, the first stands in.
+  /// Where there are fewer robots than S has values, the first stands in.
   MURO_INLINE RobotContacts(const KernelBatch& batch, const KernelRobot* const* robots, int count)
-      : batch_(batch), layout_(*batch.layout), count_(count) {
+      : batch_(batch), used_(first_lanes(count)) {
+    Places<S> poses, masses;
+    double counts[count_of<S>];
+    least_ = max_contacts;
     for (int i = 0; i < count_of<S>; ++i) {
       const KernelRobot& r = *robots[i < count ? i : 0];
-      contacts_.at[i] = r.contacts, before_.at[i] = r.before;
+      contacts_[i] = r.contacts, last_[i] = r.count - 1, counts[i] = r.count;
+      least_ = r.count < least_ ? r.count : least_;
+      most_ = r.count > most_ ? r.count : most_;
+      groups_ |= r.groups;
+      in_order_ = in_order_ && r.in_order;
+      is_uniform_ = is_uniform_ && r.groups == robots[0]->groups && r.count == robots[0]->count;
+      has_many_objects_ = has_many_objects_ || r.has_many_objects;
+      has_many_materials_ = has_many_materials_ || r.has_many_materials;
+      changed_ |= unsigned(r.is_changed) << i;
+      listed_.at[i] = r.listed, before_.at[i] = r.before;
       anchors_.at[i] = r.anchors, wrench_.at[i] = r.wrench, forces_.at[i] = r.forces;
-      poses_[0].at[i] = r.base_pose, poses_[1].at[i] = r.link_pose;
-      twists_[0].at[i] = r.base_twist, twists_[1].at[i] = r.link_twist;
+      poses.at[i] = r.base_pose, masses.at[i] = r.mass;
     }
-    const PoseOf<S> pose = load_pose(poses_[0]);
-    body_ = mobility_of(*batch.mass, pose);
+    is_uniform_ = is_uniform_ && in_order_;
+    count_ = side_by_side(counts);
+    S mass[mass_numbers];
+    bool one_mass = true;
+    for (int i = 1; i < count_of<S>; ++i) one_mass = one_mass && masses.at[i] == masses.at[0];
+    if (one_mass)
+      for (int k = 0; k < mass_numbers; ++k) mass[k] = S(masses.at[0][k]);
+    else
+      load_rows(masses, 0, mass);
+    const PoseOf<S> pose = load_pose(poses);
+    body_ = mobility_of(mass, pose);
     base_ = pose.position;
   }
 
   /// Returns a bit for each robot that is not processed.
-  MURO_INLINE unsigned run() {
-    const unsigned processed = load_contacts() & first_lanes(count_);
-    const S load = find_effective_masses();
-    move_contacts();
-    add_forces(load, processed);
-    return ~processed & first_lanes(count_);
+  MURO_INLINE unsigned apply_forces() {
+    load_contacts();
+    const SpringStiffness<S> springs = find_effective_masses();
+    const S load = springs.max_eigenvalue_bound(body_);
+    const unsigned left = move_contacts() & used_;
+    add_forces(load, used_ & ~left);
+    return left;
   }
 
  private:
   struct Point {
     V3<S> at, normal;
     S depth, friction;
+    S patch;             ///< number; -1 in lanes of robots that have fewer contacts
     S approach;          ///< m/s
     V3<S> slip;          ///< m/s
     V3<S> displacement;  ///< m, tangential
   };
-  /// Contacts `begin` to `end` - 1 and their friction anchors of the step before.
-  struct Group {
-    int number, begin, end, anchors_begin, anchors_end;
+  /// Of each robot's contacts in a patch.
+  struct PatchOf {
+    V3<S> normal;
+    S object;  ///< -1 in lanes of robots that have fewer patches
+    EffectiveMass<S> mass;
+  };
+  /// Contacts `begin` to `end` - 1: of one group in each robot. Their friction anchors of the step before.
+  struct Run {
+    int begin, end;
+    int most_anchors;
+    Places<S> poses, twists, anchors;
+    int last_anchor[count_of<S>];  ///< -1: none
+    bool all_have_anchors;
   };
 
-  MURO_INLINE int patch_of(int contact) const { return one_patch ? 0 : batch_.patch_of[contact]; }
+  MURO_INLINE static S side_by_side(const double (&v)[count_of<S>]) {
+    if constexpr (count_of<S> == 1)
+      return v[0];
+    else
+      return load_side_by_side<S>(v);
+  }
+  /// Contact k of each robot to `sink`, with its lane.
+  template <class Sink>
+  MURO_INLINE void each_contact(int k, const Sink& sink) const {
+    if (k < least_)
+      for (int i = 0; i < count_of<S>; ++i) sink(i, contacts_[i][k]);
+    else
+      for (int i = 0; i < count_of<S>; ++i) sink(i, contacts_[i][k < last_[i] ? k : last_[i]]);
+  }
+  /// A number of each robot's contact k.
+  template <class Number>
+  MURO_INLINE S of_contacts(int k, const Number& number) const {
+    double v[count_of<S>];
+    each_contact(k, [&](int i, const KernelContact& c) { v[i] = double(number(c)); });
+    return side_by_side(v);
+  }
+  /// Whether all robots have a contact k at place k.
+  MURO_INLINE bool is_plain(int k) const { return in_order_ && k < least_; }
 
-  /// Returns a bit for each robot whose contacts agree with the patches of `batch`.
-  MURO_INLINE unsigned load_contacts() {
-    auto one = S(1) == S(1);
-    for (int k = 0; k < layout_.contacts; ++k) {
+  MURO_INLINE void load_contact(int k, S (&c)[contact_numbers]) const {
+    if (is_plain(k)) return load_rows(listed_, k * contact_stride, c);
+    Places<S> at;
+    each_contact(k, [&](int i, const KernelContact& x) { at.at[i] = listed_.at[i] + x.place * contact_stride; });
+    load_rows(at, 0, c);
+  }
+
+  MURO_INLINE void load_contacts() {
+    S of_patches(1);  // in each lane
+    for (int k = 0; k < most_; ++k) {
       S c[contact_numbers];
-      load_rows(contacts_, k * contact_stride, c);
+      load_contact(k, c);
       Point& p = points_[k];
       p.at = {c[0], c[1], c[2]}, p.normal = {c[3], c[4], c[5]};
       p.depth = c[6], p.friction = c[7];
-      one = one & (dot(points_[0].normal, p.normal) > S(same_direction));
+      const S object = has_many_objects_ ? of_contacts(k, [](const KernelContact& x) { return x.object; }) : S(0);
+      if (k == 0) {
+        patches_[0].normal = p.normal, patches_[0].object = object;
+        patch_count_ = 1;
+      }
+      S found(0);
+      if (const auto fits = of_patch(patches_[0], p.normal, object); patch_count_ > 1 || bits(fits) != all_lanes<S>) {
+        found = select(fits, S(0), S(-1));
+        for (int n = 1; n < patch_count_; ++n) found = select(of_patch(patches_[n], p.normal, object), S(n), found);
+        if (const auto fresh = found < S(0); any(fresh)) {
+          found = select(fresh, of_patches, found);
+          add_patches(fresh, of_patches, p.normal, object);
+          of_patches += select(fresh, S(1), S(0));
+        }
+      }
+      p.patch = k < least_ ? found : select(S(k) < count_, found, S(-1));
     }
-    return one_patch ? bits(one) : all_lanes<S>;
+    any_looked_at_ = patch_count_ > 1 || changed_ != 0;
+    if (any_looked_at_) looked_at_ = (of_patches > S(1)) | of_bits(changed_);
   }
 
-  /// Divides the effective mass of each patch among its points. Returns the load of the robot.
-  MURO_INLINE S find_effective_masses() {
+  MURO_INLINE static MaskOf<S> of_patch(const PatchOf& patch, const V3<S>& normal, S object) {
+    return (dot(patch.normal, normal) > S(same_direction)) & (patch.object == object);
+  }
+  /// The contact is the first of patch `number` in each of the lanes.
+  MURO_INLINE void add_patches(MaskOf<S> lanes, S number, const V3<S>& normal, S object) {
+    if (any(lanes & (number == S(patch_count_)))) patches_[patch_count_++] = {normal, S(-1), {}};
+    for (int n = 1; n < patch_count_; ++n) {
+      const auto here = lanes & (number == S(n));
+      patches_[n].normal = select(here, normal, patches_[n].normal);
+      patches_[n].object = select(here, object, patches_[n].object);
+    }
+  }
+
+  /// Divides the effective mass of each patch among its points. Returns what holds the robot.
+  MURO_INLINE SpringStiffness<S> find_effective_masses() {
     SpringStiffness<S> all;
-    for (int p = 0; p < (one_patch ? 1 : batch_.patches); ++p) {
-      int first = 0;
-      while (patch_of(first) != p) ++first;
-      Patch<S> patch(points_[first].normal, body_.centre);
-      for (int k = first; k < layout_.contacts; ++k)
-        if (patch_of(k) == p) patch.add(points_[k].at);
-      effective_masses_[p] = EffectiveMass<S>(patch.at_middle(body_), patch.count);
-      all += patch.stiffness(effective_masses_[p].along, effective_masses_[p].across);
+    const bool plain = patch_count_ == 1;
+    for (int n = 0; n < patch_count_; ++n) {
+      Patch<S> patch(patches_[n].normal, body_.centre);
+      for (int k = n; k < most_; ++k) {
+        if (plain && k < least_)
+          patch.add(points_[k].at);
+        else if (const auto here = points_[k].patch == S(n); any(here))
+          patch.add_where(here, points_[k].at);
+      }
+      EffectiveMass<S>& mass = patches_[n].mass;
+      mass = EffectiveMass<S>(patch.at_middle(body_), patch.count);
+      const SpringStiffness<S> springs = patch.stiffness(mass.along, mass.across);
+      all += plain ? springs : springs.where(patch.count > S(0));
     }
-    return all.max_eigenvalue_bound(body_);
+    return all;
   }
 
-  /// Velocities and tangential displacements of the points.
-  MURO_INLINE void move_contacts() {
-    Group group{};
-    for (; group.number < layout_.groups; ++group.number) {
-      group.end = layout_.ends[group.number];
-      group.anchors_end = batch_.anchors_ends[group.number];
-      const int anchors = group.anchors_end - group.anchors_begin;
-      if (anchors == 1)  // spherical wheels and feet
-        move_group<1>(group);
-      else if (anchors == 2)  // cylindrical wheels and tracks
-        move_group<2>(group);
+  /// Velocities and tangential displacements of the points. Returns a bit for each robot that may be in an impact.
+  MURO_INLINE unsigned move_contacts() {
+    S may_collide(0);  // or 1
+    Run run;
+    for (run.begin = 0; run.begin < most_; run.begin = run.end) {
+      run.end = run.begin + 1;
+      while (run.end < most_ && !(groups_ >> run.end & 1)) ++run.end;
+      find_bodies_and_anchors(run);
+      if (run.most_anchors == 1)  // spherical wheels and feet
+        move_run<1>(run, may_collide);
+      else if (run.most_anchors == 2)  // cylindrical wheels and tracks
+        move_run<2>(run, may_collide);
       else
-        move_any_group(group);
-      group.begin = group.end;
-      group.anchors_begin = group.anchors_end;
+        move_any_run(run, may_collide);
+    }
+    return bits(may_collide > S(0));
+  }
+  MURO_INLINE void find_bodies_and_anchors(Run& run) const {
+    run.most_anchors = run.end - run.begin;
+    run.all_have_anchors = true;
+    each_contact(run.begin,
+                 [&](int i, const KernelContact& c) { run.poses.at[i] = c.pose, run.twists.at[i] = c.twist; });
+    if (is_uniform_) return;
+    run.most_anchors = 0;
+    each_contact(run.begin, [&](int i, const KernelContact& c) {
+      const int anchors = c.anchors_end - c.anchors_begin;
+      // where there is none, numbers of the contact stand in
+      run.anchors.at[i] =
+          anchors > 0 ? before_.at[i] + c.anchors_begin * anchor_stride : listed_.at[i] + c.place * contact_stride;
+      run.last_anchor[i] = anchors - 1;
+      run.all_have_anchors = run.all_have_anchors && anchors > 0;
+      run.most_anchors = anchors > run.most_anchors ? anchors : run.most_anchors;
+    });
+  }
+  template <int n>
+  MURO_INLINE void load_anchors(const Run& run, OldAnchors<S, n>& to) const {
+    const int anchors = n < max_contacts ? n : run.most_anchors;
+    if (is_uniform_) {
+      for (int k = 0; k < anchors; ++k) to.load(k, before_, (run.begin + k) * anchor_stride);
+      return;
+    }
+    Places<S> at = run.anchors;
+    for (int k = 0; k < anchors; ++k) {
+      to.load(k, at, 0);
+      for (int i = 0; i < count_of<S>; ++i) at.at[i] += k < run.last_anchor[i] ? anchor_stride : 0;  // the last again
     }
   }
-  [[gnu::noinline]] void move_any_group(const Group& group) { move_group<max_contacts>(group); }
-  /// A group that has n anchors, or any number of them.
+  [[gnu::noinline]] void move_any_run(const Run& run, S& may_collide) { move_run<max_contacts>(run, may_collide); }
+  /// With at most n anchors, or any number of them.
   template <int n>
-  MURO_INLINE void move_group(const Group& group) {
-    const BodyOffsets& body = layout_.bodies[group.number];
-    const V3<S> origin = load_vector(poses_[body.of_link], body.pose);
-    const TwistOf<S> motion = load_twist(twists_[body.of_link], body.twist);
-    const int anchors = n < max_contacts ? n : group.anchors_end - group.anchors_begin;
+  MURO_INLINE void move_run(const Run& run, S& may_collide) {
+    const V3<S> origin = load_vector(run.poses);
+    const TwistOf<S> motion = load_twist(run.twists);
+    const int anchors = n < max_contacts ? n : run.most_anchors;
     OldAnchors<S, n> before;
-    for (int k = 0; k < anchors; ++k) before.load(k, before_, group.anchors_begin + k);
-    const S zero(0), elapsed(batch_.elapsed);
-    for (int k = group.begin; k < group.end; ++k) {
+    load_anchors(run, before);
+    const S zero(0), elapsed(batch_.elapsed), impact_speed(batch_.impact_speed);
+    auto have_anchors = zero == zero;
+    if (!run.all_have_anchors) {
+      double last[count_of<S>];
+      for (int i = 0; i < count_of<S>; ++i) last[i] = run.last_anchor[i];
+      have_anchors = side_by_side(last) >= zero;
+    }
+    for (int k = run.begin; k < run.end; ++k) {
       Point& p = points_[k];
       const V3<S> velocity = motion.linear + cross(motion.angular, p.at - origin);
       p.approach = -dot(velocity, p.normal);
       p.slip = velocity + p.approach * p.normal;
-      const V3<S> displacement =
-          (anchors > 0 ? before.nearest(p.at, anchors) : V3<S>{zero, zero, zero}) + p.slip * elapsed;
+      V3<S> old = anchors > 0 ? before.nearest(p.at, anchors) : V3<S>{zero, zero, zero};
+      if (!run.all_have_anchors) old = select(have_anchors, old, {zero, zero, zero});
+      const V3<S> displacement = old + p.slip * elapsed;
       p.displacement = displacement - p.normal * dot(p.normal, displacement);
+      if (!any_looked_at_) continue;
+      const auto fast = (p.approach > impact_speed) & looked_at_ & (p.patch >= zero);
+      if (!any(fast)) continue;
+      const S reach = S(lasting_reach) + S(lasting_slips) * elapsed * sqrt(dot(p.slip, p.slip));
+      const S distance2 = anchors > 0 ? before.least_distance2(p.at, anchors) : zero;
+      const auto lasts = have_anchors & (distance2 < reach * reach);
+      may_collide = select(fast, select(lasts, may_collide, S(1)), may_collide);
     }
+  }
+  MURO_INLINE static MaskOf<S> of_bits(unsigned which) {
+    double v[count_of<S>];
+    for (int i = 0; i < count_of<S>; ++i) v[i] = which >> i & 1;
+    return side_by_side(v) > S(0);
   }
 
   MURO_INLINE void add_forces(S load, unsigned processed) {
-    V3<S> force{S(0), S(0), S(0)}, torque = force;
+    const S none(0);
+    V3<S> force{none, none, none}, torque = force;
     const FrictionLaw<S> friction(batch_.stiffness, load);
-    NormalLaw<S> law(batch_.stiffness, layout_.zeta[0], load);
-    for (int group = 0, k = 0; group < layout_.groups; ++group) {
-      if (layout_.zeta[group] != law.zeta) law = {batch_.stiffness, layout_.zeta[group], load};
-      for (; k < layout_.ends[group]; ++k) {
-        const Point& p = points_[k];
-        const EffectiveMass<S>& mass = effective_masses_[patch_of(k)];
-        V3<S> displacement = p.displacement;
-        const S normal = mass.along * law.force(p.depth, p.approach);
-        const V3<S> across = friction.force(displacement, p.slip, p.friction * normal * mass.inverse_across);
-        const V3<S> sum = normal * p.normal + mass.across * across;
-        force += sum;
-        torque += cross(p.at - base_, sum);
-        if (batch_.tells_contacts) store_vector(forces_, k * force_stride, sum, processed);
-        store_rows(anchors_, k * anchor_stride,
-                   {p.at.x, p.at.y, p.at.z, displacement.x, displacement.y, displacement.z}, processed);
+    const auto zeta_of = [](const KernelContact& x) { return x.zeta; };
+    NormalLaw<S> law(batch_.stiffness, of_contacts(0, zeta_of), load);
+    for (int k = 0; k < most_; ++k) {
+      if (has_many_materials_) law = {batch_.stiffness, of_contacts(k, zeta_of), load};
+      const Point& p = points_[k];
+      EffectiveMass<S> mass = patches_[0].mass;
+      for (int n = 1; n < patch_count_; ++n) {
+        const auto here = p.patch == S(n);
+        const EffectiveMass<S>& other = patches_[n].mass;
+        mass.along = select(here, other.along, mass.along);
+        mass.across = select(here, other.across, mass.across);
+        mass.inverse_across = select(here, other.inverse_across, mass.inverse_across);
       }
+      V3<S> displacement = p.displacement;
+      const S normal = mass.along * law.force(p.depth, p.approach);
+      const V3<S> across = friction.force(displacement, p.slip, p.friction * normal * mass.inverse_across);
+      V3<S> sum = normal * p.normal + mass.across * across;
+      unsigned which = processed;
+      if (k >= least_) {
+        const auto here = S(k) < count_;
+        sum = select(here, sum, {none, none, none});
+        which &= bits(here);
+      }
+      force += sum;
+      torque += cross(p.at - base_, sum);
+      store_contact(k, sum, displacement, which);
     }
     store_rows(wrench_, 0, {force.x, force.y, force.z, torque.x, torque.y, torque.z}, processed);
   }
+  MURO_INLINE void store_contact(int k, const V3<S>& force, const V3<S>& displacement, unsigned which) const {
+    const V3<S>&at = points_[k].at, &d = displacement;
+    if (batch_.tells_contacts) store_vector(forces_, k * force_stride, force, which);
+    if (is_plain(k)) return store_rows(anchors_, k * anchor_stride, {at.x, at.y, at.z, d.x, d.y, d.z}, which);
+    Places<S, double> anchors;
+    each_contact(k, [&](int i, const KernelContact& c) { anchors.at[i] = anchors_.at[i] + c.anchor * anchor_stride; });
+    store_rows(anchors, 0, {at.x, at.y, at.z, d.x, d.y, d.z}, which);
+  }
 
   const KernelBatch& batch_;
-  const ContactLayout& layout_;
-  const int count_;
-  Places<S> contacts_, before_;
-  Places<S> poses_[2], twists_[2];  ///< of bases, of links
+  const unsigned used_;  ///< bits of lanes
+  unsigned changed_ = 0, groups_ = 0;
+  bool in_order_ = true, has_many_materials_ = false, has_many_objects_ = false;
+  bool is_uniform_ = true;  ///< robots are in order, and have equal groups, which have the anchors of their contacts
+  const KernelContact* contacts_[count_of<S>];
+  int last_[count_of<S>];
+  int least_ = 0, most_ = 0;  ///< contacts that a robot has
+  S count_;                   ///< of contacts of each
+  Places<S> listed_, before_;
   Places<S, double> anchors_, wrench_, forces_;
   Mobility<S> body_;
   V3<S> base_;
+  bool any_looked_at_ = false;
+  MaskOf<S> looked_at_;  ///< robots that may be in impacts
+  int patch_count_ = 0;
+  PatchOf patches_[max_contacts];
   Point points_[max_contacts];
-  EffectiveMass<S> effective_masses_[one_patch ? 1 : max_contacts];  ///< of each patch
 };
 
 unsigned apply_forces(const KernelBatch& batch, const KernelRobot* const* robots, int count) {
-  if (batch.patch_of) {
-    for (int i = 0; i < count; ++i) RobotContacts<double, false>(batch, robots + i, 1).run();
-    return 0;
-  }
-  return in_lanes(
-      count, [&]<class S>(int first, int used) { return RobotContacts<S, true>(batch, robots + first, used).run(); });
+  return in_lanes(count, [&]<class S>(int first, int used) {
+    return RobotContacts<S>(batch, robots + first, used).apply_forces();
+  });
 }
 
 }  // namespace

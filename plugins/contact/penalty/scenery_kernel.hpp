@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Kernel: robots that touch only static scenery, such as vehicles on the ground.
+// Kernel: contacts with static scenery, such as those of vehicles with the ground.
 #pragma once
 
 #include <cstddef>
@@ -14,34 +14,33 @@ namespace muro::penalty {
 /// Of a robot that the kernel processes; and of its friction anchors from the step before.
 inline constexpr int max_contacts = 32;
 
-/// Where the pose and the twist of a body lie, in numbers from those of its robot's base or first link.
-struct BodyOffsets {
-  bool of_link = false;
-  std::ptrdiff_t pose = 0, twist = 0;
-
-  friend bool operator==(const BodyOffsets&, const BodyOffsets&) = default;
+/// What does not change while a contact lasts.
+struct KernelContact {
+  const double *pose = nullptr, *twist = nullptr;   ///< of its body
+  double zeta = 0;                                  ///< damping ratio of the normal
+  std::uint8_t place = 0;                           ///< in the list of the robot's contacts
+  std::uint8_t anchor = 0;                          ///< place of its friction anchor, out
+  std::uint8_t anchors_begin = 0, anchors_end = 0;  ///< those of its group, of the step before
+  std::uint8_t object = 0;                          ///< of the scenery: its number among those that the robot touches
 };
 
-/// The order of a robot's contacts. A group: adjacent contacts of one shape of one body with one other shape.
-struct ContactLayout {
-  int contacts = 0;
-  int groups = 0;
-  std::uint8_t ends[max_contacts] = {};   ///< of each group: behind its last contact
-  double zeta[max_contacts] = {};         ///< of each group: damping ratio of the normal
-  BodyOffsets bodies[max_contacts] = {};  ///< of each group
-
-  friend bool operator==(const ContactLayout&, const ContactLayout&) = default;
-};
-
-/// One robot. Contacts and anchors are read and written as numbers: see the offsets below.
+/// One robot. A group: adjacent contacts of one shape of one body with one other shape. Contacts and anchors are read
+/// and written as numbers: see the offsets below.
 struct KernelRobot {
-  const double* contacts = nullptr;  ///< point of the first
-  const double* before = nullptr;    ///< point of the first anchor of the step before; may be `anchors`
-  double* anchors = nullptr;         ///< point of the first; out
-  const double *base_pose = nullptr, *base_twist = nullptr;
-  const double *link_pose = nullptr, *link_twist = nullptr;  ///< of the first link that may touch, if there is one
-  double* wrench = nullptr;                                  ///< out
-  double* forces = nullptr;  ///< of the first contact; out, where KernelBatch::tells_contacts
+  int count = 0;                            ///< of contacts, at least one
+  const KernelContact* contacts = nullptr;  ///< the first
+  std::uint32_t groups = 0;                 ///< bit k: contact k is the first of a group
+  bool in_order = false;            ///< contact k has place k, and so has its anchor, also that of the step before
+  bool has_many_materials = false;  ///< zeta differs
+  bool has_many_objects = false;
+  bool is_changed = false;         ///< some contacts may be new, and impacts
+  const double* listed = nullptr;  ///< point of the first listed contact
+  const double* before = nullptr;  ///< point of the first anchor of the step before; may be `anchors`
+  double* anchors = nullptr;       ///< point of the first; out
+  const double* base_pose = nullptr;
+  const double* mass = nullptr;  ///< numbers of MassProperties
+  double* wrench = nullptr;      ///< on the base; out
+  double* forces = nullptr;      ///< of the first of `contacts`; out, where KernelBatch::tells_contacts
 };
 inline constexpr int contact_stride = 13, anchor_stride = 8, force_stride = 14;  ///< in numbers
 /// A contact, from its point on: point, normal, depth, friction. An anchor: point, displacement.
@@ -50,20 +49,17 @@ inline constexpr int contact_numbers = 8, anchor_numbers = 6;
 /// What the robots of one call share.
 struct KernelBatch {
   Stiffness stiffness;
-  double elapsed = 0;  ///< s since the last run
-  const MassProperties* mass = nullptr;
-  const ContactLayout* layout = nullptr;
-  const std::uint8_t* anchors_ends = nullptr;  ///< of each group: behind its last anchor of the step before
-  /// Of each contact, from 0 to `patches` - 1; null: all are one patch, if their normals agree.
-  const std::uint8_t* patch_of = nullptr;
-  int patches = 1;
+  double elapsed = 0;       ///< s since the last run
+  double impact_speed = 0;  ///< m/s: see `apply_forces`; infinite: no robot is left
   bool tells_contacts = false;
 };
 
 struct SceneryKernels {
   /// Computes the forces of all contacts, their friction anchors and the sum of forces, for up to eight robots; each
-  /// gets the same bits as by itself. Returns a bit for each robot whose normals do not agree with one patch; of those
-  /// nothing is written.
+  /// gets the same bits as by itself. Contacts of one object of the scenery whose normals agree are a patch. Returns a
+  /// bit for each robot that may be in an impact: it has several patches or is changed, and approaches the scenery
+  /// faster than `impact_speed` in a point that is far from all friction anchors of its group. Of those nothing is
+  /// written.
   unsigned (*apply_forces)(const KernelBatch& batch, const KernelRobot* const* robots, int count);
 };
 MURO_DECLARE_KERNELS(SceneryKernels, scenery_kernels)

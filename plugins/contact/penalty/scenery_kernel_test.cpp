@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
+#include <limits>
 #include <random>
+#include <vector>
 
 #include "friction_anchor.hpp"
 #include "muro/scene.hpp"
@@ -15,35 +18,68 @@ namespace {
 
 constexpr double omega = 2 * M_PI * 50, h = 0.001, elapsed = 0.001, restitution = 0.4;
 
-/// A vehicle of four bodies on one patch, each body with two contacts; numbers of its own.
+constexpr MassProperties light{
+    .inverse_mass = 0.4, .com = {0.02, -0.01, 0.03}, .inverse_inertia = {1.5, 2.5, 0.9, 0.1, -0.2, 0.3}};
+constexpr MassProperties heavy{
+    .inverse_mass = 0.01, .com = {-0.1, 0.05, 0.2}, .inverse_inertia = {0.03, 0.02, 0.05, 0.001, 0, -0.002}};
+
+/// A vehicle of four bodies, each with two contacts or fewer; numbers of its own.
 struct Vehicle {
   Pose base, bodies[4];
   Twist twist, twists[4];
+  int count = 8;
   Contact contacts[8];
-  FrictionAnchor anchors[8];
+  int object_of[8] = {};  ///< of the scenery
+  FrictionAnchor before[16], anchors[8];
+  int anchors_before[4] = {2, 2, 2, 2};  ///< of each body, in `before`
+  const MassProperties* mass = &light;
+  bool is_changed = false;
   Wrench wrench;
+  KernelContact known[8];
+
+  static std::size_t body_of(std::size_t contact) { return contact / 2; }
 
   KernelRobot view() {
     KernelRobot v;
-    v.contacts = contacts[0].point.data();
-    v.before = v.anchors = anchors[0].point.data();
+    int ends[4], end = 0;
+    for (std::size_t b = 0; b < 4; ++b) ends[b] = end += anchors_before[b];
+    for (std::size_t k = 0; k < std::size_t(count); ++k) {
+      const std::size_t body = body_of(k);
+      known[k] = {.pose = bodies[body].position.data(),
+                  .twist = twists[body].linear.data(),
+                  .zeta = damping_ratio_of(contacts[k].surface.restitution),
+                  .place = std::uint8_t(k),
+                  .anchor = std::uint8_t(k),
+                  .anchors_begin = std::uint8_t(ends[body] - anchors_before[body]),
+                  .anchors_end = std::uint8_t(ends[body]),
+                  .object = std::uint8_t(object_of[k])};
+      if (k == 0 || body_of(k - 1) != body) v.groups |= 1u << k;
+    }
+    v.count = count;
+    v.contacts = known;
+    v.has_many_materials = v.has_many_objects = true;
+    v.is_changed = is_changed;
+    v.listed = contacts[0].point.data();
+    v.before = before[0].point.data();
+    v.anchors = anchors[0].point.data();
     v.base_pose = base.position.data();
-    v.base_twist = twist.linear.data();
-    v.link_pose = bodies[0].position.data();
-    v.link_twist = twists[0].linear.data();
+    v.mass = &mass->inverse_mass;
     v.wrench = wrench.force.data();
     return v;
   }
 };
 
-/// `speed` (m/s) decides which branch of the law contacts are in: at rest, sliding, approaching, parting.
-Vehicle random_vehicle(std::mt19937& random, double speed) {
+/// `speed` (m/s) decides which branch of the law contacts are in: at rest, sliding, approaching, parting. `uneven`: it
+/// stands on several objects with any normals, and has more and fewer contacts and friction anchors.
+Vehicle random_vehicle(std::mt19937& random, double speed, bool uneven) {
   std::normal_distribution<double> g;
   const auto vector = [&](double most) { return Vec3(most * g(random), most * g(random), most * g(random)); };
+  const auto number = [&](int least, int most) { return std::uniform_int_distribution<int>(least, most)(random); };
   Vehicle v;
   v.base = {vector(5), rotation_of(vector(1))};
   v.twist = {vector(speed), vector(speed)};
   const Vec3 normal = Vec3(0.1 * g(random), 0.1 * g(random), 1).normalized();
+  const Vec3 normals[] = {normal, Vec3(1, 0.1 * g(random), 0).normalized(), Vec3(0.5, -0.5, 1).normalized()};
   for (int k = 0; k < 4; ++k) {
     v.bodies[k] = {v.base.position + vector(0.2), rotation_of(vector(1))};
     v.twists[k] = {vector(speed), vector(speed)};
@@ -53,105 +89,127 @@ Vehicle random_vehicle(std::mt19937& random, double speed) {
     c.self = ObjectId{10 + i / 2};
     c.other = ObjectId{1};
     c.point = v.bodies[i / 2].position + vector(0.1);
-    c.normal = normal;
+    c.normal = uneven ? normals[number(0, 2)] : normal;
     c.depth = 1e-3 * std::abs(g(random));
     c.surface.friction = 0.8;
-    c.surface.restitution = restitution;
-    v.anchors[i] = {i / 2, c.point + vector(0.02), vector(1e-4)};
+    c.surface.restitution = uneven && number(0, 1) == 1 ? 0 : restitution;
+    v.object_of[i] = uneven ? number(0, 1) : 0;
   }
+  if (uneven) {
+    v.count = number(1, 8);
+    v.mass = number(0, 1) == 1 ? &light : &heavy;
+    for (int& n : v.anchors_before) n = number(0, 4);
+  }
+  std::size_t end = 0;
+  for (std::size_t b = 0; b < 4; ++b)
+    for (int i = 0; i < v.anchors_before[b]; ++i) {
+      const Vec3& near = v.contacts[2 * b + std::size_t(i % 2)].point;
+      v.before[end++] = {b, near + vector(0.02), vector(1e-4)};
+    }
   return v;
 }
 
-/// Of all vehicles.
-const MassProperties mass{
-    .inverse_mass = 0.4, .com = {0.02, -0.01, 0.03}, .inverse_inertia = {1.5, 2.5, 0.9, 0.1, -0.2, 0.3}};
-
-/// Two contacts a body.
-const ContactLayout& layout() {
-  static const ContactLayout two_each = [] {
-    ContactLayout l;
-    l.contacts = 8;
-    l.groups = 4;
-    for (int g = 0; g < 4; ++g) {
-      l.ends[g] = std::uint8_t(2 * (g + 1));
-      l.zeta[g] = damping_ratio_of(restitution);
-      l.bodies[g] = {true, std::ptrdiff_t(g * sizeof(Pose) / sizeof(double)),
-                     std::ptrdiff_t(g * sizeof(Twist) / sizeof(double))};
-    }
-    return l;
-  }();
-  return two_each;
-}
-
 KernelBatch work() {
-  return {
-      .stiffness = {omega, h}, .elapsed = elapsed, .mass = &mass, .layout = &layout(), .anchors_ends = layout().ends};
+  return {.stiffness = {omega, h}, .elapsed = elapsed, .impact_speed = std::numeric_limits<double>::infinity()};
 }
 
 /// The same in matrices, contact by contact: the model in the plugin's README.
-Wrench by_the_model(const Vehicle& v, std::vector<FrictionAnchor>& anchors) {
+Wrench by_the_model(const Vehicle& v, std::vector<Vec3>& displacements) {
+  const auto count = std::size_t(v.count);
   const Mat3 r = v.base.orientation.toRotationMatrix();
-  const double* const i = mass.inverse_inertia;
+  const double* const i = v.mass->inverse_inertia;
   const Mat3 own = (Mat3() << i[0], i[3], i[4], i[3], i[1], i[5], i[4], i[5], i[2]).finished();
   const Mat3 inertia = r * own * r.transpose();
-  const Vec3 centre = v.base.position + r * Vec3(mass.com), n = v.contacts[0].normal;
-  Vec3 middle = Vec3::Zero();
-  for (const Contact& c : v.contacts) middle += (c.point - centre) / 8;
-  const auto inverse_mass_along = [&](const Vec3& d) {
-    return mass.inverse_mass + middle.cross(d).dot(inertia * middle.cross(d));
-  };
-  const Vec3 u = n.unitOrthogonal();
-  const double along = 1 / (8 * inverse_mass_along(n)),
-               across = 2 / (8 * (inverse_mass_along(u) + inverse_mass_along(n.cross(u))));
+  const Vec3 centre = v.base.position + r * Vec3(v.mass->com);
+  // a contact belongs to the patch of the first one with its normal and object
+  std::vector<std::size_t> first(count);
+  for (std::size_t k = 0; k < count; ++k)
+    for (first[k] = 0; v.object_of[first[k]] != v.object_of[k] ||
+                       v.contacts[first[k]].normal.dot(v.contacts[k].normal) < std::cos(8 * M_PI / 180);)
+      ++first[k];
+  std::vector<double> along(count), across(count);
   Mat3 shift = Mat3::Zero(), turn = Mat3::Zero();  // stiffness of the springs
-  for (const Contact& c : v.contacts) {
-    const Vec3 p = c.point - centre;
+  for (std::size_t k = 0; k < count; ++k) {
+    Vec3 middle = Vec3::Zero();
+    double points = 0;
+    for (std::size_t other = 0; other < count; ++other) {
+      if (first[other] != first[k]) continue;
+      middle += v.contacts[other].point - centre;
+      ++points;
+    }
+    middle /= points;
+    const auto inverse_mass_along = [&](const Vec3& d) {
+      return v.mass->inverse_mass + middle.cross(d).dot(inertia * middle.cross(d));
+    };
+    const Vec3 n = v.contacts[first[k]].normal, u = n.unitOrthogonal();
+    along[k] = 1 / (points * inverse_mass_along(n));
+    across[k] = 2 / (points * (inverse_mass_along(u) + inverse_mass_along(n.cross(u))));
+    const Vec3 p = v.contacts[k].point - centre;
     const Mat3 cross = (Mat3() << 0, -p.z(), p.y(), p.z(), 0, -p.x(), -p.y(), p.x(), 0).finished();
-    const Mat3 spring = across * Mat3::Identity() + (along - across) * n * n.transpose();
+    const Mat3 spring = across[k] * Mat3::Identity() + (along[k] - across[k]) * n * n.transpose();
     shift += spring;
     turn += cross * spring * cross.transpose();
   }
-  const double load = mass.inverse_mass * shift.norm() + std::sqrt((inertia * turn * inertia * turn).trace());
-  const law::NormalLaw<double> normal_law({omega, h}, damping_ratio_of(restitution), load);
+  const double load = v.mass->inverse_mass * shift.norm() + std::sqrt((inertia * turn * inertia * turn).trace());
   const law::FrictionLaw<double> friction_law({omega, h}, load);
-  const std::vector<FrictionAnchor> before(std::begin(v.anchors), std::end(v.anchors));
   Wrench total;
-  for (std::size_t k = 0; k < 8; ++k) {
+  for (std::size_t k = 0; k < count; ++k) {
     const Contact& c = v.contacts[k];
-    const Vec3 motion = v.twists[k / 2].at(c.point - v.bodies[k / 2].position);
+    const std::size_t body = Vehicle::body_of(k);
+    const law::NormalLaw<double> normal_law({omega, h}, damping_ratio_of(c.surface.restitution), load);
+    const Vec3 motion = v.twists[body].at(c.point - v.bodies[body].position);
     const double approach = -motion.dot(c.normal);
     const Vec3 slip = motion + approach * c.normal;
-    Vec3 displacement = previous<FrictionAnchor>(before, k, k / 2, c.point)->displacement + slip * elapsed;
+    Vec3 displacement = slip * elapsed;
+    if (const auto* const before = previous<FrictionAnchor>(v.before, k, body, c.point);
+        before && v.anchors_before[body] > 0)
+      displacement += before->displacement;
     displacement -= c.normal * c.normal.dot(displacement);
-    const double normal = along * normal_law.force(c.depth, approach);
+    const double normal = along[k] * normal_law.force(c.depth, approach);
     lane::V3<double> spring{displacement.x(), displacement.y(), displacement.z()};
     const lane::V3<double> f =
-        friction_law.force(spring, {slip.x(), slip.y(), slip.z()}, c.surface.friction * normal / across);
-    anchors.push_back({k / 2, c.point, {spring.x, spring.y, spring.z}});
-    total.add_force(normal * c.normal + across * Vec3(f.x, f.y, f.z), c.point - v.base.position);
+        friction_law.force(spring, {slip.x(), slip.y(), slip.z()}, c.surface.friction * normal / across[k]);
+    displacements.emplace_back(spring.x, spring.y, spring.z);
+    total.add_force(normal * c.normal + across[k] * Vec3(f.x, f.y, f.z), c.point - v.base.position);
   }
   return total;
 }
 
-TEST(SceneryKernel, AgreesWithTheModelContactByContact) {
+TEST(SceneryKernel, AgreesWithTheModelContactByContactOnEvenAndUnevenGround) {
   std::mt19937 random(1);
-  for (int round = 0; round < 2000; ++round) {
-    Vehicle v = random_vehicle(random, std::pow(10, -4 + round % 6));
-    std::vector<FrictionAnchor> anchors;
-    const Wrench expected = by_the_model(v, anchors);
+  for (int round = 0; round < 4000; ++round) {
+    Vehicle v = random_vehicle(random, std::pow(10, -4 + round % 6), round % 2 == 1);
+    std::vector<Vec3> displacements;
+    const Wrench expected = by_the_model(v, displacements);
     const KernelRobot view = v.view();
     const KernelRobot* const views[] = {&view};
     ASSERT_EQ(scenery_kernels_for(lane::best_isa()).apply_forces(work(), views, 1), 0u);
     const double scale = 1e-9 * (1 + expected.force.norm() + expected.torque.norm());
     ASSERT_LT((v.wrench.force - expected.force).norm(), scale) << round;
     ASSERT_LT((v.wrench.torque - expected.torque).norm(), scale) << round;
-    for (std::size_t i = 0; i < 8; ++i) {
-      ASSERT_EQ(v.anchors[i].point, anchors[i].point);
-      ASSERT_EQ(v.anchors[i].pair, anchors[i].pair);
-      ASSERT_LT((v.anchors[i].displacement - anchors[i].displacement).norm(),
-                1e-9 * (1 + anchors[i].displacement.norm()))
-          << round;
+    for (std::size_t i = 0; i < displacements.size(); ++i) {
+      ASSERT_EQ(v.anchors[i].point, v.contacts[i].point);
+      ASSERT_LT((v.anchors[i].displacement - displacements[i]).norm(), 1e-9 * (1 + displacements[i].norm())) << round;
     }
+  }
+}
+
+/// Eight drawn vehicles together on `isa`, and each of them alone.
+void expect_the_same_bits(const std::vector<Vehicle>& drawn, const KernelBatch& batch, lane::Isa isa) {
+  std::vector<Vehicle> together = drawn, alone = drawn;
+  KernelRobot together_views[8], alone_views[8];
+  const KernelRobot* views[8];
+  for (std::size_t k = 0; k < 8; ++k) {
+    together_views[k] = together[k].view();
+    alone_views[k] = alone[k].view();
+    views[k] = &together_views[k];
+  }
+  const unsigned left = scenery_kernels_for(isa).apply_forces(batch, views, 8);
+  for (std::size_t k = 0; k < 8; ++k) {
+    const KernelRobot* const view[] = {&alone_views[k]};
+    ASSERT_EQ(scenery_kernels_for(lane::Isa::base).apply_forces(batch, view, 1), left >> k & 1) << "robot " << k;
+    ASSERT_EQ(std::memcmp(&alone[k].wrench, &together[k].wrench, sizeof(Wrench)), 0) << "robot " << k;
+    ASSERT_EQ(std::memcmp(alone[k].anchors, together[k].anchors, sizeof alone[k].anchors), 0) << "robot " << k;
   }
 }
 
@@ -159,45 +217,52 @@ TEST(SceneryKernel, EightRobotsGetTheBitsOfEachAloneOnAnyIsa) {
   std::mt19937 random(2);
   for (int round = 0; round < 300; ++round) {
     std::vector<Vehicle> drawn;
-    for (int k = 0; k < 8; ++k) drawn.push_back(random_vehicle(random, std::pow(10, -4 + (round + k) % 6)));
-    if (round % 3 == 0) drawn[5].contacts[6].normal = Vec3::UnitX();  // no patch: this one is left
-    for (const lane::Isa isa : {lane::Isa::base, lane::Isa::avx2, lane::Isa::avx512}) {
-      if (isa > lane::best_isa()) continue;  // this processor cannot run it
-      std::vector<Vehicle> together = drawn, alone = drawn;
-      KernelRobot together_views[8], alone_views[8];
-      const KernelRobot* views[8];
-      for (std::size_t k = 0; k < 8; ++k) {
-        together_views[k] = together[k].view();
-        alone_views[k] = alone[k].view();
-        views[k] = &together_views[k];
-      }
-      const unsigned left = scenery_kernels_for(isa).apply_forces(work(), views, 8);
-      EXPECT_EQ(left, round % 3 == 0 ? 1u << 5 : 0u);
-      for (std::size_t k = 0; k < 8; ++k) {
-        const KernelRobot* const view[] = {&alone_views[k]};
-        ASSERT_EQ(scenery_kernels_for(lane::Isa::base).apply_forces(work(), view, 1), left >> k & 1);
-        ASSERT_EQ(std::memcmp(&alone[k].wrench, &together[k].wrench, sizeof(Wrench)), 0) << "robot " << k;
-        ASSERT_EQ(std::memcmp(alone[k].anchors, together[k].anchors, sizeof alone[k].anchors), 0) << "robot " << k;
-      }
+    for (int k = 0; k < 8; ++k) {
+      drawn.push_back(random_vehicle(random, std::pow(10, -4 + (round + k) % 6), (round + k) % 3 > 0));
+      drawn.back().is_changed = (round + k) % 4 == 0;
     }
+    KernelBatch batch = work();
+    if (round % 2 == 1) batch.impact_speed = 0.03;
+    for (const lane::Isa isa : {lane::Isa::base, lane::Isa::avx2, lane::Isa::avx512})
+      if (isa <= lane::best_isa()) {  // else this processor cannot run it
+        ASSERT_NO_FATAL_FAILURE(expect_the_same_bits(drawn, batch, isa)) << round;
+      }
   }
 }
 
-TEST(SceneryKernel, OnePatchGivesTheSameBitsWhetherItIsFoundOrTold) {
-  std::mt19937 random(3);
-  const std::uint8_t patch_of[8] = {};
-  KernelBatch told = work();
-  told.patch_of = patch_of;
-  for (int round = 0; round < 300; ++round) {
-    const Vehicle drawn = random_vehicle(random, std::pow(10, -4 + round % 6));
-    Vehicle a = drawn, b = drawn;
-    const KernelRobot a_view = a.view(), b_view = b.view();
-    const KernelRobot *const a_views[] = {&a_view}, *const b_views[] = {&b_view};
-    ASSERT_EQ(scenery_kernels_for(lane::best_isa()).apply_forces(work(), a_views, 1), 0u);
-    ASSERT_EQ(scenery_kernels_for(lane::best_isa()).apply_forces(told, b_views, 1), 0u);
-    ASSERT_EQ(std::memcmp(&a.wrench, &b.wrench, sizeof(Wrench)), 0);
-    ASSERT_EQ(std::memcmp(a.anchors, b.anchors, sizeof a.anchors), 0);
-  }
+TEST(SceneryKernel, LeavesRobotsThatMayBeInAnImpactToOthers) {
+  std::mt19937 random(4);
+  KernelBatch batch = work();
+  batch.impact_speed = 0.03;
+  const auto is_left = [&](Vehicle v) {
+    const KernelRobot view = v.view();
+    const KernelRobot* const views[] = {&view};
+    const Wrench before = v.wrench;
+    const bool left = scenery_kernels_for(lane::best_isa()).apply_forces(batch, views, 1) != 0;
+    EXPECT_EQ(left, std::memcmp(&before, &v.wrench, sizeof before) == 0);
+    return left;
+  };
+  Vehicle v = random_vehicle(random, 0, false);
+  for (Twist& t : v.twists) t = {-0.04 * v.contacts[0].normal, Vec3::Zero()};
+  for (std::size_t i = 0; i < 8; ++i) v.before[i].point = v.contacts[i].point;
+  EXPECT_FALSE(is_left(v));
+  v.is_changed = true;
+  EXPECT_FALSE(is_left(v));  // its anchors say that the contacts were there
+  v.before[6].point += Vec3(0, 0, 2e-3);
+  v.before[7].point += Vec3(0, 0, 0.5);
+  v.contacts[7].point += Vec3(0, 0, 0.5);
+  EXPECT_TRUE(is_left(v));
+  v.is_changed = false;
+  EXPECT_FALSE(is_left(v));
+  v.object_of[0] = 1;
+  EXPECT_TRUE(is_left(v));
+  for (Twist& t : v.twists) t.linear *= 0.5;
+  EXPECT_FALSE(is_left(v));
+  v.is_changed = true;
+  v.anchors_before[3] = 0;
+  EXPECT_FALSE(is_left(v));
+  for (Twist& t : v.twists) t.linear *= 2;
+  EXPECT_TRUE(is_left(v));
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 namespace muro::penalty::law {
 inline namespace MURO_ISA {
 
-using lane::M3, lane::sqrt, lane::V3;
+using lane::M3, lane::select, lane::sqrt, lane::V3;
 
 template <class S>
 struct Symmetric {
@@ -25,6 +25,13 @@ struct Symmetric {
   MURO_INLINE friend V3<S> operator*(const Symmetric& m, const V3<S>& v) {
     return {m.xx * v.x + m.xy * v.y + m.xz * v.z, m.xy * v.x + m.yy * v.y + m.yz * v.z,
             m.xz * v.x + m.yz * v.y + m.zz * v.z};
+  }
+  /// The same in those lanes that the mask has, and 0 in the others.
+  template <class M>
+  MURO_INLINE Symmetric where(M mask) const {
+    const S zero(0);
+    return {select(mask, xx, zero), select(mask, yy, zero), select(mask, zz, zero),
+            select(mask, xy, zero), select(mask, xz, zero), select(mask, yz, zero)};
   }
   MURO_INLINE S trace() const { return xx + yy + zz; }
   /// Frobenius norm.
