@@ -2,7 +2,10 @@
 // Heightmaps, read by the parser process.
 #include "heightmap_file.hpp"
 
+#include <sys/stat.h>
+
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 
 #include "muro/algorithm.hpp"
@@ -12,27 +15,52 @@ namespace muro::heightmap {
 
 namespace process = parser_process;
 
+namespace {
+
+/// Changes with the file.
+std::string version_of(const std::filesystem::path& path) {
+  struct stat file {};
+  if (::stat(path.c_str(), &file) != 0) return "";
+  std::string version;
+  for (const std::int64_t number : {std::int64_t(file.st_dev), std::int64_t(file.st_ino), std::int64_t(file.st_size),
+                                    std::int64_t(file.st_mtim.tv_sec), std::int64_t(file.st_mtim.tv_nsec),
+                                    std::int64_t(file.st_ctim.tv_sec), std::int64_t(file.st_ctim.tv_nsec)})
+    version += std::to_string(number) + " ";
+  return version;
+}
+
+/// The answer of heightmap_service.cpp, in place: columns and rows, the number of values, the values.
+HeightmapFile file_in(process::SharedBytes answer) {
+  struct Header {
+    std::uint32_t columns, rows;
+    std::uint64_t values;
+  } header{};
+  if (answer.bytes.size() < sizeof header) throw Error("a heightmap of the parser process is cut short");
+  std::memcpy(&header, answer.bytes.data(), sizeof header);
+  const std::uint64_t nodes = std::uint64_t(header.columns) * header.rows;
+  if (header.columns < 2 || header.rows < 2 || header.values != nodes ||
+      answer.bytes.size() != sizeof header + nodes * sizeof(float))
+    throw Error("a heightmap of the parser process has not as many values as nodes");
+  const std::span values(reinterpret_cast<const float*>(answer.bytes.data() + sizeof header), nodes);
+  for (const float value : values)
+    if (!std::isfinite(value)) throw Error("a heightmap of the parser process has values that are not finite");
+  return {values, header.columns, header.rows, std::move(answer.owner)};
+}
+
+}  // namespace
+
 HeightmapFile load(const std::string& path) {
   std::error_code code;
-  const std::filesystem::path absolute = std::filesystem::absolute(path, code);
+  std::filesystem::path absolute = std::filesystem::absolute(path, code);
+  if (code) absolute = path;
   process::Writer request;
-  request.text(code ? path : absolute.string());
-  const process::Answer answer =
-      process::ask({.service = "heightmap",
-                    .subject = "heightmap " + path,
-                    .needs = "libstb-dev",
-                    .advice = "the file is probably damaged: write it anew as a grey PNG file of 8 or 16 bits"},
-                   request.bytes());
-  process::Reader reader = answer.reader();
-  HeightmapFile file;
-  file.columns = reader.value<std::uint32_t>();
-  file.rows = reader.value<std::uint32_t>();
-  file.values = reader.list<float>();
-  if (file.columns < 2 || file.rows < 2 || file.values.size() != std::size_t(file.columns) * file.rows)
-    throw Error("a heightmap of the parser process has not as many values as nodes");
-  for (const float value : file.values)
-    if (!std::isfinite(value)) throw Error("a heightmap of the parser process has values that are not finite");
-  return file;
+  request.text(absolute.string());
+  return file_in(
+      process::ask_shared({.service = "heightmap",
+                           .subject = "heightmap " + path,
+                           .needs = "libstb-dev",
+                           .advice = "the file is probably damaged: write it anew as a grey PNG file of 8 or 16 bits"},
+                          request.bytes(), version_of(absolute)));
 }
 
 Aabb bounds_of(const Heightmap& h) {

@@ -15,15 +15,22 @@ namespace muro::heightmap {
 
 /// What the file of a heightmap holds; see README.md.
 struct HeightmapFile {
-  std::vector<float> values;  ///< as Heightmap::values; of a picture 0 (black) to 1 (white)
+  std::span<const float> values;  ///< as Heightmap::values; of a picture 0 (black) to 1 (white)
   std::uint32_t columns = 0, rows = 0;
+  std::shared_ptr<const void> owner{};  ///< of the values: all libraries of a program share those of one file
+
+  /// Owns these values.
+  static HeightmapFile of(std::vector<float> values, std::uint32_t columns, std::uint32_t rows) {
+    const auto owner = std::make_shared<const std::vector<float>>(std::move(values));
+    return {*owner, columns, rows, owner};
+  }
 
   /// Valid as long as the values are.
   Heightmap heightmap(const Vec3& size) const { return {values, columns, rows, size}; }
 };
 
 /// Reads a file (absolute path). Throws muro::Error with the path when the file is missing, is no heightmap or has more
-/// nodes than 16384 x 16384. [setup]
+/// nodes than 16384 x 16384. The file is read once while anybody has it, and again when it has changed. [setup]
 HeightmapFile load(const std::string& path);
 
 /// m: so far below the surface of a heightmap bodies are pushed up.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 
 #include "heightmap_file.hpp"
@@ -59,11 +60,22 @@ TEST(HeightmapFile, OfFloatsIsASquareOrSaysItsRowsAndColumnsFirst) {
   const std::vector<float> six{0, 1, 2, 3, -4, 5}, nine{0, 1, 2, 3, -4, 5, 6, 7, 8};
   const HeightmapFile square = load(folder.file("square.r32", floats(nine)));
   EXPECT_EQ(square.columns, 3u);
-  EXPECT_EQ(square.values, nine);
+  EXPECT_TRUE(std::ranges::equal(square.values, nine));
   const HeightmapFile mujoco = load(folder.file("hills.bin", floats(six, {2, 3})));
   EXPECT_EQ(mujoco.rows, 2u);
   EXPECT_EQ(mujoco.columns, 3u);
-  EXPECT_EQ(mujoco.values, six);
+  EXPECT_TRUE(std::ranges::equal(mujoco.values, six));
+}
+
+TEST(HeightmapFile, IsInMemoryOnceUntilItChanges) {
+  const test::ScratchFolder folder;
+  const std::string path = folder.file("map.r32", floats({0, 1, 2, 3}));
+  const HeightmapFile first = load(path), second = load(path);
+  EXPECT_EQ(first.values.data(), second.values.data());
+  folder.file("map.r32", floats({4, 5, 6, 7, 8, 9, 10, 11, 12}));
+  const HeightmapFile changed = load(path);
+  EXPECT_EQ(changed.values[0], 4);
+  EXPECT_EQ(first.values[3], 3) << "who has the old one keeps it";
 }
 
 TEST(HeightmapFile, ThatIsNoneIsRefusedInOneSentence) {
@@ -79,6 +91,9 @@ TEST(HeightmapFile, ThatIsNoneIsRefusedInOneSentence) {
   says(folder.file("six.r32", floats({0, 1, 2, 3, 4, 5})), "has 24 bytes and is neither a picture");
   says(folder.file("one.r32", floats({0})), "has 1 x 1 values, and must have 2 or more");
   says(folder.file("row.bin", floats({0, 1, 2}, {1, 3})), "has 3 x 1 values, and must have 2 or more");
+  says(folder.file("hills.tif", std::string("II*\0\x08\0\0\0", 8)),
+       "is a TIFF file, which muro does not read; make a grey PNG file of 16 bits of it, by `gdal_translate -of PNG");
+  says(folder.file("dem.tif", std::string("MM\0+\0\x08\0\0", 8)), "is a TIFF file");
   says(folder.file("nan.r32", floats({0, 1, NAN, 3})), "not finite or beyond 1e6: number 0 of row 1");
   says(folder.file("cut.png", std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\2\0\0\0\2\x10\0\0\0\0", 29)),
        "cannot be");

@@ -30,8 +30,12 @@ class HeightmapReader {
   HeightmapFile read() const {
     const std::vector<std::uint8_t> bytes = content();
     Nodes nodes;
+    if (is_tiff(bytes))
+      throw error(
+          "is a TIFF file, which muro does not read; make a grey PNG file of 16 bits of it, by `gdal_translate -of PNG "
+          "-ot UInt16 -scale FILE.tif FILE.png` or `convert FILE.tif -depth 16 FILE.png`, and name that");
     std::vector<float> values = is_picture(bytes) ? values_of_picture(bytes, nodes) : values_of_floats(bytes, nodes);
-    return {std::move(values), nodes.columns, nodes.rows};
+    return HeightmapFile::of(std::move(values), nodes.columns, nodes.rows);
   }
 
  private:
@@ -50,6 +54,15 @@ class HeightmapReader {
     if (!file || !file.read(reinterpret_cast<char*>(bytes.data()), std::streamsize(size)))
       throw error("cannot be read; check its permissions");
     return bytes;
+  }
+
+  /// Of TIFF, GeoTIFF and BigTIFF, by their byte order and number.
+  static bool is_tiff(const std::vector<std::uint8_t>& bytes) {
+    const auto begins = [&](std::uint8_t order, std::initializer_list<std::uint8_t> number) {
+      return bytes.size() >= 4 && bytes[0] == order && bytes[1] == order &&
+             std::equal(number.begin(), number.end(), bytes.begin() + 2);
+    };
+    return begins('I', {42, 0}) || begins('I', {43, 0}) || begins('M', {0, 42}) || begins('M', {0, 43});
   }
 
   static bool is_picture(const std::vector<std::uint8_t>& bytes) {

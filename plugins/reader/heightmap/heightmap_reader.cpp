@@ -9,7 +9,8 @@ namespace {
 
 using namespace muro;
 
-constexpr std::string_view extensions[] = {".png", ".r32", ".f32", ".raw", ".bin", ".hfield"};
+constexpr std::string_view extensions[] = {".png", ".jpg", ".jpeg", ".tif", ".tiff",
+                                           ".r32", ".f32", ".raw",  ".bin", ".hfield"};
 constexpr ReaderDescription description{
     .id = "reader.heightmap",
     .version = "1.0.0",

@@ -14,8 +14,7 @@
 
 namespace muro::raycast {
 
-/// A heightmap with the greatest and least heights of its parts: a tree of 4 x 4 children a node, whose leaves are
-/// cells.
+/// A heightmap with planes over its parts: see HeightField::planes.
 class HeightTree {
  public:
   HeightTree(heightmap::HeightmapFile file, const Vec3& size);
@@ -28,8 +27,9 @@ class HeightTree {
   heightmap::HeightmapFile file_;
   Vec3 size_;
   Aabb bounds_;
-  std::vector<std::vector<HeightNode>> nodes_;  ///< of each level, from the one above the cells on
-  std::vector<HeightLevel> levels_;
+  std::vector<HeightPlane> planes_;
+  std::uint32_t plane_columns_ = 0, upper_column_ = 0, upper_rows_ = 0, widest_ = 0;
+  double slope_step_ = 0;
 };
 
 /// The trees of all heightmaps of a world.

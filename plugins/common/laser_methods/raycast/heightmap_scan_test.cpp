@@ -28,13 +28,14 @@ class Land {
        const std::function<double(double, double)>& height)
       : pose_(pose) {
     shape_ = {.kind = ShapeKind::heightmap, .mesh = TextId(1), .size = size};
-    file_.columns = columns, file_.rows = rows;
-    file_.values.resize(std::size_t(columns) * rows);
+    std::vector<float> values(std::size_t(columns) * rows);
+    const Heightmap grid{values, columns, rows, size};
     for (std::uint32_t row = 0; row < rows; ++row)
       for (std::uint32_t column = 0; column < columns; ++column) {
-        const Vec3 at = map().node(column, row);
-        file_.values[std::size_t(row) * columns + column] = float(height(at.x(), at.y()) / size.z());
+        const Vec3 at = grid.node(column, row);
+        values[std::size_t(row) * columns + column] = float(height(at.x(), at.y()) / size.z());
       }
+    file_ = heightmap::HeightmapFile::of(std::move(values), columns, rows);
     trees_.add(shape_, file_);
     scene_.add_scenery(shape_, pose);
     table_.build(scene_.index(), trees_);

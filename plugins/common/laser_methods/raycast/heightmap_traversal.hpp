@@ -1,249 +1,204 @@
 // SPDX-License-Identifier: MIT
-// The sixteen rays of a packet on their way over a heightmap.
+// Rays on their way over a heightmap.
 //
-// All rays start at one point, so one order of the nodes of its tree is front to back for all of them. Floats drop
-// nodes, as they drop boxes (range_culling.hpp). A node is the box around its part of the surface, where rays enter the
-// solid; at the rim it goes down to the floor, for there are walls. What is left are pairs of a ray and a cell, which
-// are intersected eight at a time, in doubles.
+// Each ray goes by itself, sixteen in a lane. Its next way of 2^k blocks lies in a window of the planes of level k
+// (HeightField::planes), one for any place, since windows overlap by half. If the ray stays above the plane there, it
+// has passed that way; else it goes on to where it meets the plane, and looks at smaller windows, whose planes are
+// nearer to the surface. Rays that have met one of the smallest are followed from cell to cell (heightmap_walk.hpp).
+// (Tevs, Ihrke and Seidel, Maximum mipmaps for fast, accurate, and scalable dynamic height field rendering, I3D 2008,
+// have heights in place of planes and windows that do not overlap.)
+//
+// A way begins where the ray enters the box around the map, so that coordinates are no greater than it, and planes are
+// as much higher than the surface as floats may be wrong there: they tell only what is free. Distances come from
+// doubles.
 #pragma once
 
+#include "heightmap_walk.hpp"
 #include "packet_traversal.hpp"
 
 namespace muro::raycast::rays {
 inline namespace MURO_ISA {
 
-/// The order of the 4 x 4 children of a node: by their distance, in columns and rows, from the one that is nearest to
-/// where the rays start. Along a ray neither distance decreases, so that no ray meets a later one first.
-struct ChildOrder {
-  std::uint8_t rank[16][16];   ///< of a child, by the nearest child
-  std::uint8_t child[16][16];  ///< of a rank
-};
-constexpr ChildOrder make_child_order() {
-  ChildOrder order{};
-  for (int nearest = 0; nearest < 16; ++nearest) {
-    int rank = 0;
-    for (int distance = 0; distance <= 6; ++distance)
-      for (int child = 0; child < 16; ++child) {
-        const int across = child % 4 - nearest % 4, along = child / 4 - nearest / 4;
-        if ((across < 0 ? -across : across) + (along < 0 ? -along : along) != distance) continue;
-        order.rank[nearest][child] = std::uint8_t(rank);
-        order.child[nearest][rank++] = std::uint8_t(child);
-      }
-  }
-  return order;
-}
-inline constexpr ChildOrder child_order = make_child_order();
-
-inline constexpr float child_column[16] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
-inline constexpr float child_row[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
-
-/// Rays over a cell, columns and rows as units across and along.
-struct RaysOverCell {
-  D column, row;              ///< of the cell
-  D h00, h10, h01, h11;       ///< m: its corners, at -x -y, +x -y, -x +y, +x +y
-  D du, dv, dz, iu, iv, iuv;  ///< direction, and 1 / du, 1 / dv, 1 / (du + dv)
-};
-
-/// Where the rays start: column, row, and height (m); and the lowest height of the map.
-struct RayStart {
-  double u, v, z, low;
-};
-
-/// Where rays first are in the solid below a cell. Neighbouring triangles divide a ray at the same distance, bit for
-/// bit, and a ray that is in the solid at the start of its way over a triangle has hit it there: so none slips through
-/// a seam, and none that comes from beside passes the wall below the rim.
-MURO_INLINE D enter_cell(const RaysOverCell& c, const RayStart& from) {
-  const D u = c.column - D(from.u), v = c.row - D(from.v);  // of the corner at -x -y
-  const auto between = [](Interval<D>& way, D first, D last, D inverse) {
-    const auto backwards = inverse < D(0);
-    way.intersect({lane::select(backwards, last, first) * inverse, lane::select(backwards, first, last) * inverse});
-  };
-  Interval<D> way{D(0), D(never)};
-  between(way, u, u + D(1), c.iu);
-  between(way, v, v + D(1), c.iv);
-  // from the side, no deeper than the lowest point; or up through the floor
-  const D to_floor = D(from.low - from.z) / c.dz;
-  const auto rises = c.dz > D(0);
-  const D not_before(from.low > from.z ? never : 0);
-  way.in = lane::max(way.in, lane::select(rises, lane::max(to_floor, D(0)), not_before));
-  const D side_until = lane::select(c.dz < D(0), to_floor * D(1 + 1e-12) + D(1e-12), D(never));
-  const D to_diagonal = (u + v + D(1)) * c.iuv;
-  const auto upper_first = c.iuv < D(0);
-  D nearest(never);
-  const auto meet = [&](bool upper) {
-    Interval<D> on = way;
-    const auto second = upper ? !upper_first : upper_first;
-    on.in = lane::select(second, lane::max(to_diagonal, on.in), on.in);
-    on.out = lane::select(second, on.out, lane::min(to_diagonal, on.out));
-    const D bu = upper ? c.h11 - c.h01 : c.h10 - c.h00, bv = upper ? c.h11 - c.h10 : c.h01 - c.h00;
-    const D above = upper ? D(from.z) - c.h11 + bu * (u + D(1)) + bv * (v + D(1)) : D(from.z) - c.h00 + bu * u + bv * v;
-    const D climb = c.dz - bu * c.du - bv * c.dv;
-    const D in_solid = lane::select(on.in <= side_until, on.in, D(never));
-    const D falls = lane::max(-above / climb, on.in);
-    const D falls_in = lane::select((climb < D(0)) & (falls <= on.out), falls, D(never));
-    const D at = lane::select(above + climb * on.in <= D(0), in_solid, falls_in);
-    nearest = lane::min(lane::select(on.in <= on.out, at, D(never)), nearest);
-  };
-  meet(false);
-  meet(true);
-  return nearest;
-}
-
-class HeightmapTraversal {
+/// The rays of a packet. What is no name of a distance is in blocks, or m.
+class GroundRays {
  public:
-  /// `far` (m): beyond which a ray need not be followed.
-  HeightmapTraversal(const PlacedHeightmap& map, const PacketSetup& setup, F far)
-      : field_(*map.field), to_(map.origin) {
-    const Axes axes = axes_at(map.axes);
-    D local[2][3];
-    for (int h = 0; h < 2; ++h) {
-      const V3<D>& d = setup.direction[h];
-      const auto along = [&](const V3<double>& axis) { return D(axis.x) * d.x + D(axis.y) * d.y + D(axis.z) * d.z; };
-      const D x = along(axes.x), y = along(axes.y), z = along(axes.z);
-      local[h][0] = x, local[h][1] = y, local[h][2] = z;
-      const D u = x * D(1 / field_.spacing[0]), v = y * D(1 / field_.spacing[1]);
-      store(du_ + 8 * h, u), store(dv_ + 8 * h, v), store(dz_ + 8 * h, z);
-      store(iu_ + 8 * h, D(1) / u), store(iv_ + 8 * h, D(1) / v), store(iuv_ + 8 * h, D(1) / (u + v));
-      store(found + 8 * h, D(never));
-    }
-    const auto inverse_of = [](F a) { return F(1) / lane::select(lane::abs(a) < F(1e-20f), F(1e-20f), a); };
-    inverse_ = {inverse_of(narrow(local[0][0], local[1][0])), inverse_of(narrow(local[0][1], local[1][1])),
-                inverse_of(narrow(local[0][2], local[1][2]))};
-    for (int k = 0; k < 4; ++k) {
-      const float x = setup.planes.x[k], y = setup.planes.y[k], z = setup.planes.z[k];
-      planes_.x[k] = float(axes.x.x) * x + float(axes.x.y) * y + float(axes.x.z) * z;
-      planes_.y[k] = float(axes.y.x) * x + float(axes.y.y) * y + float(axes.y.z) * z;
-      planes_.z[k] = float(axes.z.x) * x + float(axes.z.y) * y + float(axes.z.z) * z;
-    }
-    start_ = {(to_[0] + field_.half[0]) / field_.spacing[0], (to_[1] + field_.half[1]) / field_.spacing[1], to_[2],
-              field_.low};
-    const double away = lane::max(lane::max(lane::abs(to_[0]), lane::abs(to_[1])), lane::abs(to_[2]));
-    margin_ = float((double(field_.extent) + away) * 2 * slack + min_slack);
-    from_below_ = to_[2] <= field_.low;
-    far_ = far;
-    store(far_of_, far);
-  }
-
-  void cast() {
-    visit(field_.level_count - 1, 0, 0, 1u << (2 * (field_.level_count - 1)));
-    intersect_pairs();
-  }
-
   alignas(64) double found[RayPacket::size];  ///< m: where each ray hits; infinity for those that do not
 
+  /// `until` (m): beyond which each ray need not be followed.
+  MURO_INLINE void start(const Ground& g, const PacketSetup& setup, const D (&until)[2]) {
+    V3<D> d[2];
+    for (int h = 0; h < 2; ++h) {
+      const auto along = [&](const V3<double>& axis) {
+        return D(axis.x) * setup.direction[h].x + D(axis.y) * setup.direction[h].y + D(axis.z) * setup.direction[h].z;
+      };
+      d[h] = {along(g.axes.x) * D(1 / g.field.spacing[0]), along(g.axes.y) * D(1 / g.field.spacing[1]),
+              along(g.axes.z)};
+      store(du_ + 8 * h, d[h].x), store(dv_ + 8 * h, d[h].y), store(dz_ + 8 * h, d[h].z);
+      store(found + 8 * h, D(never));
+    }
+    const auto some = [](F a) { return lane::select(lane::abs(a) < F(1e-20f), F(1e-20f), a); };
+    const F u = some(narrow(d[0].x, d[1].x)), v = some(narrow(d[0].y, d[1].y)), z = some(narrow(d[0].z, d[1].z));
+    const F iu = F(1) / u, iv = F(1) / v;
+    if (g.inside)
+      start_inside(g, until, {u, v, z}, {iu, iv, F(1) / z});
+    else
+      start_outside(g, until, d);
+    end_ *= lane::max(lane::abs(u), lane::abs(v)) * F(per_block) * F(1 + 1e-5f);
+    D origin[3][2];
+    for (int h = 0; h < 2; ++h) {
+      const D in = load<D>(from_ + 8 * h);
+      origin[0][h] = (D(g.u) + in * d[h].x) * D(per_block);
+      origin[1][h] = (D(g.v) + in * d[h].y) * D(per_block);
+      origin[2][h] = D(g.z) + in * d[h].z;
+    }
+    const F pace = lane::min(lane::abs(iu), lane::abs(iv)) * F(HeightField::block);
+    store(pace_, pace);
+    origin_ = {narrow(origin[0][0], origin[0][1]), narrow(origin[1][0], origin[1][1]),
+               narrow(origin[2][0], origin[2][1])};
+    along_ = {u * pace * F(per_block), v * pace * F(per_block), z * pace};
+    at_ = next_ = F(0), window_ = F(lane::min(8.0f, float(g.field.widest)));
+    near_ = 0;
+    active_ = mask_of(~signs(end_) & all_signs);
+  }
+
+  /// A window further. Whether all rays are near the surface, or have left the map.
+  MURO_INLINE bool march(const Ground& g) {
+    const float margin = 1e-6f * float(lane::max(g.field.blocks[0], g.field.blocks[1]) + 3);
+    const F last_u(float(g.field.blocks[0]) - 0.25f), last_v(float(g.field.blocks[1]) - 0.25f);
+    const F slope_step(float(g.field.slope_step)), widest(float(g.field.widest)), upper_rows(float(g.field.upper_rows)),
+        part = F(1) / window_;
+    const F to = lane::min(at_ + window_ * F(1 - 4 * margin), end_), step = to - at_;
+    const F u = origin_.x + at_ * along_.x, v = origin_.y + at_ * along_.y, z = origin_.z + at_ * along_.z;
+    const F least_u = origin_.x + lane::select(along_.x < F(0), to, at_) * along_.x;
+    const F least_v = origin_.y + lane::select(along_.y < F(0), to, at_) * along_.y;
+    const I i = truncated(lane::min(lane::max(least_u - F(margin), F(0)), last_u) * part);
+    const I j = truncated(lane::min(lane::max(least_v - F(margin), F(0)), last_v) * part);
+    const I row = truncated(lane::max(upper_rows - (upper_rows + upper_rows) * part, F(0)));
+    const I column = truncated(lane::select(part < F(1), F(float(g.field.upper_column)), F(0)));
+    const Places64 plane = look_up(g.field.planes, (row + j) * I(std::int32_t(g.field.plane_columns)) + (column + i));
+    const F slope_u = to_floats(plane.second) * slope_step, slope_v = to_floats(plane.third) * slope_step;
+    const F above =
+        (z - plane.first) - (slope_u * (u - to_floats(i) * window_) + slope_v * (v - to_floats(j) * window_));
+    const F climb = along_.z - (slope_u * along_.x + slope_v * along_.y), then = above + step * climb;
+    const auto free = lane::min(above, then) > F(0), smallest = window_ <= F(1);
+    const auto is_near = active_ & (!free) & smallest;
+    const F meets = at_ - (above / climb) * F(1 - 1e-5f);
+    at_ = lane::select(active_, lane::select(free, to, lane::select(above > F(0), meets, at_)), at_);
+    next_ = lane::select(is_near, to, next_);
+    const F larger = lane::select(then > F(0.8f) * above, lane::min(window_ + window_, widest), window_);
+    window_ = lane::select(active_, lane::select(free, larger, lane::max(window_ * F(0.5f), F(1))), window_);
+    active_ = active_ & !(is_near | (free & (to >= end_)));
+    near_ |= lane::bits(is_near);
+    return !lane::any(active_);
+  }
+
+  /// Follows the rays that are near the surface. Whether any of them must go on.
+  MURO_INLINE bool walk(const Ground& g) {
+    alignas(64) float at[RayPacket::size], next[RayPacket::size];
+    store(at, at_), store(next, next_);
+    unsigned on = 0;
+    for (int h = 0; h < 2; ++h) {
+      const unsigned rays = near_ >> 8 * h & 0xff;
+      if (rays == 0) continue;
+      const auto half = [h](const double* numbers) { return load<D>(numbers + 8 * h); };
+      const auto widened = [h](const float* numbers) {
+        alignas(64) double wide[8];
+        for (int i = 0; i < 8; ++i) wide[i] = double(numbers[8 * h + i]);
+        return load<D>(wide);
+      };
+      const D from = half(from_), pace = widened(pace_);
+      const WalkingRays walking{half(du_),
+                                half(dv_),
+                                half(dz_),
+                                lane::max(from + widened(at) * pace, half(over_from_)),
+                                from + widened(next) * pace,
+                                half(over_until_)};
+      on |= walk_over_cells(g, walking, rays, found + 8 * h) << 8 * h;
+    }
+    at_ = next_;
+    near_ = 0;
+    active_ = mask_of(on) & (next_ < end_);
+    return lane::any(active_);
+  }
+
  private:
-  /// A node of a level, and the width of its children in cells.
-  void visit(std::uint32_t level, std::uint32_t column, std::uint32_t row, std::uint32_t width) {
-    const HeightLevel& l = field_.levels[level];
-    Candidates boxes;
-    boxes.count = Candidates::size;
-    const double from[2] = {double(4 * column) * width, double(4 * row) * width};  // in cells
-    for (int k = 0; k < 2; ++k) {
-      const F first(float(from[k] * field_.spacing[k] - field_.half[k] - to_[k])),
-          side(float(width * field_.spacing[k]));
-      const F number = load<F>(k == 0 ? child_column : child_row);
-      store(boxes.low[k], first + number * side - F(margin_));
-      store(boxes.high[k], lane::min(first + (number + F(1)) * side, F(float(field_.half[k] - to_[k]))) + F(margin_));
-    }
-    const HeightNode& n = l.nodes[std::size_t(row) * ((l.columns + 3) / 4) + column];
-    const float up = margin_ - float(to_[2]), down = -margin_ - float(to_[2]);
-    for (int i = 0; i < 16; ++i) {
-      boxes.low[2][i] = n.low + n.step * float(n.lowest[i]) + down;
-      boxes.high[2][i] = n.low + n.step * float(n.highest[i]) + up;
-    }
-    if (from_below_) store(boxes.low[2], F(float(field_.low) + down));
-    const std::uint32_t columns = l.columns - 4 * column, rows = l.rows - 4 * row;
-    unsigned there = columns >= 4 ? 0xffff : ((1u << columns) - 1) * 0x1111;
-    if (rows < 4) there &= (1u << 4 * rows) - 1;
-    const int nearest = nearest_child(start_.u - from[0], width) + 4 * nearest_child(start_.v - from[1], width);
-    unsigned sorted = 0;
-    for (unsigned in = planes_.overlapping(boxes) & there; in != 0; in &= in - 1)
-      sorted |= 1u << child_order.rank[nearest][__builtin_ctz(in)];
-    for (; sorted != 0; sorted &= sorted - 1) {
-      const int i = child_order.child[nearest][__builtin_ctz(sorted)];
-      const unsigned entering = rays_entering({F(boxes.low[0][i]), F(boxes.low[1][i]), F(boxes.low[2][i])},
-                                              {F(boxes.high[0][i]), F(boxes.high[1][i]), F(boxes.high[2][i])});
-      if (entering == 0) continue;
-      const std::uint32_t c = 4 * column + std::uint32_t(i) % 4, r = 4 * row + std::uint32_t(i) / 4;
-      if (level > 0)
-        visit(level - 1, c, r, width / 4);
-      else
-        add_pairs(entering, c, r);
-    }
-  }
-  MURO_INLINE static int nearest_child(double at, std::uint32_t width) {
-    const double child = at / width;
-    return child >= 3 ? 3 : child > 0 ? int(child) : 0;
-  }
+  static constexpr float per_block = 1.0f / HeightField::block;
 
-  /// Bit i: whether ray i may enter the box before its nearest hit so far.
-  MURO_INLINE unsigned rays_entering(const V3<F>& low, const V3<F>& high) const {
-    const F x0 = low.x * inverse_.x, x1 = high.x * inverse_.x, y0 = low.y * inverse_.y, y1 = high.y * inverse_.y,
-            z0 = low.z * inverse_.z, z1 = high.z * inverse_.z;
-    const F in = lane::max(lane::max(lane::min(x0, x1), lane::min(y0, y1)), lane::min(z0, z1));
-    const F out = lane::min(lane::min(lane::max(x0, x1), lane::max(y0, y1)), lane::max(z0, z1));
-    return ~signs(lane::min(lane::min(out, far_) - in, out)) & all_signs;
+  /// Where rays are over the map, not below its floor and not above its top. end_: the length of that way, m; negative
+  /// where there is none.
+  MURO_INLINE void start_inside(const Ground& g, const D (&until)[2], const V3<F>& d, const V3<F>& inverse) {
+    const auto out = [](F i, double from, double length) {
+      return lane::max(i * F(-float(from)), i * F(float(length - from)));
+    };
+    const F out_u = out(inverse.x, g.u, g.field.columns - 1), out_v = out(inverse.y, g.v, g.field.rows - 1);
+    end_ = lane::min(lane::min(out_u, out_v), narrow(until[0], until[1]));
+    const F to_top = inverse.z * F(float(g.high - g.z));
+    F in(0);
+    if (g.z > g.high) {
+      in = lane::select(d.z < F(0), to_top * F(1 - 1e-6f), F(0));
+      end_ = lane::select(d.z < F(0), end_ - in, F(-1));
+    } else {
+      end_ = lane::select(d.z > F(0), lane::min(end_, to_top), end_);
+    }
+    alignas(64) float from[RayPacket::size];
+    store(from, in);
+    for (int i = 0; i < RayPacket::size; ++i) from_[i] = double(from[i]);
+    for (int h = 0; h < 2; ++h) store(over_from_ + 8 * h, D(0)), store(over_until_ + 8 * h, until[h]);
+  }
+  MURO_INLINE void start_outside(const Ground& g, const D (&until)[2], const V3<D> (&d)[2]) {
+    const auto across = [](double from, D inverse, double length) {
+      const D a = D(-from) * inverse, b = D(length - from) * inverse;
+      const auto backwards = inverse < D(0);
+      return Interval<D>{lane::select(backwards, b, a), lane::select(backwards, a, b)};
+    };
+    D way[2];
+    for (int h = 0; h < 2; ++h) {
+      Interval<D> over{D(0), until[h]};
+      over.intersect(across(g.u, D(1) / d[h].x, g.field.columns - 1));
+      over.intersect(across(g.v, D(1) / d[h].y, g.field.rows - 1));
+      const D iz = D(1) / d[h].z, to_floor = D(g.field.low - g.z) * iz, to_top = D(g.high - g.z) * iz;
+      const auto rises = d[h].z > D(0), falls = d[h].z < D(0);
+      const D not_before(g.field.low > g.z ? never : 0);
+      over.in = lane::max(over.in, lane::select(rises, lane::max(to_floor, D(0)), not_before));
+      over.out = lane::min(over.out, lane::select(falls, to_floor * D(1 + 1e-12) + D(1e-12), D(never)));
+      store(over_from_ + 8 * h, over.in), store(over_until_ + 8 * h, over.out);
+      const D in = lane::max(over.in, lane::select(falls, to_top, D(g.z > g.high ? never : 0)));
+      const D out = lane::min(over.out, lane::select(rises, to_top, D(never))) * D(1 + 1e-9);
+      const auto meets = in <= out;
+      store(from_ + 8 * h, lane::select(meets, in, D(0)));
+      way[h] = lane::select(meets, out - in, D(-1));
+    }
+    end_ = narrow(way[0], way[1]);
   }
 
-  MURO_INLINE void add_pairs(unsigned entering, std::uint32_t column, std::uint32_t row) {
-    const float* values = field_.values + std::size_t(row) * field_.columns + column;
-    const double h00 = field_.scale * double(values[0]), h10 = field_.scale * double(values[1]),
-                 h01 = field_.scale * double(values[field_.columns]),
-                 h11 = field_.scale * double(values[field_.columns + 1]);
-    for (; entering != 0; entering &= entering - 1) {
-      const int ray = __builtin_ctz(entering);
-      const std::uint32_t i = pairs_.count++;
-      pairs_.ray[i] = ray;
-      pairs_.column[i] = column, pairs_.row[i] = row;
-      pairs_.h00[i] = h00, pairs_.h10[i] = h10, pairs_.h01[i] = h01, pairs_.h11[i] = h11;
-      pairs_.du[i] = du_[ray], pairs_.dv[i] = dv_[ray], pairs_.dz[i] = dz_[ray];
-      pairs_.iu[i] = iu_[ray], pairs_.iv[i] = iv_[ray], pairs_.iuv[i] = iuv_[ray];
-      if (pairs_.count == Pairs::size) intersect_pairs();
-    }
-  }
-
-  void intersect_pairs() {
-    const std::uint32_t count = pairs_.count;
-    pairs_.count = 0;
-    if (count == 0) return;
-    const Pairs& p = pairs_;
-    const auto at = [](const double* numbers) { return load<D>(numbers); };
-    alignas(64) double distance[Pairs::size];
-    store(distance, enter_cell({at(p.column), at(p.row), at(p.h00), at(p.h10), at(p.h01), at(p.h11), at(p.du), at(p.dv),
-                                at(p.dz), at(p.iu), at(p.iv), at(p.iuv)},
-                               start_));
-    for (std::uint32_t i = 0; i < count; ++i) {
-      const int ray = p.ray[i];
-      if (!(distance[i] < found[ray])) continue;
-      found[ray] = distance[i];
-      far_of_[ray] = lane::min(far_of_[ray], float(distance[i]) * (1 + slack));
-    }
-    far_ = load<F>(far_of_);
-  }
-
-  /// Rays and cells that they may hit.
-  struct Pairs {
-    static constexpr std::uint32_t size = 8;
-    alignas(64) double column[size] = {}, row[size] = {};
-    alignas(64) double h00[size] = {}, h10[size] = {}, h01[size] = {}, h11[size] = {};
-    alignas(64) double du[size] = {}, dv[size] = {}, dz[size] = {}, iu[size] = {}, iv[size] = {}, iuv[size] = {};
-    int ray[size] = {};
-    std::uint32_t count = 0;
-  };
-
-  const HeightField& field_;
-  const double* to_;  ///< m: where the rays start, in the frame of the map
-  RayStart start_;
-  V3<F> inverse_;  ///< 1 / direction, large instead of infinite
-  FrustumPlanes planes_;
-  float margin_;     ///< m, by which boxes are larger than they are
-  bool from_below_;  ///< rays start below the lowest height: some may come through the floor
-  F far_;
-  alignas(64) float far_of_[RayPacket::size];
+  V3<F> origin_, along_;  ///< where the way begins, and per unit of at_, of which one is a block along x or along y
+  F at_, end_, window_, next_;  ///< next_: from where a ray that is near the surface goes on
+  lane::Mask<float, 16> active_;
+  unsigned near_;
   alignas(64) double du_[RayPacket::size], dv_[RayPacket::size], dz_[RayPacket::size];
-  alignas(64) double iu_[RayPacket::size], iv_[RayPacket::size], iuv_[RayPacket::size];
-  Pairs pairs_;
+  alignas(64) double over_from_[RayPacket::size], over_until_[RayPacket::size];  ///< m
+  alignas(64) double from_[RayPacket::size];                                     ///< m: where the way begins
+  alignas(64) float pace_[RayPacket::size];                                      ///< m per unit of at_
 };
+
+/// Finds where the rays of some packets hit. Packets take turns, so that a processor need not wait for one's planes.
+inline void cast_over_ground(const Ground& ground, GroundRays* packets, std::uint32_t count) {
+  GroundRays *marching[Sector::max_packets], *near[Sector::max_packets];
+  for (std::uint32_t i = 0; i < count; ++i) marching[i] = packets + i;
+  while (count > 0) {
+    std::uint32_t near_count = 0;
+    while (count > 0)
+      for (std::uint32_t i = 0; i < count;)
+        if (marching[i]->march(ground)) {
+          near[near_count++] = marching[i];
+          marching[i] = marching[--count];
+        } else {
+          ++i;
+        }
+    for (std::uint32_t i = 0; i < near_count; ++i)
+      if (near[i]->walk(ground)) marching[count++] = near[i];
+  }
+}
 
 }  // namespace MURO_ISA
 }  // namespace muro::raycast::rays

@@ -86,12 +86,13 @@ MURO_INLINE D enter(const PlacedPrimitive& p, const V3<D>& direction) {
 /// The nearest hits of a packet so far. with_ids: whether it is known what was hit.
 template <bool with_ids>
 struct PacketTraversal {
-  const PacketSetup& setup;
+  const PacketSetup* setup;
   D distance[2];  ///< to the nearest hit so far
   D id[2];        ///< of the collider that was hit; -1: none
   F far;          ///< not less than distance
 
-  MURO_INLINE PacketTraversal(const PacketSetup& s, double max_range) : setup(s) {
+  PacketTraversal() = default;
+  MURO_INLINE PacketTraversal(const PacketSetup& s, double max_range) : setup(&s) {
     for (int h = 0; h < 2; ++h) distance[h] = D(max_range), id[h] = D(-1);
     far = F(float(max_range) * (1 + slack));
   }
@@ -99,7 +100,7 @@ struct PacketTraversal {
   MURO_INLINE bool may_pass(float near) const { return signs(far - F(near)) != all_signs; }
   /// Whether some ray may enter the box before its nearest hit so far.
   MURO_INLINE bool may_enter(const V3<F>& low, const V3<F>& high) const {
-    const V3<F>& inverse = setup.finite_inverse;
+    const V3<F>& inverse = setup->finite_inverse;
     const F x0 = low.x * inverse.x, x1 = high.x * inverse.x, y0 = low.y * inverse.y, y1 = high.y * inverse.y,
             z0 = low.z * inverse.z, z1 = high.z * inverse.z;
     const F in = lane::max(lane::max(lane::min(x0, x1), lane::min(y0, y1)), lane::min(z0, z1));
@@ -108,21 +109,21 @@ struct PacketTraversal {
   }
 
   void intersect(const PlacedPrimitive& p) {
-    for (int h = 0; h < 2; ++h) accept(h, enter(p, setup.direction[h]), p.id);
+    for (int h = 0; h < 2; ++h) accept(h, enter(p, setup->direction[h]), p.id);
     update_far();
   }
   MURO_INLINE void intersect_aligned_box(const Primitive& s, const ScanQuery& query) {
     const V3<double> from = vector_at(query.position) - vector_at(s.position);
     const V3<D> o{D(from.x), D(from.y), D(from.z)};
-    for (int h = 0; h < 2; ++h) accept(h, enter_box(o, setup.inverse[h], s.sx, s.sy, s.sz), s.id);
+    for (int h = 0; h < 2; ++h) accept(h, enter_box(o, setup->inverse[h], s.sx, s.sy, s.sz), s.id);
     update_far();
   }
   MURO_INLINE void intersect_plane(const PlaneCandidate& f) {
-    const V3<F>& d = setup.rounded;
+    const V3<F>& d = setup->rounded;
     const F down = d.x * F(-float(f.normal[0])) + d.y * F(-float(f.normal[1])) + d.z * F(-float(f.normal[2]));
     if (f.height > 0 && signs((down + F(slack)) * far - F(float(f.height) * (1 - slack))) == all_signs) return;
     for (int h = 0; h < 2; ++h)
-      accept(h, enter_half_space(D(f.height), dot(splat(f.normal), setup.direction[h])), f.id);
+      accept(h, enter_half_space(D(f.height), dot(splat(f.normal), setup->direction[h])), f.id);
     update_far();
   }
   /// Takes distances that were found for all rays; infinity for those that hit nothing.

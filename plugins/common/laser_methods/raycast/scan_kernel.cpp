@@ -37,7 +37,10 @@ class Scan {
       PacketSetup setup[Sector::max_packets];
       for (std::uint32_t b = 0; b < sector.count; ++b)
         setup[b].set(packets[b], query_, blocks_ > 0 ? candidates_ : nullptr);
-      for (std::uint32_t b = 0; b < sector.count; ++b) cast(packets[b], setup[b]);
+      if (scratch_.heightmap_count > 0)
+        cast_over_heightmaps(packets, setup, sector.count);
+      else
+        for (std::uint32_t b = 0; b < sector.count; ++b) cast(packets[b], setup[b]);
     }
   }
 
@@ -95,38 +98,61 @@ class Scan {
   void cast(const RayPacket& packet, const PacketSetup& setup) {
     PacketTraversal<with_ids> rays(setup, query_.max_range);
     for (std::uint32_t i = 0; i < planes_; ++i) rays.intersect_plane(scratch_.planes[i]);
-    for (std::uint32_t i = 0; i < scratch_.heightmap_count; ++i)
-      if (scratch_.heightmaps[i].contains_the_start) take_start(scratch_.heightmaps[i], rays);
+    cast(packet, setup, rays);
+  }
+  [[gnu::noinline]] void cast_over_heightmaps(const RayPacket* packets, const PacketSetup* setup, std::uint32_t count) {
+    PacketTraversal<with_ids> rays[Sector::max_packets];
+    for (std::uint32_t b = 0; b < count; ++b) {
+      rays[b] = PacketTraversal<with_ids>(setup[b], query_.max_range);
+      for (std::uint32_t i = 0; i < planes_; ++i) rays[b].intersect_plane(scratch_.planes[i]);
+      for (std::uint32_t i = 0; i < scratch_.heightmap_count; ++i)
+        if (scratch_.heightmaps[i].contains_the_start) take_start(scratch_.heightmaps[i], rays[b]);
+    }
+    GroundRays over[Sector::max_packets];
+    for (std::uint32_t k = 0; k < blocks_; ++k) {
+      const Candidates& c = candidates_[k];
+      for (std::uint32_t i = 0; i < c.count; ++i) {
+        if (c.item[i] & robot_bit || view_.primitives[c.item[i]].kind != PrimitiveKind::heightmap) continue;
+        const PlacedHeightmap& map = scratch_.heightmaps[view_.primitives[c.item[i]].heightmap];
+        if (map.contains_the_start) continue;
+        const Ground ground(map);
+        std::uint32_t used = 0, packet_of[Sector::max_packets];
+        for (std::uint32_t b = 0; b < count; ++b) {
+          if (!rays[b].may_pass(c.near) || !rays[b].may_enter({F(c.low[0][i]), F(c.low[1][i]), F(c.low[2][i])},
+                                                              {F(c.high[0][i]), F(c.high[1][i]), F(c.high[2][i])}))
+            continue;
+          over[used].start(ground, setup[b], rays[b].distance);
+          packet_of[used++] = b;
+        }
+        cast_over_ground(ground, over, used);
+        for (std::uint32_t n = 0; n < used; ++n) rays[packet_of[n]].take(over[n].found, map.id);
+      }
+    }
+    for (std::uint32_t b = 0; b < count; ++b) cast(packets[b], setup[b], rays[b]);
+  }
+  MURO_INLINE void cast(const RayPacket& packet, const PacketSetup& setup, PacketTraversal<with_ids>& rays) {
     for (std::uint32_t b = 0; b < blocks_ && rays.may_pass(candidates_[b].near); ++b) {
       const Candidates& c = candidates_[b];
       for (unsigned in = b == 0 ? setup.first : setup.planes.overlapping(c); in != 0; in &= in - 1) {
         const int i = __builtin_ctz(in);
         if (rays.may_enter({F(c.low[0][i]), F(c.low[1][i]), F(c.low[2][i])},
                            {F(c.high[0][i]), F(c.high[1][i]), F(c.high[2][i])}))
-          intersect(c.item[i], setup, rays);
+          intersect(c.item[i], rays);
       }
     }
     write(packet, rays);
   }
 
-  MURO_INLINE void intersect(std::uint32_t item, const PacketSetup& setup, PacketTraversal<with_ids>& rays) {
+  MURO_INLINE void intersect(std::uint32_t item, PacketTraversal<with_ids>& rays) {
     if (item & robot_bit) return intersect_robot(scratch_.robots[item & ~robot_bit], rays);
     const Primitive& primitive = view_.primitives[item];
     if (primitive.kind == PrimitiveKind::aligned_box) return rays.intersect_aligned_box(primitive, query_);
-    if (primitive.kind == PrimitiveKind::heightmap)
-      return intersect_heightmap(scratch_.heightmaps[primitive.heightmap], setup, rays);
+    if (primitive.kind == PrimitiveKind::heightmap) return;  // cast_over_heightmaps
     PlacedPrimitive p;
     place_in_scenery(primitive, query_, p);
     rays.intersect(p);
   }
 
-  [[gnu::noinline]] void intersect_heightmap(const PlacedHeightmap& map, const PacketSetup& setup,
-                                             PacketTraversal<with_ids>& rays) const {
-    if (map.contains_the_start) return;
-    HeightmapTraversal traversal(map, setup, rays.far);
-    traversal.cast();
-    rays.take(traversal.found, map.id);
-  }
   static void take_start(const PlacedHeightmap& map, PacketTraversal<with_ids>& rays) {
     alignas(64) constexpr double at_once[RayPacket::size] = {};
     rays.take(at_once, map.id);

@@ -23,29 +23,29 @@ struct Primitive {
   std::uint32_t heightmap = 0;   ///< its number in Scratch::heightmaps
 };
 
-/// The heights of the 4 x 4 children of a node of the tree of a heightmap: `low` and so many steps, rounded away from
-/// what is between.
-struct HeightNode {
-  float low = 0, step = 0;  ///< m
-  std::uint8_t lowest[16] = {}, highest[16] = {};
-};
-/// A level of that tree. Its nodes, row by row, divide `columns` x `rows` children, which are cells on the lowest level
-/// and nodes of the level below on others; those at the upper rims have fewer than sixteen.
-struct HeightLevel {
-  const HeightNode* nodes = nullptr;
-  std::uint32_t columns = 0, rows = 0;
+/// A plane over a part of a heightmap, which is nowhere below the surface. The part is a square window; the height is
+/// that over its corner at -x -y, the slopes are numbers of HeightField::slope_step.
+struct HeightPlane {
+  float height = 0;  ///< m
+  std::int16_t slope_x = 0, slope_y = 0;
 };
 
 /// A heightmap in the frame of its shape.
 struct HeightField {
   const float* values = nullptr;  ///< at its nodes, `columns` a row
-  std::uint32_t columns = 0;
+  std::uint32_t columns = 0, rows = 0;
   double scale = 0;                      ///< m: height of a value of 1
-  double low = 0;                        ///< m: lowest height
+  double low = 0, high = 0;              ///< m: lowest and greatest height
   double spacing[2] = {}, half[2] = {};  ///< m: of nodes; half of the lengths
-  double extent = 0;                     ///< m: greatest coordinate
-  const HeightLevel* levels = nullptr;   ///< from the lowest on
-  std::uint32_t level_count = 0;         ///< the last has one node
+  /// The planes over windows of 2 x 2 blocks of 2^level x 2^level times block x block cells, for each such block as the
+  /// one at -x -y. Those of level 0 lie at column and row 0, those of a greater level at column `upper_column` and row
+  /// `upper_rows` (1 - 2 / 2^level).
+  const HeightPlane* planes = nullptr;
+  std::uint32_t plane_columns = 0, upper_column = 0, upper_rows = 0;
+  std::uint32_t widest = 1;                  ///< 2^level of the last level
+  double slope_step = 0;                     ///< m per block
+  double blocks[2] = {};                     ///< numbers of blocks in x and y, not always whole
+  static constexpr std::uint32_t block = 1;  ///< cells
 };
 
 /// The half space below a plane: normal * x <= offset.
