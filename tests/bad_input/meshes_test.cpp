@@ -87,17 +87,28 @@ TEST(ACollisionMesh, ThatTheParserProcessDiesOfEndsTheSetUp) {
                 "MURO_PARSER_SECONDS=SECONDS allows more", "; the file is probably damaged: write it anew"});
 }
 
-TEST(ACollisionMesh, OfARobotEndsTheSetUpToo) {
+TEST(ACollisionMesh, OfARobotThatCannotBeReadIsLeftOut) {
+  if (!is_there("reader.urdf")) return;
   const test::ScratchFolder folder;
   folder.file("rock.glb", glb_of_two_gigabytes());
-  folder.file("r.urdf", urdf_with("collision", "rock.glb"));
-  for (const char* motion : {"simplified", "bullet"}) {
-    if (!is_there(std::string("motion.") + motion)) continue;
-    const std::string robots =
-        "robots: {r: {model: r.urdf, count: 3, place: {grid: {count: [3, 1], spacing: [3, 3]}}, "
-        "motion: {use: motion." +
-        std::string(motion) + "}, lidar: {use: laser.raycast, rate: 10}}}\n";
-    expect_words(complaint_about(folder, robots), {"cannot be connected: `r_0/base`: mesh rock.glb cannot be read: "});
+  folder.file("pointer.stl", "version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 12345\n");
+  folder.file("empty.dae", "");
+  for (const char* mesh : {"rock.glb", "pointer.stl", "empty.dae"}) {
+    folder.file("r.urdf", urdf_with("collision", mesh));
+    for (const char* motion : {"simplified", "bullet"}) {
+      if (!is_there(std::string("motion.") + motion)) continue;
+      const std::string path =
+          folder.file("s.yaml",
+                      "robots: {r: {model: r.urdf, count: 3, place: {grid: {count: [3, 1], spacing: [3, 3]}}, "
+                      "motion: {use: motion." +
+                          std::string(motion) + "}, lidar: {use: laser.raycast, rate: 10}}}\n");
+      const auto run = test::run_command(muro_program + " run --duration 0.01 " + path);
+      EXPECT_EQ(run.exit_code, 0) << run.output;
+      expect_words(run.output, {"r.urdf: warning: mesh ", mesh, "; it is left out, so that nothing touches link base"});
+      const auto strict = test::run_command(muro_program + " run --strict --duration 0.01 " + path);
+      EXPECT_EQ(strict.exit_code, 2) << strict.output;
+      expect_words(strict.output, {"--strict lets no collision shape be left out"});
+    }
   }
 }
 

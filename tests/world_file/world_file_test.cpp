@@ -152,7 +152,8 @@ TEST(WorldFileOfAScenario, MistakesAreOneMessageWithThePlaceAndExitCode2) {
        "s.yaml:1:15: world " MURO_TEST_SOURCE_DIR "/examples/models/rover.urdf: " MURO_TEST_SOURCE_DIR
        "/examples/models/rover.urdf describes a robot, not a world; name it as the `model` of a robot\n"},
       {"", "world: {file: s.yaml}\n",
-       "s.yaml:1:15: no reader for models of type `.yaml` (s.yaml); known types: .png, .r32, .f32, .raw, .bin, "
+       "s.yaml:1:15: no reader for models of type `.yaml` (s.yaml); known types: .png, .jpg, .jpeg, .tif, .tiff, .r32, "
+       ".f32, .raw, .bin, "
        ".hfield, .stl, .obj, .dae, .glb, .gltf, .ply, "
        ".xml, "
        ".mjcf, .sdf, .world, .urdf, .xacro\n"},

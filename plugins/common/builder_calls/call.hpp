@@ -34,8 +34,8 @@ enum class Call : std::uint8_t {
   mjcf_in_world,
   mjcf_body,
   mjcf_joint,
-  friction_rule,
   gravity,
+  friction_rule,
   scenery,
   model,
   world_intern,
@@ -43,7 +43,7 @@ enum class Call : std::uint8_t {
 };
 
 /// The constants that a record can hold, by their call; each is one value but the shapes, which are arrays.
-inline constexpr std::array<std::pair<Call, const KeyInfo*>, 12> constants{
+inline constexpr std::array<std::pair<Call, const KeyInfo*>, 11> constants{
     {{Call::inertial, &keys::inertial},
      {Call::collision_shapes, &keys::collision_shapes},
      {Call::visual_shapes, &keys::visual_shapes},
@@ -54,7 +54,6 @@ inline constexpr std::array<std::pair<Call, const KeyInfo*>, 12> constants{
      {Call::mjcf_file, &model_constants::mjcf_file},
      {Call::mjcf_in_world, &model_constants::mjcf_in_world},
      {Call::mjcf_body, &model_constants::mjcf_body},
-     {Call::mjcf_joint, &model_constants::mjcf_joint},
-     {Call::friction_rule, &keys::friction_rule}}};
+     {Call::mjcf_joint, &model_constants::mjcf_joint}}};
 
 }  // namespace muro::builder_calls

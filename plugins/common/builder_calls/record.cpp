@@ -98,6 +98,11 @@ void WorldRecorder::gravity(const Vec3& acceleration) noexcept {
   out_.value(acceleration);
 }
 
+void WorldRecorder::friction_rule(std::uint32_t rule) noexcept {
+  out_.value(Call::friction_rule);
+  out_.value(rule);
+}
+
 void WorldRecorder::scenery(std::string_view name, const Pose& pose, std::span<const Shape> collisions,
                             std::span<const Shape> visuals) noexcept {
   out_.value(Call::scenery);

@@ -46,6 +46,7 @@ class WorldRecorder final : public WorldBuilder {
   RobotBuilder& model(std::string_view name, const Pose& pose) noexcept override;
   TextId intern(std::string_view text) noexcept override;
   void report(Severity severity, std::string_view text, int line, int column) noexcept override;
+  void friction_rule(std::uint32_t rule) noexcept override;
 
  private:
   parser_process::Writer& out_;

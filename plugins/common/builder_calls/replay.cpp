@@ -3,7 +3,6 @@
 
 #include "call.hpp"
 #include "muro/toolkit/joint_drives.hpp"
-#include "muro/toolkit/pair_surface.hpp"
 
 namespace muro::builder_calls {
 
@@ -44,7 +43,7 @@ struct Report {
 
 Report report_in(Reader& calls) {
   const auto severity = calls.value<Severity>();
-  if (severity > Severity::error) fail();
+  if (severity > Severity::lost_collision) fail();
   std::string text = calls.text();
   const int line = calls.value<int>();
   return {severity, std::move(text), line, calls.value<int>()};
@@ -105,19 +104,12 @@ class RobotReplay {
         return builder_.set(model_constants::mjcf_body, calls.value<std::uint32_t>());
       case Call::mjcf_joint:
         return builder_.set(model_constants::mjcf_joint, calls.value<std::uint32_t>());
-      case Call::friction_rule:
-        return friction_rule(calls.value<std::uint32_t>());
       default:
         fail();
     }
   }
 
  private:
-  void friction_rule(std::uint32_t rule) {
-    if (rule > std::uint32_t(FrictionRule::max)) fail();
-    builder_.set(keys::friction_rule, rule);
-  }
-
   void drive(std::uint32_t mode) {
     if (mode > std::uint32_t(DriveMode::passive)) fail();
     builder_.set(keys::joint_drive, mode);
@@ -148,6 +140,9 @@ void replay(Reader calls, WorldBuilder& builder) {
     switch (const auto call = calls.value<Call>()) {
       case Call::gravity:
         builder.gravity(calls.value<Vec3>());
+        break;
+      case Call::friction_rule:
+        builder.friction_rule(calls.value<std::uint32_t>());
         break;
       case Call::scenery: {
         const std::string name = calls.text();

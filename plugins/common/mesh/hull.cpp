@@ -5,6 +5,7 @@ extern "C" {
 #include <libqhull_r/qhull_ra.h>
 }
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cstdio>
 #include <limits>
@@ -85,6 +86,29 @@ Hull convex_hull(std::span<const Vec3> points) {
     throw Error(std::to_string(points.size()) +
                 " points have no convex hull with a volume: they lie in one plane, or hardly beside it");
   return hull;
+}
+
+Hull hull_or_plate(std::span<const Vec3> points) {
+  constexpr double thickness = 1e-3;
+  Aabb box;
+  Vec3 centre = Vec3::Zero();
+  for (const Vec3& p : points) {
+    box.include({p, p});
+    centre += p / double(points.size());
+  }
+  const double size = points.empty() ? 0 : (box.high - box.low).norm();
+  Mat3 spread = Mat3::Zero();  // its axis of the least is the normal of the plane
+  for (const Vec3& p : points) spread += (p - centre) / size * ((p - centre) / size).transpose();
+  const Eigen::SelfAdjointEigenSolver<Mat3> axes(spread);
+  const Vec3 normal = axes.eigenvectors().col(0);
+  const auto height = [&](const Vec3& p) { return std::abs(normal.dot(p - centre)); };
+  const bool is_flat =
+      std::all_of(points.begin(), points.end(), [&](const Vec3& p) { return height(p) < 0.1 * thickness * size; });
+  if (!(size > 0) || !is_flat || axes.eigenvalues()[1] < 1e-6 * axes.eigenvalues()[2]) return convex_hull(points);
+  std::vector<Vec3> plate;
+  for (const Vec3& p : points)
+    for (const double side : {-0.5, 0.5}) plate.push_back(p + side * thickness * size * normal);
+  return convex_hull(plate);
 }
 
 Mesh surface_of(const Hull& hull) {

@@ -27,6 +27,10 @@ struct Hull {
 /// muro::Error when the points lie in a plane. [setup]
 Hull convex_hull(std::span<const Vec3> points);
 
+/// As convex_hull, but of points in a plane the hull of a plate on both sides of it, a thousandth of their size thick.
+/// Throws muro::Error when the points lie on a line. [setup]
+Hull hull_or_plate(std::span<const Vec3> points);
+
 /// Its surface: closed, looking outward.
 Mesh surface_of(const Hull& hull);
 

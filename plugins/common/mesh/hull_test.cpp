@@ -30,6 +30,26 @@ void expect_hull_of(const Hull& hull, const std::vector<Vec3>& points) {
   }
 }
 
+TEST(Hull, OfASheetIsAPlateOfAThousandthOfItsSize) {
+  const Quat turn = from_rpy(0.3, -0.5, 1);
+  std::vector<Vec3> points;
+  for (const double x : {-0.3, 0.0, 0.3})
+    for (const double y : {-0.2, 0.2}) points.push_back(turn * Vec3(x, y, 0) + Vec3(1, 2, 3));
+  EXPECT_THROW(convex_hull(points), Error);
+  Aabb box;
+  for (const Vec3& p : points) box.include({p, p});
+  const Hull plate = hull_or_plate(points);
+  expect_hull_of(plate, points);
+  const double thickness = 1e-3 * (box.high - box.low).norm();
+  EXPECT_NEAR(volume_of(surface_of(plate)), 0.6 * 0.4 * thickness, 1e-6 * thickness);
+}
+
+TEST(Hull, OfPointsOnALineThereIsNone) {
+  const std::vector<Vec3> points = {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {3, 3, 3}};
+  EXPECT_THROW(hull_or_plate(points), Error);
+  EXPECT_THROW(hull_or_plate({}), Error);
+}
+
 TEST(Hull, OfABoxWithPointsInsideHasSixFacesOfFourCorners) {
   std::mt19937 engine(3);
   std::uniform_real_distribution<double> in(-1, 1);

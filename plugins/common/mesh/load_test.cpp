@@ -122,6 +122,8 @@ TEST(Load, SaysWhatIsWrongWithAFileAndWhatIsAllowed) {
   expect(folder.file("note.txt", "hello"), "cannot be read");
   expect(folder.file("empty.stl", ""), "cannot be read");
   expect(folder.file("broken.dae", "<COLLADA>"), "cannot be read");
+  expect(folder.file("large.stl", "version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 12345\n"),
+         "run `git lfs pull`");
   expect(folder.file("line.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n"), "no triangle with an area (1 without)");
   const std::string good = folder.file("part.stl", stl_text(box(low, high)));
   expect(good, "each factor must be finite and not 0", {1, 0, 1});

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <set>
 
 #include "muro/algorithm.hpp"
@@ -40,6 +41,14 @@ class Files final : public Assimp::DefaultIOSystem {
   std::set<std::string> opened_;
 };
 
+/// Whether it is what a clone without Git LFS has in place of the file.
+bool is_lfs_pointer(const std::string& path) {
+  constexpr std::string_view first = "version https://git-lfs";
+  std::string begin(first.size(), '\0');
+  std::ifstream(path, std::ios::binary).read(begin.data(), std::streamsize(begin.size()));
+  return begin == first;
+}
+
 /// What Assimp says of a file that it cannot read.
 std::string reason_of(const std::string& text) {
   if (text.find("bad_a") != text.npos || text.find("bad alloc") != text.npos || text.find("vector::") != text.npos)
@@ -64,6 +73,7 @@ MeshFile::MeshFile(const std::string& path, const Vec3& scale, unsigned unused, 
   if (!scale.allFinite() || scale.cwiseAbs().minCoeff() <= 0)
     throw fail("has a scale of " + std::to_string(scale.x()) + " " + std::to_string(scale.y()) + " " +
                std::to_string(scale.z()) + "; each factor must be finite and not 0");
+  if (is_lfs_pointer(path)) throw fail("is only a pointer to the file, left there by Git LFS; run `git lfs pull`");
   importer_.SetIOHandler(new Files);  // which the importer owns
   importer_.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, int(unused));
   importer_.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, 40);

@@ -32,4 +32,15 @@ const Hull& Store::hull(const std::string& path, const Vec3& scale) {
   return *e.hull;
 }
 
+const Hull& Store::hull_or_plate(const std::string& path, const Vec3& scale) {
+  Entry& e = entry(path, scale);
+  if (e.hull) return *e.hull;
+  if (!e.plate) try {
+      e.plate = mesh::hull_or_plate(e.mesh.vertices);
+    } catch (const Error& error) {
+      throw Error("mesh " + path + ": " + error.what());
+    }
+  return *e.plate;
+}
+
 }  // namespace muro::mesh

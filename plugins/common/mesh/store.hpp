@@ -18,12 +18,14 @@ class Store {
   const Mesh& mesh(const std::string& path, const Vec3& scale);
   /// Its convex hull. Throws muro::Error when the mesh is flat.
   const Hull& hull(const std::string& path, const Vec3& scale);
+  /// The same, and where the mesh is flat a thin plate. Throws muro::Error when it lies on a line.
+  const Hull& hull_or_plate(const std::string& path, const Vec3& scale);
 
  private:
   struct Entry {
     std::string error;  ///< of a file that cannot be read: it may have taken long
     Mesh mesh;
-    std::optional<Hull> hull;
+    std::optional<Hull> hull, plate;
   };
   Entry& entry(const std::string& path, const Vec3& scale);
 

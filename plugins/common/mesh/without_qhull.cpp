@@ -12,6 +12,7 @@ constexpr const char* advice =
 }  // namespace
 
 Hull convex_hull(std::span<const Vec3>) { throw Error(advice); }
+Hull hull_or_plate(std::span<const Vec3>) { throw Error(advice); }
 Mesh surface_of(const Hull&) { throw Error(advice); }
 
 }  // namespace muro::mesh

@@ -137,10 +137,26 @@ std::vector<fs::path> package_folders(const std::string& name, const fs::path& f
 }
 
 struct Candidates {
-  std::vector<fs::path> paths;  ///< everything the name may mean, best first
+  std::vector<fs::path> paths;           ///< everything the name may mean, best first
+  std::vector<fs::path> elsewhere = {};  ///< where it lies when the model was written on another computer
   std::string package = {};
   std::vector<fs::path> package_folders = {};
 };
+
+/// The ends of a path, longest first, beside the model and up to two folders above it: of /home/me/arm/meshes/hand.stl,
+/// meshes/hand.stl beside the model's folder is the fourth to look at.
+std::vector<fs::path> ends_beside(const fs::path& folder, const fs::path& path) {
+  std::vector<fs::path> found;
+  fs::path tail = path.relative_path();
+  while (!tail.empty()) {
+    for (const fs::path& above : {folder, folder.parent_path(), folder.parent_path().parent_path()})
+      found.push_back(above / tail);
+    fs::path shorter;
+    for (auto part = std::next(tail.begin()); part != tail.end(); ++part) shorter /= *part;
+    tail = shorter;
+  }
+  return found;
+}
 
 Candidates candidates(std::string name, const fs::path& folder, const Packages& packages) {
   std::replace(name.begin(), name.end(), '\\', '/');
@@ -154,6 +170,10 @@ Candidates candidates(std::string name, const fs::path& folder, const Packages& 
     found.package = rest.substr(0, slash);
     found.package_folders = package_folders(found.package, folder, packages);
     for (const fs::path& package : found.package_folders) found.paths.push_back(package / inside);
+    if (inside.has_parent_path() && std::none_of(found.package_folders.begin(), found.package_folders.end(), is_folder))
+      for (fs::path above = folder; above != above.root_path() && found.elsewhere.size() < 4;
+           above = above.parent_path())
+        found.elsewhere.push_back(above / inside);
     return found;
   }
   if (scheme == "file") name = percent_decoded(std::string_view(name).substr(colon + 3));
@@ -161,51 +181,72 @@ Candidates candidates(std::string name, const fs::path& folder, const Packages& 
   if (name.size() > 3 && name[0] == '/' && std::isalpha(static_cast<unsigned char>(name[1])) && name[2] == ':')
     name.erase(0, 1);
   if (name.size() > 2 && std::isalpha(static_cast<unsigned char>(name[0])) && name[1] == ':') {
-    fs::path tail = fs::path(name.substr(2)).relative_path();
-    while (!tail.empty()) {
-      found.paths.push_back(folder / tail);
-      fs::path shorter;
-      for (auto part = std::next(tail.begin()); part != tail.end(); ++part) shorter /= *part;
-      tail = shorter;
-    }
+    found.paths.push_back(folder / fs::path(name.substr(2)).relative_path());
+    found.elsewhere = ends_beside(folder, name.substr(2));
     return found;
   }
   // `folder / name` is `name` when that is absolute
   found.paths.push_back(folder / name);
-  if (fs::path(name).is_absolute()) return found;
+  if (fs::path(name).is_absolute()) {
+    found.elsewhere = ends_beside(folder, name);
+    return found;
+  }
   for (const char* variable : gazebo_paths)
     for (const fs::path& path : paths_in(variable)) found.paths.push_back(path / name);
   for (const fs::path& path : paths_in("GAZEBO_RESOURCE_PATH")) found.paths.push_back(path / name);
   return found;
 }
 
-MeshPath find(std::string_view name, const fs::path& folder, const Packages& packages, bool folders) {
+/// What is looked for.
+enum class Wanted { mesh, file, file_or_folder };
+
+MeshPath find(std::string_view name, const fs::path& folder, const Packages& packages, Wanted wanted) {
+  const bool folders = wanted == Wanted::file_or_folder;
   MeshPath result;
   const Candidates all = candidates(std::string(name), folder, packages);
   result.package = all.package;
   result.has_package = std::any_of(all.package_folders.begin(), all.package_folders.end(), is_folder);
-  for (const fs::path& candidate : all.paths) {
-    const fs::path path = candidate.lexically_normal();
+  const auto take = [&](const fs::path& path) {
     if (is_file(path) || (folders && is_folder(path))) {
       result.path = path.string();
-      return result;
-    }
-    if (is_folder(path.parent_path())) {
+    } else if (is_folder(path.parent_path())) {
       if (const auto other = in_other_case(path)) {
         result.path = other->string();
         result.other_case = true;
-        return result;
       }
     }
+    return !result.path.empty();
+  };
+  for (const fs::path& candidate : all.paths) {
+    const fs::path path = candidate.lexically_normal();
+    if (take(path)) return result;
     result.searched.push_back(path);
   }
+  if (wanted != Wanted::mesh) return result;
+  for (const fs::path& candidate : all.elsewhere)
+    if (take(candidate.lexically_normal())) {
+      result.elsewhere = true;
+      break;
+    }
   return result;
 }
 
 }  // namespace
 
 MeshPath find_mesh(std::string_view filename, const fs::path& folder, const Packages& packages) {
-  return find(filename, folder, packages, false);
+  return find(filename, folder, packages, Wanted::mesh);
+}
+
+MeshPath find_file(std::string_view name, const fs::path& folder, const Packages& packages) {
+  return find(name, folder, packages, Wanted::file);
+}
+
+std::string note_on(std::string_view filename, const MeshPath& found) {
+  if (found.elsewhere) return concat("mesh ", quote(filename), " is not there and is read from ", found.path);
+  if (found.other_case)
+    return concat("mesh ", quote(filename), " is read from ", found.path,
+                  ", whose name differs in upper and lower case");
+  return "";
 }
 
 std::string advice_for_missing(std::string_view filename, const MeshPath& missing) {
@@ -228,7 +269,7 @@ std::string searched_places(const MeshPath& missing) {
 }
 
 MeshPath find_file_or_folder(std::string_view name, const fs::path& folder, const Packages& packages) {
-  return find(name, folder, packages, true);
+  return find(name, folder, packages, Wanted::file_or_folder);
 }
 
 }  // namespace muro::model_file

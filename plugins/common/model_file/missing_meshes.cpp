@@ -51,7 +51,7 @@ void MissingMeshes::report(Problems& problems) const {
     text += others ? " are not found and left out" : " is not found and left out";
     if (group.to_touch) text += ", so that nothing touches the links there";
     text += concat("; looked for ", searched_places(group.missing), "; ", advice_for_missing(name, group.missing));
-    problems.warning(places.front(), text);
+    problems.report(group.to_touch ? Severity::lost_collision : Severity::warning, places.front(), text);
   }
 }
 

@@ -29,7 +29,7 @@ inline constexpr PropertyUse writes[] = {
     {"joint.velocity", "of every joint"},
     {"joint.effort", "of every joint: what its drive applies"},
     {"wrench.contact", "of every body with collision shapes"},
-    {"contact.wrenches.motion", "of the base: what each contact did, where somebody reads it"},
+    {keys::contact_wrenches_of_motion.name, "of the base: what each contact did, where somebody reads it"},
     {"contact.world", "that this world answers for contacts"},
     {"twist.lag", "0.5: semi-implicit Euler"},
 };

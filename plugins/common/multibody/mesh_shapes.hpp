@@ -35,8 +35,9 @@ class MeshShapes {
         const std::string path(c.text(s.mesh));
         try {
           if (!shapes_.contains(key))
-            shapes_.emplace(key, hull ? of_hull(store.hull(path, s.size)) : of_mesh(store.mesh(path, s.size)));
-          if (!heightmaps_.empty() && c.robot_of(object) >= 0) hulls_.try_emplace(key, store.hull(path, s.size));
+            shapes_.emplace(key, hull ? of_hull(store.hull_or_plate(path, s.size)) : of_mesh(store.mesh(path, s.size)));
+          if (!heightmaps_.empty() && c.robot_of(object) >= 0)
+            hulls_.try_emplace(key, store.hull_or_plate(path, s.size));
         } catch (const Error& error) {
           mesh::refuse_collision_mesh(c, object, error);
         }

@@ -40,13 +40,13 @@ void Motion::connect(Connector& c) {
   traits_.motion = description().id;
   traits_.contact_world = number_of_world(fnv1a(p.text(world_name.name), fnv1a(description().id)));
   traits_.twist_lag = 0.5 / substeps_;
-  traits_.advice = advice();
   configure(c);
+  traits_.advice = advice();  // which depends on what was configured
   for (std::uint32_t i = 0; i < c.items().size(); ++i) connect_robot(c, c.items()[i], c.parameters_of(i));
   std::vector<bool> own(c.items().size());
   for (std::size_t i = 0; i < own.size(); ++i) own[i] = served_[i].by_world != nullptr;
   if (!robots_.empty()) external_bodies_.connect(c, own);
-  report_regularized_links(c);
+  if (!has_own_inertias()) report_regularized_links(c);
   report_kinematic_robots(c);
 }
 

@@ -27,6 +27,8 @@ class Motion : public Algorithm {
   virtual const Description& description() const = 0;
   /// What the engine needs of inertias.
   virtual MinInertia min_inertia() const = 0;
+  /// Whether the engine has the inertias of the model's own file, and those of the scene do not count.
+  virtual bool has_own_inertias() const { return false; }
   /// How many numbers of its own the engine keeps of a robot from step to step.
   virtual std::size_t memory_of(const RobotModel& model) const = 0;
   /// Reads the engine's own parameters. [setup]

@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "consistent_inertia.hpp"
+#include "missing_inertia.hpp"
 #include "muro/toolkit/bounds.hpp"
 #include "muro/toolkit/link_pose.hpp"
 #include "muro/toolkit/mass_properties.hpp"
@@ -38,15 +39,29 @@ bool regularize(Inertia& inertia, double mass, double radius) {
   return changed || consistent;
 }
 
-/// A body without mass that touches others carries some of the robot: engines with iterations would need too many of
-/// them for the least mass that they take. It is a ball about its shapes with a thousandth of the robot's mass.
-MinInertia least_inertia_of(const RigidBody& body, const MinInertia& of_engine) {
-  constexpr double share = 1e-3;
-  if (body.inertia.mass > 0 || body.shapes.empty()) return of_engine;
+/// A body that touches others carries some of the robot: engines with iterations would need too many of them, and soft
+/// contacts give way without end, where it is as light as the least mass that they take. Without a mass it is a ball
+/// about its shapes with a thousandth of the robot's mass, with one at least such a ball with a share that contacts of
+/// all engines still hold (a leg of a robot sinks in from 1e-5 of its mass on).
+MinInertia least_inertia_of(const RigidBody& body, double robot_mass, const MinInertia& of_engine) {
+  constexpr double share_without_mass = 1e-3, least_share = 5e-5;
+  if (body.shapes.empty() || body.inertia.mass >= least_share * robot_mass) return of_engine;
   double radius = of_engine.radius;
   for (const BodyShape& s : body.shapes)
     if (s.shape.kind != ShapeKind::plane) radius = std::max(radius, half_extents(s.shape).maxCoeff());
-  return {std::max(share, of_engine.mass_fraction), radius};
+  return {std::max(body.inertia.mass > 0 ? least_share : share_without_mass, of_engine.mass_fraction), radius};
+}
+
+/// Whether the inertia lacked something that contacts need.
+bool complete_inertia(RigidBody& body, const MinInertia& min_inertia) {
+  if (!min_inertia.box_of) return false;
+  Aabb box;
+  for (const BodyShape& s : body.shapes)
+    if (const std::optional<Aabb> around = min_inertia.box_of(s.shape)) box.include(*around);
+  if (!(body.inertia.mass > 0) || !((box.high - box.low).minCoeff() > 0)) return false;
+  const std::optional<Mat3> missing = missing_inertia(body.inertia, box);
+  if (missing) body.inertia = Inertia::from(body.inertia.mass, body.inertia.com, body.inertia.tensor() + *missing);
+  return missing.has_value();
 }
 
 RigidBody body_of(const Link& link, std::uint32_t number, DriveMode mode) {
@@ -125,8 +140,9 @@ RobotModel model_of(const Connector& connector, const RobotView& robot, std::spa
       body.multiplier = link.mimic_multiplier;
       body.offset = link.mimic_offset;
     }
-    const MinInertia least = least_inertia_of(body, min_inertia);
-    if (regularize(body.inertia, least.mass_fraction * model.mass, least.radius))
+    const MinInertia least = least_inertia_of(body, model.mass, min_inertia);
+    const bool is_completed = complete_inertia(body, min_inertia);
+    if (regularize(body.inertia, least.mass_fraction * model.mass, least.radius) || is_completed)
       model.regularized_links.emplace_back(connector.object_name(link.object));
   }
   return model;

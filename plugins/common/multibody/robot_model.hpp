@@ -2,10 +2,13 @@
 // A robot as a multi-body engine takes it: rigid bodies that joints hold together.
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "muro/scene.hpp"
 #include "muro/shape.hpp"
 #include "muro/toolkit/joint_drives.hpp"
 
@@ -69,6 +72,9 @@ struct RobotModel {
 struct MinInertia {
   double mass_fraction = 1e-6;
   double radius = 1e-3;
+  /// The box around a shape, in the axes of its body. Where this is there, no body has less inertia than contacts at
+  /// the box around its shapes need (missing_inertia).
+  std::function<std::optional<Aabb>(const Shape&)> box_of = {};
 };
 
 /// `modes`: of every link's joint. Throws Error when the robot has no mass. [setup]

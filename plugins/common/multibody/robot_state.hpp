@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "muro/geometry.hpp"
-#include "plugins/common/contact_wrench/contact_wrench.hpp"
 
 namespace muro::multibody {
 

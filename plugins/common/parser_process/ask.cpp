@@ -40,33 +40,53 @@ std::vector<fs::path> folders() {
   return found;
 }
 
-/// The function of the client library; where there is none, null and the reason.
-AskFunction load_client(std::string& reason) {
+/// The functions of the client library; where there is none, the reason.
+struct ClientLibrary {
+  AskFunction ask = nullptr;
+  ShareFunction share = nullptr;
+  ReleaseFunction release = nullptr;
+  std::string missing;
+};
+
+template <class Function>
+bool find(void* library, const char* name, Function& function) {
+  function = reinterpret_cast<Function>(library ? dlsym(library, name) : nullptr);
+  return function != nullptr;
+}
+
+ClientLibrary load_client() {
+  ClientLibrary client;
   std::string searched;
   for (const fs::path& folder : folders()) {
     const fs::path file = folder / client_file;
     std::error_code none;
     if (fs::is_regular_file(file, none)) {
       if (const std::string missing = missing_part_of_library(file.string()); !missing.empty()) {
-        reason = file.string() + " cannot be loaded: " + missing;
-        return nullptr;
+        client.missing = file.string() + " cannot be loaded: " + missing;
+        return client;
       }
       // never closed: it holds the process that all libraries share
       void* const library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
-      void* const function = library ? dlsym(library, ask_symbol) : nullptr;
-      if (function) return reinterpret_cast<AskFunction>(function);
+      if (find(library, ask_symbol, client.ask) && find(library, share_symbol, client.share) &&
+          find(library, release_symbol, client.release))
+        return client;
       const char* const why = dlerror();
-      reason = "the library of the parser process cannot be loaded: ";
-      reason += why ? std::string(why) : file.string() + " is of another muro";
-      reason += "; install muro again";
-      return nullptr;
+      client.missing = "the library of the parser process cannot be loaded: ";
+      client.missing += why ? std::string(why) : file.string() + " is of another muro";
+      client.missing += "; install muro again";
+      return client;
     }
     if (!searched.empty()) searched += ", ";
     searched += folder.string();
   }
-  reason = "the program that reads such files, muro_parser, is not there (searched: " + searched +
-           "); install muro again, or set MURO_PLUGIN_PATH to the folder of its plugins";
-  return nullptr;
+  client.missing = "the program that reads such files, muro_parser, is not there (searched: " + searched +
+                   "); install muro again, or set MURO_PLUGIN_PATH to the folder of its plugins";
+  return client;
+}
+
+const ClientLibrary& client_library() {
+  static const ClientLibrary client = load_client();
+  return client;
 }
 
 /// Room on the heap.
@@ -84,30 +104,40 @@ struct HeapSink : Sink {
   std::string text() const { return {reinterpret_cast<const char*>(bytes.get()), size}; }
 };
 
+[[noreturn]] void fail(const Question& question, Ending ending, const std::string& text) {
+  const std::string unread = question.subject + " cannot be read: ";
+  if (ending == Ending::refused) throw Error(text);
+  if (ending == Ending::no_service)
+    throw Error(unread + "this muro was built without; install " + question.needs + ", configure and build again");
+  throw Error(unread + text + (ending == Ending::no_process ? "" : "; " + question.advice));
+}
+
+const ClientLibrary& client_for(const Question& question) {
+  const ClientLibrary& client = client_library();
+  if (!client.missing.empty()) throw Error(question.subject + " cannot be read: " + client.missing);
+  return client;
+}
+
 }  // namespace
 
 Answer ask(const Question& question, std::span<const std::byte> request) {
-  static std::string missing;
-  static const AskFunction client = load_client(missing);
-  if (!client) throw Error(question.subject + " cannot be read: " + missing);
   HeapSink sink;
-  switch (Ending(client(question.service, request.data(), request.size(), &sink))) {
-    case Ending::answered: {
-      Answer answer;
-      answer.bytes_ = std::move(sink.bytes);
-      answer.size_ = sink.size;
-      return answer;
-    }
-    case Ending::refused:
-      throw Error(sink.text());
-    case Ending::no_service:
-      throw Error(question.subject + " cannot be read: this muro was built without; install " + question.needs +
-                  ", configure and build again");
-    case Ending::no_process:
-      throw Error(question.subject + " cannot be read: " + sink.text());
-    default:
-      throw Error(question.subject + " cannot be read: " + sink.text() + "; " + question.advice);
-  }
+  const auto ending = Ending(client_for(question).ask(question.service, request.data(), request.size(), &sink));
+  if (ending != Ending::answered) fail(question, ending, sink.text());
+  Answer answer;
+  answer.bytes_ = std::move(sink.bytes);
+  answer.size_ = sink.size;
+  return answer;
+}
+
+SharedBytes ask_shared(const Question& question, std::span<const std::byte> request, const std::string& version) {
+  const ClientLibrary& client = client_for(question);
+  HeapSink sink;
+  SharedAnswer answer;
+  const auto ending =
+      Ending(client.share(question.service, request.data(), request.size(), version.c_str(), &answer, &sink));
+  if (ending != Ending::answered) fail(question, ending, sink.text());
+  return {{static_cast<const std::byte*>(answer.bytes), answer.size}, {answer.handle, client.release}};
 }
 
 }  // namespace muro::parser_process

@@ -5,7 +5,10 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <map>
+#include <memory>
 #include <mutex>
+#include <new>
 #include <string>
 
 #include "child.hpp"
@@ -22,10 +25,51 @@ std::string rounded(double number) {
   return std::to_string(tenths / 10) + (tenths % 10 ? "." + std::to_string(tenths % 10) : "");
 }
 
+/// Room on the heap for an answer that is kept.
+struct Kept : Sink {
+  std::unique_ptr<std::byte[]> bytes{};
+  std::uint64_t size = 0;
+
+  Kept() : Sink{&Kept::make_room} {}
+  static void* make_room(Sink* sink, std::uint64_t size) noexcept {
+    auto& self = *static_cast<Kept*>(sink);
+    self.bytes.reset(new (std::nothrow) std::byte[size]);
+    self.size = self.bytes ? size : 0;
+    return self.bytes.get();
+  }
+};
+using Handle = std::shared_ptr<const Kept>;
+
 class Client {
  public:
   Ending ask(std::string_view service, const void* request, std::uint64_t size, Sink& sink) {
     const std::lock_guard lock(mutex_);
+    return ask_process(service, request, size, sink);
+  }
+
+  Ending share(std::string_view service, const void* request, std::uint64_t size, std::string_view version,
+               SharedAnswer& answer, Sink& sink) {
+    const std::lock_guard lock(mutex_);
+    std::string key(service);
+    key.append(1, '\0').append(version).append(1, '\0').append(static_cast<const char*>(request), size);
+    Handle found = shared_[key].lock();
+    if (!found) {
+      const auto kept = std::make_shared<Kept>();
+      const Ending ending = ask_process(service, request, size, *kept);
+      if (ending != Ending::answered) {
+        shared_.erase(key);
+        return tell(ending, {reinterpret_cast<const char*>(kept->bytes.get()), kept->size}, sink);
+      }
+      shared_[key] = found = kept;
+    }
+    latest_ = found;  // scenes are set up by one reader after the other
+    std::erase_if(shared_, [](const auto& entry) { return entry.second.expired(); });
+    answer = {found->bytes.get(), found->size, new Handle(found)};
+    return Ending::answered;
+  }
+
+ private:
+  Ending ask_process(std::string_view service, const void* request, std::uint64_t size, Sink& sink) {
     // A process that nobody has asked for some time ends by itself, maybe just now.
     for (const bool again : {false, true}) {
       if (!child_.is_there() && !start()) return tell(Ending::no_process, reason_, sink);
@@ -38,7 +82,6 @@ class Client {
     return Ending::died;
   }
 
- private:
   /// Of the program, beside this library.
   static std::string program() { return (std::filesystem::path(own_folder()) / program_file).string(); }
 
@@ -95,7 +138,15 @@ class Client {
   std::mutex mutex_;
   Child child_;
   std::string reason_;
+  std::map<std::string, std::weak_ptr<const Kept>> shared_;
+  Handle latest_;
 };
+
+Client& client() {
+  // lives until the program has ended, as threads may ask until then
+  static auto& all = *new Client;
+  return all;
+}
 
 }  // namespace
 
@@ -106,7 +157,17 @@ extern "C" __attribute__((visibility("default"))) int muro_parser_ask_1(const ch
                                                                         std::uint64_t size,
                                                                         muro::parser_process::Sink* sink) noexcept {
   using namespace muro::parser_process;
-  // lives until the program has ended, as threads may ask until then
-  static auto& client = *new Client;
-  return int(client.ask(service, request, size, *sink));
+  return int(client().ask(service, request, size, *sink));
+}
+
+// ShareFunction and ReleaseFunction
+extern "C" __attribute__((visibility("default"))) int muro_parser_share_1(const char* service, const void* request,
+                                                                          std::uint64_t size, const char* version,
+                                                                          muro::parser_process::SharedAnswer* answer,
+                                                                          muro::parser_process::Sink* sink) noexcept {
+  using namespace muro::parser_process;
+  return int(client().share(service, request, size, version, *answer, *sink));
+}
+extern "C" __attribute__((visibility("default"))) void muro_parser_release_1(void* handle) noexcept {
+  delete static_cast<muro::parser_process::Handle*>(handle);
 }

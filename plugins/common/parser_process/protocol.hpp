@@ -66,6 +66,22 @@ struct Sink {
 /// The function of the client library.
 using AskFunction = int (*)(const char* service, const void* request, std::uint64_t size, Sink*) noexcept;
 inline constexpr char ask_symbol[] = "muro_parser_ask_1";
+
+/// An answer that several libraries of the program have at once; good until each has given its handle to the release
+/// function.
+struct SharedAnswer {
+  const void* bytes = nullptr;
+  std::uint64_t size = 0;
+  void* handle = nullptr;
+};
+/// As the AskFunction, but that all who ask for the same have one answer, while one of them has it; also the next one
+/// after the last of them. `version`: of what is read, such as the time of its last change. The sink gets texts alone.
+using ShareFunction = int (*)(const char* service, const void* request, std::uint64_t size, const char* version,
+                              SharedAnswer*, Sink*) noexcept;
+using ReleaseFunction = void (*)(void* handle) noexcept;
+inline constexpr char share_symbol[] = "muro_parser_share_1";
+inline constexpr char release_symbol[] = "muro_parser_release_1";
+
 inline constexpr char client_file[] = "muro_parser_client.so";
 inline constexpr char program_file[] = "muro_parser";
 

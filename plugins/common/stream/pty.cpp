@@ -8,6 +8,7 @@
 
 #include "plugins/common/stream/claim.hpp"
 #include "plugins/common/stream/endpoint.hpp"
+#include "plugins/common/stream/in_a_team.hpp"
 #include "plugins/common/stream/pty_link.hpp"
 #include "plugins/common/stream/pty_watch.hpp"
 #include "plugins/common/stream/system_error.hpp"
@@ -28,8 +29,7 @@ class Pty final : public Endpoint {
   ~Pty() override { close_master(); }
 
   void open() override {
-    if (!claim_.take(setup_.address.path))
-      fail("another stream has this name; in a team each robot needs its own, such as pty: /tmp/{robot}.laser");
+    if (!claim_.take(setup_.address.path)) fail(pty_is_taken());
     if (const std::string obstacle = link_.obstacle(); !obstacle.empty()) fail(obstacle);
     watch_ = PtyWatch::shared(setup_.io);
     create();

@@ -6,6 +6,7 @@
 #include "muro/algorithm.hpp"
 #include "muro/ext/report_entries.hpp"
 #include "plugins/common/stream/live_stream.hpp"
+#include "plugins/common/stream/looked_at_stream.hpp"
 #include "plugins/common/text/quote.hpp"
 
 namespace muro::stream {
@@ -40,8 +41,24 @@ class Stream::Impl {
   bool is_replayed() const { return channel && channel->is_replayed(); }
 
   void open() {
-    if (live || is_replayed() || (inputs && !inputs->may_open())) return;
+    if (inputs && !inputs->may_open()) return look();
+    if (live || is_replayed()) return;
     live = std::make_unique<LiveStream>(name, address, framing, limits, host, lockstep);
+  }
+
+  /// Tells what a run would refuse.
+  void look() {
+    if (!is_replayed()) {
+      if (!looked_at) looked_at = std::make_unique<LookedAtStream>(name, address);
+      return;
+    }
+    for (ExternalInput input; channel->replay(-1, input);) check_kind(input);
+  }
+
+  void check_kind(const ExternalInput& input) const {
+    if (input.kind > timed_out_kind)
+      throw Error("the recording cannot be replayed: kind " + std::to_string(input.kind) + " of stream " + quote(name) +
+                  " is none of 0 to " + std::to_string(timed_out_kind));
   }
 
   void begin(std::int64_t its_time) {
@@ -83,9 +100,7 @@ class Stream::Impl {
         time_out();
         continue;
       }
-      if (input.kind > timed_out_kind)
-        throw Error("the recording cannot be replayed: kind " + std::to_string(input.kind) + " of stream " +
-                    quote(name) + " is none of 0 to " + std::to_string(timed_out_kind));
+      check_kind(input);
       replayed = {Event::Kind(input.kind), input.source, input.bytes};
       return &replayed;
     }
@@ -132,7 +147,8 @@ class Stream::Impl {
   std::int64_t time = 0;
   bool has_told = false;
   Event replayed;
-  std::unique_ptr<LiveStream> live;  ///< null: not open
+  std::unique_ptr<LiveStream> live;           ///< null: not open
+  std::unique_ptr<LookedAtStream> looked_at;  ///< where the scenario is only looked at
 };
 
 Stream::Stream(Connector& connector, std::string name, Address address, Framing framing, Limits limits)

@@ -4,6 +4,7 @@
 #include <deque>
 
 #include "plugins/common/stream/acceptor.hpp"
+#include "plugins/common/stream/in_a_team.hpp"
 #include "plugins/common/stream/tcp.hpp"
 #include "plugins/common/text/quote.hpp"
 
@@ -59,15 +60,12 @@ class TcpServer final : public Endpoint {
   }
 
   [[noreturn]] void fail(int error) const {
-    const std::string port = std::to_string(setup_.address.port);
     std::string why = system_reason(error);
     if (error == EADDRINUSE)
-      why = "port " + port +
-            " is taken, by another program or by another stream of this scenario; choose another one, or 0 for any "
-            "that is free; in a team each robot needs its own, such as tcp: \"" +
-            port + "+{index}\"";
+      why = port_is_taken(setup_.address.port);
     else if (error == EACCES)
-      why = "port " + port + " may only be served by the administrator; choose one from 1024 to 65535";
+      why = "port " + std::to_string(setup_.address.port) +
+            " may only be served by the administrator; choose one from 1024 to 65535";
     else if (error == EADDRNOTAVAIL)
       why = quote(setup_.address.host) +
             " is no address of this machine; write 127.0.0.1, 0.0.0.0 for all of its "

@@ -7,6 +7,7 @@
 
 #include "plugins/common/stream/acceptor.hpp"
 #include "plugins/common/stream/claim.hpp"
+#include "plugins/common/stream/in_a_team.hpp"
 #include "plugins/common/text/quote.hpp"
 
 namespace muro::stream {
@@ -21,7 +22,7 @@ class UnixServer final : public Endpoint {
     const std::string& path = setup_.address.path;
     path.copy(name_.sun_path, sizeof name_.sun_path - 1);
     name_.sun_family = AF_UNIX;
-    if (!claim_.take(path)) fail("another stream has it" + in_a_team());
+    if (!claim_.take(path)) fail(socket_is_taken());
     remove_stale();
     const int socket = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
     if (socket < 0) fail(system_reason(errno));
@@ -50,22 +51,18 @@ class UnixServer final : public Endpoint {
   void remove_stale() const {
     struct stat status {};
     if (::lstat(name_.sun_path, &status) != 0) return;
-    if (!S_ISSOCK(status.st_mode))
-      fail("there is a file of this name that is no socket; remove it or choose another path");
+    if (!S_ISSOCK(status.st_mode)) fail(std::string(no_socket));
     const int probe = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
     if (probe < 0) fail(system_reason(errno));
     const int error = ::connect(probe, address(), sizeof name_) == 0 ? 0 : errno;
     ::close(probe);
     if (error == ENOENT) return;
-    if (error == 0 || error == EAGAIN) fail("another program serves on it" + in_a_team());
+    if (error == 0 || error == EAGAIN) fail("another program serves on it" + std::string(another_socket));
     if (error != ECONNREFUSED)
       fail("there is a socket of this name, and whether it is in use is unknown: " + system_reason(error));
     if (::unlink(name_.sun_path) != 0) fail("a socket that was left behind cannot be removed: " + system_reason(errno));
   }
 
-  static std::string in_a_team() {
-    return "; choose another path; in a team each robot needs its own, such as unix: /tmp/muro-{robot}.sock";
-  }
   [[noreturn]] void fail(const std::string& why) const {
     throw Error("stream " + quote(setup_.name) + " cannot serve on Unix socket " + quote(setup_.address.path) + ": " +
                 why);

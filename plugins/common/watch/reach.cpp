@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "muro/toolkit/bounds.hpp"
+#include "muro/toolkit/elementary.hpp"
 #include "muro/vocabulary.hpp"
 
 namespace muro::watch {
@@ -15,10 +16,13 @@ constexpr double unlimited_turn_rate = 100, unlimited_speed = 10;  ///< rad/s, m
 constexpr double no_limit = 1e4;                                   ///< rad/s, m/s: models write 1e16 and the like
 constexpr double longest_slide = 10;                               ///< m: what is longer has hardly a limit
 
-/// m: of a ball with this mass and inertia.
+/// m: of a ball with this mass and inertia, or of one of air with this mass: of two radii the smaller, for model files
+/// hold inertias of 1 kg m^2 for a gram.
 double radius_of(const Inertia& inertia) {
+  constexpr double air = 1.2;  // kg/m^3
   const double square = (inertia.ixx + inertia.iyy + inertia.izz) / (1.2 * inertia.mass);
-  return inertia.com.norm() + (square > 0 && std::isfinite(square) ? std::sqrt(square) : 0);
+  const double by_inertia = square > 0 && std::isfinite(square) ? std::sqrt(square) : 0;
+  return inertia.com.norm() + std::min(by_inertia, elementary::cbrt(3 * inertia.mass / (4 * M_PI * air)));
 }
 
 double own_reach(const Connector& c, ObjectId link) {

@@ -28,7 +28,9 @@ constexpr Description bullet_description = multibody::engine_description(
 
 class BulletMotion final : public multibody::Motion {
   const Description& description() const override { return bullet_description; }
-  multibody::MinInertia min_inertia() const override { return {1e-6, 1e-4}; }
+  multibody::MinInertia min_inertia() const override {
+    return {1e-6, 1e-4, [this](const Shape& s) { return bullet::box_around(s, *meshes_); }};
+  }
   std::size_t memory_of(const multibody::RobotModel& model) const override {
     return bullet::ImpulseCache::size_of(model);
   }

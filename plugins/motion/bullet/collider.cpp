@@ -60,6 +60,14 @@ Collider make_collider(const multibody::BodyShape& shape, const BulletMeshes& me
   return c;
 }
 
+std::optional<Aabb> box_around(const Shape& shape, const BulletMeshes& meshes) {
+  if (is_ground(shape.kind)) return {};
+  if (shape.kind != ShapeKind::mesh) return bounds_of(shape, shape.origin);
+  btVector3 low, high;
+  meshes.of(shape, true)->getAabb(to_bullet(shape.origin), low, high);
+  return Aabb{from_bullet(low), from_bullet(high)};
+}
+
 void Collider::move_to(const Pose& body_pose, double margin) {
   pose = to_bullet(body_pose * pose_in_body);
   if (!shape) return;

@@ -5,6 +5,7 @@
 #include <BulletCollision/CollisionShapes/btCollisionShape.h>
 
 #include <memory>
+#include <optional>
 
 #include "bullet_meshes.hpp"
 #include "plugins/common/bullet/bullet_types.hpp"
@@ -42,6 +43,9 @@ inline bool is_ground(ShapeKind kind) { return kind == ShapeKind::plane || kind 
 /// A collider for `shape`. `moves`: it belongs to a robot. No shape is made, and the kind is `mesh`, for what Bullet
 /// cannot collide: a plane or heightmap that moves.
 Collider make_collider(const multibody::BodyShape& shape, const BulletMeshes& meshes, bool moves);
+
+/// The box around a shape of a robot, in the axes of its body; none where it has no bounds.
+std::optional<Aabb> box_around(const Shape& shape, const BulletMeshes& meshes);
 
 inline bool overlap(const Vec3& low_a, const Vec3& high_a, const Vec3& low_b, const Vec3& high_b) {
   return (low_a.array() <= high_b.array()).all() && (low_b.array() <= high_a.array()).all();

@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "tests/support/bodies.hpp"
+#include "tests/support/complaint.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/scene.hpp"
 
@@ -141,7 +142,8 @@ std::string hills() {
   std::memcpy(bytes.data(), &rows, 4);
   std::memcpy(bytes.data() + 4, &columns, 4);
   for (int k = 0; k < rows * columns; ++k) {
-    const auto height = float(3 + std::sin(0.9 * (k / columns)) * std::cos(1.1 * (k % columns)));
+    const int row = k / columns, column = k % columns;
+    const auto height = float(3 + std::sin(0.9 * row) * std::cos(1.1 * column));
     std::memcpy(bytes.data() + 8 + 4 * k, &height, 4);
   }
   return bytes;
@@ -322,6 +324,23 @@ TEST(MujocoModel, WhatCannotHaveAModelsSettingsIsTold) {
     scene.build();
   });
   EXPECT_NE(of_fixed.find("moves freely in its MJCF file"), std::string::npos) << of_fixed;
+}
+
+TEST(MujocoModel, TheFilesOwnInertiasAreNotSaidToBeMuros) {
+  const test::ScratchFolder folder;
+  const std::string path = folder.file("yard.xml", yard(""));
+  const auto notes_with = [&](const char* settings) {
+    std::string notes;
+    test::Scene scene;
+    scene.set_log([&](LogLevel, std::string_view text) { notes += std::string(text) + "\n"; });
+    const RobotView& arm = scene.add("arm", scene.read_model(path));
+    scene.use("motion.mujoco", 500, {{&arm, arm.base()}},
+              {{"settings", std::string(settings)}, {"base", std::string("fixed")}});
+    scene.build();
+    return notes;
+  };
+  EXPECT_SAYS(notes_with("muro"), "what they lack was added to `arm/shoulder_body`");
+  EXPECT_EQ(notes_with("model").find("what they lack was added"), std::string::npos) << "the compiler took the file";
 }
 
 TEST(MujocoModel, TwoRobotsOfOneFileHaveWorldsOfTheirOwn) {

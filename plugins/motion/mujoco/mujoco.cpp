@@ -46,6 +46,7 @@ constexpr Description mujoco_description = multibody::engine_description(
 class MujocoMotion final : public multibody::Motion {
   const Description& description() const override { return mujoco_description; }
   multibody::MinInertia min_inertia() const override { return {}; }
+  bool has_own_inertias() const override { return source_.is_used(); }
   std::size_t memory_of(const multibody::RobotModel& model) const override {
     return source_.is_used() ? mujoco::ModelRobot::memory_of(model, source_.robot(model.name))
                              : mujoco::MujocoRobot::memory_of(model);

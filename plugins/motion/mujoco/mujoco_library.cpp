@@ -62,6 +62,10 @@ Model compile(const std::string& mjcf, WarningLog& warnings) {
   if (!model) {
     if (std::string_view(text).find("mjData") != std::string_view::npos)
       throw Error("this world is too big for MuJoCo: " + std::string(too_big));
+    if (std::string_view(text).find("ELEMENT_DEPTH") != std::string_view::npos)
+      throw Error(
+          "a robot has a chain of joints that is longer than MuJoCo's reader takes, which is a little less than 100; "
+          "fix some of them, or move it by motion.bullet or motion.simplified");
     std::replace(std::begin(text), std::end(text), '\n', ' ');
     throw Error("MuJoCo cannot make a model of this world; mend the link or joint that it names: " + std::string(text));
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "geoms.hpp"
 
+#include "muro/toolkit/bounds.hpp"
+
 namespace muro::ode {
 
 dGeomID create_geom(const Shape& shape, const Pose& pose, dBodyID body, dSpaceID space, const OdeMeshes& meshes) {
@@ -24,6 +26,17 @@ dGeomID create_geom(const Shape& shape, const Pose& pose, dBodyID body, dSpaceID
     dGeomSetQuaternion(geom, orientation);
   }
   return geom;
+}
+
+std::optional<Aabb> box_around(const Shape& shape, const OdeMeshes& meshes) {
+  if (shape.kind == ShapeKind::plane || shape.kind == ShapeKind::heightmap) return {};
+  if (shape.kind != ShapeKind::mesh) return bounds_of(shape, shape.origin);
+  Aabb box;
+  for (const Vec3& v : meshes.of(shape, true)->mesh.vertices) {
+    const Vec3 p = shape.origin * v;
+    box.include({p, p});
+  }
+  return box;
 }
 
 }  // namespace muro::ode

@@ -2,6 +2,9 @@
 // Shapes as ODE collides them.
 #pragma once
 
+#include <optional>
+
+#include "muro/scene.hpp"
 #include "ode_meshes.hpp"
 #include "plugins/common/multibody/world.hpp"
 
@@ -26,5 +29,8 @@ struct GeomOwner {
 /// mass. Null for what ODE cannot place: a plane or heightmap on a body. A heightmap is a plane to ODE, which only
 /// stands for it in contacts: ODE's own heightfield takes a cell for one plane, and knows no ridges.
 dGeomID create_geom(const Shape& shape, const Pose& pose, dBodyID body, dSpaceID space, const OdeMeshes& meshes);
+
+/// The box around a shape of a robot, in the axes of its body; none where it has no bounds.
+std::optional<Aabb> box_around(const Shape& shape, const OdeMeshes& meshes);
 
 }  // namespace muro::ode

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "geoms.hpp"
 #include "muro/plugin.hpp"
 #include "ode_world.hpp"
 #include "plugins/common/multibody/engine_description.hpp"
@@ -39,7 +40,7 @@ constexpr Description ode_description = multibody::engine_description(
     parameters, feature_concave_meshes | feature_rolling_resistance | feature_spinning_resistance | feature_heightmaps);
 
 /// What engines with iterations need: they part bodies badly whose masses differ by more.
-constexpr multibody::MinInertia quick_inertia{1e-3, 0.01};
+const multibody::MinInertia quick_inertia{1e-3, 0.01};
 /// Of what would part a robot's joints, what iterations may leave.
 constexpr double most_unsolved = 1e-3;
 
@@ -72,7 +73,9 @@ class OdeMotion final : public multibody::Motion {
   const Description& description() const override { return ode_description; }
   // Iterations part bodies badly whose masses differ by more.
   multibody::MinInertia min_inertia() const override {
-    return settings_.exact ? multibody::MinInertia{} : quick_inertia;
+    multibody::MinInertia least = settings_.exact ? multibody::MinInertia{} : quick_inertia;
+    if (settings_.exact) least.box_of = [this](const Shape& s) { return ode::box_around(s, *meshes_); };
+    return least;
   }
   std::size_t memory_of(const multibody::RobotModel& model) const override { return ode::OdeRobot::memory_of(model); }
   void configure(Connector& c) override {

@@ -1,29 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "least_inertia.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 
 #include "muro/toolkit/bounds.hpp"
 #include "muro/toolkit/mass_properties.hpp"
 #include "muro/vocabulary.hpp"
+#include "plugins/common/multibody/missing_inertia.hpp"
 
 namespace muro::simplified {
-
-std::optional<Mat3> missing_inertia(const Inertia& inertia, const Aabb& box) {
-  constexpr double least = 0.01;
-  const Vec3 size = box.high - box.low, squares = size.cwiseProduct(size);
-  const Vec3 floor =
-      least * inertia.mass / 12 * Vec3(squares.y() + squares.z(), squares.z() + squares.x(), squares.x() + squares.y());
-  // in units in which the least inertia is 1 about every axis
-  const Vec3 root = floor.cwiseSqrt();
-  const Mat3 scaled = root.cwiseInverse().asDiagonal() * inertia.tensor() * root.cwiseInverse().asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Mat3> principal(scaled);
-  if (!principal.eigenvalues().allFinite() || principal.eigenvalues().minCoeff() >= 1) return {};
-  const Vec3 missing = (Vec3::Ones() - principal.eigenvalues()).cwiseMax(0);
-  const Mat3& axes = principal.eigenvectors();
-  return Mat3(root.asDiagonal() * (axes * missing.asDiagonal() * axes.transpose()) * root.asDiagonal());
-}
 
 bool complete_inertia(Connector& c, const RobotView& robot, std::span<const double> positions,
                       std::vector<Inertia>& inertias) {

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Reads a mesh file as a model of one body.
+#include <algorithm>
+
 #include "muro/mesh_corners.hpp"
 #include "muro/plugin.hpp"
+#include "muro/toolkit/limits.hpp"
 #include "muro/vocabulary.hpp"
 #include "plugins/common/mesh/hull.hpp"
 #include "plugins/common/mesh/solid.hpp"
@@ -31,10 +34,21 @@ class MeshReader final : public ModelReader {
     try {
       const mesh::Hull hull = mesh::convex_hull(mesh.vertices);
       builder.set_array(keys::mesh_corners, std::span<const Vec3>(hull.vertices));
-      builder.set(keys::inertial, mesh::solid_inertia(mesh::is_closed(mesh) ? mesh : surface_of(hull), density));
+      set_inertia(mesh::solid_inertia(mesh::is_closed(mesh) ? mesh : surface_of(hull), density), builder);
     } catch (const Error&) {  // a flat mesh has no volume, and its corners are all there is
       builder.set_array(keys::mesh_corners, std::span<const Vec3>(mesh.vertices));
     }
+  }
+
+ private:
+  /// A mesh in millimetres, which a model scales, is a mountain of water before that.
+  static void set_inertia(const Inertia& water, RobotBuilder& builder) {
+    const double mass = std::clamp(water.mass, limits::min_mass, limits::max_mass);
+    if (mass != water.mass)
+      builder.report(Severity::warning,
+                     "a body of water with this volume has no mass from 1e-9 to 1e9 kg and gets the nearest of these; "
+                     "are its coordinates in metres?");
+    builder.set(keys::inertial, Inertia::from(mass, water.com, mass / water.mass * water.tensor()));
   }
 };
 

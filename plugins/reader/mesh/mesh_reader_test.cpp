@@ -52,6 +52,16 @@ TEST(MeshReader, TellsTheCornersOfTheHull) {
   EXPECT_EQ(constants_of(read(m), keys::mesh_corners).size(), 8u);
 }
 
+TEST(MeshReader, TellsTheCornersOfAMeshTooHeavyToBeWater) {
+  const RobotTree tree = read(mesh::testing::box({0, 0, 0}, {400, 200, 100}));
+  EXPECT_EQ(constants_of(tree, keys::mesh_corners).size(), 8u);
+  const Inertia i = constants_of(tree, keys::inertial).at(0);
+  EXPECT_EQ(i.mass, 1e9);  // 8e9 kg of water
+  EXPECT_NEAR(i.izz, 1e9 * (400. * 400 + 200. * 200) / 12, 1e7);
+  ASSERT_EQ(tree.problems().size(), 1u);
+  EXPECT_NE(tree.problems()[0].text.find("metres"), std::string::npos);
+}
+
 TEST(MeshReader, ReadsAFlatMeshAsABodyWithoutMass) {
   mesh::Mesh m = mesh::testing::box({0, 0, 0}, {1, 1, 1});
   m.triangles.resize(2);

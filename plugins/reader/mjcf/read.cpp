@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "left_out.hpp"
+#include "muro/toolkit/pair_surface.hpp"
 #include "plugins/common/model_file/text_file.hpp"
 #include "plugins/common/text/quote.hpp"
 #include "robot.hpp"
@@ -76,6 +77,7 @@ class WorldMaker {
 
   void run() {
     builder_.gravity(gravity_of(m_));
+    builder_.friction_rule(std::uint32_t(FrictionRule::max));
     for (const SceneryObject& object : scenery_of(m_, names_)) add_scenery(object);
     for (const int top : top_bodies(m_))
       if (can_move(m_, top)) add_model(top);

@@ -24,8 +24,8 @@ using Lines = std::vector<std::string>;
 inline Lines lines_of(const std::vector<RobotTree::Problem>& problems) {
   Lines lines;
   for (const auto& p : problems) {
-    const char* name = p.severity == Severity::note ? "note" : p.severity == Severity::warning ? "warning" : "error";
-    lines.push_back(concat(name, " ", p.line, ": ", p.text));
+    constexpr const char* names[] = {"note", "warning", "error", "lost collision"};
+    lines.push_back(concat(names[std::size_t(p.severity)], " ", p.line, ": ", p.text));
   }
   return lines;
 }

@@ -29,7 +29,6 @@ class RobotMaker {
     builder_.base(names_.unique(held_by_joints ? "world" : body_name(m_, top)));
     builder_.set(model_constants::mjcf_file, builder_.intern(from_.source.path()));
     builder_.set(model_constants::mjcf_in_world, std::uint32_t(from_.in_world));
-    if (from_.in_world) builder_.set(keys::friction_rule, std::uint32_t(FrictionRule::max));
     std::vector<Child> children = {{Child::body, top}};
     if (!held_by_joints) {
       fill(top);

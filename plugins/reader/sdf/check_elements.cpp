@@ -85,7 +85,7 @@ bool Check::complete(Element& e, std::string_view section) {
 bool Check::find_picture(Element& owner, const char* name) {
   Element* map = owner.FirstChildElement(name);
   if (!map) return false;
-  const model_file::MeshPath found = model_file::find_mesh(text_of(*map), source_.folder, sources_.packages());
+  const model_file::MeshPath found = model_file::find_file(text_of(*map), source_.folder, sources_.packages());
   if (found.path.empty()) {
     problems_.warning(location_of(*map),
                       concat("picture ", quote(text_of(*map)), " is not found; what it covers is plain"));
@@ -190,10 +190,12 @@ void Check::take_mimic(Element& joint, Element& axis, int number) {
 bool Check::complete_shape(Element& e) {
   Element* geometry = e.FirstChildElement("geometry");
   Element* shape = geometry ? geometry->FirstChildElement() : nullptr;
+  const Severity lost = std::string_view(e.Name()) == "collision" ? Severity::lost_collision : Severity::warning;
   // a shape of a kind that is not supported was reported already
   if (!shape) {
-    problems_.warning(location_of(e), concat("<", e.Name(), " name=", quote(attribute(e, "name")),
-                                             "> is left out, as it has no shape that is read"));
+    problems_.report(
+        lost, location_of(e),
+        concat("<", e.Name(), " name=", quote(attribute(e, "name")), "> is left out, as it has no shape that is read"));
     return false;
   }
   while (Element* second = shape->NextSiblingElement()) {
@@ -203,8 +205,8 @@ bool Check::complete_shape(Element& e) {
   }
   const std::string error = error_of_shape(*shape);
   if (!error.empty())
-    problems_.warning(location_of(*shape),
-                      concat("<", e.Name(), " name=", quote(attribute(e, "name")), "> is left out, as ", error));
+    problems_.report(lost, location_of(*shape),
+                     concat("<", e.Name(), " name=", quote(attribute(e, "name")), "> is left out, as ", error));
   else if (std::string_view(shape->Name()) == "mesh")
     return find_mesh(e, *shape->FirstChildElement("uri"));
   else if (std::string_view(shape->Name()) == "heightmap")
@@ -220,9 +222,7 @@ bool Check::find_mesh(const Element& body, Element& uri) {
     missing_meshes_.add(name, location_of(uri), found, std::string_view(body.Name()) == "collision");
     return false;
   }
-  if (found.other_case)
-    problems_.note(location_of(uri), concat("mesh ", quote(name), " is read from ", found.path,
-                                            ", whose name differs in upper and lower case"));
+  if (const std::string note = model_file::note_on(name, found); !note.empty()) problems_.note(location_of(uri), note);
   uri.DeleteChildren();
   uri.SetText(found.path.c_str());
   return true;

@@ -30,13 +30,14 @@ double height_of_white(const heightmap::HeightmapFile& file, double height) {
 bool Check::complete_heightmap(const Element& body, Element& heightmap) {
   Element& uri = *heightmap.FirstChildElement("uri");
   const std::string name = text_of(uri);
-  const char* const lost =
-      std::string_view(body.Name()) == "collision" ? " and left out, so that nothing touches it" : " and left out";
-  const model_file::MeshPath found = model_file::find_mesh(name, source_.folder, sources_.packages());
+  const bool to_touch = std::string_view(body.Name()) == "collision";
+  const Severity severity = to_touch ? Severity::lost_collision : Severity::warning;
+  const char* const lost = to_touch ? " and left out, so that nothing touches it" : " and left out";
+  const model_file::MeshPath found = model_file::find_file(name, source_.folder, sources_.packages());
   if (found.path.empty()) {
-    problems_.warning(location_of(uri),
-                      concat("heightmap ", quote(name), " is not found", lost, "; looked for ",
-                             model_file::searched_places(found), "; ", model_file::advice_for_missing(name, found)));
+    problems_.report(severity, location_of(uri),
+                     concat("heightmap ", quote(name), " is not found", lost, "; looked for ",
+                            model_file::searched_places(found), "; ", model_file::advice_for_missing(name, found)));
     return false;
   }
   Element* size = heightmap.FirstChildElement("size");
@@ -44,7 +45,7 @@ bool Check::complete_heightmap(const Element& body, Element& heightmap) {
   try {
     lengths.z() = height_of_white(heightmap::read_values(found.path), lengths.z());
   } catch (const Error& error) {
-    problems_.warning(location_of(uri), concat(error.what(), "; it is not read", lost));
+    problems_.report(severity, location_of(uri), concat(error.what(), "; it is not read", lost));
     return false;
   }
   if (!size) size = heightmap.InsertNewChildElement("size");

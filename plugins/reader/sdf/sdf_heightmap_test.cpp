@@ -96,9 +96,10 @@ TEST(SdfHeightmap, ThatIsNotThereIsNamedWithItsLineAndTheRestLoads) {
       hilly_world(hills_collision("\n<uri>gone.png</uri>") + "<collision name='d'><geometry><box><size>1 1 " +
                       "1</size></box></geometry></collision>",
                   hills.folder.path(""));
-  EXPECT_EQ(world.problems, Lines{"warning 4:1 heightmap `gone.png` is not found and left out, so that nothing touches "
-                                  "it; looked for " +
-                                  hills.folder.path("gone.png") + "; correct its path"});
+  EXPECT_EQ(world.problems,
+            Lines{"lost collision 4:1 heightmap `gone.png` is not found and left out, so that nothing touches "
+                  "it; looked for " +
+                  hills.folder.path("gone.png") + "; correct its path"});
   ASSERT_EQ(world.model.scenery().size(), 1u);
   EXPECT_EQ(world.model.scenery()[0].collisions.size(), 1u);
   EXPECT_EQ(world.model.models().size(), 1u);
@@ -111,7 +112,7 @@ TEST(SdfHeightmap, ThatCannotBeReadIsNamedWithItsLineAndTheRestLoads) {
   for (const std::string name : {"torn.png", "land.tif"}) {
     const HillyWorld world = hilly_world(hills_collision("\n<uri>" + name + "</uri>"), hills.folder.path(""));
     ASSERT_EQ(world.problems.size(), 1u) << testing::PrintToString(world.problems);
-    EXPECT_TRUE(world.problems[0].starts_with("warning 4:1 heightmap " + hills.folder.path(name) + " has "))
+    EXPECT_TRUE(world.problems[0].starts_with("lost collision 4:1 heightmap " + hills.folder.path(name) + " has "))
         << world.problems[0];
     EXPECT_NE(world.problems[0].find("neither a picture"), std::string::npos) << world.problems[0];
     EXPECT_TRUE(world.model.scenery().empty());

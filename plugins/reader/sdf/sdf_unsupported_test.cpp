@@ -173,9 +173,10 @@ TEST(SdfUnsupported, AMissingMeshIsLeftOutAndToldOnce) {
                         "<collision name='c'>" + mesh + "</collision>\n<collision name='d'>" + mesh + "</collision>",
                     visual = "<visual name='v'>" + mesh + "</visual>";
   const std::string looked = "; looked for /nowhere/gone.stl; correct its path";
-  EXPECT_EQ(reports_of("link", collision), Lines{"warning 4:37 mesh `gone.stl` (also in line 5) is not found and left "
-                                                 "out, so that nothing touches the links there" +
-                                                 looked});
+  EXPECT_EQ(reports_of("link", collision),
+            Lines{"lost collision 4:37 mesh `gone.stl` (also in line 5) is not found and left "
+                  "out, so that nothing touches the links there" +
+                  looked});
   EXPECT_EQ(reports_of("link", visual), Lines{"warning 4:34 mesh `gone.stl` is not found and left out" + looked});
 }
 

@@ -208,7 +208,8 @@ const SourceFile* SourceFiles::include(const std::filesystem::path& path, std::s
     open_.push_back(path);
     // a file with mistakes is left out, and does not end the reading of the one that includes it
     Problems own([this](Severity severity, std::string_view text, int line, int column) {
-      problems_.report(std::min(severity, Severity::warning), Location{line, column}, std::string(text));
+      const Severity told = severity == Severity::error ? Severity::warning : severity;
+      problems_.report(told, Location{line, column}, std::string(text));
     });
     check(*source, *this, own);
     open_.pop_back();

@@ -54,7 +54,8 @@ void Bodies::add_shape(std::vector<Shape>& shapes, Purpose purpose, const ::urdf
       break;
     case ::urdf::Geometry::CYLINDER: {
       const auto& cylinder = static_cast<const ::urdf::Cylinder&>(geometry);
-      shape = Shape::cylinder(cylinder.radius, cylinder.length);
+      shape = place.is_capsule ? Shape::capsule(cylinder.radius, cylinder.length)
+                               : Shape::cylinder(cylinder.radius, cylinder.length);
       break;
     }
     case ::urdf::Geometry::MESH:
@@ -64,12 +65,14 @@ void Bodies::add_shape(std::vector<Shape>& shapes, Purpose purpose, const ::urdf
   shape.origin = pose_of(origin, place.rotation);
   shape.surface.friction = link.surface.friction.value_or(shape.surface.friction);
   shape.surface.restitution = link.surface.restitution.value_or(shape.surface.restitution);
+  shape.surface.rolling_resistance = link.surface.rolling_resistance.value_or(0);
+  shape.surface.spinning_resistance = link.surface.spinning_resistance.value_or(0);
   shapes.push_back(shape);
 }
 
 void Bodies::add_texture(Shape& shape, const std::string& name, const ::urdf::Link& link, const LinkInfo& info) {
   if (name.empty()) return;
-  const model_file::MeshPath found = model_file::find_mesh(name, places_.folder, places_.packages);
+  const model_file::MeshPath found = model_file::find_file(name, places_.folder, places_.packages);
   if (found.path.empty())
     problems_.warning(info.location, concat(owner_of(link), ": texture ", quote(name), " is not found; it is plain"));
   else
@@ -81,9 +84,8 @@ bool Bodies::add_mesh(Shape& shape, Purpose purpose, const ::urdf::Mesh& mesh, c
   model_file::MeshPath& found = entry->second;
   if (fresh) {
     found = model_file::find_mesh(mesh.filename, places_.folder, places_.packages);
-    if (found.other_case)
-      problems_.note(location, concat("mesh ", quote(mesh.filename), " is read from ", found.path,
-                                      ", whose name differs in upper and lower case"));
+    if (const std::string note = model_file::note_on(mesh.filename, found); !note.empty())
+      problems_.note(location, note);
   }
   if (found.path.empty()) {
     missing_.add(mesh.filename, location, found, purpose == Purpose::collision);

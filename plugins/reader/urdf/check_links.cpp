@@ -56,14 +56,34 @@ void check_inertial(Element& link, const std::string& owner, Problems& all_probl
   remove(*inertial);
 }
 
+/// One number is that of all three axes, and what follows the third is left out, as in Bullet; urdfdom takes neither.
+void make_three(Element& element, const char* attribute, const std::string& owner, Problems& problems) {
+  std::string error;
+  const char* text = element.Attribute(attribute);
+  const auto given = model_file::parse_numbers(text ? text : "", error);
+  if (!text || !error.empty() || given.size() == 3 || given.empty() || given.size() == 2) return;
+  const double y = given.size() == 1 ? given[0] : given[1], z = given.size() == 1 ? given[0] : given[2];
+  const std::string three = model_file::text_of({given[0], y, z});
+  problems.warning(location_of(element),
+                   concat(owner, ", <", element.Name(), " ", attribute, ">: ", quote(text), " has ", given.size(),
+                          given.size() == 1 ? " number" : " numbers", " and is read as ", quote(three)));
+  element.SetAttribute(attribute, three.c_str());
+}
+
+/// That of what tells that a collision or visual is left out.
+Severity severity_of_lost(std::string_view kind) {
+  return kind == "collision" ? Severity::lost_collision : Severity::warning;
+}
+
 /// False when no shape can be made of the element; the reason is reported.
 bool check_shape(Element& element, const std::string& owner, Problems& problems) {
   check_origin(element, owner, problems);
   Element* geometry = only_child(element, "geometry", owner, problems);
   Element* shape = geometry ? geometry->FirstChildElement() : nullptr;
   const std::string left_out = concat(owner, ": a <", element.Name(), "> is left out, ");
+  const Severity lost = severity_of_lost(element.Name());
   if (!shape) {
-    problems.warning(location_of(element), left_out + "as it has no shape in <geometry>");
+    problems.report(lost, location_of(element), left_out + "as it has no shape in <geometry>");
     return false;
   }
   if (shape->NextSiblingElement())
@@ -73,12 +93,12 @@ bool check_shape(Element& element, const std::string& owner, Problems& problems)
   const std::string kind = shape->Name();
   const auto lacks = [&](const char* attribute) {
     if (shape->Attribute(attribute)) return false;
-    problems.warning(location_of(*shape), concat(left_out, "as its <", kind, "> has no ", attribute));
+    problems.report(lost, location_of(*shape), concat(left_out, "as its <", kind, "> has no ", attribute));
     return true;
   };
   const auto sized = [&](std::initializer_list<double> sizes) {
     if (std::all_of(sizes.begin(), sizes.end(), [](double s) { return s > 0; })) return true;
-    problems.warning(location_of(*shape), concat(left_out, "as its <", kind, "> has a size that is not above 0"));
+    problems.report(lost, location_of(*shape), concat(left_out, "as its <", kind, "> has a size that is not above 0"));
     return false;
   };
   // what is no number was reported as an error; its value does not matter any more
@@ -91,26 +111,31 @@ bool check_shape(Element& element, const std::string& owner, Problems& problems)
     if (lacks("radius")) return false;
     return sized({number(*shape, "radius", owner, problems).value_or(1)});
   }
-  if (kind == "cylinder") {
+  if (kind == "cylinder" || kind == "capsule") {
     if (lacks("radius") || lacks("length")) return false;
     const double radius = number(*shape, "radius", owner, problems).value_or(1);
     return sized({radius, number(*shape, "length", owner, problems).value_or(1)});
   }
   if (kind == "mesh") {
     if (lacks("filename")) return false;
+    make_three(*shape, "scale", owner, problems);
     const auto scale = numbers(*shape, "scale", 3, owner, problems).value_or(std::vector<double>{1, 1, 1});
     return sized({std::abs(scale[0]), std::abs(scale[1]), std::abs(scale[2])});
   }
-  problems.warning(location_of(*shape),
-                   concat(left_out, "as ", quote(kind), " is no shape of URDF: box, cylinder, sphere, mesh"));
+  problems.report(lost, location_of(*shape),
+                  concat(left_out, "as ", quote(kind), " is no shape of URDF: box, capsule, cylinder, sphere, mesh"));
   return false;
 }
 
-void take_shapes(const Element& link, LinkInfo& info) {
+void take_shapes(Element& link, LinkInfo& info) {
   if (const Element* inertial = link.FirstChildElement("inertial")) info.inertial_rotation = origin_rotation(*inertial);
   const auto take = [&](const char* kind, std::vector<LinkInfo::ShapeInfo>& shapes) {
-    for (const Element* e = link.FirstChildElement(kind); e; e = e->NextSiblingElement(kind))
-      shapes.push_back({origin_rotation(*e), location_of(*e->FirstChildElement("geometry")->FirstChildElement())});
+    for (Element* e = link.FirstChildElement(kind); e; e = e->NextSiblingElement(kind)) {
+      Element& shape = *e->FirstChildElement("geometry")->FirstChildElement();
+      const bool is_capsule = std::string_view(shape.Name()) == "capsule";
+      if (is_capsule) shape.SetName("cylinder");  // urdfdom 3 knows no other
+      shapes.push_back({origin_rotation(*e), location_of(shape), is_capsule});
+    }
   };
   take("collision", info.collisions);
   take("visual", info.visuals);
@@ -154,7 +179,7 @@ void check_links(Element& robot, ModelInfo& model, Problems& problems) {
     check_inertial(*link, owner, problems);
     for (const char* kind : {"collision", "visual"})
       for (Element* element : children(*link, kind)) {
-        Problems of_shape = softened(problems, concat("the <", kind, "> is left out"));
+        Problems of_shape = softened(problems, concat("the <", kind, "> is left out"), severity_of_lost(kind));
         if (!check_shape(*element, owner, of_shape) || of_shape.found_error()) remove(*element);
       }
     take_shapes(*link, entry->second);

@@ -2,11 +2,21 @@
 #include <array>
 
 #include "model.hpp"
+#include "muro/toolkit/limits.hpp"
 #include "plugins/common/model_file/numbers.hpp"
 
 namespace muro::urdf {
 
 namespace {
+
+struct Range {
+  double most;
+  const char* text;
+};
+
+constexpr Range friction_range = {limits::friction, "from 0 to 1e20"};
+constexpr Range restitution_range = {1, "between 0 and 1"};
+constexpr Range resistance_range = {limits::max_size, "from 0 to 1e6 m"};
 
 /// The value of <name>0.8</name> or <name value="0.8"/>, anywhere below `parent`.
 std::optional<double> value_below(Element& parent, const char* name, const std::string& owner, Problems& problems) {
@@ -25,36 +35,50 @@ std::optional<double> value_below(Element& parent, const char* name, const std::
   return std::nullopt;
 }
 
-void take_surface(Element& gazebo, const std::string& link, Surface& surface, Problems& problems) {
-  const std::string owner = "link " + quote(link);
-  const Location location = location_of(gazebo);
-  const auto mu1 = value_below(gazebo, "mu1", owner, problems), mu2 = value_below(gazebo, "mu2", owner, problems);
+/// Takes the value of <name> below `parent` if there is one, and it is in its range.
+void take(Element& parent, const char* name, const Range& range, const std::string& owner, std::optional<double>& taken,
+          Problems& problems) {
+  const auto value = value_below(parent, name, owner, problems);
+  if (!value) return;
+  if (*value >= 0 && *value <= range.most)
+    taken = value;
+  else
+    problems.warning(location_of(parent), concat(owner, ": ", name, " ", *value, " is ignored; it is ", range.text));
+}
+
+/// <contact> of a link, as Bullet and PyBullet read it.
+void take_contact(Element& contact, const std::string& owner, Surface& surface, Problems& problems) {
+  take(contact, "lateral_friction", friction_range, owner, surface.friction, problems);
+  take(contact, "restitution", restitution_range, owner, surface.restitution, problems);
+  take(contact, "rolling_friction", resistance_range, owner, surface.rolling_resistance, problems);
+  take(contact, "spinning_friction", resistance_range, owner, surface.spinning_resistance, problems);
+}
+
+/// <gazebo reference="link">
+void take_surface(Element& gazebo, const std::string& owner, Surface& surface, Problems& problems) {
+  std::optional<double> mu1, mu2;
+  take(gazebo, "mu1", friction_range, owner, mu1, problems);
+  take(gazebo, "mu2", friction_range, owner, mu2, problems);
   if (mu1 && mu2 && *mu1 != *mu2)
-    problems.note(location, concat(owner, ": mu1 is ", *mu1, " and mu2 is ", *mu2,
-                                   "; friction is the same in all directions, ", "and mu1 is used"));
-  if (const auto mu = mu1 ? mu1 : mu2) {
-    if (*mu >= 0)
-      surface.friction = *mu;
-    else
-      problems.warning(location, concat(owner, ": friction ", *mu, " is negative and ignored; it is 0 or more"));
-  }
-  if (const auto restitution = value_below(gazebo, "restitution_coefficient", owner, problems)) {
-    if (*restitution >= 0 && *restitution <= 1)
-      surface.restitution = *restitution;
-    else
-      problems.warning(location,
-                       concat(owner, ": restitution_coefficient ", *restitution, " is ignored; it is between 0 and 1"));
-  }
+    problems.note(location_of(gazebo), concat(owner, ": mu1 is ", *mu1, " and mu2 is ", *mu2,
+                                              "; friction is the same in all directions, ", "and mu1 is used"));
+  if (mu1 || mu2) surface.friction = mu1 ? mu1 : mu2;
+  take(gazebo, "restitution_coefficient", restitution_range, owner, surface.restitution, problems);
 }
 
 }  // namespace
 
 void take_surfaces(Element& robot, ModelInfo& model, Problems& problems) {
+  for (Element* xml : children(robot, "link"))
+    if (const auto link = model.links.find(xml->Attribute("name") ? xml->Attribute("name") : "");
+        link != model.links.end())
+      if (Element* contact = xml->FirstChildElement("contact"))
+        take_contact(*contact, "link " + quote(link->first), link->second.surface, problems);
   for (Element* gazebo : children(robot, "gazebo")) {
     const char* reference = gazebo->Attribute("reference");
     if (!reference) continue;
     if (const auto link = model.links.find(reference); link != model.links.end())
-      take_surface(*gazebo, reference, link->second.surface, problems);
+      take_surface(*gazebo, "link " + quote(link->first), link->second.surface, problems);
     else if (model.joints.find(reference) == model.joints.end())
       problems.warning(location_of(*gazebo),
                        concat("<gazebo reference=", quote(reference), "> names no link or joint and is ignored"));

@@ -68,11 +68,10 @@ std::string Document::printed() const {
   return printer.CStr();
 }
 
-Problems softened(Problems& problems, const std::string& consequence) {
-  return Problems([&problems, consequence](Severity severity, std::string_view text, int line, int column) {
+Problems softened(Problems& problems, const std::string& consequence, Severity as) {
+  return Problems([&problems, consequence, as](Severity severity, std::string_view text, int line, int column) {
     const bool error = severity == Severity::error;
-    problems.report(error ? Severity::warning : severity, Location{line, column},
-                    concat(text, error ? "; " + consequence : ""));
+    problems.report(error ? as : severity, Location{line, column}, concat(text, error ? "; " + consequence : ""));
   });
 }
 

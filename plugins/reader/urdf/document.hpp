@@ -40,9 +40,9 @@ Element* only_child(Element& parent, const char* name, const std::string& owner,
 
 void remove(Element& element);
 
-/// Problems to `problems`, with errors as warnings that end in `consequence`; found_error() tells whether there were
-/// any.
-Problems softened(Problems& problems, const std::string& consequence);
+/// Problems to `problems`, with errors `as` something milder that ends in `consequence`; found_error() tells whether
+/// there were any.
+Problems softened(Problems& problems, const std::string& consequence, Severity as = Severity::warning);
 
 /// The value of an attribute that is one finite number, which is then rewritten in a form that every
 /// parser reads alike. Nothing when the attribute is missing, or is no number; the latter is an error.

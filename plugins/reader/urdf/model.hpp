@@ -21,10 +21,12 @@ struct Places {
   model_file::Packages packages;
 };
 
-/// The surface of a link, from <gazebo reference="link">; URDF itself has no word for it.
+/// The surface of a link, from <gazebo reference="link"> or <contact> of the link; URDF itself has no word for it.
 struct Surface {
   std::optional<double> friction;
   std::optional<double> restitution;
+  std::optional<double> rolling_resistance;   ///< m
+  std::optional<double> spinning_resistance;  ///< m
 };
 
 // Rotations are those of <origin rpy="...">, worked out here: the bits of urdfdom's depend on the processor.
@@ -47,6 +49,7 @@ struct LinkInfo {
   struct ShapeInfo {
     Quat rotation;
     Location location;  ///< of <box>, <mesh>, ...
+    bool is_capsule;    ///< urdfdom has it as a cylinder
   };
   std::vector<ShapeInfo> collisions, visuals;  ///< in the order of the file
 };

@@ -56,8 +56,8 @@ class RecordingBuilder final : public RobotBuilder {
     return TextId(texts.size() - 1);
   }
   void report(Severity severity, std::string_view t, int line, int column) noexcept override {
-    const char* name = severity == Severity::note ? "note" : severity == Severity::warning ? "warning" : "error";
-    problems.push_back(concat(name, " ", line, ":", column, " ", t));
+    constexpr const char* names[] = {"note", "warning", "error", "lost collision"};
+    problems.push_back(concat(names[std::size_t(severity)], " ", line, ":", column, " ", t));
   }
 
  private:

@@ -132,6 +132,35 @@ TEST(UrdfMeshPath, FilesAreRelativeToTheModelOrAbsoluteInAnyWriting) {
   EXPECT_EQ(find_mesh("file:///C:/Users/me/meshes/the%20wheel.stl", folder.path()).path, mesh);
 }
 
+TEST(UrdfMeshPath, APathOfAnotherComputerIsLookedForByItsEnd) {
+  const TemporaryFolder folder;
+  const std::string mesh = folder.add("meshes/visual/hand.stl");
+  folder.add("hand.stl");
+  const fs::path urdf = folder.path() / "urdf";
+  fs::create_directory(urdf);
+  for (const char* name : {"/home/me/ws/src/arm/meshes/visual/hand.stl", "file:///opt/arm/meshes/visual/hand.stl",
+                           "D:\\arm\\meshes\\visual\\hand.stl"}) {
+    const MeshPath found = find_mesh(name, urdf);
+    EXPECT_EQ(found.path, mesh) << name;
+    EXPECT_TRUE(found.elsewhere) << name;
+  }
+  EXPECT_FALSE(find_mesh(mesh, urdf).elsewhere);
+  EXPECT_EQ(find_mesh("/home/me/arm/meshes/visual/foot.stl", urdf).path, "");
+}
+
+TEST(UrdfMeshPath, WhereAPackageIsNowhereTheFoldersAboveTheModelAreTakenForIt) {
+  const TemporaryFolder folder;
+  const std::string mesh = folder.add("clone/meshes/hand.stl");
+  folder.add("other/arm/package.xml");
+  const fs::path urdf = folder.path() / "clone/urdf";
+  fs::create_directory(urdf);
+  const MeshPath found = find_mesh("package://arm_description/meshes/hand.stl", urdf);
+  EXPECT_EQ(found.path, mesh);
+  EXPECT_TRUE(found.elsewhere);
+  const model_file::Packages packages = {{"arm_description", folder.path() / "other/arm"}};
+  EXPECT_EQ(find_mesh("package://arm_description/meshes/hand.stl", urdf, packages).path, "");
+}
+
 TEST(UrdfMeshPath, ANameInOtherCaseIsFoundAndReported) {
   const TemporaryFolder folder;
   const std::string mesh = folder.add("Wheel.STL");

@@ -213,6 +213,35 @@ TEST(UrdfModels, ShapesKeepTheirKindSizeAndPlace) {
   }
 }
 
+TEST(UrdfModels, ACapsuleHasTheLengthOfItsStraightPart) {
+  const auto robot = recorded(
+      "<robot name='r'><link name='a'><inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' "
+      "izz='1'/></inertial><collision><geometry><capsule radius='0.1' length='0.4'/></geometry></collision>"
+      "<collision><geometry><cylinder radius='0.1' length='0.4'/></geometry></collision></link></robot>");
+  EXPECT_EQ(robot.problems, Lines{});
+  const std::vector<Shape>& shapes = robot.collisions.at("a");
+  ASSERT_EQ(shapes.size(), 2u);
+  EXPECT_EQ(shapes[0].kind, ShapeKind::capsule);
+  EXPECT_EQ(shapes[0].size, Vec3(0.1, 0, 0.4));
+  EXPECT_EQ(shapes[1].kind, ShapeKind::cylinder);
+}
+
+TEST(UrdfModels, ContactOfALinkIsTheSurfaceAsInBulletAndGazeboGoesBeforeIt) {
+  const std::string ball =
+      "<inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' "
+      "izz='1'/></inertial><collision><geometry><sphere radius='1'/></geometry></collision>";
+  const auto robot = recorded("<robot name='r'><link name='a'>" + ball +
+                              "<contact><lateral_friction value='0.3'/><rolling_friction value='0.01'/>"
+                              "<spinning_friction value='0.02'/><restitution value='0.5'/><stiffness value='3e4'/>"
+                              "</contact></link><gazebo reference='a'><mu1>0.9</mu1></gazebo></robot>");
+  EXPECT_EQ(robot.problems, Lines{});
+  const Surface& surface = robot.collisions.at("a").at(0).surface;
+  EXPECT_EQ(surface.friction, 0.9);
+  EXPECT_EQ(surface.restitution, 0.5);
+  EXPECT_EQ(surface.rolling_resistance, 0.01);
+  EXPECT_EQ(surface.spinning_resistance, 0.02);
+}
+
 TEST(UrdfModels, AColourComesFromTheVisualOrFromTheMaterialOfThatName) {
   const std::string sphere = "<geometry><sphere radius='1'/></geometry>";
   const auto robot = with_body_a(

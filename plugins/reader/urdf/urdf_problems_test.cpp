@@ -177,7 +177,7 @@ TEST(UrdfProblems, ShapesThatAreLeftOut) {
             Lines{"warning 3:16 link `b`: a <collision> is left out, as it has no shape in <geometry>"});
   EXPECT_EQ(of("<geometry><cone/></geometry>"),
             Lines{"warning 3:37 link `b`: a <collision> is left out, as `cone` is no "
-                  "shape of URDF: box, cylinder, sphere, mesh"});
+                  "shape of URDF: box, capsule, cylinder, sphere, mesh"});
   EXPECT_EQ(of("<geometry><box/></geometry>"),
             Lines{"warning 3:37 link `b`: a <collision> is left out, as its <box> has no size"});
   EXPECT_EQ(of("<geometry><box size='1 0 1'/></geometry>"),
@@ -197,15 +197,15 @@ TEST(UrdfProblems, MeshesThatAreNotThereAreToldOnceWhereTheyAreNamed) {
   EXPECT_EQ(problems_of(link(visual)),
             Lines{"warning 4:1 mesh `file:///no/where.stl` is not found and left out" + looked});
   EXPECT_EQ(problems_of(link(collision)),
-            Lines{"warning 4:1 mesh `file:///no/where.stl` is not found and left out" + touched + looked});
+            Lines{"lost collision 4:1 mesh `file:///no/where.stl` is not found and left out" + touched + looked});
   EXPECT_EQ(problems_of(link(visual + collision + visual)),
-            Lines{"warning 4:1 mesh `file:///no/where.stl` (also in lines 5, 6) is not found and left out" + touched +
-                  looked});
+            Lines{"lost collision 4:1 mesh `file:///no/where.stl` (also in lines 5, 6) is not found and left out" +
+                  touched + looked});
   EXPECT_EQ(
       problems_of(link(visual + "<visual><geometry><mesh filename='m/x.STL'/></geometry></visual>")),
       Lines{"warning 4:1 meshes `file:///no/where.stl`, `m/x.STL` in line 4 are not found and left out" + looked});
   EXPECT_EQ(problems_of(link("<collision><geometry><mesh filename='m/x.STL'/></geometry></collision>")),
-            Lines{"warning 3:37 mesh `m/x.STL` is not found and left out" + touched +
+            Lines{"lost collision 3:37 mesh `m/x.STL` is not found and left out" + touched +
                   "; looked for /nowhere/m/x.STL; correct its path"});
   const Lines in_package =
       problems_of(link("<collision><geometry><mesh filename='package://arm/x.stl'/></geometry></collision>"));
@@ -382,7 +382,7 @@ TEST(UrdfProblems, SurfacesOfGazebo) {
       problems_of("<gazebo reference='a'><mu1>0.8</mu1><mu2>0.5</mu2></gazebo>"),
       Lines{"note 3:1 link `a`: mu1 is 0.8 and mu2 is 0.5; friction is the same in all directions, and mu1 is used"});
   EXPECT_EQ(problems_of("<gazebo reference='a'><mu1>-1</mu1></gazebo>"),
-            Lines{"warning 3:1 link `a`: friction -1 is negative and ignored; it is 0 or more"});
+            Lines{"warning 3:1 link `a`: mu1 -1 is ignored; it is from 0 to 1e20"});
   EXPECT_EQ(problems_of("<gazebo reference='a'><restitution_coefficient>2</restitution_coefficient></gazebo>"),
             Lines{"warning 3:1 link `a`: restitution_coefficient 2 is ignored; it is between 0 and 1"});
   EXPECT_EQ(problems_of("<gazebo reference='a'><mu1>much</mu1></gazebo>"),

@@ -7,7 +7,6 @@
 #include "muro/ext/outputs.hpp"
 #include "muro/plugin.hpp"
 #include "muro/toolkit/did_you_mean.hpp"
-#include "plugins/common/contact_wrench/contact_wrench.hpp"
 #include "plugins/common/csv_file/csv_file.hpp"
 #include "plugins/common/text/glob.hpp"
 #include "plugins/common/text/quote.hpp"
@@ -20,8 +19,9 @@ constexpr Parameter parameters[] = {
     text("file", "", "where to write; a relative path starts in the working directory").required(),
     texts("bodies", "names with * and ?: only contacts of these; default: of all"),
 };
-constexpr PropertyUse reads[] = {{"contact.wrenches.motion", "of every robot that an engine moves"},
-                                 {"contact.wrenches.law", "of every robot that the contact algorithm pushes"}};
+constexpr PropertyUse reads[] = {
+    {keys::contact_wrenches_of_motion.name, "of every robot that an engine moves"},
+    {keys::contact_wrenches_of_law.name, "of every robot that the contact algorithm pushes"}};
 constexpr Description description{
     .id = "recorder.contacts",
     .kind = Kind::recorder,
