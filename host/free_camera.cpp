@@ -18,6 +18,7 @@ namespace {
 
 constexpr double least_radius = 1.5;  ///< m, of what is seen
 constexpr double moved = 0.1;         ///< m: a robot that is nearer to its start has not moved
+constexpr double clearance = 0.1;     ///< of the line of sight above the ground, by the radius of what is seen
 constexpr double slowness = 0.5;      ///< s, in which the camera makes good most of its distance to the team
 
 /// The pose of a camera at `from` that looks at `to`, without roll.
@@ -48,6 +49,11 @@ FreeCamera::FreeCamera(Simulation& simulation, const char* name, const std::opti
                        const std::optional<Vec3>& given_to)
     : simulation_(&simulation), given_from_(given_from), given_to_(given_to) {
   World& world = simulation.world();
+  if (!given_from) {
+    hills_ = std::make_shared<Hills>(simulation);
+    hills_->ground.add_scenery(world);
+    if (!hills_->ground.has_heightmaps()) hills_.reset();
+  }
   for (const RobotView* r : world.robots())
     if (!is_shadow(simulation, *r))
       team_.push_back(
@@ -64,6 +70,23 @@ FreeCamera::FreeCamera(Simulation& simulation, const char* name, const std::opti
 void FreeCamera::look(double dt) {
   aim(std::isfinite(dt) ? 1 - elementary::exp(-dt / slowness) : 1);
   if (distance() > 1e-9) *pose_ = looking(from(), target_);
+}
+
+Vec3 FreeCamera::from() const {
+  if (given_from_) return *given_from_;
+  Vec3 from = target_ + 1.7 * radius_ * Vec3(-0.75, -0.75, 0.7);
+  if (!hills_) return from;
+  // a ball rolls over the hills along the line of sight, up to the robots, and the line is raised until it is clear
+  const StandingShape ball{Shape::sphere(clearance * radius_), "", {}};
+  double height = from.z();
+  constexpr int parts = 24;  // closer together than the ball is wide
+  for (int i = parts; i >= parts / 3; --i) {
+    const double part = double(i) / parts;
+    const auto ground = hills_->ground.height({&ball, 1}, {target_ + part * (from - target_), Quat::Identity()});
+    if (ground) height = std::max(height, target_.z() + (*ground - target_.z()) / part);
+  }
+  from.z() = height;
+  return from;
 }
 
 /// Goes this part of the way to where the team is now; before the simulation is built, where it starts.

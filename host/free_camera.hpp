@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "core/simulation.hpp"
+#include "host/scenario/shape_files.hpp"
+#include "host/scenario/terrain.hpp"
 
 namespace muro::host {
 
 /// A camera that belongs to no robot. Where its position or what it looks at is not given, it follows the robots that
-/// move: those whose base is not where it was at the start, or all that can move while none has.
+/// move: those whose base is not where it was at the start, or all that can move while none has. A position of its own
+/// choice is above the ground, and so high that no hill is between it and them.
 class FreeCamera {
  public:
   /// Adds the object `name`, whose pose it sets. Given points: m. Before the simulation is built.
@@ -30,11 +34,19 @@ class FreeCamera {
     double radius;  ///< m, of a ball about the base that holds the robot
   };
 
-  Vec3 from() const { return given_from_.value_or(target_ + 1.7 * radius_ * Vec3(-0.75, -0.75, 0.7)); }
+  /// The heightmaps of the scene.
+  struct Hills {
+    explicit Hills(Simulation& simulation) : files(simulation), ground(files) {}
+    ShapeFiles files;
+    Terrain ground;
+  };
+
+  Vec3 from() const;
   void aim(double part);
 
   Simulation* simulation_;
   std::optional<Vec3> given_from_, given_to_;
+  std::shared_ptr<Hills> hills_;  ///< null: there are none, or the position is given
   std::vector<Member> team_;
   ObjectId object_ = no_object;
   Pose* pose_ = nullptr;

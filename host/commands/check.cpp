@@ -104,9 +104,9 @@ int check(const CheckOptions& options) {
   if (options.levels)
     for (const std::string& line : level_lines(options.scenario, built, registry, length))
       fmt::print("{}\n", message_text(line));
-  fmt::print("{}: {} robots, {} objects, {} algorithms: all is connected\n", options.scenario.file,
-             built.simulation->world().robots().size(), built.simulation->world().object_count(),
-             built.simulation->instances().size());
+  const World& world = built.simulation->world();
+  fmt::print("{}: {}, {}, {}: all is connected\n", options.scenario.file, plural(world.robots().size(), "robot"),
+             plural(world.object_count(), "object"), plural(built.simulation->instances().size(), "algorithm"));
   return 0;
 }
 

@@ -30,7 +30,10 @@ constexpr const KeyInfo* joints[] = {
     &keys::joint_drive_damping,
 };
 constexpr const KeyInfo* commands[] = {&keys::command_twist, &keys::command_pose};
-constexpr const KeyInfo* scene[] = {&keys::scene_index, &keys::contacts, &keys::place_names, &keys::place_rectangles};
+constexpr const KeyInfo* scene[] = {
+    &keys::scene_index, &keys::contacts,         &keys::contact_wrenches_of_motion, &keys::contact_wrenches_of_law,
+    &keys::place_names, &keys::place_rectangles,
+};
 constexpr const KeyInfo* sensors[] = {&keys::sensor_origin};
 constexpr const KeyInfo* lasers[] = {
     &keys::laser_min_angle, &keys::laser_angle_increment, &keys::laser_columns, &keys::laser_rows,

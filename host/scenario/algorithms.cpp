@@ -71,6 +71,7 @@ void Algorithms::add(const Subsystem& s, const std::string& name, std::vector<It
   setup.use = s.use;
   setup.subsystem = s.name;
   setup.parameters = s.parameters;
+  setup.parameter_places = s.parameter_places;
   setup.items = std::move(items);
   setup.place = s.location.text();
   const std::filesystem::path file(s.location.in_file() ? s.location.file : scenario_.file);

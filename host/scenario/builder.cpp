@@ -22,6 +22,7 @@
 #include "host/scenario/shape_files.hpp"
 #include "host/scenario/subsystems.hpp"
 #include "host/scenario/terrain.hpp"
+#include "host/scenario/unreadable_meshes.hpp"
 #include "host/scenario/world_file.hpp"
 #include "muro/toolkit/bounds.hpp"
 #include "muro/toolkit/elementary.hpp"
@@ -41,8 +42,9 @@ class SceneBuilder {
         algorithms_(out.scenario, registry, simulation_, problems_),
         subsystems_(simulation_, algorithms_, problems_),
         meshes_(files.meshes),
+        unreadable_meshes_(meshes_, out),
         terrain_(files),
-        world_file_(out.scenario, simulation_, meshes_, out.notes, problems_) {}
+        world_file_(out, meshes_, unreadable_meshes_, problems_) {}
 
   void build() {
     world_file_.read();
@@ -53,6 +55,7 @@ class SceneBuilder {
     find_terrain();
     for (const SceneryObject& o : scenario_.objects) problems_.collect("", [&] { add_object(o); });
     add_all_robots();
+    unreadable_meshes_.tell();
     algorithms_.complete();
     problems_.check();
   }
@@ -132,11 +135,13 @@ class SceneBuilder {
 
   RobotTree read_model_of(const RobotTemplate& t) {
     if (t.shape) return single_body(*t.shape, t.mesh, t.texture, inertia_of(t));
-    if (t.from_world) return world_file_.model(t);
-    RobotTree tree = simulation_.read_model(t.model);
-    for (const auto& p : tree.problems())
-      out_.notes.push_back(fmt::format("{}: {}: {}", Location{t.model, p.line, p.column}.text(),
-                                       p.severity == Severity::warning ? "warning" : "note", p.text));
+    RobotTree tree = t.from_world ? world_file_.model(t) : simulation_.read_model(t.model);
+    if (!t.from_world)  // what is told of a world's models is told already
+      for (const auto& p : tree.problems()) out_.note(t.model, p);
+    if (t.from_world)
+      unreadable_meshes_.leave_out(tree, scenario_.world_file->path, t.name + ".");
+    else
+      unreadable_meshes_.leave_out(tree, t.model, "");
     return tree;
   }
 
@@ -248,6 +253,7 @@ class SceneBuilder {
   Algorithms algorithms_;
   Subsystems subsystems_;
   MeshCorners& meshes_;
+  UnreadableMeshes unreadable_meshes_;
   Terrain terrain_;
   WorldFileContents world_file_;
   Occupancy occupied_;
@@ -285,6 +291,12 @@ BuiltScenario built(Scenario scenario, Registry& registry, const std::function<v
 }
 
 }  // namespace
+
+void BuiltScenario::note(const std::string& file, const RobotTree::Problem& problem) {
+  const std::string at = Location{file, problem.line, problem.column}.text();
+  notes.push_back(fmt::format("{}: {}: {}", at, problem.severity == Severity::note ? "note" : "warning", problem.text));
+  if (problem.severity == Severity::lost_collision) lost_collisions.push_back(at + ": " + problem.text);
+}
 
 unsigned all_threads() { return std::max(1u, std::thread::hardware_concurrency()); }
 

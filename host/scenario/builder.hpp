@@ -15,8 +15,12 @@ namespace muro::host {
 struct BuiltScenario {
   Scenario scenario;
   std::unique_ptr<Simulation> simulation;
-  std::vector<std::string> notes;    ///< warnings and notes of readers, a line each
-  std::vector<std::string> clamped;  ///< robots whose joints cannot start at 0, a line each
+  std::vector<std::string> notes;            ///< warnings and notes of readers, a line each
+  std::vector<std::string> lost_collisions;  ///< those of them that tell of collision shapes left out, as errors
+  std::vector<std::string> clamped;          ///< robots whose joints cannot start at 0, a line each
+
+  /// Takes what the reader of a file has said as a note, or as a warning if it is more.
+  void note(const std::string& file, const RobotTree::Problem& problem);
 };
 
 /// Adds what the scenario leaves open: kinematics for every robot, and, where an algorithm reads what they write, the

@@ -25,6 +25,8 @@ const MeshCorners::Body& MeshCorners::body_of(const std::string& path) {
   Body& body = known->second;
   if (!is_new) return body;
   try {
+    static_cast<void>(simulation_.registry().reader_for(path));
+    body.is_broken = true;  // until it is read
     const RobotTree tree = simulation_.read_model(path);
     for (const RobotTree::Constant& c : tree.components().front().constants) {
       if (c.key.name == keys::mesh_corners.name) {
@@ -35,8 +37,11 @@ const MeshCorners::Body& MeshCorners::body_of(const std::string& path) {
         std::memcpy(static_cast<void*>(&*body.inertia), c.data.data(), sizeof(Inertia));
       }
     }
+    body.is_broken = false;
   } catch (const SetupError& e) {
     body.problem = e.what();
+    const std::string beginning = "model " + path + ": ";  // it is no model that is read here
+    if (body.problem.starts_with(beginning)) body.problem.erase(0, beginning.size());
   }
   return body;
 }

@@ -24,6 +24,8 @@ class MeshCorners {
   std::optional<Inertia> inertia_of(const std::string& path);
   /// Why the file cannot be read; empty where it can.
   const std::string& problem_of(const std::string& path) { return body_of(path).problem; }
+  /// Whether a reader knows the type of the file and cannot read it. Algorithms may know other types.
+  bool is_broken(const std::string& path) { return body_of(path).is_broken; }
   /// The box around a shape that stands at `pose`. `mesh`: the path of a mesh's file.
   Aabb bounds_of(const Shape& shape, const std::string& mesh, const Pose& pose);
 
@@ -32,6 +34,7 @@ class MeshCorners {
     std::vector<Vec3> corners;
     std::optional<Inertia> inertia;
     std::string problem;
+    bool is_broken = false;
   };
   const Body& body_of(const std::string& path);
 

@@ -36,7 +36,7 @@ Placement read_place(const Node& node, const std::string& what, Problems& proble
   const std::optional<std::string> kind = map.one_of({"list", "grid", "random"});
   if (kind == "list") {
     const Node& list = map.list("list");
-    if (list.list.empty()) map.problem("list", "must be a list of {x, y, yaw, ...}");
+    if (list.list.empty()) map.problem("list", "is empty but must be a list of {x, y, yaw, ...}, one a copy");
     for (const Node& e : list.list) p.poses.push_back(read_pose(e, "an entry of `list` of " + what, problems));
   } else if (kind == "grid") {
     p = read_grid(*map.find("grid"), "`grid` of " + what, problems);

@@ -141,6 +141,13 @@ void read_plugins(const Node& n, Scenario& out, Problems& problems) {
 void read_packages(const Node& n, Scenario& out, Problems& problems) {
   for (const auto& [name, folder] : n.map) {
     if (folder.is_off()) continue;
+    if (name.empty() || name.find('/') != name.npos) {
+      problems.add(folder.location,
+                   fmt::format("`packages`: `{}` is no name of a package, which is not empty and has no "
+                               "`/`: that of package://NAME/... and model://NAME/...",
+                               name));
+      continue;
+    }
     if (folder.kind != Node::Kind::scalar || folder.scalar.empty()) {
       problems.add(folder.location, "`packages`: `" + name + "` must be the folder of the package of that name");
       continue;

@@ -68,7 +68,8 @@ struct Subsystem {
   std::string on;               ///< name of the robot's object on which it is mounted
   Location on_location;
   std::map<std::string, ParameterInput> parameters;
-  std::vector<Name> alternatives;  ///< algorithms for which it lists parameters under their name
+  std::map<std::string, std::string> parameter_places;  ///< of those in another file, or on the command line
+  std::vector<Name> alternatives;                       ///< algorithms for which it lists parameters under their name
   std::optional<HandoverLevel> level;
   std::shared_ptr<const Subsystem> shadow;  ///< another motion that moves a shadow of the robot
   Location location;

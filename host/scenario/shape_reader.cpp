@@ -15,12 +15,17 @@ namespace fs = std::filesystem;
 
 /// The path that the value of `key` names, which starts at the folder of the scenario.
 std::string file_of(MapReader& map, const std::string& key, Problems& problems) {
-  const Location& at = map.find(key)->location;
-  std::string path = resolve_path(at, map.text(key, ""));
+  const Node& value = *map.find(key);
+  std::string path = resolve_path(value.location, map.text(key, ""));
+  if (value.kind != Node::Kind::scalar) return path;  // told already
   std::error_code code;
-  if (!fs::is_regular_file(path, code))
-    problems.add(at,
-                 key + " file " + path + " does not exist; correct its path, which starts at the folder of this file");
+  const char* const problem = value.scalar.empty()               ? "has no name"
+                              : fs::is_directory(path, code)     ? "is a folder"
+                              : !fs::is_regular_file(path, code) ? "does not exist"
+                                                                 : nullptr;
+  if (problem)
+    problems.add(value.location, key + " file " + (value.scalar.empty() ? "" : path + " ") + problem +
+                                     "; correct its path, which starts at the folder of this file");
   return path;
 }
 

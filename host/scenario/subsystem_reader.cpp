@@ -42,6 +42,7 @@ std::string what_nests(const Node& value) {
 /// All keys that are not read yet are parameters. Those under the name of an algorithm hold for that algorithm alone.
 void read_parameters(MapReader& map, Subsystem& out, Problems& problems) {
   const auto add = [&](const std::string& key, const Node& value) {
+    if (value.location.file != out.location.file) out.parameter_places[key] = value.location.text();
     if (const auto parameter = as_parameter(value))
       out.parameters[key] = *parameter;
     else if (!has_empty_value(value))

@@ -2,7 +2,6 @@
 #include "host/scenario/terrain.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <utility>
 
@@ -14,47 +13,6 @@ namespace muro::host {
 namespace {
 
 constexpr double least_upward = 0.1;  ///< cosine of the angle between a surface and the vertical
-
-/// A cell of a heightmap; `u` and `v` go from 0 to 1 along x and y.
-struct CellHeights {
-  double low, right, left, high;  ///< m, of its corners -x -y, +x -y, -x +y and +x +y
-
-  double at(double u, double v) const {
-    return u + v <= 1 ? low + u * (right - low) + v * (left - low)
-                      : high + (1 - u) * (left - high) + (1 - v) * (right - high);
-  }
-  /// The highest of its corners, and of the points where its diagonal leaves, in a part of the cell.
-  double highest(double u0, double u1, double v0, double v1) const {
-    double most = std::max({at(u0, v0), at(u1, v0), at(u0, v1), at(u1, v1)});
-    for (const double u : {u0, u1})
-      if (1 - u > v0 && 1 - u < v1) most = std::max(most, at(u, 1 - u));
-    for (const double v : {v0, v1})
-      if (1 - v > u0 && 1 - v < u1) most = std::max(most, at(1 - v, v));
-    return most;
-  }
-};
-
-/// m: the highest point of the surface under or over a box, in the frame of the map.
-std::optional<double> highest(const Heightmap& map, const Aabb& box) {
-  const double half_x = 0.5 * map.size.x(), half_y = 0.5 * map.size.y();
-  const double x0 = std::max(box.low.x(), -half_x), x1 = std::min(box.high.x(), half_x);
-  const double y0 = std::max(box.low.y(), -half_y), y1 = std::min(box.high.y(), half_y);
-  if (!(x0 <= x1) || !(y0 <= y1)) return std::nullopt;
-  const Heightmap::Cell first = map.cell_at(x0, y0), last = map.cell_at(x1, y1);
-  const double sx = map.spacing_x(), sy = map.spacing_y();
-  double most = -std::numeric_limits<double>::infinity();
-  for (std::uint32_t row = first.row; row <= last.row; ++row)
-    for (std::uint32_t column = first.column; column <= last.column; ++column) {
-      const CellHeights cell{map.node(column, row).z(), map.node(column + 1, row).z(), map.node(column, row + 1).z(),
-                             map.node(column + 1, row + 1).z()};
-      const auto part = [](double at, double half, double spacing, std::uint32_t number) {
-        return std::clamp((at + half) / spacing - number, 0.0, 1.0);
-      };
-      most = std::max(most, cell.highest(part(x0, half_x, sx, column), part(x1, half_x, sx, column),
-                                         part(y0, half_y, sy, row), part(y1, half_y, sy, row)));
-    }
-  return most;
-}
 
 /// Calls visit(shape) for each collision shape of a link.
 template <class Visit>
@@ -113,23 +71,56 @@ void Terrain::add_scenery(const World& world) {
   }
 }
 
-/// By how much (m) the shape of what stands at `at` must be raised to touch the surface from above; less than 0: may be
-/// lowered. Upwards is aslant in the frame of a map that is tilted, so that the shape comes over other cells.
-std::optional<double> Terrain::rise(const Tile& tile, const StandingShape& shape, const Pose& at) {
+/// m: the lowest and the highest height of a map, in its frame.
+std::array<double, 2> Terrain::heights_of(const Tile& tile) {
+  const auto known = heights_.find(tile.file);
+  if (known != heights_.end()) return {tile.size.z() * known->second[0], tile.size.z() * known->second[1]};
   const Heightmap map = files_.heightmaps.of(tile.file, tile.size);
-  const Pose in_map = tile.pose.inverse() * (at * shape.pose);
-  const Vec3 up = tile.pose.orientation.conjugate() * Vec3::UnitZ();
-  double raised = 0;
-  for (int i = 0; i < 30; ++i) {
-    const Aabb box =
-        files_.meshes.bounds_of(shape.shape, shape.mesh, {Vec3(in_map.position + raised * up), in_map.orientation});
-    const std::optional<double> surface = highest(map, box);
-    if (!surface) return std::nullopt;
-    const double missing = (*surface - box.low.z()) / up.z();
-    raised += missing;
-    if (std::abs(missing) < 1e-9 || up.z() > 1 - 1e-12) break;
-  }
-  return raised;
+  const auto [low, high] = std::minmax_element(map.values.begin(), map.values.end());
+  heights_[tile.file] = {double(*low), double(*high)};
+  return heights_of(tile);
+}
+
+/// The part of a tile, in its frame, that is above or below a box of the world. Upwards is aslant in the frame of a map
+/// that is tilted.
+Aabb Terrain::part_near(const Tile& tile, const ConvexBottom& bottom) {
+  const Quat to_map = tile.pose.orientation.conjugate();
+  const Vec3 up = to_map * Vec3::UnitZ();
+  const bool is_tilted = up.z() < 1 - 1e-12;
+  const std::array<double, 2> heights = is_tilted ? heights_of(tile) : std::array{0.0, 0.0};
+  Aabb part;
+  for (const double x : {bottom.low(0), bottom.high(0)})
+    for (const double y : {bottom.low(1), bottom.high(1)})
+      for (const double z : heights) {
+        const Vec3 p = to_map * Vec3(Vec3(x, y, 0) - tile.pose.position);
+        const Vec3 at = is_tilted ? Vec3(p + (z - p.z()) / up.z() * up) : p;
+        part.include({at, at});
+      }
+  return part;
+}
+
+/// By how much (m) the shape of what stands at `at` must be raised to touch the surface from above; less than 0: may be
+/// lowered.
+std::optional<double> Terrain::rise(const Tile& tile, const StandingShape& shape, const Pose& at) {
+  const bool is_mesh = shape.shape.kind == ShapeKind::mesh;
+  const ConvexBottom bottom(shape.shape, at * shape.pose,
+                            is_mesh ? files_.meshes.of(shape.mesh) : std::span<const Vec3>());
+  const Heightmap map = files_.heightmaps.of(tile.file, tile.size);
+  const Aabb part = part_near(tile, bottom);
+  const Vec3 half = 0.5 * tile.size;
+  if (part.low.x() > half.x() || part.low.y() > half.y() || part.high.x() < -half.x() || part.high.y() < -half.y())
+    return std::nullopt;
+  const Heightmap::Cell first = map.cell_at(part.low.x(), part.low.y()),
+                        last = map.cell_at(part.high.x(), part.high.y());
+  RiseAbove above(bottom);
+  for (std::uint32_t row = first.row; row <= last.row; ++row)
+    for (std::uint32_t column = first.column; column <= last.column; ++column)
+      for (const bool upper : {false, true}) {
+        Heightmap::Triangle triangle = map.triangle({column, row}, upper);
+        for (Vec3& corner : triangle) corner = tile.pose * corner;
+        above.add(triangle);
+      }
+  return above.rise();
 }
 
 std::optional<double> Terrain::height(std::span<const StandingShape> shapes, const Pose& at) {

@@ -2,6 +2,8 @@
 // The ground on which robots and scenery are placed, where a scene has heightmaps.
 #pragma once
 
+#include <array>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -9,6 +11,7 @@
 
 #include "core/robot_tree.hpp"
 #include "core/world.hpp"
+#include "host/scenario/convex_bottom.hpp"
 #include "host/scenario/shape_files.hpp"
 
 namespace muro::host {
@@ -41,8 +44,8 @@ class Terrain {
   bool has_heightmaps() const { return !tiles_.empty(); }
 
   /// The height (m) of the origin of what is placed at `at`, whose own height does not count, so that nothing of its
-  /// shapes, each taken as a box, is below the ground and one touches it. Nothing where there is no ground under it.
-  /// Throws SetupError when a file cannot be read.
+  /// shapes (of meshes: their convex hulls) is below the ground and one touches it. Nothing where there is no ground
+  /// under it. Throws SetupError when a file cannot be read.
   std::optional<double> height(std::span<const StandingShape> shapes, const Pose& at);
 
  private:
@@ -52,11 +55,14 @@ class Terrain {
     Pose pose;
   };
 
+  std::array<double, 2> heights_of(const Tile& tile);
+  Aabb part_near(const Tile& tile, const ConvexBottom& bottom);
   std::optional<double> rise(const Tile& tile, const StandingShape& shape, const Pose& at);
 
   ShapeFiles& files_;
   std::vector<Tile> tiles_;
   std::vector<Pose> planes_;
+  std::map<std::string, std::array<double, 2>> heights_;  ///< lowest and highest value, by file
 };
 
 }  // namespace muro::host

@@ -39,9 +39,7 @@ void WorldFileContents::read() {
 
 void WorldFileContents::note(const std::vector<RobotTree::Problem>& problems, bool errors_too) {
   for (const RobotTree::Problem& p : problems)
-    if (p.severity != Severity::error || errors_too)
-      notes_.push_back(fmt::format("{}: {}: {}", Location{scenario_.world_file->path, p.line, p.column}.text(),
-                                   p.severity == Severity::note ? "note" : "warning", p.text));
+    if (p.severity != Severity::error || errors_too) out_.note(scenario_.world_file->path, p);
 }
 
 Vec3 WorldFileContents::gravity() const {
@@ -51,16 +49,7 @@ Vec3 WorldFileContents::gravity() const {
 
 FrictionRule WorldFileContents::friction_rule() const {
   if (scenario_.friction_rule) return *scenario_.friction_rule;
-  if (world_)
-    for (const WorldModel::Model& m : world_->models())
-      for (const RobotTree::Component& part : m.tree.components())
-        for (const RobotTree::Constant& c : part.constants) {
-          if (c.key.name != keys::friction_rule.name || c.data.size() != sizeof(FrictionRule)) continue;
-          FrictionRule rule;
-          std::memcpy(&rule, c.data.data(), sizeof rule);
-          if (rule <= FrictionRule::max) return rule;
-        }
-  return FrictionRule::min;
+  return world_ ? world_->friction_rule().value_or(FrictionRule::min) : FrictionRule::min;
 }
 
 const WorldModel::Model* WorldFileContents::find(const std::string& name) const {
@@ -109,7 +98,7 @@ void WorldFileContents::add_scenery(Occupancy& occupied) {
 /// Adds all links of a model as scenery, with its joints at 0.
 void WorldFileContents::add_static(const WorldModel::Model& model, Occupancy& occupied) {
   const RobotTree& tree = model.tree;
-  notes_.push_back(
+  out_.notes.push_back(
       fmt::format("{}: note: model `{}` is static, because the scenario does not name it; write `robots: "
                   "{{{}: {{model: world, ...}}}}` to move it",
                   scenario_.world_file->path, model.name, model.name));
@@ -127,6 +116,7 @@ void WorldFileContents::add_static(const WorldModel::Model& model, Occupancy& oc
 
 void WorldFileContents::add(const std::string& name, const Pose& pose, std::vector<Shape> collisions,
                             std::vector<Shape> visuals, const TextTable& texts, Occupancy& occupied) {
+  unreadable_meshes_.leave_out(collisions, texts, scenario_.world_file->path, name);
   World& world = simulation_.world();
   for (std::vector<Shape>* shapes : {&collisions, &visuals})
     for (Shape& s : *shapes)

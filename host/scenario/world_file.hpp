@@ -6,10 +6,12 @@
 #include <vector>
 
 #include "core/simulation.hpp"
+#include "host/scenario/builder.hpp"
 #include "host/scenario/mesh_corners.hpp"
 #include "host/scenario/placement.hpp"
 #include "host/scenario/problems.hpp"
 #include "host/scenario/scenario.hpp"
+#include "host/scenario/unreadable_meshes.hpp"
 
 namespace muro::host {
 
@@ -17,14 +19,18 @@ namespace muro::host {
 /// names as a robot (`model: world`) becomes that robot; the others are static.
 class WorldFileContents {
  public:
-  /// Warnings and notes of readers go to `notes`, errors to `problems`.
-  WorldFileContents(const Scenario& scenario, Simulation& simulation, MeshCorners& meshes,
-                    std::vector<std::string>& notes, Problems& problems)
-      : scenario_(scenario), simulation_(simulation), meshes_(meshes), notes_(notes), problems_(problems) {}
+  /// Warnings and notes of readers go to `out`, errors to `problems`.
+  WorldFileContents(BuiltScenario& out, MeshCorners& meshes, UnreadableMeshes& unreadable_meshes, Problems& problems)
+      : out_(out),
+        scenario_(out.scenario),
+        simulation_(*out.simulation),
+        meshes_(meshes),
+        unreadable_meshes_(unreadable_meshes),
+        problems_(problems) {}
 
   void read();
   Vec3 gravity() const;
-  /// The scenario's, else what models of the file say of their format, else the smaller.
+  /// The scenario's, else that of the file, else the smaller.
   FrictionRule friction_rule() const;
   /// Adds all that is static, and to `occupied` what random placement keeps clear of.
   void add_scenery(Occupancy& occupied);
@@ -41,10 +47,11 @@ class WorldFileContents {
   void add(const std::string& name, const Pose& pose, std::vector<Shape> collisions, std::vector<Shape> visuals,
            const TextTable& texts, Occupancy& occupied);
 
+  BuiltScenario& out_;
   const Scenario& scenario_;
   Simulation& simulation_;
   MeshCorners& meshes_;
-  std::vector<std::string>& notes_;
+  UnreadableMeshes& unreadable_meshes_;
   Problems& problems_;
   std::optional<WorldModel> world_;
 };

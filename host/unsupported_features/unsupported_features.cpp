@@ -154,27 +154,11 @@ std::string text_of(const UnsupportedFeatures& unsupported, Detail detail) {
   return detail == Detail::brief || implied.empty() ? out : out + "; therefore not supported either: " + implied;
 }
 
-namespace {
-
-/// What readers have said of collision shapes whose files are not there, without its severity.
-std::vector<std::string> lost_collision_shapes(const BuiltScenario& built) {
-  constexpr std::string_view severity = " warning:", lost = "left out, so that nothing touches";
-  std::vector<std::string> lines;
-  for (const std::string& note : built.notes) {
-    if (note.find(lost) == note.npos) continue;
-    const std::size_t at = note.find(severity);
-    lines.push_back(at == note.npos ? note : note.substr(0, at) + note.substr(at + severity.size()));
-  }
-  return lines;
-}
-
-}  // namespace
-
 void report_unsupported(const BuiltScenario& built, Detail detail, bool strict) {
   std::vector<std::string> lines;
-  if (strict) lines = lost_collision_shapes(built);
+  if (strict) lines = built.lost_collisions;
   if (!lines.empty())
-    lines.emplace_back("--strict lets no collision shape be left out; correct the paths, or leave --strict out");
+    lines.emplace_back("--strict lets no collision shape be left out; mend the files or their paths, or leave --strict out");
   for (const std::string& clamped : built.clamped) lines.push_back((strict ? "" : "warning: ") + clamped);
   const auto unsupported = find_unsupported_features(built);
   for (const UnsupportedFeatures& u : unsupported)

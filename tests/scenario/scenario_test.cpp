@@ -244,6 +244,20 @@ TEST(Scenario, OverridesOfWhatIsNotThereNameTheNearest) {
       "--set robots.balls.motion=: `motion` has no value; leave the key out, or write `off` to switch a part off");
 }
 
+TEST(Scenario, WrongParametersOfTheCommandLineAreBlamedOnIt) {
+  const auto complaint = [](const std::string& override) {
+    return test::complaint_of([&] { build(read(without_ground(), {override}), test::plugins()); });
+  };
+  EXPECT_SAYS(complaint("robots.balls.motion.max_speed=fast"),
+              "--set robots.balls.motion.max_speed=fast: balls.motion: parameter `max_speed` is \"fast\" but must be a "
+              "number");
+  EXPECT_SAYS(complaint("robots.balls.motion.max_sped=1"),
+              "--set robots.balls.motion.max_sped=1: balls.motion: `motion.point` has no parameter `max_sped`");
+  EXPECT_SAYS(complaint("robots.balls[0].motion={use: motion.ode, rate: 100, iterations: 0}"),
+              "--set robots.balls[0].motion={use: motion.ode, rate: 100, iterations: 0}: balls_0.motion: parameter "
+              "`iterations` is 0 but must be");
+}
+
 TEST(Scenario, SequencesNameTheAlgorithmsOfAllRobotsOfATemplate) {
   Registry registry({MURO_TEST_PLUGIN_DIR, BAD_PLUGIN_DIR "/throws"});  // motion.step_throws is not batched
   const BuiltScenario built = build(read(R"(

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "host/free_camera.hpp"
 #include "host/scenario/builder.hpp"
 #include "host/scenario/overlaps.hpp"
 #include "muro/toolkit/rotations.hpp"
@@ -52,6 +53,22 @@ TEST_F(OnTerrain, SceneryWithoutAHeightTouchesTheSlopeWithItsLowestEdge) {
   EXPECT_EQ(pose(b, "before").position.z(), 0.1) << "a height that is given stays";
 }
 
+TEST_F(OnTerrain, WhatIsTurnedAsTheSlopeLiesFlatOnIt) {
+  const Vec3 normal = Vec3(-0.25, 0.125, 1).normalized();
+  const double roll = std::asin(-normal.y()), pitch = std::atan2(normal.x(), normal.z());
+  const auto z_of = [&](const std::string& shape, const std::string& name) {
+    return fmt::format("    {}: {{shape: {}, at: {{x: 4, y: 2, roll: {}, pitch: {}}}}}\n", name, shape, roll, pitch);
+  };
+  const BuiltScenario b = built(z_of("{box: [1, 2, 0.5]}", "crate") + z_of("{cylinder: [0.4, 0.6]}", "tin") +
+                                z_of("{capsule: [0.1, 1]}", "pole"));
+  const auto height = [&](const char* name) {  // of its origin over the slope, along the normal
+    return (pose(b, name).position - Vec3(4, 2, 0.25 * 4 - 0.125 * 2)).dot(normal);
+  };
+  EXPECT_NEAR(height("crate"), 0.25, 1e-6);
+  EXPECT_NEAR(height("tin"), 0.3, 1e-6);
+  EXPECT_NEAR(height("pole"), 0.6, 1e-6);
+}
+
 TEST_F(OnTerrain, OfManyCopiesInAGridEachStandsOnItsOwnGround) {
   const BuiltScenario b =
       built("    crates: {shape: {box: [1, 1, 1]}, place: {grid: {count: [3, 2], spacing: [4, 4]}}}");
@@ -68,8 +85,7 @@ TEST_F(OnTerrain, RobotsAtRandomPlacesStandOnTheGround) {
   for (int i = 0; i < 20; ++i) {
     const Vec3 p = pose(b, fmt::format("ball_{}/body", i)).position;
     const double below = 0.25 * p.x() - 0.125 * p.y();
-    EXPECT_GE(p.z(), below + 0.3 * Vec3(-0.25, 0.125, 1).norm() - 1e-9) << "nothing of it is below the ground";
-    EXPECT_LE(p.z(), below + 0.3 * (1 + 0.25 + 0.125) + 1e-9) << "its box touches";
+    EXPECT_NEAR(p.z(), below + 0.3 * Vec3(-0.25, 0.125, 1).norm(), 1e-6) << "it touches";
   }
 }
 
@@ -174,6 +190,57 @@ TEST_F(OnRoughTerrain, RobotsMovedByForcesStartAboveTheGroundWithoutOverlap) {
   crate: {shape: {box: [1, 0.6, 0.4]}, mass: 1, count: 15, place: {random: all}, motion: {use: motion.simplified, rate: 100}}
   tin: {shape: {cylinder: [0.2, 0.6]}, mass: 1, count: 15, place: {random: all}, motion: {use: motion.simplified, rate: 100}})");
   EXPECT_TRUE(b.notes.empty()) << b.notes.front();
+}
+
+/// Whether any point of the hills, looked at every centimetre, is in a shape.
+template <class IsInside>
+bool is_in_hills(const Pose& at, const IsInside& is_inside, const Heightmap& hills) {
+  for (int i = -80; i <= 80; ++i)
+    for (int j = -80; j <= 80; ++j) {
+      const double x = at.position.x() + 0.01 * i, y = at.position.y() + 0.01 * j;
+      const auto ground = hills.ground_at(x, y);
+      if (ground && is_inside(at.inverse() * Vec3(x, y, ground->height))) return true;
+    }
+  return false;
+}
+
+TEST_F(OnRoughTerrain, EachShapeStandsAsLowAsItCan) {
+  const BuiltScenario b = built(
+      R"(    crate: {shape: {box: [1, 0.6, 0.4]}, place: {grid: {count: [4, 4], spacing: [3.1, 2.7], center: {yaw: 0.4, roll: 0.1}}}}
+    ball: {shape: {sphere: 0.3}, place: {grid: {count: [4, 4], spacing: [2.3, 1.7]}}}
+    tin: {shape: {cylinder: [0.2, 0.6]}, place: {grid: {count: [4, 4], spacing: [2.9, 3.1], center: {pitch: 0.3}}}})");
+  const Heightmap hills = hills_.heightmap();
+  const auto check = [&](const std::string& name, const auto& is_inside) {
+    for (int i = 0; i < 16; ++i) {
+      Pose at = pose(b, fmt::format("{}_{}", name, i));
+      EXPECT_FALSE(is_in_hills(Pose{at.position + Vec3(0, 0, 1e-5), at.orientation}, is_inside, hills)) << name << i;
+      at.position.z() -= 0.012;  // more than the hills rise within a centimetre
+      EXPECT_TRUE(is_in_hills(at, is_inside, hills)) << name << i << " hovers";
+    }
+  };
+  check("crate", [](const Vec3& p) { return (p.cwiseAbs() - Vec3(0.5, 0.3, 0.2)).maxCoeff() < 0; });
+  check("ball", [](const Vec3& p) { return p.norm() < 0.3; });
+  check("tin", [](const Vec3& p) { return std::abs(p.z()) < 0.3 && std::hypot(p.x(), p.y()) < 0.2; });
+}
+
+class InAHollow : public OnTerrain {
+ protected:
+  InAHollow() : OnTerrain([](double x, double y) { return std::hypot(x, y) < 2 ? 0 : 6; }) {}
+};
+
+TEST_F(InAHollow, TheCameraOfARenderLooksOverTheRim) {
+  folder_.file("s.yaml", scenario("", "robots: {ball: {shape: {sphere: 0.3}, mass: 1, motion: {use: motion.point}}}"));
+  std::optional<FreeCamera> camera;
+  const BuiltScenario b =
+      build(read_scenario(folder_.path("s.yaml"), {}), test::plugins(),
+            [&](Simulation& simulation) { camera.emplace(simulation, "camera", std::nullopt, std::nullopt); });
+  camera->look(std::numeric_limits<double>::infinity());
+  const Vec3 from = pose(b, "camera").position, to = pose(b, "ball/body").position;
+  EXPECT_NEAR(from.x(), from.y(), 1e-9) << "it looks from where it looks in the plane";
+  for (double part = 0; part <= 1; part += 0.01) {
+    const Vec3 at = to + part * (from - to);
+    EXPECT_GT(at.z(), hills_.heightmap().ground_at(at.x(), at.y())->height) << "at " << part;
+  }
 }
 
 class OnGentleTerrain : public OnTerrain {

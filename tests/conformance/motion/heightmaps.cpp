@@ -206,7 +206,8 @@ Outcome carries_all(const std::string& motion) {
   std::vector<const RobotView*> bodies;
   std::uniform_real_distribution<double> turn(-3, 3);
   for (int i = 0; i < 12; ++i) {
-    const double x = 1.3 * (i % 4) - 2, y = 1.6 * (i / 4) - 1.6, roll = turn(random), pitch = turn(random);
+    const int row = i / 4, column = i % 4;
+    const double x = 1.3 * column - 2, y = 1.6 * row - 1.6, roll = turn(random), pitch = turn(random);
     bodies.push_back(&t.add("body_" + std::to_string(i), trees[i % 4],
                             {{x, y, 0.05 * (x * x + y * y) + 0.5}, from_rpy(roll, pitch, 0)}));
   }
