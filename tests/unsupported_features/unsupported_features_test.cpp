@@ -109,9 +109,10 @@ TEST(UnsupportedFeatures, ACollisionMeshThatIsNotFoundIsAnErrorWithStrict) {
                                  "touches the links there"),
               std::string::npos)
         << strict.output;
-    EXPECT_NE(strict.output.find("--strict lets no collision shape be left out; correct the paths, or leave --strict "
-                                 "out\n"),
-              std::string::npos)
+    EXPECT_NE(
+        strict.output.find("--strict lets no collision shape be left out; mend the files or their paths, or leave "
+                           "--strict out\n"),
+        std::string::npos)
         << strict.output;
     EXPECT_EQ(test::run_command(muro_program + command + "--strict " + seen).exit_code, 0) << "it is only seen";
   }

@@ -122,7 +122,7 @@ TEST(SdfHeightmap, ThatCannotBeReadIsNamedWithItsLineAndTheRestLoads) {
 
 TEST(SdfHeightmap, WithoutASizeAboveZeroOrAFileIsLeftOut) {
   const Hills hills;
-  const std::string left_out = "warning 3:31 <collision name=`c`> is left out, as its <heightmap> has ";
+  const std::string left_out = "lost collision 3:31 <collision name=`c`> is left out, as its <heightmap> has ";
   EXPECT_EQ(hilly_world(hills_collision("<uri>hills.png</uri><size>5 5 -1</size>"), hills.folder.path("")).problems,
             Lines{left_out + "a <size> that is not above 0"});
   EXPECT_EQ(hilly_world(hills_collision("<size>5 5 1</size>"), hills.folder.path("")).problems,

@@ -44,7 +44,7 @@ TEST(SdfProblems, NumbersThatAreNone) {
       of("1 1 1 1"),
       Lines{"warning 4:16 <size>: `1 1 1 1` has 4 numbers, and needs 3 separated by blanks. It is read as `1 1 1`"});
   EXPECT_EQ(of("1 1 nan"), (Lines{"warning 4:16 <size>: `1 1 nan` is not finite; it is left out",
-                                  "warning 4:11 <collision name=`c`> is left out, as its <box> has no <size>"}));
+                                  "lost collision 4:11 <collision name=`c`> is left out, as its <box> has no <size>"}));
   EXPECT_EQ(problems_of("<static>maybe</static>" + link("a")),
             Lines{"error 3:1 <static>: `maybe` is none of true, false, 1, 0"});
 }

@@ -162,7 +162,7 @@ TEST(SdfUnsupported, ShapesLeaveTheirCollisionOut) {
   EXPECT_EQ(
       reports_of("link",
                  "<collision name='c'><geometry><ellipsoid><radii>1 1 2</radii></ellipsoid></geometry></collision>"),
-      (Lines{"warning 4:1 <collision name=`c`> is left out, as it has no shape that is read",
+      (Lines{"lost collision 4:1 <collision name=`c`> is left out, as it has no shape that is read",
              "warning 4:31 <ellipsoid> in <geometry> is left out: shapes are box, sphere, cylinder, capsule, plane, "
              "mesh, heightmap"}));
 }

@@ -100,7 +100,7 @@ TEST(UrdfProblems, NumbersThatAreNone) {
     return problems_of(link("<collision><geometry><sphere radius='" + radius + "'/></geometry></collision>"));
   };
   const auto wrong = [](const std::string& text) {
-    return Lines{"warning 3:37 link `b`, <sphere radius>: " + text + "; the <collision> is left out"};
+    return Lines{"lost collision 3:37 link `b`, <sphere radius>: " + text + "; the <collision> is left out"};
   };
   EXPECT_EQ(of_radius("1,5"), wrong("`1,5` is no number; the decimal sign is a point, and blanks separate numbers"));
   EXPECT_EQ(of_radius("big"), wrong("`big` is no number; write it like 0.05 or 5e-2"));
@@ -111,9 +111,10 @@ TEST(UrdfProblems, NumbersThatAreNone) {
   EXPECT_EQ(of_radius(""), wrong("`` has 0 numbers, and needs 1"));
   EXPECT_EQ(of_radius("1 2"), wrong("`1 2` has 2 numbers, and needs 1"));
   EXPECT_EQ(of_radius("%s%n"), wrong("`%s%n` is no number; write it like 0.05 or 5e-2"));
-  EXPECT_EQ(problems_of(link("<collision><origin xyz='1 2'/><geometry><sphere radius='1'/></geometry></collision>")),
-            Lines{"warning 3:27 link `b`, <origin xyz>: `1 2` has 2 numbers, and needs 3 separated by blanks; the "
-                  "<collision> is left out"});
+  EXPECT_EQ(
+      problems_of(link("<collision><origin xyz='1 2'/><geometry><sphere radius='1'/></geometry></collision>")),
+      Lines{"lost collision 3:27 link `b`, <origin xyz>: `1 2` has 2 numbers, and needs 3 separated by blanks; the "
+            "<collision> is left out"});
   EXPECT_EQ(joint_problems(joint("fixed", "<origin xyz='1 2'/>")),
             Lines{"error 4:65 joint `j`, <origin xyz>: `1 2` has 2 numbers, and needs 3 separated by blanks"});
 }
@@ -172,16 +173,17 @@ TEST(UrdfProblems, ShapesThatAreLeftOut) {
   const auto of = [](const std::string& geometry) {
     return problems_of(link("<collision>" + geometry + "</collision>"));
   };
-  EXPECT_EQ(of(""), Lines{"warning 3:16 link `b`: a <collision> is left out, as it has no shape in <geometry>"});
+  EXPECT_EQ(of(""), Lines{"lost collision 3:16 link `b`: a <collision> is left out, as it has no shape in <geometry>"});
   EXPECT_EQ(of("<geometry/>"),
-            Lines{"warning 3:16 link `b`: a <collision> is left out, as it has no shape in <geometry>"});
+            Lines{"lost collision 3:16 link `b`: a <collision> is left out, as it has no shape in <geometry>"});
   EXPECT_EQ(of("<geometry><cone/></geometry>"),
-            Lines{"warning 3:37 link `b`: a <collision> is left out, as `cone` is no "
+            Lines{"lost collision 3:37 link `b`: a <collision> is left out, as `cone` is no "
                   "shape of URDF: box, capsule, cylinder, sphere, mesh"});
   EXPECT_EQ(of("<geometry><box/></geometry>"),
-            Lines{"warning 3:37 link `b`: a <collision> is left out, as its <box> has no size"});
-  EXPECT_EQ(of("<geometry><box size='1 0 1'/></geometry>"),
-            Lines{"warning 3:37 link `b`: a <collision> is left out, as its <box> has a size that is not above 0"});
+            Lines{"lost collision 3:37 link `b`: a <collision> is left out, as its <box> has no size"});
+  EXPECT_EQ(
+      of("<geometry><box size='1 0 1'/></geometry>"),
+      Lines{"lost collision 3:37 link `b`: a <collision> is left out, as its <box> has a size that is not above 0"});
   EXPECT_EQ(
       of("<geometry><sphere radius='1'/><sphere radius='2'/></geometry>"),
       Lines{
