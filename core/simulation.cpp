@@ -70,6 +70,7 @@ ObjectId Simulation::add_sensor_object(const RobotView& robot, std::string_view 
   const ObjectId sensor = world_.add_object(std::string(robot.name) + "/" + std::string(name), robot.number);
   world_.share(sensor, keys::pose, link, keys::pose);
   world_.share(sensor, keys::twist, link, keys::twist);
+  world_.set(sensor, keys::sensor_link, link);
   return sensor;
 }
 

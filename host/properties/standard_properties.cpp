@@ -8,8 +8,8 @@ namespace muro::host {
 namespace {
 
 constexpr const KeyInfo* motion[] = {
-    &keys::pose,           &keys::initial_pose, &keys::initial_twist, &keys::twist, &keys::external_wrench,
-    &keys::contact_wrench, &keys::gravity,      &keys::friction_rule,
+    &keys::pose,           &keys::initial_pose, &keys::initial_twist, &keys::twist,        &keys::external_wrench,
+    &keys::contact_wrench, &keys::gravity,      &keys::friction_rule, &keys::acceleration,
 };
 constexpr const KeyInfo* levels[] = {
     &keys::motion_level, &keys::motion_level_target, &keys::motion_level_names,
@@ -17,24 +17,29 @@ constexpr const KeyInfo* levels[] = {
 };
 constexpr const KeyInfo* bodies[] = {&keys::inertial, &keys::collision_shapes, &keys::visual_shapes};
 constexpr const KeyInfo* joints[] = {
-    &keys::joint_position,
-    &keys::initial_joint_position,
-    &keys::joint_velocity,
-    &keys::joint_effort,
-    &keys::joint_position_target,
-    &keys::joint_velocity_target,
-    &keys::joint_acceleration_target,
-    &keys::joint_effort_target,
-    &keys::joint_drive,
-    &keys::joint_drive_stiffness,
-    &keys::joint_drive_damping,
+    &keys::joint_position,        &keys::initial_joint_position,
+    &keys::joint_velocity,        &keys::joint_acceleration,
+    &keys::joint_effort,          &keys::joint_position_target,
+    &keys::joint_velocity_target, &keys::joint_acceleration_target,
+    &keys::joint_effort_target,   &keys::joint_drive,
+    &keys::joint_drive_stiffness, &keys::joint_drive_damping,
 };
 constexpr const KeyInfo* commands[] = {&keys::command_twist, &keys::command_pose};
 constexpr const KeyInfo* scene[] = {
     &keys::scene_index, &keys::contacts,         &keys::contact_wrenches_of_motion, &keys::contact_wrenches_of_law,
     &keys::place_names, &keys::place_rectangles,
 };
-constexpr const KeyInfo* sensors[] = {&keys::sensor_origin};
+constexpr const KeyInfo* sensors[] = {&keys::sensor_origin, &keys::sensor_link};
+constexpr const KeyInfo* internal_sensors[] = {
+    &keys::angular_velocity, &keys::linear_acceleration, &keys::orientation,
+    &keys::magnetic_field,   &keys::sensed_wrench,       &keys::encoder_position,
+    &keys::encoder_velocity, &keys::encoder_count,       &keys::foot_contact,
+    &keys::foot_force,       &keys::foot_cells,          &keys::foot_center_of_pressure,
+    &keys::bumper_pressed,   &keys::odometry_pose,       &keys::odometry_twist,
+    &keys::latitude,         &keys::longitude,           &keys::altitude,
+    &keys::gps_position,     &keys::gps_velocity,        &keys::true_pose,
+    &keys::true_twist,       &keys::true_acceleration,
+};
 constexpr const KeyInfo* lasers[] = {
     &keys::laser_min_angle, &keys::laser_angle_increment, &keys::laser_columns, &keys::laser_rows,
     &keys::laser_min_range, &keys::laser_max_range,       &keys::ranges,        &keys::measured_ranges,
@@ -54,6 +59,11 @@ constexpr PropertyGroup groups[] = {
     {"Commands to a whole robot", "The base of a robot has them.", commands},
     {"Scene and contacts", "The description names the object.", scene},
     {"Sensors", "The object of a sensor has them; its pose is that of the link on which it is mounted.", sensors},
+    {"Internal sensors",
+     "The object of the sensor has them. Names follow sensor_msgs; the device's frame is `sensor.origin` in that of "
+     "its "
+     "link.",
+     internal_sensors},
     {"Laser scanners", "The object of the sensor has them. Angles are counter-clockwise about z, 0 along x.", lasers},
     {"Cameras", "The object of the sensor has them; x points forward, as in every sensor frame.", cameras},
 };

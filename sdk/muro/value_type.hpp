@@ -62,6 +62,7 @@ struct ScalarTraits {
 };
 inline constexpr std::string_view xyz_labels[] = {"x", "y", "z"};
 inline constexpr std::string_view pose_labels[] = {"x", "y", "z", "qx", "qy", "qz", "qw"};
+inline constexpr std::string_view quat_labels[] = {"qx", "qy", "qz", "qw"};
 inline constexpr std::string_view twist_labels[] = {"vx", "vy", "vz", "wx", "wy", "wz"};
 inline constexpr std::string_view wrench_labels[] = {"fx", "fy", "fz", "tx", "ty", "tz"};
 inline constexpr std::string_view inertia_labels[] = {"mass", "cx",  "cy",  "cz",  "ixx",
@@ -102,6 +103,7 @@ MURO_SCALAR_TYPE(std::uint8_t, u8)
   }
 
 MURO_VALUE_TYPE(Vec3, "muro.Vec3", f64, detail::xyz_labels);
+MURO_VALUE_TYPE(Quat, "muro.Quat", f64, detail::quat_labels);
 MURO_VALUE_TYPE(Pose, "muro.Pose", f64, detail::pose_labels);
 MURO_VALUE_TYPE(Twist, "muro.Twist", f64, detail::twist_labels);
 MURO_VALUE_TYPE(Wrench, "muro.Wrench", f64, detail::wrench_labels);
