@@ -77,6 +77,41 @@ struct Carts : CollisionScene {
   }
 };
 
+/// Two balls on one link, in the corner of one object of two planes; maybe with a post in the box around both.
+struct Corner : CollisionScene {
+  const RobotView* robot = nullptr;
+
+  explicit Corner(bool post) {
+    Shape planes[] = {Shape::plane(), Shape::plane()};
+    planes[1].origin.orientation = from_rpy(0, M_PI / 2, 0);
+    world().add_scenery("corner", {}, std::span<const Shape>(planes));
+    if (post) add_scenery("post", Shape::box({0.02, 0.02, 0.02}), {{0.3, 0.3, 0.25}, Quat::Identity()});
+    robot = &add_dynamic("balls", test::tree_of([](RobotBuilder& b) {
+                           Shape balls[] = {Shape::sphere(0.1), Shape::sphere(0.1)};
+                           balls[1].origin.position = {0, 0.6, 0};
+                           b.base("body");
+                           b.set(keys::inertial, test::unit_inertia);
+                           b.set_array(keys::collision_shapes, std::span<const Shape>(balls));
+                         }),
+                         {{0.09, 0, 0.09}, Quat::Identity()});
+    finish_setup();
+    step_once();
+  }
+};
+
+TEST(CollisionNativeMerged, GroundsOfOneObjectAreInOneOrderWhateverIsNear) {
+  Corner alone(false), beside(true);
+  const std::span<const Contact> a = alone.world().values(alone.robot->base(), keys::contacts),
+                                 b = beside.world().values(beside.robot->base(), keys::contacts);
+  ASSERT_EQ(a.size(), 4u);
+  ASSERT_EQ(b.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(a[i].self_shape, b[i].self_shape) << i;
+    EXPECT_EQ(a[i].other_shape, b[i].other_shape) << i;
+    EXPECT_EQ(a[i].point, b[i].point) << i;
+  }
+}
+
 TEST(CollisionNativeMerged, ARobotInACrowdKeepsTheContactsThatItHasAlone) {
   const ScratchFolder folder;
   Randoms random(6);

@@ -107,6 +107,11 @@ void NativeCollision::add_grounds() {
     else
       ground.plane = ground_plane_of(scenery_[k].shape);
   }
+  has_grounds_of_one_object_ = false;
+  for (std::size_t g = 1; g < ground_colliders_.size(); ++g) {
+    const Collider &a = *scenery_[ground_colliders_[g - 1]].collider, &b = *scenery_[ground_colliders_[g]].collider;
+    has_grounds_of_one_object_ |= a.body == b.body;
+  }
 }
 
 void NativeCollision::group_robots() {
@@ -202,7 +207,8 @@ void NativeCollision::list_contacts(Range robots) {
       }
       const int i = ground.used++;
       batch.robots[i] = r;
-      batch.merged |= unsigned(!touches_only_ground(r)) << i;
+      // the kernel goes through the grounds of an object one by one, lists through the shapes of a link
+      batch.merged |= unsigned(has_grounds_of_one_object_ || !touches_only_ground(r)) << i;
       ground.poses[i] = ground_robots_[r].poses;
       ground.contacts[i] = (*robots_[r].list).data()->point.data();
       ground.signatures[i] = ground_robots_[r].signature;

@@ -57,6 +57,7 @@ class NativeCollision final : public PairCollision {
   Terrains terrains_;
   std::vector<GroundRobot> ground_robots_;                    ///< by robot number
   std::vector<std::uint32_t> ground_colliders_;               ///< planes and heightmaps of the scenery
+  bool has_grounds_of_one_object_ = false;                    ///< several of some object
   std::vector<Ground> grounds_;                               ///< as these
   std::vector<RobotGroup<std::vector<KernelShape>>> groups_;  ///< of robots that have a list
   std::vector<KernelShape> shapes_;                           ///< by collider

@@ -93,6 +93,8 @@ TEST(HeightmapFile, ThatIsNoneIsRefusedInOneSentence) {
   says(folder.file("row.bin", floats({0, 1, 2}, {1, 3})), "has 3 x 1 values, and must have 2 or more");
   says(folder.file("hills.tif", std::string("II*\0\x08\0\0\0", 8)),
        "is a TIFF file, which muro does not read; make a grey PNG file of 16 bits of it, by `gdal_translate -of PNG");
+  says(folder.file("large.png", "version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 12345\n"),
+       "is only a pointer to the file, left there by Git LFS; run `git lfs pull`");
   says(folder.file("dem.tif", std::string("MM\0+\0\x08\0\0", 8)), "is a TIFF file");
   says(folder.file("nan.r32", floats({0, 1, NAN, 3})), "not finite or beyond 1e6: number 0 of row 1");
   says(folder.file("cut.png", std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\2\0\0\0\2\x10\0\0\0\0", 29)),

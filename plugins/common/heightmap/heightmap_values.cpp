@@ -12,6 +12,7 @@
 
 #include "muro/algorithm.hpp"
 #include "plugins/common/parser_process/limits.hpp"
+#include "plugins/common/text/lfs_pointer.hpp"
 
 namespace muro::heightmap {
 namespace {
@@ -30,6 +31,8 @@ class HeightmapReader {
   HeightmapFile read() const {
     const std::vector<std::uint8_t> bytes = content();
     Nodes nodes;
+    if (is_lfs_pointer({reinterpret_cast<const char*>(bytes.data()), bytes.size()}))
+      throw error(std::string(is_lfs_pointer_text));
     if (is_tiff(bytes))
       throw error(
           "is a TIFF file, which muro does not read; make a grey PNG file of 16 bits of it, by `gdal_translate -of PNG "

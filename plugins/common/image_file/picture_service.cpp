@@ -9,6 +9,7 @@
 
 #include "plugins/common/parser_process/limits.hpp"
 #include "plugins/common/parser_process/service.hpp"
+#include "plugins/common/text/lfs_pointer.hpp"
 
 namespace muro::image_file {
 namespace {
@@ -43,6 +44,8 @@ void serve(Reader& request, Writer& answer) {
   std::vector<std::uint8_t> bytes = request.list<std::uint8_t>();
   if (bytes.empty()) bytes = bytes_of(name);
   const auto fail = [&](const std::string& what) { return Error("picture " + name + " " + what); };
+  if (is_lfs_pointer({reinterpret_cast<const char*>(bytes.data()), bytes.size()}))
+    throw fail(std::string(is_lfs_pointer_text));
   if (bytes.size() > max_size) throw fail("has more than 1 GiB; use a smaller PNG or JPEG file");
   int width = 0, height = 0, channels = 0;
   const auto size = int(bytes.size());

@@ -12,6 +12,7 @@
 
 #include "muro/algorithm.hpp"
 #include "plugins/common/parser_process/limits.hpp"
+#include "plugins/common/text/lfs_pointer.hpp"
 #include "plugins/common/text/one_line.hpp"
 
 namespace muro::mesh {
@@ -41,12 +42,11 @@ class Files final : public Assimp::DefaultIOSystem {
   std::set<std::string> opened_;
 };
 
-/// Whether it is what a clone without Git LFS has in place of the file.
-bool is_lfs_pointer(const std::string& path) {
-  constexpr std::string_view first = "version https://git-lfs";
-  std::string begin(first.size(), '\0');
+/// The first bytes of a file.
+std::string beginning_of(const std::string& path) {
+  std::string begin(64, '\0');
   std::ifstream(path, std::ios::binary).read(begin.data(), std::streamsize(begin.size()));
-  return begin == first;
+  return begin;
 }
 
 /// What Assimp says of a file that it cannot read.
@@ -73,7 +73,7 @@ MeshFile::MeshFile(const std::string& path, const Vec3& scale, unsigned unused, 
   if (!scale.allFinite() || scale.cwiseAbs().minCoeff() <= 0)
     throw fail("has a scale of " + std::to_string(scale.x()) + " " + std::to_string(scale.y()) + " " +
                std::to_string(scale.z()) + "; each factor must be finite and not 0");
-  if (is_lfs_pointer(path)) throw fail("is only a pointer to the file, left there by Git LFS; run `git lfs pull`");
+  if (is_lfs_pointer(beginning_of(path))) throw fail(std::string(is_lfs_pointer_text));
   importer_.SetIOHandler(new Files);  // which the importer owns
   importer_.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, int(unused));
   importer_.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, 40);

@@ -165,10 +165,11 @@ class RobotContacts {
         patch_count_ = 1;
       }
       S found(0);
-      if (const auto fits = of_patch(patches_[0], p.normal, object); patch_count_ > 1 || bits(fits) != all_lanes<S>) {
+      if (const auto fits = of_patch(patches_[0], p.normal, object);
+          k > 0 && (patch_count_ > 1 || bits(fits) != all_lanes<S>)) {
         found = select(fits, S(0), S(-1));
         for (int n = 1; n < patch_count_; ++n) found = select(of_patch(patches_[n], p.normal, object), S(n), found);
-        if (const auto fresh = found < S(0); any(fresh)) {
+        if (const auto fresh = (found < S(0)) & (S(k) < count_); any(fresh)) {
           found = select(fresh, of_patches, found);
           add_patches(fresh, of_patches, p.normal, object);
           of_patches += select(fresh, S(1), S(0));

@@ -120,9 +120,10 @@ TEST(MjcfHeightField, WrittenInTheFileIsLeftOutByNameAndTheRestIsRead) {
   const ScratchFolder folder;
   const HillyWorld world(hills_yard("<hfield name='h' nrow='2' ncol='2' elevation='0 1 2 3' size='2 1 0.5 0.1'/>"),
                          folder);
-  EXPECT_TRUE(has_line(world.problems,
-                       "warning 4: geom `hills` is left out: height field `h` is written in the MJCF itself; save its "
-                       "values as a grey picture (PNG) and name it as `file`"))
+  EXPECT_TRUE(
+      has_line(world.problems,
+               "lost collision 4: geom `hills` is left out: height field `h` is written in the MJCF itself; save its "
+               "values as a grey picture (PNG) and name it as `file`"))
       << joined(world.problems);
   EXPECT_TRUE(world.model.scenery().empty());
   EXPECT_EQ(world.model.models().size(), 1u);
@@ -134,7 +135,7 @@ TEST(MjcfHeightField, WhoseColoursMuJoCoReadsOtherwiseIsLeftOutByName) {
   const std::uint8_t pixels[] = {0, 255, 0, 255, 0, 0, 0, 0, 255, 255, 255, 255};
   image_file::write_png(folder.path("land/hills.png"), image_file::Format::rgb8, 2, 2, pixels);
   const HillyWorld world(hills_yard("<hfield name='h' file='hills.png' size='2 1 0.5 0.1'/>"), folder);
-  EXPECT_TRUE(has_line(world.problems, "warning 4: geom `hills` is left out: MuJoCo reads other heights from `" +
+  EXPECT_TRUE(has_line(world.problems, "lost collision 4: geom `hills` is left out: MuJoCo reads other heights from `" +
                                            folder.path("land/hills.png") +
                                            "` than muro; save it as a grey picture (PNG) of 8 bits"))
       << joined(world.problems);

@@ -105,8 +105,10 @@ TEST(MjcfProblems, WhatIsLeftOutIsListedByName) {
 </mujoco>)");
   EXPECT_TRUE(robot.tree.usable());
   for (const char* line : {
-           "warning 5: geom `egg` is left out: there is no shape `ellipsoid`; take a sphere, a capsule or a mesh",
-           "warning 6: geom `pyramid` is left out: mesh `tet` is written in the MJCF itself; save it as .obj or .stl",
+           "lost collision 5: geom `egg` is left out: there is no shape `ellipsoid`; take a sphere, a capsule or a "
+           "mesh",
+           "lost collision 6: geom `pyramid` is left out: mesh `tet` is written in the MJCF itself; save it as .obj or "
+           ".stl",
            "warning 10: the stiffness of joint `j` is left out: joints have no springs; motion.mujoco has them with "
            "`settings: model`, elsewhere a controller may act as one",
            "warning 14: tendons `cable` are left out; motion.mujoco has them with `settings: model`",

@@ -98,9 +98,11 @@ void Shapes::add(int number, const Pose& body, const Intern& intern, Solid& soli
     color = m_.mat_rgba + 4 * material;
   for (int k = 0; k < 4; ++k) shape->color[k] = std::clamp(double(color[k]), 0.0, 1.0);
   shape->material_source = MaterialSource::model;
-  if (m_.geom_contype[number] != 0 || m_.geom_conaffinity[number] != 0) solid.collisions.push_back(*shape);
+  if (is_to_touch(number)) solid.collisions.push_back(*shape);
   if (m_.geom_group[number] < first_hidden_group && shape->color[3] > 0) solid.visuals.push_back(*shape);
 }
+
+bool Shapes::is_to_touch(int geom) const { return m_.geom_contype[geom] != 0 || m_.geom_conaffinity[geom] != 0; }
 
 void Shapes::report_left_out(Problems& problems) const {
   for (const auto& [geom, error] : rounded_) {
@@ -114,8 +116,10 @@ void Shapes::report_left_out(Problems& problems) const {
     std::vector<std::string> names;
     for (const int g : geoms) names.push_back(name_of_geom(g));
     const Location at = source_.location_of("geom", name_of(m_, m_.name_geomadr, geoms.front()));
-    problems.warning(at, concat(geoms.size() == 1 ? "geom " : "geoms ", quoted_list(names),
-                                geoms.size() == 1 ? " is left out: " : " are left out: ", why));
+    const bool any_to_touch = std::any_of(geoms.begin(), geoms.end(), [&](int g) { return is_to_touch(g); });
+    problems.report(any_to_touch ? Severity::lost_collision : Severity::warning, at,
+                    concat(geoms.size() == 1 ? "geom " : "geoms ", quoted_list(names),
+                           geoms.size() == 1 ? " is left out: " : " are left out: ", why));
   }
 }
 

@@ -34,6 +34,8 @@ class Shapes {
   std::optional<Shape> shape_of(int number, const Intern& intern, std::string& problem);
   std::optional<Shape> heights_of(int number, const Intern& intern, std::string& problem);
   Surface surface_of(int number) const;
+  /// Whether a geom collides with others.
+  bool is_to_touch(int geom) const;
 
   const mjModel& m_;
   const Source& source_;

@@ -98,6 +98,33 @@ long double nearest_triangle(const mesh::Mesh& mesh, const Vec3& from, const Vec
   return nearest;
 }
 
+TEST(LaserHeightmap, TurnsByHalfCirclesLeaveNoRayThrough) {
+  std::vector<Quat> turns;
+  for (int axis = 0; axis < 4; ++axis)
+    for (const double w : {1.0, -1.0}) {
+      Quat turn(0, 0, 0, 0);
+      turn.coeffs()[axis] = w;
+      turns.push_back(turn);
+    }
+  for (const Quat& map : turns) {
+    if ((map * Vec3::UnitZ()).z() < 0) continue;  // its floor is above
+    const Land land(9, 9, {8, 8, 1}, {Vec3::Zero(), map}, [](double, double) { return 0.0; });
+    for (const Quat& device : turns)
+      for (const double azimuth : {0.0, pi / 2, pi, -pi / 2})
+        for (const double elevation : {-1.0, -0.5, 0.5, 1.0}) {
+          const double angles[] = {azimuth, elevation};
+          const Vec3 at(1.25, 0.3, 1);
+          const Vec3 d = device * Vec3(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
+                                       std::sin(elevation));
+          const double down = d.z() < 0 ? -1 / d.z() : 100;
+          const bool over = ((at + down * d).head<2>().array().abs() < 4).all();
+          EXPECT_NEAR(land.scan({{at, device}, 100}, RayPattern(std::span<const double>(angles))).ranges[0],
+                      over ? down : 100, 1e-9)
+              << map.coeffs().transpose() << ", " << device.coeffs().transpose() << ", " << azimuth << " " << elevation;
+        }
+  }
+}
+
 TEST(LaserHeightmap, AgreesWithBruteForceFromEverywhere) {
   Dice dice(31);
   std::vector<RayPattern> patterns;

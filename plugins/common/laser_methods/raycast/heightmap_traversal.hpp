@@ -31,8 +31,9 @@ class GroundRays {
       const auto along = [&](const V3<double>& axis) {
         return D(axis.x) * setup.direction[h].x + D(axis.y) * setup.direction[h].y + D(axis.z) * setup.direction[h].z;
       };
-      d[h] = {along(g.axes.x) * D(1 / g.field.spacing[0]), along(g.axes.y) * D(1 / g.field.spacing[1]),
-              along(g.axes.z)};
+      // no -0, whose inverse would say that the ray goes the other way
+      d[h] = {along(g.axes.x) * D(1 / g.field.spacing[0]) + D(0), along(g.axes.y) * D(1 / g.field.spacing[1]) + D(0),
+              along(g.axes.z) + D(0)};
       store(du_ + 8 * h, d[h].x), store(dv_ + 8 * h, d[h].y), store(dz_ + 8 * h, d[h].z);
       store(found + 8 * h, D(never));
     }
