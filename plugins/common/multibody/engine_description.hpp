@@ -4,6 +4,7 @@
 
 #include "muro/description.hpp"
 #include "muro/features.hpp"
+#include "muro/toolkit/accelerations.hpp"
 
 namespace muro::multibody {
 
@@ -28,6 +29,8 @@ inline constexpr PropertyUse writes[] = {
     {"joint.position", "of every joint"},
     {"joint.velocity", "of every joint"},
     {"joint.effort", "of every joint: what its drive applies"},
+    writes_acceleration,
+    writes_joint_acceleration,
     {"wrench.contact", "of every body with collision shapes"},
     {keys::contact_wrenches_of_motion.name, "of the base: what each contact did, where somebody reads it"},
     {"contact.world", "that this world answers for contacts"},

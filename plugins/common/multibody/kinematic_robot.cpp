@@ -33,7 +33,7 @@ void KinematicRobot::take_over() const {
 }
 
 void KinematicRobot::step(double dt) const {
-  if (*active_level_ != level_) return;
+  if (!is_active()) return;
   joints_.move(dt);
   for (const Out<double>& effort : efforts_) *effort = 0;
   for (const Out<Wrench>& wrench : contact_wrenches_) *wrench = Wrench{};

@@ -20,6 +20,8 @@ class KinematicRobot {
 
   /// Whether some of its joints are in modes in which only forces move them.
   bool stands_still() const { return joints_.stands_still(); }
+  /// Whether it is this motion that moves the robot.
+  bool is_active() const { return *active_level_ == level_; }
   /// This motion moves the robot from now on.
   void take_over() const;
   /// Carries it on by `dt` (s), if it is this motion that moves it. Throws Error for a target that is not finite.

@@ -51,11 +51,15 @@ void Motion::connect(Connector& c) {
 }
 
 void Motion::connect_by_name(Connector& c) {
-  for (std::uint32_t i = 0; i < c.items().size(); ++i)
-    if (WorldRobot* const robot = served_[i].by_world) {
-      robot->set_has_contact_law(c.is_used(c.items()[i].robot->base(), keys::contacts, usage::read));
-      robot->connect_by_name(c, c.items()[i].robot->base());
-    }
+  for (std::uint32_t i = 0; i < c.items().size(); ++i) {
+    WorldRobot* const robot = served_[i].by_world;
+    const bool is_free = robot && !robot->model().fixed_base;
+    accelerations_.connect_by_name(c, i, is_free ? BaseMotion::by_forces : BaseMotion::kinematic,
+                                   is_free ? robot->model().bodies.front().inertia : Inertia{});
+    if (!robot) continue;
+    robot->set_has_contact_law(c.is_used(c.items()[i].robot->base(), keys::contacts, usage::read));
+    robot->connect_by_name(c, c.items()[i].robot->base());
+  }
 }
 
 void Motion::check_parameters(const Connector& c) const {
@@ -132,8 +136,19 @@ void Motion::on_handover(std::uint32_t item) {
 }
 
 void Motion::step(const Step& step, Range) {
+  const auto items = std::uint32_t(served_.size());
+  accelerations_.begin_step(Range{0, items});
   if (!robots_.empty()) step_world(step);
   for (const KinematicRobot& r : kinematic_robots_) r.step(step.dt);
+  if (accelerations_.empty()) return;
+  for (std::uint32_t i = 0; i < items; ++i)
+    if (moves(i)) accelerations_.end_step(i, step.dt);
+}
+
+/// Whether it is this motion that moves the robot at present.
+bool Motion::moves(std::uint32_t item) const {
+  const Served& s = served_[item];
+  return s.by_world ? s.by_world->is_dynamic() : s.by_targets->is_active();
 }
 
 void Motion::step_world(const Step& step) {

@@ -8,6 +8,7 @@
 #include "external_bodies.hpp"
 #include "kinematic_robot.hpp"
 #include "muro/description.hpp"
+#include "muro/toolkit/accelerations.hpp"
 #include "muro/toolkit/pair_surface.hpp"
 #include "world_robot.hpp"
 
@@ -48,7 +49,9 @@ class Motion : public Algorithm {
   void report_kinematic_robots(Connector& c) const;
   void step_world(const Step& step);
   void advance(double dt);
+  bool moves(std::uint32_t item) const;
 
+  Accelerations accelerations_;
   Vec3 gravity_ = Vec3::Zero();
   FrictionRule friction_rule_ = FrictionRule::min;
   WorldRobot::WorldTraits traits_;

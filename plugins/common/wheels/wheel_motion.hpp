@@ -59,7 +59,12 @@ struct WheeledRobot {
 /// `max_wheel_acceleration` and `on_contact`.
 class WheelMotion : public PerRobotAlgorithm<WheeledRobot> {
  public:
+  void connect_by_name(Connector& c) override {
+    for (std::uint32_t i = 0; i < c.items().size(); ++i) accelerations_.connect_by_name(c, i, BaseMotion::kinematic);
+  }
+
   void step(const Step& step, Range range) override {
+    accelerations_.begin_step(range);
     for (const WheeledRobot& r : robots(range)) {
       const std::span<RampedWheel> wheels = wheels_[r.wheels];
       for (RampedWheel& w : wheels)
@@ -75,6 +80,7 @@ class WheelMotion : public PerRobotAlgorithm<WheeledRobot> {
       }
       other_joints_.move(r.other_joints, step.dt);
     }
+    accelerations_.end_step(range, step.dt);
   }
 
   /// The wheels turn as fits the base's velocity best.
@@ -161,6 +167,7 @@ class WheelMotion : public PerRobotAlgorithm<WheeledRobot> {
     return sum;
   }
 
+  Accelerations accelerations_;
   double max_acceleration_ = unlimited;
   TerrainTravel terrain_;
   PackedLists<RampedWheel> wheels_;

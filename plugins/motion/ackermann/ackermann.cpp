@@ -59,7 +59,12 @@ struct AckermannRobot {
 
 class Ackermann final : public PerRobotAlgorithm<AckermannRobot> {
  public:
+  void connect_by_name(Connector& c) override {
+    for (std::uint32_t i = 0; i < c.items().size(); ++i) accelerations_.connect_by_name(c, i, BaseMotion::kinematic);
+  }
+
   void step(const Step& step, Range range) override {
+    accelerations_.begin_step(range);
     for (const AckermannRobot& r : robots(range)) {
       const std::span<VehicleWheel> wheels = wheels_[r.wheels];
       const std::span<SteeringJoint> steering = steering_[r.steering];
@@ -67,6 +72,7 @@ class Ackermann final : public PerRobotAlgorithm<AckermannRobot> {
       move(r, wheels, steering, step.dt);
       other_joints_.move(r.other_joints, step.dt);
     }
+    accelerations_.end_step(range, step.dt);
   }
 
   /// The wheels turn as fits the base's velocity best; the steering goes on from where it stands.
@@ -212,6 +218,7 @@ class Ackermann final : public PerRobotAlgorithm<AckermannRobot> {
     }
   }
 
+  Accelerations accelerations_;
   double max_acceleration_ = unlimited;
   double max_steering_rate_ = unlimited;
   TerrainTravel terrain_;

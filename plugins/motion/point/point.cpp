@@ -3,6 +3,7 @@
 #include <string>
 
 #include "muro/plugin.hpp"
+#include "muro/toolkit/accelerations.hpp"
 #include "muro/toolkit/contact_stop.hpp"
 #include "muro/toolkit/per_robot.hpp"
 #include "muro/toolkit/rotations.hpp"
@@ -44,7 +45,9 @@ constexpr PropertyUse reads[] = {{"command.twist", "mode velocity"},
 constexpr PropertyUse writes[] = {{"pose", "of the base"},
                                   {"twist", "of the base"},
                                   {"joint.position", "of every joint"},
-                                  {"joint.velocity", "of every joint"}};
+                                  {"joint.velocity", "of every joint"},
+                                  writes_acceleration,
+                                  writes_joint_acceleration};
 constexpr Description description{
     .id = "motion.point",
     .kind = Kind::motion,
@@ -103,14 +106,19 @@ struct PointRobot {
 class Point final : public PerRobotAlgorithm<PointRobot> {
  public:
   void connect_by_name(Connector& c) override {
-    for (std::uint32_t i = 0; i < c.items().size(); ++i) robot(i).joints.follow_what_is_written(c);
+    for (std::uint32_t i = 0; i < c.items().size(); ++i) {
+      robot(i).joints.follow_what_is_written(c);
+      accelerations_.connect_by_name(c, i, BaseMotion::kinematic);
+    }
   }
 
   void step(const Step& step, Range range) override {
+    accelerations_.begin_step(range);
     for (const PointRobot& r : robots(range)) {
       move(r, step.dt);
       r.joints.move(step.dt);
     }
+    accelerations_.end_step(range, step.dt);
   }
 
  private:
@@ -197,6 +205,7 @@ class Point final : public PerRobotAlgorithm<PointRobot> {
     if (follows_terrain()) follow_terrain(height, pose, v);
   }
 
+  Accelerations accelerations_;
   ground::Terrain terrain_;
   double height_ = -1;  ///< m; below 0: terrain is nothing to it
   bool follow_pose_ = false;

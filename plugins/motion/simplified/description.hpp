@@ -3,6 +3,7 @@
 #pragma once
 
 #include "muro/plugin.hpp"
+#include "muro/toolkit/accelerations.hpp"
 #include "plugins/common/position_drive/position_drive.hpp"
 #include "plugins/common/watch/parameters.hpp"
 
@@ -57,6 +58,8 @@ inline constexpr PropertyUse writes[] = {
     {"joint.position", "of every joint"},
     {"joint.velocity", "of every joint"},
     {"joint.effort", "of joints with PD drives or moved by forces: what the drive applies"},
+    writes_acceleration,
+    writes_joint_acceleration,
     {"contact.world", "that the contact algorithm answers for all contacts"},
     {"twist.lag", "0: pose and twist are those of one instant"},
     {"contact.impact.step", "of a base that impacts push: length of a step"}};

@@ -16,6 +16,7 @@
 #include "model.hpp"
 #include "move.hpp"
 #include "muro/plugin.hpp"
+#include "muro/toolkit/accelerations.hpp"
 #include "muro/toolkit/mass_properties.hpp"
 #include "plugins/common/contact_geometry/contact_responsibility.hpp"
 #include "plugins/common/kinematic_joints/moving_mass.hpp"
@@ -44,6 +45,8 @@ class Simplified final : public Algorithm {
     scenery_ = scenery_names(c);
     for (RobotWatch& watch : watches_) watch.connect_contacts(c);
     for (ForceDrivenJoints& joints : force_driven_) joints.connect_by_name(c);
+    for (std::uint32_t i = 0; i < robots_.size(); ++i)
+      accelerations_.connect_by_name(c, i, fixed_ ? BaseMotion::kinematic : BaseMotion::by_forces, robots_[i].inertia);
   }
 
   void restored() override { begin_watches(); }
@@ -85,6 +88,7 @@ class Simplified final : public Algorithm {
   /// Neighbours of one kind go eight at a time.
   void step(const Step& step, Range range) override {
     if (step.index % RobotWatch::interval == 0) look_at(range);
+    accelerations_.begin_step(range);
     for (std::uint32_t i = range.begin, end = i; i < range.end; i = end) {
       while (end < range.end && end < i + lane_width && kinds_[end] == kinds_[i]) ++end;
       const Model& model = models_[kinds_[i].model];
@@ -101,6 +105,7 @@ class Simplified final : public Algorithm {
       }
       for (std::uint32_t k = i; k < end; ++k) take_impacts(k, step);
     }
+    accelerations_.end_step(range, step.dt);
   }
 
  private:
@@ -120,6 +125,7 @@ class Simplified final : public Algorithm {
     std::int32_t articulation = -1;              ///< in articulations_; -1: no joint moves mass
     std::int32_t force_driven = -1;              ///< in force_driven_; -1: no force drives a joint
     std::string name;
+    Inertia inertia;  ///< of all its bodies at the start, in the frame of the base
   };
 
   void connect_robot(Connector& c, const Item& item) {
@@ -139,6 +145,7 @@ class Simplified final : public Algorithm {
 
     Robot r;
     r.name = robot.name;
+    r.inertia = composite_inertia(robot.links, inertias, start);
     const Pose pose = c.constant(robot.base(), keys::initial_pose).value_or(Pose{});
     const Twist twist = c.constant(robot.base(), keys::initial_twist).value_or(Twist{});
     RobotState state;
@@ -286,6 +293,7 @@ class Simplified final : public Algorithm {
                        "(contact.penalty: frequency)"));
   }
 
+  Accelerations accelerations_;
   bool fixed_ = false;
   std::vector<std::string> without_forces_;  ///< robots whose joints no force can move
   bool stand_still_ = false;                 ///< some of their joints
