@@ -113,7 +113,7 @@ class HeightPlanes {
           for (const double y : {0.0, 2 * part})
             s.height = std::max(s.height, parts[k][l].at(x, y) - s.x * (part_i[k] * part - 2 * i * part + x) -
                                               s.y * (part_j[l] * part - 2 * j * part + y));
-    s.height += 1e-6 * margin_up_;
+    s.height += (std::abs(s.x) + std::abs(s.y)) * margin_along_ + 1e-6 * margin_up_;
     return plane_of(s);
   }
   double rounded(double slope) const { return step * std::round(std::clamp(slope / step, -32767.0, 32767.0)); }
