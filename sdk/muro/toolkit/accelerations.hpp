@@ -32,6 +32,7 @@ class Accelerations {
     OfRobot robot;
     for (const Link& link : item.robot->links) {
       if (link.joint == JointKind::fixed || !is_read(c, link.joint_object, keys::joint_acceleration)) continue;
+      if (!c.is_used(link.joint_object, keys::joint_velocity, usage::variable)) continue;  // no motion moves it
       robot.joints.push_back({c.write(link.joint_object, keys::joint_velocity),
                               c.variable(link.joint_object, keys::joint_acceleration, 0.0), 0});
     }

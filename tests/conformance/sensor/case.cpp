@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include "tests/conformance/sensor/case.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "tests/support/files.hpp"
+
+namespace muro::sensor_conformance {
+
+namespace {
+
+const Description& description_of(const std::string& motion) { return *test::plugins().algorithm(motion).description; }
+
+/// A model of examples/models with a turntable.
+RobotTree vehicle_with_table(Simulation& simulation, const std::string& model) {
+  std::string text = test::text_of(MURO_TEST_SOURCE_DIR "/examples/models/" + model + ".urdf");
+  text.insert(text.rfind("</robot>"),
+              "<link name=\"disc\"/><joint name=\"table\" type=\"continuous\"><parent link=\"base_link\"/>"
+              "<child link=\"disc\"/><origin xyz=\"0 0 0.3\"/><axis xyz=\"0 0 1\"/></joint>");
+  const test::ScratchFolder folder;
+  return simulation.read_model(folder.file(model + ".urdf", text));
+}
+
+RobotTree box_with_table() {
+  const Shape box = test::with(Shape::box({0.4, 0.3, 0.2}), 0.8);
+  return test::tree_of([&](RobotBuilder& b) {
+    b.base("base_link");
+    b.set(keys::inertial, test::solid_box(2, {0.4, 0.3, 0.2}));
+    b.set_array(keys::collision_shapes, std::span<const Shape>(&box, 1));
+    b.translation({0, 0, 0.3});
+    b.revolute("table", Vec3::UnitZ(), {});
+    b.body("disc");
+    b.set(keys::inertial, Inertia{.mass = 0.1, .ixx = 1e-3, .iyy = 1e-3, .izz = 2e-3});
+  });
+}
+
+struct Exception {
+  std::string_view motion, name;
+  double error;
+  std::string_view why;
+};
+constexpr Exception exceptions[] = {{"", "", 0, ""}};
+
+}  // namespace
+
+Family family_of(const std::string& motion) {
+  if (motion == "motion.point") return Family::point;
+  return (description_of(motion).features & feature_forces) != 0 ? Family::forces : Family::wheeled;
+}
+
+std::vector<std::string> motions() {
+  std::vector<std::string> ids;
+  for (const CatalogEntry& o : test::plugins().catalog())
+    if (o.kind == "motion") ids.push_back(o.id);
+  return ids;
+}
+
+const RobotView& Trial::add_vehicle(const Pose& pose, const Twist& twist) {
+  if (family() != Family::wheeled) return add("r", box_with_table(), pose, twist);
+  const std::string model = motion_ == "motion.ackermann" ? "car" : motion_ == "motion.omni" ? "mecanum" : "rover";
+  return add("r", vehicle_with_table(*this, model), pose, twist);
+}
+
+ObjectId Trial::add_sensor(const std::string& id, const std::string& on, Parameters parameters, double rate) {
+  const RobotView& r = *world().robots().back();
+  const std::string name = "sensor_" + std::to_string(world().object_count());
+  const ObjectId object = add_sensor_object(r, name, world().object(std::string(r.name) + "/" + on));
+  use(id, rate, {{&r, object}}, std::move(parameters));
+  return object;
+}
+
+void Trial::start(Parameters parameters) {
+  const auto knows = [&](const std::string& name) {
+    const std::span<const Parameter> known = description_of(motion_).parameters;
+    return std::any_of(known.begin(), known.end(), [&](const Parameter& p) { return p.name == name; });
+  };
+  std::erase_if(parameters, [&](const auto& p) { return !knows(p.first); });
+  use(motion_, 1000, all_robots(), parameters);
+  if (family() == Family::wheeled)
+    use(motion_ == "motion.ackermann" ? "drive.ackermann"
+        : motion_ == "motion.omni"    ? "drive.omni"
+                                      : "drive.skid_steer",
+        0, all_robots());
+  if (family() == Family::forces)
+    use_contacts();
+  else
+    use_kinematics();
+  build();
+}
+
+void Trial::command(double speed, double yaw_rate) {
+  if (family() == Family::forces) return;
+  world().value(robot().base(), keys::command_twist) = {{speed, 0, 0}, {0, 0, yaw_rate}};
+}
+
+std::vector<Case> all_cases() {
+  std::vector<Case> all;
+  for (const auto& some : {inertial_cases(), change_cases()}) all.insert(all.end(), some.begin(), some.end());
+  return all;
+}
+
+Bound bound_of(const std::string& motion, const Case& c) {
+  for (const Exception& e : exceptions)
+    if (e.motion == motion && e.name == c.name) return {e.error, e.why};
+  return {c.bound[int(family_of(motion))]};
+}
+
+namespace {
+
+std::string text(double x) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.7g", x);
+  return buffer;
+}
+
+std::string text(const Vec3& v) { return "(" + text(v.x()) + ", " + text(v.y()) + ", " + text(v.z()) + ")"; }
+
+}  // namespace
+
+Outcome difference(const Vec3& seen, const Vec3& expected) {
+  return {(seen - expected).norm(), text(seen) + " for " + text(expected)};
+}
+Outcome difference(double seen, double expected) {
+  return {std::abs(seen - expected), text(seen) + " for " + text(expected)};
+}
+
+}  // namespace muro::sensor_conformance
