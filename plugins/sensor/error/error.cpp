@@ -1,40 +1,42 @@
 // SPDX-License-Identifier: MIT
 // From the true reading of a sensor to the device's; see README.md.
-#include <memory>
+#include <array>
+#include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
-#include "model.hpp"
+#include "error_chain.hpp"
 #include "muro/plugin.hpp"
+#include "parameters.hpp"
+#include "plugins/common/text/counted.hpp"
 #include "plugins/common/text/quote.hpp"
+#include "published.hpp"
+#include "readings.hpp"
+#include "settings.hpp"
 
 namespace {
 
 using namespace muro;
 
-constexpr Parameter parameters[] = {
-    text("of", "ranges", "the property of the sensor's object to work on: a real number or an array of them"),
-    real("sigma", "as read", 0, "standard deviation of the noise").between(0, 1e9),
-    real("sigma_relative", "1", 0, "standard deviation of further noise, in proportion to the reading").between(0, 1e3),
-    real("pointing", "rad", 0,
-         "standard deviation of a ray's direction: adds noise with the angle of incidence; needs laser.incidence")
-        .between(0, 1),
-    real("correlation", "1", 0, "of the noise of neighbours in an array").between(-1, 1),
-    real("bias", "as read", 0, "added to every reading").between(-1e9, 1e9),
-    real("resolution", "as read", 0, "readings are multiples of this; 0: any value").between(0, 1e9),
-    real("minimum", "as read", 0, "smallest reading; not given: laser.min_range, otherwise none"),
-    real("maximum", "as read", 0, "largest reading; not given: laser.max_range, otherwise none"),
-    real("dropout", "1", 0, "probability that a reading is lost").between(0, 1),
-    real("dropout_value", "as read", 0, "what a lost reading reads"),
-};
+constexpr auto parameters = [] {
+  std::array<Parameter, 2 + std::size(error_parameters)> all{
+      text("of", "ranges", "the property of the sensor's object to work on; not given: all that the part knows"),
+      text("part", "", "a device by its data sheet: adis16448, as5045, mpu6050, mti1, or the path of a file")};
+  for (std::size_t i = 0; i < std::size(error_parameters); ++i) all[2 + i] = error_parameters[i];
+  return all;
+}();
 constexpr PropertyUse reads[] = {{"ranges", "or the property that `of` names"},
-                                 {"laser.incidence", "pointing above 0: between each ray and the surface's normal"}};
+                                 {"laser.incidence", "pointing above 0: between each ray and the surface's normal"},
+                                 {"linear_acceleration", "g_sensitivity other than 0: the specific force"}};
 constexpr PropertyUse writes[] = {{"ranges.measured", "or `of`.measured"}};
 constexpr Description description{
     .id = "sensor.error",
     .kind = Kind::sensor_error,
-    .version = "1.0.0",
-    .summary = "Noise (also correlated), bias, rounding, limits and dropouts of a device",
+    .version = "2.0.0",
+    .summary =
+        "What a device makes of a true reading: bandwidth, scale, bias and its drift, noise, converter, delay, "
+        "dropouts",
     .parameters = parameters,
     .reads = reads,
     .writes = writes,
@@ -45,77 +47,107 @@ class SensorError final : public Algorithm {
  public:
   void connect(Connector& c) override {
     const Parameters& p = c.parameters();
-    const std::string_view of = p.text("of");
+    if (p.given("part")) part_ = read_part(file_of_part(c, p.text("part")), error_parameters);
     for (std::uint32_t i = 0; i < c.items().size(); ++i) {
+      first_.push_back(std::uint32_t(channels_.size()));
       const ObjectId object = c.items()[i].object;
-      const FoundProperty found = find(c, object, of);
-      Sensor s;
-      // of one robot, sensors and readings each have numbers of their own
-      s.random_key = fnv1a(of, fnv1a(c.object_name(object), c.random_key(i)));
-      s.model = model_of(p, c, object);
-      if (found.multiplicity == Multiplicity::array) {
-        s.truth = ArrayIn<double>(c.read_any(found));
-        s.measured = c.variable_array(object, output_key(*found.key), found.count);
-        if (s.model.pointing > 0) s.incidence = ArrayIn<double>(c.read_any(find_incidence(c, object, found.count)));
+      if (part_ && !p.given("of")) {
+        for (const FoundProperty& found : readings_of_part(c, object, *part_)) add(c, i, found);
       } else {
-        if (p.given("correlation"))
-          throw Error("correlation is between neighbours in an array, but " + quote(of) +
-                      " is a single number; remove it");
-        if (p.given("pointing"))
-          throw Error("pointing is of the rays of a laser, but " + quote(of) + " is a single number; remove it");
-        s.single_truth = In<double>(c.read_any(found));
-        s.single_measured = c.variable(object, output_key(*found.key), 0.0);
+        add(c, i, find_reading(c, object, p.text("of")));
       }
-      sensors_.push_back(s);
     }
+    first_.push_back(std::uint32_t(channels_.size()));
   }
 
   void step(const Step& step, Range range) override {
-    for (std::uint32_t i = range.begin; i < range.end; ++i) {
-      const Sensor& s = sensors_[i];
-      const Random random(step.seed, s.random_key, step.index);
-      if (s.truth)
-        s.model.apply(*s.truth, *s.measured, random, s.incidence ? *s.incidence : std::span<const double>());
+    for (std::uint32_t k = first_[range.begin]; k < first_[range.end]; ++k) {
+      const Channel& c = channels_[k];
+      const ErrorChain::Sample sample{.seed = step.seed,
+                                      .index = step.index,
+                                      .incidence = c.incidence ? *c.incidence : std::span<const double>(),
+                                      .specific_force = c.specific_force.get()};
+      if (c.truths)
+        c.chain.apply(*c.truths, *c.measured, c.state, sample);
       else
-        s.model.apply({s.single_truth.get(), 1}, {s.single_measured.get(), 1}, random);
+        c.chain.apply({c.single_truth, c.components}, {c.single_measured, c.components}, c.state, sample);
     }
   }
 
  private:
-  struct Sensor {
-    std::uint64_t random_key = 0;
-    ErrorModel model;
-    ArrayIn<double> truth;  ///< and measured: when the reading is an array
-    ArrayIn<double> incidence;
-    ArrayOut<double> measured;
-    In<double> single_truth;
-    Out<double> single_measured;
+  /// One reading of one item.
+  struct Channel {
+    ErrorChain chain;
+    std::span<double> state{};
+    ArrayIn<double> truths{};  ///< and measured: of an array
+    ArrayOut<double> measured{};
+    const double* single_truth = nullptr;  ///< else, with its components
+    double* single_measured = nullptr;
+    std::size_t components = 1;
+    ArrayIn<double> incidence{};
+    In<Vec3> specific_force{};
   };
 
-  /// A key whose texts it owns.
-  struct MeasuredKey {
-    std::string name, unit;
-    Key<double> key;
-    explicit MeasuredKey(const KeyInfo& of)
-        : name(std::string(of.name) + ".measured"), unit(of.unit), key(name, unit, "as the device reports it") {}
-    MeasuredKey(const MeasuredKey&) = delete;
-    MeasuredKey& operator=(const MeasuredKey&) = delete;
-  };
-
-  /// The property to work on; throws when it is missing or not made of real numbers.
-  static FoundProperty find(Connector& c, ObjectId object, std::string_view name) {
-    std::string others;
-    for (const FoundProperty& p : c.properties(object)) {
-      const bool usable = p.multiplicity != Multiplicity::list && *p.key->type == value_type<double> && p.count > 0;
-      if (p.key->name == name && usable) return p;
-      if (p.key->name == name)
-        throw Error(quote(name) + " of " + quote(c.object_name(object)) + " is not made of real numbers (f64) but of " +
-                    std::string(p.key->type->name) + (p.multiplicity == Multiplicity::list ? ", in a list" : "") +
-                    "; sensor.error works on single numbers and arrays of f64");
-      if (usable) others += (others.empty() ? "" : ", ") + std::string(p.key->name);
+  void add(Connector& c, std::uint32_t item, const FoundProperty& found) {
+    const ObjectId object = found.object;
+    const ReadingShape shape = shape_of(found);
+    const PartSection* section = part_ ? part_->section_of(shape.name) : nullptr;
+    if (part_ && !section)
+      throw Error("part " + part_->file + " has no errors of " + quote(shape.name) + "; it has those of " +
+                  readings_of(*part_));
+    const GivenErrors given(c.parameters(), part_ ? &*part_ : nullptr, section);
+    ErrorSettings settings = settings_of(given, shape);
+    set_limits(c, object, given, shape, settings);
+    const double period = c.rate() > 0 ? 1 / c.rate() : 0;
+    check_delay(given, settings.delay, shape, period);
+    // of one robot, sensors and readings each have numbers of their own
+    const std::uint64_t key = fnv1a(shape.name, fnv1a(c.object_name(object), c.random_key(item)));
+    Channel channel{.chain = ErrorChain(settings, shape.components, period, key)};
+    channel.components = shape.components;
+    if (const std::size_t size = channel.chain.state_size(); size > 0) {
+      void* block = c.state_block(object, std::string(shape.name) + ".error", std::uint32_t(size * sizeof(double)));
+      channel.state = {static_cast<double*>(block), size};
     }
-    throw Error(quote(c.object_name(object)) + " has no property " + quote(name) +
-                (others.empty() ? "; add the sensor that writes it" : "; it has " + others));
+    if (settings.noise.pointing > 0)
+      channel.incidence = ArrayIn<double>(c.read_any(find_incidence(c, object, found.count)));
+    if (channel.chain.feels_force()) channel.specific_force = find_force(c, object, given);
+    bind(c, object, found, settings, period, channel);
+    channels_.push_back(std::move(channel));
+  }
+
+  void bind(Connector& c, ObjectId object, const FoundProperty& found, const ErrorSettings& settings, double period,
+            Channel& channel) {
+    const KeyInfo& of = *found.key;
+    if (found.multiplicity == Multiplicity::array) {
+      auto& published = std::get<Published<double>>(published_);
+      channel.truths = ArrayIn<double>(c.read_any(found));
+      const Key<double>& key = of.name == keys::ranges.name ? keys::measured_ranges : published.measured(of);
+      channel.measured = c.variable_array(object, key, found.count);
+      published.set_constants(c, object, of, settings, period);
+      return;
+    }
+    const auto bind_value = [&]<class T>(Published<T>& published) {
+      if (!(*of.type == value_type<T>)) return;
+      channel.single_truth = static_cast<const double*>(c.read_any(found));
+      channel.single_measured =
+          static_cast<double*>(static_cast<void*>(c.variable(object, published.measured(of), zero<T>()).get()));
+      published.set_constants(c, object, of, settings, period);
+    };
+    std::apply([&](auto&... each) { (bind_value(each), ...); }, published_);
+  }
+
+  template <class T>
+  static T zero() {
+    if constexpr (std::is_same_v<T, Vec3>)
+      return Vec3::Zero();
+    else
+      return T{};
+  }
+
+  static std::string readings_of(const Part& part) {
+    std::vector<std::string> names;
+    for (const PartSection& s : part.sections) names.push_back(s.reading);
+    return quoted_list(names);
   }
 
   static FoundProperty find_incidence(Connector& c, ObjectId object, std::uint32_t count) {
@@ -124,35 +156,42 @@ class SensorError final : public Algorithm {
     throw Error("pointing needs the angle of incidence of the rays: give the laser `incidence: true`");
   }
 
-  static ErrorModel model_of(const Parameters& p, const Connector& c, ObjectId object) {
-    ErrorModel m{.sigma = p.real("sigma"),
-                 .sigma_relative = p.real("sigma_relative"),
-                 .pointing = p.real("pointing"),
-                 .correlation = p.real("correlation"),
-                 .bias = p.real("bias"),
-                 .resolution = p.real("resolution"),
-                 .dropout = p.real("dropout"),
-                 .dropout_value = p.real("dropout_value")};
-    if (p.text("of") == keys::ranges.name) {
-      m.minimum = c.constant(object, keys::laser_min_range).value_or(m.minimum);
-      m.maximum = m.no_echo_from = c.constant(object, keys::laser_max_range).value_or(m.maximum);
+  /// None where a part has a g-sensitivity, and the object no specific force to feel.
+  static In<Vec3> find_force(Connector& c, ObjectId object, const GivenErrors& given) {
+    constexpr std::string_view name = "linear_acceleration";
+    if (const auto found = find_value<Vec3>(c, object, name)) return In<Vec3>(c.read_any(*found));
+    const std::string missing = quote(c.object_name(object)) + " has no `linear_acceleration` for the g-sensitivity";
+    if (given.in_scenario("g_sensitivity")) throw Error(missing + "; take a sensor.imu, or remove g_sensitivity");
+    c.host().log(LogLevel::info, missing + " of the part, which is left out");
+    return {};
+  }
+
+  static void check_delay(const GivenErrors& given, double delay, const ReadingShape& shape, double period) {
+    constexpr double most = 1e7;
+    if (period > 0 && DelayLine::samples(delay, period) * double(shape.components) > most)
+      given.fail("delay", "a delay of " + std::to_string(delay) +
+                              " s at this rate keeps more than 10 million numbers of " + quote(shape.name) +
+                              "; give it a shorter one");
+  }
+
+  static void set_limits(const Connector& c, ObjectId object, const GivenErrors& given, const ReadingShape& shape,
+                         ErrorSettings& s) {
+    Quantiser& q = s.quantiser;
+    if (shape.name == keys::ranges.name) {
+      q.minimum = c.constant(object, keys::laser_min_range).value_or(q.minimum);
+      q.maximum = s.no_echo_from = c.constant(object, keys::laser_max_range).value_or(q.maximum);
     }
-    if (p.given("minimum")) m.minimum = p.real("minimum");
-    if (p.given("maximum")) m.maximum = p.real("maximum");
-    if (m.minimum > m.maximum)
-      throw Error("minimum (" + std::to_string(m.minimum) + ") is greater than maximum (" + std::to_string(m.maximum) +
-                  ")");
-    return m;
+    if (given.given("minimum")) q.minimum = given.real("minimum");
+    if (given.given("maximum")) q.maximum = given.real("maximum");
+    if (q.minimum > q.maximum)
+      given.fail("minimum", "minimum (" + std::to_string(q.minimum) + ") is greater than maximum (" +
+                                std::to_string(q.maximum) + ")");
   }
 
-  const Key<double>& output_key(const KeyInfo& of) {
-    if (of.name == keys::ranges.name) return keys::measured_ranges;
-    if (!measured_key_) measured_key_ = std::make_unique<MeasuredKey>(of);
-    return measured_key_->key;
-  }
-
-  std::vector<Sensor> sensors_;
-  std::unique_ptr<MeasuredKey> measured_key_;  ///< the property keeps pointing to its texts
+  std::optional<Part> part_;
+  std::vector<std::uint32_t> first_;  ///< of the channels of each item, and their number
+  std::vector<Channel> channels_;
+  std::tuple<Published<double>, Published<Vec3>, Published<Twist>, Published<Wrench>> published_;
 };
 
 constexpr abi::AlgorithmEntry algorithms[] = {algorithm<SensorError>(description)};

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <set>
+
+#include "tests/support/allocation_counter.hpp"
 #include "tests/support/bodies.hpp"
 #include "tests/support/complaint.hpp"
+#include "tests/support/files.hpp"
 
 namespace muro {
 namespace {
@@ -11,10 +15,15 @@ using test::Scene;
 
 constexpr Key<double> battery{"battery.voltage", "V", "of a sensor that is one number"};
 constexpr Key<double> measured_battery{"battery.voltage.measured", "V", ""};
+constexpr Key<Vec3> gyro_key{"angular_velocity", "rad/s", ""}, measured_gyro{"angular_velocity.measured", "rad/s", ""};
+constexpr Key<Vec3> force_key{"linear_acceleration", "m/s^2", ""};
+constexpr Key<Vec3> measured_force{"linear_acceleration.measured", "m/s^2", ""};
+constexpr Key<Wrench> wrench_key{"wrench", "N, N m", ""}, measured_wrench{"wrench.measured", "N, N m", ""};
+const Vec3 true_rate(0.1, 0.2, 0.3), true_force(0, 0, 9.81);
 
 /// Robots that carry a scanner each, whose true reading is the same constant.
 struct Devices : Scene {
-  explicit Devices(const std::vector<std::string>& names, std::uint64_t seed = 1) : Scene(seed) {
+  explicit Devices(const std::vector<std::string>& names, std::uint64_t seed = 1, bool has_force = true) : Scene(seed) {
     for (const std::string& name : names) {
       const RobotView& robot =
           add(name, test::single_body(Shape::sphere(0.1), {.mass = 1, .ixx = 1, .iyy = 1, .izz = 1}));
@@ -23,6 +32,9 @@ struct Devices : Scene {
       world().set(scanner, keys::laser_min_range, 0.02);
       world().set(scanner, keys::laser_max_range, 5.6);
       world().set(scanner, battery, 12.0);
+      world().set(scanner, gyro_key, true_rate);
+      if (has_force) world().set(scanner, force_key, true_force);
+      world().set(scanner, wrench_key, Wrench{{1, 2, 3}, {4, 5, 6}});
       items.push_back({&robot, scanner});
     }
     use("motion.point", 10, all_robots());
@@ -30,6 +42,10 @@ struct Devices : Scene {
   std::vector<double> measured(std::size_t i) {
     const auto found = world().values(items[i].object, keys::measured_ranges);
     return {found.begin(), found.end()};
+  }
+  template <class T>
+  T& value(const Key<T>& key, std::size_t i = 0) {
+    return world().value(items[i].object, key);
   }
   std::vector<double> truth = std::vector<double>(500, 2.0);
   std::vector<Item> items;
@@ -138,6 +154,211 @@ TEST(SensorError, RefusesCorrelationOfASingleNumberAndExchangedLimits) {
   Devices exchanged({"a"});
   exchanged.use("sensor.error", 10, exchanged.items, {{"minimum", 3.0}, {"maximum", 2.0}});
   EXPECT_NE(message_of(exchanged).find("minimum (3.000000) is greater than maximum (2.000000)"), std::string::npos);
+}
+
+using Given = std::map<std::string, ParameterInput>;
+
+/// Every stage that has a memory or draws numbers.
+const Given everything{{"of", std::string("angular_velocity")},
+                       {"bandwidth", 20.0},
+                       {"bandwidth_order", std::int64_t(2)},
+                       {"scale_tolerance", 0.03},
+                       {"cross_axis_tolerance", 0.02},
+                       {"g_sensitivity", 0.01},
+                       {"turn_on_bias_tolerance", 0.3},
+                       {"random_walk", 0.01},
+                       {"gauss_markov_density", 0.1},
+                       {"gauss_markov_time", 3.0},
+                       {"bias_instability", 0.02},
+                       {"flicker_to", 100.0},
+                       {"noise_density", 0.001},
+                       {"full_scale", 4.0},
+                       {"bits", std::int64_t(16)},
+                       {"delay", 0.024},
+                       {"dropout", 0.2},
+                       {"dropout_reads", std::string("hold")}};
+
+TEST(SensorError, WorksOnVectorsAndWrenches) {
+  Devices s({"a"});
+  s.use("sensor.error", 10, s.items,
+        {{"of", std::string("angular_velocity")}, {"bias", std::vector<double>{1, 2, 3}}, {"scale", 1.0}});
+  s.use("sensor.error", 10, s.items, {{"of", std::string("wrench")}, {"bias", 0.5}});
+  s.build();
+  s.run_for(0.05);
+  EXPECT_TRUE(s.value(measured_gyro).isApprox(Vec3(1.2, 2.4, 3.6), 1e-14));
+  EXPECT_EQ(s.value(measured_wrench).force, Vec3(1.5, 2.5, 3.5));
+  EXPECT_EQ(s.value(measured_wrench).torque, Vec3(4.5, 5.5, 6.5));
+  EXPECT_EQ(s.value(gyro_key), true_rate) << "the truth stays readable";
+}
+
+TEST(SensorError, RepeatsAllStagesAfterARestoreAndAReset) {
+  Devices s({"a"});
+  s.use("sensor.error", 100, s.items, everything);
+  s.build();
+  s.run_for(0.005);
+  const Vec3 begin = s.value(measured_gyro);
+  s.run_for(0.5);
+  const Snapshot middle = s.snapshot();
+  s.run_for(0.5);
+  const Vec3 end = s.value(measured_gyro);
+  const std::uint64_t hash = s.state_hash();
+  s.restore(middle);
+  EXPECT_NE(s.state_hash(), hash);
+  s.run_for(0.5);
+  EXPECT_EQ(s.value(measured_gyro), end);
+  EXPECT_EQ(s.state_hash(), hash);
+  s.reset();
+  s.run_for(0.005);
+  EXPECT_EQ(s.value(measured_gyro), begin);
+  s.run_for(1);
+  EXPECT_EQ(s.value(measured_gyro), end);
+  EXPECT_EQ(s.state_hash(), hash);
+}
+
+TEST(SensorError, DependsOnTheSeedFromTheFirstReadingOn) {
+  Devices a({"a"}, 1), again({"a"}, 1), other({"a"}, 2);
+  for (Devices* s : {&a, &again, &other}) {
+    s->use("sensor.error", 100, s->items, {{"of", std::string("angular_velocity")}, {"turn_on_bias_tolerance", 0.3}});
+    s->build();
+    s->run_for(0.005);
+  }
+  EXPECT_EQ(a.value(measured_gyro), again.value(measured_gyro));
+  EXPECT_NE(a.value(measured_gyro), other.value(measured_gyro));
+}
+
+TEST(SensorError, HasTheSameBitsOnAnyNumberOfThreads) {
+  std::vector<std::string> names;
+  for (int i = 0; i < 40; ++i) names.push_back("r" + std::to_string(i));
+  std::set<std::uint64_t> hashes;
+  for (const unsigned threads : {1u, 2u, 4u}) {
+    Devices s(names);
+    s.use("sensor.error", 100, s.items, everything);
+    s.use("sensor.error", 100, s.items, {{"sigma", 0.03}, {"correlation", 0.5}, {"delay", 0.02}});
+    s.build();
+    s.set_threads(threads);
+    s.run_for(0.3);
+    hashes.insert(s.state_hash());
+  }
+  EXPECT_EQ(hashes.size(), 1U);
+}
+
+TEST(SensorError, DoesNotAllocateInAStep) {
+  Devices s({"a", "b"});
+  s.use("sensor.error", 100, s.items, everything);
+  s.use("sensor.error", 100, s.items, {{"sigma", 0.03}, {"correlation", 0.5}, {"delay", 0.02}, {"random_walk", 0.1}});
+  s.build();
+  s.run_for(0.1);
+  const std::uint64_t before = test::allocations();
+  s.run_for(1);
+  EXPECT_EQ(test::allocations(), before);
+}
+
+TEST(SensorError, HoldsALateReadingAtTheStart) {
+  Devices s({"a"});
+  s.use("sensor.error", 100, s.items, {{"of", std::string("angular_velocity")}, {"delay", 0.03}});
+  s.build();
+  s.run_for(0.005);
+  EXPECT_EQ(s.value(measured_gyro), true_rate);
+}
+
+// --- parts
+
+TEST(SensorError, ServesAllReadingsThatAPartKnows) {
+  Devices s({"a"});
+  s.use("sensor.error", 200, s.items, {{"part", std::string("mpu6050")}});
+  s.build();
+  s.run_for(0.002);
+  const double lsb = 250 * M_PI / 180 / 32768, lsb_force = 2 * 9.80665 / 32768;
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_NEAR(s.value(measured_gyro)[i] / lsb, std::round(s.value(measured_gyro)[i] / lsb), 0.01);
+    EXPECT_NE(s.value(measured_gyro)[i], true_rate[i]);
+    EXPECT_NEAR(s.value(measured_force)[i] / lsb_force, std::round(s.value(measured_force)[i] / lsb_force), 1e-6);
+    EXPECT_NE(s.value(measured_force)[i], true_force[i]);
+  }
+}
+
+TEST(SensorError, LetsTheScenarioBeatThePart) {
+  Devices s({"a"});
+  Given quiet{{"part", std::string("mpu6050")}, {"of", std::string("angular_velocity")}, {"bias", 0.5}};
+  for (const char* name : {"noise_density", "turn_on_bias_tolerance", "scale_tolerance", "cross_axis_tolerance",
+                           "g_sensitivity", "resolution"})
+    quiet[name] = 0.0;
+  s.use("sensor.error", 200, s.items, quiet);
+  s.build();
+  s.run_for(0.002);
+  EXPECT_TRUE(s.value(measured_gyro).isApprox(true_rate + Vec3::Constant(0.5), 1e-14));
+  EXPECT_EQ(s.world().store().find(s.items[0].object, "linear_acceleration.measured"), nullptr) << "`of` chose";
+}
+
+TEST(SensorError, LeavesOutTheGSensitivityOfAPartWithoutAForce) {
+  Devices s({"a"}, 1, false);
+  s.use("sensor.error", 200, s.items, {{"part", std::string("mpu6050")}});
+  s.build();
+  s.run_for(0.002);
+  EXPECT_NE(s.value(measured_gyro), true_rate);
+
+  Devices given({"a"}, 1, false);
+  given.use("sensor.error", 200, given.items, {{"of", std::string("angular_velocity")}, {"g_sensitivity", 0.1}});
+  EXPECT_SAYS(message_of(given), "no `linear_acceleration` for the g-sensitivity");
+}
+
+TEST(SensorError, AddsTheSpecificForceOfItsObject) {
+  Devices s({"a"});
+  s.use("sensor.error", 200, s.items, {{"of", std::string("angular_velocity")}, {"g_sensitivity", 0.01}});
+  s.build();
+  s.run_for(0.002);
+  EXPECT_TRUE(s.value(measured_gyro).isApprox(Vec3(0.1, 0.2, 0.3981), 1e-14));
+}
+
+TEST(SensorError, ReadsAPartOfTheUser) {
+  const test::ScratchFolder folder;
+  const std::string file = folder.file("mine.yaml", "gyro:\n  reading: angular_velocity\n  bias: [1, 2, 3]\n");
+  Devices s({"a"});
+  s.use("sensor.error", 200, s.items, {{"part", file}});
+  s.build();
+  s.run_for(0.002);
+  EXPECT_EQ(s.value(measured_gyro), Vec3(1.1, 2.2, 3.3));
+
+  folder.file("mine.yaml", "gyro:\n  reading: angular_velocity\n  bias: [1, 2]\n");
+  Devices wrong({"a"});
+  wrong.use("sensor.error", 200, wrong.items, {{"part", file}});
+  EXPECT_SAYS(message_of(wrong), file +
+                                     ":3:9: bias has 2 numbers, but `angular_velocity` has 3 components; give one "
+                                     "number or 3");
+}
+
+TEST(SensorError, TellsOfPartsThatDoNotFit) {
+  const auto said = [](const Given& parameters) {
+    Devices s({"a"});
+    s.use("sensor.error", 200, s.items, parameters);
+    return message_of(s);
+  };
+  EXPECT_SAYS(said({{"part", std::string("mpu6000")}}),
+              "there is no part `mpu6000` (did you mean `mpu6050`?); there "
+              "are `adis16448`, `as5045`, `mpu6050`, `mti1`, and a file");
+  EXPECT_SAYS(said({{"part", std::string("as5045")}}),
+              "has none of the readings of the part (`encoder.position`); it has");
+  EXPECT_SAYS(said({{"part", std::string("mti1")}, {"of", std::string("wrench")}}),
+              "has no errors of `wrench`; it has those of `angular_velocity`, `linear_acceleration`");
+}
+
+TEST(SensorError, TellsOfErrorsThatDoNotFitTheReading) {
+  const auto said = [](const char* of, const Given& more, double rate = 100) {
+    Devices s({"a"});
+    Given parameters = more;
+    parameters["of"] = std::string(of);
+    s.use("sensor.error", rate, s.items, parameters);
+    return message_of(s);
+  };
+  EXPECT_SAYS(said("wrench", {{"g_sensitivity", 1.0}}), "g_sensitivity is of a vector, but `wrench` is a value of 6");
+  EXPECT_SAYS(said("ranges", {{"bias", std::vector<double>{1, 2, 3}}}), "bias has 3 numbers, but `ranges` is an array");
+  EXPECT_SAYS(said("angular_velocity", {{"misalignment", 0.1}}), "misalignment has 1 number but must have six");
+  EXPECT_SAYS(said("angular_velocity", {{"gauss_markov_sigma", 0.1}}), "gauss_markov_sigma needs the correlation time");
+  EXPECT_SAYS(said("angular_velocity", {{"gauss_markov_sigma", 0.1}, {"gauss_markov_density", 0.1}}),
+              "gauss_markov_sigma and gauss_markov_density say the same in two ways");
+  EXPECT_SAYS(said("angular_velocity", {{"bits", std::int64_t(12)}}), "give full_scale too");
+  EXPECT_SAYS(said("angular_velocity", {{"flicker_from", 5.0}, {"flicker_to", 1.0}}), "is greater than flicker_to");
+  EXPECT_SAYS(said("angular_velocity", {{"delay", 1e5}}, 1000), "keeps more than 10 million numbers");
 }
 
 }  // namespace

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+
+#include "muro/toolkit/random.hpp"
+#include "per_component.hpp"
+
+namespace muro {
+
+/// Readings that are lost, each with the same probability and independently. In an array, such as a scan, every element
+/// is lost by itself; the components of one value (Vec3, Twist, Wrench) are lost together, as one message. A lost
+/// reading is `value`, or the one before it that was not lost.
+class Dropouts {
+ public:
+  struct Settings {
+    double probability = 0;  ///< 0 .. 1
+    double value = 0;        ///< unit of the reading
+    bool hold = false;       ///< the reading before stays
+    bool together = false;   ///< all components are lost at once
+  };
+
+  Dropouts() = default;
+  Dropouts(const Settings& settings, std::size_t components, StateLayout& layout) : settings_(settings) {
+    if (is_active() && settings.hold) state_ = layout.reserve(components);
+  }
+
+  bool is_active() const { return settings_.probability > 0; }
+
+  void apply(std::span<double> values, std::span<double> state, const Random& random, bool first) const {
+    if (!is_active()) return;
+    const bool all_lost = settings_.together && random.uniform(0) < settings_.probability;
+    for (std::uint32_t i = 0; i < values.size(); ++i) {
+      const bool lost = settings_.together ? all_lost : random.uniform(i) < settings_.probability;
+      if (!settings_.hold) {
+        if (lost) values[i] = settings_.value;
+        continue;
+      }
+      double& last = state[state_ + i];
+      if (lost && !first)
+        values[i] = last;
+      else
+        last = values[i];
+    }
+  }
+
+ private:
+  Settings settings_;
+  std::size_t state_ = 0;
+};
+
+}  // namespace muro

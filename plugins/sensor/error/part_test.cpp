@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+// Files of parts: the devices that come with the plugin against their data sheets, and what is said of mistakes.
+#include "part.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "muro/algorithm.hpp"
+#include "parameters.hpp"
+#include "tests/support/complaint.hpp"
+
+namespace muro {
+namespace {
+
+constexpr double degree = M_PI / 180, g = 9.80665;
+
+/// A section of a part that comes with the plugin.
+struct Sheet {
+  Part part;
+  const PartSection* section;
+  std::size_t checked = 0;
+
+  Sheet(const char* name, const char* reading)
+      : part(read_part(std::string(PARTS "/") + name + ".yaml", error_parameters)), section(part.section_of(reading)) {}
+  /// A value agrees with that of the data sheet to the digits that the file has.
+  void expect(const char* name, const std::vector<double>& expected) {
+    const auto found = section->values.find(name);
+    ASSERT_NE(found, section->values.end()) << name;
+    ASSERT_EQ(found->second.numbers.size(), expected.size()) << name;
+    for (std::size_t i = 0; i < expected.size(); ++i)
+      EXPECT_NEAR(found->second.numbers[i], expected[i], 1e-4 * expected[i]) << name;
+    ++checked;
+  }
+  /// Nothing else is in the file.
+  ~Sheet() { EXPECT_EQ(checked, section->values.size()) << part.file << ", " << section->name; }
+};
+
+TEST(Part, MPU6050HasTheValuesOfItsDataSheet) {
+  Sheet gyro("mpu6050", "angular_velocity");
+  gyro.expect("bandwidth", {256});
+  gyro.expect("scale_tolerance", {0.03});
+  gyro.expect("cross_axis_tolerance", {0.02});
+  gyro.expect("g_sensitivity", {0.1 * degree / g});
+  gyro.expect("turn_on_bias_tolerance", {20 * degree});
+  gyro.expect("noise_density", {0.005 * degree});
+  gyro.expect("full_scale", {250 * degree});
+  gyro.expect("bits", {16});
+  const double lsb = std::ldexp(250, 1 - 16);  // deg/s
+  EXPECT_NEAR(1 / lsb, 131, 0.1);
+  EXPECT_NEAR(0.005 * std::sqrt(100), 0.05, 1e-12) << "deg/s, total noise of the sheet at 100 Hz";
+
+  Sheet accelerometer("mpu6050", "linear_acceleration");
+  accelerometer.expect("bandwidth", {260});
+  accelerometer.expect("scale_tolerance", {0.03});
+  accelerometer.expect("cross_axis_tolerance", {0.02});
+  accelerometer.expect("turn_on_bias_tolerance", {0.05 * g, 0.05 * g, 0.08 * g});
+  accelerometer.expect("noise_density", {400e-6 * g});
+  accelerometer.expect("full_scale", {2 * g});
+  accelerometer.expect("bits", {16});
+  EXPECT_EQ(1 / std::ldexp(2, 1 - 16), 16384) << "LSB/g of the sheet";
+}
+
+TEST(Part, ADIS16448HasTheValuesOfItsDataSheet) {
+  Sheet gyro("adis16448", "angular_velocity"), accelerometer("adis16448", "linear_acceleration");
+  gyro.expect("noise_density", {0.0135 * degree});
+  accelerometer.expect("noise_density", {0.23e-3 * g});
+}
+
+TEST(Part, MTi1HasTheValuesOfItsDataSheet) {
+  Sheet gyro("mti1", "angular_velocity");
+  gyro.expect("bandwidth", {255});
+  gyro.expect("bias_instability", {10 * degree / 3600});
+  gyro.expect("noise_density", {0.007 * degree});
+  gyro.expect("full_scale", {2000 * degree});
+  Sheet accelerometer("mti1", "linear_acceleration");
+  accelerometer.expect("bandwidth", {324, 324, 262});
+  accelerometer.expect("bias_instability", {0.03e-3 * g});
+  accelerometer.expect("noise_density", {120e-6 * g});
+  accelerometer.expect("full_scale", {16 * g});
+}
+
+TEST(Part, AS5045Has4096StepsATurn) {
+  Sheet encoder("as5045", "encoder.position");
+  encoder.expect("resolution", {2 * M_PI / 4096});
+  EXPECT_EQ(encoder.section->values.at("resolution").numbers[0], 2 * M_PI / 4096) << "to the bit";
+}
+
+TEST(Part, NamesTheSourceOfEveryValue) {
+  int values = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(PARTS)) {
+    std::ifstream file(entry.path());
+    bool has_source = false;
+    for (std::string line; std::getline(file, line);) {
+      has_source = has_source || line.rfind("# Source: ", 0) == 0;
+      if (line.rfind("  ", 0) != 0 || line.find("reading:") != std::string::npos) continue;
+      EXPECT_NE(line.find(" # "), std::string::npos) << entry.path() << ": " << line;
+      ++values;
+    }
+    EXPECT_TRUE(has_source) << entry.path();
+  }
+  EXPECT_GE(values, 26);
+}
+
+// --- mistakes
+
+std::string complaint(const std::string& text) {
+  return test::complaint_of<Error>([&] { parse_part("my.yaml", text, error_parameters); });
+}
+
+TEST(Part, IsReadInAllItsForms) {
+  const Part part = parse_part("my.yaml",
+                               "# a device\r\n\r\ngyro:   # of it\r\n    reading: angular_velocity\r\n"
+                               "    bias: [ 1, -2.5e-3 ,3 ]  # three\r\n    bits: 12\r\n    full_scale: 10\r\n"
+                               "    dropout_reads: hold",
+                               error_parameters);
+  ASSERT_EQ(part.sections.size(), 1U);
+  const PartSection& gyro = part.sections[0];
+  EXPECT_EQ(gyro.name, "gyro");
+  EXPECT_EQ(gyro.reading, "angular_velocity");
+  EXPECT_EQ(gyro.values.at("bias").numbers, (std::vector<double>{1, -2.5e-3, 3}));
+  EXPECT_EQ(gyro.values.at("bits").numbers, (std::vector<double>{12}));
+  EXPECT_EQ(gyro.values.at("dropout_reads").word, "hold");
+  EXPECT_EQ(gyro.values.at("bias").line, 5);
+  EXPECT_EQ(gyro.values.at("bias").column, 11);
+}
+
+TEST(Part, TellsWhereAMistakeIs) {
+  const std::string gyro = "gyro:\n  reading: angular_velocity\n";
+  EXPECT_EQ(complaint(gyro + "  noise_densty: 1\n"),
+            "my.yaml:3:3: there is no error `noise_densty` (did you mean `noise_density`?); `muro plugins info "
+            "sensor.error` names all");
+  EXPECT_EQ(complaint(gyro + "  noise_density: 1,5\n"), "my.yaml:3:18: `1,5` is no number");
+  EXPECT_EQ(complaint(gyro + "  bias: [1, x]\n"), "my.yaml:3:13: `x` is no number");
+  EXPECT_EQ(complaint(gyro + "  noise_density: -1\n"), "my.yaml:3:18: `noise_density` must be numbers from 0 to 1e+09");
+  EXPECT_EQ(complaint(gyro + "  noise_density: nan\n"),
+            "my.yaml:3:18: `noise_density` must be numbers from 0 to 1e+09");
+  EXPECT_EQ(complaint(gyro + "  bits: 1.5\n"), "my.yaml:3:9: `bits` must be a whole number from 0 to 48");
+  EXPECT_EQ(complaint(gyro + "  delay: [1, 2]\n"), "my.yaml:3:10: `delay` must be a number from 0 to 1e+06");
+  EXPECT_EQ(complaint(gyro + "  dropout_reads: last\n"),
+            "my.yaml:3:18: `dropout_reads` must be one of `value`, `hold`");
+  EXPECT_EQ(complaint(gyro + "  bias: 1\n  bias: 2\n"), "my.yaml:4:3: `bias` is given twice");
+  EXPECT_EQ(complaint(gyro + "  bias:\n"), "my.yaml:3:8: `bias` has no value");
+  EXPECT_EQ(complaint(gyro + "  bias: [1, 2\n"), "my.yaml:3:14: `]` is missing: a list of numbers stands in one line");
+  EXPECT_SAYS(complaint(gyro + "    bias: 1\n"), "my.yaml:3:5: `bias` is indented in another way");
+  EXPECT_SAYS(complaint(gyro + "\tbias: 1\n"), "my.yaml:3:1: a tab");
+  EXPECT_SAYS(complaint(gyro + "  bias 1\n"), "my.yaml:3:3: `bias 1` is neither");
+  EXPECT_SAYS(complaint(gyro + "gyro:\n"), "my.yaml:3:1: section `gyro` is there already, in line 1");
+  EXPECT_SAYS(complaint(gyro + "other: 1\n"), "my.yaml:3:8: `1` follows the name of a section");
+  EXPECT_SAYS(complaint("gyro:\n  bias: 1\n"), "my.yaml:1:1: section `gyro` has no `reading`");
+  EXPECT_SAYS(complaint("bias: \n"), "has no `reading`");
+  EXPECT_SAYS(complaint("  bias: 1\n"), "my.yaml:1:3: `bias` stands before the first section");
+  EXPECT_SAYS(complaint("# nothing\n"), "there is no section");
+  EXPECT_SAYS(complaint(gyro + "more:\n  reading: angular_velocity\n"),
+              "my.yaml:3:1: sections `gyro` and `more` are both of `angular_velocity`");
+}
+
+TEST(Part, ThatCannotBeReadIsNamed) {
+  const auto read = [](const char* file) {
+    return test::complaint_of<Error>([&] { read_part(file, error_parameters); });
+  };
+  EXPECT_EQ(read("/nowhere/my.yaml"), "part /nowhere/my.yaml cannot be read: No such file or directory");
+  EXPECT_SAYS(read("/tmp"), "part /tmp cannot be read: Is a directory");
+}
+
+}  // namespace
+}  // namespace muro

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include "readings.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "muro/algorithm.hpp"
+#include "muro/toolkit/did_you_mean.hpp"
+#include "muro/vocabulary.hpp"
+#include "plugins/common/child_process/own_folder.hpp"
+#include "plugins/common/text/quote.hpp"
+
+namespace muro {
+
+namespace {
+
+template <class... Types>
+bool is_one_of(const ValueType& type) {
+  return ((type == value_type<Types>) || ...);
+}
+
+std::vector<std::string> names_of_readings(const Connector& c, ObjectId object) {
+  std::vector<std::string> names;
+  for (const FoundProperty& p : c.properties(object))
+    if (is_reading(p)) names.emplace_back(p.key->name);
+  return names;
+}
+
+/// "; it has a, b", or what to do where it has nothing.
+std::string what_there_is(const Connector& c, ObjectId object) {
+  const std::vector<std::string> names = names_of_readings(c, object);
+  return names.empty() ? "; add the sensor that writes it" : "; it has " + quoted_list(names);
+}
+
+}  // namespace
+
+bool is_reading(const FoundProperty& p) {
+  if (p.multiplicity == Multiplicity::list || p.is_sum || p.count == 0) return false;
+  if (p.multiplicity == Multiplicity::array) return *p.key->type == value_type<double>;
+  return is_one_of<double, Vec3, Twist, Wrench>(*p.key->type);
+}
+
+ReadingShape shape_of(const FoundProperty& p) {
+  const bool is_array = p.multiplicity == Multiplicity::array;
+  return {.name = p.key->name,
+          .components = is_array ? p.count : p.key->type->scalars(),
+          .is_array = is_array,
+          .is_vector = !is_array && *p.key->type == value_type<Vec3>};
+}
+
+FoundProperty find_reading(const Connector& c, ObjectId object, std::string_view name) {
+  for (const FoundProperty& p : c.properties(object)) {
+    if (p.key->name != name) continue;
+    if (is_reading(p)) return p;
+    throw Error(quote(name) + " of " + quote(c.object_name(object)) + " is not made of real numbers (f64) but of " +
+                std::string(p.key->type->name) +
+                (p.multiplicity == Multiplicity::list    ? ", in a list"
+                 : p.multiplicity == Multiplicity::array ? ", in an array"
+                                                         : "") +
+                "; sensor.error works on numbers and arrays of f64, Vec3, Twist and Wrench");
+  }
+  throw Error(quote(c.object_name(object)) + " has no property " + quote(name) + what_there_is(c, object));
+}
+
+std::vector<FoundProperty> readings_of_part(const Connector& c, ObjectId object, const Part& part) {
+  std::vector<FoundProperty> found;
+  std::vector<std::string> known;
+  for (const PartSection& s : part.sections) {
+    known.push_back(s.reading);
+    for (const FoundProperty& p : c.properties(object))
+      if (p.key->name == s.reading && is_reading(p)) {
+        found.push_back(p);
+        break;
+      }
+  }
+  if (found.empty())
+    throw Error(quote(c.object_name(object)) + " has none of the readings of the part (" + quoted_list(known) + ")" +
+                what_there_is(c, object));
+  return found;
+}
+
+std::string file_of_part(const Connector& c, std::string_view part) {
+  namespace fs = std::filesystem;
+  const bool is_path = part.find('/') != std::string_view::npos || part.find('.') != std::string_view::npos;
+  if (is_path) return std::string(c.resolve_path(part));
+  std::error_code code;
+  const fs::path folder = fs::path(own_folder()) / "parts";
+  std::vector<std::string> names;
+  for (fs::directory_iterator entry(folder, code), end; !code && entry != end; entry.increment(code))
+    if (entry->path().extension() == ".yaml") names.push_back(entry->path().stem().string());
+  std::sort(names.begin(), names.end());
+  if (std::find(names.begin(), names.end(), part) != names.end())
+    return (folder / (std::string(part) + ".yaml")).string();
+  throw Error("there is no part " + quote(part) + did_you_mean(part, names) + "; there are " + quoted_list(names) +
+              ", and a file of your own is named by its path, such as ./" + std::string(part) + ".yaml");
+}
+
+}  // namespace muro

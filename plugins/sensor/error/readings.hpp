@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "muro/connector.hpp"
+#include "part.hpp"
+#include "settings.hpp"
+
+namespace muro {
+
+/// Whether sensor.error works on a property: f64 numbers, alone, in an array or in a value without an orientation.
+bool is_reading(const FoundProperty& property);
+ReadingShape shape_of(const FoundProperty& property);
+
+/// The reading of this name; throws muro::Error where it is missing or is not made of real numbers. [setup]
+FoundProperty find_reading(const Connector& c, ObjectId object, std::string_view name);
+/// The readings of an object that a part knows; throws muro::Error where there are none. [setup]
+std::vector<FoundProperty> readings_of_part(const Connector& c, ObjectId object, const Part& part);
+/// The property of another name and of type T, if the object has it. [setup]
+template <class T>
+std::optional<FoundProperty> find_value(const Connector& c, ObjectId object, std::string_view name) {
+  for (const FoundProperty& p : c.properties(object))
+    if (p.key->name == name && p.multiplicity == Multiplicity::single && *p.key->type == value_type<T>) return p;
+  return std::nullopt;
+}
+/// The file of a part by its name, or the path in a scenario. Throws muro::Error where there is none. [setup]
+std::string file_of_part(const Connector& c, std::string_view part);
+
+}  // namespace muro

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "error_chain.hpp"
+#include "muro/parameter.hpp"
+#include "part.hpp"
+
+namespace muro {
+
+/// What kind of reading the errors are of.
+struct ReadingShape {
+  std::string_view name;       ///< of the property
+  std::size_t components = 1;  ///< numbers in it
+  bool is_array = false;       ///< neighbours of one kind, such as the rays of a scan
+  bool is_vector = false;      ///< Vec3
+};
+
+/// The settings of one reading: those of the scenario, else those of a part, else none.
+class GivenErrors {
+ public:
+  /// `section` of `part`: both null where there is no part.
+  GivenErrors(const Parameters& scenario, const Part* part, const PartSection* section)
+      : scenario_(scenario), part_(part), section_(section) {}
+
+  bool given(std::string_view name) const { return scenario_.given(name) || in_part(name); }
+  bool in_scenario(std::string_view name) const { return scenario_.given(name); }
+  double real(std::string_view name) const;
+  int integer(std::string_view name) const { return int(real(name)); }
+  std::string_view text(std::string_view name) const;
+  std::span<const double> numbers(std::string_view name) const;
+  /// Throws muro::Error about a value, with its place where that is in the file of a part.
+  [[noreturn]] void fail(std::string_view name, const std::string& what) const;
+
+ private:
+  const PartValue* in_part(std::string_view name) const;
+  const Parameters& scenario_;
+  const Part* part_;
+  const PartSection* section_;
+};
+
+/// The settings of a chain; throws muro::Error where they contradict each other or do not fit the reading.
+ErrorSettings settings_of(const GivenErrors& given, const ReadingShape& reading);
+
+}  // namespace muro
