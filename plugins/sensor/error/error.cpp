@@ -121,9 +121,10 @@ class SensorError final : public Algorithm {
     if (found.multiplicity == Multiplicity::array) {
       auto& published = std::get<Published<double>>(published_);
       channel.truths = ArrayIn<double>(c.read_any(found));
-      const Key<double>& key = of.name == keys::ranges.name ? keys::measured_ranges : published.measured(of);
-      channel.measured = c.variable_array(object, key, found.count);
-      published.set_constants(c, object, of, settings, period);
+      const bool is_scan = of.name == keys::ranges.name;
+      channel.measured =
+          c.variable_array(object, is_scan ? keys::measured_ranges : published.measured(of), found.count);
+      if (!is_scan) published.set_constants(c, object, of, settings, period);
       return;
     }
     const auto bind_value = [&]<class T>(Published<T>& published) {
