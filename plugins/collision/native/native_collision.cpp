@@ -42,7 +42,8 @@ int points_of(const KernelShape& shape, const double* signature, SignatureCursor
 struct NativeCollision::Batch {
   GroundBatch ground;
   std::uint32_t robots[batch_size];
-  unsigned merged = 0;  ///< a bit for each that touches more than the ground
+  Contact* found[batch_size];  ///< what the kernel writes of each
+  unsigned merged = 0;         ///< a bit for each that touches more than the ground
 };
 
 void NativeCollision::connect(Connector& c) {
@@ -127,11 +128,13 @@ void NativeCollision::group_robots() {
 /// And capacity of the lists for all contacts that kernels may write.
 void NativeCollision::allocate_signatures() {
   std::size_t all = 0;
+  most_ground_points_ = 0;
   for (std::uint32_t r = 0; r < robots_.size(); ++r) {
     if (!robots_[r].list) continue;
     ground_robots_[r].words = signature_size(r);
     all += ground_robots_[r].words;
     const std::size_t most = max_ground_points * index_->robots[r].count * grounds_.size();
+    most_ground_points_ = std::max(most_ground_points_, most);
     for (std::size_t i = 0; i < most; ++i) robots_[r].list.push_back({});
     robots_[r].list.clear();
   }
@@ -191,6 +194,8 @@ void NativeCollision::collide_meshes(const TransformedCollider& a, const Transfo
 }
 
 void NativeCollision::list_contacts(Range robots) {
+  thread_local std::vector<Contact> scratch;  // for lists that have more than the kernel finds
+  if (scratch.size() < batch_size * most_ground_points_) scratch.resize(batch_size * most_ground_points_);
   Batch batch;
   GroundBatch& ground = batch.ground;
   ground.contact_stride = sizeof(Contact) / sizeof(double);
@@ -208,9 +213,11 @@ void NativeCollision::list_contacts(Range robots) {
       const int i = ground.used++;
       batch.robots[i] = r;
       // the kernel goes through the grounds of an object one by one, lists through the shapes of a link
-      batch.merged |= unsigned(has_grounds_of_one_object_ || !touches_only_ground(r)) << i;
+      const bool is_merged = has_grounds_of_one_object_ || !touches_only_ground(r);
+      batch.merged |= unsigned(is_merged) << i;
       ground.poses[i] = ground_robots_[r].poses;
-      ground.contacts[i] = (*robots_[r].list).data()->point.data();
+      batch.found[i] = is_merged ? scratch.data() + std::size_t(i) * most_ground_points_ : (*robots_[r].list).data();
+      ground.contacts[i] = batch.found[i]->point.data();
       ground.signatures[i] = ground_robots_[r].signature;
       if (ground.used == batch_size) find_ground_contacts(batch);
     }
@@ -240,7 +247,7 @@ void NativeCollision::find_ground_contacts(Batch& batch) {
   for (unsigned changed = found & ~merged & ((1U << batch_size) - 1); changed != 0; changed &= changed - 1)
     list_ground_contacts(batch.robots[std::countr_zero(changed)]);
   for (unsigned rest = merged; rest != 0; rest &= rest - 1)
-    list_merged(batch.robots[std::countr_zero(rest)], left.data(), rest & -rest);
+    list_merged(batch.robots[std::countr_zero(rest)], batch.found[std::countr_zero(rest)], left.data(), rest & -rest);
   batch.ground.used = 0;
   batch.merged = 0;
 }
@@ -279,25 +286,24 @@ void NativeCollision::list_ground_contacts(std::uint32_t robot) const {
 }
 
 /// Makes the list of a robot from what the kernel has found, but for slots with its bit in `left`, and from the rest
-/// pair by pair.
-void NativeCollision::list_merged(std::uint32_t robot, const std::uint8_t* left, unsigned bit) {
+/// pair by pair. `found`: what the kernel has written.
+void NativeCollision::list_merged(std::uint32_t robot, Contact* found, const std::uint8_t* left, unsigned bit) {
   Candidates& candidates = this->candidates(robot);
-  candidates.listed.clear();
-  candidates.found.clear();
-  const Contact* next = (*robots_[robot].list).data();
+  const bool is_in_list = found == (*robots_[robot].list).data();
   each_slot(robot, [&](std::uint32_t own, std::size_t ground, std::size_t points) {
     const TransformedCollider& other = scenery_[ground_colliders_[ground]];
     if (*left++ & bit) {
       collide_left(transformed_collider(own), other, candidates);
-    } else {
-      for (std::size_t n = 0; n < points; ++n) {
-        const ContactPoint point{
-            next[n].point, grounds_[ground].terrain ? next[n].normal : Vec3(Vec3::Map(grounds_[ground].plane.normal)),
-            next[n].depth};
-        add_found(own, other.number, {&point, 1}, candidates);
-      }
+      found += points;
+      return;
     }
-    next += points;
+    for (std::size_t n = 0; n < points; ++n, ++found) {
+      if (!grounds_[ground].terrain) found->normal = Vec3::Map(grounds_[ground].plane.normal);
+      if (is_in_list)
+        add_found(own, other.number, {{{found->point, found->normal, found->depth}}}, candidates);
+      else
+        add_found(own, other.number, found->point.data(), candidates);
+    }
   });
   add_other_scenery(robot, candidates);
   list_found(robot, candidates);

@@ -45,7 +45,7 @@ class NativeCollision final : public PairCollision {
   bool touches_only_ground(std::uint32_t robot);
   void find_ground_contacts(Batch& batch);
   void list_ground_contacts(std::uint32_t robot) const;
-  void list_merged(std::uint32_t robot, const std::uint8_t* left, unsigned bit);
+  void list_merged(std::uint32_t robot, Contact* found, const std::uint8_t* left, unsigned bit);
   template <class Visit>
   void each_slot(std::uint32_t robot, Visit visit) const;
   void collide_left(const TransformedCollider& own, const TransformedCollider& ground, Candidates& candidates);
@@ -62,6 +62,7 @@ class NativeCollision final : public PairCollision {
   std::vector<RobotGroup<std::vector<KernelShape>>> groups_;  ///< of robots that have a list
   std::vector<KernelShape> shapes_;                           ///< by collider
   std::vector<double> signatures_;
+  std::size_t most_ground_points_ = 0;  ///< that a kernel may find for a robot
 };
 
 }  // namespace muro::native

@@ -12,14 +12,19 @@ namespace muro::contact_geometry {
 /// tested with tight bounds before it is used, so results do not depend on it.
 class OverlapCache {
  public:
+  /// Of a robot with another.
+  struct Overlap {
+    std::uint32_t robot, pair;  ///< the other; number of the pair, the same for both, below pair_numbers()
+  };
   struct Overlaps {
     std::vector<std::uint32_t> scenery;  ///< colliders, by rising number
-    std::vector<std::uint32_t> robots;
+    std::vector<Overlap> robots;
     bool scenery_is_stale = true;  ///< `scenery` is that of an earlier fat AABB
   };
 
-  /// Empties the cache. `scenery[k]`: the bounds of collider k, for all colliders of the scenery.
-  void start(const SceneIndex& scene, std::vector<Aabb> scenery);
+  /// Empties the cache. `scenery[k]`: the bounds of collider k, for all colliders of the scenery. `unbounded`: by
+  /// robot, not 0 for those that overlap every other.
+  void start(const SceneIndex& scene, std::vector<Aabb> scenery, std::vector<std::uint8_t> unbounded);
   /// To be called in each step: finds the pairs of robots whose fat AABB has changed.
   void update(const SceneIndex& scene);
   /// With `scenery` up to date. Several threads may ask at the same time, each for other robots.
@@ -28,9 +33,11 @@ class OverlapCache {
     if (overlaps.scenery_is_stale) find_scenery(overlaps, scene.robots[robot].fat_aabb, scene.scenery);
     return overlaps;
   }
-  const std::vector<std::uint32_t>& robots_of(std::uint32_t robot) const { return of_[robot].robots; }
+  const std::vector<Overlap>& robots_of(std::uint32_t robot) const { return of_[robot].robots; }
   /// Whether any two robots overlap.
-  bool any_robots() const { return pairs_ > 0; }
+  bool any_robots() const { return numbers_ > free_.size(); }
+  /// A pair has its number as long as it overlaps; then another may have it.
+  std::uint32_t pair_numbers() const { return numbers_; }
 
  private:
   void find_scenery(Overlaps& overlaps, const Aabb& fat_aabb, const Bvh& tree) const;
@@ -43,7 +50,9 @@ class OverlapCache {
   std::vector<std::uint32_t> changed_;  ///< robots of the present update
   std::vector<std::uint32_t> hidden_;   ///< robots that the scene's tree does not have: shadows
   std::uint64_t all_changes_ = 0;
-  std::size_t pairs_ = 0;
+  std::vector<std::uint8_t> unbounded_;  ///< by robot
+  std::uint32_t numbers_ = 0;            ///< of pairs, so far
+  std::vector<std::uint32_t> free_;      ///< those that no pair has
 };
 
 }  // namespace muro::contact_geometry

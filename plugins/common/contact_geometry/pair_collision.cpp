@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <tuple>
 
@@ -13,6 +14,9 @@
 namespace muro::contact_geometry {
 namespace {
 
+static_assert(offsetof(ContactPoint, normal) == offsetof(ContactPoint, point) + 3 * sizeof(double) &&
+              offsetof(ContactPoint, depth) == offsetof(ContactPoint, point) + 6 * sizeof(double));
+
 const TransformedCollider& collider_of(const TransformedCollider& c) { return c; }
 const TransformedCollider& collider_of(const TransformedCollider* c) { return *c; }
 
@@ -21,6 +25,19 @@ template <class It>
 It end_of_body(It first, It end) {
   const ObjectId body = collider_of(*first).collider->body;
   return std::find_if(first, end, [body](const auto& c) { return collider_of(c).collider->body != body; });
+}
+
+/// Calls `visit` for all places in their order, as long as it returns true. Returns whether all were visited.
+template <class Visit>
+bool merge(const Candidates& candidates, const Visit& visit) {
+  auto s = candidates.with_scenery.begin();
+  auto r = candidates.with_robots.begin();
+  const auto end = candidates.with_scenery.end(), robots_end = candidates.with_robots.end();
+  while (s != end || r != robots_end) {
+    const bool next_is_scenery = r == robots_end || (s != end && s->body_and_rank < r->body_and_rank);
+    if (!visit(next_is_scenery ? *s++ : *r++)) return false;
+  }
+  return true;
 }
 
 /// Radius (m) of a ball about `centre` that holds the shape.
@@ -90,8 +107,12 @@ void PairCollision::start() {
     scenery_.push_back(transformed_collider(number));
     bounds.push_back(scenery_.back().bounds);
   }
-  overlaps_.start(*index_, std::move(bounds));
+  std::vector<std::uint8_t> unbounded;
+  for (const Robot& r : robots_) unbounded.push_back(r.has_plane ? 1 : 0);
+  overlaps_.start(*index_, std::move(bounds), std::move(unbounded));
+  pairs_.clear();
   placed_.clear();
+  is_placed_.assign(index_->colliders.size(), 0);
   radii_.clear();
   for (std::uint32_t k = 0; k < index_->colliders.size(); ++k) {
     placed_.push_back(transformed_collider(k));
@@ -103,18 +124,14 @@ void PairCollision::start() {
   followed_.clear();
   for (const Collider& c : index_->colliders) followed_.push_back(*c.body_pose);
   near_.resize(robots_.size());
-  for (std::vector<std::uint32_t>& near : near_) {
+  for (std::vector<Near>& near : near_) {
     near.clear();
     near.reserve(8);  // more is rare
   }
-  led_.resize(robots_.size());
-  for (Led& led : led_) {
-    led.pairs.clear();
-    led.points.clear();
-    led.pairs.reserve(8);
-    led.points.reserve(16);
-    led.apart.clear();
-    led.apart.reserve(Led::most_apart);
+  points_.resize(robots_.size());
+  for (std::vector<PairPoint>& points : points_) {
+    points.clear();
+    points.reserve(16);
   }
 }
 
@@ -123,7 +140,9 @@ void PairCollision::step(const Step& step, Range range) {
   switch (step.phase) {
     case 0:
       overlaps_.update(*index_);
-      is_crowded_ = robots_have_planes_ || overlaps_.any_robots();
+      if (overlaps_.pair_numbers() > pairs_.size())
+        pairs_.resize(std::max<std::size_t>(overlaps_.pair_numbers(), 2 * pairs_.size()));
+      is_crowded_ = overlaps_.any_robots();
       is_anyone_near_ = 0;
       return;
     case 1:
@@ -139,10 +158,9 @@ void PairCollision::step(const Step& step, Range range) {
       return;
     case 3:
       for (std::uint32_t r = range.begin; r < range.end; ++r) {
-        led_[r].pairs.clear();
-        led_[r].points.clear();
-        for (const std::uint32_t other : near_[r])
-          if (precedes(r, other)) collide_pair(r, other, led_[r]);
+        points_[r].clear();
+        for (const Near& near : near_[r])
+          if (near.leads) collide_pair(r, near);
       }
       return;
     default:
@@ -185,14 +203,16 @@ Candidates& PairCollision::candidates(std::uint32_t robot) {
   const Robot& mine = robots_[robot];
   found.others.clear();
   found.robots.clear();
+  found.with_scenery.clear();
+  found.with_robots.clear();
+  found.found.clear();
   if (!has_contacts(mine)) return found;
   if (lists_scenery(mine)) add_scenery(overlaps_.of(robot, *index_), index_->robots[robot].bounds, found);
   if (is_anyone_near_ == 0) return found;
-  for (const std::uint32_t other : near_[robot]) {
-    const Led::Pair* const pair = pair_of(robot, other);
-    if (!pair || !lists(robot, other)) continue;
-    const bool leads = precedes(robot, other);
-    found.robots.push_back({other, pair->first, pair->count, led_[leads ? robot : other].points.data(), leads});
+  for (const Near& near : near_[robot]) {
+    if (!near.lists || !touch(near)) continue;
+    const Pair& pair = pairs_[near.pair];
+    found.robots.push_back({near.robot, {points_[pair.leader].data() + pair.first, pair.count}, near.leads});
   }
   std::sort(found.robots.begin(), found.robots.end(),
             [this](const auto& a, const auto& b) { return precedes(a.robot, b.robot); });
@@ -243,49 +263,64 @@ void PairCollision::add_listed(std::uint32_t robot, std::uint32_t rank, Candidat
   const Candidates::Partner& partner = candidates.robots[rank - 1];
   // A plane of a robot is touched by those that have a list themselves.
   const bool without_planes = robots_[robot].has_plane && !has_contacts(robots_[partner.robot]);
-  for (std::uint32_t i = partner.first; i < partner.first + partner.count; ++i) {
+  for (std::uint32_t i = 0; i < partner.points.size(); ++i) {
     const PairPoint& found = partner.points[i];
     const std::uint32_t own = partner.leads ? found.own : found.other, other = partner.leads ? found.other : found.own;
     if (without_planes && index_->colliders[own].shape->kind == ShapeKind::plane) continue;
-    candidates.listed.push_back({first_of_body_[own], rank, first_of_body_[other], own, other, i});
+    candidates.with_robots.push_back(place_of(own, rank, other, i, found.point.point.data()));
   }
 }
 
-/// Fills the list with what has been found, in its order.
+/// Whether the contact is one of these colliders.
+bool PairCollision::has_places(const Contact& contact, const Candidates::Listed& listed) const {
+  const Collider &own = index_->colliders[listed.own()], &other = index_->colliders[listed.other()];
+  return contact.self == own.body && contact.other == other.body && contact.self_shape == own.shape_index &&
+         contact.other_shape == other.shape_index;
+}
+
+void PairCollision::write_numbers(const Candidates::Listed& listed, const Candidates& candidates, Contact& contact) {
+  const double* const numbers = listed.numbers ? listed.numbers : candidates.found[listed.number()].point.data();
+  const bool leads = listed.rank() == 0 || candidates.robots[listed.rank() - 1].leads;
+  contact.point = Vec3::Map(numbers);
+  contact.normal = leads ? Vec3(Vec3::Map(numbers + 3)) : Vec3(-Vec3::Map(numbers + 3));
+  contact.depth = numbers[6];
+}
+
+/// Gives the contacts of a list the numbers that were found. False: it is not a list of these colliders.
+bool PairCollision::update_list(std::span<Contact> list, const Candidates& candidates) const {
+  if (list.size() != candidates.with_scenery.size() + candidates.with_robots.size()) return false;
+  Contact* contact = list.data();
+  return merge(candidates, [&](const Candidates::Listed& listed) {
+    if (!has_places(*contact, listed)) return false;
+    write_numbers(listed, candidates, *contact++);
+    return true;
+  });
+}
+
+/// Fills the list with what has been found, in its order. A list of the same colliders as before gets other numbers
+/// and keeps its revision.
 void PairCollision::write_list(const ListOut<Contact>& list, Candidates& candidates) const {
-  std::sort(candidates.listed.begin(), candidates.listed.end());
-  const Collider* const colliders = index_->colliders.data();
-  const Candidates::Listed* before = nullptr;
-  Contact c;
-  for (const Candidates::Listed& l : candidates.listed) {
-    if (!before || l.own != before->own || l.other != before->other)
-      c = contact_between(colliders[l.own], colliders[l.other]);
-    before = &l;
-    const ContactPoint* point = candidates.found.data() + l.number;
-    bool leads = true;
-    if (l.rank > 0) {
-      const Candidates::Partner& partner = candidates.robots[l.rank - 1];
-      point = &partner.points[l.number].point;
-      leads = partner.leads;
-    }
-    c.point = point->point;
-    c.normal = leads ? point->normal : Vec3(-point->normal);
-    c.depth = point->depth;
-    list.push_back(c);
-  }
+  for (std::vector<Candidates::Listed>* listed : {&candidates.with_scenery, &candidates.with_robots})
+    if (!std::is_sorted(listed->begin(), listed->end())) std::sort(listed->begin(), listed->end());
+  if (update_list(*list, candidates)) return;
+  list.clear();
+  merge(candidates, [&](const Candidates::Listed& listed) {
+    Contact contact = contact_between(index_->colliders[listed.own()], index_->colliders[listed.other()]);
+    write_numbers(listed, candidates, contact);
+    list.push_back(contact);
+    return true;
+  });
 }
 
 void PairCollision::list_pairs(std::uint32_t robot, Candidates& candidates) {
   const ListOut<Contact>& list = robots_[robot].list;
-  if (!(*list).empty()) list.clear();
-  if (candidates.others.empty() && candidates.robots.empty()) return;
+  const bool is_mixed = !candidates.robots.empty();  // then some of its colliders have been placed
+  if (!is_mixed && !(*list).empty()) list.clear();
+  if (candidates.others.empty() && !is_mixed) return;
   const RobotColliders& colliders = index_->robots[robot];
   candidates.own.clear();
-  const bool is_mixed = !candidates.robots.empty();  // then some of its colliders have been placed
   for (std::uint32_t k = colliders.first; k < colliders.first + colliders.count; ++k)
     candidates.own.push_back(is_mixed && is_placed(k) ? placed_[k] : transformed_collider(k));
-  candidates.listed.clear();
-  candidates.found.clear();
   collide_scenery(candidates, [&](const auto& a, const auto& b, const std::vector<ContactPoint>& points) {
     if (is_mixed) return add_found(a.number, b.number, points, candidates);
     Contact c = contact_between(*a.collider, *b.collider);
@@ -303,16 +338,14 @@ void PairCollision::add_found(std::uint32_t own, std::uint32_t other, std::span<
                               Candidates& candidates) const {
   for (const ContactPoint& p : points) {
     const auto number = std::uint32_t(candidates.found.size());
-    candidates.listed.push_back({first_of_body_[own], 0, first_of_body_[other], own, other, number});
+    candidates.with_scenery.push_back(place_of(own, 0, other, number, nullptr));
     candidates.found.push_back(p);
   }
 }
 
 void PairCollision::list_found(std::uint32_t robot, Candidates& candidates) const {
   for (std::uint32_t rank = 1; rank <= candidates.robots.size(); ++rank) add_listed(robot, rank, candidates);
-  const ListOut<Contact>& list = robots_[robot].list;
-  if (!(*list).empty()) list.clear();
-  write_list(list, candidates);
+  write_list(robots_[robot].list, candidates);
 }
 
 }  // namespace muro::contact_geometry

@@ -2,7 +2,7 @@
 // What all collision algorithms have in common: which shapes may touch, in which order, and the lists of contacts.
 #pragma once
 
-#include <compare>
+#include <array>
 
 #include "manifold.hpp"
 #include "muro/algorithm.hpp"
@@ -35,24 +35,33 @@ struct PairPoint {
 
 /// What a robot touches at present. Reused, so that it stops allocating.
 struct Candidates {
-  /// The place of a contact in the list.
+  /// The place of a contact in the list, and its numbers.
   struct Listed {
-    std::uint32_t own_body, rank;   ///< first collider of the body; 0: scenery, else one more than in `robots`
-    std::uint32_t other_body, own;  ///< first collider of the body; colliders
-    std::uint32_t other, number;    ///< collider; in `found` or in what the pair of robots has found
+    std::uint64_t body_and_rank;     ///< first collider of the own body; 0: scenery, else one more than in `robots`
+    std::uint64_t body_and_own;      ///< first collider of the other body; own collider
+    std::uint64_t other_and_number;  ///< other collider; of those that are equal so far, or in `found`
+    const double* numbers;           ///< point, normal, depth; null: those in `found`
 
-    std::strong_ordering operator<=>(const Listed&) const = default;
+    std::uint32_t rank() const { return std::uint32_t(body_and_rank); }
+    std::uint32_t own() const { return std::uint32_t(body_and_own); }
+    std::uint32_t other() const { return std::uint32_t(other_and_number >> 32); }
+    std::uint32_t number() const { return std::uint32_t(other_and_number); }
+    bool operator<(const Listed& b) const {
+      if (body_and_rank != b.body_and_rank) return body_and_rank < b.body_and_rank;
+      if (body_and_own != b.body_and_own) return body_and_own < b.body_and_own;
+      return other_and_number < b.other_and_number;
+    }
   };
   /// A robot that it touches, and the points of that pair, as the one that precedes sees them.
   struct Partner {
-    std::uint32_t robot, first, count;  ///< in `points`
-    const PairPoint* points;
+    std::uint32_t robot;
+    std::span<const PairPoint> points;
     bool leads;  ///< the robot whose list it is precedes
   };
   std::vector<TransformedCollider> own;  ///< bodies in the order of the model, shapes in the order of the body
   std::vector<const TransformedCollider*> others;  ///< of the scenery, as declared
   std::vector<Partner> robots;                     ///< that touch it, by order key
-  std::vector<Listed> listed;
+  std::vector<Listed> with_scenery, with_robots;
   std::vector<ContactPoint> found;   ///< with scenery
   std::vector<ContactPoint> points;  ///< of one pair
 };
@@ -61,12 +70,13 @@ struct Candidates {
 ///
 /// Phase 0 updates the broad phase. While any two robots are near each other, phase 1 finds out who is near whom, and
 /// how far such robots have moved; phase 2 where the shapes are of those that may touch; and phase 3 computes each pair
-/// of robots once, from the side of the one with the lower key. A pair that is apart by some distance is left out until
-/// both have moved that far together. In phase 4 each robot that needs it gets its list of contacts, sorted by own
-/// body, other body, own shape and other shape: with scenery in the order of declaration and with robots in the order
-/// of their keys. The robot with the higher key has the contacts of the pair mirrored, so both lists agree to the bit.
-/// Lists depend neither on the order in which robots were declared nor on the number of threads. A contact is listed
-/// only where the contact algorithm resolves it (contact_responsibility.hpp), or where somebody else reads the list.
+/// of robots once, from the side of the one with the lower key. Of two robots those colliders are looked at that are
+/// close; the others are apart by some distance, and left out until both robots have moved that far together. In phase
+/// 4 each robot that needs it gets its list of contacts, sorted by own body, other body, own shape and other shape:
+/// with scenery in the order of declaration and with robots in the order of their keys. The robot with the higher key
+/// has the contacts of the pair mirrored, so both lists agree to the bit. Lists depend neither on the order in which
+/// robots were declared nor on the number of threads. A contact is listed only where the contact algorithm resolves it
+/// (contact_responsibility.hpp), or where somebody else reads the list.
 class PairCollision : public Algorithm {
  public:
   void connect(Connector& c) override;
@@ -107,9 +117,15 @@ class PairCollision : public Algorithm {
   void list_pairs(std::uint32_t robot, Candidates& candidates);
   /// A collider of the robot at its present pose.
   TransformedCollider transformed_collider(std::uint32_t collider) const;
-  /// Notes the points in which two colliders touch, the second of the scenery, for `list_found`.
+  /// Notes the points in which two colliders touch, the second of the scenery, for `list_found`. Copies them.
   void add_found(std::uint32_t own, std::uint32_t other, std::span<const ContactPoint> points,
                  Candidates& candidates) const;
+  /// Notes a point in which two colliders touch, the second of the scenery. `numbers`: point, normal and depth, which
+  /// stay as they are until `list_found`.
+  void add_found(std::uint32_t own, std::uint32_t other, const double* numbers, Candidates& candidates) const {
+    const auto number = std::uint32_t(candidates.with_scenery.size());
+    candidates.with_scenery.push_back(place_of(own, 0, other, number, numbers));
+  }
   /// Replaces the list of the robot by what has been found with scenery, in any order, and by its contacts with robots.
   void list_found(std::uint32_t robot, Candidates& candidates) const;
   /// Whether the robot touches another and lists that.
@@ -125,21 +141,25 @@ class PairCollision : public Algorithm {
   OverlapCache overlaps_;
 
  private:
-  /// What holds of a pair of robots as long as both together have moved less than `until`, m, in all.
-  struct Apart {
-    std::uint32_t robot;
-    bool is_apart;  ///< they do not touch; otherwise: to measure how far they are apart is not worth while
-    double until;
+  /// Colliders of two robots that may touch before the robots have moved farther; numbers in their robots.
+  struct Close {
+    std::uint16_t own, other;
   };
-  /// The robots that one precedes, and touches or not.
-  struct Led {
-    static constexpr std::size_t most_apart = 12;  ///< further ones are forgotten
-    struct Pair {
-      std::uint32_t robot, first, count;  ///< in `points`
-    };
-    std::vector<Pair> pairs;
-    std::vector<PairPoint> points;
-    std::vector<Apart> apart;
+  /// Two robots whose fat AABBs overlap.
+  struct Pair {
+    static constexpr std::size_t most_close = 16;
+    std::uint32_t leader = 0, other = 0;  ///< the first precedes; equal: none so far
+    double until = 0;                     ///< m: no others touch before both robots have moved farther than this in all
+    bool has_too_many = false;             ///< more are close than fit: all count as close
+    std::uint8_t close_count = 0;
+    std::array<Close, most_close> close;
+    std::uint32_t first = 0, count = 0;  ///< in which they touch: in `points_` of the leader
+  };
+  /// A robot that another is near.
+  struct Near {
+    std::uint32_t robot, pair;  ///< in `pairs_`
+    bool leads;                 ///< the one that is near the robot precedes it
+    bool lists;                 ///< and lists contacts with it
   };
 
   bool precedes(std::uint32_t a, std::uint32_t b) const;
@@ -148,20 +168,31 @@ class PairCollision : public Algorithm {
   bool are_near(std::uint32_t a, std::uint32_t b) const;
   void find_near_robots(std::uint32_t robot);
   void follow(std::uint32_t robot, std::uint64_t step);
-  bool may_touch(std::uint32_t a, std::uint32_t b) const;
-  void place_colliders(std::uint32_t robot);
-  /// Of a robot that may touch another.
-  bool is_placed(std::uint32_t collider) const {
-    return placed_[collider].bounds.low.x() <= placed_[collider].bounds.high.x();
+  bool is_known(const Pair& pair, std::uint32_t leader, std::uint32_t other) const {
+    return pair.leader == leader && pair.other == other && travel_[leader] + travel_[other] < pair.until;
   }
-  void collide_pair(std::uint32_t robot, std::uint32_t other, Led& led);
-  double robot_distance(std::uint32_t robot, std::uint32_t other) const;
-  void note_distance(std::uint32_t robot, std::uint32_t other, Led& led) const;
-  const Led::Pair* pair_of(std::uint32_t robot, std::uint32_t other) const;
+  bool may_touch(std::uint32_t robot, Near& near) const;
+  void place_colliders(std::uint32_t robot);
+  void place(std::uint32_t collider);
+  /// Of a robot that may touch another.
+  bool is_placed(std::uint32_t collider) const { return is_placed_[collider] != 0; }
+  void collide_pair(std::uint32_t robot, const Near& near);
+  void collide_all(const Pair& pair);
+  void collide_two(const TransformedCollider& a, const TransformedCollider& b, std::vector<PairPoint>& found);
+  bool touch(const Near& near) const { return pairs_[near.pair].count > 0; }
+  void find_close(Pair& pair) const;
   void add_scenery(const OverlapCache::Overlaps& overlaps, const Aabb& bounds, Candidates& candidates) const;
   template <class Sink>
   void collide_scenery(Candidates& candidates, Sink sink);
+  Candidates::Listed place_of(std::uint32_t own, std::uint32_t rank, std::uint32_t other, std::uint32_t number,
+                              const double* numbers) const {
+    const auto both = [](std::uint32_t high, std::uint32_t low) { return std::uint64_t(high) << 32 | low; };
+    return {both(first_of_body_[own], rank), both(first_of_body_[other], own), both(other, number), numbers};
+  }
   void add_listed(std::uint32_t robot, std::uint32_t rank, Candidates& candidates) const;
+  bool has_places(const Contact& contact, const Candidates::Listed& listed) const;
+  static void write_numbers(const Candidates::Listed& listed, const Candidates& candidates, Contact& contact);
+  bool update_list(std::span<Contact> list, const Candidates& candidates) const;
   void write_list(const ListOut<Contact>& list, Candidates& candidates) const;
 
   std::uint8_t is_crowded_ = 0;      ///< any two robots may be near each other
@@ -172,14 +203,16 @@ class PairCollision : public Algorithm {
       {.index_space = Phase::IndexSpace::robots, .enabled = &is_anyone_near_},
       {.index_space = Phase::IndexSpace::robots, .enabled = &is_anyone_near_},
       {.index_space = Phase::IndexSpace::robots}};
-  std::vector<Led> led_;  ///< by robot
+  std::vector<Pair> pairs_;                     ///< by number of the pair
+  std::vector<std::vector<PairPoint>> points_;  ///< by robot: in which it touches those that it precedes
   /// By robot: whose bounds overlap its own, while any two may be near; from phase 2 on those that it may touch.
-  std::vector<std::vector<std::uint32_t>> near_;
+  std::vector<std::vector<Near>> near_;
   std::vector<double> travel_;                ///< by robot, m: an upper bound of how far its shapes have moved in all
   std::vector<double> last_move_;             ///< by robot, m: in the last step; 0 where that is not known
   std::vector<std::uint64_t> followed_in_;    ///< by robot: in which step last
   std::vector<Pose> followed_;                ///< by collider, of first ones of bodies: where the body was then
-  std::vector<TransformedCollider> placed_;   ///< by collider; without bounds where none of those is near
+  std::vector<TransformedCollider> placed_;   ///< by collider
+  std::vector<std::uint8_t> is_placed_;       ///< by collider, of robots that may touch others in this step
   std::vector<double> radii_;                 ///< by collider, m: of a ball about the origin of its body that holds it
   std::vector<std::uint32_t> first_of_body_;  ///< by collider: the first of its body
   bool is_needed_ = false;

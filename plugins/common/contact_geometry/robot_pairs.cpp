@@ -23,15 +23,11 @@ bool PairCollision::are_near(std::uint32_t a, std::uint32_t b) const {
 
 /// In any order.
 void PairCollision::find_near_robots(std::uint32_t robot) {
-  std::vector<std::uint32_t>& near = near_[robot];
+  std::vector<Near>& near = near_[robot];
   near.clear();
-  if (!robots_have_planes_) {
-    for (const std::uint32_t other : overlaps_.robots_of(robot))
-      if (are_near(robot, other)) near.push_back(other);
-    return;
-  }
-  for (std::uint32_t other = 0; other < robots_.size(); ++other)
-    if (other != robot && are_near(robot, other)) near.push_back(other);
+  for (const OverlapCache::Overlap& overlap : overlaps_.robots_of(robot))
+    if (are_near(robot, overlap.robot))
+      near.push_back({overlap.robot, overlap.pair, precedes(robot, overlap.robot), false});
 }
 
 /// Adds how far the robot has moved since the last time, at most: of each body its origin, and the rest by turning. Of
@@ -58,116 +54,118 @@ void PairCollision::follow(std::uint32_t robot, std::uint64_t step) {
 }
 
 /// Whether contacts of a pair are of interest, and it is not known to be apart.
-bool PairCollision::may_touch(std::uint32_t a, std::uint32_t b) const {
-  const bool a_leads = precedes(a, b);
-  const std::uint32_t other = a_leads ? b : a;
-  for (const Apart& apart : led_[a_leads ? a : b].apart)
-    if (apart.robot == other && apart.is_apart && travel_[a] + travel_[b] < apart.until) return false;
-  return lists(a, b) || lists(b, a);
+bool PairCollision::may_touch(std::uint32_t robot, Near& near) const {
+  const Pair& pair = pairs_[near.pair];
+  const std::uint32_t leader = near.leads ? robot : near.robot, other = near.leads ? near.robot : robot;
+  if (pair.close_count == 0 && !pair.has_too_many && is_known(pair, leader, other)) return false;
+  near.lists = lists(robot, near.robot);
+  return near.lists || lists(near.robot, robot);
 }
 
-/// Those that may touch a near robot, as far as the balls around them tell; the bounds of the others are empty. Forgets
-/// near robots that it cannot touch.
+void PairCollision::place(std::uint32_t collider) {
+  if (is_placed_[collider] != 0) return;
+  placed_[collider] = transformed_collider(collider);
+  is_placed_[collider] = 1;
+}
+
+/// Those that are close to a near robot, or all where that is not known. Forgets near robots that it cannot touch.
 void PairCollision::place_colliders(std::uint32_t robot) {
-  std::vector<std::uint32_t>& others = near_[robot];
-  std::erase_if(others, [&](std::uint32_t other) { return !may_touch(robot, other); });
+  std::vector<Near>& others = near_[robot];
+  if (others.empty()) return;
+  std::erase_if(others, [&](Near& near) { return !may_touch(robot, near); });
   if (others.empty()) return;
   const RobotColliders& colliders = index_->robots[robot];
-  for (std::uint32_t k = colliders.first; k < colliders.first + colliders.count; ++k) {
-    const Vec3& centre = index_->colliders[k].body_pose->position;
-    const Vec3 radius = Vec3::Constant(radii_[k]);
-    const Aabb ball{centre - radius, centre + radius};
-    const bool is_near = std::any_of(others.begin(), others.end(), [&](std::uint32_t other) {
-      return robots_[other].has_plane || index_->robots[other].bounds.overlaps(ball);
-    });
-    if (is_near)
-      placed_[k] = transformed_collider(k);
-    else
-      placed_[k].bounds = {};
+  const std::uint32_t end = colliders.first + colliders.count;
+  std::fill(is_placed_.begin() + colliders.first, is_placed_.begin() + end, std::uint8_t{0});
+  for (const Near& near : others) {
+    const Pair& pair = pairs_[near.pair];
+    if (pair.has_too_many || !is_known(pair, near.leads ? robot : near.robot, near.leads ? near.robot : robot)) {
+      for (std::uint32_t k = colliders.first; k < end; ++k) place(k);
+      return;
+    }
+    for (const Close& close : std::span(pair.close).first(pair.close_count))
+      place(colliders.first + (near.leads ? close.own : close.other));
   }
 }
 
-void PairCollision::collide_pair(std::uint32_t robot, std::uint32_t other, Led& led) {
-  thread_local std::vector<const TransformedCollider*> theirs;
-  thread_local std::vector<ContactPoint> points;
-  const RobotColliders &mine = index_->robots[robot], &of_other = index_->robots[other];
-  const auto first = std::uint32_t(led.points.size());
-  theirs.clear();
-  const bool any_plane = robots_[robot].has_plane || robots_[other].has_plane;
-  for (std::uint32_t k = of_other.first; k < of_other.first + of_other.count; ++k)
-    if (any_plane || placed_[k].bounds.overlaps(mine.bounds)) theirs.push_back(&placed_[k]);
-  for (std::uint32_t k = mine.first; k < mine.first + mine.count; ++k) {
-    const TransformedCollider& a = placed_[k];
-    if (!any_plane && !a.bounds.overlaps(of_other.bounds)) continue;
-    for (const TransformedCollider* b : theirs) {
-      if (!a.bounds.overlaps(b->bounds)) continue;
-      if (a.shape.kind == ShapeKind::plane && b->shape.kind == ShapeKind::plane) continue;
-      points.clear();
-      collide(a, *b, points);
-      for (const ContactPoint& p : points) led.points.push_back({k, b->number, p});
-    }
+/// Of a robot that precedes another.
+void PairCollision::collide_pair(std::uint32_t robot, const Near& near) {
+  Pair& pair = pairs_[near.pair];
+  std::vector<PairPoint>& found = points_[robot];
+  pair.first = std::uint32_t(found.size());
+  if (!is_known(pair, robot, near.robot)) {
+    pair.leader = robot;
+    pair.other = near.robot;
+    find_close(pair);
   }
-  if (const auto count = std::uint32_t(led.points.size()) - first; count > 0)
-    led.pairs.push_back({other, first, count});
-  if (!any_plane) note_distance(robot, other, led);
+  if (pair.has_too_many) {
+    collide_all(pair);
+  } else {
+    const std::uint32_t mine = index_->robots[robot].first, theirs = index_->robots[near.robot].first;
+    for (const Close& close : std::span(pair.close).first(pair.close_count))
+      collide_two(placed_[mine + close.own], placed_[theirs + close.other], found);
+  }
+  pair.count = std::uint32_t(found.size()) - pair.first;
+}
+
+void PairCollision::collide_all(const Pair& pair) {
+  const RobotColliders &mine = index_->robots[pair.leader], &theirs = index_->robots[pair.other];
+  for (std::uint32_t k = mine.first; k < mine.first + mine.count; ++k)
+    for (std::uint32_t m = theirs.first; m < theirs.first + theirs.count; ++m)
+      if (placed_[k].shape.kind != ShapeKind::plane || placed_[m].shape.kind != ShapeKind::plane)
+        collide_two(placed_[k], placed_[m], points_[pair.leader]);
+}
+
+void PairCollision::collide_two(const TransformedCollider& a, const TransformedCollider& b,
+                                std::vector<PairPoint>& found) {
+  thread_local std::vector<ContactPoint> points;
+  if (!a.bounds.overlaps(b.bounds)) return;
+  points.clear();
+  collide(a, b, points);
+  for (const ContactPoint& p : points) found.push_back({a.number, b.number, p});
 }
 
 double PairCollision::distance_bound(const TransformedCollider& a, const TransformedCollider& b) const {
   return gap_between(a.bounds, b.bounds);
 }
 
-/// How far (m) two robots are apart at least; not positive: unknown, or they touch.
-double PairCollision::robot_distance(std::uint32_t robot, std::uint32_t other) const {
-  thread_local std::vector<TransformedCollider> theirs;
-  const RobotColliders &mine = index_->robots[robot], &of_other = index_->robots[other];
-  theirs.clear();
-  for (std::uint32_t k = of_other.first; k < of_other.first + of_other.count; ++k)
-    theirs.push_back(transformed_collider(k));
-  double least = std::numeric_limits<double>::infinity();
-  for (std::uint32_t k = mine.first; k < mine.first + mine.count && least > 0; ++k) {
-    const TransformedCollider a = transformed_collider(k);
-    for (const TransformedCollider& b : theirs) {
-      const double gap = gap_between(a.bounds, b.bounds);
-      if (gap >= least) continue;
-      least = std::min(least, std::max(gap, distance_bound(a, b)));
+/// Finds the colliders that are closer than the two robots move in some steps, as far as the last one tells. Both
+/// robots have all of theirs placed.
+void PairCollision::find_close(Pair& pair) const {
+  constexpr double steps = 16, least = 1e-4;  // -, m
+  const RobotColliders &mine = index_->robots[pair.leader], &theirs = index_->robots[pair.other];
+  pair.close_count = 0;
+  pair.has_too_many = robots_[pair.leader].has_plane || robots_[pair.other].has_plane ||
+                     std::max(mine.count, theirs.count) > std::numeric_limits<std::uint16_t>::max();
+  const double margin = steps * (last_move_[pair.leader] + last_move_[pair.other]) + least;
+  double distance = std::numeric_limits<double>::infinity();  // of those that are not close
+  for (std::uint32_t k = mine.first; k < mine.first + mine.count && !pair.has_too_many; ++k) {
+    const TransformedCollider& a = placed_[k];
+    if (const double gap = gap_between(a.bounds, theirs.bounds); gap > margin) {
+      distance = std::min(distance, gap);
+      continue;
+    }
+    for (std::uint32_t m = theirs.first; m < theirs.first + theirs.count; ++m) {
+      const TransformedCollider& b = placed_[m];
+      double apart = gap_between(a.bounds, b.bounds);
+      if (apart <= margin) apart = std::max(apart, distance_bound(a, b));
+      if (apart > margin)
+        distance = std::min(distance, apart);
+      else if (pair.close_count == Pair::most_close)
+        pair.has_too_many = true;
+      else
+        pair.close[pair.close_count++] = {std::uint16_t(k - mine.first), std::uint16_t(m - theirs.first)};
     }
   }
-  return least;
-}
-
-/// After a pair has been computed. Its distance is measured where that saves several steps of work, as far as the last
-/// step tells.
-void PairCollision::note_distance(std::uint32_t robot, std::uint32_t other, Led& led) const {
-  constexpr double steps = 8, least_distance = 1e-6, retry = 1e-4;  // -, m, m
-  const double travel = travel_[robot] + travel_[other], ahead = steps * (last_move_[robot] + last_move_[other]);
-  auto at = std::find_if(led.apart.begin(), led.apart.end(), [&](const Apart& a) { return a.robot == other; });
-  if (at != led.apart.end() && !at->is_apart && travel < at->until) return;
-  double distance = 0;
-  if (led.pairs.empty() || led.pairs.back().robot != other) {
-    const Aabb& bounds = index_->robots[robot].bounds;
-    const double rounding = 1e-14 * std::max(bounds.low.cwiseAbs().maxCoeff(), bounds.high.cwiseAbs().maxCoeff());
-    distance = robot_distance(robot, other) - rounding - 1e-9;
-  }
-  if (at == led.apart.end()) {
-    if (led.apart.size() == Led::most_apart) led.apart.erase(led.apart.begin());
-    at = led.apart.insert(led.apart.end(), Apart{});
-  }
-  const bool is_apart = distance > ahead + least_distance;
-  *at = {other, is_apart, travel + (is_apart ? distance : ahead + retry)};
-}
-
-/// Null: the two do not touch.
-const PairCollision::Led::Pair* PairCollision::pair_of(std::uint32_t robot, std::uint32_t other) const {
-  const bool leads = precedes(robot, other);
-  for (const Led::Pair& p : led_[leads ? robot : other].pairs)
-    if (p.robot == (leads ? other : robot)) return &p;
-  return nullptr;
+  const Aabb& bounds = mine.bounds;
+  const double rounding = 1e-14 * std::max(bounds.low.cwiseAbs().maxCoeff(), bounds.high.cwiseAbs().maxCoeff());
+  if (pair.has_too_many) distance = margin;
+  pair.until = travel_[pair.leader] + travel_[pair.other] + distance - rounding - 1e-9;
 }
 
 bool PairCollision::touches_robots(std::uint32_t robot) const {
-  return is_anyone_near_ != 0 && std::any_of(near_[robot].begin(), near_[robot].end(), [&](std::uint32_t other) {
-           return pair_of(robot, other) != nullptr && lists(robot, other);
-         });
+  return is_anyone_near_ != 0 && std::any_of(near_[robot].begin(), near_[robot].end(),
+                                             [&](const Near& near) { return near.lists && touch(near); });
 }
 
 }  // namespace muro::contact_geometry
