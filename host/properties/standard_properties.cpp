@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host/properties/standard_properties.hpp"
 
+#include "muro/toolkit/joint_drives.hpp"
 #include "muro/vocabulary.hpp"
 
 namespace muro::host {
@@ -23,6 +24,7 @@ constexpr const KeyInfo* joints[] = {
     &keys::joint_velocity_target, &keys::joint_acceleration_target,
     &keys::joint_effort_target,   &keys::joint_drive,
     &keys::joint_drive_stiffness, &keys::joint_drive_damping,
+    &keys::joint_drive_friction,  &keys::joint_drive_armature,
 };
 constexpr const KeyInfo* commands[] = {&keys::command_twist, &keys::command_pose};
 constexpr const KeyInfo* scene[] = {

@@ -16,6 +16,8 @@ inline constexpr PropertyUse reads[] = {
     {"joint.velocity.target", "of joints in mode velocity, and in mode position where something writes it"},
     {"joint.position.target", "of joints in mode position"},
     {"joint.effort.target", "of joints in mode effort"},
+    {"joint.drive.friction", "of joints in mode effort, where something writes it"},
+    {"joint.drive.armature", "of joints in mode effort, where something writes it"},
     {"pose", "of bodies of other robots"},
     {"twist", "of bodies of other robots"},
     {"contact.world", "of other robots"},

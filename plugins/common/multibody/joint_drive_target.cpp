@@ -25,6 +25,7 @@ DriveTarget drive_target_of(const RigidBody& body, const JointState& joint, cons
       break;
     case DriveMode::effort:
       t.effort = std::clamp(*target, -limits.effort, limits.effort);
+      t.friction += joint.drive_friction;
       break;
     case DriveMode::position:
     case DriveMode::acceleration:

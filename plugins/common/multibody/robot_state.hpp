@@ -38,7 +38,9 @@ struct DriveTarget {
 struct JointState {
   double position = 0;  ///< rad or m, along the axis
   double velocity = 0;
-  double effort = 0;  ///< out: what the drive applied in the last step
+  double effort = 0;          ///< out: what the drive applied in the last step
+  double drive_friction = 0;  ///< N m or N: of the drive in front of a joint that efforts drive
+  double drive_armature = 0;  ///< kg m^2 or kg: the same
   DriveTarget target;
 };
 

@@ -46,6 +46,7 @@ void WorldRobot::connect_joints(Connector& c, const RobotView& view, const Param
     const double start = model_.initial_positions[i];
     check_start(c, object, body.limits, start);
     Joint& j = joints_[i];
+    j.object = object;
     joint_names_[i] = c.object_name(object);
     j.reach_square = body.joint == JointKind::revolute ? std::pow(reach.of_link[body.link], 2) : 1;
     j.position = c.variable(object, keys::joint_position, start);
@@ -76,8 +77,11 @@ bool WorldRobot::follows_positions(std::size_t body) const {
 
 void WorldRobot::connect_by_name(Connector& c, ObjectId base) {
   state_.tells_contacts = c.is_used(base, keys::contact_wrenches_of_motion, usage::read);
-  for (std::size_t i = 1; i < joints_.size(); ++i)
+  for (std::size_t i = 1; i < joints_.size(); ++i) {
     if (follows_positions(i)) joints_[i].position_target.connect_by_name(c);
+    if (model_.bodies[i].drive == DriveMode::effort && model_.bodies[i].leader < 0)
+      joints_[i].losses.connect_by_name(c, joints_[i].object);
+  }
 }
 
 void WorldRobot::connect_links(Connector& c, const RobotView& view) {
@@ -188,6 +192,8 @@ void WorldRobot::set_drive_targets(double dt, double gain_of_mimics) {
   for (std::size_t i = 1; i < joints_.size(); ++i) {
     const RigidBody& body = model_.bodies[i];
     JointState& joint = state_.joints[i];
+    joint.drive_friction = joints_[i].losses.friction();
+    joint.drive_armature = joints_[i].losses.armature();
     if (follows_positions(i)) {
       if (!is_dynamic()) continue;
       const PdGains gains = joints_[i].position_drive.gains(moved_inertias_.driven(i));
@@ -197,7 +203,7 @@ void WorldRobot::set_drive_targets(double dt, double gain_of_mimics) {
       const JointState* const leader = body.leader >= 0 ? &state_.joints[std::size_t(body.leader)] : nullptr;
       joint.target = drive_target_of(body, joint, leader, joints_[i].target.get(), gain_of_mimics);
     }
-    if (!std::isfinite(joint.target.velocity + joint.target.effort))
+    if (!std::isfinite(joint.target.velocity + joint.target.effort + joint.drive_friction + joint.drive_armature))
       throw Error("the target of " + quote(joint_names_[i]) +
                   " is not finite; look at what writes its `joint.*.target`");
   }

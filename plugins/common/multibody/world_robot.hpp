@@ -4,6 +4,7 @@
 #include "joint_drive_target.hpp"
 #include "last_state.hpp"
 #include "muro/algorithm.hpp"
+#include "plugins/common/position_drive/drive_losses.hpp"
 #include "plugins/common/position_drive/moved_inertias.hpp"
 #include "plugins/common/watch/watch.hpp"
 #include "world.hpp"
@@ -26,7 +27,7 @@ class WorldRobot {
   /// `engine_memory`: how many numbers the engine keeps of the robot. [setup]
   void connect(Connector& c, const RobotView& view, const Parameters& p, const WorldTraits& traits,
                std::size_t engine_memory);
-  /// Finds out whether velocities of joints in mode position are commanded. [setup]
+  /// Finds out whether velocities of joints in mode position are commanded, and what drives bring with them. [setup]
   void connect_by_name(Connector& c, ObjectId base);
   /// Whether one of those that add to its external wrenches is the contact algorithm. [setup]
   void set_has_contact_law(bool has) { has_contact_law_ = has; }
@@ -57,8 +58,10 @@ class WorldRobot {
   struct Joint {
     Out<double> position, velocity, effort;
     In<double> target;
+    DriveLosses losses;
     PositionDrive position_drive;
     PositionTarget position_target;
+    ObjectId object = no_object;
     double reach_square = 0;  ///< m^2, see watch::Reach; 1 for a joint that shifts
   };
   /// Of a loaded link.

@@ -219,7 +219,8 @@ void BulletRobot::find_inverse_inertia(double dt) {
     const JointLimits& limits = model_->bodies[i].limits;
     const auto k = Eigen::Index(5 + i);
     damping_impulses_[Eigen::Index(i) - 1] =
-        dt * limits.damping * velocity_[k] + limits.armature * (velocity_[k] - position_velocity_[k]);
+        dt * limits.damping * velocity_[k] +
+        (limits.armature + state_->joints[i].drive_armature) * (velocity_[k] - position_velocity_[k]);
   }
   for (std::size_t i = 1; i < body_states_.size(); ++i)
     if (const double impulse = damping_impulses_[Eigen::Index(i) - 1]; impulse != 0)
@@ -248,7 +249,8 @@ void BulletRobot::find_inertia(double dt) {
     momentum << c.inertia * spin + c.first_moment.cross(move), c.mass * move + spin.cross(c.first_moment);
     const Eigen::Index row = base + Eigen::Index(i);
     const JointLimits& limits = model_->bodies[i].limits;
-    inertia_(row, row) = motion_subspaces_[i].dot(momentum) + limits.armature + dt * limits.damping;
+    inertia_(row, row) =
+        motion_subspaces_[i].dot(momentum) + limits.armature + state_->joints[i].drive_armature + dt * limits.damping;
     for (auto k = std::size_t(model_->bodies[i].parent); k > 0; k = std::size_t(model_->bodies[k].parent))
       inertia_(row, base + Eigen::Index(k)) = motion_subspaces_[k].dot(momentum);
     if (!model_->fixed_base) inertia_.block<1, 6>(row, 0) = momentum.transpose();

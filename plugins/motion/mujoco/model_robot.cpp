@@ -44,6 +44,7 @@ void ModelRobot::find_indices(const mjModel& m) {
   }
   root_pose_ = {vector_of(m.body_pos + 3 * root), quat_at(m.body_quat + 4 * root)};
   armatures_.assign(m.dof_armature + first_dof_, m.dof_armature + first_dof_ + dof_count_);
+  friction_losses_.assign(m.dof_frictionloss + first_dof_, m.dof_frictionloss + first_dof_ + dof_count_);
   for (int g = 0; g < m.ngeom; ++g)
     if (m.body_rootid[m.geom_bodyid[g]] == root)
       geoms_.emplace_back(g, std::pair(m.geom_contype[g], m.geom_conaffinity[g]));
@@ -98,11 +99,23 @@ void ModelRobot::import(mjModel& m, mjData& d) {
     d.qvel[joints_[i].dof] = s.joints[i].velocity;
   }
   const bool dynamic = motion_type_ == MotionType::dynamic;
+  if (dynamic) set_drive_losses(m);
   for (int i = 0; i < dof_count_; ++i) d.qacc_warmstart[first_dof_ + i] = dynamic ? s.memory[std::size_t(i)] : 0;
   for (std::size_t i = 0; i < source_->activations.size(); ++i)
     d.act[source_->activations[i]] = dynamic ? s.memory[std::size_t(dof_count_) + i] : 0;
   set_controls(m, d);
   set_forces(m, d);
+}
+
+/// Of the drives in front of its joints, beside what the file says.
+void ModelRobot::set_drive_losses(mjModel& m) const {
+  for (std::size_t i = 1; i < joints_.size(); ++i) {
+    const multibody::JointState& joint = state_->joints[i];
+    if (joint.drive_friction == 0 && joint.drive_armature == 0) continue;
+    const int dof = joints_[i].dof;
+    m.dof_frictionloss[dof] = friction_losses_[std::size_t(dof - first_dof_)] + joint.drive_friction;
+    m.dof_armature[dof] = armatures_[std::size_t(dof - first_dof_)] + joint.drive_armature;
+  }
 }
 
 /// A target is what the joint is to do; a servo follows the length of its transmission, gear times the position.

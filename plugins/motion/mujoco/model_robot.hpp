@@ -48,6 +48,7 @@ class ModelRobot {
   void set_base(mjModel& m, mjData& d) const;
   void set_forces(const mjModel& m, mjData& d);
   void set_controls(const mjModel& m, mjData& d) const;
+  void set_drive_losses(mjModel& m) const;
   std::span<double> kept_spin() const;
   Vec3 origin_of(const mjData& d, std::uint32_t body) const;
 
@@ -58,7 +59,7 @@ class ModelRobot {
   std::vector<std::int32_t> loaded_links_;  ///< of each body in MuJoCo; -1
   int first_dof_ = 0, dof_count_ = 0, free_position_ = 0;
   Pose root_pose_;                                          ///< in the file, of a root that is held by the world
-  std::vector<double> armatures_;                           ///< of the file, one per degree of freedom of the robot
+  std::vector<double> armatures_, friction_losses_;         ///< of the file, one per degree of freedom of the robot
   std::vector<std::pair<int, std::pair<int, int>>> geoms_;  ///< with contype and conaffinity of the file
   std::optional<multibody::MotionType> motion_type_;        ///< that the model is set to
   bool has_forces_ = false;                                 ///< forces from outside are set

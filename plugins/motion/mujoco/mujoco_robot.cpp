@@ -137,6 +137,7 @@ void MujocoRobot::set_joint(mjModel& m, mjData& d, std::size_t number, std::span
   const double max_effort = target.tracks_velocity ? target.max_effort : target.friction;
   drives[std::size_t(dof)] = {velocity, target.tracks_velocity ? target.softness() : 0};
   m.dof_frictionloss[dof] = dynamic ? std::min(max_effort, unlimited) : 0;
+  if (dynamic) m.dof_armature[dof] = body.limits.armature + dt_ * body.limits.damping + joint.drive_armature;
   d.qfrc_applied[dof] =
       dynamic ? (target.tracks_velocity ? 0 : target.effort) - body.limits.damping * joint.velocity : 0;
   m.jnt_limited[id] = dynamic && (std::isfinite(body.limits.lower) || std::isfinite(body.limits.upper));

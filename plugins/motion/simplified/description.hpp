@@ -46,6 +46,8 @@ inline constexpr PropertyUse reads[] = {
     {"joint.position.target", "of joints in mode position"},
     {"joint.acceleration.target", "of joints in mode acceleration"},
     {"joint.effort.target", "of joints in mode effort"},
+    {"joint.drive.friction", "of joints in mode effort, where something writes it"},
+    {"joint.drive.armature", "of joints in mode effort, where something writes it"},
     {"pose.initial", "of the base"},
     {"twist.initial", "of the base"},
     {"joint.position.initial", "of every joint"},

@@ -37,6 +37,7 @@ ForceDrivenJoints::ForceDrivenJoints(Connector& c, const RobotView& robot, std::
     j.properties = properties[dof.link];
     j.limits = link.limits;
     j.min_inertia = 1e-3 * inertia;
+    j.object = link.joint_object;
     j.effort = c.derived(link.joint_object, keys::joint_effort);
     if (j.properties.has_position_drive) {
       has_position_drives_ = true;
@@ -73,8 +74,10 @@ ForceDrivenJoints::ForceDrivenJoints(Connector& c, const RobotView& robot, std::
 }
 
 void ForceDrivenJoints::connect_by_name(Connector& c) {
-  for (Joint& j : joints_)
+  for (Joint& j : joints_) {
     if (j.properties.has_position_drive) j.target.connect_by_name(c);
+    if (j.properties.mode == DriveMode::effort) j.losses.connect_by_name(c, j.object);
+  }
 }
 
 void ForceDrivenJoints::take_over() const {
@@ -96,7 +99,9 @@ bool ForceDrivenJoints::move(double dt) {
     DofState state{*j.properties.position, *j.properties.velocity};
     if (j.properties.mode == DriveMode::effort || j.properties.mode == DriveMode::passive) {
       *j.effort = j.properties.target ? std::clamp(*j.properties.target, -j.limits.effort, j.limits.effort) : 0;
-      state = integrate_force(state, *j.effort + dof.force, inertia, j.limits, dt);
+      JointLimits limits = j.limits;
+      limits.friction += j.losses.friction();
+      state = integrate_force(state, *j.effort + dof.force, inertia + j.losses.armature(), limits, dt);
     } else if (j.properties.has_position_drive) {
       const Reference reference = j.target.advance(state.position, j.limits, dt);
       const PdGains gains = j.drive.gains(moved_inertias_.driven(dynamics_.body_of(dof.link)));

@@ -7,6 +7,7 @@
 #include "decoupled_dynamics.hpp"
 #include "dof.hpp"
 #include "joint_properties.hpp"
+#include "plugins/common/position_drive/drive_losses.hpp"
 #include "plugins/common/position_drive/position_target.hpp"
 
 namespace muro::simplified {
@@ -28,7 +29,7 @@ class ForceDrivenJoints {
   ForceDrivenJoints(Connector& c, const RobotView& robot, std::span<const JointProperties> properties,
                     std::span<const Inertia> inertias, std::span<const double> start,
                     std::span<const PositionDrive> drives, std::string_view memory, const Settings& settings);
-  /// Finds out whether velocities of joints with PD drives are commanded. [setup]
+  /// Finds out whether velocities of joints with PD drives are commanded, and what drives bring with them. [setup]
   void connect_by_name(Connector& c);
   /// Another motion has moved the robot so far.
   void take_over() const;
@@ -50,6 +51,8 @@ class ForceDrivenJoints {
     JointLimits limits;  ///< damping and friction: with those of followers
     double min_inertia;  ///< kg m^2 or kg: what remains of the inertia, however the robot folds
     Out<double> effort;
+    ObjectId object;
+    DriveLosses losses;  ///< of what drives it by efforts
     PositionDrive drive;
     PositionTarget target;  ///< of a PD drive
     std::vector<Follower> followers;

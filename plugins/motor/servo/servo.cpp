@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A position or velocity servo: digital controller, DC motor and gear, in front of any motion whose joints efforts
-// drive.
+// drive. The motor gives the effort that its controller wants, within its limits, or is driven by a voltage.
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +13,7 @@
 #include "muro/toolkit/mass_properties.hpp"
 #include "muro/toolkit/per_robot.hpp"
 #include "plugins/common/text/quote.hpp"
+#include "voltage_drive.hpp"
 
 namespace {
 
@@ -52,11 +53,29 @@ constexpr Parameter parameters[] = {
     real("backlash", "rad or m", 0, "play of the gear from flank to flank, at the output").between(0, 10),
     real("gear_stiffness", "N m/rad or N/m", 0, "of the gear, at the output; 0: as stiff as the rate allows")
         .between(0, 1e12),
+    text("part", "", "a motor driven by a voltage: mx28, mx64, mx106, xl320, xl330, sts3215, or a file of your own"),
+    text("friction_model", "", "a section of the part, such as m1 or m4; default: the last"),
+    real("supply_voltage", "V", 0,
+         "where servo.supply_voltage is not commanded; this and what follows: else the part's")
+        .between(0, 1e6),
+    real("p_gain", "1", 0, "of the firmware, in its units").between(0, 1e12),
+    real("duty_gain", "1/rad", 0, "duty by error of position, for each unit of p_gain").between(0, 1e12),
+    real("duty_limit", "1", 1, "the largest duty").between(0, 1),
+    real("kt", "N m/A", 0, "torque by current; above 0: the motor is driven by a voltage").between(0, 1e9),
+    real("resistance", "Ohm", 0, "of the coil").between(0, 1e9),
+    real("armature", "kg m^2", 0, "inertia of the rotor, as the output feels it").between(0, 1e9),
+    real("stribeck_friction", "N m", 0, "friction that goes away with speed").between(0, 1e12),
+    real("stribeck_velocity", "rad/s", 1, "at which exp(-1) of it is left").between(1e-9, 1e9),
+    real("stribeck_exponent", "1", 1, "of speed by stribeck_velocity").between(1e-3, 100),
+    real("load_friction", "1", 0, "friction by the torque between motor and load").between(0, 1e3),
+    real("load_stribeck_friction", "1", 0, "the same, what goes away with speed").between(0, 1e3),
 };
 constexpr PropertyUse reads[] = {{"joint.position.target", "mode position"},
                                  {"joint.velocity.target", "mode velocity"},
                                  {"joint.position", "of every joint that it drives"},
                                  {"joint.velocity", "of every joint that it drives"},
+                                 {"servo.supply_voltage", "where a voltage drives the motor"},
+                                 {"servo.torque_enable", "where a voltage drives the motor; 0 opens its coil"},
                                  {"inertial", "of the bodies behind a joint, where the rotor has inertia"}};
 constexpr PropertyUse writes[] = {{"joint.effort.target", "of every joint that it drives"},
                                   {"servo.integral", "effort of the controller's integral"},
@@ -65,7 +84,10 @@ constexpr PropertyUse writes[] = {{"joint.effort.target", "of every joint that i
                                   {"servo.commands", "commands on their way, where there is a delay"},
                                   {"motor.position", "of the rotor, at the output, where it has inertia"},
                                   {"motor.velocity", "of the rotor, at the output, where it has inertia"},
-                                  {"motor.effort", "what the motor applies to the rotor, at the output"}};
+                                  {"motor.effort", "what the motor applies to the rotor, at the output"},
+                                  {"servo.duty", "where a voltage drives the motor"},
+                                  {"joint.drive.friction", "where a voltage drives the motor"},
+                                  {"joint.drive.armature", "where a voltage drives the motor"}};
 constexpr Description description{
     .id = "motor.servo",
     .kind = Kind::drive,
@@ -84,6 +106,7 @@ struct ServoJoint {
   Out<double> rotor_position, rotor_velocity;  ///< where the rotor has inertia
   ListOut<double> commands;                    ///< where there is a delay; from the oldest, in a ring
   Gearbox gear;
+  VoltageDrive voltage_drive;  ///< where a voltage drives the motor
   double initial_command = 0;
 };
 
@@ -106,6 +129,7 @@ class Servo final : public PerRobotAlgorithm<ServoRobot> {
     encoder_ = {p.real("encoder_resolution"), p.real("speed_filter")};
     encoder_on_motor_ = p.text("encoder") == "motor";
     delay_ = p.real("delay");
+    has_voltage_ = has_voltage(p);
     const double stall = p.real("stall_torque"), no_load_speed = p.real("no_load_speed");
     const double max_torque = p.real("max_torque");
     if ((stall > 0) != (no_load_speed > 0))
@@ -123,6 +147,8 @@ class Servo final : public PerRobotAlgorithm<ServoRobot> {
   }
 
   void check(const Parameters& p) const {
+    check_kind_of_motor(p, has_voltage_);
+    if (has_voltage_) return;
     if (!controller_.follows_velocity && !(controller_.stiffness > 0))
       throw Error("`stiffness` is 0, so a servo of positions does nothing; give it, in N m/rad");
     if (controller_.follows_velocity && !(controller_.stiffness + controller_.damping > 0))
@@ -143,6 +169,8 @@ class Servo final : public PerRobotAlgorithm<ServoRobot> {
 
   ServoRobot connect_robot(Connector& c, const Item& item) override {
     const RobotView& robot = *item.robot;
+    MotorParameters motor_parameters;
+    if (has_voltage_) motor_parameters = MotorParameterReader(c, c.parameters()).read();
     const std::vector<double> start = initial_joint_positions(c, robot);
     const std::vector<Inertia> inertias = inertias_of(c, robot);
     std::vector<ServoJoint> joints;
@@ -171,6 +199,9 @@ class Servo final : public PerRobotAlgorithm<ServoRobot> {
       j.measured_speed = c.variable(joint, measured_speed, 0.0);
       j.motor_effort = c.derived(joint, motor_effort);
       if (delay_ > 0) j.commands = c.variable_list(joint, delayed_commands);
+      if (has_voltage_)
+        j.voltage_drive = VoltageDrive(c, joint, motor_parameters,
+                                       joint_inertia(robot.links, inertias, start, i) + robot.links[i].limits.armature);
       joints.push_back(j);
     }
     return {joints_.add(joints)};
@@ -230,6 +261,10 @@ class Servo final : public PerRobotAlgorithm<ServoRobot> {
                                                  encoder_on_motor_ ? rotor.velocity : v, dt);
     *j.encoder_reading = position;
     *j.measured_speed = speed;
+    if (j.voltage_drive) {
+      *j.effort = *j.motor_effort = j.voltage_drive.run(target - position, v, dt);
+      return;
+    }
     const double wanted = controller_.effort(target, position, speed, motor_.limits(rotor.velocity), *j.integral, dt);
     if (!j.rotor_position) {
       *j.motor_effort = wanted;
@@ -246,6 +281,7 @@ class Servo final : public PerRobotAlgorithm<ServoRobot> {
   Encoder encoder_;
   bool encoder_on_motor_ = false;
   double delay_ = 0;  ///< s
+  bool has_voltage_ = false;
   Motor motor_;
   Gearbox gear_;  ///< but the inertia of the joint
   PackedLists<ServoJoint> joints_;

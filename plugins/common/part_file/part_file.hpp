@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// Files of parameters with their source: what a data sheet or a measurement says of a real device.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace muro {
+
+/// A part file that was read: lines `name: value`, in sections that a line `name:` opens and whose lines are indented.
+/// `#` begins a comment. A value is a number or a text, in quotes or without. It is a subset of YAML.
+class PartFile {
+ public:
+  struct Entry {
+    std::string section;  ///< empty: before the first section
+    std::string name, value;
+    int line = 0;
+  };
+  /// Throws Error with `name`, line and column for anything else, and for a name that stands twice in a section.
+  static PartFile parse(std::string_view text, std::string name);
+  /// Throws Error when the file cannot be read, or is larger than 1 MiB.
+  static PartFile read(const std::string& path);
+
+  /// How messages call it.
+  const std::string& name() const { return name_; }
+  const std::vector<Entry>& entries() const { return entries_; }
+  std::vector<std::string> sections() const;
+  /// None where it is not there.
+  const Entry* find(std::string_view section, std::string_view name) const;
+  /// As a finite number; Error where it is none.
+  std::optional<double> number(std::string_view section, std::string_view name) const;
+  /// "FILE:LINE: ".
+  std::string place(const Entry& entry) const;
+  /// Throws Error for an entry of a section (or before all) whose name is not one of `known`.
+  void check_names(std::string_view section, std::span<const std::string_view> known) const;
+
+ private:
+  std::string name_;
+  std::vector<Entry> entries_;
+};
+
+/// A part file that a plugin brings with it.
+struct ReadyPart {
+  std::string_view name;  ///< of the file, without extension
+  std::string_view text;
+};
+
+/// The part that a scenario names: one of `ready`, else the file `path` (absolute). A name with a slash or a dot is a
+/// file. Throws Error for a name that is neither, with those that are ready.
+PartFile find_part(std::string_view name, const std::string& path, std::span<const ReadyPart> ready);
+
+}  // namespace muro

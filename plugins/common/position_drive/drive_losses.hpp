@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "muro/toolkit/joint_drives.hpp"
+#include "position_target.hpp"
+
+namespace muro {
+
+/// Friction and rotor of the drive in front of a joint that efforts drive; 0 where nothing writes them.
+struct DriveLosses {
+  In<double> friction_input, armature_input;
+
+  /// Finds out what is written. [setup]
+  void connect_by_name(Connector& c, ObjectId joint) {
+    if (is_commanded(c, joint, keys::joint_drive_friction)) friction_input = c.read(joint, keys::joint_drive_friction);
+    if (is_commanded(c, joint, keys::joint_drive_armature)) armature_input = c.read(joint, keys::joint_drive_armature);
+  }
+  double friction() const { return friction_input ? *friction_input : 0; }  ///< N m or N
+  double armature() const { return armature_input ? *armature_input : 0; }  ///< kg m^2 or kg
+};
+
+}  // namespace muro
