@@ -88,6 +88,7 @@ struct Commands {
   ScenarioOptions describe_options{};
   CompareOptions compare_options{};
   RenderOptions render_options{};
+  AllanOptions allan_options{};
   bool json = false, markdown = false;
   std::string id{};
   int exit_code = 0;
@@ -98,6 +99,7 @@ struct Commands {
     add_check();
     add_compare();
     add_render();
+    add_sensors();
     add_describe();
     add_plugins();
     add_properties();
@@ -208,6 +210,24 @@ struct Commands {
     command.callback([this] {
       render_options.scenario.plugin_path = plugin_path;
       exit_code = render(render_options);
+    });
+  }
+
+  void add_sensors() {
+    CLI::App& command = *app.add_subcommand("sensors", "Look at the errors of sensors");
+    command.require_subcommand(1);
+    CLI::App& allan_command = *command.add_subcommand(
+        "allan", "Run a scenario, and compare the Allan deviation of a sensor with the data sheet of its sensor.error");
+    add_scenario_options(allan_command, allan_options.scenario);
+    allan_command.add_option("--sensor", allan_options.sensor, "The sensor of a robot, e.g. rover/imu")->required();
+    allan_command.add_option("--reading", allan_options.reading,
+                             "What it reads, e.g. angular_velocity; default: all that a sensor.error works on");
+    allan_command.add_option("--duration", allan_options.duration, "Simulated seconds; default: as the scenario says")
+        ->check(check_duration);
+    allan_command.add_option("--out", allan_options.picture, "Draw the curve of one reading into this file (SVG)");
+    allan_command.callback([this] {
+      allan_options.scenario.plugin_path = plugin_path;
+      exit_code = allan(allan_options);
     });
   }
 

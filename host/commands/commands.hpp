@@ -64,10 +64,19 @@ struct RenderOptions {
   double fps = 25;              ///< frames of the video in a simulated second
 };
 
+struct AllanOptions {
+  ScenarioOptions scenario;
+  std::string sensor;              ///< "rover/imu", or "imu" where only one robot has it
+  std::string reading;             ///< "angular_velocity"; empty: all that have errors
+  std::optional<double> duration;  ///< s
+  std::string picture;             ///< file (SVG), or empty
+};
+
 int run(const RunOptions& options);
 int render(const RenderOptions& options);
 int check(const CheckOptions& options);
 int compare(const CompareOptions& options);
+int allan(const AllanOptions& options);
 int describe(const ScenarioOptions& options, bool json);
 enum class Format { plain, json, markdown };
 int list_plugins(const std::vector<std::string>& plugin_path, Format format);

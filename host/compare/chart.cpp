@@ -99,6 +99,9 @@ class Drawing {
   explicit Drawing(const Chart& chart) : chart_(chart) {
     std::vector<double> xs, ys;
     for (const Chart::Point& p : chart.points) xs.push_back(p.x), ys.push_back(p.y);
+    for (const Chart::Curve& c : chart.curves)
+      for (const auto& [x, y] : c.points)
+        if (!c.guide) xs.push_back(x), ys.push_back(y);
     x_.fit(xs);
     y_.fit(ys);
     if (x_.zeros) x_.from = left + strip + gap, x_.zero = left + strip / 2;
@@ -111,7 +114,8 @@ class Drawing {
         "font-family=\"DejaVu Sans, Helvetica, Arial, sans-serif\" font-size=\"{2:g}\" fill=\"#222\">\n"
         "<style>.grid{{stroke:#e4e4e4}}.fine{{stroke:#f4f4f4}}.tick{{stroke:#888}}.frame{{fill:none;stroke:#888}}"
         ".mark{{stroke:#b22;stroke-dasharray:5 4}}"
-        ".lead{{stroke:#999;stroke-width:0.8}}</style>\n"
+        ".lead{{stroke:#999;stroke-width:0.8}}.guide{{fill:none;stroke:#777;stroke-dasharray:6 4}}"
+        ".curve{{fill:none;stroke-width:1.8}}.band{{fill:#d8d8d8;fill-opacity:0.6}}</style>\n"
         "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n",
         width, height + (chart_.groups.empty() ? 0 : legend_height), text_size);
     out_ += text(left, 30, "start", chart_.title, "font-size=\"17\" font-weight=\"bold\"");
@@ -119,6 +123,8 @@ class Drawing {
     add_x_axis();
     add_y_axis();
     add_marks();
+    add_bands();
+    add_curves();
     add_frames();
     add_points();
     add_legend();
@@ -160,6 +166,60 @@ class Drawing {
       out_ += line(x, top, x, bottom, "mark");
       out_ += text(x, top - 6, x > right - 60 ? "end" : "middle", m.text, "font-size=\"11\" fill=\"#b22\"");
     }
+  }
+
+  std::string place(double x, double y) const {
+    return fmt::format("{:.1f},{:.1f} ", x_.coordinate(x), y_.coordinate(y));
+  }
+
+  /// What may leave the area is cut off at its frame.
+  void begin_clip() {
+    out_ += fmt::format(
+        "<clipPath id=\"area\"><rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"/></clipPath>\n"
+        "<g clip-path=\"url(#area)\">\n",
+        inner_left(), top, right - inner_left(), inner_bottom() - top);
+  }
+
+  void add_bands() {
+    if (chart_.bands.empty()) return;
+    begin_clip();
+    for (const Chart::Band& b : chart_.bands) {
+      std::string corners;
+      for (std::size_t i = 0; i < b.x.size(); ++i) corners += place(b.x[i], b.high[i]);
+      for (std::size_t i = b.x.size(); i-- > 0;) corners += place(b.x[i], b.low[i]);
+      out_ += fmt::format("<polygon class=\"band\" points=\"{}\"/>\n", corners);
+    }
+    out_ += "</g>\n";
+  }
+
+  void add_curves() {
+    if (chart_.curves.empty()) return;
+    begin_clip();
+    for (const Chart::Curve& c : chart_.curves) {
+      std::string corners;
+      for (const auto& [x, y] : c.points) corners += place(x, y);
+      const std::string style =
+          c.guide ? "class=\"guide\""
+                  : fmt::format("class=\"curve\" stroke=\"{}\"", colours[c.group % std::size(colours)]);
+      out_ += fmt::format("<polyline {} points=\"{}\"/>\n", style, corners);
+    }
+    out_ += "</g>\n";
+    for (const Chart::Curve& c : chart_.curves) add_curve_label(c);
+  }
+
+  /// Above the first or last point that is within the area.
+  void add_curve_label(const Chart::Curve& c) {
+    if (c.label.empty()) return;
+    const auto is_inside = [&](const std::pair<double, double>& p) {
+      const double x = x_.coordinate(p.first), y = y_.coordinate(p.second);
+      return x >= inner_left() && x <= right && y >= top + text_size && y <= inner_bottom() - 4;
+    };
+    const auto first = std::find_if(c.points.begin(), c.points.end(), is_inside);
+    const auto last = std::find_if(c.points.rbegin(), c.points.rend(), is_inside);
+    if (first == c.points.end()) return;
+    const auto& [x, y] = c.label_first ? *first : *last;
+    out_ += text(x_.coordinate(x) + (c.label_first ? 5 : -5), y_.coordinate(y) - 6, c.label_first ? "start" : "end",
+                 c.label, "font-size=\"12\" fill=\"#555\" paint-order=\"stroke\" stroke=\"white\" stroke-width=\"3\"");
   }
 
   /// One frame for each part of the area: where an axis is broken, a gap is between them.

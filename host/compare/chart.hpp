@@ -2,12 +2,13 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace muro::host {
 
-/// A chart of labelled points with logarithmic axes. Values of 0 and less, which have no logarithm, are drawn in a
-/// separate strip that is marked 0.
+/// A chart of labelled points and curves with logarithmic axes. Values of 0 and less, which have no logarithm, are
+/// drawn in a separate strip that is marked 0.
 struct Chart {
   struct Axis {
     std::string name, unit;
@@ -25,10 +26,26 @@ struct Chart {
     std::string text;
   };
 
+  /// A line through points of positive values, cut off at the area; its label stands at the end that `label_first`
+  /// says.
+  struct Curve {
+    std::string label;
+    std::vector<std::pair<double, double>> points;
+    std::size_t group = 0;  ///< index in `groups`; decides the colour
+    bool guide = false;     ///< dashed and grey; the axes are not chosen to show it
+    bool label_first = false;
+  };
+  /// The area between two curves of the same x, shaded.
+  struct Band {
+    std::vector<double> x, low, high;
+  };
+
   std::string title, subtitle;
   Axis x, y;
   std::vector<Point> points;
   std::vector<Mark> marks;
+  std::vector<Curve> curves;
+  std::vector<Band> bands;
   std::vector<std::string> groups;  ///< for the legend; none: no legend
 };
 

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "flicker.hpp"
 #include "muro/toolkit/elementary.hpp"
+#include "muro/toolkit/flicker_noise.hpp"
 #include "muro/toolkit/random.hpp"
 #include "per_component.hpp"
 
@@ -18,7 +18,7 @@ namespace muro {
 ///     random walk of density K           phi = 1,            u = K sqrt(h),             b_0 = 0
 ///     Gauss-Markov, deviation s, time T  phi = exp(-h / T),  u = s sqrt(1 - phi^2),     b_0 normal, deviation s
 ///     the same by driving density K      s = K sqrt(T / 2)
-///     flicker of bias instability B      the sum of Gauss-Markov processes of flicker.hpp
+///     flicker of bias instability B      the sum of Gauss-Markov processes of toolkit/flicker_noise.hpp
 class BiasDrift {
  public:
   struct Settings {
