@@ -40,6 +40,9 @@ class LinkMotion {
   /// Of the frame at `origin` in that of link `link`. Binds what `order` needs. [setup]
   LinkMotion(Connector& c, const RobotView& robot, std::uint32_t link, const Pose& origin, Order order);
 
+  /// Whether it is of a frame.
+  explicit operator bool() const { return bool(base_pose_); }
+
   /// When all have connected: throws Error where an acceleration is wanted that no motion of the robot tells. [setup]
   void check(const Connector& c) const;
 

@@ -12,14 +12,31 @@ namespace {
 
 const Description& description_of(const std::string& motion) { return *test::plugins().algorithm(motion).description; }
 
-/// A model of examples/models with a turntable.
-RobotTree vehicle_with_table(Simulation& simulation, const std::string& model) {
+/// A model of examples/models with more links (URDF).
+RobotTree vehicle_with(Simulation& simulation, const std::string& model, const std::string& more) {
   std::string text = test::text_of(MURO_TEST_SOURCE_DIR "/examples/models/" + model + ".urdf");
-  text.insert(text.rfind("</robot>"),
-              "<link name=\"disc\"/><joint name=\"table\" type=\"continuous\"><parent link=\"base_link\"/>"
-              "<child link=\"disc\"/><origin xyz=\"0 0 0.3\"/><axis xyz=\"0 0 1\"/></joint>");
+  text.insert(text.rfind("</robot>"), more);
   const test::ScratchFolder folder;
   return simulation.read_model(folder.file(model + ".urdf", text));
+}
+
+constexpr const char* table_urdf =
+    "<link name=\"disc\"/><joint name=\"table\" type=\"continuous\"><parent link=\"base_link\"/>"
+    "<child link=\"disc\"/><origin xyz=\"0 0 0.3\"/><axis xyz=\"0 0 1\"/></joint>";
+
+std::string arm_urdf(const Vec3& axis) {
+  char text[600];
+  std::snprintf(text, sizeof text,
+                "<link name=\"arm\"><inertial><origin xyz=\"0.3 0 0\"/><mass value=\"0.5\"/>"
+                "<inertia ixx=\"1e-4\" iyy=\"1e-3\" izz=\"1e-3\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial></link>"
+                "<joint name=\"lift\" type=\"continuous\"><parent link=\"base_link\"/><child link=\"arm\"/>"
+                "<origin xyz=\"0 0 0.3\"/><axis xyz=\"%g %g %g\"/></joint>",
+                axis.x(), axis.y(), axis.z());
+  return text;
+}
+
+std::string model_for(const std::string& motion) {
+  return motion == "motion.ackermann" ? "car" : motion == "motion.omni" ? "mecanum" : "rover";
 }
 
 RobotTree box_with_table() {
@@ -58,8 +75,24 @@ std::vector<std::string> motions() {
 
 const RobotView& Trial::add_vehicle(const Pose& pose, const Twist& twist) {
   if (family() != Family::wheeled) return add("r", box_with_table(), pose, twist);
-  const std::string model = motion_ == "motion.ackermann" ? "car" : motion_ == "motion.omni" ? "mecanum" : "rover";
-  return add("r", vehicle_with_table(*this, model), pose, twist);
+  return add("r", vehicle_with(*this, model_for(motion_), table_urdf), pose, twist);
+}
+
+const RobotView& Trial::add_arm(const Vec3& axis, double position) {
+  const Inertia arm{.mass = 0.5, .com = {0.3, 0, 0}, .ixx = 1e-4, .iyy = 1e-3, .izz = 1e-3};
+  const bool is_wheeled = family() == Family::wheeled;
+  const RobotView& robot = is_wheeled ? add("r", vehicle_with(*this, model_for(motion_), arm_urdf(axis)))
+                                      : add("r", test::tree_of([&](RobotBuilder& b) {
+                                              b.base("base_link");
+                                              b.set(keys::inertial, test::solid_box(2, {0.4, 0.3, 0.2}));
+                                              b.translation({0, 0, 0.3});
+                                              b.revolute("lift", axis, {});
+                                              b.body("arm");
+                                              b.set(keys::inertial, arm);
+                                            }),
+                                            {{0, 0, 3}, Quat::Identity()});
+  world().set(world().object("r/lift"), keys::initial_joint_position, position);
+  return robot;
 }
 
 ObjectId Trial::add_sensor(const std::string& id, const std::string& on, Parameters parameters, double rate) {
@@ -82,7 +115,7 @@ void Trial::start(Parameters parameters) {
         : motion_ == "motion.omni"    ? "drive.omni"
                                       : "drive.skid_steer",
         0, all_robots());
-  if (family() == Family::forces)
+  if (family() == Family::forces || finds_contacts_)
     use_contacts();
   else
     use_kinematics();
@@ -96,8 +129,15 @@ void Trial::command(double speed, double yaw_rate) {
 
 std::vector<Case> all_cases() {
   std::vector<Case> all;
-  for (const auto& some : {inertial_cases(), change_cases()}) all.insert(all.end(), some.begin(), some.end());
+  for (const auto& some :
+       {inertial_cases(), change_cases(), joint_cases(), wrench_cases(), touch_cases(), place_cases()})
+    all.insert(all.end(), some.begin(), some.end());
   return all;
+}
+
+How how(const std::string& motion, const Case& c) {
+  if (!c.only_for.empty() && motion != c.only_for) return How::left_out;
+  return c.how[int(family_of(motion))];
 }
 
 Bound bound_of(const std::string& motion, const Case& c) {

@@ -28,10 +28,15 @@ class Trial : public test::Scene {
   /// A vehicle that the motion can drive: of examples/models for wheeled ones, a box of 2 kg for others. With a
   /// turntable about z, its joint `table` and its link `disc`, in the middle of the base.
   const RobotView& add_vehicle(const Pose& pose = {}, const Twist& twist = {});
+  /// A link `arm` of 0.5 kg whose centre of mass is 0.3 m along x, on a joint `lift` about `axis` of the base, at
+  /// `position` (rad): on the vehicle of the motion.
+  const RobotView& add_arm(const Vec3& axis, double position);
   /// A sensor on a link or joint of the last robot.
   ObjectId add_sensor(const std::string& id, const std::string& on, Parameters parameters = {}, double rate = 1000);
   /// Adds the motion (1000 Hz), drives and contacts, and builds. `parameters` that the motion has not are left out.
   void start(Parameters parameters = {});
+  /// Contacts are also found for robots that no force moves. Before start().
+  void find_contacts() { finds_contacts_ = true; }
   /// Goes forward at `speed` (m/s) and turns at `yaw_rate` (rad/s): commands those that are not moved by forces.
   void command(double speed, double yaw_rate);
   double& joint(const std::string& name, const Key<double>& key) { return world().value("r/" + name, key); }
@@ -44,6 +49,7 @@ class Trial : public test::Scene {
 
  private:
   std::string motion_;
+  bool finds_contacts_ = false;
 };
 
 /// What a case found.
@@ -68,11 +74,17 @@ struct Case {
   How how[3] = {How::analytic, How::analytic, How::differenced};
   double bound[3] = {1e-9, 1e-9, 1e-6};
   Outcome (*run)(const std::string& motion) = nullptr;
+  std::string_view only_for{};  ///< the motion that it is for; empty: all of the family
 };
+How how(const std::string& motion, const Case& c);
 
 std::vector<Case> all_cases();
 std::vector<Case> inertial_cases();
 std::vector<Case> change_cases();
+std::vector<Case> wrench_cases();
+std::vector<Case> touch_cases();
+std::vector<Case> joint_cases();
+std::vector<Case> place_cases();
 
 /// The bound of a motion, its own where it has one with a reason.
 struct Bound {

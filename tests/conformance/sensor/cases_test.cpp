@@ -9,8 +9,6 @@ namespace {
 
 using Combination = std::tuple<std::string, std::size_t>;
 
-How how(const std::string& motion, const Case& c) { return c.how[int(family_of(motion))]; }
-
 class EverySensor : public ::testing::TestWithParam<Combination> {};
 
 TEST_P(EverySensor, ReadsWhatIsKnown) {

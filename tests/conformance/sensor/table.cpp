@@ -8,7 +8,7 @@ namespace muro::sensor_conformance {
 namespace {
 
 std::string cell(const std::string& motion, const Case& c) {
-  switch (c.how[int(family_of(motion))]) {
+  switch (how(motion, c)) {
     case How::left_out:
       return "";
     case How::refused:
@@ -18,8 +18,7 @@ std::string cell(const std::string& motion, const Case& c) {
   }
   char text[64];
   const Outcome seen = c.run(motion);
-  std::snprintf(text, sizeof text, "%s, %.1e", c.how[int(family_of(motion))] == How::analytic ? "exact" : "step",
-                seen.error);
+  std::snprintf(text, sizeof text, "%s, %.1e", how(motion, c) == How::analytic ? "exact" : "step", seen.error);
   return text;
 }
 

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+// A force-torque sensor in a joint or in a fixed connection of two links.
+#include "muro/plugin.hpp"
+#include "plugins/common/internal_sensor/link_load.hpp"
+#include "plugins/common/internal_sensor/mounted.hpp"
+#include "plugins/common/internal_sensor/property_uses.hpp"
+#include "plugins/common/text/quote.hpp"
+#include "subtree.hpp"
+
+namespace {
+
+using namespace muro;
+using namespace muro::internal_sensor;
+using link_acceleration::FrameMotion, link_acceleration::LinkMotion, link_acceleration::Order;
+
+constexpr PropertyUse reads[] = {
+    reads_pose,
+    reads_twist,
+    reads_acceleration,
+    {"joint.position", "of joints up to the sensor, and beyond it"},
+    reads_joint_velocity,
+    reads_joint_acceleration,
+    reads_gravity,
+    {"inertial", "of all links beyond the sensor"},
+    {"wrench.contact", "of all links beyond the sensor, at motions by engines"},
+    {"wrench.external", "likewise, where the motion has it act on links"},
+    reads_contacts_of_law,
+};
+constexpr PropertyUse writes[] = {{"wrench", "by what lies beyond on what carries it, axes of the device"},
+                                  mounting_writes};
+constexpr Description description{
+    .id = "sensor.force_torque",
+    .kind = Kind::sensor,
+    .version = "1.0.0",
+    .summary = "Force and torque that pass through a joint or a fixed connection",
+    .parameters = mounting_parameters,
+    .reads = reads,
+    .writes = writes,
+    .capabilities = deterministic | batched | allocation_free | restorable,
+};
+
+/// What is kept of a device.
+struct Device {
+  LinkMotion link;  ///< the first link beyond the sensor
+  Pose mounting;    ///< of the device in it
+  Subtree beyond;
+  Out<Wrench> wrench;
+};
+
+class ForceTorque final : public PerRobotAlgorithm<Device> {
+ public:
+  void connect_by_name(Connector& c) override {
+    for (std::uint32_t i = 0; i < c.items().size(); ++i) robot(i).link.check(c), robot(i).beyond.check(c);
+    if (without_contacts_.empty()) return;
+    c.host().log(LogLevel::info, "sensor.force_torque: no force moves " + without_contacts_ +
+                                     ", so its wrenches are of weight and acceleration alone, and no contact is felt; "
+                                     "give it a motion by forces for that");
+  }
+
+  void step(const Step&, Range range) override {
+    for (Device& d : robots(range)) {
+      const FrameMotion link = d.link.now();
+      const Pose device = link.pose * d.mounting;
+      const Wrench holding = d.beyond.holding_wrench(link, device.position, gravity_);
+      const Quat to_device = device.orientation.conjugate();
+      *d.wrench = {to_device * Vec3(-holding.force), to_device * Vec3(-holding.torque)};
+    }
+  }
+
+ private:
+  Device connect_robot(Connector& c, const Item& item) override {
+    gravity_ = gravity_of(c);
+    const RobotView& view = *item.robot;
+    const std::uint32_t link = carrying_link_or_joint(c, item);
+    if (link == 0)
+      throw Error("it is mounted on the base of " + quote(view.name) +
+                  ", which nothing carries; name with `on` a joint, or the link behind it");
+    Device d;
+    d.mounting = mounting_of(c.parameters());
+    c.set(item.object, keys::sensor_origin, d.mounting);
+    d.link = LinkMotion(c, view, link, Pose{}, Order::acceleration);
+    d.beyond = Subtree(c, view, link);
+    if (!d.beyond.feels_forces() && without_contacts_.empty()) without_contacts_ = quote(view.name);
+    d.wrench = c.variable(item.object, keys::sensed_wrench, Wrench{});
+    return d;
+  }
+
+  Vec3 gravity_ = Vec3::Zero();
+  std::string without_contacts_;  ///< the first robot that no force moves
+};
+
+constexpr abi::AlgorithmEntry algorithms[] = {algorithm<ForceTorque>(description)};
+
+}  // namespace
+
+MURO_PLUGIN(.name = "sensor_force_torque", .version = description.version, .licence = "MIT",
+            .summary = "A force-torque sensor", .algorithms = algorithms)
