@@ -20,6 +20,15 @@ bool is_name_character(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.';
 }
 
+/// A finite number, or none.
+std::optional<double> number_in(std::string_view text) {
+  double x = 0;
+  const char* const end = text.data() + text.size();
+  const auto [used, code] = std::from_chars(text.data(), end, x);
+  if (code != std::errc{} || used != end || !std::isfinite(x)) return std::nullopt;
+  return x;
+}
+
 /// One line, read from the left.
 struct PartLine {
   std::string_view text;
@@ -81,12 +90,13 @@ PartFile PartFile::parse(std::string_view text, std::string name) {
     }
     if (indent == 0) section.clear();
     std::string value;
+    const int column = int(line.at) + 1;
     if (!line.value(value)) throw fail("the quote is not closed");
     line.skip_blanks();
     if (!line.at_end()) throw fail("there is more after the value of " + quote(key));
     if (const Entry* const other = file.find(section, key))
       throw fail(quote(key) + " stands in line " + std::to_string(other->line) + " already");
-    file.entries_.push_back({section, key, value, number});
+    file.entries_.push_back({section, key, value, number, column, int(indent) + 1});
   }
   return file;
 }
@@ -117,21 +127,43 @@ const PartFile::Entry* PartFile::find(std::string_view section, std::string_view
 std::optional<double> PartFile::number(std::string_view section, std::string_view name) const {
   const Entry* const entry = find(section, name);
   if (!entry) return std::nullopt;
-  double x = 0;
-  const char* const end = entry->value.data() + entry->value.size();
-  const auto [used, code] = std::from_chars(entry->value.data(), end, x);
-  if (code != std::errc{} || used != end || !std::isfinite(x))
-    throw Error(place(*entry) + quote(name) + " is " + quote(entry->value) + ", which is no number");
+  const std::optional<double> x = number_in(entry->value);
+  if (!x) throw Error(place(*entry) + quote(name) + " is " + quote(entry->value) + ", which is no number");
   return x;
 }
 
-std::string PartFile::place(const Entry& entry) const { return name_ + ":" + std::to_string(entry.line) + ": "; }
+std::vector<double> PartFile::numbers(const Entry& entry) const {
+  std::string_view rest = entry.value;
+  const bool is_list = !rest.empty() && rest.front() == '[';
+  if (is_list && rest.back() != ']') throw Error(place(entry) + "`]` is missing: a list of numbers stands in one line");
+  if (is_list) rest = rest.substr(1, rest.size() - 2);
+  std::vector<double> all;
+  while (true) {
+    const std::size_t end = is_list ? std::min(rest.find(','), rest.size()) : rest.size();
+    std::string_view item = rest.substr(0, end);
+    while (!item.empty() && item.front() == ' ') item.remove_prefix(1);
+    while (!item.empty() && item.back() == ' ') item.remove_suffix(1);
+    const std::optional<double> x = number_in(item);
+    if (!x) throw Error(place(entry) + quote(entry.name) + " is " + quote(item) + ", which is no number");
+    all.push_back(*x);
+    if (end == rest.size()) return all;
+    rest.remove_prefix(end + 1);
+  }
+}
+
+std::string PartFile::place(const Entry& entry) const {
+  return name_ + ":" + std::to_string(entry.line) + ":" + std::to_string(entry.column) + ": ";
+}
+
+std::string PartFile::place_of_name(const Entry& entry) const {
+  return name_ + ":" + std::to_string(entry.line) + ":" + std::to_string(entry.name_column) + ": ";
+}
 
 void PartFile::check_names(std::string_view section, std::span<const std::string_view> known) const {
   const std::vector<std::string> names(known.begin(), known.end());
   for (const Entry& e : entries_)
     if (e.section == section && std::find(known.begin(), known.end(), e.name) == known.end())
-      throw Error(place(e) + "there is no parameter " + quote(e.name) + did_you_mean(e.name, names) +
+      throw Error(place_of_name(e) + "there is no parameter " + quote(e.name) + did_you_mean(e.name, names) +
                   "; here stand: " + quoted_list(known));
 }
 
@@ -143,7 +175,7 @@ PartFile find_part(std::string_view name, const std::string& path, std::span<con
   }
   if (name.find('/') != std::string_view::npos || name.find('.') != std::string_view::npos) return PartFile::read(path);
   throw Error("there is no part " + quote(name) + did_you_mean(name, names) + "; ready are " + quoted_list(names) +
-              ", and a file of your own is given by its path, such as my_motor.yaml");
+              ", and a file of your own is given by its path, such as my_part.yaml");
 }
 
 }  // namespace muro

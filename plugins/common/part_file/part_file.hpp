@@ -11,13 +11,15 @@
 namespace muro {
 
 /// A part file that was read: lines `name: value`, in sections that a line `name:` opens and whose lines are indented.
-/// `#` begins a comment. A value is a number or a text, in quotes or without. It is a subset of YAML.
+/// `#` begins a comment. A value is a number, numbers in brackets, or a text, in quotes or without. It is a subset of
+/// YAML.
 class PartFile {
  public:
   struct Entry {
     std::string section;  ///< empty: before the first section
     std::string name, value;
-    int line = 0;
+    int line = 0, column = 0;  ///< of the value
+    int name_column = 0;
   };
   /// Throws Error with `name`, line and column for anything else, and for a name that stands twice in a section.
   static PartFile parse(std::string_view text, std::string name);
@@ -32,8 +34,12 @@ class PartFile {
   const Entry* find(std::string_view section, std::string_view name) const;
   /// As a finite number; Error where it is none.
   std::optional<double> number(std::string_view section, std::string_view name) const;
-  /// "FILE:LINE: ".
+  /// The value as one finite number, or as several, "[1, 2]"; Error where it is neither.
+  std::vector<double> numbers(const Entry& entry) const;
+  /// "FILE:LINE:COLUMN: ", of the value.
   std::string place(const Entry& entry) const;
+  /// The same, of the name.
+  std::string place_of_name(const Entry& entry) const;
   /// Throws Error for an entry of a section (or before all) whose name is not one of `known`.
   void check_names(std::string_view section, std::span<const std::string_view> known) const;
 

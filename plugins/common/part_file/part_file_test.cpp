@@ -42,12 +42,29 @@ TEST(PartFile, MistakesAreNamedWithLineAndColumn) {
       {"a: \"b\" c\n", "my.yaml:1:8: there is more after the value of `a`"},
       {"m1:\n  kt: 1\n  kt: 2\n", "my.yaml:3:8: `kt` stands in line 2 already"},
       {"m1:\n  kt:\n", "my.yaml:2:6: `kt` has no value"},
-      {"m1:\n  kt: 1,5\n", "my.yaml:2: `kt` is `1,5`, which is no number"},
-      {"m1:\n  kt: nan\n", "my.yaml:2: `kt` is `nan`, which is no number"},
-      {"m1:\n  resistence: 1\n", "did you mean `resistance`?"},
+      {"m1:\n  kt: 1,5\n", "my.yaml:2:7: `kt` is `1,5`, which is no number"},
+      {"m1:\n  kt: nan\n", "my.yaml:2:7: `kt` is `nan`, which is no number"},
+      {"m1:\n  resistence: 1\n", "my.yaml:2:3: there is no parameter `resistence` (did you mean `resistance`?)"},
   };
   for (const auto& [text, message] : cases)
     EXPECT_NE(complaint_about(text).find(message), std::string::npos) << text << complaint_about(text);
+}
+
+TEST(PartFile, NumbersMayStandInBrackets) {
+  const PartFile f = PartFile::parse("a: [1, -2e3 ,3]  # three\nb: 4\nc: [1, x]\nd: [1\ne: []\n", "my.yaml");
+  EXPECT_EQ(f.numbers(*f.find("", "a")), (std::vector<double>{1, -2e3, 3}));
+  EXPECT_EQ(f.numbers(*f.find("", "b")), (std::vector<double>{4}));
+  for (const auto& [name, message] :
+       {std::pair("c", "my.yaml:3:4: `c` is `x`, which is no number"),
+        std::pair("d", "my.yaml:4:4: `]` is missing: a list of numbers stands in one line"),
+        std::pair("e", "my.yaml:5:4: `e` is ``, which is no number")}) {
+    try {
+      f.numbers(*f.find("", name));
+      ADD_FAILURE() << name;
+    } catch (const Error& e) {
+      EXPECT_STREQ(e.what(), message);
+    }
+  }
 }
 
 TEST(PartFile, AnUnknownPartIsToldWithThoseThatAreReady) {

@@ -15,6 +15,10 @@
 #include "readings.hpp"
 #include "settings.hpp"
 
+namespace muro {
+std::span<const ReadyPart> ready_parts();  // generated: the files parts/*.yaml
+}
+
 namespace {
 
 using namespace muro;
@@ -47,7 +51,10 @@ class SensorError final : public Algorithm {
  public:
   void connect(Connector& c) override {
     const Parameters& p = c.parameters();
-    if (p.given("part")) part_ = read_part(file_of_part(c, p.text("part")), error_parameters);
+    if (p.given("part")) {
+      const std::string_view name = p.text("part");
+      part_ = make_part(find_part(name, std::string(c.resolve_path(name)), ready_parts()), error_parameters);
+    }
     for (std::uint32_t i = 0; i < c.items().size(); ++i) {
       first_.push_back(std::uint32_t(channels_.size()));
       const ObjectId object = c.items()[i].object;
@@ -95,7 +102,7 @@ class SensorError final : public Algorithm {
     if (part_ && !section)
       throw Error("part " + part_->file + " has no errors of " + quote(shape.name) + "; it has those of " +
                   readings_of(*part_));
-    const GivenErrors given(c.parameters(), part_ ? &*part_ : nullptr, section);
+    const GivenErrors given(c.parameters(), section);
     ErrorSettings settings = settings_of(given, shape);
     set_limits(c, object, given, shape, settings);
     const double period = c.rate() > 0 ? 1 / c.rate() : 0;

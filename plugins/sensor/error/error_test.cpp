@@ -334,7 +334,7 @@ TEST(SensorError, TellsOfPartsThatDoNotFit) {
     return message_of(s);
   };
   EXPECT_SAYS(said({{"part", std::string("mpu6000")}}),
-              "there is no part `mpu6000` (did you mean `mpu6050`?); there "
+              "there is no part `mpu6000` (did you mean `mpu6050`?); ready "
               "are `adis16448`, `as5045`, `mpu6050`, `mti1`, and a file");
   EXPECT_SAYS(said({{"part", std::string("as5045")}}),
               "has none of the readings of the part (`encoder.position`); it has");

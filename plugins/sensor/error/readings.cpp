@@ -1,13 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "readings.hpp"
 
-#include <algorithm>
-#include <filesystem>
-
 #include "muro/algorithm.hpp"
-#include "muro/toolkit/did_you_mean.hpp"
-#include "muro/vocabulary.hpp"
-#include "plugins/common/child_process/own_folder.hpp"
 #include "plugins/common/text/quote.hpp"
 
 namespace muro {
@@ -77,22 +71,6 @@ std::vector<FoundProperty> readings_of_part(const Connector& c, ObjectId object,
     throw Error(quote(c.object_name(object)) + " has none of the readings of the part (" + quoted_list(known) + ")" +
                 what_there_is(c, object));
   return found;
-}
-
-std::string file_of_part(const Connector& c, std::string_view part) {
-  namespace fs = std::filesystem;
-  const bool is_path = part.find('/') != std::string_view::npos || part.find('.') != std::string_view::npos;
-  if (is_path) return std::string(c.resolve_path(part));
-  std::error_code code;
-  const fs::path folder = fs::path(own_folder()) / "parts";
-  std::vector<std::string> names;
-  for (fs::directory_iterator entry(folder, code), end; !code && entry != end; entry.increment(code))
-    if (entry->path().extension() == ".yaml") names.push_back(entry->path().stem().string());
-  std::sort(names.begin(), names.end());
-  if (std::find(names.begin(), names.end(), part) != names.end())
-    return (folder / (std::string(part) + ".yaml")).string();
-  throw Error("there is no part " + quote(part) + did_you_mean(part, names) + "; there are " + quoted_list(names) +
-              ", and a file of your own is named by its path, such as ./" + std::string(part) + ".yaml");
 }
 
 }  // namespace muro

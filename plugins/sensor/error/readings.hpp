@@ -27,7 +27,4 @@ std::optional<FoundProperty> find_value(const Connector& c, ObjectId object, std
     if (p.key->name == name && p.multiplicity == Multiplicity::single && *p.key->type == value_type<T>) return p;
   return std::nullopt;
 }
-/// The file of a part by its name, or the path in a scenario. Throws muro::Error where there is none. [setup]
-std::string file_of_part(const Connector& c, std::string_view part);
-
 }  // namespace muro

@@ -124,7 +124,7 @@ std::span<const double> GivenErrors::numbers(std::string_view name) const {
 
 void GivenErrors::fail(std::string_view name, const std::string& what) const {
   const PartValue* v = scenario_.given(name) ? nullptr : in_part(name);
-  throw Error(v ? part_->place(*v) + what : what);
+  throw Error(v ? v->place + what : what);
 }
 
 ErrorSettings settings_of(const GivenErrors& given, const ReadingShape& reading) {

@@ -18,9 +18,8 @@ struct ReadingShape {
 /// The settings of one reading: those of the scenario, else those of a part, else none.
 class GivenErrors {
  public:
-  /// `section` of `part`: both null where there is no part.
-  GivenErrors(const Parameters& scenario, const Part* part, const PartSection* section)
-      : scenario_(scenario), part_(part), section_(section) {}
+  /// `section`: null where there is no part.
+  GivenErrors(const Parameters& scenario, const PartSection* section) : scenario_(scenario), section_(section) {}
 
   bool given(std::string_view name) const { return scenario_.given(name) || in_part(name); }
   bool in_scenario(std::string_view name) const { return scenario_.given(name); }
@@ -34,7 +33,6 @@ class GivenErrors {
  private:
   const PartValue* in_part(std::string_view name) const;
   const Parameters& scenario_;
-  const Part* part_;
   const PartSection* section_;
 };
 
