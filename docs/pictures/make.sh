@@ -13,6 +13,7 @@ camera depth depth
 camera labels labels
 "$muro" render "$urban" --set robots.rovers.count=250 --at 8 --from 0.5,-17,3.4 --to 0,-6,0.3 --fov 60 --size 960x540 \
   --out "$out/urban.png"
+"$muro" render examples/swarm/swarm.yaml --at 45 --from 0,-15,5.5 --to 3.7,-6,0 --fov 58 --size 960x540 --out "$out/swarm.png"
 "$muro" render examples/levels/levels.yaml --at 4 --from -3,-3,2.2 --to 0,0,0 --size 960x540 --out "$out/levels.png"
 "$muro" render examples/balancer/balancer.yaml --at 4.5 --from=-10.9,-1.9,0.6 --to=-6.9,-0.15,0.1 --fov 42 \
   --size 800x450 --out "$out/balancer.png"

@@ -130,7 +130,7 @@ void Algorithms::add_kinematics() {
 /// Records what the algorithm reads with these parameters. A world reads external wrenches only when forces move bodies
 /// that are not in it, so its own declaration does not count.
 void Algorithms::record_reads(const Description& d, const Subsystem& s) {
-  const bool world = (d.capabilities & Capability::world) != 0;
+  const bool world = d.kind == Kind::motion && (d.capabilities & Capability::world) != 0;
   if (world) {
     const auto named = s.parameters.find("world");
     const auto* name = named == s.parameters.end() ? nullptr : std::get_if<std::string>(&named->second);

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include "line_of_sight.hpp"
+
+#include <string>
+
+#include "muro/vocabulary.hpp"
+#include "plugins/common/mesh/collision_mesh.hpp"
+
+namespace muro::line_of_sight {
+
+namespace {
+
+/// m: of two devices at the height of a floor, the floor is no obstacle, and the walls on it are.
+constexpr double lift = 1e-3;
+
+}  // namespace
+
+LineOfSight::Solid LineOfSight::load(Connector& c, const Shape& shape) {
+  const std::string path(c.text(shape.mesh));
+  if (shape.kind == ShapeKind::heightmap) {
+    const Heightmap map = heightmaps_.file(path).heightmap(shape.size);
+    grounds_.push_back(std::make_unique<Ground>(Ground{map, heightmap::bounds_of(map).high.z()}));
+    return {.ground = grounds_.back().get()};
+  }
+  const mesh::Mesh& mesh = meshes_.mesh(path, shape.size);
+  const TriangleMesh*& known = known_meshes_[&mesh];
+  if (known) return {.mesh = known};
+  TriangleMesh& made = *triangle_meshes_.emplace_back(std::make_unique<TriangleMesh>());
+  made.mesh = &mesh;
+  std::vector<Aabb> boxes;
+  std::vector<std::uint32_t> all;
+  for (const mesh::Triangle& t : mesh.triangles) {
+    all.push_back(std::uint32_t(boxes.size()));
+    Aabb& box = boxes.emplace_back();
+    for (const std::uint32_t corner : t) box.include({mesh.vertices[corner], mesh.vertices[corner]});
+  }
+  made.tree.build(boxes, all);
+  known = &made;
+  return {.mesh = known};
+}
+
+void LineOfSight::connect(Connector& c) {
+  scene_ = c.read(world_object, keys::scene_index);
+  for (std::uint32_t i = 0; i < c.object_count(); ++i) {
+    const std::span<const Shape> shapes = c.constant_array(ObjectId(i), keys::collision_shapes);
+    for (std::uint32_t k = 0; k < shapes.size(); ++k) {
+      if (shapes[k].kind != ShapeKind::mesh && shapes[k].kind != ShapeKind::heightmap) continue;
+      try {
+        solid_of_shape_[{i, k}] = load(c, shapes[k]);
+      } catch (const Error& error) {
+        mesh::refuse_collision_mesh(c, ObjectId(i), error);
+      }
+    }
+  }
+}
+
+void LineOfSight::find_solids() {
+  solids_.clear();
+  for (const Collider& k : scene_->colliders) {
+    const auto found = solid_of_shape_.find({index_of(k.body), k.shape_index});
+    solids_.push_back(found == solid_of_shape_.end() ? Solid{} : found->second);
+  }
+}
+
+bool LineOfSight::is_cut(const Segment& segment, std::uint32_t collider) const {
+  const Collider& k = scene_->colliders[collider];
+  const Solid& solid = solids_[collider];
+  const Segment s = segment.in(k.pose());
+  if (solid.ground) return passes_under(s, solid.ground->map, solid.ground->highest);
+  if (!solid.mesh) return passes_through(s, *k.shape);
+  const mesh::Mesh& mesh = *solid.mesh->mesh;
+  return any_on(solid.mesh->tree.view(), s, [&](std::uint32_t i) {
+    const mesh::Triangle& t = mesh.triangles[i];
+    return crosses(s, mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
+  });
+}
+
+bool LineOfSight::is_cut_by_robot(const Segment& segment, std::uint32_t robot) const {
+  const RobotColliders& colliders = scene_->robots[robot];
+  if (!segment.touches(colliders.bounds)) return false;
+  for (std::uint32_t i = 0; i < colliders.count; ++i)
+    if (is_cut(segment, colliders.first + i)) return true;
+  return false;
+}
+
+std::uint32_t LineOfSight::obstacles(const Vec3& a, const Vec3& b, std::int32_t own, std::int32_t other,
+                                     std::uint32_t most) const {
+  if (!a.allFinite() || !b.allFinite()) return most;
+  const Vec3 lifted(0, 0, lift);
+  const Segment segment = Segment::between(a + lifted, b + lifted);
+  std::uint32_t count = 0;
+  any_on(scene_->scenery, segment, [&](std::uint32_t i) { return is_cut(segment, i) && ++count >= most; });
+  if (count >= most) return count;
+  any_on(scene_->moving, segment, [&](std::uint32_t robot) {
+    const auto number = std::int32_t(robot);
+    return number != own && number != other && is_cut_by_robot(segment, robot) && ++count >= most;
+  });
+  return count;
+}
+
+}  // namespace muro::line_of_sight

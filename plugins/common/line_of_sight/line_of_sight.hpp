@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "muro/algorithm.hpp"
+#include "plugins/common/contact_geometry/box_tree.hpp"
+#include "plugins/common/heightmap/heightmap_file.hpp"
+#include "plugins/common/mesh/store.hpp"
+#include "segment.hpp"
+
+namespace muro::line_of_sight {
+
+/// What stands between two points, by the scene's index: see README.md.
+class LineOfSight {
+ public:
+  /// Asks for scene.index and reads the meshes and heightmaps of the scene. [setup]
+  void connect(Connector& c);
+  /// To be called in each step, before the first search and by one thread.
+  void begin_step() {
+    if (solids_.size() != scene_->colliders.size()) find_solids();
+  }
+  /// How many obstacles the line from `a` to `b` (m, world) passes through, at most `most`: each shape of the scenery
+  /// counts, and each robot as one. The line runs 1 mm above its ends: what stands on a floor is in its way, the floor
+  /// is not. Robots `own` and `other` (numbers; -1: none) do not count. [step, any thread]
+  std::uint32_t obstacles(const Vec3& a, const Vec3& b, std::int32_t own, std::int32_t other,
+                          std::uint32_t most = 1) const;
+  bool is_clear(const Vec3& a, const Vec3& b, std::int32_t own, std::int32_t other) const {
+    return obstacles(a, b, own, other) == 0;
+  }
+
+ private:
+  struct TriangleMesh {
+    const mesh::Mesh* mesh;
+    contact_geometry::BoxTree tree;  ///< of its triangles
+  };
+  struct Ground {
+    Heightmap map;
+    double highest;  ///< m
+  };
+  /// What a collider that is a mesh or heightmap is made of.
+  struct Solid {
+    const TriangleMesh* mesh = nullptr;
+    const Ground* ground = nullptr;
+  };
+  Solid load(Connector& c, const Shape& shape);
+  void find_solids();
+  bool is_cut(const Segment& segment, std::uint32_t collider) const;
+  bool is_cut_by_robot(const Segment& segment, std::uint32_t robot) const;
+
+  In<SceneIndex> scene_;
+  mesh::Store meshes_;
+  heightmap::Store heightmaps_;
+  std::vector<std::unique_ptr<TriangleMesh>> triangle_meshes_;
+  std::map<const mesh::Mesh*, const TriangleMesh*> known_meshes_;
+  std::vector<std::unique_ptr<Ground>> grounds_;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Solid> solid_of_shape_;  ///< by object and number of the shape
+  std::vector<Solid> solids_;                                                ///< by collider
+};
+
+}  // namespace muro::line_of_sight

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// A straight line between two points, and what it meets: boxes of a hierarchy, convex shapes, heightmaps, triangles.
+#pragma once
+
+#include "muro/scene.hpp"
+#include "muro/toolkit/heightmap.hpp"
+#include "plugins/common/mesh/mesh.hpp"
+
+namespace muro::line_of_sight {
+
+/// From `start` over `start + way`; a place on it is a number from 0 to 1.
+struct Segment {
+  Vec3 start, way;  ///< m
+  Vec3 per_way;     ///< 1 / way
+
+  static Segment along(const Vec3& start, const Vec3& way) { return {start, way, way.cwiseInverse()}; }
+  static Segment between(const Vec3& a, const Vec3& b) { return along(a, b - a); }
+  Vec3 end() const { return start + way; }
+  /// In the frame whose pose in the present one is `frame`.
+  Segment in(const Pose& frame) const {
+    const Quat back = frame.orientation.conjugate();
+    return along(back * Vec3(start - frame.position), back * way);
+  }
+  /// Whether a part of it is in the closed box.
+  bool touches(const Aabb& box) const {
+    double in = 0, out = 1;
+    for (int k = 0; k < 3; ++k) {
+      const double low = box.low[k] - start[k], high = box.high[k] - start[k];
+      if (way[k] == 0) {
+        if (low > 0 || high < 0) return false;
+        continue;
+      }
+      const double a = low * per_way[k], b = high * per_way[k];
+      in = std::max(in, std::min(a, b));
+      out = std::min(out, std::max(a, b));
+    }
+    return in <= out;
+  }
+};
+
+/// Whether the segment passes through a box, sphere, cylinder or capsule. The segment is in the frame of the shape. A
+/// shape that holds an end of the segment, or is only touched, is not passed through. Other shapes: false.
+bool passes_through(const Segment& segment, const Shape& shape);
+
+/// Whether the segment passes under the surface of a heightmap, in the frame of its shape; `highest` (m) is the highest
+/// point of the surface. An end that is under the surface counts as lying on it.
+bool passes_under(const Segment& segment, const Heightmap& ground, double highest);
+
+/// Whether the segment crosses a triangle.
+bool crosses(const Segment& segment, const Vec3& a, const Vec3& b, const Vec3& c);
+
+/// Calls visit(item) for the items of all leaves that the segment touches, until one returns true; returns whether one
+/// did. The leaves' bounds, not those of items, decide.
+template <class Visit>
+bool any_on(const Bvh& tree, const Segment& segment, Visit visit) {
+  if (tree.nodes.empty()) return false;
+  std::uint32_t stack[64];
+  int depth = 0;
+  stack[depth++] = 0;
+  while (depth > 0) {
+    const BvhNode& n = tree.nodes[stack[--depth]];
+    if (!segment.touches(n.bounds)) continue;
+    for (std::uint32_t i = 0; i < n.count; ++i)
+      if (visit(tree.items[n.first + i])) return true;
+    if (n.count > 0) continue;
+    stack[depth++] = n.first + 1;
+    stack[depth++] = n.first;
+  }
+  return false;
+}
+
+}  // namespace muro::line_of_sight

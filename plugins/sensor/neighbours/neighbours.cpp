@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: MIT
+// Who is in range, in which direction and with which heading; see README.md.
+#include <algorithm>
+#include <cmath>
+#include <compare>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "muro/plugin.hpp"
+#include "muro/toolkit/mounting.hpp"
+#include "muro/toolkit/random.hpp"
+#include "neighbour.hpp"
+#include "plugins/common/line_of_sight/line_of_sight.hpp"
+#include "plugins/common/spatial_hash/spatial_hash.hpp"
+#include "plugins/common/text/glob.hpp"
+#include "plugins/common/text/quote.hpp"
+
+namespace muro::neighbours {
+namespace {
+
+constexpr double no_target[] = {0, 0, 0};
+constexpr Parameter parameters[] = {
+    real("range", "m", 3, "distance up to which others are seen").between(1e-6, 1e6),
+    integer("max_neighbours", 32, "the nearest so many are reported").between(1, 1e6),
+    boolean("line_of_sight", true, "others are hidden behind scenery and bodies of third robots"),
+    texts("robots", "names of the robots that are seen, `*` for any characters and `?` for one; none: all"),
+    reals("target", "m", no_target, "the point of another robot that is measured, in the frame of its base")
+        .of_length(3),
+    mounting_offset,
+    mounting_rpy,
+    real("distance_sigma", "m", 0, "standard deviation of distances").between(0, 1e6),
+    real("distance_sigma_relative", "1", 0, "standard deviation of distances, in proportion to them").between(0, 10),
+    real("bearing_sigma", "rad", 0, "standard deviation of bearings").between(0, 10),
+    real("elevation_sigma", "rad", 0, "standard deviation of elevations").between(0, 10),
+    real("heading_sigma", "rad", 0, "standard deviation of headings").between(0, 10),
+    real("dropout", "1", 0, "probability that a neighbour is missed in a step").between(0, 1),
+};
+constexpr PropertyUse reads[] = {
+    {"pose", "of the sensor's object, and of the bases of all robots that may be seen"},
+    {"scene.index", "of the world, with line_of_sight"},
+};
+constexpr PropertyUse writes[] = {{"neighbours", "list: id, distance, bearing, elevation, heading of each"},
+                                  mounting_writes};
+constexpr Description description{
+    .id = "sensor.neighbours",
+    .kind = Kind::sensor,
+    .version = "1.0.0",
+    .summary =
+        "Which robots are in range: distance, bearing, elevation, heading and number of each (range and bearing)",
+    .parameters = parameters,
+    .reads = reads,
+    .writes = writes,
+    .capabilities = deterministic | batched | allocation_free | restorable,
+};
+
+/// Standard deviations, and the probability of a miss.
+struct Errors {
+  double distance = 0, distance_relative = 0, bearing = 0, elevation = 0, heading = 0, dropout = 0;
+
+  bool any() const { return distance > 0 || distance_relative > 0 || bearing > 0 || elevation > 0 || heading > 0; }
+};
+
+Errors errors_of(const Parameters& p) {
+  return {p.real("distance_sigma"),  p.real("distance_sigma_relative"), p.real("bearing_sigma"),
+          p.real("elevation_sigma"), p.real("heading_sigma"),           p.real("dropout")};
+}
+
+double wrapped(double angle) { return std::remainder(angle, 6.283185307179586); }
+
+/// The angle about z, from x, of a direction; 0 along z.
+double azimuth_of(const Vec3& v) { return elementary::atan2(v.y(), v.x()); }
+
+class Neighbours final : public Algorithm {
+ public:
+  void connect(Connector& c) override;
+  void start() override;
+  std::span<const Phase> phases() const override {
+    static constexpr Phase all[] = {{Phase::IndexSpace::whole}, {Phase::IndexSpace::items, Phase::Scope::reads_all}};
+    return all;
+  }
+  void step(const Step& step, Range range) override;
+
+ private:
+  /// A robot that may be seen.
+  struct Target {
+    In<Pose> base;
+    std::int32_t robot;  ///< number
+    std::uint64_t key;   ///< of its name
+  };
+  struct Device {
+    In<Pose> pose;
+    ListOut<Neighbour> seen;
+    std::int32_t robot = -1;
+    std::uint64_t key = 0;
+  };
+  void add_targets(Connector& c);
+  void locate_targets();
+  void serve(const Device& d, const Step& step) const;
+  /// What a device at `device` reads of a target.
+  Neighbour reading(const Pose& device, std::uint32_t target) const;
+  /// Nothing when it is missed.
+  std::optional<Neighbour> with_errors(Neighbour n, const Random& random) const;
+
+  double range_ = 0;
+  std::size_t max_neighbours_ = 0;
+  Vec3 target_ = Vec3::Zero();
+  Pose mounting_;
+  Errors errors_;
+  std::optional<line_of_sight::LineOfSight> sight_;
+  std::vector<Target> targets_;
+  std::vector<Device> devices_;
+  std::vector<Vec3> places_;  ///< m, of the targets in this step
+  SpatialHash hash_;          ///< over the places
+};
+
+void Neighbours::add_targets(Connector& c) {
+  const auto patterns = c.parameters().texts("robots");
+  std::vector<bool> used(patterns.size());
+  for (const RobotView* robot : c.robots()) {
+    if (c.constant(robot->base(), keys::shadow_of)) continue;
+    bool named = patterns.empty();
+    for (std::size_t i = 0; i < patterns.size(); ++i)
+      if (matches(patterns[i], robot->name)) named = used[i] = true;
+    if (named) targets_.push_back({c.read(robot->base(), keys::pose), std::int32_t(robot->number), robot->key});
+  }
+  for (std::size_t i = 0; i < patterns.size(); ++i)
+    if (!used[i])
+      throw Error("robots: no robot is called " + quote(patterns[i]) +
+                  "; give names as `muro describe` lists them, such as `rover_*`");
+}
+
+void Neighbours::connect(Connector& c) {
+  const Parameters& p = c.parameters();
+  range_ = p.real("range");
+  max_neighbours_ = std::size_t(p.integer("max_neighbours"));
+  target_ = Vec3(p.reals("target")[0], p.reals("target")[1], p.reals("target")[2]);
+  mounting_ = mounting_of(p);
+  errors_ = errors_of(p);
+  add_targets(c);
+  if (p.boolean("line_of_sight")) sight_.emplace().connect(c);
+  for (std::uint32_t i = 0; i < c.items().size(); ++i) {
+    const Item& item = c.items()[i];
+    c.set(item.object, keys::sensor_origin, mounting_);
+    Device d;
+    d.pose = c.read(item.object, keys::pose);
+    d.seen = c.variable_list(item.object, key_neighbours);
+    if (item.robot) d.robot = std::int32_t(item.robot->number);
+    d.key = c.random_key(i);
+    devices_.push_back(d);
+  }
+}
+
+void Neighbours::start() {
+  places_.resize(targets_.size());
+  hash_.reserve(targets_.size());
+}
+
+void Neighbours::locate_targets() {
+  for (std::size_t i = 0; i < targets_.size(); ++i) places_[i] = *targets_[i].base * target_;
+  hash_.build(places_, range_);
+  if (sight_) sight_->begin_step();
+}
+
+void Neighbours::step(const Step& step, Range range) {
+  if (step.phase == 0) return locate_targets();
+  for (std::uint32_t i = range.begin; i < range.end; ++i) serve(devices_[i], step);
+}
+
+Neighbour Neighbours::reading(const Pose& device, std::uint32_t target) const {
+  const Quat back = device.orientation.conjugate();
+  const Vec3 to = back * Vec3(places_[target] - device.position);
+  const Vec3 ahead = back * Vec3(targets_[target].base->orientation * Vec3::UnitX());
+  const double level = std::sqrt(to.x() * to.x() + to.y() * to.y());
+  return {double(targets_[target].robot), to.norm(), azimuth_of(to), elementary::atan2(to.z(), level),
+          azimuth_of(ahead)};
+}
+
+std::optional<Neighbour> Neighbours::with_errors(Neighbour n, const Random& random) const {
+  const Errors& e = errors_;
+  if (e.dropout > 0 && random.uniform(2) < e.dropout) return std::nullopt;
+  if (!e.any()) return n;
+  const auto [distance, bearing] = random.normal_pair(0);
+  const auto [elevation, heading] = random.normal_pair(1);
+  const double relative = e.distance_relative * n.distance;
+  n.distance = std::max(0.0, n.distance + distance * std::sqrt(e.distance * e.distance + relative * relative));
+  n.bearing = wrapped(n.bearing + e.bearing * bearing);
+  n.elevation = std::clamp(n.elevation + e.elevation * elevation, -1.5707963267948966, 1.5707963267948966);
+  n.heading = wrapped(n.heading + e.heading * heading);
+  return n;
+}
+
+void Neighbours::serve(const Device& d, const Step& step) const {
+  struct InRange {
+    double squared_distance;  // m^2
+    std::uint32_t target;
+    auto operator<=>(const InRange&) const = default;
+  };
+  thread_local std::vector<InRange> in_range;
+  thread_local std::vector<Neighbour> seen;
+  in_range.clear(), seen.clear();
+  in_range.reserve(targets_.size()), seen.reserve(targets_.size());
+  const Pose device = *d.pose * mounting_;
+  hash_.each_within(device.position, range_, [&](std::uint32_t i, double squared) {
+    if (targets_[i].robot != d.robot) in_range.push_back({squared, i});
+  });
+  std::sort(in_range.begin(), in_range.end());
+  for (const InRange& candidate : in_range) {
+    if (seen.size() == max_neighbours_) break;
+    const std::uint32_t i = candidate.target;
+    const Target& t = targets_[i];
+    if (sight_ && !sight_->is_clear(device.position, places_[i], d.robot, t.robot)) continue;
+    const Random random(step.seed, fnv1a({reinterpret_cast<const char*>(&t.key), sizeof t.key}, d.key), step.index);
+    if (const auto n = with_errors(reading(device, i), random)) seen.push_back(*n);
+  }
+  std::sort(seen.begin(), seen.end(), [](const Neighbour& a, const Neighbour& b) {
+    return a.distance != b.distance ? a.distance < b.distance : a.id < b.id;
+  });
+  d.seen.clear();
+  for (const Neighbour& n : seen) d.seen.push_back(n);
+}
+
+constexpr abi::AlgorithmEntry algorithms[] = {algorithm<Neighbours>(description)};
+
+}  // namespace
+}  // namespace muro::neighbours
+
+MURO_PLUGIN(.name = "sensor_neighbours", .version = muro::neighbours::description.version, .licence = "MIT",
+            .summary = "Which robots are in range", .algorithms = muro::neighbours::algorithms)
