@@ -30,9 +30,7 @@ void PairContacts::add_records() {
   records_.resize(2 * robots_.size());
   for (auto r = records_.begin() + std::ptrdiff_t(known); r != records_.end(); ++r) {
     r->patches.reserve(12);
-    r->patch_of.reserve(64);
     r->owners.reserve(16);
-    r->old_anchors.reserve(64);
     r->impact_patches.reserve(8);
     r->impact_contacts.reserve(32);
     r->points.reserve(32);
@@ -91,48 +89,116 @@ bool PairContacts::computes_contacts_with(std::uint32_t self, ObjectId body, std
   return false;
 }
 
+/// Of the list as it is.
+void PairContacts::find_runs(std::uint32_t self) {
+  KnownContacts& known = known_[self];
+  const Robot& robot = bodies_.robots[self];
+  const auto contacts = *robot.contacts;
+  if (known.count == contacts.size() && known.revision == robot.contacts.revision()) return;
+  known.count = contacts.size();
+  known.revision = robot.contacts.revision();
+  known.resist_turning = false;
+  known.computed.clear();
+  known.points.clear();
+  known.runs.clear();
+  for (std::uint32_t k = 0; k < contacts.size(); ++k) {
+    if (known.runs.empty() || known.runs.back().other != contacts[k].other)
+      known.runs.push_back({.other = contacts[k].other, .end = k});
+    known.runs.back().end = k + 1;
+    const Surface& surface = contacts[k].surface;
+    known.resist_turning = known.resist_turning || surface.rolling_resistance > 0 || surface.spinning_resistance > 0;
+  }
+}
+
+/// Of the runs as they are.
+void PairContacts::find_computed(std::uint32_t self) {
+  static constexpr double at_rest[6] = {};
+  KnownContacts& known = known_[self];
+  known.computed.clear();
+  known.points.clear();
+  std::uint32_t k = 0;
+  const auto contacts = *bodies_.robots[self].contacts;
+  for (const Run& run : known.runs) {
+    for (; k < run.end; ++k) {
+      if (!run.is_computed) continue;
+      const Contact& contact = contacts[k];
+      const Body &own = bodies_[contact.self], &other = bodies_[contact.other];
+      known.computed.push_back(
+          {.pair = bodies_.pair_of(contact),
+           .place = k,
+           .body = own.dynamic_body,
+           .other_body = other.dynamic_body,
+           .model = other.model,
+           .other_robot = run.other_robot,
+           .zeta = bodies_.materials[bodies_.material_of(contact.surface.restitution)].damping_ratio});
+      PairPoint& p = known.points.emplace_back();
+      p.pose = own.twist ? own.pose->position.data() : at_rest;
+      p.twist = own.twist ? own.twist->linear.data() : at_rest;
+      p.other_pose = other.twist ? other.pose->position.data() : at_rest;
+      p.other_twist = other.twist ? other.twist->linear.data() : at_rest;
+    }
+  }
+}
+
+/// Which contacts the robot computes in this step, and how they move.
+void PairContacts::update_computed(std::uint32_t self) {
+  KnownContacts& known = known_[self];
+  find_runs(self);
+  const double lag = *bodies_.robots[self].lag;
+  bool is_same = !known.computed.empty(), has_lag = lag != 0;
+  for (Run& run : known.runs) {
+    std::int32_t other_robot = no_robot;
+    const bool is_computed = computes_contacts_with(self, run.other, other_robot);
+    is_same = is_same && is_computed == run.is_computed && other_robot == run.other_robot;
+    run.is_computed = is_computed;
+    run.other_robot = other_robot;
+    has_lag = has_lag || (other_robot != no_robot && *bodies_.robots[std::size_t(other_robot)].lag != 0);
+  }
+  if (!is_same) find_computed(self);
+  const Contact* const contacts = (*bodies_.robots[self].contacts).data();
+  for (std::size_t i = 0; i < known.points.size(); ++i) {
+    const Computed& c = known.computed[i];
+    PairPoint& p = known.points[i];
+    p.contact = contacts[c.place].point.data();
+    if (!has_lag) continue;
+    p.lag = lag;
+    p.other_lag = c.other_robot == no_robot ? 0 : *bodies_.robots[std::size_t(c.other_robot)].lag;
+  }
+  kernels_.move(known.points.data(), int(known.points.size()), context_.stiffness.h, has_lag);
+}
+
 /// Sorts the contacts of a robot into patches.
 void PairContacts::find_patches(std::uint32_t self) {
   Record& me = record(self);
   me.patches.clear();
-  me.patch_of.clear();
   me.owners.clear();
   me.impact_patches.clear();
   me.impact_contacts.clear();
-  std::size_t computed = 0;
-  ObjectId other = no_object;
-  std::int32_t other_robot = no_robot;
-  bool is_computed = false;
-  for (const Contact& contact : *bodies_.robots[self].contacts) {
-    if (contact.other != other) {
-      other = contact.other;
-      is_computed = computes_contacts_with(self, other, other_robot);
-    }
-    if (!is_computed) {
-      me.patch_of.push_back(not_computed);
-      continue;
-    }
-    const bool impact = add_impact(self, contact, other_robot, computed++);
-    me.patch_of.push_back(impact ? in_impact : add_to_patch(me, contact, other_robot));
+  update_computed(self);
+  KnownContacts& known = known_[self];
+  const auto contacts = *bodies_.robots[self].contacts;
+  for (std::size_t i = 0; i < known.computed.size(); ++i) {
+    Computed& c = known.computed[i];
+    const Contact& contact = contacts[c.place];
+    const bool is_impact =
+        known.points[i].approach > context_.impact_speed && add_impact(self, contact, c.other_robot, i);
+    c.patch = is_impact ? in_impact : add_to_patch(me, c, contact);
   }
   std::sort(me.owners.begin(), me.owners.end(),
             [this](std::uint32_t a, std::uint32_t b) { return computes(a, std::int32_t(b)); });
 }
 
 /// Returns the number of the patch.
-std::uint32_t PairContacts::add_to_patch(Record& me, const Contact& contact, std::int32_t other_robot) const {
+std::uint32_t PairContacts::add_to_patch(Record& me, const Computed& c, const Contact& contact) const {
   const V3 normal = plain(contact.normal);
-  const std::uint32_t body = bodies_[contact.self].dynamic_body;
-  const Body& other = bodies_[contact.other];
   auto found = std::find_if(me.patches.begin(), me.patches.end(), [&](const ContactPatch& p) {
-    return p.body == body && p.model == other.model &&
-           (other_robot == no_robot || p.other_body == other.dynamic_body) &&
+    return p.body == c.body && p.model == c.model && (c.other_robot == no_robot || p.other_body == c.other_body) &&
            dot(p.patch.normal, normal) > same_direction;
   });
   if (found == me.patches.end()) {
-    const Patch patch(normal, me.mobilities[body - me.first_body].centre);
+    const Patch patch(normal, me.mobilities[c.body - me.first_body].centre);
     me.patches.push_back(
-        {.patch = patch, .body = body, .other = other_robot, .other_body = other.dynamic_body, .model = other.model});
+        {.patch = patch, .body = c.body, .other = c.other_robot, .other_body = c.other_body, .model = c.model});
     found = me.patches.end() - 1;
   }
   found->patch.add(plain(contact.point));
@@ -167,12 +233,44 @@ void PairContacts::find_load(std::uint32_t self) {
   for (std::size_t u = 1; u < me.springs.size(); ++u) me.load += me.springs[u].max_eigenvalue_bound(me.mobilities[u]);
 }
 
+/// What the contacts that a robot computes have kept from the step before.
+void PairContacts::find_springs(std::uint32_t self) {
+  static constexpr double no_patch[4] = {};
+  Record& me = record(self);
+  KnownContacts& known = known_[self];
+  const std::span<const FrictionAnchor> old = *bodies_.robots[self].anchors;
+  const bool any_impacts = std::any_of(old.begin(), old.end(), is_of_impact);
+  const Contact* const contacts = (*bodies_.robots[self].contacts).data();
+  for (std::size_t i = 0; i < known.computed.size(); ++i) {
+    Computed& c = known.computed[i];
+    PairPoint& point = known.points[i];
+    const Contact& contact = contacts[c.place];
+    const FrictionAnchor* const before = previous(old, i, c.pair, contact.point);
+    c.lasts = before != nullptr;
+    if (before) c.before = before->point;
+    Vec3::Map(point.displacement) = before ? before->displacement : Vec3::Zero();
+    point.overlap = 0;
+    point.zeta = c.zeta;
+    point.patch = no_patch;
+    if (c.patch == in_impact) continue;
+    if (any_impacts && point.approach < 0 && was_in_impact(old, c.pair)) {  // it has what it should have
+      c.patch = had_impact;
+      continue;
+    }
+    ContactPatch& patch = me.patches[c.patch];
+    if (!patch.has_load) set_load(self, patch);
+    point.patch = &patch.effective_mass.along;
+    point.overlap = unmoved_overlap(context_, contact, before, point.approach);
+  }
+}
+
 /// Forces in the contacts that a robot computes.
 void PairContacts::apply_forces(std::uint32_t self) {
   Record& me = record(self);
+  KnownContacts& known = known_[self];
   const Robot& robot = bodies_.robots[self];
-  me.old_anchors.assign((*robot.anchors).begin(), (*robot.anchors).end());
-  const auto& old = me.old_anchors;
+  find_springs(self);
+  kernels_.push(known.points.data(), int(known.points.size()), context_.stiffness, context_.elapsed);
   robot.anchors.clear();
   if (robot.turning_springs) {
     const auto springs = *robot.turning_springs;
@@ -180,42 +278,30 @@ void PairContacts::apply_forces(std::uint32_t self) {
     robot.turning_springs.clear();
   }
   bodies_.clear_wrenches(self);
-  const bool any_impacts = std::any_of(old.begin(), old.end(), is_of_impact);
-  std::size_t computed = 0;
-  const std::uint32_t* patch_of = me.patch_of.data();
-  for (const Contact& contact : *robot.contacts) {
-    const std::uint32_t number = *patch_of++;
-    if (number == not_computed) continue;
-    const std::uint64_t pair = bodies_.pair_of(contact);
-    if (number == in_impact) {
-      ++computed;
-      robot.anchors.push_back(anchor_of_impact(pair));
+  const Contact* const contacts = (*robot.contacts).data();
+  for (std::size_t i = 0; i < known.computed.size(); ++i) {
+    const Computed& c = known.computed[i];
+    const PairPoint& point = known.points[i];
+    const Contact& contact = contacts[c.place];
+    ContactWrench* const told =
+        bodies_.tells_contacts && c.patch != in_impact ? Bodies::tell(robot, {&contact, 1}) : nullptr;
+    if (c.patch == in_impact || c.patch == had_impact) {
+      robot.anchors.push_back(anchor_of_impact(c.pair));
       continue;
     }
-    ContactWrench* const told = bodies_.tells_contacts ? Bodies::tell(robot, {&contact, 1}) : nullptr;
-    ContactPatch& patch = me.patches[number];
-    if (contact.surface.restitution != patch.restitution) set_up_laws(self, patch, contact.surface.restitution);
-    const FrictionAnchor* const before = previous<FrictionAnchor>(me.old_anchors, computed++, pair, contact.point);
-    FrictionAnchor anchor{pair, contact.point, before ? before->displacement : Vec3::Zero()};
-    const PointMotion motion{bodies_.velocity(contact.self, contact.point),
-                             bodies_.velocity(contact.other, contact.point)};
-    if (any_impacts && motion.relative().dot(contact.normal) > 0 &&
-        was_in_impact(me.old_anchors, pair)) {  // it has what it should have
-      robot.anchors.push_back(anchor_of_impact(pair));
-      continue;
-    }
-    anchor.overlap = unmoved_overlap(context_, contact, before, -motion.relative().dot(contact.normal));
-    const Vec3 force = force_on_self(robot, patch, contact, motion, anchor);
-    robot.anchors.push_back(anchor);
+    robot.anchors.push_back({c.pair, contact.point, Vec3::Map(point.displacement), point.overlap});
+    const Vec3 force = Vec3::Map(point.force);
+    ContactPatch& patch = me.patches[c.patch];
     const DynamicBody& body = bodies_.dynamic_bodies[patch.body];
     body.wrench->add_force(force, contact.point - body.pose->position);
     if (told) told->wrench.force = force;
-    if (patch.other != no_robot) apply_reaction(self, patch, force, contact.point, before);
+    if (patch.other != no_robot) apply_reaction(self, patch, force, contact.point, c.lasts ? &c.before : nullptr);
+    if (!known.resist_turning) continue;
     if (contact.surface.rolling_resistance > 0 || contact.surface.spinning_resistance > 0) {
       const TurningSpring* const spring =
-          previous<TurningSpring>(me.old_turning_springs, (*robot.turning_springs).size(), pair, contact.point);
+          previous<TurningSpring>(me.old_turning_springs, (*robot.turning_springs).size(), c.pair, contact.point);
       const Vec3 torque =
-          resist_turning(self, patch, contact, {pair, contact.point, spring ? spring->angle : Vec3::Zero()},
+          resist_turning(self, patch, contact, {c.pair, contact.point, spring ? spring->angle : Vec3::Zero()},
                          force.dot(contact.normal));
       if (told) told->wrench.torque = torque;
     }
@@ -248,38 +334,12 @@ Vec3 PairContacts::resist_turning(std::uint32_t self, ContactPatch& patch, const
   return torque;
 }
 
-/// A patch rarely has more than one restitution.
-void PairContacts::set_up_laws(std::uint32_t self, ContactPatch& p, double restitution) const {
-  const double load = record(self).load + (p.other == no_robot ? 0 : record(std::uint32_t(p.other)).load);
-  p.restitution = restitution;
-  p.normal.emplace(context_.stiffness, bodies_.materials[bodies_.material_of(restitution)].damping_ratio, load);
-  p.friction.emplace(context_.stiffness, load);
+void PairContacts::set_load(std::uint32_t self, ContactPatch& p) const {
+  p.has_load = true;
+  p.load = record(self).load + (p.other == no_robot ? 0 : record(std::uint32_t(p.other)).load);
   if (p.other == no_robot) return;
   p.velocity = centre_velocity(std::int32_t(self), p.body);
   p.other_velocity = centre_velocity(p.other, p.other_body);
-}
-
-/// `anchor`: its displacement is updated.
-Vec3 PairContacts::force_on_self(const Robot& self, const ContactPatch& patch, const Contact& contact,
-                                 const PointMotion& point, FrictionAnchor& anchor) const {
-  Vec3& displacement = anchor.displacement;
-  const Vec3& n = contact.normal;
-  const Vec3 motion = point.relative();
-  const double approach = -motion.dot(n);
-  const Vec3 slip = motion + approach * n;
-  // The depth at the time of the twists, where poses are ahead of them.
-  double depth = contact.depth - anchor.overlap;
-  const double lag = *self.lag, other_lag = patch.other == no_robot ? 0 : *bodies_.robots[std::size_t(patch.other)].lag;
-  if (lag != 0 || other_lag != 0)
-    depth += context_.stiffness.h * n.dot(lag * point.of_self - other_lag * point.of_other);
-  const double normal = patch.effective_mass.along * patch.normal->force(depth, approach);
-  displacement += slip * context_.elapsed;
-  displacement -= n * n.dot(displacement);
-  V3 spring = plain(displacement);
-  const V3 across = patch.friction->force(spring, plain(slip),
-                                          contact.surface.friction * normal * patch.effective_mass.inverse_across);
-  displacement = vector_of(spring);
-  return normal * n + patch.effective_mass.across * vector_of(across);
 }
 
 Vec3 PairContacts::centre_velocity(std::int32_t robot, std::uint32_t body) const {
@@ -287,18 +347,18 @@ Vec3 PairContacts::centre_velocity(std::int32_t robot, std::uint32_t body) const
   return u.twist->at(vector_of(mobility(robot, body).centre) - u.pose->position);
 }
 
-/// The force of a contact on the other robot. Levers are those that both have when the force acts, in the middle of the
-/// step where poses and twists are of one instant, and at its start where twists lag by half a step: so the pair keeps
-/// its angular momentum.
+/// The force of a contact on the other robot. `before`: where it was in the step before; null for a new one. Levers are
+/// those that both have when the force acts, in the middle of the step where poses and twists are of one instant, and
+/// at its start where twists lag by half a step: so the pair keeps its angular momentum.
 void PairContacts::apply_reaction(std::uint32_t self, ContactPatch& patch, const Vec3& force, const Vec3& point,
-                                  const FrictionAnchor* before) const {
+                                  const Vec3* before) const {
   const DynamicBody& own = bodies_.dynamic_bodies[patch.body];
   const DynamicBody& other = bodies_.dynamic_bodies[patch.other_body];
   patch.reaction.add_force(-force, point - other.pose->position);
   const Vec3 &v = patch.velocity, &u = patch.other_velocity;
   Vec3 point_velocity = 0.5 * (v + u);  // velocity of the point, which belongs to no body
   if (before && context_.elapsed > 0) {
-    const Vec3 seen = (point - before->point) / context_.elapsed;
+    const Vec3 seen = (point - *before) / context_.elapsed;
     if ((seen - point_velocity).norm() <= (v - u).norm()) point_velocity = seen;  // else it is another point
   }
   const double half = 0.5 * context_.stiffness.h;

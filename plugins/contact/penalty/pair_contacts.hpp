@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "impact.hpp"
+#include "pair_kernel.hpp"
 
 namespace muro::penalty {
 
@@ -13,7 +14,15 @@ namespace muro::penalty {
 /// only the data of its robot, so threads may share the robots.
 class PairContacts {
  public:
-  explicit PairContacts(const Bodies& bodies) : bodies_(bodies), record_of_(bodies.robots.size()) {}
+  explicit PairContacts(const Bodies& bodies)
+      : bodies_(bodies),
+        kernels_(pair_kernels_for(lane::best_isa())),
+        record_of_(bodies.robots.size()),
+        known_(bodies.robots.size()) {}
+  /// Forgets what is known of earlier steps; call it before the first step and when the state was changed from outside.
+  void start() {
+    for (KnownContacts& known : known_) known.count = 0;
+  }
 
   /// Starts a step with the robots (of Bodies::robots) whose flag is set; who touches one of them and is moved by
   /// forces has its flag set too. Returns their number.
@@ -38,7 +47,7 @@ class PairContacts {
   using Mobility = law::Mobility<double>;
   using Patch = law::Patch<double>;
 
-  static constexpr std::uint32_t not_computed = 0xffffffffu, in_impact = 0xfffffffeu;
+  static constexpr std::uint32_t not_computed = 0xffffffffu, in_impact = 0xfffffffeu, had_impact = 0xfffffffdu;
 
   /// A contact patch in an impact.
   struct ImpactPatch {
@@ -63,17 +72,37 @@ class PairContacts {
     std::uint32_t other_body = 0;  ///< in Bodies::dynamic_bodies, of a robot
     std::uint32_t model;           ///< of the other
     law::EffectiveMass<double> effective_mass{};
-    double restitution = -1;  ///< that `normal` is for
-    std::optional<law::NormalLaw<double>> normal{};
-    std::optional<law::FrictionLaw<double>> friction{};
+    double load = 0;  ///< of both bodies; behind the effective mass, as PairPoint::patch wants it
+    bool has_load = false;
     Vec3 velocity = Vec3::Zero(), other_velocity = Vec3::Zero();  ///< m/s, of the centres of two robots
     Wrench reaction{};                                            ///< on the other's body
   };
-  /// Velocities (m/s) of both bodies where they touch.
-  struct PointMotion {
-    Vec3 of_self, of_other;
-
-    Vec3 relative() const { return of_self - of_other; }
+  /// Adjacent contacts with one body.
+  struct Run {
+    ObjectId other;
+    std::uint32_t end;                    ///< behind the last, in the list
+    bool is_computed = false;             ///< by this robot
+    std::int32_t other_robot = no_robot;  ///< in Bodies::robots, if forces on it count
+  };
+  /// A contact that a robot computes.
+  struct Computed {
+    std::uint64_t pair;
+    std::uint32_t place;                    ///< in the list
+    std::uint32_t body, other_body, model;  ///< as in ContactPatch
+    std::int32_t other_robot;               ///< in Bodies::robots, or no_robot
+    double zeta;                            ///< damping ratio of the normal
+    std::uint32_t patch = 0;                ///< in Record::patches, or one of the above
+    bool lasts = false;                     ///< it was there in the step before
+    Vec3 before = Vec3::Zero();             ///< m, world: then there, if it lasts
+  };
+  /// What is known of the contacts of a robot as long as their list stands for the same.
+  struct KnownContacts {
+    std::uint64_t revision = 0;  ///< of the list
+    std::size_t count = 0;       ///< 0: nothing is known
+    bool resist_turning = false;
+    std::vector<Run> runs;
+    std::vector<Computed> computed;
+    std::vector<PairPoint> points;  ///< as these
   };
   /// A robot in the present step.
   struct Record {
@@ -81,9 +110,7 @@ class PairContacts {
     std::vector<Mobility> mobilities;                   ///< of its bodies
     std::vector<law::SpringStiffness<double>> springs;  ///< that hold them
     std::vector<ContactPatch> patches;                  ///< of the contacts that it computes
-    std::vector<std::uint32_t> patch_of;                ///< of each contact: in `patches`, not_computed or in_impact
     std::vector<std::uint32_t> owners;                  ///< robots that compute its other contacts, by order key
-    std::vector<FrictionAnchor> old_anchors;
     std::vector<TurningSpring> old_turning_springs;
     std::vector<ImpactPatch> impact_patches;     ///< of the impacts that it computes
     std::vector<ImpactContact> impact_contacts;  ///< of these patches
@@ -97,7 +124,7 @@ class PairContacts {
   void set_up(std::uint32_t self);
   void find_patches(std::uint32_t self);
   bool computes_contacts_with(std::uint32_t self, ObjectId body, std::int32_t& other_robot);
-  std::uint32_t add_to_patch(Record& me, const Contact& contact, std::int32_t other_robot) const;
+  std::uint32_t add_to_patch(Record& me, const Computed& computed, const Contact& contact) const;
   bool add_impact(std::uint32_t self, const Contact& contact, std::int32_t other_robot, std::size_t place);
   void count_impacts(std::uint32_t self);
   void resolve_in_turn(std::uint32_t self, std::uint32_t number);
@@ -114,13 +141,15 @@ class PairContacts {
     return r.mobilities[body - r.first_body];
   }
   law::EffectiveMass<double> effective_mass_of(const Mobility& self, const ContactPatch& p) const;
-  void set_up_laws(std::uint32_t self, ContactPatch& p, double restitution) const;
+  void set_load(std::uint32_t self, ContactPatch& patch) const;
+  void find_runs(std::uint32_t self);
+  void find_computed(std::uint32_t self);
+  void update_computed(std::uint32_t self);
+  void find_springs(std::uint32_t self);
   Vec3 resist_turning(std::uint32_t self, ContactPatch& patch, const Contact& contact, const TurningSpring& spring,
                       double normal_force);
-  Vec3 force_on_self(const Robot& self, const ContactPatch& patch, const Contact& contact, const PointMotion& point,
-                     FrictionAnchor& anchor) const;
   void apply_reaction(std::uint32_t self, ContactPatch& patch, const Vec3& force, const Vec3& point,
-                      const FrictionAnchor* before) const;
+                      const Vec3* before) const;
   Vec3 centre_velocity(std::int32_t robot, std::uint32_t body) const;
   Record& record(std::uint32_t robot) { return records_[record_of_[robot]]; }
   const Record& record(std::uint32_t robot) const { return records_[record_of_[robot]]; }
@@ -133,11 +162,13 @@ class PairContacts {
   };
 
   const Bodies& bodies_;
+  const PairKernels& kernels_;
   StepContext context_;
   const std::vector<std::uint8_t>* flags_ = nullptr;  ///< of this step, see begin()
   std::vector<std::uint32_t> robots_;                 ///< of this step
   std::vector<std::uint32_t> record_of_;              ///< by robot: in records_, of those of this step
   std::vector<Turn> turns_;                           ///< scratch
+  std::vector<KnownContacts> known_;                  ///< as Bodies::robots
   std::vector<Record> records_;                       ///< at least one for each robot of this step
 };
 

@@ -61,7 +61,10 @@ class Penalty final : public Algorithm {
     pair_contacts_ = std::make_unique<PairContacts>(bodies_);
   }
   void connect_by_name(Connector& c) override { bodies_.connect_by_name(c); }
-  void start() override { scenery_contacts_->start(); }
+  void start() override {
+    scenery_contacts_->start();
+    pair_contacts_->start();
+  }
   void restored() override { start(); }
 
   /// First, block by block, the robots that touch only scenery, which are nearly all. Then those that touch something
