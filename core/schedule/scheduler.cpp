@@ -8,12 +8,15 @@
 #include <numeric>
 
 #include "core/error.hpp"
+#include "muro/description.hpp"
 
 namespace muro {
 
 namespace {
 
 constexpr std::int64_t never = std::numeric_limits<std::int64_t>::max();
+/// Task::order of these kinds, see order_of(const Description&).
+constexpr int order_of_sensors = 2 * order_of(Kind::sensor), order_of_sensor_errors = 2 * order_of(Kind::sensor_error);
 
 }  // namespace
 
@@ -109,7 +112,8 @@ void Scheduler::find_providers() {
 }
 
 /// A task on demand has the longest period of those that ask for it, in every instant, so that its results do not
-/// depend on who else happens to be due; nor on who only looks, as recorders do: these count where nobody else asks.
+/// depend on who else happens to be due; nor on who only looks, as recorders and sensors do: these count where nobody
+/// else asks.
 void Scheduler::find_periods() {
   periods_.assign(tasks_.size(), 0);
   for (TaskId t = 0; t < tasks_.size(); ++t)
@@ -119,11 +123,15 @@ void Scheduler::find_periods() {
     if (tasks_[t].rate.on_demand()) periods_[t] = of_writers[t] > 0 ? of_writers[t] : of_all[t];
 }
 
-/// Of the tasks on demand: the longest period of those that ask for them and write something, or of all.
+/// Of the tasks on demand: the longest period of those that ask for them and do more than look, or of all.
 std::vector<double> Scheduler::periods_of_asked(bool by_all) const {
+  const auto counts = [&](TaskId t) {
+    const bool senses = tasks_[t].order == order_of_sensors || tasks_[t].order == order_of_sensor_errors;
+    return by_all || !(senses || tasks_[t].writes.empty());
+  };
   std::vector<double> periods(tasks_.size());
   for (TaskId t = 0; t < tasks_.size(); ++t) {
-    if (tasks_[t].rate.on_demand() || (!by_all && tasks_[t].writes.empty())) continue;
+    if (tasks_[t].rate.on_demand() || !counts(t)) continue;
     std::vector<bool> seen(tasks_.size());
     std::vector<TaskId> asking{t};
     while (!asking.empty()) {
@@ -133,7 +141,7 @@ std::vector<double> Scheduler::periods_of_asked(bool by_all) const {
         if (seen[p]) continue;
         seen[p] = true;
         if (tasks_[p].rate.on_demand()) periods[p] = std::max(periods[p], periods_[t]);
-        asking.push_back(p);
+        if (counts(p)) asking.push_back(p);
       }
     }
   }

@@ -127,6 +127,17 @@ TEST_F(SchedulerTest, WhoOnlyLooksDoesNotLengthenThePeriodOfATaskOnDemand) {
   EXPECT_DOUBLE_EQ(recorders[0].last.dt, 0.001);
 }
 
+TEST_F(SchedulerTest, ASensorDoesNotLengthenThePeriodOfATaskOnDemand) {
+  add("contact", 0, 8, 0, {}, {1});
+  add("motion", 1000, 9, 0, {1}, {2});
+  add("sensor", 100, 2 * order_of(Kind::sensor), 0, {1}, {3});
+  add("sensor on demand", 0, 2 * order_of(Kind::sensor), 0, {1}, {4});
+  add("controller", 10, 2 * order_of(Kind::controller), 0, {4}, {5});
+  scheduler.run_until(5'000'000);
+  EXPECT_DOUBLE_EQ(recorders[0].last.dt, 0.001);
+  EXPECT_DOUBLE_EQ(recorders[3].last.dt, 0.1);
+}
+
 TEST_F(SchedulerTest, AStopEndsAPacedWaitAndLosesNoInstant) {
   add("a", 1);
   scheduler.set_pacing({0.01});  // an instant in 100 s

@@ -44,6 +44,7 @@ LinkMotion::LinkMotion(Connector& c, const RobotView& robot, std::uint32_t link,
     joints_.push_back({l.origin, l.joint, l.axis, JointMotion(c, robot, i, start[i], order)});
   }
   std::reverse(joints_.begin(), joints_.end());
+  is_at_origin_ = origin_.position.isZero(0) && origin_.orientation.coeffs() == Quat::Identity().coeffs();
 }
 
 void LinkMotion::check(const Connector& c) const {

@@ -52,7 +52,7 @@ class LinkMotion {
     FrameMotion m{*base_pose_, twist_ ? *twist_ : none, acceleration_ ? *acceleration_ : none};
     for (const Joint& j : joints_)
       m = m.at(j.origin).behind(j.kind, j.axis, j.motion.position(), j.motion.velocity(), j.motion.acceleration());
-    return m.at(origin_);
+    return is_at_origin_ ? m : m.at(origin_);
   }
 
  private:
@@ -67,6 +67,7 @@ class LinkMotion {
   In<Twist> twist_, acceleration_;
   std::vector<Joint> joints_;
   Pose origin_;  ///< of the frame, in the one behind the last joint
+  bool is_at_origin_ = false;
 };
 
 }  // namespace muro::link_acceleration

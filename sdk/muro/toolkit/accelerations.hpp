@@ -2,6 +2,7 @@
 // For motions: what accelerometers and force sensors read, from the velocities before and after a step.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
 #include "muro/toolkit/initial_contact.hpp"
@@ -56,27 +57,41 @@ class Accelerations {
   void begin_step(std::uint32_t i) {
     OfRobot* const r = find(i);
     if (!r) return;
-    r->before = velocity(*r);
     for (Joint& j : r->joints) j.before = *j.velocity;
+    if (!r->acceleration) return;
+    if (r->how == BaseMotion::by_forces) {
+      r->place_centre();
+      r->before = {r->twist->at(r->centre), r->twist->angular};
+    } else {
+      const Quat to_body = r->pose->orientation.conjugate();
+      r->before = {to_body * r->twist->linear, to_body * r->twist->angular};
+    }
   }
 
   /// When it has carried it on by `dt` (s). [step]
-  void end_step(std::uint32_t i, double dt) const {
-    const OfRobot* const r = const_cast<Accelerations*>(this)->find(i);
+  void end_step(std::uint32_t i, double dt) {
+    OfRobot* const r = find(i);
     if (!r) return;
-    for (const Joint& j : r->joints) *j.acceleration = (*j.velocity - j.before) / dt;
+    const double per_second = 1 / dt;
+    for (const Joint& j : r->joints) *j.acceleration = (*j.velocity - j.before) * per_second;
     if (!r->acceleration) return;
-    const Twist now = velocity(*r);
-    const Vec3 change = (now.linear - r->before.linear) / dt, turning = (now.angular - r->before.angular) / dt;
-    *r->acceleration =
-        r->how == BaseMotion::kinematic ? of_body_axes(*r, change, turning) : of_centre(*r, change, turning);
+    const Twist& now = *r->twist;
+    if (r->how == BaseMotion::by_forces) {
+      r->place_centre();
+      *r->acceleration = r->of_centre((now.at(r->centre) - r->before.linear) * per_second,
+                                      (now.angular - r->before.angular) * per_second);
+    } else {
+      const Quat to_body = r->pose->orientation.conjugate();
+      *r->acceleration = r->of_body_axes((to_body * now.linear - r->before.linear) * per_second,
+                                         (to_body * now.angular - r->before.angular) * per_second);
+    }
   }
 
   void begin_step(Range items) {
     if (empty()) return;
     for (std::uint32_t i = items.begin; i < items.end; ++i) begin_step(i);
   }
-  void end_step(Range items, double dt) const {
+  void end_step(Range items, double dt) {
     if (empty()) return;
     for (std::uint32_t i = items.begin; i < items.end; ++i) end_step(i, dt);
   }
@@ -90,9 +105,31 @@ class Accelerations {
     Out<Pose> pose;
     Out<Twist> twist, acceleration;
     BaseMotion how = BaseMotion::kinematic;
-    Vec3 com = Vec3::Zero();  ///< m, in the frame of the base
-    Twist before;             ///< as `velocity` gives it
+    Vec3 com = Vec3::Zero();               ///< m, in the frame of the base
+    Twist before;                          ///< by forces: of the centre; else in the axes of the base
+    Vec3 centre = Vec3::Zero();            ///< m, from the base's origin to its centre of mass, world axes ...
+    double centre_axes[4] = {0, 0, 0, 0};  ///< ... with this orientation of the base (x, y, z, w)
     std::vector<Joint> joints;
+
+    /// Most steps begin where the one before has ended.
+    void place_centre() {
+      const double* const q = pose->orientation.coeffs().data();
+      if (q[0] == centre_axes[0] && q[1] == centre_axes[1] && q[2] == centre_axes[2] && q[3] == centre_axes[3]) return;
+      std::copy_n(q, 4, centre_axes);
+      const double tx = 2 * (q[1] * com.z() - q[2] * com.y()), ty = 2 * (q[2] * com.x() - q[0] * com.z()),
+                   tz = 2 * (q[0] * com.y() - q[1] * com.x());
+      centre = {com.x() + q[3] * tx + q[1] * tz - q[2] * ty, com.y() + q[3] * ty + q[2] * tx - q[0] * tz,
+                com.z() + q[3] * tz + q[0] * ty - q[1] * tx};
+    }
+    Twist of_body_axes(const Vec3& change, const Vec3& turning) const {
+      const Quat& axes = pose->orientation;
+      return {axes * change + twist->angular.cross(twist->linear), axes * turning};
+    }
+    /// a_O = a_C - alpha x c - w x (w x c), with the centre in its place
+    Twist of_centre(const Vec3& change, const Vec3& turning) const {
+      const Vec3& w = twist->angular;
+      return {change - turning.cross(centre) - w.cross(w.cross(centre)), turning};
+    }
   };
 
   static bool is_read(const Connector& c, ObjectId object, const KeyInfo& key) {
@@ -103,36 +140,19 @@ class Accelerations {
     return of_item_.empty() || of_item_[i] < 0 ? nullptr : &robots_[std::size_t(of_item_[i])];
   }
 
-  /// Of the origin in the axes of the base, or of the centre of mass in those of the world.
-  static Twist velocity(const OfRobot& r) {
-    const Twist& v = *r.twist;
-    if (r.how == BaseMotion::by_forces) return {v.at(r.pose->orientation * r.com), v.angular};
-    const Quat to_body = r.pose->orientation.conjugate();
-    return {to_body * v.linear, to_body * v.angular};
-  }
-
-  static Twist of_body_axes(const OfRobot& r, const Vec3& change, const Vec3& turning) {
-    const Quat& axes = r.pose->orientation;
-    return {axes * change + r.twist->angular.cross(r.twist->linear), axes * turning};
-  }
-  /// a_O = a_C - alpha x c - w x (w x c)
-  static Twist of_centre(const OfRobot& r, const Vec3& change, const Vec3& turning) {
-    const Vec3 c = r.pose->orientation * r.com, &w = r.twist->angular;
-    return {change - turning.cross(c) - w.cross(w.cross(c)), turning};
-  }
-
   /// What stands, or moves as commanded, keeps its velocity in its own axes; what forces move and touches nothing falls
   /// and turns as Euler's equations say.
-  Twist initial(const Connector& c, const RobotView& robot, const OfRobot& r, const Inertia& base) {
+  Twist initial(const Connector& c, const RobotView& robot, OfRobot& r, const Inertia& base) {
     if (r.how == BaseMotion::by_forces && !contact_) contact_.emplace(c);
-    if (r.how == BaseMotion::kinematic || contact_->touches(robot)) return of_body_axes(r, Vec3::Zero(), Vec3::Zero());
+    if (r.how == BaseMotion::kinematic || contact_->touches(robot)) return r.of_body_axes(Vec3::Zero(), Vec3::Zero());
     const Vec3 gravity = c.constant(world_object, keys::gravity).value_or(Vec3(0, 0, -9.81));
     const Quat& axes = r.pose->orientation;
     const Vec3 w = axes.conjugate() * r.twist->angular;
     const Mat3 tensor = base.tensor();
     const bool has_tensor = std::abs(tensor.determinant()) > 0;
     const Vec3 turning = has_tensor ? Vec3(tensor.inverse() * -w.cross(tensor * w)) : Vec3(Vec3::Zero());
-    return of_centre(r, gravity, axes * turning);
+    r.place_centre();
+    return r.of_centre(gravity, axes * turning);
   }
 
   std::vector<std::int32_t> of_item_;  ///< place in robots_; -1: nobody reads of it

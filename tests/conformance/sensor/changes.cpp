@@ -102,6 +102,31 @@ Outcome handed_over(const std::string& motion) {
   return difference(worst, 0);
 }
 
+/// A robot that falls on the ground with all sensors that its motion can give, at rates that divide its own.
+Pose after_a_second(const std::string& motion, bool senses) {
+  Trial t(motion);
+  t.add_ground();
+  t.add_vehicle({{0, 0, 0.15}, from_rpy(0.1, 0, 0)});
+  if (senses) {
+    t.add_sensor("sensor.imu", "disc", {}, 200);
+    t.add_sensor("sensor.encoder", "table", {{"counts", 4096.0}}, 1000);
+    t.add_sensor("sensor.gps", "base_link", {}, 5);
+    if (t.family() == Family::forces) t.add_sensor("sensor.foot", "base_link", {}, 40);
+    if (t.family() == Family::forces) t.add_sensor("sensor.bumper", "base_link", {}, 100);
+    if (t.family() == Family::forces) t.add_sensor("sensor.force_torque", "disc", {}, 125);
+  }
+  t.start();
+  t.command(0.3, 0.2);
+  t.run_for(1);
+  return t.pose(t.robot());
+}
+
+Outcome only_looking(const std::string& motion) {
+  const Pose seen = after_a_second(motion, true), expected = after_a_second(motion, false);
+  const Outcome turned = difference(seen.orientation.vec(), expected.orientation.vec());
+  return turned.error > 0 ? turned : difference(seen.position, expected.position);
+}
+
 constexpr How a = How::analytic, none = How::left_out;
 
 }  // namespace
@@ -115,6 +140,7 @@ std::vector<Case> change_cases() {
        {a, a, a},
        {0, 0, 0},
        snapshot},
+      {"a robot with sensors moves as it would without, to the bit", "all", "m, 1", {a, a, a}, {0, 0, 0}, only_looking},
       {"a robot that is put elsewhere feels nothing of it",
        "sensor.accelerometer",
        "m/s^2",
