@@ -104,11 +104,12 @@ void Motion::report_regularized_links(const Connector& c) const {
   for (const WorldRobot& r : robots_)
     links.insert(links.end(), r.model().regularized_links.begin(), r.model().regularized_links.end());
   if (links.empty()) return;
-  c.host().log(LogLevel::info,
-               std::string(description().id) +
-                   ": no engine moves bodies without mass and inertia, or with a moment of inertia that exceeds the "
-                   "sum of the two others; what they lack was added to " +
-                   quoted_list(links) + "; give them an `inertial` that fits");
+  c.host().log(
+      LogLevel::info,
+      std::string(description().id) +
+          ": no engine moves bodies without mass and inertia, those that touch others with hardly any, or those "
+          "with a moment of inertia that exceeds the sum of the two others; what they lack was added to " +
+          quoted_list(links) + "; give them an `inertial` that fits");
 }
 
 void Motion::start() {

@@ -39,17 +39,40 @@ bool regularize(Inertia& inertia, double mass, double radius) {
   return changed || consistent;
 }
 
+/// The mass (kg) whose weight, at the centre of mass of a body, takes a fiftieth of what the joints on its way to the
+/// base hold, as they stand at the start. `frames`: of the bodies, in that of the base.
+double bearable_mass(const RobotModel& model, std::size_t number, std::span<const Pose> frames) {
+  constexpr double part = 0.02, gravity = 9.81;
+  const Vec3 com = frames[number] * model.bodies[number].inertia.com;
+  double mass = std::numeric_limits<double>::infinity();
+  for (std::size_t i = number; model.bodies[i].parent >= 0; i = std::size_t(model.bodies[i].parent)) {
+    const RigidBody& body = model.bodies[i];
+    const Vec3 axis = frames[i].orientation * body.axis, arm = com - frames[i].position;
+    const double lever = body.joint == JointKind::revolute ? axis.cross(arm).norm() : 1;
+    if (body.limits.effort > 0 && lever > 0) mass = std::min(mass, part * body.limits.effort / (gravity * lever));
+  }
+  return mass;
+}
+
 /// A body that touches others carries some of the robot: engines with iterations would need too many of them, and soft
 /// contacts give way without end, where it is as light as the least mass that they take. Without a mass it is a ball
 /// about its shapes with a thousandth of the robot's mass, with one at least such a ball with a share that contacts of
-/// all engines still hold (a leg of a robot sinks in from 1e-5 of its mass on).
-MinInertia least_inertia_of(const RigidBody& body, double robot_mass, const MinInertia& of_engine) {
+/// all engines still hold (a leg of a robot sinks in from 1e-5 of its mass on); but no more is added than the joints
+/// that carry it bear.
+MinInertia least_inertia_of(const RobotModel& model, std::size_t number, std::span<const Pose> frames,
+                            const MinInertia& of_engine) {
   constexpr double share_without_mass = 1e-3, least_share = 5e-5;
-  if (body.shapes.empty() || body.inertia.mass >= least_share * robot_mass) return of_engine;
+  const RigidBody& body = model.bodies[number];
+  const double mass = body.inertia.mass;
+  if (body.shapes.empty() || mass >= least_share * model.mass) return of_engine;
   double radius = of_engine.radius;
   for (const BodyShape& s : body.shapes)
     if (s.shape.kind != ShapeKind::plane) radius = std::max(radius, half_extents(s.shape).maxCoeff());
-  return {std::max(body.inertia.mass > 0 ? least_share : share_without_mass, of_engine.mass_fraction), radius};
+  const double share = mass > 0 ? least_share : share_without_mass,
+               borne = (mass + bearable_mass(model, number, frames)) / model.mass;
+  if (mass > 0 && borne < share)
+    return of_engine.mass_fraction < borne ? MinInertia{borne, of_engine.radius} : of_engine;
+  return {std::max(share, of_engine.mass_fraction), radius};
 }
 
 /// Whether the inertia lacked something that contacts need.
@@ -133,14 +156,17 @@ RobotModel model_of(const Connector& connector, const RobotView& robot, std::spa
     if (i == 0 || !shapes.empty())
       model.loaded_links.push_back({std::uint32_t(i), !shapes.empty(), placement, robot.links[i].object});
   }
-  for (RigidBody& body : model.bodies) {
+  std::vector<Pose> frames(model.bodies.size());
+  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
+    RigidBody& body = model.bodies[i];
+    if (i > 0) frames[i] = frames[std::size_t(body.parent)] * pose_in_parent(body, model.initial_positions[i]);
     const Link& link = robot.links[body.link];
     if (link.mimic >= 0) {
       body.leader = std::int32_t(placements[std::size_t(link.mimic)].body);
       body.multiplier = link.mimic_multiplier;
       body.offset = link.mimic_offset;
     }
-    const MinInertia least = least_inertia_of(body, model.mass, min_inertia);
+    const MinInertia least = least_inertia_of(model, i, frames, min_inertia);
     const bool is_completed = complete_inertia(body, min_inertia);
     if (regularize(body.inertia, least.mass_fraction * model.mass, least.radius) || is_completed)
       model.regularized_links.emplace_back(connector.object_name(link.object));
