@@ -123,6 +123,7 @@ class Drawing {
     add_x_axis();
     add_y_axis();
     add_marks();
+    add_clip();
     add_bands();
     add_curves();
     add_frames();
@@ -173,10 +174,12 @@ class Drawing {
   }
 
   /// What may leave the area is cut off at its frame.
-  void begin_clip() {
+  void begin_clip() { out_ += "<g clip-path=\"url(#area)\">\n"; }
+  void add_clip() {
+    if (chart_.bands.empty() && chart_.curves.empty()) return;
     out_ += fmt::format(
-        "<clipPath id=\"area\"><rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"/></clipPath>\n"
-        "<g clip-path=\"url(#area)\">\n",
+        "<clipPath id=\"area\"><rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" "
+        "height=\"{:.1f}\"/></clipPath>\n",
         inner_left(), top, right - inner_left(), inner_bottom() - top);
   }
 
@@ -207,7 +210,7 @@ class Drawing {
     for (const Chart::Curve& c : chart_.curves) add_curve_label(c);
   }
 
-  /// Above the first or last point that is within the area.
+  /// Beside the first or last point that is within the area.
   void add_curve_label(const Chart::Curve& c) {
     if (c.label.empty()) return;
     const auto is_inside = [&](const std::pair<double, double>& p) {
@@ -218,8 +221,11 @@ class Drawing {
     const auto last = std::find_if(c.points.rbegin(), c.points.rend(), is_inside);
     if (first == c.points.end()) return;
     const auto& [x, y] = c.label_first ? *first : *last;
-    out_ += text(x_.coordinate(x) + (c.label_first ? 5 : -5), y_.coordinate(y) - 6, c.label_first ? "start" : "end",
-                 c.label, "font-size=\"12\" fill=\"#555\" paint-order=\"stroke\" stroke=\"white\" stroke-width=\"3\"");
+    const bool is_left = x_.coordinate(x) < (left + right) / 2;
+    const bool falls = c.points.back().second < c.points.front().second;  // then there is room below its end
+    out_ += text(x_.coordinate(x) + (is_left ? 5 : -5), y_.coordinate(y) + (falls && !c.label_first ? 14 : -6),
+                 is_left ? "start" : "end", c.label,
+                 "font-size=\"12\" fill=\"#555\" paint-order=\"stroke\" stroke=\"white\" stroke-width=\"3\"");
   }
 
   /// One frame for each part of the area: where an axis is broken, a gap is between them.

@@ -26,14 +26,13 @@ struct Chart {
     std::string text;
   };
 
-  /// A line through points of positive values, cut off at the area; its label stands at the end that `label_first`
-  /// says.
+  /// A line through points of positive values, cut off at the area.
   struct Curve {
     std::string label;
     std::vector<std::pair<double, double>> points;
-    std::size_t group = 0;  ///< index in `groups`; decides the colour
-    bool guide = false;     ///< dashed and grey; the axes are not chosen to show it
-    bool label_first = false;
+    std::size_t group = 0;     ///< index in `groups`; decides the colour
+    bool guide = false;        ///< dashed and grey; the axes are not chosen to show it
+    bool label_first = false;  ///< its label stands where it enters the area, else where it leaves it
   };
   /// The area between two curves of the same x, shaded.
   struct Band {
@@ -44,9 +43,9 @@ struct Chart {
   Axis x, y;
   std::vector<Point> points;
   std::vector<Mark> marks;
-  std::vector<Curve> curves;
-  std::vector<Band> bands;
   std::vector<std::string> groups;  ///< for the legend; none: no legend
+  std::vector<Curve> curves{};
+  std::vector<Band> bands{};
 };
 
 /// The chart as an SVG file, 760 units wide. Labels are placed so that they overlap neither points nor each other, as

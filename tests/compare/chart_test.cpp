@@ -112,5 +112,34 @@ TEST(Chart, OneValueOrNoneIsAPictureToo) {
   EXPECT_TRUE(std::isfinite(one[0].x) && std::isfinite(one[0].y));
 }
 
+TEST(Chart, DrawsCurvesAndBandsWithinItsArea) {
+  Chart chart;
+  chart.x = {"time", "s"};
+  chart.y = {"deviation", "m"};
+  chart.curves.push_back({"", {{1, 1}, {10, 0.1}, {100, 0.01}}, 0});
+  chart.curves.push_back({"guide", {{1, 1e-9}, {100, 0.1}}, 0, true});
+  chart.bands.push_back({{1, 100}, {0.9, 0.009}, {1.1, 0.011}});
+  const ptree svg = parsed(chart);
+  std::vector<std::string> corners;
+  double low = 0;
+  for (const auto& [group, node] : svg)
+    if (group == "g")
+      for (const auto& [name, line] : node) {
+        if (name == "polyline") corners.push_back(line.get<std::string>("<xmlattr>.points"));
+        if (name == "polygon") low = line.count("<xmlattr>") > 0 ? 1 : 0;
+      }
+  ASSERT_EQ(corners.size(), 2U);
+  EXPECT_EQ(low, 1) << "a band";
+  std::istringstream in(corners[0]);
+  std::vector<double> xs, ys;
+  char comma = 0;
+  for (double x = 0, y = 0; in >> x >> comma >> y;) xs.push_back(x), ys.push_back(y);
+  ASSERT_EQ(xs.size(), 3U);
+  EXPECT_NEAR(xs[1] - xs[0], xs[2] - xs[1], 0.2) << "logarithmic";
+  EXPECT_NEAR(ys[1] - ys[0], ys[2] - ys[1], 0.2);
+  EXPECT_GT(ys[2] - ys[0], 200) << "the guide, far below, does not choose the axis";
+  text_place(svg, "guide");
+}
+
 }  // namespace
 }  // namespace muro::host
