@@ -87,6 +87,7 @@ struct Commands {
   CheckOptions check_options{};
   ScenarioOptions describe_options{};
   CompareOptions compare_options{};
+  IdentifyOptions identify_options{};
   RenderOptions render_options{};
   AllanOptions allan_options{};
   bool json = false, markdown = false;
@@ -98,6 +99,7 @@ struct Commands {
     add_run();
     add_check();
     add_compare();
+    add_identify();
     add_render();
     add_sensors();
     add_describe();
@@ -156,19 +158,51 @@ struct Commands {
         *app.add_subcommand("compare", "Run a scenario with different algorithms: cost against deviation");
     add_scenario_options(command, compare_options.scenario);
     repeatable(command.add_option(
-                   "--vary", compare_options.vary,
-                   "What differs: ROBOTS.SUBSYSTEM=NAME,NAME,..., e.g. rovers.motion=point,simplified (repeatable)"))
-        ->required();
+        "--vary", compare_options.vary,
+        "What differs: ROBOTS.SUBSYSTEM=NAME,NAME,..., e.g. rovers.motion=point,simplified (repeatable)"));
     command.add_option("--reference", compare_options.reference,
                        "What the others are compared with; default: the last");
     command.add_option("--duration", compare_options.duration, "Simulated seconds; default: as the scenario says")
         ->check(check_duration);
+    command.add_option("--against", compare_options.against,
+                       "Recordings of a real joint (as for identify): run on their commands, and tell the deviation");
+    command.add_option("--joint", compare_options.joint, "ROBOT/JOINT that was recorded; default: the only one");
     command.add_option("--out", compare_options.picture, "Draw cost against deviation into this file (SVG)");
     command.add_option("--csv", compare_options.table, "Write the table to this file (CSV)");
     command.callback([this] {
       compare_options.scenario.plugin_path = plugin_path;
       exit_code = compare(compare_options);
     });
+  }
+
+  void add_identify() {
+    CLI::App& command = *app.add_subcommand(
+        "identify", "Find the parameters of a servo's motor from recorded trajectories: see docs/motors.md");
+    IdentifyOptions& o = identify_options;
+    command.add_option("records", o.records, "Recordings: CSV with a header, or JSON of Rhoban/bam")->required();
+    command.add_option("--model", o.model, "Friction: m1 Coulomb and viscous, m2 Stribeck, m3 by load, m4 both")
+        ->capture_default_str();
+    repeatable(command.add_option("--fit", o.fit, "Find this, too: gain (of the firmware), delay (repeatable)"));
+    command.add_option("--validate", o.validate,
+                       "Records that are left out of the fit, or a part of all such as 0.25, chosen by the seed");
+    command.add_flag("--cross-validate", o.cross_validate, "Fit again without the records of each P gain in turn");
+    command
+        .add_option("--duty-gain", o.duty_gain, "Of the firmware: duty by error, 1/rad, for each unit of the P gain")
+        ->check(CLI::Range(1e-12, 1e12));
+    command.add_option("--duty-limit", o.duty_limit, "Of the firmware: the largest duty")->check(CLI::Range(1e-3, 1.0));
+    command.add_option("--p-gain", o.p_gain, "Of all records, in units of the firmware")->check(CLI::Range(1e-9, 1e12));
+    command.add_option("--supply", o.supply_voltage, "Of all records, V")->check(CLI::Range(1e-3, 1e4));
+    command.add_option("--mass", o.mass, "Of the load, kg")->check(CLI::Range(0.0, 1e6));
+    command.add_option("--length", o.length, "From the axis to the mass, m")->check(CLI::Range(0.0, 1e3));
+    command.add_option("--arm-mass", o.arm_mass, "Of the rod between them, kg")->check(CLI::Range(0.0, 1e6));
+    command.add_option("--inertia", o.inertia, "Of the load, beside these, kg m^2")->check(CLI::Range(0.0, 1e9));
+    command.add_option("--seed", o.seed, "Of the search")->check(check_seed);
+    command.add_option("--threads", o.threads, "Threads to use at most; no result depends on it; default: all")
+        ->check(CLI::Range(1u, 1024u));
+    repeatable(command.add_option("--report", o.reports, "Write the report to this file, *.md or *.json (repeatable)"));
+    command.add_option("--plot", o.plot, "Draw the errors over time into this file (SVG)");
+    command.add_option("--fragment", o.fragment, "Write the motor, as a scenario has it, to this file (YAML)");
+    command.callback([this] { exit_code = identify(identify_options); });
   }
 
   void add_render() {

@@ -41,11 +41,28 @@ struct CheckOptions {
 
 struct CompareOptions {
   ScenarioOptions scenario;
-  std::vector<std::string> vary;   ///< "rovers.motion=point,simplified"
-  std::string reference;           ///< one of the variations; empty: the last
-  std::optional<double> duration;  ///< s
-  std::string picture;             ///< file (SVG), or empty
-  std::string table;               ///< file (CSV), or empty
+  std::vector<std::string> vary;     ///< "rovers.motion=point,simplified"
+  std::string reference;             ///< one of the variations; empty: the last
+  std::optional<double> duration;    ///< s
+  std::string picture;               ///< file (SVG), or empty
+  std::string table;                 ///< file (CSV), or empty
+  std::vector<std::string> against;  ///< records of a real joint; not empty: these are compared with
+  std::string joint;                 ///< "robot/joint" that was recorded; empty: the only one
+};
+
+struct IdentifyOptions {
+  std::vector<std::string> records;
+  std::string model = "m4";
+  std::vector<std::string> fit;       ///< what is searched for, too: "gain", "delay"
+  std::vector<std::string> validate;  ///< records that are left out, or one number: the part that is
+  bool cross_validate = false;        ///< fit again without each P gain in turn
+  std::optional<double> duty_gain, duty_limit;
+  std::optional<double> p_gain, supply_voltage, mass, length, arm_mass, inertia;  ///< of all records
+  std::uint64_t seed = 1;
+  unsigned threads = 0;              ///< 0: all
+  std::vector<std::string> reports;  ///< files: Markdown or JSON
+  std::string plot;                  ///< file (SVG), or empty
+  std::string fragment;              ///< file (YAML), or empty
 };
 
 struct RenderOptions {
@@ -76,6 +93,7 @@ int run(const RunOptions& options);
 int render(const RenderOptions& options);
 int check(const CheckOptions& options);
 int compare(const CompareOptions& options);
+int identify(const IdentifyOptions& options);
 int allan(const AllanOptions& options);
 int describe(const ScenarioOptions& options, bool json);
 enum class Format { plain, json, markdown };

@@ -21,7 +21,8 @@ namespace muro::servo {
 
 /// Of the motor and its amplifier.
 struct MotorParameters {
-  motor::MotorModel model;
+  motor::MotorModel model;    ///< `gain`: for each unit of the P gain
+  double p_gain = 0;          ///< of the firmware, in its units
   double supply_voltage = 0;  ///< V
 };
 
@@ -63,7 +64,8 @@ class MotorParameterReader {
     m.model.kt = positive("kt", "N m/A");
     m.model.resistance = positive("resistance", "Ohm");
     m.model.armature = at_least_0("armature");
-    m.model.gain = positive("p_gain", "the units of the firmware") * positive("duty_gain", "1/rad a unit of `p_gain`");
+    m.p_gain = positive("p_gain", "the units of the firmware");
+    m.model.gain = positive("duty_gain", "1/rad a unit of `p_gain`");
     m.model.duty_limit = value("duty_limit");
     if (!(m.model.duty_limit > 0 && m.model.duty_limit <= 1)) throw wrong("duty_limit", "above 0, at most 1");
     motor::FrictionModel& f = m.model.friction;

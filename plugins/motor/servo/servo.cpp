@@ -75,6 +75,7 @@ constexpr PropertyUse reads[] = {{"joint.position.target", "mode position"},
                                  {"joint.position", "of every joint that it drives"},
                                  {"joint.velocity", "of every joint that it drives"},
                                  {"servo.supply_voltage", "where a voltage drives the motor"},
+                                 {"servo.p_gain", "where a voltage drives the motor"},
                                  {"servo.torque_enable", "where a voltage drives the motor; 0 opens its coil"},
                                  {"inertial", "of the bodies behind a joint, where the rotor has inertia"}};
 constexpr PropertyUse writes[] = {{"joint.effort.target", "of every joint that it drives"},

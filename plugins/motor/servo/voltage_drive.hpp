@@ -12,6 +12,7 @@ namespace muro::servo {
 inline constexpr Key<double> supply_voltage_key{"servo.supply_voltage", "V", "what feeds the servo", Role::command};
 inline constexpr Key<double> torque_enable_key{"servo.torque_enable", "1",
                                                "0: the coil is open, the motor gives nothing", Role::command};
+inline constexpr Key<double> p_gain_key{"servo.p_gain", "1", "of the firmware, in its units", Role::command};
 inline constexpr Key<double> duty_key{"servo.duty", "1", "part of the supply voltage at the coil, -1 .. 1"};
 
 class VoltageDrive {
@@ -22,6 +23,7 @@ class VoltageDrive {
       : model_(m.model), inertia_(inertia + m.model.armature) {
     supply_voltage_ = c.input(joint, supply_voltage_key, m.supply_voltage);
     torque_enable_ = c.input(joint, torque_enable_key, 1.0);
+    p_gain_ = c.input(joint, p_gain_key, m.p_gain);
     duty_ = c.derived(joint, duty_key);
     friction_ = c.derived(joint, keys::joint_drive_friction);
     armature_ = c.derived(joint, keys::joint_drive_armature);
@@ -35,7 +37,7 @@ class VoltageDrive {
   double run(double error, double velocity, double dt) const {
     if (model_.back_emf_damping() * dt > inertia_) throw too_slow(dt);
     const bool on = *torque_enable_ != 0;
-    *duty_ = on ? model_.duty(error) : 0;
+    *duty_ = on ? model_.duty(*p_gain_ * error) : 0;
     const double torque = on ? model_.torque(*duty_ * *supply_voltage_, velocity) : 0;
     *friction_ = model_.friction.budget(velocity, torque, last_ ? observed_load(velocity, dt) : 0);
     *armature_ = model_.armature;
@@ -63,7 +65,7 @@ class VoltageDrive {
 
   motor::MotorModel model_;
   double inertia_ = 0;  ///< kg m^2, with the armature
-  In<double> supply_voltage_, torque_enable_;
+  In<double> supply_voltage_, torque_enable_, p_gain_;
   Out<double> duty_, friction_, armature_;
   LastRun* last_ = nullptr;  ///< where friction depends on the load
 };

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <mutex>
+#include <thread>
+
+#include "core/error.hpp"
+#include "host/commands/commands.hpp"
+#include "host/identify/identification.hpp"
+#include "host/identify/known_motors.hpp"
+#include "host/names.hpp"
+#include "host/output_file.hpp"
+#include "host/outputs/failures.hpp"
+
+namespace muro::host {
+
+namespace {
+
+bool ends_with(const std::string& file, const std::string& end) {
+  return file.size() > end.size() && file.compare(file.size() - end.size(), end.size(), end) == 0;
+}
+
+/// Before the search, which takes long.
+void check_identify_files(const IdentifyOptions& o) {
+  for (const std::string& file : o.reports)
+    if (!ends_with(file, ".md") && !ends_with(file, ".json"))
+      throw SetupError("--report " + in_backquotes(file) + ": reports are Markdown (*.md) or JSON (*.json)");
+  if (!o.plot.empty() && !ends_with(o.plot, ".svg"))
+    throw SetupError("--plot " + in_backquotes(o.plot) + ": pictures are SVG files, so name it *.svg");
+  std::vector<std::string> outputs = o.reports;
+  outputs.push_back(o.plot);
+  outputs.push_back(o.fragment);
+  for (const std::string& file : outputs) {
+    if (file.empty()) continue;
+    const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
+    if (!std::filesystem::is_directory(folder))
+      throw SetupError(in_backquotes(file) + " cannot be written: there is no folder " +
+                       in_backquotes(folder.string()));
+    for (const auto* inputs : {&o.records, &o.validate})
+      for (const std::string& input : *inputs) {
+        std::error_code none;
+        if (std::filesystem::equivalent(file, input, none))
+          throw SetupError(in_backquotes(file) + " is a record; it would be overwritten");
+      }
+  }
+}
+
+std::optional<double> fraction_of(const std::vector<std::string>& validate) {
+  if (validate.size() != 1) return std::nullopt;
+  double x = 0;
+  const std::string& text = validate.front();
+  const auto [used, code] = std::from_chars(text.data(), text.data() + text.size(), x);
+  if (code != std::errc{} || used != text.data() + text.size()) return std::nullopt;
+  if (!(x > 0 && x < 1)) throw SetupError("--validate " + text + ": a part of the records is above 0 and below 1");
+  return x;
+}
+
+/// Moves the share `part` of the records, by chance, to the result.
+std::vector<MotorRecord> take_part(std::vector<MotorRecord>& records, double part, std::uint64_t seed) {
+  const auto count = std::size_t(std::lround(part * double(records.size())));
+  if (count == 0 || count >= records.size())
+    throw SetupError(fmt::format("--validate {:g} of {} records leaves none on one side", part, records.size()));
+  std::vector<std::pair<std::uint64_t, std::size_t>> order;
+  std::uint64_t state = seed;
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    state = state * 6364136223846793005ull + 1442695040888963407ull;
+    order.emplace_back(state >> 20, i);
+  }
+  std::sort(order.begin(), order.end());
+  std::vector<std::size_t> chosen;
+  for (std::size_t k = 0; k < count; ++k) chosen.push_back(order[k].second);
+  std::sort(chosen.begin(), chosen.end());
+  std::vector<MotorRecord> out;
+  for (const std::size_t i : chosen) out.push_back(std::move(records[i]));
+  for (std::size_t k = chosen.size(); k-- > 0;) records.erase(records.begin() + std::ptrdiff_t(chosen[k]));
+  return out;
+}
+
+/// The firmware's gain and limit: of the command line, of the motor that the records name, or of their duties.
+void set_firmware(const IdentifyOptions& o, const std::vector<MotorRecord>& records, FitSettings& s) {
+  const KnownMotor* const known = known_motor(records.front().motor);
+  s.gain = o.duty_gain ? *o.duty_gain : known ? known->duty_gain : recorded_gain(records);
+  s.duty_limit = o.duty_limit ? *o.duty_limit : known ? known->duty_limit : 1;
+  if (s.fit_gain && !o.duty_gain) s.gain = recorded_gain(records);
+  if (s.gain > 0 || s.fit_gain) return;
+  throw SetupError(
+      "how the firmware turns its P gain into a duty is not known of " +
+      (records.front().motor.empty() ? "this motor" : in_backquotes(records.front().motor)) +
+      ", and no duty is recorded; give --duty-gain (1/rad for each unit of the P gain), or have it found: --fit gain");
+}
+
+class SearchProgress {
+ public:
+  void show(const std::string& what, double part) {
+    if (!shown_) return;
+    const std::lock_guard<std::mutex> lock(mutex_);
+    fmt::print(stderr, "\r\033[K{}: {:.0f} %", what, 100 * part);
+    std::fflush(stderr);
+  }
+  void close() const {
+    if (shown_) fmt::print(stderr, "\r\033[K");
+  }
+
+ private:
+  std::mutex mutex_;
+  bool shown_ = isatty(STDERR_FILENO) != 0;
+};
+
+}  // namespace
+
+int identify(const IdentifyOptions& o) {
+  if (!can_fit())
+    throw SetupError("this muro was built without NLopt, which `muro identify` needs (Debian: libnlopt-cxx-dev)");
+  FitSettings settings;
+  settings.friction = friction_kind_of(o.model);
+  for (const std::string& what : o.fit) {
+    if (what != "gain" && what != "delay")
+      throw SetupError("--fit " + in_backquotes(what) + suggestion(what, {"gain", "delay"}));
+    (what == "gain" ? settings.fit_gain : settings.fit_delay) = true;
+  }
+  settings.seed = o.seed;
+  settings.threads = o.threads > 0 ? o.threads : std::max(1u, std::thread::hardware_concurrency());
+  check_identify_files(o);
+
+  const RecordDefaults defaults{o.p_gain, o.supply_voltage, o.mass, o.length, o.arm_mass, o.inertia};
+  std::vector<MotorRecord> records, validation;
+  for (const std::string& file : o.records) records.push_back(read_motor_record(file, defaults));
+  if (const std::optional<double> part = fraction_of(o.validate))
+    validation = take_part(records, *part, o.seed);
+  else
+    for (const std::string& file : o.validate) validation.push_back(read_motor_record(file, defaults));
+  set_firmware(o, records, settings);
+
+  SearchProgress progress;
+  const Identification id = identify_motor(std::move(records), std::move(validation), settings, o.cross_validate,
+                                           [&](const std::string& what, double part) { progress.show(what, part); });
+  progress.close();
+  std::string unwritten;
+  Failures failures(unwritten);
+  for (const std::string& file : o.reports)
+    failures.guard([&] { write_file(file, ends_with(file, ".json") ? report_json(id) : report_text(id, true)); });
+  if (!o.plot.empty()) failures.guard([&] { write_file(o.plot, residual_plot(id)); });
+  if (!o.fragment.empty()) failures.guard([&] { write_file(o.fragment, scenario_fragment(id)); });
+  fmt::print("{}", report_text(id, false));
+  if (!unwritten.empty()) throw StepError(unwritten);
+  return 0;
+}
+
+}  // namespace muro::host

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#include "host/identify/identification.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <set>
+
+#include "core/error.hpp"
+
+namespace muro::host {
+
+namespace {
+
+constexpr double report_step = 0.002;  // s
+
+PredictedRecord predicted(MotorRecord record, bool is_validation, const MotorEstimate& estimate) {
+  PredictedRecord p;
+  const PreparedRecord prepared = prepare(record, report_step, estimate.delay);
+  p.error = error_of(prepared, estimate);
+  p.residuals = residuals_of(prepared, record, estimate);
+  p.record = std::move(record);
+  p.is_validation = is_validation;
+  return p;
+}
+
+double error_on(const std::vector<MotorRecord>& records, const MotorEstimate& estimate) {
+  double sum = 0;
+  for (const MotorRecord& r : records) sum += error_of(prepare(r, report_step, estimate.delay), estimate).mean;
+  return sum / double(records.size());
+}
+
+std::vector<CrossValidation> leave_out_in_turn(const std::vector<MotorRecord>& records, const FitSettings& settings,
+                                               const std::function<void(const std::string&, double)>& show) {
+  std::set<double> gains;
+  for (const MotorRecord& r : records) gains.insert(r.p_gain);
+  std::vector<CrossValidation> all;
+  if (gains.size() < 2)
+    throw SetupError("--cross-validate leaves out one P gain in turn, but all records have the same one");
+  for (const double gain : gains) {
+    std::vector<MotorRecord> rest, out;
+    for (const MotorRecord& r : records) (r.p_gain == gain ? out : rest).push_back(r);
+    const FitResult fit = fit_motor(rest, settings, [&](double part) {
+      if (show) show(fmt::format("without P gain {:g}", gain), part);
+    });
+    all.push_back({gain, error_on(rest, fit.estimate), error_on(out, fit.estimate)});
+  }
+  return all;
+}
+
+}  // namespace
+
+double mean_error(const std::vector<PredictedRecord>& records, bool validation) {
+  double sum = 0, count = 0;
+  for (const PredictedRecord& r : records)
+    if (r.is_validation == validation) sum += r.error.mean, count += 1;
+  return count > 0 ? sum / count : 0;
+}
+
+FrictionKind friction_kind_of(const std::string& word) {
+  constexpr std::pair<const char*, FrictionKind> kinds[] = {
+      {"m1", FrictionKind::m1}, {"m2", FrictionKind::m2}, {"m3", FrictionKind::m3}, {"m4", FrictionKind::m4}};
+  for (const auto& [name, kind] : kinds)
+    if (word == name) return kind;
+  throw SetupError("--model " + in_backquotes(word) + " is none of m1, m2, m3, m4");
+}
+
+std::string name_of(FrictionKind kind) { return fmt::format("M{}", 1 + int(kind)); }
+
+double recorded_gain(const std::vector<MotorRecord>& records) {
+  double products = 0, squares = 0;
+  for (const MotorRecord& r : records) {
+    if (!r.has_duty) continue;
+    for (const RecordSample& s : r.samples) {
+      const double error = r.p_gain * (s.goal - s.position);
+      if (!s.torque_enable || std::abs(s.duty) > 0.9) continue;
+      products += s.duty * error;
+      squares += error * error;
+    }
+  }
+  return squares > 0 && products > 0 ? products / squares : 0;
+}
+
+Identification identify_motor(std::vector<MotorRecord> fit, std::vector<MotorRecord> validation,
+                              const FitSettings& settings, bool cross_validate,
+                              const std::function<void(const std::string&, double)>& show) {
+  const auto start = std::chrono::steady_clock::now();
+  Identification result;
+  result.settings = settings;
+  result.fit = fit_motor(fit, settings, [&](double part) {
+    if (show) show("all records", part);
+  });
+  if (cross_validate) result.left_out = leave_out_in_turn(fit, settings, show);
+  const double told = recorded_gain(fit), used = result.fit.estimate.motor.gain;
+  if (told > 0 && std::abs(told / used - 1) > 0.05)
+    result.notes.push_back(
+        fmt::format("the recorded duties say a gain of {:.4g} /rad for each unit of the P gain, and {:.4g} was used: "
+                    "--duty-gain, or "
+                    "--fit gain",
+                    told, used));
+  for (auto* const records : {&fit, &validation})
+    for (MotorRecord& r : *records) {
+      for (const std::string& n : r.notes) result.notes.push_back(n);
+      const std::size_t gaps = prepare(r, report_step).gap_count;
+      if (gaps > 0)
+        result.notes.push_back(fmt::format("{}: {} gap{} in time; behind each the simulation begins anew", r.name, gaps,
+                                           gaps == 1 ? "" : "s"));
+      result.records.push_back(predicted(std::move(r), records == &validation, result.fit.estimate));
+    }
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return result;
+}
+
+}  // namespace muro::host

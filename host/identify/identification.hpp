@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// A motor identified from records, and how well it predicts each of them.
+#pragma once
+
+#include "host/identify/motor_fit.hpp"
+
+namespace muro::host {
+
+/// A record and how far its simulation is from it.
+struct PredictedRecord {
+  MotorRecord record;
+  bool is_validation = false;  ///< left out of the fit
+  RecordError error;
+  Residuals residuals;
+};
+
+/// A fit without the records of one P gain, and its error on them.
+struct CrossValidation {
+  double p_gain = 0;
+  double fit_error = 0, left_out_error = 0;  ///< rad, mean of |error|
+};
+
+struct Identification {
+  FitSettings settings;
+  FitResult fit;
+  std::vector<PredictedRecord> records;
+  std::vector<CrossValidation> left_out;
+  std::vector<std::string> notes;
+  double seconds = 0;  ///< wall-clock time
+};
+
+/// Of the records, with or without those of validation: the mean of their mean errors, rad.
+double mean_error(const std::vector<PredictedRecord>& records, bool validation);
+
+/// The friction model of "m1" to "m4", and back. Throws SetupError for another word.
+FrictionKind friction_kind_of(const std::string& word);
+std::string name_of(FrictionKind kind);
+
+/// What the duties that are recorded say of the gain (1/rad for each unit of the P gain); 0: nothing.
+double recorded_gain(const std::vector<MotorRecord>& records);
+
+/// Fits, and predicts all records. `cross_validate`: fits again without each P gain in turn.
+Identification identify_motor(std::vector<MotorRecord> fit, std::vector<MotorRecord> validation,
+                              const FitSettings& settings, bool cross_validate,
+                              const std::function<void(const std::string&, double)>& show = {});
+
+/// The report as plain text or as Markdown.
+std::string report_text(const Identification& identification, bool markdown);
+std::string report_json(const Identification& identification);
+/// A line of a scenario: the motor as motor.servo takes it.
+std::string scenario_fragment(const Identification& identification);
+/// Errors over time, a panel a record (SVG). `by`: what simulated, for the title; empty: the model that was identified.
+std::string residual_plot(const Identification& identification, const std::string& by = "");
+
+}  // namespace muro::host

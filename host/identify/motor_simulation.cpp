@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#include "host/identify/motor_simulation.hpp"
+
+namespace muro::host {
+
+namespace {
+
+constexpr double gap_factor = 5, shortest_gap = 0.05;  // usual periods; s
+constexpr double slope_window = 0.03;                  // s
+constexpr double least_slope_rise = 0.006;             // rad: four steps of an encoder of 12 bits
+
+double usual_period(const MotorRecord& r) {
+  std::vector<double> periods;
+  for (std::size_t i = 1; i < r.samples.size(); ++i) periods.push_back(r.samples[i].time - r.samples[i - 1].time);
+  std::nth_element(periods.begin(), periods.begin() + std::ptrdiff_t(periods.size() / 2), periods.end());
+  return periods[periods.size() / 2];
+}
+
+/// rad/s: of the line through the samples of a short time from `first` to before `end`; 0 where it is not seen to move.
+double initial_slope(const MotorRecord& r, std::size_t first, std::size_t end) {
+  double n = 0, t = 0, q = 0, tt = 0, tq = 0, last = 0;
+  for (std::size_t i = first; i < end && r.samples[i].time - r.samples[first].time <= slope_window; ++i) {
+    const double dt = r.samples[i].time - r.samples[first].time, dq = r.samples[i].position - r.samples[first].position;
+    n += 1, t += dt, q += dq, tt += dt * dt, tq += dt * dq, last = dq;
+  }
+  const double spread = n * tt - t * t;
+  return std::abs(last) < least_slope_rise || !(spread > 0) ? 0 : (n * tq - t * q) / spread;
+}
+
+/// The command that holds at `time`: that of the last sample at or before it.
+const RecordSample& command_at(const MotorRecord& r, double time, std::size_t& hint) {
+  while (hint + 1 < r.samples.size() && r.samples[hint + 1].time <= time) ++hint;
+  while (hint > 0 && r.samples[hint].time > time) --hint;
+  return r.samples[hint];
+}
+
+}  // namespace
+
+PreparedRecord prepare(const MotorRecord& r, double longest_step, double delay) {
+  PreparedRecord p;
+  p.p_gain = r.p_gain;
+  p.load = r.load;
+  const double gap = std::max(gap_factor * usual_period(r), shortest_gap);
+  std::size_t hint = 0;
+  for (std::size_t first = 0; first + 1 < r.samples.size();) {
+    std::size_t end = first + 1;
+    while (end < r.samples.size() && r.samples[end].time - r.samples[end - 1].time <= gap) ++end;
+    RecordSegment s;
+    s.first = first;
+    s.initial_position = r.samples[first].position;
+    s.initial_velocity = initial_slope(r, first, end);
+    for (std::size_t i = first; i + 1 < end; ++i) {
+      const double dt = r.samples[i + 1].time - r.samples[i].time;
+      const auto steps = std::int32_t(std::ceil(dt / longest_step - 1e-9));
+      const RecordSample& command =
+          delay == 0 ? r.samples[i] : command_at(r, r.samples[i].time + 0.5 * dt - delay, hint);
+      s.intervals.push_back({command.goal, r.samples[i].supply_voltage, dt / steps, steps, command.torque_enable,
+                             r.samples[i + 1].position});
+    }
+    p.sample_count += s.intervals.size();
+    if (end < r.samples.size()) ++p.gap_count;
+    if (!s.intervals.empty()) p.segments.push_back(std::move(s));
+    first = end;
+  }
+  return p;
+}
+
+RecordError error_of(const PreparedRecord& record, const MotorEstimate& estimate) {
+  RecordError all;
+  double squares = 0;
+  for (const RecordSegment& s : record.segments)
+    simulate(s, record.p_gain, record.load, estimate, [&](double error, const RecordSegment::Interval&) {
+      const double size = std::abs(error);
+      all.mean += size;
+      squares += error * error;
+      all.largest = size > all.largest || std::isnan(size) ? size : all.largest;
+    });
+  const double count = double(std::max<std::size_t>(record.sample_count, 1));
+  all.mean /= count;
+  all.rms = std::sqrt(squares / count);
+  return all;
+}
+
+Residuals residuals_of(const PreparedRecord& record, const MotorRecord& times, const MotorEstimate& estimate) {
+  Residuals r;
+  for (const RecordSegment& s : record.segments) {
+    std::size_t sample = s.first;
+    simulate(s, record.p_gain, record.load, estimate, [&](double error, const RecordSegment::Interval&) {
+      r.times.push_back(times.samples[++sample].time);
+      r.errors.push_back(error);
+    });
+  }
+  return r;
+}
+
+}  // namespace muro::host

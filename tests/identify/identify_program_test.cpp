@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+// `muro identify` as a user calls it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "host/identify/motor_fit.hpp"
+#include "tests/identify/simulated_record.hpp"
+#include "tests/support/files.hpp"
+
+namespace muro::host {
+namespace {
+
+const std::string muro_program = "MURO_PLUGIN_PATH=" MURO_TEST_PLUGIN_DIR " " MURO_PROGRAM " ";
+
+class IdentifyProgram : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!can_fit()) GTEST_SKIP() << "built without NLopt";
+    MotorEstimate e;
+    e.motor = {.kt = 0.387,
+               .resistance = 4.017,
+               .armature = 0.00181,
+               .gain = 0.0028773775,
+               .friction = {.coulomb = 0.0128, .viscous = 0.0037}};
+    test::SimulatedBench bench{.motor = e};
+    bench.duration = 2;
+    int number = 0;
+    for (const MotorRecord& r : bench.records(200, 800)) {
+      std::ostringstream out;
+      out.precision(10);
+      out << "# p_gain: " << r.p_gain
+          << "\n# mass: 0.49\n# length: 0.1\ntime,position,goal,supply_voltage,torque_enable\n";
+      for (const RecordSample& s : r.samples)
+        out << s.time << "," << s.position << "," << s.goal << "," << s.supply_voltage << "," << s.torque_enable
+            << "\n";
+      folder.file("r" + std::to_string(number++) + ".csv", out.str());
+    }
+  }
+  std::string text_of(const std::string& name) const { return test::text_of(folder.path(name)); }
+  /// `arguments`: @ stands for the folder.
+  test::CommandResult run(std::string arguments) const {
+    for (std::size_t at = 0; (at = arguments.find('@', at)) != std::string::npos;)
+      arguments.replace(at, 1, folder.path(""));
+    return test::run_command(muro_program + arguments);
+  }
+
+  const test::ScratchFolder folder;
+};
+
+TEST_F(IdentifyProgram, WritesAReportAPictureAndAFragmentThatRuns) {
+  const auto r =
+      run("identify @r0.csv @r1.csv @r3.csv --model m1 --duty-gain 0.0028773775 --validate @r2.csv --report @r.md "
+          "--report @r.json --plot @r.svg --fragment @motor.yaml");
+  ASSERT_EQ(r.exit_code, 0) << r.output;
+  EXPECT_NE(r.output.find("Model M1 from 3 records: mean |error| 0.00"), std::string::npos) << r.output;
+  EXPECT_NE(text_of("r.md").find("| r2.csv | 800 | left out |"), std::string::npos) << text_of("r.md");
+  EXPECT_NE(text_of("r.json").find("\"viscous_friction\""), std::string::npos);
+  EXPECT_NE(text_of("r.svg").find("</svg>"), std::string::npos);
+  const std::string fragment = text_of("motor.yaml");
+  ASSERT_EQ(fragment.substr(0, 24), "motor: {use: motor.servo");
+  folder.file("arm.urdf",
+              "<robot name='arm'><link name='stand'/><joint name='j' type='continuous'><parent link='stand'/><child "
+              "link='bob'/><axis xyz='0 1 0'/></joint><link name='bob'><inertial><origin xyz='0 0 -0.1'/><mass "
+              "value='0.49'/><inertia ixx='1e-6' iyy='1e-6' izz='1e-6' ixy='0' ixz='0' iyz='0'/></inertial></link>"
+              "</robot>");
+  folder.file("s.yaml",
+              "duration: 0.2\nrobots:\n  arm:\n    model: arm.urdf\n    motion: {use: "
+              "motion.simplified, joints: effort, base: fixed}\n    " +
+                  fragment);
+  const auto s = run("run @s.yaml");
+  EXPECT_EQ(s.exit_code, 0) << s.output;
+}
+
+TEST_F(IdentifyProgram, MistakesAreOneMessageAndWriteNothing) {
+  folder.file("bad.csv", "# p_gain: 1\ntime,position,goal\n0,0,zero\n");
+  const std::pair<std::string, std::string> cases[] = {
+      {"@none.csv", "there is no such file"},
+      {"@bad.csv", "bad.csv:3:5: `zero` is no number"},
+      {"@r0.csv", "give --duty-gain"},
+      {"@r0.csv --model m9", "`m9` is none of m1, m2, m3, m4"},
+      {"@r0.csv --fit gains", "did you mean `gain`?"},
+      {"@r0.csv --fit gain --report @r.txt", "reports are Markdown (*.md) or JSON (*.json)"},
+      {"@r0.csv --fit gain --plot @nowhere/r.svg", "there is no folder"},
+      {"@r0.csv --fit gain --fragment @r0.csv", "is a record; it would be overwritten"},
+      {"@r0.csv --fit gain --validate 0.1", "leaves none on one side"},
+      {"@r1.csv --fit gain --validate 1.5", "above 0 and below 1"},
+  };
+  for (const auto& [arguments, message] : cases) {
+    const auto r = run("identify " + arguments);
+    EXPECT_EQ(r.exit_code, 2) << message;
+    EXPECT_NE(r.output.find(message), std::string::npos) << message << "\n" << r.output;
+    EXPECT_EQ(std::count(r.output.begin(), r.output.end(), '\n'), 1) << r.output;
+  }
+}
+
+}  // namespace
+}  // namespace muro::host
