@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Makes the pictures of README.md and docs/ anew: docs/pictures/make.sh, in a built checkout. Needs xvfb.
+# Makes the pictures of README.md and docs/ anew: docs/pictures/make.sh, in a built checkout. Needs xvfb and
+# librsvg2-bin.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 muro=build/bin/muro out=docs/pictures
@@ -17,6 +18,12 @@ camera labels labels
 "$muro" render examples/levels/levels.yaml --at 4 --from -3,-3,2.2 --to 0,0,0 --size 960x540 --out "$out/levels.png"
 "$muro" render examples/balancer/balancer.yaml --at 4.5 --from=-10.9,-1.9,0.6 --to=-6.9,-0.15,0.1 --fov 42 \
   --size 800x450 --out "$out/balancer.png"
+
+allan=$(mktemp --suffix=.svg)
+"$muro" sensors allan examples/sensors/imu_at_rest.yaml --sensor fine --reading angular_velocity --duration 20000 \
+  --out "$allan" >/dev/null
+rsvg-convert "$allan" -o "$out/allan.png"
+rm "$allan"
 
 window() { xvfb-run -a -s "-screen 0 1400x900x24" "$muro" run "$@"; }
 scans() {

@@ -221,10 +221,12 @@ class Drawing {
     const auto last = std::find_if(c.points.rbegin(), c.points.rend(), is_inside);
     if (first == c.points.end()) return;
     const auto& [x, y] = c.label_first ? *first : *last;
-    const bool is_left = x_.coordinate(x) < (left + right) / 2;
-    const bool falls = c.points.back().second < c.points.front().second;  // then there is room below its end
-    out_ += text(x_.coordinate(x) + (is_left ? 5 : -5), y_.coordinate(y) + (falls && !c.label_first ? 14 : -6),
-                 is_left ? "start" : "end", c.label,
+    const double width_of_label = character_width * double(c.label.size());
+    const bool falls = c.points.back().second < c.points.front().second;  // then there is room on its right
+    const bool fits = x_.coordinate(x) + width_of_label + 8 < right;
+    const bool begins = fits && (falls || c.label_first);
+    out_ += text(x_.coordinate(x) + (begins ? 7 : -5), y_.coordinate(y) + (falls && !fits ? 14 : -5),
+                 begins ? "start" : "end", c.label,
                  "font-size=\"12\" fill=\"#555\" paint-order=\"stroke\" stroke=\"white\" stroke-width=\"3\"");
   }
 

@@ -137,7 +137,7 @@ std::string allan_picture(const AllanCurves& c, const std::string& scenario) {
   chart.bands.push_back(std::move(band));
   add_line("N / √τ", f.noise_density, false, [&](const AllanPoint& p) { return f.white(p.tau); });
   add_line("0.664 B", f.bias_instability, true, [&](const AllanPoint&) { return f.flicker(); });
-  add_line("K √(τ / 3)", f.random_walk, true, [&](const AllanPoint& p) { return f.walk(p.tau); });
+  add_line("K √(τ / 3)", f.random_walk, false, [&](const AllanPoint& p) { return f.walk(p.tau); });
   return svg(chart);
 }
 

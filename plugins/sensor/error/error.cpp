@@ -32,7 +32,9 @@ constexpr auto parameters = [] {
 }();
 constexpr PropertyUse reads[] = {{"ranges", "or the property that `of` names"},
                                  {"laser.incidence", "pointing above 0: between each ray and the surface's normal"},
-                                 {"linear_acceleration", "g_sensitivity other than 0: the specific force"}};
+                                 {"angular_velocity", "named by `of` or by a part"},
+                                 {"linear_acceleration", "the same; and for a g_sensitivity: the specific force"},
+                                 {"encoder.position", "named by `of` or by a part"}};
 constexpr PropertyUse writes[] = {{"ranges.measured", "or `of`.measured"}};
 constexpr Description description{
     .id = "sensor.error",
