@@ -327,6 +327,36 @@ TEST(SensorError, ReadsAPartOfTheUser) {
                                      "number or 3");
 }
 
+TEST(SensorError, CountsTheStepsOfAnEncoderOrOfSeveral) {
+  Devices s({"a"});
+  const std::vector<double> joints{0.1, -0.2, 3.0};
+  s.world().set_array(s.items[0].object, keys::encoder_position, std::span<const double>(joints));
+  s.use("sensor.error", 200, s.items, {{"part", std::string("as5045")}});
+  s.build();
+  s.run_for(0.002);
+  const Key<double> measured{"encoder.position.measured", keys::encoder_position.unit, ""};
+  const auto read = s.world().values(s.items[0].object, measured);
+  ASSERT_EQ(read.size(), 3U);
+  const double step = 2 * M_PI / 4096;
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(read[i], step * std::round(joints[i] / step));
+}
+
+// users of Gazebo dispute what its dynamic bias is: the one parameter is the stationary deviation, the other drives it
+TEST(SensorError, TakesADriftingBiasByItsDeviationOrByItsDrivingDensity) {
+  Devices by_sigma({"a"}), by_density({"a"});
+  const double density = 0.05, time = 8;
+  const auto run = [&](Devices& s, const char* name, double value) {
+    s.use("sensor.error", 100, s.items,
+          {{"of", std::string("angular_velocity")}, {name, value}, {"gauss_markov_time", time}});
+    s.build();
+    s.run_for(3);
+    return s.value(measured_gyro);
+  };
+  const Vec3 a = run(by_sigma, "gauss_markov_sigma", density * std::sqrt(time / 2));
+  EXPECT_EQ(a, run(by_density, "gauss_markov_density", density));
+  EXPECT_NE(a, true_rate);
+}
+
 TEST(SensorError, TellsOfPartsThatDoNotFit) {
   const auto said = [](const Given& parameters) {
     Devices s({"a"});
