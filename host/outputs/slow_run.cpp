@@ -22,11 +22,12 @@ std::string advice(const Instance& instance, Rate rate) {
   const std::uint32_t capabilities = instance.description().capabilities;
   const std::string lower = rate.on_demand() ? "run what reads it less often"
                                              : fmt::format("give it a lower rate than {:g} Hz", rate.hertz());
-  if ((capabilities & Capability::world) != 0 && instance.setup().items.size() > 1)
+  const bool motion = instance.description().kind == Kind::motion;
+  if (motion && (capabilities & Capability::world) != 0 && instance.setup().items.size() > 1)
     return "all its robots are in one world, and an engine takes more than twice the time for twice the robots: give "
            "robots that do not meet worlds of their own (`world: NAME`), " +
            lower + ", or move robots that need no forces by a simpler motion";
-  if (instance.description().kind == Kind::motion) return lower + ", or use a simpler motion";
+  if (motion) return lower + ", or use a simpler motion";
   if (instance.description().kind == Kind::collision || instance.description().kind == Kind::contact)
     return "use simpler collision shapes, or motions that no force moves where contacts do not matter";
   return lower + ", or let it do less in each step";

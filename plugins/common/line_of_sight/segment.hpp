@@ -11,9 +11,12 @@ namespace muro::line_of_sight {
 /// From `start` over `start + way`; a place on it is a number from 0 to 1.
 struct Segment {
   Vec3 start, way;  ///< m
-  Vec3 per_way;     ///< 1 / way
+  Vec3 per_way;     ///< 1 / way, and a number near infinity for 0
 
-  static Segment along(const Vec3& start, const Vec3& way) { return {start, way, way.cwiseInverse()}; }
+  static Segment along(const Vec3& start, const Vec3& way) {
+    const auto inverse = [](double x) { return x == 0 ? 1e300 : 1 / x; };
+    return {start, way, {inverse(way.x()), inverse(way.y()), inverse(way.z())}};
+  }
   static Segment between(const Vec3& a, const Vec3& b) { return along(a, b - a); }
   Vec3 end() const { return start + way; }
   /// In the frame whose pose in the present one is `frame`.
@@ -21,19 +24,16 @@ struct Segment {
     const Quat back = frame.orientation.conjugate();
     return along(back * Vec3(start - frame.position), back * way);
   }
-  /// Whether a part of it is in the closed box.
+  /// Whether a part of it is in the box. A segment that runs along a face, and so cuts nothing in the box, may count.
   bool touches(const Aabb& box) const {
     double in = 0, out = 1;
-    for (int k = 0; k < 3; ++k) {
-      const double low = box.low[k] - start[k], high = box.high[k] - start[k];
-      if (way[k] == 0) {
-        if (low > 0 || high < 0) return false;
-        continue;
-      }
-      const double a = low * per_way[k], b = high * per_way[k];
-      in = std::max(in, std::min(a, b));
-      out = std::min(out, std::max(a, b));
-    }
+    const auto narrow = [&](int k) {  // in the form that compilers make minimum and maximum instructions of
+      const double a = (box.low[k] - start[k]) * per_way[k], b = (box.high[k] - start[k]) * per_way[k];
+      const double first = a < b ? a : b, last = a > b ? a : b;
+      in = first > in ? first : in;
+      out = last < out ? last : out;
+    };
+    narrow(0), narrow(1), narrow(2);
     return in <= out;
   }
 };

@@ -22,24 +22,33 @@ struct Reception {
   const Surroundings& s;
   std::uint32_t number;  ///< of the receiver
   const Radio& r;
+  std::span<double> powers;  ///< mW, of each transmission of the medium here; below 0: not known yet
 
   Outcome outcome(std::uint32_t sender, const Frame& f, double& rssi) const;
   /// Fills in what overlaps with the frame; returns whether the receiver itself was sending.
   bool find_disturbances(std::uint32_t sender, const Frame& f, std::vector<Disturbance>& found) const;
+  double power_of(const Transmission& t) const;
   /// The probability that all bits are right.
   double all_right(const Radio& sender, const Frame& f, double signal, std::span<const Disturbance> others) const;
 };
 
 bool Reception::find_disturbances(std::uint32_t sender, const Frame& f, std::vector<Disturbance>& found) const {
   bool is_sending = false;
-  s.medium.each_overlapping(f.start, f.end, [&](const Transmission& t) {
+  s.medium.each_overlapping(f.start, f.end, [&](const Transmission& t, std::size_t i) {
     if (t.radio == number) is_sending = true;
     if (t.radio == number || t.radio == sender) return;
-    const auto power = s.channel.received_power(s.seed, s.radios[t.radio], s.places[t.radio], r, s.places[number],
-                                                t.number, r.parameters.noise_floor - below_noise);
-    if (power) found.push_back({t.start, t.end, from_decibels(*power)});
+    double& power = powers[i];
+    if (power < 0) power = power_of(t);
+    if (power > 0) found.push_back({t.start, t.end, power});
   });
   return is_sending;
+}
+
+double Reception::power_of(const Transmission& t) const {
+  const double least = r.parameters.noise_floor - below_noise;
+  const auto power =
+      s.channel.received_power(s.seed, s.radios[t.radio], s.places[t.radio], r, s.places[number], t.number, least);
+  return power ? from_decibels(*power) : 0;
 }
 
 /// Between two instants at which something begins or ends, the bits have one probability.
@@ -158,7 +167,9 @@ void forget_messages(const Radio& r, double now) {
 
 void receive(const Surroundings& s, std::uint32_t number) {
   const Radio& r = s.radios[number];
-  const Reception reception{s, number, r};
+  thread_local std::vector<double> powers;
+  powers.assign(s.channel.is_shared ? s.medium.transmission_count() : 0, -1);
+  const Reception reception{s, number, r, powers};
   s.hash.each_within(s.places[number], s.hearing, [&](std::uint32_t member, double) {
     const std::uint32_t sender = s.members[member];
     if (sender == number) return;

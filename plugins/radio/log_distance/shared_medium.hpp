@@ -34,14 +34,17 @@ class SharedMedium {
 
   /// Lists all transmissions, in the order of their starts. By one thread.
   void list_transmissions(std::span<const Radio> radios);
-  /// Calls visit(transmission) for all that overlap in time with what begins and ends at `start` and `end` (s).
+  /// Calls visit(transmission, its number) for all that overlap in time with what begins and ends at `start` and `end`
+  /// (s).
   template <class Visit>
   void each_overlapping(double start, double end, Visit visit) const {
     const auto begins_before = [](const Transmission& t, double time) { return t.start < time; };
     auto t = std::lower_bound(transmissions_.begin(), transmissions_.end(), start - longest_, begins_before);
     for (; t != transmissions_.end() && t->start < end; ++t)
-      if (t->end > start) visit(*t);
+      if (t->end > start) visit(*t, std::size_t(t - transmissions_.begin()));
   }
+
+  std::size_t transmission_count() const { return transmissions_.size(); }
 
  private:
   struct Attempt {
