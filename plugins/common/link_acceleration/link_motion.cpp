@@ -23,7 +23,12 @@ JointMotion::JointMotion(Connector& c, const RobotView& robot, std::uint32_t lin
 }
 
 void JointMotion::check_acceleration(const Connector& c) const {
-  if (!c.is_used(object_, keys::joint_acceleration, usage::variable))
+  const auto is_written = [&](const KeyInfo& key) {
+    return c.is_used(object_, key, usage::write) || c.is_used(object_, key, usage::optional_output) ||
+           c.is_used(object_, key, usage::derived) || c.is_used(object_, key, usage::variable);
+  };
+  const bool moves = is_written(keys::joint_position) || is_written(keys::joint_velocity);
+  if (moves && !c.is_used(object_, keys::joint_acceleration, usage::variable))
     throw Error("no motion moves the joint `" + std::string(c.object_name(object_)) +
                 "`, so the acceleration of what it carries is not known; let a motion move it");
 }

@@ -24,7 +24,7 @@ class JointMotion {
   double position() const { return offset_ + multiplier_ * *position_; }
   double velocity() const { return multiplier_ * *velocity_; }
   double acceleration() const { return multiplier_ * *acceleration_; }
-  /// When all have connected: throws Error where no motion tells its acceleration. [setup]
+  /// When all have connected: throws Error where it is moved, but no motion tells its acceleration. [setup]
   void check_acceleration(const Connector& c) const;
 
  private:

@@ -72,6 +72,10 @@ class BumperSensor final : public PerRobotAlgorithm<Bumper> {
       if (c.parameters().real("threshold") > 0)
         throw Error("no force moves " + quote(view.name) +
                     ", so there is none to compare with the threshold; remove it");
+      if (!c.is_used(view.base(), keys::contacts, usage::derived))
+        throw Error(
+            "nobody looks for contacts of " + quote(view.name) +
+            ", which no force moves; give its motion `on_contact: stop`, and the scenario a collision algorithm");
       b.contacts = c.read_list(view.base(), keys::contacts);
     }
     b.pressed = c.variable(item.object, keys::bumper_pressed, std::uint32_t{0});

@@ -61,7 +61,7 @@ class Accelerations {
     if (!r->acceleration) return;
     if (r->how == BaseMotion::by_forces) {
       r->place_centre();
-      r->before = {r->twist->at(r->centre), r->twist->angular};
+      r->keep_velocity();
     } else {
       const Quat to_body = r->pose->orientation.conjugate();
       r->before = {to_body * r->twist->linear, to_body * r->twist->angular};
@@ -78,8 +78,7 @@ class Accelerations {
     const Twist& now = *r->twist;
     if (r->how == BaseMotion::by_forces) {
       r->place_centre();
-      *r->acceleration = r->of_centre((now.at(r->centre) - r->before.linear) * per_second,
-                                      (now.angular - r->before.angular) * per_second);
+      r->write_acceleration(per_second);
     } else {
       const Quat to_body = r->pose->orientation.conjugate();
       *r->acceleration = r->of_body_axes((to_body * now.linear - r->before.linear) * per_second,
@@ -120,6 +119,28 @@ class Accelerations {
                    tz = 2 * (q[0] * com.y() - q[1] * com.x());
       centre = {com.x() + q[3] * tx + q[1] * tz - q[2] * ty, com.y() + q[3] * ty + q[2] * tx - q[0] * tz,
                 com.z() + q[3] * tz + q[0] * ty - q[1] * tx};
+    }
+    /// By forces: of the centre. Numbers instead of vectors: it is done for each robot in each step.
+    void keep_velocity() {
+      const double *v = twist->linear.data(), *w = twist->angular.data(), *c = centre.data();
+      double *linear = before.linear.data(), *angular = before.angular.data();
+      linear[0] = v[0] + w[1] * c[2] - w[2] * c[1];
+      linear[1] = v[1] + w[2] * c[0] - w[0] * c[2];
+      linear[2] = v[2] + w[0] * c[1] - w[1] * c[0];
+      for (int i = 0; i < 3; ++i) angular[i] = w[i];
+    }
+    /// a_O = a_C - alpha x c - w x (w x c)
+    void write_acceleration(double per_second) const {
+      const double *v = twist->linear.data(), *u = before.linear.data(), *o = before.angular.data();
+      const double wx = twist->angular.x(), wy = twist->angular.y(), wz = twist->angular.z();
+      const double cx = centre.x(), cy = centre.y(), cz = centre.z();
+      const double sx = wy * cz - wz * cy, sy = wz * cx - wx * cz, sz = wx * cy - wy * cx;  // w x c
+      const double ax = (wx - o[0]) * per_second, ay = (wy - o[1]) * per_second, az = (wz - o[2]) * per_second;
+      double *linear = acceleration->linear.data(), *angular = acceleration->angular.data();
+      linear[0] = (v[0] + sx - u[0]) * per_second - (ay * cz - az * cy) - (wy * sz - wz * sy);
+      linear[1] = (v[1] + sy - u[1]) * per_second - (az * cx - ax * cz) - (wz * sx - wx * sz);
+      linear[2] = (v[2] + sz - u[2]) * per_second - (ax * cy - ay * cx) - (wx * sy - wy * sx);
+      angular[0] = ax, angular[1] = ay, angular[2] = az;
     }
     Twist of_body_axes(const Vec3& change, const Vec3& turning) const {
       const Quat& axes = pose->orientation;

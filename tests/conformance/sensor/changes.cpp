@@ -111,11 +111,15 @@ Pose after_a_second(const std::string& motion, bool senses) {
     t.add_sensor("sensor.imu", "disc", {}, 200);
     t.add_sensor("sensor.encoder", "table", {{"counts", 4096.0}}, 1000);
     t.add_sensor("sensor.gps", "base_link", {}, 5);
+    t.add_sensor("sensor.magnetometer", "base_link", {}, 50);
+    t.add_sensor("sensor.truth", "disc", {{"acceleration", true}, {"frame", "base_link"}}, 20);
+    if (t.family() == Family::wheeled) t.add_sensor("sensor.odometry", "base_link", {}, 50);
     if (t.family() == Family::forces) t.add_sensor("sensor.foot", "base_link", {}, 40);
     if (t.family() == Family::forces) t.add_sensor("sensor.bumper", "base_link", {}, 100);
     if (t.family() == Family::forces) t.add_sensor("sensor.force_torque", "disc", {}, 125);
   }
   t.start();
+  if (senses) t.verify_access();  // that they read and write what they have declared
   t.command(0.3, 0.2);
   t.run_for(1);
   return t.pose(t.robot());

@@ -45,7 +45,7 @@ TEST(SensorMessages, AFootOfARobotWithoutForcesFeelsNothing) {
 }
 
 TEST(SensorMessages, ABumperThatNobodyTellsOfContactsIsRefused) {
-  expect_in("add one of: collision.", message_of("sensor.bumper", "base_link"));
+  expect_in("give its motion `on_contact: stop`", message_of("sensor.bumper", "base_link"));
 }
 
 TEST(SensorMessages, ATruthOfNobodyIsRefused) {
@@ -62,11 +62,18 @@ TEST(SensorMessages, AThresholdBelowTheReleaseIsRefused) {
                                                {{"threshold", 5.0}, {"release_threshold", 7.0}}, "motion.simplified"));
 }
 
+TEST(SensorMessages, AJointThatNothingMovesStandsStill) {
+  EXPECT_EQ(message_of("sensor.accelerometer", "disc", {}, "motion.point"), "");
+}
+
 /// Control code that moves a joint by itself tells no acceleration of it.
-TEST(SensorMessages, AJointThatNoMotionMovesHasNoAcceleration) {
+TEST(SensorMessages, AJointThatControlCodeMovesHasNoAcceleration) {
   Trial t("motion.point");
   t.add_vehicle();
   t.add_sensor("sensor.accelerometer", "disc");
+  PropertyStore& store = t.world().store();
+  store.bind(store.add_accessor("control code"), t.world().object("r/table"), keys::joint_position, usage::write,
+             Multiplicity::single, 1, nullptr);
   try {
     t.start({{"joints", "passive"}});
     FAIL() << "it was connected";
