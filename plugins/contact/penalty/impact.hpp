@@ -92,7 +92,9 @@ inline FrictionAnchor anchor_of_impact(std::uint64_t pair) {
   return {.pair = pair, .point = Vec3::Constant(std::numeric_limits<double>::infinity())};
 }
 
-inline bool is_of_impact(const FrictionAnchor& anchor) { return std::isinf(anchor.point.x()); }
+inline bool is_of_impact(const FrictionAnchor& anchor) {
+  return std::abs(anchor.point.x()) == std::numeric_limits<double>::infinity();
+}
 
 /// Whether a contact of the pair was in an impact in the step before.
 inline bool was_in_impact(std::span<const FrictionAnchor> before, std::uint64_t pair) {

@@ -115,10 +115,12 @@ struct Strip {
     const Vec2 m = (p + q).normalized();
     const double r = root(m), value = d.dot(m) + radius * r, by = slope(d, m, r), cosine = m.dot(p);
     const double level = value > 0 ? value * cosine : value;
-    if (level - std::abs(by) * std::abs(cross(m, p)) + constant >= s.min_depth) return;
-    if (cosine < 0.999) {
-      search(s, d, sign, p, m);
-      search(s, d, sign, m, q);
+    const double sine = std::abs(cross(m, p));
+    const auto may_be_lower = [&](double descent) { return level - descent * sine + constant < s.min_depth; };
+    if (!may_be_lower(std::abs(by))) return;
+    if (cosine < 0.999) {  // it falls to one side only
+      if (may_be_lower(std::max(by, 0.0))) search(s, d, sign, p, m);
+      if (may_be_lower(std::max(-by, 0.0))) search(s, d, sign, m, q);
       return;
     }
     if (slope(d, p, root(p)) <= 0 && slope(d, q, root(q)) >= 0) {
