@@ -93,8 +93,8 @@ TEST(WrongCommandLine, ASpeedMustBeMaxRealOrAFactor) {
 TEST(WrongCommandLine, ACommandThatDoesNotExistNamesThoseThatDo) {
   const auto result = run_command(muro_program + " chekc x.yaml");
   EXPECT_EQ(result.output,
-            "muro has no command `chekc` (did you mean `check`?); commands: run, check, compare, render, describe, "
-            "plugins, properties\n");
+            "muro has no command `chekc` (did you mean `check`?); commands: run, check, compare, identify, render, "
+            "sensors, describe, plugins, properties\n");
   EXPECT_EQ(result.exit_code, 2);
 }
 
@@ -115,9 +115,9 @@ struct FailedRun {
 
 TEST(WrongCommandLine, WithoutACommandTheCommandsAreNamed) {
   const auto result = run_command(muro_program);
-  EXPECT_EQ(
-      result.output,
-      "muro needs a command: run, check, compare, render, describe, plugins, properties; muro --help tells more\n");
+  EXPECT_EQ(result.output,
+            "muro needs a command: run, check, compare, identify, render, sensors, describe, plugins, properties; "
+            "muro --help tells more\n");
   EXPECT_EQ(result.exit_code, 2);
 }
 

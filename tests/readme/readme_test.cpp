@@ -123,7 +123,9 @@ TEST(Documents, PropertiesAreThoseOfTheVocabulary) {
     ++keys;
     EXPECT_NE(listed.find("\n  " + (*it)[1].str() + " "), std::string::npos) << (*it)[1].str();
   }
-  EXPECT_EQ(std::count(listed.begin(), listed.end(), '\n') - 9, keys) << "and no other, beside nine titles";
+  int lines = 0;
+  for (std::size_t at = 0; (at = listed.find("\n  ", at)) != std::string::npos; ++at) ++lines;
+  EXPECT_EQ(lines, keys) << "and no other, beside titles";
 }
 
 TEST(Documents, EveryFileTheyLinkToExists) {
