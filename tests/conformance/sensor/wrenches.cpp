@@ -57,8 +57,8 @@ Outcome whirled_arm(const std::string& motion) {
   return both(reading(t, s), {mass * 16 * arm, 0, -mass * g}, {0, mass * g * arm, 0});
 }
 
-/// Released level, with the sensor in the pivot: `weights` times its weight at the bottom.
-Outcome pendulum(const std::string& motion, const Inertia& bob, double weights) {
+/// Released level, with the sensor in the pivot: the force, by its weight, when it has swung by `angle` (rad).
+Vec3 swinging(const std::string& motion, const Inertia& bob, double angle) {
   Trial t(motion);
   t.add("r", test::tree_of([&](RobotBuilder& b) {
           b.base("base_link");
@@ -70,16 +70,21 @@ Outcome pendulum(const std::string& motion, const Inertia& bob, double weights) 
         {{0, 0, 3}, Quat::Identity()});
   const ObjectId s = t.add_sensor("sensor.force_torque", "pivot");
   t.start(loose);
-  while (t.joint("pivot", keys::joint_position) < M_PI / 2 && t.now() < 3'000'000'000) t.run_for(0.001);
+  while (t.joint("pivot", keys::joint_position) < angle && t.now() < 3'000'000'000) t.run_for(0.001);
   t.run_for(0.0005);
-  const double weight = bob.mass * g;
-  return difference(reading(t, s).force.norm() / weight, weights);
+  return reading(t, s).force / (bob.mass * g);
 }
+const Inertia uniform_rod{.mass = 1, .com = {0.5, 0, 0}, .ixx = 1e-4, .iyy = 1.0 / 12, .izz = 1.0 / 12};
 Outcome point_pendulum(const std::string& motion) {
-  return pendulum(motion, {.mass = 1, .com = {0.5, 0, 0}, .ixx = 1e-6, .iyy = 1e-6, .izz = 1e-6}, 3);
+  const Inertia bob{.mass = 1, .com = {0.5, 0, 0}, .ixx = 1e-6, .iyy = 1e-6, .izz = 1e-6};
+  return difference(swinging(motion, bob, M_PI / 2).norm(), 3);
 }
 Outcome rod_pendulum(const std::string& motion) {
-  return pendulum(motion, {.mass = 1, .com = {0.5, 0, 0}, .ixx = 1e-4, .iyy = 1.0 / 12, .izz = 1.0 / 12}, 2.5);
+  return difference(swinging(motion, uniform_rod, M_PI / 2).norm(), 2.5);
+}
+/// At 45 deg from the bottom, across the rod: m g sin q / 4.
+Outcome rod_across(const std::string& motion) {
+  return difference(std::abs(swinging(motion, uniform_rod, M_PI / 4).z()), std::sqrt(0.5) / 4);
 }
 
 /// On a foot that a fixed joint holds: it carries the weight of what stands on it. Peers lump such joints away.
@@ -128,6 +133,12 @@ std::vector<Case> wrench_cases() {
        {none, none, d},
        {0, 0, 0.025},
        rod_pendulum},
+      {"a rod that swings bears with m g sin q / 4 across",
+       "sensor.force_torque",
+       "m g",
+       {none, none, d},
+       {0, 0, 0.01},
+       rod_across},
       {"a foot on a fixed joint carries what stands on it",
        "sensor.force_torque",
        "N, N m",
