@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -164,14 +165,17 @@ std::string record_csv(const std::vector<MotorRecord>& records, const std::vecto
   std::string text = "record,p_gain,variation,mean_error,rms_error,largest_error,cost,failure\n";
   const std::size_t variations = deviations.size() / records.size();
   const auto quoted = [](std::string cell) {
+    std::replace(cell.begin(), cell.end(), '\n', ' ');
     for (std::size_t at = 0; (at = cell.find('"', at)) != std::string::npos; at += 2) cell.insert(at, 1, '"');
     return '"' + cell + '"';
   };
   for (std::size_t k = 0; k < deviations.size(); ++k) {
     const RecordDeviation& d = deviations[k];
     const MotorRecord& r = records[k / variations];
-    text += fmt::format("{},{:g},{},{:.6g},{:.6g},{:.6g},{:.6g},{}\n", quoted(r.name), r.p_gain, quoted(d.label),
-                        d.error.mean, d.error.rms, d.error.largest, d.cost, quoted(d.failure));
+    const std::string figures = d.failure.empty() ? fmt::format("{:.6g},{:.6g},{:.6g},{:.6g}", d.error.mean,
+                                                                d.error.rms, d.error.largest, d.cost)
+                                                  : ",,,";
+    text += fmt::format("{},{:g},{},{},{}\n", quoted(r.name), r.p_gain, quoted(d.label), figures, quoted(d.failure));
   }
   return text;
 }

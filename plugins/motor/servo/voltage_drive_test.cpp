@@ -203,7 +203,7 @@ TEST(VoltageDrive, MistakesAreNamedWithAdviceToo) {
       {{{"part", "mx64"}, {"mode", "velocity"}}, "follows positions"},
       {{{"kt", 1.0}}, "`supply_voltage` is 0.000000; a motor needs it above 0, in V"},
       {{{"stiffness", 3.0}, {"resistance", 1.0}}, "`resistance` belongs to a motor driven by a voltage"},
-      {{{"part", file}}, ":4: there is no parameter `resistence` (did you mean `resistance`?)"},
+      {{{"part", file}}, ":4:3: there is no parameter `resistence` (did you mean `resistance`?)"},
       {{{"part", "nowhere.yaml"}}, "cannot be read"},
       {{{"part", "mx106"}, {"armature", 0.0}, {"resistance", 0.01}}, "the back EMF would stop the joint within"},
   };
