@@ -25,10 +25,10 @@ std::string cell(const std::string& motion, const Case& c) {
 void print() {
   std::printf(
       "# Sensors of a robot's own state, by motion\n\n"
-      "For those who choose a motion for what their sensors need. Made by `build/bin/sensor_table`, which asks\n"
-      "[tests/conformance/sensor](../tests/conformance/sensor); each number is the error that it found, in the unit\n"
-      "of the reading.\n\n"
-      "- **exact**: from the state of the motion itself, up to rounding and to what the motion makes of the case.\n"
+      "For those who choose a motion for what their sensors need. Made by `build/bin/sensor_table`, which\n"
+      "asks [tests/conformance/sensor](../tests/conformance/sensor); each number is the error that it\n"
+      "found, in the unit of the reading.\n\n"
+      "- **exact**: from the state of the motion itself, up to rounding and to what the motion makes of it.\n"
       "- **step**: an acceleration, from the change of velocity in the last step (1 ms here).\n"
       "- **refused**: the motion knows no such thing; `muro check` says so, and a run does not begin.\n"
       "- empty: the question makes no sense at this motion.\n\n");
