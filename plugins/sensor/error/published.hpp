@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstring>
 #include <deque>
 #include <string>
@@ -55,12 +56,15 @@ class Published {
   template <class Values>
   void set(Connector& c, ObjectId object, const KeyInfo& of, const char* name, const std::string& unit, const char* doc,
            Values values) {
-    double numbers[sizeof(T) / sizeof(double)];
+    std::array<double, value_type<T>.scalars()> numbers{};
     bool any = false;
-    for (std::size_t i = 0; i < std::size(numbers); ++i) any = (numbers[i] = values(i)) != 0 || any;
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      numbers[i] = values(i);
+      any = any || numbers[i] != 0;
+    }
     if (!any) return;
     T value{};
-    std::memcpy(static_cast<void*>(&value), numbers, sizeof value);
+    std::memcpy(static_cast<void*>(&value), numbers.data(), sizeof value);
     c.set(object, key(std::string(of.name) + ".error." + name, unit, doc), value);
   }
   const Key<T>& key(const std::string& name, const std::string& unit, std::string_view doc) {
