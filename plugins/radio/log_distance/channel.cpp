@@ -26,7 +26,7 @@ double oqpsk_error(double snr) {
 
 }  // namespace
 
-double from_decibels(double level) { return elementary::pow(10, 0.1 * level); }
+double from_decibels(double level) { return elementary::exp(0.23025850929940457 * level); }  // ln(10) / 10
 double to_decibels(double factor) { return 10 * elementary::log10(factor); }
 
 double free_space_loss(double distance, double frequency, double speed) {

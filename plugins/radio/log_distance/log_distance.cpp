@@ -64,7 +64,7 @@ class LogDistance final : public Algorithm {
   Channel channel_;
   std::optional<line_of_sight::LineOfSight> sight_;
   std::vector<Radio> radios_;
-  double hearing_ = 0, sensing_ = 0;  ///< m: so far the strongest sender is received, and makes the medium busy
+  double hearing_ = 0, sensing_ = 0, disturbing_ = 0;  ///< m: so far the strongest sender does so
   SharedMedium medium_;
   // of the present step
   std::vector<Vec3> places_;            ///< m, of the radios
@@ -126,13 +126,15 @@ double LogDistance::reach(double weakest) const {
 }
 
 void LogDistance::find_distances() {
-  double received = 1e9, sensed = 1e9;
+  double received = 1e9, sensed = 1e9, noise = 1e9;
   for (const Radio& r : radios_) {
     received = std::min(received, r.parameters.sensitivity);
     sensed = std::min(sensed, r.parameters.carrier_sense);
+    noise = std::min(noise, r.parameters.noise_floor);
   }
   hearing_ = reach(received);
   sensing_ = reach(sensed);
+  disturbing_ = reach(noise - below_noise);
 }
 
 void LogDistance::start() {
@@ -145,7 +147,8 @@ void LogDistance::start() {
 
 void LogDistance::step(const Step& step, Range range) {
   if (step.phase == 1) return look_around(step);
-  const Surroundings s{channel_, radios_, places_, members_, hash_, medium_, hearing_, step.seconds(), step.seed};
+  const Surroundings s{channel_, radios_,     places_,  members_,       hash_,
+                       medium_,  disturbing_, hearing_, step.seconds(), step.seed};
   for (std::uint32_t i = range.begin; i < range.end; ++i) {
     if (step.phase == 0)
       send(radios_[i], s.now);

@@ -236,6 +236,26 @@ TEST(Radio, CountsWhatItsControlCodeWritesTooFast) {
   EXPECT_EQ(s.text(1, s.received(1)[1]), "4");
 }
 
+TEST(Radio, TakesAnyNumberAndRefusesMessagesThatAreTooLong) {
+  Radios s;
+  s.place("a", {0, 0, 0});
+  s.place("b", {1, 0, 0});
+  s.start(100, {{"keep", 10.0}});
+  std::int64_t& number = s.world().value(s.radios[0].object, radio::key_send_number);
+  for (const std::int64_t n : {std::int64_t(5), std::int64_t(-7), INT64_MAX, INT64_MIN, std::int64_t(1)}) {
+    s.world().value(s.radios[0].object, radio::key_send_size) = 1;
+    number = n;
+    s.run_for(0.01);
+  }
+  s.run_for(0.05);
+  std::vector<double> numbers;
+  for (const Header& h : s.received(1)) numbers.push_back(h.number);
+  EXPECT_EQ(numbers, (std::vector<double>{5, 6, 7, 8, 9})) << "always counted up";
+  s.send(0, "x", -1, 65536);
+  EXPECT_SAYS(test::complaint_of<StepError>([&] { s.run_for(0.1); }),
+              "radio.send.size is 65536; a message has at most 65535 bytes");
+}
+
 TEST(Radio, LosesTheSameMessagesWhoeverElseIsThere) {
   const auto heard = [](int others) {
     Radios s(5);

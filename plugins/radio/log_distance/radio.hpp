@@ -16,7 +16,7 @@
 namespace muro::log_distance {
 
 /// dB below the noise: of other transmissions, what is weaker does not count.
-inline constexpr double below_noise = 10;
+inline constexpr double below_noise = 3;
 
 /// What a radio has of its own.
 struct RadioParameters {

@@ -45,6 +45,7 @@ bool Reception::find_disturbances(std::uint32_t sender, const Frame& f, std::vec
 }
 
 double Reception::power_of(const Transmission& t) const {
+  if ((s.places[t.radio] - s.places[number]).squaredNorm() > s.disturbing * s.disturbing) return 0;
   const double least = r.parameters.noise_floor - below_noise;
   const auto power =
       s.channel.received_power(s.seed, s.radios[t.radio], s.places[t.radio], r, s.places[number], t.number, least);

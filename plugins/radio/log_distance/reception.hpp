@@ -14,8 +14,9 @@ struct Surroundings {
   std::span<const std::uint32_t> members;  ///< radios that may be heard
   const SpatialHash& hash;                 ///< over their places, in this order
   const SharedMedium& medium;
-  double hearing = 0;  ///< m: so far the strongest is received
-  double now = 0;      ///< s
+  double disturbing = 0;  ///< m: so far the strongest disturbs others
+  double hearing = 0;     ///< m: so far the strongest is received
+  double now = 0;         ///< s
   std::uint64_t seed = 0;
 };
 

@@ -10,7 +10,8 @@ namespace muro::log_distance {
 
 namespace {
 
-constexpr std::uint32_t longest_message = 65535;  // bytes
+constexpr std::uint32_t longest_message = 65535;                // bytes
+constexpr std::int64_t largest_number = std::int64_t(1) << 53;  // that a header holds
 
 /// Frames that have not begun at `now`.
 std::size_t waiting_frames(const Radio& r, double now) {
@@ -49,13 +50,13 @@ void take_message(const Radio& r, double now) {
   const std::int64_t command = *r.send_number;
   Access& access = *r.access;
   if (command == access.last_command) return;
-  const std::int64_t step = command - access.last_command;
-  if (access.last_command > 0 && step > 1) r.counters->lost_overrun += std::uint64_t(step - 1);
+  if (access.last_command > 0 && command > access.last_command)
+    r.counters->lost_overrun += std::uint64_t(command - access.last_command - 1);
   access.last_command = command;
   if (*r.send_size > longest_message)
     throw Error("radio.send.size is " + std::to_string(*r.send_size) + "; a message has at most " +
                 std::to_string(longest_message) + " bytes");
-  access.last_number = std::max(access.last_number + 1, command);
+  access.last_number = std::max(access.last_number + 1, command <= largest_number ? command : 0);
   const bool is_idle = first_waiting(r) == nullptr && now >= access.on_air_until;
   if (!is_idle && waiting_frames(r, now) >= r.parameters.queue) {
     ++r.counters->lost_queue;
