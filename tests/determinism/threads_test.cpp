@@ -44,7 +44,9 @@ TEST_P(OfExample, AnyNumberOfThreadsGivesTheSameBits) {
   }
 }
 std::string name_of(const ::testing::TestParamInfo<std::string>& example) {
-  return std::filesystem::path(example.param).stem().string();
+  const std::filesystem::path path(example.param);
+  const std::string folder = path.parent_path().stem().string(), name = path.stem().string();
+  return folder == name ? name : folder + "_" + name;
 }
 INSTANTIATE_TEST_SUITE_P(Threads, OfExample,
                          ::testing::Values(MURO_TEST_SOURCE_DIR "/examples/urban/urban.yaml",
