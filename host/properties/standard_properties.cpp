@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "host/properties/standard_properties.hpp"
 
-#include "muro/toolkit/joint_drives.hpp"
 #include "muro/vocabulary.hpp"
 
 namespace muro::host {

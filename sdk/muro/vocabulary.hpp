@@ -77,6 +77,12 @@ inline constexpr Key<double> joint_drive_stiffness{"joint.drive.stiffness", "N m
                                                    "of the joint's position drive by its model"};
 inline constexpr Key<double> joint_drive_damping{"joint.drive.damping", "N m s/rad or N s/m",
                                                  "of the joint's position drive by its model"};
+// What a drive in front of the motion brings with it, for joints that efforts drive. A motion finds them in
+// `connect_by_name`.
+inline constexpr Key<double> joint_drive_friction{"joint.drive.friction", "N m or N",
+                                                  "the largest friction of the drive, beside that of the joint"};
+inline constexpr Key<double> joint_drive_armature{"joint.drive.armature", "kg m^2 or kg",
+                                                  "inertia of the drive's rotor, beside that of the joint"};
 
 // Commands to a whole robot: properties of its base.
 inline constexpr Key<Twist> command_twist{"command.twist", "m/s, rad/s",

@@ -27,17 +27,6 @@ inline constexpr Parameter position_joints = texts("position_joints", "joints th
 inline constexpr Parameter effort_joints = texts("effort_joints", "joints that efforts drive");
 inline constexpr Parameter passive_joints = texts("passive_joints", "joints that nothing drives");
 
-namespace keys {
-
-// What a drive in front of the motion brings with it, for joints that efforts drive. A motion finds them in
-// `connect_by_name`.
-inline constexpr Key<double> joint_drive_friction{"joint.drive.friction", "N m or N",
-                                                  "the largest friction of the drive, beside that of the joint"};
-inline constexpr Key<double> joint_drive_armature{"joint.drive.armature", "kg m^2 or kg",
-                                                  "inertia of the drive's rotor, beside that of the joint"};
-
-}  // namespace keys
-
 /// The mode that a word of the parameter `joints` stands for.
 inline DriveMode drive_mode_of(std::string_view word) {
   constexpr std::pair<std::string_view, DriveMode> words[] = {{"velocity", DriveMode::velocity},
