@@ -61,9 +61,7 @@ constexpr PropertyGroup groups[] = {
     {"Scene and contacts", "The description names the object.", scene},
     {"Sensors", "The object of a sensor has them; its pose is that of the link on which it is mounted.", sensors},
     {"Internal sensors",
-     "The object of the sensor has them. Names follow sensor_msgs; the device's frame is `sensor.origin` in that of "
-     "its "
-     "link.",
+     "On the sensor's object, named as in sensor_msgs; `sensor.origin` is the device's frame in that link.",
      internal_sensors},
     {"Laser scanners", "The object of the sensor has them. Angles are counter-clockwise about z, 0 along x.", lasers},
     {"Cameras", "The object of the sensor has them; x points forward, as in every sensor frame.", cameras},

@@ -158,7 +158,8 @@ void report_unsupported(const BuiltScenario& built, Detail detail, bool strict) 
   std::vector<std::string> lines;
   if (strict) lines = built.lost_collisions;
   if (!lines.empty())
-    lines.emplace_back("--strict lets no collision shape be left out; mend the files or their paths, or leave --strict out");
+    lines.emplace_back(
+        "--strict lets no collision shape be left out; mend the files or their paths, or leave --strict out");
   for (const std::string& clamped : built.clamped) lines.push_back((strict ? "" : "warning: ") + clamped);
   const auto unsupported = find_unsupported_features(built);
   for (const UnsupportedFeatures& u : unsupported)

@@ -150,7 +150,7 @@ class PairCollision : public Algorithm {
     static constexpr std::size_t most_close = 16;
     std::uint32_t leader = 0, other = 0;  ///< the first precedes; equal: none so far
     double until = 0;                     ///< m: no others touch before both robots have moved farther than this in all
-    bool has_too_many = false;             ///< more are close than fit: all count as close
+    bool has_too_many = false;            ///< more are close than fit: all count as close
     std::uint8_t close_count = 0;
     std::array<Close, most_close> close;
     std::uint32_t first = 0, count = 0;  ///< in which they touch: in `points_` of the leader

@@ -136,7 +136,7 @@ void PairCollision::find_close(Pair& pair) const {
   const RobotColliders &mine = index_->robots[pair.leader], &theirs = index_->robots[pair.other];
   pair.close_count = 0;
   pair.has_too_many = robots_[pair.leader].has_plane || robots_[pair.other].has_plane ||
-                     std::max(mine.count, theirs.count) > std::numeric_limits<std::uint16_t>::max();
+                      std::max(mine.count, theirs.count) > std::numeric_limits<std::uint16_t>::max();
   const double margin = steps * (last_move_[pair.leader] + last_move_[pair.other]) + least;
   double distance = std::numeric_limits<double>::infinity();  // of those that are not close
   for (std::uint32_t k = mine.first; k < mine.first + mine.count && !pair.has_too_many; ++k) {

@@ -106,8 +106,8 @@ struct PurePendulum {
   double q = 0, w = 0;
   void run(double goal, double volts, double dt) {
     const double load = -weight * std::sin(q), torque = motor.torque(motor.duty(goal - q) * volts, w);
-    const double v =
-        motor::next_velocity(w, torque + load, motor.friction.budget(w, torque, load), bob_inertia + motor.armature, dt);
+    const double v = motor::next_velocity(w, torque + load, motor.friction.budget(w, torque, load),
+                                          bob_inertia + motor.armature, dt);
     q += 0.5 * dt * (w + v), w = v;
   }
 };

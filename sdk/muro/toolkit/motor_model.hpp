@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A DC motor behind a gear, with friction: what simulates servos and what identifies them from recordings share it.
-// All figures are those at the output of the gear. Models M1 to M4: Duclusaud, Passault, Padois and Ly, Extended friction
-// models for the physics simulation of servo actuators, arXiv 2410.08650, Section III.
+// All figures are those at the output of the gear. Models M1 to M4: Duclusaud, Passault, Padois and Ly, Extended
+// friction models for the physics simulation of servo actuators, arXiv 2410.08650, Section III.
 #pragma once
 
 #include <algorithm>
