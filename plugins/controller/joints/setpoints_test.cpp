@@ -88,7 +88,7 @@ TEST(Setpoints, AreClearedByAResetAndClientsStayConnected) {
   ask(s, client, "set base 0.5 0 0.25");
   client.say("wait 1000\nget base setpoint\n");
   s.run_for(0.2);
-  ::usleep(2000);
+  ::usleep(100'000);  // by then both lines have come, also where much else runs
   s.run_for(0.2);
   s.reset();
   EXPECT_EQ(s.state_hash(), fresh);
