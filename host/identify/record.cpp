@@ -21,6 +21,18 @@ void check_constant(const MotorRecord& r, double value, bool zero_is_fine, const
                                zero_is_fine ? "0 or more" : "above 0", option));
 }
 
+/// `longest` (s): what is usual at most.
+void check_period(const MotorRecord& r, double longest) {
+  constexpr double shortest = 1e-5;
+  std::vector<double> periods;
+  for (std::size_t i = 1; i < r.samples.size(); ++i) periods.push_back(r.samples[i].time - r.samples[i - 1].time);
+  const auto middle = periods.begin() + std::ptrdiff_t(periods.size() / 2);
+  std::nth_element(periods.begin(), middle, periods.end());
+  if (*middle >= shortest && *middle <= longest) return;
+  throw SetupError(fmt::format("{}: its samples are {:g} s apart, and {:g} to {:g} s is what is of use; times are in s",
+                               r.name, *middle, shortest, longest));
+}
+
 }  // namespace
 
 TextPlace place_in(const std::string& text, std::size_t offset) {
@@ -67,7 +79,11 @@ void complete_record(MotorRecord& r, const RecordDefaults& defaults, const std::
   if (kept < r.samples.size())
     r.notes.push_back(
         fmt::format("{}: {} samples at the time of the one before are left out", r.name, r.samples.size() - kept));
+  if (kept < fewest)
+    throw SetupError(fmt::format("{}: it has {} samples at different times; {} are the fewest that tell anything",
+                                 r.name, kept, fewest));
   r.samples.resize(kept);
+  check_period(r, defaults.commands_only ? 10 : 0.2);
   for (std::size_t i = 0; i < kept && !defaults.commands_only; ++i)
     if (!(r.samples[i].supply_voltage > 0 && r.samples[i].supply_voltage < 1e4))
       throw record_error(r.name, places[i],

@@ -29,4 +29,11 @@ link_acceleration::LinkMotion device_motion(Connector& c, const Item& item, link
 /// The constant of the scene, m/s^2 in world axes. [setup]
 Vec3 gravity_of(const Connector& c);
 
+/// Throws Error for a sensor that runs on demand, and so has no time between its readings: for those that take
+/// differences of them. [setup]
+inline void require_rate(const Connector& c) {
+  if (c.rate() > 0) return;
+  throw Error("it takes differences between its readings, so the time between them must be known; give it a `rate`");
+}
+
 }  // namespace muro::internal_sensor

@@ -79,6 +79,7 @@ class Encoder final : public PerRobotAlgorithm<Range> {
 
  private:
   Range connect_robot(Connector& c, const Item& item) override {
+    if (c.parameters().integer("counts") > 0 || c.parameters().real("resolution") > 0) internal_sensor::require_rate(c);
     const std::vector<std::uint32_t> links = internal_sensor::sensed_joints(c, item, "joints");
     const bool is_array = !c.parameters().texts("joints").empty();
     const auto size = std::uint32_t(links.size());

@@ -66,12 +66,6 @@ TEST(ErrorChainOrder, ResolutionComesBeforeTheLimits) {
   EXPECT_EQ(Device({.quantiser = q}, 1, 100).read(2), 1.04) << "the other way round: 1.0";
 }
 
-TEST(ErrorChainOrder, ResolutionComesBeforeDelay) {
-  const auto y =
-      readings({.quantiser = {.resolution = 1}, .delay = 0.015}, 100, 20, [](std::size_t k) { return double(k % 2); });
-  for (std::size_t k = 2; k < y.size(); ++k) EXPECT_EQ(y[k], 0.5) << "the other way round: 0 or 1";
-}
-
 TEST(ErrorChainOrder, DelayComesBeforeDropouts) {
   const ErrorSettings early{.dropouts = {.probability = 0.5, .value = -1}};
   ErrorSettings late = early;

@@ -9,9 +9,8 @@
 
 namespace muro {
 
-/// What was put in some time ago. A delay of m periods gives the bits of m samples earlier; between two samples,
-/// m + f with 0 < f < 1, it is (1 - f) x_m + f x_(m+1), where x_j is j samples old. Until the line is full it holds the
-/// first sample.
+/// What was put in some time ago: the bits of the newest sample that is at least as old as the delay, as a device hands
+/// out whole readings. Until the line is full it holds the first sample.
 class DelayLine {
  public:
   DelayLine() = default;
@@ -20,14 +19,13 @@ class DelayLine {
     if (!(delay > 0)) return;
     const double samples = delay / period, nearest = std::round(samples);
     const bool is_multiple = std::abs(samples - nearest) <= 1e-9 * std::max(1.0, samples);
-    whole_ = std::size_t(is_multiple ? nearest : std::floor(samples));
-    fraction_ = is_multiple ? 0 : samples - std::floor(samples);
+    whole_ = std::size_t(is_multiple ? nearest : std::ceil(samples));
     if (!is_active()) return;
-    slots_ = whole_ + (fraction_ > 0 ? 2 : 1);
+    slots_ = whole_ + 1;
     state_ = layout.reserve(1 + slots_ * components);
   }
 
-  bool is_active() const { return whole_ > 0 || fraction_ > 0; }
+  bool is_active() const { return whole_ > 0; }
   /// Samples that the line holds.
   static double samples(double delay, double period) { return delay / period + 2; }
 
@@ -44,15 +42,11 @@ class DelayLine {
       *newest = double((std::size_t(*newest) + 1) % slots_);
       std::copy(values.begin(), values.end(), slot(0));
     }
-    const double* later = slot(whole_);
-    const double* earlier = fraction_ > 0 ? slot(whole_ + 1) : later;
-    for (std::size_t i = 0; i < components_; ++i)
-      values[i] = fraction_ > 0 ? (1 - fraction_) * later[i] + fraction_ * earlier[i] : later[i];
+    std::copy_n(slot(whole_), components_, values.begin());
   }
 
  private:
   std::size_t components_ = 0, slots_ = 0, whole_ = 0, state_ = 0;
-  double fraction_ = 0;
 };
 
 }  // namespace muro

@@ -57,7 +57,7 @@ inline constexpr Parameter error_parameters[] = {
     real("resolution", "as read", 0, "readings are multiples of this; 0: any value").between(0, 1e9),
     real("minimum", "as read", 0, "smallest reading; not given: laser.min_range, otherwise none"),
     real("maximum", "as read", 0, "largest reading; not given: laser.max_range, otherwise none"),
-    real("delay", "s", 0, "by which the reading is late").between(0, 1e6),
+    real("delay", "s", 0, "by which the reading is late, at least; whole readings").between(0, 1e6),
     real("dropout", "1", 0, "probability that a reading is lost").between(0, 1),
     real("dropout_value", "as read", 0, "what a lost reading reads"),
     text("dropout_reads", "value", "what a lost reading reads: `value`: dropout_value, `hold`: what was read before")

@@ -190,16 +190,26 @@ TEST(Delay, IsWholeSamplesAtRatesWhosePeriodIsNoBinaryNumber) {
   }
 }
 
-TEST(Delay, InterpolatesBetweenSamples) {
+TEST(Delay, BetweenSamplesIsThatOfTheOlderOne) {
   const auto truth = [](std::size_t k) { return double(k * k); };
   const auto y = readings({.delay = 0.0225}, 100, 50, truth);
-  for (std::size_t k = 3; k < y.size(); ++k)
-    EXPECT_NEAR(y[k], 0.75 * truth(k - 2) + 0.25 * truth(k - 3), 1e-9 * truth(k)) << k;
+  for (std::size_t k = 3; k < y.size(); ++k) EXPECT_EQ(y[k], truth(k - 3)) << k;
+  const auto short_one = readings({.delay = 0.004}, 100, 50, truth);
+  for (std::size_t k = 1; k < short_one.size(); ++k) EXPECT_EQ(short_one[k], truth(k - 1)) << k;
 }
 
-TEST(Delay, ShorterThanASampleInterpolatesToo) {
-  const auto y = readings({.delay = 0.004}, 100, 50, [](std::size_t k) { return double(k); });
-  for (std::size_t k = 1; k < y.size(); ++k) EXPECT_NEAR(y[k], double(k) - 0.4, 1e-12);
+// PX4's GPS is 0.12 s late at 5 Hz
+TEST(Delay, BetweenSamplesKeepsDeviationAndCodes) {
+  ErrorSettings s{.quantiser = {.resolution = 0.01}, .delay = 0.12};
+  s.noise.sigma = 1;
+  const auto y = readings(s, 5, 20000, [](std::size_t) { return 0.0; });
+  double squares = 0, products = 0;
+  for (std::size_t k = 1; k < y.size(); ++k) {
+    squares += y[k] * y[k], products += y[k] * y[k - 1];
+    EXPECT_NEAR(y[k], 0.01 * std::round(y[k] / 0.01), 1e-12);
+  }
+  EXPECT_NEAR(squares / double(y.size()), 1, 3 * std::sqrt(2.0 / double(y.size())) + 1e-3);
+  EXPECT_NEAR(products / squares, 0, 3 / std::sqrt(double(y.size())));
 }
 
 // --- dropouts

@@ -7,6 +7,7 @@
 #include "muro/plugin.hpp"
 #include "muro/toolkit/mass_properties.hpp"
 #include "muro/toolkit/per_robot.hpp"
+#include "plugins/common/internal_sensor/mounted.hpp"
 #include "plugins/common/link_acceleration/link_motion.hpp"
 #include "plugins/common/wheels/omni_jacobian.hpp"
 #include "plugins/common/wheels/planar_motion.hpp"
@@ -95,6 +96,7 @@ class Odometry final : public PerRobotAlgorithm<Vehicle> {
   }
 
   Vehicle connect_robot(Connector& c, const Item& item) override {
+    internal_sensor::require_rate(c);
     const RobotView& robot = *item.robot;
     std::vector<CountedWheel> wheels =
         c.parameters().text("drive") == "omni" ? omni_wheels(c, robot) : side_wheels(c, robot);
