@@ -15,8 +15,12 @@ namespace muro {
 namespace {
 
 constexpr std::int64_t never = std::numeric_limits<std::int64_t>::max();
-/// Task::order of these kinds, see order_of(const Description&).
-constexpr int order_of_sensors = 2 * order_of(Kind::sensor), order_of_sensor_errors = 2 * order_of(Kind::sensor_error);
+/// Task::order is twice the place of the kind, or one more: see order_of(const Description&).
+bool is_of(const Task& task, Kind kind) { return task.order / 2 == order_of(kind); }
+/// Recorders write nothing.
+bool only_looks(const Task& task) {
+  return task.writes.empty() || is_of(task, Kind::sensor) || is_of(task, Kind::sensor_error);
+}
 
 }  // namespace
 
@@ -86,7 +90,9 @@ void Scheduler::prepare() {
   due_.assign(groups_.size(), false);
   next_due_ = due_;
   find_providers();
+  find_step_tasks();
   find_periods();
+  starts_ = is_start_of_steps();
 }
 
 /// Which tasks on demand write what a task reads.
@@ -111,27 +117,58 @@ void Scheduler::find_providers() {
   }
 }
 
+/// Collision and contact on demand belong to the steps of the motions that read what they write.
+void Scheduler::find_step_tasks() {
+  belongs_to_steps_.assign(tasks_.size(), false);
+  std::vector<TaskId> asking;
+  for (TaskId t = 0; t < tasks_.size(); ++t)
+    if (is_of(tasks_[t], Kind::motion) && !tasks_[t].rate.on_demand()) asking.push_back(t);
+  while (!asking.empty()) {
+    const TaskId reader = asking.back();
+    asking.pop_back();
+    for (const TaskId p : providers_[reader]) {
+      if (belongs_to_steps_[p] || !(is_of(tasks_[p], Kind::collision) || is_of(tasks_[p], Kind::contact))) continue;
+      belongs_to_steps_[p] = true;
+      asking.push_back(p);
+    }
+  }
+  step_tasks_.clear();
+  for (TaskId t = 0; t < tasks_.size(); ++t)
+    if (belongs_to_steps_[t]) step_tasks_.push_back(t);
+  std::stable_sort(step_tasks_.begin(), step_tasks_.end(),
+                   [&](TaskId a, TaskId b) { return tasks_[a].order < tasks_[b].order; });
+}
+
+bool Scheduler::is_start_of_steps() const {
+  return std::any_of(step_tasks_.begin(), step_tasks_.end(), [&](TaskId t) { return runs_[t] == 0; });
+}
+
 /// A task on demand has the longest period of those that ask for it, in every instant, so that its results do not
-/// depend on who else happens to be due; nor on who only looks, as recorders and sensors do: these count where nobody
-/// else asks.
+/// depend on who else happens to be due. Of the tasks that belong to the steps of motions only motions ask; of others
+/// those that do more than look, where there are some.
 void Scheduler::find_periods() {
   periods_.assign(tasks_.size(), 0);
   for (TaskId t = 0; t < tasks_.size(); ++t)
     if (!tasks_[t].rate.on_demand()) periods_[t] = tasks_[t].rate.period();
-  std::vector<double> of_writers = periods_of_asked(false), of_all = periods_of_asked(true);
+  const auto periods_by = [&](const auto& asks) {
+    std::vector<bool> counts(tasks_.size());
+    for (TaskId t = 0; t < tasks_.size(); ++t) counts[t] = asks(tasks_[t]);
+    return periods_of_asked(counts);
+  };
+  const std::vector<double> of_motions = periods_by([](const Task&t) { return is_of(t, Kind::motion); }),
+                            of_writers = periods_by([](const Task&t) { return !only_looks(t); }),
+                            of_all = periods_by([](const Task&) { return true; });
   for (TaskId t = 0; t < tasks_.size(); ++t)
-    if (tasks_[t].rate.on_demand()) periods_[t] = of_writers[t] > 0 ? of_writers[t] : of_all[t];
+    if (tasks_[t].rate.on_demand())
+      periods_[t] = belongs_to_steps_[t] ? of_motions[t] : of_writers[t] > 0 ? of_writers[t] : of_all[t];
 }
 
-/// Of the tasks on demand: the longest period of those that ask for them and do more than look, or of all.
-std::vector<double> Scheduler::periods_of_asked(bool by_all) const {
-  const auto counts = [&](TaskId t) {
-    const bool senses = tasks_[t].order == order_of_sensors || tasks_[t].order == order_of_sensor_errors;
-    return by_all || !(senses || tasks_[t].writes.empty());
-  };
+/// Of the tasks on demand: the longest period of the tasks with a rate that `count` and ask for them, themselves or by
+/// other tasks on demand.
+std::vector<double> Scheduler::periods_of_asked(const std::vector<bool>& counts) const {
   std::vector<double> periods(tasks_.size());
   for (TaskId t = 0; t < tasks_.size(); ++t) {
-    if (tasks_[t].rate.on_demand() || !counts(t)) continue;
+    if (tasks_[t].rate.on_demand() || !counts[t]) continue;
     std::vector<bool> seen(tasks_.size());
     std::vector<TaskId> asking{t};
     while (!asking.empty()) {
@@ -141,7 +178,7 @@ std::vector<double> Scheduler::periods_of_asked(bool by_all) const {
         if (seen[p]) continue;
         seen[p] = true;
         if (tasks_[p].rate.on_demand()) periods[p] = std::max(periods[p], periods_[t]);
-        if (counts(p)) asking.push_back(p);
+        if (counts[p] || belongs_to_steps_[p]) asking.push_back(p);
       }
     }
   }
@@ -149,15 +186,17 @@ std::vector<double> Scheduler::periods_of_asked(bool by_all) const {
 }
 
 void Scheduler::add_providers(TaskId reader, std::vector<bool>& added, std::vector<DueTask>& due) const {
+  const bool is_step = belongs_to_steps_[reader] || is_of(tasks_[reader], Kind::motion);
   for (const TaskId p : providers_[reader]) {
-    if (added[p]) continue;
+    if (added[p] || (belongs_to_steps_[p] && !is_step)) continue;
     added[p] = true;
     add_providers(p, added, due);
     due.push_back({p, periods_[p]});
   }
 }
 
-std::vector<DueTask> Scheduler::due_tasks_of(const Mask& due) const {
+/// `starts`: what belongs to the steps of motions runs before all who might read it, once.
+std::vector<DueTask> Scheduler::due_tasks_of(const Mask& due, bool starts) const {
   std::vector<std::size_t> items;
   for (std::size_t i = 0; i < items_.size(); ++i)
     if (!items_[i].empty() && !tasks_[items_[i].front()].rate.on_demand() && due[group_of_item_[i]]) items.push_back(i);
@@ -168,11 +207,19 @@ std::vector<DueTask> Scheduler::due_tasks_of(const Mask& due) const {
   });
   std::vector<DueTask> tasks;
   std::vector<bool> added(tasks_.size());
-  for (const std::size_t i : items)
-    for (const TaskId t : items_[i]) {
-      add_providers(t, added, tasks);
-      tasks.push_back({t, periods_[t]});
-    }
+  const auto add = [&](TaskId t) {
+    add_providers(t, added, tasks);
+    tasks.push_back({t, periods_[t]});
+  };
+  for (const std::size_t i : items) {
+    if (starts && tasks_[items_[i].front()].order >= 2 * order_of(Kind::sensor))
+      for (const TaskId t : step_tasks_)
+        if (!added[t]) {
+          added[t] = true;
+          add(t);
+        }
+    for (const TaskId t : items_[i]) add(t);
+  }
   return tasks;
 }
 
@@ -190,8 +237,9 @@ Plan Scheduler::plan_of(const std::vector<DueTask>& due, std::uint32_t instants)
 Scheduler::Plans& Scheduler::plans_for(const Mask& due) {
   if (last_plans_ && due == last_due_) return *last_plans_;
   const auto known = plans_.find(due);
-  last_plans_ = known != plans_.end() ? &known->second
-                                      : &plans_.emplace(due, Plans{plan_of(due_tasks_of(due), 1), {}}).first->second;
+  last_plans_ = known != plans_.end()
+                    ? &known->second
+                    : &plans_.emplace(due, Plans{plan_of(due_tasks_of(due, false), 1), {}}).first->second;
   last_due_ = due;
   return *last_plans_;
 }
@@ -202,7 +250,7 @@ std::vector<DueTask> Scheduler::due_tasks_at(std::int64_t time) const {
     const std::int64_t since = time - groups_[g].phase;
     due[g] = since >= 0 && groups_[g].rate.time_of(groups_[g].rate.first_from(since)) == since;
   }
-  return due_tasks_of(due);
+  return due_tasks_of(due, false);
 }
 
 std::vector<TaskId> Scheduler::order_at(std::int64_t time) const {
@@ -251,7 +299,7 @@ std::uint32_t Scheduler::take_instants(std::int64_t end) {
     if (next_due_ != due_) break;
     times_[count++] = time;
     advance(next_due_);
-    if (one_at_a_time_ || pacer_.is_active()) break;  // each waits for its own time
+    if (starts_ || one_at_a_time_ || pacer_.is_active()) break;  // in pace, each waits for its own time
   }
   return count;
 }
@@ -262,9 +310,12 @@ void Scheduler::run_until(std::int64_t end, const std::function<bool()>& stop) {
     now_ = next;
     if (pacer_.is_active() && pacer_.wait(now_, min_period_, stop)) return;
     const std::uint32_t count = take_instants(end);
-    Plans& plans = plans_for(due_);
     const std::span<const std::int64_t> times(times_.data(), count);
-    if (count == instants_together) {
+    if (starts_) {
+      Plan plan = plan_of(due_tasks_of(due_, true), 1);
+      executor_.run(tasks_, plan, times, seed_, runs_);
+      starts_ = is_start_of_steps();
+    } else if (Plans& plans = plans_for(due_); count == instants_together) {
       if (plans.together.due.empty()) plans.together = plan_of(plans.one.due, instants_together);
       executor_.run(tasks_, plans.together, times, seed_, runs_);
     } else {

@@ -106,11 +106,13 @@ class Scheduler {
   };
   using Mask = std::vector<bool>;  ///< which groups are due
 
-  std::vector<DueTask> due_tasks_of(const Mask& due) const;
+  std::vector<DueTask> due_tasks_of(const Mask& due, bool starts) const;
   std::vector<DueTask> due_tasks_at(std::int64_t time) const;
   void find_providers();
+  void find_step_tasks();
+  bool is_start_of_steps() const;
   void find_periods();
-  std::vector<double> periods_of_asked(bool by_all) const;
+  std::vector<double> periods_of_asked(const std::vector<bool>& counts) const;
   void add_providers(TaskId reader, std::vector<bool>& added, std::vector<DueTask>& due) const;
   /// For instants in which the same is due: for one, and for `instants_together` that follow each other.
   struct Plans {
@@ -134,7 +136,12 @@ class Scheduler {
   std::vector<Group> groups_;
   std::vector<std::uint32_t> group_of_item_;
   std::vector<std::vector<TaskId>> providers_;  ///< per task: tasks on demand that write what it reads
-  std::vector<double> periods_;  ///< s, per task; on demand: the longest of those that ask, see find_periods
+  /// Collision and contact on demand that motions ask for. They run only for these: who looks in between, or earlier in
+  /// the instant, sees what they found in the last step, and does not change it.
+  std::vector<bool> belongs_to_steps_;
+  std::vector<TaskId> step_tasks_;  ///< the same, in the order of an instant
+  bool starts_ = false;             ///< in the next instant one of them has its first run
+  std::vector<double> periods_;     ///< s, per task; on demand: the longest of those that ask, see find_periods
   Mask due_, next_due_, last_due_;
   Plans* last_plans_ = nullptr;
   std::unordered_map<Mask, Plans> plans_;

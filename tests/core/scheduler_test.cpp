@@ -138,6 +138,54 @@ TEST_F(SchedulerTest, ASensorDoesNotLengthenThePeriodOfATaskOnDemand) {
   EXPECT_DOUBLE_EQ(recorders[3].last.dt, 0.1);
 }
 
+/// A motion that reads what a contact algorithm writes, which reads what a collision algorithm writes.
+class StepsOfMotion : public SchedulerTest {
+ protected:
+  void add_contact_and_motion(double rate) {
+    add("collision", 0, 2 * order_of(Kind::collision), 0, {5}, {1});
+    add("contact", 0, 2 * order_of(Kind::contact), 0, {1}, {2});
+    add("motion", rate, 2 * order_of(Kind::motion), 0, {2}, {5});
+  }
+};
+
+TEST_F(StepsOfMotion, ContactRunsForMotionsAndNotForThoseWhoLook) {
+  add_contact_and_motion(10);
+  add("sensor", 20, 2 * order_of(Kind::sensor), 0, {2}, {3});
+  add("control", 20, 2 * order_of(Kind::controller), 0, {1}, {4});
+  scheduler.run_until(150'000'000);
+  EXPECT_EQ(log, (Log{"collision@0", "contact@0", "sensor@0", "control@0", "motion@0", "sensor@50", "control@50",
+                      "sensor@100", "control@100", "collision@100", "contact@100", "motion@100"}))
+      << "before those who read it at the start alone";
+}
+
+TEST_F(StepsOfMotion, ContactHasThePeriodOfTheSlowestMotion) {
+  add_contact_and_motion(1000);
+  add("second motion", 500, 2 * order_of(Kind::motion), 0, {2}, {6});
+  add("control", 10, 2 * order_of(Kind::controller), 0, {1}, {4});
+  add("level", 20, 2 * order_of(Kind::level), 0, {1, 2}, {7});
+  scheduler.run_until(5'000'000);
+  EXPECT_DOUBLE_EQ(recorders[0].last.dt, 0.002);
+  EXPECT_DOUBLE_EQ(recorders[1].last.dt, 0.002);
+}
+
+TEST_F(StepsOfMotion, WithoutMotionsContactRunsForThoseWhoAsk) {
+  add("collision", 0, 2 * order_of(Kind::collision), 0, {5}, {1});
+  add("sensor", 20, 2 * order_of(Kind::sensor), 0, {1}, {3});
+  scheduler.run_until(100'000'000);
+  EXPECT_EQ(log, (Log{"collision@0", "sensor@0", "collision@50", "sensor@50"}));
+}
+
+TEST_F(StepsOfMotion, GoOnFromAStateWithoutABeginning) {
+  add_contact_and_motion(10);
+  add("sensor", 10, 2 * order_of(Kind::sensor), 0, {2}, {3});
+  scheduler.run_until(100'000'000);
+  const Scheduler::State state = scheduler.state();
+  log.clear();
+  scheduler.set_state(state);
+  scheduler.run_until(200'000'000);
+  EXPECT_EQ(log, (Log{"sensor@100", "collision@100", "contact@100", "motion@100"}));
+}
+
 TEST_F(SchedulerTest, AStopEndsAPacedWaitAndLosesNoInstant) {
   add("a", 1);
   scheduler.set_pacing({0.01});  // an instant in 100 s
