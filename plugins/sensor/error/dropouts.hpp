@@ -26,10 +26,12 @@ class Dropouts {
   }
 
   bool is_active() const { return settings_.probability > 0; }
+  /// Whether the whole reading is lost.
+  bool loses(const Random& random) const { return is_active() && random.uniform(0) < settings_.probability; }
 
   void apply(std::span<double> values, std::span<double> state, const Random& random, bool first) const {
     if (!is_active()) return;
-    const bool all_lost = settings_.together && random.uniform(0) < settings_.probability;
+    const bool all_lost = settings_.together && loses(random);
     for (std::uint32_t i = 0; i < values.size(); ++i) {
       const bool lost = settings_.together ? all_lost : random.uniform(i) < settings_.probability;
       if (!settings_.hold) {

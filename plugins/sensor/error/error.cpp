@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "error_chain.hpp"
+#include "measured_place.hpp"
 #include "muro/plugin.hpp"
+#include "neighbour_errors.hpp"
 #include "parameters.hpp"
 #include "plugins/common/text/counted.hpp"
 #include "plugins/common/text/quote.hpp"
@@ -34,12 +36,17 @@ constexpr PropertyUse reads[] = {{"ranges", "or the property that `of` names"},
                                  {"laser.incidence", "pointing above 0: between each ray and the surface's normal"},
                                  {"angular_velocity", "named by `of` or by a part"},
                                  {"linear_acceleration", "the same; and for a g_sensitivity: the specific force"},
-                                 {"encoder.position", "named by `of` or by a part"}};
-constexpr PropertyUse writes[] = {{"ranges.measured", "or `of`.measured"}};
+                                 {"encoder.position", "named by `of` or by a part"},
+                                 {"neighbours", "named by `of`"},
+                                 {"gps.reference", "for the place of a gps.position"}};
+constexpr PropertyUse writes[] = {{"ranges.measured", "or `of`.measured"},
+                                  {"latitude.measured", "that of gps.position.measured"},
+                                  {"longitude.measured", "that of gps.position.measured"},
+                                  {"altitude.measured", "that of gps.position.measured"}};
 constexpr Description description{
     .id = "sensor.error",
     .kind = Kind::sensor_error,
-    .version = "2.0.0",
+    .version = "2.1.0",
     .summary =
         "What a device makes of a true reading: bandwidth, scale, bias and its drift, noise, converter, delay, "
         "dropouts",
@@ -52,6 +59,7 @@ constexpr Description description{
 class SensorError final : public Algorithm {
  public:
   void connect(Connector& c) override {
+    for (const RobotView* robot : c.robots()) robot_keys_.push_back(robot->key);
     const Parameters& p = c.parameters();
     if (p.given("part")) {
       const std::string_view name = p.text("part");
@@ -76,10 +84,13 @@ class SensorError final : public Algorithm {
                                       .index = step.index,
                                       .incidence = c.incidence ? *c.incidence : std::span<const double>(),
                                       .specific_force = c.specific_force.get()};
-      if (c.truths)
+      if (c.neighbours)
+        c.neighbours.apply(c.chain, c.state, sample, robot_keys_);
+      else if (c.truths)
         c.chain.apply(*c.truths, *c.measured, c.state, sample);
       else
-        c.chain.apply({c.single_truth, c.components}, {c.single_measured, c.components}, c.state, sample);
+        c.chain.apply({c.single_truth, c.numbers}, {c.single_measured, c.numbers}, c.state, sample);
+      if (c.place) c.place.write({c.single_measured[0], c.single_measured[1], c.single_measured[2]});
     }
   }
 
@@ -92,7 +103,9 @@ class SensorError final : public Algorithm {
     ArrayOut<double> measured{};
     const double* single_truth = nullptr;  ///< else, with its components
     double* single_measured = nullptr;
-    std::size_t components = 1;
+    std::size_t numbers = 1;
+    NeighbourErrors neighbours{};
+    MeasuredPlace place{};
     ArrayIn<double> incidence{};
     In<Vec3> specific_force{};
   };
@@ -111,8 +124,9 @@ class SensorError final : public Algorithm {
     check_delay(given, settings.delay, shape, period);
     // of one robot, sensors and readings each have numbers of their own
     const std::uint64_t key = fnv1a(shape.name, fnv1a(c.object_name(object), c.random_key(item)));
-    Channel channel{.chain = ErrorChain(settings, shape.components, period, key)};
-    channel.components = shape.components;
+    const auto form = shape.has_orientation() ? ErrorChain::Form::with_orientation : ErrorChain::Form::numbers;
+    Channel channel{.chain = ErrorChain(settings, shape.components, period, key, form)};
+    channel.numbers = found.key->type->scalars();
     if (const std::size_t size = channel.chain.state_size(); size > 0) {
       void* block = c.state_block(object, std::string(shape.name) + ".error", std::uint32_t(size * sizeof(double)));
       channel.state = {static_cast<double*>(block), size};
@@ -127,6 +141,11 @@ class SensorError final : public Algorithm {
   void bind(Connector& c, ObjectId object, const FoundProperty& found, const ErrorSettings& settings, double period,
             Channel& channel) {
     const KeyInfo& of = *found.key;
+    if (found.multiplicity == Multiplicity::list) {
+      channel.neighbours = {ListIn<neighbours::Neighbour>(c.read_any(found)),
+                            c.variable_list(object, published_neighbours_.measured(of))};
+      return;
+    }
     if (found.multiplicity == Multiplicity::array) {
       auto& published = std::get<Published<double>>(published_);
       channel.truths = ArrayIn<double>(c.read_any(found));
@@ -136,7 +155,7 @@ class SensorError final : public Algorithm {
       if (!is_scan) published.set_constants(c, object, of, settings, period);
       return;
     }
-    const auto bind_value = [&]<class T>(Published<T>& published) {
+    const auto bind_value = [&]<class T, class E>(Published<T, E>& published) {
       if (!(*of.type == value_type<T>)) return;
       channel.single_truth = static_cast<const double*>(c.read_any(found));
       channel.single_measured =
@@ -144,12 +163,17 @@ class SensorError final : public Algorithm {
       published.set_constants(c, object, of, settings, period);
     };
     std::apply([&](auto&... each) { (bind_value(each), ...); }, published_);
+    const auto reference =
+        of.name == keys::gps_position.name ? c.constant(object, geodetic::key_reference) : std::nullopt;
+    if (reference) channel.place = {c, object, std::get<Published<double>>(published_), *reference};
   }
 
   template <class T>
   static T zero() {
     if constexpr (std::is_same_v<T, Vec3>)
       return Vec3::Zero();
+    else if constexpr (std::is_same_v<T, Quat>)
+      return Quat::Identity();
     else
       return T{};
   }
@@ -201,7 +225,11 @@ class SensorError final : public Algorithm {
   std::optional<Part> part_;
   std::vector<std::uint32_t> first_;  ///< of the channels of each item, and their number
   std::vector<Channel> channels_;
-  std::tuple<Published<double>, Published<Vec3>, Published<Twist>, Published<Wrench>> published_;
+  std::vector<std::uint64_t> robot_keys_;  ///< of the names of all robots, by number
+  std::tuple<Published<double>, Published<Vec3>, Published<Twist>, Published<Wrench>, Published<Quat, Vec3>,
+             Published<Pose, Twist>>
+      published_;
+  Published<neighbours::Neighbour> published_neighbours_;
 };
 
 constexpr abi::AlgorithmEntry algorithms[] = {algorithm<SensorError>(description)};

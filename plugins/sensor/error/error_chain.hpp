@@ -32,8 +32,16 @@ struct ErrorSettings {
 
 /// From the true reading to the device's, sample by sample: bandwidth, scale with misalignment and g-sensitivity, bias
 /// with its drift and noise, saturation with resolution and limits, delay, dropouts.
+///
+/// A reading is made of numbers, each a component. Or it ends in an orientation q, four numbers (x, y, z, w): the last
+/// three components are then a rotation vector r (rad) in the axes of the frame that q refers to, whose true value is
+/// 0, and the device reads exp(r) q; delay and dropouts are those of what it reads. So the errors of a pose are those
+/// of geometry_msgs/PoseWithCovariance: x, y, z, and rotations about these fixed axes.
 class ErrorChain {
  public:
+  /// Whether a reading ends in an orientation.
+  enum class Form : std::uint8_t { numbers, with_orientation };
+
   /// What belongs to one sample.
   struct Sample {
     std::uint64_t seed = 0;                ///< of the run
@@ -44,19 +52,34 @@ class ErrorChain {
 
   /// `period`: s, between samples, or 0 where it is not known: then what depends on time throws muro::Error. `key`: of
   /// the random numbers of this reading.
-  ErrorChain(const ErrorSettings& settings, std::size_t components, double period, std::uint64_t key);
+  ErrorChain(const ErrorSettings& settings, std::size_t components, double period, std::uint64_t key,
+             Form form = Form::numbers);
 
   /// Numbers of state, which begin as zeros.
   std::size_t state_size() const { return layout_.size(); }
   bool feels_force() const { return alignment_.feels_force(); }
 
-  /// `truth` and `measured` have one number for each component and do not overlap; `state` has state_size() numbers.
+  /// `truth` and `measured` have one number for each component (one more with an orientation) and do not overlap;
+  /// `state` has state_size() numbers.
   void apply(std::span<const double> truth, std::span<double> measured, std::span<double> state,
              const Sample& sample) const;
 
+  /// What a device sees of several things of one kind at a time: first, once a sample, begin_sample(), then for each of
+  /// them apply_to_one(). Scale, biases and drifts are the device's and common to all; noise and dropouts are of each
+  /// by itself, by the numbers of `key`. For chains without bandwidth and delay. False where it is lost.
+  void begin_sample(std::span<double> state, const Sample& sample) const { next_sample(state, sample); }
+  bool apply_to_one(std::span<double> values, std::span<const double> state, const Sample& sample,
+                    std::uint64_t key) const;
+
  private:
   void begin(std::span<double> state, std::uint64_t seed) const;
+  /// Whether it is the first.
+  bool next_sample(std::span<double> state, const Sample& sample) const;
+  /// From scale to limits, of `values`, in place. `truth`: where no echo came back.
+  void run_stages(std::span<const double> truth, std::span<double> values, std::span<const double> state,
+                  const Sample& sample, const Random& random) const;
 
+  Form form_ = Form::numbers;
   StateLayout layout_;
   std::size_t components_ = 0;
   std::uint64_t key_ = 0;

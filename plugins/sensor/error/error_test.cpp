@@ -3,6 +3,7 @@
 
 #include <set>
 
+#include "muro/toolkit/rotations.hpp"
 #include "tests/support/allocation_counter.hpp"
 #include "tests/support/bodies.hpp"
 #include "tests/support/complaint.hpp"
@@ -142,9 +143,9 @@ TEST(SensorError, NamesWhatThereIsWhenThePropertyIsMissing) {
 
 TEST(SensorError, RefusesWhatIsNotMadeOfRealNumbers) {
   Devices s({"a"});
-  s.use("sensor.error", 10, s.items, {{"of", std::string("pose")}});
-  const std::string message = message_of(s);
-  EXPECT_NE(message.find("`pose` of `a/scanner` is not made of real numbers"), std::string::npos) << message;
+  s.world().set(s.items[0].object, keys::encoder_count, std::int64_t(7));
+  s.use("sensor.error", 10, s.items, {{"of", std::string("encoder.count")}});
+  EXPECT_SAYS(message_of(s), "`encoder.count` of `a/scanner` is not made of real numbers");
 }
 
 TEST(SensorError, RefusesCorrelationOfASingleNumberAndExchangedLimits) {
@@ -259,6 +260,95 @@ TEST(SensorError, HoldsALateReadingAtTheStart) {
   s.build();
   s.run_for(0.005);
   EXPECT_EQ(s.value(measured_gyro), true_rate);
+}
+
+// --- orientations
+
+const Quat true_orientation = from_rpy(0.4, -0.3, 2);
+constexpr Key<Quat> measured_orientation{"orientation.measured", "1", ""};
+constexpr Key<Pose> measured_pose{"odometry.pose.measured", "m", ""};
+
+// of geometry_msgs/PoseWithCovariance: rotations about the fixed axes x, y, z of the frame of reference
+TEST(SensorError, TurnsAnOrientationAboutTheAxesOfItsFrame) {
+  Devices s({"a"});
+  s.world().set(s.items[0].object, keys::orientation, true_orientation);
+  s.use("sensor.error", 10, s.items,
+        {{"of", std::string("orientation")}, {"bias", std::vector<double>{0.01, -0.02, 0.3}}});
+  s.build();
+  s.run_for(0.05);
+  const Vec3 off = rotation_vector_of(s.value(measured_orientation) * true_orientation.conjugate());
+  EXPECT_TRUE(off.isApprox(Vec3(0.01, -0.02, 0.3), 1e-14)) << off.transpose();
+}
+
+TEST(SensorError, DriftsAndShakesAPoseWithDeviationsOfEachAxis) {
+  Devices s({"a"});
+  const Pose truth{{3, -2, 0}, true_orientation};
+  s.world().set(s.items[0].object, keys::odometry_pose, truth);
+  s.use("sensor.error", 100, s.items,
+        {{"of", std::string("odometry.pose")}, {"sigma", std::vector<double>{0.1, 0.2, 0, 0, 0.01, 0.05}}});
+  s.build();
+  const int count = 5000;
+  double squares[6] = {};
+  for (int k = 0; k < count; ++k) {
+    s.run_for(0.01);
+    const Pose& read = s.value(measured_pose);
+    const Vec3 moved = read.position - truth.position;
+    const Vec3 turned = rotation_vector_of(read.orientation * truth.orientation.conjugate());
+    for (int i = 0; i < 3; ++i) squares[i] += moved[i] * moved[i], squares[i + 3] += turned[i] * turned[i];
+    ASSERT_NEAR(read.orientation.norm(), 1, 1e-12);
+  }
+  const double sigma[] = {0.1, 0.2, 0, 0, 0.01, 0.05};
+  for (int i = 0; i < 6; ++i)
+    EXPECT_NEAR(std::sqrt(squares[i] / count), sigma[i], 3 * sigma[i] / std::sqrt(2.0 * count) + 1e-12) << i;
+}
+
+TEST(SensorError, DelaysAndHoldsWholeOrientations) {
+  Devices s({"a"});
+  const RobotView& robot = *s.items[0].robot;
+  const ObjectId imu = s.add_sensor_object(robot, "imu", robot.base());
+  s.use("sensor.imu", 10, {{&robot, imu}});
+  s.use("sensor.error", 10, {{&robot, imu}}, {{"of", std::string("orientation")}, {"delay", 0.3}, {"dropout", 0.3}});
+  s.use_kinematics();
+  s.build();
+  s.world().value(robot.base(), keys::command_twist) = {{0, 0, 0}, {0, 0, 1}};
+  std::vector<Quat> truth;
+  int held = 0;
+  Quat last = Quat::Identity();
+  for (std::size_t k = 0; k < 500; ++k) {
+    s.run_for(0.1);
+    truth.push_back(s.world().value(imu, keys::orientation));
+    const Quat read = s.world().value(imu, measured_orientation);
+    const bool is_late = read.coeffs() == truth[k < 3 ? 0 : k - 3].coeffs();
+    EXPECT_TRUE(is_late || read.coeffs() == last.coeffs()) << k;
+    held += !is_late;
+    last = read;
+  }
+  EXPECT_NEAR(held / 500.0, 0.3, 3 * std::sqrt(0.21 / 500));
+}
+
+// --- satellite navigation
+
+// 100 m to the east and 50 m to the north of 49.87 deg are what the radii of curvature of WGS 84 say
+TEST(SensorError, PutsTheErrorsOfAPositionIntoLatitudeAndLongitude) {
+  Devices s({"a"});
+  const RobotView& robot = *s.items[0].robot;
+  const ObjectId gps = s.add_sensor_object(robot, "gps", robot.base());
+  s.use("sensor.gps", 10, {{&robot, gps}}, {{"reference", std::vector<double>{49.87, 8.65, 144}}});
+  s.use("sensor.error", 10, {{&robot, gps}},
+        {{"of", std::string("gps.position")}, {"bias", std::vector<double>{100, 50, 7}}});
+  s.use_kinematics();
+  s.build();
+  s.run_for(0.05);
+  const auto measured = [&](const char* name, const char* unit) {
+    return s.world().value(gps, Key<double>{name, unit, ""});
+  };
+  const double degree = M_PI / 180, a = 6378137, f = 1 / 298.257223563, e2 = f * (2 - f);
+  const double root = std::sqrt(1 - e2 * std::pow(std::sin(49.87 * degree), 2));
+  const double across = a / root + 144, along = a * (1 - e2) / std::pow(root, 3) + 144;
+  EXPECT_NEAR((measured("latitude.measured", "deg") - 49.87) * degree * along, 50, 2e-3);
+  EXPECT_NEAR((measured("longitude.measured", "deg") - 8.65) * degree * across * std::cos(49.87 * degree), 100, 2e-3);
+  EXPECT_NEAR(measured("altitude.measured", "m"), 151, 2e-3) << "over a ground that is bent by 1 mm";
+  EXPECT_EQ(s.world().value(gps, keys::altitude), 144) << "the truth stays readable";
 }
 
 // --- parts
@@ -382,6 +472,9 @@ TEST(SensorError, TellsOfErrorsThatDoNotFitTheReading) {
   };
   EXPECT_SAYS(said("wrench", {{"g_sensitivity", 1.0}}), "g_sensitivity is of a vector, but `wrench` is a value of 6");
   EXPECT_SAYS(said("ranges", {{"bias", std::vector<double>{1, 2, 3}}}), "bias has 3 numbers, but `ranges` is an array");
+  EXPECT_SAYS(said("pose", {{"scale", 0.1}}), "scale is of numbers alone, but `pose` is a pose; remove it");
+  EXPECT_SAYS(said("pose", {{"sigma", std::vector<double>{1, 2, 3}}}), "sigma has 3 numbers, but `pose` has 6");
+  EXPECT_SAYS(said("pose", {{"dropout", 0.1}, {"dropout_value", 0.0}}), "dropout_value is of numbers alone");
   EXPECT_SAYS(said("angular_velocity", {{"misalignment", 0.1}}), "misalignment has 1 number but must have six");
   EXPECT_SAYS(said("angular_velocity", {{"gauss_markov_sigma", 0.1}}), "gauss_markov_sigma needs the correlation time");
   EXPECT_SAYS(said("angular_velocity", {{"gauss_markov_sigma", 0.1}, {"gauss_markov_density", 0.1}}),

@@ -46,15 +46,16 @@ inline constexpr Parameter error_parameters[] = {
     reals("noise_density", "as read by sqrt(Hz)", {},
           "of white noise of a device that averages: a sample has the deviation N sqrt(rate)")
         .between(0, 1e9),
-    real("sigma", "as read", 0, "standard deviation of the noise of a sample, at any rate").between(0, 1e9),
-    real("sigma_relative", "1", 0, "standard deviation of further noise, in proportion to the reading").between(0, 1e3),
+    reals("sigma", "as read", {}, "standard deviation of the noise of a sample, at any rate").between(0, 1e9),
+    reals("sigma_relative", "1", {}, "standard deviation of further noise, in proportion to the reading")
+        .between(0, 1e3),
     real("pointing", "rad", 0,
          "standard deviation of a ray's direction: adds noise with the angle of incidence; needs laser.incidence")
         .between(0, 1),
     real("correlation", "1", 0, "of the noise of neighbours in an array").between(-1, 1),
     real("full_scale", "as read", 0, "the reading saturates at this and at its negative; 0: nowhere").between(0, 1e9),
     integer("bits", 0, "of the converter, from -full_scale to full_scale; 0: none").between(0, 48),
-    real("resolution", "as read", 0, "readings are multiples of this; 0: any value").between(0, 1e9),
+    reals("resolution", "as read", {}, "readings are multiples of this; 0: any value").between(0, 1e9),
     real("minimum", "as read", 0, "smallest reading; not given: laser.min_range, otherwise none"),
     real("maximum", "as read", 0, "largest reading; not given: laser.max_range, otherwise none"),
     real("delay", "s", 0, "by which the reading is late, at least; whole readings").between(0, 1e6),

@@ -30,6 +30,14 @@ class PerComponent {
     for (const double v : values_) result.values_.push_back(function(v));
     return result;
   }
+  /// `function` of this and of another of the same reading.
+  template <class Function>
+  PerComponent with(const PerComponent& other, Function function) const {
+    PerComponent result;
+    for (std::size_t i = 0; i < std::max(size(), other.size()); ++i)
+      result.values_.push_back(function((*this)[i], other[i]));
+    return result;
+  }
 
  private:
   std::vector<double> values_;

@@ -22,21 +22,23 @@ struct OwnedKey {
   OwnedKey& operator=(const OwnedKey&) = delete;
 };
 
-/// The properties that sensor.error makes beside a reading of type T: what the device reads, and as constants what its
-/// errors are, for those who compare the one with the other.
-template <class T>
+/// The properties that sensor.error makes beside a reading of type T: what the device reads, and as constants of type E
+/// what its errors are, for those who compare the one with the other.
+template <class T, class E = T>
 class Published {
  public:
+  using Reading = T;
   /// The property of what the device reads.
   const Key<T>& measured(const KeyInfo& of) {
-    return key(std::string(of.name) + ".measured", std::string(of.unit), "as the device reports it");
+    return key(measured_, std::string(of.name) + ".measured", std::string(of.unit), "as the device reports it");
   }
 
   /// Sets the constants `of`.error.*, those that are not 0.
   void set_constants(Connector& c, ObjectId object, const KeyInfo& of, const ErrorSettings& s, double period) {
-    const std::string unit(of.unit);
-    const PerComponent of_sigma = s.noise.sigma * std::sqrt(period);
-    const auto density = [&](std::size_t i) { return elementary::hypot(s.noise.density[i], of_sigma[i]); };
+    const std::string unit(*of.type == value_type<Quat> ? "rad" : *of.type == value_type<Pose> ? "m, rad" : of.unit);
+    const auto density = [&](std::size_t i) {
+      return elementary::hypot(s.noise.density[i], s.noise.sigma[i] * std::sqrt(period));
+    };
     set(c, object, of, "noise_density", unit + " by sqrt(Hz)", "of white noise", density);
     const auto set_each = [&](const char* name, const std::string& in, const char* doc, const PerComponent& value) {
       set(c, object, of, name, in, doc, [&](std::size_t i) { return value[i]; });
@@ -56,23 +58,26 @@ class Published {
   template <class Values>
   void set(Connector& c, ObjectId object, const KeyInfo& of, const char* name, const std::string& unit, const char* doc,
            Values values) {
-    std::array<double, value_type<T>.scalars()> numbers{};
+    std::array<double, value_type<E>.scalars()> numbers{};
     bool any = false;
     for (std::size_t i = 0; i < numbers.size(); ++i) {
       numbers[i] = values(i);
       any = any || numbers[i] != 0;
     }
     if (!any) return;
-    T value{};
+    E value{};
     std::memcpy(static_cast<void*>(&value), numbers.data(), sizeof value);
-    c.set(object, key(std::string(of.name) + ".error." + name, unit, doc), value);
+    c.set(object, key(figures_, std::string(of.name) + ".error." + name, unit, doc), value);
   }
-  const Key<T>& key(const std::string& name, const std::string& unit, std::string_view doc) {
-    for (const OwnedKey<T>& k : keys_)
+  template <class V>
+  static const Key<V>& key(std::deque<OwnedKey<V>>& keys, const std::string& name, const std::string& unit,
+                           std::string_view doc) {
+    for (const OwnedKey<V>& k : keys)
       if (k.name == name && k.unit == unit) return k.key;
-    return keys_.emplace_back(name, unit, doc).key;
+    return keys.emplace_back(name, unit, doc).key;
   }
-  std::deque<OwnedKey<T>> keys_;
+  std::deque<OwnedKey<T>> measured_;
+  std::deque<OwnedKey<E>> figures_;
 };
 
 }  // namespace muro

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "per_component.hpp"
+
 namespace muro {
 
 /// From an analogue value to the number that a device reports: saturation, resolution of the converter, limits.
@@ -15,21 +17,21 @@ namespace muro {
 /// 3. The reading is limited to [minimum, maximum].
 struct Quantiser {
   double full_scale = std::numeric_limits<double>::infinity();
-  int bits = 0;           ///< 0: no converter
-  double resolution = 0;  ///< step where there is no converter; 0: none
+  int bits = 0;               ///< 0: no converter
+  PerComponent resolution{};  ///< step where there is no converter; 0: none
   double minimum = -std::numeric_limits<double>::infinity();
   double maximum = std::numeric_limits<double>::infinity();
 
   /// The least difference of two readings; 0: none.
-  double step() const { return bits > 0 ? std::ldexp(full_scale, 1 - bits) : resolution; }
+  PerComponent step() const { return bits > 0 ? std::ldexp(full_scale, 1 - bits) : resolution; }
 
-  double operator()(double y) const {
+  double operator()(double y, std::size_t component = 0) const {
     y = std::min(std::max(y, -full_scale), full_scale);
     if (bits > 0) {
       const double half = std::ldexp(1.0, bits - 1), lsb = full_scale / half;
       y = lsb * std::min(std::max(std::round(y / lsb), -half), half - 1);
-    } else if (resolution > 0) {
-      y = resolution * std::round(y / resolution);
+    } else if (const double step = resolution[component]; step > 0) {
+      y = step * std::round(y / step);
     }
     return std::min(std::max(y, minimum), maximum);
   }

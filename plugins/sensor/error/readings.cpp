@@ -2,6 +2,7 @@
 #include "readings.hpp"
 
 #include "muro/algorithm.hpp"
+#include "plugins/common/neighbours/neighbour.hpp"
 #include "plugins/common/text/quote.hpp"
 
 namespace muro {
@@ -29,17 +30,25 @@ std::string what_there_is(const Connector& c, ObjectId object) {
 }  // namespace
 
 bool is_reading(const FoundProperty& p) {
-  if (p.multiplicity == Multiplicity::list || p.is_sum || p.count == 0) return false;
+  if (p.multiplicity == Multiplicity::list) return *p.key->type == value_type<neighbours::Neighbour>;
+  if (p.is_sum || p.count == 0) return false;
   if (p.multiplicity == Multiplicity::array) return *p.key->type == value_type<double>;
-  return is_one_of<double, Vec3, Twist, Wrench>(*p.key->type);
+  return is_one_of<double, Vec3, Twist, Wrench, Quat, Pose>(*p.key->type);
 }
 
 ReadingShape shape_of(const FoundProperty& p) {
-  const bool is_array = p.multiplicity == Multiplicity::array;
-  return {.name = p.key->name,
-          .components = is_array ? p.count : p.key->type->scalars(),
-          .is_array = is_array,
-          .is_vector = !is_array && *p.key->type == value_type<Vec3>};
+  const ValueType& type = *p.key->type;
+  const bool has_orientation = is_one_of<Quat, Pose>(type);
+  ReadingShape shape{.name = p.key->name, .components = type.scalars()};
+  if (p.multiplicity == Multiplicity::list)
+    shape.form = ReadingForm::list, shape.components = 4;  // without the id
+  else if (p.multiplicity == Multiplicity::array)
+    shape.form = ReadingForm::array, shape.components = p.count;
+  else if (type == value_type<Vec3>)
+    shape.form = ReadingForm::vector;
+  else if (has_orientation)
+    shape.form = type == value_type<Quat> ? ReadingForm::orientation : ReadingForm::pose, --shape.components;
+  return shape;
 }
 
 FoundProperty find_reading(const Connector& c, ObjectId object, std::string_view name) {
@@ -51,7 +60,8 @@ FoundProperty find_reading(const Connector& c, ObjectId object, std::string_view
                 (p.multiplicity == Multiplicity::list    ? ", in a list"
                  : p.multiplicity == Multiplicity::array ? ", in an array"
                                                          : "") +
-                "; sensor.error works on numbers and arrays of f64, Vec3, Twist and Wrench");
+                "; sensor.error works on numbers and arrays of f64, on Vec3, Twist, Wrench, Quat and Pose, and on the "
+                "neighbours of sensor.neighbours");
   }
   throw Error(quote(c.object_name(object)) + " has no property " + quote(name) + what_there_is(c, object));
 }

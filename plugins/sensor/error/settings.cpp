@@ -13,26 +13,52 @@ namespace {
 
 PerComponent per_component(const GivenErrors& given, std::string_view name, const ReadingShape& reading) {
   const std::span<const double> numbers = given.numbers(name);
-  const bool one_each = !reading.is_array && numbers.size() == reading.components;
+  const bool is_array = reading.form == ReadingForm::array;
+  const bool one_each = !is_array && numbers.size() == reading.components;
   if (numbers.size() > 1 && !one_each)
-    given.fail(name,
-               std::string(name) + " has " + counted(numbers.size(), "number") + ", but " + quote(reading.name) +
-                   (reading.is_array ? " is an array, for whose elements there is one"
-                                     : " has " + counted(reading.components, "component")) +
-                   "; give one number" +
-                   (reading.is_array || reading.components == 1 ? "" : " or " + std::to_string(reading.components)));
+    given.fail(name, std::string(name) + " has " + counted(numbers.size(), "number") + ", but " + quote(reading.name) +
+                         (is_array ? " is an array, for whose elements there is one"
+                                   : " has " + counted(reading.components, "component")) +
+                         "; give one number" +
+                         (is_array || reading.components == 1 ? "" : " or " + std::to_string(reading.components)));
   return PerComponent(numbers);
+}
+
+std::string form_of(const ReadingShape& reading) {
+  switch (reading.form) {
+    case ReadingForm::array:
+      return "an array";
+    case ReadingForm::orientation:
+      return "an orientation";
+    case ReadingForm::pose:
+      return "a pose";
+    case ReadingForm::list:
+      return "a list";
+    default:
+      return reading.components > 1 ? "a value of " + counted(reading.components, "component") : "a single number";
+  }
 }
 
 void refuse(const GivenErrors& given, std::initializer_list<std::string_view> names, bool fits,
             const ReadingShape& reading, const std::string& of) {
   for (const std::string_view name : names)
     if (!fits && given.given(name))
-      given.fail(name, std::string(name) + " is " + of + ", but " + quote(reading.name) + " is " +
-                           (reading.is_array         ? "an array"
-                            : reading.components > 1 ? "a value of " + counted(reading.components, "component")
-                                                     : "a single number") +
+      given.fail(name, std::string(name) + " is " + of + ", but " + quote(reading.name) + " is " + form_of(reading) +
                            "; remove it");
+}
+
+/// Throws where an error does not belong to readings of this form.
+void check_form(const GivenErrors& given, const ReadingShape& reading) {
+  const bool is_array = reading.form == ReadingForm::array, is_list = reading.form == ReadingForm::list;
+  refuse(given, {"correlation"}, is_array, reading, "between neighbours in an array");
+  refuse(given, {"pointing"}, is_array, reading, "of the rays of a laser");
+  refuse(given, {"misalignment", "cross_axis_tolerance", "g_sensitivity"}, reading.form == ReadingForm::vector, reading,
+         "of a vector");
+  refuse(given, {"scale", "scale_tolerance", "sigma_relative", "resolution"}, !reading.has_orientation(), reading,
+         "of numbers alone");
+  refuse(given, {"bandwidth", "full_scale", "bits", "minimum", "maximum", "dropout_value"},
+         !reading.has_orientation() && !is_list, reading, "of numbers alone");
+  refuse(given, {"delay", "dropout_reads"}, !is_list, reading, "of a reading that is there at every instant");
 }
 
 std::array<double, 6> six(const GivenErrors& given, std::string_view name, bool one_for_all) {
@@ -87,13 +113,13 @@ BiasDrift::Settings drift_of(const GivenErrors& given, const ReadingShape& readi
   return d;
 }
 
-Quantiser quantiser_of(const GivenErrors& given) {
+Quantiser quantiser_of(const GivenErrors& given, const ReadingShape& reading) {
   Quantiser q;
   if (given.real("full_scale") > 0) q.full_scale = given.real("full_scale");
   if (one_of(given, "bits", "resolution") == "bits")
     q.bits = given.integer("bits");
   else
-    q.resolution = given.real("resolution");
+    q.resolution = per_component(given, "resolution", reading);
   if (q.bits > 0 && !std::isfinite(q.full_scale))
     given.fail("bits", "bits are those of a converter from -full_scale to full_scale; give full_scale too");
   return q;
@@ -128,9 +154,7 @@ void GivenErrors::fail(std::string_view name, const std::string& what) const {
 }
 
 ErrorSettings settings_of(const GivenErrors& given, const ReadingShape& reading) {
-  refuse(given, {"correlation"}, reading.is_array, reading, "between neighbours in an array");
-  refuse(given, {"pointing"}, reading.is_array, reading, "of the rays of a laser");
-  refuse(given, {"misalignment", "cross_axis_tolerance", "g_sensitivity"}, reading.is_vector, reading, "of a vector");
+  check_form(given, reading);
   const auto each = [&](std::string_view name) { return per_component(given, name, reading); };
   ErrorSettings s;
   s.bandwidth = each("bandwidth");
@@ -143,17 +167,17 @@ ErrorSettings settings_of(const GivenErrors& given, const ReadingShape& reading)
   s.bias = each("bias");
   s.turn_on_bias_tolerance = each("turn_on_bias_tolerance");
   s.drift = drift_of(given, reading);
-  s.noise = {.sigma = given.real("sigma"),
-             .sigma_relative = given.real("sigma_relative"),
+  s.noise = {.sigma = each("sigma"),
+             .sigma_relative = each("sigma_relative"),
              .pointing = given.real("pointing"),
              .correlation = given.real("correlation"),
              .density = each("noise_density")};
-  s.quantiser = quantiser_of(given);
+  s.quantiser = quantiser_of(given, reading);
   s.delay = given.real("delay");
   s.dropouts = {.probability = given.real("dropout"),
                 .value = given.real("dropout_value"),
-                .hold = given.text("dropout_reads") == "hold",
-                .together = !reading.is_array};
+                .hold = reading.has_orientation() || given.text("dropout_reads") == "hold",
+                .together = reading.form != ReadingForm::array};
   return s;
 }
 

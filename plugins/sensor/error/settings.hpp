@@ -7,12 +7,22 @@
 
 namespace muro {
 
+enum class ReadingForm : std::uint8_t {
+  value,        ///< one number, or several of a kind each
+  vector,       ///< Vec3
+  array,        ///< neighbours of one kind, such as the rays of a scan
+  orientation,  ///< a quaternion
+  pose,         ///< a position and a quaternion
+  list,         ///< of neighbours, each with its id
+};
+
 /// What kind of reading the errors are of.
 struct ReadingShape {
   std::string_view name;       ///< of the property
-  std::size_t components = 1;  ///< numbers in it
-  bool is_array = false;       ///< neighbours of one kind, such as the rays of a scan
-  bool is_vector = false;      ///< Vec3
+  std::size_t components = 1;  ///< that have errors: of an orientation the three of a rotation vector
+  ReadingForm form = ReadingForm::value;
+
+  bool has_orientation() const { return form == ReadingForm::orientation || form == ReadingForm::pose; }
 };
 
 /// The settings of one reading: those of the scenario, else those of a part, else none.

@@ -14,7 +14,7 @@ namespace muro {
 /// Noise of a sample that does not depend on those before it.
 ///
 ///     n_0 = e_0,  n_i = c n_(i-1) + sqrt(1 - c^2) e_i     e_i independent, standard normal
-///     y_i = x_i + b_i + n_i sqrt(sigma^2 + N_i^2 / h + (sigma_relative x_i)^2 + (pointing x_i tan a_i)^2)
+///     y_i = x_i + b_i + n_i sqrt(sigma_i^2 + N_i^2 / h + (sigma_relative_i x_i)^2 + (pointing x_i tan a_i)^2)
 ///
 /// with the bias b_i, the density N_i of a device that averages over its period h (the variance of the mean of white
 /// noise), and the angle of incidence a_i: a ray whose direction is off by the small angle d reads a plane x d tan a
@@ -24,20 +24,21 @@ namespace muro {
 class WhiteNoise {
  public:
   struct Settings {
-    double sigma = 0;           ///< >= 0, unit of the reading, a sample
-    double sigma_relative = 0;  ///< >= 0, of the reading
-    double pointing = 0;        ///< rad, >= 0: standard deviation of the direction of a ray
-    double correlation = 0;     ///< c, -1 .. 1
-    PerComponent density{};     ///< N, >= 0, unit of the reading by sqrt(Hz)
+    PerComponent sigma{};           ///< >= 0, unit of the reading, a sample
+    PerComponent sigma_relative{};  ///< >= 0, of the reading
+    double pointing = 0;            ///< rad, >= 0: standard deviation of the direction of a ray
+    double correlation = 0;         ///< c, -1 .. 1
+    PerComponent density{};         ///< N, >= 0, unit of the reading by sqrt(Hz)
   };
   static constexpr double max_incidence = 1.5;  ///< rad: rays at a larger angle are no noisier
 
   WhiteNoise() = default;
   /// `period`: s, between samples; counts where there is a density.
   WhiteNoise(const Settings& settings, double period) : settings_(settings) {
-    constant_ = settings.density.map([&](double n) { return n == 0 ? 0 : n * n / period; });
+    constant_ = settings.sigma.with(
+        settings.density, [&](double sigma, double n) { return sigma * sigma + (n == 0 ? 0 : n * n / period); });
     innovation_ = std::sqrt(1 - settings.correlation * settings.correlation);
-    is_active_ = settings.sigma > 0 || settings.sigma_relative > 0 || settings.pointing > 0 || !constant_.is_zero();
+    is_active_ = !settings.sigma_relative.is_zero() || settings.pointing > 0 || !constant_.is_zero();
   }
 
   /// Adds bias and noise; `bias(i)` is that of component i. Leaves values alone where `untouched(i)`. `incidence`
@@ -45,7 +46,6 @@ class WhiteNoise {
   template <class Bias, class Untouched>
   void apply(std::span<double> values, const Random& random, std::span<const double> incidence, Bias bias,
              Untouched untouched) const {
-    const double sigma = settings_.sigma, relative = settings_.sigma_relative;
     NormalNumbers numbers(random, values.size());
     double n = 0;
     for (std::uint32_t i = 0; i < values.size(); ++i) {
@@ -56,15 +56,15 @@ class WhiteNoise {
       if (untouched(i)) continue;
       const double relative_pointing =
           incidence.empty() ? 0 : settings_.pointing * elementary::tan(std::min(incidence[i], max_incidence));
-      const double y = values[i];
-      values[i] = y + (bias(i) + n * std::sqrt(sigma * sigma + constant_[i] +
+      const double y = values[i], relative = settings_.sigma_relative[i];
+      values[i] = y + (bias(i) + n * std::sqrt(constant_[i] +
                                                (relative * relative + relative_pointing * relative_pointing) * y * y));
     }
   }
 
  private:
   Settings settings_;
-  PerComponent constant_;  ///< variance by density
+  PerComponent constant_;  ///< variance that does not depend on the reading
   double innovation_ = 1;
   bool is_active_ = false;
 };

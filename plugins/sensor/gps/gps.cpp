@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // A receiver of satellite navigation: place on the earth, and velocity.
-#include "geodetic.hpp"
 #include "muro/plugin.hpp"
 #include "muro/toolkit/per_robot.hpp"
+#include "plugins/common/geodetic/geodetic.hpp"
+#include "plugins/common/geodetic/keys.hpp"
 #include "plugins/common/internal_sensor/mounted.hpp"
 #include "plugins/common/internal_sensor/property_uses.hpp"
 
@@ -10,8 +11,8 @@ namespace {
 
 using namespace muro;
 using namespace muro::internal_sensor;
+using geodetic::GeodeticPlace, geodetic::LocalPlane, geodetic::radians_by_degree;
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double no_reference[] = {0, 0, 0};
 constexpr Parameter parameters[] = {
     mounting_offset,
@@ -21,9 +22,13 @@ constexpr Parameter parameters[] = {
 };
 constexpr PropertyUse reads[] = {reads_pose, reads_twist, reads_joint_position, reads_joint_velocity};
 constexpr PropertyUse writes[] = {
-    {"latitude", "of the antenna"},      {"longitude", "of the antenna"},
-    {"altitude", "of the antenna"},      {"gps.position", "east, north and up of the reference"},
-    {"gps.velocity", "east, north, up"}, mounting_writes,
+    {"latitude", "of the antenna"},
+    {"longitude", "of the antenna"},
+    {"altitude", "of the antenna"},
+    {"gps.position", "east, north and up of the reference"},
+    {"gps.velocity", "east, north, up"},
+    {"gps.reference", "constant, as given"},
+    mounting_writes,
 };
 constexpr Description description{
     .id = "sensor.gps",
@@ -51,8 +56,8 @@ class Gps final : public PerRobotAlgorithm<Receiver> {
       *r.position = to_east_ * m.pose.position;
       *r.velocity = to_east_ * m.twist.linear;
       const GeodeticPlace place = plane_.place_of(*r.position);
-      *r.latitude = place.latitude / degree;
-      *r.longitude = place.longitude / degree;
+      *r.latitude = place.latitude / radians_by_degree;
+      *r.longitude = place.longitude / radians_by_degree;
       *r.altitude = place.altitude;
     }
   }
@@ -63,7 +68,8 @@ class Gps final : public PerRobotAlgorithm<Receiver> {
     if (!(std::abs(at[0]) <= 90) || !(std::abs(at[1]) <= 360) || !std::isfinite(at[2]))
       throw Error("reference is " + std::to_string(at[0]) + ", " + std::to_string(at[1]) + ", " +
                   std::to_string(at[2]) + "; give a latitude from -90 to 90 deg, a longitude and an altitude in m");
-    plane_ = LocalPlane({at[0] * degree, at[1] * degree, at[2]});
+    reference_ = {at[0], at[1], at[2]};
+    plane_ = LocalPlane::at(reference_);
     to_east_ = rotation_about(Vec3::UnitZ(), p.real("heading"));
   }
 
@@ -71,6 +77,7 @@ class Gps final : public PerRobotAlgorithm<Receiver> {
     const std::span<const double> at = c.parameters().reals(mounting_offset.name);
     const Pose antenna{{at[0], at[1], at[2]}, Quat::Identity()};
     c.set(item.object, keys::sensor_origin, antenna);
+    c.set(item.object, geodetic::key_reference, reference_);
     return {{c, *item.robot, carrying_link(c, item), antenna, link_acceleration::Order::twist},
             c.variable(item.object, keys::latitude, 0.0),
             c.variable(item.object, keys::longitude, 0.0),
@@ -79,6 +86,7 @@ class Gps final : public PerRobotAlgorithm<Receiver> {
             c.variable(item.object, keys::gps_velocity, Vec3(0, 0, 0))};
   }
 
+  Vec3 reference_ = Vec3::Zero();  ///< deg, deg, m
   LocalPlane plane_;
   Quat to_east_ = Quat::Identity();  ///< from the axes of the world to east, north, up
 };

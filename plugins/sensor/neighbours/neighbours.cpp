@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "muro/plugin.hpp"
+#include "muro/toolkit/elementary.hpp"
 #include "muro/toolkit/mounting.hpp"
-#include "muro/toolkit/random.hpp"
-#include "neighbour.hpp"
 #include "plugins/common/line_of_sight/line_of_sight.hpp"
+#include "plugins/common/neighbours/neighbour.hpp"
 #include "plugins/common/spatial_hash/spatial_hash.hpp"
 #include "plugins/common/text/glob.hpp"
 #include "plugins/common/text/quote.hpp"
@@ -29,12 +29,6 @@ constexpr Parameter parameters[] = {
         .of_length(3),
     mounting_offset,
     mounting_rpy,
-    real("distance_sigma", "m", 0, "standard deviation of distances").between(0, 1e6),
-    real("distance_sigma_relative", "1", 0, "standard deviation of distances, in proportion to them").between(0, 10),
-    real("bearing_sigma", "rad", 0, "standard deviation of bearings").between(0, 10),
-    real("elevation_sigma", "rad", 0, "standard deviation of elevations").between(0, 10),
-    real("heading_sigma", "rad", 0, "standard deviation of headings").between(0, 10),
-    real("dropout", "1", 0, "probability that a neighbour is missed in a step").between(0, 1),
 };
 constexpr PropertyUse reads[] = {
     {"pose", "of the sensor's object, and of the bases of all robots that may be seen"},
@@ -45,7 +39,7 @@ constexpr PropertyUse writes[] = {{"neighbours", "list: id, distance, bearing, e
 constexpr Description description{
     .id = "sensor.neighbours",
     .kind = Kind::sensor,
-    .version = "1.0.0",
+    .version = "2.0.0",
     .summary =
         "Which robots are in range: distance, bearing, elevation, heading and number of each (range and bearing)",
     .parameters = parameters,
@@ -53,20 +47,6 @@ constexpr Description description{
     .writes = writes,
     .capabilities = deterministic | batched | allocation_free | restorable,
 };
-
-/// Standard deviations, and the probability of a miss.
-struct Errors {
-  double distance = 0, distance_relative = 0, bearing = 0, elevation = 0, heading = 0, dropout = 0;
-
-  bool any() const { return distance > 0 || distance_relative > 0 || bearing > 0 || elevation > 0 || heading > 0; }
-};
-
-Errors errors_of(const Parameters& p) {
-  return {p.real("distance_sigma"),  p.real("distance_sigma_relative"), p.real("bearing_sigma"),
-          p.real("elevation_sigma"), p.real("heading_sigma"),           p.real("dropout")};
-}
-
-double wrapped(double angle) { return std::remainder(angle, 6.283185307179586); }
 
 /// The angle about z, from x, of a direction; 0 along z.
 double azimuth_of(const Vec3& v) { return elementary::atan2(v.y(), v.x()); }
@@ -86,27 +66,22 @@ class Neighbours final : public Algorithm {
   struct Target {
     In<Pose> base;
     std::int32_t robot;  ///< number
-    std::uint64_t key;   ///< of its name
   };
   struct Device {
     In<Pose> pose;
     ListOut<Neighbour> seen;
     std::int32_t robot = -1;
-    std::uint64_t key = 0;
   };
   void add_targets(Connector& c);
   void locate_targets();
-  void serve(const Device& d, const Step& step) const;
+  void serve(const Device& d) const;
   /// What a device at `device` reads of a target.
   Neighbour reading(const Pose& device, std::uint32_t target) const;
-  /// Nothing when it is missed.
-  std::optional<Neighbour> with_errors(Neighbour n, const Random& random) const;
 
   double range_ = 0;
   std::size_t max_neighbours_ = 0;
   Vec3 target_ = Vec3::Zero();
   Pose mounting_;
-  Errors errors_;
   std::optional<line_of_sight::LineOfSight> sight_;
   std::vector<Target> targets_;
   std::vector<Device> devices_;
@@ -122,7 +97,7 @@ void Neighbours::add_targets(Connector& c) {
     bool named = patterns.empty();
     for (std::size_t i = 0; i < patterns.size(); ++i)
       if (matches(patterns[i], robot->name)) named = used[i] = true;
-    if (named) targets_.push_back({c.read(robot->base(), keys::pose), std::int32_t(robot->number), robot->key});
+    if (named) targets_.push_back({c.read(robot->base(), keys::pose), std::int32_t(robot->number)});
   }
   for (std::size_t i = 0; i < patterns.size(); ++i)
     if (!used[i])
@@ -136,17 +111,14 @@ void Neighbours::connect(Connector& c) {
   max_neighbours_ = std::size_t(p.integer("max_neighbours"));
   target_ = Vec3(p.reals("target")[0], p.reals("target")[1], p.reals("target")[2]);
   mounting_ = mounting_of(p);
-  errors_ = errors_of(p);
   add_targets(c);
   if (p.boolean("line_of_sight")) sight_.emplace().connect(c);
-  for (std::uint32_t i = 0; i < c.items().size(); ++i) {
-    const Item& item = c.items()[i];
+  for (const Item& item : c.items()) {
     c.set(item.object, keys::sensor_origin, mounting_);
     Device d;
     d.pose = c.read(item.object, keys::pose);
     d.seen = c.variable_list(item.object, key_neighbours);
     if (item.robot) d.robot = std::int32_t(item.robot->number);
-    d.key = c.random_key(i);
     devices_.push_back(d);
   }
 }
@@ -164,7 +136,7 @@ void Neighbours::locate_targets() {
 
 void Neighbours::step(const Step& step, Range range) {
   if (step.phase == 0) return locate_targets();
-  for (std::uint32_t i = range.begin; i < range.end; ++i) serve(devices_[i], step);
+  for (std::uint32_t i = range.begin; i < range.end; ++i) serve(devices_[i]);
 }
 
 Neighbour Neighbours::reading(const Pose& device, std::uint32_t target) const {
@@ -176,48 +148,29 @@ Neighbour Neighbours::reading(const Pose& device, std::uint32_t target) const {
           azimuth_of(ahead)};
 }
 
-std::optional<Neighbour> Neighbours::with_errors(Neighbour n, const Random& random) const {
-  const Errors& e = errors_;
-  if (e.dropout > 0 && random.uniform(2) < e.dropout) return std::nullopt;
-  if (!e.any()) return n;
-  const auto [distance, bearing] = random.normal_pair(0);
-  const auto [elevation, heading] = random.normal_pair(1);
-  const double relative = e.distance_relative * n.distance;
-  n.distance = std::max(0.0, n.distance + distance * std::sqrt(e.distance * e.distance + relative * relative));
-  n.bearing = wrapped(n.bearing + e.bearing * bearing);
-  n.elevation = std::clamp(n.elevation + e.elevation * elevation, -1.5707963267948966, 1.5707963267948966);
-  n.heading = wrapped(n.heading + e.heading * heading);
-  return n;
-}
-
-void Neighbours::serve(const Device& d, const Step& step) const {
+void Neighbours::serve(const Device& d) const {
   struct InRange {
     double squared_distance;  // m^2
     std::uint32_t target;
     auto operator<=>(const InRange&) const = default;
   };
   thread_local std::vector<InRange> in_range;
-  thread_local std::vector<Neighbour> seen;
-  in_range.clear(), seen.clear();
-  in_range.reserve(targets_.size()), seen.reserve(targets_.size());
+  in_range.clear();
+  in_range.reserve(targets_.size());
+  d.seen.clear();
   const Pose device = *d.pose * mounting_;
   hash_.each_within(device.position, range_, [&](std::uint32_t i, double squared) {
     if (targets_[i].robot != d.robot) in_range.push_back({squared, i});
   });
   std::sort(in_range.begin(), in_range.end());
   for (const InRange& candidate : in_range) {
-    if (seen.size() == max_neighbours_) break;
+    if ((*d.seen).size() == max_neighbours_) break;
     const std::uint32_t i = candidate.target;
-    const Target& t = targets_[i];
-    if (sight_ && !sight_->is_clear(device.position, places_[i], d.robot, t.robot)) continue;
-    const Random random(step.seed, fnv1a({reinterpret_cast<const char*>(&t.key), sizeof t.key}, d.key), step.index);
-    if (const auto n = with_errors(reading(device, i), random)) seen.push_back(*n);
+    if (sight_ && !sight_->is_clear(device.position, places_[i], d.robot, targets_[i].robot)) continue;
+    d.seen.push_back(reading(device, i));
   }
-  std::sort(seen.begin(), seen.end(), [](const Neighbour& a, const Neighbour& b) {
-    return a.distance != b.distance ? a.distance < b.distance : a.id < b.id;
-  });
-  d.seen.clear();
-  for (const Neighbour& n : seen) d.seen.push_back(n);
+  const std::span<Neighbour> all = *d.seen;
+  std::sort(all.begin(), all.end(), is_listed_before);
 }
 
 constexpr abi::AlgorithmEntry algorithms[] = {algorithm<Neighbours>(description)};

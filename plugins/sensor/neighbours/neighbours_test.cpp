@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "muro/toolkit/rotations.hpp"
-#include "neighbour.hpp"
+#include "plugins/common/neighbours/neighbour.hpp"
 #include "tests/support/allocation_counter.hpp"
 #include "tests/support/bodies.hpp"
 #include "tests/support/complaint.hpp"
@@ -34,6 +34,7 @@ struct Swarm : test::Scene {
     use_kinematics();
     use("scene.bvh", 0);
     use("sensor.neighbours", rate, devices, std::move(settings));
+    if (!errors.empty()) use("sensor.error", rate, devices, errors);
     build();
   }
   std::span<const Neighbour> seen(std::size_t device) { return world().values(devices[device].object, key_neighbours); }
@@ -42,7 +43,12 @@ struct Swarm : test::Scene {
     for (const Neighbour& n : seen(device)) all.push_back(n.id);
     return all;
   }
+  std::span<const Neighbour> measured(std::size_t device) {
+    static const Key<Neighbour> key{"neighbours.measured", neighbours_unit, ""};
+    return world().values(devices[device].object, key);
+  }
   std::vector<Item> devices;
+  Settings errors;  ///< of sensor.error; none: there is none
 };
 
 using Ids = std::vector<double>;
@@ -114,25 +120,24 @@ TEST(Neighbours, DependOnTheLineAtTheHeightOfAFloorToo) {
   EXPECT_EQ(s.ids(0), (Ids{2}));
 }
 
-TEST(Neighbours, HaveErrorsOfTheirOwnWithTheGivenDeviations) {
+TEST(Neighbours, HaveErrorsOfTheirOwnByTheChain) {
   Swarm s;
   s.place("a", {0, 0, 0});
   s.place("b", {2, 0, 0}, 1);
   s.place("c", {0, 2, 0}, pi);
-  s.start({{"distance_sigma", 0.03},
-           {"distance_sigma_relative", 0.02},
-           {"bearing_sigma", 0.1},
-           {"elevation_sigma", 0.05},
-           {"heading_sigma", 0.2},
-           {"dropout", 0.25}},
-          100);
+  s.errors = {{"of", "neighbours"},
+              {"sigma", std::vector<double>{0.03, 0.1, 0.05, 0.2}},
+              {"sigma_relative", std::vector<double>{0.02, 0, 0, 0}},
+              {"dropout", 0.25}};
+  s.start({}, 100);
   const int steps = 8000;
   int count = 0;
   double sum[4] = {}, squares[4] = {}, together = 0;
   for (int k = 0; k < steps; ++k) {
     s.run_for(0.01);
     double distances[3] = {};
-    for (const Neighbour& n : s.seen(0)) {
+    ASSERT_EQ(s.seen(0).size(), 2u);
+    for (const Neighbour& n : s.measured(0)) {
       distances[int(n.id)] = n.distance - 2;
       if (n.id != 1) continue;
       ++count;
@@ -148,6 +153,73 @@ TEST(Neighbours, HaveErrorsOfTheirOwnWithTheGivenDeviations) {
     EXPECT_NEAR(std::sqrt(squares[i] / count), sigma[i], 3 * sigma[i] / std::sqrt(2.0 * count)) << i;
   }
   EXPECT_NEAR(together / steps, 0, 3 * 0.05 * 0.05 / std::sqrt(steps)) << "of two neighbours are independent";
+}
+
+// a turn-on bias and a drift are of the device: all that it sees is off by the same
+TEST(Neighbours, ShareBiasAndDriftOfTheDeviceThatSeesThem) {
+  Swarm s;
+  s.place("a", {0, 0, 0});
+  s.place("b", {2, 0, 0});
+  s.place("c", {0, 1, 0});
+  s.errors = {{"of", "neighbours"},
+              {"turn_on_bias_tolerance", std::vector<double>{0, 0.3, 0, 0}},
+              {"gauss_markov_sigma", std::vector<double>{0, 0.05, 0, 0}},
+              {"gauss_markov_time", 2.0}};
+  s.start({}, 100);
+  double before = 0;
+  for (int k = 0; k < 100; ++k) {
+    s.run_for(0.01);
+    const double off = s.measured(0)[0].bearing - pi / 2;
+    EXPECT_NEAR(s.measured(0)[1].bearing, off, 1e-12);
+    EXPECT_NE(off, before);
+    EXPECT_EQ(s.measured(0)[0].distance, s.seen(0)[0].distance);
+    before = off;
+  }
+  EXPECT_NE(s.measured(1)[0].bearing - s.seen(1)[0].bearing, before) << "another device";
+}
+
+TEST(Neighbours, HaveErrorsWhoeverElseIsThere) {
+  const auto distance_of_b = [](bool alone) {
+    Swarm s;
+    if (!alone) s.place("another", {0.5, 0.5, 0});
+    s.place("a", {0, 0, 0});
+    s.place("b", {2, 0, 0});
+    s.errors = {{"of", "neighbours"}, {"sigma", 0.1}, {"dropout", 0.1}};
+    s.start();
+    s.run_for(0.35);
+    std::vector<double> distances;
+    for (const Neighbour& n : s.measured(alone ? 0 : 1))
+      if (n.id == (alone ? 1 : 2)) distances.push_back(n.distance);
+    return distances;
+  };
+  EXPECT_EQ(distance_of_b(true), distance_of_b(false));
+  EXPECT_EQ(distance_of_b(true).size(), 1u);
+}
+
+TEST(Neighbours, StayDistancesAndAnglesWithLargeErrors) {
+  Swarm s;
+  s.place("a", {0, 0, 0});
+  for (int i = 1; i < 40; ++i) s.place("r" + std::to_string(i), {-0.05 * i, 0.01, 0}, 3);
+  s.errors = {{"of", "neighbours"}, {"sigma", 2.0}};
+  s.start({{"line_of_sight", false}});
+  s.run_for(0.05);
+  ASSERT_EQ(s.measured(0).size(), 32u);
+  double distance = 0;
+  for (const Neighbour& n : s.measured(0)) {
+    EXPECT_GE(n.distance, distance) << "the nearest first, by what is read";
+    EXPECT_LE(std::abs(n.bearing), pi);
+    EXPECT_LE(std::abs(n.elevation), pi / 2);
+    EXPECT_LE(std::abs(n.heading), pi);
+    distance = n.distance;
+  }
+}
+
+TEST(Neighbours, HaveNoErrorsThatNeedAReadingBefore) {
+  Swarm s;
+  s.place("a", {0, 0, 0});
+  s.errors = {{"of", "neighbours"}, {"delay", 0.1}};
+  EXPECT_SAYS(test::complaint_of([&] { s.start(); }),
+              "delay is of a reading that is there at every instant, but `neighbours` is a list");
 }
 
 TEST(Neighbours, AreSeenByNameWhereThereAreNames) {
@@ -176,12 +248,11 @@ struct Crowd : Swarm {
     }
     for (int i = 0; i < 6; ++i) wall("wall" + std::to_string(i), Shape::box({0.5, 0.1, 1}), {0.4 * i - 1, 0.5, 0.2});
     set_threads(threads);
-    start({{"range", 1.0},
-           {"bearing_sigma", 0.1},
-           {"distance_sigma", 0.02},
-           {"dropout", 0.1},
-           {"max_neighbours", std::int64_t(6)}},
-          50);
+    errors = {{"of", "neighbours"},
+              {"sigma", std::vector<double>{0.02, 0.1, 0, 0}},
+              {"bias_instability", 0.01},
+              {"dropout", 0.1}};
+    start({{"range", 1.0}, {"max_neighbours", std::int64_t(6)}}, 50);
     command();
   }
   void command() {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace muro {
+namespace muro::geodetic {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
@@ -33,4 +33,4 @@ TEST(Geodetic, APoleHasAnAltitude) {
 }
 
 }  // namespace
-}  // namespace muro
+}  // namespace muro::geodetic

@@ -8,12 +8,14 @@
 #include "muro/geometry.hpp"
 #include "muro/toolkit/elementary.hpp"
 
-namespace muro {
+namespace muro::geodetic {
 
 struct GeodeticPlace {
   double latitude = 0, longitude = 0;  ///< rad
   double altitude = 0;                 ///< m above the ellipsoid
 };
+
+inline constexpr double radians_by_degree = std::numbers::pi / 180;
 
 namespace wgs84 {
 
@@ -63,6 +65,10 @@ inline GeodeticPlace from_earth(const Vec3& p) {
 class LocalPlane {
  public:
   LocalPlane() = default;
+  /// `reference`: latitude and longitude (deg), altitude (m).
+  static LocalPlane at(const Vec3& reference) {
+    return LocalPlane({reference.x() * radians_by_degree, reference.y() * radians_by_degree, reference.z()});
+  }
   explicit LocalPlane(const GeodeticPlace& reference) : origin_(wgs84::to_earth(reference)) {
     const auto [sin_lat, cos_lat] = elementary::sincos(reference.latitude);
     const auto [sin_lon, cos_lon] = elementary::sincos(reference.longitude);
@@ -79,4 +85,4 @@ class LocalPlane {
   Mat3 axes_ = Mat3::Identity();  ///< columns: east, north, up in the frame of the earth
 };
 
-}  // namespace muro
+}  // namespace muro::geodetic

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// What sensor.neighbours tells, for it and for those who work on it.
 #pragma once
 
 #include "muro/key.hpp"
@@ -13,6 +14,12 @@ struct Neighbour {
   double elevation = 0;  ///< rad, -pi/2 .. pi/2: from the xy plane towards z
   double heading = 0;    ///< rad, -pi .. pi: of its x axis, measured as the bearing
 };
+
+/// The order of a list: the nearest first; of equal ones that of the lower number.
+inline bool is_listed_before(const Neighbour& a, const Neighbour& b) {
+  return a.distance != b.distance ? a.distance < b.distance : a.id < b.id;
+}
+
 inline constexpr std::string_view neighbour_labels[] = {"id", "distance", "bearing", "elevation", "heading"};
 
 inline constexpr std::string_view neighbours_unit = "1, m, rad";
