@@ -4,6 +4,7 @@
 #include <numbers>
 #include <vector>
 
+#include "motion_noise.hpp"
 #include "muro/plugin.hpp"
 #include "muro/toolkit/mass_properties.hpp"
 #include "muro/toolkit/per_robot.hpp"
@@ -19,7 +20,7 @@ using namespace muro;
 using namespace muro::wheels;
 
 constexpr std::string_view drives[] = {"differential", "omni"};
-constexpr double no_errors[] = {0, 0};
+constexpr double no_errors[] = {0, 0}, no_alphas[] = {0, 0, 0, 0};
 constexpr Parameter parameters[] = {
     text("drive", "differential",
          "differential: by the mean of the wheels on each side, also of a car's rear axle; omni: mecanum and omni "
@@ -36,6 +37,10 @@ constexpr Parameter parameters[] = {
         .of_length(2),
     real("track_error", "1", 0, "by how much of itself the track is estimated too large").between(-0.9, 1e3),
     integer("counts", 0, "steps in a turn of each wheel's encoder; 0: none").between(0, 1 << 30),
+    reals("alphas", "rad^2/rad, rad^2/m, m^2/m, m^2/rad", no_alphas,
+          "noise: variance of the turn by the turn and by the way, of the way by the way and by the turn")
+        .of_length(4)
+        .between(0, 1e3),
 };
 constexpr PropertyUse reads[] = {{"joint.position", "of the wheels"},
                                  {"collision.shapes", "of the wheels; else visual.shapes"}};
@@ -46,8 +51,8 @@ constexpr Key<double> wheel_angles{"odometry.wheels", "rad", "array: angles of t
 constexpr Description description{
     .id = "sensor.odometry",
     .kind = Kind::sensor,
-    .version = "1.0.0",
-    .summary = "Path of the base from the angles of its wheels, along exact arcs, with systematic errors",
+    .version = "1.1.0",
+    .summary = "Path of the base from the angles of its wheels, along exact arcs, with systematic errors and noise",
     .parameters = parameters,
     .reads = reads,
     .writes = writes,
@@ -64,6 +69,7 @@ struct CountedWheel {
 /// What is kept of a vehicle.
 struct Vehicle {
   Range wheels;
+  std::uint64_t key = 0;  ///< of its random numbers
   ArrayOut<double> angles;
   Out<Pose> pose;
   Out<Twist> twist;
@@ -81,6 +87,7 @@ class Odometry final : public PerRobotAlgorithm<Vehicle> {
         moved = moved + w.column * (now - (step.index == 0 ? counted(w.start) : angles[i]));
         angles[i++] = now;
       }
+      moved = noise_(moved, Random(step.seed, v.key, step.index));
       *v.pose = *v.pose * arc(moved, 1);
       v.pose->orientation.normalize();
       *v.twist = {Vec3(moved.x, moved.y, 0) / step.dt, Vec3(0, 0, moved.yaw_rate) / step.dt};
@@ -89,6 +96,7 @@ class Odometry final : public PerRobotAlgorithm<Vehicle> {
 
  private:
   void read_parameters(const Parameters& p) override {
+    noise_ = odometry::MotionNoise(p.reals("alphas"), p.text("drive") == "omni");
     step_ = p.integer("counts") > 0 ? 2 * std::numbers::pi / double(p.integer("counts")) : 0;
     for (const double e : p.reals("radius_error"))
       if (!(e > -1))
@@ -101,6 +109,7 @@ class Odometry final : public PerRobotAlgorithm<Vehicle> {
     std::vector<CountedWheel> wheels =
         c.parameters().text("drive") == "omni" ? omni_wheels(c, robot) : side_wheels(c, robot);
     Vehicle v;
+    v.key = fnv1a(c.object_name(item.object));
     v.angles = c.variable_array(item.object, wheel_angles, std::uint32_t(wheels.size()));
     v.wheels = wheels_.add(wheels);
     v.pose = c.variable(item.object, keys::odometry_pose, Pose{});
@@ -148,6 +157,7 @@ class Odometry final : public PerRobotAlgorithm<Vehicle> {
   double counted(double angle) const { return step_ == 0 ? angle : step_ * std::floor(angle / step_ + 0.5); }
 
   double step_ = 0;  ///< rad, of encoders; 0: none
+  odometry::MotionNoise noise_;
   PackedLists<CountedWheel> wheels_;
 };
 
