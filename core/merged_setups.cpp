@@ -21,11 +21,15 @@ void join_world(AlgorithmSetup& world, const AlgorithmSetup& joining) {
         fmt::format("{}{} and {} share a world of {} but have different rates or phases; give them the "
                     "same, or another `world` to one of them",
                     prefix_of(joining.place), joining.name, world.name, joining.use));
-  for (const Item& item : joining.items)
-    if (std::any_of(world.items.begin(), world.items.end(), [&](const Item& k) { return k.robot == item.robot; }))
-      throw SetupError(
-          fmt::format("{}{} and {} would move one robot in one world of {}; give one of them another `world`",
-                      prefix_of(joining.place), joining.name, world.name, joining.use));
+  for (const Item& item : joining.items) {
+    const auto twin =
+        std::find_if(world.items.begin(), world.items.end(), [&](const Item& k) { return k.robot == item.robot; });
+    if (twin == world.items.end()) continue;
+    const auto place_of_twin = std::size_t(twin - world.items.begin());
+    const std::string& name = world.item_setups.empty() ? world.name : world.item_setups[place_of_twin].name;
+    throw SetupError(fmt::format("{}{} and {} are of one robot and in one world of {}; give one of them another `world`",
+                                 prefix_of(joining.place), joining.name, name, joining.use));
+  }
   world.item_setups.resize(world.items.size(), {world.name, world.place, world.parameters, world.parameter_places});
   world.items.insert(world.items.end(), joining.items.begin(), joining.items.end());
   world.item_setups.resize(world.items.size(),

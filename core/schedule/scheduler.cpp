@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "core/error.hpp"
 #include "muro/description.hpp"
@@ -109,7 +110,8 @@ void Scheduler::find_providers() {
     for (const std::uint32_t slot : tasks_[t].reads)
       if (const auto found = writers.find(slot); found != writers.end())
         for (const TaskId w : found->second)
-          if (w != t) providers_[t].push_back(w);
+          if (w != t && !(is_of(tasks_[w], Kind::level) && tasks_[t].order < tasks_[w].order))
+            providers_[t].push_back(w);  // who runs before levels sees those of the last step
     auto& p = providers_[t];
     std::sort(p.begin(), p.end());
     p.erase(std::unique(p.begin(), p.end()), p.end());
@@ -195,6 +197,20 @@ void Scheduler::add_providers(TaskId reader, std::vector<bool>& added, std::vect
   }
 }
 
+/// Levels still have their turn.
+void Scheduler::add_step_tasks(std::vector<bool>& added, std::vector<DueTask>& due) const {
+  std::vector<bool> passed = added;
+  for (TaskId t = 0; t < tasks_.size(); ++t) passed[t] = passed[t] || is_of(tasks_[t], Kind::level);
+  for (const TaskId t : step_tasks_) {
+    if (passed[t]) continue;
+    passed[t] = true;
+    add_providers(t, passed, due);
+    due.push_back({t, periods_[t]});
+  }
+  for (TaskId t = 0; t < tasks_.size(); ++t)
+    if (!is_of(tasks_[t], Kind::level)) added[t] = passed[t];
+}
+
 /// `starts`: what belongs to the steps of motions runs before all who might read it, once.
 std::vector<DueTask> Scheduler::due_tasks_of(const Mask& due, bool starts) const {
   std::vector<std::size_t> items;
@@ -212,12 +228,10 @@ std::vector<DueTask> Scheduler::due_tasks_of(const Mask& due, bool starts) const
     tasks.push_back({t, periods_[t]});
   };
   for (const std::size_t i : items) {
-    if (starts && tasks_[items_[i].front()].order >= 2 * order_of(Kind::sensor))
-      for (const TaskId t : step_tasks_)
-        if (!added[t]) {
-          added[t] = true;
-          add(t);
-        }
+    if (starts && tasks_[items_[i].front()].order >= 2 * order_of(Kind::sensor)) {
+      add_step_tasks(added, tasks);
+      starts = false;
+    }
     for (const TaskId t : items_[i]) add(t);
   }
   return tasks;

@@ -168,6 +168,18 @@ TEST_F(StepsOfMotion, ContactHasThePeriodOfTheSlowestMotion) {
   EXPECT_DOUBLE_EQ(recorders[1].last.dt, 0.002);
 }
 
+TEST_F(StepsOfMotion, LevelsChangeBeforeContactAndAfterTheirRules) {
+  add("collision", 0, 2 * order_of(Kind::collision), 0, {6}, {1});
+  add("contact", 0, 2 * order_of(Kind::contact), 0, {1, 6}, {2});
+  add("motion", 10, 2 * order_of(Kind::motion), 0, {2, 6}, {5});
+  add("sensor", 20, 2 * order_of(Kind::sensor), 0, {2, 6}, {3});
+  add("rules", 10, 2 * order_of(Kind::level), 0, {5}, {7});
+  add("levels", 0, 2 * order_of(Kind::level) + 1, 0, {7}, {6});
+  scheduler.run_until(150'000'000);
+  EXPECT_EQ(log, (Log{"collision@0", "contact@0", "sensor@0", "rules@0", "levels@0", "motion@0", "sensor@50",
+                      "sensor@100", "rules@100", "levels@100", "collision@100", "contact@100", "motion@100"}));
+}
+
 TEST_F(StepsOfMotion, WithoutMotionsContactRunsForThoseWhoAsk) {
   add("collision", 0, 2 * order_of(Kind::collision), 0, {5}, {1});
   add("sensor", 20, 2 * order_of(Kind::sensor), 0, {1}, {3});

@@ -7,6 +7,7 @@
 #include "muro/ext/outputs.hpp"
 #include "muro/plugin.hpp"
 #include "muro/toolkit/did_you_mean.hpp"
+#include "plugins/common/contact_geometry/contact_responsibility.hpp"
 #include "plugins/common/csv_file/csv_file.hpp"
 #include "plugins/common/text/glob.hpp"
 #include "plugins/common/text/quote.hpp"
@@ -21,7 +22,8 @@ constexpr Parameter parameters[] = {
 };
 constexpr PropertyUse reads[] = {
     {keys::contact_wrenches_of_motion.name, "of every robot that an engine moves"},
-    {keys::contact_wrenches_of_law.name, "of every robot that the contact algorithm pushes"}};
+    {keys::contact_wrenches_of_law.name, "of every robot that the contact algorithm pushes"},
+    {keys::contact_world.name, "of the same robots: whether forces move them at present"}};
 constexpr Description description{
     .id = "recorder.contacts",
     .kind = Kind::recorder,
@@ -49,13 +51,20 @@ class ContactRecorder final : public Algorithm {
     if (code) throw Error("file " + file + " cannot be written: the working directory is not there any more");
     if (Outputs* outputs = Outputs::of(c.host())) outputs->file(path_);
     choose_bodies(c);
-    for (const RobotView* robot : c.robots())
-      for (const Key<ContactWrench>* key : {&keys::contact_wrenches_of_motion, &keys::contact_wrenches_of_law}) {
-        const auto properties = c.properties(robot->base());
-        if (std::any_of(properties.begin(), properties.end(),
-                        [&](const FoundProperty& p) { return p.key->name == key->name; }))
-          lists_.push_back(c.read_list(robot->base(), *key));
-      }
+    const auto has = [&](const RobotView* robot, const Key<ContactWrench>& key) {
+      const auto properties = c.properties(robot->base());
+      return std::any_of(properties.begin(), properties.end(),
+                         [&](const FoundProperty& p) { return p.key->name == key.name; });
+    };
+    for (const RobotView* robot : c.robots()) {
+      if (!has(robot, keys::contact_wrenches_of_motion) &&
+          !c.is_used(robot->base(), keys::external_wrench, usage::read_sum))
+        continue;  // no force moves it: what it does to others stands in their lists
+      for (const Key<ContactWrench>* key : {&keys::contact_wrenches_of_motion, &keys::contact_wrenches_of_law})
+        if (has(robot, *key))
+          lists_.push_back(
+              {c.read_list(robot->base(), *key), c.read(robot->base(), keys::contact_world), robot->number});
+    }
     if (lists_.empty())
       throw Error(
           "there are no contacts to record: no robot is moved by forces; choose motion.simplified or a motion by an "
@@ -75,16 +84,29 @@ class ContactRecorder final : public Algorithm {
   void step(const Step& step, Range) override {
     if (step.time <= last_time_) file_->cut_back(step.time);  // after a restored snapshot
     last_time_ = step.time;
-    for (const ListIn<ContactWrench>& list : lists_)
-      for (const ContactWrench& contact : *list)
-        if (is_wanted(contact.body) || is_wanted(contact.other)) write(step.time, contact);
+    for (const RobotList& list : lists_) {
+      if (!is_moved_by_forces(*list.world)) continue;  // it stands in the list of the robot that is pushed, too
+      for (const ContactWrench& contact : *list.contacts)
+        if ((is_wanted(contact.body) || is_wanted(contact.other)) && !stands_before(list, contact))
+          write(step.time, contact);
+    }
   }
 
   void finish() override { file_->publish(); }
 
  private:
+  /// What an engine, or the contact algorithm, tells of a robot.
+  struct RobotList {
+    ListIn<ContactWrench> contacts;
+    In<std::uint64_t> world;  ///< see keys::contact_world
+    std::uint32_t robot = 0;
+  };
+
   void choose_bodies(const Connector& c) {
-    for (std::uint32_t i = 0; i < c.object_count(); ++i) names_.emplace_back(c.object_name(ObjectId{i}));
+    for (std::uint32_t i = 0; i < c.object_count(); ++i) {
+      names_.emplace_back(c.object_name(ObjectId{i}));
+      robot_of_.push_back(c.robot_of(ObjectId{i}));
+    }
     const auto patterns = c.parameters().texts("bodies");
     wanted_.assign(names_.size(), patterns.empty());
     for (const std::string_view pattern : patterns) {
@@ -98,6 +120,19 @@ class ContactRecorder final : public Algorithm {
         throw Error("no body matches " + quote(pattern) + did_you_mean(pattern, names_) +
                     "; write \"robot/body\" or the name of an object, such as \"rover_*/left_wheel\" or \"ground\"");
     }
+  }
+
+  /// Whether the list of a robot before has it, as the other body feels it.
+  bool stands_before(const RobotList& own, const ContactWrench& contact) const {
+    const std::int32_t other = contact.other == no_object ? -1 : robot_of_[index_of(contact.other)];
+    if (other < 0 || std::uint32_t(other) >= own.robot) return false;
+    const auto is_same = [&](const ContactWrench& c) {
+      return c.body == contact.other && c.other == contact.body && c.point == contact.point;
+    };
+    return std::any_of(lists_.begin(), lists_.end(), [&](const RobotList& list) {
+      return list.robot == std::uint32_t(other) && is_moved_by_forces(*list.world) &&
+             std::any_of((*list.contacts).begin(), (*list.contacts).end(), is_same);
+    });
   }
 
   bool is_wanted(ObjectId body) const { return body != no_object && wanted_[index_of(body)]; }
@@ -118,9 +153,10 @@ class ContactRecorder final : public Algorithm {
   }
 
   std::string path_;
-  std::vector<std::string> names_;  ///< of all objects
-  std::vector<bool> wanted_;        ///< likewise
-  std::vector<ListIn<ContactWrench>> lists_;
+  std::vector<std::string> names_;      ///< of all objects
+  std::vector<bool> wanted_;            ///< likewise
+  std::vector<std::int32_t> robot_of_;  ///< likewise: number, -1 for scenery
+  std::vector<RobotList> lists_;        ///< in the order of robots
   std::optional<CsvFile> file_;
   std::int64_t last_time_ = -1;  ///< ns, of the last run
 };
