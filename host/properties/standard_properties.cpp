@@ -8,8 +8,8 @@ namespace muro::host {
 namespace {
 
 constexpr const KeyInfo* motion[] = {
-    &keys::pose,           &keys::initial_pose, &keys::initial_twist, &keys::twist,        &keys::external_wrench,
-    &keys::contact_wrench, &keys::gravity,      &keys::friction_rule, &keys::acceleration,
+    &keys::pose,           &keys::initial_pose,   &keys::initial_twist, &keys::twist,         &keys::external_wrench,
+    &keys::contact_wrench, &keys::applied_wrench, &keys::gravity,       &keys::friction_rule, &keys::acceleration,
 };
 constexpr const KeyInfo* levels[] = {
     &keys::motion_level, &keys::motion_level_target, &keys::motion_level_names,

@@ -89,8 +89,9 @@ struct Contact {
 };
 MURO_OPAQUE_TYPE(Contact, "muro.Contact", opaque);
 
-/// One point in which two bodies touch, and what it does to the first of them; the other gets the opposite. Each
-/// stands in one list.
+/// One point in which two bodies touch, and what it does to the first of them; the other gets the opposite. A contact
+/// of two robots stands in the lists of both, each time with the body of the list's owner first: with equal point and
+/// depth, and the opposite normal and wrench. One of two bodies of a robot stands in its list once.
 struct ContactWrench {
   ObjectId body = no_object;
   ObjectId other = no_object;

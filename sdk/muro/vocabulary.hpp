@@ -20,6 +20,11 @@ inline constexpr Key<Wrench> external_wrench{
     "wrench.external", "N, N m", "sum of what acts on a body from outside: world axes, at the body's origin"};
 inline constexpr Key<Wrench> contact_wrench{
     "wrench.contact", "N, N m", "what contacts did to a body in the last step: world axes, at the body's origin"};
+/// By the motion that moves the robot, on links where somebody reads it: all that it has let act on the link in the
+/// step that `acceleration` is of. So Newton's and Euler's equations of the link hold with both.
+inline constexpr Key<Wrench> applied_wrench{
+    "wrench.applied", "N, N m",
+    "what acted on a body from outside in the last step, contacts too: world axes, at the body's origin"};
 inline constexpr Key<Vec3> gravity{"gravity", "m/s^2", "on the world object, world axes"};
 /// Constant on the world object: a FrictionRule (toolkit/pair_surface.hpp); the smaller where it is missing.
 inline constexpr Key<std::uint32_t> friction_rule{"friction.rule", "1",
@@ -92,11 +97,12 @@ inline constexpr Key<Pose> command_pose{"command.pose", "m", "wanted pose of the
 // The scene.
 inline constexpr Key<SceneIndex> scene_index{"scene.index", "m", "on the world object: shapes and boxes for search"};
 inline constexpr Key<Contact> contacts{"contacts", "m", "list on the base of a robot: where it touches"};
-// Who answers for contacts writes them one by one where somebody reads them, on the base of a robot that forces move.
-/// Of the last step, by the engine that moves the robot.
+// Who answers for contacts writes them one by one where somebody reads them, on the base of a robot.
+/// Of the last step, by the engine that moves the robot. A robot that no force moves has no such list: what it does to
+/// others stands in theirs.
 inline constexpr Key<ContactWrench> contact_wrenches_of_motion{
     "contact.wrenches.motion", "m, N, N m", "list on the base of a robot: what its engine's contacts did to it"};
-/// By the contact algorithm, for the step that begins.
+/// By the contact algorithm, for the step that begins; also on robots that no force moves and that others push.
 inline constexpr Key<ContactWrench> contact_wrenches_of_law{
     "contact.wrenches.law", "m, N, N m", "list on the base of a robot: what the contact algorithm does to it"};
 /// Arrays, constant, on the world object: the named places of a scenario.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "muro/toolkit/initial_contact.hpp"
 
@@ -26,6 +27,9 @@ enum class BaseMotion : std::uint8_t {
 /// moved from outside between steps leave no trace.
 class Accelerations {
  public:
+  /// `vertices`: what is known of meshes, for what a robot touches at the start; else any mesh counts as touched.
+  explicit Accelerations(MeshVertices vertices = {}) : vertices_(std::move(vertices)) {}
+
   /// Of item `i`; in the `connect_by_name` of a motion that writes pose, twist and joint velocities. `base`: of the
   /// body that is the base, in its frame; for motions by forces. [setup]
   void connect_by_name(Connector& c, std::uint32_t i, BaseMotion how, const Inertia& base = {}) {
@@ -164,7 +168,7 @@ class Accelerations {
   /// What stands, or moves as commanded, keeps its velocity in its own axes; what forces move and touches nothing falls
   /// and turns as Euler's equations say.
   Twist initial(const Connector& c, const RobotView& robot, OfRobot& r, const Inertia& base) {
-    if (r.how == BaseMotion::by_forces && !contact_) contact_.emplace(c);
+    if (r.how == BaseMotion::by_forces && !contact_) contact_.emplace(c, vertices_);
     if (r.how == BaseMotion::kinematic || contact_->touches(robot)) return r.of_body_axes(Vec3::Zero(), Vec3::Zero());
     const Vec3 gravity = c.constant(world_object, keys::gravity).value_or(Vec3(0, 0, -9.81));
     const Quat& axes = r.pose->orientation;
@@ -178,6 +182,7 @@ class Accelerations {
 
   std::vector<std::int32_t> of_item_;  ///< place in robots_; -1: nobody reads of it
   std::vector<OfRobot> robots_;
+  MeshVertices vertices_;
   std::optional<InitialContact> contact_;
 };
 

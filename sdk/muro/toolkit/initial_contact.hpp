@@ -2,6 +2,9 @@
 // Whether a robot stands on something when a run begins.
 #pragma once
 
+#include <algorithm>
+#include <functional>
+#include <tuple>
 #include <vector>
 
 #include "muro/toolkit/bounds.hpp"
@@ -9,15 +12,21 @@
 
 namespace muro {
 
-/// The collision shapes of a scene at the start, as boxes along the axes of the world; planes are themselves. What is
-/// in the file of a mesh is not known here: a robot that has one, or is asked about one, counts as touching it.
+/// The vertices (m) of the convex hull of a shape's mesh, scaled, in the frame of the shape; empty where they are not
+/// known. [setup]
+using MeshVertices = std::function<std::vector<Vec3>(const Connector& c, const Shape& shape)>;
+
+/// The collision shapes of a scene at the start: against planes meshes as their convex hulls and all else as boxes
+/// along the axes of the world, against each other all as such boxes. A robot that has a mesh whose vertices are not
+/// known, or is asked about one, counts as touching it.
 class InitialContact {
  public:
   /// [setup]
-  explicit InitialContact(const Connector& c) {
+  explicit InitialContact(const Connector& c, const MeshVertices& vertices = {}) {
+    std::vector<MeshFile> files;
     for (std::uint32_t i = 0; i < c.object_count(); ++i) {
       const ObjectId object{i};
-      if (c.robot_of(object) < 0) add(c, object, -1, c.constant(object, keys::pose).value_or(Pose{}));
+      if (c.robot_of(object) < 0) add(c, vertices, files, object, -1, c.constant(object, keys::pose).value_or(Pose{}));
     }
     for (const RobotView* robot : c.robots()) {
       if (c.constant(robot->base(), keys::shadow_of)) continue;
@@ -27,7 +36,7 @@ class InitialContact {
         const Link& link = robot->links[i];
         poses[i] = i == 0 ? c.constant(link.object, keys::initial_pose).value_or(Pose{})
                           : poses[std::size_t(link.parent)] * pose_in_parent(link, positions[i]);
-        add(c, link.object, std::int32_t(robot->number), poses[i]);
+        add(c, vertices, files, link.object, std::int32_t(robot->number), poses[i]);
       }
     }
   }
@@ -38,46 +47,80 @@ class InitialContact {
     for (const Box& a : boxes_) {
       if (a.robot != own) continue;
       for (const Box& b : boxes_)
-        if (b.robot != own && (a.is_mesh || b.is_mesh || a.bounds.overlaps(b.bounds))) return true;
+        if (b.robot != own && (a.is_unknown || b.is_unknown || a.bounds.overlaps(b.bounds))) return true;
       for (const Pose& plane : planes_)
-        if (distance(a.bounds, plane) < margin) return true;
+        if (distance(a, plane) < margin) return true;
     }
     return false;
   }
 
  private:
   static constexpr double margin = 1e-3;  ///< m
+  static constexpr std::int32_t no_mesh = -1;
   struct Box {
     Aabb bounds;  ///< with half the margin
     std::int32_t robot = -1;
-    bool is_mesh = false;
+    bool is_unknown = false;      ///< it is a mesh whose vertices are not known
+    std::int32_t mesh = no_mesh;  ///< in meshes_
+    Pose pose;                    ///< of a mesh
   };
+  /// Which file, at which scale: the mesh of this number in meshes_.
+  using MeshFile = std::tuple<TextId, double, double, double>;
 
-  void add(const Connector& c, ObjectId object, std::int32_t robot, const Pose& body) {
+  std::int32_t mesh_of(const Connector& c, const MeshVertices& vertices, std::vector<MeshFile>& files,
+                       const Shape& shape) {
+    const MeshFile file{shape.mesh, shape.size.x(), shape.size.y(), shape.size.z()};
+    const auto known = std::find(files.begin(), files.end(), file);
+    const auto number = std::int32_t(known - files.begin());
+    if (known != files.end()) return number;
+    files.push_back(file);
+    meshes_.push_back(vertices ? vertices(c, shape) : std::vector<Vec3>{});
+    return number;
+  }
+
+  void add(const Connector& c, const MeshVertices& vertices, std::vector<MeshFile>& files, ObjectId object,
+           std::int32_t robot, const Pose& body) {
+    const Vec3 half_margin = Vec3::Constant(0.5 * margin);
     for (const Shape& shape : c.constant_array(object, keys::collision_shapes)) {
       const Pose pose = body * shape.origin;
       if (shape.kind == ShapeKind::plane) {
         planes_.push_back(pose);
         continue;
       }
-      Aabb bounds = bounds_of(shape, pose);
+      Box box{.bounds = bounds_of(shape, pose), .robot = robot, .pose = pose};
+      Aabb& bounds = box.bounds;
       if (shape.kind == ShapeKind::heightmap) {  // solid below its surface, which is no higher than its value 1
         bounds.low.z() = -std::numeric_limits<double>::infinity();
         bounds.high.z() += shape.size.z();
       }
-      const Vec3 half_margin = Vec3::Constant(0.5 * margin);
-      boxes_.push_back({{bounds.low - half_margin, bounds.high + half_margin}, robot, shape.kind == ShapeKind::mesh});
+      if (shape.kind == ShapeKind::mesh) {
+        box.mesh = mesh_of(c, vertices, files, shape);
+        bounds = {};
+        for (const Vec3& v : meshes_[std::size_t(box.mesh)]) bounds.include({pose * v, pose * v});
+        box.is_unknown = meshes_[std::size_t(box.mesh)].empty();
+      }
+      bounds = {bounds.low - half_margin, bounds.high + half_margin};
+      boxes_.push_back(box);
     }
   }
-  /// m, of the nearest corner of a box from a plane; below 0 behind it.
-  static double distance(const Aabb& box, const Pose& plane) {
+  /// m, of the nearest vertex of a mesh (0 where they are not known), or the nearest corner of a box, from a plane;
+  /// below 0 behind it.
+  double distance(const Box& box, const Pose& plane) const {
     const Vec3 normal = plane.orientation * Vec3::UnitZ();
-    const Vec3 middle = 0.5 * (box.low + box.high), half = 0.5 * (box.high - box.low);
+    if (box.is_unknown) return 0;
+    if (box.mesh != no_mesh) {
+      double nearest = std::numeric_limits<double>::infinity();
+      for (const Vec3& v : meshes_[std::size_t(box.mesh)])
+        nearest = std::min(nearest, normal.dot(box.pose * v - plane.position));
+      return nearest;
+    }
+    const Vec3 middle = 0.5 * (box.bounds.low + box.bounds.high), half = 0.5 * (box.bounds.high - box.bounds.low);
     return normal.dot(middle - plane.position) - normal.cwiseAbs().dot(half);
   }
 
   std::vector<Box> boxes_;
   std::vector<Pose> planes_;
+  std::vector<std::vector<Vec3>> meshes_;  ///< by number of the file: vertices, in the frame of the shape
 };
 
 }  // namespace muro

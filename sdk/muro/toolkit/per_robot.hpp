@@ -67,9 +67,9 @@ class NotedSpan {
   CallNote* note_;
 };
 
-/// An algorithm that serves each robot from the properties of this robot alone, so that robots may be divided among
-/// threads. `Robot` is what it keeps of one: handles and parameters. What is left to a derived class is to connect one
-/// robot, and a step that goes through `robots(range)`.
+/// An algorithm that writes properties of each robot from those of this robot alone (or see set_reads_other_robots), so
+/// that robots may be divided among threads. `Robot` is what it keeps of one: handles and parameters. What is left to a
+/// derived class is to connect one robot, and a step that goes through `robots(range)`.
 template <class Robot>
 class PerRobotAlgorithm : public Algorithm {
  public:
@@ -84,8 +84,9 @@ class PerRobotAlgorithm : public Algorithm {
   }
 
   std::span<const Phase> phases() const final {
-    static constexpr Phase phases[] = {{Phase::IndexSpace::items, Phase::Scope::own_robot}};
-    return phases;
+    static constexpr Phase own[] = {{Phase::IndexSpace::items, Phase::Scope::own_robot}};
+    static constexpr Phase all[] = {{Phase::IndexSpace::items, Phase::Scope::reads_all}};
+    return scope_ == Phase::Scope::own_robot ? own : all;
   }
 
  protected:
@@ -93,6 +94,9 @@ class PerRobotAlgorithm : public Algorithm {
   virtual void read_parameters(const Parameters& parameters) { static_cast<void>(parameters); }
   /// Binds every property of one robot; `item.robot` is not null. [setup]
   virtual Robot connect_robot(Connector& connector, const Item& item) = 0;
+
+  /// Steps of a robot read properties of other robots, too; to be called from connect_robot. [setup]
+  void set_reads_other_robots() { scope_ = Phase::Scope::reads_all; }
 
   /// Those of the items of `range`, for a loop; messages about a call that fails name the robot at which it was. [step]
   NotedSpan<Robot> robots(Range range) { return {robots_.data(), range, note()}; }
@@ -103,6 +107,7 @@ class PerRobotAlgorithm : public Algorithm {
 
   std::vector<Robot> robots_;  ///< one an item
   CallNotes* notes_ = nullptr;
+  Phase::Scope scope_ = Phase::Scope::own_robot;
 };
 
 }  // namespace muro
