@@ -65,7 +65,8 @@ struct RobotState {
   std::vector<Wrench> external;    ///< in: one per body, at the body's origin, world axes
   std::vector<Wrench> contact;     ///< out: one per loaded link, at its body's origin: by contacts in the world
   bool tells_contacts = false;     ///< in: whether `contacts` are wanted
-  /// Out: those of the last step, each in one of the two robots that it is between, and there with a body of it first.
+  /// Out: those of the last step, in each dynamic robot with a part in them, there with a body of it first; contact of
+  /// two bodies of a robot once.
   std::vector<ContactWrench> contacts;
   Overlap overlap;                   ///< out: the deepest with scenery in the last step
   bool moved_from_outside = false;   ///< in: it is not where the last step left it

@@ -2,7 +2,9 @@
 #include "bodies.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <string>
+#include <tuple>
 
 #include "apparent_mass.hpp"
 #include "muro/toolkit/mass_properties.hpp"
@@ -26,12 +28,39 @@ void Bodies::connect(Connector& c) {
   }
   robot_of.assign(c.robots().size(), no_robot);
   for (const RobotView* robot : c.robots()) connect_robot(c, *robot, resists_turning);
+  if (!robots.empty()) connect_kinematic_robots(c);
+  by_order_key.resize(robots.size());
+  std::iota(by_order_key.begin(), by_order_key.end(), 0u);
+  std::sort(by_order_key.begin(), by_order_key.end(), [this](std::uint32_t a, std::uint32_t b) {
+    return std::tuple(robots[a].order_key, a) < std::tuple(robots[b].order_key, b);
+  });
+}
+
+void Bodies::connect_kinematic_robots(Connector& c) {
+  for (const RobotView* view : c.robots()) {
+    if (robot_of[view->number] != no_robot || c.constant(view->base(), keys::shadow_of)) continue;
+    const auto has_shapes = [&](const Link& link) {
+      return !c.constant_array(link.object, keys::collision_shapes).empty();
+    };
+    if (std::none_of(view->links.begin(), view->links.end(), has_shapes)) continue;
+    for (const Link& link : view->links) all[index_of(link.object)].kinematic_robot = std::int32_t(kinematic_robots.size());
+    kinematic_robots.push_back({view->base(), c.derived_list(view->base(), keys::contact_wrenches_of_law)});
+  }
 }
 
 void Bodies::connect_by_name(const Connector& c) {
-  for (const RobotView* robot : c.robots())
-    tells_contacts = tells_contacts || (robot_of[robot->number] != no_robot &&
-                                        c.is_used(robot->base(), keys::contact_wrenches_of_law, usage::read));
+  const auto is_read = [&](ObjectId base) { return c.is_used(base, keys::contact_wrenches_of_law, usage::read); };
+  for (const RobotView* robot : c.robots()) {
+    if (robot_of[robot->number] == no_robot || !is_read(robot->base())) continue;
+    tells_contacts = true;
+    tells_kinematic_robots =
+        tells_kinematic_robots || !c.constant_array(robot->base(), keys::motion_level_names).empty();
+  }
+  for (KinematicRobot& robot : kinematic_robots) {
+    robot.is_read = is_read(robot.base);
+    tells_contacts = tells_contacts || robot.is_read;
+    tells_kinematic_robots = tells_kinematic_robots || robot.is_read;
+  }
 }
 
 void Bodies::connect_robot(Connector& c, const RobotView& view, bool resists_turning) {

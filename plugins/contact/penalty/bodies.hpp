@@ -24,6 +24,7 @@ struct Body {
   const Twist* twist = nullptr;    ///< null: scenery, which does not move
   std::int32_t robot = no_robot;   ///< in Bodies::robots, when forces can move it
   std::uint32_t dynamic_body = 0;  ///< in Bodies::dynamic_bodies, the same
+  std::int32_t kinematic_robot = no_robot;    ///< in Bodies::kinematic_robots, of a robot that forces never move
   std::uint32_t model = 0;         ///< equal for all bodies of a robot
   std::uint64_t name = 0;          ///< hash
 };
@@ -53,6 +54,13 @@ struct Robot {
   std::uint64_t order_key = 0;  ///< of two robots, the one with the lower key computes their contacts
 };
 
+/// A robot that forces never move, and that others push.
+struct KinematicRobot {
+  ObjectId base = no_object;
+  ListOut<ContactWrench> told;  ///< as that of a Robot
+  bool is_read = false;
+};
+
 struct Material {
   double restitution = 0, damping_ratio = 0;
 };
@@ -60,11 +68,14 @@ struct Material {
 struct Bodies {
   std::vector<Body> all;  ///< by object id
   std::vector<Robot> robots;
+  std::vector<std::uint32_t> by_order_key;  ///< numbers of `robots`, the lowest key first
+  std::vector<KinematicRobot> kinematic_robots;
   std::vector<DynamicBody> dynamic_bodies;
-  std::vector<std::int32_t> robot_of;  ///< by robot number: in `robots`, or no_robot
-  std::vector<MassProperties> masses;  ///< all different
-  std::vector<Material> materials;     ///< of all shapes; a pair has the larger restitution of two
-  bool tells_contacts = false;         ///< somebody reads what each contact does
+  std::vector<std::int32_t> robot_of;   ///< by robot number: in `robots`, or no_robot
+  std::vector<MassProperties> masses;   ///< all different
+  std::vector<Material> materials;      ///< of all shapes; a pair has the larger restitution of two
+  bool tells_contacts = false;          ///< somebody reads what each contact does
+  bool tells_kinematic_robots = false;  ///< the same of contacts with robots that no force moves, at some time at least
 
   void connect(Connector& c);
   void connect_by_name(const Connector& c);
@@ -93,10 +104,28 @@ struct Bodies {
     const Robot& r = robots[robot];
     for (std::uint32_t u = r.first_body; u < r.first_body + r.body_count; ++u) *dynamic_bodies[u].wrench = Wrench{};
   }
+  /// Where contacts of the body's robot are told if no force moves that robot at present and somebody reads it; else
+  /// null.
+  const ListOut<ContactWrench>* list_of_kinematic(ObjectId body) const {
+    const Body& b = (*this)[body];
+    if (b.robot != no_robot)
+      return is_moved_by_forces(world_of(b.robot)) ? nullptr : &robots[std::size_t(b.robot)].told;
+    if (b.kinematic_robot == no_robot) return nullptr;
+    const KinematicRobot& robot = kinematic_robots[std::size_t(b.kinematic_robot)];
+    return robot.is_read ? &robot.told : nullptr;
+  }
+  void clear_kinematic_lists() const {
+    for (const KinematicRobot& robot : kinematic_robots)
+      if (robot.is_read) robot.told.clear();
+  }
   /// Puts contacts (one or more) into the list of a robot, without what they do. Returns the first.
   static ContactWrench* tell(const Robot& robot, std::span<const Contact> contacts) {
     for (const Contact& c : contacts) robot.told.push_back({c.self, c.other, c.point, c.normal, c.depth, {}});
     return (*robot.told).data() + (*robot.told).size() - contacts.size();
+  }
+  /// Puts a contact that another robot has computed into the list of the one that it pushes.
+  static void tell_reaction(const ListOut<ContactWrench>& list, const ContactWrench& c) {
+    list.push_back({c.other, c.body, c.point, -c.normal, c.depth, {-c.wrench.force, -c.wrench.torque}});
   }
   std::uint32_t material_of(double restitution) const {
     std::uint32_t i = 0;
@@ -109,6 +138,7 @@ struct Bodies {
 
  private:
   void connect_robot(Connector& c, const RobotView& view, bool resists_turning);
+  void connect_kinematic_robots(Connector& c);
   void add_dynamic_body(Connector& c, ObjectId body, const MassProperties& mass);
   std::uint32_t number_of(const MassProperties& mass);
 };

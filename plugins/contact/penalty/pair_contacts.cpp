@@ -34,6 +34,7 @@ void PairContacts::add_records() {
     r->impact_patches.reserve(8);
     r->impact_contacts.reserve(32);
     r->points.reserve(32);
+    if (bodies_.tells_contacts) r->told.reserve(32);
   }
 }
 
@@ -47,7 +48,8 @@ void PairContacts::pass(int which, std::uint32_t robot) {
       return count_impacts(robot);
     case 2:
       apply_forces(robot);
-      return apply_impacts(robot);
+      apply_impacts(robot);
+      return keep_told(robot);
     case 3:
       return add_reactions(robot);
   }
@@ -367,11 +369,34 @@ void PairContacts::apply_reaction(std::uint32_t self, ContactPatch& patch, const
   patch.reaction.torque -= (half * (point_velocity - (1 - 2 * other_lag) * u)).cross(force);
 }
 
+/// In the next pass the list gets what others have computed, while these read from here.
+void PairContacts::keep_told(std::uint32_t self) {
+  if (!bodies_.tells_contacts) return;
+  std::vector<ContactWrench>& told = record(self).told;
+  told.clear();
+  if (bodies_.robots[self].is_shadow) return;
+  for (const ContactWrench& contact : *bodies_.robots[self].told)
+    if (bodies_[contact.other].twist) told.push_back(contact);
+}
+
 void PairContacts::add_reactions(std::uint32_t self) {
-  for (const std::uint32_t owner : record(self).owners)
+  for (const std::uint32_t owner : record(self).owners) {
     for (const ContactPatch& p : record(owner).patches)
       if (p.other == std::int32_t(self)) *bodies_.dynamic_bodies[p.other_body].wrench += p.reaction;
+    if (!bodies_.tells_contacts) continue;
+    for (const ContactWrench& contact : record(owner).told)
+      if (bodies_[contact.other].robot == std::int32_t(self)) Bodies::tell_reaction(bodies_.robots[self].told, contact);
+  }
   if (record(self).impacts > 0) add_impact_reactions(self);
+}
+
+void PairContacts::tell_kinematic_robots() const {
+  for (const std::uint32_t robot : bodies_.by_order_key) {
+    if ((*flags_)[robot] == 0) continue;
+    for (const ContactWrench& contact : record(robot).told)
+      if (const ListOut<ContactWrench>* list = bodies_.list_of_kinematic(contact.other))
+        Bodies::tell_reaction(*list, contact);
+  }
 }
 
 }  // namespace muro::penalty

@@ -34,12 +34,15 @@ class PairContacts {
   /// Between passes 1 and 2: the impacts of bodies that are in several, one after the other in the order of their
   /// times.
   void resolve_in_turns();
+  /// After the passes: what they do to robots that no force moves, for who reads it.
+  void tell_kinematic_robots() const;
   /// All passes, for all of them.
   void run() {
     for (int which = 0; which < passes; ++which) {
       if (which == 2) resolve_in_turns();
       for (const std::uint32_t r : robots_) pass(which, r);
     }
+    if (bodies_.tells_kinematic_robots) tell_kinematic_robots();
   }
 
  private:
@@ -116,6 +119,7 @@ class PairContacts {
     std::vector<ImpactContact> impact_contacts;  ///< of these patches
     std::vector<ImpactPoint> points;             ///< scratch
     Push pushed;                                 ///< in the impacts of this step that came before
+    std::vector<ContactWrench> told;             ///< those of its list in which it pushes others; where they are told
     std::size_t impacts = 0;                     ///< patches in which it is, its own and those of others
     double load = 0;                             ///< its stiffest motion, in units of omega^2
   };
@@ -133,6 +137,7 @@ class PairContacts {
   FreeBody free_body(std::uint32_t robot) const { return {bodies_, bodies_.base_of(bodies_.robots[robot])}; }
   void find_load(std::uint32_t self);
   void apply_forces(std::uint32_t self);
+  void keep_told(std::uint32_t self);
   void add_reactions(std::uint32_t self);
 
   bool computes(std::uint32_t self, std::int32_t other) const;

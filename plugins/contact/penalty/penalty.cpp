@@ -32,7 +32,7 @@ constexpr PropertyUse writes[] = {
     {"contact.friction_anchors", "friction anchors, of every robot that forces move"},
     {"contact.turning_springs", "springs against rolling and spinning, of the same, where shapes resist these"},
     {keys::contact_wrenches_of_law.name,
-     "of every robot that forces move: what each contact does, where somebody reads it"},
+     "of every robot with a part in a contact: what each does, where somebody reads it"},
     {"contact.time", "of the last run, on the world object"},
     {"contact.impact", "of every robot whose motion takes impacts at their instant"},
     {"contact.impact.time", "of the same robots, when they were in an impact last"},
@@ -82,13 +82,16 @@ class Penalty final : public Algorithm {
     context.correcting_speed = correcting_speed_;
     if (step.phase == 0) return scenery_contacts_->apply_forces(context, range);
     if (step.phase == turns_phase) return pair_contacts_->resolve_in_turns();
+    if (step.phase == kinematic_phase) return pair_contacts_->tell_kinematic_robots();
     if (step.phase > turns_phase) return process_pairs(int(step.phase) - 3, range);
     if (step.phase > 1) return process_pairs(int(step.phase) - 2, range);
     *last_run_ = step.time;
     if (context.stiffness.omega < omega_) report(context.stiffness);
+    bodies_.clear_kinematic_lists();
     constexpr std::size_t few = 12;  // take less time than distributing them to threads
     const std::size_t count = pair_contacts_->begin(context, scenery_contacts_->remaining());
     many_pairs_ = count > few ? 1 : 0;
+    tells_kinematic_robots_ = many_pairs_ != 0 && bodies_.tells_kinematic_robots ? 1 : 0;
     if (!many_pairs_) pair_contacts_->run();
   }
 
@@ -116,17 +119,18 @@ class Penalty final : public Algorithm {
   std::unique_ptr<SceneryContacts> scenery_contacts_;
   std::unique_ptr<PairContacts> pair_contacts_;
   Out<std::int64_t> last_run_;
-  std::uint8_t many_pairs_ = 0;
+  std::uint8_t many_pairs_ = 0, tells_kinematic_robots_ = 0;
   const Phase for_many_{.index_space = Phase::IndexSpace::robots, .enabled = &many_pairs_};
   static_assert(PairContacts::passes == 4);
-  static constexpr std::uint32_t turns_phase = 4;
-  const Phase phases_[7] = {{Phase::IndexSpace::robots, Phase::Scope::own_robot},
+  static constexpr std::uint32_t turns_phase = 4, kinematic_phase = 7;
+  const Phase phases_[8] = {{Phase::IndexSpace::robots, Phase::Scope::own_robot},
                             {},
                             for_many_,
                             for_many_,
                             {.enabled = &many_pairs_},
                             for_many_,
-                            for_many_};
+                            for_many_,
+                            {.enabled = &tells_kinematic_robots_}};
 };
 
 constexpr abi::AlgorithmEntry algorithms[] = {algorithm<Penalty>(description)};

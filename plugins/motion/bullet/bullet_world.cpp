@@ -269,17 +269,19 @@ void BulletWorld::solve(std::span<const Island> island, double dt) {
   }
 }
 
-/// To the first of the two, or to the other where the world does not move that.
+/// To both robots, as far as the world moves them.
 void BulletWorld::tell_contact(const SolverContact& contact, const Vec3& force, const Vec3& torque) {
-  const bool of_a = contact.a->robot >= 0 && robots_[std::size_t(contact.a->robot)].is_dynamic();
-  const Collider &self = of_a ? *contact.a : *contact.b, &other = of_a ? *contact.b : *contact.a;
-  if (self.robot < 0 || !robots_[std::size_t(self.robot)].is_dynamic()) return;
-  multibody::RobotState& state = robots_[std::size_t(self.robot)].state();
   const ContactPoint& p = contact.point;
-  if (!state.tells_contacts || (p.gap > 0 && force.isZero(0))) return;
-  const double sign = of_a ? 1 : -1;
-  state.contacts.push_back(
-      {self.object, other.object, p.position, sign * p.normal, -p.gap, {sign * force, sign * torque}});
+  if (p.gap > 0 && force.isZero(0)) return;
+  const auto tell = [&](const Collider& self, const Collider& other, double sign) {
+    if (self.robot < 0 || !robots_[std::size_t(self.robot)].is_dynamic()) return;
+    multibody::RobotState& state = robots_[std::size_t(self.robot)].state();
+    if (state.tells_contacts)
+      state.contacts.push_back(
+          {self.object, other.object, p.position, sign * p.normal, -p.gap, {sign * force, sign * torque}});
+  };
+  tell(*contact.a, *contact.b, 1);
+  if (contact.b->robot != contact.a->robot) tell(*contact.b, *contact.a, -1);
 }
 
 void BulletWorld::export_contacts(double dt) {

@@ -152,14 +152,14 @@ void MujocoContacts::export_wrenches(const mjData& d, std::deque<MujocoRobot>& r
     const auto is_dynamic = [&robots](const GeomOwner& owner) {
       return owner.robot >= 0 && robots[std::size_t(owner.robot)].state().motion_type == multibody::MotionType::dynamic;
     };
-    const bool of_a = is_dynamic(a);
-    if (!of_a && !is_dynamic(b)) continue;
-    const GeomOwner &self = of_a ? a : b, &other = of_a ? b : a;
-    multibody::RobotState& state = robots[std::size_t(self.robot)].state();
-    const double sign = of_a ? -1 : 1;
-    if (state.tells_contacts)
-      state.contacts.push_back(
-          {self.object, other.object, point, sign * vector_of(c.frame), -c.dist, {sign * force, sign * torque}});
+    const auto tell = [&](const GeomOwner& self, const GeomOwner& other, double sign) {
+      multibody::RobotState& state = robots[std::size_t(self.robot)].state();
+      if (state.tells_contacts)
+        state.contacts.push_back(
+            {self.object, other.object, point, sign * vector_of(c.frame), -c.dist, {sign * force, sign * torque}});
+    };
+    if (is_dynamic(a)) tell(a, b, -1);
+    if (is_dynamic(b) && b.robot != a.robot) tell(b, a, 1);
   }
 }
 

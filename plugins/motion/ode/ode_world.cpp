@@ -328,16 +328,20 @@ void OdeWorld::create_contact_joints() {
   }
 }
 
-/// To the first of the two, or to the other where the world does not move that. ODE's torque is about the centre of
-/// mass.
+/// To both robots, as far as the world moves them.
 void OdeWorld::tell_contact(const FoundContact& found, const dJointFeedback* feedback, bool first_is_g1) {
-  const dContactGeom& geom = found.contact.geom;
   const auto is_dynamic = [this](const GeomOwner& owner) {
     return owner.robot >= 0 && robots_[std::size_t(owner.robot)].motion_type() == MotionType::dynamic;
   };
-  const bool of_first = is_dynamic(*found.first);
-  if (!of_first && !is_dynamic(*found.second)) return;
-  const GeomOwner &self = of_first ? *found.first : *found.second, &other = of_first ? *found.second : *found.first;
+  if (is_dynamic(*found.first)) tell_contact_to(*found.first, *found.second, found, feedback, first_is_g1);
+  if (is_dynamic(*found.second) && found.second->robot != found.first->robot)
+    tell_contact_to(*found.second, *found.first, found, feedback, first_is_g1);
+}
+
+/// ODE's torque is about the centre of mass.
+void OdeWorld::tell_contact_to(const GeomOwner& self, const GeomOwner& other, const FoundContact& found,
+                               const dJointFeedback* feedback, bool first_is_g1) {
+  const dContactGeom& geom = found.contact.geom;
   multibody::RobotState& state = robots_[std::size_t(self.robot)].state();
   if (!state.tells_contacts) return;
   const bool is_g1 = &owner_of(geom.g1) == &self;

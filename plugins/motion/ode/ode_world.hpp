@@ -52,6 +52,8 @@ class OdeWorld final : public multibody::World {
   void create_contact_joints();
   void step_world(double dt);
   void tell_contact(const FoundContact& found, const dJointFeedback* feedback, bool first_is_g1);
+  void tell_contact_to(const GeomOwner& self, const GeomOwner& other, const FoundContact& found,
+                       const dJointFeedback* feedback, bool first_is_g1);
   void export_contacts();
   GeomOwner& set_owner(dGeomID geom, const multibody::BodyShape& shape);
   /// Calls of ODE, with its errors as exceptions.
