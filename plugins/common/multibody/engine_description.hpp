@@ -34,6 +34,7 @@ inline constexpr PropertyUse writes[] = {
     writes_acceleration,
     writes_joint_acceleration,
     {"wrench.contact", "of every body with collision shapes"},
+    {keys::applied_wrench.name, "of every body with collision shapes, where somebody reads it"},
     {keys::contact_wrenches_of_motion.name, "of the base: what each contact did, where somebody reads it"},
     {"contact.world", "that this world answers for contacts"},
     {"twist.lag", "0.5: semi-implicit Euler"},

@@ -58,7 +58,7 @@ void Motion::connect_by_name(Connector& c) {
                                    is_free ? robot->model().bodies.front().inertia : Inertia{});
     if (!robot) continue;
     robot->set_has_contact_law(c.is_used(c.items()[i].robot->base(), keys::contacts, usage::read));
-    robot->connect_by_name(c, c.items()[i].robot->base());
+    robot->connect_by_name(c, *c.items()[i].robot);
   }
 }
 
@@ -160,7 +160,10 @@ void Motion::step_world(const Step& step) {
   for (int i = 0; i < substeps_; ++i) {
     for (WorldRobot& r : robots_) r.set_drive_targets(dt, gain);
     advance(dt);
-    for (WorldRobot& r : robots_) r.state().moved_from_outside = false;
+    for (WorldRobot& r : robots_) {
+      r.add_contacts(substeps_);
+      r.state().moved_from_outside = false;
+    }
   }
   for (WorldRobot& r : robots_)
     if (r.is_dynamic()) r.export_state();

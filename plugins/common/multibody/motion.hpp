@@ -9,6 +9,7 @@
 #include "kinematic_robot.hpp"
 #include "muro/description.hpp"
 #include "muro/toolkit/accelerations.hpp"
+#include "plugins/common/mesh/hull_vertices.hpp"
 #include "muro/toolkit/pair_surface.hpp"
 #include "world_robot.hpp"
 
@@ -51,7 +52,7 @@ class Motion : public Algorithm {
   void advance(double dt);
   bool moves(std::uint32_t item) const;
 
-  Accelerations accelerations_;
+  Accelerations accelerations_{mesh::hull_vertices};
   Vec3 gravity_ = Vec3::Zero();
   FrictionRule friction_rule_ = FrictionRule::min;
   WorldRobot::WorldTraits traits_;

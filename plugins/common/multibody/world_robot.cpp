@@ -75,8 +75,14 @@ bool WorldRobot::follows_positions(std::size_t body) const {
   return body > 0 && model_.bodies[body].drive == DriveMode::position && model_.bodies[body].leader < 0;
 }
 
-void WorldRobot::connect_by_name(Connector& c, ObjectId base) {
-  state_.tells_contacts = c.is_used(base, keys::contact_wrenches_of_motion, usage::read);
+void WorldRobot::connect_by_name(Connector& c, const RobotView& view) {
+  state_.tells_contacts = c.is_used(view.base(), keys::contact_wrenches_of_motion, usage::read);
+  for (std::size_t i = 0; i < wrenches_.size(); ++i) {
+    const ObjectId link = view.links[model_.loaded_links[i].link].object;
+    if (!c.is_used(link, keys::applied_wrench, usage::read)) continue;
+    wrenches_[i].applied = c.derived(link, keys::applied_wrench);
+    tells_applied_ = true;
+  }
   for (std::size_t i = 1; i < joints_.size(); ++i) {
     if (follows_positions(i)) joints_[i].position_target.connect_by_name(c);
     if (model_.bodies[i].drive == DriveMode::effort && model_.bodies[i].leader < 0)
@@ -157,8 +163,10 @@ void WorldRobot::import() {
 
 /// Another motion has taken the robot over, which does not write them.
 void WorldRobot::clear_outputs() const {
-  for (const LinkWrenches& w : wrenches_)
+  for (const LinkWrenches& w : wrenches_) {
     if (w.contact) *w.contact = Wrench{};
+    if (w.applied) *w.applied = Wrench{};
+  }
   for (std::size_t i = 1; i < joints_.size(); ++i) *joints_[i].effort = 0;
 }
 
@@ -173,11 +181,12 @@ void WorldRobot::import_wrenches() {
                     " is not finite; look at what adds to its `wrench.external`");
     }
   for (Wrench& w : state_.external) w = Wrench{};
+  for (LinkWrenches& w : wrenches_) w.used = w.mean_contact = Wrench{};
   if (!state_.has_external_wrench) return;
   forward_kinematics(model_, state_, body_states_);
   for (std::size_t i = 0; i < wrenches_.size(); ++i) {
     const LinkPlacement& placement = model_.loaded_links[i].placement;
-    const Wrench w = wrenches_[i].external.value();
+    const Wrench w = wrenches_[i].used = wrenches_[i].external.value();
     Wrench& sum = state_.external[placement.body];
     sum.add_force(w.force, body_states_[placement.body].pose.orientation * placement.pose.position);
     sum.torque += w.torque;
@@ -299,6 +308,14 @@ void WorldRobot::check_input() const {
                 " has a pose, a twist or a joint that is not finite, or no orientation; look at what writes them");
 }
 
+void WorldRobot::add_contacts(int count) {
+  if (!tells_applied_) return;
+  for (std::size_t i = 0; i < wrenches_.size(); ++i) {
+    wrenches_[i].mean_contact.force += state_.contact[i].force / count;
+    wrenches_[i].mean_contact.torque += state_.contact[i].torque / count;
+  }
+}
+
 void WorldRobot::export_contacts() {
   if (state_.tells_contacts) {
     contacts_.clear();
@@ -306,16 +323,21 @@ void WorldRobot::export_contacts() {
   }
   bool has_body_states = false;
   for (std::size_t i = 0; i < wrenches_.size(); ++i) {
-    if (!wrenches_[i].contact) continue;
-    Wrench w = state_.contact[i];
-    const LinkPlacement& placement = model_.loaded_links[i].placement;
-    if (!placement.pose.position.isZero(0) && !w.force.isZero(0)) {
-      if (!has_body_states) forward_kinematics(model_, state_, body_states_);
-      has_body_states = true;
-      w.torque -= Vec3(body_states_[placement.body].pose.orientation * placement.pose.position).cross(w.force);
-    }
-    *wrenches_[i].contact = w;
+    const LinkWrenches& w = wrenches_[i];
+    if (w.contact) *w.contact = at_link(i, state_.contact[i], has_body_states);
+    if (w.applied) (*w.applied = at_link(i, w.mean_contact, has_body_states)) += w.used;
   }
+}
+
+/// Of a loaded link: what acts at the origin of its body, at its own. `has_body_states`: they are those of this step.
+Wrench WorldRobot::at_link(std::size_t number, const Wrench& at_body, bool& has_body_states) {
+  Wrench w = at_body;
+  const LinkPlacement& placement = model_.loaded_links[number].placement;
+  if (placement.pose.position.isZero(0) || w.force.isZero(0)) return w;
+  if (!has_body_states) forward_kinematics(model_, state_, body_states_);
+  has_body_states = true;
+  w.torque -= Vec3(body_states_[placement.body].pose.orientation * placement.pose.position).cross(w.force);
+  return w;
 }
 
 }  // namespace muro::multibody

@@ -27,8 +27,9 @@ class WorldRobot {
   /// `engine_memory`: how many numbers the engine keeps of the robot. [setup]
   void connect(Connector& c, const RobotView& view, const Parameters& p, const WorldTraits& traits,
                std::size_t engine_memory);
-  /// Finds out whether velocities of joints in mode position are commanded, and what drives bring with them. [setup]
-  void connect_by_name(Connector& c, ObjectId base);
+  /// Finds out whether velocities of joints in mode position are commanded, what drives bring with them, and what is
+  /// read of contacts. [setup]
+  void connect_by_name(Connector& c, const RobotView& view);
   /// Whether one of those that add to its external wrenches is the contact algorithm. [setup]
   void set_has_contact_law(bool has) { has_contact_law_ = has; }
 
@@ -46,6 +47,8 @@ class WorldRobot {
   /// Sets what drives are to do in a step of the engine of `dt` (s). `gain_of_mimics`: 1/s. Throws Error for targets
   /// that are not finite.
   void set_drive_targets(double dt, double gain_of_mimics);
+  /// When the engine has made one of `count` steps of this step of the motion: what contacts have done in it.
+  void add_contacts(int count);
   /// State to properties. Throws Error when it passes the limits of the watch.
   void export_state();
 
@@ -68,6 +71,9 @@ class WorldRobot {
   struct LinkWrenches {
     SumIn<Wrench> external;
     Out<Wrench> contact;  ///< by contacts in the own world; none without shapes
+    Out<Wrench> applied;  ///< where somebody reads it
+    Wrench used;          ///< `external` of this step
+    Wrench mean_contact;  ///< of the steps of the engine so far, as RobotState::contact; where `applied` is read
   };
 
   void connect_joints(Connector& c, const RobotView& view, const Parameters& p, const watch::Reach& reach);
@@ -75,6 +81,7 @@ class WorldRobot {
   void connect_memory(Connector& c, const RobotView& view, std::string_view motion, std::size_t engine_memory);
   void import_wrenches();
   void export_contacts();
+  Wrench at_link(std::size_t number, const Wrench& at_body, bool& has_body_states);
   void clear_outputs() const;
   bool follows_positions(std::size_t body) const;
   void check_input() const;
@@ -100,6 +107,7 @@ class WorldRobot {
   std::vector<double> positions_;  ///< of joints, one per body
   ListOut<ContactWrench> contacts_;
   std::vector<LinkWrenches> wrenches_;                 ///< one per loaded link
+  bool tells_applied_ = false;                         ///< `applied` of some of them is read
   std::vector<std::string> joint_names_, link_names_;  ///< the same; for messages
   LastState last_;
   std::vector<BodyState> body_states_;  ///< scratch

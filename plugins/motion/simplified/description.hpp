@@ -39,6 +39,7 @@ inline constexpr Parameter parameters[] = {
 };
 inline constexpr PropertyUse reads[] = {
     {"wrench.external", "of the base; of each body with a shape, too, where forces move joints: sums"},
+    {keys::contact_wrenches_of_law.name, "of the robot, where somebody reads `wrench.applied`"},
     {"contacts", "of the robot, where a contact algorithm reads them: how deep it is in scenery"},
     {"gravity", "on the world object; 0 0 -9.81 when absent"},
     {"inertial", "of every body"},
@@ -60,6 +61,7 @@ inline constexpr PropertyUse writes[] = {
     {"joint.position", "of every joint"},
     {"joint.velocity", "of every joint"},
     {"joint.effort", "of joints with PD drives or moved by forces: what the drive applies"},
+    {keys::applied_wrench.name, "of links, where somebody reads it"},
     writes_acceleration,
     writes_joint_acceleration,
     {"contact.world", "that the contact algorithm answers for all contacts"},

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "applied_wrenches.hpp"
 #include "articulation.hpp"
 #include "description.hpp"
 #include "force_driven_joints.hpp"
@@ -20,6 +21,7 @@
 #include "muro/toolkit/mass_properties.hpp"
 #include "plugins/common/contact_geometry/contact_responsibility.hpp"
 #include "plugins/common/kinematic_joints/moving_mass.hpp"
+#include "plugins/common/mesh/hull_vertices.hpp"
 #include "plugins/common/multibody/consistent_inertia.hpp"
 #include "plugins/common/text/quote.hpp"
 #include "robot_watch.hpp"
@@ -38,6 +40,7 @@ class Simplified final : public Algorithm {
     max_acceleration_ = p.real("max_joint_acceleration");
     gravity_ = c.constant(world_object, keys::gravity).value_or(Vec3(0, 0, -9.81));
     for (const Item& item : c.items()) connect_robot(c, item);
+    applied_wrenches_.resize(robots_.size());
     tell_of_robots_without_forces(c, without_forces_, stand_still_);
   }
 
@@ -47,6 +50,10 @@ class Simplified final : public Algorithm {
     for (ForceDrivenJoints& joints : force_driven_) joints.connect_by_name(c);
     for (std::uint32_t i = 0; i < robots_.size(); ++i)
       accelerations_.connect_by_name(c, i, fixed_ ? BaseMotion::kinematic : BaseMotion::by_forces, robots_[i].inertia);
+    for (std::uint32_t i = 0; i < robots_.size(); ++i) {
+      applied_wrenches_[i].connect_by_name(c, *c.items()[i].robot, external_of(i));
+      tells_applied_ = tells_applied_ || !applied_wrenches_[i].empty();
+    }
   }
 
   void restored() override { begin_watches(); }
@@ -89,6 +96,8 @@ class Simplified final : public Algorithm {
   void step(const Step& step, Range range) override {
     if (step.index % RobotWatch::interval == 0) look_at(range);
     accelerations_.begin_step(range);
+    if (tells_applied_)
+      for (std::uint32_t i = range.begin; i < range.end; ++i) applied_wrenches_[i].keep();
     for (std::uint32_t i = range.begin, end = i; i < range.end; i = end) {
       while (end < range.end && end < i + lane_width && kinds_[end] == kinds_[i]) ++end;
       const Model& model = models_[kinds_[i].model];
@@ -293,10 +302,11 @@ class Simplified final : public Algorithm {
                        "(contact.penalty: frequency)"));
   }
 
-  Accelerations accelerations_;
+  Accelerations accelerations_{mesh::hull_vertices};
   bool fixed_ = false;
   std::vector<std::string> without_forces_;  ///< robots whose joints no force can move
   bool stand_still_ = false;                 ///< some of their joints
+  bool tells_applied_ = false;               ///< some of applied_wrenches_ are read
   double max_acceleration_ = 0;
   Vec3 gravity_ = Vec3::Zero();
   const Kernels* kernels_ = &kernels_for(lane::best_isa());
@@ -307,6 +317,7 @@ class Simplified final : public Algorithm {
   std::deque<RobotWatch> watches_;                 ///< likewise
   SceneryNames scenery_;
   std::vector<ImpactInput> impacts_;                ///< one per robot
+  std::vector<AppliedWrenches> applied_wrenches_;   ///< likewise
   std::vector<const double*> other_contributions_;  ///< contributions to wrenches, all but the first of each robot
   std::vector<Wrench> totals_;  ///< of robots with force-driven joints: what acts on them in this step
   std::vector<Articulation> articulations_;

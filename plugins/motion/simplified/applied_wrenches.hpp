@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// What a step lets act on each link of a robot, for who reads it (keys::applied_wrench).
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "muro/algorithm.hpp"
+#include "muro/vocabulary.hpp"
+
+namespace muro::simplified {
+
+/// Forces on links act on the robot as a whole: the base has the sum of all. What each link has of it follows from the
+/// contacts of the contact algorithm, or from the link's own `wrench.external` where the motion reads it.
+class AppliedWrenches {
+ public:
+  /// `external`: the sum that the motion reads at the base; null: none, no wrench acts. [setup]
+  void connect_by_name(Connector& c, const RobotView& robot, const SumIn<Wrench>* external) {
+    if (!external) return;
+    bool is_read = false, has_sum_of_all = false;
+    for (const Link& link : robot.links) is_read = is_read || c.is_used(link.object, keys::applied_wrench, usage::read);
+    if (!is_read) return;
+    for (std::size_t i = 0; i < robot.links.size(); ++i) {
+      const ObjectId object = robot.links[i].object;
+      OfLink& link = links_.emplace_back();
+      link.object = object;
+      link.pose = c.read(object, keys::pose);
+      link.has_own = i == 0 || c.is_used(object, keys::external_wrench, usage::read_sum);
+      if (link.has_own) link.external = c.read_sum(object, keys::external_wrench);
+      has_sum_of_all = has_sum_of_all || !link.has_own;
+      if (c.is_used(object, keys::applied_wrench, usage::read)) link.applied = c.derived(object, keys::applied_wrench);
+    }
+    if (has_sum_of_all && c.is_used(robot.base(), keys::contact_wrenches_of_law, usage::derived))
+      contacts_ = c.read_list(robot.base(), keys::contact_wrenches_of_law);
+  }
+
+  /// Whether nobody reads it.
+  bool empty() const { return links_.empty(); }
+
+  /// Before the robot moves: what is to act in this step. [step]
+  void keep() {
+    for (OfLink& link : links_) link.sum = link.has_own ? link.external->value() : Wrench{};
+    if (contacts_ && !links_.empty())
+      for (const ContactWrench& contact : *contacts_) move_from_base(contact);
+    for (const OfLink& link : links_)
+      if (link.applied) *link.applied = link.sum;
+  }
+
+ private:
+  struct OfLink {
+    ObjectId object = no_object;
+    In<Pose> pose;
+    bool has_own = false;  ///< `external` is what acts on this link, at the base also on those that have none
+    std::optional<SumIn<Wrench>> external;
+    Out<Wrench> applied;
+    Wrench sum;  ///< at its origin, world axes
+  };
+
+  OfLink* link_of(ObjectId object) {
+    for (OfLink& link : links_)
+      if (link.object == object) return &link;
+    return nullptr;
+  }
+
+  /// From the base to the link that touches, where the base has what acts on that.
+  void move_from_base(const ContactWrench& contact) {
+    OfLink* const link = link_of(contact.body);
+    if (!link || link->has_own) return;
+    OfLink& base = links_.front();
+    link->sum.add_force(contact.wrench.force, contact.point - link->pose->position);
+    link->sum.torque += contact.wrench.torque;
+    base.sum.add_force(-contact.wrench.force, contact.point - base.pose->position);
+    base.sum.torque -= contact.wrench.torque;
+  }
+
+  std::vector<OfLink> links_;       ///< of the robot, where somebody reads what acts on one of them
+  ListIn<ContactWrench> contacts_;  ///< where the base has what acts on others
+};
+
+}  // namespace muro::simplified
