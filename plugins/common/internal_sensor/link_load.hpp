@@ -2,58 +2,63 @@
 // What acts on a link from outside, whoever finds it: an engine, the contact algorithm, others.
 #pragma once
 
-#include <optional>
+#include <cmath>
 
-#include "muro/algorithm.hpp"
-#include "muro/vocabulary.hpp"
+#include "link_contacts.hpp"
 
 namespace muro::internal_sensor {
 
 /// Which of what acts on a link counts.
 enum class Load : std::uint8_t {
-  contacts,  ///< what contacts do
-  all,       ///< and what else is added to `wrench.external`, such as thrust
+  contacts,  ///< what contacts have done in the last step that they were looked for
+  all,       ///< all that acted in the last step, such as thrust, too: what belongs to its accelerations
 };
 
-/// Of one link. Contacts in the world of an engine are those of its last step, others those of the instant.
+/// Of one link. Where no force moves the robot at present, only contacts with robots that forces move are known.
 class LinkLoad {
  public:
   LinkLoad() = default;
   /// [setup]
-  LinkLoad(Connector& c, const RobotView& robot, std::uint32_t link, Load which) {
-    object_ = robot.links[link].object;
-    const ObjectId base = robot.base();
-    if (c.is_used(object_, keys::contact_wrench, usage::derived)) engine_ = c.read(object_, keys::contact_wrench);
-    const bool is_pushed = c.is_used(object_, keys::external_wrench, usage::read_sum);
-    if (is_pushed && which == Load::all)
-      external_ = c.read_sum(object_, keys::external_wrench);
-    else if (c.is_used(base, keys::contact_wrenches_of_law, usage::derived))
-      law_ = c.read_list(base, keys::contact_wrenches_of_law);
+  LinkLoad(Connector& c, const RobotView& robot, std::uint32_t link, Load which)
+      : contacts_(c, robot, link, which == Load::all ? When::kinematic : When::always), which_(which) {
+    const ObjectId object = robot.links[link].object;
+    const bool touches = !c.constant_array(object, keys::collision_shapes).empty();
+    if (which == Load::contacts) {
+      if (c.is_used(object, keys::contact_wrench, usage::derived)) engine_ = c.read(object, keys::contact_wrench);
+    } else if (is_moved_by_forces(c, robot) && (touches || c.is_used(object, keys::external_wrench, usage::read_sum))) {
+      applied_ = c.read(object, keys::applied_wrench);
+    }
   }
 
-  /// Whether anything can be felt: at a motion that no force moves nothing can.
-  bool feels_forces() const { return engine_ || external_ || law_; }
+  /// Whether contacts with their forces are known, of engines or of the contact algorithm.
+  bool knows_contacts() const { return engine_ || contacts_.any(); }
+  /// Whether the lists of other robots are read, too.
+  bool reads_other_robots() const { return contacts_.reads_other_robots(); }
 
   /// On the link, at its origin, world axes. `origin`: where that is in the world, m. [step]
   Wrench wrench(const Vec3& origin) const {
     Wrench sum;
-    if (engine_) sum += *engine_;
-    if (external_) sum += external_->value();
-    if (!law_) return sum;
-    for (const ContactWrench& contact : *law_) {
-      const double sign = contact.body == object_ ? 1 : contact.other == object_ ? -1 : 0;
-      if (sign == 0 || !std::isfinite(contact.wrench.force.sum() + contact.wrench.torque.sum())) continue;
+    const auto add = [&](const ContactWrench& contact, double sign) {
+      if (!std::isfinite(contact.wrench.force.sum() + contact.wrench.torque.sum())) return;
       sum.add_force(sign * contact.wrench.force, contact.point - origin);
       sum.torque += sign * contact.wrench.torque;
+    };
+    if (!contacts_.is_dynamic()) {
+      contacts_.each_of_law(add);
+      contacts_.each_of_engines(add);
+    } else if (which_ == Load::contacts) {
+      contacts_.each_of_law(add);
+      if (engine_) sum += *engine_;
+    } else if (applied_) {
+      sum += *applied_;
     }
     return sum;
   }
 
  private:
-  ObjectId object_ = no_object;
-  In<Wrench> engine_;
-  std::optional<SumIn<Wrench>> external_;
-  ListIn<ContactWrench> law_;
+  LinkContacts contacts_;
+  Load which_ = Load::contacts;
+  In<Wrench> engine_, applied_;
 };
 
 }  // namespace muro::internal_sensor

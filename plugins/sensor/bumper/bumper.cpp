@@ -5,7 +5,7 @@
 
 #include "muro/plugin.hpp"
 #include "muro/toolkit/per_robot.hpp"
-#include "plugins/common/internal_sensor/link_load.hpp"
+#include "plugins/common/internal_sensor/link_contacts.hpp"
 #include "plugins/common/internal_sensor/mounted.hpp"
 #include "plugins/common/internal_sensor/property_uses.hpp"
 #include "plugins/common/text/quote.hpp"
@@ -21,8 +21,9 @@ constexpr Parameter parameters[] = {
 };
 constexpr PropertyUse reads[] = {
     {"contacts", "of the robot: where the collision algorithm answers for them"},
-    {"contact.wrenches.motion", "of the robot, at motions by engines"},
+    reads_contacts_of_motion,
     reads_contacts_of_law,
+    reads_contact_world,
 };
 constexpr PropertyUse writes[] = {{"bumper.pressed", "1: something touches the link"}};
 constexpr Description description{
@@ -39,8 +40,8 @@ constexpr Description description{
 /// What is kept of a bumper.
 struct Bumper {
   ObjectId link = no_object;
-  ListIn<Contact> contacts;                 ///< of a robot that no force moves
-  ListIn<ContactWrench> by_law, by_motion;  ///< of one that forces move
+  ListIn<Contact> places;  ///< where a robot touches that no force moves; none where its bumper compares forces
+  LinkContacts contacts;   ///< with their forces
   Out<std::uint32_t> pressed;
 };
 
@@ -48,8 +49,7 @@ class BumperSensor final : public PerRobotAlgorithm<Bumper> {
  public:
   void step(const Step&, Range range) override {
     for (const Bumper& b : robots(range)) {
-      const bool pressed = touches(b) || presses(b, b.by_law) || presses(b, b.by_motion);
-      *b.pressed = pressed ? 1 : 0;
+      *b.pressed = touches(b) || presses(b) ? 1 : 0;
     }
   }
 
@@ -65,42 +65,47 @@ class BumperSensor final : public PerRobotAlgorithm<Bumper> {
     b.link = view.links[carrying_link(c, item)].object;
     if (c.constant_array(b.link, keys::collision_shapes).empty())
       throw Error(quote(c.object_name(b.link)) + " has no collision shape that something could touch");
-    const auto has = [&](const KeyInfo& key) { return c.is_used(view.base(), key, usage::derived); };
-    if (has(keys::contact_wrenches_of_law)) b.by_law = c.read_list(view.base(), keys::contact_wrenches_of_law);
-    if (has(keys::contact_wrenches_of_motion)) b.by_motion = c.read_list(view.base(), keys::contact_wrenches_of_motion);
-    if (!b.by_law && !b.by_motion) {
-      if (c.parameters().real("threshold") > 0)
-        throw Error("no force moves " + quote(view.name) +
-                    ", so there is none to compare with the threshold; remove it");
-      if (!c.is_used(view.base(), keys::contacts, usage::derived))
-        throw Error(
-            "nobody looks for contacts of " + quote(view.name) +
-            ", which no force moves; give its motion `on_contact: stop`, and the scenario a collision algorithm");
-      b.contacts = c.read_list(view.base(), keys::contacts);
-    }
+    b.contacts = {c, view, carrying_link(c, item)};
+    if (b.contacts.reads_other_robots()) set_reads_other_robots();
+    if (!is_moved_by_forces(c, view) || !b.contacts.any()) connect_kinematic(c, view, b);
     b.pressed = c.variable(item.object, keys::bumper_pressed, std::uint32_t{0});
     return b;
+  }
+
+  /// What forces move pushes it with its force; for all else there is the place alone.
+  void connect_kinematic(Connector& c, const RobotView& view, Bumper& b) {
+    const bool compares = c.parameters().real("threshold") > 0;
+    if (compares && b.contacts.any()) return;
+    if (compares)
+      throw Error("no force moves " + quote(view.name) +
+                  ", and no robot that forces move could push it, so there is none to compare with the threshold; "
+                  "remove it");
+    const bool finds_places = c.is_used(view.base(), keys::contacts, usage::derived);
+    if (finds_places) b.places = c.read_list(view.base(), keys::contacts);
+    if (finds_places || b.contacts.any()) return;
+    throw Error("nobody looks for contacts of " + quote(view.name) +
+                ", which no force moves; give its motion `on_contact: stop`, and the scenario a collision algorithm");
   }
 
   bool counts(const Vec3& push) const { return !ignore_ground_ || push.z() < std::sqrt(0.5); }
 
   bool touches(const Bumper& b) const {
-    if (!b.contacts) return false;
-    const std::span<const Contact> all = *b.contacts;
+    if (!b.places) return false;
+    const std::span<const Contact> all = *b.places;
     return std::any_of(all.begin(), all.end(), [&](const Contact& c) { return c.self == b.link && counts(c.normal); });
   }
 
-  bool presses(const Bumper& b, const ListIn<ContactWrench>& list) const {
-    if (!list) return false;
+  bool presses(const Bumper& b) const {
     double force = 0;
     bool any = false;
-    for (const ContactWrench& c : *list) {
-      const double sign = c.body == b.link ? 1 : c.other == b.link ? -1 : 0;
-      if (sign == 0 || !counts(sign * c.normal)) continue;
+    const auto add = [&](const ContactWrench& c, double sign) {
+      if (!counts(sign * c.normal)) return;
       const double push = c.normal.dot(c.wrench.force);
       any = any || push > 0 || !std::isfinite(push);
       if (push > 0) force += push;
-    }
+    };
+    b.contacts.each_of_law(add);
+    b.contacts.each_of_engines(add);
     return any && force >= threshold_;
   }
 

@@ -26,11 +26,10 @@ constexpr Parameter parameters[] = {
     real("release_threshold", "N", -1, "it is no more in contact below this force; -1: half the threshold")
         .between(-1, 1e9),
 };
-constexpr PropertyUse reads[] = {reads_pose,
-                                 reads_joint_position,
-                                 {"collision.shapes", "of the link, for its size"},
-                                 reads_contact,
-                                 reads_contacts_of_law};
+constexpr PropertyUse reads[] = {
+    reads_pose,         reads_joint_position,  {"collision.shapes", "of the link, for its size"},
+    reads_contact,      reads_contacts_of_law, reads_contacts_of_motion,
+    reads_contact_world};
 constexpr PropertyUse writes[] = {{"foot.contact", "with hysteresis"},
                                   {"foot.force", "sum of the cells"},
                                   {"foot.cells", "front left, front right, rear left, rear right"},
@@ -92,7 +91,8 @@ class FootSensor final : public PerRobotAlgorithm<Foot> {
     c.set(item.object, keys::sensor_origin, foot.device);
     foot.link = {c, view, link, Pose{}, link_acceleration::Order::pose};
     foot.load = {c, view, link, Load::contacts};
-    if (!foot.load.feels_forces())
+    if (foot.load.reads_other_robots()) set_reads_other_robots();
+    if (!is_moved_by_forces(c, view) || !foot.load.knows_contacts())
       throw Error(
           "no force moves " + quote(view.name) +
           ", so there is nothing for a foot to feel; give the robot a motion by forces (motion.simplified with "

@@ -22,9 +22,10 @@ constexpr PropertyUse reads[] = {
     reads_joint_acceleration,
     reads_gravity,
     {"inertial", "of all links beyond the sensor"},
-    {"wrench.contact", "of all links beyond the sensor, at motions by engines"},
-    {"wrench.external", "likewise, where the motion has it act on links"},
-    reads_contacts_of_law,
+    {"wrench.applied", "of all links beyond the sensor, where forces move the robot"},
+    {"contact.wrenches.law", "of the robot, where no force moves it"},
+    {"contact.wrenches.motion", "of others, where no force moves it"},
+    reads_contact_world,
 };
 constexpr PropertyUse writes[] = {{"wrench", "by what lies beyond on what carries it, axes of the device"},
                                   mounting_writes};
@@ -53,8 +54,8 @@ class ForceTorque final : public PerRobotAlgorithm<Device> {
     for (std::uint32_t i = 0; i < c.items().size(); ++i) robot(i).link.check(c), robot(i).beyond.check(c);
     if (without_contacts_.empty()) return;
     c.host().log(LogLevel::info, "sensor.force_torque: no force moves " + without_contacts_ +
-                                     ", so its wrenches are of weight and acceleration alone, and no contact is felt; "
-                                     "give it a motion by forces for that");
+                                     ", so of its contacts those with robots that forces move are felt, beside weight "
+                                     "and acceleration, and no others; give it a motion by forces for that");
   }
 
   void step(const Step&, Range range) override {
@@ -80,7 +81,8 @@ class ForceTorque final : public PerRobotAlgorithm<Device> {
     c.set(item.object, keys::sensor_origin, d.mounting);
     d.link = LinkMotion(c, view, link, Pose{}, Order::acceleration);
     d.beyond = Subtree(c, view, link);
-    if (!d.beyond.feels_forces() && without_contacts_.empty()) without_contacts_ = quote(view.name);
+    if (d.beyond.reads_other_robots()) set_reads_other_robots();
+    if (!is_moved_by_forces(c, view) && without_contacts_.empty()) without_contacts_ = quote(view.name);
     d.wrench = c.variable(item.object, keys::sensed_wrench, Wrench{});
     return d;
   }

@@ -49,9 +49,9 @@ class Subtree {
       if (p.kind != JointKind::fixed) p.joint.check_acceleration(c);
   }
 
-  /// Whether what acts on it from outside can be felt.
-  bool feels_forces() const {
-    return std::any_of(parts_.begin(), parts_.end(), [](const Part& p) { return p.load.feels_forces(); });
+  /// See LinkLoad.
+  bool reads_other_robots() const {
+    return std::any_of(parts_.begin(), parts_.end(), [](const Part& p) { return p.load.reads_other_robots(); });
   }
 
   /// What must act on it through the connection, about the point `about` (m), so that it moves as it does: world axes.

@@ -52,6 +52,26 @@ RobotTree box_with_table() {
   });
 }
 
+constexpr const char* tray_urdf =
+    "<link name=\"tray\"><inertial><mass value=\"0.2\"/>"
+    "<inertia ixx=\"1e-3\" iyy=\"1e-3\" izz=\"2e-3\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial>"
+    "<collision><geometry><box size=\"0.3 0.3 0.02\"/></geometry></collision></link>"
+    "<joint name=\"holder\" type=\"fixed\"><parent link=\"base_link\"/>"
+    "<child link=\"tray\"/><origin xyz=\"0 0 0.49\"/></joint>";
+
+RobotTree box_with_tray() {
+  const Shape box = test::with(Shape::box({0.4, 0.3, 0.2}), 0.8), tray = test::with(Shape::box({0.3, 0.3, 0.02}), 0.8);
+  return test::tree_of([&](RobotBuilder& b) {
+    b.base("base_link");
+    b.set(keys::inertial, test::solid_box(2, {0.4, 0.3, 0.2}));
+    b.set_array(keys::collision_shapes, std::span<const Shape>(&box, 1));
+    b.translation({0, 0, 0.49});
+    b.body("tray");
+    b.set(keys::inertial, test::solid_box(0.2, {0.3, 0.3, 0.02}));
+    b.set_array(keys::collision_shapes, std::span<const Shape>(&tray, 1));
+  });
+}
+
 struct Exception {
   std::string_view motion, name;
   double error;
@@ -76,6 +96,17 @@ std::vector<std::string> motions() {
 const RobotView& Trial::add_vehicle(const Pose& pose, const Twist& twist) {
   if (family() != Family::wheeled) return add("r", box_with_table(), pose, twist);
   return add("r", vehicle_with(*this, model_for(motion_), table_urdf), pose, twist);
+}
+
+const RobotView& Trial::add_carrier(const Pose& pose) {
+  if (family() != Family::wheeled) return add("r", box_with_tray(), pose);
+  return add("r", vehicle_with(*this, model_for(motion_), tray_urdf), pose);
+}
+
+const RobotView& Trial::add_load(const std::string& motion, const RobotTree& tree, const Pose& pose,
+                                 const Twist& twist) {
+  motion_of_load_ = motion;
+  return add("load", tree, pose, twist);
 }
 
 const RobotView& Trial::add_arm(const Vec3& axis, double position) {
@@ -109,13 +140,18 @@ void Trial::start(Parameters parameters) {
     return std::any_of(known.begin(), known.end(), [&](const Parameter& p) { return p.name == name; });
   };
   std::erase_if(parameters, [&](const auto& p) { return !knows(p.first); });
-  use(motion_, 1000, all_robots(), parameters);
+  std::vector<Item> own = all_robots();
+  if (!motion_of_load_.empty()) {
+    use(motion_of_load_, 1000, {own.back()});
+    own.pop_back();
+  }
+  use(motion_, 1000, own, parameters);
   if (family() == Family::wheeled)
     use(motion_ == "motion.ackermann" ? "drive.ackermann"
         : motion_ == "motion.omni"    ? "drive.omni"
                                       : "drive.skid_steer",
-        0, all_robots());
-  if (family() == Family::forces || finds_contacts_)
+        0, own);
+  if (family() == Family::forces || finds_contacts_ || !motion_of_load_.empty())
     use_contacts();
   else
     use_kinematics();
@@ -130,7 +166,7 @@ void Trial::command(double speed, double yaw_rate) {
 std::vector<Case> all_cases() {
   std::vector<Case> all;
   for (const auto& some :
-       {inertial_cases(), change_cases(), joint_cases(), wrench_cases(), touch_cases(), place_cases()})
+       {inertial_cases(), change_cases(), joint_cases(), wrench_cases(), touch_cases(), pair_cases(), place_cases()})
     all.insert(all.end(), some.begin(), some.end());
   return all;
 }

@@ -31,6 +31,11 @@ class Trial : public test::Scene {
   /// A link `arm` of 0.5 kg whose centre of mass is 0.3 m along x, on a joint `lift` about `axis` of the base, at
   /// `position` (rad): on the vehicle of the motion.
   const RobotView& add_arm(const Vec3& axis, double position);
+  /// The vehicle of the motion with a tray: a link `tray` of 0.2 kg whose upper side is 0.5 m above its base.
+  const RobotView& add_carrier(const Pose& pose = {});
+  /// A robot `load` of another motion; after those of the motion itself.
+  const RobotView& add_load(const std::string& motion, const RobotTree& tree, const Pose& pose,
+                            const Twist& twist = {});
   /// A sensor on a link or joint of the last robot.
   ObjectId add_sensor(const std::string& id, const std::string& on, Parameters parameters = {}, double rate = 1000);
   /// Adds the motion (1000 Hz), drives and contacts, and builds. `parameters` that the motion has not are left out.
@@ -48,7 +53,7 @@ class Trial : public test::Scene {
   const RobotView& robot() const { return *world().robots().front(); }
 
  private:
-  std::string motion_;
+  std::string motion_, motion_of_load_;
   bool finds_contacts_ = false;
 };
 
@@ -83,6 +88,7 @@ std::vector<Case> inertial_cases();
 std::vector<Case> change_cases();
 std::vector<Case> wrench_cases();
 std::vector<Case> touch_cases();
+std::vector<Case> pair_cases();
 std::vector<Case> joint_cases();
 std::vector<Case> place_cases();
 

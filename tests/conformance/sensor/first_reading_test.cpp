@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// What an accelerometer reads before the first step, of robots and scenery whose shapes are meshes: those that stand on
+// something feel their weight, those in the air fall.
+#include <gtest/gtest.h>
+
+#include "muro/toolkit/rotations.hpp"
+#include "plugins/common/mesh/files_testing.hpp"
+#include "tests/conformance/sensor/case.hpp"
+#include "tests/support/files.hpp"
+
+namespace muro::sensor_conformance {
+namespace {
+
+const Vec3 cube_low(-0.1, -0.1, 0.2), cube_high(0.1, 0.1, 0.4);  // of a cube that lies beside the origin of its file
+
+struct MeshScene : test::Scene {
+  test::ScratchFolder folder;
+  std::string cube = folder.file("cube.stl", mesh::testing::stl_text(mesh::testing::box(cube_low, cube_high)));
+
+  Shape mesh(const std::string& file, double scale = 1) {
+    Shape s{.kind = ShapeKind::mesh, .size = Vec3::Constant(scale)};
+    s.mesh = world().intern(file);
+    return s;
+  }
+  void add_scenery_mesh(const std::string& file, const Vec3& at, double scale = 1) {
+    const Shape shape = mesh(file, scale);
+    world().add_scenery("scenery", {at, Quat::Identity()}, std::span<const Shape>(&shape, 1));
+  }
+  /// The first reading of a robot with this cube, whose file has its origin at `at`.
+  Vec3 first(const std::string& motion, const Pose& at, double scale = 1) {
+    const RobotView& r = add("r", test::tree_of([&](RobotBuilder& b) {
+                               Shape shape{.kind = ShapeKind::mesh, .size = Vec3::Constant(scale)};
+                               shape.mesh = b.intern(cube);
+                               b.base("body");
+                               b.set(keys::inertial, test::solid_box(1, {0.2, 0.2, 0.2}));
+                               b.set_array(keys::collision_shapes, std::span<const Shape>(&shape, 1));
+                             }),
+                             at);
+    const ObjectId sensor = add_sensor_object(r, "sensor", r.base());
+    use(motion, 1000, {{&r, r.base()}});
+    use("sensor.accelerometer", 1000, {{&r, sensor}});
+    use_contacts();
+    build();
+    run_for(0.0005);
+    return world().value(sensor, keys::linear_acceleration);
+  }
+};
+
+class FirstReading : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(FirstReading, OfAMeshInTheAirIsNothing) {
+  for (const Pose& at : {Pose{{0, 0, -0.19}, Quat::Identity()}, Pose{{0, 0, 0.42}, from_rpy(M_PI, 0, 0)}}) {
+    MeshScene s;
+    s.add_ground();
+    EXPECT_LT(s.first(GetParam(), at).norm(), 1e-9) << "its lower side is 1 or 2 cm above the ground";
+  }
+}
+
+TEST_P(FirstReading, OfAMeshOnTheGroundIsItsWeight) {
+  for (const double scale : {1.0, 2.0}) {
+    MeshScene s;
+    s.add_ground();
+    const Vec3 seen = s.first(GetParam(), {{0, 0, -0.2 * scale}, Quat::Identity()}, scale);
+    EXPECT_LT((seen - Vec3(0, 0, g)).norm(), 1e-9) << scale;
+  }
+}
+
+/// A cube that stands on an edge above a slope: a box around it would reach into the ground.
+TEST_P(FirstReading, OfAMeshNearASlopeIsThatOfItsHull) {
+  const Quat tilt = from_rpy(0, 0.5, 0);
+  for (const double gap : {0.0, 0.01}) {
+    MeshScene s;
+    s.add_ground(0.8, {Vec3::Zero(), tilt});
+    const Vec3 seen = s.first(GetParam(), {tilt * Vec3(0, 0, gap - 0.2), tilt});
+    EXPECT_NEAR(seen.norm(), gap > 0 ? 0 : g, 1e-9);
+  }
+}
+
+TEST_P(FirstReading, BesideAMeshOfTheSceneryIsNothing) {
+  MeshScene s;
+  s.add_scenery_mesh(s.cube, {0.5, 0, 0});
+  EXPECT_LT(s.first(GetParam(), {{0, 0, 0}, Quat::Identity()}).norm(), 1e-9);
+}
+
+TEST_P(FirstReading, OnAMeshOfTheSceneryIsItsWeight) {
+  MeshScene s;
+  s.add_scenery_mesh(s.cube, {0, 0, -1}, 3);  // its upper side at 0.2
+  EXPECT_LT((s.first(GetParam(), {{0, 0, 0}, Quat::Identity()}) - Vec3(0, 0, g)).norm(), 1e-9);
+}
+
+std::vector<std::string> motions_of_forces() {
+  std::vector<std::string> some = motions();
+  std::erase_if(some, [](const std::string& motion) { return family_of(motion) != Family::forces; });
+  return some;
+}
+INSTANTIATE_TEST_SUITE_P(, FirstReading, ::testing::ValuesIn(motions_of_forces()),
+                         [](const auto& test) { return test.param.substr(7); });
+
+}  // namespace
+}  // namespace muro::sensor_conformance
