@@ -70,14 +70,16 @@ constexpr Parameter parameters[] = {
     real("load_friction", "1", 0, "friction by the torque between motor and load").between(0, 1e3),
     real("load_stribeck_friction", "1", 0, "the same, what goes away with speed").between(0, 1e3),
 };
-constexpr PropertyUse reads[] = {{"joint.position.target", "mode position"},
-                                 {"joint.velocity.target", "mode velocity"},
-                                 {"joint.position", "of every joint that it drives"},
-                                 {"joint.velocity", "of every joint that it drives"},
-                                 {"servo.supply_voltage", "where a voltage drives the motor"},
-                                 {"servo.p_gain", "where a voltage drives the motor"},
-                                 {"servo.torque_enable", "where a voltage drives the motor; 0 opens its coil"},
-                                 {"inertial", "of the bodies behind a joint, where the rotor has inertia"}};
+constexpr PropertyUse reads[] = {
+    {"joint.position.target", "mode position"},
+    {"joint.velocity.target", "mode velocity"},
+    {"joint.position", "of every joint that it drives"},
+    {"joint.velocity", "of every joint that it drives"},
+    {"servo.supply_voltage", "where a voltage drives the motor"},
+    {"servo.p_gain", "where a voltage drives the motor"},
+    {"servo.torque_enable", "where a voltage drives the motor; 0 opens its coil"},
+    {"motion.level", "where friction depends on the load and the robot has several motions"},
+    {"inertial", "of the bodies behind a joint, where the rotor has inertia"}};
 constexpr PropertyUse writes[] = {{"joint.effort.target", "of every joint that it drives"},
                                   {"servo.integral", "effort of the controller's integral"},
                                   {"servo.position", "position as measured"},
@@ -201,7 +203,7 @@ class Servo final : public PerRobotAlgorithm<ServoRobot> {
       j.motor_effort = c.derived(joint, motor_effort);
       if (delay_ > 0) j.commands = c.variable_list(joint, delayed_commands);
       if (has_voltage_)
-        j.voltage_drive = VoltageDrive(c, joint, motor_parameters,
+        j.voltage_drive = VoltageDrive(c, robot.base(), joint, motor_parameters,
                                        joint_inertia(robot.links, inertias, start, i) + robot.links[i].limits.armature);
       joints.push_back(j);
     }

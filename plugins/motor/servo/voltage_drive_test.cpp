@@ -211,5 +211,45 @@ TEST(VoltageDrive, MistakesAreNamedWithAdviceToo) {
     EXPECT_NE(refusal_of(servo).find(text), std::string::npos) << text << "\n" << refusal_of(servo);
 }
 
+/// Another motion, which takes no efforts, has swung the joint: what that would have taken is no load of this one.
+TEST(VoltageDrive, TakesNoLoadFromAnotherMotion) {
+  const motor::MotorModel model{.kt = 0.386,
+                                .resistance = 3.403,
+                                .armature = 0.0019,
+                                .gain = 0.2,
+                                .duty_limit = 1,
+                                .friction = {.coulomb = 0.0088, .viscous = 0.01, .load = 0.068}};
+  test::Scene s;
+  const RobotView& r = s.add("r", pendulum(true));
+  s.set_levels(r, {"commanded", "forces"}, 0);
+  s.use("motion.point", 1000, {{&r, r.base(), 0}}, {{"joints", "position"}});
+  s.use("motion.simplified", 1000, {{&r, r.base(), 1}}, {{"joints", "effort"}, {"base", "fixed"}});
+  s.use("motor.servo", 1000, s.all_robots(),
+        {{"kt", model.kt},
+         {"resistance", model.resistance},
+         {"armature", model.armature},
+         {"supply_voltage", 7.4},
+         {"p_gain", 1.0},
+         {"duty_gain", model.gain},
+         {"friction", model.friction.coulomb},
+         {"viscous_friction", model.friction.viscous},
+         {"load_friction", model.friction.load}});
+  s.build();
+  const auto of = [&](const KeyInfo& key) -> double& {
+    return s.world().value("r/joint", Key<double>{key.name, key.unit, key.doc});
+  };
+  double& goal = of(keys::joint_position_target);
+  for (int k = 0; k < 300; ++k) {
+    goal = std::sin(0.02 * k);
+    s.run_for(0.001);
+  }
+  EXPECT_GT(std::abs(of(keys::joint_velocity)), 1) << "it swings";
+  s.world().value(r.base(), keys::motion_level_target) = 1;
+  const double q = of(keys::joint_position), v = of(keys::joint_velocity);
+  s.run_for(0.001);
+  const double torque = model.torque(7.4 * model.duty(goal - q), v);
+  EXPECT_NEAR(of(keys::joint_drive_friction), model.friction.budget(v, torque, 0), 1e-12);
+}
+
 }  // namespace
 }  // namespace muro
