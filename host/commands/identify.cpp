@@ -80,16 +80,57 @@ std::vector<MotorRecord> take_part(std::vector<MotorRecord>& records, double par
   return out;
 }
 
-/// The firmware's gain and limit: of the command line, of the motor that the records name, or of their duties.
-void set_firmware(const IdentifyOptions& o, const std::vector<MotorRecord>& records, FitSettings& s) {
-  const KnownMotor* const known = known_motor(records.front().motor);
-  s.gain = o.duty_gain ? *o.duty_gain : known ? known->duty_gain : recorded_gain(records);
+/// The name of the motor; empty where no record says it. Records of several motors are refused.
+std::string motor_of(const std::vector<const MotorRecord*>& records) {
+  const MotorRecord* named = nullptr;
+  for (const MotorRecord* r : records) {
+    if (r->motor.empty()) continue;
+    if (!named) named = r;
+    if (r->motor != named->motor)
+      throw SetupError(fmt::format("{} is of {} and {} of {}; identify one motor at a time", named->name,
+                                   in_backquotes(named->motor), r->name, in_backquotes(r->motor)));
+  }
+  return named ? named->motor : "";
+}
+
+/// Records whose duties say another gain than that of the others keep theirs.
+void keep_recorded_gains(std::vector<MotorRecord>& records, double gain) {
+  for (MotorRecord& r : records) {
+    const double told = r.duty_gain > 0 ? 0 : recorded_gain({r});
+    if (!(told > 0) || std::abs(told / gain - 1) <= 0.05) continue;
+    r.duty_gain = told;
+    r.notes.push_back(
+        fmt::format("{}: its duties say a gain of {:.4g} /rad for each unit of the P gain, which is used for it; the "
+                    "others have {:.4g} (--duty-gain is for all)",
+                    r.name, told, gain));
+  }
+}
+
+/// The firmware's gain and limit: of the command line, of each record, of the motor that they name, or of their duties.
+void set_firmware(const IdentifyOptions& o, std::vector<MotorRecord>& fit, std::vector<MotorRecord>& validation,
+                  FitSettings& s) {
+  std::vector<const MotorRecord*> all;
+  for (auto* const records : {&fit, &validation})
+    for (MotorRecord& r : *records) {
+      if (o.duty_gain) r.duty_gain = 0;
+      if (o.duty_limit) r.duty_limit = 0;
+      all.push_back(&r);
+    }
+  const std::string motor = motor_of(all);
+  const KnownMotor* const known = known_motor(motor);
+  s.gain = o.duty_gain ? *o.duty_gain : known ? known->duty_gain : recorded_gain(fit);
   s.duty_limit = o.duty_limit ? *o.duty_limit : known ? known->duty_limit : 1;
-  if (s.fit_gain && !o.duty_gain) s.gain = recorded_gain(records);
+  if (s.fit_gain && !o.duty_gain) s.gain = recorded_gain(fit);
+  const bool each_has = std::all_of(all.begin(), all.end(), [](const MotorRecord* r) { return r->duty_gain > 0; });
+  if (each_has) s.gain = fit.front().duty_gain;
+  if (each_has && s.fit_gain)
+    throw SetupError("--fit gain: every record says its `duty_gain`, so there is none to find");
+  if (s.gain > 0 && !s.fit_gain && !o.duty_gain)
+    for (auto* const records : {&fit, &validation}) keep_recorded_gains(*records, s.gain);
   if (s.gain > 0 || s.fit_gain) return;
   throw SetupError(
       "how the firmware turns its P gain into a duty is not known of " +
-      (records.front().motor.empty() ? "this motor" : in_backquotes(records.front().motor)) +
+      (motor.empty() ? "this motor" : in_backquotes(motor)) +
       ", and no duty is recorded; give --duty-gain (1/rad for each unit of the P gain), or have it found: --fit gain");
 }
 
@@ -133,7 +174,7 @@ int identify(const IdentifyOptions& o) {
     validation = take_part(records, *part, o.seed);
   else
     for (const std::string& file : o.validate) validation.push_back(read_motor_record(file, defaults));
-  set_firmware(o, records, settings);
+  set_firmware(o, records, validation, settings);
 
   SearchProgress progress;
   const Identification id = identify_motor(std::move(records), std::move(validation), settings, o.cross_validate,

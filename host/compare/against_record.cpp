@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "core/instance.hpp"
 #include "core/output_registry.hpp"
 #include "host/names.hpp"
 #include "host/outputs/remove_outputs.hpp"
@@ -49,36 +50,133 @@ class RecordedCommands {
 
 std::int64_t whole_ns(double seconds) { return std::llround(seconds * 1e9); }
 
+/// The joint at any time of the simulation. Its motion knows it at instants; in between it is interpolated.
+class SimulatedJoint {
+ public:
+  SimulatedJoint(Simulation& simulation, const std::string& joint)
+      : simulation_(simulation), position_(simulation.world().value(joint, keys::joint_position)) {
+    World& world = simulation.world();
+    const ObjectId object = world.object(joint);
+    if (world.store().find(object, keys::joint_velocity.name)) velocity_ = &world.value(object, keys::joint_velocity);
+    const Slot* slot = world.store().find(object, keys::joint_position.name);
+    const Slot::User* writer = slot ? slot->writer() : nullptr;
+    for (const auto& instance : simulation.instances())
+      if (writer && instance->accessor() == writer->accessor)
+        rate_ = instance->setup().rate, phase_ = instance->setup().phase;
+  }
+
+  /// Now it is at `position` (rad) and moves with `velocity` (rad/s).
+  void put(double position, double velocity) {
+    from_ = simulation_.now(), from_position_ = position;
+    to_ = instant_from(from_);
+    position_ = position + 1e-9 * double(to_ - from_) * velocity;
+    if (velocity_) *velocity_ = velocity;
+    simulation_.tell_of_change();
+  }
+
+  /// Runs until `time` (ns); rad.
+  double position_at(std::int64_t time) {
+    const std::int64_t before = last_instant_before(time);
+    if (before >= simulation_.now()) {
+      simulation_.run_until(before);
+      from_ = before, from_position_ = position_;
+      to_ = instant_from(time);
+    }
+    simulation_.run_until(time);
+    const double part = to_ > from_ ? double(time - from_) / double(to_ - from_) : 1;
+    return from_position_ + part * (position_ - from_position_);
+  }
+
+ private:
+  std::uint64_t run_from(std::int64_t time) const { return time <= phase_ ? 0 : rate_.first_from(time - phase_); }
+  /// Of the motion, at `time` or later.
+  std::int64_t instant_from(std::int64_t time) const {
+    return rate_.on_demand() ? time : phase_ + rate_.time_of(run_from(time));
+  }
+  /// Negative: there is none.
+  std::int64_t last_instant_before(std::int64_t time) const {
+    const std::uint64_t next = rate_.on_demand() ? 0 : run_from(time);
+    return next == 0 ? -1 : phase_ + rate_.time_of(next - 1);
+  }
+
+  Simulation& simulation_;
+  double& position_;
+  double* velocity_ = nullptr;
+  Rate rate_;  ///< of the motion
+  std::int64_t phase_ = 0;
+  std::int64_t from_ = 0, to_ = 0;  ///< instants around the present time; `position_` is that of the second
+  double from_position_ = 0;
+};
+
+/// Simulates a part of the record without gaps, from now on.
+void follow_segment(Simulation& simulation, const RecordedCommands& commands, SimulatedJoint& joint,
+                    const MotorRecord& record, const RecordSegment& segment, Residuals& residuals) {
+  const std::int64_t start = simulation.now();
+  const double begin = record.samples[segment.first].time;
+  joint.put(segment.initial_position, segment.initial_velocity);
+  for (std::size_t i = segment.first; i < segment.first + segment.intervals.size() && !simulation.stopped(); ++i) {
+    const RecordSample& next = record.samples[i + 1];
+    commands.set(record.samples[i], record.p_gain);
+    residuals.errors.push_back(joint.position_at(start + whole_ns(next.time - begin)) - next.position);
+    residuals.times.push_back(next.time);
+  }
+}
+
+RecordError error_of(const Residuals& residuals) {
+  RecordError e;
+  double squares = 0;
+  for (const double error : residuals.errors) {
+    e.mean += std::abs(error);
+    squares += error * error;
+    e.largest = std::max(e.largest, std::abs(error));
+  }
+  const double count = double(std::max<std::size_t>(residuals.errors.size(), 1));
+  e.mean /= count;
+  e.rms = std::sqrt(squares / count);
+  return e;
+}
+
+/// What is to be known of the comparison beside its figures.
+std::vector<std::string> notes_on(const MotorRecord& record, const PreparedRecord& prepared) {
+  std::vector<std::string> notes = record.notes;
+  std::string gaps;
+  for (std::size_t i = 1; i < prepared.segments.size(); ++i) {
+    const std::size_t first = prepared.segments[i].first;
+    gaps += fmt::format("{}{:.4g} to {:.4g} s", i == 1 ? "" : ", ", record.samples[first - 1].time,
+                        record.samples[first].time);
+  }
+  if (!gaps.empty())
+    notes.push_back(fmt::format(
+        "{}: nothing is recorded from {}; behind each gap the joint starts anew from the record", record.name, gaps));
+  for (const RecordSegment& s : prepared.segments)
+    if (s.initial_velocity != 0)
+      notes.push_back(
+          fmt::format("{}: at {:.4g} s the joint starts with {:.3g} rad/s, the slope of the recorded positions",
+                      record.name, record.samples[s.first].time, s.initial_velocity));
+  if (record.duty_gain > 0 || record.duty_limit > 0)
+    notes.push_back(record.name +
+                    ": its `duty_gain` and `duty_limit` are for identify; here those of the scenario hold");
+  return notes;
+}
+
 void follow_record(Simulation& simulation, const std::string& joint, const MotorRecord& record,
                    RecordDeviation& result) {
   const RecordedCommands commands(simulation, joint);
-  World& world = simulation.world();
-  double& position = world.value(joint, keys::joint_position);
-  position = record.samples.front().position;
-  double squares = 0;
+  SimulatedJoint simulated(simulation, joint);
+  constexpr double whole_intervals = 1e9;  // s: the simulation divides them itself
+  const PreparedRecord prepared = prepare(record, whole_intervals);
   const auto start = std::chrono::steady_clock::now();
-  const double begin = record.samples.front().time;
-  bool has_torque_off = false;
-  for (std::size_t i = 0; i + 1 < record.samples.size() && !simulation.stopped(); ++i) {
-    const RecordSample& next = record.samples[i + 1];
-    has_torque_off = has_torque_off || !record.samples[i].torque_enable;
-    commands.set(record.samples[i], record.p_gain);
-    simulation.run_until(whole_ns(next.time - begin));
-    const double error = position - next.position;
-    result.residuals.times.push_back(next.time);
-    result.residuals.errors.push_back(error);
-    result.error.mean += std::abs(error);
-    squares += error * error;
-    result.error.largest = std::max(result.error.largest, std::abs(error));
-  }
+  for (const RecordSegment& s : prepared.segments)
+    follow_segment(simulation, commands, simulated, record, s, result.residuals);
   const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const double count = double(std::max<std::size_t>(result.residuals.errors.size(), 1));
-  result.error.mean /= count;
-  result.error.rms = std::sqrt(squares / count);
-  result.cost = wall / std::max(record.samples.back().time - begin, 1e-9);
+  result.error = error_of(result.residuals);
+  result.cost = wall / std::max(1e-9 * double(simulation.now()), 1e-9);
+  for (std::string& n : notes_on(record, prepared)) result.record_notes.push_back(std::move(n));
+  const bool has_torque_off =
+      std::any_of(record.samples.begin(), record.samples.end(), [](const RecordSample& s) { return !s.torque_enable; });
   if (has_torque_off && !commands.can_disable())
-    result.notes.push_back(record.name + ": in it the torque is off for a while, which " + in_backquotes(joint) +
-                           " cannot do here; a motor driven by a voltage can (motor.servo with `part` or `kt`)");
+    result.record_notes.push_back(record.name + ": in it the torque is off for a while, which " + in_backquotes(joint) +
+                                  " cannot do here; a motor driven by a voltage can (motor.servo with `part` or `kt`)");
 }
 
 std::string record_name(const MotorRecord& r) { return std::filesystem::path(r.name).filename().string(); }
@@ -139,6 +237,7 @@ std::string record_table(const std::vector<MotorRecord>& records, const std::vec
   for (std::size_t i = 0; i < records.size(); ++i) {
     text += fmt::format("{}, P gain {:g}: simulated minus recorded position, rad\n{}", record_name(records[i]),
                         records[i].p_gain, head);
+    std::vector<std::string> notes;
     for (std::size_t v = 0; v < variations; ++v) {
       const RecordDeviation& d = deviations[i * variations + v];
       if (!d.failure.empty()) {
@@ -146,10 +245,13 @@ std::string record_table(const std::vector<MotorRecord>& records, const std::vec
         continue;
       }
       row(d.label, d.error, fmt::format("{:.2g}", d.cost));
+      for (const std::string& n : d.record_notes)
+        if (std::find(notes.begin(), notes.end(), n) == notes.end()) notes.push_back(n);
       sums[v].mean += d.error.mean, sums[v].rms += d.error.rms * d.error.rms;
       sums[v].largest = std::max(sums[v].largest, d.error.largest);
       ++counts[v];
     }
+    for (const std::string& n : notes) text += "  " + n + "\n";
   }
   if (records.size() < 2) return text;
   text += fmt::format("all {} records\n{}", records.size(), head);

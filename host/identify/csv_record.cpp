@@ -75,8 +75,9 @@ class CsvReader {
     const std::string_view name = trimmed(line.substr(hash + 1, colon - hash - 1)),
                            value = trimmed(line.substr(colon + 1));
     const std::pair<std::string_view, double*> known[] = {
-        {"p_gain", &record_.p_gain},      {"supply_voltage", &supply_},         {"mass", &record_.load.mass},
-        {"length", &record_.load.length}, {"arm_mass", &record_.load.arm_mass}, {"inertia", &record_.load.inertia}};
+        {"p_gain", &record_.p_gain},          {"supply_voltage", &supply_},        {"mass", &record_.load.mass},
+        {"duty_gain", &record_.duty_gain},    {"duty_limit", &record_.duty_limit}, {"length", &record_.load.length},
+        {"arm_mass", &record_.load.arm_mass}, {"inertia", &record_.load.inertia}};
     for (const auto& [key, to] : known) {
       if (key != name) continue;
       const std::optional<double> x = number_in(value);

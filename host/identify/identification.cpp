@@ -91,15 +91,14 @@ Identification identify_motor(std::vector<MotorRecord> fit, std::vector<MotorRec
     if (show) show("all records", part);
   });
   if (cross_validate) result.left_out = leave_out_in_turn(fit, settings, show);
-  const double told = recorded_gain(fit), used = result.fit.estimate.motor.gain;
-  if (told > 0 && std::abs(told / used - 1) > 0.05)
-    result.notes.push_back(
-        fmt::format("the recorded duties say a gain of {:.4g} /rad for each unit of the P gain, and {:.4g} was used: "
-                    "--duty-gain, or "
-                    "--fit gain",
-                    told, used));
   for (auto* const records : {&fit, &validation})
     for (MotorRecord& r : *records) {
+      const double told = recorded_gain({r}), used = r.duty_gain > 0 ? r.duty_gain : result.fit.estimate.motor.gain;
+      if (told > 0 && std::abs(told / used - 1) > 0.05)
+        result.notes.push_back(
+            fmt::format("{}: its duties say a gain of {:.4g} /rad for each unit of the P gain, and {:.4g} was used: "
+                        "--duty-gain, --fit gain, or `duty_gain` in the record",
+                        r.name, told, used));
       for (const std::string& n : r.notes) result.notes.push_back(n);
       const std::size_t gaps = prepare(r, report_step).gap_count;
       if (gaps > 0)

@@ -116,13 +116,16 @@ MotorRecord parse_json_record(const std::string& text, const std::string& name, 
   r.load = {.mass = number_of(document, "mass", 0, name),
             .length = number_of(document, "length", 0, name),
             .arm_mass = number_of(document, "arm_mass", 0, name)};
+  r.duty_gain = number_of(document, "duty_gain", 0, name);
+  r.duty_limit = number_of(document, "duty_limit", 0, name);
   const double supply = number_of(document, "vin", 0, name);
   const KnownMotor* const known = known_motor(r.motor);
   const double full_load = known ? known->full_load : 0;
-  const std::vector<TextPlace> places = places_of_entries(text);
+  std::vector<TextPlace> places = places_of_entries(text);
+  places.resize(entries->size());
   r.samples.reserve(entries->size());
   for (std::size_t i = 0; i < entries->size(); ++i) {
-    const EntryReader entry((*entries)[i], name, i < places.size() ? places[i] : TextPlace{});
+    const EntryReader entry((*entries)[i], name, places[i]);
     RecordSample s;
     s.time = entry.number("timestamp");
     s.position = entry.number("position");
@@ -136,7 +139,7 @@ MotorRecord parse_json_record(const std::string& text, const std::string& name, 
     }
     r.samples.push_back(s);
   }
-  complete_record(r, defaults, places);
+  complete_record(r, defaults, std::move(places));
   return r;
 }
 

@@ -49,7 +49,7 @@ class Objective {
   static double error_of_record(const PreparedRecord& r, const MotorEstimate& e) {
     double sum = 0;
     for (const RecordSegment& s : r.segments)
-      simulate(s, r.p_gain, r.load, e, [&](double error, const RecordSegment::Interval&) {
+      simulate(s, r, e, [&](double error, const RecordSegment::Interval&) {
         sum += std::sqrt(error * error + huber * huber) - huber;
       });
     const double mean = sum / double(std::max<std::size_t>(r.sample_count, 1));

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "host/identify/motor_simulation.hpp"
 
+#include <Eigen/Dense>
+
 namespace muro::host {
 
 namespace {
 
 constexpr double gap_factor = 5, shortest_gap = 0.05;  // usual periods; s
-constexpr double slope_window = 0.03;                  // s
+constexpr double slope_window = 0.04;                  // s
 constexpr double least_slope_rise = 0.006;             // rad: four steps of an encoder of 12 bits
 
 double usual_period(const MotorRecord& r) {
@@ -16,15 +18,24 @@ double usual_period(const MotorRecord& r) {
   return periods[periods.size() / 2];
 }
 
-/// rad/s: of the line through the samples of a short time from `first` to before `end`; 0 where it is not seen to move.
+/// rad/s, at `first`: of the parabola through the samples of a short time from there to before `end`, of the line where
+/// they are few; 0 where it is not seen to move.
 double initial_slope(const MotorRecord& r, std::size_t first, std::size_t end) {
-  double n = 0, t = 0, q = 0, tt = 0, tq = 0, last = 0;
-  for (std::size_t i = first; i < end && r.samples[i].time - r.samples[first].time <= slope_window; ++i) {
-    const double dt = r.samples[i].time - r.samples[first].time, dq = r.samples[i].position - r.samples[first].position;
-    n += 1, t += dt, q += dq, tt += dt * dt, tq += dt * dq, last = dq;
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  double rise = 0;
+  std::size_t count = 0;
+  for (std::size_t i = first; i < end && r.samples[i].time - r.samples[first].time <= slope_window; ++i, ++count) {
+    const double t = (r.samples[i].time - r.samples[first].time) / slope_window;
+    rise = r.samples[i].position - r.samples[first].position;
+    const Eigen::Vector3d powers(1, t, t * t);
+    normal += powers * powers.transpose();
+    right += rise * powers;
   }
-  const double spread = n * tt - t * t;
-  return std::abs(last) < least_slope_rise || !(spread > 0) ? 0 : (n * tq - t * q) / spread;
+  constexpr std::size_t fewest_of_parabola = 5;
+  if (count < 2 || std::abs(rise) < least_slope_rise) return 0;
+  if (count >= fewest_of_parabola) return normal.ldlt().solve(right)[1] / slope_window;
+  return normal.topLeftCorner<2, 2>().ldlt().solve(right.head<2>())[1] / slope_window;
 }
 
 /// The command that holds at `time`: that of the last sample at or before it.
@@ -39,6 +50,7 @@ const RecordSample& command_at(const MotorRecord& r, double time, std::size_t& h
 PreparedRecord prepare(const MotorRecord& r, double longest_step, double delay) {
   PreparedRecord p;
   p.p_gain = r.p_gain;
+  p.duty_gain = r.duty_gain, p.duty_limit = r.duty_limit;
   p.load = r.load;
   const double gap = std::max(gap_factor * usual_period(r), shortest_gap);
   std::size_t hint = 0;
@@ -69,7 +81,7 @@ RecordError error_of(const PreparedRecord& record, const MotorEstimate& estimate
   RecordError all;
   double squares = 0;
   for (const RecordSegment& s : record.segments)
-    simulate(s, record.p_gain, record.load, estimate, [&](double error, const RecordSegment::Interval&) {
+    simulate(s, record, estimate, [&](double error, const RecordSegment::Interval&) {
       const double size = std::abs(error);
       all.mean += size;
       squares += error * error;
@@ -85,7 +97,7 @@ Residuals residuals_of(const PreparedRecord& record, const MotorRecord& times, c
   Residuals r;
   for (const RecordSegment& s : record.segments) {
     std::size_t sample = s.first;
-    simulate(s, record.p_gain, record.load, estimate, [&](double error, const RecordSegment::Interval&) {
+    simulate(s, record, estimate, [&](double error, const RecordSegment::Interval&) {
       r.times.push_back(times.samples[++sample].time);
       r.errors.push_back(error);
     });

@@ -39,6 +39,7 @@ struct RecordSegment {
 /// more than 0.05 s, lie between two samples, the simulation begins anew.
 struct PreparedRecord {
   double p_gain = 0;
+  double duty_gain = 0, duty_limit = 0;  ///< of the record, or 0: those of the estimate
   BenchLoad load;
   std::vector<RecordSegment> segments;
   std::size_t sample_count = 0;  ///< that are compared
@@ -46,15 +47,16 @@ struct PreparedRecord {
 };
 PreparedRecord prepare(const MotorRecord& record, double longest_step, double delay = 0);
 
-/// Simulates a segment; `visit(position error, interval)` at the end of each interval. Torques and friction's budget
-/// are those in the middle of a step, with the velocity extrapolated there: of second order, as the recorded sampling
-/// is coarse. Friction itself is that of motor::next_velocity.
+/// Simulates a segment of `record`; `visit(position error, interval)` at the end of each interval. Torques and
+/// friction's budget are those in the middle of a step, with the velocity extrapolated there: of second order, as the
+/// recorded sampling is coarse. Friction itself is that of motor::next_velocity.
 template <class Visit>
-void simulate(const RecordSegment& segment, double p_gain, const BenchLoad& load, const MotorEstimate& e,
-              const Visit& visit) {
+void simulate(const RecordSegment& segment, const PreparedRecord& record, const MotorEstimate& e, const Visit& visit) {
   const motor::MotorModel& m = e.motor;
-  const double gain = m.gain * p_gain, inertia = load.moment_of_inertia() + m.armature;
-  const double weight = load.gravity_torque(), per_volt = m.kt / m.resistance, braking = m.back_emf_damping();
+  const double gain = record.p_gain * (record.duty_gain > 0 ? record.duty_gain : m.gain);
+  const double duty_limit = record.duty_limit > 0 ? record.duty_limit : m.duty_limit;
+  const double inertia = record.load.moment_of_inertia() + m.armature;
+  const double weight = record.load.gravity_torque(), per_volt = m.kt / m.resistance, braking = m.back_emf_damping();
   double q = segment.initial_position, w = segment.initial_velocity, before = w;
   for (const RecordSegment::Interval& interval : segment.intervals) {
     const double volts = interval.supply_voltage * per_volt, dt = interval.dt;
@@ -64,7 +66,7 @@ void simulate(const RecordSegment& segment, double p_gain, const BenchLoad& load
       const double load_torque = weight == 0 ? 0 : -weight * elementary::sin(middle + e.offset);
       double torque = 0;
       if (interval.torque_enable)
-        torque = std::clamp(gain * (interval.goal - middle), -m.duty_limit, m.duty_limit) * volts - braking * speed;
+        torque = std::clamp(gain * (interval.goal - middle), -duty_limit, duty_limit) * volts - braking * speed;
       const double budget = m.friction.budget(speed, torque, load_torque);
       before = w;
       w = motor::next_velocity(w, torque + load_torque, budget, inertia, dt);

@@ -47,7 +47,7 @@ SetupError record_error(const std::string& name, TextPlace place, const std::str
   return SetupError(fmt::format("{}:{}:{}: {}", name, place.line, place.column, what));
 }
 
-void complete_record(MotorRecord& r, const RecordDefaults& defaults, const std::vector<TextPlace>& places) {
+void complete_record(MotorRecord& r, const RecordDefaults& defaults, std::vector<TextPlace> places) {
   r.p_gain = defaults.p_gain.value_or(r.p_gain);
   r.load.mass = defaults.mass.value_or(r.load.mass);
   r.load.length = defaults.length.value_or(r.load.length);
@@ -56,6 +56,10 @@ void complete_record(MotorRecord& r, const RecordDefaults& defaults, const std::
   if (defaults.supply_voltage)
     for (RecordSample& s : r.samples) s.supply_voltage = *defaults.supply_voltage;
   check_constant(r, r.p_gain, defaults.commands_only, "the P gain", "--p-gain");
+  check_constant(r, r.duty_gain, true, "`duty_gain`", "--duty-gain");
+  check_constant(r, r.duty_limit, true, "`duty_limit`", "--duty-limit");
+  if (r.duty_limit > 1)
+    throw SetupError(fmt::format("{}: `duty_limit` is {:g}, and 1 is full duty", r.name, r.duty_limit));
   check_constant(r, r.load.mass, true, "the mass of the load", "--mass");
   check_constant(r, r.load.length, true, "the length of the load", "--length");
   check_constant(r, r.load.arm_mass, true, "the mass of the arm", "--arm-mass");
@@ -74,7 +78,9 @@ void complete_record(MotorRecord& r, const RecordDefaults& defaults, const std::
       throw record_error(
           r.name, places[i],
           fmt::format("time goes back from {:g} s to {:g} s", r.samples[kept - 1].time, r.samples[i].time));
-    if (r.samples[i].time > r.samples[kept - 1].time) r.samples[kept++] = r.samples[i];
+    if (r.samples[i].time == r.samples[kept - 1].time) continue;
+    places[kept] = places[i];
+    r.samples[kept++] = r.samples[i];
   }
   if (kept < r.samples.size())
     r.notes.push_back(
@@ -98,16 +104,20 @@ MotorRecord parse_motor_record(const std::string& text, const std::string& name,
   return text[first] == '{' ? parse_json_record(text, name, defaults) : parse_csv_record(text, name, defaults);
 }
 
-MotorRecord read_motor_record(const std::string& file, const RecordDefaults& defaults) {
+std::string read_record_text(const std::string& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in) throw SetupError(file + ": there is no such file, or it cannot be read");
   std::string text, part(std::size_t(1) << 20, '\0');
   while (in.read(part.data(), std::streamsize(part.size())), in.gcount() > 0) {
     text.append(part.data(), std::size_t(in.gcount()));
-    if (text.size() > largest_record) throw SetupError(file + " is larger than 256 MiB, which no record of a servo is");
+    if (text.size() > largest_record) throw SetupError(file + " is larger than 256 MiB, which no record is");
   }
   if (in.bad() || (text.empty() && !in.eof())) throw SetupError(file + " cannot be read");
-  return parse_motor_record(text, file, defaults);
+  return text;
+}
+
+MotorRecord read_motor_record(const std::string& file, const RecordDefaults& defaults) {
+  return parse_motor_record(read_record_text(file), file, defaults);
 }
 
 }  // namespace muro::host

@@ -34,7 +34,9 @@ struct MotorRecord {
   std::string name;   ///< of the file
   std::string motor;  ///< as the record calls it, or empty
   std::string trajectory;
-  double p_gain = 0;  ///< of the firmware, in its units
+  double p_gain = 0;      ///< of the firmware, in its units
+  double duty_gain = 0;   ///< 1/rad for each unit of the P gain, where it is not that of the other records; else 0
+  double duty_limit = 0;  ///< 0 .. 1, likewise
   BenchLoad load;
   bool has_duty = false;
   std::vector<RecordSample> samples;
@@ -47,6 +49,8 @@ struct RecordDefaults {
   bool commands_only = false;  ///< P gain, supply and load may be missing
 };
 
+/// What is in the file; throws SetupError where it cannot be read, or is larger than any record.
+std::string read_record_text(const std::string& file);
 /// Reads a CSV file or a JSON file of Rhoban/bam, by what it begins with. Throws SetupError, with file, line and
 /// column.
 MotorRecord read_motor_record(const std::string& file, const RecordDefaults& defaults);

@@ -19,7 +19,7 @@ SetupError record_error(const std::string& name, TextPlace place, const std::str
 MotorRecord parse_json_record(const std::string& text, const std::string& name, const RecordDefaults& defaults);
 MotorRecord parse_csv_record(const std::string& text, const std::string& name, const RecordDefaults& defaults);
 
-/// Puts in what the command line says, and checks what cannot be done without. `places`: of the samples.
-void complete_record(MotorRecord& record, const RecordDefaults& defaults, const std::vector<TextPlace>& places);
+/// Puts in what the command line says, and checks what cannot be done without. `places`: one for each sample.
+void complete_record(MotorRecord& record, const RecordDefaults& defaults, std::vector<TextPlace> places);
 
 }  // namespace muro::host

@@ -132,6 +132,18 @@ TEST(OpenSimulation, MeetsARecordThatItHasMadeItself) {
   for (const MotorRecord& r : bench.records(100, 800)) EXPECT_LT(error_of(prepare(r, 0.002), bench.motor).mean, 2e-3);
 }
 
+TEST(OpenSimulation, EachRecordHasTheFirmwareThatItSays) {
+  test::SimulatedBench bench{.motor = xl330_m1(), .sigma = 0};
+  const MotorEstimate common = bench.motor;
+  bench.motor.motor.gain *= 2;
+  bench.motor.motor.duty_limit = 0.5;
+  MotorRecord r = bench.record(400, [](double t) { return std::sin(3 * t); });
+  const double wrong = error_of(prepare(r, 0.002), common).mean;
+  r.duty_gain = bench.motor.motor.gain, r.duty_limit = 0.5;
+  EXPECT_LT(error_of(prepare(r, 0.002), common).mean, 2e-3);
+  EXPECT_GT(wrong, 0.02);
+}
+
 TEST(OpenSimulation, ADelayShiftsTheCommands) {
   MotorRecord r;
   for (int i = 0; i < 40; ++i) r.samples.push_back({.time = 0.01 * i, .goal = double(i), .supply_voltage = 5});

@@ -46,7 +46,7 @@ TEST(MotorRecordFile, CsvHasConstantsAndColumns) {
 TEST(MotorRecordFile, CsvTakesOtherSeparatorsAndMoreColumns) {
   std::string text = "# p_gain: 8\n# inertia: 0.01\nposition;note;time;goal;supply_voltage;torque_enable;duty\r\n";
   for (int i = 0; i < 25; ++i)
-    text += "0.5;\"x\";" + std::to_string(i) + ";1;11.1;" + (i < 9 ? "true" : "0") + ";-0.25\r\n";
+    text += "0.5;\"x\";" + std::to_string(0.01 * i) + ";1;11.1;" + (i < 9 ? "true" : "0") + ";-0.25\r\n";
   const MotorRecord r = parse_motor_record(text, "a.csv", {});
   EXPECT_TRUE(r.samples[8].torque_enable);
   EXPECT_FALSE(r.samples[9].torque_enable);
@@ -127,6 +127,25 @@ TEST(MotorRecordFile, SamplesAtTheSameTimeAreLeftOut) {
       {});
   EXPECT_EQ(r.samples.size(), 29u);
   ASSERT_EQ(r.notes.size(), 1u);
+}
+
+TEST(MotorRecordFile, PlacesAreRightBehindSamplesAtTheSameTime) {
+  std::string text = "# p_gain: 5\n# mass: 1\n# length: 1\ntime,position,goal,supply_voltage\n";
+  for (int i = 0; i < 40; ++i) {
+    text += std::to_string(0.01 * i) + ",0,0," + (i == 25 ? "-7" : "7") + "\n";
+    if (i < 5) text += std::to_string(0.01 * i) + ",0,0,7\n";
+  }
+  EXPECT_EQ(complaint(text).substr(0, 46), "a.txt:35:1: the supply voltage is -7 V; it is ") << complaint(text);
+}
+
+TEST(MotorRecordFile, SaysWhatItsFirmwareDoes) {
+  const MotorRecord r = parse_motor_record(
+      csv("# p_gain: 5\n# duty_gain: 0.01\n# duty_limit: 0.8\n# mass: 1\n# length: 1\n# supply_voltage: 7\n"), "a.csv",
+      {});
+  EXPECT_EQ(r.duty_gain, 0.01);
+  EXPECT_EQ(r.duty_limit, 0.8);
+  EXPECT_NE(complaint(csv("# p_gain: 5\n# duty_limit: 1.5\n")).find("`duty_limit` is 1.5, and 1 is full duty"),
+            std::string::npos);
 }
 
 }  // namespace
