@@ -165,9 +165,16 @@ struct Commands {
     command.add_option("--duration", compare_options.duration, "Simulated seconds; default: as the scenario says")
         ->check(check_duration);
     command.add_option("--against", compare_options.against,
-                       "Recordings of a real joint (as for identify): run on their commands, and tell the deviation");
+                       "Recordings of a real joint (as for identify): run on their commands, and tell the deviation; "
+                       "or of a laser scanner that stands still (SCIP 2.0, CSV): its noise, mixed pixels, drop-outs");
     command.add_option("--joint", compare_options.joint, "ROBOT/JOINT that was recorded; default: the only one");
-    command.add_option("--out", compare_options.picture, "Draw cost against deviation into this file (SVG)");
+    command.add_option("--sensor", compare_options.sensor,
+                       "ROBOT/LASER to compare with recorded scans; default: the only one");
+    command.add_flag("--known-map", compare_options.known_map,
+                     "The scene is where the scans were recorded, the scanner at its place: tell the bias, too");
+    command.add_option("--out", compare_options.picture,
+                       "Draw cost against deviation (--against: errors over time, or noise over range) into this file "
+                       "(SVG)");
     command.add_option("--csv", compare_options.table, "Write the table to this file (CSV)");
     command.callback([this] {
       compare_options.scenario.plugin_path = plugin_path;

@@ -46,8 +46,10 @@ struct CompareOptions {
   std::optional<double> duration;    ///< s
   std::string picture;               ///< file (SVG), or empty
   std::string table;                 ///< file (CSV), or empty
-  std::vector<std::string> against;  ///< records of a real joint; not empty: these are compared with
+  std::vector<std::string> against;  ///< records of a real joint or laser; not empty: these are compared with
   std::string joint;                 ///< "robot/joint" that was recorded; empty: the only one
+  std::string sensor;                ///< "robot/laser" that was recorded; empty: the only one
+  bool known_map = false;            ///< the scene is where the laser was recorded
 };
 
 struct IdentifyOptions {

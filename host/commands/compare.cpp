@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
-#include <unistd.h>
-
 #include <algorithm>
 
 #include "core/output_registry.hpp"
 #include "host/commands/commands.hpp"
-#include "host/compare/against_record.hpp"
+#include "host/commands/compare_against.hpp"
+#include "host/commands/current_run.hpp"
 #include "host/compare/table.hpp"
-#include "host/identify/identification.hpp"
 #include "host/names.hpp"
 #include "host/output_file.hpp"
 #include "host/outputs/failures.hpp"
@@ -64,78 +62,18 @@ std::size_t find_reference(const std::string& name, const std::vector<Variation>
   throw SetupError(fmt::format("--reference {}: nothing of this name is compared{}", name, suggestion(name, labels)));
 }
 
-/// The variation that runs, on one line of the terminal.
-class CurrentRun {
- public:
-  void show(const std::string& label) const {
-    if (shown_) fmt::print(stderr, "\r\033[K{} ...", label), std::fflush(stderr);
-  }
-  void close() const {
-    if (shown_) fmt::print(stderr, "\r\033[K");
-  }
-
- private:
-  bool shown_ = isatty(STDERR_FILENO) != 0;
-};
-
-/// Every variation on the commands of every record.
-int compare_with_records(const CompareOptions& options, const Comparison& comparison,
-                         const std::vector<Variation>& variations, Registry& registry) {
-  std::vector<MotorRecord> records;
-  for (const std::string& file : options.against) records.push_back(read_motor_record(file, {.commands_only = true}));
-  {
-    const BuiltScenario built =
-        build(read_variation(comparison, variations.front().overrides, registry), registry, [](Simulation& simulation) {
-          simulation.set_log([](LogLevel, std::string_view) {});
-          simulation.keep_inputs_closed();
-        });
-    joint_to_compare(*built.simulation, options.joint);
-  }
-  const CurrentRun progress;
-  Messages messages;
-  std::vector<RecordDeviation> deviations;
-  Identification drawn;  // for the picture: errors over time, a panel a run
-  for (const MotorRecord& r : records)
-    for (const Variation& v : variations) {
-      progress.show(v.label + " on " + r.name);
-      deviations.push_back(
-          run_against(comparison, v, options.joint, r, registry, [&](LogLevel level, std::string_view text) {
-            progress.close();
-            messages.log(level, text);
-          }));
-      progress.close();
-      for (const std::string& n : deviations.back().notes) messages.say(n);
-      PredictedRecord panel;
-      panel.record = r;
-      if (!v.label.empty()) panel.record.name += " " + v.label;
-      panel.error = deviations.back().error;
-      panel.residuals = deviations.back().residuals;
-      drawn.records.push_back(std::move(panel));
-    }
-  std::string unwritten;
-  Failures failures(unwritten);
-  if (!options.table.empty()) failures.guard([&] { write_file(options.table, record_csv(records, deviations)); });
-  if (!options.picture.empty())
-    failures.guard([&] { write_file(options.picture, residual_plot(drawn, "the scenario")); });
-  fmt::print("{}", record_table(records, deviations));
-  if (!unwritten.empty()) throw StepError(unwritten);
-  return std::all_of(deviations.begin(), deviations.end(), [](const RecordDeviation& d) { return d.failure.empty(); })
-             ? 0
-             : 1;
-}
-
 }  // namespace
 
 int compare(const CompareOptions& options) {
   check_files(options);
   if (options.against.empty() && options.vary.empty())
     throw SetupError(
-        "--vary says what is compared, and is missing; or compare with records of a real joint: --against");
+        "--vary says what is compared, and is missing; or compare with records of a real joint or laser: --against");
   Registry registry(Registry::search_path(options.scenario.plugin_path));
   for (const std::string& p : registry.problems()) fmt::print(stderr, "warning: {}\n", p);
   const Comparison comparison = read_comparison(options, registry);
   const std::vector<Variation> variations = all_variations(comparison.factors);
-  if (!options.against.empty()) return compare_with_records(options, comparison, variations, registry);
+  if (!options.against.empty()) return compare_against(options, comparison, variations, registry);
   const std::size_t reference = find_reference(options.reference, variations);
 
   const CurrentRun progress;
