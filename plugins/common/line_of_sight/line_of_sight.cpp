@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "line_of_sight.hpp"
 
+#include <algorithm>
 #include <string>
 
 #include "muro/vocabulary.hpp"
@@ -12,6 +13,13 @@ namespace {
 
 /// m: of two devices at the height of a floor, the floor is no obstacle, and the walls on it are.
 constexpr double lift = 1e-3;
+
+/// The same segment from `a` to `b` as from `b` to `a`, so that rounding is the same in both directions.
+Segment line(const Vec3& a, const Vec3& b) {
+  const Vec3 lifted(0, 0, lift);
+  const bool is_in_order = std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+  return is_in_order ? Segment::between(a + lifted, b + lifted) : Segment::between(b + lifted, a + lifted);
+}
 
 }  // namespace
 
@@ -86,14 +94,51 @@ bool LineOfSight::is_cut_by_robot(const Segment& segment, std::uint32_t robot) c
 std::uint32_t LineOfSight::obstacles(const Vec3& a, const Vec3& b, std::int32_t own, std::int32_t other,
                                      std::uint32_t most) const {
   if (!a.allFinite() || !b.allFinite()) return most;
-  const Vec3 lifted(0, 0, lift);
-  const Segment segment = Segment::between(a + lifted, b + lifted);
+  const Segment segment = line(a, b);
   std::uint32_t count = 0;
   any_on(scene_->scenery, segment, [&](std::uint32_t i) { return is_cut(segment, i) && ++count >= most; });
   if (count >= most) return count;
   any_on(scene_->moving, segment, [&](std::uint32_t robot) {
     const auto number = std::int32_t(robot);
     return number != own && number != other && is_cut_by_robot(segment, robot) && ++count >= most;
+  });
+  return count;
+}
+
+void LineOfSight::look_around(const Vec3& centre, std::int32_t own, double reach, std::size_t lines, Fan& fan) const {
+  fan.begin(centre, own);
+  if (!centre.allFinite()) return;
+  const double far = reach * (1 + 1e-9) + 2 * lift;
+  const Vec3 half = Vec3::Constant(far);
+  const Aabb region{centre - half, centre + half};
+  const std::size_t worth_it = 32 * lines;  // boxes: to mark them costs less than a search for each line
+  std::size_t boxes = 0;
+  const auto add = [&](const Aabb& box, std::uint32_t item) {
+    const Vec3 nearest = centre.cwiseMax(box.low).cwiseMin(box.high);
+    return (nearest - centre).squaredNorm() > far * far || (++boxes <= worth_it && fan.add(box, item));
+  };
+  const bool is_all =
+      each_leaf(scene_->scenery, region,
+                [&](const BvhNode& leaf, std::uint32_t collider) { return add(leaf.bounds, collider); }) &&
+      each_leaf(scene_->moving, region, [&](const BvhNode&, std::uint32_t robot) {
+        return std::int32_t(robot) == own || add(scene_->robots[robot].bounds, first_robot() + robot);
+      });
+  if (is_all)
+    fan.close();
+  else
+    fan.give_up();
+}
+
+std::uint32_t LineOfSight::obstacles(const Fan& fan, const Vec3& to, std::int32_t other, std::uint32_t most) const {
+  if (!fan.is_usable()) return obstacles(fan.centre(), to, fan.own(), other, most);
+  if (!fan.centre().allFinite() || !to.allFinite()) return most;
+  const Segment segment = line(fan.centre(), to);
+  const std::uint32_t other_item = other < 0 ? UINT32_MAX : first_robot() + std::uint32_t(other);
+  std::uint32_t count = 0;
+  fan.any(to, segment, [&](std::uint32_t item) {
+    if (item == other_item) return false;
+    const bool cut = item < first_robot() ? is_cut(segment, item) : is_cut_by_robot(segment, item - first_robot());
+    return cut && ++count >= most;
   });
   return count;
 }

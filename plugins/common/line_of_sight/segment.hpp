@@ -69,4 +69,24 @@ bool any_on(const Bvh& tree, const Segment& segment, Visit visit) {
   return false;
 }
 
+/// Calls visit(leaf, item) for the items of all leaves that `box` overlaps, as long as it returns true; returns whether
+/// it always did.
+template <class Visit>
+bool each_leaf(const Bvh& tree, const Aabb& box, Visit visit) {
+  if (tree.nodes.empty()) return true;
+  std::uint32_t stack[64];
+  int depth = 0;
+  stack[depth++] = 0;
+  while (depth > 0) {
+    const BvhNode& n = tree.nodes[stack[--depth]];
+    if (!n.bounds.overlaps(box)) continue;
+    for (std::uint32_t i = 0; i < n.count; ++i)
+      if (!visit(n, tree.items[n.first + i])) return false;
+    if (n.count > 0) continue;
+    stack[depth++] = n.first + 1;
+    stack[depth++] = n.first;
+  }
+  return true;
+}
+
 }  // namespace muro::line_of_sight

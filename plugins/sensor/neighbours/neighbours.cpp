@@ -163,10 +163,13 @@ void Neighbours::serve(const Device& d) const {
     if (targets_[i].robot != d.robot) in_range.push_back({squared, i});
   });
   std::sort(in_range.begin(), in_range.end());
+  thread_local line_of_sight::Fan fan;
+  if (sight_ && !in_range.empty())
+    sight_->look_around(device.position, d.robot, std::sqrt(in_range.back().squared_distance), in_range.size(), fan);
   for (const InRange& candidate : in_range) {
     if ((*d.seen).size() == max_neighbours_) break;
     const std::uint32_t i = candidate.target;
-    if (sight_ && !sight_->is_clear(device.position, places_[i], d.robot, targets_[i].robot)) continue;
+    if (sight_ && sight_->obstacles(fan, places_[i], targets_[i].robot) > 0) continue;
     d.seen.push_back(reading(device, i));
   }
   const std::span<Neighbour> all = *d.seen;
