@@ -2,10 +2,14 @@
 // Messages between robots by radio; see README.md.
 #include <algorithm>
 #include <limits>
+#include <set>
 
+#include "delivery.hpp"
 #include "muro/plugin.hpp"
 #include "muro/toolkit/mounting.hpp"
+#include "muro/toolkit/per_robot.hpp"
 #include "parameters.hpp"
+#include "plugins/common/text/quote.hpp"
 #include "reception.hpp"
 #include "send_queue.hpp"
 #include "shared_medium.hpp"
@@ -44,6 +48,9 @@ constexpr Description description{
     .capabilities = deterministic | world | allocation_free | restorable,
 };
 
+/// Of the shadowing: with more luck than that nobody counts.
+constexpr double most_deviations = 4;
+
 class LogDistance final : public Algorithm {
  public:
   void connect(Connector& c) override;
@@ -56,21 +63,24 @@ class LogDistance final : public Algorithm {
   /// m: so far the strongest sender is received with a power (dBm).
   double reach(double weakest) const;
   void find_distances();
+  void tell_of_mistakes(Connector& c) const;
+  CallNote* note() const { return notes_ ? &notes_->of_this_thread() : nullptr; }
   void send(const Radio& r, double now) const;
   /// What receivers need of all radios, and the medium where they share one. By one thread.
   void look_around(const Step& step);
   void contend(double now, std::uint64_t seed);
 
+  CallNotes* notes_ = nullptr;
   Channel channel_;
   std::optional<line_of_sight::LineOfSight> sight_;
   std::vector<Radio> radios_;
   double hearing_ = 0, sensing_ = 0, disturbing_ = 0;  ///< m: so far the strongest sender does so
   SharedMedium medium_;
   // of the present step
-  std::vector<Vec3> places_;            ///< m, of the radios
-  std::vector<std::uint32_t> members_;  ///< radios that may be heard
-  std::vector<Vec3> member_places_;
-  SpatialHash hash_;
+  std::vector<Vec3> places_;             ///< m, of the radios
+  std::vector<CompleteFrame> complete_;  ///< of all radios
+  std::vector<Vec3> complete_from_;      ///< m: where their senders are
+  SpatialHash hash_;                     ///< over these
   std::uint8_t somebody_receives_ = 0;
   const Phase phases_[3] = {{Phase::IndexSpace::items, Phase::Scope::own_robot},
                             {Phase::IndexSpace::whole},
@@ -80,7 +90,6 @@ class LogDistance final : public Algorithm {
 Radio LogDistance::bind(Connector& c, std::uint32_t i) {
   const Item& item = c.items()[i];
   const ObjectId o = item.object;
-  if (!item.robot) throw Error("radios are parts of robots; name it in a robot, not under `algorithms`");
   Radio r;
   r.parameters = radio_parameters(c.parameters_of(i));
   r.mounting = mounting_of(c.parameters_of(i));
@@ -104,24 +113,51 @@ Radio LogDistance::bind(Connector& c, std::uint32_t i) {
 }
 
 void LogDistance::connect(Connector& c) {
-  if (c.rate() <= 0) throw Error("a radio needs a `rate`: how often it looks for messages to send");
+  if (c.rate() <= 0)
+    throw Error("a radio needs a `rate` in Hz, not on_demand: how often it looks for messages to send");
   channel_ = channel_parameters(c.parameters());
   if (channel_.obstacles != Obstacles::ignore) {
     sight_.emplace().connect(c);
     channel_.sight = &*sight_;
   }
-  for (std::uint32_t i = 0; i < c.items().size(); ++i) {
-    check_same_channel(c.parameters_of(i), c.parameters());
+  notes_ = CallNotes::of(c.host());
+  const Range all{0, std::uint32_t(c.items().size())};
+  for (const Item& item : NotedSpan(c.items().data(), all, note())) {
+    const auto i = std::uint32_t(radios_.size());
+    if (!item.robot) throw Error("radios are parts of robots; name it in a robot, not under `algorithms`");
+    check_same_channel(c.parameters_of(i), c.parameters(), c.items()[0].robot->name);
     radios_.push_back(bind(c, i));
   }
+  tell_of_mistakes(c);
   find_distances();
+}
+
+/// What can be computed, and is hardly meant. Each once.
+void LogDistance::tell_of_mistakes(Connector& c) const {
+  std::set<std::string> told;
+  for (std::uint32_t i = 0; i < c.items().size(); ++i)
+    for (const std::string& text : without_effect(c.parameters_of(i)))
+      if (told.insert(text).second)
+        c.host().log(LogLevel::warning, "robot " + quote(c.items()[i].robot->name) + ": " + text);
+  const auto strongest = std::max_element(radios_.begin(), radios_.end(), [](const Radio& a, const Radio& b) {
+    return a.parameters.tx_power < b.parameters.tx_power;
+  });
+  const double power = strongest->parameters.tx_power - channel_.path_loss.reference_loss;
+  const auto hears = [&](const Radio& r) {
+    return r.parameters.sensitivity <= power + most_deviations * channel_.shadowing_sigma;
+  };
+  if (std::none_of(radios_.begin(), radios_.end(), hears))
+    c.host().log(LogLevel::warning,
+                 "no radio of this channel hears another, however near: the strongest `tx_power` is "
+                 "received with at most " +
+                     number_text(power) + " dBm, which is below each `sensitivity`");
 }
 
 /// Beyond four standard deviations of the shadowing nobody listens.
 double LogDistance::reach(double weakest) const {
   double strongest = -1e9;
   for (const Radio& r : radios_) strongest = std::max(strongest, r.parameters.tx_power);
-  const double bearable = strongest - weakest + 4 * channel_.shadowing_sigma;
+  const double bearable = strongest - weakest + most_deviations * channel_.shadowing_sigma;
   return std::clamp(channel_.path_loss.distance_of(bearable), 1e-6, channel_.max_range);
 }
 
@@ -139,22 +175,20 @@ void LogDistance::find_distances() {
 
 void LogDistance::start() {
   places_.resize(radios_.size());
-  members_.reserve(radios_.size());
-  member_places_.reserve(radios_.size());
+  complete_.reserve(radios_.size());
+  complete_from_.reserve(radios_.size());
   hash_.reserve(radios_.size());
   medium_.reserve(radios_.size());
 }
 
 void LogDistance::step(const Step& step, Range range) {
   if (step.phase == 1) return look_around(step);
-  const Surroundings s{channel_, radios_,     places_,  members_,       hash_,
+  const Surroundings s{channel_, radios_,     places_,  complete_,      hash_,
                        medium_,  disturbing_, hearing_, step.seconds(), step.seed};
-  for (std::uint32_t i = range.begin; i < range.end; ++i) {
-    if (step.phase == 0)
-      send(radios_[i], s.now);
-    else
-      receive(s, i);
-  }
+  if (step.phase == 0)
+    for (const Radio& r : NotedSpan(radios_.data(), range, note())) send(r, s.now);
+  else
+    for (std::uint32_t i = range.begin; i < range.end; ++i) receive(s, i);
 }
 
 void LogDistance::send(const Radio& r, double now) const {
@@ -168,7 +202,7 @@ void LogDistance::send(const Radio& r, double now) const {
 }
 
 void LogDistance::contend(double now, std::uint64_t seed) {
-  medium_.advance(channel_, radios_, places_, hash_, sensing_, now, seed);
+  medium_.advance(channel_, radios_, places_, sensing_, now, seed);
   double oldest = now;  // what overlaps with this or a later instant is needed
   for (const Radio& r : radios_) {
     complete_frames(r, now);
@@ -176,26 +210,26 @@ void LogDistance::contend(double now, std::uint64_t seed) {
       if (f.stage == Stage::on_air || f.stage == Stage::complete) oldest = std::min(oldest, f.start);
   }
   for (const Radio& r : radios_) forget_frames(r, oldest);
-  medium_.list_transmissions(radios_);
 }
 
 void LogDistance::look_around(const Step& step) {
-  const auto is_complete = [](const Frame& f) { return f.stage == Stage::complete; };
-  const auto has_complete = [&](const Radio& r) {
-    return std::any_of((*r.frames).begin(), (*r.frames).end(), is_complete);
-  };
-  members_.clear(), member_places_.clear();
-  for (std::uint32_t i = 0; i < radios_.size(); ++i) {
-    places_[i] = *radios_[i].pose * radios_[i].mounting.position;
-    if (!channel_.is_shared && !has_complete(radios_[i])) continue;
-    members_.push_back(i);
-    member_places_.push_back(places_[i]);
-  }
-  hash_.build(member_places_, hearing_);
+  for (std::uint32_t i = 0; i < radios_.size(); ++i) places_[i] = *radios_[i].pose * radios_[i].mounting.position;
   if (sight_) sight_->begin_step();
   if (channel_.is_shared) contend(step.seconds(), step.seed);
-  somebody_receives_ = std::any_of(radios_.begin(), radios_.end(),
-                                   [&](const Radio& r) { return !(*r.arriving).empty() || has_complete(r); });
+  complete_.clear(), complete_from_.clear();
+  bool something_arrives = false;
+  for (std::uint32_t i = 0; i < radios_.size(); ++i) {
+    something_arrives = something_arrives || !(*radios_[i].arriving).empty();
+    for (const Frame& f : *radios_[i].frames) {
+      if (f.stage != Stage::complete) continue;
+      complete_.push_back({&f, f.receiver, i});
+      complete_from_.push_back(places_[i]);
+    }
+  }
+  somebody_receives_ = something_arrives || !complete_.empty();
+  if (!somebody_receives_) return;
+  hash_.build(complete_from_, hearing_);
+  if (channel_.is_shared) medium_.list_transmissions(radios_, places_, disturbing_);
 }
 
 constexpr abi::AlgorithmEntry algorithms[] = {algorithm<LogDistance>(description)};

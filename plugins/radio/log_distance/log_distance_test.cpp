@@ -189,6 +189,44 @@ TEST(Radio, IsCutByWallsAndOtherRobotsNotByItsOwnBody) {
   EXPECT_EQ(cut[2], 0);
 }
 
+/// A hundred robots between walls that all send at once, or one after the other; power by receiver and sender, 0 where
+/// nothing has come.
+std::vector<std::vector<double>> powers_among_walls(bool all_at_once) {
+  constexpr std::size_t robots = 100;
+  Radios s;
+  std::mt19937 engine(4);
+  std::uniform_real_distribution<double> at(-15, 15), height(0, 1);
+  for (std::size_t i = 0; i < robots; ++i)
+    s.place("r" + std::to_string(i), {at(engine), at(engine), 0.2 * height(engine)});
+  for (int i = 0; i < 40; ++i)
+    s.wall("wall" + std::to_string(i), Shape::box({1 + 4 * height(engine), 0.2, 2}), {at(engine), at(engine), 0.5});
+  s.wall("roof", Shape::box({4, 4, 0.1}), {0, 0, 0.5});
+  s.start(100, {{"keep", 100.0}, {"tx_power", 10.0}});
+  for (std::size_t i = 0; i < robots; ++i) {
+    s.send(i, "x");
+    if (!all_at_once) s.run_for(0.01);
+  }
+  s.run_for(0.02);
+  std::vector<std::vector<double>> powers(robots, std::vector<double>(robots));
+  for (std::size_t i = 0; i < robots; ++i)
+    for (const Header& h : s.received(i)) powers[i][std::size_t(h.from)] = h.rssi;
+  return powers;
+}
+
+TEST(Radio, HasExactlyEqualPowerInBothDirections) {
+  const std::vector<std::vector<double>> together = powers_among_walls(true);
+  int links = 0, weakened = 0;
+  for (std::size_t i = 0; i < together.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k) {
+      EXPECT_EQ(together[i][k], together[k][i]) << i << " " << k;
+      links += together[i][k] != 0;
+      weakened += together[i][k] == 0;
+    }
+  EXPECT_GT(links, 1000);
+  EXPECT_GT(weakened, 100) << "walls and robots are in the way";
+  EXPECT_EQ(powers_among_walls(false), together) << "it does not matter who else sends";
+}
+
 TEST(Radio, JoinsRobotsOfOneWorldWhateverTheirParameters) {
   Radios s;
   for (int i = 0; i < 3; ++i) s.place("r" + std::to_string(i), {double(i), 0, 0});
@@ -215,9 +253,32 @@ TEST(Radio, TellsWhatDoesNotFitTogether) {
     s.use("radio.log_distance", 100, {s.radios[1]}, std::move(b));
     return test::complaint_of([&] { s.complete(); });
   };
-  EXPECT_SAYS(complaint({}, {{"exponent", 2.0}}), "exponent is 2.000000, but not given for other radios");
-  EXPECT_SAYS(complaint({{"medium", "shared"}}, {}), "medium is separate, but shared for other radios");
+  EXPECT_SAYS(complaint({}, {{"exponent", 2.0}}),
+              "robot `b`, cannot be connected: `exponent` is 2, but 3 for the radio of `a`, which is of the same "
+              "channel; give both the same, or another `world` to one of them");
+  EXPECT_SAYS(complaint({}, {{"reference_loss", 40.0}}), "`reference_loss` is 40, but 40.1956 for the radio of `a`");
+  EXPECT_EQ(complaint({}, {{"exponent", 3.0}}), "no complaint") << "the default, given";
+  EXPECT_SAYS(complaint({{"medium", "shared"}}, {}), "`medium` is `separate`, but `shared` for the radio of `a`");
   EXPECT_SAYS(complaint({{"min_exponent", std::int64_t(6)}}, {}), "min_exponent (6) is above max_exponent (5)");
+}
+
+TEST(Radio, WarnsOfParametersThatDoNothing) {
+  const auto warnings = [](const Settings& settings) {
+    Radios s;
+    s.place("a", {0, 0, 0});
+    s.place("b", {1, 0, 0});
+    std::string all;
+    s.set_log([&](LogLevel, std::string_view line) { all += std::string(line) + "\n"; });
+    s.start(100, settings);
+    return all;
+  };
+  EXPECT_SAYS(warnings({{"carrier_sense", -70.0}}), "robot `a`: `carrier_sense` has no effect with `medium: separate`");
+  EXPECT_SAYS(warnings({{"noise_bandwidth", 2e6}}), "`noise_bandwidth` has no effect with `modulation: none`");
+  EXPECT_SAYS(warnings({{"shadowing", "link"}}), "`shadowing` has no effect with `shadowing_sigma: 0`");
+  EXPECT_SAYS(warnings({{"sensitivity", 10.0}}),
+              "no radio of this channel hears another, however near: the strongest `tx_power` is received with at most "
+              "-40.1956 dBm, which is below each `sensitivity`");
+  EXPECT_EQ(warnings({{"medium", "shared"}, {"carrier_sense", -70.0}, {"capture", 3.0}, {"tx_power", 3.0}}), "");
 }
 
 TEST(Radio, CountsWhatItsControlCodeWritesTooFast) {

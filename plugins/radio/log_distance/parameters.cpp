@@ -2,7 +2,11 @@
 #include "parameters.hpp"
 
 #include <algorithm>
+#include <cstdio>
+#include <initializer_list>
 #include <string>
+
+#include "plugins/common/text/quote.hpp"
 
 namespace muro::log_distance {
 
@@ -19,7 +23,19 @@ std::size_t place_of(std::string_view word, const std::string_view (&words)[n]) 
   return std::size_t(std::find(words, words + n, word) - words);
 }
 
+/// dB: that of free space where it is not given.
+double reference_loss(const Parameters& p) {
+  if (p.given("reference_loss")) return p.real("reference_loss");
+  return free_space_loss(p.real("reference_distance"), p.real("frequency"), p.real("propagation_speed"));
+}
+
 }  // namespace
+
+std::string number_text(double number) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", number);
+  return text;
+}
 
 RadioParameters radio_parameters(const Parameters& p) {
   if (p.integer("min_exponent") > p.integer("max_exponent"))
@@ -42,15 +58,14 @@ RadioParameters radio_parameters(const Parameters& p) {
 
 Channel channel_parameters(const Parameters& p) {
   Channel c;
-  const double d0 = p.real("reference_distance"), speed = p.real("propagation_speed");
-  c.path_loss = {p.given("reference_loss") ? p.real("reference_loss") : free_space_loss(d0, p.real("frequency"), speed),
-                 d0, p.real("exponent")};
+  const double d0 = p.real("reference_distance");
+  c.path_loss = {reference_loss(p), d0, p.real("exponent")};
   c.shadowing_sigma = p.real("shadowing_sigma");
   c.shadowing = Shadowing(place_of(p.text("shadowing"), shadowings));
   c.obstacles = Obstacles(place_of(p.text("obstacles"), obstacle_rules));
   c.obstacle_loss = p.real("obstacle_loss");
   c.max_range = p.real("max_range");
-  c.speed = speed;
+  c.speed = p.real("propagation_speed");
   c.noise_bandwidth = p.real("noise_bandwidth");
   constexpr Modulation models[] = {Modulation::none, Modulation::psk, Modulation::psk, Modulation::oqpsk};
   c.modulation = models[place_of(p.text("modulation"), modulations)];
@@ -60,18 +75,36 @@ Channel channel_parameters(const Parameters& p) {
   return c;
 }
 
-void check_same_channel(const Parameters& p, const Parameters& of_the_first) {
-  const auto refuse = [&](std::string_view name, const std::string& value, const std::string& first) {
-    throw Error(std::string(name) + " is " + value + ", but " + first +
-                " for other radios of the same channel; give all of them the same, or another `world` to some");
+void check_same_channel(const Parameters& p, const Parameters& of_the_first, std::string_view first) {
+  const auto refuse = [&](std::string_view name, const std::string& value, const std::string& other) {
+    throw Error(quote(name) + " is " + value + ", but " + other + " for the radio of " + quote(first) +
+                ", which is of the same channel; give both the same, or another `world` to one of them");
   };
-  for (const std::string_view name : shared_numbers)
-    if (p.real(name) != of_the_first.real(name) || p.given(name) != of_the_first.given(name))
-      refuse(name, p.given(name) ? std::to_string(p.real(name)) : "not given",
-             of_the_first.given(name) ? std::to_string(of_the_first.real(name)) : "not given");
+  for (const std::string_view name : shared_numbers) {
+    const bool has_own_default = name == "reference_loss";
+    const double value = has_own_default ? reference_loss(p) : p.real(name);
+    const double other = has_own_default ? reference_loss(of_the_first) : of_the_first.real(name);
+    if (value != other) refuse(name, number_text(value), number_text(other));
+  }
   for (const std::string_view name : shared_words)
-    if (p.text(name) != of_the_first.text(name))
-      refuse(name, std::string(p.text(name)), std::string(of_the_first.text(name)));
+    if (p.text(name) != of_the_first.text(name)) refuse(name, quote(p.text(name)), quote(of_the_first.text(name)));
+}
+
+std::vector<std::string> without_effect(const Parameters& p) {
+  std::vector<std::string> names;
+  const auto add = [&](std::initializer_list<std::string_view> all, bool has_effect, std::string_view why) {
+    for (const std::string_view name : all)
+      if (!has_effect && p.given(name)) names.push_back(quote(name) + " has no effect with " + quote(why));
+  };
+  const std::string_view medium = p.text("medium"), modulation = p.text("modulation"), obstacles = p.text("obstacles");
+  add({"carrier_sense", "turnaround", "backoff_slot", "min_exponent", "max_exponent", "max_backoffs", "capture"},
+      medium == "shared", "medium: separate");
+  add({"capture"}, medium != "shared" || modulation == "none", "modulation: " + std::string(modulation));
+  add({"noise_bandwidth"}, modulation != "none", "modulation: none");
+  add({"noise_floor"}, modulation != "none" || medium == "shared", "modulation: none");
+  add({"obstacle_loss"}, obstacles == "loss", "obstacles: " + std::string(obstacles));
+  add({"shadowing"}, p.real("shadowing_sigma") > 0, "shadowing_sigma: 0");
+  return names;
 }
 
 }  // namespace muro::log_distance

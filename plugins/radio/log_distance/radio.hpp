@@ -81,9 +81,23 @@ struct Channel {
     return {seed, fnv1a({reinterpret_cast<const char*>(keys), sizeof keys}), std::uint64_t(number)};
   }
   /// dBm: what `b` at `to` (m, world) receives of frame `number` of `a` at `from`; nothing where it is weaker than
-  /// `least` or out of range.
+  /// `least` or out of range. obstacles(most): how many are on the line between them, at most `most`.
+  template <class CountObstacles>
   std::optional<double> received_power(std::uint64_t seed, const Radio& a, const Vec3& from, const Radio& b,
-                                       const Vec3& to, std::int64_t number, double least) const;
+                                       const Vec3& to, std::int64_t number, double least,
+                                       CountObstacles obstacles_between) const {
+    const std::optional<double> power = unobstructed_power(seed, a, from, b, to, number);
+    if (!power || *power < least) return std::nullopt;
+    const std::uint32_t most = deciding_obstacles(*power - least);
+    return most == 0 ? power : behind(obstacles_between(most), *power, least);
+  }
+
+ private:
+  std::optional<double> unobstructed_power(std::uint64_t seed, const Radio& a, const Vec3& from, const Radio& b,
+                                           const Vec3& to, std::int64_t number) const;
+  /// So many obstacles cut a link that has a margin (dB); 0: none matters.
+  std::uint32_t deciding_obstacles(double margin) const;
+  std::optional<double> behind(std::uint32_t count, double power, double least) const;
 };
 
 }  // namespace muro::log_distance

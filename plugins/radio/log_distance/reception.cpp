@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "delivery.hpp"
+
 namespace muro::log_distance {
 
 namespace {
@@ -10,53 +12,159 @@ namespace {
 /// Draw that decides whether the bits of a message are right.
 constexpr std::uint32_t error_draw = 3;
 
+enum class Outcome : std::uint8_t { received, weak, wrong, disturbed };
+
+/// A frame that may be heard.
+struct Heard {
+  const CompleteFrame* complete;
+  double squared_distance;  ///< m^2, to its sender
+};
+
+/// A transmission of another radio that may disturb others here.
+struct Nearby {
+  Transmission transmission;
+  double squared_distance;  ///< m^2, to its sender
+  double power = -1;        ///< mW, here; below 0: not known yet
+};
+
+bool overlap(const Transmission& t, const Frame& f) { return t.start < f.end && t.end > f.start; }
+
+bool disturbs(const Nearby& n, const Heard& h) {
+  return n.transmission.radio != h.complete->radio && overlap(n.transmission, *h.complete->frame);
+}
+
 /// Another transmission that overlaps with one that is received.
 struct Disturbance {
   double from, until;  ///< s
   double power;        ///< mW
 };
 
-enum class Outcome : std::uint8_t { received, weak, wrong, disturbed };
+/// What one receiver has to do with in a step. A thread uses one for one receiver after the other.
+class Reception {
+ public:
+  void take_up(const Surroundings& s, std::uint32_t number);
+  void listen();
 
-struct Reception {
-  const Surroundings& s;
-  std::uint32_t number;  ///< of the receiver
-  const Radio& r;
-  std::span<double> powers;  ///< mW, of each transmission of the medium here; below 0: not known yet
-
-  Outcome outcome(std::uint32_t sender, const Frame& f, double& rssi) const;
-  /// Fills in what overlaps with the frame; returns whether the receiver itself was sending.
-  bool find_disturbances(std::uint32_t sender, const Frame& f, std::vector<Disturbance>& found) const;
-  double power_of(const Transmission& t) const;
-  /// The probability that all bits are right.
+ private:
+  void find_nearby();
+  void look_around();
+  std::uint32_t obstacles_to(std::uint32_t radio, std::uint32_t most);
+  Outcome outcome(const Heard& h, double& rssi);
+  double power_of(Nearby& n);
+  bool is_sending_during(const Frame& f) const;
+  bool is_drowned(const Heard& h, double signal);
+  void find_disturbances(const Heard& h);
   double all_right(const Radio& sender, const Frame& f, double signal, std::span<const Disturbance> others) const;
+  Incoming incoming_of(const Heard& h, double rssi) const;
+  void count(Outcome outcome) const;
+
+  const Surroundings* s_ = nullptr;
+  std::uint32_t number_ = 0;  ///< of the receiver
+  const Radio* r_ = nullptr;
+  std::vector<Heard> heard_;
+  std::vector<Nearby> nearby_;
+  std::vector<Transmission> own_;
+  std::vector<Disturbance> disturbances_;
+  std::vector<Incoming> incoming_;
+  bool has_looked_ = false;
+  line_of_sight::Fan fan_;
 };
 
-bool Reception::find_disturbances(std::uint32_t sender, const Frame& f, std::vector<Disturbance>& found) const {
-  bool is_sending = false;
-  s.medium.each_overlapping(f.start, f.end, [&](const Transmission& t, std::size_t i) {
-    if (t.radio == number) is_sending = true;
-    if (t.radio == number || t.radio == sender) return;
-    double& power = powers[i];
-    if (power < 0) power = power_of(t);
-    if (power > 0) found.push_back({t.start, t.end, power});
+void Reception::take_up(const Surroundings& s, std::uint32_t number) {
+  s_ = &s, number_ = number, r_ = &s.radios[number];
+  has_looked_ = false;
+  heard_.clear(), nearby_.clear(), own_.clear(), incoming_.clear();
+  heard_.reserve(s.complete.size()), incoming_.reserve(s.complete.size());
+  nearby_.reserve(s.medium.transmission_capacity()), disturbances_.reserve(s.medium.transmission_capacity());
+}
+
+void Reception::listen() {
+  s_->hash.each_within(s_->places[number_], s_->hearing, [&](std::uint32_t i, double squared) {
+    const CompleteFrame& c = s_->complete[i];
+    const bool is_for_us = c.receiver == radio::broadcast || c.receiver == r_->robot;
+    if (c.radio != number_ && is_for_us) heard_.push_back({&c, squared});
   });
-  return is_sending;
+  if (s_->channel.is_shared && !heard_.empty()) find_nearby();
+  for (const Heard& h : heard_) {
+    double rssi = 0;
+    const Outcome o = outcome(h, rssi);
+    if (o == Outcome::received)
+      incoming_.push_back(incoming_of(h, rssi));
+    else
+      count(o);
+  }
+  deliver(*r_, incoming_, s_->now);
 }
 
-double Reception::power_of(const Transmission& t) const {
-  if ((s.places[t.radio] - s.places[number]).squaredNorm() > s.disturbing * s.disturbing) return 0;
-  const double least = r.parameters.noise_floor - below_noise;
-  const auto power =
-      s.channel.received_power(s.seed, s.radios[t.radio], s.places[t.radio], r, s.places[number], t.number, least);
-  return power ? from_decibels(*power) : 0;
+/// What is on the air at the same time as one of the frames.
+void Reception::find_nearby() {
+  double first = heard_[0].complete->frame->start, last = heard_[0].complete->frame->end;
+  for (const Heard& h : heard_)
+    first = std::min(first, h.complete->frame->start), last = std::max(last, h.complete->frame->end);
+  s_->medium.each_within(s_->places[number_], s_->disturbing, [&](std::uint32_t i, double squared) {
+    const Transmission& t = s_->medium[i];
+    if (t.start >= last || t.end <= first) return;
+    if (t.radio == number_)
+      own_.push_back(t);
+    else
+      nearby_.push_back({t, squared});
+  });
 }
 
-/// Between two instants at which something begins or ends, the bits have one probability.
+void Reception::look_around() {
+  double squared = 0;
+  for (const Heard& h : heard_) squared = std::max(squared, h.squared_distance);
+  for (const Nearby& n : nearby_) squared = std::max(squared, n.squared_distance);
+  s_->channel.sight->look_around(s_->places[number_], r_->robot, std::sqrt(squared), heard_.size() + nearby_.size(),
+                                 fan_);
+  has_looked_ = true;
+}
+
+std::uint32_t Reception::obstacles_to(std::uint32_t radio, std::uint32_t most) {
+  if (!has_looked_) look_around();
+  return s_->channel.sight->obstacles(fan_, s_->places[radio], s_->radios[radio].robot, most);
+}
+
+double Reception::power_of(Nearby& n) {
+  if (n.power >= 0) return n.power;
+  const Transmission& t = n.transmission;
+  const auto power = s_->channel.received_power(s_->seed, s_->radios[t.radio], s_->places[t.radio], *r_,
+                                                s_->places[number_], t.number, r_->parameters.noise_floor - below_noise,
+                                                [&](std::uint32_t most) { return obstacles_to(t.radio, most); });
+  return n.power = power ? from_decibels(*power) : 0;
+}
+
+bool Reception::is_sending_during(const Frame& f) const {
+  return std::any_of(own_.begin(), own_.end(), [&](const Transmission& t) { return overlap(t, f); });
+}
+
+/// Without a modulation: whether one of the other transmissions alone is too strong. Those whose senders are not much
+/// farther away than that of the frame come first, since they probably are.
+bool Reception::is_drowned(const Heard& h, double signal) {
+  const double bearable =
+      from_decibels(signal - s_->channel.capture) * (1 + 1e-9);  // a little more: `all_right` has the last word
+  const double near = 4 * h.squared_distance;
+  const auto drowns = [&](bool nearer) {
+    return std::any_of(nearby_.begin(), nearby_.end(), [&](Nearby& n) {
+      return (n.squared_distance <= near) == nearer && disturbs(n, h) && power_of(n) > bearable;
+    });
+  };
+  return drowns(true) || drowns(false);
+}
+
+void Reception::find_disturbances(const Heard& h) {
+  disturbances_.clear();
+  for (Nearby& n : nearby_) {
+    if (disturbs(n, h) && power_of(n) > 0) disturbances_.push_back({n.transmission.start, n.transmission.end, n.power});
+  }
+}
+
+/// The probability that all bits are right. Between two instants at which something begins or ends, the bits have one
+/// probability.
 double Reception::all_right(const Radio& sender, const Frame& f, double signal,
                             std::span<const Disturbance> others) const {
-  const Channel& c = s.channel;
-  const double bit_rate = sender.parameters.bit_rate, noise = from_decibels(r.parameters.noise_floor);
+  const Channel& c = s_->channel;
+  const double bit_rate = sender.parameters.bit_rate, noise = from_decibels(r_->parameters.noise_floor);
   const double bandwidth_per_bit = c.noise_bandwidth > 0 ? c.noise_bandwidth / bit_rate : 1;
   const double power = from_decibels(signal);
   double probability = 1, from = f.start;
@@ -78,70 +186,35 @@ double Reception::all_right(const Radio& sender, const Frame& f, double signal,
   return probability;
 }
 
-Outcome Reception::outcome(std::uint32_t sender, const Frame& f, double& rssi) const {
-  const Channel& c = s.channel;
-  const Radio& a = s.radios[sender];
+Outcome Reception::outcome(const Heard& h, double& rssi) {
+  const Channel& c = s_->channel;
+  const Frame& f = *h.complete->frame;
+  const std::uint32_t sender = h.complete->radio;
+  const Radio& a = s_->radios[sender];
   const auto power =
-      c.received_power(s.seed, a, s.places[sender], r, s.places[number], f.number, r.parameters.sensitivity);
+      c.received_power(s_->seed, a, s_->places[sender], *r_, s_->places[number_], f.number, r_->parameters.sensitivity,
+                       [&](std::uint32_t most) { return obstacles_to(sender, most); });
   if (!power) return Outcome::weak;
   rssi = *power;
-  thread_local std::vector<Disturbance> others;
-  others.clear();
-  others.reserve(256);
-  if (c.is_shared && find_disturbances(sender, f, others)) return Outcome::disturbed;
-  if (c.modulation == Modulation::none && others.empty()) return Outcome::received;
-  const double draw = c.random(s.seed, a, r, f.number).uniform(error_draw);
-  if (draw < all_right(a, f, rssi, others)) return Outcome::received;
-  const bool by_noise = others.empty() || draw >= all_right(a, f, rssi, {});
+  if (c.is_shared && is_sending_during(f)) return Outcome::disturbed;
+  if (c.modulation == Modulation::none && !nearby_.empty() && is_drowned(h, rssi)) return Outcome::disturbed;
+  find_disturbances(h);
+  if (c.modulation == Modulation::none && disturbances_.empty()) return Outcome::received;
+  const double draw = c.random(s_->seed, a, *r_, f.number).uniform(error_draw);
+  if (draw < all_right(a, f, rssi, disturbances_)) return Outcome::received;
+  const bool by_noise = disturbances_.empty() || draw >= all_right(a, f, rssi, {});
   return by_noise ? Outcome::wrong : Outcome::disturbed;
 }
 
-Arrival arrival_of(const Surroundings& s, std::uint32_t sender, std::uint32_t receiver, const Frame& f, double rssi) {
-  const double distance = (s.places[sender] - s.places[receiver]).norm();
-  Arrival a;
-  a.sent = f.handed_over;
-  a.received = f.end + distance / s.channel.speed;
-  a.rssi = rssi;
-  a.number = f.number;
-  a.from = s.radios[sender].robot;
-  a.size = f.size;
-  a.payload = f.payload;
-  return a;
+Incoming Reception::incoming_of(const Heard& h, double rssi) const {
+  const Frame& f = *h.complete->frame;
+  const double distance = std::sqrt(h.squared_distance);
+  return {f.end + distance / s_->channel.speed, f.handed_over, rssi,      f.number,
+          s_->radios[h.complete->radio].robot,  f.size,        &f.payload};
 }
 
-void deliver(const Radio& r, const Arrival& a) {
-  const std::uint32_t carried = std::min(a.size, radio::max_bytes);
-  const radio::Header header{
-      double(a.from), double(a.number), a.sent, a.received, a.rssi, double(a.size), double((*r.received_bytes).size())};
-  r.received.push_back(header);
-  for (std::uint32_t i = 0; i < carried; ++i) r.received_bytes.push_back(a.payload.bytes[i]);
-  *r.last = header;
-  *r.last_bytes = a.payload;
-  ++r.counters->received;
-}
-
-/// Moves what has come by now from the way to the lists, in the order of its coming.
-void deliver_what_has_come(const Radio& r, double now) {
-  const std::span<Arrival> all = *r.arriving;
-  if (all.empty()) return;
-  thread_local std::vector<std::uint32_t> order;
-  order.reserve(256);
-  order.resize(all.size());
-  for (std::uint32_t i = 0; i < all.size(); ++i) order[i] = i;
-  std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t k) {
-    const Arrival &a = all[i], &b = all[k];
-    return a.received != b.received ? a.received < b.received
-           : a.from != b.from       ? a.from < b.from
-                                    : a.number < b.number;
-  });
-  for (const std::uint32_t i : order)
-    if (all[i].received <= now) deliver(r, all[i]);
-  r.arriving.clear();
-  for (const Arrival& a : all)
-    if (a.received > now) r.arriving.push_back(a);
-}
-
-void count(radio::Counters& counters, Outcome outcome) {
+void Reception::count(Outcome outcome) const {
+  radio::Counters& counters = *r_->counters;
   if (outcome == Outcome::weak) ++counters.lost_signal;
   if (outcome == Outcome::wrong) ++counters.lost_error;
   if (outcome == Outcome::disturbed) ++counters.lost_collision;
@@ -149,42 +222,10 @@ void count(radio::Counters& counters, Outcome outcome) {
 
 }  // namespace
 
-void forget_messages(const Radio& r, double now) {
-  const std::span<radio::Header> headers = *r.received;
-  const std::span<std::uint8_t> bytes = *r.received_bytes;
-  const auto is_old = [&](const radio::Header& h) { return h.received <= now - r.parameters.keep; };
-  std::size_t old = 0;
-  while (old < headers.size() && is_old(headers[old])) ++old;
-  if (old == 0) return;
-  const std::size_t first = old < headers.size() ? std::size_t(headers[old].first) : bytes.size();
-  r.received.clear();
-  for (radio::Header h : headers.subspan(old)) {
-    h.first -= double(first);
-    r.received.push_back(h);
-  }
-  r.received_bytes.clear();
-  for (const std::uint8_t byte : bytes.subspan(first)) r.received_bytes.push_back(byte);
-}
-
 void receive(const Surroundings& s, std::uint32_t number) {
-  const Radio& r = s.radios[number];
-  thread_local std::vector<double> powers;
-  powers.assign(s.channel.is_shared ? s.medium.transmission_count() : 0, -1);
-  const Reception reception{s, number, r, powers};
-  s.hash.each_within(s.places[number], s.hearing, [&](std::uint32_t member, double) {
-    const std::uint32_t sender = s.members[member];
-    if (sender == number) return;
-    for (const Frame& f : *s.radios[sender].frames) {
-      if (f.stage != Stage::complete || (f.receiver != radio::broadcast && f.receiver != r.robot)) continue;
-      double rssi = 0;
-      const Outcome outcome = reception.outcome(sender, f, rssi);
-      if (outcome == Outcome::received)
-        r.arriving.push_back(arrival_of(s, sender, number, f, rssi));
-      else
-        count(*r.counters, outcome);
-    }
-  });
-  deliver_what_has_come(r, s.now);
+  thread_local Reception reception;
+  reception.take_up(s, number);
+  reception.listen();
 }
 
 }  // namespace muro::log_distance

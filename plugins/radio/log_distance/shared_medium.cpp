@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "send_queue.hpp"
 
@@ -36,17 +37,20 @@ void drop_head(const Radio& r) {
     if (&f != head) r.frames.push_back(f);
 }
 
-/// Whether another radio is heard at `time`.
+/// Whether another radio is heard at `time`. `senders`: over the places.
 bool is_busy(const Channel& channel, std::span<const Radio> radios, std::span<const Vec3> places,
-             const SpatialHash& hash, double sensing, std::uint32_t number, double time, std::uint64_t seed) {
+             const SpatialHash& senders, double sensing, std::uint32_t number, double time, std::uint64_t seed) {
   const Radio& r = radios[number];
   bool busy = false;
-  hash.each_within(places[number], sensing, [&](std::uint32_t i, double) {
+  senders.each_within(places[number], sensing, [&](std::uint32_t i, double) {
     const Radio& other = radios[i];
     if (busy || i == number || time < other.access->on_air_from || time >= other.access->on_air_until) return;
     const std::int64_t heard = other.access->on_air_number;
-    busy = channel.received_power(seed, other, places[i], r, places[number], heard, r.parameters.carrier_sense)
-               .has_value();
+    const auto power = channel.received_power(
+        seed, other, places[i], r, places[number], heard, r.parameters.carrier_sense, [&](std::uint32_t most) {
+          return channel.sight->obstacles(places[number], places[i], r.robot, other.robot, most);
+        });
+    busy = power.has_value();
   });
   return busy;
 }
@@ -69,7 +73,7 @@ void SharedMedium::add(const Radio& r, std::uint32_t number, double now) {
 }
 
 void SharedMedium::advance(const Channel& channel, std::span<const Radio> radios, std::span<const Vec3> places,
-                           const SpatialHash& hash, double sensing, double now, std::uint64_t seed) {
+                           double sensing, double now, std::uint64_t seed) {
   attempts_.clear();
   for (std::uint32_t i = 0; i < radios.size(); ++i) {
     const Radio& r = radios[i];
@@ -82,6 +86,7 @@ void SharedMedium::advance(const Channel& channel, std::span<const Radio> radios
     }
     add(r, i, now);
   }
+  if (!attempts_.empty()) senders_.build(places, sensing);
   while (!attempts_.empty()) {
     std::pop_heap(attempts_.begin(), attempts_.end());
     const Attempt attempt = attempts_.back();
@@ -90,7 +95,7 @@ void SharedMedium::advance(const Channel& channel, std::span<const Radio> radios
     Access& access = *r.access;
     double next_frame_from = attempt.time;
     bool head_is_done = true;
-    if (!is_busy(channel, radios, places, hash, sensing, attempt.radio, attempt.time, seed)) {
+    if (!is_busy(channel, radios, places, senders_, sensing, attempt.radio, attempt.time, seed)) {
       put_on_air(r, attempt.time + r.parameters.turnaround);
       next_frame_from = access.on_air_until;
     } else if (++access.backoffs > r.parameters.max_backoffs) {
@@ -110,18 +115,19 @@ void SharedMedium::advance(const Channel& channel, std::span<const Radio> radios
   }
 }
 
-void SharedMedium::list_transmissions(std::span<const Radio> radios) {
-  transmissions_.clear();
-  longest_ = 0;
+void SharedMedium::list_transmissions(std::span<const Radio> radios, std::span<const Vec3> places, double disturbing) {
+  double first = std::numeric_limits<double>::infinity(), last = -first;
+  for (const Radio& r : radios)
+    for (const Frame& f : *r.frames)
+      if (f.stage == Stage::complete) first = std::min(first, f.start), last = std::max(last, f.end);
+  transmissions_.clear(), starts_from_.clear();
   for (std::uint32_t i = 0; i < radios.size(); ++i)
     for (const Frame& f : *radios[i].frames) {
-      if (f.stage == Stage::waiting) continue;
+      if (f.stage == Stage::waiting || f.start >= last || f.end <= first) continue;
       transmissions_.push_back({f.start, f.end, i, f.number});
-      longest_ = std::max(longest_, f.end - f.start);
+      starts_from_.push_back(places[i]);
     }
-  std::sort(transmissions_.begin(), transmissions_.end(), [](const Transmission& a, const Transmission& b) {
-    return a.start != b.start ? a.start < b.start : a.radio < b.radio;
-  });
+  on_air_.build(starts_from_, 0.5 * disturbing);
 }
 
 }  // namespace muro::log_distance

@@ -8,7 +8,7 @@
 
 namespace muro::log_distance {
 
-/// A frame that is, was or will be on the air.
+/// A frame that is or was on the air.
 struct Transmission {
   double start, end;  ///< s
   std::uint32_t radio;
@@ -24,27 +24,28 @@ class SharedMedium {
   /// So that steps do not allocate. [setup]
   void reserve(std::size_t radios) {
     attempts_.reserve(radios);
+    senders_.reserve(radios);
     transmissions_.reserve(16 * radios);
+    starts_from_.reserve(16 * radios);
+    on_air_.reserve(16 * radios);
   }
 
-  /// Everything that happens until `now` (s), in the order of time, then of radios. `places`: of the radios, m, over
-  /// which `hash` is built; `sensing`: m, so far any of them makes the medium busy. By one thread.
-  void advance(const Channel& channel, std::span<const Radio> radios, std::span<const Vec3> places,
-               const SpatialHash& hash, double sensing, double now, std::uint64_t seed);
+  /// Everything that happens until `now` (s), in the order of time, then of radios. `places`: of the radios, m;
+  /// `sensing`: m, so far any of them makes the medium busy. By one thread.
+  void advance(const Channel& channel, std::span<const Radio> radios, std::span<const Vec3> places, double sensing,
+               double now, std::uint64_t seed);
 
-  /// Lists all transmissions, in the order of their starts. By one thread.
-  void list_transmissions(std::span<const Radio> radios);
-  /// Calls visit(transmission, its number) for all that overlap in time with what begins and ends at `start` and `end`
-  /// (s).
+  /// Lists the transmissions that overlap in time with frames that are complete. `disturbing`: m, radius of searches.
+  /// By one thread.
+  void list_transmissions(std::span<const Radio> radios, std::span<const Vec3> places, double disturbing);
+  /// Calls visit(number of a transmission, squared distance of its sender in m^2) for those within `radius` (m) of
+  /// `centre`.
   template <class Visit>
-  void each_overlapping(double start, double end, Visit visit) const {
-    const auto begins_before = [](const Transmission& t, double time) { return t.start < time; };
-    auto t = std::lower_bound(transmissions_.begin(), transmissions_.end(), start - longest_, begins_before);
-    for (; t != transmissions_.end() && t->start < end; ++t)
-      if (t->end > start) visit(*t, std::size_t(t - transmissions_.begin()));
+  void each_within(const Vec3& centre, double radius, Visit visit) const {
+    on_air_.each_within(centre, radius, visit);
   }
-
-  std::size_t transmission_count() const { return transmissions_.size(); }
+  const Transmission& operator[](std::uint32_t i) const { return transmissions_[i]; }
+  std::size_t transmission_capacity() const { return transmissions_.capacity(); }
 
  private:
   struct Attempt {
@@ -56,8 +57,10 @@ class SharedMedium {
   void add(const Radio& r, std::uint32_t number, double now);
 
   std::vector<Attempt> attempts_;  ///< a heap, of this step
+  SpatialHash senders_;            ///< over the places of all radios
   std::vector<Transmission> transmissions_;
-  double longest_ = 0;  ///< s, of the transmissions
+  std::vector<Vec3> starts_from_;  ///< m: where their senders are
+  SpatialHash on_air_;             ///< over these
 };
 
 }  // namespace muro::log_distance

@@ -214,7 +214,7 @@ TEST(ARoverWithLevels, TwiceInOneWorldIsRefused) {
   for (const std::string& engine : motions()) {
     if ((description_of(engine).capabilities & Capability::world) == 0) continue;
     const std::string text = refusal(LevelList{{engine, {}}, {engine, {{"joints", std::string("passive")}}}});
-    EXPECT_NE(text.find("would move one robot in one world of " + engine + "; give one of them another `world`"),
+    EXPECT_NE(text.find("are of one robot and in one world of " + engine + "; give one of them another `world`"),
               std::string::npos)
         << text;
   }
