@@ -14,8 +14,8 @@
 namespace muro::host {
 namespace {
 
-constexpr double step = 2 * M_PI / 1024;
-constexpr int beams = 201;
+constexpr double ray_step = 2 * M_PI / 1024;
+constexpr int ray_count = 201;
 
 /// A scanner in front of a wall that is 2 m away; `error`: the parameters of its sensor.error.
 std::string scenario(const std::string& error) {
@@ -27,17 +27,17 @@ std::string scenario(const std::string& error) {
          (error.empty() ? "" : "    error: {use: sensor.error, on: laser, rate: 10, " + error + "}\n");
 }
 
-double wall(int beam) { return 2 / std::cos((beam - 100) * step); }
+double wall(int beam) { return 2 / std::cos((beam - 100) * ray_step); }
 
 /// As a table: the wall, `bias` farther, with normal noise of `sigma` (m).
 std::string table_of(int scans, double bias, double sigma) {
   std::string text =
-      fmt::format("# scanner: UTM-30LX\n# angle_min: {:.9f}\n# angle_increment: {:.9f}\n", -100 * step, step) +
+      fmt::format("# scanner: UTM-30LX\n# angle_min: {:.9f}\n# angle_increment: {:.9f}\n", -100 * ray_step, ray_step) +
       "# range_min: 0.02\n# range_max: 5.6\ntime";
-  for (int i = 0; i < beams; ++i) text += fmt::format(",ranges[{}]", i);
+  for (int i = 0; i < ray_count; ++i) text += fmt::format(",ranges[{}]", i);
   for (int s = 0; s < scans; ++s) {
     text += fmt::format("\n{:.1f}", 0.1 * s);
-    for (int i = 0; i < beams; ++i)
+    for (int i = 0; i < ray_count; ++i)
       text += fmt::format(",{:.6f}", wall(i) + bias + sigma * Random(5, std::uint64_t(i), 0).normal(std::uint32_t(s)));
   }
   return text + "\n";
@@ -103,7 +103,7 @@ TEST_F(AgainstScans, ErrorCodesAreToldByTheirShare) {
   std::string text;
   for (int s = 0; s < 100; ++s) {
     std::vector<std::uint32_t> values;
-    for (int i = 0; i < beams; ++i) {
+    for (int i = 0; i < ray_count; ++i) {
       const bool is_lost = Random(9, std::uint64_t(i), 2).uniform(std::uint32_t(s)) < 0.02;
       values.push_back(is_lost ? 6 : std::uint32_t(std::lround(1e3 * wall(i))));
     }
@@ -113,8 +113,8 @@ TEST_F(AgainstScans, ErrorCodesAreToldByTheirShare) {
   const auto r = compare("s.yaml --against r.scip --csv t.csv");
   ASSERT_EQ(r.exit_code, 0) << r.output;
   EXPECT_NE(r.output.find("error codes of the recorded scanner, of all readings: 6: "), std::string::npos) << r.output;
-  EXPECT_NEAR(figure("recorded", "drop_outs"), 0.02, 3 * std::sqrt(0.02 / (100 * beams)));
-  EXPECT_NEAR(figure("simulated", "drop_outs"), 0.05, 3 * std::sqrt(0.05 / (100 * beams)));
+  EXPECT_NEAR(figure("recorded", "drop_outs"), 0.02, 3 * std::sqrt(0.02 / (100 * ray_count)));
+  EXPECT_NEAR(figure("simulated", "drop_outs"), 0.05, 3 * std::sqrt(0.05 / (100 * ray_count)));
   EXPECT_NEAR(figure("recorded", "resolution"), 0.001, 1e-9);
   EXPECT_NEAR(figure("simulated", "resolution"), 0.001, 1e-9);
 }
@@ -122,16 +122,16 @@ TEST_F(AgainstScans, ErrorCodesAreToldByTheirShare) {
 TEST_F(AgainstScans, WhatTheRecordDoesNotSayIsTakenFromTheScanner) {
   folder.file("s.yaml", scenario("sigma: 0.004"));
   std::string text = "time";
-  for (int i = 0; i < beams; ++i) text += fmt::format(",stand/laser:ranges.measured[{}]", i);
+  for (int i = 0; i < ray_count; ++i) text += fmt::format(",stand/laser:ranges.measured[{}]", i);
   for (int s = 0; s < 20; ++s) {
     text += fmt::format("\n{}", s);
-    for (int i = 0; i < beams; ++i) text += i < 20 ? ",5.6" : ",2";
+    for (int i = 0; i < ray_count; ++i) text += i < 20 ? ",5.6" : ",2";
   }
   folder.file("r.csv", text + "\n");
   const auto r = compare("s.yaml --against r.csv --csv t.csv");
   ASSERT_EQ(r.exit_code, 0) << r.output;
   EXPECT_NE(r.output.find("it does not say its directions; those of stand/laser are taken"), std::string::npos);
-  EXPECT_NEAR(figure("recorded", "without_return"), 20.0 / beams, 1e-5) << "what reads max_range was not seen";
+  EXPECT_NEAR(figure("recorded", "without_return"), 20.0 / ray_count, 1e-5) << "what reads max_range was not seen";
 }
 
 TEST_F(AgainstScans, MistakesAreOneMessage) {

@@ -12,13 +12,13 @@
 namespace muro::host {
 namespace {
 
-constexpr double step = 2 * M_PI / 1024;
+constexpr double beam_step = 2 * M_PI / 1024;
 
 /// `range(beam, scan)` of `beams` around the front, in steps of a URG-04LX.
 ScanRecord scans_of(std::size_t scans, std::size_t beams,
                     const std::function<double(std::size_t, std::size_t)>& range) {
   ScanRecord r;
-  for (std::size_t i = 0; i < beams; ++i) r.angles.push_back((double(i) - 0.5 * double(beams - 1)) * step);
+  for (std::size_t i = 0; i < beams; ++i) r.angles.push_back((double(i) - 0.5 * double(beams - 1)) * beam_step);
   for (std::size_t s = 0; s < scans; ++s) {
     r.ranges.emplace_back();
     for (std::size_t i = 0; i < beams; ++i) r.ranges.back().push_back(range(i, s));
@@ -44,7 +44,7 @@ const StatisticsBand& band_at(const std::vector<StatisticsBand>& bands, double f
 TEST(ScanStatistics, NoiseOfAWallIsThatOfItsBeams) {
   const Noise noise;
   const ScanRecord r = scans_of(200, 200, [&](std::size_t i, std::size_t s) {
-    return wall_at(2, (double(i) - 99.5) * step) + 0.005 * noise(i, s);
+    return wall_at(2, (double(i) - 99.5) * beam_step) + 0.005 * noise(i, s);
   });
   const ScanStatistics s = statistics_of(r);
   ASSERT_EQ(s.by_range.size(), 1u) << "2 to 2.4 m";
@@ -80,7 +80,7 @@ TEST(ScanStatistics, StepsOfTheReadingsAreFound) {
   const double sigma = 2;  // mm
   const ScanRecord r =
       scans_of(200, 200, [&](std::size_t i, std::size_t s) { return 1e-3 * std::round(1000 + sigma * noise(i, s)); });
-  double same = 0;  // two readings are equal: the sum of the squares of the probabilities of each step
+  double same = 0;  // two readings are equal: the sum of the squares of the probabilities of each beam_step
   for (int k = -20; k <= 20; ++k) {
     const double p =
         0.5 * (std::erf((k + 0.5) / (sigma * std::sqrt(2.0))) - std::erf((k - 0.5) / (sigma * std::sqrt(2.0))));
@@ -111,7 +111,7 @@ TEST(ScanStatistics, MixedReadingsAtEdgesAreCounted) {
 TEST(ScanStatistics, WallsAtASlantHaveNoEdges) {
   // 15 m away at the most, under 80 degrees: neighbours differ by 0.09 m
   const ScanRecord r =
-      scans_of(20, 100, [&](std::size_t i, std::size_t) { return 0.5 / std::cos(0.77 + double(i) * step); });
+      scans_of(20, 100, [&](std::size_t i, std::size_t) { return 0.5 / std::cos(0.77 + double(i) * beam_step); });
   const ScanStatistics s = statistics_of(r);
   EXPECT_EQ(s.edges, 0u);
   EXPECT_EQ(s.steady_beams, 100u);
@@ -121,7 +121,7 @@ TEST(ScanStatistics, NoiseByIncidenceIsToldApart) {
   const Noise noise;
   // a wall whose foot is straight ahead: the angle of a beam is its incidence
   const ScanRecord r = scans_of(100, 290, [&](std::size_t i, std::size_t s) {
-    const double angle = (double(i) - 144.5) * step, incidence = std::abs(angle) * 180 / M_PI;
+    const double angle = (double(i) - 144.5) * beam_step, incidence = std::abs(angle) * 180 / M_PI;
     return wall_at(1.1, angle) + (incidence < 20 ? 0.002 : 0.004) * noise(i, s);
   });
   const ScanStatistics s = statistics_of(r);
@@ -164,8 +164,9 @@ TEST(ScanStatistics, WhatMovesIsNoNoise) {
 
 TEST(ScanStatistics, FewScansTellNoNoiseOverTime) {
   const Noise noise;
-  const ScanRecord r = scans_of(
-      1, 105, [&](std::size_t i, std::size_t s) { return wall_at(2, (double(i) - 52) * step) + 0.005 * noise(i, s); });
+  const ScanRecord r = scans_of(1, 105, [&](std::size_t i, std::size_t s) {
+    return wall_at(2, (double(i) - 52) * beam_step) + 0.005 * noise(i, s);
+  });
   const ScanStatistics s = statistics_of(r);
   EXPECT_EQ(s.by_range.front().over_time.count, 0u);
   EXPECT_EQ(s.by_range.front().about_walls.count, 5u);
