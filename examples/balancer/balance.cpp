@@ -31,9 +31,8 @@ class Balance {
   static constexpr const char* name = "balance";
   static constexpr const char* version = "1.0.0";
   static constexpr const char* summary = "Balances on two wheels by gyro, accelerometer and encoders";
-  static constexpr muro_port inputs[] = {{"angular_velocity", "rad/s", 3, 0},
-                                         {"linear_acceleration", "m/s^2", 3, 0},
-                                         {"encoder.position", "rad or m", 2, 0}};
+  static constexpr muro_port inputs[] = {
+      {"angular_velocity", "rad/s", 3, 0}, {"linear_acceleration", "m/s^2", 3, 0}, {"encoder.position", "rad", 2, 0}};
   static constexpr muro_port outputs[] = {{"joint.velocity.target", "rad/s", 2, 0},
                                           {"balance.pitch", "rad", 1, MURO_PORT_OWN},
                                           {"balance.gyro_bias", "rad/s", 1, MURO_PORT_OWN}};

@@ -6,6 +6,7 @@
 #include "muro/algorithm.hpp"
 #include "muro/toolkit/did_you_mean.hpp"
 #include "muro/vocabulary.hpp"
+#include "plugins/common/internal_sensor/encoder_joint.hpp"
 #include "plugins/common/text/quote.hpp"
 
 namespace muro {
@@ -110,6 +111,7 @@ bool PropertySearch::is_shadow(ObjectId object) const {
 }
 
 JointKind PropertySearch::joint_of(ObjectId object) const {
+  object = connector_.constant(object, internal_sensor::key_encoder_joint).value_or(object);
   const std::int32_t robot = connector_.robot_of(object);
   if (robot < 0) return JointKind::fixed;
   for (const Link& link : connector_.robots()[std::size_t(robot)]->links)

@@ -43,7 +43,7 @@ class PropertySearch {
 
   bool is_own(ObjectId object) const;     ///< of the robot of the item
   bool is_shadow(ObjectId object) const;  ///< of a robot that is a shadow
-  /// `fixed` for what is no joint.
+  /// Of a joint, and of what an encoder looks at; `fixed` for what is neither.
   JointKind joint_of(ObjectId object) const;
 
   std::string owner() const;                                 ///< "robot `rover_1`", "the world"

@@ -173,5 +173,30 @@ TEST(Ports, InRadiansAreForJointsThatTurn) {
                    "\"rad/s\""));
 }
 
+TEST(ControllerLibrary, TakesTheUnitOfTheJointThatAnEncoderLooksAt) {
+  const auto read_encoder_of = [](const RobotTree& tree, const std::string& joint) {
+    test::Scene s;
+    const RobotView& a = s.add("a", tree);
+    const ObjectId encoder = s.add_sensor_object(a, "encoder", s.world().object("a/" + joint));
+    s.use("motion.point", 20, s.all_robots());
+    s.use("sensor.encoder", 20, {{&a, encoder}});
+    s.use("controller.library", 10, {{&a, a.base()}},
+          {{"library", folder + "look.so"},
+           {"inputs", Texts{"velocity=encoder.velocity"}},
+           {"outputs", Texts{"commands=command.twist"}}});
+    return refusal(s);
+  };
+  EXPECT_EQ(read_encoder_of(two_arms(), "left"), "no complaint");
+  const RobotTree slider = test::tree_of([](RobotBuilder& b) {
+    b.base("body");
+    b.set(keys::inertial, {.mass = 1, .ixx = 1, .iyy = 1, .izz = 1});
+    b.prismatic("rail", Vec3::UnitX(), {});
+    b.body("sled");
+  });
+  EXPECT_TRUE(says(read_encoder_of(slider, "rail"),
+                   "`a/encoder:encoder.velocity` is in \"m/s\", for the joint shifts, but the library works in "
+                   "\"rad/s\""));
+}
+
 }  // namespace
 }  // namespace muro::control

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Encoders of joints: position in steps, velocity from steps.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "muro/plugin.hpp"
 #include "muro/toolkit/mass_properties.hpp"
 #include "muro/toolkit/per_robot.hpp"
+#include "plugins/common/internal_sensor/encoder_joint.hpp"
 #include "plugins/common/internal_sensor/mounted.hpp"
 #include "plugins/common/text/quote.hpp"
 
@@ -28,6 +30,7 @@ constexpr PropertyUse writes[] = {
     {"encoder.position", "of the joint, or an array"},
     {"encoder.velocity", "likewise: steps since the last reading by the time, true without steps"},
     {"encoder.count", "likewise: steps; 0 without steps"},
+    {"encoder.joint", "constant, where all joints turn or all shift"},
 };
 constexpr Description description{
     .id = "sensor.encoder",
@@ -99,7 +102,16 @@ class Encoder final : public PerRobotAlgorithm<Range> {
       channel.position = position + k, channel.velocity = velocity + k, channel.count = count + k;
       channels.push_back(channel);
     }
+    tell_joint(c, item, links);
     return channels_.add(channels);
+  }
+
+  static void tell_joint(Connector& c, const Item& item, const std::vector<std::uint32_t>& links) {
+    const std::span<const Link> all = item.robot->links;
+    const auto shifts = [&](std::uint32_t i) { return all[i].joint == JointKind::prismatic; };
+    const bool first = shifts(links.front());
+    if (std::all_of(links.begin(), links.end(), [&](std::uint32_t i) { return shifts(i) == first; }))
+      c.set(item.object, internal_sensor::key_encoder_joint, all[links.front()].joint_object);
   }
 
   /// The steps of an encoder on a joint.
