@@ -28,6 +28,7 @@ const std::vector<Target>& targets() {
                                        {"library", read_as_library},
                                        {"lines", read_as_lines},
                                        {"frames", read_as_frames},
+                                       {"part", read_as_part},
                                        {"scip2", read_as_scip2}};
   return all;
 }

@@ -32,6 +32,7 @@ void read_as_jsonrpc(Bytes);
 void read_as_library(Bytes);
 void read_as_lines(Bytes);
 void read_as_frames(Bytes);
+void read_as_part(Bytes);
 void read_as_scip2(Bytes);
 void read_as_fmu(Bytes);   ///< where muro is built with controller.fmu
 void read_as_mjcf(Bytes);  ///< where muro is built with reader.mjcf
