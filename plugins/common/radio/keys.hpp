@@ -92,6 +92,7 @@ inline constexpr Key<std::int64_t> key_send_number{
 inline constexpr Key<Header> key_received{"radio.received", "1, s, dBm", "list: the messages that have come"};
 inline constexpr Key<std::uint8_t> key_received_bytes{"radio.received.bytes", "1",
                                                       "list: the bytes of these messages, one after the other"};
+inline constexpr Key<double> key_keep{"radio.keep", "s", "how long a message stays in radio.received, a constant"};
 inline constexpr Key<Header> key_last{"radio.last", "1, s, dBm", "the last message that has come; from -1: none yet"};
 inline constexpr Key<Payload> key_last_bytes{"radio.last.bytes", "1", "bytes of the last message that has come"};
 inline constexpr Key<Counters> key_counters{"radio.counters", "1", "messages sent, received and lost so far, by cause"};

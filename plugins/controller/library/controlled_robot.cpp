@@ -10,6 +10,7 @@
 #include "local_instance.hpp"
 #include "muro/toolkit/random.hpp"
 #include "outcome_text.hpp"
+#include "plugins/common/radio/keys.hpp"
 #include "plugins/common/text/counted.hpp"
 #include "plugins/common/text/one_line.hpp"
 #include "plugins/common/text/quote.hpp"
@@ -114,6 +115,7 @@ Port ControlledRobot::connect_port(Connector& c, const PropertyFinder& finder, c
         for (const TextId id : constant_texts(c, found)) bound.add_text(std::string(c.text(id)));
         continue;
       }
+      if (input) doubt_if_too_slow(c, found, port);
       void* const handle = input ? const_cast<void*>(c.read_any(found)) : c.write_any(found);
       if (bound.type() == PortType::text && *found.key->type == value_type<ObjectId>)
         bound.add_objects(found, handle, names_of_objects(c));
@@ -124,6 +126,18 @@ Port ControlledRobot::connect_port(Connector& c, const PropertyFinder& finder, c
     throw Error(about(port, input) + " cannot be connected: " + e.what());
   }
   return bound;
+}
+
+/// Messages that have come by radio are listed for a while: what comes and goes between two steps is never read.
+void ControlledRobot::doubt_if_too_slow(const Connector& c, const FoundProperty& found, const muro_port& port) {
+  if (found.key->name != radio::key_received.name || !(c.rate() > 0)) return;
+  const std::optional<double> keep = c.constant(found.object, radio::key_keep);
+  const double period = 1 / c.rate();
+  if (!keep || *keep >= period * (1 - 1e-9)) return;
+  doubts_.push_back(about(port, true) + " is read at " + rounded(c.rate()) + " Hz, but " +
+                    quote(c.object_name(found.object)) + " lists a message for " + rounded(*keep) +
+                    " s alone: those that come and go in between are missed; set `keep: " + rounded(period) +
+                    "` at the radio");
 }
 
 void ControlledRobot::check_size(const Port& port, const muro_port& wanted, bool input) const {

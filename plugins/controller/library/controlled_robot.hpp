@@ -65,6 +65,8 @@ class ControlledRobot {
   void use_process(std::unique_ptr<ControlProcess> process) { process_ = std::move(process); }
   /// Looks for the properties of all ports and asks for them. Returns the optional inputs that it lacks. [setup]
   std::vector<std::string> connect(Connector& connector, const Connections& inputs, const Connections& outputs);
+  /// Inputs that work and hardly as meant, in words. [after connect]
+  const std::vector<std::string>& doubts() const { return doubts_; }
   /// Makes a property for each output that is the library's own. [setup]
   void create_own_properties(Connector& connector, ObjectId object);
 
@@ -80,6 +82,7 @@ class ControlledRobot {
 
   Port connect_port(Connector& c, const PropertyFinder& finder, const muro_port& port, const Connections& connections,
                     bool input);
+  void doubt_if_too_slow(const Connector& c, const FoundProperty& found, const muro_port& port);
   void measure();
   void check_size(const Port& port, const muro_port& wanted, bool input) const;
   InstanceMemory own_memory();
@@ -102,6 +105,7 @@ class ControlledRobot {
   std::uint64_t random_key_;
   StateBlock* block_;
   Ports inputs_, outputs_;
+  std::vector<std::string> doubts_;
   std::vector<std::uint64_t> copies_;  ///< of ports, of all that are not read directly; written anew in every step
   std::unique_ptr<ControlProcess> process_;
   std::unique_ptr<ControlInstance> instance_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Control code from a shared library with the C interface of sdk/c/muro_controller.h; see README.md.
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -94,6 +95,10 @@ class LibraryController final : public Algorithm {
     for (const auto& [port, robot] : missing)
       c.host().log(LogLevel::warning, "robot `" + robot + "`: `" + table.name + "` runs without its input `" + port +
                                           "`, which nothing of the robot provides");
+    const auto doubtful =
+        std::find_if(robots_.begin(), robots_.end(), [](const auto& robot) { return !robot->doubts().empty(); });
+    if (doubtful == robots_.end()) return;  // what holds for one robot holds for others: the first is told
+    for (const std::string& doubt : (*doubtful)->doubts()) c.host().log(LogLevel::warning, doubt);
   }
 
   void start() override {

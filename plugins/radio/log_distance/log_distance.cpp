@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Messages between robots by radio; see README.md.
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <set>
 
@@ -34,6 +35,7 @@ constexpr PropertyUse writes[] = {
     {"radio.frames", "messages of this sender on their way"},
     {"radio.arriving", "messages that have not come yet"},
     {"radio.access", "how the radio gets at the medium"},
+    {"radio.keep", "how long messages are listed, whole steps; a constant"},
     mounting_writes,
 };
 
@@ -96,6 +98,7 @@ Radio LogDistance::bind(Connector& c, std::uint32_t i) {
   r.robot = std::int32_t(item.robot->number);
   r.key = item.robot->key;
   c.set(o, keys::sensor_origin, r.mounting);
+  c.set(o, radio::key_keep, std::max(1.0, std::ceil(r.parameters.keep * c.rate() * (1 - 1e-9))) / c.rate());
   r.pose = c.read(o, keys::pose);
   r.send_bytes = c.input(o, radio::key_send_bytes, Payload{});
   r.send_size = c.input(o, radio::key_send_size, 0u);

@@ -173,7 +173,7 @@ TEST(Radio, IsCutByWallsAndOtherRobotsNotByItsOwnBody) {
     s.place("behind_free", {0, 9, 0});
     s.wall("wall", Shape::box({0.1, 2, 2}), {2, 0, 1});
     s.wall("other_wall", Shape::box({0.1, 2, 2}), {3, 0, 1});
-    s.start(1000, {{"obstacles", obstacles}, {"obstacle_loss", 6.9}, {"keep", 1.0}});
+    s.start(1000, {{"obstacles", obstacles}, {"keep", 1.0}});
     s.send(0, "x");
     s.run_for(0.01);
     std::vector<double> rssi;

@@ -146,6 +146,33 @@ TEST(RadioMedium, AllocatesNothingOnceWarm) {
 #endif
 }
 
+/// What is logged when two robots talk by control code at 10 Hz.
+std::string logged(double rate, double keep) {
+  Radios s;
+  s.place("a", {0, 0, 0});
+  s.place("b", {5, 0, 0});
+  std::vector<Item> bases;
+  for (const Item& item : s.radios) bases.push_back({item.robot, item.robot->base()});
+  s.use("controller.library", 10, bases, {{"library", std::string(CONTROLLERS "/talk.so")}});
+  std::string all;
+  s.set_log([&](LogLevel, std::string_view line) { all += std::string(line) + "\n"; });
+  s.start(rate, {{"keep", keep}, {"obstacles", "ignore"}});
+  return all;
+}
+
+TEST(RadioControlCode, IsWarnedWhenItIsTooSlowToReadAll) {
+  const std::string warning = logged(100, 0);
+  EXPECT_SAYS(warning,
+              "robot `a`: input `radio.received` of `talk` is read at 10 Hz, but `a/radio` lists a message for 0.01 s "
+              "alone: those that come and go in between are missed; set `keep: 0.1` at the radio");
+  EXPECT_EQ(std::count(warning.begin(), warning.end(), '\n'), 1) << "once: " << warning;
+  EXPECT_SAYS(logged(100, 0.09), "lists a message for 0.09 s");
+  EXPECT_EQ(logged(100, 0.1), "");
+  EXPECT_EQ(logged(100, 0.0951), "") << "until the step after";
+  EXPECT_EQ(logged(10, 0), "");
+  EXPECT_EQ(logged(5, 0), "") << "listed until the next step of the radio";
+}
+
 TEST(RadioControlCode, TalksByTypedPortsInC) {
   Radios s;
   s.place("a", {0, 0, 0});
