@@ -62,6 +62,7 @@ void NativeCollision::start() {
   add_grounds();
   group_robots();
   allocate_signatures();
+  allocate_clearances();
 }
 
 /// Of all colliders; those of robots know their bodies' poses.
@@ -147,6 +148,19 @@ void NativeCollision::allocate_signatures() {
   }
 }
 
+void NativeCollision::allocate_clearances() {
+  const auto numbers_of = [this](std::uint32_t robot) {
+    const RobotColliders& own = index_->robots[robot];
+    const int slots = clearances_of(shapes_.data() + own.first, int(own.count), grounds_.data(), int(grounds_.size()));
+    return robots_[robot].list ? std::size_t(slots) * numbers_of_clearance : 0;
+  };
+  std::size_t all = 0;
+  for (std::uint32_t r = 0; r < robots_.size(); ++r) all += numbers_of(r);
+  clearances_.assign(all, 0);
+  double* next = clearances_.data();
+  for (std::uint32_t r = 0; r < robots_.size(); next += numbers_of(r++)) ground_robots_[r].clearances = next;
+}
+
 /// In words.
 std::size_t NativeCollision::signature_size(std::uint32_t robot) const {
   const RobotColliders& own = index_->robots[robot];
@@ -219,6 +233,7 @@ void NativeCollision::list_contacts(Range robots) {
       batch.found[i] = is_merged ? scratch.data() + std::size_t(i) * most_ground_points_ : (*robots_[r].list).data();
       ground.contacts[i] = batch.found[i]->point.data();
       ground.signatures[i] = ground_robots_[r].signature;
+      ground.clearances[i] = ground_robots_[r].clearances;
       if (ground.used == batch_size) find_ground_contacts(batch);
     }
     if (ground.used > 0) find_ground_contacts(batch);

@@ -21,9 +21,10 @@ class NativeCollision final : public PairCollision {
  private:
   /// What the ground kernel needs of a robot.
   struct GroundRobot {
-    RobotPoses poses;             ///< of its bodies with shapes
-    double* signature = nullptr;  ///< which points of its list's contacts touch; see GroundBatch
-    std::size_t words = 0;        ///< of the signature
+    RobotPoses poses;              ///< of its bodies with shapes
+    double* signature = nullptr;   ///< which points of its list's contacts touch; see GroundBatch
+    std::size_t words = 0;         ///< of the signature
+    double* clearances = nullptr;  ///< see GroundBatch
   };
   struct Batch;
 
@@ -41,6 +42,7 @@ class NativeCollision final : public PairCollision {
   void add_grounds();
   void group_robots();
   void allocate_signatures();
+  void allocate_clearances();
   bool takes_kernel(std::uint32_t robot) const;
   bool touches_only_ground(std::uint32_t robot);
   void find_ground_contacts(Batch& batch);
@@ -61,7 +63,7 @@ class NativeCollision final : public PairCollision {
   std::vector<Ground> grounds_;                               ///< as these
   std::vector<RobotGroup<std::vector<KernelShape>>> groups_;  ///< of robots that have a list
   std::vector<KernelShape> shapes_;                           ///< by collider
-  std::vector<double> signatures_;
+  std::vector<double> signatures_, clearances_;
   std::size_t most_ground_points_ = 0;  ///< that a kernel may find for a robot
 };
 

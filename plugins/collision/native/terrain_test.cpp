@@ -174,6 +174,12 @@ struct Eight {
   std::array<double, most * stride> contacts[8] = {};
   std::array<double, words> signatures[8];
   std::uint8_t left[1] = {};  ///< by slot
+  double clearances[8][numbers_of_clearance] = {};
+
+  /// Of the first contacts of a robot.
+  std::vector<double> numbers(int robot, std::size_t count) const {
+    return {contacts[robot].data(), contacts[robot].data() + count * stride};
+  }
 
   unsigned touch(const GroundKernels& kernels, int first, int count) {
     GroundBatch batch;
@@ -190,6 +196,7 @@ struct Eight {
       batch.poses[i].base = poses[first + i].position.data();
       batch.contacts[i] = contacts[first + i].data();
       batch.signatures[i] = signatures[first + i].data();
+      batch.clearances[i] = clearances[first + i];
     }
     return kernels.find_contacts(batch);
   }
@@ -227,10 +234,10 @@ TEST(GroundKernel, GivesOnAHeightmapTheBitsOfEachRobotAloneAndOfPairs) {
       ++told;
       ASSERT_EQ(together.signatures[i], alone.signatures[i]);
       ASSERT_EQ(together.signatures[i], base.signatures[i]);
-      ASSERT_EQ(together.contacts[i], alone.contacts[i]);
-      ASSERT_EQ(together.contacts[i], base.contacts[i]);
       const std::vector<ContactPoint> points = ground.contacts(transformed(together.shape, together.poses[i]));
       ASSERT_EQ(points.size(), std::size_t(std::popcount(std::uint64_t(together.signatures[i][0]))));
+      ASSERT_EQ(together.numbers(i, points.size()), alone.numbers(i, points.size()));
+      ASSERT_EQ(together.numbers(i, points.size()), base.numbers(i, points.size()));
       for (std::size_t n = 0; n < points.size(); ++n) {
         const double* const contact = together.contacts[i].data() + n * Eight::stride;
         EXPECT_EQ(points[n].point, Vec3::Map(contact));
@@ -241,6 +248,42 @@ TEST(GroundKernel, GivesOnAHeightmapTheBitsOfEachRobotAloneAndOfPairs) {
   }
   EXPECT_GT(told, 3000);
   EXPECT_GT(left, 100) << "both ways are tried";
+}
+
+TEST(GroundKernel, TellsOfBoxesOnTheirWayNoMoreThanOfThoseAtRest) {
+  const testing::Ground grounds[] = {hills(), hills(121), rocks(5)};
+  for (const testing::Ground& ground : grounds) {
+    Randoms random(21);
+    Eight boxes;
+    boxes.shape = kernel_shape_of(Shape::box({0.35, 0.25, 0.12}));
+    boxes.ground.terrain = &ground.terrain->grid();
+    int clear = 0, left = 0;
+    for (int k = 0; k < 1500; ++k) {
+      for (Pose& p : boxes.poses) {
+        if (k % 250 == 0) {
+          const double x = random.uniform(-5, 5), y = random.uniform(-5, 5);
+          p = {{x, y, ground.map.ground_at(x, y)->height + random.uniform(0.1, 0.3)}, from_rpy(0, 0, 3 * x)};
+        }
+        p.position += 2e-3 * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 0.98));
+        p.orientation = from_rpy(0.01 * random.uniform(-1, 1), 0, 0.01) * p.orientation;
+      }
+      Eight fresh = boxes;
+      std::fill_n(fresh.clearances[0], 8 * numbers_of_clearance, 0.0);
+      const unsigned kept = boxes.touch(ground_kernels_for(lane::best_isa()), 0, 8) >> 8,
+                     anew = fresh.touch(ground_kernels_for(lane::best_isa()), 0, 8) >> 8;
+      ASSERT_EQ(kept & ~anew, 0U) << "left though it is clear";
+      for (int i = 0; i < 8; ++i) {
+        left += int(kept >> i & 1);
+        if (kept >> i & 1) continue;
+        ++clear;
+        std::vector<ContactPoint> all;
+        collide_terrain(transformed(boxes.shape, boxes.poses[i]), *ground.terrain, all, true);
+        ASSERT_TRUE(all.empty()) << "it touches" << text_of(all);
+      }
+    }
+    EXPECT_GT(clear, 1000);
+    EXPECT_GT(left, 500);
+  }
 }
 
 }  // namespace

@@ -22,6 +22,7 @@ class BodyFrame {
   }
 
   const V3& position() const { return position_; }  ///< m, world
+  const lane::Q4<S>& orientation() const { return orientation_; }
   /// Axis k in the world.
   MURO_INLINE V3 axis(int k) const {
     switch (k) {

@@ -42,6 +42,16 @@ class SignatureCursor {
 /// heightmap the normal.
 inline constexpr int normal_number = 3, depth_number = 6;
 
+/// What a kernel keeps of a slot of a shape that is not round on a heightmap; see KeptClearance.
+inline constexpr int numbers_of_clearance = 8;
+/// How many such slots a robot has.
+inline int clearances_of(const KernelShape* shapes, int shape_count, const Ground* grounds, int ground_count) {
+  int count = 0;
+  for (int g = 0; g < ground_count; ++g)
+    for (int k = 0; k < shape_count; ++k) count += grounds[g].terrain && !shapes[k].is_round();
+  return count;
+}
+
 /// The input and output of one call: at most eight robots.
 struct GroundBatch {
   const KernelShape* shapes = nullptr;  ///< of each robot, body by body
@@ -53,6 +63,9 @@ struct GroundBatch {
   RobotPoses poses[8];
   double* contacts[8];    ///< of each robot: the numbers of its first contact
   double* signatures[8];  ///< of each robot, a bit a point that touches: of the step before, then of this one
+  /// Of each robot: what is known of earlier steps, numbers_of_clearance for each slot of a shape that is not round on
+  /// a heightmap; all 0 at first, and where a ground has changed.
+  double* clearances[8];
   /// A byte a slot, all 0 before: a bit for each robot of whose slot the kernel cannot tell the points. Those that it
   /// has given there do not count.
   std::uint8_t* left = nullptr;

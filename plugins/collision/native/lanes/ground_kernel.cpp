@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "ground.hpp"
 #include "hull_points.hpp"
+#include "kept_clearance.hpp"
 #include "terrain_points.hpp"
 
 namespace muro::native {
@@ -56,6 +57,30 @@ MURO_INLINE void store_contacts(const Places<S, double>& to, std::int64_t first,
     }
 }
 
+/// Seven numbers to each place, from number `first` on.
+template <class S>
+MURO_INLINE void store_sevens(const Places<S, double>& to, std::int64_t first, const S (&v)[7]) {
+#if defined(__AVX512F__)
+  if constexpr (count_of<S> == 8) {
+    __m512d pairs[8];  // of numbers 2 k and 2 k + 1, in lanes 0, 2, 4, 6, and in 1, 3, 5, 7
+    for (int k = 0; k < 4; ++k) {
+      const __m512d a(v[2 * k].v), b(v[k < 3 ? 2 * k + 1 : 6].v);
+      pairs[k] = _mm512_unpacklo_pd(a, b), pairs[4 + k] = _mm512_unpackhi_pd(a, b);
+    }
+    for (int odd = 0; odd < 2; ++odd) {
+      const __m512d* const p = pairs + 4 * odd;
+      const __m512d a = _mm512_shuffle_f64x2(p[0], p[1], 0x88), b = _mm512_shuffle_f64x2(p[0], p[1], 0xdd),
+                    c = _mm512_shuffle_f64x2(p[2], p[3], 0x88), d = _mm512_shuffle_f64x2(p[2], p[3], 0xdd);
+      const auto store = [&](int lane, __m512d row) { _mm512_mask_storeu_pd(to.at[lane + odd] + first, 0x7f, row); };
+      store(0, _mm512_shuffle_f64x2(a, c, 0x88)), store(4, _mm512_shuffle_f64x2(a, c, 0xdd));
+      store(2, _mm512_shuffle_f64x2(b, d, 0x88)), store(6, _mm512_shuffle_f64x2(b, d, 0xdd));
+    }
+    return;
+  }
+#endif
+  lane::store_rows(to, first, v);
+}
+
 /// Appends contacts to those of their robots.
 template <class S>
 struct Appender {
@@ -76,14 +101,15 @@ struct Appender {
     next += stride;
   }
 
-  /// On a heightmap.
+  /// On a heightmap, where robots differ in what touches. All write, and those that have no contact here write their
+  /// next one over it; lanes beyond `all` do what the first robot does.
   MURO_INLINE void operator()(MaskOf<S> below, const V3<S>& point, const V3<S>& normal, S depth, int number) {
     static_assert(normal_number == 3 && depth_number == 6);
     points += select(below, S(scale * double(std::int64_t(1) << number)), S(0));
-    const unsigned which = bits(below) & all;
-    lane::store_rows(first, next, {point.x, point.y, point.z, normal.x, normal.y, normal.z, depth}, which);
-    for (int i = 0; i < count_of<S>; ++i) first.at[i] -= which >> i & 1 ? 0 : stride;
-    next += stride;
+    store_sevens(first, next, {point.x, point.y, point.z, normal.x, normal.y, normal.z, depth});
+    std::int64_t moves[count_of<S>];
+    store_whole(moves, select(below, S(stride), S(0)));
+    for (int i = 0; i < count_of<S>; ++i) first.at[i] += moves[i];
   }
 
   /// Out of the way of the common case.
@@ -124,7 +150,22 @@ unsigned process(const GroundBatch& batch, int first) {
     slot = 0;
     ++word;
   };
-  const auto add_hull = [&](const KernelShape& hull, const BodyFrame<S>& body, const GroundPlane& plane) {
+  std::int64_t kept_number = 0;  // of a robot's clearances
+  /// A shape of which the kernel can tell no more than whether it is above the ground.
+  const auto look_at_clearance = [&](const KernelShape& shape, const BodyFrame<S>& body, const TerrainGrid& terrain) {
+    Places<S, double> kept;
+    for (int i = 0; i < count_of<S>; ++i)
+      kept.at[i] = batch.clearances[first + (i < used ? i : 0)] + kept_number * numbers_of_clearance;
+    ++kept_number;
+    const lanes::KeptClearance<S> known(kept, body, shape.reach());
+    const unsigned stale = ~bits(known.still_clear()) & append.all;
+    if (stale == 0) return;
+    const ShapeInWorld<S> at(shape, body);
+    const S far = lanes::ShapeClearance<S, ShapeInWorld<S>>(at, terrain).find();
+    known.keep(far, stale);
+    leave(!lanes::any_of(far >= S(0), known.still_clear()));
+  };
+  const auto add_hull = [&](const KernelShape& hull, const BodyFrame<S>& body, const Ground& ground) {
     if (slot > 0) end_word();
     int first_of_word = 0;
     S count(0);
@@ -134,14 +175,17 @@ unsigned process(const GroundBatch& batch, int first) {
       count += select(below, S(1), S(0));
       if (any(fits)) append(fits, point, depth, number - first_of_word);
     };
-    lanes::give_hull_points<S>(hull, body, plane, sink);
+    if (ground.terrain)
+      look_at_clearance(hull, body, *ground.terrain);
+    else
+      lanes::give_hull_points<S>(hull, body, ground.plane, sink);
     for (; first_of_word < hull.vertex_count; first_of_word += vertices_per_word) end_word();
     leave(count > S(max_ground_points));
   };
-  const auto add_terrain = [&](const KernelShape& shape, const BodyFrame<S>& body, const TerrainGrid& terrain) {
-    if (shape.kind == KernelShapeKind::mesh && slot > 0) end_word();
-    leave(lanes::give_terrain_points<S>(ShapeInWorld<S>(shape, body), terrain, append));
-    for (int w = 0; shape.kind == KernelShapeKind::mesh && w < SignatureCursor::words_of(shape); ++w) end_word();
+  const auto end_slot = [&] {
+    append.scale *= 256;
+    ++slot_number;
+    if (++slot == slots_per_word) end_word();
   };
   const KernelShape* const shapes_end = batch.shapes + batch.shape_count;
   for (const KernelShape *begin = batch.shapes, *end = begin; begin != shapes_end; begin = end) {
@@ -152,15 +196,19 @@ unsigned process(const GroundBatch& batch, int first) {
     for (int i = 0; i < count_of<S>; ++i) poses.at[i] = begin->pose.in(robots[i]);
     const BodyFrame<S> body(poses, needs_orientation);
     for (const Ground* ground = batch.grounds; ground != batch.grounds + batch.ground_count; ++ground)
-      for (const KernelShape* shape = begin; shape != end; ++shape, ++slot_number) {
-        if (ground->terrain) add_terrain(*shape, body, *ground->terrain);
+      for (const KernelShape* shape = begin; shape != end; ++shape) {
         if (shape->kind == KernelShapeKind::mesh) {
-          if (!ground->terrain) add_hull(*shape, body, ground->plane);
+          add_hull(*shape, body, *ground);
+          ++slot_number;
           continue;
         }
-        if (!ground->terrain) give_plane_points<S>(ShapeInWorld<S>(*shape, body), ground->plane, append);
-        append.scale *= 256;
-        if (++slot == slots_per_word) end_word();
+        if (ground->terrain && shape->is_round())
+          leave(lanes::give_terrain_points<S>(ShapeInWorld<S>(*shape, body), *ground->terrain, append));
+        else if (ground->terrain)
+          look_at_clearance(*shape, body, *ground->terrain);
+        else
+          give_plane_points<S>(ShapeInWorld<S>(*shape, body), ground->plane, append);
+        end_slot();
       }
   }
   end_word();

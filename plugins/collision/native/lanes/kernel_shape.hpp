@@ -32,6 +32,14 @@ struct KernelShape {
   const double* vertices = nullptr;
   int vertex_count = 0;
 
+  /// A sphere or cylinder.
+  MURO_INLINE bool is_round() const { return kind == KernelShapeKind::sphere || kind == KernelShapeKind::cylinder; }
+  /// m: how far it reaches from the origin of its body, at most.
+  MURO_INLINE double reach() const {
+    return __builtin_sqrt(half[0] * half[0] + half[1] * half[1] + half[2] * half[2]) +
+           (kind == KernelShapeKind::capsule ? half[0] : 0) +
+           __builtin_sqrt(centre[0] * centre[0] + centre[1] * centre[1] + centre[2] * centre[2]);
+  }
   /// Whether the orientation of the body matters.
   MURO_INLINE bool needs_orientation() const { return kind != KernelShapeKind::sphere || !is_centred; }
 

@@ -13,32 +13,35 @@ struct BoxOverTerrain {
   double half[3];     ///< m
 };
 
-/// Whether all of the surface below a box lies below that side of it which looks down: then they do not touch. False
-/// where more than a few cells lie below the box and their tiles do not tell. Tile by tile, then cell by cell, over
-/// what the box covers of it.
-[[gnu::noinline]] inline bool is_clear(const TerrainGrid& grid, const BoxOverTerrain& box) {
-  constexpr int max_cells = 36, max_tiles = 25;
+/// How far (m, at least) all of the surface below a box lies from that side of the box which looks down, and from the
+/// plane of that side where it is at most `beside` (m) along x and y beside what the box covers. 0 where they may
+/// touch, and where more than a few cells lie below the box and their tiles do not tell. Tile by tile, then cell by
+/// cell.
+[[gnu::noinline]] inline double clearance_below(const TerrainGrid& grid, const BoxOverTerrain& box, double beside) {
+  constexpr int max_cells = 64, max_tiles = 25;
   int down = 0;
-  double reach[2] = {0, 0};
+  double reach[2] = {beside, beside};
   for (int k = 0; k < 3; ++k) {
     if (__builtin_fabs(box.axes[k][2]) > __builtin_fabs(box.axes[down][2])) down = k;
     for (int i = 0; i < 2; ++i) reach[i] += box.half[k] * __builtin_fabs(box.axes[k][i]);
   }
   const double* const axis = box.axes[down];
-  if (!(__builtin_fabs(axis[2]) > 0.5)) return false;
+  if (!(__builtin_fabs(axis[2]) > 0.5)) return 0;
   // the side: z = height + slope_x x + slope_y y, seen from the centre
   const double slope_x = -axis[0] / axis[2], slope_y = -axis[1] / axis[2],
                height = box.centre[2] - box.half[down] / __builtin_fabs(axis[2]);
   const auto clamped = [](double at, int nodes) { return at > 0 ? (at < nodes - 2 ? int(at) : nodes - 2) : 0; };
+  const double upright = __builtin_fabs(axis[2]);
   const double low_x = box.centre[0] - reach[0], high_x = box.centre[0] + reach[0];
   const double low_y = box.centre[1] - reach[1], high_y = box.centre[1] + reach[1];
-  /// Whether tiles of one size tell that the surface lies below.
-  const auto is_clear_of_tiles = [&](const TerrainLevel& level) {
+  /// As far as tiles of one size tell.
+  const auto clearance_of_tiles = [&](const TerrainLevel& level) {
     const int first_x = clamped((low_x + grid.half_x) * level.per_x, level.columns + 1),
               last_x = clamped((high_x + grid.half_x) * level.per_x, level.columns + 1),
               first_y = clamped((low_y + grid.half_y) * level.per_y, level.rows + 1),
               last_y = clamped((high_y + grid.half_y) * level.per_y, level.rows + 1);
-    if ((last_x - first_x + 1) * (last_y - first_y + 1) > max_tiles) return false;
+    if ((last_x - first_x + 1) * (last_y - first_y + 1) > max_tiles) return 0.0;
+    double least = __builtin_inf();
     for (int row = first_y; row <= last_y; ++row)
       for (int column = first_x; column <= last_x; ++column) {
         const TerrainTile& tile = level.tiles[long(row) * level.columns + column];
@@ -47,20 +50,24 @@ struct BoxOverTerrain {
         const double side = height + slope_x * (x - box.centre[0]) + slope_y * (y - box.centre[1]);
         const double rise = 0.5 * __builtin_fabs(double(tile.slope_x) - slope_x) * level.length_x +
                             0.5 * __builtin_fabs(double(tile.slope_y) - slope_y) * level.length_y;
-        if (!(double(tile.height) - side + rise < 0)) return false;
+        const double gap = side - double(tile.height) - rise;
+        if (!(gap > 0)) return 0.0;
+        least = gap < least ? gap : least;
       }
-    return true;
+    return least;
   };
   for (int k = grid.level_count - 1; k >= 0; --k) {
     const TerrainLevel& level = grid.levels[k];
     if (level.length_x * 4 < high_x - low_x || level.length_y * 4 < high_y - low_y) break;
-    if (level.length_x < high_x - low_x && level.length_y < high_y - low_y && is_clear_of_tiles(level)) return true;
+    if (!(level.length_x < high_x - low_x && level.length_y < high_y - low_y)) continue;
+    if (const double gap = clearance_of_tiles(level); gap > 0) return gap * upright;
   }
   const int first_column = clamped((low_x + grid.half_x) * grid.per_spacing_x, grid.columns),
             last_column = clamped((high_x + grid.half_x) * grid.per_spacing_x, grid.columns),
             first_row = clamped((low_y + grid.half_y) * grid.per_spacing_y, grid.rows),
             last_row = clamped((high_y + grid.half_y) * grid.per_spacing_y, grid.rows);
-  if ((last_column - first_column + 1) * (last_row - first_row + 1) > max_cells) return false;
+  if ((last_column - first_column + 1) * (last_row - first_row + 1) > max_cells) return 0;
+  double least = __builtin_inf();
   for (int row = first_row; row <= last_row; ++row)
     for (int column = first_column; column <= last_column; ++column) {
       const float* const lower = grid.values + long(row) * grid.columns + column;
@@ -81,10 +88,11 @@ struct BoxOverTerrain {
                                            (s[1] + slope_y) * grid.spacing_y;
         const double highest =
             corner - side + (s[0] > 0 ? s[0] * right : s[0] * left) + (s[1] > 0 ? s[1] * back : s[1] * front);
-        if (!(highest < 0)) return false;
+        if (!(highest < 0)) return 0;
+        least = -highest < least ? -highest : least;
       }
     }
-  return true;
+  return least * upright;
 }
 
 }  // namespace MURO_ISA

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// Numbers of four bytes that lie side by side in memory, at a place of its own for each lane.
+#pragma once
+
+#include <cstdint>
+
+#include "muro/simd/rows.hpp"
+
+namespace muro::native::lanes {
+inline namespace MURO_ISA {
+
+/// The whole numbers, 0 to 2^51, that `s` holds, to one place a lane.
+template <class S>
+MURO_INLINE void store_whole(std::int64_t* to, const S& s) {
+  // the sum has the number in its last 52 bits
+  constexpr double shift = 0x1p52;
+  const S shifted = s + S(shift);
+  __builtin_memcpy(to, &shifted, sizeof shifted);
+  for (int i = 0; i < lane::count_of<S>; ++i) to[i] &= (std::int64_t(1) << 52) - 1;
+}
+
+namespace detail {
+
+typedef float Floats2 __attribute__((vector_size(8)));
+typedef float Floats4 __attribute__((vector_size(16)));
+
+/// Numbers `first` on of those in `groups`, as many as `Vector` holds.
+template <class Vector, int first = 0>
+MURO_INLINE Vector widened(const Floats4* groups) {
+  namespace vectors = lane::vectors;
+  if constexpr (vectors::is_pair<Vector>) {
+    using Half = decltype(Vector::low);
+    return {widened<Half, first>(groups), widened<Half, first + vectors::length_of<Half>>(groups)};
+  } else if constexpr (vectors::length_of<Vector> == 8) {
+    return __builtin_convertvector(__builtin_shufflevector(groups[0], groups[1], 0, 1, 2, 3, 4, 5, 6, 7), Vector);
+  } else if constexpr (vectors::length_of<Vector> == 4) {
+    return __builtin_convertvector(groups[first / 4], Vector);
+  } else {
+    const Floats4& g = groups[first / 4];
+    return __builtin_convertvector(__builtin_shufflevector(g, g, first % 4, first % 4 + 1), Vector);
+  }
+}
+
+}  // namespace detail
+
+/// Number k of each lane to `to[k]`; `four(at)`: the four numbers of the lane that has the whole number `at`.
+template <class S, class Four>
+MURO_INLINE void load_fours(const S& at, const Four& four, S (&to)[4]) {
+  using detail::Floats4;
+  constexpr int count = lane::count_of<S>;
+  std::int64_t places[count];
+  store_whole(places, at);
+  if constexpr (count == 1) {
+    const Floats4 v = four(places[0]);
+    for (int k = 0; k < 4; ++k) to[k] = double(v[k]);
+  } else {
+    Floats4 numbers[4][count / 4];
+    for (int g = 0; g < count / 4; ++g) {
+      const Floats4 a = four(places[4 * g]), b = four(places[4 * g + 1]), c = four(places[4 * g + 2]),
+                    d = four(places[4 * g + 3]);
+      const Floats4 ab = __builtin_shufflevector(a, b, 0, 4, 1, 5), cd = __builtin_shufflevector(c, d, 0, 4, 1, 5);
+      const Floats4 ab2 = __builtin_shufflevector(a, b, 2, 6, 3, 7), cd2 = __builtin_shufflevector(c, d, 2, 6, 3, 7);
+      numbers[0][g] = __builtin_shufflevector(ab, cd, 0, 1, 4, 5);
+      numbers[1][g] = __builtin_shufflevector(ab, cd, 2, 3, 6, 7);
+      numbers[2][g] = __builtin_shufflevector(ab2, cd2, 0, 1, 4, 5);
+      numbers[3][g] = __builtin_shufflevector(ab2, cd2, 2, 3, 6, 7);
+    }
+    for (int k = 0; k < 4; ++k) to[k] = detail::widened<typename S::Vector>(numbers[k]);
+  }
+}
+
+/// The four numbers at a place.
+MURO_INLINE detail::Floats4 four_at(const float* from) {
+  detail::Floats4 v;
+  __builtin_memcpy(&v, from, sizeof v);
+  return v;
+}
+/// Two numbers at one place, and two at another.
+MURO_INLINE detail::Floats4 two_and_two(const float* first, const float* second) {
+  detail::Floats2 a, b;
+  __builtin_memcpy(&a, first, sizeof a);
+  __builtin_memcpy(&b, second, sizeof b);
+  return __builtin_shufflevector(a, b, 0, 1, 2, 3);
+}
+
+}  // namespace MURO_ISA
+}  // namespace muro::native::lanes
