@@ -24,6 +24,8 @@ allan=$(mktemp --suffix=.svg)
   --out "$allan" >/dev/null
 rsvg-convert "$allan" -o "$out/allan.png"
 rm "$allan"
+"$muro" compare examples/sensors/scanner_room.yaml --against examples/sensors/scanner_room.scip \
+  --vary stand.laser=raycast,zbuffer --out "$out/scanner_noise.svg" >/dev/null
 
 window() { xvfb-run -a -s "-screen 0 1400x900x24" "$muro" run "$@"; }
 scans() {
