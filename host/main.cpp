@@ -189,7 +189,8 @@ struct Commands {
     command.add_option("records", o.records, "Recordings: CSV with a header, or JSON of Rhoban/bam")->required();
     command.add_option("--model", o.model, "Friction: m1 Coulomb and viscous, m2 Stribeck, m3 by load, m4 both")
         ->capture_default_str();
-    repeatable(command.add_option("--fit", o.fit, "Find this, too: gain (of the firmware), delay (repeatable)"));
+    repeatable(
+        command.add_option("--fit", o.fit, "Find this, too: gain (of the firmware), delay, temperature (repeatable)"));
     command.add_option("--validate", o.validate,
                        "Records that are left out of the fit, or a part of all such as 0.25, chosen by the seed");
     command.add_flag("--cross-validate", o.cross_validate, "Fit again without the records of each P gain in turn");

@@ -55,7 +55,7 @@ struct CompareOptions {
 struct IdentifyOptions {
   std::vector<std::string> records;
   std::string model = "m4";
-  std::vector<std::string> fit;       ///< what is searched for, too: "gain", "delay"
+  std::vector<std::string> fit;       ///< what is searched for, too: "gain", "delay", "temperature"
   std::vector<std::string> validate;  ///< records that are left out, or one number: the part that is
   bool cross_validate = false;        ///< fit again without each P gain in turn
   std::optional<double> duty_gain, duty_limit;

@@ -134,6 +134,18 @@ void set_firmware(const IdentifyOptions& o, std::vector<MotorRecord>& fit, std::
       ", and no duty is recorded; give --duty-gain (1/rad for each unit of the P gain), or have it found: --fit gain");
 }
 
+void check_temperatures(const std::vector<MotorRecord>& records) {
+  for (const MotorRecord& r : records)
+    if (!r.has_temperature)
+      throw SetupError("--fit temperature: " + r.name + " has no temperatures (column `temperature`, degrees Celsius)");
+  const TemperatureSpan span = *temperature_span(records);
+  if (span.high - span.low < least_temperature_span)
+    throw SetupError(
+        fmt::format("--fit temperature: the records are all of {:g} to {:g} degrees Celsius; record the "
+                    "motor cold and warm, {:g} K apart or more",
+                    span.low, span.high, least_temperature_span));
+}
+
 class SearchProgress {
  public:
   void show(const std::string& what, double part) {
@@ -159,9 +171,9 @@ int identify(const IdentifyOptions& o) {
   FitSettings settings;
   settings.friction = friction_kind_of(o.model);
   for (const std::string& what : o.fit) {
-    if (what != "gain" && what != "delay")
-      throw SetupError("--fit " + in_backquotes(what) + suggestion(what, {"gain", "delay"}));
-    (what == "gain" ? settings.fit_gain : settings.fit_delay) = true;
+    if (what != "gain" && what != "delay" && what != "temperature")
+      throw SetupError("--fit " + in_backquotes(what) + suggestion(what, {"gain", "delay", "temperature"}));
+    (what == "gain" ? settings.fit_gain : what == "delay" ? settings.fit_delay : settings.fit_temperature) = true;
   }
   settings.seed = o.seed;
   settings.threads = o.threads > 0 ? o.threads : std::max(1u, std::thread::hardware_concurrency());
@@ -175,6 +187,7 @@ int identify(const IdentifyOptions& o) {
   else
     for (const std::string& file : o.validate) validation.push_back(read_motor_record(file, defaults));
   set_firmware(o, records, validation, settings);
+  if (settings.fit_temperature) check_temperatures(records);
 
   SearchProgress progress;
   const Identification id = identify_motor(std::move(records), std::move(validation), settings, o.cross_validate,

@@ -28,7 +28,7 @@ bool is_scip(std::string_view text) {
   const std::string_view line = first_line(text);
   if (line.find(',') != std::string_view::npos && line.find('[') != std::string_view::npos) return false;
   for (const std::string_view begin :
-       {"GD", "GS", "MD", "MS", "VV", "PP", "II", "BM", "QT", "RS", "SCIP2.0", "VEND:", "MODL:"})
+       {"GD", "GS", "GE", "MD", "MS", "ME", "VV", "PP", "II", "BM", "QT", "RS", "SCIP2.0", "VEND:", "MODL:"})
     if (line.starts_with(begin)) return true;
   return false;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a Hokuyo scanner has said, byte by byte: replies to GD, GS, MD and MS, and, where it was asked, to PP and VV.
-// Hokuyo, Communication Protocol Specification for SCIP2.0, C-42-03320B.
+// What a Hokuyo scanner has said, byte by byte: replies to GD, GS, GE, MD, MS and ME, and, where it was asked, to PP
+// and VV. Hokuyo, Communication Protocol Specification for SCIP2.0, C-42-03320B.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -36,20 +36,24 @@ constexpr double mm_per_m = 1000;
 /// The steps that a measuring command asks for.
 struct Window {
   std::int64_t start = 0, end = 0, cluster = 1;
-  std::size_t characters = 3;  ///< of a value
-  bool is_repeated = false;    ///< MD or MS: the echo has an interval and a count, too
+  std::size_t characters = 3;    ///< of a value
+  bool has_intensities = false;  ///< ME and GE: an intensity of as many characters stands behind each value
+  bool is_repeated = false;      ///< MD, MS or ME: the echo has an interval and a count, too
 
   std::size_t values() const { return std::size_t((end - start) / cluster + 1); }
+  std::size_t stride() const { return has_intensities ? 2 * characters : characters; }
   bool operator==(const Window& o) const { return start == o.start && end == o.end && cluster == o.cluster; }
 };
 
 /// Nothing where `line` is no measuring command.
 std::optional<Window> window_in(std::string_view line) {
   line = line.substr(0, line.find(';'));
-  if (line.size() < 2 || (line[0] != 'G' && line[0] != 'M') || (line[1] != 'D' && line[1] != 'S')) return std::nullopt;
+  if (line.size() < 2 || (line[0] != 'G' && line[0] != 'M') || std::string_view("DSE").find(line[1]) > 2)
+    return std::nullopt;
   Window w;
   w.is_repeated = line[0] == 'M';
-  w.characters = line[1] == 'D' ? 3 : 2;
+  w.characters = line[1] == 'S' ? 2 : 3;
+  w.has_intensities = line[1] == 'E';
   if (line.size() != (w.is_repeated ? 15u : 12u) || !digits_in(line.substr(2, 9))) return std::nullopt;
   const auto start = digits_in(line.substr(2, 4)), end = digits_in(line.substr(6, 4)),
              cluster = digits_in(line.substr(10, 2));
@@ -130,10 +134,13 @@ class ScipReader {
   }
 
   /// Behind the echo of a measuring command; `line_` is the echo.
-  void read_reply(const Window& window) {
-    const std::size_t echo_line = number_;
+  void read_reply(Window window) {
+    std::size_t echo_line = number_;
     if (!next_line()) return cut_off();
-    if (window_in(line_)) return read_reply(*window_in(line_));  // the request stands before its echo
+    while (const std::optional<Window> again = window_in(line_)) {  // the request stands before its echo
+      window = *again, echo_line = number_;
+      if (!next_line()) return cut_off();
+    }
     if (line_.size() != 3) throw error(0, "the state of the reply is expected here: two characters and their sum");
     const std::string_view state = checked();
     const bool has_data = state == (window.is_repeated ? "99" : "00");
@@ -158,20 +165,20 @@ class ScipReader {
       if (!is_whole_) return cut_off();
       data += checked();
     }
-    if (data.size() != window.values() * window.characters)
+    if (data.size() != window.values() * window.stride())
       throw record_error(record_.name, {echo_line, 1},
                          fmt::format("this scan has {} characters of data; its steps need {}", data.size(),
-                                     window.values() * window.characters));
-    add_scan(data, window.characters);
+                                     window.values() * window.stride()));
+    add_scan(data, window);
   }
 
   void cut_off() { is_cut_off_ = true; }
 
-  void add_scan(const std::string& data, std::size_t characters) {
+  void add_scan(const std::string& data, const Window& window) {
     std::vector<double> ranges;
-    for (std::size_t at = 0; at < data.size(); at += characters) {
+    for (std::size_t at = 0; at < data.size(); at += window.stride()) {
       std::int64_t value = 0;
-      for (std::size_t k = 0; k < characters; ++k) value = value * 64 + (data[at + k] - 0x30);
+      for (std::size_t k = 0; k < window.characters; ++k) value = value * 64 + (data[at + k] - 0x30);
       values_.push_back(value);
       ranges.push_back(double(value) / mm_per_m);
     }

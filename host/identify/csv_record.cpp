@@ -13,16 +13,28 @@ namespace muro::host {
 
 namespace {
 
-enum Column { time_column, position_column, goal_column, supply_column, enable_column, duty_column, column_count };
+enum Column {
+  time_column,
+  position_column,
+  goal_column,
+  supply_column,
+  enable_column,
+  duty_column,
+  temperature_column,
+  column_count
+};
 
 struct ColumnName {
   std::string_view name;
   Column column;
 };
 constexpr ColumnName column_names[] = {
-    {"time", time_column},          {"timestamp", time_column},       {"position", position_column},
-    {"goal", goal_column},          {"goal_position", goal_column},   {"supply_voltage", supply_column},
-    {"input_volts", supply_column}, {"torque_enable", enable_column}, {"duty", duty_column},
+    {"time", time_column},          {"timestamp", time_column},
+    {"position", position_column},  {"goal", goal_column},
+    {"goal_position", goal_column}, {"supply_voltage", supply_column},
+    {"input_volts", supply_column}, {"torque_enable", enable_column},
+    {"duty", duty_column},          {"temperature", temperature_column},
+    {"temp", temperature_column},
 };
 
 std::string_view trimmed(std::string_view s) {
@@ -118,9 +130,11 @@ class CsvReader {
       if (!seen[std::size_t(column)])
         throw error(0,
                     fmt::format("the header has no column `{}`; a record has `time` (s), `position` (rad) and `goal` "
-                                "(rad), and may have `supply_voltage` (V), `torque_enable` and `duty`",
+                                "(rad), and may have `supply_voltage` (V), `torque_enable`, `duty` and "
+                                "`temperature` (degrees Celsius)",
                                 name));
     record_.has_duty = seen[duty_column];
+    record_.has_temperature = seen[temperature_column];
   }
 
   void read_sample(std::string_view line) {
@@ -152,6 +166,9 @@ class CsvReader {
           break;
         case duty_column:
           s.duty = *x;
+          break;
+        case temperature_column:
+          s.temperature = *x;
           break;
         case column_count:
           break;

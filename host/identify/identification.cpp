@@ -30,7 +30,20 @@ double error_on(const std::vector<MotorRecord>& records, const MotorEstimate& es
   return sum / double(records.size());
 }
 
+/// What is warmer or colder than all that was fitted is not foreseen.
+void warn_of_temperature(const std::string& what, const std::optional<TemperatureSpan>& predicted,
+                         const std::optional<TemperatureSpan>& fitted, std::vector<std::string>& notes) {
+  if (!predicted || !fitted) return;
+  const double beyond = std::max(predicted->high - fitted->high, fitted->low - predicted->low);
+  if (beyond < least_temperature_span) return;
+  notes.push_back(fmt::format(
+      "{} recorded at {:g} to {:g} degrees Celsius, and what was fitted at {:g} to {:g}: a warm motor has more "
+      "resistance and weaker magnets; record each P gain with the motor cold and warm, and --fit temperature",
+      what, predicted->low, predicted->high, fitted->low, fitted->high));
+}
+
 std::vector<CrossValidation> leave_out_in_turn(const std::vector<MotorRecord>& records, const FitSettings& settings,
+                                               const MotorEstimate& full_fit,
                                                const std::function<void(const std::string&, double)>& show) {
   std::set<double> gains;
   for (const MotorRecord& r : records) gains.insert(r.p_gain);
@@ -43,7 +56,8 @@ std::vector<CrossValidation> leave_out_in_turn(const std::vector<MotorRecord>& r
     const FitResult fit = fit_motor(rest, settings, [&](double part) {
       if (show) show(fmt::format("without P gain {:g}", gain), part);
     });
-    all.push_back({gain, error_on(rest, fit.estimate), error_on(out, fit.estimate)});
+    all.push_back({gain, error_on(rest, fit.estimate), error_on(out, fit.estimate), error_on(out, full_fit),
+                   temperature_span(rest), temperature_span(out)});
   }
   return all;
 }
@@ -90,7 +104,15 @@ Identification identify_motor(std::vector<MotorRecord> fit, std::vector<MotorRec
   result.fit = fit_motor(fit, settings, [&](double part) {
     if (show) show("all records", part);
   });
-  if (cross_validate) result.left_out = leave_out_in_turn(fit, settings, show);
+  if (cross_validate) result.left_out = leave_out_in_turn(fit, settings, result.fit.estimate, show);
+  for (const CrossValidation& c : result.left_out)
+    warn_of_temperature(fmt::format("P gain {:g} is", c.p_gain), c.left_out_temperature, c.fit_temperature,
+                        result.notes);
+  warn_of_temperature("what is left out is", temperature_span(validation), temperature_span(fit), result.notes);
+  if (settings.fit_temperature)
+    result.notes.push_back(fmt::format("the resistance is that at {:g} degrees Celsius; it grows by {:.2g} % a degree",
+                                       result.fit.estimate.reference_temperature,
+                                       100 * result.fit.estimate.temperature_coefficient));
   for (auto* const records : {&fit, &validation})
     for (MotorRecord& r : *records) {
       const double told = recorded_gain({r}), used = r.duty_gain > 0 ? r.duty_gain : result.fit.estimate.motor.gain;

@@ -14,10 +14,13 @@ struct PredictedRecord {
   Residuals residuals;
 };
 
-/// A fit without the records of one P gain, and its error on them.
+/// A fit without the records of one P gain, and its error on them. All errors are means of |error|, rad.
 struct CrossValidation {
   double p_gain = 0;
-  double fit_error = 0, left_out_error = 0;  ///< rad, mean of |error|
+  double fit_error = 0;       ///< on the records of this fit
+  double left_out_error = 0;  ///< on those that are left out
+  double full_fit_error = 0;  ///< on the same ones, of the fit of all records: what the model can do there
+  std::optional<TemperatureSpan> fit_temperature{}, left_out_temperature{};
 };
 
 struct Identification {

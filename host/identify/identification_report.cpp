@@ -127,10 +127,12 @@ std::string report_text(const Identification& id, bool markdown) {
 
   if (!id.left_out.empty()) {
     text += heading("One P gain left out in turn", markdown);
-    rows = {{"left out", "error of the fit, rad", "error on what is left out, rad", "ratio"}};
+    rows = {{"left out", "error on it, rad", "of the fit, rad", "ratio", "on it with all records, rad", "ratio"}};
     for (const CrossValidation& c : id.left_out)
-      rows.push_back({fmt::format("{:g}", c.p_gain), fmt::format("{:.4f}", c.fit_error),
-                      fmt::format("{:.4f}", c.left_out_error), fmt::format("{:.2f}", c.left_out_error / c.fit_error)});
+      rows.push_back({fmt::format("{:g}", c.p_gain), fmt::format("{:.4f}", c.left_out_error),
+                      fmt::format("{:.4f}", c.fit_error), fmt::format("{:.2f}", c.left_out_error / c.fit_error),
+                      fmt::format("{:.4f}", c.full_fit_error),
+                      fmt::format("{:.2f}", c.left_out_error / c.full_fit_error)});
     text += table_of(rows, markdown);
   }
   std::vector<std::string> remarks = id.fit.warnings;
@@ -158,7 +160,10 @@ std::string report_json(const Identification& id) {
                        {"rms_error", r.error.rms},
                        {"largest_error", r.error.largest}});
   for (const CrossValidation& c : id.left_out)
-    left_out.push_back({{"p_gain", c.p_gain}, {"fit_error", c.fit_error}, {"left_out_error", c.left_out_error}});
+    left_out.push_back({{"p_gain", c.p_gain},
+                        {"fit_error", c.fit_error},
+                        {"left_out_error", c.left_out_error},
+                        {"full_fit_error", c.full_fit_error}});
   const json all = {{"model", name_of(id.settings.friction)},
                     {"seed", id.settings.seed},
                     {"duty_gain", id.fit.estimate.motor.gain},

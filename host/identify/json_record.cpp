@@ -137,6 +137,8 @@ MotorRecord parse_json_record(const std::string& text, const std::string& name, 
       s.duty = (counts > 32767 ? counts - 65536 : counts) / full_load;  // of 16 bits, without sign
       r.has_duty = true;
     }
+    r.has_temperature = entry.has("temp") && (i == 0 || r.has_temperature);
+    if (r.has_temperature) s.temperature = entry.number("temp");
     r.samples.push_back(s);
   }
   complete_record(r, defaults, std::move(places));

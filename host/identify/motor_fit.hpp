@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,7 +29,10 @@ struct FitSettings {
   FrictionKind friction = FrictionKind::m4;
   bool fit_gain = false;   ///< the gain of the firmware, too
   bool fit_delay = false;  ///< of commands
-  double gain = 0;         ///< 1/rad for each unit of the P gain; where it is fitted: about, or 0
+  /// The resistance by the recorded temperature, where the records span `least_temperature_span`; that of copper
+  /// elsewhere.
+  bool fit_temperature = false;
+  double gain = 0;  ///< 1/rad for each unit of the P gain; where it is fitted: about, or 0
   double duty_limit = 1;
   std::uint64_t seed = 1;
   unsigned threads = 1;
@@ -44,6 +48,16 @@ struct FitResult {
   std::uint64_t evaluations = 0;
   std::vector<std::string> warnings;
 };
+
+inline constexpr double least_temperature_span = 2;               ///< K
+inline constexpr double copper_temperature_coefficient = 0.0039;  ///< 1/K, of its resistance at 20 degrees Celsius
+
+/// The lowest and highest temperature (degrees Celsius) that is recorded; nothing where none is.
+struct TemperatureSpan {
+  double low = 0, high = 0;
+  double middle() const { return 0.5 * (low + high); }
+};
+std::optional<TemperatureSpan> temperature_span(const std::vector<MotorRecord>& records);
 
 /// Whether this build can fit: NLopt is there.
 bool can_fit();

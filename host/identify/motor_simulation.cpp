@@ -51,6 +51,7 @@ PreparedRecord prepare(const MotorRecord& r, double longest_step, double delay) 
   PreparedRecord p;
   p.p_gain = r.p_gain;
   p.duty_gain = r.duty_gain, p.duty_limit = r.duty_limit;
+  p.has_temperature = r.has_temperature;
   p.load = r.load;
   const double gap = std::max(gap_factor * usual_period(r), shortest_gap);
   std::size_t hint = 0;
@@ -67,7 +68,7 @@ PreparedRecord prepare(const MotorRecord& r, double longest_step, double delay) 
       const RecordSample& command =
           delay == 0 ? r.samples[i] : command_at(r, r.samples[i].time + 0.5 * dt - delay, hint);
       s.intervals.push_back({command.goal, r.samples[i].supply_voltage, dt / steps, steps, command.torque_enable,
-                             r.samples[i + 1].position});
+                             r.samples[i].temperature, r.samples[i + 1].position});
     }
     p.sample_count += s.intervals.size();
     if (end < r.samples.size()) ++p.gap_count;

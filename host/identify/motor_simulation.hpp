@@ -15,9 +15,17 @@ namespace muro::host {
 
 /// What identification finds.
 struct MotorEstimate {
-  motor::MotorModel motor;  ///< `gain`: for each unit of the P gain
-  double offset = 0;        ///< rad: what the record's positions lack of the pendulum's angle
-  double delay = 0;         ///< s, from the recorded command to what the servo does
+  motor::MotorModel motor;             ///< `gain`: for each unit of the P gain
+  double offset = 0;                   ///< rad: what the record's positions lack of the pendulum's angle
+  double delay = 0;                    ///< s, from the recorded command to what the servo does
+  double temperature_coefficient = 0;  ///< 1/K: of the resistance, from `reference_temperature` on
+  double reference_temperature = 25;   ///< degrees Celsius
+
+  /// Ohm, at a recorded temperature (degrees Celsius).
+  double resistance_at(double temperature) const {
+    constexpr double least = 0.1;  // of that at the reference
+    return motor.resistance * std::max(1 + temperature_coefficient * (temperature - reference_temperature), least);
+  }
 };
 
 /// A part of a record without gaps, as the simulation takes it: the interval from each sample to the next in `steps`
@@ -29,7 +37,8 @@ struct RecordSegment {
     double goal, supply_voltage, dt;  ///< s, of a step
     std::int32_t steps;
     bool torque_enable;
-    double position;  ///< rad, recorded at its end
+    double temperature;  ///< degrees Celsius, where the record has it
+    double position;     ///< rad, recorded at its end
   };
   double initial_position = 0;
   std::vector<Interval> intervals;
@@ -40,6 +49,7 @@ struct RecordSegment {
 struct PreparedRecord {
   double p_gain = 0;
   double duty_gain = 0, duty_limit = 0;  ///< of the record, or 0: those of the estimate
+  bool has_temperature = false;
   BenchLoad load;
   std::vector<RecordSegment> segments;
   std::size_t sample_count = 0;  ///< that are compared
@@ -56,9 +66,12 @@ void simulate(const RecordSegment& segment, const PreparedRecord& record, const 
   const double gain = record.p_gain * (record.duty_gain > 0 ? record.duty_gain : m.gain);
   const double duty_limit = record.duty_limit > 0 ? record.duty_limit : m.duty_limit;
   const double inertia = record.load.moment_of_inertia() + m.armature;
-  const double weight = record.load.gravity_torque(), per_volt = m.kt / m.resistance, braking = m.back_emf_damping();
+  const double weight = record.load.gravity_torque();
+  const bool by_temperature = e.temperature_coefficient != 0 && record.has_temperature;
   double q = segment.initial_position, w = segment.initial_velocity, before = w;
   for (const RecordSegment::Interval& interval : segment.intervals) {
+    const double per_volt = m.kt / (by_temperature ? e.resistance_at(interval.temperature) : m.resistance);
+    const double braking = by_temperature ? m.kt * per_volt : m.back_emf_damping();
     const double volts = interval.supply_voltage * per_volt, dt = interval.dt;
     for (std::int32_t k = 0; k < interval.steps; ++k) {
       const double middle = q + 0.5 * dt * w, extrapolated = w + 0.5 * (w - before);

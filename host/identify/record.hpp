@@ -15,7 +15,8 @@ struct RecordSample {
   double goal = 0;            ///< rad
   double supply_voltage = 0;  ///< V
   bool torque_enable = true;
-  double duty = 0;  ///< -1 .. 1, see MotorRecord::has_duty
+  double duty = 0;         ///< -1 .. 1, see MotorRecord::has_duty
+  double temperature = 0;  ///< degrees Celsius, see MotorRecord::has_temperature
 };
 
 /// The load: a pendulum. At 0 rad it hangs down.
@@ -39,6 +40,7 @@ struct MotorRecord {
   double duty_limit = 0;  ///< 0 .. 1, likewise
   BenchLoad load;
   bool has_duty = false;
+  bool has_temperature = false;
   std::vector<RecordSample> samples;
   std::vector<std::string> notes;  ///< what was noticed when it was read
 };

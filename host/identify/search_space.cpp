@@ -54,6 +54,18 @@ Scale scale_of(const std::vector<MotorRecord>& records) {
 
 }  // namespace
 
+std::optional<TemperatureSpan> temperature_span(const std::vector<MotorRecord>& records) {
+  std::optional<TemperatureSpan> span;
+  for (const MotorRecord& r : records) {
+    if (!r.has_temperature) continue;
+    for (const RecordSample& s : r.samples) {
+      if (!span) span = TemperatureSpan{s.temperature, s.temperature};
+      span->low = std::min(span->low, s.temperature), span->high = std::max(span->high, s.temperature);
+    }
+  }
+  return span;
+}
+
 SearchSpace::SearchSpace(const std::vector<MotorRecord>& records, const FitSettings& settings) : settings_(settings) {
   const Scale s = scale_of(records);
   double least_p = records.front().p_gain, most_p = least_p;
@@ -79,6 +91,11 @@ SearchSpace::SearchSpace(const std::vector<MotorRecord>& records, const FitSetti
     const double low = settings.gain > 0 ? settings.gain / 4 : 1 / (30 * least_p);
     const double high = settings.gain > 0 ? settings.gain * 4 : 1 / (0.003 * most_p);
     add("duty_gain", "1/rad", low, std::max(high, 10 * low), true);
+  }
+  if (const std::optional<TemperatureSpan> span = temperature_span(records); settings.fit_temperature && span) {
+    reference_temperature_ = span->middle();
+    temperature_coefficient_ = copper_temperature_coefficient;
+    if (span->high - span->low >= least_temperature_span) add("temperature_coefficient", "1/K", 0, 0.1, false, true);
   }
   if (settings.fit_delay) add("delay", "s", 0, 0.05, false, true);
 }
@@ -109,6 +126,7 @@ MotorEstimate SearchSpace::estimate(const double* x) const {
   MotorEstimate e;
   e.motor.gain = settings_.gain;
   e.motor.duty_limit = settings_.duty_limit;
+  e.temperature_coefficient = temperature_coefficient_, e.reference_temperature = reference_temperature_;
   double by_voltage = 1;
   motor::FrictionModel& f = e.motor.friction;
   const std::pair<const char*, double*> targets[] = {{"kt", &e.motor.kt},
@@ -123,6 +141,7 @@ MotorEstimate SearchSpace::estimate(const double* x) const {
                                                      {"load_stribeck_friction", &f.load_stribeck},
                                                      {"offset", &e.offset},
                                                      {"duty_gain", &e.motor.gain},
+                                                     {"temperature_coefficient", &e.temperature_coefficient},
                                                      {"delay", &e.delay}};
   std::size_t next = 0;
   for (const auto& [name, to] : targets)

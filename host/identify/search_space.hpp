@@ -24,6 +24,7 @@ class SearchSpace {
   void add(const char* name, const char* unit, double low, double high, bool logarithmic, bool may_be_low = false);
 
   FitSettings settings_;
+  double temperature_coefficient_ = 0, reference_temperature_ = 25;  ///< of the estimates, where they are not searched
   std::vector<FitParameter> parameters_;
 };
 

@@ -62,6 +62,19 @@ TEST(ScipRecord, ScansAreToldFromOtherReplies) {
   EXPECT_NE(r.notes[0].find("refused 1 command"), std::string::npos);
 }
 
+TEST(ScipRecord, IntensitiesArePassedOver) {
+  const ScanRecord r =
+      parse_scan_record(parameters + scip_scan("ME0000000200000", {1000, 77, 1001, 4000, 1002, 9}), "a.scip");
+  ASSERT_EQ(r.beam_count(), 3u);
+  EXPECT_NEAR(r.ranges[0][2], 1.002, 1e-12);
+}
+
+TEST(ScipRecord, RequestsMayStandBeforeTheirEchoes) {
+  std::string requests;
+  for (int i = 0; i < 100000; ++i) requests += "MD0000000200000\n";
+  EXPECT_EQ(parse_scan_record(requests + scip_scan("MD0000000200000", {1000, 1001, 1002}), "a.scip").ranges.size(), 1u);
+}
+
 TEST(ScipRecord, ACutOffScanIsLeftOut) {
   const std::string scan = scip_scan("MD0000000200000", {1000, 1001, 1002});
   const ScanRecord r = parse_scan_record(parameters + scan + scan.substr(0, scan.size() - 4), "a.scip");

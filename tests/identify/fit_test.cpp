@@ -117,6 +117,36 @@ TEST_F(MotorFit, SaysWhatRecordsDoNotTell) {
   EXPECT_FALSE(fit_motor({slow}, s).warnings.empty());
 }
 
+/// Two records, the motor cold and warm; its resistance grows by 1 % a degree from 30 on.
+std::vector<MotorRecord> cold_and_warm() {
+  std::vector<MotorRecord> all;
+  for (const double temperature : {28.0, 38.0}) {
+    test::SimulatedBench bench{.motor = xl330_m1()};
+    bench.duration = 2;
+    bench.motor.motor.resistance *= 1 + 0.01 * (temperature - 30);
+    MotorRecord r = bench.record(400, [](double t) { return 1.5 * std::sin(2 * t * t); });
+    r.has_temperature = true;
+    for (RecordSample& s : r.samples) s.temperature = temperature;
+    all.push_back(std::move(r));
+  }
+  return all;
+}
+
+TEST(OpenSimulation, AWarmMotorHasMoreResistance) {
+  MotorEstimate e = xl330_m1();
+  e.temperature_coefficient = 0.01, e.reference_temperature = 30;
+  for (const MotorRecord& r : cold_and_warm()) EXPECT_LT(error_of(prepare(r, 0.002), e).mean, 2e-3);
+}
+
+TEST_F(MotorFit, FindsHowItsResistanceGrowsWithTemperature) {
+  FitSettings s = quick(FrictionKind::m1);
+  s.fit_temperature = true;
+  s.global_evaluations = 1500, s.local_evaluations = 600;
+  const FitResult r = fit_motor(cold_and_warm(), s);
+  expect_near_relative(r.estimate.temperature_coefficient, 0.01, 0.1, "temperature_coefficient");
+  EXPECT_EQ(r.estimate.reference_temperature, 33);
+}
+
 TEST(OpenSimulation, BeginsAnewBehindAGap) {
   const test::SimulatedBench bench{.motor = xl330_m1(), .sigma = 0};
   MotorRecord r = bench.record(800, [](double t) { return std::sin(2 * t); });

@@ -81,6 +81,7 @@ TEST_F(IdentifyProgram, MistakesAreOneMessageAndWriteNothing) {
       {"@r0.csv", "give --duty-gain"},
       {"@r0.csv --model m9", "`m9` is none of m1, m2, m3, m4"},
       {"@r0.csv --fit gains", "did you mean `gain`?"},
+      {"@r0.csv --duty-gain 0.003 --fit temperature", "has no temperatures (column `temperature`, degrees Celsius)"},
       {"@r0.csv --fit gain --report @r.txt", "reports are Markdown (*.md) or JSON (*.json)"},
       {"@r0.csv --fit gain --plot @nowhere/r.svg", "there is no folder"},
       {"@r0.csv --fit gain --fragment @r0.csv", "is a record; it would be overwritten"},
