@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "error_chain.hpp"
+#include "image_errors.hpp"
 #include "measured_place.hpp"
 #include "muro/plugin.hpp"
 #include "neighbour_errors.hpp"
@@ -28,7 +29,7 @@ using namespace muro;
 constexpr auto parameters = [] {
   std::array<Parameter, 2 + std::size(error_parameters)> all{
       text("of", "ranges", "the property of the sensor's object to work on; not given: all that the part knows"),
-      text("part", "", "a device by its data sheet: adis16448, as5045, mpu6050, mti1, or the path of a file")};
+      text("part", "", "a device by its data sheet: adis16448, as5045, mpu6050, mti1, neo_m8, or the path of a file")};
   for (std::size_t i = 0; i < std::size(error_parameters); ++i) all[2 + i] = error_parameters[i];
   return all;
 }();
@@ -37,7 +38,10 @@ constexpr PropertyUse reads[] = {{"ranges", "or the property that `of` names"},
                                  {"angular_velocity", "named by `of` or by a part"},
                                  {"linear_acceleration", "the same; and for a g_sensitivity: the specific force"},
                                  {"encoder.position", "named by `of` or by a part"},
+                                 {"gps.position", "named by `of` or by a part"},
+                                 {"gps.velocity", "named by `of` or by a part"},
                                  {"neighbours", "named by `of`"},
+                                 {"camera.depth", "named by `of`"},
                                  {"gps.reference", "for the place of a gps.position"}};
 constexpr PropertyUse writes[] = {{"ranges.measured", "or `of`.measured"},
                                   {"latitude.measured", "that of gps.position.measured"},
@@ -84,7 +88,9 @@ class SensorError final : public Algorithm {
                                       .index = step.index,
                                       .incidence = c.incidence ? *c.incidence : std::span<const double>(),
                                       .specific_force = c.specific_force.get()};
-      if (c.neighbours)
+      if (c.image)
+        c.image.apply(c.chain, c.state, sample);
+      else if (c.neighbours)
         c.neighbours.apply(c.chain, c.state, sample, robot_keys_);
       else if (c.truths)
         c.chain.apply(*c.truths, *c.measured, c.state, sample);
@@ -105,6 +111,7 @@ class SensorError final : public Algorithm {
     double* single_measured = nullptr;
     std::size_t numbers = 1;
     NeighbourErrors neighbours{};
+    ImageErrors image{};
     MeasuredPlace place{};
     ArrayIn<double> incidence{};
     In<Vec3> specific_force{};
@@ -144,6 +151,11 @@ class SensorError final : public Algorithm {
     if (found.multiplicity == Multiplicity::list) {
       channel.neighbours = {ListIn<neighbours::Neighbour>(c.read_any(found)),
                             c.variable_list(object, published_neighbours_.measured(of))};
+      return;
+    }
+    if (found.multiplicity == Multiplicity::array && *of.type == value_type<float>) {
+      channel.image = {ArrayIn<float>(c.read_any(found)),
+                       c.variable_array(object, published_image_.measured(of), found.count)};
       return;
     }
     if (found.multiplicity == Multiplicity::array) {
@@ -230,6 +242,7 @@ class SensorError final : public Algorithm {
              Published<Pose, Twist>>
       published_;
   Published<neighbours::Neighbour> published_neighbours_;
+  Published<float> published_image_;
 };
 
 constexpr abi::AlgorithmEntry algorithms[] = {algorithm<SensorError>(description)};

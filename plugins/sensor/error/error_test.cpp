@@ -326,6 +326,39 @@ TEST(SensorError, DelaysAndHoldsWholeOrientations) {
   EXPECT_NEAR(held / 500.0, 0.3, 3 * std::sqrt(0.21 / 500));
 }
 
+// --- images
+
+// of structured light: 1.4 mm at 1 m, growing with the square (Khoshelham and Elberink, Sensors 12, 2012)
+TEST(SensorError, ShakesADepthWithTheSquareOfIt) {
+  const float nothing = std::numeric_limits<float>::infinity();
+  std::vector<float> depth(30000, 1.0F);
+  std::fill(depth.begin() + 10000, depth.begin() + 20000, 4.0F);
+  std::fill(depth.begin() + 20000, depth.end(), nothing);
+  Devices s({"a"});
+  s.world().set_array(s.items[0].object, keys::camera_depth, std::span<const float>(depth));
+  s.use("sensor.error", 10, s.items,
+        {{"of", std::string("camera.depth")}, {"sigma_quadratic", 1.425e-3}, {"bias", 0.01}, {"dropout", 0.02}});
+  s.build();
+  s.run_for(0.05);
+  const auto read = s.world().values(s.items[0].object, Key<float>{"camera.depth.measured", "m", ""});
+  ASSERT_EQ(read.size(), depth.size());
+  for (const std::size_t begin : {0u, 10000u, 20000u}) {
+    double squares = 0, seen = 0;
+    for (std::size_t i = begin; i < begin + 10000; ++i)
+      if (read[i] > 0) ++seen, squares += std::pow(double(read[i]) - double(depth[i]) - 0.01, 2);
+    EXPECT_NEAR(seen / 10000, 0.98, 3 * std::sqrt(0.02 * 0.98 / 10000));
+    const double z = double(depth[begin]), sigma = 1.425e-3 * z * z;
+    if (std::isfinite(z)) {
+      EXPECT_NEAR(std::sqrt(squares / seen), sigma, 3 * sigma / std::sqrt(2 * seen));
+    }
+  }
+  EXPECT_TRUE(std::all_of(read.begin() + 20000, read.end(), [&](float z) { return z == nothing || z == 0; }));
+  Devices slow({"a"});
+  slow.world().set_array(slow.items[0].object, keys::camera_depth, std::span<const float>(depth));
+  slow.use("sensor.error", 10, slow.items, {{"of", std::string("camera.depth")}, {"bandwidth", 5.0}});
+  EXPECT_SAYS(message_of(slow), "bandwidth is of what is seen at every instant, but `camera.depth` is an image");
+}
+
 // --- satellite navigation
 
 // 100 m to the east and 50 m to the north of 49.87 deg are what the radii of curvature of WGS 84 say
@@ -349,6 +382,22 @@ TEST(SensorError, PutsTheErrorsOfAPositionIntoLatitudeAndLongitude) {
   EXPECT_NEAR((measured("longitude.measured", "deg") - 8.65) * degree * across * std::cos(49.87 * degree), 100, 2e-3);
   EXPECT_NEAR(measured("altitude.measured", "m"), 151, 2e-3) << "over a ground that is bent by 1 mm";
   EXPECT_EQ(s.world().value(gps, keys::altitude), 144) << "the truth stays readable";
+}
+
+// half of the fixes lie within 2.5 m, however far they drift
+TEST(SensorError, HasTheCircularErrorProbableOfAReceiver) {
+  int inside = 0;
+  const int receivers = 400;
+  for (int seed = 1; seed <= receivers; ++seed) {
+    Devices s({"a"}, std::uint64_t(seed));
+    s.world().set(s.items[0].object, keys::gps_position, Vec3(10, 20, 30));
+    s.use("sensor.error", 5, s.items, {{"part", std::string("neo_m8")}});
+    s.build();
+    s.run_for(0.1);
+    const Vec3 off = s.value(Key<Vec3>{"gps.position.measured", "m", ""}) - Vec3(10, 20, 30);
+    inside += std::sqrt(off.x() * off.x() + off.y() * off.y()) < 2.5;
+  }
+  EXPECT_NEAR(inside / double(receivers), 0.5, 3 * 0.5 / std::sqrt(receivers));
 }
 
 // --- parts
@@ -455,7 +504,7 @@ TEST(SensorError, TellsOfPartsThatDoNotFit) {
   };
   EXPECT_SAYS(said({{"part", std::string("mpu6000")}}),
               "there is no part `mpu6000` (did you mean `mpu6050`?); ready "
-              "are `adis16448`, `as5045`, `mpu6050`, `mti1`, and a file");
+              "are `adis16448`, `as5045`, `mpu6050`, `mti1`, `neo_m8`, and a file");
   EXPECT_SAYS(said({{"part", std::string("as5045")}}),
               "has none of the readings of the part (`encoder.position`); it has");
   EXPECT_SAYS(said({{"part", std::string("mti1")}, {"of", std::string("wrench")}}),

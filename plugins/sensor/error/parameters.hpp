@@ -49,6 +49,9 @@ inline constexpr Parameter error_parameters[] = {
     reals("sigma", "as read", {}, "standard deviation of the noise of a sample, at any rate").between(0, 1e9),
     reals("sigma_relative", "1", {}, "standard deviation of further noise, in proportion to the reading")
         .between(0, 1e3),
+    real("sigma_quadratic", "1 by as read", 0,
+         "standard deviation of further noise, in proportion to the square of the reading: of depth by triangulation")
+        .between(0, 1e3),
     real("pointing", "rad", 0,
          "standard deviation of a ray's direction: adds noise with the angle of incidence; needs laser.incidence")
         .between(0, 1),

@@ -66,8 +66,23 @@ TEST(Part, MPU6050HasTheValuesOfItsDataSheet) {
 
 TEST(Part, ADIS16448HasTheValuesOfItsDataSheet) {
   Sheet gyro("adis16448", "angular_velocity"), accelerometer("adis16448", "linear_acceleration");
+  gyro.expect("turn_on_bias_tolerance", {3 * 0.5 * degree});
+  gyro.expect("bias_instability", {14.5 * degree / 3600});
   gyro.expect("noise_density", {0.0135 * degree});
+  gyro.expect("resolution", {0.04 * degree});
+  accelerometer.expect("turn_on_bias_tolerance", {3 * 0.020 * g});
   accelerometer.expect("noise_density", {0.23e-3 * g});
+  accelerometer.expect("resolution", {g / 1200});
+}
+
+TEST(Part, NeoM8IsHalfTheTimeWithinTheCircleOfItsDataSheet) {
+  const double median = std::sqrt(2 * std::log(2));  // of the length of two normal numbers
+  Sheet position("neo_m8", "gps.position"), velocity("neo_m8", "gps.velocity");
+  position.expect("gauss_markov_sigma", {2.5 / median, 2.5 / median, 2 * 2.5 / median});
+  position.expect("gauss_markov_time", {60});
+  position.expect("delay", {0.12});
+  velocity.expect("sigma", {0.05 / median, 0.05 / median, 2 * 0.05 / median});
+  velocity.expect("delay", {0.12});
 }
 
 TEST(Part, MTi1HasTheValuesOfItsDataSheet) {
@@ -102,7 +117,7 @@ TEST(Part, NamesTheSourceOfEveryValue) {
     }
     EXPECT_TRUE(has_source) << entry.path();
   }
-  EXPECT_GE(values, 26);
+  EXPECT_GE(values, 36);
 }
 
 // --- mistakes

@@ -32,7 +32,7 @@ std::string what_there_is(const Connector& c, ObjectId object) {
 bool is_reading(const FoundProperty& p) {
   if (p.multiplicity == Multiplicity::list) return *p.key->type == value_type<neighbours::Neighbour>;
   if (p.is_sum || p.count == 0) return false;
-  if (p.multiplicity == Multiplicity::array) return *p.key->type == value_type<double>;
+  if (p.multiplicity == Multiplicity::array) return is_one_of<double, float>(*p.key->type);
   return is_one_of<double, Vec3, Twist, Wrench, Quat, Pose>(*p.key->type);
 }
 
@@ -43,7 +43,7 @@ ReadingShape shape_of(const FoundProperty& p) {
   if (p.multiplicity == Multiplicity::list)
     shape.form = ReadingForm::list, shape.components = 4;  // without the id
   else if (p.multiplicity == Multiplicity::array)
-    shape.form = ReadingForm::array, shape.components = p.count;
+    shape.form = type == value_type<float> ? ReadingForm::image : ReadingForm::array, shape.components = p.count;
   else if (type == value_type<Vec3>)
     shape.form = ReadingForm::vector;
   else if (has_orientation)
@@ -55,13 +55,14 @@ FoundProperty find_reading(const Connector& c, ObjectId object, std::string_view
   for (const FoundProperty& p : c.properties(object)) {
     if (p.key->name != name) continue;
     if (is_reading(p)) return p;
-    throw Error(quote(name) + " of " + quote(c.object_name(object)) + " is not made of real numbers (f64) but of " +
-                std::string(p.key->type->name) +
-                (p.multiplicity == Multiplicity::list    ? ", in a list"
-                 : p.multiplicity == Multiplicity::array ? ", in an array"
-                                                         : "") +
-                "; sensor.error works on numbers and arrays of f64, on Vec3, Twist, Wrench, Quat and Pose, and on the "
-                "neighbours of sensor.neighbours");
+    throw Error(
+        quote(name) + " of " + quote(c.object_name(object)) + " is not made of real numbers but of " +
+        std::string(p.key->type->name) +
+        (p.multiplicity == Multiplicity::list    ? ", in a list"
+         : p.multiplicity == Multiplicity::array ? ", in an array"
+                                                 : "") +
+        "; sensor.error works on numbers, on arrays of f64 and f32, on Vec3, Twist, Wrench, Quat and Pose, and on the "
+        "neighbours of sensor.neighbours");
   }
   throw Error(quote(c.object_name(object)) + " has no property " + quote(name) + what_there_is(c, object));
 }

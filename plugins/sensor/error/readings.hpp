@@ -12,7 +12,8 @@
 
 namespace muro {
 
-/// Whether sensor.error works on a property: f64 numbers, alone, in an array or in a value, and lists of neighbours.
+/// Whether sensor.error works on a property: f64 numbers, alone, in an array or in a value, arrays of f32, and lists of
+/// neighbours.
 bool is_reading(const FoundProperty& property);
 ReadingShape shape_of(const FoundProperty& property);
 

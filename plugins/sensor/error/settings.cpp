@@ -13,7 +13,7 @@ namespace {
 
 PerComponent per_component(const GivenErrors& given, std::string_view name, const ReadingShape& reading) {
   const std::span<const double> numbers = given.numbers(name);
-  const bool is_array = reading.form == ReadingForm::array;
+  const bool is_array = reading.is_array();
   const bool one_each = !is_array && numbers.size() == reading.components;
   if (numbers.size() > 1 && !one_each)
     given.fail(name, std::string(name) + " has " + counted(numbers.size(), "number") + ", but " + quote(reading.name) +
@@ -28,6 +28,8 @@ std::string form_of(const ReadingShape& reading) {
   switch (reading.form) {
     case ReadingForm::array:
       return "an array";
+    case ReadingForm::image:
+      return "an image";
     case ReadingForm::orientation:
       return "an orientation";
     case ReadingForm::pose:
@@ -49,13 +51,14 @@ void refuse(const GivenErrors& given, std::initializer_list<std::string_view> na
 
 /// Throws where an error does not belong to readings of this form.
 void check_form(const GivenErrors& given, const ReadingShape& reading) {
-  const bool is_array = reading.form == ReadingForm::array, is_list = reading.form == ReadingForm::list;
-  refuse(given, {"correlation"}, is_array, reading, "between neighbours in an array");
-  refuse(given, {"pointing"}, is_array, reading, "of the rays of a laser");
+  const bool is_list = reading.form == ReadingForm::list, is_image = reading.form == ReadingForm::image;
+  refuse(given, {"correlation"}, reading.is_array(), reading, "between neighbours in an array");
+  refuse(given, {"pointing"}, reading.form == ReadingForm::array, reading, "of the rays of a laser");
+  refuse(given, {"bandwidth"}, !is_image, reading, "of what is seen at every instant");
   refuse(given, {"misalignment", "cross_axis_tolerance", "g_sensitivity"}, reading.form == ReadingForm::vector, reading,
          "of a vector");
-  refuse(given, {"scale", "scale_tolerance", "sigma_relative", "resolution"}, !reading.has_orientation(), reading,
-         "of numbers alone");
+  refuse(given, {"scale", "scale_tolerance", "sigma_relative", "sigma_quadratic", "resolution"},
+         !reading.has_orientation(), reading, "of numbers alone");
   refuse(given, {"bandwidth", "full_scale", "bits", "minimum", "maximum", "dropout_value"},
          !reading.has_orientation() && !is_list, reading, "of numbers alone");
   refuse(given, {"delay", "dropout_reads"}, !is_list, reading, "of a reading that is there at every instant");
@@ -169,6 +172,7 @@ ErrorSettings settings_of(const GivenErrors& given, const ReadingShape& reading)
   s.drift = drift_of(given, reading);
   s.noise = {.sigma = each("sigma"),
              .sigma_relative = each("sigma_relative"),
+             .sigma_quadratic = given.real("sigma_quadratic"),
              .pointing = given.real("pointing"),
              .correlation = given.real("correlation"),
              .density = each("noise_density")};
@@ -177,7 +181,7 @@ ErrorSettings settings_of(const GivenErrors& given, const ReadingShape& reading)
   s.dropouts = {.probability = given.real("dropout"),
                 .value = given.real("dropout_value"),
                 .hold = reading.has_orientation() || given.text("dropout_reads") == "hold",
-                .together = reading.form != ReadingForm::array};
+                .together = !reading.is_array()};
   return s;
 }
 

@@ -11,6 +11,7 @@ enum class ReadingForm : std::uint8_t {
   value,        ///< one number, or several of a kind each
   vector,       ///< Vec3
   array,        ///< neighbours of one kind, such as the rays of a scan
+  image,        ///< the same of f32, with pixels that see nothing: infinite
   orientation,  ///< a quaternion
   pose,         ///< a position and a quaternion
   list,         ///< of neighbours, each with its id
@@ -22,6 +23,7 @@ struct ReadingShape {
   std::size_t components = 1;  ///< that have errors: of an orientation the three of a rotation vector
   ReadingForm form = ReadingForm::value;
 
+  bool is_array() const { return form == ReadingForm::array || form == ReadingForm::image; }
   bool has_orientation() const { return form == ReadingForm::orientation || form == ReadingForm::pose; }
 };
 

@@ -14,7 +14,8 @@ namespace muro {
 /// Noise of a sample that does not depend on those before it.
 ///
 ///     n_0 = e_0,  n_i = c n_(i-1) + sqrt(1 - c^2) e_i     e_i independent, standard normal
-///     y_i = x_i + b_i + n_i sqrt(sigma_i^2 + N_i^2 / h + (sigma_relative_i x_i)^2 + (pointing x_i tan a_i)^2)
+///     y_i = x_i + b_i + n_i sqrt(sigma_i^2 + N_i^2 / h + (sigma_relative_i x_i)^2 + (pointing x_i tan a_i)^2
+///                                + (sigma_quadratic x_i^2)^2)
 ///
 /// with the bias b_i, the density N_i of a device that averages over its period h (the variance of the mean of white
 /// noise), and the angle of incidence a_i: a ray whose direction is off by the small angle d reads a plane x d tan a
@@ -26,6 +27,7 @@ class WhiteNoise {
   struct Settings {
     PerComponent sigma{};           ///< >= 0, unit of the reading, a sample
     PerComponent sigma_relative{};  ///< >= 0, of the reading
+    double sigma_quadratic = 0;     ///< >= 0, 1 by unit of the reading
     double pointing = 0;            ///< rad, >= 0: standard deviation of the direction of a ray
     double correlation = 0;         ///< c, -1 .. 1
     PerComponent density{};         ///< N, >= 0, unit of the reading by sqrt(Hz)
@@ -38,7 +40,8 @@ class WhiteNoise {
     constant_ = settings.sigma.with(
         settings.density, [&](double sigma, double n) { return sigma * sigma + (n == 0 ? 0 : n * n / period); });
     innovation_ = std::sqrt(1 - settings.correlation * settings.correlation);
-    is_active_ = !settings.sigma_relative.is_zero() || settings.pointing > 0 || !constant_.is_zero();
+    is_active_ = !settings.sigma_relative.is_zero() || settings.pointing > 0 || settings.sigma_quadratic > 0 ||
+                 !constant_.is_zero();
   }
 
   /// Adds bias and noise; `bias(i)` is that of component i. Leaves values alone where `untouched(i)`. `incidence`
@@ -57,8 +60,10 @@ class WhiteNoise {
       const double relative_pointing =
           incidence.empty() ? 0 : settings_.pointing * elementary::tan(std::min(incidence[i], max_incidence));
       const double y = values[i], relative = settings_.sigma_relative[i];
-      values[i] = y + (bias(i) + n * std::sqrt(constant_[i] +
-                                               (relative * relative + relative_pointing * relative_pointing) * y * y));
+      const double quadratic = settings_.sigma_quadratic * y * y;
+      const double variance =
+          constant_[i] + (relative * relative + relative_pointing * relative_pointing) * y * y + quadratic * quadratic;
+      values[i] = y + (bias(i) + n * std::sqrt(variance));
     }
   }
 
