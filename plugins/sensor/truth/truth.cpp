@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The true pose and velocity of anything, for what stands above sensing (MuRoSimF, Section 1).
-#include <string>
 #include <vector>
 
 #include "muro/plugin.hpp"
 #include "plugins/common/internal_sensor/mounted.hpp"
 #include "plugins/common/internal_sensor/property_uses.hpp"
-#include "plugins/common/text/quote.hpp"
+#include "plugins/common/internal_sensor/scene_frame.hpp"
 
 namespace {
 
@@ -40,13 +39,6 @@ constexpr Description description{
     .capabilities = deterministic | batched | allocation_free | restorable,
 };
 
-/// How an object moves: a part of a robot, scenery, which stands, or the device.
-struct Subject {
-  LinkMotion link;
-  Pose pose;  ///< of what stands
-  FrameMotion now() const { return link ? link.now() : FrameMotion{pose, {}, {}}; }
-};
-
 class Truth final : public Algorithm {
  public:
   void connect(Connector& c) override {
@@ -58,12 +50,10 @@ class Truth final : public Algorithm {
         t.device = device_motion(c, item, Order::acceleration);
         t.acceleration = c.variable(item.object, keys::true_acceleration, Twist{});
       }
-      t.of = p.text("of").empty() ? Subject{device_motion(c, item, Order::twist), {}} : subject(c, item, p.text("of"));
+      const auto device = [&]() -> SceneFrame { return device_motion(c, item, Order::twist); };
+      t.of = p.text("of").empty() ? device() : SceneFrame::named(c, item, p.text("of"));
       const std::string_view frame = p.text("frame");
-      if (frame == "self")
-        t.frame = Subject{device_motion(c, item, Order::twist), {}};
-      else if (!frame.empty())
-        t.frame = subject(c, item, frame);
+      if (!frame.empty()) t.frame = frame == "self" ? device() : SceneFrame::named(c, item, frame);
       t.pose = c.variable(item.object, keys::true_pose, Pose{});
       t.twist = c.variable(item.object, keys::true_twist, Twist{});
       tellers_.push_back(std::move(t));
@@ -90,30 +80,11 @@ class Truth final : public Algorithm {
 
  private:
   struct Teller {
-    Subject of, frame;
+    SceneFrame of, frame;
     LinkMotion device;  ///< where its acceleration is wanted
     Out<Pose> pose;
     Out<Twist> twist, acceleration;
   };
-
-  static Subject subject(Connector& c, const Item& item, std::string_view name) {
-    for (const RobotView* robot : c.robots())
-      if (robot->name == name) return {LinkMotion(c, *robot, 0, Pose{}, Order::twist), {}};
-    ObjectId object = c.find_object(std::string(item.robot->name) + "/" + std::string(name));
-    if (object == no_object) object = c.find_object(name);
-    const std::int32_t number = object == no_object ? -1 : c.robot_of(object);
-    if (number >= 0) {
-      const RobotView& robot = *c.robots()[std::size_t(number)];
-      for (std::uint32_t i = 0; i < robot.links.size(); ++i)
-        if (robot.links[i].object == object) return {LinkMotion(c, robot, i, Pose{}, Order::twist), {}};
-    }
-    const auto standing = object == no_object ? std::nullopt : c.constant(object, keys::pose);
-    if (!standing)
-      throw Error("nothing in the scene is named " + quote(name) +
-                  " and has a pose; name a part of the own robot, a robot, `robot/part`, or scenery "
-                  "(`muro describe` lists them)");
-    return {{}, *standing};
-  }
 
   std::vector<Teller> tellers_;
 };
