@@ -13,8 +13,8 @@ constexpr const char* head =
     "sheets and measurements say, and whether a bug of their simulator is here, too. Made by\n"
     "`build/bin/known_answers_table`, which asks\n"
     "[tests/conformance/known_answers](../tests/conformance/known_answers); each number is the error that\n"
-    "it found, in the unit beside it, and the test fails where it is above the tolerance. Seeds are fixed.\n"
-    "What sensors read at which motion is in [sensor-levels.md](sensor-levels.md).\n\n";
+    "it found, in the unit beside it, and the test fails where it is above the tolerance. Seeds are\n"
+    "fixed. What sensors read at which motion is in [sensor-levels.md](sensor-levels.md).\n\n";
 
 constexpr const char* elsewhere =
     "\n## Held elsewhere\n\n"
@@ -30,8 +30,9 @@ constexpr const char* elsewhere =
     "| motors identified from twelve real records, and from records of their own | [motors.md](motors.md) |\n"
     "| bit errors of IEEE 802.15.4, a shared medium, hidden senders | "
     "[plugins/radio/log_distance](../plugins/radio/log_distance/README.md) |\n\n"
-    "Not held: a walker whose feet are put on a plane (step lengths and turns of a rigid compass), since no\n"
-    "motion puts feet; the linear inverted pendulum and its preview gains, which belong to control code.\n";
+    "Not held: a walker whose feet are put on a plane (step lengths and turns of a rigid compass), since\n"
+    "no motion puts feet; the linear inverted pendulum and its preview gains, which belong to control\n"
+    "code.\n";
 
 void print() {
   std::printf("%s| plugin | known answer | source | error | unit | tolerance | |\n|---|---|---|---|---|---|---|\n",
