@@ -21,7 +21,8 @@ inline constexpr Key<Wrench> external_wrench{
 inline constexpr Key<Wrench> contact_wrench{
     "wrench.contact", "N, N m", "what contacts did to a body in the last step: world axes, at the body's origin"};
 /// By the motion that moves the robot, on links where somebody reads it: all that it has let act on the link in the
-/// step that `acceleration` is of. So Newton's and Euler's equations of the link hold with both.
+/// step that `acceleration` is of. So Newton's and Euler's equations of the link hold with both. Not a number after a
+/// step of a motion that no force moves.
 inline constexpr Key<Wrench> applied_wrench{
     "wrench.applied", "N, N m",
     "what acted on a body from outside in the last step, contacts too: world axes, at the body's origin"};

@@ -40,9 +40,10 @@ class LinkContacts {
   void each_of_law(const F& f) const {
     each(law_, f);
   }
+  /// `by_own`: of the engine that moves the robot; else of those of others, which matter where no force moves it.
   template <class F>
-  void each_of_engines(const F& f) const {
-    if (is_dynamic()) return each(motion_, f);
+  void each_of_engines(bool by_own, const F& f) const {
+    if (by_own) return each(motion_, f);
     for (const ListIn<ContactWrench>& list : others_) each(list, f);
   }
 

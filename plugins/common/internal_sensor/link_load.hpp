@@ -14,13 +14,13 @@ enum class Load : std::uint8_t {
   all,       ///< all that acted in the last step, such as thrust, too: what belongs to its accelerations
 };
 
-/// Of one link. Where no force moves the robot at present, only contacts with robots that forces move are known.
+/// Of one link. Where no force has moved the robot, only contacts with robots that forces move are known.
 class LinkLoad {
  public:
   LinkLoad() = default;
   /// [setup]
   LinkLoad(Connector& c, const RobotView& robot, std::uint32_t link, Load which)
-      : contacts_(c, robot, link, which == Load::all ? When::kinematic : When::always), which_(which) {
+      : contacts_(c, robot, link, which == Load::all ? When::kinematic : When::always) {
     const ObjectId object = robot.links[link].object;
     const bool touches = !c.constant_array(object, keys::collision_shapes).empty();
     if (which == Load::contacts) {
@@ -43,21 +43,24 @@ class LinkLoad {
       sum.add_force(sign * contact.wrench.force, contact.point - origin);
       sum.torque += sign * contact.wrench.torque;
     };
-    if (!contacts_.is_dynamic()) {
-      contacts_.each_of_law(add);
-      contacts_.each_of_engines(add);
-    } else if (which_ == Load::contacts) {
-      contacts_.each_of_law(add);
+    if (is_applied_known()) return *applied_;
+    contacts_.each_of_law(add);
+    if (contacts_.is_dynamic() && !applied_) {
       if (engine_) sum += *engine_;
-    } else if (applied_) {
-      sum += *applied_;
+    } else {
+      contacts_.each_of_engines(false, add);
     }
     return sum;
   }
 
  private:
+  /// Whether the last step was one of a motion by forces. Before the first step it is zero.
+  bool is_applied_known() const {
+    if (!applied_ || !std::isfinite(applied_->force.sum() + applied_->torque.sum())) return false;
+    return contacts_.is_dynamic() || !applied_->force.isZero(0) || !applied_->torque.isZero(0);
+  }
+
   LinkContacts contacts_;
-  Load which_ = Load::contacts;
   In<Wrench> engine_, applied_;
 };
 

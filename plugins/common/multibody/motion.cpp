@@ -55,7 +55,7 @@ void Motion::connect_by_name(Connector& c) {
     WorldRobot* const robot = served_[i].by_world;
     const bool is_free = robot && !robot->model().fixed_base;
     accelerations_.connect_by_name(c, i, is_free ? BaseMotion::by_forces : BaseMotion::kinematic,
-                                   is_free ? robot->model().bodies.front().inertia : Inertia{});
+                                   is_free ? robot->model().bodies.front().inertia : Inertia{}, robot != nullptr);
     if (!robot) continue;
     robot->set_has_contact_law(c.is_used(c.items()[i].robot->base(), keys::contacts, usage::read));
     robot->connect_by_name(c, *c.items()[i].robot);

@@ -87,7 +87,7 @@ class Penalty final : public Algorithm {
     if (step.phase > 1) return process_pairs(int(step.phase) - 2, range);
     *last_run_ = step.time;
     if (context.stiffness.omega < omega_) report(context.stiffness);
-    bodies_.clear_kinematic_lists();
+    if (bodies_.tells_kinematic_robots) bodies_.clear_kinematic_lists();
     constexpr std::size_t few = 12;  // take less time than distributing them to threads
     const std::size_t count = pair_contacts_->begin(context, scenery_contacts_->remaining());
     many_pairs_ = count > few ? 1 : 0;

@@ -49,7 +49,8 @@ class Simplified final : public Algorithm {
     for (RobotWatch& watch : watches_) watch.connect_contacts(c);
     for (ForceDrivenJoints& joints : force_driven_) joints.connect_by_name(c);
     for (std::uint32_t i = 0; i < robots_.size(); ++i)
-      accelerations_.connect_by_name(c, i, fixed_ ? BaseMotion::kinematic : BaseMotion::by_forces, robots_[i].inertia);
+      accelerations_.connect_by_name(c, i, fixed_ ? BaseMotion::kinematic : BaseMotion::by_forces, robots_[i].inertia,
+                                     robots_[i].external.has_value());
     for (std::uint32_t i = 0; i < robots_.size(); ++i) {
       applied_wrenches_[i].connect_by_name(c, *c.items()[i].robot, external_of(i));
       tells_applied_ = tells_applied_ || !applied_wrenches_[i].empty();

@@ -129,10 +129,12 @@ class ContactRecorder final : public Algorithm {
     const auto is_same = [&](const ContactWrench& c) {
       return c.body == contact.other && c.other == contact.body && c.point == contact.point;
     };
-    return std::any_of(lists_.begin(), lists_.end(), [&](const RobotList& list) {
-      return list.robot == std::uint32_t(other) && is_moved_by_forces(*list.world) &&
-             std::any_of((*list.contacts).begin(), (*list.contacts).end(), is_same);
-    });
+    const auto precedes = [](const RobotList& list, std::uint32_t robot) { return list.robot < robot; };
+    for (auto at = std::lower_bound(lists_.begin(), lists_.end(), std::uint32_t(other), precedes);
+         at != lists_.end() && at->robot == std::uint32_t(other); ++at)
+      if (is_moved_by_forces(*at->world) && std::any_of((*at->contacts).begin(), (*at->contacts).end(), is_same))
+        return true;
+    return false;
   }
 
   bool is_wanted(ObjectId body) const { return body != no_object && wanted_[index_of(body)]; }

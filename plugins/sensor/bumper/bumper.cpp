@@ -105,7 +105,7 @@ class BumperSensor final : public PerRobotAlgorithm<Bumper> {
       if (push > 0) force += push;
     };
     b.contacts.each_of_law(add);
-    b.contacts.each_of_engines(add);
+    b.contacts.each_of_engines(b.contacts.is_dynamic(), add);
     return any && force >= threshold_;
   }
 

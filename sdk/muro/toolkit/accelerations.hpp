@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -31,10 +32,15 @@ class Accelerations {
   explicit Accelerations(MeshVertices vertices = {}) : vertices_(std::move(vertices)) {}
 
   /// Of item `i`; in the `connect_by_name` of a motion that writes pose, twist and joint velocities. `base`: of the
-  /// body that is the base, in its frame; for motions by forces. [setup]
-  void connect_by_name(Connector& c, std::uint32_t i, BaseMotion how, const Inertia& base = {}) {
+  /// body that is the base, in its frame; for motions by forces. `keeps_applied`: the motion lets wrenches act on the
+  /// links and says which (keys::applied_wrench); after a step of one that does not, they are not known. [setup]
+  void connect_by_name(Connector& c, std::uint32_t i, BaseMotion how, const Inertia& base = {},
+                       bool keeps_applied = false) {
     const Item& item = c.items()[i];
     OfRobot robot;
+    for (const Link& link : item.robot->links)
+      if (!keeps_applied && c.is_used(link.object, keys::applied_wrench, usage::read))
+        robot.applied.push_back(c.derived(link.object, keys::applied_wrench));
     for (const Link& link : item.robot->links) {
       if (link.joint == JointKind::fixed || !is_read(c, link.joint_object, keys::joint_acceleration)) continue;
       if (!c.is_used(link.joint_object, keys::joint_velocity, usage::variable)) continue;  // no motion moves it
@@ -43,7 +49,7 @@ class Accelerations {
     }
     const ObjectId object = item.robot->base();
     const bool base_is_read = is_read(c, object, keys::acceleration);
-    if (!base_is_read && robot.joints.empty()) return;
+    if (!base_is_read && robot.joints.empty() && robot.applied.empty()) return;
     robot.pose = c.write(object, keys::pose);
     robot.twist = c.write(object, keys::twist);
     robot.how = how;
@@ -78,6 +84,7 @@ class Accelerations {
     if (!r) return;
     const double per_second = 1 / dt;
     for (const Joint& j : r->joints) *j.acceleration = (*j.velocity - j.before) * per_second;
+    for (const Out<Wrench>& w : r->applied) *w = {Vec3::Constant(not_known), Vec3::Constant(not_known)};
     if (!r->acceleration) return;
     const Twist& now = *r->twist;
     if (r->how == BaseMotion::by_forces) {
@@ -100,6 +107,7 @@ class Accelerations {
   }
 
  private:
+  static constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
   struct Joint {
     Out<double> velocity, acceleration;
     double before = 0;
@@ -113,6 +121,7 @@ class Accelerations {
     Vec3 centre = Vec3::Zero();            ///< m, from the base's origin to its centre of mass, world axes ...
     double centre_axes[4] = {0, 0, 0, 0};  ///< ... with this orientation of the base (x, y, z, w)
     std::vector<Joint> joints;
+    std::vector<Out<Wrench>> applied;  ///< of links, where another motion of the robot keeps them
 
     /// Most steps begin where the one before has ended.
     void place_centre() {
