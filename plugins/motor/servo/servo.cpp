@@ -12,6 +12,7 @@
 #include "muro/toolkit/joint_inertia.hpp"
 #include "muro/toolkit/mass_properties.hpp"
 #include "muro/toolkit/per_robot.hpp"
+#include "plugins/common/contact_geometry/contact_responsibility.hpp"
 #include "plugins/common/text/quote.hpp"
 #include "voltage_drive.hpp"
 
@@ -78,7 +79,7 @@ constexpr PropertyUse reads[] = {
     {"servo.supply_voltage", "where a voltage drives the motor"},
     {"servo.p_gain", "where a voltage drives the motor"},
     {"servo.torque_enable", "where a voltage drives the motor; 0 opens its coil"},
-    {"motion.level", "where friction depends on the load and the robot has several motions"},
+    {"contact.world", "of a robot with several motions: whether the present one takes efforts"},
     {"inertial", "of the bodies behind a joint, where the rotor has inertia"}};
 constexpr PropertyUse writes[] = {{"joint.effort.target", "of every joint that it drives"},
                                   {"servo.integral", "effort of the controller's integral"},
@@ -111,6 +112,10 @@ struct ServoJoint {
   Gearbox gear;
   VoltageDrive voltage_drive;  ///< where a voltage drives the motor
   double initial_command = 0;
+  In<std::uint64_t> world;  ///< keys::contact_world, where several motions move the robot
+
+  /// Whether a motion by forces moves the robot; else the effort is written and does nothing.
+  bool acts() const { return !world || is_moved_by_forces(*world); }
 };
 
 /// What is kept of a robot.
@@ -190,6 +195,8 @@ class Servo final : public PerRobotAlgorithm<ServoRobot> {
         j.rotor_position = c.variable(joint, rotor_position, start[i]);
         j.rotor_velocity = c.variable(joint, rotor_velocity, 0.0);
       }
+      if (!c.constant_array(robot.base(), keys::motion_level_names).empty())
+        j.world = c.input(robot.base(), keys::contact_world, kinematic_world);
       j.initial_command = controller_.follows_velocity ? 0 : start[i];
       j.command =
           c.input(joint, controller_.follows_velocity ? keys::joint_velocity_target : keys::joint_position_target,
@@ -203,7 +210,7 @@ class Servo final : public PerRobotAlgorithm<ServoRobot> {
       j.motor_effort = c.derived(joint, motor_effort);
       if (delay_ > 0) j.commands = c.variable_list(joint, delayed_commands);
       if (has_voltage_)
-        j.voltage_drive = VoltageDrive(c, robot.base(), joint, motor_parameters,
+        j.voltage_drive = VoltageDrive(c, joint, motor_parameters,
                                        joint_inertia(robot.links, inertias, start, i) + robot.links[i].limits.armature);
       joints.push_back(j);
     }
@@ -265,10 +272,12 @@ class Servo final : public PerRobotAlgorithm<ServoRobot> {
     *j.encoder_reading = position;
     *j.measured_speed = speed;
     if (j.voltage_drive) {
-      *j.effort = *j.motor_effort = j.voltage_drive.run(target - position, v, dt);
+      *j.effort = *j.motor_effort = j.voltage_drive.run(target - position, v, j.acts(), dt);
       return;
     }
-    const double wanted = controller_.effort(target, position, speed, motor_.limits(rotor.velocity), *j.integral, dt);
+    double integral = *j.integral;
+    const double wanted = controller_.effort(target, position, speed, motor_.limits(rotor.velocity), integral, dt);
+    if (j.acts()) *j.integral = integral;
     if (!j.rotor_position) {
       *j.motor_effort = wanted;
       *j.effort = wanted - gear_.viscous * v;

@@ -255,6 +255,41 @@ TEST(Servo, GoesOnFromASnapshotToTheSameBits) {
   EXPECT_EQ(s.state_hash(), end);
 }
 
+/// What the error of a slow commanded motion would have added up to is not there when forces move the joint again.
+TEST(Servo, ItsIntegralRestsWhileNoForceMovesTheRobot) {
+  test::Scene s;
+  const RobotView& r = s.add("r", bench({}));
+  s.set_levels(r, {"forces", "commanded"}, 0);
+  s.use("motion.simplified", 1000, {{&r, r.base(), 0}}, {{"joints", "effort"}, {"base", "fixed"}});
+  s.use("motion.point", 1000, {{&r, r.base(), 1}}, {{"joints", "position"}});
+  s.use("motor.servo", 1000, s.all_robots(), {{"stiffness", 20.0}, {"damping", 1.5}, {"integral", 100.0}});
+  s.build();
+  const auto of = [&](const std::string& joint, const Key<double>& key) -> double& {
+    return s.world().value("r/" + joint, key);
+  };
+  const Key<double> integral{"servo.integral", "N m or N", ""};
+  const double level = 0.75 * 9.81 * 0.2;  // N m, that holds the rod up when it is level
+  of("arm", keys::joint_position_target) = M_PI / 2;
+  s.run_for(5);
+  ASSERT_NEAR(std::abs(of("arm", integral)), level, 1e-3) << "it holds the rod";
+  s.world().value(r.base(), keys::motion_level_target) = 1;
+  s.run_for(0.01);
+  for (const double goal : {-1.0, M_PI / 2}) {  // on the way each error would add up
+    of("arm", keys::joint_position_target) = goal;
+    of("wheel", keys::joint_position_target) = goal;
+    s.run_for(goal < 0 ? 1 : 3);
+  }
+  EXPECT_NEAR(std::abs(of("arm", integral)), level, 1e-2) << "and keeps that";
+  s.world().value(r.base(), keys::motion_level_target) = 0;
+  double farthest = 0;
+  for (int k = 0; k < 500; ++k) {
+    s.run_for(0.001);
+    farthest = std::max(farthest, std::abs(of("arm", keys::joint_position) - M_PI / 2));
+    farthest = std::max(farthest, std::abs(of("wheel", keys::joint_position) - M_PI / 2));
+  }
+  EXPECT_LT(farthest, 0.01) << "rad";
+}
+
 TEST(Servo, ServosOfABatchMoveAsTheyDoAlone) {
   const auto run = [](int robots) {
     test::Scene s;

@@ -2,6 +2,7 @@
 // A joint driven by a motor at a voltage: what it reads and writes, and one run of it.
 #pragma once
 
+#include <limits>
 #include <string>
 
 #include "motor_parameters.hpp"
@@ -18,27 +19,29 @@ inline constexpr Key<double> duty_key{"servo.duty", "1", "part of the supply vol
 class VoltageDrive {
  public:
   VoltageDrive() = default;
-  /// `base`: of the robot; `inertia`: kg m^2, what the joint moves at the start, with its own armature. [setup]
-  VoltageDrive(Connector& c, ObjectId base, ObjectId joint, const MotorParameters& m, double inertia)
-      : model_(m.model), inertia_(inertia + m.model.armature) {
+  /// `inertia`: kg m^2, what the joint moves at the start, with its own armature. [setup]
+  VoltageDrive(Connector& c, ObjectId joint, const MotorParameters& m, double inertia)
+      : model_(m.model), inertia_(inertia + m.model.armature), joint_(c.object_name(joint)) {
     supply_voltage_ = c.input(joint, supply_voltage_key, m.supply_voltage);
     torque_enable_ = c.input(joint, torque_enable_key, 1.0);
     p_gain_ = c.input(joint, p_gain_key, m.p_gain);
     duty_ = c.derived(joint, duty_key);
     friction_ = c.derived(joint, keys::joint_drive_friction);
     armature_ = c.derived(joint, keys::joint_drive_armature);
-    if (!model_.friction.depends_on_load()) return;
-    last_ = static_cast<LastRun*>(c.state_block(joint, "motor.servo", sizeof(LastRun)));
-    if (!c.constant_array(base, keys::motion_level_names).empty()) level_ = c.read(base, keys::motion_level);
+    if (model_.friction.depends_on_load())
+      last_ = static_cast<LastRun*>(c.state_block(joint, "motor.servo", sizeof(LastRun)));
   }
   explicit operator bool() const { return bool(duty_); }
 
-  /// The effort (N m) of the motor with the position's error `error` (rad) at `velocity` (rad/s). Throws Error where
-  /// the period `dt` (s) is too long for its back EMF.
-  double run(double error, double velocity, double dt) const {
+  /// The effort (N m) of the motor with the position's error `error` (rad) at `velocity` (rad/s). `acts`: a motion by
+  /// forces has moved the joint, so its motion tells of its load. Throws Error where
+  /// the period `dt` (s) is too long for its back EMF, and for a command that is no number, or none that a motor takes.
+  double run(double error, double velocity, bool acts, double dt) const {
     if (model_.back_emf_damping() * dt > inertia_) throw too_slow(dt);
+    if (!is_command(*supply_voltage_)) throw no_command(supply_voltage_key, *supply_voltage_);
+    if (!is_command(*p_gain_)) throw no_command(p_gain_key, *p_gain_);
     const bool on = *torque_enable_ != 0;
-    if (last_) begin_anew_at_handover();
+    if (last_ && !acts) *last_ = {};
     *duty_ = on ? model_.duty(*p_gain_ * error) : 0;
     const double torque = on ? model_.torque(*duty_ * *supply_voltage_, velocity) : 0;
     *friction_ = model_.friction.budget(velocity, torque, last_ ? observed_load(velocity, dt) : 0);
@@ -48,23 +51,22 @@ class VoltageDrive {
   }
 
  private:
-  /// Part of the state; all 0 before the first run.
+  /// Part of the state; all 0 before the first run, and while a motion without forces moves the robot: how the joint
+  /// moves then tells of no load.
   struct LastRun {
-    double has_run, velocity, torque, budget, load, level;
+    double has_run, velocity, torque, budget, load;
   };
 
-  /// How the joint has moved under another motion says nothing of this one's load: that need not take efforts.
-  void begin_anew_at_handover() const {
-    const double level = level_ ? double(*level_) : 0;
-    if (level == last_->level) return;
-    *last_ = LastRun{};
-    last_->level = level;
-  }
   double observed_load(double velocity, double dt) const {
     if (last_->has_run != 0)
       last_->load = motor::LoadObserver::load(velocity, velocity - last_->velocity, last_->torque, last_->budget,
                                               inertia_, last_->load, dt);
     return last_->load;
+  }
+  static bool is_command(double x) { return x >= 0 && x <= std::numeric_limits<double>::max(); }
+  Error no_command(const KeyInfo& key, double value) const {
+    return Error(quote(joint_ + ":" + std::string(key.name)) + " is " + std::to_string(value) +
+                 (key.unit == "1" ? "" : " " + std::string(key.unit)) + "; command a finite number, 0 or more");
   }
   Error too_slow(double dt) const {
     return Error("the back EMF would stop the joint within " + std::to_string(inertia_ / model_.back_emf_damping()) +
@@ -76,7 +78,7 @@ class VoltageDrive {
   double inertia_ = 0;  ///< kg m^2, with the armature
   In<double> supply_voltage_, torque_enable_, p_gain_;
   Out<double> duty_, friction_, armature_;
-  In<std::uint32_t> level_;  ///< which motion moves the robot, where there are several
+  std::string joint_;        ///< its name, for messages
   LastRun* last_ = nullptr;  ///< where friction depends on the load
 };
 

@@ -251,5 +251,24 @@ TEST(VoltageDrive, TakesNoLoadFromAnotherMotion) {
   EXPECT_NEAR(of(keys::joint_drive_friction), model.friction.budget(v, torque, 0), 1e-12);
 }
 
+TEST(VoltageDrive, CommandsThatAreNoNumbersAreNamed) {
+  const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+  for (const auto& [name, value, text] :
+       {std::tuple("servo.supply_voltage", nan, "`r/joint:servo.supply_voltage` is nan V; command a finite number"),
+        std::tuple("servo.supply_voltage", -7.4, "`r/joint:servo.supply_voltage` is -7.400000 V; command a finite"),
+        std::tuple("servo.p_gain", nan, "`r/joint:servo.p_gain` is nan; command a finite number, 0 or more"),
+        std::tuple("servo.p_gain", inf, "`r/joint:servo.p_gain` is inf; command a finite number, 0 or more")}) {
+    VoltageBench s(Parameters{{"part", "mx64"}});
+    s.run_for(0.1);
+    s.of(name) = value;
+    try {
+      s.run_for(0.1);
+      ADD_FAILURE() << name << " = " << value;
+    } catch (const std::exception& e) {
+      EXPECT_NE(std::string(e.what()).find(text), std::string::npos) << e.what();
+    }
+  }
+}
+
 }  // namespace
 }  // namespace muro
