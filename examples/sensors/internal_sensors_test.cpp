@@ -13,8 +13,8 @@ namespace muro::host {
 namespace {
 
 BuiltScenario standing() {
-  BuiltScenario built = build(
-      read_scenario(MURO_TEST_SOURCE_DIR "/examples/sensors/internal.yaml", {"algorithms.log=off"}), test::plugins());
+  BuiltScenario built =
+      build(read_scenario(MURO_TEST_SOURCE_DIR "/examples/sensors/internal.yaml", {}), test::plugins());
   built.simulation->run_for(2);
   return built;
 }
