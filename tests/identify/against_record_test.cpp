@@ -73,7 +73,8 @@ const char* const m1 = " --set robots.bench.motor.friction_model=m1";
 TEST(CompareAgainst, AJointThatMovesAtTheStartGoesOn) {
   const test::ScratchFolder folder;
   const std::string record = folder.file("r.csv", swinging(4, 1));
-  for (const std::string motion : {"simplified", "ode", "bullet", "mujoco"}) {
+  std::istringstream motions(MURO_TEST_MOTIONS);
+  for (std::string motion; motions >> motion;) {
     const auto r = compare_against("--against " + record + " --csv " + folder.path("t.csv") + m1 +
                                    " --set robots.bench.motion.use=motion." + motion);
     ASSERT_EQ(r.exit_code, 0) << r.output;
