@@ -36,6 +36,15 @@ void join_world(AlgorithmSetup& world, const AlgorithmSetup& joining) {
                            {joining.name, joining.place, joining.parameters, joining.parameter_places});
 }
 
+/// Of robots of one group, which have one place in the scenario, one is told. `refused`: such places.
+void join_world_told_once(AlgorithmSetup& world, const AlgorithmSetup& joining, std::set<std::string>& refused) {
+  try {
+    join_world(world, joining);
+  } catch (const SetupError&) {
+    if (joining.place.empty() || refused.insert(joining.place).second) throw;
+  }
+}
+
 /// Of a kind whose results would mix, one algorithm serves an object, and one that serves the world serves all.
 void check_single_roles(const std::vector<AlgorithmSetup>& setups, Registry& registry) {
   std::map<std::pair<Kind, ObjectId>, const AlgorithmSetup*> served;
@@ -75,6 +84,7 @@ MergedSetups merge(const std::vector<AlgorithmSetup>& setups, Registry& registry
     const auto named = s.parameters.find("world");
     return named == s.parameters.end() ? ParameterInput(std::string()) : named->second;
   };
+  std::set<std::string> refused;
   std::unordered_map<std::string, std::vector<std::size_t>> alike;  // merged, by algorithm and the name they go by
   for (const AlgorithmSetup& s : setups) {
     const std::uint32_t capabilities = registry.algorithm(s.use).description->capabilities;
@@ -98,7 +108,7 @@ MergedSetups merge(const std::vector<AlgorithmSetup>& setups, Registry& registry
     if (known != candidates.end()) {
       AlgorithmSetup& m = merged[*known];
       if (world)
-        problems.run([&] { join_world(m, s); });
+        problems.run([&] { join_world_told_once(m, s, refused); });
       else
         m.items.insert(m.items.end(), s.items.begin(), s.items.end());
       result.merged_of_setup.push_back(*known);

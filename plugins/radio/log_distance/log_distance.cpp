@@ -176,7 +176,23 @@ void LogDistance::find_distances() {
   disturbing_ = reach(noise - below_noise);
 }
 
+/// Room for so many elements, so that steps seldom have to make it.
+template <class T>
+void make_room(const ListOut<T>& list, std::size_t elements) {
+  if (!(*list).empty()) return;
+  for (std::size_t i = 0; i < elements; ++i) list.push_back({});
+  list.clear();
+}
+
 void LogDistance::start() {
+  constexpr std::size_t memory = 32 << 20;  // bytes, for all radios
+  const std::size_t messages = std::clamp<std::size_t>(memory / (512 * radios_.size()), 4, 64);
+  for (const Radio& r : radios_) {
+    make_room(r.frames, messages / 4);
+    make_room(r.arriving, messages / 8);
+    make_room(r.received, messages);
+    make_room(r.received_bytes, 32 * messages);
+  }
   places_.resize(radios_.size());
   complete_.reserve(radios_.size());
   complete_from_.reserve(radios_.size());

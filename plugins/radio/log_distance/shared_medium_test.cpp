@@ -115,6 +115,17 @@ TEST(RadioMedium, GivesTheSameBitsOnAnyNumberOfThreads) {
   }
 }
 
+TEST(SlowRadioMedium, GivesAThousandRobotsTheSameBitsToo) {
+  for (const char* medium : {"separate", "shared"}) {
+    const auto hash = [&](unsigned threads) {
+      Crowd s(medium, threads, 1000);
+      s.talk(12);
+      return s.state_hash();
+    };
+    EXPECT_EQ(hash(4), hash(1)) << medium;
+  }
+}
+
 TEST(RadioMedium, GoesOnFromASnapshotAndBeginsAnewAfterAReset) {
   for (const char* medium : {"separate", "shared"}) {
     Crowd s(medium);
