@@ -47,6 +47,24 @@ TEST_F(SlowRealRecords, M4PredictsThemWithin36Milliradians) {
   EXPECT_LT(fit_motor(records, settings(FrictionKind::m4)).mean_error, 0.036);
 }
 
+TEST_F(SlowRealRecords, TheirTemperaturesTellMoreThanAnyFriction) {
+  // P 800 was recorded at 33 to 39 degrees Celsius, the rest at 28 to 30
+  FitSettings s = settings(FrictionKind::m4);
+  s.fit_temperature = true;
+  EXPECT_LT(fit_motor(records, s).mean_error, 0.024);
+}
+
+TEST_F(SlowRealRecords, AWarmMotorIsForeseenByItsTemperature) {
+  std::vector<MotorRecord> cold, warm;
+  for (const MotorRecord& r : records) (r.p_gain == 800 ? warm : cold).push_back(r);
+  FitSettings s = settings(FrictionKind::m1);
+  s.fit_temperature = true;
+  const FitResult fit = fit_motor(cold, s);
+  double error = 0;
+  for (const MotorRecord& r : warm) error += error_of(prepare(r, 0.002), fit.estimate).mean / double(warm.size());
+  EXPECT_LT(error, 1.7 * fit.mean_error) << "2.1 without";
+}
+
 TEST_F(SlowRealRecords, TheirDutiesTellTheGainOfTheFirmware) {
   EXPECT_NEAR(recorded_gain(records), 0.0028773775, 0.01 * 0.0028773775);
 }
