@@ -88,6 +88,12 @@ Found range_of_zigbee() {
   return {std::abs(seen - 31.2), 0.05};
 }
 
+Settings settings_of_rfcomms() {
+  return {{"tx_power", 27.0}, {"reference_loss", 40.0}, {"exponent", 2.5}, {"sensitivity", -90.0}, {"max_range", 1e4}};
+}
+Found power_of_rfcomms() { return {std::abs(power_at(50, settings_of_rfcomms()) + 55.5), 0.05}; }
+Found range_of_rfcomms() { return {std::abs(range_of(settings_of_rfcomms()) - 1202), 0.5}; }
+
 /// At half, once and twice the range without shadowing; n 2.5, s 10 dB. The worst, in units of three deviations.
 Found shadowing() {
   const double range = std::pow(10, (0 - 40 + 85) / 25.0), messages = 3000, expected[] = {0.774, 0.5, 0.226};
@@ -205,6 +211,29 @@ Found losses_repeat() {
   return {received(true) == received(false) && received(true).back() > 0 ? 0.0 : 1.0, 0};
 }
 
+/// Between walls; the largest difference of power from a to b and from b to a.
+Found reciprocity() {
+  constexpr int robots = 12;
+  double worst = 0;
+  for (int a = 0; a < robots; ++a)
+    for (int b = 0; b < a; ++b) {
+      Radios s;
+      const int pair[] = {a, b};
+      for (const int i : pair) s.place({3.7 * std::cos(1.3 * i), 3.1 * std::sin(2.1 * i), 0.01 * i});
+      for (int i = 0; i < 3; ++i) {
+        const Shape wall = Shape::box({0.2, 2, 2});
+        s.world().add_scenery("wall" + std::to_string(i), {{1.5 * i - 1.4, 0.3 * i, 0}, Quat::Identity()},
+                              std::span<const Shape>(&wall, 1));
+      }
+      s.start({{"bit_rate", 1e9}, {"tx_power", 20.0}});
+      s.send(0, 1), s.send(1, 1);
+      s.run_for(0.002);
+      if (s.counters(0).received + s.counters(1).received != 2) return {std::numeric_limits<double>::infinity(), 0};
+      worst = std::max(worst, std::abs(s.last(0).rssi - s.last(1).rssi));
+    }
+  return {worst, 0};
+}
+
 }  // namespace
 
 std::vector<Answer> radio_answers() {
@@ -214,8 +243,12 @@ std::vector<Answer> radio_answers() {
       {r, "wifi with n 3 reaches 221.19 m", "ns-3", "m", "digits of the source", range_of_wifi},
       {r, "Zigbee with n 3 and a sensitivity of -85 dBm reaches 31.2 m", "data sheets", "m", "digits of the source",
        range_of_zigbee},
-      {r, "at half, once and twice that range shadowing lets 0.774, 0.5 and 0.226 through", "closed form", "of 1",
-       three, shadowing},
+      {r, "RFComms with n 2.5 and 27 dBm is received with -55.5 dBm at 50 m", "gz-sim", "dB", "digits of the source",
+       power_of_rfcomms},
+      {r, "RFComms with a noise of -90 dBm has a ratio of 0 dB at 1202 m", "gz-sim", "m", "digits of the source",
+       range_of_rfcomms},
+      {r, "at half, once and twice the range shadowing lets 0.774, 0.5 and 0.226 through", "closed form", "of 1", three,
+       shadowing},
       {r, "QPSK at 6, 8 and 10 dB loses 0.852, 0.1416 and 0.0031 of 100 bytes", "Proakis, 5.2", "of 1", three,
        packet_errors},
       {r, "127 bytes are 4.256 ms on the air, and then on their way", "IEEE 802.15.4", "s", "rounding", time_on_air},
@@ -223,6 +256,8 @@ std::vector<Answer> radio_answers() {
       {r, "no more is carried than the bit rate", "closed form", "bit/s", "none", capacity},
       {r, "a wall stops messages, the own body does not", "geometry", "messages", "none", walls},
       {r, "which messages are lost does not depend on other robots", "bits of two runs", "1", "none", losses_repeat},
+      {r, "power from one radio to another is that of the way back, walls or not", "reciprocity", "dB", "none",
+       reciprocity},
   };
 }
 
