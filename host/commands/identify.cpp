@@ -97,7 +97,7 @@ std::string motor_of(const std::vector<const MotorRecord*>& records) {
 void keep_recorded_gains(std::vector<MotorRecord>& records, double gain) {
   for (MotorRecord& r : records) {
     const double told = r.duty_gain > 0 ? 0 : recorded_gain({r});
-    if (!(told > 0) || std::abs(told / gain - 1) <= 0.05) continue;
+    if (!(told > 0) || std::abs(told / gain - 1) <= recorded_gain_tolerance) continue;
     r.duty_gain = told;
     r.notes.push_back(
         fmt::format("{}: its duties say a gain of {:.4g} /rad for each unit of the P gain, which is used for it; the "

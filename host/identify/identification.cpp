@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <set>
 
@@ -82,17 +83,21 @@ FrictionKind friction_kind_of(const std::string& word) {
 std::string name_of(FrictionKind kind) { return fmt::format("M{}", 1 + int(kind)); }
 
 double recorded_gain(const std::vector<MotorRecord>& records) {
-  double products = 0, squares = 0;
+  constexpr double least = 0.05, most = 0.9;  // duties: smaller ones are rounded, larger ones limited
+  std::vector<double> gains;
   for (const MotorRecord& r : records) {
     if (!r.has_duty) continue;
     for (const RecordSample& s : r.samples) {
       const double error = r.p_gain * (s.goal - s.position);
-      if (!s.torque_enable || std::abs(s.duty) > 0.9) continue;
-      products += s.duty * error;
-      squares += error * error;
+      if (s.torque_enable && std::abs(s.duty) > least && std::abs(s.duty) < most && error * s.duty > 0)
+        gains.push_back(s.duty / error);
     }
   }
-  return squares > 0 && products > 0 ? products / squares : 0;
+  if (gains.empty()) return 0;
+  // duties are a little older than positions, which shifts quotients up as often as down
+  const auto middle = gains.begin() + std::ptrdiff_t(gains.size() / 2);
+  std::nth_element(gains.begin(), middle, gains.end());
+  return *middle;
 }
 
 Identification identify_motor(std::vector<MotorRecord> fit, std::vector<MotorRecord> validation,
@@ -116,7 +121,7 @@ Identification identify_motor(std::vector<MotorRecord> fit, std::vector<MotorRec
   for (auto* const records : {&fit, &validation})
     for (MotorRecord& r : *records) {
       const double told = recorded_gain({r}), used = r.duty_gain > 0 ? r.duty_gain : result.fit.estimate.motor.gain;
-      if (told > 0 && std::abs(told / used - 1) > 0.05)
+      if (told > 0 && std::abs(told / used - 1) > recorded_gain_tolerance)
         result.notes.push_back(
             fmt::format("{}: its duties say a gain of {:.4g} /rad for each unit of the P gain, and {:.4g} was used: "
                         "--duty-gain, --fit gain, or `duty_gain` in the record",

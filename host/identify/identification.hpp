@@ -41,6 +41,8 @@ std::string name_of(FrictionKind kind);
 
 /// What the duties that are recorded say of the gain (1/rad for each unit of the P gain); 0: nothing.
 double recorded_gain(const std::vector<MotorRecord>& records);
+/// How far the gain that duties say may be from the true one, relative: in fast movements duties lag behind positions.
+inline constexpr double recorded_gain_tolerance = 0.1;
 
 /// Fits, and predicts all records. `cross_validate`: fits again without each P gain in turn.
 Identification identify_motor(std::vector<MotorRecord> fit, std::vector<MotorRecord> validation,

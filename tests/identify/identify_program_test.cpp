@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <sstream>
 
 #include "host/identify/motor_fit.hpp"
@@ -71,6 +72,38 @@ TEST_F(IdentifyProgram, WritesAReportAPictureAndAFragmentThatRuns) {
                   fragment);
   const auto s = run("run @s.yaml");
   EXPECT_EQ(s.exit_code, 0) << s.output;
+}
+
+TEST_F(IdentifyProgram, ARecordWhoseDutiesSayAnotherGainKeepsIt) {
+  // the same movements, the third by a firmware with twice the gain for each unit: it calls 400 what others call 800
+  std::string third = text_of("r2.csv");
+  third.replace(third.find("800"), 3, "400");
+  std::istringstream in(third);
+  std::string changed;
+  for (std::string line; std::getline(in, line);) {
+    if (line[0] == '#' || line[0] == 't') {
+      changed += line + (line[0] == 't' ? ",duty\n" : "\n");
+      continue;
+    }
+    double time = 0, position = 0, goal = 0;
+    std::sscanf(line.c_str(), "%lf,%lf,%lf", &time, &position, &goal);
+    changed += line + "," + std::to_string(std::clamp(2 * 0.0028773775 * 400 * (goal - position), -1.0, 1.0)) + "\n";
+  }
+  folder.file("r2.csv", changed);
+  folder.file("r0.csv", "# motor: xl330\n" + text_of("r0.csv"));
+  const auto r = run("identify @r0.csv @r1.csv @r2.csv @r3.csv --model m1");
+  ASSERT_EQ(r.exit_code, 0) << r.output;
+  EXPECT_NE(r.output.find("Model M1 from 4 records: mean |error| 0.00"), std::string::npos) << r.output;
+  EXPECT_NE(r.output.find("r2.csv: its duties say a gain of 0.0057"), std::string::npos) << r.output;
+}
+
+TEST_F(IdentifyProgram, RecordsOfSeveralMotorsAreRefused) {
+  folder.file("r0.csv", "# motor: xl330\n" + text_of("r0.csv"));
+  folder.file("r1.csv", "# motor: mx64\n" + text_of("r1.csv"));
+  const auto r = run("identify @r0.csv @r1.csv --model m1");
+  EXPECT_EQ(r.exit_code, 2);
+  EXPECT_NE(r.output.find("r0.csv is of `xl330` and "), std::string::npos) << r.output;
+  EXPECT_NE(r.output.find("r1.csv of `mx64`; identify one motor at a time"), std::string::npos) << r.output;
 }
 
 TEST_F(IdentifyProgram, MistakesAreOneMessageAndWriteNothing) {
