@@ -9,17 +9,21 @@
 namespace muro::native::lanes {
 inline namespace MURO_ISA {
 
-/// The whole numbers, 0 to 2^51, that `s` holds, to one place a lane.
-template <class S>
-MURO_INLINE void store_whole(std::int64_t* to, const S& s) {
-  // the sum has the number in its last 52 bits
-  constexpr double shift = 0x1p52;
-  const S shifted = s + S(shift);
-  __builtin_memcpy(to, &shifted, sizeof shifted);
-  for (int i = 0; i < lane::count_of<S>; ++i) to[i] &= (std::int64_t(1) << 52) - 1;
-}
-
 namespace detail {
+
+/// The last 52 bits of each element, as a number of 64 bits.
+template <class Vector>
+MURO_INLINE Vector last_bits(const Vector& v) {
+  constexpr std::int64_t all = (std::int64_t(1) << 52) - 1;
+  if constexpr (lane::vectors::is_pair<Vector>) {
+    return {last_bits(v.low), last_bits(v.high)};
+  } else if constexpr (std::is_same_v<Vector, double>) {
+    return __builtin_bit_cast(double, __builtin_bit_cast(std::int64_t, v) & all);
+  } else {
+    using Bits = decltype(v < v);
+    return Vector(Bits(v) & all);
+  }
+}
 
 typedef float Floats2 __attribute__((vector_size(8)));
 typedef float Floats4 __attribute__((vector_size(16)));
@@ -42,6 +46,19 @@ MURO_INLINE Vector widened(const Floats4* groups) {
 }
 
 }  // namespace detail
+
+/// The whole numbers, 0 to 2^51, that `s` holds, to one place a lane.
+template <class S>
+MURO_INLINE void store_whole(std::int64_t* to, const S& s) {
+  const S sum = s + S(0x1p52);  // which has the number in its last 52 bits
+  if constexpr (lane::count_of<S> == 1) {
+    const double bits = detail::last_bits(sum);
+    __builtin_memcpy(to, &bits, sizeof bits);
+  } else {
+    const S bits = detail::last_bits(sum.v);
+    __builtin_memcpy(to, &bits, sizeof bits);
+  }
+}
 
 /// Number k of each lane to `to[k]`; `four(at)`: the four numbers of the lane that has the whole number `at`.
 template <class S, class Four>

@@ -161,9 +161,9 @@ unsigned process(const GroundBatch& batch, int first) {
     const unsigned stale = ~bits(known.still_clear()) & append.all;
     if (stale == 0) return;
     const ShapeInWorld<S> at(shape, body);
-    const S far = lanes::ShapeClearance<S, ShapeInWorld<S>>(at, terrain).find();
+    const S far = lanes::ShapeClearance<S, ShapeInWorld<S>>(at, terrain).find(!known.still_clear());
     known.keep(far, stale);
-    leave(!lanes::any_of(far >= S(0), known.still_clear()));
+    leave(!(far >= S(0)));
   };
   const auto add_hull = [&](const KernelShape& hull, const BodyFrame<S>& body, const Ground& ground) {
     if (slot > 0) end_word();

@@ -16,17 +16,18 @@ class ShapeClearance {
   ShapeClearance(const Shape& at, const TerrainGrid& grid)
       : at_(at), grid_(grid), half_(at.half()), radius_(radius_of_all(at.kind(), half_)) {}
 
-  /// How far (m) all of its points may move, in any direction, until it may touch the
-  /// surface; negative where it may touch it now. With least effort: it may be a good deal less than could be told.
-  MURO_INLINE S find() const {
+  /// How far (m) all of its points may move, in any direction, until it may touch the surface; negative where it may
+  /// touch it now. With least effort: it may be a good deal less than could be told. Elsewhere than in `lanes` any
+  /// number that is not negative.
+  MURO_INLINE S find(MaskOf<S> lanes) const {
     const V3<S> centre = to_map(grid_, at_.centre() - lane::splat<S>(grid_.origin));
     const S beside = beyond_rim(grid_, centre, radius_);
     const TerrainLevel* const level = grid_.level_for(radius_);
-    if (!level) return beside;
+    if (!level) return select(lanes, beside, S(0));
     const NearSlopes<S> near = slopes_near(grid_, *level, centre);
     const S over = -(near.rise + reach_along(near.slopes)) / sqrt(near.slopes.up2());
     const auto is_over = over >= S(0);
-    const S far = select(is_over, min(over, S(level->reach - radius_)), beside);
+    const S far = select(lanes, select(is_over, min(over, S(level->reach - radius_)), beside), S(0));
     return any(!(far >= S(0))) ? with_closer_look(far, centre) : far;
   }
 

@@ -109,9 +109,10 @@ MURO_INLINE Facet<S> facet_of(const TerrainGrid& grid, S cell_column, S cell_row
   const S is_upper = select(upper, S(1), S(0));
   f.column = cell_column + is_upper, f.row = cell_row + is_upper;
   S nodes[4];  // of the cell, along x in both rows
+  const float *const lower = grid.values, *const upper_row = grid.values + grid.columns;
   load_fours(
       cell_row * S(grid.columns) + cell_column,
-      [&](std::int64_t node) { return two_and_two(grid.values + node, grid.values + node + grid.columns); }, nodes);
+      [=](std::int64_t node) { return two_and_two(lower + node, upper_row + node); }, nodes);
   // the corner and those along x and y from it
   const S corner = select(upper, nodes[3], nodes[0]), beside = select(upper, nodes[2], nodes[1]),
           above = select(upper, nodes[1], nodes[2]);
@@ -155,7 +156,7 @@ MURO_INLINE NearSlopes<S> slopes_near(const TerrainGrid& grid, const TerrainLeve
   const float* const numbers = &level.tiles->height;
   S tile[4];  // in its order
   load_fours(
-      row * S(level.columns) + column, [&](std::int64_t at) { return four_at(numbers + 4 * at); }, tile);
+      row * S(4 * level.columns) + S(4) * column, [&](std::int64_t at) { return four_at(numbers + at); }, tile);
   const S x = centre.x + S(grid.half_x) - (column + S(0.5)) * S(level.length_x),
           y = centre.y + S(grid.half_y) - (row + S(0.5)) * S(level.length_y);
   return {{tile[1], tile[2]}, tile[0] + (tile[1] * x + tile[2] * y) - centre.z, tile[3]};

@@ -30,7 +30,7 @@ class TerrainPoints {
   MURO_INLINE MaskOf<S> give(Sink& sink) const {
     const bool is_ball = at_.kind() == KernelShapeKind::sphere;
     if (!is_ball && at_.kind() != KernelShapeKind::cylinder)
-      return !(ShapeClearance<S, Shape>(at_, grid_).find() >= S(0));
+      return !(ShapeClearance<S, Shape>(at_, grid_).find(S(0) == S(0)) >= S(0));
     const double radius = radius_of_all(at_.kind(), half_);
     const V3<S> centre = to_map(grid_, at_.centre() - lane::splat<S>(grid_.origin));
     const auto is_beside = beyond_rim(grid_, centre, radius) > S(0);
@@ -91,10 +91,9 @@ class TerrainPoints {
     const auto known = all_of(is_gentle, a.is_known, b.is_known), lost = all_of(may_touch, !known);
     give_touch(known, a, 0, sink);
     give_touch(known, b, 1, sink);
-    auto on_way = all_of(known, !(near.spread <= S(even_spread)), !a.facet.is(b.facet));
+    const auto is_one = any_of(a.number == b.number, a.number == b.other, b.number == a.other, a.other == b.other);
+    const auto on_way = all_of(known, !(near.spread <= S(even_spread)), !is_one);
     if (!any(on_way)) return lost;
-    const S number_a = a.facet.number(grid_), number_b = b.facet.number(grid_);
-    on_way = all_of(on_way, !any_of(number_a == b.other, number_b == a.other, a.other == b.other));
     return any_of(lost, give_sides(on_way, a, b, centre, u, radius, sink));
   }
 

@@ -21,7 +21,8 @@ struct Touch {
   V3<S> point, normal;  ///< half way; in the frame of the heightmap
   S depth;
   Facet<S> facet;  ///< that it touches
-  S other;         ///< the number of that triangle, or of the other one at the edge that it touches
+  S number;        ///< of that triangle
+  S other;         ///< the same, or that of the other triangle at the edge that it touches
   MaskOf<S> is_known;
 };
 
@@ -112,7 +113,9 @@ template <class S, bool is_ball>
   touch.normal = select(on_next, second.normal, select(on_fold, normal, touch.normal));
   touch.depth =
       select(on_next, second.depth, select(on_fold, (round.radius - distance) * dot(normal, way), touch.depth));
-  touch.other = select(any_of(on_next, on_fold), next.number(grid), touch.other);
+  const S number = next.number(grid);
+  touch.other = select(any_of(on_next, on_fold), number, touch.other);
+  touch.number = select(on_next, number, touch.number);
   touch.is_known = any_of(touch.is_known, on_next, on_fold);
   touch.facet = select(on_next, next, touch.facet);
 }
@@ -124,7 +127,7 @@ MURO_INLINE Touch<S> find_touch(const TerrainGrid& grid, const Round<S, is_ball>
   touch.facet = facet_at(grid, x, y);
   const LowestPoint<S> low(touch.facet, round);
   touch.point = low.point, touch.normal = low.normal, touch.depth = low.depth;
-  touch.other = touch.facet.number(grid);
+  touch.number = touch.other = touch.facet.number(grid);
   touch.is_known = all_of(low.rise < S(0), touch.facet.covers(grid, low.foot_x, low.foot_y, touch_slack));
   if (any(!touch.is_known)) find_beside(grid, round, low.foot_x, low.foot_y, touch);
   touch.point = touch.point + (S(0.5) * touch.depth) * touch.normal;

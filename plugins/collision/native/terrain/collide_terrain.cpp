@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "terrain/collide_terrain.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include "lanes/ground.hpp"
@@ -44,7 +45,10 @@ class TerrainContacts {
       if (is_above(c, box)) return;
       const auto side_of = [&](Cell cell, bool upper) -> const Side& { return sides_.of(cell, upper); };
       const auto beyond = [&](const Vec3& normal) { return sides_.along(normal); };
-      terrain_.each_edge(c, side_of, beyond,
+      const auto is_near = [&](const Vec3& from, const Vec3& to) {
+        return std::max(from.z(), to.z()) > box.low.z() && !is_apart(solid_, from, to);
+      };
+      terrain_.each_edge(c, is_near, side_of, beyond,
                          [&](const Vec3& from, const Vec3& to, const Side& left, const Side& right) {
                            const std::size_t before = points_.size();
                            add_edge_contacts(solid_, {from, to, left, right}, points_);
@@ -96,6 +100,7 @@ class TerrainContacts {
       if (is_above(c, box)) return;
       for (const bool upper : {false, true}) {
         const Heightmap::Triangle t = terrain_.map().triangle(c, upper);
+        if (std::max({t[0].z(), t[1].z(), t[2].z()}) < box.low.z()) continue;
         each_plane_point(t[0], sides_.of(c, upper).normal, [&](const ContactPoint& p, int number) {
           if (covers(t, p.point + 0.5 * p.depth * p.normal, slack)) add_numbered(p, number);
         });

@@ -63,7 +63,8 @@ class EdgeView {
   const Vec3 on_edge_, along_;
 };
 
-/// Whether a box in the axes of the solid around both tells that they are apart.
+}  // namespace
+
 bool is_apart(const Solid& solid, const Vec3& from, const Vec3& to) {
   const Vec3 middle = 0.5 * (from + to) - solid.shape.centre, half = 0.5 * (to - from);
   const double ball = solid.core.ball;
@@ -76,8 +77,6 @@ bool is_apart(const Solid& solid, const Vec3& from, const Vec3& to) {
   return false;
 }
 
-}  // namespace
-
 void add_edge_contacts(const Solid& solid, const Edge& edge, std::vector<ContactPoint>& points) {
   // what most edges fail comes first
   const Vec3 way = edge.to - edge.from, fold = edge.left.normal.cross(edge.right.normal);
@@ -85,7 +84,7 @@ void add_edge_contacts(const Solid& solid, const Edge& edge, std::vector<Contact
   const auto is_below = [&](const Side& side) {
     return side.normal.dot(edge.from - side.lowest) + solid.core.ball > 0;
   };
-  if (!is_below(edge.left) || !is_below(edge.right) || is_apart(solid, edge.from, edge.to)) return;
+  if (!is_below(edge.left) || !is_below(edge.right)) return;
   const double length = way.norm();
   const Vec3 along = way / length;
   if (fold.dot(along) < least_fold) return;

@@ -24,4 +24,7 @@ void add_edge_contacts(const Solid& solid, const Edge& edge, std::vector<Contact
 void add_peak_contact(const Solid& solid, const Terrain& terrain, std::uint32_t column, std::uint32_t row,
                       std::vector<ContactPoint>& points);
 
+/// Whether a box in the axes of the solid around both tells that the solid and a line are apart.
+bool is_apart(const Solid& solid, const Vec3& from, const Vec3& to);
+
 }  // namespace muro::native

@@ -34,24 +34,31 @@ class Terrain {
   }
   /// Calls `visit(from, to, left, right)` for the edges at -x and -y of a cell and that across it; at the rim also for
   /// the others. Seen along an edge the triangle with `left` lies to the left; both are what `side_of(cell, upper)`
-  /// gives, but on the rim `right` is what `beyond(normal)` gives, of a horizontal unit normal, outward.
-  template <class SideOf, class Beyond, class Visit>
-  void each_edge(Heightmap::Cell c, SideOf side_of, Beyond beyond, Visit visit) const {
+  /// gives, but on the rim `right` is what `beyond(normal)` gives, of a horizontal unit normal, outward. Edges that do
+  /// not rise between their triangles are left out, and those of which `is_near(from, to)` is false.
+  template <class IsNear, class SideOf, class Beyond, class Visit>
+  void each_edge(Heightmap::Cell c, IsNear is_near, SideOf side_of, Beyond beyond, Visit visit) const {
     const Vec3 first = map_.node(c.column, c.row), right = map_.node(c.column + 1, c.row),
                left = map_.node(c.column, c.row + 1), last = map_.node(c.column + 1, c.row + 1);
     const auto on_rim = [&](const Vec3& from, const Vec3& to, bool upper) {
+      if (!is_near(from, to)) return;
       const auto outside = beyond(outward(from, to));
       visit(from, to, side_of(c, upper), outside);
     };
-    if (c.row > 0)
-      visit(first, right, side_of(c, false), side_of(Heightmap::Cell{c.column, c.row - 1}, true));
-    else
+    // the heights of two nodes beside an edge, to those of its own
+    const auto rises = [](const Vec3& from, const Vec3& to, const Vec3& a, const Vec3& b) {
+      return from.z() + to.z() > a.z() + b.z();
+    };
+    if (c.row == 0)
       on_rim(first, right, false);
-    if (c.column > 0)
-      visit(left, first, side_of(c, false), side_of(Heightmap::Cell{c.column - 1, c.row}, true));
-    else
+    else if (rises(first, right, left, map_.node(c.column + 1, c.row - 1)) && is_near(first, right))
+      visit(first, right, side_of(c, false), side_of(Heightmap::Cell{c.column, c.row - 1}, true));
+    if (c.column == 0)
       on_rim(left, first, false);
-    visit(right, left, side_of(c, false), side_of(c, true));
+    else if (rises(left, first, right, map_.node(c.column - 1, c.row + 1)) && is_near(left, first))
+      visit(left, first, side_of(c, false), side_of(Heightmap::Cell{c.column - 1, c.row}, true));
+    if (rises(right, left, first, last) && is_near(right, left))
+      visit(right, left, side_of(c, false), side_of(c, true));
     if (c.row + 2 == map_.rows) on_rim(last, left, true);
     if (c.column + 2 == map_.columns) on_rim(right, last, true);
   }
