@@ -2,6 +2,7 @@
 #include "scenery_contacts.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 #include <limits>
 #include <new>
@@ -35,17 +36,26 @@ struct SceneryContacts::Plan {
   FrictionAnchor before[max_contacts];  ///< of the step before, group by group
 };
 
-/// By number of contacts, since the kernel takes as long as the robot with the most of them.
+/// By number of contacts, since the kernel takes as long as the robot with the most of them, and by their groups, since
+/// it takes longer where these differ.
 struct SceneryContacts::Queues {
-  static constexpr std::size_t sizes = 8, step = 2;  // the last has all with more contacts
+  static constexpr std::uint32_t sizes = 8, patterns = 8;  // the last size has all with more contacts
 
-  std::array<Queue, sizes> by_size;
-  Queue changed;
+  std::uint64_t used = 0;  ///< a bit for each of `by_size` that has been asked for
+  Queue by_size[sizes * patterns];
+  Queue changed{};
   alignas(Plan) std::byte plans[8][sizeof(Plan)];  ///< of `changed`; most steps need none, so they are not initialised
 
   Plan& plan(std::uint32_t i) { return *std::launder(reinterpret_cast<Plan*>(plans[i])); }
 
-  Queue& of_size(std::uint32_t contacts) { return by_size[std::min((contacts - 1) / step, sizes - 1)]; }
+  /// `groups`: see KernelRobot. Different ones may share a queue, which costs time alone.
+  Queue& of(std::uint32_t contacts, std::uint32_t groups) {
+    constexpr std::uint32_t golden_ratio = 0x9e3779b1;  // 2^32 times that: spreads bits
+    const std::uint32_t i = std::min(contacts - 1, sizes - 1) * patterns + (groups * golden_ratio >> 29);
+    if (!(used >> i & 1)) by_size[i].count = 0;
+    used |= std::uint64_t(1) << i;
+    return by_size[i];
+  }
 };
 
 SceneryContacts::SceneryContacts(const Bodies& bodies)
@@ -140,7 +150,7 @@ void SceneryContacts::apply_forces_on(const StepContext& context, std::uint32_t 
   if (known.was_in_impact && !(known.anchors_match && is_one_patch(contacts))) return process_single(context, robot);
   known.was_in_impact = false;
   if (!known.anchors_match) return enqueue_changed(context, robot, queues);
-  Queue& q = queues.of_size(known.contacts);
+  Queue& q = queues.of(known.contacts, known.view.groups);
   q.robots[q.count++] = robot;
   if (q.count == 8) process_queue(context, q);
 }
@@ -219,11 +229,13 @@ void SceneryContacts::process_queue(const StepContext& context, Queue& q) {
 
 /// What does not fill the lanes, from the robots with the most contacts to those with the fewest.
 void SceneryContacts::process_rest(const StepContext& context, Queues& queues) {
-  Queue all;
-  for (std::size_t size = Queues::sizes; size-- > 0;) {
-    const Queue& q = queues.by_size[size];
-    for (std::uint32_t i = 0; i < q.count; ++i) {
-      all.robots[all.count++] = q.robots[i];
+  Queue all{};
+  for (std::uint64_t left = queues.used; left != 0;) {
+    const int i = 63 - std::countl_zero(left);
+    left &= ~(std::uint64_t(1) << i);
+    const Queue& q = queues.by_size[i];
+    for (std::uint32_t k = 0; k < q.count; ++k) {
+      all.robots[all.count++] = q.robots[k];
       if (all.count == 8) process_queue(context, all);
     }
   }

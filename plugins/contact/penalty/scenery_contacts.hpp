@@ -43,9 +43,9 @@ class SceneryContacts {
     bool is_parting = false;     ///< some anchor has an overlap
     bool was_in_impact = false;  ///< some anchor is that of an impact
   };
-  /// Robots with as many contacts, more or less, until they fill the SIMD lanes.
+  /// Robots whose contacts are alike, until they fill the SIMD lanes.
   struct Queue {
-    std::uint32_t count = 0;
+    std::uint32_t count;
     std::uint32_t robots[8];
   };
   struct Plan;
