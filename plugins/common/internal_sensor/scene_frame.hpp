@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 
 #include "plugins/common/link_acceleration/link_motion.hpp"
 #include "plugins/common/text/quote.hpp"
@@ -13,7 +14,8 @@ namespace muro::internal_sensor {
 class SceneFrame {
  public:
   SceneFrame() = default;
-  SceneFrame(link_acceleration::LinkMotion link) : link_(link) {}  // NOLINT(google-explicit-constructor): it is one
+  SceneFrame(link_acceleration::LinkMotion link)  // NOLINT(google-explicit-constructor): it is one
+      : link_(std::move(link)) {}
   /// Of what `name` stands for: a part of the robot of `item`, a robot (its base), `robot/part`, or scenery. Throws
   /// Error where there is nothing of this name that has a pose. [setup]
   static SceneFrame named(Connector& c, const Item& item, std::string_view name) {

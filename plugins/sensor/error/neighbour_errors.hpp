@@ -28,7 +28,8 @@ class NeighbourErrors {
     measured_.clear();
     for (const neighbours::Neighbour& n : *truth_) {
       double read[] = {n.distance, n.bearing, n.elevation, n.heading};
-      if (!chain.apply_to_one(read, state, sample, keys[std::size_t(n.id)])) continue;
+      const bool is_robot = n.id >= 0 && n.id < double(keys.size());
+      if (!chain.apply_to_one(read, state, sample, is_robot ? keys[std::size_t(n.id)] : 0)) continue;
       measured_.push_back({n.id, std::max(0.0, read[0]), wrapped(read[1]),
                            std::clamp(read[2], -0.5 * std::numbers::pi, 0.5 * std::numbers::pi), wrapped(read[3])});
     }
