@@ -27,8 +27,9 @@ void join_world(AlgorithmSetup& world, const AlgorithmSetup& joining) {
     if (twin == world.items.end()) continue;
     const auto place_of_twin = std::size_t(twin - world.items.begin());
     const std::string& name = world.item_setups.empty() ? world.name : world.item_setups[place_of_twin].name;
-    throw SetupError(fmt::format("{}{} and {} are of one robot and in one world of {}; give one of them another `world`",
-                                 prefix_of(joining.place), joining.name, name, joining.use));
+    throw SetupError(
+        fmt::format("{}{} and {} are of one robot and in one world of {}; give one of them another `world`",
+                    prefix_of(joining.place), joining.name, name, joining.use));
   }
   world.item_setups.resize(world.items.size(), {world.name, world.place, world.parameters, world.parameter_places});
   world.items.insert(world.items.end(), joining.items.begin(), joining.items.end());
