@@ -164,7 +164,7 @@ TEST(RecorderCsv, NumbersTheElementsOfArrays) {
             "0,0.5,1.5,1,2,3,4,5,6,2\r\n");
 }
 
-TEST(RecorderCsv, RecordsTheForcesThatCarryTheStateToTheNextInstant) {
+TEST(RecorderCsv, RecordsTheForcesOfTheStepThatLedToTheState) {
   const ScratchFolder folder;
   test::Scene s;
   const double mass = 2, g = 9.81, dt = 1e-3;
@@ -182,16 +182,16 @@ TEST(RecorderCsv, RecordsTheForcesThatCarryTheStateToTheNextInstant) {
   std::ifstream file(folder.path("log.csv"));
   std::string row;
   std::getline(file, row);
-  double vz_before = 0, fz_before = 0, max_fz = 0;
+  double vz_before = 0, max_fz = 0;
   for (int k = 0; std::getline(file, row); ++k) {
     double t = 0, vx = 0, vy = 0, vz = 0, wx = 0, wy = 0, wz = 0, fx = 0, fy = 0, fz = 0;
     ASSERT_EQ(std::sscanf(row.c_str(), "%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf", &t, &vx, &vy, &vz, &wx, &wy, &wz, &fx,
                           &fy, &fz),
               10);
     if (k > 0) {
-      EXPECT_NEAR(mass * (vz - vz_before), (fz_before - mass * g) * dt, 1e-7) << "momentum, at t = " << t;
+      EXPECT_NEAR(mass * (vz - vz_before), (fz - mass * g) * dt, 1e-7) << "momentum, at t = " << t;
     }
-    vz_before = vz, fz_before = fz;
+    vz_before = vz;
     max_fz = std::max(max_fz, fz);
   }
   EXPECT_GT(max_fz, mass * g) << "there was an impact on the ground";
