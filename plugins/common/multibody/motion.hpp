@@ -9,8 +9,8 @@
 #include "kinematic_robot.hpp"
 #include "muro/description.hpp"
 #include "muro/toolkit/accelerations.hpp"
-#include "plugins/common/mesh/hull_vertices.hpp"
 #include "muro/toolkit/pair_surface.hpp"
+#include "plugins/common/mesh/hull_vertices.hpp"
 #include "world_robot.hpp"
 
 namespace muro::multibody {

@@ -43,7 +43,8 @@ void Bodies::connect_kinematic_robots(Connector& c) {
       return !c.constant_array(link.object, keys::collision_shapes).empty();
     };
     if (std::none_of(view->links.begin(), view->links.end(), has_shapes)) continue;
-    for (const Link& link : view->links) all[index_of(link.object)].kinematic_robot = std::int32_t(kinematic_robots.size());
+    for (const Link& link : view->links)
+      all[index_of(link.object)].kinematic_robot = std::int32_t(kinematic_robots.size());
     kinematic_robots.push_back({view->base(), c.derived_list(view->base(), keys::contact_wrenches_of_law)});
   }
 }
