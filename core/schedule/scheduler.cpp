@@ -141,8 +141,10 @@ void Scheduler::find_step_tasks() {
                    [&](TaskId a, TaskId b) { return tasks_[a].order < tasks_[b].order; });
 }
 
+/// Not where levels may change in this very instant, before contact.
 bool Scheduler::is_start_of_steps() const {
-  return std::any_of(step_tasks_.begin(), step_tasks_.end(), [&](TaskId t) { return runs_[t] == 0; });
+  return std::any_of(step_tasks_.begin(), step_tasks_.end(), [&](TaskId t) { return runs_[t] == 0; }) &&
+         std::none_of(tasks_.begin(), tasks_.end(), [](const Task& t) { return is_of(t, Kind::level); });
 }
 
 /// A task on demand has the longest period of those that ask for it, in every instant, so that its results do not
@@ -197,21 +199,22 @@ void Scheduler::add_providers(TaskId reader, std::vector<bool>& added, std::vect
   }
 }
 
-/// Levels still have their turn.
-void Scheduler::add_step_tasks(std::vector<bool>& added, std::vector<DueTask>& due) const {
-  std::vector<bool> passed = added;
-  for (TaskId t = 0; t < tasks_.size(); ++t) passed[t] = passed[t] || is_of(tasks_[t], Kind::level);
-  for (const TaskId t : step_tasks_) {
-    if (passed[t]) continue;
-    passed[t] = true;
-    add_providers(t, passed, due);
-    due.push_back({t, periods_[t]});
-  }
-  for (TaskId t = 0; t < tasks_.size(); ++t)
-    if (!is_of(tasks_[t], Kind::level)) added[t] = passed[t];
+/// Those that motions among the due items ask for.
+void Scheduler::add_step_tasks(const std::vector<std::size_t>& items, std::vector<bool>& added,
+                               std::vector<DueTask>& due) const {
+  for (const std::size_t i : items)
+    for (const TaskId motion : items_[i]) {
+      if (!is_of(tasks_[motion], Kind::motion)) continue;
+      for (const TaskId p : providers_[motion]) {
+        if (!belongs_to_steps_[p] || added[p]) continue;
+        added[p] = true;
+        add_providers(p, added, due);
+        due.push_back({p, periods_[p]});
+      }
+    }
 }
 
-/// `starts`: what belongs to the steps of motions runs before all who might read it, once.
+/// `starts`: what belongs to the steps of motions runs before all who might read it.
 std::vector<DueTask> Scheduler::due_tasks_of(const Mask& due, bool starts) const {
   std::vector<std::size_t> items;
   for (std::size_t i = 0; i < items_.size(); ++i)
@@ -229,7 +232,7 @@ std::vector<DueTask> Scheduler::due_tasks_of(const Mask& due, bool starts) const
   };
   for (const std::size_t i : items) {
     if (starts && tasks_[items_[i].front()].order >= 2 * order_of(Kind::sensor)) {
-      add_step_tasks(added, tasks);
+      add_step_tasks(items, added, tasks);
       starts = false;
     }
     for (const TaskId t : items_[i]) add(t);

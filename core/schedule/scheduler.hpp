@@ -113,7 +113,7 @@ class Scheduler {
   bool is_start_of_steps() const;
   void find_periods();
   std::vector<double> periods_of_asked(const std::vector<bool>& counts) const;
-  void add_step_tasks(std::vector<bool>& added, std::vector<DueTask>& due) const;
+  void add_step_tasks(const std::vector<std::size_t>& items, std::vector<bool>& added, std::vector<DueTask>& due) const;
   void add_providers(TaskId reader, std::vector<bool>& added, std::vector<DueTask>& due) const;
   /// For instants in which the same is due: for one, and for `instants_together` that follow each other.
   struct Plans {

@@ -176,8 +176,9 @@ TEST_F(StepsOfMotion, LevelsChangeBeforeContactAndAfterTheirRules) {
   add("rules", 10, 2 * order_of(Kind::level), 0, {5}, {7});
   add("levels", 0, 2 * order_of(Kind::level) + 1, 0, {7}, {6});
   scheduler.run_until(150'000'000);
-  EXPECT_EQ(log, (Log{"collision@0", "contact@0", "sensor@0", "rules@0", "levels@0", "motion@0", "sensor@50",
-                      "sensor@100", "rules@100", "levels@100", "collision@100", "contact@100", "motion@100"}));
+  EXPECT_EQ(log, (Log{"sensor@0", "rules@0", "levels@0", "collision@0", "contact@0", "motion@0", "sensor@50",
+                      "sensor@100", "rules@100", "levels@100", "collision@100", "contact@100", "motion@100"}))
+      << "at the start, too";
 }
 
 TEST_F(StepsOfMotion, WithoutMotionsContactRunsForThoseWhoAsk) {
@@ -185,6 +186,15 @@ TEST_F(StepsOfMotion, WithoutMotionsContactRunsForThoseWhoAsk) {
   add("sensor", 20, 2 * order_of(Kind::sensor), 0, {1}, {3});
   scheduler.run_until(100'000'000);
   EXPECT_EQ(log, (Log{"collision@0", "sensor@0", "collision@50", "sensor@50"}));
+}
+
+TEST_F(StepsOfMotion, BeginWithTheFirstStepOfAMotion) {
+  add("collision", 0, 2 * order_of(Kind::collision), 0, {5}, {1});
+  add("contact", 0, 2 * order_of(Kind::contact), 0, {1}, {2});
+  add("motion", 10, 2 * order_of(Kind::motion), 50'000'000, {2}, {5});
+  add("sensor", 20, 2 * order_of(Kind::sensor), 0, {2}, {3});
+  scheduler.run_until(100'000'000);
+  EXPECT_EQ(log, (Log{"sensor@0", "collision@50", "contact@50", "sensor@50", "motion@50"}));
 }
 
 TEST_F(StepsOfMotion, GoOnFromAStateWithoutABeginning) {
