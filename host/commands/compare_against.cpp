@@ -113,8 +113,9 @@ int compare_with_scans(const CompareOptions& options, const std::vector<RecordFi
   std::vector<ScanDeviation> deviations;
   const auto first =
       std::find_if(simulated.begin(), simulated.end(), [](const SimulatedScans& s) { return s.failure.empty(); });
+  if (first == simulated.end()) throw SetupError(simulated.front().failure);
   for (ScanRecord& r : records) {
-    if (first != simulated.end()) complete_scans(r, first->scans);
+    complete_scans(r, first->scans);
     for (const SimulatedScans& s : simulated) deviations.push_back(deviation_of(r, s, options.known_map));
   }
   std::string unwritten;

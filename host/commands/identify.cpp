@@ -100,13 +100,28 @@ void keep_recorded_gains(std::vector<MotorRecord>& records, double gain) {
     if (!(told > 0) || std::abs(told / gain - 1) <= recorded_gain_tolerance) continue;
     r.duty_gain = told;
     r.notes.push_back(
-        fmt::format("{}: its duties say a gain of {:.4g} /rad for each unit of the P gain, which is used for it; the "
-                    "others have {:.4g} (--duty-gain is for all)",
+        fmt::format("{}: its duties say a gain of {:.4g} /rad for each unit of the P gain, which is used for it in "
+                    "place of {:.4g} (--duty-gain is for all)",
                     r.name, told, gain));
   }
 }
 
 /// The firmware's gain and limit: of the command line, of each record, of the motor that they name, or of their duties.
+/// What each record has of its own, so that no other value is used: that of the first, which the report has.
+std::optional<double> own_of_all(std::vector<MotorRecord>& records, double MotorRecord::*what, const char* name) {
+  if (!std::all_of(records.begin(), records.end(), [&](const MotorRecord& r) { return r.*what > 0; })) return {};
+  MotorRecord& first = records.front();
+  for (const MotorRecord& r : records) {
+    if (r.*what == first.*what) continue;
+    first.notes.push_back(
+        fmt::format("records differ in `{}`: {} has {:.4g}, {} has {:.4g}; each is used for its own, "
+                    "and the scenario gets the first",
+                    name, first.name, first.*what, r.name, r.*what));
+    break;
+  }
+  return first.*what;
+}
+
 void set_firmware(const IdentifyOptions& o, std::vector<MotorRecord>& fit, std::vector<MotorRecord>& validation,
                   FitSettings& s) {
   std::vector<const MotorRecord*> all;
@@ -127,6 +142,8 @@ void set_firmware(const IdentifyOptions& o, std::vector<MotorRecord>& fit, std::
     throw SetupError("--fit gain: every record says its `duty_gain`, so there is none to find");
   if (s.gain > 0 && !s.fit_gain && !o.duty_gain)
     for (auto* const records : {&fit, &validation}) keep_recorded_gains(*records, s.gain);
+  if (const std::optional<double> own = own_of_all(fit, &MotorRecord::duty_gain, "duty_gain")) s.gain = *own;
+  if (const std::optional<double> own = own_of_all(fit, &MotorRecord::duty_limit, "duty_limit")) s.duty_limit = *own;
   if (s.gain > 0 || s.fit_gain) return;
   throw SetupError(
       "how the firmware turns its P gain into a duty is not known of " +

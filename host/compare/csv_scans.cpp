@@ -78,6 +78,12 @@ class ScanTableReader {
     const std::size_t hash = line.find('#'), colon = line.find(':');
     if (colon == std::string_view::npos) return;
     const std::string_view name = bare(line.substr(hash + 1, colon - hash - 1)), value = bare(line.substr(colon + 1));
+    const bool is_constant = name == "scanner" || name == "unit" || name == "angle_min" || name == "angle_increment" ||
+                             name == "range_min" || name == "range_max";
+    if (is_constant && !record_.ranges.empty())
+      throw error(hash, fmt::format("`{}` stands behind the first scan; what holds for all scans stands before the "
+                                    "header",
+                                    name));
     if (name == "scanner") record_.scanner = value;
     if (name == "unit") {
       if (value != "m" && value != "mm")

@@ -24,13 +24,32 @@ std::string_view first_line(std::string_view text) {
   return {};
 }
 
+/// Whether a measuring command or the model stands among the first lines: a recording may begin in the middle of a
+/// reply.
+bool has_scip_command(std::string_view text) {
+  constexpr int first_lines = 100;
+  const auto is_command = [](std::string_view line) {
+    const std::string_view digits = line.substr(0, line.find_first_of(";\r"));
+    const bool measures = digits.size() >= 12 && digits.size() <= 15 && (digits[0] == 'M' || digits[0] == 'G') &&
+                          std::string_view("DSE").find(digits[1]) != std::string_view::npos &&
+                          digits.find_first_not_of("0123456789", 2) == std::string_view::npos;
+    return measures || line.starts_with("MODL:");
+  };
+  for (int i = 0; i < first_lines && !text.empty(); ++i) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    if (is_command(text.substr(0, end))) return true;
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return false;
+}
+
 bool is_scip(std::string_view text) {
   const std::string_view line = first_line(text);
   if (line.find(',') != std::string_view::npos && line.find('[') != std::string_view::npos) return false;
   for (const std::string_view begin :
        {"GD", "GS", "GE", "MD", "MS", "ME", "VV", "PP", "II", "BM", "QT", "RS", "SCIP2.0", "VEND:", "MODL:"})
     if (line.starts_with(begin)) return true;
-  return false;
+  return has_scip_command(text);
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ struct ScanRecord {
   std::string scanner;                         ///< as the record calls it ("URG-04LX(...)"), or empty
   double range_min = 0, range_max = 0;         ///< m: what the device can measure; 0: the record does not say it
   std::vector<double> angles;                  ///< rad, of each beam, counter-clockwise from the front, rising; may be
-                                               ///< empty until set_angles
+                                               ///< empty until complete_scans()
   std::vector<std::vector<double>> ranges;     ///< m, [scan][beam]; no_range where there is none
   std::map<std::uint32_t, std::size_t> codes;  ///< of errors, as the device tells them instead of a range: how often
   std::vector<std::string> notes;              ///< what was noticed when it was read

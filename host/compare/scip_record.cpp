@@ -70,10 +70,14 @@ class ScipReader {
     while (next_line()) {
       if (line_.empty()) continue;
       if (const std::optional<Window> w = window_in(line_))
-        read_reply(*w);
+        is_at_command_ = true, read_reply(*w);
       else if (line_.find(':') == 4)
-        read_entry();
-      else if (!is_other_line())
+        is_at_command_ = true, read_entry();
+      else if (is_other_line())
+        is_at_command_ = is_at_command_ || line_.size() > 3;
+      else if (!is_at_command_)
+        ++skipped_;  // of a reply that had begun before
+      else
         throw error(0, "this is no line of SCIP 2.0; a record is what the scanner has sent, byte by byte");
     }
     finish();
@@ -163,7 +167,11 @@ class ScipReader {
       if (!next_line()) return cut_off();
       if (line_.empty()) break;
       if (!is_whole_) return cut_off();
-      data += checked();
+      const std::string_view block = checked();
+      for (std::size_t i = 0; i < block.size(); ++i)
+        if (block[i] < '0' || block[i] > 'o')
+          throw error(i, "a character of data is between `0` and `o` (SCIP 2.0: a value is its codes less 0x30)");
+      data += block;
     }
     if (data.size() != window.values() * window.stride())
       throw record_error(record_.name, {echo_line, 1},
@@ -197,6 +205,14 @@ class ScipReader {
                       record_.name, window_.end));
     if (!has_parameters_)
       record_.notes.push_back(record_.name + ": it has no reply to PP, so the steps are taken for those of a URG-04LX");
+    if (least_ >= most_)
+      throw SetupError(
+          fmt::format("{}: by its reply to PP the scanner measures from {} mm to {} mm (DMIN, DMAX); the "
+                      "first is to be less",
+                      record_.name, least_, most_));
+    if (skipped_ > 0)
+      record_.notes.push_back(
+          fmt::format("{}: it begins in the middle of a reply; {} lines are left out", record_.name, skipped_));
     if (is_cut_off_) record_.notes.push_back(record_.name + ": its last scan is cut off, and left out");
     if (refused_ > 0)
       record_.notes.push_back(fmt::format("{}: the scanner has refused {} commands", record_.name, refused_));
@@ -219,7 +235,8 @@ class ScipReader {
   std::vector<std::int64_t> values_;
   std::int64_t least_ = 20, most_ = 5600, steps_per_turn_ = 1024, front_ = 384;
   bool has_parameters_ = false, is_cut_off_ = false;
-  std::size_t refused_ = 0;
+  bool is_at_command_ = false;  ///< a command or its echo has been read
+  std::size_t refused_ = 0, skipped_ = 0;
 };
 
 }  // namespace

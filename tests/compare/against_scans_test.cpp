@@ -144,6 +144,14 @@ TEST_F(AgainstScans, MistakesAreOneMessage) {
   folder.file("changed.scip", scan);
   folder.file("few.csv", "time,ranges[0],ranges[1],ranges[2]\n0,1,1,1\n");
   folder.file("joint.csv", "# p_gain: 1\ntime,position,goal\n");
+  std::string rows = scenario("sigma: 0.004");
+  rows.replace(rows.find("rays:"), 5, "rows: 2, rays:");
+  folder.file("rows.yaml", rows);
+  std::string beams = "time", ranges;
+  for (int i = 0; i < 60; ++i) beams += ",ranges[" + std::to_string(i) + "]", ranges += ",1";
+  beams += "\n";
+  for (int k = 0; k < 12; ++k) beams += std::to_string(k) + ranges + "\n";
+  folder.file("beams.csv", beams);
   const std::pair<std::string, std::string> cases[] = {
       {"s.yaml --against changed.scip", "changed.scip:4:10: the sum of this line does not fit"},
       {"s.yaml --against r.scip --sensor stand/lazer", "there is no such laser scanner (did you mean `stand/laser`?)"},
@@ -153,6 +161,7 @@ TEST_F(AgainstScans, MistakesAreOneMessage) {
       {"s.yaml --against r.scip joint.csv", "has records of scans and of a joint"},
       {"s.yaml --against few.csv", "few.csv: it does not say its directions"},
       {"none.yaml --against r.scip", "the scenario has no laser scanner"},
+      {"rows.yaml --against beams.csv", "rows"},
   };
   for (const auto& [arguments, message] : cases) {
     const auto r = compare(arguments);

@@ -83,6 +83,14 @@ TEST(ScipRecord, ACutOffScanIsLeftOut) {
   EXPECT_NE(r.notes[0].find("its last scan is cut off"), std::string::npos);
 }
 
+TEST(ScipRecord, MayBeginInTheMiddleOfAReply) {
+  const std::string scan = scip_scan("MD0000000200000", {1000, 1001, 1002});
+  const ScanRecord r = parse_scan_record("0Ud0Ue\n0UfP\n\n" + scan + scan, "a.scip");
+  EXPECT_EQ(r.ranges.size(), 2u);
+  EXPECT_NE(r.notes.at(1).find("it begins in the middle of a reply; 2 lines are left out"), std::string::npos)
+      << r.notes.at(1);
+}
+
 TEST(CsvScans, HasConstantsAndColumns) {
   const ScanRecord r = parse_scan_record(
       "# scanner: URG-04LX\n# angle_min: -0.1\n# angle_increment: 0.05\n# range_min: 0.02\n# range_max: 5.6\n# unit: "
@@ -128,6 +136,7 @@ TEST(ScanRecordFile, MistakesAreNamedWithTheirPlace) {
   std::string changed = scan;
   ++changed[changed.size() - 5];
   const std::string head = "time,ranges[0],ranges[1],ranges[2]\n";
+  const auto entry = [](const std::string& text) { return text + ";" + with_sum(text).back() + "\n"; };
   const std::pair<std::string, std::string> cases[] = {
       {changed, "a.txt:4:10: the sum of this line does not fit"},
       {"MD0000000200000\n99b\n00000\n" + with_sum("0Ud0Ue") + "\n\n",
@@ -149,6 +158,9 @@ TEST(ScanRecordFile, MistakesAreNamedWithTheirPlace) {
       {"# angle_min: x\n" + head, "a.txt:1:13: `angle_min` is `x`, which is no number"},
       {"# angle_min: 1\n" + head + "0,1,2,3\n", "`# angle_increment: ...` (rad) belong together"},
       {"# range_min: 2\n# range_max: 1\n" + head + "0,1,2,3\n", "`range_max` is 1 m, and is above `range_min`, 2 m"},
+      {head + "0,1,2,3\n# unit: mm\n", "a.txt:3:1: `unit` stands behind the first scan"},
+      {"PP\n00P\n" + entry("DMIN:9000") + entry("DMAX:10") + "\n" + scan, "from 9000 mm to 10 mm"},
+      {"MD0000000200000\n99b\n00000\n" + with_sum("0Ud0Ue0U ") + "\n\n", "a.txt:4:9: a character of data is between"},
   };
   for (const auto& [text, message] : cases)
     EXPECT_NE(complaint(text).find(message), std::string::npos) << message << "\n" << complaint(text);

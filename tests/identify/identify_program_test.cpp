@@ -97,6 +97,20 @@ TEST_F(IdentifyProgram, ARecordWhoseDutiesSayAnotherGainKeepsIt) {
   EXPECT_NE(r.output.find("r2.csv: its duties say a gain of 0.0057"), std::string::npos) << r.output;
 }
 
+TEST_F(IdentifyProgram, TheScenarioHasTheFirmwareOfTheRecords) {
+  for (const char* const name : {"r0.csv", "r1.csv"})
+    folder.file(name, "# motor: mx64\n# duty_gain: 0.0028773775\n# duty_limit: 0.9\n" + text_of(name));
+  const auto r = run("identify @r0.csv @r1.csv --model m1 --fragment @motor.yaml");
+  ASSERT_EQ(r.exit_code, 0) << r.output;
+  EXPECT_NE(text_of("motor.yaml").find("duty_gain: 0.002877378"), std::string::npos) << text_of("motor.yaml");
+  EXPECT_NE(text_of("motor.yaml").find("duty_limit: 0.9,"), std::string::npos) << text_of("motor.yaml");
+  EXPECT_EQ(r.output.find("records differ"), std::string::npos) << r.output;
+
+  folder.file("r1.csv", "# duty_limit: 0.8\n" + text_of("r3.csv"));
+  const auto differ = run("identify @r0.csv @r1.csv --model m1 --fragment @motor.yaml");
+  EXPECT_NE(differ.output.find("records differ in `duty_limit`"), std::string::npos) << differ.output;
+}
+
 TEST_F(IdentifyProgram, RecordsOfSeveralMotorsAreRefused) {
   folder.file("r0.csv", "# motor: xl330\n" + text_of("r0.csv"));
   folder.file("r1.csv", "# motor: mx64\n" + text_of("r1.csv"));

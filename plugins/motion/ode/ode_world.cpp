@@ -365,18 +365,17 @@ void OdeWorld::export_contacts() {
     const dContactGeom& geom = found_contacts_[i].contact.geom;
     // The first of the joint's bodies is that of g1, or of g2 where g1 has none.
     const bool first_is_g1 = dGeomGetBody(geom.g1) != nullptr;
-    if (!settings_.reactions) {
-      tell_contact(found_contacts_[i], nullptr, first_is_g1);
-      continue;
-    }
-    const dJointFeedback& f = feedbacks_[i];
-    tell_contact(found_contacts_[i], &f, first_is_g1);
+    const dJointFeedback* const f = settings_.reactions ? &feedbacks_[i] : nullptr;
+    tell_contact(found_contacts_[i], f, first_is_g1);
     const GeomOwner& of_first = owner_of(first_is_g1 ? geom.g1 : geom.g2);
     const GeomOwner& of_second = owner_of(first_is_g1 ? geom.g2 : geom.g1);
+    const Vec3 unknown = Vec3::Constant(NAN);
     if (of_first.robot >= 0)
-      robots_[std::size_t(of_first.robot)].add_contact(of_first, vector_of(f.f1), vector_of(f.t1));
+      robots_[std::size_t(of_first.robot)].add_contact(of_first, f ? vector_of(f->f1) : unknown,
+                                                       f ? vector_of(f->t1) : unknown);
     if (of_second.robot >= 0)
-      robots_[std::size_t(of_second.robot)].add_contact(of_second, vector_of(f.f2), vector_of(f.t2));
+      robots_[std::size_t(of_second.robot)].add_contact(of_second, f ? vector_of(f->f2) : unknown,
+                                                        f ? vector_of(f->t2) : unknown);
   }
 }
 

@@ -51,8 +51,8 @@ class VoltageDrive {
   }
 
  private:
-  /// Part of the state; all 0 before the first run, and while a motion without forces moves the robot: how the joint
-  /// moves then tells of no load.
+  /// Part of the state; all 0 before the first run. What it says of the load does not count behind a run while a motion
+  /// without forces moved the robot.
   struct LastRun {
     double has_run, velocity, torque, budget, load;
   };

@@ -149,7 +149,7 @@ Found time_on_air() {
   return {std::abs(s.last(1).received - s.last(1).sent - 4.256e-3 - 10 / light), 1e-15};
 }
 
-/// A queue of one server of fixed service time, load 0.8: u / (2 (1 - u)) services, less 1/20 since messages come at
+/// A queue of one server of fixed service time, load 0.5: u / (2 (1 - u)) services, less 1/20 since messages come at
 /// whole steps of a twentieth of a service.
 Found queue() {
   Radios s;
