@@ -98,7 +98,7 @@ void improve(nlopt::algorithm algorithm, const Objective& objective, unsigned ev
 }
 
 /// Number `number` of the global searches, refined.
-Candidate search_from(unsigned number, Objective objective, const SearchSpace& space, const FitSettings& s,
+Candidate search_from(unsigned number, const Objective& objective, const SearchSpace& space, const FitSettings& s,
                       unsigned global, unsigned local) {
   // NLopt's random numbers are those of the thread
   nlopt::srand(static_cast<unsigned long>(s.seed * 1000003 + number));

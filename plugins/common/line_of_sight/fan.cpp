@@ -15,7 +15,7 @@ double Fan::diamond_angle(double x, double y) {
 
 std::size_t Fan::sector_of(const Vec3& direction) {
   const double angle = diamond_angle(direction.x(), direction.y());
-  return std::size_t(std::clamp(int((angle + 2) * (sectors / 4)), 0, sectors - 1));
+  return std::size_t(std::clamp(int((angle + 2) * (0.25 * sectors)), 0, sectors - 1));
 }
 
 void Fan::begin(const Vec3& centre, std::int32_t own) {
