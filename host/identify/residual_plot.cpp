@@ -73,9 +73,11 @@ std::string residual_plot(const Identification& id, const std::string& by) {
       "fill=\"white\"/>\n<text x=\"12\" y=\"17\" font-size=\"13\">Simulated minus recorded position, rad, by {2} "
       "(orange: left out of the fit)</text>\n",
       width, height, by.empty() ? name_of(id.settings.friction) : without_markup(by));
-  for (std::size_t i = 0; i < id.records.size(); ++i)
-    svg += panel(id.records[i], left_margin + double(i % columns) * (panel_width + gap_x + 20),
-                 top_margin + double(i / columns) * (panel_height + gap_y), most);
+  for (std::size_t i = 0; i < id.records.size(); ++i) {
+    const std::size_t row = i / columns, column = i % columns;
+    svg += panel(id.records[i], left_margin + double(column) * (panel_width + gap_x + 20),
+                 top_margin + double(row) * (panel_height + gap_y), most);
+  }
   return svg + "</svg>\n";
 }
 
