@@ -20,7 +20,7 @@ MURO_INLINE Vector last_bits(const Vector& v) {
   } else if constexpr (std::is_same_v<Vector, double>) {
     return __builtin_bit_cast(double, __builtin_bit_cast(std::int64_t, v) & all);
   } else {
-    using Bits = decltype(v < v);
+    using Bits = decltype(v < Vector{});
     return Vector(Bits(v) & all);
   }
 }
