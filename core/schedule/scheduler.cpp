@@ -134,16 +134,13 @@ void Scheduler::find_step_tasks() {
       asking.push_back(p);
     }
   }
-  step_tasks_.clear();
-  for (TaskId t = 0; t < tasks_.size(); ++t)
-    if (belongs_to_steps_[t]) step_tasks_.push_back(t);
-  std::stable_sort(step_tasks_.begin(), step_tasks_.end(),
-                   [&](TaskId a, TaskId b) { return tasks_[a].order < tasks_[b].order; });
 }
 
 /// Not where levels may change in this very instant, before contact.
 bool Scheduler::is_start_of_steps() const {
-  return std::any_of(step_tasks_.begin(), step_tasks_.end(), [&](TaskId t) { return runs_[t] == 0; }) &&
+  bool has_first_run = false;
+  for (TaskId t = 0; t < tasks_.size(); ++t) has_first_run = has_first_run || (belongs_to_steps_[t] && runs_[t] == 0);
+  return has_first_run &&
          std::none_of(tasks_.begin(), tasks_.end(), [](const Task& t) { return is_of(t, Kind::level); });
 }
 

@@ -140,9 +140,8 @@ class Scheduler {
   /// Collision and contact on demand that motions ask for. They run only for these: who looks in between, or earlier in
   /// the instant, sees what they found in the last step, and does not change it.
   std::vector<bool> belongs_to_steps_;
-  std::vector<TaskId> step_tasks_;  ///< the same, in the order of an instant
-  bool starts_ = false;             ///< in the next instant one of them has its first run
-  std::vector<double> periods_;     ///< s, per task; on demand: the longest of those that ask, see find_periods
+  bool starts_ = false;          ///< in the next instant one of them has its first run
+  std::vector<double> periods_;  ///< s, per task; on demand: the longest of those that ask, see find_periods
   Mask due_, next_due_, last_due_;
   Plans* last_plans_ = nullptr;
   std::unordered_map<Mask, Plans> plans_;

@@ -11,7 +11,6 @@
 #include "core/instance.hpp"
 #include "core/output_registry.hpp"
 #include "host/names.hpp"
-#include "host/outputs/remove_outputs.hpp"
 #include "muro/toolkit/joint_drives.hpp"
 
 namespace muro::host {
@@ -204,13 +203,7 @@ RecordDeviation run_against(const Comparison& comparison, const Variation& varia
   RecordDeviation result;
   result.label = variation.label;
   try {
-    const BuiltScenario built =
-        build(read_variation(comparison, variation.overrides, registry), registry, [&](Simulation& simulation) {
-          simulation.set_log(log);
-          simulation.keep_inputs_closed();
-          add_outputs(simulation, comparison.outputs);
-        });
-    built.simulation->set_threads(1);
+    const BuiltScenario built = build_variation(comparison, variation, registry, log);
     result.notes = built.notes;
     follow_record(*built.simulation, joint_to_compare(*built.simulation, joint), record, result);
   } catch (const OutputError&) {

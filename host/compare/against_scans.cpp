@@ -9,7 +9,6 @@
 #include "core/instance.hpp"
 #include "core/output_registry.hpp"
 #include "host/names.hpp"
-#include "host/outputs/remove_outputs.hpp"
 #include "muro/vocabulary.hpp"
 
 namespace muro::host {
@@ -131,13 +130,7 @@ SimulatedScans simulate_scans(const Comparison& comparison, const Variation& var
   SimulatedScans result;
   result.label = variation.label;
   try {
-    const BuiltScenario built =
-        build(read_variation(comparison, variation.overrides, registry), registry, [&](Simulation& simulation) {
-          simulation.set_log(log);
-          simulation.keep_inputs_closed();
-          add_outputs(simulation, comparison.outputs);
-        });
-    built.simulation->set_threads(1);
+    const BuiltScenario built = build_variation(comparison, variation, registry, log);
     result.notes = built.notes;
     ScannerReadings readings(*built.simulation, scanner_to_compare(*built.simulation, sensor));
     result.scans = readings.empty_record();

@@ -101,18 +101,6 @@ void measure(Simulation& simulation, const Comparison& comparison, const Variati
 
 using Log = std::function<void(LogLevel, std::string_view)>;
 
-BuiltScenario build_variation(const Comparison& comparison, const Variation& variation, Registry& registry,
-                              const Log& log) {
-  BuiltScenario built =
-      build(read_variation(comparison, variation.overrides, registry), registry, [&](Simulation& simulation) {
-        simulation.set_log(log);
-        simulation.keep_inputs_closed();
-        add_outputs(simulation, comparison.outputs);
-      });
-  built.simulation->set_threads(1);
-  return built;
-}
-
 }  // namespace
 
 Scenario read_variation(const Comparison& comparison, const std::vector<std::string>& overrides,
@@ -123,6 +111,18 @@ Scenario read_variation(const Comparison& comparison, const std::vector<std::str
   if (comparison.seed) s.seed = *comparison.seed;
   remove_outputs(s, registry);
   return s;
+}
+
+BuiltScenario build_variation(const Comparison& comparison, const Variation& variation, Registry& registry,
+                              const Log& log) {
+  BuiltScenario built =
+      build(read_variation(comparison, variation.overrides, registry), registry, [&](Simulation& simulation) {
+        simulation.set_log(log);
+        simulation.keep_inputs_closed();
+        add_outputs(simulation, comparison.outputs);
+      });
+  built.simulation->set_threads(1);
+  return built;
 }
 
 VariationResult run_variation(const Comparison& comparison, const Variation& variation, Registry& registry,

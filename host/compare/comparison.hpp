@@ -14,6 +14,8 @@
 
 namespace muro::host {
 
+struct BuiltScenario;
+
 /// The cost of a run in s per simulated second. It depends on the machine.
 struct Cost {
   double total = 0;    ///< of the run, wall-clock time
@@ -49,6 +51,11 @@ struct Comparison {
 /// Reads the scenario of the comparison with these overrides, without recorders and views.
 Scenario read_variation(const Comparison& comparison, const std::vector<std::string>& overrides,
                         const Registry& registry);
+
+/// A variation in a fresh state, on one thread, without clients. `log` gets the messages of algorithms. Throws what
+/// prevents it, and OutputError when an output of the comparison would overwrite what the variation reads.
+BuiltScenario build_variation(const Comparison& comparison, const Variation& variation, Registry& registry,
+                              const std::function<void(LogLevel, std::string_view)>& log);
 
 /// Runs a variation twice, each time from a fresh state and on one thread: once to record what robots do, and once to
 /// measure the cost, because recording takes time too. What prevents a run is in `failure`. `log` gets the messages of
