@@ -33,6 +33,7 @@ constexpr struct {
     {"gravity", limits::gravity, " m/s^2"},
     {"damping", limits::joint_resistance, ""},
     {"friction", limits::joint_resistance, ""},
+    {"armature", limits::inertia, ""},
     {"multiplier", limits::joint_position, ""},
     {"offset", limits::joint_position, ""},
 };

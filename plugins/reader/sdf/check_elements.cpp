@@ -17,6 +17,9 @@ namespace {
 constexpr std::array<std::string_view, 9> joint_types = {"revolute",  "continuous", "prismatic", "fixed",  "universal",
                                                          "revolute2", "ball",       "screw",     "gearbox"};
 
+/// Of <drake:rotor_inertia> and <drake:gear_ratio>: what the joint feels stays within the range of inertias.
+constexpr double max_rotor_value = 1e7;
+
 std::vector<double> values_of(const Element* e) {
   std::string error;
   return e ? model_file::parse_numbers(text_of(*e), error) : std::vector<double>{};
@@ -125,6 +128,7 @@ bool Check::complete_joint(Element& joint) {
   const int axes = type == "fixed" || type == "ball"                                 ? 0
                    : type == "universal" || type == "revolute2" || type == "gearbox" ? 2
                                                                                      : 1;
+  take_rotor(joint, owner, axes == 1);
   for (int i = 0; i < 2; ++i) {
     const char* name = i == 0 ? "axis" : "axis2";
     Element* axis = joint.FirstChildElement(name);
@@ -168,6 +172,27 @@ bool Check::complete_joint(Element& joint) {
     return false;
   }
   return true;
+}
+
+/// <drake:rotor_inertia> and <drake:gear_ratio>, as Drake reads them; libsdformat sees neither.
+void Check::take_rotor(Element& joint, const std::string& owner, bool has_one_axis) {
+  Element *inertia = joint.FirstChildElement("drake:rotor_inertia"),
+          *ratio = joint.FirstChildElement("drake:gear_ratio");
+  const std::vector<double> i = values_of(inertia), r = values_of(ratio);
+  const auto is_fine = [](const std::vector<double>& v) { return v.empty() || (v[0] >= 0 && v[0] <= max_rotor_value); };
+  if (!is_fine(i) || !is_fine(r))
+    problems_.warning(location_of(is_fine(i) ? *ratio : *inertia),
+                      concat(owner,
+                             ": the inertia of its rotor is left out; <drake:rotor_inertia> and "
+                             "<drake:gear_ratio> are from 0 to 1e7"));
+  else if (!i.empty() && !has_one_axis)
+    problems_.warning(location_of(*inertia), concat(owner,
+                                                    ": the inertia of its rotor is left out; only joints with "
+                                                    "one axis have one"));
+  else if (!i.empty())
+    sources_.armatures[location_of(joint)] = i[0] * (r.empty() ? 1 : r[0] * r[0]);
+  for (Element* e : {inertia, ratio})
+    if (e) joint.DeleteChild(e);
 }
 
 void Check::take_mimic(Element& joint, Element& axis, int number) {

@@ -103,6 +103,8 @@ JointLimits Joints::limits_of(const Joint& joint, const SingleDofJoint& dof) {
   };
   limits.damping = not_negative("damping", axis->Damping());
   limits.friction = not_negative("friction", axis->Friction());
+  if (const auto rotor = sources_.armatures.find(joint.location); rotor != sources_.armatures.end())
+    limits.armature = rotor->second;
   if (axis->SpringStiffness() != 0)
     problems_.warning(joint.location,
                       concat(owner, " has a spring of stiffness ", axis->SpringStiffness(),

@@ -269,6 +269,8 @@ constexpr std::array elements = {
     numbers("joint", "gearbox_ratio"),
     value("joint", "gearbox_reference_body", ValueType::text),
     numbers("joint", "thread_pitch"),
+    numbers("joint", "drake:rotor_inertia"),
+    numbers("joint", "drake:gear_ratio"),
     numbers("joint", "screw_thread_pitch"),
     unsupported("joint", "sensor", sensor_text),
     irrelevant("joint", "physics", engine_text),

@@ -6,6 +6,7 @@
 
 #include "muro/toolkit/rotations.hpp"
 #include "reading_testing.hpp"
+#include "tests/support/complaint.hpp"
 
 namespace muro::sdf {
 namespace {
@@ -45,6 +46,29 @@ TEST(SdfJoints, ARevoluteJointTurnsTheChildAboutItsAxisWhereverItsFrameIs) {
   EXPECT_EQ(limits.velocity, 4);
   EXPECT_EQ(limits.damping, 5);
   EXPECT_EQ(limits.friction, 6);
+}
+
+TEST(SdfJoints, ARotorIsFeltWithTheSquareOfItsGearRatio) {
+  const auto armature = [](const std::string& inside) {
+    const Robot robot = two_links("revolute", axis("0 0 1") + inside);
+    EXPECT_EQ(robot.problems, Lines{});
+    return robot.joint("j")->link.limits.armature;
+  };
+  EXPECT_EQ(armature(""), 0);
+  EXPECT_EQ(armature("<drake:rotor_inertia>1.5</drake:rotor_inertia>"), 1.5);
+  EXPECT_EQ(armature("<drake:rotor_inertia>1.5</drake:rotor_inertia><drake:gear_ratio>300.0</drake:gear_ratio>"),
+            1.5 * 300 * 300);
+  EXPECT_EQ(armature("<drake:gear_ratio>300.0</drake:gear_ratio>"), 0);
+}
+
+TEST(SdfJoints, RotorsThatAreNoneAreTold) {
+  const Robot negative = two_links("revolute", axis("0 0 1") + "<drake:rotor_inertia>-1</drake:rotor_inertia>");
+  EXPECT_SAYS(negative.problems.at(0),
+              "joint `j`: the inertia of its rotor is left out; <drake:rotor_inertia> and "
+              "<drake:gear_ratio> are from 0 to 1e7");
+  EXPECT_EQ(negative.joint("j")->link.limits.armature, 0);
+  const Robot ball = two_links("ball", "<drake:rotor_inertia>1</drake:rotor_inertia>");
+  EXPECT_SAYS(ball.problems.at(0), "the inertia of its rotor is left out; only joints with one axis have one");
 }
 
 TEST(SdfJoints, AnAxisThroughTheChildsOriginNeedsNoFrameBetween) {

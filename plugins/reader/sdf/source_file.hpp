@@ -78,6 +78,9 @@ class SourceFiles {
   FileLocation location_of(const std::string& file, int line) const;
   /// Mimics by the location of their joint and the number of the axis.
   std::map<std::pair<FileLocation, int>, Mimic> mimics;
+  /// kg m^2 or kg, by the location of their joint: what it feels of the rotor of its drive, which SDFormat has no word
+  /// for.
+  std::map<FileLocation, double> armatures;
 
  private:
   bool parse(SourceFile& source, std::string bytes, bool included, std::string& reason);

@@ -17,7 +17,7 @@ double or_infinite(double limit) {
   return std::copysign(std::numeric_limits<double>::infinity(), limit);
 }
 
-JointLimits limits_of(const ::urdf::Joint& joint) {
+JointLimits limits_of(const ::urdf::Joint& joint, const JointInfo& info) {
   JointLimits limits;
   if (joint.limits) {
     if (joint.type != ::urdf::Joint::CONTINUOUS) {
@@ -31,6 +31,7 @@ JointLimits limits_of(const ::urdf::Joint& joint) {
     limits.damping = joint.dynamics->damping;
     limits.friction = joint.dynamics->friction;
   }
+  limits.armature = info.armature.value_or(0);
   return limits;
 }
 
@@ -95,10 +96,10 @@ class TreeBuilder {
     switch (joint->type) {
       case ::urdf::Joint::REVOLUTE:
       case ::urdf::Joint::CONTINUOUS:
-        builder_.revolute(part_names_.at(name), axis.normalized(), limits_of(*joint));
+        builder_.revolute(part_names_.at(name), axis.normalized(), limits_of(*joint, info));
         break;
       case ::urdf::Joint::PRISMATIC:
-        builder_.prismatic(part_names_.at(name), axis.normalized(), limits_of(*joint));
+        builder_.prismatic(part_names_.at(name), axis.normalized(), limits_of(*joint, info));
         break;
       case ::urdf::Joint::PLANAR:
         add_planar(name, info, axis.normalized());

@@ -170,7 +170,7 @@ class JointCheck {
     Element* dynamics = only_child(xml_, "dynamics", owner_, problems_);
     if (!dynamics) return;
     Problems softer = softened(problems_, "it is taken as 0");
-    for (const char* attribute : {"damping", "friction"}) {
+    for (const char* attribute : {"damping", "friction", "armature"}) {
       const auto value = number(*dynamics, attribute, owner_, softer);
       if (!value) dynamics->DeleteAttribute(attribute);
       if (value.value_or(0) >= 0) continue;
@@ -178,6 +178,8 @@ class JointCheck {
                                                        " is negative and taken as 0"));
       dynamics->SetAttribute(attribute, "0");
     }
+    // urdfdom knows no armature, and gives up on <dynamics> with neither of the others
+    if (dynamics->Attribute("armature")) info_.armature = dynamics->DoubleAttribute("armature");
     if (!dynamics->Attribute("damping") && !dynamics->Attribute("friction")) remove(*dynamics);
   }
 

@@ -36,7 +36,8 @@ struct JointInfo {
   Element* xml = nullptr;
   Quat rotation = Quat::Identity();
   std::string type, parent, child;
-  bool moves = false;  ///< revolute, continuous, prismatic: becomes a joint of the robot
+  bool moves = false;                ///< revolute, continuous, prismatic: becomes a joint of the robot
+  std::optional<double> armature{};  ///< kg m^2 or kg; URDF itself has no word for it
 };
 
 struct LinkInfo {
@@ -61,6 +62,9 @@ struct ModelInfo {
   std::string root;
 };
 
+/// Of Drake's <drake:rotor_inertia> and <drake:gear_ratio>: what the joint feels stays within the range of inertias.
+inline constexpr double max_rotor_value = 1e7;
+
 /// Stands for "no limit" in the text that urdfdom reads, which knows no infinity.
 inline constexpr double no_limit = std::numeric_limits<double>::max();
 
@@ -72,6 +76,8 @@ Quat origin_rotation(const Element& owner);
 /// Removes elements of xacro, with a warning. False, with an error reported, when the file is the source of a robot
 /// that xacro has yet to make.
 bool take_macros(Element& robot, Problems& problems);
+/// Reads the inertia of rotors from <drake:rotor_inertia> and <drake:gear_ratio> of actuators, as Drake does.
+void take_rotors(Element& robot, ModelInfo& model, Problems& problems);
 /// Reads friction and restitution and removes everything that is not link, joint or material.
 void take_surfaces(Element& robot, ModelInfo& model, Problems& problems);
 void check_materials(Element& robot, Problems& problems);

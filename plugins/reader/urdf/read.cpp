@@ -43,6 +43,7 @@ void read_text(std::string bytes, const std::filesystem::path& folder, RobotBuil
   check_materials(robot, problems);
   check_links(robot, info, problems);
   check_joints(robot, info, problems);
+  take_rotors(robot, info, problems);
   take_surfaces(robot, info, problems);
   check_tree(robot, info, problems);
   check_mimics(info, problems);

@@ -296,6 +296,47 @@ TEST(UrdfProblems, LimitsThatAreMissingOrOdd) {
             Lines{"warning 4:70 joint `j`: damping -1 is negative and taken as 0"});
 }
 
+TEST(UrdfProblems, RotorsThatAreNone) {
+  EXPECT_EQ(joint_problems(joint("continuous", "<dynamics armature='-1'/>")),
+            Lines{"warning 4:70 joint `j`: armature -1 is negative and taken as 0"});
+  const auto problems_of_rotor = [](const std::string& transmission, const std::string& dynamics = "") {
+    return joint_problems(joint("continuous", dynamics) + "\n<transmission>" + transmission + "</transmission>");
+  };
+  const std::string rotor = "<actuator name='m'><drake:rotor_inertia value='2e-5'/></actuator>";
+  EXPECT_EQ(problems_of_rotor("<joint name='j'/>" + rotor), Lines{});
+  EXPECT_EQ(problems_of_rotor("<joint name='k'/>" + rotor),
+            Lines{"warning 5:1 actuator `m` moves no single joint of the robot; the inertia of its rotor is left out"});
+  EXPECT_EQ(problems_of_rotor("<joint name='j'/><actuator name='m'><drake:rotor_inertia/></actuator>"),
+            Lines{"warning 5:51 actuator `m`, <drake:rotor_inertia>: write value=\"...\" with a number from 0 to 1e7; "
+                  "the inertia of its rotor is left out"});
+  EXPECT_EQ(problems_of_rotor("<joint name='j'/><actuator name='m'><drake:rotor_inertia value='-1'/></actuator>"),
+            Lines{"warning 5:51 actuator `m`, <drake:rotor_inertia>: write value=\"...\" with a number from 0 to 1e7; "
+                  "the inertia of its rotor is left out"});
+  EXPECT_EQ(problems_of_rotor("<joint name='j'/>" + rotor, "<dynamics armature='0.5'/>"),
+            Lines{"warning 5:32 actuator `m`: its rotor is 2e-05 at the joint, whose <dynamics> has the armature 0.5; "
+                  "that of <dynamics> counts"});
+}
+
+TEST(UrdfProblems, RotorsOfDrivesAreReadAsOtherProgramsWriteThem) {
+  const auto armature = [](const std::string& dynamics, const std::string& more = "") {
+    const auto robot =
+        recorded("<robot name='r'>" + std::string(body_a) + link_b + joint("continuous", dynamics) + more + "</robot>");
+    EXPECT_EQ(robot.problems, Lines{});
+    return robot.limits.at("j").armature;
+  };
+  const auto transmission = [](const std::string& actuator) {
+    return "<transmission><type>SimpleTransmission</type><joint name='j'/><actuator name='m'>" + actuator +
+           "</actuator></transmission>";
+  };
+  EXPECT_EQ(armature(""), 0);
+  EXPECT_EQ(armature("<dynamics armature='0.592'/>"), 0.592);
+  EXPECT_EQ(armature("<dynamics damping='1' armature='0.012'/>"), 0.012);
+  EXPECT_EQ(armature("", transmission("<drake:rotor_inertia value='1.5'/>")), 1.5);
+  EXPECT_EQ(armature("", transmission("<drake:rotor_inertia value='1.5'/><drake:gear_ratio value='300'/>")),
+            1.5 * 300 * 300);
+  EXPECT_EQ(armature("", transmission("<mechanicalReduction>50</mechanicalReduction>")), 0);
+}
+
 TEST(UrdfProblems, UnlimitedIsInfinite) {
   const double infinity = std::numeric_limits<double>::infinity();
   const auto robot = recorded("<robot name='r'>" + std::string(body_a) + link_b + joint("prismatic", "") + "</robot>");
