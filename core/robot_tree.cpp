@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cstring>
 
 #include "core/error.hpp"
@@ -246,6 +247,11 @@ double RobotTree::standing_height(std::span<const double> positions, const Corne
     any = true;
   });
   return -lowest;
+}
+
+void RobotTree::set_limits(std::size_t link, const JointLimits& limits) {
+  assert(links_[link].joint >= 0 && limits::problem_of(limits).empty());
+  links_[link].link.limits = limits;
 }
 
 void RobotTree::remove_collision_shapes(

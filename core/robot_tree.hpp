@@ -81,6 +81,9 @@ class RobotTree final : public RobotBuilder, public PackageFolders {
   /// Radius (m) of the vertical cylinder about the base's origin that holds all collision shapes.
   double footprint_radius(std::span<const double> positions = {}, const CornersOfMesh& corners_of_mesh = {}) const;
   bool has_collision_meshes() const;
+  /// Of the joint of a link, in place of those that it was built with. They are within their ranges, and the link has a
+  /// joint.
+  void set_limits(std::size_t link, const JointLimits& limits);
   /// `is_lost` is asked for each, with the name of its body.
   void remove_collision_shapes(const std::function<bool(const std::string& body, const Shape& shape)>& is_lost);
 

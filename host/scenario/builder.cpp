@@ -14,6 +14,7 @@
 #include "host/scenario/algorithms.hpp"
 #include "host/scenario/body.hpp"
 #include "host/scenario/initial_state.hpp"
+#include "host/scenario/joint_dynamics.hpp"
 #include "host/scenario/model_drives.hpp"
 #include "host/scenario/overlaps.hpp"
 #include "host/scenario/place_properties.hpp"
@@ -193,6 +194,7 @@ class SceneBuilder {
         if (!problems_.collect(fmt::format("{}: robot `{}`: ", t.location.text(), t.name),
                                [&] { m.tree = model_of(t); }))
           continue;
+        set_joint_dynamics(*m.tree, t, problems_);
         m.start = start_pose(*m.tree, t, problems_);
         add_model_drives(t, *m.tree, algorithms_);
         tell_of_clamped(t, m.start);

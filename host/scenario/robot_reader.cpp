@@ -8,6 +8,7 @@
 #include <unordered_set>
 
 #include "host/names.hpp"
+#include "host/scenario/joint_dynamics.hpp"
 #include "host/scenario/levels.hpp"
 #include "host/scenario/map_reader.hpp"
 #include "host/scenario/placement_reader.hpp"
@@ -60,6 +61,7 @@ class RobotReader {
     t.linear_velocity = map.vector("velocity", Vec3::Zero(), limits::speed);
     t.angular_velocity = map.vector("angular_velocity", Vec3::Zero(), limits::turn_rate);
     read_joint_positions(map, t);
+    t.dynamics = read_joint_dynamics(map, problems_);
     const Node& variants = map.map("variants");
     if (node.kind == Node::Kind::map)
       read_subsystems(map, read_variants(variants, map, t.count, subsystem_names_, problems_), t);

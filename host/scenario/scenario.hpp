@@ -111,6 +111,14 @@ class SubsystemsOfRobots {
   std::vector<std::uint32_t> list_of_robot_;
 };
 
+/// What the scenario says of joints in place of their model.
+struct JointDynamics {
+  Name joints;                       ///< one, or `arm_*`: all whose names begin so
+  std::optional<double> damping{};   ///< N m s/rad or N s/m
+  std::optional<double> friction{};  ///< N m or N
+  std::optional<double> armature{};  ///< kg m^2 or kg
+};
+
 struct RobotTemplate {
   std::string name;
   Location location;        ///< of its model, or of the whole template
@@ -126,6 +134,7 @@ struct RobotTemplate {
   Vec3 linear_velocity = Vec3::Zero();          ///< at the start, world axes, m/s
   Vec3 angular_velocity = Vec3::Zero();         ///< rad/s
   std::vector<std::pair<Name, double>> joints;  ///< positions at the start
+  std::vector<JointDynamics> dynamics;          ///< in the order of the file
   SubsystemsOfRobots subsystems;                ///< variants are merged already
 };
 

@@ -12,8 +12,8 @@
 namespace muro::host {
 
 const std::vector<std::string> template_keys = {
-    "model", "shape", "mass", "friction", "restitution",      "color",  "texture",
-    "count", "place", "at",   "velocity", "angular_velocity", "joints", "variants"};
+    "model", "shape", "mass",     "friction",         "restitution", "color",    "texture", "count",
+    "place", "at",    "velocity", "angular_velocity", "joints",      "dynamics", "variants"};
 
 namespace {
 

@@ -22,13 +22,14 @@ struct Implication {
 constexpr Features of_joints = feature_velocity_targets | feature_position_targets | feature_acceleration_targets |
                                feature_effort_targets | feature_joint_limits | feature_joint_speed_limits |
                                feature_joint_effort_limits | feature_joint_damping | feature_joint_friction |
-                               feature_mimic_joints | feature_link_dynamics;
+                               feature_armature | feature_mimic_joints | feature_link_dynamics;
 constexpr Features of_meshes = feature_convex_meshes | feature_concave_meshes;
 constexpr Features of_contact = feature_friction | feature_restitution | feature_rolling_resistance |
                                 feature_spinning_resistance | of_meshes | feature_self_collision;
 constexpr Implication implications[] = {
     {feature_forces, feature_contact | of_contact | feature_gyroscopic | feature_link_dynamics |
-                         feature_joint_effort_limits | feature_joint_damping | feature_joint_friction},
+                         feature_joint_effort_limits | feature_joint_damping | feature_joint_friction |
+                         feature_armature},
     {feature_joints, of_joints},
     {feature_contact, of_contact},
     {feature_convex_meshes, feature_concave_meshes},

@@ -23,7 +23,7 @@ Quat quat_at(const mjtNum* q) { return Quat(q[0], q[1], q[2], q[3]); }
 ModelRobot::ModelRobot(const multibody::RobotModel& model, multibody::RobotState& state, const ModelRobotSource& source)
     : model_(&model), state_(&state), source_(&source), body_states_(model.bodies.size()) {}
 
-void ModelRobot::find_indices(const mjModel& m) {
+void ModelRobot::find_indices(mjModel& m) {
   joints_.assign(model_->bodies.size(), {});
   dof_count_ = int(model_->bodies.size()) - 1 + (source_->is_free ? 6 : 0);
   first_dof_ = m.nv;
@@ -45,6 +45,13 @@ void ModelRobot::find_indices(const mjModel& m) {
   root_pose_ = {vector_of(m.body_pos + 3 * root), quat_at(m.body_quat + 4 * root)};
   armatures_.assign(m.dof_armature + first_dof_, m.dof_armature + first_dof_ + dof_count_);
   friction_losses_.assign(m.dof_frictionloss + first_dof_, m.dof_frictionloss + first_dof_ + dof_count_);
+  for (std::size_t i = 1; i < joints_.size(); ++i) {  // those of the file, or what the scenario has in their place
+    const JointLimits& limits = model_->bodies[i].limits;
+    const int dof = joints_[i].dof;
+    armatures_[std::size_t(dof - first_dof_)] = limits.armature;
+    friction_losses_[std::size_t(dof - first_dof_)] = m.dof_frictionloss[dof] = limits.friction;
+    m.dof_damping[dof] = limits.damping;
+  }
   for (int g = 0; g < m.ngeom; ++g)
     if (m.body_rootid[m.geom_bodyid[g]] == root)
       geoms_.emplace_back(g, std::pair(m.geom_contype[g], m.geom_conaffinity[g]));

@@ -20,7 +20,7 @@ class ModelRobot {
   ModelRobot(const multibody::RobotModel& model, multibody::RobotState& state, const ModelRobotSource& source);
 
   /// Finds its joints in the compiled model. `file`: with the numbers of the source.
-  void find_indices(const mjModel& m);
+  void find_indices(mjModel& m);
   /// Takes over state, targets, and forces from outside.
   void import(mjModel& m, mjData& d);
   /// Hands back what the step made of it.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
 
 #include "tests/support/bodies.hpp"
 #include "tests/support/complaint.hpp"
@@ -74,7 +75,9 @@ struct Raw {
 
 /// A file read as the world, with all of its trees as robots.
 struct Yard : test::Scene {
-  explicit Yard(const std::string& path, const std::vector<std::string>& left_out = {}) {
+  /// `limits_of_joints`: in place of those of the file, of every joint.
+  explicit Yard(const std::string& path, const std::vector<std::string>& left_out = {},
+                const std::function<void(JointLimits&)>& limits_of_joints = {}) {
     const WorldModel model = read_world(path);
     if (model.gravity()) world().set(world_object, keys::gravity, *model.gravity());
     for (auto s : model.scenery()) {
@@ -85,7 +88,14 @@ struct Yard : test::Scene {
     }
     for (const auto& robot : model.models()) {
       if (std::find(left_out.begin(), left_out.end(), robot.name) != left_out.end()) continue;
-      const RobotView& view = add(robot.name, robot.tree, robot.pose);
+      RobotTree tree = robot.tree;
+      for (std::size_t i = 0; limits_of_joints && i < tree.links().size(); ++i) {
+        if (tree.links()[i].joint < 0) continue;
+        JointLimits limits = tree.links()[i].link.limits;
+        limits_of_joints(limits);
+        tree.set_limits(i, limits);
+      }
+      const RobotView& view = add(robot.name, tree, robot.pose);
       std::map<std::string, ParameterInput> parameters = {{"settings", "model"}};
       parameters["base"] = robot.name == "arm" ? "fixed" : "free";
       use("motion.mujoco", 500, {{&view, view.base()}}, std::move(parameters));
@@ -133,6 +143,30 @@ TEST(MujocoModel, OtherOptionsOfTheFileAreFollowedToo) {
   EXPECT_LT(largest_difference("cone='elliptic' solver='CG' iterations='30' impratio='5' gravity='0.5 0 -9'"), 1e-6);
   EXPECT_LT(largest_difference("integrator='RK4'"), 1e-6);
   EXPECT_LT(largest_difference("integrator='implicit' solver='PGS' noslip_iterations='2'"), 1e-6);
+}
+
+TEST(MujocoModel, DynamicsOfJointsMayBeOthersThanThoseOfTheFile) {
+  const test::ScratchFolder folder;
+  const std::string path = folder.file("yard.xml", yard(""));
+  Raw raw(path), as_it_is(path);
+  for (int j = 0; j < raw.m->njnt; ++j) {
+    if (raw.m->jnt_type[j] == mjJNT_FREE) continue;
+    const int dof = raw.m->jnt_dofadr[j];
+    raw.m->dof_armature[dof] = 0.2;
+    raw.m->dof_damping[dof] = 0.5;
+    raw.m->dof_frictionloss[dof] = 0.05;
+  }
+  Yard scene(path, {}, [](JointLimits& l) { l.armature = 0.2, l.damping = 0.5, l.friction = 0.05; });
+  scene.build();
+  for (int k = 0; k < 500; ++k) {
+    mj_step(raw.m, raw.d);
+    mj_step(as_it_is.m, as_it_is.d);
+    scene.run_for(0.002);
+    for (const char* name : {"shoulder", "swivel", "elbow", "reach"})
+      ASSERT_NEAR(scene.joint("arm/" + std::string(name), keys::joint_position), raw.position(name), 1e-6)
+          << name << " in step " << k;
+  }
+  EXPECT_GT(std::abs(raw.position("shoulder") - as_it_is.position("shoulder")), 1e-3);
 }
 
 /// MuJoCo's binary format of height fields: 9 x 7 nodes of rolling hills.

@@ -55,7 +55,7 @@ void ModelWorld::complete() {
 }
 
 void ModelWorld::find_robots() {
-  const mjModel& m = *file_.model;
+  mjModel& m = *file_.model;
   robot_of_body_.assign(std::size_t(m.nbody), -1);
   for (std::size_t i = 0; i < robots_.size(); ++i) {
     robots_[i].find_indices(m);
