@@ -37,7 +37,9 @@ constexpr Parameter own_parameters[] = {
 constexpr auto parameters = multibody::with_common_parameters(own_parameters);
 constexpr Description ode_description = multibody::engine_description(
     "motion.ode", "1.0.0", "Multi-body dynamics by the Open Dynamics Engine; robots of one world touch in it",
-    parameters, feature_concave_meshes | feature_rolling_resistance | feature_spinning_resistance | feature_heightmaps);
+    parameters,
+    feature_armature | feature_concave_meshes | feature_rolling_resistance | feature_spinning_resistance |
+        feature_heightmaps);
 
 /// What engines with iterations need: they part bodies badly whose masses differ by more.
 const multibody::MinInertia quick_inertia{1e-3, 0.01};

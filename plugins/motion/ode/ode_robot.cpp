@@ -110,7 +110,7 @@ void OdeRobot::add_joint(std::size_t number) {
   if (!b.only_rotates) bodies_[std::size_t(body.parent)].only_rotates = false;
   // At a stop, the motor of a hinge or slider of ODE gives all its effort whatever the speed: it needs one of its own.
   if (std::isfinite(body.limits.lower) || std::isfinite(body.limits.upper)) b.drive = create_motor(number, axis);
-  const bool may_have_rotor = body.drive == DriveMode::effort && body.leader < 0;
+  const bool may_have_rotor = body.limits.armature > 0 || (body.drive == DriveMode::effort && body.leader < 0);
   if (damping > 0 || may_have_rotor) b.damper = create_motor(number, axis);
   if (damping > 0) {
     const auto set = body.joint == JointKind::revolute ? &dJointSetAMotorParam : &dJointSetLMotorParam;
@@ -221,22 +221,22 @@ void OdeRobot::import() {
   set_forces();
   for (std::size_t i = 1; i < bodies_.size(); ++i) {
     set_drive_target(i);
-    if (state_->joints[i].drive_armature != 0 || bodies_[i].drive_armature != 0) set_rotor(i);
+    const double armature = model_->bodies[i].limits.armature + state_->joints[i].drive_armature;
+    if (armature != 0 || bodies_[i].armature != 0) set_rotor(i, armature);
   }
 }
 
-/// The rotor of a drive is a damper against the present velocity, of armature / dt: it takes the impulse
-/// armature (v - v') within the step.
-void OdeRobot::set_rotor(std::size_t number) {
+/// A rotor (kg m^2 or kg) is a damper against the present velocity, of armature / dt: it takes the impulse
+/// armature (v - v') within the step, whatever drives the joint.
+void OdeRobot::set_rotor(std::size_t number, double armature) {
   OdeBody& b = bodies_[number];
   const RigidBody& body = model_->bodies[number];
-  const multibody::JointState& joint = state_->joints[number];
-  const double rotor = joint.drive_armature / dt_, damping = body.limits.damping + rotor;
+  const double rotor = armature / dt_, damping = body.limits.damping + rotor;
   const auto set = body.joint == JointKind::revolute ? &dJointSetAMotorParam : &dJointSetLMotorParam;
-  set(b.damper, dParamVel, damping > 0 ? joint.velocity * (rotor / damping) : 0);
+  set(b.damper, dParamVel, damping > 0 ? state_->joints[number].velocity * (rotor / damping) : 0);
   set(b.damper, dParamFMax, damping > 0 ? dInfinity : 0);
   if (damping > 0) set(b.damper, dParamCFM, 1 / damping);
-  b.drive_armature = joint.drive_armature;
+  b.armature = armature;
 }
 
 void OdeRobot::set_bodies_from_state() {

@@ -45,7 +45,7 @@ class OdeRobot {
     dJointID joint = nullptr;                                     ///< that moves it; none for the base
     dJointID drive = nullptr;                      ///< of a joint with stops; none: `joint` drives itself
     dJointID damper = nullptr;                     ///< none where there is neither damping nor a rotor
-    double drive_armature = 0;                     ///< kg m^2 or kg: what the damper was told last
+    double armature = 0;                           ///< kg m^2 or kg: what the damper was told last
     double velocity = 0, max_effort = 0, cfm = 0;  ///< what the drive was told last
     double least_cfm = 0;                          ///< of the joint: see OdeSettings::softness
     Quat start = Quat::Identity();                 ///< orientation when the step began
@@ -63,7 +63,7 @@ class OdeRobot {
   void set_bodies_from_memory();
   void set_forces();
   void set_drive_target(std::size_t body);
-  void set_rotor(std::size_t body);
+  void set_rotor(std::size_t body, double armature);
   static void set_stops(const OdeBody& body, JointKind kind, double low, double high);
   void set_near_stops(std::size_t body) const;
   multibody::BodyState body_state_of(std::size_t body) const;

@@ -51,6 +51,7 @@ ForceDrivenJoints::ForceDrivenJoints(Connector& c, const RobotView& robot, std::
           {properties[i].position, properties[i].velocity, other.mimic_multiplier, other.mimic_offset});
       j.limits.damping += other.mimic_multiplier * other.mimic_multiplier * other.limits.damping;
       j.limits.friction += std::abs(other.mimic_multiplier) * other.limits.friction;
+      j.limits.armature += other.mimic_multiplier * other.mimic_multiplier * other.limits.armature;
     }
     joints_.push_back(std::move(j));
   }

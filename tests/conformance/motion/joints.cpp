@@ -171,6 +171,40 @@ Outcome armature(const std::string& motion) {
   return relative(j.of(keys::joint_velocity), 0.2 / (moment + 0.3));
 }
 
+Outcome sliding_armature(const std::string& motion) {
+  Joint j(motion, "effort", {.armature = 4}, JointKind::prismatic);
+  j.of(keys::joint_effort_target) = 2;
+  j.run_for(1);
+  return relative(j.of(keys::joint_velocity), 2 / (mass + 4));
+}
+
+/// A drive that holds a speed has its own rotor to speed up as well.
+Outcome driven_armature(const std::string& motion) {
+  Joint j(motion, "velocity", {.effort = 0.05, .armature = 0.3});
+  j.of(keys::joint_velocity_target) = 5;
+  j.run_for(2);
+  return relative(j.of(keys::joint_velocity), 2 * 0.05 / (moment + 0.3));
+}
+
+Outcome damped_armature(const std::string& motion) {
+  Joint j(motion, "passive", {.damping = 0.2, .armature = 0.3});
+  j.of(keys::joint_velocity) = 3;
+  j.run_for(1);
+  return relative(j.of(keys::joint_velocity), 3 * std::exp(-0.2 / (moment + 0.3)));
+}
+
+/// The base feels no rotor: with the moments B and I of base and link, q'' = e / (I + armature - I^2 / (B + I)), and
+/// the base turns back by I q'' / (B + I).
+Outcome reaction_with_armature(const std::string& motion) {
+  Joint j(motion, "effort", {.armature = 0.3}, JointKind::revolute, "free");
+  j.of(keys::joint_effort_target) = 0.2;
+  j.run_for(1);
+  const double expected = 0.2 / (moment + 0.3 - moment * moment / (1 + moment));
+  const Outcome link = relative(j.of(keys::joint_velocity), expected),
+                base = relative(j.world().value("r/base", keys::twist).angular.z(), -moment / (1 + moment) * expected);
+  return {std::max(link.error, base.error), link.seen + "; " + base.seen};
+}
+
 Outcome mimic(const std::string& motion) {
   Trial t(motion);
   t.set_gravity(Vec3::Zero());
@@ -238,6 +272,15 @@ std::vector<Case> joint_cases() {
       {"an effort turns a link as its inertia says", "relative", fixed | feature_effort_targets, 1e-6, effort},
       {"a rotor resists as an inertia at the joint", "relative", fixed | feature_effort_targets | feature_armature,
        1e-6, armature},
+      {"a rotor resists as a mass at a joint that slides", "relative",
+       fixed | feature_effort_targets | feature_armature, 1e-6, sliding_armature},
+      {"a drive speeds up its rotor with its effort limit", "relative",
+       fixed | feature_velocity_targets | feature_joint_effort_limits | feature_armature, 1e-3, driven_armature},
+      {"damping slows a link and its rotor exponentially", "relative", fixed | feature_joint_damping | feature_armature,
+       5e-3, damped_armature},
+      {"a free base feels the link and not its rotor", "relative",
+       feature_link_dynamics | feature_effort_targets | feature_forces | feature_armature, 1e-4,
+       reaction_with_armature},
       {"an effort shifts a link as its mass says", "relative", fixed | feature_effort_targets, 1e-6, slider},
       {"an effort is cut at the limit of the model", "relative",
        fixed | feature_effort_targets | feature_joint_effort_limits, 1e-6, effort_limit},

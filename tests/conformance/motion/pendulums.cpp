@@ -7,13 +7,13 @@ namespace muro::conformance {
 namespace {
 
 /// Period of a bob of 1 kg on 1 m, in units of that of small swings, from crossings of the lowest point.
-double period(const std::string& motion, double amplitude) {
+double period(const std::string& motion, double amplitude, double armature = 0) {
   Trial t(motion);
   const Inertia bob{.mass = 1, .com = {0, 0, -1}, .ixx = 0.001, .iyy = 0.001, .izz = 0.001};
   t.add("r", test::tree_of([&](RobotBuilder& b) {
           b.base("base");
           b.set(keys::inertial, Inertia{.mass = 5, .ixx = 1, .iyy = 1, .izz = 1});
-          b.revolute("joint", Vec3::UnitY(), {});
+          b.revolute("joint", Vec3::UnitY(), {.armature = armature});
           b.body("rod");
           b.set(keys::inertial, bob);
         }),
@@ -35,6 +35,11 @@ double period(const std::string& motion, double amplitude) {
 }
 
 Outcome small(const std::string& motion) { return relative(period(motion, 10 * M_PI / 180), 1.00190718814); }
+/// 2 pi sqrt((I + armature) / (m g d)), as 10 deg lengthen it.
+Outcome with_armature(const std::string& motion) {
+  constexpr double armature = 0.6;
+  return relative(period(motion, 10 * M_PI / 180, armature), 1.00190718814 * std::sqrt((1.001 + armature) / 1.001));
+}
 Outcome right_angle(const std::string& motion) { return relative(period(motion, 90 * M_PI / 180), 1.18034059902); }
 Outcome nearly_upright(const std::string& motion) { return relative(period(motion, 170 * M_PI / 180), 2.43936271967); }
 
@@ -79,6 +84,7 @@ std::vector<Case> pendulum_cases() {
   constexpr Features needs = feature_fixed_base | feature_joints | feature_forces | feature_joint_friction;
   return {
       {"a pendulum swings 10 deg wide in its time", "relative", needs, 1e-4, small},
+      {"a pendulum with a rotor swings in its time", "relative", needs | feature_armature, 1e-4, with_armature},
       {"a pendulum swings 90 deg wide in its time", "relative", needs, 1e-3, right_angle},
       {"a pendulum swings 170 deg wide in its time", "relative", needs, 5e-3, nearly_upright},
       {"a level top goes round at m g l / (I s)", "relative", needs | feature_link_dynamics, 5e-3, level_top},

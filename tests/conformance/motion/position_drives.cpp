@@ -63,6 +63,35 @@ Outcome drive_overshoot(const std::string& motion) {
   return relative(farthest, expected);
 }
 
+/// As above, with a rotor that is twice the inertia of the link: it counts as much as the link does.
+Outcome drive_rotor(const std::string& motion) {
+  constexpr double stiffness = 100, zeta = 0.4, armature = 2 * OneLink::moment;
+  const double damping = 2 * zeta * std::sqrt(stiffness * (OneLink::moment + armature));
+  OneLink link(motion, {.armature = armature},
+               {{"stiffness", Names{"joint=" + text(stiffness)}}, {"damping", Names{"*=" + text(damping)}}});
+  link.of(keys::joint_position_target) = 0.5;
+  double farthest = 0;
+  for (int k = 0; k < 1000; ++k) {
+    link.run_for(drive_step);
+    farthest = std::max(farthest, link.of(keys::joint_position));
+  }
+  return relative(farthest, 0.5 * (1 + std::exp(-M_PI * zeta / std::sqrt(1 - zeta * zeta))));
+}
+
+/// The default gains are those of link and rotor together.
+Outcome drive_rotor_frequency(const std::string& motion) {
+  constexpr double frequency = 20;
+  OneLink link(motion, {.armature = 2 * OneLink::moment}, {{"natural_frequency", frequency}});
+  link.of(keys::joint_position_target) = 0.5;
+  double worst = 0;
+  for (int k = 1; k <= 500; ++k) {
+    link.run_for(drive_step);
+    const double x = frequency * drive_step * k, exact = 0.5 * (1 - (1 + x) * std::exp(-x));
+    worst = std::max(worst, std::abs(link.of(keys::joint_position) - exact) / 0.5);
+  }
+  return {worst, text(worst)};
+}
+
 Outcome drive_deflection(const std::string& motion) {
   constexpr double stiffness = 100;
   OneLink link(motion, {}, {{"stiffness", stiffness}}, true);
@@ -240,6 +269,10 @@ std::vector<Case> position_drive_cases() {
   return {
       {"a position drive goes to its target as an oscillator", "relative", needs, 1.5e-2, drive_step_response},
       {"a position drive overshoots as its gains say", "relative", needs, 1e-2, drive_overshoot},
+      {"a position drive moves its rotor as it moves the link", "relative", needs | feature_armature, 1e-2,
+       drive_rotor},
+      {"gains of a position drive count the rotor in", "relative", needs | feature_armature, 1.5e-2,
+       drive_rotor_frequency},
       {"a position drive gives way to a load by its stiffness", "relative", needs, 1e-3, drive_deflection},
       {"a position drive is stable however stiff", "rad, rad/s", needs, 1e-4, drive_stiff},
       {"Coulomb friction acts beside a position drive", "rad, relative", needs | feature_joint_friction, 1e-3,

@@ -72,6 +72,27 @@ Outcome climbs(const std::string& motion) {
   return relative((v.pose(*v.robot).position - before).norm() / 2, 5 * wheel_radius);
 }
 
+/// Four drives of the torque e speed up the vehicle, its wheels and their rotors:
+/// a = (4 e / r) / (m + 4 (I + armature) / r^2).
+Outcome speeds_up_rotors(const std::string& motion) {
+  constexpr double torque = 0.05, armature = 0.01, kilograms = 5.2;
+  Trial t(motion);
+  t.add_ground(0.8);
+  RobotTree tree = rover(0.8);
+  for (std::size_t i = 0; i < tree.links().size(); ++i)
+    if (tree.links()[i].joint >= 0) tree.set_limits(i, {.armature = armature});
+  const RobotView& r = t.add("r", tree, {{0, 0, 0.09}, Quat::Identity()});
+  t.start({{"joints", "effort"}});
+  for (const char* name : {"front_left", "rear_left", "front_right", "rear_right"})
+    t.joint(std::string("r/") + name + "_joint", keys::joint_effort_target) = torque;
+  t.run_for(0.5);
+  const double before = t.twist(r).linear.x();
+  t.run_for(2);
+  const double wheel = test::round_body(0.3, wheel_radius).iyy;
+  return relative((t.twist(r).linear.x() - before) / 2,
+                  4 * torque / wheel_radius / (kilograms + 4 * (wheel + armature) / (wheel_radius * wheel_radius)));
+}
+
 /// Locked wheels: v^2 / (2 mu g).
 Outcome brakes(const std::string& motion) {
   Vehicle v(motion, 0.5);
@@ -145,6 +166,8 @@ std::vector<Case> vehicle_cases() {
   return {
       {"two wheels drive an exact arc", "m, rad", feature_velocity_targets, 1e-6, arc, "motion.differential_drive"},
       {"a rover drives as fast as its wheels turn", "relative", needs, 5e-3, drives},
+      {"drives speed a rover up with its rotors", "relative",
+       feature_contact | feature_friction | feature_effort_targets | feature_armature, 5e-3, speeds_up_rotors},
       {"a rover climbs 20 deg as fast as its wheels turn", "relative", needs, 1e-2, climbs},
       {"a rover parks on 30 deg when tan is below mu", "m/s", needs, 1e-4, parks},
       {"a rover with locked wheels slides down with g (sin - mu cos)", "relative", needs, 1e-2, slides},
