@@ -32,6 +32,8 @@ class PositionTarget {
     if (is_commanded(c, joint_, keys::joint_velocity_target))
       velocity_ = c.input(joint_, keys::joint_velocity_target, 0.0);
   }
+  /// The commanded velocity; null where nothing writes it.
+  const double* velocity() const { return velocity_.get(); }
   /// Another motion has moved the joint so far.
   void take_over() const { interpolation_.invalidate(); }
 

@@ -24,7 +24,7 @@
 #include "plugins/common/mesh/hull_vertices.hpp"
 #include "plugins/common/multibody/consistent_inertia.hpp"
 #include "plugins/common/text/quote.hpp"
-#include "robot_watch.hpp"
+#include "plugins/common/watch/robot_watch.hpp"
 
 namespace {
 
@@ -45,8 +45,8 @@ class Simplified final : public Algorithm {
   }
 
   void connect_by_name(Connector& c) override {
-    scenery_ = scenery_names(c);
-    for (RobotWatch& watch : watches_) watch.connect_contacts(c);
+    scenery_ = watch::scenery_names(c);
+    for (watch::RobotWatch& watch : watches_) watch.connect_contacts(c);
     for (ForceDrivenJoints& joints : force_driven_) joints.connect_by_name(c);
     for (std::uint32_t i = 0; i < robots_.size(); ++i)
       accelerations_.connect_by_name(c, i, fixed_ ? BaseMotion::kinematic : BaseMotion::by_forces, robots_[i].inertia,
@@ -95,7 +95,7 @@ class Simplified final : public Algorithm {
 
   /// Neighbours of one kind go eight at a time.
   void step(const Step& step, Range range) override {
-    if (step.index % RobotWatch::interval == 0) look_at(range);
+    if (step.index % watch::RobotWatch::interval == 0) look_at(range);
     accelerations_.begin_step(range);
     if (tells_applied_)
       for (std::uint32_t i = range.begin; i < range.end; ++i) applied_wrenches_[i].keep();
@@ -165,7 +165,9 @@ class Simplified final : public Algorithm {
         connect_joint_properties(c, robot, start, forces && c.parameters().boolean("effort_limits"),
                                  joints_with_position_drives(c, robot, inertias, start, forces));
     if (!forces) note_without_forces(robot, properties);
-    watches_.emplace_back(c, robot, properties);
+    std::vector<const double*> watched;
+    for (const JointProperties& j : properties) watched.push_back(j.force_driven ? j.velocity : nullptr);
+    watches_.emplace_back(c, robot, watched);
     // Where another motion of the robot asks for the wrenches on links, they do not act on the base.
     const bool has_levels =
         forces && robot.links.size() > 1 && !c.constant_array(robot.base(), keys::motion_level_names).empty();
@@ -315,8 +317,8 @@ class Simplified final : public Algorithm {
   std::vector<Kind> kinds_;                        ///< one per robot
   std::array<std::vector<RobotState>, 3> layers_;  ///< by group of joints; one per robot. The first has the base, too
   std::vector<Robot> robots_;                      ///< the rest of them
-  std::deque<RobotWatch> watches_;                 ///< likewise
-  SceneryNames scenery_;
+  std::deque<watch::RobotWatch> watches_;                 ///< likewise
+  watch::SceneryNames scenery_;
   std::vector<ImpactInput> impacts_;                ///< one per robot
   std::vector<AppliedWrenches> applied_wrenches_;   ///< likewise
   std::vector<const double*> other_contributions_;  ///< contributions to wrenches, all but the first of each robot

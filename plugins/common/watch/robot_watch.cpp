@@ -5,7 +5,7 @@
 
 #include "plugins/common/text/quote.hpp"
 
-namespace muro::simplified {
+namespace muro::watch {
 namespace {
 
 /// m, from which on an overlap is told as a likely cause.
@@ -21,15 +21,15 @@ SceneryNames scenery_names(const Connector& c) {
   return names;
 }
 
-RobotWatch::RobotWatch(Connector& c, const RobotView& robot, const std::vector<JointProperties>& properties)
+RobotWatch::RobotWatch(Connector& c, const RobotView& robot, std::span<const double* const> velocities)
     : base_(robot.base()), name_(robot.name) {
-  const watch::Reach reach = watch::reach_of(c, robot);
-  watch_ = watch::Watch(c, c.parameters(), reach);
-  for (std::size_t i = 1; i < properties.size(); ++i) {
-    if (!properties[i].force_driven) continue;
+  const Reach reach = reach_of(c, robot);
+  watch_ = Watch(c, c.parameters(), reach);
+  for (std::size_t i = 1; i < velocities.size(); ++i) {
+    if (!velocities[i]) continue;
     const Link& link = robot.links[i];
     const double arm = link.joint == JointKind::prismatic ? 1 : reach.of_link[i];
-    joints_.push_back({properties[i].velocity, arm * arm, std::string(c.object_name(link.joint_object))});
+    joints_.push_back({velocities[i], arm * arm, std::string(c.object_name(link.joint_object))});
   }
 }
 
@@ -78,7 +78,7 @@ std::string RobotWatch::problem(const Pose& pose, const Twist& twist, const Scen
   if (problem.empty()) return problem;
   std::string cause;
   if (!watch_.allows_depth(overlap.depth)) {
-    cause = watch::cause_of_depth;
+    cause = cause_of_depth;
     cause += "; try a higher rate, or an engine";
   } else if (overlap.obstacle && overlap.depth > told_depth) {
     cause = "it is " + std::to_string(overlap.depth) + " m deep in " + quote(*overlap.obstacle);
@@ -86,7 +86,7 @@ std::string RobotWatch::problem(const Pose& pose, const Twist& twist, const Scen
   } else {
     cause = "forces that grow from step to step; try a higher rate, or a lower `frequency` of contact.penalty";
   }
-  return quote(name_) + ": " + problem + ". Likely cause: " + cause + watch::how_to_go_on(parameter);
+  return quote(name_) + ": " + problem + ". Likely cause: " + cause + how_to_go_on(parameter);
 }
 
-}  // namespace muro::simplified
+}  // namespace muro::watch

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-// The watch over robots of motion.simplified: as motions by engines have it.
+// The watch over robots of motions whose contacts a collision algorithm finds: as motions by engines have it.
 #pragma once
 
 #include <map>
-#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "joint_properties.hpp"
-#include "plugins/common/watch/watch.hpp"
+#include "muro/algorithm.hpp"
+#include "watch.hpp"
 
-namespace muro::simplified {
+namespace muro::watch {
 
 /// Names of the scenery, by object.
 using SceneryNames = std::map<std::uint32_t, std::string>;
@@ -21,8 +21,8 @@ class RobotWatch {
  public:
   static constexpr std::uint64_t interval = 16;
 
-  /// `properties`: of the joints, one per link. [setup]
-  RobotWatch(Connector& c, const RobotView& robot, const std::vector<JointProperties>& properties);
+  /// `velocities`: of the joints, one per link (rad/s or m/s); null for those that no force moves. [setup]
+  RobotWatch(Connector& c, const RobotView& robot, std::span<const double* const> velocities);
   /// Finds out whether there is a contact algorithm, whose contacts it looks at then. [setup]
   void connect_contacts(Connector& c);
   /// The run begins or goes on; `external`: what adds to the robot's wrench, null where nothing moves its base. [setup]
@@ -33,7 +33,7 @@ class RobotWatch {
  private:
   struct Joint {
     const double* velocity;
-    double reach_square;  ///< m^2, see watch::Reach; 1 for a joint that shifts
+    double reach_square;  ///< m^2, see Reach; 1 for a joint that shifts
     std::string name;
   };
   struct Overlap {
@@ -43,7 +43,7 @@ class RobotWatch {
 
   Overlap deepest_overlap(const SceneryNames& scenery) const;
 
-  watch::Watch watch_;
+  Watch watch_;
   ObjectId base_;
   std::string name_;
   bool begins_ = true;
@@ -52,4 +52,4 @@ class RobotWatch {
   std::vector<Joint> joints_;  ///< those that forces drive
 };
 
-}  // namespace muro::simplified
+}  // namespace muro::watch

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: MIT
+// Multi-body dynamics by the articulated-body algorithm, robots of one structure in the lanes of vector registers.
+#include <algorithm>
+#include <bit>
+#include <deque>
+#include <memory>
+
+#include "description.hpp"
+#include "muro/toolkit/accelerations.hpp"
+#include "plugins/common/kinematic_joints/moving_mass.hpp"
+#include "plugins/common/mesh/hull_vertices.hpp"
+#include "plugins/common/multibody/kinematic_robot.hpp"
+#include "plugins/common/text/quote.hpp"
+#include "plugins/common/watch/robot_watch.hpp"
+#include "robot.hpp"
+
+namespace {
+
+using namespace muro;
+using namespace muro::articulated;
+
+/// Memory of a kernel, one for each thread.
+class WorkMemory {
+ public:
+  void* of(std::size_t bytes) {
+    if (bytes > size_) {
+      memory_.reset(static_cast<std::byte*>(::operator new[](bytes, alignment)));
+      size_ = bytes;
+    }
+    return memory_.get();
+  }
+
+ private:
+  static constexpr std::align_val_t alignment{64};
+  struct Delete {
+    void operator()(std::byte* p) const { ::operator delete[](p, alignment); }
+  };
+  std::unique_ptr<std::byte, Delete> memory_;
+  std::size_t size_ = 0;
+};
+
+class Articulated final : public Algorithm {
+ public:
+  void connect(Connector& c) override {
+    const Parameters& p = c.parameters();
+    gravity_ = c.constant(world_object, keys::gravity).value_or(Vec3(0, 0, -9.81));
+    omega_ = 2 * M_PI * p.real("frequency");
+    bodies_.connect(c);
+    for (const Item& item : c.items()) connect_robot(c, item);
+    report(c);
+    scenery_ = watch::scenery_names(c);
+  }
+
+  void connect_by_name(Connector& c) override {
+    for (std::uint32_t i = 0; i < served_.size(); ++i) {
+      const RobotView& view = *c.items()[i].robot;
+      Robot* const robot = served_[i].robot;
+      const bool is_free = robot && !robot->model().fixed_base;
+      accelerations_.connect_by_name(c, i, is_free ? BaseMotion::by_forces : BaseMotion::kinematic,
+                                     is_free ? robot->model().bodies.front().inertia : Inertia{}, robot != nullptr);
+      if (!robot) continue;
+      served_[i].watch->connect_contacts(c);
+      robot->connect_by_name(c, view);
+      served_[i].model = number_of(robot->kernel_model(), models_);
+      served_[i].masses = number_of(robot->masses(), masses_);
+    }
+  }
+
+  void start() override {
+    for (const Served& s : served_) {
+      if (!s.robot) continue;
+      s.robot->start();
+      s.watch->begin(&s.robot->external());
+    }
+  }
+  void restored() override { start(); }
+  void on_handover(std::uint32_t item) override {
+    const Served& s = served_[item];
+    if (!s.robot) return s.by_targets->take_over();
+    s.robot->take_over();
+    s.watch->begin(&s.robot->external());
+  }
+
+  std::span<const Phase> phases() const override {
+    static constexpr Phase phases[] = {{Phase::IndexSpace::items, Phase::Scope::reads_all},
+                                       {Phase::IndexSpace::items, Phase::Scope::own_robot}};
+    return phases;
+  }
+
+  /// Contacts first, since they look at robots that others move; then neighbours of one model, eight at a time.
+  void step(const Step& step, Range range) override {
+    if (step.phase == 0) {
+      for (std::uint32_t i = range.begin; i < range.end; ++i)
+        if (served_[i].robot) served_[i].robot->look_up_contacts(bodies_);
+      return;
+    }
+    if (step.index % watch::RobotWatch::interval == 0) look_at(range);
+    accelerations_.begin_step(range);
+    for (std::uint32_t i = range.begin, end = i; i < range.end; i = end) {
+      end = i + 1;
+      if (!served_[i].robot) {
+        served_[i].by_targets->step(step.dt);
+        continue;
+      }
+      while (end < range.end && end < i + lane_width && served_[end].robot && served_[end].model == served_[i].model)
+        ++end;
+      move(i, end, step.dt);
+    }
+    accelerations_.end_step(range, step.dt);
+  }
+
+ private:
+  static constexpr std::uint32_t lane_width = 8;
+
+  /// An item: a robot that forces move, or one that nothing can move but its targets.
+  struct Served {
+    Robot* robot = nullptr;
+    multibody::KinematicRobot* by_targets = nullptr;
+    watch::RobotWatch* watch = nullptr;
+    std::uint32_t model = 0, masses = 0;  ///< in models_, masses_
+  };
+
+  void connect_robot(Connector& c, const Item& item) {
+    const RobotView& view = *item.robot;
+    const Parameters& p = c.parameters();
+    if (multibody::KinematicRobot::is_one(c, view, p)) {
+      served_.push_back({.by_targets = &kinematic_robots_.emplace_back(c, view, p, item.level)});
+      return;
+    }
+    Robot& robot = robots_.emplace_back(c, view, p, item.level);
+    watches_.emplace_back(c, view, robot.velocities());
+    served_.push_back({.robot = &robot, .watch = &watches_.back()});
+  }
+
+  /// Among those that are known; of a new one a copy is made.
+  template <class T>
+  static std::uint32_t number_of(const T& one, std::vector<T>& known) {
+    const auto same = std::find(known.rbegin(), known.rend(), one);  // mostly the last one
+    if (same != known.rend()) return std::uint32_t(known.rend() - same) - 1;
+    known.push_back(one);
+    return std::uint32_t(known.size() - 1);
+  }
+
+  void report(Connector& c) const;
+
+  /// Throws Error when the watch over one of the robots ends the run.
+  void look_at(Range range) {
+    for (std::uint32_t i = range.begin; i < range.end; ++i) {
+      const Served& s = served_[i];
+      if (!s.robot) continue;
+      const std::string problem = s.watch->problem(s.robot->pose(), s.robot->twist(), scenery_);
+      if (!problem.empty()) throw Error(problem);
+    }
+  }
+
+  void move(std::uint32_t begin, std::uint32_t end, double dt) {
+    thread_local WorkMemory memory;
+    const Model& model = models_[served_[begin].model];
+    RobotState states[lane_width];
+    std::size_t contacts = 0;
+    Batch batch{.structure = model.structure(),
+                .gravity = {gravity_.x(), gravity_.y(), gravity_.z()},
+                .dt = dt,
+                .omega = omega_,
+                .impact_speed = std::max(0.02, gravity_.norm() / omega_),
+                .radius = model.radius};
+    for (std::uint32_t i = begin; i < end; ++i) {
+      Robot& robot = *served_[i].robot;
+      robot.prepare(dt);
+      states[i - begin] = robot.state();
+      contacts += robot.contact_count();
+      batch.equal_masses = batch.equal_masses && served_[i].masses == served_[begin].masses;
+    }
+    constexpr std::size_t some = 64;
+    batch.work = memory.of(kernels_->work_bytes(batch.structure.count, batch.structure.slots,
+                                                int(std::max(some, std::bit_ceil(contacts)))));
+    const unsigned broken = kernels_->step(batch, states, int(end - begin));
+    if (broken != 0) throw Error(served_[begin + std::uint32_t(std::countr_zero(broken))].robot->failure());
+    for (std::uint32_t i = begin; i < end; ++i) served_[i].robot->export_contacts();
+  }
+
+  Accelerations accelerations_{mesh::hull_vertices};
+  Vec3 gravity_ = Vec3::Zero();
+  double omega_ = 0;
+  const Kernels* kernels_ = &kernels_for(lane::best_isa());
+  TouchedBodies bodies_;
+  std::vector<Model> models_;
+  std::vector<std::vector<Mass>> masses_;
+  std::deque<Robot> robots_;
+  std::deque<multibody::KinematicRobot> kinematic_robots_;
+  std::deque<watch::RobotWatch> watches_;
+  std::vector<Served> served_;  ///< one an item
+  watch::SceneryNames scenery_;
+};
+
+/// What the user should know of the robots.
+void Articulated::report(Connector& c) const {
+  std::vector<std::string_view> links;
+  for (const Robot& r : robots_)
+    links.insert(links.end(), r.model().regularized_links.begin(), r.model().regularized_links.end());
+  if (!links.empty())
+    c.host().log(LogLevel::info,
+                 "motion.articulated: bodies without mass and inertia, or with a moment of inertia that exceeds the sum "
+                 "of the two others, cannot be moved; what they lack was added to " +
+                     quoted_list(links) + "; give them an `inertial` that fits");
+  std::vector<std::string> names;
+  bool still = false;
+  for (std::size_t i = 0; i < served_.size(); ++i) {
+    const RobotView& view = *c.items()[i].robot;
+    const auto moves = [](const Link& link) { return link.joint != JointKind::fixed; };
+    if (!served_[i].by_targets || std::none_of(view.links.begin(), view.links.end(), moves)) continue;
+    names.emplace_back(view.name);
+    still = still || served_[i].by_targets->stands_still();
+  }
+  tell_of_robots_without_forces(c, names, still);
+}
+
+constexpr abi::AlgorithmEntry algorithms[] = {algorithm<Articulated>(description)};
+
+}  // namespace
+
+MURO_PLUGIN(.name = "motion_articulated", .version = description.version, .licence = "MIT",
+            .summary = "Multi-body dynamics by the articulated-body algorithm", .algorithms = algorithms)

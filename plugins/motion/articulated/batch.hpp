@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// What the kernel is told of robots that it carries over a step together, and where it finds and puts their state.
+#pragma once
+
+#include "muro/simd/isa.hpp"
+#include "structure.hpp"
+
+namespace muro::articulated {
+
+/// A contact that a step resolves. Numbers as they lie in properties.
+struct KernelContact {
+  const double* place = nullptr;    ///< point, normal, depth: m, world
+  const double* surface = nullptr;  ///< friction, restitution, resistance to rolling and to spinning
+  double* kept = nullptr;           ///< displacement (m), turn (rad), load (N): from step to step
+  const double* other = nullptr;    ///< velocity of what it touches at the point, and its spin; null: it does not move
+  int body = 0;
+  bool resists_turning = false;
+};
+/// How many joints of a robot may follow others.
+inline constexpr int most_mimics = 32;
+/// How many numbers a contact keeps.
+inline constexpr int kept_numbers = 7;
+
+/// Where the numbers of a robot are: of its base, of its first joint.
+struct RobotState {
+  double* pose = nullptr;
+  double* twist = nullptr;
+  double* positions = nullptr;
+  double* velocities = nullptr;
+  double* efforts = nullptr;
+  const double* targets[target_kinds] = {};  ///< by Drive
+  const double* friction_losses = nullptr;
+  const double* armature_losses = nullptr;
+  const Mass* masses = nullptr;              ///< of its bodies
+  double mass = 0;                           ///< kg, all
+  const KernelContact* contacts = nullptr;   ///< by body, in rising order
+  int contact_count = 0;
+  const double* wrenches = nullptr;          ///< force and torque on each body at its origin, world axes; null: none
+  double* contact_wrenches = nullptr;        ///< out: force and torque of each contact at its point; null: not wanted
+};
+
+/// What all robots of a call share.
+struct Batch {
+  Structure structure;
+  double gravity[3] = {};    ///< m/s^2
+  double dt = 0;             ///< s
+  double omega = 0;          ///< rad/s: of a robot that bobs on four contacts
+  double impact_speed = 0;   ///< m/s
+  double radius = 0;         ///< m: of gyration, of the robot
+  bool equal_masses = true;  ///< all robots have the masses of the first
+  void* work = nullptr;      ///< of work_bytes(), aligned to 64 bytes
+};
+
+struct Kernels {
+  /// For structures of `bodies` bodies and `slots` slots, and `contacts` contacts of all eight robots together.
+  std::size_t (*work_bytes)(int bodies, int slots, int contacts);
+  /// Carries up to eight robots over a step: the bits that each gets alone. Returns a bit for each whose state is no
+  /// longer finite.
+  unsigned (*step)(const Batch& batch, const RobotState* robots, int count);
+};
+MURO_DECLARE_KERNELS(Kernels, kernels)
+
+}  // namespace muro::articulated

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+// What a contact adds to the inertia and the wrench of a body, so that its force is that of the end of the step: a
+// spring and damper along the normal that only push; across, a spring beside a damper while it sticks, and the secant
+// damper of the cone while it slides. Linearly implicit: force = start - K (acceleration of the point), with K = dt
+// (damping + dt stiffness), goes into the articulated inertia as J' K J, so that the answer is that of the whole robot
+// at no extra pass, and neither light feet nor hard ground bound the step.
+#pragma once
+
+#include "spatial.hpp"
+
+namespace muro::articulated::lanes {
+inline namespace MURO_ISA {
+
+using lane::MaskOf, lane::max, lane::min, lane::select, lane::sqrt;
+
+/// A contact point of as many robots as S has values; vectors in the frame of the body.
+template <class S>
+struct ContactPoint {
+  V3<S> arm;           ///< m, from the body's origin
+  V3<S> normal;        ///< unit, into the body
+  S depth;             ///< m; below 0 where there is no contact
+  V3<S> velocity;      ///< m/s, of what it touches, at the point
+  V3<S> spin;          ///< rad/s, of the same
+  V3<S> displacement;  ///< m, of the friction spring, across the normal
+  S friction;          ///< coefficient
+  S restitution;
+  S load;              ///< N: the normal force that bounds friction
+  S is_on;             ///< 1; 0: it does not push in this step
+};
+/// Resistance against rolling and spinning; of the same point.
+template <class S>
+struct TurningPoint {
+  V3<S> displacement;  ///< rad, of the spring
+  S rolling, spinning;  ///< m
+};
+
+/// Of all points of a robot.
+template <class S>
+struct ContactLaw {
+  S stiffness, damping;  ///< N/m, N s/m: along the normal, and of the friction spring and the damper beside it
+  S mass;                ///< kg, of the robot
+  S impact_speed;        ///< m/s: what comes faster rebounds
+  S radius;              ///< m: of the springs against rolling and spinning
+};
+
+/// What a contact does in a step, for afterwards.
+template <class S>
+struct ContactStep {
+  V3<S> start;       ///< N: force without acceleration
+  S along, across;   ///< kg: K = across 1 + (along - across) n n'
+  V3<S> torque;      ///< N m: against rolling and spinning, without acceleration
+  S rolling, spinning;  ///< kg m^2: the same of these
+
+  /// N, of the end of the step. `a`: m/s^2, of the point.
+  MURO_INLINE V3<S> force(const V3<S>& normal, const V3<S>& a) const {
+    return start - (across * a + ((along - across) * dot(normal, a)) * normal);
+  }
+  /// N m, of the end of the step. `alpha`: rad/s^2, of the body.
+  MURO_INLINE V3<S> moment(const V3<S>& normal, const V3<S>& alpha) const {
+    return torque - (rolling * alpha + ((spinning - rolling) * dot(normal, alpha)) * normal);
+  }
+};
+
+/// A spring of `stiffness` beside a damper, or what they may do at most, as a damper of that.
+template <class S>
+struct BoundedSpring {
+  V3<S> force;  ///< at the begin of the step, with the spring of its end
+  S per_rate;   ///< change of the force by that of the velocity within the step
+
+  MURO_INLINE BoundedSpring(const V3<S>& displacement, const V3<S>& rate, S stiffness, S damping, S limit, double dt) {
+    const S h(dt);
+    const V3<S> hold = stiffness * (displacement + h * rate) + damping * rate;
+    const auto holds = dot(hold, hold) <= limit * limit;
+    const S secant = limit / sqrt(max(dot(rate, rate), S(1e-12)));
+    per_rate = select(holds, damping + h * stiffness, secant);
+    force = -select(holds, hold, secant * rate);
+  }
+};
+
+/// Adds x 1 + (y - x) n n' to a symmetric matrix.
+template <class S>
+MURO_INLINE void add_about(Sym<S>& to, S x, S y, const V3<S>& n) {
+  const V3<S> b = n * (y - x);
+  to.xx += x + b.x * n.x, to.yy += x + b.y * n.y, to.zz += x + b.z * n.z;
+  to.yz += b.y * n.z, to.zx += b.z * n.x, to.xy += b.x * n.y;
+}
+
+/// Adds J' K J and J' start.
+template <class S>
+MURO_INLINE void add_terms(const ContactPoint<S>& p, const ContactStep<S>& c, Inertia<S>& to) {
+  const V3<S>& r = p.arm;
+  const S x = c.across, beta = c.along - c.across, rr = dot(r, r);
+  const V3<S> m = cross(r, p.normal), b = m * beta;
+  to.A.xx += x * (rr - r.x * r.x) + b.x * m.x;
+  to.A.yy += x * (rr - r.y * r.y) + b.y * m.y;
+  to.A.zz += x * (rr - r.z * r.z) + b.z * m.z;
+  to.A.yz += b.y * m.z - x * (r.y * r.z);
+  to.A.zx += b.z * m.x - x * (r.z * r.x);
+  to.A.xy += b.x * m.y - x * (r.x * r.y);
+  to.B.x += V3<S>{b.x * p.normal.x, b.x * p.normal.y - x * r.z, b.x * p.normal.z + x * r.y};
+  to.B.y += V3<S>{b.y * p.normal.x + x * r.z, b.y * p.normal.y, b.y * p.normal.z - x * r.x};
+  to.B.z += V3<S>{b.z * p.normal.x - x * r.y, b.z * p.normal.y + x * r.x, b.z * p.normal.z};
+  add_about(to.C, c.across, c.along, p.normal);
+  to.f -= c.start;
+  to.n -= cross(r, c.start);
+}
+
+/// Whether a point pushes: it is in, and not on its way out faster than its spring and damper, or after a rebound.
+template <class S>
+MURO_INLINE MaskOf<S> pushes(const ContactPoint<S>& p, const ContactLaw<S>& law, S speed, double dt) {
+  const S push = law.stiffness * (p.depth - S(dt) * speed) - law.damping * speed;
+  const auto rebounds = (p.restitution > S(0)) & (speed > law.impact_speed);
+  return (p.depth > S(0)) & (push > S(0)) & !rebounds;
+}
+
+/// N: what the normal force may be, for friction of a point whose last one is not known.
+template <class S>
+MURO_INLINE S expected_load(const ContactPoint<S>& p, const ContactLaw<S>& law, S speed, double dt) {
+  const S push = law.stiffness * (p.depth - S(dt) * speed) - law.damping * speed;
+  return max(min(push, law.mass * S(0.25 / dt) * max(-speed, S(0)) + law.stiffness * p.depth), S(0));
+}
+
+/// `w`, `v`: velocity of the body; `fall`: gravity in its frame, since accelerations count from it; `dt`: s.
+template <class S>
+MURO_INLINE ContactStep<S> touch(const ContactPoint<S>& p, const ContactLaw<S>& law, const V3<S>& w, const V3<S>& v,
+                                 const V3<S>& fall, double dt) {
+  const S h(dt);
+  const V3<S> own = v + cross(w, p.arm), velocity = own - p.velocity;
+  const S speed = dot(velocity, p.normal);
+  // along: spring and damper; an impact reaches the velocity of its rebound, whatever it takes
+  const auto is_impact = (p.restitution > S(0)) & (speed < -law.impact_speed);
+  constexpr double hardness = 1e4;
+  const S impact_damping = S(hardness / dt) * law.mass;
+  S push = law.stiffness * (p.depth - h * speed) - law.damping * speed;
+  push = select(is_impact, -impact_damping * (S(1) + p.restitution) * speed, push);
+  const S along = p.is_on * select(is_impact, h * impact_damping, h * (law.damping + h * law.stiffness));
+  const V3<S> slip = velocity - speed * p.normal;
+  const BoundedSpring<S> hold(p.displacement, slip, law.stiffness, law.damping, p.friction * p.load, dt);
+  ContactStep<S> c;
+  c.along = along, c.across = p.is_on * h * hold.per_rate;
+  // with the acceleration of the point beyond what accelerations of bodies say: w x velocity, and gravity
+  const V3<S> more = cross(w, own) + fall;
+  const V3<S> force = p.is_on * (push * p.normal + hold.force);
+  c.start = force - (c.across * more + ((along - c.across) * dot(p.normal, more)) * p.normal);
+  c.torque = {S(0), S(0), S(0)}, c.rolling = c.spinning = S(0);
+  return c;
+}
+
+/// Resistance against rolling and spinning of the same point. Adds to `c` and to the inertia of the body.
+template <class S>
+MURO_INLINE void resist(const ContactPoint<S>& p, const TurningPoint<S>& t, const ContactLaw<S>& law, const V3<S>& w,
+                        double dt, ContactStep<S>& c, Inertia<S>& to) {
+  const S h(dt), square = law.radius * law.radius, stiffness = law.stiffness * square, damping = law.damping * square;
+  const V3<S> rate = w - p.spin, about = dot(rate, p.normal) * p.normal, across = rate - about;
+  const V3<S> wound = dot(t.displacement, p.normal) * p.normal, rolled = t.displacement - wound;
+  const BoundedSpring<S> roll(rolled, across, stiffness, damping, t.rolling * p.load, dt),
+      spin(wound, about, stiffness, damping, t.spinning * p.load, dt);
+  c.torque = p.is_on * (roll.force + spin.force);
+  c.rolling = p.is_on * h * roll.per_rate, c.spinning = p.is_on * h * spin.per_rate;
+  add_about(to.A, c.rolling, c.spinning, p.normal);
+  to.n -= c.torque;
+}
+
+}  // namespace MURO_ISA
+}  // namespace muro::articulated::lanes

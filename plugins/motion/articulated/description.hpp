@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// What muro knows of motion.articulated before it runs: its parameters, what it reads and writes, what it can.
+#pragma once
+
+#include "muro/plugin.hpp"
+#include "muro/toolkit/accelerations.hpp"
+#include "plugins/common/position_drive/position_drive.hpp"
+#include "plugins/common/watch/parameters.hpp"
+
+namespace muro::articulated {
+
+inline constexpr std::string_view joint_modes[] = {"velocity", "position", "acceleration", "effort", "passive"};
+inline constexpr std::string_view base_modes[] = {"free", "fixed"};
+inline constexpr Parameter parameters[] = {
+    text("joints", "velocity", "what joints follow that no list below names").one_of(joint_modes),
+    velocity_joints,
+    position_joints,
+    effort_joints,
+    passive_joints,
+    natural_frequency,
+    drive_stiffness,
+    drive_damping,
+    interpolate,
+    text("base", "free", "whether the base is fixed to the world").one_of(base_modes),
+    real("frequency", "Hz", 50, "stiffness of contacts: that of the robot bobbing on four of them").between(1, 1e4),
+    watch::watch,
+    watch::watch_speed,
+    watch::watch_depth,
+};
+inline constexpr PropertyUse reads[] = {
+    {"wrench.external", "of the base and every body with collision shapes"},
+    {"contacts", "of the robot: those with scenery and with robots that no force moves"},
+    {"gravity", "on the world object; 0 0 -9.81 when absent"},
+    {"inertial", "of every body"},
+    {"joint.velocity.target", "of joints in mode velocity, and in mode position where something writes it"},
+    {"joint.position.target", "of joints in mode position"},
+    {"joint.acceleration.target", "of joints in mode acceleration"},
+    {"joint.effort.target", "of joints in mode effort"},
+    {"joint.drive.friction", "of joints in mode effort, where something writes it"},
+    {"joint.drive.armature", "of joints in mode effort, where something writes it"},
+    {"pose", "of bodies of other robots"},
+    {"twist", "of bodies of other robots"},
+    {"contact.world", "of other robots"},
+    {"pose.initial", "of the base"},
+    {"twist.initial", "of the base"},
+    {"joint.position.initial", "of every joint"},
+};
+inline constexpr PropertyUse writes[] = {
+    {"pose", "of the base"},
+    {"twist", "of the base"},
+    {"joint.position", "of every joint"},
+    {"joint.velocity", "of every joint"},
+    {"joint.effort", "of every joint: what its drive applies"},
+    {"contact.kept", "of the base: what contacts keep from step to step"},
+    writes_acceleration,
+    writes_joint_acceleration,
+    {"wrench.contact", "of every body with collision shapes"},
+    {keys::applied_wrench.name, "of every body with collision shapes, where somebody reads it"},
+    {keys::contact_wrenches_of_motion.name, "of the base: what each contact did, where somebody reads it"},
+    {"contact.world", "that the motion answers for contacts of the robot"},
+    {"twist.lag", "0.5: semi-implicit Euler"},
+};
+inline constexpr Description description{
+    .id = "motion.articulated",
+    .kind = Kind::motion,
+    .version = "1.0.0",
+    .summary = "Multi-body dynamics by the articulated-body algorithm, eight robots at a time, drives and contacts implicit",
+    .parameters = parameters,
+    .reads = reads,
+    .writes = writes,
+    .capabilities = deterministic | batched | allocation_free | restorable,
+    .features = feature_forces | feature_joints | feature_velocity_targets | feature_position_targets |
+                feature_acceleration_targets | feature_effort_targets | feature_joint_limits |
+                feature_joint_speed_limits | feature_joint_effort_limits | feature_joint_damping |
+                feature_joint_friction | feature_armature | feature_mimic_joints | feature_link_dynamics |
+                feature_gyroscopic | feature_contact | feature_friction | feature_restitution |
+                feature_rolling_resistance | feature_spinning_resistance | feature_convex_meshes |
+                feature_concave_meshes | feature_heightmaps | feature_fixed_base,
+};
+
+}  // namespace muro::articulated

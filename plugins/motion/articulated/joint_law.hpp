@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+// What acts along a joint beside the bodies behind it: its drive, damping, Coulomb friction and stops. All of it is a
+// function of the velocity at the end of the step that never rises, with steps in it: of friction at rest, of a drive
+// that holds a velocity within its effort, of stops. A step takes a straight piece of it, or holds the joint where it
+// is vertical, and looks afterwards whether that was the piece that the joint has come to.
+#pragma once
+
+#include "dynamics.hpp"
+
+namespace muro::articulated::lanes {
+inline namespace MURO_ISA {
+
+using lane::abs, lane::MaskOf, lane::max, lane::min, lane::select;
+
+/// Of a joint in one step.
+template <class S>
+struct JointLaw {
+  S pull, drag;        ///< of the drive: its effort is pull - drag v', N m or N, N m s/rad or N s/m
+  S velocity;          ///< of a drive that holds a velocity: rad/s or m/s
+  S effort;            ///< N m or N: of the drive, at most
+  S damping;           ///< N m s/rad or N s/m
+  S friction;          ///< N m or N
+  S lowest, highest;   ///< rad/s or m/s: at which the joint would meet a stop at the end of the step
+  double speed;        ///< rad/s or m/s: the drive is no faster
+  bool holds_velocity;  ///< the drive does
+};
+
+/// The piece of a law that a step takes.
+template <class S>
+struct JointPiece {
+  S is_free;     ///< 1; 0: held at `velocity`
+  S pull, drag;  ///< effort along the joint pull - drag v'
+  S velocity;    ///< rad/s or m/s: at the end of the step
+  S effort;      ///< N m or N: of the drive
+
+  MURO_INLINE friend MaskOf<S> operator==(const JointPiece& a, const JointPiece& b) {
+    const auto same_hold = (a.is_free == S(0)) & (b.is_free == S(0)) & (a.velocity == b.velocity);
+    return same_hold | ((a.is_free == S(1)) & (b.is_free == S(1)) & (a.pull == b.pull) & (a.drag == b.drag));
+  }
+};
+
+template <class S>
+MURO_INLINE S clamp(S x, S low, S high) {
+  return max(low, min(high, x));
+}
+template <class S>
+MURO_INLINE S sign_of(S x) {
+  return select(x < S(0), S(-1), S(1));
+}
+
+/// Where the law meets what a joint does that has the velocity `free` (rad/s or m/s) without it and that an impulse
+/// changes by 1 / `inertia` (kg m^2 or kg), in a step of `dt` (s).
+template <class S>
+MURO_INLINE JointPiece<S> meet(const JointLaw<S>& law, S inertia, S free, double dt) {
+  const S zero(0), one(1), per_second = inertia * S(1 / dt), push = per_second * free;
+  S pull = law.pull, drag = law.drag;
+  auto tracks = zero > one;
+  S tracking_effort = zero;
+  if (law.holds_velocity) {
+    const S v = law.velocity, needed = (per_second + law.damping) * v - push;
+    const S at_rest = sign_of(needed) * max(abs(needed) - law.friction, zero);
+    tracking_effort = select(v == zero, at_rest, needed + sign_of(v) * law.friction);
+    tracks = abs(tracking_effort) <= law.effort;
+    pull = clamp(tracking_effort, -law.effort, law.effort);
+    drag = zero;
+  }
+  const S start = clamp(pull, -law.effort, law.effort) + push;
+  const auto sticks = (law.friction > zero) & (abs(start) <= law.friction);
+  const S side = sign_of(start), friction = side * law.friction, rest = push - friction;
+  const S within = (rest + pull) / (per_second + drag + law.damping), wanted = pull - drag * within;
+  const auto is_weak = abs(wanted) > law.effort;
+  pull = select(is_weak, sign_of(wanted) * law.effort, pull);
+  drag = select(is_weak, zero, drag);
+  S v = select(is_weak, (rest + pull) / (per_second + law.damping), within);
+  auto held = sticks;
+  v = select(sticks, zero, v);
+  S effort = pull - drag * v;
+  if (law.speed < Joint::infinite && !law.holds_velocity) {
+    const S speed(law.speed), without = rest / (per_second + law.damping);
+    const auto is_fast = (abs(v) > speed) & (effort * v > zero);
+    const auto coasts = is_fast & (abs(without) >= speed), stays = is_fast & !coasts;
+    v = select(stays, side * speed, select(coasts, without, v));
+    pull = select(coasts, zero, pull), drag = select(coasts, zero, drag);
+    held = held | stays;
+    effort = select(stays, (per_second + law.damping) * v - rest, select(coasts, zero, effort));
+  }
+  v = select(tracks, law.velocity, v);
+  effort = select(tracks, tracking_effort, effort);
+  held = held | tracks;
+  const auto stops = (v > law.highest) | (v < law.lowest);
+  v = clamp(v, law.lowest, law.highest);
+  const S at_stop = law.holds_velocity ? effort : clamp(law.pull - law.drag * v, -law.effort, law.effort);
+  held = held | stops;
+  return {select(held, zero, one), pull - friction, drag + law.damping, v, select(stops, at_stop, effort)};
+}
+
+/// The piece on which a joint with velocity `v` most probably ends: where it is.
+template <class S>
+MURO_INLINE JointPiece<S> guess(const JointLaw<S>& law, S v) {
+  const S zero(0), one(1);
+  const S friction = sign_of(v) * law.friction, wanted = law.pull - law.drag * v;
+  const auto is_weak = abs(wanted) > law.effort;
+  const S pull = select(is_weak, sign_of(wanted) * law.effort, law.pull), drag = select(is_weak, zero, law.drag);
+  const auto sticks = (v == zero) & (law.friction > zero);
+  const auto stops = (v >= law.highest) | (v <= law.lowest);
+  const auto held = law.holds_velocity ? one > zero : (sticks | stops);
+  const S to = clamp(law.holds_velocity ? law.velocity : select(sticks, zero, v), law.lowest, law.highest);
+  return {select(MaskOf<S>(held), zero, one), pull - friction, drag + law.damping, to, zero};
+}
+
+/// As the algorithm takes it. `armature`: kg m^2 or kg; `v`: at the begin of the step.
+template <class S>
+MURO_INLINE JointTerms<S> terms_of(const JointPiece<S>& piece, S armature, S v, double dt) {
+  const S zero(0), h(dt);
+  const auto held = piece.is_free == zero;
+  return {select(held, zero, piece.pull - piece.drag * v), armature + select(held, zero, h * piece.drag),
+          select(held, (piece.velocity - v) * S(1 / dt), zero), piece.is_free};
+}
+
+}  // namespace MURO_ISA
+}  // namespace muro::articulated::lanes

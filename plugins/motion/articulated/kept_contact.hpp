@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// The state of a contact point: what it keeps from step to step.
+#pragma once
+
+#include "batch.hpp"
+#include "muro/key.hpp"
+
+namespace muro::articulated {
+
+struct KeptContact {
+  std::uint64_t pair = 0;            ///< see contact_geometry/kept_contact.hpp
+  Vec3 point = Vec3::Zero();         ///< m, world
+  Vec3 displacement = Vec3::Zero();  ///< m, world: of the friction spring
+  Vec3 turn = Vec3::Zero();          ///< rad, world: of the spring against rolling and spinning
+  double load = 0;                   ///< N: the normal force of the last step; 0: not known
+};
+static_assert(sizeof(KeptContact) == (4 + kept_numbers) * sizeof(double));
+
+}  // namespace muro::articulated
+
+namespace muro {
+MURO_OPAQUE_TYPE(articulated::KeptContact, "muro.motion.articulated.KeptContact", opaque);
+}  // namespace muro
+
+namespace muro::articulated {
+inline constexpr Key<KeptContact> kept_contacts{"contact.kept", "m",
+                                                "list on the base of a robot: friction springs and loads of contacts"};
+}  // namespace muro::articulated

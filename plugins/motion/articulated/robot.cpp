@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: MIT
+#include "robot.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "muro/simd/numbers.hpp"
+#include "muro/toolkit/mass_properties.hpp"
+#include "muro/toolkit/random.hpp"
+#include "plugins/common/contact_geometry/contact_responsibility.hpp"
+#include "plugins/common/multibody/joint_target.hpp"
+#include "plugins/common/text/quote.hpp"
+
+namespace muro::articulated {
+
+namespace {
+
+constexpr std::string_view id = "motion.articulated";
+
+constexpr Drive drive_of(DriveMode mode) {
+  switch (mode) {
+    case DriveMode::velocity:
+      return Drive::velocity;
+    case DriveMode::position:
+      return Drive::position;
+    case DriveMode::acceleration:
+      return Drive::acceleration;
+    case DriveMode::effort:
+      return Drive::effort;
+    case DriveMode::passive:
+      break;
+  }
+  return Drive::passive;
+}
+
+/// How far `place` is from the first such place of the robot, which it is if there is none so far.
+template <class T>
+std::ptrdiff_t offset_from(T*& first, T* place) {
+  if (!first) first = place;
+  return lane::numbers_between(first, place);
+}
+
+}  // namespace
+
+Robot::Robot(Connector& c, const RobotView& view, const Parameters& p, std::uint32_t level)
+    : level_(level), rigid_(multibody::model_of(c, view, drive_modes_of(c, view, p), {})) {
+  rigid_.fixed_base = p.text("base") == "fixed";
+  model_ = model_of_bodies(rigid_);
+  masses_ = masses_of_bodies(rigid_);
+  own_world_ = number_of_world(fnv1a(view.name, fnv1a(id)));
+  contact_world_ = c.variable(view.base(), keys::contact_world, own_world_);
+  twist_lag_ = c.variable(view.base(), keys::twist_lag, 0.5);
+  pose_ = c.variable(view.base(), keys::pose, c.constant(view.base(), keys::initial_pose).value_or(Pose{}));
+  const Twist initial_twist = c.constant(view.base(), keys::initial_twist).value_or(Twist{});
+  twist_ = c.variable(view.base(), keys::twist, rigid_.fixed_base ? Twist{} : initial_twist);
+  told_ = c.derived_list(view.base(), keys::contact_wrenches_of_motion);
+  connect_joints(c, view, p);
+  connect_links(c, view);
+  connect_memory(c, view);
+  contacts_ = RobotContacts(c, view, rigid_);
+}
+
+void Robot::connect_joints(Connector& c, const RobotView& view, const Parameters& p) {
+  const std::vector<PositionDrive> drives = position_drives_of(c, view, drive_modes_of(c, view, p), p);
+  const std::size_t count = rigid_.bodies.size();
+  velocities_.resize(view.links.size());
+  joints_.resize(count), positions_out_.resize(count), velocities_out_.resize(count), efforts_out_.resize(count);
+  int mimics = 0;
+  for (std::size_t i = 1; i < count; ++i) {
+    const multibody::RigidBody& body = rigid_.bodies[i];
+    const ObjectId object = view.links[body.link].joint_object;
+    const double start = rigid_.initial_positions[i];
+    check_start(c, object, body.limits, start);
+    joints_[i].object = object;
+    positions_out_[i] = c.variable(object, keys::joint_position, start);
+    velocities_out_[i] = c.variable(object, keys::joint_velocity, 0.0);
+    efforts_out_[i] = c.derived(object, keys::joint_effort);
+    velocities_[body.link] = velocities_out_[i].get();
+    mimics += body.leader >= 0 ? 1 : 0;
+    if (body.leader >= 0) continue;
+    Joint& joint = model_.joints[i];
+    joint.drive = drive_of(body.drive);
+    joints_[i].target = connect_joint_target(c, object, body.drive, start);
+    if (joint.drive != Drive::position) continue;
+    const PositionDrive& drive = drives[body.link];
+    joint.natural_frequency = drive.natural_frequency;
+    joint.stiffness = drive.stiffness.value_or(-1);
+    joint.drive_damping = drive.damping.value_or(-1);
+    joints_[i].position_target = PositionTarget(object, joints_[i].target.get(), drive.interpolation);
+  }
+  if (mimics > most_mimics)
+    throw Error(quote(rigid_.name) + " has " + std::to_string(mimics) + " mimic joints; " + std::string(id) +
+                " moves robots with up to " + std::to_string(most_mimics) + " of them");
+}
+
+void Robot::connect_links(Connector& c, const RobotView& view) {
+  for (const multibody::LoadedLink& loaded : rigid_.loaded_links) {
+    LoadedLink& link = links_.emplace_back();
+    link.external = c.read_sum(loaded.object, keys::external_wrench);
+    link.pose = c.read(loaded.object, keys::pose);
+    link.pose_of_body = c.read(view.links[rigid_.bodies[loaded.placement.body].link].object, keys::pose);
+    if (loaded.has_shapes) link.contact = c.derived(loaded.object, keys::contact_wrench);
+  }
+  wrenches_.resize(6 * rigid_.bodies.size());
+}
+
+/// What interpolated targets keep.
+void Robot::connect_memory(Connector& c, const RobotView& view) {
+  std::size_t count = 0;
+  for (const JointHandles& joint : joints_) count += joint.position_target.memory_size();
+  if (count == 0) return;
+  const bool has_levels = !c.constant_array(view.base(), keys::motion_level_names).empty();
+  const std::string name = std::string(id) + (has_levels ? "." + std::to_string(level_) : "");
+  auto* next = static_cast<double*>(c.state_block(view.base(), name, std::uint32_t(count * sizeof(double))));
+  for (JointHandles& joint : joints_) {
+    const std::size_t size = joint.position_target.memory_size();
+    if (size > 0) joint.position_target.keep_in({next, size});
+    next += size;
+  }
+  targets_.resize(2 * joints_.size());
+}
+
+void Robot::connect_by_name(Connector& c, const RobotView& view) {
+  tells_contacts_ = c.is_used(view.base(), keys::contact_wrenches_of_motion, usage::read);
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    const ObjectId link = rigid_.loaded_links[i].object;
+    reads_contact_wrenches_ = reads_contact_wrenches_ || c.is_used(link, keys::contact_wrench, usage::read);
+    if (!c.is_used(link, keys::applied_wrench, usage::read)) continue;
+    links_[i].applied = c.derived(link, keys::applied_wrench);
+    tells_applied_ = true;
+  }
+  for (std::size_t i = 1; i < joints_.size(); ++i) {
+    const Drive drive = model_.joints[i].drive;
+    if (drive == Drive::position) joints_[i].position_target.connect_by_name(c);
+    if (drive == Drive::effort) joints_[i].losses.connect_by_name(c, joints_[i].object);
+  }
+  set_offsets();
+}
+
+/// Where the numbers of the robot lie.
+void Robot::set_offsets() {
+  state_.pose = lane::numbers(pose_.get());
+  state_.twist = lane::numbers(twist_.get());
+  state_.masses = masses_.data();
+  state_.mass = rigid_.mass;
+  for (std::size_t i = 1; i < joints_.size(); ++i) {
+    Joint& j = model_.joints[i];
+    const JointHandles& handles = joints_[i];
+    j.position = offset_from(state_.positions, positions_out_[i].get());
+    j.velocity = offset_from(state_.velocities, velocities_out_[i].get());
+    j.out_effort = offset_from(state_.efforts, efforts_out_[i].get());
+    if (const In<double>& friction = handles.losses.friction_input) {
+      j.has_friction_loss = true;
+      j.friction_loss = offset_from(state_.friction_losses, friction.get());
+    }
+    if (const In<double>& armature = handles.losses.armature_input) {
+      j.has_armature_loss = true;
+      j.armature_loss = offset_from(state_.armature_losses, armature.get());
+    }
+    if (!handles.target) continue;
+    const double* target = handles.target.get();
+    const double* velocity = handles.position_target.velocity();
+    if (interpolates() && j.drive == Drive::position) {
+      target = targets_.data() + i;
+      velocity = targets_.data() + joints_.size() + i;
+    }
+    j.target = offset_from(state_.targets[int(j.drive)], target);
+    j.has_target_velocity = j.drive == Drive::position && velocity;
+    if (j.has_target_velocity) j.target_velocity = offset_from(state_.targets[int(Drive::velocity)], velocity);
+  }
+}
+
+bool Robot::interpolates() const { return !targets_.empty(); }
+
+void Robot::start() {
+  contacts_.forget();
+  links_are_clear_ = false;
+}
+
+void Robot::take_over() {
+  *contact_world_ = own_world_;
+  *twist_lag_ = 0.5;
+  contacts_.take_over();
+  for (const JointHandles& joint : joints_) joint.position_target.take_over();
+  if (rigid_.fixed_base) *twist_ = Twist{};
+}
+
+void Robot::prepare(double dt) {
+  if (interpolates()) advance_targets(dt);
+  sum_wrenches();
+  state_.contacts = contacts_.contacts().data();
+  state_.contact_count = int(contacts_.contacts().size());
+  if (contact_wrenches_.size() < 6 * contact_count()) contact_wrenches_.resize(2 * 6 * contact_count());
+  state_.contact_wrenches = contact_count() > 0 ? contact_wrenches_.data() : nullptr;
+}
+
+void Robot::advance_targets(double dt) {
+  for (std::size_t i = 1; i < joints_.size(); ++i) {
+    if (model_.joints[i].drive != Drive::position) continue;
+    const Reference r = joints_[i].position_target.advance(*positions_out_[i], rigid_.bodies[i].limits, dt);
+    targets_[i] = r.position;
+    targets_[joints_.size() + i] = r.velocity;
+  }
+}
+
+/// Those on links at the origins of their bodies.
+void Robot::sum_wrenches() {
+  state_.wrenches = nullptr;
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    const LoadedLink& link = links_[i];
+    for (std::uint64_t k = 0; k < link.external.size(); ++k) {
+      const Wrench& w = *link.external.contribution(k);
+      if (w.force.isZero(0) && w.torque.isZero(0)) continue;
+      if (!state_.wrenches) std::fill(wrenches_.begin(), wrenches_.end(), 0.0);
+      state_.wrenches = wrenches_.data();
+      double* const to = wrenches_.data() + 6 * rigid_.loaded_links[i].placement.body;
+      const Vec3 torque = w.torque + (link.pose->position - link.pose_of_body->position).cross(w.force);
+      for (int n = 0; n < 3; ++n) to[n] += w.force[n], to[3 + n] += torque[n];
+    }
+  }
+}
+
+void Robot::clear_link_wrenches() {
+  if (links_are_clear_) return;
+  for (LoadedLink& link : links_)
+    if (link.contact) *link.contact = Wrench{};
+  links_are_clear_ = true;
+}
+
+void Robot::export_contacts() {
+  if (tells_contacts_) told_.clear();
+  if (contact_count() > 0 || !links_are_clear_ || tells_applied_) {
+    clear_link_wrenches();
+    links_are_clear_ = contact_count() == 0;
+    for (std::size_t i = 0; i < contact_count(); ++i) {
+      const Contact& c = contacts_.contact(i);
+      const double* const n = contact_wrenches_.data() + 6 * i;
+      const Wrench at_point{{n[0], n[1], n[2]}, {n[3], n[4], n[5]}};
+      LoadedLink& link = links_[contacts_.loaded_link(i)];
+      link.contact->add_force(at_point.force, c.point - link.pose->position);
+      link.contact->torque += at_point.torque;
+      if (tells_contacts_) told_.push_back({c.self, c.other, c.point, c.normal, c.depth, at_point});
+    }
+  }
+  if (!tells_applied_) return;
+  for (const LoadedLink& link : links_) {
+    if (!link.applied) continue;
+    *link.applied = link.external.value();
+    if (link.contact) *link.applied += *link.contact;
+  }
+}
+
+std::string Robot::failure() const {
+  for (std::size_t i = 1; i < joints_.size(); ++i)
+    if (joints_[i].target && !std::isfinite(*joints_[i].target))
+      return "the target of a joint of " + quote(rigid_.name) +
+             " is not finite; look at what writes its `joint.*.target`";
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    const Wrench w = links_[i].external.value();
+    if (!std::isfinite(w.force.sum() + w.torque.sum()))
+      return "the motion of " + quote(rigid_.name) +
+             " is no longer finite: the sum of the external wrenches on one of its links is not; look at what adds to "
+             "`wrench.external`";
+  }
+  return "the motion of " + quote(rigid_.name) +
+         " is no longer finite: forces grow from step to step; raise the rate, or lower the stiffness of what acts on "
+         "it";
+}
+
+}  // namespace muro::articulated

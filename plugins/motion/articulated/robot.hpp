@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+// A robot of motion.articulated: the properties that its state lies in, and what acts on it.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "model.hpp"
+#include "plugins/common/position_drive/drive_losses.hpp"
+#include "plugins/common/position_drive/position_target.hpp"
+#include "robot_contacts.hpp"
+
+namespace muro::articulated {
+
+class Robot {
+ public:
+  /// `level`: the motion.level at which this motion moves the robot. [setup]
+  Robot(Connector& c, const RobotView& view, const Parameters& p, std::uint32_t level);
+  /// Finds out what is commanded and what is read. [setup]
+  void connect_by_name(Connector& c, const RobotView& view);
+  /// All handles may be read; the run begins or goes on. [setup]
+  void start();
+  /// Another motion has moved the robot so far.
+  void take_over();
+
+  const multibody::RobotModel& model() const { return rigid_; }
+  /// For kernels; whole after connect_by_name(). [setup]
+  const Model& kernel_model() const { return model_; }
+  const RobotState& state() const { return state_; }
+  const Pose& pose() const { return *pose_; }
+  const Twist& twist() const { return *twist_; }
+  const SumIn<Wrench>& external() const { return links_.front().external; }
+  /// Of joints, one per link (rad/s or m/s); null where there is none. [setup]
+  const std::vector<const double*>& velocities() const { return velocities_; }
+  /// Of its bodies.
+  const std::vector<Mass>& masses() const { return masses_; }
+  std::size_t contact_count() const { return contacts_.contacts().size(); }
+
+  /// Finds contacts. [step, before any robot moves]
+  void look_up_contacts(const TouchedBodies& bodies) { contacts_.look_up(bodies); }
+  /// Brings the state up to date for a step of `dt` (s).
+  void prepare(double dt);
+  /// Tells what contacts have done.
+  void export_contacts();
+  /// Why the state is no longer finite.
+  std::string failure() const;
+
+ private:
+  struct JointHandles {
+    ObjectId object = no_object;
+    In<double> target;
+    PositionTarget position_target;
+    DriveLosses losses;
+  };
+  /// The base, or a link with shapes.
+  struct LoadedLink {
+    SumIn<Wrench> external;
+    Out<Wrench> contact;  ///< none without shapes
+    Out<Wrench> applied;  ///< where somebody reads it
+    In<Pose> pose, pose_of_body;
+    Wrench by_contacts;
+  };
+
+  void connect_joints(Connector& c, const RobotView& view, const Parameters& p);
+  void connect_links(Connector& c, const RobotView& view);
+  void connect_memory(Connector& c, const RobotView& view);
+  void set_offsets();
+  bool interpolates() const;
+  void advance_targets(double dt);
+  void sum_wrenches();
+  void clear_link_wrenches();
+
+  std::uint32_t level_;
+  multibody::RobotModel rigid_;
+  Model model_;
+  std::vector<Mass> masses_;
+  RobotState state_;
+  Out<Pose> pose_;
+  Out<Twist> twist_;
+  Out<std::uint64_t> contact_world_;
+  Out<double> twist_lag_;
+  std::uint64_t own_world_ = 0;
+  std::vector<JointHandles> joints_;           ///< one per body
+  std::vector<const double*> velocities_;      ///< one per link
+  std::vector<Out<double>> positions_out_, velocities_out_, efforts_out_;  ///< one per body
+  std::vector<double> targets_;                ///< of drives that interpolate: positions, then velocities
+  std::vector<LoadedLink> links_;              ///< as rigid_.loaded_links
+  bool reads_contact_wrenches_ = false;        ///< somebody reads what contacts do
+  bool tells_contacts_ = false, tells_applied_ = false;
+  bool links_are_clear_ = false;
+  ListOut<ContactWrench> told_;
+  RobotContacts contacts_;
+  std::vector<double> wrenches_;          ///< on bodies
+  std::vector<double> contact_wrenches_;  ///< of contacts
+};
+
+}  // namespace muro::articulated

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#include "robot_contacts.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "muro/simd/numbers.hpp"
+#include "muro/toolkit/random.hpp"
+#include "plugins/common/contact_geometry/contact_responsibility.hpp"
+#include "plugins/common/contact_geometry/kept_contact.hpp"
+
+namespace muro::articulated {
+
+// as kernels read them
+static_assert(offsetof(Contact, normal) == offsetof(Contact, point) + 3 * sizeof(double) &&
+              offsetof(Contact, depth) == offsetof(Contact, point) + 6 * sizeof(double) &&
+              offsetof(Surface, restitution) == sizeof(double) &&
+              offsetof(Surface, rolling_resistance) == 2 * sizeof(double) &&
+              offsetof(Surface, spinning_resistance) == 3 * sizeof(double) &&
+              offsetof(KeptContact, turn) == offsetof(KeptContact, displacement) + 3 * sizeof(double) &&
+              offsetof(KeptContact, load) == offsetof(KeptContact, displacement) + 6 * sizeof(double));
+
+void TouchedBodies::connect(Connector& c) {
+  all_.resize(c.object_count());
+  for (std::uint32_t i = 0; i < all_.size(); ++i) all_[i].name = fnv1a(c.object_name(ObjectId{i}));
+  for (const RobotView* robot : c.robots()) {
+    const In<std::uint64_t> world = c.input(robot->base(), keys::contact_world, kinematic_world);
+    for (const Link& link : robot->links) {
+      if (c.constant_array(link.object, keys::collision_shapes).empty()) continue;
+      Touched& body = all_[index_of(link.object)];
+      body.pose = c.read(link.object, keys::pose);
+      body.twist = c.read(link.object, keys::twist);
+      body.world = world;
+    }
+  }
+}
+
+RobotContacts::RobotContacts(Connector& c, const RobotView& view, const multibody::RobotModel& model)
+    : list_(c.read_list(view.base(), keys::contacts)), kept_(c.variable_list(view.base(), kept_contacts)) {
+  for (std::uint32_t i = 0; i < model.loaded_links.size(); ++i) {
+    const multibody::LoadedLink& link = model.loaded_links[i];
+    link_places_.push_back({link.object, i, int(link.placement.body)});
+  }
+  std::sort(link_places_.begin(), link_places_.end(), [](const LinkPlace& a, const LinkPlace& b) {
+    return index_of(a.object) < index_of(b.object);
+  });
+}
+
+const RobotContacts::LinkPlace* RobotContacts::place_of(ObjectId object) const {
+  const auto found =
+      std::lower_bound(link_places_.begin(), link_places_.end(), object,
+                       [](const LinkPlace& a, ObjectId id) { return index_of(a.object) < index_of(id); });
+  return found != link_places_.end() && found->object == object ? &*found : nullptr;
+}
+
+void RobotContacts::look_up(const TouchedBodies& bodies) {
+  const auto list = *list_;
+  if (list.empty() && contacts_.empty() && (*kept_).empty()) return;
+  if (touches_robots_ || revision_ != list_.revision() || (*kept_).size() != contacts_.size()) {
+    find(bodies);
+    keep_what_lasts(bodies);
+    revision_ = list_.revision();
+  }
+  if (touches_robots_) look_at_others(bodies);
+  const auto kept = *kept_;
+  for (std::size_t i = 0; i < contacts_.size(); ++i) kept[i].point = list[places_[i]].point;
+}
+
+void RobotContacts::find(const TouchedBodies& bodies) {
+  const auto list = *list_;
+  contacts_.clear();
+  places_.clear();
+  links_.clear();
+  touches_robots_ = false;
+  for (std::uint32_t i = 0; i < list.size(); ++i) {
+    const Contact& c = list[i];
+    const TouchedBodies::Touched& other = bodies[c.other];
+    touches_robots_ = touches_robots_ || other.pose;
+    if (other.world && is_moved_by_forces(*other.world)) continue;
+    const LinkPlace* const link = place_of(c.self);
+    if (!link) continue;
+    KernelContact& contact = contacts_.emplace_back();
+    contact.place = c.point.data();
+    contact.surface = &c.surface.friction;
+    contact.body = link->body;
+    contact.resists_turning = c.surface.rolling_resistance > 0 || c.surface.spinning_resistance > 0;
+    places_.push_back(i);
+    links_.push_back(link->loaded_link);
+  }
+  sort_by_body();
+}
+
+/// Contacts stand in the order of links, which is that of bodies but for links behind fixed joints.
+void RobotContacts::sort_by_body() {
+  const auto by_body = [](const KernelContact& a, const KernelContact& b) { return a.body < b.body; };
+  if (std::is_sorted(contacts_.begin(), contacts_.end(), by_body)) return;
+  for (std::size_t i = 1; i < contacts_.size(); ++i)
+    for (std::size_t k = i; k > 0 && contacts_[k].body < contacts_[k - 1].body; --k) {
+      std::swap(contacts_[k], contacts_[k - 1]);
+      std::swap(places_[k], places_[k - 1]);
+      std::swap(links_[k], links_[k - 1]);
+    }
+}
+
+void RobotContacts::keep_what_lasts(const TouchedBodies& bodies) {
+  const auto list = *list_;
+  before_.assign((*kept_).begin(), (*kept_).end());
+  kept_.clear();
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const Contact& c = list[places_[i]];
+    KeptContact kept;
+    kept.pair = contact_geometry::pair_of(bodies[c.self].name, bodies[c.other].name, c.self_shape, c.other_shape);
+    const KeptContact* const known =
+        contact_geometry::previous(std::span<const KeptContact>(before_), i, kept.pair, c.point);
+    if (known) kept = *known;
+    kept_.push_back(kept);
+  }
+  for (std::size_t i = 0; i < contacts_.size(); ++i) contacts_[i].kept = (*kept_)[i].displacement.data();
+}
+
+void RobotContacts::look_at_others(const TouchedBodies& bodies) {
+  others_.resize(contacts_.size());
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const Contact& c = (*list_)[places_[i]];
+    const TouchedBodies::Touched& other = bodies[c.other];
+    contacts_[i].other = nullptr;
+    if (!other.pose) continue;
+    others_[i] = {other.twist->at(c.point - other.pose->position), other.twist->angular};
+    contacts_[i].other = lane::numbers(&others_[i]);
+  }
+}
+
+}  // namespace muro::articulated

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// The contacts of a robot that its motion resolves: with scenery and with robots that no force moves.
+#pragma once
+
+#include <vector>
+
+#include "kept_contact.hpp"
+#include "muro/algorithm.hpp"
+#include "plugins/common/multibody/robot_model.hpp"
+
+namespace muro::articulated {
+
+/// The bodies of a scene that robots can touch, by object id.
+class TouchedBodies {
+ public:
+  /// [setup]
+  void connect(Connector& c);
+
+  struct Touched {
+    std::uint64_t name = 0;  ///< hash
+    In<Pose> pose;           ///< none: scenery
+    In<Twist> twist;
+    In<std::uint64_t> world;  ///< keys::contact_world of its robot
+  };
+  const Touched& operator[](ObjectId id) const { return all_[index_of(id)]; }
+
+ private:
+  std::vector<Touched> all_;
+};
+
+class RobotContacts {
+ public:
+  RobotContacts() = default;
+  /// [setup]
+  RobotContacts(Connector& c, const RobotView& view, const multibody::RobotModel& model);
+
+  /// Finds the contacts of the step that begins. [step, before any robot moves]
+  void look_up(const TouchedBodies& bodies);
+  /// Nothing is known of earlier steps. [setup]
+  void forget() { revision_ = no_revision; }
+  /// Another motion has moved the robot so far.
+  void take_over() const { kept_.clear(); }
+
+  /// By body, in rising order.
+  const std::vector<KernelContact>& contacts() const { return contacts_; }
+  /// That of the list which contact `i` is.
+  const Contact& contact(std::size_t i) const { return (*list_)[places_[i]]; }
+  std::uint32_t loaded_link(std::size_t i) const { return links_[i]; }
+
+ private:
+  static constexpr std::uint64_t no_revision = ~std::uint64_t{0};
+
+  void find(const TouchedBodies& bodies);
+  void sort_by_body();
+  void keep_what_lasts(const TouchedBodies& bodies);
+  void look_at_others(const TouchedBodies& bodies);
+
+  struct LinkPlace {
+    ObjectId object = no_object;
+    std::uint32_t loaded_link = 0;  ///< in RobotModel
+    int body = 0;
+  };
+  const LinkPlace* place_of(ObjectId object) const;
+
+  ListIn<Contact> list_;
+  ListOut<KeptContact> kept_;
+  std::vector<LinkPlace> link_places_;
+  std::uint64_t revision_ = no_revision;  ///< of the list, when contacts were found
+  bool touches_robots_ = false;
+  std::vector<KernelContact> contacts_;
+  std::vector<std::uint32_t> places_, links_;  ///< of contacts: in the list, loaded links
+  std::vector<Twist> others_;                  ///< of contacts: velocity of what they touch, at the point
+  std::vector<KeptContact> before_;
+};
+
+}  // namespace muro::articulated

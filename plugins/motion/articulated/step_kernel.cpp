@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+// A step of robots of one structure: joints, contacts and bodies at once.
+#include "contacts.hpp"
+#include "joints.hpp"
+#include "mimic_joints.hpp"
+#include "momentum.hpp"
+#include "plugins/common/lanes/rotation.hpp"
+#include "work.hpp"
+
+namespace muro::articulated {
+namespace {
+
+using namespace lane;
+using namespace lanes;
+
+/// Of the bases of robots.
+template <class S>
+struct Bases {
+  Places<S, double> pose_at, twist_at;
+  PoseOf<S> pose;
+  TwistOf<S> twist;
+
+  MURO_INLINE Bases(const RobotState* robots, int count) {
+    for (int i = 0; i < count_of<S>; ++i) {
+      const RobotState& r = robots[i < count ? i : 0];
+      pose_at.at[i] = r.pose, twist_at.at[i] = r.twist;
+    }
+    pose = load_pose(as_read(pose_at));
+    twist = load_twist(as_read(twist_at));
+  }
+  /// Into the body of the base.
+  MURO_INLINE void place(BodyStep<S>& base) const {
+    base.axes = pose.orientation.matrix();
+    base.origin = pose.position;
+    base.w = transposed_times(base.axes, twist.angular);
+    base.v = transposed_times(base.axes, twist.linear);
+  }
+  /// Semi-implicit Euler.
+  MURO_INLINE void move(const BodyStep<S>& base, const V3<S>& gravity, double dt) {
+    const S h(dt);
+    twist.linear += h * (base.axes * (base.a + cross(base.w, base.v)) + gravity);
+    twist.angular = base.axes * (base.w + h * base.alpha);
+    pose.position += h * twist.linear;
+    pose.orientation = turned(rotation_by(twist.angular * h), pose.orientation);
+  }
+};
+
+template <class S>
+MURO_INLINE Masses<S> masses_of(const Batch& batch, const RobotState* robots, int count) {
+  Masses<S> masses;
+  for (int i = 0; i < count_of<S>; ++i)
+    masses.at.at[i] = reinterpret_cast<const double*>(robots[i < count ? i : 0].masses);
+  masses.are_equal = batch.equal_masses;
+  return masses;
+}
+
+/// The piece of each joint's law is found by trial: mostly the first is right.
+constexpr int most_trials = 4;
+
+template <class S>
+unsigned step_some(const Batch& batch, const RobotState* robots, int count) {
+  const Structure& s = batch.structure;
+  const double dt = batch.dt;
+  Work<S> work(batch.work, s.count, s.slots);
+  BodyStep<S>* const bodies = work.bodies;
+  Bases<S> base(robots, count);
+  base.place(bodies[0]);
+  Joints<S> joints(batch, robots, count, work);
+  place_all(s, bodies);
+  const Masses<S> masses = masses_of<S>(batch, robots, count);
+  joints.find_laws(masses);
+  Contacts<S> contacts(batch, robots, count, work);
+  const V3<S> gravity = splat<S>(batch.gravity), zero{S(0), S(0), S(0)};
+  const bool projects = !s.fixed && any(contacts.is_free_of_contacts());
+  Momentum<S> momentum;
+  if (projects) momentum = momentum_of(s, masses, bodies);
+  const V3<S> fall = s.fixed ? transposed_times(bodies[0].axes, -gravity) : zero;
+  for (int trial = 1;; ++trial) {
+    contacts.add_terms();
+    joints.set_terms();
+    accelerate_all(s, masses, bodies, work.slots, work.acts_on, work.base, fall);
+    if (s.has_mimics) {
+      couple_mimic_joints(s, work, dt);
+      joints.add_couplings();
+      accelerate_all(s, masses, bodies, work.slots, work.acts_on, work.base, fall);
+    }
+    const bool others = trial < most_trials && joints.look_again(), loads = trial < most_trials && contacts.look_again();
+    if (!others && !loads) break;
+  }
+  contacts.keep();
+  if (projects)
+    momentum.carry_on(gravity, contacts.external_force(), contacts.external_torque(), base.pose.position, dt);
+  joints.move();
+  if (!s.fixed) base.move(bodies[0], gravity, dt);
+  if (projects) {
+    base.place(bodies[0]);
+    place_all(s, bodies);
+    correct_base(momentum, momentum_of(s, masses, bodies), contacts.is_free_of_contacts(), base.pose, base.twist);
+  }
+  const unsigned which = first_lanes(count);
+  if (!s.fixed) {
+    store_pose(base.pose_at, 0, base.pose, which);
+    store_twist(base.twist_at, 0, base.twist, which);
+  }
+  joints.store(which);
+  const V3<S> all = base.pose.position + base.twist.linear + base.twist.angular;
+  const S sum = all.x + all.y + all.z + joints.sum();
+  return bits(!(abs(sum) < S(Joint::infinite))) & which;
+}
+
+/// As many as a register holds: so much is kept of each robot that wider packs would go through memory.
+constexpr int most_lanes = vectors::register_bytes / int(sizeof(double));
+
+unsigned step(const Batch& batch, const RobotState* robots, int count) {
+  using Pack = Lane<double, most_lanes>;
+  unsigned broken = 0;
+  for (int first = 0; first < count;) {
+    const int left = count - first, used = left == 1 ? 1 : left < most_lanes ? left : most_lanes;
+    unsigned of_part = 0;
+    if (used == 1)
+      of_part = step_some<double>(batch, robots + first, used);
+    else if (used <= most_lanes / 2 && most_lanes == 8)
+      of_part = step_some<Double4>(batch, robots + first, used);
+    else
+      of_part = step_some<Pack>(batch, robots + first, used);
+    broken |= of_part << first;
+    first += used;
+  }
+  return broken;
+}
+
+std::size_t work_bytes(int bodies, int slots, int contacts) {
+  return Work<Lane<double, most_lanes>>::bytes(bodies, slots, contacts);
+}
+
+}  // namespace
+
+namespace MURO_ISA {
+extern const Kernels kernels;
+const Kernels kernels{&work_bytes, &step};
+}  // namespace MURO_ISA
+
+}  // namespace muro::articulated

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// A robot as the articulated-body algorithm sees it (Featherstone, Rigid Body Dynamics Algorithms, 2008, chapter 4):
+// bodies in a tree, each with the joint that leads to it. What robots of one pack have in common.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace muro::articulated {
+
+/// What the algorithm must know of a body, in its frame.
+struct Mass {
+  double mass = 0;         ///< kg
+  double moment[3] = {};   ///< kg m: mass times centre of mass
+  double inertia[6] = {};  ///< kg m^2, about the origin: xx yy zz yz zx xy
+
+  static constexpr int numbers = 10;
+  friend bool operator==(const Mass&, const Mass&) = default;
+};
+static_assert(sizeof(Mass) == Mass::numbers * sizeof(double));
+
+/// A body with the joint that leads to it. Its frame has its origin on the joint's axis, which is x, y or z of it; at
+/// joint position 0 it is parallel to the parent's frame, or turned by a constant rotation. Bodies behind fixed joints
+/// are parts of their parents.
+struct Body {
+  int parent = -1;  ///< always smaller than its own number; -1: the base
+  int axis = 0;     ///< of the joint: 0, 1, 2
+  bool slides = false;
+  bool shifted = false;     ///< offset is not 0
+  bool turned = false;      ///< `turn` is not the identity
+  int slot = -1;            ///< where inertias of its children add up; -1: it has none
+  int parent_slot = -1;     ///< the parent's
+  bool first = false;       ///< of the children of its parent to be added
+  double sign = 1;          ///< -1: the joint of the model turns about, or shifts along, the opposite axis
+  double offset[3] = {};    ///< m: of the origin in the parent's frame at joint position 0
+  double turn[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< columns: axes of the frame in the parent's at joint position 0
+
+  friend bool operator==(const Body&, const Body&) = default;
+};
+
+/// What a joint follows.
+enum class Drive : std::uint8_t { velocity, position, acceleration, effort, passive };
+inline constexpr int target_kinds = 4;  ///< all but passive
+
+/// What a joint is told and what it can; of body number k, in the direction of the model.
+struct Joint {
+  static constexpr double infinite = __builtin_huge_val();
+
+  Drive drive = Drive::passive;
+  int leader = -1;  ///< body whose joint this one follows: q = offset + multiplier q_leader
+  double multiplier = 1, offset = 0;
+  double lower = -infinite, upper = infinite;   ///< rad or m
+  double speed = infinite, effort = infinite;   ///< of the drive
+  double damping = 0, friction = 0;             ///< N m s/rad or N s/m; N m or N
+  double armature = 0;                          ///< kg m^2 or kg
+  double stiffness = -1, drive_damping = -1;    ///< of a position drive; -1: by the inertia that the joint moves
+  double natural_frequency = 0;                 ///< rad/s: of such a drive
+  // Offsets of its numbers from those of the robot's first joint that has such numbers (RobotState).
+  std::ptrdiff_t position = 0, velocity = 0, out_effort = 0, target = 0, target_velocity = 0, friction_loss = 0,
+                 armature_loss = 0;
+  bool has_target_velocity = false;  ///< of a position drive
+  bool has_friction_loss = false, has_armature_loss = false;  ///< of what drives it, beside its own
+
+  bool needs_inertia() const { return drive == Drive::position && (stiffness < 0 || drive_damping < 0); }
+  friend bool operator==(const Joint&, const Joint&) = default;
+};
+
+/// Body 0 is the base; its Joint is not used.
+struct Structure {
+  const Body* bodies = nullptr;  ///< parents before children
+  const Joint* joints = nullptr;
+  int count = 0;
+  int slots = 0;              ///< where inertias of children wait for their parents
+  bool fixed = false;         ///< the base does not move
+  bool has_mimics = false;    ///< some joint has a leader
+  bool needs_inertia = false;  ///< some joint does
+};
+
+}  // namespace muro::articulated

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// The memory of a step of one pack of robots.
+#pragma once
+
+#include "batch.hpp"
+#include "contact_law.hpp"
+#include "joint_law.hpp"
+#include "moved_inertias.hpp"
+
+namespace muro::articulated::lanes {
+inline namespace MURO_ISA {
+
+/// One contact of each robot of a pack, on the same body; robots that lack one have a point that does not touch.
+template <class S>
+struct ContactSlot {
+  int body = 0;
+  bool resists_turning = false;
+  unsigned which = 0;           ///< lanes that have a contact
+  lane::Places<S, double> kept;
+  double* wrench[lane::count_of<S>];  ///< where to tell what it does; null: nowhere
+  ContactPoint<S> point;
+  TurningPoint<S> turning;
+  ContactStep<S> step;
+  MaskOf<S> is_new;             ///< its last normal force is not known
+};
+
+/// What bodies and joints do where an effort acts at some joints, beside all else.
+template <class S>
+struct Response {
+  V3<S> n, f;       ///< wrench
+  V3<S> alpha, a;   ///< acceleration
+  S effort, bias;   ///< N m or N
+  S qdd;
+};
+
+/// Pieces of the memory that a batch brings.
+template <class S>
+struct Work {
+  BodyStep<S>* bodies;
+  JointLaw<S>* laws;
+  JointPiece<S>* pieces;
+  S* armature;
+  Inertia<S>* slots;
+  Inertia<S>* external;           ///< of bodies that `acts_on` says
+  const Inertia<S>** acts_on;     ///< one a body: where its external is, or null
+  S* couplings;                   ///< N m or N: what keeps mimic joints and their leaders together, one a body
+  Response<S>* responses;         ///< one a body
+  Composite<S>* composites;       ///< as `slots`
+  ContactSlot<S>* contacts;
+  int contact_count = 0;
+  Inertia<S> base;                ///< of all bodies, at the base
+
+  MURO_INLINE Work(void* memory, int body_count, int slot_count) {
+    char* next = static_cast<char*>(memory);
+    const auto take = [&]<class T>(T*& piece, int count) {
+      piece = reinterpret_cast<T*>(next);
+      next += (sizeof(T) * std::size_t(count) + 63) / 64 * 64;
+    };
+    take(bodies, body_count), take(laws, body_count), take(pieces, body_count), take(armature, body_count);
+    take(slots, slot_count), take(external, body_count), take(acts_on, body_count);
+    take(couplings, body_count), take(responses, body_count), take(composites, slot_count);
+    contacts = reinterpret_cast<ContactSlot<S>*>(next);
+  }
+  static std::size_t bytes(int body_count, int slot_count, int contact_count) {
+    const auto n = std::size_t(body_count), rounding = std::size_t(16 * 64);
+    return n * (sizeof(BodyStep<S>) + sizeof(JointLaw<S>) + sizeof(JointPiece<S>) + sizeof(S) + sizeof(Inertia<S>) +
+                sizeof(void*) + sizeof(S) + sizeof(Response<S>)) +
+           std::size_t(slot_count) * (sizeof(Inertia<S>) + sizeof(Composite<S>)) + std::size_t(contact_count) * sizeof(ContactSlot<S>) + rounding;
+  }
+};
+
+}  // namespace MURO_ISA
+}  // namespace muro::articulated::lanes
