@@ -9,6 +9,7 @@
 
 #include "muro/toolkit/mass_properties.hpp"
 #include "plugins/common/multibody/joint_target.hpp"
+#include "plugins/common/position_drive/target_interpolation.hpp"
 
 namespace muro {
 
@@ -72,13 +73,29 @@ class KinematicJoints {
     }
   }
 
+  /// Targets of position move evenly to each new value in `period` (s); 0: at once. `base`: the object that keeps what
+  /// this remembers. [setup]
+  void interpolate(Connector& c, ObjectId base, double period) {
+    if (period <= 0 || joints_.empty()) return;
+    constexpr std::size_t one = TargetInterpolation::numbers;
+    auto* memory = static_cast<double*>(
+        c.state_block(base, "kinematic_joints.interpolation", std::uint32_t(joints_.size() * one * sizeof(double))));
+    period_ = period;
+    for (std::size_t i = 0; i < joints_.size(); ++i)
+      joints_[i].interpolation = TargetInterpolation(std::span(memory + i * one, one));
+  }
+  /// Another motion has moved the joints so far. [between steps]
+  void take_over() const {
+    for (const Joint& j : joints_) j.interpolation.invalidate();
+  }
+
   /// Whether some joint is in a mode in which only forces move it.
   bool stands_still() const { return stands_still_; }
 
   /// Carries them on by `dt` (s). Throws Error with the name of a joint whose target is not finite. [step]
   void move(double dt) const {
     for (const Joint& j : joints_)
-      if (!j.move(dt))
+      if (!j.move(dt, period_))
         throw Error("the target of `" + names_[std::size_t(&j - joints_.data())] +
                     "` is not finite; look at what writes its `joint.*.target`");
     for (const Mimic& m : mimics_) {
@@ -94,13 +111,15 @@ class KinematicJoints {
     double lower = 0, upper = 0, speed = 0;
     ObjectId object = no_object;
     DriveMode mode = DriveMode::velocity;
+    TargetInterpolation interpolation;
 
     /// Whether the target is finite. A joint that was put beyond its limits may come back, and goes no further.
-    bool move(double dt) const {
+    bool move(double dt, double period) const {
       const double from = *position, low = std::min(lower, from), high = std::max(upper, from);
       double to = 0, v = 0;
       if (mode == DriveMode::position) {
-        to = std::clamp(*target, lower, upper);
+        const double wanted = period > 0 ? interpolation.advance(*target, from, period, dt).position : *target;
+        to = std::clamp(wanted, lower, upper);
         v = (to - from) / dt;
         if (std::abs(v) > speed) {
           v = std::copysign(speed, v);
@@ -131,6 +150,7 @@ class KinematicJoints {
   std::vector<Joint> joints_;
   std::vector<std::string> names_;  ///< of them
   std::vector<Mimic> mimics_;
+  double period_ = 0;  ///< s, see interpolate()
   bool stands_still_ = false;
 };
 

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#include "ground_plane.hpp"
+
+#include <string>
+#include <vector>
+
+#include "muro/shape.hpp"
+#include "plugins/common/text/quote.hpp"
+
+namespace muro::biped {
+
+namespace {
+
+/// What of the scenery could be the ground.
+struct Grounds {
+  std::vector<GroundPlane> planes;
+  bool has_heightmaps = false;
+};
+
+Grounds grounds_of(const Connector& c) {
+  Grounds found;
+  for (std::uint32_t i = 0; i < c.object_count(); ++i) {
+    const ObjectId object{i};
+    if (c.robot_of(object) >= 0) continue;
+    const Pose body = c.constant(object, keys::pose).value_or(Pose{});
+    ShapeOfObject where{object};
+    for (const Shape& s : c.constant_array(object, keys::collision_shapes)) {
+      found.has_heightmaps = found.has_heightmaps || s.kind == ShapeKind::heightmap;
+      if (s.kind == ShapeKind::plane) {
+        const Pose at = body * s.origin;
+        const Vec3 normal = (at.orientation * Vec3::UnitZ()).normalized();
+        found.planes.push_back({normal, normal.dot(at.position), where});
+      }
+      ++where.shape;
+    }
+  }
+  return found;
+}
+
+std::string names_of(const Connector& c, const std::vector<GroundPlane>& planes) {
+  std::vector<std::string_view> names;
+  for (const GroundPlane& p : planes) names.push_back(c.object_name(p.shape.object));
+  return quoted_list(names);
+}
+
+}  // namespace
+
+GroundPlane find_ground_plane(const Connector& c, std::string_view name) {
+  const Grounds found = grounds_of(c);
+  if (name.empty()) {
+    if (found.has_heightmaps)
+      throw Error(
+          "a biped puts its feet on a plane, and the scenery has a heightmap; take a motion by forces there, or name "
+          "with `plane` the object whose plane it walks on whatever the heightmap does (" +
+          names_of(c, found.planes) + ")");
+    if (found.planes.size() == 1) return found.planes.front();
+    if (found.planes.empty())
+      throw Error(
+          "the scenery has no plane on which a biped could put its feet; add an object with `shape: plane` to `world` "
+          "(boxes and meshes are not taken for the ground)");
+    throw Error("the scenery has " + std::to_string(found.planes.size()) +
+                " planes; name with `plane` the one to walk on: " + names_of(c, found.planes));
+  }
+  for (const GroundPlane& p : found.planes)
+    if (c.object_name(p.shape.object) == name) return p;
+  throw Error("plane: there is no object " + quote(name) + " of the scenery with a plane among its collision shapes; " +
+              "there are: " + names_of(c, found.planes));
+}
+
+}  // namespace muro::biped
