@@ -97,7 +97,11 @@ class FootSensor final : public PerRobotAlgorithm<Foot> {
           "no force moves " + quote(view.name) +
           ", so there is nothing for a foot to feel; give the robot a motion by forces (motion.simplified with "
           "contact.penalty, motion.mujoco, motion.bullet, motion.ode), or take sensor.bumper, which tells contact "
-          "alone");
+          "alone" +
+          std::string(c.is_used(view.links[link].object, keys::foot_contact, usage::variable)
+                          ? "; its motion itself tells `foot.contact` of " +
+                                quote(c.object_name(view.links[link].object))
+                          : ""));
     foot.sole = sole_of(c, view, link, foot.device);
     foot.contact = c.variable(item.object, keys::foot_contact, std::uint32_t{0});
     foot.force = c.variable(item.object, keys::foot_force, 0.0);

@@ -76,6 +76,7 @@ class ForceTorque final : public PerRobotAlgorithm<Device> {
     if (link == 0)
       throw Error("it is mounted on the base of " + quote(view.name) +
                   ", which nothing carries; name with `on` a joint, or the link behind it");
+    check_feet(c, view, link);
     Device d;
     d.mounting = mounting_of(c.parameters());
     c.set(item.object, keys::sensor_origin, d.mounting);
@@ -85,6 +86,21 @@ class ForceTorque final : public PerRobotAlgorithm<Device> {
     if (!is_moved_by_forces(c, view) && without_contacts_.empty()) without_contacts_ = quote(view.name);
     d.wrench = c.variable(item.object, keys::sensed_wrench, Wrench{});
     return d;
+  }
+
+  /// Throws Error where the ground carries what lies beyond, as a motion without forces says, but nobody knows by which
+  /// forces.
+  static void check_feet(const Connector& c, const RobotView& view, std::uint32_t link) {
+    if (is_moved_by_forces(c, view)) return;
+    std::vector<bool> is_beyond(view.links.size());
+    for (std::uint32_t i = link; i < view.links.size(); ++i) {
+      is_beyond[i] = i == link || is_beyond[std::size_t(view.links[i].parent)];
+      if (is_beyond[i] && c.is_used(view.links[i].object, keys::foot_contact, usage::variable))
+        throw Error("no force moves " + quote(view.name) + ", so what the ground does to its foot " +
+                    quote(c.object_name(view.links[i].object)) +
+                    " is not known, nor what the leg bears; give the robot a motion by forces (motion.simplified with "
+                    "contact.penalty, motion.mujoco, motion.bullet, motion.ode), or read `foot.contact` of that link");
+    }
   }
 
   Vec3 gravity_ = Vec3::Zero();
