@@ -8,6 +8,7 @@ namespace muro {
 namespace {
 
 class EveryMotion : public ::testing::TestWithParam<std::string> {};
+class EveryMotionOfVehicles : public EveryMotion {};
 class EveryKinematicMotion : public EveryMotion {};
 
 TEST_P(EveryMotion, StartsWhereTheModelIsPut) {
@@ -16,7 +17,7 @@ TEST_P(EveryMotion, StartsWhereTheModelIsPut) {
     EXPECT_LT((team.pose(*r).position - team.world().value(r->base(), keys::initial_pose).position).norm(), 1e-12);
 }
 
-TEST_P(EveryMotion, FollowsABaseCommandForwards) {
+TEST_P(EveryMotionOfVehicles, FollowsABaseCommandForwards) {
   test::Team team(GetParam(), 1);
   team.world().value(team.rovers[0]->base(), keys::command_twist) = {{0.5, 0, 0}, Vec3::Zero()};
   team.run_for(2);
@@ -81,9 +82,16 @@ TEST_P(EveryKinematicMotion, StopsAtAWallWhenItIsToldTo) {
   }
 }
 
-/// Motions that no force moves.
-std::vector<std::string> kinematic_motions() {
+/// Those that move whatever has wheels or nothing at all.
+std::vector<std::string> motions_of_vehicles() {
   std::vector<std::string> some = test::algorithms_of("motion");
+  std::erase_if(some, test::names_parts);
+  return some;
+}
+
+/// Motions of vehicles that no force moves.
+std::vector<std::string> kinematic_motions() {
+  std::vector<std::string> some = motions_of_vehicles();
   std::erase_if(some, [](const std::string& id) {
     return (test::plugins().algorithm(id).description->features & feature_forces) != 0;
   });
@@ -91,6 +99,7 @@ std::vector<std::string> kinematic_motions() {
 }
 
 INSTANTIATE_TEST_SUITE_P(Conformance, EveryMotion, ::testing::ValuesIn(test::algorithms_of("motion")), test::name_of);
+INSTANTIATE_TEST_SUITE_P(Conformance, EveryMotionOfVehicles, ::testing::ValuesIn(motions_of_vehicles()), test::name_of);
 INSTANTIATE_TEST_SUITE_P(Conformance, EveryKinematicMotion, ::testing::ValuesIn(kinematic_motions()), test::name_of);
 
 }  // namespace

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <set>
 
 #include "core/instance.hpp"
@@ -17,6 +19,12 @@ inline std::vector<std::string> algorithms_of(const std::string& kind) {
   return ids;
 }
 
+/// Whether a motion wants to be told which parts of a robot are what, and so moves no other robots.
+inline bool names_parts(const std::string& motion) {
+  const std::span<const Parameter> known = plugins().algorithm(motion).description->parameters;
+  return std::any_of(known.begin(), known.end(), [](const Parameter& p) { return p.is_required; });
+}
+
 /// "motion_ode" for motion.ode: names of tests have no dots.
 inline std::string name_of(const ::testing::TestParamInfo<std::string>& test) {
   std::string name = test.param;
@@ -24,17 +32,21 @@ inline std::string name_of(const ::testing::TestParamInfo<std::string>& test) {
   return name;
 }
 
-/// What a motion is tried with: a model that it can move, and its drive.
+/// What a motion is tried with: a model that it can move, its drive, the link that carries a laser, and parameters.
 struct Vehicle {
-  std::string model, drive;
+  std::string model, drive, laser = "laser_link";
+  std::map<std::string, ParameterInput> parameters{};
 };
 inline Vehicle vehicle_for(const std::string& motion) {
   if (motion == "motion.ackermann") return {"car", "drive.ackermann"};
   if (motion == "motion.omni") return {"mecanum", "drive.omni"};
+  if (motion == "motion.biped")
+    return {"biped", "", "camera_link", {{"feet", std::vector<std::string>{"left_foot", "right_foot"}}}};
   return {"rover", "drive.skid_steer"};
 }
 
-/// Rovers that all move by one algorithm on a plane between a few boxes, with lasers; commanded from outside.
+/// Robots that all move by one algorithm on a plane between a few boxes, with lasers; commanded from outside: vehicles
+/// by the velocity of their bases, others by those of their joints.
 struct Team : Scene {
   std::vector<const RobotView*> rovers;
 
@@ -44,24 +56,38 @@ struct Team : Scene {
     for (int i = 0; i < 4; ++i)
       world().add_scenery("block_" + std::to_string(i), {{3.0 * i, 1.5, 0.5}, Quat::Identity()},
                           std::span<const Shape>(&block, 1));
-    const RobotTree model = read_model(MURO_TEST_SOURCE_DIR "/examples/models/" + vehicle_for(motion).model + ".urdf");
+    const Vehicle vehicle = vehicle_for(motion);
+    const RobotTree model = read_model(MURO_TEST_SOURCE_DIR "/examples/models/" + vehicle.model + ".urdf");
     for (int i = 0; i < count; ++i)
       rovers.push_back(
           &add("rover_" + std::to_string(i), model, {{1.5 * i, 0, model.standing_height()}, from_rpy(0, 0, 0.3 * i)}));
-    use(motion, 1000, all_robots());
-    use(vehicle_for(motion).drive, 0, all_robots());
+    use(motion, 1000, all_robots(), vehicle.parameters);
+    if (!vehicle.drive.empty()) use(vehicle.drive, 0, all_robots());
     use_contacts();
     std::vector<Item> sensors;
     for (const RobotView* r : rovers)
-      sensors.push_back({r, add_sensor_object(*r, "laser", world().object(std::string(r->name) + "/laser_link"))});
+      sensors.push_back(
+          {r, add_sensor_object(*r, "laser", world().object(std::string(r->name) + "/" + vehicle.laser))});
     use("laser.raycast", 10, sensors, {{"rays", std::int64_t(181)}, {"max_range", 5.6}});
     use("sensor.error", 0, sensors, {{"sigma", 0.01}, {"correlation", 0.5}});
     build();
     command();
   }
   void command() {
-    for (const RobotView* r : rovers)
-      world().value(r->base(), keys::command_twist) = {{0.5, 0, 0}, {0, 0, 0.2 * double(r->number) - 0.4}};
+    for (const RobotView* r : rovers) {
+      const double turn = 0.2 * double(r->number) - 0.4;
+      if (world().store().find(r->base(), "command.twist")) {
+        world().value(r->base(), keys::command_twist) = {{0.5, 0, 0}, {0, 0, turn}};
+        continue;
+      }
+      const auto turn_joint = [&](const char* joint, double rate) {
+        world().value(std::string(r->name) + joint, keys::joint_velocity_target) = rate;
+      };
+      turn_joint("/left_hip_pitch", -0.05);  // lifts the foot, flat as it is
+      turn_joint("/left_knee", 0.1);
+      turn_joint("/left_ankle_pitch", -0.05);
+      turn_joint("/right_hip_yaw", 0.1 * turn);
+    }
   }
 };
 

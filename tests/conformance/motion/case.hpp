@@ -69,7 +69,7 @@ struct Bound {
 };
 Bound bound_of(const std::string& motion, const Case& c);
 
-/// Motions that the build offers, by id.
+/// Motions that the build offers, by id, but for those of robots with certain parts (test::names_parts).
 std::vector<std::string> motions();
 const Description& description_of(const std::string& motion);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "tests/conformance/team.hpp"
 #include "tests/support/files.hpp"
 
 namespace muro::sensor_conformance {
@@ -72,6 +73,18 @@ RobotTree box_with_tray() {
   });
 }
 
+constexpr const char* plane_of_legged = "plane_of_legged";
+
+/// Those for which a robot drives.
+constexpr std::string_view driving_cases[] = {
+    "driving forward while turning left it is pushed to the left",
+    "speeding up is felt as it is",
+    "a sensor four times slower than the motion feels the same",
+    "a left radius 1 % too large bends 10 m to the right",
+    "a bumper is pressed at a wall, and not before",
+    "velocity is told to the east and north",
+};
+
 struct Exception {
   std::string_view motion, name;
   double error;
@@ -83,6 +96,7 @@ constexpr Exception exceptions[] = {{"", "", 0, ""}};
 
 Family family_of(const std::string& motion) {
   if (motion == "motion.point") return Family::point;
+  if (motion == "motion.biped") return Family::legged;
   return (description_of(motion).features & feature_forces) != 0 ? Family::forces : Family::wheeled;
 }
 
@@ -93,12 +107,22 @@ std::vector<std::string> motions() {
   return ids;
 }
 
+const RobotView& Trial::add_legged(const std::string& more, const Pose& pose) {
+  const RobotTree tree = vehicle_with(*this, "biped", more);
+  const Shape plane = Shape::plane();
+  world().add_scenery(plane_of_legged, pose * Pose{{0, 0, -tree.standing_height()}, Quat::Identity()},
+                      std::span<const Shape>(&plane, 1));
+  return add("r", tree, pose);
+}
+
 const RobotView& Trial::add_vehicle(const Pose& pose, const Twist& twist) {
+  if (family() == Family::legged) return add_legged(table_urdf, pose);
   if (family() != Family::wheeled) return add("r", box_with_table(), pose, twist);
   return add("r", vehicle_with(*this, model_for(motion_), table_urdf), pose, twist);
 }
 
 const RobotView& Trial::add_carrier(const Pose& pose) {
+  if (family() == Family::legged) return add_legged(tray_urdf, pose);
   if (family() != Family::wheeled) return add("r", box_with_tray(), pose);
   return add("r", vehicle_with(*this, model_for(motion_), tray_urdf), pose);
 }
@@ -112,16 +136,17 @@ const RobotView& Trial::add_load(const std::string& motion, const RobotTree& tre
 const RobotView& Trial::add_arm(const Vec3& axis, double position) {
   const Inertia arm{.mass = 0.5, .com = {0.3, 0, 0}, .ixx = 1e-4, .iyy = 1e-3, .izz = 1e-3};
   const bool is_wheeled = family() == Family::wheeled;
-  const RobotView& robot = is_wheeled ? add("r", vehicle_with(*this, model_for(motion_), arm_urdf(axis)))
-                                      : add("r", test::tree_of([&](RobotBuilder& b) {
-                                              b.base("base_link");
-                                              b.set(keys::inertial, test::solid_box(2, {0.4, 0.3, 0.2}));
-                                              b.translation({0, 0, 0.3});
-                                              b.revolute("lift", axis, {});
-                                              b.body("arm");
-                                              b.set(keys::inertial, arm);
-                                            }),
-                                            {{0, 0, 3}, Quat::Identity()});
+  const RobotView& robot = family() == Family::legged ? add_legged(arm_urdf(axis), {})
+                           : is_wheeled ? add("r", vehicle_with(*this, model_for(motion_), arm_urdf(axis)))
+                                        : add("r", test::tree_of([&](RobotBuilder& b) {
+                                                b.base("base_link");
+                                                b.set(keys::inertial, test::solid_box(2, {0.4, 0.3, 0.2}));
+                                                b.translation({0, 0, 0.3});
+                                                b.revolute("lift", axis, {});
+                                                b.body("arm");
+                                                b.set(keys::inertial, arm);
+                                              }),
+                                              {{0, 0, 3}, Quat::Identity()});
   world().set(world().object("r/lift"), keys::initial_joint_position, position);
   return robot;
 }
@@ -140,6 +165,10 @@ void Trial::start(Parameters parameters) {
     return std::any_of(known.begin(), known.end(), [&](const Parameter& p) { return p.name == name; });
   };
   std::erase_if(parameters, [&](const auto& p) { return !knows(p.first); });
+  if (family() == Family::legged) {
+    parameters = test::vehicle_for(motion_).parameters;
+    parameters["plane"] = std::string(plane_of_legged);
+  }
   std::vector<Item> own = all_robots();
   if (!motion_of_load_.empty()) {
     use(motion_of_load_, 1000, {own.back()});
@@ -159,7 +188,7 @@ void Trial::start(Parameters parameters) {
 }
 
 void Trial::command(double speed, double yaw_rate) {
-  if (family() == Family::forces) return;
+  if (family() == Family::forces || family() == Family::legged) return;
   world().value(robot().base(), keys::command_twist) = {{speed, 0, 0}, {0, 0, yaw_rate}};
 }
 
@@ -173,13 +202,17 @@ std::vector<Case> all_cases() {
 
 How how(const std::string& motion, const Case& c) {
   if (!c.only_for.empty() && motion != c.only_for) return How::left_out;
-  return c.how[int(family_of(motion))];
+  const Family family = family_of(motion);
+  if (family != Family::legged) return c.how[int(family)];
+  const bool drives = std::find(std::begin(driving_cases), std::end(driving_cases), c.name) != std::end(driving_cases);
+  return drives ? How::left_out : c.how[int(Family::wheeled)];
 }
 
 Bound bound_of(const std::string& motion, const Case& c) {
   for (const Exception& e : exceptions)
     if (e.motion == motion && e.name == c.name) return {e.error, e.why};
-  return {c.bound[int(family_of(motion))]};
+  const Family family = family_of(motion);
+  return {c.bound[int(family == Family::legged ? Family::wheeled : family)]};
 }
 
 namespace {

@@ -13,6 +13,7 @@ enum class Family : std::uint8_t {
   point,    ///< as commanded
   wheeled,  ///< as its wheels turn
   forces,   ///< by forces
+  legged,   ///< about the foot on which it stands
 };
 Family family_of(const std::string& motion);
 /// Motions that the build offers, by id.
@@ -26,7 +27,8 @@ class Trial : public test::Scene {
 
   Family family() const { return family_of(motion_); }
   /// A vehicle that the motion can drive: of examples/models for wheeled ones, a box of 2 kg for others. With a
-  /// turntable about z, its joint `table` and its link `disc`, in the middle of the base.
+  /// turntable about z, its joint `table` and its link `disc`, in the middle of the base. What is legged stands at
+  /// `pose` on a plane of its own.
   const RobotView& add_vehicle(const Pose& pose = {}, const Twist& twist = {});
   /// A link `arm` of 0.5 kg whose centre of mass is 0.3 m along x, on a joint `lift` about `axis` of the base, at
   /// `position` (rad): on the vehicle of the motion.
@@ -53,6 +55,8 @@ class Trial : public test::Scene {
   const RobotView& robot() const { return *world().robots().front(); }
 
  private:
+  const RobotView& add_legged(const std::string& more, const Pose& pose);
+
   std::string motion_, motion_of_load_;
   bool finds_contacts_ = false;
 };
@@ -75,7 +79,7 @@ struct Case {
   std::string_view name;    ///< a sentence
   std::string_view plugin;  ///< of the sensor
   std::string_view unit;    ///< of the error
-  /// By family: point, wheeled, forces.
+  /// By family: point, wheeled, forces. What is legged is as what is wheeled, but that it does not drive.
   How how[3] = {How::analytic, How::analytic, How::differenced};
   double bound[3] = {1e-9, 1e-9, 1e-6};
   Outcome (*run)(const std::string& motion) = nullptr;

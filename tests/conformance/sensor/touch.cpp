@@ -12,7 +12,8 @@ struct Stander : Trial {
   explicit Stander(const std::string& motion, Parameters parameters = {}) : Trial(motion) {
     add_ground();
     const Shape sole = test::with(Shape::box({0.3, 0.2, 0.04}), 0.8);
-    if (family() == Family::wheeled)
+    const bool is_driven = family() == Family::wheeled || family() == Family::legged;
+    if (is_driven)
       add_vehicle();
     else
       add("r", test::tree_of([&](RobotBuilder& b) {
@@ -23,7 +24,7 @@ struct Stander : Trial {
             b.set_array(keys::collision_shapes, std::span<const Shape>(&sole, 1));
           }),
           {{0, 0, 0.22}, Quat::Identity()});
-    foot = add_sensor("sensor.foot", family() == Family::wheeled ? "base_link" : "foot", std::move(parameters));
+    foot = add_sensor("sensor.foot", is_driven ? "base_link" : "foot", std::move(parameters));
     start();
     run_for(1.0005);
   }
