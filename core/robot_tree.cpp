@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <cassert>
 #include <cstring>
+#include <set>
 
 #include "core/error.hpp"
 #include "core/point_bounds.hpp"
 #include "core/value_check.hpp"
+#include "muro/ext/visual_materials.hpp"
 #include "muro/toolkit/bounds.hpp"
 #include "muro/toolkit/elementary.hpp"
 #include "muro/toolkit/limits.hpp"
@@ -50,7 +52,7 @@ std::int32_t RobotTree::add_component(std::string_view name) {
   if (!component_index_.emplace(std::string(name), index).second)
     report(Severity::error,
            "two parts are named " + in_backquotes(name) + "; names of bodies and joints are unique in a robot", 0, 0);
-  components_.push_back({std::string(name), {}});
+  components_.push_back({std::string(name), {}, {}});
   last_component_ = index;
   return index;
 }
@@ -170,6 +172,14 @@ void RobotTree::set_raw(const KeyInfo& key, const void* data, std::uint32_t coun
         Severity::error,
         fmt::format("`{}` of {} {}", key.name, in_backquotes(components_[std::size_t(last_component_)].name), problem),
         0, 0);
+  if (key.name == keys::visual_materials.name) {
+    const auto* names = static_cast<const TextId*>(data);
+    const auto is_known = [&](TextId id) { return std::size_t(id) < texts_.size(); };
+    if (!std::all_of(names, names + elements, is_known))
+      return report(Severity::error, "names of materials are not interned with the robot that has them", 0, 0);
+    components_[std::size_t(last_component_)].visual_materials.assign(names, names + elements);
+    return;
+  }
   const auto* first = static_cast<const std::byte*>(data);
   const std::size_t bytes = std::size_t(elements) * key.type->size;
   components_[std::size_t(last_component_)].constants.push_back({key, count, {first, first + bytes}});
@@ -252,6 +262,38 @@ double RobotTree::standing_height(std::span<const double> positions, const Corne
 void RobotTree::set_limits(std::size_t link, const JointLimits& limits) {
   assert(links_[link].joint >= 0 && limits::problem_of(limits).empty());
   links_[link].link.limits = limits;
+}
+
+std::vector<std::string> RobotTree::material_names() const {
+  std::set<std::string> names;
+  for (const Component& component : components_)
+    for (const TextId name : component.visual_materials)
+      if (name != no_text) names.insert(texts_[name]);
+  return {names.begin(), names.end()};
+}
+
+bool RobotTree::set_material(std::string_view name, const Material& material) {
+  const auto replace = [&](std::byte* place) {
+    Shape shape;
+    std::memcpy(static_cast<void*>(&shape), place, sizeof shape);
+    if (shape.material_source == MaterialSource::file) shape.color.setOnes();  // under a picture
+    shape.material_source = MaterialSource::model;
+    shape.color = material.color.value_or(shape.color);
+    if (!material.texture.empty()) shape.texture = texts_.intern(material.texture);
+    std::memcpy(place, static_cast<const void*>(&shape), sizeof shape);
+  };
+  bool found = false;
+  for (Component& component : components_)
+    for (Constant& c : component.constants) {
+      if (c.key.name != keys::visual_shapes.name) continue;
+      for (std::size_t i = 0; i < std::min<std::size_t>(c.count, component.visual_materials.size()); ++i) {
+        const TextId material_name = component.visual_materials[i];
+        if (material_name == no_text || texts_[material_name] != name) continue;
+        replace(c.data.data() + i * sizeof(Shape));
+        found = true;
+      }
+    }
+  return found;
 }
 
 void RobotTree::remove_collision_shapes(

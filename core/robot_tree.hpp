@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,12 @@ class RobotTree final : public RobotBuilder, public PackageFolders {
   struct Component {
     std::string name;
     std::vector<Constant> constants;
+    std::vector<TextId> visual_materials;  ///< names, for each of `visual.shapes`; fewer: the others have none
+  };
+  /// What replaces a material.
+  struct Material {
+    std::optional<Eigen::Vector4d> color;  ///< red, green, blue, alpha, 0..1
+    std::string texture;                   ///< path of a picture; empty: as it was
   };
   /// A link whose objects are still indices of components.
   struct FlatLink {
@@ -84,6 +91,10 @@ class RobotTree final : public RobotBuilder, public PackageFolders {
   /// Of the joint of a link, in place of those that it was built with. They are within their ranges, and the link has a
   /// joint.
   void set_limits(std::size_t link, const JointLimits& limits);
+  /// All names of materials that visual shapes have, sorted.
+  std::vector<std::string> material_names() const;
+  /// Gives all visual shapes whose material has this name what `material` states. False when there is none.
+  bool set_material(std::string_view name, const Material& material);
   /// `is_lost` is asked for each, with the name of its body.
   void remove_collision_shapes(const std::function<bool(const std::string& body, const Shape& shape)>& is_lost);
 

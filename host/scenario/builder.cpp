@@ -15,6 +15,7 @@
 #include "host/scenario/body.hpp"
 #include "host/scenario/initial_state.hpp"
 #include "host/scenario/joint_dynamics.hpp"
+#include "host/scenario/materials.hpp"
 #include "host/scenario/model_drives.hpp"
 #include "host/scenario/overlaps.hpp"
 #include "host/scenario/place_properties.hpp"
@@ -195,6 +196,7 @@ class SceneBuilder {
                                [&] { m.tree = model_of(t); }))
           continue;
         set_joint_dynamics(*m.tree, t, problems_);
+        set_materials(*m.tree, t.name, t.materials, problems_);
         m.start = start_pose(*m.tree, t, problems_);
         add_model_drives(t, *m.tree, algorithms_);
         tell_of_clamped(t, m.start);
@@ -229,12 +231,29 @@ class SceneBuilder {
     return poses;
   }
 
+  /// Trees that differ from that of the template by the materials of variants, by these.
+  using RecoloredTrees = std::map<std::vector<std::size_t>, RobotTree>;
+
+  const RobotTree& tree_of_copy(std::size_t copy, const RobotTemplate& t, const Model& m, RecoloredTrees& recolored) {
+    std::vector<std::size_t> variants;
+    for (std::size_t v = 0; v < t.material_variants.size(); ++v)
+      if (int(copy) >= t.material_variants[v].first && int(copy) <= t.material_variants[v].last) variants.push_back(v);
+    if (variants.empty()) return *m.tree;
+    const auto [entry, is_new] = recolored.try_emplace(variants, *m.tree);
+    if (is_new)
+      for (const std::size_t v : variants)
+        set_materials(entry->second, t.name, t.material_variants[v].changes, problems_);
+    return entry->second;
+  }
+
   void add_robots(const RobotTemplate& t, const Model& m) {
     const std::vector<Pose>& poses = m.poses;
+    RecoloredTrees recolored;
     for (std::size_t i = 0; i < poses.size(); ++i) {
       const RobotView* added = nullptr;
       if (!problems_.collect(t.location.text() + ": ", [&] {
-            added = &world_.add_robot(instance_name(t.name, t.numbered, i), *m.tree, poses[i]);
+            const RobotTree& tree = tree_of_copy(i, t, m, recolored);
+            added = &world_.add_robot(instance_name(t.name, t.numbered, i), tree, poses[i]);
           }))
         continue;
       const RobotView& robot = *added;

@@ -11,6 +11,7 @@
 #include "host/scenario/joint_dynamics.hpp"
 #include "host/scenario/levels.hpp"
 #include "host/scenario/map_reader.hpp"
+#include "host/scenario/materials.hpp"
 #include "host/scenario/placement_reader.hpp"
 #include "host/scenario/shape_reader.hpp"
 #include "host/scenario/subsystem_reader.hpp"
@@ -62,10 +63,23 @@ class RobotReader {
     t.angular_velocity = map.vector("angular_velocity", Vec3::Zero(), limits::turn_rate);
     read_joint_positions(map, t);
     t.dynamics = read_joint_dynamics(map, problems_);
+    t.materials = read_materials(map.map("materials"), map.what(), problems_);
     const Node& variants = map.map("variants");
-    if (node.kind == Node::Kind::map)
-      read_subsystems(map, read_variants(variants, map, t.count, subsystem_names_, problems_), t);
+    if (node.kind == Node::Kind::map) {
+      const std::vector<Variant> read = read_variants(variants, map, t.count, subsystem_names_, problems_);
+      read_material_variants(read, map.what(), t);
+      read_subsystems(map, read, t);
+    }
     return t;
+  }
+
+  void read_material_variants(const std::vector<Variant>& variants, const std::string& what, RobotTemplate& t) {
+    for (const Variant& v : variants) {
+      if (v.changes->kind != Node::Kind::map || !v.changes->find("materials")) continue;
+      const std::string whose = fmt::format("variant `{}-{}` of {}", v.first, v.last, what);
+      MapReader changes(*v.changes, whose, problems_);
+      t.material_variants.push_back({v.first, v.last, read_materials(changes.map("materials"), whose, problems_)});
+    }
   }
 
   /// How many robots there are, and where.
@@ -137,8 +151,8 @@ class RobotReader {
   void read_subsystems(const MapReader& map, const std::vector<Variant>& variants, RobotTemplate& t) {
     const Node subsystems = subsystem_nodes(map);
     check_switched_off(subsystems, subsystem_names_, map.what(), problems_);
-    std::map<std::vector<std::size_t>, std::size_t> lists;  // by the variants of a robot
-    std::map<int, std::vector<std::size_t>> changes;        // variants that begin or end with a robot
+    std::map<std::vector<std::size_t>, std::size_t> numbers;  // of lists, by the variants of a robot
+    std::map<int, std::vector<std::size_t>> changes;          // variants that begin or end with a robot
     for (std::size_t v = 0; v < variants.size(); ++v) {
       changes[variants[v].first].push_back(v);
       changes[variants[v].last + 1].push_back(v);
@@ -152,9 +166,9 @@ class RobotReader {
           if (!present.insert(v).second) present.erase(v);
       if (i == 0 || change != changes.end()) {
         const std::vector<std::size_t> indices(present.begin(), present.end());
-        auto known = lists.find(indices);
-        if (known == lists.end())
-          known = lists
+        auto known = numbers.find(indices);
+        if (known == numbers.end())
+          known = numbers
                       .emplace(indices,
                                t.subsystems.add_list(subsystems_of(merged(subsystems, variants, indices), map.what())))
                       .first;

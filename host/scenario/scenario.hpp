@@ -10,6 +10,7 @@
 
 #include "core/algorithm_setup.hpp"
 #include "core/registry.hpp"
+#include "core/robot_tree.hpp"
 #include "host/scenario/node.hpp"
 #include "muro/shape.hpp"
 #include "muro/toolkit/pair_surface.hpp"
@@ -119,6 +120,18 @@ struct JointDynamics {
   std::optional<double> armature{};  ///< kg m^2 or kg
 };
 
+/// What the scenario says of a material in place of the model of a robot.
+struct MaterialChange {
+  Name name;
+  RobotTree::Material material;
+};
+
+/// Materials of some robots of a template.
+struct MaterialVariant {
+  int first = 0, last = 0;  ///< robots
+  std::vector<MaterialChange> changes;
+};
+
 struct RobotTemplate {
   std::string name;
   Location location;        ///< of its model, or of the whole template
@@ -135,7 +148,9 @@ struct RobotTemplate {
   Vec3 angular_velocity = Vec3::Zero();         ///< rad/s
   std::vector<std::pair<Name, double>> joints;  ///< positions at the start
   std::vector<JointDynamics> dynamics;          ///< in the order of the file
-  SubsystemsOfRobots subsystems;                ///< variants are merged already
+  std::vector<MaterialChange> materials;        ///< of all its robots
+  std::vector<MaterialVariant> material_variants;
+  SubsystemsOfRobots subsystems;  ///< variants are merged already
 };
 
 struct Scenario {

@@ -14,21 +14,6 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The path that the value of `key` names, which starts at the folder of the scenario.
-std::string file_of(MapReader& map, const std::string& key, Problems& problems) {
-  const Node& value = *map.find(key);
-  std::string path = resolve_path(value.location, map.text(key, ""));
-  if (value.kind != Node::Kind::scalar) return path;  // told already
-  std::error_code code;
-  const char* const problem = value.scalar.empty()               ? "has no name"
-                              : fs::is_directory(path, code)     ? "is a folder"
-                              : !fs::is_regular_file(path, code) ? "does not exist"
-                                                                 : nullptr;
-  if (problem)
-    problems.add(value.location, key + " file " + (value.scalar.empty() ? "" : path + " ") + problem +
-                                     "; correct its path, which starts at the folder of this file");
-  return path;
-}
-
 Shape read_heightmap(MapReader& map, std::string& file, Problems& problems) {
   Shape shape{.kind = ShapeKind::heightmap, .size = Vec3::Ones()};
   file = file_of(map, "heightmap", problems);
@@ -71,6 +56,27 @@ std::string resolve_path(const Location& at, const std::string& name) {
   return (fs::path(at.file).parent_path() / file).lexically_normal().string();
 }
 
+std::string file_of(MapReader& map, const std::string& key, Problems& problems) {
+  const Node& value = *map.find(key);
+  std::string path = resolve_path(value.location, map.text(key, ""));
+  if (value.kind != Node::Kind::scalar) return path;  // told already
+  std::error_code code;
+  const char* const problem = value.scalar.empty()               ? "has no name"
+                              : fs::is_directory(path, code)     ? "is a folder"
+                              : !fs::is_regular_file(path, code) ? "does not exist"
+                                                                 : nullptr;
+  if (problem)
+    problems.add(value.location, key + " file " + (value.scalar.empty() ? "" : path + " ") + problem +
+                                     "; correct its path, which starts at the folder of this file");
+  return path;
+}
+
+std::optional<Eigen::Vector4d> read_color(MapReader& map) {
+  const auto c = map.numbers("color", {3, 4}, 0, 1);
+  if (!c) return std::nullopt;
+  return Eigen::Vector4d((*c)[0], (*c)[1], (*c)[2], c->size() == 4 ? (*c)[3] : 1.0);
+}
+
 std::optional<Shape> read_shape(MapReader& map, std::string& mesh, std::string& texture, Problems& problems) {
   const Node* n = map.find("shape");
   if (!n) {
@@ -105,8 +111,8 @@ std::optional<Shape> read_shape(MapReader& map, std::string& mesh, std::string& 
     shape.color = {1, 1, 1, 1};
     shape.material_source = MaterialSource::model;
   }
-  if (const auto c = map.numbers("color", {3, 4}, 0, 1)) {
-    shape.color = {(*c)[0], (*c)[1], (*c)[2], c->size() == 4 ? (*c)[3] : 1.0};
+  if (const auto color = read_color(map)) {
+    shape.color = *color;
     shape.material_source = MaterialSource::model;
   }
   return shape;

@@ -12,8 +12,8 @@
 namespace muro::host {
 
 const std::vector<std::string> template_keys = {
-    "model", "shape", "mass",     "friction",         "restitution", "color",    "texture", "count",
-    "place", "at",    "velocity", "angular_velocity", "joints",      "dynamics", "variants"};
+    "model", "shape", "mass",     "friction",         "restitution", "color",    "texture",   "count",
+    "place", "at",    "velocity", "angular_velocity", "joints",      "dynamics", "materials", "variants"};
 
 namespace {
 
@@ -38,9 +38,10 @@ void check_changes(const Node& changes, const std::string& what, const std::vect
   for (std::size_t i = 0; i < changes.map.size(); ++i) {
     const auto& [key, change] = changes.map[i];
     const Location& at = changes.key_locations[i];
+    if (key == "materials") continue;
     if (is_among(template_keys, key))
       problems.add(at, fmt::format("{} changes `{}`, which belongs to all robots of the template; variants change "
-                                   "subsystems",
+                                   "subsystems and `materials`",
                                    what, key));
     else if (change.kind == Node::Kind::map && !is_subsystem(change) && !is_among(own, key))
       problems.add(at, fmt::format("{} changes `{}`, but the template has no subsystem of this name{}", what, key,
@@ -83,6 +84,7 @@ Node merged(const Node& subsystems, const std::vector<Variant>& variants, const 
   Node out = subsystems;
   for (const std::size_t v : indices)
     for (const auto& [key, change] : variants[v].changes->map) {
+      if (key == "materials") continue;
       Node& subsystem = out.child(key, change.location);
       merge(subsystem, change);
       subsystem.location = change.location;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Robots of a template whose subsystems differ:
+// Robots of a template whose subsystems or materials differ:
 //
-//     variants: {"0-4": {motion: {use: motion.point}}, "7": {laser: off}}
+//     variants: {"0-4": {motion: {use: motion.point}}, "7": {laser: off, materials: {team: {color: [1, 0, 0]}}}}
 #pragma once
 
 #include <string>

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "model_constants.hpp"
+#include "muro/ext/visual_materials.hpp"
 #include "muro/vocabulary.hpp"
 
 namespace muro::builder_calls {
@@ -26,6 +27,7 @@ enum class Call : std::uint8_t {
   inertial,
   collision_shapes,
   visual_shapes,
+  visual_materials,
   initial_joint_position,
   joint_drive,
   joint_drive_stiffness,
@@ -42,11 +44,13 @@ enum class Call : std::uint8_t {
   world_report,
 };
 
-/// The constants that a record can hold, by their call; each is one value but the shapes, which are arrays.
-inline constexpr std::array<std::pair<Call, const KeyInfo*>, 11> constants{
+/// The constants that a record can hold, by their call; each is one value but the shapes and their
+/// materials, which are arrays.
+inline constexpr std::array<std::pair<Call, const KeyInfo*>, 12> constants{
     {{Call::inertial, &keys::inertial},
      {Call::collision_shapes, &keys::collision_shapes},
      {Call::visual_shapes, &keys::visual_shapes},
+     {Call::visual_materials, &keys::visual_materials},
      {Call::initial_joint_position, &keys::initial_joint_position},
      {Call::joint_drive, &keys::joint_drive},
      {Call::joint_drive_stiffness, &keys::joint_drive_stiffness},

@@ -82,6 +82,8 @@ void RobotRecorder::set_raw(const KeyInfo& key, const void* data, std::uint32_t 
       case Call::collision_shapes:
       case Call::visual_shapes:
         return out_.list(std::span(static_cast<const Shape*>(data), count));
+      case Call::visual_materials:
+        return out_.list(std::span(static_cast<const TextId*>(data), count));
       case Call::initial_joint_position:
       case Call::joint_drive_stiffness:
       case Call::joint_drive_damping:

@@ -88,6 +88,11 @@ class RobotReplay {
         return builder_.set_array<Shape>(keys::collision_shapes, shapes_in(calls, texts_));
       case Call::visual_shapes:
         return builder_.set_array<Shape>(keys::visual_shapes, shapes_in(calls, texts_));
+      case Call::visual_materials: {
+        std::vector<TextId> names = calls.list<TextId>();
+        for (TextId& name : names) name = texts_[name];
+        return builder_.set_array<TextId>(keys::visual_materials, names);
+      }
       case Call::initial_joint_position:
         return builder_.set(keys::initial_joint_position, calls.value<double>());
       case Call::joint_drive:

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "muro/ext/visual_materials.hpp"
 #include "muro/toolkit/pair_surface.hpp"
 #include "muro/vocabulary.hpp"
 #include "plugins/common/builder_calls/model_constants.hpp"
@@ -166,7 +167,10 @@ class RobotMaker {
     builder_.set(model_constants::mjcf_body, std::uint32_t(body));
     if (m_.body_mass[body] > 0) builder_.set(keys::inertial, inertia_of(body));
     if (!solid.collisions.empty()) builder_.set_array<Shape>(keys::collision_shapes, solid.collisions);
-    if (!solid.visuals.empty()) builder_.set_array<Shape>(keys::visual_shapes, solid.visuals);
+    if (solid.visuals.empty()) return;
+    builder_.set_array<Shape>(keys::visual_shapes, solid.visuals);
+    if (std::any_of(solid.materials.begin(), solid.materials.end(), [](TextId m) { return m != no_text; }))
+      builder_.set_array<TextId>(keys::visual_materials, solid.materials);
   }
 
   Inertia inertia_of(int body) const {

@@ -94,12 +94,14 @@ void Shapes::add(int number, const Pose& body, const Intern& intern, Solid& soli
   shape->origin = body * geom * shape->origin;
   shape->surface = surface_of(number);
   const float* color = m_.geom_rgba + 4 * number;
-  if (const int material = m_.geom_matid[number]; material >= 0 && std::equal(color, color + 4, plain_grey))
-    color = m_.mat_rgba + 4 * material;
+  const int material = m_.geom_matid[number];
+  if (material >= 0 && std::equal(color, color + 4, plain_grey)) color = m_.mat_rgba + 4 * material;
   for (int k = 0; k < 4; ++k) shape->color[k] = std::clamp(double(color[k]), 0.0, 1.0);
   shape->material_source = MaterialSource::model;
   if (is_to_touch(number)) solid.collisions.push_back(*shape);
-  if (m_.geom_group[number] < first_hidden_group && shape->color[3] > 0) solid.visuals.push_back(*shape);
+  if (m_.geom_group[number] >= first_hidden_group || shape->color[3] <= 0) return;
+  solid.visuals.push_back(*shape);
+  solid.materials.push_back(material < 0 ? no_text : intern(name_of(m_, m_.name_matadr, material)));
 }
 
 bool Shapes::is_to_touch(int geom) const { return m_.geom_contype[geom] != 0 || m_.geom_conaffinity[geom] != 0; }

@@ -14,6 +14,7 @@ using Intern = std::function<TextId(std::string_view)>;
 /// What geoms become.
 struct Solid {
   std::vector<Shape> collisions, visuals;
+  std::vector<TextId> materials;  ///< names, of the visuals
 };
 
 /// Geoms of a compiled model as shapes. Those that collide with nothing (contype and conaffinity 0) are only seen;

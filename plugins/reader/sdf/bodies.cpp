@@ -79,6 +79,7 @@ class LinkReader {
       const auto shape = placed(v.Geom(), v.SemanticPose(), v.Element());
       if (!shape) continue;
       out.visuals.push_back(*shape);
+      out.materials.push_back(intern_(v.Name()));
       color(out.visuals.back(), v.Element());
     }
     if (movable) out.inertial = inertial(out.collisions.empty() ? out.visuals : out.collisions);

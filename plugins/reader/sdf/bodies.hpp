@@ -17,6 +17,7 @@ using Intern = std::function<TextId(std::string_view)>;
 struct LinkBody {
   Inertia inertial;
   std::vector<Shape> collisions, visuals;
+  std::vector<TextId> materials;  ///< names, of the visuals
 };
 
 /// `name` stands for the link in messages. Without `movable` inertia is of no interest, and not checked.

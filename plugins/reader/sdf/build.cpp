@@ -3,6 +3,7 @@
 
 #include "bodies.hpp"
 #include "joints.hpp"
+#include "muro/ext/visual_materials.hpp"
 #include "muro/vocabulary.hpp"
 #include "plugins/common/model_file/build_tree.hpp"
 
@@ -62,7 +63,9 @@ class TreeBuilder {
     mass_ += solid.inertial.mass;
     if (solid.inertial.mass > 0) builder_.set(keys::inertial, solid.inertial);
     if (!solid.collisions.empty()) builder_.set_array<Shape>(keys::collision_shapes, solid.collisions);
-    if (!solid.visuals.empty()) builder_.set_array<Shape>(keys::visual_shapes, solid.visuals);
+    if (solid.visuals.empty()) return;
+    builder_.set_array<Shape>(keys::visual_shapes, solid.visuals);
+    builder_.set_array<TextId>(keys::visual_materials, solid.materials);
   }
 
   Assembly& a_;

@@ -11,7 +11,7 @@
 namespace muro::sdf {
 namespace {
 
-const std::string source = MURO_TEST_SOURCE_DIR;
+const std::string source = MURO_TEST_SOURCE_DIR, models = source + "/examples/models";
 
 /// One random damage: a bit, a byte, a cut part, a doubled part, a lost or doubled tag, another value, a cut end.
 void damage(std::string& text, std::mt19937& random) {
@@ -82,7 +82,7 @@ struct Outcomes {
 };
 
 Outcomes read_damaged_rovers(unsigned seed, int variants) {
-  const std::string rover = model_file::load_file(source + "/examples/models/rover.sdf", ".sdf");
+  const std::string rover = model_file::load_file(models + "/rover.sdf", ".sdf");
   std::mt19937 random(seed);
   Outcomes outcomes;
   testing::internal::CaptureStderr();
@@ -90,7 +90,7 @@ Outcomes read_damaged_rovers(unsigned seed, int variants) {
     std::string text = rover;
     for (std::size_t damages = 1 + random() % 2; damages > 0; --damages) damage(text, random);
     RobotTree tree;
-    read_text(text, "/nowhere", tree);
+    read_text(text, models, tree);
     if (!tree.usable()) {
       ++outcomes.refused;
       continue;
@@ -163,7 +163,7 @@ TEST(SdfRobustness, DeeplyNestedElementsAreAnErrorNotAnOverflow) {
 }
 
 TEST(SdfRobustness, ThreadsThatReadAtOnceReadTheSame) {
-  const std::string rover = model_file::load_file(source + "/examples/models/rover.sdf", ".sdf");
+  const std::string rover = model_file::load_file(models + "/rover.sdf", ".sdf");
   const std::string broken =
       model(link("a", "<pose relative_to='f'/>") + "<frame name='f'><pose relative_to='a'/></frame>");
   std::vector<Robot> rovers(8), others(8);
@@ -171,7 +171,7 @@ TEST(SdfRobustness, ThreadsThatReadAtOnceReadTheSame) {
   testing::internal::CaptureStderr();
   for (std::size_t i = 0; i < rovers.size(); ++i)
     threads.emplace_back([&, i] {
-      rovers[i] = robot_of(rover);
+      rovers[i] = robot_of(rover, models);
       others[i] = robot_of(broken);
     });
   for (std::thread& t : threads) t.join();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "muro/ext/visual_materials.hpp"
 #include "muro/vocabulary.hpp"
 #include "plugins/common/model_file/inertia.hpp"
 
@@ -16,6 +17,7 @@ std::string owner_of(const ::urdf::Link& link) { return "link " + quote(link.nam
 
 void Bodies::fill(const ::urdf::Link& link, const LinkInfo& info) {
   std::vector<Shape> collisions, visuals;
+  std::vector<TextId> materials;
   for (std::size_t i = 0; i < link.collision_array.size(); ++i) {
     const ::urdf::Collision& c = *link.collision_array[i];
     if (c.geometry) add_shape(collisions, Purpose::collision, *c.geometry, c.origin, info.collisions.at(i), info);
@@ -25,7 +27,10 @@ void Bodies::fill(const ::urdf::Link& link, const LinkInfo& info) {
     if (!v->geometry) continue;
     const std::size_t before = visuals.size();
     add_shape(visuals, Purpose::visual, *v->geometry, v->origin, info.visuals.at(i), info);
-    if (!v->material || visuals.size() == before) continue;
+    if (visuals.size() == before) continue;
+    const std::string& material = info.visuals.at(i).material;
+    materials.push_back(material.empty() ? no_text : builder_.intern(material));
+    if (!v->material) continue;
     const ::urdf::Color& c = v->material->color;
     visuals.back().color = Eigen::Vector4f(c.r, c.g, c.b, c.a).cast<double>();
     visuals.back().material_source = MaterialSource::model;
@@ -38,6 +43,8 @@ void Bodies::fill(const ::urdf::Link& link, const LinkInfo& info) {
   }
   if (!collisions.empty()) builder_.set_array<Shape>(keys::collision_shapes, collisions);
   if (!visuals.empty()) builder_.set_array<Shape>(keys::visual_shapes, visuals);
+  if (std::any_of(materials.begin(), materials.end(), [](TextId m) { return m != no_text; }))
+    builder_.set_array<TextId>(keys::visual_materials, materials);
 }
 
 void Bodies::add_shape(std::vector<Shape>& shapes, Purpose purpose, const ::urdf::Geometry& geometry,

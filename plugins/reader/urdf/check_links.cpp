@@ -134,7 +134,8 @@ void take_shapes(Element& link, LinkInfo& info) {
       Element& shape = *e->FirstChildElement("geometry")->FirstChildElement();
       const bool is_capsule = std::string_view(shape.Name()) == "capsule";
       if (is_capsule) shape.SetName("cylinder");  // urdfdom 3 knows no other
-      shapes.push_back({origin_rotation(*e), location_of(shape), is_capsule});
+      const char* material = e->Attribute("material");
+      shapes.push_back({origin_rotation(*e), location_of(shape), is_capsule, material ? material : ""});
     }
   };
   take("collision", info.collisions);

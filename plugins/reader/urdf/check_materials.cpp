@@ -109,8 +109,10 @@ void check_materials(Element& robot, Problems& problems) {
     const std::string owner = "link " + quote(link_name ? link_name : "");
     for (Element* visual : children(*link, "visual")) {
       Element* material = only_child(*visual, "material", owner, problems);
+      visual->DeleteAttribute("material");
       if (!material) continue;
       const char* name = material->Attribute("name");
+      if (name) visual->SetAttribute("material", name);  // for check_links: the material itself loses it
       if (const Looks looks = looks_of(*material, owner, problems); !looks.empty()) {
         if (name && *name) materials.try_emplace(name, looks);
         looks.write(*material);

@@ -49,8 +49,9 @@ struct LinkInfo {
   Quat inertial_rotation = Quat::Identity();
   struct ShapeInfo {
     Quat rotation;
-    Location location;  ///< of <box>, <mesh>, ...
-    bool is_capsule;    ///< urdfdom has it as a cylinder
+    Location location;     ///< of <box>, <mesh>, ...
+    bool is_capsule;       ///< urdfdom has it as a cylinder
+    std::string material;  ///< its name; empty: none
   };
   std::vector<ShapeInfo> collisions, visuals;  ///< in the order of the file
 };

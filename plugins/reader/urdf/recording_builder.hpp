@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "document.hpp"
+#include "muro/ext/visual_materials.hpp"
 #include "muro/vocabulary.hpp"
 #include "read.hpp"
 
@@ -29,6 +30,7 @@ class RecordingBuilder final : public RobotBuilder {
   std::map<std::string, JointLimits> limits;
   std::map<std::string, Inertia> inertials;
   std::map<std::string, std::vector<Shape>> collisions, visuals;
+  std::map<std::string, std::vector<std::string>> materials;  ///< of visuals, by body
   std::vector<std::string> texts{""};
 
   void base(std::string_view name) noexcept override { part("base", name, ""); }
@@ -69,6 +71,9 @@ class RecordingBuilder final : public RobotBuilder {
   void set_raw(const KeyInfo& key, const void* data, std::uint32_t count) noexcept override {
     if (key.name == keys::inertial.name) {
       inertials[last_] = *static_cast<const Inertia*>(data);
+    } else if (key.name == keys::visual_materials.name) {
+      for (std::uint32_t i = 0; i < count; ++i)
+        materials[last_].push_back(texts[std::size_t(static_cast<const TextId*>(data)[i])]);
     } else {
       const auto* first = static_cast<const Shape*>(data);
       (key.name == keys::collision_shapes.name ? collisions : visuals)[last_].assign(first, first + count);

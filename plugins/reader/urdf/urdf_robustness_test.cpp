@@ -127,8 +127,8 @@ void damage(std::string& text, std::mt19937& random) {
 }
 
 TEST(UrdfRobustness, DamagedRoversAreReportedOrBuiltSoundly) {
-  const std::string rover =
-      model_file::load_file(std::string(MURO_TEST_SOURCE_DIR) + "/examples/models/rover.urdf", ".urdf");
+  const std::string folder = MURO_TEST_SOURCE_DIR "/examples/models";
+  const std::string rover = model_file::load_file(folder + "/rover.urdf", ".urdf");
   std::mt19937 random(20240521);
   int refused = 0, warned = 0, clean = 0;
   testing::internal::CaptureStderr();
@@ -136,7 +136,7 @@ TEST(UrdfRobustness, DamagedRoversAreReportedOrBuiltSoundly) {
     std::string text = rover;
     for (std::size_t damages = 1 + random() % 4; damages > 0; --damages) damage(text, random);
     RobotTree tree;
-    read_text(text, "/nowhere", tree);
+    read_text(text, folder, tree);
     if (!tree.usable()) {
       ++refused;
       continue;
