@@ -45,6 +45,7 @@ class Articulated final : public Algorithm {
     const Parameters& p = c.parameters();
     gravity_ = c.constant(world_object, keys::gravity).value_or(Vec3(0, 0, -9.81));
     omega_ = 2 * M_PI * p.real("frequency");
+    correcting_speed_ = p.real("correcting_speed");
     bodies_.connect(c);
     for (const Item& item : c.items()) connect_robot(c, item);
     report(c);
@@ -111,6 +112,7 @@ class Articulated final : public Algorithm {
 
  private:
   static constexpr std::uint32_t lane_width = 8;
+  static constexpr double hard_way = 1e-3;  ///< m: what comes farther in a step is stopped at once
 
   /// An item: a robot that forces move, or one that nothing can move but its targets.
   struct Served {
@@ -163,6 +165,8 @@ class Articulated final : public Algorithm {
                 .dt = dt,
                 .omega = omega_,
                 .impact_speed = std::max(0.02, gravity_.norm() / omega_),
+                .hard_speed = hard_way / dt,
+                .correcting_speed = correcting_speed_,
                 .radius = model.radius};
     for (std::uint32_t i = begin; i < end; ++i) {
       Robot& robot = *served_[i].robot;
@@ -181,7 +185,7 @@ class Articulated final : public Algorithm {
 
   Accelerations accelerations_{mesh::hull_vertices};
   Vec3 gravity_ = Vec3::Zero();
-  double omega_ = 0;
+  double omega_ = 0, correcting_speed_ = 0;
   const Kernels* kernels_ = &kernels_for(lane::best_isa());
   TouchedBodies bodies_;
   std::vector<Model> models_;

@@ -44,8 +44,10 @@ struct Batch {
   Structure structure;
   double gravity[3] = {};    ///< m/s^2
   double dt = 0;             ///< s
-  double omega = 0;          ///< rad/s: of a robot that bobs on four contacts
-  double impact_speed = 0;   ///< m/s
+  double omega = 0;          ///< rad/s: of a robot that bobs on one contact
+  double impact_speed = 0;   ///< m/s: what comes faster rebounds
+  double hard_speed = 0;     ///< m/s: what comes faster is stopped at once
+  double correcting_speed = 0;  ///< m/s: overlap is parted no faster
   double radius = 0;         ///< m: of gyration, of the robot
   bool equal_masses = true;  ///< all robots have the masses of the first
   void* work = nullptr;      ///< of work_bytes(), aligned to 64 bytes

@@ -26,6 +26,9 @@ struct ContactPoint {
   S restitution;
   S load;              ///< N: the normal force that bounds friction
   S is_on;             ///< 1; 0: it does not push in this step
+  S slides_on;         ///< 1; 0: what slides may come to rest in this step
+  S breaks_away;       ///< 1: it would have to hold more than it can, and drags with `drag` instead
+  V3<S> drag;          ///< N
 };
 /// Resistance against rolling and spinning; of the same point.
 template <class S>
@@ -40,20 +43,23 @@ struct ContactLaw {
   S stiffness, damping;  ///< N/m, N s/m: along the normal, and of the friction spring and the damper beside it
   S mass;                ///< kg, of the robot
   S impact_speed;        ///< m/s: what comes faster rebounds
+  S hard_speed;          ///< m/s: what comes faster is stopped at once
   S radius;              ///< m: of the springs against rolling and spinning
+  S most_depth;          ///< m: deeper overlap pushes no harder
 };
 
 /// What a contact does in a step, for afterwards.
 template <class S>
 struct ContactStep {
   V3<S> start;       ///< N: force without acceleration
-  S along, across;   ///< kg: K = across 1 + (along - across) n n'
+  S along, across;   ///< kg: K = across (1 - t t') + along n n' where it slides, else across 1 + (along - across) n n'
+  V3<S> slide;       ///< unit, the direction t in which it slides; 0 where it sticks
   V3<S> torque;      ///< N m: against rolling and spinning, without acceleration
   S rolling, spinning;  ///< kg m^2: the same of these
 
   /// N, of the end of the step. `a`: m/s^2, of the point.
   MURO_INLINE V3<S> force(const V3<S>& normal, const V3<S>& a) const {
-    return start - (across * a + ((along - across) * dot(normal, a)) * normal);
+    return start - (across * (a - dot(slide, a) * slide) + ((along - across) * dot(normal, a)) * normal);
   }
   /// N m, of the end of the step. `alpha`: rad/s^2, of the body.
   MURO_INLINE V3<S> moment(const V3<S>& normal, const V3<S>& alpha) const {
@@ -66,12 +72,16 @@ template <class S>
 struct BoundedSpring {
   V3<S> force;  ///< at the begin of the step, with the spring of its end
   S per_rate;   ///< change of the force by that of the velocity within the step
+  V3<S> slide;  ///< unit: the direction of the velocity along which the force does not change; 0 for none
 
-  MURO_INLINE BoundedSpring(const V3<S>& displacement, const V3<S>& rate, S stiffness, S damping, S limit, double dt) {
+  /// `slides_on` is 1 where the velocity keeps its direction, and the force its size therefore.
+  MURO_INLINE BoundedSpring(const V3<S>& displacement, const V3<S>& rate, S stiffness, S damping, S limit, S slides_on,
+                            double dt) {
     const S h(dt);
     const V3<S> hold = stiffness * (displacement + h * rate) + damping * rate;
     const auto holds = dot(hold, hold) <= limit * limit;
-    const S secant = limit / sqrt(max(dot(rate, rate), S(1e-12)));
+    const S by_speed = S(1) / sqrt(max(dot(rate, rate), S(1e-12))), secant = limit * by_speed;
+    slide = rate * select(holds, S(0), slides_on * by_speed);
     per_rate = select(holds, damping + h * stiffness, secant);
     force = -select(holds, hold, secant * rate);
   }
@@ -83,6 +93,17 @@ MURO_INLINE void add_about(Sym<S>& to, S x, S y, const V3<S>& n) {
   const V3<S> b = n * (y - x);
   to.xx += x + b.x * n.x, to.yy += x + b.y * n.y, to.zz += x + b.z * n.z;
   to.yz += b.y * n.z, to.zx += b.z * n.x, to.xy += b.x * n.y;
+}
+
+/// Takes J' x t t' J away.
+template <class S>
+MURO_INLINE void take_along(const V3<S>& r, const V3<S>& t, S x, Inertia<S>& to) {
+  const V3<S> m = cross(r, t), a = m * x, c = t * x;
+  to.A.xx -= a.x * m.x, to.A.yy -= a.y * m.y, to.A.zz -= a.z * m.z;
+  to.A.yz -= a.y * m.z, to.A.zx -= a.z * m.x, to.A.xy -= a.x * m.y;
+  to.B.x -= t * a.x, to.B.y -= t * a.y, to.B.z -= t * a.z;
+  to.C.xx -= c.x * t.x, to.C.yy -= c.y * t.y, to.C.zz -= c.z * t.z;
+  to.C.yz -= c.y * t.z, to.C.zx -= c.z * t.x, to.C.xy -= c.x * t.y;
 }
 
 /// Adds J' K J and J' start.
@@ -101,14 +122,21 @@ MURO_INLINE void add_terms(const ContactPoint<S>& p, const ContactStep<S>& c, In
   to.B.y += V3<S>{b.y * p.normal.x + x * r.z, b.y * p.normal.y, b.y * p.normal.z - x * r.x};
   to.B.z += V3<S>{b.z * p.normal.x - x * r.y, b.z * p.normal.y + x * r.x, b.z * p.normal.z};
   add_about(to.C, c.across, c.along, p.normal);
+  if (lane::any(dot(c.slide, c.slide) > S(0))) take_along(r, c.slide, x, to);
   to.f -= c.start;
   to.n -= cross(r, c.start);
+}
+
+/// N: of spring and damper along the normal. `speed`: m/s, away from what is touched.
+template <class S>
+MURO_INLINE S soft_push(const ContactPoint<S>& p, const ContactLaw<S>& law, S speed, double dt) {
+  return law.stiffness * (min(p.depth, law.most_depth) - S(dt) * speed) - law.damping * speed;
 }
 
 /// Whether a point pushes: it is in, and not on its way out faster than its spring and damper, or after a rebound.
 template <class S>
 MURO_INLINE MaskOf<S> pushes(const ContactPoint<S>& p, const ContactLaw<S>& law, S speed, double dt) {
-  const S push = law.stiffness * (p.depth - S(dt) * speed) - law.damping * speed;
+  const S push = soft_push(p, law, speed, dt);
   const auto rebounds = (p.restitution > S(0)) & (speed > law.impact_speed);
   return (p.depth > S(0)) & (push > S(0)) & !rebounds;
 }
@@ -116,11 +144,13 @@ MURO_INLINE MaskOf<S> pushes(const ContactPoint<S>& p, const ContactLaw<S>& law,
 /// N: what the normal force may be, for friction of a point whose last one is not known.
 template <class S>
 MURO_INLINE S expected_load(const ContactPoint<S>& p, const ContactLaw<S>& law, S speed, double dt) {
-  const S push = law.stiffness * (p.depth - S(dt) * speed) - law.damping * speed;
-  return max(min(push, law.mass * S(0.25 / dt) * max(-speed, S(0)) + law.stiffness * p.depth), S(0));
+  const S push = soft_push(p, law, speed, dt);
+  return max(min(push, law.mass * S(1 / dt) * max(-speed, S(0)) + law.stiffness * p.depth), S(0));
 }
 
-/// `w`, `v`: velocity of the body; `fall`: gravity in its frame, since accelerations count from it; `dt`: s.
+/// `w`, `v`: velocity of the body; `fall`: gravity in its frame, since accelerations count from it; `dt`: s. The way
+/// from the body's origin to the point counts as one that does not turn, as that of what rolls: its material points
+/// have an acceleration towards the centre, its point of contact has none.
 template <class S>
 MURO_INLINE ContactStep<S> touch(const ContactPoint<S>& p, const ContactLaw<S>& law, const V3<S>& w, const V3<S>& v,
                                  const V3<S>& fall, double dt) {
@@ -128,20 +158,23 @@ MURO_INLINE ContactStep<S> touch(const ContactPoint<S>& p, const ContactLaw<S>& 
   const V3<S> own = v + cross(w, p.arm), velocity = own - p.velocity;
   const S speed = dot(velocity, p.normal);
   // along: spring and damper; an impact reaches the velocity of its rebound, whatever it takes
-  const auto is_impact = (p.restitution > S(0)) & (speed < -law.impact_speed);
+  const auto is_impact = ((p.restitution > S(0)) & (speed < -law.impact_speed)) | (speed < -law.hard_speed);
   constexpr double hardness = 1e4;
   const S impact_damping = S(hardness / dt) * law.mass;
-  S push = law.stiffness * (p.depth - h * speed) - law.damping * speed;
+  S push = soft_push(p, law, speed, dt);
   push = select(is_impact, -impact_damping * (S(1) + p.restitution) * speed, push);
   const S along = p.is_on * select(is_impact, h * impact_damping, h * (law.damping + h * law.stiffness));
   const V3<S> slip = velocity - speed * p.normal;
-  const BoundedSpring<S> hold(p.displacement, slip, law.stiffness, law.damping, p.friction * p.load, dt);
+  BoundedSpring<S> hold(p.displacement, slip, law.stiffness, law.damping, p.friction * p.load, p.slides_on, dt);
+  const auto breaks_away = p.breaks_away > S(0);
+  hold.force = select(breaks_away, p.drag, hold.force);
+  hold.per_rate = select(breaks_away, S(0), hold.per_rate);
   ContactStep<S> c;
   c.along = along, c.across = p.is_on * h * hold.per_rate;
-  // with the acceleration of the point beyond what accelerations of bodies say: w x velocity, and gravity
-  const V3<S> more = cross(w, own) + fall;
+  const V3<S> more = cross(w, v) + fall;
   const V3<S> force = p.is_on * (push * p.normal + hold.force);
-  c.start = force - (c.across * more + ((along - c.across) * dot(p.normal, more)) * p.normal);
+  c.slide = hold.slide, c.start = force;
+  c.start = c.force(p.normal, more);
   c.torque = {S(0), S(0), S(0)}, c.rolling = c.spinning = S(0);
   return c;
 }
@@ -153,8 +186,8 @@ MURO_INLINE void resist(const ContactPoint<S>& p, const TurningPoint<S>& t, cons
   const S h(dt), square = law.radius * law.radius, stiffness = law.stiffness * square, damping = law.damping * square;
   const V3<S> rate = w - p.spin, about = dot(rate, p.normal) * p.normal, across = rate - about;
   const V3<S> wound = dot(t.displacement, p.normal) * p.normal, rolled = t.displacement - wound;
-  const BoundedSpring<S> roll(rolled, across, stiffness, damping, t.rolling * p.load, dt),
-      spin(wound, about, stiffness, damping, t.spinning * p.load, dt);
+  const BoundedSpring<S> roll(rolled, across, stiffness, damping, t.rolling * p.load, S(0), dt),
+      spin(wound, about, stiffness, damping, t.spinning * p.load, S(0), dt);
   c.torque = p.is_on * (roll.force + spin.force);
   c.rolling = p.is_on * h * roll.per_rate, c.spinning = p.is_on * h * spin.per_rate;
   add_about(to.A, c.rolling, c.spinning, p.normal);

@@ -44,19 +44,36 @@ class Contacts {
     }
   }
 
-  /// Whether some contact pulls, which is let go then, or a new one bears another load than was expected.
+  /// Whether some contact pulls, which is let go then, a sliding one would turn back, a sticking one has to hold more than
+  /// it can, or a new one bears another load than was expected.
   bool look_again() {
     unsigned changed = 0;
     for (int i = 0; i < work_.contact_count; ++i) {
       ContactSlot<S>& slot = work_.contacts[i];
-      const S load = dot(force_of(slot), slot.point.normal);
-      const auto pulls = (slot.point.is_on > S(0)) & (load < S(0));
-      const auto bears_other =
-          (slot.point.is_on > S(0)) & !pulls & slot.is_new & (slot.point.friction > S(0)) &
-          (lane::abs(load - slot.point.load) > S(0.1) * max(load, slot.point.load));
-      slot.point.is_on = select(pulls, S(0), slot.point.is_on);
-      slot.point.load = select(bears_other, load, slot.point.load);
-      changed |= lane::bits(pulls | bears_other);
+      const BodyStep<S>& body = work_.bodies[slot.body];
+      ContactPoint<S>& p = slot.point;
+      const V3<S> force = force_of(slot);
+      const S load = dot(force, p.normal);
+      const V3<S> across = force - load * p.normal;
+      const auto is_on = p.is_on > S(0), pulls = is_on & (load < S(0));
+      const auto bears_other = is_on & !pulls & (p.friction > S(0)) & (p.breaks_away == S(0)) &
+                               (lane::abs(load - p.load) > select(slot.is_new, S(0.1), S(0.25)) * max(load, p.load));
+      const V3<S> own = body.v + cross(body.w, p.arm) - p.velocity;
+      const auto turns_back = dot(slot.step.slide, own + S(batch_.dt) * acceleration_of(slot)) < S(0);
+      // more than friction can hold
+      const S most = p.friction * max(load, S(0)), square = dot(across, across), margin(1.1 * 1.1);
+      const auto breaks_away = is_on & !pulls & (p.breaks_away == S(0)) &
+                               (square > margin * max(most * most, p.friction * p.friction * p.load * p.load));
+      // or another part of a load that has changed by that
+      const S drag = sqrt(dot(p.drag, p.drag));
+      const auto drags_other = is_on & (p.breaks_away > S(0)) & (lane::abs(drag - most) > S(0.1) * max(drag, most));
+      p.drag = select(breaks_away, across * (most / sqrt(max(square, S(1e-300)))), p.drag);
+      p.drag = select(drags_other, p.drag * (most / max(drag, S(1e-300))), p.drag);
+      p.breaks_away = select(breaks_away, S(1), p.breaks_away);
+      p.is_on = select(pulls, S(0), p.is_on);
+      p.slides_on = select(turns_back, S(0), p.slides_on);
+      p.load = select(bears_other, load, p.load);
+      changed |= lane::bits(pulls | bears_other | turns_back | breaks_away | drags_other);
     }
     return changed != 0;
   }
@@ -90,8 +107,9 @@ class Contacts {
   void set_law(const RobotState* robots, int count) {
     S mass(0);
     for (int i = 0; i < count_of<S>; ++i) set(mass, i, robots[i < count ? i : 0].mass);
-    const S omega(batch_.omega), part = S(0.25) * mass;
-    law_ = {part * omega * omega, S(2) * part * omega, mass, S(batch_.impact_speed), S(batch_.radius)};
+    const S omega(batch_.omega);
+    law_ = {mass * omega * omega,  S(2) * mass * omega,    mass,
+            S(batch_.impact_speed), S(batch_.hard_speed), S(batch_.radius), S(2 * batch_.correcting_speed / batch_.omega)};
   }
   MURO_INLINE static void set(S& value, int i, double x) {
     if constexpr (count_of<S> == 1)
@@ -192,6 +210,8 @@ class Contacts {
     slot.turning.displacement = transposed_times(body.axes, V3<S>{before[3], before[4], before[5]});
     const S speed = dot(body.v + cross(body.w, p.arm) - p.velocity, p.normal);
     p.is_on = select(pushes(p, law_, speed, batch_.dt), S(1), S(0));
+    p.slides_on = S(1), p.breaks_away = S(0);
+    p.drag = {S(0), S(0), S(0)};
     slot.is_new = before[6] == S(0);
     p.load = select(slot.is_new, expected_load(p, law_, speed, batch_.dt), before[6]);
   }
@@ -204,11 +224,10 @@ class Contacts {
   MURO_INLINE V3<S> force_of(const ContactSlot<S>& slot) const {
     return slot.step.force(slot.point.normal, pure_acceleration(slot));
   }
-  /// m/s^2: that of the point in the world, axes of the body.
+  /// m/s^2: change of the velocity of the point in the world, axes of the body.
   MURO_INLINE V3<S> acceleration_of(const ContactSlot<S>& slot) const {
     const BodyStep<S>& body = work_.bodies[slot.body];
-    const V3<S> own = body.v + cross(body.w, slot.point.arm);
-    return pure_acceleration(slot) + cross(body.w, own) + transposed_times(body.axes, gravity_);
+    return pure_acceleration(slot) + cross(body.w, body.v) + transposed_times(body.axes, gravity_);
   }
 
   /// A displacement whose spring does no more than `limit`.

@@ -22,7 +22,8 @@ inline constexpr Parameter parameters[] = {
     drive_damping,
     interpolate,
     text("base", "free", "whether the base is fixed to the world").one_of(base_modes),
-    real("frequency", "Hz", 50, "stiffness of contacts: that of the robot bobbing on four of them").between(1, 1e4),
+    real("frequency", "Hz", 50, "stiffness of contacts: that of the robot bobbing on one of them").between(1, 1e4),
+    real("correcting_speed", "m/s", 1, "bodies that are put into each other are parted no faster").between(0, 1e9),
     watch::watch,
     watch::watch_speed,
     watch::watch_depth,
@@ -58,7 +59,7 @@ inline constexpr PropertyUse writes[] = {
     {keys::applied_wrench.name, "of every body with collision shapes, where somebody reads it"},
     {keys::contact_wrenches_of_motion.name, "of the base: what each contact did, where somebody reads it"},
     {"contact.world", "that the motion answers for contacts of the robot"},
-    {"twist.lag", "0.5: semi-implicit Euler"},
+    {"twist.lag", "0: pose and twist are those of one instant"},
 };
 inline constexpr Description description{
     .id = "motion.articulated",

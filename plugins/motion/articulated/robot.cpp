@@ -49,7 +49,7 @@ Robot::Robot(Connector& c, const RobotView& view, const Parameters& p, std::uint
   masses_ = masses_of_bodies(rigid_);
   own_world_ = number_of_world(fnv1a(view.name, fnv1a(id)));
   contact_world_ = c.variable(view.base(), keys::contact_world, own_world_);
-  twist_lag_ = c.variable(view.base(), keys::twist_lag, 0.5);
+  twist_lag_ = c.variable(view.base(), keys::twist_lag, 0.0);
   pose_ = c.variable(view.base(), keys::pose, c.constant(view.base(), keys::initial_pose).value_or(Pose{}));
   const Twist initial_twist = c.constant(view.base(), keys::initial_twist).value_or(Twist{});
   twist_ = c.variable(view.base(), keys::twist, rigid_.fixed_base ? Twist{} : initial_twist);
@@ -179,7 +179,7 @@ void Robot::start() {
 
 void Robot::take_over() {
   *contact_world_ = own_world_;
-  *twist_lag_ = 0.5;
+  *twist_lag_ = 0;
   contacts_.take_over();
   for (const JointHandles& joint : joints_) joint.position_target.take_over();
   if (rigid_.fixed_base) *twist_ = Twist{};

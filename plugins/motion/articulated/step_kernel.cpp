@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 // A step of robots of one structure: joints, contacts and bodies at once.
 #include "contacts.hpp"
+#include "flight.hpp"
 #include "joints.hpp"
 #include "mimic_joints.hpp"
-#include "momentum.hpp"
-#include "plugins/common/lanes/rotation.hpp"
 #include "work.hpp"
 
 namespace muro::articulated {
@@ -35,13 +34,23 @@ struct Bases {
     base.w = transposed_times(base.axes, twist.angular);
     base.v = transposed_times(base.axes, twist.linear);
   }
-  /// Semi-implicit Euler.
+  /// In those robots that `which` says.
+  MURO_INLINE void take(const PoseOf<S>& p, const TwistOf<S>& t, MaskOf<S> which) {
+    pose.position = select(which, p.position, pose.position);
+    twist.linear = select(which, t.linear, twist.linear);
+    twist.angular = select(which, t.angular, twist.angular);
+    const Q4<S>& a = p.orientation;
+    Q4<S>& q = pose.orientation;
+    q = {select(which, a.x, q.x), select(which, a.y, q.y), select(which, a.z, q.z), select(which, a.w, q.w)};
+  }
+  /// With the mean of the velocities of both ends.
   MURO_INLINE void move(const BodyStep<S>& base, const V3<S>& gravity, double dt) {
-    const S h(dt);
-    twist.linear += h * (base.axes * (base.a + cross(base.w, base.v)) + gravity);
-    twist.angular = base.axes * (base.w + h * base.alpha);
-    pose.position += h * twist.linear;
-    pose.orientation = turned(rotation_by(twist.angular * h), pose.orientation);
+    const S h(dt), half(0.5 * dt);
+    const V3<S> acceleration = base.axes * (base.a + cross(base.w, base.v)) + gravity, turning = base.axes * base.alpha;
+    pose.position += h * (twist.linear + half * acceleration);
+    pose.orientation = turned(rotation_by(h * (twist.angular + half * turning)), pose.orientation);
+    twist.linear += h * acceleration;
+    twist.angular += h * turning;
   }
 };
 
@@ -54,8 +63,8 @@ MURO_INLINE Masses<S> masses_of(const Batch& batch, const RobotState* robots, in
   return masses;
 }
 
-/// The piece of each joint's law is found by trial: mostly the first is right.
-constexpr int most_trials = 4;
+/// The pieces of the laws of joints and contacts are found by trial: mostly the first is right.
+constexpr int most_trials = 6;
 
 template <class S>
 unsigned step_some(const Batch& batch, const RobotState* robots, int count) {
@@ -71,9 +80,7 @@ unsigned step_some(const Batch& batch, const RobotState* robots, int count) {
   joints.find_laws(masses);
   Contacts<S> contacts(batch, robots, count, work);
   const V3<S> gravity = splat<S>(batch.gravity), zero{S(0), S(0), S(0)};
-  const bool projects = !s.fixed && any(contacts.is_free_of_contacts());
-  Momentum<S> momentum;
-  if (projects) momentum = momentum_of(s, masses, bodies);
+  const auto flies = contacts.is_free_of_contacts();
   const V3<S> fall = s.fixed ? transposed_times(bodies[0].axes, -gravity) : zero;
   for (int trial = 1;; ++trial) {
     contacts.add_terms();
@@ -88,14 +95,18 @@ unsigned step_some(const Batch& batch, const RobotState* robots, int count) {
     if (!others && !loads) break;
   }
   contacts.keep();
-  if (projects)
-    momentum.carry_on(gravity, contacts.external_force(), contacts.external_torque(), base.pose.position, dt);
-  joints.move();
-  if (!s.fixed) base.move(bodies[0], gravity, dt);
-  if (projects) {
-    base.place(bodies[0]);
-    place_all(s, bodies);
-    correct_base(momentum, momentum_of(s, masses, bodies), contacts.is_free_of_contacts(), base.pose, base.twist);
+  if (!s.fixed && any(flies)) {
+    const Bases<S> start = base;
+    Flight<S> flight(s, masses, bodies, gravity, contacts.external_force(), contacts.external_torque());
+    base.move(bodies[0], gravity, dt);
+    joints.move();
+    lane::PoseOf<S> pose = start.pose;
+    lane::TwistOf<S> twist = start.twist;
+    flight.carry(pose, twist, dt);
+    base.take(pose, twist, flies);
+  } else {
+    if (!s.fixed) base.move(bodies[0], gravity, dt);
+    joints.move();
   }
   const unsigned which = first_lanes(count);
   if (!s.fixed) {
