@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Bullet: humanoids as btMultiBody in one world; servos are torques that each step computes anew, which takes a third
-// of the time that btMultiBodyJointMotor does. Bullet knows no rotors: the inertia of each is added to that of its link
-// about its axis. Joints have no limits here; nothing comes near them.
+// Bullet: humanoids as btMultiBody in one world; servos are torques that each step computes anew, which takes less than
+// half the time that btMultiBodyJointMotor does. Bullet knows no rotors: the inertia of each is added to that of its
+// link about its axis. Joints have no limits here; nothing comes near them.
 #include <BulletCollision/CollisionDispatch/btSimulationIslandManager.h>
 #include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
