@@ -164,8 +164,8 @@ HumanoidScene humanoid_scene(std::size_t robots, Exercise exercise) {
   const auto side = std::size_t(std::ceil(std::sqrt(double(robots))));
   for (std::size_t r = 0; r < robots; ++r) {
     const double bend = Squat::bend(exercise, r, 0);
-    scene.starts.push_back(
-        {{apart * double(r % side), apart * double(r / side), squat.height(bend)}, Quat::Identity()});
+    const std::size_t row = r / side, column = r % side;
+    scene.starts.push_back({{apart * double(column), apart * double(row), squat.height(bend)}, Quat::Identity()});
     squat.set(bend, scene.positions.emplace_back(scene.hinges()));
   }
   return scene;
