@@ -41,7 +41,10 @@ inline Vehicle vehicle_for(const std::string& motion) {
   if (motion == "motion.ackermann") return {"car", "drive.ackermann"};
   if (motion == "motion.omni") return {"mecanum", "drive.omni"};
   if (motion == "motion.biped")
-    return {"biped", "", "camera_link", {{"feet", std::vector<std::string>{"left_foot", "right_foot"}}}};
+    return {"biped",
+            "",
+            "camera_link",
+            {{"feet", std::vector<std::string>{"left_foot", "right_foot"}}, {"joints", std::string("velocity")}}};
   return {"rover", "drive.skid_steer"};
 }
 

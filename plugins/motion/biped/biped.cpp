@@ -17,7 +17,7 @@ namespace {
 using namespace muro;
 using namespace muro::biped;
 
-constexpr std::string_view joint_modes[] = {"auto", "velocity", "position"};
+constexpr std::string_view joint_modes[] = {"velocity", "position"};
 constexpr Parameter parameters[] = {
     texts("feet",
           "links of the two feet, as [left_foot, right_foot]; when both touch at the start, the first one stands")
@@ -33,8 +33,7 @@ constexpr Parameter parameters[] = {
         .between(0, 1e-3),
     real("contact_height", "m", 1e-6, "`foot.contact` is 1 while the sole is not higher than this above the plane")
         .between(0, 1),
-    text("joints", "auto", "which target joints follow; auto: of position where something writes it, else of velocity")
-        .one_of(joint_modes),
+    text("joints", "position", "which target the joints follow").one_of(joint_modes),
     real("interpolate", "s", 0,
          "targets of position move evenly to a new value in this time: the period of the controller; 0: at once")
         .between(0, 1e3),
@@ -43,8 +42,8 @@ constexpr Parameter parameters[] = {
 constexpr PropertyUse reads[] = {{"pose.initial", "of the base; it is put on its feet from there"},
                                  {"collision.shapes", "of the feet, for their soles; of the scenery, for the plane"},
                                  {"joint.position.initial", "of every joint"},
-                                 {"joint.position.target", "of joints that follow it"},
-                                 {"joint.velocity.target", "of joints that follow it"},
+                                 {"joint.position.target", "of every joint that follows no other", "joints=position"},
+                                 {"joint.velocity.target", "of every joint that follows no other", "joints=velocity"},
                                  on_contact_reads};
 constexpr PropertyUse writes[] = {{"pose", "of the base"},
                                   {"twist", "of the base"},
@@ -100,7 +99,6 @@ class Biped final : public PerRobotAlgorithm<BipedRobot> {
   void connect_by_name(Connector& c) override {
     for (std::uint32_t i = 0; i < c.items().size(); ++i) {
       BipedRobot& r = robot(i);
-      r.joints.follow_what_is_written(c);
       accelerations_.connect_by_name(c, i, BaseMotion::kinematic);
       const ObjectId base = c.items()[i].robot->base();
       if (c.is_used(base, keys::acceleration, usage::read) || c.is_used(base, keys::acceleration, usage::input))
@@ -139,9 +137,7 @@ class Biped final : public PerRobotAlgorithm<BipedRobot> {
     FeetOfRobot found = find_feet(c, view);
     BipedRobot r;
     r.model = model_index(std::move(found.feet));
-    const std::string_view mode = c.parameters().text("joints");
-    std::vector<DriveMode> modes;
-    if (mode != "auto") modes.assign(view.links.size(), drive_mode_of(mode));
+    const std::vector modes(view.links.size(), drive_mode_of(c.parameters().text("joints")));
     r.joints = KinematicJoints(c, view, modes);
     r.joints.interpolate(c, view.base(), interpolation_);
     r.legs = connect_joints(c, view, found.joints);
@@ -162,7 +158,7 @@ class Biped final : public PerRobotAlgorithm<BipedRobot> {
     r.footholds = c.variable(view.base(), own::stance_footholds, stance.footholds);
     r.base_pose = c.variable(view.base(), own::stance_base_pose, base);
     for (std::uint32_t i = 0; i < 2; ++i) {
-      const bool touches = heights_of(feet, stance, at)[i] <= contact_height_;
+      const bool touches = i == stance.foot || swing_height(feet, stance, at) <= contact_height_;
       r.contact[i] = c.variable(view.links[found.links[i]].object, own::foot_contact, std::uint32_t(touches));
     }
     return r;
@@ -207,13 +203,9 @@ class Biped final : public PerRobotAlgorithm<BipedRobot> {
     *r.footholds = s.footholds;
   }
 
-  /// Heights (m) of both soles.
-  std::array<double, 2> heights_of(const Feet& feet, const Stance& s, const FootPoses& at) const {
-    const Footing footing(feet, plane_, hysteresis_);
-    std::array<double, 2> heights{};
-    heights[s.foot] = footing.height(s.foot, s.pose);
-    heights[1 - s.foot] = footing.height(1 - s.foot, s.pose * at.other(s.foot));
-    return heights;
+  /// m, of the sole of the swing foot.
+  double swing_height(const Feet& feet, const Stance& s, const FootPoses& at) const {
+    return Footing(feet, plane_, hysteresis_).height(1 - s.foot, s.pose * at.other(s.foot));
   }
 
   /// Where the base is when the stance foot, `foot` in the frame of the base, is where it stands.
@@ -244,6 +236,8 @@ class Biped final : public PerRobotAlgorithm<BipedRobot> {
     stance = Footing(models_[r.model], plane_, hysteresis_).stand_up(*r.pose, feet, stance);
     keep(r, stance);
     *r.pose = *r.base_pose = base_at(stance, feet.foot[stance.foot]);
+    *r.contact[stance.foot] = 1;
+    *r.contact[1 - stance.foot] = swing_height(models_[r.model], stance, feet) <= contact_height_ ? 1 : 0;
   }
 
   void move(BipedRobot& r, double dt) {
@@ -262,7 +256,7 @@ class Biped final : public PerRobotAlgorithm<BipedRobot> {
     FootMotion motion = motion_of(r, before);
     const FootPoses end = feet_of(r, before, motion);
     const Footing footing(models_[r.model], plane_, hysteresis_);
-    footing.walk({of(from_, r.legs), of(to_, r.legs)}, end, stance);
+    const double swing_height = footing.walk({of(from_, r.legs), of(to_, r.legs)}, end, stance);
     if (stance.foot != before) motion = motion_of(r, stance.foot);
     const Pose base = base_at(stance, motion.foot);
     const Twist twist{base.orientation * motion.linear, base.orientation * motion.angular};
@@ -274,8 +268,8 @@ class Biped final : public PerRobotAlgorithm<BipedRobot> {
     keep(r, stance);
     *r.pose = *r.base_pose = base;
     *r.twist = twist;
-    const std::array<double, 2> heights = heights_of(models_[r.model], stance, end);
-    for (std::size_t i = 0; i < 2; ++i) *r.contact[i] = heights[i] <= contact_height_ ? 1 : 0;
+    *r.contact[stance.foot] = 1;
+    *r.contact[1 - stance.foot] = swing_height <= contact_height_ ? 1 : 0;
   }
 
   /// The derivative of the twist while the foot stands, from the joints' accelerations; a change of the stance foot is

@@ -86,23 +86,26 @@ double Footing::crossing(const LegPositions& q, const Stance& stance, double fro
   return s;
 }
 
-void Footing::walk(const LegPositions& q, const FootPoses& end, Stance& stance) const {
-  double last = -1;
+double Footing::walk(const LegPositions& q, const FootPoses& end, Stance& stance) const {
+  double last = -1, swing_height = 0;
   for (int changes = 0;; ++changes) {
     const std::uint32_t swing = 1 - stance.foot;
     const Pose swing_at_end = stance.pose * end.other(stance.foot);
-    const double below = height(swing, swing_at_end);
-    if (below >= -hysteresis_) break;
-    const double s = crossing(q, stance, std::max(last, 0.0), below);
+    swing_height = height(swing, swing_at_end);
+    if (swing_height >= -hysteresis_) break;
+    const double s = crossing(q, stance, std::max(last, 0.0), swing_height);
     if (s == last || changes == most_changes) {  // both press into the plane: the robot is lifted
       put_down(swing, swing_at_end, end, stance);
+      swing_height = height(1 - stance.foot, stance.pose * end.other(stance.foot));
       break;
     }
     const FootPoses feet = feet_at(q, s);
     put_down(swing, stance.pose * feet.other(stance.foot), feet, stance);
     last = s;
   }
-  if (!stance.is_flush) lie_down_flat(end, stance);
+  if (stance.is_flush) return swing_height;
+  lie_down_flat(end, stance);
+  return height(1 - stance.foot, stance.pose * end.other(stance.foot));
 }
 
 Stance Footing::stand_up(const Pose& base, const FootPoses& feet, const Stance& before) const {

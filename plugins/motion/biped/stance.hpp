@@ -41,8 +41,9 @@ class Footing {
 
   /// Puts the robot on its feet wherever it is: after a start, a hand-over or when it was put elsewhere. `base`: of it.
   Stance stand_up(const Pose& base, const FootPoses& feet, const Stance& before) const;
-  /// Carries the stance through a step in which the legs go as `q` says; `end`: the feet at its end.
-  void walk(const LegPositions& q, const FootPoses& end, Stance& stance) const;
+  /// Carries the stance through a step in which the legs go as `q` says; `end`: the feet at its end. Returns the height
+  /// (m) of the sole of the swing foot then.
+  double walk(const LegPositions& q, const FootPoses& end, Stance& stance) const;
 
  private:
   Pose touching(std::uint32_t i, Pose foot) const;
