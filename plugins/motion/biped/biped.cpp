@@ -3,6 +3,7 @@
 #include <cstring>
 #include <string>
 
+#include "below_plane.hpp"
 #include "keys.hpp"
 #include "link_stop.hpp"
 #include "muro/plugin.hpp"
@@ -87,6 +88,7 @@ struct BipedRobot {
   Range legs;               ///< joints of both legs
   KinematicJoints joints;
   LinkStop stop;
+  LinksBelowPlane others;
 };
 
 bool is_same(const Pose& a, const Pose& b) {
@@ -142,6 +144,8 @@ class Biped final : public PerRobotAlgorithm<BipedRobot> {
     r.joints.interpolate(c, view.base(), interpolation_);
     r.legs = connect_joints(c, view, found.joints);
     r.stop = LinkStop(c, view, plane_.shape);
+    r.others = LinksBelowPlane(c, view, found.is_of_foot);
+    host_ = &c.host();
 
     const std::vector<double> start = initial_joint_positions(c, view);
     const Feet& feet = models_[r.model];
@@ -265,6 +269,7 @@ class Biped final : public PerRobotAlgorithm<BipedRobot> {
       *r.twist = {};
       return;
     }
+    if (stance.footholds != *r.footholds) r.others.tell(*host_, plane_, base, is_told_);
     keep(r, stance);
     *r.pose = *r.base_pose = base;
     *r.twist = twist;
@@ -289,6 +294,8 @@ class Biped final : public PerRobotAlgorithm<BipedRobot> {
   }
 
   Accelerations accelerations_;
+  Host* host_ = nullptr;
+  std::atomic<bool> is_told_ = false;  ///< that a link other than a foot is below the plane
   GroundPlane plane_;
   std::vector<Feet> models_;
   PackedLists<JointPlace> joints_;

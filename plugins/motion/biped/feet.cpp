@@ -167,7 +167,12 @@ FeetOfRobot find_feet(const Connector& c, const RobotView& robot) {
       LegJoint joint;
       joint.origin = structure.in_body(parent) * link.origin;
       joint.is_turned = !joint.origin.orientation.vec().isZero(0);
+      joint.is_shifted = !joint.origin.position.isZero(0);
       joint.axis = link.axis;
+      joint.axis_number = link.axis == Vec3::UnitX()   ? 1
+                          : link.axis == Vec3::UnitY() ? 2
+                          : link.axis == Vec3::UnitZ() ? 3
+                                                       : 0;
       joint.kind = link.joint;
       joint.number = std::uint32_t(number[at]);
       leg.joints.push_back(joint);

@@ -16,6 +16,8 @@ struct LegJoint {
   Vec3 axis = Vec3::UnitX();  ///< unit, in that frame
   JointKind kind = JointKind::revolute;
   bool is_turned = false;    ///< the orientation of `origin` is not the identity
+  bool is_shifted = false;   ///< its position is not zero
+  int axis_number = 0;       ///< 1, 2, 3: `axis` is x, y, z; 0: any
   std::uint32_t number = 0;  ///< among the joints of both legs
 
   bool operator==(const LegJoint& b) const {
@@ -56,7 +58,7 @@ struct Leg {
     for (const LegJoint& j : joints) {
       const double q = position(j.number), rate = velocity(j.number);
       pass(j, q, m.foot);
-      const Vec3 speed = m.foot.orientation * Vec3(j.axis * rate);
+      const Vec3 speed = turned(m.foot.orientation, j.axis * rate);
       if (j.kind == JointKind::revolute) {
         m.linear += speed.cross(m.foot.position);
         m.angular -= speed;
@@ -82,12 +84,38 @@ struct Leg {
   bool is_at_end() const { return end.position.isZero(0) && end.orientation.vec().isZero(0); }
 
   static void pass(const LegJoint& j, double q, Pose& at) {
-    at.position += at.orientation * j.origin.position;
+    if (j.is_shifted) at.position += turned(at.orientation, j.origin.position);
     if (j.is_turned) at.orientation = at.orientation * j.origin.orientation;
     if (j.kind == JointKind::revolute)
-      at.orientation = at.orientation * rotation_about(j.axis, q);
+      turn(j, q, at.orientation);
     else
-      at.position += at.orientation * Vec3(j.axis * q);
+      at.position += turned(at.orientation, j.axis * q);
+  }
+
+  /// `orientation` * rotation_about(axis, q), with the products by 0 left out where the axis is one of the frame.
+  static void turn(const LegJoint& j, double q, Quat& orientation) {
+    const auto [s, c] = elementary::sincos(0.5 * q);
+    const double x = orientation.x(), y = orientation.y(), z = orientation.z(), w = orientation.w();
+    switch (j.axis_number) {
+      case 1:
+        orientation = Quat(w * c - x * s, x * c + w * s, y * c + z * s, z * c - y * s);
+        return;
+      case 2:
+        orientation = Quat(w * c - y * s, x * c - z * s, y * c + w * s, z * c + x * s);
+        return;
+      case 3:
+        orientation = Quat(w * c - z * s, x * c + y * s, y * c - x * s, z * c + w * s);
+        return;
+      default:
+        orientation = orientation * Quat(c, s * j.axis.x(), s * j.axis.y(), s * j.axis.z());
+    }
+  }
+
+  /// q * v: a function of Eigen's that compilers do not take into this loop.
+  static Vec3 turned(const Quat& q, const Vec3& v) {
+    const double x = q.x(), y = q.y(), z = q.z(), w = q.w();
+    const double tx = 2 * (y * v.z() - z * v.y()), ty = 2 * (z * v.x() - x * v.z()), tz = 2 * (x * v.y() - y * v.x());
+    return {v.x() + w * tx + y * tz - z * ty, v.y() + w * ty + z * tx - x * tz, v.z() + w * tz + x * ty - y * tx};
   }
 };
 

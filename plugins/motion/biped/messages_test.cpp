@@ -99,5 +99,34 @@ TEST(ForcesOnALeg, AreNotProvidedAndSensorsSaySo) {
   EXPECT_SAYS(sensor_complaint("sensor.force_torque", "r/right_hip"), "`r/right_foot` is not known");
 }
 
+TEST(AHand, ThatIsBelowThePlaneIsToldOnce) {
+  test::Scene s;
+  s.add_ground();
+  const Shape hand = Shape::sphere(0.05);
+  std::vector<std::string> warnings;
+  s.set_log([&](LogLevel level, std::string_view line) {
+    if (level == LogLevel::warning) warnings.emplace_back(line);
+  });
+  for (const double x : {0.0, 1.0})
+    s.add(x > 0 ? "b" : "a", walker({flat_sole()}, &hand), {{x, 0, 1}, Quat::Identity()});
+  s.use("motion.biped", 100, s.all_robots(), {{"feet", Names{"left_foot", "right_foot"}}});
+  s.build();
+  const auto lift = [&](double left, double right) {
+    for (const std::string robot : {"a/", "b/"}) {
+      s.world().value(robot + "left_lift", keys::joint_position_target) = left;
+      s.world().value(robot + "right_lift", keys::joint_position_target) = right;
+    }
+    s.run_for(0.05);
+  };
+  lift(0, 0.02);
+  lift(0.02, 0);
+  EXPECT_TRUE(warnings.empty()) << warnings.front();
+  lift(0.27, 0.26);
+  lift(0.26, 0.27);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_SAYS(warnings.front(), "/trunk` is 0.0");
+  EXPECT_SAYS(warnings.front(), "m below the plane on which the robot walks; motion.biped keeps feet above it");
+}
+
 }  // namespace
 }  // namespace muro::biped::testing

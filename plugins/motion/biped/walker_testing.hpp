@@ -17,10 +17,12 @@ inline constexpr double hip_spacing = 0.037;  ///< m, of each hip from the middl
 inline constexpr double foot_length = 0.1;    ///< m, half of it before the ankle
 
 /// Each leg has joints yaw (z), hip (y), lift (it shortens the leg, m), ankle (y); the base is between the hips.
-inline RobotTree walker(const std::vector<Shape>& soles) {
+/// `trunk`: what others may touch of it.
+inline RobotTree walker(const std::vector<Shape>& soles, const Shape* trunk = nullptr) {
   return test::tree_of([&](RobotBuilder& b) {
     b.base("trunk");
     b.set(keys::inertial, test::solid_box(2, {0.1, 0.1, 0.2}));
+    if (trunk) b.set_array(keys::collision_shapes, std::span<const Shape>(trunk, 1));
     for (const bool is_left : {true, false}) {
       const std::string side = is_left ? "left_" : "right_";
       if (is_left) b.fork();
