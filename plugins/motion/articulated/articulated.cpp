@@ -53,6 +53,7 @@ class Articulated final : public Algorithm {
   }
 
   void connect_by_name(Connector& c) override {
+    bodies_.connect_by_name(c);
     for (std::uint32_t i = 0; i < served_.size(); ++i) {
       const RobotView& view = *c.items()[i].robot;
       Robot* const robot = served_[i].robot;

@@ -55,7 +55,7 @@ Robot::Robot(Connector& c, const RobotView& view, const Parameters& p, std::uint
   twist_ = c.variable(view.base(), keys::twist, rigid_.fixed_base ? Twist{} : initial_twist);
   told_ = c.derived_list(view.base(), keys::contact_wrenches_of_motion);
   connect_joints(c, view, p);
-  connect_links(c, view);
+  connect_links(c);
   connect_memory(c, view);
   contacts_ = RobotContacts(c, view, rigid_);
 }
@@ -93,12 +93,10 @@ void Robot::connect_joints(Connector& c, const RobotView& view, const Parameters
                 " moves robots with up to " + std::to_string(most_mimics) + " of them");
 }
 
-void Robot::connect_links(Connector& c, const RobotView& view) {
+void Robot::connect_links(Connector& c) {
   for (const multibody::LoadedLink& loaded : rigid_.loaded_links) {
     LoadedLink& link = links_.emplace_back();
     link.external = c.read_sum(loaded.object, keys::external_wrench);
-    link.pose = c.read(loaded.object, keys::pose);
-    link.pose_of_body = c.read(view.links[rigid_.bodies[loaded.placement.body].link].object, keys::pose);
     if (loaded.has_shapes) link.contact = c.derived(loaded.object, keys::contact_wrench);
   }
   wrenches_.resize(6 * rigid_.bodies.size());
@@ -123,7 +121,10 @@ void Robot::connect_memory(Connector& c, const RobotView& view) {
 void Robot::connect_by_name(Connector& c, const RobotView& view) {
   tells_contacts_ = c.is_used(view.base(), keys::contact_wrenches_of_motion, usage::read);
   for (std::size_t i = 0; i < links_.size(); ++i) {
-    const ObjectId link = rigid_.loaded_links[i].object;
+    const multibody::LoadedLink& loaded = rigid_.loaded_links[i];
+    const ObjectId link = loaded.object;
+    links_[i].pose = c.read(link, keys::pose);
+    links_[i].pose_of_body = c.read(view.links[rigid_.bodies[loaded.placement.body].link].object, keys::pose);
     reads_contact_wrenches_ = reads_contact_wrenches_ || c.is_used(link, keys::contact_wrench, usage::read);
     if (!c.is_used(link, keys::applied_wrench, usage::read)) continue;
     links_[i].applied = c.derived(link, keys::applied_wrench);

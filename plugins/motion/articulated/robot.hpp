@@ -63,7 +63,7 @@ class Robot {
   };
 
   void connect_joints(Connector& c, const RobotView& view, const Parameters& p);
-  void connect_links(Connector& c, const RobotView& view);
+  void connect_links(Connector& c);
   void connect_memory(Connector& c, const RobotView& view);
   void set_offsets();
   bool interpolates() const;

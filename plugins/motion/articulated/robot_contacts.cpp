@@ -25,14 +25,19 @@ void TouchedBodies::connect(Connector& c) {
   for (std::uint32_t i = 0; i < all_.size(); ++i) all_[i].name = fnv1a(c.object_name(ObjectId{i}));
   for (const RobotView* robot : c.robots()) {
     const In<std::uint64_t> world = c.input(robot->base(), keys::contact_world, kinematic_world);
+    for (const Link& link : robot->links)
+      if (!c.constant_array(link.object, keys::collision_shapes).empty()) all_[index_of(link.object)].world = world;
+  }
+}
+
+void TouchedBodies::connect_by_name(Connector& c) {
+  for (const RobotView* robot : c.robots())
     for (const Link& link : robot->links) {
-      if (c.constant_array(link.object, keys::collision_shapes).empty()) continue;
       Touched& body = all_[index_of(link.object)];
+      if (!body.world) continue;
       body.pose = c.read(link.object, keys::pose);
       body.twist = c.read(link.object, keys::twist);
-      body.world = world;
     }
-  }
 }
 
 RobotContacts::RobotContacts(Connector& c, const RobotView& view, const multibody::RobotModel& model)

@@ -15,6 +15,8 @@ class TouchedBodies {
  public:
   /// [setup]
   void connect(Connector& c);
+  /// The same of poses, which others make. [setup]
+  void connect_by_name(Connector& c);
 
   struct Touched {
     std::uint64_t name = 0;  ///< hash
