@@ -52,8 +52,7 @@ class Sole {
  private:
   static double reach(const SolePoint& p, const Vec3& up) {
     if (p.rim == 0) return p.radius;
-    const double along = up.dot(p.axis);
-    return p.radius + p.rim * std::sqrt(std::max(0.0, 1 - along * along));
+    return p.radius + p.rim * up.cross(p.axis).norm();  // 1 - cos^2 would lose half of the digits of a disc that lies
   }
 
   std::vector<SolePoint> points_;

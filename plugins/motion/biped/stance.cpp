@@ -42,7 +42,8 @@ bool Footing::leaves_room(std::uint32_t i, const Pose& foot, const Pose& other) 
   return height(1 - i, foot * other) >= -hysteresis_;
 }
 
-void Footing::put_down(std::uint32_t i, const Pose& foot, const FootPoses& feet, Stance& stance) const {
+void Footing::put_down(std::uint32_t i, Pose foot, const FootPoses& feet, Stance& stance) const {
+  foot.orientation.normalize();
   const Pose flat = flush(i, foot);
   stance.foot = i;
   stance.is_flush = leaves_room(i, flat, feet.other(i));

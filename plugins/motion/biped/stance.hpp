@@ -51,7 +51,7 @@ class Footing {
   /// Whether foot `i` at `foot` leaves the other one, at `other` in its frame, above the plane.
   bool leaves_room(std::uint32_t i, const Pose& foot, const Pose& other) const;
   /// Foot `i` stands from now on, where it touches at `foot`.
-  void put_down(std::uint32_t i, const Pose& foot, const FootPoses& feet, Stance& stance) const;
+  void put_down(std::uint32_t i, Pose foot, const FootPoses& feet, Stance& stance) const;
   void lie_down_flat(const FootPoses& feet, Stance& stance) const;
   Stance stand_on_edges(const Pose& base, const FootPoses& feet, const Stance& before) const;
   double crossing(const LegPositions& q, const Stance& stance, double from, double last_height) const;
