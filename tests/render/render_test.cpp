@@ -68,6 +68,37 @@ robots: {ball: {shape: {sphere: 1}, mass: 1, texture: green.png, at: {x: 5, y: 4
   EXPECT_STREQ(color(90, 50), "green");
 }
 
+TEST(Render, ShowsRobotsOfOneModelInTheColoursOfTheirTeams) {
+  const test::ScratchFolder folder;
+  const auto pixels = [&](const std::string& changes) {
+    const std::string file = folder.path("parade.png");
+    const auto result =
+        render(MURO_TEST_SOURCE_DIR "/examples/models/parade.yaml --camera observer/camera --out " + file +
+               " --set robots.observer.camera.width=640 --set robots.observer.camera.height=360"
+               " --set robots.blue_omni=off --set robots.yellow_omni=off" +
+               changes);
+    EXPECT_EQ(result.exit_code, 0) << result.output;
+    const Picture picture(file);
+    struct {
+      std::size_t red = 0, blue = 0;
+    } count;
+    for (std::size_t i = 0; i + 2 < picture.values.size(); i += 3) {
+      const int r = picture.values[i], g = picture.values[i + 1], b = picture.values[i + 2];
+      count.red += r > 2 * g && r > 2 * b;
+      count.blue += b > 2 * r && b > g + 40;
+    }
+    return count;
+  };
+  const auto both = pixels(" --set robots.rover=off --set robots.orange_quadruped=off");
+  EXPECT_GT(both.red, 300u);
+  EXPECT_GT(both.blue, 300u);
+  const auto one = pixels(
+      " --set robots.rover=off --set robots.orange_quadruped=off"
+      " --set 'robots.red_humanoids.materials.team.color=[0.1, 0.35, 0.8]'");
+  EXPECT_LT(one.red, both.red / 4) << "lights at the back of the rover";
+  EXPECT_GT(one.blue, both.blue + 300);
+}
+
 TEST(Render, DrawsTheSameBytesTwiceAndOthersLater) {
   const test::ScratchFolder folder;
   const auto bytes = [&](const std::string& at) {

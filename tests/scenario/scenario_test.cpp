@@ -100,7 +100,8 @@ TEST(Scenario, TellsAllProblemsAtOnceWithTheirPlaces) {
             ":3:12: `gravity` of `world` is a list of 2 but must be a list of 3 numbers from -10000 to 10000\n" + path +
             ":5:7: robot `a` has no key `cuont` (did you mean `count`?); allowed: model, shape, mass, friction, "
             "restitution, "
-            "color, texture, count, place, at, velocity, angular_velocity, joints, dynamics, variants, and subsystems {use: "
+            "color, texture, count, place, at, velocity, angular_velocity, joints, dynamics, materials, variants, and "
+            "subsystems {use: "
             "NAME, ...}");
   }
 }
