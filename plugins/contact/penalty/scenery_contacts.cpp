@@ -122,15 +122,19 @@ void SceneryContacts::apply_forces_on(const StepContext& context, std::uint32_t 
   const auto contacts = *known.list;
   if (bodies_.tells_contacts) bodies_.robots[robot].told.clear();
   if (remaining_[robot] != 0) remaining_[robot] = 0;  // avoids a write: other threads have flags in the same cache line
-  // It touches nothing, or it only reports what it touches.
-  if (contacts.empty() || !is_moved_by_forces(*known.world)) {
+  const bool by_contact_algorithm = contact_algorithm_resolves(*known.world, kinematic_world);
+  // It touches nothing, only reports what it touches, or its motion answers for all of that.
+  if (contacts.empty() || !is_moved_by_forces(*known.world) ||
+      (!by_contact_algorithm && !touches_robots(robot, contacts))) {
+    if (known.is_clear) return;
     known.anchors.clear();
     forget_turning(robot);
     known.anchors_match = false;
     bodies_.clear_wrenches(robot);
+    known.is_clear = true;
     return;
   }
-  const bool by_contact_algorithm = contact_algorithm_resolves(*known.world, kinematic_world);
+  known.is_clear = false;
   if (!by_contact_algorithm || !known.lag || *known.lag != 0) {
     known.anchors_match = false;
     remaining_[robot] = 1;
@@ -153,6 +157,17 @@ void SceneryContacts::apply_forces_on(const StepContext& context, std::uint32_t 
   Queue& q = queues.of(known.contacts, known.view.groups);
   q.robots[q.count++] = robot;
   if (q.count == 8) process_queue(context, q);
+}
+
+/// Whether one of its contacts is with a body that is no scenery.
+bool SceneryContacts::touches_robots(std::uint32_t robot, std::span<const Contact> contacts) {
+  KnownRobot& known = robots_[robot];
+  if (known.list.revision() != known.robots_revision) {
+    known.robots_revision = known.list.revision();
+    known.touches_robots =
+        std::any_of(contacts.begin(), contacts.end(), [&](const Contact& c) { return bodies_[c.other].twist; });
+  }
+  return known.touches_robots;
 }
 
 /// Nothing that it touches resists its turning.

@@ -38,6 +38,9 @@ class SceneryContacts {
     std::uint32_t contacts = 0;            ///< known
     const std::uint64_t* world = nullptr;  ///< see keys::contact_world
     const double* lag = nullptr;           ///< see keys::twist_lag; null: forces move its bodies one by one
+    std::uint64_t robots_revision = ~std::uint64_t{0};  ///< of the list, when it was last looked at for robots
+    bool touches_robots = false;
+    bool is_clear = false;  ///< no wrench acts on it, and it has no anchors
     bool only_scenery = false;
     bool anchors_match = false;  ///< the robot has an anchor for each contact, in their order
     bool is_parting = false;     ///< some anchor has an overlap
@@ -51,6 +54,7 @@ class SceneryContacts {
   struct Plan;
   struct Queues;
 
+  bool touches_robots(std::uint32_t robot, std::span<const Contact> contacts);
   void forget_turning(std::uint32_t robot) const;
   void fetch(std::uint32_t robot) const;
   bool knows(std::uint32_t robot, std::span<const Contact> now) const;

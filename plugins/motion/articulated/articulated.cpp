@@ -167,8 +167,7 @@ class Articulated final : public Algorithm {
                 .omega = omega_,
                 .impact_speed = std::max(0.02, gravity_.norm() / omega_),
                 .hard_speed = hard_way / dt,
-                .correcting_speed = correcting_speed_,
-                .radius = model.radius};
+                .correcting_speed = correcting_speed_};
     for (std::uint32_t i = begin; i < end; ++i) {
       Robot& robot = *served_[i].robot;
       robot.prepare(dt);

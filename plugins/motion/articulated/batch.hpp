@@ -33,6 +33,7 @@ struct RobotState {
   const double* armature_losses = nullptr;
   const Mass* masses = nullptr;              ///< of its bodies
   double mass = 0;                           ///< kg, all
+  double radius = 0;                         ///< m: of gyration
   const KernelContact* contacts = nullptr;   ///< by body, in rising order
   int contact_count = 0;
   const double* wrenches = nullptr;          ///< force and torque on each body at its origin, world axes; null: none
@@ -48,7 +49,6 @@ struct Batch {
   double impact_speed = 0;   ///< m/s: what comes faster rebounds
   double hard_speed = 0;     ///< m/s: what comes faster is stopped at once
   double correcting_speed = 0;  ///< m/s: overlap is parted no faster
-  double radius = 0;         ///< m: of gyration, of the robot
   bool equal_masses = true;  ///< all robots have the masses of the first
   void* work = nullptr;      ///< of work_bytes(), aligned to 64 bytes
 };

@@ -57,7 +57,8 @@ class Contacts {
       const V3<S> across = force - load * p.normal;
       const auto is_on = p.is_on > S(0), pulls = is_on & (load < S(0));
       const auto bears_other = is_on & !pulls & (p.friction > S(0)) & (p.breaks_away == S(0)) &
-                               (lane::abs(load - p.load) > select(slot.is_new, S(0.1), S(0.25)) * max(load, p.load));
+                               (lane::abs(load - p.load) >
+                                select(slot.is_new, S(0.1), S(0.25)) * max(load, p.load) + S(0.05) * weight_);
       const V3<S> own = body.v + cross(body.w, p.arm) - p.velocity;
       const auto turns_back = dot(slot.step.slide, own + S(batch_.dt) * acceleration_of(slot)) < S(0);
       // more than friction can hold
@@ -105,11 +106,15 @@ class Contacts {
 
  private:
   void set_law(const RobotState* robots, int count) {
-    S mass(0);
-    for (int i = 0; i < count_of<S>; ++i) set(mass, i, robots[i < count ? i : 0].mass);
+    S mass(0), radius(0);
+    for (int i = 0; i < count_of<S>; ++i) {
+      set(mass, i, robots[i < count ? i : 0].mass);
+      set(radius, i, robots[i < count ? i : 0].radius);
+    }
     const S omega(batch_.omega);
+    weight_ = mass * sqrt(dot(gravity_, gravity_));
     law_ = {mass * omega * omega,  S(2) * mass * omega,    mass,
-            S(batch_.impact_speed), S(batch_.hard_speed), S(batch_.radius), S(2 * batch_.correcting_speed / batch_.omega)};
+            S(batch_.impact_speed), S(batch_.hard_speed), radius, S(2 * batch_.correcting_speed / batch_.omega)};
   }
   MURO_INLINE static void set(S& value, int i, double x) {
     if constexpr (count_of<S> == 1)
@@ -261,6 +266,7 @@ class Contacts {
   Work<S>& work_;
   V3<S> gravity_;
   ContactLaw<S> law_;
+  S weight_;  ///< N, of the robot
   Places<S> wrenches_;
   bool has_wrenches_ = false;
   V3<S> force_, torque_;

@@ -110,18 +110,6 @@ void hand_on_friction(std::vector<Joint>& joints) {
   }
 }
 
-double radius_of_gyration(const multibody::RobotModel& robot) {
-  std::vector<Pose> poses(robot.bodies.size());
-  Inertia all;
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    const multibody::RigidBody& body = robot.bodies[i];
-    if (i > 0)
-      poses[i] = poses[std::size_t(body.parent)] * multibody::pose_in_parent(body, robot.initial_positions[i]);
-    all = all + body.inertia.in(poses[i]);
-  }
-  return std::sqrt(all.tensor().trace() / (3 * all.mass));
-}
-
 }  // namespace
 
 Structure Model::structure() const {
@@ -143,7 +131,6 @@ Model model_of_bodies(const multibody::RobotModel& robot) {
   model.fixed = robot.fixed_base;
   for (const multibody::RigidBody& body : robot.bodies) model.joints.push_back(joint_of(body));
   hand_on_friction(model.joints);
-  model.radius = radius_of_gyration(robot);
   return model;
 }
 
@@ -161,6 +148,18 @@ std::vector<Mass> masses_of_bodies(const multibody::RobotModel& robot) {
     mass.inertia[3] = tensor(1, 2), mass.inertia[4] = tensor(0, 2), mass.inertia[5] = tensor(0, 1);
   }
   return masses;
+}
+
+double radius_of_gyration(const multibody::RobotModel& robot) {
+  std::vector<Pose> poses(robot.bodies.size());
+  Inertia all;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const multibody::RigidBody& body = robot.bodies[i];
+    if (i > 0)
+      poses[i] = poses[std::size_t(body.parent)] * multibody::pose_in_parent(body, robot.initial_positions[i]);
+    all = all + body.inertia.in(poses[i]);
+  }
+  return std::sqrt(all.tensor().trace() / (3 * all.mass));
 }
 
 }  // namespace muro::articulated

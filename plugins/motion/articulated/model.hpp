@@ -14,7 +14,6 @@ struct Model {
   std::vector<Joint> joints;  ///< one per body, that of the base unused
   int slots = 0;
   bool fixed = false;
-  double radius = 0;  ///< m: of gyration, of the whole robot
 
   Structure structure() const;
   bool operator==(const Model&) const = default;
@@ -25,5 +24,7 @@ struct Model {
 Model model_of_bodies(const multibody::RobotModel& robot);
 /// Of all bodies, in the frames that the model gives them. [setup]
 std::vector<Mass> masses_of_bodies(const multibody::RobotModel& robot);
+/// m: of the whole robot as it starts. [setup]
+double radius_of_gyration(const multibody::RobotModel& robot);
 
 }  // namespace muro::articulated

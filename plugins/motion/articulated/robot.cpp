@@ -144,6 +144,7 @@ void Robot::set_offsets() {
   state_.twist = lane::numbers(twist_.get());
   state_.masses = masses_.data();
   state_.mass = rigid_.mass;
+  state_.radius = radius_of_gyration(rigid_);
   for (std::size_t i = 1; i < joints_.size(); ++i) {
     Joint& j = model_.joints[i];
     const JointHandles& handles = joints_[i];
