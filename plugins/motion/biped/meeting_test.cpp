@@ -10,7 +10,7 @@ namespace {
 constexpr double g = 9.81;
 
 TEST(ABiped, KicksABallWithTheVelocityOfItsFoot) {
-  for (const std::string motion : {"motion.simplified", "motion.mujoco"}) {
+  for (const std::string motion : {"motion.simplified", "motion.articulated", "motion.mujoco"}) {
     const auto catalog = test::plugins().catalog();
     if (std::none_of(catalog.begin(), catalog.end(), [&](const CatalogEntry& o) { return o.id == motion; })) continue;
     test::Scene s;

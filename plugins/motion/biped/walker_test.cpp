@@ -40,6 +40,8 @@ TEST(CompassWalker, MovesOnAnArcAboutItsAnkleBetweenSteps) {
     const Vec3 hip = w.base().position - ankle;
     ASSERT_NEAR(hip.x(), leg_length * std::sin(s), 1e-12);
     ASSERT_NEAR(hip.z(), leg_length * std::cos(s), 1e-12);
+    ASSERT_EQ(w.contact("left_foot"), 1u);
+    ASSERT_EQ(w.contact("right_foot"), 0u);
   }
 }
 

@@ -33,10 +33,10 @@ constexpr const char* elsewhere =
     "[plugins/motor/servo](../plugins/motor/servo/README.md) |\n"
     "| motors identified from twelve real records, and from records of their own | [motors.md](motors.md) |\n"
     "| bit errors of IEEE 802.15.4, a shared medium, hidden senders | "
-    "[plugins/radio/log_distance](../plugins/radio/log_distance/README.md) |\n\n"
-    "Not held: a walker whose feet are put on a plane (step lengths and turns of a rigid compass), since\n"
-    "no motion puts feet; the linear inverted pendulum and its preview gains, which belong to control\n"
-    "code.\n";
+    "[plugins/radio/log_distance](../plugins/radio/log_distance/README.md) |\n"
+    "| steps, velocities and turns of compass walkers, on inclined planes too | "
+    "[plugins/motion/biped](../plugins/motion/biped/README.md) |\n\n"
+    "Not held: the linear inverted pendulum and its preview gains, which belong to control code.\n";
 
 void print() {
   std::printf("%s| plugin | known answer | source | error | unit | tolerance | |\n|---|---|---|---|---|---|---|\n",
