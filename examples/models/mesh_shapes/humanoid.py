@@ -9,22 +9,22 @@ from .surface import between, block, disc, loft, plate, ring, strap, total
 def trunk_shell():
     chest = loft(between([(57, 34, 37, 24, -15, 0), (72, 44, 48, 28, -15, 0), (94, 49, 53.5, 30, -14.5, 0),
                           (112, 48, 53, 30, -14.5, 0), (125, 40, 47, 28, -15.5, 0), (132, 29, 37, 22, -16, 0)], 2),
-                           bevel=4, steps=5)
+                           bevel=4, steps=4)
     # over the shoulders' servos
     caps = disc(22, 36, 55, 5).along_y().at(-1, 0, 111).with_mirror_y()
     return chest + caps
 
 def trunk_team():
     back = loft([(62, 9, 36, 9, -66, 0), (70, 11, 39, 9, -66, 0), (112, 11, 39, 9, -66, 0), (122, 9, 36, 9, -66, 0)],
-                bevel=4, steps=3)
+                bevel=4)
     chest = loft([(20, 28, 21, 12, 0, 96), (34, 28, 21, 12, 0, 96),
-                  (38.5, 24, 17.5, 10, 0, 96)], bevel=0, bevel_top=2, steps=4).along_x()
-    collar = ring(17, 25, 128, 135, 2, 32).at(-1, 0, 0)
+                  (38.5, 24, 17.5, 10, 0, 96)], bevel=0, bevel_top=2).along_x()
+    collar = ring(17, 25, 128, 135, 2).at(-1, 0, 0)
     return back + chest + collar
 
 def trunk_frame():
-    waist = disc(27, 50, 59, 1.5, 32).at(-6, 0, 0)
-    neck = disc(15, 126, 137, 1.5, 24).at(-1, 0, 0)
+    waist = disc(27, 50, 59, 1.5).at(-6, 0, 0)
+    neck = disc(15, 126, 137, 1.5).at(-1, 0, 0)
     shoulders = disc(17, 50, 58.5, 1.5).along_y().at(-1, 0, 111).with_mirror_y()
     handle = total([block((8, 8, 18), 3).at(-60, 0, 130).at(0, s * 22, 0) for s in (-1, 1)]) + block((8, 52, 8),
                    3).at(-60, 0, 139)
@@ -49,11 +49,11 @@ def _head(f):
 
 def head_shell():
     rings = []
-    for k in range(13):  # an egg that is flat below
-        z = 38 - 37.5 * math.cos(math.pi * (k + 1.2) / 14.4)
+    for k in range(11):  # an egg that is flat below
+        z = 38 - 37.5 * math.cos(math.pi * (k + 1.1) / 12.2)
         bulge = (1 - abs((z - 38) / 38.5) ** 2.5) ** 0.5
         rings.append((z, 32 * bulge, 41.5 * bulge, 29 * bulge, -22, 0))
-    return _head(loft(rings, steps=5))
+    return _head(loft(rings))
 
 def head_team():
     ears = (disc(15, 38, 45.5, 2.5).along_y().at(-21, 0, 40)).with_mirror_y()
@@ -64,18 +64,18 @@ def head_team():
 def head_eye():
     """The visor, and the pupils."""
     visor = loft([(-12, 31, 15, 14, 0, 44.5), (10, 31, 15, 14, 0, 44.5),
-                  (13.2, 28.5, 12.5, 12, 0, 44.5)], bevel=0, bevel_top=2, steps=5).along_x()
-    pupils = disc(4.2, 0, 1.2, 0.5, 20).along_x().at(14.6, 15.5, 44).with_mirror_y()
+                  (13.2, 28.5, 12.5, 12, 0, 44.5)], bevel=0, bevel_top=2, steps=4).along_x()
+    pupils = disc(4.2, 0, 1.2, 0.5).along_x().at(14.6, 15.5, 44).with_mirror_y()
     return _head(visor + pupils)
 
 def head_light():
-    eyes = disc(8.6, 0, 2.4, 0.9, 28).along_x().at(12.4, 15.5, 44).with_mirror_y()
+    eyes = disc(8.6, 0, 2.4, 0.9).along_x().at(12.4, 15.5, 44).with_mirror_y()
     mouth = block((2, 16, 2.4), 0.9).at(12.4, 0, 21)
     return _head(eyes + mouth)
 
 def head_frame():
     """The lens of the camera, whose front is camera_link, and the chin."""
-    lens = ring(2.6, 5, 0, 2.4, 0.7, 20).along_x().at(11.9, 0, 49.75)
+    lens = ring(2.6, 5, 0, 2.4, 0.7).along_x().at(11.9, 0, 49.75)
     chin = block((5, 24, 8), 2).at(9, 0, 21)
     return _head(lens + chin)
 
@@ -105,19 +105,19 @@ def forearm_frame():
     return total([arms, bridge, hand, thumb])
 
 def forearm_shell():
-    return loft(between([(25, 14, 15, 9, 0, -19), (40, 17, 18, 11, 0, -19), (62, 16.5, 17.5, 11, 0, -19),
-                         (88, 13, 14, 9, 0, -19)], 2),
+    return loft([(25, 14, 15, 9, 0, -19), (40, 17, 18, 11, 0, -19), (62, 16.5, 17.5, 11, 0, -19),
+                         (88, 13, 14, 9, 0, -19)],
                 bevel=3).along_y()
 
 def forearm_team():
     return loft([(84, 13.6, 14.8, 9, 0, -19), (94, 13.0, 14.2, 9, 0, -19)], bevel=2).along_y()
 
 def pelvis_team():
-    return loft([(-41, 27, 52, 20, -12, 0), (-8, 27, 52, 20, -12, 0)], bevel_bottom=11, bevel_top=7, steps=5)
+    return loft([(-41, 27, 52, 20, -12, 0), (-8, 27, 52, 20, -12, 0)], bevel_bottom=11, bevel_top=7, steps=4)
 
 
 def pelvis_frame():
-    bearing = disc(24, -10, -1, 1.5, 32).at(-6, 0, 0)
+    bearing = disc(24, -10, -1, 1.5).at(-6, 0, 0)
     hips = disc(17, -47, -34, 1.5).at(0, 35, 0).with_mirror_y()
     return bearing + hips
 
@@ -129,7 +129,7 @@ def hip_yaw_frame():
 
 def hip_roll_servo():
     body = block((48, 33, 31), 3.5).at(18, 0, 0)
-    axles = disc(9, -10, 46, 1, 20).along_x()
+    axles = disc(9, -10, 46, 1).along_x()
     horns = disc(12, -19.5, 19.5, 1).along_y().at(24.1, 0, 0)
     return total([body, axles, horns])
 
@@ -140,9 +140,9 @@ def thigh_frame():
     return total([sides, knee, bar])
 
 def thigh_shell():
-    return loft(between([(-97, 16, 16, 10, 0, -19), (-82, 19, 18.5, 11, 0, -19), (-54, 21.5, 18.5, 12, 1, -19),
+    return loft([(-97, 16, 16, 10, 0, -19), (-82, 19, 18.5, 11, 0, -19), (-54, 21.5, 18.5, 12, 1, -19),
                          (-38, 19.5, 18.3, 12, 1, -19),
-                         (-27, 15, 16, 10, 0, -19)], 2), bevel=3.5)
+                         (-27, 15, 16, 10, 0, -19)], bevel=3.5)
 
 def shin_frame():
     knee = (strap(0, 13.5, -34, 12, 18.8, 22, 1)).with_mirror_y().at(0, -19, 0)
@@ -157,12 +157,12 @@ def shin_shell():
 
 def shin_team():
     """The guard in front."""
-    return loft(between([(-84, 7, 10, 6, 9, -19), (-66, 8, 13.5, 7, 10, -19), (-38, 9, 14.5, 8, 11, -19),
-                         (-21, 7, 10, 6, 10, -19)], 2), bevel=2.5)
+    return loft([(-84, 7, 10, 6, 9, -19), (-66, 8, 13.5, 7, 10, -19), (-38, 9, 14.5, 8, 11, -19),
+                         (-21, 7, 10, 6, 10, -19)], bevel=2.5)
 
 def ankle_servo():
     body = block((48, 33, 31), 3.5).at(-6, -19, 0)
-    axles = disc(9, -34, 22, 1, 20).along_x().at(0, -19, 0)
+    axles = disc(9, -34, 22, 1).along_x().at(0, -19, 0)
     horns = disc(12, -17.2, 17.2, 1).along_y().at(0, -19, 0)
     return total([body, axles, horns])
 
@@ -173,20 +173,20 @@ def foot_frame():
 
 def foot_shell():
     base = loft([(-28.5, 51.5, 32, 15, 26.5, 10), (-22, 51.5, 32, 15, 26.5, 10), (-19, 48, 29, 14, 26.0, 9)], bevel=1.2,
-                bevel_top=2.2, steps=4)
+                bevel_top=2.2)
     return base
 
 def foot_team():
     toe = loft([(-24, 16, 27, 12, 60, 10), (-19, 15.5, 26, 12, 59.5, 10),
-                (-12, 10, 19, 10, 57, 9)], bevel=0, bevel_top=3, steps=4)
+                (-12, 10, 19, 10, 57, 9)], bevel=0, bevel_top=3)
     heel = loft([(-24, 10, 25, 9, -13, 9), (-19, 9.5, 24, 9, -13, 9),
-                 (-10, 6, 17, 6, -12, 6)], bevel=0, bevel_top=2.5, steps=4)
+                 (-10, 6, 17, 6, -12, 6)], bevel=0, bevel_top=2.5)
     return toe + heel
 
 def foot_sole():
     """The plate with a pad, the end of a load cell, in each corner."""
-    sole = loft([(-29.3, 50.5, 31, 14, 26.5, 10), (-26, 51.9, 32.4, 15, 26.5, 10)], bevel=0, steps=4)
-    pads = total([disc(7, -30.5, -28, 0.8, 16).at(26.5 + sx * 42, 10 + sy * 22.5, 0) for sx in (-1, 1) for sy in (-1,
+    sole = loft([(-29.3, 50.5, 31, 14, 26.5, 10), (-26, 51.9, 32.4, 15, 26.5, 10)], bevel=0)
+    pads = total([disc(7, -30.5, -28, 0, 12).at(26.5 + sx * 42, 10 + sy * 22.5, 0) for sx in (-1, 1) for sy in (-1,
                  1)])
     return sole + pads
 

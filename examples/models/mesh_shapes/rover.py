@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Parts of rover.urdf and rover.sdf, a file for each link and material, in mm and in the frame of the link. They keep to
-the shapes by which the rover collides: a box of 350 x 250 x 120 mm, wheels of 60 mm."""
+"""Parts of rover.urdf and rover.sdf, a file for each link and material, in mm and in the frame of the link. They keep
+to the shapes by which the rover collides: a box of 350 x 250 x 120 mm, wheels of 60 mm."""
 import math
 
 from .surface import Surface, between, block, box, disc, loft, plate, revolved, ring, total
@@ -10,9 +10,9 @@ def base_team():
     """The body: a cabin behind, a low deck in front, which leaves the scanner its view."""
     cabin = loft(between([(-12, 112, 117, 26, -56, 0), (16, 112, 118, 30, -56, 0), (44, 98, 100, 30, -64, 0),
                           (58, 84, 84, 26, -70, 0)], 2),
-                 bevel_bottom=2, bevel_top=5, steps=4)
+                 bevel_bottom=2, bevel_top=5)
     deck = loft([(-20, 168, 112, 40, 4, 0), (-8, 166, 110, 40, 4, 0),
-                 (-2, 158, 102, 36, 4, 0)], bevel_bottom=3, bevel_top=3, steps=5)
+                 (-2, 158, 102, 36, 4, 0)], bevel_bottom=3, bevel_top=3, steps=4)
     fenders = total(_fender().at(x, y, -30) for x in (-120, 120) for y in (-114, 114))
     return total([cabin, deck, fenders])
 
@@ -37,18 +37,18 @@ def _fender(corners=10):
 
 def base_frame():
     tub = loft([(-57, 140, 84, 24, 0, 0), (-40, 162, 100, 30, 0, 0),
-                (-16, 168, 106, 34, 2, 0)], bevel_bottom=4, bevel_top=0, steps=3)
+                (-16, 168, 106, 34, 2, 0)], bevel_bottom=4, bevel_top=0)
     axles = total(disc(9, 90, 131, 1, 16).along_y().at(x, 0, -30) for x in (-120, 120)).with_mirror_y()
-    rack = total(disc(3.2, -52, 52, 1, 10).along_x().at(-66, y, 66) for y in (-52, 52))
-    bows = total(disc(3.2, -62, 62, 1, 10).along_y().at(x, 0, 66) for x in (-112, -20))
-    feet = total(block((7, 7, 14), 1.5).at(x, y, 60) for x in (-112, -20) for y in (-52, 52))
-    antenna = total([disc(5, 48, 62, 1, 12), disc(1.4, 60, 130, 0, 8), disc(2.6, 128, 134, 1, 8)]).at(-138, 68, 0)
+    rack = total(disc(3.2, -52, 52, 0, 8).along_x().at(-66, y, 66) for y in (-52, 52))
+    bows = total(disc(3.2, -62, 62, 0, 8).along_y().at(x, 0, 66) for x in (-112, -20))
+    feet = total(box((7, 7, 14)).at(x, y, 60) for x in (-112, -20) for y in (-52, 52))
+    antenna = total([disc(5, 48, 62), disc(1.4, 60, 130, 0, 6), disc(2.6, 128, 134, 0, 6)]).at(-138, 68, 0)
     return total([tub, axles, rack, bows, feet, antenna])
 
 
 def base_shell():
     """Bumpers."""
-    bar = loft([(-98, 9, 10, 6), (-90, 10, 11, 7), (90, 10, 11, 7), (98, 9, 10, 6)], bevel=4, steps=3).along_y()
+    bar = loft([(-98, 9, 10, 6), (-90, 10, 11, 7), (90, 10, 11, 7), (98, 9, 10, 6)], bevel=4).along_y()
     front = bar.mapped(lambda p: (p[0] + 165, p[1], p[2] - 34))
     back = bar.mapped(lambda p: (p[0] - 165, p[1], p[2] - 34))
     return front + back
@@ -56,19 +56,19 @@ def base_shell():
 
 def base_eye():
     """Windows."""
-    front = loft([(-72, 4, 15, 4), (72, 4, 15, 4)], bevel=2, steps=3).along_y()
+    front = loft([(-72, 4, 15, 4), (72, 4, 15, 4)], bevel=2).along_y()
     return front.pitched(0.905).at(44.5, 0, 30.5) + _side_windows().with_mirror_y()
 
 
 def _side_windows():
-    pane = loft([(-52, 3.5, 12, 3), (44, 3.5, 12, 3)], bevel=2, steps=3).along_x()
+    pane = loft([(-52, 3.5, 12, 3), (44, 3.5, 12, 3)], bevel=2).along_x()
     tilt = math.radians(40)
     c, s = math.cos(tilt), math.sin(tilt)
     return pane.mapped(lambda p: (p[0] - 58, 105.5 + c * p[1] - s * p[2], 32.5 + s * p[1] + c * p[2]))
 
 
 def base_light():
-    lamps = total(disc(9, 0, 4, 1.2, 24).along_x().at(172.4, y, -31) for y in (-66, 66))
+    lamps = total(disc(9, 0, 4, 1.2).along_x().at(172.4, y, -31) for y in (-66, 66))
     return lamps
 
 
@@ -84,33 +84,33 @@ def number():
 
 def wheel_sole():
     """The tyre, with lugs, about y."""
-    carcass = revolved([(36, -17), (50, -19), (55.5, -17), (57, -12), (57, 12), (55.5, 17), (50, 19), (36, 17)], 36)
+    carcass = revolved([(36, -17), (50, -19), (57, -14), (57, 14), (50, 19), (36, 17)], 24)
     lugs = []
-    for k in range(18):
+    for k in range(12):
         for side in (-1, 1):
-            lug = box((5, 8, 15.5)).at(57.2, 0, side * 10.2)
-            lugs.append(lug.turned(2 * math.pi * (k + (0.25 if side > 0 else -0.25)) / 18))
+            lug = box((5, 11, 15.5)).at(57.0, 0, side * 10.2)
+            lugs.append(lug.turned(2 * math.pi * (k + (0.25 if side > 0 else -0.25)) / 12))
     return (carcass + total(lugs)).along_y()
 
 
 def wheel_frame():
     """The rim, on the left as on the right."""
-    rim = ring(30, 38, -17.5, 17.5, 1.5, 32)
-    web = disc(31, -4, 4, 0, 32)
-    spokes = total(block((24, 7, 24), 1.5).at(20, 0, 0).turned(2 * math.pi * k / 5) for k in range(5))
-    cap = disc(10, -18.5, 18.5, 2, 20)
+    rim = ring(30, 38, -17.5, 17.5)
+    web = disc(31, -4, 4, 0)
+    spokes = total(box((24, 7, 24)).at(20, 0, 0).turned(2 * math.pi * k / 5) for k in range(5))
+    cap = disc(10, -18.5, 18.5)
     return total([rim, web, spokes, cap]).along_y()
 
 
 def laser_frame():
     """A scanner of the size of a Hokuyo URG-04LX: the rays leave at z 0."""
-    foot = loft([(-64, 25, 25, 6), (-26, 25, 25, 6)], bevel=1.5, steps=3)
-    head = disc(19, -26, -9, 2, 32) + disc(20, 6.5, 9, 1, 32)
+    foot = loft([(-64, 25, 25, 6), (-26, 25, 25, 6)], bevel=1.5)
+    head = disc(19, -26, -9, 2) + disc(20, 6.5, 9, 1)
     return foot + head
 
 
 def laser_eye():
-    return disc(18.5, -10, 7, 0, 32)
+    return disc(18.5, -10, 7, 0)
 
 
 def laser_light():
@@ -119,6 +119,5 @@ def laser_light():
 
 def parts():
     functions = [base_team, base_frame, base_shell, base_eye, base_light, base_tail, number, wheel_sole, wheel_frame,
-        laser_frame,
-                 laser_eye, laser_light]
+                 laser_frame, laser_eye, laser_light]
     return {f.__name__: f().scaled(0.001) for f in functions}

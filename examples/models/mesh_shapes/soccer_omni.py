@@ -3,7 +3,7 @@
 above the floor, at the height of the wheels' axes."""
 import math
 
-from .surface import Surface, block, disc, lathe, loft, ring, total
+from .surface import Surface, block, box, disc, lathe, loft, ring, total
 
 RADIUS = 88
 FLAT = 72  # the front, behind the dribbler
@@ -42,22 +42,22 @@ def base_shell():
 
 def base_team():
     """The marker of the vision system in the middle of the top, and a belt."""
-    marker = disc(25, 115, 117.2, 0.6, 36)
+    marker = disc(25, 115, 117.2, 0.6)
     belt = _hull(48, 60, inset=-0.9)
     return marker + belt
 
 
 def base_light():
     """The other four markers, which tell robots of a team apart for the vision system."""
-    return total(disc(20, 115, 116.8, 0.6, 32).at(53 * math.cos(math.radians(a)), 53 * math.sin(math.radians(a)), 0)
+    return total(disc(20, 115, 116.8, 0.6).at(53 * math.cos(math.radians(a)), 53 * math.sin(math.radians(a)), 0)
                  for a in (40, 140, -140, -40))
 
 
 def base_frame():
     floor = _hull(-17, -11, inset=7, flat=70)
     deck = _hull(30, 37, inset=3, flat=70)
-    middle = disc(44, -12, 31, 0, 32).at(-6, 0, 0)
-    motors = total(disc(16, 22, 56, 1.5, 20).along_x().turned(math.radians(a)) for a in WHEELS)
+    middle = disc(44, -12, 31, 0).at(-6, 0, 0)
+    motors = total(disc(16, 22, 56, 1.5).along_x().turned(math.radians(a)) for a in WHEELS)
     posts = total(block((9, 9, 44), 1.5).at(x, y, 10) for x, y in ((60, 31), (60, -31), (-78, 12), (-78, -12)))
     return total([floor, deck, middle, motors, posts])
 
@@ -81,7 +81,7 @@ def base_sole():
 def base_eye():
     """A dark window in front, for the barrier of light that sees the ball, and the charger's grille behind."""
     window = block((3, 46, 14), 1.2).at(71.5, 0, 86)
-    lens = ring(3.5, 7, 72, 75, 1, 24).along_x().at(0, 0, 86) + disc(3.6, 72, 73.6, 0, 20).along_x().at(0, 0, 86)
+    lens = ring(3.5, 7, 72, 75, 1).along_x().at(0, 0, 86) + disc(3.6, 72, 73.6, 0).along_x().at(0, 0, 86)
     return window + lens
 
 
@@ -104,16 +104,16 @@ def number():
 
 def wheel_frame():
     """The hub: two discs that hold the rollers, about x."""
-    plates = ring(6, 21.5, -6.5, -4.5, 0.5, 32) + ring(6, 21.5, 4.5, 6.5, 0.5, 32)
-    hub = disc(7.5, -8.5, 8.5, 1, 20)
-    spokes = total(block((15, 3, 9), 0.5).at(13, 0, 0).turned(2 * math.pi * k / 6) for k in range(6))
+    plates = ring(6, 21.5, -6.5, -4.5) + ring(6, 21.5, 4.5, 6.5)
+    hub = disc(7.5, -8.5, 8.5)
+    spokes = total(box((15, 3, 9)).at(13, 0, 0).turned(2 * math.pi * k / 6) for k in range(6))
     return total([plates, hub, spokes]).along_x()
 
 
 def wheel_sole():
     """The rollers, whose outside is the wheel's circle of 27 mm."""
     count = 15
-    roller = lathe([(2.2, -4.6), (3.6, -3.4), (4.1, 0), (3.6, 3.4), (2.2, 4.6)], 10)  # about z, the direction of travel
+    roller = lathe([(2.7, -4.6), (4.1, 0), (2.7, 4.6)], 8)  # about z, the direction of travel
     placed = roller.mapped(lambda p: (p[0], p[2], -p[1])).at(22.9, 0, 0)  # about y, at the rim on x
     return total(placed.turned(2 * math.pi * k / count) for k in range(count)).along_x()
 

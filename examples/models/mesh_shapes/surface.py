@@ -119,8 +119,7 @@ def between(sections, parts):
 
 
 def loft(sections, bevel=0.0, steps=3, bevel_bottom=None, bevel_top=None):
-    """A shell along z through rounded rectangles (z, half_x, half_y, radius[, centre_x, centre_y]) in rising order of z.
-    The first and the last are the ends; their edges are rounded by `bevel`."""
+    """A shell along z through rounded rectangles (z, half_x, half_y, radius[, centre_x, centre_y]), z rising. The first and the last are the ends; their edges are rounded by `bevel`."""
     full = [tuple(s) + (0.0,) * (6 - len(s)) for s in sections]
     bottom = bevel if bevel_bottom is None else bevel_bottom
     top = bevel if bevel_top is None else bevel_top
@@ -128,8 +127,9 @@ def loft(sections, bevel=0.0, steps=3, bevel_bottom=None, bevel_top=None):
     def rounded(section, b, sign):
         z, hx, hy, r, cx, cy = section
         out = []
-        for k in range(steps):
-            a = k / steps * math.pi / 2
+        parts = 3 if b > 4 else 2
+        for k in range(parts):
+            a = k / parts * math.pi / 2
             inset = b * (1 - math.sin(a))
             out.append((z - sign * b * (1 - math.cos(a)), hx - inset, hy - inset, max(r - inset, 0.05 * r), cx, cy))
         return out
@@ -166,8 +166,14 @@ def lathe(profile, corners=24):
     return _stacked(rings)
 
 
-def disc(radius, low, high, bevel=0.0, corners=24, steps=1):
-    """A cylinder about z with rounded edges."""
+def _corners_of(radius):
+    """How many corners a circle needs to look round."""
+    return 12 if radius < 6 else 16 if radius < 14 else 20 if radius < 28 else 28
+
+
+def disc(radius, low, high, bevel=0.0, corners=None, steps=1):
+    """A cylinder about z with bevelled edges."""
+    corners = corners or _corners_of(radius)
     profile = []
     if bevel <= 0:
         profile = [(radius, low), (radius, high)]
@@ -202,9 +208,11 @@ def revolved(section, corners=24):
     return _cleaned(Surface(points, triangles))
 
 
-def ring(inner, outer, low, high, bevel=0.0, corners=24):
+def ring(inner, outer, low, high, bevel=0.0, corners=None):
     """A tube about z."""
-    b = bevel
+    b, corners = bevel, corners or _corners_of(outer)
+    if b <= 0:
+        return revolved([(inner, low), (outer, low), (outer, high), (inner, high)], corners)
     return revolved([(inner, low + b), (inner + b, low), (outer - b, low), (outer, low + b),
                      (outer, high - b), (outer - b, high), (inner + b, high), (inner, high - b)], corners)
 
@@ -214,7 +222,7 @@ def box(size):
     return _stacked([[(hx, hy, z), (-hx, hy, z), (-hx, -hy, z), (hx, -hy, z)] for z in (-hz, hz)])
 
 
-def strap(z0, r0, z1, r1, low, high, bevel=0.0, steps=4):
+def strap(z0, r0, z1, r1, low, high, bevel=0.0, steps=3):
     """A plate about y, from a round end of radius r0 at z0 to one of radius r1 at z1 < z0, from y `low` to `high`."""
     points = []
     for k in range(2 * steps + 1):

@@ -120,6 +120,15 @@ Surface surface_of(const mesh::Mesh& mesh) {
   }
   const double smooth = elementary::cos(smooth_angle);
   Surface s;
+  std::vector<std::vector<std::uint32_t>> drawn(mesh.vertices.size());  // with their normals
+  const auto index_of = [&](std::uint32_t corner, const Vec3& normal) {
+    const Vertex v = vertex(mesh.vertices[corner], normal);
+    if (around[corner].size() <= max_smooth_triangles)
+      for (const std::uint32_t known : drawn[corner])
+        if (s.vertices[known].normal == v.normal) return known;
+    s.vertices.push_back(v);
+    return drawn[corner].emplace_back(std::uint32_t(s.vertices.size() - 1));
+  };
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
     for (const std::uint32_t corner : mesh.triangles[i]) {
       Vec3 sum = Vec3::Zero();
@@ -129,8 +138,7 @@ Surface surface_of(const mesh::Mesh& mesh) {
         for (const std::uint32_t other : around[corner])
           if (normals[i].dot(normals[other]) >= smooth * normals[i].norm() * normals[other].norm())
             sum += normals[other];
-      s.indices.push_back(std::uint32_t(s.vertices.size()));
-      s.vertices.push_back(vertex(mesh.vertices[corner], sum.normalized()));
+      s.indices.push_back(index_of(corner, sum.normalized()));
     }
   return s;
 }
