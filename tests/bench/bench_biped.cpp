@@ -29,8 +29,10 @@ class Humanoids : public test::Scene {
     add_ground();
     const RobotTree model = read_model(MURO_TEST_SOURCE_DIR "/examples/models/humanoid.urdf");
     const int side = int(std::ceil(std::sqrt(count)));
-    for (int i = 0; i < count; ++i)
-      add(std::to_string(i), model, {{1.0 * (i % side), 1.0 * (i / side), model.standing_height()}, Quat::Identity()});
+    for (int i = 0; i < count; ++i) {
+      const int row = i / side;
+      add(std::to_string(i), model, {{1.0 * (i % side), 1.0 * row, model.standing_height()}, Quat::Identity()});
+    }
     use("motion.biped", rate, all_robots(), {{"feet", std::vector<std::string>{"l_foot_link", "r_foot_link"}}});
     if (with_links) use("kinematics.direct", rate, all_robots());
     set_threads(1);
@@ -43,7 +45,7 @@ class Humanoids : public test::Scene {
   /// Walks for so long (simulated s); returns what its steps have taken (s).
   double walk(double seconds) {
     double taken = 0;
-    for (int k = 0; k < int(seconds * rate + 0.5); ++k) {
+    for (long k = 0; k < std::lround(seconds * rate); ++k) {
       command(double(++steps_) / rate);
       const double start = wall_clock();
       run_for(1.0 / rate);

@@ -2,6 +2,8 @@
 // Walkers against closed forms: a compass, a robot that turns, ties of both feet, tilted soles.
 #include <gtest/gtest.h>
 
+#include "plugins/common/mesh/files_testing.hpp"
+#include "tests/support/files.hpp"
 #include "walker_testing.hpp"
 
 namespace muro::biped::testing {
@@ -21,7 +23,8 @@ TEST(CompassWalker, GoesTwoLSinAWithEachStepOfItsLegs) {
     w.run_for(0.01);
     lowest = std::min(lowest, w.base().position.z());
     if (k % 40 != 0) continue;
-    ASSERT_LT((w.base().position - start - Vec3(k / 40 * step, 0, 0)).norm(), 1e-9) << "after " << k / 40 << " steps";
+    const int steps = k / 40;
+    ASSERT_LT((w.base().position - start - Vec3(steps * step, 0, 0)).norm(), 1e-9) << "after " << steps << " steps";
     ASSERT_LT(w.base().orientation.vec().norm(), 1e-9) << "the trunk is upright";
   }
   EXPECT_NEAR(lowest, 0.2819078, 5e-8);
@@ -122,7 +125,7 @@ double error_of_swing(double dt) {
   const Swing legs;
   Walk w(1 / dt, {}, {{"left_lift", legs.shorter(0)}, {"right_lift", legs.lift - legs.shorter(0)}});
   const double start = w.base().position.x();
-  for (int k = 1; k <= int(4 / dt + 0.5); ++k) {
+  for (int k = 1; k <= std::lround(4 / dt); ++k) {
     legs.set(w, k * dt);
     w.run_for(dt);
   }
@@ -156,6 +159,24 @@ TEST(CompassWalker, WithRigidLegsStandsOnOneFootForever) {
   EXPECT_LT((w.base().position - start).norm(), 1e-12) << "after ten periods";
   EXPECT_EQ(w.contact("left_foot"), 1u);
   EXPECT_EQ(w.contact("right_foot"), 1u) << "it slides along the plane";
+}
+
+TEST(CompassWalker, GoesOnMeshesAsOnTheirHulls) {
+  const test::ScratchFolder folder;
+  const std::string plate =
+      folder.file("plate.stl", mesh::testing::stl_text(mesh::testing::box(Vec3(-0.5 * foot_length, -0.025, 0),
+                                                                          Vec3(0.5 * foot_length, 0.025, 0.02))));
+  Compass legs;
+  legs.toe_up = 0.05;
+  Walk boxes(100, {}, legs.start()), meshes(100, {}, legs.start(), {}, {}, {}, plate);
+  for (int k = 1; k <= 100; ++k)
+    for (Walk* w : {&boxes, &meshes}) {
+      legs.set(*w, k * 0.01);
+      w->run_for(0.01);
+    }
+  EXPECT_GT(boxes.base().position.x(), 0.4);
+  EXPECT_LT((boxes.base().position - meshes.base().position).norm(), 1e-6) << "a file of single precision";
+  EXPECT_EQ(boxes.footholds(), meshes.footholds());
 }
 
 TEST(TurningWalker, TurnsAboutTheLineThroughTheHipOfTheStanceLeg) {

@@ -17,9 +17,10 @@ inline constexpr double hip_spacing = 0.037;  ///< m, of each hip from the middl
 inline constexpr double foot_length = 0.1;    ///< m, half of it before the ankle
 
 /// Each leg has joints yaw (z), hip (y), lift (it shortens the leg, m), ankle (y); the base is between the hips.
-/// `trunk`: what others may touch of it.
-inline RobotTree walker(const std::vector<Shape>& soles, const Shape* trunk = nullptr) {
+/// `trunk`: what others may touch of it; `mesh`: file of a sole in place of `soles`.
+inline RobotTree walker(std::vector<Shape> soles, const Shape* trunk = nullptr, const std::string& mesh = "") {
   return test::tree_of([&](RobotBuilder& b) {
+    if (!mesh.empty()) soles = {{.kind = ShapeKind::mesh, .mesh = b.intern(mesh), .size = Vec3::Ones()}};
     b.base("trunk");
     b.set(keys::inertial, test::solid_box(2, {0.1, 0.1, 0.2}));
     if (trunk) b.set_array(keys::collision_shapes, std::span<const Shape>(trunk, 1));
@@ -55,8 +56,9 @@ struct Walk : test::Scene {
   const RobotView& robot;
 
   explicit Walk(double rate, const Parameters& more = {}, const std::map<std::string, double>& start = {},
-                const Pose& plane = {}, const std::vector<Shape>& soles = {flat_sole()}, const Pose& at = {})
-      : robot((add_ground(0.8, plane), add("r", walker(soles), plane * at))) {
+                const Pose& plane = {}, const std::vector<Shape>& soles = {flat_sole()}, const Pose& at = {},
+                const std::string& mesh = "")
+      : robot((add_ground(0.8, plane), add("r", walker(soles, nullptr, mesh), plane * at))) {
     for (const auto& [joint, position] : start)
       world().set(world().object("r/" + joint), keys::initial_joint_position, position);
     Parameters parameters{{"feet", Names{"left_foot", "right_foot"}}, {"joints", std::string("position")}};
