@@ -4,7 +4,7 @@ are for the left side; the right one mirrors them."""
 
 import math
 
-from .surface import between, block, disc, loft, plate, ring, strap, total
+from .surface import between, block, box, disc, loft, plate, ring, strap, total
 
 def trunk_shell():
     chest = loft(between([(57, 34, 37, 24, -15, 0), (72, 44, 48, 28, -15, 0), (94, 49, 53.5, 30, -14.5, 0),
@@ -23,12 +23,12 @@ def trunk_team():
     return back + chest + collar
 
 def trunk_frame():
-    waist = disc(27, 50, 59, 1.5).at(-6, 0, 0)
-    neck = disc(15, 126, 137, 1.5).at(-1, 0, 0)
-    shoulders = disc(17, 50, 58.5, 1.5).along_y().at(-1, 0, 111).with_mirror_y()
+    waist = disc(27, 50, 59).at(-6, 0, 0)
+    neck = disc(15, 126, 137).at(-1, 0, 0)
+    shoulders = disc(17, 50, 58.5).along_y().at(-1, 0, 111).with_mirror_y()
     handle = total([block((8, 8, 18), 3).at(-60, 0, 130).at(0, s * 22, 0) for s in (-1, 1)]) + block((8, 52, 8),
                    3).at(-60, 0, 139)
-    foot_of_chest = block((3, 30, 5), 1.2).at(28.5, 0, 66)
+    foot_of_chest = box((3, 30, 5)).at(28.5, 0, 66)
     return total([waist, neck, shoulders, handle, foot_of_chest])
 
 def number():
@@ -38,9 +38,9 @@ def number():
     return behind + front
 
 def head_pan_frame():
-    neck = disc(12, -2, 14, 1.5)
+    neck = disc(12, -2, 14)
     servo = block((34, 28, 22), 3).at(-6, 0, 24)
-    horns = disc(9, 13, 19, 1).along_y().at(10, 0, 28.5).with_mirror_y()
+    horns = disc(9, 13, 19).along_y().at(10, 0, 28.5).with_mirror_y()
     return total([neck, servo, horns])
 
 def _head(f):
@@ -57,7 +57,7 @@ def head_shell():
 
 def head_team():
     ears = (disc(15, 38, 45.5, 2.5).along_y().at(-21, 0, 40)).with_mirror_y()
-    stripe = total([block((15, 13, 5), 2).pitched(a).at(-22 + x, 0, z) for a, x, z in ((-0.3, -14, 71.2),
+    stripe = total([box((15, 13, 5)).pitched(a).at(-22 + x, 0, z) for a, x, z in ((-0.3, -14, 71.2),
                    (0, 0, 73.6), (0.3, 14, 71.2))])
     return _head(ears + stripe)
 
@@ -65,29 +65,29 @@ def head_eye():
     """The visor, and the pupils."""
     visor = loft([(-12, 31, 15, 14, 0, 44.5), (10, 31, 15, 14, 0, 44.5),
                   (13.2, 28.5, 12.5, 12, 0, 44.5)], bevel=0, bevel_top=2, steps=4).along_x()
-    pupils = disc(4.2, 0, 1.2, 0.5).along_x().at(14.6, 15.5, 44).with_mirror_y()
+    pupils = disc(4.2, 0, 1.2).along_x().at(14.6, 15.5, 44).with_mirror_y()
     return _head(visor + pupils)
 
 def head_light():
-    eyes = disc(8.6, 0, 2.4, 0.9).along_x().at(12.4, 15.5, 44).with_mirror_y()
-    mouth = block((2, 16, 2.4), 0.9).at(12.4, 0, 21)
+    eyes = disc(8.6, 0, 2.4).along_x().at(12.4, 15.5, 44).with_mirror_y()
+    mouth = box((2, 16, 2.4)).at(12.4, 0, 21)
     return _head(eyes + mouth)
 
 def head_frame():
     """The lens of the camera, whose front is camera_link, and the chin."""
     lens = ring(2.6, 5, 0, 2.4, 0.7).along_x().at(11.9, 0, 49.75)
-    chin = block((5, 24, 8), 2).at(9, 0, 21)
+    chin = box((5, 24, 8)).at(9, 0, 21)
     return _head(lens + chin)
 
 def shoulder_frame():
-    joint = disc(16, -1.5, 10, 1.5).along_y()
-    bridge = block((47, 6, 26), 2).at(0, 11, -6)
-    arms = block((3.5, 34, 22), 1.2).at(21.6, 24, -10) + block((3.5, 34, 22), 1.2).at(-21.6, 24, -10)
+    joint = disc(16, -1.5, 10).along_y()
+    bridge = box((47, 6, 26)).at(0, 11, -6)
+    arms = box((3.5, 34, 22)).at(21.6, 24, -10) + box((3.5, 34, 22)).at(-21.6, 24, -10)
     return total([joint, bridge, arms])
 
 def upper_arm_frame():
-    roll = disc(13, -19.4, 19.4, 1).along_x().at(-19, 0, 0)
-    elbow = disc(14.5, -17, 17, 1.5).along_x().at(-19, 90.4, 0)
+    roll = disc(13, -19.4, 19.4).along_x().at(-19, 0, 0)
+    elbow = disc(14.5, -17, 17).along_x().at(-19, 90.4, 0)
     bar = block((22, 80, 24), 3).at(-19, 46, 0)
     return total([roll, elbow, bar])
 
@@ -97,8 +97,8 @@ def upper_arm_shell():
                 bevel=3.5).along_y()
 
 def forearm_frame():
-    arms = block((3, 36, 20), 1).at(-19 + 19.2, 8, 0) + block((3, 36, 20), 1).at(-19 - 19.2, 8, 0)
-    bridge = block((41, 5, 20), 2).at(-19, 24, 0)
+    arms = box((3, 36, 20)).at(-19 + 19.2, 8, 0) + box((3, 36, 20)).at(-19 - 19.2, 8, 0)
+    bridge = box((41, 5, 20)).at(-19, 24, 0)
     hand = loft([(92, 8, 10, 6, 0, -19), (104, 11, 14, 8, 0, -19), (118, 10, 13, 8, 0, -19), (126, 7, 9, 6, 0, -19)],
                 bevel=3).along_y()
     thumb = loft([(98, 4, 4, 4, 12, -14), (113, 4.5, 4.5, 4.5, 15, -12)], bevel=3).along_y()
@@ -117,25 +117,25 @@ def pelvis_team():
 
 
 def pelvis_frame():
-    bearing = disc(24, -10, -1, 1.5).at(-6, 0, 0)
-    hips = disc(17, -47, -34, 1.5).at(0, 35, 0).with_mirror_y()
+    bearing = disc(24, -10, -1).at(-6, 0, 0)
+    hips = disc(17, -47, -34).at(0, 35, 0).with_mirror_y()
     return bearing + hips
 
 def hip_yaw_frame():
-    horn = disc(15, -9, 2, 1.5)
-    top = block((62, 28, 5), 1.5).at(-6, 0, -8)
-    ends = block((4, 28, 36), 1.5).at(-35, 0, -23) + block((4, 28, 36), 1.5).at(23, 0, -23)
+    horn = disc(15, -9, 2)
+    top = box((62, 28, 5)).at(-6, 0, -8)
+    ends = box((4, 28, 36)).at(-35, 0, -23) + box((4, 28, 36)).at(23, 0, -23)
     return total([horn, top, ends])
 
 def hip_roll_servo():
     body = block((48, 33, 31), 3.5).at(18, 0, 0)
-    axles = disc(9, -10, 46, 1).along_x()
-    horns = disc(12, -19.5, 19.5, 1).along_y().at(24.1, 0, 0)
+    axles = disc(9, -10, 46).along_x()
+    horns = disc(12, -19.5, 19.5).along_y().at(24.1, 0, 0)
     return total([body, axles, horns])
 
 def thigh_frame():
-    sides = (strap(0, 14, -84, 15, 19.3, 22.6, 1)).with_mirror_y().at(0, -19, 0)
-    knee = disc(15, -18.4, 18.4, 1.5).along_y().at(0, -19, -110.15)
+    sides = (strap(0, 14, -84, 15, 19.3, 22.6)).with_mirror_y().at(0, -19, 0)
+    knee = disc(15, -18.4, 18.4).along_y().at(0, -19, -110.15)
     bar = block((24, 30, 34), 3).at(0, -19, -92)
     return total([sides, knee, bar])
 
@@ -145,8 +145,8 @@ def thigh_shell():
                          (-27, 15, 16, 10, 0, -19)], bevel=3.5)
 
 def shin_frame():
-    knee = (strap(0, 13.5, -34, 12, 18.8, 22, 1)).with_mirror_y().at(0, -19, 0)
-    ankle = (strap(-74, 12, -110, 13, 17.6, 20.8, 1)).with_mirror_y().at(0, -19, 0)
+    knee = (strap(0, 13.5, -34, 12, 18.8, 22)).with_mirror_y().at(0, -19, 0)
+    ankle = (strap(-74, 12, -110, 13, 17.6, 20.8)).with_mirror_y().at(0, -19, 0)
     bar = block((20, 32, 62), 3).at(-2, -19, -54)
     return total([knee, ankle, bar])
 
@@ -162,13 +162,13 @@ def shin_team():
 
 def ankle_servo():
     body = block((48, 33, 31), 3.5).at(-6, -19, 0)
-    axles = disc(9, -34, 22, 1).along_x().at(0, -19, 0)
-    horns = disc(12, -17.2, 17.2, 1).along_y().at(0, -19, 0)
+    axles = disc(9, -34, 22).along_x().at(0, -19, 0)
+    horns = disc(12, -17.2, 17.2).along_y().at(0, -19, 0)
     return total([body, axles, horns])
 
 def foot_frame():
-    back = block((4, 26, 40), 1.5).at(-10, 0, -8)
-    front = block((4, 26, 40), 1.5).at(48, 0, -8)
+    back = box((4, 26, 40)).at(-10, 0, -8)
+    front = box((4, 26, 40)).at(48, 0, -8)
     return back + front
 
 def foot_shell():

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Parts of quadruped_a1.urdf, a file for each link and material, in mm and in the frame of the link. Those of legs are
 for the front left one; others mirror them."""
-from .surface import ball, block, disc, loft, plate, ring, strap, total
+from .surface import ball, box, disc, loft, plate, ring, strap, total
 
 
 def trunk_shell():
@@ -33,7 +33,7 @@ def trunk_frame():
     caps = total([disc(24, 203, 209, 2).along_x().at(0, 47, 0), disc(24, -209, -203, 2).along_x().at(0, 47, 0)])
     keel = loft([(-120, 48, 6, 6, 0, -57), (120, 48, 6, 6, 0, -57)], bevel=4).along_x()
     rails = loft([(-70, 4, 4, 4, 30, 70), (70, 4, 4, 4, 30, 70)], bevel=2).along_x()
-    posts = total([block((8, 6, 14), 2).at(x, 30, 64) for x in (-60, 60)])
+    posts = total([box((8, 6, 14)).at(x, 30, 64) for x in (-60, 60)])
     return total([(motors + caps).with_mirror_y(), keel, (rails + posts).with_mirror_y()])
 
 
@@ -48,7 +48,7 @@ def trunk_eye():
 def trunk_light():
     eyes = loft([(258, 6.5, 4, 4), (263.6, 6, 3.5, 3.5)], bevel=0, bevel_top=1).along_x().at(0, 18.5,
                  23).with_mirror_y()
-    tail = block((3, 36, 5), 1.4).at(-176, 0, 16)
+    tail = box((3, 36, 5)).at(-176, 0, 16)
     return eyes + tail
 
 
@@ -87,14 +87,14 @@ def thigh_team():
 
 def thigh_servo():
     """The hub, and the screw of the knee."""
-    hub = disc(14, 16, 20, 1.5).along_y()
+    hub = disc(14, 16, 20).along_y()
     bolts = total([disc(3, 16, 18.4, 0, 8).along_y().at(22.5 * c, 0, 22.5 * d) for c, d in ((1, 0), (-1, 0),
                   (0, 1), (0, -1))])
     return hub + bolts
 
 
 def calf_frame():
-    fork = (strap(0, 15, -48, 11, 10, 13.5, 1.2)).with_mirror_y()
+    fork = (strap(0, 15, -48, 11, 10, 13.5)).with_mirror_y()
     shank = loft([(-196, 8.5, 8.5, 8.5, 0, 0), (-150, 9.5, 9, 8, -5, 0), (-90, 12, 10, 9, -7, 0),
                   (-40, 13, 9.8, 8, -3, 0),
                   (-16, 10, 9, 7, 0, 0)], bevel=3)

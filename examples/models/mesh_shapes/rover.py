@@ -3,7 +3,7 @@
 to the shapes by which the rover collides: a box of 350 x 250 x 120 mm, wheels of 60 mm."""
 import math
 
-from .surface import Surface, between, block, box, disc, loft, plate, revolved, ring, total
+from .surface import Surface, between, box, disc, loft, plate, revolved, ring, total
 
 
 def base_team():
@@ -68,12 +68,12 @@ def _side_windows():
 
 
 def base_light():
-    lamps = total(disc(9, 0, 4, 1.2).along_x().at(172.4, y, -31) for y in (-66, 66))
+    lamps = total(disc(9, 0, 4).along_x().at(172.4, y, -31) for y in (-66, 66))
     return lamps
 
 
 def base_tail():
-    return total(block((3, 26, 8), 1).at(-175.4, y, -31) for y in (-66, 66))
+    return total(box((3, 26, 8)).at(-175.4, y, -31) for y in (-66, 66))
 
 
 def number():
@@ -95,8 +95,8 @@ def wheel_sole():
 
 def wheel_frame():
     """The rim, on the left as on the right."""
-    rim = ring(30, 38, -17.5, 17.5)
-    web = disc(31, -4, 4, 0)
+    rim = ring(30, 38, -17.5, 17.5, 0, 20)
+    web = disc(31, -4, 4, 0, 20)
     spokes = total(box((24, 7, 24)).at(20, 0, 0).turned(2 * math.pi * k / 5) for k in range(5))
     cap = disc(10, -18.5, 18.5)
     return total([rim, web, spokes, cap]).along_y()
@@ -105,7 +105,7 @@ def wheel_frame():
 def laser_frame():
     """A scanner of the size of a Hokuyo URG-04LX: the rays leave at z 0."""
     foot = loft([(-64, 25, 25, 6), (-26, 25, 25, 6)], bevel=1.5)
-    head = disc(19, -26, -9, 2) + disc(20, 6.5, 9, 1)
+    head = disc(19, -26, -9, 2) + disc(20, 6.5, 9)
     return foot + head
 
 
@@ -114,7 +114,7 @@ def laser_eye():
 
 
 def laser_light():
-    return block((2, 10, 2.4), 0.6).at(25, 0, -34)
+    return box((2, 10, 2.4)).at(25, 0, -34)
 
 
 def parts():

@@ -3,7 +3,7 @@
 above the floor, at the height of the wheels' axes."""
 import math
 
-from .surface import Surface, block, box, disc, lathe, loft, ring, total
+from .surface import Surface, box, disc, lathe, loft, ring, total
 
 RADIUS = 88
 FLAT = 72  # the front, behind the dribbler
@@ -42,14 +42,14 @@ def base_shell():
 
 def base_team():
     """The marker of the vision system in the middle of the top, and a belt."""
-    marker = disc(25, 115, 117.2, 0.6)
+    marker = disc(25, 115, 117.2)
     belt = _hull(48, 60, inset=-0.9)
     return marker + belt
 
 
 def base_light():
     """The other four markers, which tell robots of a team apart for the vision system."""
-    return total(disc(20, 115, 116.8, 0.6).at(53 * math.cos(math.radians(a)), 53 * math.sin(math.radians(a)), 0)
+    return total(disc(20, 115, 116.8).at(53 * math.cos(math.radians(a)), 53 * math.sin(math.radians(a)), 0)
                  for a in (40, 140, -140, -40))
 
 
@@ -57,14 +57,14 @@ def base_frame():
     floor = _hull(-17, -11, inset=7, flat=70)
     deck = _hull(30, 37, inset=3, flat=70)
     middle = disc(44, -12, 31, 0).at(-6, 0, 0)
-    motors = total(disc(16, 22, 56, 1.5).along_x().turned(math.radians(a)) for a in WHEELS)
-    posts = total(block((9, 9, 44), 1.5).at(x, y, 10) for x, y in ((60, 31), (60, -31), (-78, 12), (-78, -12)))
+    motors = total(disc(16, 22, 56).along_x().turned(math.radians(a)) for a in WHEELS)
+    posts = total(box((9, 9, 44)).at(x, y, 10) for x, y in ((60, 31), (60, -31), (-78, 12), (-78, -12)))
     return total([floor, deck, middle, motors, posts])
 
 
 def base_servo():
     """The kicker's plate with its plunger, and the arms of the dribbler."""
-    kicker = block((4, 52, 17), 1.5).at(66, 0, -4) + disc(5, 40, 65, 1, 16).along_x().at(0, 0, -3)
+    kicker = box((4, 52, 17)).at(66, 0, -4) + disc(5, 40, 65, 1, 16).along_x().at(0, 0, -3)
     arms = total(loft([(y - 3, 11, 8, 6, 14, 76), (y + 3, 11, 8, 6, 14, 76)], bevel=1).along_y() for y in (-36, 36))
     return kicker + arms
 
@@ -80,7 +80,7 @@ def base_sole():
 
 def base_eye():
     """A dark window in front, for the barrier of light that sees the ball, and the charger's grille behind."""
-    window = block((3, 46, 14), 1.2).at(71.5, 0, 86)
+    window = box((3, 46, 14)).at(71.5, 0, 86)
     lens = ring(3.5, 7, 72, 75, 1).along_x().at(0, 0, 86) + disc(3.6, 72, 73.6, 0).along_x().at(0, 0, 86)
     return window + lens
 

@@ -119,7 +119,8 @@ def between(sections, parts):
 
 
 def loft(sections, bevel=0.0, steps=3, bevel_bottom=None, bevel_top=None):
-    """A shell along z through rounded rectangles (z, half_x, half_y, radius[, centre_x, centre_y]), z rising. The first and the last are the ends; their edges are rounded by `bevel`."""
+    """A shell along z through rounded rectangles (z, half_x, half_y, radius[, centre_x, centre_y]), z rising. The first
+    and the last are the ends; their edges are rounded by `bevel`."""
     full = [tuple(s) + (0.0,) * (6 - len(s)) for s in sections]
     bottom = bevel if bevel_bottom is None else bevel_bottom
     top = bevel if bevel_top is None else bevel_top
