@@ -106,7 +106,7 @@ class Articulated final : public Algorithm {
       }
       while (end < range.end && end < i + lane_width && served_[end].robot && served_[end].model == served_[i].model)
         ++end;
-      move(i, end, step.dt);
+      move(i, end, step);
     }
     accelerations_.end_step(range, step.dt);
   }
@@ -156,21 +156,21 @@ class Articulated final : public Algorithm {
     }
   }
 
-  void move(std::uint32_t begin, std::uint32_t end, double dt) {
+  void move(std::uint32_t begin, std::uint32_t end, const Step& step) {
     thread_local WorkMemory memory;
     const Model& model = models_[served_[begin].model];
     RobotState states[lane_width];
     std::size_t contacts = 0;
     Batch batch{.structure = model.structure(),
                 .gravity = {gravity_.x(), gravity_.y(), gravity_.z()},
-                .dt = dt,
+                .dt = step.dt,
                 .omega = omega_,
                 .impact_speed = std::max(0.02, gravity_.norm() / omega_),
-                .hard_speed = hard_way / dt,
+                .hard_speed = hard_way / step.dt,
                 .correcting_speed = correcting_speed_};
     for (std::uint32_t i = begin; i < end; ++i) {
       Robot& robot = *served_[i].robot;
-      robot.prepare(dt);
+      robot.prepare(step.dt);
       states[i - begin] = robot.state();
       contacts += robot.contact_count();
       batch.equal_masses = batch.equal_masses && served_[i].masses == served_[begin].masses;
@@ -180,7 +180,10 @@ class Articulated final : public Algorithm {
                                                 int(std::max(some, std::bit_ceil(contacts)))));
     const unsigned broken = kernels_->step(batch, states, int(end - begin));
     if (broken != 0) throw Error(served_[begin + std::uint32_t(std::countr_zero(broken))].robot->failure());
-    for (std::uint32_t i = begin; i < end; ++i) served_[i].robot->export_contacts();
+    for (std::uint32_t i = begin; i < end; ++i) {
+      served_[i].robot->take_impacts(step);
+      served_[i].robot->export_contacts();
+    }
   }
 
   Accelerations accelerations_{mesh::hull_vertices};
@@ -203,10 +206,11 @@ void Articulated::report(Connector& c) const {
   for (const Robot& r : robots_)
     links.insert(links.end(), r.model().regularized_links.begin(), r.model().regularized_links.end());
   if (!links.empty())
-    c.host().log(LogLevel::info,
-                 "motion.articulated: bodies without mass and inertia, or with a moment of inertia that exceeds the sum "
-                 "of the two others, cannot be moved; what they lack was added to " +
-                     quoted_list(links) + "; give them an `inertial` that fits");
+    c.host().log(
+        LogLevel::info,
+        "motion.articulated: bodies without mass and inertia, or with a moment of inertia that exceeds the sum "
+        "of the two others, cannot be moved; what they lack was added to " +
+            quoted_list(links) + "; give them an `inertial` that fits");
   std::vector<std::string> names;
   bool still = false;
   for (std::size_t i = 0; i < served_.size(); ++i) {

@@ -31,26 +31,26 @@ struct RobotState {
   const double* targets[target_kinds] = {};  ///< by Drive
   const double* friction_losses = nullptr;
   const double* armature_losses = nullptr;
-  const Mass* masses = nullptr;              ///< of its bodies
-  double mass = 0;                           ///< kg, all
-  double radius = 0;                         ///< m: of gyration
-  const KernelContact* contacts = nullptr;   ///< by body, in rising order
+  const Mass* masses = nullptr;             ///< of its bodies
+  double mass = 0;                          ///< kg, all
+  double radius = 0;                        ///< m: of gyration
+  const KernelContact* contacts = nullptr;  ///< by body, in rising order
   int contact_count = 0;
-  const double* wrenches = nullptr;          ///< force and torque on each body at its origin, world axes; null: none
-  double* contact_wrenches = nullptr;        ///< out: force and torque of each contact at its point; null: not wanted
+  const double* wrenches = nullptr;    ///< force and torque on each body at its origin, world axes; null: none
+  double* contact_wrenches = nullptr;  ///< out: force and torque of each contact at its point; null: not wanted
 };
 
 /// What all robots of a call share.
 struct Batch {
   Structure structure;
-  double gravity[3] = {};    ///< m/s^2
-  double dt = 0;             ///< s
-  double omega = 0;          ///< rad/s: of a robot that bobs on one contact
-  double impact_speed = 0;   ///< m/s: what comes faster rebounds
-  double hard_speed = 0;     ///< m/s: what comes faster is stopped at once
+  double gravity[3] = {};       ///< m/s^2
+  double dt = 0;                ///< s
+  double omega = 0;             ///< rad/s: of a robot that bobs on one contact
+  double impact_speed = 0;      ///< m/s: what comes faster rebounds
+  double hard_speed = 0;        ///< m/s: what comes faster is stopped at once
   double correcting_speed = 0;  ///< m/s: overlap is parted no faster
-  bool equal_masses = true;  ///< all robots have the masses of the first
-  void* work = nullptr;      ///< of work_bytes(), aligned to 64 bytes
+  bool equal_masses = true;     ///< all robots have the masses of the first
+  void* work = nullptr;         ///< of work_bytes(), aligned to 64 bytes
 };
 
 struct Kernels {

@@ -24,16 +24,17 @@ struct ContactPoint {
   V3<S> displacement;  ///< m, of the friction spring, across the normal
   S friction;          ///< coefficient
   S restitution;
-  S load;              ///< N: the normal force that bounds friction
-  S is_on;             ///< 1; 0: it does not push in this step
-  S slides_on;         ///< 1; 0: what slides may come to rest in this step
-  S breaks_away;       ///< 1: it would have to hold more than it can, and drags with `drag` instead
-  V3<S> drag;          ///< N
+  S load;         ///< N: the normal force that bounds friction
+  S pushed;       ///< m/s: what other forces add to its velocity along the normal, where that is known
+  S is_on;        ///< 1; 0: it does not push in this step
+  S slides_on;    ///< 1; 0: what slides may come to rest in this step
+  S breaks_away;  ///< 1: it would have to hold more than it can, and drags with `drag` instead
+  V3<S> drag;     ///< N
 };
 /// Resistance against rolling and spinning; of the same point.
 template <class S>
 struct TurningPoint {
-  V3<S> displacement;  ///< rad, of the spring
+  V3<S> displacement;   ///< rad, of the spring
   S rolling, spinning;  ///< m
 };
 
@@ -51,10 +52,10 @@ struct ContactLaw {
 /// What a contact does in a step, for afterwards.
 template <class S>
 struct ContactStep {
-  V3<S> start;       ///< N: force without acceleration
-  S along, across;   ///< kg: K = across (1 - t t') + along n n' where it slides, else across 1 + (along - across) n n'
-  V3<S> slide;       ///< unit, the direction t in which it slides; 0 where it sticks
-  V3<S> torque;      ///< N m: against rolling and spinning, without acceleration
+  V3<S> start;      ///< N: force without acceleration
+  S along, across;  ///< kg: K = across (1 - t t') + along n n' where it slides, else across 1 + (along - across) n n'
+  V3<S> slide;      ///< unit, the direction t in which it slides; 0 where it sticks
+  V3<S> torque;     ///< N m: against rolling and spinning, without acceleration
   S rolling, spinning;  ///< kg m^2: the same of these
 
   /// N, of the end of the step. `a`: m/s^2, of the point.
@@ -137,8 +138,9 @@ MURO_INLINE S soft_push(const ContactPoint<S>& p, const ContactLaw<S>& law, S sp
 template <class S>
 MURO_INLINE MaskOf<S> pushes(const ContactPoint<S>& p, const ContactLaw<S>& law, S speed, double dt) {
   const S push = soft_push(p, law, speed, dt);
-  const auto rebounds = (p.restitution > S(0)) & (speed > law.impact_speed);
-  return (p.depth > S(0)) & (push > S(0)) & !rebounds;
+  const auto rebounds = (p.restitution > S(0)) & (speed + p.pushed > law.impact_speed);
+  const auto is_hit = (p.restitution > S(0)) & (speed + p.pushed < -law.impact_speed);
+  return (p.depth > S(0)) & ((push > S(0)) | is_hit) & !rebounds;
 }
 
 /// N: what the normal force may be, for friction of a point whose last one is not known.
@@ -158,11 +160,12 @@ MURO_INLINE ContactStep<S> touch(const ContactPoint<S>& p, const ContactLaw<S>& 
   const V3<S> own = v + cross(w, p.arm), velocity = own - p.velocity;
   const S speed = dot(velocity, p.normal);
   // along: spring and damper; an impact reaches the velocity of its rebound, whatever it takes
-  const auto is_impact = ((p.restitution > S(0)) & (speed < -law.impact_speed)) | (speed < -law.hard_speed);
-  constexpr double hardness = 1e4;
+  const S approach = speed + p.pushed;
+  const auto is_impact = ((p.restitution > S(0)) & (approach < -law.impact_speed)) | (approach < -law.hard_speed);
+  constexpr double hardness = 1e6;
   const S impact_damping = S(hardness / dt) * law.mass;
   S push = soft_push(p, law, speed, dt);
-  push = select(is_impact, -impact_damping * (S(1) + p.restitution) * speed, push);
+  push = select(is_impact, -impact_damping * (speed + p.restitution * approach), push);
   const S along = p.is_on * select(is_impact, h * impact_damping, h * (law.damping + h * law.stiffness));
   const V3<S> slip = velocity - speed * p.normal;
   BoundedSpring<S> hold(p.displacement, slip, law.stiffness, law.damping, p.friction * p.load, p.slides_on, dt);

@@ -17,11 +17,12 @@ template <class S>
 class Contacts {
  public:
   /// Finds which contacts go together. Bodies have been placed.
-  Contacts(const Batch& batch, const RobotState* robots, int count, Work<S>& work)
+  Contacts(const Batch& batch, const RobotState* robots, int count, const Masses<S>& masses, Work<S>& work)
       : batch_(batch), work_(work), gravity_(splat<S>(batch.gravity)) {
     for (int k = 0; k < batch.structure.count; ++k) work.acts_on[k] = nullptr;
     set_law(robots, count);
     load_wrenches(robots, count);
+    find_pushes(masses);
     load_contacts(robots, count);
   }
 
@@ -44,8 +45,8 @@ class Contacts {
     }
   }
 
-  /// Whether some contact pulls, which is let go then, a sliding one would turn back, a sticking one has to hold more than
-  /// it can, or a new one bears another load than was expected.
+  /// Whether some contact pulls, which is let go then, a sliding one would turn back, a sticking one has to hold more
+  /// than it can, or a new one bears another load than was expected.
   bool look_again() {
     unsigned changed = 0;
     for (int i = 0; i < work_.contact_count; ++i) {
@@ -56,9 +57,9 @@ class Contacts {
       const S load = dot(force, p.normal);
       const V3<S> across = force - load * p.normal;
       const auto is_on = p.is_on > S(0), pulls = is_on & (load < S(0));
-      const auto bears_other = is_on & !pulls & (p.friction > S(0)) & (p.breaks_away == S(0)) &
-                               (lane::abs(load - p.load) >
-                                select(slot.is_new, S(0.1), S(0.25)) * max(load, p.load) + S(0.05) * weight_);
+      const auto bears_other =
+          is_on & !pulls & (p.friction > S(0)) & (p.breaks_away == S(0)) &
+          (lane::abs(load - p.load) > select(slot.is_new, S(0.1), S(0.25)) * max(load, p.load) + S(0.05) * weight_);
       const V3<S> own = body.v + cross(body.w, p.arm) - p.velocity;
       const auto turns_back = dot(slot.step.slide, own + S(batch_.dt) * acceleration_of(slot)) < S(0);
       // more than friction can hold
@@ -98,8 +99,10 @@ class Contacts {
         turn = turn_after(slot, body, load);
       }
       const V3<S> d = body.axes * displacement, t = body.axes * turn;
-      store_rows(slot.kept, 0, {p.is_on * d.x, p.is_on * d.y, p.is_on * d.z, p.is_on * t.x, p.is_on * t.y,
-                                p.is_on * t.z, p.is_on * load}, slot.which);
+      store_rows(
+          slot.kept, 0,
+          {p.is_on * d.x, p.is_on * d.y, p.is_on * d.z, p.is_on * t.x, p.is_on * t.y, p.is_on * t.z, p.is_on * load},
+          slot.which);
       tell(slot, body.axes * force, body.axes * moment);
     }
   }
@@ -113,8 +116,13 @@ class Contacts {
     }
     const S omega(batch_.omega);
     weight_ = mass * sqrt(dot(gravity_, gravity_));
-    law_ = {mass * omega * omega,  S(2) * mass * omega,    mass,
-            S(batch_.impact_speed), S(batch_.hard_speed), radius, S(2 * batch_.correcting_speed / batch_.omega)};
+    law_ = {mass * omega * omega,
+            S(2) * mass * omega,
+            mass,
+            S(batch_.impact_speed),
+            S(batch_.hard_speed),
+            radius,
+            S(2 * batch_.correcting_speed / batch_.omega)};
   }
   MURO_INLINE static void set(S& value, int i, double x) {
     if constexpr (count_of<S> == 1)
@@ -214,11 +222,21 @@ class Contacts {
     slot.turning.rolling = of_surface[2], slot.turning.spinning = of_surface[3];
     slot.turning.displacement = transposed_times(body.axes, V3<S>{before[3], before[4], before[5]});
     const S speed = dot(body.v + cross(body.w, p.arm) - p.velocity, p.normal);
+    p.pushed = knows_pushes_ ? S(batch_.dt) * dot(pushed_a_ + cross(pushed_alpha_, p.arm), p.normal) : S(0);
     p.is_on = select(pushes(p, law_, speed, batch_.dt), S(1), S(0));
     p.slides_on = S(1), p.breaks_away = S(0);
     p.drag = {S(0), S(0), S(0)};
     slot.is_new = before[6] == S(0);
     p.load = select(slot.is_new, expected_load(p, law_, speed, batch_.dt), before[6]);
+  }
+
+  /// A robot that is one body: what wrenches do to it is known before contacts are.
+  void find_pushes(const Masses<S>& masses) {
+    knows_pushes_ = has_wrenches_ && batch_.structure.count == 1 && !batch_.structure.fixed;
+    if (!knows_pushes_) return;
+    const V3<S> zero{S(0), S(0), S(0)};
+    const Inertia<S> wrench = wrench_on(0);
+    solve(own_inertia(masses, 0, zero, zero), -wrench.n, -wrench.f, pushed_alpha_, pushed_a_);
   }
 
   /// m/s^2: of the point, as accelerations of bodies say it.
@@ -269,6 +287,8 @@ class Contacts {
   S weight_;  ///< N, of the robot
   Places<S> wrenches_;
   bool has_wrenches_ = false;
+  bool knows_pushes_ = false;
+  V3<S> pushed_alpha_, pushed_a_;  ///< by wrenches alone, where pushes are known
   V3<S> force_, torque_;
   S touches_;  ///< 1: it has contacts
 };

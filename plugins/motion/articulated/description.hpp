@@ -45,6 +45,8 @@ inline constexpr PropertyUse reads[] = {
     {"pose.initial", "of the base"},
     {"twist.initial", "of the base"},
     {"joint.position.initial", "of every joint"},
+    {"contact.impact", "on the base of a robot that is one body: where impacts with robots were within the last step"},
+    {"contact.impact.time", "on the same: when they were"},
 };
 inline constexpr PropertyUse writes[] = {
     {"pose", "of the base"},
@@ -60,12 +62,14 @@ inline constexpr PropertyUse writes[] = {
     {keys::contact_wrenches_of_motion.name, "of the base: what each contact did, where somebody reads it"},
     {"contact.world", "that the motion answers for contacts of the robot"},
     {"twist.lag", "0: pose and twist are those of one instant"},
+    {"contact.impact.step", "of a base that impacts push: length of a step"},
 };
 inline constexpr Description description{
     .id = "motion.articulated",
     .kind = Kind::motion,
     .version = "1.0.0",
-    .summary = "Multi-body dynamics by the articulated-body algorithm, eight robots at a time, drives and contacts implicit",
+    .summary =
+        "Multi-body dynamics by the articulated-body algorithm, eight robots at a time, drives and contacts implicit",
     .parameters = parameters,
     .reads = reads,
     .writes = writes,

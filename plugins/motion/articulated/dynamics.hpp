@@ -14,7 +14,8 @@ inline namespace MURO_ISA {
 
 using lane::M3, lane::splat, lane::V3;
 
-/// How a joint moves in a step: qdd = rate + is_free (effort - what the bodies behind it need) / inertia. One per joint.
+/// How a joint moves in a step: qdd = rate + is_free (effort - what the bodies behind it need) / inertia. One per
+/// joint.
 template <class S>
 struct JointTerms {
   S effort;   ///< N m or N
@@ -26,17 +27,17 @@ struct JointTerms {
 /// What a step keeps of each body and its joint.
 template <class S>
 struct BodyStep {
-  Turn<S> turn;        ///< of a hinge
-  S q, qd;             ///< rad or m, rad/s or m/s, in the direction of the body's axis
-  V3<S> w, v;          ///< angular and linear velocity
-  V3<S> Un, Uf;        ///< inertia times the joint's direction
-  S D;                 ///< inertia that the joint moves, with its own terms
-  S bias;              ///< effort that it lacks when it does not accelerate
-  S needed;            ///< the same with the acceleration of its parent
-  S qdd;               ///< acceleration of the joint
-  V3<S> alpha, a;      ///< acceleration
-  M3<S> axes;          ///< of the frame in the world
-  V3<S> origin;        ///< m, in the world
+  Turn<S> turn;    ///< of a hinge
+  S q, qd;         ///< rad or m, rad/s or m/s, in the direction of the body's axis
+  V3<S> w, v;      ///< angular and linear velocity
+  V3<S> Un, Uf;    ///< inertia times the joint's direction
+  S D;             ///< inertia that the joint moves, with its own terms
+  S bias;          ///< effort that it lacks when it does not accelerate
+  S needed;        ///< the same with the acceleration of its parent
+  S qdd;           ///< acceleration of the joint
+  V3<S> alpha, a;  ///< acceleration
+  M3<S> axes;      ///< of the frame in the world
+  V3<S> origin;    ///< m, in the world
   JointTerms<S> terms;
 };
 
@@ -131,8 +132,8 @@ MURO_INLINE void add_velocity_terms(const Body& b, const BodyStep<S>& own, V3<S>
   }
 }
 
-/// Adds a body's inertia as its joint lets the parent feel it to the parent's slot. `external`: of contacts and wrenches
-/// on the body, or null.
+/// Adds a body's inertia as its joint lets the parent feel it to the parent's slot. `external`: of contacts and
+/// wrenches on the body, or null.
 template <int K, class S>
 [[gnu::noinline]] void fold(const Body& b, BodyStep<S>* bodies, int i, const Masses<S>& masses, Inertia<S>* slots,
                             const Inertia<S>* external) {
@@ -204,8 +205,8 @@ void place_all(const Structure& s, BodyStep<S>* bodies) {
   for (int i = 1; i < s.count; ++i) with_axis(s.bodies[i], [&]<int K>() { place<K>(s.bodies[i], bodies, i); });
 }
 
-/// Accelerations of all bodies and joints. `external`: one for each body, or null; `base`: out, the inertia of a free base
-/// with all that hangs on it; `fall`: m/s^2, the acceleration of a fixed base beyond gravity, in its frame.
+/// Accelerations of all bodies and joints. `external`: one for each body, or null; `base`: out, the inertia of a free
+/// base with all that hangs on it; `fall`: m/s^2, the acceleration of a fixed base beyond gravity, in its frame.
 template <class S>
 void accelerate_all(const Structure& s, const Masses<S>& masses, BodyStep<S>* bodies, Inertia<S>* slots,
                     const Inertia<S>* const* external, Inertia<S>& base, const V3<S>& fall) {
@@ -219,8 +220,7 @@ void accelerate_all(const Structure& s, const Masses<S>& masses, BodyStep<S>* bo
     if (external[0]) base += *external[0];
     solve(base, -base.n, -base.f, bodies[0].alpha, bodies[0].a);
   }
-  for (int i = 1; i < s.count; ++i)
-    with_axis(s.bodies[i], [&]<int K>() { accelerate<K>(s.bodies[i], bodies, i); });
+  for (int i = 1; i < s.count; ++i) with_axis(s.bodies[i], [&]<int K>() { accelerate<K>(s.bodies[i], bodies, i); });
 }
 
 }  // namespace MURO_ISA

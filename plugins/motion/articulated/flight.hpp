@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The flight of a robot that touches nothing: gravity, wrenches from outside and its momentum say how its base moves. So
-// momenta are kept to rounding, whatever its joints do, and a rigid body turns by the midpoint rule on its angular
+// The flight of a robot that touches nothing: gravity, wrenches from outside and its momentum say how its base moves.
+// So momenta are kept to rounding, whatever its joints do, and a rigid body turns by the midpoint rule on its angular
 // momentum (Hairer, Lubich, Wanner, Geometric Numerical Integration, section VII.5), as at motion.simplified.
 #pragma once
 
@@ -70,7 +70,8 @@ class Flight {
   void carry(lane::PoseOf<S>& pose, lane::TwistOf<S>& twist, double dt) {
     const S h(dt), half(0.5 * dt);
     for (int k = 1; k < s_.count; ++k) bodies_[k].q -= half * bodies_[k].qd;
-    const Momentum<S> middle = at_rest(pose.position, lane::turned(lane::rotation_by(twist.angular * half), pose.orientation));
+    const Momentum<S> middle =
+        at_rest(pose.position, lane::turned(lane::rotation_by(twist.angular * half), pose.orientation));
     const V3<S> spin_half = inverse(middle.tensor) * (start_.angular + half * torque_ - middle.angular);
     for (int k = 1; k < s_.count; ++k) bodies_[k].q += half * bodies_[k].qd;
     const lane::Q4<S> turned = lane::turned(lane::rotation_by(spin_half * h), pose.orientation);

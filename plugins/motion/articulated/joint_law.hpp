@@ -15,13 +15,13 @@ using lane::abs, lane::MaskOf, lane::max, lane::min, lane::select;
 /// Of a joint in one step.
 template <class S>
 struct JointLaw {
-  S pull, drag;        ///< of the drive: its effort is pull - drag v', N m or N, N m s/rad or N s/m
-  S velocity;          ///< of a drive that holds a velocity: rad/s or m/s
-  S effort;            ///< N m or N: of the drive, at most
-  S damping;           ///< N m s/rad or N s/m
-  S friction;          ///< N m or N
-  S lowest, highest;   ///< rad/s or m/s: at which the joint would meet a stop at the end of the step
-  double speed;        ///< rad/s or m/s: the drive is no faster
+  S pull, drag;         ///< of the drive: its effort is pull - drag v', N m or N, N m s/rad or N s/m
+  S velocity;           ///< of a drive that holds a velocity: rad/s or m/s
+  S effort;             ///< N m or N: of the drive, at most
+  S damping;            ///< N m s/rad or N s/m
+  S friction;           ///< N m or N
+  S lowest, highest;    ///< rad/s or m/s: at which the joint would meet a stop at the end of the step
+  double speed;         ///< rad/s or m/s: the drive is no faster
   bool holds_velocity;  ///< the drive does
 };
 
@@ -106,6 +106,18 @@ MURO_INLINE JointPiece<S> guess(const JointLaw<S>& law, S v) {
   const auto held = law.holds_velocity ? one > zero : (sticks | stops);
   const S to = clamp(law.holds_velocity ? law.velocity : select(sticks, zero, v), law.lowest, law.highest);
   return {select(MaskOf<S>(held), zero, one), pull - friction, drag + law.damping, to, zero};
+}
+
+/// Whether a joint that ends with the velocity `v` is on the piece that was tried, as most are: a drive within its
+/// limits moves it, and neither friction nor a stop holds it.
+template <class S>
+MURO_INLINE MaskOf<S> goes_on(const JointLaw<S>& law, const JointPiece<S>& tried, S v) {
+  const S zero(0);
+  if (law.holds_velocity) return zero > zero;
+  const auto is_this_piece = (tried.is_free > zero) & (tried.drag == law.drag + law.damping) &
+                             (tried.pull == law.pull - sign_of(v) * law.friction);
+  return is_this_piece & (abs(law.pull - law.drag * v) <= law.effort) & (abs(v) <= S(law.speed)) & (v < law.highest) &
+         (v > law.lowest);
 }
 
 /// As the algorithm takes it. `armature`: kg m^2 or kg; `v`: at the begin of the step.

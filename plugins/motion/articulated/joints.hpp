@@ -8,7 +8,7 @@
 namespace muro::articulated::lanes {
 inline namespace MURO_ISA {
 
-using lane::load, lane::store;
+using lane::load, lane::load_rows, lane::store_rows;
 
 template <class S>
 class Joints {
@@ -22,11 +22,15 @@ class Joints {
       for (int d = 0; d < target_kinds; ++d) targets_[d].at[i] = r.targets[d];
       friction_losses_.at[i] = r.friction_losses, armature_losses_.at[i] = r.armature_losses;
     }
-    for (int k = 1; k < s_.count; ++k) {
-      const S sign(s_.bodies[k].sign);
-      work.bodies[k].q = sign * load<S>(as_read(positions_), s_.joints[k].position);
-      work.bodies[k].qd = sign * load<S>(as_read(velocities_), s_.joints[k].velocity);
-    }
+    each_row([&]<int n>(int k, std::integral_constant<int, n>) {
+      S q[n], qd[n];
+      load_rows(as_read(positions_), s_.joints[k].position, q);
+      load_rows(as_read(velocities_), s_.joints[k].velocity, qd);
+      for (int i = 0; i < n; ++i) {
+        const S sign(s_.bodies[k + i].sign);
+        work_.bodies[k + i].q = sign * q[i], work_.bodies[k + i].qd = sign * qd[i];
+      }
+    });
   }
 
   /// What acts along each joint, and the piece of it to try first. Bodies have been placed.
@@ -50,20 +54,26 @@ class Joints {
 
   /// Whether some joint has come to another piece of its law than the one that was tried, which is then the next to be.
   bool look_again() {
+    constexpr unsigned all = lane::all_lanes<S>;
     unsigned changed = 0;
     for (int k = 1; k < s_.count; ++k) {
       if (s_.joints[k].leader >= 0) continue;
       const BodyStep<S>& b = work_.bodies[k];
-      const S sign(s_.bodies[k].sign), v = sign * b.qd;
-      const JointPiece<S>& tried = work_.pieces[k];
+      JointPiece<S>& tried = work_.pieces[k];
+      const JointLaw<S>& law = work_.laws[k];
+      const S sign(s_.bodies[k].sign), v = sign * b.qd, after = v + sign * S(batch_.dt) * b.qdd;
+      const auto stays = goes_on(law, tried, after);
+      tried.effort = law.pull - law.drag * after;
+      if (lane::bits(stays) == all) continue;
       const S implicit = b.terms.inertia - work_.armature[k], inertia = b.D - implicit;
       S load = sign * (b.needed + b.terms.effort);
       if (s_.has_mimics) load -= sign * work_.couplings[k];
-      const JointPiece<S> found = meet(work_.laws[k], inertia, v - S(batch_.dt) * load / inertia, batch_.dt);
-      const auto same = tried == found;
+      const JointPiece<S> found = meet(law, inertia, v - S(batch_.dt) * load / inertia, batch_.dt);
+      const auto same = stays | (tried == found);
       changed |= lane::bits(!same);
-      work_.pieces[k].effort = found.effort;
-      if (lane::bits(!same) != 0) work_.pieces[k] = chosen(same, tried, found);
+      const S effort = select(stays, tried.effort, found.effort);
+      tried = chosen(same, tried, found);
+      tried.effort = effort;
     }
     return changed != 0;
   }
@@ -80,18 +90,21 @@ class Joints {
   }
 
   void store(unsigned which) const {
-    const int used = __builtin_popcount(which);
-    for (int k = 1; k < s_.count; ++k) {
-      const Joint& joint = s_.joints[k];
-      const S sign(s_.bodies[k].sign);
-      lane::store(positions_, joint.position, sign * work_.bodies[k].q, used);
-      lane::store(velocities_, joint.velocity, sign * work_.bodies[k].qd, used);
-      lane::store(efforts_, joint.out_effort, work_.pieces[k].effort, used);
-    }
+    each_row([&]<int n>(int k, std::integral_constant<int, n>) {
+      S q[n], qd[n], effort[n];
+      for (int i = 0; i < n; ++i) {
+        const S sign(s_.bodies[k + i].sign);
+        q[i] = sign * work_.bodies[k + i].q, qd[i] = sign * work_.bodies[k + i].qd;
+        effort[i] = work_.pieces[k + i].effort;
+      }
+      store_rows(positions_, s_.joints[k].position, q, which);
+      store_rows(velocities_, s_.joints[k].velocity, qd, which);
+      store_rows(efforts_, s_.joints[k].out_effort, effort, which);
+    });
   }
   S sum() const {
     S all(0);
-    for (int k = 1; k < s_.count; ++k) all += work_.bodies[k].q + work_.bodies[k].qd;
+    for (int k = 1; k < s_.count; ++k) all += abs(work_.bodies[k].q) + abs(work_.bodies[k].qd);
     return all;
   }
 
@@ -101,6 +114,14 @@ class Joints {
   }
 
  private:
+  /// Calls f(k, n) for joints k to k + n - 1, whose numbers lie side by side: all, piece by piece.
+  template <class F>
+  MURO_INLINE void each_row(const F& f) const {
+    int k = 1;
+    for (; s_.lie_side_by_side && k + 4 <= s_.count; k += 4) f(k, std::integral_constant<int, 4>());
+    for (; k < s_.count; ++k) f(k, std::integral_constant<int, 1>());
+  }
+
   struct State {
     S position, velocity;
   };
@@ -116,8 +137,8 @@ class Joints {
             select(m, a.velocity, b.velocity), b.effort};
   }
 
-  /// rad/s or m/s: at which a joint at `q` would be at its stop at the end of the step. Where it is beyond, it comes back
-  /// over some steps.
+  /// rad/s or m/s: at which a joint at `q` would be at its stop at the end of the step. Where it is beyond, it comes
+  /// back over some steps.
   MURO_INLINE S velocity_to(double stop, S q, double side) const {
     constexpr double part = 0.2;
     const S away = S(stop) - q;
@@ -128,8 +149,7 @@ class Joints {
     const Joint& j = s_.joints[k];
     const State state = position_and_velocity(k);
     const S zero(0), infinite(Joint::infinite), speed(j.speed), h(batch_.dt);
-    JointLaw<S> law{zero,           zero, zero, S(j.effort), S(j.damping), S(j.friction), -infinite,
-                    infinite,       j.speed, false};
+    JointLaw<S> law{zero, zero, zero, S(j.effort), S(j.damping), S(j.friction), -infinite, infinite, j.speed, false};
     if (j.lower > -Joint::infinite) law.lowest = velocity_to(j.lower, state.position, -1);
     if (j.upper < Joint::infinite) law.highest = velocity_to(j.upper, state.position, 1);
     if (j.leader >= 0) return law;

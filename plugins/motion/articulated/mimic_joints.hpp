@@ -44,12 +44,10 @@ void respond(const Structure& s, Work<S>& work) {
   const V3<S> zero{S(0), S(0), S(0)};
   Response<S>* const r = work.responses;
   for (int i = 0; i < s.count; ++i) r[i].n = r[i].f = zero;
-  for (int i = s.count; i-- > 1;)
-    with_axis(s.bodies[i], [&]<int K>() { respond_inwards<K>(s.bodies[i], work, i); });
+  for (int i = s.count; i-- > 1;) with_axis(s.bodies[i], [&]<int K>() { respond_inwards<K>(s.bodies[i], work, i); });
   r[0].alpha = r[0].a = zero;
   if (!s.fixed) solve(work.base, -r[0].n, -r[0].f, r[0].alpha, r[0].a);
-  for (int i = 1; i < s.count; ++i)
-    with_axis(s.bodies[i], [&]<int K>() { respond_outwards<K>(s.bodies[i], work, i); });
+  for (int i = 1; i < s.count; ++i) with_axis(s.bodies[i], [&]<int K>() { respond_outwards<K>(s.bodies[i], work, i); });
 }
 
 /// Finds the efforts with which mimic joints have the velocities of their leaders at the end of the step.
@@ -68,8 +66,7 @@ template <class S>
     work.responses[k].effort = S(1);
     work.responses[s.joints[k].leader].effort = -factor_of<S>(s, k);
     respond(s, work);
-    for (int m = 0; m < count; ++m)
-      matrix[m][i] = -lag(followers[m], [&](int n) { return work.responses[n].qdd; });
+    for (int m = 0; m < count; ++m) matrix[m][i] = -lag(followers[m], [&](int n) { return work.responses[n].qdd; });
     wanted[i] = lag(k, [&](int n) { return work.bodies[n].qdd + work.bodies[n].qd * per_second; });
   }
   // symmetric and positive; a row of zeros where both joints are held

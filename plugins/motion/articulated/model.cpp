@@ -120,7 +120,11 @@ Structure Model::structure() const {
           .slots = slots,
           .fixed = fixed,
           .has_mimics = any([](const Joint& j) { return j.leader >= 0; }),
-          .needs_inertia = any([](const Joint& j) { return j.needs_inertia(); })};
+          .needs_inertia = any([](const Joint& j) { return j.needs_inertia(); }),
+          .lie_side_by_side = !any([this](const Joint& j) {
+            const std::ptrdiff_t place = &j - joints.data() - 1;
+            return j.position != place || j.velocity != place || j.out_effort != place;
+          })};
 }
 
 Model model_of_bodies(const multibody::RobotModel& robot) {
@@ -155,8 +159,7 @@ double radius_of_gyration(const multibody::RobotModel& robot) {
   Inertia all;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const multibody::RigidBody& body = robot.bodies[i];
-    if (i > 0)
-      poses[i] = poses[std::size_t(body.parent)] * multibody::pose_in_parent(body, robot.initial_positions[i]);
+    if (i > 0) poses[i] = poses[std::size_t(body.parent)] * multibody::pose_in_parent(body, robot.initial_positions[i]);
     all = all + body.inertia.in(poses[i]);
   }
   return std::sqrt(all.tensor().trace() / (3 * all.mass));

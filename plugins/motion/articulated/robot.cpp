@@ -8,6 +8,7 @@
 #include "muro/toolkit/mass_properties.hpp"
 #include "muro/toolkit/random.hpp"
 #include "plugins/common/contact_geometry/contact_responsibility.hpp"
+#include "plugins/common/contact_geometry/impact_path.hpp"
 #include "plugins/common/multibody/joint_target.hpp"
 #include "plugins/common/text/quote.hpp"
 
@@ -58,6 +59,7 @@ Robot::Robot(Connector& c, const RobotView& view, const Parameters& p, std::uint
   connect_links(c);
   connect_memory(c, view);
   contacts_ = RobotContacts(c, view, rigid_);
+  if (rigid_.bodies.size() == 1 && !rigid_.fixed_base) impacts_ = contact_geometry::ImpactInput(c, view);
 }
 
 void Robot::connect_joints(Connector& c, const RobotView& view, const Parameters& p) {
@@ -72,6 +74,7 @@ void Robot::connect_joints(Connector& c, const RobotView& view, const Parameters
     const double start = rigid_.initial_positions[i];
     check_start(c, object, body.limits, start);
     joints_[i].object = object;
+    joints_[i].name = c.object_name(object);
     positions_out_[i] = c.variable(object, keys::joint_position, start);
     velocities_out_[i] = c.variable(object, keys::joint_velocity, 0.0);
     efforts_out_[i] = c.derived(object, keys::joint_effort);
@@ -119,13 +122,13 @@ void Robot::connect_memory(Connector& c, const RobotView& view) {
 }
 
 void Robot::connect_by_name(Connector& c, const RobotView& view) {
+  has_contact_law_ = c.is_used(view.base(), keys::contact_wrenches_of_law, usage::derived);
   tells_contacts_ = c.is_used(view.base(), keys::contact_wrenches_of_motion, usage::read);
   for (std::size_t i = 0; i < links_.size(); ++i) {
     const multibody::LoadedLink& loaded = rigid_.loaded_links[i];
     const ObjectId link = loaded.object;
     links_[i].pose = c.read(link, keys::pose);
     links_[i].pose_of_body = c.read(view.links[rigid_.bodies[loaded.placement.body].link].object, keys::pose);
-    reads_contact_wrenches_ = reads_contact_wrenches_ || c.is_used(link, keys::contact_wrench, usage::read);
     if (!c.is_used(link, keys::applied_wrench, usage::read)) continue;
     links_[i].applied = c.derived(link, keys::applied_wrench);
     tells_applied_ = true;
@@ -177,6 +180,9 @@ bool Robot::interpolates() const { return !targets_.empty(); }
 void Robot::start() {
   contacts_.forget();
   links_are_clear_ = false;
+  only_contacts_push_ = std::all_of(links_.begin(), links_.end(), [this](const LoadedLink& link) {
+    return link.external.size() <= (has_contact_law_ ? 1 : 0);
+  });
 }
 
 void Robot::take_over() {
@@ -208,6 +214,7 @@ void Robot::advance_targets(double dt) {
 /// Those on links at the origins of their bodies.
 void Robot::sum_wrenches() {
   state_.wrenches = nullptr;
+  if (only_contacts_push_ && !contacts_.touches_robots()) return;
   for (std::size_t i = 0; i < links_.size(); ++i) {
     const LoadedLink& link = links_[i];
     for (std::uint64_t k = 0; k < link.external.size(); ++k) {
@@ -222,27 +229,41 @@ void Robot::sum_wrenches() {
   }
 }
 
-void Robot::clear_link_wrenches() {
-  if (links_are_clear_) return;
-  for (LoadedLink& link : links_)
-    if (link.contact) *link.contact = Wrench{};
+void Robot::take_impacts(const Step& step) {
+  const ImpactCorrection* const correction = impacts_.begin_step(step);
+  if (!correction) return;
+  const Inertia& inertia = rigid_.bodies.front().inertia;
+  const auto plain = [](const Mat3& m) {
+    return lane::M3<double>{{m(0, 0), m(1, 0), m(2, 0)}, {m(0, 1), m(1, 1), m(2, 1)}, {m(0, 2), m(1, 2), m(2, 2)}};
+  };
+  const lane::Mass<double> mass{lane::splat<double>(inertia.com), {0, 0, 0}, plain(inertia.tensor())};
+  contact_geometry::correct_path(state_.pose, state_.twist, mass, plain(inertia.tensor().inverse()), 1 / inertia.mass,
+                                 *correction);
+}
+
+/// Of the last step; of all links where that is not known.
+void Robot::clear_contact_wrenches() {
+  if (!links_are_clear_)
+    for (const LoadedLink& link : links_)
+      if (link.contact) *link.contact = Wrench{};
   links_are_clear_ = true;
+  for (const std::uint32_t i : touching_links_) *links_[i].contact = Wrench{};
+  touching_links_.clear();
 }
 
 void Robot::export_contacts() {
   if (tells_contacts_) told_.clear();
-  if (contact_count() > 0 || !links_are_clear_ || tells_applied_) {
-    clear_link_wrenches();
-    links_are_clear_ = contact_count() == 0;
-    for (std::size_t i = 0; i < contact_count(); ++i) {
-      const Contact& c = contacts_.contact(i);
-      const double* const n = contact_wrenches_.data() + 6 * i;
-      const Wrench at_point{{n[0], n[1], n[2]}, {n[3], n[4], n[5]}};
-      LoadedLink& link = links_[contacts_.loaded_link(i)];
-      link.contact->add_force(at_point.force, c.point - link.pose->position);
-      link.contact->torque += at_point.torque;
-      if (tells_contacts_) told_.push_back({c.self, c.other, c.point, c.normal, c.depth, at_point});
-    }
+  clear_contact_wrenches();
+  for (std::size_t i = 0; i < contact_count(); ++i) {
+    const Contact& c = contacts_.contact(i);
+    const double* const n = contact_wrenches_.data() + 6 * i;
+    const Wrench at_point{{n[0], n[1], n[2]}, {n[3], n[4], n[5]}};
+    const std::uint32_t number = contacts_.loaded_link(i);
+    const LoadedLink& link = links_[number];
+    link.contact->add_force(at_point.force, c.point - link.pose->position);
+    link.contact->torque += at_point.torque;
+    if (touching_links_.empty() || touching_links_.back() != number) touching_links_.push_back(number);
+    if (tells_contacts_) told_.push_back({c.self, c.other, c.point, c.normal, c.depth, at_point});
   }
   if (!tells_applied_) return;
   for (const LoadedLink& link : links_) {
@@ -255,8 +276,7 @@ void Robot::export_contacts() {
 std::string Robot::failure() const {
   for (std::size_t i = 1; i < joints_.size(); ++i)
     if (joints_[i].target && !std::isfinite(*joints_[i].target))
-      return "the target of a joint of " + quote(rigid_.name) +
-             " is not finite; look at what writes its `joint.*.target`";
+      return "the target of " + quote(joints_[i].name) + " is not finite; look at what writes its `joint.*.target`";
   for (std::size_t i = 0; i < links_.size(); ++i) {
     const Wrench w = links_[i].external.value();
     if (!std::isfinite(w.force.sum() + w.torque.sum()))

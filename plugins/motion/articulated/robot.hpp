@@ -7,6 +7,7 @@
 #include <string>
 
 #include "model.hpp"
+#include "plugins/common/contact_geometry/impact_input.hpp"
 #include "plugins/common/position_drive/drive_losses.hpp"
 #include "plugins/common/position_drive/position_target.hpp"
 #include "robot_contacts.hpp"
@@ -41,6 +42,9 @@ class Robot {
   void look_up_contacts(const TouchedBodies& bodies) { contacts_.look_up(bodies); }
   /// Brings the state up to date for a step of `dt` (s).
   void prepare(double dt);
+  /// Where impacts with other robots in the last step should have acted at their instant, brings the robot onto the
+  /// path on which it then were. [after it has moved]
+  void take_impacts(const Step& step);
   /// Tells what contacts have done.
   void export_contacts();
   /// Why the state is no longer finite.
@@ -49,6 +53,7 @@ class Robot {
  private:
   struct JointHandles {
     ObjectId object = no_object;
+    std::string name;
     In<double> target;
     PositionTarget position_target;
     DriveLosses losses;
@@ -69,7 +74,7 @@ class Robot {
   bool interpolates() const;
   void advance_targets(double dt);
   void sum_wrenches();
-  void clear_link_wrenches();
+  void clear_contact_wrenches();
 
   std::uint32_t level_;
   multibody::RobotModel rigid_;
@@ -81,18 +86,21 @@ class Robot {
   Out<std::uint64_t> contact_world_;
   Out<double> twist_lag_;
   std::uint64_t own_world_ = 0;
-  std::vector<JointHandles> joints_;           ///< one per body
-  std::vector<const double*> velocities_;      ///< one per link
+  std::vector<JointHandles> joints_;                                       ///< one per body
+  std::vector<const double*> velocities_;                                  ///< one per link
   std::vector<Out<double>> positions_out_, velocities_out_, efforts_out_;  ///< one per body
-  std::vector<double> targets_;                ///< of drives that interpolate: positions, then velocities
-  std::vector<LoadedLink> links_;              ///< as rigid_.loaded_links
-  bool reads_contact_wrenches_ = false;        ///< somebody reads what contacts do
+  std::vector<double> targets_;    ///< of drives that interpolate: positions, then velocities
+  std::vector<LoadedLink> links_;  ///< as rigid_.loaded_links
+  bool has_contact_law_ = false;   ///< a contact algorithm adds to wrenches
   bool tells_contacts_ = false, tells_applied_ = false;
+  bool only_contacts_push_ = false;            ///< nothing but the contact algorithm adds to wrenches
+  std::vector<std::uint32_t> touching_links_;  ///< in links_, that contacts have pushed in the last step
   bool links_are_clear_ = false;
   ListOut<ContactWrench> told_;
   RobotContacts contacts_;
-  std::vector<double> wrenches_;          ///< on bodies
-  std::vector<double> contact_wrenches_;  ///< of contacts
+  contact_geometry::ImpactInput impacts_;  ///< of a robot that is one free body
+  std::vector<double> wrenches_;           ///< on bodies
+  std::vector<double> contact_wrenches_;   ///< of contacts
 };
 
 }  // namespace muro::articulated

@@ -46,9 +46,8 @@ RobotContacts::RobotContacts(Connector& c, const RobotView& view, const multibod
     const multibody::LoadedLink& link = model.loaded_links[i];
     link_places_.push_back({link.object, i, int(link.placement.body)});
   }
-  std::sort(link_places_.begin(), link_places_.end(), [](const LinkPlace& a, const LinkPlace& b) {
-    return index_of(a.object) < index_of(b.object);
-  });
+  std::sort(link_places_.begin(), link_places_.end(),
+            [](const LinkPlace& a, const LinkPlace& b) { return index_of(a.object) < index_of(b.object); });
 }
 
 const RobotContacts::LinkPlace* RobotContacts::place_of(ObjectId object) const {

@@ -45,6 +45,8 @@ class RobotContacts {
 
   /// By body, in rising order.
   const std::vector<KernelContact>& contacts() const { return contacts_; }
+  /// Whether there are contacts with other robots in the list.
+  bool touches_robots() const { return touches_robots_; }
   /// That of the list which contact `i` is.
   const Contact& contact(std::size_t i) const { return (*list_)[places_[i]]; }
   std::uint32_t loaded_link(std::size_t i) const { return links_[i]; }

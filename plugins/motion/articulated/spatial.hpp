@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Spatial algebra (Featherstone, Rigid Body Dynamics Algorithms, 2008, chapter 2) over any scalar of muro/simd: inertias
-// in blocks, and how they turn about one axis of a frame. Indices are known to the compiler, so that all stays in
-// registers.
+// Spatial algebra (Featherstone, Rigid Body Dynamics Algorithms, 2008, chapter 2) over any scalar of muro/simd:
+// inertias in blocks, and how they turn about one axis of a frame. Indices are known to the compiler, so that all stays
+// in registers.
 #pragma once
 
 #include "muro/simd/geometry.hpp"
@@ -56,8 +56,8 @@ MURO_INLINE auto& entry(M& m) {
   return at<J>(at<I>(m));
 }
 
-/// A spatial inertia [A B; B' C]: moment = A alpha + B a, force = B' alpha + C a; and the wrench (moment n, force f) that
-/// acceleration needs beyond it.
+/// A spatial inertia [A B; B' C]: moment = A alpha + B a, force = B' alpha + C a; and the wrench (moment n, force f)
+/// that acceleration needs beyond it.
 template <class S>
 struct Inertia {
   Sym<S> A;

@@ -12,6 +12,9 @@ namespace {
 using namespace lane;
 using namespace lanes;
 
+/// m, m/s, rad/s: what diverges passes this on its way to infinity (plugins/common/watch).
+constexpr double beyond = 1e12;
+
 /// Of the bases of robots.
 template <class S>
 struct Bases {
@@ -33,6 +36,14 @@ struct Bases {
     base.origin = pose.position;
     base.w = transposed_times(base.axes, twist.angular);
     base.v = transposed_times(base.axes, twist.linear);
+  }
+  /// Whether a body can be there and move like that.
+  MURO_INLINE MaskOf<S> is_somewhere() const {
+    const S far(beyond * beyond);
+    const Q4<S>& q = pose.orientation;
+    const S norm = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
+    return (dot(pose.position, pose.position) < far) & (dot(twist.linear, twist.linear) < far) &
+           (dot(twist.angular, twist.angular) < far) & (norm > S(0.25)) & (norm < S(4));
   }
   /// In those robots that `which` says.
   MURO_INLINE void take(const PoseOf<S>& p, const TwistOf<S>& t, MaskOf<S> which) {
@@ -78,7 +89,7 @@ unsigned step_some(const Batch& batch, const RobotState* robots, int count) {
   place_all(s, bodies);
   const Masses<S> masses = masses_of<S>(batch, robots, count);
   joints.find_laws(masses);
-  Contacts<S> contacts(batch, robots, count, work);
+  Contacts<S> contacts(batch, robots, count, masses, work);
   const V3<S> gravity = splat<S>(batch.gravity), zero{S(0), S(0), S(0)};
   const auto flies = contacts.is_free_of_contacts();
   const V3<S> fall = s.fixed ? transposed_times(bodies[0].axes, -gravity) : zero;
@@ -91,7 +102,8 @@ unsigned step_some(const Batch& batch, const RobotState* robots, int count) {
       joints.add_couplings();
       accelerate_all(s, masses, bodies, work.slots, work.acts_on, work.base, fall);
     }
-    const bool others = trial < most_trials && joints.look_again(), loads = trial < most_trials && contacts.look_again();
+    const bool others = trial < most_trials && joints.look_again(),
+               loads = trial < most_trials && contacts.look_again();
     if (!others && !loads) break;
   }
   contacts.keep();
@@ -114,9 +126,7 @@ unsigned step_some(const Batch& batch, const RobotState* robots, int count) {
     store_twist(base.twist_at, 0, base.twist, which);
   }
   joints.store(which);
-  const V3<S> all = base.pose.position + base.twist.linear + base.twist.angular;
-  const S sum = all.x + all.y + all.z + joints.sum();
-  return bits(!(abs(sum) < S(Joint::infinite))) & which;
+  return bits(!(base.is_somewhere() & (joints.sum() < S(beyond)))) & which;
 }
 
 /// As many as a register holds: so much is kept of each robot that wider packs would go through memory.

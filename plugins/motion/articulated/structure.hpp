@@ -26,13 +26,13 @@ struct Body {
   int parent = -1;  ///< always smaller than its own number; -1: the base
   int axis = 0;     ///< of the joint: 0, 1, 2
   bool slides = false;
-  bool shifted = false;     ///< offset is not 0
-  bool turned = false;      ///< `turn` is not the identity
-  int slot = -1;            ///< where inertias of its children add up; -1: it has none
-  int parent_slot = -1;     ///< the parent's
-  bool first = false;       ///< of the children of its parent to be added
-  double sign = 1;          ///< -1: the joint of the model turns about, or shifts along, the opposite axis
-  double offset[3] = {};    ///< m: of the origin in the parent's frame at joint position 0
+  bool shifted = false;   ///< offset is not 0
+  bool turned = false;    ///< `turn` is not the identity
+  int slot = -1;          ///< where inertias of its children add up; -1: it has none
+  int parent_slot = -1;   ///< the parent's
+  bool first = false;     ///< of the children of its parent to be added
+  double sign = 1;        ///< -1: the joint of the model turns about, or shifts along, the opposite axis
+  double offset[3] = {};  ///< m: of the origin in the parent's frame at joint position 0
   double turn[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< columns: axes of the frame in the parent's at joint position 0
 
   friend bool operator==(const Body&, const Body&) = default;
@@ -49,16 +49,16 @@ struct Joint {
   Drive drive = Drive::passive;
   int leader = -1;  ///< body whose joint this one follows: q = offset + multiplier q_leader
   double multiplier = 1, offset = 0;
-  double lower = -infinite, upper = infinite;   ///< rad or m
-  double speed = infinite, effort = infinite;   ///< of the drive
-  double damping = 0, friction = 0;             ///< N m s/rad or N s/m; N m or N
-  double armature = 0;                          ///< kg m^2 or kg
-  double stiffness = -1, drive_damping = -1;    ///< of a position drive; -1: by the inertia that the joint moves
-  double natural_frequency = 0;                 ///< rad/s: of such a drive
+  double lower = -infinite, upper = infinite;  ///< rad or m
+  double speed = infinite, effort = infinite;  ///< of the drive
+  double damping = 0, friction = 0;            ///< N m s/rad or N s/m; N m or N
+  double armature = 0;                         ///< kg m^2 or kg
+  double stiffness = -1, drive_damping = -1;   ///< of a position drive; -1: by the inertia that the joint moves
+  double natural_frequency = 0;                ///< rad/s: of such a drive
   // Offsets of its numbers from those of the robot's first joint that has such numbers (RobotState).
   std::ptrdiff_t position = 0, velocity = 0, out_effort = 0, target = 0, target_velocity = 0, friction_loss = 0,
                  armature_loss = 0;
-  bool has_target_velocity = false;  ///< of a position drive
+  bool has_target_velocity = false;                           ///< of a position drive
   bool has_friction_loss = false, has_armature_loss = false;  ///< of what drives it, beside its own
 
   bool needs_inertia() const { return drive == Drive::position && (stiffness < 0 || drive_damping < 0); }
@@ -70,10 +70,11 @@ struct Structure {
   const Body* bodies = nullptr;  ///< parents before children
   const Joint* joints = nullptr;
   int count = 0;
-  int slots = 0;              ///< where inertias of children wait for their parents
-  bool fixed = false;         ///< the base does not move
-  bool has_mimics = false;    ///< some joint has a leader
-  bool needs_inertia = false;  ///< some joint does
+  int slots = 0;                  ///< where inertias of children wait for their parents
+  bool fixed = false;             ///< the base does not move
+  bool has_mimics = false;        ///< some joint has a leader
+  bool needs_inertia = false;     ///< some joint does
+  bool lie_side_by_side = false;  ///< positions, velocities and efforts of joints, each in the order of bodies
 };
 
 }  // namespace muro::articulated

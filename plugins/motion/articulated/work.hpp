@@ -15,21 +15,21 @@ template <class S>
 struct ContactSlot {
   int body = 0;
   bool resists_turning = false;
-  unsigned which = 0;           ///< lanes that have a contact
+  unsigned which = 0;  ///< lanes that have a contact
   lane::Places<S, double> kept;
   double* wrench[lane::count_of<S>];  ///< where to tell what it does; null: nowhere
   ContactPoint<S> point;
   TurningPoint<S> turning;
   ContactStep<S> step;
-  MaskOf<S> is_new;             ///< its last normal force is not known
+  MaskOf<S> is_new;  ///< its last normal force is not known
 };
 
 /// What bodies and joints do where an effort acts at some joints, beside all else.
 template <class S>
 struct Response {
-  V3<S> n, f;       ///< wrench
-  V3<S> alpha, a;   ///< acceleration
-  S effort, bias;   ///< N m or N
+  V3<S> n, f;      ///< wrench
+  V3<S> alpha, a;  ///< acceleration
+  S effort, bias;  ///< N m or N
   S qdd;
 };
 
@@ -41,14 +41,14 @@ struct Work {
   JointPiece<S>* pieces;
   S* armature;
   Inertia<S>* slots;
-  Inertia<S>* external;           ///< of bodies that `acts_on` says
-  const Inertia<S>** acts_on;     ///< one a body: where its external is, or null
-  S* couplings;                   ///< N m or N: what keeps mimic joints and their leaders together, one a body
-  Response<S>* responses;         ///< one a body
-  Composite<S>* composites;       ///< as `slots`
+  Inertia<S>* external;        ///< of bodies that `acts_on` says
+  const Inertia<S>** acts_on;  ///< one a body: where its external is, or null
+  S* couplings;                ///< N m or N: what keeps mimic joints and their leaders together, one a body
+  Response<S>* responses;      ///< one a body
+  Composite<S>* composites;    ///< as `slots`
   ContactSlot<S>* contacts;
   int contact_count = 0;
-  Inertia<S> base;                ///< of all bodies, at the base
+  Inertia<S> base;  ///< of all bodies, at the base
 
   MURO_INLINE Work(void* memory, int body_count, int slot_count) {
     char* next = static_cast<char*>(memory);
@@ -65,7 +65,8 @@ struct Work {
     const auto n = std::size_t(body_count), rounding = std::size_t(16 * 64);
     return n * (sizeof(BodyStep<S>) + sizeof(JointLaw<S>) + sizeof(JointPiece<S>) + sizeof(S) + sizeof(Inertia<S>) +
                 sizeof(void*) + sizeof(S) + sizeof(Response<S>)) +
-           std::size_t(slot_count) * (sizeof(Inertia<S>) + sizeof(Composite<S>)) + std::size_t(contact_count) * sizeof(ContactSlot<S>) + rounding;
+           std::size_t(slot_count) * (sizeof(Inertia<S>) + sizeof(Composite<S>)) +
+           std::size_t(contact_count) * sizeof(ContactSlot<S>) + rounding;
   }
 };
 

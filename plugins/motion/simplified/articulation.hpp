@@ -9,6 +9,7 @@
 #include "composite_body.hpp"
 #include "impact_path.hpp"
 #include "move.hpp"
+#include "rigid_body.hpp"
 
 namespace muro::simplified {
 

@@ -2,12 +2,13 @@
 // One rigid body under a wrench: the integrator of motion.simplified, over a double or a lane of robots.
 #pragma once
 
+#include "plugins/common/lanes/mass.hpp"
 #include "plugins/common/lanes/rotation.hpp"
 
 namespace muro::simplified::integrator {
 inline namespace MURO_ISA {
 
-using lane::cross, lane::dot, lane::M3, lane::Q4, lane::rotation_by, lane::turned, lane::V3;
+using lane::cross, lane::dot, lane::in_world, lane::M3, lane::Mass, lane::Q4, lane::rotation_by, lane::turned, lane::V3;
 
 /// State of a body that is described by its centre of mass. World axes.
 template <class S>
@@ -17,12 +18,6 @@ struct RigidBody {
   Q4<S> orientation;
   V3<S> spin;  ///< rad/s
 };
-
-/// A symmetric tensor in the axes of the body (r: body to world), applied to a vector in those of the world.
-template <class S>
-MURO_INLINE V3<S> in_world(const M3<S>& r, const M3<S>& tensor, const V3<S>& v) {
-  return r * (tensor * transposed_times(r, v));
-}
 
 /// Advances the rotation by `dt` (s) under a constant `torque` (N m, world axes, about the centre of mass).
 ///
@@ -52,14 +47,6 @@ MURO_INLINE V3<S> advance_centre(RigidBody<S>& body, const V3<S>& acceleration, 
   body.velocity += acceleration * S(dt);
   return shift;
 }
-
-/// Mass properties of a whole robot in the frame of its base.
-template <class S>
-struct Mass {
-  V3<S> com;           ///< m
-  V3<S> com_velocity;  ///< m/s, relative to the base
-  M3<S> tensor;        ///< kg m^2, about the centre of mass
-};
 
 /// Newton and Euler at the centre of mass. The base is where the centre is not: base = centre - R com. `before`,
 /// `after`: at the start and the end of the step; `inverse_half`, `inverse_end`: of the tensors in the middle and at

@@ -11,7 +11,6 @@
 #include "articulation.hpp"
 #include "description.hpp"
 #include "force_driven_joints.hpp"
-#include "impact_input.hpp"
 #include "joint_properties.hpp"
 #include "least_inertia.hpp"
 #include "model.hpp"
@@ -20,6 +19,7 @@
 #include "muro/toolkit/accelerations.hpp"
 #include "muro/toolkit/mass_properties.hpp"
 #include "plugins/common/contact_geometry/contact_responsibility.hpp"
+#include "plugins/common/contact_geometry/impact_input.hpp"
 #include "plugins/common/kinematic_joints/moving_mass.hpp"
 #include "plugins/common/mesh/hull_vertices.hpp"
 #include "plugins/common/multibody/consistent_inertia.hpp"
@@ -188,7 +188,8 @@ class Simplified final : public Algorithm {
     if (feels_contact || !fixed_) r.external = c.read_sum(robot.base(), keys::external_wrench);
     r.contact_world = c.variable(robot.base(), keys::contact_world, contact_world_of(r.external.has_value()));
     r.twist_lag = c.variable(robot.base(), keys::twist_lag, 0.0);
-    impacts_.push_back(feels_contact || fixed_ ? ImpactInput{} : ImpactInput(c, robot));
+    impacts_.push_back(feels_contact || fixed_ ? contact_geometry::ImpactInput{}
+                                               : contact_geometry::ImpactInput(c, robot));
     const std::vector<RobotState> states = model.add_groups(robot, properties, max_acceleration_, state);
     for (std::size_t k = 0; k < layers_.size(); ++k) layers_[k].push_back(k < states.size() ? states[k] : RobotState{});
     model.single_kernel = model.rigid && !model.force_driven && !fixed_ && model.groups.size() <= 1;
@@ -317,11 +318,11 @@ class Simplified final : public Algorithm {
   std::vector<Kind> kinds_;                        ///< one per robot
   std::array<std::vector<RobotState>, 3> layers_;  ///< by group of joints; one per robot. The first has the base, too
   std::vector<Robot> robots_;                      ///< the rest of them
-  std::deque<watch::RobotWatch> watches_;                 ///< likewise
+  std::deque<watch::RobotWatch> watches_;          ///< likewise
   watch::SceneryNames scenery_;
-  std::vector<ImpactInput> impacts_;                ///< one per robot
-  std::vector<AppliedWrenches> applied_wrenches_;   ///< likewise
-  std::vector<const double*> other_contributions_;  ///< contributions to wrenches, all but the first of each robot
+  std::vector<contact_geometry::ImpactInput> impacts_;  ///< one per robot
+  std::vector<AppliedWrenches> applied_wrenches_;       ///< likewise
+  std::vector<const double*> other_contributions_;      ///< contributions to wrenches, all but the first of each robot
   std::vector<Wrench> totals_;  ///< of robots with force-driven joints: what acts on them in this step
   std::vector<Articulation> articulations_;
   std::vector<ForceDrivenJoints> force_driven_;

@@ -2,10 +2,10 @@
 // What the contact algorithm tells of impacts within the last step.
 #pragma once
 
+#include "impact_correction.hpp"
 #include "muro/algorithm.hpp"
-#include "plugins/common/contact_geometry/impact_correction.hpp"
 
-namespace muro::simplified {
+namespace muro::contact_geometry {
 
 /// Of a robot whose impacts act at their instant; by default none.
 class ImpactInput {
@@ -30,4 +30,4 @@ class ImpactInput {
   Out<double> step_;
 };
 
-}  // namespace muro::simplified
+}  // namespace muro::contact_geometry
