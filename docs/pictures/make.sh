@@ -19,6 +19,8 @@ camera labels labels
 "$muro" render examples/levels/levels.yaml --at 4 --from -3,-3,2.2 --to 0,0,0 --size 960x540 --out "$out/levels.png"
 "$muro" render examples/balancer/balancer.yaml --at 4.5 --from=-10.9,-1.9,0.6 --to=-6.9,-0.15,0.1 --fov 42 \
   --size 800x450 --out "$out/balancer.png"
+"$muro" render examples/biped/biped.yaml --at 4.12 --from=1.7,-1.6,0.75 --to=0.75,0.35,0.15 --fov 45 --size 800x450 \
+  --out "$out/biped.png"
 
 allan=$(mktemp --suffix=.svg)
 "$muro" sensors allan examples/sensors/imu_at_rest.yaml --sensor fine --reading angular_velocity --duration 20000 \

@@ -117,6 +117,20 @@ TEST(ABiped, FeelsASmoothAccelerationRightThroughItsSteps) {
   EXPECT_GT(largest, 0.8 * tangential);
 }
 
+TEST(ABiped, MovesEvenlyBetweenTargetsOfASlowerController) {
+  Walk w(1000, {{"interpolate", 0.01}});
+  for (int k = 1; k <= 20; ++k) {
+    w.set("left_yaw", 0.01 * k);  // 1 rad/s at 100 Hz
+    for (int i = 1; i <= 10; ++i) {
+      w.run_for(0.001);
+      ASSERT_NEAR(w.world().value("r/left_yaw", keys::joint_velocity), 1, 1e-9);
+      ASSERT_NEAR(w.world().value("r/left_yaw", keys::joint_position), 0.01 * (k - 1) + 0.001 * i, 1e-12);
+    }
+  }
+  EXPECT_NEAR(yaw_of(w.base().orientation), -0.2, 1e-12) << "the stance foot stays where it is";
+  EXPECT_LT((w.twist(w.robot).angular - Vec3(0, 0, -1)).norm(), 1e-9);
+}
+
 TEST(ABiped, StandsStillWhereItsFootMeetsAWallIfItIsToldTo) {
   for (const bool stop : {false, true}) {
     test::Scene s;
