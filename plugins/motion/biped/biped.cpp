@@ -23,7 +23,7 @@ constexpr Parameter parameters[] = {
     texts("feet",
           "links of the two feet, as [left_foot, right_foot]; when both touch at the start, the first one stands")
         .required(),
-    text("plane", "", "object of the scenery on whose plane it walks; default: the only plane of the scenery"),
+    text("plane", "", "object of the scenery on whose plane it walks; default: the only one that looks up"),
     reals("sole_normal", "1", {},
           "out of the soles, in the frames of both feet; default: downwards with all joints at 0. The sole is the side "
           "of the foot's collision shapes that lies that way"),

@@ -11,6 +11,8 @@ namespace muro::biped {
 
 namespace {
 
+constexpr double least_upward = 0.1;  ///< z of the normal of a plane that may be the ground without being named
+
 /// What of the scenery could be the ground.
 struct Grounds {
   std::vector<GroundPlane> planes;
@@ -53,13 +55,15 @@ GroundPlane find_ground_plane(const Connector& c, std::string_view name) {
           "a biped puts its feet on a plane, and the scenery has a heightmap; take a motion by forces there, or name "
           "with `plane` the object whose plane it walks on whatever the heightmap does (" +
           names_of(c, found.planes) + ")");
-    if (found.planes.size() == 1) return found.planes.front();
-    if (found.planes.empty())
+    std::vector<GroundPlane> grounds = found.planes;  // walls are none
+    std::erase_if(grounds, [](const GroundPlane& p) { return p.normal.z() < least_upward; });
+    if (grounds.size() == 1) return grounds.front();
+    if (grounds.empty())
       throw Error(
           "the scenery has no plane on which a biped could put its feet; add an object with `shape: plane` to `world` "
           "(boxes and meshes are not taken for the ground)");
-    throw Error("the scenery has " + std::to_string(found.planes.size()) +
-                " planes; name with `plane` the one to walk on: " + names_of(c, found.planes));
+    throw Error("the scenery has " + std::to_string(grounds.size()) +
+                " planes that look up; name with `plane` the one to walk on: " + names_of(c, grounds));
   }
   for (const GroundPlane& p : found.planes)
     if (c.object_name(p.shape.object) == name) return p;

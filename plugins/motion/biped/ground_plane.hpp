@@ -16,7 +16,8 @@ struct GroundPlane {
   double height(const Vec3& point) const { return normal.dot(point) - offset; }
 };
 
-/// The plane of the object of this name among the collision shapes of the scenery; empty: the only one there is. Throws
+/// The plane of the object of this name among the collision shapes of the scenery; empty: the only one that
+/// looks up (to 84 deg off). Throws
 /// Error where it is not clear which. [setup]
 GroundPlane find_ground_plane(const Connector& c, std::string_view name);
 

@@ -41,9 +41,9 @@ struct Floor : test::Scene {
     use("motion.biped", 100, all_robots(), parameters);
     build();
   }
-  void add_plane(const std::string& name, double height) {
+  void add_plane(const std::string& name, double height, const Quat& turn = Quat::Identity()) {
     const Shape plane = Shape::plane();
-    world().add_scenery(name, {{0, 0, height}, Quat::Identity()}, std::span<const Shape>(&plane, 1));
+    world().add_scenery(name, {{0, 0, height}, turn}, std::span<const Shape>(&plane, 1));
   }
 };
 
@@ -62,7 +62,7 @@ TEST(AFloor, OfSeveralPlanesIsNamed) {
   two.add_plane("lower", 0);
   two.add_plane("upper", 0.5);
   EXPECT_SAYS(test::complaint_of([&] { two.add_walker(); }),
-              "2 planes; name with `plane` the one to walk on: `lower`, `upper`");
+              "2 planes that look up; name with `plane` the one to walk on: `lower`, `upper`");
   Floor wrong;
   wrong.add_plane("lower", 0);
   EXPECT_SAYS(
@@ -70,6 +70,11 @@ TEST(AFloor, OfSeveralPlanesIsNamed) {
         wrong.add_walker({{"plane", std::string("r")}});
       }),
       "plane: there is no object `r` of the scenery with a plane among its collision shapes; there are: `lower`");
+  Floor hall;
+  hall.add_plane("wall", -3, from_rpy(0, M_PI / 2, 0));
+  hall.add_plane("floor", 0.25);
+  hall.add_walker();
+  EXPECT_NEAR(hall.world().value("r/trunk", keys::pose).position.z(), 0.25 + leg_length, 1e-12) << "walls are no floor";
   Floor named;
   named.add_plane("lower", 0);
   named.add_plane("upper", 0.5);
