@@ -116,9 +116,11 @@ TEST(UrdfModels, EveryExampleIsReadThroughThePluginWithItsMassAndJoints) {
     std::size_t links, joints, problems;
   };
   // the planar joint of the air table is reported
-  const Expected expected[] = {{"rover", 5.36, 6, 4, 0},     {"pendulum", 6.1, 3, 1, 0},  {"arm", 7.41, 8, 7, 0},
-                               {"quadruped", 12, 17, 12, 0}, {"biped", 4.06, 23, 20, 0},  {"air_table", 14.07, 7, 6, 1},
-                               {"car", 3.63, 8, 6, 0},       {"mecanum", 20.16, 6, 4, 0}, {"kiwi", 11.06, 5, 3, 0}};
+  const Expected expected[] = {
+      {"rover", 5.36, 6, 4, 0},       {"pendulum", 6.1, 3, 1, 0},          {"arm", 7.41, 8, 7, 0},
+      {"quadruped", 12, 17, 12, 0},   {"biped", 4.06, 23, 20, 0},          {"air_table", 14.07, 7, 6, 1},
+      {"humanoid", 3.147, 27, 21, 0}, {"quadruped_a1", 12.776, 20, 12, 0}, {"soccer_omni", 2.6, 8, 4, 0},
+      {"car", 3.63, 8, 6, 0},         {"mecanum", 20.16, 6, 4, 0},         {"kiwi", 11.06, 5, 3, 0}};
   for (const Expected& e : expected) {
     SCOPED_TRACE(e.name);
     test::Scene scene;
