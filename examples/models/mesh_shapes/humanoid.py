@@ -134,7 +134,7 @@ def hip_roll_servo():
     return total([body, axles, horns])
 
 def thigh_frame():
-    sides = (strap(0, 14, -84, 15, 19.3, 22.6)).with_mirror_y().at(0, -19, 0)
+    sides = (strap(0, 14, -79, 15, 19.3, 22.6)).with_mirror_y().at(0, -19, 0)
     knee = disc(15, -18.4, 18.4).along_y().at(0, -19, -110.15)
     bar = block((24, 30, 34), 3).at(0, -19, -92)
     return total([sides, knee, bar])
