@@ -12,7 +12,8 @@ camera() { "$muro" render "$sensors" --at 0.2 --camera scout/camera --shows "$1"
 camera rgb camera
 camera depth depth
 camera labels labels
-"$muro" render examples/models/parade.yaml --camera observer/camera --out "$out/models.png"
+"$muro" render examples/models/parade.yaml --set algorithms.pictures=off --camera observer/camera \
+  --out "$out/models.png"
 "$muro" render "$urban" --set robots.rovers.count=250 --at 8 --from 0.5,-17,3.4 --to 0,-6,0.3 --fov 60 --size 960x540 \
   --out "$out/urban.png"
 "$muro" render examples/swarm/swarm.yaml --at 45 --from 0,-15,5.5 --to 3.7,-6,0 --fov 58 --size 960x540 --out "$out/swarm.png"

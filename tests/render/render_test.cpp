@@ -73,7 +73,9 @@ TEST(Render, ShowsRobotsOfOneModelInTheColoursOfTheirTeams) {
   const auto pixels = [&](const std::string& changes) {
     const std::string file = folder.path("parade.png");
     const auto result =
-        render(MURO_TEST_SOURCE_DIR "/examples/models/parade.yaml --camera observer/camera --out " + file +
+        render(MURO_TEST_SOURCE_DIR
+               "/examples/models/parade.yaml --set algorithms.pictures=off --camera observer/camera --out " +
+               file +
                " --set robots.observer.camera.width=640 --set robots.observer.camera.height=360"
                " --set robots.blue_omni=off --set robots.yellow_omni=off" +
                changes);
