@@ -46,6 +46,7 @@ class Articulated final : public Algorithm {
     gravity_ = c.constant(world_object, keys::gravity).value_or(Vec3(0, 0, -9.81));
     omega_ = 2 * M_PI * p.real("frequency");
     correcting_speed_ = p.real("correcting_speed");
+    runge_kutta_ = p.text("integrator") == "rk4";
     bodies_.connect(c);
     for (const Item& item : c.items()) connect_robot(c, item);
     report(c);
@@ -167,7 +168,8 @@ class Articulated final : public Algorithm {
                 .omega = omega_,
                 .impact_speed = std::max(0.02, gravity_.norm() / omega_),
                 .hard_speed = hard_way / step.dt,
-                .correcting_speed = correcting_speed_};
+                .correcting_speed = correcting_speed_,
+                .runge_kutta = runge_kutta_};
     for (std::uint32_t i = begin; i < end; ++i) {
       Robot& robot = *served_[i].robot;
       robot.prepare(step.dt);
@@ -189,6 +191,7 @@ class Articulated final : public Algorithm {
   Accelerations accelerations_{mesh::hull_vertices};
   Vec3 gravity_ = Vec3::Zero();
   double omega_ = 0, correcting_speed_ = 0;
+  bool runge_kutta_ = false;
   const Kernels* kernels_ = &kernels_for(lane::best_isa());
   TouchedBodies bodies_;
   std::vector<Model> models_;

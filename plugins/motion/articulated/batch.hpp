@@ -49,6 +49,7 @@ struct Batch {
   double impact_speed = 0;      ///< m/s: what comes faster rebounds
   double hard_speed = 0;        ///< m/s: what comes faster is stopped at once
   double correcting_speed = 0;  ///< m/s: overlap is parted no faster
+  bool runge_kutta = false;     ///< of order 4; else semi-implicit Euler
   bool equal_masses = true;     ///< all robots have the masses of the first
   void* work = nullptr;         ///< of work_bytes(), aligned to 64 bytes
 };

@@ -11,6 +11,7 @@ namespace muro::articulated {
 
 inline constexpr std::string_view joint_modes[] = {"velocity", "position", "acceleration", "effort", "passive"};
 inline constexpr std::string_view base_modes[] = {"free", "fixed"};
+inline constexpr std::string_view integrators[] = {"semi_implicit", "rk4"};
 inline constexpr Parameter parameters[] = {
     text("joints", "velocity", "what joints follow that no list below names").one_of(joint_modes),
     velocity_joints,
@@ -22,6 +23,9 @@ inline constexpr Parameter parameters[] = {
     drive_damping,
     interpolate,
     text("base", "free", "whether the base is fixed to the world").one_of(base_modes),
+    text("integrator", "semi_implicit",
+         "semi-implicit Euler, or Runge and Kutta of order 4 for what moves smoothly within a step")
+        .one_of(integrators),
     real("frequency", "Hz", 50, "stiffness of contacts: that of the robot bobbing on one of them").between(1, 1e4),
     real("correcting_speed", "m/s", 1, "bodies that are put into each other are parted no faster").between(0, 1e9),
     watch::watch,

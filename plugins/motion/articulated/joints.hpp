@@ -86,6 +86,10 @@ class Joints {
       b.qd += h * b.qdd;
       b.q += h * b.qd;
     }
+    finish();
+  }
+  /// When joints have moved.
+  void finish() {
     if (s_.has_mimics) follow_leaders();
   }
 

@@ -40,8 +40,11 @@ void TouchedBodies::connect_by_name(Connector& c) {
     }
 }
 
-RobotContacts::RobotContacts(Connector& c, const RobotView& view, const multibody::RobotModel& model)
-    : list_(c.read_list(view.base(), keys::contacts)), kept_(c.variable_list(view.base(), kept_contacts)) {
+RobotContacts::RobotContacts(Connector& c, const RobotView& view, const multibody::RobotModel& model) {
+  const auto has_shapes = [](const multibody::LoadedLink& link) { return link.has_shapes; };
+  if (std::none_of(model.loaded_links.begin(), model.loaded_links.end(), has_shapes)) return;
+  list_ = c.read_list(view.base(), keys::contacts);
+  kept_ = c.variable_list(view.base(), kept_contacts);
   for (std::uint32_t i = 0; i < model.loaded_links.size(); ++i) {
     const multibody::LoadedLink& link = model.loaded_links[i];
     link_places_.push_back({link.object, i, int(link.placement.body)});
@@ -58,6 +61,7 @@ const RobotContacts::LinkPlace* RobotContacts::place_of(ObjectId object) const {
 }
 
 void RobotContacts::look_up(const TouchedBodies& bodies) {
+  if (!list_) return;
   const auto list = *list_;
   if (list.empty() && contacts_.empty() && (*kept_).empty()) return;
   if (touches_robots_ || revision_ != list_.revision() || (*kept_).size() != contacts_.size()) {

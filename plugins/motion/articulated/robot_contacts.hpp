@@ -33,7 +33,7 @@ class TouchedBodies {
 class RobotContacts {
  public:
   RobotContacts() = default;
-  /// [setup]
+  /// Of a robot without shapes there are none. [setup]
   RobotContacts(Connector& c, const RobotView& view, const multibody::RobotModel& model);
 
   /// Finds the contacts of the step that begins. [step, before any robot moves]
@@ -41,7 +41,9 @@ class RobotContacts {
   /// Nothing is known of earlier steps. [setup]
   void forget() { revision_ = no_revision; }
   /// Another motion has moved the robot so far.
-  void take_over() const { kept_.clear(); }
+  void take_over() const {
+    if (kept_) kept_.clear();
+  }
 
   /// By body, in rising order.
   const std::vector<KernelContact>& contacts() const { return contacts_; }

@@ -4,6 +4,7 @@
 #include "flight.hpp"
 #include "joints.hpp"
 #include "mimic_joints.hpp"
+#include "runge_kutta.hpp"
 #include "work.hpp"
 
 namespace muro::articulated {
@@ -45,6 +46,8 @@ struct Bases {
     return (dot(pose.position, pose.position) < far) & (dot(twist.linear, twist.linear) < far) &
            (dot(twist.angular, twist.angular) < far) & (norm > S(0.25)) & (norm < S(4));
   }
+  MURO_INLINE BaseState<S> state() const { return {pose.position, twist.linear, twist.angular, pose.orientation}; }
+  MURO_INLINE void take(const BaseState<S>& b) { pose = {b.position, b.orientation}, twist = {b.velocity, b.spin}; }
   /// In those robots that `which` says.
   MURO_INLINE void take(const PoseOf<S>& p, const TwistOf<S>& t, MaskOf<S> which) {
     pose.position = select(which, p.position, pose.position);
@@ -107,7 +110,11 @@ unsigned step_some(const Batch& batch, const RobotState* robots, int count) {
     if (!others && !loads) break;
   }
   contacts.keep();
-  if (!s.fixed && any(flies)) {
+  if (batch.runge_kutta) {
+    RungeKutta<S> stages(batch, masses, work);
+    base.take(stages.carry(base.state()));
+    joints.finish();
+  } else if (!s.fixed && any(flies)) {
     const Bases<S> start = base;
     Flight<S> flight(s, masses, bodies, gravity, contacts.external_force(), contacts.external_torque());
     base.move(bodies[0], gravity, dt);

@@ -33,6 +33,13 @@ struct Response {
   S qdd;
 };
 
+/// A joint within a step of several stages.
+template <class S>
+struct JointStage {
+  S q, qd;                      ///< at the start
+  S velocities, accelerations;  ///< weighted sums
+};
+
 /// Pieces of the memory that a batch brings.
 template <class S>
 struct Work {
@@ -46,6 +53,8 @@ struct Work {
   S* couplings;                ///< N m or N: what keeps mimic joints and their leaders together, one a body
   Response<S>* responses;      ///< one a body
   Composite<S>* composites;    ///< as `slots`
+  JointStage<S>* stages;       ///< one a body
+  lane::TwistOf<S>* wrenches;  ///< force and torque, one a body
   ContactSlot<S>* contacts;
   int contact_count = 0;
   Inertia<S> base;  ///< of all bodies, at the base
@@ -59,12 +68,13 @@ struct Work {
     take(bodies, body_count), take(laws, body_count), take(pieces, body_count), take(armature, body_count);
     take(slots, slot_count), take(external, body_count), take(acts_on, body_count);
     take(couplings, body_count), take(responses, body_count), take(composites, slot_count);
+    take(stages, body_count), take(wrenches, body_count);
     contacts = reinterpret_cast<ContactSlot<S>*>(next);
   }
   static std::size_t bytes(int body_count, int slot_count, int contact_count) {
     const auto n = std::size_t(body_count), rounding = std::size_t(16 * 64);
     return n * (sizeof(BodyStep<S>) + sizeof(JointLaw<S>) + sizeof(JointPiece<S>) + sizeof(S) + sizeof(Inertia<S>) +
-                sizeof(void*) + sizeof(S) + sizeof(Response<S>)) +
+                sizeof(void*) + sizeof(S) + sizeof(Response<S>) + sizeof(JointStage<S>) + sizeof(lane::TwistOf<S>)) +
            std::size_t(slot_count) * (sizeof(Inertia<S>) + sizeof(Composite<S>)) +
            std::size_t(contact_count) * sizeof(ContactSlot<S>) + rounding;
   }

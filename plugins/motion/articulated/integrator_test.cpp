@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// Energy and momentum of what moves without friction, by both integrators.
+#include <gtest/gtest.h>
+
+#include "muro/toolkit/mass_properties.hpp"
+#include "tests/support/scene.hpp"
+
+namespace muro {
+namespace {
+
+constexpr double g = 9.81;
+constexpr double upper_length = 0.3;
+const Inertia upper{.mass = 0.7, .com = {0, 0, -0.17}, .ixx = 0.004, .iyy = 0.004, .izz = 1e-4};
+const Inertia lower{.mass = 0.4, .com = {0, 0, -0.12}, .ixx = 0.002, .iyy = 0.002, .izz = 1e-4};
+
+/// Two rods that swing about y, one on the other.
+RobotTree double_pendulum() {
+  return test::tree_of([](RobotBuilder& b) {
+    b.base("frame");
+    b.set(keys::inertial, Inertia{.mass = 3, .ixx = 0.1, .iyy = 0.1, .izz = 0.1});
+    b.revolute("shoulder", Vec3::UnitY(), {});
+    b.body("upper");
+    b.set(keys::inertial, upper);
+    b.translation({0, 0, -upper_length});
+    b.revolute("elbow", Vec3::UnitY(), {});
+    b.body("lower");
+    b.set(keys::inertial, lower);
+  });
+}
+
+struct DoublePendulum : test::Scene {
+  DoublePendulum(const std::string& integrator, double rate) {
+    const RobotView& robot = add("r", double_pendulum());
+    for (const Link& f : robot.links)
+      if (f.joint != JointKind::fixed)
+        world().set(f.joint_object, keys::initial_joint_position,
+                    f.joint_object == robot.links[1].joint_object ? 1.2 : -0.7);
+    use("motion.articulated", rate, all_robots(),
+        {{"joints", std::string("passive")}, {"base", std::string("fixed")}, {"integrator", integrator}});
+    build();
+  }
+  /// Of Lagrange's equations; angles from the vertical.
+  double energy() {
+    const double a = world().value("r/shoulder", keys::joint_position),
+                 b = a + world().value("r/elbow", keys::joint_position);
+    const double u = world().value("r/shoulder", keys::joint_velocity),
+                 w = u + world().value("r/elbow", keys::joint_velocity);
+    const double c1 = -upper.com.z(), c2 = -lower.com.z(), l = upper_length;
+    const double first = upper.iyy + upper.mass * c1 * c1 + lower.mass * l * l,
+                 second = lower.iyy + lower.mass * c2 * c2;
+    return 0.5 * (first * u * u + second * w * w) + lower.mass * l * c2 * std::cos(a - b) * u * w -
+           g * ((upper.mass * c1 + lower.mass * l) * std::cos(a) + lower.mass * c2 * std::cos(b));
+  }
+  /// The largest change of the energy within 10 s, relative to what it swings with.
+  double drift() {
+    const double swing = (upper.mass * 0.17 + lower.mass * (upper_length + 0.12)) * g, start = energy();
+    double worst = 0;
+    for (int i = 0; i < 1000; ++i) {
+      run_for(0.01);
+      worst = std::max(worst, std::abs(energy() - start) / swing);
+    }
+    return worst;
+  }
+};
+
+TEST(Integrator, RungeAndKuttaKeepTheEnergyOfADoublePendulum) { EXPECT_LT(DoublePendulum("rk4", 1000).drift(), 1e-5); }
+
+TEST(Integrator, TheErrorOfSemiImplicitEulerHalvesWithTheStep) {
+  const double coarse = DoublePendulum("semi_implicit", 1000).drift(),
+               fine = DoublePendulum("semi_implicit", 2000).drift();
+  EXPECT_LT(coarse, 0.08);
+  EXPECT_NEAR(coarse / fine, 2, 0.2);
+}
+
+}  // namespace
+}  // namespace muro
