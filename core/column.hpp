@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdlib>
 #include <memory>
 #include <new>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "muro/key.hpp"
@@ -27,7 +29,7 @@ class Column {
     partition_ = partition;
     if (chunks_.empty() || chunks_.back().used + bytes > chunks_.back().size) grow(bytes);
     Chunk& c = chunks_.back();
-    void* place = c.memory.get() + c.used;
+    void* place = c.memory + c.used;
     c.used += bytes;
     return place;
   }
@@ -35,27 +37,33 @@ class Column {
   /// The used memory of every chunk.
   template <class Visit>
   void each_block(Visit visit) const {
-    for (const Chunk& c : chunks_) visit(std::span<std::byte>(c.memory.get(), c.used));
+    for (const Chunk& c : chunks_) visit(std::span<std::byte>(c.memory, c.used));
   }
 
  private:
-  static constexpr std::size_t chunk_bytes = 1 << 14;
+  /// Much, so that few robots have their values in two chunks: what serves several at once needs equal distances.
+  /// Memory that nobody has touched costs nothing.
+  static constexpr std::size_t chunk_bytes = 1 << 18;
   static constexpr std::size_t gap = 1 << 12;  ///< processors read no further ahead
-  static constexpr std::align_val_t alignment{64};
+  static constexpr std::size_t alignment = 64;
   struct Free {
-    void operator()(std::byte* p) const { ::operator delete(p, alignment); }
+    void operator()(void* p) const { std::free(p); }
   };
   struct Chunk {
-    std::unique_ptr<std::byte[], Free> memory;
+    std::unique_ptr<void, Free> block;
+    std::byte* memory = nullptr;  ///< in `block`, aligned
     std::size_t size = 0;
     std::size_t used = 0;
   };
 
   void grow(std::size_t min_size) {
-    const std::size_t size = std::max(min_size, chunk_bytes << std::min<std::size_t>(chunks_.size(), 6));
-    auto* memory = static_cast<std::byte*>(::operator new(size, alignment));
-    std::fill_n(memory, size, std::byte{0});
-    chunks_.push_back({std::unique_ptr<std::byte[], Free>(memory), size, 0});
+    const std::size_t size = std::max(min_size, chunk_bytes << std::min<std::size_t>(chunks_.size(), 2));
+    std::size_t room = size + alignment;
+    std::unique_ptr<void, Free> block(std::calloc(1, room));
+    if (!block) throw std::bad_alloc();
+    void* memory = block.get();
+    std::align(alignment, size, memory, room);
+    chunks_.push_back({std::move(block), static_cast<std::byte*>(memory), size, 0});
   }
 
   KeyInfo key_;

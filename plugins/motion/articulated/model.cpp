@@ -20,7 +20,8 @@ struct SignedAxis {
 std::optional<SignedAxis> frame_axis(const Vec3& v) {
   constexpr double rounding = 1e-12;
   for (int k = 0; k < 3; ++k)
-    if (std::abs(std::abs(v[k]) - 1) < rounding && std::hypot(v[(k + 1) % 3], v[(k + 2) % 3]) < rounding)
+    if (std::abs(std::abs(v[k]) - 1) < rounding &&
+        std::sqrt(v[(k + 1) % 3] * v[(k + 1) % 3] + v[(k + 2) % 3] * v[(k + 2) % 3]) < rounding)
       return SignedAxis{k, v[k] < 0 ? -1.0 : 1.0};
   return std::nullopt;
 }
