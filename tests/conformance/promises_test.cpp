@@ -68,8 +68,8 @@ INSTANTIATE_TEST_SUITE_P(Conformance, EveryAllocationFreeMotionsTeam, ::testing:
                          test::name_of);
 
 /// Steps every batched algorithm once in one piece and once item by item, from the same state.
-TEST(BatchedAlgorithms, GiveTheSameBitsItemByItemAsInOnePiece) {
-  test::Team whole("motion.simplified"), split("motion.simplified");
+void expect_same_bits_item_by_item(const std::string& motion) {
+  test::Team whole(motion), split(motion);
   whole.run_for(0.5);
   split.run_for(0.5);
   ASSERT_EQ(whole.state_hash(), split.state_hash());
@@ -80,14 +80,24 @@ TEST(BatchedAlgorithms, GiveTheSameBitsItemByItemAsInOnePiece) {
     Instance& b = *split.instances()[i];
     if ((a.description().capabilities & Capability::batched) == 0) continue;
     tried.insert(a.setup().use);
-    const Step step{whole.now(), 0.001, 500, 1};
     const auto items = std::uint32_t(a.setup().items.size());
-    ASSERT_TRUE(a.algorithm().step(step, {0, items}, error)) << error.view();
-    for (std::uint32_t k = items; k-- > 0;) ASSERT_TRUE(b.algorithm().step(step, {k, k + 1}, error)) << error.view();
+    const std::vector<Phase> phases = a.phases();
+    for (std::uint32_t phase = 0; phase < phases.size(); ++phase) {
+      if (phases[phase].index_space != Phase::IndexSpace::items) continue;
+      Step step{whole.now(), 0.001, 500, 1};
+      step.phase = phase;
+      ASSERT_TRUE(a.algorithm().step(step, {0, items}, error)) << error.view();
+      for (std::uint32_t k = items; k-- > 0;) ASSERT_TRUE(b.algorithm().step(step, {k, k + 1}, error)) << error.view();
+    }
     EXPECT_EQ(whole.state_hash(), split.state_hash()) << a.setup().use;
   }
-  for (const char* id : {"motion.simplified", "kinematics.direct", "laser.raycast", "sensor.error", "drive.skid_steer"})
+  for (const std::string& id : {motion, std::string("kinematics.direct"), std::string("laser.raycast"),
+                                std::string("sensor.error"), std::string("drive.skid_steer")})
     EXPECT_EQ(tried.count(id), 1u) << id << " is batched";
+}
+
+TEST(BatchedAlgorithms, GiveTheSameBitsItemByItemAsInOnePiece) {
+  for (const char* motion : {"motion.simplified", "motion.articulated"}) expect_same_bits_item_by_item(motion);
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ std::vector<Scenario> scenarios(const test::ScratchFolder& folder) {
         text.find("\nrobots:") != std::string::npos && text.find("stream:") == std::string::npos)
       files.push_back(entry.path());
   std::sort(files.begin(), files.end());
-  for (const char* motion : {"simplified", "bullet", "ode", "mujoco"})
+  for (const char* motion : {"simplified", "articulated", "bullet", "ode", "mujoco"})
     files.push_back(folder.file(
         std::string(motion) + ".yaml",
         std::string("world: {objects: {ground: {shape: plane}}}\nrobots:\n  tool: {model: " MURO_TEST_SOURCE_DIR

@@ -32,7 +32,8 @@ struct ModelAtMotion {
 std::vector<ModelAtMotion> models_at_motions() {
   std::vector<ModelAtMotion> all;
   for (const test::ModelCase& c : test::model_cases())
-    for (const char* motion : {"motion.simplified", "motion.ode", "motion.bullet", "motion.mujoco"})
+    for (const char* motion :
+         {"motion.simplified", "motion.articulated", "motion.ode", "motion.bullet", "motion.mujoco"})
       if (!c.is_refused && !c.is_world()) all.push_back({c.file, motion});
   return all;
 }

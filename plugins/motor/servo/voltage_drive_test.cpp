@@ -35,6 +35,7 @@ struct VoltageBench : test::Scene {
     world().set(world().object("r/joint"), keys::initial_joint_position, start);
     use(motion, rate, all_robots(), {{"joints", "effort"}, {"base", "fixed"}});
     use("motor.servo", rate, all_robots(), servo);
+    if (motion == "motion.articulated") use_contacts();  // it is told of them
     build();
   }
   double& of(const Key<double>& key) { return world().value("r/joint", key); }
@@ -59,8 +60,10 @@ class VoltageDriveAt : public testing::TestWithParam<MotionName> {
   std::string motion() const { return GetParam().id; }
 };
 INSTANTIATE_TEST_SUITE_P(, VoltageDriveAt,
-                         testing::Values(MotionName{"motion.simplified", "simplified"}, MotionName{"motion.ode", "ode"},
-                                         MotionName{"motion.bullet", "bullet"}, MotionName{"motion.mujoco", "mujoco"}),
+                         testing::Values(MotionName{"motion.simplified", "simplified"},
+                                         MotionName{"motion.articulated", "articulated"},
+                                         MotionName{"motion.ode", "ode"}, MotionName{"motion.bullet", "bullet"},
+                                         MotionName{"motion.mujoco", "mujoco"}),
                          [](const auto& test) { return test.param.name; });
 
 TEST_P(VoltageDriveAt, AStepOfTheVoltageMeetsTheClosedForm) {
@@ -87,7 +90,7 @@ TEST_P(VoltageDriveAt, FrictionHoldsAPendulum) {
     VoltageBench s({{"part", "mx64"}, {"friction_model", "m1"}, {"friction", 0.2}}, motion(), 1000, angle);
     s.of("servo.torque_enable") = 0;
     s.run_for(3);
-    if (motion() == "motion.simplified") {
+    if (motion() == "motion.simplified" || motion() == "motion.articulated") {
       EXPECT_EQ(s.q(), angle) << "bit-equal";
     } else {
       EXPECT_NEAR(s.q(), angle, motion() == "motion.ode" ? 4e-3 : 2e-5) << "ODE's rows are soft";

@@ -72,7 +72,8 @@ Wrench sum_of(const std::vector<Row>& rows) {
 
 class ContactsOf : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Motions, ContactsOf,
-                         testing::Values("motion.simplified", "motion.ode", "motion.bullet", "motion.mujoco"),
+                         testing::Values("motion.simplified", "motion.articulated", "motion.ode", "motion.bullet",
+                                         "motion.mujoco"),
                          [](const auto& motion) { return std::string(motion.param).substr(7); });
 
 TEST_P(ContactsOf, ABoxAtRestCarryItsWeightAndPushItUp) {
@@ -188,7 +189,8 @@ TEST_P(ContactsOf, WhatIsRecordedIsWhatIsToldOfTheBody) {
 }
 
 TEST(RecorderContacts, DoesNotChangeWhatItSees) {
-  for (const char* motion : {"motion.simplified", "motion.ode", "motion.bullet", "motion.mujoco"}) {
+  for (const char* motion :
+       {"motion.simplified", "motion.articulated", "motion.ode", "motion.bullet", "motion.mujoco"}) {
     Pose poses[2];
     for (const bool recorded : {false, true}) {
       ContactScene s;

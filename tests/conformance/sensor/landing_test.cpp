@@ -79,7 +79,7 @@ TEST(ForceTorqueSensor, ReadsMassTimesSpecificForceInALanding) {
 /// Contacts of engines act along the step, whose accelerations are those of its two ends.
 TEST(ForceTorqueSensor, ReadsMassTimesSpecificForceAtEngines) {
   const std::pair<const char*, double> engines[] = {
-      {"motion.mujoco", 1e-6}, {"motion.bullet", 1e-6}, {"motion.ode", 1e-6}};
+      {"motion.articulated", 1e-9}, {"motion.mujoco", 1e-6}, {"motion.bullet", 1e-6}, {"motion.ode", 1e-6}};
   for (const auto& [motion, bound] : engines) {
     Lander s(motion, landings[0].start, landings[0].twist, 0.3, 1000);
     double worst = 0, largest = 0;
@@ -96,7 +96,8 @@ TEST(ForceTorqueSensor, ReadsMassTimesSpecificForceAtEngines) {
 
 /// One robot of motion.simplified that lands on a robot of an engine, with the sensor in that.
 TEST(ForceTorqueSensor, FeelsWhatLandsInTheStepInWhichItActs) {
-  for (const char* motion : {"motion.simplified", "motion.mujoco", "motion.bullet", "motion.ode"}) {
+  for (const char* motion :
+       {"motion.simplified", "motion.articulated", "motion.mujoco", "motion.bullet", "motion.ode"}) {
     test::Scene s;
     const Shape tray = test::with(Shape::box({0.4, 0.4, 0.04}), 0.8);
     s.world().set(world_object, keys::gravity, Vec3(0, 0, 0));

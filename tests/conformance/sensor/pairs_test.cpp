@@ -104,8 +104,8 @@ TEST(RobotsThatTouch, TouchOnlyWhatTheyHaveDeclared) {
 }
 
 TEST(RobotsThatTouch, AreFeltOnceAtEachLevelOfDetail) {
-  for (const char* own : {"motion.simplified", "motion.mujoco", "motion.bullet", "motion.ode"})
-    for (const char* other : {"motion.simplified", "motion.mujoco", "motion.bullet"}) {
+  for (const char* own : {"motion.simplified", "motion.articulated", "motion.mujoco", "motion.bullet", "motion.ode"})
+    for (const char* other : {"motion.simplified", "motion.articulated", "motion.mujoco", "motion.bullet"}) {
       Carriers s;
       s.add_ground();
       s.add_pair(0, Vec3::Zero());
