@@ -32,6 +32,7 @@ struct BodyStep {
   V3<S> w, v;      ///< angular and linear velocity
   V3<S> Un, Uf;    ///< inertia times the joint's direction
   S D;             ///< inertia that the joint moves, with its own terms
+  S give;          ///< how the joint gives way: 1 / D, or 0 where it is held
   S bias;          ///< effort that it lacks when it does not accelerate
   S needed;        ///< the same with the acceleration of its parent
   S qdd;           ///< acceleration of the joint
@@ -153,7 +154,7 @@ template <int K, class S>
   own.Un = Un, own.Uf = Uf;
   own.D = at<K>(b.slides ? Uf : Un) + own.terms.inertia;
   own.bias = at<K>(b.slides ? m.f : m.n) - own.terms.effort;
-  const S inverse = own.terms.is_free / own.D, go = own.terms.rate - inverse * own.bias;
+  const S inverse = own.give = own.terms.is_free / own.D, go = own.terms.rate - inverse * own.bias;
   // less what the joint gives way
   const V3<S> n = Un * inverse, f = Uf * inverse;
   m.A.xx -= n.x * Un.x, m.A.yy -= n.y * Un.y, m.A.zz -= n.z * Un.z;
@@ -184,7 +185,7 @@ MURO_INLINE void accelerate(const Body& b, BodyStep<S>* bodies, int i) {
   into_body<K>(b, own, own.alpha, own.a);
   add_velocity_terms<K>(b, own, own.alpha, own.a);
   own.needed = own.bias + dot(own.Un, own.alpha) + dot(own.Uf, own.a);
-  own.qdd = own.terms.rate - own.terms.is_free * own.needed / own.D;
+  own.qdd = own.terms.rate - own.give * own.needed;
   at<K>(b.slides ? own.a : own.alpha) += own.qdd;
 }
 

@@ -58,10 +58,11 @@ MURO_INLINE lane::TwistOf<S> base_twist(const Momentum<S>& resting, const V3<S>&
 template <class S>
 class Flight {
  public:
-  /// Bodies are placed. `force`, `torque`: from outside, at the origin of the base.
-  Flight(const Structure& s, const Masses<S>& masses, BodyStep<S>* bodies, const V3<S>& gravity, const V3<S>& force,
-         const V3<S>& torque)
-      : s_(s), masses_(masses), bodies_(bodies), start_(momentum_of(s, masses, bodies)) {
+  /// Bodies are placed. `force`, `torque`: from outside, at the origin of the base; `end`: room for a number a
+  /// body.
+  Flight(const Structure& s, const Masses<S>& masses, BodyStep<S>* bodies, S* end, const V3<S>& gravity,
+         const V3<S>& force, const V3<S>& torque)
+      : s_(s), masses_(masses), bodies_(bodies), end_(end), start_(momentum_of(s, masses, bodies)) {
     torque_ = torque + cross(bodies[0].origin - start_.centre, force);
     force_ = force + start_.mass * gravity;
   }
@@ -69,11 +70,14 @@ class Flight {
   /// When joints have moved; bodies still have the base where it was. Changes bodies.
   void carry(lane::PoseOf<S>& pose, lane::TwistOf<S>& twist, double dt) {
     const S h(dt), half(0.5 * dt);
-    for (int k = 1; k < s_.count; ++k) bodies_[k].q -= half * bodies_[k].qd;
+    for (int k = 1; k < s_.count; ++k) {
+      end_[k] = bodies_[k].q;
+      bodies_[k].q -= half * bodies_[k].qd;
+    }
     const Momentum<S> middle =
         at_rest(pose.position, lane::turned(lane::rotation_by(twist.angular * half), pose.orientation));
     const V3<S> spin_half = inverse(middle.tensor) * (start_.angular + half * torque_ - middle.angular);
-    for (int k = 1; k < s_.count; ++k) bodies_[k].q += half * bodies_[k].qd;
+    for (int k = 1; k < s_.count; ++k) bodies_[k].q = end_[k];
     const lane::Q4<S> turned = lane::turned(lane::rotation_by(spin_half * h), pose.orientation);
     const Momentum<S> end = at_rest(pose.position, turned);
     const V3<S> linear = start_.linear + h * force_, angular = start_.angular + h * torque_;
@@ -96,6 +100,7 @@ class Flight {
   const Structure& s_;
   const Masses<S>& masses_;
   BodyStep<S>* bodies_;
+  S* end_;  ///< rad or m: of joints at the end of the step
   Momentum<S> start_;
   V3<S> force_, torque_;
 };

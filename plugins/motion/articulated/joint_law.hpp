@@ -108,6 +108,31 @@ MURO_INLINE JointPiece<S> guess(const JointLaw<S>& law, S v) {
   return {select(MaskOf<S>(held), zero, one), pull - friction, drag + law.damping, to, zero};
 }
 
+/// Where joints push each other from piece to piece: drive and friction as dampers, which do at the velocity `v` what
+/// the law has there, and cannot do more against what moves the joint than it.
+template <class S>
+MURO_INLINE JointPiece<S> damped(const JointLaw<S>& law, const JointPiece<S>& found, S v) {
+  const S zero(0), one(1), tiny(1e-9);
+  S pull = law.pull, drag = law.drag;
+  auto held = zero > one;
+  if (law.holds_velocity) {
+    held = law.effort == S(Joint::infinite);
+    drag = select(MaskOf<S>(held), zero, law.effort / max(abs(law.velocity - v), tiny));
+    pull = drag * law.velocity;
+  }
+  const S part = min(one, law.effort / max(abs(pull - drag * v), tiny));
+  const auto stops = (v >= law.highest) | (v <= law.lowest);
+  held = held | stops;
+  const S to = clamp(law.holds_velocity ? law.velocity : v, law.lowest, law.highest);
+  return {select(held, zero, one), part * pull, part * drag + law.damping + law.friction / max(abs(v), S(1e-6)), to,
+          found.effort};
+}
+/// Whether two such pieces are about the same.
+template <class S>
+MURO_INLINE MaskOf<S> are_alike(const JointPiece<S>& a, const JointPiece<S>& b) {
+  return (a.is_free == b.is_free) & (abs(a.drag - b.drag) <= S(0.1) * max(a.drag, b.drag));
+}
+
 /// Whether a joint that ends with the velocity `v` is on the piece that was tried, as most are: a drive within its
 /// limits moves it, and neither friction nor a stop holds it.
 template <class S>
@@ -118,6 +143,17 @@ MURO_INLINE MaskOf<S> goes_on(const JointLaw<S>& law, const JointPiece<S>& tried
                              (tried.pull == law.pull - sign_of(v) * law.friction);
   return is_this_piece & (abs(law.pull - law.drag * v) <= law.effort) & (abs(v) <= S(law.speed)) & (v < law.highest) &
          (v > law.lowest);
+}
+
+/// Whether friction that was tried to hold a joint at rest holds it, against `needed` (N m or N), the effort along the
+/// joint that this takes.
+template <class S>
+MURO_INLINE MaskOf<S> stays_at_rest(const JointLaw<S>& law, const JointPiece<S>& tried, S needed) {
+  const S zero(0);
+  if (law.holds_velocity) return zero > zero;
+  const S drive = clamp(law.pull, -law.effort, law.effort);
+  return (tried.is_free == zero) & (tried.velocity == zero) & (law.friction > zero) & (law.lowest < zero) &
+         (law.highest > zero) & (abs(needed - drive) <= law.friction);
 }
 
 /// As the algorithm takes it. `armature`: kg m^2 or kg; `v`: at the begin of the step.

@@ -40,6 +40,7 @@ class Joints {
       const Joint& joint = s_.joints[k];
       work_.armature[k] = S(joint.armature);
       work_.laws[k] = law_of(k);
+      work_.changes[k] = S(0);
       work_.pieces[k] = guess(work_.laws[k], position_and_velocity(k).velocity);
     }
   }
@@ -62,17 +63,32 @@ class Joints {
       JointPiece<S>& tried = work_.pieces[k];
       const JointLaw<S>& law = work_.laws[k];
       const S sign(s_.bodies[k].sign), v = sign * b.qd, after = v + sign * S(batch_.dt) * b.qdd;
-      const auto stays = goes_on(law, tried, after);
+      const auto goes = goes_on(law, tried, after);
       tried.effort = law.pull - law.drag * after;
-      if (lane::bits(stays) == all) continue;
+      if (lane::bits(goes) == all) continue;
       const S implicit = b.terms.inertia - work_.armature[k], inertia = b.D - implicit;
       S load = sign * (b.needed + b.terms.effort);
       if (s_.has_mimics) load -= sign * work_.couplings[k];
+      const auto rests = stays_at_rest(law, tried, load + sign * inertia * b.qdd);
+      tried.effort = select(rests, clamp(law.pull, -law.effort, law.effort), tried.effort);
+      const auto stays = goes | rests;
+      if (lane::bits(stays) == all) continue;
       const JointPiece<S> found = meet(law, inertia, v - S(batch_.dt) * load / inertia, batch_.dt);
       const auto same = stays | (tried == found);
-      changed |= lane::bits(!same);
+      // the second change of mind is the last
+      S& changes = work_.changes[k];
+      const auto wavers = (!same) & (changes >= S(1));
+      changes = select(same, changes, changes + S(1));
+      JointPiece<S> next = found;
+      auto settled = same;
+      if (lane::bits(wavers) != 0) {
+        const JointPiece<S> soft = damped(law, found, found.velocity);
+        settled = same | (wavers & are_alike(soft, tried));
+        next = chosen(wavers, soft, found);
+      }
+      changed |= lane::bits(!settled);
       const S effort = select(stays, tried.effort, found.effort);
-      tried = chosen(same, tried, found);
+      tried = chosen(settled, tried, next);
       tried.effort = effort;
     }
     return changed != 0;

@@ -21,7 +21,7 @@ void respond_inwards(const Body& b, Work<S>& work, int i) {
   const BodyStep<S>& own = work.bodies[i];
   Response<S>& r = work.responses[i];
   r.bias = at<K>(b.slides ? r.f : r.n) - r.effort;
-  const S go = -(own.terms.is_free / own.D) * r.bias;
+  const S go = -own.give * r.bias;
   V3<S> n = r.n + own.Un * go, f = r.f + own.Uf * go;
   if (!b.slides) n = out_of<K>(own.turn, n), f = out_of<K>(own.turn, f);
   if (b.turned) n = out_of(turn_of<S>(b), n), f = out_of(turn_of<S>(b), f);
@@ -34,7 +34,7 @@ void respond_outwards(const Body& b, Work<S>& work, int i) {
   Response<S>& r = work.responses[i];
   r.alpha = work.responses[b.parent].alpha, r.a = work.responses[b.parent].a;
   into_body<K>(b, own, r.alpha, r.a);
-  r.qdd = -(own.terms.is_free / own.D) * (r.bias + dot(own.Un, r.alpha) + dot(own.Uf, r.a));
+  r.qdd = -own.give * (r.bias + dot(own.Un, r.alpha) + dot(own.Uf, r.a));
   at<K>(b.slides ? r.a : r.alpha) += r.qdd;
 }
 

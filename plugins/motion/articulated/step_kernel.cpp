@@ -116,7 +116,7 @@ unsigned step_some(const Batch& batch, const RobotState* robots, int count) {
     joints.finish();
   } else if (!s.fixed && any(flies)) {
     const Bases<S> start = base;
-    Flight<S> flight(s, masses, bodies, gravity, contacts.external_force(), contacts.external_torque());
+    Flight<S> flight(s, masses, bodies, work.changes, gravity, contacts.external_force(), contacts.external_torque());
     base.move(bodies[0], gravity, dt);
     joints.move();
     lane::PoseOf<S> pose = start.pose;

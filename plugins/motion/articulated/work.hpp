@@ -47,6 +47,7 @@ struct Work {
   JointLaw<S>* laws;
   JointPiece<S>* pieces;
   S* armature;
+  S* changes;  ///< of the pieces of joints in this step, one a body
   Inertia<S>* slots;
   Inertia<S>* external;        ///< of bodies that `acts_on` says
   const Inertia<S>** acts_on;  ///< one a body: where its external is, or null
@@ -65,7 +66,8 @@ struct Work {
       piece = reinterpret_cast<T*>(next);
       next += (sizeof(T) * std::size_t(count) + 63) / 64 * 64;
     };
-    take(bodies, body_count), take(laws, body_count), take(pieces, body_count), take(armature, body_count);
+    take(bodies, body_count), take(laws, body_count), take(pieces, body_count), take(armature, body_count),
+        take(changes, body_count);
     take(slots, slot_count), take(external, body_count), take(acts_on, body_count);
     take(couplings, body_count), take(responses, body_count), take(composites, slot_count);
     take(stages, body_count), take(wrenches, body_count);
@@ -73,7 +75,7 @@ struct Work {
   }
   static std::size_t bytes(int body_count, int slot_count, int contact_count) {
     const auto n = std::size_t(body_count), rounding = std::size_t(16 * 64);
-    return n * (sizeof(BodyStep<S>) + sizeof(JointLaw<S>) + sizeof(JointPiece<S>) + sizeof(S) + sizeof(Inertia<S>) +
+    return n * (sizeof(BodyStep<S>) + sizeof(JointLaw<S>) + sizeof(JointPiece<S>) + 2 * sizeof(S) + sizeof(Inertia<S>) +
                 sizeof(void*) + sizeof(S) + sizeof(Response<S>) + sizeof(JointStage<S>) + sizeof(lane::TwistOf<S>)) +
            std::size_t(slot_count) * (sizeof(Inertia<S>) + sizeof(Composite<S>)) +
            std::size_t(contact_count) * sizeof(ContactSlot<S>) + rounding;
