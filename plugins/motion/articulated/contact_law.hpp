@@ -162,7 +162,7 @@ MURO_INLINE ContactStep<S> touch(const ContactPoint<S>& p, const ContactLaw<S>& 
   // along: spring and damper; an impact reaches the velocity of its rebound, whatever it takes
   const S approach = speed + p.pushed;
   const auto is_impact = ((p.restitution > S(0)) & (approach < -law.impact_speed)) | (approach < -law.hard_speed);
-  constexpr double hardness = 1e6;
+  constexpr double hardness = 1e4;
   const S impact_damping = S(hardness / dt) * law.mass;
   S push = soft_push(p, law, speed, dt);
   push = select(is_impact, -impact_damping * (speed + p.restitution * approach), push);

@@ -56,7 +56,10 @@ class Contacts {
       const V3<S> force = force_of(slot);
       const S load = dot(force, p.normal);
       const V3<S> across = force - load * p.normal;
-      const auto is_on = p.is_on > S(0), pulls = is_on & (load < S(0));
+      const auto is_on = p.is_on > S(0), is_drawn = is_on & (load < S(0));
+      // friction that a load is to bear which it takes away itself
+      const auto by_friction = is_drawn & (p.friction > S(0)) & (p.load > S(0));
+      const auto pulls = is_drawn & !by_friction;
       const auto bears_other =
           is_on & !pulls & (p.friction > S(0)) & (p.breaks_away == S(0)) &
           (lane::abs(load - p.load) > select(slot.is_new, S(0.1), S(0.25)) * max(load, p.load) + S(0.05) * weight_);
@@ -64,7 +67,7 @@ class Contacts {
       const auto turns_back = dot(slot.step.slide, own + S(batch_.dt) * acceleration_of(slot)) < S(0);
       // more than friction can hold
       const S most = p.friction * max(load, S(0)), square = dot(across, across), margin(1.1 * 1.1);
-      const auto breaks_away = is_on & !pulls & (p.breaks_away == S(0)) &
+      const auto breaks_away = is_on & !is_drawn & (p.breaks_away == S(0)) &
                                (square > margin * max(most * most, p.friction * p.friction * p.load * p.load));
       // or another part of a load that has changed by that
       const S drag = sqrt(dot(p.drag, p.drag));
@@ -74,8 +77,11 @@ class Contacts {
       p.breaks_away = select(breaks_away, S(1), p.breaks_away);
       p.is_on = select(pulls, S(0), p.is_on);
       p.slides_on = select(turns_back, S(0), p.slides_on);
-      p.load = select(bears_other, load, p.load);
-      changed |= lane::bits(pulls | bears_other | turns_back | breaks_away | drags_other);
+      const S next = likely_load(slot, load);
+      slot.tried_load = p.load, slot.found_load = load;
+      p.load = select(by_friction, S(0), select(bears_other, next, p.load));
+      p.drag = select(by_friction, S(0) * p.drag, p.drag);
+      changed |= lane::bits(is_drawn | bears_other | turns_back | breaks_away | drags_other);
     }
     return changed != 0;
   }
@@ -227,6 +233,7 @@ class Contacts {
     p.slides_on = S(1), p.breaks_away = S(0);
     p.drag = {S(0), S(0), S(0)};
     slot.is_new = before[6] == S(0);
+    slot.tried_load = slot.found_load = S(-1);
     p.load = select(slot.is_new, expected_load(p, law_, speed, batch_.dt), before[6]);
   }
 
@@ -237,6 +244,14 @@ class Contacts {
     const V3<S> zero{S(0), S(0), S(0)};
     const Inertia<S> wrench = wrench_on(0);
     solve(own_inertia(masses, 0, zero, zero), -wrench.n, -wrench.f, pushed_alpha_, pushed_a_);
+  }
+
+  /// N: the load that friction with this load leads to, as far as two trials tell (the secant method).
+  MURO_INLINE S likely_load(const ContactSlot<S>& slot, S found) const {
+    const S change = slot.point.load - slot.tried_load, slope = (found - slot.found_load) / change;
+    const S meet = (found - slope * slot.point.load) / (S(1) - slope);
+    const auto tells = (slot.found_load >= S(0)) & (change * change > S(0)) & (slope < S(0.5));
+    return select(tells, max(meet, S(0)), found);
   }
 
   /// m/s^2: of the point, as accelerations of bodies say it.

@@ -21,7 +21,8 @@ struct ContactSlot {
   ContactPoint<S> point;
   TurningPoint<S> turning;
   ContactStep<S> step;
-  MaskOf<S> is_new;  ///< its last normal force is not known
+  MaskOf<S> is_new;          ///< its last normal force is not known
+  S tried_load, found_load;  ///< N: of the trial before; -1: there is none
 };
 
 /// What bodies and joints do where an effort acts at some joints, beside all else.
