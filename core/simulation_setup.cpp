@@ -19,6 +19,7 @@ namespace muro {
 namespace {
 
 int connect_order(const Description& d) { return info_of(d.kind).connect_order; }
+int order_by_name(const Description& d) { return by_name_order(d.kind); }
 
 bool contains(const std::vector<SlotId>& slots, SlotId slot) {
   return std::find(slots.begin(), slots.end(), slot) != slots.end();
@@ -100,10 +101,10 @@ void Simulation::mark_inactive_motions() {
 void Simulation::connect_all() {
   CollectedProblems problems;
   std::map<const RobotView*, int> failed;  // the first kind that could not be connected
-  const auto connect = [&](void (Instance::*how)()) {
-    for (const std::size_t i : in_order_of(connect_order)) {
+  const auto connect = [&](void (Instance::*how)(), int (*order_of_kinds)(const Description&)) {
+    for (const std::size_t i : in_order_of(order_of_kinds)) {
       Instance& instance = *instances_[i];
-      const int order = connect_order(instance.description());
+      const int order = order_of_kinds(instance.description());
       const std::vector<Item>& items = instance.setup().items;
       const auto follows = [&](const Item& item) { return failed.contains(item.robot) && failed[item.robot] < order; };
       if (std::any_of(items.begin(), items.end(), follows)) continue;
@@ -114,8 +115,8 @@ void Simulation::connect_all() {
     }
     problems.check();
   };
-  connect(&Instance::connect);
-  connect(&Instance::connect_by_name);
+  connect(&Instance::connect, connect_order);
+  connect(&Instance::connect_by_name, order_by_name);
 }
 
 /// Also with what algorithms and the scene read.

@@ -33,8 +33,9 @@ class Algorithm {
   /// files. [setup]
   virtual void connect(Connector& connector) = 0;
 
-  /// Binds what is looked up by its name or by what others have made of it, when all algorithms have connected: for
-  /// recorders, controllers, views. Creates no property that another algorithm could look for. [setup]
+  /// Binds what is looked up by its name or by what others have made of it, when all algorithms have connected, in the
+  /// order of by_name_order: for controllers, then for motions and others that depend on what is written or read, then
+  /// for recorders and views. Creates no property that a kind before it could look for. [setup]
   virtual void connect_by_name(Connector& connector) { static_cast<void>(connector); }
 
   /// All handles may be read. Opens what the algorithm needs to run; also called again at a reset. [setup]

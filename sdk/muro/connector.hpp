@@ -121,11 +121,12 @@ class Connector {
   /// Number of the robot that the object is part of; -1 for scenery.
   virtual std::int32_t robot_of(ObjectId object) const noexcept = 0;
   virtual std::string_view text(TextId id) const noexcept = 0;
-  /// All properties so far of one object, in order of creation: all there are in `connect_by_name`. Valid until the
-  /// next call.
+  /// All properties so far of one object, in order of creation: in `connect_by_name` those of all that have connected,
+  /// and of the kinds before in by_name_order. Valid until the next call.
   virtual std::span<const FoundProperty> properties(ObjectId object) const noexcept = 0;
   /// Whether an algorithm that is connected so far uses the property in this way. In `connect` that depends on the
-  /// order in which kinds connect (see kind_infos), in `connect_by_name` all have connected.
+  /// order in which kinds connect (see kind_infos). In `connect_by_name` all have connected, and of what is bound by
+  /// name that of the kinds before is known (see by_name_order): motions know what controllers write and read.
   virtual bool is_used(ObjectId object, const KeyInfo& key, Usage usage) const noexcept = 0;
 
   // --- constants, readable at once

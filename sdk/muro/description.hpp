@@ -60,6 +60,11 @@ constexpr int order_of(Kind kind) {
 constexpr const KindInfo& info_of(Kind kind) { return kind_infos[order_of(kind)]; }
 constexpr std::string_view name_of(Kind kind) { return info_of(kind).name; }
 
+/// The place of a kind among those that look for properties by name. Controllers bind what they are told to write and
+/// read there, so they come first: motions and contact algorithms ask what is written and read. All others keep the
+/// order in which they connect, recorders and views last, who find what any of them has made.
+constexpr int by_name_order(Kind kind) { return kind == Kind::controller ? -1 : info_of(kind).connect_order; }
+
 /// What an algorithm is able to do and what it needs: capability flags, as of an FMU (FMI 3.0, section 2.4). The
 /// conformance suite holds each to its flags.
 enum Capability : std::uint32_t {
