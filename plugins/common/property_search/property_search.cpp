@@ -95,6 +95,21 @@ FoundProperty PropertySearch::find(const PropertyReference& reference, std::stri
               known_properties(reference.property, names, "it has"));
 }
 
+FoundProperty PropertySearch::find_output(const PropertyReference& reference, std::string_view parameter,
+                                          std::string_view port) const {
+  const ObjectId o = reference.object.empty() ? no_object : object(reference.object);
+  if (o != no_object && !property_of(o, reference.property))
+    if (const auto velocity = target_velocity(o, reference.property)) return *velocity;
+  return find(reference, parameter, port);
+}
+
+std::optional<FoundProperty> PropertySearch::target_velocity(ObjectId object, std::string_view property) const {
+  if (property != keys::joint_velocity_target.name) return std::nullopt;
+  std::optional<FoundProperty> found = property_of(object, keys::joint_position_target.name);
+  if (found) found->key = &keys::joint_velocity_target;
+  return found;
+}
+
 ObjectId PropertySearch::object(std::string_view name) const {
   ObjectId found = no_object;
   if (item_.robot) found = connector_.find_object(std::string(item_.robot->name) + "/" + std::string(name));

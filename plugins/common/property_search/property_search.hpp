@@ -40,6 +40,12 @@ class PropertySearch {
   /// What a reference stands for, which names an object with or without its robot. Throws Error, which says what there
   /// is; see only().
   FoundProperty find(const PropertyReference& reference, std::string_view parameter, std::string_view port) const;
+  /// The same for what is to be written: see also target_velocity().
+  FoundProperty find_output(const PropertyReference& reference, std::string_view parameter,
+                            std::string_view port) const;
+  /// `joint.velocity.target` of a joint that follows `joint.position.target`: its motion takes it where something
+  /// writes it, so it may be written though nobody has it yet.
+  std::optional<FoundProperty> target_velocity(ObjectId object, std::string_view property) const;
 
   bool is_own(ObjectId object) const;     ///< of the robot of the item
   bool is_shadow(ObjectId object) const;  ///< of a robot that is a shadow

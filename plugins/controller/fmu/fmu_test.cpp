@@ -106,6 +106,27 @@ TEST_P(Fmu, OfTheWorldSeesAndControlsAnyRobot) {
   EXPECT_NEAR(bench.pose(*bench.a).position.x(), 2 * (4.5 - 4), 1e-9) << "b stands still at 4 m";
 }
 
+/// A target that stands, with a velocity: the drive rests at damping / stiffness times that beyond it.
+TEST_P(Fmu, CommandsPositionAndVelocityOfAJoint) {
+  Bench bench;
+  bench.is_of_world = true;
+  const RobotView& arm = bench.add("arm", test::tree_of([](RobotBuilder& t) {
+                                     t.base("foot");
+                                     t.set(keys::inertial, {.mass = 1, .ixx = 1, .iyy = 1, .izz = 1});
+                                     t.revolute("joint", Vec3::UnitZ(), {});
+                                     t.body("forearm");
+                                     t.set(keys::inertial, {.mass = 1, .ixx = 1, .iyy = 1, .izz = 1});
+                                   }));
+  bench.use("motion.simplified", 1000, {{&arm, arm.base()}},
+            {{"base", "fixed"}, {"joints", "position"}, {"natural_frequency", 50.0}});
+  bench.control(fmu(able()), version(),
+                Texts{"decay=arm/joint:joint.position.target", "turn=arm/joint:joint.velocity.target"},
+                {"k=0", "angle=-10"});
+  bench.build();
+  bench.run_for(2);
+  EXPECT_NEAR(bench.world().value("arm/joint", keys::joint_position), 1 + 2.0 / 50 * 10 * M_PI / 180, 1e-6);
+}
+
 TEST_P(Fmu, GivesTheSameBitsOnAnyNumberOfThreads) {
   const std::string path = fmu(able());
   const auto hash = [&](unsigned threads) {

@@ -128,7 +128,8 @@ std::vector<Place> places_of(const PropertySearch& search, std::span<const Refer
                              std::string_view variable) {
   std::vector<Place> all;
   for (const Reference& r : references) {
-    Place place{search.find(r.property, is_input ? "inputs" : "outputs", variable)};
+    Place place{is_input ? search.find(r.property, "inputs", variable)
+                         : search.find_output(r.property, "outputs", variable)};
     if (r.selection) select(place, *r.selection, search.name_of(place.property));
     all.push_back(place);
   }

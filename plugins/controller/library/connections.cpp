@@ -2,6 +2,7 @@
 #include "connections.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "control_table.hpp"
 #include "muro/algorithm.hpp"
@@ -67,19 +68,25 @@ bool matches(std::string_view pattern, std::string_view name) {
 }
 
 /// In the order of the scenario. First those of the robot itself, where the pattern names some of them; shadows are
-/// nobody's robots.
-std::vector<FoundProperty> PropertyFinder::find_matching(const PropertyReference& reference) const {
-  std::vector<FoundProperty> found;
+/// nobody's robots. Of outputs, first what is there already.
+std::vector<FoundProperty> PropertyFinder::find_matching(const PropertyReference& reference, bool input) const {
+  std::vector<FoundProperty> found, targets;
   bool any_object = false;
   const auto add = [&](std::uint32_t o, std::string_view name) {
     if (!matches(reference.object, name) || search_.is_shadow(ObjectId{o})) return;
     any_object = true;
-    if (const auto p = search_.property_of(ObjectId{o}, reference.property)) found.push_back(*p);
+    if (const auto p = search_.property_of(ObjectId{o}, reference.property))
+      found.push_back(*p);
+    else if (const auto target = search_.target_velocity(ObjectId{o}, reference.property); target && !input)
+      targets.push_back(*target);
   };
   for (std::uint32_t o = 0; o < connector_.object_count(); ++o)
     if (search_.is_own(ObjectId{o})) add(o, search_.local_name(ObjectId{o}));
+  if (found.empty()) found = std::exchange(targets, {});
   if (!found.empty()) return found;
+  targets.clear();
   for (std::uint32_t o = 0; o < connector_.object_count(); ++o) add(o, connector_.object_name(ObjectId{o}));
+  if (found.empty()) found = std::move(targets);
   if (!found.empty()) return found;
   if (any_object)
     throw Error("no object with a name like " + quote(reference.object) + " has a property " +
@@ -141,9 +148,9 @@ std::vector<FoundProperty> PropertyFinder::find(const muro_port& port, bool inpu
   if (const auto connected = connections.find(port.name); connected != connections.end()) {
     for (const PropertyReference& r : connected->second) {
       if (r.object.find('*') == std::string::npos) {
-        found.push_back(search_.find(r, parameter, port.name));
+        found.push_back(input ? search_.find(r, parameter, port.name) : search_.find_output(r, parameter, port.name));
       } else {
-        const std::vector<FoundProperty> all = find_matching(r);
+        const std::vector<FoundProperty> all = find_matching(r, input);
         found.insert(found.end(), all.begin(), all.end());
       }
     }

@@ -35,7 +35,7 @@ class PropertyFinder {
   bool has(std::string_view property) const { return !search_.candidates(property).empty(); }
 
  private:
-  std::vector<FoundProperty> find_matching(const PropertyReference& reference) const;
+  std::vector<FoundProperty> find_matching(const PropertyReference& reference, bool input) const;
   void check(const FoundProperty& property, const muro_port& port, bool input) const;
   void check_unit(const FoundProperty& property, const muro_port& port) const;
   void check_type(const FoundProperty& property, const muro_port& port, bool input) const;
