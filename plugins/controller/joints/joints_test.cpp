@@ -35,6 +35,19 @@ TEST(ControllerJoints, JointsReachThePositionsThatAreSet) {
   EXPECT_EQ(numbers_of(ask(s, client, "get all setpoint"))[2], -1.25);
 }
 
+TEST(ControllerJoints, JointsOfMotionPointReachThePositionsThatAreSet) {
+  wire::Served s;
+  s.add("arm", arm_tree());
+  s.use("motion.point", 1000, s.all_robots());
+  s.use("controller.joints", 100, s.all_robots(), stream_at("tcp=0", {{"groups", Texts{"arm=shoulder,elbow"}}}));
+  s.build();
+  Client client(s.port("arm/joints"));
+  EXPECT_EQ(ask(s, client, "set arm 0.5 -1.25").substr(0, 3), "ok ");
+  s.run_for(0.5);
+  EXPECT_NEAR(numbers_of(ask(s, client, "get"))[1], 0.5, 1e-12);
+  EXPECT_SAYS(ask(s, client, "velocity arm 0 0"), "`shoulder` takes no velocity");
+}
+
 TEST(ControllerJoints, JointsTurnAtTheVelocityThatIsSet) {
   Arms s("velocity", 1, stream_at("tcp=0", {{"groups", Texts{"turn=elbow", "rest=sh*,slide"}}}));
   s.build();
