@@ -57,8 +57,9 @@ void Motion::connect_by_name(Connector& c) {
     accelerations_.connect_by_name(c, i, is_free ? BaseMotion::by_forces : BaseMotion::kinematic,
                                    is_free ? robot->model().bodies.front().inertia : Inertia{}, robot != nullptr);
     if (!robot) continue;
-    robot->set_has_contact_law(c.is_used(c.items()[i].robot->base(), keys::contacts, usage::read));
-    robot->connect_by_name(c, *c.items()[i].robot);
+    const RobotView& view = *c.items()[i].robot;
+    robot->set_has_contact_law(c.is_used(view.base(), keys::contact_wrenches_of_law, usage::derived));
+    robot->connect_by_name(c, view);
   }
 }
 

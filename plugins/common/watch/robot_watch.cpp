@@ -34,8 +34,8 @@ RobotWatch::RobotWatch(Connector& c, const RobotView& robot, std::span<const dou
 }
 
 void RobotWatch::connect_contacts(Connector& c) {
-  has_contact_law_ = c.is_used(base_, keys::contacts, usage::read);
-  if (has_contact_law_) contacts_ = c.read_list(base_, keys::contacts);
+  has_contact_law_ = c.is_used(base_, keys::contact_wrenches_of_law, usage::derived);
+  if (c.is_used(base_, keys::contacts, usage::read)) contacts_ = c.read_list(base_, keys::contacts);
 }
 
 void RobotWatch::begin(const SumIn<Wrench>* external) {

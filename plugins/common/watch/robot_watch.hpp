@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "muro/algorithm.hpp"
+#include "muro/vocabulary.hpp"
 #include "watch.hpp"
 
 namespace muro::watch {
@@ -23,7 +24,7 @@ class RobotWatch {
 
   /// `velocities`: of the joints, one per link (rad/s or m/s); null for those that no force moves. [setup]
   RobotWatch(Connector& c, const RobotView& robot, std::span<const double* const> velocities);
-  /// Finds out whether there is a contact algorithm, whose contacts it looks at then. [setup]
+  /// Finds out whether there is a contact algorithm, and looks at contacts where somebody does. [setup]
   void connect_contacts(Connector& c);
   /// The run begins or goes on; `external`: what adds to the robot's wrench, null where nothing moves its base. [setup]
   void begin(const SumIn<Wrench>* external);
