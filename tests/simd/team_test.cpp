@@ -16,7 +16,7 @@ struct Team : test::Scene {
   static constexpr int rovers = 21, walkers = 11;
 
   /// All of them, or one alone.
-  explicit Team(int only = -1) {
+  explicit Team(const std::string& motion, int only = -1) {
     add_ground();
     const std::string models = MURO_TEST_SOURCE_DIR "/examples/models/";
     const RobotTree rover = read_model(models + "rover.urdf"), walker = read_model(models + "quadruped.urdf");
@@ -31,8 +31,8 @@ struct Team : test::Scene {
                                    {{0.1 * (i % 3), 0, 0}, {0, 0, 0.1}});
       (rolls ? rolling : walking).push_back({&robot, robot.base()});
     }
-    if (!rolling.empty()) use("motion.simplified", 1000, rolling);
-    if (!walking.empty()) use("motion.simplified", 1000, walking, {{"joints", "position"}});
+    if (!rolling.empty()) use(motion, 1000, rolling);
+    if (!walking.empty()) use(motion, 1000, walking, {{"joints", "position"}});
     use_contacts();
     build();
   }
@@ -67,10 +67,14 @@ struct WithIsa {
   std::string before;
 };
 
-TEST(LanesOfATeam, EveryRobotMovesAsItDoesAloneWithAnyInstructionSet) {
+class LanesOfATeam : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(, LanesOfATeam, testing::Values("motion.simplified", "motion.articulated"),
+                         [](const auto& motion) { return motion.param.substr(7); });
+
+TEST_P(LanesOfATeam, EveryRobotMovesAsItDoesAloneWithAnyInstructionSet) {
   std::vector<std::uint64_t> alone;
   for (int i = 0; i < Team::rovers + Team::walkers; ++i) {
-    Team one(i);
+    Team one(GetParam(), i);
     const Vec3 start = one.place_of(i);
     one.drive(1);
     alone.push_back(one.hash_of(i));
@@ -80,7 +84,7 @@ TEST(LanesOfATeam, EveryRobotMovesAsItDoesAloneWithAnyInstructionSet) {
   }
   for (const lane::Isa isa : lane_test::each_isa()) {
     const WithIsa set(isa);
-    Team team;
+    Team team(GetParam());
     team.drive(1);
     for (int i = 0; i < Team::rovers + Team::walkers; ++i)
       EXPECT_EQ(team.hash_of(i), alone[std::size_t(i)]) << "robot " << i << ", instruction set " << int(isa);

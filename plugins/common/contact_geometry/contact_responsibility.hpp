@@ -11,6 +11,7 @@
 //   0               kinematic: no force moves the robot              motion.point, motion.differential_drive, ...
 //   1               the contact algorithm resolves all contacts      motion.simplified
 //   2 and above     number of the physics world that moves it        motion.bullet, motion.ode, motion.mujoco
+//                   or of the robot alone                            motion.articulated
 //
 // Scenery counts as kinematic. What a contact does to a robot (row) that touches another (column) is found by
 //

@@ -69,8 +69,12 @@ Gain gain_of(unsigned seed, int count, double seconds) {
   std::vector<const RobotView*> robots;
   for (int i = 0; i < count; ++i) {
     const Vec3 at(6.0 * (i % 20), 6.0 * (i / 20), random.uniform(1.0, 1.6));
-    const Twist twist{random.uniform(0, 2) * random.direction(), random.uniform(0, 5) * random.direction()};
-    robots.push_back(&w.add("r" + std::to_string(i), random_tree(random), {at, Quat(random.rotation())}, twist));
+    const Vec3 velocity = random.direction(), spin = random.direction();
+    const double speed = random.uniform(0, 2), rate = random.uniform(0, 5);
+    const Twist twist{speed * velocity, rate * spin};
+    const RobotTree tree = random_tree(random);
+    const Quat turned = random.rotation();
+    robots.push_back(&w.add("r" + std::to_string(i), tree, {at, turned}, twist));
   }
   w.start({{"joints", std::string("passive")}});
   w.refresh();

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// Scenes of motion.articulated, for tests.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "muro/toolkit/rotations.hpp"
+#include "tests/support/bodies.hpp"
+
+namespace muro::articulated::testing {
+
+inline constexpr double g = 9.81;  ///< m/s^2
+using Parameters = std::map<std::string, ParameterInput>;
+
+struct World : test::Scene {
+  /// All robots so far, at 1 kHz.
+  void start(Parameters parameters = {}, double rate = 1000) {
+    use("motion.articulated", rate, all_robots(), std::move(parameters));
+    use_contacts();
+    build();
+  }
+  double& of(const std::string& joint, const Key<double>& key) { return world().value(joint, key); }
+  double q(const std::string& joint) { return of(joint, keys::joint_position); }
+  double v(const std::string& joint) { return of(joint, keys::joint_velocity); }
+  /// N: what pushes the links of a robot.
+  Vec3 contact_force(const RobotView& robot) {
+    Vec3 sum = Vec3::Zero();
+    for (const Link& link : robot.links)
+      if (world().store().find(link.object, keys::contact_wrench.name))
+        sum += world().value(link.object, keys::contact_wrench).force;
+    return sum;
+  }
+};
+
+/// kg: of all links.
+inline double mass_of(World& w, const RobotView& robot) {
+  double sum = 0;
+  for (const Link& link : robot.links)
+    if (w.world().store().find(link.object, keys::inertial.name))
+      sum += w.world().value(link.object, keys::inertial).mass;
+  return sum;
+}
+
+/// What moves with a robot. Links are up to date (refresh).
+struct Motion {
+  Vec3 momentum = Vec3::Zero(), angular = Vec3::Zero();  ///< about the origin
+  double kinetic = 0, potential = 0;                     ///< J; above z = 0
+};
+inline Motion motion_of(World& w, const RobotView& robot) {
+  Motion m;
+  for (const Link& link : robot.links) {
+    if (!w.world().store().find(link.object, keys::inertial.name)) continue;
+    const Inertia inertia = w.world().value(link.object, keys::inertial);
+    const Pose pose = w.world().value(link.object, keys::pose);
+    const Twist twist = w.world().value(link.object, keys::twist);
+    const Mat3 axes = pose.orientation.toRotationMatrix();
+    const Vec3 centre = pose * inertia.com, velocity = twist.at(centre - pose.position);
+    const Vec3 spin = axes * inertia.tensor() * axes.transpose() * twist.angular;
+    m.momentum += inertia.mass * velocity;
+    m.angular += inertia.mass * centre.cross(velocity) + spin;
+    m.kinetic += 0.5 * inertia.mass * velocity.squaredNorm() + 0.5 * twist.angular.dot(spin);
+    m.potential += inertia.mass * g * centre.z();
+  }
+  return m;
+}
+
+}  // namespace muro::articulated::testing

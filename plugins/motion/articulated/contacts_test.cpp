@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// Contacts and friction of single bodies, against closed forms.
+#include "articulated_testing.hpp"
+
+namespace muro::articulated::testing {
+namespace {
+
+/// Hz: with it, contacts of a robot of `mass` (kg) have `stiffness` (N/m).
+double frequency_of(double stiffness, double mass) { return std::sqrt(stiffness / mass) / (2 * M_PI); }
+
+TEST(ABlockOnASlope, IsHeldByFrictionAndDoesNotCreep) {
+  for (const double stiffness : {1e4, 1e5, 1e6})
+    for (const double degrees : {5.0, 20.0, 28.0}) {
+      const double slope = degrees * M_PI / 180;
+      World w;
+      w.add_ground(0.6, {Vec3::Zero(), from_rpy(0, -slope, 0)});
+      const Quat along = from_rpy(0, -slope, 0);
+      const RobotView& r = w.add("r", test::block(3, {0.3, 0.2, 0.1}, 0.6), {along * Vec3(0, 0, 0.05), along});
+      w.start({{"frequency", frequency_of(stiffness, 3)}});
+      w.run_for(4);
+      const Vec3 before = w.pose(r).position;
+      w.run_for(1);
+      EXPECT_LT((w.pose(r).position - before).norm(), degrees < 28 ? 1e-6 : 2e-6)
+          << stiffness << " N/m, " << degrees << " degrees";
+    }
+}
+
+TEST(ABlockOnASlope, SlidesWithTheAccelerationOfCoulomb) {
+  for (const double stiffness : {1e4, 1e6}) {
+    const double slope = 40 * M_PI / 180;
+    World w;
+    w.add_ground(0.5, {Vec3::Zero(), from_rpy(0, -slope, 0)});
+    const Quat along = from_rpy(0, -slope, 0);
+    const RobotView& r = w.add("r", test::block(3, {0.3, 0.2, 0.1}, 0.5), {along * Vec3(0, 0, 0.05), along});
+    w.start({{"frequency", frequency_of(stiffness, 3)}});
+    w.run_for(0.3);
+    const Vec3 before = w.twist(r).linear;
+    w.run_for(0.5);
+    const double expected = g * (std::sin(slope) - 0.5 * std::cos(slope)) * 0.5;
+    EXPECT_NEAR((w.twist(r).linear - before).norm(), expected, 2e-3 * expected) << stiffness << " N/m";
+  }
+}
+
+TEST(Friction, IsACone) {
+  for (const double degrees : {0.0, 20.0, 45.0, 70.0}) {
+    const double angle = degrees * M_PI / 180, mass = 2, mu = 0.5;
+    const Vec3 way(std::cos(angle), std::sin(angle), 0);
+    World w;
+    w.add_ground(mu);
+    const RobotView& r = w.add("r", test::block(mass, {0.2, 0.2, 0.02}, mu), {{0, 0, 0.01}, Quat::Identity()});
+    Wrench& push = w.push(r);
+    w.start();
+    w.run_for(0.5);
+    push.force = 0.98 * mu * mass * g * way;
+    w.run_for(1);
+    EXPECT_LT(w.twist(r).linear.norm(), 1e-5) << degrees << " degrees: it holds";
+    push.force = 1.3 * mu * mass * g * way;
+    w.run_for(0.1);
+    const Vec3 before = w.twist(r).linear;
+    w.run_for(0.5);
+    const Vec3 gained = w.twist(r).linear - before;
+    EXPECT_NEAR(gained.dot(way), 0.3 * mu * g * 0.5, 0.01 * 0.3 * mu * g * 0.5) << degrees << " degrees";
+    EXPECT_LT((gained - gained.dot(way) * way).norm(), 0.01 * gained.norm()) << "straight along the push";
+  }
+}
+
+TEST(ABall, ReboundsToTheSquareOfItsRestitution) {
+  for (const double e : {0.3, 0.6, 0.9}) {
+    World w;
+    w.add_ground();
+    const RobotView& r = w.add("r", test::ball(1, 0.1, 0.5, e), {{0, 0, 1.1}, Quat::Identity()});
+    w.start();
+    double highest = 0;
+    bool has_fallen = false;
+    for (int k = 0; k < 1200; ++k) {
+      w.run_for(0.001);
+      has_fallen = has_fallen || w.twist(r).linear.z() > 0;
+      if (has_fallen && (highest == 0 || w.twist(r).linear.z() > -0.5))
+        highest = std::max(highest, w.pose(r).position.z() - 0.1);
+      if (has_fallen && w.twist(r).linear.z() < 0) break;
+    }
+    EXPECT_NEAR(highest, e * e, 0.01) << e << "; of a fall of 1 m, at whose end a step goes 4 mm";
+  }
+}
+
+TEST(ABall, RollsDownASlope) {
+  const double slope = 0.2;
+  World w;
+  w.add_ground(0.8, {Vec3::Zero(), from_rpy(0, -slope, 0)});
+  const Quat along = from_rpy(0, -slope, 0);
+  const RobotView& r = w.add("r", test::ball(2, 0.1, 0.8), {along * Vec3(0, 0, 0.1), along});
+  w.start();
+  w.run_for(1);
+  const double expected = 5.0 / 7 * g * std::sin(slope);
+  EXPECT_NEAR(w.twist(r).linear.norm(), expected, 0.01 * expected);
+  EXPECT_NEAR(w.twist(r).angular.norm() * 0.1, w.twist(r).linear.norm(), 0.01 * expected) << "without slip";
+}
+
+/// A robot that no force moves, with a block of motion.articulated.
+struct Moved : World {
+  const RobotView* mover;
+  const RobotView* block;
+  Moved(const Vec3& size, const Vec3& at, const Vec3& block_at, double friction) {
+    add_ground(friction);
+    mover = &add("mover", test::block(10, size, friction), {at, Quat::Identity()});
+    const std::vector<Item> kinematic = all_robots();
+    block = &add("block", test::block(1, {0.2, 0.2, 0.2}, friction), {block_at, Quat::Identity()});
+    use("motion.point", 1000, kinematic);
+    use("motion.articulated", 1000, {all_robots().back()});
+    use_contacts();
+    build();
+  }
+  void command(const Vec3& velocity) { world().value(mover->base(), keys::command_twist).linear = velocity; }
+};
+
+TEST(AKinematicRobot, PushesABlock) {
+  Moved s({0.2, 0.4, 0.4}, {0, 0, 0.2}, {0.3, 0, 0.1}, 0.3);
+  s.command({0.5, 0, 0});
+  s.run_for(3);
+  EXPECT_NEAR(s.twist(*s.block).linear.x(), 0.5, 1e-3);
+  EXPECT_NEAR(s.pose(*s.block).position.x() - s.pose(*s.mover).position.x(), 0.2, 2e-3);
+}
+
+TEST(AKinematicRobot, DragsABlockByFriction) {
+  Moved s({6, 1, 0.2}, {0, 0, 0.1}, {0, 0, 0.3}, 0.3);
+  s.run_for(0.5);
+  s.command({1, 0, 0});
+  s.run_for(0.2);
+  EXPECT_NEAR(s.twist(*s.block).linear.x(), 0.3 * g * 0.2, 0.02 * 0.3 * g * 0.2) << "it slips";
+  s.run_for(0.8);
+  EXPECT_NEAR(s.twist(*s.block).linear.x(), 1, 1e-6) << "it goes with what carries it";
+}
+
+}  // namespace
+}  // namespace muro::articulated::testing
