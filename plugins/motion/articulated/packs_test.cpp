@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// Robots of one structure and different masses: the bits of each are those that it gets alone, in packs of any number,
+// with each instruction set.
+#include <cstdlib>
+
+#include "articulated_testing.hpp"
+#include "muro/simd/isa.hpp"
+
+namespace muro::articulated::testing {
+namespace {
+
+struct InstructionSet {
+  explicit InstructionSet(const char* name) {
+    if (const char* now = std::getenv("MURO_ISA")) before = now;
+    setenv("MURO_ISA", name, 1);
+  }
+  ~InstructionSet() { before.empty() ? unsetenv("MURO_ISA") : setenv("MURO_ISA", before.c_str(), 1); }
+  std::string before;
+};
+
+/// A trunk with two arms, one of which follows the other, and a foot on a slide.
+RobotTree robot_of(double scale) {
+  const Shape trunk = test::with(Shape::box({0.3, 0.2, 0.1}), 0.6), ball = test::with(Shape::sphere(0.06), 0.6);
+  return test::tree_of([&](RobotBuilder& b) {
+    b.base("trunk");
+    b.set(keys::inertial, test::solid_box(3 * scale, {0.3, 0.2, 0.1}));
+    b.set_array(keys::collision_shapes, std::span<const Shape>(&trunk, 1));
+    for (const char* side : {"left", "right"}) {
+      const bool left = side[0] == 'l';
+      b.fork();
+      b.translation({0, left ? 0.15 : -0.15, 0});
+      b.revolute(side, Vec3(0.3, left ? 1 : -1, 0.1), {.lower = -1, .upper = 1, .damping = 0.02, .friction = 0.03});
+      if (!left) b.mimic("left", 0.7, 0.1);
+      b.body(left ? "left_arm" : "right_arm");
+      b.set(keys::inertial, Inertia{.mass = 0.4, .com = {0.1, 0, 0}, .ixx = 1e-3, .iyy = 4e-3, .izz = 4e-3});
+      b.end();
+    }
+    b.translation({0, 0, -0.1});
+    b.prismatic("foot", Vec3::UnitZ(), {.lower = -0.05, .upper = 0.05, .effort = 60});
+    b.body("foot_link");
+    b.set(keys::inertial, test::round_body(0.2 * scale, 0.06));
+    b.set_array(keys::collision_shapes, std::span<const Shape>(&ball, 1));
+    b.end();
+    b.end();
+  });
+}
+
+/// Robots number `first` to `first` + `count` - 1; their hashes after 0.6 s on the ground.
+std::vector<std::uint64_t> hashes_of(int first, int count) {
+  World w;
+  w.add_ground(0.6);
+  for (int i = first; i < first + count; ++i)
+    w.add("r" + std::to_string(i), robot_of(1 + 0.13 * i),
+          {{2.0 * i, 0, 0.2 + 0.02 * i}, from_rpy(0.1 * i, 0.05, 0.3 * i)}, {{0.1 * i, 0, 0}, {0.5, 0.2 * i, 1}});
+  w.start({{"joints", std::string("position")}, {"effort_joints", std::vector<std::string>{"foot"}}});
+  for (int i = first; i < first + count; ++i) {
+    w.of("r" + std::to_string(i) + "/left", keys::joint_position_target) = 0.8 - 0.2 * i;
+    w.of("r" + std::to_string(i) + "/foot", keys::joint_effort_target) = -20;
+  }
+  w.run_for(0.6);
+  std::vector<std::uint64_t> hashes;
+  for (const RobotView* r : w.world().robots()) hashes.push_back(w.world().hash(*r));
+  return hashes;
+}
+
+TEST(PacksOfRobots, OfDifferentMassesMoveAsEachDoesAlone) {
+  std::vector<std::uint64_t> alone;
+  {
+    const InstructionSet base("base");
+    for (int i = 0; i < 8; ++i) alone.push_back(hashes_of(i, 1)[0]);
+  }
+  const std::pair<lane::Isa, const char*> sets[] = {
+      {lane::Isa::base, "base"}, {lane::Isa::avx2, "avx2"}, {lane::Isa::avx512, "avx512"}};
+  const lane::Isa best = lane::best_isa();
+  for (const auto& [isa, name] : sets) {
+    if (isa > best) continue;  // this processor cannot run it
+    const InstructionSet set(name);
+    for (const int count : {2, 3, 5, 8}) {
+      const std::vector<std::uint64_t> together = hashes_of(0, count);
+      for (std::size_t i = 0; i < together.size(); ++i)
+        EXPECT_EQ(together[i], alone[i]) << "robot " << i << " of " << count << ", " << name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace muro::articulated::testing
