@@ -22,6 +22,12 @@ std::vector<std::string> examples() {
   return files;
 }
 
+/// Overrides: one camera in place of twenty, whose pictures take minutes without a GPU.
+std::vector<std::string> lighter(const std::string& example) {
+  if (!example.ends_with("/soccer/cameras.yaml")) return {};
+  return {"robots.red.camera=off", "robots.blue[1-9].camera=off"};
+}
+
 /// The hash after `seconds` on so many threads, all of which are used wherever something may overlap.
 std::uint64_t hash_after(Scenario scenario, double seconds, unsigned threads) {
   BuiltScenario built = build(std::move(scenario), test::plugins());
@@ -36,7 +42,7 @@ struct OfExample : ::testing::TestWithParam<std::string> {};
 TEST_P(OfExample, AnyNumberOfThreadsGivesTheSameBits) {
   const std::vector<unsigned> numbers[] = {{2, 8}, {3}, {4}};  // for each seed
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    Scenario scenario = read_scenario(GetParam(), {});
+    Scenario scenario = read_scenario(GetParam(), lighter(GetParam()));
     scenario.seed = seed;
     const std::uint64_t alone = hash_after(scenario, 4, 1);
     for (const unsigned threads : numbers[seed - 1])
