@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "dynamics.hpp"
-#include "random_robot.hpp"
+#include "random_robot_testing.hpp"
 #include "tests/support/files.hpp"
 
 namespace muro::articulated {

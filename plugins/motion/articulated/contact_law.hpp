@@ -29,7 +29,7 @@ struct ContactPoint {
   S is_on;        ///< 1; 0: it does not push in this step
   S slides_on;    ///< 1; 0: what slides may come to rest in this step
   S breaks_away;  ///< 1: it would have to hold more than it can, and drags with `drag` instead
-  V3<S> drag;     ///< N
+  S drag;         ///< N s/m: the damper that does what friction can
 };
 /// Resistance against rolling and spinning; of the same point.
 template <class S>
@@ -46,7 +46,7 @@ struct ContactLaw {
   S impact_speed;        ///< m/s: what comes faster rebounds
   S hard_speed;          ///< m/s: what comes faster is stopped at once
   S radius;              ///< m: of the springs against rolling and spinning
-  S most_depth;          ///< m: deeper overlap pushes no harder
+  S most_depth;          ///< m: overlap of a tenth of a metre and more pushes no harder; less, less
 };
 
 /// What a contact does in a step, for afterwards.
@@ -131,7 +131,10 @@ MURO_INLINE void add_terms(const ContactPoint<S>& p, const ContactStep<S>& c, In
 /// N: of spring and damper along the normal. `speed`: m/s, away from what is touched.
 template <class S>
 MURO_INLINE S soft_push(const ContactPoint<S>& p, const ContactLaw<S>& law, S speed, double dt) {
-  return law.stiffness * (min(p.depth, law.most_depth) - S(dt) * speed) - law.damping * speed;
+  // what is deep in is parted faster
+  constexpr double least = 0.04, depth_at_full_speed = 0.1;  // m
+  const S part = max(min(p.depth * S(1 / depth_at_full_speed), S(1)), S(least));
+  return law.stiffness * (min(p.depth, part * law.most_depth) - S(dt) * speed) - law.damping * speed;
 }
 
 /// Whether a point pushes: it is in, and not on its way out faster than its spring and damper, or after a rebound.
@@ -170,8 +173,9 @@ MURO_INLINE ContactStep<S> touch(const ContactPoint<S>& p, const ContactLaw<S>& 
   const V3<S> slip = velocity - speed * p.normal;
   BoundedSpring<S> hold(p.displacement, slip, law.stiffness, law.damping, p.friction * p.load, p.slides_on, dt);
   const auto breaks_away = p.breaks_away > S(0);
-  hold.force = select(breaks_away, p.drag, hold.force);
-  hold.per_rate = select(breaks_away, S(0), hold.per_rate);
+  hold.force = select(breaks_away, -p.drag * slip, hold.force);
+  hold.per_rate = select(breaks_away, p.drag, hold.per_rate);
+  hold.slide = select(breaks_away, S(0) * slip, hold.slide);
   ContactStep<S> c;
   c.along = along, c.across = p.is_on * h * hold.per_rate;
   const V3<S> more = cross(w, v) + fall;

@@ -63,24 +63,24 @@ class Contacts {
       const auto bears_other =
           is_on & !pulls & (p.friction > S(0)) & (p.breaks_away == S(0)) &
           (lane::abs(load - p.load) > select(slot.is_new, S(0.1), S(0.25)) * max(load, p.load) + S(0.05) * weight_);
-      const V3<S> own = body.v + cross(body.w, p.arm) - p.velocity;
-      const auto turns_back = dot(slot.step.slide, own + S(batch_.dt) * acceleration_of(slot)) < S(0);
-      // more than friction can hold
+      const V3<S> after = body.v + cross(body.w, p.arm) - p.velocity + S(batch_.dt) * acceleration_of(slot);
+      const auto turns_back = dot(slot.step.slide, after) < S(0);
+      // more than friction can hold, or a damper that does something else than it by now
       const S most = p.friction * max(load, S(0)), square = dot(across, across), margin(1.1 * 1.1);
-      const auto breaks_away = is_on & !is_drawn & (p.breaks_away == S(0)) &
+      const auto breaks_away = is_on & !is_drawn & !turns_back & (p.breaks_away == S(0)) &
                                (square > margin * max(most * most, p.friction * p.friction * p.load * p.load));
-      // or another part of a load that has changed by that
-      const S drag = sqrt(dot(p.drag, p.drag));
-      const auto drags_other = is_on & (p.breaks_away > S(0)) & (lane::abs(drag - most) > S(0.1) * max(drag, most));
-      p.drag = select(breaks_away, across * (most / sqrt(max(square, S(1e-300)))), p.drag);
-      p.drag = select(drags_other, p.drag * (most / max(drag, S(1e-300))), p.drag);
+      const V3<S> slip = after - dot(after, p.normal) * p.normal;
+      const S speed = sqrt(dot(slip, slip)), drag = p.drag * speed;
+      const auto drags_other =
+          is_on & !is_drawn & (p.breaks_away > S(0)) & (lane::abs(drag - most) > S(0.1) * max(drag, most));
+      p.drag = select(breaks_away | drags_other, most / max(speed, S(1e-9)), p.drag);
       p.breaks_away = select(breaks_away, S(1), p.breaks_away);
       p.is_on = select(pulls, S(0), p.is_on);
       p.slides_on = select(turns_back, S(0), p.slides_on);
       const S next = likely_load(slot, load);
       slot.tried_load = p.load, slot.found_load = load;
       p.load = select(by_friction, S(0), select(bears_other, next, p.load));
-      p.drag = select(by_friction, S(0) * p.drag, p.drag);
+      p.drag = select(by_friction, S(0), p.drag);
       changed |= lane::bits(is_drawn | bears_other | turns_back | breaks_away | drags_other);
     }
     return changed != 0;
@@ -230,8 +230,7 @@ class Contacts {
     const S speed = dot(body.v + cross(body.w, p.arm) - p.velocity, p.normal);
     p.pushed = knows_pushes_ ? S(batch_.dt) * dot(pushed_a_ + cross(pushed_alpha_, p.arm), p.normal) : S(0);
     p.is_on = select(pushes(p, law_, speed, batch_.dt), S(1), S(0));
-    p.slides_on = S(1), p.breaks_away = S(0);
-    p.drag = {S(0), S(0), S(0)};
+    p.slides_on = S(1), p.breaks_away = p.drag = S(0);
     slot.is_new = before[6] == S(0);
     slot.tried_load = slot.found_load = S(-1);
     p.load = select(slot.is_new, expected_load(p, law_, speed, batch_.dt), before[6]);

@@ -76,7 +76,7 @@ Gain gain_of(unsigned seed, int count, double seconds) {
     const Quat turned = random.rotation();
     robots.push_back(&w.add("r" + std::to_string(i), tree, {at, turned}, twist));
   }
-  w.start({{"joints", std::string("passive")}});
+  w.start({{"joints", std::string("passive")}, {"integrator", std::string("rk4")}});
   w.refresh();
   const auto energy_of = [&](const RobotView& r) {
     const Motion m = motion_of(w, r);

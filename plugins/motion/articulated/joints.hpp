@@ -160,7 +160,7 @@ class Joints {
   /// rad/s or m/s: at which a joint at `q` would be at its stop at the end of the step. Where it is beyond, it comes
   /// back over some steps.
   MURO_INLINE S velocity_to(double stop, S q, double side) const {
-    constexpr double part = 0.2;
+    constexpr double part = 0.05;
     const S away = S(stop) - q;
     return away * select(S(side) * away < S(0), S(part / batch_.dt), S(1 / batch_.dt));
   }
