@@ -73,7 +73,7 @@ class Articulated final : public Algorithm {
     for (const Served& s : served_) {
       if (!s.robot) continue;
       s.robot->start();
-      s.watch->begin(&s.robot->external());
+      begin_watch(s);
     }
   }
   void restored() override { start(); }
@@ -81,7 +81,7 @@ class Articulated final : public Algorithm {
     const Served& s = served_[item];
     if (!s.robot) return s.by_targets->take_over();
     s.robot->take_over();
-    s.watch->begin(&s.robot->external());
+    begin_watch(s);
   }
 
   std::span<const Phase> phases() const override {
@@ -134,6 +134,10 @@ class Articulated final : public Algorithm {
     Robot& robot = robots_.emplace_back(c, view, p, item.level);
     watches_.emplace_back(c, view, robot.velocities());
     served_.push_back({.robot = &robot, .watch = &watches_.back()});
+  }
+
+  static void begin_watch(const Served& served) {
+    served.robot->each_external([&](const SumIn<Wrench>& external) { served.watch->begin(&external); });
   }
 
   /// Among those that are known; of a new one a copy is made.

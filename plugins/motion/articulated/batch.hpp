@@ -11,7 +11,7 @@ namespace muro::articulated {
 struct KernelContact {
   const double* place = nullptr;    ///< point, normal, depth: m, world
   const double* surface = nullptr;  ///< friction, restitution, resistance to rolling and to spinning
-  double* kept = nullptr;           ///< displacement (m), turn (rad), load (N): from step to step
+  double* kept = nullptr;           ///< displacement (m), turn (rad), load (N), as KeptContact
   const double* other = nullptr;    ///< velocity of what it touches at the point, and its spin; null: it does not move
   int body = 0;
   bool resists_turning = false;
@@ -20,6 +20,8 @@ struct KernelContact {
 inline constexpr int most_mimics = 32;
 /// How many numbers a contact keeps.
 inline constexpr int kept_numbers = 7;
+/// The load that is kept of a contact that bore nothing.
+inline constexpr double unloaded = -1;
 
 /// Where the numbers of a robot are: of its base, of its first joint.
 struct RobotState {

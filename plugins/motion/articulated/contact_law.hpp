@@ -47,6 +47,7 @@ struct ContactLaw {
   S hard_speed;          ///< m/s: what comes faster is stopped at once
   S radius;              ///< m: of the springs against rolling and spinning
   S most_depth;          ///< m: overlap of a tenth of a metre and more pushes no harder; less, less
+  S least_cap;           ///< m: at which one contact bears the robot twice
 };
 
 /// What a contact does in a step, for afterwards.
@@ -80,7 +81,8 @@ struct BoundedSpring {
                             double dt) {
     const S h(dt);
     const V3<S> hold = stiffness * (displacement + h * rate) + damping * rate;
-    const auto holds = dot(hold, hold) <= limit * limit;
+    const MaskOf<S> is_bounded = limit > S(0), is_small = dot(hold, hold) <= limit * limit;
+    const auto holds = is_bounded & is_small;
     const S by_speed = S(1) / sqrt(max(dot(rate, rate), S(1e-12))), secant = limit * by_speed;
     slide = rate * select(holds, S(0), slides_on * by_speed);
     per_rate = select(holds, damping + h * stiffness, secant);
@@ -134,7 +136,8 @@ MURO_INLINE S soft_push(const ContactPoint<S>& p, const ContactLaw<S>& law, S sp
   // what is deep in is parted faster
   constexpr double least = 0.04, depth_at_full_speed = 0.1;  // m
   const S part = max(min(p.depth * S(1 / depth_at_full_speed), S(1)), S(least));
-  return law.stiffness * (min(p.depth, part * law.most_depth) - S(dt) * speed) - law.damping * speed;
+  return law.stiffness * (min(p.depth, max(part * law.most_depth, law.least_cap)) - S(dt) * speed) -
+         law.damping * speed;
 }
 
 /// Whether a point pushes: it is in, and not on its way out faster than its spring and damper, or after a rebound.

@@ -45,8 +45,8 @@ class Contacts {
     }
   }
 
-  /// Whether some contact pulls, which is let go then, a sliding one would turn back, a sticking one has to hold more
-  /// than it can, or a new one bears another load than was expected.
+  /// Whether some contact pulls, which is let go then, one that was let go would push, a sliding one would turn back, a
+  /// sticking one has to hold more than it can, or a new one bears another load than was expected.
   bool look_again() {
     unsigned changed = 0;
     for (int i = 0; i < work_.contact_count; ++i) {
@@ -56,7 +56,7 @@ class Contacts {
       const V3<S> force = force_of(slot);
       const S load = dot(force, p.normal);
       const V3<S> across = force - load * p.normal;
-      const auto is_on = p.is_on > S(0), is_drawn = is_on & (load < S(0));
+      const MaskOf<S> is_on = p.is_on > S(0), is_drawn = is_on & (load < S(0));
       // friction that a load is to bear which it takes away itself
       const auto by_friction = is_drawn & (p.friction > S(0)) & (p.load > S(0));
       const auto pulls = is_drawn & !by_friction;
@@ -75,13 +75,15 @@ class Contacts {
           is_on & !is_drawn & (p.breaks_away > S(0)) & (lane::abs(drag - most) > S(0.1) * max(drag, most));
       p.drag = select(breaks_away | drags_other, most / max(speed, S(1e-9)), p.drag);
       p.breaks_away = select(breaks_away, S(1), p.breaks_away);
-      p.is_on = select(pulls, S(0), p.is_on);
+      const auto pushes_now = (!is_on) & (slot.rests > S(0)) & pushes(p, law_, dot(after, p.normal), batch_.dt);
+      slot.rests = select(pushes_now, S(0), slot.rests);
+      p.is_on = select(pulls, S(0), select(pushes_now, S(1), p.is_on));
       p.slides_on = select(turns_back, S(0), p.slides_on);
       const S next = likely_load(slot, load);
       slot.tried_load = p.load, slot.found_load = load;
       p.load = select(by_friction, S(0), select(bears_other, next, p.load));
       p.drag = select(by_friction, S(0), p.drag);
-      changed |= lane::bits(is_drawn | bears_other | turns_back | breaks_away | drags_other);
+      changed |= lane::bits(is_drawn | pushes_now | bears_other | turns_back | breaks_away | drags_other);
     }
     return changed != 0;
   }
@@ -94,7 +96,7 @@ class Contacts {
       const BodyStep<S>& body = work_.bodies[slot.body];
       const ContactPoint<S>& p = slot.point;
       const V3<S> force = force_of(slot);
-      const S load = max(dot(force, p.normal), S(0));
+      const S load = p.is_on * max(dot(force, p.normal), S(0));
       const V3<S> own = body.v + cross(body.w, p.arm);
       const V3<S> after = own + h * acceleration_of(slot) - p.velocity;
       const V3<S> slip = after - dot(after, p.normal) * p.normal;
@@ -105,10 +107,10 @@ class Contacts {
         turn = turn_after(slot, body, load);
       }
       const V3<S> d = body.axes * displacement, t = body.axes * turn;
-      store_rows(
-          slot.kept, 0,
-          {p.is_on * d.x, p.is_on * d.y, p.is_on * d.z, p.is_on * t.x, p.is_on * t.y, p.is_on * t.z, p.is_on * load},
-          slot.which);
+      store_rows(slot.kept, 0,
+                 {p.is_on * d.x, p.is_on * d.y, p.is_on * d.z, p.is_on * t.x, p.is_on * t.y, p.is_on * t.z,
+                  select(load > S(0), load, S(unloaded))},
+                 slot.which);
       tell(slot, body.axes * force, body.axes * moment);
     }
   }
@@ -128,7 +130,8 @@ class Contacts {
             S(batch_.impact_speed),
             S(batch_.hard_speed),
             radius,
-            S(2 * batch_.correcting_speed / batch_.omega)};
+            S(2 * batch_.correcting_speed / batch_.omega),
+            S(2) * weight_ / (mass * omega * omega)};
   }
   MURO_INLINE static void set(S& value, int i, double x) {
     if constexpr (count_of<S> == 1)
@@ -229,9 +232,12 @@ class Contacts {
     slot.turning.displacement = transposed_times(body.axes, V3<S>{before[3], before[4], before[5]});
     const S speed = dot(body.v + cross(body.w, p.arm) - p.velocity, p.normal);
     p.pushed = knows_pushes_ ? S(batch_.dt) * dot(pushed_a_ + cross(pushed_alpha_, p.arm), p.normal) : S(0);
-    p.is_on = select(pushes(p, law_, speed, batch_.dt), S(1), S(0));
+    // what has borne nothing in the last step is tried without
+    const auto may_push = pushes(p, law_, speed, batch_.dt), bore_nothing = before[6] < S(0);
+    p.is_on = select(may_push & !bore_nothing, S(1), S(0));
+    slot.rests = select(bore_nothing, S(1), S(0));
     p.slides_on = S(1), p.breaks_away = p.drag = S(0);
-    slot.is_new = before[6] == S(0);
+    slot.is_new = before[6] <= S(0);
     slot.tried_load = slot.found_load = S(-1);
     p.load = select(slot.is_new, expected_load(p, law_, speed, batch_.dt), before[6]);
   }

@@ -12,7 +12,7 @@ struct KeptContact {
   Vec3 point = Vec3::Zero();         ///< m, world
   Vec3 displacement = Vec3::Zero();  ///< m, world: of the friction spring
   Vec3 turn = Vec3::Zero();          ///< rad, world: of the spring against rolling and spinning
-  double load = 0;                   ///< N: the normal force of the last step; 0: not known
+  double load = 0;                   ///< N: the normal force of the last step; 0: not known, `unloaded`: none
 };
 static_assert(sizeof(KeptContact) == (4 + kept_numbers) * sizeof(double));
 

@@ -80,6 +80,8 @@ void Robot::connect_joints(Connector& c, const RobotView& view, const Parameters
     efforts_out_[i] = c.derived(object, keys::joint_effort);
     velocities_[body.link] = velocities_out_[i].get();
     mimics += body.leader >= 0 ? 1 : 0;
+    if (body.leader == 0)
+      throw Error(quote(c.object_name(object)) + " mimics a joint that is fixed; let it mimic one that moves");
     if (body.leader >= 0) continue;
     Joint& joint = model_.joints[i];
     joint.drive = drive_of(body.drive);
@@ -178,7 +180,10 @@ void Robot::set_offsets() {
 bool Robot::interpolates() const { return !targets_.empty(); }
 
 void Robot::start() {
-  contacts_.forget();
+  contacts_.start();
+  constexpr std::size_t of_a_link = 8;
+  contact_wrenches_.resize(std::max(contact_wrenches_.size(), 6 * of_a_link * links_.size()));
+  touching_links_.reserve(links_.size());
   links_are_clear_ = false;
   only_contacts_push_ = std::all_of(links_.begin(), links_.end(), [this](const LoadedLink& link) {
     return link.external.size() <= (has_contact_law_ ? 1 : 0);
@@ -189,11 +194,13 @@ void Robot::take_over() {
   *contact_world_ = own_world_;
   *twist_lag_ = 0;
   contacts_.take_over();
+  links_are_clear_ = false;
   for (const JointHandles& joint : joints_) joint.position_target.take_over();
   if (rigid_.fixed_base) *twist_ = Twist{};
 }
 
 void Robot::prepare(double dt) {
+  start_ = pose_->position;
   if (interpolates()) advance_targets(dt);
   sum_wrenches();
   state_.contacts = contacts_.contacts().data();
@@ -260,7 +267,7 @@ void Robot::export_contacts() {
     const Wrench at_point{{n[0], n[1], n[2]}, {n[3], n[4], n[5]}};
     const std::uint32_t number = contacts_.loaded_link(i);
     const LoadedLink& link = links_[number];
-    link.contact->add_force(at_point.force, c.point - link.pose->position);
+    link.contact->add_force(at_point.force, c.point - (number == 0 ? start_ : link.pose->position));
     link.contact->torque += at_point.torque;
     if (touching_links_.empty() || touching_links_.back() != number) touching_links_.push_back(number);
     if (tells_contacts_) told_.push_back({c.self, c.other, c.point, c.normal, c.depth, at_point});

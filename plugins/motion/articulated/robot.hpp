@@ -31,7 +31,11 @@ class Robot {
   const RobotState& state() const { return state_; }
   const Pose& pose() const { return *pose_; }
   const Twist& twist() const { return *twist_; }
-  const SumIn<Wrench>& external() const { return links_.front().external; }
+  /// Calls `visit` for what adds to the wrench on each link.
+  template <class Visit>
+  void each_external(Visit visit) const {
+    for (const LoadedLink& link : links_) visit(link.external);
+  }
   /// Of joints, one per link (rad/s or m/s); null where there is none. [setup]
   const std::vector<const double*>& velocities() const { return velocities_; }
   /// Of its bodies.
@@ -97,6 +101,7 @@ class Robot {
   std::vector<std::uint32_t> touching_links_;  ///< in links_, that contacts have pushed in the last step
   bool links_are_clear_ = false;
   ListOut<ContactWrench> told_;
+  Vec3 start_ = Vec3::Zero();  ///< m: where the base was when the step began
   RobotContacts contacts_;
   contact_geometry::ImpactInput impacts_;  ///< of a robot that is one free body
   std::vector<double> wrenches_;           ///< on bodies

@@ -53,6 +53,17 @@ RobotContacts::RobotContacts(Connector& c, const RobotView& view, const multibod
             [](const LinkPlace& a, const LinkPlace& b) { return index_of(a.object) < index_of(b.object); });
 }
 
+void RobotContacts::start() {
+  revision_ = no_revision;
+  if (!list_) return;
+  constexpr std::size_t of_a_link = 8;
+  const std::size_t most = of_a_link * link_places_.size();
+  contacts_.reserve(most), places_.reserve(most), links_.reserve(most), others_.reserve(most), before_.reserve(most);
+  if (!(*kept_).empty()) return;
+  for (std::size_t i = 0; i < most; ++i) kept_.push_back({});
+  kept_.clear();
+}
+
 const RobotContacts::LinkPlace* RobotContacts::place_of(ObjectId object) const {
   const auto found =
       std::lower_bound(link_places_.begin(), link_places_.end(), object,

@@ -38,8 +38,8 @@ class RobotContacts {
 
   /// Finds the contacts of the step that begins. [step, before any robot moves]
   void look_up(const TouchedBodies& bodies);
-  /// Nothing is known of earlier steps. [setup]
-  void forget() { revision_ = no_revision; }
+  /// Nothing is known of earlier steps. Takes the memory that steps need. [setup]
+  void start();
   /// Another motion has moved the robot so far.
   void take_over() const {
     if (kept_) kept_.clear();

@@ -57,8 +57,10 @@ class RungeKutta {
     const S sixth(batch_.dt / 6);
     for (int k = 1; k < s_.count; ++k) {
       const JointStage<S>& j = work_.stages[k];
-      work_.bodies[k].q = j.q + sixth * j.velocities;
-      work_.bodies[k].qd = j.qd + sixth * j.accelerations;
+      BodyStep<S>& b = work_.bodies[k];
+      b.qd = j.qd + sixth * j.accelerations;
+      // a held joint is where it was to be: at its stop
+      b.q = j.q + select(b.terms.is_free > S(0), sixth * j.velocities, h * b.qd);
     }
     BaseState<S> end = start.moved_by(k1, sixth).moved_by(k2, S(2) * sixth).moved_by(k3, S(2) * sixth);
     end = end.moved_by(k4, sixth);

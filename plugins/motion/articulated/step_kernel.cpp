@@ -32,19 +32,20 @@ struct Bases {
     twist = load_twist(as_read(twist_at));
   }
   /// Into the body of the base.
-  MURO_INLINE void place(BodyStep<S>& base) const {
+  MURO_INLINE void place(BodyStep<S>& base, bool is_fixed) const {
     base.axes = pose.orientation.matrix();
     base.origin = pose.position;
-    base.w = transposed_times(base.axes, twist.angular);
-    base.v = transposed_times(base.axes, twist.linear);
+    const V3<S> zero{S(0), S(0), S(0)};
+    base.w = is_fixed ? zero : transposed_times(base.axes, twist.angular);
+    base.v = is_fixed ? zero : transposed_times(base.axes, twist.linear);
   }
   /// Whether a body can be there and move like that.
   MURO_INLINE MaskOf<S> is_somewhere() const {
     const S far(beyond * beyond);
     const Q4<S>& q = pose.orientation;
-    const S norm = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
-    return (dot(pose.position, pose.position) < far) & (dot(twist.linear, twist.linear) < far) &
-           (dot(twist.angular, twist.angular) < far) & (norm > S(0.25)) & (norm < S(4));
+    const S norm = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w, place = dot(pose.position, pose.position);
+    const S speed = dot(twist.linear, twist.linear), rate = dot(twist.angular, twist.angular);
+    return (place < far) & (speed < far) & (rate < far) & (norm > S(0.25)) & (norm < S(4));
   }
   MURO_INLINE BaseState<S> state() const { return {pose.position, twist.linear, twist.angular, pose.orientation}; }
   MURO_INLINE void take(const BaseState<S>& b) { pose = {b.position, b.orientation}, twist = {b.velocity, b.spin}; }
@@ -87,7 +88,7 @@ unsigned step_some(const Batch& batch, const RobotState* robots, int count) {
   Work<S> work(batch.work, s.count, s.slots);
   BodyStep<S>* const bodies = work.bodies;
   Bases<S> base(robots, count);
-  base.place(bodies[0]);
+  base.place(bodies[0], s.fixed);
   Joints<S> joints(batch, robots, count, work);
   place_all(s, bodies);
   const Masses<S> masses = masses_of<S>(batch, robots, count);
@@ -133,7 +134,8 @@ unsigned step_some(const Batch& batch, const RobotState* robots, int count) {
     store_twist(base.twist_at, 0, base.twist, which);
   }
   joints.store(which);
-  return bits(!(base.is_somewhere() & (joints.sum() < S(beyond)))) & which;
+  const MaskOf<S> is_somewhere = base.is_somewhere(), is_finite = joints.sum() < S(beyond);
+  return bits(!(is_somewhere & is_finite)) & which;
 }
 
 /// As many as a register holds: so much is kept of each robot that wider packs would go through memory.

@@ -23,6 +23,7 @@ struct ContactSlot {
   ContactStep<S> step;
   MaskOf<S> is_new;          ///< its last normal force is not known
   S tried_load, found_load;  ///< N: of the trial before; -1: there is none
+  S rests;                   ///< 1: it is tried without a force, since it had none in the last step
 };
 
 /// What bodies and joints do where an effort acts at some joints, beside all else.
