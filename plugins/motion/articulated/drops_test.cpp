@@ -68,7 +68,8 @@ Gain gain_of(unsigned seed, int count, double seconds) {
   w.add_ground(0.7);
   std::vector<const RobotView*> robots;
   for (int i = 0; i < count; ++i) {
-    const Vec3 at(6.0 * (i % 20), 6.0 * (i / 20), random.uniform(1.0, 1.6));
+    const int column = i % 20, row = i / 20;
+    const Vec3 at(6.0 * column, 6.0 * row, random.uniform(1.0, 1.6));
     const Vec3 velocity = random.direction(), spin = random.direction();
     const double speed = random.uniform(0, 2), rate = random.uniform(0, 5);
     const Twist twist{speed * velocity, rate * spin};

@@ -138,7 +138,7 @@ MURO_INLINE MaskOf<S> are_alike(const JointPiece<S>& a, const JointPiece<S>& b) 
 template <class S>
 MURO_INLINE MaskOf<S> goes_on(const JointLaw<S>& law, const JointPiece<S>& tried, S v) {
   const S zero(0);
-  if (law.holds_velocity) return zero > zero;
+  if (law.holds_velocity) return S(1) < zero;
   const auto is_this_piece = (tried.is_free > zero) & (tried.drag == law.drag + law.damping) &
                              (tried.pull == law.pull - sign_of(v) * law.friction);
   return is_this_piece & (abs(law.pull - law.drag * v) <= law.effort) & (abs(v) <= S(law.speed)) & (v < law.highest) &
@@ -150,7 +150,7 @@ MURO_INLINE MaskOf<S> goes_on(const JointLaw<S>& law, const JointPiece<S>& tried
 template <class S>
 MURO_INLINE MaskOf<S> stays_at_rest(const JointLaw<S>& law, const JointPiece<S>& tried, S needed) {
   const S zero(0);
-  if (law.holds_velocity) return zero > zero;
+  if (law.holds_velocity) return S(1) < zero;
   const S drive = clamp(law.pull, -law.effort, law.effort);
   return (tried.is_free == zero) & (tried.velocity == zero) & (law.friction > zero) & (law.lowest < zero) &
          (law.highest > zero) & (abs(needed - drive) <= law.friction);

@@ -66,7 +66,8 @@ struct Work {
     char* next = static_cast<char*>(memory);
     const auto take = [&]<class T>(T*& piece, int count) {
       piece = reinterpret_cast<T*>(next);
-      next += (sizeof(T) * std::size_t(count) + 63) / 64 * 64;
+      next +=
+          (sizeof(T) * std::size_t(count) + 63) / 64 * 64;  // NOLINT(bugprone-sizeof-expression): one T is a pointer
     };
     take(bodies, body_count), take(laws, body_count), take(pieces, body_count), take(armature, body_count),
         take(changes, body_count);
