@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "kinematic_robot.hpp"
 
+#include <algorithm>
+#include <string>
+
 #include "engine_parameters.hpp"
 #include "plugins/common/contact_geometry/contact_responsibility.hpp"
 #include "plugins/common/kinematic_joints/moving_mass.hpp"
@@ -37,6 +40,19 @@ void KinematicRobot::step(double dt) const {
   joints_.move(dt);
   for (const Out<double>& effort : efforts_) *effort = 0;
   for (const Out<Wrench>& wrench : contact_wrenches_) *wrench = Wrench{};
+}
+
+void tell_of(Connector& c, const std::vector<const KinematicRobot*>& robots) {
+  std::vector<std::string> names;
+  bool still = false;
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    const RobotView& view = *c.items()[i].robot;
+    const auto moves = [](const Link& link) { return link.joint != JointKind::fixed; };
+    if (!robots[i] || std::none_of(view.links.begin(), view.links.end(), moves)) continue;
+    names.emplace_back(view.name);
+    still = still || robots[i]->stands_still();
+  }
+  tell_of_robots_without_forces(c, names, still);
 }
 
 }  // namespace muro::multibody

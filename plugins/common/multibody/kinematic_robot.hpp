@@ -38,4 +38,7 @@ class KinematicRobot {
   std::vector<Out<Wrench>> contact_wrenches_;
 };
 
+/// Tells the user which robots are such ones and have joints. `robots`: one an item; null for others. [setup]
+void tell_of(Connector& c, const std::vector<const KinematicRobot*>& robots);
+
 }  // namespace muro::multibody

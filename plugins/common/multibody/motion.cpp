@@ -7,7 +7,6 @@
 #include "engine_parameters.hpp"
 #include "muro/toolkit/random.hpp"
 #include "plugins/common/contact_geometry/contact_responsibility.hpp"
-#include "plugins/common/kinematic_joints/moving_mass.hpp"
 #include "plugins/common/text/quote.hpp"
 
 namespace muro::multibody {
@@ -88,16 +87,9 @@ void Motion::connect_robot(Connector& c, const Item& item, const Parameters& p) 
 }
 
 void Motion::report_kinematic_robots(Connector& c) const {
-  std::vector<std::string> names;
-  bool still = false;
-  for (std::size_t i = 0; i < served_.size(); ++i) {
-    const RobotView& view = *c.items()[i].robot;
-    const auto moves = [](const Link& link) { return link.joint != JointKind::fixed; };
-    if (!served_[i].by_targets || std::none_of(view.links.begin(), view.links.end(), moves)) continue;
-    names.emplace_back(view.name);
-    still = still || served_[i].by_targets->stands_still();
-  }
-  tell_of_robots_without_forces(c, names, still);
+  std::vector<const KinematicRobot*> by_targets;
+  for (const Served& s : served_) by_targets.push_back(s.by_targets);
+  tell_of(c, by_targets);
 }
 
 void Motion::report_regularized_links(const Connector& c) const {

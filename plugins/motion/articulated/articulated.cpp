@@ -7,7 +7,6 @@
 
 #include "description.hpp"
 #include "muro/toolkit/accelerations.hpp"
-#include "plugins/common/kinematic_joints/moving_mass.hpp"
 #include "plugins/common/mesh/hull_vertices.hpp"
 #include "plugins/common/multibody/kinematic_robot.hpp"
 #include "plugins/common/text/quote.hpp"
@@ -218,16 +217,9 @@ void Articulated::report(Connector& c) const {
         "motion.articulated: bodies without mass and inertia, or with a moment of inertia that exceeds the sum "
         "of the two others, cannot be moved; what they lack was added to " +
             quoted_list(links) + "; give them an `inertial` that fits");
-  std::vector<std::string> names;
-  bool still = false;
-  for (std::size_t i = 0; i < served_.size(); ++i) {
-    const RobotView& view = *c.items()[i].robot;
-    const auto moves = [](const Link& link) { return link.joint != JointKind::fixed; };
-    if (!served_[i].by_targets || std::none_of(view.links.begin(), view.links.end(), moves)) continue;
-    names.emplace_back(view.name);
-    still = still || served_[i].by_targets->stands_still();
-  }
-  tell_of_robots_without_forces(c, names, still);
+  std::vector<const multibody::KinematicRobot*> by_targets;
+  for (const Served& s : served_) by_targets.push_back(s.by_targets);
+  multibody::tell_of(c, by_targets);
 }
 
 constexpr abi::AlgorithmEntry algorithms[] = {algorithm<Articulated>(description)};

@@ -34,9 +34,10 @@ struct OneLink : Trial {
   double& of(const Key<double>& key) { return joint("r/joint", key); }
 };
 
-Outcome drive_step_response(const std::string& motion) {
+/// The default gains are those of link and rotor together: critically damped.
+Outcome step_response(const std::string& motion, double armature) {
   constexpr double frequency = 20;
-  OneLink link(motion, {}, {{"natural_frequency", frequency}});
+  OneLink link(motion, {.armature = armature}, {{"natural_frequency", frequency}});
   link.of(keys::joint_position_target) = 0.5;
   double worst = 0;
   for (int k = 1; k <= 500; ++k) {
@@ -46,26 +47,12 @@ Outcome drive_step_response(const std::string& motion) {
   }
   return {worst, text(worst)};
 }
+Outcome drive_step_response(const std::string& motion) { return step_response(motion, 0); }
+Outcome drive_rotor_frequency(const std::string& motion) { return step_response(motion, 2 * OneLink::moment); }
 
 /// With gains of its own it is underdamped: its first overshoot is exp(-pi zeta / sqrt(1 - zeta^2)).
-Outcome drive_overshoot(const std::string& motion) {
+Outcome overshoot(const std::string& motion, double armature) {
   constexpr double stiffness = 100, zeta = 0.4;
-  const double damping = 2 * zeta * std::sqrt(stiffness * OneLink::moment);
-  OneLink link(motion, {},
-               {{"stiffness", Names{"joint=" + text(stiffness)}}, {"damping", Names{"*=" + text(damping)}}});
-  link.of(keys::joint_position_target) = 0.5;
-  double farthest = 0;
-  for (int k = 0; k < 1000; ++k) {
-    link.run_for(drive_step);
-    farthest = std::max(farthest, link.of(keys::joint_position));
-  }
-  const double expected = 0.5 * (1 + std::exp(-M_PI * zeta / std::sqrt(1 - zeta * zeta)));
-  return relative(farthest, expected);
-}
-
-/// As above, with a rotor that is twice the inertia of the link: it counts as much as the link does.
-Outcome drive_rotor(const std::string& motion) {
-  constexpr double stiffness = 100, zeta = 0.4, armature = 2 * OneLink::moment;
   const double damping = 2 * zeta * std::sqrt(stiffness * (OneLink::moment + armature));
   OneLink link(motion, {.armature = armature},
                {{"stiffness", Names{"joint=" + text(stiffness)}}, {"damping", Names{"*=" + text(damping)}}});
@@ -77,20 +64,9 @@ Outcome drive_rotor(const std::string& motion) {
   }
   return relative(farthest, 0.5 * (1 + std::exp(-M_PI * zeta / std::sqrt(1 - zeta * zeta))));
 }
-
-/// The default gains are those of link and rotor together.
-Outcome drive_rotor_frequency(const std::string& motion) {
-  constexpr double frequency = 20;
-  OneLink link(motion, {.armature = 2 * OneLink::moment}, {{"natural_frequency", frequency}});
-  link.of(keys::joint_position_target) = 0.5;
-  double worst = 0;
-  for (int k = 1; k <= 500; ++k) {
-    link.run_for(drive_step);
-    const double x = frequency * drive_step * k, exact = 0.5 * (1 - (1 + x) * std::exp(-x));
-    worst = std::max(worst, std::abs(link.of(keys::joint_position) - exact) / 0.5);
-  }
-  return {worst, text(worst)};
-}
+Outcome drive_overshoot(const std::string& motion) { return overshoot(motion, 0); }
+/// With a rotor that is twice the inertia of the link: it counts as much as the link does.
+Outcome drive_rotor(const std::string& motion) { return overshoot(motion, 2 * OneLink::moment); }
 
 Outcome drive_deflection(const std::string& motion) {
   constexpr double stiffness = 100;
