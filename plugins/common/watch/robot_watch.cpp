@@ -2,6 +2,8 @@
 #include "robot_watch.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 
 #include "plugins/common/text/quote.hpp"
 
@@ -10,6 +12,18 @@ namespace {
 
 /// m, from which on an overlap is told as a likely cause.
 constexpr double told_depth = 0.01;
+/// m/s^2, from which on an external force is told as a likely cause.
+constexpr double told_push = 1e4;
+
+constexpr const char* growing_forces =
+    "forces that grow from step to step; try a higher rate, or a lower `frequency` of what finds the forces of its "
+    "contacts";
+
+std::string newtons(double force) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g N", force);
+  return text;
+}
 
 }  // namespace
 
@@ -19,6 +33,20 @@ SceneryNames scenery_names(const Connector& c) {
     if (c.robot_of(ObjectId{i}) < 0 && !c.constant_array(ObjectId{i}, keys::collision_shapes).empty())
       names.emplace(i, c.object_name(ObjectId{i}));
   return names;
+}
+
+std::string failure_of_numbers(std::string_view robot, const Pose& pose, const Twist& twist, const Wrench& external,
+                               double mass) {
+  const double force = external.force.stableNorm();
+  const std::string problem = is_somewhere(pose, twist) ? "its joints are" : "the motion of its base is";
+  std::string cause = growing_forces;
+  if (!std::isfinite(external.force.sum() + external.torque.sum()))
+    cause = "the sum of its external wrenches is not; look at what adds to `wrench.external`";
+  else if (force > told_push * mass)
+    cause = "an external force of " + newtons(force) +
+            " acts on it; look at what adds to `wrench.external`: something that pushes, or contacts "
+            "that are too stiff for the rate";
+  return quote(robot) + ": " + problem + " no longer finite. Likely cause: " + cause;
 }
 
 RobotWatch::RobotWatch(Connector& c, const RobotView& robot, std::span<const double* const> velocities)
@@ -84,7 +112,7 @@ std::string RobotWatch::problem(const Pose& pose, const Twist& twist, const Scen
     cause = "it is " + std::to_string(overlap.depth) + " m deep in " + quote(*overlap.obstacle);
     cause += ": start it clear of that, or move it less in a step";
   } else {
-    cause = "forces that grow from step to step; try a higher rate, or a lower `frequency` of contact.penalty";
+    cause = growing_forces;
   }
   return quote(name_) + ": " + problem + ". Likely cause: " + cause + how_to_go_on(parameter);
 }

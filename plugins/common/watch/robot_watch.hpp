@@ -5,6 +5,7 @@
 #include <map>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "muro/algorithm.hpp"
@@ -16,6 +17,11 @@ namespace muro::watch {
 /// Names of the scenery, by object.
 using SceneryNames = std::map<std::uint32_t, std::string>;
 SceneryNames scenery_names(const Connector& c);
+
+/// Why a run ends in which the numbers of a robot are no longer those of bodies: its pose, twist or joints are not.
+/// `external`: the sum of the wrenches on it, `mass`: kg.
+std::string failure_of_numbers(std::string_view robot, const Pose& pose, const Twist& twist, const Wrench& external,
+                               double mass);
 
 /// The watch over one robot. Looks at it each `interval` steps: what comes apart stays so.
 class RobotWatch {

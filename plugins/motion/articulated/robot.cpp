@@ -11,6 +11,7 @@
 #include "plugins/common/contact_geometry/impact_path.hpp"
 #include "plugins/common/multibody/joint_target.hpp"
 #include "plugins/common/text/quote.hpp"
+#include "plugins/common/watch/robot_watch.hpp"
 
 namespace muro::articulated {
 
@@ -284,16 +285,9 @@ std::string Robot::failure() const {
   for (std::size_t i = 1; i < joints_.size(); ++i)
     if (joints_[i].target && !std::isfinite(*joints_[i].target))
       return "the target of " + quote(joints_[i].name) + " is not finite; look at what writes its `joint.*.target`";
-  for (std::size_t i = 0; i < links_.size(); ++i) {
-    const Wrench w = links_[i].external.value();
-    if (!std::isfinite(w.force.sum() + w.torque.sum()))
-      return "the motion of " + quote(rigid_.name) +
-             " is no longer finite: the sum of the external wrenches on one of its links is not; look at what adds to "
-             "`wrench.external`";
-  }
-  return "the motion of " + quote(rigid_.name) +
-         " is no longer finite: forces grow from step to step; raise the rate, or lower the stiffness of what acts on "
-         "it";
+  Wrench external;
+  for (const LoadedLink& link : links_) external += link.external.value();
+  return watch::failure_of_numbers(rigid_.name, *pose_, *twist_, external, rigid_.mass);
 }
 
 }  // namespace muro::articulated

@@ -298,12 +298,8 @@ class Simplified final : public Algorithm {
   [[noreturn]] void fail(std::uint32_t i) const {
     const Robot& r = robots_[i];
     const Wrench external = r.force_driven >= 0 ? totals_[i] : r.external ? r.external->value() : Wrench{};
-    const bool bad_input = !std::isfinite(external.force.sum() + external.torque.sum());
-    throw Error("the motion of `" + r.name + "` is no longer finite" +
-                (bad_input
-                     ? ": the sum of its external wrenches is not; look at what adds to `wrench.external`"
-                     : ": forces grow from step to step; raise the rate, or lower the stiffness of what acts on it "
-                       "(contact.penalty: frequency)"));
+    const RobotState& s = layers_[0][i];
+    throw Error(watch::failure_of_numbers(r.name, pose_of(s), twist_of(s), external, r.inertia.mass));
   }
 
   Accelerations accelerations_{mesh::hull_vertices};
