@@ -94,14 +94,15 @@ MURO_INLINE JointPiece<S> meet(const JointLaw<S>& law, S inertia, S free, double
   return {select(held, zero, one), pull - friction, drag + law.damping, v, select(stops, at_stop, effort)};
 }
 
-/// The piece on which a joint with velocity `v` most probably ends: where it is.
+/// The piece on which a joint with velocity `v` most probably ends: where it is, and at rest where it hardly moves and
+/// friction may hold it.
 template <class S>
 MURO_INLINE JointPiece<S> guess(const JointLaw<S>& law, S v) {
-  const S zero(0), one(1);
+  const S zero(0), one(1), hardly(1e-4);  // rad/s or m/s
   const S friction = sign_of(v) * law.friction, wanted = law.pull - law.drag * v;
   const auto is_weak = abs(wanted) > law.effort;
   const S pull = select(is_weak, sign_of(wanted) * law.effort, law.pull), drag = select(is_weak, zero, law.drag);
-  const auto sticks = (v == zero) & (law.friction > zero);
+  const auto sticks = (abs(v) < hardly) & (law.friction > zero);
   const auto stops = (v >= law.highest) | (v <= law.lowest);
   const auto held = law.holds_velocity ? one > zero : (sticks | stops);
   const S to = clamp(law.holds_velocity ? law.velocity : select(sticks, zero, v), law.lowest, law.highest);
