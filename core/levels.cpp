@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "core/error.hpp"
 #include "muro/vocabulary.hpp"
@@ -92,7 +93,7 @@ std::vector<Levels::Mover> Levels::movers_of(const LevelsOfRobot& setup,
       if (mover.instance)
         throw SetupError(fmt::format("`{}` is moved by {} and by {}; list all of its motions under `levels` of one",
                                      setup.robot->name, mover.instance->setup().name, instance->setup().name));
-      mover = {instance.get(), i};
+      mover = {instance.get(), i, {}};
     }
   }
   for (const Mover& m : movers)
@@ -132,23 +133,35 @@ bool Levels::is_inactive_at_start(std::int32_t number, std::uint32_t level) cons
   return r && r->first != level;
 }
 
+/// Those that the motion writes, each once, in rising order.
+std::vector<SlotId> Levels::traits_of(const World& world, const Robot& robot, const Mover& mover) const {
+  std::vector<SlotId> traits;
+  for (const SlotId slot : mover.instance->writes()) {
+    const Slot& s = store_->slot(slot);
+    if (store_->key_of(s).role == Role::motion_trait && world.robot_of(s.object) == std::int32_t(robot.view->number))
+      traits.push_back(slot);
+  }
+  std::sort(traits.begin(), traits.end());
+  traits.erase(std::unique(traits.begin(), traits.end()), traits.end());
+  return traits;
+}
+
 void Levels::complete(World& world) {
   store_ = &world.store();
   for (Robot& r : robots_) {
-    std::vector<SlotId> written_at_start;
+    std::vector<std::vector<SlotId>> written;
     for (const Mover& m : r.movers) {
       m.instance->add_read(r.level_slot);
-      for (const SlotId slot : m.instance->writes()) {
-        const Slot& s = store_->slot(slot);
-        if (store_->key_of(s).role != Role::motion_trait || world.robot_of(s.object) != std::int32_t(r.view->number))
-          continue;
-        if (std::find(r.traits.begin(), r.traits.end(), slot) == r.traits.end()) r.traits.push_back(slot);
-        if (&m == &r.movers[r.first]) written_at_start.push_back(slot);
-      }
+      written.push_back(traits_of(world, r, m));
+      std::vector<SlotId> all;
+      std::set_union(r.traits.begin(), r.traits.end(), written.back().begin(), written.back().end(),
+                     std::back_inserter(all));
+      r.traits = std::move(all);
     }
-    for (const SlotId slot : r.traits)
-      if (std::find(written_at_start.begin(), written_at_start.end(), slot) == written_at_start.end())
-        store_->clear(slot);
+    for (std::size_t level = 0; level < r.movers.size(); ++level)
+      std::set_difference(r.traits.begin(), r.traits.end(), written[level].begin(), written[level].end(),
+                          std::back_inserter(r.movers[level].lacks));
+    for (const SlotId slot : r.movers[r.first].lacks) store_->clear(slot);
   }
 }
 
@@ -215,9 +228,9 @@ bool Levels::step(const Step&, Range, abi::ErrorText& error) noexcept {
                             r.movers.size()));
       return false;
     }
-    for (const SlotId slot : r.traits) store_->clear(slot);
     *r.level = std::uint32_t(target);
     const Mover& m = r.movers[std::size_t(target)];
+    for (const SlotId slot : m.lacks) store_->clear(slot);
     if (!m.instance->on_handover(m.item, error)) return false;
   }
   return true;

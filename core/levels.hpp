@@ -4,8 +4,8 @@
 // Each motion of such a robot is connected to the same properties; `motion.level` says which of them steps the robot.
 // When `motion.level.target` names another, that one takes over before anything that depends on it runs in this
 // instant. Control code writes it; an algorithm that goes by rules writes `motion.level.rule`, which comes first as
-// long as it names one. State goes over by lying where it is, but for what tells of a motion (Role::motion_trait): that
-// is set to zero, and a motion that has it says it anew (Algorithm::on_handover).
+// long as it names one. State goes over by lying where it is. What tells of a motion (Role::motion_trait) is set to
+// zero where the new motion does not write it; a motion that has it says it anew (Algorithm::on_handover).
 #pragma once
 
 #include <memory>
@@ -62,6 +62,7 @@ class Levels final : public abi::AlgorithmInstance {
   struct Mover {
     Instance* instance = nullptr;
     std::uint32_t item = 0;
+    std::vector<SlotId> lacks;  ///< Role::motion_trait, written by other motions of the robot alone
   };
   struct Robot {
     const RobotView* view;
@@ -79,6 +80,7 @@ class Levels final : public abi::AlgorithmInstance {
   static void add_properties(World& world, Accessor accessor, const std::vector<std::string>& names, Robot& r);
   Robot* find(std::int32_t number);
   const Robot* find(std::int32_t number) const;
+  std::vector<SlotId> traits_of(const World& world, const Robot& robot, const Mover& mover) const;
 
   PropertyStore* store_ = nullptr;
   std::vector<Robot> robots_;

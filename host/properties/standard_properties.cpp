@@ -12,8 +12,8 @@ constexpr const KeyInfo* motion[] = {
     &keys::contact_wrench, &keys::applied_wrench, &keys::gravity,       &keys::friction_rule, &keys::acceleration,
 };
 constexpr const KeyInfo* levels[] = {
-    &keys::motion_level, &keys::motion_level_target, &keys::motion_level_names,
-    &keys::shadow_of,    &keys::contact_world,       &keys::twist_lag,
+    &keys::motion_level,  &keys::motion_level_target, &keys::motion_level_names, &keys::shadow_of,
+    &keys::contact_world, &keys::twist_lag,           &keys::self_collision,
 };
 constexpr const KeyInfo* bodies[] = {&keys::inertial, &keys::collision_shapes, &keys::visual_shapes};
 constexpr const KeyInfo* joints[] = {

@@ -12,8 +12,9 @@ inline constexpr std::uint32_t single_value = 0xffffffffu;
 enum class Role : std::uint8_t {
   state,    ///< somebody must write what somebody reads
   command,  ///< as state, and somebody must read what is written: a command that no level uses is an error
-  /// As state, but it tells of the motion rather than of the robot: it is zero whenever a motion that does not write it
-  /// moves the robot. Everything else stays as the motion before has left it (Algorithm::on_handover).
+  /// As state, but it tells of the motion rather than of the robot: it is zero, a list of it empty, whenever a motion
+  /// that does not write it moves the robot. Everything else stays as the motion before has left it
+  /// (Algorithm::on_handover).
   motion_trait,
 };
 

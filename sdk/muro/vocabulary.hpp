@@ -19,7 +19,8 @@ inline constexpr Key<Twist> acceleration{"acceleration", "m/s^2, rad/s^2",
 inline constexpr Key<Wrench> external_wrench{
     "wrench.external", "N, N m", "sum of what acts on a body from outside: world axes, at the body's origin"};
 inline constexpr Key<Wrench> contact_wrench{
-    "wrench.contact", "N, N m", "what contacts did to a body in the last step: world axes, at the body's origin"};
+    "wrench.contact", "N, N m", "what contacts did to a body in the last step: world axes, at the body's origin",
+    Role::motion_trait};
 /// By the motion that moves the robot, on links where somebody reads it: all that it has let act on the link in the
 /// step that `acceleration` is of. So Newton's and Euler's equations of the link hold with both. Not a number after a
 /// step of a motion that no force moves.
@@ -53,6 +54,10 @@ inline constexpr std::uint64_t contact_for_all = 1;
 /// velocities are those of the middles of steps (leapfrog). Contact needs it to keep energy and angular momentum.
 inline constexpr Key<double> twist_lag{"twist.lag", "1", "steps by which the twist is older than the pose",
                                        Role::motion_trait};
+/// Of a robot whose motion resolves contacts among its own links and leaves it to the collision algorithm to find them.
+/// Links that one joint connects, or only fixed ones, do not touch.
+inline constexpr Key<std::uint32_t> self_collision{"self_collision", "1", "1: `contacts` has those among its links",
+                                                   Role::motion_trait};
 
 // What a body is.
 inline constexpr Key<Inertia> inertial{"inertial", "kg, m, kg m^2", "mass, centre of mass, inertia about it"};
@@ -66,7 +71,8 @@ inline constexpr Key<double> joint_velocity{"joint.velocity", "rad/s or m/s", "a
 /// As `acceleration`.
 inline constexpr Key<double> joint_acceleration{"joint.acceleration", "rad/s^2 or m/s^2",
                                                 "along the axis, in the last step"};
-inline constexpr Key<double> joint_effort{"joint.effort", "N m or N", "what the drive applies along the axis"};
+inline constexpr Key<double> joint_effort{"joint.effort", "N m or N", "what the drive applies along the axis",
+                                          Role::motion_trait};
 inline constexpr Key<double> joint_position_target{"joint.position.target", "rad or m", "wanted position",
                                                    Role::command};
 inline constexpr Key<double> joint_velocity_target{"joint.velocity.target", "rad/s or m/s", "wanted velocity",
@@ -102,7 +108,8 @@ inline constexpr Key<Contact> contacts{"contacts", "m", "list on the base of a r
 /// Of the last step, by the engine that moves the robot. A robot that no force moves has no such list: what it does to
 /// others stands in theirs.
 inline constexpr Key<ContactWrench> contact_wrenches_of_motion{
-    "contact.wrenches.motion", "m, N, N m", "list on the base of a robot: what its engine's contacts did to it"};
+    "contact.wrenches.motion", "m, N, N m", "list on the base of a robot: what its engine's contacts did to it",
+    Role::motion_trait};
 /// By the contact algorithm, for the step that begins; also on robots that no force moves and that others push.
 inline constexpr Key<ContactWrench> contact_wrenches_of_law{
     "contact.wrenches.law", "m, N, N m", "list on the base of a robot: what the contact algorithm does to it"};
