@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <type_traits>
+
 #include "muro/simd/rows.hpp"
 #include "muro/simd/trig.hpp"
 #include "tree_link.hpp"
@@ -54,39 +56,51 @@ struct States {
   }
 };
 
-/// Sine and cosine of half the angles of revolute joints, in the order of their links. For one robot several joints are
-/// computed at a time.
+/// Sine and cosine of half the angles of revolute joints, in the order of their links. They are computed some joints
+/// ahead, so that whoever walks through the links keeps its numbers in registers.
 template <class S>
 class HalfAngles {
  public:
   MURO_INLINE HalfAngles(const TreeLink* links, const StateOffsets* offsets, int link_count, const States<S>& states)
       : links_(links), offsets_(offsets), link_count_(link_count), states_(states) {}
 
-  /// Of the joint of link `k`.
+  /// Of the next joint, that of link `k`.
   MURO_INLINE SinCos<S> of(int k) {
+    if (next_ == found_) look_ahead(k);
+    const SinCos<Turn>& turn = turns_[next_ / at_once];
     if constexpr (count_of<S> == 1) {
-      if (next_ == found_) look_ahead(k);
-      const int i = next_++;
-      return {turns_.sin[i], turns_.cos[i]};
+      const int i = next_++ % at_once;
+      return {turn.sin[i], turn.cos[i]};
     } else {
-      return sincos(S(0.5) * load(states_.positions, offsets_[k].position));
+      ++next_;
+      return turn;
     }
   }
 
  private:
-  MURO_INLINE void look_ahead(int k) {
-    Double4 angles(0.0);
-    for (next_ = found_ = 0; found_ < 4 && k < link_count_; ++k)
-      if (links_[k].joint == TreeLink::Joint::revolute)
-        angles.set(found_++, 0.5 * load(states_.positions, offsets_[k].position));
-    turns_ = sincos(angles);
+  /// For one robot, several joints are computed at a time.
+  using Turn = std::conditional_t<count_of<S> == 1, Double4, S>;
+  static constexpr int at_once = count_of<S> == 1 ? 4 : 1, most = 32;
+
+  [[gnu::noinline]] void look_ahead(int k) {
+    for (next_ = found_ = 0; found_ < most && k < link_count_; ++k) {
+      if (links_[k].joint != TreeLink::Joint::revolute) continue;
+      const S half = S(0.5) * load(states_.positions, offsets_[k].position);
+      if constexpr (count_of<S> == 1)
+        angles_.set(found_++ % at_once, half);
+      else
+        angles_ = half, ++found_;
+      if (found_ % at_once == 0) turns_[found_ / at_once - 1] = sincos(angles_);
+    }
+    if (found_ % at_once != 0) turns_[found_ / at_once] = sincos(angles_);
   }
 
   const TreeLink* links_;
   const StateOffsets* offsets_;
   int link_count_;
   const States<S>& states_;
-  SinCos<Double4> turns_;
+  Turn angles_{0.0};
+  SinCos<Turn> turns_[most / at_once];
   int next_ = 0, found_ = 0;
 };
 
@@ -112,21 +126,23 @@ void forward_lanes(const TreeLink* links, const StateOffsets* offsets, int link_
   HalfAngles<S> half_angles(links, offsets, link_count, states);
   int parent = 0;
   Parent<S> from = base();
+  PoseOf<S> pose = from.pose;
+  TwistOf<S> twist = from.twist;
   for (int k = 0; k < link_count; ++k) {
     const TreeLink& link = links[k];
     const StateOffsets& at = offsets[k];
-    if (link.parent != parent) {  // neighbours mostly share their parent
+    if (link.parent != parent) {  // neighbours mostly share their parent, or one is that of the other
       parent = link.parent;
-      from = parent == 0 ? base() : link_at(offsets[parent - 1]);
+      from = parent == k ? Parent<S>(pose, twist) : parent == 0 ? base() : link_at(offsets[parent - 1]);
     }
     V3<S> arm = from.axes * splat<S>(link.offset);
-    Q4<S> orientation = from.pose.orientation;
-    TwistOf<S> twist = from.twist;
+    pose.orientation = from.pose.orientation;
+    twist = from.twist;
     if (link.joint != TreeLink::Joint::fixed) {
       const S rate = load(states.velocities, at.velocity);
       const V3<S> axis = axis_in_world(from.axes, link);
       if (link.joint == TreeLink::Joint::revolute) {
-        orientation = rotated(orientation, link, half_angles.of(k));
+        pose.orientation = rotated(pose.orientation, link, half_angles.of(k));
         twist.angular += axis * rate;
       } else {
         arm += axis * load(states.positions, at.position);
@@ -134,20 +150,25 @@ void forward_lanes(const TreeLink* links, const StateOffsets* offsets, int link_
       }
     }
     if (link.is_rotated)
-      orientation =
-          orientation * Q4<S>{S(link.rotation[0]), S(link.rotation[1]), S(link.rotation[2]), S(link.rotation[3])};
+      pose.orientation =
+          pose.orientation * Q4<S>{S(link.rotation[0]), S(link.rotation[1]), S(link.rotation[2]), S(link.rotation[3])};
+    pose.position = from.pose.position + arm;
     twist.linear += cross(from.twist.angular, arm);
-    store_pose(states.poses, at.pose, {from.pose.position + arm, orientation}, which);
+    store_pose(states.poses, at.pose, pose, which);
     store_twist(states.twists, at.twist, twist, which);
   }
 }
 
 void forward_kinematics(const TreeLink* links, const StateOffsets* offsets, int link_count, const RobotState* robots,
                         int robot_count) {
-  in_lanes(robot_count, [&]<class S>(int first, int used) {
-    forward_lanes<S>(links, offsets, link_count, robots + first, used);
-    return 0u;
-  });
+  constexpr int at_once = vectors::register_bytes >= 64 ? 8 : 4;  // as many as registers hold the state of a link
+  for (int k = 0; k < robot_count; k += at_once) {
+    const int left = robot_count - k;
+    in_lanes(left < at_once ? left : at_once, [&]<class S>(int first, int used) {
+      forward_lanes<S>(links, offsets, link_count, robots + k + first, used);
+      return 0u;
+    });
+  }
 }
 
 }  // namespace
