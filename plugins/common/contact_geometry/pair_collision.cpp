@@ -78,6 +78,7 @@ void PairCollision::connect(Connector& c) {
   index_ = c.read(world_object, keys::scene_index);
   for (const RobotView* r : c.robots()) {
     robots_[r->number].world = c.input(r->base(), keys::contact_world, kinematic_world);
+    if (robots_[r->number].list) connect_own_links(c, *r);
     for (const Link& link : r->links)
       if (!c.constant_array(link.object, keys::collision_shapes).empty()) c.read(link.object, keys::pose);
   }
@@ -133,6 +134,7 @@ void PairCollision::start() {
     points.clear();
     points.reserve(16);
   }
+  start_own_links();
 }
 
 void PairCollision::step(const Step& step, Range range) {
@@ -164,6 +166,8 @@ void PairCollision::step(const Step& step, Range range) {
       }
       return;
     default:
+      for (std::uint32_t r = range.begin; r < range.end && !own_links_.empty(); ++r)
+        if (robots_[r].own_links >= 0) collide_own_links(own_links_[std::size_t(robots_[r].own_links)], step.index);
       return list_contacts(range);
   }
 }
@@ -208,6 +212,7 @@ Candidates& PairCollision::candidates(std::uint32_t robot) {
   found.found.clear();
   if (!has_contacts(mine)) return found;
   if (lists_scenery(mine)) add_scenery(overlaps_.of(robot, *index_), index_->robots[robot].bounds, found);
+  if (const auto points = own_points(robot); !points.empty()) found.robots.push_back({robot, points, true});
   if (is_anyone_near_ == 0) return found;
   for (const Near& near : near_[robot]) {
     if (!near.lists || !touch(near)) continue;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <utility>
 
 #include "manifold.hpp"
 #include "muro/algorithm.hpp"
@@ -16,6 +17,7 @@ inline constexpr PropertyUse collision_reads[] = {
     {"scene.index", "shapes and boxes"},
     {"pose", "of all bodies of robots with shapes"},
     {"contact.world", "of all robots: who resolves their contacts"},
+    {"self_collision", "of robots that have it: whether contacts among their links are listed"},
 };
 inline constexpr PropertyUse collision_writes[] = {{"contacts", "list on the base of every robot that forces move"}};
 
@@ -52,7 +54,7 @@ struct Candidates {
       return other_and_number < b.other_and_number;
     }
   };
-  /// A robot that it touches, and the points of that pair, as the one that precedes sees them.
+  /// A robot that it touches, itself too, and the points of that pair, as the one that precedes sees them.
   struct Partner {
     std::uint32_t robot;
     std::span<const PairPoint> points;
@@ -75,8 +77,9 @@ struct Candidates {
 /// 4 each robot that needs it gets its list of contacts, sorted by own body, other body, own shape and other shape:
 /// with scenery in the order of declaration and with robots in the order of their keys. The robot with the higher key
 /// has the contacts of the pair mirrored, so both lists agree to the bit. Lists depend neither on the order in which
-/// robots were declared nor on the number of threads. A contact is listed only where the contact algorithm resolves it
-/// (contact_responsibility.hpp), or where somebody else reads the list.
+/// robots were declared nor on the number of threads. Contacts among the links of a robot (keys::self_collision) are
+/// found in phase 4, and stand in its list once, as those with another robot. A contact is listed only where the
+/// contact algorithm resolves it (contact_responsibility.hpp), or where somebody else reads the list.
 class PairCollision : public Algorithm {
  public:
   void connect(Connector& c) override;
@@ -93,7 +96,8 @@ class PairCollision : public Algorithm {
     ObjectId base;
     std::int32_t shadow_of = -1;  ///< robot; see keys::shadow_of
     bool has_plane = false;
-    bool lists_all = false;  ///< its motion, or what chooses that, reads the list
+    bool lists_all = false;       ///< its motion, or what chooses that, reads the list
+    std::int32_t own_links = -1;  ///< in `own_links_`; -1: they never touch each other
   };
 
   /// The shape of a collider at its present pose. [any thread]
@@ -128,7 +132,7 @@ class PairCollision : public Algorithm {
   }
   /// Replaces the list of the robot by what has been found with scenery, in any order, and by its contacts with robots.
   void list_found(std::uint32_t robot, Candidates& candidates) const;
-  /// Whether the robot touches another and lists that.
+  /// Whether the robot touches another, or itself, and lists that.
   bool touches_robots(std::uint32_t robot) const;
   /// Whether the list has contacts with scenery.
   bool lists_scenery(const Robot& robot) const;
@@ -162,6 +166,17 @@ class PairCollision : public Algorithm {
     bool lists;                 ///< and lists contacts with it
   };
 
+  /// The links of a robot that may touch each other.
+  struct OwnLinks {
+    In<std::uint32_t> is_wanted;  ///< see keys::self_collision
+    std::uint32_t robot = 0;
+    std::vector<std::pair<ObjectId, ObjectId>> links;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;  ///< of colliders of these
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> close;  ///< of these: those that may touch
+    double until = 0;               ///< m: no others touch before the robot has moved farther than this in all
+    std::vector<PairPoint> points;  ///< in which they touch in this step
+  };
+
   bool precedes(std::uint32_t a, std::uint32_t b) const;
   bool has_contacts(const Robot& robot) const;
   bool lists(std::uint32_t robot, std::uint32_t other) const;
@@ -181,6 +196,15 @@ class PairCollision : public Algorithm {
   void collide_two(const TransformedCollider& a, const TransformedCollider& b, std::vector<PairPoint>& found);
   bool touch(const Near& near) const { return pairs_[near.pair].count > 0; }
   void find_close(Pair& pair) const;
+  void connect_own_links(Connector& c, const RobotView& view);
+  void start_own_links();
+  void collide_own_links(OwnLinks& own, std::uint64_t step);
+  void find_close(OwnLinks& own);
+  /// In which links of the robot touch each other.
+  std::span<const PairPoint> own_points(std::uint32_t robot) const {
+    const std::int32_t own = robots_[robot].own_links;
+    return own < 0 ? std::span<const PairPoint>() : own_links_[std::size_t(own)].points;
+  }
   void add_scenery(const OverlapCache::Overlaps& overlaps, const Aabb& bounds, Candidates& candidates) const;
   template <class Sink>
   void collide_scenery(Candidates& candidates, Sink sink);
@@ -215,6 +239,7 @@ class PairCollision : public Algorithm {
   std::vector<std::uint8_t> is_placed_;       ///< by collider, of robots that may touch others in this step
   std::vector<double> radii_;                 ///< by collider, m: of a ball about the origin of its body that holds it
   std::vector<std::uint32_t> first_of_body_;  ///< by collider: the first of its body
+  std::vector<OwnLinks> own_links_;           ///< of robots whose links may touch each other
   bool is_needed_ = false;
   FrictionRule friction_rule_ = FrictionRule::min;
 };

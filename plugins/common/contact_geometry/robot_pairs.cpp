@@ -4,17 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "box_gap.hpp"
 #include "pair_collision.hpp"
 
 namespace muro::contact_geometry {
-namespace {
-
-/// A distance (m) that two boxes are apart at least; negative where they overlap.
-double gap_between(const Aabb& a, const Aabb& b) {
-  return std::max((a.low - b.high).maxCoeff(), (b.low - a.high).maxCoeff());
-}
-
-}  // namespace
 
 /// A plane reaches everyone.
 bool PairCollision::are_near(std::uint32_t a, std::uint32_t b) const {
@@ -164,6 +157,7 @@ void PairCollision::find_close(Pair& pair) const {
 }
 
 bool PairCollision::touches_robots(std::uint32_t robot) const {
+  if (!own_points(robot).empty()) return true;
   return is_anyone_near_ != 0 && std::any_of(near_[robot].begin(), near_[robot].end(),
                                              [&](const Near& near) { return near.lists && touch(near); });
 }
