@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "dynamics.hpp"
+#include "point_mobility.hpp"
 #include "random_robot_testing.hpp"
 #include "tests/support/files.hpp"
 
@@ -102,12 +103,9 @@ struct RandomState {
 
 using Values = std::vector<double>;
 
-/// Linear and angular acceleration of a free base (world axes), then of the joints in the order of the model.
-Values by_mujoco(const multibody::RobotModel& robot, const RandomState& s) {
-  std::vector<std::size_t> numbers;
-  number_bodies(robot, 0, numbers);
-  const MujocoModel m = mujoco_model(robot, numbers);
-  mjData& d = *m.data;
+/// Returns the first degree of freedom that is one of a joint.
+int set_state(const multibody::RobotModel& robot, const std::vector<std::size_t>& numbers, const RandomState& s,
+              mjData& d) {
   int q = 0, v = 0;
   if (!robot.fixed_base) {
     const Quat& o = s.pose.orientation;
@@ -121,6 +119,16 @@ Values by_mujoco(const multibody::RobotModel& robot, const RandomState& s) {
     d.qvel[v + int(n) - 1] = s.qd[numbers[n]];
     d.qfrc_applied[v + int(n) - 1] = s.effort[numbers[n]];
   }
+  return v;
+}
+
+/// Linear and angular acceleration of a free base (world axes), then of the joints in the order of the model.
+Values by_mujoco(const multibody::RobotModel& robot, const RandomState& s) {
+  std::vector<std::size_t> numbers;
+  number_bodies(robot, 0, numbers);
+  const MujocoModel m = mujoco_model(robot, numbers);
+  mjData& d = *m.data;
+  const int v = set_state(robot, numbers, s, d);
   mj_kinematics(m.model.get(), &d);
   for (std::size_t n = 0; n < numbers.size(); ++n) {  // at centres of mass
     const Wrench& w = s.wrenches[numbers[n]];
@@ -216,6 +224,40 @@ TEST_P(AccelerationsOfTrees, AreThoseOfMujoco) {
 
 INSTANTIATE_TEST_SUITE_P(, AccelerationsOfTrees, ::testing::Bool(),
                          [](const auto& base) { return base.param ? "FixedBase" : "FreeBase"; });
+
+TEST_P(AccelerationsOfTrees, AreThoseOfMujocoForForcesBetweenTwoBodies) {
+  test::Randoms random(GetParam() ? 3 : 4);
+  for (int trial = 0; trial < 50; ++trial) {
+    const multibody::RobotModel robot = testing::random_robot(random, 3 + random.below(20), GetParam());
+    const RandomState state(random, robot.bodies.size(), GetParam());
+    std::vector<std::size_t> numbers;
+    number_bodies(robot, 0, numbers);
+    const MujocoModel m = mujoco_model(robot, numbers);
+    mjData& d = *m.data;
+    set_state(robot, numbers, state, d);
+    mj_forward(m.model.get(), &d);
+    std::vector<Pose> poses(numbers.size());
+    for (std::size_t n = 0; n < numbers.size(); ++n) {
+      const mjtNum *at = d.xpos + 3 * (n + 1), *o = d.xquat + 4 * (n + 1);
+      poses[numbers[n]] = {Vec3::Map(at), Quat(o[0], o[1], o[2], o[3])};
+    }
+    const int a = random.below(int(numbers.size())),
+              b = (a + 1 + random.below(int(numbers.size()) - 1)) % int(numbers.size());
+    const Vec3 point = random.uniform(0, 2) * random.direction();
+    using Rows = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor>;
+    Rows first(3, m.model->nv), second(3, m.model->nv), solved(3, m.model->nv);
+    mj_jac(m.model.get(), &d, first.data(), nullptr, point.data(), a + 1);
+    mj_jac(m.model.get(), &d, second.data(), nullptr, point.data(), b + 1);
+    const Rows jacobian = first - second;
+    mj_solveM(m.model.get(), &d, solved.data(), jacobian.data(), 3);
+    const Mat3 expected = jacobian * solved.transpose();
+    PointMobility mobility(robot);
+    mobility.set_poses(poses);
+    const Mat3 seen =
+        mobility.between(std::uint32_t(numbers[std::size_t(a)]), std::uint32_t(numbers[std::size_t(b)]), point);
+    EXPECT_LT((seen - expected).norm(), 1e-9 * expected.norm()) << "trial " << trial;
+  }
+}
 
 }  // namespace
 }  // namespace muro::articulated

@@ -4,8 +4,7 @@
 
 #include "muro/plugin.hpp"
 #include "muro/toolkit/accelerations.hpp"
-#include "plugins/common/position_drive/position_drive.hpp"
-#include "plugins/common/watch/parameters.hpp"
+#include "plugins/common/multibody/engine_parameters.hpp"
 
 namespace muro::articulated {
 
@@ -28,13 +27,14 @@ inline constexpr Parameter parameters[] = {
         .one_of(integrators),
     real("frequency", "Hz", 50, "stiffness of contacts: that of the robot bobbing on one of them").between(1, 1e4),
     real("correcting_speed", "m/s", 1, "bodies that are put into each other are parted no faster").between(0, 1e9),
+    multibody::self_collision,
     watch::watch,
     watch::watch_speed,
     watch::watch_depth,
 };
 inline constexpr PropertyUse reads[] = {
     {"wrench.external", "of the base and every body with collision shapes"},
-    {"contacts", "of the robot: those with scenery and with robots that no force moves"},
+    {"contacts", "of the robot: those with scenery, with robots that no force moves, and among its links"},
     {"gravity", "on the world object; 0 0 -9.81 when absent"},
     {"inertial", "of every body"},
     {"joint.velocity.target", "of joints in mode velocity, and in mode position where something writes it"},
@@ -43,8 +43,8 @@ inline constexpr PropertyUse reads[] = {
     {"joint.effort.target", "of joints in mode effort"},
     {"joint.drive.friction", "of joints in mode effort, where something writes it"},
     {"joint.drive.armature", "of joints in mode effort, where something writes it"},
-    {"pose", "of bodies of other robots"},
-    {"twist", "of bodies of other robots"},
+    {"pose", "of bodies of other robots; with `self_collision` of its own"},
+    {"twist", "of bodies of other robots; with `self_collision` of its own"},
     {"contact.world", "of other robots"},
     {"pose.initial", "of the base"},
     {"twist.initial", "of the base"},
@@ -59,6 +59,8 @@ inline constexpr PropertyUse writes[] = {
     {"joint.velocity", "of every joint"},
     {"joint.effort", "of every joint: what its drive applies"},
     {"contact.kept", "of the base: what contacts keep from step to step"},
+    {"contact.self.kept", "of the base, with `self_collision`: what contacts among links keep from step to step"},
+    {"self_collision", "of the base, with that parameter: that `contacts` is to have those among its links"},
     writes_acceleration,
     writes_joint_acceleration,
     {"wrench.contact", "of every body with collision shapes"},
@@ -84,7 +86,7 @@ inline constexpr Description description{
                 feature_joint_friction | feature_armature | feature_mimic_joints | feature_link_dynamics |
                 feature_gyroscopic | feature_contact | feature_friction | feature_restitution |
                 feature_rolling_resistance | feature_spinning_resistance | feature_convex_meshes |
-                feature_concave_meshes | feature_heightmaps | feature_fixed_base,
+                feature_concave_meshes | feature_heightmaps | feature_fixed_base | feature_self_collision,
 };
 
 }  // namespace muro::articulated

@@ -9,6 +9,7 @@
 #include "muro/toolkit/random.hpp"
 #include "plugins/common/contact_geometry/contact_responsibility.hpp"
 #include "plugins/common/contact_geometry/impact_path.hpp"
+#include "plugins/common/multibody/engine_parameters.hpp"
 #include "plugins/common/multibody/joint_target.hpp"
 #include "plugins/common/text/quote.hpp"
 #include "plugins/common/watch/robot_watch.hpp"
@@ -60,6 +61,7 @@ Robot::Robot(Connector& c, const RobotView& view, const Parameters& p, std::uint
   connect_links(c);
   connect_memory(c, view);
   contacts_ = RobotContacts(c, view, rigid_);
+  connect_self_contacts(c, view, p);
   if (rigid_.bodies.size() == 1 && !rigid_.fixed_base) impacts_ = contact_geometry::ImpactInput(c, view);
 }
 
@@ -124,7 +126,19 @@ void Robot::connect_memory(Connector& c, const RobotView& view) {
   targets_.resize(2 * joints_.size());
 }
 
+/// Of a robot with one link there are none.
+void Robot::connect_self_contacts(Connector& c, const RobotView& view, const Parameters& p) {
+  rigid_.self_collision = p.boolean(multibody::self_collision.name);
+  const auto has_shapes = [](const multibody::LoadedLink& link) { return link.has_shapes; };
+  if (!rigid_.self_collision || std::count_if(rigid_.loaded_links.begin(), rigid_.loaded_links.end(), has_shapes) < 2)
+    return;
+  self_contacts_ = SelfContacts(c, view, rigid_);
+  const double omega = 2 * M_PI * p.real("frequency");
+  self_contact_law_ = {rigid_.mass * omega * omega, p.real("correcting_speed")};
+}
+
 void Robot::connect_by_name(Connector& c, const RobotView& view) {
+  self_contacts_.connect_by_name(c, view, rigid_);
   has_contact_law_ = c.is_used(view.base(), keys::contact_wrenches_of_law, usage::derived);
   tells_contacts_ = c.is_used(view.base(), keys::contact_wrenches_of_motion, usage::read);
   for (std::size_t i = 0; i < links_.size(); ++i) {
@@ -182,6 +196,7 @@ bool Robot::interpolates() const { return !targets_.empty(); }
 
 void Robot::start() {
   contacts_.start();
+  self_contacts_.start();
   constexpr std::size_t of_a_link = 8;
   contact_wrenches_.resize(std::max(contact_wrenches_.size(), 6 * of_a_link * links_.size()));
   touching_links_.reserve(links_.size());
@@ -195,6 +210,7 @@ void Robot::take_over() {
   *contact_world_ = own_world_;
   *twist_lag_ = 0;
   contacts_.take_over();
+  self_contacts_.take_over();
   links_are_clear_ = false;
   for (const JointHandles& joint : joints_) joint.position_target.take_over();
   if (rigid_.fixed_base) *twist_ = Twist{};
@@ -204,6 +220,7 @@ void Robot::prepare(double dt) {
   start_ = pose_->position;
   if (interpolates()) advance_targets(dt);
   sum_wrenches();
+  add_self_contacts(dt);
   state_.contacts = contacts_.contacts().data();
   state_.contact_count = int(contacts_.contacts().size());
   if (contact_wrenches_.size() < 6 * contact_count()) contact_wrenches_.resize(2 * 6 * contact_count());
@@ -237,6 +254,14 @@ void Robot::sum_wrenches() {
   }
 }
 
+void Robot::add_self_contacts(double dt) {
+  self_contacts_.update(self_contact_law_, dt);
+  if (self_contacts_.contacts().empty()) return;
+  if (!state_.wrenches) std::fill(wrenches_.begin(), wrenches_.end(), 0.0);
+  state_.wrenches = wrenches_.data();
+  self_contacts_.add_to(wrenches_);
+}
+
 void Robot::take_impacts(const Step& step) {
   const ImpactCorrection* const correction = impacts_.begin_step(step);
   if (!correction) return;
@@ -268,16 +293,32 @@ void Robot::export_contacts() {
     const Wrench at_point{{n[0], n[1], n[2]}, {n[3], n[4], n[5]}};
     const std::uint32_t number = contacts_.loaded_link(i);
     const LoadedLink& link = links_[number];
-    link.contact->add_force(at_point.force, c.point - (number == 0 ? start_ : link.pose->position));
+    link.contact->add_force(at_point.force, c.point - origin_of(number));
     link.contact->torque += at_point.torque;
     if (touching_links_.empty() || touching_links_.back() != number) touching_links_.push_back(number);
     if (tells_contacts_) told_.push_back({c.self, c.other, c.point, c.normal, c.depth, at_point});
   }
+  export_self_contacts();
   if (!tells_applied_) return;
   for (const LoadedLink& link : links_) {
     if (!link.applied) continue;
     *link.applied = link.external.value();
     if (link.contact) *link.applied += *link.contact;
+  }
+}
+
+void Robot::export_self_contacts() {
+  const std::vector<SelfContact>& all = self_contacts_.contacts();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Contact& c = self_contacts_.contact(i);
+    const auto tell = [&](std::uint32_t number, const Vec3& force) {
+      links_[number].contact->add_force(force, c.point - origin_of(number));
+      if (std::find(touching_links_.begin(), touching_links_.end(), number) == touching_links_.end())
+        touching_links_.push_back(number);
+    };
+    tell(all[i].link, all[i].force);
+    tell(all[i].other_link, -all[i].force);
+    if (tells_contacts_) told_.push_back({c.self, c.other, c.point, c.normal, c.depth, {all[i].force, Vec3::Zero()}});
   }
 }
 

@@ -11,6 +11,7 @@
 #include "plugins/common/position_drive/drive_losses.hpp"
 #include "plugins/common/position_drive/position_target.hpp"
 #include "robot_contacts.hpp"
+#include "self_contacts.hpp"
 
 namespace muro::articulated {
 
@@ -74,11 +75,15 @@ class Robot {
   void connect_joints(Connector& c, const RobotView& view, const Parameters& p);
   void connect_links(Connector& c);
   void connect_memory(Connector& c, const RobotView& view);
+  void connect_self_contacts(Connector& c, const RobotView& view, const Parameters& p);
   void set_offsets();
   bool interpolates() const;
   void advance_targets(double dt);
   void sum_wrenches();
+  void add_self_contacts(double dt);
   void clear_contact_wrenches();
+  void export_self_contacts();
+  Vec3 origin_of(std::uint32_t link) const { return link == 0 ? start_ : links_[link].pose->position; }
 
   std::uint32_t level_;
   multibody::RobotModel rigid_;
@@ -103,6 +108,8 @@ class Robot {
   ListOut<ContactWrench> told_;
   Vec3 start_ = Vec3::Zero();  ///< m: where the base was when the step began
   RobotContacts contacts_;
+  SelfContacts self_contacts_;
+  SelfContacts::Law self_contact_law_;
   contact_geometry::ImpactInput impacts_;  ///< of a robot that is one free body
   std::vector<double> wrenches_;           ///< on bodies
   std::vector<double> contact_wrenches_;   ///< of contacts

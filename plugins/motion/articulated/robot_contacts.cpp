@@ -94,6 +94,7 @@ void RobotContacts::find(const TouchedBodies& bodies) {
   for (std::uint32_t i = 0; i < list.size(); ++i) {
     const Contact& c = list[i];
     const TouchedBodies::Touched& other = bodies[c.other];
+    if (other.pose && place_of(c.other)) continue;  // of two links: see self_contacts.hpp
     touches_robots_ = touches_robots_ || other.pose;
     if (other.world && is_moved_by_forces(*other.world)) continue;
     const LinkPlace* const link = place_of(c.self);
