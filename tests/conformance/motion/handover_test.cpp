@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/conformance/motion/case.hpp"
+#include "tests/support/files.hpp"
 #include "tests/support/wheeled_robot.hpp"
 
 namespace muro::conformance {
@@ -157,6 +158,61 @@ TEST_P(EveryHandOverOfABlock, MakesItABodyOrAnObstacleForOthers) {
   EXPECT_NEAR(s.twist(ball_).linear.x() + (moved ? s.twist(robot).linear.x() : 0), moved ? 1 : 0, 1e-9);
 }
 
+/// A box on the ground that holds an arm of 0.5 kg out, 0.1 m from its joint; moved by forces, or by motion.point.
+struct Porter : test::Scene {
+  const RobotView* robot;
+  test::ScratchFolder folder;
+
+  explicit Porter(const std::string& motion) {
+    add_ground();
+    robot =
+        &add("r", test::tree_of([](RobotBuilder& b) {
+               const Shape box = test::with(Shape::box({0.4, 0.4, 0.1}), 0.5);
+               b.base("box");
+               b.set(keys::inertial, solid_box(2, {0.4, 0.4, 0.1}));
+               b.set_array(keys::collision_shapes, std::span<const Shape>(&box, 1));
+               b.revolute("joint", Vec3::UnitY(), {.lower = -1, .upper = 1, .effort = 10});
+               b.body("arm");
+               b.set(keys::inertial, Inertia{.mass = 0.5, .com = {0.1, 0, 0}, .ixx = 1e-3, .iyy = 1e-3, .izz = 1e-3});
+             }),
+             {{0, 0, 0.05}, Quat::Identity()});
+    use(motion, 1000, {{robot, robot->base(), 0}}, {{"joints", std::string("position")}});
+    use("motion.point", 1000, {{robot, robot->base(), 1}});
+    set_levels(*robot, {"forces", "point"}, 0);
+    use("recorder.contacts", 1000, {}, {{"file", folder.path("contacts.csv")}});
+    use_contacts();
+    build();
+  }
+  void hand_over(std::int32_t level) { world().value(robot->base(), keys::motion_level_target) = level; }
+  double effort() { return world().value("r/joint", keys::joint_effort); }
+  bool has(const KeyInfo& key) { return world().store().find(robot->base(), key.name) != nullptr; }
+};
+
+class EveryMotionByForces : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(EveryMotionByForces, LeavesNoContactAndNoEffortBehind) {
+  Porter p(GetParam());
+  constexpr double weight = 2.5 * 9.81, load = 0.5 * 9.81 * 0.1;  // N, N m
+  for (int round = 0; round < 2; ++round) {
+    p.run_for(0.5);
+    EXPECT_NEAR(std::abs(p.effort()), load, 0.02 * load) << "it holds its arm, round " << round;
+    if (p.has(keys::contact_wrench)) {
+      EXPECT_NEAR(p.world().value(p.robot->base(), keys::contact_wrench).force.z(), weight, 0.02 * weight) << round;
+      EXPECT_FALSE(p.world().values(p.robot->base(), keys::contact_wrenches_of_motion).empty()) << round;
+    }
+    p.hand_over(1);
+    p.run_for(dt);
+    EXPECT_EQ(p.effort(), 0) << "no drive of motion.point has one";
+    if (p.has(keys::contact_wrench)) {
+      EXPECT_EQ(p.world().value(p.robot->base(), keys::contact_wrench).force, Vec3(0, 0, 0)) << round;
+      EXPECT_TRUE(p.world().values(p.robot->base(), keys::contact_wrenches_of_motion).empty()) << round;
+    }
+    p.run_for(0.1);
+    EXPECT_EQ(p.effort(), 0);
+    p.hand_over(0);
+  }
+}
+
 /// The rover, with these motions as levels, on a plane.
 using LevelList = std::vector<std::pair<std::string, std::map<std::string, ParameterInput>>>;
 struct Parked : test::Scene {
@@ -245,6 +301,19 @@ TEST(LevelsOfOneRobot, DoNotLetAnotherHaveTwoMotions) {
   }
 }
 
+/// Those by forces.
+std::vector<std::string> motions_by_forces() {
+  std::vector<std::string> some = motions();
+  std::erase_if(some, [](const std::string& id) { return (features_of(id) & feature_forces) == 0; });
+  return some;
+}
+
+INSTANTIATE_TEST_SUITE_P(Conformance, EveryMotionByForces, ::testing::ValuesIn(motions_by_forces()),
+                         [](const auto& test) {
+                           std::string name = test.param;
+                           std::replace(name.begin(), name.end(), '.', '_');
+                           return name;
+                         });
 INSTANTIATE_TEST_SUITE_P(Conformance, EveryHandOver, ::testing::ValuesIn(pairs_of(vehicle_motions())),
                          name_of_handover);
 INSTANTIATE_TEST_SUITE_P(Conformance, EveryHandOverOfABlock, ::testing::ValuesIn(pairs_of(block_motions())),
