@@ -79,7 +79,9 @@ class OdeMotion final : public multibody::Motion {
     if (settings_.exact) least.box_of = [this](const Shape& s) { return ode::box_around(s, *meshes_); };
     return least;
   }
-  std::size_t memory_of(const multibody::RobotModel& model) const override { return ode::OdeRobot::memory_of(model); }
+  std::size_t memory_of(const multibody::RobotModel& model) const override {
+    return ode::OdeRobot::memory_of(model, settings_.exact);
+  }
   void configure(Connector& c) override {
     const Parameters& p = c.parameters();
     settings_.gravity = gravity();

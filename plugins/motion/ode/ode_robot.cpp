@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "ode_robot.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "muro/toolkit/elementary.hpp"
@@ -40,7 +41,19 @@ bool is_normalized(const dReal* q) {
   return std::equal(normalized, normalized + 4, q);
 }
 
+/// Of a joint in mode effort, what drives it may bring a rotor.
+bool may_have_rotor(const RigidBody& body) {
+  return body.limits.armature > 0 ||
+         (body.joint != JointKind::fixed && body.drive == DriveMode::effort && body.leader < 0);
+}
+
 }  // namespace
+
+std::size_t OdeRobot::memory_of(const multibody::RobotModel& model, bool exact) {
+  const std::size_t count = model.bodies.size();
+  const bool rotors = !exact && std::any_of(model.bodies.begin(), model.bodies.end(), may_have_rotor);
+  return numbers * count + (rotors ? count : 0);
+}
 
 OdeRobot::OdeRobot(dWorldID world, dSpaceID space, const multibody::RobotModel& model, multibody::RobotState& state,
                    std::int32_t number, std::deque<GeomOwner>& owners, const OdeMeshes& meshes,
@@ -51,6 +64,7 @@ OdeRobot::OdeRobot(dWorldID world, dSpaceID space, const multibody::RobotModel& 
       state_(&state),
       settings_(settings),
       rotates_exactly_(settings.exact_attitude && model.bodies.size() == 1 && !model.fixed_base),
+      keeps_rotors_(memory_of(model, settings.exact) > memory_of(model, true)),
       body_states_(model.bodies.size()) {
   multibody::RobotState zero;  // joints are made where all of them are at 0
   zero.joints.resize(model.bodies.size());
@@ -110,8 +124,8 @@ void OdeRobot::add_joint(std::size_t number) {
   if (!b.only_rotates) bodies_[std::size_t(body.parent)].only_rotates = false;
   // At a stop, the motor of a hinge or slider of ODE gives all its effort whatever the speed: it needs one of its own.
   if (std::isfinite(body.limits.lower) || std::isfinite(body.limits.upper)) b.drive = create_motor(number, axis);
-  const bool may_have_rotor = body.limits.armature > 0 || (body.drive == DriveMode::effort && body.leader < 0);
-  if (damping > 0 || may_have_rotor) b.damper = create_motor(number, axis);
+  if (damping > 0 || may_have_rotor(body)) b.damper = create_motor(number, axis);
+  if (keeps_rotors_ && may_have_rotor(body)) dJointSetFeedback(b.damper, &b.of_damper);
   if (damping > 0) {
     const auto set = body.joint == JointKind::revolute ? &dJointSetAMotorParam : &dJointSetLMotorParam;
     set(b.damper, dParamFMax, dInfinity);
@@ -220,23 +234,39 @@ void OdeRobot::import() {
   if (motion_type_ != MotionType::dynamic) return;
   set_forces();
   for (std::size_t i = 1; i < bodies_.size(); ++i) {
+    if (keeps_rotors_ && state_->moved_from_outside) rotor_speed(i) = state_->joints[i].velocity;
     set_drive_target(i);
     const double armature = model_->bodies[i].limits.armature + state_->joints[i].drive_armature;
     if (armature != 0 || bodies_[i].armature != 0) set_rotor(i, armature);
   }
 }
 
-/// A rotor (kg m^2 or kg) is a damper against the present velocity, of armature / dt: it takes the impulse
-/// armature (v - v') within the step, whatever drives the joint.
+/// A rotor (kg m^2 or kg) is a damper against its present speed, of armature / dt: it takes the impulse
+/// armature (v - v') within the step, whatever drives the joint. With iterations, which do not end where joint and
+/// rotor have one speed, it keeps its own: what they leave would else be energy that the rotor gets from nothing.
 void OdeRobot::set_rotor(std::size_t number, double armature) {
   OdeBody& b = bodies_[number];
   const RigidBody& body = model_->bodies[number];
   const double rotor = armature / dt_, damping = body.limits.damping + rotor;
   const auto set = body.joint == JointKind::revolute ? &dJointSetAMotorParam : &dJointSetLMotorParam;
-  set(b.damper, dParamVel, damping > 0 ? state_->joints[number].velocity * (rotor / damping) : 0);
+  const double speed = keeps_rotors_ ? rotor_speed(number) : state_->joints[number].velocity;
+  b.damper_speed = damping > 0 ? speed * (rotor / damping) : 0;
+  b.damper_cfm = damping > 0 ? 1 / damping : 0;
+  set(b.damper, dParamVel, b.damper_speed);
   set(b.damper, dParamFMax, damping > 0 ? dInfinity : 0);
-  if (damping > 0) set(b.damper, dParamCFM, 1 / damping);
+  if (damping > 0) set(b.damper, dParamCFM, b.damper_cfm);
   b.armature = armature;
+}
+
+double& OdeRobot::rotor_speed(std::size_t number) const { return state_->memory[numbers * bodies_.size() + number]; }
+
+/// rad/s or m/s, after the step: that which the effort of its damper leaves it.
+double OdeRobot::speed_of_rotor(std::size_t number) const {
+  const OdeBody& b = bodies_[number];
+  if (b.armature == 0) return state_->joints[number].velocity;
+  const RigidBody& body = model_->bodies[number];
+  const Vec3 effort = vector_of(body.joint == JointKind::revolute ? b.of_damper.t1 : b.of_damper.f1);
+  return b.damper_speed - b.damper_cfm * Vec3(b.start * body.axis).dot(effort);
 }
 
 void OdeRobot::set_bodies_from_state() {
@@ -345,7 +375,10 @@ void OdeRobot::export_state(double dt) {
     state_->pose = body_states_[0].pose;
     state_->twist = body_states_[0].twist;
   }
-  for (std::size_t i = 1; i < bodies_.size(); ++i) export_joint(i, dt);
+  for (std::size_t i = 1; i < bodies_.size(); ++i) {
+    export_joint(i, dt);
+    if (keeps_rotors_) rotor_speed(i) = speed_of_rotor(i);
+  }
 }
 
 /// ODE has changed the spin by torques alone; what it has made of the orientation is replaced.

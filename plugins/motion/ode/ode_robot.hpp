@@ -11,8 +11,9 @@ namespace muro::ode {
 
 class OdeRobot {
  public:
-  /// How many numbers a robot keeps from step to step: poses and velocities of its bodies.
-  static std::size_t memory_of(const multibody::RobotModel& model) { return numbers * model.bodies.size(); }
+  /// How many numbers a robot keeps from step to step: poses and velocities of its bodies; with iterations, speeds of
+  /// its rotors.
+  static std::size_t memory_of(const multibody::RobotModel& model, bool exact);
 
   /// `space`: for its geoms. `owners`: those of all geoms of the world, to which it adds its own.
   OdeRobot(dWorldID world, dSpaceID space, const multibody::RobotModel& model, multibody::RobotState& state,
@@ -46,6 +47,8 @@ class OdeRobot {
     dJointID drive = nullptr;                      ///< of a joint with stops; none: `joint` drives itself
     dJointID damper = nullptr;                     ///< none where there is neither damping nor a rotor
     double armature = 0;                           ///< kg m^2 or kg: what the damper was told last
+    double damper_speed = 0, damper_cfm = 0;       ///< likewise
+    dJointFeedback of_damper{};                    ///< where the speed of a rotor is kept
     double velocity = 0, max_effort = 0, cfm = 0;  ///< what the drive was told last
     double least_cfm = 0;                          ///< of the joint: see OdeSettings::softness
     Quat start = Quat::Identity();                 ///< orientation when the step began
@@ -64,6 +67,8 @@ class OdeRobot {
   void set_forces();
   void set_drive_target(std::size_t body);
   void set_rotor(std::size_t body, double armature);
+  double& rotor_speed(std::size_t body) const;
+  double speed_of_rotor(std::size_t body) const;
   static void set_stops(const OdeBody& body, JointKind kind, double low, double high);
   void set_near_stops(std::size_t body) const;
   multibody::BodyState body_state_of(std::size_t body) const;
@@ -77,6 +82,7 @@ class OdeRobot {
   OdeSettings settings_;
   double dt_ = 0;                 ///< s, of a step
   bool rotates_exactly_ = false;  ///< see OdeSettings::exact_attitude
+  bool keeps_rotors_ = false;     ///< their speeds are in the memory
   multibody::MotionType motion_type_ = multibody::MotionType::dynamic;
   std::deque<OdeBody> bodies_;        ///< one per body
   bool bodies_match_memory_ = false;  ///< they are where the memory says

@@ -97,6 +97,70 @@ TEST(OdeSolver, LightLinksFarFromTheBodyThatHoldsThemStayOnIt) {
   EXPECT_LT(s.twist(r).linear.norm(), 0.1);
 }
 
+/// A box of 1 kg with three arms of 12 g, whose servos have rotors with a thousand times the inertia of an arm.
+RobotTree servos() {
+  return test::tree_of([](RobotBuilder& b) {
+    const Shape box = Shape::box({0.1, 0.1, 0.1});
+    b.base("box");
+    b.set(keys::inertial, Inertia{.mass = 1, .ixx = 0.003, .iyy = 0.003, .izz = 0.003});
+    b.set_array(keys::collision_shapes, std::span<const Shape>(&box, 1));
+    const Vec3 axes[] = {Vec3::UnitZ(), Vec3::UnitY(), Vec3::UnitX()};
+    for (int i = 0; i < 3; ++i) {
+      b.fork();
+      b.translation({0.05 * (i - 1), 0.02, 0.06});
+      b.revolute("joint_" + std::to_string(i), axes[i],
+                 {.lower = -1, .upper = 1, .velocity = 5, .effort = 4, .damping = 0.004, .armature = 0.003});
+      b.body("arm_" + std::to_string(i));
+      Inertia inertia{.mass = 0.012, .ixx = 3e-6, .iyy = 3e-6, .izz = 3e-6};
+      inertia.com = {0.03, 0, 0};
+      b.set(keys::inertial, inertia);
+      b.end();
+    }
+    for (int i = 0; i < 3; ++i) b.end();
+  });
+}
+
+struct Servos : test::Scene {
+  explicit Servos(const char* solver, const char* joints, double height) {
+    add_ground(0.8);
+    robot = &add("r", servos(), {{0, 0, height}, Quat::Identity()});
+    use("motion.ode", 1000, all_robots(), {{"solver", std::string(solver)}, {"joints", std::string(joints)}});
+    use_contacts();
+    build();
+  }
+  double& joint(int i, const Key<double>& key) { return world().value("r/joint_" + std::to_string(i), key); }
+  double fastest_joint() {
+    double fastest = 0;
+    for (int i = 0; i < 3; ++i) fastest = std::max(fastest, std::abs(joint(i, keys::joint_velocity)));
+    return fastest;
+  }
+  const RobotView* robot = nullptr;
+};
+
+TEST(OdeSolver, IterationsGiveHeavyRotorsNoEnergy) {
+  const double all_in_one = std::sqrt(2 * 1.036 * 9.81 * 0.05 / 0.003);  // rad/s: of a rotor, by a fall of 5 cm
+  for (const char* joints : {"velocity", "passive"}) {
+    Servos s("quick", joints, 0.1);
+    for (int k = 0; k < 200; ++k) {
+      s.run_for(0.01);
+      ASSERT_LT(s.fastest_joint(), all_in_one) << joints;
+      ASSERT_LT(s.twist(*s.robot).linear.norm(), 1.1) << joints;
+    }
+    EXPECT_LT(s.fastest_joint(), 0.02) << joints;
+    EXPECT_NEAR(s.pose(*s.robot).position.z(), 0.05, 1e-3) << joints;
+  }
+}
+
+TEST(OdeSolver, IterationsMoveHeavyRotorsAsTheExactSolverDoes) {
+  Servos quick("quick", "effort", 5), exact("exact", "effort", 5);
+  for (Servos* s : {&quick, &exact}) {
+    for (int i = 0; i < 3; ++i) s->joint(i, keys::joint_effort_target) = 0.004 * (i + 1);
+    s->run_for(0.5);
+  }
+  for (int i = 0; i < 3; ++i)
+    EXPECT_NEAR(quick.joint(i, keys::joint_position) / exact.joint(i, keys::joint_position), 1, 5e-3) << i;
+}
+
 TEST(OdeSolver, TheSoftnessOfContactIsThatOfTheMass) {
   // Each of four corners carries m g / 4 with the effective mass m / 4: erp depth / h = softness h (4 / m) (m g / 4).
   for (const double mass : {1e-3, 1.0, 1e3, 1e6}) {

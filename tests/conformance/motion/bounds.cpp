@@ -27,8 +27,6 @@ constexpr Exception exceptions[] = {
      "speeds up evenly within its first step: behind by half of it"},
     {"motion.simplified", "joints without mass integrate targets of velocity", 2.1e-4,
      "speeds up evenly within its first step: behind by half of it"},
-    {"motion.ode", "drives speed a rover up with its rotors", 2e-2,
-     "50 iterations do not converge where rotors have 23 times the inertia of their wheels"},
     {"motion.ode", "a rover parks on 30 deg when tan is below mu", 1e-3, "50 iterations do not converge"},
 };
 
