@@ -19,6 +19,8 @@ const std::vector<Expectation>& all() {
       {.robot = "ghost", .end = End::falls},
       {.robot = "limits", .without_effort = {"no_effort"}},
       {.robot = "meshes", .on_meshes = true},
+      // Its calves cannot be straight, so its rear feet are 3 cm behind its centre of mass: the impact throws it over.
+      {.robot = "quadruped_a1", .end = End::topples},
       {.robot = "rope", .end = End::balances, .long_chain = true},
       {.robot = "scales", .hold = 0.2},  // 0.01 N m against whiskers on a boom that stops from 1 m/s
       {.robot = "scara", .end = End::topples},
@@ -60,6 +62,9 @@ constexpr Exception exceptions[] = {
     {Check::impact, "simplified", "biped", 0.05, own_springs},
     {Check::ground, "simplified", "quadruped", 0.012, own_springs},
     {Check::impact, "simplified", "quadruped", 0.04, own_springs},
+    {Check::impact, "simplified", "quadruped_a1", 0.02, own_springs},
+    {Check::ground, "simplified", "humanoid", 0.004, own_springs},
+    {Check::impact, "simplified", "humanoid", 0.03, own_springs},
     {Check::ground, "simplified", "lander", 0.012, own_springs},
     {Check::impact, "simplified", "lander", 0.03, own_springs},
     {Check::impact, "simplified", "scales", 0.02, own_springs},
@@ -72,6 +77,11 @@ constexpr Exception exceptions[] = {
     {Check::ground, "mujoco", "lander", 0.006, soft_links},
     {Check::height, "mujoco", "lander", 0.009, soft_links},
     {Check::limits, "ode", "scales", 0.04, "whiskers of 1e-7 kg m^2 reach their stops with 20 rad/s and more"},
+    {Check::limits, "articulated", "scales", 0.015,
+     "whiskers of 0.1 g between the ground and their stops take more than the six trials of a step: 5 rad/s pass a "
+     "stop "
+     "for two or three steps"},
+    {Check::tilt, "ode_quick", "humanoid", infinity, "it falls over by what 50 iterations leave; 200 hold it"},
     {Check::rest, "ode_quick", "caster_base", 0.025, "its casters turn while 50 iterations hold it on its wheels"},
     {Check::rest, "bullet", "forklift", 0.05, "its rear wheel creeps by 2 mm/s under 2 t"},
     {Check::hold, "bullet", "biped", 0.4, "it leans, and its ankles turn by 0.15 rad/s"},

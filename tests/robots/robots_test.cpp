@@ -135,6 +135,17 @@ std::vector<std::string> all_files() {
 INSTANTIATE_TEST_SUITE_P(Descriptions, EveryRobot, ::testing::ValuesIn(all_files()),
                          [](const auto& test) { return robot_of(test.param); });
 
+TEST(QuadrupedA1, StandsWhereItIsPutDownGentlyInEveryMotion) {
+  const std::string file = std::string(folders[1]) + "/quadruped_a1.urdf";
+  for (const Variant& v : variants()) {
+    const Observations seen = run({.file = file, .motion = v.motion, .more = v.more, .clearance = 0});
+    EXPECT_EQ(seen.refused + seen.failure, "") << v.name;
+    if (v.name == "ode_quick") continue;  // see expectations.cpp
+    EXPECT_LT(seen.tilt, 5e-3) << v.name;
+    EXPECT_NEAR(seen.fall, 0, 2e-3) << v.name;
+  }
+}
+
 TEST(Descriptions, HaveNamesOfTheirOwn) {
   std::set<std::string> names;
   for (const std::string& file : all_files()) names.insert(robot_of(file));

@@ -10,7 +10,7 @@ namespace muro::robots {
 
 namespace {
 
-constexpr double g = 9.81, clearance = 0.05, rate = 1000, sampling_interval = 0.01;
+constexpr double g = 9.81, rate = 1000, sampling_interval = 0.01;
 
 class Trial {
  public:
@@ -25,7 +25,7 @@ class Trial {
     start_ = start_positions(tree_);
     const double lowest = lowest_point(solids_, poses_of(tree_, {}, start_), true);
     Pose pose;
-    pose.position.z() = std::isfinite(lowest) ? clearance - lowest : 1;
+    pose.position.z() = std::isfinite(lowest) ? settings_.clearance - lowest : 1;
     robot_ = &scene_.add("robot", tree_, pose);
     for (std::size_t i = 0; i < start_.size(); ++i) {
       const Link& link = robot_->links[i];

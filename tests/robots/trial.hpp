@@ -18,6 +18,7 @@ struct TrialSettings {
   bool passive = false;  ///< nothing drives a joint; else they are in their default mode, with zero velocity targets
   double duration = 2;   ///< s
   std::map<std::string, ParameterInput> more{};  ///< parameters; those that the motion does not have are left out
+  double clearance = 0.05;                       ///< m, above the plane at the start
 };
 
 /// What the joint of one link did.
@@ -47,7 +48,7 @@ struct Observations {
   std::vector<JointObservation> joints{};
 };
 
-/// Puts the robot 5 cm above a plane, joints as near to 0 as limits allow, and runs it at 1000 Hz.
+/// Puts the robot above a plane, joints as near to 0 as limits allow, and runs it at 1000 Hz.
 Observations run(const TrialSettings& settings);
 
 /// Motions in which forces and contacts move robots, by id.
