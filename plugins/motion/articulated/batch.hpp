@@ -11,7 +11,7 @@ namespace muro::articulated {
 struct KernelContact {
   const double* place = nullptr;    ///< point, normal, depth: m, world
   const double* surface = nullptr;  ///< friction, restitution, resistance to rolling and to spinning
-  double* kept = nullptr;           ///< displacement (m), turn (rad), load (N), as KeptContact
+  double* kept = nullptr;           ///< displacement (m), load (N), turn (rad), as KeptContact
   const double* other = nullptr;    ///< velocity of what it touches at the point, and its spin; null: it does not move
   int body = 0;
   bool resists_turning = false;
@@ -39,7 +39,7 @@ struct RobotState {
   const KernelContact* contacts = nullptr;  ///< by body, in rising order
   int contact_count = 0;
   const double* wrenches = nullptr;    ///< force and torque on each body at its origin, world axes; null: none
-  double* contact_wrenches = nullptr;  ///< out: force and torque of each contact at its point; null: not wanted
+  double* contact_wrenches = nullptr;  ///< out: force and torque of each contact at its point
 };
 
 /// What all robots of a call share.

@@ -42,6 +42,7 @@ struct TurningPoint {
 template <class S>
 struct ContactLaw {
   S stiffness, damping;  ///< N/m, N s/m: along the normal, and of the friction spring and the damper beside it
+  S held;                ///< N s/m: damping + dt stiffness
   S mass;                ///< kg, of the robot
   S impact_speed;        ///< m/s: what comes faster rebounds
   S hard_speed;          ///< m/s: what comes faster is stopped at once
@@ -56,12 +57,15 @@ struct ContactStep {
   V3<S> start;      ///< N: force without acceleration
   S along, across;  ///< kg: K = across (1 - t t') + along n n' where it slides, else across 1 + (along - across) n n'
   V3<S> slide;      ///< unit, the direction t in which it slides; 0 where it sticks
+  bool slides;      ///< some do
   V3<S> torque;     ///< N m: against rolling and spinning, without acceleration
   S rolling, spinning;  ///< kg m^2: the same of these
 
   /// N, of the end of the step. `a`: m/s^2, of the point.
   MURO_INLINE V3<S> force(const V3<S>& normal, const V3<S>& a) const {
-    return start - (across * (a - dot(slide, a) * slide) + ((along - across) * dot(normal, a)) * normal);
+    V3<S> change = a;
+    if (slides) change = select(dot(slide, slide) > S(0), a - dot(slide, a) * slide, a);
+    return start - (across * change + ((along - across) * dot(normal, a)) * normal);
   }
   /// N m, of the end of the step. `alpha`: rad/s^2, of the body.
   MURO_INLINE V3<S> moment(const V3<S>& normal, const V3<S>& alpha) const {
@@ -75,17 +79,21 @@ struct BoundedSpring {
   V3<S> force;  ///< at the begin of the step, with the spring of its end
   S per_rate;   ///< change of the force by that of the velocity within the step
   V3<S> slide;  ///< unit: the direction of the velocity along which the force does not change; 0 for none
+  bool slides;  ///< in some robot: `slide` is not 0
 
-  /// `slides_on` is 1 where the velocity keeps its direction, and the force its size therefore.
-  MURO_INLINE BoundedSpring(const V3<S>& displacement, const V3<S>& rate, S stiffness, S damping, S limit, S slides_on,
-                            double dt) {
-    const S h(dt);
-    const V3<S> hold = stiffness * (displacement + h * rate) + damping * rate;
+  /// `slides_on` is 1 where the velocity keeps its direction, and the force its size therefore; `held`: damping + dt
+  /// stiffness; `counts`: where the result is used.
+  MURO_INLINE BoundedSpring(const V3<S>& displacement, const V3<S>& rate, S stiffness, S held, S limit, S slides_on,
+                            MaskOf<S> counts) {
+    const V3<S> hold = stiffness * displacement + held * rate;
     const MaskOf<S> is_bounded = limit > S(0), is_small = dot(hold, hold) <= limit * limit;
-    const auto holds = is_bounded & is_small;
+    const MaskOf<S> holds = (is_bounded & is_small) | !counts;
+    slide = {S(0), S(0), S(0)}, per_rate = held, force = -hold;
+    slides = lane::bits(holds) != lane::all_lanes<S>;
+    if (!slides) return;
     const S by_speed = S(1) / sqrt(max(dot(rate, rate), S(1e-12))), secant = limit * by_speed;
     slide = rate * select(holds, S(0), slides_on * by_speed);
-    per_rate = select(holds, damping + h * stiffness, secant);
+    per_rate = select(holds, held, secant);
     force = -select(holds, hold, secant * rate);
   }
 };
@@ -125,67 +133,72 @@ MURO_INLINE void add_terms(const ContactPoint<S>& p, const ContactStep<S>& c, In
   to.B.y += V3<S>{b.y * p.normal.x + x * r.z, b.y * p.normal.y, b.y * p.normal.z - x * r.x};
   to.B.z += V3<S>{b.z * p.normal.x - x * r.y, b.z * p.normal.y + x * r.x, b.z * p.normal.z};
   add_about(to.C, c.across, c.along, p.normal);
-  if (lane::any(dot(c.slide, c.slide) > S(0))) take_along(r, c.slide, x, to);
+  if (c.slides) take_along(r, c.slide, x, to);
   to.f -= c.start;
   to.n -= cross(r, c.start);
 }
 
 /// N: of spring and damper along the normal. `speed`: m/s, away from what is touched.
 template <class S>
-MURO_INLINE S soft_push(const ContactPoint<S>& p, const ContactLaw<S>& law, S speed, double dt) {
+MURO_INLINE S soft_push(const ContactPoint<S>& p, const ContactLaw<S>& law, S speed) {
   // what is deep in is parted faster
   constexpr double least = 0.04, depth_at_full_speed = 0.1;  // m
   const S part = max(min(p.depth * S(1 / depth_at_full_speed), S(1)), S(least));
-  return law.stiffness * (min(p.depth, max(part * law.most_depth, law.least_cap)) - S(dt) * speed) -
-         law.damping * speed;
+  return law.stiffness * min(p.depth, max(part * law.most_depth, law.least_cap)) - law.held * speed;
 }
 
 /// Whether a point pushes: it is in, and not on its way out faster than its spring and damper, or after a rebound.
+/// `push`: as soft_push says.
 template <class S>
-MURO_INLINE MaskOf<S> pushes(const ContactPoint<S>& p, const ContactLaw<S>& law, S speed, double dt) {
-  const S push = soft_push(p, law, speed, dt);
-  const auto rebounds = (p.restitution > S(0)) & (speed + p.pushed > law.impact_speed);
-  const auto is_hit = (p.restitution > S(0)) & (speed + p.pushed < -law.impact_speed);
-  return (p.depth > S(0)) & ((push > S(0)) | is_hit) & !rebounds;
+MURO_INLINE MaskOf<S> pushes(const ContactPoint<S>& p, const ContactLaw<S>& law, S speed, S push) {
+  const MaskOf<S> is_in = p.depth > S(0), is_elastic = p.restitution > S(0);
+  if (!lane::any(is_elastic)) return is_in & (push > S(0));
+  const auto rebounds = is_elastic & (speed + p.pushed > law.impact_speed);
+  const auto is_hit = is_elastic & (speed + p.pushed < -law.impact_speed);
+  return is_in & ((push > S(0)) | is_hit) & !rebounds;
 }
 
 /// N: what the normal force may be, for friction of a point whose last one is not known.
 template <class S>
-MURO_INLINE S expected_load(const ContactPoint<S>& p, const ContactLaw<S>& law, S speed, double dt) {
-  const S push = soft_push(p, law, speed, dt);
+MURO_INLINE S expected_load(const ContactPoint<S>& p, const ContactLaw<S>& law, S speed, S push, double dt) {
   return max(min(push, law.mass * S(1 / dt) * max(-speed, S(0)) + law.stiffness * p.depth), S(0));
 }
 
-/// `w`, `v`: velocity of the body; `fall`: gravity in its frame, since accelerations count from it; `dt`: s. The way
-/// from the body's origin to the point counts as one that does not turn, as that of what rolls: its material points
-/// have an acceleration towards the centre, its point of contact has none.
+/// `own`: m/s, of the point on the body; `more`: m/s^2, cross(w, v) of the body and gravity, in its frame, since
+/// accelerations count from them; `dt`: s. The way from the body's origin to the point counts as one that does not
+/// turn, as that of what rolls: its material points have an acceleration towards the centre, its point of contact has
+/// none.
 template <class S>
-MURO_INLINE ContactStep<S> touch(const ContactPoint<S>& p, const ContactLaw<S>& law, const V3<S>& w, const V3<S>& v,
-                                 const V3<S>& fall, double dt) {
-  const S h(dt);
-  const V3<S> own = v + cross(w, p.arm), velocity = own - p.velocity;
+MURO_INLINE ContactStep<S> touch(const ContactPoint<S>& p, const ContactLaw<S>& law, const V3<S>& own,
+                                 const V3<S>& more, double dt) {
+  const S h(dt), zero(0);
+  const V3<S> velocity = own - p.velocity, none{zero, zero, zero};
   const S speed = dot(velocity, p.normal);
-  // along: spring and damper; an impact reaches the velocity of its rebound, whatever it takes
-  const S approach = speed + p.pushed;
-  const auto is_impact = ((p.restitution > S(0)) & (approach < -law.impact_speed)) | (approach < -law.hard_speed);
-  constexpr double hardness = 1e4;
-  const S impact_damping = S(hardness / dt) * law.mass;
-  S push = soft_push(p, law, speed, dt);
-  push = select(is_impact, -impact_damping * (speed + p.restitution * approach), push);
-  const S along = p.is_on * select(is_impact, h * impact_damping, h * (law.damping + h * law.stiffness));
-  const V3<S> slip = velocity - speed * p.normal;
-  BoundedSpring<S> hold(p.displacement, slip, law.stiffness, law.damping, p.friction * p.load, p.slides_on, dt);
-  const auto breaks_away = p.breaks_away > S(0);
-  hold.force = select(breaks_away, -p.drag * slip, hold.force);
-  hold.per_rate = select(breaks_away, p.drag, hold.per_rate);
-  hold.slide = select(breaks_away, S(0) * slip, hold.slide);
+  const MaskOf<S> is_on = p.is_on > zero;
   ContactStep<S> c;
-  c.along = along, c.across = p.is_on * h * hold.per_rate;
-  const V3<S> more = cross(w, v) + fall;
-  const V3<S> force = p.is_on * (push * p.normal + hold.force);
-  c.slide = hold.slide, c.start = force;
+  // along: spring and damper; an impact reaches the velocity of its rebound, whatever it takes
+  S push = soft_push(p, law, speed), along = h * law.held;
+  const S approach = speed + p.pushed;
+  const auto is_impact = ((p.restitution > zero) & (approach < -law.impact_speed)) | (approach < -law.hard_speed);
+  if (lane::any(is_impact)) {
+    constexpr double hardness = 1e4;
+    const S impact_damping = S(hardness / dt) * law.mass;
+    push = select(is_impact, -impact_damping * (speed + p.restitution * approach), push);
+    along = select(is_impact, h * impact_damping, along);
+  }
+  const V3<S> slip = velocity - speed * p.normal;
+  BoundedSpring<S> hold(p.displacement, slip, law.stiffness, law.held, p.friction * p.load, p.slides_on, is_on);
+  const MaskOf<S> breaks_away = p.breaks_away > zero;
+  if (lane::any(breaks_away)) {
+    hold.force = select(breaks_away, -p.drag * slip, hold.force);
+    hold.per_rate = select(breaks_away, p.drag, hold.per_rate);
+    hold.slide = select(breaks_away, none, hold.slide);
+  }
+  c.along = select(is_on, along, zero), c.across = select(is_on, h * hold.per_rate, zero);
+  c.slide = hold.slide, c.slides = hold.slides;
+  c.start = select(is_on, push * p.normal + hold.force, none);
   c.start = c.force(p.normal, more);
-  c.torque = {S(0), S(0), S(0)}, c.rolling = c.spinning = S(0);
+  c.torque = none, c.rolling = c.spinning = zero;
   return c;
 }
 
@@ -193,11 +206,12 @@ MURO_INLINE ContactStep<S> touch(const ContactPoint<S>& p, const ContactLaw<S>& 
 template <class S>
 MURO_INLINE void resist(const ContactPoint<S>& p, const TurningPoint<S>& t, const ContactLaw<S>& law, const V3<S>& w,
                         double dt, ContactStep<S>& c, Inertia<S>& to) {
-  const S h(dt), square = law.radius * law.radius, stiffness = law.stiffness * square, damping = law.damping * square;
+  const S h(dt), square = law.radius * law.radius, stiffness = law.stiffness * square, held = law.held * square;
+  const MaskOf<S> is_on = p.is_on > S(0);
   const V3<S> rate = w - p.spin, about = dot(rate, p.normal) * p.normal, across = rate - about;
   const V3<S> wound = dot(t.displacement, p.normal) * p.normal, rolled = t.displacement - wound;
-  const BoundedSpring<S> roll(rolled, across, stiffness, damping, t.rolling * p.load, S(0), dt),
-      spin(wound, about, stiffness, damping, t.spinning * p.load, S(0), dt);
+  const BoundedSpring<S> roll(rolled, across, stiffness, held, t.rolling * p.load, S(0), is_on),
+      spin(wound, about, stiffness, held, t.spinning * p.load, S(0), is_on);
   c.torque = p.is_on * (roll.force + spin.force);
   c.rolling = p.is_on * h * roll.per_rate, c.spinning = p.is_on * h * spin.per_rate;
   add_about(to.A, c.rolling, c.spinning, p.normal);

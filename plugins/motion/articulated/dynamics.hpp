@@ -5,7 +5,6 @@
 #pragma once
 
 #include "muro/simd/rows.hpp"
-#include "muro/simd/trig.hpp"
 #include "spatial.hpp"
 #include "structure.hpp"
 
@@ -57,17 +56,12 @@ struct Masses {
   }
 };
 
-/// (w x e_K) s, and the like: two components.
-template <int K, class S>
-MURO_INLINE void add_across(V3<S>& to, const V3<S>& v, S s) {
-  at<K + 1>(to) += at<K + 2>(v) * s;
-  at<K + 2>(to) -= at<K + 1>(v) * s;
-}
+// A body is `plain` whose joint is a hinge and that is parallel to its parent at joint position 0, as most are.
 
-template <class S>
+template <bool plain, class S>
 MURO_INLINE V3<S> offset_of(const Body& b, S q) {
   V3<S> o = splat<S>(b.offset);
-  if (b.slides) o += splat<S>(b.turn + 3 * b.axis) * q;
+  if (!plain && b.slides) o += splat<S>(b.turn + 3 * b.axis) * q;
   return o;
 }
 template <class S>
@@ -76,75 +70,113 @@ MURO_INLINE M3<S> turn_of(const Body& b) {
 }
 
 /// A spatial vector (angular w, linear v) of the parent in the frame of a body.
-template <int K, class S>
+template <int K, bool plain, class S>
 MURO_INLINE void into_body(const Body& b, const BodyStep<S>& own, V3<S>& w, V3<S>& v) {
-  if (b.shifted || b.slides) v += cross(w, offset_of(b, own.q));
-  if (b.turned) w = into(turn_of<S>(b), w), v = into(turn_of<S>(b), v);
-  if (!b.slides) w = into<K>(own.turn, w), v = into<K>(own.turn, v);
+  if (b.shifted || (!plain && b.slides)) v += cross(w, offset_of<plain>(b, own.q));
+  if (!plain && b.turned) w = into(turn_of<S>(b), w), v = into(turn_of<S>(b), v);
+  if (plain || !b.slides) w = into<K>(own.turn, w), v = into<K>(own.turn, v);
 }
 
-/// Velocity and pose of a body from those of its parent.
-template <int K, class S>
-[[gnu::noinline]] void place(const Body& b, BodyStep<S>* bodies, int i) {
+/// Velocity of a body from that of its parent, and how its joint turns it.
+template <int K, bool plain, class S>
+MURO_INLINE void find_velocity(const Body& b, BodyStep<S>* bodies, int i) {
   BodyStep<S>& own = bodies[i];
   const BodyStep<S>& parent = bodies[b.parent];
-  if (!b.slides) {
-    const auto sc = lane::sincos(own.q);
-    own.turn = {sc.cos, sc.sin};
-  }
-  own.w = parent.w, own.v = parent.v;
-  into_body<K>(b, own, own.w, own.v);
-  at<K>(b.slides ? own.v : own.w) += own.qd;
-  own.origin = parent.origin;
-  if (b.shifted || b.slides) own.origin += parent.axes * offset_of(b, own.q);
-  own.axes = parent.axes;
-  if (b.turned) own.axes = own.axes * turn_of<S>(b);
-  if (b.slides) return;
-  M3<S>& m = own.axes;
-  const V3<S> i1 = pick<K + 1>(m.x, m.y, m.z), j1 = pick<K + 2>(m.x, m.y, m.z);
-  pick<K + 1>(m.x, m.y, m.z) = i1 * own.turn.c + j1 * own.turn.s;
-  pick<K + 2>(m.x, m.y, m.z) = j1 * own.turn.c - i1 * own.turn.s;
+  if (plain || !b.slides) own.turn = turn_by(own.q);
+  V3<S> w = parent.w, v = parent.v;
+  into_body<K, plain>(b, own, w, v);
+  if (plain || !b.slides)
+    at<K>(w) += own.qd;
+  else
+    at<K>(v) += own.qd;
+  own.w = w, own.v = v;
 }
 
-/// The inertia of a body alone, and the wrench it needs at its velocity.
+/// Pose of a body in the world from that of its parent.
+template <int K, bool plain, class S>
+MURO_INLINE void find_pose(const Body& b, BodyStep<S>* bodies, int i) {
+  BodyStep<S>& own = bodies[i];
+  const BodyStep<S>& parent = bodies[b.parent];
+  M3<S> m = parent.axes;
+  own.origin = b.shifted || (!plain && b.slides) ? parent.origin + m * offset_of<plain>(b, own.q) : parent.origin;
+  if (!plain && b.turned) m = m * turn_of<S>(b);
+  if (plain || !b.slides) {
+    const V3<S> i1 = pick<K + 1>(m.x, m.y, m.z), j1 = pick<K + 2>(m.x, m.y, m.z);
+    pick<K + 1>(m.x, m.y, m.z) = i1 * own.turn.c + j1 * own.turn.s;
+    pick<K + 2>(m.x, m.y, m.z) = j1 * own.turn.c - i1 * own.turn.s;
+  }
+  own.axes = m;
+}
+template <int K, bool plain, class S>
+[[gnu::noinline]] void place(const Body& b, BodyStep<S>* bodies, int i) {
+  find_velocity<K, plain>(b, bodies, i);
+  find_pose<K, plain>(b, bodies, i);
+}
+
+/// The inertia of a body with what waits for it in `slot`, which may be null, and the wrench that it needs at its
+/// velocity.
 template <class S>
-MURO_INLINE Inertia<S> own_inertia(const Masses<S>& masses, int body, const V3<S>& w, const V3<S>& v) {
+MURO_INLINE Inertia<S> gathered(const Masses<S>& masses, int body, const V3<S>& w, const V3<S>& v,
+                                const Inertia<S>* slot) {
   S n[Mass::numbers];
   masses.load(body, n);
   const V3<S> h{n[1], n[2], n[3]}, wv = cross(w, v);
+  const Sym<S> A{n[4], n[5], n[6], n[7], n[8], n[9]};
   const S m = n[0], zero(0);
   Inertia<S> o;
-  o.A = {n[4], n[5], n[6], n[7], n[8], n[9]};
-  o.B = {{zero, -h.z, h.y}, {h.z, zero, -h.x}, {-h.y, h.x, zero}};
-  o.C = {m, m, m, zero, zero, zero};
-  o.n = cross(w, o.A * w) + cross(h, wv);
+  o.n = cross(w, A * w) + cross(h, wv);
   o.f = wv * m + cross(w, cross(w, h));
+  if (!slot) {
+    o.A = A;
+    o.B = {{zero, -h.z, h.y}, {h.z, zero, -h.x}, {-h.y, h.x, zero}};
+    o.C = {m, m, m, zero, zero, zero};
+    return o;
+  }
+  const Inertia<S>& s = *slot;
+  o.A = {s.A.xx + A.xx, s.A.yy + A.yy, s.A.zz + A.zz, s.A.yz + A.yz, s.A.zx + A.zx, s.A.xy + A.xy};
+  o.B.x = {s.B.x.x, s.B.x.y - h.z, s.B.x.z + h.y};
+  o.B.y = {s.B.y.x + h.z, s.B.y.y, s.B.y.z - h.x};
+  o.B.z = {s.B.z.x - h.y, s.B.z.y + h.x, s.B.z.z};
+  o.C = {s.C.xx + m, s.C.yy + m, s.C.zz + m, s.C.yz, s.C.zx, s.C.xy};
+  o.n += s.n, o.f += s.f;
   return o;
 }
-
-/// The wrench by the velocity of a joint, as an acceleration: v x S qd.
-template <int K, class S>
-MURO_INLINE void add_velocity_terms(const Body& b, const BodyStep<S>& own, V3<S>& angular, V3<S>& linear) {
-  if (b.slides) {
-    add_across<K>(linear, own.w, own.qd);
-  } else {
-    add_across<K>(angular, own.w, own.qd);
-    add_across<K>(linear, own.v, own.qd);
-  }
+/// Of a body alone.
+template <class S>
+MURO_INLINE Inertia<S> own_inertia(const Masses<S>& masses, int body, const V3<S>& w, const V3<S>& v) {
+  return gathered<S>(masses, body, w, v, nullptr);
 }
+
+/// The two components across axis K of the acceleration by the velocity of a joint, v x S qd; of what turns also those
+/// of the angular one.
+template <int K, bool plain, class S>
+struct VelocityTerms {
+  S ci, cj, di, dj;  ///< angular and linear, along the axes that follow K
+
+  MURO_INLINE VelocityTerms(const Body& b, const BodyStep<S>& own) {
+    constexpr int I = K + 1, J = K + 2;
+    if (plain || !b.slides) {
+      ci = at<J>(own.w) * own.qd, cj = -(at<I>(own.w) * own.qd);
+      di = at<J>(own.v) * own.qd, dj = -(at<I>(own.v) * own.qd);
+    } else {
+      ci = cj = S(0);
+      di = at<J>(own.w) * own.qd, dj = -(at<I>(own.w) * own.qd);
+    }
+  }
+};
 
 /// Adds a body's inertia as its joint lets the parent feel it to the parent's slot. `external`: of contacts and
 /// wrenches on the body, or null.
-template <int K, class S>
+template <int K, bool plain, class S>
 [[gnu::noinline]] void fold(const Body& b, BodyStep<S>* bodies, int i, const Masses<S>& masses, Inertia<S>* slots,
                             const Inertia<S>* external) {
   constexpr int I = K + 1, J = K + 2;
   BodyStep<S>& own = bodies[i];
-  Inertia<S> m = own_inertia<S>(masses, i, own.w, own.v);
-  if (b.slot >= 0) m += slots[b.slot];
+  const bool slides = !plain && b.slides;
+  Inertia<S> m = gathered<S>(masses, i, own.w, own.v, b.slot >= 0 ? slots + b.slot : nullptr);
   if (external) m += *external;
   V3<S> Un, Uf;
-  if (b.slides) {
+  if (slides) {
     Un = {entry<0, K>(m.B), entry<1, K>(m.B), entry<2, K>(m.B)};
     at<K>(Uf) = diagonal<K>(m.C), at<I>(Uf) = opposite<J>(m.C), at<J>(Uf) = opposite<I>(m.C);
   } else {
@@ -152,8 +184,8 @@ template <int K, class S>
     Uf = {entry<K, 0>(m.B), entry<K, 1>(m.B), entry<K, 2>(m.B)};
   }
   own.Un = Un, own.Uf = Uf;
-  own.D = at<K>(b.slides ? Uf : Un) + own.terms.inertia;
-  own.bias = at<K>(b.slides ? m.f : m.n) - own.terms.effort;
+  own.D = at<K>(slides ? Uf : Un) + own.terms.inertia;
+  own.bias = at<K>(slides ? m.f : m.n) - own.terms.effort;
   const S inverse = own.give = own.terms.is_free / own.D, go = own.terms.rate - inverse * own.bias;
   // less what the joint gives way
   const V3<S> n = Un * inverse, f = Uf * inverse;
@@ -163,13 +195,25 @@ template <int K, class S>
   m.C.yz -= f.y * Uf.z, m.C.zx -= f.z * Uf.x, m.C.xy -= f.x * Uf.y;
   m.B.x -= Uf * n.x, m.B.y -= Uf * n.y, m.B.z -= Uf * n.z;
   // the wrench: of the velocity, and of the joint's acceleration
-  V3<S> c{S(0), S(0), S(0)}, d = c;
-  add_velocity_terms<K>(b, own, c, d);
-  m.n += m.A * c + V3<S>{dot(m.B.x, d), dot(m.B.y, d), dot(m.B.z, d)} + Un * go;
-  m.f += m.B.x * c.x + m.B.y * c.y + m.B.z * c.z + m.C * d + Uf * go;
-  if (!b.slides) m = out_of<K>(own.turn, m);
-  if (b.turned) m = out_of(turn_of<S>(b), m);
-  if (b.shifted || b.slides) shift(m, offset_of(b, own.q));
+  m.n += Un * go, m.f += Uf * go;
+  const VelocityTerms<K, plain, S> t(b, own);
+  at<K>(m.n) += entry<K, I>(m.B) * t.di + entry<K, J>(m.B) * t.dj;
+  at<I>(m.n) += entry<I, I>(m.B) * t.di + entry<I, J>(m.B) * t.dj;
+  at<J>(m.n) += entry<J, I>(m.B) * t.di + entry<J, J>(m.B) * t.dj;
+  at<K>(m.f) += opposite<J>(m.C) * t.di + opposite<I>(m.C) * t.dj;
+  at<I>(m.f) += diagonal<I>(m.C) * t.di + opposite<K>(m.C) * t.dj;
+  at<J>(m.f) += opposite<K>(m.C) * t.di + diagonal<J>(m.C) * t.dj;
+  if (!slides) {
+    at<K>(m.n) += opposite<J>(m.A) * t.ci + opposite<I>(m.A) * t.cj;
+    at<I>(m.n) += diagonal<I>(m.A) * t.ci + opposite<K>(m.A) * t.cj;
+    at<J>(m.n) += opposite<K>(m.A) * t.ci + diagonal<J>(m.A) * t.cj;
+    at<K>(m.f) += entry<I, K>(m.B) * t.ci + entry<J, K>(m.B) * t.cj;
+    at<I>(m.f) += entry<I, I>(m.B) * t.ci + entry<J, I>(m.B) * t.cj;
+    at<J>(m.f) += entry<I, J>(m.B) * t.ci + entry<J, J>(m.B) * t.cj;
+    m = out_of<K>(own.turn, m);
+  }
+  if (!plain && b.turned) m = out_of(turn_of<S>(b), m);
+  if (b.shifted || slides) shift(m, offset_of<plain>(b, own.q));
   Inertia<S>& to = slots[b.parent_slot];
   if (b.first)
     to = m;
@@ -178,32 +222,40 @@ template <int K, class S>
 }
 
 /// The accelerations of a body and its joint from its parent's.
-template <int K, class S>
+template <int K, bool plain, class S>
 MURO_INLINE void accelerate(const Body& b, BodyStep<S>* bodies, int i) {
   BodyStep<S>& own = bodies[i];
-  own.alpha = bodies[b.parent].alpha, own.a = bodies[b.parent].a;
-  into_body<K>(b, own, own.alpha, own.a);
-  add_velocity_terms<K>(b, own, own.alpha, own.a);
-  own.needed = own.bias + dot(own.Un, own.alpha) + dot(own.Uf, own.a);
+  V3<S> alpha = bodies[b.parent].alpha, a = bodies[b.parent].a;
+  into_body<K, plain>(b, own, alpha, a);
+  const VelocityTerms<K, plain, S> t(b, own);
+  if (plain || !b.slides) at<K + 1>(alpha) += t.ci, at<K + 2>(alpha) += t.cj;
+  at<K + 1>(a) += t.di, at<K + 2>(a) += t.dj;
+  own.needed = own.bias + dot(own.Un, alpha) + dot(own.Uf, a);
   own.qdd = own.terms.rate - own.give * own.needed;
-  at<K>(b.slides ? own.a : own.alpha) += own.qdd;
+  if (plain || !b.slides)
+    at<K>(alpha) += own.qdd;
+  else
+    at<K>(a) += own.qdd;
+  own.alpha = alpha, own.a = a;
 }
 
-/// Calls `f` with the axis of the body's joint as a constant.
+/// Calls `f` with the axis of the body's joint, and whether the body is plain, as constants.
 template <class F>
-MURO_INLINE void with_axis(const Body& b, const F& f) {
+MURO_INLINE void with_joint(const Body& b, const F& f) {
+  const bool plain = !b.slides && !b.turned;
   if (b.axis == 0)
-    f.template operator()<0>();
+    plain ? f.template operator()<0, true>() : f.template operator()<0, false>();
   else if (b.axis == 1)
-    f.template operator()<1>();
+    plain ? f.template operator()<1, true>() : f.template operator()<1, false>();
   else
-    f.template operator()<2>();
+    plain ? f.template operator()<2, true>() : f.template operator()<2, false>();
 }
 
 /// Poses and velocities of all bodies from those of the base and of the joints.
 template <class S>
 void place_all(const Structure& s, BodyStep<S>* bodies) {
-  for (int i = 1; i < s.count; ++i) with_axis(s.bodies[i], [&]<int K>() { place<K>(s.bodies[i], bodies, i); });
+  for (int i = 1; i < s.count; ++i)
+    with_joint(s.bodies[i], [&]<int K, bool plain>() { place<K, plain>(s.bodies[i], bodies, i); });
 }
 
 /// Accelerations of all bodies and joints. `external`: one for each body, or null; `base`: out, the inertia of a free
@@ -212,16 +264,18 @@ template <class S>
 void accelerate_all(const Structure& s, const Masses<S>& masses, BodyStep<S>* bodies, Inertia<S>* slots,
                     const Inertia<S>* const* external, Inertia<S>& base, const V3<S>& fall) {
   for (int i = s.count; i-- > 1;)
-    with_axis(s.bodies[i], [&]<int K>() { fold<K>(s.bodies[i], bodies, i, masses, slots, external[i]); });
+    with_joint(s.bodies[i],
+               [&]<int K, bool plain>() { fold<K, plain>(s.bodies[i], bodies, i, masses, slots, external[i]); });
   if (s.fixed) {
     bodies[0].alpha = {S(0), S(0), S(0)}, bodies[0].a = fall;
   } else {
-    base = own_inertia<S>(masses, 0, bodies[0].w, bodies[0].v);
-    if (s.bodies[0].slot >= 0) base += slots[s.bodies[0].slot];
+    const int slot = s.bodies[0].slot;
+    base = gathered<S>(masses, 0, bodies[0].w, bodies[0].v, slot >= 0 ? slots + slot : nullptr);
     if (external[0]) base += *external[0];
     solve(base, -base.n, -base.f, bodies[0].alpha, bodies[0].a);
   }
-  for (int i = 1; i < s.count; ++i) with_axis(s.bodies[i], [&]<int K>() { accelerate<K>(s.bodies[i], bodies, i); });
+  for (int i = 1; i < s.count; ++i)
+    with_joint(s.bodies[i], [&]<int K, bool plain>() { accelerate<K, plain>(s.bodies[i], bodies, i); });
 }
 
 }  // namespace MURO_ISA

@@ -25,6 +25,16 @@ struct JointLaw {
   bool holds_velocity;  ///< the drive does
 };
 
+/// What of the law of a joint differs between robots of one structure, and where: what its Joint says is not used of
+/// the rest.
+template <class S>
+struct OwnLaw {
+  S pull;             ///< also: the velocity of a drive that holds one
+  S lowest, highest;  ///< of joints with stops
+  S drag;             ///< of drives whose damping follows from the inertia
+  S friction_loss, armature_loss;
+};
+
 /// The piece of a law that a step takes.
 template <class S>
 struct JointPiece {

@@ -33,24 +33,26 @@ class Joints {
     });
   }
 
-  /// What acts along each joint, and the piece of it to try first. Bodies have been placed.
+  /// What acts along each joint, and the terms of the piece of it to try first. Bodies have been placed.
   void find_laws(const Masses<S>& masses) {
     if (s_.needs_inertia) find_moved_inertias(s_, masses, work_.bodies, work_.composites);
     for (int k = 1; k < s_.count; ++k) {
-      const Joint& joint = s_.joints[k];
-      work_.armature[k] = S(joint.armature);
-      work_.laws[k] = law_of(k);
+      find_law(k);
       work_.changes[k] = S(0);
-      work_.pieces[k] = guess(work_.laws[k], position_and_velocity(k).velocity);
+      work_.pieces[k] = guess(law(k), position_and_velocity(k).velocity);
+      set_terms_of(k);
     }
   }
 
+  /// kg m^2 or kg.
+  MURO_INLINE S armature_of(int k) const {
+    const Joint& j = s_.joints[k];
+    return j.has_armature_loss ? S(j.armature) + work_.laws[k].armature_loss : S(j.armature);
+  }
+
+  /// Of the pieces to be tried next.
   void set_terms() {
-    for (int k = 1; k < s_.count; ++k) {
-      JointTerms<S> t = terms_of(work_.pieces[k], work_.armature[k], position_and_velocity(k).velocity, batch_.dt);
-      t.effort *= S(s_.bodies[k].sign), t.rate *= S(s_.bodies[k].sign);
-      work_.bodies[k].terms = t;
-    }
+    for (int k = 1; k < s_.count; ++k) set_terms_of(k);
   }
 
   /// Whether some joint has come to another piece of its law than the one that was tried, which is then the next to be.
@@ -61,12 +63,12 @@ class Joints {
       if (s_.joints[k].leader >= 0) continue;
       const BodyStep<S>& b = work_.bodies[k];
       JointPiece<S>& tried = work_.pieces[k];
-      const JointLaw<S>& law = work_.laws[k];
+      const JointLaw<S> law = this->law(k);
       const S sign(s_.bodies[k].sign), v = sign * b.qd, after = v + sign * S(batch_.dt) * b.qdd;
       const auto goes = goes_on(law, tried, after);
       tried.effort = law.pull - law.drag * after;
       if (lane::bits(goes) == all) continue;
-      const S implicit = b.terms.inertia - work_.armature[k], inertia = b.D - implicit;
+      const S implicit = b.terms.inertia - armature_of(k), inertia = b.D - implicit;
       S load = sign * (b.needed + b.terms.effort);
       if (s_.has_mimics) load -= sign * work_.couplings[k];
       const auto rests = stays_at_rest(law, tried, load + sign * inertia * b.qdd);
@@ -165,55 +167,71 @@ class Joints {
     return away * select(S(side) * away < S(0), S(part / batch_.dt), S(1 / batch_.dt));
   }
 
-  JointLaw<S> law_of(int k) {
+  void set_terms_of(int k) {
+    JointTerms<S> t = terms_of(work_.pieces[k], armature_of(k), position_and_velocity(k).velocity, batch_.dt);
+    t.effort *= S(s_.bodies[k].sign), t.rate *= S(s_.bodies[k].sign);
+    work_.bodies[k].terms = t;
+  }
+
+  MURO_INLINE static bool holds_velocity(const Joint& j) {
+    return j.leader < 0 && (j.drive == Drive::velocity || j.drive == Drive::acceleration);
+  }
+
+  /// As find_law found it.
+  MURO_INLINE JointLaw<S> law(int k) const {
+    const Joint& j = s_.joints[k];
+    const OwnLaw<S>& own = work_.laws[k];
+    const S zero(0), infinite(Joint::infinite);
+    JointLaw<S> law{zero, zero, zero, S(j.effort), S(j.damping), S(j.friction), -infinite, infinite, j.speed, false};
+    if (j.lower > -Joint::infinite) law.lowest = own.lowest;
+    if (j.upper < Joint::infinite) law.highest = own.highest;
+    if (j.has_friction_loss) law.friction += own.friction_loss;
+    if (j.drive == Drive::passive || j.leader >= 0) return law;
+    law.holds_velocity = holds_velocity(j);
+    (law.holds_velocity ? law.velocity : law.pull) = own.pull;
+    if (j.drive == Drive::position)
+      law.drag = j.needs_inertia() ? own.drag : S(j.drive_damping + batch_.dt * j.stiffness);
+    return law;
+  }
+
+  void find_law(int k) {
     const Joint& j = s_.joints[k];
     const State state = position_and_velocity(k);
-    const S zero(0), infinite(Joint::infinite), speed(j.speed), h(batch_.dt);
-    JointLaw<S> law{zero, zero, zero, S(j.effort), S(j.damping), S(j.friction), -infinite, infinite, j.speed, false};
-    if (j.lower > -Joint::infinite) law.lowest = velocity_to(j.lower, state.position, -1);
-    if (j.upper < Joint::infinite) law.highest = velocity_to(j.upper, state.position, 1);
-    if (j.leader >= 0) return law;
-    if (j.has_friction_loss) law.friction += load<S>(friction_losses_, j.friction_loss);
-    if (j.has_armature_loss) work_.armature[k] += load<S>(armature_losses_, j.armature_loss);
-    const S target = j.drive == Drive::passive ? zero : load<S>(targets_[int(j.drive)], j.target);
-    switch (j.drive) {
-      case Drive::effort:
-        law.pull = clamp(target, -law.effort, law.effort);
-        break;
-      case Drive::velocity:
-        law.holds_velocity = true;
-        law.velocity = clamp(target, -speed, speed);
-        break;
-      case Drive::acceleration:
-        law.holds_velocity = true;
-        law.velocity = clamp(state.velocity + h * target, -speed, speed);
-        break;
-      case Drive::position:
-        drive_to(k, target, state, law);
-        break;
-      case Drive::passive:
-        break;
-    }
-    return law;
+    const S speed(j.speed), effort(j.effort);
+    OwnLaw<S>& own = work_.laws[k];
+    if (j.lower > -Joint::infinite) own.lowest = velocity_to(j.lower, state.position, -1);
+    if (j.upper < Joint::infinite) own.highest = velocity_to(j.upper, state.position, 1);
+    if (j.leader >= 0) return;
+    if (j.has_friction_loss) own.friction_loss = load<S>(friction_losses_, j.friction_loss);
+    if (j.has_armature_loss) own.armature_loss = load<S>(armature_losses_, j.armature_loss);
+    if (j.drive == Drive::passive) return;
+    const S target = load<S>(targets_[int(j.drive)], j.target);
+    if (j.drive == Drive::position)
+      drive_to(k, target, state, own);
+    else if (j.drive == Drive::effort)
+      own.pull = clamp(target, -effort, effort);
+    else if (j.drive == Drive::velocity)
+      own.pull = clamp(target, -speed, speed);
+    else
+      own.pull = clamp(state.velocity + S(batch_.dt) * target, -speed, speed);
   }
 
   /// A PD controller with position and velocity of the end of the step: kp (target - q - h v') + kd (target velocity -
   /// v').
-  MURO_INLINE void drive_to(int k, S target, const State& state, JointLaw<S>& law) {
+  MURO_INLINE void drive_to(int k, S target, const State& state, OwnLaw<S>& own) {
     const Joint& j = s_.joints[k];
     S stiffness(j.stiffness), damping(j.drive_damping);
     if (j.needs_inertia()) {
-      const S inertia = work_.bodies[k].D + work_.armature[k], w(j.natural_frequency);  // see find_moved_inertias
+      const S inertia = work_.bodies[k].D + armature_of(k), w(j.natural_frequency);  // see find_moved_inertias
       if (j.stiffness < 0) stiffness = w * w * inertia;
       if (j.drive_damping < 0) damping = S(2) * lane::sqrt(stiffness * inertia);
+      own.drag = damping + S(batch_.dt) * stiffness;
     }
     const S allowed = clamp(target, S(j.lower), S(j.upper)), speed(j.speed);
-    S velocity(0);
-    if (j.has_target_velocity)
-      velocity = select(allowed == target,
-                        clamp(load<S>(targets_[int(Drive::velocity)], j.target_velocity), -speed, speed), S(0));
-    law.pull = stiffness * (allowed - state.position) + damping * velocity;
-    law.drag = damping + S(batch_.dt) * stiffness;
+    own.pull = stiffness * (allowed - state.position);
+    if (!j.has_target_velocity) return;
+    const S velocity = clamp(load<S>(targets_[int(Drive::velocity)], j.target_velocity), -speed, speed);
+    own.pull += damping * select(allowed == target, velocity, S(0));
   }
 
   void follow_leaders() {

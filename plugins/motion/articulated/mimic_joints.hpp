@@ -25,7 +25,7 @@ void respond_inwards(const Body& b, Work<S>& work, int i) {
   V3<S> n = r.n + own.Un * go, f = r.f + own.Uf * go;
   if (!b.slides) n = out_of<K>(own.turn, n), f = out_of<K>(own.turn, f);
   if (b.turned) n = out_of(turn_of<S>(b), n), f = out_of(turn_of<S>(b), f);
-  if (b.shifted || b.slides) n += cross(offset_of(b, own.q), f);
+  if (b.shifted || b.slides) n += cross(offset_of<false>(b, own.q), f);
   work.responses[b.parent].n += n, work.responses[b.parent].f += f;
 }
 template <int K, class S>
@@ -33,7 +33,7 @@ void respond_outwards(const Body& b, Work<S>& work, int i) {
   const BodyStep<S>& own = work.bodies[i];
   Response<S>& r = work.responses[i];
   r.alpha = work.responses[b.parent].alpha, r.a = work.responses[b.parent].a;
-  into_body<K>(b, own, r.alpha, r.a);
+  into_body<K, false>(b, own, r.alpha, r.a);
   r.qdd = -own.give * (r.bias + dot(own.Un, r.alpha) + dot(own.Uf, r.a));
   at<K>(b.slides ? r.a : r.alpha) += r.qdd;
 }
@@ -44,10 +44,12 @@ void respond(const Structure& s, Work<S>& work) {
   const V3<S> zero{S(0), S(0), S(0)};
   Response<S>* const r = work.responses;
   for (int i = 0; i < s.count; ++i) r[i].n = r[i].f = zero;
-  for (int i = s.count; i-- > 1;) with_axis(s.bodies[i], [&]<int K>() { respond_inwards<K>(s.bodies[i], work, i); });
+  for (int i = s.count; i-- > 1;)
+    with_joint(s.bodies[i], [&]<int K, bool>() { respond_inwards<K>(s.bodies[i], work, i); });
   r[0].alpha = r[0].a = zero;
   if (!s.fixed) solve(work.base, -r[0].n, -r[0].f, r[0].alpha, r[0].a);
-  for (int i = 1; i < s.count; ++i) with_axis(s.bodies[i], [&]<int K>() { respond_outwards<K>(s.bodies[i], work, i); });
+  for (int i = 1; i < s.count; ++i)
+    with_joint(s.bodies[i], [&]<int K, bool>() { respond_outwards<K>(s.bodies[i], work, i); });
 }
 
 /// Finds the efforts with which mimic joints have the velocities of their leaders at the end of the step.

@@ -17,8 +17,8 @@ static_assert(offsetof(Contact, normal) == offsetof(Contact, point) + 3 * sizeof
               offsetof(Surface, restitution) == sizeof(double) &&
               offsetof(Surface, rolling_resistance) == 2 * sizeof(double) &&
               offsetof(Surface, spinning_resistance) == 3 * sizeof(double) &&
-              offsetof(KeptContact, turn) == offsetof(KeptContact, displacement) + 3 * sizeof(double) &&
-              offsetof(KeptContact, load) == offsetof(KeptContact, displacement) + 6 * sizeof(double));
+              offsetof(KeptContact, load) == offsetof(KeptContact, displacement) + 3 * sizeof(double) &&
+              offsetof(KeptContact, turn) == offsetof(KeptContact, displacement) + 4 * sizeof(double));
 
 void TouchedBodies::connect(Connector& c) {
   all_.resize(c.object_count());

@@ -4,7 +4,7 @@
 // as it is: efforts along the joints, wrenches on the bodies; held joints keep their acceleration.
 #pragma once
 
-#include "work.hpp"
+#include "joints.hpp"
 
 namespace muro::articulated::lanes {
 inline namespace MURO_ISA {
@@ -28,7 +28,7 @@ template <class S>
 class RungeKutta {
  public:
   /// After the trials of a step: efforts and wrenches are those that bodies have come to.
-  RungeKutta(const Batch& batch, const Masses<S>& masses, Work<S>& work)
+  RungeKutta(const Batch& batch, const Masses<S>& masses, const Joints<S>& joints, Work<S>& work)
       : batch_(batch), s_(batch.structure), masses_(masses), work_(work), gravity_(splat<S>(batch.gravity)) {
     for (int k = 1; k < s_.count; ++k) {
       BodyStep<S>& b = work.bodies[k];
@@ -37,7 +37,7 @@ class RungeKutta {
       S effort = sign * (piece.pull - piece.drag * after);
       if (s_.has_mimics) effort += work.couplings[k];
       b.terms.effort = select(b.terms.is_free > S(0), effort, S(0));
-      b.terms.inertia = work.armature[k];
+      b.terms.inertia = joints.armature_of(k);
       work.stages[k] = {b.q, b.qd, S(0), S(0)};
     }
     keep_wrenches();

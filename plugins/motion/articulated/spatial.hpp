@@ -5,6 +5,7 @@
 #pragma once
 
 #include "muro/simd/geometry.hpp"
+#include "turn.hpp"
 
 namespace muro::articulated::lanes {
 inline namespace MURO_ISA {
@@ -75,12 +76,6 @@ struct Inertia {
   }
 };
 static_assert(sizeof(Inertia<double>) == Inertia<double>::numbers * sizeof(double));
-
-/// Cosine and sine of an angle.
-template <class S>
-struct Turn {
-  S c, s;
-};
 
 /// From a frame into one that is turned about its axis K.
 template <int K, class S>

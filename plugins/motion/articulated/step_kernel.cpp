@@ -99,20 +99,18 @@ unsigned step_some(const Batch& batch, const RobotState* robots, int count) {
   const V3<S> fall = s.fixed ? transposed_times(bodies[0].axes, -gravity) : zero;
   for (int trial = 1;; ++trial) {
     contacts.add_terms();
-    joints.set_terms();
+    if (trial > 1) joints.set_terms();
     accelerate_all(s, masses, bodies, work.slots, work.acts_on, work.base, fall);
     if (s.has_mimics) {
       couple_mimic_joints(s, work, dt);
       joints.add_couplings();
       accelerate_all(s, masses, bodies, work.slots, work.acts_on, work.base, fall);
     }
-    const bool others = trial < most_trials && joints.look_again(),
-               loads = trial < most_trials && contacts.look_again();
-    if (!others && !loads) break;
+    const bool loads = contacts.settle(), others = trial < most_trials && joints.look_again();
+    if (trial == most_trials || (!others && !loads)) break;
   }
-  contacts.keep();
   if (batch.runge_kutta) {
-    RungeKutta<S> stages(batch, masses, work);
+    RungeKutta<S> stages(batch, masses, joints, work);
     base.take(stages.carry(base.state()));
     joints.finish();
   } else if (!s.fixed && any(flies)) {

@@ -15,13 +15,13 @@ template <class S>
 struct ContactSlot {
   int body = 0;
   bool resists_turning = false;
-  unsigned which = 0;  ///< lanes that have a contact
-  lane::Places<S, double> kept;
-  double* wrench[lane::count_of<S>];  ///< where to tell what it does; null: nowhere
+  unsigned which = 0;                    ///< lanes that have a contact
+  lane::Places<S, double> kept, wrench;  ///< of those lanes: what it keeps, and where to tell what it does
+  V3<S> velocity;                        ///< m/s: of the point on the body, in its frame
   ContactPoint<S> point;
   TurningPoint<S> turning;
   ContactStep<S> step;
-  MaskOf<S> is_new;          ///< its last normal force is not known
+  S is_new;                  ///< 1: its last normal force is not known
   S tried_load, found_load;  ///< N: of the trial before; -1: there is none
   S rests;                   ///< 1: it is tried without a force, since it had none in the last step
 };
@@ -46,13 +46,13 @@ struct JointStage {
 template <class S>
 struct Work {
   BodyStep<S>* bodies;
-  JointLaw<S>* laws;
+  OwnLaw<S>* laws;
   JointPiece<S>* pieces;
-  S* armature;
   S* changes;  ///< of the pieces of joints in this step, one a body
   Inertia<S>* slots;
   Inertia<S>* external;        ///< of bodies that `acts_on` says
   const Inertia<S>** acts_on;  ///< one a body: where its external is, or null
+  V3<S>* drifts;               ///< m/s^2: of bodies with contacts, cross(w, v) and gravity, in their frames
   S* couplings;                ///< N m or N: what keeps mimic joints and their leaders together, one a body
   Response<S>* responses;      ///< one a body
   Composite<S>* composites;    ///< as `slots`
@@ -69,17 +69,17 @@ struct Work {
       next +=
           (sizeof(T) * std::size_t(count) + 63) / 64 * 64;  // NOLINT(bugprone-sizeof-expression): one T is a pointer
     };
-    take(bodies, body_count), take(laws, body_count), take(pieces, body_count), take(armature, body_count),
-        take(changes, body_count);
-    take(slots, slot_count), take(external, body_count), take(acts_on, body_count);
+    take(bodies, body_count), take(laws, body_count), take(pieces, body_count), take(changes, body_count);
+    take(slots, slot_count), take(external, body_count), take(acts_on, body_count), take(drifts, body_count);
     take(couplings, body_count), take(responses, body_count), take(composites, slot_count);
     take(stages, body_count), take(wrenches, body_count);
     contacts = reinterpret_cast<ContactSlot<S>*>(next);
   }
   static std::size_t bytes(int body_count, int slot_count, int contact_count) {
-    const auto n = std::size_t(body_count), rounding = std::size_t(16 * 64);
-    return n * (sizeof(BodyStep<S>) + sizeof(JointLaw<S>) + sizeof(JointPiece<S>) + 2 * sizeof(S) + sizeof(Inertia<S>) +
-                sizeof(void*) + sizeof(S) + sizeof(Response<S>) + sizeof(JointStage<S>) + sizeof(lane::TwistOf<S>)) +
+    const auto n = std::size_t(body_count), rounding = std::size_t(20 * 64);
+    return n * (sizeof(BodyStep<S>) + sizeof(OwnLaw<S>) + sizeof(JointPiece<S>) + sizeof(S) + sizeof(Inertia<S>) +
+                sizeof(void*) + sizeof(V3<S>) + sizeof(S) + sizeof(Response<S>) + sizeof(JointStage<S>) +
+                sizeof(lane::TwistOf<S>)) +
            std::size_t(slot_count) * (sizeof(Inertia<S>) + sizeof(Composite<S>)) +
            std::size_t(contact_count) * sizeof(ContactSlot<S>) + rounding;
   }
