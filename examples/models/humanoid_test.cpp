@@ -161,11 +161,12 @@ TEST(Humanoid, IsWeighedByTheFourCellsOfItsSoles) {
 
 TEST(Humanoid, DoesNotTouchItself) {
   // self-collision pushes joints from where drives hold them
-  for (const std::string& pose : {std::string("joints: {}"), crouch}) {
-    host::BuiltScenario b =
-        built("humanoid.urdf", pose +
-                                   ", at: {z: 1}, motion: {use: motion.bullet, base: fixed, joints: position, "
-                                   "self_collision: true}");
+  for (const auto& [pose, motion] : {std::pair<std::string, std::string>{"joints: {}", "bullet"},
+                                     {crouch, "bullet"},
+                                     {"joints: {}", "articulated"},
+                                     {crouch, "articulated"}}) {
+    host::BuiltScenario b = built("humanoid.urdf", pose + ", at: {z: 1}, motion: {use: motion." + motion +
+                                                       ", base: fixed, joints: position, self_collision: true}");
     const World& world = b.simulation->world();
     std::vector<std::pair<const Link*, double>> start;
     for (const Link& link : robot_of(b).links)
@@ -174,7 +175,7 @@ TEST(Humanoid, DoesNotTouchItself) {
     b.simulation->run_for(0.2);
     for (const auto& [link, q] : start)
       EXPECT_NEAR(world.value(link->joint_object, keys::joint_position), q, 2e-3)
-          << world.object_name(link->joint_object);
+          << world.object_name(link->joint_object) << " at motion." << motion;
   }
 }
 

@@ -3,6 +3,7 @@
 // of what flies; light arms; what is paid without `self_collision`.
 #include "articulated_testing.hpp"
 #include "tests/support/allocation_counter.hpp"
+#include "tests/support/randoms.hpp"
 
 namespace muro::articulated::testing {
 namespace {
@@ -120,6 +121,37 @@ TEST(ARobotInFlight, KeepsItsMomentaWhileItsArmsHitItsTrunk) {
     EXPECT_LT((now.angular - before.angular).norm(), 1e-9 * before.angular.norm()) << k;
   }
   EXPECT_GT(most, 5) << "N: they hit it";
+}
+
+TEST(AHumanoidInFlight, KeepsItsMomentaWhileItsLimbsHitEachOther) {
+  World w;
+  w.world().set(world_object, keys::gravity, Vec3(0, 0, 0));
+  const RobotTree humanoid = w.read_model(MURO_TEST_SOURCE_DIR "/examples/models/humanoid.urdf");
+  const RobotView& r = w.add("r", humanoid, {{1, 2, 3}, Quat::Identity()}, {{0.5, -0.3, 0.2}, {1, -2, 3}});
+  w.start({{"joints", std::string("position")}, {"self_collision", true}});
+  w.refresh();
+  const Motion before = motion_of(w, r);
+  test::Randoms random(7);
+  std::size_t most = 0;
+  double deepest = 0;
+  for (int k = 0; k < 60; ++k) {
+    for (const Link& link : r.links)
+      if (link.joint != JointKind::fixed)
+        w.world().value(link.joint_object, keys::joint_position_target) = random.uniform(-1.5, 1.5);
+    for (int i = 0; i < 10; ++i) {
+      w.run_for(0.02);
+      const auto contacts = w.world().values(r.base(), keys::contacts);
+      most = std::max(most, contacts.size());
+      for (const Contact& c : contacts) deepest = std::max(deepest, c.depth);
+    }
+    w.refresh();
+    const Motion now = motion_of(w, r);
+    ASSERT_LT((now.momentum - before.momentum).norm(), 1e-9 * before.momentum.norm()) << k;
+    ASSERT_LT((now.angular - before.angular).norm(), 1e-9 * before.angular.norm()) << k;
+  }
+  EXPECT_GT(most, 3u) << "contacts at once";
+  EXPECT_LT(deepest, 0.03) << "m";
+  RecordProperty("most", std::to_string(most) + " contacts, " + std::to_string(deepest) + " m");
 }
 
 /// A ball of 1 kg on two slides, along x and along z, beside a trunk that does not move.
