@@ -101,6 +101,26 @@ TEST(AnArm, RestsOnTheTrunkHoweverLightItIs) {
     }
 }
 
+TEST(ALightForearm, RestsUnderAStrongDrive) {
+  World w;
+  const RobotView& r = w.add("r", robot_with_arms(0.1));
+  Parameters p = with_self_collision("fixed");
+  p["velocity_joints"] = std::vector<std::string>{"right_shoulder"};
+  p["effort_joints"] = std::vector<std::string>{"right_elbow"};
+  w.start(p);
+  w.of("r/right_elbow", keys::joint_effort_target) = 2;
+  w.run_for(1);
+  EXPECT_LT(std::abs(w.v("r/right_elbow")), 1e-3) << "rad/s";
+  const auto contacts = w.world().values(r.base(), keys::contacts);
+  ASSERT_EQ(contacts.size(), 1u);
+  EXPECT_LT(contacts[0].depth, 0.02) << "m";
+  // about the elbow: the drive, the weight and the contact
+  const Wrench on_arm = w.world().value("r/right_forearm", keys::contact_wrench);
+  const double weight = 0.1 * g * 0.125 * std::sin(w.q("r/right_elbow"));
+  EXPECT_NEAR(on_arm.torque.y() + 2 - weight, 0, 0.01) << "N m";
+  RecordProperty("depth", std::to_string(contacts[0].depth) + " m, " + std::to_string(on_arm.force.norm()) + " N");
+}
+
 TEST(ARobotInFlight, KeepsItsMomentaWhileItsArmsHitItsTrunk) {
   World w;
   w.world().set(world_object, keys::gravity, Vec3(0, 0, 0));
