@@ -236,6 +236,28 @@ TEST(SelfCollision, GivesTheSameBitsOnTwoThreadsAndFromASnapshot) {
   EXPECT_EQ(straight, run(1, true));
 }
 
+TEST(SelfCollision, EndsWithTheMotionThatWantsIt) {
+  World w;
+  const RobotView& r = w.add("r", robot_with_arms(1));
+  w.use("motion.articulated", 1000, {{&r, r.base(), 0}}, with_self_collision("fixed"));
+  w.use("motion.point", 1000, {{&r, r.base(), 1}});
+  w.set_levels(r, {"articulated", "point"}, 0);
+  w.use_contacts();
+  w.build();
+  w.of("r/right_elbow", keys::joint_position_target) = 0.6;
+  for (int round = 0; round < 2; ++round) {
+    w.world().value(r.base(), keys::motion_level_target) = 0;
+    w.run_for(1);
+    EXPECT_EQ(w.world().values(r.base(), keys::contacts).size(), 1u) << "round " << round;
+    EXPECT_GT(w.world().value(r.base(), keys::contact_wrench).force.norm(), 1) << "N, round " << round;
+    w.world().value(r.base(), keys::motion_level_target) = 1;
+    w.run_for(0.1);
+    EXPECT_EQ(w.world().value(r.base(), keys::self_collision), 0u);
+    EXPECT_TRUE(w.world().values(r.base(), keys::contacts).empty()) << "round " << round;
+    EXPECT_EQ(w.world().value(r.base(), keys::contact_wrench).force, Vec3(0, 0, 0)) << "round " << round;
+  }
+}
+
 TEST(SelfCollision, TakesNoMemoryInAStep) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   ASSERT_EQ(test::allocations(), 0u) << "sanitizers count allocations themselves";
