@@ -225,6 +225,15 @@ void Robot::prepare(double dt) {
   state_.contact_count = int(contacts_.contacts().size());
   if (contact_wrenches_.size() < 6 * contact_count()) contact_wrenches_.resize(2 * 6 * contact_count());
   state_.contact_wrenches = contact_count() > 0 ? contact_wrenches_.data() : nullptr;
+  fetch_touching_links();
+}
+
+/// From memory, while the kernel computes: what export_contacts() will need.
+void Robot::fetch_touching_links() const {
+  for (const std::uint32_t i : touching_links_) {
+    __builtin_prefetch(links_[i].contact.get(), 1);
+    __builtin_prefetch(links_[i].pose.get());
+  }
 }
 
 void Robot::advance_targets(double dt) {
@@ -287,15 +296,23 @@ void Robot::clear_contact_wrenches() {
 void Robot::export_contacts() {
   if (tells_contacts_) told_.clear();
   clear_contact_wrenches();
+  contacts_.keep_points();
+  const LoadedLink* pushed = nullptr;  // contacts of one mostly follow each other
+  Wrench* sum = nullptr;
+  Vec3 origin = Vec3::Zero();
   for (std::size_t i = 0; i < contact_count(); ++i) {
     const Contact& c = contacts_.contact(i);
     const double* const n = contact_wrenches_.data() + 6 * i;
     const Wrench at_point{{n[0], n[1], n[2]}, {n[3], n[4], n[5]}};
     const std::uint32_t number = contacts_.loaded_link(i);
-    const LoadedLink& link = links_[number];
-    link.contact->add_force(at_point.force, c.point - origin_of(number));
-    link.contact->torque += at_point.torque;
-    if (touching_links_.empty() || touching_links_.back() != number) touching_links_.push_back(number);
+    if (pushed != &links_[number]) {
+      pushed = &links_[number];
+      sum = pushed->contact.get();
+      origin = origin_of(number);
+      if (touching_links_.empty() || touching_links_.back() != number) touching_links_.push_back(number);
+    }
+    sum->add_force(at_point.force, c.point - origin);
+    sum->torque += at_point.torque;
     if (tells_contacts_) told_.push_back({c.self, c.other, c.point, c.normal, c.depth, at_point});
   }
   export_self_contacts();

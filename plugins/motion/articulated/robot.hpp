@@ -69,7 +69,6 @@ class Robot {
     Out<Wrench> contact;  ///< none without shapes
     Out<Wrench> applied;  ///< where somebody reads it
     In<Pose> pose, pose_of_body;
-    Wrench by_contacts;
   };
 
   void connect_joints(Connector& c, const RobotView& view, const Parameters& p);
@@ -81,6 +80,7 @@ class Robot {
   void advance_targets(double dt);
   void sum_wrenches();
   void add_self_contacts(double dt);
+  void fetch_touching_links() const;
   void clear_contact_wrenches();
   void export_self_contacts();
   Vec3 origin_of(std::uint32_t link) const { return link == 0 ? start_ : links_[link].pose->position; }

@@ -58,7 +58,7 @@ void RobotContacts::start() {
   if (!list_) return;
   constexpr std::size_t of_a_link = 8;
   const std::size_t most = of_a_link * link_places_.size();
-  contacts_.reserve(most), places_.reserve(most), links_.reserve(most), others_.reserve(most), before_.reserve(most);
+  contacts_.reserve(most), places_.reserve(most), others_.reserve(most), before_.reserve(most);
   if (!(*kept_).empty()) return;
   for (std::size_t i = 0; i < most; ++i) kept_.push_back({});
   kept_.clear();
@@ -73,23 +73,26 @@ const RobotContacts::LinkPlace* RobotContacts::place_of(ObjectId object) const {
 
 void RobotContacts::look_up(const TouchedBodies& bodies) {
   if (!list_) return;
-  const auto list = *list_;
-  if (list.empty() && contacts_.empty() && (*kept_).empty()) return;
+  if ((*list_).empty() && contacts_.empty() && (*kept_).empty()) return;
   if (touches_robots_ || revision_ != list_.revision() || (*kept_).size() != contacts_.size()) {
     find(bodies);
     keep_what_lasts(bodies);
     revision_ = list_.revision();
   }
   if (touches_robots_) look_at_others(bodies);
+}
+
+void RobotContacts::keep_points() const {
+  if (contacts_.empty()) return;
+  const auto list = *list_;
   const auto kept = *kept_;
-  for (std::size_t i = 0; i < contacts_.size(); ++i) kept[i].point = list[places_[i]].point;
+  for (std::size_t i = 0; i < contacts_.size(); ++i) kept[i].point = list[places_[i].in_list].point;
 }
 
 void RobotContacts::find(const TouchedBodies& bodies) {
   const auto list = *list_;
   contacts_.clear();
   places_.clear();
-  links_.clear();
   touches_robots_ = false;
   for (std::uint32_t i = 0; i < list.size(); ++i) {
     const Contact& c = list[i];
@@ -104,8 +107,7 @@ void RobotContacts::find(const TouchedBodies& bodies) {
     contact.surface = &c.surface.friction;
     contact.body = link->body;
     contact.resists_turning = c.surface.rolling_resistance > 0 || c.surface.spinning_resistance > 0;
-    places_.push_back(i);
-    links_.push_back(link->loaded_link);
+    places_.push_back({i, link->loaded_link});
   }
   sort_by_body();
 }
@@ -118,7 +120,6 @@ void RobotContacts::sort_by_body() {
     for (std::size_t k = i; k > 0 && contacts_[k].body < contacts_[k - 1].body; --k) {
       std::swap(contacts_[k], contacts_[k - 1]);
       std::swap(places_[k], places_[k - 1]);
-      std::swap(links_[k], links_[k - 1]);
     }
 }
 
@@ -127,7 +128,7 @@ void RobotContacts::keep_what_lasts(const TouchedBodies& bodies) {
   before_.assign((*kept_).begin(), (*kept_).end());
   kept_.clear();
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    const Contact& c = list[places_[i]];
+    const Contact& c = list[places_[i].in_list];
     KeptContact kept;
     kept.pair = contact_geometry::pair_of(bodies[c.self].name, bodies[c.other].name, c.self_shape, c.other_shape);
     const KeptContact* const known =
@@ -141,7 +142,7 @@ void RobotContacts::keep_what_lasts(const TouchedBodies& bodies) {
 void RobotContacts::look_at_others(const TouchedBodies& bodies) {
   others_.resize(contacts_.size());
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    const Contact& c = (*list_)[places_[i]];
+    const Contact& c = (*list_)[places_[i].in_list];
     const TouchedBodies::Touched& other = bodies[c.other];
     contacts_[i].other = nullptr;
     if (!other.pose) continue;

@@ -38,6 +38,8 @@ class RobotContacts {
 
   /// Finds the contacts of the step that begins. [step, before any robot moves]
   void look_up(const TouchedBodies& bodies);
+  /// For the next step, where contacts are now. [step, after the robot has moved, when its contacts are at hand]
+  void keep_points() const;
   /// Nothing is known of earlier steps. Takes the memory that steps need. [setup]
   void start();
   /// Another motion has moved the robot so far.
@@ -50,8 +52,8 @@ class RobotContacts {
   /// Whether there are contacts with other robots in the list.
   bool touches_robots() const { return touches_robots_; }
   /// That of the list which contact `i` is.
-  const Contact& contact(std::size_t i) const { return (*list_)[places_[i]]; }
-  std::uint32_t loaded_link(std::size_t i) const { return links_[i]; }
+  const Contact& contact(std::size_t i) const { return (*list_)[places_[i].in_list]; }
+  std::uint32_t loaded_link(std::size_t i) const { return places_[i].link; }
 
  private:
   static constexpr std::uint64_t no_revision = ~std::uint64_t{0};
@@ -68,14 +70,19 @@ class RobotContacts {
   };
   const LinkPlace* place_of(ObjectId object) const;
 
+  struct Place {
+    std::uint32_t in_list = 0;
+    std::uint32_t link = 0;  ///< loaded link
+  };
+
   ListIn<Contact> list_;
   ListOut<KeptContact> kept_;
   std::vector<LinkPlace> link_places_;
   std::uint64_t revision_ = no_revision;  ///< of the list, when contacts were found
   bool touches_robots_ = false;
   std::vector<KernelContact> contacts_;
-  std::vector<std::uint32_t> places_, links_;  ///< of contacts: in the list, loaded links
-  std::vector<Twist> others_;                  ///< of contacts: velocity of what they touch, at the point
+  std::vector<Place> places_;  ///< of contacts
+  std::vector<Twist> others_;  ///< of contacts: velocity of what they touch, at the point
   std::vector<KeptContact> before_;
 };
 
