@@ -57,7 +57,8 @@ struct States {
 };
 
 /// Sine and cosine of half the angles of revolute joints, in the order of their links. They are computed some joints
-/// ahead, so that whoever walks through the links keeps its numbers in registers.
+/// ahead: several at a time where registers hold more than S, and whoever walks through the links keeps its numbers in
+/// registers.
 template <class S>
 class HalfAngles {
  public:
@@ -67,40 +68,36 @@ class HalfAngles {
   /// Of the next joint, that of link `k`.
   MURO_INLINE SinCos<S> of(int k) {
     if (next_ == found_) look_ahead(k);
-    const SinCos<Turn>& turn = turns_[next_ / at_once];
-    if constexpr (count_of<S> == 1) {
-      const int i = next_++ % at_once;
-      return {turn.sin[i], turn.cos[i]};
-    } else {
-      ++next_;
-      return turn;
-    }
+    const int i = next_++;
+    return {load_turn(sines_, i), load_turn(cosines_, i)};
   }
 
  private:
-  /// For one robot, several joints are computed at a time.
-  using Turn = std::conditional_t<count_of<S> == 1, Double4, S>;
-  static constexpr int at_once = count_of<S> == 1 ? 4 : 1, most = 32;
+  /// As many numbers as registers hold, of one joint or of several.
+  using Turn = std::conditional_t<vectors::register_bytes >= 64 && count_of<S> == 4, Double8,
+                                  std::conditional_t<count_of<S> == 1, Double4, S>>;
+  static constexpr int at_once = count_of<Turn> / count_of<S>, most = 32;
 
+  MURO_INLINE static S load_turn(const double* from, int i) { return load_side_by_side<S>(from + i * count_of<S>); }
   [[gnu::noinline]] void look_ahead(int k) {
-    for (next_ = found_ = 0; found_ < most && k < link_count_; ++k) {
-      if (links_[k].joint != TreeLink::Joint::revolute) continue;
-      const S half = S(0.5) * load(states_.positions, offsets_[k].position);
-      if constexpr (count_of<S> == 1)
-        angles_.set(found_++ % at_once, half);
-      else
-        angles_ = half, ++found_;
-      if (found_ % at_once == 0) turns_[found_ / at_once - 1] = sincos(angles_);
+    double halves[most * count_of<S>];
+    for (next_ = found_ = 0; found_ < most && k < link_count_; ++k)
+      if (links_[k].joint == TreeLink::Joint::revolute)
+        store_side_by_side(halves + found_++ * count_of<S>, S(0.5) * load(states_.positions, offsets_[k].position));
+    const int rest = (at_once - found_ % at_once) % at_once;
+    for (int i = 0; i < rest; ++i) store_side_by_side(halves + (found_ + i) * count_of<S>, S(0));
+    for (int i = 0; i < found_; i += at_once) {
+      const SinCos<Turn> turn = sincos(load_side_by_side<Turn>(halves + i * count_of<S>));
+      store_side_by_side(sines_ + i * count_of<S>, turn.sin);
+      store_side_by_side(cosines_ + i * count_of<S>, turn.cos);
     }
-    if (found_ % at_once != 0) turns_[found_ / at_once] = sincos(angles_);
   }
 
   const TreeLink* links_;
   const StateOffsets* offsets_;
   int link_count_;
   const States<S>& states_;
-  Turn angles_{0.0};
-  SinCos<Turn> turns_[most / at_once];
+  double sines_[most * count_of<S>], cosines_[most * count_of<S>];  ///< joint by joint
   int next_ = 0, found_ = 0;
 };
 
@@ -161,7 +158,7 @@ void forward_lanes(const TreeLink* links, const StateOffsets* offsets, int link_
 
 void forward_kinematics(const TreeLink* links, const StateOffsets* offsets, int link_count, const RobotState* robots,
                         int robot_count) {
-  constexpr int at_once = vectors::register_bytes >= 64 ? 8 : 4;  // as many as registers hold the state of a link
+  constexpr int at_once = 4;  // registers hold the state of a link of as many
   for (int k = 0; k < robot_count; k += at_once) {
     const int left = robot_count - k;
     in_lanes(left < at_once ? left : at_once, [&]<class S>(int first, int used) {
