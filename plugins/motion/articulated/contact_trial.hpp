@@ -34,7 +34,7 @@ MURO_INLINE unsigned revise(ContactSlot<S>& slot, const ContactOutcome<S>& o, co
   ContactPoint<S>& p = slot.point;
   const S zero(0), load = o.load;
   const MaskOf<S> is_on = p.is_on > zero, is_drawn = is_on & (load < zero), has_friction = p.friction > zero,
-                  drags = p.breaks_away > zero, none = zero > zero;
+                  drags = p.breaks_away > zero, none = S(1) < zero;
   // friction that a load is to bear which it takes away itself
   const MaskOf<S> by_friction = is_drawn & has_friction & (p.load > zero), pulls = is_drawn & !by_friction;
   const S precision = select(slot.is_new > zero, S(0.1), S(0.25));
