@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
-#include <unordered_map>
+#include <utility>
 
 #include "core/collected_problems.hpp"
 #include "muro/description.hpp"
@@ -14,7 +14,14 @@
 namespace muro {
 namespace {
 
-/// Robots of one world share an instance; each keeps its parameters.
+/// The items of `joining` join those of `all`; each keeps its name and its parameters.
+void join(AlgorithmSetup& all, const AlgorithmSetup& joining) {
+  all.item_setups.resize(all.items.size(), {all.name, all.place, all.parameters, all.parameter_places});
+  all.items.insert(all.items.end(), joining.items.begin(), joining.items.end());
+  all.item_setups.resize(all.items.size(), {joining.name, joining.place, joining.parameters, joining.parameter_places});
+}
+
+/// Robots of one world share an instance.
 void join_world(AlgorithmSetup& world, const AlgorithmSetup& joining) {
   if (world.rate != joining.rate || world.phase != joining.phase)
     throw SetupError(
@@ -31,10 +38,15 @@ void join_world(AlgorithmSetup& world, const AlgorithmSetup& joining) {
         fmt::format("{}{} and {} are of one robot and in one world of {}; give one of them another `world`",
                     prefix_of(joining.place), joining.name, name, joining.use));
   }
-  world.item_setups.resize(world.items.size(), {world.name, world.place, world.parameters, world.parameter_places});
-  world.items.insert(world.items.end(), joining.items.begin(), joining.items.end());
-  world.item_setups.resize(world.items.size(),
-                           {joining.name, joining.place, joining.parameters, joining.parameter_places});
+  join(world, joining);
+}
+
+/// Setups of one group, of one name, are one instance as they stand.
+void join_batch(AlgorithmSetup& all, const AlgorithmSetup& joining) {
+  if (all.name == joining.name && all.item_setups.empty())
+    all.items.insert(all.items.end(), joining.items.begin(), joining.items.end());
+  else
+    join(all, joining);
 }
 
 /// Of robots of one group, which have one place in the scenario, one is told. `refused`: such places.
@@ -75,52 +87,100 @@ void check_single_roles(const std::vector<AlgorithmSetup>& setups, Registry& reg
   if (!problems.empty()) throw SetupError(problems);
 }
 
-}  // namespace
+/// Takes setups one by one.
+class Merging {
+ public:
+  explicit Merging(Registry& registry) : registry_(registry) {}
 
-MergedSetups merge(const std::vector<AlgorithmSetup>& setups, Registry& registry) {
-  CollectedProblems problems;
-  MergedSetups result;
-  std::vector<AlgorithmSetup>& merged = result.merged;
-  const auto world_of = [](const AlgorithmSetup& s) {
+  void add(const AlgorithmSetup& s, bool is_in_sequence) {
+    const Use use = use_of(s, is_in_sequence);
+    std::vector<std::size_t>& candidates = alike_[use.key];
+    const auto known =
+        use.is_shared && !s.items.empty()
+            ? std::find_if(candidates.begin(), candidates.end(), [&](std::size_t m) { return shares(m, s, use); })
+            : candidates.end();
+    std::size_t number = all_.merged.size();
+    if (known == candidates.end()) {
+      candidates.push_back(number);
+      all_.merged.push_back(s);
+    } else {
+      number = *known;
+      if (use.is_of_world)
+        problems_.run([&] { join_world_told_once(all_.merged[number], s, refused_); });
+      else
+        join_batch(all_.merged[number], s);
+    }
+    all_.merged_of_setup.push_back(number);
+    if (use.is_of_any_group)
+      for (const Item& item : s.items) moved_.emplace(number, item.robot);
+  }
+
+  /// Throws SetupError where uses exclude each other.
+  MergedSetups result() {
+    problems_.check();
+    return std::move(all_);
+  }
+
+ private:
+  /// How an algorithm is used.
+  struct Use {
+    bool is_shared, is_of_world, is_of_any_group;
+    std::string key;  ///< the same of all that may share an instance
+  };
+
+  static ParameterInput world_of(const AlgorithmSetup& s) {
     const auto named = s.parameters.find("world");
     return named == s.parameters.end() ? ParameterInput(std::string()) : named->second;
-  };
-  std::set<std::string> refused;
-  std::unordered_map<std::string, std::vector<std::size_t>> alike;  // merged, by algorithm and the name they go by
-  for (const AlgorithmSetup& s : setups) {
-    const std::uint32_t capabilities = registry.algorithm(s.use).description->capabilities;
-    const bool world = (capabilities & Capability::world) != 0, batched = (capabilities & Capability::batched) != 0;
-    const auto same = [&](const AlgorithmSetup& m) {
-      if (m.use != s.use || m.items.empty()) return false;
-      if (world) return world_of(m) == world_of(s);
-      return m.name == s.name && m.rate == s.rate && m.phase == s.phase && m.parameters == s.parameters &&
-             m.folder == s.folder && m.subsystem == s.subsystem;
-    };
-    const ParameterInput in_world = world_of(s);
-    const std::string* world_name = std::get_if<std::string>(&in_world);
-    std::vector<std::size_t>& candidates = alike[s.use + '\n' +
-                                                 (!world       ? s.name
-                                                  : world_name ? *world_name
-                                                               : std::string())];
-    const auto known =
-        (batched || world) && !s.items.empty()
-            ? std::find_if(candidates.begin(), candidates.end(), [&](std::size_t m) { return same(merged[m]); })
-            : candidates.end();
-    if (known != candidates.end()) {
-      AlgorithmSetup& m = merged[*known];
-      if (world)
-        problems.run([&] { join_world_told_once(m, s, refused); });
-      else
-        m.items.insert(m.items.end(), s.items.begin(), s.items.end());
-      result.merged_of_setup.push_back(*known);
-    } else {
-      candidates.push_back(merged.size());
-      result.merged_of_setup.push_back(merged.size());
-      merged.push_back(s);
-    }
   }
-  problems.check();
-  check_single_roles(merged, registry);
+
+  Use use_of(const AlgorithmSetup& s, bool is_in_sequence) const {
+    const Description& d = *registry_.algorithm(s.use).description;
+    const bool is_of_world = (d.capabilities & Capability::world) != 0;
+    const bool is_batched = (d.capabilities & Capability::batched) != 0;
+    Use use{is_batched || is_of_world, is_of_world, !is_of_world && d.kind == Kind::motion && !is_in_sequence,
+            s.use + '\n'};
+    const ParameterInput world = world_of(s);
+    if (!is_of_world && !use.is_of_any_group)
+      use.key += s.name;
+    else if (is_of_world && std::holds_alternative<std::string>(world))
+      use.key += std::get<std::string>(world);
+    return use;
+  }
+
+  bool shares(std::size_t number, const AlgorithmSetup& s, const Use& use) const {
+    const AlgorithmSetup& m = all_.merged[number];
+    if (m.items.empty()) return false;
+    if (use.is_of_world) return world_of(m) == world_of(s);
+    if (m.rate != s.rate || m.phase != s.phase || m.parameters != s.parameters || m.folder != s.folder ||
+        m.subsystem != s.subsystem)
+      return false;
+    if (m.name == s.name) return true;
+    // of several motions of one robot each is an instance; check_single_roles() looks whether it may have them
+    return use.is_of_any_group && m.items.front().level == s.items.front().level &&
+           std::none_of(s.items.begin(), s.items.end(), [&](const Item& item) {
+             return moved_.contains({number, item.robot});
+           });
+  }
+
+  Registry& registry_;
+  MergedSetups all_;
+  CollectedProblems problems_;
+  std::set<std::string> refused_;                             ///< places of what worlds refuse
+  std::map<std::string, std::vector<std::size_t>> alike_;     ///< merged, by Use::key
+  std::set<std::pair<std::size_t, const RobotView*>> moved_;  ///< by which of merged
+};
+
+}  // namespace
+
+MergedSetups merge(const std::vector<AlgorithmSetup>& setups, const std::vector<std::vector<std::size_t>>& sequences,
+                   Registry& registry) {
+  std::vector<bool> is_in_sequence(setups.size());
+  for (const auto& sequence : sequences)
+    for (const std::size_t i : sequence) is_in_sequence[i] = true;
+  Merging merging(registry);
+  for (std::size_t i = 0; i < setups.size(); ++i) merging.add(setups[i], is_in_sequence[i]);
+  MergedSetups result = merging.result();
+  check_single_roles(result.merged, registry);
   return result;
 }
 

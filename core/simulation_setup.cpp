@@ -51,7 +51,7 @@ void Simulation::build() {
 }
 
 void Simulation::make_instances() {
-  MergedSetups setups = merge(setups_, registry_);
+  MergedSetups setups = merge(setups_, sequences_, registry_);
   instance_of_setup_ = std::move(setups.merged_of_setup);
   CollectedProblems problems;
   for (AlgorithmSetup& m : setups.merged)
