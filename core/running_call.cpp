@@ -63,12 +63,16 @@ bool is_named_in(std::string_view message, std::string_view name) {
   return false;
 }
 
-/// The one item that the call is busy with, where that is known.
-const Callee::OfItem* item_of(const Callee& callee, const RunningCall& call) {
+/// The one item that the call is busy with, where that is known; of an algorithm that several subsystems share also the
+/// first one that a message names.
+const Callee::OfItem* item_of(const Callee& callee, const RunningCall& call, std::string_view told) {
   const std::uint32_t noted = now(call.note.item), begin = now(call.begin);
   if (noted < callee.items.size()) return &callee.items[noted];
   if (now(call.end) == begin + 1 && begin < callee.items.size()) return &callee.items[begin];
-  return callee.items.size() == 1 ? callee.items.data() : nullptr;
+  if (callee.items.size() == 1) return callee.items.data();
+  for (const Callee::OfItem& item : callee.items)
+    if (!item.name.empty() && is_named_in(told, item.object)) return &item;
+  return nullptr;
 }
 
 void add_quoted(SignalText& text, std::string_view name) {
@@ -121,7 +125,7 @@ CallScope::~CallScope() {
 void add_who(SignalText& text, const RunningCall& call, std::string_view told) {
   const Callee* const callee = now(call.callee);
   if (!callee) return;
-  const Callee::OfItem* const item = item_of(*callee, call);
+  const Callee::OfItem* const item = item_of(*callee, call, told);
   const std::string& place = item && !item->place.empty() ? item->place : callee->place;
   if (!place.empty()) {
     text.add_name(place);

@@ -145,7 +145,6 @@ void WorldRobot::import() {
     s.joints[i].velocity = *joints_[i].velocity;
   }
   if (!is_dynamic()) {
-    if (state_.tells_contacts) contacts_.clear();
     if (last_.is_valid() && !is_in_world(*contact_world_)) clear_outputs();
     last_.invalidate();
     check_input();

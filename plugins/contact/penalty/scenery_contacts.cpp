@@ -162,8 +162,8 @@ void SceneryContacts::apply_forces_on(const StepContext& context, std::uint32_t 
 /// Whether one of its contacts is with a body that is no scenery.
 bool SceneryContacts::touches_robots(std::uint32_t robot, std::span<const Contact> contacts) {
   KnownRobot& known = robots_[robot];
-  if (known.list.revision() != known.robots_revision) {
-    known.robots_revision = known.list.revision();
+  if (known.list.revision() != known.robots_revision || contacts.size() != known.robots_length) {
+    known.robots_revision = known.list.revision(), known.robots_length = contacts.size();
     known.touches_robots =
         std::any_of(contacts.begin(), contacts.end(), [&](const Contact& c) { return bodies_[c.other].twist; });
   }

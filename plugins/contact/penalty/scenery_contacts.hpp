@@ -39,6 +39,7 @@ class SceneryContacts {
     const std::uint64_t* world = nullptr;  ///< see keys::contact_world
     const double* lag = nullptr;           ///< see keys::twist_lag; null: forces move its bodies one by one
     std::uint64_t robots_revision = ~std::uint64_t{0};  ///< of the list, when it was last looked at for robots
+    std::size_t robots_length = 0;                      ///< the same
     bool touches_robots = false;
     bool is_clear = false;  ///< no wrench acts on it, and it has no anchors
     bool only_scenery = false;

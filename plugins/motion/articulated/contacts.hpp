@@ -7,7 +7,7 @@
 namespace muro::articulated::lanes {
 inline namespace MURO_ISA {
 
-using lane::any, lane::as_read, lane::count_of, lane::load_rows, lane::Places, lane::store_rows;
+using lane::any, lane::as_read, lane::count_of, lane::load_rows, lane::Places;
 
 /// What robots have that do not touch: far from everything, at rest.
 inline constexpr double no_contact[7] = {0, 0, 0, 0, 0, 1, -1}, no_surface[4] = {}, nothing_kept[kept_numbers] = {},
@@ -40,7 +40,7 @@ class Contacts {
       Inertia<S>& to = work_.external[slot.body];
       slot.step = touch(slot.point, law_, slot.velocity, work_.drifts[slot.body], batch_.dt);
       lanes::add_terms(slot.point, slot.step, to);
-      if (slot.resists_turning)
+      if (slot.resists_turning != 0)
         resist(slot.point, slot.turning, law_, work_.bodies[slot.body].w, batch_.dt, slot.step, to);
     }
   }
@@ -152,14 +152,14 @@ class Contacts {
 
   void load_slot(const KernelContact* const (&of_robot)[count_of<S>], ContactSlot<S>& slot) {
     Places<S> place, surface, kept, velocity;
-    slot.resists_turning = false;
+    slot.resists_turning = 0;
     bool moves = false;
     for (int i = 0; i < count_of<S>; ++i) {
       const KernelContact& c = *of_robot[i];
       place.at[i] = c.place, surface.at[i] = c.surface;
       kept.at[i] = c.kept ? c.kept : nothing_kept, slot.kept.at[i] = c.kept;
       velocity.at[i] = c.other ? c.other : at_rest;
-      slot.resists_turning = slot.resists_turning || c.resists_turning;
+      if (c.resists_turning) slot.resists_turning |= 1u << i;
       moves = moves || c.other;
     }
     const BodyStep<S>& body = work_.bodies[slot.body];
@@ -180,7 +180,7 @@ class Contacts {
     const V3<S> d = transposed_times(body.axes, V3<S>{before[0], before[1], before[2]});
     p.displacement = d - dot(d, p.normal) * p.normal;
     p.friction = of_surface[0], p.restitution = of_surface[1];
-    if (slot.resists_turning) {
+    if (slot.resists_turning != 0) {
       S of_turning[2], wound[3];
       load_rows(surface, 2, of_turning), load_rows(kept, 4, wound);
       slot.turning.rolling = of_turning[0], slot.turning.spinning = of_turning[1];
@@ -231,15 +231,15 @@ class Contacts {
     const V3<S> none{S(0), S(0), S(0)};
     const V3<S> displacement = bounded(p.displacement + S(batch_.dt) * o.slip, p.friction * load, law_.stiffness);
     const V3<S> d = body.axes * select(is_on, displacement, none);
-    store_rows(slot.kept, 0, {d.x, d.y, d.z, select(load > S(0), load, S(unloaded))}, slot.which);
+    store_numbers(slot.kept, 0, {d.x, d.y, d.z, select(load > S(0), load, S(unloaded))}, slot.which);
     const V3<S> force = body.axes * o.force;
     V3<S> moment = none;
-    if (slot.resists_turning) {
+    if (slot.resists_turning != 0) {
       moment = body.axes * slot.step.moment(p.normal, body.alpha);
       const V3<S> t = body.axes * select(is_on, turn_after(slot, body, load), none);
-      store_rows(slot.kept, 4, {t.x, t.y, t.z}, slot.which);
+      store_numbers(slot.kept, 4, {t.x, t.y, t.z}, slot.resists_turning);
     }
-    store_rows(slot.wrench, 0, {force.x, force.y, force.z, moment.x, moment.y, moment.z}, slot.which);
+    store_numbers(slot.wrench, 0, {force.x, force.y, force.z, moment.x, moment.y, moment.z}, slot.which);
   }
 
   /// A displacement whose spring does no more than `limit`.

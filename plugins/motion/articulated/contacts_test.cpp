@@ -83,6 +83,31 @@ TEST(ABall, ReboundsToTheSquareOfItsRestitution) {
   }
 }
 
+TEST(ABall, IsNoDeeperInABoxThanItFliesInAStepAtAnyRebound) {
+  for (const char* collision : {"collision.native", "collision.fcl"}) {
+    World w;
+    const Shape floor = test::with(Shape::box({1, 1, 0.5}), 0.5);
+    w.world().add_scenery("floor", {{0, 0, -0.25}, Quat::Identity()}, std::span<const Shape>(&floor, 1));
+    const RobotView& r = w.add("r", test::ball(1, 0.1, 0.5, 0.8), {{0, 0, 0.3}, Quat::Identity()});
+    w.use("motion.articulated", 1000, w.all_robots());
+    w.use_kinematics();
+    w.use("scene.bvh", 0);
+    w.use(collision, 0);
+    w.use("contact.penalty", 0);
+    w.build();
+    int rebounds = 0;
+    double before = 0;
+    for (int k = 0; k < 3000 && rebounds < 4; ++k) {
+      w.run_for(0.001);
+      const double v = w.twist(r).linear.z();
+      EXPECT_LT(0.1 - w.pose(r).position.z(), 1.2e-3 * std::abs(before)) << collision << ", " << rebounds;
+      rebounds += before < 0 && v > 0;
+      before = v;
+    }
+    EXPECT_EQ(rebounds, 4) << collision;
+  }
+}
+
 TEST(ABall, RollsDownASlope) {
   const double slope = 0.2;
   World w;

@@ -75,7 +75,8 @@ inline constexpr Description description{
     .kind = Kind::motion,
     .version = "1.0.0",
     .summary =
-        "Multi-body dynamics by the articulated-body algorithm, eight robots at a time, drives and contacts implicit",
+        "Multi-body dynamics by the articulated-body algorithm, up to eight robots at a time, drives and contacts "
+        "implicit",
     .parameters = parameters,
     .reads = reads,
     .writes = writes,

@@ -153,6 +153,13 @@ template <int K, bool plain, class S>
     to += m;
 }
 
+/// kg m^2 or kg: what moves with a joint, by itself, when nothing else than its effort moves it. The body is folded.
+template <class S>
+MURO_INLINE S moved_inertia(const Body& b, const BodyStep<S>& own) {
+  const V3<S>& u = b.slides ? own.Uf : own.Un;
+  return b.axis == 0 ? u.x : b.axis == 1 ? u.y : u.z;
+}
+
 /// The accelerations of a body and its joint from its parent's.
 template <int K, bool plain, class S>
 MURO_INLINE void accelerate(const Body& b, BodyStep<S>* bodies, int i) {

@@ -8,7 +8,7 @@
 namespace muro::articulated::lanes {
 inline namespace MURO_ISA {
 
-using lane::load, lane::load_rows, lane::store_rows;
+using lane::load, lane::load_rows;
 
 template <class S>
 class Joints {
@@ -55,8 +55,9 @@ class Joints {
     for (int k = 1; k < s_.count; ++k) set_terms_of(k);
   }
 
-  /// Whether some joint has come to another piece of its law than the one that was tried, which is then the next to be.
-  bool look_again() {
+  /// Whether some joint of the robots `which` has come to another piece of its law than the one that was tried, which
+  /// is then the next to be.
+  bool look_again(unsigned which) {
     constexpr unsigned all = lane::all_lanes<S>;
     unsigned changed = 0;
     for (int k = 1; k < s_.count; ++k) {
@@ -68,7 +69,7 @@ class Joints {
       const auto goes = goes_on(law, tried, after);
       tried.effort = law.pull - law.drag * after;
       if (lane::bits(goes) == all) continue;
-      const S implicit = b.terms.inertia - armature_of(k), inertia = b.D - implicit;
+      const S inertia = moved_inertia(s_.bodies[k], b) + armature_of(k);
       S load = sign * (b.needed + b.terms.effort);
       if (s_.has_mimics) load -= sign * work_.couplings[k];
       const auto rests = stays_at_rest(law, tried, load + sign * inertia * b.qdd);
@@ -93,7 +94,7 @@ class Joints {
       tried = chosen(settled, tried, next);
       tried.effort = effort;
     }
-    return changed != 0;
+    return (changed & which) != 0;
   }
 
   /// Semi-implicit Euler.
@@ -119,9 +120,9 @@ class Joints {
         q[i] = sign * work_.bodies[k + i].q, qd[i] = sign * work_.bodies[k + i].qd;
         effort[i] = work_.pieces[k + i].effort;
       }
-      store_rows(positions_, s_.joints[k].position, q, which);
-      store_rows(velocities_, s_.joints[k].velocity, qd, which);
-      store_rows(efforts_, s_.joints[k].out_effort, effort, which);
+      store_numbers(positions_, s_.joints[k].position, q, which);
+      store_numbers(velocities_, s_.joints[k].velocity, qd, which);
+      store_numbers(efforts_, s_.joints[k].out_effort, effort, which);
     });
   }
   S sum() const {

@@ -63,6 +63,34 @@ std::vector<std::uint64_t> hashes_of(int first, int count) {
   return hashes;
 }
 
+/// The hash of a robot on its box, with rolling resistance between them, beside `others` on boxes without.
+std::uint64_t hash_beside(int others, double resistance, bool is_last) {
+  World w;
+  Shape box = test::with(Shape::box({1, 1, 0.5}), 0.6);
+  const auto put = [&](const std::string& name, double x, double own) {
+    box.surface.rolling_resistance = box.surface.spinning_resistance = own;
+    w.world().add_scenery(name + "_box", {{x, 0, -0.25}, Quat::Identity()}, std::span<const Shape>(&box, 1));
+    w.add(name, robot_of(1), {{x, 0, 0.2}, from_rpy(0.1, 0.05, 0.3)}, {{0.1, 0, 0}, {0.5, 0.2, 1}});
+  };
+  box.surface.rolling_resistance = 0.01;  // in all worlds, so that all have the same properties
+  w.world().add_scenery("far_box", {{-9, 0, 0}, Quat::Identity()}, std::span<const Shape>(&box, 1));
+  if (!is_last) put("r", 0, resistance);
+  for (int i = 0; i < others; ++i) put("o" + std::to_string(i), 2 + 2 * i, resistance > 0 ? 0 : 0.01);
+  if (is_last) put("r", 0, resistance);
+  w.start({{"joints", std::string("position")}, {"effort_joints", std::vector<std::string>{"foot"}}});
+  w.run_for(0.6);
+  return w.world().hash(*w.world().find_robot("r"));
+}
+
+TEST(PacksOfRobots, OnOtherGroundsMoveAsEachDoesAlone) {
+  for (const double resistance : {0.0, 0.01}) {
+    const std::uint64_t alone = hash_beside(0, resistance, true);
+    for (const int others : {1, 3, 7})
+      for (const bool is_last : {false, true})
+        EXPECT_EQ(hash_beside(others, resistance, is_last), alone) << resistance << " m, " << others << " others";
+  }
+}
+
 TEST(PacksOfRobots, OfDifferentMassesMoveAsEachDoesAlone) {
   std::vector<std::uint64_t> alone;
   {

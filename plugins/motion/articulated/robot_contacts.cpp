@@ -74,10 +74,11 @@ const RobotContacts::LinkPlace* RobotContacts::place_of(ObjectId object) const {
 void RobotContacts::look_up(const TouchedBodies& bodies) {
   if (!list_) return;
   if ((*list_).empty() && contacts_.empty() && (*kept_).empty()) return;
-  if (touches_robots_ || revision_ != list_.revision() || (*kept_).size() != contacts_.size()) {
+  const bool is_same_list = revision_ == list_.revision() && length_ == (*list_).size();
+  if (touches_robots_ || !is_same_list || (*kept_).size() != contacts_.size()) {
     find(bodies);
     keep_what_lasts(bodies);
-    revision_ = list_.revision();
+    revision_ = list_.revision(), length_ = (*list_).size();
   }
   if (touches_robots_) look_at_others(bodies);
 }

@@ -79,6 +79,7 @@ class RobotContacts {
   ListOut<KeptContact> kept_;
   std::vector<LinkPlace> link_places_;
   std::uint64_t revision_ = no_revision;  ///< of the list, when contacts were found
+  std::size_t length_ = 0;                ///< the same
   bool touches_robots_ = false;
   std::vector<KernelContact> contacts_;
   std::vector<Place> places_;  ///< of contacts

@@ -101,6 +101,39 @@ TEST(AnArm, RestsOnTheTrunkHoweverLightItIs) {
     }
 }
 
+/// A plate, and over it two links that turn about upright axes, as of a SCARA; the last lies 2 mm deep in the plate.
+RobotTree scara() {
+  const Shape plate = test::with(Shape::box({0.8, 0.8, 0.1}), 0.5), arm = test::with(Shape::box({0.3, 0.1, 0.1}), 0.5);
+  return test::tree_of([&](RobotBuilder& b) {
+    b.base("plate");
+    b.set(keys::inertial, test::solid_box(5, {0.8, 0.8, 0.1}));
+    b.set_array(keys::collision_shapes, std::span<const Shape>(&plate, 1));
+    b.revolute("shoulder", Vec3::UnitZ(), {.lower = -2, .upper = 2, .effort = 20});
+    b.body("upper_arm");
+    b.set(keys::inertial, test::solid_box(1, {0.2, 0.1, 0.1}));
+    b.translation({0.2, 0, 0.098});
+    b.revolute("elbow", Vec3::UnitZ(), {.lower = -2, .upper = 2, .effort = 20});
+    b.body("forearm");
+    b.set(keys::inertial, test::solid_box(1, {0.3, 0.1, 0.1}));
+    b.set_array(keys::collision_shapes, std::span<const Shape>(&arm, 1));
+  });
+}
+
+TEST(AnArm, MovesFreelyAcrossWhatNoJointLetsItLeave) {
+  for (const char* base : {"fixed", "free"}) {
+    World w;
+    w.world().set(world_object, keys::gravity, Vec3(0, 0, 0));
+    const RobotView& r = w.add("r", scara(), {{1, 2, 3}, from_rpy(0.3, 0.2, 0.1)});
+    w.start(with_self_collision(base));
+    w.of("r/elbow", keys::joint_position_target) = 1;
+    w.of("r/shoulder", keys::joint_position_target) = -0.5;
+    w.run_for(1.5);
+    EXPECT_FALSE(w.world().values(r.base(), keys::contacts).empty()) << base;
+    EXPECT_NEAR(w.q("r/elbow"), 1, 0.01) << base;
+    EXPECT_NEAR(w.q("r/shoulder"), -0.5, 0.01) << base;
+  }
+}
+
 TEST(ALightForearm, RestsUnderAStrongDrive) {
   World w;
   const RobotView& r = w.add("r", robot_with_arms(0.1));

@@ -133,6 +133,11 @@ void SelfContacts::push(std::size_t i, const Law& law, double dt, int pairs) {
   const Vec3 velocity = own.twist->at(c.point - own.pose->position) - other.twist->at(c.point - other.pose->position);
   const Mat3 mobility = mobility_.between(to.body, to.other_body, c.point);
   const double along = c.normal.dot(mobility * c.normal), across = mobility.trace() - along;
+  constexpr double least_part = 1e-9;  // of a mobility: less is rounding, since no joint lets the links give way
+  if (!(along > least_part * mobility.trace())) {
+    to.force = kept.displacement = Vec3::Zero();
+    return;
+  }
   const double speed = velocity.dot(c.normal);
   const double phase = std::min(dt * std::sqrt(law.stiffness * along), most_phase);  // of what bobs on it in a step
   const double omega = phase / dt, damping_per_spring = 2 / omega + dt;

@@ -31,6 +31,12 @@ struct Bases {
     pose = load_pose(as_read(pose_at));
     twist = load_twist(as_read(twist_at));
   }
+  MURO_INLINE void store(unsigned which) const {
+    const V3<S>&p = pose.position, &v = twist.linear, &w = twist.angular;
+    const Q4<S>& q = pose.orientation;
+    store_numbers(pose_at, 0, {p.x, p.y, p.z, q.x, q.y, q.z, q.w}, which);
+    store_numbers(twist_at, 0, {v.x, v.y, v.z, w.x, w.y, w.z}, which);
+  }
   /// Into the body of the base.
   MURO_INLINE void place(BodyStep<S>& base, bool is_fixed) const {
     base.axes = pose.orientation.matrix();
@@ -95,6 +101,7 @@ unsigned step_some(const Batch& batch, const RobotState* robots, int count) {
   joints.find_laws(masses);
   Contacts<S> contacts(batch, robots, count, masses, work);
   const V3<S> gravity = splat<S>(batch.gravity), zero{S(0), S(0), S(0)};
+  const unsigned which = first_lanes(count);
   const auto flies = contacts.is_free_of_contacts();
   const V3<S> fall = s.fixed ? transposed_times(bodies[0].axes, -gravity) : zero;
   for (int trial = 1;; ++trial) {
@@ -106,14 +113,14 @@ unsigned step_some(const Batch& batch, const RobotState* robots, int count) {
       joints.add_couplings();
       accelerate_all(s, masses, bodies, work.slots, work.acts_on, work.base, fall);
     }
-    const bool loads = contacts.settle(), others = trial < most_trials && joints.look_again();
+    const bool loads = contacts.settle(), others = trial < most_trials && joints.look_again(which);
     if (trial == most_trials || (!others && !loads)) break;
   }
   if (batch.runge_kutta) {
     RungeKutta<S> stages(batch, masses, joints, work);
     base.take(stages.carry(base.state()));
     joints.finish();
-  } else if (!s.fixed && any(flies)) {
+  } else if (!s.fixed && (lane::bits(flies) & which) != 0) {
     const Bases<S> start = base;
     Flight<S> flight(s, masses, bodies, work.changes, gravity, contacts.external_force(), contacts.external_torque());
     base.move(bodies[0], gravity, dt);
@@ -126,11 +133,7 @@ unsigned step_some(const Batch& batch, const RobotState* robots, int count) {
     if (!s.fixed) base.move(bodies[0], gravity, dt);
     joints.move();
   }
-  const unsigned which = first_lanes(count);
-  if (!s.fixed) {
-    store_pose(base.pose_at, 0, base.pose, which);
-    store_twist(base.twist_at, 0, base.twist, which);
-  }
+  if (!s.fixed) base.store(which);
   joints.store(which);
   const MaskOf<S> is_somewhere = base.is_somewhere(), is_finite = joints.sum() < S(beyond);
   return bits(!(is_somewhere & is_finite)) & which;

@@ -14,8 +14,8 @@ inline namespace MURO_ISA {
 template <class S>
 struct ContactSlot {
   int body = 0;
-  bool resists_turning = false;
   unsigned which = 0;                    ///< lanes that have a contact
+  unsigned resists_turning = 0;          ///< those of them whose surface does
   lane::Places<S, double> kept, wrench;  ///< of those lanes: what it keeps, and where to tell what it does
   V3<S> velocity;                        ///< m/s: of the point on the body, in its frame
   ContactPoint<S> point;
@@ -41,6 +41,16 @@ struct JointStage {
   S q, qd;                      ///< at the start
   S velocities, accelerations;  ///< weighted sums
 };
+
+/// Stores zeros without their signs: those would tell of other robots of the pack, since what only they have is added
+/// to all, as zeros.
+template <class S, int n>
+MURO_INLINE void store_numbers(const lane::Places<S, double>& to, std::ptrdiff_t first, const S (&from)[n],
+                               unsigned which) {
+  S sums[n];
+  for (int i = 0; i < n; ++i) sums[i] = from[i] + S(0);
+  lane::store_rows(to, first, sums, which);
+}
 
 /// Pieces of the memory that a batch brings.
 template <class S>

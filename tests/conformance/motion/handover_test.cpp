@@ -158,12 +158,12 @@ TEST_P(EveryHandOverOfABlock, MakesItABodyOrAnObstacleForOthers) {
   EXPECT_NEAR(s.twist(ball_).linear.x() + (moved ? s.twist(robot).linear.x() : 0), moved ? 1 : 0, 1e-9);
 }
 
-/// A box on the ground that holds an arm of 0.5 kg out, 0.1 m from its joint; moved by forces, or by motion.point.
+/// A box on the ground that holds an arm of 0.5 kg out, 0.1 m from its joint; moved by forces, or by another motion.
 struct Porter : test::Scene {
   const RobotView* robot;
   test::ScratchFolder folder;
 
-  explicit Porter(const std::string& motion) {
+  explicit Porter(const std::string& motion, const std::string& other = "motion.point") {
     add_ground();
     robot =
         &add("r", test::tree_of([](RobotBuilder& b) {
@@ -177,8 +177,10 @@ struct Porter : test::Scene {
              }),
              {{0, 0, 0.05}, Quat::Identity()});
     use(motion, 1000, {{robot, robot->base(), 0}}, {{"joints", std::string("position")}});
-    use("motion.point", 1000, {{robot, robot->base(), 1}});
-    set_levels(*robot, {"forces", "point"}, 0);
+    std::map<std::string, ParameterInput> parameters;
+    if (other == motion) parameters["world"] = std::string("another");
+    use(other, 1000, {{robot, robot->base(), 1}}, parameters);
+    set_levels(*robot, {"forces", "other"}, 0);
     use("recorder.contacts", 1000, {}, {{"file", folder.path("contacts.csv")}});
     use_contacts();
     build();
@@ -210,6 +212,19 @@ TEST_P(EveryMotionByForces, LeavesNoContactAndNoEffortBehind) {
     p.run_for(0.1);
     EXPECT_EQ(p.effort(), 0);
     p.hand_over(0);
+  }
+}
+
+TEST_P(EveryMotionByForces, TellsItsContactsBesideALevelOfAnEngine) {
+  if ((features_of(GetParam()) & feature_link_dynamics) == 0) return;  // contact algorithms tell those of others
+  for (const std::string& engine : motions()) {
+    if ((description_of(engine).capabilities & Capability::world) == 0) continue;
+    Porter p(GetParam(), engine);
+    p.run_for(0.5);
+    Vec3 sum = Vec3::Zero();
+    for (const ContactWrench& c : p.world().values(p.robot->base(), keys::contact_wrenches_of_motion))
+      sum += c.wrench.force;
+    EXPECT_NEAR(sum.z(), 2.5 * 9.81, 0.02 * 2.5 * 9.81) << engine;
   }
 }
 
