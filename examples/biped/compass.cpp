@@ -22,9 +22,9 @@ enum Output { targets };
 enum Tunable { swing, turn, period, lift };
 enum Joint { hip_yaw, hip_pitch, knee, ankle_pitch, shoulder_pitch, shoulder_roll, joints_of_side };
 
-class Walk {
+class Compass {
  public:
-  static constexpr const char* name = "walk";
+  static constexpr const char* name = "compass";
   static constexpr const char* version = "1.0.0";
   static constexpr const char* summary = "Walks open loop, by angles of joints that depend on time alone";
   static constexpr muro_port outputs[] = {{"joint.position.target", "rad", 2 * joints_of_side, 0}};
@@ -35,7 +35,7 @@ class Walk {
       {"lift", "rad", 0.5, 0, 1.5, "by which the knee of the swing leg bends more"}};
   static constexpr std::size_t save_size = sizeof(double);
 
-  explicit Walk(const Setup&) {}
+  explicit Compass(const Setup&) {}
 
   void step(const Step& now) {
     phase_ += now.period() / now.tunable(period);
@@ -67,4 +67,4 @@ class Walk {
 
 }  // namespace
 
-MURO_CONTROLLER(Walk)
+MURO_CONTROLLER(Compass)
