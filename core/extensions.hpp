@@ -6,7 +6,7 @@
 
 #include "core/external/input_log.hpp"
 #include "core/external/lockstep_clients.hpp"
-#include "core/external/reported_counts.hpp"
+#include "core/external/reported_numbers.hpp"
 #include "core/external/run_requests.hpp"
 #include "core/inspector.hpp"
 #include "core/output_registry.hpp"
@@ -47,7 +47,7 @@ class Extensions {
   OutputRegistry& outputs() { return outputs_; }
   InputLog& inputs() { return inputs_; }
   RunRequests& requests() { return requests_; }
-  const ReportedCounts& reported_counts() const { return reported_counts_; }
+  const ReportedNumbers& reported_numbers() const { return reported_numbers_; }
 
  private:
   Inspector inspector_;
@@ -57,7 +57,7 @@ class Extensions {
   InputLog inputs_;
   RunRequests requests_;
   LockstepClients lockstep_;
-  ReportedCounts reported_counts_;
+  ReportedNumbers reported_numbers_;
 };
 
 }  // namespace muro

@@ -233,6 +233,6 @@ void Simulation::tell_of_change() {
 }
 
 const InputLog& Simulation::inputs() const { return extensions_->inputs(); }
-const ReportedCounts& Simulation::reported_counts() const { return extensions_->reported_counts(); }
+const ReportedNumbers& Simulation::reported_numbers() const { return extensions_->reported_numbers(); }
 
 }  // namespace muro

@@ -23,7 +23,7 @@ class InputLog;
 class Instance;
 class Levels;
 class OutputRegistry;
-class ReportedCounts;
+class ReportedNumbers;
 struct LevelsOfRobot;
 
 /// The whole state of a simulation at one time, independent of the simulation's later life.
@@ -129,7 +129,7 @@ class Simulation {
   /// How often poses have jumped: by placing, a reset or a restored snapshot.
   std::uint64_t jumps() const { return jumps_; }
   const InputLog& inputs() const;
-  const ReportedCounts& reported_counts() const;
+  const ReportedNumbers& reported_numbers() const;
 
   // --- what it consists of
   const std::vector<std::unique_ptr<Instance>>& instances() const { return instances_; }

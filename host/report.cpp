@@ -4,10 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "core/external/input_log.hpp"
-#include "core/external/reported_counts.hpp"
+#include "core/external/reported_numbers.hpp"
 #include "core/instance.hpp"
 #include "host/libraries.hpp"
 #include "host/shadows.hpp"
@@ -90,13 +91,20 @@ Json algorithms_report(const RunResult& run, const Simulation& simulation) {
   return all;
 }
 
-/// What algorithms have counted: a section each, of a map for everything that has a name. No section of the host's own.
-void add_counts(const ReportedCounts& counts, Json& out) {
-  for (const auto& [section, all] : counts.sections()) {
+/// Whole numbers without a point, as far as they are exact.
+Json json_number(double value) {
+  constexpr double exact = 9007199254740992;  // 2^53
+  if (std::abs(value) < exact && value == std::floor(value)) return std::int64_t(value);
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+/// What algorithms have told: a section each, of a map for everything that has a name. No section of the host's own.
+void add_numbers(const ReportedNumbers& told, Json& out) {
+  for (const auto& [section, all] : told.sections()) {
     if (out.contains(section)) continue;
     for (const auto& [name, numbers] : all) {
       Json entry = {{"name", name}};
-      for (const auto& [key, value] : numbers) entry[key] = value;
+      for (const auto& [key, value] : numbers) entry[key] = json_number(value);
       out[section].push_back(std::move(entry));
     }
   }
@@ -132,7 +140,7 @@ Json report(const RunResult& run, const Simulation& simulation, const Odometer& 
                               {"max_angle_rad", s.max_angle}});
   out["algorithms"] = algorithms_report(run, simulation);
   out["libraries"] = libraries_report(simulation);
-  add_counts(simulation.reported_counts(), out);
+  add_numbers(simulation.reported_numbers(), out);
   return out;
 }
 

@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/external/input_log.hpp"
+#include "core/external/reported_numbers.hpp"
 #include "host/commands/commands.hpp"
 #include "host/commands/open.hpp"
 #include "host/output_file.hpp"
@@ -60,6 +61,19 @@ class Progress {
   double last_ = 0;
 };
 
+/// What recorder.report has told: "referee/chair:score: [0] 2, [1] 1".
+void print_properties(const ReportedNumbers& told) {
+  for (const auto& [section, all] : told.sections()) {
+    if (section != "properties") continue;
+    for (const auto& [name, numbers] : all) {
+      std::vector<std::string> parts;
+      for (const auto& [element, value] : numbers)
+        parts.push_back(element == "value" ? fmt::format("{}", value) : fmt::format("{} {}", element, value));
+      fmt::print("{}: {}\n", message_text(name), fmt::join(parts, ", "));
+    }
+  }
+}
+
 void print_summary(const RunResult& result, const Simulation& simulation, const Odometer& odometer) {
   std::vector<const RobotView*> robots;
   for (const RobotView* r : simulation.world().robots())
@@ -82,6 +96,7 @@ void print_summary(const RunResult& result, const Simulation& simulation, const 
         "{}: its shadow, moved by {}, deviates by {:.4f} m and {:.4f} rad at the end; by at most {:.4f} m and "
         "{:.4f} rad\n",
         s.robot, s.motion, s.distance, s.angle, s.max_distance, s.max_angle);
+  print_properties(simulation.reported_numbers());
   fmt::print("state hash {:016x}\n", simulation.state_hash());
   if (const auto ids = nondeterministic_algorithms(simulation); !ids.empty())
     fmt::print("not deterministic: {}; another run may end in another state\n", fmt::join(ids, ", "));

@@ -16,6 +16,7 @@
 #include "muro/ext/lockstep.hpp"
 #include "muro/ext/outputs.hpp"
 #include "muro/ext/report_entries.hpp"
+#include "muro/ext/report_numbers.hpp"
 #include "muro/ext/run_control.hpp"
 #include "muro/model_reader.hpp"
 #include "muro_controller.h"
@@ -231,6 +232,7 @@ Lines present() {
   add_extension(Lockstep::id(), out);
   add_extension(RunControl::id(), out);
   add_extension(ReportEntries::id(), out);
+  add_extension(ReportNumbers::id(), out);
   return out;
 }
 

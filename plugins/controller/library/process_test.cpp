@@ -5,7 +5,7 @@
 #include <unistd.h>
 
 #include "core/external/input_log.hpp"
-#include "core/external/reported_counts.hpp"
+#include "core/external/reported_numbers.hpp"
 #include "library_testing.hpp"
 #include "tests/support/processes.hpp"
 
@@ -167,13 +167,13 @@ TEST(IsolatedController, BeginsAnewAsOftenAsIsAllowed) {
   EXPECT_EQ(team.command(*team.a).linear.x(), 0);
   EXPECT_EQ(team.command(*team.b).linear.x(), 1);
   team.finish();
-  const auto& sections = team.reported_counts().sections();
+  const auto& sections = team.reported_numbers().sections();
   ASSERT_EQ(sections.size(), 1u);
   EXPECT_EQ(sections[0].first, "control_code");
   ASSERT_EQ(sections[0].second.size(), 1u) << "of the robot that has failed";
   EXPECT_EQ(sections[0].second[0].first, "a/fails");
-  using Counts = ReportedCounts::Counts;
-  EXPECT_EQ(sections[0].second[0].second, (Counts{{"failures", 3}, {"restarts", 2}, {"held", 1}}));
+  using Numbers = ReportedNumbers::Numbers;
+  EXPECT_EQ(sections[0].second[0].second, (Numbers{{"failures", 3}, {"restarts", 2}, {"held", 1}}));
 }
 
 TEST(IsolatedController, GoesOnFromASnapshotOfBeforeItsFailure) {

@@ -7,7 +7,7 @@
 #include "muro/ext/outputs.hpp"
 #include "muro/plugin.hpp"
 #include "plugins/common/csv_file/csv_file.hpp"
-#include "selection.hpp"
+#include "plugins/common/recorded_property/recorded_property.hpp"
 
 namespace {
 

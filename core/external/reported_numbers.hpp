@@ -6,19 +6,23 @@
 #include <vector>
 
 #include "muro/ext/report_entries.hpp"
+#include "muro/ext/report_numbers.hpp"
 
 namespace muro {
 
-/// Counts that algorithms have told for the report, in the order in which they were told first.
-class ReportedCounts final : public ReportEntries {
+/// Numbers that algorithms have told for the report, in the order in which they were told first.
+class ReportedNumbers final : public ReportEntries, public ReportNumbers {
  public:
   template <class T>
   using Named = std::vector<std::pair<std::string, T>>;
-  using Counts = Named<std::uint64_t>;
-  using Section = Named<Counts>;
+  using Numbers = Named<double>;
+  using Section = Named<Numbers>;
 
   void set(const ReportEntry& entry) noexcept override {
-    at(at(at(sections_, entry.section), entry.name), entry.key) = entry.value;
+    at(at(at(sections_, entry.section), entry.name), entry.key) = double(entry.value);
+  }
+  void set_number(const ReportNumber& number) noexcept override {
+    at(at(at(sections_, number.section), number.name), number.key) = number.value;
   }
   const Named<Section>& sections() const { return sections_; }
 

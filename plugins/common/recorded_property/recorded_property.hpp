@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Properties that recorders are told by patterns of their names.
 #pragma once
 
 #include <algorithm>
@@ -20,6 +21,8 @@ class RecordedProperty {
   Scalar scalar() const { return scalar_; }
   /// The titles of its columns: "object:property.x", of arrays "object:property[2].x".
   std::vector<std::string> titles() const;
+  /// What titles have behind the name: "", ".x", "[2].x".
+  std::vector<std::string> elements() const;
   /// Calls `visit` with the address of each scalar, in the order of the titles.
   template <class Visit>
   void each(Visit visit) const {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "selection.hpp"
+#include "recorded_property.hpp"
 
 #include <algorithm>
 #include <set>
@@ -45,15 +45,21 @@ RecordedProperty::RecordedProperty(Connector& connector, const FoundProperty& p,
       is_sum_(p.is_sum) {}
 
 std::vector<std::string> RecordedProperty::titles() const {
-  std::vector<std::string> titles;
-  const std::uint64_t elements =
-      multiplicity_ == Multiplicity::array ? static_cast<const ArrayHeader*>(data_)->size : 1;
-  for (std::uint64_t i = 0; i < elements; ++i) {
-    const std::string element = multiplicity_ == Multiplicity::array ? name_ + "[" + std::to_string(i) + "]" : name_;
-    if (labels_.empty()) titles.push_back(element);
-    for (const std::string_view label : labels_) titles.push_back(element + "." + std::string(label));
-  }
+  std::vector<std::string> titles = elements();
+  for (std::string& title : titles) title.insert(0, name_);
   return titles;
+}
+
+std::vector<std::string> RecordedProperty::elements() const {
+  std::vector<std::string> all;
+  const bool is_array = multiplicity_ == Multiplicity::array;
+  const std::uint64_t count = is_array ? static_cast<const ArrayHeader*>(data_)->size : 1;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const std::string element = is_array ? "[" + std::to_string(i) + "]" : "";
+    if (labels_.empty()) all.push_back(element);
+    for (const std::string_view label : labels_) all.push_back(element + "." + std::string(label));
+  }
+  return all;
 }
 
 std::vector<RecordedProperty> select(Connector& c, std::span<const std::string_view> patterns) {

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// The referee with a ball that rolls by itself, on the field of the match.
+#include <gtest/gtest.h>
+
+#include "core/instance.hpp"
+#include "host/scenario/builder.hpp"
+#include "muro/vocabulary.hpp"
+#include "tests/support/files.hpp"
+#include "tests/support/scene.hpp"
+
+namespace muro::host {
+namespace {
+
+/// A blue player and a red one, boxes, and a ball.
+struct Match {
+  test::ScratchFolder folder;
+  BuiltScenario built;
+  Simulation& s;
+
+  explicit Match(const std::string& ball, const std::string& blue = "{x: -2}", const std::string& tunables = "")
+      : built(build(read_scenario(folder.file("match.yaml", text(ball, blue, tunables)), {}), test::plugins())),
+        s(*built.simulation) {}
+
+  static std::string text(const std::string& ball, const std::string& blue, const std::string& tunables) {
+    return "world: {file: " MURO_TEST_SOURCE_DIR
+           "/examples/soccer/field.sdf}\n"
+           "robots:\n"
+           "  blue: {shape: {box: [0.1, 0.1, 0.4]}, mass: 3, at: " +
+           blue +
+           ", motion: {use: motion.simplified, rate: 500}}\n"
+           "  red: {shape: {box: [0.1, 0.1, 0.4]}, mass: 3, at: {x: 2}, motion: {use: motion.simplified, rate: 500}}\n"
+           "  ball: {shape: {sphere: 0.07}, mass: 0.205, motion: {use: motion.simplified, rate: 500}, " +
+           ball +
+           ",\n    placement: {use: controller.placement, rate: 50}}\n"
+           "algorithms:\n"
+           "  referee:\n"
+           "    use: controller.library\n"
+           "    library: referee\n"
+           "    rate: 50\n"
+           "    tunables: [" +
+           tunables +
+           "]\n"
+           "    inputs: [\"ball.pose=ball/body:pose\", \"left.poses=blue/body:pose\", \"right.poses=red/body:pose\",\n"
+           "      \"place.answer=ball/body:place.answer\"]\n"
+           "    outputs: [\"place.pose=ball/body:place.pose\", \"place.twist=ball/body:place.twist\",\n"
+           "      \"place.count=ball/body:place.count\"]\n";
+  }
+  std::vector<double> told(const std::string& name) {
+    const std::span<const double> values = s.world().values(world_object, Key<double>{name, "1", ""});
+    return {values.begin(), values.end()};
+  }
+  Vec3 ball() { return s.world().value("ball/body", keys::pose).position; }
+};
+
+using Numbers = std::vector<double>;
+
+TEST(Referee, CountsAGoalAndPutsTheBallOnTheCentreMark) {
+  Match m("at: {x: 4.2, y: 0.5}, velocity: [2, 0, 0]");
+  m.s.run_for(0.6);
+  EXPECT_EQ(m.told("match.score"), (Numbers{1, 0}));
+  EXPECT_GT(m.ball().x(), 4.57) << "for a second it stays in the goal";
+  m.s.run_for(1);
+  EXPECT_LT(m.ball().head<2>().norm(), 1e-3);
+  EXPECT_EQ(m.told("match.state"), Numbers{1});
+  m.s.run_for(3);
+  EXPECT_EQ(m.told("match.score"), (Numbers{1, 0})) << "it is counted once";
+}
+
+TEST(Referee, GivesTheGoalInTheWestToTheRightTeam) {
+  Match m("at: {x: -4.2, y: -1.1}, velocity: [-2, 0, 0]");
+  m.s.run_for(0.6);
+  EXPECT_EQ(m.told("match.score"), (Numbers{0, 1}));
+}
+
+TEST(Referee, SeesNoGoalBesideThePost) {
+  Match m("at: {x: 4.2, y: 2}, velocity: [2, 0, 0]");
+  m.s.run_for(1.6);
+  EXPECT_EQ(m.told("match.score"), (Numbers{0, 0}));
+  EXPECT_EQ(m.told("match.outs"), Numbers{1});
+  EXPECT_LT((m.ball().head<2>() - Eigen::Vector2d(3.5, 1.5)).norm(), 1e-3) << "the corner of the goal area";
+}
+
+TEST(Referee, ThrowsInWhereTheBallLeft) {
+  Match m("at: {x: 1, y: 2.8}, velocity: [0, 2, 0]");
+  m.s.run_for(1.6);
+  EXPECT_EQ(m.told("match.outs"), Numbers{1});
+  EXPECT_NEAR(m.ball().x(), 1, 0.01);
+  EXPECT_NEAR(m.ball().y(), 3, 1e-3);
+}
+
+TEST(Referee, GivesACornerWhereTheDefenderWasLastAtTheBall) {
+  Match m("at: {x: 2.1, y: 0.2}, velocity: [4, 3, 0]");  // beside red
+  m.s.run_for(2.2);
+  EXPECT_EQ(m.told("match.outs"), Numbers{1});
+  EXPECT_LT((m.ball().head<2>() - Eigen::Vector2d(4.5, 3)).norm(), 1e-3);
+}
+
+TEST(Referee, PutsTheBallBesideWhoStandsOnTheCentreMark) {
+  Match m("at: {x: 4.2, y: 0.5}, velocity: [2, 0, 0]", "{x: 0, y: 0}");
+  m.s.run_for(2.5);
+  EXPECT_NEAR(m.ball().head<2>().norm(), 0.25, 0.02);
+}
+
+TEST(Referee, CountsAFallOnce) {
+  Match m("at: {x: 0, y: 0}", "{x: -2, roll: 1.5708}");
+  m.s.run_for(0.4);
+  EXPECT_EQ(m.told("match.falls"), (Numbers{0, 0})) << "not before it has lain for half a second";
+  m.s.run_for(1.5);
+  EXPECT_EQ(m.told("match.falls"), (Numbers{1, 0}));
+}
+
+TEST(Referee, FreesABallThatIsStuckAndEndsTheHalf) {
+  Match m("at: {x: 1, y: 1}", "{x: -2}", "patience=2, pause=0.5, half=4");
+  m.s.run_for(2.3);
+  EXPECT_LT((m.ball().head<2>() - Eigen::Vector2d(1, 1)).norm(), 1e-3);
+  m.s.run_for(0.7);
+  EXPECT_LT(m.ball().head<2>().norm(), 1e-3);
+  m.s.run_for(1.1);
+  EXPECT_EQ(m.told("match.state"), Numbers{2});
+}
+
+TEST(Referee, GoesOnFromASnapshotToTheSameBits) {
+  Match m("at: {x: 4.2, y: 0.5}, velocity: [2, 0, 0]");
+  m.s.run_for(0.7);
+  const Snapshot in_pause = m.s.snapshot();
+  m.s.run_for(1);
+  const std::uint64_t end = m.s.state_hash();
+  m.s.restore(in_pause);
+  m.s.run_for(1);
+  EXPECT_EQ(m.s.state_hash(), end);
+  EXPECT_LT(m.ball().head<2>().norm(), 1e-3);
+}
+
+}  // namespace
+}  // namespace muro::host
