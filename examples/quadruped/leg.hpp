@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// A leg of three joints: abduction about x, hip and knee about y, as most quadrupeds have it.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "vector.hpp"
+
+namespace quadruped {
+
+/// Lengths of a leg, m. Points and angles are those of a frame with the axes of the body (x forward, y left, z up) and
+/// its origin on the axis of abduction; with all angles 0 the leg hangs straight down.
+struct Leg {
+  Vector hip;            ///< origin of that frame in the frame of the body
+  double abduction = 0;  ///< from the axis of abduction to the plane of thigh and shank, along y: negative on the right
+  double thigh = 0, shank = 0;
+  double bend = -1;  ///< sign of the angle of the knee; -1: it points backwards
+
+  /// The angles abduction, hip and knee of `q` in rad give the middle of the foot, m.
+  Vector foot(const Vector& q) const {
+    const double along = -thigh * muro_sin(q.y) - shank * muro_sin(q.y + q.z);
+    const double down = -thigh * muro_cos(q.y) - shank * muro_cos(q.y + q.z);
+    const double c = muro_cos(q.x), s = muro_sin(q.x);
+    return {along, abduction * c - down * s, abduction * s + down * c};
+  }
+
+  /// Derivatives of a point by the three angles, m/rad.
+  struct Jacobian {
+    Vector columns[3];
+    Vector operator*(const Vector& rates) const {
+      return rates.x * columns[0] + rates.y * columns[1] + rates.z * columns[2];
+    }
+    /// Efforts of the joints, N m, that press the foot with this force, N, against what holds it.
+    Vector efforts(const Vector& force) const {
+      return {dot(columns[0], force), dot(columns[1], force), dot(columns[2], force)};
+    }
+    double determinant() const { return dot(columns[0], cross(columns[1], columns[2])); }
+    /// Rates of the joints that move the foot so, rad/s; they stay bounded where the leg is stretched and the
+    /// determinant falls below `least`, m^3 (Nakamura and Hanafusa, J. Dynamic Systems 108, 1986).
+    Vector rates(const Vector& velocity, double least) const {
+      const double d = determinant(), by = d / (d * d + least * least);
+      return by * Vector{dot(cross(columns[1], columns[2]), velocity), dot(cross(columns[2], columns[0]), velocity),
+                         dot(cross(columns[0], columns[1]), velocity)};
+    }
+  };
+  /// `beside`: of a point of the shank that lies there now, seen from the middle of the foot: m, axes of the body. A
+  /// ball rolls on the point where it touches.
+  Jacobian jacobian(const Vector& q, const Vector& beside = {}) const {
+    const Vector p = foot(q);
+    const double c = muro_cos(q.x), s = muro_sin(q.x);
+    const double down = -thigh * muro_cos(q.y) - shank * muro_cos(q.y + q.z);
+    const double knee_along = -shank * muro_cos(q.y + q.z), knee_down = shank * muro_sin(q.y + q.z);
+    const Vector axis{0, c, s}, turned = cross(axis, beside);  // of hip and knee
+    return {{Vector{0, -p.z, p.y} + cross(Vector{1, 0, 0}, beside), Vector{down, p.x * s, -p.x * c} + turned,
+             Vector{knee_along, -knee_down * s, knee_down * c} + turned}};
+  }
+
+  /// The angles that bring the foot to `p`; what is out of reach is drawn near along the line from the hip.
+  Vector angles(const Vector& p) const {
+    const double across = p.y * p.y + p.z * p.z - abduction * abduction;
+    const double down = -std::sqrt(std::max(across, 1e-6));
+    const double reach = thigh + shank, nearest = std::abs(thigh - shank);
+    const double distance = std::clamp(std::sqrt(p.x * p.x + down * down), nearest + 1e-9, reach - 1e-9);
+    const double cosine = (distance * distance - thigh * thigh - shank * shank) / (2 * thigh * shank);
+    const double knee = bend * muro_acos(std::clamp(cosine, -1.0, 1.0));
+    const double straight = thigh + shank * muro_cos(knee), aside = shank * muro_sin(knee);
+    const double lifted = muro_atan2(p.z, p.y) - muro_atan2(down, abduction);
+    return {std::remainder(lifted, 2 * 3.14159265358979323846), muro_atan2(-p.x, -down) - muro_atan2(aside, straight),
+            knee};
+  }
+};
+
+}  // namespace quadruped

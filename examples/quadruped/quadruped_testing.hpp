@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+// For tests: a robot that trots, watched while it does.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "host/scenario/builder.hpp"
+#include "muro/toolkit/rotations.hpp"
+#include "muro/vocabulary.hpp"
+#include "tests/support/scene.hpp"
+
+namespace muro::quadruped_test {
+
+inline const std::string scenario = MURO_TEST_SOURCE_DIR "/examples/quadruped/quadruped.yaml";
+inline constexpr double degree = M_PI / 180;
+
+/// What was seen of a robot, from `forget` on.
+struct Seen {
+  double lowest = 1e9, highest = -1e9;  ///< m: origin of the base
+  double most_tilt = 0;                 ///< rad
+  std::string touched;                  ///< a link other than the feet, if one touched something
+  double off = 0;                       ///< m/s: largest error of the velocity that it estimates, along the ground
+};
+
+/// One robot of a scenario, and a hand that pushes its base.
+class Walk {
+ public:
+  Walk(const std::string& file, std::vector<std::string> overrides, const std::string& robot = "walker") {
+    built_ = host::build(host::read_scenario(file, overrides), test::plugins(), [&](Simulation& s) {
+      robot_ = s.world().find_robot(robot);
+      PropertyStore& store = s.world().store();
+      push_ = static_cast<Wrench*>(store.bind(store.add_accessor("the test"), robot_->base(), keys::external_wrench,
+                                              usage::accumulate, Multiplicity::single, 1, nullptr));
+    });
+    for (const Link& link : robot_->links) {
+      const std::string name(world().object_name(link.object));
+      const bool is_foot = name.size() > 5 && name.substr(name.size() - 5) == "_foot";
+      const Slot* const slot = world().store().find(link.object, keys::contact_wrench.name);
+      if (slot && !is_foot) others_.push_back({name, static_cast<const Wrench*>(slot->place)});
+      if (slot && is_foot) feet_.push_back(static_cast<const Wrench*>(slot->place));
+    }
+  }
+  /// The robots other than the one that the example is about.
+  static std::vector<std::string> alone(std::vector<std::string> more = {}) {
+    more.insert(more.end(), {"robots.mates=off", "robots.a1=off"});
+    return more;
+  }
+
+  World& world() { return built_.simulation->world(); }
+  Simulation& simulation() { return *built_.simulation; }
+  const Pose& pose() { return world().value(robot_->base(), keys::pose); }
+  const Twist& twist() { return world().value(robot_->base(), keys::twist); }
+  double yaw() { return yaw_of(pose().orientation); }
+  /// m/s, in a level frame with the heading of the robot.
+  Vec3 velocity() { return Eigen::AngleAxisd(-yaw(), Vec3::UnitZ()) * twist().linear; }
+  void push(const Vec3& force) { push_->force = force; }
+  void forget() { seen = Seen{}; }
+  /// Parts of the time in which 0, 1, ... 4 feet carried something, as the forces of contacts tell.
+  std::vector<double> feet_down(double seconds) {
+    std::vector<double> counts(5, 0);
+    const int steps = int(std::lround(seconds / 0.005));
+    for (int i = 0; i < steps; ++i) {
+      run(0.005);
+      std::size_t down = 0;
+      for (const Wrench* w : feet_) down += w->force.norm() > 1;
+      counts[down] += 1.0 / steps;
+    }
+    return counts;
+  }
+
+  void run(double seconds) {
+    const int steps = int(std::lround(seconds / 0.005));
+    for (int i = 0; i < steps; ++i) {
+      built_.simulation->run_for(0.005);
+      const Pose& p = pose();
+      seen.lowest = std::min(seen.lowest, p.position.z());
+      seen.highest = std::max(seen.highest, p.position.z());
+      seen.most_tilt = std::max(seen.most_tilt, std::acos(std::min(1.0, (p.orientation * Vec3::UnitZ()).z())));
+      const Slot* const told = world().store().find(robot_->base(), "trot.velocity");
+      const auto* const v = static_cast<const double*>(told->place);
+      seen.off = std::max(seen.off, std::hypot(v[0] - velocity().x(), v[1] - velocity().y()));
+      for (const auto& [name, wrench] : others_)
+        if (wrench->force.norm() > 0) seen.touched = name;
+    }
+  }
+
+  Seen seen;
+
+ private:
+  struct Other {
+    std::string name;
+    const Wrench* wrench;
+  };
+  host::BuiltScenario built_;
+  const RobotView* robot_ = nullptr;
+  Wrench* push_ = nullptr;
+  std::vector<Other> others_;
+  std::vector<const Wrench*> feet_;
+};
+
+}  // namespace muro::quadruped_test

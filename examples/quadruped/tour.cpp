@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// Tells a robot by the clock how fast to go: the command is an output of its own, which other control code reads.
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <string>
+
+#include "muro_controller.hpp"
+
+namespace {
+
+using namespace muro::controller;
+
+/// From so many seconds of simulated time on, m/s, m/s and rad/s in the axes of the base.
+struct Leg {
+  double from = 0, forward = 0, left = 0, turn = 0;
+};
+
+class Tour {
+ public:
+  static constexpr const char* name = "tour";
+  static constexpr const char* version = "1.0.0";
+  static constexpr const char* summary = "Commands a velocity that depends on time";
+  static constexpr muro_port outputs[] = {{"command.twist", "m/s, rad/s", 6, MURO_PORT_OWN}};
+  static constexpr std::size_t save_size = sizeof(double);
+
+  explicit Tour(const Setup& setup) {
+    const std::string_view text = setup.argument("plan");
+    std::array<double, 4 * most> numbers{};
+    std::size_t count = 0;
+    for (std::size_t at = text.find_first_not_of(" ,"); at != text.npos;) {
+      const std::size_t end = std::min(text.find_first_of(" ,", at), text.size());
+      if (count == numbers.size()) throw std::invalid_argument("argument `plan` has more than 64 parts");
+      const auto read = std::from_chars(text.data() + at, text.data() + end, numbers[count]);
+      if (read.ec != std::errc() || read.ptr != text.data() + end || !std::isfinite(numbers[count]))
+        throw std::invalid_argument("argument `plan`: \"" + std::string(text.substr(at, end - at)) + "\" is no number");
+      ++count;
+      at = text.find_first_not_of(" ,", end);
+    }
+    if (count == 0 || count % 4 != 0)
+      throw std::invalid_argument(
+          "argument `plan` is a list of time (s), forward, left (m/s) and turn (rad/s): \"0 0.5 0 0, 4 0 0 0\"");
+    for (std::size_t i = 0; i < count; i += 4) {
+      legs_[count_++] = {numbers[i], numbers[i + 1], numbers[i + 2], numbers[i + 3]};
+      if (count_ > 1 && legs_[count_ - 1].from <= legs_[count_ - 2].from)
+        throw std::invalid_argument("argument `plan`: times rise from part to part");
+    }
+  }
+
+  void step(const Step& now) {
+    const auto twist = now.output(0);
+    while (begun_ < double(count_) && now.time() >= legs_[std::size_t(begun_)].from) begun_ += 1;
+    const Leg leg = begun_ == 0 ? Leg{} : legs_[std::size_t(begun_) - 1];
+    twist[0] = leg.forward, twist[1] = leg.left, twist[5] = leg.turn;
+  }
+
+  void save(Saver& to) const { to.put(begun_); }
+  void load(Loader& from) { begun_ = from.get<double>(); }
+
+ private:
+  static constexpr std::size_t most = 64;
+  std::array<Leg, most> legs_{};
+  std::size_t count_ = 0;
+  double begun_ = 0;  // parts of the tour, with the one that runs
+};
+
+}  // namespace
+
+MURO_CONTROLLER(Tour)
