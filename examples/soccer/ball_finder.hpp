@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// Finds a ball, white with dark patches, on a green field: by its colours, and by its size, which follows from where it
+// is seen, since it lies on the ground.
+#pragma once
+
+#include <optional>
+
+#include "camera_view.hpp"
+#include "image.hpp"
+
+namespace soccer {
+
+class BallFinder {
+ public:
+  explicit BallFinder(double radius) : radius_(radius) {}
+
+  /// The ball's centre in the heading frame (m); none where no ball is seen.
+  std::optional<Vector> find(const Image& image, const CameraView& view) const {
+    Candidate best;
+    for (double v = 1; v < image.height(); v += 2)
+      for (double u = 1; u < image.width(); u += 2) {
+        const double size = size_at({u, v}, view);
+        if (size < least_size) continue;
+        const double score = score_of(image, {u, v}, size);
+        if (score > best.score) best = {{u, v}, size, score};
+      }
+    if (best.score <= 0) return std::nullopt;
+    return view.at_height(centre(image, best, view), radius_);
+  }
+
+ private:
+  static constexpr double least_size = 2;  ///< px, of the radius
+
+  struct Candidate {
+    Pixel at;
+    double size = 0, score = 0;
+  };
+
+  /// px: of the radius of a ball whose centre is seen there; 0: none can be.
+  double size_at(const Pixel& p, const CameraView& view) const {
+    const auto centre = view.at_height(p, radius_);
+    return centre ? view.lens().fx * radius_ / view.depth_of(*centre) : 0;
+  }
+
+  /// Above 0 where it looks like a ball: white and dark within, green around.
+  static double score_of(const Image& image, const Pixel& p, double size) {
+    const auto count = [&](Color c, double l, double t, double r, double b) {
+      return image.count(c, p.u + l * size, p.v + t * size, p.u + r * size, p.v + b * size);
+    };
+    constexpr double in = 0.65;  // half the square that a circle holds
+    const Image::Count grass = count(green, -in, -in, in, in);
+    if (grass.all < 4 || grass.part() > 0.1) return 0;
+    const double whites = count(white, -in, -in, in, in).part(), darks = count(dark, -in, -in, in, in).part();
+    const bool shows_patches = size > 3.5;
+    if (whites < 0.3 || whites + darks < 0.7 || (shows_patches && (darks < 0.04 || darks > 0.65))) return 0;
+    // a line crosses one side at most; what stands upright goes on above, what belongs to the robot itself below
+    const Image::Count above = count(green, -0.7, -1.7, 0.7, -1.15), below = count(green, -0.7, 1.2, 0.7, 1.7);
+    double sum = 0;
+    int seen = 0, bare = 0;
+    for (const Image::Count& side :
+         {count(green, -1.7, -0.8, -1.15, 0.6), count(green, 1.15, -0.8, 1.7, 0.6), above, below}) {
+      if (side.all == 0) continue;
+      ++seen, sum += side.part(), bare += side.part() < 0.45;
+    }
+    if (seen < 2 || bare > 1 || longest_gap(image, p, 1.35 * size) > 4 || (above.all > 0 && above.part() < 0.3) ||
+        (below.all > 0 && below.part() < 0.3))
+      return 0;
+    return whites + darks + sum / seen + 0.02 * size;
+  }
+
+  /// Of sixteen points on a circle: the longest row of those that are not green. Points outside of the picture count as
+  /// green: a ball at its edge is a ball.
+  static int longest_gap(const Image& image, const Pixel& p, double radius) {
+    constexpr int points = 16;
+    constexpr double cosines[] = {1, 0.92388, 0.70711, 0.38268, 0};
+    const auto cosine = [&](int k) {  // of k sixteenths of a turn
+      k %= points;
+      if (k > points / 2) k = points - k;
+      return k <= 4 ? cosines[k] : -cosines[8 - k];
+    };
+    int longest = 0, row = 0;
+    for (int k = 0; k < 2 * points; ++k) {
+      const auto color = image.at(p.u + radius * cosine(k), p.v + radius * cosine(k + 12));
+      row = color && *color != green ? row + 1 : 0;
+      longest = std::max(longest, std::min(row, points));
+    }
+    return longest;
+  }
+
+  /// The middle of what is not green about a candidate; where that is not a ball's size, the candidate.
+  Pixel centre(const Image& image, const Candidate& c, const CameraView& view) const {
+    const double reach = 1.2 * c.size;
+    double weight = 0, u = 0, v = 0;
+    for (double dv = -reach; dv <= reach; ++dv)
+      for (double du = -reach; du <= reach; ++du) {
+        if (du * du + dv * dv > reach * reach) continue;
+        const Pixel p{std::floor(c.at.u + du), std::floor(c.at.v + dv)};
+        const auto color = image.at(p.u, p.v);
+        if (!color || *color == green) continue;
+        ++weight, u += p.u + 0.5, v += p.v + 0.5;
+      }
+    const double circle = 3.14159265358979 * c.size * c.size;
+    if (weight < 0.6 * circle || weight > 1.4 * circle) return c.at;
+    const Pixel middle{u / weight, v / weight};
+    return view.at_height(middle, radius_) ? middle : c.at;
+  }
+
+  double radius_;  ///< m
+};
+
+}  // namespace soccer

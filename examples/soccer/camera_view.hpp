@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// Where a camera in the head of a humanoid looks: from pixels to the ground and back. Frames: x forward, y left, z up.
+// The heading frame has its origin on the ground below the trunk, and turns with it about the upright axis alone.
+#pragma once
+
+#include <cmath>
+#include <optional>
+#include <span>
+
+#include "muro_elementary.h"
+
+namespace soccer {
+
+struct Vector {
+  double x = 0, y = 0, z = 0;
+
+  friend Vector operator+(const Vector& a, const Vector& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+  friend Vector operator*(double s, const Vector& v) { return {s * v.x, s * v.y, s * v.z}; }
+  friend double dot(const Vector& a, const Vector& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+  friend Vector cross(const Vector& a, const Vector& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+  }
+};
+
+struct Pixel {
+  double u = 0, v = 0;  ///< columns and rows, from the upper left corner
+};
+
+/// Of a pinhole camera: px.
+struct Lens {
+  double fx = 1, fy = 1, cx = 0, cy = 0;
+};
+
+/// Dimensions of a head: m, each in the frame of the part before.
+struct Head {
+  Vector neck;    ///< axis of the pan joint, from the trunk's origin
+  Vector tilt;    ///< axis of the tilt joint, from there
+  Vector camera;  ///< the camera, from there
+};
+
+class CameraView {
+ public:
+  /// `trunk_height`: m, of the trunk's origin above the ground; `orientation`: of the trunk, x y z w; `pan`, `tilt`:
+  /// rad.
+  CameraView(const Lens& lens, const Head& head, double trunk_height, std::span<const double> orientation, double pan,
+             double tilt)
+      : lens_(lens) {
+    const double x = orientation[0], y = orientation[1], z = orientation[2], w = orientation[3];
+    const Vector up{2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)};
+    const Vector level = Vector{1, 0, 0} + (-up.x) * up;
+    const Vector ahead = (1 / std::sqrt(dot(level, level))) * level, left = cross(up, ahead);
+    const auto levelled = [&](const Vector& v) { return Vector{dot(v, ahead), dot(v, left), dot(v, up)}; };
+    const double cp = muro_cos(pan), sp = muro_sin(pan), ct = muro_cos(tilt), st = muro_sin(tilt);
+    const Vector forward{cp * ct, sp * ct, -st}, leftwards{-sp, cp, 0}, upwards{cp * st, sp * st, ct};
+    const Vector place = head.neck +
+                         Vector{cp * head.tilt.x - sp * head.tilt.y, sp * head.tilt.x + cp * head.tilt.y, head.tilt.z} +
+                         head.camera.x * forward + head.camera.y * leftwards + head.camera.z * upwards;
+    forward_ = levelled(forward), left_ = levelled(leftwards), up_ = levelled(upwards);
+    place_ = levelled(place);
+    place_.z += trunk_height;
+  }
+
+  /// What lies at `height` (m) above the ground and is seen at a pixel, in the heading frame; none above the horizon.
+  std::optional<Vector> at_height(const Pixel& p, double height) const {
+    const Vector ray = forward_ + ((lens_.cx - p.u) / lens_.fx) * left_ + ((lens_.cy - p.v) / lens_.fy) * up_;
+    constexpr double flat = 0.01;  // of the sine: farther away than a hundred times the height
+    if (ray.z > -flat * std::sqrt(dot(ray, ray))) return std::nullopt;
+    return place_ + ((height - place_.z) / ray.z) * ray;
+  }
+  /// Where a point of the heading frame is seen; none behind the camera.
+  std::optional<Pixel> pixel_of(const Vector& point) const {
+    const Vector d = point + (-1) * place_;
+    const double depth = dot(d, forward_);
+    if (depth < 0.01) return std::nullopt;
+    return Pixel{lens_.cx - lens_.fx * dot(d, left_) / depth, lens_.cy - lens_.fy * dot(d, up_) / depth};
+  }
+  /// m: along the axis of the camera.
+  double depth_of(const Vector& point) const { return dot(point + (-1) * place_, forward_); }
+  const Lens& lens() const { return lens_; }
+
+ private:
+  Lens lens_;
+  Vector forward_, left_, up_;  ///< axes of the camera
+  Vector place_;                ///< m
+};
+
+}  // namespace soccer

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// A picture of the field by the kinds of its colours, with sums over rectangles in constant time.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace soccer {
+
+/// What a pixel may show.
+enum Color : std::uint8_t { green, white, dark, other, colors };
+
+inline Color color_of(int r, int g, int b) {
+  const int most = std::max({r, g, b}), least = std::min({r, g, b});
+  if (5 * g > 6 * r && 5 * g > 6 * b) return green;
+  if (most < 90) return dark;
+  if (least > 105 && most - least < 60) return white;
+  return other;
+}
+
+class Image {
+ public:
+  /// `rgb`: red, green, blue, rows from the top.
+  void set(std::span<const std::uint8_t> rgb, int width, int height) {
+    width_ = width, height_ = height;
+    colors_.resize(std::size_t(width) * std::size_t(height));
+    for (std::vector<std::int32_t>& sums : sums_) sums.assign(std::size_t(width + 1) * std::size_t(height + 1), 0);
+    for (int v = 0; v < height; ++v) {
+      std::array<std::int32_t, colors> row{};
+      for (int u = 0; u < width; ++u) {
+        const std::uint8_t* const p = rgb.data() + 3 * (std::size_t(v) * std::size_t(width) + std::size_t(u));
+        const Color color = color_of(p[0], p[1], p[2]);
+        colors_[std::size_t(v) * std::size_t(width) + std::size_t(u)] = color;
+        ++row[color];
+        for (int c = 0; c < colors; ++c)
+          sums_[std::size_t(c)][corner(u + 1, v + 1)] = sums_[std::size_t(c)][corner(u + 1, v)] + row[std::size_t(c)];
+      }
+    }
+  }
+  /// None outside of the picture.
+  std::optional<Color> at(double u, double v) const {
+    const int column = int(std::floor(u)), row = int(std::floor(v));
+    if (column < 0 || row < 0 || column >= width_ || row >= height_) return std::nullopt;
+    return colors_[std::size_t(row) * std::size_t(width_) + std::size_t(column)];
+  }
+  int width() const { return width_; }
+  int height() const { return height_; }
+
+  /// Pixels of a colour in a rectangle about (u, v), as far as it lies in the picture.
+  struct Count {
+    int counted = 0, all = 0;
+    double part() const { return all > 0 ? double(counted) / all : 0; }
+  };
+  Count count(Color color, double left, double top, double right, double bottom) const {
+    const int l = std::clamp(int(left + 0.5), 0, width_), r = std::clamp(int(right + 0.5), 0, width_);
+    const int t = std::clamp(int(top + 0.5), 0, height_), b = std::clamp(int(bottom + 0.5), 0, height_);
+    if (l >= r || t >= b) return {};
+    const std::vector<std::int32_t>& s = sums_[color];
+    return {s[corner(r, b)] - s[corner(l, b)] - s[corner(r, t)] + s[corner(l, t)], (r - l) * (b - t)};
+  }
+
+ private:
+  std::size_t corner(int u, int v) const { return std::size_t(v) * std::size_t(width_ + 1) + std::size_t(u); }
+
+  int width_ = 0, height_ = 0;
+  std::vector<Color> colors_;
+  std::array<std::vector<std::int32_t>, colors> sums_;  ///< of all pixels above and to the left
+};
+
+}  // namespace soccer
