@@ -193,7 +193,8 @@ class Contacts {
     const S push = soft_push(p, law_, speed);
     const MaskOf<S> bore_nothing = before[3] < zero, is_on = pushes(p, law_, speed, push) & !bore_nothing;
     p.is_on = select(is_on, S(1), zero);
-    slot.rests = select(bore_nothing, S(1), zero);
+    // what bears little on its way out may push on: its speed at the begin of the step does not tell
+    slot.rests = select(is_on, zero, S(1));
     p.slides_on = S(1), p.breaks_away = p.drag = zero;
     const MaskOf<S> is_new = before[3] <= zero;
     slot.is_new = select(is_new, S(1), zero);

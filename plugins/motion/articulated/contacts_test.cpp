@@ -41,6 +41,32 @@ TEST(ABlockOnASlope, SlidesWithTheAccelerationOfCoulomb) {
   }
 }
 
+/// The foot bears much less than contacts of its robot are made for, and comes out slowly where it has landed.
+TEST(ALightFoot, ThatADriveHasPutDownStaysDown) {
+  World w;
+  w.add_ground();
+  const RobotView& r = w.add("r", test::tree_of([](RobotBuilder& b) {
+                               const Shape ball = Shape::sphere(0.02);
+                               b.base("trunk");
+                               b.set(keys::inertial, test::solid_box(12, {0.3, 0.3, 0.3}));
+                               b.prismatic("leg", Vec3::UnitZ(), {.lower = -1, .upper = 1, .effort = 100});
+                               b.body("foot");
+                               b.set(keys::inertial, test::solid_box(0.2, {0.04, 0.04, 0.04}));
+                               b.set_array(keys::collision_shapes, std::span<const Shape>(&ball, 1));
+                             }),
+                             {{0, 0, 0.03}, Quat::Identity()});
+  w.start({{"joints", std::string("effort")}, {"base", std::string("fixed")}});
+  for (const double effort : {27.0, 10.0, 50.0}) {
+    w.of("r/leg", keys::joint_effort_target) = -effort;
+    for (int k = 0; k < 1000; ++k) {
+      w.run_for(0.001);
+      if (k > 100) {
+        ASSERT_NEAR(w.contact_force(r).z(), effort + 0.2 * g, 0.1 * effort) << effort << " N, step " << k;
+      }
+    }
+  }
+}
+
 TEST(Friction, IsACone) {
   for (const double degrees : {0.0, 20.0, 45.0, 70.0}) {
     const double angle = degrees * M_PI / 180, mass = 2, mu = 0.5;
