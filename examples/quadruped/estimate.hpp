@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 
 #include "gait.hpp"
 #include "vector.hpp"
@@ -23,27 +24,33 @@ struct BodyState {
   double ground = 0;    ///< m: middle of the feet that stand, along z, seen from the body
   double is_known = 0;  ///< 1 once a foot has stood
 
-  /// `acceleration`: without gravity, m/s^2; `turn`: of the frame, rad/s; `trust`: 1/s, in the legs; `settling`: 1/s,
-  /// of the ground's height.
-  void update(const std::array<FootState, legs>& feet, const std::array<bool, legs>& stands, const Vector& acceleration,
-              double turn, double trust, double settling, double dt) {
+  /// `believed`: from 0 to 1, how far each foot stands; `acceleration`: without gravity, m/s^2; `turn`: of the frame,
+  /// rad/s; `trust`: 1/s, in the legs; `settling`: 1/s, of the ground's height. A foot that would have the body jump by
+  /// more than `jump` (m/s) slips or has not come to rest, and counts less.
+  void update(const std::array<FootState, legs>& feet, const std::array<double, legs>& believed,
+              const Vector& acceleration, double turn, double trust, double settling, double dt) {
     velocity = velocity + dt * (acceleration - cross(Vector{0, 0, turn}, velocity));
-    Vector seen;
-    double height = 0, count = 0;
-    for (std::size_t leg = 0; leg < legs; ++leg) {
-      if (!stands[leg]) continue;
-      seen = seen - feet[leg].velocity;
-      height += feet[leg].position.z;
-      count += 1;
-    }
     ground -= velocity.z * dt;
-    if (count == 0) return;
-    const double share = is_known == 0 ? 1 : trust * dt / (1 + trust * dt);
-    const double settled = is_known == 0 ? 1 : settling * dt / (1 + settling * dt);
-    velocity = velocity + share * ((1 / count) * seen - velocity);
-    ground += settled * (height / count - ground);
+    Vector seen;
+    double height = 0, sum = 0, standing = 0;
+    for (std::size_t leg = 0; leg < legs; ++leg) {
+      const Vector off = -feet[leg].velocity - velocity;
+      const double weight = is_known == 0 ? believed[leg] : believed[leg] / (1 + dot(off, off) / (jump * jump));
+      seen = seen + weight * off;
+      height += believed[leg] * (feet[leg].position.z - ground);
+      sum += weight, standing += believed[leg];
+    }
+    if (standing == 0) return;
+    const auto share = [&](double rate, double weight) {
+      const double part = rate * dt * std::fmin(1, weight);
+      return is_known == 0 ? 1 : part / (1 + part);
+    };
+    if (sum > 0) velocity = velocity + (share(trust, sum) / sum) * seen;
+    ground += share(settling, standing) / standing * height;
     is_known = 1;
   }
+
+  static constexpr double jump = 0.25;  // m/s
 };
 
 }  // namespace quadruped

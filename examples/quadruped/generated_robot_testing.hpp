@@ -141,14 +141,21 @@ class GeneratedRobot {
   double zero(const std::string&, int j) const { return j == 1 ? n_.hip_zero : j == 2 ? n_.knee_zero : 0; }
 
   std::string model_tunables() const {
-    const std::pair<const char*, double> all[] = {{"hip_front", n_.hip_front},   {"hip_rear", n_.hip_rear},
-                                                  {"hip_side", n_.hip_side},     {"hip_up", n_.hip_up},
-                                                  {"abduction", n_.abduction},   {"thigh", n_.thigh},
-                                                  {"shank", n_.shank},           {"foot_radius", n_.foot_radius},
-                                                  {"bend_front", n_.bend_front}, {"bend_rear", n_.bend_rear},
-                                                  {"mass", n_.mass()},           {"effort_abduction", n_.effort[0]},
-                                                  {"effort_hip", n_.effort[1]},  {"effort_knee", n_.effort[2]},
-                                                  {"rate_most", n_.speed}};
+    const std::pair<const char*, double> all[] = {{"hip_front", n_.hip_front},
+                                                  {"hip_rear", n_.hip_rear},
+                                                  {"hip_side", n_.hip_side},
+                                                  {"hip_up", n_.hip_up},
+                                                  {"abduction", n_.abduction},
+                                                  {"thigh", n_.thigh},
+                                                  {"shank", n_.shank},
+                                                  {"foot_radius", n_.foot_radius},
+                                                  {"bend_front", n_.bend_front},
+                                                  {"bend_rear", n_.bend_rear},
+                                                  {"mass", n_.mass()},
+                                                  {"effort_abduction", n_.effort[0]},
+                                                  {"effort_hip", n_.effort[1]},
+                                                  {"effort_knee", n_.effort[2]},
+                                                  {"speed", n_.speed}};
     std::string text;
     for (const auto& [name, value] : all) text += (text.empty() ? "" : ", ") + std::string(name) + ": " + number(value);
     return text;

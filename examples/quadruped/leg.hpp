@@ -9,6 +9,12 @@
 
 namespace quadruped {
 
+/// What thigh, shank and foot weigh, kg, with their centres in the middle of thigh and shank and in the foot.
+struct LegMasses {
+  double thigh = 0, shank = 0, foot = 0;
+  double sum() const { return thigh + shank + foot; }
+};
+
 /// Lengths of a leg, m. Points and angles are those of a frame with the axes of the body (x forward, y left, z up) and
 /// its origin on the axis of abduction; with all angles 0 the leg hangs straight down.
 struct Leg {
@@ -54,6 +60,38 @@ struct Leg {
     const Vector axis{0, c, s}, turned = cross(axis, beside);  // of hip and knee
     return {{Vector{0, -p.z, p.y} + cross(Vector{1, 0, 0}, beside), Vector{down, p.x * s, -p.x * c} + turned,
              Vector{knee_along, -knee_down * s, knee_down * c} + turned}};
+  }
+
+  /// Efforts of the joints, N m, that carry the leg's own weight: `up` is the vertical in the frame of the body.
+  Vector weight(const Vector& q, const LegMasses& m, const Vector& up, double gravity) const {
+    const Points p = points(q);
+    const Vector axis{0, muro_cos(q.x), muro_sin(q.x)};  // of hip and knee
+    const Vector low = cross(p.foot, m.foot * up) + cross(0.5 * (p.knee + p.foot), m.shank * up);
+    const Vector all = low + cross(0.5 * (p.hip + p.knee), m.thigh * up);  // moments about the origin
+    const double lower = m.foot + m.shank, mass = lower + m.thigh;
+    return gravity *
+           Vector{all.x, dot(axis, all - mass * cross(p.hip, up)), dot(axis, low - lower * cross(p.knee, up))};
+  }
+  /// Sum of masses times their places, kg m.
+  Vector moment(const Vector& q, const LegMasses& m) const {
+    const Points p = points(q);
+    return (0.5 * m.thigh) * (p.hip + p.knee) + (0.5 * m.shank) * (p.knee + p.foot) + m.foot * p.foot;
+  }
+  /// Inertia that each joint moves, kg m^2, with the leg bent by a right angle and the others held.
+  Vector inertia(const LegMasses& m) const {
+    const double low = m.shank * shank * shank / 3 + m.foot * shank * shank;
+    const double mid = m.thigh * thigh * thigh / 3 + (m.shank + m.foot) * thigh * thigh + low;
+    return {mid + (m.thigh + m.shank + m.foot) * abduction * abduction, mid, low};
+  }
+
+  /// Joints and foot, m.
+  struct Points {
+    Vector hip, knee, foot;
+  };
+  Points points(const Vector& q) const {
+    const double c = muro_cos(q.x), s = muro_sin(q.x), along = -thigh * muro_sin(q.y), down = -thigh * muro_cos(q.y);
+    const Vector top{0, abduction * c, abduction * s};
+    return {top, top + Vector{along, -down * s, down * c}, foot(q)};
   }
 
   /// The angles that bring the foot to `p`; what is out of reach is drawn near along the line from the hip.

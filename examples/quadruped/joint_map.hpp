@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// Between the joints of a robot, as its model has them, and the angles of legs: order, directions and zeros.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "gait.hpp"
+#include "muro_controller.hpp"
+#include "vector.hpp"
+
+namespace quadruped {
+
+inline constexpr int joints_of_leg = 3, joints = legs * joints_of_leg;
+
+/// What is wrong with a number in the scenario.
+inline std::invalid_argument complaint(std::string_view argument, std::string_view text, const std::string& allowed) {
+  return std::invalid_argument("argument `" + std::string(argument) + "` is \"" + std::string(text) + "\"; it is " +
+                               allowed);
+}
+
+/// Calls `take` for each word of a text.
+template <class Take>
+void for_words(std::string_view text, Take take) {
+  for (std::size_t at = text.find_first_not_of(" ,"); at != text.npos;) {
+    const std::size_t end = std::min(text.find_first_of(" ,", at), text.size());
+    take(text.substr(at, end - at));
+    at = text.find_first_not_of(" ,", end);
+  }
+}
+
+/// Between the joints of the robot, as they are connected, and the angles of `Leg`.
+struct JointMap {
+  std::array<int, legs> place{0, 1, 2, 3};  ///< where the joints of front left, front right, ... are connected
+  std::array<double, joints> sign, offset;  ///< by place: angle = sign * position + offset, rad
+
+  explicit JointMap(const muro::controller::Setup& setup) {
+    sign.fill(1), offset.fill(0);
+    const std::string_view order = setup.argument("legs", "FL FR RL RR");
+    read_order(order);
+    read_numbers("signs", setup.argument("signs"), sign);
+    read_numbers("offsets", setup.argument("offsets"), offset);
+    for (const double s : sign)
+      if (std::abs(s) != 1) throw complaint("signs", setup.argument("signs"), "12 times 1 or -1");
+  }
+  std::size_t at(int leg, int joint) const { return std::size_t(place[std::size_t(leg)] * joints_of_leg + joint); }
+  Vector angles(int leg, std::span<const double> positions) const {
+    const auto a = [&](int j) { return sign[at(leg, j)] * positions[at(leg, j)] + offset[at(leg, j)]; };
+    return {a(0), a(1), a(2)};
+  }
+  Vector rates(int leg, std::span<const double> velocities) const {
+    const auto r = [&](int j) { return sign[at(leg, j)] * velocities[at(leg, j)]; };
+    return {r(0), r(1), r(2)};
+  }
+
+ private:
+  void read_order(std::string_view text) {
+    constexpr std::string_view names[] = {"FL", "FR", "RL", "RR"};
+    const std::string allowed = "FL, FR, RL and RR, each once, in the order in which their joints are connected";
+    int seen = 0, count = 0;
+    for_words(text, [&](std::string_view word) {
+      const auto* const name = std::find(std::begin(names), std::end(names), word);
+      if (name == std::end(names) || count >= legs) throw complaint("legs", text, allowed);
+      place[std::size_t(name - names)] = count++;
+      seen |= 1 << (name - names);
+    });
+    if (seen != 15) throw complaint("legs", text, allowed);
+  }
+  static void read_numbers(std::string_view argument, std::string_view text, std::array<double, joints>& to) {
+    if (text.empty()) return;
+    const std::string allowed = "12 numbers, in the order in which the joints are connected";
+    std::size_t count = 0;
+    for_words(text, [&](std::string_view word) {
+      if (count == joints) throw complaint(argument, text, allowed);
+      const auto read = std::from_chars(word.data(), word.data() + word.size(), to[count++]);
+      if (read.ec != std::errc() || read.ptr != word.data() + word.size() || !std::isfinite(to[count - 1]))
+        throw complaint(argument, text, allowed);
+    });
+    if (count != joints) throw complaint(argument, text, allowed);
+  }
+};
+
+}  // namespace quadruped
