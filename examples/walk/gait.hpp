@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+// Footsteps for a linear inverted pendulum: where feet are put down so that the capture point stays ahead of them as in
+// a periodic walk (Englsberger et al., IROS 2011; Khadiv et al., IEEE T-RO 2020: step adjustment), and the way of the
+// centre of mass and of the swing foot between them.
+//
+// The pendulum falls about the centre of the stance sole and changes feet in the middle of double support, in an
+// instant. Where its capture point will be at that instant says where the swing foot goes: a capture point that has
+// gone farther than planned takes the foot along, so errors do not grow.
+//
+// Everything lies in a frame on the ground that begins where the robot stands: x forward, y left.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "pendulum.hpp"
+
+namespace walking {
+
+struct Foothold {
+  double x = 0, y = 0, yaw = 0;
+
+  /// The place that is so far ahead and to the left of this one, turned by so much.
+  Foothold beside(double ahead, double left, double turn = 0) const;
+};
+
+/// Of the trunk, in its own axes: m/s forward, m/s to the left, rad/s to the left.
+struct Velocity {
+  double forward = 0, left = 0, turn = 0;
+
+  bool is_zero() const { return forward == 0 && left == 0 && turn == 0; }
+};
+
+struct GaitSettings {
+  double period = 0.35;         ///< s, of a step
+  double double_support = 0.2;  ///< share of the period in which both feet are on the ground
+  double shift = 0.3;           ///< s, in which the weight is shifted before the first step and after the last one
+  double rise = 0.03;           ///< m, of the swing foot
+  double foot_distance = 0.1;   ///< m, from sole to sole
+  double com_height = 0.25;     ///< m, above the soles
+  Velocity largest_step;        ///< m, m, rad, in one step
+  Velocity largest_change;      ///< m, m, rad: from a step to the next of the same foot
+  double w() const;             ///< rad/s, of the pendulum
+};
+
+enum Side : std::int64_t { left_side, right_side };
+
+/// A sole above the ground.
+struct SolePlace {
+  Foothold at;
+  double height = 0;
+};
+
+class Gait {
+ public:
+  enum Phase : std::int64_t { standing, shifting_in, stepping, shifting_out };
+
+  /// Stands with the middle between both feet at `middle`.
+  void stand(const Foothold& middle, const GaitSettings& g);
+  /// Goes on by `h` s. A command of zero ends the walk with feet side by side, unless `keep_stepping`.
+  void advance(double h, const Velocity& command, bool keep_stepping, const GaitSettings& g);
+  /// The capture point has been found to be so far ahead of where it should be (m): the swing foot makes up for it.
+  void find_astray(double ahead, const GaitSettings& g);
+
+  Phase phase() const { return phase_; }
+  /// The foot that carries; while both do, the one that carries next or has carried last.
+  Side stance() const { return stance_; }
+  double time() const { return time_; }  ///< s, in the phase
+  /// 0 with the weight on both feet, 1 in the middle of single support.
+  double lift(const GaitSettings& g) const;
+  /// Of the weight, on the left foot.
+  double share(const GaitSettings& g) const;
+  const Pendulum& along_x() const { return x_; }
+  const Pendulum& along_y() const { return y_; }
+  double zmp_x() const { return zmp_x_; }
+  double zmp_y() const { return zmp_y_; }
+  double yaw() const { return yaw_; }  ///< of the trunk
+  SolePlace sole(Side side, const GaitSettings& g) const;
+  const Foothold& target() const { return target_; }
+
+ private:
+  Foothold middle() const;
+  Foothold stride(Side swing, const GaitSettings& g) const;
+  void begin_step(const Velocity& command, const GaitSettings& g);
+  void end_step(const Velocity& command, bool keep_stepping, const GaitSettings& g);
+  void begin_shift(Phase phase, double xi_x, double xi_y, const GaitSettings& g);
+  void settle(double h, const GaitSettings& g);
+  void place_swing_foot(const GaitSettings& g);
+  double swing_part(const GaitSettings& g) const;
+
+  std::array<Foothold, 2> feet_;  ///< where they stand, or stood last
+  Foothold target_;               ///< where the swing foot goes
+  Foothold xi_;                   ///< the capture point when the swing foot begins to carry
+  double astray_ = 0;             ///< m, at the end of the step
+  Velocity speed_;                ///< what steps are made for
+  Pendulum x_, y_;
+  double zmp_x_ = 0, zmp_y_ = 0;
+  double yaw_ = 0, yaw_before_ = 0;
+  double time_ = 0;
+  Phase phase_ = standing;
+  Side stance_ = left_side;
+  std::int64_t steps_in_place_ = 0;
+};
+
+}  // namespace walking

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+// Walks on two legs, as fast as it is told, and gets up when it has fallen. Joints, gyroscope and accelerometer are
+// read where there are any.
+//
+// A gait of footsteps and a pendulum (gait.hpp) says where soles and centre of mass are; the body (body.hpp) says by
+// which angles, and by how much springs of servos give way; balance (balance.hpp) corrects ankles, hips and the places
+// of feet by what the sensors say. All numbers of the robot are tunables (settings.hpp).
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+
+#include "attitude.hpp"
+#include "balance.hpp"
+#include "body.hpp"
+#include "gait.hpp"
+#include "get_up.hpp"
+#include "joints.hpp"
+#include "muro_controller.hpp"
+#include "settings.hpp"
+
+namespace {
+
+using namespace muro::controller;
+using namespace walking;
+
+enum Input { positions, angular_velocity, linear_acceleration, command };
+enum Output { targets, phase, odometry };
+
+/// What the robot is at, as `walk.phase` says.
+enum Mode : std::int64_t { preparing, standing, walking_on, falling, getting_up };
+
+class Walk {
+ public:
+  static constexpr const char* name = "walk";
+  static constexpr const char* version = "1.0.0";
+  static constexpr const char* summary =
+      "Walks on two legs by a pendulum, its capture point and gyro feedback; gets up";
+  static constexpr muro_port inputs[] = {{"joint.position", "rad", 0, MURO_PORT_OPTIONAL},
+                                         {"angular_velocity", "rad/s", 3, MURO_PORT_OPTIONAL},
+                                         {"linear_acceleration", "m/s^2", 3, MURO_PORT_OPTIONAL},
+                                         {"walk.command", "m/s, m/s, rad/s", 3, MURO_PORT_OPTIONAL}};
+  static constexpr muro_port outputs[] = {{"joint.position.target", "rad", 0, 0},
+                                          {"walk.phase", "1", 1, MURO_PORT_OWN},
+                                          {"walk.odometry", "m, m, rad", 3, MURO_PORT_OWN}};
+  static constexpr auto& tunables = tunable_table;
+
+  explicit Walk(const Setup& setup)
+      : joints_(setup.output_size(targets), setup.argument("directions"), setup.argument("zeros")),
+        s_(setup.raw().tunables, setup.period()),
+        body_(s_.body),
+        get_up_(s_) {
+    if (const auto n = setup.input_size(positions); n != 0 && n < Joints::legs_end)
+      throw std::invalid_argument("joint.position needs the joints of both legs, as joint.position.target has them");
+    state_.gait.stand({}, s_.gait);
+  }
+
+  void step(const Step& now) {
+    const double h = now.period();
+    if (now.index() == 0) std::ranges::copy(now.output(targets).first(joints_.size()), state_.from.begin());
+    state_.time += h;
+    const bool has_imu = now.input(angular_velocity).size() == 3 && now.input(linear_acceleration).size() == 3;
+    const bool has_joints = !now.input(positions).empty();
+    if (has_joints) measure(now);
+    if (has_imu) feel(now, h);
+    Posture posture{.legs = {}, .arm = s_.arm};
+    if (state_.mode <= walking_on) {
+      Velocity wanted = state_.mode == preparing ? Velocity{} : command_of(now);
+      if (has_imu) wanted = hold_heading(wanted, h);
+      if (has_imu && has_joints) step_after_capture_point(h);
+      state_.gait.advance(h, wanted, false, s_.gait);
+      posture.legs = legs(has_imu && state_.mode != preparing);
+      if (has_imu && state_.attitude.up().z < fallen) change(falling, now);
+    }
+    if (state_.mode == falling && state_.time > lie_down) {
+      state_.get_up.begin(state_.attitude.up().x > 0);
+      change(getting_up, now);
+    }
+    if (state_.mode == falling) posture = get_up_.straight();
+    if (state_.mode == getting_up) {
+      get_up_.advance(state_.get_up, h);
+      posture = get_up_.posture(state_.get_up);
+    }
+    write(posture, now);
+    if (state_.mode == getting_up && get_up_.is_done(state_.get_up)) stand_again(now);
+    if (state_.mode == preparing &&
+        state_.time > s_.prepare + (has_imu && !state_.calibrated ? settle + s_.calibrate : 0))
+      state_.calibrated = 1, change(standing, now);
+    if (state_.mode == standing || state_.mode == walking_on)
+      state_.mode = state_.gait.phase() == Gait::standing ? standing : walking_on;
+    now.output(phase)[0] = double(state_.mode);
+    const auto o = now.output(odometry);
+    o[0] = state_.gait.along_x().position, o[1] = state_.gait.along_y().position, o[2] = state_.gait.yaw();
+  }
+
+  static constexpr double fallen = 0.6;    // of the trunk's z axis along "up"
+  static constexpr double lie_down = 1.0;  // s, until a robot that falls lies
+  static constexpr double settle = 0.6;    // s, until one that has come to its posture is at rest
+
+ private:
+  /// All that one step leaves for the next.
+  struct State {
+    double time = 0;  // s, in the mode
+    Mode mode = preparing;
+    std::int64_t calibrated = 0;
+    double heading = 0;  // rad, as commanded
+    Gait gait;
+    Attitude attitude;
+    Balance balance;
+    GetUp::Progress get_up;
+    BothLegs measured{}, plan{};
+    std::array<double, Joints::most> from{};  // targets when the mode began
+  };
+
+ public:
+  static constexpr std::size_t save_size = sizeof(State);
+  static_assert(std::is_trivially_copyable_v<State>);
+
+  void save(Saver& to) const { to.put(state_); }
+  void load(Loader& from) { state_ = from.get<State>(); }
+
+ private:
+  void change(Mode mode, const Step& now) {
+    state_.mode = mode;
+    state_.time = 0;
+    std::ranges::copy(now.output(targets).first(joints_.size()), state_.from.begin());
+  }
+
+  void measure(const Step& now) { state_.measured = joints_.legs(now.input(positions)); }
+
+  void feel(const Step& now, double h) {
+    const auto w = now.input(angular_velocity), f = now.input(linear_acceleration);
+    const Vector rate{w[0], w[1], w[2]}, force{f[0], f[1], f[2]};
+    // one that lies feels nothing but gravity
+    state_.attitude.update(rate, force, state_.mode == falling ? 10 * s_.attitude : s_.attitude, h);
+    if (state_.mode != preparing || state_.calibrated || state_.time <= s_.prepare + settle) return;
+    if (state_.attitude.up().z < 0.9) return;
+    const BothLegs& angles = now.input(positions).empty() ? state_.plan : state_.measured;
+    state_.attitude.calibrate(rate, force, body_.leg(left_side).sole_at(angles[left_side]).rotation.z);
+  }
+
+  Velocity command_of(const Step& now) const {
+    const auto c = now.input(command);
+    return c.size() == 3 ? Velocity{c[0], c[1], c[2]} : s_.command;
+  }
+
+  Velocity hold_heading(Velocity wanted, double h) {
+    if (wanted.is_zero()) {
+      state_.heading = state_.attitude.yaw();
+      return wanted;
+    }
+    state_.heading += h * wanted.turn;
+    const double off = std::remainder(state_.heading - state_.attitude.yaw(), 2 * M_PI);
+    wanted.turn += std::clamp(s_.heading * off, -0.3, 0.3);
+    return wanted;
+  }
+
+  void step_after_capture_point(double h) {
+    const std::array<Frame, 2> soles{body_.leg(left_side).sole_at(state_.measured[left_side]),
+                                     body_.leg(right_side).sole_at(state_.measured[right_side])};
+    const double ahead = state_.balance.astray(state_.gait, s_.gait, body_, state_.attitude, soles, s_.balance, h);
+    state_.gait.find_astray(s_.balance.capture * ahead, s_.gait);
+  }
+
+  BothLegs legs(bool feels) {
+    const Frame trunk = body_.trunk_for(state_.gait, s_.gait, s_.trunk_height, s_.lean);
+    const BothLegs plan = body_.legs_for(state_.gait, s_.gait, trunk);
+    const BothLegs sag = body_.sag(state_.gait, s_.gait, trunk, plan);
+    BothLegs q = plan;
+    for (std::size_t side = 0; side < 2; ++side)
+      for (std::size_t j = 0; j < leg_joints; ++j) q[side][j] += sag[side][j];
+    state_.plan = plan;
+    if (feels) keep_balance(q, state_.gait, state_.attitude, s_.lean, s_.balance);
+    return q;
+  }
+
+  /// What begins with a mode comes within `prepare` s.
+  void write(const Posture& posture, const Step& now) {
+    const auto out = now.output(targets);
+    joints_.write(posture, out);
+    if (state_.mode == standing || state_.mode == walking_on) return;
+    const double part = std::min(1.0, state_.time / s_.prepare);
+    const double done = part * part * (3 - 2 * part);
+    for (std::size_t i = 0; i < joints_.size(); ++i) out[i] = state_.from[i] + done * (out[i] - state_.from[i]);
+  }
+
+  void stand_again(const Step& now) {
+    change(preparing, now);
+    state_.gait.stand({}, s_.gait);
+    state_.balance.clear();
+    state_.heading = state_.attitude.yaw();
+  }
+
+  Joints joints_;
+  Settings s_;
+  Body body_;
+  GetUp get_up_;
+  State state_;
+};
+
+}  // namespace
+
+MURO_CONTROLLER(Walk)
