@@ -21,7 +21,8 @@ struct FootState {
 /// heading of the body.
 struct BodyState {
   Vector velocity;      ///< m/s
-  double ground = 0;    ///< m: middle of the feet that stand, along z, seen from the body
+  double ground = 0;    ///< m: of the plane on which the middles of standing feet are, below the body, along z
+  Vector slope;         ///< 1: rise of that plane along x and y; z is 0
   double is_known = 0;  ///< 1 once a foot has stood
 
   /// `believed`: from 0 to 1, how far each foot stands; `acceleration`: without gravity, m/s^2; `turn`: of the frame,
@@ -37,7 +38,7 @@ struct BodyState {
       const Vector off = -feet[leg].velocity - velocity;
       const double weight = is_known == 0 ? believed[leg] : believed[leg] / (1 + dot(off, off) / (jump * jump));
       seen = seen + weight * off;
-      height += believed[leg] * (feet[leg].position.z - ground);
+      height += believed[leg] * (feet[leg].position.z - ground - dot(slope, feet[leg].position));
       sum += weight, standing += believed[leg];
     }
     if (standing == 0) return;
@@ -48,6 +49,18 @@ struct BodyState {
     if (sum > 0) velocity = velocity + (share(trust, sum) / sum) * seen;
     ground += share(settling, standing) / standing * height;
     is_known = 1;
+  }
+  /// The slope of the ground by each pair of feet that stand, in turn (Kaczmarz's method). `rate`: 1/s.
+  void incline(const std::array<FootState, legs>& feet, const std::array<double, legs>& believed, double turn,
+               double rate, double dt) {
+    slope = slope - dt * cross(Vector{0, 0, turn}, slope);
+    for (std::size_t i = 0; i < legs; ++i) {
+      for (std::size_t j = i + 1; j < legs; ++j) {
+        const Vector way = feet[j].position - feet[i].position, along{way.x, way.y, 0};
+        const double squared = dot(along, along), part = rate * dt * believed[i] * believed[j];
+        if (squared > 0) slope = slope + part * (way.z - dot(slope, along)) / squared * along;
+      }
+    }
   }
 
   static constexpr double jump = 0.25;  // m/s

@@ -79,6 +79,33 @@ inline Numbers large() {
           .knee_zero = 0};
 }
 
+/// 2 kg on legs of 16 cm.
+inline Numbers small() {
+  return {.hip_front = 0.1,
+          .hip_rear = -0.1,
+          .hip_side = 0.04,
+          .hip_up = 0,
+          .abduction = 0.03,
+          .thigh = 0.08,
+          .shank = 0.08,
+          .foot_radius = 0.01,
+          .trunk = 1.2,
+          .hip_mass = 0.08,
+          .thigh_mass = 0.09,
+          .shank_mass = 0.025,
+          .foot_mass = 0.005,
+          .trunk_size = {0.2, 0.08, 0.05},
+          .effort = {2, 2, 2},
+          .speed = 15,
+          .armature = 0,
+          .friction = 0.01,
+          .bend_front = -1,
+          .bend_rear = -1,
+          .mirrored = true,
+          .hip_zero = -0.3,
+          .knee_zero = 0.2};
+}
+
 inline std::string number(double x) {
   char text[32];
   std::snprintf(text, sizeof text, "%.17g", x);
@@ -152,6 +179,10 @@ class GeneratedRobot {
                                                   {"bend_front", n_.bend_front},
                                                   {"bend_rear", n_.bend_rear},
                                                   {"mass", n_.mass()},
+                                                  {"thigh_mass", n_.thigh_mass},
+                                                  {"shank_mass", n_.shank_mass},
+                                                  {"foot_mass", n_.foot_mass},
+                                                  {"armature", n_.armature},
                                                   {"effort_abduction", n_.effort[0]},
                                                   {"effort_hip", n_.effort[1]},
                                                   {"effort_knee", n_.effort[2]},

@@ -28,7 +28,7 @@ struct Model {
   LegMasses leg_masses;
   Vector stiffness, damping;  ///< N m/rad, N m s/rad: of the joints of a swinging leg
   double mass, gravity, height, foot_radius, wider, lift, press, speed;
-  double acceleration, turn_acceleration, climb, reach_speed, trust, settling;
+  double acceleration, turn_acceleration, climb, reach_speed, trust, settling, leaning;
 
   /// Moments of inertia by the mass and the squared distances between hips, where none are given: of robots of the
   /// class of Unitree A1 and Mini Cheetah, whose trunks carry half the mass.
@@ -79,7 +79,8 @@ inline Model::Model(const muro::controller::Setup& s) : joints(s) {
   effort = {is(t::effort_abduction), is(t::effort_hip), is(t::effort_knee)};
   lift = is(t::lift), press = is(t::press);
   speed = is(t::speed), acceleration = is(t::acceleration), turn_acceleration = is(t::turn_acceleration);
-  climb = is(t::climb), reach_speed = is(t::reach_speed), trust = is(t::trust), settling = is(t::settling);
+  climb = is(t::climb), reach_speed = is(t::reach_speed), trust = is(t::trust), settling = is(t::settling),
+  leaning = is(t::leaning);
   wider = is(t::wider);
   const auto part_of = [&](t::Index i, double fraction) { return is(i) > 0 ? is(i) : fraction * mass; };
   leg_masses = {part_of(t::thigh_mass, 0.046), part_of(t::shank_mass, 0.0125), part_of(t::foot_mass, 0.0042)};

@@ -28,7 +28,7 @@ struct Seen {
 /// One robot of a scenario, and a hand that pushes its base.
 class Walk {
  public:
-  Walk(const std::string& file, std::vector<std::string> overrides, const std::string& robot = "walker") {
+  Walk(const std::string& file, const std::vector<std::string>& overrides, const std::string& robot = "walker") {
     built_ = host::build(host::read_scenario(file, overrides), test::plugins(), [&](Simulation& s) {
       robot_ = s.world().find_robot(robot);
       PropertyStore& store = s.world().store();

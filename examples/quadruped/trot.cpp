@@ -52,6 +52,7 @@ class Trot {
     s.stride.advance(model_.gait, s.clock, seen, now.period());
     s.body.update(seen.feet, s.stride.believed(), seen.force - Vector{0, 0, model_.gravity}, seen.rotation.z,
                   model_.trust, model_.settling, now.period());
+    s.body.incline(seen.feet, s.stride.believed(), seen.rotation.z, model_.leaning, now.period());
     drive(seen, now);
     tell(now);
   }
@@ -168,7 +169,7 @@ class Trot {
     }
     Vector to =
         model_.placement.target(model_.below_hip(i), body.velocity, state_.course.aim(), model_.gait.stance_time());
-    to.z = body.ground - model_.press;
+    to.z = body.ground + dot(body.slope, to) - model_.press;
     const Vector ground = -(body.velocity + cross(spin, to));
     return Arc{leg.lifted_at, model_.lift, model_.gait.swing_time()}.at(state_.clock.of(model_.gait, i).progress, to,
                                                                         {ground.x, ground.y, 0});

@@ -149,6 +149,29 @@ TEST(Trot, PairsAtTheSimplifiedLevelKeepUpWithFullDynamics) {
   EXPECT_NEAR(mate().position.x() - x, walk.pose().position.x() - x_full, 0.15 * 2);
 }
 
+/// A ramp up and one down, 3 m each, from 1 m on: boxes whose tops meet.
+std::string ramps(double slope) {
+  const double c = std::cos(slope), s = std::sin(slope);
+  const auto box = [&](const char* name, double x, double z, double pitch) {
+    return std::string(name) + ": {shape: {box: [3, 3, 0.2]}, friction: 0.9, at: {x: " + std::to_string(x) +
+           ", z: " + std::to_string(z) + ", pitch: " + std::to_string(pitch) + "}}";
+  };
+  return "world.objects={ground: {shape: plane, friction: 0.9}, " +
+         box("up", 1 + 1.5 * c + 0.1 * s, 1.5 * s - 0.1 * c, -slope) + ", " +
+         box("down", 1 + 4.5 * c - 0.1 * s, 1.5 * s - 0.1 * c, slope) + "}";
+}
+
+TEST(Trot, ClimbsARampOf8DegreesAndComesDown) {
+  Walk walk(scenario, Walk::alone({ramps(8 * degree)}));
+  walk.run(9);
+  EXPECT_GT(walk.seen.highest, 0.32 + 3 * std::sin(8 * degree) - 0.08) << "m: astride the top";
+  walk.run(7);
+  EXPECT_GT(walk.pose().position.x(), 7.3);
+  EXPECT_NEAR(walk.pose().position.z(), 0.325, 0.01);
+  EXPECT_LT(walk.seen.most_tilt, 6 * degree);
+  EXPECT_EQ(walk.seen.touched, "");
+}
+
 TEST(Trot, GoesOnWhereItsLevelOfDetailChangesInMidStride) {
   Walk walk(scenario,
             {"robots.a1=off", "robots.walker=off",
