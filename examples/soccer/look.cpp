@@ -18,8 +18,8 @@ enum Tunable { trunk_height, neck_x, neck_z, tilt_x, tilt_y, tilt_z, camera_x, c
 constexpr double gain = 0.7;            // of the way to the ball in a step
 constexpr double memory = 0.6;          // s: so long it waits for the ball where it was
 constexpr double sweep = 1.2;           // rad: to each side, when it looks around
-constexpr double sweep_period = 4;      // s
-constexpr double down[] = {0.25, 0.7};  // rad: tilts of the sweeps, far and near
+constexpr double sweep_period = 3;      // s
+constexpr double down[] = {0.9, 0.25, 0.6};  // rad: tilts of the sweeps, far and near
 constexpr double pi = 3.14159265358979323846;
 
 class Look {
@@ -73,7 +73,7 @@ class Look {
     } else if (age_ > memory) {
       sweep_ += now.period() / sweep_period;
       target[0] = sweep * muro_sin(2 * pi * sweep_);
-      target[1] = down[std::int64_t(sweep_) % 2];
+      target[1] = down[std::int64_t(sweep_) % 3];
     }
     const auto told = now.output(ball);
     told[0] = found ? 1 : 0, told[1] = x_, told[2] = y_, told[3] = age_;

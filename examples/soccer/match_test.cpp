@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// The match: a short one, and a half without opponents that ends with a goal.
+#include <gtest/gtest.h>
+
+#include "host/scenario/builder.hpp"
+#include "muro/vocabulary.hpp"
+#include "tests/support/scene.hpp"
+
+namespace muro::host {
+namespace {
+
+const std::string file = MURO_TEST_SOURCE_DIR "/examples/soccer/match.yaml";
+
+std::vector<double> told(const Simulation& s, const std::string& name) {
+  const auto values = s.world().values(world_object, Key<double>{name, "1", ""});
+  return {values.begin(), values.end()};
+}
+
+/// Only the foremost players have cameras.
+const std::vector<std::string> two_cameras = {"robots.blue[0-2].camera=off", "robots.red[0-2].camera=off"};
+
+TEST(Match, ForwardsSeeTheBallAndGoForIt) {
+  BuiltScenario built = build(read_scenario(file, two_cameras), test::plugins());
+  Simulation& s = *built.simulation;
+  s.run_for(4.5);
+  EXPECT_EQ(told(s, "match.falls"), (std::vector<double>{0, 0}));
+  for (const char* name : {"blue_3", "red_3"}) {
+    const ObjectId base = s.world().find_robot(name)->base();
+    const auto seen = s.world().values(base, Key<double>{"ball.seen", "1, m, m, s", ""});
+    EXPECT_LT(seen[3], 1) << name << " has it in sight";
+    const double distance = s.world().value(base, keys::pose).position.head<2>().norm();
+    EXPECT_NEAR(std::hypot(seen[1], seen[2]), distance, 0.15) << name;
+    EXPECT_LT(distance, std::string(name) == "blue_3" ? 0.72 : 1.05) << name << " comes nearer";
+  }
+}
+
+TEST(SlowMatch, AHalfWithoutOpponentsEndsWithAGoal) {
+  BuiltScenario built = build(read_scenario(file, {"robots.red=off",
+                                                   "algorithms.referee.inputs=[\"ball.pose=ball/body:pose\", "
+                                                   "\"left.poses=blue_*/base_link:pose\", "
+                                                   "\"place.answer=ball/body:place.answer\"]"}),
+                              test::plugins());
+  Simulation& s = *built.simulation;
+  s.run_for(121);
+  EXPECT_GE(told(s, "match.score")[0], 1);
+  EXPECT_EQ(told(s, "match.score")[1], 0);
+  EXPECT_EQ(told(s, "match.state")[0], 2);
+}
+
+}  // namespace
+}  // namespace muro::host
