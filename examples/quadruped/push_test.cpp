@@ -40,10 +40,10 @@ TEST(Push, From8DirectionsIsBorneInEveryFullDynamics) {
   for (int direction = 0; direction < 8; ++direction) pushes(motions[direction % 4], direction * 45 * degree, 1.2, 60);
 }
 
-TEST(Push, SlowFrom8DirectionsAtManyInstantsOfTheStride) {
+TEST(Push, SlowFrom8DirectionsInBothHalvesOfTheStride) {
   for (const std::string motion : {"articulated", "bullet", "ode", "mujoco"})
     for (int direction = 0; direction < 8; ++direction)
-      for (int part = 0; part < 4; ++part) pushes(motion, direction * 45 * degree, 2 + 0.1 * part, 60);
+      for (int part = 0; part < 2; ++part) pushes(motion, direction * 45 * degree, 1.55 + 0.1 * part, 60);
 }
 
 TEST(Push, SlowOfTwiceTheImpulseIsBorneByStepsAside) {
