@@ -22,10 +22,14 @@ camera labels labels
   --size 800x450 --out "$out/balancer.png"
 "$muro" render examples/biped/biped.yaml --at 4.12 --from=1.7,-1.6,0.75 --to=0.75,0.35,0.15 --fov 45 --size 800x450 \
   --out "$out/biped.png"
+"$muro" render examples/walk/walk.yaml --at 5 --from=2.1,-1.1,0.65 --to=0.2,0.07,0.14 --fov 48 --size 960x540 \
+  --out "$out/walk.png"
 "$muro" render examples/quadruped/quadruped.yaml --at 8.15 --from=6.3,-3.9,1.45 --to=3.7,-1.1,0.1 --fov 50 \
   --size 960x540 --out "$out/quadruped.png"
 "$muro" render examples/soccer/soccer.yaml --at 1.45 --from=-1.9,-2.5,1.05 --to=0.75,0.35,0.05 --fov 52 --size 1280x640 \
   --out "$out/soccer.png"
+"$muro" render examples/soccer/match.yaml --at 7.5 --from=-1.6,-2.2,1.1 --to=0.35,0.1,0.15 --size 1280x720 \
+  --out "$out/match.png"
 
 allan=$(mktemp --suffix=.svg)
 "$muro" sensors allan examples/sensors/imu_at_rest.yaml --sensor fine --reading angular_velocity --duration 20000 \

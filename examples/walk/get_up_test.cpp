@@ -34,6 +34,13 @@ TEST(GetUp, FromTheBellyAtMujoco) { expect_getting_up("mujoco", 1); }
 TEST(GetUp, FromTheBackAtArticulated) { expect_getting_up("articulated", -1); }
 TEST(GetUp, FromTheBackAtMujoco) { expect_getting_up("mujoco", -1); }
 
+TEST(GetUp, OneThatLiesAtTheStartGetsUp) {
+  Walker walker({"robots.walker.at={pitch: -1.57}"});
+  walker.run(11);
+  EXPECT_EQ(walker.phase(), 2);
+  EXPECT_GT(walker.pose().position.z(), 0.245);
+}
+
 TEST(GetUp, SlowInOtherEngines) {
   for (const char* motion : {"bullet", "ode"}) expect_getting_up(motion, 1);
   expect_getting_up("bullet", -1);

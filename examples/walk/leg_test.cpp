@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <iomanip>
 #include <random>
-
-#include <fmt/format.h>
+#include <sstream>
 
 #include "settings.hpp"
 #include "walk_testing.hpp"
@@ -20,6 +20,13 @@ std::vector<double> defaults() {
   std::vector<double> values;
   for (const muro_tunable& t : tunable_table) values.push_back(t.default_value);
   return values;
+}
+
+/// With all digits.
+std::string in_full(double value) {
+  std::ostringstream text;
+  text << std::setprecision(17) << value;
+  return text.str();
 }
 
 double difference(const Frame& a, const Frame& b) {
@@ -45,8 +52,8 @@ TEST(Leg, SolesAreWhereTheModelHasThem) {
                                        "robots.walker.links={use: kinematics.direct, rate: 100}"};
     for (const Side side : {left_side, right_side})
       for (std::size_t j = 0; j < leg_joints; ++j)
-        overrides.push_back(
-            fmt::format("robots.walker.joints.{}_{}={:.17g}", side == left_side ? "l" : "r", names[j], q[side][j]));
+        overrides.push_back(std::string("robots.walker.joints.") + (side == left_side ? "l_" : "r_") + names[j] + "=" +
+                            in_full(q[side][j]));
     Walker walker(overrides);
     walker.simulation().run_for(0.02);
     const Pose base = walker.pose();

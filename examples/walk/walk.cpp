@@ -7,6 +7,8 @@
 // of feet by what the sensors say. All numbers of the robot are tunables (settings.hpp).
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <string>
 #include <type_traits>
 
 #include "attitude.hpp"
@@ -52,6 +54,7 @@ class Walk {
     if (const auto n = setup.input_size(positions); n != 0 && n < Joints::legs_end)
       throw std::invalid_argument("joint.position needs the joints of both legs, as joint.position.target has them");
     state_.gait.stand({}, s_.gait);
+    expect_reach();
   }
 
   void step(const Step& now) {
@@ -119,6 +122,18 @@ class Walk {
   void load(Loader& from) { state_ = from.get<State>(); }
 
  private:
+  /// A leg that is straight already where the robot stands cannot step.
+  void expect_reach() const {
+    const Leg& leg = body_.leg(left_side);
+    const Frame trunk = body_.trunk_for(state_.gait, s_.gait, s_.trunk_height, s_.lean);
+    const Frame sole{{}, {0, 0.5 * s_.gait.foot_distance, 0}};
+    const Frame asked = trunk.inverse() * sole;
+    if ((leg.sole_at(leg.angles_for(asked)).origin - asked.origin).norm() > 1e-9)
+      throw std::invalid_argument("trunk_height=" + std::to_string(s_.trunk_height) + " m is more than legs of " +
+                                  std::to_string(leg.length()) +
+                                  " m reach: lower it, or see to thigh, shin, hip_z and sole_z");
+  }
+
   void change(Mode mode, const Step& now) {
     state_.mode = mode;
     state_.time = 0;
@@ -185,7 +200,7 @@ class Walk {
 
   void stand_again(const Step& now) {
     change(preparing, now);
-    state_.gait.stand({}, s_.gait);
+    state_.gait.stand({state_.gait.along_x().position, state_.gait.along_y().position, state_.gait.yaw()}, s_.gait);
     state_.balance.clear();
     state_.heading = state_.attitude.yaw();
   }

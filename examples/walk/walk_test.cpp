@@ -91,6 +91,18 @@ TEST(Walk, SaysWhatItIsAndWhereItHasGone) {
   EXPECT_NEAR(odometry[1], walker.pose().position.y(), 0.1);
 }
 
+TEST(Walk, SaysThatLegsAreTooShort) {
+  Walker walker({tunables("trunk_height=0.3")});
+  try {
+    walker.run(0.1);
+    FAIL() << "nothing is said";
+  } catch (const std::exception& e) {
+    EXPECT_NE(std::string(e.what()).find("trunk_height=0.300000 m is more than legs of 0.220150 m reach"),
+              std::string::npos)
+        << e.what();
+  }
+}
+
 /// 10 m of way in 120 s, less than 1 m to the side.
 void expect_ten_metres(const std::string& motion) {
   for (int seed = 1; seed <= 5; ++seed) {

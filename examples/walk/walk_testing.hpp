@@ -25,7 +25,8 @@ inline std::string tunables(const std::string& list) { return "robots.walker.wal
 class Walker {
  public:
   explicit Walker(std::vector<std::string> overrides = {}, const std::string& file = scenario) {
-    if (file == scenario) overrides.insert(overrides.begin(), {"robots.circle=off", "robots.sideways=off"});
+    if (file == scenario)
+      overrides.insert(overrides.begin(), {"robots.square=off", "robots.sideways=off", "robots.lying=off"});
     built_ = host::build(host::read_scenario(file, overrides), test::plugins(), [&](Simulation& s) {
       robot_ = s.world().find_robot("walker");
       PropertyStore& store = s.world().store();
