@@ -2,6 +2,8 @@
 // Robots of other lengths, masses, servos and joints walk by other numbers alone.
 #include <gtest/gtest.h>
 
+#include <regex>
+
 #include "generated_humanoid_testing.hpp"
 #include "walk_testing.hpp"
 
@@ -35,6 +37,39 @@ TEST(OtherRobots, OneLikeSigmabanWithOtherZerosWalks) {
                 "forward=0.15, period=0.4, rise=0.03, step_forward=0.12, "
                 "ankle_pitch_rate=0.03, ankle_roll_rate=0.03",
                 0.15);
+}
+
+/// The simpler humanoid of examples/models, whose drives are as hard as the motion makes them.
+TEST(OtherRobots, TheBipedOfTheModelsWalks) {
+  std::string joints;
+  for (const std::string side : {"left", "right"})
+    for (const char* name : {"hip_yaw", "hip_roll", "hip_pitch", "knee", "ankle_pitch", "ankle_roll"})
+      joints += (joints.empty() ? "" : ",") + side + "_" + name + ":joint.position";
+  const std::string targets = std::regex_replace(joints, std::regex("position"), "position.target");
+  const test::ScratchFolder folder;
+  const std::string text = R"(world: {objects: {ground: {shape: plane, friction: 0.9}}}
+robots:
+  walker:
+    model: )" MURO_TEST_SOURCE_DIR R"(/examples/models/biped.urdf
+    motion: {use: motion.articulated, rate: 1000, joints: position, interpolate: 0.008}
+    imu: {use: sensor.imu, on: torso, rate: 125}
+    imu_error: {use: sensor.error, on: imu, part: mti1}
+    walk:
+      use: controller.library
+      library: walk
+      rate: 125
+      inputs: ["joint.position=)" +
+                           joints + "\"]\n      outputs: [\"joint.position.target=" + targets + R"("]
+      tunables: [hip_y=0.04, hip_z=-0.05, hip_pitch_x=0, thigh=0.12, shin=0.12, sole_x=0.015, sole_y=0.005,
+                 sole_z=0.03, mass=4.06, leg_mass=0.192, leg_com=0.465, upper_com_x=0, upper_com_z=0.0962,
+                 trunk_height=0.3, stiffness=0, ankle_pitch_rate=0.03, ankle_roll_rate=0.03]
+)";
+  Walker walker({}, folder.file("biped.yaml", text));
+  walker.run(8);
+  EXPECT_NEAR(walker.pose().position.x(), 0.1 * 5.4, 0.1);
+  EXPECT_LT(std::abs(walker.pose().position.y()), 0.05);
+  EXPECT_GT(walker.least_upright(), 0.998);
+  EXPECT_EQ(walker.touched(), "");
 }
 
 }  // namespace

@@ -59,35 +59,15 @@ class Walk {
 
   void step(const Step& now) {
     const double h = now.period();
-    if (now.index() == 0) std::ranges::copy(now.output(targets).first(joints_.size()), state_.from.begin());
+    if (now.index() == 0) change(preparing, now);
     state_.time += h;
-    const bool has_imu = now.input(angular_velocity).size() == 3 && now.input(linear_acceleration).size() == 3;
-    const bool has_joints = !now.input(positions).empty();
-    if (has_joints) measure(now);
-    if (has_imu) feel(now, h);
-    Posture posture{.legs = {}, .arm = s_.arm};
-    if (state_.mode <= walking_on) {
-      Velocity wanted = state_.mode == preparing ? Velocity{} : command_of(now);
-      if (has_imu) wanted = hold_heading(wanted, h);
-      if (has_imu && has_joints) step_after_capture_point(h);
-      state_.gait.advance(h, wanted, false, s_.gait);
-      posture.legs = legs(has_imu && state_.mode != preparing);
-      if (has_imu && state_.attitude.up().z < fallen) change(falling, now);
-    }
-    if (state_.mode == falling && state_.time > lie_down) {
-      state_.get_up.begin(state_.attitude.up().x > 0);
-      change(getting_up, now);
-    }
-    if (state_.mode == falling) posture = get_up_.straight();
-    if (state_.mode == getting_up) {
-      get_up_.advance(state_.get_up, h);
-      posture = get_up_.posture(state_.get_up);
-    }
-    write(posture, now);
+    has_joints_ = !now.input(positions).empty();
+    has_imu_ = now.input(angular_velocity).size() == 3 && now.input(linear_acceleration).size() == 3;
+    if (has_joints_) state_.measured = joints_.legs(now.input(positions));
+    if (has_imu_) feel(now, h);
+    write(state_.mode <= walking_on ? walk(now, h) : get_up(now, h), now);
     if (state_.mode == getting_up && get_up_.is_done(state_.get_up)) stand_again(now);
-    if (state_.mode == preparing &&
-        state_.time > s_.prepare + (has_imu && !state_.calibrated ? settle + s_.calibrate : 0))
-      state_.calibrated = 1, change(standing, now);
+    if (state_.mode == preparing && is_ready()) state_.calibrated = 1, change(standing, now);
     if (state_.mode == standing || state_.mode == walking_on)
       state_.mode = state_.gait.phase() == Gait::standing ? standing : walking_on;
     now.output(phase)[0] = double(state_.mode);
@@ -140,7 +120,31 @@ class Walk {
     std::ranges::copy(now.output(targets).first(joints_.size()), state_.from.begin());
   }
 
-  void measure(const Step& now) { state_.measured = joints_.legs(now.input(positions)); }
+  bool is_ready() const {
+    const bool calibrates = has_imu_ && !state_.calibrated;
+    return state_.time > s_.prepare + (calibrates ? settle + s_.calibrate : 0);
+  }
+
+  Posture walk(const Step& now, double h) {
+    Velocity wanted = state_.mode == preparing ? Velocity{} : command_of(now);
+    if (has_imu_) wanted = hold_heading(wanted, h);
+    if (has_imu_ && has_joints_) step_after_capture_point(h);
+    state_.gait.advance(h, wanted, false, s_.gait);
+    const Posture posture{.legs = legs(has_imu_ && state_.mode != preparing), .arm = s_.arm};
+    if (!has_imu_ || state_.attitude.up().z >= fallen) return posture;
+    change(falling, now);
+    return get_up_.straight();
+  }
+
+  Posture get_up(const Step& now, double h) {
+    if (state_.mode == falling && state_.time <= lie_down) return get_up_.straight();
+    if (state_.mode == falling) {
+      state_.get_up.begin(state_.attitude.up().x > 0);
+      change(getting_up, now);
+    }
+    get_up_.advance(state_.get_up, h);
+    return get_up_.posture(state_.get_up);
+  }
 
   void feel(const Step& now, double h) {
     const auto w = now.input(angular_velocity), f = now.input(linear_acceleration);
@@ -209,6 +213,7 @@ class Walk {
   Settings s_;
   Body body_;
   GetUp get_up_;
+  bool has_joints_ = false, has_imu_ = false;  // whether there are readings, in each step
   State state_;
 };
 
