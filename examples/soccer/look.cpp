@@ -15,10 +15,10 @@ enum Input { image, fx, fy, cx, cy, camera_width, camera_height, orientation, he
 enum Output { head_target, ball };
 enum Tunable { trunk_height, neck_x, neck_z, tilt_x, tilt_y, tilt_z, camera_x, camera_y, camera_z, ball_radius };
 
-constexpr double gain = 0.7;            // of the way to the ball in a step
-constexpr double memory = 0.6;          // s: so long it waits for the ball where it was
-constexpr double sweep = 1.2;           // rad: to each side, when it looks around
-constexpr double sweep_period = 3;      // s
+constexpr double gain = 0.7;                 // of the way to the ball in a step
+constexpr double memory = 0.6;               // s: so long it waits for the ball where it was
+constexpr double sweep = 1.2;                // rad: to each side, when it looks around
+constexpr double sweep_period = 3;           // s
 constexpr double down[] = {0.9, 0.25, 0.6};  // rad: tilts of the sweeps, far and near
 constexpr double pi = 3.14159265358979323846;
 

@@ -48,8 +48,10 @@ class Referee {
   static constexpr const char* name = "referee";
   static constexpr const char* version = "1.0.0";
   static constexpr const char* summary = "Counts goals and falls, puts the ball on its spot, ends the half";
-  static constexpr muro_port inputs[] = {
-      {"ball.pose", "m", 7, 0}, {"left.poses", "m", 0, MURO_PORT_OPTIONAL}, {"right.poses", "m", 0, MURO_PORT_OPTIONAL}, {"place.answer", "1", 1, 0}};
+  static constexpr muro_port inputs[] = {{"ball.pose", "m", 7, 0},
+                                         {"left.poses", "m", 0, MURO_PORT_OPTIONAL},
+                                         {"right.poses", "m", 0, MURO_PORT_OPTIONAL},
+                                         {"place.answer", "1", 1, 0}};
   static constexpr muro_port outputs[] = {{"place.pose", "m", 7, 0},
                                           {"place.twist", "m/s, rad/s", 6, 0},
                                           {"place.count", "1", 1, 0},

@@ -55,5 +55,19 @@ TEST(Report, NamesAlgorithmsThatAreNotDeterministic) {
     EXPECT_EQ(algorithm.at("deterministic").get<bool>(), algorithm.at("plugin") != "laser.auto");
 }
 
+TEST(Report, TellsPropertiesAtTheEndWholeNumbersWithoutAPoint) {
+  test::Scene scene;
+  const RobotView& ball = scene.add("ball", test::single_body(Shape::sphere(0.5), {.mass = 1}));
+  scene.use("motion.point", 10, {{&ball, ball.base()}});
+  scene.use("recorder.report", 1, {}, {{"properties", std::vector<std::string>{"ball/body:pose"}}});
+  scene.build();
+  scene.pose(ball).position = Vec3(0.5, 3, 0);
+  scene.finish();
+  const auto pose = report({}, scene, Odometer(scene)).at("properties").at(0);
+  EXPECT_EQ(pose.at("name"), "ball/body:pose");
+  EXPECT_EQ(pose.at(".x").dump(), "0.5");
+  EXPECT_EQ(pose.at(".y").dump(), "3");
+}
+
 }  // namespace
 }  // namespace muro::host
