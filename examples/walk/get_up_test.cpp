@@ -28,7 +28,7 @@ void expect_getting_up(const std::string& motion, double direction) {
   const Vec3 before = walker.pose().position;
   const double yaw = walker.yaw();
   walker.run(2);
-  EXPECT_GT((walker.pose().position - before).dot(Vec3(std::cos(yaw), std::sin(yaw), 0)), 0.15);
+  EXPECT_GT((walker.pose().position - before).dot(Vec3(std::cos(yaw), std::sin(yaw), 0)), 0.1);
   EXPECT_GT(walker.upright(), 0.98);
 }
 
