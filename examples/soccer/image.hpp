@@ -57,14 +57,15 @@ class Image {
     double part() const { return all > 0 ? double(counted) / all : 0; }
   };
   Count count(Color color, double left, double top, double right, double bottom) const {
-    const int l = std::clamp(int(left + 0.5), 0, width_), r = std::clamp(int(right + 0.5), 0, width_);
-    const int t = std::clamp(int(top + 0.5), 0, height_), b = std::clamp(int(bottom + 0.5), 0, height_);
+    const int l = std::clamp(nearest(left), 0, width_), r = std::clamp(nearest(right), 0, width_);
+    const int t = std::clamp(nearest(top), 0, height_), b = std::clamp(nearest(bottom), 0, height_);
     if (l >= r || t >= b) return {};
     const std::vector<std::int32_t>& s = sums_[color];
     return {s[corner(r, b)] - s[corner(l, b)] - s[corner(r, t)] + s[corner(l, t)], (r - l) * (b - t)};
   }
 
  private:
+  static int nearest(double x) { return int(std::floor(x + 0.5)); }
   std::size_t corner(int u, int v) const { return std::size_t(v) * std::size_t(width_ + 1) + std::size_t(u); }
 
   int width_ = 0, height_ = 0;

@@ -17,7 +17,7 @@ using namespace soccer;
 
 enum Input { ball_seen, odometry, orientation, match_state, mates };
 enum Output { walk_command, message };
-enum Tunable { start_x, start_y, start_yaw, attack, home_x, home_y, keeper, forward, sideways, turn, goal_x };
+enum Tunable { start_x, start_y, start_yaw, attack, home_x, home_y, keeper, forward, sideways, turn, goal_x, stride };
 enum Role : std::int64_t { waits, searches, goes_for_ball, keeps_place };
 
 constexpr double forgets = 4;     // s: a ball that was not seen for so long is searched for
@@ -53,7 +53,8 @@ class Play {
       {"forward", "m/s", 0.2, 0, 2, "as fast as it walks"},
       {"sideways", "m/s", 0.08, 0, 2, "the same to the side"},
       {"turn", "rad/s", 0.6, 0, 4, "the same on the spot"},
-      {"goal_x", "m", 4.5, 0.5, 100, "of the goal line"}};
+      {"goal_x", "m", 4.5, 0.5, 100, "of the goal line"},
+      {"stride", "1", 1, 0.5, 2, "length of its steps in that of its odometry's"}};
 
   explicit Play(const Setup&) {}
 
@@ -102,7 +103,7 @@ class Play {
     } else {
       constexpr double most = 0.3;  // m, in a step: legs that got up count anew
       const Point way = memory_.by_legs.to_own(by_legs.at);
-      if (way.norm() < most) memory_.me.at = memory_.me.to_world(way);
+      if (way.norm() < most) memory_.me.at = memory_.me.to_world(now.tunable(stride) * way);
     }
     memory_.me.yaw = wrapped(heading + memory_.turned);
     memory_.by_legs = by_legs;

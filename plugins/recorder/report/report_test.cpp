@@ -41,7 +41,7 @@ TEST(RecorderReport, TellsWhatPropertiesAreAtTheEnd) {
 
 TEST(RecorderReport, RefusesWhatThereIsNot) {
   try {
-    Recorded({"ball/body:score"});
+    const Recorded none({"ball/body:score"});
     FAIL() << "there is no score";
   } catch (const SetupError& e) {
     EXPECT_NE(std::string(e.what()).find("no property matches `ball/body:score`"), std::string::npos) << e.what();
