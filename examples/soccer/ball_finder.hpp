@@ -68,8 +68,8 @@ class BallFinder {
     return whites + darks + sum / seen + 0.02 * size;
   }
 
-  /// Of sixteen points on a circle: the longest row of those that are not green. Points outside of the picture count as
-  /// green: a ball at its edge is a ball.
+  /// Of sixteen points on a circle: the longest row of those that are not green. Those outside of the picture are
+  /// not: there is little to tell a ball by at its edge.
   static int longest_gap(const Image& image, const Pixel& p, double radius) {
     constexpr int points = 16;
     constexpr double cosines[] = {1, 0.92388, 0.70711, 0.38268, 0};
@@ -81,7 +81,7 @@ class BallFinder {
     int longest = 0, row = 0;
     for (int k = 0; k < 2 * points; ++k) {
       const auto color = image.at(p.u + radius * cosine(k), p.v + radius * cosine(k + 12));
-      row = color && *color != green ? row + 1 : 0;
+      row = color && *color == green ? 0 : row + 1;
       longest = std::max(longest, std::min(row, points));
     }
     return longest;
