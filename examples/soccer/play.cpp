@@ -20,7 +20,7 @@ enum Output { walk_command, message };
 enum Tunable { start_x, start_y, start_yaw, attack, home_x, home_y, keeper, forward, sideways, turn, goal_x, stride };
 enum Role : std::int64_t { waits, searches, goes_for_ball, keeps_place };
 
-constexpr double forgets = 4;     // s: a ball that was not seen for so long is searched for
+constexpr double forgets = 3;     // s: a ball that was not seen for so long is searched for
 constexpr double behind = 0.3;    // m: the place behind the ball from which it is driven
 constexpr double line = 0.08;     // m: so far from the line through ball and goal it drives
 constexpr double goes_on = 2;     // times as far off it goes on, once it drives
@@ -131,7 +131,7 @@ class Play {
   }
   /// A ball that was last seen at its feet lies there still: it goes back to see it. Else it turns about.
   Command search(const Step& now) const {
-    constexpr double at_feet = 0.5, back = 3;  // m, s
+    constexpr double at_feet = 0.6, back = 6;  // m, s
     const bool goes_back = memory_.age < forgets + back && (memory_.ball - memory_.me.at).norm() < at_feet;
     return goes_back ? Command{-0.4 * now.tunable(forward), 0, 0} : Command{0, 0, now.tunable(turn)};
   }
