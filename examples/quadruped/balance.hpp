@@ -77,7 +77,7 @@ inline std::array<Vector, legs> ForceDistribution::share(const BodyWrench& wante
     Vector& force = forces[leg];
     force = Vector{b[0], b[1], b[2]} + cross(Vector{b[3], b[4], b[5]}, (1 / length) * arms[leg]);
     force.z = std::clamp(force.z, least, most);
-    const double across = std::hypot(force.x, force.y), bound = friction * force.z;
+    const double across = muro_hypot(force.x, force.y), bound = friction * force.z;
     if (across > bound) force.x *= bound / across, force.y *= bound / across;
   }
   return forces;

@@ -11,6 +11,7 @@
 #include "joint_map.hpp"
 #include "leg.hpp"
 #include "muro_controller.hpp"
+#include "muro_elementary.h"
 #include "placement.hpp"
 #include "tunables.hpp"
 
@@ -60,7 +61,7 @@ inline Model::Model(const muro::controller::Setup& s) : joints(s) {
   height = is(t::height) > 0 ? is(t::height) : 0.75 * length + foot_radius - is(t::hip_up);
   placement = {is(t::placement_gain), is(t::step_most) > 0 ? is(t::step_most) : 0.45 * length, height, gravity};
   distribution.friction = is(t::friction);
-  distribution.length = 0.5 * std::hypot(is(t::hip_front) - is(t::hip_rear), 2 * is(t::hip_side));
+  distribution.length = 0.5 * muro_hypot(is(t::hip_front) - is(t::hip_rear), 2 * is(t::hip_side));
   distribution.least = 0.02 * mass * gravity, distribution.most = 1.5 * mass * gravity;
   gains = {.speed = is(t::gain_speed),
            .trim = is(t::gain_trim),

@@ -31,7 +31,7 @@ struct Placement {
     double x = c * hip.x - s * hip.y - hip.x, y = s * hip.x + c * hip.y - hip.y;
     x += 0.5 * stance_time * velocity.x + gain * (velocity.x - wanted.forward) + curve * velocity.y;
     y += 0.5 * stance_time * velocity.y + gain * (velocity.y - wanted.left) - curve * velocity.x;
-    const double away = std::hypot(x, y), shorter = away > farthest ? farthest / away : 1;
+    const double away = muro_hypot(x, y), shorter = away > farthest ? farthest / away : 1;
     return {hip.x + shorter * x, hip.y + shorter * y, 0};
   }
 };

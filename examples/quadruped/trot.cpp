@@ -101,14 +101,14 @@ class Trot {
   /// `bound`: part of what makes a standing robot step.
   bool wants_to_step(const Sensed& seen, const Step& now, double bound) const {
     const auto is_told = [](const Command& c) {
-      return std::hypot(c.forward, c.left) > 0.02 || std::abs(c.turn) > 0.02;
+      return muro_hypot(c.forward, c.left) > 0.02 || std::abs(c.turn) > 0.02;
     };
     if (now.tunable(tunable::step_in_place) > 0.5 || is_told(command_of(now)) || is_told(state_.course.wanted))
       return true;
-    if (std::hypot(state_.body.velocity.x, state_.body.velocity.y) > bound * push_speed) return true;
+    if (muro_hypot(state_.body.velocity.x, state_.body.velocity.y) > bound * push_speed) return true;
     for (int i = 0; i < legs; ++i) {
       const Vector away = seen.feet[std::size_t(i)].position - model_.below_hip(i);
-      if (std::hypot(away.x, away.y) > bound * misplaced) return true;
+      if (muro_hypot(away.x, away.y) > bound * misplaced) return true;
     }
     return false;
   }
