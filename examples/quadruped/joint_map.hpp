@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -14,6 +14,7 @@
 #include "gait.hpp"
 #include "muro_controller.hpp"
 #include "vector.hpp"
+#include "words.hpp"
 
 namespace quadruped {
 
@@ -23,16 +24,6 @@ inline constexpr int joints_of_leg = 3, joints = legs * joints_of_leg;
 inline std::invalid_argument complaint(std::string_view argument, std::string_view text, const std::string& allowed) {
   return std::invalid_argument("argument `" + std::string(argument) + "` is \"" + std::string(text) + "\"; it is " +
                                allowed);
-}
-
-/// Calls `take` for each word of a text.
-template <class Take>
-void for_words(std::string_view text, Take take) {
-  for (std::size_t at = text.find_first_not_of(" ,"); at != text.npos;) {
-    const std::size_t end = std::min(text.find_first_of(" ,", at), text.size());
-    take(text.substr(at, end - at));
-    at = text.find_first_not_of(" ,", end);
-  }
 }
 
 /// Between the joints of the robot, as they are connected, and the angles of `Leg`.
@@ -78,9 +69,9 @@ struct JointMap {
     std::size_t count = 0;
     for_words(text, [&](std::string_view word) {
       if (count == joints) throw complaint(argument, text, allowed);
-      const auto read = std::from_chars(word.data(), word.data() + word.size(), to[count++]);
-      if (read.ec != std::errc() || read.ptr != word.data() + word.size() || !std::isfinite(to[count - 1]))
-        throw complaint(argument, text, allowed);
+      const std::optional<double> number = number_of(word);
+      if (!number) throw complaint(argument, text, allowed);
+      to[count++] = *number;
     });
     if (count != joints) throw complaint(argument, text, allowed);
   }

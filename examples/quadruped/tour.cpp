@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Tells a robot by the clock how fast to go: the command is an output of its own, which other control code reads.
 #include <array>
-#include <charconv>
-#include <cmath>
+#include <optional>
+#include <stdexcept>
 #include <string>
 
 #include "muro_controller.hpp"
+#include "words.hpp"
 
 namespace {
 
@@ -28,15 +29,12 @@ class Tour {
     const std::string_view text = setup.argument("plan");
     std::array<double, 4 * most> numbers{};
     std::size_t count = 0;
-    for (std::size_t at = text.find_first_not_of(" ,"); at != text.npos;) {
-      const std::size_t end = std::min(text.find_first_of(" ,", at), text.size());
+    quadruped::for_words(text, [&](std::string_view word) {
       if (count == numbers.size()) throw std::invalid_argument("argument `plan` has more than 64 parts");
-      const auto read = std::from_chars(text.data() + at, text.data() + end, numbers[count]);
-      if (read.ec != std::errc() || read.ptr != text.data() + end || !std::isfinite(numbers[count]))
-        throw std::invalid_argument("argument `plan`: \"" + std::string(text.substr(at, end - at)) + "\" is no number");
-      ++count;
-      at = text.find_first_not_of(" ,", end);
-    }
+      const std::optional<double> number = quadruped::number_of(word);
+      if (!number) throw std::invalid_argument("argument `plan`: \"" + std::string(word) + "\" is no number");
+      numbers[count++] = *number;
+    });
     if (count == 0 || count % 4 != 0)
       throw std::invalid_argument(
           "argument `plan` is a list of time (s), forward, left (m/s) and turn (rad/s): \"0 0.5 0 0, 4 0 0 0\"");

@@ -7,8 +7,6 @@
 namespace walking {
 namespace {
 
-Side opposite(Side side) { return side == left_side ? right_side : left_side; }
-
 /// Without what is tolerable.
 double beyond(double x, double tolerance) { return x - std::clamp(x, -tolerance, tolerance); }
 
@@ -22,9 +20,9 @@ double Balance::astray(const Gait& gait, const GaitSettings& g, const Body& body
   Foothold ground = gait.sole(stance, g).at;
   Vector foot = soles[stance].origin;
   if (both) {
-    const Foothold o = gait.sole(opposite(stance), g).at;
+    const Foothold o = gait.sole(other(stance), g).at;
     ground = {0.5 * (ground.x + o.x), 0.5 * (ground.y + o.y), ground.yaw};
-    foot = (foot + soles[opposite(stance)].origin) * 0.5;
+    foot = (foot + soles[other(stance)].origin) * 0.5;
   }
   const Vector com = body.com(soles[left_side].origin, soles[right_side].origin);
   const Vector from_foot = attitude.tilt() * (com - foot);

@@ -16,7 +16,6 @@ double bounded(double x, double most) { return std::clamp(x, -most, most); }
 /// From 0 to 1 for t from 0 to 1, with speed and acceleration 0 at both ends.
 double smooth(double t) { return t * t * t * (10 + t * (6 * t - 15)); }
 
-Side other(Side side) { return side == left_side ? right_side : left_side; }
 double sign_of(Side side) { return side == left_side ? 1 : -1; }
 
 }  // namespace

@@ -44,6 +44,7 @@ struct GaitSettings {
 };
 
 enum Side : std::int64_t { left_side, right_side };
+inline Side other(Side side) { return side == left_side ? right_side : left_side; }
 
 /// A sole above the ground.
 struct SolePlace {
