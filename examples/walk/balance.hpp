@@ -27,8 +27,8 @@ struct BalanceSettings {
 class Balance {
  public:
   /// How far the capture point is off, m ahead, of which `tolerance` does not count, by the places of the soles in the
-  /// trunk's frame as the joints say. Call it each `h` s.
-  double astray(const Gait& gait, const GaitSettings& g, const Body& body, const Attitude& attitude,
+  /// trunk's frame as the joints say; `w` is of the pendulum, rad/s. Call it each `h` s.
+  double astray(const Reference& now, double w, const Body& body, const Attitude& attitude,
                 const std::array<Frame, 2>& soles, const BalanceSettings& b, double h);
   /// Forgets what has been: the robot was somewhere else.
   void clear() { *this = {}; }
@@ -42,6 +42,7 @@ class Balance {
 };
 
 /// What balance adds to the angles of the legs that carry.
-void keep_balance(BothLegs& angles, const Gait& gait, const Attitude& attitude, double lean, const BalanceSettings& b);
+void keep_balance(BothLegs& angles, const Reference& now, const Attitude& attitude, double lean,
+                  const BalanceSettings& b);
 
 }  // namespace walking

@@ -18,36 +18,34 @@ Vector Body::com(const Vector& left_sole, const Vector& right_sole) const {
   return fixed_part() + (left_sole + right_sole) * (d_.leg_mass * d_.leg_com);
 }
 
-Frame Body::trunk_for(const Gait& gait, const GaitSettings& g, double trunk_height, double lean) const {
-  const Rotation rotation = about_z(gait.yaw()) * about_y(lean);
+Frame Body::trunk_for(const Reference& now, double trunk_height, double lean) const {
+  const Rotation rotation = about_z(now.yaw) * about_y(lean);
   const Vector fixed = rotation * fixed_part();
-  const Foothold left = gait.sole(left_side, g).at, right = gait.sole(right_side, g).at;
+  const Foothold left = now.soles[left_side].at, right = now.soles[right_side].at;
   const double with_soles = d_.leg_mass * d_.leg_com, with_trunk = 1 - 2 * with_soles;
   return {rotation,
-          {(gait.along_x().position - fixed.x - with_soles * (left.x + right.x)) / with_trunk,
-           (gait.along_y().position - fixed.y - with_soles * (left.y + right.y)) / with_trunk, trunk_height}};
+          {(now.x.position - fixed.x - with_soles * (left.x + right.x)) / with_trunk,
+           (now.y.position - fixed.y - with_soles * (left.y + right.y)) / with_trunk, trunk_height}};
 }
 
-BothLegs Body::legs_for(const Gait& gait, const GaitSettings& g, const Frame& trunk) const {
+BothLegs Body::legs_for(const Reference& now, const Frame& trunk) const {
   BothLegs angles;
   for (const Side side : {left_side, right_side}) {
-    const SolePlace sole = gait.sole(side, g);
+    const SolePlace& sole = now.soles[side];
     angles[side] =
         legs_[side].angles_for(trunk.inverse() * Frame{about_z(sole.at.yaw), {sole.at.x, sole.at.y, sole.height}});
   }
   return angles;
 }
 
-BothLegs Body::sag(const Gait& gait, const GaitSettings& g, const Frame& trunk, const BothLegs& angles) const {
+BothLegs Body::sag(const Reference& now, const Frame& trunk, const BothLegs& angles) const {
   BothLegs lead{};
   if (d_.stiffness <= 0) return lead;
   const Rotation to_trunk = trunk.rotation.inverse();
-  const double w = g.w(), left = gait.share(g);
-  const Vector accelerated{w * w * (gait.along_x().position - gait.zmp_x()),
-                           w * w * (gait.along_y().position - gait.zmp_y()), gravity};
+  const Vector accelerated{now.acceleration_x, now.acceleration_y, gravity};
   const Vector weight = to_trunk * Vector{0, 0, -gravity * d_.mass * d_.leg_mass};
   for (const Side side : {left_side, right_side}) {
-    const Vector force = to_trunk * accelerated * (d_.mass * (side == left_side ? left : 1 - left));
+    const Vector force = to_trunk * accelerated * (d_.mass * (side == left_side ? now.left_share : 1 - now.left_share));
     const Vector sole = legs_[side].sole_at(angles[side]).origin;
     const auto axes = legs_[side].axes_at(angles[side]);
     const Vector mass_at = axes[hip_yaw].origin * (1 - d_.leg_com) + sole * d_.leg_com;

@@ -4,8 +4,8 @@
 
 #include <array>
 
-#include "gait.hpp"
 #include "leg.hpp"
+#include "reference.hpp"
 
 namespace walking {
 
@@ -30,13 +30,13 @@ class Body {
   double com_height(double trunk_height) const;
   /// Of the whole robot, in the frame of the trunk, by the places of both soles in it.
   Vector com(const Vector& left_sole, const Vector& right_sole) const;
-  /// The trunk so that soles and centre of mass are where the gait has them, `lean` rad nose down.
-  Frame trunk_for(const Gait& gait, const GaitSettings& g, double trunk_height, double lean) const;
-  BothLegs legs_for(const Gait& gait, const GaitSettings& g, const Frame& trunk) const;
+  /// The trunk so that soles and centre of mass are where they are to be, `lean` rad nose down.
+  Frame trunk_for(const Reference& now, double trunk_height, double lean) const;
+  BothLegs legs_for(const Reference& now, const Frame& trunk) const;
   /// How far targets lead the angles so that springs carry the weight: each by its effort / stiffness. Efforts are
   /// those of the force from the ground, which goes from the ZMP through the centre of mass, and of the legs' own
   /// weight.
-  BothLegs sag(const Gait& gait, const GaitSettings& g, const Frame& trunk, const BothLegs& angles) const;
+  BothLegs sag(const Reference& now, const Frame& trunk, const BothLegs& angles) const;
 
  private:
   double trunk_share() const { return 1 - 2 * d_.leg_mass; }

@@ -13,18 +13,9 @@ constexpr double pi = 3.14159265358979323846;
 
 double bounded(double x, double most) { return std::clamp(x, -most, most); }
 
-/// From 0 to 1 for t from 0 to 1, with speed and acceleration 0 at both ends.
-double smooth(double t) { return t * t * t * (10 + t * (6 * t - 15)); }
-
 double sign_of(Side side) { return side == left_side ? 1 : -1; }
 
 }  // namespace
-
-Foothold Foothold::beside(double ahead, double left, double turn) const {
-  double s, c;
-  muro_sincos(yaw, &s, &c);
-  return {x + c * ahead - s * left, y + s * ahead + c * left, yaw + turn};
-}
 
 double GaitSettings::w() const { return std::sqrt(gravity / com_height); }
 
@@ -162,11 +153,7 @@ double Gait::lift(const GaitSettings& g) const {
 }
 
 double Gait::share(const GaitSettings& g) const {
-  if (phase_ != stepping) {
-    const Foothold &l = feet_[left_side], &r = feet_[right_side];
-    const double dx = l.x - r.x, dy = l.y - r.y;
-    return std::clamp(((zmp_x_ - r.x) * dx + (zmp_y_ - r.y) * dy) / (dx * dx + dy * dy), 0.0, 1.0);
-  }
+  if (phase_ != stepping) return share_of_left(zmp_x_, zmp_y_, feet_[left_side], feet_[right_side]);
   const double both = std::max(0.5 * g.double_support * g.period, 1e-9);
   const double carried = 0.5 + 0.5 * std::min({time_ / both, (g.period - time_) / both, 1.0});
   return stance_ == left_side ? carried : 1 - carried;
@@ -179,6 +166,19 @@ SolePlace Gait::sole(Side side, const GaitSettings& g) const {
   return {{from.x + part * (target_.x - from.x), from.y + part * (target_.y - from.y),
            from.yaw + part * (target_.yaw - from.yaw)},
           g.rise * lift(g)};
+}
+
+Reference Gait::reference(const GaitSettings& g) const {
+  const double w = g.w();
+  return {.x = x_,
+          .y = y_,
+          .acceleration_x = w * w * (x_.position - zmp_x_),
+          .acceleration_y = w * w * (y_.position - zmp_y_),
+          .yaw = yaw_,
+          .soles = {sole(left_side, g), sole(right_side, g)},
+          .left_share = share(g),
+          .stance = stance_,
+          .both = phase_ != stepping};
 }
 
 }  // namespace walking

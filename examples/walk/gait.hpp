@@ -6,23 +6,14 @@
 // The pendulum falls about the centre of the stance sole and changes feet in the middle of double support, in an
 // instant. Where its capture point will be at that instant says where the swing foot goes: a capture point that has
 // gone farther than planned takes the foot along, so errors do not grow.
-//
-// Everything lies in a frame on the ground that begins where the robot stands: x forward, y left.
 #pragma once
 
 #include <array>
 #include <cstdint>
 
-#include "pendulum.hpp"
+#include "reference.hpp"
 
 namespace walking {
-
-struct Foothold {
-  double x = 0, y = 0, yaw = 0;
-
-  /// The place that is so far ahead and to the left of this one, turned by so much.
-  Foothold beside(double ahead, double left, double turn = 0) const;
-};
 
 /// Of the trunk, in its own axes: m/s forward, m/s to the left, rad/s to the left.
 struct Velocity {
@@ -41,15 +32,6 @@ struct GaitSettings {
   Velocity largest_step;        ///< m, m, rad, in one step
   Velocity largest_change;      ///< m, m, rad: from a step to the next of the same foot
   double w() const;             ///< rad/s, of the pendulum
-};
-
-enum Side : std::int64_t { left_side, right_side };
-inline Side other(Side side) { return side == left_side ? right_side : left_side; }
-
-/// A sole above the ground.
-struct SolePlace {
-  Foothold at;
-  double height = 0;
 };
 
 class Gait {
@@ -77,6 +59,7 @@ class Gait {
   double zmp_y() const { return zmp_y_; }
   double yaw() const { return yaw_; }  ///< of the trunk
   SolePlace sole(Side side, const GaitSettings& g) const;
+  Reference reference(const GaitSettings& g) const;
   const Foothold& target() const { return target_; }
 
  private:

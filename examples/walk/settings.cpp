@@ -6,7 +6,7 @@
 
 namespace walking {
 
-static_assert(std::size(tunable_table) == t_calibrate + 1);
+static_assert(std::size(tunable_table) == t_kick_outward + 1);
 
 namespace {
 
@@ -64,6 +64,13 @@ Settings::Settings(const double* t, double h)
           .largest_step = {t[t_step_forward], t[t_step_left], t[t_step_turn]},
           .largest_change = {t[t_change] * t[t_step_forward], 0.5 * t[t_change] * t[t_step_left],
                              0.5 * t[t_change] * t[t_step_turn]}};
+  kick = {.shift = whole_steps(t[t_kick_shift], h),
+          .swing = whole_steps(t[t_kick_swing], h),
+          .back = t[t_kick_back],
+          .forward = t[t_kick_forward],
+          .rise = t[t_kick_rise],
+          .outward = t[t_kick_outward],
+          .com_height = gait.com_height};
 }
 
 }  // namespace walking

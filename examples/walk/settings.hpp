@@ -5,7 +5,9 @@
 
 #include "balance.hpp"
 #include "body.hpp"
+#include "gait.hpp"
 #include "joints.hpp"
+#include "kick.hpp"
 #include "muro_controller.hpp"
 
 namespace walking {
@@ -24,6 +26,7 @@ enum Tunable {
   t_hip_pitch_tilt, t_hip_pitch_rate, t_hip_roll_tilt, t_hip_roll_rate,
   t_capture, t_tolerance, t_delay, t_smoothing,
   t_feedback, t_attitude, t_heading, t_prepare, t_calibrate,
+  t_kick_shift, t_kick_swing, t_kick_back, t_kick_forward, t_kick_rise, t_kick_outward,
   // clang-format on
 };
 
@@ -82,6 +85,13 @@ inline constexpr muro_tunable tunable_table[] = {
     {"heading", "1/s", 3, 0, 100, "how fast a wrong heading is turned back"},
     {"prepare", "s", 0.6, 0.01, 60, "to come to the posture of the walk"},
     {"calibrate", "s", 1, 0, 60, "at rest, to measure the biases of the IMU"},
+    {"kick_shift", "s", 0.5, 0.05, 10, "in which the weight goes over one foot before a kick, and back after it"},
+    {"kick_swing", "s", 0.4, 0.05, 10, "in which the other foot is taken back, and in which it is put down"},
+    {"kick_back", "m", 0.085, 0, 2, "by which it is taken back"},
+    {"kick_forward", "m", 0.137, 0, 2, "ahead of where it stood, at the end of its way forward"},
+    {"kick_rise", "m", 0.066, 0, 2,
+     "of its sole; with the ball's centre at half the height of the toe it goes farthest"},
+    {"kick_outward", "m", 0, -1, 1, "of the centre of mass from the centre of the sole that carries"},
 };
 
 struct Settings {
@@ -92,6 +102,7 @@ struct Settings {
   GaitSettings gait;
   BodyDimensions body;
   BalanceSettings balance;
+  KickSettings kick;
   ArmAngles arm;
   double trunk_height, lean, attitude, heading, prepare, calibrate;
 };

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Walks on two legs, as fast as it is told, and gets up when it has fallen. Joints, gyroscope and accelerometer are
-// read where there are any.
+// Walks on two legs, as fast as it is told, kicks when it is told, and gets up when it has fallen. Joints, gyroscope
+// and accelerometer are read where there are any.
 //
-// A gait of footsteps and a pendulum (gait.hpp) says where soles and centre of mass are; the body (body.hpp) says by
-// which angles, and by how much springs of servos give way; balance (balance.hpp) corrects ankles, hips and the places
-// of feet by what the sensors say. All numbers of the robot are tunables (settings.hpp).
+// A gait of footsteps and a pendulum (gait.hpp) or a kick (kick.hpp) says where soles and centre of mass are; the body
+// (body.hpp) says by which angles, and by how much springs of servos give way; balance (balance.hpp) corrects ankles,
+// hips and the places of feet by what the sensors say. All numbers of the robot are tunables (settings.hpp).
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
+#include <utility>
 
 #include "attitude.hpp"
 #include "balance.hpp"
@@ -17,6 +18,7 @@
 #include "gait.hpp"
 #include "get_up.hpp"
 #include "joints.hpp"
+#include "kick.hpp"
 #include "muro_controller.hpp"
 #include "settings.hpp"
 
@@ -25,22 +27,23 @@ namespace {
 using namespace muro::controller;
 using namespace walking;
 
-enum Input { positions, angular_velocity, linear_acceleration, command };
+enum Input { positions, angular_velocity, linear_acceleration, command, kick_command };
 enum Output { targets, phase, odometry };
 
 /// What the robot is at, as `walk.phase` says.
-enum Mode : std::int64_t { preparing, standing, walking_on, falling, getting_up };
+enum Mode : std::int64_t { preparing, standing, walking_on, falling, getting_up, kicking };
 
 class Walk {
  public:
   static constexpr const char* name = "walk";
   static constexpr const char* version = "1.0.0";
   static constexpr const char* summary =
-      "Walks on two legs by a pendulum, its capture point and gyro feedback; gets up";
+      "Walks on two legs by a pendulum, its capture point and gyro feedback; kicks; gets up";
   static constexpr muro_port inputs[] = {{"joint.position", "rad", 0, MURO_PORT_OPTIONAL},
                                          {"angular_velocity", "rad/s", 3, MURO_PORT_OPTIONAL},
                                          {"linear_acceleration", "m/s^2", 3, MURO_PORT_OPTIONAL},
-                                         {"walk.command", "m/s, m/s, rad/s", 3, MURO_PORT_OPTIONAL}};
+                                         {"walk.command", "m/s, m/s, rad/s", 3, MURO_PORT_OPTIONAL},
+                                         {"walk.kick", "1, m/s", 2, MURO_PORT_OPTIONAL}};
   static constexpr muro_port outputs[] = {{"joint.position.target", "rad", 0, 0},
                                           {"walk.phase", "1", 1, MURO_PORT_OWN},
                                           {"walk.odometry", "m, m, rad", 3, MURO_PORT_OWN}};
@@ -65,7 +68,8 @@ class Walk {
     has_imu_ = now.input(angular_velocity).size() == 3 && now.input(linear_acceleration).size() == 3;
     if (has_joints_) state_.measured = joints_.legs(now.input(positions));
     if (has_imu_) feel(now, h);
-    write(state_.mode <= walking_on ? walk(now, h) : get_up(now, h), now);
+    hear_kick(now);
+    write(state_.mode == falling || state_.mode == getting_up ? get_up(now, h) : walk(now, h), now);
     if (state_.mode == getting_up && get_up_.is_done(state_.get_up)) stand_again(now);
     if (state_.mode == preparing && is_ready()) state_.calibrated = 1, change(standing, now);
     if (state_.mode == standing || state_.mode == walking_on)
@@ -89,6 +93,10 @@ class Walk {
     Gait gait;
     Attitude attitude;
     Balance balance;
+    Kick kick;
+    double kick_speed = 0;  // m/s, of the one that is asked for
+    Side kick_side = left_side;
+    std::int64_t kick_foot = 0;  // as `walk.kick` has said last
     GetUp::Progress get_up;
     BothLegs measured{}, plan{};
     std::array<double, Joints::most> from{};  // targets when the mode began
@@ -105,7 +113,7 @@ class Walk {
   /// A leg that is straight already where the robot stands cannot step.
   void expect_reach() const {
     const Leg& leg = body_.leg(left_side);
-    const Frame trunk = body_.trunk_for(state_.gait, s_.gait, s_.trunk_height, s_.lean);
+    const Frame trunk = body_.trunk_for(reference(), s_.trunk_height, s_.lean);
     const Frame sole{{}, {0, 0.5 * s_.gait.foot_distance, 0}};
     const Frame asked = trunk.inverse() * sole;
     if ((leg.sole_at(leg.angles_for(asked)).origin - asked.origin).norm() > 1e-9)
@@ -126,14 +134,44 @@ class Walk {
   }
 
   Posture walk(const Step& now, double h) {
-    Velocity wanted = state_.mode == preparing ? Velocity{} : command_of(now);
+    const bool may_walk = state_.mode == standing || state_.mode == walking_on;
+    Velocity wanted = may_walk ? command_of(now) : Velocity{};
     if (has_imu_) wanted = hold_heading(wanted, h);
     if (has_imu_ && has_joints_) step_after_capture_point(h);
     state_.gait.advance(h, wanted, false, s_.gait);
+    if (state_.mode == kicking) kick(now, h);
     const Posture posture{.legs = legs(has_imu_ && state_.mode != preparing), .arm = s_.arm};
     if (!has_imu_ || state_.attitude.up().z >= fallen) return posture;
     change(falling, now);
     return get_up_.straight();
+  }
+
+  /// A kick is made when its foot changes from 0.
+  void hear_kick(const Step& now) {
+    const auto k = now.input(kick_command);
+    if (k.size() != 2) return;
+    const std::int64_t foot = (k[0] > 0.5) - (k[0] < -0.5), before = std::exchange(state_.kick_foot, foot);
+    if (foot == 0 || before != 0 || (state_.mode != standing && state_.mode != walking_on)) return;
+    state_.kick_side = foot > 0 ? left_side : right_side;
+    state_.kick_speed = k[1];
+    state_.kick.clear();
+    change(kicking, now);
+  }
+
+  /// Once the walk has ended with feet side by side.
+  void kick(const Step& now, double h) {
+    if (state_.gait.phase() != Gait::standing) return;
+    if (!state_.kick.has_begun())
+      state_.kick.begin(state_.gait.reference(s_.gait), state_.kick_side, state_.kick_speed, s_.kick);
+    state_.kick.advance(h);
+    if (!state_.kick.is_done(s_.kick)) return;
+    state_.kick.clear();
+    change(standing, now);
+  }
+
+  /// Of the kick once it has begun, and of the gait.
+  Reference reference() const {
+    return state_.kick.has_begun() ? state_.kick.reference(s_.kick) : state_.gait.reference(s_.gait);
   }
 
   Posture get_up(const Step& now, double h) {
@@ -176,19 +214,20 @@ class Walk {
   void step_after_capture_point(double h) {
     const std::array<Frame, 2> soles{body_.leg(left_side).sole_at(state_.measured[left_side]),
                                      body_.leg(right_side).sole_at(state_.measured[right_side])};
-    const double ahead = state_.balance.astray(state_.gait, s_.gait, body_, state_.attitude, soles, s_.balance, h);
+    const double ahead = state_.balance.astray(reference(), s_.gait.w(), body_, state_.attitude, soles, s_.balance, h);
     state_.gait.find_astray(s_.balance.capture * ahead, s_.gait);
   }
 
   BothLegs legs(bool feels) {
-    const Frame trunk = body_.trunk_for(state_.gait, s_.gait, s_.trunk_height, s_.lean);
-    const BothLegs plan = body_.legs_for(state_.gait, s_.gait, trunk);
-    const BothLegs sag = body_.sag(state_.gait, s_.gait, trunk, plan);
+    const Reference now = reference();
+    const Frame trunk = body_.trunk_for(now, s_.trunk_height, s_.lean);
+    const BothLegs plan = body_.legs_for(now, trunk);
+    const BothLegs sag = body_.sag(now, trunk, plan);
     BothLegs q = plan;
     for (std::size_t side = 0; side < 2; ++side)
       for (std::size_t j = 0; j < leg_joints; ++j) q[side][j] += sag[side][j];
     state_.plan = plan;
-    if (feels) keep_balance(q, state_.gait, state_.attitude, s_.lean, s_.balance);
+    if (feels) keep_balance(q, now, state_.attitude, s_.lean, s_.balance);
     return q;
   }
 
@@ -196,7 +235,7 @@ class Walk {
   void write(const Posture& posture, const Step& now) {
     const auto out = now.output(targets);
     joints_.write(posture, out);
-    if (state_.mode == standing || state_.mode == walking_on) return;
+    if (state_.mode == standing || state_.mode == walking_on || state_.mode == kicking) return;
     const double part = std::min(1.0, state_.time / s_.prepare);
     const double done = part * part * (3 - 2 * part);
     for (std::size_t i = 0; i < joints_.size(); ++i) out[i] = state_.from[i] + done * (out[i] - state_.from[i]);
@@ -206,6 +245,7 @@ class Walk {
     change(preparing, now);
     state_.gait.stand({state_.gait.along_x().position, state_.gait.along_y().position, state_.gait.yaw()}, s_.gait);
     state_.balance.clear();
+    state_.kick.clear();
     state_.heading = state_.attitude.yaw();
   }
 
