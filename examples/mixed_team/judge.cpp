@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+// The referee: the only one who knows true poses. It compares what the base station has been told with where targets
+// and robots really are. Nothing of what it says is read by the team.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <stdexcept>
+
+#include "muro_controller.hpp"
+#include "plane.hpp"
+
+namespace {
+
+using namespace muro::controller;
+using namespace mixed_team;
+
+enum Input { targets, robots, told };
+enum Output { found, confirmed, wrong, error, time_found, time_confirmed };
+enum Tunable { near_by, reach };
+constexpr std::size_t most = 64;  // targets
+
+class Judge {
+ public:
+  static constexpr const char* name = "judge";
+  static constexpr const char* version = "1.0.0";
+  static constexpr const char* summary = "Compares what a team tells of targets with where they are";
+  static constexpr muro_port inputs[] = {
+      {"target.poses", "m", 0, 0}, {"robot.poses", "m", 0, 0}, {"mission.targets", "m, m, 1, 1", 0, 0}};
+  static constexpr muro_port outputs[] = {
+      {"score.found", "1", 1, MURO_PORT_OWN},      {"score.confirmed", "1", 1, MURO_PORT_OWN},
+      {"score.wrong", "1", 1, MURO_PORT_OWN},      {"score.error", "m", 2, MURO_PORT_OWN},
+      {"score.time_found", "s", 1, MURO_PORT_OWN}, {"score.time_confirmed", "s", 1, MURO_PORT_OWN}};
+  static constexpr muro_tunable tunables[] = {
+      {"near_by", "m", 0.4, 0.01, 100, "a target is found that is told so near to where it is"},
+      {"reach", "m", 0.9, 0.01, 100, "it is confirmed if a robot has really been so near to it"}};
+
+  explicit Judge(const Setup& setup) {
+    if (setup.input_size(targets) == 0 || setup.input_size(targets) % 7 != 0 || setup.input_size(robots) % 7 != 0)
+      throw std::invalid_argument("target.poses and robot.poses are to be poses");
+    if (setup.input_size(targets) > 7 * most) throw std::invalid_argument("there are more targets than 64");
+  }
+
+  void step(const Step& now) {
+    const auto poses = now.input(targets), claimed = now.input(told);
+    double found_now = 0, confirmed_now = 0, sum = 0, worst = 0;
+    for (std::size_t i = 0; i < poses.size() / 7; ++i) {
+      const Point at{poses[7 * i], poses[7 * i + 1]};
+      if (nearest(now.input(robots), 7, at) < now.tunable(reach)) memory_.visited[i] = 1;
+      double off = now.tunable(near_by);
+      bool is_confirmed = false, is_found = false;
+      for (std::size_t k = 0; k + 4 <= claimed.size(); k += 4) {
+        const double d = distance(at, {claimed[k], claimed[k + 1]});
+        if (claimed[k + 2] == 0 || d > off) continue;
+        off = d, is_found = true, is_confirmed = claimed[k + 3] != 0 && memory_.visited[i] != 0;
+      }
+      if (!is_found) continue;
+      ++found_now, sum += off, worst = std::max(worst, off);
+      if (is_confirmed) ++confirmed_now;
+    }
+    double wrong_now = 0;
+    for (std::size_t k = 0; k + 4 <= claimed.size(); k += 4)
+      if (claimed[k + 2] != 0 && nearest(poses, 7, {claimed[k], claimed[k + 1]}) > now.tunable(near_by)) ++wrong_now;
+    const double all = double(poses.size() / 7);
+    if (found_now == all && memory_.all_found == 0) memory_.all_found = now.time();
+    if (confirmed_now == all && memory_.all_confirmed == 0) {
+      memory_.all_confirmed = now.time();
+      now.log().info("all targets are confirmed");
+    }
+    now.output(found)[0] = found_now, now.output(confirmed)[0] = confirmed_now, now.output(wrong)[0] = wrong_now;
+    now.output(error)[0] = found_now > 0 ? sum / found_now : 0, now.output(error)[1] = worst;
+    now.output(time_found)[0] = memory_.all_found, now.output(time_confirmed)[0] = memory_.all_confirmed;
+  }
+
+ private:
+  static double nearest(std::span<const double> poses, std::size_t each, const Point& p) {
+    double least = 1e9;
+    for (std::size_t i = 0; i + each <= poses.size(); i += each)
+      least = std::min(least, distance(p, {poses[i], poses[i + 1]}));
+    return least;
+  }
+
+  struct Memory {
+    std::array<std::int64_t, most> visited{};  // 1: a robot has been there
+    double all_found = 0, all_confirmed = 0;   // s: when; 0: not yet
+  };
+
+ public:
+  static constexpr std::size_t save_size = sizeof(Memory);
+  void save(Saver& to) const { to.put(memory_); }
+  void load(Loader& from) { memory_ = from.get<Memory>(); }
+
+ private:
+  Memory memory_;
+};
+
+}  // namespace
+
+MURO_CONTROLLER(Judge)

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// Where a robot is, by satellite navigation, by the velocity that its wheels or the receiver tell, and the heading of
+// its IMU: dead reckoning, drawn to each fix that comes.
+#pragma once
+
+#include <span>
+
+#include "plane.hpp"
+
+namespace mixed_team {
+
+class Locator {
+ public:
+  /// `fix`: gps.position, m; `velocity`: gps.velocity, m/s, both east, north, up; `orientation`: x, y, z, w;
+  /// `odometry`: velocity in the axes of the base, or empty; s.
+  void step(std::span<const double> fix, std::span<const double> velocity, std::span<const double> orientation,
+            std::span<const double> odometry, double period) {
+    yaw_ = yaw_of(orientation);
+    if (started_ == 0) {
+      at_ = {fix[0], fix[1]}, height_ = fix[2];
+      started_ = 1;
+    } else {
+      const Point rolled =
+          odometry.empty() ? Point{velocity[0], velocity[1]} : turned({odometry[0], odometry[1]}, yaw_);
+      at_ = at_ + period * rolled;
+      height_ += period * velocity[2];
+      constexpr double trust = 0.3;  // of what a new fix is off
+      const bool is_new = fix[0] != fix_[0] || fix[1] != fix_[1] || fix[2] != fix_[2];
+      if (is_new) {
+        at_ = at_ + trust * (Point{fix[0], fix[1]} - at_);
+        height_ += trust * (fix[2] - height_);
+      }
+    }
+    for (std::size_t i = 0; i < 3; ++i) fix_[i] = fix[i];
+  }
+
+  const Point& at() const { return at_; }    ///< m
+  double height() const { return height_; }  ///< m, above the origin of the map
+  double yaw() const { return yaw_; }        ///< rad
+  /// What lies at `p` in the axes of the robot, on the map, and back.
+  Point to_map(const Point& p) const { return at_ + turned(p, yaw_); }
+  Point to_own(const Point& p) const { return turned(p - at_, -yaw_); }
+
+ private:
+  Point at_;
+  double height_ = 0, yaw_ = 0, started_ = 0;
+  double fix_[3] = {0, 0, 0};
+};
+
+}  // namespace mixed_team

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// What stands around a robot, and how far it gets along a heading. In its own axes: x forward, y left, m, rad.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "plane.hpp"
+
+namespace mixed_team {
+
+class Obstacles {
+ public:
+  explicit Obstacles(double radius) : radius_(radius) {}  ///< m: of the robot, as a disc
+
+  /// A disc; what there is no room for is left out.
+  void add(const Point& p, double radius) {
+    if (count_ < most) discs_[count_++] = {p, radius + radius_};
+  }
+  /// m, at most `horizon`: how far the robot gets straight on along a heading. What it is in already stops it only
+  /// where it would go deeper.
+  double free_way(double heading, double horizon) const {
+    double way = horizon;
+    for (std::size_t i = 0; i < count_; ++i) {
+      const Point p = turned(discs_[i].at, -heading);
+      const double rest = discs_[i].radius * discs_[i].radius - p.y * p.y;
+      if (p.x <= 0 || rest <= 0) continue;
+      const double reach = p.x - std::sqrt(rest);
+      if (reach < 0 && p.x < 0.4 * discs_[i].radius) continue;  // beside it
+      way = std::min(way, std::max(0.0, reach));
+    }
+    return way;
+  }
+
+  /// The heading that leads best to a goal in that direction, in the manner of the vector field histogram (Borenstein
+  /// and Koren, IEEE Trans. Robotics and Automation 7(3), 1991).
+  struct Way {
+    double heading = 0, free = 0;
+  };
+  /// `last`: the heading that was chosen before; who keeps to it passes an obstacle on one side.
+  Way best(double wanted, double distance, double last) const {
+    constexpr int headings = 30;    // to either side
+    constexpr double widest = 2.2;  // rad
+    const double horizon = std::min(2.5, std::max(0.3, distance));
+    Way way;
+    double most_points = -1e9;
+    for (int i = -headings; i <= headings; ++i) {
+      const double heading = widest * i / headings, free = free_way(heading, horizon);
+      const double points =
+          free / horizon - 0.4 * std::abs(wrapped(heading - wanted)) - 0.15 * std::abs(wrapped(heading - last));
+      if (points > most_points) most_points = points, way = {heading, free};
+    }
+    return way;
+  }
+
+ private:
+  struct Disc {
+    Point at;
+    double radius = 0;
+  };
+  static constexpr std::size_t most = 256;
+  double radius_;
+  std::array<Disc, most> discs_;
+  std::size_t count_ = 0;
+};
+
+}  // namespace mixed_team

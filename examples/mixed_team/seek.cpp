@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: MIT
+// The software of a robot on the ground, on wheels or on legs: of the targets that the team knows it takes the nearest
+// one that no mate claims, goes there around what its laser and its mates tell, looks whether it is there, by its
+// camera, else by its laser, and tells. Where it is it knows by satellite navigation, odometry and its IMU.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "locator.hpp"
+#include "mates.hpp"
+#include "muro_controller.hpp"
+#include "obstacles.hpp"
+#include "radio.hpp"
+#include "spots.hpp"
+
+namespace {
+
+using namespace muro::controller;
+using namespace mixed_team;
+
+enum Input {
+  gps_position,
+  gps_velocity,
+  orientation,
+  odometry,
+  ranges,
+  min_angle,
+  increment,
+  max_range,
+  seen,
+  received,
+  received_bytes
+};
+enum Output { command, send_bytes, send_size, send_number, confirmed, estimate };
+enum Tunable { speed, turn, radius, stop, hold, patience, target_radius, laser_x, laser_z, tell_period };
+
+class Seek {
+ public:
+  static constexpr const char* name = "seek";
+  static constexpr const char* version = "1.0.0";
+  static constexpr const char* summary = "Goes to targets that the team has found, and confirms them";
+  static constexpr muro_port inputs[] = {{"gps.position", "m", 3, 0},
+                                         {"gps.velocity", "m/s", 3, 0},
+                                         {"orientation", "1", 4, 0},
+                                         {"odometry.twist", "m/s, rad/s", 6, MURO_PORT_OPTIONAL},
+                                         {"ranges", "m", 0, MURO_PORT_OPTIONAL},
+                                         {"laser.min_angle", "rad", 1, MURO_PORT_OPTIONAL},
+                                         {"laser.angle_increment", "rad", 1, MURO_PORT_OPTIONAL},
+                                         {"laser.max_range", "m", 1, MURO_PORT_OPTIONAL},
+                                         spots_port,
+                                         received_port,
+                                         received_bytes_port};
+  static constexpr muro_port outputs[] = {{"seek.command", "m/s, rad/s", 6, MURO_PORT_OWN},
+                                          send_bytes_port,
+                                          send_size_port,
+                                          send_number_port,
+                                          {"seek.confirmed", "1", 1, MURO_PORT_OWN},
+                                          {"seek.estimate", "m, m, rad", 3, MURO_PORT_OWN}};
+  static constexpr muro_tunable tunables[] = {
+      {"speed", "m/s", 0.6, 0.01, 10, "straight on"},
+      {"turn", "rad/s", 1, 0.01, 10, "at most"},
+      {"radius", "m", 0.32, 0.05, 5, "of the robot as a disc, with a margin"},
+      {"stop", "m", 0.55, 0.05, 5, "from its middle to that of a target: there it stands and looks"},
+      {"hold", "s", 1, 0, 60, "it has to see a target for so long"},
+      {"patience", "s", 10, 1, 600, "where it stands so long and sees nothing, it leaves the target to others"},
+      {"target_radius", "m", 0.22, 0.01, 5, "of a target as a disc"},
+      {"laser_x", "m", 0.1, -5, 5, "the scanner in the frame of the base"},
+      {"laser_z", "m", 0.12, 0, 5, "the scanner above the ground"},
+      {"tell_period", "s", 0.5, 0.05, 60, "between messages"}};
+
+  explicit Seek(const Setup& setup) {
+    memory_.name = name_of(setup.seed());
+    if (setup.input_size(ranges) > 0 && setup.input_size(min_angle) == 0)
+      throw std::invalid_argument("there are ranges, but no `laser.min_angle` to go with them");
+    if (setup.input_size(ranges) == 0)
+      setup.log().warning("there is no laser, so it keeps clear of mates and targets alone, not of obstacles");
+  }
+
+  void step(const Step& now) {
+    memory_.me.step(now.input(gps_position), now.input(gps_velocity), now.input(orientation), now.input(odometry),
+                    now.period());
+    receive(now.input(received), now.input(received_bytes), [&](const Message& m) {
+      for (std::size_t i = 0; i < m.targets.size(); ++i) memory_.targets.learn(m.targets[i]);
+      memory_.mates.hear(m, now.time());
+    });
+    choose(now);
+    const auto twist = now.output(command);
+    twist[0] = twist[5] = 0;
+    if (claims()) go(now, twist);
+    if (is_turn(now, memory_.name, now.tunable(tell_period))) tell(now);
+    now.output(confirmed)[0] = double(memory_.confirmed);
+    const auto me = now.output(estimate);
+    me[0] = memory_.me.at().x, me[1] = memory_.me.at().y, me[2] = memory_.me.yaw();
+  }
+
+ private:
+  /// All that a step leaves for the next.
+  struct Memory {
+    Locator me;
+    Targets targets;
+    Mates mates;
+    std::int64_t claim = std::int64_t(Targets::none);
+    double stood = 0, seen = 0;  // s: before the target it claims, and how long it has seen it there
+    double heading = 0;          // rad: of its way, in its own axes
+    std::int64_t given_up = 0;   // a bit for each target that was not where it was said to be
+    std::int64_t confirmed = 0;  // targets, by itself
+    std::int64_t name = 0, messages = 0;
+  };
+
+ public:
+  static constexpr std::size_t save_size = sizeof(Memory);
+  void save(Saver& to) const { to.put(memory_); }
+  void load(Loader& from) { memory_ = from.get<Memory>(); }
+
+ private:
+  bool claims() const { return memory_.claim != std::int64_t(Targets::none); }
+  const Target& target() const { return memory_.targets[std::size_t(memory_.claim)]; }
+  bool has_given_up(std::size_t i) const { return (memory_.given_up >> i & 1) != 0; }
+
+  void claim(std::size_t i) {
+    if (memory_.claim == std::int64_t(i)) return;
+    memory_.claim = std::int64_t(i), memory_.stood = memory_.seen = 0;
+  }
+  /// s: to a target, with the turn towards it.
+  double cost(const Step& now, const Target& t) const {
+    const Point way = memory_.me.to_own(t.at);
+    return length(way) / now.tunable(speed) + std::abs(bearing(way)) / now.tunable(turn);
+  }
+
+  void choose(const Step& now) {
+    if (claims()) {
+      const bool lost = memory_.mates.hold(target(), now.time(), cost(now, target()), memory_.name, true);
+      if (lost || target().confirmed != 0 || has_given_up(std::size_t(memory_.claim))) claim(Targets::none);
+    }
+    constexpr double better = 0.5;  // of the cost: then it changes its mind
+    std::size_t best = Targets::none;
+    double least = claims() ? better * cost(now, target()) : 1e9;
+    for (std::size_t i = 0; i < memory_.targets.size(); ++i) {
+      const Target& t = memory_.targets[i];
+      const double c = cost(now, t);
+      if (c >= least || t.confirmed != 0 || has_given_up(i)) continue;
+      if (memory_.mates.hold(t, now.time(), c, memory_.name, false)) continue;
+      least = c, best = i;
+    }
+    if (best != Targets::none) claim(best);
+  }
+
+  void go(const Step& now, std::span<double> twist) {
+    const Point way = memory_.me.to_own(target().at);
+    const double rest = length(way) - now.tunable(stop), wanted = bearing(way);
+    constexpr double near_by = 0.15, ahead = 0.3;  // m, rad
+    const bool is_there = rest < near_by;
+    const double gain = 1.5, most = now.tunable(turn);
+    if (is_there) {
+      memory_.heading = wanted;
+      twist[5] = std::abs(wanted) > 0.5 * ahead ? std::clamp(gain * wanted, -most, most) : 0;
+      if (rest > 0) twist[0] = std::min(0.4 * now.tunable(speed), rest) * (std::abs(wanted) < ahead ? 1 : 0);
+      look(now);
+      return;
+    }
+    const Obstacles::Way best = obstacles(now).best(wanted, rest, memory_.heading);
+    constexpr double sharp = 0.9, margin = 0.5;  // rad, m
+    const double fast = std::min(1.0, std::min(rest, best.free) / margin);
+    twist[0] = now.tunable(speed) * std::max(0.0, 1 - std::abs(best.heading) / sharp) * fast;
+    twist[5] = std::clamp(gain * best.heading, -most, most);
+    memory_.heading = best.heading - twist[5] * now.period();
+  }
+
+  /// What the laser sees, but for the target it goes to; other targets, which it may be too high to see; and mates.
+  Obstacles obstacles(const Step& now) const {
+    Obstacles all(now.tunable(radius));
+    const double around = 2 * now.tunable(target_radius);
+    const auto seen = now.input(ranges);
+    constexpr std::size_t sectors = 120;
+    for (std::size_t s = 0, i = 0; s < sectors && !seen.empty(); ++s) {
+      std::size_t nearest = seen.size();
+      for (const std::size_t end = seen.size() * (s + 1) / sectors; i < end; ++i)
+        if (is_echo(now, i) && (nearest == seen.size() || seen[i] < seen[nearest])) nearest = i;
+      if (nearest == seen.size()) continue;
+      const Point p = echo(now, nearest);
+      if (distance(memory_.me.to_map(p), target().at) > around) all.add(p, 0);
+    }
+    for (std::size_t i = 0; i < memory_.targets.size(); ++i)
+      if (std::int64_t(i) != memory_.claim)
+        all.add(memory_.me.to_own(memory_.targets[i].at), now.tunable(target_radius));
+    for (const Mate& mate : memory_.mates)
+      if (now.time() - mate.heard < Mates::forgotten) all.add(memory_.me.to_own(mate.at), 0.8 * now.tunable(radius));
+    return all;
+  }
+  /// Of something that stands there: not lost, and not of the ground that the beam meets because the robot leans.
+  bool is_echo(const Step& now, std::size_t i) const {
+    const double range = now.input(ranges)[i];
+    if (range <= 0 || range >= now.input(max_range)[0]) return false;
+    const auto q = now.input(orientation);
+    const double angle = now.input(min_angle)[0] + double(i) * now.input(increment)[0];
+    const double rise =
+        2 * (q[0] * q[2] - q[3] * q[1]) * muro_cos(angle) + 2 * (q[1] * q[2] + q[3] * q[0]) * muro_sin(angle);
+    return now.tunable(laser_z) + range * rise > 0.4 * now.tunable(laser_z);
+  }
+  Point echo(const Step& now, std::size_t i) const {
+    const double angle = now.input(min_angle)[0] + double(i) * now.input(increment)[0], range = now.input(ranges)[i];
+    return {now.tunable(laser_x) + range * muro_cos(angle), range * muro_sin(angle)};
+  }
+
+  /// It stands before the target.
+  void look(const Step& now) {
+    memory_.stood += now.period();
+    if (sees(now)) memory_.seen += now.period();
+    if (memory_.seen >= now.tunable(hold)) {
+      memory_.targets[std::size_t(memory_.claim)].confirmed = 1;
+      ++memory_.confirmed;
+      claim(Targets::none);
+    } else if (memory_.stood > now.tunable(patience)) {
+      memory_.given_up |= std::int64_t(1) << memory_.claim;
+      now.log().warning("there is no target where one was told");
+    }
+  }
+  /// By its camera; without one by its laser; without both it believes what it was told.
+  bool sees(const Step& now) const {
+    const double around = 2 * now.tunable(target_radius);
+    const auto is_here = [&](const Point& p) { return distance(memory_.me.to_map(p), target().at) < around; };
+    if (!now.input(seen).empty()) {
+      bool found = false;
+      for_spots(now.input(seen), [&](const Point& p) { found = found || is_here(p); });
+      return found;
+    }
+    for (std::size_t i = 0; i < now.input(ranges).size(); ++i)
+      if (is_echo(now, i) && is_here(echo(now, i))) return true;
+    return now.input(ranges).empty();
+  }
+
+  void tell(const Step& now) {
+    const Message m{memory_.me.at(), memory_.name, std::size_t(memory_.claim), claims() ? cost(now, target()) : 0,
+                    memory_.targets};
+    now.output(send_size)[0] = double(write(m, 0, now.output(send_bytes)));
+    now.integer_output(send_number)[0] = ++memory_.messages;
+  }
+
+  Memory memory_;
+};
+
+}  // namespace
+
+MURO_CONTROLLER(Seek)

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+// Finds what has the colour of a target in a picture, and where around the robot it lies: by the lens, by where the
+// camera sits on the robot, and by the height at which a target is seen.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "plane.hpp"
+
+namespace mixed_team {
+
+/// Connected pixels of the colour.
+struct Blob {
+  double u = 0, v = 0;  ///< px: their centre, columns and rows from the upper left corner
+  int pixels = 0;
+  bool is_cut = false;  ///< it reaches to the rim of the picture
+};
+
+/// The colour by its hue: 0 red, 1/6 yellow, 1/3 green; of bright, saturated colours alone.
+struct Hue {
+  double hue = 0, tolerance = 0;
+
+  bool matches(double r, double g, double b) const {
+    const double most = std::max({r, g, b}), least = std::min({r, g, b}), spread = most - least;
+    if (most < 70 || 2 * spread < most) return false;
+    const double sixth = most == r ? (g - b) / spread : most == g ? 2 + (b - r) / spread : 4 + (r - g) / spread;
+    return std::abs(std::remainder(sixth / 6 - hue, 1)) < tolerance;
+  }
+};
+
+/// Memory for one picture, used again for the next.
+class BlobFinder {
+ public:
+  /// `rgb`: 0 to 255, rows from the top. Blobs of fewer pixels than `least` are left out.
+  std::span<const Blob> find(std::span<const double> rgb, int width, int height, const Hue& hue, int least) {
+    blobs_.clear();
+    open_.assign(std::size_t(width) * std::size_t(height), 0);
+    for (std::size_t i = 0; i < open_.size(); ++i)
+      open_[i] = hue.matches(rgb[3 * i], rgb[3 * i + 1], rgb[3 * i + 2]) ? 1 : 0;
+    for (std::size_t i = 0; i < open_.size(); ++i) {
+      if (open_[i] == 0) continue;
+      const Blob blob = fill(int(i), width, height);
+      if (blob.pixels >= least) blobs_.push_back(blob);
+    }
+    return blobs_;
+  }
+
+ private:
+  /// All pixels that hang together with one, row by row and column by column.
+  Blob fill(int start, int width, int height) {
+    Blob blob;
+    stack_.assign(1, start);
+    open_[std::size_t(start)] = 0;
+    while (!stack_.empty()) {
+      const int i = stack_.back(), u = i % width, v = i / width;
+      stack_.pop_back();
+      ++blob.pixels, blob.u += u + 0.5, blob.v += v + 0.5;
+      blob.is_cut = blob.is_cut || u == 0 || v == 0 || u == width - 1 || v == height - 1;
+      const auto visit = [&](bool inside, int next) {
+        if (inside && open_[std::size_t(next)] != 0) open_[std::size_t(next)] = 0, stack_.push_back(next);
+      };
+      visit(u > 0, i - 1), visit(u < width - 1, i + 1), visit(v > 0, i - width), visit(v < height - 1, i + width);
+    }
+    blob.u /= blob.pixels, blob.v /= blob.pixels;
+    return blob;
+  }
+
+  std::vector<Blob> blobs_;
+  std::vector<std::uint8_t> open_;  // 1: of the colour, and not yet of a blob
+  std::vector<int> stack_;
+};
+
+/// Of a pinhole camera, px, and where it sits: m in the frame of the base, rad downwards.
+struct Camera {
+  double fx = 1, fy = 1, cx = 0, cy = 0;
+  double x = 0, z = 0, pitch = 0;
+
+  /// m forward and left of the base, level: what is seen there if it is `below` (m) the origin of the base. None where
+  /// it looks at the sky, or farther than 20 times as far as down. `orientation` of the base: x, y, z, w.
+  std::optional<Point> place(double u, double v, double below, std::span<const double> orientation) const {
+    const double right = (u - cx) / fx, down = (v - cy) / fy;  // of the ray, by its way along the axis
+    const double c = muro_cos(pitch), s = muro_sin(pitch);
+    const double ray[] = {c - s * down, -right, -s - c * down}, at[] = {x, 0, z};
+    double r[3], p[3];
+    rotate(orientation, ray, r), rotate(orientation, at, p);
+    if (r[2] > -0.05 * std::sqrt(r[0] * r[0] + r[1] * r[1])) return std::nullopt;
+    const double along = (-below - p[2]) / r[2];
+    if (along <= 0) return std::nullopt;
+    return turned({p[0] + along * r[0], p[1] + along * r[1]}, -yaw_of(orientation));
+  }
+
+ private:
+  static void rotate(std::span<const double> q, const double (&v)[3], double (&to)[3]) {
+    const double a = q[0], b = q[1], c = q[2], w = q[3];
+    to[0] = (1 - 2 * (b * b + c * c)) * v[0] + 2 * (a * b - w * c) * v[1] + 2 * (a * c + w * b) * v[2];
+    to[1] = 2 * (a * b + w * c) * v[0] + (1 - 2 * (a * a + c * c)) * v[1] + 2 * (b * c - w * a) * v[2];
+    to[2] = 2 * (a * c - w * b) * v[0] + 2 * (b * c + w * a) * v[1] + (1 - 2 * (a * a + b * b)) * v[2];
+  }
+};
+
+}  // namespace mixed_team

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// What a member of the team knows of the targets. Whoever finds one adds it; lists of several robots become one by
+// place: what lies nearer to each other than `same` is one target.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "plane.hpp"
+
+namespace mixed_team {
+
+struct Target {
+  Point at;                    ///< m: mean of the sightings
+  std::int64_t sightings = 0;  ///< how many there were
+  std::int64_t confirmed = 0;  ///< 1: somebody has been there
+};
+
+class Targets {
+ public:
+  static constexpr std::size_t most = 16;
+  static constexpr std::size_t none = most;
+  static constexpr double same = 0.6;  ///< m
+
+  std::size_t size() const { return std::size_t(count_); }
+  const Target& operator[](std::size_t i) const { return targets_[i]; }
+  Target& operator[](std::size_t i) { return targets_[i]; }
+
+  std::size_t at(const Point& p) const {
+    std::size_t best = none;
+    double nearest = same;
+    for (std::size_t i = 0; i < size(); ++i)
+      if (const double d = distance(targets_[i].at, p); d < nearest) nearest = d, best = i;
+    return best;
+  }
+  /// One sighting more. Where there is no room, it takes that of a target that has been seen least.
+  void see(const Point& p) {
+    std::size_t i = place(p);
+    if (i == none) {
+      i = std::size_t(std::min_element(targets_.begin(), targets_.end(), seen_less) - targets_.begin());
+      targets_[i] = {p, 0, 0};
+    }
+    Target& t = targets_[i];
+    ++t.sightings;
+    t.at = t.at + (1.0 / double(t.sightings)) * (p - t.at);
+  }
+  /// What a mate knows: the place by more sightings is the better one, what is confirmed stays so. Returns its number
+  /// here; `none` where there is no room.
+  std::size_t learn(const Target& told) {
+    const std::size_t i = place(told.at);
+    if (i == none) return none;
+    Target& t = targets_[i];
+    if (told.sightings > t.sightings) t.at = told.at, t.sightings = told.sightings;
+    if (told.confirmed != 0) t.confirmed = 1;
+    return i;
+  }
+
+ private:
+  static bool seen_less(const Target& a, const Target& b) {
+    return a.confirmed != b.confirmed ? a.confirmed < b.confirmed : a.sightings < b.sightings;
+  }
+  std::size_t place(const Point& p) {
+    const std::size_t known = at(p);
+    if (known != none || size() == most) return known;
+    targets_[size()].at = p;
+    return std::size_t(count_++);
+  }
+
+  std::array<Target, most> targets_{};
+  std::int64_t count_ = 0;
+};
+
+}  // namespace mixed_team
