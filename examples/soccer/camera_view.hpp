@@ -58,6 +58,7 @@ class CameraView {
     forward_ = levelled(forward), left_ = levelled(leftwards), up_ = levelled(upwards);
     place_ = levelled(place);
     place_.z += trunk_height;
+    is_upright_ = up.z > 0.94;  // within 20 degrees
   }
 
   /// What lies at `height` (m) above the ground and is seen at a pixel, in the heading frame; none above the horizon.
@@ -74,6 +75,19 @@ class CameraView {
     if (depth < 0.01) return std::nullopt;
     return Pixel{lens_.cx - lens_.fx * dot(d, left_) / depth, lens_.cy - lens_.fy * dot(d, up_) / depth};
   }
+  /// How far what stands upright goes on in the picture, seen at a pixel, for each metre of height and at a metre of
+  /// depth (px).
+  Pixel upright_at(const Pixel& p) const {
+    return {-lens_.fx * left_.z - (p.u - lens_.cx) * forward_.z, -lens_.fy * up_.z - (p.v - lens_.cy) * forward_.z};
+  }
+  /// The row (px) in which what is as high as the camera is seen, in a column.
+  double horizon(double u) const {
+    return lens_.cy + lens_.fy * (forward_.z + ((lens_.cx - u) / lens_.fx) * left_.z) / up_.z;
+  }
+  /// Whether the trunk stands: where one lies or falls, the camera is not where this class has it.
+  bool is_upright() const { return is_upright_; }
+  /// m: of the camera above the ground.
+  double height() const { return place_.z; }
   /// m: along the axis of the camera.
   double depth_of(const Vector& point) const { return dot(point + (-1) * place_, forward_); }
   const Lens& lens() const { return lens_; }
@@ -82,6 +96,7 @@ class CameraView {
   Lens lens_;
   Vector forward_, left_, up_;  ///< axes of the camera
   Vector place_;                ///< m
+  bool is_upright_ = true;
 };
 
 }  // namespace soccer

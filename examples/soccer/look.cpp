@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Keeps the head of a humanoid on the ball, which it finds in the pictures of its camera alone, and tells where the
-// ball is. Where it sees none, it looks around.
+// The eyes of a humanoid: finds the ball, the posts of goals and other players in the pictures of its camera alone,
+// tells where they are, and turns the head.
 #include <cstdint>
 
 #include "ball_finder.hpp"
+#include "gaze.hpp"
 #include "muro_controller.hpp"
+#include "player_finder.hpp"
+#include "post_finder.hpp"
 
 namespace {
 
@@ -12,21 +15,26 @@ using namespace muro::controller;
 using namespace soccer;
 
 enum Input { image, fx, fy, cx, cy, camera_width, camera_height, orientation, head_position };
-enum Output { head_target, ball };
-enum Tunable { trunk_height, neck_x, neck_z, tilt_x, tilt_y, tilt_z, camera_x, camera_y, camera_z, ball_radius };
-
-constexpr double gain = 0.7;                 // of the way to the ball in a step
-constexpr double memory = 0.6;               // s: so long it waits for the ball where it was
-constexpr double sweep = 1.2;                // rad: to each side, when it looks around
-constexpr double sweep_period = 3;           // s
-constexpr double down[] = {0.9, 0.25, 0.6};  // rad: tilts of the sweeps, far and near
-constexpr double pi = 3.14159265358979323846;
+enum Output { head_target, ball, goal, players };
+enum Tunable {
+  trunk_height,
+  neck_x,
+  neck_z,
+  tilt_x,
+  tilt_y,
+  tilt_z,
+  camera_x,
+  camera_y,
+  camera_z,
+  ball_radius,
+  post_radius
+};
 
 class Look {
  public:
   static constexpr const char* name = "look";
-  static constexpr const char* version = "1.0.0";
-  static constexpr const char* summary = "Finds the ball by the camera and keeps the head on it";
+  static constexpr const char* version = "2.0.0";
+  static constexpr const char* summary = "Finds ball, goals and players by the camera and keeps the head on the ball";
   static constexpr muro_port inputs[] = {{"camera.image", "1", 0, MURO_PORT_TEXT | MURO_PORT_OPTIONAL},
                                          {"camera.fx", "px", 1, MURO_PORT_OPTIONAL},
                                          {"camera.fy", "px", 1, MURO_PORT_OPTIONAL},
@@ -36,8 +44,11 @@ class Look {
                                          {"camera.height", "1", 1, MURO_PORT_OPTIONAL},
                                          {"orientation", "1", 4, 0},
                                          {"joint.position", "rad", 2, 0}};
+  static constexpr std::uint32_t most_posts = 2, most_players = 4;
   static constexpr muro_port outputs[] = {{"joint.position.target", "rad", 2, 0},
-                                          {"ball.seen", "1, m, m, s", 4, MURO_PORT_OWN}};
+                                          {"ball.seen", "1, m, m, s", 4, MURO_PORT_OWN},
+                                          {"goal.seen", "1, m, m", 1 + 2 * most_posts, MURO_PORT_OWN},
+                                          {"players.seen", "1, m, m, 1", 1 + 3 * most_players, MURO_PORT_OWN}};
   static constexpr muro_tunable tunables[] = {
       {"trunk_height", "m", 0.27, 0.05, 3, "of the trunk's origin above the ground"},
       {"neck_x", "m", -0.001, -1, 1, "axis of the pan joint, from the trunk's origin"},
@@ -48,57 +59,88 @@ class Look {
       {"camera_x", "m", 0.01425, -1, 1, "the camera, from there"},
       {"camera_y", "m", -0.019, -1, 1, "the same"},
       {"camera_z", "m", 0.04975, -1, 1, "the same"},
-      {"ball_radius", "m", 0.07, 0.01, 1, ""}};
-  static constexpr std::size_t save_size = 4 * sizeof(double);
+      {"ball_radius", "m", 0.07, 0.01, 1, ""},
+      {"post_radius", "m", 0.05, 0.01, 1, "of the posts of goals"}};
 
   explicit Look(const Setup& setup)
       : head_{{setup.tunable(neck_x), 0, setup.tunable(neck_z)},
               {setup.tunable(tilt_x), setup.tunable(tilt_y), setup.tunable(tilt_z)},
               {setup.tunable(camera_x), setup.tunable(camera_y), setup.tunable(camera_z)}},
-        finder_(setup.tunable(ball_radius)) {}
+        ball_finder_(setup.tunable(ball_radius)),
+        post_finder_(setup.tunable(post_radius)) {}
 
   void step(const Step& now) {
-    if (now.input(fx).empty()) return;  // it has no camera
+    if (now.input(fx).empty() || !take_picture(now)) return;  // it has no camera
     const auto joints = now.input(head_position);
-    const auto target = now.output(head_target);
     const CameraView view({now.input(fx)[0], now.input(fy)[0], now.input(cx)[0], now.input(cy)[0]}, head_,
                           now.tunable(trunk_height), now.input(orientation), joints[0], joints[1]);
-    const auto found = find(now, view);
-    age_ = found ? 0 : age_ + now.period();
-    if (found) {
-      x_ = found->x, y_ = found->y;
-      const auto p = view.pixel_of(*found);
-      target[0] = joints[0] + gain * muro_atan2(view.lens().cx - p->u, view.lens().fx);
-      target[1] = joints[1] + gain * muro_atan2(p->v - view.lens().cy, view.lens().fy);
-    } else if (age_ > memory) {
-      sweep_ += now.period() / sweep_period;
-      target[0] = sweep * muro_sin(2 * pi * sweep_);
-      target[1] = down[std::int64_t(sweep_) % 3];
-    }
-    const auto told = now.output(ball);
-    told[0] = found ? 1 : 0, told[1] = x_, told[2] = y_, told[3] = age_;
+    const auto found = ball_finder_.find(image_, view);
+    tell_ball(found, now);
+    tell_posts(view, now);
+    tell_players(view, now);
+    turn_head(found, view, now);
   }
 
-  void save(Saver& to) const { to.put(x_), to.put(y_), to.put(age_), to.put(sweep_); }
-  void load(Loader& from) {
-    x_ = from.get<double>(), y_ = from.get<double>(), age_ = from.get<double>(), sweep_ = from.get<double>();
-  }
+  void save(Saver& to) const { to.put(memory_); }
+  void load(Loader& from) { memory_ = from.get<Memory>(); }
 
  private:
-  std::optional<Vector> find(const Step& now, const CameraView& view) {
+  struct Memory {
+    Gaze gaze;
+    double x = 0, y = 0;  ///< m: where the ball was last seen, in the heading frame of then
+    double age = 1e3;     ///< s: since then
+  };
+
+ public:
+  static constexpr std::size_t save_size = sizeof(Memory);
+
+ private:
+  bool take_picture(const Step& now) {
     const int width = int(now.input(camera_width)[0]), height = int(now.input(camera_height)[0]);
     const std::size_t bytes = 3 * std::size_t(width) * std::size_t(height);
-    if (now.raw().input_sizes[image] < bytes) return std::nullopt;
+    if (now.raw().input_sizes[image] < bytes) return false;
     image_.set({reinterpret_cast<const std::uint8_t*>(now.raw().text_inputs[image]), bytes}, width, height);
-    return finder_.find(image_, view);
+    return true;
+  }
+  void tell_ball(const std::optional<Vector>& found, const Step& now) {
+    memory_.age = found ? 0 : memory_.age + now.period();
+    if (found) memory_.x = found->x, memory_.y = found->y;
+    const auto told = now.output(ball);
+    told[0] = found ? 1 : 0, told[1] = memory_.x, told[2] = memory_.y, told[3] = memory_.age;
+  }
+  void tell_posts(const CameraView& view, const Step& now) const {
+    const PostFinder::Posts posts = view.is_upright() ? post_finder_.find(image_, view) : PostFinder::Posts{};
+    const auto told = now.output(goal);
+    std::fill(told.begin(), told.end(), 0.0);
+    told[0] = double(posts.size());
+    for (std::size_t i = 0; i < posts.size(); ++i) told[1 + 2 * i] = posts[i].x, told[2 + 2 * i] = posts[i].y;
+  }
+  void tell_players(const CameraView& view, const Step& now) {
+    const PlayerFinder::Players seen = view.is_upright() ? player_finder_.find(image_, view) : PlayerFinder::Players{};
+    const auto told = now.output(players);
+    std::fill(told.begin(), told.end(), 0.0);
+    told[0] = double(seen.size());
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      const auto one = told.subspan(1 + 3 * i, 3);
+      one[0] = seen[i].feet.x, one[1] = seen[i].feet.y, one[2] = double(seen[i].team);
+    }
+  }
+  void turn_head(const std::optional<Vector>& found, const CameraView& view, const Step& now) {
+    const auto joints = now.input(head_position);
+    const auto target = now.output(head_target);
+    const auto pixel = found ? view.pixel_of(*found) : std::nullopt;
+    const Neck neck = pixel ? memory_.gaze.follow({joints[0], joints[1]}, *pixel, view.lens(),
+                                                  std::sqrt(found->x * found->x + found->y * found->y), now.period())
+                            : memory_.gaze.search(now.period());
+    target[0] = neck.pan, target[1] = neck.tilt;
   }
 
   Head head_;
-  BallFinder finder_;
+  BallFinder ball_finder_;
+  PostFinder post_finder_;
+  PlayerFinder player_finder_;
   Image image_;
-  double x_ = 0, y_ = 0;  ///< m: where the ball was last seen, in the heading frame of then
-  double age_ = 1e3;      ///< s: since then
-  double sweep_ = 0;      ///< periods
+  Memory memory_;
 };
 
 }  // namespace
