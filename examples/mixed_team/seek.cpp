@@ -62,7 +62,8 @@ class Seek {
       {"radius", "m", 0.32, 0.05, 5, "of the robot as a disc, with a margin"},
       {"stop", "m", 0.55, 0.05, 5, "from its middle to that of a target: there it stands and looks"},
       {"hold", "s", 1, 0, 60, "it has to see a target for so long"},
-      {"patience", "s", 10, 1, 600, "where it stands so long and sees nothing, it leaves the target to others"},
+      {"patience", "s", 10, 1, 600,
+       "if it comes no nearer for so long, or stands and sees nothing, it leaves the target to others"},
       {"target_radius", "m", 0.22, 0.01, 5, "of a target as a disc"},
       {"laser_x", "m", 0.1, -5, 5, "the scanner in the frame of the base"},
       {"laser_z", "m", 0.12, 0, 5, "the scanner above the ground"},
@@ -100,7 +101,9 @@ class Seek {
     Targets targets;
     Mates mates;
     std::int64_t claim = std::int64_t(Targets::none);
-    double stood = 0, seen = 0;  // s: before the target it claims, and how long it has seen it there
+    double seen = 0;             // s: how long it has seen the target that it claims
+    double nearest = 1e9;        // m: that it has been to it
+    double waited = 0;           // s: since then; without a claim: since there was one
     double heading = 0;          // rad: of its way, in its own axes
     std::int64_t given_up = 0;   // a bit for each target that was not where it was said to be
     std::int64_t confirmed = 0;  // targets, by itself
@@ -113,13 +116,15 @@ class Seek {
   void load(Loader& from) { memory_ = from.get<Memory>(); }
 
  private:
+  static constexpr double near_by = 0.15;  // m: from where it stops, there it looks
+
   bool claims() const { return memory_.claim != std::int64_t(Targets::none); }
   const Target& target() const { return memory_.targets[std::size_t(memory_.claim)]; }
   bool has_given_up(std::size_t i) const { return (memory_.given_up >> i & 1) != 0; }
 
   void claim(std::size_t i) {
     if (memory_.claim == std::int64_t(i)) return;
-    memory_.claim = std::int64_t(i), memory_.stood = memory_.seen = 0;
+    memory_.claim = std::int64_t(i), memory_.nearest = 1e9, memory_.waited = memory_.seen = 0;
   }
   /// s: to a target, with the turn towards it.
   double cost(const Step& now, const Target& t) const {
@@ -130,7 +135,7 @@ class Seek {
   void choose(const Step& now) {
     if (claims()) {
       const bool lost = memory_.mates.hold(target(), now.time(), cost(now, target()), memory_.name, true);
-      if (lost || target().confirmed != 0 || has_given_up(std::size_t(memory_.claim))) claim(Targets::none);
+      if (lost || target().confirmed != 0) claim(Targets::none);
     }
     constexpr double better = 0.5;  // of the cost: then it changes its mind
     std::size_t best = Targets::none;
@@ -143,12 +148,27 @@ class Seek {
       least = c, best = i;
     }
     if (best != Targets::none) claim(best);
+    if (!claims() && memory_.waited > now.tunable(patience)) memory_.given_up = 0;  // and it tries again
+    watch(now);
+  }
+  /// Whether it comes nearer.
+  void watch(const Step& now) {
+    constexpr double nearer = 0.1;  // m
+    memory_.waited += now.period();
+    if (!claims()) return;
+    const double rest = distance(memory_.me.at(), target().at);
+    if (rest < memory_.nearest - nearer) memory_.nearest = rest, memory_.waited = 0;
+    if (memory_.waited < now.tunable(patience)) return;
+    now.log().warning(rest < now.tunable(stop) + near_by ? "there is no target where one was told"
+                                                         : "it does not get to a target, and leaves it to others");
+    memory_.given_up |= std::int64_t(1) << memory_.claim;
+    claim(Targets::none);
   }
 
   void go(const Step& now, std::span<double> twist) {
     const Point way = memory_.me.to_own(target().at);
     const double rest = length(way) - now.tunable(stop), wanted = bearing(way);
-    constexpr double near_by = 0.15, ahead = 0.3;  // m, rad
+    constexpr double ahead = 0.3;  // rad
     const bool is_there = rest < near_by;
     const double gain = 1.5, most = now.tunable(turn);
     if (is_there) {
@@ -204,16 +224,11 @@ class Seek {
 
   /// It stands before the target.
   void look(const Step& now) {
-    memory_.stood += now.period();
     if (sees(now)) memory_.seen += now.period();
-    if (memory_.seen >= now.tunable(hold)) {
-      memory_.targets[std::size_t(memory_.claim)].confirmed = 1;
-      ++memory_.confirmed;
-      claim(Targets::none);
-    } else if (memory_.stood > now.tunable(patience)) {
-      memory_.given_up |= std::int64_t(1) << memory_.claim;
-      now.log().warning("there is no target where one was told");
-    }
+    if (memory_.seen < now.tunable(hold)) return;
+    memory_.targets[std::size_t(memory_.claim)].confirmed = 1;
+    ++memory_.confirmed;
+    claim(Targets::none);
   }
   /// By its camera; without one by its laser; without both it believes what it was told.
   bool sees(const Step& now) const {
