@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Points, and places with a heading, on level ground: m, rad.
+// Points, and places with a heading, on level ground: m, rad. And how fast one walks.
 #pragma once
 
 #include <cmath>
@@ -13,6 +13,7 @@ struct Point {
   friend Point operator+(const Point& a, const Point& b) { return {a.x + b.x, a.y + b.y}; }
   friend Point operator-(const Point& a, const Point& b) { return {a.x - b.x, a.y - b.y}; }
   friend Point operator*(double s, const Point& p) { return {s * p.x, s * p.y}; }
+  friend double dot(const Point& a, const Point& b) { return a.x * b.x + a.y * b.y; }
   double norm() const { return std::sqrt(x * x + y * y); }
 };
 struct Place {
@@ -29,6 +30,10 @@ struct Place {
     const Point d = p - at;
     return {c * d.x + s * d.y, c * d.y - s * d.x};
   }
+};
+/// `walk.command`: forward, to the left (m/s), turn (rad/s).
+struct Command {
+  double x = 0, y = 0, turn = 0;
 };
 /// rad: the same direction within half a turn.
 inline double wrapped(double angle) { return std::remainder(angle, 2 * 3.14159265358979323846); }

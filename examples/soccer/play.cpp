@@ -1,72 +1,91 @@
 // SPDX-License-Identifier: MIT
-// A player: goes behind the ball and drives it into the goal, by what its camera has found (look.cpp) and by the way
-// that it has walked since the start (examples/walk). Players tell each other how soon they would be at the ball; the
-// nearest one goes for it, the others keep to their places, a keeper to the line between ball and goal.
+// A player: finds the ball, goes behind it and kicks it to the goal, or keeps its place and leaves the ball to a mate.
+// It knows what its camera has found (look.cpp), how it has walked (examples/walk) and what mates tell. The one whose
+// way to the ball is shortest goes for it, the others keep to their places, a keeper to the line between ball and goal.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 
 #include "muro_controller.hpp"
 #include "muro_elementary.h"
-#include "place.hpp"
+#include "striker.hpp"
+#include "team_message.hpp"
 
 namespace {
 
 using namespace muro::controller;
 using namespace soccer;
 
-enum Input { ball_seen, odometry, orientation, match_state, mates };
-enum Output { walk_command, message };
-enum Tunable { start_x, start_y, start_yaw, attack, home_x, home_y, keeper, forward, sideways, turn, goal_x, stride };
-enum Role : std::int64_t { waits, searches, goes_for_ball, keeps_place };
+enum Input { ball_seen, players_seen, odometry, walk_phase, orientation, match_state, mates };
+enum Output { walk_command, walk_kick, message };
+enum Tunable {
+  // clang-format off
+  number, start_x, start_y, start_yaw, home_x, home_y, keeper, forward, sideways, turn, stride,
+  attack, goal_x, goal_width, kick_x, kick_y, kick_speed,
+  // clang-format on
+};
+enum WalkPhase : std::int64_t { walks = 2, falls = 3, gets_up = 4, kicks = 5 };  ///< of examples/walk
 
-constexpr double forgets = 3;     // s: a ball that was not seen for so long is searched for
-constexpr double behind = 0.3;    // m: the place behind the ball from which it is driven
-constexpr double line = 0.08;     // m: so far from the line through ball and goal it drives
-constexpr double goes_on = 2;     // times as far off it goes on, once it drives
-constexpr double calm = 0.25;     // rad/s: near the ball it turns no faster
-constexpr double ahead = 0.35;    // rad: so far off the direction to the goal it drives
-constexpr double aside = 0.4;     // m: it passes the ball at that distance
-constexpr double far_away = 100;  // m: of who does not know where the ball is
-constexpr std::size_t message_size = 4;
+constexpr double forgets = 4;        // s: a ball that nobody has seen for so long is searched for
+constexpr double trusts_itself = 3;  // s: before it believes mates where the ball is
+constexpr double unseen = 1;         // s: a ball that the one who is to kick it does not see any more
+constexpr double far_away = 100;     // m: of who does not know where the ball is
 
 class Play {
  public:
   static constexpr const char* name = "play";
   static constexpr const char* version = "1.0.0";
-  static constexpr const char* summary = "Plays soccer: goes behind the ball and drives it into the goal";
+  static constexpr const char* summary = "Plays soccer: finds the ball, kicks it to the goal, keeps its place";
   static constexpr muro_port inputs[] = {{"ball.seen", "1, m, m, s", 4, 0},
+                                         {"players.seen", "1, m, m, 1", 0, MURO_PORT_OPTIONAL},
                                          {"walk.odometry", "m, m, rad", 3, 0},
+                                         {"walk.phase", "1", 1, 0},
                                          {"orientation", "1", 4, 0},
                                          {"match.state", "1", 1, MURO_PORT_OPTIONAL},
-                                         {"mates", "m, m, m, 1", 0, MURO_PORT_OPTIONAL}};
+                                         {"mates", TeamMessage::units, 0, MURO_PORT_OPTIONAL}};
   static constexpr muro_port outputs[] = {{"walk.command", "m/s, m/s, rad/s", 3, MURO_PORT_OWN},
-                                          {"team.message", "m, m, m, 1", message_size, MURO_PORT_OWN}};
+                                          {"walk.kick", "1, m/s", 2, MURO_PORT_OWN},
+                                          {"team.message", TeamMessage::units, TeamMessage::size, MURO_PORT_OWN}};
   static constexpr muro_tunable tunables[] = {
+      {"number", "1", 1, 1, 99, "of the player, in its team"},
       {"start_x", "m", 0, -100, 100, "where it stands at the start, on the field"},
       {"start_y", "m", 0, -100, 100, "the same"},
       {"start_yaw", "rad", 0, -7, 7, "the same"},
-      {"attack", "1", 1, -1, 1, "1: the goal at x > 0; -1: the other one"},
       {"home_x", "m", 0, -100, 100, "its place, where another one goes for the ball"},
       {"home_y", "m", 0, -100, 100, "the same"},
       {"keeper", "1", 0, 0, 1, "1: it keeps the goal, and goes for a ball that is near to it"},
       {"forward", "m/s", 0.2, 0, 2, "as fast as it walks"},
       {"sideways", "m/s", 0.08, 0, 2, "the same to the side"},
       {"turn", "rad/s", 0.6, 0, 4, "the same on the spot"},
+      {"stride", "1", 1, 0.5, 2, "length of its steps in that of its odometry's"},
+      {"attack", "1", 1, -1, 1, "1: the goal at x > 0; -1: the other one"},
       {"goal_x", "m", 4.5, 0.5, 100, "of the goal line"},
-      {"stride", "1", 1, 0.5, 2, "length of its steps in that of its odometry's"}};
+      {"goal_width", "m", 2.6, 0.1, 100, "between the posts"},
+      {"kick_x", "m", 0.175, 0, 2, "how far ahead of its trunk the ball is to lie when it kicks"},
+      {"kick_y", "m", 0.045, 0, 2, "and how far to the side of the foot that kicks"},
+      {"kick_speed", "m/s", 2, 0, 20, "of the foot"}};
 
-  explicit Play(const Setup&) {}
+  explicit Play(const Setup& setup)
+      : pace_{setup.tunable(forward), setup.tunable(sideways), setup.tunable(turn)},
+        striker_{.attack = setup.tunable(attack),
+                 .goal_x = setup.tunable(goal_x),
+                 .goal_width = setup.tunable(goal_width),
+                 .kick_x = setup.tunable(kick_x),
+                 .kick_y = setup.tunable(kick_y)} {
+    if (setup.input_size(mates) % TeamMessage::size != 0)
+      throw std::invalid_argument("`mates` are to be messages of players, each the whole team.message");
+  }
 
   void step(const Step& now) {
     reckon(now);
-    remember_ball(now);
+    remember(now);
     memory_.role = role(now);
-    const auto command = now.output(walk_command);
-    const Command c = act(now);
-    command[0] = c.x, command[1] = c.y, command[2] = c.turn;
-    const auto told = now.output(message);
-    told[0] = distance_to_ball(), told[1] = memory_.me.at.x, told[2] = memory_.me.at.y, told[3] = double(memory_.role);
+    if (memory_.role != goes_for_ball) memory_.striker.rest();
+    const Place soon = place_soon();
+    const Striker::Decision d = act(now, soon, Steering(pace_, soon, memory_.others));
+    write(d, now);
+    TeamMessage{own_number(now), memory_.role, cost(now), memory_.me.at, memory_.ball, memory_.age}.write(
+        now.output(message));
   }
 
   void save(Saver& to) const { to.put(memory_); }
@@ -75,23 +94,25 @@ class Play {
  private:
   /// All that a step leaves for the next.
   struct Memory {
-    Place me;           ///< on the field
-    Place by_legs;      ///< as the legs have gone, since the start of the walk
-    double turned = 0;  ///< rad: from the IMU's heading to that on the field
-    Point ball;         ///< m, on the field: where it was last seen
-    double age = 1e3;   ///< s: since then
+    Place me;                 ///< on the field
+    Command pending;          ///< m, m, rad: what the legs have been told and have not done yet
+    Place by_legs;            ///< as the legs have gone, since the start of the walk
+    double turned = 0;        ///< rad: from the IMU's heading to that on the field
+    Point ball;               ///< m, on the field: where it was last seen, by itself or by a mate
+    double age = 1e3;         ///< s: since then
+    std::int64_t doubts = 0;  ///< how often it was seen somewhere else
+    double searched = 0;      ///< s: for how long
     Role role = searches;
-    std::int64_t drives = 0;  ///< it drives the ball
+    Striker striker;
+    Others others;
+    std::int64_t foot = 0;  ///< that is to kick: 1 left, -1 right
+    double asked = 0;       ///< s: since the kick was asked for
   };
 
  public:
   static constexpr std::size_t save_size = sizeof(Memory);
 
  private:
-  struct Command {
-    double x = 0, y = 0, turn = 0;
-  };
-
   /// Dead reckoning: the way as the legs have gone it, the heading by the IMU.
   void reckon(const Step& now) {
     const auto walked = now.input(odometry), q = now.input(orientation);
@@ -109,93 +130,134 @@ class Play {
     memory_.by_legs = by_legs;
   }
 
-  void remember_ball(const Step& now) {
-    const auto seen = now.input(ball_seen);
+  void remember(const Step& now) {
     memory_.age += now.period();
-    if (seen[0] == 0) return;
-    memory_.ball = memory_.me.to_world({seen[1], seen[2]});
-    memory_.age = 0;
+    memory_.others.pass(now.period());
+    for_each_mate(now, [&](const TeamMessage& m) {
+      memory_.others.see(m.me);
+      if (memory_.age > trusts_itself && m.age < memory_.age - 1) memory_.ball = m.ball, memory_.age = m.age;
+    });
+    const auto players = now.input(players_seen);
+    for (std::size_t i = 1; i + 3 <= players.size() && double(i) < 3 * players[0]; i += 3)
+      memory_.others.see(memory_.me.to_world({players[i], players[i + 1]}));
+    const auto seen = now.input(ball_seen);
+    if (seen[0] != 0) see_ball(memory_.me.to_world({seen[1], seen[2]}));
   }
-  Command act(const Step& now) {
-    switch (memory_.role) {
-      case waits:
-        return {};
-      case searches:
-        return search(now);
-      case goes_for_ball:
-        return drive(now);
-      case keeps_place:
-        return go_to(now, place(now), heading_to(memory_.ball));
-    }
-    return {};
+  /// A ball that is far from where it was is believed when it is seen again.
+  void see_ball(const Point& at) {
+    constexpr double leap = 0.6, recent = 1.5;  // m, s
+    constexpr std::int64_t times = 3;
+    memory_.doubts = memory_.age < recent && (at - memory_.ball).norm() > leap ? memory_.doubts + 1 : 0;
+    if (memory_.doubts > 0 && memory_.doubts < times) return;
+    memory_.ball = at, memory_.age = 0, memory_.doubts = 0;
   }
-  /// A ball that was last seen at its feet lies there still: it goes back to see it. Else it turns about.
-  Command search(const Step& now) const {
-    constexpr double at_feet = 0.6, back = 6;  // m, s
-    const bool goes_back = memory_.age < forgets + back && (memory_.ball - memory_.me.at).norm() < at_feet;
-    return goes_back ? Command{-0.4 * now.tunable(forward), 0, 0} : Command{0, 0, now.tunable(turn)};
+  template <class F>
+  static void for_each_mate(const Step& now, F f) {
+    const auto told = now.input(mates);
+    for (std::size_t i = 0; i + TeamMessage::size <= told.size(); i += TeamMessage::size)
+      if (const auto m = TeamMessage::from(told.subspan(i, TeamMessage::size)); m.number != own_number(now)) f(m);
   }
-  double distance_to_ball() const { return memory_.age < forgets ? (memory_.ball - memory_.me.at).norm() : far_away; }
-  double heading_to(const Point& p) const { return muro_atan2(p.y - memory_.me.at.y, p.x - memory_.me.at.x); }
+  static std::int64_t own_number(const Step& now) { return std::int64_t(now.tunable(number)); }
+
+  /// Where it will be when its legs have done what they have been told.
+  Place place_soon() const {
+    return {memory_.me.to_world({memory_.pending.x, memory_.pending.y}), memory_.me.yaw + memory_.pending.turn};
+  }
+  std::int64_t phase(const Step& now) const { return std::int64_t(now.input(walk_phase)[0]); }
+  /// m: how far it is to the ball, and about it; a robot that lies gets up first.
+  double cost(const Step& now) const {
+    if (memory_.age > forgets) return far_away;
+    const Point way = memory_.ball - memory_.me.at;
+    const double about = way.x * now.tunable(attack) < 0 ? 0.6 : 0, lies = phase(now) >= falls && phase(now) != kicks;
+    return way.norm() + about + 2 * lies;
+  }
 
   Role role(const Step& now) const {
     const auto state = now.input(match_state);
     if (!state.empty() && state[0] == 2) return waits;
-    const double mine = distance_to_ball();
-    const auto told = now.input(mates);
-    double nearest = far_away;
-    for (std::size_t i = 0; i + message_size <= told.size(); i += message_size) nearest = std::min(nearest, told[i]);
-    if (mine >= far_away && nearest >= far_away) return searches;
-    if (now.tunable(keeper) > 0 && mine > 1) return mine >= far_away ? searches : keeps_place;
-    constexpr double begins = 0.1, hysteresis = 0.3;  // m: what was told is a little old; who goes for the ball goes on
-    const double allowed = memory_.role == goes_for_ball ? hysteresis : begins;
-    if (mine < far_away && mine <= nearest + allowed) return goes_for_ball;
-    return mine < far_away ? keeps_place : searches;
+    const double mine = cost(now);
+    if (mine >= far_away) return searches;
+    constexpr double near_goal = 1.2;  // m: a ball that the keeper fetches itself
+    if (now.tunable(keeper) > 0 && std::abs(memory_.ball.x - now.tunable(home_x)) > near_goal) return keeps_place;
+    constexpr double begins = 0.1, goes_on = 0.3;  // m: so much nearer than mates; so much farther who goes for it
+    const bool goes = memory_.role == goes_for_ball;
+    bool is_best = true, is_nearest = true, somebody_goes = false;
+    for_each_mate(now, [&](const TeamMessage& m) {
+      const bool is_better = mine < m.cost || (mine == m.cost && own_number(now) < m.number);
+      is_best = is_best && is_better;
+      if (m.role == goes_for_ball)
+        somebody_goes = true, is_nearest = is_nearest && (goes ? is_better : mine < m.cost - begins);
+      else
+        is_nearest = is_nearest && mine < m.cost + (goes ? goes_on : -begins);
+    });
+    return is_nearest || (is_best && !somebody_goes) ? goes_for_ball : keeps_place;
   }
 
-  /// Its place, from which it goes along with the ball.
+  Striker::Decision act(const Step& now, const Place& soon, const Steering& steering) {
+    memory_.searched = memory_.role == searches ? memory_.searched + now.period() : 0;
+    if (memory_.role == waits) return {};
+    if (is_too_near()) return {steering.back(), 0};
+    switch (memory_.role) {
+      case searches:
+        return {search(now, steering), 0};
+      case goes_for_ball:
+        if (is_lost_at_feet(unseen)) return {steering.back(), 0};
+        return memory_.striker.act(soon, memory_.ball, memory_.others, steering, striker_);
+      default:
+        return {steering.go_to(place(now), steering.heading_to(memory_.ball), {.distance = 0.2, .angle = 0.35}), 0};
+    }
+  }
+  /// Somebody stands right before it.
+  bool is_too_near() const {
+    constexpr double touch = 0.3;  // m
+    const Others::Other* const o = memory_.others.nearest(memory_.me.at, touch);
+    return o && memory_.me.to_own(o->at).x > 0;
+  }
+  /// A ball that was last seen at its feet lies there still: it goes back to see it.
+  bool is_lost_at_feet(double since) const {
+    constexpr double at_feet = 0.6;  // m
+    return memory_.age > since && (memory_.ball - memory_.me.at).norm() < at_feet;
+  }
+  /// It turns about, then it walks to where the ball was last or to its place, and so on.
+  Command search(const Step& now, const Steering& steering) const {
+    constexpr double turns = 9, period = 15, goes_back = 5;  // s
+    if (memory_.searched < goes_back && is_lost_at_feet(0)) return steering.back();
+    if (std::fmod(memory_.searched, period) < turns) return steering.turn(1);
+    const Point to = memory_.searched < period ? memory_.ball : Point{now.tunable(home_x), now.tunable(home_y)};
+    return steering.go_to(to, steering.heading_to(to), {.distance = 0.3, .angle = 0.3});
+  }
+
+  /// Its place, from which it goes along with the ball, and out of the way of who goes for it.
   Point place(const Step& now) const {
     const Point home{now.tunable(home_x), now.tunable(home_y)};
-    if (now.tunable(keeper) > 0) return {home.x, std::clamp(0.5 * memory_.ball.y, -1.0, 1.0)};
-    return {home.x + 0.3 * memory_.ball.x, home.y + 0.3 * memory_.ball.y};
+    if (now.tunable(keeper) > 0)
+      return {home.x,
+              std::clamp(0.5 * memory_.ball.y, -0.35 * now.tunable(goal_width), 0.35 * now.tunable(goal_width))};
+    constexpr double apart = 1;  // m
+    const Point place{home.x + 0.4 * memory_.ball.x, home.y + 0.4 * memory_.ball.y};
+    const Point off = place - memory_.ball;
+    return off.norm() >= apart || off.norm() < 1e-6 ? place : memory_.ball + (apart / off.norm()) * off;
   }
 
-  Command drive(const Step& now) {
-    constexpr double mouth = 0.8, in_goal = 0.3;  // m: it drives to a point in the goal, straight ahead where it can
-    const Point goal{now.tunable(attack) * (now.tunable(goal_x) + in_goal), std::clamp(memory_.ball.y, -mouth, mouth)};
-    const double to_goal = muro_atan2(goal.y - memory_.ball.y, goal.x - memory_.ball.x);
-    const Point rest = Place{memory_.ball, to_goal}.to_own(memory_.me.at);  // from the ball, x to the goal
-    const double off = wrapped(to_goal - memory_.me.yaw);
-    const double wide = memory_.drives ? goes_on : 1;
-    memory_.drives = rest.x < -0.03 && std::abs(rest.y) < wide * (line + 0.2 * std::max(0.0, -rest.x - behind)) &&
-                     std::abs(off) < wide * ahead;
-    if (memory_.drives) {
-      const double sway = std::clamp(-0.8 * rest.y, -now.tunable(sideways), now.tunable(sideways));
-      return {now.tunable(forward), sway, std::clamp(0.6 * off, -calm, calm)};
-    }
-    const double side = rest.y < 0 ? -1 : 1;
-    const Place ball{memory_.ball, to_goal};
-    // past the ball first, then behind it
-    if (rest.x > -0.5 * behind) return go_to(now, ball.to_world({-behind, side * aside}), heading_to(memory_.ball));
-    return go_to(now, ball.to_world({-behind, 0}), to_goal);
+  /// A kick is asked for until it is taken.
+  void write(const Striker::Decision& d, const Step& now) {
+    constexpr double patience = 1.5;  // s
+    memory_.asked = memory_.foot == 0 ? 0 : memory_.asked + now.period();
+    if (phase(now) == kicks || phase(now) == falls || memory_.asked > patience) memory_.foot = 0;
+    if (d.kick != 0 && memory_.foot == 0 && phase(now) <= walks) memory_.foot = d.kick;
+    const auto command = now.output(walk_command), kick = now.output(walk_kick);
+    const Command walk = memory_.foot == 0 && phase(now) != kicks ? d.walk : Command{};
+    constexpr double lag = 0.5;  // s: of the legs
+    const double left = lag / (lag + now.period());
+    memory_.pending = {left * (memory_.pending.x + now.period() * walk.x),
+                       left * (memory_.pending.y + now.period() * walk.y),
+                       left * (memory_.pending.turn + now.period() * walk.turn)};
+    command[0] = walk.x, command[1] = walk.y, command[2] = walk.turn;
+    kick[0] = double(memory_.foot), kick[1] = memory_.foot == 0 ? 0 : now.tunable(kick_speed);
   }
 
-  /// To a point, and to a heading there; what is far is walked to forwards.
-  Command go_to(const Step& now, const Point& target, double heading) const {
-    constexpr double near_by = 0.5, there = 0.04;  // m
-    const Point way = memory_.me.to_own(target);
-    const double distance = way.norm(), fast = now.tunable(forward), quick = now.tunable(turn);
-    const double most = distance > near_by ? quick : std::min(quick, calm), gain = distance > near_by ? 1.2 : 0.6;
-    const auto turning = [&](double angle) { return std::clamp(gain * wrapped(angle - memory_.me.yaw), -most, most); };
-    if (distance > near_by) {
-      const double off = wrapped(heading_to(target) - memory_.me.yaw);
-      return {fast * std::max(0.0, 1 - std::abs(off) / 0.8), 0, turning(heading_to(target))};
-    }
-    if (distance < there) return {0, 0, std::abs(wrapped(heading - memory_.me.yaw)) > 0.1 ? turning(heading) : 0};
-    return {std::clamp(0.8 * way.x, -0.5 * fast, 0.5 * fast),
-            std::clamp(0.8 * way.y, -now.tunable(sideways), now.tunable(sideways)), turning(heading)};
-  }
-
+  Steering::Pace pace_;
+  StrikerSettings striker_;
   Memory memory_;
 };
 

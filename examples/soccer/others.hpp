@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// Where a player believes the others to be, and how to walk without running into them.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "place.hpp"
+
+namespace soccer {
+
+/// Mates and opponents, as they were seen or have told a short time ago.
+class Others {
+ public:
+  static constexpr double remembers = 2;  ///< s
+
+  struct Other {
+    Point at;          ///< m, on the field
+    double age = 1e3;  ///< s
+    bool is_there() const { return age < remembers; }
+  };
+
+  void pass(double seconds) {
+    for (Other& o : all_) o.age += seconds;
+  }
+  /// Somebody is there now: the one who was nearest to it, or one who has been forgotten.
+  void see(const Point& at) {
+    constexpr double same = 0.5;  // m
+    Other* best = &all_[0];
+    for (Other& o : all_) {
+      const bool near = o.is_there() && (o.at - at).norm() < same;
+      if (near) best = &o;
+      if (near) break;
+      if (o.age > best->age) best = &o;
+    }
+    *best = {at, 0};
+  }
+
+  /// Whether nobody is nearer than `keep` (m) to the straight way from `from` to `to`.
+  bool is_free(const Point& from, const Point& to, double keep) const { return !first_on(from, to, keep); }
+  /// The nearest to a point; none that is farther away than `within` (m).
+  const Other* nearest(const Point& to, double within) const {
+    const Other* best = nullptr;
+    for (const Other& o : all_)
+      if (o.is_there() && (o.at - to).norm() < within) best = &o, within = (o.at - to).norm();
+    return best;
+  }
+  /// Where to walk first, so as to get to `to` at a distance of `keep` (m) from everybody.
+  Point detour(const Point& from, const Point& to, double keep) const {
+    const Other* const first = first_on(from, to, keep);
+    return first ? beside(first->at, from, to, keep) : to;
+  }
+  /// A point beside an obstacle, on the side on which the way passes it.
+  static Point beside(const Point& obstacle, const Point& from, const Point& to, double keep) {
+    const Line way(from, to);
+    return obstacle + (way.left_of(obstacle) > 0 ? -1.2 * keep : 1.2 * keep) * way.normal;
+  }
+  /// Whether an obstacle is in the way.
+  static bool blocks(const Point& obstacle, const Point& from, const Point& to, double keep) {
+    const Line way(from, to);
+    return way.along(obstacle) > 0 && way.along(obstacle) < way.length && std::abs(way.left_of(obstacle)) < keep;
+  }
+
+ private:
+  struct Line {
+    Point from, direction{1, 0}, normal{0, 1};
+    double length;
+
+    Line(const Point& a, const Point& b) : from(a), length((b - a).norm()) {
+      if (length > 1e-9) direction = (1 / length) * (b - a);
+      normal = {-direction.y, direction.x};
+    }
+    double along(const Point& p) const { return dot(p - from, direction); }
+    double left_of(const Point& p) const { return dot(p - from, normal); }
+  };
+
+  const Other* first_on(const Point& from, const Point& to, double keep) const {
+    const Line way(from, to);
+    const Other* first = nullptr;
+    for (const Other& o : all_)
+      if (o.is_there() && blocks(o.at, from, to, keep) && (!first || way.along(o.at) < way.along(first->at)))
+        first = &o;
+    return first;
+  }
+
+  std::array<Other, 8> all_;
+};
+
+}  // namespace soccer

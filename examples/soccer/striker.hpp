@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+// The player who goes for the ball: gets behind it, lines up, and kicks it to where nobody stands, at best the goal.
+#pragma once
+
+#include <cstdint>
+
+#include "steering.hpp"
+
+namespace soccer {
+
+/// What a player knows of its robot and of the field.
+struct StrikerSettings {
+  double attack = 1;                               ///< 1: the goal at x > 0; -1: the other one
+  double goal_x = 4.5;                             ///< m: of the goal line
+  double goal_width = 2.6;                         ///< m
+  double kick_x = 0.17;                            ///< m: where the ball is to lie, ahead of the trunk
+  double kick_y = 0.045;                           ///< m: and to the side of the foot that kicks
+  double kick_room_x = 0.03, kick_room_y = 0.025;  ///< m: so exactly
+};
+
+class Striker {
+ public:
+  struct Decision {
+    Command walk;
+    std::int64_t kick = 0;  ///< 1: with the left foot, -1: with the right one
+  };
+
+  Decision act(const Place& me, const Point& ball, const Others& others, const Steering& steering,
+               const StrikerSettings& s) {
+    const double aim = choose_aim(me, ball, others, s);
+    const Place from_ball{ball, aim};
+    const Point rest = from_ball.to_own(me.at);  // x along the kick
+    const double off = wrapped(aim - me.yaw);
+    const double wide = lines_up_ ? 1.8 : 1;
+    lines_up_ = rest.x < -0.05 && std::abs(rest.y) < wide * (0.1 + 0.25 * std::max(0.0, -rest.x - behind)) &&
+                std::abs(off) < wide * 0.4;
+    if (lines_up_) return line_up(me.to_own(ball), off, steering, s);
+    return {go_behind(me, ball, aim, steering), 0};
+  }
+  /// Another one goes for the ball now.
+  void rest() { *this = {}; }
+
+ private:
+  static constexpr double behind = 0.3;    ///< m: the place from which it lines up
+  static constexpr double aside = 0.32;    ///< m: it passes the ball at that distance
+  static constexpr double shot = 1.0;      ///< m: so far the way of the ball is to be free
+  static constexpr double corridor = 0.3;  ///< m
+
+  /// rad, on the field: into the goal, or past who stands before it. What was chosen holds while the ball lies still
+  /// and its way is free.
+  double choose_aim(const Place& me, const Point& ball, const Others& others, const StrikerSettings& s) {
+    constexpr double near = 0.6, moved = 0.25, step_aside = 0.5;  // m, m, rad
+    const auto is_free = [&](double angle) {
+      return others.is_free(ball, Place{ball, angle}.to_world({shot, 0}), corridor);
+    };
+    if ((me.at - ball).norm() < near && (ball - aimed_from_).norm() < moved && is_free(aim_)) return aim_;
+    const double direct = aim_at_goal(me, ball, s), inwards = (ball.y > 0) == (s.attack > 0) ? -step_aside : step_aside;
+    aim_ = direct, aimed_from_ = ball;
+    for (const double to_side : {0.0, inwards, -inwards, 2 * inwards, -2 * inwards})
+      if (is_free(direct + to_side)) {
+        aim_ = direct + to_side;
+        break;
+      }
+    return aim_;
+  }
+  /// From far away it need not be aimed well: another kick follows.
+  static double aim_at_goal(const Place& me, const Point& ball, const StrikerSettings& s) {
+    constexpr double from_post = 0.35, far = 2.5, careless = 0.15;  // m, m, rad
+    const double line = s.attack * s.goal_x, mouth = 0.5 * s.goal_width - from_post;
+    const auto angle_to = [&](double y) {
+      return muro_atan2(y - ball.y, s.attack * std::max(0.2, std::abs(line - ball.x)));
+    };
+    const double middle = angle_to(0), from_here = muro_atan2(ball.y - me.at.y, ball.x - me.at.x);
+    const double wide = std::abs(line - ball.x) > far ? careless : 0;
+    const double one = wrapped(angle_to(mouth) - middle), other = wrapped(angle_to(-mouth) - middle);
+    return middle + std::clamp(wrapped(from_here - middle), std::min(one, other) - wide, std::max(one, other) + wide);
+  }
+
+  /// The ball lies ahead: the last steps to it, and the kick.
+  Decision line_up(const Point& ball, double off, const Steering& steering, const StrikerSettings& s) {
+    constexpr double firm = 0.02, room_off = 0.25;  // m, rad
+    if (foot_ == 0 || double(foot_) * ball.y < -firm) foot_ = ball.y < 0 ? -1 : 1;
+    const Point way = ball - Point{s.kick_x, double(foot_) * s.kick_y};
+    if (std::abs(way.x) < s.kick_room_x && std::abs(way.y) < s.kick_room_y && std::abs(off) < room_off)
+      return {{}, foot_};
+    return {steering.small_step(way, off), 0};
+  }
+
+  Command go_behind(const Place& me, const Point& ball, double aim, const Steering& steering) const {
+    const Point place = Place{ball, aim}.to_world({-behind, 0});
+    if (!Others::blocks(ball, me.at, place, 0.8 * aside)) return steering.go_to(place, aim, {});
+    return steering.go_to(Others::beside(ball, me.at, place, aside), steering.heading_to(ball), {});
+  }
+
+  bool lines_up_ = false;
+  std::int64_t foot_ = 0;       ///< that is going to kick
+  double aim_ = 0;              ///< rad, on the field
+  Point aimed_from_{1e3, 1e3};  ///< m: where the ball lay then
+};
+
+}  // namespace soccer
