@@ -46,7 +46,7 @@ class Judge {
     double found_now = 0, confirmed_now = 0, sum = 0, worst = 0;
     for (std::size_t i = 0; i < poses.size() / 7; ++i) {
       const Point at{poses[7 * i], poses[7 * i + 1]};
-      if (nearest(now.input(robots), 7, at) < now.tunable(reach)) memory_.visited[i] = 1;
+      if (nearest_robot(now, poses.subspan(7 * i, 3)) < now.tunable(reach)) memory_.visited[i] = 1;
       double off = now.tunable(near_by);
       bool is_confirmed = false, is_found = false;
       for (std::size_t k = 0; k + 4 <= claimed.size(); k += 4) {
@@ -60,7 +60,7 @@ class Judge {
     }
     double wrong_now = 0;
     for (std::size_t k = 0; k + 4 <= claimed.size(); k += 4)
-      if (claimed[k + 2] != 0 && nearest(poses, 7, {claimed[k], claimed[k + 1]}) > now.tunable(near_by)) ++wrong_now;
+      if (claimed[k + 2] != 0 && nearest(poses, {claimed[k], claimed[k + 1]}) > now.tunable(near_by)) ++wrong_now;
     const double all = double(poses.size() / 7);
     if (found_now == all && memory_.all_found == 0) memory_.all_found = now.time();
     if (confirmed_now == all && memory_.all_confirmed == 0) {
@@ -73,9 +73,17 @@ class Judge {
   }
 
  private:
-  static double nearest(std::span<const double> poses, std::size_t each, const Point& p) {
+  /// m: who flies over a target has not been there.
+  static double nearest_robot(const Step& now, std::span<const double> p) {
+    const auto poses = now.input(robots);
     double least = 1e9;
-    for (std::size_t i = 0; i + each <= poses.size(); i += each)
+    for (std::size_t i = 0; i + 7 <= poses.size(); i += 7)
+      least = std::min(least, muro_hypot(distance({p[0], p[1]}, {poses[i], poses[i + 1]}), p[2] - poses[i + 2]));
+    return least;
+  }
+  static double nearest(std::span<const double> poses, const Point& p) {
+    double least = 1e9;
+    for (std::size_t i = 0; i + 7 <= poses.size(); i += 7)
       least = std::min(least, distance(p, {poses[i], poses[i + 1]}));
     return least;
   }

@@ -63,7 +63,8 @@ class Seek {
       {"stop", "m", 0.55, 0.05, 5, "from its middle to that of a target: there it stands and looks"},
       {"hold", "s", 1, 0, 60, "it has to see a target for so long"},
       {"patience", "s", 10, 1, 600,
-       "if it comes no nearer for so long, or stands and sees nothing, it leaves the target to others"},
+       "where it stands so long and sees nothing, or comes no nearer for twice as long, it leaves the target to "
+       "others"},
       {"target_radius", "m", 0.22, 0.01, 5, "of a target as a disc"},
       {"laser_x", "m", 0.1, -5, 5, "the scanner in the frame of the base"},
       {"laser_z", "m", 0.12, 0, 5, "the scanner above the ground"},
@@ -156,11 +157,13 @@ class Seek {
     constexpr double nearer = 0.1;  // m
     memory_.waited += now.period();
     if (!claims()) return;
+    constexpr double detour = 2;  // times as long it may take, while it is under way
     const double rest = distance(memory_.me.at(), target().at);
+    const bool is_there = rest < now.tunable(stop) + near_by;
     if (rest < memory_.nearest - nearer) memory_.nearest = rest, memory_.waited = 0;
-    if (memory_.waited < now.tunable(patience)) return;
-    now.log().warning(rest < now.tunable(stop) + near_by ? "there is no target where one was told"
-                                                         : "it does not get to a target, and leaves it to others");
+    if (memory_.waited < (is_there ? 1 : detour) * now.tunable(patience)) return;
+    now.log().warning(is_there ? "there is no target where one was told"
+                               : "it does not get to a target, and leaves it to others");
     memory_.given_up |= std::int64_t(1) << memory_.claim;
     claim(Targets::none);
   }
