@@ -16,11 +16,17 @@ enum Uniform : GLint { to_clip = 0, to_sun = 1, to_shadow = 2, shadow_size = 3, 
 
 void set(Uniform where, const Eigen::Matrix4f& m) { glUniformMatrix4fv(where, 1, GL_FALSE, m.data()); }
 
+std::string color_fragment(std::string_view kind) {
+  std::string text{kind};
+  return text.append(std::string_view(shaders::color_fragment));
+}
+
 }  // namespace
 
 ColorRenderer::ColorRenderer(GpuScene& scene)
     : scene_(&scene),
-      color_(shaders::instance_vertex, shaders::color_fragment),
+      shadowed_color_(shaders::instance_vertex, color_fragment(shaders::with_shadows)),
+      plain_color_(shaders::instance_vertex, color_fragment(shaders::without_shadows)),
       sky_(shaders::sky_vertex, shaders::sky_fragment),
       shadow_(shaders::instance_vertex, shaders::depth_fragment) {
   glCreateVertexArrays(1, &empty_array_);
@@ -97,14 +103,14 @@ void ColorRenderer::draw(const Camera& camera, const ColorTarget& target, const 
   scene_->cull(camera.pose.position, frustum_of(camera), camera.far, camera.ignored_robot);
   target.begin();
   draw_sky(camera);
-  color_.use();
+  (light.shadows ? shadowed_color_ : plain_color_).use();
   set(to_clip, projection_of(camera).cast<float>());
   const Eigen::Vector3f sun = light.to_sun.cast<float>();
   glUniform3fv(to_sun, 1, sun.data());
   glUniform3fv(horizon_color, 1, horizon);
-  glUniform1f(shadow_size, light.shadows ? shadow_pixels : 0);
   glUniform2f(eye, float(std::fmod(camera.pose.position.x(), 2)), float(std::fmod(camera.pose.position.y(), 2)));
   if (light.shadows) {
+    glUniform1f(shadow_size, shadow_pixels);
     set(to_shadow, shadow_matrix_);
     glBindTextureUnit(0, shadow_map_);
   }

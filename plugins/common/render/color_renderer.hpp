@@ -29,7 +29,7 @@ class ColorRenderer {
   void draw_sky(const Camera& camera) const;
 
   GpuScene* scene_;
-  Program color_, sky_, shadow_;
+  Program shadowed_color_, plain_color_, sky_, shadow_;
   std::uint32_t empty_array_ = 0;  ///< a vertex array without attributes
   std::uint32_t shadow_map_ = 0, shadow_framebuffer_ = 0;
   Eigen::Matrix4f shadow_matrix_ = Eigen::Matrix4f::Identity();

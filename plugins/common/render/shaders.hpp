@@ -43,8 +43,13 @@ void main() { label = object_label; })";
 constexpr const char* depth_fragment = R"(#version 450 core
 void main() {})";
 
+/// Before `color_fragment`: with shadows or without. Two programs, since what draws without a GPU runs both sides of
+/// every branch.
+constexpr const char* with_shadows = "#version 450 core\n#define SHADOWS\n";
+constexpr const char* without_shadows = "#version 450 core\n";
+
 /// Lambert's law under a sun and a sky that is brighter above than the ground below; distance fades to the horizon.
-constexpr const char* color_fragment = R"(#version 450 core
+constexpr const char* color_fragment = R"(
 in vec3 at;
 in vec3 surface_normal;
 flat in vec3 surface_color;
@@ -59,8 +64,8 @@ layout(binding = 0) uniform sampler2DShadow shadow_map;
 layout(binding = 1) uniform sampler2D surface_texture;
 layout(location = 0) out vec4 color;
 
+#ifdef SHADOWS
 float sunlit(vec3 n) {
-  if (shadow_size <= 0) return 1;
   vec3 p = (to_shadow * vec4(at + n * 0.02, 1)).xyz;
   vec2 edge = abs(p.xy);
   if (max(edge.x, edge.y) > 1 || p.z < 0) return 1;
@@ -71,6 +76,9 @@ float sunlit(vec3 n) {
   float fade = smoothstep(0.85, 1.0, max(edge.x, edge.y));
   return mix(sum / 9, 1, fade);
 }
+#else
+float sunlit(vec3 n) { return 1; }
+#endif
 
 /// 1 on light and 0 on dark tiles; between, where a pixel covers several.
 float tiles(vec2 p) {
