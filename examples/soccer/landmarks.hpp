@@ -13,6 +13,7 @@ namespace soccer {
 struct Landmarks {
   double length = 8.95, width = 5.95;  ///< m: between the middles of goal lines, and of touch lines
   double goal_width = 2.7;             ///< m: between the axes of the posts of a goal
+  double goal_depth = 0.6;             ///< m: of its frame on the ground, behind the goal line
   double goal_area_length = 0.95, goal_area_width = 2.95;
   double penalty_area_length = 1.95, penalty_area_width = 4.95;
   double penalty_mark = 1.475;  ///< m: from the middle of the goal line
@@ -23,7 +24,8 @@ struct Landmarks {
     const double x = 0.5 * length, y = 0.5 * goal_width;
     return {Point{x, y}, Point{x, -y}, Point{-x, y}, Point{-x, -y}};
   }
-  /// m: the point of the middles of all lines that is nearest to `p`, and of marks. They are symmetric about both axes.
+  /// m: the point of the middles of all lines that is nearest to `p`, of marks, and of the goals' frames on the ground.
+  /// They are symmetric about both axes.
   Point nearest_on_lines(const Point& p) const {
     const Point corner{std::abs(p.x), std::abs(p.y)};  // in the quarter where x and y are positive
     const double goal_line = 0.5 * length, touch_line = 0.5 * width;
@@ -36,6 +38,8 @@ struct Landmarks {
     nearest.try_segment({goal_area, 0.5 * goal_area_width}, {goal_line, 0.5 * goal_area_width});
     nearest.try_segment({penalty_area, 0}, {penalty_area, 0.5 * penalty_area_width});
     nearest.try_segment({penalty_area, 0.5 * penalty_area_width}, {goal_line, 0.5 * penalty_area_width});
+    nearest.try_segment({goal_line, 0.5 * goal_width}, {goal_line + goal_depth, 0.5 * goal_width});
+    nearest.try_segment({goal_line + goal_depth, 0}, {goal_line + goal_depth, 0.5 * goal_width});
     nearest.try_point({goal_line - penalty_mark, 0});
     const double from_centre = corner.norm();
     if (from_centre > 0) nearest.try_point((circle / from_centre) * corner);

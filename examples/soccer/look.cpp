@@ -5,6 +5,7 @@
 
 #include "ball_finder.hpp"
 #include "gaze.hpp"
+#include "line_finder.hpp"
 #include "muro_controller.hpp"
 #include "player_finder.hpp"
 #include "post_finder.hpp"
@@ -15,7 +16,7 @@ using namespace muro::controller;
 using namespace soccer;
 
 enum Input { image, fx, fy, cx, cy, camera_width, camera_height, orientation, head_position };
-enum Output { head_target, ball, goal, players };
+enum Output { head_target, ball, goal, players, lines };
 enum Tunable {
   trunk_height,
   neck_x,
@@ -34,7 +35,8 @@ class Look {
  public:
   static constexpr const char* name = "look";
   static constexpr const char* version = "2.0.0";
-  static constexpr const char* summary = "Finds ball, goals and players by the camera and keeps the head on the ball";
+  static constexpr const char* summary =
+      "Finds ball, goals, lines and players by the camera and keeps the head on the ball";
   static constexpr muro_port inputs[] = {{"camera.image", "1", 0, MURO_PORT_TEXT | MURO_PORT_OPTIONAL},
                                          {"camera.fx", "px", 1, MURO_PORT_OPTIONAL},
                                          {"camera.fy", "px", 1, MURO_PORT_OPTIONAL},
@@ -44,11 +46,12 @@ class Look {
                                          {"camera.height", "1", 1, MURO_PORT_OPTIONAL},
                                          {"orientation", "1", 4, 0},
                                          {"joint.position", "rad", 2, 0}};
-  static constexpr std::uint32_t most_posts = 2, most_players = 4;
+  static constexpr std::uint32_t most_posts = 2, most_players = 4, most_points = LineFinder::most;
   static constexpr muro_port outputs[] = {{"joint.position.target", "rad", 2, 0},
                                           {"ball.seen", "1, m, m, s", 4, MURO_PORT_OWN},
                                           {"goal.seen", "1, m, m", 1 + 2 * most_posts, MURO_PORT_OWN},
-                                          {"players.seen", "1, m, m, 1", 1 + 3 * most_players, MURO_PORT_OWN}};
+                                          {"players.seen", "1, m, m, 1", 1 + 3 * most_players, MURO_PORT_OWN},
+                                          {"lines.seen", "1, m, m", 1 + 2 * most_points, MURO_PORT_OWN}};
   static constexpr muro_tunable tunables[] = {
       {"trunk_height", "m", 0.27, 0.05, 3, "of the trunk's origin above the ground"},
       {"neck_x", "m", -0.001, -1, 1, "axis of the pan joint, from the trunk's origin"},
@@ -76,8 +79,14 @@ class Look {
                           now.tunable(trunk_height), now.input(orientation), joints[0], joints[1]);
     const auto found = ball_finder_.find(image_, view);
     tell_ball(found, now);
-    tell_posts(view, now);
-    tell_players(view, now);
+    if (view.is_upright()) {
+      const PlayerFinder::Players others = player_finder_.find(image_, view, found);
+      tell(others, now.output(players));
+      tell(post_finder_.find(image_, view).all(), now.output(goal));
+      tell(line_finder_.find(image_, view, found, others.all()).all(), now.output(lines));
+    } else {
+      for (const Output o : {players, goal, lines}) tell(std::span<const Vector>(), now.output(o));
+    }
     turn_head(found, view, now);
   }
 
@@ -108,16 +117,13 @@ class Look {
     const auto told = now.output(ball);
     told[0] = found ? 1 : 0, told[1] = memory_.x, told[2] = memory_.y, told[3] = memory_.age;
   }
-  void tell_posts(const CameraView& view, const Step& now) const {
-    const PostFinder::Posts posts = view.is_upright() ? post_finder_.find(image_, view) : PostFinder::Posts{};
-    const auto told = now.output(goal);
+  /// How many there are, and their places; zeros behind.
+  static void tell(std::span<const Vector> points, std::span<double> told) {
     std::fill(told.begin(), told.end(), 0.0);
-    told[0] = double(posts.size());
-    for (std::size_t i = 0; i < posts.size(); ++i) told[1 + 2 * i] = posts[i].x, told[2 + 2 * i] = posts[i].y;
+    told[0] = double(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) told[1 + 2 * i] = points[i].x, told[2 + 2 * i] = points[i].y;
   }
-  void tell_players(const CameraView& view, const Step& now) {
-    const PlayerFinder::Players seen = view.is_upright() ? player_finder_.find(image_, view) : PlayerFinder::Players{};
-    const auto told = now.output(players);
+  static void tell(const PlayerFinder::Players& seen, std::span<double> told) {
     std::fill(told.begin(), told.end(), 0.0);
     told[0] = double(seen.size());
     for (std::size_t i = 0; i < seen.size(); ++i) {
@@ -139,6 +145,7 @@ class Look {
   BallFinder ball_finder_;
   PostFinder post_finder_;
   PlayerFinder player_finder_;
+  LineFinder line_finder_;
   Image image_;
   Memory memory_;
 };

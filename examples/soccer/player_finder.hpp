@@ -15,9 +15,9 @@ class PlayerFinder {
  public:
   using Players = Finds<SeenPlayer, 4>;
 
-  /// The nearest ones first.
-  Players find(const Image& image, const CameraView& view) {
-    scan(image, view);
+  /// The nearest ones first. `ball`: where one is seen (m); it is dark, too, and lies at feet.
+  Players find(const Image& image, const CameraView& view, const std::optional<Vector>& ball) {
+    scan(image, view, ball);
     Players players;
     while (!players.is_full()) {
       const auto nearest = std::min_element(columns_.begin(), columns_.begin() + used_,
@@ -29,12 +29,13 @@ class PlayerFinder {
   }
 
  private:
-  static constexpr double farthest = 5;       ///< m
-  static constexpr double none = 1e3;         ///< m
-  static constexpr double half_width = 0.17;  ///< m, of a player with its arms down
-  static constexpr double height = 0.5;       ///< m
-  static constexpr double own = 0.25;         ///< m: what is nearer is part of the player itself
-  static constexpr int step = 2;              ///< px, from column to column
+  static constexpr double farthest = 5;         ///< m
+  static constexpr double none = 1e3;           ///< m
+  static constexpr double half_width = 0.17;    ///< m, of a player with its arms down
+  static constexpr double height = 0.5;         ///< m
+  static constexpr double own = 0.25;           ///< m: what is nearer is part of the player itself
+  static constexpr double reach_of_arms = 0.6;  ///< m: the same, at its sides
+  static constexpr int step = 2;                ///< px, from column to column
   static constexpr std::size_t most_columns = 1024;
 
   struct Column {
@@ -43,7 +44,10 @@ class PlayerFinder {
   };
 
   /// For each column the lowest pixel that is neither grass nor line.
-  void scan(const Image& image, const CameraView& view) {
+  void scan(const Image& image, const CameraView& view, const std::optional<Vector>& ball) {
+    const auto centre = ball ? view.pixel_of(*ball) : std::nullopt;
+    const double size =
+        centre ? 1.3 * ball->z * view.lens().fx / view.depth_of(*ball) : 0;  // px; its centre is a radius high
     used_ = std::min(most_columns, std::size_t(image.width() / step));
     for (std::size_t i = 0; i < used_; ++i) {
       const int u = int(i) * step + step / 2;
@@ -51,10 +55,12 @@ class PlayerFinder {
       for (int v = image.height() - 1; v >= 0; --v) {
         const Color color = image.color(u, v);
         if (color == green || color == white) continue;
+        if (centre && std::abs(u - centre->u) < size && std::abs(v - centre->v) < size) continue;
         const auto ground = view.at_height({u + 0.5, v + 1.0}, 0);
         if (!ground) break;
         const double range = std::sqrt(ground->x * ground->x + ground->y * ground->y);
-        if (range < own) continue;
+        const bool is_own = range < own || (range < reach_of_arms && std::abs(ground->y) > 2 * std::abs(ground->x));
+        if (is_own) continue;
         columns_[i] = {range, v};
         break;
       }
@@ -77,8 +83,9 @@ class PlayerFinder {
     const double middle = 0.5 * double(left + right) * step + step / 2;
     const int row = columns_[i].row;
     const int team = team_in(image, middle, row, wide, height * view.lens().fy / depth);
-    const std::size_t first = std::size_t(std::max(0.0, (middle - wide) / step));
-    const std::size_t last = std::min(used_, std::size_t(std::max(0.0, (middle + wide) / step)) + 1);
+    constexpr double arms = 1.4;  // they may be held away from the trunk
+    const std::size_t first = std::size_t(std::max(0.0, (middle - arms * wide) / step));
+    const std::size_t last = std::min(used_, std::size_t(std::max(0.0, (middle + arms * wide) / step)) + 1);
     columns_[i].range = none;
     if (team == 0) return std::nullopt;
     for (std::size_t k = first; k < last; ++k) columns_[k].range = none;
@@ -99,7 +106,7 @@ class PlayerFinder {
         const Color color = image.color(x, v);
         blues += color == blue, reds += color == red;
       }
-    const int least = std::max(3, int(0.02 * 2 * wide * high));
+    const int least = std::max(2, int(0.008 * (right - left + 1) * (row - top + 1)));
     if (std::max(blues, reds) < least) return 0;
     return blues > reds ? 1 : -1;
   }

@@ -133,7 +133,15 @@ class PostFinder {
     const auto all = seen.all();
     std::sort(all.begin(), all.end(), [](const Vector& a, const Vector& b) { return dot(a, a) < dot(b, b); });
     Posts posts;
-    for (const Vector& foot : all.first(std::min<std::size_t>(all.size(), 2))) posts.add(foot);
+    constexpr double apart = 1.2;  // m: what is nearer to a post is the frame of its goal
+    for (const Vector& foot : all) {
+      const auto known = posts.all();
+      const bool is_frame = std::any_of(known.begin(), known.end(), [&](const Vector& other) {
+        const Vector d = foot + (-1) * other;
+        return dot(d, d) < apart * apart;
+      });
+      if (!is_frame) posts.add(foot);
+    }
     const auto kept = posts.all();
     // the left one is counterclockwise of the right one
     if (kept.size() == 2 && kept[0].x * kept[1].y - kept[0].y * kept[1].x > 0) std::swap(kept[0], kept[1]);
