@@ -41,10 +41,10 @@ double Balance::astray(const Reference& now, double w, const Body& body, const A
 }
 
 void keep_balance(BothLegs& angles, const Reference& now, const Attitude& attitude, double lean,
-                  const BalanceSettings& b) {
+                  const BalanceSettings& b, double springs) {
   const double pitch = attitude.pitch() - lean, roll = attitude.roll();
   const auto add = [&](LegAngles& q, int joint, const Gains& k, double tilt, double rate) {
-    q[joint] += k.tilt * tilt + k.rate * rate;
+    q[joint] += springs * (k.tilt * tilt + k.rate * rate);
   };
   for (const Side side : {left_side, right_side}) {
     if (!now.carries(side)) continue;

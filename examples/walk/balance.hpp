@@ -41,8 +41,9 @@ class Balance {
   std::int64_t seen_ = 0, stance_ = -1;
 };
 
-/// What balance adds to the angles of the legs that carry.
+/// What balance adds to the angles of the legs that carry. Gains are for springs, which turn angles into
+/// moments: `springs` is 1 for these and 0 for joints that nothing turns away from their targets.
 void keep_balance(BothLegs& angles, const Reference& now, const Attitude& attitude, double lean,
-                  const BalanceSettings& b);
+                  const BalanceSettings& b, double springs);
 
 }  // namespace walking

@@ -13,10 +13,10 @@ namespace walking {
 struct KickSettings {
   double shift = 0.5;        ///< s, in which the weight goes over one foot, and back
   double swing = 0.4;        ///< s, in which the foot is taken back; and in which it is put down
-  double back = 0.085;       ///< m, by which it is taken back
-  double forward = 0.137;    ///< m, ahead of where it stood, at the end of its way forward
-  double rise = 0.066;       ///< m, of the sole
-  double outward = 0;        ///< m, from the centre of the sole that carries: where the centre of mass goes
+  double back = 0.075;       ///< m, by which it is taken back
+  double forward = 0.143;    ///< m, ahead of where it stood, at the end of its way forward
+  double rise = 0.057;       ///< m, of the sole
+  double outward = -0.008;   ///< m, from the centre of the sole that carries: where the centre of mass goes
   double com_height = 0.25;  ///< m, above the soles
 };
 

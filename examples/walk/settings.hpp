@@ -87,11 +87,10 @@ inline constexpr muro_tunable tunable_table[] = {
     {"calibrate", "s", 1, 0, 60, "at rest, to measure the biases of the IMU"},
     {"kick_shift", "s", 0.5, 0.05, 10, "in which the weight goes over one foot before a kick, and back after it"},
     {"kick_swing", "s", 0.4, 0.05, 10, "in which the other foot is taken back, and in which it is put down"},
-    {"kick_back", "m", 0.085, 0, 2, "by which it is taken back"},
-    {"kick_forward", "m", 0.137, 0, 2, "ahead of where it stood, at the end of its way forward"},
-    {"kick_rise", "m", 0.066, 0, 2,
-     "of its sole; with the ball's centre at half the height of the toe it goes farthest"},
-    {"kick_outward", "m", 0, -1, 1, "of the centre of mass from the centre of the sole that carries"},
+    {"kick_back", "m", 0.075, 0, 2, "by which it is taken back"},
+    {"kick_forward", "m", 0.143, 0, 2, "ahead of where it stood, at the end of its way forward"},
+    {"kick_rise", "m", 0.057, 0, 2, "of its sole"},
+    {"kick_outward", "m", -0.008, -1, 1, "of the centre of mass from the centre of the sole that carries"},
 };
 
 struct Settings {

@@ -15,8 +15,6 @@
 namespace muro::walk_test {
 
 inline const std::string scenario = MURO_TEST_SOURCE_DIR "/examples/walk/walk.yaml";
-inline const std::string biped_motion =
-    "robots.walker.motion={use: motion.biped, rate: 250, feet: [l_foot_link, r_foot_link], interpolate: 0.008}";
 
 /// Tunables of the library, such as "forward=0.1, left=0".
 inline std::string tunables(const std::string& list) { return "robots.walker.walk.tunables=[" + list + "]"; }
@@ -47,7 +45,7 @@ class Walker {
   const Pose& pose() { return world().value(robot_->base(), keys::pose); }
   double yaw() { return yaw_of(pose().orientation); }
   double upright() { return (pose().orientation * Vec3::UnitZ()).z(); }
-  /// As `walk.phase` says: 1 stands, 2 walks, 3 falls, 4 gets up.
+  /// As `walk.phase` says: 1 stands, 2 walks, 3 falls, 4 gets up, 5 kicks.
   int phase() { return int(read("walk.phase")[0]); }
   const double* read(const char* property) {
     return static_cast<const double*>(world().store().find(robot_->base(), property)->place);
