@@ -89,11 +89,11 @@ class PostFinder {
         widths += here->width(), ++free_rows, drift += off, u += off;
       }
       const Pixel up = view.upright_at({u, row + 0.5});
-      u += up.u / -up.v;
+      u += up.u / up.v;
     }
     constexpr double leans = 0.08;  // of its height
     if (free_rows < 4 || 3 * free_rows < rows || std::abs(drift) > leans * free_rows + 1) return std::nullopt;
-    if (row + 1 < image.height() && image.at(u, row + 1) != green) return std::nullopt;
+    if (!is_on_ground(u, row + 1, stripe.width(), image)) return std::nullopt;
     const double bottom = bottom_of(u, row, image);
     const Pixel up = view.upright_at({u, bottom});
     const auto front = view.at_height({u, bottom}, 0);
@@ -102,19 +102,29 @@ class PostFinder {
     if (distance > farthest || depth < 0.2) return std::nullopt;
     const double slant = std::sqrt(up.u * up.u + up.v * up.v) / -up.v;  // of its length in a row
     const double width = widths / free_rows / slant, expected = 2 * radius_ * view.lens().fx / depth;
-    if (width < 0.75 * expected - 0.3 || width > 1.3 * expected + 0.7) return std::nullopt;
+    // narrower are the tubes and the net behind a goal; the net beside a post makes it look wider
+    if (width < 0.97 * expected - 0.4 || width > 1.1 * expected + 1.3) return std::nullopt;
     constexpr double least_height = 0.25;  // m: lines and shoes are less
     if (rows < least_height * -up.v / depth) return std::nullopt;
     return (1 + radius_ / distance) * Vector{front->x, front->y, 0};
   }
 
+  /// Whether there is grass below, or a line that leads to it.
+  static bool is_on_ground(double u, int row, double width, const Image& image) {
+    const auto below = image.at(u, row), left = image.at(u - width, row), right = image.at(u + width, row);
+    const auto is = [](const std::optional<Color>& color, Color c) { return !color || *color == c; };
+    const auto is_ground = [&](const std::optional<Color>& color) { return is(color, green) || is(color, white); };
+    return is(below, green) ||
+           (is(below, white) && is_ground(left) && is_ground(right) && (is(left, green) || is(right, green)));
+  }
   /// px: between the last white row and the next one, by how white they are.
   static double bottom_of(double u, int row, const Image& image) {
     const int column = int(std::floor(u));
     if (column < 0 || column >= image.width() || row < 3 || row + 1 >= image.height()) return row;
     const double post = image.least(column, row - 3), grass = image.least(column, row + 1);
     if (post <= grass) return row;
-    double bottom = row - 2;
+    constexpr double bleeding = 0.2;  // px: of white into grass
+    double bottom = row - 2 - bleeding;
     for (int v = row - 2; v <= row; ++v)
       bottom += std::clamp((image.least(column, v) - grass) / (post - grass), 0.0, 1.0);
     return bottom;
