@@ -3,9 +3,11 @@
 // It knows what its camera has found (look.cpp), how it has walked (examples/walk) and what mates tell. The one whose
 // way to the ball is shortest goes for it, the others keep to their places, a keeper to the line between ball and goal.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 
+#include "localisation.hpp"
 #include "muro_controller.hpp"
 #include "muro_elementary.h"
 #include "striker.hpp"
@@ -16,7 +18,7 @@ namespace {
 using namespace muro::controller;
 using namespace soccer;
 
-enum Input { ball_seen, players_seen, odometry, walk_phase, orientation, match_state, mates };
+enum Input { ball_seen, goal_seen, lines_seen, players_seen, odometry, walk_phase, orientation, match_state, mates };
 enum Output { walk_command, walk_kick, message };
 enum Tunable {
   // clang-format off
@@ -24,11 +26,11 @@ enum Tunable {
   attack, goal_x, goal_width, kick_x, kick_y, kick_speed,
   // clang-format on
 };
-enum WalkPhase : std::int64_t { walks = 2, falls = 3, gets_up = 4, kicks = 5 };  ///< of examples/walk
+enum WalkPhase : std::int64_t { stands = 1, walks = 2, falls = 3, gets_up = 4, kicks = 5 };  ///< of examples/walk
 
 constexpr double forgets = 4;        // s: a ball that nobody has seen for so long is searched for
 constexpr double trusts_itself = 3;  // s: before it believes mates where the ball is
-constexpr double unseen = 1;         // s: a ball that the one who is to kick it does not see any more
+constexpr double unseen = 2;         // s: a ball that the one who is to kick it does not see any more
 constexpr double far_away = 100;     // m: of who does not know where the ball is
 
 class Play {
@@ -37,6 +39,8 @@ class Play {
   static constexpr const char* version = "1.0.0";
   static constexpr const char* summary = "Plays soccer: finds the ball, kicks it to the goal, keeps its place";
   static constexpr muro_port inputs[] = {{"ball.seen", "1, m, m, s", 4, 0},
+                                         {"goal.seen", "1, m, m", 0, MURO_PORT_OPTIONAL},
+                                         {"lines.seen", "1, m, m", 0, MURO_PORT_OPTIONAL},
                                          {"players.seen", "1, m, m, 1", 0, MURO_PORT_OPTIONAL},
                                          {"walk.odometry", "m, m, rad", 3, 0},
                                          {"walk.phase", "1", 1, 0},
@@ -61,7 +65,7 @@ class Play {
       {"attack", "1", 1, -1, 1, "1: the goal at x > 0; -1: the other one"},
       {"goal_x", "m", 4.5, 0.5, 100, "of the goal line"},
       {"goal_width", "m", 2.6, 0.1, 100, "between the posts"},
-      {"kick_x", "m", 0.175, 0, 2, "how far ahead of its trunk the ball is to lie when it kicks"},
+      {"kick_x", "m", 0.185, 0, 2, "how far ahead of its trunk the ball is to lie when it kicks"},
       {"kick_y", "m", 0.045, 0, 2, "and how far to the side of the foot that kicks"},
       {"kick_speed", "m/s", 2, 0, 20, "of the foot"}};
 
@@ -84,7 +88,7 @@ class Play {
     const Place soon = place_soon();
     const Striker::Decision d = act(now, soon, Steering(pace_, soon, memory_.others));
     write(d, now);
-    TeamMessage{own_number(now), memory_.role, cost(now), memory_.me.at, memory_.ball, memory_.age}.write(
+    TeamMessage{own_number(now), memory_.role, cost(now), me().at, memory_.ball, memory_.age}.write(
         now.output(message));
   }
 
@@ -94,10 +98,11 @@ class Play {
  private:
   /// All that a step leaves for the next.
   struct Memory {
-    Place me;                 ///< on the field
+    Localisation self;        ///< on the field
     Command pending;          ///< m, m, rad: what the legs have been told and have not done yet
     Place by_legs;            ///< as the legs have gone, since the start of the walk
-    double turned = 0;        ///< rad: from the IMU's heading to that on the field
+    double heading = 0;       ///< rad, by the IMU
+    std::int64_t phase = 0;   ///< of the walk
     Point ball;               ///< m, on the field: where it was last seen, by itself or by a mate
     double age = 1e3;         ///< s: since then
     std::int64_t doubts = 0;  ///< how often it was seen somewhere else
@@ -113,22 +118,38 @@ class Play {
   static constexpr std::size_t save_size = sizeof(Memory);
 
  private:
-  /// Dead reckoning: the way as the legs have gone it, the heading by the IMU.
+  const Place& me() const { return memory_.self.place(); }
+
+  /// Dead reckoning, the way as the legs have gone it and the heading by the IMU; corrected by posts and lines.
   void reckon(const Step& now) {
     const auto walked = now.input(odometry), q = now.input(orientation);
     const double heading = muro_atan2(2 * (q[3] * q[2] + q[0] * q[1]), 1 - 2 * (q[1] * q[1] + q[2] * q[2]));
     const Place by_legs{{walked[0], walked[1]}, walked[2]};
     if (now.index() == 0) {
-      memory_.me.at = {now.tunable(start_x), now.tunable(start_y)};
-      memory_.turned = now.tunable(start_yaw) - heading;
+      memory_.self.start({{now.tunable(start_x), now.tunable(start_y)}, now.tunable(start_yaw)});
     } else {
       constexpr double most = 0.3;  // m, in a step: legs that got up count anew
       const Point way = memory_.by_legs.to_own(by_legs.at);
-      if (way.norm() < most) memory_.me.at = memory_.me.to_world(now.tunable(stride) * way);
+      memory_.self.move(way.norm() < most ? now.tunable(stride) * way : Point{}, wrapped(heading - memory_.heading),
+                        now.period());
     }
-    memory_.me.yaw = wrapped(heading + memory_.turned);
-    memory_.by_legs = by_legs;
+    if (phase(now) == falls && memory_.phase != falls) memory_.self.fell();
+    memory_.phase = phase(now), memory_.by_legs = by_legs, memory_.heading = heading;
+    if (const bool is_on_its_feet = phase(now) <= walks; !is_on_its_feet) return;
+    Points seen;
+    memory_.self.see_posts(seen.from(now.input(goal_seen)));
+    memory_.self.see_lines(seen.from(now.input(lines_seen)));
   }
+  /// A list of points, which begins with their number.
+  struct Points {
+    std::array<Point, 32> all;
+    std::span<const Point> from(std::span<const double> told) {
+      std::size_t n = 0;
+      while (n < all.size() && 2 * n + 2 < told.size() && double(n) < told[0])
+        all[n] = {told[2 * n + 1], told[2 * n + 2]}, ++n;
+      return std::span(all).first(n);
+    }
+  };
 
   void remember(const Step& now) {
     memory_.age += now.period();
@@ -139,9 +160,9 @@ class Play {
     });
     const auto players = now.input(players_seen);
     for (std::size_t i = 1; i + 3 <= players.size() && double(i) < 3 * players[0]; i += 3)
-      memory_.others.see(memory_.me.to_world({players[i], players[i + 1]}));
+      memory_.others.see(me().to_world({players[i], players[i + 1]}));
     const auto seen = now.input(ball_seen);
-    if (seen[0] != 0) see_ball(memory_.me.to_world({seen[1], seen[2]}));
+    if (seen[0] != 0) see_ball(me().to_world({seen[1], seen[2]}));
   }
   /// A ball that is far from where it was is believed when it is seen again.
   void see_ball(const Point& at) {
@@ -161,13 +182,13 @@ class Play {
 
   /// Where it will be when its legs have done what they have been told.
   Place place_soon() const {
-    return {memory_.me.to_world({memory_.pending.x, memory_.pending.y}), memory_.me.yaw + memory_.pending.turn};
+    return {me().to_world({memory_.pending.x, memory_.pending.y}), me().yaw + memory_.pending.turn};
   }
   std::int64_t phase(const Step& now) const { return std::int64_t(now.input(walk_phase)[0]); }
   /// m: how far it is to the ball, and about it; a robot that lies gets up first.
   double cost(const Step& now) const {
     if (memory_.age > forgets) return far_away;
-    const Point way = memory_.ball - memory_.me.at;
+    const Point way = memory_.ball - me().at;
     const double about = way.x * now.tunable(attack) < 0 ? 0.6 : 0, lies = phase(now) >= falls && phase(now) != kicks;
     return way.norm() + about + 2 * lies;
   }
@@ -202,7 +223,7 @@ class Play {
         return {search(now, steering), 0};
       case goes_for_ball:
         if (is_lost_at_feet(unseen)) return {steering.back(), 0};
-        return memory_.striker.act(soon, memory_.ball, memory_.others, steering, striker_);
+        return memory_.striker.act(soon, phase(now) == stands, memory_.ball, memory_.others, steering, striker_);
       default:
         return {steering.go_to(place(now), steering.heading_to(memory_.ball), {.distance = 0.2, .angle = 0.35}), 0};
     }
@@ -210,13 +231,13 @@ class Play {
   /// Somebody stands right before it.
   bool is_too_near() const {
     constexpr double touch = 0.3;  // m
-    const Others::Other* const o = memory_.others.nearest(memory_.me.at, touch);
-    return o && memory_.me.to_own(o->at).x > 0;
+    const Others::Other* const o = memory_.others.nearest(me().at, touch);
+    return o && me().to_own(o->at).x > 0;
   }
   /// A ball that was last seen at its feet lies there still: it goes back to see it.
   bool is_lost_at_feet(double since) const {
     constexpr double at_feet = 0.6;  // m
-    return memory_.age > since && (memory_.ball - memory_.me.at).norm() < at_feet;
+    return memory_.age > since && (memory_.ball - me().at).norm() < at_feet;
   }
   /// It turns about, then it walks to where the ball was last or to its place, and so on.
   Command search(const Step& now, const Steering& steering) const {
@@ -247,11 +268,12 @@ class Play {
     if (d.kick != 0 && memory_.foot == 0 && phase(now) <= walks) memory_.foot = d.kick;
     const auto command = now.output(walk_command), kick = now.output(walk_kick);
     const Command walk = memory_.foot == 0 && phase(now) != kicks ? d.walk : Command{};
-    constexpr double lag = 0.5;  // s: of the legs
-    const double left = lag / (lag + now.period());
-    memory_.pending = {left * (memory_.pending.x + now.period() * walk.x),
-                       left * (memory_.pending.y + now.period() * walk.y),
-                       left * (memory_.pending.turn + now.period() * walk.turn)};
+    constexpr double lag = 0.5, lag_of_turns = 1.2;  // s: of the legs
+    const auto follow = [&](double& pending, double told, double lag_of_it) {
+      pending = lag_of_it / (lag_of_it + now.period()) * (pending + now.period() * told);
+    };
+    follow(memory_.pending.x, walk.x, lag), follow(memory_.pending.y, walk.y, lag);
+    follow(memory_.pending.turn, walk.turn, lag_of_turns);
     command[0] = walk.x, command[1] = walk.y, command[2] = walk.turn;
     kick[0] = double(memory_.foot), kick[1] = memory_.foot == 0 ? 0 : now.tunable(kick_speed);
   }

@@ -47,8 +47,8 @@ class Steering {
   double heading_to(const Point& p) const { return muro_atan2(p.y - me_.at.y, p.x - me_.at.x); }
 
  private:
-  static constexpr double near_by = 0.5;  ///< m
-  static constexpr double calm = 0.3;     ///< rad/s: near its place it turns no faster
+  static constexpr double near_by = 0.3;  ///< m
+  static constexpr double calm = 0.4;     ///< rad/s: near its place it turns no faster
 
   Command walk_to(const Point& target) const {
     const double off = wrapped(heading_to(target) - me_.yaw);
@@ -56,7 +56,7 @@ class Steering {
   }
   double turning(double off) const {
     if (std::abs(off) > 1) return std::clamp(0.6 * off, -pace_.turn, pace_.turn);
-    return std::clamp(0.6 * off, -calm, calm);
+    return std::clamp(0.9 * off, -calm, calm);
   }
 
   Pace pace_;

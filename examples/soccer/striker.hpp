@@ -10,12 +10,12 @@ namespace soccer {
 
 /// What a player knows of its robot and of the field.
 struct StrikerSettings {
-  double attack = 1;                               ///< 1: the goal at x > 0; -1: the other one
-  double goal_x = 4.5;                             ///< m: of the goal line
-  double goal_width = 2.6;                         ///< m
-  double kick_x = 0.17;                            ///< m: where the ball is to lie, ahead of the trunk
-  double kick_y = 0.045;                           ///< m: and to the side of the foot that kicks
-  double kick_room_x = 0.03, kick_room_y = 0.025;  ///< m: so exactly
+  double attack = 1;        ///< 1: the goal at x > 0; -1: the other one
+  double goal_x = 4.5;      ///< m: of the goal line
+  double goal_width = 2.6;  ///< m
+  double kick_x = 0.17;     ///< m: where the ball is to lie, ahead of the trunk
+  double kick_y = 0.045;    ///< m: and to the side of the foot that kicks
+  double kick_room_x = 0.035, kick_room_y = 0.035, kick_room_angle = 0.3;  ///< m, m, rad: so exactly
 };
 
 class Striker {
@@ -25,16 +25,17 @@ class Striker {
     std::int64_t kick = 0;  ///< 1: with the left foot, -1: with the right one
   };
 
-  Decision act(const Place& me, const Point& ball, const Others& others, const Steering& steering,
+  /// `stands`: it does not walk.
+  Decision act(const Place& me, bool stands, const Point& ball, const Others& others, const Steering& steering,
                const StrikerSettings& s) {
     const double aim = choose_aim(me, ball, others, s);
     const Place from_ball{ball, aim};
     const Point rest = from_ball.to_own(me.at);  // x along the kick
     const double off = wrapped(aim - me.yaw);
     const double wide = lines_up_ ? 1.8 : 1;
-    lines_up_ = rest.x < -0.05 && std::abs(rest.y) < wide * (0.1 + 0.25 * std::max(0.0, -rest.x - behind)) &&
-                std::abs(off) < wide * 0.4;
-    if (lines_up_) return line_up(me.to_own(ball), off, steering, s);
+    lines_up_ = rest.x < -0.05 && rest.x > -wide * 0.4 && std::abs(rest.y) < wide * 0.1 && std::abs(off) < wide * 0.4;
+    if (!lines_up_) stops_ = false, sway_ = 0;
+    if (lines_up_) return line_up(me.to_own(ball), off, stands, steering, s);
     return {go_behind(me, ball, aim, steering), 0};
   }
   /// Another one goes for the ball now.
@@ -76,14 +77,22 @@ class Striker {
     return middle + std::clamp(wrapped(from_here - middle), std::min(one, other) - wide, std::max(one, other) + wide);
   }
 
-  /// The ball lies ahead: the last steps to it, and the kick.
-  Decision line_up(const Point& ball, double off, const Steering& steering, const StrikerSettings& s) {
-    constexpr double firm = 0.02, room_off = 0.25;  // m, rad
+  /// The ball lies ahead: the last steps to it, and the kick, once it stands and has seen that it stands well.
+  Decision line_up(const Point& ball, double off, bool stands, const Steering& steering, const StrikerSettings& s) {
+    constexpr double firm = 0.02, steadily = 0.3, well = 0.5;  // m, 1, 1
     if (foot_ == 0 || double(foot_) * ball.y < -firm) foot_ = ball.y < 0 ? -1 : 1;
-    const Point way = ball - Point{s.kick_x, double(foot_) * s.kick_y};
-    if (std::abs(way.x) < s.kick_room_x && std::abs(way.y) < s.kick_room_y && std::abs(off) < room_off)
-      return {{}, foot_};
-    return {steering.small_step(way, off), 0};
+    Point way = ball - Point{s.kick_x, double(foot_) * s.kick_y};
+    sway_ = stands ? way.y : sway_ + steadily * (way.y - sway_);  // a trunk that walks sways about its way
+    if (!stands) way.y = sway_;
+    const auto is_there = [&](double share) {
+      return std::abs(way.x) < share * s.kick_room_x && std::abs(way.y) < share * s.kick_room_y &&
+             std::abs(off) < share * s.kick_room_angle;
+    };
+    if (stops_ && !stands) return {};
+    const bool kicks = stops_ && is_there(1);
+    stops_ = !stops_ && is_there(well);
+    if (kicks) return {{}, foot_};
+    return {stops_ ? Command{} : steering.small_step(way, off), 0};
   }
 
   Command go_behind(const Place& me, const Point& ball, double aim, const Steering& steering) const {
@@ -93,6 +102,8 @@ class Striker {
   }
 
   bool lines_up_ = false;
+  double sway_ = 0;             ///< m: way to the side, over the sway of the walk
+  bool stops_ = false;          ///< so as to look whether it stands well
   std::int64_t foot_ = 0;       ///< that is going to kick
   double aim_ = 0;              ///< rad, on the field
   Point aimed_from_{1e3, 1e3};  ///< m: where the ball lay then
