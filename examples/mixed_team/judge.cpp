@@ -42,37 +42,51 @@ class Judge {
   }
 
   void step(const Step& now) {
-    const auto poses = now.input(targets), claimed = now.input(told);
-    double found_now = 0, confirmed_now = 0, sum = 0, worst = 0;
-    for (std::size_t i = 0; i < poses.size() / 7; ++i) {
-      const Point at{poses[7 * i], poses[7 * i + 1]};
-      if (nearest_robot(now, poses.subspan(7 * i, 3)) < now.tunable(reach)) memory_.visited[i] = 1;
-      double off = now.tunable(near_by);
-      bool is_confirmed = false, is_found = false;
-      for (std::size_t k = 0; k + 4 <= claimed.size(); k += 4) {
-        const double d = distance(at, {claimed[k], claimed[k + 1]});
-        if (claimed[k + 2] == 0 || d > off) continue;
-        off = d, is_found = true, is_confirmed = claimed[k + 3] != 0 && memory_.visited[i] != 0;
-      }
-      if (!is_found) continue;
-      ++found_now, sum += off, worst = std::max(worst, off);
-      if (is_confirmed) ++confirmed_now;
-    }
-    double wrong_now = 0;
-    for (std::size_t k = 0; k + 4 <= claimed.size(); k += 4)
-      if (claimed[k + 2] != 0 && nearest(poses, {claimed[k], claimed[k + 1]}) > now.tunable(near_by)) ++wrong_now;
-    const double all = double(poses.size() / 7);
-    if (found_now == all && memory_.all_found == 0) memory_.all_found = now.time();
-    if (confirmed_now == all && memory_.all_confirmed == 0) {
+    const Tally tally = count(now);
+    const double all = double(now.input(targets).size() / 7);
+    if (tally.found == all && memory_.all_found == 0) memory_.all_found = now.time();
+    if (tally.confirmed == all && memory_.all_confirmed == 0) {
       memory_.all_confirmed = now.time();
       now.log().info("all targets are confirmed");
     }
-    now.output(found)[0] = found_now, now.output(confirmed)[0] = confirmed_now, now.output(wrong)[0] = wrong_now;
-    now.output(error)[0] = found_now > 0 ? sum / found_now : 0, now.output(error)[1] = worst;
+    now.output(found)[0] = tally.found, now.output(confirmed)[0] = tally.confirmed, now.output(wrong)[0] = tally.wrong;
+    now.output(error)[0] = tally.found > 0 ? tally.sum / tally.found : 0, now.output(error)[1] = tally.worst;
     now.output(time_found)[0] = memory_.all_found, now.output(time_confirmed)[0] = memory_.all_confirmed;
   }
 
  private:
+  struct Tally {
+    double found = 0, confirmed = 0, wrong = 0;
+    double sum = 0, worst = 0;  // m: by which what was told is off
+  };
+  /// What the base station was told of the target that is nearest to a point.
+  struct Claim {
+    double off = 1e9;  // m
+    bool is_confirmed = false;
+  };
+
+  Tally count(const Step& now) {
+    const auto poses = now.input(targets), rows = now.input(told);
+    Tally tally;
+    for (std::size_t i = 0; i < poses.size() / 7; ++i) {
+      const std::span<const double> at = poses.subspan(7 * i, 3);
+      if (nearest_robot(now, at) < now.tunable(reach)) memory_.visited[i] = 1;
+      const Claim claim = nearest_claim(rows, {at[0], at[1]});
+      if (claim.off > now.tunable(near_by)) continue;
+      ++tally.found, tally.sum += claim.off, tally.worst = std::max(tally.worst, claim.off);
+      if (claim.is_confirmed && memory_.visited[i] != 0) ++tally.confirmed;
+    }
+    for (std::size_t k = 0; k + 4 <= rows.size(); k += 4)
+      if (rows[k + 2] != 0 && nearest(poses, {rows[k], rows[k + 1]}) > now.tunable(near_by)) ++tally.wrong;
+    return tally;
+  }
+  static Claim nearest_claim(std::span<const double> rows, const Point& p) {
+    Claim best;
+    for (std::size_t k = 0; k + 4 <= rows.size(); k += 4)
+      if (const double off = distance(p, {rows[k], rows[k + 1]}); rows[k + 2] != 0 && off < best.off)
+        best = {off, rows[k + 3] != 0};
+    return best;
+  }
   /// m: who flies over a target has not been there.
   static double nearest_robot(const Step& now, std::span<const double> p) {
     const auto poses = now.input(robots);

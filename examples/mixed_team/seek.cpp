@@ -237,7 +237,8 @@ class Seek {
   bool sees(const Step& now) const {
     const double around = 2 * now.tunable(target_radius);
     const auto is_here = [&](const Point& p) { return distance(memory_.me.to_map(p), target().at) < around; };
-    if (!now.input(seen).empty()) {
+    const bool has_camera = !now.input(seen).empty() && now.input(seen)[0] > 0;
+    if (has_camera) {
       bool found = false;
       for_spots(now.input(seen), [&](const Point& p) { found = found || is_here(p); });
       return found;

@@ -11,7 +11,7 @@ using namespace muro::controller;
 using namespace mixed_team;
 
 enum Input { image, fx, fy, cx, cy, width, height, orientation, gps_position };
-enum Output { seen, pictures };
+enum Output { seen };
 enum Tunable { hue, hue_tolerance, least_pixels, whole, base_height, target_height, camera_x, camera_z, camera_pitch };
 
 class Spot {
@@ -25,8 +25,7 @@ class Spot {
       {"camera.cy", "px", 1, MURO_PORT_OPTIONAL},    {"camera.width", "1", 1, MURO_PORT_OPTIONAL},
       {"camera.height", "1", 1, MURO_PORT_OPTIONAL}, {"orientation", "1", 4, 0},
       {"gps.position", "m", 3, MURO_PORT_OPTIONAL}};
-  static constexpr muro_port outputs[] = {{"spot.seen", "m, m, px", 3 * most_spots, MURO_PORT_OWN},
-                                          {"spot.pictures", "1", 1, MURO_PORT_OWN}};
+  static constexpr muro_port outputs[] = {{"spot.seen", "1, m, m, px", numbers_of_spots, MURO_PORT_OWN}};
   static constexpr muro_tunable tunables[] = {
       {"hue", "1", 0.07, 0, 1, "of targets: 0 red, 1/6 yellow, 1/3 green, 2/3 blue"},
       {"hue_tolerance", "1", 0.035, 0.001, 0.5, "how far a hue may be off"},
@@ -42,6 +41,8 @@ class Spot {
   static constexpr std::size_t save_size = sizeof(double);
 
   explicit Spot(const Setup& setup) {
+    if (setup.input_size(image) == 0)
+      setup.log().warning("there is no camera, so it sees nothing: give it one, such as camera.opengl");
     if (setup.tunable(base_height) == 0 && setup.input_size(gps_position) == 0)
       throw std::invalid_argument("it does not know how high it is: give it a `sensor.gps`, or set `base_height`");
   }
@@ -56,14 +57,14 @@ class Spot {
     const Hue color{now.tunable(hue), now.tunable(hue_tolerance)};
     const auto told = now.output(seen);
     std::fill(told.begin(), told.end(), 0.0);
-    std::size_t used = 0;
+    std::size_t used = 1;
     for (const Blob& blob : finder_.find(now.input(image), columns, rows, color, int(now.tunable(least_pixels)))) {
-      if (used == told.size()) break;
+      if (used + numbers_of_spot > told.size()) break;
       if (blob.is_cut && now.tunable(whole) > 0) continue;
       const auto p = camera.place(blob.u, blob.v, below, now.input(orientation));
-      if (p) told[used] = p->x, told[used + 1] = p->y, told[used + 2] = blob.pixels, used += 3;
+      if (p) told[used] = p->x, told[used + 1] = p->y, told[used + 2] = blob.pixels, used += numbers_of_spot;
     }
-    now.output(pictures)[0] = ++count_;
+    told[0] = ++count_;
   }
 
   void save(Saver& to) const { to.put(count_); }

@@ -10,16 +10,16 @@
 
 namespace mixed_team {
 
-constexpr std::size_t most_spots = 8;
-/// Of each: m forward and left of the base, level, and how many pixels it has; 0 pixels: no more.
-constexpr muro_port spots_port = {"spot.seen", "m, m, px", 3 * most_spots, MURO_PORT_OPTIONAL};
-/// How many pictures it has looked at.
-constexpr muro_port pictures_port = {"spot.pictures", "1", 1, MURO_PORT_OPTIONAL};
+constexpr std::size_t most_spots = 8, numbers_of_spot = 3, numbers_of_spots = 1 + numbers_of_spot * most_spots;
+/// How many pictures it has looked at, and of each spot in the last one: m forward and left of the base, level, and how
+/// many pixels it has; 0 pixels: no more.
+constexpr muro_port spots_port = {"spot.seen", "1, m, m, px", numbers_of_spots, MURO_PORT_OPTIONAL};
 
 /// Calls `take` with the place of each.
 template <class Take>
 void for_spots(std::span<const double> seen, Take take) {
-  for (std::size_t i = 0; i + 3 <= seen.size() && seen[i + 2] > 0; i += 3) take(Point{seen[i], seen[i + 1]});
+  for (std::size_t i = 1; i + numbers_of_spot <= seen.size() && seen[i + 2] > 0; i += numbers_of_spot)
+    take(Point{seen[i], seen[i + 1]});
 }
 
 }  // namespace mixed_team

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <string>
 
 #include "locator.hpp"
 #include "muro_controller.hpp"
@@ -16,7 +17,7 @@ namespace {
 using namespace muro::controller;
 using namespace mixed_team;
 
-enum Input { gps_position, gps_velocity, orientation, seen, pictures, received, received_bytes };
+enum Input { gps_position, gps_velocity, orientation, seen, received, received_bytes };
 enum Output { command, send_bytes, send_size, send_number, targets_seen };
 enum Tunable { center_x, center_y, size_x, size_y, altitude, spacing, speed, rounds, least_sightings, tell_period };
 
@@ -25,13 +26,9 @@ class Survey {
   static constexpr const char* name = "survey";
   static constexpr const char* version = "1.0.0";
   static constexpr const char* summary = "Flies over an area in lanes and tells where it sees targets";
-  static constexpr muro_port inputs[] = {{"gps.position", "m", 3, 0},
-                                         {"gps.velocity", "m/s", 3, 0},
-                                         {"orientation", "1", 4, 0},
-                                         spots_port,
-                                         pictures_port,
-                                         received_port,
-                                         received_bytes_port};
+  static constexpr muro_port inputs[] = {
+      {"gps.position", "m", 3, 0}, {"gps.velocity", "m/s", 3, 0}, {"orientation", "1", 4, 0}, spots_port, received_port,
+      received_bytes_port};
   static constexpr muro_port outputs[] = {{"command.twist", "m/s, rad/s", 6, 0},
                                           send_bytes_port,
                                           send_size_port,
@@ -77,7 +74,7 @@ class Survey {
     Point home;           // m: where it has started
     double ground = 0;    // m: its height there
     double pictures = 0;  // that it has looked at
-    std::int64_t phase = climbs, turn = 0, name = 0, messages = 0;
+    std::int64_t phase = climbs, turn = 0, is_full = 0, name = 0, messages = 0;
   };
 
  public:
@@ -88,10 +85,14 @@ class Survey {
  private:
   void look(const Step& now) {
     constexpr double lowest = 0.5;  // of the altitude: below, it sees too little around a target
-    if (now.input(pictures).empty() || now.input(pictures)[0] == memory_.pictures) return;
-    memory_.pictures = now.input(pictures)[0];
+    if (now.input(seen).empty() || now.input(seen)[0] == memory_.pictures) return;
+    memory_.pictures = now.input(seen)[0];
     if (memory_.me.height() < lowest * now.tunable(altitude)) return;
     for_spots(now.input(seen), [&](const Point& p) { memory_.targets.see(memory_.me.to_map(p)); });
+    if (memory_.is_full == 0 && told(now) == std::int64_t(Targets::most)) {
+      memory_.is_full = 1;
+      now.log().warning("it tells of " + std::to_string(Targets::most) + " targets, and there is no room for more");
+    }
   }
 
   /// Ends of lanes: 0 and 1 of the first lane, 3 and 2 of the second, and so on, so that it flies to and fro.

@@ -76,23 +76,24 @@ class TrotKinematic {
     approach(state_.velocity.turn, wanted.turn, model_.turn_acceleration * dt);
   }
 
-  /// A foot that stands goes back as the base goes on; one that swings goes to where Raibert's rule has it.
+  /// A foot that stands goes back as the base goes on; one that swings goes to where Raibert's rule has it. One that
+  /// has come down, or was lifted, since the last step, has done so in between.
   void move(int i, const Command& wanted, double dt) {
     const std::size_t at = std::size_t(i);
     Vector& foot = state_.foot[at];
-    const Command& v = state_.velocity;
     const LegPhase phase = state_.clock.of(model_.gait, i);
+    const Vector velocity{state_.velocity.forward, state_.velocity.left, 0};
+    const double stance = model_.gait.stance_time(), swing = model_.gait.swing_time();
+    const Vector to = on_ground(model_.placement.target(model_.below_hip(i), velocity, wanted, stance));
+    const bool swung = state_.swings[at] != 0;
+    state_.swings[at] = phase.swings;
     if (!phase.swings) {
-      foot = state_.swings[at] != 0 ? on_ground(foot) : carried(foot, dt);
-      state_.swings[at] = 0;
+      foot = swung ? carried(to, std::min(dt, phase.progress * stance)) : carried(foot, dt);
       return;
     }
-    if (state_.swings[at] == 0) state_.lifted_at[at] = carried(foot, dt), state_.swings[at] = 1;
-    const Vector velocity{v.forward, v.left, 0};
-    const Vector to =
-        on_ground(model_.placement.target(model_.below_hip(i), velocity, wanted, model_.gait.stance_time()));
-    const Vector ground = -1.0 * (velocity + cross(Vector{0, 0, v.turn}, foot));
-    foot = Arc{state_.lifted_at[at], model_.lift, model_.gait.swing_time()}.at(phase.progress, to, ground).position;
+    if (!swung) state_.lifted_at[at] = carried(foot, std::max(0.0, dt - phase.progress * swing));
+    const Vector ground = -1.0 * (velocity + cross(Vector{0, 0, state_.velocity.turn}, foot));
+    foot = Arc{state_.lifted_at[at], model_.lift, swing}.at(phase.progress, to, ground).position;
   }
   /// Where a point of the ground is after the base has gone on for `dt` s along its arc.
   Vector carried(const Vector& p, double dt) const {
