@@ -65,7 +65,19 @@ class BallFinder {
     if (seen < 2 || bare > 1 || longest_gap(image, p, 1.35 * size) > 4 || (above.all > 0 && above.part() < 0.3) ||
         (below.all > 0 && below.part() < 0.3))
       return 0;
+    if (is_of_player(image, p, 1.1 * size)) return 0;
     return whites + darks + sum / seen + 0.02 * size;
+  }
+
+  /// Whether there are the colours of a team within a circle.
+  static bool is_of_player(const Image& image, const Pixel& p, double radius) {
+    for (double v = -radius; v <= radius; ++v)
+      for (double u = -radius; u <= radius; ++u) {
+        if (u * u + v * v > radius * radius) continue;
+        const auto color = image.at(p.u + u, p.v + v);
+        if (color && (*color == blue || *color == red)) return true;
+      }
+    return false;
   }
 
   /// Of sixteen points on a circle: the longest row of those that are not green. Those outside of the picture are
