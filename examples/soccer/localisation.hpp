@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <span>
 #include <utility>
 
@@ -31,7 +32,7 @@ class Localisation {
     place_ = place;
     covariance_ = {};
     covariance_.xx = covariance_.yy = sigma * sigma, covariance_.zz = sigma_yaw * sigma_yaw;
-    rejected_ = 0;
+    rejected_posts_ = rejected_lines_ = 0;
   }
 
   /// It has gone `own_way` (m, forward and left, in its own frame before) and turned (rad), by its own reckoning, in
@@ -58,12 +59,13 @@ class Localisation {
   /// The feet of posts of goals in its own frame (m). Whether they fit the field, and have been used.
   bool see_posts(std::span<const Point> posts) {
     if (posts.empty()) return false;
-    return judge(posts.size() == 1 ? see_post(posts[0]) : see_pair(posts[0], posts[1]));
+    return judge(posts.size() == 1 ? see_post(posts[0]) : see_pair(posts[0], posts[1]), rejected_posts_, 3, 0.4, 0.4);
   }
-  /// Points of the middles of lines in its own frame (m).
+  /// Points of the middles of lines in its own frame (m). Neither these nor posts are to be told while it falls, lies
+  /// or gets up: its camera is not where look.cpp has it then.
   bool see_lines(std::span<const Point> points) {
     if (points.size() < least_points) return false;
-    return judge(fit_lines(points));
+    return judge(fit_lines(points), rejected_lines_, 5, 0.2, 0.2);
   }
 
   const Place& place() const { return place_; }
@@ -72,12 +74,13 @@ class Localisation {
 
  private:
   static constexpr double strays = 0.02;                   ///< m^2/m: 15 % in 1 m
-  static constexpr double rests = 1e-5;                    ///< m^2/s
+  static constexpr double rests = 1e-4;                    ///< m^2/s
   static constexpr double drifts = 0.002;                  ///< rad^2/s: 0.02 rad/s for 5 s
   static constexpr double twists = 0.01;                   ///< rad^2/rad
   static constexpr double largest = 1, largest_yaw = 0.8;  ///< m, rad: standard deviations
   static constexpr std::size_t least_points = 6;
-  static constexpr double distinct = 6;  ///< so much better than the next one is what is believed (chi squared)
+  static constexpr double least_fitting = 0.7;  ///< of the points of a sight
+  static constexpr double distinct = 6;         ///< so much better than the next one is what is believed (chi squared)
 
   /// The errors of what a camera at a walking player's height finds (look.cpp), by distance.
   static double range_sigma(double d) { return 0.03 + 0.02 * d * d; }
@@ -88,17 +91,19 @@ class Localisation {
     Place place;
     Symmetric3 covariance;
     double cost = 1e9;
+    double fitting = 0;  ///< points that lie on lines
   };
   enum Sight { used, unclear, misfit };
   struct Match {
     Point seen, landmark;  ///< m: in its own frame; on the field
   };
 
-  bool judge(Sight sight) {
-    constexpr std::int64_t patience = 5;
-    if (sight == used) rejected_ = 0, keep_doubts();
-    if (sight == misfit) ++rejected_;
-    if (rejected_ >= patience) rejected_ = 0, fell(0.15, 0.1);  // it may be elsewhere
+  /// `rejected`: sights of this kind in a row that do not fit. After `patience` of them it may be elsewhere, up to
+  /// `distance` (m) and `turn` (rad).
+  bool judge(Sight sight, std::int64_t& rejected, std::int64_t patience, double distance, double turn) {
+    if (sight == used) rejected = 0, keep_doubts();
+    if (sight == misfit) ++rejected;
+    if (rejected >= patience) rejected = 0, fell(distance, turn);
     return sight == used;
   }
   /// What a camera has wrong is the same in many pictures: the mean of many is no better than this.
@@ -196,7 +201,7 @@ class Localisation {
     const double reach = is_sure ? 0 : 1.3;
     std::array<Fit, 27> fits;
     std::size_t count = 0;
-    double least = 1e9;
+    double least = 1e9, fitting = 0;
     for (int k = 0; k < 27; ++k) {
       if (is_sure && k > 0) break;
       const double a = reach * (k % 3 == 2 ? -1 : k % 3), b = reach * (k / 3 % 3 == 2 ? -1 : k / 3 % 3),
@@ -206,47 +211,50 @@ class Localisation {
           points);
       const auto known = std::span(fits).first(count);
       if (std::any_of(known.begin(), known.end(), [&](const Fit& other) { return are_alike(fit, other); })) continue;
-      fits[count++] = fit, least = std::min(least, fit.cost);
+      if (fit.cost < least) least = fit.cost, fitting = fit.fitting;
+      fits[count++] = fit;
     }
-    if (least > 0.6 * double(points.size())) return misfit;
+    if (fitting < least_fitting * double(points.size())) return misfit;
     merge(std::span(fits).first(count), least);
     return used;
   }
   static bool are_alike(const Fit& a, const Fit& b) {
     return (a.place.at - b.place.at).norm() < 0.1 && std::abs(wrapped(a.place.yaw - b.place.yaw)) < 0.1;
   }
+  /// What is far from a line counts at first, and ever less.
   Fit fit_lines_from(const Place& from, std::span<const Point> points) const {
-    constexpr int iterations = 5;
+    constexpr double widths[] = {8, 8, 4, 4, 2, 2, 1, 1, 1};
     const Symmetric3 known = covariance_.inverse();
-    Fit fit{from, {}, 0};
-    for (int i = 0; i <= iterations; ++i) {
+    Fit fit{from, {}, 0, 0};
+    for (std::size_t i = 0; i < std::size(widths); ++i) {
       const Vector3 gone = difference(fit.place);
       LeastSquares sum(known, minus(gone));
-      fit.cost = known.square(gone);
-      for (const Point& p : points) fit.cost += add_line(p, fit.place, sum);
-      if (i == iterations)
+      fit.cost = known.square(gone), fit.fitting = 0;
+      for (const Point& p : points) add_line(p, widths[i], fit, sum);
+      if (i + 1 == std::size(widths))
         fit.covariance = sum.covariance();
       else
         fit.place = moved(fit.place, sum.solution());
     }
     return fit;
   }
-  /// From the nearest line, across it, by Geman and McClure's error, which what fits no line raises by no more than
-  /// some. Points of a picture err together: each counts for a part.
-  double add_line(const Point& seen, const Place& place, LeastSquares& sum) const {
-    constexpr double part = 0.3;
-    const Point at = place.to_world(seen), off = landmarks_.nearest_on_lines(at) - at;
+  /// From the nearest line, across it, by Geman and McClure's error: what is farther away than `width` times the errors
+  /// of points hardly counts. Points of a picture err together: each counts for a part.
+  void add_line(const Point& seen, double width, Fit& fit, LeastSquares& sum) const {
+    constexpr double part = 0.3, painted = 0.03;  // m: half a line, and more
+    const Point at = fit.place.to_world(seen), off = landmarks_.nearest_on_lines(at) - at;
     const double distance = seen.norm(), e = off.norm();
-    if (e < 1e-6 || distance < 0.01) return 0;
-    const Point across = (1 / e) * off, arm = at - place.at;
-    const double slope =
-        (across.x * arm.x + across.y * arm.y) / distance;  // cosine to the direction in which it is seen
-    const double range = slope * range_sigma(distance);
-    const double side = std::sqrt(std::max(0.0, 1 - slope * slope)) * side_sigma(distance);
-    const double variance = range * range + side * side, scale = 4 * variance + 0.01;
+    if (distance < 0.01) return;
+    const Point arm = at - fit.place.at, across = e > 1e-6 ? (1 / e) * off : Point{};
+    const double cosine = (across.x * arm.x + across.y * arm.y) / distance;  // to the direction in which it is seen
+    const double range = cosine * range_sigma(distance);
+    const double side = std::sqrt(std::max(0.0, 1 - cosine * cosine)) * side_sigma(distance);
+    const double variance = range * range + side * side;
+    const double scale = width * width * (2 * variance + painted * painted);
     const double x = e * e / scale, robust = 1 / ((1 + x) * (1 + x));
     sum.add({across.x, across.y, across.y * arm.x - across.x * arm.y}, e, part * robust / variance);
-    return part * scale / variance * x / (1 + x);
+    fit.cost += part * scale / variance * x / (1 + x);
+    fit.fitting += x < 1.5 ? 1 : 0;
   }
   /// Mean and covariance of several distributions, each as likely as its cost says.
   void merge(std::span<const Fit> fits, double least) {
@@ -274,7 +282,7 @@ class Localisation {
   Landmarks landmarks_;
   Place place_;
   Symmetric3 covariance_;
-  std::int64_t rejected_ = 0;  ///< sights in a row
+  std::int64_t rejected_posts_ = 0, rejected_lines_ = 0;
 };
 
 }  // namespace soccer
