@@ -30,6 +30,7 @@ class BallFinder {
 
  private:
   static constexpr double least_size = 2;  ///< px, of the radius
+  static constexpr int points = 16;        ///< on a circle about a candidate
 
   struct Candidate {
     Pixel at;
@@ -62,6 +63,7 @@ class BallFinder {
       if (side.all == 0) continue;
       ++seen, sum += side.part(), bare += side.part() < 0.45;
     }
+    if (!shows_patches && is_crossed(image, p, 1.35 * size)) return 0;  // it might be a piece of a line
     if (seen < 2 || bare > 1 || longest_gap(image, p, 1.35 * size) > 4 || (above.all > 0 && above.part() < 0.3) ||
         (below.all > 0 && below.part() < 0.3))
       return 0;
@@ -80,20 +82,28 @@ class BallFinder {
     return false;
   }
 
-  /// Of sixteen points on a circle: the longest row of those that are not green. Those outside of the picture are
-  /// not: there is little to tell a ball by at its edge.
-  static int longest_gap(const Image& image, const Pixel& p, double radius) {
-    constexpr int points = 16;
+  /// The colour at a point of a circle, k sixteenths of a turn.
+  static std::optional<Color> at_circle(const Image& image, const Pixel& p, double radius, int k) {
     constexpr double cosines[] = {1, 0.92388, 0.70711, 0.38268, 0};
-    const auto cosine = [&](int k) {  // of k sixteenths of a turn
-      k %= points;
-      if (k > points / 2) k = points - k;
-      return k <= 4 ? cosines[k] : -cosines[8 - k];
+    const auto cosine = [&](int i) {
+      i %= points;
+      if (i > points / 2) i = points - i;
+      return i <= 4 ? cosines[i] : -cosines[8 - i];
     };
+    return image.at(p.u + radius * cosine(k), p.v + radius * cosine(k + 12));
+  }
+  /// Whether something white goes through a circle from one side to the other.
+  static bool is_crossed(const Image& image, const Pixel& p, double radius) {
+    for (int k = 0; k < points / 2; ++k)
+      if (at_circle(image, p, radius, k) == white && at_circle(image, p, radius, k + points / 2) == white) return true;
+    return false;
+  }
+  /// The longest row of points on a circle that are not green. Those outside of the picture are not: there is little to
+  /// tell a ball by at its edge.
+  static int longest_gap(const Image& image, const Pixel& p, double radius) {
     int longest = 0, row = 0;
     for (int k = 0; k < 2 * points; ++k) {
-      const auto color = image.at(p.u + radius * cosine(k), p.v + radius * cosine(k + 12));
-      row = color && *color == green ? 0 : row + 1;
+      row = at_circle(image, p, radius, k) == green ? 0 : row + 1;
       longest = std::max(longest, std::min(row, points));
     }
     return longest;

@@ -83,12 +83,16 @@ class PlayerFinder {
     const double middle = 0.5 * double(left + right) * step + step / 2;
     const int row = columns_[i].row;
     const int team = team_in(image, middle, row, wide, height * view.lens().fy / depth);
-    constexpr double arms = 1.4;  // they may be held away from the trunk
+    // arms may be held away from the trunk; hands are less than half as high as the camera
+    constexpr double arms = 1.4;
     const std::size_t first = std::size_t(std::max(0.0, (middle - arms * wide) / step));
     const std::size_t last = std::min(used_, std::size_t(std::max(0.0, (middle + arms * wide) / step)) + 1);
     columns_[i].range = none;
     if (team == 0) return std::nullopt;
-    for (std::size_t k = first; k < last; ++k) columns_[k].range = none;
+    for (std::size_t k = first; k < last; ++k) {
+      const double off = std::abs(double(int(k) * step + step / 2) - middle);
+      if (off < wide || columns_[k].range < 2 * range) columns_[k].range = none;
+    }
     const auto feet = view.at_height({middle + 0.5, row + 1.0}, 0);
     if (!feet) return std::nullopt;
     constexpr double behind_toes = 0.05;  // m: the middle of the feet

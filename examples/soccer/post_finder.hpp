@@ -102,8 +102,8 @@ class PostFinder {
     if (distance > farthest || depth < 0.2) return std::nullopt;
     const double slant = std::sqrt(up.u * up.u + up.v * up.v) / -up.v;  // of its length in a row
     const double width = widths / free_rows / slant, expected = 2 * radius_ * view.lens().fx / depth;
-    // narrower are the tubes and the net behind a goal; the net beside a post makes it look wider
-    if (width < 0.97 * expected - 0.4 || width > 1.1 * expected + 1.3) return std::nullopt;
+    // narrower are the tubes and the net behind a goal; those beside a post make it look wider
+    if (width < 0.97 * expected - 0.4 || width > 1.4 * expected + 1.2) return std::nullopt;
     constexpr double least_height = 0.25;  // m: lines and shoes are less
     if (rows < least_height * -up.v / depth) return std::nullopt;
     return (1 + radius_ / distance) * Vector{front->x, front->y, 0};
