@@ -2,6 +2,11 @@
 // Finds points of the field's lines: narrow pale ridges in the grass, along some columns and rows of a picture.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <span>
+
 #include "player_finder.hpp"
 
 namespace soccer {

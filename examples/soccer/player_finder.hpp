@@ -2,7 +2,15 @@
 // Finds other players: what stands on the grass and shows the colour of a team.
 #pragma once
 
-#include "post_finder.hpp"
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+
+#include "camera_view.hpp"
+#include "finds.hpp"
+#include "image.hpp"
 
 namespace soccer {
 

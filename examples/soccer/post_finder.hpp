@@ -4,31 +4,15 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
-#include <cstddef>
+#include <cmath>
+#include <optional>
+#include <utility>
 
 #include "camera_view.hpp"
+#include "finds.hpp"
 #include "image.hpp"
 
 namespace soccer {
-
-/// What was found, at most `most`.
-template <class T, std::size_t most>
-class Finds {
- public:
-  std::span<const T> all() const { return {things_.data(), count_}; }
-  std::span<T> all() { return {things_.data(), count_}; }
-  std::size_t size() const { return count_; }
-  const T& operator[](std::size_t i) const { return things_[i]; }
-  bool is_full() const { return count_ == most; }
-  void add(const T& thing) {
-    if (count_ < most) things_[count_++] = thing;
-  }
-
- private:
-  std::array<T, most> things_{};
-  std::size_t count_ = 0;
-};
 
 class PostFinder {
  public:

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// A list with room for so many, without allocation.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+namespace soccer {
+
+/// What was found, at most `most`.
+template <class T, std::size_t most>
+class Finds {
+ public:
+  std::span<const T> all() const { return {things_.data(), count_}; }
+  std::span<T> all() { return {things_.data(), count_}; }
+  std::size_t size() const { return count_; }
+  const T& operator[](std::size_t i) const { return things_[i]; }
+  bool is_full() const { return count_ == most; }
+  void add(const T& thing) {
+    if (count_ < most) things_[count_++] = thing;
+  }
+
+ private:
+  std::array<T, most> things_{};
+  std::size_t count_ = 0;
+};
+
+}  // namespace soccer
