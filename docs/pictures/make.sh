@@ -26,6 +26,8 @@ camera labels labels
   --out "$out/walk.png"
 "$muro" render examples/quadruped/quadruped.yaml --at 8.15 --from=6.3,-3.9,1.45 --to=3.7,-1.1,0.1 --fov 50 \
   --size 960x540 --out "$out/quadruped.png"
+"$muro" render examples/mixed_team/mixed_team.yaml --at 23 --from=-3.3,-10.4,2.2 --to=0.5,-3.5,1.33 --fov 66 \
+  --size 1280x720 --out "$out/mixed_team.png"
 "$muro" render examples/soccer/soccer.yaml --at 1.45 --from=-1.9,-2.5,1.05 --to=0.75,0.35,0.05 --fov 52 --size 1280x640 \
   --out "$out/soccer.png"
 "$muro" render examples/soccer/match.yaml --at 7.5 --from=-1.6,-2.2,1.1 --to=0.35,0.1,0.15 --size 1280x720 \

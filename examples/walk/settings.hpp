@@ -84,7 +84,7 @@ inline constexpr muro_tunable tunable_table[] = {
     {"attitude", "1/s", 0.5, 0, 100, "how fast the attitude follows the accelerometer"},
     {"heading", "1/s", 3, 0, 100, "how fast a wrong heading is turned back"},
     {"prepare", "s", 0.6, 0.01, 60, "to come to the posture of the walk"},
-    {"calibrate", "s", 1, 0, 60, "at rest, to measure the biases of the IMU"},
+    {"calibrate", "s", 1, 0, 60, "at rest, to measure the biases of the IMU; 0: it is taken to have none"},
     {"kick_shift", "s", 0.5, 0.05, 10, "in which the weight goes over one foot before a kick, and back after it"},
     {"kick_swing", "s", 0.4, 0.05, 10, "in which the other foot is taken back, and in which it is put down"},
     {"kick_back", "m", 0.075, 0, 2, "by which it is taken back"},

@@ -212,7 +212,7 @@ class Walk {
     const Vector rate{w[0], w[1], w[2]}, force{f[0], f[1], f[2]};
     // one that lies feels nothing but gravity
     state_.attitude.update(rate, force, state_.mode == falling ? 10 * s_.attitude : s_.attitude, h);
-    if (state_.mode != preparing || state_.calibrated || state_.time <= s_.prepare + settle) return;
+    if (s_.calibrate <= 0 || !is_at_rest() || state_.time <= s_.prepare + settle) return;
     if (state_.attitude.up().z < 0.9) return;
     const BothLegs& angles = now.input(positions).empty() ? state_.plan : state_.measured;
     state_.attitude.calibrate(rate, force, body_.leg(left_side).sole_at(angles[left_side]).rotation.z);

@@ -68,9 +68,9 @@ function(muro_add_static_library)
 endfunction()
 
 # muro_add_test(NAME x SOURCES ... [LIBRARIES ...] [TIMEOUT s] [FIXTURE f] [SLOW] [SEPARATE]): a GoogleTest program, each
-# test known to ctest. FIXTURE: the tests that set it up run before. Tests whose suite or instantiation is named Slow...
-# have the label `slow`; so have all tests of a program that is SLOW, which is built for `./dev test --slow` alone, and
-# all where MURO_ALL_TESTS_SLOW is set.
+# test known to ctest. FIXTURE: the tests that set it up run before. Tests whose suite, instantiation or own name begins
+# with the word Slow have the label `slow`; so have all tests of a program that is SLOW, which is built for
+# `./dev test --slow` alone, and all where MURO_ALL_TESTS_SLOW is set.
 # SEPARATE: its sources have different helpers under one name, so they are not compiled in batches.
 function(muro_add_test)
   cmake_parse_arguments(ARG "SLOW;SEPARATE" "NAME;TIMEOUT;FIXTURE" "SOURCES;LIBRARIES" ${ARGN})
@@ -90,7 +90,7 @@ function(muro_add_test)
   include(GoogleTest)
   gtest_discover_tests(${ARG_NAME} TEST_PREFIX ${ARG_NAME}. TEST_LIST tests NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60
                        PROPERTIES TIMEOUT ${ARG_TIMEOUT} FIXTURES_REQUIRED "${ARG_FIXTURE}")
-  set(slow "Slow")
+  set(slow "(.*[./])?Slow[A-Z0-9/]")
   if(ARG_SLOW OR MURO_ALL_TESTS_SLOW)
     set(slow "")
   endif()
