@@ -26,7 +26,7 @@ enum Tunable {
   attack, goal_x, goal_width, kick_x, kick_y, kick_speed,
   // clang-format on
 };
-enum WalkPhase : std::int64_t { stands = 1, walks = 2, falls = 3, gets_up = 4, kicks = 5 };  ///< of examples/walk
+enum WalkPhase : std::int64_t { walks = 2, falls = 3, gets_up = 4, kicks = 5 };  ///< of examples/walk
 
 constexpr double forgets = 4;        // s: a ball that nobody has seen for so long is searched for
 constexpr double trusts_itself = 3;  // s: before it believes mates where the ball is
@@ -58,7 +58,7 @@ class Play {
       {"home_x", "m", 0, -100, 100, "its place, where another one goes for the ball"},
       {"home_y", "m", 0, -100, 100, "the same"},
       {"keeper", "1", 0, 0, 1, "1: it keeps the goal, and goes for a ball that is near to it"},
-      {"forward", "m/s", 0.2, 0, 2, "as fast as it walks"},
+      {"forward", "m/s", 0.25, 0, 2, "as fast as it walks"},
       {"sideways", "m/s", 0.08, 0, 2, "the same to the side"},
       {"turn", "rad/s", 0.6, 0, 4, "the same on the spot"},
       {"stride", "1", 1, 0.5, 2, "length of its steps in that of its odometry's"},
@@ -67,7 +67,7 @@ class Play {
       {"goal_width", "m", 2.6, 0.1, 100, "between the posts"},
       {"kick_x", "m", 0.185, 0, 2, "how far ahead of its trunk the ball is to lie when it kicks"},
       {"kick_y", "m", 0.045, 0, 2, "and how far to the side of the foot that kicks"},
-      {"kick_speed", "m/s", 2, 0, 20, "of the foot"}};
+      {"kick_speed", "m/s", 3, 0, 20, "of the foot"}};
 
   explicit Play(const Setup& setup)
       : pace_{setup.tunable(forward), setup.tunable(sideways), setup.tunable(turn)},
@@ -223,14 +223,15 @@ class Play {
         return {search(now, steering), 0};
       case goes_for_ball:
         if (is_lost_at_feet(unseen)) return {steering.back(), 0};
-        return memory_.striker.act(soon, phase(now) == stands, memory_.ball, memory_.others, steering, striker_);
+        return memory_.striker.act(soon, memory_.ball, memory_.others, steering, striker_);
       default:
         return {steering.go_to(place(now), steering.heading_to(memory_.ball), {.distance = 0.2, .angle = 0.35}), 0};
     }
   }
-  /// Somebody stands right before it.
+  /// Somebody stands right before it. Who is at the ball stays there.
   bool is_too_near() const {
-    constexpr double touch = 0.3;  // m
+    constexpr double touch = 0.3, at_ball = 0.35;  // m
+    if (memory_.role == goes_for_ball && memory_.age < unseen && (memory_.ball - me().at).norm() < at_ball) return false;
     const Others::Other* const o = memory_.others.nearest(me().at, touch);
     return o && me().to_own(o->at).x > 0;
   }
@@ -262,7 +263,7 @@ class Play {
 
   /// A kick is asked for until it is taken.
   void write(const Striker::Decision& d, const Step& now) {
-    constexpr double patience = 1.5;  // s
+    constexpr double patience = 2.5;  // s
     memory_.asked = memory_.foot == 0 ? 0 : memory_.asked + now.period();
     if (phase(now) == kicks || phase(now) == falls || memory_.asked > patience) memory_.foot = 0;
     if (d.kick != 0 && memory_.foot == 0 && phase(now) <= walks) memory_.foot = d.kick;

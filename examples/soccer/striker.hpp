@@ -15,7 +15,7 @@ struct StrikerSettings {
   double goal_width = 2.6;  ///< m
   double kick_x = 0.17;     ///< m: where the ball is to lie, ahead of the trunk
   double kick_y = 0.045;    ///< m: and to the side of the foot that kicks
-  double kick_room_x = 0.035, kick_room_y = 0.035, kick_room_angle = 0.3;  ///< m, m, rad: so exactly
+  double kick_room_x = 0.03, kick_room_y = 0.03, kick_room_angle = 0.25;  ///< m, m, rad: so exactly
 };
 
 class Striker {
@@ -25,8 +25,7 @@ class Striker {
     std::int64_t kick = 0;  ///< 1: with the left foot, -1: with the right one
   };
 
-  /// `stands`: it does not walk.
-  Decision act(const Place& me, bool stands, const Point& ball, const Others& others, const Steering& steering,
+  Decision act(const Place& me, const Point& ball, const Others& others, const Steering& steering,
                const StrikerSettings& s) {
     const double aim = choose_aim(me, ball, others, s);
     const Place from_ball{ball, aim};
@@ -34,8 +33,8 @@ class Striker {
     const double off = wrapped(aim - me.yaw);
     const double wide = lines_up_ ? 1.8 : 1;
     lines_up_ = rest.x < -0.05 && rest.x > -wide * 0.4 && std::abs(rest.y) < wide * 0.1 && std::abs(off) < wide * 0.4;
-    if (!lines_up_) stops_ = false, sway_ = 0;
-    if (lines_up_) return line_up(me.to_own(ball), off, stands, steering, s);
+    if (!lines_up_) foot_ = 0;
+    if (lines_up_) return line_up(me.to_own(ball), off, steering, s);
     return {go_behind(me, ball, aim, steering), 0};
   }
   /// Another one goes for the ball now.
@@ -45,23 +44,27 @@ class Striker {
   static constexpr double behind = 0.3;    ///< m: the place from which it lines up
   static constexpr double aside = 0.32;    ///< m: it passes the ball at that distance
   static constexpr double shot = 1.0;      ///< m: so far the way of the ball is to be free
-  static constexpr double corridor = 0.3;  ///< m
+  static constexpr double corridor = 0.2;  ///< m: half of a player, a ball's radius, and what is not known exactly
 
-  /// rad, on the field: into the goal, or past who stands before it. What was chosen holds while the ball lies still
-  /// and its way is free.
+  /// rad, on the field: into the goal, or past who stands before it, rather where it looks already than where it would
+  /// have to turn to. What was chosen holds while the ball lies still, its way is free, and nothing is much better.
   double choose_aim(const Place& me, const Point& ball, const Others& others, const StrikerSettings& s) {
-    constexpr double near = 0.6, moved = 0.25, step_aside = 0.5;  // m, m, rad
-    const auto is_free = [&](double angle) {
-      return others.is_free(ball, Place{ball, angle}.to_world({shot, 0}), corridor);
+    constexpr double near = 0.6, moved = 0.25;                  // m
+    constexpr double step = 0.25, turned = 0.5, better = 0.3;   // rad, 1, rad
+    constexpr int steps = 5;                                    // to each side
+    const double direct = aim_at_goal(me, ball, s);
+    const auto cost = [&](double aim) {
+      const double turn = (me.at - ball).norm() < near ? turned * std::abs(wrapped(aim - me.yaw)) : 0;
+      return std::abs(wrapped(aim - direct)) + turn;
     };
-    if ((me.at - ball).norm() < near && (ball - aimed_from_).norm() < moved && is_free(aim_)) return aim_;
-    const double direct = aim_at_goal(me, ball, s), inwards = (ball.y > 0) == (s.attack > 0) ? -step_aside : step_aside;
-    aim_ = direct, aimed_from_ = ball;
-    for (const double to_side : {0.0, inwards, -inwards, 2 * inwards, -2 * inwards})
-      if (is_free(direct + to_side)) {
-        aim_ = direct + to_side;
-        break;
-      }
+    const auto is_free = [&](double aim) {
+      return others.is_free(ball, Place{ball, aim}.to_world({shot, 0}), corridor);
+    };
+    double best = direct, least = 1e3;
+    for (int i = -steps; i <= steps; ++i)
+      if (const double aim = direct + step * i; cost(aim) < least && is_free(aim)) best = aim, least = cost(aim);
+    const bool holds = (me.at - ball).norm() < near && (ball - aimed_from_).norm() < moved && is_free(aim_);
+    if (!holds || cost(aim_) > least + better) aim_ = best, aimed_from_ = ball;
     return aim_;
   }
   /// From far away it need not be aimed well: another kick follows.
@@ -77,22 +80,18 @@ class Striker {
     return middle + std::clamp(wrapped(from_here - middle), std::min(one, other) - wide, std::max(one, other) + wide);
   }
 
-  /// The ball lies ahead: the last steps to it, and the kick, once it stands and has seen that it stands well.
-  Decision line_up(const Point& ball, double off, bool stands, const Steering& steering, const StrikerSettings& s) {
-    constexpr double firm = 0.02, steadily = 0.3, well = 0.5;  // m, 1, 1
-    if (foot_ == 0 || double(foot_) * ball.y < -firm) foot_ = ball.y < 0 ? -1 : 1;
-    Point way = ball - Point{s.kick_x, double(foot_) * s.kick_y};
-    sway_ = stands ? way.y : sway_ + steadily * (way.y - sway_);  // a trunk that walks sways about its way
-    if (!stands) way.y = sway_;
-    const auto is_there = [&](double share) {
-      return std::abs(way.x) < share * s.kick_room_x && std::abs(way.y) < share * s.kick_room_y &&
-             std::abs(off) < share * s.kick_room_angle;
-    };
-    if (stops_ && !stands) return {};
-    const bool kicks = stops_ && is_there(1);
-    stops_ = !stops_ && is_there(well);
-    if (kicks) return {{}, foot_};
-    return {stops_ ? Command{} : steering.small_step(way, off), 0};
+  /// The ball lies ahead: the last steps to it, and the kick.
+  Decision line_up(const Point& ball, double off, const Steering& steering, const StrikerSettings& s) {
+    constexpr double firm = 0.02, steadily = 0.3;  // m, 1
+    const bool begins = foot_ == 0;
+    if (begins || double(foot_) * ball.y < -firm) foot_ = ball.y < 0 ? -1 : 1;
+    // a trunk that walks sways about its way
+    sway_ = begins ? ball.y : sway_ + steadily * (ball.y - sway_);
+    const Point way{ball.x - s.kick_x, sway_ - double(foot_) * s.kick_y};
+    const bool is_there = std::abs(way.x) < s.kick_room_x && std::abs(way.y) < s.kick_room_y &&
+                          std::abs(off) < s.kick_room_angle;
+    if (is_there) return {{}, foot_};
+    return {steering.small_step(way, off), 0};
   }
 
   Command go_behind(const Place& me, const Point& ball, double aim, const Steering& steering) const {
@@ -102,8 +101,7 @@ class Striker {
   }
 
   bool lines_up_ = false;
-  double sway_ = 0;             ///< m: way to the side, over the sway of the walk
-  bool stops_ = false;          ///< so as to look whether it stands well
+  double sway_ = 0;             ///< m: how far to the side the ball lies, over the sway of the walk
   std::int64_t foot_ = 0;       ///< that is going to kick
   double aim_ = 0;              ///< rad, on the field
   Point aimed_from_{1e3, 1e3};  ///< m: where the ball lay then
