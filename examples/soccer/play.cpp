@@ -28,7 +28,7 @@ enum Tunable {
 };
 enum WalkPhase : std::int64_t { walks = 2, falls = 3, gets_up = 4, kicks = 5 };  ///< of examples/walk
 
-constexpr double forgets = 4;        // s: a ball that nobody has seen for so long is searched for
+constexpr double forgets = 10;       // s: a ball that nobody has seen for so long is searched for
 constexpr double trusts_itself = 3;  // s: before it believes mates where the ball is
 constexpr double unseen = 2;         // s: a ball that the one who is to kick it does not see any more
 constexpr double far_away = 100;     // m: of who does not know where the ball is
@@ -65,8 +65,8 @@ class Play {
       {"attack", "1", 1, -1, 1, "1: the goal at x > 0; -1: the other one"},
       {"goal_x", "m", 4.5, 0.5, 100, "of the goal line"},
       {"goal_width", "m", 2.6, 0.1, 100, "between the posts"},
-      {"kick_x", "m", 0.185, 0, 2, "how far ahead of its trunk the ball is to lie when it kicks"},
-      {"kick_y", "m", 0.045, 0, 2, "and how far to the side of the foot that kicks"},
+      {"kick_x", "m", 0.165, 0, 2, "how far ahead of its trunk the ball is to lie when it kicks"},
+      {"kick_y", "m", 0.055, 0, 2, "and how far to the side of the foot that kicks"},
       {"kick_speed", "m/s", 3, 0, 20, "of the foot"}};
 
   explicit Play(const Setup& setup)
@@ -111,6 +111,7 @@ class Play {
     Striker striker;
     Others others;
     std::int64_t foot = 0;  ///< that is to kick: 1 left, -1 right
+    std::int64_t has_kicked = 0;  ///< and has not seen the ball since then
     double asked = 0;       ///< s: since the kick was asked for
   };
 
@@ -170,7 +171,7 @@ class Play {
     constexpr std::int64_t times = 3;
     memory_.doubts = memory_.age < recent && (at - memory_.ball).norm() > leap ? memory_.doubts + 1 : 0;
     if (memory_.doubts > 0 && memory_.doubts < times) return;
-    memory_.ball = at, memory_.age = 0, memory_.doubts = 0;
+    memory_.ball = at, memory_.age = 0, memory_.doubts = 0, memory_.has_kicked = 0;
   }
   template <class F>
   static void for_each_mate(const Step& now, F f) {
@@ -198,7 +199,7 @@ class Play {
     if (!state.empty() && state[0] == 2) return waits;
     const double mine = cost(now);
     if (mine >= far_away) return searches;
-    constexpr double near_goal = 1.2;  // m: a ball that the keeper fetches itself
+    constexpr double near_goal = 0.6;  // m: a ball that the keeper fetches itself
     if (now.tunable(keeper) > 0 && std::abs(memory_.ball.x - now.tunable(home_x)) > near_goal) return keeps_place;
     constexpr double begins = 0.1, goes_on = 0.3;  // m: so much nearer than mates; so much farther who goes for it
     const bool goes = memory_.role == goes_for_ball;
@@ -223,7 +224,7 @@ class Play {
         return {search(now, steering), 0};
       case goes_for_ball:
         if (is_lost_at_feet(unseen)) return {steering.back(), 0};
-        return memory_.striker.act(soon, memory_.ball, memory_.others, steering, striker_);
+        return memory_.striker.act(me(), soon, memory_.ball, memory_.others, steering, striker_);
       default:
         return {steering.go_to(place(now), steering.heading_to(memory_.ball), {.distance = 0.2, .angle = 0.35}), 0};
     }
@@ -240,12 +241,15 @@ class Play {
     constexpr double at_feet = 0.6;  // m
     return memory_.age > since && (memory_.ball - me().at).norm() < at_feet;
   }
-  /// It turns about, then it walks to where the ball was last or to its place, and so on.
+  /// It walks to where the ball was last, turns about there, goes to its place, and so on.
   Command search(const Step& now, const Steering& steering) const {
-    constexpr double turns = 9, period = 15, goes_back = 5;  // s
+    constexpr double there = 0.8, turns = 10, period = 24, goes_back = 5;  // m, s
     if (memory_.searched < goes_back && is_lost_at_feet(0)) return steering.back();
-    if (std::fmod(memory_.searched, period) < turns) return steering.turn(1);
-    const Point to = memory_.searched < period ? memory_.ball : Point{now.tunable(home_x), now.tunable(home_y)};
+    const double t = std::fmod(memory_.searched, period);
+    const bool goes_to_ball = memory_.searched < 0.5 * period;
+    if (!goes_to_ball && t < turns) return steering.turn(1);
+    const Point to = goes_to_ball ? memory_.ball : Point{now.tunable(home_x), now.tunable(home_y)};
+    if (goes_to_ball && (to - me().at).norm() < there) return steering.turn(1);
     return steering.go_to(to, steering.heading_to(to), {.distance = 0.3, .angle = 0.3});
   }
 
@@ -266,7 +270,8 @@ class Play {
     constexpr double patience = 2.5;  // s
     memory_.asked = memory_.foot == 0 ? 0 : memory_.asked + now.period();
     if (phase(now) == kicks || phase(now) == falls || memory_.asked > patience) memory_.foot = 0;
-    if (d.kick != 0 && memory_.foot == 0 && phase(now) <= walks) memory_.foot = d.kick;
+    if (phase(now) == kicks) memory_.has_kicked = 1;
+    if (d.kick != 0 && memory_.foot == 0 && phase(now) <= walks && !memory_.has_kicked) memory_.foot = d.kick;
     const auto command = now.output(walk_command), kick = now.output(walk_kick);
     const Command walk = memory_.foot == 0 && phase(now) != kicks ? d.walk : Command{};
     constexpr double lag = 0.5, lag_of_turns = 1.2;  // s: of the legs

@@ -16,7 +16,7 @@ class Steering {
   struct Pace {
     double forward = 0.2, sideways = 0.08, turn = 0.6;
   };
-  static constexpr double elbow_room = 0.42;  ///< m: from other players
+  static constexpr double elbow_room = 0.36;  ///< m: from other players
 
   Steering(const Pace& pace, const Place& me, const Others& others) : pace_(pace), me_(me), others_(&others) {}
 

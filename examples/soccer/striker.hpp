@@ -15,7 +15,7 @@ struct StrikerSettings {
   double goal_width = 2.6;  ///< m
   double kick_x = 0.17;     ///< m: where the ball is to lie, ahead of the trunk
   double kick_y = 0.045;    ///< m: and to the side of the foot that kicks
-  double kick_room_x = 0.03, kick_room_y = 0.03, kick_room_angle = 0.25;  ///< m, m, rad: so exactly
+  double kick_room_x = 0.04, kick_room_y = 0.035, kick_room_angle = 0.3;  ///< m, m, rad: so exactly
 };
 
 class Striker {
@@ -25,7 +25,8 @@ class Striker {
     std::int64_t kick = 0;  ///< 1: with the left foot, -1: with the right one
   };
 
-  Decision act(const Place& me, const Point& ball, const Others& others, const Steering& steering,
+  /// `here`: where it is; `me`: where it will be when its legs have done what they have been told.
+  Decision act(const Place& here, const Place& me, const Point& ball, const Others& others, const Steering& steering,
                const StrikerSettings& s) {
     const double aim = choose_aim(me, ball, others, s);
     const Place from_ball{ball, aim};
@@ -34,7 +35,7 @@ class Striker {
     const double wide = lines_up_ ? 1.8 : 1;
     lines_up_ = rest.x < -0.05 && rest.x > -wide * 0.4 && std::abs(rest.y) < wide * 0.1 && std::abs(off) < wide * 0.4;
     if (!lines_up_) foot_ = 0;
-    if (lines_up_) return line_up(me.to_own(ball), off, steering, s);
+    if (lines_up_) return line_up(here.to_own(ball), me.to_own(ball), off, steering, s);
     return {go_behind(me, ball, aim, steering), 0};
   }
   /// Another one goes for the ball now.
@@ -81,15 +82,20 @@ class Striker {
   }
 
   /// The ball lies ahead: the last steps to it, and the kick.
-  Decision line_up(const Point& ball, double off, const Steering& steering, const StrikerSettings& s) {
+  Decision line_up(const Point& now, const Point& ball, double off, const Steering& steering, const StrikerSettings& s) {
     constexpr double firm = 0.02, steadily = 0.3;  // m, 1
     const bool begins = foot_ == 0;
     if (begins || double(foot_) * ball.y < -firm) foot_ = ball.y < 0 ? -1 : 1;
     // a trunk that walks sways about its way
     sway_ = begins ? ball.y : sway_ + steadily * (ball.y - sway_);
-    const Point way{ball.x - s.kick_x, sway_ - double(foot_) * s.kick_y};
-    const bool is_there = std::abs(way.x) < s.kick_room_x && std::abs(way.y) < s.kick_room_y &&
-                          std::abs(off) < s.kick_room_angle;
+    const auto from_foot = [&](double x, double y) { return Point{x - s.kick_x, y - double(foot_) * s.kick_y}; };
+    const auto is_within = [&](const Point& p, double share) {
+      return std::abs(p.x) < share * s.kick_room_x && std::abs(p.y) < share * s.kick_room_y;
+    };
+    constexpr double roughly = 1.7;  // now, while it sways and turns yet
+    const Point way = from_foot(ball.x, sway_);
+    const bool is_there =
+        is_within(way, 1) && is_within(from_foot(now.x, now.y), roughly) && std::abs(off) < s.kick_room_angle;
     if (is_there) return {{}, foot_};
     return {steering.small_step(way, off), 0};
   }
