@@ -35,20 +35,91 @@ TEST(Match, ForwardsSeeTheBallAndGoForIt) {
   }
 }
 
-TEST(SlowMatch, AForwardAloneScores) {
+std::uint64_t hash_of(const std::vector<std::string>& overrides, unsigned threads, double seconds) {
+  BuiltScenario built = build(read_scenario(file, overrides), test::plugins());
+  built.simulation->set_threads(threads);
+  built.simulation->run_for(seconds);
+  return built.simulation->state_hash();
+}
+
+TEST(Match, ThreadsDoNotMatter) { EXPECT_EQ(hash_of(two_cameras, 1, 4), hash_of(two_cameras, 3, 4)); }
+
+/// A sphere that is pushed at v slides, slowed down by friction m and spun up by it against the resistance to rolling,
+/// c = `rolling_resistance` / radius, until it rolls: g t (7/2 m - 5/2 c) = v. From then on a = 5/7 c g.
+TEST(Match, TheBallRollsToRest) {
+  const std::vector<std::string> alone = {
+      "robots.blue=off",        "robots.red=off",       "robots.blue_keeper=off",          "robots.red_keeper=off",
+      "algorithms.referee=off", "algorithms.score=off", "robots.ball.velocity=[1.5, 0, 0]"};
+  BuiltScenario built = build(read_scenario(file, alone), test::plugins());
+  Simulation& s = *built.simulation;
+  const double v = 1.5, g = 9.81, m = 0.5, c = 0.005 / 0.07;
+  const double t = v / (g * (3.5 * m - 2.5 * c)), slides = v * t - 0.5 * m * g * t * t;
+  const double rolling = v - m * g * t, rolls = rolling * rolling / (2 * c * g * 5 / 7);
+  s.run_for(1);
+  EXPECT_GT(s.world().value("ball/body", keys::twist).linear.x(), 0.3);
+  s.run_for(4);
+  EXPECT_NEAR(s.world().value("ball/body", keys::pose).position.x(), slides + rolls, 0.01 * (slides + rolls));
+  EXPECT_LT(s.world().value("ball/body", keys::twist).linear.norm(), 1e-3);
+}
+
+/// Of the forwards blue's alone, at some motion, with nobody else on its feet: s until it has scored.
+double time_of_goal(const std::string& motion, const std::string& seed) {
   const std::string without_red =
       R"(algorithms.referee.inputs=["ball.pose=ball/body:pose", "left.poses=blue*/base_link:pose", )"
       R"("place.answer=ball/body:place.answer"])";
-  for (const char* seed : {"seed=1", "seed=2"}) {
-    BuiltScenario built =
-        build(read_scenario(file, {seed, "robots.red=off", "robots.red_keeper=off", "robots.blue_keeper=off",
-                                   "robots.blue[0-1].camera=off", "robots.blue[0-1].play=off",
-                                   "robots.blue[0-1].walk=off", without_red}),
-              test::plugins());
+  BuiltScenario built =
+      build(read_scenario(file, {seed, "robots.blue[2].motion.use=motion." + motion, "robots.red=off",
+                                 "robots.red_keeper=off", "robots.blue_keeper=off", "robots.blue[0-1].camera=off",
+                                 "robots.blue[0-1].play=off", "robots.blue[0-1].walk=off", without_red}),
+            test::plugins());
+  Simulation& s = *built.simulation;
+  while (told(s, "match.score")[0] == 0 && told(s, "match.state")[0] != 2) s.run_for(0.5);
+  EXPECT_EQ(told(s, "match.score"), (std::vector<double>{1, 0})) << motion << " " << seed;
+  EXPECT_EQ(told(s, "match.falls"), (std::vector<double>{0, 0})) << motion << " " << seed;
+  return 1e-9 * double(s.now());
+}
+
+TEST(SlowMatch, AForwardAloneScoresAtEachLevel) {
+  for (const char* motion : {"biped", "articulated", "mujoco", "bullet"})
+    EXPECT_LT(time_of_goal(motion, "seed=1"), 100);
+  EXPECT_LT(time_of_goal("articulated", "seed=2"), 100);
+}
+
+TEST(SlowMatch, AHalfEndsWithAGoalAndTheBallInTheField) {
+  BuiltScenario built = build(read_scenario(file, {}), test::plugins());
+  Simulation& s = *built.simulation;
+  double rolled = 0, lowest = 1;  // m, of the ball's way; of its centre
+  Vec3 before = s.world().value("ball/body", keys::pose).position;
+  for (int k = 0; k < 1205; ++k) {
+    s.run_for(0.1);
+    const Vec3 ball = s.world().value("ball/body", keys::pose).position;
+    const double way = (ball - before).norm();
+    rolled += way < 1 ? way : 0;  // it was put somewhere else
+    lowest = std::min(lowest, ball.z());
+    before = ball;
+  }
+  EXPECT_EQ(told(s, "match.state")[0], 2) << "it is over";
+  const auto score = told(s, "match.score");
+  EXPECT_GE(score[0] + score[1], 1);
+  EXPECT_GT(rolled, 5);
+  EXPECT_NEAR(lowest, 0.07, 0.01);
+}
+
+TEST(SlowMatch, ThreadsDoNotMatterWithAllCameras) {
+  const std::uint64_t one = hash_of({}, 1, 15);
+  for (const unsigned threads : {2u, 3u}) EXPECT_EQ(hash_of({}, threads, 15), one) << threads;
+}
+
+TEST(SlowMatch, OneInAnEngineGoesForTheBallAsTheOthersDo) {
+  for (const char* motion : {"mujoco", "bullet"}) {
+    std::vector<std::string> overrides = two_cameras;
+    overrides.push_back(std::string("robots.red[2].motion.use=motion.") + motion);
+    BuiltScenario built = build(read_scenario(file, overrides), test::plugins());
     Simulation& s = *built.simulation;
-    while (told(s, "match.score")[0] == 0 && told(s, "match.state")[0] != 2) s.run_for(1);
-    EXPECT_EQ(told(s, "match.score"), (std::vector<double>{1, 0})) << seed;
-    EXPECT_EQ(told(s, "match.falls"), (std::vector<double>{0, 0})) << seed;
+    s.run_for(6);
+    const Pose& pose = s.world().value(s.world().find_robot("red_2")->base(), keys::pose);
+    EXPECT_LT(pose.position.head<2>().norm(), 0.9) << motion << ": it began at 1.14 m";
+    EXPECT_GT(pose.position.z(), 0.24) << motion;
   }
 }
 

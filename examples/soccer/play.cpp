@@ -18,12 +18,23 @@ namespace {
 using namespace muro::controller;
 using namespace soccer;
 
-enum Input { ball_seen, goal_seen, lines_seen, players_seen, odometry, walk_phase, orientation, match_state, mates };
+enum Input {
+  ball_seen,
+  goal_seen,
+  lines_seen,
+  players_seen,
+  odometry,
+  walk_phase,
+  orientation,
+  match_state,
+  match_score,
+  mates
+};
 enum Output { walk_command, walk_kick, message };
 enum Tunable {
   // clang-format off
   number, start_x, start_y, start_yaw, home_x, home_y, keeper, forward, sideways, turn, stride,
-  attack, goal_x, goal_width, kick_x, kick_y, kick_speed,
+  attack, goal_x, goal_width, kick_x, kick_y, kick_speed, kick_way,
   // clang-format on
 };
 enum WalkPhase : std::int64_t { walks = 2, falls = 3, gets_up = 4, kicks = 5 };  ///< of examples/walk
@@ -46,6 +57,7 @@ class Play {
                                          {"walk.phase", "1", 1, 0},
                                          {"orientation", "1", 4, 0},
                                          {"match.state", "1", 1, MURO_PORT_OPTIONAL},
+                                         {"match.score", "1", 2, MURO_PORT_OPTIONAL},
                                          {"mates", TeamMessage::units, 0, MURO_PORT_OPTIONAL}};
   static constexpr muro_port outputs[] = {{"walk.command", "m/s, m/s, rad/s", 3, MURO_PORT_OWN},
                                           {"walk.kick", "1, m/s", 2, MURO_PORT_OWN},
@@ -67,7 +79,8 @@ class Play {
       {"goal_width", "m", 2.6, 0.1, 100, "between the posts"},
       {"kick_x", "m", 0.165, 0, 2, "how far ahead of its trunk the ball is to lie when it kicks"},
       {"kick_y", "m", 0.055, 0, 2, "and how far to the side of the foot that kicks"},
-      {"kick_speed", "m/s", 3, 0, 20, "of the foot"}};
+      {"kick_speed", "m/s", 3, 0, 20, "of the foot"},
+      {"kick_way", "m", 1.4, 0, 20, "how far a ball goes that it kicks"}};
 
   explicit Play(const Setup& setup)
       : pace_{setup.tunable(forward), setup.tunable(sideways), setup.tunable(turn)},
@@ -105,14 +118,15 @@ class Play {
     std::int64_t phase = 0;   ///< of the walk
     Point ball;               ///< m, on the field: where it was last seen, by itself or by a mate
     double age = 1e3;         ///< s: since then
+    double goals = 0;         ///< up to now
     std::int64_t doubts = 0;  ///< how often it was seen somewhere else
     double searched = 0;      ///< s: for how long
     Role role = searches;
     Striker striker;
     Others others;
-    std::int64_t foot = 0;  ///< that is to kick: 1 left, -1 right
+    std::int64_t foot = 0;        ///< that is to kick: 1 left, -1 right
     std::int64_t has_kicked = 0;  ///< and has not seen the ball since then
-    double asked = 0;       ///< s: since the kick was asked for
+    double asked = 0;             ///< s: since the kick was asked for
   };
 
  public:
@@ -135,11 +149,18 @@ class Play {
                         now.period());
     }
     if (phase(now) == falls && memory_.phase != falls) memory_.self.fell();
+    if (phase(now) != kicks && memory_.phase == kicks) expect_ball_ahead(now);
     memory_.phase = phase(now), memory_.by_legs = by_legs, memory_.heading = heading;
     if (const bool is_on_its_feet = phase(now) <= walks; !is_on_its_feet) return;
     Points seen;
     memory_.self.see_posts(seen.from(now.input(goal_seen)));
     memory_.self.see_lines(seen.from(now.input(lines_seen)));
+  }
+  /// A ball that it has kicked and does not see is where its kicks go.
+  void expect_ball_ahead(const Step& now) {
+    constexpr double lost = 0.3, near = 0.6;  // s, m
+    if (phase(now) == falls || memory_.age < lost || (memory_.ball - me().at).norm() > near) return;
+    memory_.ball = me().to_world({now.tunable(kick_x) + now.tunable(kick_way), 0}), memory_.age = lost;
   }
   /// A list of points, which begins with their number.
   struct Points {
@@ -162,8 +183,17 @@ class Play {
     const auto players = now.input(players_seen);
     for (std::size_t i = 1; i + 3 <= players.size() && double(i) < 3 * players[0]; i += 3)
       memory_.others.see(me().to_world({players[i], players[i + 1]}));
+    hear_goal(now);
     const auto seen = now.input(ball_seen);
     if (seen[0] != 0) see_ball(me().to_world({seen[1], seen[2]}));
+  }
+  /// After a goal the ball is put on the centre mark.
+  void hear_goal(const Step& now) {
+    const auto score = now.input(match_score);
+    if (score.empty() || score[0] + score[1] == memory_.goals) return;
+    constexpr double until_put = 1;  // s
+    memory_.goals = score[0] + score[1];
+    memory_.ball = {}, memory_.age = until_put;
   }
   /// A ball that is far from where it was is believed when it is seen again.
   void see_ball(const Point& at) {
@@ -232,7 +262,8 @@ class Play {
   /// Somebody stands right before it. Who is at the ball stays there.
   bool is_too_near() const {
     constexpr double touch = 0.3, at_ball = 0.35;  // m
-    if (memory_.role == goes_for_ball && memory_.age < unseen && (memory_.ball - me().at).norm() < at_ball) return false;
+    if (memory_.role == goes_for_ball && memory_.age < unseen && (memory_.ball - me().at).norm() < at_ball)
+      return false;
     const Others::Other* const o = memory_.others.nearest(me().at, touch);
     return o && me().to_own(o->at).x > 0;
   }
@@ -241,15 +272,16 @@ class Play {
     constexpr double at_feet = 0.6;  // m
     return memory_.age > since && (memory_.ball - me().at).norm() < at_feet;
   }
-  /// It walks to where the ball was last, turns about there, goes to its place, and so on.
+  /// It walks to where the ball was last and turns about there; then before the other goal, to its place, and so on.
   Command search(const Step& now, const Steering& steering) const {
-    constexpr double there = 0.8, turns = 10, period = 24, goes_back = 5;  // m, s
+    constexpr double walks_for = 9, turns_for = 10, goes_back = 5;  // s
+    constexpr double there = 0.8, before_goal = 2;                  // m
     if (memory_.searched < goes_back && is_lost_at_feet(0)) return steering.back();
-    const double t = std::fmod(memory_.searched, period);
-    const bool goes_to_ball = memory_.searched < 0.5 * period;
-    if (!goes_to_ball && t < turns) return steering.turn(1);
-    const Point to = goes_to_ball ? memory_.ball : Point{now.tunable(home_x), now.tunable(home_y)};
-    if (goes_to_ball && (to - me().at).norm() < there) return steering.turn(1);
+    const Point home{now.tunable(home_x), now.tunable(home_y)};
+    const Point places[] = {memory_.ball, {striker_.attack * (striker_.goal_x - before_goal), 0.5 * home.y}, home};
+    const double turn = walks_for + turns_for;
+    const Point& to = places[std::size_t(memory_.searched / turn) % std::size(places)];
+    if (std::fmod(memory_.searched, turn) > walks_for || (to - me().at).norm() < there) return steering.turn(1);
     return steering.go_to(to, steering.heading_to(to), {.distance = 0.3, .angle = 0.3});
   }
 

@@ -50,9 +50,9 @@ class Striker {
   /// rad, on the field: into the goal, or past who stands before it, rather where it looks already than where it would
   /// have to turn to. What was chosen holds while the ball lies still, its way is free, and nothing is much better.
   double choose_aim(const Place& me, const Point& ball, const Others& others, const StrikerSettings& s) {
-    constexpr double near = 0.6, moved = 0.25;                  // m
-    constexpr double step = 0.25, turned = 0.5, better = 0.3;   // rad, 1, rad
-    constexpr int steps = 5;                                    // to each side
+    constexpr double near = 0.6, moved = 0.25;                 // m
+    constexpr double step = 0.25, turned = 0.5, better = 0.3;  // rad, 1, rad
+    constexpr int steps = 5;                                   // to each side
     const double direct = aim_at_goal(me, ball, s);
     const auto cost = [&](double aim) {
       const double turn = (me.at - ball).norm() < near ? turned * std::abs(wrapped(aim - me.yaw)) : 0;
@@ -82,7 +82,8 @@ class Striker {
   }
 
   /// The ball lies ahead: the last steps to it, and the kick.
-  Decision line_up(const Point& now, const Point& ball, double off, const Steering& steering, const StrikerSettings& s) {
+  Decision line_up(const Point& now, const Point& ball, double off, const Steering& steering,
+                   const StrikerSettings& s) {
     constexpr double firm = 0.02, steadily = 0.3;  // m, 1
     const bool begins = foot_ == 0;
     if (begins || double(foot_) * ball.y < -firm) foot_ = ball.y < 0 ? -1 : 1;
@@ -106,7 +107,7 @@ class Striker {
     return steering.go_to(Others::beside(ball, me.at, place, aside), steering.heading_to(ball), {});
   }
 
-  bool lines_up_ = false;
+  std::int64_t lines_up_ = 0;   ///< no bool: bytes between would be saved
   double sway_ = 0;             ///< m: how far to the side the ball lies, over the sway of the walk
   std::int64_t foot_ = 0;       ///< that is going to kick
   double aim_ = 0;              ///< rad, on the field

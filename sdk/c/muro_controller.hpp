@@ -38,6 +38,12 @@
 
 #include "muro_controller.h"
 
+#ifdef __has_builtin
+#if __has_builtin(__builtin_clear_padding)
+#define MURO_CAN_CLEAR_PADDING
+#endif
+#endif
+
 namespace muro::controller {
 
 /// Writes log lines. To be used within a function of the object that it was given to.
@@ -119,12 +125,19 @@ class Saver {
  public:
   explicit Saver(std::span<std::byte> room) : room_(room) {}
 
-  /// Of a type without pointers and padding.
+  /// Of a type without pointers. Bytes of padding are saved as zeros by compilers that can clear them (GCC from 11 on);
+  /// with others the type has to be free of padding, so that equal states are equal byte by byte.
   template <class T>
   void put(const T& value) {
+#ifdef MURO_CAN_CLEAR_PADDING
+    T cleared = value;
+    __builtin_clear_padding(&cleared);
+    put(std::span<const T>(&cleared, 1));
+#else
     put(std::span<const T>(&value, 1));
+#endif
   }
-  /// The elements, not their number.
+  /// The elements, not their number; of a type without pointers and padding.
   template <class T>
   void put(std::span<const T> values) {
     static_assert(std::is_trivially_copyable_v<T>, "save numbers, or structs of numbers");

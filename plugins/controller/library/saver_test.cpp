@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// What a control library of the C++ header saves: equal states are equal byte by byte.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstring>
+#include <new>
+
+#include "muro_controller.hpp"
+
+namespace {
+
+/// Of two members with bytes between them.
+struct Padded {
+  bool first;
+  double second;
+};
+static_assert(sizeof(Padded) == 16);
+
+/// What is saved of one that was made in memory full of `filling`.
+std::array<std::byte, sizeof(Padded)> saved_from(int filling) {
+  alignas(Padded) std::array<std::byte, sizeof(Padded)> memory;
+  std::memset(memory.data(), filling, memory.size());
+  auto* const value = new (memory.data()) Padded;
+  value->first = true;
+  value->second = 2.5;
+  std::array<std::byte, sizeof(Padded)> room{};
+  muro::controller::Saver(room).put(*value);
+  return room;
+}
+
+TEST(Saver, WritesNothingOfWhatLiesBetweenMembers) {
+  const auto one = saved_from(0x55), other = saved_from(0xAA);
+  Padded back;
+  std::memcpy(&back, one.data(), sizeof back);
+  EXPECT_TRUE(back.first);
+  EXPECT_EQ(back.second, 2.5);
+#ifdef MURO_CAN_CLEAR_PADDING
+  EXPECT_EQ(one, other);
+#endif
+}
+
+}  // namespace
