@@ -62,16 +62,20 @@ TEST(Match, TheBallRollsToRest) {
   EXPECT_LT(s.world().value("ball/body", keys::twist).linear.norm(), 1e-3);
 }
 
-/// Of the forwards blue's alone, at some motion, with nobody else on its feet: s until it has scored.
-double time_of_goal(const std::string& motion, const std::string& seed) {
+/// Blue's forward alone, at some motion, with nobody else on its feet.
+BuiltScenario forward_alone(const std::string& motion, const std::string& seed = "seed=1") {
   const std::string without_red =
       R"(algorithms.referee.inputs=["ball.pose=ball/body:pose", "left.poses=blue*/base_link:pose", )"
       R"("place.answer=ball/body:place.answer"])";
-  BuiltScenario built =
-      build(read_scenario(file, {seed, "robots.blue[2].motion.use=motion." + motion, "robots.red=off",
-                                 "robots.red_keeper=off", "robots.blue_keeper=off", "robots.blue[0-1].camera=off",
-                                 "robots.blue[0-1].play=off", "robots.blue[0-1].walk=off", without_red}),
-            test::plugins());
+  return build(read_scenario(file, {seed, "robots.blue[2].motion.use=motion." + motion, "robots.red=off",
+                                    "robots.red_keeper=off", "robots.blue_keeper=off", "robots.blue[0-1].camera=off",
+                                    "robots.blue[0-1].play=off", "robots.blue[0-1].walk=off", without_red}),
+               test::plugins());
+}
+
+/// s, until it has scored.
+double time_of_goal(const std::string& motion, const std::string& seed = "seed=1") {
+  BuiltScenario built = forward_alone(motion, seed);
   Simulation& s = *built.simulation;
   while (told(s, "match.score")[0] == 0 && told(s, "match.state")[0] != 2) s.run_for(0.5);
   EXPECT_EQ(told(s, "match.score"), (std::vector<double>{1, 0})) << motion << " " << seed;
@@ -80,9 +84,16 @@ double time_of_goal(const std::string& motion, const std::string& seed) {
 }
 
 TEST(SlowMatch, AForwardAloneScoresAtEachLevel) {
-  for (const char* motion : {"biped", "articulated", "mujoco", "bullet"})
-    EXPECT_LT(time_of_goal(motion, "seed=1"), 100);
+  for (const char* motion : {"biped", "articulated", "mujoco", "bullet"}) EXPECT_LT(time_of_goal(motion), 100);
   EXPECT_LT(time_of_goal("articulated", "seed=2"), 100);
+}
+
+TEST(SlowMatch, AtSimplifiedAForwardFallsWithItsKicksAndGoesOn) {
+  BuiltScenario built = forward_alone("simplified");
+  Simulation& s = *built.simulation;
+  s.run_for(100);
+  EXPECT_GT(s.world().value("ball/body", keys::pose).position.x(), 1);
+  EXPECT_GT(told(s, "match.falls")[0], 2) << "and it has got up after each but the last";
 }
 
 TEST(SlowMatch, AHalfEndsWithAGoalAndTheBallInTheField) {
