@@ -65,7 +65,7 @@ class Survey {
   }
 
  private:
-  enum Phase : std::int64_t { climbs, sweeps, returns, lands };
+  enum Phase : std::int64_t { climbs, sweeps, returns, lands, has_landed };
 
   /// All that a step leaves for the next.
   struct Memory {
@@ -108,7 +108,7 @@ class Survey {
   }
 
   void fly(const Step& now) {
-    constexpr double there = 0.3;  // m
+    constexpr double there = 0.3, touches = 0.03;  // m
     const std::int64_t ends = 2 * lanes(now);
     const double top = memory_.phase == lands ? memory_.ground : now.tunable(altitude);
     Point goal = memory_.home;
@@ -121,19 +121,27 @@ class Survey {
       case sweeps:
         if (arrived && ++memory_.turn == ends * std::int64_t(now.tunable(rounds))) memory_.phase = returns;
         break;
-      default:
+      case returns:
         if (arrived) memory_.phase = lands;
+        break;
+      case lands:
+        if (memory_.me.height() < memory_.ground + touches) memory_.phase = has_landed;
+        break;
+      default:
+        break;
+    }
+    if (memory_.phase == has_landed) {
+      std::ranges::fill(now.output(command), 0.0);
+      return;
     }
 
     constexpr double gain = 1.2;  // 1/s
     const Point way = memory_.me.to_own(goal);
     const double far = std::max(length(way), 1e-9), fast = std::min(now.tunable(speed), gain * far);
     const auto twist = now.output(command);
-    const bool on_ground = memory_.phase == lands && memory_.me.height() < memory_.ground + 0.1;
-    twist[0] = on_ground ? 0 : fast * way.x / far;
-    twist[1] = on_ground ? 0 : fast * way.y / far;
+    twist[0] = fast * way.x / far;
+    twist[1] = fast * way.y / far;
     twist[2] = std::clamp(gain * (top - memory_.me.height()), -0.6 * now.tunable(speed), 0.6 * now.tunable(speed));
-    if (on_ground) twist[2] = 0;
   }
 
   std::int64_t told(const Step& now) const {
