@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The one message of the team: where its sender is, which target it claims, and all targets that it knows. Everybody
 // tells it again and again, so that a message that is lost is made up for by the next, and passes on what it has heard,
-// so that robots out of each other's range hear of it by others. At most 108 bytes: a frame of IEEE 802.15.4 has 127.
+// so that robots out of each other's range hear of it by others. At most 106 bytes: a frame of IEEE 802.15.4 has 127.
 #pragma once
 
 #include <algorithm>
@@ -36,6 +36,7 @@ class Writer {
     const auto v = std::int64_t(std::nearbyint(std::clamp(value, -32768.0, 65535.0)));
     byte(v), byte(v >> 8);
   }
+  void centimetres(double m) { word(std::clamp(100 * m, -32768.0, 32767.0)); }  // with a sign
   std::size_t used() const { return used_; }
 
  private:
@@ -76,13 +77,13 @@ inline std::size_t write(const Message& m, std::int64_t least, std::span<double>
   detail::Writer w(bytes);
   w.byte(detail::mark);
   w.word(double(m.name));
-  w.word(100 * m.at.x), w.word(100 * m.at.y);
+  w.centimetres(m.at.x), w.centimetres(m.at.y);
   w.byte(claim);
   w.byte(std::int64_t(std::clamp(m.cost, 0.0, 255.0)));
   w.byte(std::int64_t(count));
   for (std::size_t k = 0; k < count; ++k) {
     const Target& t = m.targets[sent[k]];
-    w.word(100 * t.at.x), w.word(100 * t.at.y);
+    w.centimetres(t.at.x), w.centimetres(t.at.y);
     w.byte(std::min<std::int64_t>(t.sightings, 255));
     w.byte(t.confirmed);
   }

@@ -227,7 +227,8 @@ class Seek {
 
   /// It stands before the target.
   void look(const Step& now) {
-    if (sees(now)) memory_.seen += now.period();
+    if (!sees(now)) return;
+    memory_.seen += now.period();
     if (memory_.seen < now.tunable(hold)) return;
     memory_.targets[std::size_t(memory_.claim)].confirmed = 1;
     ++memory_.confirmed;

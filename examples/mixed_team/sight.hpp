@@ -39,6 +39,8 @@ class BlobFinder {
   std::span<const Blob> find(std::span<const double> rgb, int width, int height, const Hue& hue, int least) {
     blobs_.clear();
     open_.assign(std::size_t(width) * std::size_t(height), 0);
+    stack_.reserve(open_.size());      // each pixel comes once
+    blobs_.reserve(open_.size() / 2);  // they do not touch
     for (std::size_t i = 0; i < open_.size(); ++i)
       open_[i] = hue.matches(rgb[3 * i], rgb[3 * i + 1], rgb[3 * i + 2]) ? 1 : 0;
     for (std::size_t i = 0; i < open_.size(); ++i) {

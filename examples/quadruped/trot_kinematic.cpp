@@ -35,7 +35,7 @@ class TrotKinematic {
     const Command wanted = command_of(now);
     follow(wanted, dt);
     const Command& v = state_.velocity;
-    const bool goes = v.forward != 0 || v.left != 0 || v.turn != 0;
+    const bool goes = now.tunable(tunable::step_in_place) > 0.5 || v.forward != 0 || v.left != 0 || v.turn != 0;
     if (goes && state_.clock.runs == 0) state_.clock.start(model_.gait);
     state_.clock.advance(model_.gait, dt, !goes);
     for (int i = 0; i < legs; ++i) move(i, wanted, dt);

@@ -87,7 +87,6 @@ class CameraView {
   /// Whether the trunk stands: where one lies or falls, the camera is not where this class has it.
   bool is_upright() const { return is_upright_; }
   /// m: of the camera above the ground.
-  double height() const { return place_.z; }
   /// m: along the axis of the camera.
   double depth_of(const Vector& point) const { return dot(point + (-1) * place_, forward_); }
   const Lens& lens() const { return lens_; }

@@ -6,7 +6,8 @@
 // line.
 //
 // A field looks the same from both ends. The filter follows one place from the start on: a sight that would have it far
-// away from there, or that fits two places alike, changes nothing.
+// away from there changes nothing; one that fits two places alike neither (posts), or it widens what is thought
+// possible (lines).
 #pragma once
 
 #include <algorithm>
@@ -49,6 +50,7 @@ class Localisation {
     const double strayed = strays * own_way.norm() + rests * seconds;
     c.xx += strayed, c.yy += strayed;
     c.zz += drifts * seconds + twists * std::abs(turned);
+    limit();
   }
   /// It fell, and got up somewhere near.
   void fell(double distance = 0.5, double turn = 0.5) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The eyes of a humanoid: finds the ball, the posts of goals and other players in the pictures of its camera alone,
-// tells where they are, and turns the head.
+// The eyes of a humanoid: finds the ball, the posts of goals, lines and other players in the pictures of its camera
+// alone, tells where they are, and turns the head.
 #include <cstdint>
 
 #include "ball_finder.hpp"

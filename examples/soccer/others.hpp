@@ -2,6 +2,7 @@
 // Where a player believes the others to be, and how to walk without running into them.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -24,17 +25,12 @@ class Others {
   void pass(double seconds) {
     for (Other& o : all_) o.age += seconds;
   }
-  /// Somebody is there now: the one who was nearest to it, or one who has been forgotten.
+  /// Somebody is there now: the one who was nearest to it, or the one who was seen the longest time ago.
   void see(const Point& at) {
     constexpr double same = 0.5;  // m
-    Other* best = &all_[0];
-    for (Other& o : all_) {
-      const bool near = o.is_there() && (o.at - at).norm() < same;
-      if (near) best = &o;
-      if (near) break;
-      if (o.age > best->age) best = &o;
-    }
-    *best = {at, 0};
+    const Other* const near = nearest(at, same);
+    Other& who = near ? all_[std::size_t(near - all_.data())] : *std::ranges::max_element(all_, {}, &Other::age);
+    who = {at, 0};
   }
 
   /// Whether nobody is nearer than `keep` (m) to the straight way from `from` to `to`.
@@ -51,7 +47,8 @@ class Others {
     const Other* const first = first_on(from, to, keep);
     return first ? beside(first->at, from, to, keep) : to;
   }
-  /// A point beside an obstacle, on the side on which the way passes it.
+  /// A point beside an obstacle, on the side on which the way passes it, a fifth farther away than `keep` (m), so that
+  /// the way to it keeps the distance as well.
   static Point beside(const Point& obstacle, const Point& from, const Point& to, double keep) {
     const Line way(from, to);
     return obstacle + (way.left_of(obstacle) > 0 ? -1.2 * keep : 1.2 * keep) * way.normal;

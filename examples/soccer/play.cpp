@@ -37,7 +37,7 @@ enum Tunable {
   attack, goal_x, goal_width, kick_x, kick_y, kick_speed, kick_way,
   // clang-format on
 };
-enum WalkPhase : std::int64_t { walks = 2, falls = 3, gets_up = 4, kicks = 5 };  ///< of examples/walk
+enum WalkPhase : std::int64_t { stands = 1, walks = 2, falls = 3, gets_up = 4, kicks = 5 };  ///< of examples/walk
 
 constexpr double forgets = 10;       // s: a ball that nobody has seen for so long is searched for
 constexpr double trusts_itself = 3;  // s: before it believes mates where the ball is
@@ -78,7 +78,7 @@ class Play {
       {"goal_x", "m", 4.5, 0.5, 100, "of the goal line"},
       {"goal_width", "m", 2.6, 0.1, 100, "between the posts"},
       {"kick_x", "m", 0.165, 0, 2, "how far ahead of its trunk the ball is to lie when it kicks"},
-      {"kick_y", "m", 0.055, 0, 2, "and how far to the side of the foot that kicks"},
+      {"kick_y", "m", 0.055, 0, 2, "and how far to the left or right of the trunk, by the foot that kicks"},
       {"kick_speed", "m/s", 3, 0, 20, "of the foot"},
       {"kick_way", "m", 1.4, 0, 20, "how far a ball goes that it kicks"}};
 
@@ -101,8 +101,10 @@ class Play {
     const Place soon = place_soon();
     const Striker::Decision d = act(now, soon, Steering(pace_, soon, memory_.others));
     write(d, now);
-    TeamMessage{own_number(now), memory_.role, cost(now), me().at, memory_.ball, memory_.age}.write(
-        now.output(message));
+    // mates do not wait for a keeper that leaves the ball to them
+    const bool leaves_it = now.tunable(keeper) > 0 && memory_.role != goes_for_ball;
+    TeamMessage{own_number(now), memory_.role, leaves_it ? far_away : cost(now), me().at, memory_.ball, memory_.age}
+        .write(now.output(message));
   }
 
   void save(Saver& to) const { to.put(memory_); }
@@ -142,10 +144,9 @@ class Play {
     const Place by_legs{{walked[0], walked[1]}, walked[2]};
     if (now.index() == 0) {
       memory_.self.start({{now.tunable(start_x), now.tunable(start_y)}, now.tunable(start_yaw)});
+      memory_.ball = {}, memory_.age = trusts_itself;  // kick-off is from the centre mark
     } else {
-      constexpr double most = 0.3;  // m, in a step: legs that got up count anew
-      const Point way = memory_.by_legs.to_own(by_legs.at);
-      memory_.self.move(way.norm() < most ? now.tunable(stride) * way : Point{}, wrapped(heading - memory_.heading),
+      memory_.self.move(now.tunable(stride) * memory_.by_legs.to_own(by_legs.at), wrapped(heading - memory_.heading),
                         now.period());
     }
     if (phase(now) == falls && memory_.phase != falls) memory_.self.fell();
@@ -185,7 +186,8 @@ class Play {
       memory_.others.see(me().to_world({players[i], players[i + 1]}));
     hear_goal(now);
     const auto seen = now.input(ball_seen);
-    if (seen[0] != 0) see_ball(me().to_world({seen[1], seen[2]}));
+    const bool is_on_its_feet = phase(now) != falls && phase(now) != gets_up;
+    if (seen[0] != 0 && is_on_its_feet) see_ball(me().to_world({seen[1], seen[2]}));
   }
   /// After a goal the ball is put on the centre mark.
   void hear_goal(const Step& now) {
@@ -207,7 +209,9 @@ class Play {
   static void for_each_mate(const Step& now, F f) {
     const auto told = now.input(mates);
     for (std::size_t i = 0; i + TeamMessage::size <= told.size(); i += TeamMessage::size)
-      if (const auto m = TeamMessage::from(told.subspan(i, TeamMessage::size)); m.number != own_number(now)) f(m);
+      if (const auto m = TeamMessage::from(told.subspan(i, TeamMessage::size));
+          m.number != 0 && m.number != own_number(now))
+        f(m);  // 0: it has not told anything yet
   }
   static std::int64_t own_number(const Step& now) { return std::int64_t(now.tunable(number)); }
 
@@ -281,7 +285,7 @@ class Play {
     const Point places[] = {memory_.ball, {striker_.attack * (striker_.goal_x - before_goal), 0.5 * home.y}, home};
     const double turn = walks_for + turns_for;
     const Point& to = places[std::size_t(memory_.searched / turn) % std::size(places)];
-    if (std::fmod(memory_.searched, turn) > walks_for || (to - me().at).norm() < there) return steering.turn(1);
+    if (std::fmod(memory_.searched, turn) > walks_for || (to - me().at).norm() < there) return steering.turn();
     return steering.go_to(to, steering.heading_to(to), {.distance = 0.3, .angle = 0.3});
   }
 
@@ -300,10 +304,13 @@ class Play {
   /// A kick is asked for until it is taken.
   void write(const Striker::Decision& d, const Step& now) {
     constexpr double patience = 2.5;  // s
-    memory_.asked = memory_.foot == 0 ? 0 : memory_.asked + now.period();
+    const bool was_asked = memory_.foot != 0;
+    memory_.asked = was_asked ? memory_.asked + now.period() : 0;
     if (phase(now) == kicks || phase(now) == falls || memory_.asked > patience) memory_.foot = 0;
     if (phase(now) == kicks) memory_.has_kicked = 1;
-    if (d.kick != 0 && memory_.foot == 0 && phase(now) <= walks && !memory_.has_kicked) memory_.foot = d.kick;
+    // it is heard when it changes from 0, while the robot stands or walks
+    const bool may_kick = phase(now) == stands || phase(now) == walks;
+    if (d.kick != 0 && !was_asked && may_kick && !memory_.has_kicked) memory_.foot = d.kick;
     const auto command = now.output(walk_command), kick = now.output(walk_kick);
     const Command walk = memory_.foot == 0 && phase(now) != kicks ? d.walk : Command{};
     constexpr double lag = 0.5, lag_of_turns = 1.2;  // s: of the legs

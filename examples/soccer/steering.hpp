@@ -14,7 +14,7 @@ class Steering {
  public:
   /// The fastest walk: m/s, m/s, rad/s.
   struct Pace {
-    double forward = 0.2, sideways = 0.08, turn = 0.6;
+    double forward = 0.25, sideways = 0.08, turn = 0.6;
   };
   static constexpr double elbow_room = 0.36;  ///< m: from other players
 
@@ -42,7 +42,7 @@ class Steering {
             std::clamp(0.8 * way.y, -pace_.sideways, pace_.sideways), turning(off)};
   }
   /// On the spot, about itself.
-  Command turn(double direction) const { return {0, 0, direction * pace_.turn}; }
+  Command turn() const { return {0, 0, pace_.turn}; }
   Command back() const { return {-0.4 * pace_.forward, 0, 0}; }
   double heading_to(const Point& p) const { return muro_atan2(p.y - me_.at.y, p.x - me_.at.x); }
 

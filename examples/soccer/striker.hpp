@@ -13,8 +13,8 @@ struct StrikerSettings {
   double attack = 1;        ///< 1: the goal at x > 0; -1: the other one
   double goal_x = 4.5;      ///< m: of the goal line
   double goal_width = 2.6;  ///< m
-  double kick_x = 0.17;     ///< m: where the ball is to lie, ahead of the trunk
-  double kick_y = 0.045;    ///< m: and to the side of the foot that kicks
+  double kick_x = 0.165;    ///< m: where the ball is to lie, ahead of the trunk
+  double kick_y = 0.055;    ///< m: and to the side of the foot that kicks
   double kick_room_x = 0.04, kick_room_y = 0.035, kick_room_angle = 0.3;  ///< m, m, rad: so exactly
 };
 
@@ -43,7 +43,7 @@ class Striker {
 
  private:
   static constexpr double behind = 0.3;    ///< m: the place from which it lines up
-  static constexpr double aside = 0.32;    ///< m: it passes the ball at that distance
+  static constexpr double aside = 0.32;    ///< m: it passes the ball at a fifth more than that
   static constexpr double shot = 1.0;      ///< m: so far the way of the ball is to be free
   static constexpr double corridor = 0.2;  ///< m: half of a player, a ball's radius, and what is not known exactly
 

@@ -68,7 +68,7 @@ void Gait::begin_shift(Phase phase, double xi_x, double xi_y, const GaitSettings
   yaw_before_ = yaw_;
 }
 
-void Gait::end_step(const Velocity& command, bool keep_stepping, const GaitSettings& g) {
+void Gait::end_step(const Velocity& command, const GaitSettings& g) {
   const Side swing = other(stance_);
   feet_[swing] = target_;
   x_.velocity = g.w() * (xi_.x - x_.position);
@@ -76,7 +76,7 @@ void Gait::end_step(const Velocity& command, bool keep_stepping, const GaitSetti
   astray_ = 0;
   stance_ = swing;
   yaw_ = middle().yaw;
-  const bool stops = command.is_zero() && !keep_stepping;
+  const bool stops = command.is_zero();
   if (!stops || steps_in_place_ < 2) return begin_step(command, g);
   begin_shift(shifting_out, middle().x, middle().y, g);
 }
@@ -102,9 +102,9 @@ void Gait::place_swing_foot(const GaitSettings& g) {
   xi_ = foot.beside(x + ahead, y + beside);
 }
 
-void Gait::advance(double h, const Velocity& command, bool keep_stepping, const GaitSettings& g) {
+void Gait::advance(double h, const Velocity& command, const GaitSettings& g) {
   if (phase_ == standing) {
-    if (command.is_zero() && !keep_stepping) return settle(h, g);
+    if (command.is_zero()) return settle(h, g);
     stance_ = command.left < 0 || (command.left == 0 && command.turn < 0) ? left_side : right_side;
     const Foothold first = stride(other(stance_), g), second = stride(stance_, g);
     const Foothold xi = feet_[stance_].beside(capture_point_offset(first.x, second.x, g.period, g.w()),
@@ -120,7 +120,7 @@ void Gait::advance(double h, const Velocity& command, bool keep_stepping, const 
   const double yaw_after = phase_ == stepping ? 0.5 * (target_.yaw + feet_[stance_].yaw) : middle().yaw;
   yaw_ = yaw_before_ + smooth(part) * (yaw_after - yaw_before_);
   if (time_ < end - 0.5 * h) return;
-  if (phase_ == stepping) return end_step(command, keep_stepping, g);
+  if (phase_ == stepping) return end_step(command, g);
   if (phase_ == shifting_in) return begin_step(command, g);
   phase_ = standing;
   speed_ = {};

@@ -40,23 +40,16 @@ class Gait {
 
   /// Stands with the middle between both feet at `middle`.
   void stand(const Foothold& middle, const GaitSettings& g);
-  /// Goes on by `h` s. A command of zero ends the walk with feet side by side, unless `keep_stepping`.
-  void advance(double h, const Velocity& command, bool keep_stepping, const GaitSettings& g);
+  /// Goes on by `h` s. A command of zero ends the walk with feet side by side.
+  void advance(double h, const Velocity& command, const GaitSettings& g);
   /// The capture point has been found to be so far ahead of where it should be (m): the swing foot makes up for it.
   void find_astray(double ahead, const GaitSettings& g);
 
   Phase phase() const { return phase_; }
   /// The foot that carries; while both do, the one that carries next or has carried last.
   Side stance() const { return stance_; }
-  double time() const { return time_; }  ///< s, in the phase
-  /// 0 with the weight on both feet, 1 in the middle of single support.
-  double lift(const GaitSettings& g) const;
-  /// Of the weight, on the left foot.
-  double share(const GaitSettings& g) const;
   const Pendulum& along_x() const { return x_; }
   const Pendulum& along_y() const { return y_; }
-  double zmp_x() const { return zmp_x_; }
-  double zmp_y() const { return zmp_y_; }
   double yaw() const { return yaw_; }  ///< of the trunk
   SolePlace sole(Side side, const GaitSettings& g) const;
   Reference reference(const GaitSettings& g) const;
@@ -66,7 +59,11 @@ class Gait {
   Foothold middle() const;
   Foothold stride(Side swing, const GaitSettings& g) const;
   void begin_step(const Velocity& command, const GaitSettings& g);
-  void end_step(const Velocity& command, bool keep_stepping, const GaitSettings& g);
+  void end_step(const Velocity& command, const GaitSettings& g);
+  /// 0 with the weight on both feet, 1 in the middle of single support.
+  double lift(const GaitSettings& g) const;
+  /// Of the weight, on the left foot.
+  double share(const GaitSettings& g) const;
   void begin_shift(Phase phase, double xi_x, double xi_y, const GaitSettings& g);
   void settle(double h, const GaitSettings& g);
   void place_swing_foot(const GaitSettings& g);

@@ -32,7 +32,7 @@ constexpr PeriodicWalk placos{0.32, 0.38, 0.122, 0.08}, short_steps{0.30, 0.30, 
 /// Steps until one begins.
 void run_to_switch(Gait& gait, double h, const Velocity& v, const GaitSettings& g) {
   const Side before = gait.stance();
-  while (gait.stance() == before) gait.advance(h, v, true, g);
+  while (gait.stance() == before) gait.advance(h, v, g);
 }
 
 TEST(Gait, SpeedsAtTheSwitchAreThoseOfThePendulum) {
@@ -41,7 +41,7 @@ TEST(Gait, SpeedsAtTheSwitchAreThoseOfThePendulum) {
     const double h = walk.period / 100, w = std::sqrt(9.81 / walk.height), half = 0.5 * w * walk.period;
     Gait gait;
     gait.stand({}, g);
-    for (int k = 0; k < 4000; ++k) gait.advance(h, {walk.stride / walk.period, 0, 0}, false, g);
+    for (int k = 0; k < 4000; ++k) gait.advance(h, {walk.stride / walk.period, 0, 0}, g);
     run_to_switch(gait, h, {walk.stride / walk.period, 0, 0}, g);
     EXPECT_NEAR(gait.along_x().velocity, w * walk.stride / 2 / std::tanh(half), 1e-9);
     EXPECT_NEAR(std::abs(gait.along_y().velocity), w * walk.distance / 2 * std::tanh(half), 1e-9);
@@ -50,7 +50,7 @@ TEST(Gait, SpeedsAtTheSwitchAreThoseOfThePendulum) {
     EXPECT_NEAR(ahead + walk.stride, walk.stride / 2 * (1 + 1 / std::tanh(half)), 1e-9) << "of the old foot";
     double sway = 0;
     for (int k = 0; k < 100; ++k) {
-      gait.advance(h, {walk.stride / walk.period, 0, 0}, false, g);
+      gait.advance(h, {walk.stride / walk.period, 0, 0}, g);
       sway = std::max(sway, std::abs(gait.along_y().position));
     }
     EXPECT_NEAR(sway, walk.distance / 2 * (1 - 1 / std::cosh(half)), 1e-6);
@@ -62,7 +62,7 @@ TEST(Gait, SpeedsOfSigmabanAreThoseOfPlacosExample) {
   const GaitSettings g = settings_of(placos);
   Gait gait;
   gait.stand({}, g);
-  for (int k = 0; k < 4000; ++k) gait.advance(0.0038, {0.08 / 0.38, 0, 0}, false, g);
+  for (int k = 0; k < 4000; ++k) gait.advance(0.0038, {0.08 / 0.38, 0, 0}, g);
   run_to_switch(gait, 0.0038, {0.08 / 0.38, 0, 0}, g);
   EXPECT_NEAR(gait.along_x().velocity, 0.2830, 1e-4);
   EXPECT_NEAR(std::abs(gait.along_y().velocity), 0.2643, 1e-4);
@@ -73,7 +73,7 @@ TEST(Gait, GoesAsFarAsItIsTold) {
   for (const Velocity& v : {Velocity{0.1, 0, 0}, Velocity{-0.1, 0.02, 0}, Velocity{0, -0.05, 0}}) {
     Gait gait;
     gait.stand({}, g);
-    for (int k = 0; k < 3000; ++k) gait.advance(0.01, v, false, g);
+    for (int k = 0; k < 3000; ++k) gait.advance(0.01, v, g);
     run_to_switch(gait, 0.01, v, g);
     run_to_switch(gait, 0.01, v, g);
     const Foothold before = gait.sole(gait.stance(), g).at;
@@ -88,9 +88,9 @@ TEST(Gait, TurnsInCircles) {
   Gait gait;
   gait.stand({}, g);
   const Velocity v{0.1, 0, 0.5};
-  for (int k = 0; k < 3000; ++k) gait.advance(0.01, v, false, g);
+  for (int k = 0; k < 3000; ++k) gait.advance(0.01, v, g);
   const double before = gait.yaw(), x = gait.along_x().position, y = gait.along_y().position;
-  for (int k = 0; k < 1200; ++k) gait.advance(0.01, v, false, g);
+  for (int k = 0; k < 1200; ++k) gait.advance(0.01, v, g);
   EXPECT_NEAR(gait.yaw() - before, 0.5 * 12, 0.05);
   EXPECT_LT(std::hypot(gait.along_x().position - x, gait.along_y().position - y), 2 * 0.1 / 0.5 + 0.05);
 }
@@ -99,8 +99,8 @@ TEST(Gait, EndsWithFeetSideBySide) {
   const GaitSettings g = settings_of(short_steps);
   Gait gait;
   gait.stand({}, g);
-  for (int k = 0; k < 1000; ++k) gait.advance(0.01, {0.1, 0.03, 0.2}, false, g);
-  for (int k = 0; k < 1000; ++k) gait.advance(0.01, {}, false, g);
+  for (int k = 0; k < 1000; ++k) gait.advance(0.01, {0.1, 0.03, 0.2}, g);
+  for (int k = 0; k < 1000; ++k) gait.advance(0.01, {}, g);
   EXPECT_EQ(gait.phase(), Gait::standing);
   const Foothold l = gait.sole(left_side, g).at, r = gait.sole(right_side, g).at;
   EXPECT_NEAR(std::hypot(l.x - r.x, l.y - r.y), 0.086, 2e-3);
@@ -114,12 +114,12 @@ TEST(Gait, TheSwingFootFollowsTheCapturePoint) {
   const GaitSettings g = settings_of(short_steps);
   Gait gait;
   gait.stand({}, g);
-  for (int k = 0; k < 1000; ++k) gait.advance(0.01, {0.1, 0, 0}, false, g);
+  for (int k = 0; k < 1000; ++k) gait.advance(0.01, {0.1, 0, 0}, g);
   run_to_switch(gait, 0.01, {0.1, 0, 0}, g);
-  for (int k = 0; k < 10; ++k) gait.advance(0.01, {0.1, 0, 0}, false, g);
+  for (int k = 0; k < 10; ++k) gait.advance(0.01, {0.1, 0, 0}, g);
   const double before = gait.target().x;
   gait.find_astray(0.01, g);
-  gait.advance(0.01, {0.1, 0, 0}, false, g);
+  gait.advance(0.01, {0.1, 0, 0}, g);
   EXPECT_NEAR(gait.target().x - before, 0.01 * std::exp(g.w() * 0.2), 1e-9) << "0.2 s before it comes down";
   // what the pendulum has lost is made up for by this step, and the walk goes on as before
   run_to_switch(gait, 0.01, {0.1, 0, 0}, g);

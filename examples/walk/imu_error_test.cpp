@@ -60,7 +60,7 @@ TEST(ImuError, ThatIsTooLargeToBeMeasuredFellsIt) {
   EXPECT_LT(walk(with_gyro("bias: [0, 0.5, 0]"), 5).second, falls_below);
 }
 
-TEST(ImuError, SlowDriftIsBorneUntilItIsTooFast) {
+TEST(ImuError, ThatDriftsIsBorneUntilItIsTooFast) {
   // rad/s/sqrt(s), after 30 s a standard deviation of 0.05 and of 0.5 rad/s; an MTi-1's bias drifts by 5e-5 rad/s
   EXPECT_GT(walk(with_gyro("random_walk: [0, 0.01, 0]"), 30).second, 0.24);
   EXPECT_LT(walk(with_gyro("random_walk: [0, 0.1, 0]"), 30).second, falls_below);

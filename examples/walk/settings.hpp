@@ -80,7 +80,7 @@ inline constexpr muro_tunable tunable_table[] = {
     {"tolerance", "m", 0.02, 0, 1, "that the capture point may be off"},
     {"delay", "s", 0.05, 0, 0.3, "by which the body follows the gait"},
     {"smoothing", "s", 0.03, 0, 1, "of the velocity of the centre of mass"},
-    {"feedback", "1", 1, 0, 10, "share of all feedback but that of the heading; 0 at motions without forces"},
+    {"feedback", "1", 1, 0, 10, "share of all feedback but that of the heading"},
     {"attitude", "1/s", 0.5, 0, 100, "how fast the attitude follows the accelerometer"},
     {"heading", "1/s", 3, 0, 100, "how fast a wrong heading is turned back"},
     {"prepare", "s", 0.6, 0.01, 60, "to come to the posture of the walk"},

@@ -161,7 +161,7 @@ class Walk {
     Velocity wanted = may_walk ? command_of(now) : Velocity{};
     if (has_imu_) wanted = hold_heading(wanted, h);
     if (has_imu_ && has_joints_) step_after_capture_point(h);
-    state_.gait.advance(h, wanted, false, s_.gait);
+    state_.gait.advance(h, wanted, s_.gait);
     if (state_.mode == kicking) kick(now, h);
     const Posture posture{.legs = legs(has_imu_ && state_.mode != preparing), .arm = s_.arm};
     if (!has_imu_ || state_.attitude.up().z >= fallen) return posture;

@@ -130,9 +130,12 @@ class Saver {
   template <class T>
   void put(const T& value) {
 #ifdef MURO_CAN_CLEAR_PADDING
-    T cleared = value;
-    __builtin_clear_padding(&cleared);
-    put(std::span<const T>(&cleared, 1));
+    static_assert(std::is_trivially_copyable_v<T>, "save numbers, or structs of numbers");
+    alignas(T) std::byte bytes[sizeof(T)];
+    std::memcpy(bytes, &value, sizeof(T));
+    T* const cleared = reinterpret_cast<T*>(bytes);
+    __builtin_clear_padding(cleared);
+    put(std::span<const T>(cleared, 1));
 #else
     put(std::span<const T>(&value, 1));
 #endif

@@ -29,6 +29,13 @@ std::array<std::byte, sizeof(Padded)> saved_from(int filling) {
   return room;
 }
 
+TEST(Saver, TakesArrays) {
+  const double values[] = {1.5, -2};
+  std::array<std::byte, sizeof values> room{};
+  muro::controller::Saver(room).put(values);
+  EXPECT_EQ(std::memcmp(room.data(), values, sizeof values), 0);
+}
+
 TEST(Saver, WritesNothingOfWhatLiesBetweenMembers) {
   const auto one = saved_from(0x55), other = saved_from(0xAA);
   Padded back;
