@@ -28,6 +28,7 @@ enum Input {
   orientation,
   match_state,
   match_score,
+  match_kick_off,
   mates
 };
 enum Output { walk_command, walk_kick, message };
@@ -58,6 +59,7 @@ class Play {
                                          {"orientation", "1", 4, 0},
                                          {"match.state", "1", 1, MURO_PORT_OPTIONAL},
                                          {"match.score", "1", 2, MURO_PORT_OPTIONAL},
+                                         {"match.kick_off", "1", 1, MURO_PORT_OPTIONAL},
                                          {"mates", TeamMessage::units, 0, MURO_PORT_OPTIONAL}};
   static constexpr muro_port outputs[] = {{"walk.command", "m/s, m/s, rad/s", 3, MURO_PORT_OWN},
                                           {"walk.kick", "1, m/s", 2, MURO_PORT_OWN},
@@ -233,6 +235,8 @@ class Play {
     if (!state.empty() && state[0] == 2) return waits;
     const double mine = cost(now);
     if (mine >= far_away) return searches;
+    const auto kick_off = now.input(match_kick_off);
+    if (!kick_off.empty() && kick_off[0] * now.tunable(attack) < 0) return keeps_place;  // the others have it
     constexpr double near_goal = 0.6;  // m: a ball that the keeper fetches itself
     if (now.tunable(keeper) > 0 && std::abs(memory_.ball.x - now.tunable(home_x)) > near_goal) return keeps_place;
     constexpr double begins = 0.1, goes_on = 0.3;  // m: so much nearer than mates; so much farther who goes for it

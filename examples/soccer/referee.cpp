@@ -14,8 +14,8 @@ using namespace muro::controller;
 using namespace soccer;
 
 enum Input { ball_pose, left_poses, right_poses, place_answer };
-enum Output { place_pose, place_twist, place_count, match_state, match_score, match_falls, match_outs };
-enum Tunable { length, width, goal_width, half, pause, patience };
+enum Output { place_pose, place_twist, place_count, match_state, match_score, match_falls, match_outs, match_kick_off };
+enum Tunable { length, width, goal_width, half, pause, patience, kick_off };
 enum State { waits_for_ball, plays, is_over };  ///< `match.state`
 
 constexpr double reach = 0.3;        // m: who is nearest to the ball within this distance has touched it last
@@ -32,6 +32,8 @@ struct Match {
   Spot spot;                                 // where it is put
   Spot rest;                                 // where the ball was when it began to rest
   double rest_time = 0;                      // s: since when
+  std::int64_t kick_off = 0;                 // 1: the left team has it, -1: the right one, 0: the ball is in play
+  double kick_off_time = 0;                  // s: since when it lies on the centre mark for that
   std::array<double, most_players> lying{};  // s: how long each player has lain; below 0: its fall has been counted
 };
 
@@ -58,14 +60,17 @@ class Referee {
                                           {"match.state", "1", 1, MURO_PORT_OWN},
                                           {"match.score", "1", 2, MURO_PORT_OWN},
                                           {"match.falls", "1", 2, MURO_PORT_OWN},
-                                          {"match.outs", "1", 1, MURO_PORT_OWN}};
+                                          {"match.outs", "1", 1, MURO_PORT_OWN},
+                                          {"match.kick_off", "1", 1, MURO_PORT_OWN}};
   static constexpr muro_tunable tunables[] = {
       {"length", "m", 9, 1, 200, "of the field, from goal line to goal line"},
       {"width", "m", 6, 1, 200, "from touch line to touch line"},
       {"goal_width", "m", 2.6, 0.1, 100, "between the posts"},
       {"half", "s", 600, 1, 1e6, "time of play, after which the match is over"},
       {"pause", "s", 1, 0, 100, "between a goal or a ball that went out and the next kick"},
-      {"patience", "s", 30, 1, 1e6, "a ball that does not move for so long is put on the centre mark"}};
+      {"patience", "s", 30, 1, 1e6, "a ball that does not move for so long is put on the centre mark"},
+      {"kick_off", "s", 10, 0, 1e6,
+       "so long one team alone may play the ball on the centre mark, at the start and after a goal"}};
   static constexpr std::size_t save_size = sizeof(Match);
 
   explicit Referee(const Setup& setup) {
@@ -80,6 +85,7 @@ class Referee {
   void step(const Step& now) {
     watch_players(now);
     const auto ball = now.input(ball_pose);
+    if (now.index() == 0 && ball[0] * ball[0] + ball[1] * ball[1] < stuck * stuck) match_.kick_off = 1;
     if (match_.state == plays && now.time() >= now.tunable(half)) {
       match_.state = is_over;
       now.log().info("the half is over: " + score());
@@ -92,6 +98,7 @@ class Referee {
       now.output(match_falls)[t] = double(match_.falls[t]);
     }
     now.output(match_outs)[0] = double(match_.outs);
+    now.output(match_kick_off)[0] = double(match_.kick_off);
   }
 
   void save(Saver& to) const { to.put(match_); }
@@ -120,11 +127,14 @@ class Referee {
 
   void watch_ball(const Step& now, double x, double y, double z) {
     const double dx = x - match_.rest.x, dy = y - match_.rest.y;
-    if (dx * dx + dy * dy > stuck * stuck) match_.rest = {x, y}, match_.rest_time = now.time();
+    const bool moves = dx * dx + dy * dy > stuck * stuck;
+    if (moves) match_.rest = {x, y}, match_.rest_time = now.time();
+    if (moves || now.time() - match_.kick_off_time > now.tunable(kick_off)) match_.kick_off = 0;
     if (const Team team = pitch_.scorer(x, y, z); team != no_team) {
       ++match_.score[team];
       now.log().info("goal: " + score());
       stop_for(now, {});
+      match_.kick_off = team == left ? -1 : 1;
     } else if (pitch_.is_out(x, y)) {
       ++match_.outs;
       stop_for(now, pitch_.restart(x, y, Team(match_.last_touch)));
@@ -146,7 +156,7 @@ class Referee {
     const double answer = now.input(place_answer)[0];
     if (match_.tries > 0 && answer == double(match_.placements)) {
       match_.state = plays;
-      match_.rest = match_.spot, match_.rest_time = now.time();
+      match_.rest = match_.spot, match_.rest_time = match_.kick_off_time = now.time();
       return;
     }
     if (match_.tries > 0 && answer != double(-1 - match_.placements)) return;  // not answered yet

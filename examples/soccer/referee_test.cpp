@@ -54,6 +54,31 @@ struct Match {
 
 using Numbers = std::vector<double>;
 
+TEST(Referee, GivesTheKickOffToOneTeamForTenSeconds) {
+  Match m("at: {x: 0, y: 0}");
+  m.s.run_for(9.9);
+  EXPECT_EQ(m.told("match.kick_off"), (Numbers{1})) << "the left one";
+  m.s.run_for(0.2);
+  EXPECT_EQ(m.told("match.kick_off"), (Numbers{0}));
+}
+
+TEST(Referee, EndsTheKickOffWhenTheBallIsInPlay) {
+  Match m("at: {x: 0, y: 0}, velocity: [1, 0, 0]");
+  m.s.run_for(0.05);
+  EXPECT_EQ(m.told("match.kick_off"), (Numbers{1}));
+  m.s.run_for(0.4);
+  EXPECT_EQ(m.told("match.kick_off"), (Numbers{0}));
+}
+
+TEST(Referee, GivesTheKickOffToWhoLetAGoalIn) {
+  Match m("at: {x: 4.2, y: 0.5}, velocity: [2, 0, 0]");
+  m.s.run_for(0.1);
+  EXPECT_EQ(m.told("match.kick_off"), (Numbers{0})) << "the ball is not on the centre mark";
+  m.s.run_for(3);
+  EXPECT_EQ(m.told("match.score"), (Numbers{1, 0}));
+  EXPECT_EQ(m.told("match.kick_off"), (Numbers{-1}));
+}
+
 TEST(Referee, CountsAGoalAndPutsTheBallOnTheCentreMark) {
   Match m("at: {x: 4.2, y: 0.5}, velocity: [2, 0, 0]");
   m.s.run_for(0.6);
