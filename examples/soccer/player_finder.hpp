@@ -44,6 +44,7 @@ class PlayerFinder {
   static constexpr double own = 0.25;           ///< m: what is nearer is part of the player itself
   static constexpr double reach_of_arms = 0.6;  ///< m: the same, at its sides
   static constexpr int step = 2;                ///< px, from column to column
+  static constexpr int middle_of_step = step / 2;
   static constexpr std::size_t most_columns = 1024;
 
   struct Column {
@@ -58,7 +59,7 @@ class PlayerFinder {
         centre ? 1.3 * ball->z * view.lens().fx / view.depth_of(*ball) : 0;  // px; its centre is a radius high
     used_ = std::min(most_columns, std::size_t(image.width() / step));
     for (std::size_t i = 0; i < used_; ++i) {
-      const int u = int(i) * step + step / 2;
+      const int u = int(i) * step + middle_of_step;
       columns_[i] = {};
       for (int v = image.height() - 1; v >= 0; --v) {
         const Color color = image.color(u, v);
@@ -78,7 +79,7 @@ class PlayerFinder {
   /// About the column that is nearest, which is taken, with all that belong to a player there.
   std::optional<SeenPlayer> player_about(std::size_t i, const Image& image, const CameraView& view) {
     const double range = columns_[i].range;
-    const int u = int(i) * step + step / 2;
+    const int u = int(i) * step + middle_of_step;
     const auto ground = view.at_height({u + 0.5, columns_[i].row + 1.0}, 0);
     const double depth = view.depth_of(*ground), wide = half_width * view.lens().fx / depth;  // px
     const int reach = std::max(1, int(0.9 * wide / step));
@@ -88,7 +89,7 @@ class PlayerFinder {
     constexpr double step_of_feet = 0.15;  // m
     for (std::size_t k = begin; k < end; ++k)
       if (columns_[k].range < range + step_of_feet) left = std::min(left, k), right = std::max(right, k);
-    const double middle = 0.5 * double(left + right) * step + step / 2;
+    const double middle = 0.5 * double(left + right) * step + middle_of_step;
     const int row = columns_[i].row;
     const int team = team_in(image, middle, row, wide, height * view.lens().fy / depth);
     // arms may be held away from the trunk; hands are less than half as high as the camera
@@ -98,7 +99,7 @@ class PlayerFinder {
     columns_[i].range = none;
     if (team == 0) return std::nullopt;
     for (std::size_t k = first; k < last; ++k) {
-      const double off = std::abs(double(int(k) * step + step / 2) - middle);
+      const double off = std::abs(double(int(k) * step + middle_of_step) - middle);
       if (off < wide || columns_[k].range < 2 * range) columns_[k].range = none;
     }
     const auto feet = view.at_height({middle + 0.5, row + 1.0}, 0);

@@ -37,7 +37,8 @@ TEST(Saver, TakesArrays) {
 }
 
 TEST(Saver, WritesNothingOfWhatLiesBetweenMembers) {
-  const auto one = saved_from(0x55), other = saved_from(0xAA);
+  const auto one = saved_from(0x55);
+  [[maybe_unused]] const auto other = saved_from(0xAA);
   Padded back;
   std::memcpy(&back, one.data(), sizeof back);
   EXPECT_TRUE(back.first);
