@@ -43,7 +43,8 @@ class Judge {
 
   void step(const Step& now) {
     const Tally tally = count(now);
-    const double all = double(now.input(targets).size() / 7);
+    const std::size_t number = now.input(targets).size() / 7;
+    const auto all = double(number);
     if (tally.found == all && memory_.all_found == 0) memory_.all_found = now.time();
     if (tally.confirmed == all && memory_.all_confirmed == 0) {
       memory_.all_confirmed = now.time();
