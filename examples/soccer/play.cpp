@@ -188,8 +188,7 @@ class Play {
       memory_.others.see(me().to_world({players[i], players[i + 1]}));
     hear_goal(now);
     const auto seen = now.input(ball_seen);
-    const bool is_on_its_feet = phase(now) != falls && phase(now) != gets_up;
-    if (seen[0] != 0 && is_on_its_feet) see_ball(me().to_world({seen[1], seen[2]}));
+    if (seen[0] != 0 && !lies(now)) see_ball(me().to_world({seen[1], seen[2]}));
   }
   /// After a goal the ball is put on the centre mark.
   void hear_goal(const Step& now) {
@@ -222,12 +221,14 @@ class Play {
     return {me().to_world({memory_.pending.x, memory_.pending.y}), me().yaw + memory_.pending.turn};
   }
   std::int64_t phase(const Step& now) const { return std::int64_t(now.input(walk_phase)[0]); }
+  /// Or falls, or gets up.
+  bool lies(const Step& now) const { return phase(now) == falls || phase(now) == gets_up; }
   /// m: how far it is to the ball, and about it; a robot that lies gets up first.
   double cost(const Step& now) const {
     if (memory_.age > forgets) return far_away;
     const Point way = memory_.ball - me().at;
-    const double about = way.x * now.tunable(attack) < 0 ? 0.6 : 0, lies = phase(now) >= falls && phase(now) != kicks;
-    return way.norm() + about + 2 * lies;
+    const double about = way.x * now.tunable(attack) < 0 ? 0.6 : 0, up = lies(now) ? 2 : 0;
+    return way.norm() + about + up;
   }
 
   Role role(const Step& now) const {

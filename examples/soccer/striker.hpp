@@ -32,10 +32,11 @@ class Striker {
     const Place from_ball{ball, aim};
     const Point rest = from_ball.to_own(me.at);  // x along the kick
     const double off = wrapped(aim - me.yaw);
-    const double wide = lines_up_ ? 1.8 : 1;
-    lines_up_ = rest.x < -0.05 && rest.x > -wide * 0.4 && std::abs(rest.y) < wide * 0.1 && std::abs(off) < wide * 0.4;
-    if (!lines_up_) foot_ = 0;
-    if (lines_up_) return line_up(here.to_own(ball), me.to_own(ball), off, steering, s);
+    const double wide = foot_ != 0 ? 1.8 : 1;
+    const bool lines_up =
+        rest.x < -0.05 && rest.x > -wide * 0.4 && std::abs(rest.y) < wide * 0.1 && std::abs(off) < wide * 0.4;
+    if (lines_up) return line_up(here.to_own(ball), me.to_own(ball), off, steering, s);
+    foot_ = 0;
     return {go_behind(me, ball, aim, steering), 0};
   }
   /// Another one goes for the ball now.
@@ -81,8 +82,8 @@ class Striker {
     return middle + std::clamp(wrapped(from_here - middle), std::min(one, other) - wide, std::max(one, other) + wide);
   }
 
-  /// The ball lies ahead: the last steps to it, and the kick.
-  Decision line_up(const Point& now, const Point& ball, double off, const Steering& steering,
+  /// The ball lies ahead, from `here` and from where it will be: the last steps to it, and the kick.
+  Decision line_up(const Point& from_here, const Point& ball, double off, const Steering& steering,
                    const StrikerSettings& s) {
     constexpr double firm = 0.02, steadily = 0.3;  // m, 1
     const bool begins = foot_ == 0;
@@ -95,8 +96,8 @@ class Striker {
     };
     constexpr double roughly = 1.7;  // now, while it sways and turns yet
     const Point way = from_foot(ball.x, sway_);
-    const bool is_there =
-        is_within(way, 1) && is_within(from_foot(now.x, now.y), roughly) && std::abs(off) < s.kick_room_angle;
+    const bool is_there = is_within(way, 1) && is_within(from_foot(from_here.x, from_here.y), roughly) &&
+                          std::abs(off) < s.kick_room_angle;
     if (is_there) return {{}, foot_};
     return {steering.small_step(way, off), 0};
   }
@@ -107,9 +108,8 @@ class Striker {
     return steering.go_to(Others::beside(ball, me.at, place, aside), steering.heading_to(ball), {});
   }
 
-  std::int64_t lines_up_ = 0;   ///< no bool: bytes between would be saved
   double sway_ = 0;             ///< m: how far to the side the ball lies, over the sway of the walk
-  std::int64_t foot_ = 0;       ///< that is going to kick
+  std::int64_t foot_ = 0;       ///< that is going to kick; 0: it does not line up
   double aim_ = 0;              ///< rad, on the field
   Point aimed_from_{1e3, 1e3};  ///< m: where the ball lay then
 };
