@@ -89,11 +89,13 @@ void Bodies::connect_robot(Connector& c, const RobotView& view, bool resists_tur
   Robot r;
   r.contacts = c.read_list(view.base(), keys::contacts);
   r.anchors = c.variable_list(view.base(), anchors);
+  r.last_motions = c.variable_list(view.base(), last_motions);
   r.told = c.derived_list(view.base(), keys::contact_wrenches_of_law);
   if (resists_turning) r.turning_springs = c.variable_list(view.base(), turning_springs);
   r.world = c.input(view.base(), keys::contact_world, kinematic_world);
   r.lag = c.input(view.base(), keys::twist_lag, 0.0);
   r.order_key = view.key;
+  r.mass = composite.mass;
   r.is_shadow = c.constant(view.base(), keys::shadow_of).has_value();
   r.first_body = std::uint32_t(dynamic_bodies.size());
   r.body_count = std::uint32_t(1 + links.size());

@@ -6,6 +6,7 @@
 
 #include "contact_law.hpp"
 #include "friction_anchor.hpp"
+#include "last_motion.hpp"
 #include "muro/algorithm.hpp"
 #include "muro/vocabulary.hpp"
 #include "patch.hpp"
@@ -42,8 +43,10 @@ struct Robot {
   ListIn<Contact> contacts;
   ListOut<FrictionAnchor> anchors;
   ListOut<TurningSpring> turning_springs;        ///< empty: no shape resists rolling or spinning
+  ListOut<LastMotion> last_motions;              ///< of its bodies, in their order
   ListOut<ContactWrench> told;                   ///< see Bodies::tells_contacts
   std::uint32_t first_body = 0, body_count = 1;  ///< in Bodies::dynamic_bodies; the first is that of the base
+  double mass = 0;                               ///< kg, of all its bodies
   bool is_single_body = true;
   bool is_shadow = false;   ///< it exerts no force on what it touches
   In<std::uint64_t> world;  ///< see keys::contact_world
@@ -146,6 +149,7 @@ struct Bodies {
 /// What all contacts of a step share.
 struct StepContext {
   Stiffness stiffness;
+  double omega = 0;             ///< rad/s: of contacts that are solved together, whatever the step
   double elapsed = 0;           ///< s since the last run
   std::int64_t time = 0;        ///< ns
   Vec3 gravity = Vec3::Zero();  ///< m/s^2

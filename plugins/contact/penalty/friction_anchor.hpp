@@ -13,6 +13,7 @@ struct FrictionAnchor {
   Vec3 point = Vec3::Zero();         ///< m, world
   Vec3 displacement = Vec3::Zero();  ///< m, world: tangential
   double overlap = 0;                ///< m, see overlap.hpp
+  double rebound = 0;                ///< m/s: at which an impact parts the bodies, as long as they do not yet
 };
 
 using contact_geometry::pair_of, contact_geometry::previous;

@@ -46,12 +46,24 @@ void PairContacts::pass(int which, std::uint32_t robot) {
     case 1:
       find_load(robot);
       return count_impacts(robot);
-    case 2:
+    case 2: {
+      const std::uint32_t group = record(robot).group;
+      if (group == no_group) {
+        find_springs(robot);
+        kernels_.push(known_[robot].points.data(), int(known_[robot].points.size()), context_.stiffness,
+                      context_.elapsed);
+      } else if (groups_[group].robots.front() == robot) {
+        solve_group(group);
+      }
+      return;
+    }
+    case 3:
       apply_forces(robot);
       apply_impacts(robot);
       return keep_told(robot);
-    case 3:
-      return add_reactions(robot);
+    case 4:
+      add_reactions(robot);
+      return keep_motion(robot);
   }
 }
 
@@ -249,6 +261,7 @@ void PairContacts::find_springs(std::uint32_t self) {
     const Contact& contact = contacts[c.place];
     const FrictionAnchor* const before = previous(old, i, c.pair, contact.point);
     c.lasts = before != nullptr;
+    c.rebound = before ? before->rebound : 0;
     if (before) c.before = before->point;
     Vec3::Map(point.displacement) = before ? before->displacement : Vec3::Zero();
     point.overlap = 0;
@@ -271,8 +284,6 @@ void PairContacts::apply_forces(std::uint32_t self) {
   Record& me = record(self);
   KnownContacts& known = known_[self];
   const Robot& robot = bodies_.robots[self];
-  find_springs(self);
-  kernels_.push(known.points.data(), int(known.points.size()), context_.stiffness, context_.elapsed);
   robot.anchors.clear();
   if (robot.turning_springs) {
     const auto springs = *robot.turning_springs;
@@ -291,7 +302,7 @@ void PairContacts::apply_forces(std::uint32_t self) {
       robot.anchors.push_back(anchor_of_impact(c.pair));
       continue;
     }
-    robot.anchors.push_back({c.pair, contact.point, Vec3::Map(point.displacement), point.overlap});
+    robot.anchors.push_back({c.pair, contact.point, Vec3::Map(point.displacement), point.overlap, c.rebound});
     const Vec3 force = Vec3::Map(point.force);
     ContactPatch& patch = me.patches[c.patch];
     const DynamicBody& body = bodies_.dynamic_bodies[patch.body];

@@ -5,20 +5,22 @@
 #include <optional>
 #include <vector>
 
+#include "contact_solver.hpp"
 #include "impact.hpp"
 #include "pair_kernel.hpp"
 
 namespace muro::penalty {
 
-/// Each robot is processed in four passes, which read the results of earlier passes for other robots. A pass writes
-/// only the data of its robot, so threads may share the robots.
+/// Each robot is processed in five passes, which read the results of earlier passes for other robots. A pass writes
+/// only the data of its robot, one of them those of all robots of its group, so threads may share the robots.
 class PairContacts {
  public:
   explicit PairContacts(const Bodies& bodies)
       : bodies_(bodies),
         kernels_(pair_kernels_for(lane::best_isa())),
         record_of_(bodies.robots.size()),
-        known_(bodies.robots.size()) {}
+        known_(bodies.robots.size()),
+        number_in_group_(bodies.dynamic_bodies.size()) {}
   /// Forgets what is known of earlier steps; call it before the first step and when the state was changed from outside.
   void start() {
     for (KnownContacts& known : known_) known.count = 0;
@@ -28,18 +30,21 @@ class PairContacts {
   /// forces has its flag set too. Returns their number.
   std::size_t begin(const StepContext& context, const std::vector<std::uint8_t>& flags);
 
-  static constexpr int passes = 4;
-  /// `which`: 0 to 3, in this order. `robot`: one of those that begin() took.
+  static constexpr int passes = 5;
+  /// `which`: 0 to 4, in this order. `robot`: one of those that begin() took.
   void pass(int which, std::uint32_t robot);
-  /// Between passes 1 and 2: the impacts of bodies that are in several, one after the other in the order of their
-  /// times.
-  void resolve_in_turns();
+  /// Between passes 1 and 2: which robots carry each other; and the impacts of bodies that are in several, one after
+  /// the other in the order of their times.
+  void prepare_groups() {
+    find_groups();
+    resolve_in_turns();
+  }
   /// After the passes: what they do to robots that no force moves, for who reads it.
   void tell_kinematic_robots() const;
   /// All passes, for all of them.
   void run() {
     for (int which = 0; which < passes; ++which) {
-      if (which == 2) resolve_in_turns();
+      if (which == 2) prepare_groups();
       for (const std::uint32_t r : robots_) pass(which, r);
     }
     if (bodies_.tells_kinematic_robots) tell_kinematic_robots();
@@ -50,7 +55,8 @@ class PairContacts {
   using Mobility = law::Mobility<double>;
   using Patch = law::Patch<double>;
 
-  static constexpr std::uint32_t not_computed = 0xffffffffu, in_impact = 0xfffffffeu, had_impact = 0xfffffffdu;
+  static constexpr std::uint32_t not_computed = 0xffffffffu, in_impact = 0xfffffffeu, had_impact = 0xfffffffdu,
+                                 no_group = 0xffffffffu;
 
   /// A contact patch in an impact.
   struct ImpactPatch {
@@ -96,6 +102,7 @@ class PairContacts {
     double zeta;                            ///< damping ratio of the normal
     std::uint32_t patch = 0;                ///< in Record::patches, or one of the above
     bool lasts = false;                     ///< it was there in the step before
+    double rebound = 0;                     ///< m/s: see FrictionAnchor
     Vec3 before = Vec3::Zero();             ///< m, world: then there, if it lasts
   };
   /// What is known of the contacts of a robot as long as their list stands for the same.
@@ -122,6 +129,7 @@ class PairContacts {
     std::vector<ContactWrench> told;             ///< those of its list in which it pushes others; where they are told
     std::size_t impacts = 0;                     ///< patches in which it is, its own and those of others
     double load = 0;                             ///< its stiffest motion, in units of omega^2
+    std::uint32_t group = no_group;              ///< in groups_; none: its contacts are resolved one by one
   };
 
   void add_records();
@@ -130,6 +138,19 @@ class PairContacts {
   bool computes_contacts_with(std::uint32_t self, ObjectId body, std::int32_t& other_robot);
   std::uint32_t add_to_patch(Record& me, const Computed& computed, const Contact& contact) const;
   bool add_impact(std::uint32_t self, const Contact& contact, std::int32_t other_robot, std::size_t place);
+  void find_groups();
+  bool carries(std::uint32_t self, const ContactPatch& patch) const;
+  std::uint32_t root_of(std::uint32_t record);
+  void solve_group(std::uint32_t number);
+  void add_bodies(std::uint32_t robot, ContactSolver& solver);
+  void add_supports(std::uint32_t robot, double mass, ContactSolver& solver) const;
+  const LastMotion* last_motion(std::uint32_t robot, std::uint32_t body) const;
+  Push what_else_acts(const Mobility& mobility, const DynamicBody& body, const LastMotion& last) const;
+  void keep_motion(std::uint32_t robot) const;
+  void add_contacts(std::uint32_t robot, double mass, ContactSolver& solver);
+  void take_forces(std::uint32_t robot, std::span<const SolverContact>& found);
+  static bool is_solved(const Computed& c) { return c.patch != in_impact && c.patch != had_impact; }
+  void resolve_in_turns();
   void count_impacts(std::uint32_t self);
   void resolve_in_turn(std::uint32_t self, std::uint32_t number);
   void apply_impacts(std::uint32_t self);
@@ -166,6 +187,12 @@ class PairContacts {
     std::uint32_t robot, number;  ///< in Bodies::robots; in its impact_patches
   };
 
+  /// Robots some of which carry others, and whose contacts are solved together.
+  struct Group {
+    std::vector<std::uint32_t> robots;  ///< in Bodies::robots, in their order
+    ContactSolver solver;
+  };
+
   const Bodies& bodies_;
   const PairKernels& kernels_;
   StepContext context_;
@@ -175,6 +202,11 @@ class PairContacts {
   std::vector<Turn> turns_;                           ///< scratch
   std::vector<KnownContacts> known_;                  ///< as Bodies::robots
   std::vector<Record> records_;                       ///< at least one for each robot of this step
+  std::vector<std::uint32_t> roots_;                  ///< scratch, by record: another of its group
+  std::vector<std::uint8_t> carrying_;                ///< scratch, by record: its group is solved
+  std::vector<Group> groups_;                         ///< the first group_count_ are of this step
+  std::size_t group_count_ = 0;
+  std::vector<std::uint32_t> number_in_group_;        ///< of bodies, as Bodies::dynamic_bodies
 };
 
 }  // namespace muro::penalty

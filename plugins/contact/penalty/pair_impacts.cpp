@@ -57,7 +57,7 @@ void PairContacts::resolve_in_turns() {
     me.pushed = {};
     for (std::uint32_t number = 0; number < me.impact_patches.size(); ++number) {
       const std::int32_t other = me.impact_patches[number].other;
-      if (me.impacts < 2 && (other == no_robot || record(std::uint32_t(other)).impacts < 2)) continue;
+      if (me.group == no_group && me.impacts < 2 && (other == no_robot || record(std::uint32_t(other)).impacts < 2)) continue;
       double since = 0;
       for (const ImpactContact& c : me.impact_contacts)
         if (c.patch == number) since = std::max(since, c.point.since);

@@ -30,6 +30,7 @@ constexpr PropertyUse reads[] = {
 constexpr PropertyUse writes[] = {
     {"wrench.external", "of every robot that forces move"},
     {"contact.friction_anchors", "friction anchors, of every robot that forces move"},
+    {"contact.last_motions", "what bodies did in the last step, of the same"},
     {"contact.turning_springs", "springs against rolling and spinning, of the same, where shapes resist these"},
     {keys::contact_wrenches_of_law.name,
      "of every robot with a part in a contact: what each does, where somebody reads it"},
@@ -74,6 +75,7 @@ class Penalty final : public Algorithm {
   void step(const Step& step, Range range) override {
     // As stiff as wanted, if the step is short enough.
     StepContext context{{std::min(omega_, max_phase_step / step.dt), step.dt},
+                        omega_,
                         *last_run_ < 0 ? 0 : 1e-9 * double(step.time - *last_run_),
                         step.time,
                         gravity_};
@@ -81,9 +83,9 @@ class Penalty final : public Algorithm {
     context.impact_speed = std::max(slowest_impact, gravity_.norm() / context.stiffness.omega);
     context.correcting_speed = correcting_speed_;
     if (step.phase == 0) return scenery_contacts_->apply_forces(context, range);
-    if (step.phase == turns_phase) return pair_contacts_->resolve_in_turns();
+    if (step.phase == groups_phase) return pair_contacts_->prepare_groups();
     if (step.phase == kinematic_phase) return pair_contacts_->tell_kinematic_robots();
-    if (step.phase > turns_phase) return process_pairs(int(step.phase) - 3, range);
+    if (step.phase > groups_phase) return process_pairs(int(step.phase) - 3, range);
     if (step.phase > 1) return process_pairs(int(step.phase) - 2, range);
     *last_run_ = step.time;
     if (context.stiffness.omega < omega_) report(context.stiffness);
@@ -121,13 +123,14 @@ class Penalty final : public Algorithm {
   Out<std::int64_t> last_run_;
   std::uint8_t many_pairs_ = 0, tells_kinematic_robots_ = 0;
   const Phase for_many_{.index_space = Phase::IndexSpace::robots, .enabled = &many_pairs_};
-  static_assert(PairContacts::passes == 4);
-  static constexpr std::uint32_t turns_phase = 4, kinematic_phase = 7;
-  const Phase phases_[8] = {{Phase::IndexSpace::robots, Phase::Scope::own_robot},
+  static_assert(PairContacts::passes == 5);
+  static constexpr std::uint32_t groups_phase = 4, kinematic_phase = 8;
+  const Phase phases_[9] = {{Phase::IndexSpace::robots, Phase::Scope::own_robot},
                             {},
                             for_many_,
                             for_many_,
                             {.enabled = &many_pairs_},
+                            for_many_,
                             for_many_,
                             for_many_,
                             {.enabled = &tells_kinematic_robots_}};

@@ -68,7 +68,7 @@ struct SlopeOfCells : Trial {
 
 const Vec3 block_size(0.33, 0.27, 0.1);
 
-Outcome lies(const std::string& motion) {
+Outcome lies_on_terrain(const std::string& motion) {
   SlopeOfCells t(motion, 0, 0.8, block(3, block_size, 0.8), 0.05);
   t.run_for(2);
   const double sunk = std::abs(t.pose(*t.body).position.z() - 0.05);
@@ -283,7 +283,7 @@ std::vector<Case> heightmap_cases() {
   constexpr Features needs = feature_contact | feature_forces | feature_heightmaps,
                      with_friction = needs | feature_friction;
   return {
-      {"a box lies on a flat heightmap, not in it", "m", needs, 1e-3, lies},
+      {"a box lies on a flat heightmap, not in it", "m", needs, 1e-3, lies_on_terrain},
       {"a mesh lies on a heightmap of 20 deg as it lies on a plane", "m, rad", with_friction | feature_convex_meshes,
        2e-3, mesh_lies},
       {"a block slides down a heightmap of 30 deg with g (sin - mu cos)", "relative", with_friction, 1e-3, slides},

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// Contacts of bodies that carry each other, solved together: the forces that springs, dampers and friction have at the
+// end of the step, when all of them act.
+//
+// A contact alone knows neither what lies on its body nor what holds it from below, so a spring that is right for its
+// two bodies is too soft for what they carry. Here the velocities v of all bodies at the end of the step follow from
+//
+//     M (v - v0) = h J' f(J v),   f = push - K J v where a contact pushes, within Coulomb's cone
+//
+// with v0 the velocities without contacts, J v the relative velocities in the contacts, K = damping + h stiffness: the
+// implicit Euler method, which gains no energy however stiff a contact is. So stiffness follows from the weight of all
+// bodies that are connected. Which contacts push, and how far friction holds, is found by iteration: each is the
+// solution of one linear system.
+#pragma once
+
+#include "block_system.hpp"
+#include "bodies.hpp"
+
+namespace muro::penalty {
+
+/// A contact of a group of bodies. Forces are on the own body, the other gets the opposite.
+struct SolverContact {
+  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+  std::uint32_t body = none, other = none;  ///< in the group; none: moved by no force
+  std::uint32_t coupling = none;            ///< of both bodies
+  Vec3 normal = Vec3::UnitZ();              ///< unit, into the own body
+  Vec3 lever = Vec3::Zero(), other_lever = Vec3::Zero();  ///< m, from the centres of mass
+  Vec3 touched = Vec3::Zero();              ///< m/s: velocity of what no force moves, at the point
+  double push = 0;                          ///< N, along the normal: of the spring at the begin of the step
+  double along = 0, across = 0;             ///< N s/m: K along the normal and across
+  Vec3 spring = Vec3::Zero();               ///< N, across: of the friction spring at the begin of the step
+  double friction = 0;                      ///< coefficient
+  bool only_damps = false;                  ///< it holds the body against what moves it, and gives no force
+
+  // what is found
+  bool pushes = true;
+  double hold = 1;            ///< the part of what friction would do without its limit
+  double load = 0;            ///< N, along the normal
+  Vec3 force = Vec3::Zero();  ///< N, in all
+};
+
+class ContactSolver {
+ public:
+  /// Starts a group.
+  void start(double step);
+  /// `velocity` (m/s, of the centre of mass) and `spin` (rad/s): at the end of the step without contacts. Returns its
+  /// number.
+  std::uint32_t add_body(const law::Mobility<double>& mobility, const Vec3& velocity, const Vec3& spin);
+  SolverContact& add_contact() { return contacts_.emplace_back(); }
+  /// Finds the forces of all contacts, in the order in which they were added.
+  std::span<const SolverContact> solve();
+
+ private:
+  struct Body {
+    BlockSystem::Block mass;
+    BlockSystem::Vector momentum;  ///< at the end of the step without contacts
+  };
+  Vec3 velocity_in(const SolverContact& c) const;
+  void add_terms(const SolverContact& c);
+  void assemble();
+  bool revise(SolverContact& c, double caution) const;
+  void find_force(SolverContact& c) const;
+
+  double step_ = 0;
+  std::vector<Body> bodies_;
+  std::vector<SolverContact> contacts_;
+  std::vector<BlockSystem::Vector> velocities_, right_;
+  BlockSystem system_;
+};
+
+}  // namespace muro::penalty
