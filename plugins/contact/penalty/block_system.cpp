@@ -96,7 +96,8 @@ void BlockSystem::factorise() {
         if (rank_[m.body] <= rank_[l.body]) continue;
         const std::uint32_t both = coupling_of(l.body, m.body);
         // factors of rows behind this one are not divided yet
-        if (both != no_coupling) couplings_[both].factor.noalias() -= couplings_[m.coupling].factor * divided.transpose();
+        if (both != no_coupling)
+          couplings_[both].factor.noalias() -= couplings_[m.coupling].factor * divided.transpose();
       }
     }
     for (const Link& l : links(body))
@@ -153,8 +154,7 @@ int BlockSystem::solve(std::span<const Vector> right, std::span<Vector> x, doubl
     }
     precondition(residual_, preconditioned_);
     const double next = product(residual_, preconditioned_);
-    for (std::size_t i = 0; i < residual_.size(); ++i)
-      direction_[i] = preconditioned_[i] + next / size * direction_[i];
+    for (std::size_t i = 0; i < residual_.size(); ++i) direction_[i] = preconditioned_[i] + next / size * direction_[i];
     size = next;
   }
   return iteration;

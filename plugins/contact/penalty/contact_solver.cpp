@@ -29,6 +29,9 @@ Block at_levers(const Mat3& k, const Vec3& a, const Vec3& b) {
   return block;
 }
 
+/// Of the limit of friction; m/s.
+constexpr double precision = 2e-3, least_speed = 1e-9;
+
 Vec3 along(const Vec3& v, const Vec3& n) { return n.dot(v) * n; }
 
 /// The part of a force that its limit leaves.
@@ -61,19 +64,20 @@ std::uint32_t ContactSolver::add_body(const law::Mobility<double>& mobility, con
 }
 
 /// Of the own point over the other, m/s.
-Vec3 ContactSolver::velocity_in(const SolverContact& c) const {
-  const auto& own = velocities_[c.body];
+Vec3 ContactSolver::velocity_in(const SolverContact& c, const std::vector<BlockSystem::Vector>& velocities) {
+  const auto& own = velocities[c.body];
   const Vec3 velocity = own.head<3>() + own.tail<3>().cross(c.lever) - c.touched;
   if (c.other == SolverContact::none) return velocity;
-  const auto& other = velocities_[c.other];
+  const auto& other = velocities[c.other];
   return velocity - other.head<3>() - other.tail<3>().cross(c.other_lever);
 }
 
 /// Its dampers on the left, its springs on the right.
 void ContactSolver::add_terms(const SolverContact& c) {
-  if (!c.pushes) return;
-  const Mat3 k = damper(step_ * c.along, step_ * c.hold * c.across, c.normal);
-  const Vec3 impulse = (step_ * c.push) * c.normal - (step_ * c.hold) * c.spring + k * c.touched;
+  if (!c.pushes && c.hold == 0) return;
+  const double normal = c.pushes ? step_ : 0, tangential = step_ * c.hold;
+  const Mat3 k = damper(normal * c.along, tangential * c.across, c.normal);
+  const Vec3 impulse = (normal * c.push) * c.normal - tangential * c.spring + k * c.touched;
   system_.diagonal(c.body) += at_levers(k, c.lever, c.lever);
   right_[c.body].head<3>() += impulse;
   right_[c.body].tail<3>() += c.lever.cross(impulse);
@@ -93,51 +97,108 @@ void ContactSolver::assemble() {
   for (const SolverContact& c : contacts_) add_terms(c);
 }
 
-/// What the contact does at the velocities that were found, within its limits. Returns whether that is something else
-/// than what was taken for granted. `caution`: the part of a change that is taken back, from 0.
-bool ContactSolver::revise(SolverContact& c, double caution) const {
+ContactSolver::Reaction ContactSolver::reaction_at(const SolverContact& c, const Vec3& velocity) {
+  const double away = c.normal.dot(velocity);
+  return {c.push - c.along * away, c.spring + c.across * (velocity - away * c.normal)};
+}
+
+/// What the contact does at the velocities so far. Returns whether that is something else than what was taken for
+/// granted.
+bool ContactSolver::revise(SolverContact& c) const {
   if (c.only_damps) return false;
-  constexpr double precision = 2e-3;  // of the cone
-  const Vec3 velocity = velocity_in(c);
-  const bool pushed = c.pushes;
-  const double load = c.push - c.along * c.normal.dot(velocity);
-  c.pushes = load > 0;
+  const auto [load, drag] = reaction_at(c, velocity_in(c, velocities_));
+  const bool pushes = load > 0;
+  const double hold = part_within(drag, c.limit);
+  const bool changed = pushes != c.pushes || std::abs(hold - c.hold) * drag.norm() > precision * c.limit;
+  c.pushes = pushes;
+  c.hold = hold;
   c.load = std::max(load, 0.0);
-  if (!c.pushes) return pushed;
-  const Vec3 across = c.spring + c.across * (velocity - along(velocity, c.normal));
-  const double most = c.friction * c.load, found = part_within(across, most);
-  const bool changed = !pushed || std::abs(found - c.hold) * across.norm() > precision * most;
-  c.hold = found + caution * (c.hold - found);
+  return changed;
+}
+
+/// J: how the sum of all potentials changes from the velocities so far towards the solution, at `part` of the way.
+double ContactSolver::slope_at(double part) const {
+  double slope = 0;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const BlockSystem::Vector way = solution_[i] - velocities_[i];
+    slope += way.dot(bodies_[i].mass * (velocities_[i] + part * way) - bodies_[i].momentum);
+  }
+  for (const SolverContact& c : contacts_) {
+    const Vec3 before = velocity_in(c, velocities_), way = velocity_in(c, solution_) - before;
+    const auto [load, drag] = reaction_at(c, before + part * way);
+    slope -= step_ * (c.only_damps ? load : std::max(load, 0.0)) * c.normal.dot(way);
+    slope += step_ * (c.only_damps ? 1 : part_within(drag, c.limit)) * drag.dot(way - along(way, c.normal));
+  }
+  return slope;
+}
+
+/// Goes towards the solution of the linear system, about as far as potentials fall. Returns whether that is all the
+/// way.
+bool ContactSolver::approach_solution() {
+  constexpr double flat = 0.1;  // of the slope at the start: as good as the minimum
+  double part = 1;
+  const double most = -flat * slope_at(0);
+  if (most > 0 && slope_at(1) > most) {
+    double low = 0, high = 1;
+    for (int i = 0; i < 20; ++i) {
+      part = 0.5 * (low + high);
+      const double slope = slope_at(part);
+      if (std::abs(slope) <= most) break;
+      (slope > 0 ? high : low) = part;
+    }
+  }
+  for (std::size_t i = 0; i < bodies_.size(); ++i) velocities_[i] += part * (solution_[i] - velocities_[i]);
+  return part == 1;
+}
+
+/// Newton's method, with the limits that friction has.
+void ContactSolver::find_velocities() {
+  constexpr int most_iterations = 20;
+  for (int iteration = 1; iteration <= most_iterations; ++iteration) {
+    assemble();
+    solution_.assign(velocities_.begin(), velocities_.end());
+    double mass = 0;
+    for (const Body& b : bodies_) mass += b.mass(0, 0);
+    system_.solve(right_, solution_, mass * least_speed * least_speed);
+    bool changed = !approach_solution();
+    for (SolverContact& c : contacts_) changed = revise(c) || changed;
+    if (!changed) return;
+  }
+}
+
+/// Returns whether friction of some contact that slides has another limit by now.
+bool ContactSolver::revise_limits() {
+  bool changed = false;
+  for (SolverContact& c : contacts_) {
+    const double limit = c.friction * c.load;
+    const Vec3 drag = reaction_at(c, velocity_in(c, velocities_)).drag;
+    const bool slides = c.hold < 1 || drag.norm() > limit;
+    changed = changed || (slides && std::abs(limit - c.limit) > precision * std::max(limit, c.limit));
+    c.limit = limit;
+    if (!c.only_damps) c.hold = part_within(drag, limit);
+  }
   return changed;
 }
 
 /// At the velocities that were found, and within the cone.
 void ContactSolver::find_force(SolverContact& c) const {
-  c.force = Vec3::Zero();
-  const Vec3 velocity = velocity_in(c);
-  c.load = c.only_damps ? 0 : std::max(c.push - c.along * c.normal.dot(velocity), 0.0);
-  if (!(c.load > 0)) return;
-  const Vec3 across = c.spring + c.across * (velocity - along(velocity, c.normal));
-  c.hold = std::min(c.hold, part_within(across, c.friction * c.load));
-  c.force = c.load * c.normal - c.hold * across;
+  const Vec3 drag = reaction_at(c, velocity_in(c, velocities_)).drag;
+  if (c.only_damps) c.load = 0;
+  c.hold = part_within(drag, c.friction * c.load);
+  c.force = c.load * c.normal - c.hold * drag;
 }
 
 std::span<const SolverContact> ContactSolver::solve() {
-  constexpr int most_iterations = 24, sure_iterations = 6;
-  constexpr double precision = 1e-9;  // m/s
+  constexpr int most_iterations = 12;
   system_.start(std::uint32_t(bodies_.size()));
   right_.resize(bodies_.size());
-  double mass = 0;
-  for (const Body& b : bodies_) mass += b.mass(0, 0);
   for (SolverContact& c : contacts_)
     if (c.other != SolverContact::none) c.coupling = system_.couple(c.body, c.other);
   system_.find_order();
+  for (SolverContact& c : contacts_) revise(c);
   for (int iteration = 1; iteration <= most_iterations; ++iteration) {
-    assemble();
-    system_.solve(right_, velocities_, mass * precision * precision);
-    bool changed = false;
-    for (SolverContact& c : contacts_) changed = revise(c, iteration > sure_iterations ? 0.5 : 0) || changed;
-    if (!changed) break;
+    find_velocities();
+    if (!revise_limits()) break;
   }
   for (SolverContact& c : contacts_) find_force(c);
   return contacts_;

@@ -9,8 +9,10 @@
 //
 // with v0 the velocities without contacts, J v the relative velocities in the contacts, K = damping + h stiffness: the
 // implicit Euler method, which gains no energy however stiff a contact is. So stiffness follows from the weight of all
-// bodies that are connected. Which contacts push, and how far friction holds, is found by iteration: each is the
-// solution of one linear system.
+// bodies that are connected. Which contacts push, and how far friction holds, is found by Newton's method with a search
+// along each of its steps, as in Todorov, Convex and analytically-invertible dynamics with contacts and constraints,
+// ICRA 2014: with given limits of friction the velocities are where a convex function has its minimum. The limits are
+// those of the loads found, by a second iteration around this one.
 #pragma once
 
 #include "block_system.hpp"
@@ -22,16 +24,17 @@ namespace muro::penalty {
 struct SolverContact {
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-  std::uint32_t body = none, other = none;  ///< in the group; none: moved by no force
-  std::uint32_t coupling = none;            ///< of both bodies
-  Vec3 normal = Vec3::UnitZ();              ///< unit, into the own body
+  std::uint32_t body = none, other = none;                ///< in the group; none: moved by no force
+  std::uint32_t coupling = none;                          ///< of both bodies
+  Vec3 normal = Vec3::UnitZ();                            ///< unit, into the own body
   Vec3 lever = Vec3::Zero(), other_lever = Vec3::Zero();  ///< m, from the centres of mass
-  Vec3 touched = Vec3::Zero();              ///< m/s: velocity of what no force moves, at the point
-  double push = 0;                          ///< N, along the normal: of the spring at the begin of the step
-  double along = 0, across = 0;             ///< N s/m: K along the normal and across
-  Vec3 spring = Vec3::Zero();               ///< N, across: of the friction spring at the begin of the step
-  double friction = 0;                      ///< coefficient
-  bool only_damps = false;                  ///< it holds the body against what moves it, and gives no force
+  Vec3 touched = Vec3::Zero();                            ///< m/s: velocity of what no force moves, at the point
+  double push = 0;               ///< N, along the normal: of the spring at the begin of the step
+  double along = 0, across = 0;  ///< N s/m: K along the normal and across
+  Vec3 spring = Vec3::Zero();    ///< N, across: of the friction spring at the begin of the step
+  double friction = 0;           ///< coefficient
+  double limit = 0;              ///< N: of friction, as expected; 0 where nothing is known
+  bool only_damps = false;       ///< it holds the body against what moves it, and gives no force
 
   // what is found
   bool pushes = true;
@@ -56,16 +59,26 @@ class ContactSolver {
     BlockSystem::Block mass;
     BlockSystem::Vector momentum;  ///< at the end of the step without contacts
   };
-  Vec3 velocity_in(const SolverContact& c) const;
+  static Vec3 velocity_in(const SolverContact& c, const std::vector<BlockSystem::Vector>& velocities);
   void add_terms(const SolverContact& c);
   void assemble();
-  bool revise(SolverContact& c, double caution) const;
+  /// N: what the contact does without its limits, along the normal and, against the force, across it.
+  struct Reaction {
+    double load;
+    Vec3 drag;
+  };
+  static Reaction reaction_at(const SolverContact& c, const Vec3& velocity);
+  bool revise(SolverContact& c) const;
+  void find_velocities();
+  bool revise_limits();
+  double slope_at(double part) const;
+  bool approach_solution();
   void find_force(SolverContact& c) const;
 
   double step_ = 0;
   std::vector<Body> bodies_;
   std::vector<SolverContact> contacts_;
-  std::vector<BlockSystem::Vector> velocities_, right_;
+  std::vector<BlockSystem::Vector> velocities_, solution_, right_;
   BlockSystem system_;
 };
 

@@ -262,13 +262,14 @@ void PairContacts::find_springs(std::uint32_t self) {
     const FrictionAnchor* const before = previous(old, i, c.pair, contact.point);
     c.lasts = before != nullptr;
     c.rebound = before ? before->rebound : 0;
+    c.load = before ? before->load : 0;
     if (before) c.before = before->point;
     Vec3::Map(point.displacement) = before ? before->displacement : Vec3::Zero();
     point.overlap = 0;
     point.zeta = c.zeta;
     point.patch = no_patch;
     if (c.patch == in_impact) continue;
-    if (any_impacts && point.approach < 0 && was_in_impact(old, c.pair)) {  // it has what it should have
+    if (any_impacts && point.approach < -context_.impact_speed && was_in_impact(old, c.pair)) {  // it parts
       c.patch = had_impact;
       continue;
     }
@@ -276,6 +277,7 @@ void PairContacts::find_springs(std::uint32_t self) {
     if (!patch.has_load) set_load(self, patch);
     point.patch = &patch.effective_mass.along;
     point.overlap = unmoved_overlap(context_, contact, before, point.approach);
+    if (patch.other != no_robot) find_lever_shifts(self, patch, contact.point, c);
   }
 }
 
@@ -302,13 +304,17 @@ void PairContacts::apply_forces(std::uint32_t self) {
       robot.anchors.push_back(anchor_of_impact(c.pair));
       continue;
     }
-    robot.anchors.push_back({c.pair, contact.point, Vec3::Map(point.displacement), point.overlap, c.rebound});
+    robot.anchors.push_back({c.pair, contact.point, Vec3::Map(point.displacement), point.overlap, c.rebound,
+                             me.group == no_group ? 0 : c.load});
     const Vec3 force = Vec3::Map(point.force);
     ContactPatch& patch = me.patches[c.patch];
-    const DynamicBody& body = bodies_.dynamic_bodies[patch.body];
-    body.wrench->add_force(force, contact.point - body.pose->position);
+    if (patch.other != no_robot) {
+      apply_to_pair(c, patch, force, contact.point);
+    } else {
+      const DynamicBody& body = bodies_.dynamic_bodies[patch.body];
+      body.wrench->add_force(force, contact.point - body.pose->position);
+    }
     if (told) told->wrench.force = force;
-    if (patch.other != no_robot) apply_reaction(self, patch, force, contact.point, c.lasts ? &c.before : nullptr);
     if (!known.resist_turning) continue;
     if (contact.surface.rolling_resistance > 0 || contact.surface.spinning_resistance > 0) {
       const TurningSpring* const spring =
@@ -360,24 +366,30 @@ Vec3 PairContacts::centre_velocity(std::int32_t robot, std::uint32_t body) const
   return u.twist->at(vector_of(mobility(robot, body).centre) - u.pose->position);
 }
 
-/// The force of a contact on the other robot. `before`: where it was in the step before; null for a new one. Levers are
-/// those that both have when the force acts, in the middle of the step where poses and twists are of one instant, and
-/// at its start where twists lag by half a step: so the pair keeps its angular momentum.
-void PairContacts::apply_reaction(std::uint32_t self, ContactPatch& patch, const Vec3& force, const Vec3& point,
-                                  const Vec3* before) const {
-  const DynamicBody& own = bodies_.dynamic_bodies[patch.body];
-  const DynamicBody& other = bodies_.dynamic_bodies[patch.other_body];
-  patch.reaction.add_force(-force, point - other.pose->position);
+/// How far the levers of a contact of two robots in which its force acts are from those of the begin of the step, m:
+/// where poses and twists are of one instant, they are those of the middle of the step, and those of its start where
+/// twists lag by half a step. So the pair keeps its angular momentum.
+void PairContacts::find_lever_shifts(std::uint32_t self, const ContactPatch& patch, const Vec3& at, Computed& c) const {
   const Vec3 &v = patch.velocity, &u = patch.other_velocity;
-  Vec3 point_velocity = 0.5 * (v + u);  // velocity of the point, which belongs to no body
-  if (before && context_.elapsed > 0) {
-    const Vec3 seen = (point - *before) / context_.elapsed;
+  Vec3 point_velocity = 0.5 * (v + u);  // of the point, which belongs to no body
+  if (c.lasts && context_.elapsed > 0) {
+    const Vec3 seen = (at - c.before) / context_.elapsed;
     if ((seen - point_velocity).norm() <= (v - u).norm()) point_velocity = seen;  // else it is another point
   }
   const double half = 0.5 * context_.stiffness.h;
   const double lag = *bodies_.robots[self].lag, other_lag = *bodies_.robots[std::size_t(patch.other)].lag;
-  own.wrench->torque += (half * (point_velocity - (1 - 2 * lag) * v)).cross(force);
-  patch.reaction.torque -= (half * (point_velocity - (1 - 2 * other_lag) * u)).cross(force);
+  c.lever_shift = half * (point_velocity - (1 - 2 * lag) * v);
+  c.other_lever_shift = half * (point_velocity - (1 - 2 * other_lag) * u);
+}
+
+/// The force of a contact on both robots.
+void PairContacts::apply_to_pair(const Computed& c, ContactPatch& patch, const Vec3& force, const Vec3& point) const {
+  const DynamicBody& own = bodies_.dynamic_bodies[patch.body];
+  const DynamicBody& other = bodies_.dynamic_bodies[patch.other_body];
+  own.wrench->add_force(force, point - own.pose->position);
+  own.wrench->torque += c.lever_shift.cross(force);
+  patch.reaction.add_force(-force, point - other.pose->position);
+  patch.reaction.torque -= c.other_lever_shift.cross(force);
 }
 
 /// In the next pass the list gets what others have computed, while these read from here.

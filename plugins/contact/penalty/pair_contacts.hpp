@@ -103,7 +103,10 @@ class PairContacts {
     std::uint32_t patch = 0;                ///< in Record::patches, or one of the above
     bool lasts = false;                     ///< it was there in the step before
     double rebound = 0;                     ///< m/s: see FrictionAnchor
-    Vec3 before = Vec3::Zero();             ///< m, world: then there, if it lasts
+    double load = 0;                        ///< N: see FrictionAnchor
+    /// m, of contacts of two robots: see find_lever_shifts
+    Vec3 lever_shift = Vec3::Zero(), other_lever_shift = Vec3::Zero();
+    Vec3 before = Vec3::Zero();  ///< m, world: then there, if it lasts
   };
   /// What is known of the contacts of a robot as long as their list stands for the same.
   struct KnownContacts {
@@ -174,8 +177,8 @@ class PairContacts {
   void find_springs(std::uint32_t self);
   Vec3 resist_turning(std::uint32_t self, ContactPatch& patch, const Contact& contact, const TurningSpring& spring,
                       double normal_force);
-  void apply_reaction(std::uint32_t self, ContactPatch& patch, const Vec3& force, const Vec3& point,
-                      const Vec3* before) const;
+  void find_lever_shifts(std::uint32_t self, const ContactPatch& patch, const Vec3& at, Computed& c) const;
+  void apply_to_pair(const Computed& c, ContactPatch& patch, const Vec3& force, const Vec3& point) const;
   Vec3 centre_velocity(std::int32_t robot, std::uint32_t body) const;
   Record& record(std::uint32_t robot) { return records_[record_of_[robot]]; }
   const Record& record(std::uint32_t robot) const { return records_[record_of_[robot]]; }
@@ -206,7 +209,7 @@ class PairContacts {
   std::vector<std::uint8_t> carrying_;                ///< scratch, by record: its group is solved
   std::vector<Group> groups_;                         ///< the first group_count_ are of this step
   std::size_t group_count_ = 0;
-  std::vector<std::uint32_t> number_in_group_;        ///< of bodies, as Bodies::dynamic_bodies
+  std::vector<std::uint32_t> number_in_group_;  ///< of bodies, as Bodies::dynamic_bodies
 };
 
 }  // namespace muro::penalty

@@ -121,8 +121,7 @@ const LastMotion* PairContacts::last_motion(std::uint32_t self, std::uint32_t bo
 
 /// N, N m about the centre of mass: what must have acted on a body in its last step, beside its weight and contacts of
 /// this algorithm. Joints answer to contacts; so it is taken for no more than these were.
-Push PairContacts::what_else_acts(const Mobility& mobility, const DynamicBody& body,
-                                                const LastMotion& last) const {
+Push PairContacts::what_else_acts(const Mobility& mobility, const DynamicBody& body, const LastMotion& last) const {
   const Vec3 arm = vector_of(mobility.centre) - body.pose->position;
   const Vec3 speed_up = (body.twist->at(arm) - last.twist.at(arm)) / context_.elapsed - context_.gravity;
   const Vec3 turn_up = (body.twist->angular - last.twist.angular) / context_.elapsed;
@@ -171,18 +170,19 @@ void PairContacts::add_contacts(std::uint32_t self, double mass, ContactSolver& 
     s.lever = contact.point - vector_of(mobility(std::int32_t(self), c.body).centre);
     if (c.other_robot != no_robot) {
       s.other = number_in_group_[c.other_body];
-      s.other_lever = contact.point - vector_of(mobility(c.other_robot, c.other_body).centre);
+      s.lever += c.lever_shift;
+      s.other_lever = contact.point - vector_of(mobility(c.other_robot, c.other_body).centre) + c.other_lever_shift;
     } else {
       s.touched = bodies_.velocity(contact.other, contact.point);
     }
     Vec3::Map(point.displacement) += context_.elapsed * Vec3::Map(point.velocity);
     const Vec3 displacement = Vec3::Map(point.displacement);
     s.along = s.across = part * held;
-    s.push = std::min(part * stiffness * (contact.depth - point.overlap + point.ahead),
-                      s.along * context_.correcting_speed);
+    s.push =
+        std::min(part * stiffness * (contact.depth - point.overlap + point.ahead), s.along * context_.correcting_speed);
     s.spring = part * stiffness * (displacement - contact.normal * contact.normal.dot(displacement));
     s.friction = contact.surface.friction;
-    s.pushes = s.push + s.along * point.approach > 0;
+    s.limit = s.friction * c.load;
     if (!c.lasts && point.approach > context_.impact_speed)
       c.rebound = contact.surface.restitution * point.approach;
     else
@@ -191,7 +191,6 @@ void PairContacts::add_contacts(std::uint32_t self, double mass, ContactSolver& 
     s.along = s.across = part * hardness * mass / h;
     s.push = s.along * c.rebound;
     s.spring = Vec3::Zero();
-    s.pushes = true;
   }
 }
 
@@ -219,10 +218,11 @@ void PairContacts::add_supports(std::uint32_t self, double mass, ContactSolver& 
 void PairContacts::take_forces(std::uint32_t self, std::span<const SolverContact>& found) {
   KnownContacts& known = known_[self];
   for (std::size_t i = 0; i < known.computed.size(); ++i) {
-    const Computed& c = known.computed[i];
+    Computed& c = known.computed[i];
     if (!is_solved(c)) continue;
     PairPoint& point = known.points[i];
     const SolverContact& s = found.front();
+    c.load = s.load;
     found = found.subspan(1);
     Vec3::Map(point.force) = s.force;
     Vec3 displacement = Vec3::Map(point.displacement);

@@ -18,6 +18,9 @@ bool PairContacts::add_impact(std::uint32_t self, const Contact& contact, std::i
   if (!(-velocity.dot(contact.normal) > context_.impact_speed)) return false;  // most, before anything is looked up
   const FrictionAnchor* const before =
       previous<FrictionAnchor>(*robot.anchors, place, bodies_.pair_of(contact), contact.point);
+  // What does not rebound rests in the step after an impact, whatever comes down on it.
+  const bool comes_to_rest = contact.surface.restitution * -velocity.dot(contact.normal) < context_.impact_speed;
+  if (comes_to_rest && was_in_impact(*robot.anchors, bodies_.pair_of(contact))) return false;
   const auto time = impact_of(context_, contact, before, velocity, step, falls);
   if (!time) return false;
   Record& me = record(self);
@@ -57,7 +60,8 @@ void PairContacts::resolve_in_turns() {
     me.pushed = {};
     for (std::uint32_t number = 0; number < me.impact_patches.size(); ++number) {
       const std::int32_t other = me.impact_patches[number].other;
-      if (me.group == no_group && me.impacts < 2 && (other == no_robot || record(std::uint32_t(other)).impacts < 2)) continue;
+      if (me.group == no_group && me.impacts < 2 && (other == no_robot || record(std::uint32_t(other)).impacts < 2))
+        continue;
       double since = 0;
       for (const ImpactContact& c : me.impact_contacts)
         if (c.patch == number) since = std::max(since, c.point.since);

@@ -27,8 +27,8 @@ struct Stack : Trial {
     double height = 0;
     for (const Layer& l : layers) {
       const std::string name = "box_" + std::to_string(boxes.size());
-      boxes.push_back(&add(name, block(l.mass, l.size, of_loads),
-                           {{0, 0, height + 0.5 * l.size.z()}, Quat::Identity()}));
+      boxes.push_back(
+          &add(name, block(l.mass, l.size, of_loads), {{0, 0, height + 0.5 * l.size.z()}, Quat::Identity()}));
       height += l.size.z();
     }
     start();
@@ -62,10 +62,9 @@ Outcome deepest(const std::string& motion, const std::vector<std::vector<Stack::
 
 Outcome heavy_on_light(const std::string& motion) {
   const Vec3 board(0.8, 0.6, 0.02), load(0.3, 0.3, 0.2);
-  return deepest(motion, {{{1, board}, {1, load}},
-                          {{1, board}, {10, load}},
-                          {{0.1, board}, {10, load}},
-                          {{0.1, board}, {100, load}}});
+  return deepest(
+      motion,
+      {{{1, board}, {1, load}}, {{1, board}, {10, load}}, {{0.1, board}, {10, load}}, {{0.1, board}, {100, load}}});
 }
 Outcome light_on_heavy(const std::string& motion) {
   const Vec3 low(0.4, 0.4, 0.2), high(0.1, 0.1, 0.1);
@@ -94,8 +93,8 @@ Outcome rover_on_a_plank(const std::string& motion) {
               {{0, 0, 0.09 + 0.08}, Quat::Identity()});
     t.start();
     t.run_for(2);
-    const double sunk = 0.08 - t.pose(board).position.z() - 0.01, wheels = t.pose(board).position.z() + 0.01 + 0.09 -
-                                                                           t.pose(rover).position.z();
+    const double sunk = 0.08 - t.pose(board).position.z() - 0.01,
+                 wheels = t.pose(board).position.z() + 0.01 + 0.09 - t.pose(rover).position.z();
     const double most = std::max(std::abs(sunk) / 2, std::abs(wheels));
     if (most > worst.error)
       worst = {most, "plank " + text(sunk) + ", rover " + text(wheels) + " m too low at " + text(rate) + " Hz"};
