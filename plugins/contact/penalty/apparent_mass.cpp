@@ -4,6 +4,9 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
 
 namespace muro::penalty {
 
@@ -60,8 +63,8 @@ MassProperties mass_properties_of(const Inertia& body) {
   return properties(1 / body.mass, body.com, body.tensor().inverse());
 }
 
-std::vector<MassProperties> apparent_masses(std::span<const Link> links, std::span<const Inertia> inertias,
-                                            std::span<const double> positions, std::span<const std::uint32_t> bodies) {
+ApparentMasses apparent_masses(std::span<const Link> links, std::span<const Inertia> inertias,
+                               std::span<const double> positions, std::span<const std::uint32_t> bodies) {
   const Tree tree(links, positions);
   Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(tree.columns(), tree.columns());
   for (std::size_t i = 0; i < links.size(); ++i) {
@@ -77,17 +80,51 @@ std::vector<MassProperties> apparent_masses(std::span<const Link> links, std::sp
     if (mass(k, k) < least) mass(k, k) = least;
   const Eigen::LDLT<Eigen::MatrixXd> solver(mass);
 
-  std::vector<MassProperties> apparent;
-  for (const std::uint32_t i : bodies) {
+  ApparentMasses apparent;
+  const auto rows = 6 * Eigen::Index(bodies.size());
+  Eigen::MatrixXd all(rows, tree.columns()), roots = Eigen::MatrixXd::Zero(rows, rows);
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    const std::uint32_t i = bodies[k];
     const Vec3& com = inertias[i].com;
     const Jacobian j = tree.jacobian(i, tree[i] * com);
     const Eigen::Matrix<double, 6, 6> mobility = j * solver.solve(j.transpose());
     const Mat3 translation = mobility.topLeftCorner<3, 3>(), rotation = mobility.bottomRightCorner<3, 3>();
     const Mat3 r = tree[i].orientation.toRotationMatrix();
-    const Mat3 own = r.transpose() * (0.5 * (rotation + rotation.transpose())) * r;
-    apparent.push_back(properties(Eigen::SelfAdjointEigenSolver<Mat3>(translation).eigenvalues().maxCoeff(), com, own));
+    const Mat3 turning = 0.5 * (rotation + rotation.transpose()), own = r.transpose() * turning * r;
+    const double inverse_mass = Eigen::SelfAdjointEigenSolver<Mat3>(translation).eigenvalues().maxCoeff();
+    apparent.bodies.push_back(properties(inverse_mass, com, own));
+    const auto row = 6 * Eigen::Index(k);
+    all.middleRows<6>(row) = j;
+    roots.block<3, 3>(row, row) = Mat3::Identity() / std::sqrt(inverse_mass);
+    roots.block<3, 3>(row + 3, row + 3) = Eigen::SelfAdjointEigenSolver<Mat3>(turning).operatorInverseSqrt();
   }
+  apparent.coupling = roots * all * solver.solve(all.transpose()) * roots;
   return apparent;
+}
+
+double ApparentMasses::shared_by(std::span<const std::uint32_t> touched) const {
+  constexpr int iterations = 12;
+  constexpr double margin = 1.1;  // of what the iteration does not reach
+  if (touched.size() < 2) return 1;
+  const auto block = [&](std::size_t i, std::size_t k) {
+    return coupling.block<6, 6>(6 * Eigen::Index(touched[i]), 6 * Eigen::Index(touched[k]));
+  };
+  std::array<Eigen::Matrix<double, 6, 1>, most_touched> x, y;
+  const std::size_t count = std::min(touched.size(), most_touched);
+  for (std::size_t i = 0; i < count; ++i) x[i] << 1, 1.1, 1.2, 1.3 + double(i), 1.4, -1;
+  double size = 1;
+  for (int n = 0; n < iterations; ++n) {
+    double square = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      y[i].setZero();
+      for (std::size_t k = 0; k < count; ++k) y[i].noalias() += block(i, k) * x[k];
+      square += y[i].squaredNorm();
+    }
+    size = std::sqrt(square);
+    if (!(size > 0)) return 1;
+    for (std::size_t i = 0; i < count; ++i) x[i] = y[i] / size;
+  }
+  return std::max(1.0, margin * size);
 }
 
 }  // namespace muro::penalty

@@ -2,6 +2,7 @@
 // Effective masses of the links of robots.
 #pragma once
 
+#include <Eigen/Core>
 #include <span>
 #include <vector>
 
@@ -18,7 +19,18 @@ MassProperties mass_properties_of(const Inertia& body);
 /// J. Robotics and Automation 3, 1987), without the coupling of translation and rotation, and with the greatest of the
 /// inverse masses of all directions: joints that are held make a body heavier than that, never lighter. `inertias` and
 /// `positions` (rad or m): one a link.
-std::vector<MassProperties> apparent_masses(std::span<const Link> links, std::span<const Inertia> inertias,
-                                            std::span<const double> positions, std::span<const std::uint32_t> bodies);
+struct ApparentMasses {
+  static constexpr std::size_t most_touched = 32;
+
+  std::vector<MassProperties> bodies;
+  /// J M^-1 J^T of all of them, in units of their own inverse masses and inertias: 6 rows a body.
+  Eigen::MatrixXd coupling;
+
+  /// How many times heavier bodies seem when forces act on several of them (numbers in `bodies`) than what moves, at
+  /// most: each of them counts what they share. That is the largest eigenvalue of their part of `coupling`.
+  double shared_by(std::span<const std::uint32_t> touched) const;
+};
+ApparentMasses apparent_masses(std::span<const Link> links, std::span<const Inertia> inertias,
+                               std::span<const double> positions, std::span<const std::uint32_t> bodies);
 
 }  // namespace muro::penalty

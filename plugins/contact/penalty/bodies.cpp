@@ -9,6 +9,7 @@
 #include "apparent_mass.hpp"
 #include "muro/toolkit/mass_properties.hpp"
 #include "muro/toolkit/random.hpp"
+#include "plugins/common/contact_geometry/carried_mass.hpp"
 #include "plugins/common/text/quote.hpp"
 
 namespace muro::penalty {
@@ -89,7 +90,7 @@ void Bodies::connect_robot(Connector& c, const RobotView& view, bool resists_tur
   Robot r;
   r.contacts = c.read_list(view.base(), keys::contacts);
   r.anchors = c.variable_list(view.base(), anchors);
-  r.last_motions = c.variable_list(view.base(), last_motions);
+  r.solved = c.variable_list(view.base(), solved_contacts);
   r.told = c.derived_list(view.base(), keys::contact_wrenches_of_law);
   if (resists_turning) r.turning_springs = c.variable_list(view.base(), turning_springs);
   r.world = c.input(view.base(), keys::contact_world, kinematic_world);
@@ -105,12 +106,16 @@ void Bodies::connect_robot(Connector& c, const RobotView& view, bool resists_tur
     r.impact_time = c.write(view.base(), keys::impact_time);
     r.impact = c.write(view.base(), keys::impact);
   }
+  if (c.is_used(view.base(), keys::carried_mass, usage::input))
+    r.carried_mass = c.write(view.base(), keys::carried_mass);
   robot_of[view.number] = std::int32_t(robots.size());
   robots.push_back(r);
+  apparent_masses.emplace_back();
   if (r.is_single_body) return add_dynamic_body(c, view.base(), mass_properties_of(composite));
   links.insert(links.begin(), 0);
-  const std::vector<MassProperties> apparent = apparent_masses(view.links, inertias, positions, links);
-  for (std::size_t i = 0; i < links.size(); ++i) add_dynamic_body(c, view.links[links[i]].object, apparent[i]);
+  const ApparentMasses& apparent = apparent_masses.back() =
+      penalty::apparent_masses(view.links, inertias, positions, links);
+  for (std::size_t i = 0; i < links.size(); ++i) add_dynamic_body(c, view.links[links[i]].object, apparent.bodies[i]);
 }
 
 void Bodies::add_dynamic_body(Connector& c, ObjectId body, const MassProperties& mass) {

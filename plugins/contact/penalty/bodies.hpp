@@ -4,15 +4,16 @@
 
 #include <vector>
 
+#include "apparent_mass.hpp"
 #include "contact_law.hpp"
 #include "friction_anchor.hpp"
-#include "last_motion.hpp"
 #include "muro/algorithm.hpp"
 #include "muro/vocabulary.hpp"
 #include "patch.hpp"
 #include "plugins/common/contact_geometry/contact_responsibility.hpp"
 #include "plugins/common/contact_geometry/impact_correction.hpp"
 #include "restitution.hpp"
+#include "solved_contact.hpp"
 #include "turning_spring.hpp"
 
 namespace muro::penalty {
@@ -43,7 +44,7 @@ struct Robot {
   ListIn<Contact> contacts;
   ListOut<FrictionAnchor> anchors;
   ListOut<TurningSpring> turning_springs;        ///< empty: no shape resists rolling or spinning
-  ListOut<LastMotion> last_motions;              ///< of its bodies, in their order
+  ListOut<SolvedContact> solved;                 ///< contacts that it has computed
   ListOut<ContactWrench> told;                   ///< see Bodies::tells_contacts
   std::uint32_t first_body = 0, body_count = 1;  ///< in Bodies::dynamic_bodies; the first is that of the base
   double mass = 0;                               ///< kg, of all its bodies
@@ -53,6 +54,7 @@ struct Robot {
   In<double> lag;           ///< see keys::twist_lag
   In<double> impact_step;   ///< see keys::impact_step; none: its motion does not correct paths
   Out<std::int64_t> impact_time;
+  Out<double> carried_mass;  ///< none: its motion resolves no contacts
   Out<ImpactCorrection> impact;
   std::uint64_t order_key = 0;  ///< of two robots, the one with the lower key computes their contacts
 };
@@ -74,10 +76,11 @@ struct Bodies {
   std::vector<std::uint32_t> by_order_key;  ///< numbers of `robots`, the lowest key first
   std::vector<KinematicRobot> kinematic_robots;
   std::vector<DynamicBody> dynamic_bodies;
-  std::vector<std::int32_t> robot_of;   ///< by robot number: in `robots`, or no_robot
-  std::vector<MassProperties> masses;   ///< all different
-  std::vector<Material> materials;      ///< of all shapes; a pair has the larger restitution of two
-  bool tells_contacts = false;          ///< somebody reads what each contact does
+  std::vector<std::int32_t> robot_of;           ///< by robot number: in `robots`, or no_robot
+  std::vector<MassProperties> masses;           ///< all different
+  std::vector<ApparentMasses> apparent_masses;  ///< of `robots`; empty of those that are one body
+  std::vector<Material> materials;              ///< of all shapes; a pair has the larger restitution of two
+  bool tells_contacts = false;                  ///< somebody reads what each contact does
   bool tells_kinematic_robots = false;  ///< the same of contacts with robots that no force moves, at some time at least
 
   void connect(Connector& c);

@@ -182,7 +182,8 @@ bool ContactSolver::revise_limits() {
 
 /// At the velocities that were found, and within the cone.
 void ContactSolver::find_force(SolverContact& c) const {
-  const Vec3 drag = reaction_at(c, velocity_in(c, velocities_)).drag;
+  const Vec3 velocity = velocity_in(c, velocities_), drag = reaction_at(c, velocity).drag;
+  c.away = c.normal.dot(velocity);
   if (c.only_damps) c.load = 0;
   c.hold = part_within(drag, c.friction * c.load);
   c.force = c.load * c.normal - c.hold * drag;

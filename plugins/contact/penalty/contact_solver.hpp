@@ -40,6 +40,7 @@ struct SolverContact {
   bool pushes = true;
   double hold = 1;            ///< the part of what friction would do without its limit
   double load = 0;            ///< N, along the normal
+  double away = 0;            ///< m/s: at which the points part at the end of the step
   Vec3 force = Vec3::Zero();  ///< N, in all
 };
 

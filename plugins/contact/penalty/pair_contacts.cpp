@@ -34,6 +34,7 @@ void PairContacts::add_records() {
     r->impact_patches.reserve(8);
     r->impact_contacts.reserve(32);
     r->points.reserve(32);
+    r->touched.reserve(8);
     if (bodies_.tells_contacts) r->told.reserve(32);
   }
 }
@@ -62,8 +63,7 @@ void PairContacts::pass(int which, std::uint32_t robot) {
       apply_impacts(robot);
       return keep_told(robot);
     case 4:
-      add_reactions(robot);
-      return keep_motion(robot);
+      return add_reactions(robot);
   }
 }
 
@@ -73,6 +73,7 @@ void PairContacts::set_up(std::uint32_t self) {
   me.first_body = robot.first_body;
   me.mobilities.clear();
   me.springs.assign(robot.body_count, {});
+  me.touched.clear();
   for (std::uint32_t u = robot.first_body; u < robot.first_body + robot.body_count; ++u) {
     const DynamicBody& body = bodies_.dynamic_bodies[u];
     const Vec3& p = body.pose->position;
@@ -261,8 +262,6 @@ void PairContacts::find_springs(std::uint32_t self) {
     const Contact& contact = contacts[c.place];
     const FrictionAnchor* const before = previous(old, i, c.pair, contact.point);
     c.lasts = before != nullptr;
-    c.rebound = before ? before->rebound : 0;
-    c.load = before ? before->load : 0;
     if (before) c.before = before->point;
     Vec3::Map(point.displacement) = before ? before->displacement : Vec3::Zero();
     point.overlap = 0;
@@ -287,6 +286,7 @@ void PairContacts::apply_forces(std::uint32_t self) {
   KnownContacts& known = known_[self];
   const Robot& robot = bodies_.robots[self];
   robot.anchors.clear();
+  if (!(*robot.solved).empty()) robot.solved.clear();
   if (robot.turning_springs) {
     const auto springs = *robot.turning_springs;
     me.old_turning_springs.assign(springs.begin(), springs.end());
@@ -304,8 +304,8 @@ void PairContacts::apply_forces(std::uint32_t self) {
       robot.anchors.push_back(anchor_of_impact(c.pair));
       continue;
     }
-    robot.anchors.push_back({c.pair, contact.point, Vec3::Map(point.displacement), point.overlap, c.rebound,
-                             me.group == no_group ? 0 : c.load});
+    robot.anchors.push_back({c.pair, contact.point, Vec3::Map(point.displacement), point.overlap});
+    if (me.group != no_group) robot.solved.push_back(c.solved);
     const Vec3 force = Vec3::Map(point.force);
     ContactPatch& patch = me.patches[c.patch];
     if (patch.other != no_robot) {

@@ -2,6 +2,7 @@
 // Contacts between moving bodies: of robots that touch each other, or robots that no force moves.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -102,8 +103,7 @@ class PairContacts {
     double zeta;                            ///< damping ratio of the normal
     std::uint32_t patch = 0;                ///< in Record::patches, or one of the above
     bool lasts = false;                     ///< it was there in the step before
-    double rebound = 0;                     ///< m/s: see FrictionAnchor
-    double load = 0;                        ///< N: see FrictionAnchor
+    SolvedContact solved{};                 ///< of a group: as kept; when it is solved, as it is to be
     /// m, of contacts of two robots: see find_lever_shifts
     Vec3 lever_shift = Vec3::Zero(), other_lever_shift = Vec3::Zero();
     Vec3 before = Vec3::Zero();  ///< m, world: then there, if it lasts
@@ -132,7 +132,13 @@ class PairContacts {
     std::vector<ContactWrench> told;             ///< those of its list in which it pushes others; where they are told
     std::size_t impacts = 0;                     ///< patches in which it is, its own and those of others
     double load = 0;                             ///< its stiffest motion, in units of omega^2
+    std::vector<std::uint32_t> touched;          ///< numbers of its bodies with contacts that are solved in a group
     std::uint32_t group = no_group;              ///< in groups_; none: its contacts are resolved one by one
+
+    void add_touched(std::uint32_t body) {
+      if (std::find(touched.begin(), touched.end(), body - first_body) == touched.end())
+        touched.push_back(body - first_body);
+    }
   };
 
   void add_records();
@@ -145,11 +151,10 @@ class PairContacts {
   bool carries(std::uint32_t self, const ContactPatch& patch) const;
   std::uint32_t root_of(std::uint32_t record);
   void solve_group(std::uint32_t number);
+  void find_touched(std::uint32_t robot);
   void add_bodies(std::uint32_t robot, ContactSolver& solver);
+  void recall(std::uint32_t robot, std::size_t place, Computed& c, double approach, const Contact& contact) const;
   void add_supports(std::uint32_t robot, double mass, ContactSolver& solver) const;
-  const LastMotion* last_motion(std::uint32_t robot, std::uint32_t body) const;
-  Push what_else_acts(const Mobility& mobility, const DynamicBody& body, const LastMotion& last) const;
-  void keep_motion(std::uint32_t robot) const;
   void add_contacts(std::uint32_t robot, double mass, ContactSolver& solver);
   void take_forces(std::uint32_t robot, std::span<const SolverContact>& found);
   static bool is_solved(const Computed& c) { return c.patch != in_impact && c.patch != had_impact; }

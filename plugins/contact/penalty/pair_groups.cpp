@@ -14,9 +14,10 @@ constexpr double similar_masses = 3;
 /// A normal that rises more steeply belongs to a contact that carries: 17 degrees, its sine.
 constexpr double rising = 0.3;
 
-/// Whether nothing acts on the robot that is not known here: it is one body, and its motion resolves no contacts.
-bool is_resolved_here(const Robot& robot) {
-  return robot.is_single_body && contact_algorithm_resolves(*robot.world, kinematic_world);
+/// Whether all that acts on the robot is known here, beside external wrenches: it is one body, and all its contacts are
+/// in its list.
+bool is_known(const Robot& robot) {
+  return robot.is_single_body && (robot.carried_mass || contact_algorithm_resolves(*robot.world, kinematic_world));
 }
 
 }  // namespace
@@ -78,81 +79,73 @@ void PairContacts::solve_group(std::uint32_t number) {
   for (const std::uint32_t robot : group.robots) {
     mass += bodies_.robots[robot].mass;
     find_springs(robot);
-    add_bodies(robot, group.solver);
+    find_touched(robot);
   }
+  for (const std::uint32_t robot : group.robots) add_bodies(robot, group.solver);
+  for (const std::uint32_t robot : group.robots)
+    if (const Out<double>& carried = bodies_.robots[robot].carried_mass) *carried = mass;
   for (const std::uint32_t robot : group.robots) add_contacts(robot, mass, group.solver);
   for (const std::uint32_t robot : group.robots) add_supports(robot, mass, group.solver);
   std::span<const SolverContact> found = group.solver.solve();
   for (const std::uint32_t robot : group.robots) take_forces(robot, found);
 }
 
-/// What else than contacts accelerates bodies is their weight, or what follows from their last step. Impacts come
-/// first.
+/// Which bodies of robots contacts that a robot computes are on.
+void PairContacts::find_touched(std::uint32_t self) {
+  for (const Computed& c : known_[self].computed) {
+    if (!is_solved(c)) continue;
+    record(self).add_touched(c.body);
+    if (c.other_robot != no_robot) record(std::uint32_t(c.other_robot)).add_touched(c.other_body);
+  }
+}
+
+/// What else than contacts accelerates bodies is their weight. Impacts come first.
 void PairContacts::add_bodies(std::uint32_t self, ContactSolver& solver) {
-  const Record& me = record(self);
+  Record& me = record(self);
   const Robot& robot = bodies_.robots[self];
-  const double h = context_.stiffness.h;
+  std::sort(me.touched.begin(), me.touched.end());
+  const double shared = robot.is_single_body ? 1 : bodies_.apparent_masses[self].shared_by(me.touched);
   for (std::uint32_t i = 0; i < robot.body_count; ++i) {
-    const Mobility& mobility = me.mobilities[i];
+    Mobility mobility = me.mobilities[i];
+    mobility.mass *= shared;
+    mobility.inertia = shared * mobility.inertia;
     const DynamicBody& body = bodies_.dynamic_bodies[robot.first_body + i];
-    Vec3 velocity = centre_velocity(std::int32_t(self), robot.first_body + i) + h * context_.gravity;
+    Vec3 velocity = centre_velocity(std::int32_t(self), robot.first_body + i) + context_.stiffness.h * context_.gravity;
     Vec3 spin = body.twist->angular;
-    const auto push = [&](double part, const Vec3& force, const Vec3& torque) {
-      velocity += (part * mobility.mass) * force;
-      spin += part * vector_of(mobility.inertia * plain(torque));
-    };
-    if (const LastMotion* const last = last_motion(self, i)) {
-      const Push more = what_else_acts(mobility, body, *last);
-      push(h, more.force, more.torque);
+    if (i == 0 && me.impacts > 0) {
+      velocity += mobility.mass * me.pushed.force;
+      spin += vector_of(mobility.inertia * plain(me.pushed.torque));
     }
-    if (i == 0 && me.impacts > 0) push(1, me.pushed.force, me.pushed.torque);
     number_in_group_[robot.first_body + i] = solver.add_body(mobility, velocity, spin);
   }
 }
 
-/// What the body did in the step before, where it was in a group then and more than its weight may act on it.
-const LastMotion* PairContacts::last_motion(std::uint32_t self, std::uint32_t body) const {
+/// What is kept of a contact. Bodies with joints, and those of engines, are not as heavy as they seem, and more than
+/// their weight acts on them: so contacts part faster than expected, or more slowly. What that is in the mean is known
+/// by then, so that it does not change how deep a contact is at rest.
+void PairContacts::recall(std::uint32_t self, std::size_t place, Computed& c, double approach,
+                          const Contact& contact) const {
+  constexpr double mean_over = 0.03, slower = 0.8, has_parted = 0.95;  // s; parts of the rebound
   const Robot& robot = bodies_.robots[self];
-  if (is_resolved_here(robot)) return nullptr;
-  const auto all = *robot.last_motions;
-  if (body >= all.size() || context_.elapsed <= 0) return nullptr;
-  return std::abs(double(context_.time - all[body].time) * 1e-9 - context_.elapsed) < 1e-9 ? &all[body] : nullptr;
-}
-
-/// N, N m about the centre of mass: what must have acted on a body in its last step, beside its weight and contacts of
-/// this algorithm. Joints answer to contacts; so it is taken for no more than these were.
-Push PairContacts::what_else_acts(const Mobility& mobility, const DynamicBody& body, const LastMotion& last) const {
-  const Vec3 arm = vector_of(mobility.centre) - body.pose->position;
-  const Vec3 speed_up = (body.twist->at(arm) - last.twist.at(arm)) / context_.elapsed - context_.gravity;
-  const Vec3 turn_up = (body.twist->angular - last.twist.angular) / context_.elapsed;
-  const Vec3 given = last.wrench.torque - arm.cross(last.wrench.force);
-  const law::Symmetric<double>& i = mobility.inertia;
-  const Mat3 inverse = (Mat3() << i.xx, i.xy, i.xz, i.xy, i.yy, i.yz, i.xz, i.yz, i.zz).finished();
-  Push push;
-  push.force = speed_up / mobility.mass - last.wrench.force;
-  push.torque = inverse.inverse() * turn_up - given;
-  constexpr double most = 1.5;
-  const auto limit = [](Vec3& x, double size) {
-    if (x.norm() > size) x *= size / x.norm();
-  };
-  limit(push.force, most * last.wrench.force.norm());
-  limit(push.torque, most * given.norm());
-  return push;
-}
-
-/// For the next step.
-void PairContacts::keep_motion(std::uint32_t self) const {
-  const Robot& robot = bodies_.robots[self];
-  robot.last_motions.clear();
-  if (record(self).group == no_group || is_resolved_here(robot)) return;
-  for (std::uint32_t u = robot.first_body; u < robot.first_body + robot.body_count; ++u) {
-    const DynamicBody& body = bodies_.dynamic_bodies[u];
-    robot.last_motions.push_back({context_.time, *body.twist, *body.wrench});
+  const SolvedContact* const before = previous<SolvedContact>(*robot.solved, place, c.pair, contact.point);
+  c.solved = before ? *before : SolvedContact{};
+  SolvedContact& now = c.solved;
+  now.pair = c.pair, now.point = contact.point;
+  if (!c.lasts && approach > context_.impact_speed)
+    now.rebound = contact.surface.restitution * approach;
+  else
+    now.rebound = -approach < has_parted * now.rebound ? slower * now.rebound : 0;
+  const bool is_exact =
+      is_known(robot) && (c.other_robot == no_robot || is_known(bodies_.robots[std::size_t(c.other_robot)]));
+  if (is_exact || !before || !(now.load > 0)) {
+    now.more = 0;
+    return;
   }
+  now.more += std::min(1.0, context_.elapsed / mean_over) * (-approach - now.expected - now.more);
 }
 
 void PairContacts::add_contacts(std::uint32_t self, double mass, ContactSolver& solver) {
-  constexpr double hardness = 1e4, slower = 0.8;
+  constexpr double hardness = 1e4;
   const double h = context_.stiffness.h, omega = context_.omega, stiffness = mass * omega * omega;
   const double held = 2 * mass * omega + h * stiffness;
   const Record& me = record(self);
@@ -182,24 +175,24 @@ void PairContacts::add_contacts(std::uint32_t self, double mass, ContactSolver& 
         std::min(part * stiffness * (contact.depth - point.overlap + point.ahead), s.along * context_.correcting_speed);
     s.spring = part * stiffness * (displacement - contact.normal * contact.normal.dot(displacement));
     s.friction = contact.surface.friction;
-    s.limit = s.friction * c.load;
-    if (!c.lasts && point.approach > context_.impact_speed)
-      c.rebound = contact.surface.restitution * point.approach;
-    else
-      c.rebound = -point.approach < 0.95 * c.rebound ? slower * c.rebound : 0;
-    if (!(c.rebound > 0)) continue;
+    recall(self, i, c, point.approach, contact);
+    s.limit = s.friction * c.solved.load;
+    s.push -= s.along * c.solved.more;
+    if (!(c.solved.rebound > 0)) continue;
     s.along = s.across = part * hardness * mass / h;
-    s.push = s.along * c.rebound;
+    s.push = s.along * c.solved.rebound;
     s.spring = Vec3::Zero();
   }
 }
 
-/// Contacts with scenery that the robot's own motion resolves: they hold its bodies against what comes down on them.
+/// Contacts with scenery that the robot's own motion resolves, since they hold its bodies against what comes down on
+/// them: of one body, as they are; of bodies with joints, which answer to loads, as dampers.
 void PairContacts::add_supports(std::uint32_t self, double mass, ContactSolver& solver) const {
   const Robot& robot = bodies_.robots[self];
-  if (contact_algorithm_resolves(*robot.world, kinematic_world)) return;
+  if (!robot.carried_mass) return;
   constexpr double much = 10, leaves = 0.01;  // m/s
-  const double held = much * mass * (2 * context_.omega + context_.stiffness.h * context_.omega * context_.omega);
+  const double stiffness = mass * context_.omega * context_.omega;
+  const double held = 2 * mass * context_.omega + context_.stiffness.h * stiffness;
   for (const Contact& contact : *robot.contacts) {
     const Body& own = bodies_[contact.self];
     if (bodies_.dynamic_robot_of(bodies_[contact.other]) != no_robot || own.robot != std::int32_t(self)) continue;
@@ -210,8 +203,12 @@ void PairContacts::add_supports(std::uint32_t self, double mass, ContactSolver& 
     s.normal = contact.normal;
     s.lever = contact.point - vector_of(mobility(std::int32_t(self), own.dynamic_body).centre);
     s.touched = touched;
-    s.along = s.across = held;
-    s.only_damps = true;
+    s.only_damps = !robot.is_single_body;
+    s.along = s.across = s.only_damps ? much * held : held;
+    if (s.only_damps) continue;
+    s.push = stiffness * contact.depth;
+    s.friction = contact.surface.friction;
+    s.limit = s.friction * s.push;
   }
 }
 
@@ -222,12 +219,13 @@ void PairContacts::take_forces(std::uint32_t self, std::span<const SolverContact
     if (!is_solved(c)) continue;
     PairPoint& point = known.points[i];
     const SolverContact& s = found.front();
-    c.load = s.load;
+    c.solved.load = s.load;
+    c.solved.expected = s.away;
     found = found.subspan(1);
     Vec3::Map(point.force) = s.force;
     Vec3 displacement = Vec3::Map(point.displacement);
     displacement -= s.normal * s.normal.dot(displacement);
-    if (c.rebound > 0 || !(s.load > 0))
+    if (c.solved.rebound > 0 || !(s.load > 0))
       displacement.setZero();
     else if (s.hold < 1)  // it slides: as far as the spring does what friction does
       displacement = (s.load * s.normal - s.force) * ((2 / context_.omega + context_.stiffness.h) / s.across);

@@ -7,6 +7,7 @@
 
 #include "muro/plugin.hpp"
 #include "pair_contacts.hpp"
+#include "plugins/common/contact_geometry/carried_mass.hpp"
 #include "scenery_contacts.hpp"
 
 namespace {
@@ -30,7 +31,8 @@ constexpr PropertyUse reads[] = {
 constexpr PropertyUse writes[] = {
     {"wrench.external", "of every robot that forces move"},
     {"contact.friction_anchors", "friction anchors, of every robot that forces move"},
-    {"contact.last_motions", "what bodies did in the last step, of the same"},
+    {keys::carried_mass.name, "of every robot whose motion resolves contacts, too"},
+    {"contact.solved", "contacts that were solved together with others, of the same"},
     {"contact.turning_springs", "springs against rolling and spinning, of the same, where shapes resist these"},
     {keys::contact_wrenches_of_law.name,
      "of every robot with a part in a contact: what each does, where somebody reads it"},

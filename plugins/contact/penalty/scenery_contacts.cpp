@@ -122,6 +122,7 @@ void SceneryContacts::apply_forces_on(const StepContext& context, std::uint32_t 
   const auto contacts = *known.list;
   if (bodies_.tells_contacts) bodies_.robots[robot].told.clear();
   if (remaining_[robot] != 0) remaining_[robot] = 0;  // avoids a write: other threads have flags in the same cache line
+  if (const Out<double>& carried = bodies_.robots[robot].carried_mass; carried && *carried != 0) *carried = 0;
   const bool by_contact_algorithm = contact_algorithm_resolves(*known.world, kinematic_world);
   // It touches nothing, only reports what it touches, or its motion answers for all of that.
   if (contacts.empty() || !is_moved_by_forces(*known.world) ||

@@ -42,7 +42,7 @@ struct KernelRobot {
   double* wrench = nullptr;      ///< on the base; out
   double* forces = nullptr;      ///< of the first of `contacts`; out, where KernelBatch::tells_contacts
 };
-inline constexpr int contact_stride = 13, anchor_stride = 10, force_stride = 14;  ///< in numbers
+inline constexpr int contact_stride = 13, anchor_stride = 8, force_stride = 14;  ///< in numbers
 /// A contact, from its point on: point, normal, depth, friction. An anchor: point, displacement.
 inline constexpr int contact_numbers = 8, anchor_numbers = 6;
 

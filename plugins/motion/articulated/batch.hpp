@@ -34,7 +34,7 @@ struct RobotState {
   const double* friction_losses = nullptr;
   const double* armature_losses = nullptr;
   const Mass* masses = nullptr;             ///< of its bodies
-  double mass = 0;                          ///< kg, all
+  double borne_mass = 0;                    ///< kg: what its contacts may have to bear, at least its own
   double radius = 0;                        ///< m: of gyration
   const KernelContact* contacts = nullptr;  ///< by body, in rising order
   int contact_count = 0;

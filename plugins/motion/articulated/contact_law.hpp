@@ -43,7 +43,7 @@ template <class S>
 struct ContactLaw {
   S stiffness, damping;  ///< N/m, N s/m: along the normal, and of the friction spring and the damper beside it
   S held;                ///< N s/m: damping + dt stiffness
-  S mass;                ///< kg, of the robot
+  S mass;                ///< kg: what contacts may have to bear
   S impact_speed;        ///< m/s: what comes faster rebounds
   S hard_speed;          ///< m/s: what comes faster is stopped at once
   S radius;              ///< m: of the springs against rolling and spinning

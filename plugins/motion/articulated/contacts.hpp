@@ -62,7 +62,7 @@ class Contacts {
   void set_law(const RobotState* robots, int count) {
     S mass(0), radius(0);
     for (int i = 0; i < count_of<S>; ++i) {
-      set(mass, i, robots[i < count ? i : 0].mass);
+      set(mass, i, robots[i < count ? i : 0].borne_mass);
       set(radius, i, robots[i < count ? i : 0].radius);
     }
     const S omega(batch_.omega);
@@ -263,7 +263,7 @@ class Contacts {
   Work<S>& work_;
   V3<S> gravity_;
   ContactLaw<S> law_;
-  S weight_;  ///< N, of the robot
+  S weight_;  ///< N: what contacts may have to bear
   Places<S> wrenches_;
   bool has_wrenches_ = false;
   bool knows_pushes_ = false;

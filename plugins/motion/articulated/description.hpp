@@ -49,6 +49,7 @@ inline constexpr PropertyUse reads[] = {
     {"pose.initial", "of the base"},
     {"twist.initial", "of the base"},
     {"joint.position.initial", "of every joint"},
+    {"contact.carried_mass", "on the base: of all robots that carry each other"},
     {"contact.impact", "on the base of a robot that is one body: where impacts with robots were within the last step"},
     {"contact.impact.time", "on the same: when they were"},
 };

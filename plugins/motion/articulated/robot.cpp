@@ -8,6 +8,7 @@
 #include "muro/toolkit/mass_properties.hpp"
 #include "muro/toolkit/random.hpp"
 #include "plugins/common/contact_geometry/contact_responsibility.hpp"
+#include "plugins/common/contact_geometry/carried_mass.hpp"
 #include "plugins/common/contact_geometry/impact_path.hpp"
 #include "plugins/common/multibody/engine_parameters.hpp"
 #include "plugins/common/multibody/joint_target.hpp"
@@ -53,6 +54,7 @@ Robot::Robot(Connector& c, const RobotView& view, const Parameters& p, std::uint
   own_world_ = number_of_world(fnv1a(view.name, fnv1a(id)));
   contact_world_ = c.variable(view.base(), keys::contact_world, own_world_);
   twist_lag_ = c.variable(view.base(), keys::twist_lag, 0.0);
+  carried_mass_ = c.input(view.base(), keys::carried_mass, 0.0);
   pose_ = c.variable(view.base(), keys::pose, c.constant(view.base(), keys::initial_pose).value_or(Pose{}));
   const Twist initial_twist = c.constant(view.base(), keys::initial_twist).value_or(Twist{});
   twist_ = c.variable(view.base(), keys::twist, rigid_.fixed_base ? Twist{} : initial_twist);
@@ -163,7 +165,6 @@ void Robot::set_offsets() {
   state_.pose = lane::numbers(pose_.get());
   state_.twist = lane::numbers(twist_.get());
   state_.masses = masses_.data();
-  state_.mass = rigid_.mass;
   state_.radius = radius_of_gyration(rigid_);
   for (std::size_t i = 1; i < joints_.size(); ++i) {
     Joint& j = model_.joints[i];
@@ -218,6 +219,7 @@ void Robot::take_over() {
 
 void Robot::prepare(double dt) {
   start_ = pose_->position;
+  state_.borne_mass = std::max(rigid_.mass, *carried_mass_);
   if (interpolates()) advance_targets(dt);
   sum_wrenches();
   add_self_contacts(dt);

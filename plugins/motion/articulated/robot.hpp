@@ -94,6 +94,7 @@ class Robot {
   Out<Twist> twist_;
   Out<std::uint64_t> contact_world_;
   Out<double> twist_lag_;
+  In<double> carried_mass_;
   std::uint64_t own_world_ = 0;
   std::vector<JointHandles> joints_;                                       ///< one per body
   std::vector<const double*> velocities_;                                  ///< one per link

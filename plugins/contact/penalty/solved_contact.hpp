@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// What is kept of a contact that was solved together with others, beside its friction anchor.
+#pragma once
+
+#include "muro/key.hpp"
+#include "plugins/common/contact_geometry/kept_contact.hpp"
+
+namespace muro::penalty {
+
+/// Found again as the friction anchor of the contact.
+struct SolvedContact {
+  std::uint64_t pair = 0;
+  Vec3 point = Vec3::Zero();  ///< m, world
+  double load = 0;            ///< N: normal force of the last step
+  double rebound = 0;         ///< m/s: at which an impact parts the bodies, as long as they do not yet
+  double expected = 0;        ///< m/s: at which the points were expected to part at the end of the last step
+  double more = 0;            ///< m/s: by which they have parted faster than expected, its mean over some steps
+};
+
+}  // namespace muro::penalty
+
+namespace muro {
+MURO_OPAQUE_TYPE(penalty::SolvedContact, "muro.contact.penalty.SolvedContact", opaque);
+}  // namespace muro
+
+namespace muro::penalty {
+inline constexpr Key<SolvedContact> solved_contacts{
+    "contact.solved", "N", "list on the base of a robot: contacts that were solved together with others"};
+}  // namespace muro::penalty
