@@ -18,7 +18,8 @@ void Bodies::connect(Connector& c) {
   all.resize(c.object_count());
   bool resists_turning = false;
   for (std::uint32_t i = 0; i < all.size(); ++i) {
-    all[i].name = fnv1a(c.object_name(ObjectId{i}));
+    names.emplace_back(c.object_name(ObjectId{i}));
+    all[i].name = fnv1a(names[i]);
     all[i].model = i;
     for (const Shape& s : c.constant_array(ObjectId{i}, keys::collision_shapes)) {
       resists_turning = resists_turning || s.surface.rolling_resistance > 0 || s.surface.spinning_resistance > 0;

@@ -2,6 +2,7 @@
 // The bodies of a scene, and the robots that forces move.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "apparent_mass.hpp"
@@ -76,6 +77,7 @@ struct Bodies {
   std::vector<std::uint32_t> by_order_key;  ///< numbers of `robots`, the lowest key first
   std::vector<KinematicRobot> kinematic_robots;
   std::vector<DynamicBody> dynamic_bodies;
+  std::vector<std::string> names;               ///< by object id, for people
   std::vector<std::int32_t> robot_of;           ///< by robot number: in `robots`, or no_robot
   std::vector<MassProperties> masses;           ///< all different
   std::vector<ApparentMasses> apparent_masses;  ///< of `robots`; empty of those that are one body

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <optional>
 #include <vector>
 
@@ -16,8 +17,9 @@ namespace muro::penalty {
 /// only the data of its robot, one of them those of all robots of its group, so threads may share the robots.
 class PairContacts {
  public:
-  explicit PairContacts(const Bodies& bodies)
+  PairContacts(const Bodies& bodies, Host& host)
       : bodies_(bodies),
+        host_(host),
         kernels_(pair_kernels_for(lane::best_isa())),
         record_of_(bodies.robots.size()),
         known_(bodies.robots.size()),
@@ -157,6 +159,7 @@ class PairContacts {
   void add_supports(std::uint32_t robot, double mass, ContactSolver& solver) const;
   void add_contacts(std::uint32_t robot, double mass, ContactSolver& solver);
   void take_forces(std::uint32_t robot, std::span<const SolverContact>& found);
+  void tell_depth(const Contact& contact, const PairPoint& point, const Computed& c);
   static bool is_solved(const Computed& c) { return c.patch != in_impact && c.patch != had_impact; }
   void resolve_in_turns();
   void count_impacts(std::uint32_t self);
@@ -202,6 +205,7 @@ class PairContacts {
   };
 
   const Bodies& bodies_;
+  Host& host_;
   const PairKernels& kernels_;
   StepContext context_;
   const std::vector<std::uint8_t>* flags_ = nullptr;  ///< of this step, see begin()
@@ -214,6 +218,7 @@ class PairContacts {
   std::vector<std::uint8_t> carrying_;                ///< scratch, by record: its group is solved
   std::vector<Group> groups_;                         ///< the first group_count_ are of this step
   std::size_t group_count_ = 0;
+  std::atomic<bool> depth_is_told_ = false;
   std::vector<std::uint32_t> number_in_group_;  ///< of bodies, as Bodies::dynamic_bodies
 };
 

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "pair_contacts.hpp"
+#include "plugins/common/text/quote.hpp"
 #include "vectors.hpp"
 
 namespace muro::penalty {
@@ -125,7 +126,7 @@ void PairContacts::add_bodies(std::uint32_t self, ContactSolver& solver) {
 /// by then, so that it does not change how deep a contact is at rest.
 void PairContacts::recall(std::uint32_t self, std::size_t place, Computed& c, double approach,
                           const Contact& contact) const {
-  constexpr double mean_over = 0.03, slower = 0.8, has_parted = 0.95;  // s; parts of the rebound
+  constexpr double mean_over = 0.1, slower = 0.8, has_parted = 0.95;  // s; parts of the rebound
   const Robot& robot = bodies_.robots[self];
   const SolvedContact* const before = previous<SolvedContact>(*robot.solved, place, c.pair, contact.point);
   c.solved = before ? *before : SolvedContact{};
@@ -212,6 +213,19 @@ void PairContacts::add_supports(std::uint32_t self, double mass, ContactSolver& 
   }
 }
 
+/// Says it once, when a contact rests deeper than contacts should: where engines hold a body from below, this algorithm
+/// does not know by what.
+void PairContacts::tell_depth(const Contact& contact, const PairPoint& point, const Computed& c) {
+  constexpr double too_deep = 2e-3, at_rest = 1e-3;  // m, m/s
+  if (contact.depth - point.overlap < too_deep || std::abs(point.approach) > at_rest || !c.lasts) return;
+  if (c.other_robot == no_robot || depth_is_told_.exchange(true)) return;
+  const auto name = [&](ObjectId id) { return quote(bodies_.names[index_of(id)]); };
+  host_.log(LogLevel::warning, "contact.penalty: " + name(contact.self) + " rests " +
+                                   std::to_string(1e3 * contact.depth) + " mm deep in " + name(contact.other) +
+                                   ": what holds up the lower one is hidden in its motion; move both by one motion, " +
+                                   "or the lower one by motion.simplified or motion.articulated (told once)");
+}
+
 void PairContacts::take_forces(std::uint32_t self, std::span<const SolverContact>& found) {
   KnownContacts& known = known_[self];
   for (std::size_t i = 0; i < known.computed.size(); ++i) {
@@ -219,6 +233,7 @@ void PairContacts::take_forces(std::uint32_t self, std::span<const SolverContact
     if (!is_solved(c)) continue;
     PairPoint& point = known.points[i];
     const SolverContact& s = found.front();
+    tell_depth((*bodies_.robots[self].contacts)[c.place], point, c);
     c.solved.load = s.load;
     c.solved.expected = s.away;
     found = found.subspan(1);

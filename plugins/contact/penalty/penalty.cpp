@@ -61,7 +61,7 @@ class Penalty final : public Algorithm {
     bodies_.connect(c);
     last_run_ = c.variable(world_object, last_run, std::int64_t{-1});
     scenery_contacts_ = std::make_unique<SceneryContacts>(bodies_);
-    pair_contacts_ = std::make_unique<PairContacts>(bodies_);
+    pair_contacts_ = std::make_unique<PairContacts>(bodies_, c.host());
   }
   void connect_by_name(Connector& c) override { bodies_.connect_by_name(c); }
   void start() override {
