@@ -29,8 +29,10 @@ Block at_levers(const Mat3& k, const Vec3& a, const Vec3& b) {
   return block;
 }
 
-/// Of the limit of friction; m/s.
-constexpr double precision = 2e-3, least_speed = 1e-9;
+/// Of the limit of friction: of what it holds, and of itself, since forces are brought into the cone at the end.
+constexpr double precision = 2e-3, near = 1e-2;
+/// m/s: of the solution of a linear system, and of what changes no force that counts.
+constexpr double least_speed = 1e-8, slight = 1e-6;
 
 Vec3 along(const Vec3& v, const Vec3& n) { return n.dot(v) * n; }
 
@@ -49,7 +51,8 @@ void ContactSolver::start(double step) {
   velocities_.clear();
 }
 
-std::uint32_t ContactSolver::add_body(const law::Mobility<double>& mobility, const Vec3& velocity, const Vec3& spin) {
+std::uint32_t ContactSolver::add_body(const law::Mobility<double>& mobility, const Vec3& velocity, const Vec3& spin,
+                                      const Vec3& gained, const Vec3& turned) {
   const law::Symmetric<double>& i = mobility.inertia;
   const Mat3 inverse = (Mat3() << i.xx, i.xy, i.xz, i.xy, i.yy, i.yz, i.xz, i.yz, i.zz).finished();
   const Mat3 inertia = inverse.inverse();
@@ -59,7 +62,9 @@ std::uint32_t ContactSolver::add_body(const law::Mobility<double>& mobility, con
   body.mass.bottomRightCorner<3, 3>() = 0.5 * (inertia + inertia.transpose());
   BlockSystem::Vector& v = velocities_.emplace_back();
   v << velocity, spin;
-  body.momentum.noalias() = body.mass * v;
+  BlockSystem::Vector end;
+  end << velocity + gained, spin + turned;
+  body.momentum.noalias() = body.mass * end;
   return std::uint32_t(bodies_.size() - 1);
 }
 
@@ -72,12 +77,20 @@ Vec3 ContactSolver::velocity_in(const SolverContact& c, const std::vector<BlockS
   return velocity - other.head<3>() - other.tail<3>().cross(c.other_lever);
 }
 
-/// Its dampers on the left, its springs on the right.
-void ContactSolver::add_terms(const SolverContact& c) {
+/// Its force and how that changes, at the velocities so far.
+void ContactSolver::add_terms(SolverContact& c) {
+  c.impulse.setZero();
+  c.yields.setZero();
   if (!c.pushes && c.hold == 0) return;
+  constexpr double straight = 0.98;  // of what does not change along the slip: a system is never singular
+  const Vec3 velocity = velocity_in(c, velocities_);
+  const auto [load, drag] = reaction_at(c, velocity);
   const double normal = c.pushes ? step_ : 0, tangential = step_ * c.hold;
-  const Mat3 k = damper(normal * c.along, tangential * c.across, c.normal);
-  const Vec3 impulse = (normal * c.push) * c.normal - tangential * c.spring + k * c.touched;
+  Mat3& k = c.yields;
+  k = damper(normal * c.along, tangential * c.across, c.normal);
+  if (c.hold < 1) k -= (straight * tangential * c.across / drag.squaredNorm()) * drag * drag.transpose();
+  c.impulse = (normal * load) * c.normal - tangential * drag + k * (velocity + c.touched);
+  const Vec3& impulse = c.impulse;
   system_.diagonal(c.body) += at_levers(k, c.lever, c.lever);
   right_[c.body].head<3>() += impulse;
   right_[c.body].tail<3>() += c.lever.cross(impulse);
@@ -94,7 +107,7 @@ void ContactSolver::assemble() {
     system_.diagonal(i) = bodies_[i].mass;
     right_[i] = bodies_[i].momentum;
   }
-  for (const SolverContact& c : contacts_) add_terms(c);
+  for (SolverContact& c : contacts_) add_terms(c);
 }
 
 ContactSolver::Reaction ContactSolver::reaction_at(const SolverContact& c, const Vec3& velocity) {
@@ -109,7 +122,8 @@ bool ContactSolver::revise(SolverContact& c) const {
   const auto [load, drag] = reaction_at(c, velocity_in(c, velocities_));
   const bool pushes = load > 0;
   const double hold = part_within(drag, c.limit);
-  const bool changed = pushes != c.pushes || std::abs(hold - c.hold) * drag.norm() > precision * c.limit;
+  const bool changed = (pushes != c.pushes && std::abs(load) > c.along * slight) ||
+                       std::abs(hold - c.hold) * drag.norm() > precision * c.limit + c.across * slight;
   c.pushes = pushes;
   c.hold = hold;
   c.load = std::max(load, 0.0);
@@ -151,55 +165,60 @@ bool ContactSolver::approach_solution() {
   return part == 1;
 }
 
-/// Newton's method, with the limits that friction has.
-void ContactSolver::find_velocities() {
-  constexpr int most_iterations = 20;
-  for (int iteration = 1; iteration <= most_iterations; ++iteration) {
+/// Newton's method, with the limits that friction has. `left`: of all linear systems that may be solved in a step.
+void ContactSolver::find_velocities(int& left) {
+  constexpr int most_iterations = 12;
+  double mass = 0;
+  for (const Body& b : bodies_) mass += b.mass(0, 0);
+  bool changed = true;
+  for (int iteration = 0; changed && iteration < most_iterations && left > 0; ++iteration, --left) {
     assemble();
     solution_.assign(velocities_.begin(), velocities_.end());
-    double mass = 0;
-    for (const Body& b : bodies_) mass += b.mass(0, 0);
     system_.solve(right_, solution_, mass * least_speed * least_speed);
-    bool changed = !approach_solution();
+    changed = !approach_solution();
     for (SolverContact& c : contacts_) changed = revise(c) || changed;
-    if (!changed) return;
   }
 }
 
-/// Returns whether friction of some contact that slides has another limit by now.
-bool ContactSolver::revise_limits() {
+/// Takes `part` of what limits of friction are by now. Returns whether that of some contact that slides has changed.
+bool ContactSolver::revise_limits(double part) {
   bool changed = false;
   for (SolverContact& c : contacts_) {
     const double limit = c.friction * c.load;
     const Vec3 drag = reaction_at(c, velocity_in(c, velocities_)).drag;
     const bool slides = c.hold < 1 || drag.norm() > limit;
-    changed = changed || (slides && std::abs(limit - c.limit) > precision * std::max(limit, c.limit));
-    c.limit = limit;
-    if (!c.only_damps) c.hold = part_within(drag, limit);
+    const double most = std::max(limit, c.limit);
+    changed = changed || (slides && std::abs(limit - c.limit) > near * most + c.across * slight);
+    c.limit += part * (limit - c.limit);
+    if (!c.only_damps) c.hold = part_within(drag, c.limit);
   }
   return changed;
 }
 
-/// At the velocities that were found, and within the cone.
+/// What the last linear system says, so that it keeps momenta and moves bodies as it was found to, within the cone.
 void ContactSolver::find_force(SolverContact& c) const {
-  const Vec3 velocity = velocity_in(c, velocities_), drag = reaction_at(c, velocity).drag;
+  const Vec3 velocity = velocity_in(c, solution_);
   c.away = c.normal.dot(velocity);
-  if (c.only_damps) c.load = 0;
-  c.hold = part_within(drag, c.friction * c.load);
-  c.force = c.load * c.normal - c.hold * drag;
+  if (c.only_damps) return;
+  const Vec3 force = (c.impulse - c.yields * (velocity + c.touched)) / step_;
+  c.load = std::max(c.normal.dot(force), 0.0);
+  const Vec3 across = force - along(force, c.normal);
+  c.force = c.load * c.normal + part_within(across, c.friction * c.load) * across;
+  c.hold = part_within(reaction_at(c, velocity).drag, c.friction * c.load);
 }
 
 std::span<const SolverContact> ContactSolver::solve() {
-  constexpr int most_iterations = 12;
+  constexpr int sure_iterations = 3, most_systems = 96;
   system_.start(std::uint32_t(bodies_.size()));
   right_.resize(bodies_.size());
   for (SolverContact& c : contacts_)
     if (c.other != SolverContact::none) c.coupling = system_.couple(c.body, c.other);
   system_.find_order();
   for (SolverContact& c : contacts_) revise(c);
-  for (int iteration = 1; iteration <= most_iterations; ++iteration) {
-    find_velocities();
-    if (!revise_limits()) break;
+  int left = most_systems;
+  for (int iteration = 1; left > 0; ++iteration) {
+    find_velocities(left);
+    if (!revise_limits(iteration > sure_iterations ? 0.5 : 1)) break;
   }
   for (SolverContact& c : contacts_) find_force(c);
   return contacts_;

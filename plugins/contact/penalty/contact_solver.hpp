@@ -38,19 +38,22 @@ struct SolverContact {
 
   // what is found
   bool pushes = true;
-  double hold = 1;            ///< the part of what friction would do without its limit
-  double load = 0;            ///< N, along the normal
-  double away = 0;            ///< m/s: at which the points part at the end of the step
-  Vec3 force = Vec3::Zero();  ///< N, in all
+  double hold = 1;              ///< the part of what friction would do without its limit
+  double load = 0;              ///< N, along the normal
+  Mat3 yields = Mat3::Zero();   ///< N s: in the last linear system, how its impulse falls with velocity
+  Vec3 impulse = Vec3::Zero();  ///< N s: the same, at velocity 0
+  double away = 0;              ///< m/s: at which the points part at the end of the step
+  Vec3 force = Vec3::Zero();    ///< N, in all
 };
 
 class ContactSolver {
  public:
   /// Starts a group.
   void start(double step);
-  /// `velocity` (m/s, of the centre of mass) and `spin` (rad/s): at the end of the step without contacts. Returns its
-  /// number.
-  std::uint32_t add_body(const law::Mobility<double>& mobility, const Vec3& velocity, const Vec3& spin);
+  /// `velocity` (m/s, of the centre of mass) and `spin` (rad/s): now; `gained`, `turned`: what they gain in the step
+  /// without contacts. Returns its number.
+  std::uint32_t add_body(const law::Mobility<double>& mobility, const Vec3& velocity, const Vec3& spin,
+                         const Vec3& gained, const Vec3& turned);
   SolverContact& add_contact() { return contacts_.emplace_back(); }
   /// Finds the forces of all contacts, in the order in which they were added.
   std::span<const SolverContact> solve();
@@ -61,7 +64,7 @@ class ContactSolver {
     BlockSystem::Vector momentum;  ///< at the end of the step without contacts
   };
   static Vec3 velocity_in(const SolverContact& c, const std::vector<BlockSystem::Vector>& velocities);
-  void add_terms(const SolverContact& c);
+  void add_terms(SolverContact& c);
   void assemble();
   /// N: what the contact does without its limits, along the normal and, against the force, across it.
   struct Reaction {
@@ -70,8 +73,8 @@ class ContactSolver {
   };
   static Reaction reaction_at(const SolverContact& c, const Vec3& velocity);
   bool revise(SolverContact& c) const;
-  void find_velocities();
-  bool revise_limits();
+  void find_velocities(int& left);
+  bool revise_limits(double part);
   double slope_at(double part) const;
   bool approach_solution();
   void find_force(SolverContact& c) const;

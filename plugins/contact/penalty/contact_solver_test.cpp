@@ -102,8 +102,10 @@ TEST(ContactSolver, AHeavyBodyOnALightOneIsCarried) {
   solver.start(solver_step);
   const double below = 0.01, above = 10, all = below + above, g = 9.81;
   const double of_mass = g / (all * solver_omega * solver_omega);
-  const std::uint32_t low = solver.add_body(free_ball(below, 0.1), {0, 0, -g * solver_step}, Vec3::Zero());
-  const std::uint32_t high = solver.add_body(free_ball(above, 0.3), {0, 0, -g * solver_step}, Vec3::Zero());
+  const std::uint32_t low =
+      solver.add_body(free_ball(below, 0.1), Vec3::Zero(), Vec3::Zero(), Vec3(0, 0, -g * solver_step), Vec3::Zero());
+  const std::uint32_t high =
+      solver.add_body(free_ball(above, 0.3), Vec3::Zero(), Vec3::Zero(), Vec3(0, 0, -g * solver_step), Vec3::Zero());
   SolverContact ground = held_contact(all, all * of_mass, 0.5), pair = held_contact(all, above * of_mass, 0.5);
   ground.body = low, ground.lever = Vec3(0, 0, -0.1);
   pair.body = high, pair.lever = Vec3(0, 0, -0.1), pair.other = low, pair.other_lever = Vec3(0, 0, 0.1);
@@ -120,8 +122,9 @@ TEST(ContactSolver, FrictionStaysInItsConeAndIsAgainstTheSlip) {
   for (int round = 0; round < 200; ++round) {
     ContactSolver solver;
     solver.start(solver_step);
-    const std::uint32_t ball = solver.add_body(free_ball(1, 0.1), Vec3(any(random), any(random), 0.2 * any(random)),
-                                               10 * Vec3(any(random), any(random), any(random)));
+    const std::uint32_t ball =
+        solver.add_body(free_ball(1, 0.1), Vec3(any(random), any(random), 0.2 * any(random)),
+                        10 * Vec3(any(random), any(random), any(random)), Vec3::Zero(), Vec3::Zero());
     SolverContact& c = solver.add_contact() = held_contact(1, 1e-4, 0.3);
     c.body = ball, c.lever = Vec3(0, 0, -0.1);
     const SolverContact& found = solver.solve().front();

@@ -159,7 +159,7 @@ class PairContacts {
   void add_supports(std::uint32_t robot, double mass, ContactSolver& solver) const;
   void add_contacts(std::uint32_t robot, double mass, ContactSolver& solver);
   void take_forces(std::uint32_t robot, std::span<const SolverContact>& found);
-  void tell_depth(const Contact& contact, const PairPoint& point, const Computed& c);
+  void tell_depth(std::uint32_t robot, const Contact& contact, const PairPoint& point, const Computed& c);
   static bool is_solved(const Computed& c) { return c.patch != in_impact && c.patch != had_impact; }
   void resolve_in_turns();
   void count_impacts(std::uint32_t self);

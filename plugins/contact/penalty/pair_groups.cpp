@@ -72,16 +72,20 @@ void PairContacts::find_groups() {
 }
 
 /// All springs of a group have the frequency of contacts under the weight of all its robots, since any contact may have
-/// to carry it. Dampers are critical for the same mass.
+/// to carry it; in a pile, where no contact carries all, under so many times the heaviest. Dampers are critical for the
+/// same mass.
 void PairContacts::solve_group(std::uint32_t number) {
   Group& group = groups_[number];
   group.solver.start(context_.stiffness.h);
-  double mass = 0;
+  constexpr double most_carried = 16;
+  double mass = 0, heaviest = 0;
   for (const std::uint32_t robot : group.robots) {
     mass += bodies_.robots[robot].mass;
+    heaviest = std::max(heaviest, bodies_.robots[robot].mass);
     find_springs(robot);
     find_touched(robot);
   }
+  mass = std::min(mass, most_carried * heaviest);
   for (const std::uint32_t robot : group.robots) add_bodies(robot, group.solver);
   for (const std::uint32_t robot : group.robots)
     if (const Out<double>& carried = bodies_.robots[robot].carried_mass) *carried = mass;
@@ -110,14 +114,14 @@ void PairContacts::add_bodies(std::uint32_t self, ContactSolver& solver) {
     Mobility mobility = me.mobilities[i];
     mobility.mass *= shared;
     mobility.inertia = shared * mobility.inertia;
-    const DynamicBody& body = bodies_.dynamic_bodies[robot.first_body + i];
-    Vec3 velocity = centre_velocity(std::int32_t(self), robot.first_body + i) + context_.stiffness.h * context_.gravity;
-    Vec3 spin = body.twist->angular;
+    const Vec3 velocity = centre_velocity(std::int32_t(self), robot.first_body + i);
+    const Vec3 spin = bodies_.dynamic_bodies[robot.first_body + i].twist->angular;
+    Vec3 gained = context_.stiffness.h * context_.gravity, turned = Vec3::Zero();
     if (i == 0 && me.impacts > 0) {
-      velocity += mobility.mass * me.pushed.force;
-      spin += vector_of(mobility.inertia * plain(me.pushed.torque));
+      gained += mobility.mass * me.pushed.force;
+      turned = vector_of(mobility.inertia * plain(me.pushed.torque));
     }
-    number_in_group_[robot.first_body + i] = solver.add_body(mobility, velocity, spin);
+    number_in_group_[robot.first_body + i] = solver.add_body(mobility, velocity, spin, gained, turned);
   }
 }
 
@@ -215,10 +219,12 @@ void PairContacts::add_supports(std::uint32_t self, double mass, ContactSolver& 
 
 /// Says it once, when a contact rests deeper than contacts should: where engines hold a body from below, this algorithm
 /// does not know by what.
-void PairContacts::tell_depth(const Contact& contact, const PairPoint& point, const Computed& c) {
+void PairContacts::tell_depth(std::uint32_t self, const Contact& contact, const PairPoint& point, const Computed& c) {
   constexpr double too_deep = 2e-3, at_rest = 1e-3;  // m, m/s
   if (contact.depth - point.overlap < too_deep || std::abs(point.approach) > at_rest || !c.lasts) return;
-  if (c.other_robot == no_robot || depth_is_told_.exchange(true)) return;
+  if (c.other_robot == no_robot) return;
+  if (is_known(bodies_.robots[self]) && is_known(bodies_.robots[std::size_t(c.other_robot)])) return;
+  if (depth_is_told_.exchange(true)) return;
   const auto name = [&](ObjectId id) { return quote(bodies_.names[index_of(id)]); };
   host_.log(LogLevel::warning, "contact.penalty: " + name(contact.self) + " rests " +
                                    std::to_string(1e3 * contact.depth) + " mm deep in " + name(contact.other) +
@@ -233,7 +239,7 @@ void PairContacts::take_forces(std::uint32_t self, std::span<const SolverContact
     if (!is_solved(c)) continue;
     PairPoint& point = known.points[i];
     const SolverContact& s = found.front();
-    tell_depth((*bodies_.robots[self].contacts)[c.place], point, c);
+    tell_depth(self, (*bodies_.robots[self].contacts)[c.place], point, c);
     c.solved.load = s.load;
     c.solved.expected = s.away;
     found = found.subspan(1);
