@@ -9,6 +9,7 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "core/extent_along.hpp"
 #include "core/point_bounds.hpp"
 #include "core/value_check.hpp"
 #include "muro/ext/visual_materials.hpp"
@@ -228,8 +229,8 @@ bool RobotTree::usable() const {
 }
 
 template <class Visit>
-void RobotTree::each_collision_bounds(std::span<const double> positions, const CornersOfMesh& corners_of_mesh,
-                                      Visit visit) const {
+void RobotTree::each_collision_shape(std::span<const double> positions, const CornersOfMesh& corners_of_mesh,
+                                     Visit visit) const {
   std::vector<Pose> poses;
   for (const FlatLink& f : links_) {
     const double position = positions.empty() ? 0 : positions[poses.size()];
@@ -239,24 +240,23 @@ void RobotTree::each_collision_bounds(std::span<const double> positions, const C
       for (std::uint32_t i = 0; i < c.count; ++i) {
         Shape s;
         std::memcpy(static_cast<void*>(&s), c.data.data() + i * sizeof(Shape), sizeof(Shape));
-        const Pose pose = poses.back() * s.origin;
-        if (s.kind == ShapeKind::mesh && corners_of_mesh)
-          visit(bounds_of_points(corners_of_mesh(std::string(texts_[s.mesh])), s.size, pose));
-        else if (s.kind != ShapeKind::plane)
-          visit(bounds_of(s, pose));
+        const bool is_mesh = s.kind == ShapeKind::mesh && corners_of_mesh;
+        if (s.kind != ShapeKind::plane)
+          visit(s, poses.back() * s.origin,
+                is_mesh ? corners_of_mesh(std::string(texts_[s.mesh])) : std::span<const Vec3>());
       }
     }
   }
 }
 
 double RobotTree::standing_height(std::span<const double> positions, const CornersOfMesh& corners_of_mesh) const {
-  double lowest = 0;
-  bool any = false;
-  each_collision_bounds(positions, corners_of_mesh, [&](const Aabb& b) {
-    lowest = any ? std::min(lowest, b.low.z()) : b.low.z();
-    any = true;
-  });
-  return -lowest;
+  std::optional<double> most;
+  each_collision_shape(positions, corners_of_mesh,
+                       [&](const Shape& s, const Pose& pose, std::span<const Vec3> corners) {
+                         const double below = extent_along(s, corners, pose, -Vec3::UnitZ());
+                         most = most ? std::max(*most, below) : below;
+                       });
+  return most.value_or(0);
 }
 
 void RobotTree::set_limits(std::size_t link, const JointLimits& limits) {
@@ -313,22 +313,19 @@ void RobotTree::remove_collision_shapes(
 
 bool RobotTree::has_collision_meshes() const {
   bool any = false;
-  each_collision_bounds(
-      {},
-      [&](const std::string&) {
-        any = true;
-        return std::span<const Vec3>{};
-      },
-      [](const Aabb&) {});
+  each_collision_shape(
+      {}, {}, [&](const Shape& s, const Pose&, std::span<const Vec3>) { any = any || s.kind == ShapeKind::mesh; });
   return any;
 }
 
 double RobotTree::footprint_radius(std::span<const double> positions, const CornersOfMesh& corners_of_mesh) const {
   double radius = 0;
-  each_collision_bounds(positions, corners_of_mesh, [&](const Aabb& b) {
-    const Vec3 far = b.low.cwiseAbs().cwiseMax(b.high.cwiseAbs());
-    radius = std::max(radius, elementary::hypot(far.x(), far.y()));
-  });
+  each_collision_shape(positions, corners_of_mesh,
+                       [&](const Shape& s, const Pose& pose, std::span<const Vec3> corners) {
+                         const Aabb b = corners.empty() ? bounds_of(s, pose) : bounds_of_points(corners, s.size, pose);
+                         const Vec3 far = b.low.cwiseAbs().cwiseMax(b.high.cwiseAbs());
+                         radius = std::max(radius, elementary::hypot(far.x(), far.y()));
+                       });
   return radius;
 }
 

@@ -106,8 +106,7 @@ class RobotTree final : public RobotBuilder, public PackageFolders {
   bool started(std::string_view call);
   void check_mass();
   template <class Visit>
-  void each_collision_bounds(std::span<const double> positions, const CornersOfMesh& corners_of_mesh,
-                             Visit visit) const;
+  void each_collision_shape(std::span<const double> positions, const CornersOfMesh& corners_of_mesh, Visit visit) const;
 
   struct Cursor {
     std::int32_t node = -1;

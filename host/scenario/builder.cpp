@@ -71,31 +71,37 @@ class SceneBuilder {
     return p.kind == Placement::Kind::grid ? std::size_t(p.columns) * std::size_t(p.rows) : p.poses.size();
   }
 
-  /// What everything else stands on, wherever it comes in the scenario.
+  /// What everything else stands on, wherever it comes in the scenario: first what has no ground, then floors.
   void find_terrain() {
     terrain_.add_scenery(world_);
-    for (const SceneryObject& o : scenario_.objects) {
-      if (!is_ground(o)) continue;
-      const bool is_readable = problems_.collect(fmt::format("{}: object `{}`: ", o.location.text(), o.name), [&] {
-        if (o.shape.kind == ShapeKind::heightmap) terrain_.check_file(o.shape, o.mesh);
-      });
-      if (!is_readable) continue;
-      Occupancy unused;
-      try {
-        for (const Pose& pose :
-             place(o.placement, int(count_of(o.placement)), {o.name, 0, 0}, scenario_.places, unused))
-          terrain_.add(o.shape, o.mesh, pose);
-      } catch (const SetupError&) {  // told when the object is added
-      }
+    for (const bool floors : {false, true})
+      for (const SceneryObject& o : scenario_.objects)
+        if (Terrain::carries(o.shape) && is_ground(o) != floors) add_terrain(o);
+  }
+
+  void add_terrain(const SceneryObject& o) {
+    const bool is_readable = problems_.collect(fmt::format("{}: object `{}`: ", o.location.text(), o.name), [&] {
+      if (o.shape.kind == ShapeKind::heightmap) terrain_.check_file(o.shape, o.mesh);
+    });
+    if (!is_readable) return;
+    Occupancy unused;
+    try {
+      std::vector<Pose>& poses = poses_of_terrain_[&o];
+      poses = place(o.placement, int(count_of(o.placement)), body_of(o, 0), scenario_.places, unused);
+      for (const Pose& pose : poses) terrain_.add(o.shape, o.mesh, pose);
+    } catch (const SetupError&) {  // told when the object is added
+      poses_of_terrain_.erase(&o);
     }
   }
 
+  Body body_of(const SceneryObject& o, double radius) {
+    if (is_ground(o)) return {o.name, {}, radius};
+    return {o.name, standing_on_terrain({{o.shape, o.mesh, {}}}), radius};
+  }
+
   /// The height of what has these shapes; not called after this has gone.
-  std::function<double(const Pose&)> height_on_terrain(std::vector<StandingShape> shapes, double otherwise) {
-    if (shapes.empty()) shapes.push_back({Shape::sphere(0), "", {}});
-    return [this, otherwise, on = std::move(shapes)](const Pose& at) {
-      return terrain_.height(on, at).value_or(otherwise);
-    };
+  std::function<double(const Pose&)> standing_on_terrain(std::vector<StandingShape> shapes) {
+    return [this, on = std::move(shapes)](const Pose& at) { return terrain_.height(on, at); };
   }
 
   void add_object(const SceneryObject& o) {
@@ -107,11 +113,12 @@ class SceneBuilder {
     const Aabb box = ground || !needs_extent(p) ? Aabb{Vec3::Zero(), Vec3::Zero()}
                                                 : meshes_.bounds_of(shape, o.mesh, {Vec3::Zero(), Quat::Identity()});
     const Vec3 half = 0.5 * (box.high - box.low), centre = 0.5 * (box.low + box.high);
-    Body body{o.name, 0 - box.low.z(), elementary::hypot(half.x(), half.y())};
-    if (!ground && terrain_.has_heightmaps())
-      body.height_at = height_on_terrain({{shape, o.mesh, {}}}, body.standing_height);
     Occupancy unused;
-    const auto poses = place(p, int(count_of(p)), body, scenario_.places, unused);
+    const auto known = poses_of_terrain_.find(&o);
+    const std::vector<Pose> poses =
+        known != poses_of_terrain_.end()
+            ? known->second
+            : place(p, int(count_of(p)), body_of(o, elementary::hypot(half.x(), half.y())), scenario_.places, unused);
     for (std::size_t i = 0; i < poses.size(); ++i) {
       problems_.collect(o.location.text() + ": ", [&] {
         world_.add_scenery(instance_name(o.name, o.numbered, i), poses[i], std::span<const Shape>(&shape, 1));
@@ -223,9 +230,7 @@ class SceneBuilder {
       drawn += t.count;
     }
     problems_.collect("", [&] {
-      Body body{t.name, m.tree->standing_height(m.start.positions, corners), radius};
-      if (terrain_.has_heightmaps())
-        body.height_at = height_on_terrain(standing_shapes(*m.tree, m.start.positions), body.standing_height);
+      const Body body{t.name, standing_on_terrain(standing_shapes(*m.tree, m.start.positions)), radius};
       poses = place(t.placement, t.count, body, scenario_.places, occupied_);
     });
     return poses;
@@ -276,6 +281,7 @@ class SceneBuilder {
   MeshCorners& meshes_;
   UnreadableMeshes unreadable_meshes_;
   Terrain terrain_;
+  std::map<const SceneryObject*, std::vector<Pose>> poses_of_terrain_;
   WorldFileContents world_file_;
   Occupancy occupied_;
   std::map<std::pair<std::string, std::uint64_t>, int> drawn_;  ///< copies at random, by place and seed
@@ -287,6 +293,19 @@ void print_line(LogLevel level, std::string_view text) {
   if (level == LogLevel::debug) return;
   const char* const severity = level == LogLevel::error ? "error" : level == LogLevel::warning ? "warning" : "note";
   fmt::print(stderr, "{}: {}\n", severity, text);
+}
+
+/// Where the scenario says where the robot of a body is; empty: nowhere.
+std::string place_of_robot(const BuiltScenario& built, const std::string& body) {
+  const World& world = built.simulation->world();
+  const ObjectId object = world.find_object(body);
+  std::int32_t number = object == no_object ? -1 : world.robot_of(object);
+  for (const RobotTemplate& t : built.scenario.robots) {
+    const auto count = std::int32_t(t.subsystems.size());
+    if (number >= 0 && number < count) return t.placement.location.text();
+    number -= count;
+  }
+  return "";
 }
 
 BuiltScenario built(Scenario scenario, Registry& registry, const std::function<void(Simulation&)>& add_more) {
@@ -306,7 +325,8 @@ BuiltScenario built(Scenario scenario, Registry& registry, const std::function<v
   out.simulation->set_overlap_check([simulation = out.simulation.get(), files](const muro::Placement& p) {
     return overlap_of(*simulation, *files, p);
   });
-  for (std::string& note : overlap_notes(*out.simulation, *files)) out.notes.push_back(std::move(note));
+  const auto place_of = [&](const std::string& body) { return place_of_robot(out, body); };
+  for (std::string& note : overlap_notes(*out.simulation, *files, place_of)) out.notes.push_back(std::move(note));
   out.simulation->set_threads(out.scenario.threads > 0 ? out.scenario.threads : all_threads());
   return out;
 }

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/point_bounds.hpp"
 #include "muro/toolkit/elementary.hpp"
 
 namespace muro::host {
@@ -13,7 +12,7 @@ namespace {
 
 constexpr double steepness = 100;  ///< of the continuation beside a shape
 constexpr double hair = 1e-7;      ///< m
-constexpr std::size_t most_corners = 64, most_bounds = 16'384;
+constexpr std::size_t most_bounds = 16'384;
 
 double cross(const Vec3& a, const Vec3& b) { return a.x() * b.y() - a.y() * b.x(); }
 
@@ -55,14 +54,9 @@ double highest_above(const ConvexBottom& bottom, const Vec3& a, const Vec3& b) {
 }  // namespace
 
 ConvexBottom::ConvexBottom(const Shape& shape, const Pose& at, std::span<const Vec3> corners)
-    : shape_(shape), at_(at), corners_(corners.begin(), corners.end()) {
-  if (corners_.size() > most_corners) {
-    const Aabb box = bounds_of_points(corners, Vec3::Ones(), {});
-    corners_.clear();
-    for (const double x : {box.low.x(), box.high.x()})
-      for (const double y : {box.low.y(), box.high.y()})
-        for (const double z : {box.low.z(), box.high.z()}) corners_.emplace_back(x, y, z);
-  }
+    : shape_(shape), at_(at), corners_(3, corners.size()) {
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    corners_.col(Eigen::Index(i)) = at_ * Vec3(shape_.size.cwiseProduct(corners[i]));
   for (int axis = 0; axis < 3; ++axis) {
     low_[axis] = furthest(-Vec3::Unit(axis))[axis];
     high_[axis] = furthest(Vec3::Unit(axis))[axis];
@@ -70,7 +64,10 @@ ConvexBottom::ConvexBottom(const Shape& shape, const Pose& at, std::span<const V
 }
 
 Vec3 ConvexBottom::furthest(const Vec3& direction) const {
-  return at_ * furthest_in_shape(at_.orientation.conjugate() * direction);
+  if (corners_.cols() == 0) return at_ * furthest_in_shape(at_.orientation.conjugate() * direction);
+  Eigen::Index best = 0;
+  (direction.transpose() * corners_).maxCoeff(&best);
+  return corners_.col(best);
 }
 
 Vec3 ConvexBottom::furthest_in_shape(const Vec3& d) const {
@@ -88,15 +85,7 @@ Vec3 ConvexBottom::furthest_in_shape(const Vec3& d) const {
       const double scale = radial > 1e-12 ? size.x() / radial : 0;
       return {scale * d.x(), scale * d.y(), end};
     }
-    case ShapeKind::mesh: {
-      Vec3 best = Vec3::Zero();
-      double most = -std::numeric_limits<double>::infinity();
-      for (const Vec3& corner : corners_) {
-        const Vec3 p = size.cwiseProduct(corner);
-        if (const double along = p.dot(d); along > most) most = along, best = p;
-      }
-      return best;
-    }
+    case ShapeKind::mesh:  // without corners it counts as a point
     case ShapeKind::plane:
     case ShapeKind::heightmap:
       break;
@@ -144,6 +133,7 @@ void RiseAbove::add(const Triangle& t) {
     const auto [low, high] = std::minmax({t[0][axis], t[1][axis], t[2][axis]});
     if (low > bottom_.high(axis) || high < bottom_.low(axis)) return;
   }
+  if (std::max({t[0].z(), t[1].z(), t[2].z()}) - bottom_.low(2) <= most_) return;
   const Vec3 normal = across.normalized(), touching = bottom_.furthest(-normal);
   const double by_plane = normal.dot(t[0] - touching) / normal.z();
   const double bound = std::min(by_plane, std::max({t[0].z(), t[1].z(), t[2].z()}) - bottom_.low(2));

@@ -14,8 +14,7 @@ namespace muro::host {
 /// The underside of a convex shape as a function of x and y: what placement lowers on the ground.
 class ConvexBottom {
  public:
-  /// `at`: of the shape in the world. `corners`: of the convex hull of a mesh, which counts with the box around it
-  /// where it has more than 64.
+  /// `at`: of the shape in the world. `corners`: of the convex hull of a mesh.
   ConvexBottom(const Shape& shape, const Pose& at, std::span<const Vec3> corners);
 
   /// The point that is furthest along `direction` (unit).
@@ -36,20 +35,24 @@ class ConvexBottom {
 
   const Shape shape_;
   const Pose at_;
-  std::vector<Vec3> corners_;
+  Eigen::Matrix3Xd corners_;  ///< m, in the world
   Vec3 low_ = Vec3::Zero(), high_ = Vec3::Zero();
 };
 
 /// How far a shape is from touching a surface of triangles from above, along the vertical.
 class RiseAbove {
  public:
-  explicit RiseAbove(const ConvexBottom& bottom) : bottom_(bottom) {}
+  /// `least`: what is less does not matter (m).
+  RiseAbove(const ConvexBottom& bottom, std::optional<double> least)
+      : bottom_(bottom), most_(least.value_or(-std::numeric_limits<double>::infinity())) {}
+  const ConvexBottom& bottom() const { return bottom_; }
 
   /// m, counter-clockwise seen from above.
   using Triangle = std::array<Vec3, 3>;
   void add(const Triangle& triangle);
   /// By how much (m) the shape must be raised so that nothing of the surface is above its bottom and one point of it
-  /// touches; less than 0: may be lowered. Nothing where no triangle is below or above it.
+  /// touches; less than 0: may be lowered. `least` where that is more; nothing where there is none and no triangle is
+  /// below or above it.
   std::optional<double> rise();
 
  private:
@@ -59,7 +62,7 @@ class RiseAbove {
     Triangle triangle;
   };
   const ConvexBottom& bottom_;
-  double most_ = -std::numeric_limits<double>::infinity();
+  double most_;
   std::vector<Bound> bounds_;  ///< of triangles that the shape touches at an edge, if at all
 };
 

@@ -347,14 +347,17 @@ std::string overlap_of(Simulation& simulation, ShapeFiles& files, const muro::Pl
   }
 }
 
-std::vector<std::string> overlap_notes(Simulation& simulation, ShapeFiles& files) {
+std::vector<std::string> overlap_notes(Simulation& simulation, ShapeFiles& files,
+                                       const std::function<std::string(const std::string& body)>& place_of) {
   const Overlaps all = overlaps_at_start(simulation, files, 5);
   std::vector<std::string> notes;
-  for (const Overlap& o : all.deepest)
+  for (const Overlap& o : all.deepest) {
+    const std::string place = place_of(o.first);
     notes.push_back(
-        fmt::format("note: `{}` and `{}` overlap by {:.2g} m at the start; contacts push them apart, so move "
+        fmt::format("{}note: `{}` and `{}` overlap by {:.2g} m at the start; contacts push them apart, so move "
                     "one of them",
-                    o.first, o.second, o.depth));
+                    place.empty() ? "" : place + ": ", o.first, o.second, o.depth));
+  }
   if (all.count > notes.size())
     notes.push_back(fmt::format("note: {} start in overlap", plural(all.count - notes.size(), "more pair")));
   return notes;

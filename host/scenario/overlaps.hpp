@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -28,7 +29,9 @@ Overlaps overlaps_at_start(Simulation& simulation, ShapeFiles& files, std::size_
 /// by 0.2 m"; empty: nothing that could be found.
 std::string overlap_of(Simulation& simulation, ShapeFiles& files, const muro::Placement& placement);
 
-/// A line for each of the deepest, and one for how many more there are.
-std::vector<std::string> overlap_notes(Simulation& simulation, ShapeFiles& files);
+/// A line for each of the deepest, and one for how many more there are. `place_of`: where a file says where the robot
+/// of a body is ("a.yaml:3:5"); empty: nowhere.
+std::vector<std::string> overlap_notes(Simulation& simulation, ShapeFiles& files,
+                                       const std::function<std::string(const std::string& body)>& place_of);
 
 }  // namespace muro::host

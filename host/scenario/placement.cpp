@@ -16,13 +16,16 @@ namespace {
 
 constexpr int max_attempts = 10'000;  // for one copy, before the place counts as full
 
-/// Puts a body on the ground, which is where `pose` already is if the scene has no heightmaps.
+Pose pose_of(const PoseInput& given) {
+  return {{given.x, given.y, given.z.value_or(0)}, from_rpy(given.roll, given.pitch, given.yaw)};
+}
+
 void stand(Pose& pose, const Body& body) {
   if (body.height_at) pose.position.z() = body.height_at(pose);
 }
 
 Pose pose_of(const PoseInput& given, const Body& body) {
-  Pose pose{{given.x, given.y, given.z.value_or(body.standing_height)}, from_rpy(given.roll, given.pitch, given.yaw)};
+  Pose pose = pose_of(given);
   if (!given.z) stand(pose, body);
   return pose;
 }
@@ -67,7 +70,7 @@ class PoseSampler {
 std::vector<Pose> place_random(const Placement& p, int count, const Body& body, const std::vector<Rectangle>& area,
                                Occupancy& occupied) {
   const PoseSampler sampler(p, area, body.radius);
-  const double z = p.poses.front().z.value_or(body.standing_height);
+  const std::optional<double> z = p.poses.front().z;
   std::vector<Pose> poses;
   for (int i = 0; i < count; ++i) {
     int attempt = 0;
@@ -81,15 +84,14 @@ std::vector<Pose> place_random(const Placement& p, int count, const Body& body, 
                         p.location.text(), i, count, body.name, p.area));
       sample = sampler.draw(copy, attempt);
     }
-    poses.push_back({{sample.footprint.x, sample.footprint.y, z}, from_rpy(0, 0, sample.yaw)});
-    if (!p.poses.front().z) stand(poses.back(), body);
+    poses.push_back(pose_of({.x = sample.footprint.x, .y = sample.footprint.y, .z = z, .yaw = sample.yaw}, body));
     occupied.add(sample.footprint);
   }
   return poses;
 }
 
 std::vector<Pose> grid_poses(const Placement& p, const Body& body) {
-  const Pose centre = pose_of(p.poses.front(), body);
+  const Pose centre = pose_of(p.poses.front());
   std::vector<Pose> poses;
   for (int row = 0; row < p.rows; ++row)
     for (int column = 0; column < p.columns; ++column) {

@@ -14,11 +14,11 @@ namespace muro::host {
 
 /// What is placed.
 struct Body {
-  std::string name;        ///< in messages
-  double standing_height;  ///< of its origin when it stands on z = 0, m; used where no z is given
-  double radius;           ///< of its footprint, m
-  /// Where the scene has heightmaps: of its origin (m) when it stands at a pose, whose own height does not count.
-  std::function<double(const Pose&)> height_at{};
+  std::string name;  ///< in messages
+  /// Where no z is given: of its origin (m) when it stands at a pose, whose own height does not count. Without it what
+  /// has no z has 0.
+  std::function<double(const Pose&)> height_at;
+  double radius;  ///< of its footprint, m
 };
 
 /// Poses for `count` copies of a body. Random poses keep `placement.clearance` to all that is `occupied`; the

@@ -2,9 +2,12 @@
 #include "host/scenario/terrain.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <utility>
 
+#include "core/extent_along.hpp"
+#include "muro/toolkit/bounds.hpp"
 #include "muro/toolkit/link_pose.hpp"
 #include "muro/vocabulary.hpp"
 
@@ -12,7 +15,17 @@ namespace muro::host {
 
 namespace {
 
-constexpr double least_upward = 0.1;  ///< cosine of the angle between a surface and the vertical
+/// Cosines of the largest angle between the normal of a surface, and of a floor, and the vertical.
+constexpr double least_upward = 0.1, least_upward_of_floor = M_SQRT1_2;
+constexpr double least_flatness = 10;  ///< of a floor: width by thickness
+
+/// The axis along which a box is thinnest, if it is a plate.
+std::optional<int> thin_axis(const Vec3& size) {
+  int axis = 0;
+  const double thickness = size.minCoeff(&axis);
+  const double width = std::min(size[(axis + 1) % 3], size[(axis + 2) % 3]);
+  return width >= least_flatness * thickness ? std::optional(axis) : std::nullopt;
+}
 
 /// Calls visit(shape) for each collision shape of a link.
 template <class Visit>
@@ -52,7 +65,21 @@ std::vector<StandingShape> standing_shapes(const RobotTree& tree, std::span<cons
   return all;
 }
 
+bool Terrain::carries(const Shape& shape) {
+  return shape.kind == ShapeKind::plane || shape.kind == ShapeKind::heightmap ||
+         (shape.kind == ShapeKind::box && thin_axis(shape.size));
+}
+
 void Terrain::add(const Shape& shape, const std::string& file, const Pose& pose) {
+  if (shape.kind == ShapeKind::box) {
+    const std::optional<int> axis = thin_axis(shape.size);
+    if (!axis || std::abs((pose.orientation * Vec3::Unit(*axis)).z()) < least_upward_of_floor) return;
+    const Aabb box = bounds_of(shape, pose);
+    const Floor floor{pose, 0.5 * shape.size, box.low.z(), box.high.z()};
+    const auto by_height = [](const Floor& a, const Floor& b) { return a.high < b.high; };
+    floors_.insert(std::upper_bound(floors_.begin(), floors_.end(), floor, by_height), floor);
+    return;
+  }
   if ((pose.orientation * Vec3::UnitZ()).z() < least_upward) return;
   if (shape.kind == ShapeKind::plane) planes_.push_back(pose);
   if (shape.kind == ShapeKind::heightmap) tiles_.push_back({file, shape.size, pose});
@@ -99,20 +126,15 @@ Aabb Terrain::part_near(const Tile& tile, const ConvexBottom& bottom) {
   return part;
 }
 
-/// By how much (m) the shape of what stands at `at` must be raised to touch the surface from above; less than 0: may be
-/// lowered.
-std::optional<double> Terrain::rise(const Tile& tile, const StandingShape& shape, const Pose& at) {
-  const bool is_mesh = shape.shape.kind == ShapeKind::mesh;
-  const ConvexBottom bottom(shape.shape, at * shape.pose,
-                            is_mesh ? files_.meshes.of(shape.mesh) : std::span<const Vec3>());
+/// Those that are above or below the shape.
+void Terrain::add_triangles(const Tile& tile, RiseAbove& above) {
   const Heightmap map = files_.heightmaps.of(tile.file, tile.size);
-  const Aabb part = part_near(tile, bottom);
+  const Aabb part = part_near(tile, above.bottom());
   const Vec3 half = 0.5 * tile.size;
   if (part.low.x() > half.x() || part.low.y() > half.y() || part.high.x() < -half.x() || part.high.y() < -half.y())
-    return std::nullopt;
+    return;
   const Heightmap::Cell first = map.cell_at(part.low.x(), part.low.y()),
                         last = map.cell_at(part.high.x(), part.high.y());
-  RiseAbove above(bottom);
   for (std::uint32_t row = first.row; row <= last.row; ++row)
     for (std::uint32_t column = first.column; column <= last.column; ++column)
       for (const bool upper : {false, true}) {
@@ -120,24 +142,84 @@ std::optional<double> Terrain::rise(const Tile& tile, const StandingShape& shape
         for (Vec3& corner : triangle) corner = tile.pose * corner;
         above.add(triangle);
       }
-  return above.rise();
 }
 
-std::optional<double> Terrain::height(std::span<const StandingShape> shapes, const Pose& at) {
+/// By how much (m) what stands at `at` must be raised to touch a surface from above; less than 0: may be lowered.
+/// Nothing where the surface is not below or above it. Calls add_triangles(above) for each shape.
+template <class AddTriangles>
+std::optional<double> Terrain::rise(std::span<const StandingShape> shapes, const Pose& at, AddTriangles add_triangles) {
+  std::optional<double> most;
+  for (const StandingShape& s : shapes) {
+    const bool is_mesh = s.shape.kind == ShapeKind::mesh;
+    const ConvexBottom bottom(s.shape, at * s.pose, is_mesh ? files_.meshes.of(s.mesh) : std::span<const Vec3>());
+    RiseAbove above(bottom, most);
+    add_triangles(above);
+    most = above.rise();
+  }
+  return most;
+}
+
+/// How far (m) what is turned so reaches from its origin.
+double Terrain::extent_along(std::span<const StandingShape> shapes, const Quat& orientation, const Vec3& direction) {
+  const Vec3 in_body = orientation.conjugate() * direction;
+  std::optional<double> most;
+  for (const StandingShape& s : shapes) {
+    const bool is_mesh = s.shape.kind == ShapeKind::mesh;
+    const double extent =
+        muro::extent_along(s.shape, is_mesh ? files_.meshes.of(s.mesh) : std::span<const Vec3>(), s.pose, in_body);
+    most = most ? std::max(*most, extent) : extent;
+  }
+  return most.value_or(0);
+}
+
+std::optional<double> Terrain::height_on_terrain(std::span<const StandingShape> shapes, const Pose& at) {
   Pose pose = at;
   pose.position.z() = 0;
   std::optional<double> most;
-  const auto take = [&](const std::optional<double>& rise) {
-    if (rise && (!most || *rise > *most)) most = rise;
-  };
-  for (const StandingShape& s : shapes) {
-    for (const Tile& tile : tiles_) take(rise(tile, s, pose));
-    for (const Pose& plane : planes_) {
-      const Aabb box = files_.meshes.bounds_of(s.shape, s.mesh, plane.inverse() * (pose * s.pose));
-      take(-box.low.z() / (plane.orientation * Vec3::UnitZ()).z());
-    }
+  for (const Tile& tile : tiles_) {
+    const auto height = rise(shapes, pose, [&](RiseAbove& above) { add_triangles(tile, above); });
+    if (height) most = most ? std::max(*most, *height) : *height;
+  }
+  for (const Pose& plane : planes_) {
+    const Vec3 normal = plane.orientation * Vec3::UnitZ();
+    const double below = extent_along(shapes, at.orientation, -normal);
+    const double height = (below - normal.dot(pose.position - plane.position)) / normal.z();
+    most = most ? std::max(*most, height) : height;
   }
   return most;
+}
+
+std::optional<double> Terrain::height_on_floor(const Floor& floor, std::span<const StandingShape> shapes,
+                                               const Pose& at) {
+  Pose pose = at;
+  pose.position.z() = 0;
+  return rise(shapes, pose, [&](RiseAbove& above) {
+    for (int axis = 0; axis < 3; ++axis)
+      for (const double side : {-1.0, 1.0}) {
+        const Vec3 out = side * floor.half[axis] * Vec3::Unit(axis);
+        const Vec3 u = floor.half[(axis + 1) % 3] * Vec3::Unit((axis + 1) % 3),
+                   v = side * floor.half[(axis + 2) % 3] * Vec3::Unit((axis + 2) % 3);
+        const Pose& p = floor.pose;
+        above.add({p * (out - u - v), p * (out + u - v), p * (out + u + v)});
+        above.add({p * (out - u - v), p * (out + u + v), p * (out - u + v)});
+      }
+  });
+}
+
+double Terrain::height(std::span<const StandingShape> all, const Pose& at) {
+  const StandingShape origin{Shape::sphere(0), "", {}};
+  const std::span<const StandingShape> shapes = all.empty() ? std::span(&origin, 1) : all;
+  const double on_zero = extent_along(shapes, at.orientation, -Vec3::UnitZ());
+  std::optional<double> height = height_on_terrain(shapes, at);
+  if (floors_.empty()) return height.value_or(on_zero);
+  const double above = extent_along(shapes, at.orientation, Vec3::UnitZ());
+  for (const Floor& floor : floors_) {
+    if (!height && floor.low > 0) height = on_zero;
+    if (height && floor.low >= *height + above) continue;  // it goes below
+    const std::optional<double> on_floor = height_on_floor(floor, shapes, at);
+    if (on_floor) height = height ? std::max(*height, *on_floor) : *on_floor;
+  }
+  return height.value_or(on_zero);
 }
 
 }  // namespace muro::host

@@ -110,6 +110,29 @@ TEST(Compare, SaysANoteOnce) {
   EXPECT_EQ(result.output.find(note, first + 1), std::string::npos) << result.output;
 }
 
+TEST(Compare, ShowsJointsAndLinksWhereRobotsHaveThem) {
+  const test::ScratchFolder folder;
+  const auto run = [&](const std::string& robot) {
+    const std::string scenario = folder.file("s.yaml", "duration: 0.5\nrobots: {r: {" + robot +
+                                                           ", motion: {use: motion.simplified, rate: 1000, "
+                                                           "motion.simplified: {base: fixed}}}}\n");
+    const auto result = test::run_command(muro_program + " compare " + scenario +
+                                          " --vary r.motion=simplified,point --csv " + folder.path("t.csv"));
+    EXPECT_EQ(result.exit_code, 0) << result.output;
+    return result.output;
+  };
+  const std::string of_arm = run("model: " MURO_TEST_SOURCE_DIR "/examples/models/arm.urdf");
+  for (const char* title : {"links, m", "joints, rad", "joints, m"})
+    EXPECT_NE(of_arm.find(title), std::string::npos) << of_arm;
+  EXPECT_NE(test::text_of(folder.path("t.csv"))
+                .find(",heading_largest_rad,link_rms_m,link_largest_m,joint_rms_rad,joint_largest_rad,joint_rms_m,"
+                      "joint_largest_m,first_contact_s,"),
+            std::string::npos);
+  const std::string of_ball = run("shape: {sphere: 0.1}, mass: 1");
+  for (const char* title : {"links, m", "joints, "}) EXPECT_EQ(of_ball.find(title), std::string::npos) << of_ball;
+  EXPECT_NE(test::text_of(folder.path("t.csv")).find(",0,0,0,,,,,,,"), std::string::npos) << "empty for a ball";
+}
+
 TEST(Compare, DrawsAPointForEachLevel) {
   const test::ScratchFolder folder;
   const std::string file = folder.path("picture.svg");

@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <map>
+
 #include "tests/support/files.hpp"
 #include "tests/support/scene.hpp"
 
@@ -32,7 +35,8 @@ struct Runs {
   test::ScratchFolder folder;
   Comparison comparison;
   std::vector<std::string> said;
-  explicit Runs(const std::string& text, const std::string& vary) {
+  Runs(const std::string& text, const std::string& vary, const std::map<std::string, std::string>& models = {}) {
+    for (const auto& [name, model] : models) folder.file(name, model);
     comparison.scenario.file = folder.file("s.yaml", text);
     comparison.scenario = read_variation(comparison, {}, test::plugins());
     comparison.factors = {read_factor(vary, comparison.scenario, test::plugins())};
@@ -111,6 +115,40 @@ TEST(Comparison, RobotsMayCollideWithMeshes) {
       "/tests/robots/meshes.urdf, at: {z: 2}, motion: {use: motion.simplified}}\n";
   for (const VariationResult& r : Runs(scenario, "tool.motion=simplified,bullet,ode,mujoco").all())
     EXPECT_EQ(r.failure, "") << r.label;
+}
+
+TEST(Comparison, AFixedArmDeviatesByItsJointsAndLinks) {
+  constexpr double start = 0.1, length = 1, spin = 1e-3;  // rad, m, kg m^2 of a ball of 1 kg
+  Runs runs(R"(
+duration: 3
+robots:
+  pendulum: {model: p.urdf, at: {z: 2}, joints: {hinge: 0.1}, motion: {use: motion.point, motion.articulated: {base: fixed}}}
+)",
+            "pendulum.motion=point,articulated", {{"p.urdf", R"(<robot name="p"><link name="base"/>
+  <link name="rod"><inertial><origin xyz="0 0 -1"/><mass value="1"/>
+    <inertia ixx="1e-3" ixy="0" ixz="0" iyy="1e-3" iyz="0" izz="1e-3"/></inertial></link>
+  <link name="tip"/>
+  <joint name="hinge" type="continuous"><parent link="base"/><child link="rod"/><axis xyz="0 1 0"/></joint>
+  <joint name="end" type="fixed"><parent link="rod"/><child link="tip"/><origin xyz="0 0 -1"/></joint>
+</robot>)"}});
+  const std::vector<VariationResult> results = runs.all();
+  ASSERT_EQ(results[0].failure + results[1].failure, "");
+  const Deviation d = deviation_of(*results[0].trajectory, *results[1].trajectory);
+  EXPECT_EQ(d.position_largest, 0) << "the base is fixed";
+  ASSERT_TRUE(d.revolute_joints && d.links && !d.prismatic_joints);
+  // without forces the joint stays; with them it swings as a pendulum does
+  const double frequency = std::sqrt(9.81 * length / (length * length + spin));
+  double angles = 0, ways = 0, largest = 0;
+  for (int i = 0; i <= 30; ++i) {
+    const double angle = start * (1 - std::cos(frequency * 0.1 * i)), way = 2 * length * std::sin(angle / 2);
+    angles += angle * angle / 31;
+    ways += way * way / 62;  // the rod's own origin is in the hinge
+    largest = std::max(largest, angle);
+  }
+  EXPECT_NEAR(d.revolute_joints->rms, std::sqrt(angles), 0.005 * start);
+  EXPECT_NEAR(d.revolute_joints->largest, largest, 0.005 * start);
+  EXPECT_NEAR(d.links->rms, std::sqrt(ways), 0.005 * start);
+  EXPECT_NEAR(d.links->largest, 2 * length * std::sin(largest / 2), 0.005 * start);
 }
 
 TEST(Comparison, RecordersStayOut) {

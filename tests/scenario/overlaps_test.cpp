@@ -11,7 +11,7 @@
 namespace muro::host {
 namespace {
 
-/// The notes of a built scenario.
+/// The notes of a built scenario, without the path of its file.
 std::vector<std::string> notes_of(const std::string& text) {
   const test::ScratchFolder folder;
   folder.file("arm.urdf", R"(<robot name="arm">
@@ -23,7 +23,11 @@ std::vector<std::string> notes_of(const std::string& text) {
     <collision><geometry><sphere radius="0.1"/></geometry></collision></link>
   <joint name="wrist" type="fixed"><parent link="hand"/><child link="tip"/><origin xyz="0 0 2"/></joint>
 </robot>)");
-  return build(read_scenario(folder.file("s.yaml", text), {}), test::plugins()).notes;
+  const std::string file = folder.file("s.yaml", text);
+  std::vector<std::string> notes = build(read_scenario(file, {}), test::plugins()).notes;
+  for (std::string& note : notes)
+    if (note.starts_with(file + ":")) note.erase(0, file.size() + 1);
+  return notes;
 }
 
 using Notes = std::vector<std::string>;
@@ -43,10 +47,11 @@ robots:
     place: {list: [{x: 0.6, z: 1}, {x: 0.1, z: 1}, {x: -3}]}
     motion: {use: motion.simplified, rate: 100}
 )"),
-      (Notes{"note: `ball_0/body` and `ball_1/body` overlap by 0.1 m at the start; contacts push them apart, so "
-             "move one of them",
-             "note: `ball_0/body` and `wall` overlap by 0.05 m at the start; contacts push them apart, so move one "
-             "of them"}));
+      (Notes{
+          "10:12: note: `ball_0/body` and `ball_1/body` overlap by 0.1 m at the start; contacts push them apart, so "
+          "move one of them",
+          "10:12: note: `ball_0/body` and `wall` overlap by 0.05 m at the start; contacts push them apart, so move one "
+          "of them"}));
 }
 
 TEST(Overlaps, OfLinksAreThoseWithTheJointsWhereTheyStart) {

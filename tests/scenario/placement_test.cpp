@@ -9,6 +9,10 @@
 namespace muro::host {
 namespace {
 
+Body body(const char* name, double height, double radius) {
+  return {name, [height](const Pose&) { return height; }, radius};
+}
+
 struct PlacementTest : ::testing::Test {
   std::map<std::string, std::vector<Rectangle>> places{{"yard", {{0, 0, 10, 4, {0.5}}, {20, 0, 2, 2, {}}}}};
   Obstacle obstacle{{{0, 0, 1}, from_rpy(0, 0, 0.3)}, 2, 1};
@@ -30,7 +34,7 @@ struct PlacementTest : ::testing::Test {
 };
 
 TEST_F(PlacementTest, RandomPlacesKeepTheirDistanceToEverything) {
-  const auto poses = place(random, 30, {"rovers", 0.25, 0.3}, places, occupied);
+  const auto poses = place(random, 30, body("rovers", 0.25, 0.3), places, occupied);
   ASSERT_EQ(poses.size(), 30u);
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const Vec3& p = poses[i].position;
@@ -49,10 +53,10 @@ TEST_F(PlacementTest, RandomPlacesKeepTheirDistanceToEverything) {
 
 TEST_F(PlacementTest, EqualSeedsGiveEqualPlacesAndOthersDoNot) {
   Occupancy again = with_obstacle(), other = with_obstacle();
-  const auto a = place(random, 5, {"rovers", 0, 0.3}, places, occupied);
-  const auto b = place(random, 5, {"rovers", 0, 0.3}, places, again);
+  const auto a = place(random, 5, body("rovers", 0, 0.3), places, occupied);
+  const auto b = place(random, 5, body("rovers", 0, 0.3), places, again);
   random.seed = 8;
-  const auto c = place(random, 5, {"rovers", 0, 0.3}, places, other);
+  const auto c = place(random, 5, body("rovers", 0, 0.3), places, other);
   EXPECT_EQ(a[4].position, b[4].position);
   EXPECT_NE(a[4].position, c[4].position);
 }
@@ -60,7 +64,7 @@ TEST_F(PlacementTest, EqualSeedsGiveEqualPlacesAndOthersDoNot) {
 TEST_F(PlacementTest, AFullPlaceSaysHowManyFit) {
   random.location = {"a.yaml", 3, 5};
   try {
-    place(random, 5000, {"rovers", 0, 0.3}, places, occupied);
+    place(random, 5000, body("rovers", 0, 0.3), places, occupied);
     FAIL();
   } catch (const SetupError& e) {
     const std::string text = e.what();
@@ -77,7 +81,7 @@ TEST_F(PlacementTest, AGridIsCentredAndTurnsWithItsCentre) {
   grid.spacing_x = 2;
   grid.spacing_y = 4;
   grid.poses.push_back({.x = 10, .y = 0, .z = {}, .yaw = M_PI / 2});
-  const auto poses = place(grid, 6, {"posts", 0.5, 1}, places, occupied);
+  const auto poses = place(grid, 6, body("posts", 0.5, 1), places, occupied);
   EXPECT_LT((poses[0].position - Vec3(12, -2, 0.5)).norm(), 1e-12);
   EXPECT_LT((poses[5].position - Vec3(8, 2, 0.5)).norm(), 1e-12);
 }

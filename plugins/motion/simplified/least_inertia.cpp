@@ -2,6 +2,7 @@
 #include "least_inertia.hpp"
 
 #include <algorithm>
+#include <string>
 
 #include "muro/toolkit/bounds.hpp"
 #include "muro/toolkit/mass_properties.hpp"
@@ -10,14 +11,32 @@
 
 namespace muro::simplified {
 
+namespace {
+
+/// The box around a shape that stands at `pose`; empty for what has no size, and for a mesh that cannot be read: what
+/// collides with it reports that.
+Aabb box_around(const Connector& c, const Shape& shape, const Pose& pose, mesh::Store& meshes) {
+  Aabb box;
+  if (shape.kind == ShapeKind::plane) return box;
+  if (shape.kind != ShapeKind::mesh) return bounds_of(shape, pose);
+  try {
+    for (const Vec3& v : meshes.mesh(std::string(c.text(shape.mesh)), shape.size).vertices)
+      box.include({pose * v, pose * v});
+  } catch (const Error&) {
+  }
+  return box;
+}
+
+}  // namespace
+
 bool complete_inertia(Connector& c, const RobotView& robot, std::span<const double> positions,
-                      std::vector<Inertia>& inertias) {
+                      std::vector<Inertia>& inertias, mesh::Store& meshes) {
   Aabb box;
   std::vector<Pose> poses(robot.links.size());
   for (std::size_t i = 0; i < poses.size(); ++i) {
     if (i > 0) poses[i] = poses[std::size_t(robot.links[i].parent)] * pose_in_parent(robot.links[i], positions[i]);
     for (const Shape& s : c.constant_array(robot.links[i].object, keys::collision_shapes))
-      if (s.kind != ShapeKind::plane && s.kind != ShapeKind::mesh) box.include(bounds_of(s, poses[i] * s.origin));
+      box.include(box_around(c, s, poses[i] * s.origin, meshes));
   }
   const Inertia total = composite_inertia(robot.links, inertias, positions);
   if (!(total.mass > 0) || !((box.high - box.low).minCoeff() > 0)) return false;

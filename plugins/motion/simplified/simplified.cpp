@@ -143,7 +143,7 @@ class Simplified final : public Algorithm {
     std::vector<Inertia> inertias = inertias_of(c, robot);
     for (Inertia& i : inertias) i = nearest_consistent_inertia(i).value_or(i);
     const std::vector<double> start = initial_joint_positions(c, robot);
-    if (complete_inertia(c, robot, start, inertias))
+    if (complete_inertia(c, robot, start, inertias, meshes_))
       c.host().log(LogLevel::info,
                    "motion.simplified: the inertia of " + quote(robot.name) +
                        " is less than a hundredth of that of a box of its size and mass, so that contacts could not "
@@ -303,6 +303,7 @@ class Simplified final : public Algorithm {
   }
 
   Accelerations accelerations_{mesh::hull_vertices};
+  mesh::Store meshes_;  ///< of collision shapes, for the size of robots
   bool fixed_ = false;
   std::vector<std::string> without_forces_;  ///< robots whose joints no force can move
   bool stand_still_ = false;                 ///< some of their joints

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Bodies and scenery whose shapes are triangle meshes.
+#include "muro/toolkit/rotations.hpp"
 #include "plugins/common/mesh/files_testing.hpp"
 #include "tests/conformance/motion/case.hpp"
 #include "tests/support/files.hpp"
@@ -60,6 +61,32 @@ Outcome hull(const std::string& motion) {
   return {std::abs(z - 1.1), text(z) + " m for 1.1"};
 }
 
+/// A mesh of a box falls on a corner, with a number for its inertia that nobody has measured: it comes to rest on a
+/// face, and on the way no part of it goes up by more than it fell. The error is what it is too fast or lies too high.
+Outcome placeholder(const std::string& motion) {
+  const test::ScratchFolder folder;
+  const std::string file =
+      folder.file("box.stl", mesh::testing::stl_text(mesh::testing::box({-0.25, -0.2, -0.15}, {0.25, 0.2, 0.15})));
+  Trial t(motion);
+  t.add_ground();
+  const RobotTree tree = test::tree_of([&](RobotBuilder& b) {
+    const Shape s = mesh_shape(b.intern(file));
+    b.base("body");
+    b.set(keys::inertial, Inertia{.mass = 1, .ixx = 1e-9, .iyy = 1e-9, .izz = 1e-9});
+    b.set_array(keys::collision_shapes, std::span<const Shape>(&s, 1));
+  });
+  constexpr double start = 0.5;
+  const RobotView& r = t.add("crate", tree, {{0, 0, start}, from_rpy(0.4, 0.3, 0)});
+  t.start();
+  double fastest = 0;
+  for (int i = 0; i < 400; ++i) {
+    t.run_for(0.01);
+    fastest = std::max(fastest, t.twist(r).linear.norm());
+  }
+  const double z = t.pose(r).position.z(), by_fall = std::sqrt(2 * g * start);
+  return {std::max(std::abs(z - 0.15), fastest - by_fall), text(z) + " m for 0.15, at most " + text(fastest) + " m/s"};
+}
+
 }  // namespace
 
 std::vector<Case> mesh_cases() {
@@ -67,6 +94,8 @@ std::vector<Case> mesh_cases() {
       {"a mesh of a cube lies as a cube", "m", feature_contact | feature_convex_meshes, 2e-3, lies},
       {"the hull of a gutter carries a ball", "m", feature_contact | feature_convex_meshes, 2e-3, hull},
       {"a gutter as it is holds a ball in its hollow", "m", feature_contact | feature_concave_meshes, 2e-3, hollow},
+      {"a mesh with a placeholder for its inertia comes to rest on a face", "m, m/s",
+       feature_forces | feature_contact | feature_convex_meshes, 2e-3, placeholder},
   };
 }
 

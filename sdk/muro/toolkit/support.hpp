@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+
+#include "muro/toolkit/bounds.hpp"
+#include "muro/toolkit/elementary.hpp"
+
+namespace muro {
+
+/// The support function: how far (m) a shape reaches from its middle along `direction` (unit, in the axes of the shape).
+/// 0 for a mesh, infinite or no number for a plane.
+inline double support(const Shape& s, const Vec3& direction) {
+  switch (s.kind) {
+    case ShapeKind::sphere:
+      return s.size.x();
+    case ShapeKind::cylinder:
+      return s.size.x() * elementary::hypot(direction.x(), direction.y()) + 0.5 * s.size.z() * std::abs(direction.z());
+    case ShapeKind::capsule:
+      return s.size.x() + 0.5 * s.size.z() * std::abs(direction.z());
+    default:
+      return direction.cwiseAbs().dot(half_extents(s));
+  }
+}
+
+}  // namespace muro
