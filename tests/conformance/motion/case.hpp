@@ -49,6 +49,7 @@ std::vector<Case> free_body_cases();
 std::vector<Case> slope_cases();
 std::vector<Case> rolling_cases();
 std::vector<Case> impact_cases();
+std::vector<Case> grip_cases();
 std::vector<Case> joint_cases();
 std::vector<Case> massless_arm_cases();
 std::vector<Case> position_drive_cases();

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// Parts that two fingers hold by friction alone.
+#include "tests/conformance/motion/case.hpp"
+
+namespace muro::conformance {
+
+namespace {
+
+constexpr double effort = 20;                                 ///< N, of each finger
+constexpr double friction = 0.5;                              ///< both fingers hold 2 mu N / g = 2.04 kg
+constexpr double pad = 0.04, thickness = 0.02, width = 0.06;  ///< m: of the pads, and of the part between them
+
+/// Two fingers on a base, which slide along y towards each other; with their joints at 0 they are `width` apart.
+RobotTree gripper() {
+  return test::tree_of([](RobotBuilder& b) {
+    b.base("palm");
+    b.set(keys::inertial, solid_box(2, {0.2, 0.2, 0.05}));
+    const Shape shape = with(Shape::box({pad, thickness, pad}), friction);
+    for (const double side : {-1.0, 1.0}) {
+      const std::string name = side < 0 ? "right" : "left";
+      if (side < 0) b.fork();
+      b.translation({0, side * 0.5 * (width + thickness), -0.1});
+      b.prismatic(name, Vec3(0, -side, 0), {.velocity = 1, .effort = effort});
+      b.body(name + "_finger");
+      b.set(keys::inertial, solid_box(0.2, {pad, thickness, pad}));
+      b.set_array(keys::collision_shapes, std::span<const Shape>(&shape, 1));
+      b.end();
+    }
+  });
+}
+
+struct Grip : Trial {
+  const RobotView* part;
+  /// The middle of the part is `off` (m, along the pads) beside theirs.
+  Grip(const std::string& motion, double mass, double off) : Trial(motion) {
+    add("gripper", gripper(), {{0, 0, 1}, Quat::Identity()});
+    use(motion, 1000, all_robots(), {{"base", std::string("fixed")}});
+    part = &add("part", block(mass, {0.08, width, 0.06}, friction), {{off, 0, 0.9}, Quat::Identity()});
+    use(motion, 1000, {all_robots().back()});
+    use_contacts();
+    build();
+    for (const char* joint_name : {"gripper/right", "gripper/left"})
+      joint(joint_name, keys::joint_velocity_target) = 0.05;
+  }
+};
+
+/// How far the part moves and turns, of what it may, within 5 s after the fingers have closed.
+Outcome holds(const std::string& motion) {
+  constexpr double may_move = 1e-4, may_turn = 0.01;
+  double worst = 0;
+  std::string seen;
+  for (const double mass : {1.4, 1.8})
+    for (const double off : {0.0, 0.004}) {
+      Grip trial(motion, mass, off);
+      trial.run_for(0.5);
+      const Pose before = trial.pose(*trial.part);
+      trial.run_for(5);
+      const Pose after = trial.pose(*trial.part);
+      const double moved = (after.position - before.position).norm(),
+                   turned = before.orientation.angularDistance(after.orientation), sunk = 0.9 - before.position.z();
+      worst = std::max({worst, moved / may_move, turned / may_turn, sunk / 2e-3});
+      seen += (seen.empty() ? "" : "; ") + text(mass) + " kg, " + text(off) + " m off: " + text(moved) + " m, " +
+              text(turned) + " rad, after " + text(sunk) + " m";
+    }
+  return {worst, seen};
+}
+
+Outcome drops(const std::string& motion) {
+  Grip trial(motion, 2.3, 0);
+  trial.run_for(1);
+  const double fallen = 0.9 - trial.pose(*trial.part).position.z();
+  return {fallen > 0.1 ? 0.0 : 1.0, text(fallen) + " m in 1 s"};
+}
+
+}  // namespace
+
+std::vector<Case> grip_cases() {
+  constexpr Features needs = feature_contact | feature_friction | feature_joints;
+  std::vector<Case> cases;
+  for (const std::string_view motion : {"motion.ode", "motion.bullet", "motion.mujoco"}) {
+    cases.push_back({"two fingers hold what their friction can carry", "of 0.1 mm, 0.01 rad", needs, 1, holds, motion});
+    cases.push_back(
+        {"two fingers drop what is too heavy for their friction", "holds wrongly", needs, 0, drops, motion});
+  }
+  return cases;
+}
+
+}  // namespace muro::conformance
