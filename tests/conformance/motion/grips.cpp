@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Parts that two fingers hold by friction alone.
+// Parts that two fingers hold by friction alone, and the cones of friction.
+#include <fstream>
+#include <sstream>
+
 #include "tests/conformance/motion/case.hpp"
+#include "tests/support/files.hpp"
 
 namespace muro::conformance {
 
@@ -30,7 +34,7 @@ RobotTree gripper() {
 }
 
 struct Grip : Trial {
-  const RobotView* part;
+  const RobotView* part = nullptr;
   /// The middle of the part is `off` (m, along the pads) beside theirs.
   Grip(const std::string& motion, double mass, double off) : Trial(motion) {
     add("gripper", gripper(), {{0, 0, 1}, Quat::Identity()});
@@ -38,6 +42,8 @@ struct Grip : Trial {
     part = &add("part", block(mass, {0.08, width, 0.06}, friction), {{off, 0, 0.9}, Quat::Identity()});
     use(motion, 1000, {all_robots().back()});
     use_contacts();
+  }
+  void begin() {
     build();
     for (const char* joint_name : {"gripper/right", "gripper/left"})
       joint(joint_name, keys::joint_velocity_target) = 0.05;
@@ -52,6 +58,7 @@ Outcome holds(const std::string& motion) {
   for (const double mass : {1.4, 1.8})
     for (const double off : {0.0, 0.004}) {
       Grip trial(motion, mass, off);
+      trial.begin();
       trial.run_for(0.5);
       const Pose before = trial.pose(*trial.part);
       trial.run_for(5);
@@ -67,9 +74,51 @@ Outcome holds(const std::string& motion) {
 
 Outcome drops(const std::string& motion) {
   Grip trial(motion, 2.3, 0);
+  trial.begin();
   trial.run_for(1);
   const double fallen = 0.9 - trial.pose(*trial.part).position.z();
   return {fallen > 0.1 ? 0.0 : 1.0, text(fallen) + " m in 1 s"};
+}
+
+/// By how much recorded contacts leave the cone of `friction`, of what it bears; of normal forces that are less than
+/// `least` (N), of that.
+double out_of_cone(Simulation& simulation, const std::function<void()>& run, double least) {
+  const test::ScratchFolder folder;
+  const std::string file = folder.path("contacts.csv");
+  simulation.use("recorder.contacts", 1000, {}, {{"file", file}});
+  run();
+  simulation.finish();
+  std::ifstream lines(file);
+  std::string line;
+  std::getline(lines, line);
+  double worst = 0;
+  while (std::getline(lines, line)) {
+    std::istringstream fields(line);
+    std::vector<double> f;
+    for (std::string field; std::getline(fields, field, ',');) f.push_back(std::strtod(field.c_str(), nullptr));
+    const Vec3 normal(f[6], f[7], f[8]), force(f[10], f[11], f[12]);
+    const double pressure = force.dot(normal), tangential = (force - normal * pressure).norm();
+    worst = std::max(worst, (tangential - friction * pressure) / (friction * std::max(pressure, least)));
+  }
+  return worst;
+}
+
+/// What slides and spins, what rolls while it slips, what tumbles, and what is held.
+Outcome stays_in_cones(const std::string& motion) {
+  Trial moving(motion);
+  moving.add_ground(friction);
+  moving.add("slides", block(1, {0.2, 0.2, 0.1}, friction), {{0, 0, 0.05}, Quat::Identity()}, {{1, 0.3, 0}, {0, 0, 4}});
+  moving.add("rolls", ball(1, 0.1, friction), {{0, 2, 0.1}, Quat::Identity()}, {{2, 0, 0}, {0, 0, 3}});
+  moving.add("tumbles", block(1, {0.3, 0.2, 0.1}, friction), {{0, 4, 0.4}, Quat(Eigen::AngleAxisd(0.5, Vec3::UnitX()))},
+             {{1, 0.5, 0}, {1, 5, 2}});
+  moving.use(motion, 1000, moving.all_robots());
+  moving.use_contacts();
+  const double by_moving = out_of_cone(
+      moving, [&] { moving.build(), moving.run_for(2); }, 0.01 * g);
+  Grip grip(motion, 1.8, 0.004);
+  const double by_grip = out_of_cone(
+      grip, [&] { grip.begin(), grip.run_for(1); }, 0.01 * effort);
+  return {std::max(by_moving, by_grip), text(by_moving) + " moving, " + text(by_grip) + " held"};
 }
 
 }  // namespace
@@ -81,6 +130,7 @@ std::vector<Case> grip_cases() {
     cases.push_back({"two fingers hold what their friction can carry", "of 0.1 mm, 0.01 rad", needs, 1, holds, motion});
     cases.push_back(
         {"two fingers drop what is too heavy for their friction", "holds wrongly", needs, 0, drops, motion});
+    cases.push_back({"no contact leaves the cone of its friction", "relative", needs, 0.01, stays_in_cones, motion});
   }
   return cases;
 }
