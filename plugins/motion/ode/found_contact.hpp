@@ -16,6 +16,7 @@ struct FoundContact {
   bool splits = false;           ///< its overlap is taken back by positions alone
   Vec3 drift = Vec3::Zero();     ///< m: how far it has crept since it holds; see ContactHistory
   Vec3 load = Vec3::Zero();      ///< of the step before: friction as part of the normal force
+  double bound = 1;              ///< by which friction is bounded, as part of what the solver takes for its limit
   dJointFeedback feedback{};     ///< what it did
 
   Vec3 point() const { return vector_of(contact.geom.pos); }

@@ -17,6 +17,8 @@ constexpr double min_split_speed = 1e-2;   ///< m/s: overlaps that are taken bac
 constexpr double sliding_speed = 1e-2;     ///< m/s: friction is along the slip
 constexpr double min_slip = 1e-9;          ///< m/s: below, a slip has no direction
 constexpr double min_load = 0.05;          ///< of the friction: below, a load has no direction
+constexpr double narrowest = 0.995;        ///< of the friction: along a load at the limit
+constexpr double near_limit = 0.9;         ///< of the friction: what carries more is taken to be bounded by it
 constexpr double at_limit = 0.98;          ///< of the friction: what carries more may slide
 
 }  // namespace
@@ -96,8 +98,9 @@ void OdeWorld::describe_friction(FoundContact& found) const {
   dSurfaceParameters& surface = found.contact.surface;
   surface.mode |= dContactMu2 | dContactSlip1 | dContactSlip2;
   surface.slip1 = surface.slip2 = settings_.cfm + settings_.softness * dt_ * found.inverse_mass;
-  surface.mu = surface.mu2 = found.friction;
-  if (found.friction == 0) return;
+  const double friction = found.bound * found.friction;
+  surface.mu = surface.mu2 = friction;
+  if (friction == 0) return;
   const Vec3 normal = found.normal(), slip = found.velocity - normal * normal.dot(found.velocity);
   const double speed = slip.norm();
   const auto set_direction = [&](const Vec3& direction) {
@@ -117,10 +120,9 @@ void OdeWorld::describe_friction(FoundContact& found) const {
     set_direction(found.load / load);
   else if (speed > min_slip)
     set_direction(slip / speed);
-  constexpr double narrowest = 0.995;
   const double along = std::clamp(part + 0.1, M_SQRT1_2, narrowest);
-  surface.mu = along * found.friction;
-  surface.mu2 = std::sqrt(1 - along * along) * found.friction;
+  surface.mu = along * friction;
+  surface.mu2 = std::sqrt(1 - along * along) * friction;
   if (found.drift.isZero(0) || (surface.mode & dContactFDir1) == 0) return;
   const Vec3 first = vector_of(found.contact.fdir1), back = -settings_.erp / dt_ * found.drift;
   surface.mode |= dContactMotion1 | dContactMotion2;
@@ -185,6 +187,11 @@ void OdeWorld::remember(FoundContact& found) {
   const Vec3 velocity = velocity_of(found.contact.geom.g1) - velocity_of(found.contact.geom.g2);
   const Vec3 friction = force - normal * pressure, slip = velocity - normal * normal.dot(velocity);
   found.load = friction / pressure;
+  if (settings_.exact) {
+    const double part = found.load.norm() / found.friction;
+    found.bound =
+        part > near_limit ? std::clamp(narrowest * found.bound / part, 0.3, 1.05) : 1 + 0.9 * (found.bound - 1);
+  }
   if (found.load.norm() < at_limit * found.friction && slip.norm() < sliding_speed) {
     found.drift += dt_ * slip;
     const double most = sliding_speed * dt_, far = found.drift.norm();

@@ -10,23 +10,24 @@ namespace muro::conformance {
 
 namespace {
 
-constexpr double effort = 20;                                 ///< N, of each finger
-constexpr double friction = 0.5;                              ///< both fingers hold 2 mu N / g = 2.04 kg
-constexpr double pad = 0.04, thickness = 0.02, width = 0.06;  ///< m: of the pads, and of the part between them
+constexpr double grip_effort = 20;                       ///< N, of each finger
+constexpr double grip_friction = 0.5;                    ///< both fingers hold 2 mu N / g = 2.04 kg
+constexpr double pad_size = 0.04, pad_thickness = 0.02;  ///< m
+constexpr double part_width = 0.06;                      ///< m: between the pads
 
-/// Two fingers on a base, which slide along y towards each other; with their joints at 0 they are `width` apart.
+/// Two fingers on a base, which slide along y towards each other; with their joints at 0 they are `part_width` apart.
 RobotTree gripper() {
   return test::tree_of([](RobotBuilder& b) {
     b.base("palm");
     b.set(keys::inertial, solid_box(2, {0.2, 0.2, 0.05}));
-    const Shape shape = with(Shape::box({pad, thickness, pad}), friction);
+    const Shape shape = with(Shape::box({pad_size, pad_thickness, pad_size}), grip_friction);
     for (const double side : {-1.0, 1.0}) {
       const std::string name = side < 0 ? "right" : "left";
       if (side < 0) b.fork();
-      b.translation({0, side * 0.5 * (width + thickness), -0.1});
-      b.prismatic(name, Vec3(0, -side, 0), {.velocity = 1, .effort = effort});
+      b.translation({0, side * 0.5 * (part_width + pad_thickness), -0.1});
+      b.prismatic(name, Vec3(0, -side, 0), {.velocity = 1, .effort = grip_effort});
       b.body(name + "_finger");
-      b.set(keys::inertial, solid_box(0.2, {pad, thickness, pad}));
+      b.set(keys::inertial, solid_box(0.2, {pad_size, pad_thickness, pad_size}));
       b.set_array(keys::collision_shapes, std::span<const Shape>(&shape, 1));
       b.end();
     }
@@ -39,7 +40,7 @@ struct Grip : Trial {
   Grip(const std::string& motion, double mass, double off) : Trial(motion) {
     add("gripper", gripper(), {{0, 0, 1}, Quat::Identity()});
     use(motion, 1000, all_robots(), {{"base", std::string("fixed")}});
-    part = &add("part", block(mass, {0.08, width, 0.06}, friction), {{off, 0, 0.9}, Quat::Identity()});
+    part = &add("part", block(mass, {0.08, part_width, 0.06}, grip_friction), {{off, 0, 0.9}, Quat::Identity()});
     use(motion, 1000, {all_robots().back()});
     use_contacts();
   }
@@ -51,7 +52,7 @@ struct Grip : Trial {
 };
 
 /// How far the part moves and turns, of what it may, within 5 s after the fingers have closed.
-Outcome holds(const std::string& motion) {
+Outcome holds_part(const std::string& motion) {
   constexpr double may_move = 1e-4, may_turn = 0.01;
   double worst = 0;
   std::string seen;
@@ -72,7 +73,7 @@ Outcome holds(const std::string& motion) {
   return {worst, seen};
 }
 
-Outcome drops(const std::string& motion) {
+Outcome drops_part(const std::string& motion) {
   Grip trial(motion, 2.3, 0);
   trial.begin();
   trial.run_for(1);
@@ -80,7 +81,7 @@ Outcome drops(const std::string& motion) {
   return {fallen > 0.1 ? 0.0 : 1.0, text(fallen) + " m in 1 s"};
 }
 
-/// By how much recorded contacts leave the cone of `friction`, of what it bears; of normal forces that are less than
+/// By how much recorded contacts leave the cone of friction, of what it bears; of normal forces that are less than
 /// `least` (N), of that.
 double out_of_cone(Simulation& simulation, const std::function<void()>& run, double least) {
   const test::ScratchFolder folder;
@@ -98,7 +99,7 @@ double out_of_cone(Simulation& simulation, const std::function<void()>& run, dou
     for (std::string field; std::getline(fields, field, ',');) f.push_back(std::strtod(field.c_str(), nullptr));
     const Vec3 normal(f[6], f[7], f[8]), force(f[10], f[11], f[12]);
     const double pressure = force.dot(normal), tangential = (force - normal * pressure).norm();
-    worst = std::max(worst, (tangential - friction * pressure) / (friction * std::max(pressure, least)));
+    worst = std::max(worst, (tangential - grip_friction * pressure) / (grip_friction * std::max(pressure, least)));
   }
   return worst;
 }
@@ -106,18 +107,19 @@ double out_of_cone(Simulation& simulation, const std::function<void()>& run, dou
 /// What slides and spins, what rolls while it slips, what tumbles, and what is held.
 Outcome stays_in_cones(const std::string& motion) {
   Trial moving(motion);
-  moving.add_ground(friction);
-  moving.add("slides", block(1, {0.2, 0.2, 0.1}, friction), {{0, 0, 0.05}, Quat::Identity()}, {{1, 0.3, 0}, {0, 0, 4}});
-  moving.add("rolls", ball(1, 0.1, friction), {{0, 2, 0.1}, Quat::Identity()}, {{2, 0, 0}, {0, 0, 3}});
-  moving.add("tumbles", block(1, {0.3, 0.2, 0.1}, friction), {{0, 4, 0.4}, Quat(Eigen::AngleAxisd(0.5, Vec3::UnitX()))},
-             {{1, 0.5, 0}, {1, 5, 2}});
+  moving.add_ground(grip_friction);
+  moving.add("slides", block(1, {0.2, 0.2, 0.1}, grip_friction), {{0, 0, 0.05}, Quat::Identity()},
+             {{1, 0.3, 0}, {0, 0, 4}});
+  moving.add("rolls", ball(1, 0.1, grip_friction), {{0, 2, 0.1}, Quat::Identity()}, {{2, 0, 0}, {0, 0, 3}});
+  moving.add("tumbles", block(1, {0.3, 0.2, 0.1}, grip_friction),
+             {{0, 4, 0.4}, Quat(Eigen::AngleAxisd(0.5, Vec3::UnitX()))}, {{1, 0.5, 0}, {1, 5, 2}});
   moving.use(motion, 1000, moving.all_robots());
   moving.use_contacts();
   const double by_moving = out_of_cone(
       moving, [&] { moving.build(), moving.run_for(2); }, 0.01 * g);
   Grip grip(motion, 1.8, 0.004);
   const double by_grip = out_of_cone(
-      grip, [&] { grip.begin(), grip.run_for(1); }, 0.01 * effort);
+      grip, [&] { grip.begin(), grip.run_for(1); }, 0.01 * grip_effort);
   return {std::max(by_moving, by_grip), text(by_moving) + " moving, " + text(by_grip) + " held"};
 }
 
@@ -127,9 +129,10 @@ std::vector<Case> grip_cases() {
   constexpr Features needs = feature_contact | feature_friction | feature_joints;
   std::vector<Case> cases;
   for (const std::string_view motion : {"motion.ode", "motion.bullet", "motion.mujoco"}) {
-    cases.push_back({"two fingers hold what their friction can carry", "of 0.1 mm, 0.01 rad", needs, 1, holds, motion});
     cases.push_back(
-        {"two fingers drop what is too heavy for their friction", "holds wrongly", needs, 0, drops, motion});
+        {"two fingers hold what their friction can carry", "of 0.1 mm, 0.01 rad", needs, 1, holds_part, motion});
+    cases.push_back(
+        {"two fingers drop what is too heavy for their friction", "holds wrongly", needs, 0, drops_part, motion});
     cases.push_back({"no contact leaves the cone of its friction", "relative", needs, 0.01, stays_in_cones, motion});
   }
   return cases;
