@@ -12,7 +12,8 @@ namespace {
 using Frame = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double min_split_speed = 1e-2;  ///< m/s: slower corrections of overlaps are left in velocities
+constexpr double slow_recovery = 1e-2;  ///< m/s: what lands may rebound so fast
+constexpr double shallow = 1e-3;        ///< m: overlaps that are taken back so slowly, in one solution
 
 /// m/s^2: by what the cone of a contact lifts what slides, spins and rolls by `slip(k)` in its row k.
 template <class Slip>
@@ -116,14 +117,15 @@ void MujocoContacts::set_reference(mjData& d, int id, int row, double dt) {
   mjtNum* target = d.efc_aref + row;
   const double restitution = pair_surface(a.surface, b.surface, settings_.friction_rule).restitution;
   const bool impact = speed[0] < -settings_.bounce_speed, bounces = impact && restitution > 0;
-  const double recovery =
-      bounces ? 0 : std::min(-c.dist / std::max(settings_.time_constant, 2 * dt), settings_.correcting_speed);
+  const bool splits = !bounces && -c.dist > shallow;
+  const double fastest = splits ? settings_.correcting_speed : std::min(slow_recovery, settings_.correcting_speed);
+  const double recovery = bounces ? 0 : std::min(-c.dist / std::max(settings_.time_constant, 2 * dt), fastest);
   const double pull = -d.efc_b[row];  // m/s^2: towards each other
   const double wanted = bounces ? rebound_speed(restitution, -speed[0], pull, -c.dist, dt) : recovery;
   target[0] = (wanted - speed[0]) / dt;
   for (int k = 1; k < c.dim; ++k) target[k] = -speed[k] / dt;
   Reference& reference = references_[std::size_t(id)];
-  reference = {target[0], infinity, recovery > min_split_speed ? recovery / dt : 0};
+  reference = {target[0], infinity, splits && recovery > slow_recovery ? recovery / dt : 0};
   // accelerations of the last step say nothing of an impact, and must not hide it
   if (impact && c.dim >= 3) reference.max_lift = lift_of(c, [&](int k) { return target[k] - d.efc_b[row + k]; });
   for (int k = 0; bounces && k < c.dim; ++k) {

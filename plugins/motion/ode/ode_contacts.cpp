@@ -13,7 +13,8 @@ namespace {
 
 constexpr double deep_softness = 0.1;      ///< of the inverse effective mass
 constexpr double rebound_softness = 1e-6;  ///< likewise
-constexpr double min_split_speed = 1e-2;   ///< m/s: overlaps that are taken back slower are left to velocities
+constexpr double slow_correction = 1e-2;   ///< m/s: what lands may rebound so fast
+constexpr double shallow = 1e-3;           ///< m: overlaps that are taken back so slowly, without a SplitStep
 constexpr double sliding_speed = 1e-2;     ///< m/s: friction is along the slip
 constexpr double min_slip = 1e-9;          ///< m/s: below, a slip has no direction
 constexpr double min_load = 0.05;          ///< of the friction: below, a load has no direction
@@ -60,7 +61,8 @@ void OdeWorld::describe_normal(FoundContact& found, double restitution) const {
   const double approach = -found.velocity.dot(found.normal()),
                correction = settings_.erp * found.contact.geom.depth / dt_;
   found.is_rebound = restitution > 0 && approach > settings_.bounce_speed;
-  found.splits = !found.is_rebound && correction > min_split_speed;
+  const bool is_fast = !found.is_rebound && correction > slow_correction;
+  found.splits = is_fast && found.contact.geom.depth > shallow;
   // What is deep in a body is often pushed from several sides at once, which no forces can fulfil.
   double softness = settings_.softness;
   if (found.is_rebound)
@@ -69,6 +71,10 @@ void OdeWorld::describe_normal(FoundContact& found, double restitution) const {
     softness = std::max(softness, deep_softness);
   surface.mode |= dContactSoftCFM;
   surface.soft_cfm = settings_.cfm + softness * dt_ * found.inverse_mass;
+  if (is_fast && !found.splits) {
+    surface.mode |= dContactSoftERP;
+    surface.soft_erp = settings_.erp * slow_correction / correction;
+  }
   if (!found.is_rebound) return;
   surface.mode |= dContactBounce | dContactSoftERP;
   surface.bounce = rebound_speed(found, restitution, approach) / approach;
