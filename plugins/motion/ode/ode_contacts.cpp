@@ -18,9 +18,9 @@ constexpr double shallow = 1e-3;           ///< m: overlaps that are taken back 
 constexpr double sliding_speed = 1e-2;     ///< m/s: friction is along the slip
 constexpr double min_slip = 1e-9;          ///< m/s: below, a slip has no direction
 constexpr double min_load = 0.05;          ///< of the friction: below, a load has no direction
+constexpr double at_limit = 0.98;          ///< of the friction: what carries more may slide
 constexpr double narrowest = 0.995;        ///< of the friction: along a load at the limit
 constexpr double near_limit = 0.9;         ///< of the friction: what carries more is taken to be bounded by it
-constexpr double at_limit = 0.98;          ///< of the friction: what carries more may slide
 
 }  // namespace
 
@@ -176,7 +176,7 @@ void OdeWorld::tell_contact(const FoundContact& found, bool to_first) {
   state.contacts.push_back(told);
 }
 
-/// Where friction holds, what is left of the slip adds to the drift; where it may slide, the drift stays.
+/// What is left of the slip of a contact that holds, or all but holds, adds to its drift.
 void OdeWorld::remember(FoundContact& found) {
   if (found.friction == 0) return;
   const Vec3 normal = found.normal(), force = found.force();
@@ -193,12 +193,13 @@ void OdeWorld::remember(FoundContact& found) {
   const Vec3 velocity = velocity_of(found.contact.geom.g1) - velocity_of(found.contact.geom.g2);
   const Vec3 friction = force - normal * pressure, slip = velocity - normal * normal.dot(velocity);
   found.load = friction / pressure;
+  const double part = found.load.norm() / found.friction;
   if (settings_.exact) {
-    const double part = found.load.norm() / found.friction;
     found.bound =
         part > near_limit ? std::clamp(narrowest * found.bound / part, 0.3, 1.05) : 1 + 0.9 * (found.bound - 1);
   }
-  if (found.load.norm() < at_limit * found.friction && slip.norm() < sliding_speed) {
+  // The direct solver leaves no slip but where friction is at its limit: that is none to take back.
+  if (slip.norm() < sliding_speed && !(settings_.exact && part > at_limit)) {
     found.drift += dt_ * slip;
     const double most = sliding_speed * dt_, far = found.drift.norm();
     if (far > most) found.drift *= most / far;
