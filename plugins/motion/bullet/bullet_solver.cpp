@@ -12,7 +12,8 @@ namespace {
 
 constexpr double unbounded = 1e30;
 constexpr double min_split_velocity = 1e-4;  ///< m/s: slower corrections of overlaps are left in velocities
-constexpr double deep_softness = 0.1;        ///< see add(): of the inverse effective mass
+constexpr double softness = 0.01;            ///< see add(): of the inverse effective mass
+constexpr double deep_softness = 0.1;        ///< likewise
 constexpr double min_slip = 1e-3;            ///< m/s: below, friction has no direction of its own
 constexpr double near_limit = 0.02;          ///< rad or m: joints that are nearer to a limit have a row for it
 
@@ -198,10 +199,13 @@ void BulletSolver::add(SolverContact& c, BulletRobot& a, BulletRobot* b, const T
   c.bitangent = c.point.normal.cross(c.tangent);
   c.row = m_multiBodyNormalContactConstraints.size();
   // What is deep in a body is often pushed from several sides at once, which no impulses can fulfil: they would grow
-  // from step to step. Softness, and to begin at none, bounds them; it takes a thousandth of g from the speed.
+  // from step to step. Softness, and to begin at none, bounds them; it takes a thousandth of g from the speed. Where
+  // many points share a load, any shares that add up would do, and the solver would keep those that it began with, with
+  // all of the load, and the friction that it bears, on one corner. Softness draws them to those of least work.
   const bool is_deep = !is_rebound && velocity >= settings_.correcting_speed;
   const Vec3 initial_impulse = (is_deep ? 0 : settings_.warm_start) * c.impulse;
-  const double cfm = settings_.cfm + (is_deep ? deep_softness * dt_ * normal.inverse_effective_mass : 0);
+  const double part = is_rebound ? 0 : is_deep ? deep_softness : softness;
+  const double cfm = settings_.cfm + part * dt_ * normal.inverse_effective_mass;
   const btMultiBodySolverConstraint& row = add_row(m_multiBodyNormalContactConstraints, normal, velocity, 0, unbounded,
                                                    cfm, std::max(0.0, initial_impulse.dot(c.point.normal)));
   if (velocity > min_split_velocity && !is_rebound)

@@ -12,6 +12,8 @@ namespace {
 using Frame = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double slow_recovery = 1e-2;  ///< m/s: what lands may rebound so fast
+constexpr double shallow = 1e-3;        ///< m: overlaps that are taken back so slowly, in one solution
 
 /// m/s^2: by what the cone of a contact lifts what slides, spins and rolls by `slip(k)` in its row k.
 template <class Slip>
@@ -20,6 +22,15 @@ double lift_of(const mjContact& c, const Slip& slip) {
   double sum = 0;
   for (int k = 1; k < c.dim; ++k) sum += c.friction[k - 1] * c.friction[k - 1] * slip(k) * slip(k);
   return std::sqrt(sum);
+}
+
+/// m/s, of bodies that meet with the speed `approach` (m/s), both in the middle of a step. The impact was earlier in
+/// the step: they have been pulled together (m/s^2) for their depth (m) since, and part with what Newton's law leaves
+/// of the energy that they had there, plus what the pull takes from them on their way back.
+double rebound_speed(double restitution, double approach, double pull, double depth, double dt) {
+  const double half_step = 0.5 * pull * dt, of_depth = 2 * pull * depth;
+  const double in = std::max(0.0, (approach + half_step) * (approach + half_step) - of_depth);
+  return std::max(0.0, std::sqrt(std::max(0.0, restitution * restitution * in + of_depth)) - half_step);
 }
 
 }  // namespace
@@ -105,18 +116,38 @@ void MujocoContacts::set_reference(mjData& d, int id, int row, double dt) {
   for (int k = 0; k < c.dim; ++k) speed[k] += d.efc_vel[row + k];
   mjtNum* target = d.efc_aref + row;
   const double restitution = pair_surface(a.surface, b.surface, settings_.friction_rule).restitution;
-  const double recovery = std::min(-c.dist / std::max(settings_.time_constant, 2 * dt), settings_.correcting_speed);
   const bool impact = speed[0] < -settings_.bounce_speed, bounces = impact && restitution > 0;
-  target[0] = ((bounces ? std::max(-restitution * speed[0], recovery) : recovery) - speed[0]) / dt;
+  const bool splits = !bounces && -c.dist > shallow;
+  const double fastest = splits ? settings_.correcting_speed : std::min(slow_recovery, settings_.correcting_speed);
+  const double recovery = bounces ? 0 : std::min(-c.dist / std::max(settings_.time_constant, 2 * dt), fastest);
+  const double pull = -d.efc_b[row];  // m/s^2: towards each other
+  const double wanted = bounces ? rebound_speed(restitution, -speed[0], pull, -c.dist, dt) : recovery;
+  target[0] = (wanted - speed[0]) / dt;
   for (int k = 1; k < c.dim; ++k) target[k] = -speed[k] / dt;
   Reference& reference = references_[std::size_t(id)];
-  reference = {target[0], infinity};
+  reference = {target[0], infinity, splits && recovery > slow_recovery ? recovery / dt : 0};
   // accelerations of the last step say nothing of an impact, and must not hide it
   if (impact && c.dim >= 3) reference.max_lift = lift_of(c, [&](int k) { return target[k] - d.efc_b[row + k]; });
   for (int k = 0; bounces && k < c.dim; ++k) {
     d.efc_R[row + k] *= (1 / mjMAXIMP - 1) / (1 / settings_.impedance - 1);
     d.efc_D[row + k] = 1 / d.efc_R[row + k];
   }
+}
+
+bool MujocoContacts::leave_overlaps(mjData& d) {
+  bool pushes = false;
+  for (int i = 0; i < d.ncon; ++i) {
+    const int row = d.contact[i].efc_address;
+    pushes = pushes || (row >= 0 && references_[std::size_t(i)].recovery > 0 && d.efc_force[row] > 0);
+  }
+  for (int i = 0; pushes && i < d.ncon; ++i) {
+    const int row = d.contact[i].efc_address;
+    if (row < 0) continue;
+    Reference& reference = references_[std::size_t(i)];
+    reference.normal -= reference.recovery;
+    d.efc_aref[row] -= reference.recovery;
+  }
+  return pushes;
 }
 
 double MujocoContacts::correct_for_sliding(const mjModel& m, mjData& d, const mjtNum* acceleration) {

@@ -48,6 +48,8 @@ class MujocoContacts {
   /// degrees of freedom; solved again until that settles, contacts have Coulomb's friction (the fixed point of Cadoux
   /// on De Saxce's formulation). Returns the largest change (m/s^2).
   double correct_for_sliding(const mjModel& m, mjData& d, const mjtNum* acceleration);
+  /// After the solver: leaves what takes overlaps back out of what rows aim at. Returns whether that changes anything.
+  bool leave_overlaps(mjData& d);
   /// Adds what contacts did to the robots.
   void export_wrenches(const mjData& d, std::deque<MujocoRobot>& robots) const;
 
@@ -65,6 +67,7 @@ class MujocoContacts {
   struct Reference {
     double normal = 0;    ///< m/s^2, before the correction for sliding
     double max_lift = 0;  ///< m/s^2, of an impact: what stopping all sliding would lift
+    double recovery = 0;  ///< m/s^2: the part of `normal` that takes an overlap back and that velocities shall not keep
   };
 
   MujocoSettings settings_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "mujoco_world.hpp"
 
+#include <algorithm>
+
 #include "muro/algorithm.hpp"
 
 namespace muro::mujoco {
@@ -197,16 +199,41 @@ void MujocoWorld::step() {
   mj_fwdActuation(m, d);
   mj_fwdAcceleration(m, d);
   set_references();
+  solve();
+  if (contacts_.leave_overlaps(*d))
+    split_step();
+  else
+    mj_Euler(m, d);
+  for (int i = 0; i < d->nefc && d->efc_type[i] == mjCNSTR_FRICTION_DOF; ++i) {
+    const DofOwner& drive = dof_owners_[std::size_t(d->efc_id[i])];
+    robots_[drive.robot].set_effort(drive.body, d->efc_force[i]);
+  }
+}
+
+void MujocoWorld::solve() {
+  const mjModel* m = model_.get();
+  mjData* d = data_.get();
   contacts_.correct_for_sliding(*m, *d, d->qacc_warmstart);
   for (int i = 0;; ++i) {
     mj_fwdConstraint(m, d);
     if (i == settings_.refinements || contacts_.correct_for_sliding(*m, *d, d->qacc) < sliding_tolerance) break;
   }
+}
+
+/// Velocities that take overlaps back would last, and what lands would rebound: they move positions, then the rows are
+/// solved without them, and velocities are what is left (split impulses).
+void MujocoWorld::split_step() {
+  const mjModel* m = model_.get();
+  mjData* d = data_.get();
+  positions_.assign(d->qpos, d->qpos + m->nq);
+  velocities_.assign(d->qvel, d->qvel + m->nv);
   mj_Euler(m, d);
-  for (int i = 0; i < d->nefc && d->efc_type[i] == mjCNSTR_FRICTION_DOF; ++i) {
-    const DofOwner& drive = dof_owners_[std::size_t(d->efc_id[i])];
-    robots_[drive.robot].set_effort(drive.body, d->efc_force[i]);
-  }
+  std::swap_ranges(positions_.begin(), positions_.end(), d->qpos);
+  std::copy(velocities_.begin(), velocities_.end(), d->qvel);
+  d->time -= dt_;
+  solve();
+  mj_Euler(m, d);
+  std::copy(positions_.begin(), positions_.end(), d->qpos);
 }
 
 /// A row's force is (a* - J a) / R: with R = softness / dt it is that of a damper on the speed at the end of the step.

@@ -43,6 +43,8 @@ class MujocoWorld final : public multibody::World {
   void allocate_data();
   void import(KinematicBody& body);
   void step();
+  void solve();
+  void split_step();
   void check_inertia() const;
   void set_softness();
   void set_references();
@@ -58,8 +60,9 @@ class MujocoWorld final : public multibody::World {
   Model model_;
   Data data_;
   MujocoContacts contacts_;
-  std::vector<DofOwner> dof_owners_;  ///< one per degree of freedom
-  std::vector<DofDrive> dof_drives_;  ///< the same
+  std::vector<DofOwner> dof_owners_;            ///< one per degree of freedom
+  std::vector<DofDrive> dof_drives_;            ///< the same
+  std::vector<mjtNum> positions_, velocities_;  ///< scratch: see split_step
   double dt_ = 0;
   double stack_factor_ = 1;
 };

@@ -21,7 +21,8 @@ constexpr std::string_view solvers[] = {"auto", "quick", "exact"};
 constexpr Parameter own_parameters[] = {
     text("solver", "auto",
          "iterative (dWorldQuickStep), or direct (dWorldStep), whose cost grows with the cube of the rows of a robot; "
-         "auto: exact where a robot has joints on joints, or the iterations do not hold them, as found at the start")
+         "auto: exact where a robot has joints on joints or limbs, or the iterations do not hold them, as found at the "
+         "start")
         .one_of(solvers),
     integer("iterations", 50, "of the solver `quick`").between(1, 10000),
     real("erp", "1", 0.2, "part of an error of joints and contacts that a step takes back").between(0, 1),
@@ -49,6 +50,17 @@ constexpr double most_unsolved = 1e-3;
 /// Its cost, which grows with the cube of the rows, is a matter for a note.
 constexpr std::size_t many_joints = 24;
 
+/// Whether a link on the base moves what touches it, as fingers do and wheels do not: it slides, or its centre of mass
+/// is off its axis.
+bool is_limb(const multibody::RigidBody& body) {
+  if (body.parent < 0) return false;
+  if (body.joint != JointKind::revolute) return true;
+  const Inertia& i = body.inertia;
+  const double off_axis = (i.com - body.axis * body.axis.dot(i.com)).squaredNorm() * i.mass,
+               about_axis = body.axis.dot(Vec3(i.tensor() * body.axis));
+  return off_axis > 0.25 * about_axis;
+}
+
 /// Why iterations do not serve a robot, or nothing.
 std::string objection_to_quick(const Connector& c, std::uint32_t item, int iterations) {
   const RobotView& robot = *c.items()[item].robot;
@@ -58,11 +70,15 @@ std::string objection_to_quick(const Connector& c, std::uint32_t item, int itera
   const double unsolved = ode::unsolved_part(model, iterations);
   const bool chains =
       std::any_of(model.bodies.begin(), model.bodies.end(), [](const auto& body) { return body.parent > 0; });
-  if (unsolved <= most_unsolved && !chains) return {};
+  const bool limbs = std::any_of(model.bodies.begin(), model.bodies.end(), is_limb);
+  if (unsolved <= most_unsolved && !chains && !limbs) return {};
   char share[32];
   const char* const end = std::to_chars(share, share + sizeof share, unsolved, std::chars_format::general, 2).ptr;
   std::string text = quote(robot.name);
-  text.append(chains ? " has joints on joints, and " : ": ").append(std::to_string(iterations));
+  text.append(chains  ? " has joints on joints, and "
+              : limbs ? " has limbs, which can grip: what they hold creeps with iterations, and "
+                      : ": ")
+      .append(std::to_string(iterations));
   text.append(" iterations leave ").append(share, std::size_t(end - share)).append(" of what parts its joints");
   if (model.bodies.size() > many_joints + 1)
     text.append("; with ")

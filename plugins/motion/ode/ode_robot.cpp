@@ -49,10 +49,13 @@ bool may_have_rotor(const RigidBody& body) {
 
 }  // namespace
 
+bool OdeRobot::keeps_rotors(const multibody::RobotModel& model, bool exact) {
+  return !exact && std::any_of(model.bodies.begin(), model.bodies.end(), may_have_rotor);
+}
+
 std::size_t OdeRobot::memory_of(const multibody::RobotModel& model, bool exact) {
   const std::size_t count = model.bodies.size();
-  const bool rotors = !exact && std::any_of(model.bodies.begin(), model.bodies.end(), may_have_rotor);
-  return numbers * count + (rotors ? count : 0);
+  return numbers * count + (keeps_rotors(model, exact) ? count : 0) + ContactHistory::size_of(model);
 }
 
 OdeRobot::OdeRobot(dWorldID world, dSpaceID space, const multibody::RobotModel& model, multibody::RobotState& state,
@@ -64,7 +67,8 @@ OdeRobot::OdeRobot(dWorldID world, dSpaceID space, const multibody::RobotModel& 
       state_(&state),
       settings_(settings),
       rotates_exactly_(settings.exact_attitude && model.bodies.size() == 1 && !model.fixed_base),
-      keeps_rotors_(memory_of(model, settings.exact) > memory_of(model, true)),
+      keeps_rotors_(keeps_rotors(model, settings.exact)),
+      history_(state.memory.last(ContactHistory::size_of(model))),
       body_states_(model.bodies.size()) {
   multibody::RobotState zero;  // joints are made where all of them are at 0
   zero.joints.resize(model.bodies.size());
@@ -168,6 +172,11 @@ double OdeRobot::inverse_effective_mass(std::size_t number, const Vec3& point, c
   return 1 / model_->bodies[number].inertia.mass + lever.dot(b.inverse_inertia * lever);
 }
 
+Vec3 OdeRobot::free_acceleration(std::size_t number) const {
+  if (motion_type_ != MotionType::dynamic || (number == 0 && model_->fixed_base)) return Vec3::Zero();
+  return settings_.gravity + vector_of(dBodyGetForce(bodies_[number].id)) / model_->bodies[number].inertia.mass;
+}
+
 /// 1/kg or 1/(kg m^2): of what the joint of each body moves. The exact solver holds what hangs on a joint as one body,
 /// which may be far heavier than the body next to it. With the quick one that is too hard for its iterations, so there
 /// the two bodies count alone.
@@ -229,6 +238,7 @@ void OdeRobot::import() {
   else if (!bodies_match_memory_)
     set_bodies_from_memory();
   bodies_match_memory_ = false;
+  if (state_->moved_from_outside) history_.clear();
   for (OdeBody& b : bodies_) b.start = quaternion_of(dBodyGetQuaternion(b.id));
   state_->clear_contacts();
   if (motion_type_ != MotionType::dynamic) return;

@@ -4,7 +4,7 @@
 
 #include <deque>
 
-#include "geoms.hpp"
+#include "contact_history.hpp"
 #include "ode_settings.hpp"
 
 namespace muro::ode {
@@ -12,7 +12,7 @@ namespace muro::ode {
 class OdeRobot {
  public:
   /// How many numbers a robot keeps from step to step: poses and velocities of its bodies; with iterations, speeds of
-  /// its rotors.
+  /// its rotors; its contacts.
   static std::size_t memory_of(const multibody::RobotModel& model, bool exact);
 
   /// `space`: for its geoms. `owners`: those of all geoms of the world, to which it adds its own.
@@ -33,6 +33,11 @@ class OdeRobot {
   multibody::MotionType motion_type() const { return motion_type_; }
   /// 1/kg: of a contact at `point` with `normal` (unit) on a body that no joint holds; world axes.
   double inverse_effective_mass(std::size_t body, const Vec3& point, const Vec3& normal) const;
+  /// m/s^2: of the body's centre of mass by gravity and what acts on it from outside, without joints and contacts.
+  Vec3 free_acceleration(std::size_t body) const;
+  std::size_t body_count() const { return bodies_.size(); }
+  dBodyID body_id(std::size_t body) const { return bodies_[body].id; }
+  ContactHistory& history() { return history_; }
   dSpaceID space() const { return space_; }
   const std::vector<dGeomID>& geoms() const { return geoms_; }
 
@@ -57,6 +62,7 @@ class OdeRobot {
     dJointFeedback feedback{};                     ///< of what drives the joint
   };
 
+  static bool keeps_rotors(const multibody::RobotModel& model, bool exact);
   void add_body(std::size_t body);
   void add_joint(std::size_t body);
   std::vector<double> inverse_joint_inertias() const;
@@ -86,6 +92,7 @@ class OdeRobot {
   multibody::MotionType motion_type_ = multibody::MotionType::dynamic;
   std::deque<OdeBody> bodies_;        ///< one per body
   bool bodies_match_memory_ = false;  ///< they are where the memory says
+  ContactHistory history_;
   std::vector<dGeomID> geoms_;
   std::vector<multibody::BodyState> body_states_;
 };

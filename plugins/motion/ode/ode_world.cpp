@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <utility>
 
 #include "muro/algorithm.hpp"
 
@@ -27,9 +28,7 @@ void abandon(std::vector<void*> parts) {
   abandoned.push_back(std::move(parts));
 }
 
-constexpr double deep_softness = 0.1;   ///< see softness_of
-constexpr int max_contacts = 8;         ///< of two geoms
-constexpr double sliding_speed = 1e-2;  ///< m/s
+constexpr int max_contacts = 8;  ///< of two geoms
 
 }  // namespace
 
@@ -129,7 +128,7 @@ void OdeWorld::add_robot(const multibody::RobotModel& model, multibody::RobotSta
 void OdeWorld::complete() {
   pairs_.reserve(64);
   found_contacts_.resize(64);
-  feedbacks_.reserve(64);
+  split_step_.resize(robots_);
 }
 
 void OdeWorld::import(KinematicBody& k) const {
@@ -159,8 +158,13 @@ void OdeWorld::advance(double dt) {
     for (OdeRobot& r : robots_) r.import();
     find_pairs();
     find_contacts();
-    create_contact_joints();
+    describe_contacts();
+    for (std::size_t i = 0; i < contact_count_; ++i) create_contact_joint(found_contacts_[i]);
+    const bool splits = std::any_of(found_contacts_.begin(), found_contacts_.begin() + std::ptrdiff_t(contact_count_),
+                                    [](const FoundContact& c) { return c.splits; });
+    if (splits) split_step_.keep_start(robots_);
     step_world(dt);
+    if (splits && split_step_.find_pushed(robots_, std::span(found_contacts_).first(contact_count_))) step_again(dt);
     for (OdeRobot& r : robots_) r.export_state(dt);
     export_contacts();
     dJointGroupEmpty(contact_joints_);
@@ -177,16 +181,19 @@ void OdeWorld::set_step(double dt) {
   for (OdeRobot& r : robots_) r.set_step(dt);
 }
 
-/// In 1/(N s/m): ODE adds it, over the time step, to the inverse effective mass.
-double OdeWorld::softness_of(const FoundContact& found) const {
-  const Vec3 point = vector_of(found.contact.geom.pos), normal = vector_of(found.contact.geom.normal);
-  double inverse = 0;
-  for (const GeomOwner* owner : {found.first, found.second})
-    if (owner->robot >= 0)
-      inverse += robots_[std::size_t(owner->robot)].inverse_effective_mass(owner->body, point, normal);
-  // What is deep in a body is often pushed from several sides at once, which no forces can fulfil.
-  const bool is_deep = settings_.erp * found.contact.geom.depth > settings_.correcting_speed * dt_;
-  return settings_.cfm + (is_deep ? std::max(settings_.softness, deep_softness) : settings_.softness) * dt_ * inverse;
+/// Bodies go where the step with corrections of overlaps has brought them, with the velocities of one without.
+void OdeWorld::step_again(double dt) {
+  dJointGroupEmpty(contact_joints_);
+  split_step_.begin_again(robots_);
+  for (KinematicBody& k : kinematic_bodies_) import(k);
+  for (std::size_t i = 0; i < contact_count_; ++i) {
+    FoundContact& c = found_contacts_[i];
+    if (!split_step_.is_pushed(c)) continue;
+    if (c.splits) leave_overlap(c);
+    create_contact_joint(c);
+  }
+  step_world(dt);
+  split_step_.end(robots_);
 }
 
 void OdeWorld::step_world(double dt) {
@@ -276,106 +283,17 @@ void OdeWorld::find_contacts() {
       found_contacts_.resize(2 * (contact_count_ + max_contacts));
     FoundContact* const unused = found_contacts_.data() + contact_count_;
     const int n = collide(p, unused);
-    for (int i = 0; i < n; ++i) unused[i].first = &owner_of(p.first), unused[i].second = &owner_of(p.second);
+    for (int i = 0; i < n; ++i) {
+      FoundContact& c = unused[i];
+      c.first = &owner_of(p.first);
+      c.second = &owner_of(p.second);
+      dContactGeom& geom = c.contact.geom;
+      if (geom.g1 == p.first) continue;
+      std::swap(geom.g1, geom.g2);
+      std::swap(geom.side1, geom.side2);
+      for (int k = 0; k < 3; ++k) geom.normal[k] = -geom.normal[k];
+    }
     contact_count_ += std::size_t(n);
-  }
-}
-
-void OdeWorld::create_contact_joints() {
-  if (settings_.reactions) feedbacks_.assign(contact_count_, dJointFeedback{});
-  for (std::size_t i = 0; i < contact_count_; ++i) {
-    FoundContact& found = found_contacts_[i];
-    dContactGeom& geom = found.contact.geom;
-    if (found.second->scenery)
-      robots_[std::size_t(found.first->robot)].state().overlap.add(geom.depth, found.first->loaded_link,
-                                                                   *found.second->scenery);
-    dSurfaceParameters& surface = found.contact.surface;  // what its mode does not name is not read
-    surface.mode = dContactApprox1 | dContactSoftCFM | dContactSlip1 | dContactSlip2;
-    surface.soft_cfm = surface.slip1 = surface.slip2 = softness_of(found);
-    const Surface pair = pair_surface(found.first->surface, found.second->surface, settings_.friction_rule);
-    surface.mu = pair.friction;
-    if (pair.restitution > 0) {
-      surface.mode |= dContactBounce;
-      surface.bounce = pair.restitution;
-      surface.bounce_vel = settings_.bounce_speed;
-    }
-    if (pair.rolling_resistance > 0 || pair.spinning_resistance > 0) {
-      surface.mode |= dContactRolling | dContactAxisDep;
-      surface.mu2 = pair.friction;
-      surface.rho = surface.rho2 = pair.rolling_resistance;
-      surface.rhoN = pair.spinning_resistance;
-    }
-    const dBodyID a = dGeomGetBody(geom.g1), b = dGeomGetBody(geom.g2);
-    // ODE bounds friction along two directions, each for itself. With the first along the slip, and no friction across
-    // it while bodies slide, it is that of a cone.
-    dVector3 of_a{}, of_b{};
-    const dReal* p = geom.pos;
-    if (a) dBodyGetPointVel(a, p[0], p[1], p[2], of_a);
-    if (b) dBodyGetPointVel(b, p[0], p[1], p[2], of_b);
-    const Vec3 normal = vector_of(geom.normal), relative = vector_of(of_a) - vector_of(of_b);
-    const Vec3 slip = relative - normal * normal.dot(relative);
-    if (const double speed = slip.norm(); speed > 1e-9) {
-      surface.mode |= dContactFDir1;
-      std::copy_n(Vec3(slip / speed).data(), 3, found.contact.fdir1);
-      if (speed > sliding_speed) {
-        surface.mode |= dContactMu2;
-        surface.mu2 = 0;
-      }
-    }
-    const dJointID joint = dJointCreateContact(world_, contact_joints_, &found.contact);
-    dJointAttach(joint, a, b);
-    if (settings_.reactions) dJointSetFeedback(joint, &feedbacks_[i]);
-  }
-}
-
-/// To both robots, as far as the world moves them.
-void OdeWorld::tell_contact(const FoundContact& found, const dJointFeedback* feedback, bool first_is_g1) {
-  const auto is_dynamic = [this](const GeomOwner& owner) {
-    return owner.robot >= 0 && robots_[std::size_t(owner.robot)].motion_type() == MotionType::dynamic;
-  };
-  if (is_dynamic(*found.first)) tell_contact_to(*found.first, *found.second, found, feedback, first_is_g1);
-  if (is_dynamic(*found.second) && found.second->robot != found.first->robot)
-    tell_contact_to(*found.second, *found.first, found, feedback, first_is_g1);
-}
-
-/// ODE's torque is about the centre of mass.
-void OdeWorld::tell_contact_to(const GeomOwner& self, const GeomOwner& other, const FoundContact& found,
-                               const dJointFeedback* feedback, bool first_is_g1) {
-  const dContactGeom& geom = found.contact.geom;
-  multibody::RobotState& state = robots_[std::size_t(self.robot)].state();
-  if (!state.tells_contacts) return;
-  const bool is_g1 = &owner_of(geom.g1) == &self;
-  const Vec3 point = vector_of(geom.pos), normal = vector_of(geom.normal);
-  ContactWrench told{self.object, other.object, point, is_g1 ? normal : Vec3(-normal), geom.depth};
-  if (feedback) {
-    const bool is_first = is_g1 == first_is_g1;
-    told.wrench.force = vector_of(is_first ? feedback->f1 : feedback->f2);
-    const dBodyID body = dGeomGetBody(is_g1 ? geom.g1 : geom.g2);
-    const Vec3 centre = vector_of(dBodyGetPosition(body)) - dt_ * vector_of(dBodyGetLinearVel(body));  // as it was then
-    told.wrench.torque = vector_of(is_first ? feedback->t1 : feedback->t2) - (point - centre).cross(told.wrench.force);
-  } else {
-    told.wrench.force.setConstant(NAN);
-    told.wrench.torque.setConstant(NAN);
-  }
-  state.contacts.push_back(told);
-}
-
-void OdeWorld::export_contacts() {
-  for (std::size_t i = 0; i < contact_count_; ++i) {
-    const dContactGeom& geom = found_contacts_[i].contact.geom;
-    // The first of the joint's bodies is that of g1, or of g2 where g1 has none.
-    const bool first_is_g1 = dGeomGetBody(geom.g1) != nullptr;
-    const dJointFeedback* const f = settings_.reactions ? &feedbacks_[i] : nullptr;
-    tell_contact(found_contacts_[i], f, first_is_g1);
-    const GeomOwner& of_first = owner_of(first_is_g1 ? geom.g1 : geom.g2);
-    const GeomOwner& of_second = owner_of(first_is_g1 ? geom.g2 : geom.g1);
-    const Vec3 unknown = Vec3::Constant(NAN);
-    if (of_first.robot >= 0)
-      robots_[std::size_t(of_first.robot)].add_contact(of_first, f ? vector_of(f->f1) : unknown,
-                                                       f ? vector_of(f->t1) : unknown);
-    if (of_second.robot >= 0)
-      robots_[std::size_t(of_second.robot)].add_contact(of_second, f ? vector_of(f->f2) : unknown,
-                                                        f ? vector_of(f->t2) : unknown);
   }
 }
 

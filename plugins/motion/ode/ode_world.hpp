@@ -4,6 +4,7 @@
 #include "ode_robot.hpp"
 #include "ode_settings.hpp"
 #include "plugins/common/ode/error_trap.hpp"
+#include "split_step.hpp"
 
 namespace muro::ode {
 
@@ -33,10 +34,6 @@ class OdeWorld final : public multibody::World {
     dGeomID first, second;  ///< the first belongs to a robot of this world
     std::uint32_t a, b;     ///< their numbers
   };
-  struct FoundContact {
-    dContact contact{};
-    const GeomOwner *first = nullptr, *second = nullptr;
-  };
 
   static const GeomOwner& owner_of(dGeomID geom) { return *static_cast<const GeomOwner*>(dGeomGetData(geom)); }
   static void near_callback(void* self, dGeomID a, dGeomID b);
@@ -48,12 +45,17 @@ class OdeWorld final : public multibody::World {
   static int collide(const Pair& pair, FoundContact* found);
   static int collide_with_terrain(const Pair& pair, FoundContact* found);
   void set_step(double dt);
-  double softness_of(const FoundContact& found) const;
-  void create_contact_joints();
+  void describe_contacts();
+  void describe_normal(FoundContact& found, double restitution) const;
+  void describe_friction(FoundContact& found) const;
+  double rebound_speed(const FoundContact& found, double restitution, double approach) const;
+  void leave_overlap(FoundContact& found) const;
+  void create_contact_joint(FoundContact& found);
   void step_world(double dt);
-  void tell_contact(const FoundContact& found, const dJointFeedback* feedback, bool first_is_g1);
-  void tell_contact_to(const GeomOwner& self, const GeomOwner& other, const FoundContact& found,
-                       const dJointFeedback* feedback, bool first_is_g1);
+  void step_again(double dt);
+  bool moves(const GeomOwner& owner) const;
+  void tell_contact(const FoundContact& found, bool to_first);
+  void remember(FoundContact& found);
   void export_contacts();
   GeomOwner& set_owner(dGeomID geom, const multibody::BodyShape& shape);
   /// Calls of ODE, with its errors as exceptions.
@@ -76,7 +78,7 @@ class OdeWorld final : public multibody::World {
   std::vector<Pair> pairs_;
   std::vector<FoundContact> found_contacts_;  ///< the first `contact_count_` count
   std::size_t contact_count_ = 0;
-  std::vector<dJointFeedback> feedbacks_;  ///< of the contacts
+  SplitStep split_step_;
 };
 
 }  // namespace muro::ode

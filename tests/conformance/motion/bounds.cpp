@@ -27,6 +27,9 @@ constexpr Exception exceptions[] = {
      "speeds up evenly within its first step: behind by half of it"},
     {"motion.simplified", "joints without mass integrate targets of velocity", 2.1e-4,
      "speeds up evenly within its first step: behind by half of it"},
+    {"motion.articulated", "a ball of restitution 0 stays down", 0.04, "at 250 Hz: its contacts are springs"},
+    {"motion.articulated", "a ball rebounds by its restitution wherever in a step it lands", 0.08,
+     "at 250 Hz: its contacts are springs"},
     {"motion.ode", "a rover parks on 30 deg when tan is below mu", 1e-3, "50 iterations do not converge"},
 };
 

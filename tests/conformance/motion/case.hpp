@@ -50,6 +50,7 @@ std::vector<Case> slope_cases();
 std::vector<Case> rolling_cases();
 std::vector<Case> impact_cases();
 std::vector<Case> load_cases();
+std::vector<Case> grip_cases();
 std::vector<Case> joint_cases();
 std::vector<Case> massless_arm_cases();
 std::vector<Case> position_drive_cases();

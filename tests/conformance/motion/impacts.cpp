@@ -33,21 +33,54 @@ Outcome bounces(const std::string& motion) {
   return {worst, seen};
 }
 
-/// Height of the rebound of a ball with restitution `e`, dropped from 1 m, as the speed's ratio.
-double rebound(const std::string& motion, double e, double mass = 1) {
-  Trial t(motion);
+/// How fast a ball comes up that is dropped from `height` (m), by the speed of its impact.
+struct Rebound {
+  double by_height = 0;  ///< from the highest that it comes after the impact
+  double by_speed = 0;   ///< from the fastest that it moves up
+};
+Rebound rebound(const std::string& motion, double e, double mass = 1, double height = 1, double rate = 1000) {
+  constexpr double radius = 0.05;
+  Trial t(motion, rate);
   t.add_ground();
-  const RobotView& r = t.add("ball", ball(mass, 0.05, 0.5, e), {{0, 0, 1.05}, Quat::Identity()});
+  const RobotView& r = t.add("ball", ball(mass, radius, 0.5, e), {{0, 0, height + radius}, Quat::Identity()});
   t.start();
-  t.run_for(0.6);  // on its way up, or at rest
-  const double v = t.twist(r).linear.z(), h = std::max(t.pose(r).position.z() - 0.05, 0.0);
-  return v > 0 ? std::sqrt((h + v * v / (2 * g)) / 1) : 0;
+  const double fall = std::sqrt(2 * height / g), step = 1 / rate;
+  const auto steps = int((fall * (1 + 0.9 * e) + 0.05) / step) + 5;  // it is up, or has come to rest
+  bool has_met = false;
+  double highest = 0, fastest = 0;
+  for (int i = 0; i < steps; ++i) {
+    const double before = t.twist(r).linear.z();
+    t.run_for(step);
+    const double v = t.twist(r).linear.z();
+    has_met = has_met || v > 0.5 * before;  // it falls faster and faster until it meets the ground
+    if (!has_met) continue;
+    fastest = std::max(fastest, v);
+    if (fastest > 0) highest = std::max(highest, t.pose(r).position.z() - radius);
+  }
+  return {has_met ? std::sqrt(highest / height) : 1e3, has_met ? fastest / std::sqrt(2 * g * height) : 1e3};
 }
+double rebound_of(const std::string& motion, double e, double mass = 1) { return rebound(motion, e, mass).by_height; }
+/// At several rates, and impacts early and late in a step: the largest error.
+Outcome rebounds_alike(const std::string& motion, std::initializer_list<double> restitutions) {
+  double worst = -1;
+  std::string seen;
+  for (const double e : restitutions)
+    for (const double rate : {250.0, 1000.0, 4000.0})
+      for (const double height : {0.3019, 0.3057, 1.0, 1.0074, 1.0148, 3.0, 3.013}) {
+        const Rebound r = rebound(motion, e, 1, height, rate);
+        const double value = e > 0 ? r.by_height : std::max(r.by_height, r.by_speed);
+        if (std::abs(value - e) <= worst) continue;
+        worst = std::abs(value - e);
+        seen = text(value) + " for " + text(e) + " at " + text(rate) + " Hz from " + text(height) + " m";
+      }
+  return {worst, seen};
+}
+Outcome elastic_in_any_phase(const std::string& motion) { return rebounds_alike(motion, {0.3, 0.7, 0.9, 1}); }
+Outcome plastic(const std::string& motion) { return rebounds_alike(motion, {0}); }
 Outcome elastic(const std::string& motion) {
-  const double seen = rebound(motion, 0.9);
+  const double seen = rebound_of(motion, 0.9);
   return {std::abs(seen - 0.9), text(seen) + " for 0.9"};
 }
-/// From a gram to a thousand tons: the largest error.
 /// 216 balls without friction in a box: most are in an impact every few steps, many in several at once.
 Outcome gas(const std::string& motion) {
   constexpr double half = 1.5, wall = 0.2, radius_of_ball = 0.2;
@@ -86,22 +119,19 @@ Outcome gas(const std::string& motion) {
   return relative(energy(), before);
 }
 
+/// From a gram to a thousand tons: the largest error.
 Outcome elastic_of_any_mass(const std::string& motion) {
   double worst = 0;
   std::string all;
   for (const double mass : {1e-3, 1e3, 1e6}) {
-    const double seen = rebound(motion, 0.9, mass);
+    const double seen = rebound_of(motion, 0.9, mass);
     worst = std::max(worst, std::abs(seen - 0.9));
     all += (all.empty() ? "" : " ") + text(seen);
   }
   return {worst, all + " for 0.9"};
 }
-Outcome plastic(const std::string& motion) {
-  const double seen = rebound(motion, 0);
-  return {seen, text(seen) + " for 0"};
-}
 Outcome gains_nothing(const std::string& motion) {
-  const double seen = rebound(motion, 1);
+  const double seen = rebound_of(motion, 1);
   return {std::max(seen - 1, 0.0), text(seen) + " for 1"};
 }
 
@@ -177,7 +207,9 @@ std::vector<Case> impact_cases() {
       {"balls of 1 g to 1000 t and restitution 0.9 come up with 0.9 of their speed", "1",
        feature_contact | feature_restitution, 0.02, elastic_of_any_mass},
       {"a ball of restitution 1 gains nothing", "1", feature_contact | feature_restitution, 1e-3, gains_nothing},
-      {"a ball of restitution 0 stays down", "1", feature_contact, 0.05, plastic},
+      {"a ball of restitution 0 stays down", "1", feature_contact, 0.01, plastic},
+      {"a ball rebounds by its restitution wherever in a step it lands", "1", feature_contact | feature_restitution,
+       0.005, elastic_in_any_phase},
       {"a box lies on the ground, not in it", "m", feature_contact, 1e-3, carries},
       {"boxes of 1 g to 10000 t lie on the ground, not in it", "m", feature_contact, 1e-3, carries_any_mass},
       {"the ground carries a box with its weight, below its centre of mass", "relative",

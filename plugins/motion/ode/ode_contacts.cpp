@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: MIT
+// What a world of ODE is told of its contacts, and what it tells of them.
+#include <algorithm>
+#include <cmath>
+
+#include "ode_world.hpp"
+
+namespace muro::ode {
+
+using multibody::MotionType;
+
+namespace {
+
+constexpr double deep_softness = 0.1;      ///< of the inverse effective mass
+constexpr double rebound_softness = 1e-6;  ///< likewise
+constexpr double slow_correction = 1e-2;   ///< m/s: what lands may rebound so fast
+constexpr double shallow = 1e-3;           ///< m: overlaps that are taken back so slowly, without a SplitStep
+constexpr double sliding_speed = 1e-2;     ///< m/s: friction is along the slip
+constexpr double min_slip = 1e-9;          ///< m/s: below, a slip has no direction
+constexpr double min_load = 0.05;          ///< of the friction: below, a load has no direction
+constexpr double at_limit = 0.98;          ///< of the friction: what carries more may slide
+constexpr double narrowest = 0.995;        ///< of the friction: along a load at the limit
+constexpr double near_limit = 0.9;         ///< of the friction: what carries more is taken to be bounded by it
+
+}  // namespace
+
+void OdeWorld::describe_contacts() {
+  for (std::size_t i = 0; i < contact_count_; ++i) {
+    FoundContact& found = found_contacts_[i];
+    const dContactGeom& geom = found.contact.geom;
+    OdeRobot& robot = robots_[std::size_t(found.first->robot)];
+    if (found.second->scenery) robot.state().overlap.add(geom.depth, found.first->loaded_link, *found.second->scenery);
+    const dReal* p = geom.pos;
+    dVector3 of_first{}, of_second{};
+    dBodyGetPointVel(dGeomGetBody(geom.g1), p[0], p[1], p[2], of_first);
+    if (const dBodyID b = dGeomGetBody(geom.g2)) dBodyGetPointVel(b, p[0], p[1], p[2], of_second);
+    found.velocity = vector_of(of_first) - vector_of(of_second);
+    robot.history().recall(found);
+    found.contact.surface.mode = dContactApprox1;  // what it does not name is not read
+    const Surface pair = pair_surface(found.first->surface, found.second->surface, settings_.friction_rule);
+    found.friction = pair.friction;
+    describe_normal(found, pair.restitution);
+    describe_friction(found);
+    dSurfaceParameters& surface = found.contact.surface;
+    if (pair.rolling_resistance > 0 || pair.spinning_resistance > 0) {
+      surface.mode |= dContactRolling;
+      surface.rho = surface.rho2 = pair.rolling_resistance;
+      surface.rhoN = pair.spinning_resistance;
+    }
+  }
+}
+
+/// The CFM, in 1/(N s/m): ODE adds it, over the time step, to the inverse effective mass.
+void OdeWorld::describe_normal(FoundContact& found, double restitution) const {
+  dSurfaceParameters& surface = found.contact.surface;
+  found.inverse_mass = 0;
+  for (const GeomOwner* owner : {found.first, found.second})
+    if (owner->robot >= 0)
+      found.inverse_mass +=
+          robots_[std::size_t(owner->robot)].inverse_effective_mass(owner->body, found.point(), found.normal());
+  const double approach = -found.velocity.dot(found.normal()),
+               correction = settings_.erp * found.contact.geom.depth / dt_;
+  found.is_rebound = restitution > 0 && approach > settings_.bounce_speed;
+  const bool is_fast = !found.is_rebound && correction > slow_correction;
+  found.splits = is_fast && found.contact.geom.depth > shallow;
+  // What is deep in a body is often pushed from several sides at once, which no forces can fulfil.
+  double softness = settings_.softness;
+  if (found.is_rebound)
+    softness = std::min(softness, rebound_softness);
+  else if (correction > settings_.correcting_speed)
+    softness = std::max(softness, deep_softness);
+  surface.mode |= dContactSoftCFM;
+  surface.soft_cfm = settings_.cfm + softness * dt_ * found.inverse_mass;
+  if (is_fast && !found.splits) {
+    surface.mode |= dContactSoftERP;
+    surface.soft_erp = settings_.erp * slow_correction / correction;
+  }
+  if (!found.is_rebound) return;
+  surface.mode |= dContactBounce | dContactSoftERP;
+  surface.bounce = rebound_speed(found, restitution, approach) / approach;
+  surface.bounce_vel = 0;
+  surface.soft_erp = 0;
+}
+
+/// m/s, for a velocity that belongs to the middle of the step, as all of them do. The impact was earlier in the step:
+/// bodies have been pulled together for their depth since, and part with what Newton's law leaves of the energy that
+/// they had there, plus what the pull takes from them on their way back.
+double OdeWorld::rebound_speed(const FoundContact& found, double restitution, double approach) const {
+  Vec3 acceleration = Vec3::Zero();
+  for (const GeomOwner* owner : {found.first, found.second})
+    if (owner->robot >= 0)
+      acceleration +=
+          (owner == found.first ? -1 : 1) * robots_[std::size_t(owner->robot)].free_acceleration(owner->body);
+  const double pull = acceleration.dot(found.normal()), of_depth = 2 * pull * found.contact.geom.depth,
+               half_step = 0.5 * pull * dt_, speed = approach + half_step;
+  const double in = std::max(0.0, speed * speed - of_depth);
+  return std::max(0.0, std::sqrt(std::max(0.0, restitution * restitution * in + of_depth)) - half_step);
+}
+
+/// ODE bounds friction along two directions, each for itself. What slides has friction along its slip and none across
+/// it. What holds has it along the load of the step before, within a rectangle that the circle of friction contains,
+/// and that is the narrower the nearer the load is to the limit.
+void OdeWorld::describe_friction(FoundContact& found) const {
+  dSurfaceParameters& surface = found.contact.surface;
+  surface.mode |= dContactMu2 | dContactSlip1 | dContactSlip2;
+  surface.slip1 = surface.slip2 = settings_.cfm + settings_.softness * dt_ * found.inverse_mass;
+  const double friction = found.bound * found.friction;
+  surface.mu = surface.mu2 = friction;
+  if (friction == 0) return;
+  const Vec3 normal = found.normal(), slip = found.velocity - normal * normal.dot(found.velocity);
+  const double speed = slip.norm();
+  const auto set_direction = [&](const Vec3& direction) {
+    surface.mode |= dContactFDir1;
+    std::copy_n(direction.data(), 3, found.contact.fdir1);
+  };
+  if (speed > sliding_speed) {
+    found.drift = Vec3::Zero();
+    set_direction(slip / speed);
+    surface.mu2 = 0;
+    return;
+  }
+  found.drift -= normal * normal.dot(found.drift);
+  found.load -= normal * normal.dot(found.load);
+  const double load = found.load.norm(), part = load / found.friction;
+  if (part > min_load)
+    set_direction(found.load / load);
+  else if (speed > min_slip)
+    set_direction(slip / speed);
+  const double along = std::clamp(part + 0.1, M_SQRT1_2, narrowest);
+  surface.mu = along * friction;
+  surface.mu2 = std::sqrt(1 - along * along) * friction;
+  if (found.drift.isZero(0) || (surface.mode & dContactFDir1) == 0) return;
+  const Vec3 first = vector_of(found.contact.fdir1), back = -settings_.erp / dt_ * found.drift;
+  surface.mode |= dContactMotion1 | dContactMotion2;
+  surface.motion1 = back.dot(first);
+  surface.motion2 = back.dot(normal.cross(first));
+}
+
+/// As the contact is in the second part of a SplitStep.
+void OdeWorld::leave_overlap(FoundContact& found) const {
+  dSurfaceParameters& surface = found.contact.surface;
+  surface.mode |= dContactSoftERP;
+  surface.soft_erp = 0;
+  surface.soft_cfm = settings_.cfm + settings_.softness * dt_ * found.inverse_mass;
+}
+
+void OdeWorld::create_contact_joint(FoundContact& found) {
+  const dJointID joint = dJointCreateContact(world_, contact_joints_, &found.contact);
+  dJointAttach(joint, dGeomGetBody(found.contact.geom.g1), dGeomGetBody(found.contact.geom.g2));
+  found.feedback = {};
+  if (settings_.reactions || found.splits || found.friction > 0) dJointSetFeedback(joint, &found.feedback);
+}
+
+bool OdeWorld::moves(const GeomOwner& owner) const {
+  return owner.robot >= 0 && robots_[std::size_t(owner.robot)].motion_type() == MotionType::dynamic;
+}
+
+/// To one of the two robots. ODE's torque is about the centre of mass.
+void OdeWorld::tell_contact(const FoundContact& found, bool to_first) {
+  const GeomOwner &self = to_first ? *found.first : *found.second, &other = to_first ? *found.second : *found.first;
+  const dContactGeom& geom = found.contact.geom;
+  multibody::RobotState& state = robots_[std::size_t(self.robot)].state();
+  if (!state.tells_contacts) return;
+  const Vec3 point = found.point(), normal = found.normal();
+  ContactWrench told{self.object, other.object, point, to_first ? normal : Vec3(-normal), geom.depth};
+  if (settings_.reactions) {
+    told.wrench.force = vector_of(to_first ? found.feedback.f1 : found.feedback.f2);
+    const dBodyID body = dGeomGetBody(to_first ? geom.g1 : geom.g2);
+    const Vec3 centre = vector_of(dBodyGetPosition(body)) - dt_ * vector_of(dBodyGetLinearVel(body));  // as it was then
+    told.wrench.torque =
+        vector_of(to_first ? found.feedback.t1 : found.feedback.t2) - (point - centre).cross(told.wrench.force);
+  } else {
+    told.wrench.force.setConstant(NAN);
+    told.wrench.torque.setConstant(NAN);
+  }
+  state.contacts.push_back(told);
+}
+
+/// What is left of the slip of a contact that holds, or all but holds, adds to its drift.
+void OdeWorld::remember(FoundContact& found) {
+  if (found.friction == 0) return;
+  const Vec3 normal = found.normal(), force = found.force();
+  const double pressure = force.dot(normal);
+  if (pressure <= 0) return;
+  const Vec3 point = found.point();
+  const auto velocity_of = [&](dGeomID geom) -> Vec3 {
+    const dBodyID body = dGeomGetBody(geom);
+    if (!body) return Vec3::Zero();
+    const Vec3 velocity = vector_of(dBodyGetLinearVel(body));
+    const Vec3 centre = vector_of(dBodyGetPosition(body)) - dt_ * velocity;  // as it was
+    return velocity + vector_of(dBodyGetAngularVel(body)).cross(point - centre);
+  };
+  const Vec3 velocity = velocity_of(found.contact.geom.g1) - velocity_of(found.contact.geom.g2);
+  const Vec3 friction = force - normal * pressure, slip = velocity - normal * normal.dot(velocity);
+  found.load = friction / pressure;
+  const double part = found.load.norm() / found.friction;
+  if (settings_.exact) {
+    found.bound =
+        part > near_limit ? std::clamp(narrowest * found.bound / part, 0.3, 1.05) : 1 + 0.9 * (found.bound - 1);
+  }
+  // The direct solver leaves no slip but where friction is at its limit: that is none to take back.
+  if (slip.norm() < sliding_speed && !(settings_.exact && part > at_limit)) {
+    found.drift += dt_ * slip;
+    const double most = sliding_speed * dt_, far = found.drift.norm();
+    if (far > most) found.drift *= most / far;
+  }
+  const Vec3 carried = vector_of(dBodyGetLinearVel(dGeomGetBody(found.contact.geom.g1)));
+  robots_[std::size_t(found.first->robot)].history().store(found, point + dt_ * carried);
+}
+
+void OdeWorld::export_contacts() {
+  for (OdeRobot& r : robots_) r.history().begin();
+  const Vec3 unknown = Vec3::Constant(NAN);
+  for (std::size_t i = 0; i < contact_count_; ++i) {
+    FoundContact& found = found_contacts_[i];
+    remember(found);
+    if (moves(*found.first)) tell_contact(found, true);
+    if (moves(*found.second) && found.second->robot != found.first->robot) tell_contact(found, false);
+    const bool is_known = settings_.reactions;
+    robots_[std::size_t(found.first->robot)].add_contact(*found.first,
+                                                         is_known ? vector_of(found.feedback.f1) : unknown,
+                                                         is_known ? vector_of(found.feedback.t1) : unknown);
+    if (found.second->robot >= 0)
+      robots_[std::size_t(found.second->robot)].add_contact(*found.second,
+                                                            is_known ? vector_of(found.feedback.f2) : unknown,
+                                                            is_known ? vector_of(found.feedback.t2) : unknown);
+  }
+}
+
+}  // namespace muro::ode

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+// Parts that two fingers hold by friction alone, and the cones of friction.
+#include <fstream>
+#include <sstream>
+
+#include "tests/conformance/motion/case.hpp"
+#include "tests/support/files.hpp"
+
+namespace muro::conformance {
+
+namespace {
+
+constexpr double grip_effort = 20;                       ///< N, of each finger
+constexpr double grip_friction = 0.5;                    ///< both fingers hold 2 mu N / g = 2.04 kg
+constexpr double pad_size = 0.04, pad_thickness = 0.02;  ///< m
+constexpr double part_width = 0.06;                      ///< m: between the pads
+
+/// Two fingers on a base, which slide along y towards each other; with their joints at 0 they are `part_width` apart.
+RobotTree gripper() {
+  return test::tree_of([](RobotBuilder& b) {
+    b.base("palm");
+    b.set(keys::inertial, solid_box(2, {0.2, 0.2, 0.05}));
+    const Shape shape = with(Shape::box({pad_size, pad_thickness, pad_size}), grip_friction);
+    for (const double side : {-1.0, 1.0}) {
+      const std::string name = side < 0 ? "right" : "left";
+      if (side < 0) b.fork();
+      b.translation({0, side * 0.5 * (part_width + pad_thickness), -0.1});
+      b.prismatic(name, Vec3(0, -side, 0), {.velocity = 1, .effort = grip_effort});
+      b.body(name + "_finger");
+      b.set(keys::inertial, solid_box(0.2, {pad_size, pad_thickness, pad_size}));
+      b.set_array(keys::collision_shapes, std::span<const Shape>(&shape, 1));
+      b.end();
+    }
+  });
+}
+
+struct Grip : Trial {
+  const RobotView* part = nullptr;
+  /// The middle of the part is `off` (m, along the pads) beside theirs.
+  Grip(const std::string& motion, double mass, double off) : Trial(motion) {
+    add("gripper", gripper(), {{0, 0, 1}, Quat::Identity()});
+    use(motion, 1000, all_robots(), {{"base", std::string("fixed")}});
+    part = &add("part", block(mass, {0.08, part_width, 0.06}, grip_friction), {{off, 0, 0.9}, Quat::Identity()});
+    use(motion, 1000, {all_robots().back()});
+    use_contacts();
+  }
+  void begin() {
+    build();
+    for (const char* joint_name : {"gripper/right", "gripper/left"})
+      joint(joint_name, keys::joint_velocity_target) = 0.05;
+  }
+};
+
+/// How far the part moves and turns, of what it may, within 5 s after the fingers have closed.
+Outcome holds_part(const std::string& motion) {
+  constexpr double may_move = 1e-4, may_turn = 0.01;
+  double worst = 0;
+  std::string seen;
+  for (const double mass : {1.4, 1.8})
+    for (const double off : {0.0, 0.004}) {
+      Grip trial(motion, mass, off);
+      trial.begin();
+      trial.run_for(0.5);
+      const Pose before = trial.pose(*trial.part);
+      trial.run_for(5);
+      const Pose after = trial.pose(*trial.part);
+      const double moved = (after.position - before.position).norm(),
+                   turned = before.orientation.angularDistance(after.orientation), sunk = 0.9 - before.position.z();
+      worst = std::max({worst, moved / may_move, turned / may_turn, sunk / 2e-3});
+      seen += (seen.empty() ? "" : "; ") + text(mass) + " kg, " + text(off) + " m off: " + text(moved) + " m, " +
+              text(turned) + " rad, after " + text(sunk) + " m";
+    }
+  return {worst, seen};
+}
+
+Outcome drops_part(const std::string& motion) {
+  Grip trial(motion, 2.3, 0);
+  trial.begin();
+  trial.run_for(1);
+  const double fallen = 0.9 - trial.pose(*trial.part).position.z();
+  return {fallen > 0.1 ? 0.0 : 1.0, text(fallen) + " m in 1 s"};
+}
+
+/// By how much recorded contacts leave the cone of friction, of what it bears; of normal forces that are less than
+/// `least` (N), of that.
+double out_of_cone(Simulation& simulation, const std::function<void()>& run, double least) {
+  const test::ScratchFolder folder;
+  const std::string file = folder.path("contacts.csv");
+  simulation.use("recorder.contacts", 1000, {}, {{"file", file}});
+  run();
+  simulation.finish();
+  std::ifstream lines(file);
+  std::string line;
+  std::getline(lines, line);
+  double worst = 0;
+  while (std::getline(lines, line)) {
+    std::istringstream fields(line);
+    std::vector<double> f;
+    for (std::string field; std::getline(fields, field, ',');) f.push_back(std::strtod(field.c_str(), nullptr));
+    const Vec3 normal(f[6], f[7], f[8]), force(f[10], f[11], f[12]);
+    const double pressure = force.dot(normal), tangential = (force - normal * pressure).norm();
+    worst = std::max(worst, (tangential - grip_friction * pressure) / (grip_friction * std::max(pressure, least)));
+  }
+  return worst;
+}
+
+/// What slides and spins, what rolls while it slips, what tumbles, and what is held.
+Outcome stays_in_cones(const std::string& motion) {
+  Trial moving(motion);
+  moving.add_ground(grip_friction);
+  moving.add("slides", block(1, {0.2, 0.2, 0.1}, grip_friction), {{0, 0, 0.05}, Quat::Identity()},
+             {{1, 0.3, 0}, {0, 0, 4}});
+  moving.add("rolls", ball(1, 0.1, grip_friction), {{0, 2, 0.1}, Quat::Identity()}, {{2, 0, 0}, {0, 0, 3}});
+  moving.add("tumbles", block(1, {0.3, 0.2, 0.1}, grip_friction),
+             {{0, 4, 0.4}, Quat(Eigen::AngleAxisd(0.5, Vec3::UnitX()))}, {{1, 0.5, 0}, {1, 5, 2}});
+  moving.use(motion, 1000, moving.all_robots());
+  moving.use_contacts();
+  const double by_moving = out_of_cone(
+      moving, [&] { moving.build(), moving.run_for(2); }, 0.01 * g);
+  Grip grip(motion, 1.8, 0.004);
+  const double by_grip = out_of_cone(
+      grip, [&] { grip.begin(), grip.run_for(1); }, 0.01 * grip_effort);
+  return {std::max(by_moving, by_grip), text(by_moving) + " moving, " + text(by_grip) + " held"};
+}
+
+}  // namespace
+
+std::vector<Case> grip_cases() {
+  constexpr Features needs = feature_contact | feature_friction | feature_joints;
+  std::vector<Case> cases;
+  for (const std::string_view motion : {"motion.ode", "motion.bullet", "motion.mujoco"}) {
+    cases.push_back(
+        {"two fingers hold what their friction can carry", "of 0.1 mm, 0.01 rad", needs, 1, holds_part, motion});
+    cases.push_back(
+        {"two fingers drop what is too heavy for their friction", "holds wrongly", needs, 0, drops_part, motion});
+    cases.push_back({"no contact leaves the cone of its friction", "relative", needs, 0.01, stays_in_cones, motion});
+  }
+  return cases;
+}
+
+}  // namespace muro::conformance
