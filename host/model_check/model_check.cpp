@@ -96,7 +96,12 @@ class ModelCheck {
         const auto& parameters = setup.item_setups.empty() ? setup.parameters : setup.item_setups[i].parameters;
         const auto base = parameters.find("base");
         const auto* text = base == parameters.end() ? nullptr : std::get_if<std::string>(&base->second);
-        all.push_back({setup.use, instance->description().features, text && *text == "fixed"});
+        CheckedMotion& motion = all.emplace_back();
+        motion = {setup.use, instance->description().features, text && *text == "fixed", {}, {}};
+        if ((motion.features & feature_forces) == 0) continue;
+        UncommandedJoints joints =
+            uncommanded_joints(built_.simulation->world(), robot, instance->description(), parameters);
+        (joints.are_all ? motion.held : motion.freed) = joints.are_all ? joints.all : joints.with_stops;
       }
     }
     return all;
@@ -159,6 +164,15 @@ std::vector<Finding> findings_of(const ModelFacts& facts, const CheckedMotion& m
     all.push_back({counted(facts.clamped, "joint", names) + " cannot be at 0 at the start",
                    {{"the nearest limit is taken", {}}},
                    "To start elsewhere, set `joints: {NAME: POSITION}` of the robot."});
+  if (facts.moves_mass() || !motion.fixed_base) {
+    if (!motion.held.empty())
+      all.push_back({"nothing commands " + counted(motion.held, "joint", names),
+                     says("held at speed 0, as a program outside may command them"),
+                     "`joints: passive` lets them turn freely, `joints: velocity` says that they are to be held."});
+    if (!motion.freed.empty())
+      all.push_back({"nothing commands " + counted(motion.freed, "joint", names) + ", but others of the robot",
+                     says("they turn freely"), "To hold them, name them in `velocity_joints` or `position_joints`."});
+  }
   if ((motion.features & feature_joint_effort_limits) != 0 && facts.moves_mass() && !facts.of_any_strength.empty())
     all.push_back({counted(facts.of_any_strength, "driven joint", names) + " without a limit of effort",
                    says("drives are as strong as it takes"), "State it: `<limit effort>`, N m or N."});

@@ -32,6 +32,7 @@ struct CheckedMotion {
   std::string id;  ///< "motion.ode"
   Features features = 0;
   bool fixed_base = false;
+  ModelFacts::Names held, freed;  ///< joints that nothing commands and the scenario leaves open; `freed`: with stops
 };
 
 /// What a model lacks for one motion. `names`: how many are named of each list.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "host/constants.hpp"
+#include "muro/toolkit/joint_drives.hpp"
 #include "muro/vocabulary.hpp"
 
 namespace muro::host {
@@ -17,16 +18,57 @@ std::string name_in(const RobotView& robot, const World& world, ObjectId object)
   return name.size() > robot.name.size() + 1 ? name.substr(robot.name.size() + 1) : name;
 }
 
+bool is_written(const World& world, ObjectId joint, const KeyInfo& key) {
+  const Slot* const slot = world.store().find(joint, key.name);
+  return slot && slot->writer();
+}
+
 /// Whether an algorithm writes a velocity or position that the joint is to follow.
 bool is_driven(const World& world, ObjectId joint) {
-  const auto is_written = [&](const KeyInfo& key) {
-    const Slot* const slot = world.store().find(joint, key.name);
-    return slot && slot->writer();
-  };
-  return is_written(keys::joint_velocity_target) || is_written(keys::joint_position_target);
+  return is_written(world, joint, keys::joint_velocity_target) || is_written(world, joint, keys::joint_position_target);
+}
+
+bool is_commanded(const World& world, ObjectId joint) {
+  return is_driven(world, joint) || is_written(world, joint, keys::joint_acceleration_target) ||
+         is_written(world, joint, keys::joint_effort_target);
 }
 
 }  // namespace
+
+bool is_open(const Description& motion, const std::map<std::string, ParameterInput>& parameters,
+             const std::string& joint) {
+  const auto is_auto = [](const Parameter& p) { return p.name == "joints" && p.default_text == "auto"; };
+  const auto given = parameters.find("joints");
+  const auto* word = given == parameters.end() ? nullptr : std::get_if<std::string>(&given->second);
+  if ((word && *word != "auto") || std::none_of(motion.parameters.begin(), motion.parameters.end(), is_auto))
+    return false;
+  for (const Parameter* list : {&velocity_joints, &position_joints, &effort_joints, &passive_joints}) {
+    const auto named = parameters.find(std::string(list->name));
+    const auto* patterns = named == parameters.end() ? nullptr : std::get_if<std::vector<std::string>>(&named->second);
+    if (!patterns) continue;
+    for (const std::string& pattern : *patterns)
+      if (detail::names_joint(pattern, joint)) return false;
+  }
+  return true;
+}
+
+UncommandedJoints uncommanded_joints(const World& world, const RobotView& robot, const Description& motion,
+                                     const std::map<std::string, ParameterInput>& parameters) {
+  UncommandedJoints found;
+  found.are_all = true;
+  for (const Link& link : robot.links) {
+    if (link.joint == JointKind::fixed || link.mimic >= 0) continue;
+    if (is_commanded(world, link.joint_object)) {
+      found.are_all = false;
+      continue;
+    }
+    const std::string joint = name_in(robot, world, link.joint_object);
+    if (!is_open(motion, parameters, joint)) continue;
+    found.all.push_back(joint);
+    if (std::isfinite(link.limits.lower) || std::isfinite(link.limits.upper)) found.with_stops.push_back(joint);
+  }
+  return found;
+}
 
 ModelFacts model_facts(const World& world, const RobotView& robot, const RobotTemplate& robots) {
   ModelFacts facts;

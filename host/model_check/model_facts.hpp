@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,19 @@ struct ModelFacts {
   Names clamped;          ///< joints that cannot be at 0, and the scenario does not say where they start
   Names of_any_strength;  ///< joints without a limit of effort that follow a target which something writes
 };
+
+/// Joints that no algorithm commands.
+struct UncommandedJoints {
+  ModelFacts::Names all, with_stops;  ///< each by its name in the model
+  bool are_all = false;               ///< no joint of the robot is commanded
+};
+
+/// Whether `parameters` of a motion leave it open what this joint follows.
+bool is_open(const Description& motion, const std::map<std::string, ParameterInput>& parameters,
+             const std::string& joint);
+/// Of a robot whose motion has these `parameters`: of the joints that they leave open. [after set-up]
+UncommandedJoints uncommanded_joints(const World& world, const RobotView& robot, const Description& motion,
+                                     const std::map<std::string, ParameterInput>& parameters);
 
 /// Of a robot of `robots`. [after set-up]
 ModelFacts model_facts(const World& world, const RobotView& robot, const RobotTemplate& robots);

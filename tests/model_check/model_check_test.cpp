@@ -87,7 +87,8 @@ TEST(ModelCheck, TellsOfARobotThatNothingCanTouch) {
 TEST(ModelCheck, SaysOfASoundModelThatNothingIsLacking) {
   const Check check;
   EXPECT_SAYS(
-      check.of("  r: {model: " MURO_TEST_SOURCE_DIR "/examples/models/rover.urdf, motion: {use: motion.simplified}}\n"),
+      check.of("  r: {model: " MURO_TEST_SOURCE_DIR
+               "/examples/models/rover.urdf, motion: {use: motion.simplified}, drive: {use: drive.skid_steer}}\n"),
       "`r`: nothing is lacking\n");
 }
 
@@ -106,7 +107,24 @@ TEST(ModelCheck, TellsOfDrivesWithoutLimits) {
       check.of(robot + ", drive: {use: drive.differential}}\n"),
       "2 driven joints (`left`, `right`) without a limit of effort;\n      motion.simplified: drives are as strong as "
       "it takes\n");
-  EXPECT_SAYS(check.of(robot + "}\n"), "`cart`: nothing is lacking");
+  EXPECT_SAYS(check.of("  cart: {model: cart.urdf, motion: {use: motion.simplified, joints: velocity}}\n"),
+              "`cart`: nothing is lacking");
+}
+
+TEST(ModelCheck, TellsOfJointsThatNothingCommands) {
+  const Check check;
+  const std::string car = "  car: {model: " MURO_TEST_SOURCE_DIR "/examples/models/car.urdf, motion: {use: motion.";
+  EXPECT_SAYS(
+      check.of(car + "simplified}}\n"),
+      "nothing commands 6 joints (`rear_left_wheel_joint`, `rear_right_wheel_joint`, "
+      "`front_left_steering_joint` and 3 more);\n      motion.simplified: held at speed 0, as a program outside "
+      "may command them\n      `joints: passive` lets them turn freely");
+  EXPECT_SAYS(check.of(car + "articulated}, drive: {use: drive.ackermann}}\n"), "`car`: nothing is lacking");
+  EXPECT_SAYS(
+      check.of(car + "articulated}, drive: {use: drive.differential, left_wheels: [rear_left_wheel_joint], "
+                     "right_wheels: [rear_right_wheel_joint]}}\n"),
+      "nothing commands 2 joints (`front_left_steering_joint`, `front_right_steering_joint`), but others of the "
+      "robot; motion.articulated: they turn freely\n      To hold them, name them in");
 }
 
 TEST(ModelCheck, TakesAScreenForTheWorstOfModels) {

@@ -9,7 +9,7 @@
 
 namespace muro::multibody {
 
-inline constexpr std::string_view joint_modes[] = {"velocity", "position", "effort", "passive"};
+inline constexpr std::string_view joint_modes[] = {"auto", "velocity", "position", "effort", "passive"};
 inline constexpr std::string_view base_modes[] = {"free", "fixed"};
 
 // Of each robot.
@@ -17,7 +17,10 @@ inline constexpr Parameter world_name = text("world", "", "robots that name the 
 inline constexpr Parameter base_mode =
     text("base", "free", "whether the base is fixed to the world").one_of(base_modes);
 inline constexpr Parameter joint_mode =
-    text("joints", "velocity", "what joints follow that no list below names").one_of(joint_modes);
+    text("joints", "auto",
+         "what joints follow that no list below names; auto: what an algorithm writes, position or velocity; a joint "
+         "that none commands turns freely, beside others that are commanded")
+        .one_of(joint_modes);
 inline constexpr Parameter self_collision =
     boolean("self_collision", false, "whether links of the robot touch each other, but neighbours");
 

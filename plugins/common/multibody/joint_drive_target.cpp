@@ -6,17 +6,33 @@
 
 namespace muro::multibody {
 
-DriveTarget drive_target_of(const RigidBody& body, const JointState& joint, const JointState* leader,
-                            const double* target, double gain_of_mimics) {
+DriveTarget mimic_target(const RigidBody& body, const JointState& joint, const JointState& leader, double gain,
+                         bool is_coupled) {
+  DriveTarget t;
+  t.mimic_lead = gain * (body.offset + body.multiplier * leader.position - joint.position);
+  if (is_coupled) {
+    t.friction = body.limits.friction;
+    return t;
+  }
+  t.tracks_velocity = true;
+  t.max_effort = body.limits.effort;
+  t.velocity = body.multiplier * leader.velocity + t.mimic_lead;
+  return t;
+}
+
+bool nears_speed_limit(double effort, const RigidBody& body, const JointState& joint) {
+  return effort * joint.velocity > 0 && std::abs(joint.velocity) > 0.5 * body.limits.velocity;
+}
+
+double within_speed_limit(double effort, const RigidBody& body, const JointState& joint, double inertia, double dt) {
+  const double room = std::max(0.0, body.limits.velocity - std::copysign(joint.velocity, effort * joint.velocity));
+  return std::copysign(std::min(std::abs(effort), inertia * room / dt), effort);
+}
+
+DriveTarget drive_target_of(const RigidBody& body, const JointState& joint, const double* target) {
   const JointLimits& limits = body.limits;
   DriveTarget t;
   t.max_effort = limits.effort;
-  if (leader) {
-    t.tracks_velocity = true;
-    t.velocity = body.multiplier * leader->velocity +
-                 gain_of_mimics * (body.offset + body.multiplier * leader->position - joint.position);
-    return t;
-  }
   if (body.drive != DriveMode::velocity) t.friction = limits.friction;
   switch (body.drive) {
     case DriveMode::velocity:

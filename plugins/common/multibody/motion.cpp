@@ -39,6 +39,7 @@ void Motion::connect(Connector& c) {
   traits_.motion = description().id;
   traits_.contact_world = number_of_world(fnv1a(p.text(world_name.name), fnv1a(description().id)));
   traits_.twist_lag = 0.5 / substeps_;
+  traits_.couples_mimics = couples_mimics();
   configure(c);
   traits_.advice = advice();  // which depends on what was configured
   for (std::uint32_t i = 0; i < c.items().size(); ++i) connect_robot(c, c.items()[i], c.parameters_of(i));
@@ -46,6 +47,7 @@ void Motion::connect(Connector& c) {
   for (std::size_t i = 0; i < own.size(); ++i) own[i] = served_[i].by_world != nullptr;
   if (!robots_.empty()) external_bodies_.connect(c, own);
   if (!has_own_inertias()) report_regularized_links(c);
+  if (!traits_.couples_mimics) report_mimic_joints(c);
   report_kinematic_robots(c);
 }
 
@@ -58,7 +60,7 @@ void Motion::connect_by_name(Connector& c) {
     if (!robot) continue;
     const RobotView& view = *c.items()[i].robot;
     robot->set_has_contact_law(c.is_used(view.base(), keys::contact_wrenches_of_law, usage::derived));
-    robot->connect_by_name(c, view);
+    robot->connect_by_name(c, view, c.parameters_of(i));
   }
 }
 
@@ -103,6 +105,23 @@ void Motion::report_regularized_links(const Connector& c) const {
           ": no engine moves bodies without mass and inertia, those that touch others with hardly any, or those "
           "with a moment of inertia that exceeds the sum of the two others; what they lack was added to " +
           quoted_list(links) + "; give them an `inertial` that fits");
+}
+
+void Motion::report_mimic_joints(const Connector& c) const {
+  std::vector<std::string_view> joints;
+  for (const Served& s : served_) {
+    if (!s.by_world) continue;
+    const RobotView& view = *c.items()[std::size_t(&s - served_.data())].robot;
+    for (const RigidBody& body : s.by_world->model().bodies)
+      if (body.leader >= 0) joints.push_back(c.object_name(view.links[body.link].joint_object));
+  }
+  if (joints.empty()) return;
+  c.host().log(LogLevel::info, std::string(description().id) +
+                                   ": each mimic joint has a drive of its own that follows "
+                                   "its leader, and what it carries does not load the leader: " +
+                                   quoted_list(joints) +
+                                   "; motion.bullet, motion.mujoco and motion.articulated couple "
+                                   "the two");
 }
 
 void Motion::start() {
@@ -151,7 +170,7 @@ void Motion::step_world(const Step& step) {
   const double dt = step.dt / substeps_;
   const double gain = std::min(mimic_gain_, 1 / dt);
   for (int i = 0; i < substeps_; ++i) {
-    for (WorldRobot& r : robots_) r.set_drive_targets(dt, gain);
+    for (WorldRobot& r : robots_) r.set_drive_targets(traits_, dt, gain);
     advance(dt);
     for (WorldRobot& r : robots_) {
       r.add_contacts(substeps_);

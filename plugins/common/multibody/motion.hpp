@@ -31,6 +31,9 @@ class Motion : public Algorithm {
   virtual MinInertia min_inertia() const = 0;
   /// Whether the engine has the inertias of the model's own file, and those of the scene do not count.
   virtual bool has_own_inertias() const { return false; }
+  /// Whether constraints of the engine hold mimic joints to their leaders. Else they have drives that follow, and their
+  /// leaders bear nothing of what these carry.
+  virtual bool couples_mimics() const { return true; }
   /// How many numbers of its own the engine keeps of a robot from step to step.
   virtual std::size_t memory_of(const RobotModel& model) const = 0;
   /// Reads the engine's own parameters. [setup]
@@ -47,6 +50,7 @@ class Motion : public Algorithm {
   void check_parameters(const Connector& c) const;
   void connect_robot(Connector& c, const Item& item, const Parameters& p);
   void report_regularized_links(const Connector& c) const;
+  void report_mimic_joints(const Connector& c) const;
   void report_kinematic_robots(Connector& c) const;
   void step_world(const Step& step);
   void advance(double dt);

@@ -165,6 +165,8 @@ RobotModel model_of(const Connector& connector, const RobotView& robot, std::spa
       body.leader = std::int32_t(placements[std::size_t(link.mimic)].body);
       body.multiplier = link.mimic_multiplier;
       body.offset = link.mimic_offset;
+      body.limits.lower = -std::numeric_limits<double>::infinity();
+      body.limits.upper = std::numeric_limits<double>::infinity();
     }
     const MinInertia least = least_inertia_of(model, i, frames, min_inertia);
     const bool is_completed = complete_inertia(body, min_inertia);

@@ -29,7 +29,7 @@ struct RigidBody {
   JointKind joint = JointKind::fixed;
   Pose origin;                ///< of this body in its parent's frame with the joint at 0
   Vec3 axis = Vec3::UnitX();  ///< unit, in this body's frame
-  JointLimits limits;
+  JointLimits limits;         ///< of a mimic joint, none of position: it goes where its leader takes it
   DriveMode drive = DriveMode::passive;
   std::int32_t leader = -1;  ///< body whose joint this one mimics
   double multiplier = 1, offset = 0;

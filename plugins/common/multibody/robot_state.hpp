@@ -26,6 +26,7 @@ struct DriveTarget {
   double max_effort = 0;         ///< N m or N; may be infinite
   double effort = 0;             ///< N m or N
   double friction = 0;           ///< N m or N: Coulomb friction of the joint, beside the drive
+  double mimic_lead = 0;         ///< rad/s or m/s: of a mimic joint, velocity beyond its multiple of its leader's
   /// N m s/rad or N s/m: effort by what the velocity at the end of the step lacks of `velocity`. Infinite: as hard as
   /// the engine can.
   double damping = std::numeric_limits<double>::infinity();

@@ -2,11 +2,13 @@
 #include "world_robot.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "joint_drive_target.hpp"
 #include "joint_target.hpp"
 #include "muro/toolkit/mass_properties.hpp"
 #include "plugins/common/contact_geometry/contact_responsibility.hpp"
+#include "plugins/common/position_drive/settled_modes.hpp"
 #include "plugins/common/text/quote.hpp"
 
 namespace muro::multibody {
@@ -37,7 +39,8 @@ void WorldRobot::connect(Connector& c, const RobotView& view, const Parameters& 
 }
 
 void WorldRobot::connect_joints(Connector& c, const RobotView& view, const Parameters& p, const watch::Reach& reach) {
-  const std::vector<PositionDrive> drives = position_drives_of(c, view, drive_modes_of(c, view, p), p);
+  std::vector<bool> is_open;
+  drive_modes_of(c, view, p, &is_open);
   joints_.resize(model_.bodies.size());
   joint_names_.resize(joints_.size());
   for (std::size_t i = 1; i < joints_.size(); ++i) {
@@ -53,12 +56,29 @@ void WorldRobot::connect_joints(Connector& c, const RobotView& view, const Param
     j.velocity = c.variable(object, keys::joint_velocity, 0.0);
     j.effort = c.derived(object, keys::joint_effort);
     if (body.leader < 0) j.target = connect_joint_target(c, object, body.drive, start);
+    if (follows_positions(i) || is_open[body.link])
+      j.position_target = PositionTarget(object, j.target.get(), p.real(interpolate.name));
+  }
+}
+
+/// When it is known what algorithms command.
+void WorldRobot::connect_drives(Connector& c, const RobotView& view, const Parameters& p) {
+  const std::vector<DriveMode> modes = settled_modes(c, view, p);
+  const std::vector<PositionDrive> drives = position_drives_of(c, view, modes, p);
+  for (std::size_t i = 1; i < joints_.size(); ++i) {
+    RigidBody& body = model_.bodies[i];
+    Joint& j = joints_[i];
+    const bool is_settled = body.drive != modes[body.link];
+    body.drive = modes[body.link];
+    if (is_settled && body.leader < 0)
+      j.target = connect_joint_target(c, j.object, body.drive, model_.initial_positions[i]);
+    has_speed_limits_ = has_speed_limits_ || (body.drive == DriveMode::effort && std::isfinite(body.limits.velocity));
     if (!follows_positions(i)) continue;
     has_position_drives_ = true;
     j.position_drive = drives[body.link];
-    j.position_target = PositionTarget(object, j.target.get(), j.position_drive.interpolation);
+    j.position_target.follow(j.target.get());
   }
-  if (!has_position_drives_) return;
+  if (!has_position_drives_ && !has_speed_limits_) return;
   std::vector<MovedInertias::Body> bodies(joints_.size());
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const RigidBody& body = model_.bodies[i];
@@ -75,7 +95,8 @@ bool WorldRobot::follows_positions(std::size_t body) const {
   return body > 0 && model_.bodies[body].drive == DriveMode::position && model_.bodies[body].leader < 0;
 }
 
-void WorldRobot::connect_by_name(Connector& c, const RobotView& view) {
+void WorldRobot::connect_by_name(Connector& c, const RobotView& view, const Parameters& p) {
+  connect_drives(c, view, p);
   state_.tells_contacts = c.is_used(view.base(), keys::contact_wrenches_of_motion, usage::read);
   for (std::size_t i = 0; i < wrenches_.size(); ++i) {
     const ObjectId link = view.links[model_.loaded_links[i].link].object;
@@ -192,11 +213,14 @@ void WorldRobot::import_wrenches() {
   }
 }
 
-void WorldRobot::set_drive_targets(double dt, double gain_of_mimics) {
-  if (has_position_drives_ && is_dynamic()) {
+void WorldRobot::set_drive_targets(const WorldTraits& traits, double dt, double gain_of_mimics) {
+  bool knows_inertias = false;
+  const auto update_inertias = [&] {
+    if (std::exchange(knows_inertias, true)) return;
     for (std::size_t i = 1; i < joints_.size(); ++i) positions_[i] = state_.joints[i].position;
     moved_inertias_.update(positions_);
-  }
+  };
+  if (has_position_drives_ && is_dynamic()) update_inertias();
   for (std::size_t i = 1; i < joints_.size(); ++i) {
     const RigidBody& body = model_.bodies[i];
     JointState& joint = state_.joints[i];
@@ -207,11 +231,19 @@ void WorldRobot::set_drive_targets(double dt, double gain_of_mimics) {
       const PdGains gains = joints_[i].position_drive.gains(moved_inertias_.driven(i));
       const Reference reference = joints_[i].position_target.advance(joint.position, body.limits, dt);
       joint.target = position_drive_target(body, joint, gains, reference, moved_inertias_.free(i), dt);
+    } else if (body.leader >= 0) {
+      const JointState& leader = state_.joints[std::size_t(body.leader)];
+      joint.target = mimic_target(body, joint, leader, gain_of_mimics, traits.couples_mimics);
     } else {
-      const JointState* const leader = body.leader >= 0 ? &state_.joints[std::size_t(body.leader)] : nullptr;
-      joint.target = drive_target_of(body, joint, leader, joints_[i].target.get(), gain_of_mimics);
+      joint.target = drive_target_of(body, joint, joints_[i].target.get());
+      if (has_speed_limits_ && is_dynamic() && nears_speed_limit(joint.target.effort, body, joint)) {
+        update_inertias();
+        const double inertia = moved_inertias_.free(i) + joint.drive_armature;
+        joint.target.effort = within_speed_limit(joint.target.effort, body, joint, inertia, dt);
+      }
     }
-    if (!std::isfinite(joint.target.velocity + joint.target.effort + joint.drive_friction + joint.drive_armature))
+    if (!std::isfinite(joint.target.velocity + joint.target.mimic_lead + joint.target.effort + joint.drive_friction +
+                       joint.drive_armature))
       throw Error("the target of " + quote(joint_names_[i]) +
                   " is not finite; look at what writes its `joint.*.target`");
   }

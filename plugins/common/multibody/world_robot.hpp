@@ -19,6 +19,7 @@ class WorldRobot {
     std::string_view motion;          ///< id of the algorithm
     std::uint64_t contact_world = 0;  ///< see keys::contact_world
     double twist_lag = 0;             ///< see keys::twist_lag
+    bool couples_mimics = true;       ///< constraints of the engine hold mimic joints to their leaders
     std::string_view advice;          ///< what to try when forces grow
   };
 
@@ -27,9 +28,9 @@ class WorldRobot {
   /// `engine_memory`: how many numbers the engine keeps of the robot. [setup]
   void connect(Connector& c, const RobotView& view, const Parameters& p, const WorldTraits& traits,
                std::size_t engine_memory);
-  /// Finds out whether velocities of joints in mode position are commanded, what drives bring with them, and what is
-  /// read of contacts. [setup]
-  void connect_by_name(Connector& c, const RobotView& view);
+  /// Finds out what joints follow whose mode is open, whether velocities of joints in mode position are commanded, what
+  /// drives bring with them, and what is read of contacts. [setup]
+  void connect_by_name(Connector& c, const RobotView& view, const Parameters& p);
   /// Whether one of those that add to its external wrenches is the contact algorithm. [setup]
   void set_has_contact_law(bool has) { has_contact_law_ = has; }
 
@@ -46,7 +47,7 @@ class WorldRobot {
   void import();
   /// Sets what drives are to do in a step of the engine of `dt` (s). `gain_of_mimics`: 1/s. Throws Error for targets
   /// that are not finite.
-  void set_drive_targets(double dt, double gain_of_mimics);
+  void set_drive_targets(const WorldTraits& traits, double dt, double gain_of_mimics);
   /// When the engine has made one of `count` steps of this step of the motion: what contacts have done in it.
   void add_contacts(int count);
   /// State to properties. Throws Error when it passes the limits of the watch.
@@ -77,6 +78,7 @@ class WorldRobot {
   };
 
   void connect_joints(Connector& c, const RobotView& view, const Parameters& p, const watch::Reach& reach);
+  void connect_drives(Connector& c, const RobotView& view, const Parameters& p);
   void connect_links(Connector& c, const RobotView& view);
   void connect_memory(Connector& c, const RobotView& view, std::string_view motion, std::size_t engine_memory);
   void import_wrenches();
@@ -101,10 +103,10 @@ class WorldRobot {
   Out<double> twist_lag_;
   Out<Pose> pose_;
   Out<Twist> twist_;
-  std::vector<Joint> joints_;     ///< one per body
-  MovedInertias moved_inertias_;  ///< where some joint follows positions
-  bool has_position_drives_ = false;
-  std::vector<double> positions_;  ///< of joints, one per body
+  std::vector<Joint> joints_;                                    ///< one per body
+  MovedInertias moved_inertias_;                                 ///< where some joint follows positions
+  bool has_position_drives_ = false, has_speed_limits_ = false;  ///< the latter of joints that efforts drive
+  std::vector<double> positions_;                                ///< of joints, one per body
   ListOut<ContactWrench> contacts_;
   std::vector<LinkWrenches> wrenches_;                 ///< one per loaded link
   bool tells_applied_ = false;                         ///< `applied` of some of them is read

@@ -27,6 +27,8 @@ class PositionTarget {
   /// How many numbers it keeps from step to step, and where: part of the state, all 0 before the first step. [setup]
   std::size_t memory_size() const { return period_ > 0 ? TargetInterpolation::numbers : 0; }
   void keep_in(std::span<double> memory) { interpolation_ = TargetInterpolation(memory); }
+  /// Takes another target: of a joint whose mode was open. [setup]
+  void follow(const double* position) { position_ = position; }
   /// Finds out whether the velocity is commanded. [setup]
   void connect_by_name(Connector& c) {
     if (is_commanded(c, joint_, keys::joint_velocity_target))

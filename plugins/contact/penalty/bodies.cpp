@@ -51,7 +51,8 @@ void Bodies::connect_kinematic_robots(Connector& c) {
   }
 }
 
-void Bodies::connect_by_name(const Connector& c) {
+void Bodies::connect_by_name(Connector& c) {
+  for (const RobotView* robot : c.robots()) connect_links(c, *robot);
   const auto is_read = [&](ObjectId base) { return c.is_used(base, keys::contact_wrenches_of_law, usage::read); };
   for (const RobotView* robot : c.robots()) {
     if (robot_of[robot->number] == no_robot || !is_read(robot->base())) continue;
@@ -68,25 +69,16 @@ void Bodies::connect_by_name(const Connector& c) {
 
 void Bodies::connect_robot(Connector& c, const RobotView& view, bool resists_turning) {
   const bool moved = c.is_used(view.base(), keys::external_wrench, usage::read_sum);
-  std::vector<std::uint32_t> links;  // that are dynamic bodies, beside the base
-  for (std::uint32_t i = 0; i < view.links.size(); ++i) {
-    const ObjectId object = view.links[i].object;
-    Body& b = all[index_of(object)];
+  for (const Link& link : view.links) {
+    Body& b = all[index_of(link.object)];
     b.model = index_of(view.base());
     b.robot = moved ? std::int32_t(robots.size()) : no_robot;
-    b.dynamic_body = std::uint32_t(dynamic_bodies.size());
-    if (c.constant_array(object, keys::collision_shapes).empty()) continue;
-    b.pose = c.read(object, keys::pose).get();
-    b.twist = c.read(object, keys::twist).get();
-    if (!moved || i == 0 || !c.is_used(object, keys::external_wrench, usage::read_sum)) continue;
-    links.push_back(i);
-    b.dynamic_body = std::uint32_t(dynamic_bodies.size() + links.size());
+    if (c.constant_array(link.object, keys::collision_shapes).empty()) continue;
+    b.pose = c.read(link.object, keys::pose).get();
+    b.twist = c.read(link.object, keys::twist).get();
   }
   if (!moved) return;
-  const std::vector<Inertia> inertias = inertias_of(c, view);
-  const std::vector<double> positions = initial_joint_positions(c, view);
-  const Inertia composite = composite_inertia(view.links, inertias, positions);
-  if (!(composite.mass > 0))
+  if (!(composite_inertia(view.links, inertias_of(c, view), initial_joint_positions(c, view)).mass > 0))
     throw Error(quote(view.name) + " has no mass, so no contact can push it; give its bodies `inertial`");
   Robot r;
   r.contacts = c.read_list(view.base(), keys::contacts);
@@ -99,9 +91,29 @@ void Bodies::connect_robot(Connector& c, const RobotView& view, bool resists_tur
   r.order_key = view.key;
   r.mass = composite.mass;
   r.is_shadow = c.constant(view.base(), keys::shadow_of).has_value();
+  robot_of[view.number] = std::int32_t(robots.size());
+  robots.push_back(r);
+  apparent_masses.emplace_back();
+}
+
+/// Of a robot that forces move: its base, and the links whose motion reads the forces on them, are dynamic bodies.
+void Bodies::connect_links(Connector& c, const RobotView& view) {
+  if (robot_of[view.number] == no_robot) return;
+  Robot& r = robots[std::size_t(robot_of[view.number])];
   r.first_body = std::uint32_t(dynamic_bodies.size());
-  r.body_count = std::uint32_t(1 + links.size());
-  r.is_single_body = links.empty();
+  std::vector<std::uint32_t> links{0};
+  for (std::uint32_t i = 0; i < view.links.size(); ++i) {
+    const ObjectId object = view.links[i].object;
+    Body& b = all[index_of(object)];
+    b.dynamic_body = r.first_body;
+    if (i == 0 || c.constant_array(object, keys::collision_shapes).empty() ||
+        !c.is_used(object, keys::external_wrench, usage::read_sum))
+      continue;
+    b.dynamic_body = r.first_body + std::uint32_t(links.size());
+    links.push_back(i);
+  }
+  r.body_count = std::uint32_t(links.size());
+  r.is_single_body = links.size() == 1;
   if (r.is_single_body && c.is_used(view.base(), keys::impact_time, usage::input)) {
     r.impact_step = c.read(view.base(), keys::impact_step);
     r.impact_time = c.write(view.base(), keys::impact_time);
@@ -109,12 +121,11 @@ void Bodies::connect_robot(Connector& c, const RobotView& view, bool resists_tur
   }
   if (c.is_used(view.base(), keys::carried_mass, usage::input))
     r.carried_mass = c.write(view.base(), keys::carried_mass);
-  robot_of[view.number] = std::int32_t(robots.size());
-  robots.push_back(r);
-  apparent_masses.emplace_back();
-  if (r.is_single_body) return add_dynamic_body(c, view.base(), mass_properties_of(composite));
-  links.insert(links.begin(), 0);
-  const ApparentMasses& apparent = apparent_masses.back() =
+  const std::vector<Inertia> inertias = inertias_of(c, view);
+  const std::vector<double> positions = initial_joint_positions(c, view);
+  if (r.is_single_body)
+    return add_dynamic_body(c, view.base(), mass_properties_of(composite_inertia(view.links, inertias, positions)));
+  const ApparentMasses& apparent = apparent_masses[std::size_t(robot_of[view.number])] =
       penalty::apparent_masses(view.links, inertias, positions, links);
   for (std::size_t i = 0; i < links.size(); ++i) add_dynamic_body(c, view.links[links[i]].object, apparent.bodies[i]);
 }

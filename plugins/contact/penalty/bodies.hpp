@@ -86,7 +86,8 @@ struct Bodies {
   bool tells_kinematic_robots = false;  ///< the same of contacts with robots that no force moves, at some time at least
 
   void connect(Connector& c);
-  void connect_by_name(const Connector& c);
+  /// When motions know which links they move by forces.
+  void connect_by_name(Connector& c);
 
   const Body& operator[](ObjectId id) const { return all[index_of(id)]; }
   const DynamicBody& base_of(const Robot& robot) const { return dynamic_bodies[robot.first_body]; }
@@ -146,6 +147,7 @@ struct Bodies {
 
  private:
   void connect_robot(Connector& c, const RobotView& view, bool resists_turning);
+  void connect_links(Connector& c, const RobotView& view);
   void connect_kinematic_robots(Connector& c);
   void add_dynamic_body(Connector& c, ObjectId body, const MassProperties& mass);
   std::uint32_t number_of(const MassProperties& mass);

@@ -22,11 +22,11 @@ class PairContacts {
         host_(host),
         kernels_(pair_kernels_for(lane::best_isa())),
         record_of_(bodies.robots.size()),
-        known_(bodies.robots.size()),
-        number_in_group_(bodies.dynamic_bodies.size()) {}
+        known_(bodies.robots.size()) {}
   /// Forgets what is known of earlier steps; call it before the first step and when the state was changed from outside.
   void start() {
     for (KnownContacts& known : known_) known.count = 0;
+    number_in_group_.resize(bodies_.dynamic_bodies.size());
   }
 
   /// Starts a step with the robots (of Bodies::robots) whose flag is set; who touches one of them and is moved by

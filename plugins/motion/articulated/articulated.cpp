@@ -62,7 +62,7 @@ class Articulated final : public Algorithm {
                                      is_free ? robot->model().bodies.front().inertia : Inertia{}, robot != nullptr);
       if (!robot) continue;
       served_[i].watch->connect_contacts(c);
-      robot->connect_by_name(c, view);
+      robot->connect_by_name(c, view, c.parameters());
       served_[i].model = number_of(robot->kernel_model(), models_);
       served_[i].masses = number_of(robot->masses(), masses_);
     }

@@ -8,11 +8,14 @@
 
 namespace muro::articulated {
 
-inline constexpr std::string_view joint_modes[] = {"velocity", "position", "acceleration", "effort", "passive"};
+inline constexpr std::string_view joint_modes[] = {"auto", "velocity", "position", "acceleration", "effort", "passive"};
 inline constexpr std::string_view base_modes[] = {"free", "fixed"};
 inline constexpr std::string_view integrators[] = {"semi_implicit", "rk4"};
 inline constexpr Parameter parameters[] = {
-    text("joints", "velocity", "what joints follow that no list below names").one_of(joint_modes),
+    text("joints", "auto",
+         "what joints follow that no list below names; auto: what an algorithm writes, position or velocity; a joint "
+         "that none commands turns freely, beside others that are commanded")
+        .one_of(joint_modes),
     velocity_joints,
     position_joints,
     effort_joints,

@@ -12,6 +12,7 @@
 #include "plugins/common/contact_geometry/impact_path.hpp"
 #include "plugins/common/multibody/engine_parameters.hpp"
 #include "plugins/common/multibody/joint_target.hpp"
+#include "plugins/common/position_drive/settled_modes.hpp"
 #include "plugins/common/text/quote.hpp"
 #include "plugins/common/watch/robot_watch.hpp"
 
@@ -68,7 +69,8 @@ Robot::Robot(Connector& c, const RobotView& view, const Parameters& p, std::uint
 }
 
 void Robot::connect_joints(Connector& c, const RobotView& view, const Parameters& p) {
-  const std::vector<PositionDrive> drives = position_drives_of(c, view, drive_modes_of(c, view, p), p);
+  std::vector<bool> is_open;
+  drive_modes_of(c, view, p, &is_open);
   const std::size_t count = rigid_.bodies.size();
   velocities_.resize(view.links.size());
   joints_.resize(count), positions_out_.resize(count), velocities_out_.resize(count), efforts_out_.resize(count);
@@ -91,16 +93,34 @@ void Robot::connect_joints(Connector& c, const RobotView& view, const Parameters
     Joint& joint = model_.joints[i];
     joint.drive = drive_of(body.drive);
     joints_[i].target = connect_joint_target(c, object, body.drive, start);
+    if (joint.drive == Drive::position || is_open[body.link])
+      joints_[i].position_target = PositionTarget(object, joints_[i].target.get(), p.real(interpolate.name));
+  }
+  if (mimics > most_mimics)
+    throw Error(quote(rigid_.name) + " has " + std::to_string(mimics) + " mimic joints; " + std::string(id) +
+                " moves robots with up to " + std::to_string(most_mimics) + " of them");
+}
+
+/// When it is known what algorithms command.
+void Robot::connect_drives(Connector& c, const RobotView& view, const Parameters& p) {
+  const std::vector<DriveMode> modes = settled_modes(c, view, p);
+  const std::vector<PositionDrive> drives = position_drives_of(c, view, modes, p);
+  for (std::size_t i = 1; i < joints_.size(); ++i) {
+    multibody::RigidBody& body = rigid_.bodies[i];
+    const bool is_settled = body.drive != modes[body.link];
+    body.drive = modes[body.link];
+    if (body.leader >= 0) continue;
+    Joint& joint = model_.joints[i];
+    if (is_settled)
+      joints_[i].target = connect_joint_target(c, joints_[i].object, body.drive, rigid_.initial_positions[i]);
+    joint.drive = drive_of(body.drive);
     if (joint.drive != Drive::position) continue;
     const PositionDrive& drive = drives[body.link];
     joint.natural_frequency = drive.natural_frequency;
     joint.stiffness = drive.stiffness.value_or(-1);
     joint.drive_damping = drive.damping.value_or(-1);
-    joints_[i].position_target = PositionTarget(object, joints_[i].target.get(), drive.interpolation);
+    joints_[i].position_target.follow(joints_[i].target.get());
   }
-  if (mimics > most_mimics)
-    throw Error(quote(rigid_.name) + " has " + std::to_string(mimics) + " mimic joints; " + std::string(id) +
-                " moves robots with up to " + std::to_string(most_mimics) + " of them");
 }
 
 void Robot::connect_links(Connector& c) {
@@ -139,7 +159,8 @@ void Robot::connect_self_contacts(Connector& c, const RobotView& view, const Par
   self_contact_law_ = {rigid_.mass * omega * omega, p.real("correcting_speed")};
 }
 
-void Robot::connect_by_name(Connector& c, const RobotView& view) {
+void Robot::connect_by_name(Connector& c, const RobotView& view, const Parameters& p) {
+  connect_drives(c, view, p);
   self_contacts_.connect_by_name(c, view, rigid_);
   has_contact_law_ = c.is_used(view.base(), keys::contact_wrenches_of_law, usage::derived);
   tells_contacts_ = c.is_used(view.base(), keys::contact_wrenches_of_motion, usage::read);

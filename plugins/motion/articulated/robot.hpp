@@ -20,7 +20,7 @@ class Robot {
   /// `level`: the motion.level at which this motion moves the robot. [setup]
   Robot(Connector& c, const RobotView& view, const Parameters& p, std::uint32_t level);
   /// Finds out what is commanded and what is read. [setup]
-  void connect_by_name(Connector& c, const RobotView& view);
+  void connect_by_name(Connector& c, const RobotView& view, const Parameters& p);
   /// All handles may be read; the run begins or goes on. [setup]
   void start();
   /// Another motion has moved the robot so far.
@@ -73,6 +73,7 @@ class Robot {
 
   void connect_joints(Connector& c, const RobotView& view, const Parameters& p);
   void connect_links(Connector& c);
+  void connect_drives(Connector& c, const RobotView& view, const Parameters& p);
   void connect_memory(Connector& c, const RobotView& view);
   void connect_self_contacts(Connector& c, const RobotView& view, const Parameters& p);
   void set_offsets();

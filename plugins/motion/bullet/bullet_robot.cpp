@@ -69,6 +69,7 @@ BulletRobot::BulletRobot(const RobotModel& model, RobotState& state)
   velocity_.setZero(n);
   position_velocity_.setZero(n);
   damping_impulses_.setZero(n - 6);
+  coupling_.setZero(n);
   inverse_inertia_.setZero(n, n);
   const Eigen::Index free = model.fixed_base ? n - 6 : n;
   inertia_.setZero(free, free);
@@ -225,6 +226,23 @@ void BulletRobot::find_inverse_inertia(double dt) {
   for (std::size_t i = 1; i < body_states_.size(); ++i)
     if (const double impulse = damping_impulses_[Eigen::Index(i) - 1]; impulse != 0)
       velocity_ -= impulse * inverse_inertia_.col(Eigen::Index(5 + i));
+  couple_mimic_joints();
+}
+
+/// Takes the motions that mimic joints do not allow out of the velocities and out of the inverse inertia, one
+/// constraint after the other: whatever impulses come then, they keep all of them.
+void BulletRobot::couple_mimic_joints() {
+  for (std::size_t i = 1; i < body_states_.size(); ++i) {
+    const RigidBody& body = model_->bodies[i];
+    if (body.leader < 0) continue;
+    const Eigen::Index follower = Eigen::Index(5 + i), leader = 5 + body.leader;
+    const auto lead = [&](const Vector& v) { return v[follower] - body.multiplier * v[leader]; };
+    coupling_ = inverse_inertia_.col(follower) - body.multiplier * inverse_inertia_.col(leader);
+    const double inverse_mass = lead(coupling_);
+    if (!(inverse_mass > 0)) continue;
+    velocity_ += (state_->joints[i].target.mimic_lead - lead(velocity_)) / inverse_mass * coupling_;
+    inverse_inertia_.noalias() -= coupling_ * (coupling_.transpose() / inverse_mass);
+  }
 }
 
 /// Composite-rigid-body algorithm (Featherstone, Rigid Body Dynamics Algorithms, 6.2), all about the base's centre of

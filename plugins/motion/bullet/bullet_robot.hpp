@@ -49,7 +49,7 @@ class BulletRobot {
   double* position_velocity() { return position_velocity_.data(); }  ///< moves positions in this step
   const double* velocity() const { return velocity_.data(); }
   /// Of the joint-space inertia matrix, armature and damping of joints included: the velocities that unit impulses
-  /// make.
+  /// make, mimic joints held to their leaders.
   const Eigen::MatrixXd& inverse_inertia() const { return inverse_inertia_; }
   /// Adds `sign` times the generalised force of a wrench on a body to `row`: a row of the Jacobian.
   void add_jacobian(std::size_t body, const SpatialForce& wrench, double sign, double* row) const;
@@ -75,6 +75,7 @@ class BulletRobot {
   void find_motion_subspaces();
   void find_inverse_inertia(double dt);
   void find_inertia(double dt);
+  void couple_mimic_joints();
   Vec3 com_of(std::size_t body) const { return body_states_[body].pose * model_->bodies[body].inertia.com; }
 
   const multibody::RobotModel* model_;
@@ -95,6 +96,7 @@ class BulletRobot {
   std::vector<Composite> composites_;
   Vector velocity_, position_velocity_;
   Vector damping_impulses_;  ///< N s or N m s in a step, of damping and rotors, one per joint
+  Vector coupling_;          ///< the velocities that a unit impulse of a mimic joint's constraint makes
   Eigen::MatrixXd inertia_, inverse_inertia_;
 };
 

@@ -210,6 +210,11 @@ void Mjcf::write_body(const multibody::RobotModel& model, std::size_t number, st
     tendons_ += "<fixed" + attribute("frictionloss", {std::min(body.limits.friction, 1e30)}) +
                 attribute("solimpfriction", {mjMAXIMP, mjMAXIMP, 1}) + "><joint joint='" + name +
                 "' coef='1'/></fixed>\n";
+  if (body.leader >= 0)
+    equalities_ += "<joint" + named(name) + " joint1='" + name + "' joint2='" +
+                   body_name(model.name, owner, std::size_t(body.leader)) + "'" +
+                   attribute("polycoef", {body.offset, body.multiplier, 0, 0, 0}) +
+                   attribute("solimp", {mjMAXIMP, mjMAXIMP, 1}) + "/>\n";
   const Principal p = principal_of(body.inertia);
   bodies_ += "<inertial" + place({body.inertia.com - shift, p.axes}) + attribute("mass", {body.inertia.mass}) +
              vector("diaginertia", p.moments) + "/>\n";
@@ -236,7 +241,8 @@ std::string Mjcf::text(const MujocoSettings& settings, const Sizes& sizes) const
          "/><joint" + impedance("solimplimit", mjMAXIMP) + impedance("solimpfriction", mjMAXIMP) +
          "/></default>\n<asset>\n" + assets_ + "</asset>\n<worldbody>\n" + ground_ +
          (moving_geoms_ <= few_geoms ? scenery_in_world_ : scenery_in_bodies_) + bodies_ + "</worldbody>\n<contact>\n" +
-         exclusions_ + "</contact>\n<tendon>\n" + tendons_ + "</tendon>\n</mujoco>\n";
+         exclusions_ + "</contact>\n<tendon>\n" + tendons_ + "</tendon>\n<equality>\n" + equalities_ +
+         "</equality>\n</mujoco>\n";
 }
 
 }  // namespace muro::mujoco

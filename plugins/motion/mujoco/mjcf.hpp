@@ -66,7 +66,7 @@ class Mjcf {
   char decimal_sign_;
   static constexpr std::size_t few_geoms = 15;
 
-  std::string ground_, scenery_in_world_, scenery_in_bodies_, bodies_, assets_, exclusions_, tendons_;
+  std::string ground_, scenery_in_world_, scenery_in_bodies_, bodies_, assets_, exclusions_, tendons_, equalities_;
   std::size_t moving_geoms_ = 0;
   std::map<const Vec3*, std::string> mesh_names_;
   std::vector<Heightmap> height_fields_;  ///< by number, which is in the name

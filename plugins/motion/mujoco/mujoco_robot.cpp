@@ -42,6 +42,7 @@ void MujocoRobot::find_indices(mjModel& m) {
     joints_[i] = mj_name2id(&m, mjOBJ_JOINT, name.c_str());
     dofs_[i] = m.jnt_dofadr[joints_[i]];
     positions_[i] = m.jnt_qposadr[joints_[i]];
+    if (model_->bodies[i].leader >= 0) couplings_.push_back(mj_name2id(&m, mjOBJ_EQUALITY, name.c_str()));
   }
   dof_count_ = int(memory_of(*model_));
   const int base = bodies_[0];
@@ -70,6 +71,7 @@ void MujocoRobot::set_motion_type(mjModel& m) {
              disabled = state_->motion_type == MotionType::disabled;
   set_time_step(m, dt_);
   if (!dynamic) std::fill_n(m.dof_armature + first_dof_, dof_count_, kinematic_armature);
+  for (const int equality : couplings_) m.eq_active[equality] = dynamic;
   for (const int b : bodies_)
     for (int g = m.body_geomadr[b]; g < m.body_geomadr[b] + m.body_geomnum[b]; ++g) {
       m.geom_contype[g] = disabled ? 0 : dynamic ? dynamic_bit : fixed_bit;
@@ -135,7 +137,7 @@ void MujocoRobot::set_joint(mjModel& m, mjData& d, std::size_t number, std::span
   const bool dynamic = motion_type_ == MotionType::dynamic;
   const double velocity = target.tracks_velocity ? target.velocity : 0;
   const double max_effort = target.tracks_velocity ? target.max_effort : target.friction;
-  drives[std::size_t(dof)] = {velocity, target.tracks_velocity ? target.softness() : 0};
+  drives[std::size_t(dof)] = {velocity, target.tracks_velocity ? target.softness() : 0, target.mimic_lead};
   m.dof_frictionloss[dof] = dynamic ? std::min(max_effort, unlimited) : 0;
   if (dynamic) m.dof_armature[dof] = body.limits.armature + dt_ * body.limits.damping + joint.drive_armature;
   d.qfrc_applied[dof] =

@@ -18,8 +18,9 @@ inline constexpr int dynamic_bit = 1, fixed_bit = 2;
 
 /// What the row of a degree of freedom's drive or friction is to do.
 struct DofDrive {
-  double velocity = 0;  ///< rad/s or m/s, to hold
-  double softness = 0;  ///< see multibody::DriveTarget
+  double velocity = 0;    ///< rad/s or m/s, to hold
+  double softness = 0;    ///< see multibody::DriveTarget
+  double mimic_lead = 0;  ///< likewise
 };
 
 class MujocoRobot {
@@ -78,6 +79,7 @@ class MujocoRobot {
   int mocap_ = -1;                              ///< of a fixed base
   std::vector<int> bodies_;                     ///< one per body
   std::vector<int> joints_, positions_, dofs_;  ///< one per body; none for the base
+  std::vector<int> couplings_;                  ///< one per mimic joint: the equality that holds it
   std::vector<double> efforts_;                 ///< one per body
   double dt_ = 0;
   std::optional<multibody::MotionType> motion_type_;  ///< that the model is set to

@@ -40,7 +40,7 @@ void MujocoWorld::complete() {
     for (const multibody::RigidBody& p : r.model().bodies) shapes += int(p.shapes.size());
   }
   const int contacts = shapes + 20;
-  model_ = compile(mjcf_.text(settings_, {contacts, 3 * joints + 3 * contacts}), *warnings_);
+  model_ = compile(mjcf_.text(settings_, {contacts, 4 * joints + 3 * contacts}), *warnings_);
   if (model_->nbody > 30000)
     throw Error("a world of MuJoCo holds 30000 bodies, this one has " + std::to_string(model_->nbody) +
                 "; give some of the robots another `world`");
@@ -204,7 +204,7 @@ void MujocoWorld::step() {
     split_step();
   else
     mj_Euler(m, d);
-  for (int i = 0; i < d->nefc && d->efc_type[i] == mjCNSTR_FRICTION_DOF; ++i) {
+  for (int i = d->ne; i < d->nefc && d->efc_type[i] == mjCNSTR_FRICTION_DOF; ++i) {
     const DofOwner& drive = dof_owners_[std::size_t(d->efc_id[i])];
     robots_[drive.robot].set_effort(drive.body, d->efc_force[i]);
   }
@@ -239,7 +239,7 @@ void MujocoWorld::split_step() {
 /// A row's force is (a* - J a) / R: with R = softness / dt it is that of a damper on the speed at the end of the step.
 void MujocoWorld::set_softness() {
   mjData& d = *data_;
-  for (int i = 0; i < d.nefc && d.efc_type[i] == mjCNSTR_FRICTION_DOF; ++i) {
+  for (int i = d.ne; i < d.nefc && d.efc_type[i] == mjCNSTR_FRICTION_DOF; ++i) {
     const double softness = dof_drives_[std::size_t(d.efc_id[i])].softness;
     if (softness <= dt_ * d.efc_R[i]) continue;
     d.efc_R[i] = softness / dt_;
@@ -252,6 +252,11 @@ void MujocoWorld::set_references() {
   mjData& d = *data_;
   if (d.ncon > 0) mj_mulJacVec(model_.get(), &d, d.efc_b, d.qacc_smooth);
   for (int i = 0; i < d.nefc; ++i) switch (d.efc_type[i]) {
+      case mjCNSTR_EQUALITY: {
+        const int follower = model_->jnt_dofadr[model_->eq_obj1id[d.efc_id[i]]];
+        d.efc_aref[i] = (dof_drives_[std::size_t(follower)].mimic_lead - d.efc_vel[i]) / dt_;
+        break;
+      }
       case mjCNSTR_FRICTION_DOF:
         d.efc_aref[i] = (dof_drives_[std::size_t(d.efc_id[i])].velocity - d.efc_vel[i]) / dt_;
         break;

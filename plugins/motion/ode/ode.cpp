@@ -95,6 +95,7 @@ class OdeMotion final : public multibody::Motion {
     if (settings_.exact) least.box_of = [this](const Shape& s) { return ode::box_around(s, *meshes_); };
     return least;
   }
+  bool couples_mimics() const override { return false; }
   std::size_t memory_of(const multibody::RobotModel& model) const override {
     return ode::OdeRobot::memory_of(model, settings_.exact);
   }

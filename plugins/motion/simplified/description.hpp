@@ -9,11 +9,14 @@
 
 namespace muro::simplified {
 
-inline constexpr std::string_view joint_modes[] = {"velocity", "position", "acceleration", "effort", "passive"};
+inline constexpr std::string_view joint_modes[] = {"auto", "velocity", "position", "acceleration", "effort", "passive"};
 inline constexpr std::string_view position_drive_kinds[] = {"pd", "ideal"};
 inline constexpr std::string_view base_modes[] = {"free", "fixed"};
 inline constexpr Parameter parameters[] = {
-    text("joints", "velocity", "which target the joints follow that the lists below do not name").one_of(joint_modes),
+    text("joints", "auto",
+         "what joints follow that no list below names; auto: what an algorithm writes, position or velocity; a joint "
+         "that none commands turns freely, beside others that are commanded")
+        .one_of(joint_modes),
     velocity_joints,
     position_joints,
     effort_joints,

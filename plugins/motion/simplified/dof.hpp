@@ -25,14 +25,18 @@ inline DofState moved_on(const DofState& s, double v, const JointLimits& limits,
   return {position, position == q ? v : 0};
 }
 
-/// Moves on by `dt` (s) under the constant `force` (N m or N). inertia v' = force - damping v - friction, with damping
-/// and friction those of the end of the step: friction takes what it can and no more, so a joint comes to rest and
-/// stays there. q' = q + (v + v') dt/2, exact for a constant force. Stops are inelastic.
-/// `inertia` > 0: kg m^2 or kg.
-inline DofState integrate_force(const DofState& s, double force, double inertia, const JointLimits& limits, double dt) {
+/// The velocity after `dt` (s) under the constant `force` (N m or N): inertia v' = force - damping v - friction, with
+/// damping and friction those of the end of the step: friction takes what it can and no more, so a joint comes to rest
+/// and stays there. `inertia` > 0: kg m^2 or kg.
+inline double velocity_under(const DofState& s, double force, double inertia, const JointLimits& limits, double dt) {
   const double momentum = beyond_friction(inertia * s.velocity + force * dt, limits.friction * dt);
-  const double v = std::clamp(momentum / (inertia + limits.damping * dt), -limits.velocity, limits.velocity);
-  return moved_on(s, v, limits, dt);
+  return momentum / (inertia + limits.damping * dt);
+}
+
+/// Moves on by `dt` (s) under the constant `force`, as velocity_under() says, whatever the limit of speed is.
+/// q' = q + (v + v') dt/2, exact for a constant force. Stops are inelastic.
+inline DofState integrate_force(const DofState& s, double force, double inertia, const JointLimits& limits, double dt) {
+  return moved_on(s, velocity_under(s, force, inertia, limits, dt), limits, dt);
 }
 
 /// The drive's effort that brings a joint under `load` (what else acts, N m or N) from velocity `from` to `to` within
@@ -43,19 +47,32 @@ inline double inverse_dynamics(double from, double to, double load, double inert
   return to == 0 ? beyond_friction(needed, limits.friction) : needed + std::copysign(limits.friction, to);
 }
 
+/// Moves on by `dt` (s) under the effort of a drive and `load` (what else acts, N m or N). The drive pushes the joint
+/// no faster than its limit of speed; a load may, and then the drive does nothing. `effort`: in and out, N m or N.
+inline DofState integrate_effort(const DofState& s, double& effort, double load, double inertia,
+                                 const JointLimits& limits, double dt) {
+  double v = velocity_under(s, effort + load, inertia, limits, dt);
+  if (std::abs(v) > limits.velocity && effort * v > 0) {
+    const double fastest = std::copysign(limits.velocity, v), coasting = velocity_under(s, load, inertia, limits, dt);
+    const bool coasts = coasting * fastest >= fastest * fastest;
+    v = coasts ? coasting : fastest;
+    effort = coasts ? 0 : inverse_dynamics(s.velocity, v, load, inertia, limits, dt);
+  }
+  return moved_on(s, v, limits, dt);
+}
+
 /// Moves on by `dt` (s) with a PD drive, no stronger than the limit of effort, under `load` (what else acts, N m or N).
 /// `effort`: what the drive does, N m or N, that of the end of the step.
 inline DofState follow_drive(const DofState& s, const ImplicitDrive& drive, double load, double inertia,
                              const JointLimits& limits, double dt, double& effort) {
   const double momentum =
       beyond_friction(inertia * s.velocity + (drive.damping * drive.velocity + load) * dt, limits.friction * dt);
-  const double free = momentum / (inertia + (limits.damping + drive.damping) * dt);
-  const double v = std::clamp(free, -limits.velocity, limits.velocity);
-  const double wanted = drive.effort(v);
-  // at the limit of speed, what holds it there
-  const double needed = v == free ? wanted : inverse_dynamics(s.velocity, v, load, inertia, limits, dt);
-  effort = std::clamp(needed, -limits.effort, limits.effort);
-  return effort == needed ? moved_on(s, v, limits, dt) : integrate_force(s, effort + load, inertia, limits, dt);
+  const double v = momentum / (inertia + (limits.damping + drive.damping) * dt);
+  effort = drive.effort(v);
+  const bool is_fast = std::abs(v) > limits.velocity && effort * v > 0;
+  if (std::abs(effort) <= limits.effort && !is_fast) return moved_on(s, v, limits, dt);
+  effort = std::clamp(effort, -limits.effort, limits.effort);
+  return integrate_effort(s, effort, load, inertia, limits, dt);
 }
 
 /// A drive that follows its target as long as its effort suffices.
@@ -80,7 +97,7 @@ inline DofState follow_target(const DofState& s, const Drive& drive, double load
     joints::follow_acceleration(wanted, drive.target, range, dt);
   const double needed = inverse_dynamics(s.velocity, wanted.velocity, load, inertia, limits, dt);
   effort = std::clamp(needed, -limits.effort, limits.effort);
-  return effort == needed ? wanted : integrate_force(s, effort + load, inertia, limits, dt);
+  return effort == needed ? wanted : integrate_effort(s, effort, load, inertia, limits, dt);
 }
 
 }  // namespace muro::simplified

@@ -55,10 +55,24 @@ TEST(Dof, StopsDeadAtALimitAndLeavesIt) {
   EXPECT_NEAR(s.position, 0.5 - 0.25, 1e-12);
 }
 
-TEST(Dof, IsNoFasterThanItsLimit) {
+TEST(Dof, ADriveIsNoFasterThanItsLimit) {
   DofState s{};
-  for (int n = 0; n < 5000; ++n) s = integrate_force(s, -9, 2, {.velocity = 3}, dof_step);
+  double effort = 0;
+  for (int n = 0; n < 5000; ++n) s = integrate_effort(s, effort = -9, 0, 2, {.velocity = 3}, dof_step);
   EXPECT_EQ(s.velocity, -3);
+  EXPECT_NEAR(effort, 0, 1e-12) << "what holds this speed";
+}
+
+TEST(Dof, ALoadIsFasterThanTheLimitOfTheDrive) {
+  DofState passive{}, driven{};
+  double effort = 0;
+  for (int n = 0; n < 1000; ++n) {
+    passive = integrate_effort(passive, effort = 0, -9, 2, {.velocity = 3}, dof_step);
+    driven = integrate_effort(driven, effort = -1, -9, 2, {.velocity = 3}, dof_step);
+  }
+  EXPECT_NEAR(passive.velocity, -4.5, 1e-9);
+  EXPECT_LT(driven.velocity, -4.5) << "helped by the drive as far as 3 rad/s";
+  EXPECT_EQ(effort, 0);
 }
 
 TEST(Dof, AnUndampedSpringKeepsItsEnergyInTheMiddleOfSteps) {

@@ -102,7 +102,7 @@ bool ForceDrivenJoints::move(double dt) {
       *j.effort = j.properties.target ? std::clamp(*j.properties.target, -j.limits.effort, j.limits.effort) : 0;
       JointLimits limits = j.limits;
       limits.friction += j.losses.friction();
-      state = integrate_force(state, *j.effort + dof.force, inertia + j.losses.armature(), limits, dt);
+      state = integrate_effort(state, *j.effort, dof.force, inertia + j.losses.armature(), limits, dt);
     } else if (j.properties.has_position_drive) {
       const Reference reference = j.target.advance(state.position, j.limits, dt);
       const PdGains gains = j.drive.gains(moved_inertias_.driven(dynamics_.body_of(dof.link)));

@@ -32,18 +32,18 @@ constexpr Mode kernel_mode(DriveMode mode) {
                                            : Mode::velocity;
 }
 
-/// One per link. `start`: positions (rad or m). `limited`: forces drive all joints whose effort the model limits, also
-/// those with other targets. `has_position_drive`: of each link, whether its joint has a PD drive in mode position.
-/// Throws Error for a joint that starts outside its limits. [setup]
+/// One per link. `start`: positions (rad or m). `modes`: of every joint. `limited`: forces drive all joints whose
+/// effort the model limits, also those with other targets. `has_position_drive`: of each link, whether its joint has a
+/// PD drive in mode position. Throws Error for a joint that starts outside its limits. [setup]
 inline std::vector<JointProperties> connect_joint_properties(Connector& c, const RobotView& robot,
-                                                             const std::vector<double>& start, bool limited,
+                                                             const std::vector<double>& start,
+                                                             const std::vector<DriveMode>& modes, bool limited,
                                                              const std::vector<bool>& has_position_drive) {
-  const std::vector<DriveMode> modes = drive_modes_of(c, robot, c.parameters());
   std::vector<JointProperties> properties(robot.links.size());
   for (std::size_t i = 0; i < properties.size(); ++i) {
     const Link& link = robot.links[i];
     if (link.joint == JointKind::fixed) continue;
-    check_start(c, link.joint_object, link.limits, start[i]);
+    if (link.mimic < 0) check_start(c, link.joint_object, link.limits, start[i]);
     JointProperties& p = properties[i];
     const std::size_t leader = link.mimic >= 0 ? std::size_t(link.mimic) : i;
     p.mode = modes[leader];

@@ -23,6 +23,7 @@
 #include "plugins/common/kinematic_joints/moving_mass.hpp"
 #include "plugins/common/mesh/hull_vertices.hpp"
 #include "plugins/common/multibody/consistent_inertia.hpp"
+#include "plugins/common/position_drive/settled_modes.hpp"
 #include "plugins/common/text/quote.hpp"
 #include "plugins/common/watch/robot_watch.hpp"
 
@@ -39,12 +40,27 @@ class Simplified final : public Algorithm {
     fixed_ = p.text("base") == "fixed";
     max_acceleration_ = p.real("max_joint_acceleration");
     gravity_ = c.constant(world_object, keys::gravity).value_or(Vec3(0, 0, -9.81));
-    for (const Item& item : c.items()) connect_robot(c, item);
-    applied_wrenches_.resize(robots_.size());
+    const std::size_t count = c.items().size();
+    robots_.resize(count), kinds_.resize(count), impacts_.resize(count), applied_wrenches_.resize(count);
+    for (std::vector<RobotState>& layer : layers_) layer.resize(count);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const RobotView& robot = *c.items()[i].robot;
+      modes_.push_back(drive_modes_of(c, robot, p));
+      watches_.emplace_back(c, robot, std::vector<const double*>{});
+      connect_robot(c, i);
+      note_raised_inertia(c, robot);
+      note_without_forces(c, robot, modes_[i]);
+    }
     tell_of_robots_without_forces(c, without_forces_, stand_still_);
   }
 
   void connect_by_name(Connector& c) override {
+    for (std::uint32_t i = 0; i < robots_.size(); ++i) {
+      std::vector<DriveMode> modes = settled_modes(c, *c.items()[i].robot, c.parameters());
+      if (modes == modes_[i]) continue;
+      modes_[i] = std::move(modes);
+      connect_robot(c, i);
+    }
     scenery_ = watch::scenery_names(c);
     for (watch::RobotWatch& watch : watches_) watch.connect_contacts(c);
     for (ForceDrivenJoints& joints : force_driven_) joints.connect_by_name(c);
@@ -138,16 +154,30 @@ class Simplified final : public Algorithm {
     Inertia inertia;  ///< of all its bodies at the start, in the frame of the base
   };
 
-  void connect_robot(Connector& c, const Item& item) {
-    const RobotView& robot = *item.robot;
+  /// What bodies of the robot have, physically consistent.
+  static std::vector<Inertia> consistent_inertias_of(const Connector& c, const RobotView& robot) {
     std::vector<Inertia> inertias = inertias_of(c, robot);
     for (Inertia& i : inertias) i = nearest_consistent_inertia(i).value_or(i);
-    const std::vector<double> start = initial_joint_positions(c, robot);
-    if (complete_inertia(c, robot, start, inertias, meshes_))
+    return inertias;
+  }
+
+  void note_raised_inertia(Connector& c, const RobotView& robot) {
+    std::vector<Inertia> inertias = consistent_inertias_of(c, robot);
+    if (complete_inertia(c, robot, initial_joint_positions(c, robot), inertias, meshes_))
       c.host().log(LogLevel::info,
                    "motion.simplified: the inertia of " + quote(robot.name) +
                        " is less than a hundredth of that of a box of its size and mass, so that contacts could not "
                        "hold it; it is raised to that. Give its bodies an inertia (`inertial`) that fits them");
+  }
+
+  /// Connects the robot whose joints have modes_, anew when it is found out that they have others.
+  void connect_robot(Connector& c, std::uint32_t number) {
+    const Item& item = c.items()[number];
+    const RobotView& robot = *item.robot;
+    const std::vector<DriveMode>& modes = modes_[number];
+    std::vector<Inertia> inertias = consistent_inertias_of(c, robot);
+    const std::vector<double> start = initial_joint_positions(c, robot);
+    complete_inertia(c, robot, start, inertias, meshes_);
     CompositeBody composite(robot.links, inertias, start);
     Model model;
     model.rigid = composite.rigid();
@@ -162,36 +192,39 @@ class Simplified final : public Algorithm {
     state.pose = numbers(c.variable(robot.base(), keys::pose, pose).get());
     state.twist = numbers(c.variable(robot.base(), keys::twist, fixed_ ? Twist{} : twist).get());
     const std::vector<JointProperties> properties =
-        connect_joint_properties(c, robot, start, forces && c.parameters().boolean("effort_limits"),
+        connect_joint_properties(c, robot, start, modes, forces && c.parameters().boolean("effort_limits"),
                                  joints_with_position_drives(c, robot, inertias, start, forces));
-    if (!forces) note_without_forces(robot, properties);
     std::vector<const double*> watched;
     for (const JointProperties& j : properties) watched.push_back(j.force_driven ? j.velocity : nullptr);
-    watches_.emplace_back(c, robot, watched);
+    watches_[number] = watch::RobotWatch(c, robot, watched);
     // Where another motion of the robot asks for the wrenches on links, they do not act on the base.
     const bool has_levels =
         forces && robot.links.size() > 1 && !c.constant_array(robot.base(), keys::motion_level_names).empty();
     const auto any = [&](bool JointProperties::*what) {
       return forces && std::any_of(properties.begin(), properties.end(), std::mem_fn(what));
     };
-    const bool feels_contact = has_levels || any(&JointProperties::feels_contact);
+    const bool is_first = !robots_[number].contact_world;
+    // The contact algorithm has to know from the start which robots on a fixed base it moves.
+    const bool is_pushed = !fixed_ || is_first || robots_[number].external.has_value();
+    const bool feels_contact = is_pushed && (has_levels || any(&JointProperties::feels_contact));
     model.force_driven = has_levels || any(&JointProperties::force_driven);
     if (model.force_driven || !fixed_) model.mass = rigid_mass(robot, composite_inertia(robot.links, inertias, start));
     if (model.force_driven) {
       r.force_driven = std::int32_t(force_driven_.size());
       force_driven_.emplace_back(c, robot, properties, inertias, start,
-                                 position_drives_of(c, robot, drive_modes_of(c, robot, c.parameters()), c.parameters()),
-                                 std::string(description.id) + (has_levels ? "." + std::to_string(item.level) : ""),
+                                 position_drives_of(c, robot, modes, c.parameters()),
+                                 std::string(description.id) + (has_levels ? "." + std::to_string(item.level) : "") +
+                                     (is_first ? "" : ".settled"),
                                  ForceDrivenJoints::Settings{fixed_, max_acceleration_, c.parameters().real("armature"),
                                                              feels_contact || !fixed_, feels_contact});
     }
     if (feels_contact || !fixed_) r.external = c.read_sum(robot.base(), keys::external_wrench);
     r.contact_world = c.variable(robot.base(), keys::contact_world, contact_world_of(r.external.has_value()));
     r.twist_lag = c.variable(robot.base(), keys::twist_lag, 0.0);
-    impacts_.push_back(feels_contact || fixed_ ? contact_geometry::ImpactInput{}
-                                               : contact_geometry::ImpactInput(c, robot));
+    impacts_[number] =
+        feels_contact || fixed_ ? contact_geometry::ImpactInput{} : contact_geometry::ImpactInput(c, robot);
     const std::vector<RobotState> states = model.add_groups(robot, properties, max_acceleration_, state);
-    for (std::size_t k = 0; k < layers_.size(); ++k) layers_[k].push_back(k < states.size() ? states[k] : RobotState{});
+    for (std::size_t k = 0; k < layers_.size(); ++k) layers_[k][number] = k < states.size() ? states[k] : RobotState{};
     model.single_kernel = model.rigid && !model.force_driven && !fixed_ && model.groups.size() <= 1;
     if (!composite.rigid()) {
       r.articulation = std::int32_t(articulations_.size());
@@ -202,8 +235,8 @@ class Simplified final : public Algorithm {
       }
       articulations_.emplace_back(std::move(composite), std::move(positions), std::move(velocities));
     }
-    kinds_.push_back({number_of(std::move(model), models_), 0});
-    robots_.push_back(std::move(r));
+    kinds_[number] = {number_of(std::move(model), models_), 0};
+    robots_[number] = std::move(r);
   }
 
   /// Of each link, whether its joint has a PD drive in mode position. Those without inertia meet their targets.
@@ -224,11 +257,13 @@ class Simplified final : public Algorithm {
   }
 
   /// Of a robot whose joints no force can move: those that forces would move stand still.
-  void note_without_forces(const RobotView& robot, const std::vector<JointProperties>& properties) {
-    const auto is_joint = [](const JointProperties& p) { return p.position != nullptr; };
-    if (std::none_of(properties.begin(), properties.end(), is_joint)) return;
+  void note_without_forces(const Connector& c, const RobotView& robot, const std::vector<DriveMode>& modes) {
+    const auto moves = [](const Link& link) { return link.joint != JointKind::fixed; };
+    if (!fixed_ || has_moving_mass(c, robot) || std::none_of(robot.links.begin(), robot.links.end(), moves)) return;
     without_forces_.emplace_back(robot.name);
-    for (const JointProperties& p : properties) stand_still_ = stand_still_ || p.force_driven;
+    for (std::size_t i = 0; i < modes.size(); ++i)
+      stand_still_ =
+          stand_still_ || (moves(robot.links[i]) && (modes[i] == DriveMode::effort || modes[i] == DriveMode::passive));
   }
 
   const SumIn<Wrench>* external_of(std::uint32_t i) const {
@@ -312,6 +347,7 @@ class Simplified final : public Algorithm {
   Vec3 gravity_ = Vec3::Zero();
   const Kernels* kernels_ = &kernels_for(lane::best_isa());
   std::vector<Model> models_;
+  std::vector<std::vector<DriveMode>> modes_;      ///< of the joints of each robot, one per link
   std::vector<Kind> kinds_;                        ///< one per robot
   std::array<std::vector<RobotState>, 3> layers_;  ///< by group of joints; one per robot. The first has the base, too
   std::vector<Robot> robots_;                      ///< the rest of them

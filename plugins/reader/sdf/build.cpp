@@ -25,6 +25,7 @@ class TreeBuilder {
     fill(a_.base);
     model_file::build_tree(builder_, children_of(a_.base), [this](const Child& child) { return add(child); });
     if (problems_.found_error()) return;
+    joints_.check_mimic_limits();
     if (mass_ == 0)
       problems_.warning(body(a_.base).location, "no link has a mass; only motion without forces can move the robot");
   }

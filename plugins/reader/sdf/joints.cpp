@@ -122,9 +122,20 @@ void Joints::add_dof(const Joint& joint, const SingleDofJoint& dof, const Quat& 
   const Vec3 axis = rotation.conjugate() * dof.axis;
   const JointLimits limits = limits_of(joint, dof);
   dof.is_prismatic ? builder_.prismatic(dof.name, axis, limits) : builder_.revolute(dof.name, axis, limits);
+  ranges_[dof.name] = {{limits.lower, limits.upper}, &joint};
   const auto follower = followers_.find(dof.name);
   if (follower == followers_.end()) return;
   builder_.mimic(follower->second.leader, follower->second.multiplier, follower->second.offset);
+}
+
+void Joints::check_mimic_limits() const {
+  for (const auto& [name, follower] : followers_) {
+    const auto own = ranges_.find(name), leader = ranges_.find(follower.leader);
+    if (own == ranges_.end() || leader == ranges_.end()) continue;
+    const model_file::JointRange reached = leader->second.range.followed(follower.multiplier, follower.offset);
+    if (const auto text = model_file::passed_mimic_limits(name, follower.leader, reached, own->second.range))
+      problems_.warning(own->second.joint->location, *text);
+  }
 }
 
 void Joints::add(int number) {

@@ -3,6 +3,7 @@
 
 #include "assembly.hpp"
 #include "muro/robot_builder.hpp"
+#include "plugins/common/model_file/mimic_limits.hpp"
 
 namespace muro::sdf {
 
@@ -13,6 +14,8 @@ class Joints {
 
   /// Adds what leads from the parent body, whose frame is the present one, to the frame of the child body.
   void add(int joint);
+  /// When all have been added: tells of mimic joints that their leaders take beyond their limits.
+  void check_mimic_limits() const;
   /// A translation and a rotation, where they are not zero.
   void add_transform(const Pose& pose);
 
@@ -45,6 +48,11 @@ class Joints {
   Problems& problems_;
   std::vector<std::vector<SingleDofJoint>> dofs_;  ///< of each joint
   std::map<std::string, Follower> followers_;      ///< by name
+  struct Range {
+    model_file::JointRange range;
+    const Joint* joint = nullptr;
+  };
+  std::map<std::string, Range> ranges_;  ///< of all joints so far, by name
 };
 
 }  // namespace muro::sdf

@@ -196,6 +196,23 @@ TEST(SdfJoints, AMimicOfAMimicFollowsTheFirst) {
   EXPECT_EQ(robot.joint("l")->link.mimic_offset, 1.5);
 }
 
+TEST(SdfJoints, TellsOfMimicsBeyondTheirLimits) {
+  const auto limit = [](const std::string& upper) {
+    return "<limit><lower>0</lower><upper>" + upper + "</upper></limit>";
+  };
+  const Robot robot =
+      robot_of(model(link("a") + link("b") + link("c") + joint("j", "revolute", "a", "b", axis("0 0 1", limit("0.8"))) +
+                         joint("k", "revolute", "a", "c",
+                               axis("0 0 1", limit("0.88") + "<mimic joint='j'><multiplier>-1</multiplier></mimic>")),
+                     "1.11"));
+  ASSERT_EQ(robot.problems.size(), 2u);  // the version, and this
+  EXPECT_NE(
+      robot.problems.back().find("joint `k` mimics `j`, which takes it from -0.8 to 0, beyond its own limits 0 to "
+                                 "0.88; it goes there"),
+      std::string::npos)
+      << robot.problems.back();
+}
+
 TEST(SdfJoints, AJointThatFixesTheBaseToTheWorldIsForTheMotion) {
   const Robot robot = robot_of(model(link("a") + link("b") + joint("j", "revolute", "a", "b", axis("0 0 1")) + "\n" +
                                      joint("w", "fixed", "world", "a")));

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <optional>
 
 #include "model.hpp"
 #include "muro/toolkit/elementary.hpp"
+#include "plugins/common/model_file/mimic_limits.hpp"
 
 namespace muro::urdf {
 
@@ -210,6 +213,37 @@ std::string leader_of(Element& xml) {
   return leader ? leader : "";
 }
 
+/// Where the limits of a joint let it go.
+model_file::JointRange own_range(const JointInfo& joint) {
+  const Element* limit = joint.xml->FirstChildElement("limit");
+  if (!limit || joint.type == "continuous") return {};
+  const auto bound = [&](const char* attribute) {
+    const double q = limit->DoubleAttribute(attribute, 0);
+    return std::abs(q) < no_limit ? q : std::copysign(std::numeric_limits<double>::infinity(), q);
+  };
+  return {bound("lower"), bound("upper")};
+}
+
+/// The same, or where its leader takes it.
+model_file::JointRange range_of(const ModelInfo& model, const JointInfo& joint) {
+  if (const std::string leader = leader_of(*joint.xml); !leader.empty()) {
+    const Element& mimic = *joint.xml->FirstChildElement("mimic");
+    return range_of(model, model.joints.at(leader))
+        .followed(mimic.DoubleAttribute("multiplier", 1), mimic.DoubleAttribute("offset", 0));
+  }
+  return own_range(joint);
+}
+
+/// Of joints all of whose leaders are there.
+void check_mimic_limits(const ModelInfo& model, Problems& problems) {
+  for (const auto& [name, joint] : model.joints) {
+    const std::string leader = leader_of(*joint.xml);
+    if (leader.empty()) continue;
+    if (const auto text = model_file::passed_mimic_limits(name, leader, range_of(model, joint), own_range(joint)))
+      problems.warning(location_of(*joint.xml->FirstChildElement("mimic")), *text);
+  }
+}
+
 /// A name that no joint has yet.
 std::string new_joint_name(const ModelInfo& model, const std::string& wanted) {
   std::string name = wanted;
@@ -271,6 +305,7 @@ void check_mimics(ModelInfo& model, Problems& problems) {
       leader = leader_of(*model.joints.at(leader).xml);
     }
   }
+  check_mimic_limits(model, problems);
 }
 
 }  // namespace muro::urdf

@@ -358,6 +358,26 @@ TEST(UrdfProblems, MimicsThatFollowNobody) {
             Lines{"warning 4:70 joint `j` mimics itself, over 0 other joints; it moves on its own"});
 }
 
+TEST(UrdfProblems, LeadersThatTakeMimicsBeyondTheirLimits) {
+  const auto problems = [](const std::string& follower) {
+    return recorded(
+               "<robot name='r'><link name='a'/><link name='b'/><link name='c'/>"
+               "<joint name='one' type='revolute'><parent link='a'/><child link='b'/>"
+               "<limit lower='0' upper='0.8' velocity='1' effort='1'/></joint>\n"
+               "<joint name='two' type='" +
+               follower + "</joint></robot>")
+        .problems;
+  };
+  const std::string links = "'><parent link='a'/><child link='c'/>", mimic = "<mimic joint='one' multiplier='-1'/>";
+  const auto limit = [](const std::string& bounds) { return "<limit " + bounds + " velocity='1' effort='1'/>"; };
+  EXPECT_EQ(problems("revolute" + links + limit("lower='0' upper='0.88'") + mimic),
+            Lines{"warning 2:123 joint `two` mimics `one`, which takes it from -0.8 to 0, beyond its own limits 0 to "
+                  "0.88; it goes there, since mimic joints have the limits of their leaders alone. Mend multiplier, "
+                  "offset or limits"});
+  EXPECT_EQ(problems("revolute" + links + limit("lower='-0.8' upper='0'") + mimic), Lines{});
+  EXPECT_EQ(problems("continuous" + links + mimic), Lines{});
+}
+
 TEST(UrdfProblems, SeveralRootsBecomeOneThatHoldsTheOthers) {
   const auto robot = recorded("<robot name='r'>\n<link name='c'/>\n" + std::string(body_a) + link_b +
                               joint("continuous", "<origin xyz='1 0 0'/>") + "</robot>");

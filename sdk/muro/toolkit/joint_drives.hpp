@@ -27,8 +27,10 @@ inline constexpr Parameter position_joints = texts("position_joints", "joints th
 inline constexpr Parameter effort_joints = texts("effort_joints", "joints that efforts drive");
 inline constexpr Parameter passive_joints = texts("passive_joints", "joints that nothing drives");
 
-/// The mode that a word of the parameter `joints` stands for.
+/// The mode that a word of the parameter `joints` stands for; `auto`, which leaves it open what joints follow, for the
+/// first.
 inline DriveMode drive_mode_of(std::string_view word) {
+  if (word == "auto") return DriveMode::velocity;
   constexpr std::pair<std::string_view, DriveMode> words[] = {{"velocity", DriveMode::velocity},
                                                               {"position", DriveMode::position},
                                                               {"acceleration", DriveMode::acceleration},
@@ -50,8 +52,10 @@ inline bool names_joint(std::string_view pattern, std::string_view name) {
 }  // namespace detail
 
 /// The mode of every link's joint, from `joints` and the four lists of names; what they say of fixed and mimic joints
-/// does not count. Throws Error for a name that no joint has and for a joint with two modes. [setup]
-inline std::vector<DriveMode> drive_modes_of(const Connector& connector, const RobotView& robot, const Parameters& p) {
+/// does not count. `is_open`: of each link, whether no list names its joint and `joints` is `auto`. Throws Error for a
+/// name that no joint has and for a joint with two modes. [setup]
+inline std::vector<DriveMode> drive_modes_of(const Connector& connector, const RobotView& robot, const Parameters& p,
+                                             std::vector<bool>* is_open = nullptr) {
   std::vector<DriveMode> modes(robot.links.size(), drive_mode_of(p.text("joints")));
   std::vector<std::string_view> chosen_by(modes.size());
   const auto name_of_joint = [&](const Link& f) {
@@ -84,6 +88,12 @@ inline std::vector<DriveMode> drive_modes_of(const Connector& connector, const R
                   std::string(robot.name) + "` has no such joint" + did_you_mean(pattern, known) +
                   "; its joints are:" + (all.empty() ? " none" : all));
     }
+  if (is_open) {
+    is_open->assign(modes.size(), false);
+    if (p.text("joints") == "auto")
+      for (std::size_t i = 0; i < modes.size(); ++i)
+        (*is_open)[i] = robot.links[i].joint != JointKind::fixed && robot.links[i].mimic < 0 && chosen_by[i].empty();
+  }
   return modes;
 }
 

@@ -100,6 +100,13 @@ Outcome effort(const std::string& motion) {
   return relative(j.of(keys::joint_velocity), 0.2 / moment);
 }
 
+Outcome fast_effort(const std::string& motion) {
+  Joint j(motion, "effort", {.velocity = 1.5});
+  j.of(keys::joint_effort_target) = 0.2;
+  j.run_for(2);
+  return relative(j.of(keys::joint_velocity), 1.5);
+}
+
 Outcome slider(const std::string& motion) {
   Joint j(motion, "effort", {}, JointKind::prismatic);
   j.of(keys::joint_effort_target) = 2;
@@ -205,33 +212,6 @@ Outcome reaction_with_armature(const std::string& motion) {
   return {std::max(link.error, base.error), link.seen + "; " + base.seen};
 }
 
-Outcome mimic(const std::string& motion) {
-  Trial t(motion);
-  t.set_gravity(Vec3::Zero());
-  t.add("r", test::tree_of([&](RobotBuilder& b) {
-          const Inertia link{.mass = 1, .ixx = moment, .iyy = moment, .izz = moment};
-          b.base("base");
-          b.set(keys::inertial, Inertia{.mass = 5, .ixx = 1, .iyy = 1, .izz = 1});
-          b.fork();
-          b.revolute("leader", Vec3::UnitZ(), {});
-          b.body("first");
-          b.set(keys::inertial, link);
-          b.end();
-          b.translation({0, 0, 1});
-          b.revolute("follower", Vec3::UnitZ(), {});
-          b.mimic("leader", -0.5, 0);
-          b.body("second");
-          b.set(keys::inertial, link);
-          b.end();
-        }),
-        {{0, 0, 1}, Quat::Identity()});
-  t.start({{"base", "fixed"}});
-  t.joint("r/leader", keys::joint_velocity_target) = 1;
-  t.run_for(2);
-  const double leader = t.joint("r/leader", keys::joint_position), q = t.joint("r/follower", keys::joint_position);
-  return {std::abs(q + 0.5 * leader), text(q) + " for " + text(-0.5 * leader)};
-}
-
 /// The base of a free robot turns against its link: momentum stays 0.
 Outcome reaction(const std::string& motion) {
   Joint j(motion, "velocity", {}, JointKind::revolute, "free");
@@ -284,6 +264,8 @@ std::vector<Case> joint_cases() {
       {"an effort shifts a link as its mass says", "relative", fixed | feature_effort_targets, 1e-6, slider},
       {"an effort is cut at the limit of the model", "relative",
        fixed | feature_effort_targets | feature_joint_effort_limits, 1e-6, effort_limit},
+      {"an effort pushes a joint no faster than its limit", "relative",
+       fixed | feature_effort_targets | feature_joint_speed_limits, 1e-6, fast_effort},
       {"damping slows a link exponentially", "relative", fixed | feature_joint_damping, 5e-3, damping},
       {"damping far beyond the step is stable", "rad/s", fixed | feature_joint_damping, 1e-3, strong_damping},
       {"Coulomb friction slows a link evenly", "relative", fixed | feature_joint_friction, 1e-3, friction_slows},
@@ -292,7 +274,6 @@ std::vector<Case> joint_cases() {
       {"a joint stops at its limit", "rad", fixed | feature_joint_limits | feature_effort_targets, 5e-3, stop},
       {"a joint stops at a limit of nearly a turn", "rad", fixed | feature_joint_limits | feature_effort_targets, 1e-2,
        far_stop},
-      {"a mimic joint follows its leader", "rad", fixed | feature_mimic_joints, 1e-3, mimic},
       {"a free base turns against its link", "relative",
        feature_link_dynamics | feature_velocity_targets | feature_forces, 1e-4, reaction},
       {"a fixed base stays whatever acts on it", "m, rad, m/s", fixed, 1e-12, stays},

@@ -43,6 +43,27 @@ Outcome with_armature(const std::string& motion) {
 Outcome right_angle(const std::string& motion) { return relative(period(motion, 90 * M_PI / 180), 1.18034059902); }
 Outcome nearly_upright(const std::string& motion) { return relative(period(motion, 170 * M_PI / 180), 2.43936271967); }
 
+/// The limit of speed is that of a drive, and here is none.
+Outcome fast(const std::string& motion) {
+  Trial t(motion);
+  t.add("r", test::tree_of([&](RobotBuilder& b) {
+          b.base("base");
+          b.set(keys::inertial, Inertia{.mass = 5, .ixx = 1, .iyy = 1, .izz = 1});
+          b.revolute("joint", Vec3::UnitY(), {.velocity = 1});
+          b.body("rod");
+          b.set(keys::inertial, Inertia{.mass = 1, .com = {0, 0, -1}, .ixx = 0.001, .iyy = 0.001, .izz = 0.001});
+        }),
+        {{0, 0, 3}, Quat::Identity()});
+  t.world().set(t.world().object("r/joint"), keys::initial_joint_position, M_PI / 2);
+  t.start({{"base", "fixed"}, {"joints", "passive"}});
+  double fastest = 0;
+  for (int k = 0; k < 1500; ++k) {
+    t.run_for(0.001);
+    fastest = std::max(fastest, std::abs(t.joint("r/joint", keys::joint_velocity)));
+  }
+  return relative(fastest, std::sqrt(2 * g / 1.001));
+}
+
 /// A disc (1 kg, radius 0.1 m) on an axle of 0.1 m, held at its end, spins at 200 rad/s with the axle `tilt` (rad) from
 /// upright: how fast it goes round when it begins to do so at `expected` (rad/s).
 Outcome precession(const std::string& motion, double tilt, double expected) {
@@ -87,6 +108,7 @@ std::vector<Case> pendulum_cases() {
       {"a pendulum with a rotor swings in its time", "relative", needs | feature_armature, 1e-4, with_armature},
       {"a pendulum swings 90 deg wide in its time", "relative", needs, 1e-3, right_angle},
       {"a pendulum swings 170 deg wide in its time", "relative", needs, 5e-3, nearly_upright},
+      {"a limit of speed does not slow a pendulum", "relative", needs | feature_joint_speed_limits, 2e-3, fast},
       {"a level top goes round at m g l / (I s)", "relative", needs | feature_link_dynamics, 5e-3, level_top},
       {"a top that leans by 60 deg goes round as Euler's equations say", "relative", needs | feature_link_dynamics,
        5e-3, leaning_top},
