@@ -94,6 +94,7 @@ class PairContacts {
     std::uint32_t body, other_body, model;  ///< as in ContactPatch
     std::int32_t other_robot;               ///< in Bodies::robots, or no_robot
     double zeta;                            ///< damping ratio of the normal
+    bool is_of_disc;                        ///< see Bodies::is_of_disc
     std::uint32_t patch = 0;                ///< in Record::patches, or one of the above
     bool lasts = false;                     ///< it was there in the step before
     Vec3 before = Vec3::Zero();             ///< m, world: then there, if it lasts
@@ -150,6 +151,7 @@ class PairContacts {
   void find_runs(std::uint32_t self);
   void find_computed(std::uint32_t self);
   void update_computed(std::uint32_t self);
+  static void find_cells(KnownContacts& known);
   void find_springs(std::uint32_t self);
   Vec3 resist_turning(std::uint32_t self, ContactPatch& patch, const Contact& contact, const TurningSpring& spring,
                       double normal_force);

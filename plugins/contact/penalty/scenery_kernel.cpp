@@ -2,6 +2,7 @@
 #include "scenery_kernel.hpp"
 
 #include "muro/simd/rows.hpp"
+#include "plugins/common/contact_geometry/pressure_cells.hpp"
 
 namespace muro::penalty {
 namespace {
@@ -62,7 +63,7 @@ class RobotContacts {
       contacts_[i] = r.contacts, last_[i] = r.count - 1, counts[i] = r.count;
       least_ = r.count < least_ ? r.count : least_;
       most_ = r.count > most_ ? r.count : most_;
-      groups_ |= r.groups;
+      groups_ |= r.groups, common_groups_ &= r.groups, starts_[i] = r.groups;
       in_order_ = in_order_ && r.in_order;
       is_uniform_ = is_uniform_ && r.groups == robots[0]->groups && r.count == robots[0]->count;
       has_many_objects_ = has_many_objects_ || r.has_many_objects;
@@ -89,6 +90,7 @@ class RobotContacts {
   /// Returns a bit for each robot that is not processed.
   MURO_INLINE unsigned apply_forces() {
     load_contacts();
+    find_turns();
     const SpringStiffness<S> springs = find_effective_masses();
     const S load = springs.max_eigenvalue_bound(body_);
     const unsigned left = move_contacts() & used_;
@@ -102,8 +104,10 @@ class RobotContacts {
     S depth, friction;
     S patch;             ///< number; -1 in lanes of robots that have fewer contacts
     S approach;          ///< m/s
-    V3<S> slip;          ///< m/s
+    V3<S> slip;          ///< m/s, of the middle of its cell
     V3<S> displacement;  ///< m, tangential
+    V3<S> turn;          ///< m: slip of the middle of its cell against its own, for 1 rad/s about the normal
+    S spin2;             ///< m^2/s^2: the square of that slip
   };
   /// Of each robot's contacts in a patch.
   struct PatchOf {
@@ -194,6 +198,101 @@ class RobotContacts {
     }
   }
 
+  /// Lanes whose contacts k - 1 and k belong to one group and one patch.
+  MURO_INLINE MaskOf<S> joined(int k) const {
+    MaskOf<S> lanes = points_[k].patch == points_[k - 1].patch;
+    if (k >= least_) lanes = lanes & (S(k) < count_);
+    if (groups_ >> k & 1) {
+      unsigned go_on = 0;
+      for (int i = 0; i < count_of<S>; ++i) go_on |= (~starts_[i] >> k & 1) << i;
+      lanes = lanes & of_bits(go_on);
+    }
+    return lanes;
+  }
+  /// Finds the cells of patches: that of two points is half of the line between them.
+  MURO_INLINE void find_turns() {
+    const std::uint64_t all = (std::uint64_t(1) << most_) - 1, goes_on = all & ~std::uint64_t(groups_);
+    if ((all & ~std::uint64_t(common_groups_)) == 0) return;  // all are groups of one
+    has_cells_ = true;
+    const bool is_even = patch_count_ == 1 && groups_ == common_groups_ && least_ == most_;
+    if (!is_even || (goes_on & goes_on >> 1) != 0) return find_any_turns();
+    const V3<S> none{S(0), S(0), S(0)};
+    for (int k = 0; k < most_; ++k) {
+      if (goes_on >> (k + 1) & 1)
+        add_line(k++);
+      else
+        points_[k].turn = none;
+    }
+  }
+  /// Of contacts k and k + 1.
+  MURO_INLINE void add_line(int k) {
+    Point &a = points_[k], &b = points_[k + 1];
+    const V3<S> shift = contact_geometry::shift_in_line(a.at, b.at);
+    a.turn = cross(a.normal, shift), b.turn = -cross(b.normal, shift);
+  }
+  /// Of robots whose groups differ, or are parts of several patches, or faces.
+  [[gnu::noinline]] void find_any_turns() {
+    const V3<S> none{S(0), S(0), S(0)};
+    const MaskOf<S> no_lane = S(1) < S(0);
+    MaskOf<S> goes_on[max_contacts + 2];  // contact k - 1 of the patch in contact k
+    goes_on[0] = goes_on[most_] = goes_on[most_ + 1] = no_lane;
+    bool has_faces = false;
+    unsigned with_cells = 0;
+    for (int i = 0; i < count_of<S>; ++i) with_cells |= unsigned((~starts_[i] & ((2u << last_[i]) - 1)) != 0) << i;
+    all_have_cells_ = with_cells == all_lanes<S>;
+    have_cells_ = of_bits(with_cells);
+    for (int k = 0; k < most_; ++k) {
+      points_[k].turn = none;
+      if (k == 0) continue;
+      goes_on[k] = joined(k);
+      has_faces = has_faces || any(goes_on[k] & goes_on[k - 1]);
+    }
+    for (int k = 0; k + 1 < most_; ++k) {
+      const MaskOf<S> lanes = goes_on[k + 1] & !(goes_on[k] | goes_on[k + 2]);
+      if (!any(lanes)) continue;
+      const V3<S> before[] = {points_[k].turn, points_[k + 1].turn};
+      add_line(k);
+      for (int i = 0; i < 2; ++i) points_[k + i].turn = select(lanes, points_[k + i].turn, before[i]);
+    }
+    if (has_faces) find_faces(goes_on);
+  }
+  [[gnu::noinline]] void find_faces(const MaskOf<S>* goes_on) {
+    contact_geometry::FacePoints<S> faces[max_contacts];
+    S distances[max_contacts], farthest[max_contacts];
+    V3<S> arms[max_contacts];  // from the middle
+    const auto of_face = [&](int k) -> MaskOf<S> { return (goes_on[k] | goes_on[k + 1]) & (faces[k].count > S(2)); };
+    for (int k = 0; k < most_; ++k) {
+      faces[k] = {};
+      faces[k].add(points_[k].at - base_);
+      if (k > 0) faces[k].add_where(goes_on[k], faces[k - 1]);
+    }
+    for (int k = most_ - 2; k >= 0; --k) faces[k] = choose(goes_on[k + 1], faces[k + 1], faces[k]);
+    for (int k = 0; k < most_; ++k) {
+      arms[k] = points_[k].at - base_ - faces[k].middle();
+      distances[k] = farthest[k] = sqrt(dot(arms[k], arms[k]));
+      if (k == 0) continue;
+      distances[k] += select(goes_on[k], distances[k - 1], S(0));
+      farthest[k] = max(farthest[k], select(goes_on[k], farthest[k - 1], S(0)));
+    }
+    for (int k = most_ - 1; k >= 0; --k) {
+      distances[k] = select(goes_on[k + 1], distances[k + 1], distances[k]);
+      farthest[k] = select(goes_on[k + 1], farthest[k + 1], farthest[k]);
+      const auto here = of_face(k);
+      if (!any(here)) continue;
+      const S is_disc = of_contacts(k, [](const KernelContact& c) { return c.is_of_disc; });
+      const S share = contact_geometry::share_of_cells(faces[k], distances[k], farthest[k], is_disc);
+      Point& p = points_[k];
+      p.turn = select(here, cross(p.normal, arms[k]) * (share - S(1)), p.turn);
+    }
+  }
+  template <class M>
+  MURO_INLINE static contact_geometry::FacePoints<S> choose(M mask, const contact_geometry::FacePoints<S>& a,
+                                                            const contact_geometry::FacePoints<S>& b) {
+    return {select(mask, a.count, b.count), select(mask, a.sum, b.sum), select(mask, a.xx, b.xx),
+            select(mask, a.yy, b.yy),       select(mask, a.zz, b.zz),   select(mask, a.yz, b.yz),
+            select(mask, a.zx, b.zx),       select(mask, a.xy, b.xy)};
+  }
+
   /// Divides the effective mass of each patch among its points. Returns what holds the robot.
   MURO_INLINE SpringStiffness<S> find_effective_masses() {
     SpringStiffness<S> all;
@@ -281,7 +380,13 @@ class RobotContacts {
       Point& p = points_[k];
       const V3<S> velocity = motion.linear + cross(motion.angular, p.at - origin);
       p.approach = -dot(velocity, p.normal);
-      p.slip = velocity + p.approach * p.normal;
+      const V3<S> slip = velocity + p.approach * p.normal;
+      p.slip = slip;
+      if (has_cells_) {
+        const V3<S> spin = dot(motion.angular, p.normal) * p.turn;
+        p.slip = all_have_cells_ ? slip + spin : select(have_cells_, slip + spin, slip);
+        p.spin2 = dot(spin, spin);
+      }
       V3<S> old = anchors > 0 ? before.nearest(p.at, anchors) : V3<S>{zero, zero, zero};
       if (!run.all_have_anchors) old = select(have_anchors, old, {zero, zero, zero});
       const V3<S> displacement = old + p.slip * elapsed;
@@ -289,7 +394,7 @@ class RobotContacts {
       if (!any_looked_at_) continue;
       const auto fast = (p.approach > impact_speed) & looked_at_ & (p.patch >= zero);
       if (!any(fast)) continue;
-      const S reach = S(lasting_reach) + S(lasting_slips) * elapsed * sqrt(dot(p.slip, p.slip));
+      const S reach = S(lasting_reach) + S(lasting_slips) * elapsed * sqrt(dot(slip, slip));
       const S distance2 = anchors > 0 ? before.least_distance2(p.at, anchors) : zero;
       const auto lasts = have_anchors & (distance2 < reach * reach);
       may_collide = select(fast, select(lasts, may_collide, S(1)), may_collide);
@@ -320,23 +425,30 @@ class RobotContacts {
       }
       V3<S> displacement = p.displacement;
       const S normal = mass.along * law.force(p.depth, p.approach);
-      const V3<S> across = friction.force(displacement, p.slip, p.friction * normal * mass.inverse_across);
-      V3<S> sum = normal * p.normal + mass.across * across;
+      const S most = p.friction * normal * mass.inverse_across;
+      const V3<S> across = mass.across * (has_cells_ ? friction.force(displacement, p.slip, most, p.spin2)
+                                                     : friction.force(displacement, p.slip, most));
+      V3<S> sum = normal * p.normal + across, moment{none, none, none};
       unsigned which = processed;
+      if (has_cells_) moment = dot(p.turn, across) * p.normal;
+      if (!all_have_cells_) moment = select(have_cells_, moment, {none, none, none});
       if (k >= least_) {
         const auto here = S(k) < count_;
         sum = select(here, sum, {none, none, none});
+        if (has_cells_) moment = select(here, moment, {none, none, none});
         which &= bits(here);
       }
       force += sum;
       torque += cross(p.at - base_, sum);
-      store_contact(k, sum, displacement, which);
+      if (has_cells_) torque += moment;
+      if (batch_.tells_contacts)
+        store_rows(forces_, k * force_stride, {sum.x, sum.y, sum.z, moment.x, moment.y, moment.z}, which);
+      store_contact(k, displacement, which);
     }
     store_rows(wrench_, 0, {force.x, force.y, force.z, torque.x, torque.y, torque.z}, processed);
   }
-  MURO_INLINE void store_contact(int k, const V3<S>& force, const V3<S>& displacement, unsigned which) const {
+  MURO_INLINE void store_contact(int k, const V3<S>& displacement, unsigned which) const {
     const V3<S>&at = points_[k].at, &d = displacement;
-    if (batch_.tells_contacts) store_vector(forces_, k * force_stride, force, which);
     if (is_plain(k)) return store_rows(anchors_, k * anchor_stride, {at.x, at.y, at.z, d.x, d.y, d.z}, which);
     Places<S, double> anchors;
     each_contact(k, [&](int i, const KernelContact& c) { anchors.at[i] = anchors_.at[i] + c.anchor * anchor_stride; });
@@ -345,7 +457,11 @@ class RobotContacts {
 
   const KernelBatch& batch_;
   const unsigned used_;  ///< bits of lanes
-  unsigned changed_ = 0, groups_ = 0;
+  unsigned changed_ = 0, groups_ = 0, common_groups_ = ~0u;
+  unsigned starts_[count_of<S>];  ///< groups of each
+  bool has_cells_ = false;        ///< friction of some points is in the middle of a cell
+  bool all_have_cells_ = true;    ///< if so, of each robot; else of these
+  MaskOf<S> have_cells_;
   bool in_order_ = true, has_many_materials_ = false, has_many_objects_ = false;
   bool is_uniform_ = true;  ///< robots are in order, and have equal groups, which have the anchors of their contacts
   const KernelContact* contacts_[count_of<S>];
