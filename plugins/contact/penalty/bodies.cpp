@@ -2,7 +2,6 @@
 #include "bodies.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 #include <string>
 #include <tuple>
@@ -13,22 +12,6 @@
 #include "plugins/common/text/quote.hpp"
 
 namespace muro::penalty {
-namespace {
-
-ShapeExtent extent_of(const Shape& shape) {
-  switch (shape.kind) {
-    case ShapeKind::box:
-      return {0.5 * shape.size.norm()};
-    case ShapeKind::sphere:
-      return {shape.size.x()};
-    case ShapeKind::cylinder:
-      return {shape.size.x(), true};
-    default:
-      return {std::numeric_limits<double>::infinity()};
-  }
-}
-
-}  // namespace
 
 void Bodies::connect(Connector& c) {
   all.resize(c.object_count());
@@ -38,7 +21,7 @@ void Bodies::connect(Connector& c) {
     all[i].model = i;
     all[i].first_shape = std::uint32_t(shapes.size());
     for (const Shape& s : c.constant_array(ObjectId{i}, keys::collision_shapes)) {
-      shapes.push_back(extent_of(s));
+      shapes.push_back(contact_geometry::extent_of(s));
       resists_turning = resists_turning || s.surface.rolling_resistance > 0 || s.surface.spinning_resistance > 0;
       if (std::none_of(materials.begin(), materials.end(),
                        [&](const Material& m) { return m.restitution == s.surface.restitution; }))

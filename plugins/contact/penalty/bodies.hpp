@@ -10,6 +10,7 @@
 #include "muro/vocabulary.hpp"
 #include "patch.hpp"
 #include "plugins/common/contact_geometry/contact_responsibility.hpp"
+#include "plugins/common/contact_geometry/disc_contact.hpp"
 #include "plugins/common/contact_geometry/impact_correction.hpp"
 #include "restitution.hpp"
 #include "turning_spring.hpp"
@@ -28,12 +29,6 @@ struct Body {
   std::uint32_t model = 0;                  ///< equal for all bodies of a robot
   std::uint64_t name = 0;                   ///< hash
   std::uint32_t first_shape = 0;            ///< in Bodies::shapes
-};
-
-/// Of a shape for contacts.
-struct ShapeExtent {
-  double reach = 0;  ///< m: radius of a ball about it, of a cylinder that of its rim; infinite: not looked at
-  bool is_cylinder = false;
 };
 
 /// What forces move as one rigid body: a robot, or, if its motion reads the forces on each link, one of its links.
@@ -73,8 +68,8 @@ struct Material {
 };
 
 struct Bodies {
-  std::vector<Body> all;            ///< by object id
-  std::vector<ShapeExtent> shapes;  ///< of all bodies
+  std::vector<Body> all;                              ///< by object id
+  std::vector<contact_geometry::ShapeExtent> shapes;  ///< of all bodies
   std::vector<Robot> robots;
   std::vector<std::uint32_t> by_order_key;  ///< numbers of `robots`, the lowest key first
   std::vector<KinematicRobot> kinematic_robots;
@@ -140,11 +135,9 @@ struct Bodies {
     while (i + 1 < materials.size() && materials[i].restitution != restitution) ++i;
     return i;
   }
-  /// Whether it is a disc that touches where faces do: the smaller shape is a cylinder.
   bool is_of_disc(const Contact& c) const {
-    const ShapeExtent &own = shapes[(*this)[c.self].first_shape + c.self_shape],
-                      &other = shapes[(*this)[c.other].first_shape + c.other_shape];
-    return own.reach <= other.reach ? own.is_cylinder : other.is_cylinder;
+    return contact_geometry::is_of_disc(shapes[(*this)[c.self].first_shape + c.self_shape],
+                                        shapes[(*this)[c.other].first_shape + c.other_shape]);
   }
   std::uint64_t pair_of(const Contact& c) const {
     return penalty::pair_of((*this)[c.self].name, (*this)[c.other].name, c.self_shape, c.other_shape);
