@@ -75,6 +75,7 @@ void SceneryContacts::start() {
     known.view.contacts = contacts_[i].data();
     known.view.in_order = true;
     known.view.base_pose = base.pose->position.data();
+    known.view.base_twist = base.twist->linear.data();
     known.view.mass = &bodies_.masses[base.mass].inverse_mass;
     known.view.wrench = base.wrench->force.data();
   }

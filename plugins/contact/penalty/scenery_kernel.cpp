@@ -21,16 +21,19 @@ struct OldAnchors {
     at[k] = {g[0], g[1], g[2]};
     displacement[k] = {g[3], g[4], g[5]};
   }
-  /// The tangential displacement of the nearest of the first `count`.
-  MURO_INLINE V3<S> nearest(const V3<S>& point, int count) const {
+  /// The tangential displacement of the nearest of the first `count`; `way`: from there, m; out.
+  MURO_INLINE V3<S> nearest(const V3<S>& point, int count, V3<S>& way) const {
     V3<S> found = displacement[0];
+    way = point - at[0];
     if (count == 1) return found;
-    S least = distance2(point, 0);
+    S least = dot(way, way);
     for (int k = 1; k < count; ++k) {
-      const S distance = distance2(point, k);
+      const V3<S> from_here = point - at[k];
+      const S distance = dot(from_here, from_here);
       const auto nearer = distance < least;
       least = select(nearer, distance, least);
       found = select(nearer, displacement[k], found);
+      way = select(nearer, from_here, way);
     }
     return found;
   }
@@ -46,6 +49,9 @@ struct OldAnchors {
   }
 };
 
+/// Points that have moved by more than the radius of gyration are new ones: its square is at least 3 / (m trace(I^-1)).
+constexpr double square_of_reach = 1.0 / 3;
+
 /// The contacts of as many robots as S has values. Where one has fewer than another, its last contact stands in and
 /// counts for nothing. Each pass over the contacts stores its results for the next, so that the iterations of a pass
 /// do not wait for each other.
@@ -55,7 +61,7 @@ class RobotContacts {
   /// Where there are fewer robots than S has values, the first stands in.
   MURO_INLINE RobotContacts(const KernelBatch& batch, const KernelRobot* const* robots, int count)
       : batch_(batch), used_(first_lanes(count)) {
-    Places<S> poses, masses;
+    Places<S> poses, twists, masses;
     double counts[count_of<S>];
     least_ = max_contacts;
     for (int i = 0; i < count_of<S>; ++i) {
@@ -71,7 +77,7 @@ class RobotContacts {
       changed_ |= unsigned(r.is_changed) << i;
       listed_.at[i] = r.listed, before_.at[i] = r.before;
       anchors_.at[i] = r.anchors, wrench_.at[i] = r.wrench, forces_.at[i] = r.forces;
-      poses.at[i] = r.base_pose, masses.at[i] = r.mass;
+      poses.at[i] = r.base_pose, twists.at[i] = r.base_twist, masses.at[i] = r.mass;
     }
     is_uniform_ = is_uniform_ && in_order_;
     count_ = side_by_side(counts);
@@ -85,6 +91,9 @@ class RobotContacts {
     const PoseOf<S> pose = load_pose(poses);
     body_ = mobility_of(mass, pose);
     base_ = pose.position;
+    const TwistOf<S> twist = load_twist(twists);
+    drift_ = (twist.linear + cross(twist.angular, body_.centre - base_)) * S(0.5 * batch.stiffness.h);
+    reach2_ = body_.mass / (S(square_of_reach) * body_.inertia.trace());
   }
 
   /// Returns a bit for each robot that is not processed.
@@ -101,6 +110,8 @@ class RobotContacts {
  private:
   struct Point {
     V3<S> at, normal;
+    V3<S> arm;  ///< m, from the base to where it is in the middle of the step, when the force acts, as seen from the
+                ///< centre
     S depth, friction;
     S patch;             ///< number; -1 in lanes of robots that have fewer contacts
     S approach;          ///< m/s
@@ -370,6 +381,7 @@ class RobotContacts {
     OldAnchors<S, n> before;
     load_anchors(run, before);
     const S zero(0), elapsed(batch_.elapsed), impact_speed(batch_.impact_speed);
+    const S half_step(batch_.elapsed > 0 ? 0.5 * batch_.stiffness.h / batch_.elapsed : 0);
     auto have_anchors = zero == zero;
     if (!run.all_have_anchors) {
       double last[count_of<S>];
@@ -387,8 +399,12 @@ class RobotContacts {
         p.slip = all_have_cells_ ? slip + spin : select(have_cells_, slip + spin, slip);
         p.spin2 = dot(spin, spin);
       }
-      V3<S> old = anchors > 0 ? before.nearest(p.at, anchors) : V3<S>{zero, zero, zero};
+      V3<S> old{zero, zero, zero}, way = old;
+      if (anchors > 0) old = before.nearest(p.at, anchors, way);
       if (!run.all_have_anchors) old = select(have_anchors, old, {zero, zero, zero});
+      // a point that moves over the body, as on a rim, moves on; others appear
+      p.arm = p.at - base_;
+      p.arm += select((dot(way, way) < reach2_) & have_anchors, way * half_step - drift_, {zero, zero, zero});
       const V3<S> displacement = old + p.slip * elapsed;
       p.displacement = displacement - p.normal * dot(p.normal, displacement);
       if (!any_looked_at_) continue;
@@ -439,7 +455,7 @@ class RobotContacts {
         which &= bits(here);
       }
       force += sum;
-      torque += cross(p.at - base_, sum);
+      torque += cross(p.arm, sum);
       if (has_cells_) torque += moment;
       if (batch_.tells_contacts)
         store_rows(forces_, k * force_stride, {sum.x, sum.y, sum.z, moment.x, moment.y, moment.z}, which);
@@ -472,6 +488,8 @@ class RobotContacts {
   Places<S, double> anchors_, wrench_, forces_;
   Mobility<S> body_;
   V3<S> base_;
+  V3<S> drift_;  ///< m: what the centre of mass moves by within half a step
+  S reach2_;     ///< m^2: the square of what a point moves by in a step at most
   bool any_looked_at_ = false;
   MaskOf<S> looked_at_;  ///< robots that may be in impacts
   int patch_count_ = 0;

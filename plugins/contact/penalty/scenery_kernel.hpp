@@ -38,7 +38,7 @@ struct KernelRobot {
   const double* listed = nullptr;  ///< point of the first listed contact
   const double* before = nullptr;  ///< point of the first anchor of the step before; may be `anchors`
   double* anchors = nullptr;       ///< point of the first; out
-  const double* base_pose = nullptr;
+  const double *base_pose = nullptr, *base_twist = nullptr;
   const double* mass = nullptr;  ///< numbers of MassProperties
   double* wrench = nullptr;      ///< on the base; out
   double* forces = nullptr;  ///< force and torque of the first of `contacts`; out, where KernelBatch::tells_contacts

@@ -70,6 +70,7 @@ struct Vehicle {
     v.before = before[0].point.data();
     v.anchors = anchors[0].point.data();
     v.base_pose = base.position.data();
+    v.base_twist = twist.linear.data();
     v.mass = &mass->inverse_mass;
     v.wrench = wrench.force.data();
     return v;
