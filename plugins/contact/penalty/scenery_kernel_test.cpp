@@ -186,11 +186,15 @@ Wrench by_the_model(const Vehicle& v, std::vector<Vec3>& displacements) {
     const double approach = -motion.dot(c.normal);
     const Vec3 spin = v.twists[body].angular.dot(c.normal) * c.normal.cross(to_cell);
     const Vec3 slip = motion + approach * c.normal + spin;
-    Vec3 displacement = slip * elapsed;
+    Vec3 displacement = slip * elapsed, arm = c.point - v.base.position;
     const int known = std::accumulate(v.anchors_before, v.anchors_before + 4, 0);
     if (const auto* const before = previous<FrictionAnchor>({v.before, std::size_t(known)}, k, body, c.point);
-        before && v.anchors_before[body] > 0)
+        before && v.anchors_before[body] > 0) {
       displacement += before->displacement;
+      const Vec3 way = c.point - before->point;
+      if (way.squaredNorm() * inertia.trace() < 3 * v.mass->inverse_mass)  // it is the same point, and moves on
+        arm += 0.5 * (way - h * v.twist.at(centre - v.base.position));
+    }
     displacement -= c.normal * c.normal.dot(displacement);
     const double normal = along[k] * normal_law.force(c.depth, approach);
     lane::V3<double> spring{displacement.x(), displacement.y(), displacement.z()};
@@ -198,7 +202,7 @@ Wrench by_the_model(const Vehicle& v, std::vector<Vec3>& displacements) {
                                                   c.surface.friction * normal / across[k], spin.squaredNorm());
     displacements.emplace_back(spring.x, spring.y, spring.z);
     const Vec3 friction = across[k] * Vec3(f.x, f.y, f.z);
-    total.add_force(normal * c.normal + friction, c.point - v.base.position);
+    total.add_force(normal * c.normal + friction, arm);
     total.torque += c.normal * c.normal.dot(to_cell.cross(friction));
   }
   return total;
