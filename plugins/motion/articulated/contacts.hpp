@@ -38,7 +38,7 @@ class Contacts {
     for (int i = 0; i < work_.contact_count; ++i) {
       ContactSlot<S>& slot = work_.contacts[i];
       Inertia<S>& to = work_.external[slot.body];
-      slot.step = touch(slot.point, law_, slot.velocity, work_.drifts[slot.body], batch_.dt);
+      slot.step = touch(slot.point, law_, slot.velocity, slot.drift, batch_.dt);
       lanes::add_terms(slot.point, slot.step, to);
       if (slot.has_cells) add_turn(slot.point, slot.step, to);
       if (slot.resists_turning != 0)
@@ -191,6 +191,8 @@ class Contacts {
       slot.turning.displacement = transposed_times(body.axes, V3<S>{wound[0], wound[1], wound[2]});
     }
     slot.velocity = body.v + cross(body.w, p.arm);
+    // the point turns with the body about the normal, as on a wheel that rolls along a curve
+    slot.drift = work_.drifts[slot.body] + cross(body.w, dot(body.w, p.normal) * cross(p.normal, p.arm));
     p.turn = {zero, zero, zero}, p.cell_speed = zero;
     if (slot.has_cells) {
       p.turn = cross(p.normal, transposed_times(body.axes, lane::load_vector(shift)));
@@ -231,7 +233,7 @@ class Contacts {
     ContactOutcome<S> o;
     o.force = slot.step.force(p.normal, a);
     o.load = dot(o.force, p.normal);
-    o.velocity = slot.velocity + S(batch_.dt) * (a + work_.drifts[slot.body]) - p.velocity;
+    o.velocity = slot.velocity + S(batch_.dt) * (a + slot.drift) - p.velocity;
     o.slip = o.velocity - dot(o.velocity, p.normal) * p.normal;
     return o;
   }

@@ -177,7 +177,7 @@ Outcome slides_and_spins(const std::string& motion) {
 
 /// Whatever carries the friction, a block tips where the slope is as steep as its diagonal.
 Outcome tips_over_its_edge(const std::string& motion) {
-  constexpr double b = 0.1, h = 0.25;
+  constexpr double b = 0.2, h = 0.5;
   const auto falls = [&](double slope) {
     Trial t(motion);
     t.add_slope(slope, 1.5);
