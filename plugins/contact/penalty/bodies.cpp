@@ -21,7 +21,9 @@ void Bodies::connect(Connector& c) {
     names.emplace_back(c.object_name(ObjectId{i}));
     all[i].name = fnv1a(names[i]);
     all[i].model = i;
+    all[i].first_shape = std::uint32_t(shapes.size());
     for (const Shape& s : c.constant_array(ObjectId{i}, keys::collision_shapes)) {
+      shapes.push_back(contact_geometry::extent_of(s));
       resists_turning = resists_turning || s.surface.rolling_resistance > 0 || s.surface.spinning_resistance > 0;
       if (std::none_of(materials.begin(), materials.end(),
                        [&](const Material& m) { return m.restitution == s.surface.restitution; }))

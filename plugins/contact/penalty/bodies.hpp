@@ -12,6 +12,7 @@
 #include "muro/vocabulary.hpp"
 #include "patch.hpp"
 #include "plugins/common/contact_geometry/contact_responsibility.hpp"
+#include "plugins/common/contact_geometry/disc_contact.hpp"
 #include "plugins/common/contact_geometry/impact_correction.hpp"
 #include "restitution.hpp"
 #include "solved_contact.hpp"
@@ -30,6 +31,7 @@ struct Body {
   std::int32_t kinematic_robot = no_robot;  ///< in Bodies::kinematic_robots, of a robot that forces never move
   std::uint32_t model = 0;                  ///< equal for all bodies of a robot
   std::uint64_t name = 0;                   ///< hash
+  std::uint32_t first_shape = 0;            ///< in Bodies::shapes
 };
 
 /// What forces move as one rigid body: a robot, or, if its motion reads the forces on each link, one of its links.
@@ -72,7 +74,8 @@ struct Material {
 };
 
 struct Bodies {
-  std::vector<Body> all;  ///< by object id
+  std::vector<Body> all;                              ///< by object id
+  std::vector<contact_geometry::ShapeExtent> shapes;  ///< of all bodies
   std::vector<Robot> robots;
   std::vector<std::uint32_t> by_order_key;  ///< numbers of `robots`, the lowest key first
   std::vector<KinematicRobot> kinematic_robots;
@@ -140,6 +143,10 @@ struct Bodies {
     std::uint32_t i = 0;
     while (i + 1 < materials.size() && materials[i].restitution != restitution) ++i;
     return i;
+  }
+  bool is_of_disc(const Contact& c) const {
+    return contact_geometry::is_of_disc(shapes[(*this)[c.self].first_shape + c.self_shape],
+                                        shapes[(*this)[c.other].first_shape + c.other_shape]);
   }
   std::uint64_t pair_of(const Contact& c) const {
     return penalty::pair_of((*this)[c.self].name, (*this)[c.other].name, c.self_shape, c.other_shape);

@@ -25,6 +25,9 @@ inline constexpr double max_phase_step = 0.6;
 /// in a step, from its friction anchor of the step before.
 inline constexpr double lasting_reach = 1e-3, lasting_slips = 2;
 
+/// m/s: of the ends of a cell (see FrictionLaw), so slow a spin lets nothing go that rests.
+inline constexpr double least_spin = 5e-6;
+
 namespace law {
 inline namespace MURO_ISA {
 
@@ -105,10 +108,17 @@ struct NormalLaw {
 /// reaches its limit; from there on the body slides, and the displacement stays that of the limit at rest
 /// (Cundall and Strack, A discrete numerical model for granular assemblies, Geotechnique 29, 1979). The limit is a
 /// circle, so friction is the same in every direction.
+///
+/// A point of a patch stands for a cell of the area that touches (see pressure_cells.hpp). Where the patch spins, the
+/// ends of the cell move against its middle, and as long as these move faster than the middle, a part of the cell
+/// slides one way and a part the other: together they do as much less than the limit as the middle is slower than the
+/// ends. That is a damper in series with the spring.
 template <class S>
 struct FrictionLaw {
   S spring, damper;  ///< 1/s^2, 1/s
   S compliance;      ///< s^2: displacement by force
+  S held;            ///< 1/s: what the force changes by within a step with the slip
+  double h;          ///< s
 
   MURO_INLINE FrictionLaw(const Stiffness& s, S load) {
     const double w = s.omega, beta = w * s.h + 0.5 * w * w * s.h * s.h;
@@ -116,12 +126,20 @@ struct FrictionLaw {
     spring = S(w * w) / softening;
     damper = S(2 * w + 0.5 * w * w * s.h) / softening;
     compliance = softening * S(-1 / (w * w));
+    h = s.h;
+    held = damper + S(h) * spring;
   }
 
   /// Force on the body that moves with `slip` (m/s) over the other. `displacement` (m) includes the path of the last
-  /// step; `most`: the limit, m/s^2.
-  MURO_INLINE V3<S> force(V3<S>& displacement, const V3<S>& slip, S most) const {
+  /// step; `most`: the limit, m/s^2; `spin2`: m^2/s^2, the square of the speed of the ends of the cell about its
+  /// middle.
+  MURO_INLINE V3<S> force(V3<S>& displacement, const V3<S>& slip, S most, S spin2 = S(0)) const {
     V3<S> f = -(spring * displacement) - damper * slip;
+    if (const auto spins = spin2 > S(least_spin * least_spin); any(spins)) {
+      const S speed = sqrt(spin2) - S(least_spin), part = S(1) / max(most + held * speed, S(1e-300));
+      displacement = select(spins, displacement + f * (S(h) * speed * part), displacement);
+      f = select(spins, f * (most * part), f);
+    }
     const S size2 = dot(f, f);
     if (const auto slides = size2 > most * most; any(slides)) {
       f = select(slides, f * (most / sqrt(size2)), f);

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "overlap.hpp"
+#include "plugins/common/contact_geometry/pressure_cells.hpp"
 #include "vectors.hpp"
 
 namespace muro::penalty {
@@ -145,7 +146,8 @@ void PairContacts::find_computed(std::uint32_t self) {
            .other_body = other.dynamic_body,
            .model = other.model,
            .other_robot = run.other_robot,
-           .zeta = bodies_.materials[bodies_.material_of(contact.surface.restitution)].damping_ratio});
+           .zeta = bodies_.materials[bodies_.material_of(contact.surface.restitution)].damping_ratio,
+           .is_of_disc = bodies_.is_of_disc(contact)});
       PairPoint& p = known.points.emplace_back();
       p.pose = own.twist ? own.pose->position.data() : at_rest;
       p.twist = own.twist ? own.twist->linear.data() : at_rest;
@@ -179,7 +181,29 @@ void PairContacts::update_computed(std::uint32_t self) {
     p.lag = lag;
     p.other_lag = c.other_robot == no_robot ? 0 : *bodies_.robots[std::size_t(c.other_robot)].lag;
   }
+  find_cells(known);
   kernels_.move(known.points.data(), int(known.points.size()), context_.stiffness.h, has_lag);
+}
+
+/// Of lines and faces: adjacent contacts of two shapes with one normal.
+void PairContacts::find_cells(KnownContacts& known) {
+  const auto vector = [](const double* v) { return V3{v[0], v[1], v[2]}; };
+  const auto normal = [&](std::size_t i) { return vector(known.points[i].contact + 3); };
+  const std::size_t count = known.computed.size();
+  for (std::size_t begin = 0, end = 0; begin < count; begin = end) {
+    std::fill_n(known.points[begin].turn, 3, 0.0);
+    for (end = begin + 1; end < count && known.computed[end].pair == known.computed[begin].pair &&
+                          dot(normal(begin), normal(end)) > same_direction;)
+      ++end;
+    contact_geometry::find_shifts(
+        int(end - begin), known.computed[begin].is_of_disc,
+        [&](int i) { return vector(known.points[begin + std::size_t(i)].contact); },
+        [&](int i, const V3& shift) {
+          const V3 turn = cross(normal(begin + std::size_t(i)), shift);
+          double* const to = known.points[begin + std::size_t(i)].turn;
+          to[0] = turn.x, to[1] = turn.y, to[2] = turn.z;
+        });
+  }
 }
 
 /// Sorts the contacts of a robot into patches.
@@ -308,13 +332,15 @@ void PairContacts::apply_forces(std::uint32_t self) {
     if (me.group != no_group) robot.solved.push_back(c.solved);
     const Vec3 force = Vec3::Map(point.force);
     ContactPatch& patch = me.patches[c.patch];
+    const Vec3 moment = point.moment * contact.normal;
     if (patch.other != no_robot) {
-      apply_to_pair(c, patch, force, contact.point);
+      apply_to_pair(c, patch, force, moment, contact.point);
     } else {
-      const DynamicBody& body = bodies_.dynamic_bodies[patch.body];
-      body.wrench->add_force(force, contact.point - body.pose->position);
+      Wrench& wrench = *bodies_.dynamic_bodies[patch.body].wrench;
+      wrench.add_force(force, contact.point - bodies_.dynamic_bodies[patch.body].pose->position);
+      wrench.torque += moment;
     }
-    if (told) told->wrench.force = force;
+    if (told) told->wrench = {force, moment};
     if (!known.resist_turning) continue;
     if (contact.surface.rolling_resistance > 0 || contact.surface.spinning_resistance > 0) {
       const TurningSpring* const spring =
@@ -322,7 +348,7 @@ void PairContacts::apply_forces(std::uint32_t self) {
       const Vec3 torque =
           resist_turning(self, patch, contact, {c.pair, contact.point, spring ? spring->angle : Vec3::Zero()},
                          force.dot(contact.normal));
-      if (told) told->wrench.torque = torque;
+      if (told) told->wrench.torque += torque;
     }
   }
 }
@@ -383,13 +409,14 @@ void PairContacts::find_lever_shifts(std::uint32_t self, const ContactPatch& pat
 }
 
 /// The force of a contact on both robots.
-void PairContacts::apply_to_pair(const Computed& c, ContactPatch& patch, const Vec3& force, const Vec3& point) const {
+void PairContacts::apply_to_pair(const Computed& c, ContactPatch& patch, const Vec3& force, const Vec3& moment,
+                                 const Vec3& point) const {
   const DynamicBody& own = bodies_.dynamic_bodies[patch.body];
   const DynamicBody& other = bodies_.dynamic_bodies[patch.other_body];
   own.wrench->add_force(force, point - own.pose->position);
-  own.wrench->torque += c.lever_shift.cross(force);
+  own.wrench->torque += moment + c.lever_shift.cross(force);
   patch.reaction.add_force(-force, point - other.pose->position);
-  patch.reaction.torque -= c.other_lever_shift.cross(force);
+  patch.reaction.torque -= moment + c.other_lever_shift.cross(force);
 }
 
 /// In the next pass the list gets what others have computed, while these read from here.

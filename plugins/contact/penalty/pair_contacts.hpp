@@ -103,6 +103,7 @@ class PairContacts {
     std::uint32_t body, other_body, model;  ///< as in ContactPatch
     std::int32_t other_robot;               ///< in Bodies::robots, or no_robot
     double zeta;                            ///< damping ratio of the normal
+    bool is_of_disc;                        ///< see Bodies::is_of_disc
     std::uint32_t patch = 0;                ///< in Record::patches, or one of the above
     bool lasts = false;                     ///< it was there in the step before
     SolvedContact solved{};                 ///< of a group: as kept; when it is solved, as it is to be
@@ -182,11 +183,13 @@ class PairContacts {
   void find_runs(std::uint32_t self);
   void find_computed(std::uint32_t self);
   void update_computed(std::uint32_t self);
+  static void find_cells(KnownContacts& known);
   void find_springs(std::uint32_t self);
   Vec3 resist_turning(std::uint32_t self, ContactPatch& patch, const Contact& contact, const TurningSpring& spring,
                       double normal_force);
   void find_lever_shifts(std::uint32_t self, const ContactPatch& patch, const Vec3& at, Computed& c) const;
-  void apply_to_pair(const Computed& c, ContactPatch& patch, const Vec3& force, const Vec3& point) const;
+  void apply_to_pair(const Computed& c, ContactPatch& patch, const Vec3& force, const Vec3& moment,
+                     const Vec3& point) const;
   Vec3 centre_velocity(std::int32_t robot, std::uint32_t body) const;
   Record& record(std::uint32_t robot) { return records_[record_of_[robot]]; }
   const Record& record(std::uint32_t robot) const { return records_[record_of_[robot]]; }

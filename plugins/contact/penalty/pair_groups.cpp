@@ -244,6 +244,7 @@ void PairContacts::take_forces(std::uint32_t self, std::span<const SolverContact
     c.solved.expected = s.away;
     found = found.subspan(1);
     Vec3::Map(point.force) = s.force;
+    point.moment = 0;
     Vec3 displacement = Vec3::Map(point.displacement);
     displacement -= s.normal * s.normal.dot(displacement);
     if (c.solved.rebound > 0 || !(s.load > 0))

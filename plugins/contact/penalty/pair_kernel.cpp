@@ -11,8 +11,10 @@ namespace {
 using namespace lane;
 using namespace law;
 
-constexpr int motion_numbers = 5, spring_numbers = 5, patch_numbers = 4, listed_numbers = 8;
+constexpr int motion_numbers = 6, spring_numbers = 5, patch_numbers = 4, listed_numbers = 8;
 static_assert(offsetof(PairPoint, ahead) == offsetof(PairPoint, velocity) + 4 * sizeof(double) &&
+              offsetof(PairPoint, spin) == offsetof(PairPoint, velocity) + 5 * sizeof(double) &&
+              offsetof(PairPoint, moment) == offsetof(PairPoint, force) + 3 * sizeof(double) &&
               offsetof(PairPoint, zeta) == offsetof(PairPoint, displacement) + 4 * sizeof(double));
 
 /// `number(point)` of each point; where there are fewer points than S has values, the first stands in.
@@ -31,14 +33,15 @@ MURO_INLINE void move_some(PairPoint* points, int count, double h, bool with_lag
   S c[6];
   load_rows(from(&PairPoint::contact), 0, c);
   const V3<S> at{c[0], c[1], c[2]}, normal{c[3], c[4], c[5]};
-  const auto velocity_of = [&](const Places<S>& pose, const Places<S>& twist) {
-    const V3<S> origin = load_vector(pose);
-    const TwistOf<S> motion = load_twist(twist);
-    return motion.linear + cross(motion.angular, at - origin);
+  const auto velocity_of = [&](const Places<S>& pose, const TwistOf<S>& motion) {
+    return motion.linear + cross(motion.angular, at - load_vector(pose));
   };
-  const V3<S> own = velocity_of(from(&PairPoint::pose), from(&PairPoint::twist)),
-              other = velocity_of(from(&PairPoint::other_pose), from(&PairPoint::other_twist));
+  const TwistOf<S> own_motion = load_twist(from(&PairPoint::twist)),
+                   other_motion = load_twist(from(&PairPoint::other_twist));
+  const V3<S> own = velocity_of(from(&PairPoint::pose), own_motion),
+              other = velocity_of(from(&PairPoint::other_pose), other_motion);
   const V3<S> velocity = own - other;
+  const S spin = dot(own_motion.angular - other_motion.angular, normal);
   S ahead(0);
   if (with_lag) {
     S lags[2];
@@ -46,7 +49,7 @@ MURO_INLINE void move_some(PairPoint* points, int count, double h, bool with_lag
     ahead = S(h) * dot(normal, lags[0] * own - lags[1] * other);
   }
   store_rows(places_of<S, double>(points, count, [](PairPoint& p) { return p.velocity; }), 0,
-             {velocity.x, velocity.y, velocity.z, -dot(velocity, normal), ahead}, first_lanes(count));
+             {velocity.x, velocity.y, velocity.z, -dot(velocity, normal), ahead, spin}, first_lanes(count));
 }
 
 template <class S>
@@ -57,18 +60,22 @@ MURO_INLINE void push_some(PairPoint* points, int count, const Stiffness& stiffn
   load_rows(from([](const PairPoint& p) { return p.velocity; }), 0, motion);
   load_rows(from([](const PairPoint& p) { return p.displacement; }), 0, spring);
   load_rows(from([](const PairPoint& p) { return p.patch; }), 0, patch);
+  const V3<S> turn = load_vector(from([](const PairPoint&p) { return p.turn; })), spin = motion[5] * turn;
   const V3<S> normal{c[3], c[4], c[5]}, velocity{motion[0], motion[1], motion[2]};
   const S approach = motion[3], along = patch[0], across = patch[1], inverse_across = patch[2], load = patch[3];
-  const V3<S> slip = velocity + approach * normal;
+  const V3<S> slip = velocity + approach * normal + spin;
   const S depth = c[6] - spring[3] + motion[4];
   const S pressed = along * NormalLaw<S>(stiffness, spring[4], load).force(depth, approach);
   V3<S> displacement = V3<S>{spring[0], spring[1], spring[2]} + slip * S(elapsed);
   displacement -= normal * dot(normal, displacement);
-  const V3<S> friction = FrictionLaw<S>(stiffness, load).force(displacement, slip, c[7] * pressed * inverse_across);
-  const V3<S> force = pressed * normal + across * friction;
+  const V3<S> friction =
+      across *
+      FrictionLaw<S>(stiffness, load).force(displacement, slip, c[7] * pressed * inverse_across, dot(spin, spin));
+  const V3<S> force = pressed * normal + friction;
   const unsigned used = first_lanes(count);
   store_vector(places_of<S, double>(points, count, [](PairPoint& p) { return p.displacement; }), 0, displacement, used);
-  store_vector(places_of<S, double>(points, count, [](PairPoint& p) { return p.force; }), 0, force, used);
+  store_rows(places_of<S, double>(points, count, [](PairPoint& p) { return p.force; }), 0,
+             {force.x, force.y, force.z, dot(turn, friction)}, used);
 }
 
 /// In packs of eight, and what is left.

@@ -50,6 +50,7 @@ struct PairScene {
       p.other_pose = poses[2 * i + 1].position.data(), p.other_twist = twists[2 * i + 1].linear.data();
       p.patch = patches[i].data();
       if (with_lag) p.lag = 0.5 * double(i % 2), p.other_lag = 0.5;
+      if (i % 4 > 0) Vec3::Map(p.turn) = contacts[i].normal.cross(vector(0.05));
       Vec3::Map(p.displacement) = vector(1e-4);
       p.overlap = i % 3 == 0 ? 0.5 * contacts[i].depth : 0;
       p.zeta = i % 2 == 0 ? 1 : 0.3;
@@ -75,19 +76,22 @@ TEST(PairKernel, AgreesWithTheModelContactByContact) {
                  other = scene.twists[2 * i + 1].at(c.point - scene.poses[2 * i + 1].position), motion = own - other;
       const auto& [along, across, inverse_across, load] = scene.patches[i];
       const double approach = -motion.dot(c.normal);
-      const Vec3 slip = motion + approach * c.normal;
       const PairPoint& start = scene.points[i];
+      const double turning = (scene.twists[2 * i].angular - scene.twists[2 * i + 1].angular).dot(c.normal);
+      const Vec3 turn = Vec3::Map(start.turn), slip = motion + approach * c.normal + turning * turn;
       const double ahead = pair_stiffness.h * c.normal.dot(start.lag * own - start.other_lag * other);
       const double depth = c.depth - start.overlap + (with_lag ? ahead : 0);
       const double normal = along * law::NormalLaw<double>(pair_stiffness, start.zeta, load).force(depth, approach);
       Vec3 displacement = Vec3::Map(start.displacement) + slip * pair_elapsed;
       displacement -= c.normal * c.normal.dot(displacement);
       lane::V3<double> spring = plain(displacement);
-      const lane::V3<double> friction = law::FrictionLaw<double>(pair_stiffness, load)
-                                            .force(spring, plain(slip), c.surface.friction * normal * inverse_across);
+      const lane::V3<double> friction =
+          law::FrictionLaw<double>(pair_stiffness, load)
+              .force(spring, plain(slip), c.surface.friction * normal * inverse_across, (turning * turn).squaredNorm());
       const Vec3 force = normal * c.normal + across * vector_of(friction);
       ASSERT_NEAR(points[i].approach, approach, 1e-12 * (1 + std::abs(approach))) << round;
       ASSERT_LT((Vec3::Map(points[i].force) - force).norm(), 1e-9 * (1 + force.norm())) << round;
+      ASSERT_NEAR(points[i].moment, across * turn.dot(vector_of(friction)), 1e-9 * (1 + force.norm())) << round;
       ASSERT_LT((Vec3::Map(points[i].displacement) - vector_of(spring)).norm(), 1e-12) << round;
     }
   }

@@ -75,6 +75,7 @@ void SceneryContacts::start() {
     known.view.contacts = contacts_[i].data();
     known.view.in_order = true;
     known.view.base_pose = base.pose->position.data();
+    known.view.base_twist = base.twist->linear.data();
     known.view.mass = &bodies_.masses[base.mass].inverse_mass;
     known.view.wrench = base.wrench->force.data();
   }
@@ -209,7 +210,8 @@ void SceneryContacts::analyse(std::uint32_t robot, std::span<const Contact> cont
                      .place = k,
                      .anchor = k,
                      .anchors_begin = first,
-                     .object = object};
+                     .object = object,
+                     .is_of_disc = bodies_.is_of_disc(c)};
     for (std::uint8_t i = first; i <= k; ++i) contacts_[robot][i].anchors_end = std::uint8_t(k + 1);
     view.has_many_materials = view.has_many_materials || known_contact.zeta != contacts_[robot][0].zeta;
   }

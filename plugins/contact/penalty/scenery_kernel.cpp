@@ -2,6 +2,7 @@
 #include "scenery_kernel.hpp"
 
 #include "muro/simd/rows.hpp"
+#include "plugins/common/contact_geometry/pressure_cells.hpp"
 
 namespace muro::penalty {
 namespace {
@@ -20,16 +21,19 @@ struct OldAnchors {
     at[k] = {g[0], g[1], g[2]};
     displacement[k] = {g[3], g[4], g[5]};
   }
-  /// The tangential displacement of the nearest of the first `count`.
-  MURO_INLINE V3<S> nearest(const V3<S>& point, int count) const {
+  /// The tangential displacement of the nearest of the first `count`; `way`: from there, m; out.
+  MURO_INLINE V3<S> nearest(const V3<S>& point, int count, V3<S>& way) const {
     V3<S> found = displacement[0];
+    way = point - at[0];
     if (count == 1) return found;
-    S least = distance2(point, 0);
+    S least = dot(way, way);
     for (int k = 1; k < count; ++k) {
-      const S distance = distance2(point, k);
+      const V3<S> from_here = point - at[k];
+      const S distance = dot(from_here, from_here);
       const auto nearer = distance < least;
       least = select(nearer, distance, least);
       found = select(nearer, displacement[k], found);
+      way = select(nearer, from_here, way);
     }
     return found;
   }
@@ -45,6 +49,9 @@ struct OldAnchors {
   }
 };
 
+/// Points that have moved by more than the radius of gyration are new ones: its square is at least 3 / (m trace(I^-1)).
+constexpr double square_of_reach = 1.0 / 3;
+
 /// The contacts of as many robots as S has values. Where one has fewer than another, its last contact stands in and
 /// counts for nothing. Each pass over the contacts stores its results for the next, so that the iterations of a pass
 /// do not wait for each other.
@@ -54,7 +61,7 @@ class RobotContacts {
   /// Where there are fewer robots than S has values, the first stands in.
   MURO_INLINE RobotContacts(const KernelBatch& batch, const KernelRobot* const* robots, int count)
       : batch_(batch), used_(first_lanes(count)) {
-    Places<S> poses, masses;
+    Places<S> poses, twists, masses;
     double counts[count_of<S>];
     least_ = max_contacts;
     for (int i = 0; i < count_of<S>; ++i) {
@@ -62,7 +69,7 @@ class RobotContacts {
       contacts_[i] = r.contacts, last_[i] = r.count - 1, counts[i] = r.count;
       least_ = r.count < least_ ? r.count : least_;
       most_ = r.count > most_ ? r.count : most_;
-      groups_ |= r.groups;
+      groups_ |= r.groups, common_groups_ &= r.groups, starts_[i] = r.groups;
       in_order_ = in_order_ && r.in_order;
       is_uniform_ = is_uniform_ && r.groups == robots[0]->groups && r.count == robots[0]->count;
       has_many_objects_ = has_many_objects_ || r.has_many_objects;
@@ -70,7 +77,7 @@ class RobotContacts {
       changed_ |= unsigned(r.is_changed) << i;
       listed_.at[i] = r.listed, before_.at[i] = r.before;
       anchors_.at[i] = r.anchors, wrench_.at[i] = r.wrench, forces_.at[i] = r.forces;
-      poses.at[i] = r.base_pose, masses.at[i] = r.mass;
+      poses.at[i] = r.base_pose, twists.at[i] = r.base_twist, masses.at[i] = r.mass;
     }
     is_uniform_ = is_uniform_ && in_order_;
     count_ = side_by_side(counts);
@@ -84,11 +91,15 @@ class RobotContacts {
     const PoseOf<S> pose = load_pose(poses);
     body_ = mobility_of(mass, pose);
     base_ = pose.position;
+    const TwistOf<S> twist = load_twist(twists);
+    drift_ = (twist.linear + cross(twist.angular, body_.centre - base_)) * S(0.5 * batch.stiffness.h);
+    reach2_ = body_.mass / (S(square_of_reach) * body_.inertia.trace());
   }
 
   /// Returns a bit for each robot that is not processed.
   MURO_INLINE unsigned apply_forces() {
     load_contacts();
+    find_turns();
     const SpringStiffness<S> springs = find_effective_masses();
     const S load = springs.max_eigenvalue_bound(body_);
     const unsigned left = move_contacts() & used_;
@@ -99,11 +110,15 @@ class RobotContacts {
  private:
   struct Point {
     V3<S> at, normal;
+    V3<S> arm;  ///< m, from the base to where it is in the middle of the step, when the force acts, as seen from the
+                ///< centre
     S depth, friction;
     S patch;             ///< number; -1 in lanes of robots that have fewer contacts
     S approach;          ///< m/s
-    V3<S> slip;          ///< m/s
+    V3<S> slip;          ///< m/s, of the middle of its cell
     V3<S> displacement;  ///< m, tangential
+    V3<S> turn;          ///< m: slip of the middle of its cell against its own, for 1 rad/s about the normal
+    S spin2;             ///< m^2/s^2: the square of that slip
   };
   /// Of each robot's contacts in a patch.
   struct PatchOf {
@@ -194,6 +209,101 @@ class RobotContacts {
     }
   }
 
+  /// Lanes whose contacts k - 1 and k belong to one group and one patch.
+  MURO_INLINE MaskOf<S> joined(int k) const {
+    MaskOf<S> lanes = points_[k].patch == points_[k - 1].patch;
+    if (k >= least_) lanes = lanes & (S(k) < count_);
+    if (groups_ >> k & 1) {
+      unsigned go_on = 0;
+      for (int i = 0; i < count_of<S>; ++i) go_on |= (~starts_[i] >> k & 1) << i;
+      lanes = lanes & of_bits(go_on);
+    }
+    return lanes;
+  }
+  /// Finds the cells of patches: that of two points is half of the line between them.
+  MURO_INLINE void find_turns() {
+    const std::uint64_t all = (std::uint64_t(1) << most_) - 1, goes_on = all & ~std::uint64_t(groups_);
+    if ((all & ~std::uint64_t(common_groups_)) == 0) return;  // all are groups of one
+    has_cells_ = true;
+    const bool is_even = patch_count_ == 1 && groups_ == common_groups_ && least_ == most_;
+    if (!is_even || (goes_on & goes_on >> 1) != 0) return find_any_turns();
+    const V3<S> none{S(0), S(0), S(0)};
+    for (int k = 0; k < most_; ++k) {
+      if (goes_on >> (k + 1) & 1)
+        add_line(k++);
+      else
+        points_[k].turn = none;
+    }
+  }
+  /// Of contacts k and k + 1.
+  MURO_INLINE void add_line(int k) {
+    Point &a = points_[k], &b = points_[k + 1];
+    const V3<S> shift = contact_geometry::shift_in_line(a.at, b.at);
+    a.turn = cross(a.normal, shift), b.turn = -cross(b.normal, shift);
+  }
+  /// Of robots whose groups differ, or are parts of several patches, or faces.
+  [[gnu::noinline]] void find_any_turns() {
+    const V3<S> none{S(0), S(0), S(0)};
+    const MaskOf<S> no_lane = S(1) < S(0);
+    MaskOf<S> goes_on[max_contacts + 2];  // contact k - 1 of the patch in contact k
+    goes_on[0] = goes_on[most_] = goes_on[most_ + 1] = no_lane;
+    bool has_faces = false;
+    unsigned with_cells = 0;
+    for (int i = 0; i < count_of<S>; ++i) with_cells |= unsigned((~starts_[i] & ((2u << last_[i]) - 1)) != 0) << i;
+    all_have_cells_ = with_cells == all_lanes<S>;
+    have_cells_ = of_bits(with_cells);
+    for (int k = 0; k < most_; ++k) {
+      points_[k].turn = none;
+      if (k == 0) continue;
+      goes_on[k] = joined(k);
+      has_faces = has_faces || any(goes_on[k] & goes_on[k - 1]);
+    }
+    for (int k = 0; k + 1 < most_; ++k) {
+      const MaskOf<S> lanes = goes_on[k + 1] & !(goes_on[k] | goes_on[k + 2]);
+      if (!any(lanes)) continue;
+      const V3<S> before[] = {points_[k].turn, points_[k + 1].turn};
+      add_line(k);
+      for (int i = 0; i < 2; ++i) points_[k + i].turn = select(lanes, points_[k + i].turn, before[i]);
+    }
+    if (has_faces) find_faces(goes_on);
+  }
+  [[gnu::noinline]] void find_faces(const MaskOf<S>* goes_on) {
+    contact_geometry::FacePoints<S> faces[max_contacts];
+    S distances[max_contacts], farthest[max_contacts];
+    V3<S> arms[max_contacts];  // from the middle
+    const auto of_face = [&](int k) -> MaskOf<S> { return (goes_on[k] | goes_on[k + 1]) & (faces[k].count > S(2)); };
+    for (int k = 0; k < most_; ++k) {
+      faces[k] = {};
+      faces[k].add(points_[k].at - base_);
+      if (k > 0) faces[k].add_where(goes_on[k], faces[k - 1]);
+    }
+    for (int k = most_ - 2; k >= 0; --k) faces[k] = choose(goes_on[k + 1], faces[k + 1], faces[k]);
+    for (int k = 0; k < most_; ++k) {
+      arms[k] = points_[k].at - base_ - faces[k].middle();
+      distances[k] = farthest[k] = sqrt(dot(arms[k], arms[k]));
+      if (k == 0) continue;
+      distances[k] += select(goes_on[k], distances[k - 1], S(0));
+      farthest[k] = max(farthest[k], select(goes_on[k], farthest[k - 1], S(0)));
+    }
+    for (int k = most_ - 1; k >= 0; --k) {
+      distances[k] = select(goes_on[k + 1], distances[k + 1], distances[k]);
+      farthest[k] = select(goes_on[k + 1], farthest[k + 1], farthest[k]);
+      const auto here = of_face(k);
+      if (!any(here)) continue;
+      const S is_disc = of_contacts(k, [](const KernelContact& c) { return c.is_of_disc; });
+      const S share = contact_geometry::share_of_cells(faces[k], distances[k], farthest[k], is_disc);
+      Point& p = points_[k];
+      p.turn = select(here, cross(p.normal, arms[k]) * (share - S(1)), p.turn);
+    }
+  }
+  template <class M>
+  MURO_INLINE static contact_geometry::FacePoints<S> choose(M mask, const contact_geometry::FacePoints<S>& a,
+                                                            const contact_geometry::FacePoints<S>& b) {
+    return {select(mask, a.count, b.count), select(mask, a.sum, b.sum), select(mask, a.xx, b.xx),
+            select(mask, a.yy, b.yy),       select(mask, a.zz, b.zz),   select(mask, a.yz, b.yz),
+            select(mask, a.zx, b.zx),       select(mask, a.xy, b.xy)};
+  }
+
   /// Divides the effective mass of each patch among its points. Returns what holds the robot.
   MURO_INLINE SpringStiffness<S> find_effective_masses() {
     SpringStiffness<S> all;
@@ -271,6 +381,7 @@ class RobotContacts {
     OldAnchors<S, n> before;
     load_anchors(run, before);
     const S zero(0), elapsed(batch_.elapsed), impact_speed(batch_.impact_speed);
+    const S half_step(batch_.elapsed > 0 ? 0.5 * batch_.stiffness.h / batch_.elapsed : 0);
     auto have_anchors = zero == zero;
     if (!run.all_have_anchors) {
       double last[count_of<S>];
@@ -281,15 +392,25 @@ class RobotContacts {
       Point& p = points_[k];
       const V3<S> velocity = motion.linear + cross(motion.angular, p.at - origin);
       p.approach = -dot(velocity, p.normal);
-      p.slip = velocity + p.approach * p.normal;
-      V3<S> old = anchors > 0 ? before.nearest(p.at, anchors) : V3<S>{zero, zero, zero};
+      const V3<S> slip = velocity + p.approach * p.normal;
+      p.slip = slip;
+      if (has_cells_) {
+        const V3<S> spin = dot(motion.angular, p.normal) * p.turn;
+        p.slip = all_have_cells_ ? slip + spin : select(have_cells_, slip + spin, slip);
+        p.spin2 = dot(spin, spin);
+      }
+      V3<S> old{zero, zero, zero}, way = old;
+      if (anchors > 0) old = before.nearest(p.at, anchors, way);
       if (!run.all_have_anchors) old = select(have_anchors, old, {zero, zero, zero});
+      // a point that moves over the body, as on a rim, moves on; others appear
+      p.arm = p.at - base_;
+      p.arm += select((dot(way, way) < reach2_) & have_anchors, way * half_step - drift_, {zero, zero, zero});
       const V3<S> displacement = old + p.slip * elapsed;
       p.displacement = displacement - p.normal * dot(p.normal, displacement);
       if (!any_looked_at_) continue;
       const auto fast = (p.approach > impact_speed) & looked_at_ & (p.patch >= zero);
       if (!any(fast)) continue;
-      const S reach = S(lasting_reach) + S(lasting_slips) * elapsed * sqrt(dot(p.slip, p.slip));
+      const S reach = S(lasting_reach) + S(lasting_slips) * elapsed * sqrt(dot(slip, slip));
       const S distance2 = anchors > 0 ? before.least_distance2(p.at, anchors) : zero;
       const auto lasts = have_anchors & (distance2 < reach * reach);
       may_collide = select(fast, select(lasts, may_collide, S(1)), may_collide);
@@ -320,23 +441,30 @@ class RobotContacts {
       }
       V3<S> displacement = p.displacement;
       const S normal = mass.along * law.force(p.depth, p.approach);
-      const V3<S> across = friction.force(displacement, p.slip, p.friction * normal * mass.inverse_across);
-      V3<S> sum = normal * p.normal + mass.across * across;
+      const S most = p.friction * normal * mass.inverse_across;
+      const V3<S> across = mass.across * (has_cells_ ? friction.force(displacement, p.slip, most, p.spin2)
+                                                     : friction.force(displacement, p.slip, most));
+      V3<S> sum = normal * p.normal + across, moment{none, none, none};
       unsigned which = processed;
+      if (has_cells_) moment = dot(p.turn, across) * p.normal;
+      if (!all_have_cells_) moment = select(have_cells_, moment, {none, none, none});
       if (k >= least_) {
         const auto here = S(k) < count_;
         sum = select(here, sum, {none, none, none});
+        if (has_cells_) moment = select(here, moment, {none, none, none});
         which &= bits(here);
       }
       force += sum;
-      torque += cross(p.at - base_, sum);
-      store_contact(k, sum, displacement, which);
+      torque += cross(p.arm, sum);
+      if (has_cells_) torque += moment;
+      if (batch_.tells_contacts)
+        store_rows(forces_, k * force_stride, {sum.x, sum.y, sum.z, moment.x, moment.y, moment.z}, which);
+      store_contact(k, displacement, which);
     }
     store_rows(wrench_, 0, {force.x, force.y, force.z, torque.x, torque.y, torque.z}, processed);
   }
-  MURO_INLINE void store_contact(int k, const V3<S>& force, const V3<S>& displacement, unsigned which) const {
+  MURO_INLINE void store_contact(int k, const V3<S>& displacement, unsigned which) const {
     const V3<S>&at = points_[k].at, &d = displacement;
-    if (batch_.tells_contacts) store_vector(forces_, k * force_stride, force, which);
     if (is_plain(k)) return store_rows(anchors_, k * anchor_stride, {at.x, at.y, at.z, d.x, d.y, d.z}, which);
     Places<S, double> anchors;
     each_contact(k, [&](int i, const KernelContact& c) { anchors.at[i] = anchors_.at[i] + c.anchor * anchor_stride; });
@@ -345,7 +473,11 @@ class RobotContacts {
 
   const KernelBatch& batch_;
   const unsigned used_;  ///< bits of lanes
-  unsigned changed_ = 0, groups_ = 0;
+  unsigned changed_ = 0, groups_ = 0, common_groups_ = ~0u;
+  unsigned starts_[count_of<S>];  ///< groups of each
+  bool has_cells_ = false;        ///< friction of some points is in the middle of a cell
+  bool all_have_cells_ = true;    ///< if so, of each robot; else of these
+  MaskOf<S> have_cells_;
   bool in_order_ = true, has_many_materials_ = false, has_many_objects_ = false;
   bool is_uniform_ = true;  ///< robots are in order, and have equal groups, which have the anchors of their contacts
   const KernelContact* contacts_[count_of<S>];
@@ -356,6 +488,8 @@ class RobotContacts {
   Places<S, double> anchors_, wrench_, forces_;
   Mobility<S> body_;
   V3<S> base_;
+  V3<S> drift_;  ///< m: what the centre of mass moves by within half a step
+  S reach2_;     ///< m^2: the square of what a point moves by in a step at most
   bool any_looked_at_ = false;
   MaskOf<S> looked_at_;  ///< robots that may be in impacts
   int patch_count_ = 0;

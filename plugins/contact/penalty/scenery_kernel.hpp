@@ -22,6 +22,7 @@ struct KernelContact {
   std::uint8_t anchor = 0;                          ///< place of its friction anchor, out
   std::uint8_t anchors_begin = 0, anchors_end = 0;  ///< those of its group, of the step before
   std::uint8_t object = 0;                          ///< of the scenery: its number among those that the robot touches
+  bool is_of_disc = false;                          ///< where it touches flat, it is a point of a rim
 };
 
 /// One robot. A group: adjacent contacts of one shape of one body with one other shape. Contacts and anchors are read
@@ -37,10 +38,10 @@ struct KernelRobot {
   const double* listed = nullptr;  ///< point of the first listed contact
   const double* before = nullptr;  ///< point of the first anchor of the step before; may be `anchors`
   double* anchors = nullptr;       ///< point of the first; out
-  const double* base_pose = nullptr;
+  const double *base_pose = nullptr, *base_twist = nullptr;
   const double* mass = nullptr;  ///< numbers of MassProperties
   double* wrench = nullptr;      ///< on the base; out
-  double* forces = nullptr;      ///< of the first of `contacts`; out, where KernelBatch::tells_contacts
+  double* forces = nullptr;  ///< force and torque of the first of `contacts`; out, where KernelBatch::tells_contacts
 };
 inline constexpr int contact_stride = 13, anchor_stride = 8, force_stride = 14;  ///< in numbers
 /// A contact, from its point on: point, normal, depth, friction. An anchor: point, displacement.
@@ -56,10 +57,11 @@ struct KernelBatch {
 
 struct SceneryKernels {
   /// Computes the forces of all contacts, their friction anchors and the sum of forces, for up to eight robots; each
-  /// gets the same bits as by itself. Contacts of one object of the scenery whose normals agree are a patch. Returns a
-  /// bit for each robot that may be in an impact: it has several patches or is changed, and approaches the scenery
-  /// faster than `impact_speed` in a point that is far from all friction anchors of its group. Of those nothing is
-  /// written.
+  /// gets the same bits as by itself. Contacts of one object of the scenery whose normals agree are a patch; friction
+  /// of those that are of one group, too, acts as the pressure over their line or face does (pressure_cells.hpp).
+  /// Returns a bit for each robot that may be in an impact: it has several patches or is changed, and approaches the
+  /// scenery faster than `impact_speed` in a point that is far from all friction anchors of its group. Of those nothing
+  /// is written.
   unsigned (*apply_forces)(const KernelBatch& batch, const KernelRobot* const* robots, int count);
 };
 MURO_DECLARE_KERNELS(SceneryKernels, scenery_kernels)

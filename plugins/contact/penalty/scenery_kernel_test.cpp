@@ -4,14 +4,17 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <numeric>
 #include <random>
 #include <vector>
 
 #include "friction_anchor.hpp"
 #include "muro/scene.hpp"
 #include "muro/toolkit/rotations.hpp"
+#include "plugins/common/contact_geometry/pressure_cells.hpp"
 #include "restitution.hpp"
 #include "scenery_kernel.hpp"
+#include "vectors.hpp"
 
 namespace muro::penalty {
 namespace {
@@ -23,7 +26,7 @@ constexpr MassProperties light{
 constexpr MassProperties heavy{
     .inverse_mass = 0.01, .com = {-0.1, 0.05, 0.2}, .inverse_inertia = {0.03, 0.02, 0.05, 0.001, 0, -0.002}};
 
-/// A vehicle of four bodies, each with two contacts or fewer; numbers of its own.
+/// A vehicle of four bodies, each with two contacts or fewer, or of two with four; numbers of its own.
 struct Vehicle {
   Pose base, bodies[4];
   Twist twist, twists[4];
@@ -37,7 +40,10 @@ struct Vehicle {
   Wrench wrench;
   KernelContact known[8];
 
-  static std::size_t body_of(std::size_t contact) { return contact / 2; }
+  std::size_t per_body = 2;  ///< contacts
+  bool has_discs = false;
+
+  std::size_t body_of(std::size_t contact) const { return contact / per_body; }
 
   KernelRobot view() {
     KernelRobot v;
@@ -52,7 +58,8 @@ struct Vehicle {
                   .anchor = std::uint8_t(k),
                   .anchors_begin = std::uint8_t(ends[body] - anchors_before[body]),
                   .anchors_end = std::uint8_t(ends[body]),
-                  .object = std::uint8_t(object_of[k])};
+                  .object = std::uint8_t(object_of[k]),
+                  .is_of_disc = has_discs};
       if (k == 0 || body_of(k - 1) != body) v.groups |= 1u << k;
     }
     v.count = count;
@@ -63,6 +70,7 @@ struct Vehicle {
     v.before = before[0].point.data();
     v.anchors = anchors[0].point.data();
     v.base_pose = base.position.data();
+    v.base_twist = twist.linear.data();
     v.mass = &mass->inverse_mass;
     v.wrench = wrench.force.data();
     return v;
@@ -76,6 +84,12 @@ Vehicle random_vehicle(std::mt19937& random, double speed, bool uneven) {
   const auto vector = [&](double most) { return Vec3(most * g(random), most * g(random), most * g(random)); };
   const auto number = [&](int least, int most) { return std::uniform_int_distribution<int>(least, most)(random); };
   Vehicle v;
+  if (number(0, 2) == 0) {
+    v.per_body = 4;
+    v.has_discs = number(0, 1) == 1;
+    v.anchors_before[0] = v.anchors_before[1] = 4;
+    v.anchors_before[2] = v.anchors_before[3] = 0;
+  }
   v.base = {vector(5), rotation_of(vector(1))};
   v.twist = {vector(speed), vector(speed)};
   const Vec3 normal = Vec3(0.1 * g(random), 0.1 * g(random), 1).normalized();
@@ -86,9 +100,9 @@ Vehicle random_vehicle(std::mt19937& random, double speed, bool uneven) {
   }
   for (std::uint32_t i = 0; i < 8; ++i) {
     Contact& c = v.contacts[i];
-    c.self = ObjectId{10 + i / 2};
+    c.self = ObjectId{10 + std::uint32_t(v.body_of(i))};
     c.other = ObjectId{1};
-    c.point = v.bodies[i / 2].position + vector(0.1);
+    c.point = v.bodies[v.body_of(i)].position + vector(0.1);
     c.normal = uneven ? normals[number(0, 2)] : normal;
     c.depth = 1e-3 * std::abs(g(random));
     c.surface.friction = 0.8;
@@ -103,7 +117,7 @@ Vehicle random_vehicle(std::mt19937& random, double speed, bool uneven) {
   std::size_t end = 0;
   for (std::size_t b = 0; b < 4; ++b)
     for (int i = 0; i < v.anchors_before[b]; ++i) {
-      const Vec3& near = v.contacts[2 * b + std::size_t(i % 2)].point;
+      const Vec3& near = v.contacts[(v.per_body * b + std::size_t(i) % v.per_body) % 8].point;
       v.before[end++] = {b, near + vector(0.02), vector(1e-4)};
     }
   return v;
@@ -153,24 +167,43 @@ Wrench by_the_model(const Vehicle& v, std::vector<Vec3>& displacements) {
   const double load = v.mass->inverse_mass * shift.norm() + std::sqrt((inertia * turn * inertia * turn).trace());
   const law::FrictionLaw<double> friction_law({omega, h}, load);
   Wrench total;
+  const auto are_joined = [&](std::size_t a, std::size_t b) {
+    return v.body_of(a) == v.body_of(b) && first[a] == first[b];
+  };
+  std::vector<Vec3> shifts(count, Vec3::Zero());
+  for (std::size_t begin = 0, end = 0; begin < count; begin = end) {
+    for (end = begin + 1; end < count && are_joined(end - 1, end);) ++end;
+    contact_geometry::find_shifts(
+        int(end - begin), v.has_discs, [&](int k) { return plain(v.contacts[begin + std::size_t(k)].point); },
+        [&](int k, const lane::V3<double>& way) { shifts[begin + std::size_t(k)] = vector_of(way); });
+  }
   for (std::size_t k = 0; k < count; ++k) {
     const Contact& c = v.contacts[k];
-    const std::size_t body = Vehicle::body_of(k);
+    const Vec3& to_cell = shifts[k];
+    const std::size_t body = v.body_of(k);
     const law::NormalLaw<double> normal_law({omega, h}, damping_ratio_of(c.surface.restitution), load);
     const Vec3 motion = v.twists[body].at(c.point - v.bodies[body].position);
     const double approach = -motion.dot(c.normal);
-    const Vec3 slip = motion + approach * c.normal;
-    Vec3 displacement = slip * elapsed;
-    if (const auto* const before = previous<FrictionAnchor>(v.before, k, body, c.point);
-        before && v.anchors_before[body] > 0)
+    const Vec3 spin = v.twists[body].angular.dot(c.normal) * c.normal.cross(to_cell);
+    const Vec3 slip = motion + approach * c.normal + spin;
+    Vec3 displacement = slip * elapsed, arm = c.point - v.base.position;
+    const int known = std::accumulate(v.anchors_before, v.anchors_before + 4, 0);
+    if (const auto* const before = previous<FrictionAnchor>({v.before, std::size_t(known)}, k, body, c.point);
+        before && v.anchors_before[body] > 0) {
       displacement += before->displacement;
+      const Vec3 way = c.point - before->point;
+      if (way.squaredNorm() * inertia.trace() < 3 * v.mass->inverse_mass)  // it is the same point, and moves on
+        arm += 0.5 * (way - h * v.twist.at(centre - v.base.position));
+    }
     displacement -= c.normal * c.normal.dot(displacement);
     const double normal = along[k] * normal_law.force(c.depth, approach);
     lane::V3<double> spring{displacement.x(), displacement.y(), displacement.z()};
-    const lane::V3<double> f =
-        friction_law.force(spring, {slip.x(), slip.y(), slip.z()}, c.surface.friction * normal / across[k]);
+    const lane::V3<double> f = friction_law.force(spring, {slip.x(), slip.y(), slip.z()},
+                                                  c.surface.friction * normal / across[k], spin.squaredNorm());
     displacements.emplace_back(spring.x, spring.y, spring.z);
-    total.add_force(normal * c.normal + across[k] * Vec3(f.x, f.y, f.z), c.point - v.base.position);
+    const Vec3 friction = across[k] * Vec3(f.x, f.y, f.z);
+    total.add_force(normal * c.normal + friction, arm);
+    total.torque += c.normal * c.normal.dot(to_cell.cross(friction));
   }
   return total;
 }
@@ -244,6 +277,7 @@ TEST(SceneryKernel, LeavesRobotsThatMayBeInAnImpactToOthers) {
   };
   Vehicle v = random_vehicle(random, 0, false);
   for (Twist& t : v.twists) t = {-0.04 * v.contacts[0].normal, Vec3::Zero()};
+  ASSERT_EQ(v.per_body, 2u);
   for (std::size_t i = 0; i < 8; ++i) v.before[i].point = v.contacts[i].point;
   EXPECT_FALSE(is_left(v));
   v.is_changed = true;

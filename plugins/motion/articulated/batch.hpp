@@ -13,6 +13,7 @@ struct KernelContact {
   const double* surface = nullptr;  ///< friction, restitution, resistance to rolling and to spinning
   double* kept = nullptr;           ///< displacement (m), load (N), turn (rad), as KeptContact
   const double* other = nullptr;    ///< velocity of what it touches at the point, and its spin; null: it does not move
+  double shift[3] = {};             ///< m, world: from the point to where its friction acts, see pressure_cells.hpp
   int body = 0;
   bool resists_turning = false;
 };

@@ -13,10 +13,14 @@ inline namespace MURO_ISA {
 
 using lane::MaskOf, lane::max, lane::min, lane::select, lane::sqrt;
 
+/// m/s: so slow a spin lets nothing go that rests.
+inline constexpr double least_cell_speed = 5e-6;
+
 /// A contact point of as many robots as S has values; vectors in the frame of the body.
 template <class S>
 struct ContactPoint {
   V3<S> arm;           ///< m, from the body's origin
+  V3<S> turn;          ///< m: velocity of where its friction acts against its own, for 1 rad/s about the normal
   V3<S> normal;        ///< unit, into the body
   S depth;             ///< m; below 0 where there is no contact
   V3<S> velocity;      ///< m/s, of what it touches, at the point
@@ -30,6 +34,7 @@ struct ContactPoint {
   S slides_on;    ///< 1; 0: what slides may come to rest in this step
   S breaks_away;  ///< 1: it would have to hold more than it can, and drags with `drag` instead
   S drag;         ///< N s/m: the damper that does what friction can
+  S cell_speed;   ///< m/s: of the ends of its cell about where its friction acts, see give_of_cell()
 };
 /// Resistance against rolling and spinning; of the same point.
 template <class S>
@@ -61,7 +66,7 @@ struct ContactStep {
   V3<S> torque;     ///< N m: against rolling and spinning, without acceleration
   S rolling, spinning;  ///< kg m^2: the same of these
 
-  /// N, of the end of the step. `a`: m/s^2, of the point.
+  /// N, of the end of the step. `a`: m/s^2, of the point, across the normal of where its friction acts.
   MURO_INLINE V3<S> force(const V3<S>& normal, const V3<S>& a) const {
     V3<S> change = a;
     if (slides) change = select(dot(slide, slide) > S(0), a - dot(slide, a) * slide, a);
@@ -98,6 +103,14 @@ struct BoundedSpring {
   }
 };
 
+/// A point stands for a cell of a line or face that touches. Where that spins, the ends of the cell move against its
+/// middle, and as long as they are the faster ones, friction of the cell is less than its limit in the measure of both
+/// speeds: a damper in series with the spring, which leaves this part of spring and damper. `limit`: N.
+template <class S>
+MURO_INLINE S give_of_cell(const ContactPoint<S>& p, const ContactLaw<S>& law, S limit) {
+  return select(p.cell_speed > S(0), limit / max(limit + law.held * p.cell_speed, S(1e-300)), S(1));
+}
+
 /// Adds x 1 + (y - x) n n' to a symmetric matrix.
 template <class S>
 MURO_INLINE void add_about(Sym<S>& to, S x, S y, const V3<S>& n) {
@@ -115,6 +128,20 @@ MURO_INLINE void take_along(const V3<S>& r, const V3<S>& t, S x, Inertia<S>& to)
   to.B.x -= t * a.x, to.B.y -= t * a.y, to.B.z -= t * a.z;
   to.C.xx -= c.x * t.x, to.C.yy -= c.y * t.y, to.C.zz -= c.z * t.z;
   to.C.yz -= c.y * t.z, to.C.zx -= c.z * t.x, to.C.xy -= c.x * t.y;
+}
+
+/// Adds what is more in J' K J and J' start where friction acts beside the point, so that the spin about the normal
+/// moves it by `turn`.
+template <class S>
+MURO_INLINE void add_turn(const ContactPoint<S>& p, const ContactStep<S>& c, Inertia<S>& to) {
+  const V3<S>& n = p.normal;
+  const V3<S> held = c.across * (p.turn - dot(c.slide, p.turn) * c.slide), g = cross(p.arm, held);
+  const S x = dot(p.turn, held);
+  const V3<S> m = g + (S(0.5) * x) * n;  // n m' + m n'
+  to.A.xx += S(2) * n.x * m.x, to.A.yy += S(2) * n.y * m.y, to.A.zz += S(2) * n.z * m.z;
+  to.A.yz += n.y * m.z + m.y * n.z, to.A.zx += n.z * m.x + m.z * n.x, to.A.xy += n.x * m.y + m.x * n.y;
+  to.B.x += n.x * held, to.B.y += n.y * held, to.B.z += n.z * held;
+  to.n -= dot(p.turn, c.start) * n;
 }
 
 /// Adds J' K J and J' start.
@@ -187,7 +214,8 @@ MURO_INLINE ContactStep<S> touch(const ContactPoint<S>& p, const ContactLaw<S>& 
     along = select(is_impact, h * impact_damping, along);
   }
   const V3<S> slip = velocity - speed * p.normal;
-  BoundedSpring<S> hold(p.displacement, slip, law.stiffness, law.held, p.friction * p.load, p.slides_on, is_on);
+  const S limit = p.friction * p.load, give = give_of_cell(p, law, limit);
+  BoundedSpring<S> hold(p.displacement, slip, law.stiffness * give, law.held * give, limit, p.slides_on, is_on);
   const MaskOf<S> breaks_away = p.breaks_away > zero;
   if (lane::any(breaks_away)) {
     hold.force = select(breaks_away, -p.drag * slip, hold.force);

@@ -38,8 +38,9 @@ class Contacts {
     for (int i = 0; i < work_.contact_count; ++i) {
       ContactSlot<S>& slot = work_.contacts[i];
       Inertia<S>& to = work_.external[slot.body];
-      slot.step = touch(slot.point, law_, slot.velocity, work_.drifts[slot.body], batch_.dt);
+      slot.step = touch(slot.point, law_, slot.velocity, slot.drift, batch_.dt);
       lanes::add_terms(slot.point, slot.step, to);
+      if (slot.has_cells) add_turn(slot.point, slot.step, to);
       if (slot.resists_turning != 0)
         resist(slot.point, slot.turning, law_, work_.bodies[slot.body].w, batch_.dt, slot.step, to);
     }
@@ -151,8 +152,9 @@ class Contacts {
   }
 
   void load_slot(const KernelContact* const (&of_robot)[count_of<S>], ContactSlot<S>& slot) {
-    Places<S> place, surface, kept, velocity;
+    Places<S> place, surface, kept, velocity, shift;
     slot.resists_turning = 0;
+    slot.has_cells = false;
     bool moves = false;
     for (int i = 0; i < count_of<S>; ++i) {
       const KernelContact& c = *of_robot[i];
@@ -161,6 +163,8 @@ class Contacts {
       velocity.at[i] = c.other ? c.other : at_rest;
       if (c.resists_turning) slot.resists_turning |= 1u << i;
       moves = moves || c.other;
+      shift.at[i] = c.shift;
+      slot.has_cells = slot.has_cells || c.shift[0] != 0 || c.shift[1] != 0 || c.shift[2] != 0;
     }
     const BodyStep<S>& body = work_.bodies[slot.body];
     const S zero(0);
@@ -187,6 +191,15 @@ class Contacts {
       slot.turning.displacement = transposed_times(body.axes, V3<S>{wound[0], wound[1], wound[2]});
     }
     slot.velocity = body.v + cross(body.w, p.arm);
+    // the point turns with the body about the normal, as on a wheel that rolls along a curve
+    slot.drift = work_.drifts[slot.body] + cross(body.w, dot(body.w, p.normal) * cross(p.normal, p.arm));
+    p.turn = {zero, zero, zero}, p.cell_speed = zero;
+    if (slot.has_cells) {
+      p.turn = cross(p.normal, transposed_times(body.axes, lane::load_vector(shift)));
+      const V3<S> more = dot(body.w - p.spin, p.normal) * p.turn;
+      slot.velocity += more;
+      p.cell_speed = max(sqrt(dot(more, more)) - S(least_cell_speed), zero);
+    }
     const S speed = dot(slot.velocity - p.velocity, p.normal);
     p.pushed = knows_pushes_ ? S(batch_.dt) * dot(pushed_a_ + cross(pushed_alpha_, p.arm), p.normal) : zero;
     // what has borne nothing in the last step is tried without
@@ -215,11 +228,12 @@ class Contacts {
   MURO_INLINE ContactOutcome<S> outcome_of(const ContactSlot<S>& slot) const {
     const BodyStep<S>& body = work_.bodies[slot.body];
     const ContactPoint<S>& p = slot.point;
-    const V3<S> a = body.a + cross(body.alpha, p.arm);  // as accelerations of bodies say it
+    V3<S> a = body.a + cross(body.alpha, p.arm);  // as accelerations of bodies say it
+    if (slot.has_cells) a += dot(body.alpha, p.normal) * p.turn;
     ContactOutcome<S> o;
     o.force = slot.step.force(p.normal, a);
     o.load = dot(o.force, p.normal);
-    o.velocity = slot.velocity + S(batch_.dt) * (a + work_.drifts[slot.body]) - p.velocity;
+    o.velocity = slot.velocity + S(batch_.dt) * (a + slot.drift) - p.velocity;
     o.slip = o.velocity - dot(o.velocity, p.normal) * p.normal;
     return o;
   }
@@ -230,13 +244,17 @@ class Contacts {
     const MaskOf<S> is_on = p.is_on > S(0);
     const S load = select(is_on, max(o.load, S(0)), S(0));
     const V3<S> none{S(0), S(0), S(0)};
-    const V3<S> displacement = bounded(p.displacement + S(batch_.dt) * o.slip, p.friction * load, law_.stiffness);
+    V3<S> slipped = o.slip;
+    if (slot.has_cells)  // less what the damper behind the spring does
+      slipped += (o.force - o.load * p.normal) * (p.cell_speed / max(p.friction * p.load, S(1e-12)));
+    const V3<S> displacement = bounded(p.displacement + S(batch_.dt) * slipped, p.friction * load, law_.stiffness);
     const V3<S> d = body.axes * select(is_on, displacement, none);
     store_numbers(slot.kept, 0, {d.x, d.y, d.z, select(load > S(0), load, S(unloaded))}, slot.which);
     const V3<S> force = body.axes * o.force;
     V3<S> moment = none;
+    if (slot.has_cells) moment = dot(p.turn, o.force) * (body.axes * p.normal);
     if (slot.resists_turning != 0) {
-      moment = body.axes * slot.step.moment(p.normal, body.alpha);
+      moment += body.axes * slot.step.moment(p.normal, body.alpha);
       const V3<S> t = body.axes * select(is_on, turn_after(slot, body, load), none);
       store_numbers(slot.kept, 4, {t.x, t.y, t.z}, slot.resists_turning);
     }

@@ -8,6 +8,7 @@
 #include "muro/toolkit/random.hpp"
 #include "plugins/common/contact_geometry/contact_responsibility.hpp"
 #include "plugins/common/contact_geometry/kept_contact.hpp"
+#include "plugins/common/contact_geometry/pressure_cells.hpp"
 
 namespace muro::articulated {
 
@@ -22,7 +23,11 @@ static_assert(offsetof(Contact, normal) == offsetof(Contact, point) + 3 * sizeof
 
 void TouchedBodies::connect(Connector& c) {
   all_.resize(c.object_count());
-  for (std::uint32_t i = 0; i < all_.size(); ++i) all_[i].name = fnv1a(c.object_name(ObjectId{i}));
+  for (std::uint32_t i = 0; i < all_.size(); ++i) {
+    all_[i].name = fnv1a(c.object_name(ObjectId{i}));
+    for (const Shape& shape : c.constant_array(ObjectId{i}, keys::collision_shapes))
+      all_[i].shapes.push_back(contact_geometry::extent_of(shape));
+  }
   for (const RobotView* robot : c.robots()) {
     const In<std::uint64_t> world = c.input(robot->base(), keys::contact_world, kinematic_world);
     for (const Link& link : robot->links)
@@ -80,6 +85,7 @@ void RobotContacts::look_up(const TouchedBodies& bodies) {
     keep_what_lasts(bodies);
     revision_ = list_.revision(), length_ = (*list_).size();
   }
+  find_cells(bodies);
   if (touches_robots_) look_at_others(bodies);
 }
 
@@ -138,6 +144,35 @@ void RobotContacts::keep_what_lasts(const TouchedBodies& bodies) {
     kept_.push_back(kept);
   }
   for (std::size_t i = 0; i < contacts_.size(); ++i) contacts_[i].kept = (*kept_)[i].displacement.data();
+}
+
+/// Of adjacent contacts of two shapes with one normal.
+void RobotContacts::find_cells(const TouchedBodies& bodies) {
+  constexpr double same_direction = 0.99;  // 8 degrees
+  const auto list = *list_;
+  const auto contact = [&](std::size_t i) -> const Contact& { return list[places_[i].in_list]; };
+  for (std::size_t begin = 0, end = 0; begin < contacts_.size(); begin = end) {
+    const Contact& first = contact(begin);
+    const auto goes_on = [&](const Contact& c) {
+      return c.self == first.self && c.other == first.other && c.self_shape == first.self_shape &&
+             c.other_shape == first.other_shape && c.normal.dot(first.normal) > same_direction;
+    };
+    for (end = begin + 1; end < contacts_.size() && goes_on(contact(end));) ++end;
+    std::fill_n(contacts_[begin].shift, 3, 0.0);
+    if (end == begin + 1) continue;
+    const bool is_of_disc = contact_geometry::is_of_disc(bodies[first.self].shapes[first.self_shape],
+                                                         bodies[first.other].shapes[first.other_shape]);
+    contact_geometry::find_shifts(
+        int(end - begin), is_of_disc,
+        [&](int i) {
+          const Vec3& p = contact(begin + std::size_t(i)).point;
+          return lane::V3<double>{p.x(), p.y(), p.z()};
+        },
+        [&](int i, const lane::V3<double>& shift) {
+          double* const to = contacts_[begin + std::size_t(i)].shift;
+          to[0] = shift.x, to[1] = shift.y, to[2] = shift.z;
+        });
+  }
 }
 
 void RobotContacts::look_at_others(const TouchedBodies& bodies) {

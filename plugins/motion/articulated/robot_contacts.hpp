@@ -6,6 +6,7 @@
 
 #include "kept_contact.hpp"
 #include "muro/algorithm.hpp"
+#include "plugins/common/contact_geometry/disc_contact.hpp"
 #include "plugins/common/multibody/robot_model.hpp"
 
 namespace muro::articulated {
@@ -23,6 +24,7 @@ class TouchedBodies {
     In<Pose> pose;           ///< none: scenery
     In<Twist> twist;
     In<std::uint64_t> world;  ///< keys::contact_world of its robot
+    std::vector<contact_geometry::ShapeExtent> shapes;
   };
   const Touched& operator[](ObjectId id) const { return all_[index_of(id)]; }
 
@@ -61,6 +63,7 @@ class RobotContacts {
   void find(const TouchedBodies& bodies);
   void sort_by_body();
   void keep_what_lasts(const TouchedBodies& bodies);
+  void find_cells(const TouchedBodies& bodies);
   void look_at_others(const TouchedBodies& bodies);
 
   struct LinkPlace {

@@ -16,8 +16,10 @@ struct ContactSlot {
   int body = 0;
   unsigned which = 0;                    ///< lanes that have a contact
   unsigned resists_turning = 0;          ///< those of them whose surface does
+  bool has_cells = false;                ///< friction of some acts beside the point
   lane::Places<S, double> kept, wrench;  ///< of those lanes: what it keeps, and where to tell what it does
-  V3<S> velocity;                        ///< m/s: of the point on the body, in its frame
+  V3<S> velocity;                        ///< m/s: of the point on the body, in its frame; see ContactPoint::turn
+  V3<S> drift;                           ///< m/s^2, of the same: what its acceleration counts from
   ContactPoint<S> point;
   TurningPoint<S> turning;
   ContactStep<S> step;

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// Where friction acts in lines and faces that touch. Collision tells the ends of a line and the corners of a face, and
+// there the normal forces are, so that what tips over tips over its true edge. But friction is spread over all of it:
+// each point stands for a cell of the area, and friction of a cell acts in its middle. So far does the middle of a cell
+// lie from that of all points as the pressure over the area has it, on average.
+#pragma once
+
+#include "muro/simd/geometry.hpp"
+
+namespace muro::contact_geometry {
+inline namespace MURO_ISA {
+
+using lane::max, lane::min, lane::select, lane::sqrt, lane::V3;
+
+/// m: from the first of the two ends of a line to the middle of its cell; for the second, the opposite.
+template <class S>
+MURO_INLINE V3<S> shift_in_line(const V3<S>& first, const V3<S>& second) {
+  return (second - first) * S(0.25);
+}
+
+/// Points of a face: their number, sums of their coordinates and of products of these.
+template <class S>
+struct FacePoints {
+  S count{0};
+  V3<S> sum{S(0), S(0), S(0)};
+  S xx{0}, yy{0}, zz{0}, yz{0}, zx{0}, xy{0};
+
+  MURO_INLINE void add(const V3<S>& p) {
+    count += S(1);
+    sum += p;
+    xx += p.x * p.x, yy += p.y * p.y, zz += p.z * p.z;
+    yz += p.y * p.z, zx += p.z * p.x, xy += p.x * p.y;
+  }
+  template <class M>
+  MURO_INLINE void add_where(M mask, const FacePoints& b) {
+    const S zero(0);
+    count += select(mask, b.count, zero);
+    sum += select(mask, b.sum, {zero, zero, zero});
+    xx += select(mask, b.xx, zero), yy += select(mask, b.yy, zero), zz += select(mask, b.zz, zero);
+    yz += select(mask, b.yz, zero), zx += select(mask, b.zx, zero), xy += select(mask, b.xy, zero);
+  }
+  MURO_INLINE V3<S> middle() const { return sum * (S(1) / count); }
+  /// 1 where they spread alike in all directions of their plane, as the corners of a square; 0 on a line.
+  MURO_INLINE S roundness() const {
+    const S part = S(1) / count;
+    const V3<S> m = sum * part;
+    const S a = xx * part - m.x * m.x, b = yy * part - m.y * m.y, c = zz * part - m.z * m.z;
+    const S d = yz * part - m.y * m.z, e = zx * part - m.z * m.x, f = xy * part - m.x * m.y;
+    const S trace = a + b + c, squares = a * a + b * b + c * c + S(2) * (d * d + e * e + f * f);
+    const S all = trace * trace;
+    return max(min(S(2) * (all - squares) / max(all, S(1e-300)), S(1)), S(0));
+  }
+};
+
+/// How far the middles of the cells of a face lie from its middle, of the distance of its points: the mean distance of
+/// an area by that of its corners, which is 1/2 for a line, 0.541 for a square, 2/3 for a disc. `distances`: of the
+/// points from their middle, added up, and `farthest`, the largest of them, m; `is_disc`: the points are on a rim.
+template <class S>
+MURO_INLINE S share_of_cells(const FacePoints<S>& points, S distances, S farthest, S is_disc) {
+  const S corners = select(is_disc > S(0), S(0), S(2) / (points.count * points.count));
+  const S share = S(0.5) + points.roundness() * (S(1.0 / 6) - corners);
+  return min(share * farthest * points.count / max(distances, S(1e-300)), S(1));
+}
+
+/// The shifts of `count` points of one patch, from `point(i)` to the middle of its cell, to `sink(i, shift)`.
+template <class Point, class Sink>
+void find_shifts(int count, bool is_disc, const Point& point, const Sink& sink) {
+  if (count == 2) {
+    const V3<double> shift = shift_in_line(point(0), point(1));
+    sink(0, shift);
+    sink(1, -shift);
+  }
+  if (count <= 2) return;
+  const V3<double> origin = point(0);
+  FacePoints<double> face;
+  for (int i = 0; i < count; ++i) face.add(point(i) - origin);
+  const V3<double> middle = origin + face.middle();
+  double distances = 0, farthest = 0;
+  for (int i = 0; i < count; ++i) {
+    const V3<double> d = point(i) - middle;
+    const double distance = sqrt(dot(d, d));
+    distances += distance, farthest = max(farthest, distance);
+  }
+  const double rest = 1 - share_of_cells(face, distances, farthest, double(is_disc));
+  for (int i = 0; i < count; ++i) sink(i, (middle - point(i)) * rest);
+}
+
+}  // namespace MURO_ISA
+}  // namespace muro::contact_geometry
