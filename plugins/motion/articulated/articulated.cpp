@@ -69,6 +69,7 @@ class Articulated final : public Algorithm {
     for (const Model& m : models_) {
       most_bodies_ = std::max(most_bodies_, m.structure().count);
       most_slots_ = std::max(most_slots_, m.structure().slots);
+      most_mimic_numbers_ = std::max(most_mimic_numbers_, m.structure().mimic_numbers);
     }
   }
 
@@ -185,8 +186,8 @@ class Articulated final : public Algorithm {
       batch.equal_masses = batch.equal_masses && served_[i].masses == served_[begin].masses;
     }
     constexpr std::size_t some = 256;
-    batch.work =
-        memory.of(kernels_->work_bytes(most_bodies_, most_slots_, int(std::max(some, std::bit_ceil(contacts)))));
+    batch.work = memory.of(kernels_->work_bytes(most_bodies_, most_slots_, most_mimic_numbers_,
+                                                int(std::max(some, std::bit_ceil(contacts)))));
     const unsigned broken = kernels_->step(batch, states, int(end - begin));
     if (broken != 0) throw Error(served_[begin + std::uint32_t(std::countr_zero(broken))].robot->failure());
     for (std::uint32_t i = begin; i < end; ++i) {
@@ -202,7 +203,7 @@ class Articulated final : public Algorithm {
   const Kernels* kernels_ = &kernels_for(lane::best_isa());
   TouchedBodies bodies_;
   std::vector<Model> models_;
-  int most_bodies_ = 0, most_slots_ = 0;  ///< of them
+  int most_bodies_ = 0, most_slots_ = 0, most_mimic_numbers_ = 0;  ///< of them
   std::vector<std::vector<Mass>> masses_;
   std::deque<Robot> robots_;
   std::deque<multibody::KinematicRobot> kinematic_robots_;

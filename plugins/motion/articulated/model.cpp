@@ -115,13 +115,21 @@ void hand_on_friction(std::vector<Joint>& joints) {
 
 Structure Model::structure() const {
   const auto any = [this](auto test) { return std::any_of(joints.begin() + 1, joints.end(), test); };
+  int most_numbers = 0;
+  for (const MimicGroup& g : mimics.groups) most_numbers = std::max(most_numbers, g.ways * g.bodies);
   return {.bodies = bodies.data(),
           .joints = joints.data(),
           .count = int(bodies.size()),
           .slots = slots,
           .fixed = fixed,
-          .has_mimics = any([](const Joint& j) { return j.leader >= 0; }),
+          .has_mimics = !mimics.groups.empty(),
           .needs_inertia = any([](const Joint& j) { return j.needs_inertia(); }),
+          .mimic_groups = mimics.groups.data(),
+          .mimic_group_count = int(mimics.groups.size()),
+          .mimic_ways = mimics.ways.data(),
+          .mimic_bodies = mimics.bodies.data(),
+          .mimic_places = mimics.places.data(),
+          .mimic_numbers = most_numbers,
           .lie_side_by_side = !any([this](const Joint& j) {
             const std::ptrdiff_t place = &j - joints.data() - 1;
             return j.position != place || j.velocity != place || j.out_effort != place;
@@ -136,6 +144,7 @@ Model model_of_bodies(const multibody::RobotModel& robot) {
   model.fixed = robot.fixed_base;
   for (const multibody::RigidBody& body : robot.bodies) model.joints.push_back(joint_of(body));
   hand_on_friction(model.joints);
+  model.mimics = mimic_groups_of(model.bodies, model.joints);
   return model;
 }
 
