@@ -4,8 +4,8 @@
 // momentum (Hairer, Lubich, Wanner, Geometric Numerical Integration, section VII.5), as at motion.simplified.
 #pragma once
 
-#include "work.hpp"
 #include "plugins/common/lanes/rotation.hpp"
+#include "work.hpp"
 
 namespace muro::articulated::lanes {
 inline namespace MURO_ISA {

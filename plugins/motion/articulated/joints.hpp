@@ -2,6 +2,8 @@
 // The joints of a pack of robots within a step.
 #pragma once
 
+#include <algorithm>
+
 #include "mimic_joints.hpp"
 
 namespace muro::articulated::lanes {
@@ -34,16 +36,20 @@ class Joints {
     });
   }
 
-  /// Brings the joints of the robots `which` to the middle of the step, with the velocities that they have there if they
-  /// go on to change as in the last step. What is driven has that of the begin: drives change velocities at once.
+  /// Brings the joints of the robots `which` to the middle of the step, with the velocities that they have there if
+  /// they go on to change as in the last step. What is driven has that of the begin: drives change velocities at once.
   void go_to_middle(MaskOf<S> which) {
     const S half(0.5 * batch_.dt);
     each_row([&]<int n>(int k, std::integral_constant<int, n>) {
+      for (int i = 0; i < n; ++i) {
+        BodyStep<S>& b = work_.bodies[k + i];
+        b.q = select(which, b.q + half * b.qd, b.q);
+      }
+      if (!has_carried(k, n)) return;
       S before[n];
       load_rows(as_read(accelerations_), of_base + k - 1, before);
       for (int i = 0; i < n; ++i) {
         BodyStep<S>& b = work_.bodies[k + i];
-        b.q = select(which, b.q + half * b.qd, b.q);
         work_.stages[k + i].accelerations = before[i];
         if (is_carried(s_.joints[k + i])) b.qd = select(which, b.qd + half * before[i], b.qd);
       }
@@ -114,10 +120,10 @@ class Joints {
     return (changed & which) != 0;
   }
 
-  /// Semi-implicit Euler; with the mean of both velocities what moves freely in the robots `which`. Keeps how it moves
+  /// Semi-implicit Euler; with the mean of both velocities what is carried in the robots `which`. Keeps how it moves
   /// within the step (JointStage), and returns in which of `which` no joint has been stopped at once.
   MaskOf<S> move(MaskOf<S> which) {
-    const S h(batch_.dt), half(0.5), hardly(1e-4);  // rad/s or m/s
+    const S h(batch_.dt);
     MaskOf<S> is_smooth = which;
     for (int k = 1; k < s_.count; ++k) {
       BodyStep<S>& b = work_.bodies[k];
@@ -125,18 +131,9 @@ class Joints {
       b.qd = j.qd + h * b.qdd;
       b.q = j.q + h * b.qd;
       j.velocities = b.qd;
-      const auto is_free = b.terms.is_free > S(0);
-      if (!holds_velocity(s_.joints[k])) is_smooth = is_smooth & (is_free | (abs(b.qd - j.qd) < hardly));
-      if (!is_carried(s_.joints[k])) {
-        j.accelerations = S(0);
-        continue;
-      }
-      const auto is_carried = which & is_free;
-      const S mean = half * (j.qd + b.qd);
-      b.q = select(is_carried, within_stops(k, j.q + h * mean, b.q), b.q);
-      j.velocities = select(is_carried, mean, b.qd);
-      j.accelerations = select(is_carried, trend<S>(b.qdd, j.accelerations), S(0));
     }
+    if (lane::bits(which) != 0)
+      for (int k = 1; k < s_.count; ++k) is_smooth = is_smooth & carry(k, which);
     finish();
     for (int k = 1; s_.has_mimics && k < s_.count; ++k)
       if (const int leader = s_.joints[k].leader; leader >= 0)
@@ -161,18 +158,20 @@ class Joints {
       store_numbers(efforts_, s_.joints[k].out_effort, effort, which);
     });
   }
-  /// For the next step, in the robots `smooth`; nothing in the others. [after move]
-  void keep_accelerations(MaskOf<S> smooth, unsigned which) const {
-    each_row([&]<int n>(int k, std::integral_constant<int, n>) {
-      S of_joints[n];
-      for (int i = 0; i < n; ++i) of_joints[i] = select(smooth, work_.stages[k + i].accelerations, S(0));
-      store_numbers(accelerations_, of_base + k - 1, of_joints, which);
-    });
-  }
   S sum() const {
     S all(0);
     for (int k = 1; k < s_.count; ++k) all += abs(work_.bodies[k].q) + abs(work_.bodies[k].qd);
     return all;
+  }
+  /// For the next step, in the robots `smooth`; nothing in the others. [after move]
+  void keep_accelerations(MaskOf<S> smooth, unsigned which) const {
+    each_row([&]<int n>(int k, std::integral_constant<int, n>) {
+      if (!has_carried(k, n)) return;
+      S of_joints[n];
+      for (int i = 0; i < n; ++i)
+        of_joints[i] = is_carried(s_.joints[k + i]) ? select(smooth, work_.stages[k + i].accelerations, S(0)) : S(0);
+      store_numbers(accelerations_, of_base + k - 1, of_joints, which);
+    });
   }
 
  private:
@@ -198,6 +197,26 @@ class Joints {
   /// Whether a joint goes where its velocity and an effort that knows nothing of its position carry it.
   MURO_INLINE static bool is_carried(const Joint& j) {
     return j.leader < 0 && (j.drive == Drive::effort || j.drive == Drive::passive);
+  }
+  bool has_carried(int k, int n) const {
+    return std::any_of(s_.joints + k, s_.joints + k + n, [](const Joint& j) { return is_carried(j); });
+  }
+
+  /// A joint that has moved by semi-implicit Euler; returns where it has not been stopped at once.
+  MURO_INLINE MaskOf<S> carry(int k, MaskOf<S> which) {
+    const Joint& joint = s_.joints[k];
+    BodyStep<S>& b = work_.bodies[k];
+    JointStage<S>& j = work_.stages[k];
+    const S hardly(1e-4);  // rad/s or m/s
+    const auto is_free = b.terms.is_free > S(0);
+    if (is_carried(joint)) {
+      const auto mean_moves = which & is_free;
+      const S mean = S(0.5) * (j.qd + b.qd);
+      b.q = select(mean_moves, within_stops(k, j.q + S(batch_.dt) * mean, b.q), b.q);
+      j.velocities = select(mean_moves, mean, b.qd);
+      j.accelerations = select(mean_moves, trend<S>(b.qdd, j.accelerations), S(0));
+    }
+    return holds_velocity(joint) ? is_free | !is_free : is_free | (abs(b.qd - j.qd) < hardly);
   }
   /// rad or m: `q`, but no farther beyond a stop than `end`, which the law of the joint has brought there.
   MURO_INLINE S within_stops(int k, S q, S end) const {

@@ -50,7 +50,8 @@ class MimicJoints {
  public:
   /// Followers have the velocities of their leaders at the end of a step of 1 / `per_second` (s); 0: their
   /// accelerations.
-  MURO_INLINE MimicJoints(const Structure& s, Work<S>& work, S per_second) : s_(s), work_(work), per_second_(per_second) {}
+  MURO_INLINE MimicJoints(const Structure& s, Work<S>& work, S per_second)
+      : s_(s), work_(work), per_second_(per_second) {}
 
   MURO_INLINE void fold(int body) {
     for (; next_ < s_.mimic_group_count && s_.mimic_groups[next_].anchor == body; ++next_)
@@ -76,7 +77,7 @@ class MimicJoints {
       const int k = way(g, i).body;
       wrenches[i] = innovate(g, i);
       wanted[i] = {lag(k), wrenches[i].n, wrenches[i].f};
-      for (int m = 0; m <= i; ++m) matrix[i][m] = mobility(g, i, m);
+      find_mobilities(g, i, matrix[i]);
     }
     solve(matrix, wanted, g.ways);
     Inertia<S>& anchor = work_.slots[s_.bodies[g.anchor].slot];
@@ -151,15 +152,20 @@ class MimicJoints {
     return {work_.responses[g.anchor].n, work_.responses[g.anchor].f};
   }
 
-  /// How much mimic joint i gains on its leader by a unit effort at m: the inverse of the matrix of inertia is
-  /// (1 - H psi K)' D^-1 (1 - H psi K) (Rodriguez, Jain, Kreutz-Delgado, 1992).
-  MURO_INLINE S mobility(const MimicGroup& g, int i, int m) const {
-    const MimicWay& w = way(g, m);
+  /// How much mimic joint i, and by symmetry each one before it, gains on its leader by a unit effort at the other: the
+  /// inverse of the matrix of inertia is (1 - H psi K)' D^-1 (1 - H psi K) (Rodriguez, Jain, Kreutz-Delgado, 1992).
+  void find_mobilities(const MimicGroup& g, int i, S (&to)[most_mimics]) {
+    const MimicWay& w = way(g, i);
     const int* const places = s_.mimic_places + w.first_place;
-    const S *const a = innovations(g, i), *const b = innovations(g, m);
-    S sum(0);
-    for (int n = 0; n < w.places; ++n) sum += a[places[n]] * b[places[n]] * work_.bodies[body(g, places[n])].give;
-    return sum;
+    const S* const own = innovations(g, i);
+    S* const given = innovations(g, g.ways);
+    for (int n = 0; n < w.places; ++n) given[n] = own[places[n]] * work_.bodies[body(g, places[n])].give;
+    for (int m = 0; m <= i; ++m) {
+      const S* const other = innovations(g, m);
+      S sum(0);
+      for (int n = 0; n < w.places; ++n) sum += other[places[n]] * given[n];
+      to[m] = sum;
+    }
   }
 
   /// Of a symmetric, positive matrix, of which the lower half is used; a row of zeros where both joints are held.

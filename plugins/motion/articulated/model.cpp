@@ -116,7 +116,7 @@ void hand_on_friction(std::vector<Joint>& joints) {
 Structure Model::structure() const {
   const auto any = [this](auto test) { return std::any_of(joints.begin() + 1, joints.end(), test); };
   int most_numbers = 0;
-  for (const MimicGroup& g : mimics.groups) most_numbers = std::max(most_numbers, g.ways * g.bodies);
+  for (const MimicGroup& g : mimics.groups) most_numbers = std::max(most_numbers, (g.ways + 1) * g.bodies);
   return {.bodies = bodies.data(),
           .joints = joints.data(),
           .count = int(bodies.size()),

@@ -73,7 +73,7 @@ struct Bases {
                 w = per_second * (twist.angular - start.twist.angular);
     const TwistOf<S> before = load_twist(as_read(kept));
     const V3<S> none{zero, zero, zero}, a = select(smooth, trend<S>(v, before.linear), none),
-                alpha = select(smooth, trend<S>(w, before.angular), none);
+                                        alpha = select(smooth, trend<S>(w, before.angular), none);
     store_numbers(kept, 0, {a.x, a.y, a.z, alpha.x, alpha.y, alpha.z}, which);
   }
   MURO_INLINE BaseState<S> state() const { return {pose.position, twist.linear, twist.angular, pose.orientation}; }
@@ -148,9 +148,8 @@ unsigned step_some(const Batch& batch, const RobotState* robots, int count) {
   // what nothing touches has its accelerations in the middle of the step
   const bool steps_smoothly = s.count > 1 && !batch.runge_kutta;
   const auto flies = robots_that<S>(robots, count, [](const RobotState& r) { return r.contact_count == 0; });
-  const auto untouched = robots_that<S>(robots, count, [&](const RobotState& r) {
-    return steps_smoothly && r.contact_count == 0 && !r.is_pushed;
-  });
+  const auto untouched = robots_that<S>(
+      robots, count, [&](const RobotState& r) { return steps_smoothly && r.contact_count == 0 && !r.is_pushed; });
   const bool some_fly = !s.fixed && !batch.runge_kutta && (lane::bits(flies) & which) != 0;
   const bool some_are_untouched = (lane::bits(untouched) & which) != 0;
   base.place(bodies[0], s.fixed);

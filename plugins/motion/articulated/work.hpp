@@ -92,7 +92,7 @@ struct Work {
   V3<S>* drifts;               ///< m/s^2: of bodies with contacts, cross(w, v) and gravity, in their frames
   Response<S>* responses;      ///< one a body
   Following<S>* followings;    ///< one a body
-  S* innovations;              ///< of mimic joints of a group, one for each of its bodies
+  S* innovations;              ///< of mimic joints of a group, one for each of its bodies, and one row more
   Composite<S>* composites;    ///< as `slots`
   JointStage<S>* stages;       ///< one a body
   JointEnd<S>* ends;           ///< the same
@@ -120,8 +120,9 @@ struct Work {
     const auto n = std::size_t(body_count), rounding = std::size_t(22 * 64);
     return n * (sizeof(BodyStep<S>) + sizeof(OwnLaw<S>) + sizeof(JointPiece<S>) + sizeof(S) + sizeof(Inertia<S>) +
                 sizeof(void*) + sizeof(V3<S>) + sizeof(Following<S>) + sizeof(Response<S>) + sizeof(JointStage<S>) +
-                sizeof(JointEnd<S>) +                 sizeof(lane::TwistOf<S>)) +
-           std::size_t(mimic_numbers) * sizeof(S) + std::size_t(slot_count) * (sizeof(Inertia<S>) + sizeof(Composite<S>)) +
+                sizeof(JointEnd<S>) + sizeof(lane::TwistOf<S>)) +
+           std::size_t(mimic_numbers) * sizeof(S) +
+           std::size_t(slot_count) * (sizeof(Inertia<S>) + sizeof(Composite<S>)) +
            std::size_t(contact_count) * sizeof(ContactSlot<S>) + rounding;
   }
 };

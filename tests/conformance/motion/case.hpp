@@ -53,6 +53,7 @@ std::vector<Case> joint_cases();
 std::vector<Case> massless_arm_cases();
 std::vector<Case> position_drive_cases();
 std::vector<Case> pendulum_cases();
+std::vector<Case> swing_cases();
 std::vector<Case> vehicle_cases();
 std::vector<Case> obstacle_cases();
 std::vector<Case> mesh_cases();
