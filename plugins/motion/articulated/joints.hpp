@@ -123,17 +123,20 @@ class Joints {
   /// Semi-implicit Euler; with the mean of both velocities what is carried in the robots `which`. Keeps how it moves
   /// within the step (JointStage), and returns in which of `which` no joint has been stopped at once.
   MaskOf<S> move(MaskOf<S> which) {
-    const S h(batch_.dt);
+    const S h(batch_.dt), hardly(1e-4);  // rad/s or m/s
+    const bool some = lane::bits(which) != 0;
     MaskOf<S> is_smooth = which;
     for (int k = 1; k < s_.count; ++k) {
+      const Joint& joint = s_.joints[k];
       BodyStep<S>& b = work_.bodies[k];
       JointStage<S>& j = work_.stages[k];
       b.qd = j.qd + h * b.qdd;
       b.q = j.q + h * b.qd;
       j.velocities = b.qd;
+      if (!some) continue;
+      if (is_carried(joint)) carry(k, which);
+      if (may_stop(joint)) is_smooth = is_smooth & ((b.terms.is_free > S(0)) | (abs(b.qd - j.qd) < hardly));
     }
-    if (lane::bits(which) != 0)
-      for (int k = 1; k < s_.count; ++k) is_smooth = is_smooth & carry(k, which);
     finish();
     for (int k = 1; s_.has_mimics && k < s_.count; ++k)
       if (const int leader = s_.joints[k].leader; leader >= 0)
@@ -202,21 +205,21 @@ class Joints {
     return std::any_of(s_.joints + k, s_.joints + k + n, [](const Joint& j) { return is_carried(j); });
   }
 
-  /// A joint that has moved by semi-implicit Euler; returns where it has not been stopped at once.
-  MURO_INLINE MaskOf<S> carry(int k, MaskOf<S> which) {
-    const Joint& joint = s_.joints[k];
+  /// Whether something can take its velocity at once.
+  MURO_INLINE static bool may_stop(const Joint& j) {
+    return j.lower > -Joint::infinite || j.upper < Joint::infinite || j.friction > 0 || j.has_friction_loss ||
+           (j.drive == Drive::position && j.speed < Joint::infinite);
+  }
+
+  /// A joint that has moved by semi-implicit Euler.
+  MURO_INLINE void carry(int k, MaskOf<S> which) {
     BodyStep<S>& b = work_.bodies[k];
     JointStage<S>& j = work_.stages[k];
-    const S hardly(1e-4);  // rad/s or m/s
-    const auto is_free = b.terms.is_free > S(0);
-    if (is_carried(joint)) {
-      const auto mean_moves = which & is_free;
-      const S mean = S(0.5) * (j.qd + b.qd);
-      b.q = select(mean_moves, within_stops(k, j.q + S(batch_.dt) * mean, b.q), b.q);
-      j.velocities = select(mean_moves, mean, b.qd);
-      j.accelerations = select(mean_moves, trend<S>(b.qdd, j.accelerations), S(0));
-    }
-    return holds_velocity(joint) ? is_free | !is_free : is_free | (abs(b.qd - j.qd) < hardly);
+    const auto mean_moves = which & (b.terms.is_free > S(0));
+    const S mean = S(0.5) * (j.qd + b.qd);
+    b.q = select(mean_moves, within_stops(k, j.q + S(batch_.dt) * mean, b.q), b.q);
+    j.velocities = select(mean_moves, mean, b.qd);
+    j.accelerations = select(mean_moves, trend<S>(b.qdd, j.accelerations), S(0));
   }
   /// rad or m: `q`, but no farther beyond a stop than `end`, which the law of the joint has brought there.
   MURO_INLINE S within_stops(int k, S q, S end) const {

@@ -72,6 +72,7 @@ MimicGroups mimic_groups_of(const std::vector<Body>& bodies, const std::vector<J
   for (Group& group : groups) {
     std::sort(group.followers.begin(), group.followers.end());
     const std::vector<int>& of_group = group.way.bodies;
+    all.numbers = std::max(all.numbers, (int(group.followers.size()) + 1) * int(of_group.size()));
     all.groups.push_back({group.way.anchor, int(all.ways.size()), int(group.followers.size()), int(all.bodies.size()),
                           int(of_group.size())});
     all.bodies.insert(all.bodies.end(), of_group.begin(), of_group.end());

@@ -13,6 +13,7 @@ struct MimicGroups {
   std::vector<MimicWay> ways;      ///< one a mimic joint, those of a group side by side
   std::vector<int> bodies;         ///< of groups, in rising order
   std::vector<int> places;         ///< of ways, in falling order
+  int numbers = 0;                 ///< see Structure::mimic_numbers
 
   bool operator==(const MimicGroups&) const = default;
 };

@@ -115,8 +115,6 @@ void hand_on_friction(std::vector<Joint>& joints) {
 
 Structure Model::structure() const {
   const auto any = [this](auto test) { return std::any_of(joints.begin() + 1, joints.end(), test); };
-  int most_numbers = 0;
-  for (const MimicGroup& g : mimics.groups) most_numbers = std::max(most_numbers, (g.ways + 1) * g.bodies);
   return {.bodies = bodies.data(),
           .joints = joints.data(),
           .count = int(bodies.size()),
@@ -129,7 +127,7 @@ Structure Model::structure() const {
           .mimic_ways = mimics.ways.data(),
           .mimic_bodies = mimics.bodies.data(),
           .mimic_places = mimics.places.data(),
-          .mimic_numbers = most_numbers,
+          .mimic_numbers = mimics.numbers,
           .lie_side_by_side = !any([this](const Joint& j) {
             const std::ptrdiff_t place = &j - joints.data() - 1;
             return j.position != place || j.velocity != place || j.out_effort != place;

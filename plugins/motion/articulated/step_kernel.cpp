@@ -105,14 +105,21 @@ MURO_INLINE void set_lane(S& value, int i, double x) {
   else
     value.set(i, x);
 }
-/// Robots of which `test` is true.
-template <class S, class Test>
-MURO_INLINE MaskOf<S> robots_that(const RobotState* robots, int count, const Test& test) {
-  S one(0);
-  for (int i = 0; i < count; ++i) set_lane(one, i, test(robots[i]) ? 1 : 0);
+/// Lanes as bits say.
+template <class S>
+MURO_INLINE MaskOf<S> mask_of(unsigned bits) {
+  S one((bits & lane::all_lanes<S>) != 0 ? 1 : 0);
+  if (bits != 0 && (bits & lane::all_lanes<S>) != lane::all_lanes<S>)
+    for (int i = 0; i < count_of<S>; ++i) set_lane(one, i, bits >> i & 1);
   return one > S(0);
 }
-
+/// Bits of robots of which `test` is true.
+template <class Test>
+MURO_INLINE unsigned robots_that(const RobotState* robots, int count, const Test& test) {
+  unsigned bits = 0;
+  for (int i = 0; i < count; ++i) bits |= test(robots[i]) ? 1u << i : 0u;
+  return bits;
+}
 /// Where those kept of bases lie.
 template <class S>
 MURO_INLINE Places<S, double> accelerations_of(const RobotState* robots, int count) {
@@ -141,17 +148,18 @@ unsigned step_some(const Batch& batch, const RobotState* robots, int count) {
   Work<S> work(batch.work, s);
   BodyStep<S>* const bodies = work.bodies;
   Bases<S> base(robots, count);
-  const Bases<S> start = base;
   Joints<S> joints(batch, robots, count, work);
   const Masses<S> masses = masses_of<S>(batch, robots, count);
 
   // what nothing touches has its accelerations in the middle of the step
   const bool steps_smoothly = s.count > 1 && !batch.runge_kutta;
-  const auto flies = robots_that<S>(robots, count, [](const RobotState& r) { return r.contact_count == 0; });
-  const auto untouched = robots_that<S>(
-      robots, count, [&](const RobotState& r) { return steps_smoothly && r.contact_count == 0 && !r.is_pushed; });
-  const bool some_fly = !s.fixed && !batch.runge_kutta && (lane::bits(flies) & which) != 0;
-  const bool some_are_untouched = (lane::bits(untouched) & which) != 0;
+  const unsigned in_flight = robots_that(robots, count, [](const RobotState& r) { return r.contact_count == 0; });
+  const unsigned pushed = robots_that(robots, count, [](const RobotState& r) { return r.is_pushed; });
+  const bool some_fly = !s.fixed && !batch.runge_kutta && in_flight != 0;
+  const bool some_are_untouched = steps_smoothly && (in_flight & ~pushed) != 0;
+  const MaskOf<S> flies = mask_of<S>(in_flight), untouched = mask_of<S>(some_are_untouched ? in_flight & ~pushed : 0);
+  std::optional<Bases<S>> start;
+  if (!s.fixed) start = base;
   base.place(bodies[0], s.fixed);
   if (some_fly || !some_are_untouched) place_all(s, bodies);
   std::optional<Flight<S>> flight;
@@ -183,9 +191,9 @@ unsigned step_some(const Batch& batch, const RobotState* robots, int count) {
     is_smooth = joints.move(untouched);
   }
   if (flight) {
-    lane::PoseOf<S> pose = start.pose;
-    lane::TwistOf<S> twist = start.twist;
-    const bool all_are_untouched = (lane::bits(flies) & which) == (lane::bits(untouched) & which);
+    lane::PoseOf<S> pose = start->pose;
+    lane::TwistOf<S> twist = start->twist;
+    const bool all_are_untouched = some_are_untouched && (in_flight & pushed) == 0;
     flight->carry(pose, twist, untouched, all_are_untouched, gravity, contacts.external_force(),
                   contacts.external_torque(), dt);
     base.take(pose, twist, flies);
@@ -194,7 +202,7 @@ unsigned step_some(const Batch& batch, const RobotState* robots, int count) {
   joints.store(which);
   if (steps_smoothly) {
     joints.keep_accelerations(is_smooth, which);
-    if (!s.fixed) base.keep_change(start, dt, is_smooth, accelerations_of<S>(robots, count), which);
+    if (!s.fixed) base.keep_change(*start, dt, is_smooth, accelerations_of<S>(robots, count), which);
   }
   const MaskOf<S> is_somewhere = base.is_somewhere(), is_finite = joints.sum() < S(beyond);
   return bits(!(is_somewhere & is_finite)) & which;
