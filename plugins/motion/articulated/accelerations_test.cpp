@@ -7,7 +7,7 @@
 #include <memory>
 #include <sstream>
 
-#include "dynamics.hpp"
+#include "mimic_joints.hpp"
 #include "point_mobility.hpp"
 #include "random_robot_testing.hpp"
 #include "tests/support/files.hpp"
@@ -186,7 +186,8 @@ Values by_the_plugin(const multibody::RobotModel& robot, const RandomState& s) {
   const Vec3 gravity(0.3, -0.5, -9.81);
   const V fall = structure.fixed ? lane_of(r.transpose() * -gravity) : V{0, 0, 0};
   lanes::Inertia<double> base;
-  lanes::accelerate_all(structure, masses, bodies.data(), slots.data(), acts_on.data(), base, fall);
+  lanes::accelerate_all(structure, masses, bodies.data(), slots.data(), acts_on.data(), base, fall,
+                        lanes::NoCoupling());
   Values all;
   if (!structure.fixed) {
     const lanes::BodyStep<double>& b = bodies[0];

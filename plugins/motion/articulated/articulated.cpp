@@ -67,8 +67,10 @@ class Articulated final : public Algorithm {
       served_[i].masses = number_of(robot->masses(), masses_);
     }
     for (const Model& m : models_) {
-      most_bodies_ = std::max(most_bodies_, m.structure().count);
-      most_slots_ = std::max(most_slots_, m.structure().slots);
+      const Structure& s = structures_.emplace_back(m.structure());
+      most_bodies_ = std::max(most_bodies_, s.count);
+      most_slots_ = std::max(most_slots_, s.slots);
+      most_mimic_numbers_ = std::max(most_mimic_numbers_, s.mimic_numbers);
     }
   }
 
@@ -166,10 +168,9 @@ class Articulated final : public Algorithm {
 
   void move(std::uint32_t begin, std::uint32_t end, const Step& step) {
     thread_local WorkMemory memory;
-    const Model& model = models_[served_[begin].model];
     RobotState states[lane_width];
     std::size_t contacts = 0;
-    Batch batch{.structure = model.structure(),
+    Batch batch{.structure = structures_[served_[begin].model],
                 .gravity = {gravity_.x(), gravity_.y(), gravity_.z()},
                 .dt = step.dt,
                 .omega = omega_,
@@ -185,8 +186,8 @@ class Articulated final : public Algorithm {
       batch.equal_masses = batch.equal_masses && served_[i].masses == served_[begin].masses;
     }
     constexpr std::size_t some = 256;
-    batch.work =
-        memory.of(kernels_->work_bytes(most_bodies_, most_slots_, int(std::max(some, std::bit_ceil(contacts)))));
+    batch.work = memory.of(kernels_->work_bytes(most_bodies_, most_slots_, most_mimic_numbers_,
+                                                int(std::max(some, std::bit_ceil(contacts)))));
     const unsigned broken = kernels_->step(batch, states, int(end - begin));
     if (broken != 0) throw Error(served_[begin + std::uint32_t(std::countr_zero(broken))].robot->failure());
     for (std::uint32_t i = begin; i < end; ++i) {
@@ -202,7 +203,8 @@ class Articulated final : public Algorithm {
   const Kernels* kernels_ = &kernels_for(lane::best_isa());
   TouchedBodies bodies_;
   std::vector<Model> models_;
-  int most_bodies_ = 0, most_slots_ = 0;  ///< of them
+  std::vector<Structure> structures_;                              ///< of them
+  int most_bodies_ = 0, most_slots_ = 0, most_mimic_numbers_ = 0;  ///< of them
   std::vector<std::vector<Mass>> masses_;
   std::deque<Robot> robots_;
   std::deque<multibody::KinematicRobot> kinematic_robots_;

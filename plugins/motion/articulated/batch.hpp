@@ -41,6 +41,10 @@ struct RobotState {
   int contact_count = 0;
   const double* wrenches = nullptr;    ///< force and torque on each body at its origin, world axes; null: none
   double* contact_wrenches = nullptr;  ///< out: force and torque of each contact at its point
+  /// Kept from step to step, of the base (world axes, linear and angular) and of each joint: how the last step changed
+  /// their velocities, where it was smooth. None of a robot that is one body.
+  double* accelerations = nullptr;
+  bool is_pushed = false;  ///< some of `wrenches` are of contacts: with robots that forces move, or among its links
 };
 
 /// What all robots of a call share.
@@ -52,14 +56,15 @@ struct Batch {
   double impact_speed = 0;      ///< m/s: what comes faster rebounds
   double hard_speed = 0;        ///< m/s: what comes faster is stopped at once
   double correcting_speed = 0;  ///< m/s: overlap is parted no faster
-  bool runge_kutta = false;     ///< of order 4; else semi-implicit Euler
+  bool runge_kutta = false;     ///< of order 4
   bool equal_masses = true;     ///< all robots have the masses of the first
   void* work = nullptr;         ///< of work_bytes(), aligned to 64 bytes
 };
 
 struct Kernels {
-  /// For structures of `bodies` bodies and `slots` slots, and `contacts` contacts of all eight robots together.
-  std::size_t (*work_bytes)(int bodies, int slots, int contacts);
+  /// For structures of `bodies` bodies, `slots` slots and `mimics` numbers of mimic joints (Structure::mimic_numbers),
+  /// and `contacts` contacts of all eight robots together.
+  std::size_t (*work_bytes)(int bodies, int slots, int mimics, int contacts);
   /// Carries up to eight robots over a step: the bits that each gets alone. Returns a bit for each whose state is no
   /// longer finite.
   unsigned (*step)(const Batch& batch, const RobotState* robots, int count);

@@ -9,12 +9,11 @@
 namespace muro::articulated::lanes {
 inline namespace MURO_ISA {
 
-/// Velocity of a body from that of its parent, and how its joint turns it.
+/// Velocity of a body from that of its parent. How its joint turns it is known.
 template <int K, bool plain, class S>
 MURO_INLINE void find_velocity(const Body& b, BodyStep<S>* bodies, int i) {
   BodyStep<S>& own = bodies[i];
   const BodyStep<S>& parent = bodies[b.parent];
-  if (plain || !b.slides) own.turn = turn_by(own.q);
   V3<S> w = parent.w, v = parent.v;
   into_body<K, plain>(b, own, w, v);
   if (plain || !b.slides)
@@ -41,6 +40,7 @@ MURO_INLINE void find_pose(const Body& b, BodyStep<S>* bodies, int i) {
 }
 template <int K, bool plain, class S>
 [[gnu::noinline]] void place(const Body& b, BodyStep<S>* bodies, int i) {
+  if (plain || !b.slides) bodies[i].turn = turn_by(bodies[i].q);
   find_velocity<K, plain>(b, bodies, i);
   find_pose<K, plain>(b, bodies, i);
 }
@@ -197,14 +197,25 @@ void place_all(const Structure& s, BodyStep<S>* bodies) {
     with_joint(s.bodies[i], [&]<int K, bool plain>() { place<K, plain>(s.bodies[i], bodies, i); });
 }
 
+/// Velocities alone: bodies are where they were placed, and the base and joints move otherwise.
+template <class S>
+void find_velocities(const Structure& s, BodyStep<S>* bodies) {
+  for (int i = 1; i < s.count; ++i)
+    with_joint(s.bodies[i], [&]<int K, bool plain>() { find_velocity<K, plain>(s.bodies[i], bodies, i); });
+}
+
 /// Accelerations of all bodies and joints. `external`: one for each body, or null; `base`: out, the inertia of a free
 /// base with all that hangs on it; `fall`: m/s^2, the acceleration of a fixed base beyond gravity, in its frame.
-template <class S>
+/// `coupling` is told when all that hangs on a body is known, and when its acceleration is.
+template <class S, class Coupling>
 void accelerate_all(const Structure& s, const Masses<S>& masses, BodyStep<S>* bodies, Inertia<S>* slots,
-                    const Inertia<S>* const* external, Inertia<S>& base, const V3<S>& fall) {
-  for (int i = s.count; i-- > 1;)
+                    const Inertia<S>* const* external, Inertia<S>& base, const V3<S>& fall, Coupling&& coupling) {
+  for (int i = s.count; i-- > 1;) {
+    coupling.fold(i);
     with_joint(s.bodies[i],
                [&]<int K, bool plain>() { fold<K, plain>(s.bodies[i], bodies, i, masses, slots, external[i]); });
+  }
+  coupling.fold(0);
   if (s.fixed) {
     bodies[0].alpha = {S(0), S(0), S(0)}, bodies[0].a = fall;
   } else {
@@ -213,8 +224,11 @@ void accelerate_all(const Structure& s, const Masses<S>& masses, BodyStep<S>* bo
     if (external[0]) base += *external[0];
     solve(base, -base.n, -base.f, bodies[0].alpha, bodies[0].a);
   }
-  for (int i = 1; i < s.count; ++i)
+  coupling.accelerate(0);
+  for (int i = 1; i < s.count; ++i) {
     with_joint(s.bodies[i], [&]<int K, bool plain>() { accelerate<K, plain>(s.bodies[i], bodies, i); });
+    coupling.accelerate(i);
+  }
 }
 
 }  // namespace MURO_ISA

@@ -4,8 +4,8 @@
 // momentum (Hairer, Lubich, Wanner, Geometric Numerical Integration, section VII.5), as at motion.simplified.
 #pragma once
 
-#include "moved_inertias.hpp"
 #include "plugins/common/lanes/rotation.hpp"
+#include "work.hpp"
 
 namespace muro::articulated::lanes {
 inline namespace MURO_ISA {
@@ -58,30 +58,33 @@ MURO_INLINE lane::TwistOf<S> base_twist(const Momentum<S>& resting, const V3<S>&
 template <class S>
 class Flight {
  public:
-  /// Bodies are placed. `force`, `torque`: from outside, at the origin of the base; `end`: room for a number a
-  /// body.
-  Flight(const Structure& s, const Masses<S>& masses, BodyStep<S>* bodies, S* end, const V3<S>& gravity,
-         const V3<S>& force, const V3<S>& torque)
-      : s_(s), masses_(masses), bodies_(bodies), end_(end), start_(momentum_of(s, masses, bodies)) {
-    torque_ = torque + cross(bodies[0].origin - start_.centre, force);
-    force_ = force + start_.mass * gravity;
-  }
+  /// Bodies are placed as the step begins.
+  Flight(const Structure& s, const Masses<S>& masses, Work<S>& work)
+      : s_(s), masses_(masses), work_(work), start_(momentum_of(s, masses, work.bodies)) {}
 
-  /// When joints have moved; bodies still have the base where it was. Changes bodies.
-  void carry(lane::PoseOf<S>& pose, lane::TwistOf<S>& twist, double dt) {
+  /// When joints have moved. `untouched`: robots whose bodies lie where the middle of the step finds them, with the
+  /// position of the start; those of the others have the start. `force`, `torque`: from outside, at the origin of the
+  /// base. Changes bodies.
+  void carry(lane::PoseOf<S>& pose, lane::TwistOf<S>& twist, MaskOf<S> untouched, bool all_are, const V3<S>& gravity,
+             const V3<S>& force, const V3<S>& torque, double dt) {
     const S h(dt), half(0.5 * dt);
+    BodyStep<S>* const bodies = work_.bodies;
     for (int k = 1; k < s_.count; ++k) {
-      end_[k] = bodies_[k].q;
-      bodies_[k].q -= half * bodies_[k].qd;
+      const JointStage<S>& j = work_.stages[k];
+      BodyStep<S>& b = bodies[k];
+      work_.ends[k] = {b.q, b.qd};
+      b.q = select(untouched, j.q + half * j.qd, b.q - half * j.velocities), b.qd = j.velocities;
     }
-    const Momentum<S> middle =
-        at_rest(pose.position, lane::turned(lane::rotation_by(twist.angular * half), pose.orientation));
-    const V3<S> spin_half = inverse(middle.tensor) * (start_.angular + half * torque_ - middle.angular);
-    for (int k = 1; k < s_.count; ++k) bodies_[k].q = end_[k];
+    const lane::Q4<S> turned_half = lane::turned(lane::rotation_by(twist.angular * half), pose.orientation);
+    const Momentum<S> middle = all_are ? at_rest_where_it_is() : at_rest(pose.position, turned_half);
+    const V3<S> acts_at = select(untouched, middle.centre, start_.centre);
+    const V3<S> turning = torque + cross(pose.position - acts_at, force), pull = force + start_.mass * gravity;
+    const V3<S> spin_half = inverse(middle.tensor) * (start_.angular + half * turning - middle.angular);
+    for (int k = 1; k < s_.count; ++k) bodies[k].q = work_.ends[k].q, bodies[k].qd = work_.ends[k].qd;
     const lane::Q4<S> turned = lane::turned(lane::rotation_by(spin_half * h), pose.orientation);
     const Momentum<S> end = at_rest(pose.position, turned);
-    const V3<S> linear = start_.linear + h * force_, angular = start_.angular + h * torque_;
-    const V3<S> centre = start_.centre + (S(0.5 * dt) / start_.mass) * (start_.linear + linear);
+    const V3<S> linear = start_.linear + h * pull, angular = start_.angular + h * turning;
+    const V3<S> centre = start_.centre + (half / start_.mass) * (start_.linear + linear);
     twist = base_twist(end, linear, angular, pose.position);
     pose = {pose.position + centre - end.centre, turned};
   }
@@ -89,20 +92,23 @@ class Flight {
  private:
   /// With a base that does not move.
   Momentum<S> at_rest(const V3<S>& position, const lane::Q4<S>& orientation) {
-    const S zero(0);
-    bodies_[0].axes = orientation.matrix();
-    bodies_[0].origin = position;
-    bodies_[0].w = bodies_[0].v = {zero, zero, zero};
-    place_all(s_, bodies_);
-    return momentum_of(s_, masses_, bodies_);
+    BodyStep<S>& base = work_.bodies[0];
+    base.axes = orientation.matrix();
+    base.origin = position;
+    base.w = base.v = {S(0), S(0), S(0)};
+    place_all(s_, work_.bodies);
+    return momentum_of(s_, masses_, work_.bodies);
+  }
+  Momentum<S> at_rest_where_it_is() {
+    work_.bodies[0].w = work_.bodies[0].v = {S(0), S(0), S(0)};
+    find_velocities(s_, work_.bodies);
+    return momentum_of(s_, masses_, work_.bodies);
   }
 
   const Structure& s_;
   const Masses<S>& masses_;
-  BodyStep<S>* bodies_;
-  S* end_;  ///< rad or m: of joints at the end of the step
+  Work<S>& work_;
   Momentum<S> start_;
-  V3<S> force_, torque_;
 };
 
 }  // namespace MURO_ISA

@@ -14,8 +14,8 @@ const Inertia upper{.mass = 0.7, .com = {0, 0, -0.17}, .ixx = 0.004, .iyy = 0.00
 const Inertia lower{.mass = 0.4, .com = {0, 0, -0.12}, .ixx = 0.002, .iyy = 0.002, .izz = 1e-4};
 
 /// Two rods that swing about y, one on the other.
-RobotTree double_pendulum() {
-  return test::tree_of([](RobotBuilder& b) {
+RobotTree double_pendulum(bool is_geared) {
+  return test::tree_of([&](RobotBuilder& b) {
     b.base("frame");
     b.set(keys::inertial, Inertia{.mass = 3, .ixx = 0.1, .iyy = 0.1, .izz = 0.1});
     b.revolute("shoulder", Vec3::UnitY(), {});
@@ -23,18 +23,21 @@ RobotTree double_pendulum() {
     b.set(keys::inertial, upper);
     b.translation({0, 0, -upper_length});
     b.revolute("elbow", Vec3::UnitY(), {});
+    if (is_geared) b.mimic("shoulder", -1.5, 0.3);
     b.body("lower");
     b.set(keys::inertial, lower);
   });
 }
 
 struct DoublePendulum : test::Scene {
-  DoublePendulum(const std::string& integrator, double rate) {
-    const RobotView& robot = add("r", double_pendulum());
+  DoublePendulum(const std::string& integrator, double rate, bool is_geared = false) {
+    const RobotView& robot = add("r", double_pendulum(is_geared));
     for (const Link& f : robot.links)
       if (f.joint != JointKind::fixed)
         world().set(f.joint_object, keys::initial_joint_position,
-                    f.joint_object == robot.links[1].joint_object ? 1.2 : -0.7);
+                    f.joint_object == robot.links[1].joint_object ? 1.2
+                    : is_geared                                   ? -1.5
+                                                                  : -0.7);
     use("motion.articulated", rate, all_robots(),
         {{"joints", std::string("passive")}, {"base", std::string("fixed")}, {"integrator", integrator}});
     build();
@@ -65,11 +68,24 @@ struct DoublePendulum : test::Scene {
 
 TEST(Integrator, RungeAndKuttaKeepTheEnergyOfADoublePendulum) { EXPECT_LT(DoublePendulum("rk4", 1000).drift(), 1e-5); }
 
-TEST(Integrator, TheErrorOfSemiImplicitEulerHalvesWithTheStep) {
+TEST(Integrator, TheErrorFallsByFourWhenTheStepHalves) {
   const double coarse = DoublePendulum("semi_implicit", 1000).drift(),
                fine = DoublePendulum("semi_implicit", 2000).drift();
-  EXPECT_LT(coarse, 0.08);
-  EXPECT_NEAR(coarse / fine, 2, 0.2);
+  EXPECT_LT(coarse, 1e-4);
+  EXPECT_GT(coarse / fine, 3.5);
+}
+
+TEST(Integrator, KeepsTheEnergyOfAPendulumWhoseElbowFollows) {
+  const double coarse = DoublePendulum("semi_implicit", 1000, true).drift(),
+               fine = DoublePendulum("semi_implicit", 2000, true).drift();
+  EXPECT_LT(coarse, 1e-4);
+  EXPECT_GT(coarse / fine, 3.5);
+}
+
+TEST(Integrator, RungeAndKuttaAreOfFourthOrderWithMimicJoints) {
+  const double coarse = DoublePendulum("rk4", 200, true).drift(), fine = DoublePendulum("rk4", 400, true).drift();
+  EXPECT_LT(coarse, 1e-6);
+  EXPECT_GT(coarse / fine, 12);
 }
 
 }  // namespace

@@ -2,8 +2,9 @@
 // The joints of a pack of robots within a step.
 #pragma once
 
-#include "moved_inertias.hpp"
-#include "work.hpp"
+#include <algorithm>
+
+#include "mimic_joints.hpp"
 
 namespace muro::articulated::lanes {
 inline namespace MURO_ISA {
@@ -21,6 +22,7 @@ class Joints {
       positions_.at[i] = r.positions, velocities_.at[i] = r.velocities, efforts_.at[i] = r.efforts;
       for (int d = 0; d < target_kinds; ++d) targets_[d].at[i] = r.targets[d];
       friction_losses_.at[i] = r.friction_losses, armature_losses_.at[i] = r.armature_losses;
+      accelerations_.at[i] = r.accelerations;
     }
     each_row([&]<int n>(int k, std::integral_constant<int, n>) {
       S q[n], qd[n];
@@ -28,9 +30,31 @@ class Joints {
       load_rows(as_read(velocities_), s_.joints[k].velocity, qd);
       for (int i = 0; i < n; ++i) {
         const S sign(s_.bodies[k + i].sign);
-        work_.bodies[k + i].q = sign * q[i], work_.bodies[k + i].qd = sign * qd[i];
+        work_.bodies[k + i].q = work_.stages[k + i].q = sign * q[i];
+        work_.bodies[k + i].qd = work_.stages[k + i].qd = sign * qd[i];
       }
     });
+  }
+
+  /// Brings the joints of the robots `which` to the middle of the step, with the velocities that they have there if
+  /// they go on to change as in the last step. What is driven has that of the begin: drives change velocities at once.
+  void go_to_middle(MaskOf<S> which) {
+    const S half(0.5 * batch_.dt);
+    each_row([&]<int n>(int k, std::integral_constant<int, n>) {
+      for (int i = 0; i < n; ++i) {
+        BodyStep<S>& b = work_.bodies[k + i];
+        b.q = select(which, b.q + half * b.qd, b.q);
+      }
+      if (!has_carried(k, n)) return;
+      S before[n];
+      load_rows(as_read(accelerations_), of_base + k - 1, before);
+      for (int i = 0; i < n; ++i) {
+        BodyStep<S>& b = work_.bodies[k + i];
+        work_.stages[k + i].accelerations = before[i];
+        if (is_carried(s_.joints[k + i])) b.qd = select(which, b.qd + half * before[i], b.qd);
+      }
+    });
+    if (s_.has_mimics) follow_leaders(s_, work_, which);
   }
 
   /// What acts along each joint, and the terms of the piece of it to try first. Bodies have been placed.
@@ -39,7 +63,7 @@ class Joints {
     for (int k = 1; k < s_.count; ++k) {
       find_law(k);
       work_.changes[k] = S(0);
-      work_.pieces[k] = guess(law(k), position_and_velocity(k).velocity);
+      work_.pieces[k] = guess(law(k), start_of(k).velocity);
       set_terms_of(k);
     }
   }
@@ -65,13 +89,12 @@ class Joints {
       const BodyStep<S>& b = work_.bodies[k];
       JointPiece<S>& tried = work_.pieces[k];
       const JointLaw<S> law = this->law(k);
-      const S sign(s_.bodies[k].sign), v = sign * b.qd, after = v + sign * S(batch_.dt) * b.qdd;
+      const S sign(s_.bodies[k].sign), v = start_of(k).velocity, after = v + sign * S(batch_.dt) * b.qdd;
       const auto goes = goes_on(law, tried, after);
       tried.effort = law.pull - law.drag * after;
       if (lane::bits(goes) == all) continue;
       const S inertia = moved_inertia(s_.bodies[k], b) + armature_of(k);
-      S load = sign * (b.needed + b.terms.effort);
-      if (s_.has_mimics) load -= sign * work_.couplings[k];
+      const S load = sign * (b.needed + b.terms.effort);
       const auto rests = stays_at_rest(law, tried, load + sign * inertia * b.qdd);
       tried.effort = select(rests, clamp(law.pull, -law.effort, law.effort), tried.effort);
       const auto stays = goes | rests;
@@ -97,19 +120,32 @@ class Joints {
     return (changed & which) != 0;
   }
 
-  /// Semi-implicit Euler.
-  void move() {
-    const S h(batch_.dt);
+  /// Semi-implicit Euler; with the mean of both velocities what is carried in the robots `which`. Keeps how it moves
+  /// within the step (JointStage), and returns in which of `which` no joint has been stopped at once.
+  MaskOf<S> move(MaskOf<S> which) {
+    const S h(batch_.dt), hardly(1e-4);  // rad/s or m/s
+    const bool some = lane::bits(which) != 0;
+    MaskOf<S> is_smooth = which;
     for (int k = 1; k < s_.count; ++k) {
+      const Joint& joint = s_.joints[k];
       BodyStep<S>& b = work_.bodies[k];
-      b.qd += h * b.qdd;
-      b.q += h * b.qd;
+      JointStage<S>& j = work_.stages[k];
+      b.qd = j.qd + h * b.qdd;
+      b.q = j.q + h * b.qd;
+      j.velocities = b.qd;
+      if (!some) continue;
+      if (is_carried(joint)) carry(k, which);
+      if (may_stop(joint)) is_smooth = is_smooth & ((b.terms.is_free > S(0)) | (abs(b.qd - j.qd) < hardly));
     }
     finish();
+    for (int k = 1; s_.has_mimics && k < s_.count; ++k)
+      if (const int leader = s_.joints[k].leader; leader >= 0)
+        work_.stages[k].velocities = factor_of<S>(s_, k) * work_.stages[leader].velocities;
+    return is_smooth;
   }
   /// When joints have moved.
   void finish() {
-    if (s_.has_mimics) follow_leaders();
+    if (s_.has_mimics) follow_leaders(s_, work_, S(0) == S(0));
   }
 
   void store(unsigned which) const {
@@ -130,13 +166,20 @@ class Joints {
     for (int k = 1; k < s_.count; ++k) all += abs(work_.bodies[k].q) + abs(work_.bodies[k].qd);
     return all;
   }
-
-  /// What keeps mimic joints with their leaders acts beside the pieces of laws.
-  void add_couplings() {
-    for (int k = 1; k < s_.count; ++k) work_.bodies[k].terms.effort += work_.couplings[k];
+  /// For the next step, in the robots `smooth`; nothing in the others. [after move]
+  void keep_accelerations(MaskOf<S> smooth, unsigned which) const {
+    each_row([&]<int n>(int k, std::integral_constant<int, n>) {
+      if (!has_carried(k, n)) return;
+      S of_joints[n];
+      for (int i = 0; i < n; ++i)
+        of_joints[i] = is_carried(s_.joints[k + i]) ? select(smooth, work_.stages[k + i].accelerations, S(0)) : S(0);
+      store_numbers(accelerations_, of_base + k - 1, of_joints, which);
+    });
   }
 
  private:
+  static constexpr int of_base = 6;  ///< numbers of accelerations before those of joints
+
   /// Calls f(k, n) for joints k to k + n - 1, whose numbers lie side by side: all, piece by piece.
   template <class F>
   MURO_INLINE void each_row(const F& f) const {
@@ -149,9 +192,43 @@ class Joints {
     S position, velocity;
   };
   /// In the direction of the model.
-  MURO_INLINE State position_and_velocity(int k) const {
+  MURO_INLINE State start_of(int k) const {
     const S sign(s_.bodies[k].sign);
-    return {sign * work_.bodies[k].q, sign * work_.bodies[k].qd};
+    return {sign * work_.stages[k].q, sign * work_.stages[k].qd};
+  }
+
+  /// Whether a joint goes where its velocity and an effort that knows nothing of its position carry it.
+  MURO_INLINE static bool is_carried(const Joint& j) {
+    return j.leader < 0 && (j.drive == Drive::effort || j.drive == Drive::passive);
+  }
+  bool has_carried(int k, int n) const {
+    return std::any_of(s_.joints + k, s_.joints + k + n, [](const Joint& j) { return is_carried(j); });
+  }
+
+  /// Whether something can take its velocity at once.
+  MURO_INLINE static bool may_stop(const Joint& j) {
+    return j.lower > -Joint::infinite || j.upper < Joint::infinite || j.friction > 0 || j.has_friction_loss ||
+           (j.drive == Drive::position && j.speed < Joint::infinite);
+  }
+
+  /// A joint that has moved by semi-implicit Euler.
+  MURO_INLINE void carry(int k, MaskOf<S> which) {
+    BodyStep<S>& b = work_.bodies[k];
+    JointStage<S>& j = work_.stages[k];
+    const auto mean_moves = which & (b.terms.is_free > S(0));
+    const S mean = S(0.5) * (j.qd + b.qd);
+    b.q = select(mean_moves, within_stops(k, j.q + S(batch_.dt) * mean, b.q), b.q);
+    j.velocities = select(mean_moves, mean, b.qd);
+    j.accelerations = select(mean_moves, trend<S>(b.qdd, j.accelerations), S(0));
+  }
+  /// rad or m: `q`, but no farther beyond a stop than `end`, which the law of the joint has brought there.
+  MURO_INLINE S within_stops(int k, S q, S end) const {
+    const Joint& j = s_.joints[k];
+    const bool turned = s_.bodies[k].sign < 0;
+    const double lowest = turned ? -j.upper : j.lower, highest = turned ? -j.lower : j.upper;
+    if (lowest > -Joint::infinite) q = max(q, min(end, S(lowest)));
+    if (highest < Joint::infinite) q = min(q, max(end, S(highest)));
+    return q;
   }
 
   /// Parts of two pieces.
@@ -169,7 +246,7 @@ class Joints {
   }
 
   void set_terms_of(int k) {
-    JointTerms<S> t = terms_of(work_.pieces[k], armature_of(k), position_and_velocity(k).velocity, batch_.dt);
+    JointTerms<S> t = terms_of(work_.pieces[k], armature_of(k), start_of(k).velocity, batch_.dt);
     t.effort *= S(s_.bodies[k].sign), t.rate *= S(s_.bodies[k].sign);
     work_.bodies[k].terms = t;
   }
@@ -197,7 +274,7 @@ class Joints {
 
   void find_law(int k) {
     const Joint& j = s_.joints[k];
-    const State state = position_and_velocity(k);
+    const State state = start_of(k);
     const S speed(j.speed), effort(j.effort);
     OwnLaw<S>& own = work_.laws[k];
     if (j.lower > -Joint::infinite) own.lowest = velocity_to(j.lower, state.position, -1);
@@ -235,21 +312,10 @@ class Joints {
     own.pull += damping * select(allowed == target, velocity, S(0));
   }
 
-  void follow_leaders() {
-    for (int k = 1; k < s_.count; ++k) {
-      const Joint& j = s_.joints[k];
-      if (j.leader < 0) continue;
-      const State leader = position_and_velocity(j.leader);
-      const S sign(s_.bodies[k].sign), factor(j.multiplier);
-      work_.bodies[k].q = sign * (S(j.offset) + factor * leader.position);
-      work_.bodies[k].qd = sign * factor * leader.velocity;
-    }
-  }
-
   const Batch& batch_;
   const Structure& s_;
   Work<S>& work_;
-  lane::Places<S, double> positions_, velocities_, efforts_;
+  lane::Places<S, double> positions_, velocities_, efforts_, accelerations_;
   lane::Places<S> targets_[target_kinds], friction_losses_, armature_losses_;
 };
 

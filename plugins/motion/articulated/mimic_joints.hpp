@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Joints that follow others: constraints between two joints of the tree, exact within the step. The effort that holds
-// one follows from what unit efforts do (Featherstone, Rigid Body Dynamics Algorithms, section 8.3 for loop joints).
+// Joints that follow others: constraints between two joints of the tree, exact within the step. Where all that hangs on
+// the anchor of a group is known, the efforts that make its joints follow are known but for the acceleration of the
+// anchor, which feels them as an inertia (Featherstone, Rigid Body Dynamics Algorithms, section 8.3 for loop joints;
+// elimination within the group as Jain, Robot and Multibody Dynamics, 2011, chapter 14, on constraint embedding).
 #pragma once
 
 #include "work.hpp"
@@ -8,16 +10,23 @@
 namespace muro::articulated::lanes {
 inline namespace MURO_ISA {
 
-/// rate of the body's joint by that of its leader's.
+/// Puts mimic joints where their leaders have them, in the robots `which`.
 template <class S>
-MURO_INLINE S factor_of(const Structure& s, int k) {
-  const Joint& j = s.joints[k];
-  return S(j.multiplier * s.bodies[k].sign * s.bodies[j.leader].sign);
+void follow_leaders(const Structure& s, const Work<S>& work, MaskOf<S> which) {
+  for (int k = 1; k < s.count; ++k) {
+    const Joint& j = s.joints[k];
+    if (j.leader < 0) continue;
+    const BodyStep<S>& leader = work.bodies[j.leader];
+    BodyStep<S>& own = work.bodies[k];
+    const S factor = factor_of<S>(s, k);
+    own.q = select(which, S(s.bodies[k].sign * j.offset) + factor * leader.q, own.q);
+    own.qd = select(which, factor * leader.qd, own.qd);
+  }
 }
 
-/// The wrench that a body's response hands on to its parent, and the way of an acceleration back.
+/// The wrench that a body's response hands on to its parent.
 template <int K, class S>
-void respond_inwards(const Body& b, Work<S>& work, int i) {
+MURO_INLINE void respond(const Body& b, Work<S>& work, int i) {
   const BodyStep<S>& own = work.bodies[i];
   Response<S>& r = work.responses[i];
   r.bias = at<K>(b.slides ? r.f : r.n) - r.effort;
@@ -28,67 +37,189 @@ void respond_inwards(const Body& b, Work<S>& work, int i) {
   if (b.shifted || b.slides) n += cross(offset_of<false>(b, own.q), f);
   work.responses[b.parent].n += n, work.responses[b.parent].f += f;
 }
-template <int K, class S>
-void respond_outwards(const Body& b, Work<S>& work, int i) {
-  const BodyStep<S>& own = work.bodies[i];
-  Response<S>& r = work.responses[i];
-  r.alpha = work.responses[b.parent].alpha, r.a = work.responses[b.parent].a;
-  into_body<K, false>(b, own, r.alpha, r.a);
-  r.qdd = -own.give * (r.bias + dot(own.Un, r.alpha) + dot(own.Uf, r.a));
-  at<K>(b.slides ? r.a : r.alpha) += r.qdd;
-}
 
-/// What the efforts in `work.responses` do beside all else. [after accelerate_all]
-template <class S>
-void respond(const Structure& s, Work<S>& work) {
-  const V3<S> zero{S(0), S(0), S(0)};
-  Response<S>* const r = work.responses;
-  for (int i = 0; i < s.count; ++i) r[i].n = r[i].f = zero;
-  for (int i = s.count; i-- > 1;)
-    with_joint(s.bodies[i], [&]<int K, bool>() { respond_inwards<K>(s.bodies[i], work, i); });
-  r[0].alpha = r[0].a = zero;
-  if (!s.fixed) solve(work.base, -r[0].n, -r[0].f, r[0].alpha, r[0].a);
-  for (int i = 1; i < s.count; ++i)
-    with_joint(s.bodies[i], [&]<int K, bool>() { respond_outwards<K>(s.bodies[i], work, i); });
-}
+/// For accelerate_all(), of robots without mimic joints.
+struct NoCoupling {
+  MURO_INLINE void fold(int /*body*/) const {}
+  MURO_INLINE void accelerate(int /*body*/) const {}
+};
 
-/// Finds the efforts with which mimic joints have the velocities of their leaders at the end of the step.
-/// [after accelerate_all]
+/// For accelerate_all().
 template <class S>
-[[gnu::noinline]] void couple_mimic_joints(const Structure& s, Work<S>& work, double dt) {
-  int followers[most_mimics], count = 0;
-  S matrix[most_mimics][most_mimics], wanted[most_mimics];
-  const S zero(0), per_second(1 / dt);
-  for (int k = 1; k < s.count; ++k)
-    if (s.joints[k].leader >= 0) followers[count++] = k;
-  const auto lag = [&](int k, const auto& rate) { return rate(s.joints[k].leader) * factor_of<S>(s, k) - rate(k); };
-  for (int i = 0; i < count; ++i) {
-    const int k = followers[i];
-    for (int n = 0; n < s.count; ++n) work.responses[n].effort = zero;
-    work.responses[k].effort = S(1);
-    work.responses[s.joints[k].leader].effort = -factor_of<S>(s, k);
-    respond(s, work);
-    for (int m = 0; m < count; ++m) matrix[m][i] = -lag(followers[m], [&](int n) { return work.responses[n].qdd; });
-    wanted[i] = lag(k, [&](int n) { return work.bodies[n].qdd + work.bodies[n].qd * per_second; });
+class MimicJoints {
+ public:
+  /// Followers have the velocities of their leaders at the end of a step of 1 / `per_second` (s); 0: their
+  /// accelerations.
+  MURO_INLINE MimicJoints(const Structure& s, Work<S>& work, S per_second)
+      : s_(s), work_(work), per_second_(per_second) {}
+
+  MURO_INLINE void fold(int body) {
+    for (; next_ < s_.mimic_group_count && s_.mimic_groups[next_].anchor == body; ++next_)
+      fold_group(s_.mimic_groups[next_]);
   }
-  // symmetric and positive; a row of zeros where both joints are held
-  for (int i = 0; i < count; ++i) {
-    const auto moves = matrix[i][i] > zero;
-    const S inverse = select(moves, S(1) / select(moves, matrix[i][i], S(1)), zero);
-    for (int m = i + 1; m < count; ++m) {
-      const S part = matrix[m][i] * inverse;
-      for (int n = i; n < count; ++n) matrix[m][n] -= part * matrix[i][n];
-      wanted[m] -= part * wanted[i];
+  MURO_INLINE void accelerate(int body) {
+    for (; next_ > 0 && s_.mimic_groups[next_ - 1].anchor == body; --next_)
+      accelerate_group(s_.mimic_groups[next_ - 1]);
+  }
+
+ private:
+  struct Wrench {
+    V3<S> n, f;
+  };
+
+  /// The efforts of the group but for the acceleration of its anchor, which then feels them.
+  [[gnu::noinline]] void fold_group(const MimicGroup& g) {
+    S matrix[most_mimics][most_mimics];
+    Wrench wrenches[most_mimics];
+    Following<S> wanted[most_mimics];
+    let_go(g);
+    for (int i = 0; i < g.ways; ++i) {
+      const int k = way(g, i).body;
+      wrenches[i] = innovate(g, i);
+      wanted[i] = {lag(k), wrenches[i].n, wrenches[i].f};
+      find_mobilities(g, i, matrix[i]);
     }
-    matrix[i][i] = inverse;
+    solve(matrix, wanted, g.ways);
+    Inertia<S>& anchor = work_.slots[s_.bodies[g.anchor].slot];
+    for (int i = 0; i < g.ways; ++i) {
+      work_.followings[way(g, i).body] = wanted[i];
+      add(wrenches[i], wanted[i], anchor);
+    }
   }
-  for (int k = 0; k < s.count; ++k) work.couplings[k] = zero;
-  for (int i = count; i-- > 0;) {
-    for (int n = i + 1; n < count; ++n) wanted[i] -= matrix[i][n] * wanted[n];
-    wanted[i] *= matrix[i][i];
-    work.couplings[followers[i]] += wanted[i];
-    work.couplings[s.joints[followers[i]].leader] -= factor_of<S>(s, followers[i]) * wanted[i];
+
+  /// Adds to each joint of the group what the efforts do.
+  [[gnu::noinline]] void accelerate_group(const MimicGroup& g) {
+    const BodyStep<S>& anchor = work_.bodies[g.anchor];
+    for (int i = 0; i < g.bodies; ++i) clear(body(g, i));
+    for (int i = 0; i < g.ways; ++i) {
+      const int k = way(g, i).body;
+      const Following<S>& f = work_.followings[k];
+      const S effort = f.start + dot(f.per_alpha, anchor.alpha) + dot(f.per_a, anchor.a);
+      work_.responses[k].effort += effort;
+      work_.responses[s_.joints[k].leader].effort -= factor_of<S>(s_, k) * effort;
+    }
+    for (int i = g.bodies; i-- > 0;) {
+      const int k = body(g, i);
+      respond_at(k);
+      work_.bodies[k].bias += work_.responses[k].bias;
+    }
   }
+
+  MURO_INLINE int body(const MimicGroup& g, int place) const { return s_.mimic_bodies[g.first_body + place]; }
+  MURO_INLINE const MimicWay& way(const MimicGroup& g, int i) const { return s_.mimic_ways[g.first_way + i]; }
+  MURO_INLINE S* innovations(const MimicGroup& g, int i) const { return work_.innovations + i * g.bodies; }
+  MURO_INLINE void clear(int k) {
+    const S zero(0);
+    work_.responses[k] = {{zero, zero, zero}, {zero, zero, zero}, zero, zero};
+  }
+  MURO_INLINE void respond_at(int k) {
+    with_joint(s_.bodies[k], [&]<int K, bool>() { respond<K>(s_.bodies[k], work_, k); });
+  }
+
+  /// Joints of the group accelerate as they do without the efforts, while the anchor does not.
+  void let_go(const MimicGroup& g) {
+    const V3<S> zero{S(0), S(0), S(0)};
+    work_.bodies[g.anchor].alpha = work_.bodies[g.anchor].a = zero;
+    for (int i = 0; i < g.bodies; ++i) {
+      const int k = body(g, i);
+      with_joint(s_.bodies[k],
+                 [&]<int K, bool plain>() { lanes::accelerate<K, plain>(s_.bodies[k], work_.bodies, k); });
+    }
+  }
+
+  /// By how much a mimic joint accelerates less than it is to.
+  MURO_INLINE S lag(int k) const {
+    const auto rate = [&](int n) { return work_.bodies[n].qdd + work_.stages[n].qd * per_second_; };
+    return rate(s_.joints[k].leader) * factor_of<S>(s_, k) - rate(k);
+  }
+
+  /// What the unit effort of mimic joint i and the effort that it costs its leader lack at each joint on their way, and
+  /// the wrench that the anchor feels of them.
+  Wrench innovate(const MimicGroup& g, int i) {
+    const MimicWay& w = way(g, i);
+    const int* const places = s_.mimic_places + w.first_place;
+    S* const to = innovations(g, i);
+    for (int n = 0; n < g.bodies; ++n) to[n] = S(0);
+    clear(g.anchor);
+    for (int n = 0; n < w.places; ++n) clear(body(g, places[n]));
+    work_.responses[w.body].effort = S(1);
+    work_.responses[s_.joints[w.body].leader].effort = -factor_of<S>(s_, w.body);
+    for (int n = 0; n < w.places; ++n) {
+      const int k = body(g, places[n]);
+      respond_at(k);
+      to[places[n]] = work_.responses[k].bias;
+    }
+    return {work_.responses[g.anchor].n, work_.responses[g.anchor].f};
+  }
+
+  /// How much mimic joint i, and by symmetry each one before it, gains on its leader by a unit effort at the other: the
+  /// inverse of the matrix of inertia is (1 - H psi K)' D^-1 (1 - H psi K) (Rodriguez, Jain, Kreutz-Delgado, 1992).
+  void find_mobilities(const MimicGroup& g, int i, S (&to)[most_mimics]) {
+    const MimicWay& w = way(g, i);
+    const int* const places = s_.mimic_places + w.first_place;
+    const S* const own = innovations(g, i);
+    S* const given = innovations(g, g.ways);
+    for (int n = 0; n < w.places; ++n) given[n] = own[places[n]] * work_.bodies[body(g, places[n])].give;
+    for (int m = 0; m <= i; ++m) {
+      const S* const other = innovations(g, m);
+      S sum(0);
+      for (int n = 0; n < w.places; ++n) sum += other[places[n]] * given[n];
+      to[m] = sum;
+    }
+  }
+
+  /// Of a symmetric, positive matrix, of which the lower half is used; a row of zeros where both joints are held.
+  static void solve(S (&matrix)[most_mimics][most_mimics], Following<S> (&x)[most_mimics], int count) {
+    const S zero(0);
+    for (int i = 0; i < count; ++i) {
+      const auto moves = matrix[i][i] > zero;
+      const S inverse = select(moves, S(1) / select(moves, matrix[i][i], S(1)), zero);
+      matrix[i][i] = inverse;
+      for (int m = i + 1; m < count; ++m) {
+        const S part = matrix[m][i] * inverse;
+        for (int n = i + 1; n <= m; ++n) matrix[m][n] -= part * matrix[n][i];
+        subtract(x[m], part, x[i]);
+      }
+    }
+    for (int i = count; i-- > 0;) {
+      x[i] = {x[i].start * matrix[i][i], x[i].per_alpha * matrix[i][i], x[i].per_a * matrix[i][i]};
+      for (int m = i + 1; m < count; ++m) subtract(x[i], matrix[m][i] * matrix[i][i], x[m]);
+    }
+  }
+  MURO_INLINE static void subtract(Following<S>& from, S factor, const Following<S>& x) {
+    from.start -= factor * x.start;
+    from.per_alpha = from.per_alpha - factor * x.per_alpha;
+    from.per_a = from.per_a - factor * x.per_a;
+  }
+
+  /// What an effort does to the anchor by the wrench of a unit of it.
+  MURO_INLINE static void add(const Wrench& w, const Following<S>& x, Inertia<S>& to) {
+    const V3<S>&p = x.per_alpha, &q = x.per_a;
+    to.A.xx += w.n.x * p.x, to.A.yy += w.n.y * p.y, to.A.zz += w.n.z * p.z;
+    to.A.yz += w.n.y * p.z, to.A.zx += w.n.z * p.x, to.A.xy += w.n.x * p.y;
+    to.B.x += q * w.n.x, to.B.y += q * w.n.y, to.B.z += q * w.n.z;
+    to.C.xx += w.f.x * q.x, to.C.yy += w.f.y * q.y, to.C.zz += w.f.z * q.z;
+    to.C.yz += w.f.y * q.z, to.C.zx += w.f.z * q.x, to.C.xy += w.f.x * q.y;
+    to.n += w.n * x.start, to.f += w.f * x.start;
+  }
+
+  const Structure& s_;
+  Work<S>& work_;
+  S per_second_;
+  int next_ = 0;  ///< group
+};
+
+/// Of all bodies and joints.
+template <class S>
+MURO_INLINE void accelerate_all(const Structure& s, const Masses<S>& masses, Work<S>& work, const V3<S>& fall,
+                                S per_second) {
+  const auto with = [&](auto coupling) {
+    accelerate_all(s, masses, work.bodies, work.slots, work.acts_on, work.base, fall, coupling);
+  };
+  if (s.has_mimics)
+    with(MimicJoints<S>(s, work, per_second));
+  else
+    with(NoCoupling());
 }
 
 }  // namespace MURO_ISA

@@ -120,8 +120,14 @@ Structure Model::structure() const {
           .count = int(bodies.size()),
           .slots = slots,
           .fixed = fixed,
-          .has_mimics = any([](const Joint& j) { return j.leader >= 0; }),
+          .has_mimics = !mimics.groups.empty(),
           .needs_inertia = any([](const Joint& j) { return j.needs_inertia(); }),
+          .mimic_groups = mimics.groups.data(),
+          .mimic_group_count = int(mimics.groups.size()),
+          .mimic_ways = mimics.ways.data(),
+          .mimic_bodies = mimics.bodies.data(),
+          .mimic_places = mimics.places.data(),
+          .mimic_numbers = mimics.numbers,
           .lie_side_by_side = !any([this](const Joint& j) {
             const std::ptrdiff_t place = &j - joints.data() - 1;
             return j.position != place || j.velocity != place || j.out_effort != place;
@@ -136,6 +142,7 @@ Model model_of_bodies(const multibody::RobotModel& robot) {
   model.fixed = robot.fixed_base;
   for (const multibody::RigidBody& body : robot.bodies) model.joints.push_back(joint_of(body));
   hand_on_friction(model.joints);
+  model.mimics = mimic_groups_of(model.bodies, model.joints);
   return model;
 }
 

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "mimic_groups.hpp"
 #include "plugins/common/multibody/robot_model.hpp"
 #include "structure.hpp"
 
@@ -12,6 +13,7 @@ namespace muro::articulated {
 struct Model {
   std::vector<Body> bodies;
   std::vector<Joint> joints;  ///< one per body, that of the base unused
+  MimicGroups mimics;
   int slots = 0;
   bool fixed = false;
 

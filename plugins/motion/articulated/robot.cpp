@@ -62,7 +62,7 @@ Robot::Robot(Connector& c, const RobotView& view, const Parameters& p, std::uint
   told_ = c.derived_list(view.base(), keys::contact_wrenches_of_motion);
   connect_joints(c, view, p);
   connect_links(c);
-  connect_memory(c, view);
+  connect_memory(c, view, p.text("integrator") != "rk4");
   contacts_ = RobotContacts(c, view, rigid_);
   connect_self_contacts(c, view, p);
   if (rigid_.bodies.size() == 1 && !rigid_.fixed_base) impacts_ = contact_geometry::ImpactInput(c, view);
@@ -132,10 +132,13 @@ void Robot::connect_links(Connector& c) {
   wrenches_.resize(6 * rigid_.bodies.size());
 }
 
-/// What interpolated targets keep.
-void Robot::connect_memory(Connector& c, const RobotView& view) {
-  std::size_t count = 0;
-  for (const JointHandles& joint : joints_) count += joint.position_target.memory_size();
+/// What interpolated targets keep, and the integrator.
+void Robot::connect_memory(Connector& c, const RobotView& view, bool keeps_accelerations) {
+  std::size_t of_targets = 0;
+  for (const JointHandles& joint : joints_) of_targets += joint.position_target.memory_size();
+  const std::size_t bodies = rigid_.bodies.size(), of_base = 6;
+  const std::size_t of_integrator = keeps_accelerations && bodies > 1 ? of_base + bodies - 1 : 0;
+  const std::size_t count = of_targets + of_integrator;
   if (count == 0) return;
   const bool has_levels = !c.constant_array(view.base(), keys::motion_level_names).empty();
   const std::string name = std::string(id) + (has_levels ? "." + std::to_string(level_) : "");
@@ -145,7 +148,9 @@ void Robot::connect_memory(Connector& c, const RobotView& view) {
     if (size > 0) joint.position_target.keep_in({next, size});
     next += size;
   }
-  targets_.resize(2 * joints_.size());
+  if (of_targets > 0) targets_.resize(2 * joints_.size());
+  accelerations_ = {next, of_integrator};
+  state_.accelerations = of_integrator > 0 ? next : nullptr;
 }
 
 /// Of a robot with one link there are none.
@@ -233,6 +238,7 @@ void Robot::take_over() {
   *twist_lag_ = 0;
   contacts_.take_over();
   self_contacts_.take_over();
+  std::fill(accelerations_.begin(), accelerations_.end(), 0.0);
   links_are_clear_ = false;
   for (const JointHandles& joint : joints_) joint.position_target.take_over();
   if (rigid_.fixed_base) *twist_ = Twist{};
@@ -246,6 +252,7 @@ void Robot::prepare(double dt) {
   add_self_contacts(dt);
   state_.contacts = contacts_.contacts().data();
   state_.contact_count = int(contacts_.contacts().size());
+  state_.is_pushed = contacts_.touches_robots() || !self_contacts_.contacts().empty();
   if (contact_wrenches_.size() < 6 * contact_count()) contact_wrenches_.resize(2 * 6 * contact_count());
   state_.contact_wrenches = contact_count() > 0 ? contact_wrenches_.data() : nullptr;
   fetch_touching_links();

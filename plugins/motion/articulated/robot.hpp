@@ -74,7 +74,7 @@ class Robot {
   void connect_joints(Connector& c, const RobotView& view, const Parameters& p);
   void connect_links(Connector& c);
   void connect_drives(Connector& c, const RobotView& view, const Parameters& p);
-  void connect_memory(Connector& c, const RobotView& view);
+  void connect_memory(Connector& c, const RobotView& view, bool keeps_accelerations);
   void connect_self_contacts(Connector& c, const RobotView& view, const Parameters& p);
   void set_offsets();
   bool interpolates() const;
@@ -114,6 +114,7 @@ class Robot {
   SelfContacts::Law self_contact_law_;
   contact_geometry::ImpactInput impacts_;  ///< of a robot that is one free body
   std::vector<double> wrenches_;           ///< on bodies
+  std::span<double> accelerations_;        ///< see RobotState
   std::vector<double> contact_wrenches_;   ///< of contacts
 };
 

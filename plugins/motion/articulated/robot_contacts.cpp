@@ -78,7 +78,10 @@ const RobotContacts::LinkPlace* RobotContacts::place_of(ObjectId object) const {
 
 void RobotContacts::look_up(const TouchedBodies& bodies) {
   if (!list_) return;
-  if ((*list_).empty() && contacts_.empty() && (*kept_).empty()) return;
+  if ((*list_).empty() && contacts_.empty() && (*kept_).empty()) {
+    touches_robots_ = false;
+    return;
+  }
   const bool is_same_list = revision_ == list_.revision() && length_ == (*list_).size();
   if (touches_robots_ || !is_same_list || (*kept_).size() != contacts_.size()) {
     find(bodies);

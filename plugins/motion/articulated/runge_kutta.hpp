@@ -34,8 +34,7 @@ class RungeKutta {
       BodyStep<S>& b = work.bodies[k];
       const JointPiece<S>& piece = work.pieces[k];
       const S sign(s_.bodies[k].sign), after = sign * (b.qd + S(batch.dt) * b.qdd);
-      S effort = sign * (piece.pull - piece.drag * after);
-      if (s_.has_mimics) effort += work.couplings[k];
+      const S effort = sign * (piece.pull - piece.drag * after);
       b.terms.effort = select(b.terms.is_free > S(0), effort, S(0));
       b.terms.inertia = joints.armature_of(k);
       work.stages[k] = {b.q, b.qd, S(0), S(0)};
@@ -97,6 +96,7 @@ class RungeKutta {
       j.velocities += weight * velocity, j.accelerations += weight * acceleration;
       b.q = j.q + h * velocity, b.qd = j.qd + h * acceleration;
     }
+    if (s_.has_mimics) follow_leaders(s_, work_, S(0) == S(0));
   }
 
   BaseState<S> rate(const BaseState<S>& at) {
@@ -113,7 +113,7 @@ class RungeKutta {
     }
     const V3<S> zero{S(0), S(0), S(0)};
     const V3<S> fall = s_.fixed ? transposed_times(base.axes, -gravity_) : zero;
-    accelerate_all(s_, masses_, work_.bodies, work_.slots, work_.acts_on, work_.base, fall);
+    accelerate_all(s_, masses_, work_, fall, S(0));
     if (s_.fixed) return {zero, zero, zero, {S(0), S(0), S(0), S(0)}};
     const S half(0.5);
     const lane::Q4<S> turning = lane::Q4<S>{half * at.spin.x, half * at.spin.y, half * at.spin.z, S(0)} * q;

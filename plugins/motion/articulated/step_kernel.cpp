@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A step of robots of one structure: joints, contacts and bodies at once.
+#include <optional>
+
 #include "contacts.hpp"
 #include "flight.hpp"
 #include "joints.hpp"
@@ -53,6 +55,27 @@ struct Bases {
     const S speed = dot(twist.linear, twist.linear), rate = dot(twist.angular, twist.angular);
     return (place < far) & (speed < far) & (rate < far) & (norm > S(0.25)) & (norm < S(4));
   }
+  /// As it is half a step later, but for its position, if it goes on to change as in the last step: of those robots
+  /// that `which` says.
+  MURO_INLINE Bases in_the_middle(const Places<S, double>& accelerations, double dt, MaskOf<S> which) const {
+    const S half(0.5 * dt);
+    const TwistOf<S> before = load_twist(as_read(accelerations));
+    Bases middle = *this;
+    middle.take({pose.position, turned(rotation_by(half * twist.angular), pose.orientation)},
+                {twist.linear + half * before.linear, twist.angular + half * before.angular}, which);
+    return middle;
+  }
+  /// How it has changed since `start`, in those robots that `smooth` says.
+  MURO_INLINE void keep_change(const Bases& start, double dt, MaskOf<S> smooth, const Places<S, double>& kept,
+                               unsigned which) const {
+    const S per_second(1 / dt), zero(0);
+    const V3<S> v = per_second * (twist.linear - start.twist.linear),
+                w = per_second * (twist.angular - start.twist.angular);
+    const TwistOf<S> before = load_twist(as_read(kept));
+    const V3<S> none{zero, zero, zero}, a = select(smooth, trend<S>(v, before.linear), none),
+                                        alpha = select(smooth, trend<S>(w, before.angular), none);
+    store_numbers(kept, 0, {a.x, a.y, a.z, alpha.x, alpha.y, alpha.z}, which);
+  }
   MURO_INLINE BaseState<S> state() const { return {pose.position, twist.linear, twist.angular, pose.orientation}; }
   MURO_INLINE void take(const BaseState<S>& b) { pose = {b.position, b.orientation}, twist = {b.velocity, b.spin}; }
   /// In those robots that `which` says.
@@ -76,6 +99,36 @@ struct Bases {
 };
 
 template <class S>
+MURO_INLINE void set_lane(S& value, int i, double x) {
+  if constexpr (count_of<S> == 1)
+    value = x;
+  else
+    value.set(i, x);
+}
+/// Lanes as bits say.
+template <class S>
+MURO_INLINE MaskOf<S> mask_of(unsigned bits) {
+  S one((bits & lane::all_lanes<S>) != 0 ? 1 : 0);
+  if (bits != 0 && (bits & lane::all_lanes<S>) != lane::all_lanes<S>)
+    for (int i = 0; i < count_of<S>; ++i) set_lane(one, i, bits >> i & 1);
+  return one > S(0);
+}
+/// Bits of robots of which `test` is true.
+template <class Test>
+MURO_INLINE unsigned robots_that(const RobotState* robots, int count, const Test& test) {
+  unsigned bits = 0;
+  for (int i = 0; i < count; ++i) bits |= test(robots[i]) ? 1u << i : 0u;
+  return bits;
+}
+/// Where those kept of bases lie.
+template <class S>
+MURO_INLINE Places<S, double> accelerations_of(const RobotState* robots, int count) {
+  Places<S, double> places;
+  for (int i = 0; i < count_of<S>; ++i) places.at[i] = robots[i < count ? i : 0].accelerations;
+  return places;
+}
+
+template <class S>
 MURO_INLINE Masses<S> masses_of(const Batch& batch, const RobotState* robots, int count) {
   Masses<S> masses;
   for (int i = 0; i < count_of<S>; ++i)
@@ -91,50 +144,66 @@ template <class S>
 unsigned step_some(const Batch& batch, const RobotState* robots, int count) {
   const Structure& s = batch.structure;
   const double dt = batch.dt;
-  Work<S> work(batch.work, s.count, s.slots);
+  const unsigned which = first_lanes(count);
+  Work<S> work(batch.work, s);
   BodyStep<S>* const bodies = work.bodies;
   Bases<S> base(robots, count);
-  base.place(bodies[0], s.fixed);
   Joints<S> joints(batch, robots, count, work);
-  place_all(s, bodies);
   const Masses<S> masses = masses_of<S>(batch, robots, count);
+
+  // what nothing touches has its accelerations in the middle of the step
+  const bool steps_smoothly = s.count > 1 && !batch.runge_kutta;
+  const unsigned in_flight = robots_that(robots, count, [](const RobotState& r) { return r.contact_count == 0; });
+  const unsigned pushed = robots_that(robots, count, [](const RobotState& r) { return r.is_pushed; });
+  const bool some_fly = !s.fixed && !batch.runge_kutta && in_flight != 0;
+  const bool some_are_untouched = steps_smoothly && (in_flight & ~pushed) != 0;
+  const MaskOf<S> flies = mask_of<S>(in_flight), untouched = mask_of<S>(some_are_untouched ? in_flight & ~pushed : 0);
+  std::optional<Bases<S>> start;
+  if (!s.fixed) start = base;
+  base.place(bodies[0], s.fixed);
+  if (some_fly || !some_are_untouched) place_all(s, bodies);
+  std::optional<Flight<S>> flight;
+  if (some_fly) flight.emplace(s, masses, work);
+  if (some_are_untouched) {
+    joints.go_to_middle(untouched);
+    if (!s.fixed) base.in_the_middle(accelerations_of<S>(robots, count), dt, untouched).place(bodies[0], false);
+    place_all(s, bodies);
+  }
+
   joints.find_laws(masses);
   Contacts<S> contacts(batch, robots, count, masses, work);
   const V3<S> gravity = splat<S>(batch.gravity), zero{S(0), S(0), S(0)};
-  const unsigned which = first_lanes(count);
-  const auto flies = contacts.is_free_of_contacts();
   const V3<S> fall = s.fixed ? transposed_times(bodies[0].axes, -gravity) : zero;
   for (int trial = 1;; ++trial) {
     contacts.add_terms();
     if (trial > 1) joints.set_terms();
-    accelerate_all(s, masses, bodies, work.slots, work.acts_on, work.base, fall);
-    if (s.has_mimics) {
-      couple_mimic_joints(s, work, dt);
-      joints.add_couplings();
-      accelerate_all(s, masses, bodies, work.slots, work.acts_on, work.base, fall);
-    }
+    accelerate_all(s, masses, work, fall, S(1 / dt));
     const bool loads = contacts.settle(), others = trial < most_trials && joints.look_again(which);
     if (trial == most_trials || (!others && !loads)) break;
   }
+  MaskOf<S> is_smooth = untouched;
   if (batch.runge_kutta) {
     RungeKutta<S> stages(batch, masses, joints, work);
     base.take(stages.carry(base.state()));
     joints.finish();
-  } else if (!s.fixed && (lane::bits(flies) & which) != 0) {
-    const Bases<S> start = base;
-    Flight<S> flight(s, masses, bodies, work.changes, gravity, contacts.external_force(), contacts.external_torque());
-    base.move(bodies[0], gravity, dt);
-    joints.move();
-    lane::PoseOf<S> pose = start.pose;
-    lane::TwistOf<S> twist = start.twist;
-    flight.carry(pose, twist, dt);
-    base.take(pose, twist, flies);
   } else {
     if (!s.fixed) base.move(bodies[0], gravity, dt);
-    joints.move();
+    is_smooth = joints.move(untouched);
+  }
+  if (flight) {
+    lane::PoseOf<S> pose = start->pose;
+    lane::TwistOf<S> twist = start->twist;
+    const bool all_are_untouched = some_are_untouched && (in_flight & pushed) == 0;
+    flight->carry(pose, twist, untouched, all_are_untouched, gravity, contacts.external_force(),
+                  contacts.external_torque(), dt);
+    base.take(pose, twist, flies);
   }
   if (!s.fixed) base.store(which);
   joints.store(which);
+  if (steps_smoothly) {
+    joints.keep_accelerations(is_smooth, which);
+    if (!s.fixed) base.keep_change(*start, dt, is_smooth, accelerations_of<S>(robots, count), which);
+  }
   const MaskOf<S> is_somewhere = base.is_somewhere(), is_finite = joints.sum() < S(beyond);
   return bits(!(is_somewhere & is_finite)) & which;
 }
@@ -160,8 +229,8 @@ unsigned step(const Batch& batch, const RobotState* robots, int count) {
   return broken;
 }
 
-std::size_t work_bytes(int bodies, int slots, int contacts) {
-  return Work<Lane<double, most_lanes>>::bytes(bodies, slots, contacts);
+std::size_t work_bytes(int bodies, int slots, int mimics, int contacts) {
+  return Work<Lane<double, most_lanes>>::bytes(bodies, slots, mimics, contacts);
 }
 
 }  // namespace

@@ -65,16 +65,39 @@ struct Joint {
   friend bool operator==(const Joint&, const Joint&) = default;
 };
 
+/// Mimic joints and their leaders, and the bodies between these joints and the body from which they all hang, the
+/// anchor. Groups share no bodies; the anchor of one may be a body of another.
+struct MimicGroup {
+  int anchor = 0;
+  int first_way = 0, ways = 0;     ///< in Structure::mimic_ways
+  int first_body = 0, bodies = 0;  ///< in Structure::mimic_bodies
+
+  friend bool operator==(const MimicGroup&, const MimicGroup&) = default;
+};
+/// The bodies that the effort of a mimic joint and that of its leader reach below the anchor.
+struct MimicWay {
+  int body = 0;                     ///< whose joint follows
+  int first_place = 0, places = 0;  ///< in Structure::mimic_places: which of the bodies of the group
+
+  friend bool operator==(const MimicWay&, const MimicWay&) = default;
+};
+
 /// Body 0 is the base; its Joint is not used.
 struct Structure {
   const Body* bodies = nullptr;  ///< parents before children
   const Joint* joints = nullptr;
   int count = 0;
-  int slots = 0;                  ///< where inertias of children wait for their parents
-  bool fixed = false;             ///< the base does not move
-  bool has_mimics = false;        ///< some joint has a leader
-  bool needs_inertia = false;     ///< some joint does
-  bool lie_side_by_side = false;  ///< positions, velocities and efforts of joints, each in the order of bodies
+  int slots = 0;                             ///< where inertias of children wait for their parents
+  bool fixed = false;                        ///< the base does not move
+  bool has_mimics = false;                   ///< some joint has a leader
+  bool needs_inertia = false;                ///< some joint does
+  const MimicGroup* mimic_groups = nullptr;  ///< by anchor, in falling order
+  int mimic_group_count = 0;
+  const MimicWay* mimic_ways = nullptr;
+  const int* mimic_bodies = nullptr;  ///< of each group in rising order
+  const int* mimic_places = nullptr;  ///< of each way in falling order
+  int mimic_numbers = 0;              ///< rooms that the largest group takes: (ways + 1) bodies
+  bool lie_side_by_side = false;      ///< positions, velocities and efforts of joints, each in the order of bodies
 };
 
 }  // namespace muro::articulated

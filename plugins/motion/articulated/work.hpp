@@ -28,20 +28,47 @@ struct ContactSlot {
   S rests;                   ///< 1: it is tried without a force, since it had none in the last step
 };
 
-/// What bodies and joints do where an effort acts at some joints, beside all else.
+/// What efforts at some joints do to a body, beside all else, while the bodies that its parents come from do not
+/// accelerate.
 template <class S>
 struct Response {
-  V3<S> n, f;      ///< wrench
-  V3<S> alpha, a;  ///< acceleration
-  S effort, bias;  ///< N m or N
-  S qdd;
+  V3<S> n, f;      ///< wrench that it hands on
+  S effort, bias;  ///< N m or N: of its joint; what that lacks when it does not accelerate
+};
+/// The effort that makes a joint follow its leader: start + per_alpha alpha + per_a a, with the acceleration of the
+/// anchor of its group.
+template <class S>
+struct Following {
+  S start;
+  V3<S> per_alpha, per_a;
 };
 
-/// A joint within a step of several stages.
+/// rate of the body's joint by that of its leader's.
+template <class S>
+MURO_INLINE S factor_of(const Structure& s, int k) {
+  const Joint& j = s.joints[k];
+  return S(j.multiplier * s.bodies[k].sign * s.bodies[j.leader].sign);
+}
+
+/// A joint at the start of a step, and over it.
 template <class S>
 struct JointStage {
   S q, qd;                      ///< at the start
-  S velocities, accelerations;  ///< weighted sums
+  S velocities, accelerations;  ///< means; weighted sums in a step of several stages
+};
+
+/// What is kept of an acceleration for the next step, which takes it for that of its first half; `before`: the same of
+/// the step before. It leads by a third of a step, which takes away most of the energy that an extrapolation adds: a
+/// mode that turns by x rad in a step grows by x^4 / 18 instead of x^4 / 4.
+template <class S, class T>
+MURO_INLINE T trend(const T& now, const T& before) {
+  return S(1.5) * now - S(0.5) * before;
+}
+
+/// The same at the end.
+template <class S>
+struct JointEnd {
+  S q, qd;
 };
 
 /// Stores zeros without their signs: those would tell of other robots of the pack, since what only they have is added
@@ -65,16 +92,19 @@ struct Work {
   Inertia<S>* external;        ///< of bodies that `acts_on` says
   const Inertia<S>** acts_on;  ///< one a body: where its external is, or null
   V3<S>* drifts;               ///< m/s^2: of bodies with contacts, cross(w, v) and gravity, in their frames
-  S* couplings;                ///< N m or N: what keeps mimic joints and their leaders together, one a body
   Response<S>* responses;      ///< one a body
+  Following<S>* followings;    ///< one a body
+  S* innovations;              ///< of mimic joints of a group, one for each of its bodies, and one row more
   Composite<S>* composites;    ///< as `slots`
   JointStage<S>* stages;       ///< one a body
+  JointEnd<S>* ends;           ///< the same
   lane::TwistOf<S>* wrenches;  ///< force and torque, one a body
   ContactSlot<S>* contacts;
   int contact_count = 0;
   Inertia<S> base;  ///< of all bodies, at the base
 
-  MURO_INLINE Work(void* memory, int body_count, int slot_count) {
+  MURO_INLINE Work(void* memory, const Structure& s) {
+    const int body_count = s.count, slot_count = s.slots;
     char* next = static_cast<char*>(memory);
     const auto take = [&]<class T>(T*& piece, int count) {
       piece = reinterpret_cast<T*>(next);
@@ -83,15 +113,17 @@ struct Work {
     };
     take(bodies, body_count), take(laws, body_count), take(pieces, body_count), take(changes, body_count);
     take(slots, slot_count), take(external, body_count), take(acts_on, body_count), take(drifts, body_count);
-    take(couplings, body_count), take(responses, body_count), take(composites, slot_count);
-    take(stages, body_count), take(wrenches, body_count);
+    take(responses, body_count), take(followings, body_count), take(innovations, s.mimic_numbers);
+    take(composites, slot_count);
+    take(stages, body_count), take(ends, body_count), take(wrenches, body_count);
     contacts = reinterpret_cast<ContactSlot<S>*>(next);
   }
-  static std::size_t bytes(int body_count, int slot_count, int contact_count) {
-    const auto n = std::size_t(body_count), rounding = std::size_t(20 * 64);
+  static std::size_t bytes(int body_count, int slot_count, int mimic_numbers, int contact_count) {
+    const auto n = std::size_t(body_count), rounding = std::size_t(22 * 64);
     return n * (sizeof(BodyStep<S>) + sizeof(OwnLaw<S>) + sizeof(JointPiece<S>) + sizeof(S) + sizeof(Inertia<S>) +
-                sizeof(void*) + sizeof(V3<S>) + sizeof(S) + sizeof(Response<S>) + sizeof(JointStage<S>) +
-                sizeof(lane::TwistOf<S>)) +
+                sizeof(void*) + sizeof(V3<S>) + sizeof(Following<S>) + sizeof(Response<S>) + sizeof(JointStage<S>) +
+                sizeof(JointEnd<S>) + sizeof(lane::TwistOf<S>)) +
+           std::size_t(mimic_numbers) * sizeof(S) +
            std::size_t(slot_count) * (sizeof(Inertia<S>) + sizeof(Composite<S>)) +
            std::size_t(contact_count) * sizeof(ContactSlot<S>) + rounding;
   }
