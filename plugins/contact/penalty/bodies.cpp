@@ -91,7 +91,6 @@ void Bodies::connect_robot(Connector& c, const RobotView& view, bool resists_tur
   r.world = c.input(view.base(), keys::contact_world, kinematic_world);
   r.lag = c.input(view.base(), keys::twist_lag, 0.0);
   r.order_key = view.key;
-  r.mass = composite.mass;
   r.is_shadow = c.constant(view.base(), keys::shadow_of).has_value();
   robot_of[view.number] = std::int32_t(robots.size());
   robots.push_back(r);
@@ -125,8 +124,9 @@ void Bodies::connect_links(Connector& c, const RobotView& view) {
     r.carried_mass = c.write(view.base(), keys::carried_mass);
   const std::vector<Inertia> inertias = inertias_of(c, view);
   const std::vector<double> positions = initial_joint_positions(c, view);
-  if (r.is_single_body)
-    return add_dynamic_body(c, view.base(), mass_properties_of(composite_inertia(view.links, inertias, positions)));
+  const Inertia composite = composite_inertia(view.links, inertias, positions);
+  r.mass = composite.mass;
+  if (r.is_single_body) return add_dynamic_body(c, view.base(), mass_properties_of(composite));
   const ApparentMasses& apparent = apparent_masses[std::size_t(robot_of[view.number])] =
       penalty::apparent_masses(view.links, inertias, positions, links);
   for (std::size_t i = 0; i < links.size(); ++i) add_dynamic_body(c, view.links[links[i]].object, apparent.bodies[i]);
