@@ -130,7 +130,7 @@ void PairContacts::add_bodies(std::uint32_t self, ContactSolver& solver) {
 /// by then, so that it does not change how deep a contact is at rest.
 void PairContacts::recall(std::uint32_t self, std::size_t place, Computed& c, double approach,
                           const Contact& contact) const {
-  constexpr double mean_over = 0.1, slower = 0.8, has_parted = 0.95;  // s; parts of the rebound
+  constexpr double mean_over = 0.3, slower = 0.8, has_parted = 0.95;  // s; parts of the rebound
   const Robot& robot = bodies_.robots[self];
   const SolvedContact* const before = previous<SolvedContact>(*robot.solved, place, c.pair, contact.point);
   c.solved = before ? *before : SolvedContact{};
