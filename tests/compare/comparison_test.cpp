@@ -122,7 +122,7 @@ TEST(Comparison, AFixedArmDeviatesByItsJointsAndLinks) {
   Runs runs(R"(
 duration: 3
 robots:
-  pendulum: {model: p.urdf, at: {z: 2}, joints: {hinge: 0.1}, motion: {use: motion.point, motion.articulated: {base: fixed}}}
+  pendulum: {model: p.urdf, at: {z: 2}, joints: {hinge: 0.1}, motion: {use: motion.point, motion.articulated: {base: fixed, passive_joints: [hinge]}}}
 )",
             "pendulum.motion=point,articulated", {{"p.urdf", R"(<robot name="p"><link name="base"/>
   <link name="rod"><inertial><origin xyz="0 0 -1"/><mass value="1"/>

@@ -48,7 +48,6 @@ class Simplified final : public Algorithm {
       modes_.push_back(drive_modes_of(c, robot, p));
       watches_.emplace_back(c, robot, std::vector<const double*>{});
       connect_robot(c, i);
-      note_raised_inertia(c, robot);
       note_without_forces(c, robot, modes_[i]);
     }
     tell_of_robots_without_forces(c, without_forces_, stand_still_);
@@ -154,30 +153,19 @@ class Simplified final : public Algorithm {
     Inertia inertia;  ///< of all its bodies at the start, in the frame of the base
   };
 
-  /// What bodies of the robot have, physically consistent.
-  static std::vector<Inertia> consistent_inertias_of(const Connector& c, const RobotView& robot) {
-    std::vector<Inertia> inertias = inertias_of(c, robot);
-    for (Inertia& i : inertias) i = nearest_consistent_inertia(i).value_or(i);
-    return inertias;
-  }
-
-  void note_raised_inertia(Connector& c, const RobotView& robot) {
-    std::vector<Inertia> inertias = consistent_inertias_of(c, robot);
-    if (complete_inertia(c, robot, initial_joint_positions(c, robot), inertias, meshes_))
-      c.host().log(LogLevel::info,
-                   "motion.simplified: the inertia of " + quote(robot.name) +
-                       " is less than a hundredth of that of a box of its size and mass, so that contacts could not "
-                       "hold it; it is raised to that. Give its bodies an inertia (`inertial`) that fits them");
-  }
-
   /// Connects the robot whose joints have modes_, anew when it is found out that they have others.
   void connect_robot(Connector& c, std::uint32_t number) {
     const Item& item = c.items()[number];
     const RobotView& robot = *item.robot;
     const std::vector<DriveMode>& modes = modes_[number];
-    std::vector<Inertia> inertias = consistent_inertias_of(c, robot);
+    std::vector<Inertia> inertias = inertias_of(c, robot);
+    for (Inertia& i : inertias) i = nearest_consistent_inertia(i).value_or(i);
     const std::vector<double> start = initial_joint_positions(c, robot);
-    complete_inertia(c, robot, start, inertias, meshes_);
+    if (complete_inertia(c, robot, start, inertias, meshes_))
+      c.host().log(LogLevel::info,
+                   "motion.simplified: the inertia of " + quote(robot.name) +
+                       " is less than a hundredth of that of a box of its size and mass, so that contacts could not "
+                       "hold it; it is raised to that. Give its bodies an inertia (`inertial`) that fits them");
     CompositeBody composite(robot.links, inertias, start);
     Model model;
     model.rigid = composite.rigid();

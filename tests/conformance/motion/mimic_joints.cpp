@@ -99,7 +99,9 @@ std::vector<Case> mimic_joint_cases() {
       {"a leader swings with what its mimic carries", "relative, rad", fixed | feature_forces, 2e-3, swings},
       {"a leader sags under what its mimic carries", "relative, rad", fixed | feature_forces | feature_position_targets,
        1e-3, sags},
-      {"a mimic joint goes where its leader takes it", "rad", mimics | feature_position_targets, 1e-3, passes_limits},
+      {"a mimic joint goes where its leader takes it", "rad", fixed | feature_position_targets, 1e-3, passes_limits},
+      {"a mimic joint without forces goes there, too", "rad", mimics | feature_position_targets, 1e-3, passes_limits,
+       "motion.point"},
   };
 }
 
