@@ -46,16 +46,22 @@ class Contacts {
   }
 
   /// Tells and keeps what contacts have done. Returns whether some have not done what was tried, but will do in the
-  /// next trial.
-  bool settle() {
-    unsigned changed = 0;
+  /// next trial: those of the trials up to `most` are revised, later ones do as they are given.
+  bool settle(int trial, int most) {
+    MaskOf<S> changed = S(1) < S(0);
     for (int i = 0; i < work_.contact_count; ++i) {
       ContactSlot<S>& slot = work_.contacts[i];
       const ContactOutcome<S> outcome = outcome_of(slot);
       keep(slot, outcome);
-      changed |= revise(slot, outcome, law_, weight_);
+      const Misfit<S> m = misfit(slot, outcome, law_, weight_);
+      if (!any(m.any)) continue;
+      changed = changed | m.any;
+      if (trial < most)
+        revise(slot, outcome, m, 2 * trial >= most);
+      else
+        give(slot, outcome, m);
     }
-    return changed != 0;
+    return any(changed);
   }
 
  private:
@@ -164,11 +170,13 @@ class Contacts {
     }
     const BodyStep<S>& body = work_.bodies[slot.body];
     const S zero(0);
-    S at[7], of_surface[2], before[4];
+    S at[7], of_surface[2], before[10];
     load_rows(place, 0, at), load_rows(surface, 0, of_surface), load_rows(kept, 0, before);
     const V3<S> point{at[0], at[1], at[2]};
+    const S load = before[9];
+    const V3<S> arm = transposed_times(body.axes, point - body.origin), travel = travel_of(slot, point, before, body);
     ContactPoint<S>& p = slot.point;
-    p.arm = transposed_times(body.axes, point - body.origin);
+    p.arm = arm + S(0.5) * travel;
     p.normal = transposed_times(body.axes, V3<S>{at[3], at[4], at[5]});
     p.depth = at[6];
     p.velocity = p.spin = {zero, zero, zero};
@@ -177,30 +185,46 @@ class Contacts {
       p.velocity = transposed_times(body.axes, other.linear);
       p.spin = transposed_times(body.axes, other.angular);
     }
-    const V3<S> d = transposed_times(body.axes, V3<S>{before[0], before[1], before[2]});
+    const V3<S> d = transposed_times(body.axes, V3<S>{before[6], before[7], before[8]});
     p.displacement = d - dot(d, p.normal) * p.normal;
     p.friction = of_surface[0], p.restitution = of_surface[1];
     if (slot.resists_turning != 0) {
       S of_turning[2], wound[3];
-      load_rows(surface, 2, of_turning), load_rows(kept, 4, wound);
+      load_rows(surface, 2, of_turning), load_rows(kept, 10, wound);
       slot.turning.rolling = of_turning[0], slot.turning.spinning = of_turning[1];
       slot.turning.displacement = transposed_times(body.axes, V3<S>{wound[0], wound[1], wound[2]});
     }
-    slot.velocity = body.v + cross(body.w, p.arm);
-    const S speed = dot(slot.velocity - p.velocity, p.normal);
+    slot.velocity = body.v + cross(body.w, arm + travel);
+    const V3<S> velocity_of_point = slot.velocity - p.velocity;
+    const S speed = dot(velocity_of_point, p.normal);
+    p.slip = velocity_of_point - speed * p.normal;
     p.pushed = knows_pushes_ ? S(batch_.dt) * dot(pushed_a_ + cross(pushed_alpha_, p.arm), p.normal) : zero;
     // what has borne nothing in the last step is tried without
     const S push = soft_push(p, law_, speed);
-    const MaskOf<S> bore_nothing = before[3] < zero, is_on = pushes(p, law_, speed, push) & !bore_nothing;
+    const MaskOf<S> bore_nothing = load < zero, is_on = pushes(p, law_, speed, push) & !bore_nothing;
     p.is_on = select(is_on, S(1), zero);
     // what bears little on its way out may push on: its speed at the begin of the step does not tell
     slot.rests = select(is_on, zero, S(1));
-    p.slides_on = S(1), p.breaks_away = p.drag = zero;
-    const MaskOf<S> is_new = before[3] <= zero;
-    slot.is_new = select(is_new, S(1), zero);
+    p.is_given = p.sticks = p.drags = p.drag = zero, p.given = {zero, zero, zero};
     slot.tried_load = slot.found_load = S(-1);
-    p.load = before[3];
-    if (any(is_new)) p.load = select(is_new, expected_load(p, law_, speed, push, batch_.dt), before[3]);
+    p.load = load;
+    const MaskOf<S> is_new = load <= zero, is_hit = is_impact(p, law_, speed + p.pushed);
+    if (any(is_new | is_hit))
+      p.load = select(is_new | is_hit, expected_load(p, law_, speed, push, batch_.dt), load);
+  }
+
+  /// m, in the frame of the body: how far the point goes in this step beside the body's origin. It goes on as in the
+  /// last two steps, whichever was shorter, for points of edges and corners jump.
+  MURO_INLINE V3<S> travel_of(ContactSlot<S>& slot, const V3<S>& point, const S (&before)[10],
+                              const BodyStep<S>& body) {
+    const S zero(0);
+    const V3<S> none{zero, zero, zero}, last{before[3], before[4], before[5]};
+    const MaskOf<S> is_known = (before[9] < zero) | (before[9] > zero);
+    slot.way = select(is_known, point - V3<S>{before[0], before[1], before[2]}, none);
+    const V3<S> way = select(dot(slot.way, slot.way) < dot(last, last), slot.way, last);
+    const MaskOf<S> goes_on = is_known & (dot(way, way) > zero);
+    if (!any(goes_on)) return none;
+    return select(goes_on, transposed_times(body.axes, way) - S(batch_.dt) * body.v, none);
   }
 
   /// A robot that is one body: what wrenches do to it is known before contacts are.
@@ -232,13 +256,15 @@ class Contacts {
     const V3<S> none{S(0), S(0), S(0)};
     const V3<S> displacement = bounded(p.displacement + S(batch_.dt) * o.slip, p.friction * load, law_.stiffness);
     const V3<S> d = body.axes * select(is_on, displacement, none);
-    store_numbers(slot.kept, 0, {d.x, d.y, d.z, select(load > S(0), load, S(unloaded))}, slot.which);
+    const V3<S>& way = slot.way;
+    store_numbers(slot.kept, 3, {way.x, way.y, way.z, d.x, d.y, d.z, select(load > S(0), load, S(unloaded))},
+                  slot.which);
     const V3<S> force = body.axes * o.force;
     V3<S> moment = none;
     if (slot.resists_turning != 0) {
       moment = body.axes * slot.step.moment(p.normal, body.alpha);
       const V3<S> t = body.axes * select(is_on, turn_after(slot, body, load), none);
-      store_numbers(slot.kept, 4, {t.x, t.y, t.z}, slot.resists_turning);
+      store_numbers(slot.kept, 10, {t.x, t.y, t.z}, slot.resists_turning);
     }
     store_numbers(slot.wrench, 0, {force.x, force.y, force.z, moment.x, moment.y, moment.z}, slot.which);
   }

@@ -86,6 +86,8 @@ MURO_INLINE Masses<S> masses_of(const Batch& batch, const RobotState* robots, in
 
 /// The pieces of the laws of joints and contacts are found by trial: mostly the first is right.
 constexpr int most_trials = 6;
+/// Then contacts that were not found do what is given, as many times as others leave their cone by that.
+constexpr int most_rests = 3;
 
 template <class S>
 unsigned step_some(const Batch& batch, const RobotState* robots, int count) {
@@ -113,8 +115,9 @@ unsigned step_some(const Batch& batch, const RobotState* robots, int count) {
       joints.add_couplings();
       accelerate_all(s, masses, bodies, work.slots, work.acts_on, work.base, fall);
     }
-    const bool loads = contacts.settle(), others = trial < most_trials && joints.look_again(which);
-    if (trial == most_trials || (!others && !loads)) break;
+    const bool loads = contacts.settle(trial, most_trials), others = trial < most_trials && joints.look_again(which);
+    if (!others && !loads) break;
+    if (trial == most_trials + most_rests) break;
   }
   if (batch.runge_kutta) {
     RungeKutta<S> stages(batch, masses, joints, work);

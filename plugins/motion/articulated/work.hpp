@@ -21,7 +21,7 @@ struct ContactSlot {
   ContactPoint<S> point;
   TurningPoint<S> turning;
   ContactStep<S> step;
-  S is_new;                  ///< 1: its last normal force is not known
+  V3<S> way;                 ///< m, world: of the point since the last step
   S tried_load, found_load;  ///< N: of the trial before; -1: there is none
   S rests;                   ///< 1: it is tried without a force, since it had none in the last step
 };
