@@ -31,6 +31,18 @@ class Contacts {
   const V3<S>& external_force() const { return force_; }
   const V3<S>& external_torque() const { return torque_; }
 
+  /// Adds what contacts have done to a robot of one body, in the middle of the step.
+  void add_to(V3<S>& force, V3<S>& torque) const {
+    const BodyStep<S>& body = work_.bodies[0];
+    for (int i = 0; i < work_.contact_count; ++i) {
+      const ContactSlot<S>& slot = work_.contacts[i];
+      const V3<S> f = outcome_of(slot).force;
+      V3<S> t = cross(slot.point.arm, f);
+      if (slot.resists_turning != 0) t += slot.step.moment(slot.point.normal, body.alpha);
+      force += body.axes * f, torque += body.axes * t;
+    }
+  }
+
   /// What contacts and wrenches add to their bodies.
   void add_terms() {
     for (int k = 0; k < batch_.structure.count; ++k)
@@ -174,9 +186,10 @@ class Contacts {
     load_rows(place, 0, at), load_rows(surface, 0, of_surface), load_rows(kept, 0, before);
     const V3<S> point{at[0], at[1], at[2]};
     const S load = before[9];
-    const V3<S> arm = transposed_times(body.axes, point - body.origin), travel = travel_of(slot, point, before, body);
+    const V3<S> arm = transposed_times(body.axes, point - body.origin);
+    const Travel travel = travel_of(slot, point, before, body);
     ContactPoint<S>& p = slot.point;
-    p.arm = arm + S(0.5) * travel;
+    p.arm = arm + travel.half;
     p.normal = transposed_times(body.axes, V3<S>{at[3], at[4], at[5]});
     p.depth = at[6];
     p.velocity = p.spin = {zero, zero, zero};
@@ -194,7 +207,7 @@ class Contacts {
       slot.turning.rolling = of_turning[0], slot.turning.spinning = of_turning[1];
       slot.turning.displacement = transposed_times(body.axes, V3<S>{wound[0], wound[1], wound[2]});
     }
-    slot.velocity = body.v + cross(body.w, arm + travel);
+    slot.velocity = body.v + cross(body.w, arm + travel.all);
     const V3<S> velocity_of_point = slot.velocity - p.velocity;
     const S speed = dot(velocity_of_point, p.normal);
     p.slip = velocity_of_point - speed * p.normal;
@@ -213,18 +226,28 @@ class Contacts {
       p.load = select(is_new | is_hit, expected_load(p, law_, speed, push, batch_.dt), load);
   }
 
-  /// m, in the frame of the body: how far the point goes in this step beside the body's origin. It goes on as in the
-  /// last two steps, whichever was shorter, for points of edges and corners jump.
-  MURO_INLINE V3<S> travel_of(ContactSlot<S>& slot, const V3<S>& point, const S (&before)[10],
-                              const BodyStep<S>& body) {
+  /// How far a point goes beside the origin of its body, in the frame of that.
+  struct Travel {
+    V3<S> half, all;  ///< m: in half of the step, and in the step
+  };
+  /// It goes on as in the last two steps, on a parabola, or where these differ much, as in the shorter one, since points
+  /// of edges and corners jump.
+  MURO_INLINE Travel travel_of(ContactSlot<S>& slot, const V3<S>& point, const S (&before)[10],
+                               const BodyStep<S>& body) {
     const S zero(0);
     const V3<S> none{zero, zero, zero}, last{before[3], before[4], before[5]};
     const MaskOf<S> is_known = (before[9] < zero) | (before[9] > zero);
     slot.way = select(is_known, point - V3<S>{before[0], before[1], before[2]}, none);
-    const V3<S> way = select(dot(slot.way, slot.way) < dot(last, last), slot.way, last);
-    const MaskOf<S> goes_on = is_known & (dot(way, way) > zero);
-    if (!any(goes_on)) return none;
-    return select(goes_on, transposed_times(body.axes, way) - S(batch_.dt) * body.v, none);
+    const S square = dot(slot.way, slot.way), of_last = dot(last, last);
+    const V3<S> change = slot.way - last, way = select(square < of_last, slot.way, last);
+    const MaskOf<S> goes_on = is_known & (min(square, of_last) > zero);
+    if (!any(goes_on)) return {none, none};
+    const MaskOf<S> bends = dot(change, change) < S(0.25) * min(square, of_last);
+    const V3<S> half = select(bends, S(0.5) * slot.way + S(0.375) * change, S(0.5) * way);
+    const V3<S> all = select(bends, slot.way + change, way);
+    const V3<S> of_origin = S(batch_.dt) * body.v;
+    return {select(goes_on, transposed_times(body.axes, half) - S(0.5) * of_origin, none),
+            select(goes_on, transposed_times(body.axes, all) - of_origin, none)};
   }
 
   /// A robot that is one body: what wrenches do to it is known before contacts are.

@@ -84,6 +84,13 @@ MURO_INLINE Masses<S> masses_of(const Batch& batch, const RobotState* robots, in
   return masses;
 }
 
+/// Whether a body turns so much in a step that it matters when its gyroscopic torque is taken.
+template <class S>
+MURO_INLINE MaskOf<S> spins(const BodyStep<S>& body, double dt) {
+  constexpr double least = 1e-4;  // rad
+  return dot(body.w, body.w) > S(least * least / (dt * dt));
+}
+
 /// The pieces of the laws of joints and contacts are found by trial: mostly the first is right.
 constexpr int most_trials = 6;
 /// Then contacts that were not found do what is given, as many times as others leave their cone by that.
@@ -123,15 +130,18 @@ unsigned step_some(const Batch& batch, const RobotState* robots, int count) {
     RungeKutta<S> stages(batch, masses, joints, work);
     base.take(stages.carry(base.state()));
     joints.finish();
-  } else if (!s.fixed && (lane::bits(flies) & which) != 0) {
+  } else if (const auto turns = s.count == 1 ? flies | spins(bodies[0], dt) : flies;
+             !s.fixed && (lane::bits(turns) & which) != 0) {
     const Bases<S> start = base;
-    Flight<S> flight(s, masses, bodies, work.changes, gravity, contacts.external_force(), contacts.external_torque());
+    V3<S> force = contacts.external_force(), torque = contacts.external_torque();
+    if (s.count == 1) contacts.add_to(force, torque);
+    Flight<S> flight(s, masses, bodies, work.changes, gravity, force, torque);
     base.move(bodies[0], gravity, dt);
     joints.move();
     lane::PoseOf<S> pose = start.pose;
     lane::TwistOf<S> twist = start.twist;
     flight.carry(pose, twist, dt);
-    base.take(pose, twist, flies);
+    base.take(pose, twist, turns);
   } else {
     if (!s.fixed) base.move(bodies[0], gravity, dt);
     joints.move();
