@@ -196,8 +196,7 @@ MURO_INLINE ContactStep<S> touch(const ContactPoint<S>& p, const ContactLaw<S>& 
     along = select(is_hit, h * impact_damping, along);
     c.held = select(is_hit, impact_damping, c.held);
   }
-  BoundedSpring<S> hold(p.displacement, p.slip, law.stiffness, c.held, p.friction * p.load,
-                        is_on & !(p.sticks > zero));
+  BoundedSpring<S> hold(p.displacement, p.slip, law.stiffness, c.held, p.friction * p.load, is_on & !(p.sticks > zero));
   const MaskOf<S> drags = p.drags > zero;
   if (lane::any(drags)) {
     hold.force = select(drags, -p.drag * p.slip, hold.force);

@@ -53,10 +53,12 @@ MURO_INLINE Misfit<S> misfit(const ContactSlot<S>& slot, const ContactOutcome<S>
   const MaskOf<S> is_small = square <= most * most;
   const V3<S> friction = hold * select(is_small, S(-1), -most / sqrt(max(square, S(1e-24))));
   m.most = most;
-  // what friction lacks comes in the next steps; what it has too much does not go
-  constexpr double precision = 0.1, of_weight = 0.01, of_cone = 0.005;
+  // what friction lacks in a step comes in the next ones, but for impacts
+  constexpr double precision = 0.1, of_weight = 0.01, of_cone = 0.005, of_impact = 0.001;
   const V3<S> lack = friction - m.across;
-  const S allowed = max(S(precision) * most, S(of_weight) * p.friction * weight), limit = S(1 + of_cone) * most;
+  const S limit = S(1 + of_cone) * most;
+  const S allowed = select(slot.step.held > law.held, S(of_impact) * most,
+                           max(S(precision) * most, S(of_weight) * p.friction * weight));
   m.is_off_cone =
       is_on & !m.is_drawn & ((dot(lack, lack) > allowed * allowed) | (dot(m.across, m.across) > limit * limit));
   m.turns_back = m.is_off_cone & (dot(slot.step.slide, hold) < zero);

@@ -43,6 +43,22 @@ class Contacts {
     }
   }
 
+  /// s: how long before the step that which now comes in has touched; the mean by forces.
+  S time_since_touch() const {
+    S sum(0), weighted(0);
+    const S zero(0);
+    for (int i = 0; i < work_.contact_count; ++i) {
+      const ContactSlot<S>& slot = work_.contacts[i];
+      const ContactPoint<S>& p = slot.point;
+      const S approach = -dot(slot.velocity - p.velocity, p.normal);
+      const MaskOf<S> counts = (p.is_on > zero) & (slot.comes_in > zero) & (approach > S(1e-3));
+      if (!any(counts)) continue;
+      const S load = select(counts, max(dot(outcome_of(slot).force, p.normal), zero), zero);
+      sum += load, weighted += load * min(p.depth / max(approach, S(1e-3)), S(batch_.dt));
+    }
+    return select(sum > zero, weighted / max(sum, S(1e-300)), zero);
+  }
+
   /// What contacts and wrenches add to their bodies.
   void add_terms() {
     for (int k = 0; k < batch_.structure.count; ++k)
@@ -69,7 +85,7 @@ class Contacts {
       if (!any(m.any)) continue;
       changed = changed | m.any;
       if (trial < most)
-        revise(slot, outcome, m, 2 * trial >= most);
+        revise(slot, outcome, m, trial + 1 >= most);
       else
         give(slot, outcome, m);
     }
@@ -222,16 +238,21 @@ class Contacts {
     slot.tried_load = slot.found_load = S(-1);
     p.load = load;
     const MaskOf<S> is_new = load <= zero, is_hit = is_impact(p, law_, speed + p.pushed);
-    if (any(is_new | is_hit))
-      p.load = select(is_new | is_hit, expected_load(p, law_, speed, push, batch_.dt), load);
+    if (any(is_new | is_hit)) p.load = select(is_new | is_hit, expected_load(p, law_, speed, push, batch_.dt), load);
+    slot.comes_in = select(is_new | is_hit, S(1), zero);
+    if (!any(is_hit)) return;
+    // it is hit where its surface is, before it went in
+    const V3<S> in = select(is_hit, S(-0.5) * p.depth, zero) * p.normal, turning = cross(body.w, in);
+    p.arm += in, slot.velocity += turning;
+    p.slip += turning - dot(turning, p.normal) * p.normal;
   }
 
   /// How far a point goes beside the origin of its body, in the frame of that.
   struct Travel {
     V3<S> half, all;  ///< m: in half of the step, and in the step
   };
-  /// It goes on as in the last two steps, on a parabola, or where these differ much, as in the shorter one, since points
-  /// of edges and corners jump.
+  /// It goes on as in the last two steps, on a parabola, or where these differ much, as in the shorter one, since
+  /// points of edges and corners jump.
   MURO_INLINE Travel travel_of(ContactSlot<S>& slot, const V3<S>& point, const S (&before)[10],
                                const BodyStep<S>& body) {
     const S zero(0);

@@ -64,6 +64,12 @@ struct Bases {
     Q4<S>& q = pose.orientation;
     q = {select(which, a.x, q.x), select(which, a.y, q.y), select(which, a.z, q.z), select(which, a.w, q.w)};
   }
+  /// To where it would be had the change of its velocity from `before` come so much earlier (s). `fall`: m/s, of the
+  /// change what forces from outside have done.
+  MURO_INLINE void advance(S time, const TwistOf<S>& before, const V3<S>& fall) {
+    pose.position += time * (twist.linear - before.linear - fall);
+    pose.orientation = turned(rotation_by(time * (twist.angular - before.angular)), pose.orientation);
+  }
   /// With the mean of the velocities of both ends.
   MURO_INLINE void move(const BodyStep<S>& base, const V3<S>& gravity, double dt) {
     const S h(dt), half(0.5 * dt);
@@ -104,6 +110,7 @@ unsigned step_some(const Batch& batch, const RobotState* robots, int count) {
   BodyStep<S>* const bodies = work.bodies;
   Bases<S> base(robots, count);
   base.place(bodies[0], s.fixed);
+  const TwistOf<S> start_twist = base.twist;
   Joints<S> joints(batch, robots, count, work);
   place_all(s, bodies);
   const Masses<S> masses = masses_of<S>(batch, robots, count);
@@ -145,6 +152,10 @@ unsigned step_some(const Batch& batch, const RobotState* robots, int count) {
   } else {
     if (!s.fixed) base.move(bodies[0], gravity, dt);
     joints.move();
+  }
+  if (s.count == 1 && !s.fixed && (lane::bits(flies) & which) != which) {
+    const S time = contacts.time_since_touch();
+    if (any(time > S(0))) base.advance(time, start_twist, S(dt) * gravity);
   }
   if (!s.fixed) base.store(which);
   joints.store(which);

@@ -30,7 +30,7 @@ std::vector<Case> all_cases() {
   std::vector<Case> all;
   for (const auto& some : {free_body_cases(), slope_cases(), rolling_cases(), impact_cases(), joint_cases(),
                            position_drive_cases(), massless_arm_cases(), pendulum_cases(), vehicle_cases(),
-                           obstacle_cases(), mesh_cases(), heightmap_cases(), tunnelling_cases()})
+                           obstacle_cases(), mesh_cases(), heightmap_cases(), tunnelling_cases(), passivity_cases()})
     all.insert(all.end(), some.begin(), some.end());
   return all;
 }
