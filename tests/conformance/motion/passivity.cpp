@@ -14,7 +14,7 @@ namespace muro::conformance {
 namespace {
 
 /// One body on a plane.
-struct Scene {
+struct PassiveBody {
   Shape shape;
   Inertia inertia;
   Pose at;
@@ -24,9 +24,9 @@ struct Scene {
   double friction = 1;
 };
 
-Inertia solid_cylinder(double mass, double radius, double length) {
-  const double across = mass * (3 * radius * radius + length * length) / 12;
-  return {.mass = mass, .ixx = across, .iyy = across, .izz = mass * radius * radius / 2};
+Inertia solid_cylinder(double mass, double rim, double length) {
+  const double across = mass * (3 * rim * rim + length * length) / 12;
+  return {.mass = mass, .ixx = across, .iyy = across, .izz = mass * rim * rim / 2};
 }
 
 /// J; above z = 0.
@@ -38,7 +38,7 @@ double energy_of(const Inertia& inertia, const Pose& pose, const Twist& twist) {
 }
 
 /// Means of the energy over 50 ms each, since springs of contacts hold some of it for a while.
-std::vector<double> energies(const std::string& motion, const Scene& s, double rate) {
+std::vector<double> energies(const std::string& motion, const PassiveBody& s, double rate) {
   Trial t(motion, rate);
   t.add_ground(s.friction);
   Shape shape = with(s.shape, s.friction);
@@ -72,11 +72,11 @@ double gain_of(const std::vector<double>& means) {
   return gain / means.front();
 }
 
-constexpr double rates[] = {500, 1000, 4000};  // Hz
+constexpr double step_rates[] = {500, 1000, 4000};  // Hz
 
-Outcome worst_gain(const std::string& motion, const Scene& scene) {
+Outcome worst_gain(const std::string& motion, const PassiveBody& scene) {
   Outcome worst;
-  for (const double rate : rates) {
+  for (const double rate : step_rates) {
     const double gain = gain_of(energies(motion, scene, rate));
     worst.error = std::max(worst.error, gain);
     worst.seen += text(gain) + " at " + text(rate) + " Hz ";
@@ -90,20 +90,20 @@ Outcome tilted_cylinder(const std::string& motion) {
                              {{0, 0, 0.0537}, from_rpy(0, 0.1, 0)},
                              {Vec3::Zero(), {0, 0, 1}}});
 }
-Outcome coin(const std::string& motion) {
+Outcome spinning_coin(const std::string& motion) {
   return worst_gain(motion, {Shape::cylinder(0.05, 0.005),
                              solid_cylinder(0.1, 0.05, 0.005),
                              {{0, 0, 0.05}, from_rpy(0, M_PI / 2 - 0.05, 0)},
                              {Vec3::Zero(), {0, 0, 12}}});
 }
 /// A wheel that leans rolls in a circle.
-Outcome camber(const std::string& motion) {
-  const double radius = 0.3, width = 0.02, lean = 0.3, speed = 2;
+Outcome leaning_wheel(const std::string& motion) {
+  const double rim = 0.3, width = 0.02, lean = 0.3, speed = 2;
   return worst_gain(motion,
-                    {Shape::cylinder(radius, width),
-                     solid_cylinder(1, radius, width),
-                     {{0, 0, radius * std::cos(lean) + width / 2 * std::sin(lean)}, from_rpy(M_PI / 2 - lean, 0, 0)},
-                     {{speed, 0, 0}, {0, speed / radius, 0}}});
+                    {Shape::cylinder(rim, width),
+                     solid_cylinder(1, rim, width),
+                     {{0, 0, rim * std::cos(lean) + width / 2 * std::sin(lean)}, from_rpy(M_PI / 2 - lean, 0, 0)},
+                     {{speed, 0, 0}, {0, speed / rim, 0}}});
 }
 Outcome rolling_disk(const std::string& motion) {
   return worst_gain(motion, {Shape::cylinder(0.1, 0.02),
@@ -115,15 +115,15 @@ Outcome rolling_disk(const std::string& motion) {
 /// A thin disk that rolls round while its centre rests: its contact goes round by sqrt(4 g / (R sin tilt)). Here the
 /// disk is the lower face of a cylinder. The largest relative error of that and of the energy.
 Outcome euler(const std::string& motion) {
-  const double radius = 0.05, mass = 0.2, tilt = 0.5, rate = 2000, seconds = 1;
+  const double rim = 0.05, mass = 0.2, tilt = 0.5, rate = 2000, seconds = 1;
   Trial t(motion, rate);
   t.add_ground(0.8);
-  Shape shape = with(Shape::cylinder(radius, 0.01), 0.8);
+  Shape shape = with(Shape::cylinder(rim, 0.01), 0.8);
   shape.origin.position = {0, 0, 0.005};
-  const double across = mass * radius * radius / 4, turns = std::sqrt(4 * g / (radius * std::sin(tilt)));
+  const double across = mass * rim * rim / 4, turns = std::sqrt(4 * g / (rim * std::sin(tilt)));
   const Inertia inertia{.mass = mass, .ixx = across, .iyy = across, .izz = 2 * across};
   const Quat tilted = from_rpy(0, tilt, 0);
-  const RobotView& r = t.add("disk", test::single_body(shape, inertia), {{0, 0, radius * std::sin(tilt)}, tilted},
+  const RobotView& r = t.add("disk", test::single_body(shape, inertia), {{0, 0, rim * std::sin(tilt)}, tilted},
                              {Vec3::Zero(), -turns * std::sin(tilt) * (tilted * Vec3::UnitX())});
   t.start();
   double angle = 0, before = 0;
@@ -133,7 +133,7 @@ Outcome euler(const std::string& motion) {
     const double now = std::atan2(axis.y(), axis.x());
     angle += std::remainder(now - before, 2 * M_PI), before = now;
   }
-  const double seen = energy_of(inertia, t.pose(r), t.twist(r)), expected = 1.5 * mass * g * radius * std::sin(tilt);
+  const double seen = energy_of(inertia, t.pose(r), t.twist(r)), expected = 1.5 * mass * g * rim * std::sin(tilt);
   return {
       std::max(std::abs(std::abs(angle) / (turns * seconds) - 1), std::abs(seen / expected - 1)),
       text(std::abs(angle) / seconds) + " rad/s for " + text(turns) + ", " + text(seen) + " J for " + text(expected)};
@@ -149,12 +149,12 @@ Outcome tipping_boxes(const std::string& motion) {
   return a.error > b.error ? a : b;
 }
 
-mesh::Mesh cone_mesh(double radius, double height) {
+mesh::Mesh cone_mesh(double rim, double height) {
   mesh::Mesh m;
   constexpr std::uint32_t sides = 48;
   for (std::uint32_t i = 0; i < sides; ++i) {
     const double angle = 2 * M_PI * i / sides;
-    m.vertices.push_back({radius * std::cos(angle), radius * std::sin(angle), -height / 4});
+    m.vertices.push_back({rim * std::cos(angle), rim * std::sin(angle), -height / 4});
   }
   m.vertices.push_back({0, 0, 0.75 * height});
   m.vertices.push_back({0, 0, -height / 4});
@@ -186,26 +186,26 @@ mesh::Mesh ellipsoid_mesh(const Vec3& half) {
   }
   return m;
 }
-Outcome of_mesh(const std::string& motion, const mesh::Mesh& mesh, Scene scene) {
+Outcome of_mesh(const std::string& motion, const mesh::Mesh& mesh, PassiveBody scene) {
   const test::ScratchFolder folder;
   scene.shape = {.kind = ShapeKind::mesh, .size = {1, 1, 1}};
   scene.mesh = folder.file("body.obj", mesh::testing::obj_text(mesh));
   return worst_gain(motion, scene);
 }
 /// It rolls round on its side.
-Outcome cone(const std::string& motion) {
-  const double radius = 0.05, height = 0.12, slope = std::atan(radius / height), rate = 6;
-  const double across = 0.15 * 0.3 * (radius * radius + height * height / 4);
+Outcome rolling_cone(const std::string& motion) {
+  const double rim = 0.05, height = 0.12, slope = std::atan(rim / height), rate = 6;
+  const double across = 0.15 * 0.3 * (rim * rim + height * height / 4);
   const Quat lies = from_rpy(0, -(M_PI / 2 + slope), 0);
   const double middle = 0.75 * height * std::sin(slope);
   // the line of contact is at rest
-  return of_mesh(motion, cone_mesh(radius, height),
+  return of_mesh(motion, cone_mesh(rim, height),
                  {.shape = {},
-                  .inertia = {.mass = 0.3, .ixx = across, .iyy = across, .izz = 0.3 * 0.3 * radius * radius},
+                  .inertia = {.mass = 0.3, .ixx = across, .iyy = across, .izz = 0.3 * 0.3 * rim * rim},
                   .at = {{0, 0, middle + 1e-4}, lies},
                   .twist = {{0, rate * middle, 0}, {-rate, 0, 0}}});
 }
-Outcome ellipsoid(const std::string& motion) {
+Outcome rolling_ellipsoid(const std::string& motion) {
   const Vec3 half(0.08, 0.05, 0.03), square = half.cwiseAbs2() * (0.4 / 5);
   return of_mesh(motion, ellipsoid_mesh(half),
                  {.shape = {},
@@ -227,7 +227,8 @@ Outcome random_bodies(const std::string& motion) {
                             Shape::capsule(size.x() / 2, size.z())};
     const Inertia inertia = i % 3 == 0 ? solid_box(1, size) : solid_cylinder(1, size.x() / 2, size.z());
     const double spin = random.uniform(0, 5);
-    Scene s{shapes[i % 3], inertia, {{0, 0, 0.4}, random.rotation()}, {random.direction(), spin * random.direction()}};
+    PassiveBody s{
+        shapes[i % 3], inertia, {{0, 0, 0.4}, random.rotation()}, {random.direction(), spin * random.direction()}};
     s.friction = random.uniform(0, 1);
     const double gain = gain_of(energies(motion, s, 1000));
     worst.error = std::max(worst.error, gain);
@@ -243,15 +244,15 @@ std::vector<Case> passivity_cases() {
   constexpr double most = 1e-3;
   return {
       {"a tilted cylinder that turns gains no energy", "of the energy, in a second", needs, most, tilted_cylinder},
-      {"a coin that spins gains no energy", "of the energy, in a second", needs, most, coin},
-      {"a wheel that leans gains no energy", "of the energy, in a second", needs, most, camber},
+      {"a coin that spins gains no energy", "of the energy, in a second", needs, most, spinning_coin},
+      {"a wheel that leans gains no energy", "of the energy, in a second", needs, most, leaning_wheel},
       {"a disk that rolls and falls over gains no energy", "of the energy, in a second", needs, most, rolling_disk},
       {"Euler's disk goes round by sqrt(4 g / (R sin tilt))", "relative", needs, 0.02, euler},
       {"boxes that tip over gain no energy", "of the energy, in a second", needs, most, tipping_boxes},
       {"a cone that rolls round gains no energy", "of the energy, in a second", needs | feature_convex_meshes, most,
-       cone},
+       rolling_cone},
       {"an ellipsoid that rolls gains no energy", "of the energy, in a second", needs | feature_convex_meshes, most,
-       ellipsoid},
+       rolling_ellipsoid},
       {"random bodies that fall gain no energy", "of the energy, in a second", needs, most, random_bodies},
   };
 }
