@@ -27,6 +27,7 @@ struct ContactPoint {
   S load;       ///< N: the normal force that bounds friction
   V3<S> slip;   ///< m/s, of the point across the normal, about which friction counts as linear
   S pushed;     ///< m/s: what other forces add to its velocity along the normal, where that is known
+  S gained;     ///< m/s: what its approach has gained since it touched, where that is known
   S is_on;      ///< 1; 0: it does not push in this step
   S sticks;     ///< 1: within its step it would turn back, so that it sticks, whatever that takes
   S drags;      ///< 1: across the normal it is a damper, `drag`
@@ -192,7 +193,8 @@ MURO_INLINE ContactStep<S> touch(const ContactPoint<S>& p, const ContactLaw<S>& 
   if (lane::any(is_hit)) {
     constexpr double hardness = 1e4;
     const S impact_damping = S(hardness / dt) * law.mass;
-    push = select(is_hit, -impact_damping * (speed + p.restitution * approach), push);
+    const S rebound = max(-p.restitution * approach - (S(1) + p.restitution) * p.gained, zero);
+    push = select(is_hit, -impact_damping * (speed - rebound), push);
     along = select(is_hit, h * impact_damping, along);
     c.held = select(is_hit, impact_damping, c.held);
   }

@@ -45,16 +45,14 @@ class Contacts {
 
   /// s: how long before the step that which now comes in has touched; the mean by forces.
   S time_since_touch() const {
-    S sum(0), weighted(0);
     const S zero(0);
+    S sum(0), weighted(0);
     for (int i = 0; i < work_.contact_count; ++i) {
       const ContactSlot<S>& slot = work_.contacts[i];
-      const ContactPoint<S>& p = slot.point;
-      const S approach = -dot(slot.velocity - p.velocity, p.normal);
-      const MaskOf<S> counts = (p.is_on > zero) & (slot.comes_in > zero) & (approach > S(1e-3));
+      const MaskOf<S> counts = (slot.point.is_on > zero) & (slot.comes_in > zero);
       if (!any(counts)) continue;
-      const S load = select(counts, max(dot(outcome_of(slot).force, p.normal), zero), zero);
-      sum += load, weighted += load * min(p.depth / max(approach, S(1e-3)), S(batch_.dt));
+      const S load = select(counts, max(dot(outcome_of(slot).force, slot.point.normal), zero), zero);
+      sum += load, weighted += load * time_since_touch(slot);
     }
     return select(sum > zero, weighted / max(sum, S(1e-300)), zero);
   }
@@ -240,11 +238,21 @@ class Contacts {
     const MaskOf<S> is_new = load <= zero, is_hit = is_impact(p, law_, speed + p.pushed);
     if (any(is_new | is_hit)) p.load = select(is_new | is_hit, expected_load(p, law_, speed, push, batch_.dt), load);
     slot.comes_in = select(is_new | is_hit, S(1), zero);
+    p.gained = zero;
     if (!any(is_hit)) return;
+    if (batch_.structure.count == 1)
+      p.gained = time_since_touch(slot) * max(-dot(work_.drifts[slot.body] - cross(body.w, body.v), p.normal), zero);
     // it is hit where its surface is, before it went in
     const V3<S> in = select(is_hit, S(-0.5) * p.depth, zero) * p.normal, turning = cross(body.w, in);
     p.arm += in, slot.velocity += turning;
     p.slip += turning - dot(turning, p.normal) * p.normal;
+  }
+
+  /// s, of one that comes in.
+  MURO_INLINE S time_since_touch(const ContactSlot<S>& slot) const {
+    constexpr double least = 1e-3;  // m/s
+    const S approach = -dot(slot.velocity - slot.point.velocity, slot.point.normal);
+    return select(approach > S(least), min(slot.point.depth / max(approach, S(least)), S(batch_.dt)), S(0));
   }
 
   /// How far a point goes beside the origin of its body, in the frame of that.
