@@ -24,16 +24,14 @@ struct ContactPoint {
   V3<S> displacement;  ///< m, of the friction spring, across the normal
   S friction;          ///< coefficient
   S restitution;
-  S load;       ///< N: the normal force that bounds friction
-  V3<S> slip;   ///< m/s, of the point across the normal, about which friction counts as linear
-  S pushed;     ///< m/s: what other forces add to its velocity along the normal, where that is known
-  S gained;     ///< m/s: what its approach has gained since it touched, where that is known
-  S is_on;      ///< 1; 0: it does not push in this step
-  S sticks;     ///< 1: within its step it would turn back, so that it sticks, whatever that takes
-  S drags;      ///< 1: across the normal it is a damper, `drag`
-  S drag;       ///< N s/m
-  S is_given;   ///< 1: it does what the last trial has made of it, `given`
-  V3<S> given;  ///< N
+  S load;      ///< N: the normal force that bounds friction
+  V3<S> slip;  ///< m/s, of the point across the normal, about which friction counts as linear
+  S pushed;    ///< m/s: what other forces add to its velocity along the normal, where that is known
+  S gained;    ///< m/s: what its approach has gained since it touched, where that is known
+  S is_on;     ///< 1; 0: it does not push in this step
+  S sticks;    ///< 1: within its step it would turn back, so that it sticks, whatever that takes
+  S drags;     ///< 1: across the normal it is a damper, `drag`
+  S drag;      ///< N s/m
 };
 /// Resistance against rolling and spinning; of the same point.
 template <class S>
@@ -183,7 +181,7 @@ MURO_INLINE ContactStep<S> touch(const ContactPoint<S>& p, const ContactLaw<S>& 
   const S h(dt), zero(0);
   const V3<S> velocity = own - p.velocity, none{zero, zero, zero};
   const S speed = dot(velocity, p.normal);
-  const MaskOf<S> is_on = p.is_on > zero, is_given = p.is_given > zero;
+  const MaskOf<S> is_on = p.is_on > zero;
   ContactStep<S> c;
   // along: spring and damper; an impact reaches the velocity of its rebound, whatever it takes
   S push = soft_push(p, law, speed), along = h * law.held;
@@ -211,10 +209,6 @@ MURO_INLINE ContactStep<S> touch(const ContactPoint<S>& p, const ContactLaw<S>& 
   if (c.slides) change = change - dot(c.slide, change) * c.slide;
   c.start = select(is_on, push * p.normal + (hold.force - hold.per_rate * change), none);
   c.start = c.force(p.normal, more);
-  if (lane::any(is_given)) {
-    c.start = select(is_given, p.given, c.start);
-    c.along = select(is_given, zero, c.along), c.across = select(is_given, zero, c.across);
-  }
   c.torque = none, c.rolling = c.spinning = zero;
   return c;
 }

@@ -44,7 +44,7 @@ MURO_INLINE Misfit<S> misfit(const ContactSlot<S>& slot, const ContactOutcome<S>
                              S weight) {
   const ContactPoint<S>& p = slot.point;
   const S zero(0), load = max(o.load, zero);
-  const MaskOf<S> is_on = (p.is_on > zero) & !(p.is_given > zero);
+  const MaskOf<S> is_on = p.is_on > zero;
   Misfit<S> m;
   m.is_drawn = is_on & (o.load < zero);
   m.across = o.force - o.load * p.normal;
@@ -54,7 +54,7 @@ MURO_INLINE Misfit<S> misfit(const ContactSlot<S>& slot, const ContactOutcome<S>
   const V3<S> friction = hold * select(is_small, S(-1), -most / sqrt(max(square, S(1e-24))));
   m.most = most;
   // what friction lacks in a step comes in the next ones, but for impacts
-  constexpr double precision = 0.1, of_weight = 0.01, of_cone = 0.005, of_impact = 0.001;
+  constexpr double precision = 0.1, of_weight = 1e-3, of_cone = 0.005, of_impact = 0.001;
   const V3<S> lack = friction - m.across;
   const S limit = S(1 + of_cone) * most;
   const S allowed = select(slot.step.held > law.held, S(of_impact) * most,
@@ -62,7 +62,7 @@ MURO_INLINE Misfit<S> misfit(const ContactSlot<S>& slot, const ContactOutcome<S>
   m.is_off_cone =
       is_on & !m.is_drawn & ((dot(lack, lack) > allowed * allowed) | (dot(m.across, m.across) > limit * limit));
   m.turns_back = m.is_off_cone & (dot(slot.step.slide, hold) < zero);
-  m.pushes_now = (!is_on) & (slot.rests > zero) & !(p.is_given > zero);
+  m.pushes_now = (!is_on) & (slot.rests > zero);
   if (lane::any(m.pushes_now)) {
     const S speed = dot(o.velocity, p.normal);
     m.pushes_now = m.pushes_now & pushes(p, law, speed, soft_push(p, law, speed));
@@ -71,9 +71,17 @@ MURO_INLINE Misfit<S> misfit(const ContactSlot<S>& slot, const ContactOutcome<S>
   return m;
 }
 
-/// Prepares the next trial of a contact. `drags`: what slides is a damper from now on, which never turns it back.
+/// Where the search for what contacts do stands.
+enum class Search {
+  pieces,  ///< each takes the piece that it has come to
+  drags,   ///< what is not found is a damper of what friction may be, which never turns back
+  yields,  ///< what is not found by that is a lesser damper
+  ends,    ///< what is not found by that does without friction
+};
+
+/// Prepares the next trial of a contact.
 template <class S>
-MURO_INLINE void revise(ContactSlot<S>& slot, const ContactOutcome<S>& o, const Misfit<S>& m, bool drags) {
+MURO_INLINE void revise(ContactSlot<S>& slot, const ContactOutcome<S>& o, const Misfit<S>& m, Search search) {
   ContactPoint<S>& p = slot.point;
   const S zero(0), tried_load = p.load;
   // friction that a load is to bear which it takes away itself
@@ -83,26 +91,16 @@ MURO_INLINE void revise(ContactSlot<S>& slot, const ContactOutcome<S>& o, const 
   p.load = select(by_friction, zero, select(m.is_off_cone, likely_load(slot, max(o.load, zero)), p.load));
   p.sticks = select(by_friction | m.is_off_cone, select(m.turns_back, S(1), zero), p.sticks);
   p.slip = select(m.is_off_cone | by_friction, o.slip, p.slip);
-  if (drags) {
-    p.drags = select(m.is_off_cone, S(1), p.drags);
-    const S slip = sqrt(max(dot(o.slip, o.slip), S(1e-18)));
-    p.drag = select(m.is_off_cone, min(m.most / slip, slot.step.held), p.drag);
+  if (search != Search::pieces) {
+    constexpr double less = 0.7;
+    S drag = min(m.most / sqrt(max(dot(o.slip, o.slip), S(1e-18))), slot.step.held);
+    if (search == Search::yields) drag = S(less) * select(p.drags > zero, min(drag, p.drag), drag);
+    if (search == Search::ends) drag = zero;
+    p.drags = select(m.is_off_cone | by_friction, S(1), p.drags);
+    p.drag = select(by_friction, zero, select(m.is_off_cone, drag, p.drag));
   }
-  p.drags = select(by_friction, zero, p.drags);
   slot.tried_load = select(m.any, tried_load, slot.tried_load);
   slot.found_load = select(m.any, o.load, slot.found_load);
-}
-
-/// A contact that trials do not find does what the last one has made of it, as far as it may.
-template <class S>
-MURO_INLINE void give(ContactSlot<S>& slot, const ContactOutcome<S>& o, const Misfit<S>& m) {
-  ContactPoint<S>& p = slot.point;
-  const S zero(0), square = dot(m.across, m.across);
-  const V3<S> none{zero, zero, zero};
-  const S part = select(square > m.most * m.most, m.most / sqrt(max(square, S(1e-24))), S(1));
-  const MaskOf<S> pushes = (p.is_on > zero) & (o.load > zero);
-  p.given = select(m.any, select(pushes, o.load * p.normal + part * m.across, none), p.given);
-  p.is_given = select(m.any, S(1), p.is_given);
 }
 
 }  // namespace MURO_ISA

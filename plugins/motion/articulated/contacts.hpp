@@ -72,20 +72,18 @@ class Contacts {
   }
 
   /// Tells and keeps what contacts have done. Returns whether some have not done what was tried, but will do in the
-  /// next trial: those of the trials up to `most` are revised, later ones do as they are given.
-  bool settle(int trial, int most) {
+  /// next trial.
+  bool settle(Search search) {
     MaskOf<S> changed = S(1) < S(0);
     for (int i = 0; i < work_.contact_count; ++i) {
       ContactSlot<S>& slot = work_.contacts[i];
       const ContactOutcome<S> outcome = outcome_of(slot);
       keep(slot, outcome);
-      const Misfit<S> m = misfit(slot, outcome, law_, weight_);
+      Misfit<S> m = misfit(slot, outcome, law_, weight_);
+      if (search >= Search::yields) m.any = m.is_drawn | m.is_off_cone, m.pushes_now = S(1) < S(0);
       if (!any(m.any)) continue;
       changed = changed | m.any;
-      if (trial < most)
-        revise(slot, outcome, m, trial + 1 >= most);
-      else
-        give(slot, outcome, m);
+      revise(slot, outcome, m, search);
     }
     return any(changed);
   }
@@ -232,7 +230,7 @@ class Contacts {
     p.is_on = select(is_on, S(1), zero);
     // what bears little on its way out may push on: its speed at the begin of the step does not tell
     slot.rests = select(is_on, zero, S(1));
-    p.is_given = p.sticks = p.drags = p.drag = zero, p.given = {zero, zero, zero};
+    p.sticks = p.drags = p.drag = zero;
     slot.tried_load = slot.found_load = S(-1);
     p.load = load;
     const MaskOf<S> is_new = load <= zero, is_hit = is_impact(p, law_, speed + p.pushed);

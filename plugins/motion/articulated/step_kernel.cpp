@@ -97,10 +97,15 @@ MURO_INLINE MaskOf<S> spins(const BodyStep<S>& body, double dt) {
   return dot(body.w, body.w) > S(least * least / (dt * dt));
 }
 
-/// The pieces of the laws of joints and contacts are found by trial: mostly the first is right.
-constexpr int most_trials = 6;
-/// Then contacts that were not found do what is given, as many times as others leave their cone by that.
-constexpr int most_rests = 3;
+/// The pieces of the laws of joints and contacts are found by trial: mostly the first is right. Contacts are tried as
+/// pieces of their law, then as dampers, then as lesser ones, and at last without friction where nothing else fits.
+constexpr int most_pieces = 5, most_drags = 7, most_yields = 11, most_trials = 14;
+MURO_INLINE Search search_of(int trial) {
+  return trial < most_pieces   ? Search::pieces
+         : trial < most_drags  ? Search::drags
+         : trial < most_yields ? Search::yields
+                               : Search::ends;
+}
 
 template <class S>
 unsigned step_some(const Batch& batch, const RobotState* robots, int count) {
@@ -129,9 +134,9 @@ unsigned step_some(const Batch& batch, const RobotState* robots, int count) {
       joints.add_couplings();
       accelerate_all(s, masses, bodies, work.slots, work.acts_on, work.base, fall);
     }
-    const bool loads = contacts.settle(trial, most_trials), others = trial < most_trials && joints.look_again(which);
-    if (!others && !loads) break;
-    if (trial == most_trials + most_rests) break;
+    const bool loads = contacts.settle(search_of(trial));
+    const bool others = trial < most_trials && joints.look_again(which);
+    if (trial == most_trials || (!others && !loads)) break;
   }
   if (batch.runge_kutta) {
     RungeKutta<S> stages(batch, masses, joints, work);
