@@ -54,7 +54,7 @@ MURO_INLINE Misfit<S> misfit(const ContactSlot<S>& slot, const ContactOutcome<S>
   const V3<S> friction = hold * select(is_small, S(-1), -most / sqrt(max(square, S(1e-24))));
   m.most = most;
   // what friction lacks in a step comes in the next ones, but for impacts
-  constexpr double precision = 0.25, of_weight = 1e-3, of_cone = 0.005, of_impact = 0.001;
+  constexpr double precision = 0.1, of_weight = 1e-3, of_cone = 0.005, of_impact = 0.001;
   const V3<S> lack = friction - m.across;
   const S limit = S(1 + of_cone) * most;
   const S allowed = select(slot.step.held > law.held, S(of_impact) * most,
