@@ -135,18 +135,27 @@ void RobotContacts::sort_by_body() {
     }
 }
 
+/// A list of the same pairs has the contacts of the step before, in their order, so that a restored state goes on as
+/// the one that it was taken from; of others the nearest counts.
 void RobotContacts::keep_what_lasts(const TouchedBodies& bodies) {
   const auto list = *list_;
-  before_.assign((*kept_).begin(), (*kept_).end());
-  kept_.clear();
-  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+  const auto pair_at = [&](std::size_t i) {
     const Contact& c = list[places_[i].in_list];
-    KeptContact kept;
-    kept.pair = contact_geometry::pair_of(bodies[c.self].name, bodies[c.other].name, c.self_shape, c.other_shape);
-    const KeptContact* const known =
-        contact_geometry::previous(std::span<const KeptContact>(before_), i, kept.pair, c.point);
-    if (known) kept = *known;
-    kept_.push_back(kept);
+    return contact_geometry::pair_of(bodies[c.self].name, bodies[c.other].name, c.self_shape, c.other_shape);
+  };
+  before_.assign((*kept_).begin(), (*kept_).end());
+  bool is_same = before_.size() == contacts_.size();
+  for (std::size_t i = 0; is_same && i < contacts_.size(); ++i) is_same = before_[i].pair == pair_at(i);
+  if (!is_same) {
+    kept_.clear();
+    for (std::size_t i = 0; i < contacts_.size(); ++i) {
+      KeptContact kept;
+      kept.pair = pair_at(i);
+      const KeptContact* const known = contact_geometry::previous(std::span<const KeptContact>(before_), i, kept.pair,
+                                                                  list[places_[i].in_list].point);
+      if (known) kept = *known;
+      kept_.push_back(kept);
+    }
   }
   for (std::size_t i = 0; i < contacts_.size(); ++i) contacts_[i].kept = (*kept_)[i].point.data();
 }
