@@ -20,7 +20,7 @@ struct JointRange {
   /// Where a joint goes whose position is `offset` + `multiplier` times one of these.
   JointRange followed(double multiplier, double offset) const {
     if (multiplier == 0) return {offset, offset};
-    const auto [low, high] = std::minmax(offset + multiplier * lower, offset + multiplier * upper);
+    const auto [low, high] = std::minmax({offset + multiplier * lower, offset + multiplier * upper});
     return {low, high};
   }
 };
