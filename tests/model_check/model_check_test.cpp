@@ -121,10 +121,10 @@ TEST(ModelCheck, TellsOfJointsThatNothingCommands) {
       "may command them\n      `joints: passive` lets them turn freely");
   EXPECT_SAYS(check.of(car + "articulated}, drive: {use: drive.ackermann}}\n"), "`car`: nothing is lacking");
   EXPECT_SAYS(
-      check.of(car + "articulated}, drive: {use: drive.differential, left_wheels: [rear_left_wheel_joint], "
-                     "right_wheels: [rear_right_wheel_joint]}}\n"),
+      check.of(car + "articulated}, drive: {use: drive.differential, left: [rear_left_wheel_joint], "
+                     "right: [rear_right_wheel_joint]}}\n"),
       "nothing commands 2 joints (`front_left_steering_joint`, `front_right_steering_joint`), but others of the "
-      "robot; motion.articulated: they turn freely\n      To hold them, name them in");
+      "robot;\n      motion.articulated: they turn freely\n      To hold them, name them in");
 }
 
 TEST(ModelCheck, TakesAScreenForTheWorstOfModels) {

@@ -20,8 +20,8 @@ struct JointRange {
   /// Where a joint goes whose position is `offset` + `multiplier` times one of these.
   JointRange followed(double multiplier, double offset) const {
     if (multiplier == 0) return {offset, offset};
-    const auto [low, high] = std::minmax({offset + multiplier * lower, offset + multiplier * upper});
-    return {low, high};
+    const double first = offset + multiplier * lower, second = offset + multiplier * upper;
+    return {std::min(first, second), std::max(first, second)};
   }
 };
 

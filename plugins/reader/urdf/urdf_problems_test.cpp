@@ -359,22 +359,25 @@ TEST(UrdfProblems, MimicsThatFollowNobody) {
 }
 
 TEST(UrdfProblems, LeadersThatTakeMimicsBeyondTheirLimits) {
+  // of mimic joints alone: these links have no mass, either
   const auto problems = [](const std::string& follower) {
-    return recorded(
-               "<robot name='r'><link name='a'/><link name='b'/><link name='c'/>"
-               "<joint name='one' type='revolute'><parent link='a'/><child link='b'/>"
-               "<limit lower='0' upper='0.8' velocity='1' effort='1'/></joint>\n"
-               "<joint name='two' type='" +
-               follower + "</joint></robot>")
-        .problems;
+    Lines all = recorded(
+                    "<robot name='r'><link name='a'/><link name='b'/><link name='c'/>"
+                    "<joint name='one' type='revolute'><parent link='a'/><child link='b'/>"
+                    "<limit lower='0' upper='0.8' velocity='1' effort='1'/></joint>\n"
+                    "<joint name='two' type='" +
+                    follower + "</joint></robot>")
+                    .problems;
+    std::erase_if(all, [](const std::string& text) { return text.find("mimics") == text.npos; });
+    return all;
   };
   const std::string links = "'><parent link='a'/><child link='c'/>", mimic = "<mimic joint='one' multiplier='-1'/>";
-  const auto limits_of = [](const std::string& bounds) { return "<limit " + bounds + " velocity='1' effort='1'/>"; };
-  EXPECT_EQ(problems("revolute" + links + limits_of("lower='0' upper='0.88'") + mimic),
-            Lines{"warning 2:123 joint `two` mimics `one`, which takes it from -0.8 to 0, beyond its own limits 0 to "
+  const auto bounded = [](const std::string& bounds) { return "<limit " + bounds + " velocity='1' effort='1'/>"; };
+  EXPECT_EQ(problems("revolute" + links + bounded("lower='0' upper='0.88'") + mimic),
+            Lines{"warning 2:125 joint `two` mimics `one`, which takes it from -0.8 to 0, beyond its own limits 0 to "
                   "0.88; it goes there, since mimic joints have the limits of their leaders alone. Mend multiplier, "
                   "offset or limits"});
-  EXPECT_EQ(problems("revolute" + links + limits_of("lower='-0.8' upper='0'") + mimic), Lines{});
+  EXPECT_EQ(problems("revolute" + links + bounded("lower='-0.8' upper='0'") + mimic), Lines{});
   EXPECT_EQ(problems("continuous" + links + mimic), Lines{});
 }
 
