@@ -31,7 +31,7 @@ struct Team : test::Scene {
                                    {{0.1 * (i % 3), 0, 0}, {0, 0, 0.1}});
       (rolls ? rolling : walking).push_back({&robot, robot.base()});
     }
-    if (!rolling.empty()) use(motion, 1000, rolling);
+    if (!rolling.empty()) use(motion, 1000, rolling, {{"joints", "velocity"}});
     if (!walking.empty()) use(motion, 1000, walking, {{"joints", "position"}});
     use_contacts();
     build();
