@@ -82,7 +82,8 @@ Vec3 FreeCamera::from() const {
   constexpr int parts = 24;  // closer together than the ball is wide
   for (int i = parts; i >= parts / 3; --i) {
     const double part = double(i) / parts;
-    const auto ground = hills_->ground.height_on_terrain({&ball, 1}, {target_ + part * (from - target_), Quat::Identity()});
+    const auto ground =
+        hills_->ground.height_on_terrain({&ball, 1}, {target_ + part * (from - target_), Quat::Identity()});
     if (ground) height = std::max(height, target_.z() + (*ground - target_.z()) / part);
   }
   from.z() = height;
