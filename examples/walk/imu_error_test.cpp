@@ -50,7 +50,7 @@ TEST(ImuError, ThatIsNotMeasuredIsBorneWhileItIsSmall) {
 }
 
 TEST(ImuError, ThatIsNotMeasuredFellsItWhenItIsLarge) {
-  for (const char* bias : {"bias: [0.3, 0, 0]", "bias: [0, 0.3, 0]", "bias: [0, -0.3, 0]"}) {
+  for (const char* bias : {"bias: [0.4, 0, 0]", "bias: [0, 0.4, 0]", "bias: [0, -0.4, 0]"}) {
     const auto [way, height] = walk(with_gyro(bias, "forward=0.1, calibrate=0"), 8);
     EXPECT_LT(height, falls_below) << bias;
   }

@@ -71,6 +71,39 @@ void resolve_friction(std::span<ImpactPoint> points, const Push& normals, const 
   }
 }
 
+/// Inverse of what a body weighs against an impulse at the end of a lever, 1/kg.
+Mat3 inverse_mass_at(const ImpactBody& body, const Vec3& lever) {
+  const Mat3 arm = (Mat3() << 0, -lever.z(), lever.y(), lever.z(), 0, -lever.x(), -lever.y(), lever.x(), 0).finished();
+  Mat3 turning;
+  for (int k = 0; k < 3; ++k) turning.col(k) = spin_by(body, arm.col(k));
+  return body.mobility.mass * Mat3::Identity() - arm * turning;
+}
+
+/// One point, where friction and the normal impulse may change each other (Routh, Dynamics of a System of Rigid Bodies,
+/// 1905, chapter V): the point sticks, or slides on in its direction. Returns false where neither leads to a rebound
+/// that gains no energy.
+bool resolve_point(ImpactPoint& p, const ImpactBody& self, const ImpactBody* other) {
+  Mat3 inverse_mass = inverse_mass_at(self, p.lever);
+  if (other) inverse_mass += inverse_mass_at(*other, p.other_lever);
+  const auto takes_energy = [&](const Vec3& impulse) {
+    return impulse.dot(p.velocity + 0.5 * inverse_mass * impulse) <= 0;
+  };
+  const Vec3 slip = p.velocity + p.approach * p.normal;
+  const Vec3 sticks = inverse_mass.inverse() * (p.restitution * p.approach * p.normal - p.velocity);
+  const double along = p.normal.dot(sticks);
+  if (along > 0 && (sticks - along * p.normal).norm() <= p.friction * along) {
+    if (takes_energy(sticks)) p.impulse = sticks;
+    return takes_energy(sticks);
+  }
+  if (!(slip.norm() > 0)) return false;
+  const Vec3 direction = p.normal - p.friction * slip.normalized();
+  const double yields = p.normal.dot(inverse_mass * direction);
+  if (!(yields > 0)) return false;
+  const Vec3 slides = ((1 + p.restitution) * p.approach / yields) * direction;
+  if (takes_energy(slides)) p.impulse = slides;
+  return takes_energy(slides);
+}
+
 }  // namespace
 
 FreeBody::FreeBody(const Bodies& bodies, const DynamicBody& base)
@@ -102,6 +135,7 @@ std::optional<TimeOfImpact> time_of_impact(double depth, double speed, double ac
 }
 
 void resolve_impact(std::span<ImpactPoint> points, const ImpactBody& self, const ImpactBody* other) {
+  if (points.size() == 1 && resolve_point(points[0], self, other)) return;
   resolve_friction(points, resolve_normals(points, self, other), self, other);
 }
 

@@ -75,6 +75,7 @@ void PairContacts::set_up(std::uint32_t self) {
   me.mobilities.clear();
   me.springs.assign(robot.body_count, {});
   me.touched.clear();
+  me.bounced.clear();
   for (std::uint32_t u = robot.first_body; u < robot.first_body + robot.body_count; ++u) {
     const DynamicBody& body = bodies_.dynamic_bodies[u];
     const Vec3& p = body.pose->position;

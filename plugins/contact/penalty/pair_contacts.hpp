@@ -138,6 +138,14 @@ class PairContacts {
     std::vector<std::uint32_t> touched;          ///< numbers of its bodies with contacts that are solved in a group
     std::uint32_t group = no_group;              ///< in groups_; none: its contacts are resolved one by one
 
+    std::vector<V3> bounced;  ///< N s, N m s about the origin, of each body: by contacts that bounce; empty: none
+
+    void add_impulse(std::uint32_t body, const Vec3& impulse, const Vec3& point) {
+      if (bounced.empty()) bounced.assign(2 * mobilities.size(), V3{0, 0, 0});
+      const Vec3 turn = point.cross(impulse);
+      bounced[2 * (body - first_body)] += V3{impulse.x(), impulse.y(), impulse.z()};
+      bounced[2 * (body - first_body) + 1] += V3{turn.x(), turn.y(), turn.z()};
+    }
     void add_touched(std::uint32_t body) {
       if (std::find(touched.begin(), touched.end(), body - first_body) == touched.end())
         touched.push_back(body - first_body);
@@ -161,7 +169,10 @@ class PairContacts {
   void add_contacts(std::uint32_t robot, double mass, ContactSolver& solver);
   void take_forces(std::uint32_t robot, std::span<const SolverContact>& found);
   void tell_depth(std::uint32_t robot, const Contact& contact, const PairPoint& point, const Computed& c);
-  static bool is_solved(const Computed& c) { return c.patch != in_impact && c.patch != had_impact; }
+  static bool is_solved(const Computed& c) {
+    return c.patch != in_impact && c.patch != had_impact && !(c.solved.rebounds > 0);
+  }
+  void recall_contacts(std::uint32_t robot);
   void resolve_in_turns();
   void count_impacts(std::uint32_t self);
   void resolve_in_turn(std::uint32_t self, std::uint32_t number);

@@ -83,8 +83,9 @@ void PairContacts::solve_group(std::uint32_t number) {
     mass += bodies_.robots[robot].mass;
     heaviest = std::max(heaviest, bodies_.robots[robot].mass);
     find_springs(robot);
-    find_touched(robot);
+    recall_contacts(robot);
   }
+  for (const std::uint32_t robot : group.robots) find_touched(robot);
   mass = std::min(mass, most_carried * heaviest);
   for (const std::uint32_t robot : group.robots) add_bodies(robot, group.solver);
   for (const std::uint32_t robot : group.robots)
@@ -121,6 +122,12 @@ void PairContacts::add_bodies(std::uint32_t self, ContactSolver& solver) {
       gained += mobility.mass * me.pushed.force;
       turned = vector_of(mobility.inertia * plain(me.pushed.torque));
     }
+    const law::V3<double>* const bounced = me.bounced.empty() ? nullptr : &me.bounced[2 * i];
+    if (bounced) {
+      const Vec3 impulse = vector_of(bounced[0]);
+      gained += mobility.mass * impulse;
+      turned += vector_of(mobility.inertia * (bounced[1] - cross(mobility.centre, bounced[0])));
+    }
     number_in_group_[robot.first_body + i] = solver.add_body(mobility, velocity, spin, gained, turned);
   }
 }
@@ -130,16 +137,16 @@ void PairContacts::add_bodies(std::uint32_t self, ContactSolver& solver) {
 /// by then, so that it does not change how deep a contact is at rest.
 void PairContacts::recall(std::uint32_t self, std::size_t place, Computed& c, double approach,
                           const Contact& contact) const {
-  constexpr double mean_over = 0.3, slower = 0.8, has_parted = 0.95;  // s; parts of the rebound
+  constexpr double mean_over = 0.3;  // s
   const Robot& robot = bodies_.robots[self];
   const SolvedContact* const before = previous<SolvedContact>(*robot.solved, place, c.pair, contact.point);
   c.solved = before ? *before : SolvedContact{};
   SolvedContact& now = c.solved;
   now.pair = c.pair, now.point = contact.point;
-  if (!c.lasts && approach > context_.impact_speed)
-    now.rebound = contact.surface.restitution * approach;
-  else
-    now.rebound = -approach < has_parted * now.rebound ? slower * now.rebound : 0;
+  now.rebounds = std::max(0.0, now.rebounds - context_.elapsed);
+  // half a period of its spring, and half of that again
+  if (!c.lasts && approach > context_.impact_speed && c.zeta < max_damping_ratio)
+    now.rebounds = 1.5 * M_PI / context_.stiffness.omega;
   const bool is_exact =
       is_known(robot) && (c.other_robot == no_robot || is_known(bodies_.robots[std::size_t(c.other_robot)]));
   if (is_exact || !before || !(now.load > 0)) {
@@ -149,15 +156,35 @@ void PairContacts::recall(std::uint32_t self, std::size_t place, Computed& c, do
   now.more += std::min(1.0, context_.elapsed / mean_over) * (-approach - now.expected - now.more);
 }
 
-void PairContacts::add_contacts(std::uint32_t self, double mass, ContactSolver& solver) {
-  constexpr double hardness = 1e4;
-  const double h = context_.stiffness.h, omega = context_.omega, stiffness = mass * omega * omega;
-  const double held = 2 * mass * omega + h * stiffness;
-  const Record& me = record(self);
+/// Of all contacts that a robot computes. Those that bounce are springs by themselves, and known when the others are
+/// solved.
+void PairContacts::recall_contacts(std::uint32_t self) {
   KnownContacts& known = known_[self];
   const Contact* const contacts = (*bodies_.robots[self].contacts).data();
   for (std::size_t i = 0; i < known.computed.size(); ++i) {
     Computed& c = known.computed[i];
+    c.solved.rebounds = 0;
+    if (!is_solved(c)) continue;
+    PairPoint& point = known.points[i];
+    recall(self, i, c, point.approach, contacts[c.place]);
+    if (is_solved(c)) continue;
+    kernels_.push(&point, 1, context_.stiffness, context_.elapsed);
+    c.solved.load = 0;
+    const Vec3 impulse = context_.stiffness.h * Vec3::Map(point.force);
+    record(self).add_impulse(c.body, impulse, contacts[c.place].point);
+    if (c.other_robot != no_robot)
+      record(std::uint32_t(c.other_robot)).add_impulse(c.other_body, -impulse, contacts[c.place].point);
+  }
+}
+
+void PairContacts::add_contacts(std::uint32_t self, double mass, ContactSolver& solver) {
+  const double omega = context_.omega, stiffness = mass * omega * omega;
+  const double held = 2 * mass * omega + context_.stiffness.h * stiffness;
+  const Record& me = record(self);
+  KnownContacts& known = known_[self];
+  const Contact* const contacts = (*bodies_.robots[self].contacts).data();
+  for (std::size_t i = 0; i < known.computed.size(); ++i) {
+    const Computed& c = known.computed[i];
     if (!is_solved(c)) continue;
     PairPoint& point = known.points[i];
     const Contact& contact = contacts[c.place];
@@ -180,13 +207,8 @@ void PairContacts::add_contacts(std::uint32_t self, double mass, ContactSolver& 
         std::min(part * stiffness * (contact.depth - point.overlap + point.ahead), s.along * context_.correcting_speed);
     s.spring = part * stiffness * (displacement - contact.normal * contact.normal.dot(displacement));
     s.friction = contact.surface.friction;
-    recall(self, i, c, point.approach, contact);
     s.limit = s.friction * c.solved.load;
     s.push -= s.along * c.solved.more;
-    if (!(c.solved.rebound > 0)) continue;
-    s.along = s.across = part * hardness * mass / h;
-    s.push = s.along * c.solved.rebound;
-    s.spring = Vec3::Zero();
   }
 }
 
@@ -247,7 +269,7 @@ void PairContacts::take_forces(std::uint32_t self, std::span<const SolverContact
     point.moment = 0;
     Vec3 displacement = Vec3::Map(point.displacement);
     displacement -= s.normal * s.normal.dot(displacement);
-    if (c.solved.rebound > 0 || !(s.load > 0))
+    if (!(s.load > 0))
       displacement.setZero();
     else if (s.hold < 1)  // it slides: as far as the spring does what friction does
       displacement = (s.load * s.normal - s.force) * ((2 / context_.omega + context_.stiffness.h) / s.across);

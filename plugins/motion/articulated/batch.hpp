@@ -11,7 +11,7 @@ namespace muro::articulated {
 struct KernelContact {
   const double* place = nullptr;    ///< point, normal, depth: m, world
   const double* surface = nullptr;  ///< friction, restitution, resistance to rolling and to spinning
-  double* kept = nullptr;           ///< displacement (m), load (N), turn (rad), as KeptContact
+  double* kept = nullptr;           ///< from its point on, as KeptContact
   const double* other = nullptr;    ///< velocity of what it touches at the point, and its spin; null: it does not move
   double shift[3] = {};             ///< m, world: from the point to where its friction acts, see pressure_cells.hpp
   int body = 0;
@@ -20,7 +20,7 @@ struct KernelContact {
 /// How many joints of a robot may follow others.
 inline constexpr int most_mimics = 32;
 /// How many numbers a contact keeps.
-inline constexpr int kept_numbers = 7;
+inline constexpr int kept_numbers = 13;
 /// The load that is kept of a contact that bore nothing.
 inline constexpr double unloaded = -1;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a contact adds to the inertia and the wrench of a body, so that its force is that of the end of the step: a
-// spring and damper along the normal that only push; across, a spring beside a damper while it sticks, and the secant
-// damper of the cone while it slides. Linearly implicit: force = start - K (acceleration of the point), with K = dt
+// spring and damper along the normal that only push; across, a spring beside a damper while it sticks, and what the
+// cone leaves of that while it slides. Linearly implicit: force = start - K (acceleration of the point), with K = dt
 // (damping + dt stiffness), goes into the articulated inertia as J' K J, so that the answer is that of the whole robot
 // at no extra pass, and neither light feet nor hard ground bound the step.
 #pragma once
@@ -28,13 +28,15 @@ struct ContactPoint {
   V3<S> displacement;  ///< m, of the friction spring, across the normal
   S friction;          ///< coefficient
   S restitution;
-  S load;         ///< N: the normal force that bounds friction
-  S pushed;       ///< m/s: what other forces add to its velocity along the normal, where that is known
-  S is_on;        ///< 1; 0: it does not push in this step
-  S slides_on;    ///< 1; 0: what slides may come to rest in this step
-  S breaks_away;  ///< 1: it would have to hold more than it can, and drags with `drag` instead
-  S drag;         ///< N s/m: the damper that does what friction can
-  S cell_speed;   ///< m/s: of the ends of its cell about where its friction acts, see give_of_cell()
+  S load;        ///< N: the normal force that bounds friction
+  V3<S> slip;    ///< m/s, of where its friction acts across the normal, about which friction counts as linear
+  S pushed;      ///< m/s: what other forces add to its velocity along the normal, where that is known
+  S gained;      ///< m/s: what its approach has gained since it touched, where that is known
+  S is_on;       ///< 1; 0: it does not push in this step
+  S sticks;      ///< 1: within its step it would turn back, so that it sticks, whatever that takes
+  S drags;       ///< 1: across the normal it is a damper, `drag`
+  S drag;        ///< N s/m
+  S cell_speed;  ///< m/s: of the ends of its cell about where its friction acts, see give_of_cell()
 };
 /// Resistance against rolling and spinning; of the same point.
 template <class S>
@@ -63,6 +65,7 @@ struct ContactStep {
   S along, across;  ///< kg: K = across (1 - t t') + along n n' where it slides, else across 1 + (along - across) n n'
   V3<S> slide;      ///< unit, the direction t in which it slides; 0 where it sticks
   bool slides;      ///< some do
+  S held;           ///< N s/m: of friction that sticks, by the slip at the end of the step
   V3<S> torque;     ///< N m: against rolling and spinning, without acceleration
   S rolling, spinning;  ///< kg m^2: the same of these
 
@@ -78,37 +81,37 @@ struct ContactStep {
   }
 };
 
-/// A spring of `stiffness` beside a damper, or what they may do at most, as a damper of that.
+/// A spring of `stiffness` beside a damper, or what they may do at most.
 template <class S>
 struct BoundedSpring {
-  V3<S> force;  ///< at the begin of the step, with the spring of its end
-  S per_rate;   ///< change of the force by that of the velocity within the step
-  V3<S> slide;  ///< unit: the direction of the velocity along which the force does not change; 0 for none
+  V3<S> force;  ///< at the rate `at`, with the spring of the end of the step
+  S per_rate;   ///< change of the force by that of the rate within the step
+  V3<S> slide;  ///< unit: the direction along which the force does not change; 0 for none
   bool slides;  ///< in some robot: `slide` is not 0
 
-  /// `slides_on` is 1 where the velocity keeps its direction, and the force its size therefore; `held`: damping + dt
-  /// stiffness; `counts`: where the result is used.
-  MURO_INLINE BoundedSpring(const V3<S>& displacement, const V3<S>& rate, S stiffness, S held, S limit, S slides_on,
+  /// `held`: damping + dt stiffness; `counts`: where the result is used.
+  MURO_INLINE BoundedSpring(const V3<S>& displacement, const V3<S>& at, S stiffness, S held, S limit,
                             MaskOf<S> counts) {
-    const V3<S> hold = stiffness * displacement + held * rate;
-    const MaskOf<S> is_bounded = limit > S(0), is_small = dot(hold, hold) <= limit * limit;
-    const MaskOf<S> holds = (is_bounded & is_small) | !counts;
+    const V3<S> hold = stiffness * displacement + held * at;
+    const S square = dot(hold, hold);
+    const MaskOf<S> holds = ((limit > S(0)) & (square <= limit * limit)) | !counts;
     slide = {S(0), S(0), S(0)}, per_rate = held, force = -hold;
     slides = lane::bits(holds) != lane::all_lanes<S>;
     if (!slides) return;
-    const S by_speed = S(1) / sqrt(max(dot(rate, rate), S(1e-12))), secant = limit * by_speed;
-    slide = rate * select(holds, S(0), slides_on * by_speed);
-    per_rate = select(holds, held, secant);
-    force = -select(holds, hold, secant * rate);
+    const S by_size = S(1) / sqrt(max(square, S(1e-24))), part = limit * by_size;
+    slide = hold * select(holds, S(0), by_size);
+    per_rate = select(holds, held, part * held);
+    force = -select(holds, hold, part * hold);
   }
 };
 
 /// A point stands for a cell of a line or face that touches. Where that spins, the ends of the cell move against its
 /// middle, and as long as they are the faster ones, friction of the cell is less than its limit in the measure of both
-/// speeds: a damper in series with the spring, which leaves this part of spring and damper. `limit`: N.
+/// speeds: a damper in series with the spring, which leaves this part of spring and damper. `held`: N s/m, of these;
+/// `limit`: N.
 template <class S>
-MURO_INLINE S give_of_cell(const ContactPoint<S>& p, const ContactLaw<S>& law, S limit) {
-  return select(p.cell_speed > S(0), limit / max(limit + law.held * p.cell_speed, S(1e-300)), S(1));
+MURO_INLINE S give_of_cell(const ContactPoint<S>& p, S held, S limit) {
+  return select(p.cell_speed > S(0), limit / max(limit + held * p.cell_speed, S(1e-300)), S(1));
 }
 
 /// Adds x 1 + (y - x) n n' to a symmetric matrix.
@@ -191,10 +194,15 @@ MURO_INLINE S expected_load(const ContactPoint<S>& p, const ContactLaw<S>& law, 
   return max(min(push, law.mass * S(1 / dt) * max(-speed, S(0)) + law.stiffness * p.depth), S(0));
 }
 
+/// Whether a point is stopped, or thrown back, within a step. `approach`: m/s, away from what is touched.
+template <class S>
+MURO_INLINE MaskOf<S> is_impact(const ContactPoint<S>& p, const ContactLaw<S>& law, S approach) {
+  return ((p.restitution > S(0)) & (approach < -law.impact_speed)) | (approach < -law.hard_speed);
+}
+
 /// `own`: m/s, of the point on the body; `more`: m/s^2, cross(w, v) of the body and gravity, in its frame, since
 /// accelerations count from them; `dt`: s. The way from the body's origin to the point counts as one that does not
-/// turn, as that of what rolls: its material points have an acceleration towards the centre, its point of contact has
-/// none.
+/// turn beyond what `own` has of it.
 template <class S>
 MURO_INLINE ContactStep<S> touch(const ContactPoint<S>& p, const ContactLaw<S>& law, const V3<S>& own,
                                  const V3<S>& more, double dt) {
@@ -205,26 +213,30 @@ MURO_INLINE ContactStep<S> touch(const ContactPoint<S>& p, const ContactLaw<S>& 
   ContactStep<S> c;
   // along: spring and damper; an impact reaches the velocity of its rebound, whatever it takes
   S push = soft_push(p, law, speed), along = h * law.held;
+  c.held = law.held;
   const S approach = speed + p.pushed;
-  const auto is_impact = ((p.restitution > zero) & (approach < -law.impact_speed)) | (approach < -law.hard_speed);
-  if (lane::any(is_impact)) {
+  const auto is_hit = is_impact(p, law, approach);
+  if (lane::any(is_hit)) {
     constexpr double hardness = 1e4;
     const S impact_damping = S(hardness / dt) * law.mass;
-    push = select(is_impact, -impact_damping * (speed + p.restitution * approach), push);
-    along = select(is_impact, h * impact_damping, along);
+    const S rebound = max(-p.restitution * approach - (S(1) + p.restitution) * p.gained, zero);
+    push = select(is_hit, -impact_damping * (speed - rebound), push);
+    along = select(is_hit, h * impact_damping, along);
+    c.held = select(is_hit, impact_damping, c.held);
   }
-  const V3<S> slip = velocity - speed * p.normal;
-  const S limit = p.friction * p.load, give = give_of_cell(p, law, limit);
-  BoundedSpring<S> hold(p.displacement, slip, law.stiffness * give, law.held * give, limit, p.slides_on, is_on);
-  const MaskOf<S> breaks_away = p.breaks_away > zero;
-  if (lane::any(breaks_away)) {
-    hold.force = select(breaks_away, -p.drag * slip, hold.force);
-    hold.per_rate = select(breaks_away, p.drag, hold.per_rate);
-    hold.slide = select(breaks_away, none, hold.slide);
+  const S limit = p.friction * p.load, give = give_of_cell(p, c.held, limit);
+  BoundedSpring<S> hold(p.displacement, p.slip, law.stiffness * give, c.held * give, limit, is_on & !(p.sticks > zero));
+  const MaskOf<S> drags = p.drags > zero;
+  if (lane::any(drags)) {
+    hold.force = select(drags, -p.drag * p.slip, hold.force);
+    hold.per_rate = select(drags, p.drag, hold.per_rate);
+    hold.slide = select(drags, none, hold.slide);
   }
   c.along = select(is_on, along, zero), c.across = select(is_on, h * hold.per_rate, zero);
   c.slide = hold.slide, c.slides = hold.slides;
-  c.start = select(is_on, push * p.normal + hold.force, none);
+  V3<S> change = velocity - speed * p.normal - p.slip;
+  if (c.slides) change = change - dot(c.slide, change) * c.slide;
+  c.start = select(is_on, push * p.normal + (hold.force - hold.per_rate * change), none);
   c.start = c.force(p.normal, more);
   c.torque = none, c.rolling = c.spinning = zero;
   return c;
@@ -238,8 +250,8 @@ MURO_INLINE void resist(const ContactPoint<S>& p, const TurningPoint<S>& t, cons
   const MaskOf<S> is_on = p.is_on > S(0);
   const V3<S> rate = w - p.spin, about = dot(rate, p.normal) * p.normal, across = rate - about;
   const V3<S> wound = dot(t.displacement, p.normal) * p.normal, rolled = t.displacement - wound;
-  const BoundedSpring<S> roll(rolled, across, stiffness, held, t.rolling * p.load, S(0), is_on),
-      spin(wound, about, stiffness, held, t.spinning * p.load, S(0), is_on);
+  const BoundedSpring<S> roll(rolled, across, stiffness, held, t.rolling * p.load, is_on),
+      spin(wound, about, stiffness, held, t.spinning * p.load, is_on);
   c.torque = p.is_on * (roll.force + spin.force);
   c.rolling = p.is_on * h * roll.per_rate, c.spinning = p.is_on * h * spin.per_rate;
   add_about(to.A, c.rolling, c.spinning, p.normal);

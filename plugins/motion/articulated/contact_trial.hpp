@@ -26,53 +26,84 @@ MURO_INLINE S likely_load(const ContactSlot<S>& slot, S found) {
   return select(tells, max(meet, S(0)), found);
 }
 
-/// Prepares the next trial of a contact that pulls, which is let go then, that was let go and would push, that slides
-/// and would turn back, that sticks and has to hold more than it can, or that is new and bears another load than was
-/// expected. `weight`: N, of the robot. Returns a bit for each robot where it is one of these.
+/// What a contact was tried with is not what comes of it.
 template <class S>
-MURO_INLINE unsigned revise(ContactSlot<S>& slot, const ContactOutcome<S>& o, const ContactLaw<S>& law, S weight) {
-  ContactPoint<S>& p = slot.point;
-  const S zero(0), load = o.load;
-  const MaskOf<S> is_on = p.is_on > zero, is_drawn = is_on & (load < zero), has_friction = p.friction > zero,
-                  drags = p.breaks_away > zero, none = S(1) < zero;
-  // friction that a load is to bear which it takes away itself
-  const MaskOf<S> by_friction = is_drawn & has_friction & (p.load > zero), pulls = is_drawn & !by_friction;
-  const S precision = select(slot.is_new > zero, S(0.1), S(0.25));
-  const MaskOf<S> bears_other = is_on & !pulls & has_friction & !drags &
-                                (lane::abs(load - p.load) > precision * max(load, p.load) + S(0.05) * weight);
-  MaskOf<S> turns_back = none;
-  if (slot.step.slides) turns_back = dot(slot.step.slide, o.velocity) < zero;
-  // more than friction can hold, or a damper that does something else than it by now
-  const V3<S> across = o.force - load * p.normal;
-  const S most = p.friction * max(load, zero), expected = p.friction * p.load, margin(1.1 * 1.1);
-  const MaskOf<S> pushes_on = is_on & !is_drawn;
-  const MaskOf<S> breaks_away =
-      pushes_on & !turns_back & !drags & (dot(across, across) > margin * max(most * most, expected * expected));
-  MaskOf<S> drags_other = none;
-  if (lane::any(breaks_away | drags)) {
-    const S speed = sqrt(dot(o.slip, o.slip)), drag = p.drag * speed;
-    drags_other = pushes_on & drags & (lane::abs(drag - most) > S(0.1) * max(drag, most));
-    p.drag = select(breaks_away | drags_other, most / max(speed, S(1e-9)), p.drag);
-    p.breaks_away = select(breaks_away, S(1), p.breaks_away);
-  }
-  MaskOf<S> pushes_now = (!is_on) & (slot.rests > zero);
-  if (lane::any(pushes_now)) {
+struct Misfit {
+  MaskOf<S> any;          ///< of what follows
+  MaskOf<S> is_drawn;     ///< it pulls
+  MaskOf<S> pushes_now;   ///< it was let go, and would push
+  MaskOf<S> is_off_cone;  ///< its friction is not that of its slip and its load
+  MaskOf<S> turns_back;   ///< of these: it slid, and would push on
+  V3<S> across;           ///< N: its friction
+  S most;                 ///< N: that friction may be
+  S held;                 ///< N s/m: of friction that sticks with this load, by the slip at the end of the step
+};
+
+/// `weight`: N, of the robot.
+template <class S>
+MURO_INLINE Misfit<S> misfit(const ContactSlot<S>& slot, const ContactOutcome<S>& o, const ContactLaw<S>& law,
+                             S weight) {
+  const ContactPoint<S>& p = slot.point;
+  const S zero(0), load = max(o.load, zero);
+  const MaskOf<S> is_on = p.is_on > zero;
+  Misfit<S> m;
+  m.is_drawn = is_on & (o.load < zero);
+  m.across = o.force - o.load * p.normal;
+  const S most = p.friction * load, give = slot.has_cells ? give_of_cell(p, slot.step.held, most) : S(1);
+  m.held = slot.step.held * give;
+  const V3<S> hold = (law.stiffness * give) * p.displacement + m.held * o.slip;
+  const S square = dot(hold, hold);
+  const MaskOf<S> is_small = square <= most * most;
+  const V3<S> friction = hold * select(is_small, S(-1), -most / sqrt(max(square, S(1e-24))));
+  m.most = most;
+  // what friction lacks in a step comes in the next ones, but for impacts
+  constexpr double precision = 0.1, of_weight = 1e-3, of_cone = 0.005, of_impact = 0.001;
+  const V3<S> lack = friction - m.across;
+  const S limit = S(1 + of_cone) * most;
+  const S allowed = select(slot.step.held > law.held, S(of_impact) * most,
+                           max(S(precision) * most, S(of_weight) * p.friction * weight));
+  m.is_off_cone =
+      is_on & !m.is_drawn & ((dot(lack, lack) > allowed * allowed) | (dot(m.across, m.across) > limit * limit));
+  m.turns_back = m.is_off_cone & (dot(slot.step.slide, hold) < zero);
+  m.pushes_now = (!is_on) & (slot.rests > zero);
+  if (lane::any(m.pushes_now)) {
     const S speed = dot(o.velocity, p.normal);
-    pushes_now = pushes_now & pushes(p, law, speed, soft_push(p, law, speed));
-    slot.rests = select(pushes_now, zero, slot.rests);
+    m.pushes_now = m.pushes_now & pushes(p, law, speed, soft_push(p, law, speed));
   }
-  const unsigned changed =
-      lane::bits(MaskOf<S>(is_drawn | pushes_now | bears_other | turns_back | breaks_away | drags_other));
-  const S tried_load = p.load;
-  if (changed != 0) {
-    p.is_on = select(pulls, zero, select(pushes_now, S(1), p.is_on));
-    p.slides_on = select(turns_back, zero, p.slides_on);
-    const S next = likely_load(slot, load);
-    p.load = select(by_friction, zero, select(bears_other, next, p.load));
-    p.drag = select(by_friction, zero, p.drag);
+  m.any = m.is_drawn | m.pushes_now | m.is_off_cone;
+  return m;
+}
+
+/// Where the search for what contacts do stands.
+enum class Search {
+  pieces,  ///< each takes the piece that it has come to
+  drags,   ///< what is not found is a damper of what friction may be, which never turns back
+  yields,  ///< what is not found by that is a lesser damper
+  ends,    ///< what is not found by that does without friction
+};
+
+/// Prepares the next trial of a contact.
+template <class S>
+MURO_INLINE void revise(ContactSlot<S>& slot, const ContactOutcome<S>& o, const Misfit<S>& m, Search search) {
+  ContactPoint<S>& p = slot.point;
+  const S zero(0), tried_load = p.load;
+  // friction that a load is to bear which it takes away itself
+  const MaskOf<S> by_friction = m.is_drawn & (p.friction > zero) & (p.load > zero), pulls = m.is_drawn & !by_friction;
+  p.is_on = select(pulls, zero, select(m.pushes_now, S(1), p.is_on));
+  slot.rests = select(m.pushes_now, zero, slot.rests);
+  p.load = select(by_friction, zero, select(m.is_off_cone, likely_load(slot, max(o.load, zero)), p.load));
+  p.sticks = select(by_friction | m.is_off_cone, select(m.turns_back, S(1), zero), p.sticks);
+  p.slip = select(m.is_off_cone | by_friction, o.slip, p.slip);
+  if (search != Search::pieces) {
+    constexpr double less = 0.7;
+    S drag = min(m.most / sqrt(max(dot(o.slip, o.slip), S(1e-18))), m.held);
+    if (search == Search::yields) drag = S(less) * select(p.drags > zero, min(drag, p.drag), drag);
+    if (search == Search::ends) drag = zero;
+    p.drags = select(m.is_off_cone | by_friction, S(1), p.drags);
+    p.drag = select(by_friction, zero, select(m.is_off_cone, drag, p.drag));
   }
-  slot.tried_load = tried_load, slot.found_load = load;
-  return changed;
+  slot.tried_load = select(m.any, tried_load, slot.tried_load);
+  slot.found_load = select(m.any, o.load, slot.found_load);
 }
 
 }  // namespace MURO_ISA

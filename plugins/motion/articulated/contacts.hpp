@@ -26,10 +26,36 @@ class Contacts {
     load_contacts(robots, count);
   }
 
-  MaskOf<S> is_free_of_contacts() const { return touches_ == S(0); }
   /// N, N m: the sum of what acts on bodies beside contacts, at the origin of the base.
   const V3<S>& external_force() const { return force_; }
   const V3<S>& external_torque() const { return torque_; }
+
+  /// Adds what contacts have done to a robot of one body, in the middle of the step.
+  void add_to(V3<S>& force, V3<S>& torque) const {
+    const BodyStep<S>& body = work_.bodies[0];
+    for (int i = 0; i < work_.contact_count; ++i) {
+      const ContactSlot<S>& slot = work_.contacts[i];
+      const V3<S> f = outcome_of(slot).force;
+      V3<S> t = cross(slot.point.arm, f);
+      if (slot.has_cells) t += dot(slot.point.turn, f) * slot.point.normal;
+      if (slot.resists_turning != 0) t += slot.step.moment(slot.point.normal, body.alpha);
+      force += body.axes * f, torque += body.axes * t;
+    }
+  }
+
+  /// s: how long before the step that which now comes in has touched; the mean by forces.
+  S time_since_touch() const {
+    const S zero(0);
+    S sum(0), weighted(0);
+    for (int i = 0; i < work_.contact_count; ++i) {
+      const ContactSlot<S>& slot = work_.contacts[i];
+      const MaskOf<S> counts = (slot.point.is_on > zero) & (slot.comes_in > zero);
+      if (!any(counts)) continue;
+      const S load = select(counts, max(dot(outcome_of(slot).force, slot.point.normal), zero), zero);
+      sum += load, weighted += load * time_since_touch(slot);
+    }
+    return select(sum > zero, weighted / max(sum, S(1e-300)), zero);
+  }
 
   /// What contacts and wrenches add to their bodies.
   void add_terms() {
@@ -38,7 +64,7 @@ class Contacts {
     for (int i = 0; i < work_.contact_count; ++i) {
       ContactSlot<S>& slot = work_.contacts[i];
       Inertia<S>& to = work_.external[slot.body];
-      slot.step = touch(slot.point, law_, slot.velocity, slot.drift, batch_.dt);
+      slot.step = touch(slot.point, law_, slot.velocity, work_.drifts[slot.body], batch_.dt);
       lanes::add_terms(slot.point, slot.step, to);
       if (slot.has_cells) add_turn(slot.point, slot.step, to);
       if (slot.resists_turning != 0)
@@ -48,15 +74,19 @@ class Contacts {
 
   /// Tells and keeps what contacts have done. Returns whether some have not done what was tried, but will do in the
   /// next trial.
-  bool settle() {
-    unsigned changed = 0;
+  bool settle(Search search) {
+    MaskOf<S> changed = S(1) < S(0);
     for (int i = 0; i < work_.contact_count; ++i) {
       ContactSlot<S>& slot = work_.contacts[i];
       const ContactOutcome<S> outcome = outcome_of(slot);
       keep(slot, outcome);
-      changed |= revise(slot, outcome, law_, weight_);
+      Misfit<S> m = misfit(slot, outcome, law_, weight_);
+      if (search >= Search::yields) m.any = m.is_drawn | m.is_off_cone, m.pushes_now = S(1) < S(0);
+      if (!any(m.any)) continue;
+      changed = changed | m.any;
+      revise(slot, outcome, m, search);
     }
-    return changed != 0;
+    return any(changed);
   }
 
  private:
@@ -123,7 +153,6 @@ class Contacts {
   void load_contacts(const RobotState* robots, int count) {
     static constexpr KernelContact none{no_contact, no_surface, nullptr, nullptr, 0, false};
     int next[count_of<S>] = {};
-    touches_ = S(0);
     work_.contact_count = 0;
     for (;;) {
       int body = batch_.structure.count;
@@ -140,7 +169,6 @@ class Contacts {
         slot.wrench.at[i] = robots[i].contact_wrenches + 6 * next[i];
         of_robot[i] = robots[i].contacts + next[i]++;
         slot.which |= 1u << i;
-        set(touches_, i, 1);
       }
       if (!work_.acts_on[body] || work_.contact_count == 1 || work_.contacts[work_.contact_count - 2].body != body) {
         const BodyStep<S>& b = work_.bodies[body];
@@ -168,12 +196,15 @@ class Contacts {
     }
     const BodyStep<S>& body = work_.bodies[slot.body];
     const S zero(0);
-    S at[7], of_surface[2], before[4];
+    S at[7], of_surface[2], before[10];
     load_rows(place, 0, at), load_rows(surface, 0, of_surface), load_rows(kept, 0, before);
     const V3<S> point{at[0], at[1], at[2]};
+    const S load = before[9];
+    const V3<S> arm = transposed_times(body.axes, point - body.origin);
     ContactPoint<S>& p = slot.point;
-    p.arm = transposed_times(body.axes, point - body.origin);
     p.normal = transposed_times(body.axes, V3<S>{at[3], at[4], at[5]});
+    const Travel travel = travel_of(slot, point, arm, before, body);
+    p.arm = arm + travel.half;
     p.depth = at[6];
     p.velocity = p.spin = {zero, zero, zero};
     if (moves) {
@@ -181,18 +212,16 @@ class Contacts {
       p.velocity = transposed_times(body.axes, other.linear);
       p.spin = transposed_times(body.axes, other.angular);
     }
-    const V3<S> d = transposed_times(body.axes, V3<S>{before[0], before[1], before[2]});
+    const V3<S> d = transposed_times(body.axes, V3<S>{before[6], before[7], before[8]});
     p.displacement = d - dot(d, p.normal) * p.normal;
     p.friction = of_surface[0], p.restitution = of_surface[1];
     if (slot.resists_turning != 0) {
       S of_turning[2], wound[3];
-      load_rows(surface, 2, of_turning), load_rows(kept, 4, wound);
+      load_rows(surface, 2, of_turning), load_rows(kept, 10, wound);
       slot.turning.rolling = of_turning[0], slot.turning.spinning = of_turning[1];
       slot.turning.displacement = transposed_times(body.axes, V3<S>{wound[0], wound[1], wound[2]});
     }
-    slot.velocity = body.v + cross(body.w, p.arm);
-    // the point turns with the body about the normal, as on a wheel that rolls along a curve
-    slot.drift = work_.drifts[slot.body] + cross(body.w, dot(body.w, p.normal) * cross(p.normal, p.arm));
+    slot.velocity = body.v + cross(body.w, arm + travel.all);
     p.turn = {zero, zero, zero}, p.cell_speed = zero;
     if (slot.has_cells) {
       p.turn = cross(p.normal, transposed_times(body.axes, lane::load_vector(shift)));
@@ -200,20 +229,64 @@ class Contacts {
       slot.velocity += more;
       p.cell_speed = max(sqrt(dot(more, more)) - S(least_cell_speed), zero);
     }
-    const S speed = dot(slot.velocity - p.velocity, p.normal);
+    const V3<S> velocity_of_point = slot.velocity - p.velocity;
+    const S speed = dot(velocity_of_point, p.normal);
+    p.slip = velocity_of_point - speed * p.normal;
     p.pushed = knows_pushes_ ? S(batch_.dt) * dot(pushed_a_ + cross(pushed_alpha_, p.arm), p.normal) : zero;
     // what has borne nothing in the last step is tried without
     const S push = soft_push(p, law_, speed);
-    const MaskOf<S> bore_nothing = before[3] < zero, is_on = pushes(p, law_, speed, push) & !bore_nothing;
+    const MaskOf<S> bore_nothing = load < zero, is_on = pushes(p, law_, speed, push) & !bore_nothing;
     p.is_on = select(is_on, S(1), zero);
     // what bears little on its way out may push on: its speed at the begin of the step does not tell
     slot.rests = select(is_on, zero, S(1));
-    p.slides_on = S(1), p.breaks_away = p.drag = zero;
-    const MaskOf<S> is_new = before[3] <= zero;
-    slot.is_new = select(is_new, S(1), zero);
+    p.sticks = p.drags = p.drag = zero;
     slot.tried_load = slot.found_load = S(-1);
-    p.load = before[3];
-    if (any(is_new)) p.load = select(is_new, expected_load(p, law_, speed, push, batch_.dt), before[3]);
+    p.load = load;
+    const MaskOf<S> is_new = load <= zero, is_hit = is_impact(p, law_, speed + p.pushed);
+    if (any(is_new | is_hit)) p.load = select(is_new | is_hit, expected_load(p, law_, speed, push, batch_.dt), load);
+    slot.comes_in = select(is_new | is_hit, S(1), zero);
+    p.gained = zero;
+    if (!any(is_hit)) return;
+    if (batch_.structure.count == 1)
+      p.gained = time_since_touch(slot) * max(-dot(work_.drifts[slot.body] - cross(body.w, body.v), p.normal), zero);
+    // it is hit where its surface is, before it went in
+    const V3<S> in = select(is_hit, S(-0.5) * p.depth, zero) * p.normal, turning = cross(body.w, in);
+    p.arm += in, slot.velocity += turning;
+    p.slip += turning - dot(turning, p.normal) * p.normal;
+  }
+
+  /// s, of one that comes in.
+  MURO_INLINE S time_since_touch(const ContactSlot<S>& slot) const {
+    constexpr double least = 1e-3;  // m/s
+    const S approach = -dot(slot.velocity - slot.point.velocity, slot.point.normal);
+    return select(approach > S(least), min(slot.point.depth / max(approach, S(least)), S(batch_.dt)), S(0));
+  }
+
+  /// How far a point goes beside the origin of its body, in the frame of that.
+  struct Travel {
+    V3<S> half, all;  ///< m: in half of the step, and in the step
+  };
+  /// It goes on as in the last two steps, on a parabola, or where these differ much, as in the shorter one, since
+  /// points of edges and corners jump. Where they are not known, it turns with the body about the normal, as on a wheel
+  /// that rolls along a curve. `arm`: m, to `point`, in the frame of the body.
+  MURO_INLINE Travel travel_of(ContactSlot<S>& slot, const V3<S>& point, const V3<S>& arm, const S (&before)[10],
+                               const BodyStep<S>& body) {
+    const S zero(0);
+    const V3<S> none{zero, zero, zero}, last{before[3], before[4], before[5]};
+    const MaskOf<S> is_known = (before[9] < zero) | (before[9] > zero);
+    slot.way = select(is_known, point - V3<S>{before[0], before[1], before[2]}, none);
+    const S square = dot(slot.way, slot.way), of_last = dot(last, last);
+    const V3<S> change = slot.way - last, way = select(square < of_last, slot.way, last);
+    const MaskOf<S> goes_on = is_known & (min(square, of_last) > zero);
+    const V3<S>& normal = slot.point.normal;
+    const V3<S> turned = S(batch_.dt) * (dot(body.w, normal) * cross(normal, arm));
+    if (!any(goes_on)) return {S(0.5) * turned, turned};
+    const MaskOf<S> bends = dot(change, change) < S(0.25) * min(square, of_last);
+    const V3<S> half = select(bends, S(0.5) * slot.way + S(0.375) * change, S(0.5) * way);
+    const V3<S> all = select(bends, slot.way + change, way);
+    const V3<S> of_origin = S(batch_.dt) * body.v;
+    return {select(goes_on, transposed_times(body.axes, half) - S(0.5) * of_origin, S(0.5) * turned),
+            select(goes_on, transposed_times(body.axes, all) - of_origin, turned)};
   }
 
   /// A robot that is one body: what wrenches do to it is known before contacts are.
@@ -233,7 +306,7 @@ class Contacts {
     ContactOutcome<S> o;
     o.force = slot.step.force(p.normal, a);
     o.load = dot(o.force, p.normal);
-    o.velocity = slot.velocity + S(batch_.dt) * (a + slot.drift) - p.velocity;
+    o.velocity = slot.velocity + S(batch_.dt) * (a + work_.drifts[slot.body]) - p.velocity;
     o.slip = o.velocity - dot(o.velocity, p.normal) * p.normal;
     return o;
   }
@@ -246,17 +319,19 @@ class Contacts {
     const V3<S> none{S(0), S(0), S(0)};
     V3<S> slipped = o.slip;
     if (slot.has_cells)  // less what the damper behind the spring does
-      slipped += (o.force - o.load * p.normal) * (p.cell_speed / max(p.friction * p.load, S(1e-12)));
+      slipped += (o.force - o.load * p.normal) * (p.cell_speed / max(p.friction * max(p.load, load), S(1e-12)));
     const V3<S> displacement = bounded(p.displacement + S(batch_.dt) * slipped, p.friction * load, law_.stiffness);
     const V3<S> d = body.axes * select(is_on, displacement, none);
-    store_numbers(slot.kept, 0, {d.x, d.y, d.z, select(load > S(0), load, S(unloaded))}, slot.which);
+    const V3<S>& way = slot.way;
+    store_numbers(slot.kept, 3, {way.x, way.y, way.z, d.x, d.y, d.z, select(load > S(0), load, S(unloaded))},
+                  slot.which);
     const V3<S> force = body.axes * o.force;
     V3<S> moment = none;
     if (slot.has_cells) moment = dot(p.turn, o.force) * (body.axes * p.normal);
     if (slot.resists_turning != 0) {
       moment += body.axes * slot.step.moment(p.normal, body.alpha);
       const V3<S> t = body.axes * select(is_on, turn_after(slot, body, load), none);
-      store_numbers(slot.kept, 4, {t.x, t.y, t.z}, slot.resists_turning);
+      store_numbers(slot.kept, 10, {t.x, t.y, t.z}, slot.resists_turning);
     }
     store_numbers(slot.wrench, 0, {force.x, force.y, force.z, moment.x, moment.y, moment.z}, slot.which);
   }
@@ -287,7 +362,6 @@ class Contacts {
   bool knows_pushes_ = false;
   V3<S> pushed_alpha_, pushed_a_;  ///< by wrenches alone, where pushes are known
   V3<S> force_, torque_;
-  S touches_;  ///< 1: it has contacts
 };
 
 }  // namespace MURO_ISA

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The flight of a robot that touches nothing: gravity, wrenches from outside and its momentum say how its base moves.
-// So momenta are kept to rounding, whatever its joints do, and a rigid body turns by the midpoint rule on its angular
-// momentum (Hairer, Lubich, Wanner, Geometric Numerical Integration, section VII.5), as at motion.simplified.
+// The flight of a robot that touches nothing, or is one body that contacts push: gravity, wrenches from outside and its
+// momentum say how its base moves. So momenta are kept to rounding, whatever its joints do, and a rigid body turns by
+// the midpoint rule on its angular momentum (Hairer, Lubich, Wanner, Geometric Numerical Integration, section VII.5),
+// as at motion.simplified.
 #pragma once
 
 #include "plugins/common/lanes/rotation.hpp"
@@ -64,7 +65,7 @@ class Flight {
 
   /// When joints have moved. `untouched`: robots whose bodies lie where the middle of the step finds them, with the
   /// position of the start; those of the others have the start. `force`, `torque`: from outside, at the origin of the
-  /// base. Changes bodies.
+  /// base, of contacts as well where it is the only body. Changes bodies.
   void carry(lane::PoseOf<S>& pose, lane::TwistOf<S>& twist, MaskOf<S> untouched, bool all_are, const V3<S>& gravity,
              const V3<S>& force, const V3<S>& torque, double dt) {
     const S h(dt), half(0.5 * dt);

@@ -10,11 +10,12 @@ namespace muro::articulated {
 struct KeptContact {
   std::uint64_t pair = 0;            ///< see contact_geometry/kept_contact.hpp
   Vec3 point = Vec3::Zero();         ///< m, world
+  Vec3 way = Vec3::Zero();           ///< m, world: of the point in the step before
   Vec3 displacement = Vec3::Zero();  ///< m, world: of the friction spring
   double load = 0;                   ///< N: the normal force of the last step; 0: not known, `unloaded`: none
   Vec3 turn = Vec3::Zero();          ///< rad, world: of the spring against rolling and spinning
 };
-static_assert(sizeof(KeptContact) == (4 + kept_numbers) * sizeof(double));
+static_assert(sizeof(KeptContact) == (1 + kept_numbers) * sizeof(double));
 
 }  // namespace muro::articulated
 

@@ -18,8 +18,10 @@ static_assert(offsetof(Contact, normal) == offsetof(Contact, point) + 3 * sizeof
               offsetof(Surface, restitution) == sizeof(double) &&
               offsetof(Surface, rolling_resistance) == 2 * sizeof(double) &&
               offsetof(Surface, spinning_resistance) == 3 * sizeof(double) &&
-              offsetof(KeptContact, load) == offsetof(KeptContact, displacement) + 3 * sizeof(double) &&
-              offsetof(KeptContact, turn) == offsetof(KeptContact, displacement) + 4 * sizeof(double));
+              offsetof(KeptContact, way) == offsetof(KeptContact, point) + 3 * sizeof(double) &&
+              offsetof(KeptContact, displacement) == offsetof(KeptContact, point) + 6 * sizeof(double) &&
+              offsetof(KeptContact, load) == offsetof(KeptContact, point) + 9 * sizeof(double) &&
+              offsetof(KeptContact, turn) == offsetof(KeptContact, point) + 10 * sizeof(double));
 
 void TouchedBodies::connect(Connector& c) {
   all_.resize(c.object_count());
@@ -146,7 +148,7 @@ void RobotContacts::keep_what_lasts(const TouchedBodies& bodies) {
     if (known) kept = *known;
     kept_.push_back(kept);
   }
-  for (std::size_t i = 0; i < contacts_.size(); ++i) contacts_[i].kept = (*kept_)[i].displacement.data();
+  for (std::size_t i = 0; i < contacts_.size(); ++i) contacts_[i].kept = (*kept_)[i].point.data();
 }
 
 /// Of adjacent contacts of two shapes with one normal.

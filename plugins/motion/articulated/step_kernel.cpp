@@ -87,6 +87,12 @@ struct Bases {
     Q4<S>& q = pose.orientation;
     q = {select(which, a.x, q.x), select(which, a.y, q.y), select(which, a.z, q.z), select(which, a.w, q.w)};
   }
+  /// To where it would be had the change of its velocity from `before` come so much earlier (s). `fall`: m/s, of the
+  /// change what forces from outside have done.
+  MURO_INLINE void advance(S time, const TwistOf<S>& before, const V3<S>& fall) {
+    pose.position += time * (twist.linear - before.linear - fall);
+    pose.orientation = turned(rotation_by(time * (twist.angular - before.angular)), pose.orientation);
+  }
   /// With the mean of the velocities of both ends.
   MURO_INLINE void move(const BodyStep<S>& base, const V3<S>& gravity, double dt) {
     const S h(dt), half(0.5 * dt);
@@ -137,8 +143,22 @@ MURO_INLINE Masses<S> masses_of(const Batch& batch, const RobotState* robots, in
   return masses;
 }
 
-/// The pieces of the laws of joints and contacts are found by trial: mostly the first is right.
-constexpr int most_trials = 6;
+/// Whether a body turns so much in a step that it matters when its gyroscopic torque is taken.
+template <class S>
+MURO_INLINE MaskOf<S> spins(const BodyStep<S>& body, double dt) {
+  constexpr double least = 1e-4;  // rad
+  return dot(body.w, body.w) > S(least * least / (dt * dt));
+}
+
+/// The pieces of the laws of joints and contacts are found by trial: mostly the first is right. Contacts are tried as
+/// pieces of their law, then as dampers, then as lesser ones, and at last without friction where nothing else fits.
+constexpr int most_pieces = 5, most_drags = 7, most_yields = 11, most_trials = 18;
+MURO_INLINE Search search_of(int trial) {
+  return trial < most_pieces   ? Search::pieces
+         : trial < most_drags  ? Search::drags
+         : trial < most_yields ? Search::yields
+                               : Search::ends;
+}
 
 template <class S>
 unsigned step_some(const Batch& batch, const RobotState* robots, int count) {
@@ -155,12 +175,14 @@ unsigned step_some(const Batch& batch, const RobotState* robots, int count) {
   const bool steps_smoothly = s.count > 1 && !batch.runge_kutta;
   const unsigned in_flight = robots_that(robots, count, [](const RobotState& r) { return r.contact_count == 0; });
   const unsigned pushed = robots_that(robots, count, [](const RobotState& r) { return r.is_pushed; });
-  const bool some_fly = !s.fixed && !batch.runge_kutta && in_flight != 0;
   const bool some_are_untouched = steps_smoothly && (in_flight & ~pushed) != 0;
-  const MaskOf<S> flies = mask_of<S>(in_flight), untouched = mask_of<S>(some_are_untouched ? in_flight & ~pushed : 0);
+  const MaskOf<S> untouched = mask_of<S>(some_are_untouched ? in_flight & ~pushed : 0);
   std::optional<Bases<S>> start;
   if (!s.fixed) start = base;
   base.place(bodies[0], s.fixed);
+  MaskOf<S> flies = mask_of<S>(in_flight);
+  if (s.count == 1) flies = flies | spins(bodies[0], dt);  // on contacts as well
+  const bool some_fly = !s.fixed && !batch.runge_kutta && (bits(flies) & which) != 0;
   if (some_fly || !some_are_untouched) place_all(s, bodies);
   std::optional<Flight<S>> flight;
   if (some_fly) flight.emplace(s, masses, work);
@@ -178,7 +200,8 @@ unsigned step_some(const Batch& batch, const RobotState* robots, int count) {
     contacts.add_terms();
     if (trial > 1) joints.set_terms();
     accelerate_all(s, masses, work, fall, S(1 / dt));
-    const bool loads = contacts.settle(), others = trial < most_trials && joints.look_again(which);
+    const bool loads = contacts.settle(search_of(trial));
+    const bool others = trial < most_trials && joints.look_again(which);
     if (trial == most_trials || (!others && !loads)) break;
   }
   MaskOf<S> is_smooth = untouched;
@@ -194,9 +217,14 @@ unsigned step_some(const Batch& batch, const RobotState* robots, int count) {
     lane::PoseOf<S> pose = start->pose;
     lane::TwistOf<S> twist = start->twist;
     const bool all_are_untouched = some_are_untouched && (in_flight & pushed) == 0;
-    flight->carry(pose, twist, untouched, all_are_untouched, gravity, contacts.external_force(),
-                  contacts.external_torque(), dt);
+    V3<S> force = contacts.external_force(), torque = contacts.external_torque();
+    if (s.count == 1) contacts.add_to(force, torque);
+    flight->carry(pose, twist, untouched, all_are_untouched, gravity, force, torque, dt);
     base.take(pose, twist, flies);
+  }
+  if (s.count == 1 && !s.fixed && in_flight != which) {
+    const S time = contacts.time_since_touch();
+    if (any(time > S(0))) base.advance(time, start->twist, S(dt) * gravity);
   }
   if (!s.fixed) base.store(which);
   joints.store(which);

@@ -19,11 +19,11 @@ struct ContactSlot {
   bool has_cells = false;                ///< friction of some acts beside the point
   lane::Places<S, double> kept, wrench;  ///< of those lanes: what it keeps, and where to tell what it does
   V3<S> velocity;                        ///< m/s: of the point on the body, in its frame; see ContactPoint::turn
-  V3<S> drift;                           ///< m/s^2, of the same: what its acceleration counts from
   ContactPoint<S> point;
   TurningPoint<S> turning;
   ContactStep<S> step;
-  S is_new;                  ///< 1: its last normal force is not known
+  V3<S> way;                 ///< m, world: of the point since the last step
+  S comes_in;                ///< 1: it is new, or an impact
   S tried_load, found_load;  ///< N: of the trial before; -1: there is none
   S rests;                   ///< 1: it is tried without a force, since it had none in the last step
 };

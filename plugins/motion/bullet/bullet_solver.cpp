@@ -11,7 +11,7 @@ using multibody::DriveTarget, multibody::JointState;
 namespace {
 
 constexpr double unbounded = 1e30;
-constexpr double min_split_velocity = 1e-4;  ///< m/s: slower corrections of overlaps are left in velocities
+constexpr double min_split_velocity = 2e-3;  ///< m/s: slower corrections, as softness brings, are left in velocities
 constexpr double softness = 0.01;            ///< see add(): of the inverse effective mass
 constexpr double deep_softness = 0.1;        ///< likewise
 constexpr double min_slip = 1e-3;            ///< m/s: below, friction has no direction of its own

@@ -369,12 +369,12 @@ TEST(UrdfProblems, LeadersThatTakeMimicsBeyondTheirLimits) {
         .problems;
   };
   const std::string links = "'><parent link='a'/><child link='c'/>", mimic = "<mimic joint='one' multiplier='-1'/>";
-  const auto limit = [](const std::string& bounds) { return "<limit " + bounds + " velocity='1' effort='1'/>"; };
-  EXPECT_EQ(problems("revolute" + links + limit("lower='0' upper='0.88'") + mimic),
+  const auto limits_of = [](const std::string& bounds) { return "<limit " + bounds + " velocity='1' effort='1'/>"; };
+  EXPECT_EQ(problems("revolute" + links + limits_of("lower='0' upper='0.88'") + mimic),
             Lines{"warning 2:123 joint `two` mimics `one`, which takes it from -0.8 to 0, beyond its own limits 0 to "
                   "0.88; it goes there, since mimic joints have the limits of their leaders alone. Mend multiplier, "
                   "offset or limits"});
-  EXPECT_EQ(problems("revolute" + links + limit("lower='-0.8' upper='0'") + mimic), Lines{});
+  EXPECT_EQ(problems("revolute" + links + limits_of("lower='-0.8' upper='0'") + mimic), Lines{});
   EXPECT_EQ(problems("continuous" + links + mimic), Lines{});
 }
 

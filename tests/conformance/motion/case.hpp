@@ -64,6 +64,7 @@ std::vector<Case> mesh_cases();
 std::vector<Case> heightmap_cases();
 std::vector<Case> tunnelling_cases();
 std::vector<Case> patch_cases();
+std::vector<Case> passivity_cases();
 
 /// Why the case is not for the motion; empty where it is.
 std::string why_left_out(const std::string& motion, const Case& c);

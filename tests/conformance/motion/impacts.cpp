@@ -2,6 +2,7 @@
 // Bodies that bounce and rest.
 #include <random>
 
+#include "muro/toolkit/rotations.hpp"
 #include "tests/conformance/motion/case.hpp"
 
 namespace muro::conformance {
@@ -195,6 +196,53 @@ Outcome weighs(const std::string& motion) {
                      text(-0.03 * weight)};
 }
 
+/// A ball that comes down with 1 m/s to the side: Coulomb's impulse slides through, or stops its contact (Routh).
+Outcome routh_ball(const std::string& motion) {
+  const double r = 0.05, e = 0.7, u = 1, v = std::sqrt(2 * g);
+  Outcome worst;
+  for (const double friction : {0.02, 0.2}) {
+    Trial t(motion);
+    t.add_ground(friction);
+    const RobotView& b = t.add("ball", ball(1, r, friction, e), {{0, 0, 1 + r}, Quat::Identity()}, {{u, 0, 0}, {}});
+    t.start();
+    t.run_for(0.5);
+    const double impulse = std::min(friction * (1 + e) * v, 2.0 / 7 * u), spin = 2.5 * impulse / r;
+    const double speed = t.twist(b).linear.x(), turns = t.twist(b).angular.y();
+    const double error = std::max(std::abs(speed - (u - impulse)) / u, std::abs(turns - spin) / spin);
+    worst.error = std::max(worst.error, error);
+    worst.seen += text(speed) + " m/s for " + text(u - impulse) + ", " + text(turns) + " rad/s for " + text(spin) + " ";
+  }
+  return worst;
+}
+
+/// A rod that strikes with one end: frictionless, on its cone, and where friction stops the end.
+Outcome routh_rod(const std::string& motion) {
+  const double length = 1, e = 0.5, angle = 0.6, inertia = 1.0 / 12;
+  const double x = 0.5 * length * std::cos(angle), z = -0.5 * length * std::sin(angle);
+  Outcome worst;
+  for (const double friction : {0.0, 0.3, 1.0}) {
+    Trial t(motion);
+    t.add_ground(friction);
+    Shape s = with(Shape::capsule(1e-3, length), friction, e);
+    s.origin.orientation = from_rpy(0, M_PI / 2, 0);
+    const RobotView& rod = t.add("rod", test::single_body(s, {.mass = 1, .ixx = 1e-3, .iyy = inertia, .izz = inertia}),
+                                 {{0, 0, 1 + 1e-3 - z}, from_rpy(0, angle, 0)});
+    t.start();
+    double before = 0;
+    do {
+      before = t.twist(rod).linear.z();
+      t.run_for(0.001);
+    } while (t.twist(rod).linear.z() < before && t.now() < 1'000'000'000);
+    // what an impulse (p, 1) at the end does to its velocity
+    const double kxx = 1 + z * z / inertia, kxz = -x * z / inertia, kzz = 1 + x * x / inertia;
+    const double p = -std::min(friction, kxz / kxx), impulse = (1 + e) * std::sqrt(2 * g) / (kzz + kxz * p);
+    const double spin = impulse * (z * p - x) / inertia, turns = t.twist(rod).angular.y();
+    worst.error = std::max(worst.error, std::abs(turns / spin - 1));
+    worst.seen += text(turns) + " rad/s for " + text(spin) + " ";
+  }
+  return worst;
+}
+
 }  // namespace
 
 std::vector<Case> impact_cases() {
@@ -210,6 +258,10 @@ std::vector<Case> impact_cases() {
       {"a ball of restitution 0 stays down", "1", feature_contact, 0.01, plastic},
       {"a ball rebounds by its restitution wherever in a step it lands", "1", feature_contact | feature_restitution,
        0.005, elastic_in_any_phase},
+      {"a ball with speed to the side rebounds by Coulomb's impulse", "relative",
+       feature_contact | feature_restitution | feature_friction, 0.02, routh_ball},
+      {"a rod strikes with one end by Coulomb's impulse", "relative",
+       feature_contact | feature_restitution | feature_friction, 0.02, routh_rod},
       {"a box lies on the ground, not in it", "m", feature_contact, 1e-3, carries},
       {"boxes of 1 g to 10000 t lie on the ground, not in it", "m", feature_contact, 1e-3, carries_any_mass},
       {"the ground carries a box with its weight, below its centre of mass", "relative",
