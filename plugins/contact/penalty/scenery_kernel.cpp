@@ -63,6 +63,7 @@ class RobotContacts {
       : batch_(batch), used_(first_lanes(count)) {
     Places<S> poses, twists, masses;
     double counts[count_of<S>];
+    unsigned rolling = 0;
     least_ = max_contacts;
     for (int i = 0; i < count_of<S>; ++i) {
       const KernelRobot& r = *robots[i < count ? i : 0];
@@ -75,6 +76,7 @@ class RobotContacts {
       has_many_objects_ = has_many_objects_ || r.has_many_objects;
       has_many_materials_ = has_many_materials_ || r.has_many_materials;
       changed_ |= unsigned(r.is_changed) << i;
+      rolling |= unsigned(r.rolls) << i;
       listed_.at[i] = r.listed, before_.at[i] = r.before;
       anchors_.at[i] = r.anchors, wrench_.at[i] = r.wrench, forces_.at[i] = r.forces;
       poses.at[i] = r.base_pose, twists.at[i] = r.base_twist, masses.at[i] = r.mass;
@@ -91,6 +93,9 @@ class RobotContacts {
     const PoseOf<S> pose = load_pose(poses);
     body_ = mobility_of(mass, pose);
     base_ = pose.position;
+    if (rolling == 0) return;
+    any_rolls_ = true;
+    rolls_ = of_bits(rolling);
     const TwistOf<S> twist = load_twist(twists);
     drift_ = (twist.linear + cross(twist.angular, body_.centre - base_)) * S(0.5 * batch.stiffness.h);
     reach2_ = body_.mass / (S(square_of_reach) * body_.inertia.trace());
@@ -227,19 +232,22 @@ class RobotContacts {
     has_cells_ = true;
     const bool is_even = patch_count_ == 1 && groups_ == common_groups_ && least_ == most_;
     if (!is_even || (goes_on & goes_on >> 1) != 0) return find_any_turns();
+    lines_ = goes_on;
     const V3<S> none{S(0), S(0), S(0)};
-    for (int k = 0; k < most_; ++k) {
-      if (goes_on >> (k + 1) & 1)
-        add_line(k++);
-      else
-        points_[k].turn = none;
-    }
+    for (int k = 0; k < most_; ++k)
+      if (!((lines_ | lines_ >> 1) >> k & 1)) points_[k].turn = none;
+  }
+  /// Of the patch of contact k: that of its first contact.
+  MURO_INLINE V3<S> patch_normal(int k) const {
+    V3<S> normal = patches_[0].normal;
+    for (int n = 1; n < patch_count_; ++n) normal = select(points_[k].patch == S(n), patches_[n].normal, normal);
+    return normal;
   }
   /// Of contacts k and k + 1.
   MURO_INLINE void add_line(int k) {
     Point &a = points_[k], &b = points_[k + 1];
     const V3<S> shift = contact_geometry::shift_in_line(a.at, b.at);
-    a.turn = cross(a.normal, shift), b.turn = -cross(b.normal, shift);
+    a.turn = cross(patch_normal(k), shift), b.turn = -a.turn;
   }
   /// Of robots whose groups differ, or are parts of several patches, or faces.
   [[gnu::noinline]] void find_any_turns() {
@@ -293,7 +301,7 @@ class RobotContacts {
       const S is_disc = of_contacts(k, [](const KernelContact& c) { return c.is_of_disc; });
       const S share = contact_geometry::share_of_cells(faces[k], distances[k], farthest[k], is_disc);
       Point& p = points_[k];
-      p.turn = select(here, cross(p.normal, arms[k]) * (share - S(1)), p.turn);
+      p.turn = select(here, cross(patch_normal(k), arms[k]) * (share - S(1)), p.turn);
     }
   }
   template <class M>
@@ -332,13 +340,16 @@ class RobotContacts {
       run.end = run.begin + 1;
       while (run.end < most_ && !(groups_ >> run.end & 1)) ++run.end;
       find_bodies_and_anchors(run);
-      if (run.most_anchors == 1)  // spherical wheels and feet
-        move_run<1>(run, may_collide);
+      if (any_rolls_)
+        move_rolling_run(run, may_collide);
+      else if (run.most_anchors == 1)  // spherical wheels and feet
+        move_run<1, false>(run, may_collide);
       else if (run.most_anchors == 2)  // cylindrical wheels and tracks
-        move_run<2>(run, may_collide);
+        move_run<2, false>(run, may_collide);
       else
         move_any_run(run, may_collide);
     }
+    if (has_cells_) any_spins_ = any(largest_spin2_ > S(least_spin * least_spin));
     return bits(may_collide > S(0));
   }
   MURO_INLINE void find_bodies_and_anchors(Run& run) const {
@@ -371,9 +382,17 @@ class RobotContacts {
       for (int i = 0; i < count_of<S>; ++i) at.at[i] += k < run.last_anchor[i] ? anchor_stride : 0;  // the last again
     }
   }
-  [[gnu::noinline]] void move_any_run(const Run& run, S& may_collide) { move_run<max_contacts>(run, may_collide); }
-  /// With at most n anchors, or any number of them.
-  template <int n>
+  [[gnu::noinline]] void move_any_run(const Run& run, S& may_collide) {
+    move_run<max_contacts, false>(run, may_collide);
+  }
+  [[gnu::noinline]] void move_rolling_run(const Run& run, S& may_collide) {
+    if (run.most_anchors == 1)
+      move_run<1, true>(run, may_collide);
+    else
+      move_run<max_contacts, true>(run, may_collide);
+  }
+  /// With at most n anchors, or any number of them. `rolls`: some robot does, see KernelRobot.
+  template <int n, bool rolls>
   MURO_INLINE void move_run(const Run& run, S& may_collide) {
     const V3<S> origin = load_vector(run.poses);
     const TwistOf<S> motion = load_twist(run.twists);
@@ -388,23 +407,35 @@ class RobotContacts {
       for (int i = 0; i < count_of<S>; ++i) last[i] = run.last_anchor[i];
       have_anchors = side_by_side(last) >= zero;
     }
+    const bool is_line = lines_ >> (run.begin + 1) & 1;
+    const S spin = has_cells_ ? dot(motion.angular, patches_[0].normal) : zero;
+    V3<S> line_spin{zero, zero, zero};
+    if (is_line) {
+      add_line(run.begin);
+      Point &a = points_[run.begin], &b = points_[run.begin + 1];
+      line_spin = spin * a.turn;
+      a.spin2 = b.spin2 = dot(line_spin, line_spin);
+      largest_spin2_ = max(a.spin2, largest_spin2_);
+    }
     for (int k = run.begin; k < run.end; ++k) {
       Point& p = points_[k];
       const V3<S> velocity = motion.linear + cross(motion.angular, p.at - origin);
       p.approach = -dot(velocity, p.normal);
       const V3<S> slip = velocity + p.approach * p.normal;
       p.slip = slip;
-      if (has_cells_) {
-        const V3<S> spin = dot(motion.angular, p.normal) * p.turn;
-        p.slip = all_have_cells_ ? slip + spin : select(have_cells_, slip + spin, slip);
-        p.spin2 = dot(spin, spin);
-      }
+      if (is_line)
+        p.slip = k == run.begin ? slip + line_spin : slip - line_spin;
+      else if (has_cells_)
+        add_spin(p, patch_count_ == 1 ? spin : dot(motion.angular, patch_normal(k)));
       V3<S> old{zero, zero, zero}, way = old;
       if (anchors > 0) old = before.nearest(p.at, anchors, way);
       if (!run.all_have_anchors) old = select(have_anchors, old, {zero, zero, zero});
-      // a point that moves over the body, as on a rim, moves on; others appear
-      p.arm = p.at - base_;
-      p.arm += select((dot(way, way) < reach2_) & have_anchors, way * half_step - drift_, {zero, zero, zero});
+      if constexpr (rolls) {
+        // a point that moves over the body, as on a rim, moves on; others appear
+        const auto moves_on = (dot(way, way) < reach2_) & have_anchors & rolls_;
+        p.arm = p.at - base_;
+        p.arm = select(moves_on, p.arm + (way * half_step - drift_), p.arm);
+      }
       const V3<S> displacement = old + p.slip * elapsed;
       p.displacement = displacement - p.normal * dot(p.normal, displacement);
       if (!any_looked_at_) continue;
@@ -416,6 +447,13 @@ class RobotContacts {
       may_collide = select(fast, select(lasts, may_collide, S(1)), may_collide);
     }
   }
+  /// `spin`: rad/s, about the normal of its patch.
+  MURO_INLINE void add_spin(Point& p, S spin) {
+    const V3<S> more = spin * p.turn;
+    p.slip = all_have_cells_ ? p.slip + more : select(have_cells_, p.slip + more, p.slip);
+    p.spin2 = dot(more, more);
+    largest_spin2_ = max(p.spin2, largest_spin2_);
+  }
   MURO_INLINE static MaskOf<S> of_bits(unsigned which) {
     double v[count_of<S>];
     for (int i = 0; i < count_of<S>; ++i) v[i] = which >> i & 1;
@@ -425,6 +463,8 @@ class RobotContacts {
   MURO_INLINE void add_forces(S load, unsigned processed) {
     const S none(0);
     V3<S> force{none, none, none}, torque = force;
+    S moments[max_contacts];  // about the normals of patches
+    for (int n = 0; has_cells_ && n < patch_count_; ++n) moments[n] = none;
     const FrictionLaw<S> friction(batch_.stiffness, load);
     const auto zeta_of = [](const KernelContact& x) { return x.zeta; };
     NormalLaw<S> law(batch_.stiffness, of_contacts(0, zeta_of), load);
@@ -442,26 +482,31 @@ class RobotContacts {
       V3<S> displacement = p.displacement;
       const S normal = mass.along * law.force(p.depth, p.approach);
       const S most = p.friction * normal * mass.inverse_across;
-      const V3<S> across = mass.across * (has_cells_ ? friction.force(displacement, p.slip, most, p.spin2)
+      const V3<S> across = mass.across * (any_spins_ ? friction.force(displacement, p.slip, most, p.spin2)
                                                      : friction.force(displacement, p.slip, most));
-      V3<S> sum = normal * p.normal + across, moment{none, none, none};
+      V3<S> sum = normal * p.normal + across;
       unsigned which = processed;
-      if (has_cells_) moment = dot(p.turn, across) * p.normal;
-      if (!all_have_cells_) moment = select(have_cells_, moment, {none, none, none});
+      S moment = has_cells_ ? dot(p.turn, across) : none;
+      if (!all_have_cells_) moment = select(have_cells_, moment, none);
       if (k >= least_) {
         const auto here = S(k) < count_;
         sum = select(here, sum, {none, none, none});
-        if (has_cells_) moment = select(here, moment, {none, none, none});
+        moment = select(here, moment, none);
         which &= bits(here);
       }
       force += sum;
-      torque += cross(p.arm, sum);
-      if (has_cells_) torque += moment;
-      if (batch_.tells_contacts)
-        store_rows(forces_, k * force_stride, {sum.x, sum.y, sum.z, moment.x, moment.y, moment.z}, which);
+      torque += cross(any_rolls_ ? p.arm : p.at - base_, sum);
+      for (int n = 0; has_cells_ && n < patch_count_; ++n)
+        moments[n] += patch_count_ == 1 ? moment : select(p.patch == S(n), moment, none);
+      if (batch_.tells_contacts) tell_contact(k, sum, moment, which);
       store_contact(k, displacement, which);
     }
+    for (int n = 0; has_cells_ && n < patch_count_; ++n) torque += moments[n] * patches_[n].normal;
     store_rows(wrench_, 0, {force.x, force.y, force.z, torque.x, torque.y, torque.z}, processed);
+  }
+  MURO_INLINE void tell_contact(int k, const V3<S>& force, S moment, unsigned which) const {
+    const V3<S> torque = moment * patch_normal(k);
+    store_rows(forces_, k * force_stride, {force.x, force.y, force.z, torque.x, torque.y, torque.z}, which);
   }
   MURO_INLINE void store_contact(int k, const V3<S>& displacement, unsigned which) const {
     const V3<S>&at = points_[k].at, &d = displacement;
@@ -478,6 +523,11 @@ class RobotContacts {
   bool has_cells_ = false;        ///< friction of some points is in the middle of a cell
   bool all_have_cells_ = true;    ///< if so, of each robot; else of these
   MaskOf<S> have_cells_;
+  std::uint64_t lines_ = 0;  ///< bit k: contacts k - 1 and k are a line, in each robot; all others are groups of one
+  S largest_spin2_{0};
+  bool any_spins_ = false;
+  bool any_rolls_ = false;  ///< see KernelRobot
+  MaskOf<S> rolls_;
   bool in_order_ = true, has_many_materials_ = false, has_many_objects_ = false;
   bool is_uniform_ = true;  ///< robots are in order, and have equal groups, which have the anchors of their contacts
   const KernelContact* contacts_[count_of<S>];
