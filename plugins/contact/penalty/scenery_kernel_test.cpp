@@ -201,8 +201,9 @@ Wrench by_the_model(const Vehicle& v, std::vector<Vec3>& displacements) {
     displacement -= c.normal * c.normal.dot(displacement);
     const double normal = along[k] * normal_law.force(c.depth, approach);
     lane::V3<double> spring{displacement.x(), displacement.y(), displacement.z()};
-    const lane::V3<double> f = friction_law.force(spring, {slip.x(), slip.y(), slip.z()},
-                                                  c.surface.friction * normal / across[k], spin.squaredNorm());
+    const lane::V3<double> f =
+        friction_law.force(spring, {slip.x(), slip.y(), slip.z()}, c.surface.friction * normal / across[k],
+                           law::speed_of_ends(plain(spin)));
     displacements.emplace_back(spring.x, spring.y, spring.z);
     const Vec3 friction = across[k] * Vec3(f.x, f.y, f.z);
     total.add_force(normal * c.normal + friction, arm);
