@@ -104,6 +104,14 @@ struct NormalLaw {
   }
 };
 
+/// m/s: of the ends of a cell about its middle, as far as it counts (see FrictionLaw); `spin`: all of it.
+template <class S>
+MURO_INLINE S speed_of_ends(const V3<S>& spin) {
+  const S square = dot(spin, spin);
+  if (!any(square > S(least_spin * least_spin))) return S(0);
+  return max(sqrt(square) - S(least_spin), S(0));
+}
+
 /// The spring across the normal, critically damped. The slip adds to its tangential displacement, until the force
 /// reaches its limit; from there on the body slides, and the displacement stays that of the limit at rest
 /// (Cundall and Strack, A discrete numerical model for granular assemblies, Geotechnique 29, 1979). The limit is a
@@ -131,13 +139,12 @@ struct FrictionLaw {
   }
 
   /// Force on the body that moves with `slip` (m/s) over the other. `displacement` (m) includes the path of the last
-  /// step; `most`: the limit, m/s^2; `spin2`: m^2/s^2, the square of the speed of the ends of the cell about its
-  /// middle.
-  MURO_INLINE V3<S> force(V3<S>& displacement, const V3<S>& slip, S most, S spin2 = S(0)) const {
+  /// step; `most`: the limit, m/s^2; `spin`: m/s, see speed_of_ends().
+  MURO_INLINE V3<S> force(V3<S>& displacement, const V3<S>& slip, S most, S spin = S(0)) const {
     V3<S> f = -(spring * displacement) - damper * slip;
-    if (const auto spins = spin2 > S(least_spin * least_spin); any(spins)) {
-      const S speed = sqrt(spin2) - S(least_spin), part = S(1) / max(most + held * speed, S(1e-300));
-      displacement = select(spins, displacement + f * (S(h) * speed * part), displacement);
+    if (const auto spins = spin > S(0); any(spins)) {
+      const S part = S(1) / max(most + held * spin, S(1e-300));
+      displacement = select(spins, displacement + f * (S(h) * spin * part), displacement);
       f = select(spins, f * (most * part), f);
     }
     const S size2 = dot(f, f);

@@ -70,7 +70,7 @@ MURO_INLINE void push_some(PairPoint* points, int count, const Stiffness& stiffn
   displacement -= normal * dot(normal, displacement);
   const V3<S> friction =
       across *
-      FrictionLaw<S>(stiffness, load).force(displacement, slip, c[7] * pressed * inverse_across, dot(spin, spin));
+      FrictionLaw<S>(stiffness, load).force(displacement, slip, c[7] * pressed * inverse_across, speed_of_ends(spin));
   const V3<S> force = pressed * normal + friction;
   const unsigned used = first_lanes(count);
   store_vector(places_of<S, double>(points, count, [](PairPoint& p) { return p.displacement; }), 0, displacement, used);

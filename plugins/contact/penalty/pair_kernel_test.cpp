@@ -85,9 +85,9 @@ TEST(PairKernel, AgreesWithTheModelContactByContact) {
       Vec3 displacement = Vec3::Map(start.displacement) + slip * pair_elapsed;
       displacement -= c.normal * c.normal.dot(displacement);
       lane::V3<double> spring = plain(displacement);
-      const lane::V3<double> friction =
-          law::FrictionLaw<double>(pair_stiffness, load)
-              .force(spring, plain(slip), c.surface.friction * normal * inverse_across, (turning * turn).squaredNorm());
+      const lane::V3<double> friction = law::FrictionLaw<double>(pair_stiffness, load)
+                                            .force(spring, plain(slip), c.surface.friction * normal * inverse_across,
+                                                   law::speed_of_ends(plain(Vec3(turning * turn))));
       const Vec3 force = normal * c.normal + across * vector_of(friction);
       ASSERT_NEAR(points[i].approach, approach, 1e-12 * (1 + std::abs(approach))) << round;
       ASSERT_LT((Vec3::Map(points[i].force) - force).norm(), 1e-9 * (1 + force.norm())) << round;

@@ -189,7 +189,7 @@ void SceneryContacts::analyse(std::uint32_t robot, std::span<const Contact> cont
   if (!known.only_scenery) return;
   KernelRobot& view = known.view;
   view.groups = 0;
-  view.has_many_materials = view.has_many_objects = false;
+  view.has_many_materials = view.has_many_objects = view.rolls = false;
   std::uint8_t first = 0, objects = 0;
   std::uint32_t object_models[max_contacts];
   for (const Contact& c : contacts) {
@@ -212,6 +212,7 @@ void SceneryContacts::analyse(std::uint32_t robot, std::span<const Contact> cont
                      .anchors_begin = first,
                      .object = object,
                      .is_of_disc = bodies_.is_of_disc(c)};
+    view.rolls = view.rolls || known_contact.twist == view.base_twist;
     for (std::uint8_t i = first; i <= k; ++i) contacts_[robot][i].anchors_end = std::uint8_t(k + 1);
     view.has_many_materials = view.has_many_materials || known_contact.zeta != contacts_[robot][0].zeta;
   }

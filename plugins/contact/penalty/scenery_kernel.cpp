@@ -60,24 +60,26 @@ class RobotContacts {
  public:
   /// Where there are fewer robots than S has values, the first stands in.
   MURO_INLINE RobotContacts(const KernelBatch& batch, const KernelRobot* const* robots, int count)
-      : batch_(batch), used_(first_lanes(count)) {
-    Places<S> poses, twists, masses;
+      : batch_(batch), robots_(robots), number_(count), used_(first_lanes(count)) {
+    Places<S> poses, masses;
     double counts[count_of<S>];
+    unsigned rolling = 0;
     least_ = max_contacts;
     for (int i = 0; i < count_of<S>; ++i) {
       const KernelRobot& r = *robots[i < count ? i : 0];
       contacts_[i] = r.contacts, last_[i] = r.count - 1, counts[i] = r.count;
       least_ = r.count < least_ ? r.count : least_;
       most_ = r.count > most_ ? r.count : most_;
-      groups_ |= r.groups, common_groups_ &= r.groups, starts_[i] = r.groups;
+      groups_ |= r.groups, common_groups_ &= r.groups;
       in_order_ = in_order_ && r.in_order;
       is_uniform_ = is_uniform_ && r.groups == robots[0]->groups && r.count == robots[0]->count;
       has_many_objects_ = has_many_objects_ || r.has_many_objects;
       has_many_materials_ = has_many_materials_ || r.has_many_materials;
       changed_ |= unsigned(r.is_changed) << i;
+      rolling |= unsigned(r.rolls) << i;
       listed_.at[i] = r.listed, before_.at[i] = r.before;
       anchors_.at[i] = r.anchors, wrench_.at[i] = r.wrench, forces_.at[i] = r.forces;
-      poses.at[i] = r.base_pose, twists.at[i] = r.base_twist, masses.at[i] = r.mass;
+      poses.at[i] = r.base_pose, masses.at[i] = r.mass;
     }
     is_uniform_ = is_uniform_ && in_order_;
     count_ = side_by_side(counts);
@@ -91,23 +93,48 @@ class RobotContacts {
     const PoseOf<S> pose = load_pose(poses);
     body_ = mobility_of(mass, pose);
     base_ = pose.position;
-    const TwistOf<S> twist = load_twist(twists);
-    drift_ = (twist.linear + cross(twist.angular, body_.centre - base_)) * S(0.5 * batch.stiffness.h);
-    reach2_ = body_.mass / (S(square_of_reach) * body_.inertia.trace());
+    if (rolling != 0) find_drift(rolling);
   }
 
   /// Returns a bit for each robot that is not processed.
   MURO_INLINE unsigned apply_forces() {
     load_contacts();
-    find_turns();
     const SpringStiffness<S> springs = find_effective_masses();
     const S load = springs.max_eigenvalue_bound(body_);
-    const unsigned left = move_contacts() & used_;
-    add_forces(load, used_ & ~left);
-    return left;
+    switch (find_cells()) {
+      case Cells::none:
+        return move_and_push<Cells::none>(load);
+      case Cells::lines:
+        return move_and_push<Cells::lines>(load);
+      case Cells::any:
+        return push_any(load);
+    }
+    return 0;
   }
 
  private:
+  /// What the robots of the call touch in: points alone; points and lines, and the groups of all are alike; or whatever
+  /// there is, and robots that roll.
+  enum class Cells { none, lines, any };
+
+  template <Cells cells>
+  MURO_INLINE unsigned move_and_push(S load) {
+    const unsigned left = move_contacts<cells>() & used_;
+    add_forces<cells>(load, used_ & ~left);
+    return left;
+  }
+  [[gnu::noinline]] unsigned push_any(S load) { return move_and_push<Cells::any>(load); }
+
+  const KernelRobot& robot(int lane) const { return *robots_[lane < number_ ? lane : 0]; }
+  [[gnu::noinline]] void find_drift(unsigned rolling) {
+    Places<S> twists;
+    for (int i = 0; i < count_of<S>; ++i) twists.at[i] = robot(i).base_twist;
+    const TwistOf<S> twist = load_twist(twists);
+    any_rolls_ = true;
+    rolls_ = of_bits(rolling);
+    drift_ = (twist.linear + cross(twist.angular, body_.centre - base_)) * S(0.5 * batch_.stiffness.h);
+    reach2_ = body_.mass / (S(square_of_reach) * body_.inertia.trace());
+  }
   struct Point {
     V3<S> at, normal;
     V3<S> arm;  ///< m, from the base to where it is in the middle of the step, when the force acts, as seen from the
@@ -118,7 +145,7 @@ class RobotContacts {
     V3<S> slip;          ///< m/s, of the middle of its cell
     V3<S> displacement;  ///< m, tangential
     V3<S> turn;          ///< m: slip of the middle of its cell against its own, for 1 rad/s about the normal
-    S spin2;             ///< m^2/s^2: the square of that slip
+    S spin;              ///< m/s: of the ends of its cell, see law::speed_of_ends
   };
   /// Of each robot's contacts in a patch.
   struct PatchOf {
@@ -215,31 +242,32 @@ class RobotContacts {
     if (k >= least_) lanes = lanes & (S(k) < count_);
     if (groups_ >> k & 1) {
       unsigned go_on = 0;
-      for (int i = 0; i < count_of<S>; ++i) go_on |= (~starts_[i] >> k & 1) << i;
+      for (int i = 0; i < count_of<S>; ++i) go_on |= (~robot(i).groups >> k & 1) << i;
       lanes = lanes & of_bits(go_on);
     }
     return lanes;
   }
-  /// Finds the cells of patches: that of two points is half of the line between them.
-  MURO_INLINE void find_turns() {
+  /// Finds the cells of patches, but those of lines where there is nothing else.
+  MURO_INLINE Cells find_cells() {
     const std::uint64_t all = (std::uint64_t(1) << most_) - 1, goes_on = all & ~std::uint64_t(groups_);
-    if ((all & ~std::uint64_t(common_groups_)) == 0) return;  // all are groups of one
-    has_cells_ = true;
+    has_cells_ = (all & ~std::uint64_t(common_groups_)) != 0;
     const bool is_even = patch_count_ == 1 && groups_ == common_groups_ && least_ == most_;
-    if (!is_even || (goes_on & goes_on >> 1) != 0) return find_any_turns();
-    const V3<S> none{S(0), S(0), S(0)};
-    for (int k = 0; k < most_; ++k) {
-      if (goes_on >> (k + 1) & 1)
-        add_line(k++);
-      else
-        points_[k].turn = none;
-    }
+    if (!has_cells_) return any_rolls_ ? Cells::any : Cells::none;
+    if (is_even && (goes_on & goes_on >> 1) == 0 && !any_rolls_) return Cells::lines;
+    find_any_turns();
+    return Cells::any;
+  }
+  /// Of the patch of contact k: that of its first contact.
+  MURO_INLINE V3<S> patch_normal(int k) const {
+    V3<S> normal = patches_[0].normal;
+    for (int n = 1; n < patch_count_; ++n) normal = select(points_[k].patch == S(n), patches_[n].normal, normal);
+    return normal;
   }
   /// Of contacts k and k + 1.
   MURO_INLINE void add_line(int k) {
     Point &a = points_[k], &b = points_[k + 1];
     const V3<S> shift = contact_geometry::shift_in_line(a.at, b.at);
-    a.turn = cross(a.normal, shift), b.turn = -cross(b.normal, shift);
+    a.turn = cross(patch_normal(k), shift), b.turn = -a.turn;
   }
   /// Of robots whose groups differ, or are parts of several patches, or faces.
   [[gnu::noinline]] void find_any_turns() {
@@ -249,7 +277,7 @@ class RobotContacts {
     goes_on[0] = goes_on[most_] = goes_on[most_ + 1] = no_lane;
     bool has_faces = false;
     unsigned with_cells = 0;
-    for (int i = 0; i < count_of<S>; ++i) with_cells |= unsigned((~starts_[i] & ((2u << last_[i]) - 1)) != 0) << i;
+    for (int i = 0; i < count_of<S>; ++i) with_cells |= unsigned((~robot(i).groups & ((2u << last_[i]) - 1)) != 0) << i;
     all_have_cells_ = with_cells == all_lanes<S>;
     have_cells_ = of_bits(with_cells);
     for (int k = 0; k < most_; ++k) {
@@ -293,7 +321,7 @@ class RobotContacts {
       const S is_disc = of_contacts(k, [](const KernelContact& c) { return c.is_of_disc; });
       const S share = contact_geometry::share_of_cells(faces[k], distances[k], farthest[k], is_disc);
       Point& p = points_[k];
-      p.turn = select(here, cross(p.normal, arms[k]) * (share - S(1)), p.turn);
+      p.turn = select(here, cross(patch_normal(k), arms[k]) * (share - S(1)), p.turn);
     }
   }
   template <class M>
@@ -325,6 +353,7 @@ class RobotContacts {
   }
 
   /// Velocities and tangential displacements of the points. Returns a bit for each robot that may be in an impact.
+  template <Cells cells>
   MURO_INLINE unsigned move_contacts() {
     S may_collide(0);  // or 1
     Run run;
@@ -333,12 +362,13 @@ class RobotContacts {
       while (run.end < most_ && !(groups_ >> run.end & 1)) ++run.end;
       find_bodies_and_anchors(run);
       if (run.most_anchors == 1)  // spherical wheels and feet
-        move_run<1>(run, may_collide);
+        move_run<1, cells>(run, may_collide);
       else if (run.most_anchors == 2)  // cylindrical wheels and tracks
-        move_run<2>(run, may_collide);
+        move_run<2, cells>(run, may_collide);
       else
-        move_any_run(run, may_collide);
+        move_any_run<cells>(run, may_collide);
     }
+    if constexpr (cells != Cells::none) any_spins_ = any(largest_spin_ > S(0));
     return bits(may_collide > S(0));
   }
   MURO_INLINE void find_bodies_and_anchors(Run& run) const {
@@ -371,9 +401,12 @@ class RobotContacts {
       for (int i = 0; i < count_of<S>; ++i) at.at[i] += k < run.last_anchor[i] ? anchor_stride : 0;  // the last again
     }
   }
-  [[gnu::noinline]] void move_any_run(const Run& run, S& may_collide) { move_run<max_contacts>(run, may_collide); }
+  template <Cells cells>
+  [[gnu::noinline]] void move_any_run(const Run& run, S& may_collide) {
+    move_run<max_contacts, cells>(run, may_collide);
+  }
   /// With at most n anchors, or any number of them.
-  template <int n>
+  template <int n, Cells cells>
   MURO_INLINE void move_run(const Run& run, S& may_collide) {
     const V3<S> origin = load_vector(run.poses);
     const TwistOf<S> motion = load_twist(run.twists);
@@ -388,23 +421,34 @@ class RobotContacts {
       for (int i = 0; i < count_of<S>; ++i) last[i] = run.last_anchor[i];
       have_anchors = side_by_side(last) >= zero;
     }
+    V3<S> line_spin{zero, zero, zero};
+    if constexpr (cells == Cells::lines) {
+      Point& p = points_[run.begin];
+      const bool is_line = run.end > run.begin + 1;
+      p.turn = line_spin;
+      if (is_line) add_line(run.begin);
+      line_spin = dot(motion.angular, patches_[0].normal) * p.turn;
+      p.spin = speed_of_ends(line_spin);
+      if (is_line) points_[run.begin + 1].spin = p.spin;
+      largest_spin_ = max(p.spin, largest_spin_);
+    }
     for (int k = run.begin; k < run.end; ++k) {
       Point& p = points_[k];
       const V3<S> velocity = motion.linear + cross(motion.angular, p.at - origin);
       p.approach = -dot(velocity, p.normal);
       const V3<S> slip = velocity + p.approach * p.normal;
       p.slip = slip;
-      if (has_cells_) {
-        const V3<S> spin = dot(motion.angular, p.normal) * p.turn;
-        p.slip = all_have_cells_ ? slip + spin : select(have_cells_, slip + spin, slip);
-        p.spin2 = dot(spin, spin);
-      }
+      if constexpr (cells == Cells::lines) p.slip = k == run.begin ? slip + line_spin : slip - line_spin;
+      if (cells == Cells::any && has_cells_) add_spin(p, dot(motion.angular, patch_normal(k)));
       V3<S> old{zero, zero, zero}, way = old;
       if (anchors > 0) old = before.nearest(p.at, anchors, way);
       if (!run.all_have_anchors) old = select(have_anchors, old, {zero, zero, zero});
-      // a point that moves over the body, as on a rim, moves on; others appear
-      p.arm = p.at - base_;
-      p.arm += select((dot(way, way) < reach2_) & have_anchors, way * half_step - drift_, {zero, zero, zero});
+      if constexpr (cells == Cells::any) p.arm = p.at - base_;
+      if (cells == Cells::any && any_rolls_) {
+        // a point that moves over the body, as on a rim, moves on; others appear
+        const auto moves_on = (dot(way, way) < reach2_) & have_anchors & rolls_;
+        p.arm = select(moves_on, p.arm + (way * half_step - drift_), p.arm);
+      }
       const V3<S> displacement = old + p.slip * elapsed;
       p.displacement = displacement - p.normal * dot(p.normal, displacement);
       if (!any_looked_at_) continue;
@@ -416,15 +460,26 @@ class RobotContacts {
       may_collide = select(fast, select(lasts, may_collide, S(1)), may_collide);
     }
   }
+  /// `spin`: rad/s, about the normal of its patch.
+  MURO_INLINE void add_spin(Point& p, S spin) {
+    const V3<S> more = spin * p.turn;
+    p.slip = all_have_cells_ ? p.slip + more : select(have_cells_, p.slip + more, p.slip);
+    p.spin = speed_of_ends(more);
+    largest_spin_ = max(p.spin, largest_spin_);
+  }
   MURO_INLINE static MaskOf<S> of_bits(unsigned which) {
     double v[count_of<S>];
     for (int i = 0; i < count_of<S>; ++i) v[i] = which >> i & 1;
     return side_by_side(v) > S(0);
   }
 
+  template <Cells cells>
   MURO_INLINE void add_forces(S load, unsigned processed) {
     const S none(0);
     V3<S> force{none, none, none}, torque = force;
+    S moments[cells == Cells::any ? max_contacts : 1];  // about the normals of patches
+    moments[0] = none;
+    for (int n = 1; cells == Cells::any && n < patch_count_; ++n) moments[n] = none;
     const FrictionLaw<S> friction(batch_.stiffness, load);
     const auto zeta_of = [](const KernelContact& x) { return x.zeta; };
     NormalLaw<S> law(batch_.stiffness, of_contacts(0, zeta_of), load);
@@ -442,26 +497,37 @@ class RobotContacts {
       V3<S> displacement = p.displacement;
       const S normal = mass.along * law.force(p.depth, p.approach);
       const S most = p.friction * normal * mass.inverse_across;
-      const V3<S> across = mass.across * (has_cells_ ? friction.force(displacement, p.slip, most, p.spin2)
-                                                     : friction.force(displacement, p.slip, most));
-      V3<S> sum = normal * p.normal + across, moment{none, none, none};
+      V3<S> across;
+      if (cells != Cells::none && any_spins_)
+        across = mass.across * friction.force(displacement, p.slip, most, p.spin);
+      else
+        across = mass.across * friction.force(displacement, p.slip, most);
+      V3<S> sum = normal * p.normal + across;
       unsigned which = processed;
-      if (has_cells_) moment = dot(p.turn, across) * p.normal;
-      if (!all_have_cells_) moment = select(have_cells_, moment, {none, none, none});
-      if (k >= least_) {
+      S moment = none;
+      if (cells == Cells::lines || (cells == Cells::any && has_cells_)) moment = dot(p.turn, across);
+      if (cells == Cells::any && !all_have_cells_) moment = select(have_cells_, moment, none);
+      if (cells != Cells::lines && k >= least_) {
         const auto here = S(k) < count_;
         sum = select(here, sum, {none, none, none});
-        if (has_cells_) moment = select(here, moment, {none, none, none});
+        moment = select(here, moment, none);
         which &= bits(here);
       }
       force += sum;
-      torque += cross(p.arm, sum);
-      if (has_cells_) torque += moment;
-      if (batch_.tells_contacts)
-        store_rows(forces_, k * force_stride, {sum.x, sum.y, sum.z, moment.x, moment.y, moment.z}, which);
+      torque += cross(cells == Cells::any ? p.arm : p.at - base_, sum);
+      if constexpr (cells == Cells::lines) moments[0] += moment;
+      for (int n = 0; cells == Cells::any && n < patch_count_; ++n)
+        moments[n] += patch_count_ == 1 ? moment : select(p.patch == S(n), moment, none);
+      if (batch_.tells_contacts) tell_contact(k, sum, moment, which);
       store_contact(k, displacement, which);
     }
+    if constexpr (cells == Cells::lines) torque += moments[0] * patches_[0].normal;
+    for (int n = 0; cells == Cells::any && n < patch_count_; ++n) torque += moments[n] * patches_[n].normal;
     store_rows(wrench_, 0, {force.x, force.y, force.z, torque.x, torque.y, torque.z}, processed);
+  }
+  MURO_INLINE void tell_contact(int k, const V3<S>& force, S moment, unsigned which) const {
+    const V3<S> torque = moment * patch_normal(k);
+    store_rows(forces_, k * force_stride, {force.x, force.y, force.z, torque.x, torque.y, torque.z}, which);
   }
   MURO_INLINE void store_contact(int k, const V3<S>& displacement, unsigned which) const {
     const V3<S>&at = points_[k].at, &d = displacement;
@@ -472,12 +538,17 @@ class RobotContacts {
   }
 
   const KernelBatch& batch_;
+  const KernelRobot* const* const robots_;
+  const int number_;     ///< of robots
   const unsigned used_;  ///< bits of lanes
   unsigned changed_ = 0, groups_ = 0, common_groups_ = ~0u;
-  unsigned starts_[count_of<S>];  ///< groups of each
-  bool has_cells_ = false;        ///< friction of some points is in the middle of a cell
-  bool all_have_cells_ = true;    ///< if so, of each robot; else of these
+  bool has_cells_ = false;      ///< friction of some points is in the middle of a cell
+  bool all_have_cells_ = true;  ///< if so, of each robot; else of these
   MaskOf<S> have_cells_;
+  S largest_spin_{0};
+  bool any_spins_ = false;
+  bool any_rolls_ = false;  ///< see KernelRobot
+  MaskOf<S> rolls_;
   bool in_order_ = true, has_many_materials_ = false, has_many_objects_ = false;
   bool is_uniform_ = true;  ///< robots are in order, and have equal groups, which have the anchors of their contacts
   const KernelContact* contacts_[count_of<S>];

@@ -34,6 +34,7 @@ struct KernelRobot {
   bool in_order = false;            ///< contact k has place k, and so has its anchor, also that of the step before
   bool has_many_materials = false;  ///< zeta differs
   bool has_many_objects = false;
+  bool rolls = false;              ///< some contacts are on the base itself and may move over it, as on a rim
   bool is_changed = false;         ///< some contacts may be new, and impacts
   const double* listed = nullptr;  ///< point of the first listed contact
   const double* before = nullptr;  ///< point of the first anchor of the step before; may be `anchors`

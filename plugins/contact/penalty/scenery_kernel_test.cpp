@@ -41,7 +41,7 @@ struct Vehicle {
   KernelContact known[8];
 
   std::size_t per_body = 2;  ///< contacts
-  bool has_discs = false;
+  bool has_discs = false, rolls = false;
 
   std::size_t body_of(std::size_t contact) const { return contact / per_body; }
 
@@ -66,6 +66,7 @@ struct Vehicle {
     v.contacts = known;
     v.has_many_materials = v.has_many_objects = true;
     v.is_changed = is_changed;
+    v.rolls = rolls;
     v.listed = contacts[0].point.data();
     v.before = before[0].point.data();
     v.anchors = anchors[0].point.data();
@@ -90,6 +91,7 @@ Vehicle random_vehicle(std::mt19937& random, double speed, bool uneven) {
     v.anchors_before[0] = v.anchors_before[1] = 4;
     v.anchors_before[2] = v.anchors_before[3] = 0;
   }
+  v.rolls = number(0, 1) == 1;
   v.base = {vector(5), rotation_of(vector(1))};
   v.twist = {vector(speed), vector(speed)};
   const Vec3 normal = Vec3(0.1 * g(random), 0.1 * g(random), 1).normalized();
@@ -179,12 +181,12 @@ Wrench by_the_model(const Vehicle& v, std::vector<Vec3>& displacements) {
   }
   for (std::size_t k = 0; k < count; ++k) {
     const Contact& c = v.contacts[k];
-    const Vec3& to_cell = shifts[k];
+    const Vec3 &to_cell = shifts[k], &of_patch = v.contacts[first[k]].normal;
     const std::size_t body = v.body_of(k);
     const law::NormalLaw<double> normal_law({omega, h}, damping_ratio_of(c.surface.restitution), load);
     const Vec3 motion = v.twists[body].at(c.point - v.bodies[body].position);
     const double approach = -motion.dot(c.normal);
-    const Vec3 spin = v.twists[body].angular.dot(c.normal) * c.normal.cross(to_cell);
+    const Vec3 spin = v.twists[body].angular.dot(of_patch) * of_patch.cross(to_cell);
     const Vec3 slip = motion + approach * c.normal + spin;
     Vec3 displacement = slip * elapsed, arm = c.point - v.base.position;
     const int known = std::accumulate(v.anchors_before, v.anchors_before + 4, 0);
@@ -192,18 +194,20 @@ Wrench by_the_model(const Vehicle& v, std::vector<Vec3>& displacements) {
         before && v.anchors_before[body] > 0) {
       displacement += before->displacement;
       const Vec3 way = c.point - before->point;
-      if (way.squaredNorm() * inertia.trace() < 3 * v.mass->inverse_mass)  // it is the same point, and moves on
+      if (v.rolls &&
+          way.squaredNorm() * inertia.trace() < 3 * v.mass->inverse_mass)  // it is the same point, and moves on
         arm += 0.5 * (way - h * v.twist.at(centre - v.base.position));
     }
     displacement -= c.normal * c.normal.dot(displacement);
     const double normal = along[k] * normal_law.force(c.depth, approach);
     lane::V3<double> spring{displacement.x(), displacement.y(), displacement.z()};
-    const lane::V3<double> f = friction_law.force(spring, {slip.x(), slip.y(), slip.z()},
-                                                  c.surface.friction * normal / across[k], spin.squaredNorm());
+    const lane::V3<double> f =
+        friction_law.force(spring, {slip.x(), slip.y(), slip.z()}, c.surface.friction * normal / across[k],
+                           law::speed_of_ends(plain(spin)));
     displacements.emplace_back(spring.x, spring.y, spring.z);
     const Vec3 friction = across[k] * Vec3(f.x, f.y, f.z);
     total.add_force(normal * c.normal + friction, arm);
-    total.torque += c.normal * c.normal.dot(to_cell.cross(friction));
+    total.torque += of_patch * of_patch.dot(to_cell.cross(friction));
   }
   return total;
 }
