@@ -7,8 +7,8 @@
 #include <tuple>
 #include <vector>
 
-#include "muro/toolkit/bounds.hpp"
 #include "muro/toolkit/mass_properties.hpp"
+#include "muro/toolkit/support.hpp"
 
 namespace muro {
 
@@ -16,9 +16,9 @@ namespace muro {
 /// known. [setup]
 using MeshVertices = std::function<std::vector<Vec3>(const Connector& c, const Shape& shape)>;
 
-/// The collision shapes of a scene at the start: against planes meshes as their convex hulls and all else as boxes
-/// along the axes of the world, against each other all as such boxes. A robot that has a mesh whose vertices are not
-/// known, or is asked about one, counts as touching it.
+/// The collision shapes of a scene at the start: against planes as they are (meshes as their convex hulls), against
+/// each other as boxes along the axes of the world. A robot that has a mesh whose vertices are not known, or is asked
+/// about one, counts as touching it.
 class InitialContact {
  public:
   /// [setup]
@@ -62,7 +62,8 @@ class InitialContact {
     std::int32_t robot = -1;
     bool is_unknown = false;      ///< it is a mesh whose vertices are not known
     std::int32_t mesh = no_mesh;  ///< in meshes_
-    Pose pose;                    ///< of a mesh
+    Shape shape;
+    Pose pose;  ///< of the shape
   };
   /// Which file, at which scale: the mesh of this number in meshes_.
   using MeshFile = std::tuple<TextId, double, double, double>;
@@ -87,7 +88,7 @@ class InitialContact {
         planes_.push_back(pose);
         continue;
       }
-      Box box{.bounds = bounds_of(shape, pose), .robot = robot, .pose = pose};
+      Box box{.bounds = bounds_of(shape, pose), .robot = robot, .shape = shape, .pose = pose};
       Aabb& bounds = box.bounds;
       if (shape.kind == ShapeKind::heightmap) {  // solid below its surface, which is no higher than its value 1
         bounds.low.z() = -std::numeric_limits<double>::infinity();
@@ -103,8 +104,7 @@ class InitialContact {
       boxes_.push_back(box);
     }
   }
-  /// m, of the nearest vertex of a mesh (0 where they are not known), or the nearest corner of a box, from a plane;
-  /// below 0 behind it.
+  /// m, of the nearest point from a plane (0 for a mesh whose vertices are not known); below 0 behind it.
   double distance(const Box& box, const Pose& plane) const {
     const Vec3 normal = plane.orientation * Vec3::UnitZ();
     if (box.is_unknown) return 0;
@@ -114,8 +114,8 @@ class InitialContact {
         nearest = std::min(nearest, normal.dot(box.pose * v - plane.position));
       return nearest;
     }
-    const Vec3 middle = 0.5 * (box.bounds.low + box.bounds.high), half = 0.5 * (box.bounds.high - box.bounds.low);
-    return normal.dot(middle - plane.position) - normal.cwiseAbs().dot(half);
+    return normal.dot(box.pose.position - plane.position) -
+           support(box.shape, box.pose.orientation.conjugate() * Vec3(-normal));
   }
 
   std::vector<Box> boxes_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What an accelerometer reads before the first step, of robots and scenery whose shapes are meshes: those that stand on
-// something feel their weight, those in the air fall.
+// What an accelerometer reads before the first step, of robots and scenery however they are turned and if their shapes
+// are meshes: those that stand on something feel their weight, those in the air fall.
 #include <gtest/gtest.h>
 
 #include "muro/toolkit/rotations.hpp"
@@ -28,9 +28,12 @@ struct MeshScene : test::Scene {
   }
   /// The first reading of a robot with this cube, whose file has its origin at `at`.
   Vec3 first(const std::string& motion, const Pose& at, double scale = 1) {
+    return first(motion, at, {.kind = ShapeKind::mesh, .size = Vec3::Constant(scale)});
+  }
+  /// Of a robot with this shape.
+  Vec3 first(const std::string& motion, const Pose& at, Shape shape) {
     const RobotView& r = add("r", test::tree_of([&](RobotBuilder& b) {
-                               Shape shape{.kind = ShapeKind::mesh, .size = Vec3::Constant(scale)};
-                               shape.mesh = b.intern(cube);
+                               if (shape.kind == ShapeKind::mesh) shape.mesh = b.intern(cube);
                                b.base("body");
                                b.set(keys::inertial, test::solid_box(1, {0.2, 0.2, 0.2}));
                                b.set_array(keys::collision_shapes, std::span<const Shape>(&shape, 1));
@@ -74,6 +77,21 @@ TEST_P(FirstReading, OfAMeshNearASlopeIsThatOfItsHull) {
     const Vec3 seen = s.first(GetParam(), {tilt * Vec3(0, 0, gap - 0.2), tilt});
     EXPECT_NEAR(seen.norm(), gap > 0 ? 0 : g, 1e-9);
   }
+}
+
+/// Boxes around these would reach deeper than they do.
+TEST_P(FirstReading, OfATurnedRoundBodyIsThatOfItsShape) {
+  constexpr double angle = 0.8, radius = 0.1, length = 0.2;
+  const double of_rim = radius * std::sin(angle) + 0.5 * length * std::cos(angle),
+               of_ball = radius + 0.5 * length * std::cos(angle);
+  for (const auto& [shape, height] :
+       {std::pair(Shape::cylinder(radius, length), of_rim), std::pair(Shape::capsule(radius, length), of_ball)})
+    for (const double gap : {0.0, 0.01}) {
+      MeshScene s;
+      s.add_ground();
+      const Vec3 seen = s.first(GetParam(), {{0, 0, height + gap}, from_rpy(0, 0, 0.7) * from_rpy(angle, 0, 0)}, shape);
+      EXPECT_NEAR(seen.norm(), gap > 0 ? 0 : g, 1e-9) << "gap " << gap;
+    }
 }
 
 TEST_P(FirstReading, BesideAMeshOfTheSceneryIsNothing) {
