@@ -80,6 +80,20 @@ TEST(RobotTree, KnowsHowItStandsAndHowWideItIs) {
   EXPECT_NEAR(cart().footprint_radius(), std::hypot(0.5, 0.25), 1e-12);
 }
 
+TEST(RobotTree, StandsOnTheRimOfATiltedCylinderAndTheEndOfACapsule) {
+  const auto height = [](const Shape& shape) {
+    RobotTree b;
+    b.base("body");
+    b.rotation(from_rpy(0.5, 0, 0));
+    b.body("link");
+    b.set_array(keys::collision_shapes, std::span<const Shape>(&shape, 1));
+    b.close();
+    return b.standing_height();
+  };
+  EXPECT_NEAR(height(Shape::cylinder(0.3, 0.4)), 0.3 * std::sin(0.5) + 0.2 * std::cos(0.5), 1e-12);
+  EXPECT_NEAR(height(Shape::capsule(0.3, 0.4)), 0.3 + 0.2 * std::cos(0.5), 1e-12);
+}
+
 TEST(RobotTree, MakesAnyNumberOfRobots) {
   World world;
   const RobotTree tree = cart();
