@@ -61,6 +61,15 @@ inline DofState integrate_effort(const DofState& s, double& effort, double load,
   return moved_on(s, v, limits, dt);
 }
 
+/// The same of a joint with a target of its own, which a load moves no faster than its limit of speed either: limbs do
+/// not push the base back at this level, so that what contacts make of a light limb would have no bound.
+inline DofState integrate_weak_drive(const DofState& s, double& effort, double load, double inertia,
+                                     const JointLimits& limits, double dt) {
+  const DofState free = integrate_effort(s, effort, load, inertia, limits, dt);
+  if (std::abs(free.velocity) <= limits.velocity) return free;
+  return moved_on(s, std::copysign(limits.velocity, free.velocity), limits, dt);
+}
+
 /// Moves on by `dt` (s) with a PD drive, no stronger than the limit of effort, under `load` (what else acts, N m or N).
 /// `effort`: what the drive does, N m or N, that of the end of the step.
 inline DofState follow_drive(const DofState& s, const ImplicitDrive& drive, double load, double inertia,
@@ -70,9 +79,10 @@ inline DofState follow_drive(const DofState& s, const ImplicitDrive& drive, doub
   const double v = momentum / (inertia + (limits.damping + drive.damping) * dt);
   effort = drive.effort(v);
   const bool is_fast = std::abs(v) > limits.velocity && effort * v > 0;
-  if (std::abs(effort) <= limits.effort && !is_fast) return moved_on(s, v, limits, dt);
+  if (std::abs(effort) <= limits.effort && !is_fast && std::abs(v) <= limits.velocity)
+    return moved_on(s, v, limits, dt);
   effort = std::clamp(effort, -limits.effort, limits.effort);
-  return integrate_effort(s, effort, load, inertia, limits, dt);
+  return integrate_weak_drive(s, effort, load, inertia, limits, dt);
 }
 
 /// A drive that follows its target as long as its effort suffices.
@@ -97,7 +107,7 @@ inline DofState follow_target(const DofState& s, const Drive& drive, double load
     joints::follow_acceleration(wanted, drive.target, range, dt);
   const double needed = inverse_dynamics(s.velocity, wanted.velocity, load, inertia, limits, dt);
   effort = std::clamp(needed, -limits.effort, limits.effort);
-  return effort == needed ? wanted : integrate_effort(s, effort, load, inertia, limits, dt);
+  return effort == needed ? wanted : integrate_weak_drive(s, effort, load, inertia, limits, dt);
 }
 
 }  // namespace muro::simplified
