@@ -12,8 +12,10 @@ namespace {
 using Frame = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double slow_recovery = 1e-2;  ///< m/s: what lands may rebound so fast
+constexpr double slow_recovery = 2e-2;  ///< m/s: what lands may rebound so fast
 constexpr double shallow = 1e-3;        ///< m: overlaps that are taken back so slowly, in one solution
+/// Robots over the mass that their contacts are as soft for as for the link that touches alone.
+constexpr double most_carried = 100;
 
 /// m/s^2: by what the cone of a contact lifts what slides, spins and rolls by `slip(k)` in its row k.
 template <class Slip>
@@ -109,7 +111,16 @@ MujocoContacts::ContactVelocity MujocoContacts::external_velocity(const mjContac
   return velocity;
 }
 
-void MujocoContacts::set_reference(mjData& d, int id, int row, double dt) {
+/// kg: of the lighter of the robots that touch.
+double MujocoContacts::carried_mass(const mjModel& m, const mjContact& c) const {
+  double mass = infinity;
+  for (const int geom : {c.geom1, c.geom2})
+    if (owners_[std::size_t(geom)].robot >= 0)
+      mass = std::min(mass, m.body_subtreemass[m.body_rootid[m.geom_bodyid[geom]]]);
+  return mass;
+}
+
+void MujocoContacts::set_reference(const mjModel& m, mjData& d, int id, int row, double dt) {
   const mjContact& c = d.contact[id];
   const GeomOwner &a = owners_[std::size_t(c.geom1)], &b = owners_[std::size_t(c.geom2)];
   ContactVelocity speed = external_velocity(c);
@@ -128,8 +139,11 @@ void MujocoContacts::set_reference(mjData& d, int id, int row, double dt) {
   reference = {target[0], infinity, splits && recovery > slow_recovery ? recovery / dt : 0};
   // accelerations of the last step say nothing of an impact, and must not hide it
   if (impact && c.dim >= 3) reference.max_lift = lift_of(c, [&](int k) { return target[k] - d.efc_b[row + k]; });
-  for (int k = 0; bounces && k < c.dim; ++k) {
-    d.efc_R[row + k] *= (1 / mjMAXIMP - 1) / (1 / settings_.impedance - 1);
+  const double impedance = 1 / settings_.impedance - 1;
+  double softness = bounces ? (1 / mjMAXIMP - 1) / impedance : 1;
+  softness = std::min(softness, impedance * most_carried / (carried_mass(m, c) * d.efc_R[row]));
+  for (int k = 0; softness < 1 && k < c.dim; ++k) {
+    d.efc_R[row + k] *= softness;
     d.efc_D[row + k] = 1 / d.efc_R[row + k];
   }
 }

@@ -42,7 +42,7 @@ class MujocoContacts {
   void set_friction(mjData& d);
   /// What the rows of contact `id`, from `row` on, aim at in a step of `dt` (s). mjData::efc_b holds the accelerations
   /// (m/s^2) of all rows without constraints.
-  void set_reference(mjData& d, int id, int row, double dt);
+  void set_reference(const mjModel& m, mjData& d, int id, int row, double dt);
   /// A convex solver lets what slides at s lift off at mu s (Anitescu, Optimization-based simulation of nonsmooth rigid
   /// multibody dynamics, 2006). This takes it off what the normal row aims at, as found for an `acceleration` of all
   /// degrees of freedom; solved again until that settles, contacts have Coulomb's friction (the fixed point of Cadoux
@@ -57,6 +57,7 @@ class MujocoContacts {
   /// m/s and rad/s along and about the axes of a contact.
   using ContactVelocity = Eigen::Matrix<double, 6, 1>;
   ContactVelocity external_velocity(const mjContact& contact) const;
+  double carried_mass(const mjModel& m, const mjContact& contact) const;
 
   struct Terrain {
     int geom;

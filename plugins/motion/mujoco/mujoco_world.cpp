@@ -272,7 +272,7 @@ void MujocoWorld::set_references() {
         break;
       }
       default:
-        contacts_.set_reference(d, d.efc_id[i], i, dt_);
+        contacts_.set_reference(*model_, d, d.efc_id[i], i, dt_);
         i += d.contact[d.efc_id[i]].dim - 1;
     }
 }

@@ -160,7 +160,8 @@ struct Standing : test::Scene {
     EXPECT_NEAR(settled.position.z(), height, 1e-3) << what;
     run_for(4);
     EXPECT_LT((pose(*robot).position - settled.position).norm(), 2e-5) << what;
-    EXPECT_LT(pose(*robot).orientation.angularDistance(settled.orientation), 1e-4) << what;
+    // points of a cylinder on a mesh as it is come and go, and take their anchors along
+    EXPECT_LT(pose(*robot).orientation.angularDistance(settled.orientation), 2e-4) << what;
   }
 };
 
