@@ -153,7 +153,7 @@ print("fine")
 TEST(PythonClient, IsNotNeededToRepeatARun) {
   const test::ScratchFolder folder;
   const std::string recording = folder.path("inputs.csv");
-  RemoteRun run("--duration 3 --speed 3 --record " + recording);
+  RemoteRun run("--duration 3 --speed 0.6 --record " + recording);  // 5 s for the clients to come
   python_client(run.port(), "call pause");
   python_client(run.port(), "call place '{\"object\": \"rover\", \"x\": -1, \"y\": 0.5, \"yaw\": 1}'");
   python_client(run.port(), "set rover/base_link:command.twist '{\"vx\": 0.5, \"wz\": 0.3}'");

@@ -153,7 +153,7 @@ TEST(Kick, SlowFromWhereverTheBallLiesBeforeTheFoot) {
   for (const char* kicks : {"foot=1, speed=3, every=100", "foot=-1, speed=3, every=100"})
     for (const double ahead : {0.1, 0.12, 0.14})
       for (const double left : {-0.02, 0.0, 0.02})
-        expect_a_kick({.imu = "mpu6050", .kicks = kicks, .ahead = ahead, .left = left}, 1.4);
+        expect_a_kick({.imu = "mpu6050", .kicks = kicks, .ahead = ahead, .left = left}, 1.3);
 }
 
 TEST(Kick, SlowInOtherEngines) {

@@ -28,14 +28,14 @@ struct Part {
   const char *subject, *unit;
   std::optional<Differences> Deviation::*differences;
 };
-constexpr Part parts[] = {{"link", "m", &Deviation::links},
-                          {"joint", "rad", &Deviation::revolute_joints},
-                          {"joint", "m", &Deviation::prismatic_joints}};
+constexpr Part deviation_parts[] = {{"link", "m", &Deviation::links},
+                                    {"joint", "rad", &Deviation::revolute_joints},
+                                    {"joint", "m", &Deviation::prismatic_joints}};
 
 /// Those that any of the robots has, and nothing where no variation ran.
 std::vector<Part> parts_of(const Compared& all) {
   std::vector<Part> some;
-  for (const Part& p : parts)
+  for (const Part& p : deviation_parts)
     if (std::any_of(all.results.begin(), all.results.end(), [&](const VariationResult& r) {
           const std::optional<Deviation> d = deviation_of(r, r);
           return d && *d.*p.differences;
@@ -157,7 +157,7 @@ std::string csv(const Compared& all) {
   std::string out =
       "variation,robots,total_ms_per_s,varied_ms_per_s,contact_ms_per_s,real_time_robots,position_rms_m,position_"
       "largest_m,heading_largest_rad,";
-  for (const Part& p : parts)
+  for (const Part& p : deviation_parts)
     for (const char* const which : {"rms", "largest"}) out += fmt::format("{}_{}_{},", p.subject, which, p.unit);
   out += "first_contact_s,first_contact_later_s,contacts,distance_m,failure\n";
   const auto number = [](const auto& x) { return x ? fmt::format("{}", *x) : std::string(); };
@@ -165,7 +165,7 @@ std::string csv(const Compared& all) {
   for (const VariationResult& r : all.results) {
     out += fmt::format("{},{},", csv_text(r.label), all.comparison.robots.size());
     if (!r.failure.empty()) {
-      out += std::string(11 + 2 * std::size(parts), ',') + csv_text(r.failure) + "\n";
+      out += std::string(11 + 2 * std::size(deviation_parts), ',') + csv_text(r.failure) + "\n";
       continue;
     }
     const std::optional<Deviation> d = deviation_of(r, reference);
@@ -174,7 +174,7 @@ std::string csv(const Compared& all) {
     out += fmt::format("{},{},{},{},", 1e3 * r.cost.total, 1e3 * r.cost.varied, 1e3 * r.cost.contact,
                        real_time_robots(all.comparison, r));
     out += d ? fmt::format("{},{},{},", d->position_rms, d->position_largest, d->heading_largest) : ",,,";
-    for (const Part& p : parts) {
+    for (const Part& p : deviation_parts) {
       const std::optional<Differences> differences = d ? *d.*p.differences : std::nullopt;
       out += differences ? fmt::format("{},{},", differences->rms, differences->largest) : ",,";
     }

@@ -119,9 +119,9 @@ TEST_F(AVehicleWithAPilotOutside, IsDrivenByTheSamePilotAtEveryLevel) {
 }
 
 TEST_F(AVehicleWithAPilotOutside, StandsWhenThePilotIsKilledAndTheRunGoesOn) {
-  after_start_ = "sleep 0.7; kill -9 $pilot;";
+  after_start_ = "sleep 2; kill -9 $pilot;";
   duration_ = "40";
-  const Run r = run("--set robots.rover.command.on_disconnect=stop", "env PILOT_DELAY=0.02 python3");
+  const Run r = run("--set robots.rover.command.on_disconnect=stop", "env PILOT_DELAY=0.06 python3");
   ASSERT_EQ(r.result.exit_code, 0) << r.result.output;
   EXPECT_DOUBLE_EQ(r.report["simulated_s"], 40);
   EXPECT_LT(r.distance(), 4) << "in 40 s it would have driven farther";

@@ -214,7 +214,7 @@ class PairContacts {
 
   /// Robots some of which carry others, and whose contacts are solved together.
   struct Group {
-    std::vector<std::uint32_t> robots;  ///< in Bodies::robots, in their order
+    std::vector<std::uint32_t> robots;  ///< in Bodies::robots, by order key
     ContactSolver solver;
   };
 
