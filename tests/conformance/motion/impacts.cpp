@@ -203,7 +203,8 @@ Outcome routh_ball(const std::string& motion) {
   for (const double friction : {0.02, 0.2}) {
     Trial t(motion);
     t.add_ground(friction);
-    const RobotView& b = t.add("ball", ball(1, r, friction, e), {{0, 0, 1 + r}, Quat::Identity()}, {{u, 0, 0}, Vec3::Zero()});
+    const RobotView& b =
+        t.add("ball", ball(1, r, friction, e), {{0, 0, 1 + r}, Quat::Identity()}, {{u, 0, 0}, Vec3::Zero()});
     t.start();
     t.run_for(0.5);
     const double impulse = std::min(friction * (1 + e) * v, 2.0 / 7 * u), spin = 2.5 * impulse / r;

@@ -110,7 +110,8 @@ TEST(ForceTorqueSensor, FeelsWhatLandsInTheStepInWhichItActs) {
                                  b.set_array(keys::collision_shapes, std::span<const Shape>(&tray, 1));
                                }),
                                {});
-    const RobotView& ball = s.add("ball", test::ball(1, 0.1, 0), {{0, 0, 0.45}, Quat::Identity()}, {{0, 0, -1}, Vec3::Zero()});
+    const RobotView& ball =
+        s.add("ball", test::ball(1, 0.1, 0), {{0, 0, 0.45}, Quat::Identity()}, {{0, 0, -1}, Vec3::Zero()});
     const ObjectId joint = s.add_sensor_object(r, "joint", s.world().object("r/tray"));
     const ObjectId acceleration = s.add_sensor_object(r, "accelerometer", r.base());
     s.use(motion, 1000, {{&r, r.base()}});
