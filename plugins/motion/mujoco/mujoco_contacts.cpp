@@ -14,7 +14,7 @@ using Frame = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double slow_recovery = 2e-2;  ///< m/s: what lands may rebound so fast
 constexpr double shallow = 1e-3;        ///< m: overlaps that are taken back so slowly, in one solution
-/// Robots over the mass that their contacts are as soft for as for the link that touches alone.
+/// A contact is no softer than for a link of the mass of the lighter robot by this.
 constexpr double most_carried = 100;
 
 /// m/s^2: by what the cone of a contact lifts what slides, spins and rolls by `slip(k)` in its row k.
