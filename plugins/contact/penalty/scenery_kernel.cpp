@@ -415,7 +415,7 @@ class RobotContacts {
     load_anchors(run, before);
     const S zero(0), elapsed(batch_.elapsed), impact_speed(batch_.impact_speed);
     const S half_step(batch_.elapsed > 0 ? 0.5 * batch_.stiffness.h / batch_.elapsed : 0);
-    auto have_anchors = zero == zero;
+    auto have_anchors = S(1) > zero;
     if (!run.all_have_anchors) {
       double last[count_of<S>];
       for (int i = 0; i < count_of<S>; ++i) last[i] = run.last_anchor[i];

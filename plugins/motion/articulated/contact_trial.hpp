@@ -62,8 +62,8 @@ MURO_INLINE Misfit<S> misfit(const ContactSlot<S>& slot, const ContactOutcome<S>
   const S limit = S(1 + of_cone) * most;
   const S allowed = select(slot.step.held > law.held, S(of_impact) * most,
                            max(S(precision) * most, S(of_weight) * p.friction * weight));
-  m.is_off_cone =
-      is_on & !m.is_drawn & ((dot(lack, lack) > allowed * allowed) | (dot(m.across, m.across) > limit * limit));
+  const S outside = max(dot(lack, lack) - allowed * allowed, dot(m.across, m.across) - limit * limit);
+  m.is_off_cone = is_on & !m.is_drawn & (outside > zero);
   m.turns_back = m.is_off_cone & (dot(slot.step.slide, hold) < zero);
   m.pushes_now = (!is_on) & (slot.rests > zero);
   if (lane::any(m.pushes_now)) {

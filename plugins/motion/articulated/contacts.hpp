@@ -151,7 +151,7 @@ class Contacts {
 
   /// The next contacts of all robots that are on the body with the lowest number make up a slot.
   void load_contacts(const RobotState* robots, int count) {
-    static constexpr KernelContact none{no_contact, no_surface, nullptr, nullptr, 0, false};
+    static constexpr KernelContact none{no_contact, no_surface, nullptr, nullptr, {}, 0, false};
     int next[count_of<S>] = {};
     work_.contact_count = 0;
     for (;;) {
