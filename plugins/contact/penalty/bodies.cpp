@@ -35,7 +35,11 @@ void Bodies::connect(Connector& c) {
   if (!robots.empty()) connect_kinematic_robots(c);
   by_order_key.resize(robots.size());
   std::iota(by_order_key.begin(), by_order_key.end(), 0u);
-  std::sort(by_order_key.begin(), by_order_key.end(), [this](std::uint32_t a, std::uint32_t b) {
+  sort_by_order_key(by_order_key);
+}
+
+void Bodies::sort_by_order_key(std::vector<std::uint32_t>& numbers) const {
+  std::sort(numbers.begin(), numbers.end(), [this](std::uint32_t a, std::uint32_t b) {
     return std::tuple(robots[a].order_key, a) < std::tuple(robots[b].order_key, b);
   });
 }

@@ -91,6 +91,8 @@ struct Bodies {
   void connect(Connector& c);
   /// When motions know which links they move by forces.
   void connect_by_name(Connector& c);
+  /// `numbers`: of `robots`; in an order that no order of declaration changes.
+  void sort_by_order_key(std::vector<std::uint32_t>& numbers) const;
 
   const Body& operator[](ObjectId id) const { return all[index_of(id)]; }
   const DynamicBody& base_of(const Robot& robot) const { return dynamic_bodies[robot.first_body]; }

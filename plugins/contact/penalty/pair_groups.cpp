@@ -2,7 +2,6 @@
 // Groups of robots that carry each other: their contacts are solved together.
 #include <algorithm>
 #include <numeric>
-#include <tuple>
 
 #include "pair_contacts.hpp"
 #include "plugins/common/text/quote.hpp"
@@ -71,10 +70,7 @@ void PairContacts::find_groups() {
     groups_[records_[i].group].robots.push_back(robots_[i]);
   }
   // sums hang on no order of declaration
-  const auto before = [this](std::uint32_t a, std::uint32_t b) {
-    return std::tuple(bodies_.robots[a].order_key, a) < std::tuple(bodies_.robots[b].order_key, b);
-  };
-  for (std::size_t g = 0; g < group_count_; ++g) std::sort(groups_[g].robots.begin(), groups_[g].robots.end(), before);
+  for (std::size_t g = 0; g < group_count_; ++g) bodies_.sort_by_order_key(groups_[g].robots);
 }
 
 /// All springs of a group have the frequency of contacts under the weight of all its robots, since any contact may have

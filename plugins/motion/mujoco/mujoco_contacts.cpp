@@ -112,7 +112,7 @@ MujocoContacts::ContactVelocity MujocoContacts::external_velocity(const mjContac
 }
 
 /// kg: of the lighter of the robots that touch.
-double MujocoContacts::carried_mass(const mjModel& m, const mjContact& c) const {
+double MujocoContacts::lighter_mass(const mjModel& m, const mjContact& c) const {
   double mass = infinity;
   for (const int geom : {c.geom1, c.geom2})
     if (owners_[std::size_t(geom)].robot >= 0)
@@ -139,9 +139,9 @@ void MujocoContacts::set_reference(const mjModel& m, mjData& d, int id, int row,
   reference = {target[0], infinity, splits && recovery > slow_recovery ? recovery / dt : 0};
   // accelerations of the last step say nothing of an impact, and must not hide it
   if (impact && c.dim >= 3) reference.max_lift = lift_of(c, [&](int k) { return target[k] - d.efc_b[row + k]; });
-  const double impedance = 1 / settings_.impedance - 1;
-  double softness = bounces ? (1 / mjMAXIMP - 1) / impedance : 1;
-  softness = std::min(softness, impedance * most_carried / (carried_mass(m, c) * d.efc_R[row]));
+  const double unit_softness = 1 / settings_.impedance - 1;
+  double softness = bounces ? (1 / mjMAXIMP - 1) / unit_softness : 1;
+  softness = std::min(softness, unit_softness * most_carried / (lighter_mass(m, c) * d.efc_R[row]));
   for (int k = 0; softness < 1 && k < c.dim; ++k) {
     d.efc_R[row + k] *= softness;
     d.efc_D[row + k] = 1 / d.efc_R[row + k];

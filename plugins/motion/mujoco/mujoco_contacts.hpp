@@ -57,7 +57,7 @@ class MujocoContacts {
   /// m/s and rad/s along and about the axes of a contact.
   using ContactVelocity = Eigen::Matrix<double, 6, 1>;
   ContactVelocity external_velocity(const mjContact& contact) const;
-  double carried_mass(const mjModel& m, const mjContact& contact) const;
+  double lighter_mass(const mjModel& m, const mjContact& contact) const;
 
   struct Terrain {
     int geom;

@@ -154,14 +154,14 @@ struct Standing : test::Scene {
     use("contact.penalty", 0);
     build();
   }
-  void expect_stands(double height, const std::string& what) {
+  /// `may_turn`: rad, within 4 s.
+  void expect_stands(double height, const std::string& what, double may_turn = 1e-4) {
     run_for(1);
     const Pose settled = pose(*robot);
     EXPECT_NEAR(settled.position.z(), height, 1e-3) << what;
     run_for(4);
     EXPECT_LT((pose(*robot).position - settled.position).norm(), 2e-5) << what;
-    // points of a cylinder on a mesh as it is come and go, and take their anchors along
-    EXPECT_LT(pose(*robot).orientation.angularDistance(settled.orientation), 2e-4) << what;
+    EXPECT_LT(pose(*robot).orientation.angularDistance(settled.orientation), may_turn) << what;
   }
 };
 
@@ -176,7 +176,8 @@ TEST_P(EveryCollisionOfMeshes, RobotsStandStillOnAMeshAsItIs) {
     scene.world().add_scenery("floor", {}, std::span<const Shape>(&floor, 1));
     scene.robot = &scene.add("robot", tree, at(0.1, -0.13, 0.25, from_rpy(0, 0, 0.3)));
     scene.finish(GetParam(), true);
-    scene.expect_stands(0.25, name);
+    // points of a cylinder come and go, and take their anchors along
+    scene.expect_stands(0.25, name, name == std::string("cylinder") ? 2e-4 : 1e-4);
   }
 }
 
