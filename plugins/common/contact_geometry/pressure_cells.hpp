@@ -8,6 +8,10 @@
 #include "muro/simd/geometry.hpp"
 
 namespace muro::contact_geometry {
+
+/// m/s: of the ends of a cell about its middle; so slow a spin lets nothing go that rests.
+inline constexpr double least_spin = 5e-6;
+
 inline namespace MURO_ISA {
 
 using lane::max, lane::min, lane::select, lane::sqrt, lane::V3;

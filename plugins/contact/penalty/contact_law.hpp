@@ -10,6 +10,7 @@
 #pragma once
 
 #include "muro/simd/geometry.hpp"
+#include "plugins/common/contact_geometry/pressure_cells.hpp"
 
 namespace muro::penalty {
 
@@ -25,12 +26,10 @@ inline constexpr double max_phase_step = 0.6;
 /// in a step, from its friction anchor of the step before.
 inline constexpr double lasting_reach = 1e-3, lasting_slips = 2;
 
-/// m/s: of the ends of a cell (see FrictionLaw), so slow a spin lets nothing go that rests.
-inline constexpr double least_spin = 5e-6;
-
 namespace law {
 inline namespace MURO_ISA {
 
+using contact_geometry::least_spin;
 using lane::any, lane::max, lane::min, lane::select, lane::sqrt, lane::V3;
 
 /// tanh x for 0 <= x <= 2 max_phase_step, to some units in the last place: Lambert's continued fraction

@@ -18,15 +18,13 @@ Mat3 damper(double along, double across, const Vec3& n) {
   return across * Mat3::Identity() + ((along - across) * n) * n.transpose();
 }
 
-/// J_a' K J_b of a damper K in a point, at levers `a` and `b`, with J = (1, -r x).
-Block at_levers(const Mat3& k, const Vec3& a, const Vec3& b) {
+/// Adds J_a' K J_b of a damper K in a point, at levers `a` and `b`, with J = (1, -r x).
+void add_at_levers(Block& block, const Mat3& k, const Vec3& a, const Vec3& b) {
   const Mat3 of_a = crossing(a), turned = -k * crossing(b);
-  Block block;
-  block.topLeftCorner<3, 3>() = k;
-  block.topRightCorner<3, 3>() = turned;
-  block.bottomLeftCorner<3, 3>() = of_a * k;
-  block.bottomRightCorner<3, 3>() = of_a * turned;
-  return block;
+  block.topLeftCorner<3, 3>() += k;
+  block.topRightCorner<3, 3>() += turned;
+  block.bottomLeftCorner<3, 3>() += of_a * k;
+  block.bottomRightCorner<3, 3>() += of_a * turned;
 }
 
 /// Of the limit of friction: of what it holds, and of itself, since forces are brought into the cone at the end.
@@ -35,6 +33,11 @@ constexpr double precision = 2e-3, near = 1e-2;
 constexpr double least_speed = 1e-8, slight = 1e-6;
 
 Vec3 along(const Vec3& v, const Vec3& n) { return n.dot(v) * n; }
+
+/// At a lever from the centre of mass.
+Vec3 velocity_at(const BlockSystem::Vector& body, const Vec3& lever) {
+  return body.head<3>() + body.tail<3>().cross(lever);
+}
 
 /// The part of a force that its limit leaves.
 double part_within(const Vec3& force, double most) {
@@ -68,13 +71,28 @@ std::uint32_t ContactSolver::add_body(const law::Mobility<double>& mobility, con
   return std::uint32_t(bodies_.size() - 1);
 }
 
-/// Of the own point over the other, m/s.
+void ContactSolver::hold(bool body, bool other) {
+  SolverContact& c = contacts_.back();
+  Vec3 given = Vec3::Zero();
+  if (body) given += velocity_at(velocities_[c.body], c.lever + c.cell);
+  if (other && c.other != SolverContact::none) given -= velocity_at(velocities_[c.other], c.other_lever + c.cell);
+  c.touched -= given - along(given, c.normal);
+  c.moves_body = !body;
+  c.moves_other = !other;
+}
+
+/// Of the own point over the other, m/s: along the normal that of the point, across it that of where friction acts.
 Vec3 ContactSolver::velocity_in(const SolverContact& c, const std::vector<BlockSystem::Vector>& velocities) {
-  const auto& own = velocities[c.body];
-  const Vec3 velocity = own.head<3>() + own.tail<3>().cross(c.lever) - c.touched;
-  if (c.other == SolverContact::none) return velocity;
-  const auto& other = velocities[c.other];
-  return velocity - other.head<3>() - other.tail<3>().cross(c.other_lever);
+  const bool has_cell = !c.cell.isZero(0);
+  const auto of = [&](const BlockSystem::Vector& body, const Vec3& lever, bool moves) -> Vec3 {
+    const Vec3 v = velocity_at(body, lever);
+    if (!moves) return along(v, c.normal);
+    if (!has_cell) return v;
+    const Vec3 turning = body.tail<3>().cross(c.cell);
+    return v + turning - along(turning, c.normal);
+  };
+  const Vec3 velocity = of(velocities[c.body], c.lever, c.moves_body) - c.touched;
+  return c.other == SolverContact::none ? velocity : velocity - of(velocities[c.other], c.other_lever, c.moves_other);
 }
 
 /// Its force and how that changes, at the velocities so far.
@@ -90,15 +108,30 @@ void ContactSolver::add_terms(SolverContact& c) {
   k = damper(normal * c.along, tangential * c.across, c.normal);
   if (c.hold < 1) k -= (straight * tangential * c.across / drag.squaredNorm()) * drag * drag.transpose();
   c.impulse = (normal * load) * c.normal - tangential * drag + k * (velocity + c.touched);
-  const Vec3& impulse = c.impulse;
-  system_.diagonal(c.body) += at_levers(k, c.lever, c.lever);
-  right_[c.body].head<3>() += impulse;
-  right_[c.body].tail<3>() += c.lever.cross(impulse);
-  if (c.other == SolverContact::none) return;
-  system_.diagonal(c.other) += at_levers(k, c.other_lever, c.other_lever);
-  system_.add(c.coupling, c.body, -at_levers(k, c.lever, c.other_lever));
-  right_[c.other].head<3>() -= impulse;
-  right_[c.other].tail<3>() -= c.other_lever.cross(impulse);
+  const bool is_one_point = c.moves_body && c.moves_other && c.cell.isZero(0);
+  if (is_one_point) return add_damper(c, k, c.impulse, Vec3::Zero(), true, true);
+  const Mat3 pressure = damper(normal * c.along, 0, c.normal);
+  const Vec3 push = along(c.impulse, c.normal);
+  add_damper(c, pressure, push, Vec3::Zero(), true, true);
+  add_damper(c, k - pressure, c.impulse - push, c.cell, c.moves_body, c.moves_other);
+}
+
+/// To the linear system: `k` (N s/(m/s)) and the impulse at rest (N s), at `arm` (m) from the point.
+void ContactSolver::add_damper(const SolverContact& c, const Mat3& k, const Vec3& impulse, const Vec3& arm,
+                               bool moves_body, bool moves_other) {
+  const Vec3 own = c.lever + arm, other = c.other_lever + arm;
+  const auto add = [&](std::uint32_t body, const Vec3& lever, double sign) {
+    add_at_levers(system_.diagonal(body), k, lever, lever);
+    right_[body].head<3>() += sign * impulse;
+    right_[body].tail<3>() += sign * lever.cross(impulse);
+  };
+  if (moves_body) add(c.body, own, 1);
+  if (c.other == SolverContact::none || !moves_other) return;
+  add(c.other, other, -1);
+  if (!moves_body) return;
+  Block coupling = Block::Zero();
+  add_at_levers(coupling, -k, own, other);
+  system_.add(c.coupling, c.body, coupling);
 }
 
 void ContactSolver::assemble() {

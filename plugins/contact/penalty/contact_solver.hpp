@@ -28,7 +28,11 @@ struct SolverContact {
   std::uint32_t coupling = none;                          ///< of both bodies
   Vec3 normal = Vec3::UnitZ();                            ///< unit, into the own body
   Vec3 lever = Vec3::Zero(), other_lever = Vec3::Zero();  ///< m, from the centres of mass
+  Vec3 cell = Vec3::Zero();                               ///< m, from there to where friction acts
   Vec3 touched = Vec3::Zero();                            ///< m/s: velocity of what no force moves, at the point
+  /// Friction moves them in this step. Else across the normal they go on as they do, as links that joints hold: see
+  /// hold().
+  bool moves_body = true, moves_other = true;
   double push = 0;               ///< N, along the normal: of the spring at the begin of the step
   double along = 0, across = 0;  ///< N s/m: K along the normal and across
   Vec3 spring = Vec3::Zero();    ///< N, across: of the friction spring at the begin of the step
@@ -55,6 +59,8 @@ class ContactSolver {
   std::uint32_t add_body(const law::Mobility<double>& mobility, const Vec3& velocity, const Vec3& spin,
                          const Vec3& gained, const Vec3& turned);
   SolverContact& add_contact() { return contacts_.emplace_back(); }
+  /// The last contact: friction moves its body or the other, or neither. Call it when bodies, levers and normal are set.
+  void hold(bool body, bool other);
   /// Finds the forces of all contacts, in the order in which they were added.
   std::span<const SolverContact> solve();
 
@@ -65,6 +71,8 @@ class ContactSolver {
   };
   static Vec3 velocity_in(const SolverContact& c, const std::vector<BlockSystem::Vector>& velocities);
   void add_terms(SolverContact& c);
+  void add_damper(const SolverContact& c, const Mat3& k, const Vec3& impulse, const Vec3& arm, bool moves_body,
+                  bool moves_other);
   void assemble();
   /// N: what the contact does without its limits, along the normal and, against the force, across it.
   struct Reaction {

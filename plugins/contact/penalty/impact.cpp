@@ -2,7 +2,9 @@
 #include "impact.hpp"
 
 #include <algorithm>
+#include <Eigen/LU>
 #include <cmath>
+#include <limits>
 
 #include "muro/toolkit/rotations.hpp"
 #include "vectors.hpp"
@@ -79,29 +81,76 @@ Mat3 inverse_mass_at(const ImpactBody& body, const Vec3& lever) {
   return body.mobility.mass * Mat3::Identity() - arm * turning;
 }
 
-/// One point, where friction and the normal impulse may change each other (Routh, Dynamics of a System of Rigid Bodies,
-/// 1905, chapter V): the point sticks, or slides on in its direction. Returns false where neither leads to a rebound
+/// The way of an impulse at one point while its part along the normal grows (Routh, Dynamics of a System of Rigid
+/// Bodies, 1905, chapter V): on the cone against the slip, until that ends; from there on it sticks, or slides on where
+/// the cone is too narrow for that.
+class ImpulsePath {
+ public:
+  ImpulsePath(const Mat3& inverse_mass, const Vec3& normal, double friction)
+      : inverse_mass_(inverse_mass), normal_(normal), friction_(friction), held_(held_direction()) {}
+
+  /// From `velocity` (m/s, of the own point over the other) until the points part with `parting` (m/s). None where no
+  /// impulse parts them.
+  std::optional<Vec3> impulse(const Vec3& velocity, double parting) const {
+    constexpr int most_turns = 200;
+    constexpr double no_slip = 1e-9;  // of the speed
+    const double least = no_slip * velocity.norm(), all = parting - normal_.dot(velocity);
+    Vec3 at = velocity, sum = Vec3::Zero();
+    for (int i = 0; i < most_turns; ++i) {
+      const double left = parting - normal_.dot(at);
+      if (!(left > no_slip * all)) return sum;
+      const Vec3 slip = across(at);
+      const bool slides = slip.norm() > least;
+      const Vec3 direction = slides ? Vec3(normal_ - friction_ * slip.normalized()) : held_;
+      const double yields = normal_.dot(inverse_mass_ * direction);
+      if (!(yields > 0)) return {};
+      const double part = std::min(left / yields, slides ? lasts(slip, direction, all) : left / yields);
+      sum += part * direction;
+      at += part * inverse_mass_ * direction;
+      if (slides && part < left / yields && across(at).norm() < 1e-6 * slip.norm()) at -= across(at);
+    }
+    return {};
+  }
+
+ private:
+  Vec3 across(const Vec3& v) const { return v - normal_ * normal_.dot(v); }
+  /// N s, along the normal: how long this direction of the slip may be taken for that of a piece of the path.
+  double lasts(const Vec3& slip, const Vec3& direction, double all) const {
+    constexpr int pieces = 64;
+    const Vec3 change = across(inverse_mass_ * direction), unit = slip.normalized();
+    const double along = change.dot(unit);
+    double most = along < 0 ? -slip.norm() / along : std::numeric_limits<double>::infinity();
+    if ((change - along * unit).norm() > 1e-9 * change.norm())  // it turns
+      most = std::min(most, all / (pieces * normal_.dot(inverse_mass_ * normal_)));
+    return most;
+  }
+  /// Of what does not slide: such that it sticks, or on the cone in that direction.
+  Vec3 held_direction() const {
+    const Vec3 u = normal_.unitOrthogonal(), v = normal_.cross(u);
+    Eigen::Matrix<double, 3, 2> plane;
+    plane << u, v;
+    const Vec3 friction = -plane * (plane.transpose() * inverse_mass_ * plane).inverse() *
+                          (plane.transpose() * inverse_mass_ * normal_);
+    const double size = friction.norm();
+    return normal_ + (size > friction_ ? friction_ / size : 1) * friction;
+  }
+
+  Mat3 inverse_mass_;
+  Vec3 normal_;
+  double friction_;
+  Vec3 held_;
+};
+
+/// One point, where friction and the normal impulse may change each other. Returns false where that leads to no rebound
 /// that gains no energy.
 bool resolve_point(ImpactPoint& p, const ImpactBody& self, const ImpactBody* other) {
   Mat3 inverse_mass = inverse_mass_at(self, p.lever);
   if (other) inverse_mass += inverse_mass_at(*other, p.other_lever);
-  const auto takes_energy = [&](const Vec3& impulse) {
-    return impulse.dot(p.velocity + 0.5 * inverse_mass * impulse) <= 0;
-  };
-  const Vec3 slip = p.velocity + p.approach * p.normal;
-  const Vec3 sticks = inverse_mass.inverse() * (p.restitution * p.approach * p.normal - p.velocity);
-  const double along = p.normal.dot(sticks);
-  if (along > 0 && (sticks - along * p.normal).norm() <= p.friction * along) {
-    if (takes_energy(sticks)) p.impulse = sticks;
-    return takes_energy(sticks);
-  }
-  if (!(slip.norm() > 0)) return false;
-  const Vec3 direction = p.normal - p.friction * slip.normalized();
-  const double yields = p.normal.dot(inverse_mass * direction);
-  if (!(yields > 0)) return false;
-  const Vec3 slides = ((1 + p.restitution) * p.approach / yields) * direction;
-  if (takes_energy(slides)) p.impulse = slides;
-  return takes_energy(slides);
+  const auto impulse =
+      ImpulsePath(inverse_mass, p.normal, p.friction).impulse(p.velocity, p.restitution * p.approach);
+  if (!impulse || impulse->dot(p.velocity + 0.5 * inverse_mass * *impulse) > 0) return false;
+  p.impulse = *impulse;
+  return true;
 }
 
 }  // namespace

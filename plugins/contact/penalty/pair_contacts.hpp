@@ -107,6 +107,7 @@ class PairContacts {
     std::uint32_t patch = 0;                ///< in Record::patches, or one of the above
     bool lasts = false;                     ///< it was there in the step before
     SolvedContact solved{};                 ///< of a group: as kept; when it is solved, as it is to be
+    double yield = 0;                       ///< s/kg: of a group, by which its friction gives way where it spins
     /// m, of contacts of two robots: see find_lever_shifts
     Vec3 lever_shift = Vec3::Zero(), other_lever_shift = Vec3::Zero();
     Vec3 before = Vec3::Zero();  ///< m, world: then there, if it lasts
@@ -136,6 +137,7 @@ class PairContacts {
     std::size_t impacts = 0;                     ///< patches in which it is, its own and those of others
     double load = 0;                             ///< its stiffest motion, in units of omega^2
     std::vector<std::uint32_t> touched;          ///< numbers of its bodies with contacts that are solved in a group
+    double shared = 1;                           ///< of these, see ApparentMasses::shared_by
     std::uint32_t group = no_group;              ///< in groups_; none: its contacts are resolved one by one
 
     std::vector<V3> bounced;  ///< N s, N m s about the origin, of each body: by contacts that bounce; empty: none
@@ -166,6 +168,8 @@ class PairContacts {
   void add_bodies(std::uint32_t robot, ContactSolver& solver);
   void recall(std::uint32_t robot, std::size_t place, Computed& c, double approach, const Contact& contact) const;
   void add_supports(std::uint32_t robot, double mass, ContactSolver& solver) const;
+  bool has_joints(std::int64_t robot) const;
+  double apparent_mass_across(std::uint32_t self, const Computed& c) const;
   void add_contacts(std::uint32_t robot, double mass, ContactSolver& solver);
   void take_forces(std::uint32_t robot, std::span<const SolverContact>& found);
   void tell_depth(std::uint32_t robot, const Contact& contact, const PairPoint& point, const Computed& c);

@@ -112,7 +112,8 @@ void PairContacts::add_bodies(std::uint32_t self, ContactSolver& solver) {
   Record& me = record(self);
   const Robot& robot = bodies_.robots[self];
   std::sort(me.touched.begin(), me.touched.end());
-  const double shared = robot.is_single_body ? 1 : bodies_.apparent_masses[self].shared_by(me.touched);
+  const double shared = me.shared =
+      robot.is_single_body ? 1 : bodies_.apparent_masses[self].shared_by(me.touched);
   for (std::uint32_t i = 0; i < robot.body_count; ++i) {
     Mobility mobility = me.mobilities[i];
     mobility.mass *= shared;
@@ -179,6 +180,19 @@ void PairContacts::recall_contacts(std::uint32_t self) {
   }
 }
 
+bool PairContacts::has_joints(std::int64_t robot) const {
+  return robot != no_robot && !bodies_.robots[std::size_t(robot)].is_single_body;
+}
+
+/// kg: what links and bodies seem to weigh across the normal, for a point of the patch.
+double PairContacts::apparent_mass_across(std::uint32_t self, const Computed& c) const {
+  const double other = c.other_robot == no_robot ? 1 : record(std::uint32_t(c.other_robot)).shared;
+  return record(self).patches[c.patch].effective_mass.across / std::max(record(self).shared, other);
+}
+
+/// Joints may hold a link, and then friction does not move it: what it holds would creep if the link were taken to give
+/// way. So links go on across the normal as they do, and the spring there is that of what links seem to weigh, which is
+/// stable if nothing holds them.
 void PairContacts::add_contacts(std::uint32_t self, double mass, ContactSolver& solver) {
   const double omega = context_.omega, stiffness = mass * omega * omega;
   const double held = 2 * mass * omega + context_.stiffness.h * stiffness;
@@ -186,7 +200,7 @@ void PairContacts::add_contacts(std::uint32_t self, double mass, ContactSolver& 
   KnownContacts& known = known_[self];
   const Contact* const contacts = (*bodies_.robots[self].contacts).data();
   for (std::size_t i = 0; i < known.computed.size(); ++i) {
-    const Computed& c = known.computed[i];
+    Computed& c = known.computed[i];
     if (!is_solved(c)) continue;
     PairPoint& point = known.points[i];
     const Contact& contact = contacts[c.place];
@@ -202,15 +216,26 @@ void PairContacts::add_contacts(std::uint32_t self, double mass, ContactSolver& 
     } else {
       s.touched = bodies_.velocity(contact.other, contact.point);
     }
-    Vec3::Map(point.displacement) += context_.elapsed * Vec3::Map(point.velocity);
+    const Vec3 turn = Vec3::Map(point.turn), of_spin = point.spin * turn;
+    Vec3::Map(point.displacement) += context_.elapsed * (Vec3::Map(point.velocity) + of_spin);
     const Vec3 displacement = Vec3::Map(point.displacement);
-    s.along = s.across = part * held;
+    s.cell = turn.cross(contact.normal);
+    s.along = part * held;
     s.push =
         std::min(part * stiffness * (contact.depth - point.overlap + point.ahead), s.along * context_.correcting_speed);
-    s.spring = part * stiffness * (displacement - contact.normal * contact.normal.dot(displacement));
+    const bool holds_own = has_joints(self), holds_other = has_joints(c.other_robot);
+    if (holds_own || holds_other) solver.hold(holds_own, holds_other);
+    const double mass_across = holds_own || holds_other ? apparent_mass_across(self, c) : part * mass;
+    s.across = mass_across / mass * held;
+    s.spring = mass_across * omega * omega * (displacement - contact.normal * contact.normal.dot(displacement));
     s.friction = contact.surface.friction;
     s.limit = s.friction * c.solved.load;
     s.push -= s.along * c.solved.more;
+    const double ends = of_spin.norm() - contact_geometry::least_spin;
+    c.yield = ends > 0 && s.limit > 0 ? ends / s.limit : 0;
+    const double rest = 1 / (1 + c.yield * s.across);  // of a spring and damper behind one that gives way, see FrictionLaw
+    s.across *= rest;
+    s.spring *= rest;
   }
 }
 
@@ -268,13 +293,15 @@ void PairContacts::take_forces(std::uint32_t self, std::span<const SolverContact
     c.solved.expected = s.away;
     found = found.subspan(1);
     Vec3::Map(point.force) = s.force;
-    point.moment = 0;
+    point.moment = s.force.dot(Vec3::Map(point.turn));
+    const Vec3 friction = s.force - s.load * s.normal;
     Vec3 displacement = Vec3::Map(point.displacement);
     displacement -= s.normal * s.normal.dot(displacement);
+    displacement += (context_.stiffness.h * c.yield) * friction;
     if (!(s.load > 0))
       displacement.setZero();
     else if (s.hold < 1)  // it slides: as far as the spring does what friction does
-      displacement = (s.load * s.normal - s.force) * ((2 / context_.omega + context_.stiffness.h) / s.across);
+      displacement = -friction * ((2 / context_.omega + context_.stiffness.h) * (1 / s.across - c.yield));
     Vec3::Map(point.displacement) = displacement;
   }
 }

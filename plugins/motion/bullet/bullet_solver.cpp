@@ -136,9 +136,9 @@ void BulletSolver::add_joint(BulletRobot& robot, std::size_t number, const Impul
 }
 
 BulletSolver::ConstraintRow BulletSolver::contact_row(const SolverContact& c, BulletRobot& a, BulletRobot* b,
-                                                      const Vec3& other_velocity, const Vec3& direction) {
-  ConstraintRow row =
-      pair_row(c, a, b, a.wrench(c.point.position, direction), (b ? *b : a).wrench(c.point.position, direction));
+                                                      const Vec3& at, const Vec3& other_velocity,
+                                                      const Vec3& direction) {
+  ConstraintRow row = pair_row(c, a, b, a.wrench(at, direction), (b ? *b : a).wrench(at, direction));
   if (!b) row.speed -= direction.dot(other_velocity);
   return row;
 }
@@ -186,14 +186,36 @@ double BulletSolver::target_velocity(const SolverContact& c, double speed, doubl
   return std::max(0.0, std::sqrt(std::max(0.0, drop * drop + in - 2 * pull * c.point.gap)) - drop);
 }
 
-void BulletSolver::add(SolverContact& c, BulletRobot& a, BulletRobot* b, const Twist& other_velocity) {
-  const ConstraintRow normal = contact_row(c, a, b, other_velocity.linear, c.point.normal);
+/// Points of one line or face are alike soft, so that they share its load as the pressure over it does.
+void BulletSolver::add(std::span<SolverContact> contacts, BulletRobot& a, BulletRobot* b,
+                       const multibody::BodyState& other) {
+  const auto other_velocity = [&](const SolverContact& c) -> Twist {
+    return {other.twist.at(c.point.position - other.pose.position), other.twist.angular};
+  };
+  ConstraintRow normals[NarrowPhase::max_points];
+  double sum = 0;
+  int touching = 0;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const SolverContact& c = contacts[i];
+    normals[i] = contact_row(c, a, b, c.point.position, other_velocity(c).linear, c.point.normal);
+    if (c.cell.isZero(0)) continue;
+    sum += normals[i].inverse_effective_mass;
+    ++touching;
+  }
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    SolverContact& c = contacts[i];
+    add(c, normals[i], c.cell.isZero(0) ? normals[i].inverse_effective_mass : sum / touching, a, b, other_velocity(c));
+  }
+}
+
+void BulletSolver::add(SolverContact& c, const ConstraintRow& normal, double inverse_mass, BulletRobot& a,
+                       BulletRobot* b, const Twist& other_velocity) {
   bool is_active = false, is_rebound = false;
   const Surface surface = pair_surface(c.a->surface, c.b->surface, settings_.friction_rule);
   const double velocity = target_velocity(c, normal.speed, surface.restitution, is_active, is_rebound);
   c.row = c.spinning_row = c.rolling_row = -1;
   if (!is_active) return;
-  const Vec3 slip = c.relative_velocity - c.point.normal * c.point.normal.dot(c.relative_velocity);
+  const Vec3 slip = c.slip();
   const double speed = slip.norm();
   c.tangent = speed > min_slip ? Vec3(slip / speed) : c.point.normal.unitOrthogonal();
   c.bitangent = c.point.normal.cross(c.tangent);
@@ -205,19 +227,30 @@ void BulletSolver::add(SolverContact& c, BulletRobot& a, BulletRobot* b, const T
   const bool is_deep = !is_rebound && velocity >= settings_.correcting_speed;
   const Vec3 initial_impulse = (is_deep ? 0 : settings_.warm_start) * c.impulse;
   const double part = is_rebound ? 0 : is_deep ? deep_softness : softness;
-  const double cfm = settings_.cfm + part * dt_ * normal.inverse_effective_mass;
+  const double cfm = settings_.cfm + part * dt_ * inverse_mass;
   const btMultiBodySolverConstraint& row = add_row(m_multiBodyNormalContactConstraints, normal, velocity, 0, unbounded,
                                                    cfm, std::max(0.0, initial_impulse.dot(c.point.normal)));
   if (velocity > min_split_velocity && !is_rebound)
     split_impulses_.push_back({c.row, -normal.speed * row.m_jacDiagABInv});
-  for (const Vec3& direction : {c.tangent, c.bitangent}) {
-    const ConstraintRow tangent = contact_row(c, a, b, other_velocity.linear, direction);
-    btMultiBodySolverConstraint& friction = add_row(m_multiBodyFrictionContactConstraints, tangent, 0, -unbounded,
-                                                    unbounded, 0, initial_impulse.dot(direction));
-    friction.m_frictionIndex = c.row;
-    friction.m_friction = surface.friction;
-  }
+  add_friction(c, a, b, other_velocity, surface.friction, initial_impulse);
   add_resistances(c, a, b, other_velocity.angular, surface);
+}
+
+/// In the middle of the cell of the contact. Where the patch spins, the ends of the cell move against its middle, and as
+/// long as they move faster than that, the cell does as much less than its limit as its middle is slower: rows that give
+/// way by that.
+void BulletSolver::add_friction(const SolverContact& c, BulletRobot& a, BulletRobot* b, const Twist& other_velocity,
+                                double friction, const Vec3& initial_impulse) {
+  const double limit = friction * c.impulse.dot(c.point.normal) / dt_, ends = c.speed_of_ends();
+  const double cfm = ends > 0 && limit > 0 ? ends / limit : 0;
+  const Vec3 middle = c.point.position + c.cell, other = other_velocity.at(c.cell);
+  for (const Vec3& direction : {c.tangent, c.bitangent}) {
+    const ConstraintRow tangent = contact_row(c, a, b, middle, other, direction);
+    btMultiBodySolverConstraint& row = add_row(m_multiBodyFrictionContactConstraints, tangent, 0, -unbounded, unbounded,
+                                               cfm, initial_impulse.dot(direction));
+    row.m_frictionIndex = c.row;
+    row.m_friction = friction;
+  }
 }
 
 /// Bullet's rows of spinning and rolling friction: torques against turning about the normal and about what is at right
@@ -278,9 +311,10 @@ void BulletSolver::finish(SolverContact& c) {
   if (c.rolling_row >= 0)
     c.angular_impulse += impulse_of(m_multiBodyTorsionalFrictionContactConstraints, c.rolling_row) * c.tangent +
                          impulse_of(m_multiBodyTorsionalFrictionContactConstraints, c.rolling_row + 1) * c.bitangent;
-  c.impulse = double(m_multiBodyNormalContactConstraints[c.row].m_appliedImpulse) * c.point.normal +
-              double(m_multiBodyFrictionContactConstraints[2 * c.row].m_appliedImpulse) * c.tangent +
-              double(m_multiBodyFrictionContactConstraints[2 * c.row + 1].m_appliedImpulse) * c.bitangent;
+  const Vec3 friction = impulse_of(m_multiBodyFrictionContactConstraints, 2 * c.row) * c.tangent +
+                        impulse_of(m_multiBodyFrictionContactConstraints, 2 * c.row + 1) * c.bitangent;
+  c.impulse = impulse_of(m_multiBodyNormalContactConstraints, c.row) * c.point.normal + friction;
+  c.angular_impulse += c.cell.cross(friction);
 }
 
 }  // namespace muro::bullet

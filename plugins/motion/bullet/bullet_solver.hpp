@@ -22,8 +22,8 @@ class BulletSolver final : public btMultiBodyConstraintSolver {
   void begin(double dt);
   /// Robots come first. Adds rows for its drives and limits.
   void add(BulletRobot& robot, const ImpulseCache& cache);
-  /// `a` and `b`: robots of the two colliders; no `b` where the velocity of the other at the point is given.
-  void add(SolverContact& contact, BulletRobot& a, BulletRobot* b, const Twist& other_velocity);
+  /// Contacts of two colliders. `a` and `b`: their robots; no `b` where the state of the other body is given.
+  void add(std::span<SolverContact> contacts, BulletRobot& a, BulletRobot* b, const multibody::BodyState& other);
   /// By split impulses: velocities that move bodies apart that overlap do not last. What is found first moves
   /// positions, then the rows are solved on without it, and velocities are what is left.
   void solve();
@@ -40,8 +40,13 @@ class BulletSolver final : public btMultiBodyConstraintSolver {
     double speed = 0;                   ///< m/s, rad/s: without it
   };
 
-  ConstraintRow contact_row(const SolverContact& contact, BulletRobot& a, BulletRobot* b, const Vec3& other_velocity,
-                            const Vec3& direction);
+  /// Of a force in `direction` at the point `at`, where what no row moves has the velocity `other_velocity`.
+  ConstraintRow contact_row(const SolverContact& contact, BulletRobot& a, BulletRobot* b, const Vec3& at,
+                            const Vec3& other_velocity, const Vec3& direction);
+  void add_friction(const SolverContact& contact, BulletRobot& a, BulletRobot* b, const Twist& other_velocity,
+                    double friction, const Vec3& initial_impulse);
+  void add(SolverContact& contact, const ConstraintRow& normal, double inverse_mass, BulletRobot& a, BulletRobot* b,
+           const Twist& other_velocity);
   ConstraintRow turning_row(const SolverContact& contact, BulletRobot& a, BulletRobot* b, const Vec3& other_spin,
                             const Vec3& axis);
   /// Of what a wrench of size 1 on `a`, and its opposite on `b`, does.

@@ -9,6 +9,7 @@ using multibody::BodyState, multibody::MotionType;
 
 namespace {
 
+constexpr double same_direction = 0.99;  ///< cosine: so near are normals of one line or face
 constexpr double half_margin = 0.5 * NarrowPhase::margin;
 constexpr double fat_aabb_margin = 0.5;  ///< m: scenery is looked up anew when a robot has moved so far
 
@@ -208,6 +209,7 @@ void BulletWorld::find_contacts(double dt) {
       for (int i = 0; i < n; ++i)
         robots_[std::size_t(p.a->robot)].state().overlap.add(-points[i].gap, p.a->loaded_link, *p.b->scenery);
     const BodyState a = state_of(*p.a), b = state_of(*p.b);
+    const std::size_t first = contacts_.size();
     for (int i = 0; i < n; ++i) {
       const Vec3& at = points[i].position;
       const Vec3 relative_velocity = a.twist.at(at - a.pose.position) - b.twist.at(at - b.pose.position);
@@ -217,9 +219,27 @@ void BulletWorld::find_contacts(double dt) {
       contact.b = p.b;
       contact.point = points[i];
       contact.relative_velocity = relative_velocity;
+      contact.relative_spin = points[i].normal.dot(a.twist.angular - b.twist.angular);
     }
+    find_cells(std::span(contacts_).subspan(first));
   }
   for (; robot < robots_.size(); ++robot) first_contact_[robot + 1] = std::uint32_t(contacts_.size());
+}
+
+void BulletWorld::find_cells(std::span<SolverContact> pair) {
+  SolverContact* touching[NarrowPhase::max_points];
+  int count = 0;
+  for (SolverContact& c : pair)
+    if (c.point.gap < 0 && (count == 0 || c.point.normal.dot(touching[0]->point.normal) > same_direction))
+      touching[count++] = &c;
+  if (count < 2) return;
+  contact_geometry::find_shifts(
+      count, contact_geometry::is_of_disc(pair[0].a->extent, pair[0].b->extent),
+      [&](int i) {
+        const Vec3& p = touching[i]->point.position;
+        return lane::V3<double>{p.x(), p.y(), p.z()};
+      },
+      [&](int i, const lane::V3<double>& shift) { touching[i]->cell = {shift.x, shift.y, shift.z}; });
 }
 
 std::span<SolverContact> BulletWorld::contacts_of(std::uint32_t robot) {
@@ -251,13 +271,14 @@ void BulletWorld::solve(std::span<const Island> island, double dt) {
   for (const Island& i : island) solver_.add(robots_[i.robot], caches_[i.robot]);
   for (const Island& i : island) {
     caches_[i.robot].match(contacts_of(i.robot));
-    for (SolverContact& contact : contacts_of(i.robot)) {
-      BulletRobot* b = contact.b->robot >= 0 && robots_[std::size_t(contact.b->robot)].is_dynamic()
-                           ? &robots_[std::size_t(contact.b->robot)]
+    const std::span<SolverContact> contacts = contacts_of(i.robot);
+    for (std::size_t begin = 0, end = 0; begin < contacts.size(); begin = end) {
+      const Collider &own = *contacts[begin].a, &other = *contacts[begin].b;
+      while (end < contacts.size() && contacts[end].a == &own && contacts[end].b == &other) ++end;
+      BulletRobot* b = other.robot >= 0 && robots_[std::size_t(other.robot)].is_dynamic()
+                           ? &robots_[std::size_t(other.robot)]
                            : nullptr;
-      const BodyState other = b ? BodyState{} : state_of(*contact.b);
-      solver_.add(contact, robots_[i.robot], b,
-                  {other.twist.at(contact.point.position - other.pose.position), other.twist.angular});
+      solver_.add(contacts.subspan(begin, end - begin), robots_[i.robot], b, b ? BodyState{} : state_of(other));
     }
   }
   solver_.solve();

@@ -48,6 +48,8 @@ class BulletWorld final : public multibody::World {
   void add_pairs_between(const CollisionObject& a, const CollisionObject& b);
   void add_self_collision_pairs(const CollisionObject& object, const BulletRobot& robot);
   void find_contacts(double dt);
+  /// Of contacts of two colliders: friction is spread over the line or face that touches.
+  static void find_cells(std::span<SolverContact> pair);
   multibody::BodyState state_of(const Collider& c) const;
   void find_islands();
   void solve(std::span<const Island> robots, double dt);

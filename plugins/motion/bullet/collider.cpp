@@ -51,6 +51,7 @@ Collider make_collider(const multibody::BodyShape& shape, const BulletMeshes& me
   if (is_ground(c.kind) && moves) c.kind = ShapeKind::mesh;
   c.size = shape.shape.size;
   c.surface = shape.shape.surface;
+  c.extent = contact_geometry::extent_of(shape.shape);
   c.loaded_link = shape.loaded_link;
   c.object = shape.object;
   c.pose_in_body = shape.shape.origin;

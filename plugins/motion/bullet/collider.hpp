@@ -9,6 +9,7 @@
 
 #include "bullet_meshes.hpp"
 #include "plugins/common/bullet/bullet_types.hpp"
+#include "plugins/common/contact_geometry/disc_contact.hpp"
 #include "plugins/common/multibody/world.hpp"
 
 namespace muro::bullet {
@@ -26,6 +27,7 @@ struct Collider {
   ShapeKind kind = ShapeKind::box;
   Vec3 size = Vec3::Zero();  ///< see Shape
   Surface surface;
+  contact_geometry::ShapeExtent extent{};
   Pose pose_in_body;
   terrain_contact::ConvexShape convex;                    ///< of a robot: what touches heightmaps
   Heightmap heightmap;                                    ///< of that kind

@@ -98,16 +98,21 @@ void MujocoContacts::set_friction(mjData& d) {
     c.friction[2] = std::max(s.spinning_resistance, mjMINMU);
     c.friction[3] = c.friction[4] = std::max(s.rolling_resistance, mjMINMU);
   }
+  cells_.find(d, [this](const mjContact& c) {
+    return contact_geometry::is_of_disc(owners_[std::size_t(c.geom1)].extent, owners_[std::size_t(c.geom2)].extent);
+  });
 }
 
 /// What the rows do not know of the speed of the second body over the first.
-MujocoContacts::ContactVelocity MujocoContacts::external_velocity(const mjContact& c) const {
+MujocoContacts::ContactVelocity MujocoContacts::external_velocity(const mjContact& c, const ContactCell& cell) const {
   Vec3 speed = Vec3::Zero(), spin = Vec3::Zero();
   const GeomOwner &a = owners_[std::size_t(c.geom1)], &b = owners_[std::size_t(c.geom2)];
   if (a.twist) speed -= a.twist->at(vector_of(c.pos) - a.pose->position), spin -= a.twist->angular;
   if (b.twist) speed += b.twist->at(vector_of(c.pos) - b.pose->position), spin += b.twist->angular;
   ContactVelocity velocity = ContactVelocity::Zero();
-  if (a.twist || b.twist) velocity << Frame(c.frame) * speed, Frame(c.frame) * spin;
+  if (!a.twist && !b.twist) return velocity;
+  velocity << Frame(c.frame) * speed, Frame(c.frame) * spin;
+  velocity.segment<2>(1) += (Frame(c.frame) * spin.cross(cell.shift)).tail<2>();
   return velocity;
 }
 
@@ -123,7 +128,9 @@ double MujocoContacts::lighter_mass(const mjModel& m, const mjContact& c) const 
 void MujocoContacts::set_reference(const mjModel& m, mjData& d, int id, int row, double dt) {
   const mjContact& c = d.contact[id];
   const GeomOwner &a = owners_[std::size_t(c.geom1)], &b = owners_[std::size_t(c.geom2)];
-  ContactVelocity speed = external_velocity(c);
+  const ContactCell& cell = cells_[id];
+  ContactVelocity speed = external_velocity(c, cell);
+  const double ends = c.dim == 3 ? cell.speed_of_ends(cell.spin + speed[3]) : 0;
   for (int k = 0; k < c.dim; ++k) speed[k] += d.efc_vel[row + k];
   mjtNum* target = d.efc_aref + row;
   const double restitution = pair_surface(a.surface, b.surface, settings_.friction_rule).restitution;
@@ -136,7 +143,7 @@ void MujocoContacts::set_reference(const mjModel& m, mjData& d, int id, int row,
   target[0] = (wanted - speed[0]) / dt;
   for (int k = 1; k < c.dim; ++k) target[k] = -speed[k] / dt;
   Reference& reference = references_[std::size_t(id)];
-  reference = {target[0], infinity, splits && recovery > slow_recovery ? recovery / dt : 0};
+  reference = {target[0], infinity, splits && recovery > slow_recovery ? recovery / dt : 0, 0, ends / dt};
   // accelerations of the last step say nothing of an impact, and must not hide it
   if (impact && c.dim >= 3) reference.max_lift = lift_of(c, [&](int k) { return target[k] - d.efc_b[row + k]; });
   const double unit_softness = 1 / settings_.impedance - 1;
@@ -146,6 +153,7 @@ void MujocoContacts::set_reference(const mjModel& m, mjData& d, int id, int row,
     d.efc_R[row + k] *= softness;
     d.efc_D[row + k] = 1 / d.efc_R[row + k];
   }
+  if (c.dim == 3) reference.least_softness = d.efc_R[row + 1];
 }
 
 bool MujocoContacts::leave_overlaps(mjData& d) {
@@ -164,8 +172,24 @@ bool MujocoContacts::leave_overlaps(mjData& d) {
   return pushes;
 }
 
-double MujocoContacts::correct_for_sliding(const mjModel& m, mjData& d, const mjtNum* acceleration) {
+/// For a normal force of `pressure` (N). Returns by how much (m/s^2) that changes what its friction rows are softened
+/// by.
+double MujocoContacts::soften(mjData& d, int id, double pressure) const {
+  mjContact& c = d.contact[id];
+  const Reference& reference = references_[std::size_t(id)];
+  const double limit = c.friction[0] * pressure, before = d.efc_R[c.efc_address + 1];
+  const double now = limit > 0 ? std::max(reference.ends / limit, reference.least_softness) : reference.least_softness;
+  for (int k = 1; k < 3; ++k) {
+    d.efc_R[c.efc_address + k] = now;
+    d.efc_D[c.efc_address + k] = 1 / now;
+  }
+  c.mu = c.friction[0] * std::sqrt(now / d.efc_R[c.efc_address]);
+  return std::abs(now - before) * limit;
+}
+
+double MujocoContacts::correct_for_sliding(const mjModel& m, mjData& d, const mjtNum* acceleration, bool is_solved) {
   if (d.ncon == 0) return 0;
+  constexpr double at_rest = 1;  // m/s^2: forces of the step before say something of what is accelerated no more
   rows_.resize(std::size_t(d.nefc));
   mj_mulJacVec(&m, &d, rows_.data(), acceleration);
   double largest_change = 0;
@@ -174,7 +198,17 @@ double MujocoContacts::correct_for_sliding(const mjModel& m, mjData& d, const mj
     const int row = c.efc_address;
     if (row < 0 || c.dim < 3) continue;
     const Reference& reference = references_[std::size_t(i)];
-    const double lift = lift_of(c, [&](int k) { return rows_[std::size_t(row + k)] - d.efc_aref[row + k]; });
+    double by_ends = 0;
+    if (reference.ends > 0) {
+      const double away = rows_[std::size_t(row)];
+      const double pressure = is_solved                    ? d.efc_force[row]
+                              : std::abs(away) < at_rest ? (reference.normal - away) * d.efc_D[row]
+                                                           : 0;
+      largest_change = std::max(largest_change, soften(d, i, pressure));
+      by_ends = c.friction[0] * c.friction[0] * d.efc_R[row + 1] * std::max(pressure, 0.0);
+    }
+    const double lift =
+        std::max(0.0, lift_of(c, [&](int k) { return rows_[std::size_t(row + k)] - d.efc_aref[row + k]; }) - by_ends);
     const double normal = reference.normal - std::min(lift, reference.max_lift);
     largest_change = std::max(largest_change, std::abs(normal - d.efc_aref[row]));
     d.efc_aref[row] = normal;
@@ -188,8 +222,9 @@ void MujocoContacts::export_wrenches(const mjData& d, std::deque<MujocoRobot>& r
     if (c.efc_address < 0) continue;
     ContactVelocity local = ContactVelocity::Zero();
     for (int k = 0; k < c.dim; ++k) local[k] = d.efc_force[c.efc_address + k];
-    const Vec3 force = Frame(c.frame).transpose() * local.head<3>(),
-               torque = Frame(c.frame).transpose() * local.tail<3>(), point = vector_of(c.pos);
+    const Vec3 force = Frame(c.frame).transpose() * local.head<3>(), point = vector_of(c.pos),
+               friction = force - local[0] * vector_of(c.frame);
+    const Vec3 torque = Frame(c.frame).transpose() * local.tail<3>() + cells_[i].shift.cross(friction);
     const GeomOwner &a = owners_[std::size_t(c.geom1)], &b = owners_[std::size_t(c.geom2)];
     if (a.robot >= 0) robots[std::size_t(a.robot)].add_contact(d, a.body, a.loaded_link, -force, -torque, point);
     if (b.robot >= 0) robots[std::size_t(b.robot)].add_contact(d, b.body, b.loaded_link, force, torque, point);

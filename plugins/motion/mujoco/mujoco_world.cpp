@@ -65,6 +65,7 @@ void MujocoWorld::find_indices() {
     owner.loaded_link = s.loaded_link;
     owner.object = s.object;
     owner.surface = s.shape.surface;
+    owner.extent = contact_geometry::extent_of(s.shape);
     return owner;
   };
   for (const StaticBody& s : static_bodies_) {
@@ -192,6 +193,7 @@ void MujocoWorld::step() {
   contacts_.report_overlaps(*d, robots_);
   contacts_.set_friction(*d);
   mj_makeConstraint(m, d);
+  contacts_.move_friction(*m, *d);
   set_softness();
   mj_projectConstraint(m, d);
   mj_fwdVelocity(m, d);
@@ -213,10 +215,10 @@ void MujocoWorld::step() {
 void MujocoWorld::solve() {
   const mjModel* m = model_.get();
   mjData* d = data_.get();
-  contacts_.correct_for_sliding(*m, *d, d->qacc_warmstart);
+  contacts_.correct_for_sliding(*m, *d, d->qacc_warmstart, false);
   for (int i = 0;; ++i) {
     mj_fwdConstraint(m, d);
-    if (i == settings_.refinements || contacts_.correct_for_sliding(*m, *d, d->qacc) < sliding_tolerance) break;
+    if (i == settings_.refinements || contacts_.correct_for_sliding(*m, *d, d->qacc, true) < sliding_tolerance) break;
   }
 }
 

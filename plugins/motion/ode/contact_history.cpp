@@ -33,11 +33,13 @@ void ContactHistory::recall(FoundContact& c) {
     found = &memory_[i];
   }
   c.drift = c.load = Vec3::Zero();
+  c.pressure = 0;
   c.bound = 1;
   if (!found) return;
   c.drift = vector_of(found + 4);
   c.load = vector_of(found + 7);
-  c.bound = found[10];
+  c.pressure = found[10];
+  c.bound = found[11];
   found[0] = taken;
 }
 
@@ -48,7 +50,8 @@ void ContactHistory::store(const FoundContact& c, const Vec3& next_point) {
   std::copy_n(next_point.data(), 3, m + 1);
   std::copy_n(c.drift.data(), 3, m + 4);
   std::copy_n(c.load.data(), 3, m + 7);
-  m[10] = c.bound;
+  m[10] = c.pressure;
+  m[11] = c.bound;
   stored_ += numbers;
   if (stored_ < memory_.size()) memory_[stored_] = 0;
 }

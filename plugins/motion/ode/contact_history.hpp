@@ -25,7 +25,7 @@ class ContactHistory {
   void store(const FoundContact& contact, const Vec3& next_point);
 
  private:
-  static constexpr std::size_t numbers = 11;  ///< of a point: its pair, point, drift, load, bound
+  static constexpr std::size_t numbers = 12;  ///< of a point: pair, point, drift, load, pressure, bound
 
   std::span<double> memory_;  ///< points, to the first without a pair
   std::size_t stored_ = 0;

@@ -6,6 +6,7 @@
 
 #include "muro/scene.hpp"
 #include "ode_meshes.hpp"
+#include "plugins/common/contact_geometry/disc_contact.hpp"
 #include "plugins/common/multibody/world.hpp"
 
 namespace muro::ode {
@@ -17,6 +18,7 @@ struct GeomOwner {
   std::uint32_t body = 0;         ///< of the robot
   std::uint32_t loaded_link = 0;  ///< see BodyShape
   Surface surface;
+  contact_geometry::ShapeExtent extent{};
   const std::string* scenery = nullptr;   ///< its name; null for what moves, and for meshes, whose depths are none
   ObjectId object = no_object;            ///< that has the shape
   terrain_contact::ConvexShape convex{};  ///< of a robot: what touches heightmaps

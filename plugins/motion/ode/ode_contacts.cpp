@@ -12,6 +12,7 @@ using multibody::MotionType;
 namespace {
 
 constexpr double deep_softness = 0.1;      ///< of the inverse effective mass
+constexpr double resting_softness_at_1_kHz = 0.03;  ///< likewise: so soft, points of a line or face share its load
 constexpr double rebound_softness = 1e-6;  ///< likewise
 constexpr double slow_correction = 1e-2;   ///< m/s: what lands may rebound so fast
 constexpr double shallow = 1e-3;           ///< m: overlaps that are taken back so slowly, without a SplitStep
@@ -20,11 +21,43 @@ constexpr double min_slip = 1e-9;          ///< m/s: below, a slip has no direct
 constexpr double min_load = 0.05;          ///< of the friction: below, a load has no direction
 constexpr double at_limit = 0.98;          ///< of the friction: what carries more may slide
 constexpr double narrowest = 0.995;        ///< of the friction: along a load at the limit
+constexpr double same_direction = 0.99;    ///< cosine: so near are normals of one line or face
 constexpr double near_limit = 0.9;         ///< of the friction: what carries more is taken to be bounded by it
+
+Vec3 spin_of(dGeomID geom) {
+  const dBodyID body = dGeomGetBody(geom);
+  return body ? vector_of(dBodyGetAngularVel(body)) : Vec3::Zero();
+}
 
 }  // namespace
 
+/// Adjacent contacts of two geoms with one normal are ends of a line or corners of a face, over which friction is
+/// spread.
+void OdeWorld::find_cells() {
+  FoundContact* const all = found_contacts_.data();
+  for (std::size_t begin = 0, end = 0; begin < contact_count_; begin = end) {
+    const FoundContact& first = all[begin];
+    for (end = begin; end < contact_count_ && all[end].first == first.first && all[end].second == first.second &&
+                      all[end].normal().dot(first.normal()) > same_direction;
+         ++end) {
+      all[end].cell = Vec3::Zero();
+      all[end].begins_patch = end == begin;
+    }
+    contact_geometry::find_shifts(
+        int(end - begin), contact_geometry::is_of_disc(first.first->extent, first.second->extent),
+        [&](int i) {
+          const dReal* p = all[begin + std::size_t(i)].contact.geom.pos;
+          return lane::V3<double>{p[0], p[1], p[2]};
+        },
+        [&](int i, const lane::V3<double>& shift) {
+          all[begin + std::size_t(i)].cell = {shift.x, shift.y, shift.z};
+        });
+  }
+}
+
 void OdeWorld::describe_contacts() {
+  find_cells();
+  find_inverse_masses();
   for (std::size_t i = 0; i < contact_count_; ++i) {
     FoundContact& found = found_contacts_[i];
     const dContactGeom& geom = found.contact.geom;
@@ -36,11 +69,13 @@ void OdeWorld::describe_contacts() {
     if (const dBodyID b = dGeomGetBody(geom.g2)) dBodyGetPointVel(b, p[0], p[1], p[2], of_second);
     found.velocity = vector_of(of_first) - vector_of(of_second);
     robot.history().recall(found);
+    found.spin = found.normal().dot(spin_of(geom.g1) - spin_of(geom.g2));
     found.contact.surface.mode = dContactApprox1;  // what it does not name is not read
     const Surface pair = pair_surface(found.first->surface, found.second->surface, settings_.friction_rule);
     found.friction = pair.friction;
     describe_normal(found, pair.restitution);
     describe_friction(found);
+    move_friction(found);
     dSurfaceParameters& surface = found.contact.surface;
     if (pair.rolling_resistance > 0 || pair.spinning_resistance > 0) {
       surface.mode |= dContactRolling;
@@ -50,21 +85,31 @@ void OdeWorld::describe_contacts() {
   }
 }
 
+/// Points of one line or face are alike soft, so that they share its load as the pressure over it does.
+void OdeWorld::find_inverse_masses() {
+  const std::span<FoundContact> all = std::span(found_contacts_).first(contact_count_);
+  for (std::size_t begin = 0, end = 0; begin < all.size(); begin = end) {
+    double sum = 0;
+    for (end = begin; end < all.size() && (end == begin || !all[end].begins_patch); ++end) {
+      for (const GeomOwner* owner : {all[end].first, all[end].second})
+        if (owner->robot >= 0)
+          sum += robots_[std::size_t(owner->robot)].inverse_effective_mass(owner->body, all[end].point(),
+                                                                           all[end].normal());
+    }
+    for (std::size_t i = begin; i < end; ++i) all[i].inverse_mass = sum / double(end - begin);
+  }
+}
+
 /// The CFM, in 1/(N s/m): ODE adds it, over the time step, to the inverse effective mass.
 void OdeWorld::describe_normal(FoundContact& found, double restitution) const {
   dSurfaceParameters& surface = found.contact.surface;
-  found.inverse_mass = 0;
-  for (const GeomOwner* owner : {found.first, found.second})
-    if (owner->robot >= 0)
-      found.inverse_mass +=
-          robots_[std::size_t(owner->robot)].inverse_effective_mass(owner->body, found.point(), found.normal());
   const double approach = -found.velocity.dot(found.normal()),
                correction = settings_.erp * found.contact.geom.depth / dt_;
   found.is_rebound = restitution > 0 && approach > settings_.bounce_speed;
   const bool is_fast = !found.is_rebound && correction > slow_correction;
   found.splits = is_fast && found.contact.geom.depth > shallow;
   // What is deep in a body is often pushed from several sides at once, which no forces can fulfil.
-  double softness = settings_.softness;
+  double softness = resting_softness();
   if (found.is_rebound)
     softness = std::min(softness, rebound_softness);
   else if (correction > settings_.correcting_speed)
@@ -80,6 +125,11 @@ void OdeWorld::describe_normal(FoundContact& found, double restitution) const {
   surface.bounce = rebound_speed(found, restitution, approach) / approach;
   surface.bounce_vel = 0;
   surface.soft_erp = 0;
+}
+
+/// So deep what rests sinks in, about: a micrometre at any rate.
+double OdeWorld::resting_softness() const {
+  return std::max(settings_.softness, resting_softness_at_1_kHz * std::min(1.0, 1e-6 / (dt_ * dt_)));
 }
 
 /// m/s, for a velocity that belongs to the middle of the step, as all of them do. The impact was earlier in the step:
@@ -107,7 +157,7 @@ void OdeWorld::describe_friction(FoundContact& found) const {
   const double friction = found.bound * found.friction;
   surface.mu = surface.mu2 = friction;
   if (friction == 0) return;
-  const Vec3 normal = found.normal(), slip = found.velocity - normal * normal.dot(found.velocity);
+  const Vec3 normal = found.normal(), slip = found.slip();
   const double speed = slip.norm();
   const auto set_direction = [&](const Vec3& direction) {
     surface.mode |= dContactFDir1;
@@ -129,6 +179,7 @@ void OdeWorld::describe_friction(FoundContact& found) const {
   const double along = std::clamp(part + 0.1, M_SQRT1_2, narrowest);
   surface.mu = along * friction;
   surface.mu2 = std::sqrt(1 - along * along) * friction;
+  if (found.speed_of_ends() > 0) found.drift.setZero();
   if (found.drift.isZero(0) || (surface.mode & dContactFDir1) == 0) return;
   const Vec3 first = vector_of(found.contact.fdir1), back = -settings_.erp / dt_ * found.drift;
   surface.mode |= dContactMotion1 | dContactMotion2;
@@ -136,12 +187,46 @@ void OdeWorld::describe_friction(FoundContact& found) const {
   surface.motion2 = back.dot(normal.cross(first));
 }
 
+/// Friction acts in the middle of a cell. ODE has it at the point: there it gets the speed of the middle, and what it
+/// does too much of about the normal is that of the step before. Where the patch spins, the ends of the cell move
+/// against its middle, and as long as they move faster than that, the cell does as much less than its limit as its
+/// middle is slower: it gives way by that.
+void OdeWorld::move_friction(FoundContact& found) const {
+  found.moment.setZero();
+  if (found.cell.isZero(0) || found.friction == 0) return;
+  dSurfaceParameters& surface = found.contact.surface;
+  const Vec3 normal = found.normal(), against = -found.of_spin();
+  if ((surface.mode & dContactFDir1) == 0 && !against.isZero(0)) {
+    surface.mode |= dContactFDir1;
+    std::copy_n(against.normalized().eval().data(), 3, found.contact.fdir1);
+  }
+  const auto is_set = [&](int which) { return (surface.mode & which) != 0; };
+  if (is_set(dContactFDir1)) {
+    const Vec3 first = vector_of(found.contact.fdir1);
+    surface.motion1 = (is_set(dContactMotion1) ? surface.motion1 : 0) + against.dot(first);
+    surface.motion2 = (is_set(dContactMotion2) ? surface.motion2 : 0) + against.dot(normal.cross(first));
+    surface.mode |= dContactMotion1 | dContactMotion2;
+  }
+  const double limit = found.friction * found.pressure;
+  if (!(limit > 0)) return;
+  const double yield = found.speed_of_ends() / limit;
+  surface.slip1 += yield;
+  surface.slip2 += yield;
+  const Vec3 force = found.pressure * (found.load - normal * normal.dot(found.load));
+  found.moment = found.cell.cross(force);
+  const auto add = [](dGeomID geom, const Vec3& torque) {
+    if (const dBodyID body = dGeomGetBody(geom)) dBodyAddTorque(body, torque.x(), torque.y(), torque.z());
+  };
+  add(found.contact.geom.g1, found.moment);
+  add(found.contact.geom.g2, -found.moment);
+}
+
 /// As the contact is in the second part of a SplitStep.
 void OdeWorld::leave_overlap(FoundContact& found) const {
   dSurfaceParameters& surface = found.contact.surface;
   surface.mode |= dContactSoftERP;
   surface.soft_erp = 0;
-  surface.soft_cfm = settings_.cfm + settings_.softness * dt_ * found.inverse_mass;
+  surface.soft_cfm = settings_.cfm + resting_softness() * dt_ * found.inverse_mass;
 }
 
 void OdeWorld::create_contact_joint(FoundContact& found) {
@@ -168,7 +253,7 @@ void OdeWorld::tell_contact(const FoundContact& found, bool to_first) {
     const dBodyID body = dGeomGetBody(to_first ? geom.g1 : geom.g2);
     const Vec3 centre = vector_of(dBodyGetPosition(body)) - dt_ * vector_of(dBodyGetLinearVel(body));  // as it was then
     told.wrench.torque =
-        vector_of(to_first ? found.feedback.t1 : found.feedback.t2) - (point - centre).cross(told.wrench.force);
+        found.torque(to_first) - (point - centre).cross(told.wrench.force);
   } else {
     told.wrench.force.setConstant(NAN);
     told.wrench.torque.setConstant(NAN);
@@ -190,13 +275,16 @@ void OdeWorld::remember(FoundContact& found) {
     const Vec3 centre = vector_of(dBodyGetPosition(body)) - dt_ * velocity;  // as it was
     return velocity + vector_of(dBodyGetAngularVel(body)).cross(point - centre);
   };
-  const Vec3 velocity = velocity_of(found.contact.geom.g1) - velocity_of(found.contact.geom.g2);
+  const double spin = normal.dot(spin_of(found.contact.geom.g1) - spin_of(found.contact.geom.g2));
+  const Vec3 velocity = velocity_of(found.contact.geom.g1) - velocity_of(found.contact.geom.g2) +
+                        spin * normal.cross(found.cell);
   const Vec3 friction = force - normal * pressure, slip = velocity - normal * normal.dot(velocity);
   found.load = friction / pressure;
+  found.pressure = pressure;
   const double part = found.load.norm() / found.friction;
   if (settings_.exact) {
     found.bound =
-        part > near_limit ? std::clamp(narrowest * found.bound / part, 0.3, 1.05) : 1 + 0.9 * (found.bound - 1);
+        part > near_limit ? std::clamp(narrowest * found.bound / part, 0.3, 1.0) : 1 + 0.9 * (found.bound - 1);
   }
   // The direct solver leaves no slip but where friction is at its limit: that is none to take back.
   if (slip.norm() < sliding_speed && !(settings_.exact && part > at_limit)) {
@@ -219,11 +307,11 @@ void OdeWorld::export_contacts() {
     const bool is_known = settings_.reactions;
     robots_[std::size_t(found.first->robot)].add_contact(*found.first,
                                                          is_known ? vector_of(found.feedback.f1) : unknown,
-                                                         is_known ? vector_of(found.feedback.t1) : unknown);
+                                                         is_known ? found.torque(true) : unknown);
     if (found.second->robot >= 0)
       robots_[std::size_t(found.second->robot)].add_contact(*found.second,
                                                             is_known ? vector_of(found.feedback.f2) : unknown,
-                                                            is_known ? vector_of(found.feedback.t2) : unknown);
+                                                            is_known ? found.torque(false) : unknown);
   }
 }
 

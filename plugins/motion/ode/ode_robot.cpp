@@ -80,7 +80,8 @@ OdeRobot::OdeRobot(dWorldID world, dSpaceID space, const multibody::RobotModel& 
       pose.position -= bodies_[i].com;
       const dGeomID geom = create_geom(s.shape, pose, bodies_[i].id, space, meshes);
       if (!geom) continue;
-      owners.push_back({std::uint32_t(owners.size()), number, std::uint32_t(i), s.loaded_link, s.shape.surface});
+      owners.push_back({std::uint32_t(owners.size()), number, std::uint32_t(i), s.loaded_link, s.shape.surface,
+                        contact_geometry::extent_of(s.shape)});
       owners.back().object = s.object;
       owners.back().convex = meshes.convex_shape(s.shape);
       dGeomSetData(geom, &owners.back());

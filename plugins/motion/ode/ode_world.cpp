@@ -78,7 +78,8 @@ void OdeWorld::guarded(const Work& work) {
 }
 
 GeomOwner& OdeWorld::set_owner(dGeomID geom, const multibody::BodyShape& shape) {
-  owners_.push_back({std::uint32_t(owners_.size()), -1, 0, shape.loaded_link, shape.shape.surface});
+  owners_.push_back({std::uint32_t(owners_.size()), -1, 0, shape.loaded_link, shape.shape.surface,
+                     contact_geometry::extent_of(shape.shape)});
   owners_.back().object = shape.object;
   dGeomSetData(geom, &owners_.back());
   return owners_.back();

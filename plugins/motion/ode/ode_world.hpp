@@ -45,9 +45,13 @@ class OdeWorld final : public multibody::World {
   static int collide(const Pair& pair, FoundContact* found);
   static int collide_with_terrain(const Pair& pair, FoundContact* found);
   void set_step(double dt);
+  void find_cells();
+  void find_inverse_masses();
   void describe_contacts();
   void describe_normal(FoundContact& found, double restitution) const;
   void describe_friction(FoundContact& found) const;
+  void move_friction(FoundContact& found) const;
+  double resting_softness() const;
   double rebound_speed(const FoundContact& found, double restitution, double approach) const;
   void leave_overlap(FoundContact& found) const;
   void create_contact_joint(FoundContact& found);

@@ -39,7 +39,9 @@ struct Grip : Trial {
   /// The middle of the part is `off` (m, along the pads) beside theirs.
   Grip(const std::string& motion, double mass, double off) : Trial(motion) {
     add("gripper", gripper(), {{0, 0, 1}, Quat::Identity()});
-    use(motion, 1000, all_robots(), {{"base", std::string("fixed")}});
+    std::map<std::string, ParameterInput> parameters{{"base", std::string("fixed")}};
+    if (motion == "motion.simplified") parameters.emplace("effort_limits", true);
+    use(motion, 1000, all_robots(), parameters);
     part = &add("part", block(mass, {0.08, part_width, 0.06}, grip_friction), {{off, 0, 0.9}, Quat::Identity()});
     use(motion, 1000, {all_robots().back()});
     use_contacts();
@@ -127,15 +129,9 @@ Outcome stays_in_cones(const std::string& motion) {
 
 std::vector<Case> grip_cases() {
   constexpr Features needs = feature_contact | feature_friction | feature_joints;
-  std::vector<Case> cases;
-  for (const std::string_view motion : {"motion.ode", "motion.bullet", "motion.mujoco"}) {
-    cases.push_back(
-        {"two fingers hold what their friction can carry", "of 0.1 mm, 0.01 rad", needs, 1, holds_part, motion});
-    cases.push_back(
-        {"two fingers drop what is too heavy for their friction", "holds wrongly", needs, 0, drops_part, motion});
-    cases.push_back({"no contact leaves the cone of its friction", "relative", needs, 0.01, stays_in_cones, motion});
-  }
-  return cases;
+  return {{"two fingers hold what their friction can carry", "of 0.1 mm, 0.01 rad", needs, 1, holds_part},
+          {"two fingers drop what is too heavy for their friction", "holds wrongly", needs, 0, drops_part},
+          {"no contact leaves the cone of its friction", "relative", needs, 0.01, stays_in_cones}};
 }
 
 }  // namespace muro::conformance

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "contact_cells.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "plugins/common/contact_geometry/pressure_cells.hpp"
+
+namespace muro::mujoco {
+
+namespace {
+
+constexpr double same_direction = 0.99;  ///< cosine: so near are normals of one line or face
+
+/// The matrices of constraints may be sparse.
+struct Entry {
+  mjtNum* number;
+  mjtNum* transposed;  ///< null where no other matrix has it
+};
+Entry entry_of(const mjModel& m, mjData& d, int row, int column) {
+  if (!mj_isSparse(&m)) return {d.efc_J + std::ptrdiff_t(row) * m.nv + column, nullptr};
+  const auto place = [](const int* list, int count, int wanted) {
+    return std::lower_bound(list, list + count, wanted) - list;
+  };
+  const int in_row = d.efc_J_rowadr[row], in_column = d.efc_JT_rowadr[column];
+  return {d.efc_J + in_row + place(d.efc_J_colind + in_row, d.efc_J_rownnz[row], column),
+          d.efc_JT + in_column + place(d.efc_JT_colind + in_column, d.efc_JT_rownnz[column], row)};
+}
+
+/// Degrees of freedom that move a body, to `sink(number)`, from the body to the root.
+template <class Sink>
+void each_dof(const mjModel& m, int body, const Sink& sink) {
+  while (body != 0 && m.body_dofnum[body] == 0) body = m.body_parentid[body];
+  for (int i = m.body_dofadr[body] + m.body_dofnum[body] - 1; body != 0 && i >= 0; i = m.dof_parentid[i]) sink(i);
+}
+
+}  // namespace
+
+double ContactCell::speed_of_ends(double all) const {
+  return std::max(std::abs(all) * shift.norm() - contact_geometry::least_spin, 0.0);
+}
+
+int ContactCells::end_of_patch(const mjData& d, int begin) {
+  const mjContact& first = d.contact[begin];
+  int end = begin;
+  while (end < d.ncon && d.contact[end].geom1 == first.geom1 && d.contact[end].geom2 == first.geom2 &&
+         vector_of(d.contact[end].frame).dot(vector_of(first.frame)) > same_direction)
+    ++end;
+  return end;
+}
+
+void ContactCells::find_shifts(const mjData& d, int begin, int end, bool is_of_disc) {
+  contact_geometry::find_shifts(
+      end - begin, is_of_disc,
+      [&](int i) {
+        const mjtNum* p = d.contact[begin + i].pos;
+        return lane::V3<double>{p[0], p[1], p[2]};
+      },
+      [&](int i, const lane::V3<double>& shift) {
+        cells_[std::size_t(begin + i)].shift = {shift.x, shift.y, shift.z};
+      });
+}
+
+void ContactCells::move_friction(const mjModel& m, mjData& d) {
+  for (int i = 0; i < d.ncon; ++i) {
+    const mjContact& c = d.contact[i];
+    ContactCell& cell = cells_[std::size_t(i)];
+    if (c.efc_address < 0 || c.dim < 3 || cell.shift.isZero(0)) continue;
+    const auto add = [&](int body, double sign) {
+      each_dof(m, body, [&](int dof) {
+        const Vec3 axis = sign * vector_of(d.cdof + 6 * dof);
+        cell.spin += axis.dot(vector_of(c.frame)) * d.qvel[dof];
+        const Vec3 more = axis.cross(cell.shift);
+        for (int k = 1; k < 3; ++k) {
+          const Entry entry = entry_of(m, d, c.efc_address + k, dof);
+          *entry.number += more.dot(vector_of(c.frame + 3 * k));
+          if (entry.transposed) *entry.transposed = *entry.number;
+        }
+      });
+    };
+    add(m.geom_bodyid[c.geom1], -1);
+    add(m.geom_bodyid[c.geom2], 1);
+  }
+}
+
+}  // namespace muro::mujoco
