@@ -78,14 +78,8 @@ constexpr Exception exceptions[] = {
      "forces act where bodies touch before the step"},
     {"motion.ode", "Euler's disk goes round by sqrt(4 g / (R sin tilt))", 0.09,
      "forces act where bodies touch before the step"},
-    {"motion.simplified", "a coin that spins gains no energy", 0.0022,
-     "springs act where bodies touched before the step, and coming points jump"},
-    {"motion.simplified", "a cone that rolls round gains no energy", 0.0022,
-     "springs act where bodies touched before the step, and coming points jump"},
-    {"motion.simplified", "an ellipsoid that rolls gains no energy", 0.003,
-     "springs act where bodies touched before the step, and coming points jump"},
-    {"motion.simplified", "random bodies that fall gain no energy", 0.0018,
-     "springs act where bodies touched before the step, and coming points jump"},
+    {"motion.simplified", "a disk that rolls and falls over gains no energy", 3e-3, "at 250 Hz"},
+    {"motion.simplified", "a cone that rolls round gains no energy", 0.02, "at 250 Hz its facets pass in two steps each"},
     {"motion.ode", "a rover parks on 30 deg when tan is below mu", 1e-3, "50 iterations do not converge"},
 };
 
