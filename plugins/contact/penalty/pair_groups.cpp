@@ -266,7 +266,7 @@ void PairContacts::add_supports(std::uint32_t self, double mass, ContactSolver& 
   }
 }
 
-/// Says it once, when a contact rests deeper than contacts should: where engines hold a body from below, this algorithm
+/// Says it once, when a contact rests deeper than contacts should: where engines hold a body, this algorithm
 /// does not know by what.
 void PairContacts::tell_depth(std::uint32_t self, const Contact& contact, const PairPoint& point, const Computed& c) {
   constexpr double too_deep = 2e-3, at_rest = 1e-3;  // m, m/s
@@ -275,10 +275,10 @@ void PairContacts::tell_depth(std::uint32_t self, const Contact& contact, const 
   if (is_known(bodies_.robots[self]) && is_known(bodies_.robots[std::size_t(c.other_robot)])) return;
   if (depth_is_told_.exchange(true)) return;
   const auto name = [&](ObjectId id) { return quote(bodies_.names[index_of(id)]); };
-  host_.log(LogLevel::warning, "contact.penalty: " + name(contact.self) + " rests " +
-                                   std::to_string(1e3 * contact.depth) + " mm deep in " + name(contact.other) +
-                                   ": what holds up the lower one is hidden in its motion; move both by one motion, " +
-                                   "or the lower one by motion.simplified or motion.articulated (told once)");
+  host_.log(LogLevel::warning, "contact.penalty: " + name(contact.self) + " is pressed " +
+                                   std::to_string(1e3 * contact.depth) + " mm deep into " + name(contact.other) +
+                                   ": what holds them is hidden in their motions; move both by one motion, or what " +
+                                   "is pressed by motion.simplified or motion.articulated (told once)");
 }
 
 void PairContacts::take_forces(std::uint32_t self, std::span<const SolverContact>& found) {

@@ -109,7 +109,7 @@ void OdeWorld::describe_normal(FoundContact& found, double restitution) const {
   const bool is_fast = !found.is_rebound && correction > slow_correction;
   found.splits = is_fast && found.contact.geom.depth > shallow;
   // What is deep in a body is often pushed from several sides at once, which no forces can fulfil.
-  double softness = resting_softness();
+  double softness = resting_softness(found);
   if (found.is_rebound)
     softness = std::min(softness, rebound_softness);
   else if (correction > settings_.correcting_speed)
@@ -127,9 +127,12 @@ void OdeWorld::describe_normal(FoundContact& found, double restitution) const {
   surface.soft_erp = 0;
 }
 
-/// So deep what rests sinks in, about: a micrometre at any rate.
-double OdeWorld::resting_softness() const {
-  return std::max(settings_.softness, resting_softness_at_1_kHz * std::min(1.0, 1e-6 / (dt_ * dt_)));
+/// What rests sinks in by some micrometres, at any rate, also light links that carry a robot.
+double OdeWorld::resting_softness(const FoundContact& found) const {
+  constexpr double points = 20;
+  const double lightest = std::min(found.first->mass, found.second->mass);
+  return std::max(settings_.softness, resting_softness_at_1_kHz * std::min(1.0, 1e-6 / (dt_ * dt_)) *
+                                          std::min(1.0, points / (lightest * found.inverse_mass)));
 }
 
 /// m/s, for a velocity that belongs to the middle of the step, as all of them do. The impact was earlier in the step:
@@ -226,7 +229,7 @@ void OdeWorld::leave_overlap(FoundContact& found) const {
   dSurfaceParameters& surface = found.contact.surface;
   surface.mode |= dContactSoftERP;
   surface.soft_erp = 0;
-  surface.soft_cfm = settings_.cfm + resting_softness() * dt_ * found.inverse_mass;
+  surface.soft_cfm = settings_.cfm + resting_softness(found) * dt_ * found.inverse_mass;
 }
 
 void OdeWorld::create_contact_joint(FoundContact& found) {

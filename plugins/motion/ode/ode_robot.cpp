@@ -73,6 +73,8 @@ OdeRobot::OdeRobot(dWorldID world, dSpaceID space, const multibody::RobotModel& 
   multibody::RobotState zero;  // joints are made where all of them are at 0
   zero.joints.resize(model.bodies.size());
   forward_kinematics(model, zero, body_states_);
+  double mass = 0;
+  for (const multibody::RigidBody& body : model.bodies) mass += body.inertia.mass;
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
     add_body(i);
     for (const multibody::BodyShape& s : model.bodies[i].shapes) {
@@ -81,7 +83,7 @@ OdeRobot::OdeRobot(dWorldID world, dSpaceID space, const multibody::RobotModel& 
       const dGeomID geom = create_geom(s.shape, pose, bodies_[i].id, space, meshes);
       if (!geom) continue;
       owners.push_back({std::uint32_t(owners.size()), number, std::uint32_t(i), s.loaded_link, s.shape.surface,
-                        contact_geometry::extent_of(s.shape)});
+                        contact_geometry::extent_of(s.shape), mass});
       owners.back().object = s.object;
       owners.back().convex = meshes.convex_shape(s.shape);
       dGeomSetData(geom, &owners.back());

@@ -51,7 +51,7 @@ class OdeWorld final : public multibody::World {
   void describe_normal(FoundContact& found, double restitution) const;
   void describe_friction(FoundContact& found) const;
   void move_friction(FoundContact& found) const;
-  double resting_softness() const;
+  double resting_softness(const FoundContact& found) const;
   double rebound_speed(const FoundContact& found, double restitution, double approach) const;
   void leave_overlap(FoundContact& found) const;
   void create_contact_joint(FoundContact& found);
