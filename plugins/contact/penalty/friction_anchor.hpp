@@ -13,6 +13,7 @@ struct FrictionAnchor {
   Vec3 point = Vec3::Zero();         ///< m, world
   Vec3 displacement = Vec3::Zero();  ///< m, world: tangential
   double overlap = 0;                ///< m, see overlap.hpp
+  Vec3 way = Vec3::Zero();           ///< m, world: of the point in the last step, where it moves over a single body
 };
 
 using contact_geometry::pair_of, contact_geometry::previous;

@@ -16,6 +16,7 @@ static_assert(sizeof(Contact) == contact_stride * sizeof(double) && offsetof(Con
               offsetof(Contact, normal) == 32 && offsetof(Contact, depth) == 56 && offsetof(Contact, surface) == 64 &&
               offsetof(Contact, self_shape) == 96 && sizeof(FrictionAnchor) == anchor_stride * sizeof(double) &&
               offsetof(FrictionAnchor, point) == 8 && offsetof(FrictionAnchor, displacement) == 32 &&
+              offsetof(FrictionAnchor, way) == offsetof(FrictionAnchor, point) + anchor_way * sizeof(double) &&
               sizeof(ContactWrench) == force_stride * sizeof(double));
 
 /// Two adjacent numbers of 4 bytes.

@@ -13,13 +13,18 @@ using namespace law;
 /// Friction anchors of a group from the step before: n of them, or as many as a robot may have.
 template <class S, int n>
 struct OldAnchors {
-  V3<S> at[n], displacement[n];
+  V3<S> at[n], displacement[n], last_way[n];
 
   MURO_INLINE void load(int k, const Places<S>& places, int number) {
     S g[anchor_numbers];
     load_rows(places, number, g);
     at[k] = {g[0], g[1], g[2]};
     displacement[k] = {g[3], g[4], g[5]};
+  }
+  MURO_INLINE void load_way(int k, const Places<S>& places, int number) {
+    S g[3];
+    load_rows(places, number + anchor_way, g);
+    last_way[k] = {g[0], g[1], g[2]};
   }
   /// The tangential displacement of the nearest of the first `count`; `way`: from there, m; out.
   MURO_INLINE V3<S> nearest(const V3<S>& point, int count, V3<S>& way) const {
@@ -37,6 +42,18 @@ struct OldAnchors {
     }
     return found;
   }
+  /// The way of the nearest in the step before.
+  MURO_INLINE V3<S> way_of_nearest(const V3<S>& point, int count) const {
+    V3<S> found = last_way[0];
+    S least = distance2(point, 0);
+    for (int k = 1; k < count; ++k) {
+      const S distance = distance2(point, k);
+      const auto nearer = distance < least;
+      least = select(nearer, distance, least);
+      found = select(nearer, last_way[k], found);
+    }
+    return found;
+  }
   /// The square of the distance of the nearest, m^2.
   MURO_INLINE S least_distance2(const V3<S>& point, int count) const {
     S least = distance2(point, 0);
@@ -51,6 +68,11 @@ struct OldAnchors {
 
 /// Points that have moved by more than the radius of gyration are new ones: its square is at least 3 / (m trace(I^-1)).
 constexpr double square_of_reach = 1.0 / 3;
+/// By so much of itself the way of a point changes from step to step, as long as it is one of a smooth rim.
+constexpr double smooth = 0.5;
+/// So much of this change is added to its way ahead. 0.75 is of second order; more is a little too far ahead, so that
+/// rims that roll fast lose energy instead of gaining it.
+constexpr double bend_ahead = 1.6;
 
 /// The contacts of as many robots as S has values. Where one has fewer than another, its last contact stands in and
 /// counts for nothing. Each pass over the contacts stores its results for the next, so that the iterations of a pass
@@ -144,6 +166,7 @@ class RobotContacts {
     S approach;          ///< m/s
     V3<S> slip;          ///< m/s, of the middle of its cell
     V3<S> displacement;  ///< m, tangential
+    V3<S> way;           ///< m: in the last step, of robots that roll
     V3<S> turn;          ///< m: slip of the middle of its cell against its own, for 1 rad/s about the normal
     S spin;              ///< m/s: of the ends of its cell, see law::speed_of_ends
   };
@@ -391,13 +414,17 @@ class RobotContacts {
   template <int n>
   MURO_INLINE void load_anchors(const Run& run, OldAnchors<S, n>& to) const {
     const int anchors = n < max_contacts ? n : run.most_anchors;
+    const auto load = [&](int k, const Places<S>& places, int number) {
+      to.load(k, places, number);
+      if (any_rolls_) to.load_way(k, places, number);
+    };
     if (is_uniform_) {
-      for (int k = 0; k < anchors; ++k) to.load(k, before_, (run.begin + k) * anchor_stride);
+      for (int k = 0; k < anchors; ++k) load(k, before_, (run.begin + k) * anchor_stride);
       return;
     }
     Places<S> at = run.anchors;
     for (int k = 0; k < anchors; ++k) {
-      to.load(k, at, 0);
+      load(k, at, 0);
       for (int i = 0; i < count_of<S>; ++i) at.at[i] += k < run.last_anchor[i] ? anchor_stride : 0;  // the last again
     }
   }
@@ -446,8 +473,13 @@ class RobotContacts {
       if constexpr (cells == Cells::any) p.arm = p.at - base_;
       if (cells == Cells::any && any_rolls_) {
         // a point that moves over the body, as on a rim, moves on; others appear
-        const auto moves_on = (dot(way, way) < reach2_) & have_anchors & rolls_;
-        p.arm = select(moves_on, p.arm + (way * half_step - drift_), p.arm);
+        const S square = dot(way, way);
+        const auto moves_on = (square < reach2_) & have_anchors & rolls_;
+        const V3<S> bend = anchors > 0 ? way - before.way_of_nearest(p.at, anchors) : way;
+        const auto goes_round = dot(bend, bend) < S(smooth * smooth) * square;  // else it jumps
+        const V3<S> ahead = select(goes_round, way + S(bend_ahead) * bend, way);
+        p.arm = select(moves_on, p.arm + (ahead * half_step - drift_), p.arm);
+        p.way = select(moves_on, way, {zero, zero, zero});
       }
       const V3<S> displacement = old + p.slip * elapsed;
       p.displacement = displacement - p.normal * dot(p.normal, displacement);
@@ -531,10 +563,16 @@ class RobotContacts {
   }
   MURO_INLINE void store_contact(int k, const V3<S>& displacement, unsigned which) const {
     const V3<S>&at = points_[k].at, &d = displacement;
-    if (is_plain(k)) return store_rows(anchors_, k * anchor_stride, {at.x, at.y, at.z, d.x, d.y, d.z}, which);
+    const auto store = [&](const Places<S, double>& anchors, int number) {
+      store_rows(anchors, number, {at.x, at.y, at.z, d.x, d.y, d.z}, which);
+      if (!any_rolls_) return;
+      const V3<S>& way = points_[k].way;
+      store_rows(anchors, number + anchor_way, {way.x, way.y, way.z}, which & bits(rolls_));
+    };
+    if (is_plain(k)) return store(anchors_, k * anchor_stride);
     Places<S, double> anchors;
     each_contact(k, [&](int i, const KernelContact& c) { anchors.at[i] = anchors_.at[i] + c.anchor * anchor_stride; });
-    store_rows(anchors, 0, {at.x, at.y, at.z, d.x, d.y, d.z}, which);
+    store(anchors, 0);
   }
 
   const KernelBatch& batch_;

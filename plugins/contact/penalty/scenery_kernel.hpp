@@ -44,9 +44,9 @@ struct KernelRobot {
   double* wrench = nullptr;      ///< on the base; out
   double* forces = nullptr;  ///< force and torque of the first of `contacts`; out, where KernelBatch::tells_contacts
 };
-inline constexpr int contact_stride = 13, anchor_stride = 8, force_stride = 14;  ///< in numbers
-/// A contact, from its point on: point, normal, depth, friction. An anchor: point, displacement.
-inline constexpr int contact_numbers = 8, anchor_numbers = 6;
+inline constexpr int contact_stride = 13, anchor_stride = 11, force_stride = 14;  ///< in numbers
+/// A contact, from its point on: point, normal, depth, friction. An anchor: point, displacement; later, its way.
+inline constexpr int contact_numbers = 8, anchor_numbers = 6, anchor_way = 7;
 
 /// What the robots of one call share.
 struct KernelBatch {

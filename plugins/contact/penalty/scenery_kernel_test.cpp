@@ -120,7 +120,8 @@ Vehicle random_vehicle(std::mt19937& random, double speed, bool uneven) {
   for (std::size_t b = 0; b < 4; ++b)
     for (int i = 0; i < v.anchors_before[b]; ++i) {
       const Vec3& near = v.contacts[(v.per_body * b + std::size_t(i) % v.per_body) % 8].point;
-      v.before[end++] = {b, near + vector(0.02), vector(1e-4)};
+      const Vec3 from = vector(0.02);
+      v.before[end++] = {b, near + from, vector(1e-4), 0, vector(number(0, 1) == 1 ? 3e-3 : 0.05) - from};
     }
   return v;
 }
@@ -195,8 +196,11 @@ Wrench by_the_model(const Vehicle& v, std::vector<Vec3>& displacements) {
       displacement += before->displacement;
       const Vec3 way = c.point - before->point;
       if (v.rolls &&
-          way.squaredNorm() * inertia.trace() < 3 * v.mass->inverse_mass)  // it is the same point, and moves on
-        arm += 0.5 * (way - h * v.twist.at(centre - v.base.position));
+          way.squaredNorm() * inertia.trace() < 3 * v.mass->inverse_mass) {  // it is the same point, and moves on
+        const Vec3 bend = way - before->way;
+        const bool goes_round = bend.squaredNorm() < 0.25 * way.squaredNorm();
+        arm += 0.5 * ((goes_round ? Vec3(way + 1.6 * bend) : way) - h * v.twist.at(centre - v.base.position));
+      }
     }
     displacement -= c.normal * c.normal.dot(displacement);
     const double normal = along[k] * normal_law.force(c.depth, approach);
