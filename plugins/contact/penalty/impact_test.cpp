@@ -71,6 +71,38 @@ TEST(Impacts, ObliqueOnesSlipOrStickAsCoulombSays) {
   }
 }
 
+TEST(Impacts, OfARodsEndThatSlidesAndThenSticksFollowRouthsPath) {
+  // In the plane, what an impulse (p, 1) at the end does to its velocity; first p = -mu against the slip, then whatever
+  // keeps it from slipping, or mu the other way.
+  constexpr double length = 1, e = 0.5, angle = 0.6, inertia = 1.0 / 12, sideways = 0.8;
+  constexpr double radius = 1e-3, fall = 1;
+  const double x = 0.5 * length * std::cos(angle), z = -0.5 * length * std::sin(angle) - radius;
+  const double kxx = 1 + z * z / inertia, kxz = -x * z / inertia, kzz = 1 + x * x / inertia;
+  for (const double mu : {0.05, 0.5, 1.0}) {
+    ContactScene s;
+    s.add_ground(mu);
+    Shape shape = Shape::capsule(radius, length);
+    shape.surface = {.friction = mu, .restitution = e};
+    shape.origin.orientation = from_rpy(0, M_PI / 2, 0);
+    const RobotView& r = s.add("rod", single_body(shape, {.mass = 1, .ixx = 1e-3, .iyy = inertia, .izz = inertia}),
+                               {{0, 0, fall - z}, from_rpy(0, angle, 0)}, {{-sideways, 0, 0}, Vec3::Zero()});
+    s.start();
+    const double v = std::sqrt(2 * g * fall);
+    s.run_for(v / g + 2e-3);
+    double px = 0, pz = 0, slip = -sideways, rises = -v;
+    const auto push = [&](double p, double part) {
+      px += p * part, pz += part;
+      slip += (kxx * p + kxz) * part, rises += (kxz * p + kzz) * part;
+    };
+    const double against = mu, until_stop = -slip / (kxx * against + kxz), until_end = (e * v - rises) / (kzz + kxz * mu);
+    push(against, std::min(until_stop, until_end));
+    const double sticks = -std::min(mu, kxz / kxx);
+    push(sticks, (e * v - rises) / (kzz + kxz * sticks));
+    EXPECT_NEAR(s.twist(r).linear.x(), -sideways + px, 1e-9) << mu;
+    EXPECT_NEAR(s.twist(r).angular.y(), (z * px - x * pz) / inertia, 1e-9) << mu;
+  }
+}
+
 TEST(Impacts, OfTwoBallsExchangeMomentumAsNewtonSays) {
   for (const double e : {1.0, 0.5, 0.0}) {
     ContactScene s;

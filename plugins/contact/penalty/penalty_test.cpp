@@ -170,6 +170,27 @@ TEST(Penalty, CollidingBodiesKeepTheirMomentaAndGainNoEnergy) {
   EXPECT_GE(collisions, 20);
 }
 
+TEST(Penalty, APlateThatSpinsOnARobotIsSlowedByThePressureOverIt) {
+  // Torque of an even pressure over a square: 0.3826 mu N a; the slab turns with it.
+  constexpr double side = 0.3, mu = 0.5, inertia = side * side / 6;
+  ContactScene s;
+  s.add_ground(1);
+  const RobotView& slab = s.add("slab", block(50, {1, 1, 0.1}, mu), {{0, 0, 0.05}, Quat::Identity()});
+  const RobotView& plate =
+      s.add("plate", single_body(with(Shape::box({side, side, 0.02}), mu),
+                                 {.mass = 1, .ixx = 0.6 * inertia, .iyy = 0.6 * inertia, .izz = inertia}),
+            {{0, 0, 0.11}, Quat::Identity()}, {Vec3::Zero(), {0, 0, 20}});
+  s.start();
+  s.run_for(0.1);
+  const double before = s.twist(plate).angular.z();
+  s.run_for(0.2);
+  EXPECT_NEAR((before - s.twist(plate).angular.z()) / 0.2, 0.3826 * mu * g * side / inertia, 0.05 * 37.5);
+  EXPECT_LT(s.twist(slab).angular.norm(), 1e-3);
+  s.run_for(1);
+  EXPECT_LT(s.twist(plate).angular.norm(), 1e-6);
+  EXPECT_NEAR(s.pose(plate).position.z(), 0.11, 2e-4);
+}
+
 TEST(Penalty, ForcesOfAPairAreOppositeToTheBit) {
   ContactScene s;
   s.world().set(world_object, keys::gravity, Vec3(0, 0, 0));
