@@ -50,6 +50,7 @@ struct NormalLaw {
   S load;            ///< of the bodies, >= 0
   S spring, damper;  ///< 1/s^2, 1/s
   S soft;            ///< 1/s^2: of the spring, as softened
+  S lag;             ///< s: the spring alone has the force of both at the depth that the bodies had so much later
 
   MURO_INLINE NormalLaw(const Stiffness& s, S damping_ratio, S load_of_bodies)
       : stiffness(s), zeta(damping_ratio), load(load_of_bodies) {
@@ -58,20 +59,21 @@ struct NormalLaw {
     const S one(1), z = law::tanh(zeta * S(w) * S(h)), beta = z + S(0.25 * w * w * h * h);
     const S softening = one / max(load * beta, one + beta);
     spring = S(w * w) * softening;
-    damper = (S(0.5 * w * w * h) + S(2) * z / S(h)) * softening;
+    damper = (S(0.5 * w * w * h) + S(2 / h) * z) * softening;
+    lag = S(2 / w) * zeta;
     soft = S(w * w) * (one + beta) * softening;
   }
 
   /// Force, >= 0. `depth` in m; `approach`: speed at which it grows, m/s.
   MURO_INLINE S force(S depth, S approach) const {
     const S zero(0), h(stiffness.h);
-    const S spring_depth =
-        depth + S(2) * zeta / S(stiffness.omega) * approach;  // the depth at which the spring alone has this force
+    const S spring_depth = depth + lag * approach;
     S result = max(spring * depth + damper * approach, zero);
-    if (const auto separates = (approach < zero) & (spring_depth < -approach * h); any(separates))
-      result = select(separates, force_at_separation(*this, spring_depth, approach), result);
-    if (const auto impacts = approach * h > depth; any(impacts))
-      result = select(impacts, force_at_impact(*this, depth, approach), result);
+    const S way = approach * h;
+    const auto separates = (approach < zero) & (spring_depth < -way), impacts = way > depth;
+    if (!any(separates | impacts)) return result;
+    if (any(separates)) result = select(separates, force_at_separation(*this, spring_depth, approach), result);
+    if (any(impacts)) result = select(impacts, force_at_impact(*this, depth, approach), result);
     return result;
   }
 
@@ -130,8 +132,9 @@ struct FrictionLaw {
   MURO_INLINE FrictionLaw(const Stiffness& s, S load) {
     const double w = s.omega, beta = w * s.h + 0.5 * w * w * s.h * s.h;
     const S softening = max(load * S(beta), S(1 + beta));
-    spring = S(w * w) / softening;
-    damper = S(2 * w + 0.5 * w * w * s.h) / softening;
+    const S part = S(1) / softening;
+    spring = S(w * w) * part;
+    damper = S(2 * w + 0.5 * w * w * s.h) * part;
     compliance = softening * S(-1 / (w * w));
     h = s.h;
     held = damper + S(h) * spring;
@@ -139,16 +142,27 @@ struct FrictionLaw {
 
   /// Force on the body that moves with `slip` (m/s) over the other. `displacement` (m) includes the path of the last
   /// step; `most`: the limit, m/s^2; `spin`: m/s, see speed_of_ends().
-  MURO_INLINE V3<S> force(V3<S>& displacement, const V3<S>& slip, S most, S spin = S(0)) const {
+  MURO_INLINE V3<S> force(V3<S>& displacement, const V3<S>& slip, S most) const {
     V3<S> f = -(spring * displacement) - damper * slip;
-    if (const auto spins = spin > S(0); any(spins)) {
-      const S part = S(1) / max(most + held * spin, S(1e-300));
-      displacement = select(spins, displacement + f * (S(h) * spin * part), displacement);
-      f = select(spins, f * (most * part), f);
-    }
     const S size2 = dot(f, f);
     if (const auto slides = size2 > most * most; any(slides)) {
-      f = select(slides, f * (most / sqrt(size2)), f);
+      f = select(slides, f * (most * (S(1) / sqrt(size2))), f);
+      displacement = select(slides, compliance * f, displacement);
+    }
+    return f;
+  }
+  /// The same bits as above where there is no spin.
+  MURO_INLINE V3<S> force(V3<S>& displacement, const V3<S>& slip, S most, S spin) const {
+    V3<S> f = -(spring * displacement) - damper * slip;
+    const S limit = most + held * spin, size2 = dot(f, f);
+    const auto slides = size2 > limit * limit, gives_way = (spin > S(0)) & !slides;
+    if (any(gives_way)) {
+      const S part = S(1) / max(limit, S(1e-300));
+      displacement = select(gives_way, displacement + f * (S(h) * spin * part), displacement);
+      f = select(gives_way, f * (most * part), f);
+    }
+    if (any(slides)) {
+      f = select(slides, f * (most * (S(1) / sqrt(size2))), f);
       displacement = select(slides, compliance * f, displacement);
     }
     return f;

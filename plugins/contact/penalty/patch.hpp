@@ -137,10 +137,13 @@ struct EffectiveMass {
   S along, across, inverse_across;
 
   EffectiveMass() = default;
-  MURO_INLINE EffectiveMass(const InverseEffectiveMass<S>& middle, S points)
-      : along(S(1) / (middle.along * points)),
-        across(S(1) / (middle.across * (S(0.5) * points))),
-        inverse_across(middle.across * (S(0.5) * points)) {}
+  MURO_INLINE EffectiveMass(const InverseEffectiveMass<S>& middle, S points) {
+    const S inverse_along = middle.along * points;
+    inverse_across = middle.across * (S(0.5) * points);
+    const S both = S(1) / (inverse_along * inverse_across);
+    along = inverse_across * both;
+    across = inverse_along * both;
+  }
 };
 
 }  // namespace MURO_ISA

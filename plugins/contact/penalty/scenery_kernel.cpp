@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "scenery_kernel.hpp"
 
-#include "muro/simd/rows.hpp"
+#include "old_anchors.hpp"
 #include "plugins/common/contact_geometry/pressure_cells.hpp"
 
 namespace muro::penalty {
@@ -9,62 +9,6 @@ namespace {
 
 using namespace lane;
 using namespace law;
-
-/// Friction anchors of a group from the step before: n of them, or as many as a robot may have.
-template <class S, int n>
-struct OldAnchors {
-  V3<S> at[n], displacement[n], last_way[n];
-
-  MURO_INLINE void load(int k, const Places<S>& places, int number) {
-    S g[anchor_numbers];
-    load_rows(places, number, g);
-    at[k] = {g[0], g[1], g[2]};
-    displacement[k] = {g[3], g[4], g[5]};
-  }
-  MURO_INLINE void load_way(int k, const Places<S>& places, int number) {
-    S g[3];
-    load_rows(places, number + anchor_way, g);
-    last_way[k] = {g[0], g[1], g[2]};
-  }
-  /// The tangential displacement of the nearest of the first `count`; `way`: from there, m; out.
-  MURO_INLINE V3<S> nearest(const V3<S>& point, int count, V3<S>& way) const {
-    V3<S> found = displacement[0];
-    way = point - at[0];
-    if (count == 1) return found;
-    S least = dot(way, way);
-    for (int k = 1; k < count; ++k) {
-      const V3<S> from_here = point - at[k];
-      const S distance = dot(from_here, from_here);
-      const auto nearer = distance < least;
-      least = select(nearer, distance, least);
-      found = select(nearer, displacement[k], found);
-      way = select(nearer, from_here, way);
-    }
-    return found;
-  }
-  /// The way of the nearest in the step before.
-  MURO_INLINE V3<S> way_of_nearest(const V3<S>& point, int count) const {
-    V3<S> found = last_way[0];
-    S least = distance2(point, 0);
-    for (int k = 1; k < count; ++k) {
-      const S distance = distance2(point, k);
-      const auto nearer = distance < least;
-      least = select(nearer, distance, least);
-      found = select(nearer, last_way[k], found);
-    }
-    return found;
-  }
-  /// The square of the distance of the nearest, m^2.
-  MURO_INLINE S least_distance2(const V3<S>& point, int count) const {
-    S least = distance2(point, 0);
-    for (int k = 1; k < count; ++k) least = min(distance2(point, k), least);
-    return least;
-  }
-  MURO_INLINE S distance2(const V3<S>& point, int k) const {
-    const V3<S> away = at[k] - point;
-    return dot(away, away);
-  }
-};
 
 /// Points that have moved by more than the radius of gyration are new ones: its square is at least 3 / (m trace(I^-1)).
 constexpr double square_of_reach = 1.0 / 3;
@@ -127,7 +71,8 @@ class RobotContacts {
       case Cells::none:
         return move_and_push<Cells::none>(load);
       case Cells::lines:
-        return move_and_push<Cells::lines>(load);
+        push_lines(load);
+        return 0;
       case Cells::any:
         return push_any(load);
     }
@@ -135,8 +80,8 @@ class RobotContacts {
   }
 
  private:
-  /// What the robots of the call touch in: points alone; points and lines, and the groups of all are alike; or whatever
-  /// there is, and robots that roll.
+  /// What the robots of the call touch in: points alone; points and lines, the groups of all are alike, and none may be
+  /// in an impact; or whatever there is, and robots that roll.
   enum class Cells { none, lines, any };
 
   template <Cells cells>
@@ -157,18 +102,21 @@ class RobotContacts {
     drift_ = (twist.linear + cross(twist.angular, body_.centre - base_)) * S(0.5 * batch_.stiffness.h);
     reach2_ = body_.mass / (S(square_of_reach) * body_.inertia.trace());
   }
-  struct Point {
+  /// How a contact moves.
+  struct Moved {
+    S approach;          ///< m/s
+    V3<S> slip;          ///< m/s, of the middle of its cell
+    S spin;              ///< m/s: of the ends of its cell, see law::speed_of_ends
+    V3<S> displacement;  ///< m, tangential
+  };
+  struct Point : Moved {
     V3<S> at, normal;
     V3<S> arm;  ///< m, from the base to where it is in the middle of the step, when the force acts, as seen from the
                 ///< centre
     S depth, friction;
     S patch;             ///< number; -1 in lanes of robots that have fewer contacts
-    S approach;          ///< m/s
-    V3<S> slip;          ///< m/s, of the middle of its cell
-    V3<S> displacement;  ///< m, tangential
     V3<S> way;           ///< m: in the last step, of robots that roll
-    V3<S> turn;          ///< m: slip of the middle of its cell against its own, for 1 rad/s about the normal
-    S spin;              ///< m/s: of the ends of its cell, see law::speed_of_ends
+    V3<S> turn;          ///< m, of a face: slip of the middle of its cell against its own, for 1 rad/s about the normal
   };
   /// Of each robot's contacts in a patch.
   struct PatchOf {
@@ -276,7 +224,7 @@ class RobotContacts {
     has_cells_ = (all & ~std::uint64_t(common_groups_)) != 0;
     const bool is_even = patch_count_ == 1 && groups_ == common_groups_ && least_ == most_;
     if (!has_cells_) return any_rolls_ ? Cells::any : Cells::none;
-    if (is_even && (goes_on & goes_on >> 1) == 0 && !any_rolls_) return Cells::lines;
+    if (is_even && (goes_on & goes_on >> 1) == 0 && !any_rolls_ && !any_looked_at_) return Cells::lines;
     find_any_turns();
     return Cells::any;
   }
@@ -286,37 +234,20 @@ class RobotContacts {
     for (int n = 1; n < patch_count_; ++n) normal = select(points_[k].patch == S(n), patches_[n].normal, normal);
     return normal;
   }
-  /// Of contacts k and k + 1.
-  MURO_INLINE void add_line(int k) {
-    Point &a = points_[k], &b = points_[k + 1];
-    const V3<S> shift = contact_geometry::shift_in_line(a.at, b.at);
-    a.turn = cross(patch_normal(k), shift), b.turn = -a.turn;
-  }
   /// Of robots whose groups differ, or are parts of several patches, or faces.
   [[gnu::noinline]] void find_any_turns() {
-    const V3<S> none{S(0), S(0), S(0)};
     const MaskOf<S> no_lane = S(1) < S(0);
     MaskOf<S> goes_on[max_contacts + 2];  // contact k - 1 of the patch in contact k
     goes_on[0] = goes_on[most_] = goes_on[most_ + 1] = no_lane;
-    bool has_faces = false;
-    unsigned with_cells = 0;
-    for (int i = 0; i < count_of<S>; ++i) with_cells |= unsigned((~robot(i).groups & ((2u << last_[i]) - 1)) != 0) << i;
-    all_have_cells_ = with_cells == all_lanes<S>;
-    have_cells_ = of_bits(with_cells);
-    for (int k = 0; k < most_; ++k) {
-      points_[k].turn = none;
-      if (k == 0) continue;
+    for (int k = 1; k < most_; ++k) {
       goes_on[k] = joined(k);
-      has_faces = has_faces || any(goes_on[k] & goes_on[k - 1]);
+      has_faces_ = has_faces_ || any(goes_on[k] & goes_on[k - 1]);
     }
-    for (int k = 0; k + 1 < most_; ++k) {
-      const MaskOf<S> lanes = goes_on[k + 1] & !(goes_on[k] | goes_on[k + 2]);
-      if (!any(lanes)) continue;
-      const V3<S> before[] = {points_[k].turn, points_[k + 1].turn};
-      add_line(k);
-      for (int i = 0; i < 2; ++i) points_[k + i].turn = select(lanes, points_[k + i].turn, before[i]);
+    for (int k = 0; k < most_; ++k) {
+      begins_line_[k] = goes_on[k + 1] & !(goes_on[k] | goes_on[k + 2]);
+      has_line_[k] = any(begins_line_[k]);
     }
-    if (has_faces) find_faces(goes_on);
+    if (has_faces_) find_faces(goes_on);
   }
   [[gnu::noinline]] void find_faces(const MaskOf<S>* goes_on) {
     contact_geometry::FacePoints<S> faces[max_contacts];
@@ -324,6 +255,8 @@ class RobotContacts {
     V3<S> arms[max_contacts];  // from the middle
     const auto of_face = [&](int k) -> MaskOf<S> { return (goes_on[k] | goes_on[k + 1]) & (faces[k].count > S(2)); };
     for (int k = 0; k < most_; ++k) {
+      points_[k].turn = {S(0), S(0), S(0)};
+      in_face_[k] = S(1) < S(0);
       faces[k] = {};
       faces[k].add(points_[k].at - base_);
       if (k > 0) faces[k].add_where(goes_on[k], faces[k - 1]);
@@ -345,6 +278,7 @@ class RobotContacts {
       const S share = contact_geometry::share_of_cells(faces[k], distances[k], farthest[k], is_disc);
       Point& p = points_[k];
       p.turn = select(here, cross(patch_normal(k), arms[k]) * (share - S(1)), p.turn);
+      in_face_[k] = here;
     }
   }
   template <class M>
@@ -379,6 +313,8 @@ class RobotContacts {
   template <Cells cells>
   MURO_INLINE unsigned move_contacts() {
     S may_collide(0);  // or 1
+    if constexpr (cells == Cells::any)
+      if (has_cells_) find_any_slips();
     Run run;
     for (run.begin = 0; run.begin < most_; run.begin = run.end) {
       run.end = run.begin + 1;
@@ -442,31 +378,10 @@ class RobotContacts {
     load_anchors(run, before);
     const S zero(0), elapsed(batch_.elapsed), impact_speed(batch_.impact_speed);
     const S half_step(batch_.elapsed > 0 ? 0.5 * batch_.stiffness.h / batch_.elapsed : 0);
-    auto have_anchors = S(1) > zero;
-    if (!run.all_have_anchors) {
-      double last[count_of<S>];
-      for (int i = 0; i < count_of<S>; ++i) last[i] = run.last_anchor[i];
-      have_anchors = side_by_side(last) >= zero;
-    }
-    V3<S> line_spin{zero, zero, zero};
-    if constexpr (cells == Cells::lines) {
-      Point& p = points_[run.begin];
-      const bool is_line = run.end > run.begin + 1;
-      p.turn = line_spin;
-      if (is_line) add_line(run.begin);
-      line_spin = dot(motion.angular, patches_[0].normal) * p.turn;
-      p.spin = speed_of_ends(line_spin);
-      if (is_line) points_[run.begin + 1].spin = p.spin;
-      largest_spin_ = max(p.spin, largest_spin_);
-    }
+    const MaskOf<S> have_anchors = having_anchors(run);
     for (int k = run.begin; k < run.end; ++k) {
       Point& p = points_[k];
-      const V3<S> velocity = motion.linear + cross(motion.angular, p.at - origin);
-      p.approach = -dot(velocity, p.normal);
-      const V3<S> slip = velocity + p.approach * p.normal;
-      p.slip = slip;
-      if constexpr (cells == Cells::lines) p.slip = k == run.begin ? slip + line_spin : slip - line_spin;
-      if (cells == Cells::any && has_cells_) add_spin(p, dot(motion.angular, patch_normal(k)));
+      if (cells == Cells::none || (cells == Cells::any && !has_cells_)) find_slip(p, motion, origin, p);
       V3<S> old{zero, zero, zero}, way = old;
       if (anchors > 0) old = before.nearest(p.at, anchors, way);
       if (!run.all_have_anchors) old = select(have_anchors, old, {zero, zero, zero});
@@ -481,23 +396,68 @@ class RobotContacts {
         p.arm = select(moves_on, p.arm + (ahead * half_step - drift_), p.arm);
         p.way = select(moves_on, way, {zero, zero, zero});
       }
-      const V3<S> displacement = old + p.slip * elapsed;
-      p.displacement = displacement - p.normal * dot(p.normal, displacement);
+      p.displacement = displacement_of(p.normal, old, p.slip);
       if (!any_looked_at_) continue;
       const auto fast = (p.approach > impact_speed) & looked_at_ & (p.patch >= zero);
       if (!any(fast)) continue;
-      const S reach = S(lasting_reach) + S(lasting_slips) * elapsed * sqrt(dot(slip, slip));
+      const S reach = S(lasting_reach) + S(lasting_slips) * elapsed * sqrt(dot(p.slip, p.slip));
       const S distance2 = anchors > 0 ? before.least_distance2(p.at, anchors) : zero;
       const auto lasts = have_anchors & (distance2 < reach * reach);
       may_collide = select(fast, select(lasts, may_collide, S(1)), may_collide);
     }
   }
-  /// `spin`: rad/s, about the normal of its patch.
-  MURO_INLINE void add_spin(Point& p, S spin) {
-    const V3<S> more = spin * p.turn;
-    p.slip = all_have_cells_ ? p.slip + more : select(have_cells_, p.slip + more, p.slip);
-    p.spin = speed_of_ends(more);
-    largest_spin_ = max(p.spin, largest_spin_);
+  MURO_INLINE MaskOf<S> having_anchors(const Run& run) const {
+    if (run.all_have_anchors) return S(1) > S(0);
+    double last[count_of<S>];
+    for (int i = 0; i < count_of<S>; ++i) last[i] = run.last_anchor[i];
+    return side_by_side(last) >= S(0);
+  }
+  /// `old`: of the step before.
+  MURO_INLINE V3<S> displacement_of(const V3<S>& normal, const V3<S>& old, const V3<S>& slip) const {
+    const V3<S> displacement = old + slip * S(batch_.elapsed);
+    return displacement - normal * dot(normal, displacement);
+  }
+  /// Of the point, which no cell has moved.
+  MURO_INLINE static void find_slip(const Point& p, const TwistOf<S>& motion, const V3<S>& origin, Moved& to) {
+    const V3<S> velocity = motion.linear + cross(motion.angular, p.at - origin);
+    to.approach = -dot(velocity, p.normal);
+    to.slip = velocity + to.approach * p.normal;
+  }
+  /// Of a vector that changes evenly along a line: from its first end to the middle of that one's cell.
+  MURO_INLINE static V3<S> part_of_line(const V3<S>& first, const V3<S>& second) {
+    return contact_geometry::shift_in_line(first, second);
+  }
+  /// Of all points, in the middles of their cells.
+  [[gnu::noinline]] void find_any_slips() {
+    Run run;
+    for (run.begin = 0; run.begin < most_; run.begin = run.end) {
+      run.end = run.begin + 1;
+      while (run.end < most_ && !(groups_ >> run.end & 1)) ++run.end;
+      find_bodies_and_anchors(run);
+      const V3<S> origin = load_vector(run.poses);
+      const TwistOf<S> motion = load_twist(run.twists);
+      for (int k = run.begin; k < run.end; ++k) {
+        Point& p = points_[k];
+        find_slip(p, motion, origin, p);
+        p.spin = S(0);
+        if (!has_faces_ || !any(in_face_[k])) continue;
+        const V3<S> more = dot(motion.angular, patch_normal(k)) * p.turn;
+        p.slip = select(in_face_[k], p.slip + more, p.slip);
+        p.spin = select(in_face_[k], speed_of_ends(more), S(0));
+      }
+    }
+    for (int k = 0; k < most_; ++k) {
+      if (has_line_[k]) {
+        Point &first = points_[k], &second = points_[k + 1];
+        const V3<S> part = part_of_line(first.slip, second.slip);
+        const S spin = speed_of_ends(part);
+        first.slip = select(begins_line_[k], first.slip + part, first.slip);
+        second.slip = select(begins_line_[k], second.slip - part, second.slip);
+        first.spin = select(begins_line_[k], spin, first.spin);
+        second.spin = select(begins_line_[k], spin, second.spin);
+      }
+      largest_spin_ = max(points_[k].spin, largest_spin_);
+    }
   }
   MURO_INLINE static MaskOf<S> of_bits(unsigned which) {
     double v[count_of<S>];
@@ -505,74 +465,180 @@ class RobotContacts {
     return side_by_side(v) > S(0);
   }
 
+  /// What a contact does: along the normal in its point, across it in the middle of its cell.
+  struct Push {
+    V3<S> along, across;
+  };
+  template <Cells cells>
+  MURO_INLINE Push push_of(int k, const Moved& moved, bool spins, const FrictionLaw<S>& friction, NormalLaw<S>& law,
+                           S load, unsigned which) {
+    const S none(0);
+    if (has_many_materials_) law = {batch_.stiffness, of_contacts(k, zeta_of), load};
+    const Point& p = points_[k];
+    EffectiveMass<S> mass = patches_[0].mass;
+    for (int n = 1; n < patch_count_; ++n) {
+      const auto here = p.patch == S(n);
+      const EffectiveMass<S>& other = patches_[n].mass;
+      mass.along = select(here, other.along, mass.along);
+      mass.across = select(here, other.across, mass.across);
+      mass.inverse_across = select(here, other.inverse_across, mass.inverse_across);
+    }
+    V3<S> displacement = moved.displacement;
+    const S normal = mass.along * law.force(p.depth, moved.approach);
+    const S most = p.friction * normal * mass.inverse_across;
+    Push push;
+    push.along = normal * p.normal;
+    if (cells != Cells::none && spins)
+      push.across = mass.across * friction.force(displacement, moved.slip, most, moved.spin);
+    else
+      push.across = mass.across * friction.force(displacement, moved.slip, most);
+    if (cells != Cells::lines && k >= least_) {
+      const auto here = S(k) < count_;
+      push = {select(here, push.along, {none, none, none}), select(here, push.across, {none, none, none})};
+      which &= bits(here);
+    }
+    store_contact(k, displacement, which);
+    if (batch_.tells_contacts) tell_contact<cells>(k, push, which);
+    return push;
+  }
+  static double zeta_of(const KernelContact& x) { return x.zeta; }
   template <Cells cells>
   MURO_INLINE void add_forces(S load, unsigned processed) {
     const S none(0);
     V3<S> force{none, none, none}, torque = force;
-    S moments[cells == Cells::any ? max_contacts : 1];  // about the normals of patches
-    moments[0] = none;
-    for (int n = 1; cells == Cells::any && n < patch_count_; ++n) moments[n] = none;
     const FrictionLaw<S> friction(batch_.stiffness, load);
-    const auto zeta_of = [](const KernelContact& x) { return x.zeta; };
     NormalLaw<S> law(batch_.stiffness, of_contacts(0, zeta_of), load);
-    for (int k = 0; k < most_; ++k) {
-      if (has_many_materials_) law = {batch_.stiffness, of_contacts(k, zeta_of), load};
-      const Point& p = points_[k];
-      EffectiveMass<S> mass = patches_[0].mass;
-      for (int n = 1; n < patch_count_; ++n) {
-        const auto here = p.patch == S(n);
-        const EffectiveMass<S>& other = patches_[n].mass;
-        mass.along = select(here, other.along, mass.along);
-        mass.across = select(here, other.across, mass.across);
-        mass.inverse_across = select(here, other.inverse_across, mass.inverse_across);
+    if constexpr (cells == Cells::none) {
+      for (int k = 0; k < most_; ++k) {
+        const Push p = push_of<cells>(k, points_[k], false, friction, law, load, processed);
+        add<cells>(k, p.along + p.across, force, torque);
       }
-      V3<S> displacement = p.displacement;
-      const S normal = mass.along * law.force(p.depth, p.approach);
-      const S most = p.friction * normal * mass.inverse_across;
-      V3<S> across;
-      if (cells != Cells::none && any_spins_)
-        across = mass.across * friction.force(displacement, p.slip, most, p.spin);
-      else
-        across = mass.across * friction.force(displacement, p.slip, most);
-      V3<S> sum = normal * p.normal + across;
-      unsigned which = processed;
-      S moment = none;
-      if (cells == Cells::lines || (cells == Cells::any && has_cells_)) moment = dot(p.turn, across);
-      if (cells == Cells::any && !all_have_cells_) moment = select(have_cells_, moment, none);
-      if (cells != Cells::lines && k >= least_) {
-        const auto here = S(k) < count_;
-        sum = select(here, sum, {none, none, none});
-        moment = select(here, moment, none);
-        which &= bits(here);
-      }
-      force += sum;
-      torque += cross(cells == Cells::any ? p.arm : p.at - base_, sum);
-      if constexpr (cells == Cells::lines) moments[0] += moment;
-      for (int n = 0; cells == Cells::any && n < patch_count_; ++n)
-        moments[n] += patch_count_ == 1 ? moment : select(p.patch == S(n), moment, none);
-      if (batch_.tells_contacts) tell_contact(k, sum, moment, which);
-      store_contact(k, displacement, which);
+    } else {
+      Push pushes[max_contacts];
+      for (int k = 0; k < most_; ++k)
+        pushes[k] = push_of<cells>(k, points_[k], any_spins_, friction, law, load, processed);
+      if (has_cells_) move_friction(pushes, torque);
+      for (int k = 0; k < most_; ++k) add<cells>(k, pushes[k].along + pushes[k].across, force, torque);
     }
-    if constexpr (cells == Cells::lines) torque += moments[0] * patches_[0].normal;
-    for (int n = 0; cells == Cells::any && n < patch_count_; ++n) torque += moments[n] * patches_[n].normal;
     store_rows(wrench_, 0, {force.x, force.y, force.z, torque.x, torque.y, torque.z}, processed);
   }
-  MURO_INLINE void tell_contact(int k, const V3<S>& force, S moment, unsigned which) const {
-    const V3<S> torque = moment * patch_normal(k);
+  /// Lines and points, one after the other: nothing is stored between velocities and forces.
+  MURO_INLINE void push_lines(S load) {
+    const S none(0);
+    V3<S> force{none, none, none}, torque = force;
+    const FrictionLaw<S> friction(batch_.stiffness, load);
+    NormalLaw<S> law(batch_.stiffness, of_contacts(0, zeta_of), load);
+    Run run;
+    for (run.begin = 0; run.begin < most_; run.begin = run.end) {
+      run.end = run.begin + (is_joined(run.begin + 1) ? 2 : 1);
+      find_bodies_and_anchors(run);
+      if (run.most_anchors <= 2)
+        push_line<2>(run, friction, law, load, force, torque);
+      else
+        push_any_line(run, friction, law, load, force, torque);
+    }
+    store_rows(wrench_, 0, {force.x, force.y, force.z, torque.x, torque.y, torque.z}, used_);
+  }
+  [[gnu::noinline]] void push_any_line(const Run& run, const FrictionLaw<S>& friction, NormalLaw<S>& law, S load,
+                                       V3<S>& force, V3<S>& torque) {
+    push_line<max_contacts>(run, friction, law, load, force, torque);
+  }
+  /// With at most n anchors, or any number of them.
+  template <int n>
+  MURO_INLINE void push_line(const Run& run, const FrictionLaw<S>& friction, NormalLaw<S>& law, S load, V3<S>& force,
+                             V3<S>& torque) {
+    const V3<S> origin = load_vector(run.poses);
+    const TwistOf<S> motion = load_twist(run.twists);
+    OldAnchors<S, n> before;
+    load_anchors(run, before);
+    const int k = run.begin;
+    const auto displacement_at = [&](int i, const Moved& moved) __attribute__((always_inline)) {
+      V3<S> old{S(0), S(0), S(0)}, way = old;
+      if (run.most_anchors > 0) old = before.nearest(points_[i].at, run.most_anchors, way);
+      if (!run.all_have_anchors) old = select(having_anchors(run), old, {S(0), S(0), S(0)});
+      return displacement_of(points_[i].normal, old, moved.slip);
+    };
+    Moved a, b;
+    find_slip(points_[k], motion, origin, a);
+    if (run.end == k + 1) {
+      a.displacement = displacement_at(k, a);
+      const Push p = push_of<Cells::lines>(k, a, false, friction, law, load, used_);
+      return add<Cells::lines>(k, p.along + p.across, force, torque);
+    }
+    find_slip(points_[k + 1], motion, origin, b);
+    const V3<S> part = part_of_line(a.slip, b.slip);
+    a.slip += part, b.slip -= part;
+    a.spin = b.spin = speed_of_ends(part);
+    a.displacement = displacement_at(k, a);
+    b.displacement = displacement_at(k + 1, b);
+    const bool spins = any(a.spin > S(0));
+    const Push first = push_of<Cells::lines>(k, a, spins, friction, law, load, used_);
+    const Push second = push_of<Cells::lines>(k + 1, b, spins, friction, law, load, used_);
+    const V3<S> moved = part_of_line(first.across, second.across);
+    add<Cells::lines>(k, first.along + (first.across + moved), force, torque);
+    add<Cells::lines>(k + 1, second.along + (second.across - moved), force, torque);
+  }
+  template <Cells cells>
+  MURO_INLINE void add(int k, const V3<S>& all, V3<S>& force, V3<S>& torque) const {
+    force += all;
+    torque += cross(cells == Cells::any ? points_[k].arm : points_[k].at - base_, all);
+  }
+  /// What friction of a line does in the middles of its cells, it does as well in the ends, in parts; that of faces has
+  /// moments about their normals.
+  MURO_INLINE void move_friction(Push* pushes, V3<S>& torque) const {
+    if (has_faces_) add_moments(pushes, torque);
+    for (int k = 0; k + 1 < most_; ++k) {
+      if (!has_line_[k]) continue;
+      V3<S>&first = pushes[k].across, &second = pushes[k + 1].across;
+      const V3<S> part = part_of_line(first, second);
+      first = select(begins_line_[k], first + part, first);
+      second = select(begins_line_[k], second - part, second);
+    }
+  }
+  /// Of friction in faces.
+  MURO_INLINE void add_moments(const Push* pushes, V3<S>& torque) const {
+    for (int n = 0; n < patch_count_; ++n) {
+      S moment(0);
+      for (int k = 0; k < most_; ++k)
+        if (const auto here = in_face_[k] & (points_[k].patch == S(n)); any(here))
+          moment += select(here, dot(points_[k].turn, pushes[k].across), S(0));
+      torque += moment * patches_[n].normal;
+    }
+  }
+  /// Whether contact k is the second of a line, where there is nothing else.
+  MURO_INLINE bool is_joined(int k) const { return k < most_ && !(groups_ >> k & 1); }
+  template <Cells cells>
+  MURO_INLINE void tell_contact(int k, const Push& push, unsigned which) const {
+    const Point& p = points_[k];
+    V3<S> torque{S(0), S(0), S(0)};
+    if constexpr (cells == Cells::lines) {
+      const int other = is_joined(k) ? k - 1 : is_joined(k + 1) ? k + 1 : k;
+      torque = cross(part_of_line(p.at, points_[other].at), push.across);
+    }
+    if (cells == Cells::any && has_cells_) {
+      for (const int first : {k - 1, k}) {
+        if (first < 0 || !has_line_[first]) continue;
+        const V3<S> to_cell = part_of_line(p.at, points_[first == k ? k + 1 : k - 1].at);
+        torque = select(begins_line_[first], cross(to_cell, push.across), torque);
+      }
+      if (has_faces_) torque = select(in_face_[k], dot(p.turn, push.across) * patch_normal(k), torque);
+    }
+    const V3<S> force = push.along + push.across;
     store_rows(forces_, k * force_stride, {force.x, force.y, force.z, torque.x, torque.y, torque.z}, which);
   }
   MURO_INLINE void store_contact(int k, const V3<S>& displacement, unsigned which) const {
-    const V3<S>&at = points_[k].at, &d = displacement;
-    const auto store = [&](const Places<S, double>& anchors, int number) {
-      store_rows(anchors, number, {at.x, at.y, at.z, d.x, d.y, d.z}, which);
-      if (!any_rolls_) return;
-      const V3<S>& way = points_[k].way;
-      store_rows(anchors, number + anchor_way, {way.x, way.y, way.z}, which & bits(rolls_));
-    };
-    if (is_plain(k)) return store(anchors_, k * anchor_stride);
+    if (is_plain(k)) return store_anchor(anchors_, k * anchor_stride, k, displacement, which);
     Places<S, double> anchors;
     each_contact(k, [&](int i, const KernelContact& c) { anchors.at[i] = anchors_.at[i] + c.anchor * anchor_stride; });
-    store(anchors, 0);
+    store_anchor(anchors, 0, k, displacement, which);
+  }
+  MURO_INLINE void store_anchor(const Places<S, double>& anchors, int number, int k, const V3<S>& displacement,
+                                unsigned which) const {
+    const V3<S>&at = points_[k].at, &d = displacement;
+    store_rows(anchors, number, {at.x, at.y, at.z, d.x, d.y, d.z}, which);
+    if (!any_rolls_) return;
+    const V3<S>& way = points_[k].way;
+    store_rows(anchors, number + anchor_way, {way.x, way.y, way.z}, which & bits(rolls_));
   }
 
   const KernelBatch& batch_;
@@ -580,9 +646,11 @@ class RobotContacts {
   const int number_;     ///< of robots
   const unsigned used_;  ///< bits of lanes
   unsigned changed_ = 0, groups_ = 0, common_groups_ = ~0u;
-  bool has_cells_ = false;      ///< friction of some points is in the middle of a cell
-  bool all_have_cells_ = true;  ///< if so, of each robot; else of these
-  MaskOf<S> have_cells_;
+  bool has_cells_ = false;               ///< friction of some points is in the middle of a cell
+  bool has_faces_ = false;               ///< the same, of faces; else of lines alone
+  bool has_line_[max_contacts];          ///< of contacts k and k + 1, of some robots
+  MaskOf<S> begins_line_[max_contacts];  ///< of these
+  MaskOf<S> in_face_[max_contacts];
   S largest_spin_{0};
   bool any_spins_ = false;
   bool any_rolls_ = false;  ///< see KernelRobot

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 #include <random>
+#include <tuple>
 #include <vector>
 
 #include "friction_anchor.hpp"
@@ -174,21 +175,32 @@ Wrench by_the_model(const Vehicle& v, std::vector<Vec3>& displacements) {
     return v.body_of(a) == v.body_of(b) && first[a] == first[b];
   };
   std::vector<Vec3> shifts(count, Vec3::Zero());
+  std::vector<std::size_t> other_end(count);  // of a line; of others themselves
   for (std::size_t begin = 0, end = 0; begin < count; begin = end) {
     for (end = begin + 1; end < count && are_joined(end - 1, end);) ++end;
     contact_geometry::find_shifts(
         int(end - begin), v.has_discs, [&](int k) { return plain(v.contacts[begin + std::size_t(k)].point); },
         [&](int k, const lane::V3<double>& way) { shifts[begin + std::size_t(k)] = vector_of(way); });
+    for (std::size_t k = begin; k < end; ++k) other_end[k] = end == begin + 2 ? 2 * begin + 1 - k : k;
   }
+  const auto motion_of = [&](std::size_t k) {
+    return v.twists[v.body_of(k)].at(v.contacts[k].point - v.bodies[v.body_of(k)].position);
+  };
+  const auto slip_of = [&](std::size_t k) {
+    const Vec3 &motion = motion_of(k), &n = v.contacts[k].normal;
+    return Vec3(motion - n * n.dot(motion));
+  };
+  std::vector<std::tuple<std::size_t, Vec3, Vec3>> line_friction;
   for (std::size_t k = 0; k < count; ++k) {
     const Contact& c = v.contacts[k];
     const Vec3 &to_cell = shifts[k], &of_patch = v.contacts[first[k]].normal;
     const std::size_t body = v.body_of(k);
     const law::NormalLaw<double> normal_law({omega, h}, damping_ratio_of(c.surface.restitution), load);
-    const Vec3 motion = v.twists[body].at(c.point - v.bodies[body].position);
-    const double approach = -motion.dot(c.normal);
-    const Vec3 spin = v.twists[body].angular.dot(of_patch) * of_patch.cross(to_cell);
-    const Vec3 slip = motion + approach * c.normal + spin;
+    const bool is_line = other_end[k] != k;
+    const double approach = -motion_of(k).dot(c.normal);
+    const Vec3 spin = is_line ? Vec3(0.25 * (slip_of(other_end[k]) - slip_of(k)))
+                              : Vec3(v.twists[body].angular.dot(of_patch) * of_patch.cross(to_cell));
+    const Vec3 slip = slip_of(k) + spin;
     Vec3 displacement = slip * elapsed, arm = c.point - v.base.position;
     const int known = std::accumulate(v.anchors_before, v.anchors_before + 4, 0);
     if (const auto* const before = previous<FrictionAnchor>({v.before, std::size_t(known)}, k, body, c.point);
@@ -211,8 +223,14 @@ Wrench by_the_model(const Vehicle& v, std::vector<Vec3>& displacements) {
     displacements.emplace_back(spring.x, spring.y, spring.z);
     const Vec3 friction = across[k] * Vec3(f.x, f.y, f.z);
     total.add_force(normal * c.normal + friction, arm);
-    total.torque += of_patch * of_patch.dot(to_cell.cross(friction));
+    if (is_line)  // friction acts at a quarter of the way to the other end, as that goes on
+      line_friction.emplace_back(k, arm, friction);
+    else
+      total.torque += of_patch * of_patch.dot(to_cell.cross(friction));
   }
+  for (const auto& [k, arm, friction] : line_friction)
+    for (const auto& [end, other_arm, unused] : line_friction)
+      if (end == other_end[k]) total.torque += 0.25 * (other_arm - arm).cross(friction);
   return total;
 }
 

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// Friction anchors of the step before, over SIMD lanes of robots.
+#pragma once
+
+#include "muro/simd/rows.hpp"
+#include "scenery_kernel.hpp"
+
+namespace muro::penalty::law {
+inline namespace MURO_ISA {
+
+using lane::count_of, lane::load_rows, lane::MaskOf, lane::Places;
+
+/// Friction anchors of a group from the step before: n of them, or as many as a robot may have.
+template <class S, int n>
+struct OldAnchors {
+  V3<S> at[n], displacement[n], last_way[n];
+
+  MURO_INLINE void load(int k, const Places<S>& places, int number) {
+    S g[anchor_numbers];
+    load_rows(places, number, g);
+    at[k] = {g[0], g[1], g[2]};
+    displacement[k] = {g[3], g[4], g[5]};
+  }
+  MURO_INLINE void load_way(int k, const Places<S>& places, int number) {
+    S g[3];
+    load_rows(places, number + anchor_way, g);
+    last_way[k] = {g[0], g[1], g[2]};
+  }
+  /// The tangential displacement of the nearest of the first `count`; `way`: from there, m; out.
+  MURO_INLINE V3<S> nearest(const V3<S>& point, int count, V3<S>& way) const {
+    V3<S> found = displacement[0], best = at[0];
+    for (int k = 1; k < count; ++k) {
+      const auto nearer = is_nearer(point, k, best);
+      found = select(nearer, displacement[k], found);
+      best = select(nearer, at[k], best);
+    }
+    way = point - best;
+    return found;
+  }
+  /// Whether the point is on the side of anchor k of the plane between that and another.
+  MURO_INLINE MaskOf<S> is_nearer(const V3<S>& point, int k, const V3<S>& other) const {
+    return dot(at[k] - other, (point + point) - (at[k] + other)) > S(0);
+  }
+  /// The way of the nearest in the step before.
+  MURO_INLINE V3<S> way_of_nearest(const V3<S>& point, int count) const {
+    V3<S> found = last_way[0], best = at[0];
+    for (int k = 1; k < count; ++k) {
+      const auto nearer = is_nearer(point, k, best);
+      found = select(nearer, last_way[k], found);
+      best = select(nearer, at[k], best);
+    }
+    return found;
+  }
+  /// The square of the distance of the nearest, m^2.
+  MURO_INLINE S least_distance2(const V3<S>& point, int count) const {
+    S least = distance2(point, 0);
+    for (int k = 1; k < count; ++k) least = min(distance2(point, k), least);
+    return least;
+  }
+  MURO_INLINE S distance2(const V3<S>& point, int k) const {
+    const V3<S> away = at[k] - point;
+    return dot(away, away);
+  }
+};
+
+}  // namespace MURO_ISA
+}  // namespace muro::penalty::law
