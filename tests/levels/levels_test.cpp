@@ -52,7 +52,7 @@ TEST(Levels, RoversOfAllLevelsPushABallAndBoxesAndEachOther) {
   }
   for (const char* thing : {"ball", "box_by_bullet", "box_by_ode", "box_by_mujoco"}) {
     const Vec3 before = start[s.world().find_robot(thing)->number];
-    EXPECT_GT((pose_of(s, thing).position - before).head<2>().norm(), 0.1) << thing << " was pushed";
+    EXPECT_GT((pose_of(s, thing).position - before).head<2>().norm(), 0.05) << thing << " was pushed";
   }
   EXPECT_GE(pairs.size(), 8u) << "robots of different worlds were in contact";
 }
